@@ -1,0 +1,66 @@
+/* What all tools share on the command line: options, messages, exit codes. Used by the mains only, never by libraries. */
+#ifndef RETEX_CLI_H
+#define RETEX_CLI_H
+
+#include <retex/error.h>
+
+enum { CLI_OK = 0, CLI_NO = 1, CLI_FAIL = 2 }; /* done; the answer is 'no' or 'differs'; usage, input or I/O error */
+
+/* One option of a tool. A table of them ends with {0}. */
+typedef struct CliOption {
+    const char *name;      /* long name without dashes */
+    char letter;           /* one-letter form, or 0 */
+    const char *argument;  /* its name in --help, or NULL where the option takes none */
+    const char *help;      /* for --help */
+    int modifiers;         /* 1: `--name:modifiers` is allowed (texture, replace) */
+} CliOption;
+
+/* Walks argv. Common options (-o/--output, --threads, -q, -v, --help, --version) are known to every tool: they are
+ * listed in --help, --help and --version are answered here (stdout, exit 0), the rest is kept in the fields below. */
+typedef struct Cli {
+    const char *tool;        /* "retex-sample": begins every message */
+    const char *usage;       /* "SET --texture[:opts] NAME=IMAGE … [-o SAMPLES]" */
+    const char *about;       /* one sentence, for --help */
+    const CliOption *options;
+    int argc;
+    char **argv;
+    int next;                /* next argument to look at; starts at 1 */
+    int only_positional;     /* `--` was seen */
+    const char *output;      /* -o, or NULL */
+    int threads;             /* --threads, 0 = all cores */
+    int quiet, verbose;      /* -q, -v */
+    const char *value;       /* argument of the option last returned */
+    const char *modifiers;   /* what stood behind `--name:`, or "" */
+    const char *group;       /* of a cluster -qv: what is left of it */
+} Cli;
+
+/* The next option of the tool's own table, with cli->value and cli->modifiers set; a positional argument comes back as
+ * &cli_positional with its text in cli->value ("-" is positional); NULL at the end. Long options take `--name VALUE` or
+ * `--name=VALUE`, letters `-oVALUE` or `-o VALUE`. A wrong option prints one line and exits with CLI_FAIL. */
+const CliOption *cli_next(Cli *cli);
+extern const CliOption cli_positional;
+
+/* Values: print one line naming the option and what was expected, and exit with CLI_FAIL, where the text is wrong. */
+long cli_integer(const Cli *cli, const CliOption *option, long low, long high);
+double cli_number(const Cli *cli, const CliOption *option, double low, double high);
+
+/* `retex-NAME: error: …`, with file, line and column where the error has them. */
+void cli_error(const Cli *cli, const RetexError *err);
+void cli_warn(const Cli *cli, const char *fmt, ...) RETEX_PRINTF(2, 3);
+void cli_info(const Cli *cli, const char *fmt, ...) RETEX_PRINTF(2, 3);   /* unless -q */
+void cli_detail(const Cli *cli, const char *fmt, ...) RETEX_PRINTF(2, 3); /* with -v */
+_Noreturn void cli_die(const Cli *cli, const char *fmt, ...) RETEX_PRINTF(2, 3);    /* usage error: exit 2 */
+_Noreturn void cli_fail(const Cli *cli, const RetexError *err);                     /* cli_error and exit 2 */
+
+/* The output file: -o if given; else "-" when standard output is not a terminal; else an error that says so (pixels are
+ * never written to a terminal, `-o -` included). */
+const char *cli_output(const Cli *cli);
+
+/* A progress bar on stderr, drawn only on a terminal and without -q; done is 0..1; label e.g. "render". Call with 1 to
+ * finish the line. Rate-limited inside; safe to call often from one thread. */
+void cli_progress(const Cli *cli, const char *label, double done);
+
+/* Flush and close stdout, so that a full disk is seen: exits with CLI_FAIL if it was. Call last. */
+int cli_close(const Cli *cli, int status);
+
+#endif

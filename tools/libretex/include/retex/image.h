@@ -1,0 +1,69 @@
+/* Images and regions. A RetexImage is a plain block of float samples, interleaved by pixel, rows from the top, no
+ * padding. Scene-linear unless said otherwise. */
+#ifndef RETEX_IMAGE_H
+#define RETEX_IMAGE_H
+
+#include <stddef.h>
+#include <retex/error.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#define RETEX_MAX_SIZE 65536     /* largest width or height of any image */
+#define RETEX_MAX_CHANNELS 64
+
+/* Half-open: pixels x0 <= x < x1, y0 <= y < y1, channels c0 <= c < c1. */
+typedef struct RetexRoi {
+    int x0, y0, x1, y1, c0, c1;
+} RetexRoi;
+
+typedef struct RetexImage {
+    int width, height, channels; /* 0, 0, 0 while unallocated */
+    float *pixels;               /* width * height * channels; owned by the image */
+} RetexImage;
+
+static inline size_t retex_image_index(const RetexImage *im, int x, int y)
+{
+    return ((size_t)y * (size_t)im->width + (size_t)x) * (size_t)im->channels;
+}
+
+/* Allocate zeroed pixels; im must be unallocated ({0}). */
+int retex_image_alloc(RetexImage *im, int width, int height, int channels, RetexError *err);
+void retex_image_free(RetexImage *im); /* NULL and unallocated are fine; leaves {0} */
+int retex_image_copy(RetexImage *dst, const RetexImage *src, RetexError *err); /* dst unallocated */
+
+RetexRoi retex_image_roi(const RetexImage *im); /* all of it */
+/* Common checks of an image operation: allocate dst as width x height x channels if it is unallocated, else check that
+ * it has that shape; clip *roi (NULL = all) to it into *out. */
+int retex_image_prepare(RetexImage *dst, int width, int height, int channels, const RetexRoi *roi, RetexRoi *out,
+                        RetexError *err);
+
+/* Read the colours of any file that OpenImageIO reads, or an EXR through OpenEXRCore without loading OpenImageIO.
+ * path "-" is standard input (EXR only). The result has 4 channels R,G,B,A, scene-linear Rec.709, alpha unassociated
+ * (1 where the file has none; grey is spread over R,G,B). colorspace: NULL = 8- and 16-bit integers are sRGB, floats
+ * scene-linear; otherwise a name known to the OCIO config. Only the first subimage is read.
+ * Files of more than max_pixels pixels (0 = no limit) are refused with RETEX_ELIMIT. */
+int retex_image_read(RetexImage *dst, const char *path, const char *colorspace, long max_pixels, RetexError *err);
+
+/* How a picture leaves. Begin with RETEX_WRITE_INIT. */
+typedef struct RetexWriteParams {
+    size_t size;            /* of this struct */
+    const char *display;    /* OCIO display for 8- and 16-bit files; NULL = the config's default */
+    const char *view;       /* OCIO view; NULL = the display's default */
+    const char *colorspace; /* write in this colour space instead of through display and view; NULL = none */
+    int quality;            /* of JPEG, 1..100; default 95 */
+    int dither;             /* reserved: 0 */
+} RetexWriteParams;
+#define RETEX_WRITE_INIT { sizeof(RetexWriteParams), NULL, NULL, NULL, 95, 0 }
+
+/* Write a picture of 1 (grey), 3 (RGB) or 4 (RGBA) channels; the format follows the name's ending, "-" is EXR to
+ * standard output. EXR (half) and other float formats stay scene-linear unless colorspace says otherwise; 8- and 16-bit
+ * formats go through the display transform. Written under a temporary name and renamed when complete. */
+int retex_image_write(const RetexImage *src, const char *path, const RetexWriteParams *params /* NULL = defaults */,
+                      RetexError *err);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,16 @@
+/* libretex: retexturing rendered pictures in image space. This header includes all others. */
+#ifndef RETEX_RETEX_H
+#define RETEX_RETEX_H
+
+#define RETEX_VERSION "0.1.0"
+
+#include <retex/error.h>
+#include <retex/image.h>
+#include <retex/metrics.h>
+#include <retex/pack.h>
+#include <retex/parallel.h>
+#include <retex/sample.h>
+#include <retex/set.h>
+#include <retex/texture.h>
+
+#endif

@@ -1,0 +1,34 @@
+/* Sampling and recombination: the two halves of a retexture. */
+#ifndef RETEX_SAMPLE_H
+#define RETEX_SAMPLE_H
+
+#include <retex/set.h>
+#include <retex/texture.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Filter textures at every footprint of their targets. specs[0..nspecs) name their targets; a target named twice is an
+ * error, one not named keeps its original. *samples is created. Where a texture is transparent the footprint's original
+ * albedo shows through. Output is the same to the bit for every nthreads. */
+int retex_sample(RetexSamples **samples, const RetexSet *set, const RetexTextureSpec *specs, int nspecs, int nthreads,
+                 RetexError *err);
+
+/* Begin with RETEX_COMBINE_INIT. */
+typedef struct RetexCombineParams {
+    size_t size;
+    int cross;    /* highest hit count whose cross terms are used: 0, 2 or 3 (default); the supplement's ablation */
+} RetexCombineParams;
+#define RETEX_COMBINE_INIT { sizeof(RetexCombineParams), 3 }
+
+/* dst (RGB, the set's size) = sum of terms times factors. samples may be NULL: then every target keeps its original.
+ * The beauty part is never read. */
+int retex_combine(RetexImage *dst, const RetexSet *set, const RetexSamples *samples,
+                  const RetexCombineParams *params /* NULL = defaults */, const RetexRoi *roi /* NULL = all */,
+                  int nthreads /* 0 = all cores */, RetexError *err);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

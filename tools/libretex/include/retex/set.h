@@ -1,0 +1,152 @@
+/* The set: everything one render leaves for retexturing.
+ *
+ * A set is a polynomial in the textures, per pixel:
+ *
+ *     I = sum over terms t of  C_t * product over the factors f of t of  A_f
+ *
+ * C_t is a radiance image, A_f the (new) texture filtered at footprint f. A footprint holds, per pixel, where on its
+ * target the light that reached the pixel met it: mean UV, its spread, and the mean original albedo found there. Both
+ * layouts, 'paper' and 'footprints', are such polynomials and differ only in which terms and footprints they list.
+ * Source: 'Efficient physically-based retexturing in image-space', supplement 4.2 Eq. 4 and 4.3.
+ *
+ * On disk: a multi-part OpenEXR file. Part 0 is the beauty picture (plain R,G,B), so that any viewer shows something;
+ * the string attribute `retex` of part 0 is the manifest, JSON, described in retex-set(5). */
+#ifndef RETEX_SET_H
+#define RETEX_SET_H
+
+#include <stdint.h>
+#include <retex/image.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#define RETEX_SET_VERSION 1   /* of the manifest */
+#define RETEX_MAX_TARGETS 8
+#define RETEX_MAX_ORDERS 6
+#define RETEX_MAX_FACTORS 6
+#define RETEX_NAME_MAX 128    /* bytes of a target or part name, with the final NUL */
+
+typedef enum RetexPixelType { RETEX_HALF, RETEX_FLOAT } RetexPixelType;
+
+/* One named image of the file. letters names its channels ("RGB", "RGA", "RG", "R"): the EXR channels are `R` in part 0
+ * and `NAME.R` in all others. Values are float in memory; type is how they are stored. A part may have its own size
+ * (originals have), all AOVs have the set's. */
+typedef struct RetexPart {
+    char name[RETEX_NAME_MAX]; /* letters, digits, '_' and '-' */
+    char letters[8];
+    RetexPixelType type;
+    uint32_t crc;              /* CRC-32 of the stored samples, planes in the order of letters, little-endian, rows from
+                                  the top; filled by reading and writing */
+    RetexImage image;
+} RetexPart;
+
+typedef struct RetexTarget {
+    char name[RETEX_NAME_MAX];
+    char idents[512];        /* the scene's identifiers it was made of, comma-separated */
+    int periodic[2];         /* 1: the surface closes in u (or v): 0 and 1 are the same place */
+    double uv_min[2], uv_max[2]; /* range of UV that was met */
+    float mean_albedo[3];    /* of the original, over all that was met; scene-linear */
+    int original;            /* part that holds the original texture over original_min..original_max, or -1 */
+    double original_min[2], original_max[2]; /* UV rectangle the original covers: an image_map's is 0,0 1,1 */
+    double share;            /* of the picture's pixels, whose centre sees the target directly; 0..1 */
+} RetexTarget;
+
+typedef struct RetexFootprint {
+    int target;              /* index of the target it lies on */
+    int hit;                 /* layout paper: the how-manieth hit of that target along the path, from 1 */
+    int uv;                  /* part "RGA": mean u, mean v, and coverage (share of samples with a connection; 0 = this
+                                pixel has no such footprint and u, v mean nothing). float */
+    int spread;              /* part "RG": standard deviation of u and of v. half */
+    int albedo;              /* part "RGB": mean original albedo. half */
+} RetexFootprint;
+
+typedef enum RetexTermKind {
+    RETEX_TERM_FULL,   /* paths that met no target */
+    RETEX_TERM_INDEP,  /* no factor: every hit took its albedo-independent part */
+    RETEX_TERM_DEP,    /* every hit (of up to three) took its albedo-dependent part; with more hits also the mixed terms */
+    RETEX_TERM_CROSS2, /* cross terms of paths with two hits, supplement 4.3 */
+    RETEX_TERM_CROSS3  /* cross terms of paths with three hits */
+} RetexTermKind;
+
+typedef struct RetexTerm {
+    RetexTermKind kind;
+    int radiance;      /* part "RGB". half */
+    int nfactors;      /* 0..RETEX_MAX_FACTORS */
+    int factors[RETEX_MAX_FACTORS]; /* indices of footprints, one for each factor */
+} RetexTerm;
+
+typedef struct RetexSet {
+    int width, height;
+    char layout[16];       /* "paper" */
+    char filter[16];       /* pixel filter: "box" or "gaussian" */
+    char scene[256];       /* base name of the scene file */
+    char generator[64];    /* "retex-render 0.1.0" */
+    int orders, spp, max_depth;
+    uint32_t seed;
+    double folded;         /* share of the picture's luminance whose hits beyond `orders` kept their original albedo */
+    int strict_paper;      /* 1: mixed terms of 4 and more hits were dropped, as the supplement does */
+    int ntargets;
+    RetexTarget targets[RETEX_MAX_TARGETS];
+    int nfootprints, nterms, nparts;
+    RetexFootprint *footprints;
+    RetexTerm *terms;
+    RetexPart *parts;      /* parts[0] is the beauty */
+} RetexSet;
+
+/* The textures filtered at a set's footprints: image i belongs to footprint i and is RGB of the set's size, or
+ * unallocated where that footprint's target keeps its original. */
+typedef struct RetexSamples {
+    int width, height;
+    int nimages;
+    RetexImage *images;
+    char textures[RETEX_MAX_TARGETS][256]; /* per target, what was put on it, for people to read; "" = nothing */
+    char target_names[RETEX_MAX_TARGETS][RETEX_NAME_MAX]; /* so that samples can be checked against their set */
+    int ntargets;
+    int footprint_target[512]; /* target and hit of footprint i, for the same check and for part names */
+    int footprint_hit[512];
+} RetexSamples;
+
+int retex_set_create(RetexSet **set, int width, int height, RetexError *err);
+void retex_set_close(RetexSet **set); /* NULL and pointers to NULL are fine */
+/* Append; *index (may be NULL) gets its number. The image is allocated zeroed, width 0 = the set's own size. */
+int retex_set_add_part(RetexSet *set, const char *name, const char *letters, RetexPixelType type, int width, int height,
+                       int *index, RetexError *err);
+int retex_set_add_footprint(RetexSet *set, const RetexFootprint *footprint, int *index, RetexError *err);
+int retex_set_add_term(RetexSet *set, const RetexTerm *term, int *index, RetexError *err);
+int retex_set_find_part(const RetexSet *set, const char *name);     /* index or -1 */
+int retex_set_find_target(const RetexSet *set, const char *name);   /* exactly, else ignoring case where unique; or -1 */
+
+void retex_samples_close(RetexSamples **samples);
+/* Check that samples were made for this set (size, targets, footprints). */
+int retex_samples_check(const RetexSamples *samples, const RetexSet *set, RetexError *err);
+
+/* How a set is stored. Begin with RETEX_STORE_INIT. */
+typedef struct RetexStoreParams {
+    size_t size;
+    int compress; /* 1 (default): EXR ZIP; 0: none. Writing to "-" never compresses. */
+    int nthreads; /* 0 = all cores */
+} RetexStoreParams;
+#define RETEX_STORE_INIT { sizeof(RetexStoreParams), 1, 0 }
+
+/* Read a set, samples, or the stream of both that retex-sample writes to a pipe; from a file or "-". *.retex packs are
+ * recognised by content. What the file does not hold comes back NULL; either out-parameter may be NULL when it is not
+ * wanted (its parts are skipped). A file that holds nothing wanted is RETEX_EFORMAT. */
+int retex_set_read(const char *path, RetexSet **set, RetexSamples **samples, int nthreads, RetexError *err);
+
+/* Write a set (samples NULL), samples alone (set NULL), or both as one stream, under a temporary name renamed when
+ * complete, or to "-". CRCs are computed and kept in set->parts. Of a stream's set only what recombination needs is
+ * written when samples are given: terms, original albedos, AOVs left out. */
+int retex_set_write(RetexSet *set, const RetexSamples *samples, const char *path,
+                    const RetexStoreParams *params /* NULL = defaults */, RetexError *err);
+
+/* Compare every part's stored CRC with its data: 0, or RETEX_EFORMAT naming the first damaged part. */
+int retex_set_check(const char *path, int nthreads, RetexError *err);
+
+/* The manifest as JSON text; the caller frees it with free(). */
+int retex_set_manifest(const RetexSet *set, const RetexSamples *samples, char **json, RetexError *err);
+
+#ifdef __cplusplus
+}
+#endif
+#endif
