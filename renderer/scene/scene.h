@@ -1,0 +1,220 @@
+/* The scene: what the scene language leaves and everything after it reads. Plain data, all of it in one arena, nothing
+ * changed after scene_resolve_targets. Units are the scene's own; angles in radians unless said; colours scene-linear
+ * Rec.709.
+ *
+ * Conventions of POV-Ray hold (left-handed, row-vector matrices already turned into Transforms). Where POV-Ray and
+ * physics differ, the mapping is described in retex-scene(5) and done in shade/material.c, not here: this file keeps what
+ * the author wrote. */
+#ifndef RENDERER_SCENE_SCENE_H
+#define RENDERER_SCENE_SCENE_H
+
+#include <stdint.h>
+#include <retex/image.h>
+#include <retex/texture.h>
+#include <retex/set.h>
+#include "base/arena.h"
+#include "base/vec.h"
+
+/* A colour of the language: filter tints what passes by the colour, transmit does not. */
+typedef struct Rgbft { float r, g, b, filter, transmit; } Rgbft;
+
+/* Names #declared in the scene that a thing came through: `texture{Oak}` carries Oak, and the names Oak itself was made
+ * of. How targets are found. An immutable list; lists are joined by sharing. */
+typedef struct IdentList {
+    const char *name;
+    int line;
+    const struct IdentList *next;
+} IdentList;
+
+/* ---- pigments ---- */
+
+typedef enum PigmentKind { PIGMENT_COLOR, PIGMENT_IMAGE, PIGMENT_CHECKER, PIGMENT_GRADIENT } PigmentKind;
+typedef enum MapType { MAP_PLANAR = 0, MAP_SPHERICAL = 1, MAP_CYLINDRICAL = 2, MAP_TORUS = 5 } MapType;
+
+typedef struct ColorMapEntry {
+    double value;
+    Rgbft color;
+} ColorMapEntry;
+typedef struct ColorMap {
+    int count; /* entries sorted by value; two of one value make a step */
+    ColorMapEntry *entries;
+} ColorMap;
+typedef enum WaveKind { WAVE_RAMP, WAVE_TRIANGLE, WAVE_SINE, WAVE_SCALLOP, WAVE_CUBIC, WAVE_POLY } WaveKind;
+
+/* An image file in the scene's memory; one for each file and interpretation. */
+typedef struct ImageMap {
+    const char *path;        /* as found on disk */
+    RetexTexture *texture;   /* scene-linear, alpha unassociated; owned by the scene (closed with it) */
+    int width, height;
+    int has_alpha;
+    MapType map_type;
+    int once;                /* 1: outside (0,0)-(1,1) fully transparent */
+    int interpolate;         /* POV-Ray's: 0 none (nearest texel), 2 bilinear, 3 bicubic, 4 normalised distance; all but
+                                0 are taken as bilinear */
+    float filter_all, transmit_all;
+} ImageMap;
+
+typedef struct Pigment {
+    PigmentKind kind;
+    Rgbft color;             /* PIGMENT_COLOR */
+    Rgbft checker[2];        /* PIGMENT_CHECKER */
+    Vec3 gradient;           /* PIGMENT_GRADIENT: its direction as written, not normalised */
+    ColorMap map;            /* of patterns that make a value 0..1; empty = black to white */
+    WaveKind wave;
+    double frequency, phase, wave_exponent;
+    ImageMap *image;         /* PIGMENT_IMAGE */
+    int uv_mapping;
+    int quick;               /* reserved: 0 */
+    Transform transform;     /* pattern space to world; inverse takes a world point to where the pattern is evaluated.
+                                With uv_mapping it takes (u, v, 0) instead of the point */
+    const IdentList *idents;
+} Pigment;
+
+/* ---- finish, interior, texture ---- */
+
+typedef struct Finish {
+    Rgb ambient, emission;
+    double diffuse, diffuse_back;
+    int diffuse_albedo;      /* `diffuse albedo D` */
+    double brilliance, crand;
+    double phong, phong_size;
+    int phong_albedo;
+    double specular, roughness;
+    int specular_albedo;
+    double metallic;         /* tints highlights by the pigment */
+    Rgb reflection_min, reflection_max;
+    int reflection_fresnel;
+    double reflection_falloff, reflection_exponent, reflection_metallic;
+    int conserve_energy;
+    /* The extension block `retex { … }`: the simplified Disney BSDF of the supplement and rough dielectrics. Where it is
+     * present it replaces all of the above but ambient and emission. */
+    struct {
+        int present;
+        double metallic;     /* m, 0..1 */
+        double roughness;    /* r, 0..1; GGX alpha = r^2 */
+        double ior;          /* eta of the dielectric coat and of transmission; default 1.5 */
+        double specular_tint; /* t, scalar, 0..1; default 1 (F0 as it is) */
+        double transmission; /* 0..1: share of the base that is a (rough) dielectric and lets light through */
+    } retex;
+} Finish;
+
+typedef struct Interior {
+    double ior;              /* default 1 */
+    double fade_distance, fade_power;
+    Rgb fade_color;
+    const IdentList *idents;
+} Interior;
+
+typedef struct Texture {
+    const Pigment *pigment;
+    const Finish *finish;
+    const IdentList *idents; /* of the texture, its pigment and its material */
+    int uv_mapping;          /* written at the texture's level; also set in the pigment */
+} Texture;
+
+/* ---- primitives ---- */
+
+typedef enum ShapeKind {
+    SHAPE_SPHERE,   /* unit sphere about the origin */
+    SHAPE_BOX,      /* [0,1]^3 */
+    SHAPE_PLANE,    /* y = 0, inside is y < 0 */
+    SHAPE_CONE,     /* about z from z = 0 with radius r0 to z = 1 with radius r1 (cylinders too); `open` = no caps */
+    SHAPE_TORUS,    /* about y: major radius r0, minor r1 */
+    SHAPE_DISC,     /* z = 0, x^2 + y^2 <= r0^2, hole of radius r1 */
+    SHAPE_MESH      /* triangles, smooth triangles, polygons and meshes, in object space */
+} ShapeKind;
+
+/* Triangles. Indices are into the arrays; a normal or UV index of -1 means that the corner has none. */
+typedef struct MeshFace {
+    int vertex[3], normal[3], uv[3];
+    int texture;             /* index into the primitive's textures; -1 = the primitive's own texture */
+} MeshFace;
+typedef struct Mesh {
+    int nvertices, nnormals, nuvs, nfaces;
+    Vec3 *vertices, *normals;
+    Vec2 *uvs;
+    MeshFace *faces;
+    int ntextures;
+    const Texture **textures; /* in world space like all textures */
+    int closed_inside;       /* inside_vector was given: has an inside */
+} Mesh;
+
+typedef struct Primitive {
+    ShapeKind kind;
+    double r0, r1;           /* see ShapeKind */
+    int open;
+    const Mesh *mesh;        /* shared between copies that differ in transform only */
+    Transform transform;     /* canonical shape to world */
+    const Texture *texture;  /* never NULL after parsing */
+    const Texture *interior_texture; /* or NULL: the same on both sides */
+    const Interior *interior; /* or NULL */
+    int no_shadow, no_image, no_reflection, inverse, hollow;
+    const IdentList *idents; /* names of the objects it is part of */
+    int line;                /* of the scene file, for messages */
+    int target;              /* index into scene->targets, or -1; meshes may override by face, see face_targets */
+    const int8_t *face_targets; /* per mesh texture (ntextures long), or NULL: those faces' targets instead */
+} Primitive;
+
+/* ---- lights, camera, sky ---- */
+
+typedef enum LightKind { LIGHT_POINT, LIGHT_SPOT, LIGHT_CYLINDER, LIGHT_PARALLEL } LightKind;
+typedef struct Light {
+    LightKind kind;
+    Vec3 location, point_at;
+    Rgb color;               /* irradiance pi * color on a surface that faces it */
+    double radius, falloff;  /* spot: half-angles in degrees; cylinder: lengths */
+    double tightness;
+    double fade_distance, fade_power; /* fade_power 0 = none */
+    int area;                /* 1: area_light */
+    Vec3 axis1, axis2;
+    int size1, size2;        /* lights along each axis */
+    int circular, orient;
+    int shadowless;
+} Light;
+
+typedef enum CameraKind { CAMERA_PERSPECTIVE, CAMERA_ORTHOGRAPHIC } CameraKind;
+/* A pixel at (x, y) of a w by h picture looks through location + direction + (x/w - 1/2) right + (1/2 - y/h) up;
+ * orthographic rays start at location + … and run along direction. Transforms already applied. */
+typedef struct Camera {
+    CameraKind kind;
+    Vec3 location, direction, right, up;
+} Camera;
+
+typedef struct SkySphere {
+    int npigments;           /* later ones lie over earlier ones by their filter and transmit */
+    const Pigment **pigments;
+    Rgb emission;            /* factor on it, default 1 */
+    Transform transform;     /* already applied to the pigments; kept for reading */
+} SkySphere;
+
+typedef struct Target {
+    char name[RETEX_NAME_MAX];
+    char idents[512];        /* matched identifiers, comma-separated */
+    const RetexTexture *replacement; /* --replace: this instead of the pigment, or NULL */
+} Target;
+
+typedef struct Scene {
+    Arena *arena;
+    char path[1024];
+    int width, height;       /* the size its author had in mind, from the camera's right and up: 640 wide */
+    Camera camera;
+    Rgb background;
+    SkySphere *sky;          /* or NULL */
+    int nprimitives, nlights, nimages;
+    Primitive *primitives;
+    Light *lights;
+    ImageMap **images;
+    double assumed_gamma;
+    Rgb ambient_light;
+    /* every identifier that textures, pigments, materials or objects in use came through */
+    int nidents;
+    const char **idents;
+    int ntargets;
+    Target targets[RETEX_MAX_TARGETS];
+} Scene;
+
+/* One -t of the command line: "NAME" or "NAME=IDENT,IDENT". */
+int scene_resolve_targets(Scene *scene, const char *const *specs, int nspecs, RetexError *err);
+void scene_close(Scene **scene); /* textures of image maps, then the arena */
+
+#endif

@@ -1,0 +1,109 @@
+/* Inside the scene language: the token stream with its directives, expressions and values. The scene side
+ * (sdl/parse_*.c) reads objects, textures and the rest through these calls.
+ *
+ * A parse error does not return: sdl_error fills the error and jumps back to sdl_parse_file. All memory is the arena's. */
+#ifndef RENDERER_SDL_PARSER_H
+#define RENDERER_SDL_PARSER_H
+
+#include "scene/scene.h"
+#include "sdl/sdl.h"
+
+typedef struct Sdl Sdl;
+
+/* Tokens after directives and macros have done their work. Keywords and identifiers are told apart by text: a keyword is
+ * an interned lower-case string, compared by pointer or with sdl_accept. */
+typedef enum TokenKind {
+    TOKEN_END, TOKEN_NUMBER, TOKEN_STRING, TOKEN_WORD /* keyword of the language or undeclared word */,
+    TOKEN_IDENT /* declared: its value is in the token */, TOKEN_PUNCT
+} TokenKind;
+
+typedef enum ValueKind {
+    VALUE_NONE, VALUE_FLOAT, VALUE_VECTOR /* 2 to 5 numbers, colours too */, VALUE_STRING, VALUE_ARRAY, VALUE_FUNCTION,
+    VALUE_SPLINE, VALUE_TRANSFORM, VALUE_PIGMENT, VALUE_NORMAL, VALUE_FINISH, VALUE_TEXTURE, VALUE_INTERIOR,
+    VALUE_MATERIAL, VALUE_OBJECT, VALUE_CAMERA, VALUE_LIGHT, VALUE_COLOR_MAP, VALUE_SKY_SPHERE,
+    VALUE_OTHER /* declared things that are not supported: known, and ignored with a report where they are used */
+} ValueKind;
+
+typedef struct Value {
+    ValueKind kind;
+    int count;               /* of a vector */
+    int is_color;            /* a vector written as a colour: rgb, rgbft, … */
+    double number[5];        /* float: [0]; vector: [0..count); colour: r g b filter transmit */
+    const char *string;
+    void *data;              /* array, function, and what the scene side declares */
+    const char *word;        /* VALUE_OTHER: its keyword */
+} Value;
+
+typedef struct Token {
+    TokenKind kind;
+    char punct;              /* TOKEN_PUNCT: the character; '=' '<' … two-character ones as sdl defines them */
+    double number;
+    const char *text;        /* interned word or identifier as written; the string's content */
+    Value *value;            /* TOKEN_IDENT: where it lives (may be assigned through by-reference parameters) */
+    const char *file;
+    int line, column;
+} Token;
+
+Arena *sdl_arena(Sdl *sdl);
+Scene *sdl_scene(Sdl *sdl);
+const SdlOptions *sdl_options(Sdl *sdl);
+double sdl_version(Sdl *sdl); /* 3.62 until #version says otherwise */
+void *sdl_alloc(Sdl *sdl, size_t bytes); /* zeroed; an error at the limit, never NULL */
+
+_Noreturn void sdl_error(Sdl *sdl, const char *fmt, ...) RETEX_PRINTF(2, 3); /* at the current token */
+_Noreturn void sdl_expected(Sdl *sdl, const char *what); /* "expected WHAT, found `…`" */
+/* Report once per name: "FILE:LINE: warning: `NAME` is not supported yet: WHAT HAPPENS INSTEAD". With --strict an error. */
+void sdl_unsupported(Sdl *sdl, const char *name, const char *instead);
+void sdl_warn(Sdl *sdl, const char *fmt, ...) RETEX_PRINTF(2, 3);
+
+const Token *sdl_peek(Sdl *sdl);          /* the next token, directives done, macros expanded */
+const Token *sdl_next(Sdl *sdl);          /* take it; valid until the next call */
+int sdl_accept(Sdl *sdl, const char *word_or_punct); /* take it if it is this one; 1 if so */
+void sdl_expect(Sdl *sdl, const char *word_or_punct);
+int sdl_is(Sdl *sdl, const char *word_or_punct);     /* look only */
+void sdl_optional_comma(Sdl *sdl);
+void sdl_skip_block(Sdl *sdl); /* from `{` to its `}`, over anything */
+
+/* Expressions. Vectors of too few numbers are an error, a float is promoted where a vector is wanted. */
+double sdl_float(Sdl *sdl);
+int sdl_bool(Sdl *sdl);                   /* a float, on/off/yes/no/true/false */
+int sdl_optional_bool(Sdl *sdl, int missing); /* a switch whose value may be left out */
+Vec3 sdl_vector(Sdl *sdl);
+Vec2 sdl_vector2(Sdl *sdl);
+Rgbft sdl_color(Sdl *sdl);                /* `color rgb <…>`, identifiers, arithmetic on them, grey from a float */
+int sdl_is_color_start(Sdl *sdl);
+const char *sdl_string(Sdl *sdl);
+int sdl_is_expression_start(Sdl *sdl);    /* a number, vector, numeric identifier or function is next */
+Value sdl_expression(Sdl *sdl);           /* float, vector or string, whatever comes */
+
+/* Idents: a list with one more name. */
+const IdentList *sdl_ident_add(Sdl *sdl, const IdentList *list, const char *name, int line);
+const IdentList *sdl_ident_join(Sdl *sdl, const IdentList *a, const IdentList *b);
+
+/* Find a file as #include and image_map do: the current folder, the scene's folder, the include paths, the system's.
+ * Returns a path in the arena or NULL. Reads stay under those folders. */
+const char *sdl_find_file(Sdl *sdl, const char *name);
+
+/* ---- what the scene side gives ---- */
+
+/* Called for `#declare NAME =` when the next token starts something that is no expression (texture, object shapes, …):
+ * fills value and returns 1, or returns 0 when it does not know the keyword. Names are added to IdentLists by the caller
+ * through scene_side_name. */
+int scene_side_declare(Sdl *sdl, Value *value);
+/* Called once the value of a declaration is there: adds name to its IdentList. */
+void scene_side_name(Sdl *sdl, Value *value, const char *name, int line);
+/* A statement at top level that is no directive: object, light, camera, global_settings, … */
+void scene_side_statement(Sdl *sdl);
+/* `#default{…}`: after its keyword, braces included. */
+void scene_side_default(Sdl *sdl);
+/* At the end of the file: defaults, the camera, background. */
+void scene_side_finish(Sdl *sdl);
+/* State of the scene side, made by scene_side_begin and kept by the parser for it. */
+void scene_side_begin(Sdl *sdl);
+void *sdl_side(Sdl *sdl);
+void sdl_set_side(Sdl *sdl, void *side);
+/* Built-in functions that look at objects: min_extent, max_extent, inside, trace, vnormalize is not one. Return 0 when
+ * not known. */
+int scene_side_extent(Sdl *sdl, const Value *object, Vec3 *low, Vec3 *high);
+
+#endif

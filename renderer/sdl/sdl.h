@@ -1,0 +1,29 @@
+/* The scene language: POV-Ray 3.7's core, read into a Scene. What is accepted is described in retex-scene(5). */
+#ifndef RENDERER_SDL_SDL_H
+#define RENDERER_SDL_SDL_H
+
+#include "scene/scene.h"
+
+/* Begin with SDL_OPTIONS_INIT. */
+typedef struct SdlOptions {
+    size_t size;
+    const char *const *include_paths; /* searched after the current folder and the scene's own, before the system's */
+    int ninclude_paths;
+    const char *const *declares;      /* "NAME=VALUE": floats, or strings where VALUE is quoted */
+    int ndeclares;
+    int strict;                       /* 1: what is not supported is an error */
+    int ambient;                      /* 1: `ambient` gives light, as radiance ambient * pigment */
+    long max_steps;                   /* budget of statements and evaluations; default 200 million */
+    size_t max_memory;                /* bytes of the scene's arena; default 8 GiB */
+    /* Every message of #debug, #warning and of the parser itself ("FILE:LINE: warning: …"), without a final newline;
+     * NULL = silent. */
+    void (*message)(void *context, int level /* 0 debug, 1 warning */, const char *text);
+    void *message_context;
+    int width, height;                /* image_width and image_height of the language; 0 = the scene's own size */
+} SdlOptions;
+#define SDL_OPTIONS_INIT { sizeof(SdlOptions), 0, 0, 0, 0, 0, 0, 200000000, (size_t)8 << 30, 0, 0, 0, 0 }
+
+/* Parse a scene file. On failure *scene is NULL and err has file, line, column and what was expected. */
+int sdl_parse_file(Scene **scene, const char *path, const SdlOptions *options /* NULL = defaults */, RetexError *err);
+
+#endif

@@ -1,0 +1,52 @@
+/* Where a ray met the scene, and what is there geometrically. */
+#ifndef RENDERER_SHAPE_SURFACE_H
+#define RENDERER_SHAPE_SURFACE_H
+
+#include "scene/scene.h"
+
+typedef struct Ray {
+    Vec3 origin, direction; /* direction of unit length */
+    double tmin, tmax;
+} Ray;
+
+/* The raw answer of the tracer. */
+typedef struct Hit {
+    double t;          /* distance; along a unit direction */
+    int primitive;     /* index, or -1 for none */
+    int face;          /* of a mesh; else the shape's own part (box side 0..5: -x +x -y +y -z +z, cone 0 side 1 low cap 2
+                          high cap) */
+    float b1, b2;      /* barycentrics of a triangle: weights of corners 1 and 2 */
+} Hit;
+
+/* Everything shading wants to know. Normals are of unit length, in world space. */
+typedef struct Surface {
+    const Primitive *primitive;
+    const Texture *texture;  /* of this face */
+    int target;              /* index or -1 */
+    Vec3 position;
+    Vec3 geometric_normal;   /* outward, as the shape has it (not turned to the ray) */
+    Vec3 shading_normal;     /* outward, interpolated where the mesh has normals; same side as geometric_normal */
+    int backside;            /* 1: the ray came from inside (dot(direction, geometric_normal) > 0) */
+    Vec2 uv;                 /* of uv_mapping: the shape's own, or world x,y for cylinders, cones and shapes without */
+    Vec2 natural;            /* natural parametrisation: sphere, box, cone (angle, height), torus, disc, mesh with UVs */
+    int has_natural;         /* 0: plane, mesh without UVs */
+} Surface;
+
+void surface_at(Surface *surface, const Scene *scene, const Ray *ray, const Hit *hit);
+
+/* Intersect one analytic primitive (not a mesh or box): the nearest t in (tmin, tmax). 1 if found; face as in Hit. */
+int shape_intersect(const Primitive *primitive, const Ray *ray, double *t, int *face);
+/* World-space bounding box; planes have none (returns 0). */
+int shape_bounds(const Primitive *primitive, Vec3 *low, Vec3 *high);
+
+/* Emitters: sampling by area. Total world-space area; 0 where the shape cannot be sampled (plane, torus). */
+double shape_area(const Primitive *primitive);
+/* A point uniform in area from u1, u2 in [0,1), u0 choosing among faces; for meshes face weights come from the caller's
+ * table: pass the face. Gives position, outward geometric normal, the face and UVs through a Surface (backside 0), and the
+ * density per unit area at that point (not constant under non-uniform scaling of curved shapes). */
+void shape_sample(const Primitive *primitive, const Scene *scene, int face, double u1, double u2, Surface *surface,
+                  double *pdf_area);
+double shape_pdf_area(const Primitive *primitive, const Surface *surface); /* of shape_sample, at that point */
+double mesh_face_area(const Primitive *primitive, int face);
+
+#endif
