@@ -1,8 +1,14 @@
 # retex: one make, not recursive. Every directory with sources has a rules.mk that adds to the lists below.
-#   make            the tools, the library and the bridge, into build/
-#   make demo       set up, build, render the living room and retexture it
-#   make check      set up, build, run all tests
-#   make install    PREFIX=/usr/local DESTDIR=
+#   make              the tools, the library and the bridge, into build/
+#   make demo         set up, build, render the living room and retexture it, into build/demo/
+#   make check        set up, build, run the tests; check-unit, check-cli, … run one suite
+#   make check-all    also those that take long or need heavy programs
+#   make check-update CASE=golden/NAME   make a golden reference anew, printing before and after
+#   make asan, tsan   the unit and command-line tests with the sanitizers
+#   make lint         rules of the house that a script can check
+#   make format       clang-format over the sources
+#   make install      PREFIX=/usr/local DESTDIR=
+# Whatever of the compiler and the libraries is missing is installed first where that may be done: tools/setup.sh.
 
 BUILD ?= build
 PREFIX ?= /usr/local
@@ -12,13 +18,49 @@ CXXFLAGS ?= -O2 -g
 WARNINGS = -Wall -Wextra -Wshadow -Wstrict-prototypes -Wmissing-prototypes -Wpointer-arith -Wvla
 CXXWARNINGS = -Wall -Wextra
 PKG_CONFIG ?= pkg-config
+INSTALL ?= install
+# -j of the command line wins.
+JOBS ?= $(shell nproc 2>/dev/null || echo 2)
+MAKEFLAGS += -j$(JOBS)
 
 .DEFAULT_GOAL := all
+.DELETE_ON_ERROR:
+.SECONDARY:
 LIBRETEX_SOURCES :=
 RENDERER_SOURCES :=
 TOOLS :=
-UNIT_TESTS :=
+
+# The flags of the libraries. Made after set-up, whereupon make reads everything again: so a machine that had nothing at
+# the start builds in the same run. Not needed to clean or to format.
+ifneq ($(filter-out clean format,$(or $(MAKECMDGOALS),all)),)
+include $(BUILD)/config.mk
+endif
+$(BUILD)/config.mk: tools/setup.sh
+	@mkdir -p $(@D)
+	@tools/setup.sh build
+	@tools/setup.sh config >$@
 
 include tools/rules.mk
 include renderer/rules.mk
 include tests/rules.mk
+
+.PHONY: all demo install clean lint format
+demo: all
+	@tools/demo.sh $(BUILD)
+
+install: all
+	$(INSTALL) -d $(DESTDIR)$(PREFIX)/bin $(DESTDIR)$(PREFIX)/lib $(DESTDIR)$(PREFIX)/include/retex
+	$(INSTALL) -m 755 $(TOOLS:%=$(BUILD)/bin/%) $(DESTDIR)$(PREFIX)/bin
+	$(INSTALL) -m 644 $(LIBRETEX) $(BRIDGE) $(DESTDIR)$(PREFIX)/lib
+	$(INSTALL) -m 644 tools/libretex/include/retex/*.h $(DESTDIR)$(PREFIX)/include/retex
+	for page in man/*.[1-9]; do [ ! -e $$page ] || $(INSTALL) -D -m 644 -t \
+	    $(DESTDIR)$(PREFIX)/share/man/man$${page##*.} $$page || exit 1; done
+
+lint:
+	@tests/lib/lint.sh
+
+format:
+	clang-format -i $$(git ls-files '*.c' '*.h' '*.cpp')
+
+clean:
+	rm -rf $(BUILD)

@@ -1,1 +1,46 @@
 # Tests: see tests/README.md.
+UNIT_TESTS := $(patsubst tests/unit/%.c,%,$(wildcard tests/unit/test_*.c))
+TEST_LIB_OBJECTS := $(patsubst %.c,$(BUILD)/obj/%.o,$(wildcard tests/lib/lib_*.c))
+TEST_PROGRAMS := $(patsubst tests/lib/%.c,$(BUILD)/tests/bin/%,$(wildcard tests/lib/make_*.c))
+
+$(BUILD)/test.mk: tools/setup.sh
+	@mkdir -p $(@D)
+	@tools/setup.sh test
+	@touch $@
+
+# Unit tests may look inside: they see the libraries' private headers.
+$(BUILD)/obj/tests/%.o: tests/%.c $(BUILD)/config.mk | $(BUILD)/test.mk
+	@mkdir -p $(@D)
+	$(CC) $(CPPFLAGS_ALL) -Itests/lib -Itools/libretex -Irenderer $(LIBRETEX_CFLAGS) $(RENDER_CFLAGS) $(CFLAGS_ALL) \
+	    -MMD -MP -c $< -o $@
+
+$(BUILD)/tests/unit/%: $(BUILD)/obj/tests/unit/%.o $(TEST_LIB_OBJECTS) $(BUILD)/obj/tools/cli.o $(LIBRENDER) $(LIBRETEX) | $(BRIDGE)
+	@mkdir -p $(@D)
+	$(LINK) -Wl,-rpath,'$$ORIGIN/../../lib' $^ -o $@ -lcmocka $(RENDER_LIBS) $(LIBRETEX_LIBS)
+
+$(BUILD)/tests/bin/%: $(BUILD)/obj/tests/lib/%.o $(TEST_LIB_OBJECTS) $(LIBRETEX) | $(BRIDGE)
+	@mkdir -p $(@D)
+	$(LINK) -Wl,-rpath,'$$ORIGIN/../../lib' $^ -o $@ $(LIBRETEX_LIBS)
+
+.PHONY: unit-tests check check-all check-unit check-cli check-golden check-man check-fidelity check-update asan tsan
+unit-tests: $(UNIT_TESTS:%=$(BUILD)/tests/unit/%)
+tests: $(TEST_PROGRAMS) unit-tests all
+
+# Suites are run by tests/lib/check, which adds up what they report.
+RUN_CHECK = BUILD=$(BUILD) JOBS=$(JOBS) tests/lib/check.sh
+check: tests
+	@$(RUN_CHECK) unit cli man golden fidelity
+check-all: tests
+	@$(RUN_CHECK) --all unit cli man golden fidelity
+check-unit check-cli check-man check-golden check-fidelity: tests
+	@$(RUN_CHECK) $(@:check-%=%)
+check-update: tests
+	@BUILD=$(BUILD) tests/lib/update.sh '$(CASE)'
+
+SANITIZED = CFLAGS='-O1 -g -fno-omit-frame-pointer -fsanitize=$(1)' CXXFLAGS='-O1 -g -fsanitize=$(1)' \
+	LDFLAGS='-fsanitize=$(1)'
+asan:
+	$(MAKE) BUILD=$(BUILD)/asan $(call SANITIZED,address$(comma)undefined -fno-sanitize-recover=undefined) check-unit check-cli
+tsan:
+	$(MAKE) BUILD=$(BUILD)/tsan $(call SANITIZED,thread) check-unit check-cli
+comma := ,
