@@ -1,0 +1,378 @@
+/* The command line all tools share: see cli.h. Options first (walk, lookup, --help), then values, messages, output. */
+#include "cli.h"
+
+#include <ctype.h>
+#include <errno.h>
+#include <fcntl.h>
+#include <math.h>
+#include <signal.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+#include <unistd.h>
+
+#include <retex/retex.h>
+
+const CliOption cli_positional = {"", 0, NULL, NULL, 0};
+
+static const CliOption common_options[] = {
+    {"output", 'o', "FILE", "write to FILE; - is standard output", 0},
+    {"threads", 0, "N", "use N threads; 0, the default, is all cores", 0},
+    {"quiet", 'q', NULL, "print nothing but warnings and errors", 0},
+    {"verbose", 'v', NULL, "print more", 0},
+    {"help", 0, NULL, "print this and exit", 0},
+    {"version", 0, NULL, "print the version and exit", 0},
+    {0},
+};
+
+/* Before the first option: the standard descriptors are open, so that no file of ours becomes one of them (a closed one
+ * is opened the wrong way round, so that using it still fails); and a closed pipe is an error like a full disk. */
+static void prepare_process(void)
+{
+    static int prepared;
+    if (prepared)
+        return;
+    prepared = 1;
+    for (int fd = 0; fd < 3; fd++)
+        if (fcntl(fd, F_GETFD) == -1 && errno == EBADF && open("/dev/null", fd == 0 ? O_WRONLY : O_RDONLY) != fd)
+            _exit(CLI_FAIL);
+    signal(SIGPIPE, SIG_IGN);
+}
+
+/* --- --help --- */
+
+enum { HELP_COLUMN = 30, HELP_WIDTH = 79 };
+
+/* Print text from column HELP_COLUMN on, broken between words; `column` is where the cursor is. */
+static void print_wrapped(const char *text, int column)
+{
+    if (column > HELP_COLUMN - 2) {
+        putchar('\n');
+        column = 0;
+    }
+    printf("%*s", HELP_COLUMN - column, "");
+    column = HELP_COLUMN;
+    while (*text) {
+        int word = (int)strcspn(text, " ");
+        if (column > HELP_COLUMN && column + 1 + word > HELP_WIDTH) {
+            printf("\n%*s", HELP_COLUMN, "");
+            column = HELP_COLUMN;
+        } else if (column > HELP_COLUMN) {
+            putchar(' ');
+            column++;
+        }
+        printf("%.*s", word, text);
+        column += word;
+        text += word;
+        text += strspn(text, " ");
+    }
+    putchar('\n');
+}
+
+static void print_options(const CliOption *options)
+{
+    for (const CliOption *o = options; o && o->name; o++) {
+        char form[256];
+        int n = snprintf(form, sizeof form, "  %c%c%c --%s%s%s%s", o->letter ? '-' : ' ', o->letter ? o->letter : ' ',
+                         o->letter ? ',' : ' ', o->name, o->modifiers ? "[:opts]" : "", o->argument ? " " : "",
+                         o->argument ? o->argument : "");
+        fputs(form, stdout);
+        print_wrapped(o->help ? o->help : "", n);
+    }
+}
+
+static _Noreturn void print_help(const Cli *cli)
+{
+    printf("Usage: %s %s\n\n%s\n\n", cli->tool, cli->usage, cli->about);
+    if (cli->options && cli->options->name) {
+        print_options(cli->options);
+        putchar('\n');
+    }
+    print_options(common_options);
+    exit(cli_close(cli, CLI_OK));
+}
+
+static _Noreturn void print_version(const Cli *cli)
+{
+    printf("%s %s\n", cli->tool, RETEX_VERSION);
+    exit(cli_close(cli, CLI_OK));
+}
+
+/* --- walking argv --- */
+
+/* The option of that name (length bytes) or, with name NULL, of that letter; the tool's own come first. */
+static const CliOption *find_option(const Cli *cli, const char *name, size_t length, char letter)
+{
+    const CliOption *tables[] = {cli->options, common_options};
+    for (int t = 0; t < 2; t++)
+        for (const CliOption *o = tables[t]; o && o->name; o++) {
+            if (name && strlen(o->name) == length && memcmp(o->name, name, length) == 0)
+                return o;
+            if (!name && o->letter && o->letter == letter)
+                return o;
+        }
+    return NULL;
+}
+
+/* The option's argument: `attached` if there is one, else the next word. */
+static void take_value(Cli *cli, const CliOption *option, const char *attached)
+{
+    cli->value = NULL;
+    if (!option->argument) {
+        if (attached)
+            cli_die(cli, "--%s takes no argument", option->name);
+        return;
+    }
+    if (attached)
+        cli->value = attached;
+    else if (cli->next < cli->argc)
+        cli->value = cli->argv[cli->next++];
+    else
+        cli_die(cli, "--%s needs an argument: %s", option->name, option->argument);
+}
+
+static const CliOption *long_option(Cli *cli, const char *text)
+{
+    size_t length = strcspn(text, "=:");
+    const CliOption *option = find_option(cli, text, length, 0);
+    if (!option)
+        cli_die(cli, "unknown option --%.*s; try --help", (int)length, text);
+    const char *attached = NULL;
+    if (text[length] == ':') {
+        if (!option->modifiers)
+            cli_die(cli, "--%s takes no modifiers (':%s')", option->name, text + length + 1);
+        cli->modifiers = text + length + 1;
+    } else if (text[length] == '=') {
+        attached = text + length + 1;
+    }
+    take_value(cli, option, attached);
+    return option;
+}
+
+/* The first letter of cli->group; what follows is its argument, or more letters. */
+static const CliOption *short_option(Cli *cli)
+{
+    char letter = *cli->group++;
+    const CliOption *option = find_option(cli, NULL, 0, letter);
+    if (!option)
+        cli_die(cli, "unknown option -%c; try --help", letter);
+    const char *rest = *cli->group ? cli->group : NULL;
+    if (option->argument || !rest)
+        cli->group = NULL;
+    take_value(cli, option, option->argument ? rest : NULL);
+    return option;
+}
+
+/* 1 if the option is one that every tool has, which is then dealt with. */
+static int common_option(Cli *cli, const CliOption *option)
+{
+    if (option < common_options || option >= common_options + sizeof common_options / sizeof *common_options)
+        return 0;
+    if (strcmp(option->name, "output") == 0) {
+        if (!*cli->value)
+            cli_die(cli, "--output: the name is empty");
+        cli->output = cli->value;
+    } else if (strcmp(option->name, "threads") == 0) {
+        cli->threads = (int)cli_integer(cli, option, 0, 256);
+    } else if (strcmp(option->name, "quiet") == 0) {
+        cli->quiet = 1;
+    } else if (strcmp(option->name, "verbose") == 0) {
+        cli->verbose = 1;
+    } else if (strcmp(option->name, "help") == 0) {
+        print_help(cli);
+    } else {
+        print_version(cli);
+    }
+    return 1;
+}
+
+const CliOption *cli_next(Cli *cli)
+{
+    prepare_process();
+    if (cli->next == 0)
+        cli->next = 1;
+    for (;;) {
+        const CliOption *option;
+        cli->modifiers = "";
+        if (cli->group) {
+            option = short_option(cli);
+        } else if (cli->next >= cli->argc) {
+            return NULL;
+        } else {
+            const char *word = cli->argv[cli->next++];
+            if (cli->only_positional || word[0] != '-' || word[1] == 0) {
+                cli->value = word;
+                return &cli_positional;
+            }
+            if (strcmp(word, "--") == 0) {
+                cli->only_positional = 1;
+                continue;
+            }
+            if (word[1] == '-') {
+                option = long_option(cli, word + 2);
+            } else {
+                cli->group = word + 1;
+                option = short_option(cli);
+            }
+        }
+        if (!common_option(cli, option))
+            return option;
+    }
+}
+
+/* --- values --- */
+
+long cli_integer(const Cli *cli, const CliOption *option, long low, long high)
+{
+    char *end;
+    errno = 0;
+    long value = strtol(cli->value, &end, 10);
+    if (errno || end == cli->value || *end || isspace((unsigned char)cli->value[0]) || value < low || value > high)
+        cli_die(cli, "--%s: expected a whole number from %ld to %ld, not '%s'", option->name, low, high, cli->value);
+    return value;
+}
+
+double cli_number(const Cli *cli, const CliOption *option, double low, double high)
+{
+    char *end;
+    double value = strtod(cli->value, &end);
+    if (end == cli->value || *end || isspace((unsigned char)cli->value[0]) || !isfinite(value) || value < low ||
+        value > high)
+        cli_die(cli, "--%s: expected a number from %g to %g, not '%s'", option->name, low, high, cli->value);
+    return value;
+}
+
+/* --- messages --- */
+
+/* One line to stderr. What users' files are called and hold appears in messages: control characters would let them
+ * write over the terminal. */
+static void message(const Cli *cli, const char *kind, const char *text)
+{
+    fprintf(stderr, "%s: %s", cli->tool, kind);
+    for (const char *c = text; *c; c++)
+        fputc((unsigned char)*c < 32 || *c == 127 ? '?' : *c, stderr);
+    fputc('\n', stderr);
+}
+
+static void vmessage(const Cli *cli, const char *kind, const char *fmt, va_list args)
+{
+    char text[4096];
+    vsnprintf(text, sizeof text, fmt, args);
+    message(cli, kind, text);
+}
+
+void cli_error(const Cli *cli, const RetexError *err)
+{
+    char text[sizeof err->file + sizeof err->message + 32];
+    if (err->file[0] && err->line > 0 && err->column > 0)
+        snprintf(text, sizeof text, "%s:%d:%d: %s", err->file, err->line, err->column, err->message);
+    else if (err->file[0] && err->line > 0)
+        snprintf(text, sizeof text, "%s:%d: %s", err->file, err->line, err->message);
+    else if (err->file[0])
+        snprintf(text, sizeof text, "%s: %s", err->file, err->message);
+    else
+        snprintf(text, sizeof text, "%s", err->message);
+    message(cli, "error: ", text);
+}
+
+void cli_warn(const Cli *cli, const char *fmt, ...)
+{
+    va_list args;
+    va_start(args, fmt);
+    vmessage(cli, "warning: ", fmt, args);
+    va_end(args);
+}
+
+void cli_info(const Cli *cli, const char *fmt, ...)
+{
+    if (cli->quiet)
+        return;
+    va_list args;
+    va_start(args, fmt);
+    vmessage(cli, "", fmt, args);
+    va_end(args);
+}
+
+void cli_detail(const Cli *cli, const char *fmt, ...)
+{
+    if (!cli->verbose)
+        return;
+    va_list args;
+    va_start(args, fmt);
+    vmessage(cli, "", fmt, args);
+    va_end(args);
+}
+
+void cli_die(const Cli *cli, const char *fmt, ...)
+{
+    va_list args;
+    va_start(args, fmt);
+    vmessage(cli, "error: ", fmt, args);
+    va_end(args);
+    exit(CLI_FAIL);
+}
+
+void cli_fail(const Cli *cli, const RetexError *err)
+{
+    cli_error(cli, err);
+    exit(CLI_FAIL);
+}
+
+/* --- output --- */
+
+const char *cli_output(const Cli *cli)
+{
+    const char *path = cli->output ? cli->output : "-";
+    if (strcmp(path, "-") == 0 && isatty(STDOUT_FILENO))
+        cli_die(cli, cli->output ? "standard output is a terminal; redirect it or name a file: -o FILE"
+                                 : "no output file: give -o FILE, or redirect standard output");
+    return path;
+}
+
+static double seconds_now(void)
+{
+    struct timespec t;
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+void cli_progress(const Cli *cli, const char *label, double done)
+{
+    enum { BAR = 40 };
+    static double started = -1, drawn;
+    if (cli->quiet || !isatty(STDERR_FILENO))
+        return;
+    double now = seconds_now();
+    if (started < 0)
+        started = now;
+    done = fmin(fmax(done, 0), 1);
+    if (done < 1 && now - drawn < 0.1)
+        return;
+    drawn = now;
+    char bar[BAR + 1] = {0};
+    for (int i = 0; i < BAR; i++)
+        bar[i] = i < (int)(done * BAR) ? '#' : '.';
+    double elapsed = now - started;
+    if (done >= 1) {
+        fprintf(stderr, "\r%s [%s] 100%%  %.1f s\033[K\n", label, bar, elapsed);
+        started = -1;
+    } else if (done > 0.02) {
+        fprintf(stderr, "\r%s [%s] %3.0f%%  %.0f s left\033[K", label, bar, 100 * done, elapsed * (1 - done) / done);
+    } else {
+        fprintf(stderr, "\r%s [%s] %3.0f%%\033[K", label, bar, 100 * done);
+    }
+    fflush(stderr);
+}
+
+int cli_close(const Cli *cli, int status)
+{
+    int failed = ferror(stdout);
+    errno = 0;
+    if (fclose(stdout) != 0)
+        failed = 1;
+    if (!failed)
+        return status;
+    cli_die(cli, "standard output: %s", errno ? strerror(errno) : "write error");
+}
