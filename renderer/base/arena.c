@@ -1,0 +1,107 @@
+/* An arena of growing blocks. Blocks come from calloc: fresh pages are zero already, so big ones cost nothing to clear. */
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+#include "base/arena.h"
+
+#define ALIGNMENT ((size_t)16)
+#define FIRST_BLOCK ((size_t)64 << 10)
+#define LARGEST_BLOCK ((size_t)4 << 20)
+
+typedef struct Block {
+    struct Block *next;
+    size_t size, used; /* bytes after this header */
+} Block;
+
+struct Arena {
+    Block *blocks; /* the first one is being filled */
+    size_t limit, used, next_size;
+};
+
+/* The header takes whole alignment units, so that what follows is aligned. */
+#define HEADER ((sizeof(Block) + ALIGNMENT - 1) / ALIGNMENT * ALIGNMENT)
+
+Arena *arena_create(size_t limit)
+{
+    Arena *arena = calloc(1, sizeof(*arena));
+
+    if (!arena)
+        return NULL;
+    arena->limit = limit ? limit : SIZE_MAX;
+    arena->next_size = FIRST_BLOCK;
+    return arena;
+}
+
+void arena_close(Arena **arena)
+{
+    if (!arena || !*arena)
+        return;
+    for (Block *block = (*arena)->blocks, *next; block; block = next) {
+        next = block->next;
+        free(block);
+    }
+    free(*arena);
+    *arena = NULL;
+}
+
+/* Something larger than a quarter of the usual block gets its own, behind the one being filled, whose rest stays usable. */
+static Block *add_block(Arena *arena, size_t bytes)
+{
+    int own = bytes > arena->next_size / 4;
+    size_t size = own ? bytes : arena->next_size;
+    Block *block = calloc(1, HEADER + size);
+
+    if (!block)
+        return NULL;
+    block->size = size;
+    if (own && arena->blocks) {
+        block->next = arena->blocks->next;
+        arena->blocks->next = block;
+    } else {
+        block->next = arena->blocks;
+        arena->blocks = block;
+    }
+    if (!own && arena->next_size < LARGEST_BLOCK)
+        arena->next_size *= 2;
+    return block;
+}
+
+void *arena_alloc(Arena *arena, size_t bytes)
+{
+    Block *block = arena->blocks;
+    void *out;
+
+    if (bytes > SIZE_MAX - HEADER - ALIGNMENT)
+        return NULL;
+    bytes = bytes ? (bytes + ALIGNMENT - 1) / ALIGNMENT * ALIGNMENT : ALIGNMENT;
+    if (bytes > arena->limit - arena->used)
+        return NULL;
+    if (!block || bytes > block->size - block->used)
+        block = add_block(arena, bytes);
+    if (!block)
+        return NULL;
+    out = (char *)block + HEADER + block->used;
+    block->used += bytes;
+    arena->used += bytes;
+    return out;
+}
+
+void *arena_copy(Arena *arena, const void *data, size_t bytes)
+{
+    void *out = arena_alloc(arena, bytes);
+
+    if (out && bytes)
+        memcpy(out, data, bytes);
+    return out;
+}
+
+char *arena_string(Arena *arena, const char *text, size_t length)
+{
+    char *out = length < SIZE_MAX ? arena_alloc(arena, length + 1) : NULL;
+
+    if (out && length)
+        memcpy(out, text, length);
+    return out;
+}
+
+size_t arena_used(const Arena *arena) { return arena->used; }
