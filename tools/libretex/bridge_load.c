@@ -1,0 +1,101 @@
+/* Finds and loads libretex-oiio.so, once a process, when the first picture needs it. */
+#include "bridge_load.h"
+
+#include <dlfcn.h>
+#include <limits.h>
+#include <pthread.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#define BRIDGE_NAME "libretex-oiio.so"
+
+static struct {
+    pthread_once_t once;
+    RetexBridgeRead *read;
+    RetexBridgeWrite *write;
+    char message[512]; /* why it could not be loaded; "" = it is */
+} bridge = {.once = PTHREAD_ONCE_INIT};
+
+static void keep_message(const char *text)
+{
+    snprintf(bridge.message, sizeof bridge.message, "%s", text ? text : "unknown reason");
+}
+
+/* RTLD_LOCAL keeps the two hundred libraries behind OpenImageIO out of the name space of whoever hosts us. */
+static void *open_library(const char *path)
+{
+    void *library = dlopen(path, RTLD_NOW | RTLD_LOCAL);
+    if (!library)
+        keep_message(dlerror());
+    return library;
+}
+
+/* The library beside the program: PREFIX/bin/retex-x -> PREFIX/lib, and the same for a program run from build/. A
+ * program deeper in the tree (a unit test) is served by the folders above. */
+static void *open_near_program(void)
+{
+    char program[PATH_MAX];
+    ssize_t length = readlink("/proc/self/exe", program, sizeof program - 1);
+    if (length <= 0)
+        return NULL;
+    program[length] = '\0';
+    for (int up = 0; up < 3; up++) {
+        char *slash = strrchr(program, '/');
+        if (!slash)
+            return NULL;
+        *slash = '\0';
+        char path[PATH_MAX + 32];
+        snprintf(path, sizeof path, "%s/lib/" BRIDGE_NAME, program);
+        if (access(path, R_OK) == 0)
+            return open_library(path);
+    }
+    return NULL;
+}
+
+static void load_bridge(void)
+{
+    const char *named = getenv("RETEX_BRIDGE");
+    void *library;
+    if (named && *named) {
+        library = open_library(named); /* named on purpose: no other one may stand in for it */
+    } else {
+        library = open_library(BRIDGE_NAME);
+        if (!library)
+            library = open_near_program();
+    }
+    if (!library)
+        return;
+    /* ISO C has no conversion from object to function pointers; POSIX promises that this one works. */
+    RetexBridgeAbi *abi = NULL;
+    *(void **)&abi = dlsym(library, "retex_oiio_abi");
+    *(void **)&bridge.read = dlsym(library, "retex_oiio_read");
+    *(void **)&bridge.write = dlsym(library, "retex_oiio_write");
+    if (!abi || !bridge.read || !bridge.write || abi() != RETEX_BRIDGE_ABI)
+        keep_message(BRIDGE_NAME " is of another version");
+    else
+        bridge.message[0] = '\0';
+}
+
+static int bridge_ready(const char *path, RetexError *err)
+{
+    pthread_once(&bridge.once, load_bridge);
+    if (bridge.message[0])
+        return retex_fail_at(err, RETEX_EUNSUPPORTED, path, 0, 0, "this needs OpenImageIO, which cannot be loaded: %s",
+                             bridge.message);
+    return RETEX_OK;
+}
+
+int retex_bridge_read(RetexImage *dst, const char *path, const char *colorspace, long max_pixels, RetexError *err)
+{
+    static const RetexBridgeHost host = {retex_image_alloc, retex_image_free};
+    int code = bridge_ready(path, err);
+    return code ? code : bridge.read(&host, dst, path, colorspace, max_pixels, err);
+}
+
+int retex_bridge_write(const RetexImage *src, const char *path, const RetexWriteParams *params, RetexError *err)
+{
+    int code = bridge_ready(path, err);
+    return code ? code : bridge.write(src, path, params, err);
+}
