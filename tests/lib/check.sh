@@ -1,0 +1,79 @@
+#!/bin/sh
+# Runs suites of tests and adds up what they report: check.sh [--all] SUITE…
+#
+# Every test program prints TAP (`ok N - name`, `not ok N - name`, `ok N - name # SKIP why`, a plan `1..N`) and is one
+# job of a suite; JOBS of them run at a time. A job that ends badly without a failed test, reports fewer results than
+# its plan or none at all is one failure more. Failures and skips are printed with the job's output about them; the
+# whole output stays in $BUILD/tests/log/. The last line is `N passed, M failed, K skipped`; exit 1 after a failure.
+#
+# CI=true: a skip is a failure unless the job's name is listed in tests/lib/may-skip.
+set -u
+BUILD=${BUILD:-build}
+JOBS=${JOBS:-2}
+all=
+[ "${1-}" != --all ] || { all=all; shift; }
+logs=$BUILD/tests/log
+rm -rf "$logs"
+mkdir -p "$logs"
+
+# The jobs of a suite, one a line: a name and the command that runs it.
+jobs_of() {
+    case $1 in
+    unit) for t in tests/unit/test_*.c; do
+            [ -e "$t" ] || continue
+            t=${t##*/}
+            echo "unit/${t%.c} env CMOCKA_MESSAGE_OUTPUT=TAP $BUILD/tests/unit/${t%.c}"
+        done ;;
+    cli) for t in tests/cli/*.t; do [ ! -e "$t" ] || { t=${t##*/}; echo "cli/${t%.t} tests/lib/case.sh cli $t"; }; done ;;
+    man) for t in man/*.1; do [ ! -e "$t" ] || { t=${t##*/}; echo "man/${t%.1} tests/lib/man.sh man/$t"; }; done ;;
+    golden) for t in tests/golden/*/; do
+            [ ! -e "$t/command" ] || { t=${t%/}; echo "golden/${t##*/} tests/lib/golden.sh $t"; }
+        done ;;
+    fidelity) for t in tests/fidelity/*.t ${all:+tests/fidelity/*.long}; do
+            [ ! -e "$t" ] || { t=${t##*/}; echo "fidelity/$t tests/lib/case.sh fidelity $t"; }
+        done ;;
+    esac
+}
+
+for suite; do
+    jobs_of "$suite"
+done >"$logs/jobs"
+
+# One job: its output into NAME.log, its exit status as the last line of it.
+export BUILD logs
+run_job='
+name=$1; shift
+log=$logs/$(echo "$name" | tr / .).log
+"$@" >"$log" 2>&1 </dev/null
+echo "# exit status $?" >>"$log"
+'
+xargs -r -P "$JOBS" -L 1 sh -c "$run_job" job <"$logs/jobs"
+
+passed=0 failed=0 skipped=0
+while read -r name _; do
+    log=$logs/$(echo "$name" | tr / .).log
+    counts=$(awk -v name="$name" -v ci="${CI:-}" -v may_skip="$(cat tests/lib/may-skip 2>/dev/null | tr '\n' ' ')" '
+        BEGIN { allowed = !ci || index(" " may_skip, " " name " ") }
+        /^1\.\.[0-9]+/ { plan += substr($1, 4); planned = 1; next }
+        /^# exit status/ { status = $4; next }
+        /^(not )?ok / {
+            results++
+            if (!/# SKIP/ && /^ok/) { passed++; next }
+            if (!/# SKIP/) failed++
+            else if (allowed) skipped++
+            else { failed++; told = told "    must not be skipped here:\n" }
+        }
+        { told = told "    " $0 "\n" }
+        END {
+            if (!planned || results < plan) ended = "ended early, status " status
+            else if (status != 0 && !failed) ended = "status " status
+            if (ended) { failed++; told = told "    " ended "\n" }
+            if (failed) printf "FAIL %s\n%s", name, told > "/dev/stderr"
+            else if (skipped) printf "skip %s\n%s", name, told > "/dev/stderr"
+            print passed + 0, failed + 0, skipped + 0
+        }' "$log")
+    set -- $counts
+    passed=$((passed + $1)) failed=$((failed + $2)) skipped=$((skipped + $3))
+done <"$logs/jobs"
+echo "$passed passed, $failed failed, $skipped skipped"
+[ "$failed" = 0 ] && [ "$passed" -gt 0 ]
