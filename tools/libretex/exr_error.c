@@ -1,0 +1,23 @@
+/* OpenEXRCore's callbacks: by default it prints to stderr, which a library must not. */
+#include <stdio.h>
+
+#include "exr_error.h"
+
+void retex_exr_message(exr_const_context_t context, exr_result_t code, const char *text)
+{
+    void *data = NULL;
+
+    (void)code;
+    if (!context || exr_get_user_data(context, &data) != EXR_ERR_SUCCESS || !data)
+        return;
+    RetexExrMessage *message = data;
+    pthread_mutex_lock(&message->lock);
+    if (!message->text[0])
+        snprintf(message->text, sizeof message->text, "%s", text ? text : "");
+    pthread_mutex_unlock(&message->lock);
+}
+
+void *retex_exr_alloc(size_t bytes)
+{
+    return bytes <= (size_t)1 << 30 ? calloc(1, bytes ? bytes : 1) : NULL;
+}

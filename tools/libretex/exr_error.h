@@ -1,0 +1,22 @@
+/* What OpenEXRCore says, caught per file and kept until the call that met it fails. */
+#ifndef RETEX_LIBRETEX_EXR_ERROR_H
+#define RETEX_LIBRETEX_EXR_ERROR_H
+
+#include <pthread.h>
+#include <stdlib.h>
+#include <openexr.h>
+
+/* The first message of a file; several threads may report. First member of both contexts' user data, so that the
+ * callback finds it. */
+typedef struct RetexExrMessage {
+    pthread_mutex_t lock;
+    char text[256];
+} RetexExrMessage;
+
+void retex_exr_message(exr_const_context_t context, exr_result_t code, const char *text);
+
+/* OpenEXRCore's memory: zeroed, so that a damaged chunk never shows what was there before, and limited, so that a
+ * damaged size is refused rather than tried. */
+void *retex_exr_alloc(size_t bytes);
+
+#endif

@@ -1,0 +1,449 @@
+/* Writing multi-part EXR files.
+ *
+ * First all chunks are converted, checksummed and compressed on all threads, in bands of 16 lines. Then the file goes
+ * out front to back: OpenEXRCore lays out the header and the chunks, and the table of chunk offsets, which it would go
+ * back for at the end, is worked out from the known sizes and written when its turn comes. So a pipe needs no spool.
+ * What Core writes as the table in the end is compared with what went out. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <zlib.h>
+
+#include <retex/parallel.h>
+
+#include "exr_error.h"
+#include "exr_io.h"
+#include "exr_zip.h"
+#include "half.h"
+#include "output.h"
+
+enum { BAND_LINES = 16 }; /* what EXR's ZIP takes as one chunk; uncompressed, one line is a chunk */
+
+typedef struct Band {
+    int part, first_line, lines;
+    unsigned char *data; /* the stored bytes: line by line, in each line plane by plane, planes in EXR's order */
+    size_t bytes;
+    uint32_t crc[RETEX_EXR_LETTERS_MAX]; /* of this band's piece of each plane, in the order of letters */
+} Band;
+
+struct RetexExrEncoding {
+    RetexExrPart *parts; /* a copy */
+    int nparts, compress;
+    Band *bands;
+    int nbands;
+};
+
+typedef struct EncodeScratch {
+    RetexZip zip;
+    unsigned char *raw;
+    uint16_t *halves; /* one line, interleaved */
+    size_t raw_bytes, halves_count;
+} EncodeScratch;
+
+typedef struct EncodeWork {
+    RetexExrEncoding *encoding;
+    EncodeScratch *scratch; /* one a thread */
+    int *failed;            /* one a band */
+} EncodeWork;
+
+/* Bytes of one stored sample. */
+static size_t sample_bytes(RetexPixelType type)
+{
+    return type == RETEX_HALF ? 2 : 4;
+}
+
+/* EXR keeps channels in alphabetical order: order[i] is the letter that comes i-th. */
+static void channel_order(const char *letters, int count, int *order)
+{
+    for (int i = 0; i < count; i++) {
+        int place = i;
+        for (; place > 0 && letters[order[place - 1]] > letters[i]; place--)
+            order[place] = order[place - 1];
+        order[place] = i;
+    }
+}
+
+static void take_plane_half(uint16_t *restrict out, const uint16_t *restrict in, int width, int stride)
+{
+    for (int x = 0; x < width; x++)
+        out[x] = in[(size_t)x * (size_t)stride];
+}
+
+static void take_plane_float(unsigned char *restrict out, const float *restrict in, int width, int stride)
+{
+    for (int x = 0; x < width; x++)
+        memcpy(out + (size_t)x * 4, &in[(size_t)x * (size_t)stride], 4);
+}
+
+/* Convert a band to its stored, uncompressed form, and checksum it. halves: room for one line. */
+static void store_band(Band *band, const RetexExrPart *part, unsigned char *raw, uint16_t *halves)
+{
+    const RetexImage *image = part->image;
+    const size_t plane = (size_t)image->width * sample_bytes(part->type);
+    int order[RETEX_EXR_LETTERS_MAX];
+
+    channel_order(part->letters, image->channels, order);
+    for (int c = 0; c < image->channels; c++)
+        band->crc[c] = (uint32_t)crc32(0, NULL, 0);
+    for (int y = band->first_line; y < band->first_line + band->lines; y++) {
+        const float *line = image->pixels + retex_image_index(image, 0, y);
+        if (part->type == RETEX_HALF)
+            retex_half_from_float(halves, line, (size_t)image->width * (size_t)image->channels);
+        for (int i = 0; i < image->channels; i++, raw += plane) {
+            const int c = order[i];
+            if (part->type == RETEX_HALF)
+                take_plane_half((uint16_t *)(void *)raw, halves + c, image->width, image->channels);
+            else
+                take_plane_float(raw, line + c, image->width, image->channels);
+            band->crc[c] = (uint32_t)crc32(band->crc[c], raw, (uInt)plane);
+        }
+    }
+}
+
+static int need(void **memory, size_t *have, size_t want, size_t unit)
+{
+    if (*have >= want)
+        return 1;
+    free(*memory);
+    *memory = malloc(want * unit);
+    *have = *memory ? want : 0;
+    return *memory != NULL;
+}
+
+static void encode_band(void *context, int index, int thread)
+{
+    EncodeWork *work = context;
+    EncodeScratch *scratch = &work->scratch[thread];
+    Band *band = &work->encoding->bands[index];
+    const RetexExrPart *part = &work->encoding->parts[band->part];
+    const size_t line = (size_t)part->image->width * (size_t)part->image->channels;
+    const size_t bytes = line * sample_bytes(part->type) * (size_t)band->lines;
+
+    work->failed[index] = 1;
+    if (!need((void **)&scratch->halves, &scratch->halves_count, line, 2))
+        return;
+    if (work->encoding->compress) {
+        if (!need((void **)&scratch->raw, &scratch->raw_bytes, bytes, 1))
+            return;
+        store_band(band, part, scratch->raw, scratch->halves);
+        unsigned char *packed = malloc(bytes);
+        if (!packed)
+            return;
+        band->bytes = retex_zip_pack(&scratch->zip, packed, scratch->raw, bytes);
+        if (band->bytes == 0) { /* no gain: as it is */
+            memcpy(packed, scratch->raw, bytes);
+            band->bytes = bytes;
+        }
+        band->data = realloc(packed, band->bytes);
+        if (!band->data)
+            band->data = packed;
+    } else {
+        band->bytes = bytes;
+        band->data = malloc(bytes);
+        if (!band->data)
+            return;
+        store_band(band, part, band->data, scratch->halves);
+    }
+    work->failed[index] = 0;
+}
+
+/* Put the bands' checksums together: planes one after another, each from the top. */
+static uint32_t part_crc(const RetexExrEncoding *encoding, int part, const Band *first)
+{
+    const RetexImage *image = encoding->parts[part].image;
+    const size_t plane = (size_t)image->width * sample_bytes(encoding->parts[part].type);
+    uint32_t crc = (uint32_t)crc32(0, NULL, 0);
+
+    for (int c = 0; c < image->channels; c++)
+        for (const Band *band = first; band < encoding->bands + encoding->nbands && band->part == part; band++)
+            crc = (uint32_t)crc32_combine(crc, band->crc[c], (z_off_t)(plane * (size_t)band->lines));
+    return crc;
+}
+
+static int check_parts(const RetexExrPart *parts, int nparts, RetexError *err)
+{
+    if (nparts < 1 || nparts > RETEX_EXR_PARTS_MAX)
+        return retex_fail(err, RETEX_EINVAL, "an EXR file of %d parts cannot be written (1 to %d can)", nparts,
+                          RETEX_EXR_PARTS_MAX);
+    for (int i = 0; i < nparts; i++) {
+        const RetexImage *image = parts[i].image;
+        if (!image || !image->pixels || (size_t)image->channels != strlen(parts[i].letters))
+            return retex_fail(err, RETEX_EINVAL, "part %s has no image, or one whose channels are not %s",
+                              parts[i].name, parts[i].letters);
+    }
+    return 0;
+}
+
+static int lay_out_bands(RetexExrEncoding *encoding, RetexError *err)
+{
+    int count = 0;
+
+    for (int i = 0; i < encoding->nparts; i++)
+        count += (encoding->parts[i].image->height + BAND_LINES - 1) / BAND_LINES;
+    encoding->bands = calloc((size_t)count, sizeof *encoding->bands);
+    if (!encoding->bands)
+        return retex_fail(err, RETEX_ENOMEM, "no memory to write an EXR file");
+    for (int i = 0; i < encoding->nparts; i++) {
+        const int height = encoding->parts[i].image->height;
+        for (int y = 0; y < height; y += BAND_LINES) {
+            Band *band = &encoding->bands[encoding->nbands++];
+            band->part = i;
+            band->first_line = y;
+            band->lines = height - y < BAND_LINES ? height - y : BAND_LINES;
+        }
+    }
+    return 0;
+}
+
+static int encode_bands(RetexExrEncoding *encoding, int nthreads, RetexError *err)
+{
+    EncodeWork work = { encoding, NULL, NULL };
+    int failed = 0;
+
+    nthreads = retex_threads(nthreads);
+    work.scratch = calloc((size_t)nthreads, sizeof *work.scratch);
+    work.failed = calloc((size_t)encoding->nbands, sizeof *work.failed);
+    if (work.scratch && work.failed)
+        retex_parallel(nthreads, encoding->nbands, encode_band, &work);
+    for (int i = 0; i < encoding->nbands; i++)
+        failed |= !work.failed || work.failed[i];
+    for (int i = 0; work.scratch && i < nthreads; i++) {
+        retex_zip_free(&work.scratch[i].zip);
+        free(work.scratch[i].raw);
+        free(work.scratch[i].halves);
+    }
+    free(work.scratch);
+    free(work.failed);
+    return failed ? retex_fail(err, RETEX_ENOMEM, "no memory to write an EXR file") : 0;
+}
+
+int retex_exr_encode(RetexExrEncoding **result, RetexExrPart *parts, int nparts, int compress, int nthreads,
+                     RetexError *err)
+{
+    *result = NULL;
+    int status = check_parts(parts, nparts, err);
+    if (status)
+        return status;
+    RetexExrEncoding *encoding = calloc(1, sizeof *encoding);
+    if (!encoding || !(encoding->parts = calloc((size_t)nparts, sizeof *parts))) {
+        free(encoding);
+        return retex_fail(err, RETEX_ENOMEM, "no memory to write an EXR file");
+    }
+    memcpy(encoding->parts, parts, (size_t)nparts * sizeof *parts);
+    encoding->nparts = nparts;
+    encoding->compress = compress;
+    status = lay_out_bands(encoding, err);
+    if (!status)
+        status = encode_bands(encoding, nthreads, err);
+    if (status) {
+        retex_exr_encoding_free(&encoding);
+        return status;
+    }
+    for (int i = 0, band = 0; i < nparts; i++) {
+        parts[i].crc = part_crc(encoding, i, &encoding->bands[band]);
+        while (band < encoding->nbands && encoding->bands[band].part == i)
+            band++;
+    }
+    *result = encoding;
+    return 0;
+}
+
+void retex_exr_encoding_free(RetexExrEncoding **result)
+{
+    RetexExrEncoding *encoding = result ? *result : NULL;
+
+    if (!encoding)
+        return;
+    for (int i = 0; i < encoding->nbands; i++)
+        free(encoding->bands[i].data);
+    free(encoding->bands);
+    free(encoding->parts);
+    free(encoding);
+    *result = NULL;
+}
+
+/* User data of the write context. */
+typedef struct Sink {
+    RetexExrMessage message; /* first: see exr_error.h */
+    RetexOutput *output;
+    RetexError error;        /* of output, which knows more than Core does */
+    uint64_t position;       /* bytes sent so far */
+    uint64_t *table;         /* offsets of all chunks; relative to table_end until they are sent */
+    uint64_t table_start, table_bytes;
+    int table_sent;
+} Sink;
+
+static int send_bytes(Sink *sink, const void *data, uint64_t bytes)
+{
+    if (sink->error.code || retex_output_write(sink->output, data, (size_t)bytes, &sink->error))
+        return 0;
+    sink->position += bytes;
+    return 1;
+}
+
+static int send_table(Sink *sink)
+{
+    sink->table_start = sink->position;
+    for (uint64_t i = 0; i < sink->table_bytes / sizeof *sink->table; i++)
+        sink->table[i] += sink->table_start + sink->table_bytes;
+    sink->table_sent = 1;
+    return send_bytes(sink, sink->table, sink->table_bytes);
+}
+
+/* Core's write: in sequence, but for one gap where the table belongs, and the table itself at the end. */
+static int64_t sink_write(exr_const_context_t context, void *data, const void *buffer, uint64_t bytes, uint64_t offset,
+                          exr_stream_error_func_ptr_t report)
+{
+    Sink *sink = data;
+
+    (void)context;
+    (void)report;
+    if (!sink->table_sent && offset == sink->position + sink->table_bytes && !send_table(sink))
+        return -1;
+    if (sink->table_sent && offset < sink->position) {
+        const uint64_t end = sink->table_start + sink->table_bytes;
+        if (offset >= sink->table_start && offset <= end && bytes <= end - offset &&
+            memcmp((const unsigned char *)sink->table + (offset - sink->table_start), buffer, (size_t)bytes) == 0)
+            return (int64_t)bytes;
+    }
+    if (offset != sink->position) {
+        if (!sink->error.code)
+            retex_fail(&sink->error, RETEX_EINTERNAL, "the EXR file was laid out in an unexpected order");
+        return -1;
+    }
+    return send_bytes(sink, buffer, bytes) ? (int64_t)bytes : -1;
+}
+
+/* The number of a band's chunks: uncompressed, every line is one. */
+static int band_chunks(const RetexExrEncoding *encoding, const Band *band)
+{
+    return encoding->compress ? 1 : band->lines;
+}
+
+/* Work out where every chunk will begin, counted from the table's end. */
+static int plan_table(Sink *sink, const RetexExrEncoding *encoding, RetexError *err)
+{
+    const uint64_t leader = encoding->nparts > 1 ? 12 : 8; /* (part number,) line, size */
+    uint64_t offset = 0;
+    size_t count = 0, next = 0;
+
+    for (int i = 0; i < encoding->nbands; i++)
+        count += (size_t)band_chunks(encoding, &encoding->bands[i]);
+    sink->table = malloc(count * sizeof *sink->table);
+    if (!sink->table)
+        return retex_fail(err, RETEX_ENOMEM, "no memory to write an EXR file");
+    sink->table_bytes = count * sizeof *sink->table;
+    for (int i = 0; i < encoding->nbands; i++) {
+        const Band *band = &encoding->bands[i];
+        const int chunks = band_chunks(encoding, band);
+        for (int chunk = 0; chunk < chunks; chunk++) {
+            sink->table[next++] = offset;
+            offset += leader + band->bytes / (unsigned)chunks;
+        }
+    }
+    return 0;
+}
+
+static exr_result_t declare_part(exr_context_t context, const RetexExrEncoding *encoding, int index,
+                                 const exr_attr_box2i_t *display)
+{
+    const RetexExrPart *part = &encoding->parts[index];
+    const exr_attr_box2i_t data = { .max = { .x = part->image->width - 1, .y = part->image->height - 1 } };
+    const exr_attr_v2f_t center = { .x = 0, .y = 0 };
+    exr_result_t code;
+    int number;
+
+    code = exr_add_part(context, part->name, EXR_STORAGE_SCANLINE, &number);
+    if (!code)
+        code = exr_initialize_required_attr(context, number, display, &data, 1.0f, &center, 1.0f,
+                                            EXR_LINEORDER_INCREASING_Y,
+                                            encoding->compress ? EXR_COMPRESSION_ZIP : EXR_COMPRESSION_NONE);
+    for (const char *letter = part->letters; *letter && !code; letter++) {
+        char channel[RETEX_EXR_NAME_MAX + 2];
+        if (index == 0)
+            snprintf(channel, sizeof channel, "%c", *letter);
+        else
+            snprintf(channel, sizeof channel, "%s.%c", part->name, *letter);
+        code = exr_add_channel(context, number, channel, part->type == RETEX_HALF ? EXR_PIXEL_HALF : EXR_PIXEL_FLOAT,
+                               EXR_PERCEPTUALLY_LOGARITHMIC, 1, 1);
+    }
+    return code;
+}
+
+static exr_result_t write_chunks(exr_context_t context, RetexExrEncoding *encoding)
+{
+    exr_result_t code = EXR_ERR_SUCCESS;
+
+    for (int i = 0; i < encoding->nbands && !code; i++) {
+        Band *band = &encoding->bands[i];
+        const int chunks = band_chunks(encoding, band);
+        const size_t bytes = band->bytes / (unsigned)chunks;
+        for (int chunk = 0; chunk < chunks && !code; chunk++)
+            code = exr_write_scanline_chunk(context, band->part, band->first_line + chunk,
+                                            band->data + (size_t)chunk * bytes, bytes);
+        free(band->data);
+        band->data = NULL;
+    }
+    return code;
+}
+
+static exr_result_t write_file(exr_context_t context, RetexExrEncoding *encoding, int width, int height,
+                               const char *attribute, const char *value)
+{
+    const exr_attr_box2i_t display = { .max = { .x = width - 1, .y = height - 1 } };
+    exr_result_t code = EXR_ERR_SUCCESS;
+    int long_names = 0;
+
+    for (int i = 0; i < encoding->nparts; i++)
+        long_names |= strlen(encoding->parts[i].name) > 29; /* 31 with ".R" */
+    if (long_names)
+        code = exr_set_longname_support(context, 1);
+    for (int i = 0; i < encoding->nparts && !code; i++)
+        code = declare_part(context, encoding, i, &display);
+    if (!code && attribute)
+        code = exr_attr_set_string(context, 0, attribute, value);
+    if (!code)
+        code = exr_write_header(context);
+    if (!code)
+        code = write_chunks(context, encoding);
+    return code;
+}
+
+int retex_exr_write(RetexExrEncoding *encoding, int width, int height, const char *attribute, const char *value,
+                    const char *path, RetexError *err)
+{
+    exr_context_initializer_t settings = EXR_DEFAULT_CONTEXT_INITIALIZER;
+    Sink sink = { .message = { PTHREAD_MUTEX_INITIALIZER, "" } };
+    exr_context_t context = NULL;
+    exr_result_t code;
+    int status;
+
+    settings.error_handler_fn = retex_exr_message;
+    settings.user_data = &sink;
+    settings.write_fn = sink_write;
+    status = plan_table(&sink, encoding, err);
+    if (!status)
+        status = retex_output_open(&sink.output, path, err);
+    if (status) {
+        free(sink.table);
+        return status;
+    }
+    code = exr_start_write(&context, path, EXR_WRITE_FILE_DIRECTLY, &settings);
+    if (!code)
+        code = write_file(context, encoding, width, height, attribute, value);
+    if (context) {
+        const exr_result_t finished = exr_finish(&context);
+        code = code ? code : finished;
+    }
+    if (sink.error.code)
+        status = retex_fail(err, sink.error.code, "%s", sink.error.message);
+    else if (code)
+        status = retex_fail(err, RETEX_EINTERNAL, "cannot write %s: %s", path,
+                            sink.message.text[0] ? sink.message.text : exr_get_default_error_message(code));
+    if (status)
+        retex_output_abandon(&sink.output);
+    else
+        status = retex_output_commit(&sink.output, err);
+    free(sink.table);
+    return status;
+}

@@ -1,0 +1,24 @@
+/* The one way any input file is read: by position, from several threads, also where the input is a pipe. */
+#ifndef RETEX_LIBRETEX_INPUT_H
+#define RETEX_LIBRETEX_INPUT_H
+
+#include <stddef.h>
+#include <stdint.h>
+#include <retex/error.h>
+
+typedef struct RetexInput RetexInput;
+
+/* Open path; "-" is standard input. What cannot be read by position (pipes, terminals) is read into memory whole. */
+int retex_input_open(RetexInput **input, const char *path, RetexError *err);
+void retex_input_close(RetexInput **input); /* NULL and pointers to NULL are fine */
+
+const char *retex_input_name(const RetexInput *input); /* for messages: the path, or "standard input" */
+uint64_t retex_input_size(const RetexInput *input);    /* bytes */
+
+/* Copy up to bytes from offset; how many there were, fewer only at the end, or -1 with errno set. Thread-safe. */
+int64_t retex_input_read(const RetexInput *input, void *buffer, size_t bytes, uint64_t offset);
+
+/* The whole input in memory, owned by input. */
+int retex_input_load(RetexInput *input, const void **data, size_t *bytes, RetexError *err);
+
+#endif
