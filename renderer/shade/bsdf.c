@@ -1,0 +1,184 @@
+/* Evaluation and sampling of the split BSDF; what a finish means is in material.c. */
+#include "shade/bsdf.h"
+#include "shade/microfacet.h"
+
+float fresnel_dielectric(float cos_i, float eta)
+{
+    if (eta == 1) return 0;
+    float sin2_t = (1 - cos_i * cos_i) / (eta * eta);
+    if (sin2_t >= 1) return 1;
+    float cos_t = sqrtf(1 - sin2_t);
+    float parallel = (eta * cos_i - cos_t) / (eta * cos_i + cos_t);
+    float perpendicular = (cos_i - eta * cos_t) / (cos_i + eta * cos_t);
+    return (parallel * parallel + perpendicular * perpendicular) / 2;
+}
+
+static float power5(float x) { return x * x * x * x * x; }
+
+/* Fresnel term of the microfacet lobe at a half vector: supplement 4.1.2 with the base's share that transmits mixed in. */
+static Split microfacet_fresnel(const Bsdf *b, float cos_h)
+{
+    if (!b->disney) return b->highlight;
+    float m = b->metallic, w = power5(1 - cos_h), a = b->transmission;
+    float f0 = (b->coat_eta - 1) / (b->coat_eta + 1);
+    float r0_indep = (1 - m) * f0 * f0 * b->specular_tint;
+    float indep = (1 - m) * fresnel_dielectric(cos_h, b->coat_eta) + m * (r0_indep + (1 - r0_indep) * w);
+    float dep = m * (1 - w) * m;
+    if (a > 0) indep = (1 - a) * indep + a * fresnel_dielectric(cos_h, b->eta), dep *= 1 - a;
+    return (Split){rgb_grey(dep), rgb_grey(indep)};
+}
+
+/* Diffuse lobe over albedo: Lambert with POV-Ray's brilliance, or Burley's 2015 diffuse and retro-reflective lobes. */
+static float diffuse_value(const Bsdf *b, Vec3 wi, double cos_i)
+{
+    if (!b->disney) return b->diffuse / (float)PI * (b->brilliance == 1 ? 1 : powf((float)cos_i, b->brilliance - 1));
+    Vec3 h = vec_normalize(vec_add(wi, b->wo));
+    float cos_d = (float)vec_dot(wi, h), fl = power5(1 - (float)cos_i), fv = power5(1 - (float)b->cos_o);
+    float rr = 2 * b->roughness * cos_d * cos_d;
+    float lambert = (1 - fl / 2) * (1 - fv / 2), retro = rr * (fl + fv + fl * fv * (rr - 1));
+    return b->diffuse / (float)PI * (lambert + retro);
+}
+
+static Vec3 to_local(const Bsdf *b, Vec3 w) { return vec3(vec_dot(w, b->s), vec_dot(w, b->t), vec_dot(w, b->normal)); }
+static Vec3 to_world(const Bsdf *b, Vec3 w)
+{
+    return vec_add(vec_add(vec_scale(b->s, w.x), vec_scale(b->t, w.y)), vec_scale(b->normal, w.z));
+}
+
+static Split glossy_reflection(const Bsdf *b, Vec3 wi, float *pdf)
+{
+    Vec3 o = to_local(b, b->wo), i = to_local(b, wi), h = vec_normalize(vec_add(o, i));
+    double d = ggx_d(h, b->alpha);
+    float value = (float)(d * ggx_g2(o, i, b->alpha) / (4 * o.z)); /* times cos_i, which cancels */
+    Split f = microfacet_fresnel(b, (float)fmin(1, vec_dot(o, h)));
+    *pdf = (float)(ggx_visible_pdf(o, h, b->alpha) / (4 * vec_dot(o, h))) * (1 - b->p_rough_transmission);
+    return (Split){rgb_scale(f.d, value), rgb_scale(f.i, value)};
+}
+
+/* Rough refraction (Walter et al. 2007, Eq. 21, for radiance), tinted by the albedo. */
+static Split glossy_transmission(const Bsdf *b, Vec3 wi, float *pdf)
+{
+    Vec3 o = to_local(b, b->wo), i = to_local(b, wi), h = vec_normalize(vec_mad(o, i, b->eta));
+    Split none = {{0, 0, 0}, {0, 0, 0}};
+    *pdf = 0;
+    if (h.z < 0) h = vec_neg(h);
+    double oh = vec_dot(o, h), ih = vec_dot(i, h);
+    if (oh <= 0 || ih >= 0) return none;
+    double sum = b->eta * ih + oh, transmitted = b->transmission * (1 - fresnel_dielectric((float)fmin(1, oh), b->eta));
+    double value = ggx_d(h, b->alpha) * ggx_g2(o, vec3(i.x, i.y, -i.z), b->alpha) * transmitted * fabs(ih * oh) /
+                   (o.z * sum * sum);
+    *pdf = (float)(ggx_visible_pdf(o, h, b->alpha) * fabs(ih) * b->eta * b->eta / (sum * sum)) * b->p_rough_transmission;
+    return (Split){rgb_grey((float)value), {0, 0, 0}};
+}
+
+static void split_add(Split *sum, Split s)
+{
+    sum->d = rgb_add(sum->d, s.d);
+    sum->i = rgb_add(sum->i, s.i);
+}
+
+static Split eval_reflection(const Bsdf *b, Vec3 wi, double cos_i, int light_source, float *pdf)
+{
+    Split sum = {{0, 0, 0}, {0, 0, 0}};
+    if (b->diffuse > 0) {
+        sum.d = rgb_grey(diffuse_value(b, wi, cos_i) * (float)cos_i);
+        *pdf += b->p_diffuse * (float)(cos_i / PI);
+    }
+    if (b->alpha > 0 && (light_source || !b->highlight_lights_only)) {
+        float p = 0;
+        split_add(&sum, glossy_reflection(b, wi, &p));
+        *pdf += b->p_glossy * p;
+    }
+    return sum;
+}
+
+Split bsdf_eval(const Bsdf *b, Vec3 wi, int light_source, float *pdf)
+{
+    Split sum = {{0, 0, 0}, {0, 0, 0}};
+    double cos_i = vec_dot(wi, b->normal), side = vec_dot(wi, b->geometric);
+    *pdf = 0;
+    if (cos_i > 0 && side > 0) return eval_reflection(b, wi, cos_i, light_source, pdf);
+    if (cos_i >= 0 || side >= 0) return sum;
+    if (b->diffuse_back > 0) {
+        sum.d = rgb_grey(b->diffuse_back / (float)PI * (float)-cos_i);
+        *pdf += b->p_back * (float)(-cos_i / PI);
+    }
+    if (b->alpha > 0 && b->disney && b->transmission > 0 && b->eta != 1) {
+        float p = 0;
+        split_add(&sum, glossy_transmission(b, wi, &p));
+        *pdf += b->p_glossy * p;
+    }
+    return sum;
+}
+
+static Vec3 cosine_direction(const Bsdf *b, float u1, float u2)
+{
+    double r = sqrt(u1), phi = 2 * PI * u2;
+    return to_world(b, vec3(r * cos(phi), r * sin(phi), sqrt(fmax(0, 1 - u1))));
+}
+
+static Vec3 reflect(Vec3 wo, Vec3 n) { return vec_sub(vec_scale(n, 2 * vec_dot(wo, n)), wo); }
+
+/* Returns 0 on total internal reflection. eta: far over near, n on wo's side. */
+static int refract(Vec3 wo, Vec3 n, double eta, Vec3 *wi)
+{
+    double cos_i = vec_dot(wo, n), sin2_t = (1 - cos_i * cos_i) / (eta * eta);
+    if (sin2_t >= 1) return 0;
+    *wi = vec_normalize(vec_sub(vec_scale(n, cos_i / eta - sqrt(1 - sin2_t)), vec_scale(wo, 1 / eta)));
+    return 1;
+}
+
+/* Direction of the chosen non-delta lobe; its density and value come from bsdf_eval, over all lobes. */
+static int sample_glossy(const Bsdf *b, float choice, float u1, float u2, Vec3 *wi)
+{
+    Vec3 h = to_world(b, ggx_sample_visible(to_local(b, b->wo), b->alpha, u1, u2));
+    if (choice < b->p_rough_transmission) return refract(b->wo, h, b->eta, wi);
+    *wi = reflect(b->wo, h);
+    return 1;
+}
+
+static Split split_scale(Split s, float k) { return (Split){rgb_scale(s.d, k), rgb_scale(s.i, k)}; }
+
+static int sample_mirror(const Bsdf *b, BsdfSample *sample)
+{
+    sample->wi = reflect(b->wo, b->normal);
+    sample->weight = split_scale(b->mirror, 1 / b->p_mirror);
+    return vec_dot(sample->wi, b->geometric) > 0;
+}
+
+static int sample_passing(const Bsdf *b, BsdfSample *sample)
+{
+    sample->weight = split_scale(b->passing, 1 / b->p_passing);
+    sample->transmitted = 1;
+    if (!b->refracts) {
+        sample->wi = vec_neg(b->wo);
+        sample->straight = 1;
+        return 1;
+    }
+    /* Radiance changes by the square of the index ratio as its beam widens or narrows. */
+    sample->weight = split_scale(sample->weight, 1 / (b->eta * b->eta));
+    return refract(b->wo, b->normal, b->eta, &sample->wi) && vec_dot(sample->wi, b->geometric) < 0;
+}
+
+int bsdf_sample(const Bsdf *b, float u_lobe, float u1, float u2, BsdfSample *sample)
+{
+    *sample = (BsdfSample){0};
+    float u = u_lobe;
+    if ((u -= b->p_mirror) < 0) return sample_mirror(b, sample);
+    if ((u -= b->p_passing) < 0) return sample_passing(b, sample);
+    if ((u -= b->p_diffuse) < 0) {
+        sample->wi = cosine_direction(b, u1, u2);
+    } else if ((u -= b->p_back) < 0) {
+        Vec3 up = cosine_direction(b, u1, u2);
+        sample->wi = vec_mad(up, b->normal, -2 * vec_dot(up, b->normal));
+    } else {
+        if (b->p_glossy <= 0) return 0;
+        float choice = u / b->p_glossy; /* what is left of u, stretched to [0,1) again */
+        if (!sample_glossy(b, choice, u1, u2, &sample->wi)) return 0;
+    }
+    sample->transmitted = vec_dot(sample->wi, b->normal) < 0;
+    Split f = bsdf_eval(b, sample->wi, 0, &sample->pdf);
+    if (sample->pdf <= 0) return 0;
+    sample->weight = split_scale(f, 1 / sample->pdf);
+    return 1;
+}

@@ -1,0 +1,72 @@
+/* The BSDF of a surface at a point, split into what the albedo multiplies and what it does not:
+ *
+ *     f = d * albedo + i        (supplement 4.1; d, i >= 0)
+ *
+ * Lobes: Lambertian or Disney diffuse and retro-reflection, a GGX microfacet reflection, a mirror, smooth or rough
+ * transmission, and straight passage through a surface that does not refract. Directions point away from the surface;
+ * wo is where the path came from. Cosines are about the shading normal.
+ *
+ * Choices among lobes never look at a texture: they take NEUTRAL_ALBEDO in its place, so that a set, a plain render and a
+ * render with replaced textures trace the same paths. Opacity (filter, transmit, image alpha) counts as geometry and is
+ * looked at. */
+#ifndef RENDERER_SHADE_BSDF_H
+#define RENDERER_SHADE_BSDF_H
+
+#include "base/vec.h"
+#include "shape/surface.h"
+
+#define NEUTRAL_ALBEDO 0.8f
+
+typedef struct Split { Rgb d, i; } Split;
+
+static inline Rgb split_apply(Split s, Rgb albedo) { return rgb_add(rgb_mul(s.d, albedo), s.i); }
+static inline float split_neutral(Split s) { return rgb_luminance(split_apply(s, rgb_grey(NEUTRAL_ALBEDO))); }
+
+typedef struct Bsdf {
+    Vec3 normal, s, t;       /* shading frame; normal on wo's side */
+    Vec3 geometric;          /* geometric normal on wo's side */
+    Vec3 wo;
+    double cos_o;            /* dot(wo, normal), > 0 */
+    float eta;               /* index of refraction on the far side over that on wo's side */
+    int refracts;            /* eta matters: transmission bends */
+    Rgb emission;            /* times albedo: radiance emitted */
+
+    float diffuse, diffuse_back, brilliance;
+    int disney;              /* diffuse lobe with retro-reflection, Fresnel of the supplement's Eq. 1 */
+    float metallic, roughness, specular_tint, coat_eta, transmission;
+
+    float alpha;             /* GGX; 0 = no microfacet lobe, or a smooth one that counts as mirror */
+    Split highlight;         /* POV-Ray highlight: constant reflectance of the microfacet lobe */
+    int highlight_lights_only; /* seen by light sources only: the mirror lobe shows the rest */
+    int smooth;              /* disney with roughness about 0: its reflection and transmission are deltas */
+
+    Split mirror;            /* weight of the mirror lobe, already at cos_o */
+    Split passing;           /* weight of straight or smoothly refracted passage, already at cos_o */
+
+    float p_diffuse, p_back, p_glossy, p_mirror, p_passing; /* add up to 1, or to 0 where nothing is scattered */
+    float p_rough_transmission; /* share of the glossy choice that may transmit */
+} Bsdf;
+
+typedef struct BsdfSample {
+    Vec3 wi;
+    Split weight;            /* f |cos| / (probability density), with the probability of the lobe */
+    float pdf;               /* per solid angle, of all non-delta lobes together; 0 for a delta */
+    int transmitted;         /* wi is on the other side */
+    int straight;            /* passed without bending: the path sees on as if nothing was there */
+} BsdfSample;
+
+/* Set up for a surface seen along wo. opacity comes from the pigment: filter and transmit. */
+void bsdf_setup(Bsdf *bsdf, const Surface *surface, Vec3 wo, float filter, float transmit);
+
+/* f |cos_i| for a given direction; light_source: the light is one of POV-Ray's, which no path can hit. *pdf gets the
+ * density with which bsdf_sample would find wi (0 where it never does). */
+Split bsdf_eval(const Bsdf *bsdf, Vec3 wi, int light_source, float *pdf);
+/* Returns 0 where nothing is scattered. */
+int bsdf_sample(const Bsdf *bsdf, float u_lobe, float u1, float u2, BsdfSample *sample);
+
+/* Unpolarised Fresnel reflectance of a dielectric; cos_i >= 0 on the incoming side, eta = far over near. */
+float fresnel_dielectric(float cos_i, float eta);
+/* 1 where light passes this surface straight or bent (filter, transmit or the extension's transmission). */
+int finish_refracts(const Primitive *primitive, const Texture *texture);
+
+#endif

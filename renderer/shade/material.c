@@ -1,0 +1,140 @@
+/* From a finish to a BSDF: what POV-Ray's keywords mean to a path tracer. Described for users in retex-scene(5), section
+ * FINISH AND PHYSICS; keep the two in step. */
+#include "shade/bsdf.h"
+#include "shade/microfacet.h"
+#include "shade/pigment.h"
+
+#define SMOOTH_ALPHA 1e-3f /* below this width a microfacet lobe is a delta */
+
+static float clamp01(double x) { return (float)(x < 0 ? 0 : x > 1 ? 1 : x); }
+
+static int interior_bends(const Primitive *p) { return p->interior && p->interior->ior != 1 && p->interior->ior > 0; }
+
+int finish_refracts(const Primitive *primitive, const Texture *texture)
+{
+    const Finish *finish = texture->finish;
+    if (finish->retex.present && finish->retex.transmission > 0) return 1;
+    return interior_bends(primitive);
+}
+
+/* POV-Ray's highlights are Blinn's (N.H)^n and Phong's (R.V)^p with a peak of `amount`. The GGX lobe of the same width
+ * and, for amounts without `albedo`, of the same peak under a unit light: reflectance = 4 alpha^2 amount. */
+static void setup_highlight(Bsdf *b, const Finish *f)
+{
+    double exponent, amount;
+    int albedo;
+    if (f->specular > 0) exponent = 1 / fmax(f->roughness, 1e-6), amount = f->specular, albedo = f->specular_albedo;
+    else exponent = 4 * f->phong_size, amount = f->phong, albedo = f->phong_albedo;
+    if (amount <= 0) return;
+    double alpha = sqrt(2 / (exponent + 2));
+    float reflectance = clamp01(albedo ? amount : 4 * alpha * alpha * amount);
+    float metallic = clamp01(f->metallic);
+    b->alpha = fmaxf((float)alpha, 2 * SMOOTH_ALPHA);
+    b->highlight = (Split){rgb_grey(reflectance * metallic), rgb_grey(reflectance * (1 - metallic))};
+}
+
+/* `reflection`: from the minimum seen head-on to the maximum at grazing angles, by Fresnel's equations or POV-Ray's
+ * falloff curve. */
+static void setup_mirror(Bsdf *b, const Finish *f, int transparent)
+{
+    float rise = f->reflection_fresnel ? fresnel_dielectric((float)b->cos_o, b->eta)
+                                       : powf(1 - (float)b->cos_o, (float)f->reflection_falloff);
+    Rgb r = rgb_lerp(f->reflection_min, f->reflection_max, rise);
+    if (transparent && b->refracts && fresnel_dielectric((float)b->cos_o, b->eta) >= 1) r = rgb_grey(1);
+    float metallic = clamp01(f->reflection_metallic);
+    b->mirror = (Split){rgb_scale(r, metallic), rgb_scale(r, 1 - metallic)};
+}
+
+static void setup_povray(Bsdf *b, const Finish *f, float filter, float transmit)
+{
+    float opacity = clamp01(1 - filter - transmit);
+    b->brilliance = (float)f->brilliance;
+    float norm = f->diffuse_albedo ? (b->brilliance + 1) / 2 : 1;
+    b->diffuse = (float)fmax(0, f->diffuse) * opacity * norm;
+    b->diffuse_back = (float)fmax(0, f->diffuse_back) * opacity;
+    setup_highlight(b, f);
+    setup_mirror(b, f, opacity < 1);
+    b->highlight_lights_only = !rgb_is_black(f->reflection_min) || !rgb_is_black(f->reflection_max);
+    /* What is mirrored does not pass: POV-Ray does so with conserve_energy only. */
+    float passes = 1 - clamp01(rgb_luminance(split_apply(b->mirror, rgb_grey(1))));
+    b->passing = (Split){rgb_grey(filter * passes), rgb_grey(transmit * passes)};
+}
+
+/* The extension block: the supplement's simplified Disney BSDF, its dielectric share and cut-outs by image alpha. */
+static void setup_disney(Bsdf *b, const Finish *f, float filter, float transmit)
+{
+    float a = clamp01(f->retex.transmission) * (1 - clamp01(f->retex.metallic)), opacity = clamp01(1 - filter - transmit);
+    b->disney = 1;
+    b->metallic = clamp01(f->retex.metallic);
+    b->roughness = clamp01(f->retex.roughness);
+    b->specular_tint = clamp01(f->retex.specular_tint);
+    b->coat_eta = (float)f->retex.ior;
+    b->transmission = a;
+    b->diffuse = (1 - b->metallic) * (1 - a) * opacity;
+    float alpha = b->roughness * b->roughness;
+    b->smooth = alpha < SMOOTH_ALPHA;
+    if (b->smooth) {
+        b->alpha = 0;
+        float m = b->metallic, w = powf(1 - (float)b->cos_o, 5), f0 = (b->coat_eta - 1) / (b->coat_eta + 1);
+        float r0 = (1 - m) * f0 * f0 * b->specular_tint, outer = fresnel_dielectric((float)b->cos_o, b->eta);
+        float indep = (1 - m) * fresnel_dielectric((float)b->cos_o, b->coat_eta) + m * (r0 + (1 - r0) * w);
+        b->mirror.i = rgb_grey(opacity * ((1 - a) * indep + a * outer));
+        b->mirror.d = rgb_grey(opacity * (1 - a) * m * m * (1 - w));
+        if (a > 0) b->passing.d = rgb_grey(a * (1 - outer));
+    } else {
+        b->alpha = alpha;
+    }
+    if (a == 0 && opacity < 1) b->passing = (Split){rgb_grey(filter), rgb_grey(transmit)}, b->refracts = 0;
+}
+
+/* Reflectance the microfacet lobe shows from cos_o, roughly: what its share of the choice goes by. */
+static float glossy_estimate(const Bsdf *b)
+{
+    if (b->alpha <= 0 || b->highlight_lights_only) return 0;
+    if (!b->disney) return split_neutral(b->highlight);
+    float m = b->metallic, f = fresnel_dielectric((float)b->cos_o, b->coat_eta);
+    return fmaxf(0.02f, (1 - m) * f + m * m * NEUTRAL_ALBEDO + m * (1 - m) * 0.04f) * (1 - b->transmission);
+}
+
+static void setup_choice(Bsdf *b)
+{
+    float glossy = glossy_estimate(b), through = 0;
+    if (b->disney && !b->smooth && b->transmission > 0) {
+        float outer = fresnel_dielectric((float)b->cos_o, b->eta);
+        through = b->transmission * (1 - outer) * NEUTRAL_ALBEDO;
+        glossy += b->transmission * outer;
+    }
+    float w[5] = {b->diffuse * NEUTRAL_ALBEDO, b->diffuse_back * NEUTRAL_ALBEDO, glossy + through,
+                  split_neutral(b->mirror), split_neutral(b->passing)};
+    float sum = w[0] + w[1] + w[2] + w[3] + w[4];
+    if (!(sum > 0)) return;
+    b->p_diffuse = w[0] / sum, b->p_back = w[1] / sum, b->p_glossy = w[2] / sum;
+    b->p_mirror = w[3] / sum, b->p_passing = w[4] / sum;
+    b->p_rough_transmission = w[2] > 0 ? through / w[2] : 0;
+}
+
+void bsdf_setup(Bsdf *b, const Surface *surface, Vec3 wo, float filter, float transmit)
+{
+    const Finish *finish = surface->texture->finish;
+    const Primitive *primitive = surface->primitive;
+    *b = (Bsdf){.wo = wo, .brilliance = 1, .eta = 1};
+    double flip = surface->backside ? -1 : 1;
+    b->geometric = vec_scale(surface->geometric_normal, flip);
+    b->normal = vec_scale(surface->shading_normal, flip);
+    b->cos_o = vec_dot(wo, b->normal);
+    if (b->cos_o <= 1e-4) { /* the interpolated normal faces away: fall back on the surface's own */
+        b->normal = b->geometric;
+        b->cos_o = fmax(1e-4, vec_dot(wo, b->normal));
+    }
+    b->cos_o = fmin(1, b->cos_o);
+    vec_frame(b->normal, &b->s, &b->t);
+    double ior = finish->retex.present && finish->retex.transmission > 0 ? finish->retex.ior
+                 : interior_bends(primitive)                             ? primitive->interior->ior
+                                                                         : 1;
+    b->refracts = ior != 1;
+    b->eta = (float)(surface->backside ? 1 / ior : ior);
+    b->emission = finish->emission;
+    if (finish->retex.present) setup_disney(b, finish, filter, transmit);
+    else setup_povray(b, finish, filter, transmit);
+    setup_choice(b);
+}
