@@ -1,0 +1,249 @@
+// Colour: the names a user says, looked up in the configuration ($OCIO, else our own), become transforms to and from
+// scene-linear Rec.709. sRGB itself is computed here: OpenColorIO's curve breaks at a slightly other point than the
+// standard's, and 8-bit values should come back as they went in.
+#include "bridge.hpp"
+
+#include <cmath>
+#include <cstdlib>
+#include <cstring>
+#include <memory>
+#include <mutex>
+#include <sstream>
+#include <vector>
+
+#include <OpenColorIO/OpenColorIO.h>
+#include <strings.h>
+
+namespace OCIO = OCIO_NAMESPACE;
+
+namespace bridge {
+namespace {
+
+struct Configurations {
+    OCIO::ConstConfigRcPtr own;
+    OCIO::ConstConfigRcPtr user; // null unless $OCIO is set
+    std::string problem;         // why $OCIO cannot be used
+};
+
+const Configurations &configurations()
+{
+    static const Configurations all = [] {
+        OCIO::SetLoggingLevel(OCIO::LOGGING_LEVEL_NONE); // a library does not print
+        Configurations c;
+        std::istringstream text(own_configuration);
+        c.own = OCIO::Config::CreateFromStream(text);
+        const char *path = std::getenv("OCIO");
+        if (path && *path) {
+            try {
+                c.user = OCIO::Config::CreateFromFile(path);
+                c.user->validate();
+            } catch (const std::exception &e) {
+                c.user.reset();
+                c.problem = "$OCIO is '" + std::string(path) + "', which cannot be used: " + e.what();
+            }
+        }
+        return c;
+    }();
+    if (!all.problem.empty())
+        throw Failure(RETEX_EIO, all.problem);
+    return all;
+}
+
+float srgb_decode(float v)
+{
+    if (v <= 0.04045f) // negative values included: the straight part goes on
+        return v / 12.92f;
+    return std::pow((v + 0.055f) / 1.055f, 2.4f);
+}
+
+float srgb_encode(float v)
+{
+    if (v <= 0.0031308f)
+        return v * 12.92f;
+    return 1.055f * std::pow(v, 1.0f / 2.4f) - 0.055f;
+}
+
+template <typename Curve> Transform per_channel(Curve curve)
+{
+    return [curve](float *rgba, long pixels) {
+        for (long i = 0; i < pixels; i++)
+            for (int c = 0; c < 3; c++)
+                rgba[4 * i + c] = curve(rgba[4 * i + c]);
+    };
+}
+
+Transform from_processor(const OCIO::ConstProcessorRcPtr &processor)
+{
+    if (processor->isNoOp())
+        return {};
+    // Lossless: the faster approximations of log and pow are off by more than an 8-bit step in the darks.
+    OCIO::ConstCPUProcessorRcPtr cpu = processor->getOptimizedCPUProcessor(OCIO::OPTIMIZATION_LOSSLESS);
+    return [cpu](float *rgba, long pixels) {
+        OCIO::PackedImageDesc desc(rgba, pixels, 1, 4);
+        cpu->apply(desc);
+    };
+}
+
+bool is_name(const char *a, const char *b) { return strcasecmp(a, b) == 0; }
+
+// What a configuration calls scene-linear Rec.709; its scene_linear role where it has no such space.
+std::string linear_name(const OCIO::ConstConfigRcPtr &config)
+{
+    for (const char *name : {"Linear Rec.709 (sRGB)", "Linear Rec.709", "lin_rec709", "lin_rec709_srgb", "lin_srgb",
+                             "Utility - Linear - Rec.709", "Utility - Linear - sRGB"})
+        if (config->getColorSpace(name))
+            return name;
+    return OCIO::ROLE_SCENE_LINEAR;
+}
+
+std::string list_colorspaces(const OCIO::ConstConfigRcPtr &config)
+{
+    std::string names;
+    for (int i = 0; i < config->getNumColorSpaces() && names.size() < 500; i++)
+        names += (i ? ", " : "") + std::string(config->getColorSpaceNameByIndex(i));
+    return names;
+}
+
+// The configuration that knows the name: the user's first, else ours, so that `sRGB`, `linear`, `ACEScg` and `raw` mean
+// something under every $OCIO.
+OCIO::ConstConfigRcPtr config_with(const std::string &name)
+{
+    const Configurations &all = configurations();
+    if (all.user && all.user->getColorSpace(name.c_str()))
+        return all.user;
+    if (all.own->getColorSpace(name.c_str()))
+        return all.own;
+    throw Failure(RETEX_ENOTFOUND, "no colour space is called '" + name + "'; there are " +
+                                       list_colorspaces(all.user ? all.user : all.own));
+}
+
+bool is_own_srgb(const OCIO::ConstConfigRcPtr &config, const std::string &name)
+{
+    return config == configurations().own && is_name(config->getColorSpace(name.c_str())->getName(), "sRGB");
+}
+
+// Between two configurations the common ground is ACES2065-1; where the user's has no such role, the name of its
+// scene-linear space has to do.
+Transform between(const OCIO::ConstConfigRcPtr &config, const std::string &name, bool inward)
+{
+    const Configurations &all = configurations();
+    if (config->getColorSpace(name.c_str())->isData())
+        return {};
+    std::string linear = linear_name(config);
+    if (config != all.own && linear == OCIO::ROLE_SCENE_LINEAR && config->hasRole("aces_interchange")) {
+        std::string ours = linear_name(all.own);
+        return from_processor(inward ? OCIO::Config::GetProcessorFromConfigs(config, name.c_str(), all.own, ours.c_str())
+                                     : OCIO::Config::GetProcessorFromConfigs(all.own, ours.c_str(), config, name.c_str()));
+    }
+    return from_processor(inward ? config->getProcessor(name.c_str(), linear.c_str())
+                                 : config->getProcessor(linear.c_str(), name.c_str()));
+}
+
+std::string list_displays(const OCIO::ConstConfigRcPtr &config)
+{
+    std::string names;
+    for (int i = 0; i < config->getNumDisplays(); i++)
+        names += (i ? ", " : "") + std::string(config->getDisplay(i));
+    return names;
+}
+
+std::string list_views(const OCIO::ConstConfigRcPtr &config, const std::string &display)
+{
+    std::string names;
+    for (int i = 0; i < config->getNumViews(display.c_str()); i++)
+        names += (i ? ", " : "") + std::string(config->getView(display.c_str(), i));
+    return names;
+}
+
+// The configuration's own spelling, so that case does not matter.
+std::string find_display(const OCIO::ConstConfigRcPtr &config, const std::string &display)
+{
+    if (display.empty())
+        return config->getDefaultDisplay();
+    for (int i = 0; i < config->getNumDisplays(); i++)
+        if (is_name(config->getDisplay(i), display.c_str()))
+            return config->getDisplay(i);
+    throw Failure(RETEX_ENOTFOUND, "no display is called '" + display + "'; there are " + list_displays(config));
+}
+
+std::string find_view(const OCIO::ConstConfigRcPtr &config, const std::string &display, const std::string &view)
+{
+    if (view.empty())
+        return config->getDefaultView(display.c_str());
+    for (int i = 0; i < config->getNumViews(display.c_str()); i++)
+        if (is_name(config->getView(display.c_str(), i), view.c_str()))
+            return config->getView(display.c_str(), i);
+    throw Failure(RETEX_ENOTFOUND,
+                  "display " + display + " has no view '" + view + "'; there are " + list_views(config, display));
+}
+
+} // namespace
+
+void check_configuration() { configurations(); }
+
+Transform transform_from(const std::string &colorspace)
+{
+    OCIO::ConstConfigRcPtr config = config_with(colorspace);
+    if (is_own_srgb(config, colorspace))
+        return per_channel(srgb_decode);
+    return between(config, colorspace, true);
+}
+
+Transform transform_to(const std::string &colorspace)
+{
+    OCIO::ConstConfigRcPtr config = config_with(colorspace);
+    if (is_own_srgb(config, colorspace))
+        return per_channel(srgb_encode);
+    return between(config, colorspace, false);
+}
+
+Transform transform_to_display(const std::string &display, const std::string &view)
+{
+    const Configurations &all = configurations();
+    OCIO::ConstConfigRcPtr config = all.user ? all.user : all.own;
+    std::string shown_on = find_display(config, display);
+    std::string shown_as = find_view(config, shown_on, view);
+    if (config == all.own) {
+        const char *space = config->getDisplayViewColorSpaceName(shown_on.c_str(), shown_as.c_str());
+        return transform_to(space);
+    }
+    OCIO::DisplayViewTransformRcPtr step = OCIO::DisplayViewTransform::Create();
+    step->setDisplay(shown_on.c_str());
+    step->setView(shown_as.c_str());
+    std::string linear = linear_name(config);
+    step->setSrc(linear.c_str());
+    if (linear == OCIO::ROLE_SCENE_LINEAR && config->hasRole("aces_interchange")) {
+        step->setSrc("aces_interchange");
+        Transform first = from_processor(OCIO::Config::GetProcessorFromConfigs(all.own, linear_name(all.own).c_str(),
+                                                                               config, "aces_interchange"));
+        Transform second = from_processor(config->getProcessor(step));
+        return [first, second](float *rgba, long pixels) {
+            if (first)
+                first(rgba, pixels);
+            if (second)
+                second(rgba, pixels);
+        };
+    }
+    return from_processor(config->getProcessor(step));
+}
+
+Transform transform_from_gamma(float gamma)
+{
+    return per_channel([gamma](float v) { return v > 0 ? std::pow(v, gamma) : 0.0f; });
+}
+
+Transform transform_from_srgb_levels(int levels)
+{
+    auto table = std::make_shared<std::vector<float>>(levels);
+    for (int i = 0; i < levels; i++) {
+        double v = i / double(levels - 1);
+        (*table)[i] = float(v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4));
+    }
+    float top = float(levels - 1);
+    return per_channel([table, top](float v) {
+        float level = v * top + 0.5f;
+        return (*table)[level <= 0 ? 0 : level >= top ? size_t(top) : size_t(level)];
+    });
+}
+
+} // namespace bridge

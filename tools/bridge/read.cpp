@@ -1,0 +1,326 @@
+// Reading: any picture OpenImageIO knows becomes R,G,B,A floats, scene-linear Rec.709, alpha unassociated.
+#include "bridge.hpp"
+
+#include <algorithm>
+#include <cerrno>
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <new>
+#include <vector>
+
+#include <OpenImageIO/imageio.h>
+#include <OpenImageIO/parallel.h>
+#include <strings.h>
+#include <sys/stat.h>
+
+namespace bridge {
+
+int guarded(const char *path, RetexError *err, const std::function<void()> &body)
+{
+    int code = RETEX_EINTERNAL;
+    char message[sizeof err->message] = "an unknown failure in OpenImageIO or OpenColorIO";
+    try {
+        body();
+        return RETEX_OK;
+    } catch (const Failure &failure) {
+        code = failure.code;
+        std::snprintf(message, sizeof message, "%s", failure.what());
+    } catch (const std::bad_alloc &) {
+        code = RETEX_ENOMEM;
+        std::snprintf(message, sizeof message, "not enough memory");
+    } catch (const std::exception &e) {
+        code = RETEX_EFORMAT;
+        std::snprintf(message, sizeof message, "%s", e.what());
+    } catch (...) {
+    }
+    if (err) {
+        *err = RetexError{};
+        err->code = code;
+        std::snprintf(err->file, sizeof err->file, "%s", path ? path : "");
+        std::snprintf(err->message, sizeof err->message, "%s", message);
+        for (size_t n = std::strlen(err->message); n > 0 && err->message[n - 1] == '\n';)
+            err->message[--n] = '\0';
+    }
+    return code;
+}
+
+void apply_transform(const Transform &transform, float *rgba, int width, int height)
+{
+    if (!transform)
+        return;
+    OIIO::parallel_for_chunked(0, height, 16, [&](int64_t first, int64_t last) {
+        transform(rgba + size_t(first) * width * 4, long(last - first) * width);
+    });
+}
+
+namespace {
+
+// An image of the caller's that is freed unless it is handed over.
+class OwnedImage {
+public:
+    OwnedImage(const RetexBridgeHost *host, int width, int height) : host_(host)
+    {
+        RetexError why{};
+        int code = host->image_alloc(&image, width, height, 4, &why);
+        if (code)
+            throw Failure(code, why.message);
+    }
+    ~OwnedImage() { host_->image_free(&image); }
+    OwnedImage(const OwnedImage &) = delete;
+    OwnedImage &operator=(const OwnedImage &) = delete;
+    RetexImage release()
+    {
+        RetexImage out = image;
+        image = RetexImage{};
+        return out;
+    }
+    void swap(OwnedImage &other) { std::swap(image, other.image); }
+    RetexImage image{};
+
+private:
+    const RetexBridgeHost *host_;
+};
+
+// Which channels of the file are R, G, B, A; -1 = there is none. All three the same: grey.
+struct Channels {
+    int rgba[4] = {-1, -1, -1, -1};
+    bool cmyk = false;
+};
+
+// 0..3 if the channel's name, its layer left off, says red, green, blue or alpha; else -1.
+int channel_role(const std::string &name)
+{
+    size_t dot = name.rfind('.');
+    const char *last = name.c_str() + (dot == std::string::npos ? 0 : dot + 1);
+    static const char *const words[4][2] = {{"R", "red"}, {"G", "green"}, {"B", "blue"}, {"A", "alpha"}};
+    for (int role = 0; role < 4; role++)
+        if (strcasecmp(last, words[role][0]) == 0 || strcasecmp(last, words[role][1]) == 0)
+            return role;
+    return -1;
+}
+
+Channels find_channels(const OIIO::ImageSpec &spec)
+{
+    Channels found;
+    int n = spec.nchannels;
+    // Plain names first: in a file of many layers they are the picture itself.
+    for (bool plain : {true, false})
+        for (int i = 0; i < n && i < int(spec.channelnames.size()); i++) {
+            const std::string &name = spec.channelnames[i];
+            if (plain && name.find('.') != std::string::npos)
+                continue;
+            int role = channel_role(name);
+            if (role >= 0 && found.rgba[role] < 0)
+                found.rgba[role] = i;
+        }
+    if (n == 4 && spec.channelnames[0] == "C" && spec.channelnames[3] == "K") {
+        found = Channels{{0, 1, 2, 3}, true};
+        return found;
+    }
+    if (found.rgba[3] < 0)
+        found.rgba[3] = spec.alpha_channel;
+    if (found.rgba[0] < 0 && found.rgba[1] < 0 && found.rgba[2] < 0) {
+        int alpha = found.rgba[3];
+        int colours = n - (alpha >= 0 ? 1 : 0);
+        for (int c = 0, i = 0; c < 3 && colours > 0; c++, i++) {
+            if (i == alpha)
+                i++;
+            found.rgba[c] = colours >= 3 ? i : alpha == 0 ? 1 : 0;
+        }
+    } else if (n == 1) {
+        int only = 0;
+        found.rgba[0] = found.rgba[1] = found.rgba[2] = only;
+        found.rgba[3] = -1;
+    }
+    return found;
+}
+
+void check_file(const char *path)
+{
+    struct stat status;
+    if (stat(path, &status) != 0)
+        throw Failure(errno == ENOENT ? RETEX_ENOTFOUND : RETEX_EIO, std::string("cannot read: ") + std::strerror(errno));
+    if (S_ISDIR(status.st_mode))
+        throw Failure(RETEX_EIO, "cannot read: it is a folder");
+    if (S_ISREG(status.st_mode) && status.st_size == 0)
+        throw Failure(RETEX_EFORMAT, "cannot read: the file is empty");
+}
+
+void check_size(long width, long height, long max_pixels)
+{
+    if (width < 1 || height < 1)
+        throw Failure(RETEX_EFORMAT, "the picture has no pixels");
+    std::string size = std::to_string(width) + " x " + std::to_string(height);
+    if (width > RETEX_MAX_SIZE || height > RETEX_MAX_SIZE)
+        throw Failure(RETEX_ELIMIT, "the picture is too large: " + size + " pixels, at most " +
+                                        std::to_string(RETEX_MAX_SIZE) + " a side");
+    if (max_pixels > 0 && width * height > max_pixels)
+        throw Failure(RETEX_ELIMIT, "the picture is too large: " + size + " pixels, more than the " +
+                                        std::to_string(max_pixels) + " allowed here");
+}
+
+[[noreturn]] void fail_read(std::string why)
+{
+    if (why.empty())
+        why = "not a picture OpenImageIO can read";
+    throw Failure(RETEX_EFORMAT, "cannot read: " + why);
+}
+
+// Fill image with the file's channels in the order R,G,B,A, values as stored, integers scaled to 0..1.
+void read_channels(OIIO::ImageInput &in, const OIIO::ImageSpec &spec, const Channels &channels, RetexImage &image)
+{
+    int first = spec.nchannels, last = 0;
+    for (int c : channels.rgba)
+        if (c >= 0) {
+            first = std::min(first, c);
+            last = std::max(last, c + 1);
+        }
+    if (last <= first)
+        throw Failure(RETEX_EFORMAT, "the picture has no colour channels");
+    int count = last - first;
+    size_t pixels = size_t(image.width) * image.height;
+    std::vector<float> wide; // only where the wanted channels do not fit the four places of a pixel
+    float *data = image.pixels;
+    int stride = 4;
+    if (count > 4) {
+        stride = count;
+        wide.resize(pixels * count);
+        data = wide.data();
+    }
+    if (!in.read_image(0, 0, first, last, OIIO::TypeDesc::FLOAT, data, OIIO::stride_t(stride * sizeof(float))))
+        fail_read(in.geterror());
+    OIIO::parallel_for(0, image.height, [&](int y) {
+        for (size_t i = size_t(y) * image.width, end = i + image.width; i < end; i++) {
+            float value[4];
+            for (int c = 0; c < 4; c++)
+                value[c] = channels.rgba[c] < 0 ? (c == 3 ? 1.0f : 0.0f) : data[i * stride + channels.rgba[c] - first];
+            if (channels.cmyk) {
+                for (int c = 0; c < 3; c++)
+                    value[c] = (1 - value[c]) * (1 - value[3]);
+                value[3] = 1;
+            }
+            std::copy(value, value + 4, image.pixels + 4 * i);
+        }
+    });
+}
+
+void unassociate(RetexImage &image)
+{
+    OIIO::parallel_for(0, image.height, [&](int y) {
+        float *p = image.pixels + size_t(y) * image.width * 4;
+        for (int x = 0; x < image.width; x++, p += 4)
+            if (p[3] > 0 && p[3] != 1)
+                for (int c = 0; c < 3; c++)
+                    p[c] /= p[3];
+    });
+}
+
+// How the values are encoded: as the user says, else as the file says, else by its type.
+Transform decoding(const OIIO::ImageSpec &spec, const char *format, const char *colorspace)
+{
+    if (colorspace && *colorspace && strcasecmp(colorspace, "sRGB") != 0)
+        return transform_from(colorspace);
+    bool named = colorspace && *colorspace;
+    bool integer = !spec.format.is_floating_point();
+    if (!named) {
+        check_configuration();
+        if (!integer)
+            return {};
+        // Of all formats only PNG states its encoding reliably.
+        std::string said = spec.get_string_attribute("oiio:ColorSpace");
+        if (std::strcmp(format, "png") == 0 && said.compare(0, 3, "lin") == 0)
+            return {};
+        float gamma = spec.get_float_attribute("oiio:Gamma", 0);
+        if (std::strcmp(format, "png") == 0 && said.compare(0, 5, "Gamma") == 0 && gamma > 0 && std::fabs(gamma - 2.2f) > 0.05f)
+            return gamma == 1 ? Transform{} : transform_from_gamma(gamma);
+    }
+    if (spec.format.basetype == OIIO::TypeDesc::UINT8)
+        return transform_from_srgb_levels(256);
+    if (spec.format.basetype == OIIO::TypeDesc::UINT16)
+        return transform_from_srgb_levels(65536);
+    return transform_from("sRGB");
+}
+
+// Turn the picture upright: EXIF orientations 2..8.
+void orient(const RetexBridgeHost *host, OwnedImage &picture, int orientation)
+{
+    if (orientation < 2 || orientation > 8)
+        return;
+    const RetexImage &from = picture.image;
+    bool turned = orientation >= 5; // rows and columns change places
+    OwnedImage upright(host, turned ? from.height : from.width, turned ? from.width : from.height);
+    RetexImage &to = upright.image;
+    for (int y = 0; y < to.height; y++)
+        for (int x = 0; x < to.width; x++) {
+            int sx = turned ? y : x, sy = turned ? x : y;
+            if (orientation == 2 || orientation == 3 || orientation == 7 || orientation == 8)
+                sx = from.width - 1 - sx;
+            if (orientation == 3 || orientation == 4 || orientation == 6 || orientation == 7)
+                sy = from.height - 1 - sy;
+            std::copy_n(from.pixels + retex_image_index(&from, sx, sy), 4, to.pixels + retex_image_index(&to, x, y));
+        }
+    picture.swap(upright);
+}
+
+// An EXR may store less or more than what it shows: cut and pad (transparent) to the display window.
+void fit_window(const RetexBridgeHost *host, OwnedImage &picture, const OIIO::ImageSpec &spec)
+{
+    OwnedImage shown(host, spec.full_width, spec.full_height);
+    const RetexImage &from = picture.image;
+    RetexImage &to = shown.image;
+    int dx = spec.x - spec.full_x, dy = spec.y - spec.full_y;
+    int x0 = std::max(0, dx), x1 = std::min(to.width, dx + from.width);
+    for (int y = std::max(0, dy); y < std::min(to.height, dy + from.height) && x0 < x1; y++)
+        std::copy_n(from.pixels + retex_image_index(&from, x0 - dx, y - dy), size_t(x1 - x0) * 4,
+                    to.pixels + retex_image_index(&to, x0, y));
+    picture.swap(shown);
+}
+
+RetexImage read_picture(const RetexBridgeHost *host, const char *path, const char *colorspace, long max_pixels)
+{
+    check_file(path);
+    OIIO::ImageSpec wish;
+    wish.attribute("oiio:UnassociatedAlpha", 1); // no needless multiplying and dividing of 8-bit values
+    auto in = OIIO::ImageInput::open(path, &wish);
+    if (!in)
+        fail_read(OIIO::geterror());
+    OIIO::ImageSpec spec = in->spec();
+    check_size(spec.width, spec.height, max_pixels);
+    if (spec.deep)
+        throw Failure(RETEX_EUNSUPPORTED, "a deep picture, which cannot be used here");
+    if (spec.depth > 1)
+        throw Failure(RETEX_EUNSUPPORTED, "a volume, not a picture");
+    std::string format = in->format_name();
+    bool windowed = format == "openexr" && spec.full_width > 0 && spec.full_height > 0 &&
+                    (spec.x != spec.full_x || spec.y != spec.full_y || spec.width != spec.full_width ||
+                     spec.height != spec.full_height);
+    if (windowed)
+        check_size(spec.full_width, spec.full_height, max_pixels);
+
+    Transform decode = decoding(spec, format.c_str(), colorspace);
+    Channels channels = find_channels(spec);
+    OwnedImage picture(host, spec.width, spec.height);
+    read_channels(*in, spec, channels, picture.image);
+    if (channels.rgba[3] >= 0 && !channels.cmyk && !spec.get_int_attribute("oiio:UnassociatedAlpha", 0))
+        unassociate(picture.image);
+    apply_transform(decode, picture.image.pixels, picture.image.width, picture.image.height);
+    if (windowed)
+        fit_window(host, picture, spec);
+    orient(host, picture, spec.get_int_attribute("Orientation", 1));
+    return picture.release();
+}
+
+} // namespace
+} // namespace bridge
+
+extern "C" __attribute__((visibility("default"))) RetexBridgeAbi retex_oiio_abi;
+extern "C" __attribute__((visibility("default"))) RetexBridgeRead retex_oiio_read;
+
+int retex_oiio_abi(void) { return RETEX_BRIDGE_ABI; }
+
+int retex_oiio_read(const RetexBridgeHost *host, RetexImage *dst, const char *path, const char *colorspace,
+                    long max_pixels, RetexError *err)
+{
+    return bridge::guarded(path, err, [&] { *dst = bridge::read_picture(host, path, colorspace, max_pixels); });
+}
