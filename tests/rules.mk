@@ -1,6 +1,6 @@
 # Tests: see tests/README.md.
 UNIT_TESTS := $(patsubst tests/unit/%.c,%,$(wildcard tests/unit/test_*.c))
-TEST_LIB_OBJECTS := $(patsubst %.c,$(BUILD)/obj/%.o,$(wildcard tests/lib/lib_*.c))
+LIBTEST := $(BUILD)/tests/libtest.a
 TEST_PROGRAMS := $(patsubst tests/lib/%.c,$(BUILD)/tests/bin/%,$(wildcard tests/lib/make_*.c))
 
 $(BUILD)/test.mk: tools/setup.sh
@@ -8,17 +8,21 @@ $(BUILD)/test.mk: tools/setup.sh
 	@tools/setup.sh test
 	@touch $@
 
+$(LIBTEST): $(patsubst %.c,$(BUILD)/obj/%.o,$(wildcard tests/lib/lib_*.c))
+	@mkdir -p $(@D)
+	rm -f $@ && $(AR) rcs $@ $^
+
 # Unit tests may look inside: they see the libraries' private headers.
 $(BUILD)/obj/tests/%.o: tests/%.c $(BUILD)/config.mk | $(BUILD)/test.mk
 	@mkdir -p $(@D)
 	$(CC) $(CPPFLAGS_ALL) -Itests/lib -Itools/libretex -Irenderer $(LIBRETEX_CFLAGS) $(RENDER_CFLAGS) $(CFLAGS_ALL) \
 	    -MMD -MP -c $< -o $@
 
-$(BUILD)/tests/unit/%: $(BUILD)/obj/tests/unit/%.o $(TEST_LIB_OBJECTS) $(BUILD)/obj/tools/cli.o $(LIBRENDER) $(LIBRETEX) | $(BRIDGE)
+$(BUILD)/tests/unit/%: $(BUILD)/obj/tests/unit/%.o $(LIBTEST) $(BUILD)/obj/tools/cli.o $(LIBRENDER) $(LIBRETEX) | $(BRIDGE)
 	@mkdir -p $(@D)
 	$(LINK) -Wl,-rpath,'$$ORIGIN/../../lib' $^ -o $@ -lcmocka $(RENDER_LIBS) $(LIBRETEX_LIBS)
 
-$(BUILD)/tests/bin/%: $(BUILD)/obj/tests/lib/%.o $(TEST_LIB_OBJECTS) $(LIBRETEX) | $(BRIDGE)
+$(BUILD)/tests/bin/%: $(BUILD)/obj/tests/lib/%.o $(LIBTEST) $(LIBRETEX) | $(BRIDGE)
 	@mkdir -p $(@D)
 	$(LINK) -Wl,-rpath,'$$ORIGIN/../../lib' $^ -o $@ $(LIBRETEX_LIBS)
 

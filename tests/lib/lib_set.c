@@ -1,0 +1,141 @@
+/* A synthetic set: see test_set in lib_test.h. */
+#include "lib_test.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+/* Add a part of the set's size; returns its index. */
+static int add_part(RetexSet *set, const char *name, const char *letters, RetexPixelType type)
+{
+    RetexError err = {0};
+    int part;
+    test_must(retex_set_add_part(set, name, letters, type, 0, 0, &part, &err), &err);
+    return part;
+}
+
+/* Light that falls off over five decades, with noise, black in a disc; everything exact in half precision. */
+static void fill_radiance(RetexImage *im, double level, uint32_t *seed)
+{
+    for (int y = 0; y < im->height; y++)
+        for (int x = 0; x < im->width; x++) {
+            double dx = (x + 0.5) / im->width - 0.6, dy = (y + 0.5) / im->height - 0.4;
+            double light = level * pow(10, -4 * hypot(dx, dy)) * (0.7 + 0.6 * test_random(seed));
+            for (int c = 0; c < 3; c++)
+                im->pixels[retex_image_index(im, x, y) + (size_t)c] =
+                    hypot(dx, dy) < 0.1 ? 0 : ldexpf(rintf((float)(light * (1 - 0.2 * c) * 65536)), -16);
+        }
+}
+
+static int add_radiance(RetexSet *set, const char *name, double level, uint32_t *seed)
+{
+    int part = add_part(set, name, "RGB", RETEX_HALF);
+    fill_radiance(&set->parts[part].image, level, seed);
+    return part;
+}
+
+/* The footprint of the hit-th hit on a target: a tilted gradient of UV with noise. */
+static int add_footprint(RetexSet *set, int target, int hit, uint32_t *seed)
+{
+    char name[64];
+    RetexFootprint footprint = {.target = target, .hit = hit};
+    snprintf(name, sizeof name, "t%d_uv%d", target, hit);
+    footprint.uv = add_part(set, name, "RGA", RETEX_FLOAT);
+    snprintf(name, sizeof name, "t%d_spread%d", target, hit);
+    footprint.spread = add_part(set, name, "RG", RETEX_HALF);
+    snprintf(name, sizeof name, "t%d_albedo%d", target, hit);
+    footprint.albedo = add_part(set, name, "RGB", RETEX_HALF);
+    for (int y = 0; y < set->height; y++)
+        for (int x = 0; x < set->width; x++) {
+            size_t i = (size_t)y * (size_t)set->width + (size_t)x;
+            float *uv = set->parts[footprint.uv].image.pixels + 3 * i;
+            float *spread = set->parts[footprint.spread].image.pixels + 2 * i;
+            float *albedo = set->parts[footprint.albedo].image.pixels + 3 * i;
+            double jitter = test_random(seed);
+            if (x < set->width / 8)
+                continue;
+            uv[0] = (float)(x * 1.7 / set->width + 0.002 * jitter);
+            uv[1] = (float)(y * 0.9 / set->height - 0.1 * hit * jitter);
+            uv[2] = 1.0f / (float)hit;
+            spread[0] = ldexpf(1, -9 + hit);
+            spread[1] = ldexpf(1, -8 + hit);
+            for (int c = 0; c < 3; c++)
+                albedo[c] = ldexpf(rintf((float)(0.2 + 0.15 * (c + target) + 0.1 * jitter) * 1024), -10);
+        }
+    RetexError err = {0};
+    int index;
+    test_must(retex_set_add_footprint(set, &footprint, &index, &err), &err);
+    return index;
+}
+
+static void add_term(RetexSet *set, RetexTermKind kind, int radiance, const int *factors, int nfactors)
+{
+    RetexTerm term = {.kind = kind, .radiance = radiance, .nfactors = nfactors};
+    RetexError err = {0};
+    for (int i = 0; i < nfactors; i++)
+        term.factors[i] = factors[i];
+    test_must(retex_set_add_term(set, &term, NULL, &err), &err);
+}
+
+static void add_target(RetexSet *set, const char *name, int periodic, uint32_t *seed)
+{
+    char part[64];
+    RetexError err = {0};
+    RetexTarget *target = &set->targets[set->ntargets++];
+    memset(target, 0, sizeof *target);
+    snprintf(target->name, sizeof target->name, "%s", name);
+    snprintf(target->idents, sizeof target->idents, "%s", name);
+    target->periodic[0] = periodic;
+    target->uv_min[0] = 0.2, target->uv_max[0] = 1.7;
+    target->uv_min[1] = -0.3, target->uv_max[1] = 0.9;
+    target->original_max[0] = target->original_max[1] = 1;
+    target->share = 0.4;
+    for (int c = 0; c < 3; c++)
+        target->mean_albedo[c] = 0.5f - 0.125f * (float)c;
+    snprintf(part, sizeof part, "original_%s", name);
+    test_must(retex_set_add_part(set, part, "RGB", RETEX_HALF, 16, 12, &target->original, &err), &err);
+    RetexImage *im = &set->parts[target->original].image;
+    for (size_t i = 0; i < (size_t)im->width * (size_t)im->height * 3; i++)
+        im->pixels[i] = ldexpf((float)(int)(1023 * test_random(seed)), -10);
+}
+
+RetexSet *test_set(int width, int height, uint32_t seed)
+{
+    enum { HITS = 3 };
+    RetexSet *set = NULL;
+    RetexError err = {0};
+    test_must(retex_set_create(&set, width, height, &err), &err);
+    snprintf(set->layout, sizeof set->layout, "paper");
+    snprintf(set->filter, sizeof set->filter, "box");
+    snprintf(set->scene, sizeof set->scene, "test.pov");
+    snprintf(set->generator, sizeof set->generator, "lib_test");
+    set->orders = HITS, set->spp = 16, set->max_depth = 8, set->seed = seed;
+
+    int beauty = retex_set_find_part(set, "beauty");
+    if (beauty < 0)
+        beauty = add_part(set, "beauty", "RGB", RETEX_HALF);
+    fill_radiance(&set->parts[beauty].image, 1, &seed);
+    add_term(set, RETEX_TERM_FULL, add_radiance(set, "full0", 0.3, &seed), NULL, 0);
+    for (int t = 0; t < 2; t++) {
+        int factors[HITS], reversed[HITS];
+        char name[64];
+        add_target(set, t == 0 ? "Floor" : "Wall", t, &seed);
+        for (int h = 1; h <= HITS; h++)
+            factors[h - 1] = add_footprint(set, t, h, &seed);
+        for (int h = 1; h <= HITS; h++) {
+            snprintf(name, sizeof name, "t%d_dep%d", t, h);
+            add_term(set, RETEX_TERM_DEP, add_radiance(set, name, pow(0.3, h), &seed), factors, h);
+            snprintf(name, sizeof name, "t%d_indep%d", t, h);
+            add_term(set, RETEX_TERM_INDEP, add_radiance(set, name, 0.1 * pow(0.3, h), &seed), NULL, 0);
+        }
+        snprintf(name, sizeof name, "t%d_cross2", t);
+        add_term(set, RETEX_TERM_CROSS2, add_radiance(set, name, 0.02, &seed), &factors[1], 1);
+        reversed[0] = factors[2], reversed[1] = factors[0];
+        snprintf(name, sizeof name, "t%d_cross3", t);
+        add_term(set, RETEX_TERM_CROSS3, add_radiance(set, name, 0.01, &seed), reversed, 2);
+    }
+    int depth = add_part(set, "depth", "R", RETEX_FLOAT);
+    for (int i = 0; i < width * height; i++)
+        set->parts[depth].image.pixels[i] = i % 7 == 0 ? INFINITY : (float)(1 + test_random(&seed));
+    return set;
+}

@@ -1,0 +1,28 @@
+/* What the unit tests share: see lib_test.h. */
+#include "lib_test.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+
+double test_random(uint32_t *state)
+{
+    *state = *state * 747796405u + 2891336453u;
+    uint32_t word = ((*state >> ((*state >> 28) + 4)) ^ *state) * 277803737u;
+    return (double)((word >> 22) ^ word) / 4294967296.0;
+}
+
+void test_must(int code, const RetexError *err)
+{
+    if (!code)
+        return;
+    fprintf(stderr, "lib_test: %s: %s\n", err->file, err->message);
+    abort();
+}
+
+void test_random_image(RetexImage *im, int width, int height, int channels, uint32_t seed, double low, double high)
+{
+    RetexError err = {0};
+    test_must(retex_image_alloc(im, width, height, channels, &err), &err);
+    for (size_t i = 0; i < (size_t)width * (size_t)height * (size_t)channels; i++)
+        im->pixels[i] = (float)(low + (high - low) * test_random(&seed));
+}

@@ -1,0 +1,26 @@
+/* What the unit tests share: cmocka with what it needs, repeatable random numbers, random pictures and sets. */
+#ifndef LIB_TEST_H
+#define LIB_TEST_H
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <retex/retex.h>
+
+/* The next of a repeatable sequence; *state is its seed. Uniform in [0,1). */
+double test_random(uint32_t *state);
+
+/* Allocate a picture of values uniform in [low, high). */
+void test_random_image(RetexImage *im, int width, int height, int channels, uint32_t seed, double low, double high);
+
+/* A set of layout paper as a render would leave it, small but with everything in it: two targets ('Floor', a periodic
+ * 'Wall'), three hits each, all kinds of terms, an AOV; radiance of five decades with black parts, UV gradients, no
+ * coverage along one side. The same seed gives the same set. */
+RetexSet *test_set(int width, int height, uint32_t seed);
+
+/* Fails the process with a message, for helpers outside of a test. */
+void test_must(int code, const RetexError *err);
+
+#endif
