@@ -132,7 +132,8 @@ void bsdf_setup(Bsdf *b, const Surface *surface, Vec3 wo, float filter, float tr
                  : interior_bends(primitive)                             ? primitive->interior->ior
                                                                          : 1;
     b->refracts = ior != 1;
-    b->eta = (float)(surface->backside ? 1 / ior : ior);
+    int transparent = filter + transmit > 0 || (finish->retex.present && finish->retex.transmission > 0);
+    b->eta = (float)(surface->backside && transparent ? 1 / ior : ior); /* an opaque sheet has a coat on both sides */
     b->emission = finish->emission;
     if (finish->retex.present) setup_disney(b, finish, filter, transmit);
     else setup_povray(b, finish, filter, transmit);

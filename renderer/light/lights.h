@@ -1,0 +1,55 @@
+/* Everything that gives light, sampled one light at a time: POV-Ray's light sources (never seen or hit), shapes that
+ * emit, and the sky. Nothing here looks at a pigment's colour: powers are estimated with NEUTRAL_ALBEDO. */
+#ifndef RENDERER_LIGHT_LIGHTS_H
+#define RENDERER_LIGHT_LIGHTS_H
+
+#include "scene/scene.h"
+#include "shape/surface.h"
+
+typedef struct Lights Lights;
+
+typedef enum LightSampleKind {
+    LIGHT_SAMPLE_SOURCE, /* a light source: radiance is irradiance on a surface facing it; pdf is 0 */
+    LIGHT_SAMPLE_EMITTER, /* a point of an emitting shape: surface is filled, the caller evaluates its emission */
+    LIGHT_SAMPLE_SKY     /* radiance of the sky */
+} LightSampleKind;
+
+typedef struct LightSample {
+    LightSampleKind kind;
+    Vec3 direction;      /* from the lit point, unit length */
+    double distance;     /* INFINITY for the sky and parallel light */
+    Rgb radiance;        /* already divided by nothing: see pick_probability and pdf */
+    float pick_probability; /* of having picked this light */
+    float pdf;           /* per solid angle, without pick_probability; 0 for a light source */
+    int shadowless;
+    Surface surface;     /* LIGHT_SAMPLE_EMITTER */
+} LightSample;
+
+int lights_create(Lights **lights, const Scene *scene, RetexError *err);
+void lights_close(Lights **lights);
+int lights_count(const Lights *lights);
+
+/* Sample light for a point: u_pick chooses the light (and is stretched for the choice of its part), u1 and u2 the point on
+ * it. Returns 0 where no light reaches the point. */
+int lights_sample(const Lights *lights, Vec3 position, float u_pick, float u_part, float u1, float u2, LightSample *sample);
+/* Density, with the probability of picking that light, with which lights_sample finds a direction that hit an emitter or
+ * went to the sky: for multiple importance sampling. */
+float lights_emitter_pdf(const Lights *lights, Vec3 from, int primitive, const Surface *surface);
+float lights_sky_pdf(const Lights *lights, Vec3 from, Vec3 direction);
+
+/* Radiance of sky and background in a direction. */
+Rgb sky_radiance(const Scene *scene, Vec3 direction);
+
+/* environment.c: importance table of the sky */
+typedef struct Environment Environment;
+int environment_create(Environment **environment, const Scene *scene, RetexError *err); /* NULL where the sky is black */
+void environment_close(Environment **environment);
+Vec3 environment_sample(const Environment *environment, float u1, float u2, float *pdf);
+float environment_pdf(const Environment *environment, Vec3 direction);
+float environment_mean(const Environment *environment); /* mean luminance over the sphere */
+
+/* source.c: one of POV-Ray's light sources seen from a point: direction, distance and irradiance on a facing surface. */
+Rgb source_irradiance(const Light *light, Vec3 position, Vec3 light_point, Vec3 *direction, double *distance);
+Vec3 source_point(const Light *light, Vec3 position, float u1, float u2);
+
+#endif

@@ -1,0 +1,78 @@
+/* POV-Ray's light sources: point, spot, cylinder and parallel light, area lights as points of their grid, fading. */
+#include "light/lights.h"
+
+/* 0 below low, 1 above high, a smooth cubic between. */
+static double smooth_step(double low, double high, double x)
+{
+    if (x <= low) return 0;
+    if (x >= high) return 1;
+    double t = (x - low) / (high - low);
+    return (3 - 2 * t) * t * t;
+}
+
+static double spot_attenuation(const Light *light, Vec3 to_light)
+{
+    Vec3 axis = vec_normalize(vec_sub(light->point_at, light->location));
+    double cosine = -vec_dot(axis, to_light);
+    if (cosine <= 0) return 0;
+    double value = light->tightness > 0 ? pow(cosine, light->tightness) : 1;
+    if (light->falloff > 0) {
+        double outer = cos(light->falloff * PI / 180), inner = cos(light->radius * PI / 180);
+        value *= inner > outer ? smooth_step(outer, inner, cosine) : cosine > outer;
+    }
+    return value;
+}
+
+static double cylinder_attenuation(const Light *light, Vec3 position)
+{
+    Vec3 axis = vec_normalize(vec_sub(light->point_at, light->location)), d = vec_sub(position, light->location);
+    double along = vec_dot(d, axis), across = vec_length(vec_mad(d, axis, -along));
+    if (along <= 0 || across >= light->falloff) return 0;
+    double value = 1 - across / light->falloff;
+    double edge = across > light->radius && light->radius > 0
+                      ? smooth_step(0, 1 - light->radius / light->falloff, value) : 1;
+    return edge * (light->tightness > 0 ? pow(value, light->tightness) : 1);
+}
+
+static double distance_fade(const Light *light, double distance)
+{
+    if (light->fade_power <= 0) return 1;
+    if (light->fade_distance > 0) return 2 / (1 + pow(distance / light->fade_distance, light->fade_power));
+    return pow(fmax(distance, 1e-6), -light->fade_power);
+}
+
+Vec3 source_point(const Light *light, Vec3 position, float u1, float u2)
+{
+    if (!light->area) return light->location;
+    int n1 = light->size1 > 1 ? light->size1 : 1, n2 = light->size2 > 1 ? light->size2 : 1;
+    double a = n1 > 1 ? floor(u1 * n1) / (n1 - 1) - 0.5 : 0, b = n2 > 1 ? floor(u2 * n2) / (n2 - 1) - 0.5 : 0;
+    Vec3 axis1 = light->axis1, axis2 = light->axis2;
+    if (light->orient) { /* the grid faces the lit point */
+        Vec3 s, t;
+        vec_frame(vec_normalize(vec_sub(position, light->location)), &s, &t);
+        axis1 = vec_scale(s, vec_length(axis1));
+        axis2 = vec_scale(t, vec_length(axis2));
+    }
+    if (light->circular) { /* squares about the centre become circles */
+        double m = fmax(fabs(a), fabs(b)), length = sqrt(a * a + b * b);
+        if (length > 0) a *= m / length, b *= m / length;
+    }
+    return vec_mad(vec_mad(light->location, axis1, a), axis2, b);
+}
+
+Rgb source_irradiance(const Light *light, Vec3 position, Vec3 light_point, Vec3 *direction, double *distance)
+{
+    double value = PI;
+    if (light->kind == LIGHT_PARALLEL) {
+        *direction = vec_normalize(vec_sub(light_point, light->point_at));
+        *distance = INFINITY;
+        return rgb_scale(light->color, (float)value);
+    }
+    Vec3 d = vec_sub(light_point, position);
+    *distance = vec_length(d);
+    if (*distance <= 0) return rgb_grey(0);
+    *direction = vec_scale(d, 1 / *distance);
+    if (light->kind == LIGHT_SPOT) value *= spot_attenuation(light, *direction);
+    if (light->kind == LIGHT_CYLINDER) value *= cylinder_attenuation(light, position);
+    return rgb_scale(light->color, (float)(value * distance_fade(light, *distance)));
+}
