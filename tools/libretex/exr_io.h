@@ -48,6 +48,9 @@ int retex_exr_find_part(const RetexExr *exr, const char *name); /* index or -1 *
 void retex_exr_part_size(const RetexExr *exr, int part, int *width, int *height); /* of the data window */
 /* 1 if this version can decode the part; else 0 and *reason says what stands in the way. */
 int retex_exr_part_readable(const RetexExr *exr, int part, const char **reason);
+const char *retex_exr_part_name(const RetexExr *exr, int part);     /* "" where it has none */
+int retex_exr_channel_count(const RetexExr *exr, int part);
+const char *retex_exr_channel_name(const RetexExr *exr, int part, int channel); /* in the file's order */
 int retex_exr_has_channel(const RetexExr *exr, int part, const char *channel);
 int retex_exr_channel_type(const RetexExr *exr, int part, const char *channel, RetexPixelType *type); /* 0: another */
 /* Value of a string attribute, owned by exr; NULL where there is none. */
