@@ -137,6 +137,7 @@ typedef struct Mesh {
     int ntextures;
     const Texture **textures; /* in world space like all textures */
     int closed_inside;       /* inside_vector was given: has an inside */
+    int inward;              /* 1: the faces' winding (edge 01 x edge 02) points inside; set from mesh_winds_inward */
 } Mesh;
 
 typedef struct Primitive {

@@ -21,7 +21,8 @@ typedef struct Hit {
 /* Everything shading wants to know. Normals are of unit length, in world space. */
 typedef struct Surface {
     const Primitive *primitive;
-    const Texture *texture;  /* of this face */
+    int face;                /* as in Hit */
+    const Texture *texture;  /* of this face; from the back the interior_texture where there is one */
     int target;              /* index or -1 */
     Vec3 position;
     Vec3 geometric_normal;   /* outward, as the shape has it (not turned to the ray) */

@@ -47,6 +47,10 @@ int retex_texture_size(const RetexTexture *texture, int *width, int *height); /*
  * `wrap=black` gives (0,0,0,0) outside [0,1]. Thread-safe. What --replace and a pigment's interpolated image_map use. */
 void retex_texture_point(const RetexTexture *texture, double u, double v, float rgba[4]);
 
+/* One point without interpolation: the texel that (u, v) falls in, floor(u * width) from the left, floor((1 - v) * height)
+ * from the top, after the same transform and wraps. What a pigment's image_map without `interpolate` uses. Thread-safe. */
+void retex_texture_nearest(const RetexTexture *texture, double u, double v, float rgba[4]);
+
 /* The texture averaged over a Gaussian of mean (u, v) and covariance {uu, uv, vv} in surface UV (before the spec's
  * transform, which is applied to both exactly). With zero covariance equals retex_texture_point. Colours are averaged
  * with alpha as their weight; rgba, unassociated. Thread-safe. */
