@@ -24,8 +24,7 @@ struct RetexInput {
 
 static int fail_read(const RetexInput *input, int code, RetexError *err)
 {
-    return retex_fail(err, code == ENOENT ? RETEX_ENOTFOUND : RETEX_EIO, "cannot read %s: %s", input->name,
-                      strerror(code));
+    return retex_fail(err, RETEX_EIO, "cannot read %s: %s", input->name, strerror(code));
 }
 
 static int grow(RetexInput *input, size_t *room, RetexError *err)

@@ -1,0 +1,275 @@
+/* Images: memory, regions, and the choice of who reads or writes a file.
+ *
+ * EXR goes through OpenEXRCore, which starts in 2 ms; every other format, and what Core cannot decode, through the
+ * bridge, which loads OpenImageIO. */
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include <retex/image.h>
+
+#include "bridge_load.h"
+#include "exr_io.h"
+#include "input.h"
+#include "output.h"
+
+int retex_image_alloc(RetexImage *im, int width, int height, int channels, RetexError *err)
+{
+    if (im->pixels)
+        return retex_fail(err, RETEX_EINVAL, "the image is allocated already");
+    if (width < 1 || height < 1 || width > RETEX_MAX_SIZE || height > RETEX_MAX_SIZE || channels < 1 ||
+        channels > RETEX_MAX_CHANNELS)
+        return retex_fail(err, RETEX_EINVAL, "an image of %d x %d pixels and %d channels is out of bounds", width,
+                          height, channels);
+    /* at most 2^16 * 2^16 * 2^6 * 4 = 2^40 bytes: no overflow where size_t has 64 bits */
+    const uint64_t bytes = (uint64_t)width * (uint64_t)height * (uint64_t)channels * sizeof(float);
+    im->pixels = bytes <= SIZE_MAX ? calloc(1, (size_t)bytes) : NULL;
+    if (!im->pixels)
+        return retex_fail(err, RETEX_ENOMEM, "no memory for an image of %d x %d pixels and %d channels", width, height,
+                          channels);
+#ifdef MADV_HUGEPAGE
+    /* Fresh pages cost more than the work on them; large pages cost less. Advice only: failing is fine. */
+    if (bytes >= (uint64_t)4 << 20) {
+        const uintptr_t page = (uintptr_t)sysconf(_SC_PAGESIZE);
+        const uintptr_t begin = ((uintptr_t)im->pixels + page - 1) / page * page;
+        const uintptr_t end = ((uintptr_t)im->pixels + (uintptr_t)bytes) / page * page;
+        (void)madvise((void *)begin, end - begin, MADV_HUGEPAGE);
+    }
+#endif
+    im->width = width;
+    im->height = height;
+    im->channels = channels;
+    return 0;
+}
+
+void retex_image_free(RetexImage *im)
+{
+    if (!im)
+        return;
+    free(im->pixels);
+    *im = (RetexImage){ 0, 0, 0, NULL };
+}
+
+int retex_image_copy(RetexImage *dst, const RetexImage *src, RetexError *err)
+{
+    const int status = retex_image_alloc(dst, src->width, src->height, src->channels, err);
+
+    if (!status)
+        memcpy(dst->pixels, src->pixels, retex_image_index(src, 0, src->height) * sizeof(float));
+    return status;
+}
+
+RetexRoi retex_image_roi(const RetexImage *im)
+{
+    return (RetexRoi){ 0, 0, im->width, im->height, 0, im->channels };
+}
+
+static int clamp(int value, int low, int high)
+{
+    return value < low ? low : value > high ? high : value;
+}
+
+int retex_image_prepare(RetexImage *dst, int width, int height, int channels, const RetexRoi *roi, RetexRoi *out,
+                        RetexError *err)
+{
+    if (!dst->pixels) {
+        const int status = retex_image_alloc(dst, width, height, channels, err);
+        if (status)
+            return status;
+    } else if (dst->width != width || dst->height != height || dst->channels != channels) {
+        return retex_fail(err, RETEX_EINVAL,
+                          "the destination has %d x %d pixels and %d channels where %d x %d and %d are needed",
+                          dst->width, dst->height, dst->channels, width, height, channels);
+    }
+    *out = retex_image_roi(dst);
+    if (roi) {
+        /* a region that lies outside, or is turned inside out, becomes empty */
+        out->x0 = clamp(roi->x0, 0, width);
+        out->y0 = clamp(roi->y0, 0, height);
+        out->c0 = clamp(roi->c0, 0, channels);
+        out->x1 = clamp(roi->x1, out->x0, width);
+        out->y1 = clamp(roi->y1, out->y0, height);
+        out->c1 = clamp(roi->c1, out->c0, channels);
+    }
+    return 0;
+}
+
+/* Which channels of an EXR's first part are its colours: R, G, B, or the grey Y, and A. 0 where there are none. */
+static int choose_channels(const RetexExr *exr, RetexExrRequest *request, int *grey)
+{
+    static const char colors[3][2] = { "R", "G", "B" };
+
+    *grey = 1;
+    for (int c = 0; c < 3; c++)
+        if (retex_exr_has_channel(exr, 0, colors[c])) {
+            strcpy(request->channels[c], colors[c]);
+            *grey = 0;
+        }
+    if (*grey) {
+        if (!retex_exr_has_channel(exr, 0, "Y"))
+            return 0;
+        strcpy(request->channels[0], "Y");
+    }
+    if (retex_exr_has_channel(exr, 0, "A"))
+        strcpy(request->channels[3], "A");
+    return 1;
+}
+
+/* From what an EXR holds, associated alpha or none, to what images here have. */
+static void finish_pixels(RetexImage *image, int grey, int has_alpha)
+{
+    const size_t count = (size_t)image->width * (size_t)image->height;
+
+    for (size_t i = 0; i < count; i++) {
+        float *pixel = image->pixels + 4 * i;
+        if (grey)
+            pixel[1] = pixel[2] = pixel[0];
+        if (!has_alpha)
+            pixel[3] = 1;
+        else if (pixel[3] > 0 && pixel[3] != 1)
+            for (int c = 0; c < 3; c++)
+                pixel[c] /= pixel[3];
+    }
+}
+
+static int check_pixels(int width, int height, long max_pixels, const char *name, RetexError *err)
+{
+    if (max_pixels > 0 && (int64_t)width * height > max_pixels)
+        return retex_fail(err, RETEX_ELIMIT, "%s has %d x %d pixels, more than the limit of %ld", name, width, height,
+                          max_pixels);
+    return 0;
+}
+
+/* Read an open EXR. RETEX_EUNSUPPORTED: whole and sound, but not for this reader. */
+static int read_exr(RetexImage *dst, RetexExr *exr, const char *name, long max_pixels, RetexError *err)
+{
+    RetexExrRequest request = { .part = 0 };
+    RetexImage image = { 0 };
+    const char *reason;
+    int grey, width, height;
+
+    if (!retex_exr_part_readable(exr, 0, &reason))
+        return retex_fail(err, RETEX_EUNSUPPORTED, "%s: %s", name, reason);
+    if (!choose_channels(exr, &request, &grey))
+        return retex_fail(err, RETEX_EUNSUPPORTED, "%s has no channels R, G, B or Y", name);
+    retex_exr_part_size(exr, 0, &width, &height);
+    int status = check_pixels(width, height, max_pixels, name, err);
+    if (!status && (uint64_t)width * (uint64_t)height * 16 > RETEX_EXR_MEMORY_MAX)
+        status = retex_fail(err, RETEX_ELIMIT, "%s is too large: %d x %d pixels", name, width, height);
+    if (!status)
+        status = retex_image_alloc(&image, width, height, 4, err);
+    if (!status) {
+        request.image = &image;
+        status = retex_exr_read(exr, &request, 1, 0, err);
+    }
+    if (status) {
+        retex_image_free(&image);
+        return status;
+    }
+    finish_pixels(&image, grey, request.channels[3][0] != 0);
+    *dst = image;
+    return 0;
+}
+
+static int names_linear(const char *colorspace)
+{
+    return !colorspace || !colorspace[0] || strcasecmp(colorspace, "linear") == 0 ||
+           strcasecmp(colorspace, "scene_linear") == 0;
+}
+
+int retex_image_read(RetexImage *dst, const char *path, const char *colorspace, long max_pixels, RetexError *err)
+{
+    const int standard_input = strcmp(path, "-") == 0;
+    RetexInput *input = NULL;
+    RetexExr *exr = NULL;
+
+    if (dst->pixels)
+        return retex_fail(err, RETEX_EINVAL, "the destination is allocated already");
+    int status = retex_input_open(&input, path, err);
+    if (status)
+        return status;
+    if (!standard_input && (!retex_exr_probe(input) || !names_linear(colorspace))) {
+        retex_input_close(&input);
+        return retex_bridge_read(dst, path, colorspace, max_pixels, err);
+    }
+    status = retex_exr_open(&exr, input, err);
+    if (!status && !names_linear(colorspace))
+        status = retex_fail(err, RETEX_EUNSUPPORTED, "standard input is read as scene-linear only, not %s", colorspace);
+    if (!status)
+        status = read_exr(dst, exr, retex_input_name(input), max_pixels, err);
+    retex_exr_close(&exr);
+    retex_input_close(&input);
+    if (status == RETEX_EUNSUPPORTED && !standard_input)
+        status = retex_bridge_read(dst, path, colorspace, max_pixels, err);
+    return status;
+}
+
+static int write_exr(const RetexImage *src, const char *path, RetexError *err)
+{
+    RetexExrPart part = { .name = "beauty", .type = RETEX_HALF, .image = src };
+    RetexExrEncoding *encoding = NULL;
+    RetexImage associated = { 0 };
+    int status = 0;
+
+    strcpy(part.letters, src->channels == 1 ? "Y" : src->channels == 3 ? "RGB" : "RGBA");
+    if (src->channels == 4) {
+        status = retex_image_copy(&associated, src, err);
+        if (status)
+            return status;
+        const size_t count = (size_t)src->width * (size_t)src->height;
+        for (size_t i = 0; i < count; i++)
+            for (int c = 0; c < 3; c++)
+                associated.pixels[4 * i + (size_t)c] *= src->pixels[4 * i + 3];
+        part.image = &associated;
+    }
+    status = retex_exr_encode(&encoding, &part, 1, strcmp(path, "-") != 0, 0, err);
+    if (!status)
+        status = retex_exr_write(encoding, src->width, src->height, NULL, NULL, path, err);
+    retex_exr_encoding_free(&encoding);
+    retex_image_free(&associated);
+    return status;
+}
+
+static int write_through_bridge(const RetexImage *src, const char *path, const RetexWriteParams *params,
+                                RetexError *err)
+{
+    RetexOutput *output = NULL;
+    const char *temporary;
+    int status = retex_output_open_named(&output, path, &temporary, err);
+
+    if (status)
+        return status;
+    status = retex_bridge_write(src, temporary, params, err);
+    if (!status)
+        return retex_output_commit(&output, err);
+    retex_output_abandon(&output);
+    /* the name that was wanted, not the temporary one */
+    if (err && strcmp(err->file, path) != 0)
+        retex_fail_at(err, status, path, 0, 0, "%s", err->message);
+    return status;
+}
+
+int retex_image_write(const RetexImage *src, const char *path, const RetexWriteParams *params, RetexError *err)
+{
+    static const RetexWriteParams defaults = RETEX_WRITE_INIT;
+    const char *ending = strrchr(path, '.');
+    const int is_exr = strcmp(path, "-") == 0 || (ending && strcasecmp(ending, ".exr") == 0) ||
+                       strncmp(path, "/dev/", 5) == 0;
+
+    if (!params)
+        params = &defaults;
+    if (!src->pixels || (src->channels != 1 && src->channels != 3 && src->channels != 4))
+        return retex_fail(err, RETEX_EINVAL, "a picture has 1, 3 or 4 channels, not %d", src->channels);
+    if (params->quality < 1 || params->quality > 100)
+        return retex_fail(err, RETEX_EINVAL, "quality is 1 to 100, not %d", params->quality);
+    if (!is_exr || !names_linear(params->colorspace)) {
+        if (strcmp(path, "-") == 0)
+            return retex_fail(err, RETEX_EUNSUPPORTED, "standard output takes scene-linear EXR only, not %s",
+                              params->colorspace);
+        return write_through_bridge(src, path, params, err);
+    }
+    return write_exr(src, path, err);
+}

@@ -1,0 +1,258 @@
+/* The manifest, written: RetexSet and RetexSamples as JSON. Parts are referred to by name, so that a file keeps its
+ * meaning when parts are reordered, added or left out. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <jansson.h>
+
+#include "manifest.h"
+#include "manifest_kinds.h"
+
+int retex_name_is_valid(const char *name)
+{
+    const size_t length = strlen(name);
+
+    return length > 0 && length < RETEX_NAME_MAX &&
+           strspn(name, "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-") == length;
+}
+
+int retex_letters_are_valid(const char *letters)
+{
+    const size_t length = strlen(letters);
+
+    if (length == 0 || length >= sizeof ((RetexPart *)0)->letters)
+        return 0;
+    for (const char *letter = letters; *letter; letter++)
+        if (*letter < 'A' || *letter > 'Z' || strchr(letter + 1, *letter))
+            return 0;
+    return 1;
+}
+
+int retex_samples_are_sound(const RetexSamples *samples, RetexError *err)
+{
+    if (samples->ntargets < 0 || samples->ntargets > RETEX_MAX_TARGETS || samples->nimages < 0 ||
+        samples->nimages > RETEX_SET_FOOTPRINTS_MAX)
+        return retex_fail(err, RETEX_EINVAL, "the samples have %d targets and %d images", samples->ntargets,
+                          samples->nimages);
+    for (int i = 0; i < samples->nimages; i++) {
+        const RetexImage *image = &samples->images[i];
+        if (samples->footprint_target[i] < 0 || samples->footprint_target[i] >= samples->ntargets)
+            return retex_fail(err, RETEX_EINVAL, "sample image %d is for target %d of %d", i,
+                              samples->footprint_target[i], samples->ntargets);
+        if (image->pixels &&
+            (image->width != samples->width || image->height != samples->height || image->channels != 3))
+            return retex_fail(err, RETEX_EINVAL, "sample image %d has the wrong size", i);
+    }
+    return 0;
+}
+
+static int name_is_taken(const char *name, const RetexSet *set, const RetexSamplePart *parts, int count)
+{
+    for (int i = 0; i < count; i++)
+        if (strcmp(parts[i].name, name) == 0)
+            return 1;
+    return set && retex_set_find_part(set, name) >= 0;
+}
+
+void retex_sample_part_names(const RetexSamples *samples, const RetexSet *set, RetexSamplePart *parts)
+{
+    for (int i = 0; i < samples->nimages; i++) {
+        char target[RETEX_NAME_MAX], *name = parts[i].name;
+        parts[i].crc = 0;
+        name[0] = 0;
+        if (!samples->images[i].pixels)
+            continue;
+        /* a target may be called anything, a part not */
+        snprintf(target, sizeof target, "%s", samples->target_names[samples->footprint_target[i]]);
+        for (char *letter = target; *letter; letter++)
+            if (!retex_name_is_valid((char[]){ *letter, 0 }))
+                *letter = '_';
+        snprintf(name, RETEX_SAMPLE_NAME_MAX, "sample_%s_%d", target, samples->footprint_hit[i]);
+        for (int again = 2; name_is_taken(name, set, parts, i); again++)
+            snprintf(name, RETEX_SAMPLE_NAME_MAX, "sample_%s_%d_%d", target, samples->footprint_hit[i], again);
+    }
+}
+
+/* Text of any bytes: what is not UTF-8 loses its bytes above 127, for JSON has no place for them. */
+static json_t *text(const char *bytes)
+{
+    json_t *value = json_string(bytes);
+
+    if (!value) {
+        char *ascii = strdup(bytes);
+        for (char *byte = ascii; byte && *byte; byte++)
+            if ((unsigned char)*byte > 127)
+                *byte = '?';
+        value = ascii ? json_string(ascii) : NULL;
+        free(ascii);
+    }
+    return value;
+}
+
+/* A number, which JSON does not allow to be infinite or NaN: those become 0 and *finite is cleared. */
+static json_t *real(double value, int *finite)
+{
+    if (!isfinite(value)) {
+        *finite = 0;
+        value = 0;
+    }
+    return json_real(value);
+}
+
+static json_t *pair(const double values[2], int *finite)
+{
+    return json_pack("[o, o]", real(values[0], finite), real(values[1], finite));
+}
+
+static json_t *part_name(const RetexSet *set, int part)
+{
+    return part < 0 || part >= set->nparts ? json_null() : json_string(set->parts[part].name);
+}
+
+static json_t *write_target(const RetexSet *set, const RetexTarget *target, int *finite)
+{
+    const float *albedo = target->mean_albedo;
+
+    return json_pack("{s:o, s:o, s:[b, b], s:o, s:o, s:[o, o, o], s:o, s:o, s:o, s:o}",
+                     "name", text(target->name),
+                     "idents", text(target->idents),
+                     "periodic", target->periodic[0], target->periodic[1],
+                     "uv_min", pair(target->uv_min, finite),
+                     "uv_max", pair(target->uv_max, finite),
+                     "mean_albedo", real(albedo[0], finite), real(albedo[1], finite), real(albedo[2], finite),
+                     "original", part_name(set, target->original),
+                     "original_min", pair(target->original_min, finite),
+                     "original_max", pair(target->original_max, finite),
+                     "share", real(target->share, finite));
+}
+
+static json_t *write_footprint(const RetexSet *set, const RetexFootprint *footprint)
+{
+    return json_pack("{s:i, s:i, s:o, s:o, s:o}",
+                     "target", footprint->target,
+                     "hit", footprint->hit,
+                     "uv", part_name(set, footprint->uv),
+                     "spread", part_name(set, footprint->spread),
+                     "albedo", part_name(set, footprint->albedo));
+}
+
+static json_t *write_term(const RetexSet *set, const RetexTerm *term)
+{
+    json_t *factors = json_array();
+
+    for (int i = 0; i < term->nfactors; i++)
+        json_array_append_new(factors, json_integer(term->factors[i]));
+    return json_pack("{s:s, s:o, s:o}",
+                     "kind", retex_term_kinds[term->kind],
+                     "radiance", part_name(set, term->radiance),
+                     "factors", factors);
+}
+
+static json_t *write_part(const char *name, const char *letters, RetexPixelType type, const RetexImage *image,
+                          uint32_t crc)
+{
+    char hex[16];
+
+    snprintf(hex, sizeof hex, "%08x", (unsigned)crc);
+    return json_pack("{s:s, s:s, s:s, s:i, s:i, s:s}",
+                     "name", name,
+                     "letters", letters,
+                     "type", type == RETEX_HALF ? "half" : "float",
+                     "width", image->width,
+                     "height", image->height,
+                     "crc32", hex);
+}
+
+static void write_set(json_t *root, const RetexSet *set, int *finite)
+{
+    json_t *targets = json_array(), *footprints = json_array(), *terms = json_array(), *parts = json_array();
+
+    for (int i = 0; i < set->ntargets; i++)
+        json_array_append_new(targets, write_target(set, &set->targets[i], finite));
+    for (int i = 0; i < set->nfootprints; i++)
+        json_array_append_new(footprints, write_footprint(set, &set->footprints[i]));
+    for (int i = 0; i < set->nterms; i++)
+        json_array_append_new(terms, write_term(set, &set->terms[i]));
+    for (int i = 0; i < set->nparts; i++) {
+        const RetexPart *part = &set->parts[i];
+        json_array_append_new(parts, write_part(part->name, part->letters, part->type, &part->image, part->crc));
+    }
+    json_object_set_new(root, "layout", text(set->layout));
+    json_object_set_new(root, "filter", text(set->filter));
+    json_object_set_new(root, "scene", text(set->scene));
+    json_object_set_new(root, "generator", text(set->generator));
+    json_object_set_new(root, "orders", json_integer(set->orders));
+    json_object_set_new(root, "spp", json_integer(set->spp));
+    json_object_set_new(root, "max_depth", json_integer(set->max_depth));
+    json_object_set_new(root, "seed", json_integer(set->seed));
+    json_object_set_new(root, "folded", real(set->folded, finite));
+    json_object_set_new(root, "strict_paper", json_boolean(set->strict_paper));
+    json_object_set_new(root, "targets", targets);
+    json_object_set_new(root, "footprints", footprints);
+    json_object_set_new(root, "terms", terms);
+    json_object_set_new(root, "parts", parts);
+}
+
+static json_t *write_samples(const RetexSamples *samples, const RetexSamplePart *parts)
+{
+    json_t *targets = json_array(), *images = json_array();
+
+    for (int i = 0; i < samples->ntargets; i++)
+        json_array_append_new(targets, json_pack("{s:o, s:o}", "name", text(samples->target_names[i]), "texture",
+                                                 text(samples->textures[i])));
+    for (int i = 0; i < samples->nimages; i++) {
+        json_t *part = parts[i].name[0] ? write_part(parts[i].name, "RGB", RETEX_FLOAT, &samples->images[i],
+                                                     parts[i].crc)
+                                        : json_null();
+        json_array_append_new(images, json_pack("{s:i, s:i, s:o}", "target", samples->footprint_target[i], "hit",
+                                                samples->footprint_hit[i], "part", part));
+    }
+    return json_pack("{s:o, s:o}", "targets", targets, "images", images);
+}
+
+int retex_manifest_write(const RetexSet *set, const RetexSamples *samples, const RetexSamplePart *sample_parts,
+                         char **json, RetexError *err)
+{
+    int finite = 1;
+    json_t *root = json_pack("{s:i, s:s, s:i, s:i}",
+                             "retex", RETEX_SET_VERSION,
+                             "kind", !samples ? "set" : !set ? "samples" : "stream",
+                             "width", set ? set->width : samples->width,
+                             "height", set ? set->height : samples->height);
+
+    *json = NULL;
+    if (root && set)
+        write_set(root, set, &finite);
+    if (root && samples)
+        json_object_set_new(root, "samples", write_samples(samples, sample_parts));
+    char *dumped = root && finite ? json_dumps(root, JSON_COMPACT | JSON_PRESERVE_ORDER | JSON_REAL_PRECISION(17)) : NULL;
+    json_decref(root);
+    if (!finite)
+        return retex_fail(err, RETEX_EINVAL, "the set's description has a number that is infinite or NaN");
+    if (!dumped)
+        return retex_fail(err, RETEX_ENOMEM, "no memory for the manifest");
+    *json = dumped;
+    return 0;
+}
+
+int retex_set_manifest(const RetexSet *set, const RetexSamples *samples, char **json, RetexError *err)
+{
+    RetexSamplePart *parts = NULL;
+
+    *json = NULL;
+    if (!set && !samples)
+        return retex_fail(err, RETEX_EINVAL, "there is neither a set nor samples to describe");
+    if (samples) {
+        const int status = retex_samples_are_sound(samples, err);
+        if (status)
+            return status;
+        parts = calloc((size_t)samples->nimages + 1, sizeof *parts);
+        if (!parts)
+            return retex_fail(err, RETEX_ENOMEM, "no memory for the manifest");
+        retex_sample_part_names(samples, set, parts);
+    }
+    const int status = retex_manifest_write(set, samples, parts, json, err);
+    free(parts);
+    return status;
+}

@@ -1,0 +1,39 @@
+/* The manifest: what an EXR file's parts mean, as JSON; see retex-set(5). */
+#ifndef RETEX_LIBRETEX_MANIFEST_H
+#define RETEX_LIBRETEX_MANIFEST_H
+
+#include <retex/set.h>
+
+enum {
+    RETEX_SET_PARTS_MAX = 1536,     /* with the samples' 512 still within an EXR file's 2048 */
+    RETEX_SET_FOOTPRINTS_MAX = 512, /* RetexSamples has room for as many */
+    RETEX_SET_TERMS_MAX = 4096,
+    RETEX_SAMPLE_NAME_MAX = 192     /* bytes of a sample part's name, with the final NUL */
+};
+
+int retex_name_is_valid(const char *name);        /* of a part: 1..127 letters, digits, '_', '-' */
+int retex_letters_are_valid(const char *letters); /* 1..7 different capital letters */
+
+/* Check that the samples' numbers and sizes agree among themselves. */
+int retex_samples_are_sound(const RetexSamples *samples, RetexError *err);
+
+/* What the manifest says of one of the file's samples parts. */
+typedef struct RetexSamplePart {
+    char name[RETEX_SAMPLE_NAME_MAX]; /* "" where the footprint's target keeps its original */
+    uint32_t crc;
+} RetexSamplePart;
+
+/* Names of the samples' parts, unique among themselves and the set's (which may be NULL). parts has nimages places. */
+void retex_sample_part_names(const RetexSamples *samples, const RetexSet *set, RetexSamplePart *parts);
+
+/* As retex_set_manifest, with the sample parts' names and checksums. */
+int retex_manifest_write(const RetexSet *set, const RetexSamples *samples, const RetexSamplePart *sample_parts,
+                         char **json, RetexError *err);
+
+/* From JSON. *set and *samples are created, without pixels: parts know their size in image.width, height and channels,
+ * and so do those images of *samples that sample_parts (allocated here, free with free()) names. What the manifest does
+ * not describe comes back NULL. name: the file, for messages. */
+int retex_manifest_read(const char *json, const char *name, RetexSet **set, RetexSamples **samples,
+                        RetexSamplePart **sample_parts, RetexError *err);
+
+#endif

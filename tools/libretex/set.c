@@ -1,0 +1,205 @@
+/* Sets in memory: made empty, filled by appending, found by name. */
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+
+#include <retex/set.h>
+
+#include "manifest.h"
+
+int retex_set_create(RetexSet **result, int width, int height, RetexError *err)
+{
+    *result = NULL;
+    if (width < 1 || height < 1 || width > RETEX_MAX_SIZE || height > RETEX_MAX_SIZE)
+        return retex_fail(err, RETEX_EINVAL, "a set of %d x %d pixels is out of bounds", width, height);
+    RetexSet *set = calloc(1, sizeof *set);
+    if (!set)
+        return retex_fail(err, RETEX_ENOMEM, "no memory for a set");
+    set->width = width;
+    set->height = height;
+    strcpy(set->layout, "paper");
+    strcpy(set->filter, "box");
+    *result = set;
+    return 0;
+}
+
+void retex_set_close(RetexSet **result)
+{
+    RetexSet *set = result ? *result : NULL;
+
+    if (!set)
+        return;
+    for (int i = 0; i < set->nparts; i++)
+        retex_image_free(&set->parts[i].image);
+    free(set->parts);
+    free(set->footprints);
+    free(set->terms);
+    free(set);
+    *result = NULL;
+}
+
+/* Make room for one more. The size asked for is the next power of two, so that most calls move nothing, whoever made
+ * the array. */
+static int make_room(void **array, int count, size_t element, int most, const char *what, RetexError *err)
+{
+    size_t room = 1;
+
+    if (count >= most)
+        return retex_fail(err, RETEX_ELIMIT, "a set has at most %d %s", most, what);
+    while (room <= (size_t)count)
+        room *= 2;
+    void *larger = realloc(*array, room * element);
+    if (!larger)
+        return retex_fail(err, RETEX_ENOMEM, "no memory for %d %s", count + 1, what);
+    *array = larger;
+    return 0;
+}
+
+int retex_set_add_part(RetexSet *set, const char *name, const char *letters, RetexPixelType type, int width, int height,
+                       int *index, RetexError *err)
+{
+    RetexPart part = { .type = type };
+    int status;
+
+    if (!retex_name_is_valid(name))
+        return retex_fail(err, RETEX_EINVAL, "\"%s\" is no name for a part: letters, digits, '_' and '-'", name);
+    if (!retex_letters_are_valid(letters))
+        return retex_fail(err, RETEX_EINVAL, "\"%s\" are no channels of a part", letters);
+    if (retex_set_find_part(set, name) >= 0)
+        return retex_fail(err, RETEX_EINVAL, "the set has a part %s already", name);
+    if ((width == 0) != (height == 0))
+        return retex_fail(err, RETEX_EINVAL, "part %s: %d x %d pixels are out of bounds", name, width, height);
+    status = make_room((void **)&set->parts, set->nparts, sizeof *set->parts, RETEX_SET_PARTS_MAX, "parts", err);
+    if (status)
+        return status;
+    strcpy(part.name, name);
+    strcpy(part.letters, letters);
+    status = retex_image_alloc(&part.image, width ? width : set->width, height ? height : set->height,
+                               (int)strlen(letters), err);
+    if (status)
+        return status;
+    if (index)
+        *index = set->nparts;
+    set->parts[set->nparts++] = part;
+    return 0;
+}
+
+/* A part a footprint or term refers to: it must exist, or be left out (-1) where that is allowed. */
+static int check_part(const RetexSet *set, int part, size_t channels, int optional, const char *what, RetexError *err)
+{
+    if (part == -1 && optional)
+        return 0;
+    if (part < 0 || part >= set->nparts)
+        return retex_fail(err, RETEX_EINVAL, "%s refers to part %d of %d", what, part, set->nparts);
+    if (strlen(set->parts[part].letters) != channels)
+        return retex_fail(err, RETEX_EINVAL, "%s needs a part of %zu channels; %s has %s", what, channels,
+                          set->parts[part].name, set->parts[part].letters);
+    return 0;
+}
+
+int retex_set_add_footprint(RetexSet *set, const RetexFootprint *footprint, int *index, RetexError *err)
+{
+    int status = 0;
+
+    if (footprint->target < 0 || footprint->target >= set->ntargets)
+        return retex_fail(err, RETEX_EINVAL, "the footprint lies on target %d of %d", footprint->target, set->ntargets);
+    if (footprint->hit < 1)
+        return retex_fail(err, RETEX_EINVAL, "hits count from 1, not %d", footprint->hit);
+    status = check_part(set, footprint->uv, 3, 1, "a footprint's UV", err);
+    if (!status)
+        status = check_part(set, footprint->spread, 2, 1, "a footprint's spread", err);
+    if (!status)
+        status = check_part(set, footprint->albedo, 3, 1, "a footprint's albedo", err);
+    if (!status)
+        status = make_room((void **)&set->footprints, set->nfootprints, sizeof *set->footprints,
+                           RETEX_SET_FOOTPRINTS_MAX, "footprints", err);
+    if (status)
+        return status;
+    if (index)
+        *index = set->nfootprints;
+    set->footprints[set->nfootprints++] = *footprint;
+    return 0;
+}
+
+int retex_set_add_term(RetexSet *set, const RetexTerm *term, int *index, RetexError *err)
+{
+    if (term->kind < RETEX_TERM_FULL || term->kind > RETEX_TERM_CROSS3)
+        return retex_fail(err, RETEX_EINVAL, "the term is of no known kind (%d)", (int)term->kind);
+    if (term->nfactors < 0 || term->nfactors > RETEX_MAX_FACTORS)
+        return retex_fail(err, RETEX_EINVAL, "a term has 0 to %d factors, not %d", RETEX_MAX_FACTORS, term->nfactors);
+    for (int i = 0; i < term->nfactors; i++)
+        if (term->factors[i] < 0 || term->factors[i] >= set->nfootprints)
+            return retex_fail(err, RETEX_EINVAL, "a factor refers to footprint %d of %d", term->factors[i],
+                              set->nfootprints);
+    int status = check_part(set, term->radiance, 3, 0, "a term's radiance", err);
+    if (!status)
+        status = make_room((void **)&set->terms, set->nterms, sizeof *set->terms, RETEX_SET_TERMS_MAX, "terms", err);
+    if (status)
+        return status;
+    if (index)
+        *index = set->nterms;
+    set->terms[set->nterms++] = *term;
+    return 0;
+}
+
+int retex_set_find_part(const RetexSet *set, const char *name)
+{
+    for (int i = 0; i < set->nparts; i++)
+        if (strcmp(set->parts[i].name, name) == 0)
+            return i;
+    return -1;
+}
+
+int retex_set_find_target(const RetexSet *set, const char *name)
+{
+    int found = -1, count = 0;
+
+    for (int i = 0; i < set->ntargets; i++) {
+        if (strcmp(set->targets[i].name, name) == 0)
+            return i;
+        if (strcasecmp(set->targets[i].name, name) == 0) {
+            found = i;
+            count++;
+        }
+    }
+    return count == 1 ? found : -1;
+}
+
+void retex_samples_close(RetexSamples **result)
+{
+    RetexSamples *samples = result ? *result : NULL;
+
+    if (!samples)
+        return;
+    for (int i = 0; samples->images && i < samples->nimages; i++)
+        retex_image_free(&samples->images[i]);
+    free(samples->images);
+    free(samples);
+    *result = NULL;
+}
+
+int retex_samples_check(const RetexSamples *samples, const RetexSet *set, RetexError *err)
+{
+    if (samples->width != set->width || samples->height != set->height)
+        return retex_fail(err, RETEX_EINVAL, "the samples have %d x %d pixels, the set %d x %d", samples->width,
+                          samples->height, set->width, set->height);
+    if (samples->ntargets != set->ntargets)
+        return retex_fail(err, RETEX_EINVAL, "the samples know %d targets, the set %d", samples->ntargets,
+                          set->ntargets);
+    for (int i = 0; i < set->ntargets; i++)
+        if (strcmp(samples->target_names[i], set->targets[i].name) != 0)
+            return retex_fail(err, RETEX_EINVAL, "the samples are for target %s where the set has %s",
+                              samples->target_names[i], set->targets[i].name);
+    if (samples->nimages != set->nfootprints)
+        return retex_fail(err, RETEX_EINVAL, "the samples have %d images for the set's %d footprints",
+                          samples->nimages, set->nfootprints);
+    for (int i = 0; i < samples->nimages; i++) {
+        const RetexImage *image = &samples->images[i];
+        if (samples->footprint_target[i] != set->footprints[i].target ||
+            samples->footprint_hit[i] != set->footprints[i].hit)
+            return retex_fail(err, RETEX_EINVAL, "sample image %d belongs to another footprint than the set's", i);
+        if (image->pixels && (image->width != set->width || image->height != set->height || image->channels != 3))
+            return retex_fail(err, RETEX_EINVAL, "sample image %d has the wrong size", i);
+    }
+    return 0;
+}
