@@ -1,0 +1,31 @@
+/* Polynomials of one path; see expansion.h. */
+#include <string.h>
+#include "film/expansion.h"
+
+void expansion_copy(Expansion *to, const Expansion *from)
+{
+    to->nhits = from->nhits;
+    to->nmonomials = from->nmonomials;
+    memcpy(to->per_target, from->per_target, sizeof to->per_target);
+    memcpy(to->hits, from->hits, (size_t)from->nhits * sizeof *to->hits);
+    memcpy(to->monomials, from->monomials, (size_t)from->nmonomials * sizeof *to->monomials);
+}
+
+void expansion_push(Expansion *e, int target, Split factor, Vec2 uv, Rgb albedo)
+{
+    int index = e->per_target[target]++, before = e->nmonomials;
+    HitMask bit = hit_bit(target, index);
+    int independent = !rgb_is_black(factor.i), dependent = !rgb_is_black(factor.d);
+    e->hits[e->nhits++] = (TargetHit){target, index, uv, albedo};
+    for (int k = 0; k < before; k++) {
+        Monomial *m = &e->monomials[k];
+        if (dependent && independent)
+            e->monomials[e->nmonomials++] = (Monomial){m->hits | bit, rgb_mul(m->coefficient, factor.d)};
+        if (independent) {
+            m->coefficient = rgb_mul(m->coefficient, factor.i);
+        } else {
+            m->hits |= bit;
+            m->coefficient = rgb_mul(m->coefficient, factor.d);
+        }
+    }
+}

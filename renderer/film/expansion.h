@@ -1,0 +1,50 @@
+/* A light path's throughput as a polynomial in the textures it met.
+ *
+ * Each hit j of a target multiplies the path by d_j a_j + i_j. Multiplied out, the path is a sum over the subsets S of its
+ * hits of c_S * product over j in S of a_j (method: supplement 4.3, for any number of hits and targets). Only subsets that
+ * are not zero are kept: a path over diffuse targets has one. */
+#ifndef RENDERER_FILM_EXPANSION_H
+#define RENDERER_FILM_EXPANSION_H
+
+#include <stdint.h>
+#include <retex/set.h>
+#include "base/vec.h"
+#include "shade/bsdf.h"
+
+/* A hit of a target: its index among the hits of the same target along the path counts from 0. */
+typedef struct TargetHit {
+    int target, index;
+    Vec2 uv;
+    Rgb albedo;         /* the original's, there */
+} TargetHit;
+
+/* A set of hits: bit target * RETEX_MAX_ORDERS + index. */
+typedef uint64_t HitMask;
+
+static inline HitMask hit_bit(int target, int index) { return (HitMask)1 << (target * RETEX_MAX_ORDERS + index); }
+
+typedef struct Monomial {
+    HitMask hits;       /* S */
+    Rgb coefficient;    /* c_S */
+} Monomial;
+
+typedef struct Expansion {
+    int nhits, nmonomials;
+    int per_target[RETEX_MAX_TARGETS]; /* hits of each target so far */
+    TargetHit hits[RETEX_MAX_ORDERS];
+    Monomial monomials[1 << RETEX_MAX_ORDERS];
+} Expansion;
+
+static inline void expansion_reset(Expansion *e)
+{
+    e->nhits = 0;
+    e->nmonomials = 1;
+    for (int k = 0; k < RETEX_MAX_TARGETS; k++) e->per_target[k] = 0;
+    e->monomials[0] = (Monomial){0, {1, 1, 1}};
+}
+
+void expansion_copy(Expansion *to, const Expansion *from); /* only what is in use */
+/* Multiply by d a + i of one more hit; e->nhits must be below RETEX_MAX_ORDERS. */
+void expansion_push(Expansion *e, int target, Split factor, Vec2 uv, Rgb albedo);
+
+#endif

@@ -1,0 +1,41 @@
+/* The terms of layout `paper`: which radiance image a monomial of a path belongs to. */
+#ifndef RENDERER_FILM_TERMS_H
+#define RENDERER_FILM_TERMS_H
+
+#include <pthread.h>
+#include "film/expansion.h"
+
+#define TERMS_MAX 4096
+
+/* Kind of term and its factors in one number: kind << 56 | hit mask (or, for RETEX_TERM_INDEP, the hit count). */
+typedef uint64_t TermKey;
+#define TERM_DROPPED (~(TermKey)0)
+
+/* The term of a monomial of a path with nhits recorded hits. Mixed monomials of four and more hits join the dependent
+ * radiance of as many factors of each target, or are dropped (strict: the supplement's way). */
+TermKey term_key(int nhits, HitMask hits, int strict);
+
+typedef struct TermTable {
+    int width, height, ntargets;
+    int count;
+    TermKey keys[TERMS_MAX];
+    RetexImage *images;     /* TERMS_MAX of them, allocated as terms come */
+    pthread_mutex_t lock;
+    int ready;              /* the lock exists */
+} TermTable;
+
+/* One thread's memory of where terms are, so that the lock is taken once per term. */
+typedef struct TermCache {
+    TermKey keys[256];
+    int terms[256];         /* number + 1, 0 = empty */
+} TermCache;
+
+int terms_create(TermTable *table, int width, int height, int ntargets, int orders, RetexError *err);
+void terms_close(TermTable *table);
+/* Number of the term, made on first use; -1 where memory or TERMS_MAX is exhausted. */
+int terms_find(TermTable *table, TermCache *cache, TermKey key);
+float *terms_pixel(TermTable *table, int term, int x, int y);
+/* Move all terms into the set, in an order that does not depend on when they came; footprints must be there already. */
+int terms_finish(TermTable *table, RetexSet *set, RetexError *err);
+
+#endif
