@@ -1,0 +1,418 @@
+/* Textures: loading, the MIP pyramid, and the way from surface UV to texels.
+ *
+ * A file becomes premultiplied RGBA floats; level after level is halved, an odd number of texels rounding down with each
+ * new texel still the exact average of its share. Look-ups are in texture_filter_kernel.c. */
+#include "texture_pyramid.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <retex/parallel.h>
+
+#define MAX_TEXTURE_PIXELS (1L << 28) /* 16384 x 16384: 4 GiB of floats */
+#define ROWS_A_JOB 16
+/* A footprint of a thousand textures is the average, whatever its size; larger numbers only lose digits. */
+#define MAX_FOOTPRINT 1000.0
+
+/* ---- halving ---- */
+
+/* Which of n texels, with what weights, make texel i of the next coarser level. Returns how many: 1, 2 or 3. */
+static int halving_weights(int n, int i, float weight[3], int *first)
+{
+    int half = n / 2;
+    *first = 2 * i;
+    if (n == 1) {
+        *first = 0;
+        weight[0] = 1;
+        return 1;
+    }
+    if (n % 2 == 0) {
+        weight[0] = weight[1] = 0.5f;
+        return 2;
+    }
+    weight[0] = (float)(half - i) / (float)n;
+    weight[1] = (float)half / (float)n;
+    weight[2] = (float)(i + 1) / (float)n;
+    return 3;
+}
+
+/* The variance halving n texels adds, in texels of the finer level, at relative position p: blur[0] + blur[1] p (1 - p).
+ * It is the variance of the weights above. */
+static void halving_blur(int n, double blur[2])
+{
+    double half = n / 2, share = half / n;
+    blur[0] = blur[1] = 0;
+    if (n > 1 && n % 2 == 0) {
+        blur[0] = 0.25;
+    } else if (n > 1) {
+        blur[0] = (half + 1) / n - share * share;
+        blur[1] = 4 * share * share;
+    }
+}
+
+static void halve_line(float *restrict out, const float *restrict in, int n)
+{
+    int half = n > 1 ? n / 2 : 1;
+    for (int i = 0; i < half; i++) {
+        float weight[3];
+        int first, count = halving_weights(n, i, weight, &first);
+        for (int c = 0; c < 4; c++) {
+            float sum = 0;
+            for (int k = 0; k < count; k++)
+                sum += weight[k] * in[4 * (first + k) + c];
+            out[4 * i + c] = sum;
+        }
+    }
+}
+
+typedef struct HalvingWork {
+    const TextureLevel *from;
+    TextureLevel *to;
+} HalvingWork;
+
+static void halve_row(const TextureLevel *from, TextureLevel *to, int y)
+{
+    float down[3], across[3];
+    int top, left, rows = halving_weights(from->height, y, down, &top);
+    float *out = to->texels + (size_t)y * (size_t)to->width * 4;
+    for (int x = 0; x < to->width; x++, out += 4) {
+        int columns = halving_weights(from->width, x, across, &left);
+        float sum[4] = {0, 0, 0, 0};
+        for (int j = 0; j < rows; j++) {
+            const float *in = from->texels + ((size_t)(top + j) * (size_t)from->width + (size_t)left) * 4;
+            for (int i = 0; i < columns; i++)
+                for (int c = 0; c < 4; c++)
+                    sum[c] += down[j] * across[i] * in[4 * i + c];
+        }
+        memcpy(out, sum, sizeof sum);
+    }
+}
+
+static void halve_job(void *context, int index, int thread)
+{
+    const HalvingWork *work = context;
+    (void)thread;
+    for (int y = index * ROWS_A_JOB; y < (index + 1) * ROWS_A_JOB && y < work->to->height; y++)
+        halve_row(work->from, work->to, y);
+}
+
+/* ---- the pyramid ---- */
+
+static float *new_texels(int width, int height)
+{
+    return malloc(sizeof(float) * 4 * (size_t)width * (size_t)height);
+}
+
+/* The image's border, for axes that clamp. */
+static int take_borders(RetexTexture *texture)
+{
+    TextureLevel *image = &texture->levels[0];
+    size_t width = (size_t)image->width, height = (size_t)image->height;
+    for (int k = 0; k < 2; k++) {
+        size_t column = k ? width - 1 : 0, row = k ? height - 1 : 0;
+        if (texture->spec.wrap[0] == RETEX_WRAP_CLAMP) {
+            if (!(image->sides[k] = new_texels(1, image->height)))
+                return -1;
+            for (size_t y = 0; y < height; y++)
+                memcpy(image->sides[k] + 4 * y, image->texels + (y * width + column) * 4, 4 * sizeof(float));
+        }
+        if (texture->spec.wrap[1] == RETEX_WRAP_CLAMP) {
+            if (!(image->ends[k] = new_texels(image->width, 1)))
+                return -1;
+            memcpy(image->ends[k], image->texels + row * width * 4, width * 4 * sizeof(float));
+        }
+        memcpy(texture->corners[k], image->texels + column * 4, 4 * sizeof(float));
+        memcpy(texture->corners[2 + k], image->texels + ((height - 1) * width + column) * 4, 4 * sizeof(float));
+    }
+    return 0;
+}
+
+static int add_level(RetexTexture *texture, int nthreads)
+{
+    const TextureLevel *from = &texture->levels[texture->nlevels - 1], *image = &texture->levels[0];
+    TextureLevel *to = &texture->levels[texture->nlevels++];
+    to->width = from->width > 1 ? from->width / 2 : 1;
+    to->height = from->height > 1 ? from->height / 2 : 1;
+    if (!(to->texels = new_texels(to->width, to->height)))
+        return -1;
+    HalvingWork work = {from, to};
+    retex_parallel(nthreads, (to->height + ROWS_A_JOB - 1) / ROWS_A_JOB, halve_job, &work);
+    for (int k = 0; k < 2; k++) {
+        if (from->sides[k]) {
+            if (!(to->sides[k] = new_texels(1, to->height)))
+                return -1;
+            halve_line(to->sides[k], from->sides[k], from->height);
+        }
+        if (from->ends[k]) {
+            if (!(to->ends[k] = new_texels(to->width, 1)))
+                return -1;
+            halve_line(to->ends[k], from->ends[k], from->width);
+        }
+    }
+    int sizes[2] = {from->width, from->height};
+    to->scale[0] = (double)image->width / to->width;
+    to->scale[1] = (double)image->height / to->height;
+    for (int axis = 0; axis < 2; axis++) {
+        double blur[2];
+        halving_blur(sizes[axis], blur);
+        for (int i = 0; i < 2; i++)
+            to->blur[axis][i] = from->blur[axis][i] + blur[i] * from->scale[axis] * from->scale[axis];
+    }
+    return 0;
+}
+
+static void premultiply_job(void *context, int index, int thread)
+{
+    TextureLevel *image = context;
+    (void)thread;
+    float *p = image->texels + (size_t)index * (size_t)image->width * 4;
+    for (int x = 0; x < image->width; x++, p += 4) {
+        float alpha = isfinite(p[3]) ? p[3] < 0 ? 0 : p[3] > 1 ? 1 : p[3] : 0;
+        for (int c = 0; c < 3; c++)
+            p[c] = isfinite(p[c]) ? p[c] * alpha : 0; /* one bad texel must not spoil all coarser levels */
+        p[3] = alpha;
+    }
+}
+
+static void fill_tail(RetexTexture *texture)
+{
+    int n = (int)(sizeof texture->tail / sizeof texture->tail[0]);
+    for (int i = 0; i < n; i++) {
+        double z = i / (double)TEXTURE_TAIL_STEPS;
+        texture->tail[i] = (float)(exp(-0.5 * z * z) / sqrt(2 * M_PI) - 0.5 * z * erfc(z / sqrt(2)));
+    }
+}
+
+/* The pixels (RGBA) become the texture's. */
+static int build_pyramid(RetexTexture *texture, RetexImage *pixels, int nthreads, RetexError *err)
+{
+    TextureLevel *image = &texture->levels[0];
+    image->width = pixels->width;
+    image->height = pixels->height;
+    image->texels = pixels->pixels;
+    *pixels = (RetexImage){0};
+    image->scale[0] = image->scale[1] = 1;
+    texture->nlevels = 1;
+    fill_tail(texture);
+    retex_parallel(nthreads, image->height, premultiply_job, image);
+    int failed = take_borders(texture);
+    while (!failed) {
+        const TextureLevel *last = &texture->levels[texture->nlevels - 1];
+        if ((last->width == 1 && last->height == 1) || texture->nlevels == TEXTURE_MAX_LEVELS)
+            break;
+        failed = add_level(texture, nthreads);
+    }
+    if (failed)
+        return retex_fail_at(err, RETEX_ENOMEM, texture->spec.image, 0, 0, "not enough memory for a texture of %d x %d texels",
+                             image->width, image->height);
+    return RETEX_OK;
+}
+
+/* ---- life ---- */
+
+static int check_spec(const RetexTextureSpec *spec, RetexError *err)
+{
+    for (int axis = 0; axis < 2; axis++) {
+        if (!isfinite(spec->scale[axis]) || spec->scale[axis] == 0 || !isfinite(spec->offset[axis]))
+            return retex_fail(err, RETEX_EINVAL, "texture: scale must be finite and not 0, offset finite");
+        if ((unsigned)spec->wrap[axis] > RETEX_WRAP_BLACK)
+            return retex_fail(err, RETEX_EINVAL, "texture: no wrap mode has the number %d", (int)spec->wrap[axis]);
+    }
+    if (!isfinite(spec->rotate))
+        return retex_fail(err, RETEX_EINVAL, "texture: rotate must be finite");
+    return RETEX_OK;
+}
+
+static RetexTexture *new_texture(const RetexTextureSpec *spec, RetexError *err)
+{
+    if (check_spec(spec, err))
+        return NULL;
+    RetexTexture *texture = calloc(1, sizeof *texture);
+    if (!texture) {
+        retex_fail(err, RETEX_ENOMEM, "not enough memory for a texture");
+        return NULL;
+    }
+    texture->spec = *spec;
+    double angle = fmod(spec->rotate, 360) * M_PI / 180, c = cos(angle), s = sin(angle);
+    if (fmod(spec->rotate, 90) == 0) { /* quarter turns are exact */
+        c = rint(c);
+        s = rint(s);
+    }
+    texture->matrix[0][0] = c * spec->scale[0];
+    texture->matrix[0][1] = -s * spec->scale[1];
+    texture->matrix[1][0] = s * spec->scale[0];
+    texture->matrix[1][1] = c * spec->scale[1];
+    return texture;
+}
+
+void retex_texture_close(RetexTexture **texture)
+{
+    if (!texture || !*texture)
+        return;
+    for (int i = 0; i < TEXTURE_MAX_LEVELS; i++) {
+        TextureLevel *level = &(*texture)->levels[i];
+        if (i == 0) {
+            RetexImage image = {level->width, level->height, 4, level->texels};
+            retex_image_free(&image);
+        } else {
+            free(level->texels);
+        }
+        for (int k = 0; k < 2; k++) {
+            free(level->sides[k]);
+            free(level->ends[k]);
+        }
+    }
+    free(*texture);
+    *texture = NULL;
+}
+
+int retex_texture_load(RetexTexture **out, const RetexTextureSpec *spec, int nthreads, RetexError *err)
+{
+    RetexError why = {0};
+    *out = NULL;
+    RetexTexture *texture = new_texture(spec, &why);
+    int code = why.code;
+    if (texture && !spec->constant) {
+        RetexImage image = {0};
+        code = retex_image_read(&image, spec->image, spec->colorspace[0] ? spec->colorspace : NULL, MAX_TEXTURE_PIXELS, &why);
+        if (!code)
+            code = build_pyramid(texture, &image, nthreads, &why);
+    }
+    if (code) {
+        retex_texture_close(&texture);
+        if (err)
+            *err = why;
+        return code;
+    }
+    *out = texture;
+    return RETEX_OK;
+}
+
+int retex_texture_create(RetexTexture **out, const RetexImage *image, const RetexTextureSpec *spec, RetexError *err)
+{
+    static const RetexTextureSpec plain = RETEX_TEXTURE_SPEC_INIT;
+    RetexError why = {0};
+    *out = NULL;
+    if (!image || !image->pixels || (image->channels != 1 && image->channels != 3 && image->channels != 4))
+        return retex_fail(err, RETEX_EINVAL, "a texture is made of 1, 3 or 4 channels");
+    RetexTexture *texture = new_texture(spec ? spec : &plain, &why);
+    RetexImage copy = {0};
+    int code = texture ? retex_image_alloc(&copy, image->width, image->height, 4, &why) : why.code;
+    if (!code) {
+        size_t pixels = (size_t)image->width * (size_t)image->height;
+        for (size_t i = 0; i < pixels; i++) {
+            const float *from = image->pixels + i * (size_t)image->channels;
+            float *to = copy.pixels + i * 4;
+            for (int c = 0; c < 4; c++)
+                to[c] = c < image->channels ? from[c] : c == 3 ? 1 : from[0];
+        }
+        texture->spec.constant = 0;
+        code = build_pyramid(texture, &copy, 0, &why);
+    }
+    if (code) {
+        retex_texture_close(&texture);
+        if (err)
+            *err = why;
+        return code;
+    }
+    *out = texture;
+    return RETEX_OK;
+}
+
+int retex_texture_size(const RetexTexture *texture, int *width, int *height)
+{
+    *width = texture->nlevels ? texture->levels[0].width : 1;
+    *height = texture->nlevels ? texture->levels[0].height : 1;
+    return RETEX_OK;
+}
+
+/* ---- from surface UV to texels ---- */
+
+/* Mean of a footprint in texture UV. 0 where there is no place to look up. */
+static int texture_uv(const RetexTexture *texture, double u, double v, double uv[2])
+{
+    for (int i = 0; i < 2; i++)
+        uv[i] = texture->matrix[i][0] * u + texture->matrix[i][1] * v + texture->spec.offset[i];
+    return isfinite(uv[0]) && isfinite(uv[1]);
+}
+
+static void constant_color(const RetexTexture *texture, float rgba[4])
+{
+    memcpy(rgba, texture->spec.color, 3 * sizeof(float));
+    rgba[3] = 1;
+}
+
+/* Covariance in texels of the image: M C M^T, then texels, y down. Returns 0 where nothing is left of it. */
+static int texel_covariance(const RetexTexture *texture, const double c[3], TextureFootprint *f)
+{
+    const double(*m)[2] = texture->matrix;
+    double width = texture->levels[0].width, height = texture->levels[0].height;
+    double uu = c[0] > 0 ? c[0] : 0, vv = c[2] > 0 ? c[2] : 0, uv = c[1];
+    if (!isfinite(uu) || !isfinite(vv) || !isfinite(uv))
+        return 0;
+    double largest = sqrt(uu * vv); /* a covariance beyond this is none; roundings reach it */
+    uv = uv > largest ? largest : uv < -largest ? -largest : uv;
+    double xx = m[0][0] * m[0][0] * uu + 2 * m[0][0] * m[0][1] * uv + m[0][1] * m[0][1] * vv;
+    double xy = m[0][0] * m[1][0] * uu + (m[0][0] * m[1][1] + m[0][1] * m[1][0]) * uv + m[0][1] * m[1][1] * vv;
+    double yy = m[1][0] * m[1][0] * uu + 2 * m[1][0] * m[1][1] * uv + m[1][1] * m[1][1] * vv;
+    double limit = MAX_FOOTPRINT * MAX_FOOTPRINT;
+    double shrink = xx + yy > limit ? limit / (xx + yy) : 1;
+    f->xx = xx * shrink * width * width;
+    f->xy = -xy * shrink * width * height;
+    f->yy = yy * shrink * height * height;
+    return f->xx > 0 || f->yy > 0;
+}
+
+static void unassociate(float rgba[4])
+{
+    if (!(rgba[3] > 0)) {
+        rgba[0] = rgba[1] = rgba[2] = rgba[3] = 0;
+        return;
+    }
+    float inverse = 1 / rgba[3];
+    for (int c = 0; c < 3; c++)
+        rgba[c] *= inverse;
+    if (rgba[3] > 1)
+        rgba[3] = 1; /* sums of weights round */
+}
+
+static void point_at(const RetexTexture *texture, const double uv[2], float rgba[4])
+{
+    for (int axis = 0; axis < 2; axis++)
+        if (texture->spec.wrap[axis] == RETEX_WRAP_BLACK && (uv[axis] < 0 || uv[axis] > 1)) {
+            memset(rgba, 0, 4 * sizeof(float));
+            return;
+        }
+    texture_point_kernel(texture, uv[0] * texture->levels[0].width, (1 - uv[1]) * texture->levels[0].height, rgba);
+    unassociate(rgba);
+}
+
+void retex_texture_point(const RetexTexture *texture, double u, double v, float rgba[4])
+{
+    double uv[2];
+    if (!texture->nlevels)
+        constant_color(texture, rgba);
+    else if (texture_uv(texture, u, v, uv))
+        point_at(texture, uv, rgba);
+    else
+        memset(rgba, 0, 4 * sizeof(float));
+}
+
+void retex_texture_gaussian(const RetexTexture *texture, double u, double v, const double covariance[3], float rgba[4])
+{
+    double uv[2];
+    TextureFootprint footprint;
+    if (!texture->nlevels) {
+        constant_color(texture, rgba);
+    } else if (!texture_uv(texture, u, v, uv)) {
+        memset(rgba, 0, 4 * sizeof(float));
+    } else if (!texel_covariance(texture, covariance, &footprint)) {
+        point_at(texture, uv, rgba);
+    } else {
+        footprint.x = uv[0] * texture->levels[0].width;
+        footprint.y = (1 - uv[1]) * texture->levels[0].height;
+        texture_gaussian_kernel(texture, &footprint, rgba);
+        unassociate(rgba);
+    }
+}

@@ -1,0 +1,401 @@
+/* Looking textures up: the bilinear point, and the exact Gaussian footprint.
+ *
+ * What is averaged is the bilinear reconstruction of the image, so that a footprint that shrinks to nothing becomes the
+ * point look-up. Its kernel over the image's texels has the footprint's covariance plus 1/6 texel^2 (the tent's variance)
+ * on each axis. A level of the pyramid has already applied a box; the sum over the level's texels applies a Gaussian with
+ * what is missing. Since variances add, the whole has the covariance asked for, on whichever level: the choice of level
+ * is one of cost, and no blending between levels is needed.
+ *
+ * The sum goes by rows. Along y the Gaussian is the marginal one; within a row it is the conditional one, whose centre
+ * moves by slope = xy / yy per row and whose variance is xx - xy^2 / yy. This is exact for any orientation, and where
+ * the smaller eigenvalue is large enough for sampling at texels, so are both variances. */
+#include "texture_pyramid.h"
+
+#include <math.h>
+#include <string.h>
+
+typedef float Float4 __attribute__((vector_size(16)));
+typedef int Int4 __attribute__((vector_size(16)));
+
+#define TENT_VARIANCE (1.0 / 6)
+/* A Gaussian sampled at texels with this variance keeps its own variance within 2.8% at any phase. */
+#define LEAST_VARIANCE 0.35
+/* Below this the tent is told from a Gaussian. */
+#define TENT_LIMIT 0.40f
+/* Windows end at 3 standard deviations, lowered so that they end at zero; that takes 8.2% of the variance. */
+#define WINDOW_REACH 3.0f
+#define WINDOW_EDGE 0.011108997f     /* exp(-3^2 / 2) */
+#define WINDOW_VARIANCE 0.917808f    /* of the lowered window, relative to the Gaussian it was made of */
+#define TAP_BUDGET 400               /* a look-up; longer footprints skip texels along their length */
+#define MAX_TAPS 512                 /* along one axis */
+
+static inline Float4 load4(const float *p)
+{
+    Float4 v;
+    memcpy(&v, p, sizeof v);
+    return v;
+}
+
+/* The next whole number below or above; baseline x86-64 has a function call for floorf. Within int's range only. */
+static inline int whole_below(double x)
+{
+    int i = (int)x;
+    return i - (x < i);
+}
+
+static inline int whole_above(double x)
+{
+    int i = (int)x;
+    return i + (x > i);
+}
+
+/* i folded into 0..n-1; -1 or n where it lies outside an axis that neither repeats nor mirrors. */
+static inline int wrap_index(int i, int n, RetexWrap wrap)
+{
+    if ((unsigned)i < (unsigned)n)
+        return i;
+    switch (wrap) {
+    case RETEX_WRAP_REPEAT:
+        i %= n;
+        return i < 0 ? i + n : i;
+    case RETEX_WRAP_MIRROR:
+        i %= 2 * n;
+        i = i < 0 ? i + 2 * n : i;
+        return i < n ? i : 2 * n - 1 - i;
+    case RETEX_WRAP_CLAMP:
+    case RETEX_WRAP_BLACK:
+        break;
+    }
+    return i < 0 ? -1 : n;
+}
+
+/* One row of a level, as far as it can be seen: inside texels and what lies to the left and right; NULL = nothing. */
+typedef struct Row {
+    const float *texels;
+    const float *beside[2];
+} Row;
+
+static inline Row find_row(const RetexTexture *texture, const TextureLevel *level, int y)
+{
+    Row row = {NULL, {NULL, NULL}};
+    int at = wrap_index(y, level->height, texture->spec.wrap[1]);
+    if ((unsigned)at < (unsigned)level->height) {
+        row.texels = level->texels + (size_t)at * (size_t)level->width * 4;
+        for (int side = 0; side < 2; side++)
+            if (level->sides[side])
+                row.beside[side] = level->sides[side] + (size_t)at * 4;
+    } else if (texture->spec.wrap[1] == RETEX_WRAP_CLAMP) {
+        int below = at > 0;
+        row.texels = level->ends[below];
+        if (texture->spec.wrap[0] == RETEX_WRAP_CLAMP)
+            for (int side = 0; side < 2; side++)
+                row.beside[side] = texture->corners[2 * below + side];
+    }
+    return row;
+}
+
+/* Sum of weight[i] * texel(first + i * step) of one row. */
+static inline Float4 sum_row(const Row *row, int width, RetexWrap wrap, const float *restrict weight, int count, int first,
+                             int step)
+{
+    Float4 sum = {0, 0, 0, 0}, odd = {0, 0, 0, 0};
+    if (!row->texels)
+        return sum;
+    if (first >= 0 && first + (count - 1) * step < width) {
+        const float *p = row->texels + (size_t)first * 4;
+        int i = 0;
+        for (; i + 1 < count; i += 2, p += 8 * (size_t)step) { /* two sums, for neither has to wait for the other */
+            sum += load4(p) * weight[i];
+            odd += load4(p + 4 * (size_t)step) * weight[i + 1];
+        }
+        return i < count ? sum + odd + load4(p) * weight[i] : sum + odd;
+    }
+    for (int i = 0; i < count; i++) {
+        int at = wrap_index(first + i * step, width, wrap);
+        const float *p = (unsigned)at < (unsigned)width ? row->texels + (size_t)at * 4 : row->beside[at > 0];
+        if (p)
+            sum += load4(p) * weight[i];
+    }
+    return sum;
+}
+
+static inline float tail(const float *restrict table, float z)
+{
+    float at = fabsf(z) * TEXTURE_TAIL_STEPS;
+    if (at >= TEXTURE_TAIL_STEPS * TEXTURE_TAIL_END)
+        return 0;
+    int i = (int)at;
+    float t = at - (float)i;
+    return table[i] + t * (table[i + 1] - table[i]);
+}
+
+/* Weights of one axis at texels first, first + step, ... for a kernel at centre (texel i lies at i). */
+typedef struct Window {
+    int first, count, step;
+    float total;
+    float weight[MAX_TAPS];
+} Window;
+
+/* The tent blurred by a Gaussian of that standard deviation; 0 gives the two taps of linear interpolation. */
+static inline void tent_window(Window *restrict window, const float *restrict table, float centre, float sd)
+{
+    float reach = 1 + WINDOW_REACH * sd;
+    int first = whole_above(centre - reach);
+    int count = whole_below(centre + reach) - first + 1;
+    float inverse = sd > 1e-4f ? 1 / sd : 1e4f, total = 0;
+    float d = (float)first - centre;
+    float before = tail(table, (d - 1) * inverse), here = tail(table, d * inverse);
+    for (int i = 0; i < count; i++, d += 1) {
+        float after = tail(table, (d + 1) * inverse);
+        float tent = 1 - fabsf(d);
+        float w = (tent > 0 ? tent : 0) + sd * (before - 2 * here + after);
+        window->weight[i] = w;
+        total += w;
+        before = here;
+        here = after;
+    }
+    window->first = first;
+    window->count = count;
+    window->total = total;
+}
+
+/* exp(-d^2 / 2) at equal steps by two multiplications each, the exponent being quadratic; four taps at a time. Begun anew
+ * every 32 taps, so that rounding does not pile up. */
+static inline void gaussian_window(Window *restrict window, float centre, float variance, float reach)
+{
+    int first = whole_above(centre - reach), step = window->step;
+    int count = (whole_below(centre + reach) - first) / step + 1;
+    count = count > MAX_TAPS ? MAX_TAPS : count;
+    float s = (float)step, inverse = 1 / variance;
+    float curve = expf(-s * s * inverse), curve2 = curve * curve, curve4 = curve2 * curve2;
+    float curve8 = curve4 * curve4, curve16 = curve8 * curve8;
+    Float4 total = {0, 0, 0, 0};
+    for (int begin = 0; begin < count; begin += 32) {
+        float d = (float)first + (float)begin * s - centre;
+        float w0 = expf(-0.5f * d * d * inverse), ratio = expf(-(d + 0.5f * s) * s * inverse);
+        float w1 = w0 * ratio, w2 = w1 * ratio * curve, w3 = w2 * ratio * curve2;
+        float ratio2 = ratio * ratio, over4 = ratio2 * ratio2 * curve4 * curve2;
+        Float4 w = {w0, w1, w2, w3};
+        Float4 ratios = {over4, over4 * curve4, over4 * curve8, over4 * curve8 * curve4};
+        int end = begin + 32 < count ? begin + 32 : count;
+        for (int i = begin; i < end; i += 4) {
+            Float4 lowered = w - WINDOW_EDGE;
+            lowered = (Float4)((Int4)lowered & (lowered > 0));
+            memcpy(window->weight + i, &lowered, sizeof lowered);
+            total += lowered;
+            w *= ratios;
+            ratios *= curve16;
+        }
+    }
+    window->first = first;
+    window->count = count;
+    window->total = (total[0] + total[1]) + (total[2] + total[3]);
+}
+
+/* What makes a window, apart from its centre. */
+typedef struct Shape {
+    int tent;       /* 1: tent blurred by sd; 0: Gaussian of variance up to reach */
+    int step;
+    float sd, variance, reach;
+} Shape;
+
+static inline Shape find_shape(double variance)
+{
+    Shape shape = {0, 1, 0, 0, 0};
+    if (variance < TENT_LIMIT) {
+        shape.tent = 1;
+        shape.sd = variance > TENT_VARIANCE ? sqrtf((float)(variance - TENT_VARIANCE)) : 0;
+        shape.reach = 1 + WINDOW_REACH * shape.sd;
+    } else {
+        shape.variance = (float)variance / WINDOW_VARIANCE;
+        shape.reach = WINDOW_REACH * sqrtf(shape.variance);
+    }
+    return shape;
+}
+
+static inline void make_window(Window *restrict window, const float *restrict table, const Shape *shape, float centre)
+{
+    window->step = shape->step;
+    if (shape->tent)
+        tent_window(window, table, centre, shape->sd);
+    else
+        gaussian_window(window, centre, shape->variance, shape->reach);
+}
+
+/* A step that shares no factor with the period meets all of a repeating axis's texels, not a few again and again. */
+static int coprime_step(int step, int texels, RetexWrap wrap)
+{
+    int period = wrap == RETEX_WRAP_MIRROR ? 2 * texels : texels;
+    if (wrap == RETEX_WRAP_CLAMP || wrap == RETEX_WRAP_BLACK || period < 2)
+        return step;
+    for (int tries = 0; tries < 16; tries++, step++) {
+        int a = step, b = period;
+        while (b) {
+            int rest = a % b;
+            a = b;
+            b = rest;
+        }
+        if (a == 1)
+            return step;
+    }
+    return step;
+}
+
+/* Keep the look-up within its budget by skipping texels along the longer way. */
+static inline void limit_taps(Shape *x, Shape *y, const TextureLevel *level, const RetexTexture *texture)
+{
+    float taps = (2 * x->reach + 1) * (2 * y->reach + 1);
+    if (taps <= TAP_BUDGET)
+        return;
+    int step = whole_above(taps / TAP_BUDGET);
+    if (x->reach > y->reach)
+        x->step = coprime_step(step, level->width, texture->spec.wrap[0]);
+    else
+        y->step = coprime_step(step, level->height, texture->spec.wrap[1]);
+}
+
+static inline double level_blur(const TextureLevel *level, int axis, double p)
+{
+    return level->blur[axis][0] + level->blur[axis][1] * p * (1 - p);
+}
+
+/* Where along an axis of the image, 0..1, a coordinate ends up. */
+static inline double relative_position(double x, double size, RetexWrap wrap)
+{
+    double p = x / size;
+    if (wrap == RETEX_WRAP_CLAMP || wrap == RETEX_WRAP_BLACK)
+        return p < 0 ? 0 : p > 1 ? 1 : p;
+    return p - floor(p); /* a mirrored image has the same blur at p and 1 - p */
+}
+
+/* Covariance that the sum over a level's texels has to supply, in that level's texels. */
+typedef struct Rest {
+    double xx, xy, yy;
+} Rest;
+
+static inline Rest level_rest(const TextureLevel *level, const TextureFootprint *f, double px, double py)
+{
+    double sx = level->scale[0], sy = level->scale[1];
+    Rest rest = {(f->xx + TENT_VARIANCE - level_blur(level, 0, px)) / (sx * sx), f->xy / (sx * sy),
+                 (f->yy + TENT_VARIANCE - level_blur(level, 1, py)) / (sy * sy)};
+    return rest;
+}
+
+/* An axis along which the image cannot change: one texel, and nothing else beside it. */
+static inline int is_flat(const RetexTexture *texture, int axis)
+{
+    const TextureLevel *image = &texture->levels[0];
+    return (axis ? image->height : image->width) == 1 && texture->spec.wrap[axis] != RETEX_WRAP_BLACK;
+}
+
+/* Whether both eigenvalues of what is left to do on a level are at least LEAST_VARIANCE. */
+static inline int level_fits(const RetexTexture *texture, int level, const TextureFootprint *f, double px, double py)
+{
+    Rest rest = level_rest(&texture->levels[level], f, px, py);
+    double x = rest.xx - LEAST_VARIANCE, y = rest.yy - LEAST_VARIANCE;
+    if (is_flat(texture, 0))
+        return y >= 0;
+    if (is_flat(texture, 1))
+        return x >= 0;
+    return x >= 0 && y >= 0 && x * y >= rest.xy * rest.xy;
+}
+
+/* The coarsest level that fits; the image itself always does. */
+static inline int find_level(const RetexTexture *texture, const TextureFootprint *f, double px, double py)
+{
+    double trace = f->xx + f->yy;
+    /* det / trace lies between half the smaller eigenvalue and itself, and a level of s texels wants about 0.43 s^2: a
+     * good guess to begin with. */
+    double smaller = trace > 0 ? (f->xx * f->yy - f->xy * f->xy) / trace : 0;
+    int level = smaller > 2 ? ilogb(smaller) / 2 : 0;
+    if (level > texture->nlevels - 1)
+        level = texture->nlevels - 1;
+    while (level > 0 && !level_fits(texture, level, f, px, py))
+        level--;
+    while (level + 1 < texture->nlevels && level_fits(texture, level + 1, f, px, py))
+        level++;
+    return level;
+}
+
+/* Sum over a level's texels of a Gaussian with mean (x, y), in texel indices, and covariance rest. */
+static inline Float4 sum_level(const RetexTexture *texture, const TextureLevel *level, float x, float y, Rest rest)
+{
+    /* Where an axis has one texel that goes on for ever, its marginal is all there is. */
+    int flat_x = level->width == 1 && (texture->spec.wrap[0] <= RETEX_WRAP_MIRROR || is_flat(texture, 0));
+    int flat_y = level->height == 1 && (texture->spec.wrap[1] <= RETEX_WRAP_MIRROR || is_flat(texture, 1));
+    double slope = flat_x || flat_y ? 0 : rest.xy / rest.yy;
+    Shape shape_x = find_shape(flat_x ? 0 : rest.xx - slope * rest.xy), shape_y = find_shape(flat_y ? 0 : rest.yy);
+    if (flat_x)
+        x = 0;
+    if (flat_y)
+        y = 0;
+    limit_taps(&shape_x, &shape_y, level, texture);
+
+    Window rows, columns;
+    make_window(&rows, texture->tail, &shape_y, y);
+    int upright = fabs(slope) * rows.count * rows.step < 1e-3;
+    if (upright)
+        make_window(&columns, texture->tail, &shape_x, x);
+    Float4 sum = {0, 0, 0, 0};
+    float total = 0;
+    for (int j = 0; j < rows.count; j++) {
+        int at = rows.first + j * rows.step;
+        if (!upright)
+            make_window(&columns, texture->tail, &shape_x, x + (float)slope * ((float)at - y));
+        Row row = find_row(texture, level, at);
+        sum += rows.weight[j] *
+               sum_row(&row, level->width, texture->spec.wrap[0], columns.weight, columns.count, columns.first, columns.step);
+        total += rows.weight[j] * columns.total;
+    }
+    return sum / total;
+}
+
+/* Fold a coordinate of a repeating axis into its first period, for float's sake. */
+static inline double first_period(double x, int texels, RetexWrap wrap)
+{
+    double period = wrap == RETEX_WRAP_MIRROR ? 2.0 * texels : texels;
+    if (wrap == RETEX_WRAP_REPEAT || wrap == RETEX_WRAP_MIRROR)
+        return x - period * floor(x / period);
+    /* Far outside nothing changes any more; an int has to hold it. */
+    double far = 1e6;
+    return x < -far ? -far : x > far ? far : x;
+}
+
+void texture_gaussian_kernel(const RetexTexture *texture, const TextureFootprint *footprint, float rgba[4])
+{
+    const TextureLevel *image = &texture->levels[0];
+    double x = first_period(footprint->x, image->width, texture->spec.wrap[0]);
+    double y = first_period(footprint->y, image->height, texture->spec.wrap[1]);
+    double px = relative_position(x, image->width, texture->spec.wrap[0]);
+    double py = relative_position(y, image->height, texture->spec.wrap[1]);
+    const TextureLevel *level = &texture->levels[find_level(texture, footprint, px, py)];
+    Rest rest = level_rest(level, footprint, px, py);
+    Float4 sum = sum_level(texture, level, (float)(x / level->scale[0] - 0.5), (float)(y / level->scale[1] - 0.5), rest);
+    memcpy(rgba, &sum, sizeof sum);
+}
+
+void texture_point_kernel(const RetexTexture *texture, double x, double y, float rgba[4])
+{
+    const TextureLevel *image = &texture->levels[0];
+    x = first_period(x, image->width, texture->spec.wrap[0]) - 0.5;
+    y = first_period(y, image->height, texture->spec.wrap[1]) - 0.5;
+    int x0 = whole_below(x), y0 = whole_below(y);
+    float tx = (float)(x - x0), ty = (float)(y - y0);
+    /* A black axis ends sharply: what lies within half a texel of its border is the border's texel. */
+    RetexWrap wrap_x = texture->spec.wrap[0] == RETEX_WRAP_BLACK ? RETEX_WRAP_CLAMP : texture->spec.wrap[0];
+    RetexWrap wrap_y = texture->spec.wrap[1] == RETEX_WRAP_BLACK ? RETEX_WRAP_CLAMP : texture->spec.wrap[1];
+    Float4 lines[2];
+    int columns[2];
+    for (int i = 0; i < 2; i++) {
+        columns[i] = wrap_index(x0 + i, image->width, wrap_x);
+        columns[i] = columns[i] < 0 ? 0 : columns[i] >= image->width ? image->width - 1 : columns[i];
+    }
+    for (int j = 0; j < 2; j++) {
+        int line = wrap_index(y0 + j, image->height, wrap_y);
+        line = line < 0 ? 0 : line >= image->height ? image->height - 1 : line;
+        const float *row = image->texels + (size_t)line * (size_t)image->width * 4;
+        lines[j] = load4(row + (size_t)columns[0] * 4) * (1 - tx) + load4(row + (size_t)columns[1] * 4) * tx;
+    }
+    Float4 sum = lines[0] * (1 - ty) + lines[1] * ty;
+    memcpy(rgba, &sum, sizeof sum);
+}

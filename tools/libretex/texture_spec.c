@@ -1,0 +1,176 @@
+/* What the user says about a texture, `--texture:scale=2,2:rotate=30 floor=oak.jpg`, becomes a RetexTextureSpec. Every
+ * mistake gets one message that names the option and says what would be right. */
+#include <retex/texture.h>
+
+#include <ctype.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+
+#define OPTION_NAMES "scale, rotate, offset, wrap, colorspace"
+
+/* A finite number from text on; *end is behind it. 0 where there is none. */
+static int parse_number(const char *text, const char **end, double *value)
+{
+    char *stop;
+    *value = strtod(text, &stop);
+    if (stop == text || !isfinite(*value))
+        return 0;
+    *end = stop;
+    return 1;
+}
+
+static const char *skip_spaces(const char *text)
+{
+    while (isspace((unsigned char)*text))
+        text++;
+    return text;
+}
+
+/* One or two numbers; one stands for both. */
+static int parse_pair(double pair[2], const char *text)
+{
+    const char *at = text;
+    if (!parse_number(at, &at, &pair[0]))
+        return 0;
+    pair[1] = pair[0];
+    at = skip_spaces(at);
+    if (*at == ',') {
+        if (!parse_number(at + 1, &at, &pair[1]))
+            return 0;
+        at = skip_spaces(at);
+    }
+    return *at == '\0';
+}
+
+static int parse_wrap_word(RetexWrap *wrap, const char *word, size_t length)
+{
+    static const char *const words[] = {"repeat", "mirror", "clamp", "black"};
+    for (int i = 0; i < 4; i++)
+        if (strlen(words[i]) == length && strncasecmp(words[i], word, length) == 0) {
+            *wrap = (RetexWrap)i;
+            return 1;
+        }
+    return 0;
+}
+
+static int parse_wrap(RetexWrap wrap[2], const char *text)
+{
+    size_t first = strcspn(text, ",");
+    if (!parse_wrap_word(&wrap[0], text, first))
+        return 0;
+    wrap[1] = wrap[0];
+    return text[first] == '\0' || parse_wrap_word(&wrap[1], text + first + 1, strlen(text + first + 1));
+}
+
+static int parse_option(RetexTextureSpec *spec, const char *name, const char *value, RetexError *err)
+{
+    if (strcmp(name, "scale") == 0) {
+        if (!parse_pair(spec->scale, value))
+            return retex_fail(err, RETEX_EPARSE, "texture option scale='%s': expected one or two numbers, as in scale=2 "
+                              "or scale=2,1", value);
+        if (spec->scale[0] == 0 || spec->scale[1] == 0)
+            return retex_fail(err, RETEX_EPARSE, "texture option scale='%s': a scale cannot be 0", value);
+    } else if (strcmp(name, "rotate") == 0) {
+        const char *end;
+        if (!parse_number(value, &end, &spec->rotate) || *skip_spaces(end))
+            return retex_fail(err, RETEX_EPARSE, "texture option rotate='%s': expected degrees, as in rotate=30", value);
+    } else if (strcmp(name, "offset") == 0) {
+        if (!parse_pair(spec->offset, value))
+            return retex_fail(err, RETEX_EPARSE, "texture option offset='%s': expected one or two numbers, as in "
+                              "offset=0,0.5", value);
+    } else if (strcmp(name, "wrap") == 0) {
+        if (!parse_wrap(spec->wrap, value))
+            return retex_fail(err, RETEX_EPARSE, "texture option wrap='%s': expected repeat, mirror, clamp or black, or "
+                              "two of them for u,v", value);
+    } else if (strcmp(name, "colorspace") == 0) {
+        if (!*value || strlen(value) >= sizeof spec->colorspace)
+            return retex_fail(err, RETEX_EPARSE, "texture option colorspace='%.80s': expected the name of a colour space, "
+                              "as in colorspace=sRGB", value);
+        strcpy(spec->colorspace, value);
+    } else {
+        return retex_fail(err, RETEX_EPARSE, "no texture option is called '%s'; there are %s", name, OPTION_NAMES);
+    }
+    return RETEX_OK;
+}
+
+static int parse_options(RetexTextureSpec *spec, const char *opts, RetexError *err)
+{
+    int code = RETEX_OK;
+    char *text = strdup(opts);
+    if (!text)
+        return retex_fail(err, RETEX_ENOMEM, "not enough memory");
+    for (char *at = text, *next; at && !code; at = next) {
+        next = strchr(at, ':');
+        if (next)
+            *next++ = '\0';
+        if (!*at) /* "::" and a colon at either end do no harm */
+            continue;
+        char *equals = strchr(at, '=');
+        if (!equals) {
+            code = retex_fail(err, RETEX_EPARSE, "texture option '%s' has no value; expected name=value with one of %s",
+                              at, OPTION_NAMES);
+            break;
+        }
+        *equals = '\0';
+        code = parse_option(spec, at, equals + 1, err);
+    }
+    free(text);
+    return code;
+}
+
+/* `rgb(r, g, b)` and nothing else; 0 where the text is no colour at all and so a file name. */
+static int parse_color(RetexTextureSpec *spec, const char *text, RetexError *err)
+{
+    const char *at = skip_spaces(text);
+    if (strncasecmp(at, "rgb", 3) != 0)
+        return 0;
+    at = skip_spaces(at + 3);
+    if (*at != '(')
+        return 0;
+    at++;
+    for (int c = 0; c < 3; c++) {
+        double value;
+        if (!parse_number(at, &at, &value) || value < 0 || value > 1e30)
+            return retex_fail(err, RETEX_EPARSE, "colour '%s': expected rgb(r,g,b) with three numbers of 0 or more", text);
+        spec->color[c] = (float)value;
+        at = skip_spaces(at);
+        if (*at++ != (c < 2 ? ',' : ')'))
+            return retex_fail(err, RETEX_EPARSE, "colour '%s': expected rgb(r,g,b) with three numbers", text);
+    }
+    if (*skip_spaces(at))
+        return retex_fail(err, RETEX_EPARSE, "colour '%s': nothing may follow rgb(r,g,b)", text);
+    spec->constant = 1;
+    return 0;
+}
+
+int retex_texture_spec_parse(RetexTextureSpec *spec, const char *opts, const char *arg, RetexError *err)
+{
+    *spec = (RetexTextureSpec)RETEX_TEXTURE_SPEC_INIT;
+    int code = parse_options(spec, opts ? opts : "", err);
+    if (code)
+        return code;
+    if (!arg)
+        arg = "";
+    const char *equals = strchr(arg, '=');
+    if (!equals || equals == arg)
+        return retex_fail(err, RETEX_EPARSE, "texture '%s': expected NAME=IMAGE, a target and what to put on it", arg);
+    size_t length = (size_t)(equals - arg);
+    if (length >= sizeof spec->target)
+        return retex_fail(err, RETEX_EPARSE, "texture '%.40s…': a target's name has at most %d bytes", arg,
+                          (int)sizeof spec->target - 1);
+    memcpy(spec->target, arg, length);
+    spec->target[length] = '\0';
+    const char *image = equals + 1;
+    if (!*image)
+        return retex_fail(err, RETEX_EPARSE, "texture '%s': no image after '='", arg);
+    code = parse_color(spec, image, err);
+    if (code || spec->constant)
+        return code;
+    if (strlen(image) >= sizeof spec->image)
+        return retex_fail(err, RETEX_EPARSE, "texture for '%s': the image's name has at most %d bytes", spec->target,
+                          (int)sizeof spec->image - 1);
+    strcpy(spec->image, image);
+    return RETEX_OK;
+}
