@@ -108,6 +108,22 @@ static int plane_scratch_alloc(PlaneScratch *s, const RetexPart *part)
     return 0;
 }
 
+/* The crc of a part's samples as they are stored. */
+static int stored_crc(uint32_t *crc, const RetexPart *part, RetexError *err)
+{
+    PlaneScratch s;
+    if (!plane_scratch_alloc(&s, part))
+        return out_of_memory(part, err);
+    uLong sum = crc32(0, NULL, 0);
+    for (int c = 0; c < part->image.channels; c++) {
+        store_channel(s.raw, s.plane, s.halves, part, c);
+        sum = crc32_z(sum, s.raw, pixel_count(part) * sample_bytes(part));
+    }
+    plane_scratch_free(&s);
+    *crc = (uint32_t)sum;
+    return 0;
+}
+
 static int encode_planes(RetexPacked *packed, const RetexPart *part, RetexError *err)
 {
     PlaneScratch s;
@@ -152,22 +168,6 @@ static int decode_planes(RetexPart *part, const RetexPacked *packed, RetexError 
     plane_scratch_free(&s);
     if (!ok)
         return damaged(part, "its planes do not inflate to its size", err);
-    part->crc = (uint32_t)crc;
-    return 0;
-}
-
-/* The crc of an image that did not come from its own stored samples. */
-static int stored_crc(RetexPart *part, RetexError *err)
-{
-    PlaneScratch s;
-    if (!plane_scratch_alloc(&s, part))
-        return out_of_memory(part, err);
-    uLong crc = crc32(0, NULL, 0);
-    for (int c = 0; c < part->image.channels; c++) {
-        store_channel(s.raw, s.plane, s.halves, part, c);
-        crc = crc32_z(crc, s.raw, pixel_count(part) * sample_bytes(part));
-    }
-    plane_scratch_free(&s);
     part->crc = (uint32_t)crc;
     return 0;
 }
@@ -377,6 +377,9 @@ static int all_zero(const RetexPart *part)
 int retex_pack_encode(RetexPacked *packed, const RetexPart *part, RetexPackCodec wanted, int quality, RetexError *err)
 {
     memset(packed, 0, sizeof *packed);
+    int code = stored_crc(&packed->crc, part, err);
+    if (code)
+        return code;
     if (all_zero(part)) {
         packed->codec = RETEX_PACK_ZERO;
         return 0;
@@ -389,7 +392,7 @@ int retex_pack_encode(RetexPacked *packed, const RetexPart *part, RetexPackCodec
     packed->codec = wanted == RETEX_PACK_SRGB && max <= 1 ? RETEX_PACK_SRGB : RETEX_PACK_LOG;
     packed->scale = mean / 32;
     packed->max = max;
-    int code = encode_jpeg(packed, part, quality, err);
+    code = encode_jpeg(packed, part, quality, err);
     if (code)
         retex_packed_free(packed);
     return code;
@@ -415,7 +418,7 @@ int retex_pack_decode(RetexPart *part, const RetexPacked *packed, RetexError *er
         if (code)
             return code;
     }
-    return stored_crc(part, err);
+    return stored_crc(&part->crc, part, err);
 }
 
 size_t retex_pack_least_bytes(RetexPackCodec codec, const RetexPart *part, int width, int height)

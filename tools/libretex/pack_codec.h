@@ -23,6 +23,7 @@ typedef struct RetexPacked {
     unsigned char *mask; /* JPEGs: one bit a pixel, 1 = all channels are exactly 0, deflated; NULL where none is */
     size_t mask_bytes;
     double scale, max;   /* RETEX_PACK_LOG */
+    uint32_t crc;        /* of the stored samples that were encoded (see RetexPart) */
     double gain[3];      /* JPEGs: what decoded channels are multiplied by, so that their means are kept */
 } RetexPacked;
 
