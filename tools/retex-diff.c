@@ -1,0 +1,172 @@
+/* retex-diff: how different two pictures are, and whether that is too much. See retex-diff(1). */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include <retex/diff.h>
+
+#include "cli.h"
+
+static const CliOption options[] = {
+    {"json", 0, NULL, "print the figures as JSON", 0},
+    {"part", 0, "NAME", "compare the parts called NAME instead of the first of each file", 0},
+    {"all-parts", 0, NULL, "compare all parts, by name", 0},
+    {"allow-inf", 0, NULL, "equal infinities are equal", 0},
+    {"fail-psnr", 0, "DB", "differ when psnr is below DB", 0},
+    {"fail-relmse", 0, "X", "differ when relmse is above X", 0},
+    {"fail-flip", 0, "X", "differ when the mean of FLIP is above X", 0},
+    {"fail-abs", 0, "X", "differ when some value differs by more than X", 0},
+    {"fail-rel", 0, "X", "differ when some value differs by more than X times the second's", 0},
+    {0},
+};
+
+/* What the options say; the two files in names. */
+static void parse(Cli *cli, RetexDiffParams *params, int *json, const char *names[2])
+{
+    const CliOption *option;
+    int files = 0;
+    while ((option = cli_next(cli))) {
+        if (option == &cli_positional) {
+            if (files == 2)
+                cli_die(cli, "more than two files: '%s'", cli->value);
+            names[files++] = cli->value;
+        } else if (strcmp(option->name, "json") == 0) {
+            *json = 1;
+        } else if (strcmp(option->name, "part") == 0) {
+            params->part = cli->value;
+        } else if (strcmp(option->name, "all-parts") == 0) {
+            params->all_parts = 1;
+        } else if (strcmp(option->name, "allow-inf") == 0) {
+            params->allow_inf = 1;
+        } else if (strcmp(option->name, "fail-psnr") == 0) {
+            params->fail_psnr = cli_number(cli, option, 0, 120);
+        } else if (strcmp(option->name, "fail-relmse") == 0) {
+            params->fail_relmse = cli_number(cli, option, 0, 1e30);
+        } else if (strcmp(option->name, "fail-flip") == 0) {
+            params->fail_flip = cli_number(cli, option, 0, 1);
+        } else if (strcmp(option->name, "fail-abs") == 0) {
+            params->fail_abs = cli_number(cli, option, 0, 1e30);
+        } else if (strcmp(option->name, "fail-rel") == 0) {
+            params->fail_rel = cli_number(cli, option, 0, 1e30);
+        }
+    }
+    if (files < 2)
+        cli_die(cli, "two files are needed; try --help");
+    if (params->part && params->all_parts)
+        cli_die(cli, "--part and --all-parts exclude each other");
+    if (cli->output)
+        cli_die(cli, "the answer goes to standard output: no -o");
+    params->nthreads = cli->threads;
+}
+
+static void print_json_string(const char *text)
+{
+    putchar('"');
+    for (const unsigned char *c = (const unsigned char *)text; *c; c++) {
+        if (*c == '"' || *c == '\\')
+            printf("\\%c", *c);
+        else if (*c < 32)
+            printf("\\u%04x", *c);
+        else
+            putchar(*c);
+    }
+    putchar('"');
+}
+
+/* A figure, or null where the part has no colours. */
+static void print_json_figure(const char *name, double value, int defined)
+{
+    if (defined)
+        printf("\"%s\": %.9g, ", name, value);
+    else
+        printf("\"%s\": null, ", name);
+}
+
+/* The keys of one part, without braces. */
+static void print_json_part(const RetexDiffPart *part)
+{
+    const RetexMetrics *m = &part->metrics;
+    int color = part->compared && part->has_color;
+    printf("\"part\": ");
+    print_json_string(part->name);
+    printf(", \"width\": %d, \"height\": %d, \"channels\": %d, ", part->width, part->height, part->channels);
+    print_json_figure("psnr", m->psnr, color);
+    print_json_figure("relmse", m->relmse, color);
+    print_json_figure("mae", m->mae, part->compared);
+    print_json_figure("flip_mean", m->flip_mean, color);
+    print_json_figure("flip_p99", m->flip_p99, color);
+    print_json_figure("max_abs", m->max_abs, part->compared);
+    print_json_figure("max_rel", m->max_rel, part->compared);
+    printf("\"nonfinite\": %ld, ", m->nonfinite);
+    if (part->compared) {
+        printf("\"worst\": {\"x\": %d, \"y\": %d, \"channel\": ", m->worst.x, m->worst.y);
+        print_json_string(part->worst_channel);
+        printf("}, ");
+    } else {
+        printf("\"worst\": null, ");
+    }
+    printf("\"reason\": ");
+    print_json_string(part->reason);
+}
+
+/* The first part's figures at the top; with --all-parts all of them in a list too. */
+static void print_json(const RetexDiff *diff, int all_parts)
+{
+    printf("{\"differs\": %s, ", diff->differs ? "true" : "false");
+    if (diff->nparts)
+        print_json_part(&diff->parts[0]);
+    else
+        print_json_part(&(RetexDiffPart){0});
+    if (all_parts) {
+        printf(", \"parts\": [");
+        for (int i = 0; i < diff->nparts; i++) {
+            printf("%s{", i ? ", " : "");
+            print_json_part(&diff->parts[i]);
+            printf("}");
+        }
+        printf("]");
+    }
+    printf(", \"why\": ");
+    print_json_string(diff->reason);
+    printf("}\n");
+}
+
+/* One line a part: figures, and why it differs. */
+static void print_line(const RetexDiffPart *part, int name)
+{
+    const RetexMetrics *m = &part->metrics;
+    if (name)
+        printf("%s: ", part->name);
+    if (part->compared && part->has_color)
+        printf("psnr %.2f relmse %.4g mae %.4g flip %.4g (p99 %.4g) ", m->psnr, m->relmse, m->mae, m->flip_mean,
+               m->flip_p99);
+    if (part->compared)
+        printf("max %.4g rel %.4g at %d,%d %s%s", m->max_abs, m->max_rel, m->worst.x, m->worst.y, part->worst_channel,
+               part->reason[0] ? ": " : "");
+    printf("%s\n", part->reason);
+}
+
+int main(int argc, char **argv)
+{
+    Cli cli = {.tool = "retex-diff", .usage = "[options] A B", .options = options, .argc = argc, .argv = argv,
+               .about = "Compares picture A with the reference B: exit 0 when they are the same or within the limits "
+                        "given, 1 when they differ."};
+    RetexDiffParams params = RETEX_DIFF_INIT;
+    RetexDiff *diff = NULL;
+    RetexError err = {0};
+    const char *names[2];
+    int json = 0;
+
+    parse(&cli, &params, &json, names);
+    if (retex_diff(&diff, names[0], names[1], &params, &err))
+        cli_fail(&cli, &err);
+    int differs = diff->differs;
+    if (json)
+        print_json(diff, params.all_parts);
+    for (int i = 0; !json && !cli.quiet && i < diff->nparts; i++)
+        print_line(&diff->parts[i], params.all_parts);
+    if (!json && !cli.quiet && differs && (!diff->nparts || params.all_parts))
+        printf("%s\n", diff->reason);
+    retex_diff_close(&diff);
+    return cli_close(&cli, differs ? CLI_NO : CLI_OK);
+}

@@ -1,0 +1,103 @@
+/* retex-pack: a set as one small file, and back. See retex-pack(1). */
+#include <stdio.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include <retex/pack.h>
+
+#include "cli.h"
+
+static const CliOption options[] = {
+    {"quality", 0, "1..100", "of the JPEGs; default 95", 0},
+    {"lossless", 0, NULL, "keep every bit of every part", 0},
+    {"codec", 0, "NAME", "what radiance is stored as: jpeg, the default", 0},
+    {"unpack", 0, NULL, "read a pack and write a set: SET.exr", 0},
+    {0},
+};
+
+typedef struct Job {
+    RetexPackParams params;
+    int unpack, quality_given;
+    const char *input;
+} Job;
+
+static void parse(Cli *cli, Job *job)
+{
+    const CliOption *option;
+    while ((option = cli_next(cli))) {
+        if (option == &cli_positional) {
+            if (job->input)
+                cli_die(cli, "more than one input: '%s'", cli->value);
+            job->input = cli->value;
+        } else if (strcmp(option->name, "quality") == 0) {
+            job->params.quality = (int)cli_integer(cli, option, 1, 100);
+            job->quality_given = 1;
+        } else if (strcmp(option->name, "lossless") == 0) {
+            job->params.lossless = 1;
+        } else if (strcmp(option->name, "codec") == 0) {
+            if (strcmp(cli->value, "jpeg") != 0)
+                cli_die(cli, "--codec: there is no codec '%s'; this version has: jpeg", cli->value);
+        } else {
+            job->unpack = 1;
+        }
+    }
+    if (!job->input)
+        cli_die(cli, "no %s given; try --help", job->unpack ? "pack" : "set");
+    if (job->params.lossless && job->quality_given)
+        cli_die(cli, "--quality and --lossless exclude each other");
+    if (job->unpack && (job->params.lossless || job->quality_given))
+        cli_die(cli, "--unpack takes neither --quality nor --lossless");
+    job->params.nthreads = cli->threads;
+}
+
+/* Bytes of a file on disk, or 0 where that is not known. */
+static double file_size(const char *path)
+{
+    struct stat info;
+    return strcmp(path, "-") != 0 && stat(path, &info) == 0 && S_ISREG(info.st_mode) ? (double)info.st_size : 0;
+}
+
+static void report(const Cli *cli, const char *set_path, double set_bytes, const char *pack_path, double pack_bytes)
+{
+    char ratio[64] = "";
+    if (set_bytes > 0 && pack_bytes > 0)
+        snprintf(ratio, sizeof ratio, " (ratio %.2f)", set_bytes / pack_bytes);
+    if (set_bytes > 0)
+        cli_info(cli, "set %s: %.0f bytes", set_path, set_bytes);
+    if (pack_bytes > 0)
+        cli_info(cli, "pack %s: %.0f bytes%s", pack_path, pack_bytes, ratio);
+}
+
+int main(int argc, char **argv)
+{
+    Cli cli = {.tool = "retex-pack", .options = options, .argc = argc, .argv = argv,
+               .usage = "SET [--quality 1..100 | --lossless] -o FILE.retex\n"
+                        "       retex-pack --unpack FILE.retex -o SET.exr",
+               .about = "Packs a set into one small file, radiance as JPEG and footprints without visible loss; or "
+                        "unpacks one."};
+    Job job = {.params = RETEX_PACK_INIT};
+    RetexError err = {0};
+    RetexSet *set = NULL;
+    size_t bytes = 0;
+
+    parse(&cli, &job);
+    const char *output = cli_output(&cli);
+    if (retex_set_read(job.input, &set, NULL, cli.threads, &err))
+        cli_fail(&cli, &err);
+    int code;
+    if (job.unpack) {
+        RetexStoreParams store = RETEX_STORE_INIT;
+        store.nthreads = cli.threads;
+        code = retex_set_write(set, NULL, output, &store, &err);
+    } else {
+        code = retex_pack_write(set, output, &job.params, &bytes, &err);
+    }
+    retex_set_close(&set);
+    if (code)
+        cli_fail(&cli, &err);
+    if (job.unpack)
+        report(&cli, output, file_size(output), job.input, file_size(job.input));
+    else
+        report(&cli, job.input, file_size(job.input), output, (double)bytes);
+    return cli_close(&cli, CLI_OK);
+}
