@@ -1,0 +1,22 @@
+/* Pictures of what the pixel centres see first: AOVs, and which targets and identifiers cover how much. */
+#ifndef RENDERER_INTEGRATE_FIRST_HIT_H
+#define RENDERER_INTEGRATE_FIRST_HIT_H
+
+#include "accel/accel.h"
+#include "integrate/render.h"
+
+typedef struct FirstHitWindow {
+    const Scene *scene;
+    const Accel *accel;
+    int width, height;          /* of the whole picture */
+    int x0, y0, w, h;           /* the part that is looked at */
+    int nthreads;
+} FirstHitWindow;
+
+/* Add a part for each of the AOV_… bits. */
+int first_hit_aovs(RetexSet *set, const FirstHitWindow *window, unsigned aovs, RetexError *err);
+/* Fill share, and periodic of all targets. */
+int first_hit_targets(RetexSet *set, const FirstHitWindow *window, RetexError *err);
+int first_hit_idents(const FirstHitWindow *window, double *shares, RetexError *err);
+
+#endif

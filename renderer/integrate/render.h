@@ -1,0 +1,53 @@
+/* Rendering a scene into a set: the renderer's public call. */
+#ifndef RENDERER_INTEGRATE_RENDER_H
+#define RENDERER_INTEGRATE_RENDER_H
+
+#include <stdio.h>
+#include "scene/scene.h"
+
+/* Further pictures, one part each, taken at the first hit of the pixel centre's ray, unfiltered. */
+enum {
+    AOV_DEPTH = 1,    /* R: distance along the ray, scene units; inf where nothing is hit */
+    AOV_ALBEDO = 2,   /* RGB: the pigment's colour, scene-linear */
+    AOV_NORMAL = 4,   /* RGB: x, y, z of the unit shading normal on the camera's side, world space; 0 where nothing is */
+    AOV_POSITION = 8, /* RGB: world space */
+    AOV_UV = 16,      /* RGA: u, v that a replacement texture would be looked up at, and 1 where something is hit */
+    AOV_OBJECT = 32   /* R: number of the primitive from 1, 0 where nothing is hit */
+};
+
+/* Begin with RENDER_PARAMS_INIT. */
+typedef struct RenderParams {
+    size_t size;
+    int width, height;       /* of the whole picture; 0 = the scene's own */
+    int crop[4];             /* x, y, width, height of the part to render; width 0 = all. The result has this size */
+    int spp;                 /* samples a pixel, 1..2^20; default 64 */
+    uint32_t seed;           /* default 0 */
+    int max_depth;           /* segments of a path, 1..256, camera and shadow rays included; default 16 */
+    int gaussian;            /* pixel filter: 0 box of one pixel (default), 1 Gaussian of standard deviation 0.5 pixel */
+    int orders;              /* highest number of target hits kept, 1..6; default 6 */
+    int strict_paper;        /* drop mixed terms of four and more hits, as the supplement does; default 0 */
+    int plain;               /* beauty only, no set; default 0 */
+    unsigned aovs;           /* AOV_… bits */
+    int nthreads;            /* 0 = all cores */
+    void (*progress)(void *context, double done); /* 0..1, from the calling thread; NULL = none */
+    void *progress_context;
+} RenderParams;
+#define RENDER_PARAMS_INIT { sizeof(RenderParams), 0, 0, {0, 0, 0, 0}, 64, 0, 16, 0, 6, 0, 0, 0, 0, NULL, NULL }
+
+typedef struct RenderStats {
+    double build_seconds, render_seconds;
+    long paths, segments, shadow_rays, dropped; /* dropped: contributions that were not finite */
+    long lights, primitives, triangles;
+} RenderStats;
+
+/* Render into a new set. With plain, or without targets, the set has the beauty and the AOVs only. The picture is the same
+ * to the bit for every nthreads. */
+int render_scene(RetexSet **set, const Scene *scene, const RenderParams *params, RenderStats *stats, RetexError *err);
+
+/* Share of the picture (0..1) that each of scene->idents covers at the centres of pixels; shares has scene->nidents. */
+int render_ident_shares(const Scene *scene, const RenderParams *params, double *shares, RetexError *err);
+
+/* Print what happens along one path, step by step with values. x, y and sample as in the picture. */
+int render_trace(const Scene *scene, const RenderParams *params, int x, int y, int sample, FILE *out, RetexError *err);
+
+#endif

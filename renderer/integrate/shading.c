@@ -1,0 +1,32 @@
+/* What a surface looks like where a ray met it. */
+#include "integrate/path.h"
+#include "shade/pigment.h"
+
+/* A replacement takes the pigment's colour, not its opacity; where it is transparent the original shows through. */
+static void replace_color(Shading *s, const RetexTexture *replacement)
+{
+    float rgba[4];
+    retex_texture_point(replacement, s->uv.u, s->uv.v, rgba);
+    s->albedo = rgb_lerp(s->albedo, rgb(rgba[0], rgba[1], rgba[2]), rgba[3]);
+}
+
+void shading_color(Shading *s, const Scene *scene)
+{
+    const Surface *surface = &s->surface;
+    const Pigment *pigment = surface->texture->pigment;
+    Rgbft c = pigment_eval(pigment, surface->position, surface->uv);
+    s->albedo = rgb(fmaxf(c.r, 0), fmaxf(c.g, 0), fmaxf(c.b, 0));
+    s->filter = fmaxf(c.filter, 0), s->transmit = fmaxf(c.transmit, 0);
+    if (surface->target < 0) return;
+    s->uv = target_uv(pigment, surface->position, surface->geometric_normal, pigment->uv_mapping ? &surface->uv : NULL,
+                      surface->has_natural ? &surface->natural : NULL);
+    const RetexTexture *replacement = scene->targets[surface->target].replacement;
+    if (replacement) replace_color(s, replacement);
+}
+
+void shading_at(Shading *s, const Scene *scene, const Ray *ray, const Hit *hit)
+{
+    surface_at(&s->surface, scene, ray, hit);
+    shading_color(s, scene);
+    bsdf_setup(&s->bsdf, &s->surface, vec_neg(ray->direction), s->filter, s->transmit);
+}

@@ -1,0 +1,289 @@
+/* retex-render: from a scene file to a set, a plain picture, or a picture with replaced textures. */
+#include <retex/retex.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+#include <sys/resource.h>
+#include <jansson.h>
+#include "cli.h"
+#include "integrate/render.h"
+#include "sdl/sdl.h"
+
+enum { OPT_TARGET, OPT_LIST, OPT_REPLACE, OPT_PLAIN, OPT_LAYOUT, OPT_ORDERS, OPT_STRICT_PAPER, OPT_SPP, OPT_SIZE, OPT_SEED,
+       OPT_DEPTH, OPT_CROP, OPT_FILTER, OPT_AOV, OPT_INCLUDE, OPT_DECLARE, OPT_AMBIENT, OPT_STRICT, OPT_STATS, OPT_TRACE };
+
+static const CliOption options[] = {
+    [OPT_TARGET] = {"target", 't', "NAME[=IDENT,…]", "make what was #declared as IDENT (or NAME) target NAME; repeatable", 0},
+    [OPT_LIST] = {"list-targets", 0, NULL, "print the identifiers that can be targets, with their share of the picture", 0},
+    [OPT_REPLACE] = {"replace", 0, "NAME=IMAGE", "put IMAGE on a target and render that: the truth of a retexture (opts as retex-sample --texture)", 1},
+    [OPT_PLAIN] = {"plain", 0, NULL, "the picture only, no set", 0},
+    [OPT_LAYOUT] = {"layout", 0, "NAME", "statistics of the set: paper", 0},
+    [OPT_ORDERS] = {"orders", 0, "N", "highest number of target hits kept, 1 to 6 (6)", 0},
+    [OPT_STRICT_PAPER] = {"strict-paper", 0, NULL, "drop the mixed terms of four and more hits, as the paper does", 0},
+    [OPT_SPP] = {"spp", 0, "N", "samples a pixel (64)", 0},
+    [OPT_SIZE] = {"size", 0, "WxH", "size of the picture (the scene's own shape, 640 wide)", 0},
+    [OPT_SEED] = {"seed", 0, "N", "another picture of the same noise (0)", 0},
+    [OPT_DEPTH] = {"max-depth", 0, "N", "most segments of a path (16)", 0},
+    [OPT_CROP] = {"crop", 0, "X,Y,W,H", "render this part of the picture only", 0},
+    [OPT_FILTER] = {"filter", 0, "NAME", "pixel filter: box or gaussian (box)", 0},
+    [OPT_AOV] = {"aov", 0, "LIST", "also: beauty,depth,albedo,normal,position,uv,object", 0},
+    [OPT_INCLUDE] = {"include", 'I', "DIR", "look for included files and images here too; repeatable", 0},
+    [OPT_DECLARE] = {"declare", 'D', "NAME=VALUE", "declare a number before the scene is read; repeatable", 0},
+    [OPT_AMBIENT] = {"ambient", 0, NULL, "let `ambient` give light", 0},
+    [OPT_STRICT] = {"strict", 0, NULL, "what is not supported is an error", 0},
+    [OPT_STATS] = {"stats", 0, "FILE.json", "write times, rays, paths and memory", 0},
+    [OPT_TRACE] = {"trace-pixel", 0, "X,Y,S", "print the path of sample S of a pixel, step by step, and stop", 0},
+    {0},
+};
+
+#define LIST_MAX 64
+
+typedef struct Arguments {
+    Cli *cli;
+    RenderParams render;
+    SdlOptions sdl;
+    const char *scene, *stats;
+    const char *targets[LIST_MAX], *includes[LIST_MAX], *declares[LIST_MAX];
+    int ntargets, nincludes, ndeclares, nreplacements, list, trace[3], tracing;
+    RetexTextureSpec replacements[RETEX_MAX_TARGETS];
+} Arguments;
+
+static void push(Cli *cli, const char **list, int *count, const char *what)
+{
+    if (*count == LIST_MAX) cli_die(cli, "more than %d of --%s", LIST_MAX, what);
+    list[(*count)++] = cli->value;
+}
+
+/* N whole numbers with one separator; anything behind them is an error. */
+static void numbers(Cli *cli, const CliOption *option, char separator, int count, int *out)
+{
+    const char *p = cli->value;
+    for (int k = 0; k < count; k++) {
+        char *end;
+        long v = strtol(p, &end, 10);
+        if (end == p || v < 0 || v > 1 << 24 || *end != (k + 1 < count ? separator : 0))
+            cli_die(cli, "--%s wants %s, not `%s`", option->name, option->argument, cli->value);
+        out[k] = (int)v;
+        p = end + 1;
+    }
+}
+
+static unsigned parse_aovs(Cli *cli)
+{
+    static const char *const names[] = {"depth", "albedo", "normal", "position", "uv", "object"};
+    unsigned bits = 0;
+    char list[256], *rest = NULL;
+    snprintf(list, sizeof list, "%s", cli->value);
+    for (char *name = strtok_r(list, ",", &rest); name; name = strtok_r(NULL, ",", &rest)) {
+        int k = 0;
+        while (k < 6 && strcmp(names[k], name)) k++;
+        if (k == 6 && strcmp(name, "beauty"))
+            cli_die(cli, "--aov knows beauty,depth,albedo,normal,position,uv,object, not `%s`", name);
+        if (k < 6) bits |= 1u << k;
+    }
+    return bits;
+}
+
+static void parse_replace(Arguments *a)
+{
+    RetexError err;
+    if (a->nreplacements == RETEX_MAX_TARGETS) cli_die(a->cli, "more than %d of --replace", RETEX_MAX_TARGETS);
+    if (retex_texture_spec_parse(&a->replacements[a->nreplacements++], a->cli->modifiers, a->cli->value, &err))
+        cli_die(a->cli, "--replace: %s", err.message);
+}
+
+static void parse_choice(Arguments *a, const CliOption *o)
+{
+    Cli *cli = a->cli;
+    if (o == &options[OPT_FILTER]) {
+        a->render.gaussian = !strcmp(cli->value, "gaussian");
+        if (!a->render.gaussian && strcmp(cli->value, "box")) cli_die(cli, "--filter knows box and gaussian, not `%s`", cli->value);
+    } else if (strcmp(cli->value, "paper")) {
+        cli_die(cli, "--layout knows paper, not `%s`", cli->value);
+    }
+}
+
+static void parse_option(Arguments *a, const CliOption *o)
+{
+    Cli *cli = a->cli;
+    RenderParams *r = &a->render;
+    int size[2];
+    switch (o - options) {
+    case OPT_TARGET: push(cli, a->targets, &a->ntargets, o->name); break;
+    case OPT_LIST: a->list = 1; break;
+    case OPT_REPLACE: parse_replace(a); break;
+    case OPT_PLAIN: r->plain = 1; break;
+    case OPT_LAYOUT: case OPT_FILTER: parse_choice(a, o); break;
+    case OPT_ORDERS: r->orders = (int)cli_integer(cli, o, 1, RETEX_MAX_ORDERS); break;
+    case OPT_STRICT_PAPER: r->strict_paper = 1; break;
+    case OPT_SPP: r->spp = (int)cli_integer(cli, o, 1, 1 << 20); break;
+    case OPT_SIZE:
+        numbers(cli, o, 'x', 2, size);
+        r->width = size[0], r->height = size[1];
+        if (r->width < 1 || r->height < 1) cli_die(cli, "--size wants WxH, not `%s`", cli->value);
+        break;
+    case OPT_SEED: r->seed = (uint32_t)cli_integer(cli, o, 0, 0xffffffffL); break;
+    case OPT_DEPTH: r->max_depth = (int)cli_integer(cli, o, 1, 256); break;
+    case OPT_CROP:
+        numbers(cli, o, ',', 4, r->crop);
+        if (r->crop[2] < 1 || r->crop[3] < 1) cli_die(cli, "--crop wants X,Y,W,H, not `%s`", cli->value);
+        break;
+    case OPT_AOV: r->aovs |= parse_aovs(cli); break;
+    case OPT_INCLUDE: push(cli, a->includes, &a->nincludes, o->name); break;
+    case OPT_DECLARE: push(cli, a->declares, &a->ndeclares, o->name); break;
+    case OPT_AMBIENT: a->sdl.ambient = 1; break;
+    case OPT_STRICT: a->sdl.strict = 1; break;
+    case OPT_STATS: a->stats = cli->value; break;
+    case OPT_TRACE: numbers(cli, o, ',', 3, a->trace); a->tracing = 1; break;
+    default: break;
+    }
+}
+
+static void scene_message(void *context, int level, const char *text)
+{
+    const Cli *cli = context;
+    if (level > 0 || cli->verbose) cli_info(cli, "%s", text);
+}
+
+static void progress(void *context, double done) { cli_progress(context, "render", done); }
+
+static void parse_arguments(Arguments *a)
+{
+    Cli *cli = a->cli;
+    const CliOption *o;
+    a->render = (RenderParams)RENDER_PARAMS_INIT;
+    a->sdl = (SdlOptions)SDL_OPTIONS_INIT;
+    while ((o = cli_next(cli))) {
+        if (o != &cli_positional) parse_option(a, o);
+        else if (a->scene) cli_die(cli, "one scene at a time: `%s` and `%s`", a->scene, cli->value);
+        else a->scene = cli->value;
+    }
+    if (!a->scene) cli_die(cli, "which scene? (try --help)");
+    if (a->nreplacements && !a->ntargets) /* replacing names the targets */
+        for (int k = 0; k < a->nreplacements; k++) a->targets[a->ntargets++] = a->replacements[k].target;
+    if (a->nreplacements) a->render.plain = 1;
+    a->sdl.include_paths = a->includes, a->sdl.ninclude_paths = a->nincludes;
+    a->sdl.declares = a->declares, a->sdl.ndeclares = a->ndeclares;
+    a->sdl.message = scene_message, a->sdl.message_context = cli;
+    a->sdl.width = a->render.width, a->sdl.height = a->render.height;
+    a->render.nthreads = cli->threads;
+    a->render.progress = progress, a->render.progress_context = cli;
+}
+
+static int find_target(const Scene *scene, const char *name)
+{
+    int found = -1, count = 0;
+    for (int k = 0; k < scene->ntargets; k++) {
+        if (!strcmp(scene->targets[k].name, name)) return k;
+        if (!strcasecmp(scene->targets[k].name, name)) found = k, count++;
+    }
+    return count == 1 ? found : -1;
+}
+
+/* Load replacement textures onto their targets. */
+static void replace_textures(Arguments *a, Scene *scene, RetexTexture **loaded)
+{
+    RetexError err;
+    for (int k = 0; k < a->nreplacements; k++) {
+        int t = find_target(scene, a->replacements[k].target);
+        if (t < 0) cli_die(a->cli, "--replace: `%s` is no target: name it with -t", a->replacements[k].target);
+        if (scene->targets[t].replacement) cli_die(a->cli, "--replace: `%s` is replaced twice", a->replacements[k].target);
+        if (retex_texture_load(&loaded[k], &a->replacements[k], a->cli->threads, &err)) cli_fail(a->cli, &err);
+        scene->targets[t].replacement = loaded[k];
+    }
+}
+
+typedef struct IdentShare { const char *name; double share; } IdentShare;
+
+static int compare_shares(const void *a, const void *b)
+{
+    const IdentShare *x = a, *y = b;
+    return x->share < y->share ? 1 : x->share > y->share ? -1 : strcmp(x->name, y->name);
+}
+
+static void list_targets(Arguments *a, const Scene *scene)
+{
+    RetexError err;
+    double *shares = calloc((size_t)scene->nidents + 1, sizeof *shares);
+    IdentShare *list = calloc((size_t)scene->nidents + 1, sizeof *list);
+    if (!shares || !list) cli_die(a->cli, "out of memory");
+    if (render_ident_shares(scene, &a->render, shares, &err)) cli_fail(a->cli, &err);
+    for (int k = 0; k < scene->nidents; k++) list[k] = (IdentShare){scene->idents[k], shares[k]};
+    qsort(list, (size_t)scene->nidents, sizeof *list, compare_shares);
+    for (int k = 0; k < scene->nidents; k++) printf("%6.2f%%  %s\n", 100 * list[k].share, list[k].name);
+    free(shares);
+    free(list);
+}
+
+static void write_stats(Arguments *a, const RenderStats *s, const RetexSet *set, double parse_seconds)
+{
+    struct rusage usage;
+    getrusage(RUSAGE_SELF, &usage);
+    json_t *j = json_pack("{s:f, s:f, s:f, s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:f}", "parse_seconds", parse_seconds, "build_seconds",
+                          s->build_seconds, "render_seconds", s->render_seconds, "paths", (json_int_t)s->paths, "segments",
+                          (json_int_t)s->segments, "shadow_rays", (json_int_t)s->shadow_rays, "dropped_samples", (json_int_t)s->dropped,
+                          "lights", (json_int_t)s->lights, "primitives", (json_int_t)s->primitives, "triangles",
+                          (json_int_t)s->triangles, "peak_memory_bytes", (json_int_t)usage.ru_maxrss * 1024, "folded", set->folded);
+    int failed = !j || json_dump_file(j, a->stats, JSON_INDENT(2));
+    json_decref(j);
+    if (failed) cli_die(a->cli, "cannot write %s", a->stats);
+}
+
+static int ends_with(const char *text, const char *ending)
+{
+    size_t n = strlen(text), m = strlen(ending);
+    return n >= m && !strcasecmp(text + n - m, ending);
+}
+
+/* A set where there is one, a pack by its ending, a picture in any other format. */
+static void write_result(Arguments *a, RetexSet *set, const char *output)
+{
+    RetexError err;
+    int code;
+    int multi = set->nparts > 1, exr = !strcmp(output, "-") || ends_with(output, ".exr");
+    if (ends_with(output, ".retex")) code = retex_pack_write(set, output, NULL, NULL, &err);
+    else if (exr && (multi || !a->render.plain)) code = retex_set_write(set, NULL, output, NULL, &err);
+    else code = retex_image_write(&set->parts[0].image, output, NULL, &err);
+    if (code) cli_fail(a->cli, &err);
+}
+
+static void report(const Arguments *a, const RetexSet *set, const RenderStats *s)
+{
+    double seconds = s->render_seconds > 0 ? s->render_seconds : 1e-9;
+    cli_info(a->cli, "%dx%d, %d samples: %.2f s, %.2f Mpaths/s, %.2f Mrays/s", set->width, set->height, set->spp, s->render_seconds,
+             (double)s->paths / seconds * 1e-6, (double)(s->segments + s->shadow_rays) / seconds * 1e-6);
+    if (s->dropped) cli_warn(a->cli, "%ld contributions were not finite and left out", s->dropped);
+    if (set->nterms) cli_info(a->cli, "%d target%s, energy beyond order %d: %.4f%%", set->ntargets, set->ntargets == 1 ? "" : "s", set->orders, 100 * set->folded);
+}
+
+int main(int argc, char **argv)
+{
+    Cli cli = {.tool = "retex-render", .usage = "[options] SCENE.pov", .options = options, .argc = argc, .argv = argv, .next = 1,
+               .about = "Render a POV-Ray-style scene once and keep what retexturing needs: a set."};
+    Arguments a = {.cli = &cli};
+    RetexError err;
+    Scene *scene = NULL;
+    RetexSet *set = NULL;
+    RetexTexture *loaded[RETEX_MAX_TARGETS] = {0};
+    RenderStats stats;
+    parse_arguments(&a);
+    const char *output = a.list || a.tracing ? NULL : cli_output(&cli);
+    if (sdl_parse_file(&scene, a.scene, &a.sdl, &err)) cli_fail(&cli, &err);
+    if (scene_resolve_targets(scene, a.targets, a.ntargets, &err)) cli_fail(&cli, &err);
+    replace_textures(&a, scene, loaded);
+    int failed = 0;
+    if (a.list) list_targets(&a, scene);
+    else if (a.tracing) failed = render_trace(scene, &a.render, a.trace[0], a.trace[1], a.trace[2], stdout, &err);
+    else failed = render_scene(&set, scene, &a.render, &stats, &err);
+    if (failed) cli_fail(&cli, &err);
+    if (set) {
+        write_result(&a, set, output);
+        report(&a, set, &stats);
+        if (a.stats) write_stats(&a, &stats, set, 0);
+    }
+    retex_set_close(&set);
+    scene_close(&scene);
+    for (int k = 0; k < a.nreplacements; k++) retex_texture_close(&loaded[k]);
+    return cli_close(&cli, CLI_OK);
+}
