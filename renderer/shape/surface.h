@@ -42,12 +42,19 @@ int shape_bounds(const Primitive *primitive, Vec3 *low, Vec3 *high);
 
 /* Emitters: sampling by area. Total world-space area; 0 where the shape cannot be sampled (plane, torus). */
 double shape_area(const Primitive *primitive);
-/* A point uniform in area from u1, u2 in [0,1), u0 choosing among faces; for meshes face weights come from the caller's
- * table: pass the face. Gives position, outward geometric normal, the face and UVs through a Surface (backside 0), and the
- * density per unit area at that point (not constant under non-uniform scaling of curved shapes). */
+/* A point uniform in area from u1, u2 in [0,1). Gives position, normals, face and UVs through a Surface (backside 0), and
+ * the density per unit area at that point (not constant under non-uniform scaling of curved shapes). Shapes choose among
+ * their faces themselves and take any face (-1), but for meshes, where the weights come from the caller's table: there
+ * both densities are those within the face, to be multiplied by the caller's probability of it. */
 void shape_sample(const Primitive *primitive, const Scene *scene, int face, double u1, double u2, Surface *surface,
                   double *pdf_area);
 double shape_pdf_area(const Primitive *primitive, const Surface *surface); /* of shape_sample, at that point */
 double mesh_face_area(const Primitive *primitive, int face);
+
+/* Boxes and meshes as triangles. */
+extern const int box_triangles[12][3]; /* into the corners; two a face, in the order of Hit's faces */
+Vec3 box_corner(int index);            /* of the unit box: bit 0 x, bit 1 y, bit 2 z */
+/* 1: the mesh is closed and its winding makes normals that point inside. For Mesh.inward, once the mesh is complete. */
+int mesh_winds_inward(const Mesh *mesh);
 
 #endif

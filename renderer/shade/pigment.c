@@ -1,0 +1,164 @@
+/* Pigments: patterns as POV-Ray 3.7 evaluates them (measured where its manual is silent), and the UV at which a
+ * replacement texture lies on a target. */
+#include "shade/pigment_image.h"
+
+/* POV-Ray's: keeps a checker whose plane goes through a cell boundary from speckling. */
+#define CHECKER_EPSILON 1e-10
+
+static double gradient_value(Vec3 gradient, Vec3 p)
+{
+    double value = vec_dot(vec_normalize(gradient), p);
+
+    return value > 1 ? fmod(value, 1) : value;
+}
+
+static double triangle_wave(double x)
+{
+    double offset = x - floor(x);
+
+    return offset >= 0.5 ? 2 * (1 - offset) : 2 * offset;
+}
+
+static double apply_wave(const Pigment *pigment, double value)
+{
+    if (pigment->frequency != 0)
+        /* 1.00001 is POV-Ray's own, so that a value of exactly 1 stays 1. */
+        value = fmod(value * pigment->frequency + pigment->phase, 1.00001);
+    if (value < 0)
+        value -= floor(value);
+    switch (pigment->wave) {
+    case WAVE_RAMP:
+        break;
+    case WAVE_TRIANGLE:
+        return triangle_wave(value);
+    case WAVE_SINE:
+        return (1 + sin(2 * PI * value)) / 2;
+    case WAVE_SCALLOP:
+        return fabs(sin(PI * value));
+    case WAVE_CUBIC:
+        return value * value * (3 - 2 * value);
+    case WAVE_POLY:
+        return pow(value, pigment->wave_exponent);
+    }
+    return value;
+}
+
+static Rgbft blend(const Rgbft *a, const Rgbft *b, float t)
+{
+    return (Rgbft){a->r + (b->r - a->r) * t, a->g + (b->g - a->g) * t, a->b + (b->b - a->b) * t,
+                   a->filter + (b->filter - a->filter) * t, a->transmit + (b->transmit - a->transmit) * t};
+}
+
+static Rgbft map_color(const ColorMap *map, double value)
+{
+    const ColorMapEntry *entry = map->entries;
+    int last = map->count - 1, i = 0;
+
+    if (map->count == 0)
+        return (Rgbft){(float)value, (float)value, (float)value, 0, 0};
+    if (value >= entry[last].value)
+        return entry[last].color;
+    if (value <= entry[0].value)
+        return entry[0].color;
+    while (value > entry[i].value)
+        i++;
+    /* Of several entries at exactly this value the first one counts. */
+    if (value == entry[i].value)
+        return entry[i].color;
+    return blend(&entry[i - 1].color, &entry[i].color,
+                 (float)((value - entry[i - 1].value) / (entry[i].value - entry[i - 1].value)));
+}
+
+Rgbft pigment_pattern(const Pigment *pigment, Vec3 p)
+{
+    double cell;
+
+    switch (pigment->kind) {
+    case PIGMENT_COLOR:
+        break;
+    case PIGMENT_IMAGE:
+        return image_lookup(pigment->image, pigment_image_uv(pigment->image, p));
+    case PIGMENT_CHECKER:
+        cell = floor(p.x + CHECKER_EPSILON) + floor(p.y + CHECKER_EPSILON) + floor(p.z + CHECKER_EPSILON);
+        return pigment->checker[fmod(cell, 2) != 0];
+    case PIGMENT_GRADIENT:
+        return map_color(&pigment->map, apply_wave(pigment, gradient_value(pigment->gradient, p)));
+    }
+    return pigment->color;
+}
+
+Rgbft pigment_eval(const Pigment *pigment, Vec3 p, Vec2 uv)
+{
+    if (pigment->kind == PIGMENT_COLOR)
+        return pigment->color;
+    if (pigment->uv_mapping)
+        p = vec3(uv.u, uv.v, 0);
+    return pigment_pattern(pigment, transform_inverse_point(&pigment->transform, p));
+}
+
+static int same_color(const Rgbft *a, const Rgbft *b)
+{
+    return a->r == b->r && a->g == b->g && a->b == b->b && a->filter == b->filter && a->transmit == b->transmit;
+}
+
+int pigment_is_constant(const Pigment *pigment)
+{
+    const ImageMap *image = pigment->image;
+
+    switch (pigment->kind) {
+    case PIGMENT_COLOR:
+        break;
+    case PIGMENT_IMAGE:
+        return image->width == 1 && image->height == 1 && !image->once;
+    case PIGMENT_CHECKER:
+        return same_color(&pigment->checker[0], &pigment->checker[1]);
+    case PIGMENT_GRADIENT:
+        for (int i = 1; i < pigment->map.count; i++)
+            if (!same_color(&pigment->map.entries[0].color, &pigment->map.entries[i].color))
+                return 0;
+        return pigment->map.count > 0;
+    }
+    return 1;
+}
+
+static int opaque(const Rgbft *c) { return c->filter == 0 && c->transmit == 0; }
+
+int pigment_is_opaque(const Pigment *pigment)
+{
+    const ImageMap *image = pigment->image;
+
+    switch (pigment->kind) {
+    case PIGMENT_COLOR:
+        break;
+    case PIGMENT_IMAGE:
+        return !image->has_alpha && !image->once && image->filter_all == 0 && image->transmit_all == 0;
+    case PIGMENT_CHECKER:
+        return opaque(&pigment->checker[0]) && opaque(&pigment->checker[1]);
+    case PIGMENT_GRADIENT:
+        for (int i = 0; i < pigment->map.count; i++)
+            if (!opaque(&pigment->map.entries[i].color))
+                return 0;
+        return 1;
+    }
+    return opaque(&pigment->color);
+}
+
+Vec2 target_uv(const Pigment *pigment, Vec3 p, Vec3 normal, const Vec2 *mapped_uv, const Vec2 *natural)
+{
+    Vec3 n, size;
+
+    if (pigment->uv_mapping && mapped_uv) {
+        p = transform_inverse_point(&pigment->transform, vec3(mapped_uv->u, mapped_uv->v, 0));
+        return (Vec2){p.x, p.y};
+    }
+    p = transform_inverse_point(&pigment->transform, p);
+    if (pigment->kind == PIGMENT_IMAGE)
+        return pigment_image_uv(pigment->image, p);
+    if (natural)
+        return *natural;
+    n = transform_inverse_normal(&pigment->transform, normal);
+    size = vec3(fabs(n.x), fabs(n.y), fabs(n.z));
+    if (size.x > size.y && size.x > size.z)
+        return (Vec2){p.z, p.y};
+    return size.y > size.z ? (Vec2){p.x, p.z} : (Vec2){p.x, p.y};
+}

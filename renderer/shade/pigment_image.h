@@ -1,0 +1,14 @@
+/* Images in pigments; private to the pigments. */
+#ifndef RENDERER_SHADE_PIGMENT_IMAGE_H
+#define RENDERER_SHADE_PIGMENT_IMAGE_H
+
+#include "shade/pigment.h"
+
+/* 1 where an image_map with `once` leaves the point empty. */
+int image_is_outside(const ImageMap *image, Vec2 uv);
+/* The image's colour at its own UV, with its alpha and `filter all` and `transmit all`. */
+Rgbft image_lookup(const ImageMap *image, Vec2 uv);
+/* The pigment's colour at a point of its pattern space. */
+Rgbft pigment_pattern(const Pigment *pigment, Vec3 p);
+
+#endif

@@ -1,0 +1,54 @@
+/* The shapes, each in its canonical space (see ShapeKind); private to renderer/shape.
+ *
+ * Natural parametrisation, where a target has no uv_mapping:
+ *   sphere, torus   POV-Ray's uv: u around y from +x towards +z (.75 at -z), v from pole to pole; torus: v around the tube
+ *                   from the inner equator (0) over the bottom, the outer equator (.5) and the top (.75)
+ *   box             each face 0..1, upright and unmirrored seen from outside, with y up; the top and the bottom as they
+ *                   unfold from the -z face
+ *   cone, cylinder  side: u the angle from x towards y, v the height from the base; caps: x and y, the unit square round
+ *                   the cap's circle
+ *   disc            x and y, the unit square round the outer circle
+ *   mesh            its uv_vectors */
+#ifndef RENDERER_SHAPE_SHAPES_H
+#define RENDERER_SHAPE_SHAPES_H
+
+#include "shape/surface.h"
+
+/* A ray in canonical space; its direction keeps the length that makes t the world's. */
+typedef struct ShapeRay {
+    Vec3 origin, direction;
+    double tmin, tmax;
+    double slack; /* how far the origin may be from where it ought to be, by rounding */
+} ShapeRay;
+
+/* A point on the shape. */
+typedef struct ShapePoint {
+    Vec3 p, normal;  /* canonical space; normal outward, of any length */
+    Vec3 shading;    /* the same as normal but for meshes */
+    Vec2 uv, natural;
+    int has_uv;      /* 0: uv_mapping falls back to the world's x and y */
+    int has_natural;
+} ShapePoint;
+
+int sphere_hit(const ShapeRay *ray, double *t);
+int plane_hit(const ShapeRay *ray, double *t);
+int disc_hit(const Primitive *primitive, const ShapeRay *ray, double *t);
+int cone_hit(const Primitive *primitive, const ShapeRay *ray, double *t, int *face);
+int torus_hit(const Primitive *primitive, const ShapeRay *ray, double *t);
+
+/* p is near the surface; it is put onto it. */
+void sphere_point(Vec3 p, ShapePoint *out);
+void plane_point(Vec3 p, ShapePoint *out);
+void disc_point(const Primitive *primitive, Vec3 p, ShapePoint *out);
+void cone_point(const Primitive *primitive, Vec3 p, int face, ShapePoint *out);
+void torus_point(const Primitive *primitive, Vec3 p, ShapePoint *out);
+void box_point(Vec3 p, int face, ShapePoint *out);
+void mesh_point(const Mesh *mesh, int face, double b1, double b2, ShapePoint *out);
+
+/* World space from canonical space, and the face's texture and target. Leaves backside 0. */
+void surface_from_point(Surface *surface, const Primitive *primitive, int face, const ShapePoint *point);
+
+/* An angle's share of the turn, 0..1, of the direction (x, y) counted from x. */
+double turn_of(double x, double y);
+
+#endif

@@ -1,0 +1,169 @@
+/* The torus about y. Its quartic is solved by monotonic pieces: between two neighbouring critical points there is at most
+ * one root, and a sign change finds it for certain. So no root is lost or made up but for grazing pairs closer than
+ * rounding, and there is nothing to tune. */
+#include <float.h>
+#include "shape/shapes.h"
+
+/* s^4 + c2 s^2 + c1 s + c0: measured from the point of closest approach to the centre there is no cubic term. */
+typedef struct Quartic { double c2, c1, c0; } Quartic;
+
+static double value(const Quartic *q, double s) { return ((s * s + q->c2) * s + q->c1) * s + q->c0; }
+static double slope(const Quartic *q, double s) { return (4 * s * s + 2 * q->c2) * s + q->c1; }
+static double curvature(const Quartic *q, double s) { return 12 * s * s + 2 * q->c2; }
+
+typedef double Function(const Quartic *q, double s);
+
+/* The root between low and high, where f has opposite signs: Newton's steps, halving where they leave the bracket. */
+static double bracketed(Function *f, Function *derivative, const Quartic *q, double low, double high, int rising)
+{
+    double s = 0.5 * (low + high);
+
+    for (int i = 0; i < 100; i++) {
+        double v = f(q, s), d = derivative(q, s), next;
+        if ((v > 0) == rising)
+            high = s;
+        else
+            low = s;
+        next = d != 0 ? s - v / d : low;
+        if (!(next > low && next < high))
+            next = 0.5 * (low + high);
+        if (fabs(next - s) <= 4 * DBL_EPSILON * fabs(s) || next == s)
+            return next;
+        s = next;
+    }
+    return s;
+}
+
+/* Ascending critical points of the quartic within low..high. */
+static int critical_points(const Quartic *q, double low, double high, double out[3])
+{
+    double ends[4] = {low, high}, bend;
+    int pieces = 1, count = 0;
+
+    if (q->c2 < 0) {
+        bend = sqrt(-q->c2 / 6);
+        pieces = 0;
+        ends[0] = low;
+        if (-bend > low && -bend < high)
+            ends[++pieces] = -bend;
+        if (bend > low && bend < high)
+            ends[++pieces] = bend;
+        ends[++pieces] = high;
+    }
+    for (int i = 0; i < pieces; i++) {
+        double a = slope(q, ends[i]), b = slope(q, ends[i + 1]);
+        if ((a > 0) != (b > 0))
+            out[count++] = bracketed(slope, curvature, q, ends[i], ends[i + 1], b > 0);
+    }
+    return count;
+}
+
+/* Distance-like equation of the tube: better conditioned than the quartic, used for the last digits. */
+static double polish(double major, double minor, Vec3 o, Vec3 d, double s)
+{
+    Vec3 p = vec_mad(o, d, s);
+    double rho = hypot(p.x, p.z), pull = (p.x * d.x + p.z * d.z) / (rho > 0 ? rho : 1);
+    double rest = p.y * p.y - minor * minor, outer = (rho - major) * (rho - major) + rest;
+    double inner = (rho + major) * (rho + major) + rest, f, derivative, step;
+
+    /* The second factor is the inner skin of a torus that overlaps itself. */
+    if (fabs(inner) < fabs(outer)) {
+        f = inner;
+        derivative = 2 * ((rho + major) * pull + p.y * d.y);
+    } else {
+        f = outer;
+        derivative = 2 * ((rho - major) * pull + p.y * d.y);
+    }
+    step = derivative != 0 ? f / derivative : 0;
+    return fabs(step) < 1e-6 * (major + minor) ? s - step : s;
+}
+
+/* The part of the ray in the slab |y| <= minor within the sphere about all; 0 where there is none. */
+static int clip(double major, double minor, Vec3 o, Vec3 d, double *low, double *high)
+{
+    double reach = (major + minor) * (major + minor) - vec_dot(o, o);
+
+    if (!(reach > 0))
+        return 0;
+    reach = sqrt(reach) * (1 + 1e-9);
+    *low = fmax(*low, -reach);
+    *high = fmin(*high, reach);
+    if (d.y != 0) {
+        double middle = -o.y / d.y, half = fabs(minor / d.y) * (1 + 1e-9);
+        *low = fmax(*low, middle - half);
+        *high = fmin(*high, middle + half);
+    } else if (fabs(o.y) > minor) {
+        return 0;
+    }
+    return *low < *high;
+}
+
+/* Where the ray begins (at tmin) on the surface, rounding must not decide the sign of the equation there: the direction
+ * does. Returns 0 where it begins elsewhere, else 1 leaving the tube, -1 entering it. */
+static int start_side(double major, double minor, const ShapeRay *ray)
+{
+    Vec3 o = vec_mad(ray->origin, ray->direction, ray->tmin), d = ray->direction;
+    double rho = hypot(o.x, o.z), f = (rho - major) * (rho - major) + o.y * o.y - minor * minor;
+    double bound = 4 * ray->slack * (fabs(rho - major) + fabs(o.y) + minor);
+
+    if (!(fabs(f) <= bound))
+        return 0;
+    return (rho - major) * (rho > 0 ? (o.x * d.x + o.z * d.z) / rho : 0) + o.y * d.y >= 0 ? 1 : -1;
+}
+
+int torus_hit(const Primitive *primitive, const ShapeRay *ray, double *t)
+{
+    double major = primitive->r0, minor = fabs(primitive->r1), length = vec_length(ray->direction), shift, low, high;
+    Vec3 d = vec_scale(ray->direction, 1 / length), o;
+    double begin, k, ends[5], previous;
+    int count, start;
+    Quartic q;
+
+    shift = -vec_dot(ray->origin, d);
+    o = vec_mad(ray->origin, d, shift);
+    begin = low = ray->tmin * length - shift;
+    high = ray->tmax * length - shift;
+    if (!clip(major, minor, o, d, &low, &high))
+        return 0;
+    k = vec_dot(o, o) + major * major - minor * minor;
+    q.c2 = 2 * k - 4 * major * major * (d.x * d.x + d.z * d.z);
+    q.c1 = -8 * major * major * (o.x * d.x + o.z * d.z);
+    q.c0 = k * k - 4 * major * major * (o.x * o.x + o.z * o.z);
+    count = critical_points(&q, low, high, ends + 1);
+    ends[0] = low;
+    ends[++count] = high;
+    /* The start counts only where the search begins at it. */
+    start = low == begin ? start_side(major, minor, ray) : 0;
+    previous = start ? start : value(&q, low);
+    for (int i = 1; i <= count; i++) {
+        double next = value(&q, ends[i]);
+        if ((previous > 0) != (next > 0)) {
+            double s = bracketed(value, slope, &q, ends[i - 1], ends[i], next > 0);
+            s = polish(major, minor, o, d, s);
+            *t = (s + shift) / length;
+            if (*t > ray->tmin && *t < ray->tmax)
+                return 1;
+        }
+        previous = next;
+    }
+    return 0;
+}
+
+void torus_point(const Primitive *primitive, Vec3 p, ShapePoint *out)
+{
+    double major = primitive->r0, minor = fabs(primitive->r1), rho = hypot(p.x, p.z), pull;
+    Vec3 ring = rho > 0 ? vec3(p.x * major / rho, 0, p.z * major / rho) : vec3(major, 0, 0), arm = vec_sub(p, ring);
+
+    /* The inner skin of a torus that overlaps itself belongs to the far side of the ring. */
+    if (minor > major && fabs(vec_length(arm) - minor) > 1e-6 * minor) {
+        ring = vec_neg(ring);
+        arm = vec_sub(p, ring);
+    }
+    pull = vec_length(arm);
+    out->p = pull > 0 ? vec_mad(ring, arm, minor / pull) : p;
+    out->normal = out->shading = pull > 0 ? arm : vec3(0, 1, 0);
+    out->uv.u = rho > 0 ? turn_of(p.x, p.z) : 0;
+    out->uv.v = 0.5 + atan2(p.y, rho - major) / (2 * PI);
+    out->natural = out->uv;
+    out->has_uv = out->has_natural = 1;
+}
