@@ -64,6 +64,7 @@ typedef struct RetexExrRequest {
     char channels[RETEX_EXR_LETTERS_MAX][RETEX_EXR_NAME_MAX];
     int with_crc;      /* 1: also compute crc (see RetexPart) over the channels asked for; scan lines only */
     uint32_t crc;
+    int damaged;       /* 1: this is the part that made the reading fail */
 } RetexExrRequest;
 
 /* Read them all. image may be NULL where only the crc is wanted. */

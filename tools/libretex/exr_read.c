@@ -426,7 +426,8 @@ static void run_job(void *context, int index, int thread)
             const exr_result_t code = read_chunk(work->exr, job, column, row, &work->scratch[thread]);
             if (code) {
                 int none = 0;
-                atomic_compare_exchange_strong(&work->code, &none, code);
+                if (atomic_compare_exchange_strong(&work->code, &none, code))
+                    job->plan->request->damaged = 1;
                 return;
             }
         }
@@ -545,6 +546,20 @@ static void combine_crcs(const Job *jobs, int njobs)
     }
 }
 
+/* The failure of a chunk, with the name of its part. */
+static int fail_chunk(RetexExr *exr, const Plan *plans, int nplans, exr_result_t code, RetexError *err)
+{
+    const char *name = NULL;
+
+    for (int i = 0; i < nplans; i++)
+        if (plans[i].request->damaged)
+            exr_get_name(exr->context, plans[i].request->part, &name);
+    if (code != EXR_ERR_OUT_OF_MEMORY && name)
+        return retex_fail(err, RETEX_EFORMAT, "%s: part %s is damaged or truncated: %s", retex_input_name(exr->input),
+                          name, exr->message.text[0] ? exr->message.text : exr_get_default_error_message(code));
+    return fail_damaged(exr, code, err);
+}
+
 static int run_jobs(RetexExr *exr, Plan *plans, int nplans, int nthreads, RetexError *err)
 {
     DecodeWork work = { exr, NULL, NULL, 0 };
@@ -568,7 +583,7 @@ static int run_jobs(RetexExr *exr, Plan *plans, int nplans, int nthreads, RetexE
     }
     free(work.scratch);
     free(work.jobs);
-    return code ? fail_damaged(exr, code, err) : 0;
+    return code ? fail_chunk(exr, plans, nplans, code, err) : 0;
 }
 
 int retex_exr_read(RetexExr *exr, RetexExrRequest *requests, int nrequests, int nthreads, RetexError *err)

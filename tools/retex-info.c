@@ -1,0 +1,234 @@
+/* retex-info: what a set holds, for people or as JSON, and whether its checksums are right. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include <retex/retex.h>
+
+#include "cli.h"
+
+static const CliOption options[] = {
+    { "json", 0, NULL, "print the manifest and the sizes as JSON", 0 },
+    { "check", 0, NULL, "compare every part's checksum with its data: exit status 1 if one is wrong", 0 },
+    { 0 },
+};
+
+/* Uncompressed bytes as stored, by what they are for; and how many AOVs the supplement would count. */
+typedef struct Sizes {
+    long long file; /* bytes, or -1 where it cannot be known */
+    long long radiance, uv, spread, albedo, originals, other, samples;
+    int radiance_aovs, uv_aovs, spread_aovs;
+} Sizes;
+
+static long long part_bytes(const RetexPart *part)
+{
+    return (long long)part->image.width * part->image.height * part->image.channels *
+           (part->type == RETEX_HALF ? 2 : 4);
+}
+
+/* Add a part to a group, once, however often it is referred to. */
+static void count_part(const RetexSet *set, int part, char *counted, long long *bytes, int *aovs)
+{
+    if (part < 0 || counted[part])
+        return;
+    counted[part] = 1;
+    *bytes += part_bytes(&set->parts[part]);
+    if (aovs)
+        ++*aovs;
+}
+
+static int measure_set(const RetexSet *set, Sizes *sizes)
+{
+    char *counted = calloc((size_t)set->nparts + 1, 1);
+
+    if (!counted)
+        return 0;
+    for (int i = 0; i < set->nterms; i++)
+        count_part(set, set->terms[i].radiance, counted, &sizes->radiance, &sizes->radiance_aovs);
+    for (int i = 0; i < set->nfootprints; i++) {
+        count_part(set, set->footprints[i].uv, counted, &sizes->uv, &sizes->uv_aovs);
+        count_part(set, set->footprints[i].spread, counted, &sizes->spread, &sizes->spread_aovs);
+        count_part(set, set->footprints[i].albedo, counted, &sizes->albedo, NULL);
+    }
+    for (int i = 0; i < set->ntargets; i++)
+        count_part(set, set->targets[i].original, counted, &sizes->originals, NULL);
+    for (int i = 0; i < set->nparts; i++)
+        count_part(set, i, counted, &sizes->other, NULL);
+    free(counted);
+    return 1;
+}
+
+static Sizes measure(const char *path, const RetexSet *set, const RetexSamples *samples)
+{
+    Sizes sizes = { .file = -1 };
+    struct stat status;
+
+    if (strcmp(path, "-") != 0 && stat(path, &status) == 0 && S_ISREG(status.st_mode))
+        sizes.file = status.st_size;
+    if (set)
+        measure_set(set, &sizes);
+    for (int i = 0; samples && i < samples->nimages; i++)
+        if (samples->images[i].pixels)
+            sizes.samples += (long long)samples->width * samples->height * 3 * 4;
+    return sizes;
+}
+
+static void print_bytes(const char *what, long long bytes)
+{
+    if (bytes > 0)
+        printf("  %-12s %10.2f MB\n", what, (double)bytes / 1e6);
+}
+
+static void print_target(const RetexSet *set, const RetexTarget *target)
+{
+    printf("target %s\n", target->name);
+    printf("  idents       %s\n", target->idents);
+    printf("  share        %.2f%% of the picture\n", 100 * target->share);
+    printf("  mean albedo  %.4f %.4f %.4f\n", (double)target->mean_albedo[0], (double)target->mean_albedo[1],
+           (double)target->mean_albedo[2]);
+    printf("  u            %.6g to %.6g%s\n", target->uv_min[0], target->uv_max[0],
+           target->periodic[0] ? ", closed" : "");
+    printf("  v            %.6g to %.6g%s\n", target->uv_min[1], target->uv_max[1],
+           target->periodic[1] ? ", closed" : "");
+    if (target->original >= 0)
+        printf("  original     %d x %d texels over %.6g,%.6g to %.6g,%.6g\n",
+               set->parts[target->original].image.width, set->parts[target->original].image.height,
+               target->original_min[0], target->original_min[1], target->original_max[0], target->original_max[1]);
+}
+
+static void print_set(const RetexSet *set, const Sizes *sizes)
+{
+    printf("layout         %s\n", set->layout);
+    printf("size           %d x %d pixels, %s filter\n", set->width, set->height, set->filter);
+    printf("samples        %d a pixel, seed %lu\n", set->spp, (unsigned long)set->seed);
+    printf("orders         %d%s, %.4f%% of the light folded\n", set->orders,
+           set->strict_paper ? " (strict)" : "", 100 * set->folded);
+    printf("max depth      %d segments\n", set->max_depth);
+    if (set->scene[0])
+        printf("scene          %s\n", set->scene);
+    if (set->generator[0])
+        printf("generator      %s\n", set->generator);
+    for (int i = 0; i < set->ntargets; i++)
+        print_target(set, &set->targets[i]);
+    printf("AOVs           %d: %d radiance, %d UV, %d spread\n",
+           sizes->radiance_aovs + sizes->uv_aovs + sizes->spread_aovs, sizes->radiance_aovs, sizes->uv_aovs,
+           sizes->spread_aovs);
+}
+
+static void print_samples(const RetexSamples *samples)
+{
+    int count = 0;
+
+    for (int i = 0; i < samples->nimages; i++)
+        count += samples->images[i].pixels != NULL;
+    printf("samples of     %d footprints out of %d, %d x %d pixels\n", count, samples->nimages, samples->width,
+           samples->height);
+    for (int i = 0; i < samples->ntargets; i++)
+        if (samples->textures[i][0])
+            printf("  %-12s %s\n", samples->target_names[i], samples->textures[i]);
+}
+
+static void print_text(const RetexSet *set, const RetexSamples *samples, const Sizes *sizes)
+{
+    if (set)
+        print_set(set, sizes);
+    if (samples)
+        print_samples(samples);
+    printf("bytes\n");
+    print_bytes("radiance", sizes->radiance);
+    print_bytes("UV", sizes->uv);
+    print_bytes("spread", sizes->spread);
+    print_bytes("albedo", sizes->albedo);
+    print_bytes("originals", sizes->originals);
+    print_bytes("other", sizes->other);
+    print_bytes("samples", sizes->samples);
+    print_bytes("file", sizes->file);
+}
+
+/* The manifest with the sizes before its own first key. */
+static int print_json(const Cli *cli, const RetexSet *set, const RetexSamples *samples, const Sizes *sizes)
+{
+    RetexError error = { 0 };
+    char *manifest;
+
+    if (retex_set_manifest(set, samples, &manifest, &error)) {
+        cli_error(cli, &error);
+        return CLI_FAIL;
+    }
+    printf("{\"file_bytes\":");
+    if (sizes->file >= 0)
+        printf("%lld", sizes->file);
+    else
+        printf("null");
+    printf(",\"aovs\":%d,\"bytes\":{\"radiance\":%lld,\"uv\":%lld,\"spread\":%lld,\"albedo\":%lld,\"originals\":%lld,"
+           "\"other\":%lld,\"samples\":%lld},%s\n",
+           sizes->radiance_aovs + sizes->uv_aovs + sizes->spread_aovs, sizes->radiance, sizes->uv, sizes->spread,
+           sizes->albedo, sizes->originals, sizes->other, sizes->samples, manifest + 1);
+    free(manifest);
+    return CLI_OK;
+}
+
+static int print_info(const Cli *cli, const char *path, int json)
+{
+    RetexSet *set = NULL;
+    RetexSamples *samples = NULL;
+    RetexError error = { 0 };
+    int status = CLI_OK;
+
+    if (retex_set_read(path, &set, &samples, cli->threads, &error))
+        cli_fail(cli, &error);
+    const Sizes sizes = measure(path, set, samples);
+    if (json)
+        status = print_json(cli, set, samples, &sizes);
+    else
+        print_text(set, samples, &sizes);
+    retex_set_close(&set);
+    retex_samples_close(&samples);
+    return status;
+}
+
+/* A damaged set is an answer; a file that cannot be read, or is no set at all, a failure. */
+static int check(const Cli *cli, const char *path)
+{
+    RetexError error = { 0 };
+    const int code = retex_set_check(path, cli->threads, &error);
+
+    if (code == RETEX_EFORMAT && !strstr(error.message, "not a set")) {
+        cli_error(cli, &error);
+        return CLI_NO;
+    }
+    if (code)
+        cli_fail(cli, &error);
+    if (!cli->quiet)
+        printf("%s: ok\n", strcmp(path, "-") == 0 ? "standard input" : path);
+    return CLI_OK;
+}
+
+int main(int argc, char **argv)
+{
+    Cli cli = { .tool = "retex-info", .usage = "SET [--json] [--check]", .about = "Describe a set, samples or a pack.",
+                .options = options, .argc = argc, .argv = argv, .next = 1 };
+    const char *path = NULL;
+    const CliOption *option;
+    int json = 0, checking = 0;
+
+    while ((option = cli_next(&cli))) {
+        if (option == &cli_positional) {
+            if (path)
+                cli_die(&cli, "one set at a time: what is %s?", cli.value);
+            path = cli.value;
+        } else if (strcmp(option->name, "json") == 0) {
+            json = 1;
+        } else {
+            checking = 1;
+        }
+    }
+    if (!path)
+        cli_die(&cli, "no set given");
+    if (cli.output)
+        cli_die(&cli, "there is no output file; the answer goes to standard output");
+    if (json && checking)
+        cli_die(&cli, "--json and --check exclude each other");
+    return cli_close(&cli, checking ? check(&cli, path) : print_info(&cli, path, json));
+}
