@@ -19,6 +19,9 @@ WARNINGS = -Wall -Wextra -Wshadow -Wstrict-prototypes -Wmissing-prototypes -Wpoi
 CXXWARNINGS = -Wall -Wextra
 PKG_CONFIG ?= pkg-config
 INSTALL ?= install
+# V=1 prints whole commands.
+V ?= 0
+SAY = $(if $(filter 0,$(V)),@echo '  $@' && )
 # -j of the command line wins.
 JOBS ?= $(shell nproc 2>/dev/null || echo 2)
 MAKEFLAGS += -j$(JOBS)

@@ -5,15 +5,15 @@ LIBRENDER := $(if $(RENDERER_SOURCES),$(BUILD)/lib/librender.a)
 
 $(BUILD)/obj/renderer/%.o: renderer/%.c $(BUILD)/config.mk
 	@mkdir -p $(@D)
-	$(CC) $(CPPFLAGS_ALL) -Irenderer $(RENDER_CFLAGS) $(CFLAGS_ALL) $(KERNEL_CFLAGS) -MMD -MP -c $< -o $@
+	$(SAY)$(CC) $(CPPFLAGS_ALL) -Irenderer $(RENDER_CFLAGS) $(CFLAGS_ALL) $(KERNEL_CFLAGS) -MMD -MP -c $< -o $@
 
 $(BUILD)/lib/librender.a: $(RENDERER_SOURCES:%.c=$(BUILD)/obj/%.o)
 	@mkdir -p $(@D)
-	rm -f $@ && $(AR) rcs $@ $^
+	$(SAY)rm -f $@ && $(AR) rcs $@ $^
 
 $(BUILD)/bin/retex-render: $(BUILD)/obj/renderer/retex-render.o $(BUILD)/obj/tools/cli.o $(LIBRENDER) $(LIBRETEX) | $(BRIDGE)
 	@mkdir -p $(@D)
-	$(LINK) $^ -o $@ $(RENDER_LIBS) $(LIBRETEX_LIBS)
+	$(SAY)$(LINK) $^ -o $@ $(RENDER_LIBS) $(LIBRETEX_LIBS)
 
 ifneq ($(wildcard renderer/retex-render.c),)
 TOOLS += retex-render

@@ -10,21 +10,21 @@ $(BUILD)/test.mk: tools/setup.sh
 
 $(LIBTEST): $(patsubst %.c,$(BUILD)/obj/%.o,$(wildcard tests/lib/lib_*.c))
 	@mkdir -p $(@D)
-	rm -f $@ && $(AR) rcs $@ $^
+	$(SAY)rm -f $@ && $(AR) rcs $@ $^
 
 # Unit tests may look inside: they see the libraries' private headers.
 $(BUILD)/obj/tests/%.o: tests/%.c $(BUILD)/config.mk | $(BUILD)/test.mk
 	@mkdir -p $(@D)
-	$(CC) $(CPPFLAGS_ALL) -Itests/lib -Itools/libretex -Irenderer $(LIBRETEX_CFLAGS) $(RENDER_CFLAGS) $(CFLAGS_ALL) \
+	$(SAY)$(CC) $(CPPFLAGS_ALL) -Itests/lib -Itools/libretex -Irenderer $(LIBRETEX_CFLAGS) $(RENDER_CFLAGS) $(CFLAGS_ALL) \
 	    -MMD -MP -c $< -o $@
 
 $(BUILD)/tests/unit/%: $(BUILD)/obj/tests/unit/%.o $(LIBTEST) $(BUILD)/obj/tools/cli.o $(LIBRENDER) $(LIBRETEX) | $(BRIDGE)
 	@mkdir -p $(@D)
-	$(LINK) -Wl,-rpath,'$$ORIGIN/../../lib' $^ -o $@ -lcmocka $(RENDER_LIBS) $(LIBRETEX_LIBS)
+	$(SAY)$(LINK) -Wl,-rpath,'$$ORIGIN/../../lib' $^ -o $@ -lcmocka $(RENDER_LIBS) $(LIBRETEX_LIBS)
 
 $(BUILD)/tests/bin/%: $(BUILD)/obj/tests/lib/%.o $(LIBTEST) $(LIBRETEX) | $(BRIDGE)
 	@mkdir -p $(@D)
-	$(LINK) -Wl,-rpath,'$$ORIGIN/../../lib' $^ -o $@ $(LIBRETEX_LIBS)
+	$(SAY)$(LINK) -Wl,-rpath,'$$ORIGIN/../../lib' $^ -o $@ $(LIBRETEX_LIBS)
 
 .PHONY: unit-tests check check-all check-unit check-cli check-golden check-man check-fidelity check-update asan tsan
 unit-tests: $(UNIT_TESTS:%=$(BUILD)/tests/unit/%)

@@ -14,29 +14,29 @@ BRIDGE := $(BUILD)/lib/libretex-oiio.so
 
 $(BUILD)/obj/tools/libretex/%.o: tools/libretex/%.c $(BUILD)/config.mk
 	@mkdir -p $(@D)
-	$(CC) $(CPPFLAGS_ALL) $(LIBRETEX_CFLAGS) $(CFLAGS_ALL) $(KERNEL_CFLAGS) -MMD -MP -c $< -o $@
+	$(SAY)$(CC) $(CPPFLAGS_ALL) $(LIBRETEX_CFLAGS) $(CFLAGS_ALL) $(KERNEL_CFLAGS) -MMD -MP -c $< -o $@
 
 $(BUILD)/obj/tools/%.o: tools/%.c $(BUILD)/config.mk
 	@mkdir -p $(@D)
-	$(CC) $(CPPFLAGS_ALL) $(CFLAGS_ALL) -MMD -MP -c $< -o $@
+	$(SAY)$(CC) $(CPPFLAGS_ALL) $(CFLAGS_ALL) -MMD -MP -c $< -o $@
 
 $(LIBRETEX): $(LIBRETEX_SOURCES:%.c=$(BUILD)/obj/%.o)
 	@mkdir -p $(@D)
-	rm -f $@ && $(AR) rcs $@ $^
+	$(SAY)rm -f $@ && $(AR) rcs $@ $^
 
 $(BUILD)/obj/tools/bridge/%.o: tools/bridge/%.cpp $(BUILD)/config.mk
 	@mkdir -p $(@D)
-	$(CXX) $(CPPFLAGS_ALL) $(BRIDGE_CFLAGS) $(CXXFLAGS_ALL) -MMD -MP -c $< -o $@
+	$(SAY)$(CXX) $(CPPFLAGS_ALL) $(BRIDGE_CFLAGS) $(CXXFLAGS_ALL) -MMD -MP -c $< -o $@
 
 $(BRIDGE): $(patsubst %.cpp,$(BUILD)/obj/%.o,$(wildcard tools/bridge/*.cpp))
 	@mkdir -p $(@D)
-	$(CXX) -shared $(CXXFLAGS_ALL) $(LDFLAGS) $^ -o $@ $(BRIDGE_LIBS)
+	$(SAY)$(CXX) -shared $(CXXFLAGS_ALL) $(LDFLAGS) $^ -o $@ $(BRIDGE_LIBS)
 
 # A tool is tools/retex-NAME.c, the shared command line and the library. The bridge is found beside it at run time.
 LINK = $(CC) $(CFLAGS_ALL) $(LDFLAGS) -Wl,-rpath,'$$ORIGIN/../lib' -Wl,--disable-new-dtags
 $(BUILD)/bin/retex-%: $(BUILD)/obj/tools/retex-%.o $(BUILD)/obj/tools/cli.o $(LIBRETEX) | $(BRIDGE)
 	@mkdir -p $(@D)
-	$(LINK) $^ -o $@ $(LIBRETEX_LIBS)
+	$(SAY)$(LINK) $^ -o $@ $(LIBRETEX_LIBS)
 
 all: $(LIBRETEX) $(BRIDGE) $(TOOLS:%=$(BUILD)/bin/%)
 -include $(shell find $(BUILD)/obj -name '*.d' 2>/dev/null)

@@ -3,7 +3,10 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
+
+#include "half.h"
 
 /* Add a part of the set's size; returns its index. */
 static int add_part(RetexSet *set, const char *name, const char *letters, RetexPixelType type)
@@ -14,7 +17,7 @@ static int add_part(RetexSet *set, const char *name, const char *letters, RetexP
     return part;
 }
 
-/* Light that falls off over five decades, with noise, black in a disc; everything exact in half precision. */
+/* Light that falls off over five decades, with noise, black in a disc. */
 static void fill_radiance(RetexImage *im, double level, uint32_t *seed)
 {
     for (int y = 0; y < im->height; y++)
@@ -23,7 +26,7 @@ static void fill_radiance(RetexImage *im, double level, uint32_t *seed)
             double light = level * pow(10, -4 * hypot(dx, dy)) * (0.7 + 0.6 * test_random(seed));
             for (int c = 0; c < 3; c++)
                 im->pixels[retex_image_index(im, x, y) + (size_t)c] =
-                    hypot(dx, dy) < 0.1 ? 0 : ldexpf(rintf((float)(light * (1 - 0.2 * c) * 65536)), -16);
+                    hypot(dx, dy) < 0.1 ? 0 : (float)(light * (1 - 0.2 * c));
         }
 }
 
@@ -60,7 +63,7 @@ static int add_footprint(RetexSet *set, int target, int hit, uint32_t *seed)
             spread[0] = ldexpf(1, -9 + hit);
             spread[1] = ldexpf(1, -8 + hit);
             for (int c = 0; c < 3; c++)
-                albedo[c] = ldexpf(rintf((float)(0.2 + 0.15 * (c + target) + 0.1 * jitter) * 1024), -10);
+                albedo[c] = (float)(0.2 + 0.15 * (c + target) + 0.1 * jitter);
         }
     RetexError err = {0};
     int index;
@@ -96,7 +99,22 @@ static void add_target(RetexSet *set, const char *name, int periodic, uint32_t *
     test_must(retex_set_add_part(set, part, "RGB", RETEX_HALF, 16, 12, &target->original, &err), &err);
     RetexImage *im = &set->parts[target->original].image;
     for (size_t i = 0; i < (size_t)im->width * (size_t)im->height * 3; i++)
-        im->pixels[i] = ldexpf((float)(int)(1023 * test_random(seed)), -10);
+        im->pixels[i] = (float)test_random(seed);
+}
+
+/* What is stored in half precision is exact in it, so that files keep every bit of the set. */
+static void round_to_stored(RetexSet *set)
+{
+    for (int i = 0; i < set->nparts; i++) {
+        RetexImage *im = &set->parts[i].image;
+        size_t n = (size_t)im->width * (size_t)im->height * (size_t)im->channels;
+        if (set->parts[i].type != RETEX_HALF)
+            continue;
+        uint16_t *halves = malloc(n * sizeof *halves);
+        retex_half_from_float(halves, im->pixels, n);
+        retex_half_to_float(im->pixels, halves, n);
+        free(halves);
+    }
 }
 
 RetexSet *test_set(int width, int height, uint32_t seed)
@@ -137,5 +155,6 @@ RetexSet *test_set(int width, int height, uint32_t seed)
     int depth = add_part(set, "depth", "R", RETEX_FLOAT);
     for (int i = 0; i < width * height; i++)
         set->parts[depth].image.pixels[i] = i % 7 == 0 ? INFINITY : (float)(1 + test_random(&seed));
+    round_to_stored(set);
     return set;
 }

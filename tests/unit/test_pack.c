@@ -1,0 +1,414 @@
+/* Packs: bit-exact or close round trips, and refusal of whatever is not whole. */
+#include "lib_test.h"
+#include <cmocka.h>
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+#include <zip.h>
+
+#include "pack_codec.h"
+
+/* Pack a set into memory. */
+static unsigned char *pack(const RetexSet *set, const RetexPackParams *params, size_t *bytes)
+{
+    char path[] = "/tmp/test_pack_XXXXXX";
+    RetexError err = {0};
+    int fd = mkstemp(path);
+    assert_true(fd >= 0);
+    close(fd);
+    test_must(retex_pack_write(set, path, params, bytes, &err), &err);
+    FILE *file = fopen(path, "rb");
+    unsigned char *data = malloc(*bytes);
+    assert_int_equal(fread(data, 1, *bytes, file), *bytes);
+    assert_int_equal(fgetc(file), EOF);
+    fclose(file);
+    unlink(path);
+    return data;
+}
+
+static RetexPackParams lossless(void)
+{
+    RetexPackParams params = RETEX_PACK_INIT;
+    params.lossless = 1;
+    return params;
+}
+
+static RetexSet *unpack(const unsigned char *data, size_t bytes)
+{
+    RetexSet *set = NULL;
+    RetexError err = {0};
+    test_must(retex_pack_read(data, bytes, &set, 2, &err), &err);
+    return set;
+}
+
+/* Largest difference between two parts' values as a share of the larger of them and `floor`. */
+static double part_difference(const RetexPart *a, const RetexPart *b, double floor)
+{
+    size_t n = (size_t)a->image.width * (size_t)a->image.height * (size_t)a->image.channels;
+    double worst = 0;
+    assert_int_equal(a->image.channels, b->image.channels);
+    assert_int_equal(a->image.width, b->image.width);
+    assert_int_equal(a->image.height, b->image.height);
+    for (size_t i = 0; i < n; i++) {
+        double x = (double)a->image.pixels[i], y = (double)b->image.pixels[i];
+        if (x != y)
+            worst = fmax(worst, fabs(x - y) / fmax(fmax(fabs(x), fabs(y)), floor));
+    }
+    return worst;
+}
+
+static void test_lossless_keeps_every_bit(void **state)
+{
+    (void)state;
+    size_t bytes, again_bytes;
+    RetexPackParams params = lossless();
+    RetexSet *set = test_set(37, 29, 3);
+    set->parts[3].image.pixels[4] = -0.0f; /* zeros with a sign, subnormals and NaN survive too */
+    set->parts[4].image.pixels[5] = 5.9604645e-8f;
+    int depth = retex_set_find_part(set, "depth");
+    set->parts[depth].image.pixels[1] = 1e-42f;
+    set->parts[depth].image.pixels[2] = NAN;
+    unsigned char *data = pack(set, &params, &bytes);
+    RetexSet *back = unpack(data, bytes);
+    assert_int_equal(back->nparts, set->nparts);
+    for (int i = 0; i < set->nparts; i++) {
+        const RetexImage *im = &set->parts[i].image;
+        assert_string_equal(back->parts[i].name, set->parts[i].name);
+        assert_int_equal(back->parts[i].type, set->parts[i].type);
+        assert_memory_equal(back->parts[i].image.pixels, im->pixels,
+                            (size_t)im->width * (size_t)im->height * (size_t)im->channels * sizeof(float));
+    }
+    assert_int_equal(back->nterms, set->nterms);
+    assert_memory_equal(back->footprints, set->footprints, (size_t)set->nfootprints * sizeof *set->footprints);
+    unsigned char *again = pack(back, &params, &again_bytes); /* and the same bytes come out again */
+    assert_int_equal(again_bytes, bytes);
+    assert_memory_equal(again, data, bytes);
+    free(again);
+    free(data);
+    retex_set_close(&back);
+    retex_set_close(&set);
+}
+
+static void test_default_is_close_and_smaller(void **state)
+{
+    (void)state;
+    size_t bytes, lossless_bytes;
+    RetexPackParams params = lossless();
+    RetexSet *set = test_set(200, 150, 4);
+    free(pack(set, &params, &lossless_bytes));
+    unsigned char *data = pack(set, NULL, &bytes);
+    RetexSet *back = unpack(data, bytes);
+    assert_true(bytes * 2 < lossless_bytes);
+    for (int i = 0; i < set->nterms; i++) {
+        const RetexPart *before = &set->parts[set->terms[i].radiance], *after = &back->parts[back->terms[i].radiance];
+        double sum[2][3] = {{0}};
+        for (size_t j = 0; j < 200 * 150 * 3; j++) {
+            assert_true(before->image.pixels[j] != 0 || after->image.pixels[j] == 0); /* black stays black */
+            sum[0][j % 3] += (double)before->image.pixels[j];
+            sum[1][j % 3] += (double)after->image.pixels[j];
+        }
+        for (int c = 0; c < 3; c++) /* and the mean the mean */
+            assert_true(fabs(sum[1][c] / sum[0][c] - 1) < 1e-5);
+        RetexMetrics m;
+        RetexError err = {0};
+        test_must(retex_metrics(&m, &after->image, &before->image, 0, &err), &err);
+        assert_true(m.psnr > 40);
+    }
+    for (int i = 0; i < set->nfootprints; i++) {
+        const RetexFootprint *f = &set->footprints[i];
+        const RetexImage *uv = &set->parts[f->uv].image, *spread = &set->parts[f->spread].image;
+        for (size_t j = 0; j < 200 * 150; j++) {
+            const float *before = uv->pixels + 3 * j, *after = back->parts[f->uv].image.pixels + 3 * j;
+            for (size_t c = 0; c < 2; c++)
+                assert_true(fabs((double)before[c] - (double)after[c]) <=
+                            fmax((double)spread->pixels[2 * j + c] / 32, 1.0 / 524288));
+            assert_true(before[2] == after[2]);
+        }
+        assert_true(part_difference(&set->parts[f->spread], &back->parts[f->spread], 1) == 0);
+        assert_true(part_difference(&set->parts[f->albedo], &back->parts[f->albedo], 1) < 0.1);
+    }
+    int depth = retex_set_find_part(set, "depth");
+    assert_true(part_difference(&set->parts[depth], &back->parts[depth], 1) == 0);
+    free(data);
+    retex_set_close(&back);
+    retex_set_close(&set);
+}
+
+static void test_quality_trades_size(void **state)
+{
+    (void)state;
+    RetexSet *set = test_set(64, 48, 4);
+    size_t before = 0;
+    for (int quality = 20; quality <= 100; quality += 40) {
+        RetexPackParams params = RETEX_PACK_INIT;
+        size_t bytes;
+        params.quality = quality;
+        free(pack(set, &params, &bytes));
+        assert_true(bytes > before);
+        before = bytes;
+    }
+    RetexPackParams params = RETEX_PACK_INIT;
+    RetexError err = {0};
+    params.quality = 101;
+    assert_int_equal(retex_pack_write(set, "/tmp/never", &params, NULL, &err), RETEX_EINVAL);
+    retex_set_close(&set);
+}
+
+static void test_radiance_that_does_not_suit_jpeg_keeps_its_bits(void **state)
+{
+    (void)state;
+    const float odd[3] = {-1, INFINITY, NAN};
+    for (int i = 0; i < 3; i++) {
+        RetexSet *set = test_set(32, 24, 5);
+        RetexPart *part = &set->parts[set->terms[1].radiance];
+        part->image.pixels[7] = odd[i];
+        RetexPacked packed;
+        RetexError err = {0};
+        test_must(retex_pack_encode(&packed, part, RETEX_PACK_LOG, 95, &err), &err);
+        assert_int_equal(packed.codec, RETEX_PACK_PLANES);
+        retex_packed_free(&packed);
+        retex_set_close(&set);
+    }
+}
+
+static void test_black_parts_cost_nothing(void **state)
+{
+    (void)state;
+    RetexSet *set = test_set(32, 24, 5);
+    RetexPart *part = &set->parts[set->terms[1].radiance];
+    memset(part->image.pixels, 0, 32 * 24 * 3 * sizeof(float));
+    RetexPacked packed;
+    RetexError err = {0};
+    test_must(retex_pack_encode(&packed, part, RETEX_PACK_LOG, 95, &err), &err);
+    assert_int_equal(packed.codec, RETEX_PACK_ZERO);
+    assert_int_equal(packed.bytes, 0);
+    retex_set_close(&set);
+}
+
+static void test_threads_do_not_change_bytes(void **state)
+{
+    (void)state;
+    RetexSet *set = test_set(64, 48, 6);
+    size_t bytes[3];
+    unsigned char *data[3];
+    const int threads[3] = {1, 2, 7};
+    for (int i = 0; i < 3; i++) {
+        RetexPackParams params = RETEX_PACK_INIT;
+        params.nthreads = threads[i];
+        data[i] = pack(set, &params, &bytes[i]);
+        assert_int_equal(bytes[i], bytes[0]);
+        assert_memory_equal(data[i], data[0], bytes[0]);
+    }
+    for (int i = 0; i < 3; i++)
+        free(data[i]);
+    retex_set_close(&set);
+}
+
+/* --- damage --- */
+
+/* Reading gives an error with a message and no set. */
+static void assert_refused(const void *data, size_t bytes)
+{
+    RetexSet *set = NULL;
+    RetexError err = {0};
+    int code = retex_pack_read(data, bytes, &set, 1, &err);
+    assert_true(code < 0 && err.code == code && err.message[0]);
+    assert_null(set);
+    assert_true(retex_pack_check(data, bytes, NULL) < 0);
+}
+
+static int sets_equal(const RetexSet *a, const RetexSet *b)
+{
+    int equal = a->nparts == b->nparts && a->nterms == b->nterms && a->nfootprints == b->nfootprints &&
+                a->ntargets == b->ntargets && strcmp(a->scene, b->scene) == 0;
+    for (int i = 0; equal && i < a->nparts; i++) {
+        const RetexImage *x = &a->parts[i].image, *y = &b->parts[i].image;
+        equal = x->width == y->width && x->height == y->height && x->channels == y->channels &&
+                memcmp(x->pixels, y->pixels, (size_t)x->width * (size_t)x->height * (size_t)x->channels * 4) == 0;
+    }
+    return equal;
+}
+
+static void test_every_flipped_byte_is_seen(void **state)
+{
+    (void)state;
+    size_t bytes, unseen = 0;
+    RetexSet *set = test_set(16, 8, 7);
+    unsigned char *data = pack(set, NULL, &bytes);
+    RetexSet *whole = unpack(data, bytes);
+    for (size_t i = 0; i < bytes; i += i < 2048 ? 1 : 7) {
+        RetexSet *back = NULL;
+        unsigned char kept = data[i];
+        data[i] ^= (unsigned char)(1 + i % 255);
+        RetexError err = {0};
+        int code = retex_pack_read(data, bytes, &back, 1, &err);
+        if (code == 0) { /* a date or an attribute of the zip: then the set is the same to the bit */
+            assert_true(sets_equal(whole, back));
+            unseen++;
+        } else {
+            assert_true(code < 0 && err.message[0]);
+            assert_null(back);
+        }
+        retex_set_close(&back);
+        data[i] = kept;
+    }
+    assert_true(unseen < bytes / 70);
+    retex_set_close(&whole);
+    free(data);
+    retex_set_close(&set);
+}
+
+static void test_truncated_packs_are_refused(void **state)
+{
+    (void)state;
+    size_t bytes;
+    RetexSet *set = test_set(16, 8, 7);
+    unsigned char *data = pack(set, NULL, &bytes);
+    for (size_t cut = 0; cut < bytes; cut += cut < 64 || cut + 64 > bytes ? 1 : 97)
+        assert_refused(data, cut);
+    free(data);
+    retex_set_close(&set);
+}
+
+/* A pack with one change: an entry added, or the manifest edited by replacing `find` by `put`. */
+static unsigned char *changed_pack(const unsigned char *data, size_t bytes, const char *add, const char *find,
+                                   const char *put, size_t *out_bytes)
+{
+    char path[] = "/tmp/test_pack_XXXXXX";
+    int fd = mkstemp(path);
+    assert_true(fd >= 0 && write(fd, data, bytes) == (ssize_t)bytes);
+    close(fd);
+    zip_t *zip = zip_open(path, 0, NULL);
+    assert_non_null(zip);
+    char *edited = NULL;
+    if (add)
+        assert_true(zip_file_add(zip, add, zip_source_buffer(zip, "abc", 3, 0), 0) >= 0);
+    if (find) {
+        zip_stat_t stat;
+        assert_int_equal(zip_stat(zip, "manifest.json", 0, &stat), 0);
+        char *text = calloc(stat.size + 1, 1);
+        zip_file_t *file = zip_fopen(zip, "manifest.json", 0);
+        assert_int_equal(zip_fread(file, text, stat.size), stat.size);
+        zip_fclose(file);
+        char *at = strstr(text, find);
+        assert_non_null(at);
+        edited = malloc(stat.size + strlen(put) + 1);
+        sprintf(edited, "%.*s%s%s", (int)(at - text), text, put, at + strlen(find));
+        zip_int64_t index = zip_name_locate(zip, "manifest.json", 0);
+        assert_int_equal(zip_file_replace(zip, (zip_uint64_t)index,
+                                          zip_source_buffer(zip, edited, strlen(edited), 0), 0), 0);
+        zip_set_file_compression(zip, (zip_uint64_t)index, ZIP_CM_STORE, 0);
+        free(text);
+    }
+    assert_int_equal(zip_close(zip), 0);
+    free(edited);
+    FILE *result = fopen(path, "rb");
+    fseek(result, 0, SEEK_END);
+    *out_bytes = (size_t)ftell(result);
+    rewind(result);
+    unsigned char *out = malloc(*out_bytes);
+    assert_int_equal(fread(out, 1, *out_bytes, result), *out_bytes);
+    fclose(result);
+    unlink(path);
+    return out;
+}
+
+static void refuse_change(const char *add, const char *find, const char *put, const char *message)
+{
+    size_t bytes, changed_bytes;
+    RetexSet *set = test_set(16, 8, 7), *back = NULL;
+    RetexError err = {0};
+    unsigned char *data = pack(set, NULL, &bytes);
+    unsigned char *changed = changed_pack(data, bytes, add, find, put, &changed_bytes);
+    assert_refused(changed, changed_bytes);
+    retex_pack_read(changed, changed_bytes, &back, 1, &err);
+    assert_non_null(strstr(err.message, message));
+    free(changed);
+    free(data);
+    retex_set_close(&set);
+}
+
+static void test_foreign_entries_are_refused(void **state)
+{
+    (void)state;
+    refuse_change("../evil", NULL, NULL, "no pack has");
+    refuse_change("/etc/passwd", NULL, NULL, "no pack has");
+    refuse_change("parts/../../x.data", NULL, NULL, "no pack has");
+    refuse_change("parts/x.exe", NULL, NULL, "no pack has");
+    refuse_change("parts/unknown.data", NULL, NULL, "entries the manifest does not know");
+}
+
+static void test_manifests_that_lie_are_refused(void **state)
+{
+    (void)state;
+    refuse_change(NULL, "\"codec\":\"jpeg-log\"", "\"codec\":\"jxl\"", "this version knows");
+    refuse_change(NULL, "\"codec\":\"planes\"", "\"codec\":\"zero\"", "");
+    refuse_change(NULL, "\"version\":1,", "\"version\":9,", "version 9");
+    refuse_change(NULL, "\"scale\":", "\"scale\":-", "not sound");
+    refuse_change(NULL, "\"gain\":[", "\"gain\":[0,", "");
+    refuse_change(NULL, "\"width\":16,\"height\":8,\"crc", "\"width\":60000,\"height\":60000,\"crc", "");
+    refuse_change(NULL, "\"bytes\":", "\"bytes\":9", "");
+}
+
+static void test_other_zips_are_refused(void **state)
+{
+    (void)state;
+    assert_refused("PK\5\6\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0", 22); /* an empty zip */
+    assert_refused("", 0);
+    assert_true(retex_pack_probe("PK\3\4", 4));
+    assert_false(retex_pack_probe("PK\3", 3));
+    assert_false(retex_pack_probe("\x76\x2f\x31\x01", 4));
+}
+
+/* --- what JPEG costs --- */
+
+static void test_recombination_from_a_pack_is_close(void **state)
+{
+    (void)state;
+    size_t bytes;
+    RetexError err = {0};
+    RetexSet *set = test_set(200, 150, 8);
+    unsigned char *data = pack(set, NULL, &bytes);
+    RetexSet *back = unpack(data, bytes);
+    RetexTextureSpec spec;
+    RetexImage pictures[2] = {{0}};
+    test_must(retex_texture_spec_parse(&spec, "scale=3", "Floor=rgb(0.8,0.4,0.1)", &err), &err);
+    RetexSet *sets[2] = {set, back};
+    for (int i = 0; i < 2; i++) {
+        RetexSamples *samples = NULL;
+        test_must(retex_sample(&samples, sets[i], &spec, 1, 0, &err), &err);
+        test_must(retex_combine(&pictures[i], sets[i], samples, NULL, NULL, 0, &err), &err);
+        retex_samples_close(&samples);
+    }
+    RetexMetrics m;
+    test_must(retex_metrics(&m, &pictures[1], &pictures[0], 0, &err), &err);
+    print_message("recombination from a pack: %.1f dB\n", m.psnr);
+    assert_true(m.psnr > 42);
+    for (int i = 0; i < 2; i++)
+        retex_image_free(&pictures[i]);
+    free(data);
+    retex_set_close(&back);
+    retex_set_close(&set);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_lossless_keeps_every_bit),
+        cmocka_unit_test(test_default_is_close_and_smaller),
+        cmocka_unit_test(test_quality_trades_size),
+        cmocka_unit_test(test_radiance_that_does_not_suit_jpeg_keeps_its_bits),
+        cmocka_unit_test(test_black_parts_cost_nothing),
+        cmocka_unit_test(test_threads_do_not_change_bytes),
+        cmocka_unit_test(test_every_flipped_byte_is_seen),
+        cmocka_unit_test(test_truncated_packs_are_refused),
+        cmocka_unit_test(test_foreign_entries_are_refused),
+        cmocka_unit_test(test_manifests_that_lie_are_refused),
+        cmocka_unit_test(test_other_zips_are_refused),
+        cmocka_unit_test(test_recombination_from_a_pack_is_close),
+    };
+    return cmocka_run_group_tests_name("pack", tests, NULL, NULL);
+}
