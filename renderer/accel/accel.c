@@ -1,0 +1,563 @@
+/* Ray queries through Embree: the only file that knows it. Builds with Embree 3 and 4.
+ *
+ * Embree works in float; this renderer asks for double positions and for rays that never meet the surface they leave. So
+ * Embree only proposes: every triangle it finds is intersected again in double, in a filter function, and refused unless
+ * that t lies within the ray's own double range. A ray that starts on a triangle's plane (within the rounding error of the
+ * plane's equation) does not meet it, however large the triangle or small the distance to the next one. Curved shapes are
+ * user geometry and double throughout. Boxes and meshes are one triangle geometry in world space; planes, which have no
+ * bounds, are tested one by one. Visibility by kind of ray is decided in the same place: masks may be missing from Embree. */
+#include <float.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#if defined(RETEX_EMBREE4)
+#include <embree4/rtcore.h>
+typedef struct RTCRayQueryContext QueryContext;
+#else
+#include <embree3/rtcore.h>
+typedef struct RTCIntersectContext QueryContext;
+#endif
+#include "accel/accel.h"
+#include "shade/pigment.h"
+
+#define TRANSPARENT 0x80u   /* in flags, beside the RayKinds that see the primitive */
+#define LARGEST_COORDINATE 1e18 /* Embree takes anything beyond about 1.8e18 as no geometry */
+#define SPATIAL_SPLIT_LIMIT 4000000 /* triangles: beyond it building would take too long for what tracing gains */
+
+typedef struct Triangle {
+    int32_t primitive, face;
+} Triangle;
+
+struct Accel {
+    RTCDevice device;
+    RTCScene scene;
+    const Scene *source;
+    Vec3 *vertices;            /* of all triangles, world space */
+    uint32_t (*corners)[3];
+    Triangle *triangles;
+    size_t nvertices, ntriangles;
+    int *curved, *planes;      /* primitive indices */
+    int ncurved, nplanes;
+    unsigned triangle_geometry, curved_geometry;
+    unsigned char *flags;      /* of each primitive */
+    int has_transparent;
+    Vec3 low, high;
+    RetexError error;          /* Embree's first complaint */
+};
+
+/* Embree hands the context to every callback: ours carries the ray in double. */
+typedef struct Query {
+    QueryContext context;
+    const Accel *accel;
+    const Ray *ray;
+    unsigned kind, refused; /* flags a primitive must and must not have */
+    double t;               /* of the nearest curved shape so far */
+    int face;
+} Query;
+
+static int visible(const Query *query, int primitive)
+{
+    unsigned flags = query->accel->flags[primitive];
+
+    return (flags & query->kind) && !(flags & query->refused);
+}
+
+/* ---- triangles in double ---- */
+
+static double largest(Vec3 a) { return fmax(fabs(a.x), fmax(fabs(a.y), fabs(a.z))); }
+
+/* Distance to the triangle's plane; 0 where the ray runs along it or starts on it. */
+static int plane_distance(const Accel *accel, size_t triangle, const Ray *ray, double *t)
+{
+    const uint32_t *corner = accel->corners[triangle];
+    Vec3 v0 = accel->vertices[corner[0]], to = vec_sub(v0, ray->origin);
+    Vec3 n = vec_cross(vec_sub(accel->vertices[corner[1]], v0), vec_sub(accel->vertices[corner[2]], v0));
+    double height = vec_dot(n, to), fall = vec_dot(n, ray->direction);
+    double size = largest(v0) + largest(ray->origin) + largest(to);
+
+    if (fabs(height) <= 8 * DBL_EPSILON * size * (fabs(n.x) + fabs(n.y) + fabs(n.z)) || fall == 0)
+        return 0;
+    *t = height / fall;
+    return 1;
+}
+
+/* Barycentrics of where the ray meets the plane, pulled into the triangle: Embree has decided that it is inside. */
+static void barycentrics(const Accel *accel, size_t triangle, const Ray *ray, double t, Hit *hit)
+{
+    const uint32_t *corner = accel->corners[triangle];
+    Vec3 v0 = accel->vertices[corner[0]], e1 = vec_sub(accel->vertices[corner[1]], v0);
+    Vec3 e2 = vec_sub(accel->vertices[corner[2]], v0), n = vec_cross(e1, e2);
+    Vec3 q = vec_sub(vec_mad(ray->origin, ray->direction, t), v0);
+    double nn = vec_dot(n, n), b1 = vec_dot(vec_cross(q, e2), n) / nn, b2 = vec_dot(vec_cross(e1, q), n) / nn;
+
+    b1 = fmin(fmax(b1, 0), 1);
+    b2 = fmin(fmax(b2, 0), 1);
+    if (b1 + b2 > 1) {
+        double sum = b1 + b2;
+        b1 /= sum;
+        b2 /= sum;
+    }
+    hit->b1 = (float)b1;
+    hit->b2 = (float)b2;
+}
+
+/* ---- callbacks ---- */
+
+/* Called for single rays only, so N is 1. */
+static void filter_triangle(const struct RTCFilterFunctionNArguments *args)
+{
+    const Query *query = (const Query *)args->context;
+    const Accel *accel = query->accel;
+    unsigned triangle = ((const struct RTCHit *)args->hit)->primID;
+    double t;
+
+    if (!visible(query, accel->triangles[triangle].primitive) || !plane_distance(accel, triangle, query->ray, &t) ||
+        !(t > query->ray->tmin && t < query->ray->tmax))
+        args->valid[0] = 0;
+}
+
+static void bound_curved(const struct RTCBoundsFunctionArguments *args)
+{
+    const Accel *accel = args->geometryUserPtr;
+    const Primitive *primitive = &accel->source->primitives[accel->curved[args->primID]];
+    struct RTCBounds *bounds = args->bounds_o;
+    Vec3 low, high;
+    double pad;
+
+    shape_bounds(primitive, &low, &high);
+    /* Room for Embree's rounding, in coordinates and in extent: flat shapes have none. */
+    pad = 2e-6 * (largest(low) + largest(high));
+    bounds->lower_x = (float)(low.x - pad);
+    bounds->lower_y = (float)(low.y - pad);
+    bounds->lower_z = (float)(low.z - pad);
+    bounds->upper_x = (float)(high.x + pad);
+    bounds->upper_y = (float)(high.y + pad);
+    bounds->upper_z = (float)(high.z + pad);
+}
+
+static int meet_curved(const Query *query, unsigned index, float tfar, double *t, int *face)
+{
+    const Accel *accel = query->accel;
+    int primitive = accel->curved[index];
+    Ray ray = *query->ray;
+
+    if (!visible(query, primitive))
+        return 0;
+    ray.tmax = fmin(ray.tmax, tfar);
+    return shape_intersect(&accel->source->primitives[primitive], &ray, t, face);
+}
+
+static void intersect_curved(const struct RTCIntersectFunctionNArguments *args)
+{
+    Query *query = (Query *)args->context;
+    struct RTCRayHit *rayhit = (struct RTCRayHit *)args->rayhit;
+    double t;
+    int face;
+
+    if (!args->valid[0] || !meet_curved(query, args->primID, rayhit->ray.tfar, &t, &face))
+        return;
+    query->t = t;
+    query->face = face;
+    rayhit->ray.tfar = (float)t;
+    rayhit->hit.geomID = query->accel->curved_geometry;
+    rayhit->hit.primID = args->primID;
+    rayhit->hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+}
+
+static void occlude_curved(const struct RTCOccludedFunctionNArguments *args)
+{
+    struct RTCRay *ray = (struct RTCRay *)args->ray;
+    double t;
+    int face;
+
+    if (args->valid[0] && meet_curved((const Query *)args->context, args->primID, ray->tfar, &t, &face))
+        ray->tfar = -INFINITY;
+}
+
+static int code_of(enum RTCError error)
+{
+    switch (error) {
+    case RTC_ERROR_OUT_OF_MEMORY:
+        return RETEX_ENOMEM;
+    case RTC_ERROR_UNSUPPORTED_CPU:
+        return RETEX_EUNSUPPORTED;
+    default:
+        return RETEX_EINTERNAL;
+    }
+}
+
+static void complain(void *context, enum RTCError code, const char *text)
+{
+    Accel *accel = context;
+
+    if (accel->error.code == 0)
+        retex_fail(&accel->error, code_of(code), "Embree: %s", text ? text : "unknown error");
+}
+
+/* ---- building ---- */
+
+static int is_curved(ShapeKind kind)
+{
+    return kind == SHAPE_SPHERE || kind == SHAPE_CONE || kind == SHAPE_TORUS || kind == SHAPE_DISC;
+}
+
+static int lets_through(const Texture *texture) { return texture && !pigment_is_opaque(texture->pigment); }
+
+static unsigned char primitive_flags(const Primitive *primitive)
+{
+    unsigned flags = (primitive->no_image ? 0u : RAY_CAMERA) | (primitive->no_shadow ? 0u : RAY_SHADOW) |
+                     (primitive->no_reflection ? 0u : RAY_BOUNCE);
+    int through = lets_through(primitive->texture) || lets_through(primitive->interior_texture);
+
+    if (primitive->kind == SHAPE_MESH)
+        for (int i = 0; i < primitive->mesh->ntextures; i++)
+            through |= lets_through(primitive->mesh->textures[i]);
+    return (unsigned char)(flags | (through ? TRANSPARENT : 0));
+}
+
+static void grow(Accel *accel, Vec3 low, Vec3 high)
+{
+    accel->low = vec3(fmin(accel->low.x, low.x), fmin(accel->low.y, low.y), fmin(accel->low.z, low.z));
+    accel->high = vec3(fmax(accel->high.x, high.x), fmax(accel->high.y, high.y), fmax(accel->high.z, high.z));
+}
+
+/* Sort primitives into kinds, count what they need, and refuse what cannot be traced. */
+static int survey(Accel *accel, RetexError *err)
+{
+    const Scene *scene = accel->source;
+
+    accel->low = accel->high = scene->camera.location;
+    for (int i = 0; i < scene->nprimitives; i++) {
+        const Primitive *primitive = &scene->primitives[i];
+        Vec3 low, high;
+        accel->flags[i] = primitive_flags(primitive);
+        accel->has_transparent |= (accel->flags[i] & TRANSPARENT) && (accel->flags[i] & RAY_SHADOW);
+        if (!shape_bounds(primitive, &low, &high)) {
+            accel->planes[accel->nplanes++] = i;
+            continue;
+        }
+        if (primitive->kind == SHAPE_MESH && primitive->mesh->nfaces == 0)
+            continue;
+        if (!(largest(low) < LARGEST_COORDINATE && largest(high) < LARGEST_COORDINATE))
+            return retex_fail_at(err, RETEX_EINVAL, scene->path, primitive->line, 0,
+                                 "this object has coordinates that are not finite or beyond %g", LARGEST_COORDINATE);
+        grow(accel, low, high);
+        if (is_curved(primitive->kind)) {
+            accel->curved[accel->ncurved++] = i;
+        } else {
+            int mesh = primitive->kind == SHAPE_MESH;
+            accel->nvertices += mesh ? (size_t)primitive->mesh->nvertices : 8;
+            accel->ntriangles += mesh ? (size_t)primitive->mesh->nfaces : 12;
+        }
+    }
+    return 0;
+}
+
+/* Bounds take the smaller and the larger of numbers, and so overlook NaN among others. */
+static int finite_point(Vec3 p) { return isfinite(p.x) && isfinite(p.y) && isfinite(p.z); }
+
+static int has_area(const Accel *accel, const uint32_t corner[3])
+{
+    Vec3 v0 = accel->vertices[corner[0]];
+    Vec3 n = vec_cross(vec_sub(accel->vertices[corner[1]], v0), vec_sub(accel->vertices[corner[2]], v0));
+
+    return vec_dot(n, n) > 0;
+}
+
+static void add_triangle(Accel *accel, size_t *count, size_t base, const int corner[3], int primitive, int face)
+{
+    uint32_t *out = accel->corners[*count];
+
+    for (int k = 0; k < 3; k++)
+        out[k] = (uint32_t)(base + (size_t)corner[k]);
+    if (!has_area(accel, out))
+        return;
+    accel->triangles[*count] = (Triangle){primitive, face};
+    ++*count;
+}
+
+/* Boxes and meshes into one list of triangles; those without area are left out. */
+static int collect_triangles(Accel *accel, RetexError *err)
+{
+    const Scene *scene = accel->source;
+    size_t base = 0, count = 0;
+
+    for (int i = 0; i < scene->nprimitives; i++) {
+        const Primitive *primitive = &scene->primitives[i];
+        const Mesh *mesh = primitive->kind == SHAPE_MESH ? primitive->mesh : NULL;
+        int nvertices = mesh ? mesh->nvertices : 8;
+        if ((!mesh && primitive->kind != SHAPE_BOX) || (mesh && mesh->nfaces == 0))
+            continue;
+        for (int k = 0; k < nvertices; k++) {
+            Vec3 p = transform_point(&primitive->transform, mesh ? mesh->vertices[k] : box_corner(k));
+            if (!finite_point(p))
+                return retex_fail_at(err, RETEX_EINVAL, scene->path, primitive->line, 0,
+                                     "vertex %d of this object is not finite", k);
+            accel->vertices[base + (size_t)k] = p;
+        }
+        for (int k = 0; k < (mesh ? mesh->nfaces : 12); k++)
+            add_triangle(accel, &count, base, mesh ? mesh->faces[k].vertex : box_triangles[k], i, mesh ? k : k / 2);
+        base += (size_t)nvertices;
+    }
+    accel->ntriangles = count;
+    return 0;
+}
+
+static int add_triangle_geometry(Accel *accel, RetexError *err)
+{
+    RTCGeometry geometry = rtcNewGeometry(accel->device, RTC_GEOMETRY_TYPE_TRIANGLE);
+    float *vertex = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float),
+                                            accel->nvertices);
+
+    if (!vertex) {
+        rtcReleaseGeometry(geometry);
+        return retex_fail(err, RETEX_ENOMEM, "no memory for %zu vertices", accel->nvertices);
+    }
+    for (size_t i = 0; i < accel->nvertices; i++, vertex += 3) {
+        vertex[0] = (float)accel->vertices[i].x;
+        vertex[1] = (float)accel->vertices[i].y;
+        vertex[2] = (float)accel->vertices[i].z;
+    }
+    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, accel->corners, 0,
+                               3 * sizeof(uint32_t), accel->ntriangles);
+    rtcSetGeometryIntersectFilterFunction(geometry, filter_triangle);
+    rtcSetGeometryOccludedFilterFunction(geometry, filter_triangle);
+    rtcCommitGeometry(geometry);
+    accel->triangle_geometry = rtcAttachGeometry(accel->scene, geometry);
+    rtcReleaseGeometry(geometry);
+    return 0;
+}
+
+static void add_curved_geometry(Accel *accel)
+{
+    RTCGeometry geometry = rtcNewGeometry(accel->device, RTC_GEOMETRY_TYPE_USER);
+
+    rtcSetGeometryUserPrimitiveCount(geometry, (unsigned)accel->ncurved);
+    rtcSetGeometryUserData(geometry, accel);
+    rtcSetGeometryBoundsFunction(geometry, bound_curved, NULL);
+    rtcSetGeometryIntersectFunction(geometry, intersect_curved);
+    rtcSetGeometryOccludedFunction(geometry, occlude_curved);
+    rtcCommitGeometry(geometry);
+    accel->curved_geometry = rtcAttachGeometry(accel->scene, geometry);
+    rtcReleaseGeometry(geometry);
+}
+
+static int build(Accel *accel, int nthreads, RetexError *err)
+{
+    char config[64];
+    int status;
+
+    snprintf(config, sizeof(config), "threads=%d", nthreads > 0 ? nthreads : 0);
+    accel->device = rtcNewDevice(config);
+    if (!accel->device)
+        return retex_fail(err, code_of(rtcGetDeviceError(NULL)), "Embree does not start");
+    rtcSetDeviceErrorFunction(accel->device, complain, accel);
+    if (!rtcGetDeviceProperty(accel->device, RTC_DEVICE_PROPERTY_FILTER_FUNCTION_SUPPORTED))
+        return retex_fail(err, RETEX_EUNSUPPORTED, "this Embree is built without filter functions");
+    accel->scene = rtcNewScene(accel->device);
+    rtcSetSceneFlags(accel->scene, RTC_SCENE_FLAG_ROBUST);
+    rtcSetSceneBuildQuality(accel->scene, accel->ntriangles <= SPATIAL_SPLIT_LIMIT ? RTC_BUILD_QUALITY_HIGH
+                                                                                   : RTC_BUILD_QUALITY_MEDIUM);
+    accel->triangle_geometry = accel->curved_geometry = RTC_INVALID_GEOMETRY_ID;
+    if (accel->ntriangles > 0) {
+        status = add_triangle_geometry(accel, err);
+        if (status < 0)
+            return status;
+    }
+    if (accel->ncurved > 0)
+        add_curved_geometry(accel);
+    rtcCommitScene(accel->scene);
+    return accel->error.code ? retex_fail(err, accel->error.code, "%s", accel->error.message) : 0;
+}
+
+int accel_create(Accel **out, const Scene *scene, int nthreads, RetexError *err)
+{
+    size_t count = (size_t)scene->nprimitives + 1;
+    Accel *accel = calloc(1, sizeof(*accel));
+    int status = 0;
+
+    *out = NULL;
+    if (!accel)
+        return retex_fail(err, RETEX_ENOMEM, "no memory for the scene's geometry");
+    accel->source = scene;
+    accel->flags = calloc(count, 1);
+    accel->curved = calloc(count, sizeof(int));
+    accel->planes = calloc(count, sizeof(int));
+    if (!accel->flags || !accel->curved || !accel->planes)
+        status = retex_fail(err, RETEX_ENOMEM, "no memory for the scene's geometry");
+    if (status == 0)
+        status = survey(accel, err);
+    if (status == 0) {
+        accel->vertices = malloc((accel->nvertices + 1) * sizeof(Vec3));
+        accel->corners = malloc((accel->ntriangles + 1) * sizeof(*accel->corners));
+        accel->triangles = malloc((accel->ntriangles + 1) * sizeof(Triangle));
+        if (!accel->vertices || !accel->corners || !accel->triangles || accel->nvertices > UINT32_MAX)
+            status = retex_fail(err, RETEX_ENOMEM, "no memory for %zu triangles", accel->ntriangles);
+    }
+    if (status == 0)
+        status = collect_triangles(accel, err);
+    if (status == 0)
+        status = build(accel, nthreads, err);
+    if (status < 0)
+        accel_close(&accel);
+    *out = accel;
+    return status;
+}
+
+void accel_close(Accel **accel)
+{
+    Accel *a = accel ? *accel : NULL;
+
+    if (!a)
+        return;
+    if (a->scene)
+        rtcReleaseScene(a->scene);
+    if (a->device)
+        rtcReleaseDevice(a->device);
+    free(a->vertices);
+    free(a->corners);
+    free(a->triangles);
+    free(a->curved);
+    free(a->planes);
+    free(a->flags);
+    free(a);
+    *accel = NULL;
+}
+
+/* ---- queries ---- */
+
+/* Embree gets the ray in float with its range widened by what float may be off; the callbacks hold to the double one. */
+static struct RTCRay float_ray(const Ray *ray)
+{
+    double slack = 4e-6 * largest(ray->origin);
+
+    return (struct RTCRay){
+        .org_x = (float)ray->origin.x, .org_y = (float)ray->origin.y, .org_z = (float)ray->origin.z,
+        .dir_x = (float)ray->direction.x, .dir_y = (float)ray->direction.y, .dir_z = (float)ray->direction.z,
+        .tnear = (float)fmax(0, ray->tmin * (1 - 4e-6) - slack), .tfar = (float)(ray->tmax * (1 + 4e-6) + slack),
+        .mask = 0xffffffffu};
+}
+
+static void start_query(Query *query, const Accel *accel, const Ray *ray, RayKind kind, int skip_transparent)
+{
+#if defined(RETEX_EMBREE4)
+    rtcInitRayQueryContext(&query->context);
+#else
+    rtcInitIntersectContext(&query->context);
+    query->context.flags = kind == RAY_CAMERA ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
+#endif
+    query->accel = accel;
+    query->ray = ray;
+    query->kind = (unsigned)kind;
+    query->refused = skip_transparent ? TRANSPARENT : 0;
+    query->t = INFINITY;
+    query->face = 0;
+}
+
+static void trace(Query *query, struct RTCRayHit *rayhit)
+{
+#if defined(RETEX_EMBREE4)
+    struct RTCIntersectArguments args;
+    rtcInitIntersectArguments(&args);
+    args.context = &query->context;
+    args.flags = query->kind == RAY_CAMERA ? RTC_RAY_QUERY_FLAG_COHERENT : RTC_RAY_QUERY_FLAG_INCOHERENT;
+    rtcIntersect1(query->accel->scene, rayhit, &args);
+#else
+    rtcIntersect1(query->accel->scene, &query->context, rayhit);
+#endif
+}
+
+static void trace_occluded(Query *query, struct RTCRay *ray)
+{
+#if defined(RETEX_EMBREE4)
+    struct RTCOccludedArguments args;
+    rtcInitOccludedArguments(&args);
+    args.context = &query->context;
+    args.flags = RTC_RAY_QUERY_FLAG_INCOHERENT;
+    rtcOccluded1(query->accel->scene, ray, &args);
+#else
+    rtcOccluded1(query->accel->scene, &query->context, ray);
+#endif
+}
+
+/* The nearest plane before limit; any plane will do where any is set. Returns its primitive or -1. */
+static int nearest_plane(const Query *query, double *limit, int any)
+{
+    const Accel *accel = query->accel;
+    Ray ray = *query->ray;
+    int found = -1, face;
+    double t;
+
+    ray.tmax = fmin(ray.tmax, *limit);
+    for (int i = 0; i < accel->nplanes; i++) {
+        int primitive = accel->planes[i];
+        if (!visible(query, primitive) || !shape_intersect(&accel->source->primitives[primitive], &ray, &t, &face))
+            continue;
+        found = primitive;
+        *limit = ray.tmax = t;
+        if (any)
+            break;
+    }
+    return found;
+}
+
+int accel_intersect(const Accel *accel, const Ray *ray, RayKind kind, Hit *hit)
+{
+    Query query;
+    struct RTCRayHit rayhit = {.ray = float_ray(ray)};
+    double limit = ray->tmax;
+    int plane;
+
+    *hit = (Hit){.primitive = -1};
+    rayhit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    rayhit.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+    start_query(&query, accel, ray, kind, 0);
+    trace(&query, &rayhit);
+    if (rayhit.hit.geomID != RTC_INVALID_GEOMETRY_ID) {
+        unsigned index = rayhit.hit.primID;
+        if (rayhit.hit.geomID == accel->curved_geometry) {
+            *hit = (Hit){.t = query.t, .primitive = accel->curved[index], .face = query.face};
+        } else if (plane_distance(accel, index, ray, &hit->t)) {
+            hit->primitive = accel->triangles[index].primitive;
+            hit->face = accel->triangles[index].face;
+            barycentrics(accel, index, ray, hit->t, hit);
+        }
+        if (hit->primitive >= 0)
+            limit = hit->t;
+    }
+    plane = accel->nplanes ? nearest_plane(&query, &limit, 0) : -1;
+    if (plane >= 0)
+        *hit = (Hit){.t = limit, .primitive = plane};
+    return hit->primitive >= 0;
+}
+
+int accel_occluded(const Accel *accel, const Ray *ray, RayKind kind, int skip_transparent)
+{
+    Query query;
+    struct RTCRay occluded = float_ray(ray);
+    double limit = ray->tmax;
+
+    start_query(&query, accel, ray, kind, skip_transparent);
+    if (accel->nplanes && nearest_plane(&query, &limit, 1) >= 0)
+        return 1;
+    trace_occluded(&query, &occluded);
+    return occluded.tfar < 0;
+}
+
+int accel_has_transparent(const Accel *accel) { return accel->has_transparent; }
+
+void accel_bounds(const Accel *accel, Vec3 *low, Vec3 *high)
+{
+    *low = accel->low;
+    *high = accel->high;
+}
+
+Vec3 accel_offset(Vec3 position, Vec3 geometric_normal, Vec3 direction)
+{
+    /* Positions are good to about 1e-15 of the coordinates they were made from, which may be larger than those of the
+     * point itself: hence the floor. Intersections are in double, so far less than a float's rounding is enough. */
+    double distance = 1e-9 * fmax(largest(position), 1e-2);
+
+    return vec_mad(position, geometric_normal, vec_dot(direction, geometric_normal) < 0 ? -distance : distance);
+}
