@@ -15,6 +15,10 @@ extern "C" {
 int retex_sample(RetexSamples **samples, const RetexSet *set, const RetexTextureSpec *specs, int nspecs, int nthreads,
                  RetexError *err);
 
+/* Put the images of `more` into samples, where they replace those of the same footprints; both must be of the same set.
+ * They are moved: more keeps none of them and is still the caller's to close. On failure both are as they were. */
+int retex_samples_merge(RetexSamples *samples, RetexSamples *more, RetexError *err);
+
 /* Begin with RETEX_COMBINE_INIT. */
 typedef struct RetexCombineParams {
     size_t size;

@@ -1,0 +1,223 @@
+/* Sampling: the new textures, filtered at every footprint of their targets.
+ *
+ * A footprint is a Gaussian with the stored mean and standard deviations of the surface UV; the texture's own transform
+ * then turns and stretches it exactly. Where the texture is transparent the original albedo of the footprint shows. */
+#include <retex/sample.h>
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <retex/parallel.h>
+
+#define ROWS_A_JOB 8
+#define MAX_FOOTPRINTS ((int)(sizeof ((RetexSamples *)0)->footprint_target / sizeof(int)))
+
+typedef struct SampleWork {
+    const RetexSet *set;
+    RetexSamples *samples;
+    RetexTexture *textures[RETEX_MAX_TARGETS]; /* by target; NULL = keeps its original */
+    const RetexTextureSpec *specs;             /* while loading */
+    int spec_target[RETEX_MAX_TARGETS];
+    int nspecs, loading_threads;
+    RetexError errors[RETEX_MAX_TARGETS];
+    int *edited; /* footprints of edited targets */
+    int nedited, blocks;
+} SampleWork;
+
+/* ---- checks ---- */
+
+static int unknown_target(const RetexSet *set, const char *name, RetexError *err)
+{
+    char names[sizeof err->message] = "";
+    size_t used = 0;
+    for (int i = 0; i < set->ntargets && used < sizeof names; i++)
+        used += (size_t)snprintf(names + used, sizeof names - used, "%s%s", i ? ", " : "", set->targets[i].name);
+    if (!set->ntargets)
+        return retex_fail(err, RETEX_ENOTFOUND, "no target is called '%s': the set has no targets", name);
+    return retex_fail(err, RETEX_ENOTFOUND, "no target is called '%s'; the set has %.800s", name, names);
+}
+
+static int find_targets(SampleWork *work, RetexError *err)
+{
+    int taken[RETEX_MAX_TARGETS] = {0};
+    for (int i = 0; i < work->nspecs; i++) {
+        int target = retex_set_find_target(work->set, work->specs[i].target);
+        if (target < 0)
+            return unknown_target(work->set, work->specs[i].target, err);
+        if (taken[target]++)
+            return retex_fail(err, RETEX_EINVAL, "target %s is given two textures", work->set->targets[target].name);
+        work->spec_target[i] = target;
+    }
+    return RETEX_OK;
+}
+
+static int check_part(const RetexSet *set, int part, int channels)
+{
+    if (part < 0 || part >= set->nparts)
+        return 0;
+    const RetexImage *im = &set->parts[part].image;
+    return im->pixels && im->width == set->width && im->height == set->height && im->channels == channels;
+}
+
+static int check_footprints(const RetexSet *set, RetexError *err)
+{
+    if (set->nfootprints > MAX_FOOTPRINTS)
+        return retex_fail(err, RETEX_ELIMIT, "the set has %d footprints, more than %d", set->nfootprints, MAX_FOOTPRINTS);
+    for (int i = 0; i < set->nfootprints; i++) {
+        const RetexFootprint *f = &set->footprints[i];
+        if (f->target < 0 || f->target >= set->ntargets || !check_part(set, f->uv, 3) || !check_part(set, f->spread, 2) ||
+            !check_part(set, f->albedo, 3))
+            return retex_fail(err, RETEX_EFORMAT, "footprint %d of the set lacks its target, UV, spread or albedo", i);
+    }
+    return RETEX_OK;
+}
+
+/* ---- loading ---- */
+
+static void load_job(void *context, int index, int thread)
+{
+    SampleWork *work = context;
+    (void)thread;
+    retex_texture_load(&work->textures[work->spec_target[index]], &work->specs[index], work->loading_threads,
+                       &work->errors[index]);
+}
+
+/* Side by side: most of the time goes to decoding, which has one thread a file. */
+static int load_textures(SampleWork *work, int nthreads, RetexError *err)
+{
+    int threads = retex_threads(nthreads);
+    work->loading_threads = work->nspecs && threads > work->nspecs ? threads / work->nspecs : 1;
+    retex_parallel(threads, work->nspecs, load_job, work);
+    for (int i = 0; i < work->nspecs; i++)
+        if (work->errors[i].code) {
+            if (err)
+                *err = work->errors[i];
+            return work->errors[i].code;
+        }
+    return RETEX_OK;
+}
+
+/* ---- the work itself ---- */
+
+static void sample_row(const RetexTexture *texture, const float *restrict uv, const float *restrict spread,
+                       const float *restrict albedo, float *restrict out, int width)
+{
+    for (int x = 0; x < width; x++, uv += 3, spread += 2, albedo += 3, out += 3) {
+        if (!(uv[2] > 0)) {
+            out[0] = out[1] = out[2] = 0;
+            continue;
+        }
+        const double covariance[3] = {(double)spread[0] * spread[0], 0, (double)spread[1] * spread[1]};
+        float rgba[4];
+        retex_texture_gaussian(texture, uv[0], uv[1], covariance, rgba);
+        for (int c = 0; c < 3; c++)
+            out[c] = rgba[c] * rgba[3] + (1 - rgba[3]) * albedo[c];
+    }
+}
+
+static void sample_job(void *context, int index, int thread)
+{
+    SampleWork *work = context;
+    const RetexSet *set = work->set;
+    (void)thread;
+    int footprint = work->edited[index / work->blocks], block = index % work->blocks;
+    const RetexFootprint *f = &set->footprints[footprint];
+    RetexImage *image = &work->samples->images[footprint];
+    int last = (block + 1) * ROWS_A_JOB < set->height ? (block + 1) * ROWS_A_JOB : set->height;
+    for (int y = block * ROWS_A_JOB; y < last; y++) {
+        size_t row = (size_t)y * (size_t)set->width;
+        sample_row(work->textures[f->target], set->parts[f->uv].image.pixels + 3 * row,
+                   set->parts[f->spread].image.pixels + 2 * row, set->parts[f->albedo].image.pixels + 3 * row,
+                   image->pixels + 3 * row, set->width);
+    }
+}
+
+static void describe_texture(char *text, size_t size, const RetexTextureSpec *spec)
+{
+    if (spec->constant)
+        snprintf(text, size, "rgb(%g,%g,%g)", (double)spec->color[0], (double)spec->color[1], (double)spec->color[2]);
+    else
+        snprintf(text, size, "%.*s", (int)size - 1, spec->image);
+}
+
+static int create_samples(SampleWork *work, RetexError *err)
+{
+    const RetexSet *set = work->set;
+    RetexSamples *samples = calloc(1, sizeof *samples);
+    work->samples = samples;
+    work->edited = calloc((size_t)set->nfootprints + 1, sizeof *work->edited);
+    if (samples)
+        samples->images = calloc((size_t)set->nfootprints + 1, sizeof *samples->images);
+    if (!samples || !samples->images || !work->edited)
+        return retex_fail(err, RETEX_ENOMEM, "not enough memory for samples");
+    samples->width = set->width;
+    samples->height = set->height;
+    samples->nimages = set->nfootprints;
+    samples->ntargets = set->ntargets;
+    for (int i = 0; i < set->ntargets; i++)
+        memcpy(samples->target_names[i], set->targets[i].name, sizeof samples->target_names[i]);
+    for (int i = 0; i < work->nspecs; i++)
+        describe_texture(samples->textures[work->spec_target[i]], sizeof samples->textures[0], &work->specs[i]);
+    for (int i = 0; i < set->nfootprints; i++) {
+        samples->footprint_target[i] = set->footprints[i].target;
+        samples->footprint_hit[i] = set->footprints[i].hit;
+        if (!work->textures[set->footprints[i].target])
+            continue;
+        work->edited[work->nedited++] = i;
+        int code = retex_image_alloc(&samples->images[i], set->width, set->height, 3, err);
+        if (code)
+            return code;
+    }
+    return RETEX_OK;
+}
+
+int retex_sample(RetexSamples **samples, const RetexSet *set, const RetexTextureSpec *specs, int nspecs, int nthreads,
+                 RetexError *err)
+{
+    *samples = NULL;
+    SampleWork work = {.set = set, .specs = specs, .nspecs = nspecs};
+    int code = check_footprints(set, err);
+    if (!code)
+        code = find_targets(&work, err);
+    if (!code)
+        code = load_textures(&work, nthreads, err);
+    if (!code)
+        code = create_samples(&work, err);
+    if (!code) {
+        work.blocks = (set->height + ROWS_A_JOB - 1) / ROWS_A_JOB;
+        retex_parallel(nthreads, work.blocks * work.nedited, sample_job, &work);
+        *samples = work.samples;
+    } else {
+        retex_samples_close(&work.samples);
+    }
+    for (int i = 0; i < RETEX_MAX_TARGETS; i++)
+        retex_texture_close(&work.textures[i]);
+    free(work.edited);
+    return code;
+}
+
+/* ---- more of them ---- */
+
+int retex_samples_merge(RetexSamples *samples, RetexSamples *more, RetexError *err)
+{
+    int same = samples->width == more->width && samples->height == more->height &&
+               samples->nimages == more->nimages && samples->ntargets == more->ntargets;
+    for (int t = 0; same && t < samples->ntargets; t++)
+        same = strcmp(samples->target_names[t], more->target_names[t]) == 0;
+    for (int i = 0; same && i < samples->nimages; i++)
+        same = samples->footprint_target[i] == more->footprint_target[i];
+    if (!same)
+        return retex_fail(err, RETEX_EINVAL, "the samples are of different sets");
+    for (int i = 0; i < more->nimages; i++) {
+        if (!more->images[i].pixels)
+            continue;
+        retex_image_free(&samples->images[i]);
+        samples->images[i] = more->images[i];
+        more->images[i] = (RetexImage){0};
+    }
+    for (int t = 0; t < more->ntargets; t++)
+        if (more->textures[t][0])
+            memcpy(samples->textures[t], more->textures[t], sizeof samples->textures[t]);
+    return RETEX_OK;
+}

@@ -1,0 +1,72 @@
+/* retex-sample: filter new textures at a set's footprints. See retex-sample(1). */
+#include "texture_args.h"
+
+static const CliOption options[] = {
+    {"texture", 0, "NAME=IMAGE",
+     "put IMAGE, a file or rgb(r,g,b), on target NAME; opts: scale=S[,T], rotate=DEGREES, offset=U,V, "
+     "wrap=repeat|mirror|clamp|black, colorspace=NAME", 1},
+    {0},
+};
+
+static const char *parse(Cli *cli, TextureArgs *textures)
+{
+    const char *set = NULL;
+    for (const CliOption *option; (option = cli_next(cli));) {
+        if (option != &cli_positional)
+            texture_args_add(cli, textures);
+        else if (set)
+            cli_die(cli, "one set is enough; what is '%s'?", cli->value);
+        else
+            set = cli->value;
+    }
+    if (!set)
+        cli_die(cli, "no set given; - is standard input");
+    if (!textures->count)
+        cli_die(cli, "no texture given; expected --texture NAME=IMAGE");
+    return set;
+}
+
+int main(int argc, char **argv)
+{
+    static TextureArgs textures;
+    Cli cli = {.tool = "retex-sample",
+               .usage = "SET --texture[:opts] NAME=IMAGE ... [-o SAMPLES]",
+               .about = "Filter new textures at a set's footprints, for retex-combine.",
+               .options = options, .argc = argc, .argv = argv, .next = 1};
+    const char *input = parse(&cli, &textures), *output = cli_output(&cli);
+    RetexSet *set = NULL;
+    RetexSamples *samples = NULL, *earlier = NULL;
+    RetexError err = {0};
+
+    texture_args_check_input(&cli, input);
+    texture_args_check_output(&cli, input, output);
+    double began = texture_args_now();
+    if (retex_set_read(input, &set, &earlier, cli.threads, &err))
+        cli_fail(&cli, &err);
+    if (!set)
+        cli_die(&cli, "%s holds samples but no set", input);
+    double read = texture_args_now();
+    if (retex_sample(&samples, set, textures.specs, textures.count, cli.threads, &err))
+        cli_fail(&cli, &err);
+    if (earlier) { /* a stream that has been through here before: other targets' samples go on with it */
+        if (retex_samples_merge(earlier, samples, &err))
+            cli_fail(&cli, &err);
+        retex_samples_close(&samples);
+        samples = earlier;
+    }
+    double sampled = texture_args_now();
+    RetexStoreParams store = RETEX_STORE_INIT;
+    store.nthreads = cli.threads;
+    int to_pipe = strcmp(output, "-") == 0;
+    if (retex_set_write(to_pipe ? set : NULL, samples, output, &store, &err))
+        cli_fail(&cli, &err);
+    double written = texture_args_now();
+
+    char text[2048];
+    cli_info(&cli, "%s: %d x %d, %.2f s", texture_args_describe(samples, text, sizeof text), set->width, set->height,
+             written - began);
+    cli_detail(&cli, "read %.2f s, sampled %.2f s, written %.2f s", read - began, sampled - read, written - sampled);
+    retex_samples_close(&samples);
+    retex_set_close(&set);
+    return cli_close(&cli, CLI_OK);
+}
