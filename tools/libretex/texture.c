@@ -377,26 +377,42 @@ static void unassociate(float rgba[4])
         rgba[3] = 1; /* sums of weights round */
 }
 
-static void point_at(const RetexTexture *texture, const double uv[2], float rgba[4])
+/* nearest: at the centre of the texel, where the bilinear look-up gives the texel itself. */
+static void point_at(const RetexTexture *texture, const double uv[2], int nearest, float rgba[4])
 {
+    double x = uv[0] * texture->levels[0].width, y = (1 - uv[1]) * texture->levels[0].height;
     for (int axis = 0; axis < 2; axis++)
         if (texture->spec.wrap[axis] == RETEX_WRAP_BLACK && (uv[axis] < 0 || uv[axis] > 1)) {
             memset(rgba, 0, 4 * sizeof(float));
             return;
         }
-    texture_point_kernel(texture, uv[0] * texture->levels[0].width, (1 - uv[1]) * texture->levels[0].height, rgba);
+    if (nearest) {
+        x = floor(x) + 0.5;
+        y = floor(y) + 0.5;
+    }
+    texture_point_kernel(texture, x, y, rgba);
     unassociate(rgba);
 }
 
-void retex_texture_point(const RetexTexture *texture, double u, double v, float rgba[4])
+static void look_up(const RetexTexture *texture, double u, double v, int nearest, float rgba[4])
 {
     double uv[2];
     if (!texture->nlevels)
         constant_color(texture, rgba);
     else if (texture_uv(texture, u, v, uv))
-        point_at(texture, uv, rgba);
+        point_at(texture, uv, nearest, rgba);
     else
         memset(rgba, 0, 4 * sizeof(float));
+}
+
+void retex_texture_point(const RetexTexture *texture, double u, double v, float rgba[4])
+{
+    look_up(texture, u, v, 0, rgba);
+}
+
+void retex_texture_nearest(const RetexTexture *texture, double u, double v, float rgba[4])
+{
+    look_up(texture, u, v, 1, rgba);
 }
 
 void retex_texture_gaussian(const RetexTexture *texture, double u, double v, const double covariance[3], float rgba[4])
@@ -408,7 +424,7 @@ void retex_texture_gaussian(const RetexTexture *texture, double u, double v, con
     } else if (!texture_uv(texture, u, v, uv)) {
         memset(rgba, 0, 4 * sizeof(float));
     } else if (!texel_covariance(texture, covariance, &footprint)) {
-        point_at(texture, uv, rgba);
+        point_at(texture, uv, 0, rgba);
     } else {
         footprint.x = uv[0] * texture->levels[0].width;
         footprint.y = (1 - uv[1]) * texture->levels[0].height;
