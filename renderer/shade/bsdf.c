@@ -28,6 +28,14 @@ static Split microfacet_fresnel(const Bsdf *b, float cos_h)
     return (Split){rgb_grey(dep), rgb_grey(indep)};
 }
 
+/* Share of the choice with which light at a microfacet goes through rather than back. */
+static float through_share(const Bsdf *b, float cos_h)
+{
+    if (!b->disney || b->transmission <= 0 || b->eta == 1) return 0;
+    float through = b->transmission * (1 - fresnel_dielectric(cos_h, b->eta)) * NEUTRAL_ALBEDO;
+    return through > 0 ? through / (through + split_neutral(microfacet_fresnel(b, cos_h))) : 0;
+}
+
 /* Diffuse lobe over albedo: Lambert with POV-Ray's brilliance, or Burley's 2015 diffuse and retro-reflective lobes. */
 static float diffuse_value(const Bsdf *b, Vec3 wi, double cos_i)
 {
@@ -50,8 +58,9 @@ static Split glossy_reflection(const Bsdf *b, Vec3 wi, float *pdf)
     Vec3 o = to_local(b, b->wo), i = to_local(b, wi), h = vec_normalize(vec_add(o, i));
     double d = ggx_d(h, b->alpha);
     float value = (float)(d * ggx_g2(o, i, b->alpha) / (4 * o.z)); /* times cos_i, which cancels */
-    Split f = microfacet_fresnel(b, (float)fmin(1, vec_dot(o, h)));
-    *pdf = (float)(ggx_visible_pdf(o, h, b->alpha) / (4 * vec_dot(o, h))) * (1 - b->p_rough_transmission);
+    float cos_h = (float)fmin(1, vec_dot(o, h));
+    Split f = microfacet_fresnel(b, cos_h);
+    *pdf = (float)(ggx_visible_pdf(o, h, b->alpha) / (4 * vec_dot(o, h))) * (1 - through_share(b, cos_h));
     return (Split){rgb_scale(f.d, value), rgb_scale(f.i, value)};
 }
 
@@ -67,7 +76,8 @@ static Split glossy_transmission(const Bsdf *b, Vec3 wi, float *pdf)
     double sum = b->eta * ih + oh, transmitted = b->transmission * (1 - fresnel_dielectric((float)fmin(1, oh), b->eta));
     double value = ggx_d(h, b->alpha) * ggx_g2(o, vec3(i.x, i.y, -i.z), b->alpha) * transmitted * fabs(ih * oh) /
                    (o.z * sum * sum);
-    *pdf = (float)(ggx_visible_pdf(o, h, b->alpha) * fabs(ih) * b->eta * b->eta / (sum * sum)) * b->p_rough_transmission;
+    *pdf = (float)(ggx_visible_pdf(o, h, b->alpha) * fabs(ih) * b->eta * b->eta / (sum * sum)) *
+           through_share(b, (float)fmin(1, oh));
     return (Split){rgb_grey((float)value), {0, 0, 0}};
 }
 
@@ -132,9 +142,9 @@ static int refract(Vec3 wo, Vec3 n, double eta, Vec3 *wi)
 static int sample_glossy(const Bsdf *b, float choice, float u1, float u2, Vec3 *wi)
 {
     Vec3 h = to_world(b, ggx_sample_visible(to_local(b, b->wo), b->alpha, u1, u2));
-    if (choice < b->p_rough_transmission) return refract(b->wo, h, b->eta, wi);
+    if (choice < through_share(b, (float)fmin(1, vec_dot(b->wo, h)))) return refract(b->wo, h, b->eta, wi) && vec_dot(*wi, b->normal) < 0;
     *wi = reflect(b->wo, h);
-    return 1;
+    return vec_dot(*wi, b->normal) > 0; /* below the horizon would be a second bounce, which the lobe leaves out */
 }
 
 static Split split_scale(Split s, float k) { return (Split){rgb_scale(s.d, k), rgb_scale(s.i, k)}; }

@@ -44,7 +44,6 @@ typedef struct Bsdf {
     Split passing;           /* weight of straight or smoothly refracted passage, already at cos_o */
 
     float p_diffuse, p_back, p_glossy, p_mirror, p_passing; /* add up to 1, or to 0 where nothing is scattered */
-    float p_rough_transmission; /* share of the glossy choice that may transmit */
 } Bsdf;
 
 typedef struct BsdfSample {

@@ -98,19 +98,14 @@ static float glossy_estimate(const Bsdf *b)
 
 static void setup_choice(Bsdf *b)
 {
-    float glossy = glossy_estimate(b), through = 0;
-    if (b->disney && !b->smooth && b->transmission > 0) {
-        float outer = fresnel_dielectric((float)b->cos_o, b->eta);
-        through = b->transmission * (1 - outer) * NEUTRAL_ALBEDO;
-        glossy += b->transmission * outer;
-    }
-    float w[5] = {b->diffuse * NEUTRAL_ALBEDO, b->diffuse_back * NEUTRAL_ALBEDO, glossy + through,
+    float glossy = glossy_estimate(b);
+    if (b->disney && !b->smooth) glossy += b->transmission;
+    float w[5] = {b->diffuse * NEUTRAL_ALBEDO, b->diffuse_back * NEUTRAL_ALBEDO, glossy,
                   split_neutral(b->mirror), split_neutral(b->passing)};
     float sum = w[0] + w[1] + w[2] + w[3] + w[4];
     if (!(sum > 0)) return;
     b->p_diffuse = w[0] / sum, b->p_back = w[1] / sum, b->p_glossy = w[2] / sum;
     b->p_mirror = w[3] / sum, b->p_passing = w[4] / sum;
-    b->p_rough_transmission = w[2] > 0 ? through / w[2] : 0;
 }
 
 void bsdf_setup(Bsdf *b, const Surface *surface, Vec3 wo, float filter, float transmit)

@@ -1,0 +1,70 @@
+/* A path's polynomial against the product it stands for, and the terms its monomials go to. */
+#include <stdarg.h>
+#include <stddef.h>
+#include <setjmp.h>
+#include <cmocka.h>
+#include "film/expansion.h"
+#include "film/terms.h"
+
+static float at_random(uint32_t *state)
+{
+    *state = *state * 1664525u + 1013904223u;
+    return (float)(*state >> 8) / (float)(1 << 24);
+}
+
+static void multiplies_out(void **state)
+{
+    (void)state;
+    uint32_t seed = 1;
+    for (int round = 0; round < 2000; round++) {
+        Expansion e;
+        expansion_reset(&e);
+        int n = round % (RETEX_MAX_ORDERS + 1), targets[RETEX_MAX_ORDERS], index[RETEX_MAX_ORDERS];
+        int seen[RETEX_MAX_TARGETS] = {0};
+        double product = 1, a[RETEX_MAX_ORDERS];
+        for (int j = 0; j < n; j++) {
+            float d = at_random(&seed), i = at_random(&seed);
+            if (at_random(&seed) < 0.4f) i = 0; /* diffuse */
+            else if (at_random(&seed) < 0.2f) d = 0;
+            targets[j] = (int)(at_random(&seed) * 3);
+            index[j] = seen[targets[j]]++;
+            a[j] = at_random(&seed);
+            product *= d * a[j] + i;
+            expansion_push(&e, targets[j], (Split){rgb_grey(d), rgb_grey(i)}, (Vec2){0, 0}, rgb_grey(0.5f));
+        }
+        double sum = 0;
+        for (int k = 0; k < e.nmonomials; k++) {
+            double term = e.monomials[k].coefficient.g;
+            for (int j = 0; j < n; j++)
+                if (e.monomials[k].hits & hit_bit(targets[j], index[j])) term *= a[j];
+            sum += term;
+        }
+        assert_true(fabs(sum - product) < 1e-5 * (1 + product));
+        assert_int_equal(e.nhits, n);
+    }
+}
+
+static HitMask mask(int a, int b, int c)
+{
+    return (a ? hit_bit(0, a - 1) : 0) | (b ? hit_bit(0, b - 1) : 0) | (c ? hit_bit(1, c - 1) : 0);
+}
+
+static void monomials_find_their_terms(void **state)
+{
+    (void)state;
+    assert_int_equal(term_key(0, 0, 0) >> 56, RETEX_TERM_FULL);
+    assert_int_equal(term_key(3, 0, 0) >> 56, RETEX_TERM_INDEP);
+    assert_true(term_key(2, 0, 0) != term_key(3, 0, 0));
+    assert_int_equal(term_key(2, mask(1, 2, 0), 0) >> 56, RETEX_TERM_DEP);
+    assert_int_equal(term_key(2, mask(2, 0, 0), 0) >> 56, RETEX_TERM_CROSS2);
+    assert_int_equal(term_key(3, mask(1, 3, 0), 0) >> 56, RETEX_TERM_CROSS3);
+    /* four hits, mixed: as many factors of each target, from the first on */
+    assert_true(term_key(4, mask(2, 3, 2), 0) == term_key(3, mask(1, 2, 1), 0));
+    assert_true(term_key(4, mask(2, 3, 2), 1) == TERM_DROPPED);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(multiplies_out), cmocka_unit_test(monomials_find_their_terms)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
