@@ -115,7 +115,7 @@ colorspaces:
 
   - !<ColorSpace>
     name: raw
-    aliases: [data, none, "Utility - Raw"]
+    aliases: [none, "Utility - Raw"]
     family: data
     bitdepth: 32f
     description: Numbers that are no colours; nothing is done to them

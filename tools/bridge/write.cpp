@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstring>
+#include <memory>
 #include <vector>
 
 #include <OpenImageIO/imageio.h>
@@ -32,11 +33,11 @@ std::string ending(const std::string &path)
     return path.substr(dot + 1);
 }
 
-Depth depth_of(const std::string &format, const std::string &end)
+Depth depth_of(const std::string &format)
 {
     if (format == "openexr")
         return Depth::Half;
-    if (format == "hdr" || format == "fits" || format == "zfile" || strcasecmp(end.c_str(), "pfm") == 0)
+    if (format == "hdr" || format == "fits" || format == "zfile")
         return Depth::Float;
     if (format == "tiff" || format == "dpx")
         return Depth::Sixteen;
@@ -81,6 +82,8 @@ std::vector<Value> store(const std::vector<float> &rgba, int channels, bool mult
     return out;
 }
 
+[[noreturn]] void fail_write(int error) { throw Failure(RETEX_EIO, std::string("cannot write: ") + std::strerror(error)); }
+
 // A file without a name, in memory.
 class Spool {
 public:
@@ -93,19 +96,31 @@ public:
     Spool(const Spool &) = delete;
     Spool &operator=(const Spool &) = delete;
     std::string path() const { return "/proc/self/fd/" + std::to_string(fd_); }
+    bool empty() const
+    {
+        struct stat status;
+        return fstat(fd_, &status) != 0 || status.st_size == 0;
+    }
+    void append(const void *data, size_t bytes)
+    {
+        for (const char *p = static_cast<const char *>(data), *end = p + bytes; p < end;) {
+            ssize_t n = ::write(fd_, p, size_t(end - p));
+            if (n < 0 && errno != EINTR)
+                throw Failure(RETEX_EIO, std::string("cannot make a file in memory: ") + std::strerror(errno));
+            p += std::max<ssize_t>(n, 0);
+        }
+    }
     void copy_to(const char *path) const;
 
 private:
     int fd_;
 };
 
-[[noreturn]] void fail_write(int error) { throw Failure(RETEX_EIO, std::string("cannot write: ") + std::strerror(error)); }
-
 void Spool::copy_to(const char *path) const
 {
     struct stat status;
-    if (fstat(fd_, &status) != 0 || status.st_size == 0)
-        throw Failure(RETEX_EIO, "cannot write: OpenImageIO made no file");
+    if (fstat(fd_, &status) != 0)
+        fail_write(errno);
     int out = ::open(path, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
     if (out < 0)
         fail_write(errno);
@@ -131,6 +146,37 @@ void Spool::copy_to(const char *path) const
             unlink(path);
         fail_write(error);
     }
+}
+
+// Portable float map, which OpenImageIO reads but does not write: rows from the bottom.
+void write_pfm(Spool &spool, int width, int height, int channels, const std::vector<float> &pixels)
+{
+    const uint16_t probe = 1;
+    bool little = *reinterpret_cast<const uint8_t *>(&probe) == 1;
+    std::string header = (channels == 1 ? "Pf\n" : "PF\n") + std::to_string(width) + " " + std::to_string(height) +
+                         (little ? "\n-1.0\n" : "\n1.0\n");
+    spool.append(header.data(), header.size());
+    size_t row = size_t(width) * channels;
+    for (int y = height; y-- > 0;)
+        spool.append(pixels.data() + y * row, row * sizeof(float));
+}
+
+// A format whose library writes nowhere but to a file of its own: there close() and the file's size have to tell.
+void write_directly(const char *path, const std::function<bool()> &write, OIIO::ImageOutput &out)
+{
+    struct stat status;
+    bool written = write();
+    int fd = written ? ::open(path, O_RDONLY | O_CLOEXEC) : -1;
+    if (fd >= 0) {
+        written = fsync(fd) == 0 || errno == EINVAL;
+        ::close(fd);
+    }
+    if (written && stat(path, &status) == 0 && status.st_size > 0)
+        return;
+    std::string why = out.geterror();
+    if (stat(path, &status) == 0 && S_ISREG(status.st_mode))
+        unlink(path);
+    throw Failure(RETEX_EIO, "cannot write: " + (why.empty() ? "OpenImageIO wrote nothing" : why));
 }
 
 // The folder is looked at before the work, so that a slip of the pen costs nothing.
@@ -192,53 +238,78 @@ OIIO::ImageSpec describe(const RetexImage &src, int channels, OIIO::TypeDesc typ
     return spec;
 }
 
-void write_picture(const RetexImage &src, const char *path, const RetexWriteParams &params)
-{
-    if (src.width < 1 || src.height < 1 || (src.channels != 1 && src.channels != 3 && src.channels != 4))
-        throw Failure(RETEX_EINVAL, "only pictures of 1, 3 or 4 channels can be written");
-    auto out = find_writer(path);
-    check_folder(path);
-    std::string format = out->format_name();
-    Depth depth = depth_of(format, ending(path));
-    Transform encode = encoding(params, depth);
-    int channels = src.channels;
-    if (channels == 4 && !out->supports("alpha"))
-        channels = 3; // shown over black
-    if (channels == 1 && (format == "hdr" || format == "webp"))
-        channels = 3;
+bool is_pfm(const std::string &path) { return strcasecmp(ending(path).c_str(), "pfm") == 0; }
 
-    std::vector<float> rgba = spread(src);
-    apply_transform(encode, rgba.data(), src.width, src.height);
-
-    bool keeps_alpha = channels == 4;
-    bool whole = depth == Depth::Eight || depth == Depth::Sixteen;
-    bool multiply = src.channels == 4 && (!keeps_alpha || !whole);
+// What a picture becomes in its file, and how OpenImageIO is told.
+struct Stored {
+    int channels;
     OIIO::TypeDesc type;
     std::vector<uint8_t> bytes;
     std::vector<uint16_t> words;
     std::vector<float> floats;
-    const void *data;
+    const void *data() const
+    {
+        return !bytes.empty() ? static_cast<const void *>(bytes.data())
+                              : !words.empty() ? static_cast<const void *>(words.data()) : floats.data();
+    }
+};
+
+Stored make_stored(const RetexImage &src, int channels, Depth depth, const Transform &encode)
+{
+    std::vector<float> rgba = spread(src);
+    apply_transform(encode, rgba.data(), src.width, src.height);
+    bool whole = depth == Depth::Eight || depth == Depth::Sixteen;
+    // Where alpha is lost the picture is shown over black; float formats keep colours associated.
+    bool multiply = src.channels == 4 && (channels != 4 || !whole);
+    Stored stored;
+    stored.channels = channels;
     if (depth == Depth::Eight) {
-        type = OIIO::TypeDesc::UINT8;
-        bytes = store<uint8_t>(rgba, channels, multiply, quantise<uint8_t>);
-        data = bytes.data();
+        stored.type = OIIO::TypeDesc::UINT8;
+        stored.bytes = store<uint8_t>(rgba, channels, multiply, quantise<uint8_t>);
     } else if (depth == Depth::Sixteen) {
-        type = OIIO::TypeDesc::UINT16;
-        words = store<uint16_t>(rgba, channels, multiply, quantise<uint16_t>);
-        data = words.data();
+        stored.type = OIIO::TypeDesc::UINT16;
+        stored.words = store<uint16_t>(rgba, channels, multiply, quantise<uint16_t>);
     } else {
         // Halves end at 65504: a bright highlight stays a number.
         float limit = depth == Depth::Half ? 65504.0f : 3e38f;
-        floats = store<float>(rgba, channels, multiply, [limit](float v) { return v > limit ? limit : v; });
-        type = OIIO::TypeDesc::FLOAT;
-        data = floats.data();
+        stored.type = OIIO::TypeDesc::FLOAT;
+        stored.floats = store<float>(rgba, channels, multiply, [limit](float v) { return v > limit ? limit : v; });
+    }
+    return stored;
+}
+
+void write_picture(const RetexImage &src, const char *path, const RetexWriteParams &params)
+{
+    if (src.width < 1 || src.height < 1 || (src.channels != 1 && src.channels != 3 && src.channels != 4))
+        throw Failure(RETEX_EINVAL, "only pictures of 1, 3 or 4 channels can be written");
+    bool pfm = is_pfm(path);
+    auto out = pfm ? nullptr : find_writer(path);
+    check_folder(path);
+    std::string format = pfm ? "pfm" : out->format_name();
+    Depth depth = pfm ? Depth::Float : depth_of(format);
+    int channels = src.channels;
+    if (channels == 4 && (pfm || !out->supports("alpha")))
+        channels = 3;
+    if (channels == 1 && (format == "hdr" || format == "webp"))
+        channels = 3;
+    Stored stored = make_stored(src, channels, depth, encoding(params, depth));
+    Spool spool;
+    if (pfm) {
+        write_pfm(spool, src.width, src.height, channels, stored.floats);
+        spool.copy_to(path);
+        return;
     }
     OIIO::ImageSpec spec =
-        describe(src, channels, depth == Depth::Half ? OIIO::TypeDesc::HALF : type, format, params, depth);
-    Spool spool;
-    if (!out->open(spool.path(), spec) || !out->write_image(type, data) || !out->close())
+        describe(src, channels, depth == Depth::Half ? OIIO::TypeDesc::HALF : stored.type, format, params, depth);
+    auto write_to = [&](const std::string &name) {
+        return out->open(name, spec) && out->write_image(stored.type, stored.data()) && out->close();
+    };
+    if (!write_to(spool.path()))
         throw Failure(RETEX_EIO, "cannot write: " + out->geterror());
-    spool.copy_to(path);
+    if (spool.empty())
+        write_directly(path, [&] { return write_to(path); }, *out);
+    else
+        spool.copy_to(path);
 }
 
 } // namespace

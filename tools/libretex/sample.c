@@ -41,6 +41,8 @@ static int unknown_target(const RetexSet *set, const char *name, RetexError *err
 static int find_targets(SampleWork *work, RetexError *err)
 {
     int taken[RETEX_MAX_TARGETS] = {0};
+    if (work->nspecs > RETEX_MAX_TARGETS)
+        return retex_fail(err, RETEX_EINVAL, "%d textures are more than a set has targets", work->nspecs);
     for (int i = 0; i < work->nspecs; i++) {
         int target = retex_set_find_target(work->set, work->specs[i].target);
         if (target < 0)
@@ -60,15 +62,23 @@ static int check_part(const RetexSet *set, int part, int channels)
     return im->pixels && im->width == set->width && im->height == set->height && im->channels == channels;
 }
 
-static int check_footprints(const RetexSet *set, RetexError *err)
+/* Footprints of edited targets need all their parts; of the others nothing is looked at. */
+static int check_footprints(const SampleWork *work, RetexError *err)
 {
+    const RetexSet *set = work->set;
     if (set->nfootprints > MAX_FOOTPRINTS)
         return retex_fail(err, RETEX_ELIMIT, "the set has %d footprints, more than %d", set->nfootprints, MAX_FOOTPRINTS);
     for (int i = 0; i < set->nfootprints; i++) {
         const RetexFootprint *f = &set->footprints[i];
-        if (f->target < 0 || f->target >= set->ntargets || !check_part(set, f->uv, 3) || !check_part(set, f->spread, 2) ||
-            !check_part(set, f->albedo, 3))
-            return retex_fail(err, RETEX_EFORMAT, "footprint %d of the set lacks its target, UV, spread or albedo", i);
+        if (f->target < 0 || f->target >= set->ntargets)
+            return retex_fail(err, RETEX_EFORMAT, "footprint %d of the set has no target", i);
+        int edited = 0;
+        for (int k = 0; k < work->nspecs; k++)
+            edited |= work->spec_target[k] == f->target;
+        if (edited && (!check_part(set, f->uv, 3) || !check_part(set, f->spread, 2) || !check_part(set, f->albedo, 3)))
+            return retex_fail(err, RETEX_EFORMAT, "nothing can be put on target %s: the set does not hold its footprints; "
+                              "one that was sampled and sent through a pipe has left them behind",
+                              set->targets[f->target].name);
     }
     return RETEX_OK;
 }
@@ -177,9 +187,9 @@ int retex_sample(RetexSamples **samples, const RetexSet *set, const RetexTexture
 {
     *samples = NULL;
     SampleWork work = {.set = set, .specs = specs, .nspecs = nspecs};
-    int code = check_footprints(set, err);
+    int code = find_targets(&work, err);
     if (!code)
-        code = find_targets(&work, err);
+        code = check_footprints(&work, err);
     if (!code)
         code = load_textures(&work, nthreads, err);
     if (!code)
