@@ -305,7 +305,6 @@ static void target_mean(const RetexSet *set, int target, float mean[3])
 
 static void finish_targets(const Film *film, RetexSet *set)
 {
-    set->ntargets = film->scene->ntargets;
     for (int t = 0; t < set->ntargets; t++) {
         RetexTarget *target = &set->targets[t];
         snprintf(target->name, sizeof target->name, "%s", film->scene->targets[t].name);
@@ -332,6 +331,7 @@ int film_finish(Film *film, RetexSet *set, RetexError *err)
     double total = 0, folded = 0;
     for (int k = 0; k < film->params.ntiles; k++) total += film->tile_total[k], folded += film->tile_folded[k];
     set->folded = total > 0 ? folded / total : 0;
+    set->ntargets = film->scene->ntargets;
     int code = finish_footprints(film, set, err);
     if (code) return code;
     finish_targets(film, set);

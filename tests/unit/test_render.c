@@ -1,0 +1,255 @@
+/* Whole renders of scenes with closed forms, built without the scene language: furnaces, one light over a plane, an
+ * emitter's irradiance, Fresnel at a slab; and the promises of the renderer: the same bits for any number of threads, a
+ * set that recombines to the picture. */
+#include <stdarg.h>
+#include <stddef.h>
+#include <setjmp.h>
+#include <cmocka.h>
+#include <stdlib.h>
+#include <string.h>
+#include <retex/sample.h>
+#include "integrate/render.h"
+
+typedef struct Stage {
+    Scene *scene;
+    Pigment pigments[4];
+    Finish finishes[4];
+    Texture textures[4];
+    Interior interiors[4];
+    Primitive primitives[4];
+    Light lights[2];
+    int max_depth; /* 0 = the renderer's own */
+} Stage;
+
+static void stage_open(Stage *s)
+{
+    memset(s, 0, sizeof *s);
+    Arena *arena = arena_create(0);
+    s->scene = arena_alloc(arena, sizeof *s->scene);
+    s->scene->arena = arena;
+    s->scene->width = 16, s->scene->height = 12;
+    s->scene->camera = (Camera){CAMERA_PERSPECTIVE, {0, 0, -5}, {0, 0, 1}, {1.333, 0, 0}, {0, 1, 0}};
+    s->scene->primitives = s->primitives;
+    s->scene->lights = s->lights;
+}
+
+/* One more primitive with a colour and POV-Ray's plain diffuse finish of 1. */
+static Primitive *stage_add(Stage *s, ShapeKind kind, Transform transform, float r, float g, float b)
+{
+    int k = s->scene->nprimitives++;
+    s->pigments[k] = (Pigment){.kind = PIGMENT_COLOR, .color = {r, g, b, 0, 0}, .transform = transform_identity(), .frequency = 1};
+    s->finishes[k] = (Finish){.diffuse = 1, .brilliance = 1, .reflection_falloff = 1, .reflection_exponent = 1, .phong_size = 40, .roughness = 0.05};
+    s->interiors[k] = (Interior){.ior = 1};
+    s->textures[k] = (Texture){.pigment = &s->pigments[k], .finish = &s->finishes[k]};
+    s->primitives[k] = (Primitive){.kind = kind, .transform = transform, .texture = &s->textures[k], .interior = &s->interiors[k], .target = -1, .r0 = 1, .r1 = 1};
+    return &s->primitives[k];
+}
+
+static RetexSet *stage_render(Stage *s, int spp, int plain, int threads)
+{
+    RenderParams p = RENDER_PARAMS_INIT;
+    RetexError err = {0};
+    RetexSet *set = NULL;
+    p.spp = spp, p.plain = plain, p.nthreads = threads;
+    if (s->max_depth) p.max_depth = s->max_depth;
+    if (render_scene(&set, s->scene, &p, NULL, &err)) fail_msg("render: %s", err.message);
+    return set;
+}
+
+static void stage_close(Stage *s) { scene_close(&s->scene); }
+
+static const float *pixel(const RetexSet *set, int x, int y)
+{
+    return set->parts[0].image.pixels + retex_image_index(&set->parts[0].image, x, y);
+}
+
+static void expect(double value, double wanted, double tolerance, const char *what)
+{
+    if (!(fabs(value - wanted) <= tolerance)) fail_msg("%s: %.6f, should be %.6f within %g", what, value, wanted, tolerance);
+}
+
+static Transform at(double x, double y, double z, double scale)
+{
+    return transform_then(transform_scale(vec3(scale, scale, scale)), transform_translate(vec3(x, y, z)));
+}
+
+static void furnace_is_invisible(void **state)
+{
+    (void)state; /* a white sphere under a white sky vanishes, diffuse or glass */
+    for (int glass = 0; glass < 2; glass++) {
+        Stage s;
+        stage_open(&s);
+        s.scene->background = rgb_grey(1);
+        stage_add(&s, SHAPE_SPHERE, at(0, 0, 0, 1), 1, 1, 1);
+        if (glass) {
+            s.pigments[0].color = (Rgbft){1, 1, 1, 0, 1};
+            s.interiors[0].ior = 1.5;
+            s.finishes[0].diffuse = 0, s.finishes[0].reflection_max = rgb_grey(1), s.finishes[0].reflection_fresnel = 1;
+        }
+        RenderParams p = RENDER_PARAMS_INIT;
+        RetexSet *set = NULL;
+        p.spp = 256, p.max_depth = 200;
+        assert_int_equal(render_scene(&set, s.scene, &p, NULL, NULL), 0);
+        double mean = 0;
+        for (int y = 0; y < 12; y++)
+            for (int x = 0; x < 16; x++) {
+                mean += pixel(set, x, y)[1] / (16 * 12);
+                expect(pixel(set, x, y)[1], 1, glass ? 0.25 : 0.1, "furnace pixel");
+            }
+        expect(mean, 1, 0.003, "furnace mean");
+        retex_set_close(&set);
+        stage_close(&s);
+    }
+}
+
+static void point_light_over_a_plane(void **state)
+{
+    (void)state; /* L = albedo * colour * cos: no 1/pi, no falloff, as POV-Ray has it; exact, per pixel */
+    Stage s;
+    stage_open(&s);
+    s.scene->camera = (Camera){CAMERA_ORTHOGRAPHIC, {0, 5, 0}, {0, -1, 0}, {4, 0, 0}, {0, 0, 3}};
+    stage_add(&s, SHAPE_PLANE, transform_identity(), 0.5f, 0.25f, 1);
+    s.scene->nlights = 1;
+    s.lights[0] = (Light){.kind = LIGHT_POINT, .location = {0.5, 2, 0}, .color = {1, 1, 0.5f}};
+    RetexSet *set = stage_render(&s, 64, 0, 2);
+    for (int y = 0; y < 12; y++)
+        for (int x = 0; x < 16; x++) {
+            double px = 4 * ((x + 0.5) / 16 - 0.5) - 0.5, pz = 3 * (0.5 - (y + 0.5) / 12), c = 2 / sqrt(px * px + pz * pz + 4);
+            expect(pixel(set, x, y)[0], 0.5 * c, 2e-3, "red");
+            expect(pixel(set, x, y)[1], 0.25 * c, 1e-3, "green");
+            expect(pixel(set, x, y)[2], 0.5 * c, 2e-3, "blue");
+        }
+    retex_set_close(&set);
+    stage_close(&s);
+}
+
+static void sphere_emitter_irradiance(void **state)
+{
+    (void)state; /* a sphere of radius r at height h, radiance L: E = pi L (r/h)^2 straight below it */
+    Stage s;
+    stage_open(&s);
+    s.scene->camera = (Camera){CAMERA_ORTHOGRAPHIC, {0, 1, 0}, {0, -1, 0}, {0.02, 0, 0}, {0, 0, 0.015}};
+    stage_add(&s, SHAPE_PLANE, transform_identity(), 0.6f, 0.6f, 0.6f);
+    stage_add(&s, SHAPE_SPHERE, at(0, 3, 0, 0.5), 1, 1, 1);
+    s.finishes[1].diffuse = 0, s.finishes[1].emission = rgb_grey(8);
+    RetexSet *set = stage_render(&s, 256, 0, 2);
+    double mean = 0;
+    for (int y = 0; y < 12; y++)
+        for (int x = 0; x < 16; x++) mean += pixel(set, x, y)[0] / (16 * 12);
+    expect(mean, 0.6 * 8 * (0.5 / 3) * (0.5 / 3), 2e-4, "radiance below the sphere");
+    retex_set_close(&set);
+    stage_close(&s);
+}
+
+static void slab_reflects_by_fresnel(void **state)
+{
+    (void)state; /* a glass plane over a black ground under a sky of 1: head-on 0.04 */
+    Stage s;
+    stage_open(&s);
+    s.scene->camera = (Camera){CAMERA_ORTHOGRAPHIC, {0, 5, 0}, {0, -1, 0}, {4, 0, 0}, {0, 0, 3}};
+    s.scene->background = rgb_grey(1);
+    stage_add(&s, SHAPE_PLANE, transform_identity(), 1, 1, 1);
+    stage_add(&s, SHAPE_PLANE, at(0, -1, 0, 1), 0, 0, 0);
+    s.pigments[0].color = (Rgbft){1, 1, 1, 0, 1};
+    s.interiors[0].ior = 1.5;
+    s.finishes[0].diffuse = 0, s.finishes[0].reflection_max = rgb_grey(1), s.finishes[0].reflection_fresnel = 1;
+    RetexSet *set = stage_render(&s, 4096, 0, 2);
+    double mean = 0;
+    for (int y = 0; y < 12; y++)
+        for (int x = 0; x < 16; x++) mean += pixel(set, x, y)[0] / (16 * 12);
+    expect(mean, 0.04, 5e-4, "reflectance");
+    retex_set_close(&set);
+    stage_close(&s);
+}
+
+/* A diffuse floor and sphere, both targets, under a sky and an emitter: light goes back and forth. */
+static void target_stage(Stage *s)
+{
+    stage_open(s);
+    s->scene->background = rgb(0.6f, 0.7f, 1);
+    stage_add(s, SHAPE_PLANE, at(0, -1, 0, 1), 0.7f, 0.5f, 0.3f);
+    stage_add(s, SHAPE_SPHERE, at(0, 0, 0, 1), 0.3f, 0.8f, 0.4f);
+    stage_add(s, SHAPE_SPHERE, at(2, 2.5, -1, 0.5), 1, 0.9f, 0.8f);
+    s->finishes[1].specular = 0.3, s->finishes[1].roughness = 0.02;
+    s->finishes[2].diffuse = 0, s->finishes[2].emission = rgb_grey(10);
+    s->scene->ntargets = 2;
+    strcpy(s->scene->targets[0].name, "Floor");
+    strcpy(s->scene->targets[1].name, "Ball");
+    s->primitives[0].target = 0, s->primitives[1].target = 1;
+}
+
+static void bits_do_not_depend_on_threads(void **state)
+{
+    (void)state;
+    RetexSet *sets[3];
+    const int threads[3] = {1, 2, 7};
+    Stage s;
+    target_stage(&s);
+    s.scene->width = 70, s.scene->height = 50;
+    for (int k = 0; k < 3; k++) sets[k] = stage_render(&s, 8, 0, threads[k]);
+    for (int k = 1; k < 3; k++) {
+        assert_int_equal(sets[k]->nparts, sets[0]->nparts);
+        assert_true(sets[k]->folded == sets[0]->folded);
+        for (int p = 0; p < sets[0]->nparts; p++) {
+            const RetexImage *a = &sets[0]->parts[p].image, *b = &sets[k]->parts[p].image;
+            assert_string_equal(sets[k]->parts[p].name, sets[0]->parts[p].name);
+            assert_memory_equal(a->pixels, b->pixels, (size_t)a->width * (size_t)a->height * (size_t)a->channels * sizeof(float));
+        }
+    }
+    for (int k = 0; k < 3; k++) retex_set_close(&sets[k]);
+    stage_close(&s);
+}
+
+static void compare(const RetexImage *a, const RetexImage *b, double tolerance, const char *what)
+{
+    for (size_t i = 0; i < (size_t)a->width * (size_t)a->height * 3; i++)
+        if (!(fabs(a->pixels[i] - b->pixels[i]) <= tolerance * (0.01 + b->pixels[i])))
+            fail_msg("%s: sample %zu is %.6f, should be %.6f", what, i, a->pixels[i], b->pixels[i]);
+}
+
+static void set_recombines(void **state)
+{
+    (void)state; /* constant originals: the polynomial is the picture; other constants: it is the other picture */
+    Stage s;
+    target_stage(&s);
+    s.max_depth = RETEX_MAX_ORDERS + 1; /* no path has more hits than the set has orders: nothing is folded */
+    RetexSet *set = stage_render(&s, 32, 0, 2), *plain = stage_render(&s, 32, 1, 2);
+    assert_int_equal(plain->nterms, 0);
+    assert_true(set->folded == 0);
+    compare(&plain->parts[0].image, &set->parts[0].image, 1e-5, "plain against set");
+    RetexImage again = {0};
+    assert_int_equal(retex_combine(&again, set, NULL, NULL, NULL, 0, NULL), 0);
+    compare(&again, &set->parts[0].image, 1e-4, "unedited");
+    retex_image_free(&again);
+    retex_set_close(&plain);
+
+    RetexTextureSpec specs[2] = {RETEX_TEXTURE_SPEC_INIT, RETEX_TEXTURE_SPEC_INIT};
+    RetexTexture *textures[2];
+    RetexSamples *samples = NULL;
+    const float colors[2][3] = {{0.9f, 0.9f, 0.9f}, {0.8f, 0.05f, 0.02f}};
+    for (int k = 0; k < 2; k++) {
+        strcpy(specs[k].target, k ? "Ball" : "Floor");
+        specs[k].constant = 1;
+        memcpy(specs[k].color, colors[k], sizeof colors[k]);
+        assert_int_equal(retex_texture_load(&textures[k], &specs[k], 1, NULL), 0);
+        s.scene->targets[k].replacement = textures[k];
+    }
+    plain = stage_render(&s, 32, 1, 2);
+    assert_int_equal(retex_sample(&samples, set, specs, 2, 0, NULL), 0);
+    assert_int_equal(retex_combine(&again, set, samples, NULL, NULL, 0, NULL), 0);
+    compare(&again, &plain->parts[0].image, 2e-3, "recoloured");
+    retex_image_free(&again);
+    retex_samples_close(&samples);
+    for (int k = 0; k < 2; k++) retex_texture_close(&textures[k]);
+    retex_set_close(&plain);
+    retex_set_close(&set);
+    stage_close(&s);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(furnace_is_invisible), cmocka_unit_test(point_light_over_a_plane), cmocka_unit_test(sphere_emitter_irradiance),
+        cmocka_unit_test(slab_reflects_by_fresnel), cmocka_unit_test(bits_do_not_depend_on_threads), cmocka_unit_test(set_recombines)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
