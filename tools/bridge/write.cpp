@@ -161,7 +161,7 @@ void write_pfm(Spool &spool, int width, int height, int channels, const std::vec
         spool.append(pixels.data() + y * row, row * sizeof(float));
 }
 
-// A format whose library writes nowhere but to a file of its own: there close() and the file's size have to tell.
+// A format whose library insists on a name with its ending (JPEG 2000): there close() and the file's size have to tell.
 void write_directly(const char *path, const std::function<bool()> &write, OIIO::ImageOutput &out)
 {
     struct stat status;
@@ -306,10 +306,12 @@ void write_picture(const RetexImage &src, const char *path, const RetexWritePara
     };
     if (!write_to(spool.path()))
         throw Failure(RETEX_EIO, "cannot write: " + out->geterror());
-    if (spool.empty())
+    if (spool.empty()) {
+        out = find_writer(path); // a used one does not always open again
         write_directly(path, [&] { return write_to(path); }, *out);
-    else
+    } else {
         spool.copy_to(path);
+    }
 }
 
 } // namespace
