@@ -170,6 +170,9 @@ static int check_parts(const RetexExrPart *parts, int nparts, RetexError *err)
         if (!image || !image->pixels || (size_t)image->channels != strlen(parts[i].letters))
             return retex_fail(err, RETEX_EINVAL, "part %s has no image, or one whose channels are not %s",
                               parts[i].name, parts[i].letters);
+        for (int j = 0; j < i; j++)
+            if (strcmp(parts[i].name, parts[j].name) == 0)
+                return retex_fail(err, RETEX_EINVAL, "two parts are named %s", parts[i].name);
     }
     return 0;
 }

@@ -1,0 +1,456 @@
+/* EXR: half conversion over all values, parts there and back, every compression, and files damaged in all ways. */
+#include "lib_test.h"
+#include <cmocka.h>
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+#include <openexr.h>
+#include <zlib.h>
+
+#include "exr_io.h"
+#include "half.h"
+
+static char path[64];
+
+static int make_path(void **state)
+{
+    (void)state;
+    strcpy(path, "/tmp/retex-exr-XXXXXX");
+    const int descriptor = mkstemp(path);
+    return descriptor < 0 ? -1 : close(descriptor);
+}
+
+static int remove_path(void **state)
+{
+    (void)state;
+    return unlink(path);
+}
+
+/* A half's value by its definition. */
+static double half_value(unsigned half)
+{
+    const double sign = half & 0x8000 ? -1 : 1;
+    const int exponent = half >> 10 & 31, mantissa = half & 1023;
+    return sign * (exponent ? ldexp(1024 + mantissa, exponent - 25) : ldexp(mantissa, -24));
+}
+
+static void test_every_half(void **state)
+{
+    (void)state;
+    static uint16_t all[65536], again[65536], scalar_again[65536];
+    static float values[65536], scalar[65536];
+    for (unsigned i = 0; i < 65536; i++)
+        all[i] = (uint16_t)i;
+    retex_half_to_float(values, all, 65536);
+    retex_half_to_float_scalar(scalar, all, 65536);
+    assert_memory_equal(values, scalar, sizeof values);
+    retex_half_from_float(again, values, 65536);
+    retex_half_from_float_scalar(scalar_again, values, 65536);
+    assert_memory_equal(again, scalar_again, sizeof again);
+    for (unsigned i = 0; i < 65536; i++) {
+        const int special = (i & 0x7c00) == 0x7c00, nan = special && (i & 0x3ff);
+        if (!special)
+            assert_true((double)values[i] == half_value(i));
+        else if (!nan)
+            assert_true(isinf(values[i]) && (values[i] < 0) == (i >= 0x8000));
+        else
+            assert_true(isnan(values[i]));
+        assert_int_equal(again[i], nan ? (i | 0x200) : i);
+    }
+}
+
+/* Between each two neighbours: the midpoint goes to the even one, what lies beside it to the nearer. */
+static void test_rounding_to_half(void **state)
+{
+    (void)state;
+    for (unsigned i = 0; i < 0x7bff; i++) {
+        const float middle = (float)((half_value(i) + half_value(i + 1)) / 2); /* exact in float */
+        const float in[6] = { nextafterf(middle, 0), middle, nextafterf(middle, 1e9f), -nextafterf(middle, 0), -middle,
+                              -nextafterf(middle, 1e9f) };
+        const unsigned even = i & 1 ? i + 1 : i;
+        const unsigned want[6] = { i, even, i + 1, i | 0x8000, even | 0x8000, (i + 1) | 0x8000 };
+        uint16_t out[6];
+        retex_half_from_float_scalar(out, in, 6);
+        for (int k = 0; k < 6; k++)
+            assert_int_equal(out[k], want[k]);
+    }
+    static const float large[8] = { 65504, 65519, 65520, 1e30f, -1e30f, INFINITY, -INFINITY, -65505 };
+    static const uint16_t clamped[8] = { 0x7bff, 0x7bff, 0x7bff, 0x7bff, 0xfbff, 0x7c00, 0xfc00, 0xfbff };
+    uint16_t out[8];
+    retex_half_from_float(out, large, 8);
+    assert_memory_equal(out, clamped, sizeof out);
+    retex_half_from_float_scalar(out, large, 8);
+    assert_memory_equal(out, clamped, sizeof out);
+}
+
+static void test_vector_equals_scalar(void **state)
+{
+    (void)state;
+    enum { COUNT = 100003 };
+    float *values = malloc(COUNT * sizeof *values);
+    uint16_t *fast = malloc(COUNT * 2), *slow = malloc(COUNT * 2);
+    uint32_t bits = 1;
+    for (int round = 0; round < 20; round++) {
+        for (int i = 0; i < COUNT; i++) {
+            bits = bits * 1664525 + 1013904223;
+            memcpy(&values[i], &bits, 4);
+        }
+        retex_half_from_float(fast, values, COUNT);
+        retex_half_from_float_scalar(slow, values, COUNT);
+        assert_memory_equal(fast, slow, COUNT * 2);
+    }
+    free(values);
+    free(fast);
+    free(slow);
+}
+
+enum { PARTS = 4 };
+
+/* Parts of different sizes, types and letters; some black, so that runs occur. */
+static void make_parts(RetexExrPart parts[PARTS], RetexImage images[PARTS])
+{
+    static const struct { const char *name, *letters; RetexPixelType type; int width, height; } shape[PARTS] = {
+        { "beauty", "RGB", RETEX_HALF, 75, 50 },
+        { "uv_floor_1", "RGA", RETEX_FLOAT, 75, 50 },
+        { "a_long_name_that_needs_the_long_name_flag_of_the_format", "RG", RETEX_HALF, 75, 50 },
+        { "original", "RGBA", RETEX_FLOAT, 130, 17 },
+    };
+    memset(images, 0, PARTS * sizeof *images);
+    for (int i = 0; i < PARTS; i++) {
+        const int channels = (int)strlen(shape[i].letters);
+        test_random_image(&images[i], shape[i].width, shape[i].height, channels, (uint32_t)i + 1, -2, 9);
+        memset(images[i].pixels, 0, sizeof(float) * (size_t)(shape[i].width * channels) * 5);
+        memset(&parts[i], 0, sizeof parts[i]);
+        strcpy(parts[i].name, shape[i].name);
+        strcpy(parts[i].letters, shape[i].letters);
+        parts[i].type = shape[i].type;
+        parts[i].image = &images[i];
+    }
+}
+
+static void write_parts(RetexExrPart *parts, int count, int compress, int threads)
+{
+    RetexExrEncoding *encoding;
+    RetexError err = { 0 };
+    test_must(retex_exr_encode(&encoding, parts, count, compress, threads, &err), &err);
+    test_must(retex_exr_write(encoding, 75, 50, "note", "a text", path, &err), &err);
+    retex_exr_encoding_free(&encoding);
+}
+
+/* By the definition in set.h. */
+static uint32_t expected_crc(const RetexExrPart *part)
+{
+    const RetexImage *im = part->image;
+    uint32_t crc = 0;
+    for (int c = 0; c < im->channels; c++)
+        for (int i = 0; i < im->width * im->height; i++) {
+            const float value = im->pixels[i * im->channels + c];
+            uint16_t half;
+            retex_half_from_float_scalar(&half, &value, 1);
+            crc = (uint32_t)(part->type == RETEX_HALF ? crc32(crc, (const unsigned char *)&half, 2)
+                                                      : crc32(crc, (const unsigned char *)&value, 4));
+        }
+    return crc;
+}
+
+static void check_part(RetexExr *exr, const RetexExrPart *part, int index, int threads)
+{
+    RetexImage image = { 0 };
+    RetexError err = { 0 };
+    RetexExrRequest request = { .part = retex_exr_find_part(exr, part->name), .image = &image, .with_crc = 1 };
+    int width, height;
+    assert_int_equal(request.part, index);
+    retex_exr_part_size(exr, index, &width, &height);
+    assert_true(width == part->image->width && height == part->image->height);
+    test_must(retex_image_alloc(&image, width, height, part->image->channels, &err), &err);
+    for (int c = 0; part->letters[c]; c++)
+        snprintf(request.channels[c], RETEX_EXR_NAME_MAX, "%s%s%c", index ? part->name : "", index ? "." : "",
+                 part->letters[c]);
+    test_must(retex_exr_read(exr, &request, 1, threads, &err), &err);
+    for (int i = 0; i < width * height * image.channels; i++) {
+        float want = part->image->pixels[i];
+        if (part->type == RETEX_HALF) {
+            uint16_t half;
+            retex_half_from_float(&half, &want, 1);
+            retex_half_to_float(&want, &half, 1);
+        }
+        assert_true(want == image.pixels[i]);
+    }
+    assert_int_equal(request.crc, part->crc);
+    retex_image_free(&image);
+}
+
+static void test_parts_there_and_back(void **state)
+{
+    (void)state;
+    RetexExrPart parts[PARTS];
+    RetexImage images[PARTS];
+    make_parts(parts, images);
+    for (int variant = 0; variant < 8; variant++) {
+        const int compress = variant & 1, threads = variant & 2 ? 7 : 1, count = variant & 4 ? 1 : PARTS;
+        RetexInput *input;
+        RetexExr *exr;
+        RetexError err = { 0 };
+        write_parts(parts, count, compress, threads);
+        test_must(retex_input_open(&input, path, &err), &err);
+        test_must(retex_exr_open(&exr, input, &err), &err);
+        assert_int_equal(retex_exr_part_count(exr), count);
+        assert_string_equal(retex_exr_attribute(exr, 0, "note"), "a text");
+        assert_null(retex_exr_attribute(exr, 0, "channels"));
+        assert_int_equal(retex_exr_find_part(exr, "none"), -1);
+        for (int i = 0; i < count; i++) {
+            assert_int_equal(parts[i].crc, expected_crc(&parts[i]));
+            check_part(exr, &parts[i], i, threads);
+        }
+        retex_exr_close(&exr);
+        retex_input_close(&input);
+    }
+    for (int i = 0; i < PARTS; i++)
+        retex_image_free(&images[i]);
+}
+
+static unsigned char *load(size_t *bytes)
+{
+    FILE *file = fopen(path, "rb");
+    assert_non_null(file);
+    fseek(file, 0, SEEK_END);
+    *bytes = (size_t)ftell(file);
+    rewind(file);
+    unsigned char *data = malloc(*bytes);
+    assert_int_equal(fread(data, 1, *bytes, file), *bytes);
+    fclose(file);
+    return data;
+}
+
+static void test_files_are_equal_for_every_thread_count(void **state)
+{
+    (void)state;
+    RetexExrPart parts[PARTS];
+    RetexImage images[PARTS];
+    size_t bytes, again;
+    make_parts(parts, images);
+    write_parts(parts, PARTS, 1, 1);
+    unsigned char *reference = load(&bytes);
+    for (int threads = 2; threads < 8; threads += 5) {
+        write_parts(parts, PARTS, 1, threads);
+        unsigned char *data = load(&again);
+        assert_int_equal(again, bytes);
+        assert_memory_equal(data, reference, bytes);
+        free(data);
+    }
+    free(reference);
+    for (int i = 0; i < PARTS; i++)
+        retex_image_free(&images[i]);
+}
+
+static void store(const unsigned char *data, size_t bytes)
+{
+    unlink(path); /* file systems flush a file that is truncated and written again */
+    FILE *file = fopen(path, "wb");
+    assert_non_null(file);
+    assert_int_equal(fwrite(data, 1, bytes, file), bytes);
+    assert_int_equal(fclose(file), 0);
+}
+
+/* Read whatever path holds, all parts, all channels; the status. */
+static int read_anything(void)
+{
+    RetexInput *input = NULL;
+    RetexExr *exr = NULL;
+    RetexError err = { 0 };
+    int status = retex_input_open(&input, path, &err);
+    if (!status)
+        status = retex_exr_open(&exr, input, &err);
+    for (int part = 0; !status && part < retex_exr_part_count(exr); part++) {
+        static const char *const channels[] = { "R", "G", "B" };
+        RetexExrRequest request = { .part = part };
+        RetexImage image = { 0 };
+        const char *reason;
+        int width, height;
+        retex_exr_part_size(exr, part, &width, &height);
+        if (!retex_exr_part_readable(exr, part, &reason) || width > 4096 || height > 4096)
+            status = RETEX_EUNSUPPORTED;
+        for (int c = 0; !status && c < 3; c++)
+            if (retex_exr_has_channel(exr, part, channels[c]))
+                strcpy(request.channels[c], channels[c]);
+        if (!status)
+            status = retex_image_alloc(&image, width, height, 4, &err);
+        request.image = &image;
+        if (!status)
+            status = retex_exr_read(exr, &request, 1, 2, &err);
+        retex_image_free(&image);
+    }
+    if (status && status != RETEX_EUNSUPPORTED) {
+        assert_true(err.message[0] != 0);
+        assert_int_equal(err.code, status);
+    }
+    retex_exr_close(&exr);
+    retex_input_close(&input);
+    return status;
+}
+
+static void test_damaged_files(void **state)
+{
+    (void)state;
+    RetexExrPart parts[PARTS];
+    RetexImage images[PARTS];
+    make_parts(parts, images);
+    for (int compress = 0; compress < 2; compress++) {
+        uint32_t seed = 7;
+        size_t bytes;
+        /* the first part alone, so that every byte is asked for */
+        write_parts(parts, 1, compress, 1);
+        unsigned char *data = load(&bytes);
+        assert_int_equal(read_anything(), 0);
+        for (size_t length = 0; length < bytes; length += length < 700 ? 1 : 331) {
+            store(data, length);
+            assert_int_not_equal(read_anything(), 0);
+        }
+        for (int i = 0; i < 1500; i++) {
+            const size_t range = i % 2 ? bytes : 1000; /* every other time the header and the table */
+            const size_t place = (size_t)(test_random(&seed) * (double)range) % bytes;
+            const unsigned char old = data[place];
+            data[place] ^= (unsigned char)(1 + test_random(&seed) * 255);
+            store(data, bytes);
+            read_anything(); /* may well succeed: it must only not crash */
+            data[place] = old;
+        }
+        free(data);
+        write_parts(parts, PARTS, compress, 1);
+        data = load(&bytes);
+        for (int i = 0; i < 500; i++) {
+            const size_t place = (size_t)(test_random(&seed) * 2500) % bytes;
+            const unsigned char old = data[place];
+            data[place] ^= (unsigned char)(1 + test_random(&seed) * 255);
+            store(data, bytes);
+            read_anything();
+            data[place] = old;
+        }
+        free(data);
+    }
+    for (int i = 0; i < PARTS; i++)
+        retex_image_free(&images[i]);
+}
+
+static void quiet(exr_const_context_t context, exr_result_t code, const char *message)
+{
+    (void)context;
+    (void)code;
+    (void)message;
+}
+
+/* One part R, G of halves by OpenEXRCore alone, in scan lines or in tiles of 32 x 16. */
+static void write_by_core(const uint16_t *planes[2], int width, int height, exr_compression_t compression, int tiled)
+{
+    exr_context_initializer_t settings = EXR_DEFAULT_CONTEXT_INITIALIZER;
+    exr_context_t context;
+    int part, lines = 0;
+    settings.error_handler_fn = quiet;
+    assert_int_equal(exr_start_write(&context, path, EXR_WRITE_FILE_DIRECTLY, &settings), 0);
+    assert_int_equal(exr_add_part(context, "x", tiled ? EXR_STORAGE_TILED : EXR_STORAGE_SCANLINE, &part), 0);
+    assert_int_equal(exr_initialize_required_attr_simple(context, part, width, height, compression), 0);
+    if (tiled)
+        assert_int_equal(exr_set_tile_descriptor(context, part, 32, 16, EXR_TILE_ONE_LEVEL, EXR_TILE_ROUND_DOWN), 0);
+    assert_int_equal(exr_add_channel(context, part, "R", EXR_PIXEL_HALF, EXR_PERCEPTUALLY_LOGARITHMIC, 1, 1), 0);
+    assert_int_equal(exr_add_channel(context, part, "G", EXR_PIXEL_HALF, EXR_PERCEPTUALLY_LOGARITHMIC, 1, 1), 0);
+    assert_int_equal(exr_write_header(context), 0);
+    exr_get_scanlines_per_chunk(context, part, &lines);
+    const int step_x = tiled ? 32 : width, step_y = tiled ? 16 : lines;
+    for (int y = 0; y < height; y += step_y)
+        for (int x = 0; x < width; x += step_x) {
+            exr_encode_pipeline_t pipeline = EXR_ENCODE_PIPELINE_INITIALIZER;
+            exr_chunk_info_t chunk;
+            if (tiled)
+                assert_int_equal(exr_write_tile_chunk_info(context, part, x / 32, y / 16, 0, 0, &chunk), 0);
+            else
+                assert_int_equal(exr_write_scanline_chunk_info(context, part, y, &chunk), 0);
+            assert_int_equal(exr_encoding_initialize(context, part, &chunk, &pipeline), 0);
+            for (int c = 0; c < 2; c++) { /* G comes first */
+                pipeline.channels[c].user_pixel_stride = 2;
+                pipeline.channels[c].user_line_stride = 2 * width;
+                pipeline.channels[c].encode_from_ptr = (const uint8_t *)(planes[1 - c] + (size_t)y * (size_t)width + x);
+            }
+            assert_int_equal(exr_encoding_choose_default_routines(context, part, &pipeline), 0);
+            assert_int_equal(exr_encoding_run(context, part, &pipeline), 0);
+            exr_encoding_destroy(context, &pipeline);
+        }
+    assert_int_equal(exr_finish(&context), 0);
+}
+
+static void test_foreign_files_of_every_compression(void **state)
+{
+    (void)state;
+    enum { WIDTH = 101, HEIGHT = 67, COUNT = WIDTH * HEIGHT };
+    static uint16_t red[COUNT], green[COUNT];
+    const uint16_t *planes[2] = { red, green };
+    uint32_t seed = 3;
+    for (int i = 0; i < COUNT; i++) {
+        const float value = (float)(1 + i % WIDTH * 0.01 + i / WIDTH * 0.02), noisy = value + (float)test_random(&seed);
+        retex_half_from_float(&red[i], &value, 1);
+        retex_half_from_float(&green[i], &noisy, 1);
+    }
+    for (int kind = EXR_COMPRESSION_NONE; kind <= EXR_COMPRESSION_PXR24; kind++)
+        for (int tiled = 0; tiled < 2; tiled++) {
+            RetexImage image = { 0 };
+            RetexError err = { 0 };
+            write_by_core(planes, WIDTH, HEIGHT, (exr_compression_t)kind, tiled);
+            test_must(retex_image_read(&image, path, NULL, 0, &err), &err);
+            assert_true(image.width == WIDTH && image.height == HEIGHT);
+            for (int i = 0; i < COUNT; i++) {
+                float want[2];
+                retex_half_to_float(&want[0], &red[i], 1);
+                retex_half_to_float(&want[1], &green[i], 1);
+                assert_true(image.pixels[4 * i] == want[0] && image.pixels[4 * i + 1] == want[1]);
+                assert_true(image.pixels[4 * i + 2] == 0 && image.pixels[4 * i + 3] == 1);
+            }
+            retex_image_free(&image);
+            size_t bytes;
+            unsigned char *data = load(&bytes);
+            for (int i = 0; i < 150; i++) {
+                const size_t place = (size_t)(test_random(&seed) * (double)bytes);
+                const unsigned char old = data[place];
+                data[place] ^= (unsigned char)(1 + test_random(&seed) * 255);
+                store(data, bytes);
+                read_anything();
+                data[place] = old;
+            }
+            free(data);
+        }
+}
+
+static void test_absurd_requests(void **state)
+{
+    (void)state;
+    RetexExrPart parts[PARTS];
+    RetexImage images[PARTS];
+    RetexExrEncoding *encoding;
+    RetexError err = { 0 };
+    make_parts(parts, images);
+    assert_int_equal(retex_exr_encode(&encoding, parts, 0, 1, 1, &err), RETEX_EINVAL);
+    strcpy(parts[0].letters, "RG");
+    assert_int_equal(retex_exr_encode(&encoding, parts, 1, 1, 1, &err), RETEX_EINVAL);
+    strcpy(parts[0].letters, "RGB");
+    strcpy(parts[1].name, "beauty"); /* two of one name */
+    assert_int_equal(retex_exr_encode(&encoding, parts, 2, 1, 1, &err), RETEX_EINVAL);
+    assert_null(encoding);
+    for (int i = 0; i < PARTS; i++)
+        retex_image_free(&images[i]);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_every_half),
+        cmocka_unit_test(test_rounding_to_half),
+        cmocka_unit_test(test_vector_equals_scalar),
+        cmocka_unit_test(test_parts_there_and_back),
+        cmocka_unit_test(test_files_are_equal_for_every_thread_count),
+        cmocka_unit_test(test_damaged_files),
+        cmocka_unit_test(test_foreign_files_of_every_compression),
+        cmocka_unit_test(test_absurd_requests),
+    };
+    return cmocka_run_group_tests(tests, make_path, remove_path);
+}

@@ -1,0 +1,484 @@
+/* Sets and samples: there and back through files and pipes, checksums, manifests that lie, files that are damaged. */
+#include "lib_test.h"
+#include <cmocka.h>
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "exr_io.h"
+#include "half.h"
+#include "manifest.h"
+
+static char path[64];
+
+static int make_path(void **state)
+{
+    (void)state;
+    strcpy(path, "/tmp/retex-set-XXXXXX");
+    const int descriptor = mkstemp(path);
+    return descriptor < 0 ? -1 : close(descriptor);
+}
+
+static int remove_path(void **state)
+{
+    (void)state;
+    return unlink(path);
+}
+
+/* Samples for some of a set's footprints: every other one, or those of the first target. */
+static RetexSamples *make_samples(const RetexSet *set, int every)
+{
+    RetexSamples *samples = calloc(1, sizeof *samples);
+    samples->width = set->width;
+    samples->height = set->height;
+    samples->ntargets = set->ntargets;
+    samples->nimages = set->nfootprints;
+    samples->images = calloc((size_t)set->nfootprints + 1, sizeof *samples->images);
+    for (int i = 0; i < set->ntargets; i++) {
+        snprintf(samples->target_names[i], sizeof samples->target_names[i], "%s", set->targets[i].name);
+        snprintf(samples->textures[i], sizeof samples->textures[i], "b\xfc" "hne %d.jpg", i);
+    }
+    for (int i = 0; i < set->nfootprints; i++) {
+        samples->footprint_target[i] = set->footprints[i].target;
+        samples->footprint_hit[i] = set->footprints[i].hit;
+        if (every && i % every == 0)
+            test_random_image(&samples->images[i], set->width, set->height, 3, (uint32_t)i + 50, 0, 1);
+    }
+    return samples;
+}
+
+static void expect_equal_pixels(const RetexImage *want, const RetexImage *got, RetexPixelType type)
+{
+    assert_true(want->width == got->width && want->height == got->height && want->channels == got->channels);
+    const size_t count = retex_image_index(want, 0, want->height);
+    for (size_t i = 0; i < count; i++) {
+        float value = want->pixels[i];
+        if (type == RETEX_HALF) {
+            uint16_t half;
+            retex_half_from_float(&half, &value, 1);
+            retex_half_to_float(&value, &half, 1);
+        }
+        assert_true(value == got->pixels[i]);
+    }
+}
+
+static void expect_equal_part(const RetexSet *a, int part_a, const RetexSet *b, int part_b)
+{
+    assert_true((part_a < 0) == (part_b < 0));
+    if (part_a < 0)
+        return;
+    assert_string_equal(a->parts[part_a].name, b->parts[part_b].name);
+    assert_string_equal(a->parts[part_a].letters, b->parts[part_b].letters);
+    assert_int_equal(a->parts[part_a].type, b->parts[part_b].type);
+    assert_int_equal(a->parts[part_a].crc, b->parts[part_b].crc);
+    expect_equal_pixels(&a->parts[part_a].image, &b->parts[part_b].image, a->parts[part_a].type);
+}
+
+static void expect_equal_terms(const RetexSet *a, const RetexSet *b)
+{
+    assert_int_equal(a->nterms, b->nterms);
+    for (int i = 0; i < a->nterms; i++) {
+        assert_int_equal(a->terms[i].kind, b->terms[i].kind);
+        assert_int_equal(a->terms[i].nfactors, b->terms[i].nfactors);
+        for (int f = 0; f < a->terms[i].nfactors; f++)
+            assert_int_equal(a->terms[i].factors[f], b->terms[i].factors[f]);
+        expect_equal_part(a, a->terms[i].radiance, b, b->terms[i].radiance);
+    }
+}
+
+static void expect_equal_sets(const RetexSet *a, const RetexSet *b)
+{
+    assert_true(a->width == b->width && a->height == b->height && a->orders == b->orders && a->spp == b->spp);
+    assert_true(a->max_depth == b->max_depth && a->seed == b->seed && a->strict_paper == b->strict_paper);
+    assert_true(a->folded == b->folded);
+    assert_string_equal(a->layout, b->layout);
+    assert_string_equal(a->filter, b->filter);
+    assert_string_equal(a->scene, b->scene);
+    assert_string_equal(a->generator, b->generator);
+    assert_int_equal(a->ntargets, b->ntargets);
+    for (int i = 0; i < a->ntargets; i++) {
+        RetexTarget ta = a->targets[i], tb = b->targets[i];
+        assert_string_equal(ta.name, tb.name);
+        assert_string_equal(ta.idents, tb.idents);
+        expect_equal_part(a, ta.original, b, tb.original);
+        assert_memory_equal(ta.periodic, tb.periodic, sizeof ta.periodic);
+        assert_memory_equal(ta.uv_min, tb.uv_min, sizeof ta.uv_min);
+        assert_memory_equal(ta.uv_max, tb.uv_max, sizeof ta.uv_max);
+        assert_memory_equal(ta.original_min, tb.original_min, sizeof ta.original_min);
+        assert_memory_equal(ta.original_max, tb.original_max, sizeof ta.original_max);
+        assert_memory_equal(ta.mean_albedo, tb.mean_albedo, sizeof ta.mean_albedo);
+        assert_true(ta.share == tb.share);
+    }
+    assert_int_equal(a->nparts, b->nparts);
+    for (int i = 0; i < a->nparts; i++)
+        expect_equal_part(a, i, b, i);
+    assert_int_equal(a->nfootprints, b->nfootprints);
+    for (int i = 0; i < a->nfootprints; i++)
+        assert_memory_equal(&a->footprints[i], &b->footprints[i], sizeof a->footprints[i]);
+    expect_equal_terms(a, b);
+}
+
+static void expect_equal_samples(const RetexSamples *a, const RetexSamples *b)
+{
+    assert_true(a->width == b->width && a->height == b->height);
+    assert_int_equal(a->nimages, b->nimages);
+    assert_int_equal(a->ntargets, b->ntargets);
+    for (int i = 0; i < a->ntargets; i++) {
+        assert_string_equal(a->target_names[i], b->target_names[i]);
+        assert_string_equal(b->textures[i], i ? "b?hne 1.jpg" : "b?hne 0.jpg"); /* JSON is UTF-8 */
+    }
+    for (int i = 0; i < a->nimages; i++) {
+        assert_int_equal(a->footprint_target[i], b->footprint_target[i]);
+        assert_int_equal(a->footprint_hit[i], b->footprint_hit[i]);
+        assert_true(!a->images[i].pixels == !b->images[i].pixels);
+        if (a->images[i].pixels)
+            expect_equal_pixels(&a->images[i], &b->images[i], RETEX_FLOAT);
+    }
+}
+
+static void test_set_there_and_back(void **state)
+{
+    (void)state;
+    for (int compress = 0; compress < 2; compress++) {
+        RetexSet *set = test_set(70, 45, 9), *back;
+        RetexSamples *none;
+        RetexStoreParams params = RETEX_STORE_INIT;
+        RetexError err = { 0 };
+        params.compress = compress;
+        params.nthreads = 3;
+        set->seed = 4000000000u;
+        set->folded = 1.0 / 3;
+        strcpy(set->scene, "k\xc3\xbc" "che.pov");
+        test_must(retex_set_write(set, NULL, path, &params, &err), &err);
+        test_must(retex_set_check(path, 0, &err), &err);
+        test_must(retex_set_read(path, &back, &none, 2, &err), &err);
+        assert_null(none);
+        expect_equal_sets(set, back);
+        /* what was read can be added to and written again */
+        test_must(retex_set_add_part(back, "more", "A", RETEX_FLOAT, 0, 0, NULL, &err), &err);
+        test_must(retex_set_add_part(back, "and-more", "A", RETEX_FLOAT, 3, 2, NULL, &err), &err);
+        test_must(retex_set_write(back, NULL, path, &params, &err), &err);
+        test_must(retex_set_check(path, 0, &err), &err);
+        assert_int_equal(retex_set_read(path, NULL, &none, 2, &err), RETEX_EFORMAT);
+        retex_set_close(&set);
+        retex_set_close(&back);
+        retex_set_close(&back);
+        retex_set_close(NULL);
+    }
+}
+
+static void test_samples_there_and_back(void **state)
+{
+    (void)state;
+    RetexSet *set = test_set(40, 30, 2), *none;
+    RetexError err = { 0 };
+    for (int every = 0; every < 3; every++) {
+        RetexSamples *samples = make_samples(set, every), *back;
+        test_must(retex_samples_check(samples, set, &err), &err);
+        test_must(retex_set_write(NULL, samples, path, NULL, &err), &err);
+        test_must(retex_set_check(path, 0, &err), &err);
+        test_must(retex_set_read(path, &none, &back, 0, &err), &err);
+        assert_null(none);
+        expect_equal_samples(samples, back);
+        assert_int_equal(retex_set_read(path, &none, NULL, 0, &err), RETEX_EFORMAT);
+        retex_samples_close(&samples);
+        retex_samples_close(&back);
+        retex_samples_close(&back);
+    }
+    retex_set_close(&set);
+}
+
+static void expect_stream(const RetexSet *set, const RetexSamples *samples, const RetexSet *back)
+{
+    expect_equal_terms(set, back);
+    expect_equal_part(set, 0, back, 0);
+    assert_int_equal(back->nfootprints, set->nfootprints);
+    for (int i = 0; i < set->nfootprints; i++) {
+        assert_int_equal(back->footprints[i].uv, -1);
+        if (!samples->images[i].pixels)
+            expect_equal_part(set, set->footprints[i].albedo, back, back->footprints[i].albedo);
+    }
+    assert_true(back->nparts < set->nparts);
+}
+
+static void test_stream_through_a_pipe(void **state)
+{
+    (void)state;
+    RetexSet *set = test_set(90, 60, 4), *back;
+    RetexSamples *samples = make_samples(set, 2), *samples_back;
+    RetexError err = { 0 };
+    int ends[2], status = 1;
+    /* checksums of all parts, to compare with */
+    test_must(retex_set_write(set, NULL, path, NULL, &err), &err);
+    assert_int_equal(pipe(ends), 0);
+    const pid_t child = fork();
+    if (child == 0) {
+        dup2(ends[1], 1);
+        close(ends[0]);
+        close(ends[1]);
+        _exit(retex_set_write(set, samples, "-", NULL, &err) != 0);
+    }
+    const int kept = dup(0);
+    dup2(ends[0], 0);
+    close(ends[0]);
+    close(ends[1]);
+    const int code = retex_set_read("-", &back, &samples_back, 0, &err);
+    dup2(kept, 0);
+    close(kept);
+    waitpid(child, &status, 0);
+    test_must(code, &err);
+    assert_int_equal(status, 0);
+    expect_stream(set, samples, back);
+    expect_equal_samples(samples, samples_back);
+    test_must(retex_samples_check(samples_back, back, &err), &err);
+    retex_set_close(&set);
+    retex_set_close(&back);
+    retex_samples_close(&samples);
+    retex_samples_close(&samples_back);
+}
+
+static void test_names_are_checked(void **state)
+{
+    (void)state;
+    RetexSet *set = test_set(16, 16, 1);
+    RetexError err = { 0 };
+    static const char *const wrong[] = { "", "a b", "a.b", "\xc3\xa4", "a/b" };
+    for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++)
+        assert_int_equal(retex_set_add_part(set, wrong[i], "RGB", RETEX_HALF, 0, 0, NULL, &err), RETEX_EINVAL);
+    assert_int_equal(retex_set_add_part(set, set->parts[1].name, "R", RETEX_HALF, 0, 0, NULL, &err), RETEX_EINVAL);
+    assert_int_equal(retex_set_add_part(set, "x", "RR", RETEX_HALF, 0, 0, NULL, &err), RETEX_EINVAL);
+    assert_int_equal(retex_set_add_part(set, "x", "r", RETEX_HALF, 0, 0, NULL, &err), RETEX_EINVAL);
+    assert_int_equal(retex_set_add_part(set, "x", "R", RETEX_HALF, 70000, 1, NULL, &err), RETEX_EINVAL);
+    RetexFootprint footprint = { set->ntargets, 1, -1, -1, -1 };
+    assert_int_equal(retex_set_add_footprint(set, &footprint, NULL, &err), RETEX_EINVAL);
+    RetexTerm term = { RETEX_TERM_DEP, 0, 1, { set->nfootprints } };
+    assert_int_equal(retex_set_add_term(set, &term, NULL, &err), RETEX_EINVAL);
+
+    strcpy(set->targets[0].name, "Floor");
+    strcpy(set->targets[1].name, "floor");
+    assert_int_equal(retex_set_find_target(set, "floor"), 1);
+    assert_int_equal(retex_set_find_target(set, "FLOOR"), -1);
+    strcpy(set->targets[1].name, "Wall");
+    assert_int_equal(retex_set_find_target(set, "fLOOR"), 0);
+    retex_set_close(&set);
+    assert_int_equal(retex_set_create(&set, 0, 5, &err), RETEX_EINVAL);
+    assert_null(set);
+}
+
+static void test_samples_of_another_set(void **state)
+{
+    (void)state;
+    RetexSet *set = test_set(16, 16, 1), *other = test_set(16, 17, 1);
+    RetexSamples *samples = make_samples(set, 1);
+    RetexError err = { 0 };
+    assert_int_equal(retex_samples_check(samples, other, &err), RETEX_EINVAL);
+    assert_int_equal(retex_samples_check(samples, set, &err), 0);
+    strcpy(samples->target_names[0], "Ceiling");
+    assert_int_equal(retex_samples_check(samples, set, &err), RETEX_EINVAL);
+    strcpy(samples->target_names[0], set->targets[0].name);
+    samples->footprint_hit[1]++;
+    assert_int_equal(retex_samples_check(samples, set, &err), RETEX_EINVAL);
+    retex_samples_close(&samples);
+    retex_set_close(&set);
+    retex_set_close(&other);
+}
+
+static int read_manifest(const char *json, char *message)
+{
+    RetexSet *set;
+    RetexSamples *samples;
+    RetexSamplePart *parts;
+    RetexError err = { 0 };
+    const int status = retex_manifest_read(json, "x.exr", &set, &samples, &parts, &err);
+    strcpy(message, err.message);
+    retex_set_close(&set);
+    retex_samples_close(&samples);
+    free(parts);
+    return status;
+}
+
+/* json with the first `from` behind `after` replaced; freed by the caller. */
+static char *edited(const char *json, const char *after, const char *from, const char *to)
+{
+    char *copy = malloc(strlen(json) + strlen(to) + 1);
+    const char *start = strstr(json, after);
+    assert_non_null(start);
+    start = strstr(start, from);
+    assert_non_null(start);
+    memcpy(copy, json, (size_t)(start - json));
+    sprintf(copy + (start - json), "%s%s", to, start + strlen(from));
+    return copy;
+}
+
+static void test_manifests_that_lie(void **state)
+{
+    (void)state;
+    static const struct { const char *after, *from, *to; int code; const char *says; } cases[] = {
+        { "", "{\"retex\":1", "{\"retex\":2", RETEX_EUNSUPPORTED, "version 2" },
+        { "", "{\"retex\":1", "{\"retex\":\"1\"", RETEX_EFORMAT, "no version" },
+        { "", "{\"retex\":1", "{\"retex\":1,\"later\":[{}]", 0, "" },
+        { "", "{\"retex\":1", "[\"retex\":1", RETEX_EFORMAT, "no JSON" },
+        { "", "\"set\"", "\"sett\"", RETEX_EFORMAT, "unknown kind" },
+        { "", "\"width\":", "\"width\":7", RETEX_EFORMAT, "another size" },
+        { "", "\"width\":", "\"width\":-", RETEX_EFORMAT, "\"width\"" },
+        { "", "\"height\":", "\"height\":99999", RETEX_EFORMAT, "\"height\"" },
+        { "", "\"layout\":\"", "\"layout\":\"0123456789abcdef", RETEX_EFORMAT, "\"layout\"" },
+        { "", "\"orders\":", "\"orders\":-", RETEX_EFORMAT, "\"orders\"" },
+        { "", "\"seed\":", "\"seed\":99999999999", RETEX_EFORMAT, "\"seed\"" },
+        { "", "\"folded\":", "\"folded\":null,\"x\":", RETEX_EFORMAT, "\"folded\"" },
+        { "\"targets\"", "\"periodic\":[", "\"periodic\":[7,", RETEX_EFORMAT, "\"periodic\"" },
+        { "\"footprints\"", "\"target\":", "\"target\":5", RETEX_EFORMAT, "\"target\"" },
+        { "\"footprints\"", "\"hit\":", "\"hit\":-", RETEX_EFORMAT, "\"hit\"" },
+        { "\"footprints\"", "\"uv\":\"", "\"uv\":\"no", RETEX_EFORMAT, "\"uv\"" },
+        { "\"footprints\"", "\"uv\":\"", "\"uv\":null,\"x\":\"", 0, "" },
+        { "\"terms\"", "\"kind\":\"", "\"kind\":\"x", RETEX_EFORMAT, "unknown kind" },
+        { "\"terms\"", "\"radiance\":\"", "\"radiance\":null,\"x\":\"", RETEX_EFORMAT, "\"radiance\"" },
+        { "\"terms\"", "\"factors\":[", "\"factors\":[600", RETEX_EFORMAT, "factor" },
+        { "\"parts\"", "\"name\":\"", "\"name\":\"a b", RETEX_EFORMAT, "named" },
+        { "\"parts\"", "\"letters\":\"", "\"letters\":\"a", RETEX_EFORMAT, "channels" },
+        { "\"parts\"", "\"type\":\"", "\"type\":\"x", RETEX_EFORMAT, "type" },
+        { "\"parts\"", "\"crc32\":\"", "\"crc32\":\"0", RETEX_EFORMAT, "checksum" },
+        { "\"parts\"", "\"parts\":[", "\"parts\":[],\"x\":[", RETEX_EFORMAT, "no parts" },
+    };
+    RetexSet *set = test_set(16, 16, 1);
+    char *json, message[1024];
+    RetexError err = { 0 };
+    test_must(retex_set_manifest(set, NULL, &json, &err), &err);
+    assert_int_equal(read_manifest(json, message), 0);
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        char *copy = edited(json, cases[i].after, cases[i].from, cases[i].to);
+        const int status = read_manifest(copy, message);
+        if (status != cases[i].code || !strstr(message, cases[i].says))
+            fail_msg("case %zu: %d \"%s\"", i, status, message);
+        free(copy);
+    }
+    /* cut anywhere it is no JSON; turned inside out it may be anything, but no crash */
+    const size_t length = strlen(json);
+    uint32_t seed = 1;
+    for (int i = 0; i < 3000; i++) {
+        const size_t place = (size_t)(test_random(&seed) * (double)length);
+        const char old = json[place];
+        json[place] = i % 3 == 0 ? 0 : (char)(32 + test_random(&seed) * 90);
+        read_manifest(json, message);
+        json[place] = old;
+    }
+    free(json);
+    set->folded = __builtin_nan("");
+    assert_int_equal(retex_set_manifest(set, NULL, &json, &err), RETEX_EINVAL);
+    retex_set_close(&set);
+}
+
+static unsigned char *load(size_t *bytes)
+{
+    FILE *file = fopen(path, "rb");
+    assert_non_null(file);
+    fseek(file, 0, SEEK_END);
+    *bytes = (size_t)ftell(file);
+    rewind(file);
+    unsigned char *data = malloc(*bytes);
+    assert_int_equal(fread(data, 1, *bytes, file), *bytes);
+    fclose(file);
+    return data;
+}
+
+static void store(const unsigned char *data, size_t bytes)
+{
+    unlink(path); /* file systems flush a file that is truncated and written again */
+    FILE *file = fopen(path, "wb");
+    assert_non_null(file);
+    assert_int_equal(fwrite(data, 1, bytes, file), bytes);
+    assert_int_equal(fclose(file), 0);
+}
+
+static int read_anything(RetexError *err)
+{
+    RetexSet *set;
+    RetexSamples *samples;
+    const int status = retex_set_read(path, &set, &samples, 2, err);
+    if (status) {
+        assert_null(set);
+        assert_null(samples);
+        assert_true(err->message[0] != 0);
+    }
+    retex_set_close(&set);
+    retex_samples_close(&samples);
+    return status;
+}
+
+static void test_damaged_files(void **state)
+{
+    (void)state;
+    for (int compress = 0; compress < 2; compress++) {
+        RetexSet *set = test_set(20, 20, 6);
+        RetexStoreParams params = RETEX_STORE_INIT;
+        RetexError err = { 0 };
+        uint32_t seed = 11;
+        size_t bytes;
+        params.compress = compress;
+        test_must(retex_set_write(set, NULL, path, &params, &err), &err);
+        unsigned char *data = load(&bytes);
+        for (size_t length = 0; length < bytes; length += 1 + length / 40) {
+            store(data, length);
+            assert_int_equal(read_anything(&err), RETEX_EFORMAT);
+            assert_int_equal(retex_set_check(path, 1, &err), RETEX_EFORMAT);
+        }
+        int unnoticed = 0, undetected = 0;
+        for (int i = 0; i < 1200; i++) {
+            const size_t range = i % 2 ? bytes : 8000;
+            const size_t place = (size_t)(test_random(&seed) * (double)range) % bytes;
+            const unsigned char old = data[place];
+            data[place] ^= (unsigned char)(1 << i % 8);
+            store(data, bytes);
+            unnoticed += read_anything(&err) == 0;
+            undetected += retex_set_check(path, 1, &err) == 0 && place > bytes / 2;
+            data[place] = old;
+        }
+        /* in the pixels, which fill the second half, every flipped bit is found by the checksums */
+        assert_int_equal(undetected, 0);
+        assert_true(unnoticed < 1200);
+        free(data);
+        retex_set_close(&set);
+    }
+}
+
+static void test_what_is_no_set(void **state)
+{
+    (void)state;
+    RetexImage image = { 0 };
+    RetexError err = { 0 };
+    char exr[80];
+    store((const unsigned char *)"hello", 5);
+    assert_int_equal(read_anything(&err), RETEX_EFORMAT);
+    store((const unsigned char *)"", 0);
+    assert_int_equal(read_anything(&err), RETEX_EFORMAT);
+    snprintf(exr, sizeof exr, "%s.exr", path);
+    test_random_image(&image, 8, 8, 3, 1, 0, 1);
+    test_must(retex_image_write(&image, exr, NULL, &err), &err);
+    RetexSet *set;
+    assert_int_equal(retex_set_read(exr, &set, NULL, 0, &err), RETEX_EFORMAT);
+    assert_non_null(strstr(err.message, "is not a set (no `retex` attribute)"));
+    unlink(exr);
+    assert_int_equal(retex_set_read("/nowhere.exr", &set, NULL, 0, &err), RETEX_EIO);
+    assert_int_equal(retex_set_read("/tmp", &set, NULL, 0, &err), RETEX_EIO);
+    assert_int_equal(retex_set_read(path, NULL, NULL, 0, &err), RETEX_EINVAL);
+    assert_int_equal(retex_set_write(NULL, NULL, path, NULL, &err), RETEX_EINVAL);
+    retex_image_free(&image);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_set_there_and_back),
+        cmocka_unit_test(test_samples_there_and_back),
+        cmocka_unit_test(test_stream_through_a_pipe),
+        cmocka_unit_test(test_names_are_checked),
+        cmocka_unit_test(test_samples_of_another_set),
+        cmocka_unit_test(test_manifests_that_lie),
+        cmocka_unit_test(test_damaged_files),
+        cmocka_unit_test(test_what_is_no_set),
+    };
+    return cmocka_run_group_tests(tests, make_path, remove_path);
+}
