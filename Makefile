@@ -45,6 +45,7 @@ $(BUILD)/config.mk: tools/setup.sh
 
 include tools/rules.mk
 include renderer/rules.mk
+include scenes/rules.mk
 include tests/rules.mk
 
 .PHONY: all demo install clean lint format

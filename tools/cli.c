@@ -45,21 +45,21 @@ static void prepare_process(void)
 
 enum { HELP_COLUMN = 30, HELP_WIDTH = 79 };
 
-/* Print text from column HELP_COLUMN on, broken between words; `column` is where the cursor is. */
-static void print_wrapped(const char *text, int column)
+/* Print text, broken between words, from column `indent` on; `column` is where the cursor is. */
+static void print_wrapped(const char *text, int column, int indent)
 {
-    if (column > HELP_COLUMN - 2) {
+    if (column > indent - 2 && indent > 0) {
         putchar('\n');
         column = 0;
     }
-    printf("%*s", HELP_COLUMN - column, "");
-    column = HELP_COLUMN;
+    printf("%*s", indent - column, "");
+    column = indent;
     while (*text) {
         int word = (int)strcspn(text, " ");
-        if (column > HELP_COLUMN && column + 1 + word > HELP_WIDTH) {
-            printf("\n%*s", HELP_COLUMN, "");
-            column = HELP_COLUMN;
-        } else if (column > HELP_COLUMN) {
+        if (column > indent && column + 1 + word > HELP_WIDTH) {
+            printf("\n%*s", indent, "");
+            column = indent;
+        } else if (column > indent) {
             putchar(' ');
             column++;
         }
@@ -79,13 +79,15 @@ static void print_options(const CliOption *options)
                          o->letter ? ',' : ' ', o->name, o->modifiers ? "[:opts]" : "", o->argument ? " " : "",
                          o->argument ? o->argument : "");
         fputs(form, stdout);
-        print_wrapped(o->help ? o->help : "", n);
+        print_wrapped(o->help ? o->help : "", n, HELP_COLUMN);
     }
 }
 
 static _Noreturn void print_help(const Cli *cli)
 {
-    printf("Usage: %s %s\n\n%s\n\n", cli->tool, cli->usage, cli->about);
+    printf("Usage: %s %s\n\n", cli->tool, cli->usage);
+    print_wrapped(cli->about, 0, 0);
+    putchar('\n');
     if (cli->options && cli->options->name) {
         print_options(cli->options);
         putchar('\n');

@@ -9,6 +9,7 @@
 
 #include "exr_io.h"
 #include "input.h"
+#include "pack_format.h"
 
 struct RetexLayers {
     int nthreads;
@@ -28,7 +29,10 @@ static int open_other(RetexLayers *layers, const char *path, RetexError *err)
     if (got != sizeof begin || !retex_pack_probe(begin, sizeof begin))
         return retex_image_read(&layers->picture, path, NULL, 0, err);
     int code = retex_input_load(layers->input, &data, &bytes, err);
-    return code ? code : retex_pack_read(data, bytes, &layers->set, layers->nthreads, err);
+    if (code)
+        return code;
+    code = retex_pack_read(data, bytes, &layers->set, layers->nthreads, err);
+    return retex_pack_name_error(code, path, err);
 }
 
 int retex_layers_open(RetexLayers **result, const char *path, int nthreads, RetexError *err)

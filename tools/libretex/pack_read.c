@@ -309,6 +309,13 @@ int retex_pack_read(const void *data, size_t bytes, RetexSet **set, int nthreads
     return code;
 }
 
+int retex_pack_name_error(int code, const char *name, RetexError *err)
+{
+    if (code && err && !err->file[0])
+        snprintf(err->file, sizeof err->file, "%s", name);
+    return code;
+}
+
 int retex_pack_probe(const void *data, size_t bytes)
 {
     return bytes >= 4 && memcmp(data, "PK\3\4", 4) == 0;

@@ -11,6 +11,7 @@
 #include "exr_io.h"
 #include "input.h"
 #include "manifest.h"
+#include "pack_format.h"
 
 static const char MANIFEST_ATTRIBUTE[] = "retex";
 
@@ -412,7 +413,8 @@ int retex_set_read(const char *path, RetexSet **set, RetexSamples **samples, int
     else if (!status && !set)
         status = retex_fail(err, RETEX_EFORMAT, "%s holds a set, no samples", retex_input_name(source.input));
     else if (!status)
-        status = retex_pack_read(data, bytes, set, nthreads, err);
+        status = retex_pack_name_error(retex_pack_read(data, bytes, set, nthreads, err), retex_input_name(source.input),
+                                       err);
     source_close(&source);
     return status;
 }
@@ -464,7 +466,9 @@ int retex_set_check(const char *path, int nthreads, RetexError *err)
     if (!status)
         status = load_pack(source.input, &data, &bytes, &is_pack, err);
     if (!status)
-        status = is_pack ? retex_pack_check(data, bytes, err) : check_exr(&source, nthreads, err);
+        status = !is_pack ? check_exr(&source, nthreads, err)
+                          : retex_pack_name_error(retex_pack_check(data, bytes, err),
+                                                  retex_input_name(source.input), err);
     source_close(&source);
     return status;
 }

@@ -1,0 +1,73 @@
+# What every tool answers alike: --version, wrong options, values out of range.
+$ retex-diff --version
+> retex-diff 0.1.0
+$ retex-pack --version
+> retex-pack 0.1.0
+$ retex-sample --version
+> retex-sample 0.1.0
+$ retex-combine --version
+> retex-combine 0.1.0
+$ retex-info --version
+> retex-info 0.1.0
+$ retex-render --version
+> retex-render 0.1.0
+
+$ for t in diff pack sample combine info render; do retex-$t --nonsense; echo $?; done
+> 2
+> 2
+> 2
+> 2
+> 2
+> 2
+! retex-diff: error: unknown option --nonsense; try --help
+! retex-pack: error: unknown option --nonsense; try --help
+! retex-sample: error: unknown option --nonsense; try --help
+! retex-combine: error: unknown option --nonsense; try --help
+! retex-info: error: unknown option --nonsense; try --help
+! retex-render: error: unknown option --nonsense; try --help
+
+# --help goes to standard output and names every option.
+$ for t in diff pack sample combine info render; do retex-$t --help >help || echo $t; grep -c -e '--threads N' help; done
+> 1
+> 1
+> 1
+> 1
+> 1
+> 1
+$ retex-diff --help | awk 'length > 79'
+$ retex-pack --help | awk 'length > 79'
+
+$ retex-pack --threads many set.exr
+! retex-pack: error: --threads: expected a whole number from 0 to 256, not 'many'
+= 2
+$ retex-pack --threads 257 set.exr
+! retex-pack: error: --threads: expected a whole number from 0 to 256, not '257'
+= 2
+$ retex-pack --threads
+! retex-pack: error: --threads needs an argument: N
+= 2
+$ retex-diff --json=yes a b
+! retex-diff: error: --json takes no argument
+= 2
+$ retex-diff --part:x=1 a b
+! retex-diff: error: --part takes no modifiers (':x=1')
+= 2
+$ retex-diff -Q a b
+! retex-diff: error: unknown option -Q; try --help
+= 2
+
+# Control characters of a file's name do not reach the terminal.
+$ retex-diff "$(printf 'a\033[2J')" b
+! retex-diff: error: cannot read a?[2J: No such file or directory
+= 2
+
+# A full disk and a closed pipe are seen, --help's text included.
+$ retex-diff --help >/dev/full
+! retex-diff: error: standard output: No space left on device
+= 2
+$ { sleep 0.3; retex-diff --help; echo $? >&2; } | :
+! retex-diff: error: standard output: Broken pipe
+! 2
+$ retex-diff --version >&-
+! retex-diff: error: standard output: Bad file descriptor
+= 2

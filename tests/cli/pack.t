@@ -1,0 +1,91 @@
+# retex-pack: sizes, round trips, what is refused, and that no partial file stays.
+$ make_set s.exr 64 48; retex-pack s.exr -o s.retex -q; retex-info --check s.retex >info; echo $?
+> 0
+$ retex-pack s.exr -o s.retex 2>&1 | sed 's/[0-9.]\{3,\}/N/g'
+> retex-pack: set s.exr: N bytes
+> retex-pack: pack s.retex: N bytes (ratio N)
+$ test $(stat -c %s s.retex) -lt $(($(stat -c %s s.exr) / 3)) && echo small
+> small
+$ unzip -v s.retex 2>/dev/null | head -0; head -c 4 s.retex | od -An -tx1
+>  50 4b 03 04
+
+# Lossless: the set that comes back is the same file.
+$ retex-pack -q --lossless s.exr -o l.retex; retex-pack -q --unpack l.retex -o back.exr; cmp s.exr back.exr
+$ test $(stat -c %s l.retex) -lt $(stat -c %s s.exr) && echo smaller
+> smaller
+$ retex-pack -q --unpack s.retex -o lossy.exr; retex-diff -q --all-parts --allow-inf lossy.exr s.exr
+= 1
+$ retex-diff -q lossy.exr s.exr --fail-psnr 40
+$ retex-diff -q --part t0_spread1 lossy.exr s.exr; retex-diff -q --part depth --allow-inf lossy.exr s.exr
+$ retex-pack -q --unpack s.retex -o again.exr; cmp lossy.exr again.exr
+
+# Pipes: in, out, and both.
+$ retex-pack -q s.exr -o - >piped.retex; cmp s.retex piped.retex
+$ retex-pack -q - <s.exr >piped.retex; cmp s.retex piped.retex
+$ retex-pack -q --unpack - <l.retex | retex-pack -q --lossless - | cmp - l.retex
+
+# Options.
+$ retex-pack
+! retex-pack: error: no set given; try --help
+= 2
+$ retex-pack s.exr t.exr -o x.retex
+! retex-pack: error: more than one input: 't.exr'
+= 2
+$ retex-pack s.exr -o x.retex --codec jxl
+! retex-pack: error: --codec: there is no codec 'jxl'; this version has: jpeg
+= 2
+$ retex-pack -q s.exr -o x.retex --codec jpeg; cmp x.retex s.retex; rm x.retex
+$ retex-pack s.exr -o x.retex --quality 0
+! retex-pack: error: --quality: expected a whole number from 1 to 100, not '0'
+= 2
+$ retex-pack s.exr -o x.retex --quality 50 --lossless
+! retex-pack: error: --quality and --lossless exclude each other
+= 2
+$ retex-pack --unpack s.retex -o x.exr --lossless
+! retex-pack: error: --unpack takes neither --quality nor --lossless
+= 2
+$ retex-pack -q s.exr --quality 50 -o q50.retex; test $(stat -c %s q50.retex) -lt $(stat -c %s s.retex) && echo smaller
+> smaller
+
+# Input that is no set.
+$ retex-pack none.exr -o x.retex
+! retex-pack: error: cannot read none.exr: No such file or directory
+= 2
+$ make_picture p.exr; retex-pack p.exr -o x.retex 2>err; echo $?; grep -c 'retex-pack: error: .*p.exr' err
+> 2
+> 1
+$ head -c 20000 s.exr >cut.exr; retex-pack cut.exr -o x.retex 2>err; echo $?; grep -c 'retex-pack: error: .*cut.exr' err
+> 2
+> 1
+
+# Packs that are damaged: a flipped byte in the data, a truncated file, something behind the end. The message names the
+# file, and nothing is written.
+$ cp s.retex flip.retex; printf 'X' | dd of=flip.retex bs=1 seek=40000 conv=notrunc 2>/dev/null; retex-pack --unpack flip.retex -o x.exr 2>err; echo $?; grep -c 'retex-pack: error: .*flip.retex.*damaged' err
+> 2
+> 1
+$ head -c 30000 s.retex >cut.retex; retex-pack --unpack cut.retex -o x.exr 2>err; echo $?; grep -c 'retex-pack: error: .*cut.retex.*damaged' err
+> 2
+> 1
+$ retex-info --check flip.retex >/dev/null 2>&1
+= 1
+$ ls x.*
+! ls: cannot access 'x.*': No such file or directory
+= 2
+
+# A full disk, a closed pipe, a folder that is not there; an old file stays whole.
+$ retex-pack -q s.exr -o /dev/full
+! retex-pack: error: cannot write /dev/full: No space left on device
+= 2
+$ retex-pack -q s.exr >/dev/full
+! retex-pack: error: cannot write standard output: No space left on device
+= 2
+$ { sleep 0.3; retex-pack -q s.exr; echo $? >&2; } | :
+! retex-pack: error: cannot write standard output: Broken pipe
+! 2
+$ retex-pack -q s.exr -o nowhere/x.retex
+! retex-pack: error: cannot write nowhere/x.retex: No such file or directory
+= 2
+$ echo old >old.exr; retex-pack -q --unpack flip.retex -o old.exr 2>/dev/null; cat old.exr; ls -A | grep -v '^[a-z0-9]*\.[a-z]*$'
+> old
+> err
+> info

@@ -1,0 +1,85 @@
+#!/bin/sh
+# Runs one file of command-line cases: case.sh SUITE FILE (tests/SUITE/FILE), in a fresh folder, and prints TAP.
+#
+# A file is a list of blocks. Lines of a block begin with
+#     $  a command, run by sh; what follows is what it must do, exactly
+#     >  a line of its standard output
+#     !  a line of its standard error
+#     =  its exit status, where it is not 0
+# Empty lines and lines with # are comments. Files that commands leave behind are there for those that follow; $SCENES is
+# the folder of scenes. A block whose command is `skip-without COMMAND why` skips the rest of the file where COMMAND is
+# not on the machine. case.sh --update SUITE FILE writes what the commands do now into the file.
+set -u
+update=
+[ "$1" != --update ] || { update=1; shift; }
+here=$(pwd)
+file=$here/tests/$1/$2
+PATH=$here/$BUILD/bin:$here/$BUILD/tests/bin:$PATH
+SCENES=$here/scenes
+LC_ALL=C
+export PATH SCENES LC_ALL
+case $BUILD in /*) PATH=$BUILD/bin:$BUILD/tests/bin:$PATH ;; esac
+
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+mkdir "$folder/work"
+cd "$folder/work" || exit 1
+
+number=0 skipping=
+
+# Run $command and print its block into ../actual.
+run() {
+    sh -c "$command" >../out 2>../err </dev/null
+    status=$?
+    {
+        printf '$ %s\n' "$command"
+        sed -e '$a\' ../out | sed 's/^/> /; s/ $//'
+        sed -e '$a\' ../err | sed 's/^/! /; s/ $//'
+        [ "$status" = 0 ] || echo "= $status"
+    } >../actual
+}
+
+# The block read so far is complete: run it and compare.
+finish() {
+    [ -n "$command" ] || return 0
+    number=$((number + 1))
+    case $command in
+    skip-without\ *)
+        # shellcheck disable=SC2086 # words wanted
+        set -- $command
+        command -v "$2" >/dev/null || skipping="$2 is not on this machine"
+        cp ../expected ../actual
+        ;;
+    *) [ -n "$skipping" ] || run ;;
+    esac
+    if [ -n "$skipping" ]; then
+        printf '%s\n' "ok $number - $command # SKIP $skipping"
+    elif [ -n "$update" ]; then
+        cat ../actual >>../updated
+    elif cmp -s ../expected ../actual; then
+        printf '%s\n' "ok $number - $command"
+    else
+        printf '%s\n' "not ok $number - $command"
+        diff -u ../expected ../actual | sed '1,3d; s/^/# /'
+    fi
+    command=
+}
+
+command=
+while IFS= read -r line || [ -n "$line" ]; do
+    case $line in
+    '$ '*)
+        finish
+        command=${line#'$ '}
+        printf '%s\n' "$line" >../expected
+        ;;
+    '>'* | '!'* | '='*) printf '%s\n' "$line" >>../expected ;;
+    *)
+        finish
+        [ -z "$update" ] || printf '%s\n' "$line" >>../updated
+        ;;
+    esac
+done <"$file"
+finish
+echo "1..$number"
+[ -z "$update" ] || cp ../updated "$file"
