@@ -146,9 +146,10 @@ static int parse_codec(const Reading *r, Item *item, const json_t *o)
         }
     if (!codec)
         return bad(r, "a part has no codec");
-    return retex_fail(r->err, RETEX_EUNSUPPORTED, "part '%s' is packed as '%.64s'; this version knows %s, %s, %s and %s",
-                      item->part->name, codec, retex_pack_codec_names[0], retex_pack_codec_names[1],
-                      retex_pack_codec_names[2], retex_pack_codec_names[3]);
+    return retex_fail(r->err, RETEX_EUNSUPPORTED,
+                      "part '%s' is packed as '%.64s'; this version knows %s, %s, %s and %s", item->part->name, codec,
+                      retex_pack_codec_names[0], retex_pack_codec_names[1], retex_pack_codec_names[2],
+                      retex_pack_codec_names[3]);
 }
 
 static int parse_item(const Reading *r, Item *item, const json_t *o)

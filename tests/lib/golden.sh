@@ -1,0 +1,42 @@
+#!/bin/sh
+# Runs one golden test: golden.sh tests/golden/NAME, and prints TAP.
+#
+# The folder holds `command`, a shell script that writes actual.exr into the current, fresh folder ($GOLDEN is the test's
+# own folder, $SCENES the scenes); `expected.exr`, 64 to 128 pixels a side; and `tolerance`, the options of retex-diff,
+# each loosened figure with its reason behind a #. No tolerance file: the picture must be the same to the bit. A missing
+# reference is a failure. golden.sh --actual FOLDER FILE keeps the picture instead of comparing.
+set -u
+keep=
+[ "$1" != --actual ] || { keep=$3; set -- "$2"; }
+here=$(pwd)
+GOLDEN=$here/$1
+SCENES=$here/scenes
+LC_ALL=C
+case $BUILD in /*) build=$BUILD ;; *) build=$here/$BUILD ;; esac
+PATH=$build/bin:$build/tests/bin:$PATH
+export PATH SCENES GOLDEN LC_ALL
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+[ -z "$keep" ] || echo 1..0
+cd "$folder" || exit 1
+
+fail() {
+    echo "not ok 1 - ${GOLDEN##*/}"
+    echo "# $1"
+    [ ! -e out ] || sed 's/^/# /' out
+    echo 1..1
+    exit 1
+}
+sh -e "$GOLDEN/command" >out 2>&1 </dev/null || fail "its command failed"
+[ -e actual.exr ] || fail "its command made no actual.exr"
+if [ -n "$keep" ]; then
+    cp actual.exr "$keep"
+    exit
+fi
+[ -e "$GOLDEN/expected.exr" ] || fail "there is no reference: make check-update CASE=golden/${GOLDEN##*/}"
+options=
+[ ! -e "$GOLDEN/tolerance" ] || options=$(sed 's/#.*//' "$GOLDEN/tolerance" | tr '\n' ' ')
+# shellcheck disable=SC2086 # words wanted
+retex-diff $options actual.exr "$GOLDEN/expected.exr" >>out 2>&1 || fail "differs from its reference"
+echo "ok 1 - ${GOLDEN##*/}"
+echo 1..1

@@ -1,0 +1,59 @@
+#!/bin/sh
+# Runs the examples of a man page, in order, in one fresh folder: man.sh man/TOOL.1. Prints TAP.
+#
+# An example is a literal display (.Bd -literal … .Ed, or a .Dl line) of the section EXAMPLES; a leading `$ ` is left out.
+# Each must exit with 0, or with the number a comment line `.\" exit N` before it says. In the folder are scenes/ (the
+# scenes), room.exr (a set, with targets Floor and Wall), oak.jpg and brick.jpg (textures), a.exr and b.exr (two pictures
+# that differ a little).
+set -u
+here=$(pwd)
+page=$here/$1
+case $BUILD in /*) build=$BUILD ;; *) build=$here/$BUILD ;; esac
+PATH=$build/bin:$build/tests/bin:$PATH
+LC_ALL=C
+export PATH LC_ALL
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+mkdir "$folder/work" "$folder/examples"
+
+awk -v out="$folder/examples" '
+    function line(text) {
+        sub(/^\$ /, "", text); gsub(/\\&/, "", text); gsub(/\\-/, "-", text); gsub(/\\(e|\(rs)/, "\\", text)
+        gsub(/\\\(aq/, "\047", text); gsub(/\\\(dq/, "\"", text); gsub(/\\\(ti/, "~", text); gsub(/\\\(ha/, "^", text)
+        print text > file
+    }
+    function begin() { file = sprintf("%s/%03d", out, ++n); print want + 0 > (file ".exit"); want = 0 }
+    /^\.Sh / { inside = $2 == "EXAMPLES"; next }
+    !inside { next }
+    /^\.\\" exit [0-9]/ { want = $3; next }
+    /^\.Dl / { begin(); line(substr($0, 5)); next }
+    /^\.Bd -literal/ { display = 1; begin(); next }
+    /^\.Ed/ { display = 0; next }
+    display && !/^\.\\"/ { line($0) }' "$page"
+
+cd "$folder/work" || exit 1
+ln -s "$here/scenes" scenes
+cp "$here/scenes/textures/brick.jpg" brick.jpg
+cp "$here/scenes/living-room/textures/oak-planks.jpg" oak.jpg
+make_set room.exr 64 48 && make_picture a.exr noise=0.01 && make_picture b.exr || exit 1
+
+number=0
+for example in "$folder"/examples/???; do
+    [ -e "$example" ] || continue
+    number=$((number + 1))
+    sh -e "$example" >../out 2>&1 </dev/null
+    status=$?
+    title=$(head -n 1 "$example")
+    if [ "$status" = "$(cat "$example.exit")" ]; then
+        echo "ok $number - $title"
+    else
+        echo "not ok $number - $title"
+        echo "# exit status $status"
+        sed 's/^/# /' ../out
+    fi
+done
+if [ "$number" = 0 ]; then
+    number=1
+    echo "not ok 1 - ${1##*/} has no examples"
+fi
+echo "1..$number"
