@@ -1,8 +1,9 @@
 /* The shapes, each in its canonical space (see ShapeKind); private to renderer/shape.
  *
  * Natural parametrisation, where a target has no uv_mapping:
- *   sphere, torus   POV-Ray's uv: u around y from +x towards +z (.75 at -z), v from pole to pole; torus: v around the tube
- *                   from the inner equator (0) over the bottom, the outer equator (.5) and the top (.75)
+ *   sphere          POV-Ray's uv: u around y from +x towards +z (.75 at -z), v from the lower pole to the upper
+ *   torus           POV-Ray's uv: u around y from -x towards +z, v around the tube from the inner equator (0) over the
+ *                   bottom, the outer equator (.5) and the top (.75)
  *   box             each face 0..1, upright and unmirrored seen from outside, with y up; the top and the bottom as they
  *                   unfold from the -z face
  *   cone, cylinder  side: u the angle from x towards y, v the height from the base; caps: x and y, the unit square round

@@ -1,0 +1,407 @@
+/* Shapes: intersections against marching along the implicit equation, points and UVs against values measured from
+ * POV-Ray, densities against areas. */
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <setjmp.h>
+#include <string.h>
+#include <cmocka.h>
+#include "shape/surface.h"
+
+static uint64_t seed = 1;
+
+static double uniform(void)
+{
+    seed = seed * 6364136223846793005u + 1442695040888963407u;
+    return (double)(seed >> 11) * 0x1p-53;
+}
+
+static double between(double low, double high) { return low + (high - low) * uniform(); }
+
+static Vec3 direction(void)
+{
+    double z = between(-1, 1), angle = between(0, 2 * PI), rho = sqrt(1 - z * z);
+
+    return vec3(rho * cos(angle), rho * sin(angle), z);
+}
+
+static Transform random_transform(double scale, double shift, int even)
+{
+    double s = scale * between(0.5, 2);
+    Vec3 factor = even ? vec3(s, s, s) : vec3(scale * between(0.3, 3), -scale * between(0.3, 3), scale * between(0.3, 3));
+    Transform t = transform_then(transform_scale(factor), transform_rotate(vec_scale(direction(), 180)));
+
+    return transform_then(t, transform_translate(vec_scale(direction(), shift)));
+}
+
+static Primitive shape(ShapeKind kind, double r0, double r1, Transform transform)
+{
+    static Texture texture;
+    Primitive p = {.kind = kind, .r0 = r0, .r1 = r1, .transform = transform, .texture = &texture, .target = 3};
+
+    return p;
+}
+
+static Surface surface_of(const Primitive *p, const Ray *ray, double t, int face)
+{
+    Scene scene = {.primitives = (Primitive *)p, .nprimitives = 1};
+    Hit hit = {.t = t, .face = face};
+    Surface s;
+
+    surface_at(&s, &scene, ray, &hit);
+    return s;
+}
+
+/* ---- intersections ---- */
+
+/* Negative inside, positive outside, near a distance, in canonical space. */
+static double implicit(const Primitive *p, Vec3 q)
+{
+    double rho, side, slope = p->r1 - p->r0;
+
+    switch (p->kind) {
+    case SHAPE_SPHERE:
+        return vec_length(q) - 1;
+    case SHAPE_CONE:
+        side = (hypot(q.x, q.y) - p->r0 - slope * q.z) / sqrt(1 + slope * slope);
+        return fmax(side, fmax(-q.z, q.z - 1));
+    case SHAPE_TORUS:
+        rho = hypot(q.x, q.z);
+        return hypot(rho - p->r0, q.y) - p->r1;
+    default:
+        return q.y;
+    }
+}
+
+/* The first crossing of the surface by marching; -1 for none. *doubtful: the ray came too near to tell. */
+static double march(const Primitive *p, const Ray *ray, double end, int *doubtful)
+{
+    Vec3 o = transform_inverse_point(&p->transform, ray->origin);
+    Vec3 d = transform_inverse_vector(&p->transform, ray->direction);
+    const int steps = 4000;
+    double reach = vec_length(d) * end / steps, before = implicit(p, o);
+
+    *doubtful = 0;
+    for (int i = 1; i <= steps; i++) {
+        double now = implicit(p, vec_mad(o, d, end * i / steps));
+        if ((before > 0) != (now > 0))
+            return end * (i - 0.5) / steps;
+        if (fabs(now) < reach)
+            *doubtful = 1;
+        before = now;
+    }
+    return -1;
+}
+
+static void check_against_march(Primitive p, double size)
+{
+    Vec3 low, high;
+    int hits = 0;
+
+    assert_true(shape_bounds(&p, &low, &high) || p.kind == SHAPE_PLANE);
+    for (int i = 0; i < 300; i++) {
+        Vec3 centre = transform_point(&p.transform, vec3(0, 0, 0)), aim = vec_mad(centre, direction(), size * uniform());
+        Ray ray = {vec_mad(centre, direction(), size * between(0.1, 4)), {0, 0, 0}, 0, 12 * size};
+        double t, expected;
+        int face, found, doubtful;
+        ray.direction = vec_normalize(vec_sub(aim, ray.origin));
+        expected = march(&p, &ray, 12 * size, &doubtful);
+        found = shape_intersect(&p, &ray, &t, &face);
+        if (found) {
+            Surface s = surface_of(&p, &ray, t, face);
+            Vec3 at = vec_mad(ray.origin, ray.direction, t);
+            assert_true(fabs(implicit(&p, transform_inverse_point(&p.transform, at))) < 1e-11);
+            assert_true(vec_length(vec_sub(s.position, at)) < 1e-10 * size);
+            if (p.kind != SHAPE_PLANE)
+                assert_true(at.x > low.x - 1e-9 * size && at.y > low.y - 1e-9 * size && at.z > low.z - 1e-9 * size &&
+                            at.x < high.x + 1e-9 * size && at.y < high.y + 1e-9 * size && at.z < high.z + 1e-9 * size);
+            /* the normal looks where the implicit function grows */
+            assert_true(implicit(&p, transform_inverse_point(&p.transform, vec_mad(s.position, s.geometric_normal,
+                                                                                   1e-6 * size))) > 0);
+            assert_int_equal(s.backside, vec_dot(ray.direction, s.geometric_normal) > 0);
+            hits++;
+        }
+        if (doubtful)
+            continue;
+        assert_int_equal(found, expected >= 0);
+        if (found)
+            assert_true(fabs(t - expected) < 12 * size / 4000);
+    }
+    assert_true(hits > 15);
+}
+
+static void intersections_match_marching(void **state)
+{
+    const double tubes[] = {0.05, 0.4, 0.9};
+
+    (void)state;
+    for (int i = 0; i < 4; i++) {
+        double size = i < 2 ? 1 : 1e-3;
+        Transform t = random_transform(size / 3, size, 0);
+        check_against_march(shape(SHAPE_SPHERE, 0, 0, t), size);
+        check_against_march(shape(SHAPE_CONE, 0.7, 0.7, t), size);
+        check_against_march(shape(SHAPE_CONE, 0.9, 0.2, t), size);
+        check_against_march(shape(SHAPE_CONE, 0, 1, t), size);
+        check_against_march(shape(SHAPE_PLANE, 0, 0, t), size);
+        for (int k = 0; k < 3; k++)
+            check_against_march(shape(SHAPE_TORUS, 1, tubes[k], t), size);
+    }
+}
+
+/* Rays that leave a closed shape outward, also along the surface, must not meet a convex one; into it they must meet it
+ * on the other side. At all scales, far from the origin and near it. */
+static void no_self_intersection(void **state)
+{
+    const ShapeKind kinds[] = {SHAPE_SPHERE, SHAPE_CONE, SHAPE_CONE, SHAPE_TORUS};
+    const double low[] = {0, 0.8, 1, 1}, high[] = {0, 0.8, 0, 0.3};
+    const double scales[] = {1e-4, 1e-2, 1, 1e2, 1e4};
+
+    (void)state;
+    for (int i = 0; i < 20000; i++) {
+        int kind = i % 4;
+        double scale = scales[i / 4 % 5];
+        Primitive p = shape(kinds[kind], low[kind], high[kind], random_transform(scale, fmin(100 * scale, 1e4), i % 3 > 0));
+        Vec3 centre = transform_point(&p.transform, vec3(kind == 3 ? 1 : 0, 0, kind == 1 || kind == 2 ? 0.3 : 0));
+        Ray ray = {centre, direction(), 0, INFINITY};
+        double t, tangent, slope = pow(10, -7 * uniform());
+        int face;
+        Surface s;
+        Vec3 e, f;
+        assert_true(shape_intersect(&p, &ray, &t, &face));
+        s = surface_of(&p, &ray, t, face);
+        vec_frame(s.geometric_normal, &e, &f);
+        tangent = between(0, 2 * PI);
+        ray.direction = vec_add(vec_scale(e, cos(tangent)), vec_scale(f, sin(tangent)));
+        ray.direction = vec_normalize(vec_mad(ray.direction, s.geometric_normal, slope));
+        ray.origin = s.position;
+        if (kind < 3) {
+            assert_false(shape_intersect(&p, &ray, &t, &face));
+        } else if (shape_intersect(&p, &ray, &t, &face)) {
+            assert_true(t > 0.02 * slope * scale); /* across the hole, or along its hollow side */
+        }
+        ray.direction = vec_normalize(vec_sub(vec_scale(direction(), 0.9), s.geometric_normal));
+        if (shape_intersect(&p, &ray, &t, &face))
+            assert_true(t > 1e-4 * scale);
+        else
+            assert_true(kind == 2); /* at the rim of the cone */
+    }
+}
+
+static void discs_and_open_cones(void **state)
+{
+    Primitive disc = shape(SHAPE_DISC, 2, 1, transform_identity()), tube = shape(SHAPE_CONE, 1, 1, transform_identity());
+    Ray ray = {{1.5, 0, -3}, {0, 0, 1}, 0, INFINITY}, along = {{0.2, 0, -3}, {0, 0, 1}, 0, INFINITY};
+    double t;
+    int face;
+
+    (void)state;
+    assert_true(shape_intersect(&disc, &ray, &t, &face) && t == 3);
+    assert_false(shape_intersect(&disc, &along, &t, &face));
+    assert_true(shape_intersect(&tube, &along, &t, &face) && t == 3 && face == 1);
+    along.tmin = 3;
+    assert_true(shape_intersect(&tube, &along, &t, &face) && t == 4 && face == 2);
+    tube.open = 1;
+    assert_false(shape_intersect(&tube, &along, &t, &face));
+    ray = (Ray){{0, 0, 0.5}, {1, 0, 0}, 0, INFINITY};
+    assert_true(shape_intersect(&tube, &ray, &t, &face) && t == 1 && face == 0);
+    ray.tmax = 1;
+    assert_false(shape_intersect(&tube, &ray, &t, &face));
+}
+
+/* ---- points ---- */
+
+static void assert_uv(Vec2 uv, double u, double v)
+{
+    assert_true(fabs(uv.u - u) < 1e-3);
+    assert_true(fabs(uv.v - v) < 1e-3);
+}
+
+static Surface box_surface(int face, Vec3 at)
+{
+    Primitive box = shape(SHAPE_BOX, 0, 0, transform_then(transform_scale(vec3(2, 2, 2)), transform_translate(vec3(-1, -1, -1))));
+    Vec3 out = {face / 2 == 0, face / 2 == 1, face / 2 == 2};
+    Ray ray;
+
+    out = vec_scale(out, face & 1 ? 1 : -1);
+    ray = (Ray){vec_mad(at, out, 5), vec_neg(out), 0, INFINITY};
+    return surface_of(&box, &ray, 5, face);
+}
+
+/* The UVs are POV-Ray's own pixels at these points. */
+static void uv_is_povray(void **state)
+{
+    Primitive sphere = shape(SHAPE_SPHERE, 0, 0, transform_identity()), torus = shape(SHAPE_TORUS, 1, 0.4, transform_rotate(vec3(-60, 0, 0)));
+    Primitive disc = shape(SHAPE_DISC, 1, 0, transform_translate(vec3(0.25, 0, 0)));
+    Ray ray = {{-0.0375, -0.0375, -5}, {0, 0, 1}, 0, INFINITY};
+    double t;
+    int face;
+
+    (void)state;
+    assert_uv(box_surface(0, vec3(-1, 0.85, 0.85)).uv, 0.231, 0.642);
+    assert_uv(box_surface(1, vec3(1, 0.85, -0.85)).uv, 0.731, 0.642);
+    assert_uv(box_surface(2, vec3(-0.85, -1, -0.85)).uv, 0.269, 0.025);
+    assert_uv(box_surface(3, vec3(-0.85, 1, 0.85)).uv, 0.269, 0.692);
+    assert_uv(box_surface(4, vec3(-0.85, 0.85, -1)).uv, 0.981, 0.642);
+    assert_uv(box_surface(5, vec3(0.85, 0.85, 1)).uv, 0.481, 0.642);
+    assert_uv(box_surface(4, vec3(-0.5, 0.5, -1)).natural, 0.25, 0.75);
+    assert_true(shape_intersect(&sphere, &ray, &t, &face));
+    assert_uv(surface_of(&sphere, &ray, t, face).uv, 0.744, 0.488);
+    ray.origin = vec3(-0.8625, 0.8625, -5);
+    assert_true(shape_intersect(&torus, &ray, &t, &face));
+    assert_uv(surface_of(&torus, &ray, t, face).uv, 0.118, 0.681);
+    ray.origin = vec3(0.9375, -0.9375, -5);
+    assert_true(shape_intersect(&torus, &ray, &t, &face));
+    assert_uv(surface_of(&torus, &ray, t, face).uv, 0.632, 0.455);
+    ray.origin = vec3(0.5, 0.1, -5);
+    assert_true(shape_intersect(&disc, &ray, &t, &face));
+    assert_uv(surface_of(&disc, &ray, t, face).uv, 0.5, 0.1);
+    assert_uv(surface_of(&disc, &ray, t, face).natural, 0.625, 0.55);
+}
+
+static void box_points_lie_on_faces(void **state)
+{
+    Surface s = box_surface(1, vec3(0.3, 0.4, 0.5));
+
+    (void)state;
+    assert_true(s.position.x == 1 && fabs(s.position.y - 0.4) < 1e-15 && s.geometric_normal.x == 1 && s.target == 3);
+    for (int i = 0; i < 12; i++) {
+        const int *k = box_triangles[i];
+        Vec3 n = vec_cross(vec_sub(box_corner(k[1]), box_corner(k[0])), vec_sub(box_corner(k[2]), box_corner(k[0])));
+        Surface face = box_surface(i / 2, vec3(0, 0, 0));
+        assert_true(vec_dot(n, face.geometric_normal) == 1);
+    }
+}
+
+static void mesh_normals(void **state)
+{
+    Vec3 vertices[4] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, normals[3] = {{0.1, 0, -1}, {0, 0, -1}, {0, 0, 0}};
+    Vec2 uvs[3] = {{0, 0}, {2, 0}, {0, 3}};
+    MeshFace faces[4] = {{{0, 1, 2}, {0, 1, 1}, {0, 1, 2}, -1}, {{0, 3, 1}, {-1, -1, -1}, {-1, -1, -1}, -1},
+                         {{0, 2, 3}, {2, 2, 2}, {-1, -1, -1}, -1}, {{1, 3, 2}, {-1, -1, -1}, {-1, -1, -1}, -1}};
+    Mesh mesh = {.nvertices = 4, .nnormals = 3, .nuvs = 3, .nfaces = 4, .vertices = vertices, .normals = normals,
+                 .uvs = uvs, .faces = faces};
+    Primitive p = shape(SHAPE_MESH, 0, 0, transform_identity());
+    Scene scene = {.primitives = &p, .nprimitives = 1};
+    Ray ray = {{0.25, 0.25, -1}, {0, 0, 1}, 0, INFINITY};
+    Hit hit = {.t = 1, .face = 0, .b1 = 0.25f, .b2 = 0.25f};
+    Surface s;
+
+    (void)state;
+    p.mesh = &mesh;
+    mesh.inward = mesh_winds_inward(&mesh);
+    assert_int_equal(mesh.inward, 1);
+    surface_at(&s, &scene, &ray, &hit);
+    assert_true(s.geometric_normal.z == -1 && s.shading_normal.x > 0.04 && s.backside == 0 && s.has_natural);
+    assert_uv(s.uv, 0.5, 0.75);
+    hit.face = 1;
+    surface_at(&s, &scene, &ray, &hit);
+    assert_true(s.geometric_normal.y == -1 && !s.has_natural);
+    assert_uv(s.uv, s.position.x, s.position.y);
+    hit.face = 2; /* normals of no length */
+    surface_at(&s, &scene, &ray, &hit);
+    assert_true(fabs(s.geometric_normal.x) == 1 && fabs(s.shading_normal.x) == 1);
+    p.inverse = 1;
+    hit.face = 0;
+    surface_at(&s, &scene, &ray, &hit);
+    assert_true(s.geometric_normal.z == 1 && s.backside == 1);
+    mesh.nfaces = 3;
+    assert_int_equal(mesh_winds_inward(&mesh), 0);
+}
+
+/* ---- sampling ---- */
+
+static void check_sampling(Primitive p, double known_area)
+{
+    double area = shape_area(&p), sum = 0, squares = 0, error;
+    const int n = 40000;
+    Vec3 low, high;
+
+    shape_bounds(&p, &low, &high);
+    for (int i = 0; i < n; i++) {
+        Surface s;
+        double pdf;
+        shape_sample(&p, NULL, -1, uniform(), uniform(), &s, &pdf);
+        assert_true(pdf > 0);
+        assert_true(fabs(shape_pdf_area(&p, &s) / pdf - 1) < 1e-9);
+        assert_true(fabs(vec_length(s.geometric_normal) - 1) < 1e-12 && s.backside == 0);
+        assert_true(s.position.x >= low.x - 1e-9 && s.position.y <= high.y + 1e-9 && s.position.z <= high.z + 1e-9);
+        sum += 1 / pdf;
+        squares += 1 / (pdf * pdf);
+    }
+    sum /= n;
+    error = sqrt(fmax(0, squares / n - sum * sum) / n);
+    assert_true(fabs(sum - area) < 5 * error + 2e-3 * area);
+    if (known_area > 0)
+        assert_true(fabs(area / known_area - 1) < 1e-9);
+}
+
+static void sampling_has_its_density(void **state)
+{
+    Transform twice = transform_then(transform_scale(vec3(-2, 2, 2)), transform_rotate(vec3(10, 20, 30)));
+
+    (void)state;
+    check_sampling(shape(SHAPE_SPHERE, 0, 0, twice), 16 * PI);
+    check_sampling(shape(SHAPE_BOX, 0, 0, twice), 24);
+    check_sampling(shape(SHAPE_BOX, 0, 0, transform_scale(vec3(1, 2, 3))), 22);
+    check_sampling(shape(SHAPE_CONE, 1, 1, twice), 4 * (2 * PI + 2 * PI));
+    check_sampling(shape(SHAPE_CONE, 2, 0, twice), 4 * (2 * PI * sqrt(5) + 4 * PI));
+    check_sampling(shape(SHAPE_DISC, 2, 1, twice), 12 * PI);
+    for (int i = 0; i < 5; i++) {
+        check_sampling(shape(SHAPE_SPHERE, 0, 0, random_transform(1, 1, 0)), 0);
+        check_sampling(shape(SHAPE_CONE, 1, 0.3, random_transform(1, 1, 0)), 0);
+        check_sampling(shape(SHAPE_DISC, 1, 0.3, random_transform(1, 1, 0)), 0);
+        check_sampling(shape(SHAPE_BOX, 0, 0, random_transform(1, 1, 0)), 0);
+    }
+    assert_true(shape_area(&(Primitive){.kind = SHAPE_PLANE, .transform = twice}) == 0);
+}
+
+/* The density over a grid of the surface, its patches measured by differences, adds up to 1. */
+static double density_sum(const Primitive *p, int cone, int face)
+{
+    const int rows = 200, turns = 200;
+    double sum = 0;
+
+    for (int i = 0; i < rows; i++)
+        for (int j = 0; j < turns; j++) {
+            Vec3 corner[4], at;
+            for (int k = 0; k < 5; k++) {
+                double a = (i + (k == 4 ? 0.5 : k & 1)) / rows, b = 2 * PI * (j + (k == 4 ? 0.5 : k >> 1)) / turns, r, z;
+                if (cone) {
+                    r = face == 0 ? p->r0 + (p->r1 - p->r0) * a : a * (face == 1 ? p->r0 : p->r1);
+                    z = face == 0 ? a : face - 1;
+                } else {
+                    r = sin(PI * a);
+                    z = cos(PI * a);
+                }
+                at = transform_point(&p->transform, vec3(r * cos(b), r * sin(b), z));
+                if (k < 4)
+                    corner[k] = at;
+            }
+            Surface s = {.primitive = p, .face = face, .position = at};
+            double area = vec_length(vec_cross(vec_sub(corner[3], corner[0]), vec_sub(corner[2], corner[1]))) / 2;
+            sum += shape_pdf_area(p, &s) * area;
+        }
+    return sum;
+}
+
+static void densities_add_up(void **state)
+{
+    (void)state;
+    for (int i = 0; i < 4; i++) {
+        Primitive sphere = shape(SHAPE_SPHERE, 0, 0, random_transform(1, 1, 0));
+        Primitive cone = shape(SHAPE_CONE, 1, 0.2, random_transform(1, 1, 0));
+        assert_true(fabs(density_sum(&sphere, 0, 0) - 1) < 1e-3);
+        assert_true(fabs(density_sum(&cone, 1, 0) + density_sum(&cone, 1, 1) + density_sum(&cone, 1, 2) - 1) < 1e-3);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(intersections_match_marching), cmocka_unit_test(no_self_intersection),
+        cmocka_unit_test(discs_and_open_cones),         cmocka_unit_test(uv_is_povray),
+        cmocka_unit_test(box_points_lie_on_faces),      cmocka_unit_test(mesh_normals),
+        cmocka_unit_test(sampling_has_its_density),     cmocka_unit_test(densities_add_up),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
