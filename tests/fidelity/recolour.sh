@@ -1,0 +1,121 @@
+#!/bin/sh
+# What a set must be able to do, in every scene of the house, at small size. Prints TAP and the figures behind it.
+#
+# - identity: the set recombined with its own originals is its picture, with the beauty part black; with constant-colour
+#   originals to 60 dB. For textured originals the figure is printed: layout paper multiplies averages.
+# - replace: --replace is the render of a scene edited by hand, to 80 dB at the same seed.
+# - recolour: retextured with constants, the picture is --replace's at the same seed, to 50 dB and relMSE 1e-4.
+# - energy: what lies beyond the last order is below 0.1%.
+set -u
+export LC_ALL=C
+here=$(pwd)
+case $BUILD in /*) ;; *) BUILD=$here/$BUILD ;; esac
+PATH=$BUILD/bin:$BUILD/tests/bin:$PATH
+scenes=$here/scenes
+size=${FIDELITY_SIZE:-128x96} spp=${FIDELITY_SPP:-32}
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+number=0
+
+# result CONDITION NAME: one line of TAP.
+result() {
+    number=$((number + 1))
+    if [ "$1" = 1 ]; then echo "ok $number - $2"; else echo "not ok $number - $2"; fi
+}
+at_least() { awk "BEGIN { print ($1 >= $2) }"; }
+at_most() { awk "BEGIN { print ($1 <= $2) }"; }
+figure() { retex-diff --json "$1" "$2" | tr ',{}' '\n\n\n' | awk -F: -v key="\"$3\"" 'index($1, key) { print $2 + 0 }'; }
+render() { retex-render -q --threads 2 --size "$size" --spp "$spp" --seed 3 "$@"; }
+
+# The scene with another pigment in `#declare NAME = texture`, as its author would edit it: edited SCENE NAME PIGMENT.
+edited() {
+    awk -v name="$2" -v pigment="$3" '
+        $1 == "#declare" && $2 == name { inside = 1 }
+        inside && /image_map/ { sub(/image_map.*$/, pigment); inside = 0 }
+        { print }' "$scenes/$1/$1.pov"
+}
+
+check_scene() { # SCENE TARGET…
+    scene=$1; shift
+    file=$scenes/$scene/$scene.pov
+    flags= originals= all=
+    for target; do flags="$flags -t $target"; done
+
+    # shellcheck disable=SC2086 # words wanted
+    render $flags "$file" -o "$work/set.exr" || { result 0 "$scene renders"; return; }
+    folded=$(retex-info --json "$work/set.exr" | awk -F: '/"folded"/ { print $2 + 0 }')
+    echo "# $scene: energy beyond the last order: $(awk "BEGIN { print 100 * $folded }")%"
+    result "$(at_most "$folded" 0.001)" "$scene: energy beyond the last order is below 0.1%"
+
+    # textured originals, kept and put back by hand
+    make_blind_set "$work/set.exr" "$work/blind.exr"
+    retex-combine -q "$work/blind.exr" -o "$work/same.exr"
+    for target; do
+        image=$(awk -v name="$target" '$1 == "#declare" && $2 == name { inside = 1 }
+            inside && /image_map/ { split($0, part, "\""); print part[2]; exit }' "$file")
+        originals="$originals --texture $target=$scenes/$scene/$image"
+    done
+    # shellcheck disable=SC2086
+    retex-combine -q "$work/blind.exr" $originals -o "$work/again.exr"
+    echo "# $scene: identity of textured originals: kept $(figure "$work/same.exr" "$work/set.exr" psnr) dB," \
+        "put back $(figure "$work/again.exr" "$work/set.exr" psnr) dB"
+
+    # constant originals
+    cp "$file" "$work/plain.pov"
+    for target; do
+        scenes_file=$work/plain.pov
+        awk -v name="$target" '$1 == "#declare" && $2 == name { inside = 1 }
+            inside && /image_map/ { sub(/image_map.*$/, "rgb <0.5, 0.3, 0.2>"); inside = 0 } { print }' "$scenes_file" >"$work/next.pov"
+        mv "$work/next.pov" "$scenes_file"
+        all="$all --texture $target=rgb(0.5,0.3,0.2)"
+    done
+    # shellcheck disable=SC2086
+    render -I "$scenes/$scene" $flags "$work/plain.pov" -o "$work/constant.exr"
+    make_blind_set "$work/constant.exr" "$work/blind.exr"
+    retex-combine -q "$work/blind.exr" -o "$work/same.exr"
+    # shellcheck disable=SC2086
+    retex-combine -q "$work/blind.exr" $all -o "$work/again.exr"
+    same=$(figure "$work/same.exr" "$work/constant.exr" psnr) again=$(figure "$work/again.exr" "$work/constant.exr" psnr)
+    echo "# $scene: identity of constant originals: kept $same dB, put back $again dB"
+    result "$(at_least "$same" 60)" "$scene: constant originals, kept"
+    result "$(at_least "$again" 60)" "$scene: constant originals, put back"
+
+    # another image, by hand and by --replace
+    edited "$scene" "$1" "image_map { jpeg \"$scenes/textures/terrazzo.jpg\" interpolate 2 }" >"$work/edited.pov"
+    render --plain -I "$scenes/$scene" -I "$scenes/textures" "$work/edited.pov" -o "$work/hand.exr"
+    render --replace "$1=$scenes/textures/terrazzo.jpg" "$file" -o "$work/replaced.exr"
+    hand=$(figure "$work/replaced.exr" "$work/hand.exr" psnr)
+    echo "# $scene: --replace against the scene edited by hand: $hand dB"
+    result "$(at_least "$hand" 80)" "$scene: --replace is the scene edited by hand"
+
+    for color in near-black=0.01,0.01,0.01 white=1,1,1 red=0.8,0.02,0.02; do
+        value="rgb(${color#*=})"
+        choices=
+        for target; do choices="$choices $target"; done
+        [ $# = 1 ] || choices="$choices all"
+        for choice in $choices; do
+            textures= replacements=
+            for target; do
+                case $choice in all | "$target") ;; *) continue ;; esac
+                textures="$textures --texture $target=$value" replacements="$replacements --replace $target=$value"
+            done
+            # shellcheck disable=SC2086
+            retex-combine -q "$work/set.exr" $textures -o "$work/retextured.exr"
+            # shellcheck disable=SC2086
+            render $flags $replacements "$file" -o "$work/truth.exr"
+            psnr=$(figure "$work/retextured.exr" "$work/truth.exr" psnr) relmse=$(figure "$work/retextured.exr" "$work/truth.exr" relmse)
+            echo "# $scene: $choice ${color%%=*}: $psnr dB, relMSE $relmse"
+            result "$([ "$(at_least "$psnr" 50)$(at_most "$relmse" 1e-4)" = 11 ] && echo 1 || echo 0)" "$scene: $choice ${color%%=*}"
+        done
+    done
+}
+
+case ${1:-all} in
+all)
+    check_scene cornell-box Floor
+    check_scene glass-caustics Floor
+    check_scene living-room Floor Wall
+    ;;
+*) check_scene "$@" ;;
+esac
+echo "1..$number"
