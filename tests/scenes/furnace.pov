@@ -1,0 +1,18 @@
+// A white sphere under a white sky.
+//
+// Albedo 1, background 1: the sphere cannot be told from the sky. L = 1 in every pixel.
+//
+// size 65x65  spp 64  tolerance 1e-3 absolute
+// expect 32,32 1 1 1
+// expect 16,32 1 1 1
+// expect 45,40 1 1 1
+// expect 0,0 1 1 1
+
+#version 3.7;
+global_settings { assumed_gamma 1 max_trace_level 40 }
+#default { finish { ambient 0 diffuse 1 } }
+
+camera { location <0, 0, -4> direction z right x up y }
+
+background { rgb 1 }
+sphere { <0, 0, 0>, 1.5 pigment { rgb 1 } }
