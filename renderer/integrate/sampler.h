@@ -52,15 +52,15 @@ static inline uint32_t owen_reversed(uint32_t x, uint32_t seed)
     return x;
 }
 
-static inline uint32_t owen_scramble(uint32_t x, uint32_t seed) { return reverse_bits(owen_reversed(reverse_bits(x), seed)); }
-
-/* Second Sobol' dimension: multiplication by the Pascal matrix mod 2, here of the bit-reversed index. */
+/* Second Sobol' dimension, bits from the lowest: multiplication by the Pascal matrix mod 2. C(k, j) is odd where the bits
+ * of j are among those of k (Lucas), so it is a sum over supersets of bits, taken one bit of the position at a time. */
 static inline uint32_t sobol_second(uint32_t index)
 {
-    uint32_t result = 0;
-    for (uint32_t direction = 1u << 31; index; index >>= 1, direction ^= direction >> 1)
-        if (index & 1) result ^= direction;
-    return result;
+    index ^= index >> 1 & 0x55555555u;
+    index ^= index >> 2 & 0x33333333u;
+    index ^= index >> 4 & 0x0f0f0f0fu;
+    index ^= index >> 8 & 0x00ff00ffu;
+    return index ^ index >> 16;
 }
 
 static inline float unit_float(uint32_t x) { return (float)(x >> 8) * 0x1p-24f; } /* [0,1) */
@@ -73,9 +73,9 @@ static inline Sampler sampler_start(uint32_t seed, uint32_t x, uint32_t y, uint3
 static inline void sampler_pair(const Sampler *sampler, uint32_t dimension, float *u, float *v)
 {
     uint32_t key = hash_pair(sampler->key, dimension);
-    uint32_t index = owen_scramble(sampler->sample, key);
-    *u = unit_float(owen_scramble(reverse_bits(index), hash_mix(key ^ 0x68bc21ebu)));
-    *v = unit_float(owen_scramble(sobol_second(index), hash_mix(key ^ 0x02e5be93u)));
+    uint32_t index = reverse_bits(owen_reversed(reverse_bits(sampler->sample), key)); /* shuffled */
+    *u = unit_float(reverse_bits(owen_reversed(index, hash_mix(key ^ 0x68bc21ebu))));
+    *v = unit_float(reverse_bits(owen_reversed(sobol_second(index), hash_mix(key ^ 0x02e5be93u))));
 }
 
 #endif
