@@ -5,6 +5,7 @@
 #include <string.h>
 #include <strings.h>
 #include <sys/resource.h>
+#include <time.h>
 #include <jansson.h>
 #include "cli.h"
 #include "integrate/render.h"
@@ -171,6 +172,13 @@ static void parse_arguments(Arguments *a)
     a->render.progress = progress, a->render.progress_context = cli;
 }
 
+static double seconds(void)
+{
+    struct timespec t;
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
 static int find_target(const Scene *scene, const char *name)
 {
     int found = -1, count = 0;
@@ -269,9 +277,11 @@ int main(int argc, char **argv)
     RenderStats stats;
     parse_arguments(&a);
     const char *output = a.list || a.tracing ? NULL : cli_output(&cli);
+    double started = seconds();
     if (sdl_parse_file(&scene, a.scene, &a.sdl, &err)) cli_fail(&cli, &err);
     if (scene_resolve_targets(scene, a.targets, a.ntargets, &err)) cli_fail(&cli, &err);
     replace_textures(&a, scene, loaded);
+    double parse_seconds = seconds() - started;
     int failed = 0;
     if (a.list) list_targets(&a, scene);
     else if (a.tracing) failed = render_trace(scene, &a.render, a.trace[0], a.trace[1], a.trace[2], stdout, &err);
@@ -280,7 +290,7 @@ int main(int argc, char **argv)
     if (set) {
         write_result(&a, set, output);
         report(&a, set, &stats);
-        if (a.stats) write_stats(&a, &stats, set, 0);
+        if (a.stats) write_stats(&a, &stats, set, parse_seconds);
     }
     retex_set_close(&set);
     scene_close(&scene);
