@@ -1,0 +1,42 @@
+#!/bin/sh
+# make demo: renders the living room once, then puts two other floors and two other walls into it through the three-stage
+# shell pipe. demo.sh BUILD writes the pictures to BUILD/demo/.
+set -eu
+here=$(pwd)
+case $1 in /*) build=$1 ;; *) build=$here/$1 ;; esac
+PATH=$build/bin:$PATH
+demo=$build/demo
+scene=$here/scenes/living-room/living-room.pov
+textures=$here/scenes/textures
+mkdir -p "$demo"
+
+say() { printf '%s\n' "$*" >&2; }
+seconds() { date +%s.%N; }
+since() { awk -v a="$1" -v b="$(seconds)" 'BEGIN { printf "%.2f s", b - a }'; }
+
+retexture() { # NAME=FILE, the set on standard input
+    retex-sample -q - --texture "${1%%=*}=$textures/${1#*=}" -o - | retex-combine -q - -o "$demo/$(picture "$1")"
+}
+picture() { echo "${1%.jpg}.png" | tr 'A-Z=' 'a-z-'; }
+
+first=Floor=walnut-herringbone.jpg
+say "Rendering the living room with a new floor; the set is kept on the way:"
+say "    retex-render living-room.pov -t Floor -t Wall -o - | tee living-room.exr |"
+say "        retex-sample - --texture $first -o - | retex-combine - -o $(picture $first)"
+start=$(seconds)
+retex-render -t Floor -t Wall --spp "${DEMO_SPP:-64}" "$scene" -o - | tee "$demo/living-room.exr" | retexture $first
+say "    $(since "$start")"
+
+say "Other floors and walls, from the set that was kept, without rendering:"
+for edit in Floor=terrazzo.jpg Wall=damask.jpg Wall=brick.jpg; do
+    say "    retex-sample living-room.exr --texture $edit -o - | retex-combine - -o $(picture $edit)"
+    start=$(seconds)
+    retexture $edit <"$demo/living-room.exr"
+    say "    $(since "$start")"
+done
+retex-combine -q "$demo/living-room.exr" -o "$demo/original.png"
+say "Both at once:"
+retex-combine -q "$demo/living-room.exr" --texture "Floor=$textures/walnut-herringbone.jpg" \
+    --texture "Wall=$textures/damask.jpg" -o "$demo/floor-and-wall.png"
+say "The pictures are in:"
+ls "$demo"/*.png
