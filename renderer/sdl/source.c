@@ -1,0 +1,188 @@
+/* Files: where they are looked for, what may be read, and their tokens. Files the scene itself wrote are served from
+ * memory and never touch the disk; so strings.inc's Parse_String works on a read-only machine. */
+#include <errno.h>
+#include <limits.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+#include "sdl/internal.h"
+
+/* Sources with fewer tokens stay when their #include ends: they may be included again, in a loop. */
+enum { SMALL_SOURCE = 20000 };
+
+static const char *const system_folders[] = {
+    "/usr/share/povray-3.7/include", "/usr/local/share/povray-3.7/include", "/usr/share/povray/include",
+    "/usr/share/povray-3.7", "/usr/share/fonts/truetype/povray",
+};
+
+static const char *join(Sdl *sdl, const char *folder, const char *name)
+{
+    size_t a = strlen(folder), b = strlen(name);
+    char *path = sdl_alloc(sdl, a + b + 2);
+    memcpy(path, folder, a);
+    if (a && folder[a - 1] != '/') path[a++] = '/';
+    memcpy(path + a, name, b + 1);
+    return path;
+}
+
+static void add_folder(Sdl *sdl, const char *folder)
+{
+    char resolved[PATH_MAX];
+    if (!realpath(*folder ? folder : ".", resolved)) return;
+    sdl->folders[sdl->nfolders] = folder;
+    sdl->roots[sdl->nfolders++] = arena_string(sdl->arena, resolved, strlen(resolved));
+}
+
+void folders_begin(Sdl *sdl, const char *scene_path)
+{
+    size_t nsystem = sizeof system_folders / sizeof *system_folders;
+    size_t count = nsystem + 2 + (size_t)sdl->options.ninclude_paths;
+    sdl->folders = sdl_alloc(sdl, count * sizeof *sdl->folders);
+    sdl->roots = sdl_alloc(sdl, count * sizeof *sdl->roots);
+    const char *slash = strrchr(scene_path, '/');
+    add_folder(sdl, "");
+    if (slash) add_folder(sdl, arena_string(sdl->arena, scene_path, (size_t)(slash - scene_path + 1)));
+    for (int i = 0; i < sdl->options.ninclude_paths; i++) add_folder(sdl, sdl->options.include_paths[i]);
+    for (size_t i = 0; i < nsystem; i++) add_folder(sdl, system_folders[i]);
+}
+
+/* A regular file under one of the folders, symbolic links and `..` resolved. */
+static int may_read(Sdl *sdl, const char *path)
+{
+    char resolved[PATH_MAX];
+    struct stat info;
+    if (!realpath(path, resolved) || stat(resolved, &info) != 0 || !S_ISREG(info.st_mode)) return 0;
+    for (int i = 0; i < sdl->nfolders; i++) {
+        size_t length = strlen(sdl->roots[i]);
+        if (strncmp(resolved, sdl->roots[i], length) == 0 &&
+            (resolved[length] == '/' || (length && sdl->roots[i][length - 1] == '/')))
+            return 1;
+    }
+    return 0;
+}
+
+const char *sdl_find_file(Sdl *sdl, const char *name)
+{
+    if (!*name || strlen(name) >= PATH_MAX / 2) return NULL;
+    if (*name == '/') return may_read(sdl, name) ? name : NULL;
+    for (int i = 0; i < sdl->nfolders; i++) {
+        const char *path = *sdl->folders[i] ? join(sdl, sdl->folders[i], name) : name;
+        if (may_read(sdl, path)) return path;
+    }
+    return NULL;
+}
+
+MemoryFile *memory_file_find(Sdl *sdl, const char *name)
+{
+    for (MemoryFile *file = sdl->memory_files; file; file = file->next)
+        if (strcmp(file->name, name) == 0) return file;
+    return NULL;
+}
+
+MemoryFile *memory_file_create(Sdl *sdl, const char *name)
+{
+    MemoryFile *file = memory_file_find(sdl, name);
+    if (!file) {
+        file = sdl_alloc(sdl, sizeof *file);
+        file->name = arena_string(sdl->arena, name, strlen(name));
+        file->next = sdl->memory_files;
+        sdl->memory_files = file;
+    }
+    return file;
+}
+
+void memory_file_write(Sdl *sdl, MemoryFile *file, const void *bytes, size_t size)
+{
+    if (file->size + size > file->capacity) {
+        size_t capacity = file->capacity ? file->capacity : 256;
+        while (capacity < file->size + size) capacity *= 2;
+        char *grown = sdl_alloc(sdl, capacity);
+        if (file->size) memcpy(grown, file->bytes, file->size);
+        file->bytes = grown;
+        file->capacity = capacity;
+    }
+    if (size) memcpy(file->bytes + file->size, bytes, size);
+    file->size += size;
+}
+
+/* The whole file in memory of its own; a scene's limit on memory holds for it too. */
+static char *read_all(Sdl *sdl, const char *path, size_t *size)
+{
+    FILE *file = fopen(path, "rb");
+    if (!file) sdl_fail(sdl, RETEX_EIO, "cannot open `%s`: %s", path, strerror(errno));
+    struct stat info;
+    char *bytes = NULL;
+    int too_big = fstat(fileno(file), &info) != 0 || info.st_size < 0 ||
+                  (sdl->options.max_memory && (uint64_t)info.st_size > sdl->options.max_memory) ||
+                  info.st_size > (off_t)1 << 31;
+    if (!too_big) bytes = malloc((size_t)info.st_size + 1);
+    *size = bytes ? fread(bytes, 1, (size_t)info.st_size, file) : 0;
+    int failed = ferror(file);
+    fclose(file);
+    if (bytes && !failed) return bytes;
+    free(bytes);
+    if (too_big) sdl_fail(sdl, RETEX_ELIMIT, "`%s` is larger than the memory allowed", path);
+    sdl_fail(sdl, failed ? RETEX_EIO : RETEX_ENOMEM, "cannot read `%s`", path);
+}
+
+/* The bytes must be freed when the text is too much for the arena: an error while reading it comes here first and then
+ * goes on to the caller, as NULL. */
+static Source *tokenize(Sdl *sdl, const char *path, const char *bytes, size_t size)
+{
+    jmp_buf outer;
+    Source *volatile source = NULL;
+    memcpy(&outer, &sdl->jump, sizeof outer);
+    if (setjmp(sdl->jump) == 0) {
+        char *name = sdl_alloc(sdl, strlen(path) + 1);
+        strcpy(name, path);
+        source = source_from_text(sdl, name, bytes, size);
+    }
+    memcpy(&sdl->jump, &outer, sizeof outer);
+    return source;
+}
+
+static Source *load(Sdl *sdl, const char *path)
+{
+    size_t size;
+    char *bytes = read_all(sdl, path, &size);
+    Source *source = tokenize(sdl, path, bytes, size);
+    free(bytes);
+    if (!source) longjmp(sdl->jump, 1);
+    return source;
+}
+
+Source *source_open_scene(Sdl *sdl, const char *path) { return load(sdl, path); }
+
+Source *source_open(Sdl *sdl, const char *name)
+{
+    MemoryFile *memory = memory_file_find(sdl, name);
+    if (memory) return source_from_text(sdl, memory->name, memory->bytes ? memory->bytes : "", memory->size);
+    const char *path = sdl_find_file(sdl, name);
+    if (!path) sdl_fail(sdl, RETEX_EPARSE, "cannot find the file `%s` in the scene's folder or the include path", name);
+    for (Source *source = sdl->sources; source; source = source->next)
+        if (source->tokens && source->count <= SMALL_SOURCE && strcmp(source->name, path) == 0 &&
+            !memory_file_find(sdl, path))
+            return source;
+    return load(sdl, path);
+}
+
+void source_release(Sdl *sdl, Source *source)
+{
+    (void)sdl;
+    if (--source->users > 0 || source->keep || source->count <= SMALL_SOURCE) return;
+    free(source->tokens);
+    source->tokens = NULL;
+    source->count = 0;
+}
+
+void sources_close(Sdl *sdl)
+{
+    for (Source *source = sdl->sources, *next; source; source = next) {
+        next = source->next;
+        free(source->tokens);
+        free(source);
+    }
+    sdl->sources = NULL;
+}
