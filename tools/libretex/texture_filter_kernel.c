@@ -131,7 +131,7 @@ static inline float tail(const float *restrict table, float z)
 
 /* Weights of one axis at texels first, first + step, ... for a kernel at centre (texel i lies at i). */
 typedef struct Window {
-    int first, count, step;
+    int first, count;
     float total;
     float weight[MAX_TAPS];
 } Window;
@@ -159,20 +159,27 @@ static inline void tent_window(Window *restrict window, const float *restrict ta
     window->total = total;
 }
 
+/* What makes a window, apart from its centre. */
+typedef struct Shape {
+    int tent;    /* 1: a tent blurred by sd; 0: a Gaussian of variance 1 / inverse, up to reach */
+    int step;    /* texels from tap to tap */
+    float sd, inverse, reach;
+    float curve; /* exp(-step^2 / variance): how much the ratio of neighbouring taps falls from tap to tap */
+} Shape;
+
 /* exp(-d^2 / 2) at equal steps by two multiplications each, the exponent being quadratic; four taps at a time. Begun anew
  * every 32 taps, so that rounding does not pile up. */
-static inline void gaussian_window(Window *restrict window, float centre, float variance, float reach)
+static inline void gaussian_window(Window *restrict window, const Shape *shape, float centre)
 {
-    int first = whole_above(centre - reach), step = window->step;
-    int count = (whole_below(centre + reach) - first) / step + 1;
+    int first = whole_above(centre - shape->reach), step = shape->step;
+    int count = (whole_below(centre + shape->reach) - first) / step + 1;
     count = count > MAX_TAPS ? MAX_TAPS : count;
-    float s = (float)step, inverse = 1 / variance;
-    float curve = expf(-s * s * inverse), curve2 = curve * curve, curve4 = curve2 * curve2;
+    float s = (float)step, curve = shape->curve, curve2 = curve * curve, curve4 = curve2 * curve2;
     float curve8 = curve4 * curve4, curve16 = curve8 * curve8;
     Float4 total = {0, 0, 0, 0};
     for (int begin = 0; begin < count; begin += 32) {
         float d = (float)first + (float)begin * s - centre;
-        float w0 = expf(-0.5f * d * d * inverse), ratio = expf(-(d + 0.5f * s) * s * inverse);
+        float w0 = expf(-0.5f * d * d * shape->inverse), ratio = expf(-(d + 0.5f * s) * s * shape->inverse);
         float w1 = w0 * ratio, w2 = w1 * ratio * curve, w3 = w2 * ratio * curve2;
         float ratio2 = ratio * ratio, over4 = ratio2 * ratio2 * curve4 * curve2;
         Float4 w = {w0, w1, w2, w3};
@@ -192,34 +199,34 @@ static inline void gaussian_window(Window *restrict window, float centre, float 
     window->total = (total[0] + total[1]) + (total[2] + total[3]);
 }
 
-/* What makes a window, apart from its centre. */
-typedef struct Shape {
-    int tent;       /* 1: tent blurred by sd; 0: Gaussian of variance up to reach */
-    int step;
-    float sd, variance, reach;
-} Shape;
-
 static inline Shape find_shape(double variance)
 {
-    Shape shape = {0, 1, 0, 0, 0};
+    Shape shape = {.step = 1};
     if (variance < TENT_LIMIT) {
         shape.tent = 1;
         shape.sd = variance > TENT_VARIANCE ? sqrtf((float)(variance - TENT_VARIANCE)) : 0;
         shape.reach = 1 + WINDOW_REACH * shape.sd;
     } else {
-        shape.variance = (float)variance / WINDOW_VARIANCE;
-        shape.reach = WINDOW_REACH * sqrtf(shape.variance);
+        float wider = (float)variance / WINDOW_VARIANCE;
+        shape.inverse = 1 / wider;
+        shape.reach = WINDOW_REACH * sqrtf(wider);
     }
     return shape;
 }
 
+static inline void finish_shape(Shape *shape)
+{
+    float s = (float)shape->step;
+    if (!shape->tent)
+        shape->curve = expf(-s * s * shape->inverse);
+}
+
 static inline void make_window(Window *restrict window, const float *restrict table, const Shape *shape, float centre)
 {
-    window->step = shape->step;
     if (shape->tent)
         tent_window(window, table, centre, shape->sd);
     else
-        gaussian_window(window, centre, shape->variance, shape->reach);
+        gaussian_window(window, shape, centre);
 }
 
 /* A step that shares no factor with the period meets all of a repeating axis's texels, not a few again and again. */
@@ -330,21 +337,24 @@ static inline Float4 sum_level(const RetexTexture *texture, const TextureLevel *
     if (flat_y)
         y = 0;
     limit_taps(&shape_x, &shape_y, level, texture);
+    finish_shape(&shape_x);
+    finish_shape(&shape_y);
 
     Window rows, columns;
     make_window(&rows, texture->tail, &shape_y, y);
-    int upright = fabs(slope) * rows.count * rows.step < 1e-3;
+    int upright = fabs(slope) * rows.count * shape_y.step < 1e-3;
     if (upright)
         make_window(&columns, texture->tail, &shape_x, x);
     Float4 sum = {0, 0, 0, 0};
     float total = 0;
     for (int j = 0; j < rows.count; j++) {
-        int at = rows.first + j * rows.step;
+        int at = rows.first + j * shape_y.step;
         if (!upright)
             make_window(&columns, texture->tail, &shape_x, x + (float)slope * ((float)at - y));
         Row row = find_row(texture, level, at);
         sum += rows.weight[j] *
-               sum_row(&row, level->width, texture->spec.wrap[0], columns.weight, columns.count, columns.first, columns.step);
+               sum_row(&row, level->width, texture->spec.wrap[0], columns.weight, columns.count, columns.first,
+                       shape_x.step);
         total += rows.weight[j] * columns.total;
     }
     return sum / total;
