@@ -1,0 +1,300 @@
+/* The end of the scene: what could not be decided while reading. Loose triangles are gathered into meshes, images loaded,
+ * layers decided, colours brought from the working space to scene-linear, emitters told, and names listed.
+ *
+ * The working space. Colours are numbers of it: linear with assumed_gamma 1 (and in scenes of version 3.7 that say
+ * nothing), a power or sRGB with other values. Older scenes that say nothing compute in the display's own space, which is
+ * taken as sRGB. Pigments, lights, sky, background, emission, ambient and reflection are decoded; factors such as diffuse
+ * are not, for the sum of several lights has no equal in another space. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include "sdl/scene_side.h"
+
+/* ---- the working space ---- */
+
+typedef enum Space { SPACE_LINEAR, SPACE_SRGB, SPACE_POWER } Space;
+
+static Space working_space(Sdl *sdl)
+{
+    const Side *side = side_of(sdl);
+    if (!side->has_assumed_gamma)
+        return sdl_version(sdl) >= 3.7 ? SPACE_LINEAR : SPACE_SRGB;
+    if (side->gamma_srgb)
+        return SPACE_SRGB;
+    return fabs(side->assumed_gamma - 1) < 1e-6 ? SPACE_LINEAR : SPACE_POWER;
+}
+
+static float decode(Space space, double gamma, float x)
+{
+    double v = fabs(x), out = v;
+    if (space == SPACE_SRGB)
+        out = v <= 0.04045 ? v / 12.92 : pow((v + 0.055) / 1.055, 2.4);
+    else if (space == SPACE_POWER)
+        out = pow(v, gamma);
+    return (float)copysign(out, x);
+}
+
+static Rgb decode_rgb(Space s, double g, Rgb c) { return rgb(decode(s, g, c.r), decode(s, g, c.g), decode(s, g, c.b)); }
+
+/* Filter and transmit are shares, not colours. */
+static Rgbft decode_rgbft(Space s, double g, Rgbft c)
+{
+    return (Rgbft){decode(s, g, c.r), decode(s, g, c.g), decode(s, g, c.b), c.filter, c.transmit};
+}
+
+static void decode_colors(Sdl *sdl)
+{
+    Side *side = side_of(sdl);
+    Scene *scene = sdl_scene(sdl);
+    const Space s = working_space(sdl);
+    const double g = side->assumed_gamma;
+    scene->assumed_gamma = s == SPACE_LINEAR ? 1 : s == SPACE_SRGB ? 2.2 : g;
+    if (s == SPACE_LINEAR)
+        return;
+    for (SidePigment *p = side->pigments; p; p = p->next) {
+        p->pigment.color = decode_rgbft(s, g, p->pigment.color);
+        p->pigment.checker[0] = decode_rgbft(s, g, p->pigment.checker[0]);
+        p->pigment.checker[1] = decode_rgbft(s, g, p->pigment.checker[1]);
+    }
+    for (SideColorMap *m = side->maps; m; m = m->next)
+        for (int i = 0; i < m->map.count; i++)
+            m->map.entries[i].color = decode_rgbft(s, g, m->map.entries[i].color);
+    for (SideFinish *f = side->finishes; f; f = f->next) {
+        f->finish.ambient = decode_rgb(s, g, f->finish.ambient);
+        f->finish.emission = decode_rgb(s, g, f->finish.emission);
+        f->finish.reflection_min = decode_rgb(s, g, f->finish.reflection_min);
+        f->finish.reflection_max = decode_rgb(s, g, f->finish.reflection_max);
+    }
+    for (int i = 0; i < scene->nlights; i++)
+        scene->lights[i].color = decode_rgb(s, g, scene->lights[i].color);
+    scene->background = decode_rgb(s, g, scene->background);
+    scene->ambient_light = decode_rgb(s, g, scene->ambient_light);
+    if (scene->sky)
+        scene->sky->emission = decode_rgb(s, g, scene->sky->emission);
+}
+
+/* ---- images ---- */
+
+/* In scenes before 3.7 the numbers of 8- and 16-bit files are colours of the working space, as they are. */
+static const char *colorspace_of(Sdl *sdl, const SideImage *image)
+{
+    const Side *side = side_of(sdl);
+    const double version = side->has_assumed_gamma ? side->gamma_version : sdl_version(sdl);
+    const char *dot = strrchr(image->map.path, '.');
+    int is_float = dot && (strcmp(dot, ".exr") == 0 || strcmp(dot, ".hdr") == 0 || strcmp(dot, ".EXR") == 0 ||
+                           strcmp(dot, ".HDR") == 0);
+    if (image->working && !is_float && version < 3.7 && working_space(sdl) == SPACE_LINEAR)
+        return "linear";
+    return image->colorspace[0] ? image->colorspace : NULL;
+}
+
+static int has_alpha(const RetexImage *pixels)
+{
+    size_t n = (size_t)pixels->width * (size_t)pixels->height;
+    if (pixels->channels < 4)
+        return 0;
+    for (size_t i = 0; i < n; i++)
+        if (pixels->pixels[i * (size_t)pixels->channels + 3] < 1)
+            return 1;
+    return 0;
+}
+
+static int same_image(Sdl *sdl, const SideImage *a, const SideImage *b)
+{
+    const char *x = colorspace_of(sdl, a), *y = colorspace_of(sdl, b);
+    return strcmp(a->map.path, b->map.path) == 0 && strcmp(x ? x : "", y ? y : "") == 0;
+}
+
+static void add_image(Sdl *sdl, SideImage *image, int *room)
+{
+    Scene *scene = sdl_scene(sdl);
+    scene->images = side_grow(sdl, scene->images, scene->nimages, room, sizeof *scene->images);
+    scene->images[scene->nimages++] = &image->map;
+}
+
+static void load_image(Sdl *sdl, SideImage *image, int *room)
+{
+    Scene *scene = sdl_scene(sdl);
+    ImageMap *map = &image->map;
+    if (map->texture)
+        return;
+    for (int i = 0; i < scene->nimages; i++)
+        if (same_image(sdl, (SideImage *)scene->images[i], image)) {
+            map->texture = scene->images[i]->texture;
+            map->width = scene->images[i]->width;
+            map->height = scene->images[i]->height;
+            map->has_alpha = scene->images[i]->has_alpha;
+            add_image(sdl, image, room);
+            return;
+        }
+    add_image(sdl, image, room); /* before there is anything to free */
+    RetexImage pixels = {0};
+    RetexError err = {0};
+    if (retex_image_read(&pixels, map->path, colorspace_of(sdl, image), 0, &err) == 0) {
+        map->has_alpha = has_alpha(&pixels);
+        map->width = pixels.width;
+        map->height = pixels.height;
+        retex_texture_create(&map->texture, &pixels, NULL, &err);
+        retex_image_free(&pixels);
+    }
+    if (!map->texture)
+        sdl_error(sdl, "%s:%d: image_map: %s", image->file, image->line, err.message);
+}
+
+static void load_of_texture(Sdl *sdl, const Texture *texture, int *room)
+{
+    for (const SideTexture *t = (const SideTexture *)texture; t; t = t->below)
+        if (t->texture.pigment->kind == PIGMENT_IMAGE)
+            load_image(sdl, (SideImage *)t->texture.pigment->image, room);
+}
+
+/* ---- every texture in use ---- */
+
+typedef void TextureVisitor(Sdl *sdl, const Texture **texture, void *context);
+
+static void each_texture(Sdl *sdl, TextureVisitor *visit, void *context)
+{
+    Scene *scene = sdl_scene(sdl);
+    for (int i = 0; i < scene->nprimitives; i++) {
+        Primitive *p = &scene->primitives[i];
+        visit(sdl, &p->texture, context);
+        if (p->interior_texture)
+            visit(sdl, &p->interior_texture, context);
+        if (p->mesh)
+            for (int j = 0; j < p->mesh->ntextures; j++)
+                visit(sdl, &p->mesh->textures[j], context);
+    }
+}
+
+static void visit_load(Sdl *sdl, const Texture **texture, void *context) { load_of_texture(sdl, *texture, context); }
+
+/* Layers are decided, and a texture takes the names of its pigment. Every texture is this scene's own copy by now. */
+static void visit_settle(Sdl *sdl, const Texture **texture, void *context)
+{
+    (void)context;
+    SideTexture *shown = (SideTexture *)side_texture_visible((const SideTexture *)*texture);
+    if (!shown->settled) {
+        shown->settled = 1;
+        shown->texture.idents = sdl_ident_join(sdl, shown->texture.idents, shown->texture.pigment->idents);
+    }
+    *texture = &shown->texture;
+}
+
+/* ---- emitters ---- */
+
+/* `ambient` is no light here, but a surface with ambient >= 1 and nothing diffuse is a way to write a lamp. */
+static void tell_emitters(Sdl *sdl)
+{
+    const int all = sdl_options(sdl)->ambient;
+    const Rgb light = sdl_scene(sdl)->ambient_light;
+    for (SideFinish *f = side_of(sdl)->finishes; f; f = f->next) {
+        int lamp = rgb_max(f->finish.ambient) >= 1 && f->finish.diffuse == 0;
+        if (all || lamp)
+            f->finish.emission = rgb_add(f->finish.emission, rgb_mul(f->finish.ambient, light));
+    }
+}
+
+/* ---- names ---- */
+
+typedef struct Names {
+    int room;
+    const char **table; /* open addressing, a power of two */
+    size_t size;
+} Names;
+
+static size_t hash_name(const char *name)
+{
+    size_t hash = 1469598103u;
+    for (; *name; name++)
+        hash = (hash ^ (unsigned char)*name) * 1099511u;
+    return hash;
+}
+
+static size_t find_slot(const Names *names, const char *name)
+{
+    size_t i = hash_name(name) & (names->size - 1);
+    while (names->table[i] && strcmp(names->table[i], name) != 0)
+        i = (i + 1) & (names->size - 1);
+    return i;
+}
+
+static void grow_table(Sdl *sdl, Names *names)
+{
+    const Scene *scene = sdl_scene(sdl);
+    names->size = names->size ? names->size * 2 : 256;
+    names->table = sdl_alloc(sdl, names->size * sizeof *names->table);
+    for (int i = 0; i < scene->nidents; i++)
+        names->table[find_slot(names, scene->idents[i])] = scene->idents[i];
+}
+
+static void list_names(Sdl *sdl, Names *names, const IdentList *idents)
+{
+    Scene *scene = sdl_scene(sdl);
+    for (; idents; idents = idents->next) {
+        if ((size_t)scene->nidents * 2 >= names->size)
+            grow_table(sdl, names);
+        size_t slot = find_slot(names, idents->name);
+        if (names->table[slot])
+            continue;
+        scene->idents = side_grow(sdl, scene->idents, scene->nidents, &names->room, sizeof *scene->idents);
+        names->table[slot] = scene->idents[scene->nidents++] = idents->name;
+    }
+}
+
+static void list_all_names(Sdl *sdl)
+{
+    const Scene *scene = sdl_scene(sdl);
+    Names names = {0};
+    const IdentList *last_texture = NULL, *last_object = NULL;
+    for (int i = 0; i < scene->nprimitives; i++) {
+        const Primitive *p = &scene->primitives[i];
+        if (p->texture->idents != last_texture)
+            list_names(sdl, &names, last_texture = p->texture->idents);
+        for (int j = 0; p->mesh && j < p->mesh->ntextures; j++)
+            list_names(sdl, &names, p->mesh->textures[j]->idents);
+        if (p->idents != last_object)
+            list_names(sdl, &names, last_object = p->idents);
+    }
+}
+
+/* ---- */
+
+static void settle_sky(Sdl *sdl)
+{
+    Scene *scene = sdl_scene(sdl);
+    const SideSky *sky = side_of(sdl)->sky;
+    if (!sky || sky->npigments == 0)
+        return;
+    scene->sky = sdl_alloc(sdl, sizeof *scene->sky);
+    scene->sky->npigments = sky->npigments;
+    scene->sky->emission = sky->emission;
+    scene->sky->transform = sky->transform;
+    scene->sky->pigments = sdl_alloc(sdl, (size_t)sky->npigments * sizeof *scene->sky->pigments);
+    for (int i = 0; i < sky->npigments; i++) {
+        gaps_report(sdl, &sky->pigments[i]->gaps);
+        scene->sky->pigments[i] = &sky->pigments[i]->pigment;
+    }
+}
+
+static void load_images(Sdl *sdl)
+{
+    const Scene *scene = sdl_scene(sdl);
+    int room = 0;
+    each_texture(sdl, visit_load, &room);
+    for (int i = 0; scene->sky && i < scene->sky->npigments; i++)
+        if (scene->sky->pigments[i]->kind == PIGMENT_IMAGE)
+            load_image(sdl, (SideImage *)scene->sky->pigments[i]->image, &room);
+}
+
+void side_settle(Sdl *sdl)
+{
+    if (sdl_scene(sdl)->width == 0)
+        side_camera_use(sdl, &side_of(sdl)->camera);
+    settle_sky(sdl);
+    side_gather_triangles(sdl);
+    load_images(sdl);
+    each_texture(sdl, visit_settle, NULL);
+    decode_colors(sdl);
+    tell_emitters(sdl);
+    list_all_names(sdl);
+}
