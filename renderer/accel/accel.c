@@ -22,6 +22,7 @@ typedef struct RTCIntersectContext QueryContext;
 #include "shade/pigment.h"
 
 #define TRANSPARENT 0x80u   /* in flags, beside the RayKinds that see the primitive */
+#define FLOAT_DOUBT 1e-3    /* share by which a distance in float may be off, along grazing triangles too */
 #define LARGEST_COORDINATE 1e18 /* Embree takes anything beyond about 1.8e18 as no geometry */
 #define SPATIAL_SPLIT_LIMIT 4000000 /* triangles: beyond it building would take too long for what tracing gains */
 
@@ -430,12 +431,12 @@ void accel_close(Accel **accel)
 /* Embree gets the ray in float with its range widened by what float may be off; the callbacks hold to the double one. */
 static struct RTCRay float_ray(const Ray *ray)
 {
-    double slack = 4e-6 * largest(ray->origin);
+    double slack = FLOAT_DOUBT * largest(ray->origin);
 
     return (struct RTCRay){
         .org_x = (float)ray->origin.x, .org_y = (float)ray->origin.y, .org_z = (float)ray->origin.z,
         .dir_x = (float)ray->direction.x, .dir_y = (float)ray->direction.y, .dir_z = (float)ray->direction.z,
-        .tnear = (float)fmax(0, ray->tmin * (1 - 4e-6) - slack), .tfar = (float)(ray->tmax * (1 + 4e-6) + slack),
+        .tnear = (float)fmax(0, ray->tmin * (1 - FLOAT_DOUBT) - slack), .tfar = (float)(ray->tmax * (1 + FLOAT_DOUBT) + slack),
         .mask = 0xffffffffu};
 }
 
