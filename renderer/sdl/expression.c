@@ -49,6 +49,7 @@ void num_component(Sdl *sdl, Num *num, const char *name)
 {
     static const char *const names[] = {"x", "u", "red", "y", "v", "green", "z", "blue", "t", "filter", "transmit"};
     static const int index[] = {0, 0, 0, 1, 1, 1, 2, 2, 3, 3, 4};
+    int count = num->count;
     num_promote(num, 5);
     if (strcmp(name, "gray") == 0) {
         *num = num_float(0.297 * num->n[0] + 0.589 * num->n[1] + 0.114 * num->n[2]);
@@ -56,6 +57,7 @@ void num_component(Sdl *sdl, Num *num, const char *name)
     }
     for (size_t i = 0; i < sizeof names / sizeof *names; i++)
         if (strcmp(name, names[i]) == 0) {
+            if (count > 1 && index[i] >= count) sdl_error(sdl, "a vector of %d components has no `%s`", count, name);
             *num = num_float(num->n[index[i]]);
             return;
         }
@@ -223,8 +225,20 @@ static int is_comparison(char op)
     return op == '<' || op == '>' || op == '=' || op == PUNCT_LE || op == PUNCT_GE || op == PUNCT_NE;
 }
 
+/* Strings can be compared too: `#if (Name != "")`. */
+static Num string_comparison(Sdl *sdl)
+{
+    int frame = sdl->nframes;
+    const char *left = sdl_string(sdl);
+    char op = operator_next(sdl, frame);
+    if (!is_comparison(op)) sdl_expected(sdl, "a comparison with the string");
+    sdl_next(sdl);
+    return num_float(compare(op, strcmp(left, sdl_string(sdl)), 0));
+}
+
 static Num comparison(Sdl *sdl)
 {
+    if (expression_is_string_start(sdl)) return string_comparison(sdl);
     int frame = sdl->nframes;
     Num result = expression_sum(sdl);
     for (char op; is_comparison(op = operator_next(sdl, frame));) {

@@ -401,7 +401,7 @@ static Num apply_function(Sdl *sdl, const Function *function, const double *args
         char name[64];
         snprintf(name, sizeof name, "function{%s}", function->unsupported);
         sdl_unsupported(sdl, name, "it gives 0");
-        return (Num){{0}, 5, 1};
+        return strcmp(function->unsupported, "pigment") == 0 ? (Num){{0}, 5, 1} : num_float(0);
     }
     }
 }
@@ -464,6 +464,14 @@ static double evaluate(Sdl *sdl, const Node *node, double *variables)
     case OP_SUM: case OP_PRODUCT: return evaluate_loop(sdl, node, variables);
     default: return evaluate_call(sdl, node, variables);
     }
+}
+
+Value sdl_function(Sdl *sdl)
+{
+    Value value;
+    sdl_expect(sdl, "function");
+    function_declare(sdl, &value);
+    return value;
 }
 
 Num function_call(Sdl *sdl, const Value *value)

@@ -246,19 +246,32 @@ static void link_directive(Lexer *lexer, uint32_t index)
     }
 }
 
-static void directive(Lexer *lexer)
+static void add_directive(Lexer *lexer, const Word *name, const char *start)
 {
-    const char *start = lexer->at++;
-    while (lexer->at < lexer->end && (*lexer->at == ' ' || *lexer->at == '\t')) lexer->at++;
-    if (lexer->at >= lexer->end || !is_letter((unsigned char)*lexer->at)) {
-        bad(lexer, BAD_CHARACTER, start);
-        return;
-    }
-    Word *name = word(lexer);
     Raw *raw = add(lexer, RAW_DIRECTIVE, start);
     memset(&raw->as, 0, sizeof raw->as);
     raw->as.directive.id = name->directive ? name->directive : DIR_UNKNOWN;
     link_directive(lexer, lexer->source->count - 1);
+}
+
+static void directive(Lexer *lexer)
+{
+    const char *start = lexer->at++;
+    while (lexer->at < lexer->end && (*lexer->at == ' ' || *lexer->at == '\t')) lexer->at++;
+    /* POV-Ray passes over a `#` that begins no directive, and scenes have come to rely on it. */
+    if (lexer->at >= lexer->end || !is_letter((unsigned char)*lexer->at)) return;
+    Word *name = word(lexer);
+    if (!name->directive && name->reserved) {
+        add(lexer, RAW_WORD, start)->as.word = name;
+        return;
+    }
+    add_directive(lexer, name, start);
+}
+
+/* The words that were directives before they got their `#`. */
+static int is_old_directive(const Word *word)
+{
+    return word->directive == DIR_DECLARE || word->directive == DIR_INCLUDE || word->directive == DIR_DEFAULT;
 }
 
 static void punctuation(Lexer *lexer, char c)
@@ -292,7 +305,8 @@ Source *source_from_text(Sdl *sdl, const char *name, const char *text, size_t le
         else if (is_letter(c)) {
             const char *start = lexer.at;
             Word *w = word(&lexer);
-            add(&lexer, RAW_WORD, start)->as.word = w;
+            if (is_old_directive(w)) add_directive(&lexer, w, start);
+            else add(&lexer, RAW_WORD, start)->as.word = w;
         } else if (c == '"') string(&lexer);
         else if (c == '#') directive(&lexer);
         else if (c == '/' && more && lexer.at[1] == '*') comment(&lexer);

@@ -75,6 +75,7 @@ int sdl_is_color_start(Sdl *sdl);
 const char *sdl_string(Sdl *sdl);
 int sdl_is_expression_start(Sdl *sdl);    /* a number, vector, numeric identifier or function is next */
 Value sdl_expression(Sdl *sdl);           /* float, vector or string, whatever comes */
+Value sdl_function(Sdl *sdl);             /* from the word `function` on, its parameters and `{ … }`: VALUE_FUNCTION */
 
 /* Idents: a list with one more name. */
 const IdentList *sdl_ident_add(Sdl *sdl, const IdentList *list, const char *name, int line);
