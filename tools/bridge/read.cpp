@@ -140,7 +140,7 @@ void check_file(const char *path)
 {
     struct stat status;
     if (stat(path, &status) != 0)
-        throw Failure(errno == ENOENT ? RETEX_ENOTFOUND : RETEX_EIO, std::string("cannot read: ") + std::strerror(errno));
+        throw Failure(RETEX_EIO, std::string("cannot read: ") + std::strerror(errno));
     if (S_ISDIR(status.st_mode))
         throw Failure(RETEX_EIO, "cannot read: it is a folder");
     if (S_ISREG(status.st_mode) && status.st_size == 0)

@@ -26,7 +26,7 @@ typedef int Int4 __attribute__((vector_size(16)));
 #define WINDOW_REACH 3.0f
 #define WINDOW_EDGE 0.011108997f     /* exp(-3^2 / 2) */
 #define WINDOW_VARIANCE 0.917808f    /* of the lowered window, relative to the Gaussian it was made of */
-#define TAP_BUDGET 400               /* a look-up; longer footprints skip texels along their length */
+#define TAP_BUDGET 1000              /* a look-up; longer footprints skip texels along their length */
 #define MAX_TAPS 512                 /* along one axis */
 
 static inline Float4 load4(const float *p)
@@ -69,16 +69,28 @@ static inline int wrap_index(int i, int n, RetexWrap wrap)
     return i < 0 ? -1 : n;
 }
 
+/* A footprint of less than a texel on an axis that ends in black: the border is sharp there, as for the point look-up. The
+ * border's texels go on outside, and the result is weighted by how much of the footprint lies within. */
+typedef struct Edges {
+    int sharp[2];
+} Edges;
+#define EDGE_TEXELS ((RetexWrap)(RETEX_WRAP_BLACK + 1)) /* a wrap mode of the kernel's own */
+
+static inline int clamp_index(int i, int n)
+{
+    return i < 0 ? 0 : i >= n ? n - 1 : i;
+}
+
 /* One row of a level, as far as it can be seen: inside texels and what lies to the left and right; NULL = nothing. */
 typedef struct Row {
     const float *texels;
     const float *beside[2];
 } Row;
 
-static inline Row find_row(const RetexTexture *texture, const TextureLevel *level, int y)
+static inline Row find_row(const RetexTexture *texture, const TextureLevel *level, int y, const Edges *edges)
 {
     Row row = {NULL, {NULL, NULL}};
-    int at = wrap_index(y, level->height, texture->spec.wrap[1]);
+    int at = edges->sharp[1] ? clamp_index(y, level->height) : wrap_index(y, level->height, texture->spec.wrap[1]);
     if ((unsigned)at < (unsigned)level->height) {
         row.texels = level->texels + (size_t)at * (size_t)level->width * 4;
         for (int side = 0; side < 2; side++)
@@ -111,7 +123,8 @@ static inline Float4 sum_row(const Row *row, int width, RetexWrap wrap, const fl
         return i < count ? sum + odd + load4(p) * weight[i] : sum + odd;
     }
     for (int i = 0; i < count; i++) {
-        int at = wrap_index(first + i * step, width, wrap);
+        int outside = first + i * step;
+        int at = wrap == EDGE_TEXELS ? clamp_index(outside, width) : wrap_index(outside, width, wrap);
         const float *p = (unsigned)at < (unsigned)width ? row->texels + (size_t)at * 4 : row->beside[at > 0];
         if (p)
             sum += load4(p) * weight[i];
@@ -261,18 +274,16 @@ static inline void limit_taps(Shape *x, Shape *y, const TextureLevel *level, con
         y->step = coprime_step(step, level->height, texture->spec.wrap[1]);
 }
 
-static inline double level_blur(const TextureLevel *level, int axis, double p)
+/* p (1 - p) of blur, averaged over a footprint of that standard deviation (of the axis as 1): on a repeating axis it
+ * tends to its mean, 1/6, about as exp(-2 pi^2 sd^2). */
+static inline double mean_position(double x, double variance, double size, RetexWrap wrap)
 {
-    return level->blur[axis][0] + level->blur[axis][1] * p * (1 - p);
-}
-
-/* Where along an axis of the image, 0..1, a coordinate ends up. */
-static inline double relative_position(double x, double size, RetexWrap wrap)
-{
-    double p = x / size;
+    double p = x / size, damping = 1 + 10 * variance / (size * size);
     if (wrap == RETEX_WRAP_CLAMP || wrap == RETEX_WRAP_BLACK)
-        return p < 0 ? 0 : p > 1 ? 1 : p;
-    return p - floor(p); /* a mirrored image has the same blur at p and 1 - p */
+        p = p < 0 ? 0 : p > 1 ? 1 : p;
+    else
+        p -= floor(p); /* a mirrored image has the same blur at p and 1 - p */
+    return 1.0 / 6 + (p * (1 - p) - 1.0 / 6) / (damping * damping);
 }
 
 /* Covariance that the sum over a level's texels has to supply, in that level's texels. */
@@ -280,11 +291,13 @@ typedef struct Rest {
     double xx, xy, yy;
 } Rest;
 
-static inline Rest level_rest(const TextureLevel *level, const TextureFootprint *f, double px, double py)
+static inline Rest level_rest(const TextureLevel *level, const TextureFootprint *f, const double position[2])
 {
     double sx = level->scale[0], sy = level->scale[1];
-    Rest rest = {(f->xx + TENT_VARIANCE - level_blur(level, 0, px)) / (sx * sx), f->xy / (sx * sy),
-                 (f->yy + TENT_VARIANCE - level_blur(level, 1, py)) / (sy * sy)};
+    double blur_x = level->blur[0][0] + level->blur[0][1] * position[0];
+    double blur_y = level->blur[1][0] + level->blur[1][1] * position[1];
+    Rest rest = {(f->xx + TENT_VARIANCE - blur_x) / (sx * sx), f->xy / (sx * sy),
+                 (f->yy + TENT_VARIANCE - blur_y) / (sy * sy)};
     return rest;
 }
 
@@ -296,9 +309,10 @@ static inline int is_flat(const RetexTexture *texture, int axis)
 }
 
 /* Whether both eigenvalues of what is left to do on a level are at least LEAST_VARIANCE. */
-static inline int level_fits(const RetexTexture *texture, int level, const TextureFootprint *f, double px, double py)
+static inline int level_fits(const RetexTexture *texture, int level, const TextureFootprint *f,
+                             const double position[2])
 {
-    Rest rest = level_rest(&texture->levels[level], f, px, py);
+    Rest rest = level_rest(&texture->levels[level], f, position);
     double x = rest.xx - LEAST_VARIANCE, y = rest.yy - LEAST_VARIANCE;
     if (is_flat(texture, 0))
         return y >= 0;
@@ -308,7 +322,8 @@ static inline int level_fits(const RetexTexture *texture, int level, const Textu
 }
 
 /* The coarsest level that fits; the image itself always does. */
-static inline int find_level(const RetexTexture *texture, const TextureFootprint *f, double px, double py)
+static inline int find_level(const RetexTexture *texture, const TextureFootprint *f,
+                             const double position[2])
 {
     double trace = f->xx + f->yy;
     /* det / trace lies between half the smaller eigenvalue and itself, and a level of s texels wants about 0.43 s^2: a
@@ -317,15 +332,16 @@ static inline int find_level(const RetexTexture *texture, const TextureFootprint
     int level = smaller > 2 ? ilogb(smaller) / 2 : 0;
     if (level > texture->nlevels - 1)
         level = texture->nlevels - 1;
-    while (level > 0 && !level_fits(texture, level, f, px, py))
+    while (level > 0 && !level_fits(texture, level, f, position))
         level--;
-    while (level + 1 < texture->nlevels && level_fits(texture, level + 1, f, px, py))
+    while (level + 1 < texture->nlevels && level_fits(texture, level + 1, f, position))
         level++;
     return level;
 }
 
 /* Sum over a level's texels of a Gaussian with mean (x, y), in texel indices, and covariance rest. */
-static inline Float4 sum_level(const RetexTexture *texture, const TextureLevel *level, float x, float y, Rest rest)
+static inline Float4 sum_level(const RetexTexture *texture, const TextureLevel *level, float x, float y, Rest rest,
+                               const Edges *edges)
 {
     /* Where an axis has one texel that goes on for ever, its marginal is all there is. */
     int flat_x = level->width == 1 && (texture->spec.wrap[0] <= RETEX_WRAP_MIRROR || is_flat(texture, 0));
@@ -351,10 +367,10 @@ static inline Float4 sum_level(const RetexTexture *texture, const TextureLevel *
         int at = rows.first + j * shape_y.step;
         if (!upright)
             make_window(&columns, texture->tail, &shape_x, x + (float)slope * ((float)at - y));
-        Row row = find_row(texture, level, at);
+        Row row = find_row(texture, level, at, edges);
         sum += rows.weight[j] *
-               sum_row(&row, level->width, texture->spec.wrap[0], columns.weight, columns.count, columns.first,
-                       shape_x.step);
+               sum_row(&row, level->width, edges->sharp[0] ? EDGE_TEXELS : texture->spec.wrap[0], columns.weight,
+                       columns.count, columns.first, shape_x.step);
         total += rows.weight[j] * columns.total;
     }
     return sum / total;
@@ -371,16 +387,30 @@ static inline double first_period(double x, int texels, RetexWrap wrap)
     return x < -far ? -far : x > far ? far : x;
 }
 
+/* How much of a Gaussian at x lies within 0..size. */
+static float coverage(double x, double variance, double size)
+{
+    double inverse = variance > 1e-12 ? sqrt(0.5 / variance) : 1e6;
+    return (float)(0.5 * (erf((size - x) * inverse) + erf(x * inverse)));
+}
+
 void texture_gaussian_kernel(const RetexTexture *texture, const TextureFootprint *footprint, float rgba[4])
 {
     const TextureLevel *image = &texture->levels[0];
     double x = first_period(footprint->x, image->width, texture->spec.wrap[0]);
     double y = first_period(footprint->y, image->height, texture->spec.wrap[1]);
-    double px = relative_position(x, image->width, texture->spec.wrap[0]);
-    double py = relative_position(y, image->height, texture->spec.wrap[1]);
-    const TextureLevel *level = &texture->levels[find_level(texture, footprint, px, py)];
-    Rest rest = level_rest(level, footprint, px, py);
-    Float4 sum = sum_level(texture, level, (float)(x / level->scale[0] - 0.5), (float)(y / level->scale[1] - 0.5), rest);
+    double position[2] = {mean_position(x, footprint->xx, image->width, texture->spec.wrap[0]),
+                          mean_position(y, footprint->yy, image->height, texture->spec.wrap[1])};
+    const TextureLevel *level = &texture->levels[find_level(texture, footprint, position)];
+    Rest rest = level_rest(level, footprint, position);
+    Edges edges = {{texture->spec.wrap[0] == RETEX_WRAP_BLACK && rest.xx < TENT_LIMIT,
+                    texture->spec.wrap[1] == RETEX_WRAP_BLACK && rest.yy < TENT_LIMIT}};
+    Float4 sum = sum_level(texture, level, (float)(x / level->scale[0] - 0.5), (float)(y / level->scale[1] - 0.5), rest,
+                           &edges);
+    if (edges.sharp[0])
+        sum *= coverage(x, footprint->xx, image->width);
+    if (edges.sharp[1])
+        sum *= coverage(y, footprint->yy, image->height);
     memcpy(rgba, &sum, sizeof sum);
 }
 
@@ -396,13 +426,10 @@ void texture_point_kernel(const RetexTexture *texture, double x, double y, float
     RetexWrap wrap_y = texture->spec.wrap[1] == RETEX_WRAP_BLACK ? RETEX_WRAP_CLAMP : texture->spec.wrap[1];
     Float4 lines[2];
     int columns[2];
-    for (int i = 0; i < 2; i++) {
-        columns[i] = wrap_index(x0 + i, image->width, wrap_x);
-        columns[i] = columns[i] < 0 ? 0 : columns[i] >= image->width ? image->width - 1 : columns[i];
-    }
+    for (int i = 0; i < 2; i++)
+        columns[i] = clamp_index(wrap_index(x0 + i, image->width, wrap_x), image->width);
     for (int j = 0; j < 2; j++) {
-        int line = wrap_index(y0 + j, image->height, wrap_y);
-        line = line < 0 ? 0 : line >= image->height ? image->height - 1 : line;
+        int line = clamp_index(wrap_index(y0 + j, image->height, wrap_y), image->height);
         const float *row = image->texels + (size_t)line * (size_t)image->width * 4;
         lines[j] = load4(row + (size_t)columns[0] * 4) * (1 - tx) + load4(row + (size_t)columns[1] * 4) * tx;
     }

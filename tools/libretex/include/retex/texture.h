@@ -35,7 +35,7 @@ int retex_texture_spec_parse(RetexTextureSpec *spec, const char *opts, const cha
 
 typedef struct RetexTexture RetexTexture;
 
-/* Load and build the MIP pyramid. RETEX_ENOTFOUND or RETEX_EFORMAT with the file's name where it cannot. */
+/* Load and build the MIP pyramid. RETEX_EIO or RETEX_EFORMAT with the file's name where it cannot. */
 int retex_texture_load(RetexTexture **texture, const RetexTextureSpec *spec, int nthreads, RetexError *err);
 /* A texture from pixels in memory (1, 3 or 4 channels, scene-linear, unassociated alpha; row 0 is the top). Copies. */
 int retex_texture_create(RetexTexture **texture, const RetexImage *image, const RetexTextureSpec *spec /* NULL = plain */,
