@@ -122,7 +122,7 @@ static void object_pattern(Sdl *sdl, SidePigment *pigment, const SideTexture **f
 {
     Rgbft list[2] = {{0, 0, 1, 0, 0}, {0, 1, 0, 0, 0}};
     sdl_expect(sdl, "{");
-    if (!side_accept_object(sdl))
+    if (!side_accept_ident(sdl, VALUE_OBJECT) && !side_accept_object(sdl))
         sdl_expected(sdl, "an object");
     sdl_optional_comma(sdl);
     side_color_list(sdl, list, 2, pigment, first, textures);
@@ -158,7 +158,7 @@ static void averaged_pattern(Sdl *sdl, const struct Pattern *pattern, SidePigmen
 {
     sdl_next(sdl);
     pigment->pigment.kind = PIGMENT_COLOR;
-    pigment->averaged = 1;
+    pigment->averaged = pattern->args == ARGS_AVERAGE ? AVERAGED_BY_WEIGHT : AVERAGED;
     gaps_add(&pigment->gaps, pattern->gap);
     switch (pattern->args) {
     case ARGS_FLOAT: sdl_float(sdl); break;
@@ -196,7 +196,7 @@ int side_accept_pattern(Sdl *sdl, SidePigment *pigment, const SideTexture **firs
         averaged_pattern(sdl, pattern, pigment, first, textures);
         return 1;
     }
-    pigment->averaged = 0;
+    pigment->averaged = AVERAGED_NOT;
     return 1;
 }
 
@@ -225,7 +225,7 @@ static int accept_ignored(Sdl *sdl)
 {
     static const char *const floats[] = {
         "octaves", "omega", "lambda", "agate_turb", "metric", "control0", "control1", "mortar", "noise_generator",
-        "coords", "accuracy", "interpolate", "solid_angle", "blend_mode", NULL
+        "coords", "accuracy", "interpolate", "exponent", "blend_mode", NULL
     };
     static const char *const expressions[] = {"form", "offset", "brick_size", "size", "altitude", NULL};
     static const char *const pairs[] = {"exterior", "interior", NULL};

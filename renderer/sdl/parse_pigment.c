@@ -67,6 +67,17 @@ Rgbft side_map_mean(const ColorMap *map)
     return sum;
 }
 
+static Rgbft weighted_mean(const ColorMap *map)
+{
+    Rgbft sum = {0};
+    double weights = 0;
+    for (int i = 0; i < map->count; i++)
+        weights += map->entries[i].value;
+    for (int i = 0; i < map->count; i++)
+        add(&sum, map->entries[i].color, weights != 0 ? map->entries[i].value / weights : 1.0 / map->count);
+    return sum;
+}
+
 Rgbft side_pigment_mean(const SidePigment *pigment)
 {
     const Pigment *p = &pigment->pigment;
@@ -191,7 +202,7 @@ SideColorMap *side_pigment_map(Sdl *sdl)
     int room = 0;
     side_enter(sdl);
     while (sdl_accept(sdl, "[")) {
-        double value = sdl_float(sdl);
+        double value = side_optional_float(sdl, 1); /* of `average` it may be left out */
         sdl_optional_comma(sdl);
         SidePigment *pigment = side_pigment_body(sdl, (const SidePigment *)side_of(sdl)->default_texture->texture.pigment, ']');
         map_add(sdl, map, &room, value, side_pigment_mean(pigment));
@@ -216,7 +227,7 @@ SideColorMap *side_texture_map(Sdl *sdl)
     side_enter(sdl);
     gaps_add(&map->gaps, GAP_TEXTURE_MAP);
     while (sdl_accept(sdl, "[")) {
-        double value = sdl_float(sdl);
+        double value = side_optional_float(sdl, 1);
         sdl_optional_comma(sdl);
         const SideTexture *texture = side_texture_body(sdl, ']');
         const SidePigment *pigment = (const SidePigment *)side_texture_visible(texture)->texture.pigment;
@@ -256,7 +267,7 @@ static void set_color(SidePigment *pigment, Rgbft color)
 {
     pigment->pigment.kind = PIGMENT_COLOR;
     pigment->pigment.color = color;
-    pigment->averaged = 0;
+    pigment->averaged = AVERAGED_NOT;
 }
 
 static int accept_named(Sdl *sdl, SidePigment *pigment)
@@ -301,7 +312,9 @@ static void pigment_items(Sdl *sdl, SidePigment *pigment, const SideTexture **fi
     while (!sdl_accept(sdl, closing))
         pigment_item(sdl, pigment, first, textures), sdl_optional_comma(sdl);
     side_leave(sdl);
-    if (pigment->averaged)
+    if (pigment->averaged == AVERAGED_BY_WEIGHT)
+        pigment->pigment.color = weighted_mean(&pigment->pigment.map);
+    else if (pigment->averaged)
         pigment->pigment.color = side_map_mean(&pigment->pigment.map);
     else if (pigment->disturbed && pigment->pigment.kind != PIGMENT_COLOR)
         gaps_add(&pigment->gaps, GAP_TURBULENCE);

@@ -65,13 +65,11 @@ void side_plane(Sdl *sdl, Object *object)
 static void about_axis(Sdl *sdl, Object *object, Vec3 from, Vec3 to, double r0, double r1)
 {
     Vec3 axis = vec_sub(to, from), s, t;
-    if (vec_length(axis) < 1e-12)
-        sdl_error(sdl, "a cylinder or cone whose ends are one point");
     object->shape = SHAPE_CONE;
     object->r0 = r0;
     object->r1 = r1;
-    if (r0 == 0 && r1 == 0) {
-        empty(sdl, object, "a cylinder or cone of radius 0");
+    if (vec_length(axis) < 1e-12 || (r0 == 0 && r1 == 0)) {
+        empty(sdl, object, "a cylinder or cone without length or radius");
         return;
     }
     vec_frame(vec_normalize(axis), &s, &t);

@@ -1,6 +1,7 @@
 /* The scene side's entry points: its state, statements at top level, declarations, and the report of what is not
  * supported. */
 #include <string.h>
+#include "sdl/internal.h" /* next_layer alone looks at tokens as they are written */
 #include "sdl/scene_side.h"
 
 #define MAX_NESTING 200
@@ -149,12 +150,20 @@ static int declare_ignored(Sdl *sdl, Value *value)
     return 0;
 }
 
+/* `texture{…} texture{…}` is one value of two layers. Asking for the next token in the usual way would run the directives
+ * in between, and the next #declare may use the very name that is being declared. */
+static int next_layer(Sdl *sdl)
+{
+    const Raw *raw = sdl->have ? NULL : sdl_raw_peek(sdl);
+    return raw && raw->kind == RAW_WORD && strcmp(raw->as.word->text, "texture") == 0 && sdl_accept(sdl, "texture");
+}
+
 static int declare_surface(Sdl *sdl, Value *value)
 {
     Side *side = side_of(sdl);
     if (sdl_accept(sdl, "texture")) {
         const SideTexture *texture = side_texture_block(sdl);
-        while (sdl_accept(sdl, "texture"))
+        while (next_layer(sdl))
             texture = side_texture_over(sdl, side_texture_block(sdl), texture);
         set(value, VALUE_TEXTURE, texture);
     } else if (sdl_accept(sdl, "pigment"))
@@ -296,7 +305,7 @@ void scene_side_statement(Sdl *sdl)
     static const struct { const char *word; void (*parse)(Sdl *sdl); } statements[] = {
         {"camera", statement_camera}, {"global_settings", side_global_settings}, {"background", side_background},
         {"sky_sphere", statement_sky_sphere}, {"fog", statement_fog}, {"rainbow", statement_rainbow},
-        {"media", statement_media},
+        {"media", statement_media}, {"default", scene_side_default} /* old scenes leave out the # */,
     };
     for (size_t i = 0; i < sizeof statements / sizeof *statements; i++)
         if (sdl_accept(sdl, statements[i].word)) {

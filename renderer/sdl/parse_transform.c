@@ -38,8 +38,10 @@ static Transform checked(Sdl *sdl, Transform t)
 {
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 4; j++)
-            if (!isfinite(t.m[i][j]) || !isfinite(t.inverse[i][j]))
-                sdl_error(sdl, "this transform has values that are not finite");
+            if (!isfinite(t.m[i][j]) || !isfinite(t.inverse[i][j])) {
+                sdl_warn(sdl, "a transform with values that are not finite is left out");
+                return transform_identity();
+            }
     return t;
 }
 

@@ -122,9 +122,12 @@ typedef struct SideImage {
     struct SideImage *next;
 } SideImage;
 
+/* A pattern that is not supported becomes the mean of its map, or for `average` of the entries by their weights. */
+typedef enum Averaged { AVERAGED_NOT, AVERAGED, AVERAGED_BY_WEIGHT } Averaged;
+
 typedef struct SidePigment {
     Pigment pigment;         /* first: a Pigment* in the Scene is one of these */
-    int averaged;            /* a pattern that is not supported: kind is a colour, the mean of the map */
+    Averaged averaged;       /* then kind is a colour */
     int disturbed;           /* has turbulence or a warp */
     Gaps gaps;
     struct SidePigment *next; /* all there are */
