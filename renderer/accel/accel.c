@@ -1,11 +1,14 @@
 /* Ray queries through Embree: the only file that knows it. Builds with Embree 3 and 4.
  *
  * Embree works in float; this renderer asks for double positions and for rays that never meet the surface they leave. So
- * Embree only proposes: every triangle it finds is intersected again in double, in a filter function, and refused unless
- * that t lies within the ray's own double range. A ray that starts on a triangle's plane (within the rounding error of the
- * plane's equation) does not meet it, however large the triangle or small the distance to the next one. Curved shapes are
- * user geometry and double throughout. Boxes and meshes are one triangle geometry in world space; planes, which have no
- * bounds, are tested one by one. Visibility by kind of ray is decided in the same place: masks may be missing from Embree. */
+ * Embree only proposes: a filter function refuses every triangle whose distance, in double, lies outside the ray's own
+ * double range (float is asked first, and is enough but for hits near its ends). A ray that starts on a triangle's plane,
+ * within the rounding error of the plane's equation, does not meet it, however large the triangle. Curved shapes are user
+ * geometry and double throughout. Boxes and meshes are one triangle geometry in world space; planes, which have no bounds,
+ * are tested one by one. Visibility by kind of ray is decided in the same places: Embree may be built without masks.
+ *
+ * The scene is ROBUST: it costs a quarter, but without it 6 in 100 rays aimed at an edge between two triangles, and 1 in
+ * 100 000 at random, pass through. */
 #include <float.h>
 #include <stdint.h>
 #include <stdio.h>
@@ -43,6 +46,7 @@ struct Accel {
     unsigned triangle_geometry, curved_geometry;
     unsigned char *flags;      /* of each primitive */
     int has_transparent;
+    double reach;              /* the triangles' largest coordinate */
     Vec3 low, high;
     RetexError error;          /* Embree's first complaint */
 };
@@ -53,6 +57,9 @@ typedef struct Query {
     const Accel *accel;
     const Ray *ray;
     unsigned kind, refused; /* flags a primitive must and must not have */
+    double origin_size;     /* its largest coordinate */
+    float clear_height;     /* a plane further from the origin than this is met for certain, */
+    float clear_start, clear_end; /* and within the range for certain between these */
     double t;               /* of the nearest curved shape so far */
     int face;
 } Query;
@@ -66,16 +73,21 @@ static int visible(const Query *query, int primitive)
 
 /* ---- triangles in double ---- */
 
-static double largest(Vec3 a) { return fmax(fabs(a.x), fmax(fabs(a.y), fabs(a.z))); }
+/* Not fmax, which is a call where infinities have to be kept apart from NaN. */
+static inline double larger(double a, double b) { return a > b ? a : b; }
+static inline double largest(Vec3 a) { return larger(fabs(a.x), larger(fabs(a.y), fabs(a.z))); }
 
 /* Distance to the triangle's plane; 0 where the ray runs along it or starts on it. */
-static int plane_distance(const Accel *accel, size_t triangle, const Ray *ray, double *t)
+static int plane_distance(const Query *query, size_t triangle, double *t)
 {
+    const Accel *accel = query->accel;
+    const Ray *ray = query->ray;
     const uint32_t *corner = accel->corners[triangle];
     Vec3 v0 = accel->vertices[corner[0]], to = vec_sub(v0, ray->origin);
     Vec3 n = vec_cross(vec_sub(accel->vertices[corner[1]], v0), vec_sub(accel->vertices[corner[2]], v0));
     double height = vec_dot(n, to), fall = vec_dot(n, ray->direction);
-    double size = largest(v0) + largest(ray->origin) + largest(to);
+    /* Every coordinate that went into the height is at most this. */
+    double size = 2 * (accel->reach + query->origin_size);
 
     if (fabs(height) <= 8 * DBL_EPSILON * size * (fabs(n.x) + fabs(n.y) + fabs(n.z)) || fall == 0)
         return 0;
@@ -105,16 +117,27 @@ static void barycentrics(const Accel *accel, size_t triangle, const Ray *ray, do
 
 /* ---- callbacks ---- */
 
+/* Most hits are far from all limits, and float is enough to tell. */
+static int clearly_met(const Query *query, const struct RTCRay *ray, const struct RTCHit *hit)
+{
+    float fall = hit->Ng_x * ray->dir_x + hit->Ng_y * ray->dir_y + hit->Ng_z * ray->dir_z, height = ray->tfar * fall;
+    float nn = hit->Ng_x * hit->Ng_x + hit->Ng_y * hit->Ng_y + hit->Ng_z * hit->Ng_z;
+
+    return height * height > query->clear_height * query->clear_height * nn && ray->tfar > query->clear_start &&
+           ray->tfar < query->clear_end;
+}
+
 /* Called for single rays only, so N is 1. */
 static void filter_triangle(const struct RTCFilterFunctionNArguments *args)
 {
     const Query *query = (const Query *)args->context;
-    const Accel *accel = query->accel;
-    unsigned triangle = ((const struct RTCHit *)args->hit)->primID;
+    const struct RTCHit *hit = (const struct RTCHit *)args->hit;
     double t;
 
-    if (!visible(query, accel->triangles[triangle].primitive) || !plane_distance(accel, triangle, query->ray, &t) ||
-        !(t > query->ray->tmin && t < query->ray->tmax))
+    if (!visible(query, query->accel->triangles[hit->primID].primitive))
+        args->valid[0] = 0;
+    else if (!clearly_met(query, (const struct RTCRay *)args->ray, hit) &&
+             !(plane_distance(query, hit->primID, &t) && t > query->ray->tmin && t < query->ray->tmax))
         args->valid[0] = 0;
 }
 
@@ -296,6 +319,7 @@ static int collect_triangles(Accel *accel, RetexError *err)
                 return retex_fail_at(err, RETEX_EINVAL, scene->path, primitive->line, 0,
                                      "vertex %d of this object is not finite", k);
             accel->vertices[base + (size_t)k] = p;
+            accel->reach = larger(accel->reach, largest(p));
         }
         for (int k = 0; k < (mesh ? mesh->nfaces : 12); k++)
             add_triangle(accel, &count, base, mesh ? mesh->faces[k].vertex : box_triangles[k], i, mesh ? k : k / 2);
@@ -429,19 +453,11 @@ void accel_close(Accel **accel)
 /* ---- queries ---- */
 
 /* Embree gets the ray in float with its range widened by what float may be off; the callbacks hold to the double one. */
-static struct RTCRay float_ray(const Ray *ray)
+static struct RTCRay start_query(Query *query, const Accel *accel, const Ray *ray, RayKind kind, int skip_transparent)
 {
-    double slack = FLOAT_DOUBT * largest(ray->origin);
+    double origin_size = largest(ray->origin), doubt_start = FLOAT_DOUBT * (ray->tmin + origin_size);
+    double doubt_end = FLOAT_DOUBT * (ray->tmax + origin_size);
 
-    return (struct RTCRay){
-        .org_x = (float)ray->origin.x, .org_y = (float)ray->origin.y, .org_z = (float)ray->origin.z,
-        .dir_x = (float)ray->direction.x, .dir_y = (float)ray->direction.y, .dir_z = (float)ray->direction.z,
-        .tnear = (float)fmax(0, ray->tmin * (1 - FLOAT_DOUBT) - slack), .tfar = (float)(ray->tmax * (1 + FLOAT_DOUBT) + slack),
-        .mask = 0xffffffffu};
-}
-
-static void start_query(Query *query, const Accel *accel, const Ray *ray, RayKind kind, int skip_transparent)
-{
 #if defined(RETEX_EMBREE4)
     rtcInitRayQueryContext(&query->context);
 #else
@@ -452,8 +468,17 @@ static void start_query(Query *query, const Accel *accel, const Ray *ray, RayKin
     query->ray = ray;
     query->kind = (unsigned)kind;
     query->refused = skip_transparent ? TRANSPARENT : 0;
+    query->origin_size = origin_size;
+    /* Float is off by about 1e-7 of the coordinates: at this height, by FLOAT_DOUBT of the distance at the most. */
+    query->clear_height = (float)(1e-4 * (accel->reach + origin_size));
+    query->clear_start = (float)(ray->tmin > 0 ? ray->tmin + doubt_start : 0);
+    query->clear_end = ray->tmax < INFINITY ? (float)(ray->tmax - doubt_end) : INFINITY;
     query->t = INFINITY;
     query->face = 0;
+    return (struct RTCRay){
+        .org_x = (float)ray->origin.x, .org_y = (float)ray->origin.y, .org_z = (float)ray->origin.z,
+        .dir_x = (float)ray->direction.x, .dir_y = (float)ray->direction.y, .dir_z = (float)ray->direction.z,
+        .tnear = (float)larger(0, ray->tmin - doubt_start), .tfar = (float)(ray->tmax + doubt_end), .mask = 0xffffffffu};
 }
 
 static void trace(Query *query, struct RTCRayHit *rayhit)
@@ -506,20 +531,20 @@ static int nearest_plane(const Query *query, double *limit, int any)
 int accel_intersect(const Accel *accel, const Ray *ray, RayKind kind, Hit *hit)
 {
     Query query;
-    struct RTCRayHit rayhit = {.ray = float_ray(ray)};
+    struct RTCRayHit rayhit;
     double limit = ray->tmax;
     int plane;
 
     *hit = (Hit){.primitive = -1};
+    rayhit.ray = start_query(&query, accel, ray, kind, 0);
     rayhit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     rayhit.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-    start_query(&query, accel, ray, kind, 0);
     trace(&query, &rayhit);
     if (rayhit.hit.geomID != RTC_INVALID_GEOMETRY_ID) {
         unsigned index = rayhit.hit.primID;
         if (rayhit.hit.geomID == accel->curved_geometry) {
             *hit = (Hit){.t = query.t, .primitive = accel->curved[index], .face = query.face};
-        } else if (plane_distance(accel, index, ray, &hit->t)) {
+        } else if (plane_distance(&query, index, &hit->t)) {
             hit->primitive = accel->triangles[index].primitive;
             hit->face = accel->triangles[index].face;
             barycentrics(accel, index, ray, hit->t, hit);
@@ -536,10 +561,9 @@ int accel_intersect(const Accel *accel, const Ray *ray, RayKind kind, Hit *hit)
 int accel_occluded(const Accel *accel, const Ray *ray, RayKind kind, int skip_transparent)
 {
     Query query;
-    struct RTCRay occluded = float_ray(ray);
+    struct RTCRay occluded = start_query(&query, accel, ray, kind, skip_transparent);
     double limit = ray->tmax;
 
-    start_query(&query, accel, ray, kind, skip_transparent);
     if (accel->nplanes && nearest_plane(&query, &limit, 1) >= 0)
         return 1;
     trace_occluded(&query, &occluded);

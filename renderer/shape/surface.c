@@ -114,10 +114,13 @@ void surface_from_point(Surface *surface, const Primitive *primitive, int face, 
     surface->target = of_mesh >= 0 && primitive->face_targets ? primitive->face_targets[of_mesh] : primitive->target;
     surface->position = transform_point(t, point->p);
     surface->geometric_normal = vec_scale(vec_normalize(transform_normal(t, point->normal)), sign);
-    surface->shading_normal = vec_scale(vec_normalize(transform_normal(t, point->shading)), sign);
-    /* A shear may tip the interpolated normal over the face's. */
-    if (vec_dot(surface->shading_normal, surface->geometric_normal) <= 0)
-        surface->shading_normal = surface->geometric_normal;
+    surface->shading_normal = surface->geometric_normal;
+    if (primitive->kind == SHAPE_MESH) {
+        Vec3 shading = vec_scale(vec_normalize(transform_normal(t, point->shading)), sign);
+        /* A shear may tip the interpolated normal over the face's. */
+        if (vec_dot(shading, surface->geometric_normal) > 0)
+            surface->shading_normal = shading;
+    }
     surface->backside = 0;
     surface->uv = point->has_uv ? point->uv : (Vec2){surface->position.x, surface->position.y};
     surface->natural = point->has_natural ? point->natural : (Vec2){0, 0};
