@@ -17,11 +17,11 @@ global_settings {
 #include "shapes.inc"
 
 camera {
-  location <-1.25, 1.38, -3.35>
+  location <-0.75, 1.32, -2.95>
   right x * 16/9
   up y
-  angle 64
-  look_at <0.22, 0.86, 1>
+  angle 70
+  look_at <-0.14, 0.86, 1>
 }
 
 // ---- materials ----
@@ -40,7 +40,10 @@ camera {
 }
 // One metre a repeat, by the wall's own coordinates.
 #declare Wall = texture {
-  pigment { uv_mapping image_map { jpeg "textures/linen.jpg" interpolate 2 } }
+  pigment {
+    uv_mapping
+    image_map { jpeg "textures/linen.jpg" interpolate 2 }
+  }
 }
 
 #declare Paint   = texture { pigment { rgb <0.74, 0.72, 0.68> } }
@@ -158,11 +161,7 @@ Window(Window_At[1])
 
 // Skirting boards.
 #macro Skirting(From, To)
-  union {
-    box { From, To + 0.10 * y }
-    box { From + 0.1 * y, To + 0.115 * y scale <1, 1, 1> }
-    texture { Trim }
-  }
+  box { From, To + 0.11 * y texture { Trim } }
 #end
 object { Skirting(<Left, 0, Back - 0.018>, <Right, 0, Back>) }
 object { Skirting(<Right - 0.018, 0, Front>, <Right, 0, Back>) }
@@ -218,11 +217,11 @@ union {
 }
 
 // The armchair, turned to the table.
-object { Sofa(1.02, 1) rotate y * 68 translate <1.75, 0, 0.35> }
+object { Sofa(1.02, 1) rotate y * 68 translate <1.62, 0, 0.42> }
 
 // ---- the rug and the table ----
 
-#declare Rug_Size = <2.7, 0.012, 1.8>;
+#declare Rug_Size = <2.4, 0.012, 1.6>;
 box {
   <0, 0, 0>, <1, 1, 1>
   texture { pigment { image_map { jpeg "textures/rug.jpg" interpolate 2 } rotate x * 90 } }
@@ -262,9 +261,9 @@ box {
 union {
   object { Table }
   union {
-    object { Carafe material { Blue_Glass } translate <-0.28, 0, 0.06> }
-    object { Tumbler material { Glass } translate <-0.13, 0, -0.06> }
-    object { Tumbler material { Glass } translate <-0.34, 0, -0.14> }
+    object { Carafe material { Blue_Glass } scale 1.25 translate <-0.30, 0, 0.08> }
+    object { Tumbler material { Glass } scale 1.15 translate <-0.12, 0, -0.05> }
+    object { Tumbler material { Glass } scale 1.15 translate <-0.36, 0, -0.15> }
     object { Bowl Glazed(<0.72, 0.70, 0.64>) translate <0.14, 0, 0.07> }
     sphere { <0.115, 0.063, 0.075>, 0.037 Glazed(<0.72, 0.26, 0.03>) }
     sphere { <0.185, 0.062, 0.055>, 0.035 Glazed(<0.66, 0.30, 0.03>) }
