@@ -1,5 +1,5 @@
-/* Input files: regular ones are read by position as needed, everything else is spooled into memory first, because an EXR
- * cannot be read from front to back only. A mapping would save a copy but turns a file that shrinks under us into a
+/* Input files: regular ones are read by position as needed, everything else is spooled into memory first, because an
+ * EXR cannot be read from front to back only. A mapping would save a copy but turns a file that shrinks under us into a
  * crash. */
 #include <errno.h>
 #include <fcntl.h>

@@ -226,7 +226,8 @@ int retex_manifest_write(const RetexSet *set, const RetexSamples *samples, const
         write_set(root, set, &finite);
     if (root && samples)
         json_object_set_new(root, "samples", write_samples(samples, sample_parts));
-    char *dumped = root && finite ? json_dumps(root, JSON_COMPACT | JSON_PRESERVE_ORDER | JSON_REAL_PRECISION(17)) : NULL;
+    const size_t style = JSON_COMPACT | JSON_PRESERVE_ORDER | JSON_REAL_PRECISION(17);
+    char *dumped = root && finite ? json_dumps(root, style) : NULL;
     json_decref(root);
     if (!finite)
         return retex_fail(err, RETEX_EINVAL, "the set's description has a number that is infinite or NaN");

@@ -1,6 +1,6 @@
-/* The manifest, read back. Every reference is resolved and every count, size and name checked here, so that nobody after
- * this has to: a RetexSet that exists is consistent. Keys that are not known are skipped: a later version may add some.
- */
+/* The manifest, read back. Every reference is resolved and every count, size and name checked here, so that nobody
+ * after this has to: a RetexSet that exists is consistent. Keys that are not known are skipped: a later version may
+ * add some. */
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>

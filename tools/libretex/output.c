@@ -1,8 +1,9 @@
 /* Output files: what is at a path is either the old file or the whole new one, never a part of it.
  *
  * The file is made without a name (O_TMPFILE) where the file system allows it, so that even a killed process leaves
- * nothing behind; elsewhere under a hidden name in the same folder. Both end in a rename, which replaces the old file in
- * one step. Every error the system may report, the last close included, is looked at: that is where a full disk shows. */
+ * nothing behind; elsewhere under a hidden name in the same folder. Both end in a rename, which replaces the old file
+ * in one step. Every error the system may report, the last close included, is looked at: that is where a full disk
+ * shows. */
 #include <errno.h>
 #include <fcntl.h>
 #include <limits.h>
