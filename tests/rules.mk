@@ -30,12 +30,13 @@ $(BUILD)/tests/bin/%: $(BUILD)/obj/tests/lib/%.o $(LIBTEST) $(LIBRETEX) | $(BRID
 unit-tests: $(UNIT_TESTS:%=$(BUILD)/tests/unit/%)
 tests: $(TEST_PROGRAMS) unit-tests all
 
-# Suites are run by tests/lib/check, which adds up what they report.
+# Suites are run by tests/lib/check.sh, which adds up what they report.
+SUITES ?= unit cli man golden fidelity
 RUN_CHECK = BUILD=$(BUILD) JOBS=$(JOBS) tests/lib/check.sh
 check: tests
-	@$(RUN_CHECK) unit cli man golden fidelity
+	@$(RUN_CHECK) $(SUITES)
 check-all: tests
-	@$(RUN_CHECK) --all unit cli man golden fidelity
+	@$(RUN_CHECK) --all $(SUITES)
 check-unit check-cli check-man check-golden check-fidelity: tests
 	@$(RUN_CHECK) $(@:check-%=%)
 check-update: tests
@@ -44,7 +45,7 @@ check-update: tests
 SANITIZED = CFLAGS='-O1 -g -fno-omit-frame-pointer -fsanitize=$(1)' CXXFLAGS='-O1 -g -fsanitize=$(1)' \
 	LDFLAGS='-fsanitize=$(1)'
 asan:
-	$(MAKE) BUILD=$(BUILD)/asan $(call SANITIZED,address$(comma)undefined -fno-sanitize-recover=undefined) check-unit check-cli
+	$(MAKE) BUILD=$(BUILD)/asan $(call SANITIZED,address$(comma)undefined -fno-sanitize-recover=undefined) SUITES='unit cli' check
 tsan:
-	$(MAKE) BUILD=$(BUILD)/tsan $(call SANITIZED,thread) check-unit check-cli
+	$(MAKE) BUILD=$(BUILD)/tsan $(call SANITIZED,thread) SUITES='unit cli' check
 comma := ,

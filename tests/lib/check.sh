@@ -4,7 +4,7 @@
 # Every test program prints TAP (`ok N - name`, `not ok N - name`, `ok N - name # SKIP why`, a plan `1..N`) and is one
 # job of a suite; JOBS of them run at a time. A job that ends badly without a failed test, reports fewer results than
 # its plan or none at all is one failure more. Failures and skips are printed with the job's output about them; the
-# whole output stays in $BUILD/tests/log/. The last line is `N passed, M failed, K skipped`; exit 1 after a failure.
+# whole output stays in $BUILD/tests/log/SUITES/. The last line is `N passed, M failed, K skipped`; exit 1 after a failure.
 #
 # CI=true: a skip is a failure unless the job's name is listed in tests/lib/may-skip.
 set -u
@@ -12,7 +12,7 @@ BUILD=${BUILD:-build}
 JOBS=${JOBS:-2}
 all=
 [ "${1-}" != --all ] || { all=all; shift; }
-logs=$BUILD/tests/log
+logs=$BUILD/tests/log/$(echo "$*" | tr ' ' -)
 rm -rf "$logs"
 mkdir -p "$logs"
 
@@ -29,8 +29,10 @@ jobs_of() {
     golden) for t in tests/golden/*/; do
             [ ! -e "$t/command" ] || { t=${t%/}; echo "golden/${t##*/} tests/lib/golden.sh $t"; }
         done ;;
-    fidelity) for t in tests/fidelity/*.t ${all:+tests/fidelity/*.long}; do
-            [ ! -e "$t" ] || { t=${t##*/}; echo "fidelity/$t tests/lib/case.sh fidelity $t"; }
+    fidelity) for t in tests/fidelity/*.sh; do
+            case $t in *'*'*) continue ;; *-long.sh) [ -n "$all" ] || continue ;; esac
+            t=${t##*/}
+            echo "fidelity/${t%.sh} sh tests/fidelity/$t"
         done ;;
     esac
 }

@@ -374,7 +374,15 @@ static int all_zero(const RetexPart *part)
     return 1;
 }
 
-int retex_pack_encode(RetexPacked *packed, const RetexPart *part, RetexPackCodec wanted, int quality, RetexError *err)
+double retex_pack_mean(const RetexImage *im)
+{
+    RetexPart part = {.image = *im};
+    double mean = 0, max = 0;
+    return im->channels == 3 && radiance_range(&part, &mean, &max) ? mean : 0;
+}
+
+int retex_pack_encode(RetexPacked *packed, const RetexPart *part, RetexPackCodec wanted, int quality, double mean,
+                      RetexError *err)
 {
     memset(packed, 0, sizeof *packed);
     int code = stored_crc(&packed->crc, part, err);
@@ -384,13 +392,13 @@ int retex_pack_encode(RetexPacked *packed, const RetexPart *part, RetexPackCodec
         packed->codec = RETEX_PACK_ZERO;
         return 0;
     }
-    double mean = 0, max = 0;
+    double own_mean = 0, max = 0;
     int lossy = wanted == RETEX_PACK_LOG || wanted == RETEX_PACK_SRGB;
     int fits = part->image.channels == 3 && part->image.width <= JPEG_SIDE_MAX && part->image.height <= JPEG_SIDE_MAX;
-    if (!lossy || !fits || !radiance_range(part, &mean, &max))
+    if (!lossy || !fits || !radiance_range(part, &own_mean, &max))
         return encode_planes(packed, part, err);
     packed->codec = wanted == RETEX_PACK_SRGB && max <= 1 ? RETEX_PACK_SRGB : RETEX_PACK_LOG;
-    packed->scale = mean / 32;
+    packed->scale = fmax(own_mean, mean) / 32;
     packed->max = max;
     code = encode_jpeg(packed, part, quality, err);
     if (code)

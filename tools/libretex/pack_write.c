@@ -20,8 +20,10 @@
 typedef struct Item {
     const RetexPart *part;
     const RetexImage *spread; /* of a footprint's UV part that may be snapped; else NULL */
+    int is_spread;            /* standard deviations, which may be rounded */
     RetexPackCodec wanted;
     int quality, code;
+    double mean; /* see retex_pack_encode */
     RetexPacked packed;
     RetexError err;
 } Item;
@@ -44,34 +46,68 @@ static void choose_codecs(Item *items, const RetexSet *set, const RetexPackParam
     }
     if (params->lossless)
         return;
+    double mean = set->nparts > 0 ? retex_pack_mean(&set->parts[0].image) : 0;
     want(items, set->nparts > 0 ? 0 : -1, RETEX_PACK_LOG);
-    for (int i = 0; i < set->nterms; i++)
+    for (int i = 0; i < set->nterms; i++) {
         want(items, set->terms[i].radiance, RETEX_PACK_LOG);
+        items[set->terms[i].radiance].mean = mean;
+    }
     for (int i = 0; i < set->ntargets; i++)
         want(items, set->targets[i].original, RETEX_PACK_SRGB);
     for (int i = 0; i < set->nfootprints; i++) {
         const RetexFootprint *f = &set->footprints[i];
         want(items, f->albedo, RETEX_PACK_SRGB);
-        if (f->uv >= 0 && f->spread >= 0)
+        if (f->uv >= 0 && f->spread >= 0) {
             items[f->uv].spread = &set->parts[f->spread].image;
+            items[f->spread].is_spread = 1;
+        }
     }
 }
 
-/* Round u and v to a power of two below a sixteenth of their standard deviation: 1/32 of a footprint's width is far
- * below what filtering a texture over it can show, and the bits of noise below cost most of a pack. */
-static int snap_uv(RetexImage *snapped, const RetexImage *uv, const RetexImage *spread, RetexError *err)
+/* Round u and v to a power of two below an eighth of their standard deviation: 1/16 of a footprint's width is far below
+ * what filtering a texture over it can show, and the bits of noise below cost most of a pack. */
+static void snap_uv(RetexImage *uv, const RetexImage *spread)
 {
     const double finest = ldexp(1, -18); /* 1/64 texel of a 4K texture */
-    int code = retex_image_copy(snapped, uv, err);
-    size_t pixels = code ? 0 : (size_t)uv->width * (size_t)uv->height;
-    for (size_t i = 0; i < pixels; i++)
+    for (size_t i = 0; i < (size_t)uv->width * (size_t)uv->height; i++)
         for (size_t c = 0; c < 2; c++) {
             double sigma = (double)spread->pixels[2 * i + c], value = (double)uv->pixels[3 * i + c];
-            double step = sigma > 0 && isfinite(sigma) ? fmax(exp2(floor(log2(sigma / 16))), finest) : finest;
+            double step = sigma > 0 && isfinite(sigma) ? fmax(exp2(floor(log2(sigma / 8))), finest) : finest;
             if (isfinite(value))
-                snapped->pixels[3 * i + c] = (float)(rint(value / step) * step);
+                uv->pixels[3 * i + c] = (float)(rint(value / step) * step);
         }
-    return code;
+}
+
+/* Round standard deviations to five significant bits: to within 3%. */
+static void round_spread(RetexImage *spread)
+{
+    for (size_t i = 0; i < 2 * (size_t)spread->width * (size_t)spread->height; i++) {
+        int exponent;
+        double fraction = frexp((double)spread->pixels[i], &exponent);
+        if (isfinite(fraction))
+            spread->pixels[i] = (float)ldexp(rint(fraction * 32) / 32, exponent);
+    }
+}
+
+/* What is far below seeing is removed from a footprint's part before it is encoded without loss. *changed gets the
+ * copy. */
+static int simplify(RetexPart *part, const Item *item, RetexImage *changed, RetexError *err)
+{
+    RetexImage *im = &part->image;
+    const RetexImage *spread = item->spread;
+    int snap = spread && part->type == RETEX_FLOAT && im->channels == 3 && spread->channels == 2 &&
+               spread->width == im->width && spread->height == im->height;
+    if (!snap && !(item->is_spread && im->channels == 2))
+        return 0;
+    int code = retex_image_copy(changed, im, err);
+    if (code)
+        return code;
+    if (snap)
+        snap_uv(changed, spread);
+    else
+        round_spread(changed);
+    *im = *changed;
+    return 0;
 }
 
 static void encode_item(void *context, int index, int thread)
@@ -79,16 +115,11 @@ static void encode_item(void *context, int index, int thread)
     (void)thread;
     Item *item = (Item *)context + index;
     RetexPart part = *item->part;
-    RetexImage snapped = {0};
-    const RetexImage *spread = item->spread, *uv = &part.image;
-    if (spread && uv->channels == 3 && spread->channels == 2 && spread->width == uv->width &&
-        spread->height == uv->height && part.type == RETEX_FLOAT) {
-        item->code = snap_uv(&snapped, uv, spread, &item->err);
-        part.image = snapped;
-    }
+    RetexImage changed = {0};
+    item->code = simplify(&part, item, &changed, &item->err);
     if (!item->code)
-        item->code = retex_pack_encode(&item->packed, &part, item->wanted, item->quality, &item->err);
-    retex_image_free(&snapped);
+        item->code = retex_pack_encode(&item->packed, &part, item->wanted, item->quality, item->mean, &item->err);
+    retex_image_free(&changed);
 }
 
 /* --- the manifest --- */

@@ -1,4 +1,5 @@
-/* Packing: a set as one small file, `.retex`: a zip with the manifest, radiance as JPEG and footprints lossless. */
+/* Packing: a set as one small file, `.retex`: a zip with the manifest, radiance and albedo as JPEG, and
+ * footprints rounded to far below what can be seen. See retex-pack(5). */
 #ifndef RETEX_PACK_H
 #define RETEX_PACK_H
 
@@ -11,11 +12,11 @@ extern "C" {
 /* Begin with RETEX_PACK_INIT. */
 typedef struct RetexPackParams {
     size_t size;
-    int quality;   /* of the JPEGs, 1..100; default 95 */
+    int quality;   /* of the JPEGs, 1..100; default 98 */
     int lossless;  /* 1: every part keeps its stored bits; default 0 */
     int nthreads;  /* 0 = all cores */
 } RetexPackParams;
-#define RETEX_PACK_INIT { sizeof(RetexPackParams), 95, 0, 0 }
+#define RETEX_PACK_INIT { sizeof(RetexPackParams), 98, 0, 0 }
 
 /* Write set as a pack; "-" is standard output. *bytes (may be NULL) gets the pack's size. */
 int retex_pack_write(const RetexSet *set, const char *path, const RetexPackParams *params /* NULL = defaults */,
