@@ -167,7 +167,7 @@ static void check_part(RetexExr *exr, const RetexExrPart *part, int index, int t
     assert_true(width == part->image->width && height == part->image->height);
     test_must(retex_image_alloc(&image, width, height, part->image->channels, &err), &err);
     for (int c = 0; part->letters[c]; c++)
-        snprintf(request.channels[c], RETEX_EXR_NAME_MAX, "%s%s%c", index ? part->name : "", index ? "." : "",
+        snprintf(request.channels[c], RETEX_EXR_NAME_MAX, "%.180s%s%c", index ? part->name : "", index ? "." : "",
                  part->letters[c]);
     test_must(retex_exr_read(exr, &request, 1, threads, &err), &err);
     for (int i = 0; i < width * height * image.channels; i++) {

@@ -1,8 +1,8 @@
 /* Reading flat EXR parts, by channel name, on all threads.
  *
  * OpenEXRCore parses headers and finds chunks; uncompressed and ZIP chunks, all that sets are made of, are decoded
- * here, the other compressions by Core. Nothing in a file is believed: sizes are checked against what the header promises, a
- * chunk must fill its place exactly, and the first thing that is wrong ends the reading. */
+ * here, the other compressions by Core. Nothing in a file is believed: sizes are checked against what the header
+ * promises, a chunk must fill its place exactly, and the first thing that is wrong ends the reading. */
 #include <errno.h>
 #include <stdatomic.h>
 #include <stdio.h>
