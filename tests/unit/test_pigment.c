@@ -1,0 +1,229 @@
+/* Pigments, against values read from POV-Ray's own pictures, and the UVs of targets. */
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <setjmp.h>
+#include <string.h>
+#include <cmocka.h>
+#include "shade/pigment.h"
+
+static const Vec2 nowhere = {0, 0};
+
+static Pigment pigment(PigmentKind kind)
+{
+    return (Pigment){.kind = kind, .frequency = 1, .wave_exponent = 1, .gradient = {1, 0, 0}, .transform = transform_identity(),
+                     .checker = {{1, 0, 0, 0, 0}, {0, 1, 0, 0, 0}}};
+}
+
+static double value(const Pigment *p, double x, double y)
+{
+    return pigment_eval(p, vec3(x, y, 0), nowhere).r;
+}
+
+static void assert_near(double a, double b) { assert_true(fabs(a - b) < 2e-4); }
+
+/* Pixels of POV-Ray 3.7 at x = -2.95 and 2.65, y = .75. */
+static void gradients_are_povray(void **state)
+{
+    const struct {
+        Vec3 gradient;
+        double frequency, phase;
+        WaveKind wave;
+        double at[2]; /* -2.95, 2.65 */
+    } cases[] = {
+        {{1, 0, 0}, 1, 0, WAVE_RAMP, {0.05, 0.65}},         {{2, 0, 0}, 1, 0, WAVE_RAMP, {0.05, 0.65}},
+        {{1, 1, 0}, 1, 0, WAVE_RAMP, {0.4444, 0.4042}},     {{1, 0, 0}, 3, 0.25, WAVE_RAMP, {0.4001, 0.2000}},
+        {{1, 0, 0}, 1, 0, WAVE_SINE, {0.6546, 0.0955}},     {{1, 0, 0}, 1, 0, WAVE_TRIANGLE, {0.1, 0.7}},
+        {{1, 0, 0}, 1, 0, WAVE_SCALLOP, {0.1565, 0.8910}},  {{1, 0, 0}, 1, 0, WAVE_CUBIC, {0.0073, 0.7183}},
+        {{1, 0, 0}, 1, 0, WAVE_POLY, {0.0025, 0.4225}},     {{1, 0, 0}, -1, 0.1, WAVE_RAMP, {0.05, 0.45}},
+        {{1, 0, 0}, 0, 0.1, WAVE_RAMP, {0.05, 0.65}},       {{-1, 0, 0}, 1, 0, WAVE_RAMP, {0.95, 0.35}},
+        {{1, 0, 0}, 50, 0, WAVE_RAMP, {0.5015, 0.4997}},
+    };
+
+    (void)state;
+    for (size_t i = 0; i < sizeof(cases) / sizeof(cases[0]); i++) {
+        Pigment p = pigment(PIGMENT_GRADIENT);
+        p.gradient = cases[i].gradient;
+        p.frequency = cases[i].frequency;
+        p.phase = cases[i].phase;
+        p.wave = cases[i].wave;
+        p.wave_exponent = 2;
+        assert_near(value(&p, -2.95, 0.75), cases[i].at[0]);
+        assert_near(value(&p, 2.65, 0.75), cases[i].at[1]);
+    }
+}
+
+static void color_maps(void **state)
+{
+    ColorMapEntry entries[] = {{0.2, {1, 0, 0, 0, 0}}, {0.5, {0, 0, 0, 0, 0}}, {0.5, {0.5f, 0, 0, 0, 0.2f}}, {0.7, {1, 1, 1, 0, 0}}};
+    Pigment p = pigment(PIGMENT_GRADIENT);
+
+    (void)state;
+    p.map = (ColorMap){4, entries};
+    assert_near(value(&p, 0.1, 0), 1);
+    assert_near(value(&p, 0.35, 0), 0.5);
+    assert_near(value(&p, 0.5, 0), 0);
+    assert_near(value(&p, 0.6, 0), 0.75);
+    assert_near(pigment_eval(&p, vec3(0.6, 0, 0), nowhere).transmit, 0.1);
+    assert_near(value(&p, 0.9, 0), 1);
+    assert_false(pigment_is_opaque(&p));
+    assert_false(pigment_is_constant(&p));
+    p.map.count = 1;
+    assert_true(pigment_is_constant(&p));
+    assert_true(pigment_is_opaque(&p));
+}
+
+static void checkers(void **state)
+{
+    Pigment p = pigment(PIGMENT_CHECKER);
+
+    (void)state;
+    assert_true(value(&p, 0.5, 0.5) == 1 && value(&p, 1.5, 0.5) == 0 && value(&p, -0.5, 0.5) == 0 && value(&p, -0.5, -0.5) == 1);
+    /* a hair below a boundary counts as beyond it, so that a plane through one does not speckle */
+    assert_true(value(&p, 1 - 0.5e-10, 0.5) == 0 && value(&p, 1 - 2e-10, 0.5) == 1);
+    p.transform = transform_then(transform_scale(vec3(2, 2, 2)), transform_translate(vec3(1, 0, 0)));
+    assert_true(value(&p, 2.9, 0.5) == 1 && value(&p, 3.1, 0.5) == 0);
+    p.uv_mapping = 1;
+    p.transform = transform_scale(vec3(0.5, 0.5, 1));
+    assert_true(pigment_eval(&p, vec3(9, 9, 9), (Vec2){0.75, 0.25}).g == 1);
+    assert_false(pigment_is_constant(&p));
+    p.checker[1].filter = 0.5f;
+    assert_false(pigment_is_opaque(&p));
+    p.checker[0] = p.checker[1];
+    assert_true(pigment_is_constant(&p));
+}
+
+/* ---- images ---- */
+
+#define WIDTH 4
+#define HEIGHT 2
+
+/* Texel (x, y) from the top left has red x / 4, green y / 2, alpha 1 or, at its right half, .25. */
+static ImageMap image_map(MapType type)
+{
+    float pixels[WIDTH * HEIGHT * 4];
+    RetexImage image = {WIDTH, HEIGHT, 4, pixels};
+    ImageMap map = {.width = WIDTH, .height = HEIGHT, .map_type = type};
+
+    for (int i = 0; i < WIDTH * HEIGHT; i++) {
+        float texel[4] = {(float)(i % WIDTH) / WIDTH, (float)(i / WIDTH) / HEIGHT, 0.5f, i % WIDTH < 2 ? 1 : 0.25f};
+        memcpy(pixels + 4 * i, texel, sizeof(texel));
+    }
+    assert_int_equal(retex_texture_create(&map.texture, &image, NULL, NULL), 0);
+    return map;
+}
+
+static void images_are_povray(void **state)
+{
+    ImageMap map = image_map(MAP_PLANAR);
+    Pigment p = pigment(PIGMENT_IMAGE);
+    Rgbft c;
+
+    (void)state;
+    p.image = &map;
+    c = pigment_eval(&p, vec3(0.3, 0.2, 7), nowhere); /* lower row, second texel */
+    assert_true(c.r == 0.25f && c.g == 0.5f && c.filter == 0 && c.transmit == 0);
+    c = pigment_eval(&p, vec3(-0.2, 1.9, 0), nowhere); /* repeats */
+    assert_true(c.r == 0.75f && c.g == 0);
+    assert_true(pigment_is_opaque(&p));
+    map.has_alpha = 1;
+    c = pigment_eval(&p, vec3(0.8, 0.2, 0), nowhere);
+    assert_true(c.r == 0.75f && c.transmit == 0.75f);
+    map.filter_all = 0.25f;
+    map.transmit_all = 0.125f;
+    c = pigment_eval(&p, vec3(0.8, 0.2, 0), nowhere);
+    assert_true(c.filter == 0.25f && c.transmit == 0.875f);
+    assert_false(pigment_is_opaque(&p));
+    map.has_alpha = 0;
+    map.interpolate = 2;
+    assert_near(value(&p, 0.25, 0.25), 0.125);
+    assert_near(value(&p, 0, 0.25), 0.15); /* wraps round; colours weigh by their alpha */
+    map.once = 1;
+    assert_true(pigment_eval(&p, vec3(1.1, 0.5, 0), nowhere).transmit == 1);
+    assert_true(pigment_eval(&p, vec3(0.9, 0.5, 0), nowhere).transmit == 0.125f);
+    retex_texture_close(&map.texture);
+}
+
+static void assert_uv(Vec2 uv, double u, double v)
+{
+    assert_near(uv.u, u);
+    assert_near(uv.v, v);
+}
+
+static void projections(void **state)
+{
+    ImageMap map = {.map_type = MAP_SPHERICAL};
+
+    (void)state;
+    assert_uv(pigment_image_uv(&map, vec3(0, 0, -3)), 0.75, 0.5);
+    assert_uv(pigment_image_uv(&map, vec3(2, 2, 0)), 0, 0.75);
+    assert_uv(pigment_image_uv(&map, vec3(0, -1, 0)), 0, 0);
+    map.map_type = MAP_CYLINDRICAL;
+    assert_uv(pigment_image_uv(&map, vec3(0, 1.2, 5)), 0.25, 1.2);
+    map.map_type = MAP_TORUS;
+    assert_uv(pigment_image_uv(&map, vec3(-1.5, 0, 0)), 0.5, 0.5);
+    assert_uv(pigment_image_uv(&map, vec3(0, 0.5, 1)), 0.25, 0.75);
+}
+
+/* ---- targets ---- */
+
+static void target_uvs(void **state)
+{
+    ImageMap map = {.map_type = MAP_CYLINDRICAL};
+    Pigment p = pigment(PIGMENT_COLOR);
+    Vec2 mapped = {0.5, 0.25}, natural = {0.1, 0.2};
+    Vec3 at = {2, 4, 6};
+
+    (void)state;
+    p.transform = transform_scale(vec3(2, 2, 2));
+    assert_uv(target_uv(&p, at, vec3(1, 0, 0), &mapped, &natural), 0.1, 0.2);
+    assert_uv(target_uv(&p, at, vec3(1, 0.2, 0), &mapped, NULL), 3, 2);
+    assert_uv(target_uv(&p, at, vec3(0, -1, 0), NULL, NULL), 1, 3);
+    assert_uv(target_uv(&p, at, vec3(0, 0.1, 1), NULL, NULL), 1, 2);
+    p.uv_mapping = 1;
+    assert_uv(target_uv(&p, at, vec3(1, 0, 0), &mapped, &natural), 0.25, 0.125);
+    p.uv_mapping = 0;
+    p.kind = PIGMENT_IMAGE;
+    p.image = &map;
+    assert_uv(target_uv(&p, vec3(0, 4, 6), vec3(1, 0, 0), &mapped, &natural), 0.25, 2);
+}
+
+/* A pigment and its bake agree at every texel's centre. */
+static void bakes(void **state)
+{
+    const double low[2] = {-1, 0.5}, high[2] = {3, 2.5};
+    ImageMap map = image_map(MAP_PLANAR);
+    Pigment p = pigment(PIGMENT_CHECKER);
+    RetexImage baked = {0};
+
+    (void)state;
+    p.image = &map;
+    p.transform = transform_rotate(vec3(0, 0, 90));
+    for (int k = 0; k < 4; k++) {
+        int axis = k < 3 ? k : 2;
+        p.kind = k < 3 ? PIGMENT_CHECKER : PIGMENT_IMAGE;
+        assert_int_equal(pigment_bake(&baked, &p, axis, low, high, 40, 20, NULL), 0);
+        for (int y = 0; y < 20; y++)
+            for (int x = 0; x < 40; x++) {
+                double u = -1 + 0.1 * (x + 0.5), v = 2.5 - 0.1 * (y + 0.5);
+                Vec3 q = axis == 0 ? vec3(0, v, u) : axis == 1 ? vec3(u, 0, v) : vec3(u, v, 0), normal;
+                Vec3 world = transform_point(&p.transform, q);
+                normal = transform_normal(&p.transform, vec3(axis == 0, axis == 1, axis == 2));
+                assert_uv(target_uv(&p, world, normal, NULL, NULL), u, v);
+                assert_true(pigment_eval(&p, world, nowhere).r == baked.pixels[retex_image_index(&baked, x, y)]);
+            }
+        retex_image_free(&baked);
+    }
+    assert_int_equal(pigment_bake(&baked, &p, 3, low, high, 4, 4, NULL), RETEX_EINVAL);
+    retex_texture_close(&map.texture);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(gradients_are_povray), cmocka_unit_test(color_maps),  cmocka_unit_test(checkers),
+        cmocka_unit_test(images_are_povray),    cmocka_unit_test(projections), cmocka_unit_test(target_uvs),
+        cmocka_unit_test(bakes),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
