@@ -32,10 +32,10 @@ int sdl_is_color_start(Sdl *sdl)
 
 static double linear(double v) { return v <= 0.04045 ? v / 12.92 : pow((v + 0.055) / 1.055, 2.4); }
 
-/* Of a plain expression: a float is a grey, a vector red, green, blue, filter, transmit as far as it goes. */
+/* Of a plain expression: a float fills filter and transmit as well, as in POV-Ray; a vector is red, green, blue, filter,
+ * transmit as far as it goes. */
 static Num from_num(Num num)
 {
-    if (num.count == 1) num_promote(&num, 3);
     num_promote(&num, 5);
     num.color = 1;
     return num;
@@ -44,14 +44,18 @@ static Num from_num(Num num)
 static Num from_form(Sdl *sdl, const Form *form)
 {
     Num num = expression_sum(sdl);
-    if (num.count == 1) num_promote(&num, form->count);
-    else num_promote(&num, 5);
-    if (form->transmit && !num.color) {
+    if (num.count == 1) {
+        num_promote(&num, form->count);
+        num.count = form->count;
+    }
+    num_promote(&num, 5);
+    if (form->transmit) {
         num_promote(&num, 5);
         num.n[4] = num.n[3];
         num.n[3] = 0;
     }
-    num = from_num(num);
+    num_promote(&num, 5);
+    num.color = 1;
     for (int i = 0; i < 3 && form->srgb; i++) num.n[i] = linear(num.n[i]);
     return num;
 }

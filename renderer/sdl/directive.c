@@ -246,6 +246,9 @@ static void run_message(Sdl *sdl, int id)
 void directive_run(Sdl *sdl, const Raw *raw)
 {
     Directive id = (Directive)raw->as.directive.id;
+    /* A directive within the expression of another: macros that give values nest like this. */
+    if (++sdl->directive_depth > MAX_DIRECTIVE_DEPTH)
+        sdl_fail(sdl, RETEX_ELIMIT, "directives nested more than %d deep", MAX_DIRECTIVE_DEPTH);
     switch (id) {
     case DIR_IF: case DIR_IFDEF: case DIR_IFNDEF: run_if(sdl, raw); break;
     case DIR_WHILE: run_while(sdl, raw); break;
@@ -269,4 +272,5 @@ void directive_run(Sdl *sdl, const Raw *raw)
     case DIR_WRITE: file_write(sdl); break;
     case DIR_NONE: case DIR_UNKNOWN: sdl_error(sdl, "no such directive");
     }
+    sdl->directive_depth--;
 }

@@ -101,8 +101,6 @@ static Num word(Sdl *sdl)
     case BUILTIN_CONSTANT:
         sdl_next(sdl);
         return builtin_constant(sdl, builtin->id);
-    case BUILTIN_COLOR:
-        return color_parse(sdl);
     case BUILTIN_FLOAT: case BUILTIN_NUMBER:
         sdl_next(sdl);
         return builtin_number(sdl, builtin);
@@ -393,7 +391,7 @@ int expression_is_number_start(Sdl *sdl)
     case TOKEN_PUNCT: return strchr("<(-+!", token->punct) != NULL;
     case TOKEN_WORD:
         return builtin && (builtin->kind == BUILTIN_CONSTANT || builtin->kind == BUILTIN_FLOAT ||
-                           builtin->kind == BUILTIN_NUMBER || builtin->kind == BUILTIN_COLOR);
+                           builtin->kind == BUILTIN_NUMBER);
     default: return 0;
     }
 }
@@ -406,7 +404,12 @@ int expression_is_string_start(Sdl *sdl)
            (builtin && builtin->kind == BUILTIN_STRING);
 }
 
-int sdl_is_expression_start(Sdl *sdl) { return expression_is_number_start(sdl) || expression_is_string_start(sdl); }
+int sdl_is_expression_start(Sdl *sdl)
+{
+    const Builtin *builtin = builtin_next(sdl);
+    return (builtin && builtin->kind == BUILTIN_COLOR) || expression_is_number_start(sdl) ||
+           expression_is_string_start(sdl);
+}
 
 const char *sdl_string(Sdl *sdl)
 {

@@ -13,8 +13,9 @@
 
 enum {
     MAX_MACRO_DEPTH = 200, MAX_INCLUDE_DEPTH = 32, MAX_FRAMES = MAX_MACRO_DEPTH + MAX_INCLUDE_DEPTH + 2,
-    MAX_EXPRESSION_DEPTH = 400, MAX_BLOCK_DEPTH = 400, MAX_DIMENSIONS = 5, MAX_PARAMETERS = 56, MAX_LOOPS = 1000,
-    MAX_STRING = 1 << 20, MAX_FUNCTION_DEPTH = 100
+    MAX_EXPRESSION_DEPTH = 1000, MAX_DIRECTIVE_DEPTH = 400, MAX_BLOCK_DEPTH = 400,
+    MAX_DIMENSIONS = 5, MAX_PARAMETERS = 56, MAX_LOOPS = 1000,
+    MAX_STRING = 1 << 20
 };
 
 typedef struct Symbol Symbol;
@@ -159,7 +160,7 @@ struct Sdl {
     int nframes, nmacros;     /* frames in all, and of those macros */
     Loop loops[MAX_LOOPS];
     int nloops;
-    int expression_depth, block_depth;
+    int expression_depth, directive_depth, block_depth;
     long steps;
 
     Symbol *unused, **unused_tail;
