@@ -45,9 +45,9 @@ for example in "$folder"/examples/???; do
     status=$?
     title=$(head -n 1 "$example")
     if [ "$status" = "$(cat "$example.exit")" ]; then
-        echo "ok $number - $title"
+        printf "%s\n" "ok $number - $title"
     else
-        echo "not ok $number - $title"
+        printf "%s\n" "not ok $number - $title"
         echo "# exit status $status"
         sed 's/^/# /' ../out
     fi
