@@ -32,6 +32,7 @@ const Configurations &configurations()
         Configurations c;
         std::istringstream text(own_configuration);
         c.own = OCIO::Config::CreateFromStream(text);
+        c.own->validate();
         const char *path = std::getenv("OCIO");
         if (path && *path) {
             try {

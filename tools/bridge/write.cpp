@@ -66,7 +66,7 @@ template <typename Value> Value quantise(float v)
     return v >= 1 ? Value(~Value(0)) : Value(v * top + 0.5f);
 }
 
-// Pixels as the format stores them: the wanted channels, alpha applied where it cannot be kept or is kept associated.
+// Pixels as the format stores them: the wanted channels, with alpha applied or not.
 template <typename Value, typename Convert>
 std::vector<Value> store(const std::vector<float> &rgba, int channels, bool multiply, Convert convert)
 {
@@ -257,10 +257,13 @@ struct Stored {
 Stored make_stored(const RetexImage &src, int channels, Depth depth, const Transform &encode)
 {
     std::vector<float> rgba = spread(src);
+    if (src.channels == 4 && channels != 4) // alpha is lost: shown over black
+        for (size_t i = 0; i < rgba.size(); i += 4)
+            for (int c = 0; c < 3; c++)
+                rgba[i + c] *= rgba[i + 3];
     apply_transform(encode, rgba.data(), src.width, src.height);
     bool whole = depth == Depth::Eight || depth == Depth::Sixteen;
-    // Where alpha is lost the picture is shown over black; float formats keep colours associated.
-    bool multiply = src.channels == 4 && (channels != 4 || !whole);
+    bool multiply = channels == 4 && !whole; // float formats keep colours associated
     Stored stored;
     stored.channels = channels;
     if (depth == Depth::Eight) {

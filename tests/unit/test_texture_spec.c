@@ -1,0 +1,106 @@
+/* What may be said of a texture on the command line, and what is answered to mistakes. */
+#include "lib_test.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+static RetexTextureSpec parse(const char *opts, const char *arg)
+{
+    RetexTextureSpec spec;
+    RetexError err = {0};
+    test_must(retex_texture_spec_parse(&spec, opts, arg, &err), &err);
+    return spec;
+}
+
+static void test_defaults(void **state)
+{
+    (void)state;
+    RetexTextureSpec spec = parse(NULL, "Floor=oak.png");
+    assert_string_equal(spec.target, "Floor");
+    assert_string_equal(spec.image, "oak.png");
+    assert_string_equal(spec.colorspace, "");
+    assert_int_equal(spec.constant, 0);
+    assert_true(spec.scale[0] == 1 && spec.scale[1] == 1 && spec.rotate == 0);
+    assert_true(spec.offset[0] == 0 && spec.offset[1] == 0);
+    assert_true(spec.wrap[0] == RETEX_WRAP_REPEAT && spec.wrap[1] == RETEX_WRAP_REPEAT);
+    assert_int_equal(spec.size, sizeof spec);
+}
+
+static void test_options(void **state)
+{
+    (void)state;
+    RetexTextureSpec spec = parse("scale=2,-0.5:rotate=-30.5:offset=0,.5:wrap=mirror,clamp:colorspace=ACES - ACEScg", "a=b");
+    assert_true(spec.scale[0] == 2 && spec.scale[1] == -0.5);
+    assert_true(spec.rotate == -30.5);
+    assert_true(spec.offset[0] == 0 && spec.offset[1] == 0.5);
+    assert_true(spec.wrap[0] == RETEX_WRAP_MIRROR && spec.wrap[1] == RETEX_WRAP_CLAMP);
+    assert_string_equal(spec.colorspace, "ACES - ACEScg");
+    spec = parse(":scale=3::wrap=BLACK:", "a=b");
+    assert_true(spec.scale[0] == 3 && spec.scale[1] == 3);
+    assert_true(spec.wrap[0] == RETEX_WRAP_BLACK && spec.wrap[1] == RETEX_WRAP_BLACK);
+    spec = parse("scale=2:scale=4", "a=b"); /* the last one holds */
+    assert_true(spec.scale[0] == 4);
+}
+
+static void test_images(void **state)
+{
+    (void)state;
+    /* Only the first '=' divides; colons and all else belong to the file. */
+    assert_string_equal(parse("", "a=C:/b=c:scale=2.png").image, "C:/b=c:scale=2.png");
+    assert_string_equal(parse("", "Sofa cushion= with blanks .jpg").image, " with blanks .jpg");
+    assert_string_equal(parse("", "Sofa cushion=x").target, "Sofa cushion");
+    assert_string_equal(parse("", "a=rgb.png").image, "rgb.png");
+    RetexTextureSpec spec = parse("rotate=9", "a=rgb(0.8,0.1,0.25)");
+    assert_int_equal(spec.constant, 1);
+    assert_string_equal(spec.image, "");
+    assert_true(spec.color[0] == 0.8f && spec.color[1] == 0.1f && spec.color[2] == 0.25f);
+    spec = parse("", "a= RGB ( 1 , 0 ,\t20.5 ) ");
+    assert_true(spec.constant && spec.color[0] == 1 && spec.color[1] == 0 && spec.color[2] == 20.5f);
+}
+
+static void test_mistakes(void **state)
+{
+    (void)state;
+    char longer[2000];
+    memset(longer, 'x', sizeof longer);
+    memcpy(longer, "a=", 2);
+    longer[sizeof longer - 1] = '\0';
+    const struct { const char *opts, *arg, *says; } cases[] = {
+        {"", "Floor", "NAME=IMAGE"}, {"", "=x.png", "NAME=IMAGE"}, {"", "Floor=", "no image"}, {"", "", "NAME=IMAGE"},
+        {"", NULL, "NAME=IMAGE"}, {"scale", "a=b", "'scale' has no value"}, {"scale=", "a=b", "scale=''"},
+        {"scale=0", "a=b", "cannot be 0"}, {"scale=1,0", "a=b", "cannot be 0"}, {"scale=1,2,3", "a=b", "one or two"},
+        {"scale=1;2", "a=b", "one or two"}, {"scale=nan", "a=b", "one or two"}, {"scale=inf", "a=b", "one or two"},
+        {"rotate=30deg", "a=b", "degrees"}, {"rotate=1,2", "a=b", "degrees"}, {"offset=a", "a=b", "offset='a'"},
+        {"offset=1,", "a=b", "offset='1,'"}, {"wrap=tile", "a=b", "repeat, mirror, clamp or black"},
+        {"wrap=repeat,tile", "a=b", "repeat, mirror"}, {"wrap=", "a=b", "repeat, mirror"},
+        {"colorspace=", "a=b", "colour space"}, {"size=2", "a=b", "'size'; there are scale"}, {"=2", "a=b", "''"},
+        {"", "a=rgb(1,2)", "three numbers"}, {"", "a=rgb(1,2,3,4)", "three numbers"}, {"", "a=rgb(1,2,-3)", "0 or more"},
+        {"", "a=rgb(1,2,x)", "0 or more"}, {"", "a=rgb(1,2,3).png", "nothing may follow"}, {"", "a=rgb(", "three numbers"},
+        {"", "a=rgb(1,2,nan)", "0 or more"}, {"", longer, "at most 1023 bytes"},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        RetexTextureSpec spec;
+        RetexError err = {0};
+        assert_int_equal(retex_texture_spec_parse(&spec, cases[i].opts, cases[i].arg, &err), RETEX_EPARSE);
+        assert_int_equal(err.code, RETEX_EPARSE);
+        if (!strstr(err.message, cases[i].says))
+            fail_msg("'%s' '%.40s': '%s' does not say '%s'", cases[i].opts, cases[i].arg, err.message, cases[i].says);
+        assert_int_equal(retex_texture_spec_parse(&spec, cases[i].opts, cases[i].arg, NULL), RETEX_EPARSE);
+    }
+    memset(longer + 2, 'y', sizeof longer - 3);
+    longer[300] = '=';
+    longer[1] = 'a';
+    RetexTextureSpec spec;
+    RetexError err = {0};
+    assert_int_equal(retex_texture_spec_parse(&spec, "", longer, &err), RETEX_EPARSE);
+    assert_non_null(strstr(err.message, "at most 127 bytes"));
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_defaults), cmocka_unit_test(test_options),
+                                       cmocka_unit_test(test_images), cmocka_unit_test(test_mistakes)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
