@@ -1,14 +1,15 @@
 /* Ray queries through Embree: the only file that knows it. Builds with Embree 3 and 4.
  *
- * Embree works in float; this renderer asks for double positions and for rays that never meet the surface they leave. So
- * Embree only proposes: a filter function refuses every triangle whose distance, in double, lies outside the ray's own
- * double range (float is asked first, and is enough but for hits near its ends). A ray that starts on a triangle's plane,
- * within the rounding error of the plane's equation, does not meet it, however large the triangle. Curved shapes are user
- * geometry and double throughout. Boxes and meshes are one triangle geometry in world space; planes, which have no bounds,
- * are tested one by one. Visibility by kind of ray is decided in the same places: Embree may be built without masks.
+ * Embree works in float; this renderer asks for double positions and for rays that never meet the surface they leave.
+ * So Embree only proposes: a filter function refuses every triangle whose distance, in double, lies outside the ray's
+ * own double range (float is asked first, and is enough but for hits near its ends). A ray that starts on a triangle's
+ * plane, within the rounding error of the plane's equation, does not meet it, however large the triangle. Curved shapes
+ * are user geometry and double throughout. Boxes and meshes are one triangle geometry in world space; planes, which
+ * have no bounds, are tested one by one. Visibility by kind of ray is decided in the same places: Embree may be built
+ * without masks.
  *
- * The scene is ROBUST: it costs a quarter, but without it 6 in 100 rays aimed at an edge between two triangles, and 1 in
- * 100 000 at random, pass through. */
+ * The scene is ROBUST: it costs a quarter, but without it 6 in 100 rays aimed at an edge between two triangles, and 1
+ * in 100 000 at random, pass through. */
 #include <float.h>
 #include <stdint.h>
 #include <stdio.h>
@@ -24,9 +25,9 @@ typedef struct RTCIntersectContext QueryContext;
 #include "accel/accel.h"
 #include "shade/pigment.h"
 
-#define TRANSPARENT 0x80u   /* in flags, beside the RayKinds that see the primitive */
-#define FLOAT_DOUBT 1e-3    /* share by which a distance in float may be off, along grazing triangles too */
-#define LARGEST_COORDINATE 1e18 /* Embree takes anything beyond about 1.8e18 as no geometry */
+#define TRANSPARENT 0x80u           /* in flags, beside the RayKinds that see the primitive */
+#define FLOAT_DOUBT 1e-3            /* share by which a distance in float may be off, along grazing triangles too */
+#define LARGEST_COORDINATE 1e18     /* Embree takes anything beyond about 1.8e18 as no geometry */
 #define SPATIAL_SPLIT_LIMIT 4000000 /* triangles: beyond it building would take too long for what tracing gains */
 
 typedef struct Triangle {
@@ -37,18 +38,18 @@ struct Accel {
     RTCDevice device;
     RTCScene scene;
     const Scene *source;
-    Vec3 *vertices;            /* of all triangles, world space */
+    Vec3 *vertices; /* of all triangles, world space */
     uint32_t (*corners)[3];
     Triangle *triangles;
     size_t nvertices, ntriangles;
-    int *curved, *planes;      /* primitive indices */
+    int *curved, *planes; /* primitive indices */
     int ncurved, nplanes;
     unsigned triangle_geometry, curved_geometry;
-    unsigned char *flags;      /* of each primitive */
+    unsigned char *flags; /* of each primitive */
     int has_transparent;
-    double reach;              /* the triangles' largest coordinate */
+    double reach; /* the triangles' largest coordinate */
     Vec3 low, high;
-    RetexError error;          /* Embree's first complaint */
+    RetexError error; /* Embree's first complaint */
 };
 
 /* Embree hands the context to every callback: ours carries the ray in double. */
@@ -56,11 +57,11 @@ typedef struct Query {
     QueryContext context;
     const Accel *accel;
     const Ray *ray;
-    unsigned kind, refused; /* flags a primitive must and must not have */
-    double origin_size;     /* its largest coordinate */
-    float clear_height;     /* a plane further from the origin than this is met for certain, */
+    unsigned kind, refused;       /* flags a primitive must and must not have */
+    double origin_size;           /* its largest coordinate */
+    float clear_height;           /* a plane further from the origin than this is met for certain, */
     float clear_start, clear_end; /* and within the range for certain between these */
-    double t;               /* of the nearest curved shape so far */
+    double t;                     /* of the nearest curved shape so far */
     int face;
 } Query;
 
@@ -74,8 +75,14 @@ static int visible(const Query *query, int primitive)
 /* ---- triangles in double ---- */
 
 /* Not fmax, which is a call where infinities have to be kept apart from NaN. */
-static inline double larger(double a, double b) { return a > b ? a : b; }
-static inline double largest(Vec3 a) { return larger(fabs(a.x), larger(fabs(a.y), fabs(a.z))); }
+static inline double larger(double a, double b)
+{
+    return a > b ? a : b;
+}
+static inline double largest(Vec3 a)
+{
+    return larger(fabs(a.x), larger(fabs(a.y), fabs(a.z)));
+}
 
 /* Distance to the triangle's plane; 0 where the ray runs along it or starts on it. */
 static int plane_distance(const Query *query, size_t triangle, double *t)
@@ -226,7 +233,10 @@ static int is_curved(ShapeKind kind)
     return kind == SHAPE_SPHERE || kind == SHAPE_CONE || kind == SHAPE_TORUS || kind == SHAPE_DISC;
 }
 
-static int lets_through(const Texture *texture) { return texture && !pigment_is_opaque(texture->pigment); }
+static int lets_through(const Texture *texture)
+{
+    return texture && !pigment_is_opaque(texture->pigment);
+}
 
 static unsigned char primitive_flags(const Primitive *primitive)
 {
@@ -279,7 +289,10 @@ static int survey(Accel *accel, RetexError *err)
 }
 
 /* Bounds take the smaller and the larger of numbers, and so overlook NaN among others. */
-static int finite_point(Vec3 p) { return isfinite(p.x) && isfinite(p.y) && isfinite(p.z); }
+static int finite_point(Vec3 p)
+{
+    return isfinite(p.x) && isfinite(p.y) && isfinite(p.z);
+}
 
 static int has_area(const Accel *accel, const uint32_t corner[3])
 {
@@ -452,7 +465,7 @@ void accel_close(Accel **accel)
 
 /* ---- queries ---- */
 
-/* Embree gets the ray in float with its range widened by what float may be off; the callbacks hold to the double one. */
+/* Embree gets the ray in float, its range widened by what float may be off; the callbacks keep to the double one. */
 static struct RTCRay start_query(Query *query, const Accel *accel, const Ray *ray, RayKind kind, int skip_transparent)
 {
     double origin_size = largest(ray->origin), doubt_start = FLOAT_DOUBT * (ray->tmin + origin_size);
@@ -462,7 +475,8 @@ static struct RTCRay start_query(Query *query, const Accel *accel, const Ray *ra
     rtcInitRayQueryContext(&query->context);
 #else
     rtcInitIntersectContext(&query->context);
-    query->context.flags = kind == RAY_CAMERA ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
+    query->context.flags =
+        kind == RAY_CAMERA ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
 #endif
     query->accel = accel;
     query->ray = ray;
@@ -475,10 +489,15 @@ static struct RTCRay start_query(Query *query, const Accel *accel, const Ray *ra
     query->clear_end = ray->tmax < INFINITY ? (float)(ray->tmax - doubt_end) : INFINITY;
     query->t = INFINITY;
     query->face = 0;
-    return (struct RTCRay){
-        .org_x = (float)ray->origin.x, .org_y = (float)ray->origin.y, .org_z = (float)ray->origin.z,
-        .dir_x = (float)ray->direction.x, .dir_y = (float)ray->direction.y, .dir_z = (float)ray->direction.z,
-        .tnear = (float)larger(0, ray->tmin - doubt_start), .tfar = (float)(ray->tmax + doubt_end), .mask = 0xffffffffu};
+    return (struct RTCRay){.org_x = (float)ray->origin.x,
+                           .org_y = (float)ray->origin.y,
+                           .org_z = (float)ray->origin.z,
+                           .dir_x = (float)ray->direction.x,
+                           .dir_y = (float)ray->direction.y,
+                           .dir_z = (float)ray->direction.z,
+                           .tnear = (float)larger(0, ray->tmin - doubt_start),
+                           .tfar = (float)(ray->tmax + doubt_end),
+                           .mask = 0xffffffffu};
 }
 
 static void trace(Query *query, struct RTCRayHit *rayhit)
@@ -570,7 +589,10 @@ int accel_occluded(const Accel *accel, const Ray *ray, RayKind kind, int skip_tr
     return occluded.tfar < 0;
 }
 
-int accel_has_transparent(const Accel *accel) { return accel->has_transparent; }
+int accel_has_transparent(const Accel *accel)
+{
+    return accel->has_transparent;
+}
 
 void accel_bounds(const Accel *accel, Vec3 *low, Vec3 *high)
 {

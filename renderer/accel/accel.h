@@ -7,21 +7,23 @@
 
 typedef struct Accel Accel;
 
-/* Which rays see a primitive: no_image hides it from camera rays, no_shadow from shadow rays, no_reflection from the rest. */
+/* Which rays see a primitive: no_image hides it from camera rays, no_shadow from shadow rays, no_reflection from the
+ * rest. */
 typedef enum RayKind { RAY_CAMERA = 1, RAY_SHADOW = 2, RAY_BOUNCE = 4 } RayKind;
 
 int accel_create(Accel **accel, const Scene *scene, int nthreads, RetexError *err);
 void accel_close(Accel **accel);
 /* Nearest hit in (tmin, tmax). Returns 1 and fills hit, else 0 and hit->primitive = -1. */
 int accel_intersect(const Accel *accel, const Ray *ray, RayKind kind, Hit *hit);
-/* Is anything fully opaque or unknown in between? transparent: 0 = any hit blocks; primitives whose pigment is not opaque
- * are skipped when it is 1 (the caller walks them itself). */
+/* Is anything in between? skip_transparent: 0 = any hit blocks; 1 = primitives whose pigment (of either side, of any
+ * face) is not opaque are skipped; the caller walks them itself. */
 int accel_occluded(const Accel *accel, const Ray *ray, RayKind kind, int skip_transparent);
 /* 1 if any primitive could let shadow rays through: then occlusion must be walked. */
 int accel_has_transparent(const Accel *accel);
 /* World bounds of all bounded primitives and the camera. */
 void accel_bounds(const Accel *accel, Vec3 *low, Vec3 *high);
-/* Where to start a ray that leaves a surface in a direction, so that it does not meet it again. */
+/* Where to start a ray that leaves a surface in a direction, so that it does not meet it again. To walk on along a ray,
+ * tmin = the t of the last hit works as well. */
 Vec3 accel_offset(Vec3 position, Vec3 geometric_normal, Vec3 direction);
 
 #endif

@@ -1,4 +1,4 @@
-/* An arena of growing blocks. Blocks come from calloc: fresh pages are zero already, so big ones cost nothing to clear. */
+/* An arena of growing blocks. Blocks come from calloc: fresh pages are zero already, so big ones are not cleared. */
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
@@ -44,7 +44,8 @@ void arena_close(Arena **arena)
     *arena = NULL;
 }
 
-/* Something larger than a quarter of the usual block gets its own, behind the one being filled, whose rest stays usable. */
+/* Something larger than a quarter of the usual block gets its own, behind the one being filled, whose rest stays
+ * usable. */
 static Block *add_block(Arena *arena, size_t bytes)
 {
     int own = bytes > arena->next_size / 4;
@@ -104,4 +105,7 @@ char *arena_string(Arena *arena, const char *text, size_t length)
     return out;
 }
 
-size_t arena_used(const Arena *arena) { return arena->used; }
+size_t arena_used(const Arena *arena)
+{
+    return arena->used;
+}

@@ -1,9 +1,9 @@
 /* Affine maps of POV-Ray's scene language.
  *
  * POV-Ray writes points as rows and multiplies matrices from the right; here points are columns, so its matrices are
- * transposed on entry and nowhere else. Its coordinates are left-handed, which makes the ordinary rotation formulas turn
- * left-handed. Every Transform carries its inverse, composed along with it rather than computed anew, so that a long chain
- * of transforms does not lose it. */
+ * transposed on entry and nowhere else. Its coordinates are left-handed, which makes the ordinary rotation formulas
+ * turn left-handed. Every Transform carries its inverse, composed along with it rather than computed anew, so that a
+ * long chain of transforms does not lose it. */
 #include <string.h>
 #include "base/vec.h"
 
@@ -163,9 +163,27 @@ static Vec3 transposed(const double m[3][4], Vec3 n)
                 m[0][2] * n.x + m[1][2] * n.y + m[2][2] * n.z);
 }
 
-Vec3 transform_point(const Transform *t, Vec3 p) { return affine(t->m, p); }
-Vec3 transform_vector(const Transform *t, Vec3 d) { return linear(t->m, d); }
-Vec3 transform_normal(const Transform *t, Vec3 n) { return transposed(t->inverse, n); }
-Vec3 transform_inverse_point(const Transform *t, Vec3 p) { return affine(t->inverse, p); }
-Vec3 transform_inverse_vector(const Transform *t, Vec3 d) { return linear(t->inverse, d); }
-Vec3 transform_inverse_normal(const Transform *t, Vec3 n) { return transposed(t->m, n); }
+Vec3 transform_point(const Transform *t, Vec3 p)
+{
+    return affine(t->m, p);
+}
+Vec3 transform_vector(const Transform *t, Vec3 d)
+{
+    return linear(t->m, d);
+}
+Vec3 transform_normal(const Transform *t, Vec3 n)
+{
+    return transposed(t->inverse, n);
+}
+Vec3 transform_inverse_point(const Transform *t, Vec3 p)
+{
+    return affine(t->inverse, p);
+}
+Vec3 transform_inverse_vector(const Transform *t, Vec3 d)
+{
+    return linear(t->inverse, d);
+}
+Vec3 transform_inverse_normal(const Transform *t, Vec3 n)
+{
+    return transposed(t->m, n);
+}

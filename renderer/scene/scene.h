@@ -3,8 +3,8 @@
  * Rec.709.
  *
  * Conventions of POV-Ray hold (left-handed, row-vector matrices already turned into Transforms). Where POV-Ray and
- * physics differ, the mapping is described in retex-scene(5) and done in shade/material.c, not here: this file keeps what
- * the author wrote. */
+ * physics differ, the mapping is described in retex-scene(5) and done in shade/material.c, not here: this file keeps
+ * what the author wrote. */
 #ifndef RENDERER_SCENE_SCENE_H
 #define RENDERER_SCENE_SCENE_H
 
@@ -58,7 +58,7 @@ typedef struct Pigment {
     PigmentKind kind;
     Rgbft color;             /* PIGMENT_COLOR */
     Rgbft checker[2];        /* PIGMENT_CHECKER */
-    Vec3 gradient;           /* PIGMENT_GRADIENT: its direction as written, not normalised */
+    Vec3 gradient;           /* PIGMENT_GRADIENT: its direction as written; its length does not matter */
     ColorMap map;            /* of patterns that make a value 0..1; empty = black to white */
     WaveKind wave;
     double frequency, phase, wave_exponent;
@@ -86,8 +86,8 @@ typedef struct Finish {
     int reflection_fresnel;
     double reflection_falloff, reflection_exponent, reflection_metallic;
     int conserve_energy;
-    /* The extension block `retex { … }`: the simplified Disney BSDF of the supplement and rough dielectrics. Where it is
-     * present it replaces all of the above but ambient and emission. */
+    /* The extension block `retex { … }`: the simplified Disney BSDF of the supplement and rough dielectrics. Where it
+     * is present it replaces all of the above but ambient and emission. */
     struct {
         int present;
         double metallic;     /* m, 0..1 */

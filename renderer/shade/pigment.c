@@ -121,7 +121,10 @@ int pigment_is_constant(const Pigment *pigment)
     return 1;
 }
 
-static int opaque(const Rgbft *c) { return c->filter == 0 && c->transmit == 0; }
+static int opaque(const Rgbft *c)
+{
+    return c->filter == 0 && c->transmit == 0;
+}
 
 int pigment_is_opaque(const Pigment *pigment)
 {

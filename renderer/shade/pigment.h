@@ -10,18 +10,18 @@ Rgbft pigment_eval(const Pigment *pigment, Vec3 p, Vec2 uv);
 int pigment_is_constant(const Pigment *pigment);
 /* 1 where the pigment lets nothing through anywhere (no filter, no transmit, no image alpha). */
 int pigment_is_opaque(const Pigment *pigment);
-/* UV of an image_map's projection at a world point: planar, spherical or cylindrical after the pigment's transform. */
+/* UV of an image_map's projection at a point of pattern space: planar, spherical, cylindrical or toroidal. */
 Vec2 pigment_image_uv(const ImageMap *image, Vec3 pattern_point);
-/* Bake the pigment's colour over the UV rectangle low..high (through target_uv's inverse this is exact for uv_mapping and
- * image maps; other pigments are baked on the plane z = 0 of their pattern space mapped by the dominant-axis rule of the
- * given axis 0..2). dst: RGB, unallocated, width x height. */
-int pigment_bake(RetexImage *dst, const Pigment *pigment, int axis, const double low[2], const double high[2], int width,
-                 int height, RetexError *err);
+/* Bake the pigment's colour over the UV rectangle low..high (through target_uv's inverse this is exact for uv_mapping
+ * and image maps; other pigments are baked on the plane through 0 of their pattern space that the dominant-axis rule
+ * gives for axis 0..2). dst: RGB, unallocated, width x height. */
+int pigment_bake(RetexImage *dst, const Pigment *pigment, int axis, const double low[2], const double high[2],
+                 int width, int height, RetexError *err);
 
 /* The UV a replacement texture is looked up at, for a surface that is a target. The rule (retex-scene(5)), after the
- * texture's own transforms: with uv_mapping, the shape's UV taken through the pigment's transform; else an image_map's own
- * projection; else the shape's natural parametrisation (natural != NULL), as it is; else planar: the point in pattern
- * space seen along the dominant axis of the normal there (x: (z,y), y: (x,z), z: (x,y)). */
+ * texture's own transforms: with uv_mapping, the shape's UV taken through the pigment's transform; else an image_map's
+ * own projection; else the shape's natural parametrisation (natural != NULL), as it is; else planar: the point in
+ * pattern space seen along the dominant axis of the normal there (x: (z,y), y: (x,z), z: (x,y)). */
 Vec2 target_uv(const Pigment *pigment, Vec3 p, Vec3 normal, const Vec2 *mapped_uv, const Vec2 *natural);
 
 #endif

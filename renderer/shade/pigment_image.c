@@ -59,8 +59,8 @@ static Vec3 from_uv(const Pigment *pigment, int axis, double u, double v)
     return axis == 0 ? vec3(0, v, u) : vec3(u, 0, v);
 }
 
-int pigment_bake(RetexImage *dst, const Pigment *pigment, int axis, const double low[2], const double high[2], int width,
-                 int height, RetexError *err)
+int pigment_bake(RetexImage *dst, const Pigment *pigment, int axis, const double low[2], const double high[2],
+                 int width, int height, RetexError *err)
 {
     int status;
 

@@ -11,9 +11,15 @@ const int box_triangles[12][3] = {
     {4, 5, 7}, {4, 7, 6}, /* +z */
 };
 
-Vec3 box_corner(int index) { return vec3(index & 1, index >> 1 & 1, index >> 2 & 1); }
+Vec3 box_corner(int index)
+{
+    return vec3(index & 1, index >> 1 & 1, index >> 2 & 1);
+}
 
-static double clamp01(double x) { return fmin(fmax(x, 0), 1); }
+static double clamp01(double x)
+{
+    return fmin(fmax(x, 0), 1);
+}
 
 void box_point(Vec3 p, int face, ShapePoint *out)
 {

@@ -13,10 +13,13 @@ double turn_of(double x, double y)
     return turn < 0 ? turn + 1 : turn;
 }
 
-static int in_range(const ShapeRay *ray, double t) { return t > ray->tmin && t < ray->tmax; }
+static int in_range(const ShapeRay *ray, double t)
+{
+    return t > ray->tmin && t < ray->tmax;
+}
 
-/* The roots of a t^2 + 2 b t + c, ascending; without cancellation. on_surface: c is 0 but for rounding, and the root there
- * is left out. Returns how many. */
+/* The roots of a t^2 + 2 b t + c, ascending; without cancellation. on_surface: c is 0 but for rounding, and the root
+ * there is left out. Returns how many. */
 static int quadratic(double a, double b, double c, int on_surface, double roots[2])
 {
     double discriminant, q, r0, r1;

@@ -4,7 +4,10 @@
 #include <string.h>
 #include "shape/shapes.h"
 
-static Vec3 column(const Transform *t, int i) { return vec3(t->m[0][i], t->m[1][i], t->m[2][i]); }
+static Vec3 column(const Transform *t, int i)
+{
+    return vec3(t->m[0][i], t->m[1][i], t->m[2][i]);
+}
 
 /* Area in the world of a unit square in canonical space with edges e and f. */
 static double stretch(const Transform *t, Vec3 e, Vec3 f)
@@ -105,8 +108,8 @@ static double cone_areas(const Primitive *primitive, double area[3])
 
 static int cone_sample(const Primitive *primitive, double u1, double u2, Vec3 *p)
 {
-    double r0 = primitive->r0, r1 = primitive->r1, area[3], pick = u1 * cone_areas(primitive, area), angle = 2 * PI * u2;
-    double radius;
+    double r0 = primitive->r0, r1 = primitive->r1, area[3], radius;
+    double pick = u1 * cone_areas(primitive, area), angle = 2 * PI * u2;
     int face = 0;
 
     while (face < 2 && pick >= area[face])
@@ -174,7 +177,10 @@ double shape_area(const Primitive *primitive)
     return 0;
 }
 
-static double one_over(double area) { return area > 0 ? 1 / area : 0; }
+static double one_over(double area)
+{
+    return area > 0 ? 1 / area : 0;
+}
 
 static double pdf_at(const Primitive *primitive, Vec3 p, int face)
 {

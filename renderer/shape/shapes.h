@@ -6,8 +6,8 @@
  *                   bottom, the outer equator (.5) and the top (.75)
  *   box             each face 0..1, upright and unmirrored seen from outside, with y up; the top and the bottom as they
  *                   unfold from the -z face
- *   cone, cylinder  side: u the angle from x towards y, v the height from the base; caps: x and y, the unit square round
- *                   the cap's circle
+ *   cone, cylinder  side: u the angle from x towards y, v the height from the base; caps: x and y, the unit square
+ *                   round the cap's circle
  *   disc            x and y, the unit square round the outer circle
  *   mesh            its uv_vectors */
 #ifndef RENDERER_SHAPE_SHAPES_H

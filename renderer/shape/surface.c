@@ -1,10 +1,13 @@
-/* The surface at a hit: from a ray and what the tracer said of it to a point exactly on the shape, with its normals, its
- * UVs and whose texture and target it is. Also rays against single shapes, and bounds. */
+/* The surface at a hit: from a ray and what the tracer said of it to a point exactly on the shape, with its normals,
+ * its UVs and whose texture and target it is. Also rays against single shapes, and bounds. */
 #include <float.h>
 #include <string.h>
 #include "shape/shapes.h"
 
-static double largest(Vec3 a) { return fmax(fabs(a.x), fmax(fabs(a.y), fabs(a.z))); }
+static double largest(Vec3 a)
+{
+    return fmax(fabs(a.x), fmax(fabs(a.y), fabs(a.z)));
+}
 
 static ShapeRay to_shape(const Primitive *primitive, const Ray *ray)
 {
@@ -49,9 +52,10 @@ static void grow(Vec3 *low, Vec3 *high, Vec3 p)
     *high = vec3(fmax(high->x, p.x), fmax(high->y, p.y), fmax(high->z, p.z));
 }
 
-/* Bounds of a ball of radius ball swept along an ellipse: the image of the circle of the given radius about centre whose
- * axes are canonical axes i and j. */
-static void grow_circle(Vec3 *low, Vec3 *high, const Transform *t, Vec3 centre, int i, int j, double radius, double ball)
+/* Bounds of a ball of radius ball swept along an ellipse: the image of the circle of the given radius about centre
+ * whose axes are canonical axes i and j. */
+static void grow_circle(Vec3 *low, Vec3 *high, const Transform *t, Vec3 centre, int i, int j, double radius,
+                        double ball)
 {
     Vec3 p = transform_point(t, centre), half;
     double extent[3];
@@ -106,7 +110,8 @@ void surface_from_point(Surface *surface, const Primitive *primitive, int face, 
 {
     const Transform *t = &primitive->transform;
     double sign = primitive->inverse ? -1 : 1;
-    int of_mesh = primitive->kind == SHAPE_MESH && primitive->mesh->ntextures > 0 ? primitive->mesh->faces[face].texture : -1;
+    int of_mesh =
+        primitive->kind == SHAPE_MESH && primitive->mesh->ntextures > 0 ? primitive->mesh->faces[face].texture : -1;
 
     surface->primitive = primitive;
     surface->face = face;

@@ -13,8 +13,8 @@ typedef struct Ray {
 typedef struct Hit {
     double t;          /* distance; along a unit direction */
     int primitive;     /* index, or -1 for none */
-    int face;          /* of a mesh; else the shape's own part (box side 0..5: -x +x -y +y -z +z, cone 0 side 1 low cap 2
-                          high cap) */
+    int face;          /* of a mesh; else the shape's own part (box side 0..5: -x +x -y +y -z +z, cone 0 side 1 low cap
+                          2 high cap) */
     float b1, b2;      /* barycentrics of a triangle: weights of corners 1 and 2 */
 } Hit;
 
@@ -29,7 +29,7 @@ typedef struct Surface {
     Vec3 shading_normal;     /* outward, interpolated where the mesh has normals; same side as geometric_normal */
     int backside;            /* 1: the ray came from inside (dot(direction, geometric_normal) > 0) */
     Vec2 uv;                 /* of uv_mapping: the shape's own, or world x,y for cylinders, cones and shapes without */
-    Vec2 natural;            /* natural parametrisation: sphere, box, cone (angle, height), torus, disc, mesh with UVs */
+    Vec2 natural;            /* natural parametrisation of sphere, box, cone, torus, disc, mesh with UVs: shapes.h */
     int has_natural;         /* 0: plane, mesh without UVs */
 } Surface;
 
@@ -42,10 +42,10 @@ int shape_bounds(const Primitive *primitive, Vec3 *low, Vec3 *high);
 
 /* Emitters: sampling by area. Total world-space area; 0 where the shape cannot be sampled (plane, torus). */
 double shape_area(const Primitive *primitive);
-/* A point uniform in area from u1, u2 in [0,1). Gives position, normals, face and UVs through a Surface (backside 0), and
- * the density per unit area at that point (not constant under non-uniform scaling of curved shapes). Shapes choose among
- * their faces themselves and take any face (-1), but for meshes, where the weights come from the caller's table: there
- * both densities are those within the face, to be multiplied by the caller's probability of it. */
+/* A point uniform in area from u1, u2 in [0,1). Gives position, normals, face and UVs through a Surface (backside 0),
+ * and the density per unit area at that point (not constant under non-uniform scaling of curved shapes). Shapes choose
+ * among their faces themselves and take any face (-1), but for meshes, where the weights come from the caller's table:
+ * there both densities are those within the face, to be multiplied by the caller's probability of it. */
 void shape_sample(const Primitive *primitive, const Scene *scene, int face, double u1, double u2, Surface *surface,
                   double *pdf_area);
 double shape_pdf_area(const Primitive *primitive, const Surface *surface); /* of shape_sample, at that point */

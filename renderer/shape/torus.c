@@ -1,15 +1,26 @@
-/* The torus about y. Its quartic is solved by monotonic pieces: between two neighbouring critical points there is at most
- * one root, and a sign change finds it for certain. So no root is lost or made up but for grazing pairs closer than
- * rounding, and there is nothing to tune. */
+/* The torus about y. Its quartic is solved by monotonic pieces: between two neighbouring critical points there is at
+ * most one root, and a sign change finds it for certain. So no root is lost or made up but for grazing pairs closer
+ * than rounding, and there is nothing to tune. */
 #include <float.h>
 #include "shape/shapes.h"
 
 /* s^4 + c2 s^2 + c1 s + c0: measured from the point of closest approach to the centre there is no cubic term. */
-typedef struct Quartic { double c2, c1, c0; } Quartic;
+typedef struct Quartic {
+    double c2, c1, c0;
+} Quartic;
 
-static double value(const Quartic *q, double s) { return ((s * s + q->c2) * s + q->c1) * s + q->c0; }
-static double slope(const Quartic *q, double s) { return (4 * s * s + 2 * q->c2) * s + q->c1; }
-static double curvature(const Quartic *q, double s) { return 12 * s * s + 2 * q->c2; }
+static double value(const Quartic *q, double s)
+{
+    return ((s * s + q->c2) * s + q->c1) * s + q->c0;
+}
+static double slope(const Quartic *q, double s)
+{
+    return (4 * s * s + 2 * q->c2) * s + q->c1;
+}
+static double curvature(const Quartic *q, double s)
+{
+    return 12 * s * s + 2 * q->c2;
+}
 
 typedef double Function(const Quartic *q, double s);
 

@@ -30,7 +30,8 @@ static const Texture solid = {.pigment = &grey}, clear = {.pigment = &glass};
 
 static Primitive shape(ShapeKind kind, Transform transform)
 {
-    return (Primitive){.kind = kind, .r0 = 1, .r1 = 0.3, .transform = transform, .texture = &solid, .target = -1, .line = 7};
+    return (Primitive){
+        .kind = kind, .r0 = 1, .r1 = 0.3, .transform = transform, .texture = &solid, .target = -1, .line = 7};
 }
 
 /* A ball of triangles: latitude rows, without poles' degenerate ones; bumpy so that edges turn both ways. */
@@ -273,8 +274,10 @@ static void rooms_do_not_leak(void **state)
         Scene scene;
         Accel *accel;
         for (int i = 0; i < 6; i++) {
-            Vec3 at = {i / 2 == 0, i / 2 == 1, i / 2 == 2}, scale = {i / 2 == 0 ? 0.1 : 1, i / 2 == 1 ? 0.1 : 1, i / 2 == 2 ? 0.1 : 1};
-            Transform wall = transform_then(transform_scale(scale), transform_translate(vec_scale(at, i % 2 ? 1 : -0.1)));
+            Vec3 at = {i / 2 == 0, i / 2 == 1, i / 2 == 2},
+                 scale = {i / 2 == 0 ? 0.1 : 1, i / 2 == 1 ? 0.1 : 1, i / 2 == 2 ? 0.1 : 1};
+            Transform wall =
+                transform_then(transform_scale(scale), transform_translate(vec_scale(at, i % 2 ? 1 : -0.1)));
             p[i] = shape(SHAPE_BOX, transform_then(wall, whole));
         }
         accel = create(&scene, p, 6);
@@ -310,15 +313,16 @@ static void rays_see_what_they_may(void **state)
     (void)state;
     for (int i = 0; i < 4; i++)
         ahead[i] = transform_translate(vec3(i == 0 ? -0.5 : 0, i == 0 ? -0.5 : 0, 2.0 + 3 * i));
-    p[0] = shape(SHAPE_BOX, ahead[0]); /* at 2 */
-    p[1] = shape(SHAPE_SPHERE, ahead[1]); /* at 4 */
-    p[2] = shape(SHAPE_DISC, ahead[2]); /* at 8 but for its hole */
+    p[0] = shape(SHAPE_BOX, ahead[0]);                                                      /* at 2 */
+    p[1] = shape(SHAPE_SPHERE, ahead[1]);                                                   /* at 4 */
+    p[2] = shape(SHAPE_DISC, ahead[2]);                                                     /* at 8 but for its hole */
     p[3] = shape(SHAPE_PLANE, transform_then(transform_rotate(vec3(-90, 0, 0)), ahead[3])); /* at 11 */
     p[0].no_image = p[1].no_shadow = p[3].no_reflection = 1;
     p[2].r1 = 0;
     p[2].texture = &clear;
     accel = create(&scene, p, 4);
-    assert_true(accel_intersect(accel, &ray, RAY_CAMERA, &hit) && hit.primitive == 1 && fabs(hit.t - 5 + sqrt(0.99)) < 1e-12);
+    assert_true(accel_intersect(accel, &ray, RAY_CAMERA, &hit) && hit.primitive == 1 &&
+                fabs(hit.t - 5 + sqrt(0.99)) < 1e-12);
     assert_true(accel_intersect(accel, &ray, RAY_BOUNCE, &hit) && hit.primitive == 0 && hit.face == 4 && hit.t == 2);
     ray.origin.z = 3.5;
     assert_true(accel_intersect(accel, &ray, RAY_SHADOW, &hit) && hit.primitive == 2 && hit.t == 4.5);
@@ -345,7 +349,8 @@ static void rays_see_what_they_may(void **state)
 static void bad_geometry(void **state)
 {
     Vec3 vertices[5] = {{0, 0, 1}, {1, 0, 1}, {0, 1, 1}, {2, 2, 2}, {0, 0, 1}};
-    MeshFace faces[3] = {{{0, 1, 1}, {-1, -1, -1}, {-1, -1, -1}, -1}, {{0, 1, 2}, {-1, -1, -1}, {-1, -1, -1}, -1},
+    MeshFace faces[3] = {{{0, 1, 1}, {-1, -1, -1}, {-1, -1, -1}, -1},
+                         {{0, 1, 2}, {-1, -1, -1}, {-1, -1, -1}, -1},
                          {{0, 4, 2}, {-1, -1, -1}, {-1, -1, -1}, -1}};
     Mesh mesh = {.nvertices = 5, .nfaces = 3, .vertices = vertices, .faces = faces};
     Primitive p = shape(SHAPE_MESH, transform_identity());

@@ -11,7 +11,11 @@ static const Vec2 nowhere = {0, 0};
 
 static Pigment pigment(PigmentKind kind)
 {
-    return (Pigment){.kind = kind, .frequency = 1, .wave_exponent = 1, .gradient = {1, 0, 0}, .transform = transform_identity(),
+    return (Pigment){.kind = kind,
+                     .frequency = 1,
+                     .wave_exponent = 1,
+                     .gradient = {1, 0, 0},
+                     .transform = transform_identity(),
                      .checker = {{1, 0, 0, 0, 0}, {0, 1, 0, 0, 0}}};
 }
 
@@ -20,7 +24,10 @@ static double value(const Pigment *p, double x, double y)
     return pigment_eval(p, vec3(x, y, 0), nowhere).r;
 }
 
-static void assert_near(double a, double b) { assert_true(fabs(a - b) < 2e-4); }
+static void assert_near(double a, double b)
+{
+    assert_true(fabs(a - b) < 2e-4);
+}
 
 /* Pixels of POV-Ray 3.7 at x = -2.95 and 2.65, y = .75. */
 static void gradients_are_povray(void **state)
@@ -31,12 +38,12 @@ static void gradients_are_povray(void **state)
         WaveKind wave;
         double at[2]; /* -2.95, 2.65 */
     } cases[] = {
-        {{1, 0, 0}, 1, 0, WAVE_RAMP, {0.05, 0.65}},         {{2, 0, 0}, 1, 0, WAVE_RAMP, {0.05, 0.65}},
-        {{1, 1, 0}, 1, 0, WAVE_RAMP, {0.4444, 0.4042}},     {{1, 0, 0}, 3, 0.25, WAVE_RAMP, {0.4001, 0.2000}},
-        {{1, 0, 0}, 1, 0, WAVE_SINE, {0.6546, 0.0955}},     {{1, 0, 0}, 1, 0, WAVE_TRIANGLE, {0.1, 0.7}},
-        {{1, 0, 0}, 1, 0, WAVE_SCALLOP, {0.1565, 0.8910}},  {{1, 0, 0}, 1, 0, WAVE_CUBIC, {0.0073, 0.7183}},
-        {{1, 0, 0}, 1, 0, WAVE_POLY, {0.0025, 0.4225}},     {{1, 0, 0}, -1, 0.1, WAVE_RAMP, {0.05, 0.45}},
-        {{1, 0, 0}, 0, 0.1, WAVE_RAMP, {0.05, 0.65}},       {{-1, 0, 0}, 1, 0, WAVE_RAMP, {0.95, 0.35}},
+        {{1, 0, 0}, 1, 0, WAVE_RAMP, {0.05, 0.65}},        {{2, 0, 0}, 1, 0, WAVE_RAMP, {0.05, 0.65}},
+        {{1, 1, 0}, 1, 0, WAVE_RAMP, {0.4444, 0.4042}},    {{1, 0, 0}, 3, 0.25, WAVE_RAMP, {0.4001, 0.2000}},
+        {{1, 0, 0}, 1, 0, WAVE_SINE, {0.6546, 0.0955}},    {{1, 0, 0}, 1, 0, WAVE_TRIANGLE, {0.1, 0.7}},
+        {{1, 0, 0}, 1, 0, WAVE_SCALLOP, {0.1565, 0.8910}}, {{1, 0, 0}, 1, 0, WAVE_CUBIC, {0.0073, 0.7183}},
+        {{1, 0, 0}, 1, 0, WAVE_POLY, {0.0025, 0.4225}},    {{1, 0, 0}, -1, 0.1, WAVE_RAMP, {0.05, 0.45}},
+        {{1, 0, 0}, 0, 0.1, WAVE_RAMP, {0.05, 0.65}},      {{-1, 0, 0}, 1, 0, WAVE_RAMP, {0.95, 0.35}},
         {{1, 0, 0}, 50, 0, WAVE_RAMP, {0.5015, 0.4997}},
     };
 
@@ -55,7 +62,8 @@ static void gradients_are_povray(void **state)
 
 static void color_maps(void **state)
 {
-    ColorMapEntry entries[] = {{0.2, {1, 0, 0, 0, 0}}, {0.5, {0, 0, 0, 0, 0}}, {0.5, {0.5f, 0, 0, 0, 0.2f}}, {0.7, {1, 1, 1, 0, 0}}};
+    ColorMapEntry entries[] = {
+        {0.2, {1, 0, 0, 0, 0}}, {0.5, {0, 0, 0, 0, 0}}, {0.5, {0.5f, 0, 0, 0, 0.2f}}, {0.7, {1, 1, 1, 0, 0}}};
     Pigment p = pigment(PIGMENT_GRADIENT);
 
     (void)state;
@@ -78,7 +86,8 @@ static void checkers(void **state)
     Pigment p = pigment(PIGMENT_CHECKER);
 
     (void)state;
-    assert_true(value(&p, 0.5, 0.5) == 1 && value(&p, 1.5, 0.5) == 0 && value(&p, -0.5, 0.5) == 0 && value(&p, -0.5, -0.5) == 1);
+    assert_true(value(&p, 0.5, 0.5) == 1 && value(&p, 1.5, 0.5) == 0 && value(&p, -0.5, 0.5) == 0 &&
+                value(&p, -0.5, -0.5) == 1);
     /* a hair below a boundary counts as beyond it, so that a plane through one does not speckle */
     assert_true(value(&p, 1 - 0.5e-10, 0.5) == 0 && value(&p, 1 - 2e-10, 0.5) == 1);
     p.transform = transform_then(transform_scale(vec3(2, 2, 2)), transform_translate(vec3(1, 0, 0)));
@@ -221,8 +230,12 @@ static void bakes(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(gradients_are_povray), cmocka_unit_test(color_maps),  cmocka_unit_test(checkers),
-        cmocka_unit_test(images_are_povray),    cmocka_unit_test(projections), cmocka_unit_test(target_uvs),
+        cmocka_unit_test(gradients_are_povray),
+        cmocka_unit_test(color_maps),
+        cmocka_unit_test(checkers),
+        cmocka_unit_test(images_are_povray),
+        cmocka_unit_test(projections),
+        cmocka_unit_test(target_uvs),
         cmocka_unit_test(bakes),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -16,7 +16,10 @@ static double uniform(void)
     return (double)(seed >> 11) * 0x1p-53;
 }
 
-static double between(double low, double high) { return low + (high - low) * uniform(); }
+static double between(double low, double high)
+{
+    return low + (high - low) * uniform();
+}
 
 static Vec3 direction(void)
 {
@@ -28,7 +31,8 @@ static Vec3 direction(void)
 static Transform random_transform(double scale, double shift, int even)
 {
     double s = scale * between(0.5, 2);
-    Vec3 factor = even ? vec3(s, s, s) : vec3(scale * between(0.3, 3), -scale * between(0.3, 3), scale * between(0.3, 3));
+    Vec3 factor =
+        even ? vec3(s, s, s) : vec3(scale * between(0.3, 3), -scale * between(0.3, 3), scale * between(0.3, 3));
     Transform t = transform_then(transform_scale(factor), transform_rotate(vec_scale(direction(), 180)));
 
     return transform_then(t, transform_translate(vec_scale(direction(), shift)));
@@ -100,7 +104,8 @@ static void check_against_march(Primitive p, double size)
 
     assert_true(shape_bounds(&p, &low, &high) || p.kind == SHAPE_PLANE);
     for (int i = 0; i < 300; i++) {
-        Vec3 centre = transform_point(&p.transform, vec3(0, 0, 0)), aim = vec_mad(centre, direction(), size * uniform());
+        Vec3 centre = transform_point(&p.transform, vec3(0, 0, 0)),
+             aim = vec_mad(centre, direction(), size * uniform());
         Ray ray = {vec_mad(centre, direction(), size * between(0.1, 4)), {0, 0, 0}, 0, 12 * size};
         double t, expected;
         int face, found, doubtful;
@@ -116,8 +121,8 @@ static void check_against_march(Primitive p, double size)
                 assert_true(at.x > low.x - 1e-9 * size && at.y > low.y - 1e-9 * size && at.z > low.z - 1e-9 * size &&
                             at.x < high.x + 1e-9 * size && at.y < high.y + 1e-9 * size && at.z < high.z + 1e-9 * size);
             /* the normal looks where the implicit function grows */
-            assert_true(implicit(&p, transform_inverse_point(&p.transform, vec_mad(s.position, s.geometric_normal,
-                                                                                   1e-6 * size))) > 0);
+            assert_true(implicit(&p, transform_inverse_point(
+                                         &p.transform, vec_mad(s.position, s.geometric_normal, 1e-6 * size))) > 0);
             assert_int_equal(s.backside, vec_dot(ray.direction, s.geometric_normal) > 0);
             hits++;
         }
@@ -160,7 +165,8 @@ static void no_self_intersection(void **state)
     for (int i = 0; i < 20000; i++) {
         int kind = i % 4;
         double scale = scales[i / 4 % 5];
-        Primitive p = shape(kinds[kind], low[kind], high[kind], random_transform(scale, fmin(100 * scale, 1e4), i % 3 > 0));
+        Primitive p =
+            shape(kinds[kind], low[kind], high[kind], random_transform(scale, fmin(100 * scale, 1e4), i % 3 > 0));
         Vec3 centre = transform_point(&p.transform, vec3(kind == 3 ? 1 : 0, 0, kind == 1 || kind == 2 ? 0.3 : 0));
         Ray ray = {centre, direction(), 0, INFINITY};
         double t, tangent, slope = pow(10, -7 * uniform());
@@ -189,7 +195,8 @@ static void no_self_intersection(void **state)
 
 static void discs_and_open_cones(void **state)
 {
-    Primitive disc = shape(SHAPE_DISC, 2, 1, transform_identity()), tube = shape(SHAPE_CONE, 1, 1, transform_identity());
+    Primitive disc = shape(SHAPE_DISC, 2, 1, transform_identity()),
+              tube = shape(SHAPE_CONE, 1, 1, transform_identity());
     Ray ray = {{1.5, 0, -3}, {0, 0, 1}, 0, INFINITY}, along = {{0.2, 0, -3}, {0, 0, 1}, 0, INFINITY};
     double t;
     int face;
@@ -218,7 +225,8 @@ static void assert_uv(Vec2 uv, double u, double v)
 
 static Surface box_surface(int face, Vec3 at)
 {
-    Primitive box = shape(SHAPE_BOX, 0, 0, transform_then(transform_scale(vec3(2, 2, 2)), transform_translate(vec3(-1, -1, -1))));
+    Primitive box =
+        shape(SHAPE_BOX, 0, 0, transform_then(transform_scale(vec3(2, 2, 2)), transform_translate(vec3(-1, -1, -1))));
     Vec3 out = {face / 2 == 0, face / 2 == 1, face / 2 == 2};
     Ray ray;
 
@@ -230,7 +238,8 @@ static Surface box_surface(int face, Vec3 at)
 /* The UVs are POV-Ray's own pixels at these points. */
 static void uv_is_povray(void **state)
 {
-    Primitive sphere = shape(SHAPE_SPHERE, 0, 0, transform_identity()), torus = shape(SHAPE_TORUS, 1, 0.4, transform_rotate(vec3(-60, 0, 0)));
+    Primitive sphere = shape(SHAPE_SPHERE, 0, 0, transform_identity()),
+              torus = shape(SHAPE_TORUS, 1, 0.4, transform_rotate(vec3(-60, 0, 0)));
     Primitive disc = shape(SHAPE_DISC, 1, 0, transform_translate(vec3(0.25, 0, 0)));
     Ray ray = {{-0.0375, -0.0375, -5}, {0, 0, 1}, 0, INFINITY};
     double t;
@@ -276,10 +285,18 @@ static void mesh_normals(void **state)
 {
     Vec3 vertices[4] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, normals[3] = {{0.1, 0, -1}, {0, 0, -1}, {0, 0, 0}};
     Vec2 uvs[3] = {{0, 0}, {2, 0}, {0, 3}};
-    MeshFace faces[4] = {{{0, 1, 2}, {0, 1, 1}, {0, 1, 2}, -1}, {{0, 3, 1}, {-1, -1, -1}, {-1, -1, -1}, -1},
-                         {{0, 2, 3}, {2, 2, 2}, {-1, -1, -1}, -1}, {{1, 3, 2}, {-1, -1, -1}, {-1, -1, -1}, -1}};
-    Mesh mesh = {.nvertices = 4, .nnormals = 3, .nuvs = 3, .nfaces = 4, .vertices = vertices, .normals = normals,
-                 .uvs = uvs, .faces = faces};
+    MeshFace faces[4] = {{{0, 1, 2}, {0, 1, 1}, {0, 1, 2}, -1},
+                         {{0, 3, 1}, {-1, -1, -1}, {-1, -1, -1}, -1},
+                         {{0, 2, 3}, {2, 2, 2}, {-1, -1, -1}, -1},
+                         {{1, 3, 2}, {-1, -1, -1}, {-1, -1, -1}, -1}};
+    Mesh mesh = {.nvertices = 4,
+                 .nnormals = 3,
+                 .nuvs = 3,
+                 .nfaces = 4,
+                 .vertices = vertices,
+                 .normals = normals,
+                 .uvs = uvs,
+                 .faces = faces};
     Primitive p = shape(SHAPE_MESH, 0, 0, transform_identity());
     Scene scene = {.primitives = &p, .nprimitives = 1};
     Ray ray = {{0.25, 0.25, -1}, {0, 0, 1}, 0, INFINITY};
@@ -365,7 +382,8 @@ static double density_sum(const Primitive *p, int cone, int face)
         for (int j = 0; j < turns; j++) {
             Vec3 corner[4], at;
             for (int k = 0; k < 5; k++) {
-                double a = (i + (k == 4 ? 0.5 : k & 1)) / rows, b = 2 * PI * (j + (k == 4 ? 0.5 : k >> 1)) / turns, r, z;
+                double a = (i + (k == 4 ? 0.5 : k & 1)) / rows, b = 2 * PI * (j + (k == 4 ? 0.5 : k >> 1)) / turns, r,
+                       z;
                 if (cone) {
                     r = face == 0 ? p->r0 + (p->r1 - p->r0) * a : a * (face == 1 ? p->r0 : p->r1);
                     z = face == 0 ? a : face - 1;

@@ -15,7 +15,8 @@ static void assert_vec(Vec3 a, Vec3 b)
 
 static void rotations_are_povray(void **state)
 {
-    Transform x = transform_rotate(vec3(90, 0, 0)), y = transform_rotate(vec3(0, 90, 0)), z = transform_rotate(vec3(0, 0, 90));
+    Transform x = transform_rotate(vec3(90, 0, 0)), y = transform_rotate(vec3(0, 90, 0)),
+              z = transform_rotate(vec3(0, 0, 90));
     Transform all = transform_rotate(vec3(10, 20, 30)), axis;
 
     (void)state;
