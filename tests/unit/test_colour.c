@@ -198,7 +198,7 @@ static void test_alpha(void **state)
     RetexImage im = {0};
     test_random_image(&im, 20, 10, 4, 4, 0.05, 1);
     static const struct { const char *name; double tolerance; int alpha; } files[] = {
-        {"a.png", 0.006, 1}, {"a.tif", 5e-5, 1}, {"a.exr", 2e-3, 1}, {"a.webp", 2, 1}, {"a.bmp", 0.006, 1}, {"a.ppm", 0.006, 0},
+        {"a.png", 0.006, 1}, {"a.tif", 5e-5, 1}, {"a.exr", 2e-3, 1}, {"a.webp", 2, 1}, {"a.tga", 0.006, 1}, {"a.bmp", 0.1, 1}, {"a.ppm", 0.006, 0},
         {"a.pfm", 1e-6, 0},
     };
     for (size_t k = 0; k < sizeof files / sizeof files[0]; k++) {

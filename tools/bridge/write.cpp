@@ -204,6 +204,9 @@ std::unique_ptr<OIIO::ImageOutput> find_writer(const std::string &path)
     return out;
 }
 
+// Formats that OpenImageIO hands colours to as they are, alpha apart. Others want or keep them multiplied by it.
+bool keeps_unassociated(const std::string &format) { return format == "png" || format == "tiff" || format == "targa"; }
+
 // What the pixels are turned into before they are stored.
 Transform encoding(const RetexWriteParams &params, Depth depth)
 {
@@ -223,7 +226,7 @@ OIIO::ImageSpec describe(const RetexImage &src, int channels, OIIO::TypeDesc typ
     bool encoded = depth == Depth::Eight || depth == Depth::Sixteen;
     if (!params.colorspace || !*params.colorspace)
         spec.attribute("oiio:ColorSpace", encoded ? "sRGB" : "Linear");
-    if (encoded)
+    if (keeps_unassociated(format))
         spec.attribute("oiio:UnassociatedAlpha", 1);
     if (format == "jpeg") {
         int quality = std::min(100, std::max(1, params.quality));
@@ -254,16 +257,16 @@ struct Stored {
     }
 };
 
-Stored make_stored(const RetexImage &src, int channels, Depth depth, const Transform &encode)
+Stored make_stored(const RetexImage &src, int channels, Depth depth, const std::string &format, const Transform &encode)
 {
     std::vector<float> rgba = spread(src);
-    if (src.channels == 4 && channels != 4) // alpha is lost: shown over black
+    // Where alpha is lost the picture is shown over black; WebP's writer divides by it in linear light.
+    if (src.channels == 4 && (channels != 4 || format == "webp"))
         for (size_t i = 0; i < rgba.size(); i += 4)
             for (int c = 0; c < 3; c++)
                 rgba[i + c] *= rgba[i + 3];
     apply_transform(encode, rgba.data(), src.width, src.height);
-    bool whole = depth == Depth::Eight || depth == Depth::Sixteen;
-    bool multiply = channels == 4 && !whole; // float formats keep colours associated
+    bool multiply = channels == 4 && !keeps_unassociated(format) && format != "webp";
     Stored stored;
     stored.channels = channels;
     if (depth == Depth::Eight) {
@@ -295,7 +298,7 @@ void write_picture(const RetexImage &src, const char *path, const RetexWritePara
         channels = 3;
     if (channels == 1 && (format == "hdr" || format == "webp"))
         channels = 3;
-    Stored stored = make_stored(src, channels, depth, encoding(params, depth));
+    Stored stored = make_stored(src, channels, depth, format, encoding(params, depth));
     Spool spool;
     if (pfm) {
         write_pfm(spool, src.width, src.height, channels, stored.floats);
