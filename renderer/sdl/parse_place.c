@@ -214,7 +214,7 @@ static void place(Sdl *sdl, const Object *object, const Around *around)
     if (object->interior)
         here.interior = object->interior;
     here.flags = (around->flags | (object->flags & ~OBJECT_INVERSE)) ^ (object->flags & OBJECT_INVERSE);
-    here.idents = sdl_ident_join(sdl, object->idents, around->idents);
+    here.idents = sdl_ident_join(sdl, around->idents, object->idents);
     switch (object->kind) {
     case OBJECT_SHAPE: place_shape(sdl, object, &here); break;
     case OBJECT_GROUP: place_children(sdl, object->children, &here); break;

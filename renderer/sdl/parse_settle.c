@@ -175,7 +175,7 @@ static void visit_settle(Sdl *sdl, const Texture **texture, void *context)
     SideTexture *shown = (SideTexture *)side_texture_visible((const SideTexture *)*texture);
     if (!shown->settled) {
         shown->settled = 1;
-        shown->texture.idents = sdl_ident_join(sdl, shown->texture.idents, shown->texture.pigment->idents);
+        shown->texture.idents = sdl_ident_join(sdl, shown->texture.pigment->idents, shown->texture.idents);
     }
     *texture = &shown->texture;
 }

@@ -43,7 +43,7 @@ const SideTexture *side_texture_named(Sdl *sdl, const SideTexture *texture, cons
     if (!texture || !more)
         return texture;
     SideTexture *named = side_texture_copy(sdl, texture);
-    named->texture.idents = sdl_ident_join(sdl, more, texture->texture.idents);
+    named->texture.idents = sdl_ident_join(sdl, texture->texture.idents, more);
     named->below = side_texture_named(sdl, texture->below, more);
     return named;
 }
