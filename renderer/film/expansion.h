@@ -31,8 +31,8 @@ typedef struct Monomial {
 typedef struct Expansion {
     int nhits, nmonomials;
     int per_target[RETEX_MAX_TARGETS]; /* hits of each target so far */
-    TargetHit hits[RETEX_MAX_ORDERS];
-    Monomial monomials[1 << RETEX_MAX_ORDERS];
+    TargetHit hits[RETEX_MAX_FACTORS];
+    Monomial monomials[1 << RETEX_MAX_FACTORS];
 } Expansion;
 
 static inline void expansion_reset(Expansion *e)
@@ -44,7 +44,13 @@ static inline void expansion_reset(Expansion *e)
 }
 
 void expansion_copy(Expansion *to, const Expansion *from); /* only what is in use */
-/* Multiply by d a + i of one more hit; e->nhits must be below RETEX_MAX_ORDERS. */
+/* Is there room for one more hit of a target, with so many orders? Eight hits in all leave light between several targets
+ * enough terms: with two white ones the light beyond six would show. */
+static inline int expansion_has_room(const Expansion *e, int target, int orders)
+{
+    return e->nhits < RETEX_MAX_FACTORS && e->per_target[target] < orders;
+}
+/* Multiply by d a + i of one more hit, which must have room. */
 void expansion_push(Expansion *e, int target, Split factor, Vec2 uv, Rgb albedo);
 
 #endif

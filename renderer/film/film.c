@@ -14,7 +14,8 @@
 typedef struct FootprintSums {
     int samples;             /* paths that brought a connection */
     double count, mean[2], m2[2]; /* Welford's running mean and sum of squared deviations of u and v */
-    float albedo[3];
+    float light[3], light_albedo[3]; /* what the albedo there multiplied, without it and with it */
+    float albedo[3];         /* unweighted, for footprints that gave no light */
 } FootprintSums;
 
 struct Film {
@@ -146,6 +147,24 @@ static void add_term(FilmPixel *p, TermKey key, Rgb value)
     sum[0] += value.r, sum[1] += value.g, sum[2] += value.b;
 }
 
+/* The original albedo of each hit of a monomial, weighted by the light it multiplied: so a term of one factor keeps its
+ * original to the bit that arithmetic allows, whatever the texture does inside the pixel. */
+static void add_albedos(FilmPixel *p, const Expansion *e, HitMask hits, Rgb value)
+{
+    for (int j = 0; j < e->nhits; j++) {
+        const TargetHit *hit = &e->hits[j];
+        if (!(hits & hit_bit(hit->target, hit->index))) continue;
+        Rgb light = value;
+        for (int k = 0; k < e->nhits; k++)
+            if (k != j && hits & hit_bit(e->hits[k].target, e->hits[k].index)) light = rgb_mul(light, e->hits[k].albedo);
+        FootprintSums *f = &p->footprints[footprint_number(hit)];
+        f->light[0] += light.r, f->light[1] += light.g, f->light[2] += light.b;
+        f->light_albedo[0] += light.r * hit->albedo.r;
+        f->light_albedo[1] += light.g * hit->albedo.g;
+        f->light_albedo[2] += light.b * hit->albedo.b;
+    }
+}
+
 /* Remember that each hit of the expansion has one more connection behind it. */
 static void note_connection(FilmPixel *p, const Expansion *e)
 {
@@ -178,7 +197,9 @@ void film_connect(FilmPixel *p, Rgb beauty, Rgb outside, const Expansion *e, int
     for (int k = 0; k < e->nmonomials; k++) {
         Rgb value = rgb_mul(outside, e->monomials[k].coefficient);
         TermKey key = term_key(e->nhits, e->monomials[k].hits, p->film->params.strict_paper);
-        if (key != TERM_DROPPED && !rgb_is_black(value)) add_term(p, key, value);
+        if (key == TERM_DROPPED || rgb_is_black(value)) continue;
+        add_term(p, key, value);
+        if (e->monomials[k].hits) add_albedos(p, e, e->monomials[k].hits, value);
     }
     note_connection(p, e);
 }
@@ -226,7 +247,8 @@ static void store_footprint(Film *film, int k, const FootprintSums *f, int x, in
         spread[a] = (float)sqrt(f->m2[a] / f->count);
     }
     uv[2] = (float)f->samples / (float)film->params.spp;
-    for (int c = 0; c < 3; c++) albedo[c] = (float)(f->albedo[c] / f->count);
+    for (int c = 0; c < 3; c++)
+        albedo[c] = f->light[c] > 0 ? f->light_albedo[c] / f->light[c] : (float)(f->albedo[c] / f->count);
 }
 
 void film_pixel_end(FilmPixel *p, int x, int y)

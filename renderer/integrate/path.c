@@ -43,7 +43,7 @@ static void apply_factor(const PathContext *c, Rgb *beta, Rgb *outside, Expansio
 {
     Rgb whole = split_apply(f->split, f->albedo);
     *beta = rgb_mul(*beta, whole);
-    if (is_recorded(c, f) && e->nhits < c->orders) {
+    if (is_recorded(c, f) && expansion_has_room(e, f->target, c->orders)) {
         expansion_push(e, f->target, f->split, f->uv, f->albedo);
         return;
     }
@@ -172,14 +172,19 @@ static void hit_sky(PathWorker *w, const Path *path, Vec3 direction)
     connect(w, path, rgb_scale(radiance, weight), NULL, 0);
 }
 
+static float fade_channel(float color, double x, double power)
+{
+    if (power > 1000) return (float)exp(-(1 - color) * x);
+    return color + (1 - color) * (float)(1 / (1 + pow(x, power)));
+}
+
 /* POV-Ray's fading inside an object, on the way out of it. */
 static Rgb interior_fade(const Surface *surface, double distance)
 {
     const Interior *in = surface->primitive->interior;
     if (!in || !surface->backside || in->fade_power <= 0 || in->fade_distance <= 0) return rgb_grey(1);
-    double x = distance / in->fade_distance;
-    double kept = in->fade_power >= 1000 ? exp(-x) : 1 / (1 + pow(x, in->fade_power));
-    return rgb_lerp(in->fade_color, rgb_grey(1), (float)kept);
+    double x = distance / in->fade_distance, power = in->fade_power;
+    return rgb(fade_channel(in->fade_color.r, x, power), fade_channel(in->fade_color.g, x, power), fade_channel(in->fade_color.b, x, power));
 }
 
 /* Choose where the path goes on. Returns 0 where it ends. */
@@ -229,7 +234,9 @@ static void trace_hit(const PathContext *c, const Hit *hit, const Shading *s)
 void path_trace(PathWorker *w, Ray ray, const Sampler *sampler)
 {
     const PathContext *c = w->context;
-    Path path = {.beta = {1, 1, 1}, .outside = {1, 1, 1}, .neutral = 1, .from = ray.origin, .segments = 1};
+    Path path; /* set field by field: its expansion is large, and mostly unused */
+    path.beta = path.outside = rgb_grey(1);
+    path.neutral = 1, path.pdf = 0, path.from = ray.origin, path.segments = 1, path.folded = 0;
     expansion_reset(&path.expansion);
     RayKind kind = RAY_CAMERA;
     Hit hit;

@@ -24,7 +24,7 @@ typedef struct RenderParams {
     uint32_t seed;           /* default 0 */
     int max_depth;           /* segments of a path, 1..256, camera and shadow rays included; default 16 */
     int gaussian;            /* pixel filter: 0 box of one pixel (default), 1 Gaussian of standard deviation 0.5 pixel */
-    int orders;              /* highest number of target hits kept, 1..6; default 6 */
+    int orders;              /* highest number of hits of each target kept, 1..6; default 6; at most 8 of all together */
     int strict_paper;        /* drop mixed terms of four and more hits, as the supplement does; default 0 */
     int plain;               /* beauty only, no set; default 0 */
     unsigned aovs;           /* AOV_… bits */

@@ -98,7 +98,8 @@ static void add_others(Lights *lights)
         float strength = rgb_luminance(lights->scene->lights[k].color) * (float)PI;
         if (strength > 0) lights->entries[lights->count++] = (Entry){.kind = ENTRY_SOURCE, .index = k, .strength = strength};
     }
-    if (!lights->environment) return;
+    /* A sky of one colour is found as well by the BSDF alone, without noise where nothing is in the way. */
+    if (!lights->environment || !lights->scene->sky) return;
     lights->sky = lights->count;
     lights->entries[lights->count++] =
         (Entry){.kind = ENTRY_SKY, .strength = environment_mean(lights->environment) * (float)PI};

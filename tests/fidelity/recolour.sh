@@ -31,7 +31,7 @@ render() { retex-render -q --threads 2 --size "$size" --spp "$spp" --seed 3 "$@"
 edited() {
     awk -v name="$2" -v pigment="$3" '
         $1 == "#declare" && $2 == name { inside = 1 }
-        inside && /image_map/ { sub(/image_map.*$/, pigment); inside = 0 }
+        inside && /image_map/ { sub(/image_map *[{][^}]*[}]/, pigment); inside = 0 }
         { print }' "$scenes/$1/$1.pov"
 }
 
@@ -43,7 +43,7 @@ check_scene() { # SCENE TARGET…
 
     # shellcheck disable=SC2086 # words wanted
     render $flags "$file" -o "$work/set.exr" || { result 0 "$scene renders"; return; }
-    folded=$(retex-info --json "$work/set.exr" | awk -F: '/"folded"/ { print $2 + 0 }')
+    folded=$(retex-info --json "$work/set.exr" | tr ',{}' '\n\n\n' | awk -F: '$1 == "\"folded\"" { print $2 + 0 }')
     echo "# $scene: energy beyond the last order: $(awk "BEGIN { print 100 * $folded }")%"
     result "$(at_most "$folded" 0.001)" "$scene: energy beyond the last order is below 0.1%"
 
@@ -65,7 +65,7 @@ check_scene() { # SCENE TARGET…
     for target; do
         scenes_file=$work/plain.pov
         awk -v name="$target" '$1 == "#declare" && $2 == name { inside = 1 }
-            inside && /image_map/ { sub(/image_map.*$/, "rgb <0.5, 0.3, 0.2>"); inside = 0 } { print }' "$scenes_file" >"$work/next.pov"
+            inside && /image_map/ { sub(/image_map *[{][^}]*[}]/, "rgb <0.5, 0.3, 0.2>"); inside = 0 } { print }' "$scenes_file" >"$work/next.pov"
         mv "$work/next.pov" "$scenes_file"
         all="$all --texture $target=rgb(0.5,0.3,0.2)"
     done

@@ -19,14 +19,15 @@ static void multiplies_out(void **state)
     for (int round = 0; round < 2000; round++) {
         Expansion e;
         expansion_reset(&e);
-        int n = round % (RETEX_MAX_ORDERS + 1), targets[RETEX_MAX_ORDERS], index[RETEX_MAX_ORDERS];
+        int n = round % (RETEX_MAX_FACTORS + 1), targets[RETEX_MAX_FACTORS], index[RETEX_MAX_FACTORS];
         int seen[RETEX_MAX_TARGETS] = {0};
-        double product = 1, a[RETEX_MAX_ORDERS];
+        double product = 1, a[RETEX_MAX_FACTORS];
         for (int j = 0; j < n; j++) {
             float d = at_random(&seed), i = at_random(&seed);
             if (at_random(&seed) < 0.4f) i = 0; /* diffuse */
             else if (at_random(&seed) < 0.2f) d = 0;
             targets[j] = (int)(at_random(&seed) * 3);
+            if (!expansion_has_room(&e, targets[j], RETEX_MAX_ORDERS)) targets[j] = 7;
             index[j] = seen[targets[j]]++;
             a[j] = at_random(&seed);
             product *= d * a[j] + i;

@@ -23,8 +23,8 @@ extern "C" {
 
 #define RETEX_SET_VERSION 1   /* of the manifest */
 #define RETEX_MAX_TARGETS 8
-#define RETEX_MAX_ORDERS 6
-#define RETEX_MAX_FACTORS 6
+#define RETEX_MAX_ORDERS 6    /* hits of one target that a path keeps apart */
+#define RETEX_MAX_FACTORS 8   /* hits of all targets together */
 #define RETEX_NAME_MAX 128    /* bytes of a target or part name, with the final NUL */
 
 typedef enum RetexPixelType { RETEX_HALF, RETEX_FLOAT } RetexPixelType;
@@ -58,7 +58,7 @@ typedef struct RetexFootprint {
     int uv;                  /* part "RGA": mean u, mean v, and coverage (share of samples with a connection; 0 = this
                                 pixel has no such footprint and u, v mean nothing). float */
     int spread;              /* part "RG": standard deviation of u and of v. half */
-    int albedo;              /* part "RGB": mean original albedo. half */
+    int albedo;              /* part "RGB": mean original albedo, weighted per channel by the light it multiplies. half */
 } RetexFootprint;
 
 typedef enum RetexTermKind {
