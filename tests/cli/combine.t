@@ -1,0 +1,64 @@
+# retex-combine: three ways to the same picture, errors, and what stays behind.
+$ make_set s.exr 48 32; cp "$SCENES/textures/brick.jpg" .; retex-combine -q s.exr --texture floor=brick.jpg -o fused.exr
+$ retex-sample -q s.exr --texture floor=brick.jpg -o a.exr; retex-combine -q s.exr a.exr -o files.exr; retex-diff -q fused.exr files.exr
+$ retex-sample -q s.exr --texture floor=brick.jpg | retex-combine -q - -o pipe.exr; cmp pipe.exr files.exr
+$ retex-combine -q s.exr --texture floor=brick.jpg >out.exr; retex-diff -q out.exr fused.exr
+$ retex-combine -q s.exr -o original.exr; retex-diff -q original.exr fused.exr --fail-psnr 60
+= 1
+$ for f in x.png x.jpg x.tif x.hdr x.exr; do retex-combine -q s.exr --texture floor=brick.jpg -o $f && retex-diff -q $f fused.exr --fail-psnr 20 || echo $f; done
+$ retex-pack -q --lossless s.exr -o s.retex; retex-combine -q s.retex --texture floor=brick.jpg -o pack.exr; cmp pack.exr fused.exr
+
+# Several pictures with the set read once.
+$ printf 'output,Floor,Wall\none.png,brick.jpg,\ntwo.png,"rgb(0.1,0.2,0.3)",brick.jpg\n' >batch.csv; retex-combine -q s.exr --batch batch.csv; ls one.png two.png
+> one.png
+> two.png
+
+$ retex-combine
+! retex-combine: error: no set given; - is standard input
+= 2
+$ retex-combine -q s.exr --texture Sofa=brick.jpg -o y.exr
+! retex-combine: error: no target is called 'Sofa'; the set has Floor, Wall
+= 2
+$ retex-combine -q s.exr --texture floor=none.jpg -o y.exr
+! retex-combine: error: cannot read none.jpg: No such file or directory
+= 2
+$ retex-combine -q s.exr -o y.xyz
+! retex-combine: error: y.xyz: no picture format has the ending .xyz; try .png, .jpg, .tif, .exr or .hdr
+= 2
+$ retex-combine -q s.exr -o nowhere/y.png
+! retex-combine: error: cannot write nowhere/y.png: No such file or directory
+= 2
+$ retex-combine -q none.exr -o y.png
+! retex-combine: error: cannot read none.exr: No such file or directory
+= 2
+$ make_set other.exr 32 32; retex-combine -q other.exr a.exr -o y.exr
+! retex-combine: error: the samples have 48 x 32 pixels, the set 32 x 32
+= 2
+$ make_picture p.exr; retex-combine -q p.exr -o y.exr 2>err; echo $?; grep -c 'retex-combine: error: .*p.exr' err
+> 2
+> 1
+$ retex-sample -q s.exr --texture floor=brick.jpg 2>/dev/null | head -c 20000 | retex-combine -q - -o y.png 2>err; echo $?; grep -c 'error: standard input.*damaged' err
+> 2
+> 1
+$ retex-combine -q s.exr -o /dev/full
+! retex-combine: error: cannot write /dev/full: No space left on device
+= 2
+$ retex-combine -q s.exr >/dev/full
+! retex-combine: error: cannot write standard output: No space left on device
+= 2
+$ { sleep 0.3; retex-combine -q s.exr; echo $? >&2; } | :
+! retex-combine: error: cannot write standard output: Broken pipe
+! 2
+$ ls y.*
+! ls: cannot access 'y.*': No such file or directory
+= 2
+
+# An old picture is whole after a failure.
+$ echo old >old.png; retex-combine -q none.exr -o old.png 2>/dev/null; cat old.png
+> old
+$ echo old >old.exr; head -c 30000 s.exr >cut.exr; retex-combine -q cut.exr -o old.exr 2>/dev/null; cat old.exr; ls -A | grep -i 'tmp\|^\.[^.]'
+> old
+= 1
+
+# The same bits whatever the number of threads.
+$ for n in 1 2 7; do retex-combine -q s.exr --threads $n --texture:scale=3:rotate=20 wall=brick.jpg -o $n.exr; done; cmp 1.exr 2.exr; cmp 1.exr 7.exr

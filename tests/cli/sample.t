@@ -1,0 +1,77 @@
+# retex-sample: errors, and that neither a partial file nor a changed old one stays behind.
+$ make_set s.exr 48 32; cp "$SCENES/textures/brick.jpg" .; retex-sample -q s.exr --texture floor=brick.jpg -o a.exr; retex-info a.exr | head -n 1
+> samples of     3 footprints out of 6, 48 x 32 pixels
+$ retex-sample -q - --texture floor=brick.jpg <s.exr >stream.exr; retex-info stream.exr | head -n 1
+> layout         paper
+
+$ retex-sample
+! retex-sample: error: no set given; - is standard input
+= 2
+$ retex-sample -q s.exr -o x.exr
+! retex-sample: error: no texture given; expected --texture NAME=IMAGE
+= 2
+$ retex-sample -q s.exr --texture Sofa=brick.jpg -o x.exr
+! retex-sample: error: no target is called 'Sofa'; the set has Floor, Wall
+= 2
+$ retex-sample -q s.exr --texture floor=none.jpg -o x.exr
+! retex-sample: error: cannot read none.jpg: No such file or directory
+= 2
+$ retex-sample -q s.exr --texture floor -o x.exr
+! retex-sample: error: texture 'floor': expected NAME=IMAGE, a target and what to put on it
+= 2
+$ retex-sample -q s.exr --texture:size=3 floor=brick.jpg -o x.exr
+! retex-sample: error: no texture option is called 'size'; there are scale, rotate, offset, wrap, colorspace
+= 2
+$ retex-sample -q s.exr --texture:scale=0 floor=brick.jpg -o x.exr
+! retex-sample: error: texture option scale='0': a scale cannot be 0
+= 2
+$ retex-sample -q s.exr --texture:wrap=around floor=brick.jpg -o x.exr
+! retex-sample: error: texture option wrap='around': expected repeat, mirror, clamp or black, or two of them for u,v
+= 2
+$ retex-sample -q s.exr --texture floor=brick.jpg --texture Floor=brick.jpg -o x.exr
+! retex-sample: error: target Floor is given two textures
+= 2
+$ retex-sample -q s.exr --texture 'floor=rgb(1,2' -o x.exr
+! retex-sample: error: colour 'rgb(1,2': expected rgb(r,g,b) with three numbers
+= 2
+$ retex-sample -q s.exr --texture 'floor=rgb(1,nan,2)' -o x.exr
+! retex-sample: error: colour 'rgb(1,nan,2)': expected rgb(r,g,b) with three numbers of 0 or more
+= 2
+$ retex-sample -q none.exr --texture floor=brick.jpg -o x.exr
+! retex-sample: error: cannot read none.exr: No such file or directory
+= 2
+$ echo text >text.jpg; retex-sample -q s.exr --texture floor=text.jpg -o x.exr 2>err; echo $?; grep -c 'retex-sample: error: text.jpg' err
+> 2
+> 1
+$ head -c 30000 s.exr | retex-sample -q - --texture floor=brick.jpg -o x.exr 2>err; echo $?; grep -c 'error: standard input: part .* is damaged' err
+> 2
+> 1
+$ retex-sample -q s.exr --texture floor=brick.jpg -o nowhere/x.exr
+! retex-sample: error: cannot write nowhere/x.exr: No such file or directory
+= 2
+$ retex-sample -q s.exr --texture floor=brick.jpg -o /dev/full
+! retex-sample: error: cannot write /dev/full: No space left on device
+= 2
+$ retex-sample -q s.exr --texture floor=brick.jpg >/dev/full
+! retex-sample: error: cannot write standard output: No space left on device
+= 2
+$ { sleep 0.3; retex-sample -q s.exr --texture floor=brick.jpg; echo $? >&2; } | :
+! retex-sample: error: cannot write standard output: Broken pipe
+! 2
+
+# Nothing of all that was left, and an old file is whole after a failure.
+$ rm err text.jpg; ls -A
+> a.exr
+> brick.jpg
+> s.exr
+> stream.exr
+$ cp a.exr old.exr; head -c 30000 s.exr >cut.exr; retex-sample -q cut.exr --texture floor=brick.jpg -o old.exr 2>/dev/null; cmp a.exr old.exr; ls -A
+> a.exr
+> brick.jpg
+> cut.exr
+> old.exr
+> s.exr
+> stream.exr
+
+# The same bits whatever the number of threads.
+$ for n in 1 2 7; do retex-sample -q s.exr --threads $n --texture:scale=3:rotate=20 wall=brick.jpg -o $n.exr; done; cmp 1.exr 2.exr; cmp 1.exr 7.exr
