@@ -22,9 +22,11 @@ INSTALL ?= install
 # V=1 prints whole commands.
 V ?= 0
 SAY = $(if $(filter 0,$(V)),@echo '  $@' && )
-# -j of the command line wins.
+# -j of the command line wins; a make inside make shares its jobs.
 JOBS ?= $(shell nproc 2>/dev/null || echo 2)
+ifeq ($(MAKELEVEL),0)
 MAKEFLAGS += -j$(JOBS)
+endif
 
 .DEFAULT_GOAL := all
 .DELETE_ON_ERROR:
