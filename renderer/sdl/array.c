@@ -5,24 +5,31 @@
 static void initialise(Sdl *sdl, Array *array, int dimension, size_t *offset)
 {
     size_t below = 1;
-    for (int d = dimension + 1; d < array->dimensions; d++) below *= (size_t)array->size[d];
+    for (int d = dimension + 1; d < array->dimensions; d++)
+        below *= (size_t)array->size[d];
     sdl_expect(sdl, "{");
     for (int i = 0; i < array->size[dimension]; i++) {
         if (sdl_is(sdl, "}")) { /* fewer than there is room for */
             *offset += below * (size_t)(array->size[dimension] - i);
             break;
         }
-        if (dimension + 1 < array->dimensions) initialise(sdl, array, dimension + 1, offset);
+        if (dimension + 1 < array->dimensions)
+            initialise(sdl, array, dimension + 1, offset);
         else {
             Value *item = &array->items[(*offset)++];
             const Token *token = sdl_peek(sdl);
-            if (sdl_accept(sdl, "function")) function_declare(sdl, item);
-            else if (sdl_accept(sdl, "spline")) spline_declare(sdl, item);
-            else if (sdl_is_expression_start(sdl) || sdl_is_color_start(sdl)) *item = sdl_expression(sdl);
+            if (sdl_accept(sdl, "function"))
+                function_declare(sdl, item);
+            else if (sdl_accept(sdl, "spline"))
+                spline_declare(sdl, item);
+            else if (sdl_is_expression_start(sdl) || sdl_is_color_start(sdl))
+                *item = sdl_expression(sdl);
             else if (token->kind == TOKEN_IDENT) {
                 *item = *sdl_next(sdl)->value;
-                if (item->kind == VALUE_ARRAY) array_copy(sdl, item);
-            } else if (!scene_side_declare(sdl, item)) sdl_expected(sdl, "an array's element");
+                if (item->kind == VALUE_ARRAY)
+                    array_copy(sdl, item);
+            } else if (!scene_side_declare(sdl, item))
+                sdl_expected(sdl, "an array's element");
         }
         sdl_optional_comma(sdl);
     }
@@ -36,19 +43,25 @@ void array_declare(Sdl *sdl, Value *value)
     while (sdl_accept(sdl, "[")) {
         double size = expression_parameter(sdl);
         sdl_expect(sdl, "]");
-        if (array->dimensions == MAX_DIMENSIONS) sdl_error(sdl, "an array has at most %d dimensions", MAX_DIMENSIONS);
-        if (!(size >= 1 && size < 1e9)) sdl_error(sdl, "an array cannot have %g elements", size);
+        if (array->dimensions == MAX_DIMENSIONS)
+            sdl_error(sdl, "an array has at most %d dimensions", MAX_DIMENSIONS);
+        if (!(size >= 1 && size < 1e9))
+            sdl_error(sdl, "an array cannot have %g elements", size);
         array->size[array->dimensions++] = (int)(size + 1e-8);
         array->count *= (size_t)(size + 1e-8);
-        if (array->count > (size_t)1 << 32) sdl_fail(sdl, RETEX_ELIMIT, "an array this large is too much");
+        if (array->count > (size_t)1 << 32)
+            sdl_fail(sdl, RETEX_ELIMIT, "an array this large is too much");
         /* Only a bracket written right here is another dimension: looking for it must not run what follows. */
-        if (sdl->have || sdl->cursor->kind != RAW_PUNCT || sdl->cursor->punct != '[') break;
+        if (sdl->have || sdl->cursor->kind != RAW_PUNCT || sdl->cursor->punct != '[')
+            break;
     }
-    if (!array->dimensions) sdl_expected(sdl, "`[` and the array's size");
+    if (!array->dimensions)
+        sdl_expected(sdl, "`[` and the array's size");
     array->items = sdl_alloc(sdl, array->count * sizeof *array->items);
     *value = (Value){.kind = VALUE_ARRAY, .data = array};
     size_t offset = 0;
-    if (!sdl->have && sdl->cursor->kind == RAW_PUNCT && sdl->cursor->punct == '{') initialise(sdl, array, 0, &offset);
+    if (!sdl->have && sdl->cursor->kind == RAW_PUNCT && sdl->cursor->punct == '{')
+        initialise(sdl, array, 0, &offset);
 }
 
 /* The element may have no value yet: it is assigned to or asked about. */
@@ -73,15 +86,20 @@ Value *array_element(Sdl *sdl, Value *value)
 
 static void copy_items(Sdl *sdl, Value *value, int depth)
 {
-    if (depth > 32) sdl_fail(sdl, RETEX_ELIMIT, "arrays nested more than 32 deep");
+    if (depth > 32)
+        sdl_fail(sdl, RETEX_ELIMIT, "arrays nested more than 32 deep");
     const Array *array = value->data;
     Array *copy = sdl_alloc(sdl, sizeof *copy);
     *copy = *array;
     copy->items = sdl_alloc(sdl, array->count * sizeof *copy->items);
     memcpy(copy->items, array->items, array->count * sizeof *copy->items);
     for (size_t i = 0; i < copy->count; i++)
-        if (copy->items[i].kind == VALUE_ARRAY) copy_items(sdl, &copy->items[i], depth + 1);
+        if (copy->items[i].kind == VALUE_ARRAY)
+            copy_items(sdl, &copy->items[i], depth + 1);
     value->data = copy;
 }
 
-void array_copy(Sdl *sdl, Value *value) { copy_items(sdl, value, 0); }
+void array_copy(Sdl *sdl, Value *value)
+{
+    copy_items(sdl, value, 0);
+}

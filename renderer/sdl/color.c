@@ -6,34 +6,41 @@
 /* The form after its keyword: which numbers it takes, and whether they are sRGB-encoded. */
 typedef struct Form {
     const char *name;
-    int count;        /* of its numbers */
-    int transmit;     /* the fourth is transmit */
+    int count;    /* of its numbers */
+    int transmit; /* the fourth is transmit */
     int srgb;
 } Form;
 static const Form forms[] = {{"rgb", 3, 0, 0},  {"rgbf", 4, 0, 0},  {"rgbt", 4, 1, 0},  {"rgbft", 5, 0, 0},
                              {"srgb", 3, 0, 1}, {"srgbf", 4, 0, 1}, {"srgbt", 4, 1, 1}, {"srgbft", 5, 0, 1}};
 static const char *const channels[] = {"red", "green", "blue", "filter", "transmit"};
 
-int color_word(const char *text)
+/* 1 if a colour begins with this word. */
+static int color_word(const char *text)
 {
     for (size_t i = 0; i < sizeof forms / sizeof *forms; i++)
-        if (strcmp(text, forms[i].name) == 0) return 1;
+        if (strcmp(text, forms[i].name) == 0)
+            return 1;
     for (int i = 0; i < 5; i++)
-        if (strcmp(text, channels[i]) == 0) return 1;
+        if (strcmp(text, channels[i]) == 0)
+            return 1;
     return strcmp(text, "color") == 0 || strcmp(text, "colour") == 0 || strcmp(text, "alpha") == 0;
 }
 
 int sdl_is_color_start(Sdl *sdl)
 {
     const Token *token = sdl_peek(sdl);
-    if (token->kind == TOKEN_WORD) return color_word(token->text);
+    if (token->kind == TOKEN_WORD)
+        return color_word(token->text);
     return token->kind == TOKEN_IDENT && token->value->kind == VALUE_VECTOR;
 }
 
-static double linear(double v) { return v <= 0.04045 ? v / 12.92 : pow((v + 0.055) / 1.055, 2.4); }
+static double linear(double v)
+{
+    return v <= 0.04045 ? v / 12.92 : pow((v + 0.055) / 1.055, 2.4);
+}
 
-/* Of a plain expression: a float fills filter and transmit as well, as in POV-Ray; a vector is red, green, blue, filter,
- * transmit as far as it goes. */
+/* Of a plain expression: a float fills filter and transmit as well, as in POV-Ray; a vector is red, green, blue,
+ * filter, transmit as far as it goes. */
 static Num from_num(Num num)
 {
     num_promote(&num, 5);
@@ -56,7 +63,8 @@ static Num from_form(Sdl *sdl, const Form *form)
     }
     num_promote(&num, 5);
     num.color = 1;
-    for (int i = 0; i < 3 && form->srgb; i++) num.n[i] = linear(num.n[i]);
+    for (int i = 0; i < 3 && form->srgb; i++)
+        num.n[i] = linear(num.n[i]);
     return num;
 }
 
@@ -67,27 +75,34 @@ Num color_parse(Sdl *sdl)
     if (++sdl->expression_depth > MAX_EXPRESSION_DEPTH)
         sdl_fail(sdl, RETEX_ELIMIT, "expressions nested more than %d deep", MAX_EXPRESSION_DEPTH);
     int frame = sdl->nframes;
-    if (!sdl_accept(sdl, "color")) sdl_accept(sdl, "colour");
+    if (!sdl_accept(sdl, "color"))
+        sdl_accept(sdl, "colour");
     for (;; started = 1) {
         const Token *token = started ? sdl_peek_operator(sdl, frame) : sdl_peek(sdl);
         const Form *form = NULL;
         int channel = -1;
         if (token && token->kind == TOKEN_WORD) {
             for (size_t i = 0; i < sizeof forms / sizeof *forms; i++)
-                if (strcmp(token->text, forms[i].name) == 0) form = &forms[i];
+                if (strcmp(token->text, forms[i].name) == 0)
+                    form = &forms[i];
             for (int i = 0; i < 5; i++)
-                if (strcmp(token->text, channels[i]) == 0) channel = i;
-            if (strcmp(token->text, "alpha") == 0) channel = 3;
+                if (strcmp(token->text, channels[i]) == 0)
+                    channel = i;
+            if (strcmp(token->text, "alpha") == 0)
+                channel = 3;
         }
         if (channel >= 0) {
             sdl_next(sdl);
             color.n[channel] = sdl_float(sdl);
-        } else if (started) break;
+        } else if (started)
+            break;
         else if (form) {
             sdl_next(sdl);
             color = from_form(sdl, form);
-        } else if (expression_is_number_start(sdl)) color = from_num(expression_sum(sdl));
-        else sdl_expected(sdl, "a color");
+        } else if (expression_is_number_start(sdl))
+            color = from_num(expression_sum(sdl));
+        else
+            sdl_expected(sdl, "a color");
     }
     sdl->expression_depth--;
     return color;

@@ -6,16 +6,22 @@
 
 static Num factor(Sdl *sdl, int frame);
 
-Num num_float(double value) { return (Num){{value}, 1, 0}; }
+Num num_float(double value)
+{
+    return (Num){{value}, 1, 0};
+}
 
 /* A float fills all components; a short vector is filled up with zeros, as in POV-Ray. */
 void num_promote(Num *num, int count)
 {
     if (num->count == 1)
-        for (int i = 1; i < count; i++) num->n[i] = num->n[0];
+        for (int i = 1; i < count; i++)
+            num->n[i] = num->n[0];
     else
-        for (int i = num->count; i < count; i++) num->n[i] = 0;
-    if (num->count < count) num->count = count;
+        for (int i = num->count; i < count; i++)
+            num->n[i] = 0;
+    if (num->count < count)
+        num->count = count;
 }
 
 Value value_from_num(Num num)
@@ -57,7 +63,8 @@ void num_component(Sdl *sdl, Num *num, const char *name)
     }
     for (size_t i = 0; i < sizeof names / sizeof *names; i++)
         if (strcmp(name, names[i]) == 0) {
-            if (count > 1 && index[i] >= count) sdl_error(sdl, "a vector of %d components has no `%s`", count, name);
+            if (count > 1 && index[i] >= count)
+                sdl_error(sdl, "a vector of %d components has no `%s`", count, name);
             *num = num_float(num->n[index[i]]);
             return;
         }
@@ -70,13 +77,15 @@ static Num vector_literal(Sdl *sdl)
     Num vector = {{0}, 0, 0};
     enter(sdl);
     do {
-        if (vector.count == 5) sdl_error(sdl, "a vector has at most five components");
+        if (vector.count == 5)
+            sdl_error(sdl, "a vector has at most five components");
         vector.n[vector.count++] = sdl_float(sdl);
         sdl_optional_comma(sdl);
     } while (!sdl_is(sdl, ">"));
     sdl_next(sdl);
     sdl->expression_depth--;
-    if (vector.count < 2) sdl_error(sdl, "a vector has two components at least");
+    if (vector.count < 2)
+        sdl_error(sdl, "a vector has two components at least");
     return vector;
 }
 
@@ -85,10 +94,15 @@ static Num identifier(Sdl *sdl)
     /* The token goes when the next is looked at; its value may be a name of a macro that ends here. */
     Value value = *sdl_next(sdl)->value;
     switch (value.kind) {
-    case VALUE_FLOAT: case VALUE_VECTOR: return num_from_value(&value);
-    case VALUE_FUNCTION: return function_call(sdl, &value);
-    case VALUE_SPLINE: return spline_call(sdl, &value);
-    default: sdl_error(sdl, "`%s` is no number", sdl->token.text);
+    case VALUE_FLOAT:
+    case VALUE_VECTOR:
+        return num_from_value(&value);
+    case VALUE_FUNCTION:
+        return function_call(sdl, &value);
+    case VALUE_SPLINE:
+        return spline_call(sdl, &value);
+    default:
+        sdl_error(sdl, "`%s` is no number", sdl->token.text);
     }
 }
 
@@ -96,12 +110,14 @@ static Num word(Sdl *sdl)
 {
     const Token *token = sdl_peek(sdl);
     const Builtin *builtin = word_intern(sdl, token->text, strlen(token->text))->builtin;
-    if (!builtin) sdl_expected(sdl, "a number");
+    if (!builtin)
+        sdl_expected(sdl, "a number");
     switch (builtin->kind) {
     case BUILTIN_CONSTANT:
         sdl_next(sdl);
         return builtin_constant(sdl, builtin->id);
-    case BUILTIN_FLOAT: case BUILTIN_NUMBER:
+    case BUILTIN_FLOAT:
+    case BUILTIN_NUMBER:
         sdl_next(sdl);
         return builtin_number(sdl, builtin);
     default:
@@ -113,14 +129,22 @@ static Num primary(Sdl *sdl)
 {
     const Token *token = sdl_peek(sdl);
     switch (token->kind) {
-    case TOKEN_NUMBER: return num_float(sdl_next(sdl)->number);
+    case TOKEN_NUMBER:
+        return num_float(sdl_next(sdl)->number);
     case TOKEN_IDENT:
         switch (token->value->kind) {
-        case VALUE_FLOAT: case VALUE_VECTOR: case VALUE_FUNCTION: case VALUE_SPLINE: return identifier(sdl);
-        case VALUE_NONE: sdl_error(sdl, "`%s` has no value yet", token->text);
-        default: sdl_expected(sdl, "a number");
+        case VALUE_FLOAT:
+        case VALUE_VECTOR:
+        case VALUE_FUNCTION:
+        case VALUE_SPLINE:
+            return identifier(sdl);
+        case VALUE_NONE:
+            sdl_error(sdl, "`%s` has no value yet", token->text);
+        default:
+            sdl_expected(sdl, "a number");
         }
-    case TOKEN_WORD: return word(sdl);
+    case TOKEN_WORD:
+        return word(sdl);
     case TOKEN_PUNCT:
         if (token->punct == '<') {
             sdl_next(sdl);
@@ -133,7 +157,8 @@ static Num primary(Sdl *sdl)
             return inner;
         }
         /* fallthrough */
-    default: sdl_expected(sdl, "a number");
+    default:
+        sdl_expected(sdl, "a number");
     }
 }
 
@@ -153,7 +178,8 @@ static Num factor(Sdl *sdl, int frame)
         while (operator_next(sdl, frame) == '.') {
             sdl_next(sdl);
             const Token *name = sdl_next(sdl);
-            if (name->kind != TOKEN_WORD) sdl_error(sdl, "expected a component such as x or red after the `.`");
+            if (name->kind != TOKEN_WORD)
+                sdl_error(sdl, "expected a component such as x or red after the `.`");
             num_component(sdl, &result, name->text);
         }
     }
@@ -172,7 +198,10 @@ static Num apply(Sdl *sdl, char op, Num a, Num b)
             sdl->warned_division = 1;
             sdl_warn(sdl, "division by zero");
         }
-        a.n[i] = op == '+' ? a.n[i] + b.n[i] : op == '-' ? a.n[i] - b.n[i] : op == '*' ? a.n[i] * b.n[i] : a.n[i] / b.n[i];
+        a.n[i] = op == '+'   ? a.n[i] + b.n[i]
+                 : op == '-' ? a.n[i] - b.n[i]
+                 : op == '*' ? a.n[i] * b.n[i]
+                             : a.n[i] / b.n[i];
     }
     return a;
 }
@@ -200,7 +229,8 @@ Num expression_sum(Sdl *sdl)
 
 static double single(Sdl *sdl, const Num *num)
 {
-    if (num->count != 1) sdl_error(sdl, "expected a float, found a %s", num->color ? "color" : "vector");
+    if (num->count != 1)
+        sdl_error(sdl, "expected a float, found a %s", num->color ? "color" : "vector");
     return num->n[0];
 }
 
@@ -209,12 +239,18 @@ static int compare(char op, double a, double b)
 {
     int equal = fabs(a - b) < 1e-10 || a == b;
     switch (op) {
-    case '<': return a < b && !equal;
-    case '>': return a > b && !equal;
-    case PUNCT_LE: return a <= b || equal;
-    case PUNCT_GE: return a >= b || equal;
-    case '=': return equal;
-    default: return !equal;
+    case '<':
+        return a < b && !equal;
+    case '>':
+        return a > b && !equal;
+    case PUNCT_LE:
+        return a <= b || equal;
+    case PUNCT_GE:
+        return a >= b || equal;
+    case '=':
+        return equal;
+    default:
+        return !equal;
     }
 }
 
@@ -229,14 +265,16 @@ static Num string_comparison(Sdl *sdl)
     int frame = sdl->nframes;
     const char *left = sdl_string(sdl);
     char op = operator_next(sdl, frame);
-    if (!is_comparison(op)) sdl_expected(sdl, "a comparison with the string");
+    if (!is_comparison(op))
+        sdl_expected(sdl, "a comparison with the string");
     sdl_next(sdl);
     return num_float(compare(op, strcmp(left, sdl_string(sdl)), 0));
 }
 
 static Num comparison(Sdl *sdl)
 {
-    if (expression_is_string_start(sdl)) return string_comparison(sdl);
+    if (expression_is_string_start(sdl))
+        return string_comparison(sdl);
     int frame = sdl->nframes;
     Num result = expression_sum(sdl);
     for (char op; is_comparison(op = operator_next(sdl, frame));) {
@@ -305,7 +343,8 @@ static int plain_number(const Raw **at, double *value)
     const Raw *raw = *at;
     int negative = raw->kind == RAW_PUNCT && raw->punct == '-';
     raw += negative;
-    if (raw->kind != RAW_NUMBER) return 0;
+    if (raw->kind != RAW_NUMBER)
+        return 0;
     *value = negative ? -raw->as.number : raw->as.number;
     *at = raw + 1;
     return 1;
@@ -329,14 +368,18 @@ double sdl_float(Sdl *sdl)
 static int plain_vector(Sdl *sdl, int count, double *values)
 {
     const Raw *at = sdl->cursor;
-    if (sdl->have || at->kind != RAW_PUNCT || at->punct != '<') return 0;
+    if (sdl->have || at->kind != RAW_PUNCT || at->punct != '<')
+        return 0;
     at++;
     for (int i = 0; i < count; i++) {
-        if (!plain_number(&at, &values[i])) return 0;
-        if (at->kind != RAW_PUNCT || at->punct != (i + 1 < count ? ',' : '>')) return 0;
+        if (!plain_number(&at, &values[i]))
+            return 0;
+        if (at->kind != RAW_PUNCT || at->punct != (i + 1 < count ? ',' : '>'))
+            return 0;
         at++;
     }
-    if (!(at->kind == RAW_PUNCT && (at->punct == ',' || at->punct == '}' || at->punct == '<')) && at->kind != RAW_NUMBER)
+    if (!(at->kind == RAW_PUNCT && (at->punct == ',' || at->punct == '}' || at->punct == '<')) &&
+        at->kind != RAW_NUMBER)
         return 0;
     stream_locate(sdl, sdl->cursor);
     sdl->cursor = at;
@@ -347,10 +390,12 @@ static int plain_vector(Sdl *sdl, int count, double *values)
 Vec3 sdl_vector(Sdl *sdl)
 {
     double v[3];
-    if (plain_vector(sdl, 3, v)) return vec3(v[0], v[1], v[2]);
+    if (plain_vector(sdl, 3, v))
+        return vec3(v[0], v[1], v[2]);
     Num num = expression_sum(sdl);
-    if (num.count > 3) sdl_error(sdl, "expected a vector of three components, found %s of %d",
-                                 num.color ? "a color" : "one", num.count);
+    if (num.count > 3)
+        sdl_error(sdl, "expected a vector of three components, found %s of %d", num.color ? "a color" : "one",
+                  num.count);
     num_promote(&num, 3);
     return vec3(num.n[0], num.n[1], num.n[2]);
 }
@@ -358,14 +403,19 @@ Vec3 sdl_vector(Sdl *sdl)
 Vec2 sdl_vector2(Sdl *sdl)
 {
     double v[2];
-    if (plain_vector(sdl, 2, v)) return (Vec2){v[0], v[1]};
+    if (plain_vector(sdl, 2, v))
+        return (Vec2){v[0], v[1]};
     Num num = expression_sum(sdl);
-    if (num.count > 2) sdl_error(sdl, "expected a vector of two components, found one of %d", num.count);
+    if (num.count > 2)
+        sdl_error(sdl, "expected a vector of two components, found one of %d", num.count);
     num_promote(&num, 2);
     return (Vec2){num.n[0], num.n[1]};
 }
 
-int sdl_bool(Sdl *sdl) { return sdl_float(sdl) != 0; }
+int sdl_bool(Sdl *sdl)
+{
+    return sdl_float(sdl) != 0;
+}
 
 int sdl_optional_bool(Sdl *sdl, int missing)
 {
@@ -383,16 +433,19 @@ int expression_is_number_start(Sdl *sdl)
     const Token *token = sdl_peek(sdl);
     const Builtin *builtin = builtin_next(sdl);
     switch (token->kind) {
-    case TOKEN_NUMBER: return 1;
+    case TOKEN_NUMBER:
+        return 1;
     case TOKEN_IDENT:
         return token->value->kind == VALUE_FLOAT || token->value->kind == VALUE_VECTOR ||
                ((token->value->kind == VALUE_FUNCTION || token->value->kind == VALUE_SPLINE) &&
                 sdl->cursor->kind == RAW_PUNCT && sdl->cursor->punct == '(');
-    case TOKEN_PUNCT: return strchr("<(-+!", token->punct) != NULL;
+    case TOKEN_PUNCT:
+        return strchr("<(-+!", token->punct) != NULL;
     case TOKEN_WORD:
-        return builtin && (builtin->kind == BUILTIN_CONSTANT || builtin->kind == BUILTIN_FLOAT ||
-                           builtin->kind == BUILTIN_NUMBER);
-    default: return 0;
+        return builtin &&
+               (builtin->kind == BUILTIN_CONSTANT || builtin->kind == BUILTIN_FLOAT || builtin->kind == BUILTIN_NUMBER);
+    default:
+        return 0;
     }
 }
 
@@ -415,9 +468,12 @@ const char *sdl_string(Sdl *sdl)
 {
     const Token *token = sdl_peek(sdl);
     const Builtin *builtin = builtin_next(sdl);
-    if (token->kind == TOKEN_STRING) return sdl_next(sdl)->text;
-    if (token->kind == TOKEN_IDENT && token->value->kind == VALUE_STRING) return sdl_next(sdl)->value->string;
-    if (!builtin || builtin->kind != BUILTIN_STRING) sdl_expected(sdl, "a string");
+    if (token->kind == TOKEN_STRING)
+        return sdl_next(sdl)->text;
+    if (token->kind == TOKEN_IDENT && token->value->kind == VALUE_STRING)
+        return sdl_next(sdl)->value->string;
+    if (!builtin || builtin->kind != BUILTIN_STRING)
+        sdl_expected(sdl, "a string");
     sdl_next(sdl);
     enter(sdl);
     const char *result = builtin_string(sdl, builtin);
@@ -427,7 +483,9 @@ const char *sdl_string(Sdl *sdl)
 
 Value sdl_expression(Sdl *sdl)
 {
-    if (expression_is_string_start(sdl)) return (Value){.kind = VALUE_STRING, .string = sdl_string(sdl)};
-    if (sdl_peek(sdl)->kind == TOKEN_WORD && sdl_is_color_start(sdl)) return value_from_num(color_parse(sdl));
+    if (expression_is_string_start(sdl))
+        return (Value){.kind = VALUE_STRING, .string = sdl_string(sdl)};
+    if (sdl_peek(sdl)->kind == TOKEN_WORD && sdl_is_color_start(sdl))
+        return value_from_num(color_parse(sdl));
     return value_from_num(expression_sum(sdl));
 }

@@ -1,7 +1,7 @@
 /* sdl_parse_file, and what every part of the parser needs: memory, messages and the one way out on an error.
  *
- * Errors jump back to sdl_parse_file, which frees everything: the scene's arena, the tokens of files and the parser's own
- * state are the only things there are. Two scenes may be parsed at once; nothing is global. */
+ * Errors jump back to sdl_parse_file, which frees everything: the scene's arena, the tokens of files and the parser's
+ * own state are the only things there are. Two scenes may be parsed at once; nothing is global. */
 #include <locale.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -9,17 +9,36 @@
 #include <string.h>
 #include "sdl/internal.h"
 
-Arena *sdl_arena(Sdl *sdl) { return sdl->arena; }
-Scene *sdl_scene(Sdl *sdl) { return sdl->scene; }
-const SdlOptions *sdl_options(Sdl *sdl) { return &sdl->options; }
-double sdl_version(Sdl *sdl) { return sdl->version; }
-void *sdl_side(Sdl *sdl) { return sdl->side; }
-void sdl_set_side(Sdl *sdl, void *side) { sdl->side = side; }
+Arena *sdl_arena(Sdl *sdl)
+{
+    return sdl->arena;
+}
+Scene *sdl_scene(Sdl *sdl)
+{
+    return sdl->scene;
+}
+const SdlOptions *sdl_options(Sdl *sdl)
+{
+    return &sdl->options;
+}
+double sdl_version(Sdl *sdl)
+{
+    return sdl->version;
+}
+void *sdl_side(Sdl *sdl)
+{
+    return sdl->side;
+}
+void sdl_set_side(Sdl *sdl, void *side)
+{
+    sdl->side = side;
+}
 
 void *sdl_alloc(Sdl *sdl, size_t bytes)
 {
     void *memory = arena_alloc(sdl->arena, bytes);
-    if (!memory) sdl_fail(sdl, RETEX_ELIMIT, "the scene needs more memory than it may have");
+    if (!memory)
+        sdl_fail(sdl, RETEX_ELIMIT, "the scene needs more memory than it may have");
     return memory;
 }
 
@@ -31,7 +50,10 @@ void sdl_step(Sdl *sdl, long count)
                  sdl->options.max_steps);
 }
 
-static const char *file_name(const Sdl *sdl) { return sdl->token.file ? sdl->token.file : sdl->scene->path; }
+static const char *file_name(const Sdl *sdl)
+{
+    return sdl->token.file ? sdl->token.file : sdl->scene->path;
+}
 
 static _Noreturn void fail(Sdl *sdl, int code, const char *text)
 {
@@ -70,12 +92,14 @@ void sdl_expected(Sdl *sdl, const char *what)
 
 void sdl_message(Sdl *sdl, int level, const char *text)
 {
-    if (sdl->options.message) sdl->options.message(sdl->options.message_context, level, text);
+    if (sdl->options.message)
+        sdl->options.message(sdl->options.message_context, level, text);
 }
 
 static void flush_debug(Sdl *sdl)
 {
-    if (sdl->npending) sdl_message(sdl, 0, sdl->pending);
+    if (sdl->npending)
+        sdl_message(sdl, 0, sdl->pending);
     sdl->npending = 0;
 }
 
@@ -86,7 +110,8 @@ void sdl_debug_text(Sdl *sdl, const char *text)
         if (sdl->npending + 2 > sdl->pending_capacity) {
             size_t capacity = sdl->pending_capacity ? sdl->pending_capacity * 2 : 256;
             char *pending = sdl_alloc(sdl, capacity);
-            if (sdl->npending) memcpy(pending, sdl->pending, sdl->npending);
+            if (sdl->npending)
+                memcpy(pending, sdl->pending, sdl->npending);
             sdl->pending = pending;
             sdl->pending_capacity = capacity;
         }
@@ -94,7 +119,8 @@ void sdl_debug_text(Sdl *sdl, const char *text)
         if (*text == '\n') {
             sdl_message(sdl, 0, sdl->pending);
             sdl->npending = 0;
-        } else sdl->pending[sdl->npending++] = *text;
+        } else
+            sdl->pending[sdl->npending++] = *text;
         sdl->pending[sdl->npending] = 0;
     }
 }
@@ -113,13 +139,16 @@ void sdl_warn(Sdl *sdl, const char *fmt, ...)
 
 void sdl_unsupported(Sdl *sdl, const char *name, const char *instead)
 {
-    if (sdl->options.strict) sdl_fail(sdl, RETEX_EUNSUPPORTED, "`%s` is not supported yet", name);
+    if (sdl->options.strict)
+        sdl_fail(sdl, RETEX_EUNSUPPORTED, "`%s` is not supported yet", name);
     for (int i = 0; i < sdl->nreported; i++)
-        if (strcmp(sdl->reported[i], name) == 0) return;
+        if (strcmp(sdl->reported[i], name) == 0)
+            return;
     if (sdl->nreported == sdl->reported_capacity) {
         int capacity = sdl->reported_capacity ? sdl->reported_capacity * 2 : 16;
         const char **reported = sdl_alloc(sdl, (size_t)capacity * sizeof *reported);
-        if (sdl->nreported) memcpy(reported, sdl->reported, (size_t)sdl->nreported * sizeof *reported);
+        if (sdl->nreported)
+            memcpy(reported, sdl->reported, (size_t)sdl->nreported * sizeof *reported);
         sdl->reported = reported;
         sdl->reported_capacity = capacity;
     }
@@ -134,7 +163,8 @@ void sdl_unsupported(Sdl *sdl, const char *name, const char *instead)
 const IdentList *sdl_ident_add(Sdl *sdl, const IdentList *list, const char *name, int line)
 {
     for (const IdentList *i = list; i; i = i->next)
-        if (strcmp(i->name, name) == 0) return list;
+        if (strcmp(i->name, name) == 0)
+            return list;
     IdentList *added = sdl_alloc(sdl, sizeof *added);
     *added = (IdentList){word_intern(sdl, name, strlen(name))->text, line, list};
     return added;
@@ -142,8 +172,10 @@ const IdentList *sdl_ident_add(Sdl *sdl, const IdentList *list, const char *name
 
 const IdentList *sdl_ident_join(Sdl *sdl, const IdentList *a, const IdentList *b)
 {
-    if (!a || a == b) return b;
-    for (; b; b = b->next) a = sdl_ident_add(sdl, a, b->name, b->line);
+    if (!a || a == b)
+        return b;
+    for (; b; b = b->next)
+        a = sdl_ident_add(sdl, a, b->name, b->line);
     return a;
 }
 
@@ -158,7 +190,8 @@ static void predeclare(Sdl *sdl, const char *text)
     char *end = NULL;
     if (equals && equals[1] == '"') {
         size_t size = strlen(equals + 2);
-        if (size && equals[1 + size] == '"') size--;
+        if (size && equals[1 + size] == '"')
+            size--;
         value = (Value){.kind = VALUE_STRING, .string = arena_string(sdl->arena, equals + 2, size)};
     } else if (equals) {
         value.number[0] = strtod(equals + 1, &end);
@@ -167,20 +200,30 @@ static void predeclare(Sdl *sdl, const char *text)
     }
     for (size_t i = 0; i < length; i++) {
         char c = text[i], lower = (char)(c | 32);
-        if (!((lower >= 'a' && lower <= 'z') || c == '_' || (i && c >= '0' && c <= '9'))) length = 0;
+        if (!((lower >= 'a' && lower <= 'z') || c == '_' || (i && c >= '0' && c <= '9')))
+            length = 0;
     }
-    if (!length) sdl_fail(sdl, RETEX_EINVAL, "`%s` is not of the form NAME=VALUE", text);
+    if (!length)
+        sdl_fail(sdl, RETEX_EINVAL, "`%s` is not of the form NAME=VALUE", text);
     Word *word = word_intern(sdl, text, length);
-    struct { const char *name; double *value; } settings[] = {
-        {"clock", &sdl->clock}, {"frame_number", &sdl->frame_number}, {"initial_frame", &sdl->initial_frame},
-        {"final_frame", &sdl->final_frame}, {"initial_clock", &sdl->initial_clock}, {"final_clock", &sdl->final_clock}};
+    struct {
+        const char *name;
+        double *value;
+    } settings[] = {{"clock", &sdl->clock},
+                    {"frame_number", &sdl->frame_number},
+                    {"initial_frame", &sdl->initial_frame},
+                    {"final_frame", &sdl->final_frame},
+                    {"initial_clock", &sdl->initial_clock},
+                    {"final_clock", &sdl->final_clock}};
     for (size_t i = 0; i < sizeof settings / sizeof *settings; i++)
         if (strcmp(word->text, settings[i].name) == 0 && value.kind == VALUE_FLOAT) {
             *settings[i].value = value.number[0];
             return;
         }
-    if (word->reserved) sdl_fail(sdl, RETEX_EINVAL, "`%s` is a keyword and cannot be declared", word->text);
-    if (!word->symbol) symbol_add(sdl, word, 0);
+    if (word->reserved)
+        sdl_fail(sdl, RETEX_EINVAL, "`%s` is a keyword and cannot be declared", word->text);
+    if (!word->symbol)
+        symbol_add(sdl, word, 0);
     word->symbol->own = value;
 }
 
@@ -190,22 +233,26 @@ static void run(Sdl *sdl, const char *path)
     folders_begin(sdl, path);
     sdl->unused_tail = &sdl->unused;
     predeclare(sdl, "Retex=1");
-    for (int i = 0; i < sdl->options.ndeclares; i++) predeclare(sdl, sdl->options.declares[i]);
+    for (int i = 0; i < sdl->options.ndeclares; i++)
+        predeclare(sdl, sdl->options.declares[i]);
     scene_side_begin(sdl);
     stream_push_file(sdl, source_open_scene(sdl, path));
     while (sdl_peek(sdl)->kind != TOKEN_END)
-        if (!sdl_raw_accept(sdl, ';')) scene_side_statement(sdl);
+        if (!sdl_raw_accept(sdl, ';'))
+            scene_side_statement(sdl);
     scene_side_finish(sdl);
-    flush_debug(sdl);
 }
 
 static void set_options(Sdl *sdl, const SdlOptions *options)
 {
     SdlOptions defaults = SDL_OPTIONS_INIT;
     sdl->options = defaults;
-    if (options) memcpy(&sdl->options, options, options->size < sizeof defaults ? options->size : sizeof defaults);
-    if (sdl->options.max_steps <= 0) sdl->options.max_steps = defaults.max_steps;
-    if (!sdl->options.max_memory) sdl->options.max_memory = defaults.max_memory;
+    if (options)
+        memcpy(&sdl->options, options, options->size < sizeof defaults ? options->size : sizeof defaults);
+    if (sdl->options.max_steps <= 0)
+        sdl->options.max_steps = defaults.max_steps;
+    if (!sdl->options.max_memory)
+        sdl->options.max_memory = defaults.max_memory;
     sdl->version = 3.62;
 }
 
@@ -213,7 +260,8 @@ int sdl_parse_file(Scene **scene, const char *path, const SdlOptions *options, R
 {
     *scene = NULL;
     Sdl *sdl = calloc(1, sizeof *sdl);
-    if (!sdl) return retex_fail(err, RETEX_ENOMEM, "out of memory");
+    if (!sdl)
+        return retex_fail(err, RETEX_ENOMEM, "out of memory");
     sdl->err = err;
     set_options(sdl, options);
     sdl->arena = arena_create(sdl->options.max_memory);
@@ -227,7 +275,9 @@ int sdl_parse_file(Scene **scene, const char *path, const SdlOptions *options, R
     snprintf(sdl->scene->path, sizeof sdl->scene->path, "%s", path);
     /* Numbers of the language have a point, whatever the user's locale says. */
     locale_t c = newlocale(LC_ALL_MASK, "C", (locale_t)0), before = c ? uselocale(c) : (locale_t)0;
-    if (setjmp(sdl->jump) == 0) run(sdl, path);
+    if (setjmp(sdl->jump) == 0)
+        run(sdl, path);
+    flush_debug(sdl);
     if (c) {
         uselocale(before);
         freelocale(c);
@@ -236,7 +286,8 @@ int sdl_parse_file(Scene **scene, const char *path, const SdlOptions *options, R
     Scene *result = sdl->scene;
     sources_close(sdl);
     free(sdl);
-    if (code) scene_close(&result);
+    if (code)
+        scene_close(&result);
     *scene = result;
     return code;
 }

@@ -14,7 +14,7 @@ enum { SMALL_SOURCE = 20000 };
 
 static const char *const system_folders[] = {
     "/usr/share/povray-3.7/include", "/usr/local/share/povray-3.7/include", "/usr/share/povray/include",
-    "/usr/share/povray-3.7", "/usr/share/fonts/truetype/povray",
+    "/usr/share/povray-3.7",         "/usr/share/fonts/truetype/povray",
 };
 
 static const char *join(Sdl *sdl, const char *folder, const char *name)
@@ -22,7 +22,8 @@ static const char *join(Sdl *sdl, const char *folder, const char *name)
     size_t a = strlen(folder), b = strlen(name);
     char *path = sdl_alloc(sdl, a + b + 2);
     memcpy(path, folder, a);
-    if (a && folder[a - 1] != '/') path[a++] = '/';
+    if (a && folder[a - 1] != '/')
+        path[a++] = '/';
     memcpy(path + a, name, b + 1);
     return path;
 }
@@ -30,7 +31,8 @@ static const char *join(Sdl *sdl, const char *folder, const char *name)
 static void add_folder(Sdl *sdl, const char *folder)
 {
     char resolved[PATH_MAX];
-    if (!realpath(*folder ? folder : ".", resolved)) return;
+    if (!realpath(*folder ? folder : ".", resolved))
+        return;
     sdl->folders[sdl->nfolders] = folder;
     sdl->roots[sdl->nfolders++] = arena_string(sdl->arena, resolved, strlen(resolved));
 }
@@ -43,9 +45,12 @@ void folders_begin(Sdl *sdl, const char *scene_path)
     sdl->roots = sdl_alloc(sdl, count * sizeof *sdl->roots);
     const char *slash = strrchr(scene_path, '/');
     add_folder(sdl, "");
-    if (slash) add_folder(sdl, arena_string(sdl->arena, scene_path, (size_t)(slash - scene_path + 1)));
-    for (int i = 0; i < sdl->options.ninclude_paths; i++) add_folder(sdl, sdl->options.include_paths[i]);
-    for (size_t i = 0; i < nsystem; i++) add_folder(sdl, system_folders[i]);
+    if (slash)
+        add_folder(sdl, arena_string(sdl->arena, scene_path, (size_t)(slash - scene_path + 1)));
+    for (int i = 0; i < sdl->options.ninclude_paths; i++)
+        add_folder(sdl, sdl->options.include_paths[i]);
+    for (size_t i = 0; i < nsystem; i++)
+        add_folder(sdl, system_folders[i]);
 }
 
 /* A regular file under one of the folders, symbolic links and `..` resolved. */
@@ -53,7 +58,8 @@ static int may_read(Sdl *sdl, const char *path)
 {
     char resolved[PATH_MAX];
     struct stat info;
-    if (!realpath(path, resolved) || stat(resolved, &info) != 0 || !S_ISREG(info.st_mode)) return 0;
+    if (!realpath(path, resolved) || stat(resolved, &info) != 0 || !S_ISREG(info.st_mode))
+        return 0;
     for (int i = 0; i < sdl->nfolders; i++) {
         size_t length = strlen(sdl->roots[i]);
         if (strncmp(resolved, sdl->roots[i], length) == 0 &&
@@ -65,11 +71,14 @@ static int may_read(Sdl *sdl, const char *path)
 
 const char *sdl_find_file(Sdl *sdl, const char *name)
 {
-    if (!*name || strlen(name) >= PATH_MAX / 2) return NULL;
-    if (*name == '/') return may_read(sdl, name) ? name : NULL;
+    if (!*name || strlen(name) >= PATH_MAX / 2)
+        return NULL;
+    if (*name == '/')
+        return may_read(sdl, name) ? join(sdl, "", name) : NULL;
     for (int i = 0; i < sdl->nfolders; i++) {
-        const char *path = *sdl->folders[i] ? join(sdl, sdl->folders[i], name) : name;
-        if (may_read(sdl, path)) return path;
+        const char *path = join(sdl, sdl->folders[i], name);
+        if (may_read(sdl, path))
+            return path;
     }
     return NULL;
 }
@@ -77,7 +86,8 @@ const char *sdl_find_file(Sdl *sdl, const char *name)
 MemoryFile *memory_file_find(Sdl *sdl, const char *name)
 {
     for (MemoryFile *file = sdl->memory_files; file; file = file->next)
-        if (strcmp(file->name, name) == 0) return file;
+        if (strcmp(file->name, name) == 0)
+            return file;
     return NULL;
 }
 
@@ -97,13 +107,16 @@ void memory_file_write(Sdl *sdl, MemoryFile *file, const void *bytes, size_t siz
 {
     if (file->size + size > file->capacity) {
         size_t capacity = file->capacity ? file->capacity : 256;
-        while (capacity < file->size + size) capacity *= 2;
+        while (capacity < file->size + size)
+            capacity *= 2;
         char *grown = sdl_alloc(sdl, capacity);
-        if (file->size) memcpy(grown, file->bytes, file->size);
+        if (file->size)
+            memcpy(grown, file->bytes, file->size);
         file->bytes = grown;
         file->capacity = capacity;
     }
-    if (size) memcpy(file->bytes + file->size, bytes, size);
+    if (size)
+        memcpy(file->bytes + file->size, bytes, size);
     file->size += size;
 }
 
@@ -111,19 +124,23 @@ void memory_file_write(Sdl *sdl, MemoryFile *file, const void *bytes, size_t siz
 static char *read_all(Sdl *sdl, const char *path, size_t *size)
 {
     FILE *file = fopen(path, "rb");
-    if (!file) sdl_fail(sdl, RETEX_EIO, "cannot open `%s`: %s", path, strerror(errno));
+    if (!file)
+        sdl_fail(sdl, RETEX_EIO, "cannot open `%s`: %s", path, strerror(errno));
     struct stat info;
     char *bytes = NULL;
     int too_big = fstat(fileno(file), &info) != 0 || info.st_size < 0 ||
                   (sdl->options.max_memory && (uint64_t)info.st_size > sdl->options.max_memory) ||
                   info.st_size > (off_t)1 << 31;
-    if (!too_big) bytes = malloc((size_t)info.st_size + 1);
+    if (!too_big)
+        bytes = malloc((size_t)info.st_size + 1);
     *size = bytes ? fread(bytes, 1, (size_t)info.st_size, file) : 0;
     int failed = ferror(file);
     fclose(file);
-    if (bytes && !failed) return bytes;
+    if (bytes && !failed)
+        return bytes;
     free(bytes);
-    if (too_big) sdl_fail(sdl, RETEX_ELIMIT, "`%s` is larger than the memory allowed", path);
+    if (too_big)
+        sdl_fail(sdl, RETEX_ELIMIT, "`%s` is larger than the memory allowed", path);
     sdl_fail(sdl, failed ? RETEX_EIO : RETEX_ENOMEM, "cannot read `%s`", path);
 }
 
@@ -149,32 +166,43 @@ static Source *load(Sdl *sdl, const char *path)
     char *bytes = read_all(sdl, path, &size);
     Source *source = tokenize(sdl, path, bytes, size);
     free(bytes);
-    if (!source) longjmp(sdl->jump, 1);
+    if (!source)
+        longjmp(sdl->jump, 1);
+    source->on_disk = 1;
     return source;
 }
 
-Source *source_open_scene(Sdl *sdl, const char *path) { return load(sdl, path); }
+Source *source_open_scene(Sdl *sdl, const char *path)
+{
+    return load(sdl, path);
+}
 
 Source *source_open(Sdl *sdl, const char *name)
 {
     MemoryFile *memory = memory_file_find(sdl, name);
-    if (memory) return source_from_text(sdl, memory->name, memory->bytes ? memory->bytes : "", memory->size);
+    if (memory)
+        return source_from_text(sdl, memory->name, memory->bytes ? memory->bytes : "", memory->size);
     const char *path = sdl_find_file(sdl, name);
-    if (!path) sdl_fail(sdl, RETEX_EPARSE, "cannot find the file `%s` in the scene's folder or the include path", name);
+    if (!path)
+        sdl_fail(sdl, RETEX_EPARSE, "cannot find the file `%s` in the scene's folder or the include path", name);
     for (Source *source = sdl->sources; source; source = source->next)
-        if (source->tokens && source->count <= SMALL_SOURCE && strcmp(source->name, path) == 0 &&
-            !memory_file_find(sdl, path))
+        if (source->on_disk && source->count <= SMALL_SOURCE && strcmp(source->name, path) == 0)
             return source;
     return load(sdl, path);
 }
 
 void source_release(Sdl *sdl, Source *source)
 {
-    (void)sdl;
-    if (--source->users > 0 || source->keep || source->count <= SMALL_SOURCE) return;
+    if (--source->users > 0 || source->keep || (source->on_disk && source->count <= SMALL_SOURCE))
+        return;
+    if (source->previous)
+        source->previous->next = source->next;
+    else
+        sdl->sources = source->next;
+    if (source->next)
+        source->next->previous = source->previous;
     free(source->tokens);
-    source->tokens = NULL;
-    source->count = 0;
+    free(source);
 }
 
 void sources_close(Sdl *sdl)

@@ -1,5 +1,5 @@
-/* Splines: linear, quadratic, cubic (through two points, shaped by their neighbours) and natural. A spline is called like
- * a function of one float and gives a vector of as many components as its longest point. */
+/* Splines: linear, quadratic, cubic (through two points, shaped by their neighbours) and natural. A spline is called
+ * like a function of one float and gives a vector of as many components as its longest point. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -9,13 +9,13 @@ typedef enum SplineKind { SPLINE_LINEAR, SPLINE_QUADRATIC, SPLINE_CUBIC, SPLINE_
 
 typedef struct Knot {
     double at, value[5];
-    double second[5];    /* natural: the second derivative there */
+    double second[5]; /* natural: the second derivative there */
 } Knot;
 
 typedef struct Spline {
     SplineKind kind;
     int count, capacity, components;
-    Knot *knots;         /* sorted */
+    Knot *knots; /* sorted */
 } Spline;
 
 static int by_place(const void *a, const void *b)
@@ -27,11 +27,13 @@ static int by_place(const void *a, const void *b)
 static void add_knot(Sdl *sdl, Spline *spline, double at, Num value)
 {
     for (int i = 0; i < spline->count; i++)
-        if (spline->knots[i].at == at) sdl_error(sdl, "a spline with two points at %g", at);
+        if (spline->knots[i].at == at)
+            sdl_error(sdl, "a spline with two points at %g", at);
     if (spline->count == spline->capacity) {
         int capacity = spline->capacity ? spline->capacity * 2 : 8;
         Knot *knots = sdl_alloc(sdl, (size_t)capacity * sizeof *knots);
-        if (spline->count) memcpy(knots, spline->knots, (size_t)spline->count * sizeof *knots);
+        if (spline->count)
+            memcpy(knots, spline->knots, (size_t)spline->count * sizeof *knots);
         spline->knots = knots;
         spline->capacity = capacity;
     }
@@ -39,9 +41,11 @@ static void add_knot(Sdl *sdl, Spline *spline, double at, Num value)
     Knot *knot = &spline->knots[spline->count++];
     memset(knot, 0, sizeof *knot);
     knot->at = at;
-    if (value.count == 1) num_promote(&value, 3);
+    if (value.count == 1)
+        num_promote(&value, 3);
     memcpy(knot->value, value.n, (size_t)value.count * sizeof *value.n);
-    if (value.count > spline->components) spline->components = value.count;
+    if (value.count > spline->components)
+        spline->components = value.count;
 }
 
 /* Second derivatives of the natural spline: the tridiagonal system, with none at the ends. */
@@ -61,7 +65,8 @@ static void solve_natural(Sdl *sdl, Spline *spline)
             k[i].second[c] = (right - h0 * k[i - 1].second[c]) / pivot;
         }
         k[n - 1].second[c] = 0;
-        for (int i = n - 2; i > 0; i--) k[i].second[c] -= ratio[i] * k[i + 1].second[c];
+        for (int i = n - 2; i > 0; i--)
+            k[i].second[c] -= ratio[i] * k[i + 1].second[c];
     }
 }
 
@@ -79,7 +84,8 @@ void spline_declare(Sdl *sdl, Value *value)
         memcpy(spline->knots, base->knots, (size_t)base->count * sizeof *spline->knots);
     }
     for (int i = 0; i < 4; i++)
-        if (sdl_accept(sdl, names[i])) spline->kind = (SplineKind)i;
+        if (sdl_accept(sdl, names[i]))
+            spline->kind = (SplineKind)i;
     sdl_optional_comma(sdl);
     while (!sdl_accept(sdl, "}")) {
         double at = sdl_float(sdl);
@@ -87,9 +93,11 @@ void spline_declare(Sdl *sdl, Value *value)
         add_knot(sdl, spline, at, expression_sum(sdl));
         sdl_optional_comma(sdl);
     }
-    if (!spline->count) sdl_error(sdl, "a spline without points");
+    if (!spline->count)
+        sdl_error(sdl, "a spline without points");
     qsort(spline->knots, (size_t)spline->count, sizeof *spline->knots, by_place);
-    if (spline->kind == SPLINE_NATURAL) solve_natural(sdl, spline);
+    if (spline->kind == SPLINE_NATURAL)
+        solve_natural(sdl, spline);
     *value = (Value){.kind = VALUE_SPLINE, .data = spline};
 }
 
@@ -112,15 +120,18 @@ static double quadratic(const Knot *a, const Knot *b, const Knot *d, int c, doub
 static double cubic(const Knot *a, const Knot *b, const Knot *d, const Knot *e, int c, double at)
 {
     double h = d->at - b->at, t = (at - b->at) / h;
-    double m0 = (d->value[c] - a->value[c]) / (d->at - a->at) * h, m1 = (e->value[c] - b->value[c]) / (e->at - b->at) * h;
+    double m0 = (d->value[c] - a->value[c]) / (d->at - a->at) * h,
+           m1 = (e->value[c] - b->value[c]) / (e->at - b->at) * h;
     double t2 = t * t, t3 = t2 * t;
-    return (2 * t3 - 3 * t2 + 1) * b->value[c] + (t3 - 2 * t2 + t) * m0 + (3 * t2 - 2 * t3) * d->value[c] + (t3 - t2) * m1;
+    return (2 * t3 - 3 * t2 + 1) * b->value[c] + (t3 - 2 * t2 + t) * m0 + (3 * t2 - 2 * t3) * d->value[c] +
+           (t3 - t2) * m1;
 }
 
 static double natural(const Knot *a, const Knot *b, int c, double at)
 {
     double h = b->at - a->at, p = (b->at - at) / h, q = (at - a->at) / h;
-    return p * a->value[c] + q * b->value[c] + ((p * p * p - p) * a->second[c] + (q * q * q - q) * b->second[c]) * h * h / 6;
+    return p * a->value[c] + q * b->value[c] +
+           ((p * p * p - p) * a->second[c] + (q * q * q - q) * b->second[c]) * h * h / 6;
 }
 
 static double evaluate(const Spline *spline, int c, double at)
@@ -129,27 +140,34 @@ static double evaluate(const Spline *spline, int c, double at)
     int n = spline->count;
     /* The outer points of a cubic spline only shape it. */
     int first = spline->kind == SPLINE_CUBIC && n > 3, last = n - 1 - first;
-    if (at <= k[first].at) return k[first].value[c];
-    if (at >= k[last].at) return k[last].value[c];
+    if (at <= k[first].at)
+        return k[first].value[c];
+    if (at >= k[last].at)
+        return k[last].value[c];
     int low = 0, high = n - 1;
     while (high - low > 1) {
         int middle = (low + high) / 2;
-        if (k[middle].at <= at) low = middle;
-        else high = middle;
+        if (k[middle].at <= at)
+            low = middle;
+        else
+            high = middle;
     }
     if (spline->kind == SPLINE_QUADRATIC && n > 2) {
         int from = low > 0 ? low - 1 : 0;
         return quadratic(&k[from], &k[from + 1], &k[from + 2], c, at);
     }
-    if (first) return cubic(&k[low - 1], &k[low], &k[low + 1], &k[low + 2], c, at);
-    if (spline->kind == SPLINE_NATURAL) return natural(&k[low], &k[low + 1], c, at);
+    if (first)
+        return cubic(&k[low - 1], &k[low], &k[low + 1], &k[low + 2], c, at);
+    if (spline->kind == SPLINE_NATURAL)
+        return natural(&k[low], &k[low + 1], c, at);
     return linear(&k[low], &k[low + 1], c, at);
 }
 
 static Num value_at(const Spline *spline, double at)
 {
     Num num = {{0}, spline->components, 0};
-    for (int c = 0; c < num.count; c++) num.n[c] = evaluate(spline, c, at);
+    for (int c = 0; c < num.count; c++)
+        num.n[c] = evaluate(spline, c, at);
     return num;
 }
 
@@ -169,8 +187,10 @@ Num spline_call(Sdl *sdl, const Value *value)
         Spline *changed = sdl_alloc(sdl, sizeof *changed);
         *changed = *spline;
         for (int i = 0; i < 4; i++)
-            if (sdl_accept(sdl, names[i])) changed->kind = (SplineKind)i;
-        if (changed->kind == SPLINE_NATURAL) solve_natural(sdl, changed);
+            if (sdl_accept(sdl, names[i]))
+                changed->kind = (SplineKind)i;
+        if (changed->kind == SPLINE_NATURAL)
+            solve_natural(sdl, changed);
         spline = changed;
     }
     sdl_expect(sdl, ")");

@@ -25,7 +25,8 @@ static void message(void *context, int level, const char *text)
     (void)level;
     int n = snprintf(output->text + output->length, sizeof output->text - output->length, "%s%s",
                      output->length ? "\n" : "", text);
-    if (n > 0 && output->length + (size_t)n < sizeof output->text) output->length += (size_t)n;
+    if (n > 0 && output->length + (size_t)n < sizeof output->text)
+        output->length += (size_t)n;
 }
 
 static void write_file(const char *name, const void *bytes, size_t size)
@@ -51,8 +52,10 @@ static int parse(const char *name, const char *text, SdlOptions options, Output 
     options.message_context = output;
     int code = sdl_parse_file(&scene, path, &options, err);
     assert_int_equal(code, err->code);
-    if (code) assert_null(scene);
-    else scene_close(&scene);
+    if (code)
+        assert_null(scene);
+    else
+        scene_close(&scene);
     return code;
 }
 
@@ -63,8 +66,10 @@ static void check(const char *text, const char *expected)
     Output output;
     RetexError err;
     int code = parse("scene.pov", text, defaults, &output, &err);
-    if (code) fail_msg("%d:%d: %s\nin: %s", err.line, err.column, err.message, text);
-    if (strcmp(output.text, expected) != 0) fail_msg("wrote `%s`, not `%s`\nin: %s", output.text, expected, text);
+    if (code)
+        fail_msg("%d:%d: %s\nin: %s", err.line, err.column, err.message, text);
+    if (strcmp(output.text, expected) != 0)
+        fail_msg("wrote `%s`, not `%s`\nin: %s", output.text, expected, text);
 }
 
 static void check_error(const char *text, int code, int line, int column, const char *expected)
@@ -73,7 +78,8 @@ static void check_error(const char *text, int code, int line, int column, const 
     RetexError err;
     assert_int_equal(parse("scene.pov", text, defaults, &output, &err), code);
     if (strcmp(err.message, expected) != 0 || err.line != line || err.column != column)
-        fail_msg("%d:%d: %s\ninstead of %d:%d: %s\nin: %s", err.line, err.column, err.message, line, column, expected, text);
+        fail_msg("%d:%d: %s\ninstead of %d:%d: %s\nin: %s", err.line, err.column, err.message, line, column, expected,
+                 text);
 }
 
 #define V "#version 3.7;\n"
@@ -137,7 +143,8 @@ static void test_colors(void **state)
     };
     char text[256];
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        snprintf(text, sizeof text, V "#declare C = rgb <1,1,0>; #declare D = %s; #debug vstr(5,D,\",\",0,3)", cases[i][0]);
+        snprintf(text, sizeof text, V "#declare C = rgb <1,1,0>; #declare D = %s; #debug vstr(5,D,\",\",0,3)",
+                 cases[i][0]);
         check(text, cases[i][1]);
     }
 }
@@ -145,7 +152,8 @@ static void test_colors(void **state)
 static void test_control(void **state)
 {
     (void)state;
-    check(V "#switch (2) #case (1) #debug \"1\" #case (2) #debug \"2\" #case (3) #debug \"3\" #else #debug \"e\" #end", "23e");
+    check(V "#switch (2) #case (1) #debug \"1\" #case (2) #debug \"2\" #case (3) #debug \"3\" #else #debug \"e\" #end",
+          "23e");
     check(V "#switch (2.5) #range (1,3) #debug \"r\" #break #else #debug \"e\" #end", "r");
     check(V "#for (I,0,3) #if (I=2) #break #end #debug str(I,0,0) #end #debug str(I,0,0)", "012");
     check(V "#for (I,3,0,-1) #debug str(I,0,0) #end #debug str(I,0,0)", "3210-1");
@@ -165,10 +173,14 @@ static void test_names(void **state)
     (void)state;
     check(V "#macro In() #debug str(L,0,0) #end #macro Out() #local L = 7; In() #end Out()", "7");
     check(V "#local A = 1; #macro M() #local A = 2; N() #end #macro N() #debug str(A,0,0) #declare A = 5; #end M()"
-            "#debug str(A,0,0)", "21");
-    check(V "#macro M(A) #local A = A*2; A #end #declare Q=3; #declare W = M(Q)+M(Q); #debug concat(str(W,0,0),str(Q,0,0))",
-          "1812");
-    check(V "#macro M(A) #declare A = 7; #end #declare B = <1,2,3>; M(B.x) #debug vstr(3,B,\",\",0,0) M(B) #debug str(B,0,0)",
+            "#debug str(A,0,0)",
+          "21");
+    check(
+        V
+        "#macro M(A) #local A = A*2; A #end #declare Q=3; #declare W = M(Q)+M(Q); #debug concat(str(W,0,0),str(Q,0,0))",
+        "1812");
+    check(V "#macro M(A) #declare A = 7; #end #declare B = <1,2,3>; M(B.x) #debug vstr(3,B,\",\",0,0) M(B) #debug "
+            "str(B,0,0)",
           "1,2,37");
     check(V "#declare T = array[2]{1,2} #macro M(R) #local R = 5; #end M(T[1]) #debug str(T[1],0,0)", "5");
     check(V "#declare A = array[2][2]{{1,2},{3,4}} #declare B = A; #declare B[1][0] = 9; #debug str(A[1][0],0,0)", "3");
@@ -186,12 +198,15 @@ static void test_functions(void **state)
     check(V "#declare f = function{x+y*2} #debug str(f(3,1,0),0,0)", "5");
     check(V "#declare f = function{sum(i,1,4,i*x)+prod(i,1,3,i)} #debug str(f(2,0,0),0,2)", "26.00");
     check(V "#declare f = function(a){select(a>2,1,2,3)} #debug str(f(3),0,0)", "3");
-    check(V "#declare S = spline{natural_spline 0,<0,0,0> 1,<1,2,3> 2,<0,0,1> 3,<1,1,1>} #debug vstr(3,S(1.2),\",\",0,6)",
+    check(V
+          "#declare S = spline{natural_spline 0,<0,0,0> 1,<1,2,3> 2,<0,0,1> 3,<1,1,1>} #debug vstr(3,S(1.2),\",\",0,6)",
           "0.864000,1.760000,2.856000");
     check(V "#declare S = spline{cubic_spline 0,<0,0,0> 1,<1,2,3> 2,<0,0,1> 3,<1,1,1>} #debug vstr(3,S(1.2),\",\",0,6)",
           "0.896000,1.808000,2.888000");
-    check(V "#declare S = spline{quadratic_spline 0,<0,0,0> 1,<1,2,3> 2,<0,0,1> 3,<1,1,1>} #debug vstr(3,S(2.2),\",\",0,2)",
-          "0.04,-0.04,0.84");
+    check(
+        V
+        "#declare S = spline{quadratic_spline 0,<0,0,0> 1,<1,2,3> 2,<0,0,1> 3,<1,1,1>} #debug vstr(3,S(2.2),\",\",0,2)",
+        "0.04,-0.04,0.84");
 }
 
 static void test_files(void **state)
@@ -202,11 +217,14 @@ static void test_files(void **state)
     check(V "#include \"part.inc\" #debug concat(str(Twice(Made),0,0), #ifdef(L) \"y\" #else \"n\" #end)", "8n");
     check(V "#fopen F \"t.tmp\" write #write(F, 1/3, \",\", <1,2,3>, \",\\\"s\\\"\") #fclose F"
             "#fopen F \"t.tmp\" read #read(F, A, B, C) #debug concat(str(A,0,4), vstr(3,B,\",\",0,0), C)"
-            "#ifdef(F) #debug \"open\" #end", "0.33331,2,3s");
+            "#ifdef(F) #debug \"open\" #end",
+          "0.33331,2,3s");
     check(V "#macro Parse(S) #fopen F \"p.tmp\" write #write(F,S) #fclose F #include \"p.tmp\" #end"
-            "#declare A = Parse(\"1+2*3\"); #debug str(A,0,0)", "7");
+            "#declare A = Parse(\"1+2*3\"); #debug str(A,0,0)",
+          "7");
     check(V "#debug concat(str(file_exists(\"part.inc\"),0,0),str(file_exists(\"../../etc/passwd\"),0,0),"
-            "str(file_exists(\"/etc/passwd\"),0,0))", "100");
+            "str(file_exists(\"/etc/passwd\"),0,0))",
+          "100");
     /* Nothing was written where the scene lies. */
     char path[128];
     snprintf(path, sizeof path, "%s/t.tmp", folder);
@@ -218,7 +236,8 @@ static void test_errors(void **state)
     (void)state;
     check_error(V "#declare Floor = 1;\n#declare Y = Flor + 1;", RETEX_EPARSE, 3, 14,
                 "expected a value, found `Flor`, which is not declared; is `Floor` meant?");
-    check_error(V "#declare A = 3 > 2;", RETEX_EPARSE, 2, 16, "expected `;` after the value of a declaration, found `>`");
+    check_error(V "#declare A = 3 > 2;", RETEX_EPARSE, 2, 16,
+                "expected `;` after the value of a declaration, found `>`");
     check_error(V "#declare floor = 1;", RETEX_EPARSE, 2, 10, "`floor` is a keyword and cannot be declared");
     check_error(V "#declare A = array[3]; #declare B = A[3];", RETEX_EPARSE, 2, 40,
                 "index 3 is outside of an array of 3 elements");
@@ -247,13 +266,15 @@ static void test_limits(void **state)
     SdlOptions options = SDL_OPTIONS_INIT;
     options.max_steps = 100000;
     assert_int_equal(parse("a.pov", "#while(1) #end", options, &output, &err), RETEX_ELIMIT);
-    assert_int_equal(parse("a.pov", V "#declare f = function{sum(i,0,1e9,i)} #declare A = f(0,0,0);", options, &output, &err),
-                     RETEX_ELIMIT);
+    assert_int_equal(
+        parse("a.pov", V "#declare f = function{sum(i,0,1e9,i)} #declare A = f(0,0,0);", options, &output, &err),
+        RETEX_ELIMIT);
     assert_int_equal(parse("a.pov", "#macro M() M() #end M()", options, &output, &err), RETEX_ELIMIT);
     write_file("self.inc", "#include \"self.inc\"", 19);
     assert_int_equal(parse("a.pov", "#include \"self.inc\"", options, &output, &err), RETEX_ELIMIT);
-    assert_int_equal(parse("a.pov", V "#declare S = \"x\"; #while(1) #declare S = concat(S,S); #end", options, &output, &err),
-                     RETEX_ELIMIT);
+    assert_int_equal(
+        parse("a.pov", V "#declare S = \"x\"; #while(1) #declare S = concat(S,S); #end", options, &output, &err),
+        RETEX_ELIMIT);
     options.max_memory = 4 << 20;
     assert_int_equal(parse("a.pov", V "#declare A = array[1000][1000];", options, &output, &err), RETEX_ELIMIT);
     /* Deep nesting of everything that recurses. */
@@ -261,7 +282,8 @@ static void test_limits(void **state)
     for (int kind = 0; kind < 4; kind++) {
         static const char *const unit[] = {"(", "-", "<", "#declare A ="};
         size_t length = 0, size = strlen(unit[kind]);
-        while (length + size < 60000) memcpy(deep + length, unit[kind], size), length += size;
+        while (length + size < 60000)
+            memcpy(deep + length, unit[kind], size), length += size;
         deep[length] = 0;
         char *text = malloc(length + 64);
         sprintf(text, "#declare A = %s", deep);
@@ -282,8 +304,10 @@ static void test_options(void **state)
     options.ndeclares = 3;
     options.width = 320;
     options.height = 200;
-    assert_int_equal(parse("a.pov", V "#debug concat(str(Size,0,1),Name,str(clock,0,2),str(image_width/image_height,0,1))",
-                           options, &output, &err), 0);
+    assert_int_equal(parse("a.pov",
+                           V "#debug concat(str(Size,0,1),Name,str(clock,0,2),str(image_width/image_height,0,1))",
+                           options, &output, &err),
+                     0);
     assert_string_equal(output.text, "2.5oak0.251.6");
     const char *const keyword[] = {"sphere=1"};
     options.declares = keyword;
@@ -306,10 +330,12 @@ static void test_options(void **state)
 static void test_standard_includes(void **state)
 {
     (void)state;
-    static const char *const names[] = {"consts", "colors", "functions", "math", "transforms", "shapes", "rand", "strings",
-                                        "arrays", "textures", "woods", "metals", "glass", "stones", "golds", "skies",
-                                        "finish", "stones1", "stones2", "debug", "stars", "shapes2"};
-    if (access("/usr/share/povray-3.7/include/colors.inc", R_OK) != 0) skip();
+    static const char *const names[] = {"consts",  "colors",  "functions", "math",     "transforms", "shapes",
+                                        "rand",    "strings", "arrays",    "textures", "woods",      "metals",
+                                        "glass",   "stones",  "golds",     "skies",    "finish",     "stones1",
+                                        "stones2", "debug",   "stars",     "shapes2"};
+    if (access("/usr/share/povray-3.7/include/colors.inc", R_OK) != 0)
+        skip();
     char text[128];
     for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
         Output output;
@@ -319,7 +345,8 @@ static void test_standard_includes(void **state)
             fail_msg("%s.inc: %s:%d:%d: %s", names[i], err.file, err.line, err.column, err.message);
     }
     check(V "#include \"math.inc\" #debug vstr(3,VPerp_To_Vector(<1,2,3>),\",\",0,6)", "0.000000,0.832050,-0.554700");
-    check(V "#include \"rand.inc\" #declare R=seed(3); #for(I,1,30) #local N=rand(R); #end #debug str(Rand_Gauss(0,1,R),0,6)",
+    check(V "#include \"rand.inc\" #declare R=seed(3); #for(I,1,30) #local N=rand(R); #end #debug "
+            "str(Rand_Gauss(0,1,R),0,6)",
           "-0.150835");
 }
 
@@ -327,8 +354,8 @@ static void test_standard_includes(void **state)
 static void test_rubbish(void **state)
 {
     (void)state;
-    static const char seed[] =
-        V "#declare A = array[2][2]{{1,2},{3,<1,2,3>}} #macro M(X,Y) #if (X>Y) M(X-1,Y) #else X #end #end\n"
+    static const char seed[] = V
+        "#declare A = array[2][2]{{1,2},{3,<1,2,3>}} #macro M(X,Y) #if (X>Y) M(X-1,Y) #else X #end #end\n"
         "#for (I,0,3) #switch(I) #case(1) #debug concat(str(M(I,1),0,0),\"a\\n\") #break #range(2,3) #else #end #end\n"
         "#declare f = function(a,b){sum(i,0,3,i*a)+b} #declare C = color rgbft <f(1,2),.5,0,0,.1>*2;\n"
         "#fopen F \"x.tmp\" write #write(F,1,\",\",<1,2>) #fclose F #fopen F \"x.tmp\" read #read(F,P,Q)\n"
@@ -342,7 +369,8 @@ static void test_rubbish(void **state)
         Output output;
         RetexError err;
         memcpy(text, seed, sizeof seed);
-        if (round < 400) text[(size_t)round * sizeof seed / 400] = 0;
+        if (round < 400)
+            text[(size_t)round * sizeof seed / 400] = 0;
         else
             for (int i = 0; i < 3; i++) {
                 random = random * 1664525u + 1013904223u;
@@ -361,7 +389,8 @@ static void *parse_many(void *context)
         RetexError err;
         char text[128];
         snprintf(text, sizeof text, V "#declare N = 0; #for (I,1,1000) #declare N = N + I; #end #debug str(N,0,0)");
-        if (parse(name, text, defaults, &output, &err) || strcmp(output.text, "500500") != 0) return context;
+        if (parse(name, text, defaults, &output, &err) || strcmp(output.text, "500500") != 0)
+            return context;
     }
     return NULL;
 }
@@ -371,7 +400,8 @@ static void test_two_at_once(void **state)
     (void)state;
     pthread_t threads[2];
     char names[2][8] = {"t1.pov", "t2.pov"};
-    for (int i = 0; i < 2; i++) assert_int_equal(pthread_create(&threads[i], NULL, parse_many, names[i]), 0);
+    for (int i = 0; i < 2; i++)
+        assert_int_equal(pthread_create(&threads[i], NULL, parse_many, names[i]), 0);
     for (int i = 0; i < 2; i++) {
         void *failed = NULL;
         pthread_join(threads[i], &failed);
@@ -382,12 +412,15 @@ static void test_two_at_once(void **state)
 int main(void)
 {
     snprintf(folder, sizeof folder, "/tmp/retex-test-sdl-XXXXXX");
-    if (!mkdtemp(folder)) return 1;
+    if (!mkdtemp(folder))
+        return 1;
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_expressions), cmocka_unit_test(test_colors), cmocka_unit_test(test_control),
-        cmocka_unit_test(test_names), cmocka_unit_test(test_functions), cmocka_unit_test(test_files),
-        cmocka_unit_test(test_errors), cmocka_unit_test(test_limits), cmocka_unit_test(test_options),
-        cmocka_unit_test(test_standard_includes), cmocka_unit_test(test_rubbish), cmocka_unit_test(test_two_at_once),
+        cmocka_unit_test(test_expressions), cmocka_unit_test(test_colors),
+        cmocka_unit_test(test_control),     cmocka_unit_test(test_names),
+        cmocka_unit_test(test_functions),   cmocka_unit_test(test_files),
+        cmocka_unit_test(test_errors),      cmocka_unit_test(test_limits),
+        cmocka_unit_test(test_options),     cmocka_unit_test(test_standard_includes),
+        cmocka_unit_test(test_rubbish),     cmocka_unit_test(test_two_at_once),
     };
     int failed = cmocka_run_group_tests(tests, NULL, NULL);
     char command[128];
