@@ -232,8 +232,8 @@ static int read_header(const Cli *cli, Table *table, const RetexSet *set, const 
         int t = retex_set_find_target(set, table->cells[1 + i]);
         if (t < 0 || taken[t]++) {
             char message[512];
-            snprintf(message, sizeof message, t < 0 ? "the set has no target '%.200s'" : "target '%.200s' has two columns",
-                     table->cells[1 + i]);
+            snprintf(message, sizeof message,
+                     t < 0 ? "the set has no target '%.200s'" : "target '%.200s' has two columns", table->cells[1 + i]);
             fail_row(cli, table, t < 0 ? RETEX_ENOTFOUND : RETEX_EPARSE, message);
         }
         targets[i] = set->targets[t].name;
@@ -242,7 +242,8 @@ static int read_header(const Cli *cli, Table *table, const RetexSet *set, const 
 }
 
 /* Samples of a row and, where it says nothing, those of the whole run, whose images are only borrowed. */
-static int make_row(const Cli *cli, const Job *job, RetexSamples *row, const char *output, double began, RetexError *err)
+static int make_row(const Cli *cli, const Job *job, RetexSamples *row, const char *output, double began,
+                    RetexError *err)
 {
     const RetexSamples *common = job->samples;
     char *borrowed = calloc((size_t)row->nimages + 1, 1);
@@ -311,7 +312,10 @@ int main(int argc, char **argv)
     Cli cli = {.tool = "retex-combine",
                .usage = "SET [SAMPLES] [--texture[:opts] NAME=IMAGE ...] -o FILE",
                .about = "Recombine a set, with its own textures or new ones, into a picture.",
-               .options = options, .argc = argc, .argv = argv, .next = 1};
+               .options = options,
+               .argc = argc,
+               .argv = argv,
+               .next = 1};
     double began = texture_args_now();
     parse(&cli, &job);
     const char *output = job.batch ? NULL : cli_output(&cli);

@@ -4,7 +4,8 @@
 static const CliOption options[] = {
     {"texture", 0, "NAME=IMAGE",
      "put IMAGE, a file or rgb(r,g,b), on target NAME; opts: scale=S[,T], rotate=DEGREES, offset=U,V, "
-     "wrap=repeat|mirror|clamp|black, colorspace=NAME", 1},
+     "wrap=repeat|mirror|clamp|black, colorspace=NAME",
+     1},
     {0},
 };
 
@@ -32,7 +33,10 @@ int main(int argc, char **argv)
     Cli cli = {.tool = "retex-sample",
                .usage = "SET --texture[:opts] NAME=IMAGE ... [-o SAMPLES]",
                .about = "Filter new textures at a set's footprints, for retex-combine.",
-               .options = options, .argc = argc, .argv = argv, .next = 1};
+               .options = options,
+               .argc = argc,
+               .argv = argv,
+               .next = 1};
     const char *input = parse(&cli, &textures), *output = cli_output(&cli);
     RetexSet *set = NULL;
     RetexSamples *samples = NULL, *earlier = NULL;

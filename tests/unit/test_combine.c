@@ -313,7 +313,8 @@ static void test_speed(void **state)
     for (size_t i = 0; i < 1280 * 720 * 3; i++)
         sink = sink + reference_value(set, NULL, 3, i);
     double slow = (double)(clock() - began) / CLOCKS_PER_SEC;
-    print_message("%d terms at 1280 x 720: %.1f ms a core, %.1f times the reference\n", set->nterms, 1e3 * fast, slow / fast);
+    print_message("%d terms at 1280 x 720: %.1f ms a core, %.1f times the reference\n", set->nterms, 1e3 * fast,
+                  slow / fast);
     retex_image_free(&picture);
     retex_set_close(&set);
 }
@@ -321,9 +322,9 @@ static void test_speed(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_reference), cmocka_unit_test(test_samples),  cmocka_unit_test(test_transparent),
-        cmocka_unit_test(test_threads),   cmocka_unit_test(test_region),   cmocka_unit_test(test_mistakes),
-        cmocka_unit_test(test_merge),     cmocka_unit_test(test_kernel),   cmocka_unit_test(test_speed),
+        cmocka_unit_test(test_reference), cmocka_unit_test(test_samples), cmocka_unit_test(test_transparent),
+        cmocka_unit_test(test_threads),   cmocka_unit_test(test_region),  cmocka_unit_test(test_mistakes),
+        cmocka_unit_test(test_merge),     cmocka_unit_test(test_kernel),  cmocka_unit_test(test_speed),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,5 +1,5 @@
-/* Textures: wraps, the UV transform, and the Gaussian filter against a plain numerical integral of the point look-up and
- * against waves, whose filtered amplitude is known exactly. */
+/* Textures: wraps, the UV transform, and the Gaussian filter against a plain numerical integral of the point
+ * look-up and against waves, whose filtered amplitude is known exactly. */
 #include "lib_test.h"
 
 #include <complex.h>
@@ -22,7 +22,8 @@ static RetexTexture *make_texture(const RetexImage *im, RetexWrap wrap_u, RetexW
     return texture;
 }
 
-static RetexTexture *random_texture(int width, int height, int channels, uint32_t seed, RetexWrap wrap_u, RetexWrap wrap_v)
+static RetexTexture *random_texture(int width, int height, int channels, uint32_t seed, RetexWrap wrap_u,
+                                    RetexWrap wrap_v)
 {
     RetexImage im = {0};
     test_random_image(&im, width, height, channels, seed, 0, 1);
@@ -41,7 +42,8 @@ static void set_covariance(double covariance[3], double longer, double shorter, 
 }
 
 /* The scalar reference: the integral over the footprint, 5 standard deviations each way, of the point look-up. */
-static void integrate(const RetexTexture *texture, double u, double v, const double covariance[3], int steps, double rgba[4])
+static void integrate(const RetexTexture *texture, double u, double v, const double covariance[3], int steps,
+                      double rgba[4])
 {
     double a = sqrt(covariance[0]), b = a > 0 ? covariance[1] / a : 0, rest = covariance[2] - b * b;
     double c = rest > 0 ? sqrt(rest) : 0, total = 0, sum[4] = {0, 0, 0, 0};
@@ -133,7 +135,8 @@ static void test_transform(void **state)
         set_covariance(cov, longer, 0.3 * longer, angle);
         double m[2][2] = {{2 * c, 3 * s}, {2 * s, -3 * c}};
         tcov[0] = m[0][0] * m[0][0] * cov[0] + 2 * m[0][0] * m[0][1] * cov[1] + m[0][1] * m[0][1] * cov[2];
-        tcov[1] = m[0][0] * m[1][0] * cov[0] + (m[0][0] * m[1][1] + m[0][1] * m[1][0]) * cov[1] + m[0][1] * m[1][1] * cov[2];
+        tcov[1] =
+            m[0][0] * m[1][0] * cov[0] + (m[0][0] * m[1][1] + m[0][1] * m[1][0]) * cov[1] + m[0][1] * m[1][1] * cov[2];
         tcov[2] = m[1][0] * m[1][0] * cov[0] + 2 * m[1][0] * m[1][1] * cov[1] + m[1][1] * m[1][1] * cov[2];
         retex_texture_gaussian(turned, u, v, cov, a);
         retex_texture_gaussian(plain, tu, tv, tcov, b);
@@ -163,7 +166,8 @@ static void test_limits(void **state)
                 assert_memory_equal(a, b, sizeof a);
                 retex_texture_gaussian(t, u, v, small, c);
                 double texel_u = u * sizes[n][0], texel_v = v * sizes[n][1];
-                int inside = texel_u > 0.5 && texel_v > 0.5 && texel_u < sizes[n][0] - 0.5 && texel_v < sizes[n][1] - 0.5;
+                int inside =
+                    texel_u > 0.5 && texel_v > 0.5 && texel_u < sizes[n][0] - 0.5 && texel_v < sizes[n][1] - 0.5;
                 for (int k = 0; k < 4 && (wrap != RETEX_WRAP_BLACK || inside); k++)
                     assert_float_equal(a[k], c[k], 5e-3);
             }
@@ -191,8 +195,8 @@ static void test_limits(void **state)
     retex_image_free(&im);
 }
 
-/* Against the integral: noise, all wraps, any orientation. Black axes end sharply in the point look-up and within a texel
- * in the filter, so that their coverage may differ by a little more. */
+/* Against the integral: noise, all wraps, any orientation. Black axes end sharply in the point look-up and within a
+ * texel in the filter, so that their coverage may differ by a little more. */
 static void test_integral(void **state)
 {
     (void)state;
@@ -201,11 +205,12 @@ static void test_integral(void **state)
     double worst = 0, worst_black = 0;
     for (int wrap = 0; wrap < 16; wrap++)
         for (int n = 0; n < 3; n++) {
-            RetexTexture *t = random_texture(sizes[n][0], sizes[n][1], 4, (uint32_t)(wrap + 16 * n), (RetexWrap)(wrap % 4),
-                                             (RetexWrap)(wrap / 4));
+            RetexTexture *t = random_texture(sizes[n][0], sizes[n][1], 4, (uint32_t)(wrap + 16 * n),
+                                             (RetexWrap)(wrap % 4), (RetexWrap)(wrap / 4));
             int black = wrap % 4 == RETEX_WRAP_BLACK || wrap / 4 == RETEX_WRAP_BLACK;
             for (int i = 0; i < 12; i++) {
-                double longer = 0.01 * pow(60, test_random(&seed)), shorter = longer * pow(8, -test_random(&seed)), cov[3];
+                double longer = 0.01 * pow(60, test_random(&seed)), shorter = longer * pow(8, -test_random(&seed)),
+                       cov[3];
                 double u = 1.4 * test_random(&seed) - 0.2, v = 1.4 * test_random(&seed) - 0.2, want[4];
                 float got[4];
                 set_covariance(cov, longer, shorter, M_PI * test_random(&seed));
@@ -257,7 +262,8 @@ static double complex filtered_wave(const double f[2], const double cov[3], doub
         for (int m = -3; m <= 3; m++) {
             double gx = f[0] + n, gy = f[1] + m, tent = sinc(gx) * sinc(gy);
             double sign = (n + m) % 2 ? -1 : 1; /* texel centres lie at halves */
-            sum += sign * tent * tent * exp(-2 * M_PI * M_PI * quadratic(cov, gx, gy)) * cexp(2 * I * M_PI * (gx * x + gy * y));
+            sum += sign * tent * tent * exp(-2 * M_PI * M_PI * quadratic(cov, gx, gy)) *
+                   cexp(2 * I * M_PI * (gx * x + gy * y));
         }
     return sum;
 }
@@ -271,7 +277,8 @@ static void measure_variance(int width, int height, double most_aspect, double *
     double squares = 0;
     *worst = 0;
     for (int i = 0; i < 120; i++) {
-        double shorter = 0.3 * pow(0.2 * smaller / 0.3, test_random(&seed)), aspect = pow(most_aspect, test_random(&seed));
+        double shorter = 0.3 * pow(0.2 * smaller / 0.3, test_random(&seed)),
+               aspect = pow(most_aspect, test_random(&seed));
         double angle = M_PI * test_random(&seed), longer = shorter * aspect, cov[3], uvcov[3];
         if (longer > 0.2 * smaller)
             longer = 0.2 * smaller;
@@ -280,7 +287,8 @@ static void measure_variance(int width, int height, double most_aspect, double *
         uvcov[1] = cov[1] / width / height;
         uvcov[2] = cov[2] / height / height;
         for (int axis = 0; axis < 2; axis++) {
-            double sd = axis ? shorter : longer, along = angle + axis * M_PI / 2, wanted = sqrt(0.4 / (2 * M_PI * M_PI)) / sd;
+            double sd = axis ? shorter : longer, along = angle + axis * M_PI / 2,
+                   wanted = sqrt(0.4 / (2 * M_PI * M_PI)) / sd;
             wanted = wanted > 0.3 ? 0.3 : wanted;
             double f[2] = {rint(wanted * cos(along) * width) / width, rint(wanted * sin(along) * height) / height};
             double variance = quadratic(cov, f[0], f[1]), squared = f[0] * f[0] + f[1] * f[1];
@@ -310,7 +318,10 @@ static void measure_variance(int width, int height, double most_aspect, double *
 static void test_variance(void **state)
 {
     (void)state;
-    static const struct { int width, height; double aspect; } cases[] = {
+    static const struct {
+        int width, height;
+        double aspect;
+    } cases[] = {
         {256, 256, 1}, {256, 256, 8}, {301, 203, 4}, {500, 255, 8}, {128, 512, 2},
     };
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
@@ -362,7 +373,8 @@ static void test_bad_values(void **state)
     im.pixels[30] = NAN;
     im.pixels[100] = INFINITY;
     RetexTexture *t = make_texture(&im, RETEX_WRAP_REPEAT, RETEX_WRAP_REPEAT);
-    const double bad[][3] = {{NAN, 0, 1}, {-1, 0, -1}, {1e-4, 5, 1e-4}, {INFINITY, 0, 1}, {1e300, 0, 0}, {0, 1, 0}, {1e-300, 0, 0}};
+    const double bad[][3] = {{NAN, 0, 1},   {-1, 0, -1}, {1e-4, 5, 1e-4}, {INFINITY, 0, 1},
+                             {1e300, 0, 0}, {0, 1, 0},   {1e-300, 0, 0}};
     const double places[] = {0.3, NAN, INFINITY, 1e18, -1e300};
     for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++)
         for (size_t j = 0; j < sizeof places / sizeof places[0]; j++) {
@@ -395,7 +407,9 @@ static void test_speed(void **state)
 {
     (void)state;
     RetexTexture *t = random_texture(1024, 1024, 3, 1, RETEX_WRAP_REPEAT, RETEX_WRAP_REPEAT);
-    static const struct { double longer, shorter, angle; } cases[] = {{0.4, 0.4, 0}, {1.5, 1, 0}, {3, 1, 0.5}, {30, 30, 0}};
+    static const struct {
+        double longer, shorter, angle;
+    } cases[] = {{0.4, 0.4, 0}, {1.5, 1, 0}, {3, 1, 0.5}, {30, 30, 0}};
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         double cov[3], seconds;
         float p[4], sum = 0;
@@ -415,8 +429,8 @@ static void test_speed(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_point),    cmocka_unit_test(test_transform), cmocka_unit_test(test_limits),
-        cmocka_unit_test(test_integral), cmocka_unit_test(test_variance),  cmocka_unit_test(test_alpha),
+        cmocka_unit_test(test_point),      cmocka_unit_test(test_transform), cmocka_unit_test(test_limits),
+        cmocka_unit_test(test_integral),   cmocka_unit_test(test_variance),  cmocka_unit_test(test_alpha),
         cmocka_unit_test(test_bad_values), cmocka_unit_test(test_speed),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

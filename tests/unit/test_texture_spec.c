@@ -31,7 +31,8 @@ static void test_defaults(void **state)
 static void test_options(void **state)
 {
     (void)state;
-    RetexTextureSpec spec = parse("scale=2,-0.5:rotate=-30.5:offset=0,.5:wrap=mirror,clamp:colorspace=ACES - ACEScg", "a=b");
+    RetexTextureSpec spec =
+        parse("scale=2,-0.5:rotate=-30.5:offset=0,.5:wrap=mirror,clamp:colorspace=ACES - ACEScg", "a=b");
     assert_true(spec.scale[0] == 2 && spec.scale[1] == -0.5);
     assert_true(spec.rotate == -30.5);
     assert_true(spec.offset[0] == 0 && spec.offset[1] == 0.5);
@@ -67,18 +68,40 @@ static void test_mistakes(void **state)
     memset(longer, 'x', sizeof longer);
     memcpy(longer, "a=", 2);
     longer[sizeof longer - 1] = '\0';
-    const struct { const char *opts, *arg, *says; } cases[] = {
-        {"", "Floor", "NAME=IMAGE"}, {"", "=x.png", "NAME=IMAGE"}, {"", "Floor=", "no image"}, {"", "", "NAME=IMAGE"},
-        {"", NULL, "NAME=IMAGE"}, {"scale", "a=b", "'scale' has no value"}, {"scale=", "a=b", "scale=''"},
-        {"scale=0", "a=b", "cannot be 0"}, {"scale=1,0", "a=b", "cannot be 0"}, {"scale=1,2,3", "a=b", "one or two"},
-        {"scale=1;2", "a=b", "one or two"}, {"scale=nan", "a=b", "one or two"}, {"scale=inf", "a=b", "one or two"},
-        {"rotate=30deg", "a=b", "degrees"}, {"rotate=1,2", "a=b", "degrees"}, {"offset=a", "a=b", "offset='a'"},
-        {"offset=1,", "a=b", "offset='1,'"}, {"wrap=tile", "a=b", "repeat, mirror, clamp or black"},
-        {"wrap=repeat,tile", "a=b", "repeat, mirror"}, {"wrap=", "a=b", "repeat, mirror"},
-        {"colorspace=", "a=b", "colour space"}, {"size=2", "a=b", "'size'; there are scale"}, {"=2", "a=b", "''"},
-        {"", "a=rgb(1,2)", "three numbers"}, {"", "a=rgb(1,2,3,4)", "three numbers"}, {"", "a=rgb(1,2,-3)", "0 or more"},
-        {"", "a=rgb(1,2,x)", "0 or more"}, {"", "a=rgb(1,2,3).png", "nothing may follow"}, {"", "a=rgb(", "three numbers"},
-        {"", "a=rgb(1,2,nan)", "0 or more"}, {"", longer, "at most 1023 bytes"},
+    const struct {
+        const char *opts, *arg, *says;
+    } cases[] = {
+        {"", "Floor", "NAME=IMAGE"},
+        {"", "=x.png", "NAME=IMAGE"},
+        {"", "Floor=", "no image"},
+        {"", "", "NAME=IMAGE"},
+        {"", NULL, "NAME=IMAGE"},
+        {"scale", "a=b", "'scale' has no value"},
+        {"scale=", "a=b", "scale=''"},
+        {"scale=0", "a=b", "cannot be 0"},
+        {"scale=1,0", "a=b", "cannot be 0"},
+        {"scale=1,2,3", "a=b", "one or two"},
+        {"scale=1;2", "a=b", "one or two"},
+        {"scale=nan", "a=b", "one or two"},
+        {"scale=inf", "a=b", "one or two"},
+        {"rotate=30deg", "a=b", "degrees"},
+        {"rotate=1,2", "a=b", "degrees"},
+        {"offset=a", "a=b", "offset='a'"},
+        {"offset=1,", "a=b", "offset='1,'"},
+        {"wrap=tile", "a=b", "repeat, mirror, clamp or black"},
+        {"wrap=repeat,tile", "a=b", "repeat, mirror"},
+        {"wrap=", "a=b", "repeat, mirror"},
+        {"colorspace=", "a=b", "colour space"},
+        {"size=2", "a=b", "'size'; there are scale"},
+        {"=2", "a=b", "''"},
+        {"", "a=rgb(1,2)", "three numbers"},
+        {"", "a=rgb(1,2,3,4)", "three numbers"},
+        {"", "a=rgb(1,2,-3)", "0 or more"},
+        {"", "a=rgb(1,2,x)", "0 or more"},
+        {"", "a=rgb(1,2,3).png", "nothing may follow"},
+        {"", "a=rgb(", "three numbers"},
+        {"", "a=rgb(1,2,nan)", "0 or more"},
+        {"", longer, "at most 1023 bytes"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         RetexTextureSpec spec;

@@ -8,11 +8,14 @@
 
 #include "../libretex/bridge_load.h"
 
-namespace bridge {
+namespace bridge
+{
 
 // Thrown inside, turned into a RetexError at the border.
 struct Failure : std::runtime_error {
-    Failure(int code_, const std::string &message) : std::runtime_error(message), code(code_) {}
+    Failure(int code_, const std::string &message) : std::runtime_error(message), code(code_)
+    {
+    }
     int code;
 };
 

@@ -16,8 +16,10 @@
 
 namespace OCIO = OCIO_NAMESPACE;
 
-namespace bridge {
-namespace {
+namespace bridge
+{
+namespace
+{
 
 struct Configurations {
     OCIO::ConstConfigRcPtr own;
@@ -85,7 +87,10 @@ Transform from_processor(const OCIO::ConstProcessorRcPtr &processor)
     };
 }
 
-bool is_name(const char *a, const char *b) { return strcasecmp(a, b) == 0; }
+bool is_name(const char *a, const char *b)
+{
+    return strcasecmp(a, b) == 0;
+}
 
 // What a configuration calls scene-linear Rec.709; its scene_linear role where it has no such space.
 std::string linear_name(const OCIO::ConstConfigRcPtr &config)
@@ -133,8 +138,9 @@ Transform between(const OCIO::ConstConfigRcPtr &config, const std::string &name,
     std::string linear = linear_name(config);
     if (config != all.own && linear == OCIO::ROLE_SCENE_LINEAR && config->hasRole("aces_interchange")) {
         std::string ours = linear_name(all.own);
-        return from_processor(inward ? OCIO::Config::GetProcessorFromConfigs(config, name.c_str(), all.own, ours.c_str())
-                                     : OCIO::Config::GetProcessorFromConfigs(all.own, ours.c_str(), config, name.c_str()));
+        return from_processor(inward
+                                  ? OCIO::Config::GetProcessorFromConfigs(config, name.c_str(), all.own, ours.c_str())
+                                  : OCIO::Config::GetProcessorFromConfigs(all.own, ours.c_str(), config, name.c_str()));
     }
     return from_processor(inward ? config->getProcessor(name.c_str(), linear.c_str())
                                  : config->getProcessor(linear.c_str(), name.c_str()));
@@ -180,7 +186,10 @@ std::string find_view(const OCIO::ConstConfigRcPtr &config, const std::string &d
 
 } // namespace
 
-void check_configuration() { configurations(); }
+void check_configuration()
+{
+    configurations();
+}
 
 Transform transform_from(const std::string &colorspace)
 {
@@ -215,8 +224,8 @@ Transform transform_to_display(const std::string &display, const std::string &vi
     step->setSrc(linear.c_str());
     if (linear == OCIO::ROLE_SCENE_LINEAR && config->hasRole("aces_interchange")) {
         step->setSrc("aces_interchange");
-        Transform first = from_processor(OCIO::Config::GetProcessorFromConfigs(all.own, linear_name(all.own).c_str(),
-                                                                               config, "aces_interchange"));
+        Transform first = from_processor(
+            OCIO::Config::GetProcessorFromConfigs(all.own, linear_name(all.own).c_str(), config, "aces_interchange"));
         Transform second = from_processor(config->getProcessor(step));
         return [first, second](float *rgba, long pixels) {
             if (first)

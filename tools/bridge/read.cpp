@@ -14,7 +14,8 @@
 #include <strings.h>
 #include <sys/stat.h>
 
-namespace bridge {
+namespace bridge
+{
 
 int guarded(const char *path, RetexError *err, const std::function<void()> &body)
 {
@@ -54,11 +55,13 @@ void apply_transform(const Transform &transform, float *rgba, int width, int hei
     });
 }
 
-namespace {
+namespace
+{
 
 // An image of the caller's that is freed unless it is handed over.
-class OwnedImage {
-public:
+class OwnedImage
+{
+  public:
     OwnedImage(const RetexBridgeHost *host, int width, int height) : host_(host)
     {
         RetexError why{};
@@ -66,7 +69,10 @@ public:
         if (code)
             throw Failure(code, why.message);
     }
-    ~OwnedImage() { host_->image_free(&image); }
+    ~OwnedImage()
+    {
+        host_->image_free(&image);
+    }
     OwnedImage(const OwnedImage &) = delete;
     OwnedImage &operator=(const OwnedImage &) = delete;
     RetexImage release()
@@ -75,10 +81,13 @@ public:
         image = RetexImage{};
         return out;
     }
-    void swap(OwnedImage &other) { std::swap(image, other.image); }
+    void swap(OwnedImage &other)
+    {
+        std::swap(image, other.image);
+    }
     RetexImage image{};
 
-private:
+  private:
     const RetexBridgeHost *host_;
 };
 
@@ -232,7 +241,8 @@ Transform decoding(const OIIO::ImageSpec &spec, const char *format, const char *
         if (std::strcmp(format, "png") == 0 && said.compare(0, 3, "lin") == 0)
             return {};
         float gamma = spec.get_float_attribute("oiio:Gamma", 0);
-        if (std::strcmp(format, "png") == 0 && said.compare(0, 5, "Gamma") == 0 && gamma > 0 && std::fabs(gamma - 2.2f) > 0.05f)
+        if (std::strcmp(format, "png") == 0 && said.compare(0, 5, "Gamma") == 0 && gamma > 0 &&
+            std::fabs(gamma - 2.2f) > 0.05f)
             return gamma == 1 ? Transform{} : transform_from_gamma(gamma);
     }
     if (spec.format.basetype == OIIO::TypeDesc::UINT8)
@@ -317,7 +327,10 @@ RetexImage read_picture(const RetexBridgeHost *host, const char *path, const cha
 extern "C" __attribute__((visibility("default"))) RetexBridgeAbi retex_oiio_abi;
 extern "C" __attribute__((visibility("default"))) RetexBridgeRead retex_oiio_read;
 
-int retex_oiio_abi(void) { return RETEX_BRIDGE_ABI; }
+int retex_oiio_abi(void)
+{
+    return RETEX_BRIDGE_ABI;
+}
 
 int retex_oiio_read(const RetexBridgeHost *host, RetexImage *dst, const char *path, const char *colorspace,
                     long max_pixels, RetexError *err)

@@ -1,6 +1,6 @@
-// Writing: a scene-linear picture leaves in any format OpenImageIO writes, through the display transform where the format
-// holds 8 or 16 bits. The file is made in memory and then written here, because few of the format libraries notice a
-// full disk.
+// Writing: a scene-linear picture leaves in any format OpenImageIO writes, through the display transform where the
+// format holds 8 or 16 bits. The file is made in memory and then written here, because few of the format libraries
+// notice a full disk.
 #include "bridge.hpp"
 
 #include <algorithm>
@@ -20,8 +20,10 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-namespace bridge {
-namespace {
+namespace bridge
+{
+namespace
+{
 
 enum class Depth { Eight, Sixteen, Half, Float };
 
@@ -82,20 +84,30 @@ std::vector<Value> store(const std::vector<float> &rgba, int channels, bool mult
     return out;
 }
 
-[[noreturn]] void fail_write(int error) { throw Failure(RETEX_EIO, std::string("cannot write: ") + std::strerror(error)); }
+[[noreturn]] void fail_write(int error)
+{
+    throw Failure(RETEX_EIO, std::string("cannot write: ") + std::strerror(error));
+}
 
 // A file without a name, in memory.
-class Spool {
-public:
+class Spool
+{
+  public:
     Spool() : fd_(memfd_create("retex-picture", MFD_CLOEXEC))
     {
         if (fd_ < 0)
             throw Failure(RETEX_EIO, std::string("cannot make a file in memory: ") + std::strerror(errno));
     }
-    ~Spool() { ::close(fd_); }
+    ~Spool()
+    {
+        ::close(fd_);
+    }
     Spool(const Spool &) = delete;
     Spool &operator=(const Spool &) = delete;
-    std::string path() const { return "/proc/self/fd/" + std::to_string(fd_); }
+    std::string path() const
+    {
+        return "/proc/self/fd/" + std::to_string(fd_);
+    }
     bool empty() const
     {
         struct stat status;
@@ -112,7 +124,7 @@ public:
     }
     void copy_to(const char *path) const;
 
-private:
+  private:
     int fd_;
 };
 
@@ -199,13 +211,17 @@ std::unique_ptr<OIIO::ImageOutput> find_writer(const std::string &path)
     auto out = OIIO::ImageOutput::create(path);
     if (!out) {
         OIIO::geterror(); // takes it off OpenImageIO's list
-        throw Failure(RETEX_EINVAL, "no picture format has the ending ." + end + "; try .png, .jpg, .tif, .exr or .hdr");
+        throw Failure(RETEX_EINVAL,
+                      "no picture format has the ending ." + end + "; try .png, .jpg, .tif, .exr or .hdr");
     }
     return out;
 }
 
 // Formats that OpenImageIO hands colours to as they are, alpha apart. Others want or keep them multiplied by it.
-bool keeps_unassociated(const std::string &format) { return format == "png" || format == "tiff" || format == "targa"; }
+bool keeps_unassociated(const std::string &format)
+{
+    return format == "png" || format == "tiff" || format == "targa";
+}
 
 // What the pixels are turned into before they are stored.
 Transform encoding(const RetexWriteParams &params, Depth depth)
@@ -241,7 +257,10 @@ OIIO::ImageSpec describe(const RetexImage &src, int channels, OIIO::TypeDesc typ
     return spec;
 }
 
-bool is_pfm(const std::string &path) { return strcasecmp(ending(path).c_str(), "pfm") == 0; }
+bool is_pfm(const std::string &path)
+{
+    return strcasecmp(ending(path).c_str(), "pfm") == 0;
+}
 
 // What a picture becomes in its file, and how OpenImageIO is told.
 struct Stored {
@@ -252,8 +271,9 @@ struct Stored {
     std::vector<float> floats;
     const void *data() const
     {
-        return !bytes.empty() ? static_cast<const void *>(bytes.data())
-                              : !words.empty() ? static_cast<const void *>(words.data()) : floats.data();
+        return !bytes.empty()   ? static_cast<const void *>(bytes.data())
+               : !words.empty() ? static_cast<const void *>(words.data())
+                                : floats.data();
     }
 };
 
@@ -314,7 +334,8 @@ void write_picture(const RetexImage &src, const char *path, const RetexWritePara
         throw Failure(RETEX_EIO, "cannot write: " + out->geterror());
     if (spool.empty()) {
         out = find_writer(path); // a used one does not always open again
-        write_directly(path, [&] { return write_to(path); }, *out);
+        write_directly(
+            path, [&] { return write_to(path); }, *out);
     } else {
         spool.copy_to(path);
     }

@@ -9,17 +9,18 @@
 extern "C" {
 #endif
 
-/* Read any file OpenImageIO knows as R,G,B,A, scene-linear Rec.709, unassociated alpha; as retex_image_read, of which it
- * is the general case. dst is unallocated. */
+/* Read any file OpenImageIO knows as R,G,B,A, scene-linear Rec.709, unassociated alpha; as retex_image_read, of
+ * which it is the general case. dst is unallocated. */
 int retex_bridge_read(RetexImage *dst, const char *path, const char *colorspace, long max_pixels, RetexError *err);
 
-/* Write exactly to path, no temporary name; the format follows path's ending, so a caller's temporary name must keep the
- * ending of the final one ("room.png" -> ".room.1234.png"). Messages name the file as err->file; nothing else of the
- * path appears in them, so that the caller may put the final name there. On failure what was written is removed. */
+/* Write exactly to path, no temporary name; the format follows path's ending, so a caller's temporary name must
+ * keep the ending of the final one ("room.png" -> ".room.1234.png"). Messages name the file as err->file; nothing
+ * else of the path appears in them, so that the caller may put the final name there. On failure what was written is
+ * removed. */
 int retex_bridge_write(const RetexImage *src, const char *path, const RetexWriteParams *params, RetexError *err);
 
-/* What the library exports and what it is given. The library has no part of libretex inside: memory of images comes from
- * the caller's functions. */
+/* What the library exports and what it is given. The library has no part of libretex inside: memory of images comes
+ * from the caller's functions. */
 typedef struct RetexBridgeHost {
     int (*image_alloc)(RetexImage *im, int width, int height, int channels, RetexError *err);
     void (*image_free)(RetexImage *im);

@@ -1,8 +1,8 @@
 /* Recombination: I = sum over terms of radiance times the product of the factors (supplement 4.2, Eq. 4, and 4.3).
  *
- * What a term means - no hit, dependent, independent, cross - is the set's business; here it is a polynomial. A factor is
- * the new texture's sample at its footprint or, where the target keeps its original, the footprint's mean original
- * albedo, which is exact for it. */
+ * What a term means - no hit, dependent, independent, cross - is the set's business; here it is a polynomial. A
+ * factor is the new texture's sample at its footprint or, where the target keeps its original, the footprint's mean
+ * original albedo, which is exact for it. */
 #include <retex/sample.h>
 
 #include <stdlib.h>

@@ -1,5 +1,6 @@
-/* One term of the polynomial over a span. All images are interleaved alike, so colours need no telling apart: a span of n
- * pixels is 3 n numbers. Four at a time, which every x86-64 and ARM does; the loops wait for memory, not for arithmetic. */
+/* One term of the polynomial over a span. All images are interleaved alike, so colours need no telling apart: a
+ * span of n pixels is 3 n numbers. Four at a time, which every x86-64 and ARM does; the loops wait for memory, not
+ * for arithmetic. */
 #include "combine_kernel.h"
 
 #include <string.h>

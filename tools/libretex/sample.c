@@ -11,7 +11,7 @@
 #include <retex/parallel.h>
 
 #define ROWS_A_JOB 8
-#define MAX_FOOTPRINTS ((int)(sizeof ((RetexSamples *)0)->footprint_target / sizeof(int)))
+#define MAX_FOOTPRINTS ((int)(sizeof((RetexSamples *)0)->footprint_target / sizeof(int)))
 
 typedef struct SampleWork {
     const RetexSet *set;
@@ -67,7 +67,8 @@ static int check_footprints(const SampleWork *work, RetexError *err)
 {
     const RetexSet *set = work->set;
     if (set->nfootprints > MAX_FOOTPRINTS)
-        return retex_fail(err, RETEX_ELIMIT, "the set has %d footprints, more than %d", set->nfootprints, MAX_FOOTPRINTS);
+        return retex_fail(err, RETEX_ELIMIT, "the set has %d footprints, more than %d", set->nfootprints,
+                          MAX_FOOTPRINTS);
     for (int i = 0; i < set->nfootprints; i++) {
         const RetexFootprint *f = &set->footprints[i];
         if (f->target < 0 || f->target >= set->ntargets)
@@ -76,7 +77,8 @@ static int check_footprints(const SampleWork *work, RetexError *err)
         for (int k = 0; k < work->nspecs; k++)
             edited |= work->spec_target[k] == f->target;
         if (edited && (!check_part(set, f->uv, 3) || !check_part(set, f->spread, 2) || !check_part(set, f->albedo, 3)))
-            return retex_fail(err, RETEX_EFORMAT, "nothing can be put on target %s: the set does not hold its footprints; "
+            return retex_fail(err, RETEX_EFORMAT,
+                              "nothing can be put on target %s: the set does not hold its footprints; "
                               "one that was sampled and sent through a pipe has left them behind",
                               set->targets[f->target].name);
     }
@@ -211,8 +213,8 @@ int retex_sample(RetexSamples **samples, const RetexSet *set, const RetexTexture
 
 int retex_samples_merge(RetexSamples *samples, RetexSamples *more, RetexError *err)
 {
-    int same = samples->width == more->width && samples->height == more->height &&
-               samples->nimages == more->nimages && samples->ntargets == more->ntargets;
+    int same = samples->width == more->width && samples->height == more->height && samples->nimages == more->nimages &&
+               samples->ntargets == more->ntargets;
     for (int t = 0; same && t < samples->ntargets; t++)
         same = strcmp(samples->target_names[t], more->target_names[t]) == 0;
     for (int i = 0; same && i < samples->nimages; i++)

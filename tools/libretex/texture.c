@@ -1,7 +1,7 @@
 /* Textures: loading, the MIP pyramid, and the way from surface UV to texels.
  *
- * A file becomes premultiplied RGBA floats; level after level is halved, an odd number of texels rounding down with each
- * new texel still the exact average of its share. Look-ups are in texture_filter_kernel.c. */
+ * A file becomes premultiplied RGBA floats; level after level is halved, an odd number of texels rounding down with
+ * each new texel still the exact average of its share. Look-ups are in texture_filter_kernel.c. */
 #include "texture_pyramid.h"
 
 #include <math.h>
@@ -37,8 +37,8 @@ static int halving_weights(int n, int i, float weight[3], int *first)
     return 3;
 }
 
-/* The variance halving n texels adds, in texels of the finer level, at relative position p: blur[0] + blur[1] p (1 - p).
- * It is the variance of the weights above. */
+/* The variance halving n texels adds, in texels of the finer level, at relative position p: blur[0] + blur[1] p (1
+ * - p). It is the variance of the weights above. */
 static void halving_blur(int n, double blur[2])
 {
     double half = n / 2, share = half / n;
@@ -204,8 +204,8 @@ static int build_pyramid(RetexTexture *texture, RetexImage *pixels, int nthreads
         failed = add_level(texture, nthreads);
     }
     if (failed)
-        return retex_fail_at(err, RETEX_ENOMEM, texture->spec.image, 0, 0, "not enough memory for a texture of %d x %d texels",
-                             image->width, image->height);
+        return retex_fail_at(err, RETEX_ENOMEM, texture->spec.image, 0, 0,
+                             "not enough memory for a texture of %d x %d texels", image->width, image->height);
     return RETEX_OK;
 }
 
@@ -275,7 +275,8 @@ int retex_texture_load(RetexTexture **out, const RetexTextureSpec *spec, int nth
     int code = why.code;
     if (texture && !spec->constant) {
         RetexImage image = {0};
-        code = retex_image_read(&image, spec->image, spec->colorspace[0] ? spec->colorspace : NULL, MAX_TEXTURE_PIXELS, &why);
+        code = retex_image_read(&image, spec->image, spec->colorspace[0] ? spec->colorspace : NULL, MAX_TEXTURE_PIXELS,
+                                &why);
         if (!code)
             code = build_pyramid(texture, &image, nthreads, &why);
     }

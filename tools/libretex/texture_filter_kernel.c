@@ -1,14 +1,14 @@
 /* Looking textures up: the bilinear point, and the exact Gaussian footprint.
  *
- * What is averaged is the bilinear reconstruction of the image, so that a footprint that shrinks to nothing becomes the
- * point look-up. Its kernel over the image's texels has the footprint's covariance plus 1/6 texel^2 (the tent's variance)
- * on each axis. A level of the pyramid has already applied a box; the sum over the level's texels applies a Gaussian with
- * what is missing. Since variances add, the whole has the covariance asked for, on whichever level: the choice of level
- * is one of cost, and no blending between levels is needed.
+ * What is averaged is the bilinear reconstruction of the image, so that a footprint that shrinks to nothing becomes
+ * the point look-up. Its kernel over the image's texels has the footprint's covariance plus 1/6 texel^2 (the tent's
+ * variance) on each axis. A level of the pyramid has already applied a box; the sum over the level's texels applies a
+ * Gaussian with what is missing. Since variances add, the whole has the covariance asked for, on whichever level: the
+ * choice of level is one of cost, and no blending between levels is needed.
  *
- * The sum goes by rows. Along y the Gaussian is the marginal one; within a row it is the conditional one, whose centre
- * moves by slope = xy / yy per row and whose variance is xx - xy^2 / yy. This is exact for any orientation, and where
- * the smaller eigenvalue is large enough for sampling at texels, so are both variances. */
+ * The sum goes by rows. Along y the Gaussian is the marginal one; within a row it is the conditional one, whose
+ * centre moves by slope = xy / yy per row and whose variance is xx - xy^2 / yy. This is exact for any orientation,
+ * and where the smaller eigenvalue is large enough for sampling at texels, so are both variances. */
 #include "texture_pyramid.h"
 
 #include <math.h>
@@ -24,10 +24,10 @@ typedef int Int4 __attribute__((vector_size(16)));
 #define TENT_LIMIT 0.40f
 /* Windows end at 3 standard deviations, lowered so that they end at zero; that takes 8.2% of the variance. */
 #define WINDOW_REACH 3.0f
-#define WINDOW_EDGE 0.011108997f     /* exp(-3^2 / 2) */
-#define WINDOW_VARIANCE 0.917808f    /* of the lowered window, relative to the Gaussian it was made of */
-#define TAP_BUDGET 1000              /* a look-up; longer footprints skip texels along their length */
-#define MAX_TAPS 512                 /* along one axis */
+#define WINDOW_EDGE 0.011108997f  /* exp(-3^2 / 2) */
+#define WINDOW_VARIANCE 0.917808f /* of the lowered window, relative to the Gaussian it was made of */
+#define TAP_BUDGET 1000           /* a look-up; longer footprints skip texels along their length */
+#define MAX_TAPS 512              /* along one axis */
 
 static inline Float4 load4(const float *p)
 {
@@ -69,8 +69,8 @@ static inline int wrap_index(int i, int n, RetexWrap wrap)
     return i < 0 ? -1 : n;
 }
 
-/* A footprint of less than a texel on an axis that ends in black: the border is sharp there, as for the point look-up. The
- * border's texels go on outside, and the result is weighted by how much of the footprint lies within. */
+/* A footprint of less than a texel on an axis that ends in black: the border is sharp there, as for the point
+ * look-up. The border's texels go on outside, and the result is weighted by how much of the footprint lies within. */
 typedef struct Edges {
     int sharp[2];
 } Edges;
@@ -107,8 +107,8 @@ static inline Row find_row(const RetexTexture *texture, const TextureLevel *leve
 }
 
 /* Sum of weight[i] * texel(first + i * step) of one row. */
-static inline Float4 sum_row(const Row *row, int width, RetexWrap wrap, const float *restrict weight, int count, int first,
-                             int step)
+static inline Float4 sum_row(const Row *row, int width, RetexWrap wrap, const float *restrict weight, int count,
+                             int first, int step)
 {
     Float4 sum = {0, 0, 0, 0}, odd = {0, 0, 0, 0};
     if (!row->texels)
@@ -174,14 +174,14 @@ static inline void tent_window(Window *restrict window, const float *restrict ta
 
 /* What makes a window, apart from its centre. */
 typedef struct Shape {
-    int tent;    /* 1: a tent blurred by sd; 0: a Gaussian of variance 1 / inverse, up to reach */
-    int step;    /* texels from tap to tap */
+    int tent; /* 1: a tent blurred by sd; 0: a Gaussian of variance 1 / inverse, up to reach */
+    int step; /* texels from tap to tap */
     float sd, inverse, reach;
     float curve; /* exp(-step^2 / variance): how much the ratio of neighbouring taps falls from tap to tap */
 } Shape;
 
-/* exp(-d^2 / 2) at equal steps by two multiplications each, the exponent being quadratic; four taps at a time. Begun anew
- * every 32 taps, so that rounding does not pile up. */
+/* exp(-d^2 / 2) at equal steps by two multiplications each, the exponent being quadratic; four taps at a time.
+ * Begun anew every 32 taps, so that rounding does not pile up. */
 static inline void gaussian_window(Window *restrict window, const Shape *shape, float centre)
 {
     int first = whole_above(centre - shape->reach), step = shape->step;
@@ -322,8 +322,7 @@ static inline int level_fits(const RetexTexture *texture, int level, const Textu
 }
 
 /* The coarsest level that fits; the image itself always does. */
-static inline int find_level(const RetexTexture *texture, const TextureFootprint *f,
-                             const double position[2])
+static inline int find_level(const RetexTexture *texture, const TextureFootprint *f, const double position[2])
 {
     double trace = f->xx + f->yy;
     /* det / trace lies between half the smaller eigenvalue and itself, and a level of s texels wants about 0.43 s^2: a
@@ -368,9 +367,8 @@ static inline Float4 sum_level(const RetexTexture *texture, const TextureLevel *
         if (!upright)
             make_window(&columns, texture->tail, &shape_x, x + (float)slope * ((float)at - y));
         Row row = find_row(texture, level, at, edges);
-        sum += rows.weight[j] *
-               sum_row(&row, level->width, edges->sharp[0] ? EDGE_TEXELS : texture->spec.wrap[0], columns.weight,
-                       columns.count, columns.first, shape_x.step);
+        sum += rows.weight[j] * sum_row(&row, level->width, edges->sharp[0] ? EDGE_TEXELS : texture->spec.wrap[0],
+                                        columns.weight, columns.count, columns.first, shape_x.step);
         total += rows.weight[j] * columns.total;
     }
     return sum / total;
@@ -405,8 +403,8 @@ void texture_gaussian_kernel(const RetexTexture *texture, const TextureFootprint
     Rest rest = level_rest(level, footprint, position);
     Edges edges = {{texture->spec.wrap[0] == RETEX_WRAP_BLACK && rest.xx < TENT_LIMIT,
                     texture->spec.wrap[1] == RETEX_WRAP_BLACK && rest.yy < TENT_LIMIT}};
-    Float4 sum = sum_level(texture, level, (float)(x / level->scale[0] - 0.5), (float)(y / level->scale[1] - 0.5), rest,
-                           &edges);
+    Float4 sum =
+        sum_level(texture, level, (float)(x / level->scale[0] - 0.5), (float)(y / level->scale[1] - 0.5), rest, &edges);
     if (edges.sharp[0])
         sum *= coverage(x, footprint->xx, image->width);
     if (edges.sharp[1])

@@ -4,8 +4,8 @@
 
 #include <retex/texture.h>
 
-#define TEXTURE_MAX_LEVELS 17  /* of 65536 texels a side: 65536, 32768, ... 1 */
-#define TEXTURE_TAIL_STEPS 64  /* of the table below, per unit */
+#define TEXTURE_MAX_LEVELS 17 /* of 65536 texels a side: 65536, 32768, ... 1 */
+#define TEXTURE_TAIL_STEPS 64 /* of the table below, per unit */
 #define TEXTURE_TAIL_END 4
 
 /* One level. Every texel is the exact average of the part of the image it covers; all texels of a level cover equal
@@ -13,13 +13,13 @@
 typedef struct TextureLevel {
     int width, height;
     float *texels;
-    /* Of a clamped axis: the image's border goes on outside it, filtered along the border only. Outside texels of a level
-     * are the border's, not the level's own, which hold averages of what lies inside. NULL otherwise. */
+    /* Of a clamped axis: the image's border goes on outside it, filtered along the border only. Outside texels of a
+     * level are the border's, not the level's own, which hold averages of what lies inside. NULL otherwise. */
     float *sides[2]; /* left and right of the image: height texels */
     float *ends[2];  /* above and below: width texels */
     double scale[2]; /* image texels per texel of this level, u and v */
-    /* Variance that averaging has added along each axis, in image texels squared, at the relative position p of the axis:
-     * blur[0] + blur[1] p (1 - p). Halving an odd number of texels blurs more in the middle than at the ends. */
+    /* Variance that averaging has added along each axis, in image texels squared, at the relative position p of the
+     * axis: blur[0] + blur[1] p (1 - p). Halving an odd number of texels blurs more in the middle than at the ends. */
     double blur[2][2];
 } TextureLevel;
 
@@ -29,7 +29,8 @@ struct RetexTexture {
     int nlevels;         /* 0 = constant */
     TextureLevel levels[TEXTURE_MAX_LEVELS];
     float corners[4][4]; /* of the image: top left, top right, bottom left, bottom right; premultiplied */
-    /* E max(z + N(0,1), 0) - max(z, 0) for z = 0 .. TEXTURE_TAIL_END: what a bilinear tent blurred by a Gaussian is made of */
+    /* E max(z + N(0,1), 0) - max(z, 0) for z = 0 .. TEXTURE_TAIL_END: what a bilinear tent blurred by a Gaussian is
+     * made of */
     float tail[TEXTURE_TAIL_STEPS * TEXTURE_TAIL_END + 2];
 };
 

@@ -68,26 +68,35 @@ static int parse_option(RetexTextureSpec *spec, const char *name, const char *va
 {
     if (strcmp(name, "scale") == 0) {
         if (!parse_pair(spec->scale, value))
-            return retex_fail(err, RETEX_EPARSE, "texture option scale='%s': expected one or two numbers, as in scale=2 "
-                              "or scale=2,1", value);
+            return retex_fail(err, RETEX_EPARSE,
+                              "texture option scale='%s': expected one or two numbers, as in scale=2 "
+                              "or scale=2,1",
+                              value);
         if (spec->scale[0] == 0 || spec->scale[1] == 0)
             return retex_fail(err, RETEX_EPARSE, "texture option scale='%s': a scale cannot be 0", value);
     } else if (strcmp(name, "rotate") == 0) {
         const char *end;
         if (!parse_number(value, &end, &spec->rotate) || *skip_spaces(end))
-            return retex_fail(err, RETEX_EPARSE, "texture option rotate='%s': expected degrees, as in rotate=30", value);
+            return retex_fail(err, RETEX_EPARSE, "texture option rotate='%s': expected degrees, as in rotate=30",
+                              value);
     } else if (strcmp(name, "offset") == 0) {
         if (!parse_pair(spec->offset, value))
-            return retex_fail(err, RETEX_EPARSE, "texture option offset='%s': expected one or two numbers, as in "
-                              "offset=0,0.5", value);
+            return retex_fail(err, RETEX_EPARSE,
+                              "texture option offset='%s': expected one or two numbers, as in "
+                              "offset=0,0.5",
+                              value);
     } else if (strcmp(name, "wrap") == 0) {
         if (!parse_wrap(spec->wrap, value))
-            return retex_fail(err, RETEX_EPARSE, "texture option wrap='%s': expected repeat, mirror, clamp or black, or "
-                              "two of them for u,v", value);
+            return retex_fail(err, RETEX_EPARSE,
+                              "texture option wrap='%s': expected repeat, mirror, clamp or black, or "
+                              "two of them for u,v",
+                              value);
     } else if (strcmp(name, "colorspace") == 0) {
         if (!*value || strlen(value) >= sizeof spec->colorspace)
-            return retex_fail(err, RETEX_EPARSE, "texture option colorspace='%.80s': expected the name of a colour space, "
-                              "as in colorspace=sRGB", value);
+            return retex_fail(err, RETEX_EPARSE,
+                              "texture option colorspace='%.80s': expected the name of a colour space, "
+                              "as in colorspace=sRGB",
+                              value);
         strcpy(spec->colorspace, value);
     } else {
         return retex_fail(err, RETEX_EPARSE, "no texture option is called '%s'; there are %s", name, OPTION_NAMES);
@@ -133,7 +142,8 @@ static int parse_color(RetexTextureSpec *spec, const char *text, RetexError *err
     for (int c = 0; c < 3; c++) {
         double value;
         if (!parse_number(at, &at, &value) || value < 0 || value > 1e30)
-            return retex_fail(err, RETEX_EPARSE, "colour '%s': expected rgb(r,g,b) with three numbers of 0 or more", text);
+            return retex_fail(err, RETEX_EPARSE, "colour '%s': expected rgb(r,g,b) with three numbers of 0 or more",
+                              text);
         spec->color[c] = (float)value;
         at = skip_spaces(at);
         if (*at++ != (c < 2 ? ',' : ')'))

@@ -1,8 +1,8 @@
 /* Textures and how they lie on a target.
  *
- * u runs right, v up, v = 0 at the image's bottom row; texel centres lie at (i + 0.5) / width. The surface's UV is taken
- * through uv' = R(rotate, counter-clockwise about 0) (scale * uv) + offset before the look-up, so scale 2 shows two
- * repeats. */
+ * u runs right, v up, v = 0 at the image's bottom row; texel centres lie at (i + 0.5) / width. The surface's UV is
+ * taken through uv' = R(rotate, counter-clockwise about 0) (scale * uv) + offset before the look-up, so scale 2
+ * shows two repeats. */
 #ifndef RETEX_TEXTURE_H
 #define RETEX_TEXTURE_H
 
@@ -38,17 +38,19 @@ typedef struct RetexTexture RetexTexture;
 /* Load and build the MIP pyramid. RETEX_EIO or RETEX_EFORMAT with the file's name where it cannot. */
 int retex_texture_load(RetexTexture **texture, const RetexTextureSpec *spec, int nthreads, RetexError *err);
 /* A texture from pixels in memory (1, 3 or 4 channels, scene-linear, unassociated alpha; row 0 is the top). Copies. */
-int retex_texture_create(RetexTexture **texture, const RetexImage *image, const RetexTextureSpec *spec /* NULL = plain */,
-                         RetexError *err);
+int retex_texture_create(RetexTexture **texture, const RetexImage *image,
+                         const RetexTextureSpec *spec /* NULL = plain */, RetexError *err);
 void retex_texture_close(RetexTexture **texture);
 int retex_texture_size(const RetexTexture *texture, int *width, int *height); /* 1, 1 for a constant */
 
 /* One point, bilinear between texel centres, after the spec's UV transform and wraps: rgba, unassociated alpha.
- * `wrap=black` gives (0,0,0,0) outside [0,1]. Thread-safe. What --replace and a pigment's interpolated image_map use. */
+ * `wrap=black` gives (0,0,0,0) outside [0,1]. Thread-safe. What --replace and a pigment's interpolated image_map
+ * use. */
 void retex_texture_point(const RetexTexture *texture, double u, double v, float rgba[4]);
 
-/* One point without interpolation: the texel that (u, v) falls in, floor(u * width) from the left, floor((1 - v) * height)
- * from the top, after the same transform and wraps. What a pigment's image_map without `interpolate` uses. Thread-safe. */
+/* One point without interpolation: the texel that (u, v) falls in, floor(u * width) from the left, floor((1 - v) *
+ * height) from the top, after the same transform and wraps. What a pigment's image_map without `interpolate` uses.
+ * Thread-safe. */
 void retex_texture_nearest(const RetexTexture *texture, double u, double v, float rgba[4]);
 
 /* The texture averaged over a Gaussian of mean (u, v) and covariance {uu, uv, vv} in surface UV (before the spec's
