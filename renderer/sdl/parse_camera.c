@@ -6,7 +6,7 @@
 typedef struct Reading {
     SideCamera side;
     double angle;
-    int had_angle, had_up, had_right, had_look_at;
+    int had_angle, had_up, had_right, had_look_at, other_kind;
     Transform transform;
 } Reading;
 
@@ -37,6 +37,7 @@ static int accept_kind(Sdl *sdl, Reading *r)
         if (sdl_accept(sdl, others[i])) {
             sdl_unsupported(sdl, others[i], "a perspective camera is used");
             r->side.camera.kind = CAMERA_PERSPECTIVE;
+            r->other_kind = 1;
             if (strcmp(others[i], "cylinder") == 0)
                 sdl_float(sdl);
             if (strcmp(others[i], "mesh_camera") == 0 || strcmp(others[i], "user_defined") == 0)
@@ -153,6 +154,17 @@ static void apply_orthographic(Reading *r)
     }
 }
 
+/* What stands in for a camera of another kind: its right and up may be of quite other measure than a picture's sides. */
+static void apply_stand_in(Reading *r)
+{
+    Camera *c = &r->side.camera;
+    double aspect = vec_length(c->right) / vec_length(c->up);
+    if (!r->other_kind || (aspect > 0.25 && aspect < 4))
+        return;
+    c->right = vec_scale(vec_normalize(c->right), 4.0 / 3);
+    c->up = vec_normalize(c->up);
+}
+
 const SideCamera *side_camera_block(Sdl *sdl)
 {
     Reading r = {.side = side_of(sdl)->camera, .transform = transform_identity()};
@@ -164,6 +176,7 @@ const SideCamera *side_camera_block(Sdl *sdl)
     while (!sdl_accept(sdl, "}"))
         item(sdl, &r), sdl_optional_comma(sdl);
     Camera *c = &r.side.camera;
+    apply_stand_in(&r);
     apply_angle(sdl, &r);
     apply_look_at(sdl, &r);
     apply_orthographic(&r);
