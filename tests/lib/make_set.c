@@ -1,4 +1,5 @@
-/* Writes the synthetic set of lib_set.c: make_set FILE.exr [WIDTH HEIGHT [SEED]]. What the command-line tests work on. */
+/* Writes the synthetic set of lib_set.c, what the command-line tests work on:
+ * make_set FILE.exr [WIDTH HEIGHT [SEED]] */
 #include <stdio.h>
 #include <stdlib.h>
 

@@ -46,8 +46,8 @@ static void test_values_attached_and_not(void **state)
 static void test_modifiers_end_where_the_word_does(void **state)
 {
     (void)state;
-    const char *words[] = {"retex-test", "--texture:scale=2,2:rotate=30", "floor=oak.jpg", "--texture", "wall=rgb(1,0,0)",
-                           "--texture=x=y:z", "--texture:", "q=r"};
+    const char *words[] = {"retex-test", "--texture:scale=2,2:rotate=30", "floor=oak.jpg", "--texture",
+                           "wall=rgb(1,0,0)", "--texture=x=y:z", "--texture:", "q=r"};
     const Expected expected[] = {{"texture", "floor=oak.jpg", "scale=2,2:rotate=30"},
                                  {"texture", "wall=rgb(1,0,0)", ""},
                                  {"texture", "x=y:z", ""},

@@ -1,5 +1,5 @@
-/* Comparing two files: parts by name, channels by name, then values. See retex/diff.h. What cannot be compared, because a
- * size, a part or a channel is not there twice, differs. */
+/* Comparing two files: parts by name, channels by name, then values. See retex/diff.h. What cannot be compared, because
+ * a size, a part or a channel is not there twice, differs. */
 #include <retex/diff.h>
 
 #include <math.h>

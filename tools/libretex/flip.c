@@ -169,8 +169,8 @@ static void convolve(float *restrict dst, const float *restrict src, size_t stri
 
 /* --- one band --- */
 
-/* The row of a picture in YCxCz, three padded rows one after the other; edge pixels repeat outwards. Samples that are not
- * finite here or in `other` are 0. */
+/* The row of a picture in YCxCz, three padded rows one after the other; edge pixels repeat outwards. Samples that are
+ * not finite here or in `other` are 0. */
 static void load_row(float *padded, const RetexImage *im, const RetexImage *other, int y)
 {
     int width = im->width, length = width + 2 * RADIUS;

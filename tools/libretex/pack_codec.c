@@ -246,8 +246,8 @@ static unsigned char code_of(double v, const RetexPacked *packed)
     return (unsigned char)lrint(255 * fmin(fmax(t, 0), 1));
 }
 
-/* Black pixels come back from the mask, so their codes are free: the mean of the others of their 8 x 8 block costs least
- * and keeps edges between light and black from ringing. */
+/* Black pixels come back from the mask, so their codes are free: the mean of the others of their 8 x 8 block costs
+ * least and keeps edges between light and black from ringing. */
 static void fill_black(unsigned char *codes, const RetexImage *im)
 {
     for (int by = 0; by < im->height; by += 8)

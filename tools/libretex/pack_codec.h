@@ -28,8 +28,8 @@ typedef struct RetexPacked {
 } RetexPacked;
 
 /* Encode with the codec wanted; where it does not suit the part (channels, range, size) another that loses nothing is
- * taken instead, and *packed says so. quality: of the JPEGs. mean: RETEX_PACK_LOG need not resolve values far below this
- * mean, which is that of the picture the part is one summand of; 0 = that of the part alone. */
+ * taken instead, and *packed says so. quality: of the JPEGs. mean: RETEX_PACK_LOG need not resolve values far below
+ * this mean, which is that of the picture the part is one summand of; 0 = that of the part alone. */
 int retex_pack_encode(RetexPacked *packed, const RetexPart *part, RetexPackCodec wanted, int quality, double mean,
                       RetexError *err);
 /* Mean of all samples that are not 0; 0 where there are none or some are negative or not finite. */

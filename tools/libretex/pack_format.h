@@ -1,4 +1,4 @@
-/* Names and limits of the pack format, shared by its writer and its reader; the format is described in retex-pack(5). */
+/* Names and limits of the pack format, shared by its writer and its reader; retex-pack(5) describes the format. */
 #ifndef LIBRETEX_PACK_FORMAT_H
 #define LIBRETEX_PACK_FORMAT_H
 

@@ -17,7 +17,7 @@ typedef struct RetexDiffParams {
     int all_parts;     /* 1: all of them, matched by name; both files must have the same */
     int allow_inf;     /* 1: infinities of the same sign in the same place are equal; 0: no infinity is accepted */
     double fail_psnr;  /* differs when psnr is below; < 0 = no limit, as for all that follow */
-    double fail_relmse, fail_flip, fail_abs, fail_rel; /* differs when relmse, flip_mean, max_abs, max_rel is above */
+    double fail_relmse, fail_flip, fail_abs, fail_rel; /* when relmse, flip_mean, max_abs, max_rel is above */
     int nthreads;      /* 0 = all cores */
 } RetexDiffParams;
 #define RETEX_DIFF_INIT { sizeof(RetexDiffParams), NULL, 0, 0, -1, -1, -1, -1, -1, 0 }
@@ -27,7 +27,7 @@ typedef struct RetexDiffPart {
     int width, height, channels; /* of the first file */
     int compared;            /* 0: sizes or channels differ, so there are no figures */
     int has_color;           /* 0: no R,G,B: psnr, relmse and flip are not defined (0) */
-    RetexMetrics metrics;    /* mae of R,G,B, or of all channels without them; max_abs, max_rel, nonfinite, worst of all */
+    RetexMetrics metrics;    /* mae of R,G,B, or of all channels without them; the others of all */
     char worst_channel[192]; /* the whole name where metrics.worst has one letter */
     char reason[512];        /* why the parts differ; "" where they do not */
 } RetexDiffPart;
@@ -39,8 +39,8 @@ typedef struct RetexDiff {
     RetexDiffPart *parts;
 } RetexDiff;
 
-/* Compare two files: EXR (sets and samples too), packs, or any picture OpenImageIO reads, as R,G,B,A. b is the reference.
- * That they differ is not an error: see (*diff)->differs. */
+/* Compare two files: EXR (sets and samples too), packs, or any picture OpenImageIO reads, as R,G,B,A. b is the
+ * reference. That they differ is not an error: see (*diff)->differs. */
 int retex_diff(RetexDiff **diff, const char *a, const char *b, const RetexDiffParams *params /* NULL = defaults */,
                RetexError *err);
 void retex_diff_close(RetexDiff **diff); /* NULL and pointers to NULL are fine */
