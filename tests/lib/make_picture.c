@@ -74,6 +74,7 @@ static void write_exr(const RetexImage *im, const Wishes *w, const char *path)
     snprintf(part.letters, sizeof part.letters, "%s", w->channels);
     test_must(retex_exr_encode(&encoding, &part, 1, 1, 1, &err), &err);
     test_must(retex_exr_write(encoding, im->width, im->height, NULL, NULL, path, &err), &err);
+    retex_exr_encoding_free(&encoding);
 }
 
 int main(int argc, char **argv)
