@@ -1,7 +1,8 @@
 /* Inside the scene language: the token stream with its directives, expressions and values. The scene side
  * (sdl/parse_*.c) reads objects, textures and the rest through these calls.
  *
- * A parse error does not return: sdl_error fills the error and jumps back to sdl_parse_file. All memory is the arena's. */
+ * A parse error does not return: sdl_error fills the error and jumps back to sdl_parse_file. All memory is the
+ * arena's. */
 #ifndef RENDERER_SDL_PARSER_H
 #define RENDERER_SDL_PARSER_H
 
@@ -10,8 +11,8 @@
 
 typedef struct Sdl Sdl;
 
-/* Tokens after directives and macros have done their work. Keywords and identifiers are told apart by text: a keyword is
- * an interned lower-case string, compared by pointer or with sdl_accept. */
+/* Tokens after directives and macros have done their work. Keywords and identifiers are told apart by text: a keyword
+ * is an interned lower-case string, compared by pointer or with sdl_accept. */
 typedef enum TokenKind {
     TOKEN_END, TOKEN_NUMBER, TOKEN_STRING, TOKEN_WORD /* keyword of the language or undeclared word */,
     TOKEN_IDENT /* declared: its value is in the token */, TOKEN_PUNCT
@@ -36,7 +37,7 @@ typedef struct Value {
 
 typedef struct Token {
     TokenKind kind;
-    char punct;              /* TOKEN_PUNCT: the character; '=' '<' … two-character ones as sdl defines them */
+    char punct;              /* TOKEN_PUNCT: the character; 'l' 'g' 'n' for <= >= != */
     double number;
     const char *text;        /* interned word or identifier as written; the string's content */
     Value *value;            /* TOKEN_IDENT: where it lives (may be assigned through by-reference parameters) */
@@ -52,7 +53,8 @@ void *sdl_alloc(Sdl *sdl, size_t bytes); /* zeroed; an error at the limit, never
 
 _Noreturn void sdl_error(Sdl *sdl, const char *fmt, ...) RETEX_PRINTF(2, 3); /* at the current token */
 _Noreturn void sdl_expected(Sdl *sdl, const char *what); /* "expected WHAT, found `…`" */
-/* Report once per name: "FILE:LINE: warning: `NAME` is not supported yet: WHAT HAPPENS INSTEAD". With --strict an error. */
+/* Report once per name: "FILE:LINE: warning: `NAME` is not supported yet: WHAT HAPPENS INSTEAD". With --strict an
+ * error. */
 void sdl_unsupported(Sdl *sdl, const char *name, const char *instead);
 void sdl_warn(Sdl *sdl, const char *fmt, ...) RETEX_PRINTF(2, 3);
 
@@ -64,18 +66,19 @@ int sdl_is(Sdl *sdl, const char *word_or_punct);     /* look only */
 void sdl_optional_comma(Sdl *sdl);
 void sdl_skip_block(Sdl *sdl); /* from `{` to its `}`, over anything */
 
-/* Expressions. Vectors of too few numbers are an error, a float is promoted where a vector is wanted. */
+/* Expressions. As in POV-Ray a float fills a vector and a short vector is filled up with zeros; one too long is an
+ * error. */
 double sdl_float(Sdl *sdl);
 int sdl_bool(Sdl *sdl);                   /* a float, on/off/yes/no/true/false */
 int sdl_optional_bool(Sdl *sdl, int missing); /* a switch whose value may be left out */
 Vec3 sdl_vector(Sdl *sdl);
 Vec2 sdl_vector2(Sdl *sdl);
-Rgbft sdl_color(Sdl *sdl);                /* `color rgb <…>`, identifiers, arithmetic on them, grey from a float */
+Rgbft sdl_color(Sdl *sdl);                /* `color rgb <…>`, names, arithmetic on them; a float fills all five */
 int sdl_is_color_start(Sdl *sdl);
 const char *sdl_string(Sdl *sdl);
 int sdl_is_expression_start(Sdl *sdl);    /* a number, vector, numeric identifier or function is next */
 Value sdl_expression(Sdl *sdl);           /* float, vector or string, whatever comes */
-Value sdl_function(Sdl *sdl);             /* from the word `function` on, its parameters and `{ … }`: VALUE_FUNCTION */
+Value sdl_function(Sdl *sdl);             /* from the word `function` on, with parameters and body */
 
 /* Idents: a list with one more name. */
 const IdentList *sdl_ident_add(Sdl *sdl, const IdentList *list, const char *name, int line);
@@ -87,9 +90,9 @@ const char *sdl_find_file(Sdl *sdl, const char *name);
 
 /* ---- what the scene side gives ---- */
 
-/* Called for `#declare NAME =` when the next token starts something that is no expression (texture, object shapes, …):
- * fills value and returns 1, or returns 0 when it does not know the keyword. Names are added to IdentLists by the caller
- * through scene_side_name. */
+/* Called for `#declare NAME =` when the next token starts something that is no expression (texture, object shapes,
+ * …): fills value and returns 1, or returns 0 when it does not know the keyword. Names are added to IdentLists by
+ * the caller through scene_side_name. */
 int scene_side_declare(Sdl *sdl, Value *value);
 /* Called once the value of a declaration is there: adds name to its IdentList. */
 void scene_side_name(Sdl *sdl, Value *value, const char *name, int line);
