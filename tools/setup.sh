@@ -25,7 +25,6 @@ file /usr/share/povray-3.7/include/colors.inc povray-includes
 needs_test='
 pkg cmocka libcmocka-dev
 command mandoc mandoc
-command git git
 '
 
 CC=${CC:-gcc}
