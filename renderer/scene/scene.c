@@ -77,8 +77,9 @@ static int fail_unknown(const Scene *scene, const char *wanted, RetexError *err)
     }
     if (scene->nidents == 0)
         return retex_fail(err, RETEX_ENOTFOUND, "no target `%s`: the scene uses no declared texture or object", wanted);
-    return retex_fail(err, RETEX_ENOTFOUND, "no texture, pigment, material or object `%s` in the scene; %s: %s%s", wanted,
-                      close > 0 ? "similar" : "there are", list, close == 0 && scene->nidents > shown ? ", …" : "");
+    return retex_fail(err, RETEX_ENOTFOUND, "no texture, pigment, material or object `%s` in the scene; %s: %s%s",
+                      wanted, close > 0 ? "similar" : "there are", list,
+                      close == 0 && scene->nidents > shown ? ", …" : "");
 }
 
 /* Exact, else the only one that differs in case alone. */
@@ -96,8 +97,8 @@ static int find_ident(const Scene *scene, const char *wanted, const char **found
         }
     }
     if (second)
-        return retex_fail(err, RETEX_ENOTFOUND, "`%s` could be `%s` or `%s`: write it as the scene does", wanted, second,
-                          loose);
+        return retex_fail(err, RETEX_ENOTFOUND, "`%s` could be `%s` or `%s`: write it as the scene does", wanted,
+                          second, loose);
     if (!loose)
         return fail_unknown(scene, wanted, err);
     *found = loose;

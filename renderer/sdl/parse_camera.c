@@ -23,7 +23,8 @@ void side_camera_default(SideCamera *camera)
 static int accept_kind(Sdl *sdl, Reading *r)
 {
     static const char *const others[] = {
-        "fisheye", "ultra_wide_angle", "omnimax", "panoramic", "spherical", "cylinder", "mesh_camera", "user_defined", NULL
+        "fisheye", "ultra_wide_angle", "omnimax", "panoramic", "spherical", "cylinder", "mesh_camera", "user_defined",
+        NULL
     };
     if (sdl_accept(sdl, "perspective")) {
         r->side.camera.kind = CAMERA_PERSPECTIVE;
@@ -154,7 +155,7 @@ static void apply_orthographic(Reading *r)
     }
 }
 
-/* What stands in for a camera of another kind: its right and up may be of quite other measure than a picture's sides. */
+/* What stands in for a camera of another kind, whose right and up may not have the measure of a picture's sides. */
 static void apply_stand_in(Reading *r)
 {
     Camera *c = &r->side.camera;

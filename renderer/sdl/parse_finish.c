@@ -1,4 +1,4 @@
-/* finish: how a surface takes and gives light. Only reads what is written; the mapping to a BSDF is shade/material.c's. */
+/* finish: how a surface takes and gives light. Only reads what is written; shade/material.c maps it to a BSDF. */
 #include <stddef.h>
 #include <string.h>
 #include "sdl/scene_side.h"

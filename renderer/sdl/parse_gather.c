@@ -1,5 +1,5 @@
-/* Loose triangles become meshes: a scene that writes thousands of `triangle{…}` would otherwise have as many primitives.
- * Only neighbours that share texture, interior, flags and names are gathered, so that nothing can be told from outside. */
+/* Loose triangles become meshes: a scene that writes thousands of them would otherwise have as many primitives.
+ * Only neighbours that share texture, interior, flags and names are gathered: it cannot be told from outside. */
 #include <string.h>
 #include "sdl/scene_side.h"
 
@@ -43,7 +43,8 @@ void side_gather_triangles(Sdl *sdl)
     int kept = 0;
     for (int i = 0, end; i < scene->nprimitives; i = end) {
         end = i + 1;
-        while (loose[i] && end < scene->nprimitives && loose[end] && alike(&scene->primitives[i], &scene->primitives[end]))
+        while (loose[i] && end < scene->nprimitives && loose[end] &&
+               alike(&scene->primitives[i], &scene->primitives[end]))
             end++;
         Primitive p = scene->primitives[i];
         if (end - i > 1) {

@@ -69,7 +69,7 @@ static void sky_pigment(Sdl *sdl, SideSky *sky)
     if (sky->npigments == room)
         sdl_error(sdl, "a sky_sphere has at most %d pigments", room);
     sky->pigments[sky->npigments++] =
-        side_pigment_block(sdl, (const SidePigment *)side_of(sdl)->default_texture->texture.pigment);
+        side_pigment_block(sdl, side_default_pigment(sdl));
 }
 
 static void sky_move(Sdl *sdl, SideSky *sky, const Transform *by)

@@ -81,8 +81,8 @@ static int accept_switch(Sdl *sdl, Light *light)
         light->orient = sdl_optional_bool(sdl, 1);
     else if (sdl_accept(sdl, "shadowless") || sdl_accept(sdl, "fill_light"))
         light->shadowless = sdl_optional_bool(sdl, 1);
-    else if (sdl_accept(sdl, "jitter") || sdl_accept(sdl, "area_illumination") || sdl_accept(sdl, "media_interaction") ||
-             sdl_accept(sdl, "media_attenuation"))
+    else if (sdl_accept(sdl, "jitter") || sdl_accept(sdl, "area_illumination") ||
+             sdl_accept(sdl, "media_interaction") || sdl_accept(sdl, "media_attenuation"))
         sdl_optional_bool(sdl, 1);
     else
         return 0;

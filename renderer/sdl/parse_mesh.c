@@ -159,7 +159,8 @@ void side_mesh2(Sdl *sdl, Object *object)
         else if (sdl_accept(sdl, "face_indices"))
             face_indices(sdl, mesh);
         else if (sdl_accept(sdl, "normal_indices"))
-            normal_indices += indices(sdl, mesh, "normal_indices", mesh->nnormals, "normal", offsetof(MeshFace, normal));
+            normal_indices +=
+                indices(sdl, mesh, "normal_indices", mesh->nnormals, "normal", offsetof(MeshFace, normal));
         else if (sdl_accept(sdl, "uv_indices"))
             uv_indices += indices(sdl, mesh, "uv_indices", mesh->nuvs, "UV", offsetof(MeshFace, uv));
         else if (sdl_accept(sdl, "inside_vector"))

@@ -4,7 +4,8 @@
 
 /* What follows a pattern's name. */
 typedef enum Args {
-    ARGS_NONE, ARGS_FLOAT, ARGS_BLOCK, ARGS_LIST, ARGS_FILE, ARGS_JULIA, ARGS_MAGNET, ARGS_SLOPE, ARGS_OBJECT, ARGS_AVERAGE
+    ARGS_NONE, ARGS_FLOAT, ARGS_BLOCK, ARGS_LIST, ARGS_FILE, ARGS_JULIA, ARGS_MAGNET, ARGS_SLOPE, ARGS_OBJECT,
+    ARGS_AVERAGE
 } Args;
 
 static const struct Pattern {
@@ -26,7 +27,8 @@ static const struct Pattern {
     {"object", ARGS_OBJECT, GAP_OBJECT_PATTERN, 2}, {"onion", ARGS_NONE, GAP_ONION, 0},
     {"pavement", ARGS_NONE, GAP_PAVEMENT, 0}, {"pigment_pattern", ARGS_BLOCK, GAP_PIGMENT_PATTERN, 0},
     {"planar", ARGS_NONE, GAP_PLANAR, 0}, {"projection", ARGS_BLOCK, GAP_PROJECTION, 0},
-    {"quilted", ARGS_NONE, GAP_QUILTED, 0}, {"radial", ARGS_NONE, GAP_RADIAL, 0}, {"ripples", ARGS_NONE, GAP_RIPPLES, 0},
+    {"quilted", ARGS_NONE, GAP_QUILTED, 0}, {"radial", ARGS_NONE, GAP_RADIAL, 0},
+    {"ripples", ARGS_NONE, GAP_RIPPLES, 0},
     {"slope", ARGS_SLOPE, GAP_SLOPE, 0}, {"spherical", ARGS_NONE, GAP_SPHERICAL, 0},
     {"spiral1", ARGS_FLOAT, GAP_SPIRAL, 0}, {"spiral2", ARGS_FLOAT, GAP_SPIRAL, 0},
     {"spotted", ARGS_NONE, GAP_SPOTTED, 0}, {"square", ARGS_LIST, GAP_SQUARE, 4}, {"tiling", ARGS_FLOAT, GAP_TILING, 0},
@@ -70,7 +72,7 @@ static int list_item(Sdl *sdl, Rgbft *color, SidePigment *pigment, const SideTex
         return 1;
     }
     if (!textures && sdl_accept(sdl, "pigment")) {
-        SidePigment *of = side_pigment_block(sdl, (const SidePigment *)side_of(sdl)->default_texture->texture.pigment);
+        SidePigment *of = side_pigment_block(sdl, side_default_pigment(sdl));
         *color = side_pigment_mean(of);
         gaps_join(&pigment->gaps, &of->gaps);
         if (of->pigment.kind != PIGMENT_COLOR)
@@ -110,7 +112,9 @@ static void set_average(Sdl *sdl, SidePigment *pigment, const Rgbft *list, int n
 static void list_pattern(Sdl *sdl, const struct Pattern *pattern, SidePigment *pigment, const SideTexture **first,
                          int textures)
 {
-    Rgbft list[6] = {{0, 0, 1, 0, 0}, {0, 1, 0, 0, 0}, {1, 0, 0, 0, 0}, {1, 0, 1, 0, 0}, {1, 1, 0, 0, 0}, {0, 1, 1, 0, 0}};
+    Rgbft list[6] = {
+        {0, 0, 1, 0, 0}, {0, 1, 0, 0, 0}, {1, 0, 0, 0, 0}, {1, 0, 1, 0, 0}, {1, 1, 0, 0, 0}, {0, 1, 1, 0, 0}
+    };
     side_color_list(sdl, list, pattern->list, pigment, first, textures);
     if (pattern->gap == GAP_BRICK)
         set_average(sdl, pigment, list + 1, 1);

@@ -204,7 +204,7 @@ SideColorMap *side_pigment_map(Sdl *sdl)
     while (sdl_accept(sdl, "[")) {
         double value = side_optional_float(sdl, 1); /* of `average` it may be left out */
         sdl_optional_comma(sdl);
-        SidePigment *pigment = side_pigment_body(sdl, (const SidePigment *)side_of(sdl)->default_texture->texture.pigment, ']');
+        SidePigment *pigment = side_pigment_body(sdl, side_default_pigment(sdl), ']');
         map_add(sdl, map, &room, value, side_pigment_mean(pigment));
         gaps_join(&map->gaps, &pigment->gaps);
         if (pigment->pigment.kind != PIGMENT_COLOR)

@@ -1,8 +1,8 @@
 /* polygon: rings of points in a plane, filled by the even-odd rule, cut into triangles.
  *
  * A convex ring becomes a fan. All else is cut into horizontal slabs between consecutive heights at which something
- * happens (a corner, a crossing of two edges); within a slab no edges cross, so that sorted from left to right each pair
- * of edges bounds a trapezoid. That is right for holes, islands and rings that cross themselves alike. */
+ * happens (a corner, a crossing of two edges); within a slab no edges cross, so that sorted from left to right each
+ * pair of edges bounds a trapezoid. That is right for holes, islands and rings that cross themselves alike. */
 #include <stdlib.h>
 #include <string.h>
 #include "sdl/scene_side.h"
@@ -10,7 +10,7 @@
 #define MAX_POINTS 20000
 
 typedef struct Edge { Vec2 low, high; } Edge; /* low.v < high.v */
-typedef struct Crossing { double left, right, middle; } Crossing; /* of an edge with a slab: at its bottom, top, middle */
+typedef struct Crossing { double bottom, top, middle; } Crossing; /* u of an edge within a slab */
 
 typedef struct Triangles {
     Vec2 *corners; /* three each */
@@ -125,8 +125,8 @@ static void slab(Sdl *sdl, Triangles *out, const Edge *edges, int n, Crossing *c
     qsort(crossings, (size_t)count, sizeof *crossings, by_middle);
     for (int i = 0; i + 1 < count; i += 2) {
         const Crossing *l = &crossings[i], *r = &crossings[i + 1];
-        add(sdl, out, (Vec2){l->left, low}, (Vec2){r->left, low}, (Vec2){r->right, high});
-        add(sdl, out, (Vec2){l->left, low}, (Vec2){r->right, high}, (Vec2){l->right, high});
+        add(sdl, out, (Vec2){l->bottom, low}, (Vec2){r->bottom, low}, (Vec2){r->top, high});
+        add(sdl, out, (Vec2){l->bottom, low}, (Vec2){r->top, high}, (Vec2){l->top, high});
     }
 }
 

@@ -1,10 +1,10 @@
-/* The end of the scene: what could not be decided while reading. Loose triangles are gathered into meshes, images loaded,
- * layers decided, colours brought from the working space to scene-linear, emitters told, and names listed.
+/* The end of the scene: what could not be decided while reading. Loose triangles are gathered into meshes, images
+ * loaded, layers decided, colours brought from the working space to scene-linear, emitters told, and names listed.
  *
  * The working space. Colours are numbers of it: linear with assumed_gamma 1 (and in scenes of version 3.7 that say
- * nothing), a power or sRGB with other values. Older scenes that say nothing compute in the display's own space, which is
- * taken as sRGB. Pigments, lights, sky, background, emission, ambient and reflection are decoded; factors such as diffuse
- * are not, for the sum of several lights has no equal in another space. */
+ * nothing), a power or sRGB with other values. Older scenes that say nothing compute in the display's own space, which
+ * is taken as sRGB. Pigments, lights, sky, background, emission, ambient and reflection are decoded; factors such as
+ * diffuse are not, for the sum of several lights has no equal in another space. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

@@ -150,8 +150,8 @@ static int declare_ignored(Sdl *sdl, Value *value)
     return 0;
 }
 
-/* `texture{…} texture{…}` is one value of two layers. Asking for the next token in the usual way would run the directives
- * in between, and the next #declare may use the very name that is being declared. */
+/* `texture{…} texture{…}` is one value of two layers. Asking for the next token in the usual way would run the
+ * directives in between, and the next #declare may use the very name that is being declared. */
 static int next_layer(Sdl *sdl)
 {
     const Raw *raw = sdl->have ? NULL : sdl_raw_peek(sdl);
@@ -167,7 +167,7 @@ static int declare_surface(Sdl *sdl, Value *value)
             texture = side_texture_over(sdl, side_texture_block(sdl), texture);
         set(value, VALUE_TEXTURE, texture);
     } else if (sdl_accept(sdl, "pigment"))
-        set(value, VALUE_PIGMENT, side_pigment_block(sdl, (const SidePigment *)side->default_texture->texture.pigment));
+        set(value, VALUE_PIGMENT, side_pigment_block(sdl, side_default_pigment(sdl)));
     else if (sdl_accept(sdl, "finish"))
         set(value, VALUE_FINISH, side_finish_block(sdl, (const SideFinish *)side->default_texture->texture.finish));
     else if (sdl_is(sdl, "normal")) {
@@ -217,7 +217,8 @@ static int declare_same(Sdl *sdl, Value *value)
 
 int scene_side_declare(Sdl *sdl, Value *value)
 {
-    if (declare_same(sdl, value) || declare_surface(sdl, value) || declare_map(sdl, value) || declare_ignored(sdl, value))
+    if (declare_same(sdl, value) || declare_surface(sdl, value) || declare_map(sdl, value) ||
+        declare_ignored(sdl, value))
         return 1;
     if (sdl_accept(sdl, "transform")) {
         Transform *transform = sdl_alloc(sdl, sizeof *transform);

@@ -45,7 +45,7 @@ static Transform checked(Sdl *sdl, Transform t)
     return t;
 }
 
-/* After `transform`: an identifier, or a block of transforms, with `inverse` anywhere in it turning the whole around. */
+/* After `transform`: an identifier, or a block of transforms, in which `inverse` turns the whole around. */
 Transform side_transform_block(Sdl *sdl)
 {
     const Transform *known = side_accept_ident(sdl, VALUE_TRANSFORM);

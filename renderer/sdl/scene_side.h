@@ -5,8 +5,8 @@
  * on a copy, so identifiers share what they have in common. Objects keep their transforms apart from their geometry and
  * from their textures (Dressed), which makes `object{Ident translate …}` one small copy however large Ident is.
  *
- * Where the language asks for more than the renderer has, the thing is marked with a Gap and reported when it is placed,
- * not when it is declared: the standard includes declare hundreds of textures that no scene uses all of. */
+ * Where the language asks for more than the renderer has, the thing is marked with a Gap and reported when it is
+ * placed, not when it is declared: the standard includes declare hundreds of textures that no scene uses all of. */
 #ifndef RENDERER_SDL_SCENE_SIDE_H
 #define RENDERER_SDL_SCENE_SIDE_H
 
@@ -248,6 +248,10 @@ typedef struct Side {
 } Side;
 
 static inline Side *side_of(Sdl *sdl) { return sdl_side(sdl); }
+static inline const SidePigment *side_default_pigment(Sdl *sdl)
+{
+    return (const SidePigment *)side_of(sdl)->default_texture->texture.pigment;
+}
 
 /* Nesting of statements that the parser recurses for; an error when too deep. */
 void side_enter(Sdl *sdl);
@@ -318,7 +322,8 @@ ShapeParser side_sphere, side_box, side_plane, side_cylinder, side_cone, side_to
     side_smooth_triangle, side_polygon, side_mesh, side_mesh2;
 const Object *side_light_source(Sdl *sdl); /* after light_source */
 Object *side_group_block(Sdl *sdl, const char *word); /* union, merge, difference, intersection, light_group */
-int side_polygon_triangulate(Sdl *sdl, const Vec2 *points, const int *starts, int nrings, Vec2 **corners, int *ncorners);
+int side_polygon_triangulate(Sdl *sdl, const Vec2 *points, const int *starts, int nrings, Vec2 **corners,
+                             int *ncorners);
 
 /* parse_camera.c, parse_global.c */
 void side_camera_default(SideCamera *camera);

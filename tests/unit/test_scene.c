@@ -156,7 +156,8 @@ static void test_cone_torus_disc(void **state)
 static void test_degenerate_shapes(void **state)
 {
     (void)state;
-    Scene *scene = parse(V37 "sphere{0,0} cylinder{x,x,1} disc{0,0,1} triangle{0,x,2*x} torus{1,0} box{y,y} sphere{0,-1}");
+    Scene *scene = parse(V37 "sphere{0,0} cylinder{x,x,1} disc{0,0,1} triangle{0,x,2*x} torus{1,0}"
+                             "box{y,y} sphere{0,-1}");
     assert_near(vec_length(transform_vector(&only(scene)->transform, vec3(1, 0, 0))), 1);
     scene_close(&scene);
     expect_error(V37 "plane{<0,0,0>,1}", "normal");
@@ -275,7 +276,8 @@ static void test_means(void **state)
 static void test_textures_of_a_checker(void **state)
 {
     (void)state;
-    Scene *scene = parse(V37 "plane{y,0 texture{checker texture{pigment{rgb 1}} texture{pigment{rgb <1,0,0>}} scale 2}}");
+    Scene *scene = parse(V37 "plane{y,0 texture{checker texture{pigment{rgb 1}}"
+                             " texture{pigment{rgb <1,0,0>}} scale 2}}");
     assert_int_equal(only(scene)->texture->pigment->kind, PIGMENT_CHECKER);
     assert_color(color_at(only(scene), 1, 0, 1), 1, 1, 1);
     assert_color(color_at(only(scene), 3, 0, 1), 1, 0, 0);
@@ -318,7 +320,8 @@ static void test_finish(void **state)
 static void test_emitters(void **state)
 {
     (void)state;
-    const char *text = V37 "sphere{0,1 finish{ambient 2 diffuse 0}} sphere{0,1 finish{ambient 2}} sphere{0,1 finish{emission 3}}";
+    const char *text = V37 "sphere{0,1 finish{ambient 2 diffuse 0}} sphere{0,1 finish{ambient 2}}"
+                           "sphere{0,1 finish{emission 3}}";
     Scene *scene = parse(text);
     assert_near(scene->primitives[0].texture->finish->emission.r, 2);
     assert_near(scene->primitives[1].texture->finish->emission.r, 0);
@@ -361,8 +364,10 @@ static void test_working_space(void **state)
 static void test_interior(void **state)
 {
     (void)state;
-    Scene *scene = parse(V37 "#declare M = material{texture{pigment{rgbt 1}} interior{ior 1.5 fade_distance 2 fade_color rgb <1,0,0>}}"
-                             "sphere{0,1 material{M}} sphere{0,1 interior{ior 1.3} hollow} sphere{0,1 finish{ior 1.4}}");
+    Scene *scene = parse(V37 "#declare M = material{texture{pigment{rgbt 1}}"
+                             "  interior{ior 1.5 fade_distance 2 fade_color rgb <1,0,0>}}"
+                             "sphere{0,1 material{M}}"
+                             "sphere{0,1 interior{ior 1.3} hollow} sphere{0,1 finish{ior 1.4}}");
     assert_near(scene->primitives[0].interior->ior, 1.5);
     assert_near(scene->primitives[0].interior->fade_color.r, 1);
     assert_true(scene->primitives[1].hollow);
@@ -373,7 +378,8 @@ static void test_interior(void **state)
 /* ---- meshes ---- */
 
 static const char mesh2_text[] = V37
-    "mesh2{ vertex_vectors{4, <0,0,0>,<1,0,0>,<1,1,0>,<0,1,0>} normal_vectors{1,<0,0,1>} uv_vectors{4 <0,0>,<1,0>,<1,1>,<0,1>}"
+    "mesh2{ vertex_vectors{4, <0,0,0>,<1,0,0>,<1,1,0>,<0,1,0>} normal_vectors{1,<0,0,1>}"
+    " uv_vectors{4 <0,0>,<1,0>,<1,1>,<0,1>}"
     " texture_list{2, texture{pigment{rgb <1,0,0>}} texture{pigment{rgb <0,1,0>}}}"
     " face_indices{2, <0,1,2>,0, <0,2,3>,1} normal_indices{2,<0,0,0>,<0,0,0>} translate 5*x }";
 
@@ -403,7 +409,8 @@ static void test_mesh2_errors(void **state)
     expect_error(V37 "mesh2{vertex_vectors{1e12,0,x,y}}", "number of elements");
     expect_error(V37 "mesh2{vertex_vectors{-1,0}}", "number of elements");
     expect_error(V37 "mesh2{vertex_vectors{3,0,x,y} texture_list{1,texture{}} face_indices{1,<0,1,2>,1}}", "texture 1");
-    expect_error(V37 "mesh2{vertex_vectors{3,0,x,y} uv_vectors{1,<0,0>} face_indices{1,<0,1,2>} uv_indices{1,<0,0,1>}}", "UV 1");
+    expect_error(V37 "mesh2{vertex_vectors{3,0,x,y} uv_vectors{1,<0,0>} face_indices{1,<0,1,2>}"
+                     " uv_indices{1,<0,0,1>}}", "UV 1");
     expect_error(V37 "mesh2{face_indices{0}}", "vertex_vectors");
 }
 
@@ -429,7 +436,8 @@ static void test_loose_triangles(void **state)
 {
     (void)state;
     Scene *scene = parse(V37
-        "#declare Net = union{ triangle{0,x,y} triangle{x,y,z translate z} smooth_triangle{0,z,x,z,y,z} pigment{rgb 1} }"
+        "#declare Net = union{ triangle{0,x,y} triangle{x,y,z translate z}"
+        "  smooth_triangle{0,z,x,z,y,z} pigment{rgb 1} }"
         "object{Net translate 3*x} sphere{0,1} triangle{0,x,y no_shadow} triangle{0,x,z}");
     assert_int_equal(scene->nprimitives, 4);
     const Mesh *mesh = scene->primitives[0].mesh;
@@ -558,7 +566,8 @@ static void test_lights(void **state)
 static void test_sky(void **state)
 {
     (void)state;
-    Scene *scene = parse(V37 "sky_sphere{pigment{gradient y color_map{[0 rgb 1][1 rgb <0,0,1>]}} pigment{rgbt 1} rotate 90*z emission .5}");
+    Scene *scene = parse(V37 "sky_sphere{pigment{gradient y color_map{[0 rgb 1][1 rgb <0,0,1>]}} pigment{rgbt 1}"
+                             " rotate 90*z emission .5}");
     assert_int_equal(scene->sky->npigments, 2);
     assert_near(scene->sky->emission.r, 0.5);
     assert_color(pigment_eval(scene->sky->pigments[0], vec3(-0.5, 0, 0), (Vec2){0, 0}), 0.5, 0.5, 1);
@@ -571,7 +580,8 @@ static void test_csg(void **state)
 {
     (void)state;
     Scene *scene = parse(V37
-        "difference{box{-1,1} sphere{0,1.2} pigment{rgb 1}} intersection{plane{y,0} sphere{0,1} box{0,1}} merge{sphere{0,1} sphere{x,1}}");
+        "difference{box{-1,1} sphere{0,1.2} pigment{rgb 1}} "
+        "intersection{plane{y,0} sphere{0,1} box{0,1}} merge{sphere{0,1} sphere{x,1}}");
     assert_int_equal(scene->nprimitives, 4);
     assert_int_equal(scene->primitives[0].kind, SHAPE_BOX);
     assert_int_equal(scene->primitives[1].kind, SHAPE_SPHERE);
@@ -626,7 +636,8 @@ static void test_target_errors(void **state)
     struct { const char *specs[2]; int n, code; const char *part; } cases[] = {
         {{"flor"}, 1, RETEX_ENOTFOUND, "similar: Floor"}, {{"wall"}, 1, RETEX_ENOTFOUND, "could be `Wall` or `WALL`"},
         {{"Unused"}, 1, RETEX_ENOTFOUND, "no texture"}, {{"a=Floor", "a=Wall"}, 2, RETEX_EINVAL, "twice"},
-        {{"=Floor"}, 1, RETEX_EINVAL, "name"}, {{"a="}, 1, RETEX_EINVAL, "identifier"}, {{"a=Floor,,Wall"}, 1, RETEX_EINVAL, "identifier"},
+        {{"=Floor"}, 1, RETEX_EINVAL, "name"}, {{"a="}, 1, RETEX_EINVAL, "identifier"},
+        {{"a=Floor,,Wall"}, 1, RETEX_EINVAL, "identifier"},
         {{"a.b=Floor"}, 1, RETEX_EINVAL, "letters"}, {{"xyzzy"}, 1, RETEX_ENOTFOUND, "there are: Floor"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
@@ -645,7 +656,8 @@ static const char everything[] = V37
     "#declare M = color_map{[0 rgb 0][1 rgb 1]} #default{finish{ambient 0}}"
     "camera{location <0,1,-5> look_at 0 angle 40} sky_sphere{pigment{gradient y color_map{M}} rotate x}"
     "light_source{<0,5,0> rgb 1 area_light x,z,2,2 fade_distance 1 fade_power 2}"
-    "union{sphere{0,1 texture{T} rotate 30*y} box{0,1} material{texture{T} interior{ior 1.5}} matrix <1,0,0,0,1,0,0,0,1,0,2,0>}"
+    "union{sphere{0,1 texture{T} rotate 30*y} box{0,1} material{texture{T} interior{ior 1.5}}"
+    "  matrix <1,0,0,0,1,0,0,0,1,0,2,0>}"
     "mesh2{vertex_vectors{3,<0,0,0>,<1,0,0>,<0,1,0>} uv_vectors{1,<0,0>} face_indices{1,<0,1,2>} uv_indices{1,<0,0,0>}}"
     "mesh{triangle{0,x,y texture{T}}} polygon{4,0,x,y,0} difference{torus{2,1} cone{0,1,y,0}} disc{0,y,1,.5}";
 
@@ -697,7 +709,8 @@ static void test_damaged(void **state)
 static void test_limits(void **state)
 {
     (void)state;
-    expect_error(V37 "#declare A = sphere{0,1} #for(I,1,60) #declare A = union{object{A} object{A}} #end object{A}", "parts");
+    expect_error(V37 "#declare A = sphere{0,1} #for(I,1,60) #declare A = union{object{A} object{A}} #end"
+                     " object{A}", "parts");
     expect_error(V37 "#declare A = union{} #for(I,1,900) #declare A = union{object{A}} #end object{A}", "deep");
     expect_error(V37 "#macro R(N) union{ sphere{0,1} #if(N) R(N-1) #end } #end R(300)", "deep");
     expect_error(V37 "sphere{0,1 pigment{image_map{png \"no such file.png\"}}}", "no such file.png");
