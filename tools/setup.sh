@@ -25,6 +25,7 @@ file /usr/share/povray-3.7/include/colors.inc povray-includes
 needs_test='
 pkg cmocka libcmocka-dev
 command mandoc mandoc
+command oiiotool openimageio-tools
 '
 
 CC=${CC:-gcc}
