@@ -75,3 +75,8 @@ $ cp a.exr old.exr; head -c 30000 s.exr >cut.exr; retex-sample -q cut.exr --text
 
 # The same bits whatever the number of threads.
 $ for n in 1 2 7; do retex-sample -q s.exr --threads $n --texture:scale=3:rotate=20 wall=brick.jpg -o $n.exr; done; cmp 1.exr 2.exr; cmp 1.exr 7.exr
+
+# One target after another along a pipe is the same as both at once.
+$ make_set two.exr && retex-sample -q two.exr --texture 'Floor=rgb(.8,0,0)' | retex-sample -q - --texture 'Wall=rgb(0,.5,0)' | retex-combine -q - -o one-by-one.exr
+$ retex-combine -q two.exr --texture 'Floor=rgb(.8,0,0)' --texture 'Wall=rgb(0,.5,0)' -o both.exr && retex-diff --fail-abs 1e-6 one-by-one.exr both.exr >out; echo $?
+> 0

@@ -197,9 +197,13 @@ static void expect_stream(const RetexSet *set, const RetexSamples *samples, cons
     expect_equal_part(set, 0, back, 0);
     assert_int_equal(back->nfootprints, set->nfootprints);
     for (int i = 0; i < set->nfootprints; i++) {
-        assert_int_equal(back->footprints[i].uv, -1);
-        if (!samples->images[i].pixels)
-            expect_equal_part(set, set->footprints[i].albedo, back, back->footprints[i].albedo);
+        if (samples->images[i].pixels) {
+            assert_int_equal(back->footprints[i].uv, -1);
+            continue;
+        }
+        expect_equal_part(set, set->footprints[i].albedo, back, back->footprints[i].albedo);
+        expect_equal_part(set, set->footprints[i].uv, back, back->footprints[i].uv);
+        expect_equal_part(set, set->footprints[i].spread, back, back->footprints[i].spread);
     }
     assert_true(back->nparts < set->nparts);
 }

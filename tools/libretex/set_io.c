@@ -34,8 +34,8 @@ static void view_free(View *view)
     free(view->source);
 }
 
-/* Decide which parts are kept. With samples only what recombination needs: the picture, the terms, and the original
- * albedo where no sample takes its place. */
+/* Decide which parts are kept. With samples only what recombination needs: the picture, the terms, and whole
+ * footprints where no sample takes their place, so that another target can be sampled further down the pipe. */
 static void choose_parts(const RetexSet *set, const RetexSamples *samples, char *kept)
 {
     memset(kept, !samples, (size_t)set->nparts);
@@ -44,9 +44,12 @@ static void choose_parts(const RetexSet *set, const RetexSamples *samples, char 
     kept[0] = 1;
     for (int i = 0; i < set->nterms; i++)
         kept[set->terms[i].radiance] = 1;
-    for (int i = 0; i < set->nfootprints; i++)
-        if (set->footprints[i].albedo >= 0 && !samples->images[i].pixels)
-            kept[set->footprints[i].albedo] = 1;
+    for (int i = 0; i < set->nfootprints; i++) {
+        const int parts[3] = {set->footprints[i].albedo, set->footprints[i].uv, set->footprints[i].spread};
+        for (int k = 0; k < 3 && !samples->images[i].pixels; k++)
+            if (parts[k] >= 0)
+                kept[parts[k]] = 1;
+    }
 }
 
 static int renumber(const int *place, int part)

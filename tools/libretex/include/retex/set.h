@@ -136,7 +136,7 @@ int retex_set_read(const char *path, RetexSet **set, RetexSamples **samples, int
 
 /* Write a set (samples NULL), samples alone (set NULL), or both as one stream, under a temporary name renamed when
  * complete, or to "-". CRCs are computed and kept in set->parts. Of a stream's set only what recombination needs is
- * written when samples are given: terms, original albedos, AOVs left out. */
+ * written when samples are given: beauty, terms, and the footprints that have no sample. */
 int retex_set_write(RetexSet *set, const RetexSamples *samples, const char *path,
                     const RetexStoreParams *params /* NULL = defaults */, RetexError *err);
 
