@@ -47,11 +47,6 @@ static const struct Pattern *find_pattern(Sdl *sdl)
     return NULL;
 }
 
-int side_pattern_word(Sdl *sdl)
-{
-    return find_pattern(sdl) || sdl_is(sdl, "checker") || sdl_is(sdl, "gradient") || sdl_is(sdl, "image_map");
-}
-
 /* ---- lists of colours, pigments or textures ---- */
 
 static int list_item(Sdl *sdl, Rgbft *color, SidePigment *pigment, const SideTexture **first, int textures)

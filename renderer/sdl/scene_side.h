@@ -286,7 +286,6 @@ SideColorMap *side_color_map(Sdl *sdl);   /* after color_map */
 SideColorMap *side_pigment_map(Sdl *sdl); /* after pigment_map */
 SideColorMap *side_texture_map(Sdl *sdl); /* after texture_map */
 Rgbft side_map_mean(const ColorMap *map);
-int side_pattern_word(Sdl *sdl);          /* 1 where the next token names a pattern */
 int side_accept_pattern(Sdl *sdl, SidePigment *pigment, const SideTexture **first, int textures);
 int side_accept_pattern_modifier(Sdl *sdl, SidePigment *pigment);
 /* `checker A B`, `brick pigment{A} pigment{B}`: up to n of them replace list[]. */
@@ -321,7 +320,6 @@ typedef void ShapeParser(Sdl *sdl, Object *object);   /* what stands between `{`
 ShapeParser side_sphere, side_box, side_plane, side_cylinder, side_cone, side_torus, side_disc, side_triangle,
     side_smooth_triangle, side_polygon, side_mesh, side_mesh2;
 const Object *side_light_source(Sdl *sdl); /* after light_source */
-Object *side_group_block(Sdl *sdl, const char *word); /* union, merge, difference, intersection, light_group */
 int side_polygon_triangulate(Sdl *sdl, const Vec2 *points, const int *starts, int nrings, Vec2 **corners,
                              int *ncorners);
 
