@@ -2,6 +2,7 @@
 #include <stddef.h>
 #include <string.h>
 #include "sdl/scene_side.h"
+#include "shape/surface.h"
 
 #define MAX_ELEMENTS 100000000
 
@@ -177,6 +178,7 @@ void side_mesh2(Sdl *sdl, Object *object)
     if (uv_indices == 0)
         by_vertex(mesh, mesh->nuvs, offsetof(MeshFace, uv));
     object->mesh = mesh;
+    mesh->inward = mesh_winds_inward(mesh);
     if (mesh->nfaces == 0)
         object->kind = OBJECT_EMPTY;
 }
@@ -275,6 +277,7 @@ void side_mesh(Sdl *sdl, Object *object)
         sdl_optional_comma(sdl);
     }
     object->mesh = b.mesh;
+    b.mesh->inward = mesh_winds_inward(b.mesh);
     if (b.mesh->nfaces == 0)
         object->kind = OBJECT_EMPTY;
 }
