@@ -1,0 +1,56 @@
+#!/bin/sh
+# make pictures: the pictures of the README, made by the tools, into docs/pictures. pictures.sh BUILD. Takes some minutes a
+# scene; PICTURES_SPP (default 256) sets the samples a pixel.
+set -eu
+here=$(pwd)
+case $1 in /*) build=$1 ;; *) build=$here/$1 ;; esac
+PATH=$build/bin:$PATH
+out=$here/docs/pictures
+sets=$build/pictures
+spp=${PICTURES_SPP:-256}
+textures=$here/scenes/textures
+mkdir -p "$out" "$sets"
+
+# set NAME SCENE SIZE TARGET…: render once, keep the set.
+set_of() {
+    name=$1 scene=$2 size=$3
+    shift 3
+    flags=
+    for target; do flags="$flags -t $target"; done
+    # shellcheck disable=SC2086 # words wanted
+    [ -e "$sets/$name.exr" ] || retex-render --size "$size" --spp "$spp" $flags "$scene" -o "$sets/$name.exr"
+}
+# picture SET NAME [--texture …]
+picture() {
+    from=$sets/$1.exr to=$out/$2.jpg
+    shift 2
+    retex-combine -q "$from" "$@" -o "$to"
+}
+
+set_of living-room scenes/living-room/living-room.pov 640x480 Floor Wall
+picture living-room living-room
+picture living-room living-room-walnut --texture "Floor=$textures/walnut-herringbone.jpg"
+picture living-room living-room-terrazzo-brick --texture "Floor=$textures/terrazzo.jpg" --texture "Wall=$textures/brick.jpg"
+picture living-room living-room-damask --texture "Wall=$textures/damask.jpg"
+
+set_of glass-caustics scenes/glass-caustics/glass-caustics.pov 640x480 Floor
+picture glass-caustics glass-caustics
+picture glass-caustics glass-caustics-fans --texture "Floor=$textures/fans.jpg"
+retex-render --size 640x480 --spp "$spp" --replace "Floor=$textures/fans.jpg" \
+    scenes/glass-caustics/glass-caustics.pov -o "$out/glass-caustics-fans-truth.jpg"
+
+set_of cornell-box scenes/cornell-box/cornell-box.pov 400x400 Floor
+picture cornell-box cornell-box
+picture cornell-box cornell-box-red --texture 'Floor=rgb(0.8,0.02,0.02)'
+picture cornell-box cornell-box-terrazzo --texture "Floor=$textures/terrazzo.jpg"
+
+# A sample scene of POV-Ray's own, as it comes in Debian's povray-examples.
+sample=/usr/share/povray-3.7/scenes/radiosity/cornell.pov
+if [ -e "$sample" ]; then
+    set_of povray-cornell "$sample" 400x300 White
+    picture povray-cornell povray-cornell
+    picture povray-cornell povray-cornell-damask --texture:scale=0.018 "White=$textures/damask.jpg"
+else
+    echo "$sample is not there (package povray-examples): its pictures are left as they are" >&2
+fi
+ls -l "$out"
