@@ -5,6 +5,7 @@
 #   make check-all    also those that take long or need heavy programs
 #   make check-update CASE=golden/NAME   make a golden reference anew, printing before and after
 #   make asan, tsan   the unit and command-line tests with the sanitizers
+#   make pictures     the README's pictures, into docs/pictures; takes long
 #   make lint         rules of the house that a script can check
 #   make format       clang-format over the sources
 #   make install      PREFIX=/usr/local DESTDIR=
@@ -50,9 +51,11 @@ include renderer/rules.mk
 include scenes/rules.mk
 include tests/rules.mk
 
-.PHONY: all demo install clean lint format
+.PHONY: all demo pictures install clean lint format
 demo: all
 	@tools/demo.sh $(BUILD)
+pictures: all
+	@tools/pictures.sh $(BUILD)
 
 install: all
 	$(INSTALL) -d $(DESTDIR)$(PREFIX)/bin $(DESTDIR)$(PREFIX)/lib $(DESTDIR)$(PREFIX)/include/retex
