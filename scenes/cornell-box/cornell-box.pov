@@ -61,7 +61,7 @@ union {
   texture { White }
 }
 
-#declare Lamp_Radiance = <13, 11, 7.8>;
+#declare Lamp_Radiance = <20, 17, 12.4>;
 object {
   Panel(<-Half, 2, -Half>, 2 * Half * x, 2 * Half * z)
   texture { pigment { rgb 1 } finish { emission Lamp_Radiance diffuse 0 } }

@@ -21,7 +21,7 @@ camera {
   right x * 4/3
   up y
   angle 40
-  look_at <0.05, 0.85, 0.35>
+  look_at <0.2, 0.85, 0.35>
 }
 
 // ---- materials ----
@@ -54,7 +54,7 @@ camera {
 // Thick panes are green from the iron in them: what passes fades with the way it goes.
 #declare Pane_Glass = material {
   texture { pigment { rgbt 1 } finish { Glass_Finish } }
-  interior { ior 1.52 fade_power 1001 fade_distance 1.4 fade_color rgb <0.40, 0.90, 0.78> }
+  interior { ior 1.52 fade_power 1001 fade_distance 1.4 fade_color rgb <0.55, 0.93, 0.84> }
 }
 #declare Mirror = texture { pigment { rgb 0.95 } finish { diffuse 0 reflection { 0.93 } } }
 #declare Brass = texture {
@@ -141,13 +141,13 @@ box { <-40, 0, 5.28>, <40, 0.7, 5.4> texture { pigment { rgb 0.75 } } }
 sky_sphere {
   pigment {
     gradient y
-    color_map { [0 rgb <0.16, 0.17, 0.19>] [0.35 rgb <0.26, 0.28, 0.31>] [1 rgb <0.34, 0.36, 0.40>] }
+    color_map { [0 rgb <0.20, 0.21, 0.23>] [0.35 rgb <0.32, 0.34, 0.38>] [1 rgb <0.40, 0.43, 0.48>] }
   }
 }
 
 // The lamp: a panel above, to the left and behind. Large, for a path that leaves the floor through glass must find it.
-#declare Lamp_Radiance = <15, 13.4, 11>;
-#declare Lamp_Half = 2.3;
+#declare Lamp_Radiance = <7.6, 6.8, 5.6>;
+#declare Lamp_Half = 3.4;
 #declare Lamp_Place = transform { rotate x * 22 rotate z * 28 translate <-6.5, 11, 2.2> }
 object {
   polygon {
@@ -180,12 +180,12 @@ sphere { <0, 0, 0>, 1.05 material { Clear_Glass } translate <-1.75, 1.05, 0.55> 
 }
 object { Lathe(Wine_Profile, 4, 64) material { Clear_Glass } translate <1.25, 0.002, 0.55> Glass_Photons() }
 
-box { <-0.9, 0, -0.28>, <0.9, 1.15, 0.28> material { Pane_Glass } rotate y * -24 translate <2.7, 0.002, -0.75> Glass_Photons() }
+box { <-0.9, 0, -0.28>, <0.9, 1.15, 0.28> material { Pane_Glass } rotate y * -24 translate <2.75, 0.002, -0.35> Glass_Photons() }
 
 torus { 0.62, 0.24 material { Amber_Glass } translate <-0.15, 0.242, -1.55> Glass_Photons() }
 
 // A solid cone, cut flat above.
-cone { <0, 0, 0>, 0.55, <0, 0.95, 0>, 0.2 material { Clear_Glass } translate <1.75, 0.002, -2.2> Glass_Photons() }
+cone { <0, 0, 0>, 0.55, <0, 0.95, 0>, 0.2 material { Clear_Glass } translate <1.6, 0.002, -2.1> Glass_Photons() }
 
 sphere { <0, 0, 0>, 0.38 texture { Brass } translate <-0.35, 0.38, 1.75> }
 

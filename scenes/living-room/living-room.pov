@@ -105,11 +105,11 @@ object { Panel(<Left, High, Front>, (Right - Left) * x, (Back - Front) * z) text
 object { Panel(<Right, 0, Front>, (Back - Front) * z, High * y) texture { Paint } }
 object { Panel(<Left, 0, Front>, (Right - Left) * x, High * y) texture { Paint } }
 
-// Two windows: the left wall is what is left about them.
+// Two windows: the left wall is what remains about them.
 #declare Sill = 0.45; #declare Lintel = 2.35;
 #declare Window_Width = 2.1;
 #declare Window_At = array[2] { -3.35, -0.40 };
-#declare Reveal = 0.22; // the wall's thickness
+#declare Reveal = 0.10; // how deep the panes lie in the wall
 
 union {
   object { Panel(<Left, 0, Front>, (Back - Front) * z, Sill * y) }
@@ -123,7 +123,7 @@ union {
   texture { Paint }
 }
 
-#declare Sky_Radiance = <4.6, 5.2, 6.0>;
+#declare Sky_Radiance = <5.0, 5.6, 6.3>;
 #macro Window(Z)
   // Reveals, frame and glazing bars; behind them the bright sky.
   union {
@@ -132,13 +132,14 @@ union {
     object { Panel(<Left, Sill, Z>, -Reveal * x, (Lintel - Sill) * y) }
     object { Panel(<Left, Sill, Z + Window_Width>, -Reveal * x, (Lintel - Sill) * y) }
     box { <Left - 0.02, Sill - 0.04, Z - 0.06>, <Left + 0.10, Sill, Z + Window_Width + 0.06> }
-    #for (I, 0, 3)
-      #local Bar = Z + 0.03 + (Window_Width - 0.06) * I / 3;
-      box { <Left - 0.18, Sill, Bar - 0.03>, <Left - 0.12, Lintel, Bar + 0.03> }
+    #local Outside = Left - Reveal + 0.001;
+    #for (I, 0, 2)
+      #local Bar = Z + 0.025 + (Window_Width - 0.05) * I / 2;
+      box { <Outside, Sill, Bar - 0.025>, <Outside + 0.035, Lintel, Bar + 0.025> }
     #end
     #for (I, 0, 2)
-      #local Bar = Sill + 0.03 + (Lintel - Sill - 0.06) * I / 2;
-      box { <Left - 0.18, Bar - 0.03, Z>, <Left - 0.12, Bar + 0.03, Z + Window_Width> }
+      #local Bar = Sill + 0.025 + (Lintel - Sill - 0.05) * I / 2;
+      box { <Outside, Bar - 0.025, Z>, <Outside + 0.035, Bar + 0.025, Z + Window_Width> }
     #end
     texture { Trim }
   }
@@ -149,7 +150,7 @@ union {
   }
   #ifndef (Retex) // POV-Ray's stand-in for the panel, of about the same power, on the room's side of the bars
     light_source {
-      <Left - 0.1, (Sill + Lintel) / 2, Z + Window_Width / 2>
+      <Left - 0.04, (Sill + Lintel) / 2, Z + Window_Width / 2>
       rgb Sky_Radiance * Window_Width * (Lintel - Sill) / (2 * pi * 0.25)
       fade_distance 0.5 fade_power 2
       area_light (Lintel - Sill) * y, Window_Width * z, 5, 5 adaptive 1 jitter area_illumination on
@@ -158,6 +159,22 @@ union {
 #end
 Window(Window_At[0])
 Window(Window_At[1])
+
+// A third behind the camera, where a garden takes some of the light.
+#declare Garden_Radiance = <2.8, 3.1, 3.2>;
+object {
+  Panel(<-1.2, 0.3, Front + 0.001>, 2.8 * x, 2.1 * y)
+  texture { pigment { rgb 1 } finish { emission Garden_Radiance diffuse 0 } }
+  #ifndef (Retex) no_radiosity #end
+}
+#ifndef (Retex)
+  light_source {
+    <0.2, 1.35, Front + 0.01>
+    rgb Garden_Radiance * 2.8 * 2.1 / (2 * pi * 0.25)
+    fade_distance 0.5 fade_power 2
+    area_light 2.8 * x, 2.1 * y, 5, 5 adaptive 1 jitter area_illumination on
+  }
+#end
 
 // Skirting boards.
 #macro Skirting(From, To)
@@ -278,13 +295,13 @@ union {
 
 // ---- the lamp ----
 
-#declare Lamp_Radiance = <22, 14.5, 7.5>;
-#declare Shade_Radiance = <2.1, 1.45, 0.82>;
+#declare Lamp_Radiance = <15, 10, 5.4>;
+#declare Shade_Radiance = <1.7, 1.15, 0.64>;
 union {
   cylinder { <0, 0, 0>, <0, 0.022, 0>, 0.15 texture { Brass } }
   cylinder { <0, 0.022, 0>, <0, 1.42, 0>, 0.011 texture { Brass } }
   sphere {
-    <0, 1.50, 0>, 0.075
+    <0, 1.50, 0>, 0.1
     texture { pigment { rgb 1 } finish { emission Lamp_Radiance diffuse 0 } }
     #ifndef (Retex) no_shadow no_radiosity #end
   }
@@ -296,7 +313,7 @@ union {
   torus { 0.155, 0.005 texture { Brass } translate 1.68 * y }
   #ifndef (Retex)
     light_source {
-      <0, 1.5, 0> rgb Lamp_Radiance * pi * pow(0.075, 2) / (2 * pi * 0.0025) fade_distance 0.05 fade_power 2
+      <0, 1.5, 0> rgb Lamp_Radiance * pi * pow(0.1, 2) / (2 * pi * 0.0025) fade_distance 0.05 fade_power 2
     }
   #end
   translate <1.22, 0, 2.12>
