@@ -47,5 +47,6 @@ SANITIZED = CFLAGS='-O1 -g -fno-omit-frame-pointer -fsanitize=$(1)' CXXFLAGS='-O
 asan:
 	$(MAKE) BUILD=$(BUILD)/asan $(call SANITIZED,address$(comma)undefined -fno-sanitize-recover=undefined) SUITES='unit cli' check
 tsan:
-	$(MAKE) BUILD=$(BUILD)/tsan $(call SANITIZED,thread) SUITES='unit cli' check
+	TSAN_OPTIONS='ignore_noninstrumented_modules=1 suppressions=$(CURDIR)/tests/lib/tsan.supp' \
+	    $(MAKE) BUILD=$(BUILD)/tsan $(call SANITIZED,thread) SUITES='unit cli' check
 comma := ,
