@@ -2,7 +2,7 @@
 //
 // Emission 0.5, albedo 0.5, seen from within: L = 0.5 (1 + 0.5 + 0.25 + …) = 1. Paths of 16 segments miss 0.5^16.
 //
-// size 65x65  spp 256  tolerance 1e-2 absolute
+// size 65x65  spp 8192  tolerance 1e-2 absolute
 // expect 32,32 1 1 1
 // expect 5,50 1 1 1
 // expect 60,10 1 1 1
