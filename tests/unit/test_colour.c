@@ -12,6 +12,7 @@
 #include <cmocka.h>
 
 #include "bridge_load.h"
+#include "output.h"
 
 static char folder[64];
 
@@ -63,12 +64,31 @@ static RetexImage read_picture(const char *path, const char *colorspace)
     return im;
 }
 
+static int append(void *output, const void *data, size_t bytes, RetexError *err)
+{
+    return retex_output_write(output, data, bytes, err);
+}
+
+/* Through the bridge whatever the format. */
+static int bridge_write(const RetexImage *im, const char *path, const RetexWriteParams *params, RetexError *err)
+{
+    RetexOutput *output = NULL;
+    int code = retex_output_open(&output, path, err);
+    if (code)
+        return code;
+    code = retex_bridge_write(im, path, params, append, output, err);
+    if (!code)
+        return retex_output_commit(&output, err);
+    retex_output_abandon(&output);
+    return code;
+}
+
 static void write_picture(const RetexImage *im, const char *path, const char *colorspace)
 {
     RetexWriteParams params = RETEX_WRITE_INIT;
     RetexError err = {0};
     params.colorspace = colorspace;
-    test_must(retex_bridge_write(im, path, &params, &err), &err);
+    test_must(bridge_write(im, path, &params, &err), &err);
 }
 
 static RetexImage new_picture(int width, int height, int channels)
@@ -108,7 +128,7 @@ static void check_wrong_ocio(void)
     RetexError err = {0};
     RetexImage im = {0};
     retex_image_alloc(&im, 2, 2, 3, NULL);
-    must_child(retex_bridge_write(&im, in_folder("x.png"), NULL, &err) == RETEX_EIO, "a wrong $OCIO is EIO");
+    must_child(bridge_write(&im, in_folder("x.png"), NULL, &err) == RETEX_EIO, "a wrong $OCIO is EIO");
     must_child(strstr(err.message, "$OCIO is '/nonexistent.ocio'") != NULL, err.message);
     must_child(access(in_folder("x.png"), F_OK) != 0, "nothing is written");
     retex_image_free(&im);
@@ -136,7 +156,7 @@ static void check_other_ocio(void)
     RetexWriteParams params = RETEX_WRITE_INIT;
     test_random_image(&im, 16, 16, 3, 1, 0, 1);
     /* Its display shows Rec.709 as sRGB, so what comes back is what went in. */
-    must_child(retex_bridge_write(&im, in_folder("o.tif"), NULL, &err) == 0, err.message);
+    must_child(bridge_write(&im, in_folder("o.tif"), NULL, &err) == 0, err.message);
     must_child(retex_bridge_read(&back, in_folder("o.tif"), NULL, 0, &err) == 0, err.message);
     for (size_t i = 0; i < 256; i++)
         for (size_t c = 0; c < 3; c++)
@@ -148,9 +168,9 @@ static void check_other_ocio(void)
     must_child(retex_bridge_read(&back, in_folder("o.tif"), "ACEScct", 0, &err) == 0, err.message);
     retex_image_free(&back);
     params.view = "same";
-    must_child(retex_bridge_write(&im, in_folder("o.png"), &params, &err) == 0, err.message);
+    must_child(bridge_write(&im, in_folder("o.png"), &params, &err) == 0, err.message);
     params.view = "Standard";
-    must_child(retex_bridge_write(&im, in_folder("o.png"), &params, &err) == RETEX_ENOTFOUND, "no such view");
+    must_child(bridge_write(&im, in_folder("o.png"), &params, &err) == RETEX_ENOTFOUND, "no such view");
     must_child(strstr(err.message, "Show, Same") != NULL, err.message);
     retex_image_free(&im);
 }
@@ -349,27 +369,26 @@ static void test_mistakes(void **state)
     } writes[] = {
         {"x", RETEX_EINVAL, "no ending"},
         {"x.nope", RETEX_EINVAL, ".nope"},
-        {"no/x.png", RETEX_EIO, "No such file"},
     };
     for (size_t i = 0; i < sizeof writes / sizeof writes[0]; i++) {
-        assert_int_equal(retex_bridge_write(&im, in_folder(writes[i].path), NULL, &err), writes[i].code);
+        assert_int_equal(bridge_write(&im, in_folder(writes[i].path), NULL, &err), writes[i].code);
         assert_non_null(strstr(err.message, writes[i].says));
         assert_string_equal(err.file, in_folder(writes[i].path));
     }
-    assert_int_equal(retex_bridge_write(&two, in_folder("x.png"), NULL, &err), RETEX_EINVAL);
+    assert_int_equal(bridge_write(&two, in_folder("x.png"), NULL, &err), RETEX_EINVAL);
     /* a full disk, for each way of writing */
     static const char *const full[] = {"full.png", "full.jpg", "full.tif", "full.hdr", "full.exr", "full.pfm"};
     for (size_t i = 0; i < sizeof full / sizeof full[0]; i++) {
         assert_int_equal(symlink("/dev/full", in_folder(full[i])), 0);
-        assert_int_equal(retex_bridge_write(&im, in_folder(full[i]), NULL, &err), RETEX_EIO);
+        assert_int_equal(bridge_write(&im, in_folder(full[i]), NULL, &err), RETEX_EIO);
         assert_non_null(strstr(err.message, "No space left"));
     }
     params.colorspace = "Bleu";
-    assert_int_equal(retex_bridge_write(&im, in_folder("x.png"), &params, &err), RETEX_ENOTFOUND);
+    assert_int_equal(bridge_write(&im, in_folder("x.png"), &params, &err), RETEX_ENOTFOUND);
     assert_non_null(strstr(err.message, "'Bleu'; there are Linear Rec.709, sRGB"));
     params = (RetexWriteParams)RETEX_WRITE_INIT;
     params.display = "Cinema";
-    assert_int_equal(retex_bridge_write(&im, in_folder("x.png"), &params, &err), RETEX_ENOTFOUND);
+    assert_int_equal(bridge_write(&im, in_folder("x.png"), &params, &err), RETEX_ENOTFOUND);
     assert_non_null(strstr(err.message, "there are sRGB"));
     assert_int_equal(access(in_folder("x.png"), F_OK), -1);
 

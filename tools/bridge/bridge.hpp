@@ -22,6 +22,9 @@ struct Failure : std::runtime_error {
 // Run body; whatever it throws ends here as a RetexError about path.
 int guarded(const char *path, RetexError *err, const std::function<void()> &body);
 
+// Fail where a JPEG or PNG file is cut off, or a checksum of a PNG is wrong.
+void check_whole(const char *path);
+
 // Works on pixels R,G,B,A in place, from any thread; empty = leave as they are.
 using Transform = std::function<void(float *rgba, long pixels)>;
 

@@ -169,8 +169,10 @@ void check_size(long width, long height, long max_pixels)
                                         std::to_string(max_pixels) + " allowed here");
 }
 
+// The first line says what is wrong; what libraries add to it is where in them.
 [[noreturn]] void fail_read(std::string why)
 {
+    why = why.substr(0, why.find('\n'));
     if (why.empty())
         why = "not a picture OpenImageIO can read";
     throw Failure(RETEX_EFORMAT, "cannot read: " + why);
@@ -290,6 +292,7 @@ void fit_window(const RetexBridgeHost *host, OwnedImage &picture, const OIIO::Im
 RetexImage read_picture(const RetexBridgeHost *host, const char *path, const char *colorspace, long max_pixels)
 {
     check_file(path);
+    check_whole(path);
     OIIO::ImageSpec wish;
     wish.attribute("oiio:UnassociatedAlpha", 1); // no needless multiplying and dividing of 8-bit values
     auto in = OIIO::ImageInput::open(path, &wish);

@@ -1,6 +1,6 @@
 // Writing: a scene-linear picture leaves in any format OpenImageIO writes, through the display transform where the
-// format holds 8 or 16 bits. The file is made in memory and then written here, because few of the format libraries
-// notice a full disk.
+// format holds 8 or 16 bits. The file is made in memory and then handed on, because few of the format libraries notice
+// a full disk.
 #include "bridge.hpp"
 
 #include <algorithm>
@@ -8,13 +8,14 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
+#include <functional>
 #include <memory>
 #include <vector>
 
 #include <OpenImageIO/imageio.h>
 #include <OpenImageIO/parallel.h>
-#include <fcntl.h>
 #include <strings.h>
 #include <sys/mman.h>
 #include <sys/stat.h>
@@ -84,10 +85,8 @@ std::vector<Value> store(const std::vector<float> &rgba, int channels, bool mult
     return out;
 }
 
-[[noreturn]] void fail_write(int error)
-{
-    throw Failure(RETEX_EIO, std::string("cannot write: ") + std::strerror(error));
-}
+// Where the bytes go.
+using Sink = std::function<void(const void *data, size_t bytes)>;
 
 // A file without a name, in memory.
 class Spool
@@ -122,41 +121,25 @@ class Spool
             p += std::max<ssize_t>(n, 0);
         }
     }
-    void copy_to(const char *path) const;
+    void copy_to(const Sink &sink) const;
 
   private:
     int fd_;
 };
 
-void Spool::copy_to(const char *path) const
+void Spool::copy_to(const Sink &sink) const
 {
-    struct stat status;
-    if (fstat(fd_, &status) != 0)
-        fail_write(errno);
-    int out = ::open(path, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-    if (out < 0)
-        fail_write(errno);
     std::vector<char> buffer(1 << 20);
-    int error = 0;
-    for (off_t at = 0; at < status.st_size && !error;) {
+    for (off_t at = 0;;) {
         ssize_t got = pread(fd_, buffer.data(), buffer.size(), at);
-        if (got <= 0)
-            error = got < 0 ? errno : EIO;
-        for (ssize_t done = 0; done < got && !error;) {
-            ssize_t n = ::write(out, buffer.data() + done, size_t(got - done));
-            if (n < 0 && errno != EINTR)
-                error = errno;
-            else if (n > 0)
-                done += n;
+        if (got < 0 && errno != EINTR)
+            throw Failure(RETEX_EIO, std::string("cannot read a file in memory: ") + std::strerror(errno));
+        if (got == 0)
+            return;
+        if (got > 0) {
+            sink(buffer.data(), size_t(got));
+            at += got;
         }
-        at += std::max<ssize_t>(got, 0);
-    }
-    if (::close(out) != 0 && !error)
-        error = errno; // network file systems say so only now
-    if (error) {
-        if (stat(path, &status) == 0 && S_ISREG(status.st_mode))
-            unlink(path);
-        fail_write(error);
     }
 }
 
@@ -173,34 +156,36 @@ void write_pfm(Spool &spool, int width, int height, int channels, const std::vec
         spool.append(pixels.data() + y * row, row * sizeof(float));
 }
 
-// A format whose library insists on a name with its ending (JPEG 2000): there close() and the file's size have to tell.
-void write_directly(const char *path, const std::function<bool()> &write, OIIO::ImageOutput &out)
+// A file of our own with a name, for as long as it takes: a format whose library insists on its ending (JPEG 2000).
+class NamedSpool
 {
-    struct stat status;
-    bool written = write();
-    int fd = written ? ::open(path, O_RDONLY | O_CLOEXEC) : -1;
-    if (fd >= 0) {
-        written = fsync(fd) == 0 || errno == EINVAL;
+  public:
+    explicit NamedSpool(const std::string &end)
+    {
+        const char *folder = std::getenv("TMPDIR");
+        path = std::string(folder && *folder ? folder : "/tmp") + "/retex-XXXXXX." + end;
+        int fd = mkstemps(&path[0], int(end.size()) + 1);
+        if (fd < 0)
+            throw Failure(RETEX_EIO, std::string("cannot make a temporary file: ") + std::strerror(errno));
         ::close(fd);
     }
-    if (written && stat(path, &status) == 0 && status.st_size > 0)
-        return;
-    std::string why = out.geterror();
-    if (stat(path, &status) == 0 && S_ISREG(status.st_mode))
-        unlink(path);
-    throw Failure(RETEX_EIO, "cannot write: " + (why.empty() ? "OpenImageIO wrote nothing" : why));
-}
+    ~NamedSpool()
+    {
+        unlink(path.c_str());
+    }
+    NamedSpool(const NamedSpool &) = delete;
+    NamedSpool &operator=(const NamedSpool &) = delete;
+    std::string path;
+};
 
-// The folder is looked at before the work, so that a slip of the pen costs nothing.
-void check_folder(const std::string &path)
+void copy_file(const std::string &path, Spool &spool)
 {
-    size_t slash = path.rfind('/');
-    std::string folder = slash == std::string::npos ? "." : slash == 0 ? "/" : path.substr(0, slash);
-    struct stat status;
-    if (stat(folder.c_str(), &status) != 0)
-        throw Failure(RETEX_EIO, "cannot write: folder '" + folder + "': " + std::strerror(errno));
-    if (!S_ISDIR(status.st_mode))
-        throw Failure(RETEX_EIO, "cannot write: '" + folder + "' is not a folder");
+    std::unique_ptr<FILE, int (*)(FILE *)> file(std::fopen(path.c_str(), "rb"), std::fclose);
+    std::vector<char> buffer(1 << 20);
+    for (size_t got; file && (got = std::fread(buffer.data(), 1, buffer.size(), file.get())) > 0;)
+        spool.append(buffer.data(), got);
+    if (!file || std::ferror(file.get()) || spool.empty())
+        throw Failure(RETEX_EIO, "cannot write: OpenImageIO wrote nothing");
 }
 
 std::unique_ptr<OIIO::ImageOutput> find_writer(const std::string &path)
@@ -304,13 +289,12 @@ Stored make_stored(const RetexImage &src, int channels, Depth depth, const std::
     return stored;
 }
 
-void write_picture(const RetexImage &src, const char *path, const RetexWriteParams &params)
+void write_picture(const RetexImage &src, const char *path, const RetexWriteParams &params, const Sink &sink)
 {
     if (src.width < 1 || src.height < 1 || (src.channels != 1 && src.channels != 3 && src.channels != 4))
         throw Failure(RETEX_EINVAL, "only pictures of 1, 3 or 4 channels can be written");
     bool pfm = is_pfm(path);
     auto out = pfm ? nullptr : find_writer(path);
-    check_folder(path);
     std::string format = pfm ? "pfm" : out->format_name();
     Depth depth = pfm ? Depth::Float : depth_of(format);
     int channels = src.channels;
@@ -322,32 +306,57 @@ void write_picture(const RetexImage &src, const char *path, const RetexWritePara
     Spool spool;
     if (pfm) {
         write_pfm(spool, src.width, src.height, channels, stored.floats);
-        spool.copy_to(path);
+        spool.copy_to(sink);
         return;
     }
     OIIO::ImageSpec spec =
         describe(src, channels, depth == Depth::Half ? OIIO::TypeDesc::HALF : stored.type, format, params, depth);
     auto write_to = [&](const std::string &name) {
-        return out->open(name, spec) && out->write_image(stored.type, stored.data()) && out->close();
+        if (!out->open(name, spec) || !out->write_image(stored.type, stored.data()) || !out->close())
+            throw Failure(RETEX_EIO, "cannot write: " + out->geterror());
     };
-    if (!write_to(spool.path()))
-        throw Failure(RETEX_EIO, "cannot write: " + out->geterror());
+    write_to(spool.path());
     if (spool.empty()) {
+        NamedSpool named(ending(path));
         out = find_writer(path); // a used one does not always open again
-        write_directly(
-            path, [&] { return write_to(path); }, *out);
-    } else {
-        spool.copy_to(path);
+        write_to(named.path);
+        copy_file(named.path, spool);
     }
+    spool.copy_to(sink);
+}
+
+void check_picture(const char *path, const RetexWriteParams &params)
+{
+    bool pfm = is_pfm(path);
+    encoding(params, pfm ? Depth::Float : depth_of(find_writer(path)->format_name()));
 }
 
 } // namespace
 } // namespace bridge
 
 extern "C" __attribute__((visibility("default"))) RetexBridgeWrite retex_oiio_write;
+extern "C" __attribute__((visibility("default"))) RetexBridgeCheck retex_oiio_check;
 
-int retex_oiio_write(const RetexImage *src, const char *path, const RetexWriteParams *params, RetexError *err)
+static const RetexWriteParams default_params = RETEX_WRITE_INIT;
+
+int retex_oiio_write(const RetexImage *src, const char *path, const RetexWriteParams *params, RetexBridgeSink *sink,
+                     void *context, RetexError *err)
 {
-    static const RetexWriteParams defaults = RETEX_WRITE_INIT;
-    return bridge::guarded(path, err, [&] { bridge::write_picture(*src, path, params ? *params : defaults); });
+    RetexError sink_error{};
+    int sink_code = 0;
+    int code = bridge::guarded(path, err, [&] {
+        bridge::write_picture(*src, path, params ? *params : default_params, [&](const void *data, size_t bytes) {
+            sink_code = sink(context, data, bytes, &sink_error);
+            if (sink_code)
+                throw bridge::Failure(sink_code, sink_error.message);
+        });
+    });
+    if (sink_code && err)
+        *err = sink_error; // it names the file itself
+    return code;
+}
+
+int retex_oiio_check(const char *path, const RetexWriteParams *params, RetexError *err)
+{
+    return bridge::guarded(path, err, [&] { bridge::check_picture(path, params ? *params : default_params); });
 }

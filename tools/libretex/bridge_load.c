@@ -15,6 +15,7 @@ static struct {
     pthread_once_t once;
     RetexBridgeRead *read;
     RetexBridgeWrite *write;
+    RetexBridgeCheck *check;
     char message[512]; /* why it could not be loaded; "" = it is */
 } bridge = {.once = PTHREAD_ONCE_INIT};
 
@@ -72,7 +73,8 @@ static void load_bridge(void)
     *(void **)&abi = dlsym(library, "retex_oiio_abi");
     *(void **)&bridge.read = dlsym(library, "retex_oiio_read");
     *(void **)&bridge.write = dlsym(library, "retex_oiio_write");
-    if (!abi || !bridge.read || !bridge.write || abi() != RETEX_BRIDGE_ABI)
+    *(void **)&bridge.check = dlsym(library, "retex_oiio_check");
+    if (!abi || !bridge.read || !bridge.write || !bridge.check || abi() != RETEX_BRIDGE_ABI)
         keep_message(BRIDGE_NAME " is of another version");
     else
         bridge.message[0] = '\0';
@@ -94,8 +96,15 @@ int retex_bridge_read(RetexImage *dst, const char *path, const char *colorspace,
     return code ? code : bridge.read(&host, dst, path, colorspace, max_pixels, err);
 }
 
-int retex_bridge_write(const RetexImage *src, const char *path, const RetexWriteParams *params, RetexError *err)
+int retex_bridge_write(const RetexImage *src, const char *path, const RetexWriteParams *params, RetexBridgeSink *sink,
+                       void *context, RetexError *err)
 {
     int code = bridge_ready(path, err);
-    return code ? code : bridge.write(src, path, params, err);
+    return code ? code : bridge.write(src, path, params, sink, context, err);
+}
+
+int retex_bridge_check(const char *path, const RetexWriteParams *params, RetexError *err)
+{
+    int code = bridge_ready(path, err);
+    return code ? code : bridge.check(path, params, err);
 }

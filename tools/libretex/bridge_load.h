@@ -13,11 +13,15 @@ extern "C" {
  * which it is the general case. dst is unallocated. */
 int retex_bridge_read(RetexImage *dst, const char *path, const char *colorspace, long max_pixels, RetexError *err);
 
-/* Write exactly to path, no temporary name; the format follows path's ending, so a caller's temporary name must
- * keep the ending of the final one ("room.png" -> ".room.1234.png"). Messages name the file as err->file; nothing
- * else of the path appears in them, so that the caller may put the final name there. On failure what was written is
- * removed. */
-int retex_bridge_write(const RetexImage *src, const char *path, const RetexWriteParams *params, RetexError *err);
+/* Where the bytes of a written picture go: returns 0 or a RETEX_E… that ends the writing, with err filled. */
+typedef int RetexBridgeSink(void *context, const void *data, size_t bytes, RetexError *err);
+
+/* Encode a picture in the format that path's ending names, and hand it to sink. path is not opened. */
+int retex_bridge_write(const RetexImage *src, const char *path, const RetexWriteParams *params, RetexBridgeSink *sink,
+                       void *context, RetexError *err);
+
+/* Whether there is such a format, and the colour space or the display that params name. */
+int retex_bridge_check(const char *path, const RetexWriteParams *params, RetexError *err);
 
 /* What the library exports and what it is given. The library has no part of libretex inside: memory of images comes
  * from the caller's functions. */
@@ -26,11 +30,13 @@ typedef struct RetexBridgeHost {
     void (*image_free)(RetexImage *im);
 } RetexBridgeHost;
 
-#define RETEX_BRIDGE_ABI 1
+#define RETEX_BRIDGE_ABI 2
 typedef int RetexBridgeAbi(void);
 typedef int RetexBridgeRead(const RetexBridgeHost *host, RetexImage *dst, const char *path, const char *colorspace,
                             long max_pixels, RetexError *err);
-typedef int RetexBridgeWrite(const RetexImage *src, const char *path, const RetexWriteParams *params, RetexError *err);
+typedef int RetexBridgeWrite(const RetexImage *src, const char *path, const RetexWriteParams *params,
+                             RetexBridgeSink *sink, void *context, RetexError *err);
+typedef int RetexBridgeCheck(const char *path, const RetexWriteParams *params, RetexError *err);
 
 #ifdef __cplusplus
 }

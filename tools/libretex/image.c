@@ -233,43 +233,58 @@ static int write_exr(const RetexImage *src, const char *path, RetexError *err)
     return status;
 }
 
+static int append(void *output, const void *data, size_t bytes, RetexError *err)
+{
+    return retex_output_write(output, data, bytes, err);
+}
+
 static int write_through_bridge(const RetexImage *src, const char *path, const RetexWriteParams *params,
                                 RetexError *err)
 {
     RetexOutput *output = NULL;
-    const char *temporary;
-    int status = retex_output_open_named(&output, path, &temporary, err);
+    int status = retex_output_open(&output, path, err);
 
     if (status)
         return status;
-    status = retex_bridge_write(src, temporary, params, err);
+    status = retex_bridge_write(src, path, params, append, output, err);
     if (!status)
         return retex_output_commit(&output, err);
     retex_output_abandon(&output);
-    /* the name that was wanted, not the temporary one */
-    if (err && strcmp(err->file, path) != 0)
-        retex_fail_at(err, status, path, 0, 0, "%s", err->message);
     return status;
+}
+
+static int check_write(const char *path, const RetexWriteParams *params, int *is_exr, RetexError *err)
+{
+    const char *ending = strrchr(path, '.');
+
+    *is_exr = names_linear(params->colorspace) &&
+              (strcmp(path, "-") == 0 || (ending && strcasecmp(ending, ".exr") == 0) || strncmp(path, "/dev/", 5) == 0);
+    if (params->quality < 1 || params->quality > 100)
+        return retex_fail(err, RETEX_EINVAL, "quality is 1 to 100, not %d", params->quality);
+    if (!*is_exr && strcmp(path, "-") == 0)
+        return retex_fail(err, RETEX_EUNSUPPORTED, "standard output takes scene-linear EXR only, not %s",
+                          params->colorspace);
+    return 0;
+}
+
+int retex_image_write_check(const char *path, const RetexWriteParams *params, RetexError *err)
+{
+    static const RetexWriteParams defaults = RETEX_WRITE_INIT;
+    int is_exr, status = check_write(path, params ? params : &defaults, &is_exr, err);
+
+    if (!status)
+        status = retex_output_check(path, err);
+    return status || is_exr ? status : retex_bridge_check(path, params, err);
 }
 
 int retex_image_write(const RetexImage *src, const char *path, const RetexWriteParams *params, RetexError *err)
 {
     static const RetexWriteParams defaults = RETEX_WRITE_INIT;
-    const char *ending = strrchr(path, '.');
-    const int is_exr = strcmp(path, "-") == 0 || (ending && strcasecmp(ending, ".exr") == 0) ||
-                       strncmp(path, "/dev/", 5) == 0;
+    int is_exr, status = check_write(path, params ? params : &defaults, &is_exr, err);
 
-    if (!params)
-        params = &defaults;
+    if (status)
+        return status;
     if (!src->pixels || (src->channels != 1 && src->channels != 3 && src->channels != 4))
         return retex_fail(err, RETEX_EINVAL, "a picture has 1, 3 or 4 channels, not %d", src->channels);
-    if (params->quality < 1 || params->quality > 100)
-        return retex_fail(err, RETEX_EINVAL, "quality is 1 to 100, not %d", params->quality);
-    if (!is_exr || !names_linear(params->colorspace)) {
-        if (strcmp(path, "-") == 0)
-            return retex_fail(err, RETEX_EUNSUPPORTED, "standard output takes scene-linear EXR only, not %s",
-                              params->colorspace);
-        return write_through_bridge(src, path, params, err);
-    }
-    return write_exr(src, path, err);
+    return is_exr ? write_exr(src, path, err) : write_through_bridge(src, path, params, err);
 }

@@ -15,6 +15,8 @@
 #include <time.h>
 #include <unistd.h>
 
+#include <retex/image.h>
+
 #include "output.h"
 
 enum { BUFFER_BYTES = 1 << 18, NAME_ATTEMPTS = 100 };
@@ -36,20 +38,17 @@ static int fail_system(const RetexOutput *output, int code, RetexError *err)
     return retex_fail(err, RETEX_EIO, "cannot write %s: %s", output->shown, strerror(code));
 }
 
-/* A hidden name beside path that ends like it: writers choose the format by the ending. */
+/* A hidden name beside path. */
 static void hidden_name(RetexOutput *output)
 {
     static atomic_uint counter;
     const char *base = output->path + strlen(output->folder);
-    const char *ending = strrchr(base, '.');
     struct timespec now = { 0, 0 };
 
-    if (!ending || ending == base || strlen(ending) > 16)
-        ending = "";
     clock_gettime(CLOCK_REALTIME, &now);
     const unsigned salt = (unsigned)now.tv_nsec ^ (unsigned)getpid() << 10 ^ atomic_fetch_add(&counter, 1) << 24;
     /* the base is cut so that the whole stays a legal file name */
-    snprintf(output->temporary, sizeof output->temporary, "%s.%.200s.tmp%08x%s", output->folder, base, salt, ending);
+    snprintf(output->temporary, sizeof output->temporary, "%s.%.200s.tmp%08x", output->folder, base, salt);
 }
 
 static int open_hidden(RetexOutput *output)
@@ -127,7 +126,7 @@ static RetexOutput *output_new(const char *path, RetexError *err)
     return output;
 }
 
-static int open_file(RetexOutput *output, const char *path, int named, RetexError *err)
+static int open_file(RetexOutput *output, const char *path, RetexError *err)
 {
     int mode, code = 0;
     int status = resolve(output, path, &mode, err);
@@ -135,12 +134,10 @@ static int open_file(RetexOutput *output, const char *path, int named, RetexErro
     if (status)
         return status;
     if (output->direct) {
-        if (named)
-            return retex_fail(err, RETEX_EUNSUPPORTED, "cannot write %s: this format needs a regular file", path);
         output->descriptor = open(path, O_WRONLY | O_CLOEXEC | O_TRUNC);
         return output->descriptor < 0 ? fail_system(output, errno, err) : 0;
     }
-    if (named || !open_nameless(output))
+    if (!open_nameless(output))
         code = open_hidden(output);
     if (code)
         return fail_system(output, code, err);
@@ -161,7 +158,7 @@ int retex_output_open(RetexOutput **result, const char *path, RetexError *err)
         output->descriptor = STDOUT_FILENO;
         output->direct = output->borrowed = 1;
     } else {
-        status = open_file(output, path, 0, err);
+        status = open_file(output, path, err);
     }
     if (status)
         retex_output_abandon(&output);
@@ -169,21 +166,21 @@ int retex_output_open(RetexOutput **result, const char *path, RetexError *err)
     return status;
 }
 
-int retex_output_open_named(RetexOutput **result, const char *path, const char **temporary, RetexError *err)
+int retex_output_check(const char *path, RetexError *err)
 {
-    RetexOutput *output = output_new(path, err);
+    RetexOutput *output = NULL;
+    int mode, status = 0;
 
-    *result = NULL;
+    if (strcmp(path, "-") == 0)
+        return 0;
+    output = output_new(path, err);
     if (!output)
         return RETEX_ENOMEM;
-    const int status = open_file(output, path, 1, err);
-    if (status) {
-        retex_output_abandon(&output);
-        return status;
-    }
-    *temporary = output->temporary;
-    *result = output;
-    return 0;
+    status = resolve(output, path, &mode, err);
+    if (!status && access(output->direct ? path : output->folder[0] ? output->folder : ".", W_OK) != 0)
+        status = fail_system(output, errno, err);
+    retex_output_abandon(&output);
+    return status;
 }
 
 static int write_all(RetexOutput *output, const unsigned char *data, size_t bytes, RetexError *err)
@@ -283,4 +280,18 @@ void retex_output_abandon(RetexOutput **result)
     free(output->buffer);
     free(output);
     *result = NULL;
+}
+
+int retex_file_write(const char *path, const void *data, size_t bytes, RetexError *err)
+{
+    RetexOutput *output = NULL;
+    int status = retex_output_open(&output, path, err);
+
+    if (status)
+        return status;
+    status = retex_output_write(output, data, bytes, err);
+    if (!status)
+        return retex_output_commit(&output, err);
+    retex_output_abandon(&output);
+    return status;
 }

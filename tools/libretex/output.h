@@ -13,9 +13,8 @@ typedef struct RetexOutput RetexOutput;
  * stays whole, and a process that is killed leaves nothing behind where the file system can do without a name. */
 int retex_output_open(RetexOutput **output, const char *path, RetexError *err);
 
-/* The same for a writer that insists on opening the file itself: *temporary is an empty file in the same folder whose
- * name keeps path's ending, valid until commit or abandon. RETEX_EUNSUPPORTED where path is not a regular file. */
-int retex_output_open_named(RetexOutput **output, const char *path, const char **temporary, RetexError *err);
+/* Whether path could be opened so, as far as one can tell without making anything: for before long work. */
+int retex_output_check(const char *path, RetexError *err);
 
 /* Append; buffered. */
 int retex_output_write(RetexOutput *output, const void *data, size_t bytes, RetexError *err);

@@ -11,6 +11,7 @@
 #include "exr_io.h"
 #include "input.h"
 #include "manifest.h"
+#include "output.h"
 #include "pack_format.h"
 
 static const char MANIFEST_ATTRIBUTE[] = "retex";
@@ -226,6 +227,11 @@ int retex_set_write(RetexSet *set, const RetexSamples *samples, const char *path
     if (set)
         view_free(&view);
     return status;
+}
+
+int retex_set_write_check(const char *path, RetexError *err)
+{
+    return retex_output_check(path, err);
 }
 
 /* --- reading ---------------------------------------------------------------------------------------------------- */

@@ -63,6 +63,13 @@ typedef struct RetexWriteParams {
 int retex_image_write(const RetexImage *src, const char *path, const RetexWriteParams *params /* NULL = defaults */,
                       RetexError *err);
 
+/* Whether retex_image_write could write there, as far as one can tell without doing it: a format of that ending, a
+ * folder that takes files, a known display, view or colour space. For before the work that makes the picture. */
+int retex_image_write_check(const char *path, const RetexWriteParams *params /* NULL = defaults */, RetexError *err);
+
+/* Write a file of any kind as all outputs here are: under a temporary name, renamed when complete; or to "-". */
+int retex_file_write(const char *path, const void *data, size_t bytes, RetexError *err);
+
 #ifdef __cplusplus
 }
 #endif

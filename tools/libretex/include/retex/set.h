@@ -140,6 +140,10 @@ int retex_set_read(const char *path, RetexSet **set, RetexSamples **samples, int
 int retex_set_write(RetexSet *set, const RetexSamples *samples, const char *path,
                     const RetexStoreParams *params /* NULL = defaults */, RetexError *err);
 
+/* Whether a set, samples or a pack could be written there, as far as one can tell without doing it: for before the work
+ * that makes them. */
+int retex_set_write_check(const char *path, RetexError *err);
+
 /* Compare every part's stored CRC with its data: 0, or RETEX_EFORMAT naming the first damaged part. */
 int retex_set_check(const char *path, int nthreads, RetexError *err);
 

@@ -1,0 +1,144 @@
+// Is a JPEG or PNG file whole? libjpeg makes grey of what is missing and says nothing; libpng prints to standard error.
+// So what they need is looked at first: the markers of the one up to its end, the chunks of the other with checksums.
+#include "bridge.hpp"
+
+#include <cerrno>
+#include <cstdint>
+#include <cstdio>
+#include <cstring>
+#include <memory>
+
+namespace bridge
+{
+namespace
+{
+
+// Bytes in order; -1 behind the end.
+class Reader
+{
+  public:
+    explicit Reader(const char *path) : file_(std::fopen(path, "rb"), std::fclose)
+    {
+        if (!file_)
+            throw Failure(RETEX_EIO, std::string("cannot read: ") + std::strerror(errno));
+    }
+    int byte()
+    {
+        return getc_unlocked(file_.get());
+    }
+    // Big-endian; -1 where the file ends before.
+    int64_t number(int bytes)
+    {
+        int64_t value = 0;
+        for (int i = 0; i < bytes; i++) {
+            int next = byte();
+            if (next < 0)
+                return -1;
+            value = value << 8 | next;
+        }
+        return value;
+    }
+    bool skip(int64_t bytes)
+    {
+        while (bytes-- > 0)
+            if (byte() < 0)
+                return false;
+        return true;
+    }
+    void rewind()
+    {
+        std::rewind(file_.get());
+    }
+
+  private:
+    std::unique_ptr<FILE, int (*)(FILE *)> file_;
+};
+
+[[noreturn]] void fail_truncated()
+{
+    throw Failure(RETEX_EFORMAT, "cannot read: the file is truncated");
+}
+
+// From behind the start-of-image marker to the end-of-image marker. Data that is not made of markers is left to libjpeg,
+// which says so.
+void check_jpeg(Reader &in)
+{
+    enum { Stuffed = 0x00, Temporary = 0x01, Restart = 0xd0, RestartEnd = 0xd8, End = 0xd9, Scan = 0xda };
+    for (bool scan = false;;) {
+        int c = in.byte();
+        if (c < 0)
+            fail_truncated();
+        if (c != 0xff && !scan)
+            return;
+        if (c != 0xff)
+            continue;
+        while (c == 0xff)
+            c = in.byte();
+        if (c == End)
+            return;
+        if (c == Stuffed || c == Temporary || (c >= Restart && c < RestartEnd))
+            continue;
+        int64_t length = in.number(2);
+        if (length < 0 || !in.skip(length - 2))
+            fail_truncated();
+        scan = c == Scan;
+    }
+}
+
+uint32_t crc_of(uint32_t crc, int byte)
+{
+    crc ^= uint32_t(byte);
+    for (int bit = 0; bit < 8; bit++)
+        crc = crc & 1 ? crc >> 1 ^ 0xedb88320u : crc >> 1;
+    return crc;
+}
+
+// The table of crc_of for every byte.
+struct CrcTable {
+    uint32_t of[256];
+    CrcTable()
+    {
+        for (int i = 0; i < 256; i++)
+            of[i] = crc_of(0, i);
+    }
+};
+
+// Chunks from behind the signature to IEND.
+void check_png(Reader &in)
+{
+    static const CrcTable table;
+    for (;;) {
+        int64_t length = in.number(4);
+        uint32_t crc = 0xffffffff, type = 0;
+        if (length < 0)
+            fail_truncated();
+        for (int64_t i = 0; i < length + 4; i++) {
+            int c = in.byte();
+            if (c < 0)
+                fail_truncated();
+            crc = table.of[(crc ^ uint32_t(c)) & 255] ^ crc >> 8;
+            type = i < 4 ? type << 8 | uint32_t(c) : type;
+        }
+        int64_t stored = in.number(4);
+        if (stored < 0)
+            fail_truncated();
+        if (uint32_t(stored) != ~crc)
+            throw Failure(RETEX_EFORMAT, "cannot read: the file is damaged: a checksum is wrong");
+        if (type == 0x49454e44) // IEND
+            return;
+    }
+}
+
+} // namespace
+
+void check_whole(const char *path)
+{
+    Reader in(path);
+    if (in.number(2) == 0xffd8)
+        return check_jpeg(in);
+    in.rewind();
+    if (in.number(8) == int64_t(0x89504e470d0a1a0a))
+        check_png(in);
+}
+
+} // namespace bridge
