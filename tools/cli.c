@@ -10,6 +10,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
+#include <sys/stat.h>
 #include <time.h>
 #include <unistd.h>
 
@@ -324,13 +326,40 @@ void cli_fail(const Cli *cli, const RetexError *err)
 
 /* --- output --- */
 
+/* /dev/tty, or /dev/stdout where that is a terminal. */
+static int names_terminal(const char *path)
+{
+    struct stat info;
+    if (stat(path, &info) != 0 || !S_ISCHR(info.st_mode))
+        return 0;
+    int fd = open(path, O_WRONLY | O_NOCTTY | O_CLOEXEC);
+    int terminal = fd >= 0 && isatty(fd);
+    if (fd >= 0)
+        close(fd);
+    return terminal;
+}
+
 const char *cli_output(const Cli *cli)
 {
     const char *path = cli->output ? cli->output : "-";
     if (strcmp(path, "-") == 0 && isatty(STDOUT_FILENO))
         cli_die(cli, cli->output ? "standard output is a terminal; redirect it or name a file: -o FILE"
                                  : "no output file: give -o FILE, or redirect standard output");
+    if (names_terminal(path))
+        cli_die(cli, "%s is a terminal; name a file: -o FILE", path);
     return path;
+}
+
+void cli_input(const Cli *cli, const char *path, const char *what)
+{
+    if (strcmp(path, "-") == 0 && isatty(STDIN_FILENO))
+        cli_die(cli, "standard input is a terminal; expected %s", what);
+}
+
+int cli_ends_with(const char *path, const char *ending)
+{
+    size_t length = strlen(path), tail = strlen(ending);
+    return length >= tail && strcasecmp(path + length - tail, ending) == 0;
 }
 
 static double seconds_now(void)

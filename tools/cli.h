@@ -1,4 +1,4 @@
-/* What all tools share on the command line: options, messages, exit codes. Used by the mains only, never by libraries. */
+/* What all tools share on the command line: options, messages, exit codes. Used by the mains, never by libraries. */
 #ifndef RETEX_CLI_H
 #define RETEX_CLI_H
 
@@ -53,8 +53,15 @@ _Noreturn void cli_die(const Cli *cli, const char *fmt, ...) RETEX_PRINTF(2, 3);
 _Noreturn void cli_fail(const Cli *cli, const RetexError *err);                     /* cli_error and exit 2 */
 
 /* The output file: -o if given; else "-" when standard output is not a terminal; else an error that says so (pixels are
- * never written to a terminal, `-o -` included). */
+ * never written to a terminal, `-o -` and /dev/tty included). */
 const char *cli_output(const Cli *cli);
+
+/* A file to read: an error where it is "-" and standard input a terminal, at which nobody types a set. `what` is what
+ * was expected. */
+void cli_input(const Cli *cli, const char *path, const char *what);
+
+/* Whether path ends in ending (".exr"), in whatever case. */
+int cli_ends_with(const char *path, const char *ending);
 
 /* A progress bar on stderr, drawn only on a terminal and without -q; done is 0..1; label e.g. "render". Call with 1 to
  * finish the line. Rate-limited inside; safe to call often from one thread. */

@@ -53,23 +53,35 @@ static void parse(Cli *cli, Job *job)
         cli_die(cli, "no set given; - is standard input");
     if (job->samples_path && strcmp(job->set_path, "-") == 0 && strcmp(job->samples_path, "-") == 0)
         cli_die(cli, "the set and the samples cannot both be standard input");
+    if (job->batch && strcmp(job->batch, "-") == 0 &&
+        (strcmp(job->set_path, "-") == 0 || (job->samples_path && strcmp(job->samples_path, "-") == 0)))
+        cli_die(cli, "the set or the samples and the table cannot both be standard input");
     if (job->batch && cli->output)
         cli_die(cli, "--batch names its outputs itself: no -o");
     if (job->write.colorspace && (job->write.display || job->write.view))
         cli_die(cli, "--colorspace excludes --display and --view");
 }
 
+/* The picture must not replace what it is made of. */
+static void check_output(const Cli *cli, const Job *job, const char *output)
+{
+    texture_args_check_output(cli, job->set_path, output);
+    if (job->samples_path)
+        texture_args_check_output(cli, job->samples_path, output);
+    texture_args_check_outputs(cli, &job->textures, output);
+}
+
 /* The set, and the samples of the whole run: from the stream or a file, and from --texture. */
 static void load(const Cli *cli, Job *job)
 {
     RetexError err = {0};
-    texture_args_check_input(cli, job->set_path);
+    cli_input(cli, job->set_path, "a set, as from retex-render or retex-sample");
     if (retex_set_read(job->set_path, &job->set, job->samples_path ? NULL : &job->samples, cli->threads, &err))
         cli_fail(cli, &err);
     if (!job->set)
         cli_die(cli, "%s holds samples but no set", job->set_path);
     if (job->samples_path) {
-        texture_args_check_input(cli, job->samples_path);
+        cli_input(cli, job->samples_path, "samples, as from retex-sample");
         if (retex_set_read(job->samples_path, NULL, &job->samples, cli->threads, &err))
             cli_fail(cli, &err);
         if (!job->samples)
@@ -130,6 +142,7 @@ static _Noreturn void fail_row(const Cli *cli, const Table *table, int code, con
 
 static char *read_text(const Cli *cli, const char *path)
 {
+    cli_input(cli, path, "a table");
     FILE *file = strcmp(path, "-") == 0 ? stdin : fopen(path, "rb");
     char *text = NULL;
     size_t used = 0, room = 0, got = 1;
@@ -265,12 +278,18 @@ static int make_row(const Cli *cli, const Job *job, RetexSamples *row, const cha
     return code;
 }
 
+/* An error of a row's picture: the table's line, then the file it was in. */
+static _Noreturn void fail_picture(const Cli *cli, const Table *table, const RetexError *err)
+{
+    char message[1600];
+    snprintf(message, sizeof message, "%s%s%s", err->file, err->file[0] ? ": " : "", err->message);
+    fail_row(cli, table, err->code, message);
+}
+
 static void run_batch(const Cli *cli, const Job *job)
 {
-    Table table = {.name = job->batch, .line = 1};
+    Table table = {.name = strcmp(job->batch, "-") ? job->batch : "standard input", .line = 1};
     const char *targets[RETEX_MAX_TARGETS];
-    if (strcmp(job->batch, "-") == 0 && strcmp(job->set_path, "-") == 0)
-        cli_die(cli, "the set and the table cannot both be standard input");
     table.text = read_text(cli, job->batch);
     table.at = table.text + (strncmp(table.text, "\xef\xbb\xbf", 3) == 0 ? 3 : 0); /* a byte order mark */
     int columns = read_header(cli, &table, job->set, targets), pictures = 0;
@@ -287,18 +306,20 @@ static void run_batch(const Cli *cli, const Job *job)
             fail_row(cli, &table, RETEX_EPARSE, "no output in the first cell");
         if (strcmp(table.cells[0], "-") == 0)
             fail_row(cli, &table, RETEX_EPARSE, "a table cannot write to standard output");
-        texture_args_check_output(cli, job->set_path, table.cells[0]);
+        check_output(cli, job, table.cells[0]);
+        if (retex_image_write_check(table.cells[0], &job->write, &err))
+            fail_picture(cli, &table, &err);
         for (int i = 1; i < table.ncells; i++)
             if (*table.cells[i])
                 parse_cell(cli, &table, &specs[count++], targets[i - 1], table.cells[i]);
+        for (int i = 0; i < count; i++)
+            if (!specs[i].constant)
+                texture_args_check_output(cli, specs[i].image, table.cells[0]);
         int code = retex_sample(&row, job->set, specs, count, cli->threads, &err);
         if (!code)
             code = make_row(cli, job, row, table.cells[0], began, &err);
-        if (code) {
-            char message[1600];
-            snprintf(message, sizeof message, "%s%s%s", err.file, err.file[0] ? ": " : "", err.message);
-            fail_row(cli, &table, code, message);
-        }
+        if (code)
+            fail_picture(cli, &table, &err);
         retex_samples_close(&row);
         pictures++;
     }
@@ -319,14 +340,16 @@ int main(int argc, char **argv)
     double began = texture_args_now();
     parse(&cli, &job);
     const char *output = job.batch ? NULL : cli_output(&cli);
+    RetexError err = {0};
     if (output) {
-        texture_args_check_output(&cli, job.set_path, output);
-        if (job.samples_path)
-            texture_args_check_output(&cli, job.samples_path, output);
+        check_output(&cli, &job, output);
+        if (retex_image_write_check(output, &job.write, &err))
+            cli_fail(&cli, &err);
+        if ((job.write.display || job.write.view) && (strcmp(output, "-") == 0 || cli_ends_with(output, ".exr")))
+            cli_warn(&cli, "an OpenEXR file stays scene-linear: --display and --view do nothing; --colorspace would");
     }
     load(&cli, &job);
     cli_detail(&cli, "read and sampled in %.2f s", texture_args_now() - began);
-    RetexError err = {0};
     if (job.batch)
         run_batch(&cli, &job);
     else if (make_picture(&cli, &job, job.samples, output, began, &err))

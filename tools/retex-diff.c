@@ -158,6 +158,8 @@ int main(int argc, char **argv)
     int json = 0;
 
     parse(&cli, &params, &json, names);
+    for (int i = 0; i < 2; i++)
+        cli_input(&cli, names[i], "an OpenEXR file");
     if (retex_diff(&diff, names[0], names[1], &params, &err))
         cli_fail(&cli, &err);
     int differs = diff->differs;

@@ -230,5 +230,6 @@ int main(int argc, char **argv)
         cli_die(&cli, "there is no output file; the answer goes to standard output");
     if (json && checking)
         cli_die(&cli, "--json and --check exclude each other");
+    cli_input(&cli, path, "a set, as from retex-render");
     return cli_close(&cli, checking ? check(&cli, path) : print_info(&cli, path, json));
 }

@@ -82,6 +82,12 @@ int main(int argc, char **argv)
 
     parse(&cli, &job);
     const char *output = cli_output(&cli);
+    cli_input(&cli, job.input, job.unpack ? "a pack" : "a set, as from retex-render");
+    if (cli_ends_with(output, job.unpack ? ".retex" : ".exr"))
+        cli_die(&cli, job.unpack ? "%s: what is unpacked is an OpenEXR file, .exr"
+                                 : "%s: a pack is no OpenEXR file; its name ends in .retex", output);
+    if (retex_set_write_check(output, &err))
+        cli_fail(&cli, &err);
     if (retex_set_read(job.input, &set, NULL, cli.threads, &err))
         cli_fail(&cli, &err);
     int code;

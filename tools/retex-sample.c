@@ -27,6 +27,15 @@ static const char *parse(Cli *cli, TextureArgs *textures)
     return set;
 }
 
+/* Samples are OpenEXR whatever the name; one that says otherwise is a slip of the pen, retex-combine being meant. */
+static void check_ending(const Cli *cli, const char *output)
+{
+    static const char *const others[] = {".png", ".jpg", ".jpeg", ".tif", ".tiff", ".hdr", ".pfm", ".webp", ".retex"};
+    for (size_t i = 0; i < sizeof others / sizeof *others; i++)
+        if (cli_ends_with(output, others[i]))
+            cli_die(cli, "%s: samples are an OpenEXR file, .exr; pictures are made by retex-combine", output);
+}
+
 int main(int argc, char **argv)
 {
     static TextureArgs textures;
@@ -42,8 +51,12 @@ int main(int argc, char **argv)
     RetexSamples *samples = NULL, *earlier = NULL;
     RetexError err = {0};
 
-    texture_args_check_input(&cli, input);
+    cli_input(&cli, input, "a set, as from retex-render");
     texture_args_check_output(&cli, input, output);
+    texture_args_check_outputs(&cli, &textures, output);
+    check_ending(&cli, output);
+    if (retex_set_write_check(output, &err))
+        cli_fail(&cli, &err);
     double began = texture_args_now();
     if (retex_set_read(input, &set, &earlier, cli.threads, &err))
         cli_fail(&cli, &err);

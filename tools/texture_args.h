@@ -6,7 +6,6 @@
 #include <string.h>
 #include <sys/stat.h>
 #include <time.h>
-#include <unistd.h>
 
 #include <retex/retex.h>
 
@@ -35,19 +34,20 @@ static inline void texture_args_add(const Cli *cli, TextureArgs *args)
     args->count++;
 }
 
-static inline void texture_args_check_input(const Cli *cli, const char *path)
-{
-    if (strcmp(path, "-") == 0 && isatty(STDIN_FILENO))
-        cli_die(cli, "standard input is a terminal; expected a set, as from retex-render or retex-sample");
-}
-
-/* Writing over the set would leave nothing to retexture. */
+/* Writing over the set would leave nothing to retexture; over a texture, neither. */
 static inline void texture_args_check_output(const Cli *cli, const char *input, const char *output)
 {
     struct stat in, out;
     if (strcmp(input, "-") != 0 && strcmp(output, "-") != 0 && stat(input, &in) == 0 && stat(output, &out) == 0 &&
         S_ISREG(in.st_mode) && in.st_dev == out.st_dev && in.st_ino == out.st_ino)
         cli_die(cli, "the output %s would replace the input", output);
+}
+
+static inline void texture_args_check_outputs(const Cli *cli, const TextureArgs *args, const char *output)
+{
+    for (int i = 0; i < args->count; i++)
+        if (!args->specs[i].constant)
+            texture_args_check_output(cli, args->specs[i].image, output);
 }
 
 /* "Floor <- oak.png, Wall <- rgb(1,1,1)", or "original textures". */

@@ -62,3 +62,28 @@ $ echo old >old.exr; head -c 30000 s.exr >cut.exr; retex-combine -q cut.exr -o o
 
 # The same bits whatever the number of threads.
 $ for n in 1 2 7; do retex-combine -q s.exr --threads $n --texture:scale=3:rotate=20 wall=brick.jpg -o $n.exr; done; cmp 1.exr 2.exr; cmp 1.exr 7.exr
+
+# The picture must not replace what it is made of; the name is looked at before the work.
+$ retex-combine -q s.exr --texture floor=brick.jpg -o brick.jpg
+! retex-combine: error: the output brick.jpg would replace the input
+= 2
+$ printf 'output,floor\nbrick.jpg,brick.jpg\n' | retex-combine -q s.exr --batch -
+! retex-combine: error: the output brick.jpg would replace the input
+= 2
+$ retex-combine -q s.exr -o noending
+! retex-combine: error: noending: cannot tell the picture's format: the name has no ending, such as .png or .exr
+= 2
+$ printf 'output,floor\nnoending,brick.jpg\n' | retex-combine -q s.exr --batch -
+! retex-combine: error: standard input:2: noending: cannot tell the picture's format: the name has no ending, such as .png or .exr
+= 2
+$ retex-combine -q s.exr a.exr --batch - - </dev/null
+! retex-combine: error: one set and its samples are enough; what is '-'?
+= 2
+$ retex-combine -q s.exr - --batch - </dev/null
+! retex-combine: error: the set or the samples and the table cannot both be standard input
+= 2
+$ retex-combine -q s.exr --view Raw -o y.exr
+! retex-combine: warning: an OpenEXR file stays scene-linear: --display and --view do nothing; --colorspace would
+
+# A killed run leaves nothing behind, at whatever moment.
+$ mkdir killed; for f in p.png p.exr p.jp2; do for t in .05 .1 .15 .2 .25 .3 .4; do timeout -s KILL $t retex-combine -q s.exr -o killed/$f; done; done >/dev/null 2>&1; rm -f killed/p.*; ls -A killed

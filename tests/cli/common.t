@@ -71,3 +71,19 @@ $ { sleep 0.3; retex-diff --help; echo $? >&2; } | :
 $ retex-diff --version >&-
 ! retex-diff: error: standard output: Bad file descriptor
 = 2
+
+# A terminal is neither read nor written: `script` is one.
+$ skip-without script no terminal to try
+$ make_set s.exr; for c in 'retex-render s.pov' 'retex-combine s.exr -o -' 'retex-combine s.exr -o /dev/stdout' 'retex-combine s.exr -o /dev/tty' 'retex-pack s.exr'; do timeout 10 script -qec "$c" /dev/null </dev/null; done | tr -d '\r'
+> retex-render: error: no output file: give -o FILE, or redirect standard output
+> retex-combine: error: standard output is a terminal; redirect it or name a file: -o FILE
+> retex-combine: error: /dev/stdout is a terminal; name a file: -o FILE
+> retex-combine: error: /dev/tty is a terminal; name a file: -o FILE
+> retex-pack: error: no output file: give -o FILE, or redirect standard output
+$ for c in 'retex-sample - --texture a=b -o x.exr' 'retex-combine - -o x.png' 'retex-combine s.exr --batch -' 'retex-pack - -o x.retex' 'retex-info -' 'retex-diff - s.exr'; do sleep 1 | timeout 10 script -qec "$c" /dev/null; done | tr -d '\r'
+> retex-sample: error: standard input is a terminal; expected a set, as from retex-render
+> retex-combine: error: standard input is a terminal; expected a set, as from retex-render or retex-sample
+> retex-combine: error: standard input is a terminal; expected a table
+> retex-pack: error: standard input is a terminal; expected a set, as from retex-render
+> retex-info: error: standard input is a terminal; expected a set, as from retex-render
+> retex-diff: error: standard input is a terminal; expected an OpenEXR file

@@ -89,3 +89,11 @@ $ echo old >old.exr; retex-pack -q --unpack flip.retex -o old.exr 2>/dev/null; c
 > old
 > err
 > info
+
+# A name that promises the other format.
+$ retex-pack -q s.exr -o t.exr
+! retex-pack: error: t.exr: a pack is no OpenEXR file; its name ends in .retex
+= 2
+$ retex-pack -q --unpack s.retex -o t.retex
+! retex-pack: error: t.retex: what is unpacked is an OpenEXR file, .exr
+= 2

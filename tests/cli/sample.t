@@ -80,3 +80,23 @@ $ for n in 1 2 7; do retex-sample -q s.exr --threads $n --texture:scale=3:rotate
 $ make_set two.exr && retex-sample -q two.exr --texture 'Floor=rgb(.8,0,0)' | retex-sample -q - --texture 'Wall=rgb(0,.5,0)' | retex-combine -q - -o one-by-one.exr
 $ retex-combine -q two.exr --texture 'Floor=rgb(.8,0,0)' --texture 'Wall=rgb(0,.5,0)' -o both.exr && retex-diff --fail-abs 1e-6 one-by-one.exr both.exr >out; echo $?
 > 0
+
+# A texture that is cut off or damaged is refused, in one line; so is a name that promises another format.
+$ head -c 20000 brick.jpg >cut.jpg; retex-sample -q two.exr --texture floor=cut.jpg -o x.exr
+! retex-sample: error: cut.jpg: cannot read: the file is truncated
+= 2
+$ make_picture p.png; head -c 400 p.png >cut.png; retex-sample -q two.exr --texture floor=cut.png -o x.exr
+! retex-sample: error: cut.png: cannot read: the file is truncated
+= 2
+$ cp p.png bad.png; printf 'XX' | dd of=bad.png bs=1 seek=300 conv=notrunc 2>/dev/null; retex-sample -q two.exr --texture floor=bad.png -o x.exr
+! retex-sample: error: bad.png: cannot read: the file is damaged: a checksum is wrong
+= 2
+$ retex-sample -q two.exr --texture floor=brick.jpg -o x.png
+! retex-sample: error: x.png: samples are an OpenEXR file, .exr; pictures are made by retex-combine
+= 2
+$ retex-sample -q two.exr --texture floor=brick.jpg -o brick.jpg
+! retex-sample: error: the output brick.jpg would replace the input
+= 2
+$ ls x.*
+! ls: cannot access 'x.*': No such file or directory
+= 2
