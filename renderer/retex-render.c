@@ -4,36 +4,66 @@
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
+#include <ctype.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 #include <time.h>
+#include <unistd.h>
 #include <jansson.h>
 #include "cli.h"
 #include "integrate/render.h"
 #include "sdl/sdl.h"
 
-enum { OPT_TARGET, OPT_LIST, OPT_REPLACE, OPT_PLAIN, OPT_LAYOUT, OPT_ORDERS, OPT_STRICT_PAPER, OPT_SPP, OPT_SIZE, OPT_SEED,
-       OPT_DEPTH, OPT_CROP, OPT_FILTER, OPT_AOV, OPT_INCLUDE, OPT_DECLARE, OPT_AMBIENT, OPT_STRICT, OPT_STATS, OPT_TRACE };
+enum {
+    OPT_TARGET,
+    OPT_LIST,
+    OPT_REPLACE,
+    OPT_PLAIN,
+    OPT_LAYOUT,
+    OPT_ORDERS,
+    OPT_STRICT_PAPER,
+    OPT_SPP,
+    OPT_SIZE,
+    OPT_SEED,
+    OPT_DEPTH,
+    OPT_CROP,
+    OPT_FILTER,
+    OPT_AOV,
+    OPT_INCLUDE,
+    OPT_DECLARE,
+    OPT_AMBIENT,
+    OPT_STRICT,
+    OPT_STATS,
+    OPT_TRACE
+};
 
 static const CliOption options[] = {
-    [OPT_TARGET] = {"target", 't', "NAME[=IDENT,…]", "make what was #declared as IDENT (or NAME) target NAME; repeatable", 0},
-    [OPT_LIST] = {"list-targets", 0, NULL, "print the identifiers that can be targets, with their share of the picture", 0},
-    [OPT_REPLACE] = {"replace", 0, "NAME=IMAGE", "put IMAGE on a target and render that: the truth of a retexture (opts as retex-sample --texture)", 1},
+    [OPT_TARGET] = {"target", 't', "NAME[=IDENT,…]",
+                    "make what was #declared as IDENT (or NAME) target NAME; repeatable", 0},
+    [OPT_LIST] = {"list-targets", 0, NULL, "print the identifiers that can be targets, with their share of the picture",
+                  0},
+    [OPT_REPLACE] = {"replace", 0, "NAME=IMAGE",
+                     "put IMAGE on a target and render that: the truth of a retexture (opts as retex-sample --texture)",
+                     1},
     [OPT_PLAIN] = {"plain", 0, NULL, "the picture only, no set", 0},
     [OPT_LAYOUT] = {"layout", 0, "NAME", "statistics of the set: paper", 0},
     [OPT_ORDERS] = {"orders", 0, "N", "highest number of target hits kept, 1 to 6 (6)", 0},
     [OPT_STRICT_PAPER] = {"strict-paper", 0, NULL, "drop the mixed terms of four and more hits, as the paper does", 0},
     [OPT_SPP] = {"spp", 0, "N", "samples a pixel (64)", 0},
     [OPT_SIZE] = {"size", 0, "WxH", "size of the picture (the scene's own shape, 640 wide)", 0},
-    [OPT_SEED] = {"seed", 0, "N", "another picture of the same noise (0)", 0},
+    [OPT_SEED] = {"seed", 0, "N", "another number gives other noise (0)", 0},
     [OPT_DEPTH] = {"max-depth", 0, "N", "most segments of a path (16)", 0},
     [OPT_CROP] = {"crop", 0, "X,Y,W,H", "render this part of the picture only", 0},
     [OPT_FILTER] = {"filter", 0, "NAME", "pixel filter: box or gaussian (box)", 0},
-    [OPT_AOV] = {"aov", 0, "LIST", "also: beauty,depth,albedo,normal,position,uv,object", 0},
+    [OPT_AOV] = {"aov", 0, "LIST", "add parts, of: beauty, depth, albedo, normal, position, uv, object", 0},
     [OPT_INCLUDE] = {"include", 'I', "DIR", "look for included files and images here too; repeatable", 0},
-    [OPT_DECLARE] = {"declare", 'D', "NAME=VALUE", "declare a number before the scene is read; repeatable", 0},
+    [OPT_DECLARE] = {"declare", 'D', "NAME=VALUE",
+                     "declare a number or a quoted string, or set clock, frame_number, initial_frame, final_frame, "
+                     "before the scene is read; repeatable",
+                     0},
     [OPT_AMBIENT] = {"ambient", 0, NULL, "let `ambient` give light", 0},
     [OPT_STRICT] = {"strict", 0, NULL, "what is not supported is an error", 0},
-    [OPT_STATS] = {"stats", 0, "FILE.json", "write times, rays, paths and memory", 0},
+    [OPT_STATS] = {"stats", 0, "FILE.json", "write times, rays, paths and memory; - is standard output", 0},
     [OPT_TRACE] = {"trace-pixel", 0, "X,Y,S", "print the path of sample S of a pixel, step by step, and stop", 0},
     {0},
 };
@@ -52,7 +82,8 @@ typedef struct Arguments {
 
 static void push(Cli *cli, const char **list, int *count, const char *what)
 {
-    if (*count == LIST_MAX) cli_die(cli, "more than %d of --%s", LIST_MAX, what);
+    if (*count == LIST_MAX)
+        cli_die(cli, "more than %d of --%s", LIST_MAX, what);
     list[(*count)++] = cli->value;
 }
 
@@ -63,7 +94,7 @@ static void numbers(Cli *cli, const CliOption *option, char separator, int count
     for (int k = 0; k < count; k++) {
         char *end;
         long v = strtol(p, &end, 10);
-        if (end == p || v < 0 || v > 1 << 24 || *end != (k + 1 < count ? separator : 0))
+        if (!isdigit((unsigned char)*p) || v < 0 || v > 1 << 24 || *end != (k + 1 < count ? separator : 0))
             cli_die(cli, "--%s wants %s, not `%s`", option->name, option->argument, cli->value);
         out[k] = (int)v;
         p = end + 1;
@@ -72,24 +103,28 @@ static void numbers(Cli *cli, const CliOption *option, char separator, int count
 
 static unsigned parse_aovs(Cli *cli)
 {
-    static const char *const names[] = {"depth", "albedo", "normal", "position", "uv", "object"};
+    static const char *const names[] = {"depth", "albedo", "normal", "position", "uv", "object", "beauty"};
     unsigned bits = 0;
-    char list[256], *rest = NULL;
-    snprintf(list, sizeof list, "%s", cli->value);
-    for (char *name = strtok_r(list, ",", &rest); name; name = strtok_r(NULL, ",", &rest)) {
+    for (const char *name = cli->value;; name++) {
+        size_t length = strcspn(name, ",");
         int k = 0;
-        while (k < 6 && strcmp(names[k], name)) k++;
-        if (k == 6 && strcmp(name, "beauty"))
-            cli_die(cli, "--aov knows beauty,depth,albedo,normal,position,uv,object, not `%s`", name);
-        if (k < 6) bits |= 1u << k;
+        while (k < 7 && (strlen(names[k]) != length || strncmp(names[k], name, length)))
+            k++;
+        if (k == 7)
+            cli_die(cli, "--aov knows beauty,depth,albedo,normal,position,uv,object, not `%.*s`", (int)length, name);
+        if (k < 6)
+            bits |= 1u << k;
+        name += length;
+        if (!*name)
+            return bits;
     }
-    return bits;
 }
 
 static void parse_replace(Arguments *a)
 {
     RetexError err;
-    if (a->nreplacements == RETEX_MAX_TARGETS) cli_die(a->cli, "more than %d of --replace", RETEX_MAX_TARGETS);
+    if (a->nreplacements == RETEX_MAX_TARGETS)
+        cli_die(a->cli, "more than %d of --replace", RETEX_MAX_TARGETS);
     if (retex_texture_spec_parse(&a->replacements[a->nreplacements++], a->cli->modifiers, a->cli->value, &err))
         cli_die(a->cli, "--replace: %s", err.message);
 }
@@ -99,10 +134,27 @@ static void parse_choice(Arguments *a, const CliOption *o)
     Cli *cli = a->cli;
     if (o == &options[OPT_FILTER]) {
         a->render.gaussian = !strcmp(cli->value, "gaussian");
-        if (!a->render.gaussian && strcmp(cli->value, "box")) cli_die(cli, "--filter knows box and gaussian, not `%s`", cli->value);
+        if (!a->render.gaussian && strcmp(cli->value, "box"))
+            cli_die(cli, "--filter knows box and gaussian, not `%s`", cli->value);
     } else if (strcmp(cli->value, "paper")) {
         cli_die(cli, "--layout knows paper, not `%s`", cli->value);
     }
+}
+
+/* What begins like a number must be one: `A=1/3` would be a string that nobody meant. The built-ins are numbers. */
+static void check_declare(const Cli *cli)
+{
+    static const char *const built_in[] = {"clock=", "frame_number=", "initial_frame=", "final_frame="};
+    const char *value = strchr(cli->value, '=');
+    int number = value && value[1] && strchr("0123456789.+-", value[1]);
+    char *end;
+    for (int k = 0; k < 4; k++)
+        number |= !strncmp(cli->value, built_in[k], strlen(built_in[k]));
+    if (!number)
+        return;
+    strtod(value + 1, &end);
+    if (*end || end == value + 1)
+        cli_die(cli, "--declare: expected NAME=NUMBER or NAME=\"TEXT\", not `%s`", cli->value);
 }
 
 static void parse_option(Arguments *a, const CliOption *o)
@@ -111,43 +163,87 @@ static void parse_option(Arguments *a, const CliOption *o)
     RenderParams *r = &a->render;
     int size[2];
     switch (o - options) {
-    case OPT_TARGET: push(cli, a->targets, &a->ntargets, o->name); break;
-    case OPT_LIST: a->list = 1; break;
-    case OPT_REPLACE: parse_replace(a); break;
-    case OPT_PLAIN: r->plain = 1; break;
-    case OPT_LAYOUT: case OPT_FILTER: parse_choice(a, o); break;
-    case OPT_ORDERS: r->orders = (int)cli_integer(cli, o, 1, RETEX_MAX_ORDERS); break;
-    case OPT_STRICT_PAPER: r->strict_paper = 1; break;
-    case OPT_SPP: r->spp = (int)cli_integer(cli, o, 1, 1 << 20); break;
+    case OPT_TARGET:
+        push(cli, a->targets, &a->ntargets, o->name);
+        break;
+    case OPT_LIST:
+        a->list = 1;
+        break;
+    case OPT_REPLACE:
+        parse_replace(a);
+        break;
+    case OPT_PLAIN:
+        r->plain = 1;
+        break;
+    case OPT_LAYOUT:
+    case OPT_FILTER:
+        parse_choice(a, o);
+        break;
+    case OPT_ORDERS:
+        r->orders = (int)cli_integer(cli, o, 1, RETEX_MAX_ORDERS);
+        break;
+    case OPT_STRICT_PAPER:
+        r->strict_paper = 1;
+        break;
+    case OPT_SPP:
+        r->spp = (int)cli_integer(cli, o, 1, 1 << 20);
+        break;
     case OPT_SIZE:
         numbers(cli, o, 'x', 2, size);
         r->width = size[0], r->height = size[1];
-        if (r->width < 1 || r->height < 1) cli_die(cli, "--size wants WxH, not `%s`", cli->value);
+        if (r->width < 1 || r->height < 1)
+            cli_die(cli, "--size wants WxH, not `%s`", cli->value);
         break;
-    case OPT_SEED: r->seed = (uint32_t)cli_integer(cli, o, 0, 0xffffffffL); break;
-    case OPT_DEPTH: r->max_depth = (int)cli_integer(cli, o, 1, 256); break;
+    case OPT_SEED:
+        r->seed = (uint32_t)cli_integer(cli, o, 0, 0xffffffffL);
+        break;
+    case OPT_DEPTH:
+        r->max_depth = (int)cli_integer(cli, o, 1, 256);
+        break;
     case OPT_CROP:
         numbers(cli, o, ',', 4, r->crop);
-        if (r->crop[2] < 1 || r->crop[3] < 1) cli_die(cli, "--crop wants X,Y,W,H, not `%s`", cli->value);
+        if (r->crop[2] < 1 || r->crop[3] < 1)
+            cli_die(cli, "--crop wants X,Y,W,H, not `%s`", cli->value);
         break;
-    case OPT_AOV: r->aovs |= parse_aovs(cli); break;
-    case OPT_INCLUDE: push(cli, a->includes, &a->nincludes, o->name); break;
-    case OPT_DECLARE: push(cli, a->declares, &a->ndeclares, o->name); break;
-    case OPT_AMBIENT: a->sdl.ambient = 1; break;
-    case OPT_STRICT: a->sdl.strict = 1; break;
-    case OPT_STATS: a->stats = cli->value; break;
-    case OPT_TRACE: numbers(cli, o, ',', 3, a->trace); a->tracing = 1; break;
-    default: break;
+    case OPT_AOV:
+        r->aovs |= parse_aovs(cli);
+        break;
+    case OPT_INCLUDE:
+        push(cli, a->includes, &a->nincludes, o->name);
+        break;
+    case OPT_DECLARE:
+        check_declare(cli);
+        push(cli, a->declares, &a->ndeclares, o->name);
+        break;
+    case OPT_AMBIENT:
+        a->sdl.ambient = 1;
+        break;
+    case OPT_STRICT:
+        a->sdl.strict = 1;
+        break;
+    case OPT_STATS:
+        a->stats = cli->value;
+        break;
+    case OPT_TRACE:
+        numbers(cli, o, ',', 3, a->trace);
+        a->tracing = 1;
+        break;
+    default:
+        break;
     }
 }
 
 static void scene_message(void *context, int level, const char *text)
 {
     const Cli *cli = context;
-    if (level > 0 || cli->verbose) cli_info(cli, "%s", text);
+    if (level > 0 || cli->verbose)
+        cli_info(cli, "%s", text);
 }
 
-static void progress(void *context, double done) { cli_progress(context, "render", done); }
+static void progress(void *context, double done)
+{
+    cli_progress(context, "render", done);
+}
 
 static void parse_arguments(Arguments *a)
 {
@@ -156,14 +252,25 @@ static void parse_arguments(Arguments *a)
     a->render = (RenderParams)RENDER_PARAMS_INIT;
     a->sdl = (SdlOptions)SDL_OPTIONS_INIT;
     while ((o = cli_next(cli))) {
-        if (o != &cli_positional) parse_option(a, o);
-        else if (a->scene) cli_die(cli, "one scene at a time: `%s` and `%s`", a->scene, cli->value);
-        else a->scene = cli->value;
+        if (o != &cli_positional)
+            parse_option(a, o);
+        else if (a->scene)
+            cli_die(cli, "one scene at a time: `%s` and `%s`", a->scene, cli->value);
+        else
+            a->scene = cli->value;
     }
-    if (!a->scene) cli_die(cli, "which scene? (try --help)");
+    if (!a->scene)
+        cli_die(cli, "which scene? (try --help)");
     if (a->nreplacements && !a->ntargets) /* replacing names the targets */
-        for (int k = 0; k < a->nreplacements; k++) a->targets[a->ntargets++] = a->replacements[k].target;
-    if (a->nreplacements) a->render.plain = 1;
+        for (int k = 0; k < a->nreplacements; k++)
+            a->targets[a->ntargets++] = a->replacements[k].target;
+    if (a->nreplacements)
+        a->render.plain = 1;
+    const char *answer = a->list ? "list-targets" : a->tracing ? "trace-pixel" : NULL;
+    if (answer && cli->output)
+        cli_die(cli, "--%s goes to standard output: no -o", answer);
+    if (answer && a->stats)
+        cli_die(cli, "--%s makes no picture, so there are no --stats", answer);
     a->sdl.include_paths = a->includes, a->sdl.ninclude_paths = a->nincludes;
     a->sdl.declares = a->declares, a->sdl.ndeclares = a->ndeclares;
     a->sdl.message = scene_message, a->sdl.message_context = cli;
@@ -183,8 +290,10 @@ static int find_target(const Scene *scene, const char *name)
 {
     int found = -1, count = 0;
     for (int k = 0; k < scene->ntargets; k++) {
-        if (!strcmp(scene->targets[k].name, name)) return k;
-        if (!strcasecmp(scene->targets[k].name, name)) found = k, count++;
+        if (!strcmp(scene->targets[k].name, name))
+            return k;
+        if (!strcasecmp(scene->targets[k].name, name))
+            found = k, count++;
     }
     return count == 1 ? found : -1;
 }
@@ -195,14 +304,20 @@ static void replace_textures(Arguments *a, Scene *scene, RetexTexture **loaded)
     RetexError err;
     for (int k = 0; k < a->nreplacements; k++) {
         int t = find_target(scene, a->replacements[k].target);
-        if (t < 0) cli_die(a->cli, "--replace: `%s` is no target: name it with -t", a->replacements[k].target);
-        if (scene->targets[t].replacement) cli_die(a->cli, "--replace: `%s` is replaced twice", a->replacements[k].target);
-        if (retex_texture_load(&loaded[k], &a->replacements[k], a->cli->threads, &err)) cli_fail(a->cli, &err);
+        if (t < 0)
+            cli_die(a->cli, "--replace: `%s` is no target: name it with -t", a->replacements[k].target);
+        if (scene->targets[t].replacement)
+            cli_die(a->cli, "--replace: `%s` is replaced twice", a->replacements[k].target);
+        if (retex_texture_load(&loaded[k], &a->replacements[k], a->cli->threads, &err))
+            cli_fail(a->cli, &err);
         scene->targets[t].replacement = loaded[k];
     }
 }
 
-typedef struct IdentShare { const char *name; double share; } IdentShare;
+typedef struct IdentShare {
+    const char *name;
+    double share;
+} IdentShare;
 
 static int compare_shares(const void *a, const void *b)
 {
@@ -215,59 +330,147 @@ static void list_targets(Arguments *a, const Scene *scene)
     RetexError err;
     double *shares = calloc((size_t)scene->nidents + 1, sizeof *shares);
     IdentShare *list = calloc((size_t)scene->nidents + 1, sizeof *list);
-    if (!shares || !list) cli_die(a->cli, "out of memory");
-    if (render_ident_shares(scene, &a->render, shares, &err)) cli_fail(a->cli, &err);
-    for (int k = 0; k < scene->nidents; k++) list[k] = (IdentShare){scene->idents[k], shares[k]};
+    if (!shares || !list)
+        cli_die(a->cli, "out of memory");
+    if (render_ident_shares(scene, &a->render, shares, &err))
+        cli_fail(a->cli, &err);
+    for (int k = 0; k < scene->nidents; k++)
+        list[k] = (IdentShare){scene->idents[k], shares[k]};
     qsort(list, (size_t)scene->nidents, sizeof *list, compare_shares);
-    for (int k = 0; k < scene->nidents; k++) printf("%6.2f%%  %s\n", 100 * list[k].share, list[k].name);
+    for (int k = 0; k < scene->nidents; k++)
+        printf("%6.2f%%  %s\n", 100 * list[k].share, list[k].name);
     free(shares);
     free(list);
+}
+
+/* Before the work: whether the statistics have a place that is not the set's. */
+static void check_stats(const Arguments *a, const char *output)
+{
+    RetexError err;
+    if (!a->stats)
+        return;
+    if (!strcmp(a->stats, "-") && !strcmp(output, "-"))
+        cli_die(a->cli, "the set and the --stats cannot both go to standard output");
+    if (strcmp(a->stats, "-") && !strcmp(a->stats, output))
+        cli_die(a->cli, "the set and the --stats cannot both be %s", output);
+    if (strcmp(a->stats, "-") && retex_set_write_check(a->stats, &err))
+        cli_die(a->cli, "--stats: %s", err.message);
 }
 
 static void write_stats(Arguments *a, const RenderStats *s, const RetexSet *set, double parse_seconds)
 {
     struct rusage usage;
     getrusage(RUSAGE_SELF, &usage);
-    json_t *j = json_pack("{s:f, s:f, s:f, s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:f}", "parse_seconds", parse_seconds, "build_seconds",
-                          s->build_seconds, "render_seconds", s->render_seconds, "paths", (json_int_t)s->paths, "segments",
-                          (json_int_t)s->segments, "shadow_rays", (json_int_t)s->shadow_rays, "dropped_samples", (json_int_t)s->dropped,
-                          "lights", (json_int_t)s->lights, "primitives", (json_int_t)s->primitives, "triangles",
-                          (json_int_t)s->triangles, "peak_memory_bytes", (json_int_t)usage.ru_maxrss * 1024, "folded", set->folded);
-    int failed = !j || json_dump_file(j, a->stats, JSON_INDENT(2));
+    json_t *j = json_pack(
+        "{s:f, s:f, s:f, s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:f}", "parse_seconds", parse_seconds, "build_seconds",
+        s->build_seconds, "render_seconds", s->render_seconds, "paths", (json_int_t)s->paths, "segments",
+        (json_int_t)s->segments, "shadow_rays", (json_int_t)s->shadow_rays, "dropped_samples", (json_int_t)s->dropped,
+        "lights", (json_int_t)s->lights, "primitives", (json_int_t)s->primitives, "triangles", (json_int_t)s->triangles,
+        "peak_memory_bytes", (json_int_t)usage.ru_maxrss * 1024, "folded", set->folded);
+    char *text = j ? json_dumps(j, JSON_INDENT(2)) : NULL;
+    RetexError err;
     json_decref(j);
-    if (failed) cli_die(a->cli, "cannot write %s", a->stats);
+    if (!text)
+        cli_die(a->cli, "out of memory for the statistics");
+    size_t length = strlen(text);
+    text[length++] = '\n'; /* in place of the closing zero */
+    if (retex_file_write(a->stats, text, length, &err))
+        cli_die(a->cli, "--stats: %s", err.message);
+    free(text);
 }
 
-static int ends_with(const char *text, const char *ending)
+/* What an output's name asks for: a pack by its ending, a set where EXR can be one, else a picture. */
+typedef enum OutputKind { OUTPUT_SET, OUTPUT_PACK, OUTPUT_PICTURE } OutputKind;
+
+static OutputKind output_kind(const Arguments *a, const char *output)
 {
-    size_t n = strlen(text), m = strlen(ending);
-    return n >= m && !strcasecmp(text + n - m, ending);
+    int exr = !strcmp(output, "-") || !strncmp(output, "/dev/", 5) || cli_ends_with(output, ".exr");
+    if (cli_ends_with(output, ".retex"))
+        return OUTPUT_PACK;
+    return exr && (!a->render.plain || a->render.aovs) ? OUTPUT_SET : OUTPUT_PICTURE;
 }
 
-/* A set where there is one, a pack by its ending, a picture in any other format. */
+/* Before the work: whether the result can be written, and what of it would be lost. */
+static void check_output(const Arguments *a, const char *output)
+{
+    RetexError err;
+    struct stat scene, old;
+    OutputKind kind = output_kind(a, output);
+    if (strcmp(output, "-") && !stat(a->scene, &scene) && !stat(output, &old) && S_ISREG(old.st_mode) &&
+        scene.st_dev == old.st_dev && scene.st_ino == old.st_ino)
+        cli_die(a->cli, "the output %s would replace the scene", output);
+    if (kind == OUTPUT_PICTURE ? retex_image_write_check(output, NULL, &err) : retex_set_write_check(output, &err))
+        cli_fail(a->cli, &err);
+    if (kind == OUTPUT_PICTURE && a->render.aovs)
+        cli_warn(a->cli, "%s holds the picture only: --aov needs .exr or .retex", output);
+    if (kind == OUTPUT_PICTURE && !a->render.plain && a->ntargets)
+        cli_warn(a->cli, "%s holds the picture only: a set needs .exr or .retex", output);
+}
+
 static void write_result(Arguments *a, RetexSet *set, const char *output)
 {
     RetexError err;
-    int code;
-    int multi = set->nparts > 1, exr = !strcmp(output, "-") || ends_with(output, ".exr");
-    if (ends_with(output, ".retex")) code = retex_pack_write(set, output, NULL, NULL, &err);
-    else if (exr && (multi || !a->render.plain)) code = retex_set_write(set, NULL, output, NULL, &err);
-    else code = retex_image_write(&set->parts[0].image, output, NULL, &err);
-    if (code) cli_fail(a->cli, &err);
+    RetexStoreParams store = RETEX_STORE_INIT;
+    RetexPackParams pack = RETEX_PACK_INIT;
+    int code = 0;
+    store.nthreads = pack.nthreads = a->cli->threads;
+    switch (output_kind(a, output)) {
+    case OUTPUT_PACK:
+        code = retex_pack_write(set, output, &pack, NULL, &err);
+        break;
+    case OUTPUT_SET:
+        code = retex_set_write(set, NULL, output, &store, &err);
+        break;
+    case OUTPUT_PICTURE:
+        code = retex_image_write(&set->parts[0].image, output, NULL, &err);
+        break;
+    }
+    if (code)
+        cli_fail(a->cli, &err);
+}
+
+/* The least that the images of a render take; refused before it begins where the machine has not so much. */
+static void check_memory(const Arguments *a, const Scene *scene)
+{
+    const RenderParams *r = &a->render;
+    double width = r->crop[2] ? r->crop[2] : r->width ? r->width : scene->width;
+    double height = r->crop[3] ? r->crop[3] : r->height ? r->height : scene->height;
+    double channels = 3 + 14 * (r->aovs != 0), memory = (double)sysconf(_SC_PHYS_PAGES) * (double)sysconf(_SC_PAGESIZE);
+    if (!r->plain && scene->ntargets)
+        channels += r->orders * (8 * scene->ntargets + 6); /* footprints, terms */
+    double bytes = width * height * channels * sizeof(float);
+    if (memory > 0 && bytes > memory)
+        cli_die(a->cli, "%.0fx%.0f pixels need %.1f GB of memory, this machine has %.1f: render parts with --crop",
+                width, height, bytes / 1e9, memory / 1e9);
 }
 
 static void report(const Arguments *a, const RetexSet *set, const RenderStats *s)
 {
     double seconds = s->render_seconds > 0 ? s->render_seconds : 1e-9;
-    cli_info(a->cli, "%dx%d, %d samples: %.2f s, %.2f Mpaths/s, %.2f Mrays/s", set->width, set->height, set->spp, s->render_seconds,
-             (double)s->paths / seconds * 1e-6, (double)(s->segments + s->shadow_rays) / seconds * 1e-6);
-    if (s->dropped) cli_warn(a->cli, "%ld contributions were not finite and left out", s->dropped);
-    if (set->nterms) cli_info(a->cli, "%d target%s, energy beyond order %d: %.4f%%", set->ntargets, set->ntargets == 1 ? "" : "s", set->orders, 100 * set->folded);
+    cli_info(a->cli, "%dx%d, %d samples: %.2f s, %.2f Mpaths/s, %.2f Mrays/s", set->width, set->height, set->spp,
+             s->render_seconds, (double)s->paths / seconds * 1e-6,
+             (double)(s->segments + s->shadow_rays) / seconds * 1e-6);
+    if (s->dropped)
+        cli_warn(a->cli, "%ld contributions were not finite and left out", s->dropped);
+    if (set->nterms)
+        cli_info(a->cli, "%d target%s, energy beyond order %d: %.4f%%", set->ntargets, set->ntargets == 1 ? "" : "s",
+                 set->orders, 100 * set->folded);
+}
+
+static int is_empty(const Scene *scene)
+{
+    const Rgb *background = &scene->background;
+    return !scene->nprimitives && !scene->nlights && !scene->sky && !background->r && !background->g && !background->b;
 }
 
 int main(int argc, char **argv)
 {
-    Cli cli = {.tool = "retex-render", .usage = "[options] SCENE.pov", .options = options, .argc = argc, .argv = argv, .next = 1,
+    Cli cli = {.tool = "retex-render",
+               .usage = "[options] SCENE.pov",
+               .options = options,
+               .argc = argc,
+               .argv = argv,
+               .next = 1,
                .about = "Render a POV-Ray-style scene once and keep what retexturing needs: a set."};
     Arguments a = {.cli = &cli};
     RetexError err;
@@ -277,23 +480,37 @@ int main(int argc, char **argv)
     RenderStats stats;
     parse_arguments(&a);
     const char *output = a.list || a.tracing ? NULL : cli_output(&cli);
+    if (output)
+        check_output(&a, output), check_stats(&a, output);
     double started = seconds();
-    if (sdl_parse_file(&scene, a.scene, &a.sdl, &err)) cli_fail(&cli, &err);
-    if (scene_resolve_targets(scene, a.targets, a.ntargets, &err)) cli_fail(&cli, &err);
+    if (sdl_parse_file(&scene, a.scene, &a.sdl, &err))
+        cli_fail(&cli, &err);
+    if (scene_resolve_targets(scene, a.targets, a.ntargets, &err))
+        cli_fail(&cli, &err);
+    if (is_empty(scene))
+        cli_die(&cli, "%s: there is nothing in the scene: no object, no light, no sky", a.scene);
+    if (!a.list)
+        check_memory(&a, scene);
     replace_textures(&a, scene, loaded);
     double parse_seconds = seconds() - started;
     int failed = 0;
-    if (a.list) list_targets(&a, scene);
-    else if (a.tracing) failed = render_trace(scene, &a.render, a.trace[0], a.trace[1], a.trace[2], stdout, &err);
-    else failed = render_scene(&set, scene, &a.render, &stats, &err);
-    if (failed) cli_fail(&cli, &err);
+    if (a.list)
+        list_targets(&a, scene);
+    else if (a.tracing)
+        failed = render_trace(scene, &a.render, a.trace[0], a.trace[1], a.trace[2], stdout, &err);
+    else
+        failed = render_scene(&set, scene, &a.render, &stats, &err);
+    if (failed)
+        cli_fail(&cli, &err);
     if (set) {
         write_result(&a, set, output);
         report(&a, set, &stats);
-        if (a.stats) write_stats(&a, &stats, set, parse_seconds);
+        if (a.stats)
+            write_stats(&a, &stats, set, parse_seconds);
     }
     retex_set_close(&set);
     scene_close(&scene);
-    for (int k = 0; k < a.nreplacements; k++) retex_texture_close(&loaded[k]);
+    for (int k = 0; k < a.nreplacements; k++)
+        retex_texture_close(&loaded[k]);
     return cli_close(&cli, CLI_OK);
 }

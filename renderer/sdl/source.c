@@ -128,6 +128,10 @@ static char *read_all(Sdl *sdl, const char *path, size_t *size)
         sdl_fail(sdl, RETEX_EIO, "cannot open `%s`: %s", path, strerror(errno));
     struct stat info;
     char *bytes = NULL;
+    if (fstat(fileno(file), &info) == 0 && S_ISDIR(info.st_mode)) {
+        fclose(file);
+        sdl_fail(sdl, RETEX_EIO, "cannot read `%s`: %s", path, strerror(EISDIR));
+    }
     int too_big = fstat(fileno(file), &info) != 0 || info.st_size < 0 ||
                   (sdl->options.max_memory && (uint64_t)info.st_size > sdl->options.max_memory) ||
                   info.st_size > (off_t)1 << 31;

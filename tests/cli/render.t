@@ -67,3 +67,60 @@ $ echo old >old.exr; retex-render bad.pov -o old.exr 2>/dev/null; cat old.exr; l
 > old.exr
 > open.pov
 > scenes
+
+# What can be seen to fail is seen before the rendering, which at this size would take minutes.
+$ printf 'camera { location -5*z }\n#declare Ball = texture { pigment { rgb 1 } }\nsphere { 0, 1 texture { Ball } }\n' >ball.pov; rm -f err; set -- --size 2000x2000 --spp 4096 ball.pov; timeout 5 retex-render "$@" -o nowhere/x.exr; timeout 5 retex-render "$@" -o nowhere/x.png; timeout 5 retex-render "$@" -o x.xyz; timeout 5 retex-render "$@" -o noending; timeout 5 retex-render "$@" -o ball.pov; timeout 5 retex-render "$@" -o x.exr --stats nowhere/x.json
+! retex-render: error: cannot write nowhere/x.exr: No such file or directory
+! retex-render: error: cannot write nowhere/x.png: No such file or directory
+! retex-render: error: x.xyz: no picture format has the ending .xyz; try .png, .jpg, .tif, .exr or .hdr
+! retex-render: error: noending: cannot tell the picture's format: the name has no ending, such as .png or .exr
+! retex-render: error: the output ball.pov would replace the scene
+! retex-render: error: --stats: cannot write nowhere/x.json: No such file or directory
+= 2
+$ OCIO=nowhere timeout 5 retex-render --size 2000x2000 --spp 4096 ball.pov -o x.png 2>err; echo $?; grep -c "error: x.png: \$OCIO is 'nowhere'" err
+> 2
+> 1
+$ retex-render --size 60000x60000 -t ball ball.pov -o x.exr 2>err; echo $?; grep -c 'error: 60000x60000 pixels need .* GB of memory, this machine has .*: render parts with --crop' err
+> 2
+> 1
+
+# Statistics to a file or standard output.
+$ retex-render -q --size 8x6 --spp 1 ball.pov -o y.exr --stats -  | grep paths
+>   "paths": 48,
+$ retex-render -q --size 8x6 --spp 1 ball.pov -o - --stats -
+! retex-render: error: the set and the --stats cannot both go to standard output
+= 2
+$ retex-render -q --size 8x6 --spp 1 ball.pov -o y.exr --stats /dev/full
+! retex-render: error: --stats: cannot write /dev/full: No space left on device
+= 2
+$ retex-render --list-targets --size 8x6 ball.pov -o x.txt
+! retex-render: error: --list-targets goes to standard output: no -o
+= 2
+$ retex-render --trace-pixel 1,1,0 --size 8x6 ball.pov -o x.txt
+! retex-render: error: --trace-pixel goes to standard output: no -o
+= 2
+$ retex-render --aov depth, --size 8x6 ball.pov -o x.exr
+! retex-render: error: --aov knows beauty,depth,albedo,normal,position,uv,object, not ``
+= 2
+$ retex-render --size +8x6 ball.pov -o x.exr
+! retex-render: error: --size wants WxH, not `+8x6`
+= 2
+$ retex-render -D A=1/3 --size 8x6 ball.pov -o x.exr
+! retex-render: error: --declare: expected NAME=NUMBER or NAME="TEXT", not `A=1/3`
+= 2
+$ retex-render -D clock=noon --size 8x6 ball.pov -o x.exr
+! retex-render: error: --declare: expected NAME=NUMBER or NAME="TEXT", not `clock=noon`
+= 2
+$ retex-render -q --size 8x6 --spp 1 --aov depth ball.pov -o y.png
+! retex-render: warning: y.png holds the picture only: --aov needs .exr or .retex
+
+# No scene, or nothing in it.
+$ : >empty.pov; retex-render empty.pov -o x.exr
+! retex-render: error: empty.pov: there is nothing in the scene: no object, no light, no sky
+= 2
+$ retex-render . -o x.exr
+! retex-render: error: .: cannot read `.`: Is a directory
+= 2
+$ ls x.*
+! ls: cannot access 'x.*': No such file or directory
+= 2
