@@ -457,6 +457,24 @@ static void report(const Arguments *a, const RetexSet *set, const RenderStats *s
                  set->orders, 100 * set->folded);
 }
 
+/* A surface goes to the first target that names it: one that is left without any is a mistake. */
+static void check_targets(const Arguments *a, const Scene *scene)
+{
+    int surfaces[RETEX_MAX_TARGETS] = {0};
+    for (int k = 0; k < scene->nprimitives; k++) {
+        const Primitive *p = &scene->primitives[k];
+        if (p->target >= 0)
+            surfaces[p->target]++;
+        for (int f = 0; p->face_targets && f < p->mesh->ntextures; f++)
+            if (p->face_targets[f] >= 0)
+                surfaces[p->face_targets[f]]++;
+    }
+    for (int t = 0; t < scene->ntargets; t++)
+        if (!surfaces[t])
+            cli_warn(a->cli, "target `%s` has no surface%s", scene->targets[t].name,
+                     t ? ": those it names belong to targets named before it" : "");
+}
+
 static int is_empty(const Scene *scene)
 {
     const Rgb *background = &scene->background;
@@ -487,6 +505,7 @@ int main(int argc, char **argv)
         cli_fail(&cli, &err);
     if (scene_resolve_targets(scene, a.targets, a.ntargets, &err))
         cli_fail(&cli, &err);
+    check_targets(&a, scene);
     if (is_empty(scene))
         cli_die(&cli, "%s: there is nothing in the scene: no object, no light, no sky", a.scene);
     if (!a.list)

@@ -124,3 +124,7 @@ $ retex-render . -o x.exr
 $ ls x.*
 ! ls: cannot access 'x.*': No such file or directory
 = 2
+
+# A target whose surfaces all belong to another.
+$ retex-render -q --size 8x6 --spp 1 -t ball -t b=Ball ball.pov -o y.exr
+! retex-render: warning: target `b` has no surface: those it names belong to targets named before it

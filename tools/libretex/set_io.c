@@ -264,6 +264,8 @@ static int source_describe(Source *source, RetexError *err)
     const char *name = retex_input_name(source->input);
     int status;
 
+    if (retex_input_size(source->input) == 0)
+        return retex_fail(err, RETEX_EFORMAT, "%s is not a set: it is empty", name);
     if (!retex_exr_probe(source->input))
         return retex_fail(err, RETEX_EFORMAT, "%s is not a set: neither an OpenEXR file nor a pack", name);
     status = retex_exr_open(&source->exr, source->input, err);
