@@ -136,18 +136,27 @@ static int count_shares(const FirstHitWindow *window, int items, int idents, dou
     return RETEX_OK;
 }
 
+/* The shape's own UV goes once round from 0 to 1, if the pigment leaves it so. */
+static void closes(const Primitive *p, const Pigment *pigment, int *u, int *v)
+{
+    const double (*m)[4] = pigment->transform.m;
+    int own = pigment->uv_mapping ? m[0][0] == 1 && m[1][1] == 1 && m[0][1] == 0 && m[1][0] == 0 : pigment->kind != PIGMENT_IMAGE;
+    *u &= own && (p->kind == SHAPE_SPHERE || p->kind == SHAPE_TORUS || (p->kind == SHAPE_CONE && !pigment->uv_mapping));
+    *v &= own && p->kind == SHAPE_TORUS;
+}
+
 /* A target closes in u where every primitive it is on does and looks textures up by its own parametrisation. */
 static void set_periodic(RetexTarget *target, const Scene *scene, int t)
 {
     int any = 0, u = 1, v = 1;
     for (int k = 0; k < scene->nprimitives; k++) {
         const Primitive *p = &scene->primitives[k];
-        if (p->target != t) continue;
-        const Pigment *pigment = p->texture->pigment;
-        int own = pigment->uv_mapping || pigment->kind != PIGMENT_IMAGE;
-        any = 1;
-        u &= own && (p->kind == SHAPE_SPHERE || p->kind == SHAPE_TORUS || (p->kind == SHAPE_CONE && !pigment->uv_mapping));
-        v &= own && p->kind == SHAPE_TORUS;
+        int inside = p->interior_texture && p->interior_target == t;
+        if (p->target == t) closes(p, p->texture->pigment, &u, &v);
+        if (inside) closes(p, p->interior_texture->pigment, &u, &v);
+        any |= p->target == t || inside;
+        for (int j = 0; p->face_targets && j < p->mesh->ntextures; j++)
+            if (p->face_targets[j] == t) u = v = 0;
     }
     target->periodic[0] = any && u, target->periodic[1] = any && v;
 }

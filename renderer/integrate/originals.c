@@ -3,10 +3,12 @@
 #include "integrate/originals.h"
 #include "shade/pigment.h"
 
+static int is_inside(const Primitive *p, int target) { return p->interior_texture && p->interior_target == target; }
+
 static const Primitive *first_primitive(const Scene *scene, int target)
 {
     for (int k = 0; k < scene->nprimitives; k++)
-        if (scene->primitives[k].target == target) return &scene->primitives[k];
+        if (scene->primitives[k].target == target || is_inside(&scene->primitives[k], target)) return &scene->primitives[k];
     for (int k = 0; k < scene->nprimitives; k++) {
         const Primitive *p = &scene->primitives[k];
         for (int j = 0; p->face_targets && j < p->mesh->ntextures; j++)
@@ -19,7 +21,7 @@ static const Texture *target_texture(const Primitive *p, int target)
 {
     for (int j = 0; p->target != target && p->face_targets && j < p->mesh->ntextures; j++)
         if (p->face_targets[j] == target) return p->mesh->textures[j];
-    return p->texture;
+    return p->target != target && is_inside(p, target) ? p->interior_texture : p->texture;
 }
 
 static void original_size(const Pigment *pigment, int *width, int *height)

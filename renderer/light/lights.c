@@ -264,7 +264,7 @@ static int sample_emitter(const Lights *lights, const Entry *e, Vec3 position, f
     sample->direction = vec_scale(d, 1 / sample->distance);
     double cosine = fabs(vec_dot(sample->direction, sample->surface.geometric_normal));
     if (!(cosine > 1e-9)) return 0;
-    sample->surface.backside = vec_dot(sample->direction, sample->surface.geometric_normal) > 0;
+    surface_turn(&sample->surface, vec_dot(sample->direction, sample->surface.geometric_normal) > 0);
     sample->pdf = (float)(pdf_area * sample->distance * sample->distance / cosine);
     return 1;
 }
@@ -303,7 +303,7 @@ float lights_emitter_pdf(const Lights *lights, Vec3 from, int primitive, const S
         Vec3 axis = vec_sub(e->center, from);
         double sin2 = e->radius * e->radius / vec_dot(axis, axis);
         /* the far side of the sphere is never sampled from here */
-        if (vec_dot(d, surface->geometric_normal) > 0) return 0;
+        if (vec_dot(d, vec_sub(surface->position, e->center)) > 0) return 0;
         pdf = (1 + sqrt(1 - sin2)) / (2 * PI * sin2);
     } else {
         double cosine = fabs(vec_dot(d, surface->geometric_normal)) / sqrt(distance2);

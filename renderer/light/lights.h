@@ -17,7 +17,7 @@ typedef enum LightSampleKind {
 typedef struct LightSample {
     LightSampleKind kind;
     Vec3 direction;      /* from the lit point, unit length */
-    double distance;     /* INFINITY for the sky and parallel light */
+    double distance;     /* INFINITY for the sky */
     Rgb radiance;        /* already divided by nothing: see pick_probability and pdf */
     float pick_probability; /* of having picked this light */
     float pdf;           /* per solid angle, without pick_probability; 0 for a light source */

@@ -60,19 +60,22 @@ Vec3 source_point(const Light *light, Vec3 position, float u1, float u2)
     return vec_mad(vec_mad(light->location, axis1, a), axis2, b);
 }
 
+/* Light that is parallel: it starts from the plane through its location. */
+static int is_beam(const Light *light) { return light->kind == LIGHT_PARALLEL || light->kind == LIGHT_CYLINDER; }
+
 Rgb source_irradiance(const Light *light, Vec3 position, Vec3 light_point, Vec3 *direction, double *distance)
 {
     double value = PI;
-    if (light->kind == LIGHT_PARALLEL) {
-        *direction = vec_normalize(vec_sub(light_point, light->point_at));
-        *distance = INFINITY;
-        return rgb_scale(light->color, (float)value);
-    }
     Vec3 d = vec_sub(light_point, position);
-    *distance = vec_length(d);
-    if (*distance <= 0) return rgb_grey(0);
-    *direction = vec_scale(d, 1 / *distance);
-    if (light->kind == LIGHT_SPOT) value *= spot_attenuation(light, *direction);
-    if (light->kind == LIGHT_CYLINDER) value *= cylinder_attenuation(light, position);
+    if (is_beam(light)) {
+        *direction = vec_normalize(vec_sub(light_point, light->point_at));
+        *distance = fmax(0, vec_dot(d, *direction)); /* POV-Ray lights what lies behind the plane too, and nothing is in the way */
+        if (light->kind == LIGHT_CYLINDER) value *= cylinder_attenuation(light, position);
+    } else {
+        *distance = vec_length(d);
+        if (*distance <= 0) return rgb_grey(0);
+        *direction = vec_scale(d, 1 / *distance);
+        if (light->kind == LIGHT_SPOT) value *= spot_attenuation(light, *direction);
+    }
     return rgb_scale(light->color, (float)(value * distance_fade(light, *distance)));
 }

@@ -178,6 +178,7 @@ static int target_of(const Scene *scene, const IdentList *texture, const IdentLi
 static int mark(Scene *scene, Primitive *p, RetexError *err)
 {
     p->target = target_of(scene, p->texture->idents, p->idents);
+    p->interior_target = p->interior_texture ? target_of(scene, p->interior_texture->idents, p->idents) : -1;
     p->face_targets = NULL;
     if (!p->mesh || p->mesh->ntextures == 0)
         return 0;

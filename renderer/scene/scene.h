@@ -153,6 +153,7 @@ typedef struct Primitive {
     const IdentList *idents; /* names of the objects it is part of */
     int line;                /* of the scene file, for messages */
     int target;              /* index into scene->targets, or -1; meshes may override by face, see face_targets */
+    int interior_target;     /* the same for interior_texture */
     const int8_t *face_targets; /* per mesh texture (ntextures long), or NULL: those faces' targets instead */
 } Primitive;
 

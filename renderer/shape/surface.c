@@ -132,6 +132,17 @@ void surface_from_point(Surface *surface, const Primitive *primitive, int face, 
     surface->has_natural = point->has_natural;
 }
 
+void surface_turn(Surface *surface, int backside)
+{
+    const Primitive *primitive = surface->primitive;
+
+    surface->backside = backside;
+    if (!backside || !primitive->interior_texture || surface->texture != primitive->texture)
+        return;
+    surface->texture = primitive->interior_texture;
+    surface->target = primitive->interior_target;
+}
+
 void surface_at(Surface *surface, const Scene *scene, const Ray *ray, const Hit *hit)
 {
     const Primitive *primitive = &scene->primitives[hit->primitive];
@@ -163,7 +174,5 @@ void surface_at(Surface *surface, const Scene *scene, const Ray *ray, const Hit 
         break;
     }
     surface_from_point(surface, primitive, hit->face, &point);
-    surface->backside = vec_dot(ray->direction, surface->geometric_normal) > 0;
-    if (surface->backside && primitive->interior_texture && surface->texture == primitive->texture)
-        surface->texture = primitive->interior_texture;
+    surface_turn(surface, vec_dot(ray->direction, surface->geometric_normal) > 0);
 }

@@ -34,6 +34,8 @@ typedef struct Surface {
 } Surface;
 
 void surface_at(Surface *surface, const Scene *scene, const Ray *ray, const Hit *hit);
+/* Of a surface fresh from shape_sample: which side it is seen from, with the texture there. */
+void surface_turn(Surface *surface, int backside);
 
 /* Intersect one analytic primitive (not a mesh or box): the nearest t in (tmin, tmax). 1 if found; face as in Hit. */
 int shape_intersect(const Primitive *primitive, const Ray *ray, double *t, int *face);

@@ -246,10 +246,33 @@ static void set_recombines(void **state)
     stage_close(&s);
 }
 
+static void the_inside_is_another_surface(void **state)
+{
+    (void)state; /* the target is the sphere's outer texture; a camera in the sphere sees the inner one, with its own emission */
+    Stage s;
+    stage_open(&s);
+    stage_add(&s, SHAPE_SPHERE, at(0, 0, -5, 1), 1, 0, 0);
+    s.pigments[1] = (Pigment){.kind = PIGMENT_COLOR, .color = {0, 1, 0, 0, 0}, .transform = transform_identity(), .frequency = 1};
+    s.finishes[1] = s.finishes[0];
+    s.finishes[1].diffuse = 0, s.finishes[1].emission = rgb_grey(0.5f);
+    s.textures[1] = (Texture){.pigment = &s.pigments[1], .finish = &s.finishes[1]};
+    s.primitives[0].interior_texture = &s.textures[1], s.primitives[0].interior_target = -1;
+    s.scene->ntargets = 1;
+    strcpy(s.scene->targets[0].name, "Outside");
+    s.primitives[0].target = 0;
+    RetexSet *set = stage_render(&s, 4, 0, 1);
+    assert_true(set->targets[0].share == 0);
+    expect(pixel(set, 8, 6)[1], 0.5, 1e-6, "the inner texture");
+    expect(pixel(set, 8, 6)[0], 0, 1e-6, "the outer texture");
+    retex_set_close(&set);
+    stage_close(&s);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(furnace_is_invisible), cmocka_unit_test(point_light_over_a_plane), cmocka_unit_test(sphere_emitter_irradiance),
-        cmocka_unit_test(slab_reflects_by_fresnel), cmocka_unit_test(bits_do_not_depend_on_threads), cmocka_unit_test(set_recombines)};
+        cmocka_unit_test(slab_reflects_by_fresnel), cmocka_unit_test(bits_do_not_depend_on_threads), cmocka_unit_test(set_recombines),
+        cmocka_unit_test(the_inside_is_another_surface)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
