@@ -23,6 +23,7 @@ typedef struct RTCRayQueryContext QueryContext;
 typedef struct RTCIntersectContext QueryContext;
 #endif
 #include "accel/accel.h"
+#include "shade/bsdf.h"
 #include "shade/pigment.h"
 
 #define TRANSPARENT 0x80u           /* in flags, beside the RayKinds that see the primitive */
@@ -235,7 +236,7 @@ static int is_curved(ShapeKind kind)
 
 static int lets_through(const Texture *texture)
 {
-    return texture && !pigment_is_opaque(texture->pigment);
+    return texture && ((texture->finish && finish_transmits(texture->finish)) || !pigment_is_opaque(texture->pigment));
 }
 
 static unsigned char primitive_flags(const Primitive *primitive)

@@ -16,7 +16,7 @@ void accel_close(Accel **accel);
 /* Nearest hit in (tmin, tmax). Returns 1 and fills hit, else 0 and hit->primitive = -1. */
 int accel_intersect(const Accel *accel, const Ray *ray, RayKind kind, Hit *hit);
 /* Is anything in between? skip_transparent: 0 = any hit blocks; 1 = primitives whose pigment (of either side, of any
- * face) is not opaque are skipped; the caller walks them itself. */
+ * face) is not opaque are skipped, and those of the finish that transmits; the caller walks them itself. */
 int accel_occluded(const Accel *accel, const Ray *ray, RayKind kind, int skip_transparent);
 /* 1 if any primitive could let shadow rays through: then occlusion must be walked. */
 int accel_has_transparent(const Accel *accel);

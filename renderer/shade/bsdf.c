@@ -18,14 +18,14 @@ static float power5(float x) { return x * x * x * x * x; }
 /* Fresnel term of the microfacet lobe at a half vector: supplement 4.1.2 with the base's share that transmits mixed in. */
 static Split microfacet_fresnel(const Bsdf *b, float cos_h)
 {
-    if (!b->disney) return b->highlight;
+    if (!b->disney) return metallic_tint(b->highlight, cos_h);
     float m = b->metallic, w = power5(1 - cos_h), a = b->transmission;
     float f0 = (b->coat_eta - 1) / (b->coat_eta + 1);
     float r0_indep = (1 - m) * f0 * f0 * b->specular_tint;
     float indep = (1 - m) * fresnel_dielectric(cos_h, b->coat_eta) + m * (r0_indep + (1 - r0_indep) * w);
     float dep = m * (1 - w) * m;
     if (a > 0) indep = (1 - a) * indep + a * fresnel_dielectric(cos_h, b->eta), dep *= 1 - a;
-    return (Split){rgb_grey(dep), rgb_grey(indep)};
+    return (Split){rgb_grey(dep * b->coverage), rgb_grey(indep * b->coverage)};
 }
 
 /* Share of the choice with which light at a microfacet goes through rather than back. */
@@ -36,10 +36,16 @@ static float through_share(const Bsdf *b, float cos_h)
     return through > 0 ? through / (through + split_neutral(microfacet_fresnel(b, cos_h))) : 0;
 }
 
-/* Diffuse lobe over albedo: Lambert with POV-Ray's brilliance, or Burley's 2015 diffuse and retro-reflective lobes. */
+/* Lambert with POV-Ray's brilliance. */
+static float lambert_value(const Bsdf *b, float reflectance, float cosine)
+{
+    return reflectance / (float)PI * (b->brilliance == 1 ? 1 : powf(cosine, b->brilliance - 1));
+}
+
+/* Diffuse lobe over albedo: Lambert, or Burley's 2015 diffuse and retro-reflective lobes. */
 static float diffuse_value(const Bsdf *b, Vec3 wi, double cos_i)
 {
-    if (!b->disney) return b->diffuse / (float)PI * (b->brilliance == 1 ? 1 : powf((float)cos_i, b->brilliance - 1));
+    if (!b->disney) return lambert_value(b, b->diffuse, (float)cos_i);
     Vec3 h = vec_normalize(vec_add(wi, b->wo));
     float cos_d = (float)vec_dot(wi, h), fl = power5(1 - (float)cos_i), fv = power5(1 - (float)b->cos_o);
     float rr = 2 * b->roughness * cos_d * cos_d;
@@ -110,7 +116,7 @@ Split bsdf_eval(const Bsdf *b, Vec3 wi, int light_source, float *pdf)
     if (cos_i > 0 && side > 0) return eval_reflection(b, wi, cos_i, light_source, pdf);
     if (cos_i >= 0 || side >= 0) return sum;
     if (b->diffuse_back > 0) {
-        sum.d = rgb_grey(b->diffuse_back / (float)PI * (float)-cos_i);
+        sum.d = rgb_grey(lambert_value(b, b->diffuse_back, (float)-cos_i) * (float)-cos_i);
         *pdf += b->p_back * (float)(-cos_i / PI);
     }
     if (b->alpha > 0 && b->disney && b->transmission > 0 && b->eta != 1) {

@@ -29,14 +29,14 @@ typedef struct Bsdf {
     double cos_o;            /* dot(wo, normal), > 0 */
     float eta;               /* index of refraction on the far side over that on wo's side */
     int refracts;            /* eta matters: transmission bends */
-    Rgb emission;            /* times albedo: radiance emitted */
 
     float diffuse, diffuse_back, brilliance;
     int disney;              /* diffuse lobe with retro-reflection, Fresnel of the supplement's Eq. 1 */
     float metallic, roughness, specular_tint, coat_eta, transmission;
 
     float alpha;             /* GGX; 0 = no microfacet lobe, or a smooth one that counts as mirror */
-    Split highlight;         /* POV-Ray highlight: constant reflectance of the microfacet lobe */
+    float coverage;          /* disney: share of the surface that is there, where an image cuts holes */
+    Split highlight;         /* POV-Ray highlight: reflectance of the microfacet lobe, head-on */
     int highlight_lights_only; /* seen by light sources only: the mirror lobe shows the rest */
     int smooth;              /* disney with roughness about 0: its reflection and transmission are deltas */
 
@@ -65,7 +65,9 @@ int bsdf_sample(const Bsdf *bsdf, float u_lobe, float u1, float u2, BsdfSample *
 
 /* Unpolarised Fresnel reflectance of a dielectric; cos_i >= 0 on the incoming side, eta = far over near. */
 float fresnel_dielectric(float cos_i, float eta);
-/* 1 where light passes this surface straight or bent (filter, transmit or the extension's transmission). */
-int finish_refracts(const Primitive *primitive, const Texture *texture);
+/* 1 where the extension lets light through, whatever the pigment says. */
+int finish_transmits(const Finish *finish);
+/* POV-Ray's `metallic`: the tint by the pigment wears off towards grazing angles. */
+Split metallic_tint(Split head_on, float cosine);
 
 #endif

@@ -10,11 +10,17 @@ static float clamp01(double x) { return (float)(x < 0 ? 0 : x > 1 ? 1 : x); }
 
 static int interior_bends(const Primitive *p) { return p->interior && p->interior->ior != 1 && p->interior->ior > 0; }
 
-int finish_refracts(const Primitive *primitive, const Texture *texture)
+int finish_transmits(const Finish *finish)
 {
-    const Finish *finish = texture->finish;
-    if (finish->retex.present && finish->retex.transmission > 0) return 1;
-    return interior_bends(primitive);
+    return finish->retex.present && finish->retex.transmission > 0 && finish->retex.metallic < 1;
+}
+
+Split metallic_tint(Split head_on, float cosine)
+{
+    /* POV-Ray's curve over the angle, 0 head-on and 1 at 90 degrees */
+    float x = acosf(fminf(1, cosine)) * (float)(2 / PI) - 1.12f;
+    float white = clamp01(0.014567225f / (x * x) - 0.011612903f);
+    return (Split){rgb_scale(head_on.d, 1 - white), rgb_add(head_on.i, rgb_scale(head_on.d, white))};
 }
 
 /* POV-Ray's highlights are Blinn's (N.H)^n and Phong's (R.V)^p with a peak of `amount`. The GGX lobe of the same width
@@ -42,7 +48,7 @@ static void setup_mirror(Bsdf *b, const Finish *f, int transparent)
     Rgb r = rgb_lerp(f->reflection_min, f->reflection_max, rise);
     if (transparent && b->refracts && fresnel_dielectric((float)b->cos_o, b->eta) >= 1) r = rgb_grey(1);
     float metallic = clamp01(f->reflection_metallic);
-    b->mirror = (Split){rgb_scale(r, metallic), rgb_scale(r, 1 - metallic)};
+    b->mirror = metallic_tint((Split){rgb_scale(r, metallic), rgb_scale(r, 1 - metallic)}, (float)b->cos_o);
 }
 
 static void setup_povray(Bsdf *b, const Finish *f, float filter, float transmit)
@@ -51,7 +57,7 @@ static void setup_povray(Bsdf *b, const Finish *f, float filter, float transmit)
     b->brilliance = (float)f->brilliance;
     float norm = f->diffuse_albedo ? (b->brilliance + 1) / 2 : 1;
     b->diffuse = (float)fmax(0, f->diffuse) * opacity * norm;
-    b->diffuse_back = (float)fmax(0, f->diffuse_back) * opacity;
+    b->diffuse_back = (float)fmax(0, f->diffuse_back) * opacity * norm;
     setup_highlight(b, f);
     setup_mirror(b, f, opacity < 1);
     b->highlight_lights_only = !rgb_is_black(f->reflection_min) || !rgb_is_black(f->reflection_max);
@@ -63,7 +69,9 @@ static void setup_povray(Bsdf *b, const Finish *f, float filter, float transmit)
 /* The extension block: the supplement's simplified Disney BSDF, its dielectric share and cut-outs by image alpha. */
 static void setup_disney(Bsdf *b, const Finish *f, float filter, float transmit)
 {
-    float a = clamp01(f->retex.transmission) * (1 - clamp01(f->retex.metallic)), opacity = clamp01(1 - filter - transmit);
+    float a = clamp01(f->retex.transmission) * (1 - clamp01(f->retex.metallic));
+    float opacity = a > 0 ? 1 : clamp01(1 - filter - transmit); /* the pigment does not make clear what is clear already */
+    b->coverage = opacity;
     b->disney = 1;
     b->metallic = clamp01(f->retex.metallic);
     b->roughness = clamp01(f->retex.roughness);
@@ -83,6 +91,7 @@ static void setup_disney(Bsdf *b, const Finish *f, float filter, float transmit)
         if (a > 0) b->passing.d = rgb_grey(a * (1 - outer));
     } else {
         b->alpha = alpha;
+        if (b->eta == 1) b->passing.d = rgb_grey(a); /* however rough, it does not bend */
     }
     if (a == 0 && opacity < 1) b->passing = (Split){rgb_grey(filter), rgb_grey(transmit)}, b->refracts = 0;
 }
@@ -93,13 +102,13 @@ static float glossy_estimate(const Bsdf *b)
     if (b->alpha <= 0 || b->highlight_lights_only) return 0;
     if (!b->disney) return split_neutral(b->highlight);
     float m = b->metallic, f = fresnel_dielectric((float)b->cos_o, b->coat_eta);
-    return fmaxf(0.02f, (1 - m) * f + m * m * NEUTRAL_ALBEDO + m * (1 - m) * 0.04f) * (1 - b->transmission);
+    return fmaxf(0.02f, (1 - m) * f + m * m * NEUTRAL_ALBEDO + m * (1 - m) * 0.04f) * (1 - b->transmission) * b->coverage;
 }
 
 static void setup_choice(Bsdf *b)
 {
     float glossy = glossy_estimate(b);
-    if (b->disney && !b->smooth) glossy += b->transmission;
+    if (b->disney && !b->smooth && b->eta != 1) glossy += b->transmission;
     float w[5] = {b->diffuse * NEUTRAL_ALBEDO, b->diffuse_back * NEUTRAL_ALBEDO, glossy,
                   split_neutral(b->mirror), split_neutral(b->passing)};
     float sum = w[0] + w[1] + w[2] + w[3] + w[4];
@@ -123,13 +132,10 @@ void bsdf_setup(Bsdf *b, const Surface *surface, Vec3 wo, float filter, float tr
     }
     b->cos_o = fmin(1, b->cos_o);
     vec_frame(b->normal, &b->s, &b->t);
-    double ior = finish->retex.present && finish->retex.transmission > 0 ? finish->retex.ior
-                 : interior_bends(primitive)                             ? primitive->interior->ior
-                                                                         : 1;
+    double ior = finish_transmits(finish) ? finish->retex.ior : interior_bends(primitive) ? primitive->interior->ior : 1;
     b->refracts = ior != 1;
-    int transparent = filter + transmit > 0 || (finish->retex.present && finish->retex.transmission > 0);
+    int transparent = filter + transmit > 0 || finish_transmits(finish);
     b->eta = (float)(surface->backside && transparent ? 1 / ior : ior); /* an opaque sheet has a coat on both sides */
-    b->emission = finish->emission;
     if (finish->retex.present) setup_disney(b, finish, filter, transmit);
     else setup_povray(b, finish, filter, transmit);
     setup_choice(b);

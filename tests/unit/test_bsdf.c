@@ -212,6 +212,58 @@ static void cutouts_pass_straight(void **state)
     close_to(vec_dot(s.wi, b.wo), -1, 1e-12, "direction");
 }
 
+static void holes_have_no_coat(void **state)
+{
+    (void)state; /* where an image cuts holes, the extension's finish reflects as much less, rough or smooth, and passes the rest */
+    for (int smooth = 0; smooth < 2; smooth++) {
+        Case c;
+        case_begin(&c, 0);
+        c.finish.retex.present = 1, c.finish.retex.metallic = 0.7, c.finish.retex.roughness = smooth ? 0 : 0.5;
+        c.finish.retex.ior = 1.5, c.finish.retex.specular_tint = 1;
+        Bsdf whole = make(&c, 0.8, 0, 0), hole = make(&c, 0.8, 0, 1), half = make(&c, 0.8, 0, 0.5f);
+        double full = sampled_albedo(&whole, 1 << 14);
+        close_to(sampled_albedo(&hole, 1 << 14), 1, 1e-6, "a hole");
+        close_to(sampled_albedo(&half, 1 << 14), 0.5 + full / 2, 0.01, "half a hole");
+    }
+}
+
+static void tint_of_metals_wears_off(void **state)
+{
+    (void)state; /* POV-Ray's curve: all of the tint head-on, none at grazing angles; nothing is won or lost for white */
+    Split s = {{0.6f, 0.6f, 0.6f}, {0.2f, 0.2f, 0.2f}};
+    Split front = metallic_tint(s, 1), grazing = metallic_tint(s, 0), between = metallic_tint(s, 0.3f);
+    close_to(front.d.r, 0.6, 1e-4, "head-on");
+    close_to(grazing.d.r, 0, 1e-3, "grazing");
+    close_to(grazing.i.r, 0.8, 1e-3, "grazing, white");
+    close_to(between.d.r + between.i.r, 0.8, 1e-6, "sum");
+    assert_true(between.d.r < 0.6f && between.d.r > 0);
+}
+
+static void highlights_sample_as_they_evaluate(void **state)
+{
+    (void)state;
+    Case c;
+    case_begin(&c, 0);
+    c.finish.diffuse = 0.3, c.finish.diffuse_back = 0.2, c.finish.brilliance = 2;
+    c.finish.specular = 0.8, c.finish.specular_albedo = 1, c.finish.roughness = 0.1, c.finish.metallic = 0.8;
+    for (double theta = 0.2; theta < 1.5; theta += 0.6) {
+        Bsdf b = make(&c, theta, 0, 0);
+        double pdf, whole = integrated_albedo(&b, &pdf);
+        close_to(sampled_albedo(&b, 1 << 16), whole, 0.01, "metallic highlight");
+        assert_true(pdf < 1.005);
+    }
+}
+
+static void frosted_air_is_clear(void **state)
+{
+    (void)state; /* rough, but with no change of index there is nothing to bend light */
+    Case c;
+    case_begin(&c, 0);
+    c.finish.retex.present = 1, c.finish.retex.roughness = 0.5, c.finish.retex.ior = 1, c.finish.retex.transmission = 1;
+    Bsdf b = make(&c, 0.8, 0, 0);
+    close_to(sampled_albedo(&b, 1 << 12), 1, 1e-4, "what passes");
+}
+
 static void povray_highlight_peak(void **state)
 {
     (void)state; /* specular 0.5 under a unit light head-on adds 0.5 to the reflected radiance */
@@ -229,6 +281,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(lambert_is_exact), cmocka_unit_test(sampling_matches_evaluation), cmocka_unit_test(energy_is_kept),
         cmocka_unit_test(glass_obeys_fresnel), cmocka_unit_test(refraction_bends_by_snell), cmocka_unit_test(supplement_split),
-        cmocka_unit_test(cutouts_pass_straight), cmocka_unit_test(povray_highlight_peak)};
+        cmocka_unit_test(cutouts_pass_straight), cmocka_unit_test(povray_highlight_peak), cmocka_unit_test(holes_have_no_coat),
+        cmocka_unit_test(tint_of_metals_wears_off), cmocka_unit_test(highlights_sample_as_they_evaluate),
+        cmocka_unit_test(frosted_air_is_clear)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
