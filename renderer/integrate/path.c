@@ -8,6 +8,7 @@
 #define ROULETTE_START 4      /* segments before Russian roulette begins */
 #define STRAIGHT_MAX 128      /* surfaces a path or shadow ray may pass without bending */
 #define SHADOW_FACTORS_MAX 16
+#define MEDIA_MAX 4           /* fading interiors that a path may be in at once */
 
 /* One factor of a connection: a surface it scatters at or passes. */
 typedef struct Factor {
@@ -17,8 +18,16 @@ typedef struct Factor {
     Vec2 uv;
 } Factor;
 
+/* The fading interiors a ray is in. */
+typedef struct Media {
+    const Interior *interiors[MEDIA_MAX];
+    int count;
+} Media;
+
 typedef struct Path {
     Rgb beta, outside;
+    Media media;
+    RayKind kind;
     Expansion expansion;
     int folded;               /* a target hit beyond the last order kept its albedo */
     float neutral;            /* throughput with NEUTRAL_ALBEDO everywhere: for Russian roulette */
@@ -68,7 +77,56 @@ static void connect(PathWorker *w, const Path *path, Rgb light, const Factor *fa
     film_connect(w->pixel, beta, outside, e, folded);
 }
 
-static float mis_weight(float a, float b) { return a * a / (a * a + b * b); }
+static float mis_weight(float a, float b)
+{
+    float ratio = b / a; /* the squares of densities may be too large for a float */
+    return 1 / (1 + ratio * ratio);
+}
+
+static float fade_channel(float color, double x, double power)
+{
+    if (power > 1000) return (float)exp(-(1 - color) * x);
+    return color + (1 - color) * (float)(1 / (1 + pow(x, power)));
+}
+
+static Rgb fade_over(const Interior *in, double distance)
+{
+    double x = distance / in->fade_distance, power = in->fade_power;
+    return rgb(fade_channel(in->fade_color.r, x, power), fade_channel(in->fade_color.g, x, power), fade_channel(in->fade_color.b, x, power));
+}
+
+static int media_find(const Media *media, const Interior *interior)
+{
+    int k = media->count - 1;
+    while (k >= 0 && media->interiors[k] != interior) k--;
+    return k;
+}
+
+static const Interior *fading_interior(const Surface *surface)
+{
+    const Interior *in = surface->primitive->interior;
+    return in && in->fade_power > 0 && in->fade_distance > 0 ? in : NULL;
+}
+
+/* POV-Ray's fading of light that went a distance and met a surface, or NULL. Leaving what was never entered: the camera or
+ * a light stands in it. */
+static Rgb media_fade(const Media *media, double distance, const Surface *met)
+{
+    Rgb fade = rgb_grey(1);
+    for (int k = 0; k < media->count; k++) fade = rgb_mul(fade, fade_over(media->interiors[k], distance));
+    const Interior *in = met && met->backside ? fading_interior(met) : NULL;
+    return in && media_find(media, in) < 0 ? rgb_mul(fade, fade_over(in, distance)) : fade;
+}
+
+/* A ray goes through a surface. */
+static void media_cross(Media *media, const Surface *surface)
+{
+    const Interior *in = fading_interior(surface);
+    if (!in) return;
+    int k = media_find(media, in);
+    if (!surface->backside && k < 0 && media->count < MEDIA_MAX) media->interiors[media->count++] = in;
+    if (surface->backside && k >= 0) media->interiors[k] = media->interiors[--media->count];
+}
 
 /* What a surface between a point and a light does to the light: pass it straight, or block it. Light sources, which no
  * path can hit, shine through glass unbent; all others leave bent light to the paths that find it. */
@@ -85,28 +143,86 @@ static int shadow_factor(const Shading *s, int light_source, Factor *factor)
     return 1;
 }
 
-/* Returns how many factors the way to the light adds, or -1 where it is blocked. */
-static int trace_shadow(PathWorker *w, Ray ray, int light_source, Factor *factors, int room)
+/* What a surface is to a ray that goes through it unbent. Reflectance is taken from outside on either side: light that
+ * came in through the one face of a pane goes out through the other, and is never totally reflected. */
+static void shading_straight(Shading *s, const Scene *scene, const Ray *ray, Surface *surface)
+{
+    s->surface = *surface;
+    shading_color(s, scene);
+    if (surface->backside) {
+        s->surface.backside = 0;
+        s->surface.geometric_normal = vec_neg(surface->geometric_normal);
+        s->surface.shading_normal = vec_neg(surface->shading_normal);
+    }
+    bsdf_setup(&s->bsdf, &s->surface, vec_neg(ray->direction), s->filter, s->transmit);
+}
+
+/* Follow a shadow ray: what the way does to the light goes into *light and, where targets do it, into factors. Returns how
+ * many of these there are, or -1 where the way is blocked. */
+static int trace_shadow(PathWorker *w, Ray ray, int light_source, Media *media, Rgb *light, Factor *factors, int room)
 {
     const PathContext *c = w->context;
     w->shadow_rays++;
-    if (!accel_has_transparent(c->accel)) return accel_occluded(c->accel, &ray, RAY_SHADOW, 0) ? -1 : 0;
-    if (accel_occluded(c->accel, &ray, RAY_SHADOW, 1)) return -1;
+    int through = accel_has_transparent(c->accel), n = 0;
+    if (accel_occluded(c->accel, &ray, RAY_SHADOW, through)) return -1;
     Hit hit;
     Shading s;
-    int n = 0;
     for (int k = 0; k < STRAIGHT_MAX; k++) {
-        if (!accel_intersect(c->accel, &ray, RAY_SHADOW, &hit)) return n;
-        shading_at(&s, c->scene, &ray, &hit);
-        if (n == room || !shadow_factor(&s, light_source, &factors[n])) return -1;
-        n++;
-        Vec3 start = accel_offset(s.surface.position, s.surface.geometric_normal, ray.direction);
-        double moved = vec_length(vec_sub(start, ray.origin));
-        ray.tmax -= moved;
-        ray.origin = start;
-        if (ray.tmax <= 0) return n;
+        if (!through || !accel_intersect(c->accel, &ray, RAY_SHADOW, &hit)) {
+            if (media->count > 0 && isfinite(ray.tmax)) *light = rgb_mul(*light, media_fade(media, ray.tmax - ray.tmin, NULL));
+            return n;
+        }
+        Surface surface;
+        Factor factor;
+        surface_at(&surface, c->scene, &ray, &hit);
+        shading_straight(&s, c->scene, &ray, &surface);
+        if (!shadow_factor(&s, light_source, &factor)) return -1;
+        if (factor.target < 0 || rgb_is_black(factor.split.d)) {
+            *light = rgb_mul(*light, split_apply(factor.split, factor.albedo));
+        } else {
+            if (n == room) return -1;
+            factors[n++] = factor;
+        }
+        *light = rgb_mul(*light, media_fade(media, hit.t - ray.tmin, &surface));
+        media_cross(media, &surface);
+        ray.tmin = hit.t; /* not a new ray from there: points on large triangles are good to float only */
     }
     return -1;
+}
+
+/* Radiance over albedo: what is not there does not shine. */
+static Split emitted(const Shading *s)
+{
+    float opacity = fminf(1, fmaxf(0, 1 - s->filter - s->transmit));
+    return (Split){rgb_scale(s->surface.texture->finish->emission, opacity), {0, 0, 0}};
+}
+
+/* Which rays a path goes on with: light that bends in glass is still looked at by the camera. */
+static RayKind next_kind(RayKind kind, const Bsdf *bsdf, int transmitted)
+{
+    return transmitted && bsdf->refracts ? kind : RAY_BOUNCE;
+}
+
+/* Is a point of an emitter that throws no shadow behind the emitter's own front? */
+static int hidden_by_itself(const PathContext *c, Ray ray, const Primitive *emitter)
+{
+    Hit hit;
+    while (accel_intersect(c->accel, &ray, (RayKind)(RAY_CAMERA | RAY_BOUNCE), &hit)) {
+        if (&c->scene->primitives[hit.primitive] == emitter) return 1;
+        ray.tmin = hit.t;
+    }
+    return 0;
+}
+
+/* Density with which the path itself finds what a shadow ray found, given that of its direction: 0 where it cannot, for
+ * the ways of the two are not blocked by the same things. -1: nobody should. */
+static float path_density(const PathContext *c, const Ray *ray, RayKind kind, const LightSample *light, float pdf)
+{
+    const Primitive *emitter = light->kind == LIGHT_SAMPLE_EMITTER ? light->surface.primitive : NULL;
+    if (emitter && (kind == RAY_CAMERA ? emitter->no_image : emitter->no_reflection)) pdf = 0;
+    if (!c->has_no_shadow) return pdf;
+    if (emitter && emitter->no_shadow && hidden_by_itself(c, *ray, emitter)) return -1;
+    return accel_occluded(c->accel, ray, kind, 1) ? 0 : pdf;
 }
 
 /* Radiance a sampled light sends, and the factor of its pigment where it is a shape. Returns the number of factors. */
@@ -116,7 +232,7 @@ static int light_factors(const PathContext *c, LightSample *light, Factor *facto
     Shading s = {.surface = light->surface};
     shading_color(&s, c->scene);
     light->radiance = rgb_grey(1);
-    factors[0] = shading_factor(&s, (Split){light->surface.texture->finish->emission, {0, 0, 0}});
+    factors[0] = shading_factor(&s, emitted(&s));
     return 1;
 }
 
@@ -142,11 +258,15 @@ static void sample_light(PathWorker *w, const Path *path, const Shading *s, cons
         Vec3 way = vec_sub(end, ray.origin);
         ray.tmax = vec_length(way) * (1 - 1e-6);
     }
+    int other_side = vec_dot(light.direction, s->bsdf.geometric) < 0;
     if (!light.shadowless) {
-        int passed = trace_shadow(w, ray, source, factors + n, SHADOW_FACTORS_MAX);
+        Media media = path->media;
+        if (other_side) media_cross(&media, &s->surface);
+        int passed = trace_shadow(w, ray, source, &media, &light.radiance, factors + n, SHADOW_FACTORS_MAX);
         if (passed < 0) return;
         n += passed;
     }
+    if (!source && (pdf = path_density(c, &ray, next_kind(path->kind, &s->bsdf, other_side), &light, pdf)) < 0) return;
     float light_pdf = light.pdf * light.pick_probability;
     float weight = source ? 1 / light.pick_probability : mis_weight(light_pdf, pdf) / light_pdf;
     connect(w, path, rgb_scale(light.radiance, weight), factors, n);
@@ -155,11 +275,10 @@ static void sample_light(PathWorker *w, const Path *path, const Shading *s, cons
 /* The path itself ran into something that shines. */
 static void hit_emitter(PathWorker *w, const Path *path, const Hit *hit, const Shading *s)
 {
-    Rgb emission = s->surface.texture->finish->emission;
-    if (rgb_is_black(emission)) return;
+    if (rgb_is_black(s->surface.texture->finish->emission)) return;
     float weight = 1;
     if (path->pdf > 0) weight = mis_weight(path->pdf, lights_emitter_pdf(w->context->lights, path->from, hit->primitive, &s->surface));
-    Factor factor = shading_factor(s, (Split){emission, {0, 0, 0}});
+    Factor factor = shading_factor(s, emitted(s));
     connect(w, path, rgb_grey(weight), &factor, 1);
 }
 
@@ -172,23 +291,9 @@ static void hit_sky(PathWorker *w, const Path *path, Vec3 direction)
     connect(w, path, rgb_scale(radiance, weight), NULL, 0);
 }
 
-static float fade_channel(float color, double x, double power)
-{
-    if (power > 1000) return (float)exp(-(1 - color) * x);
-    return color + (1 - color) * (float)(1 / (1 + pow(x, power)));
-}
-
-/* POV-Ray's fading inside an object, on the way out of it. */
-static Rgb interior_fade(const Surface *surface, double distance)
-{
-    const Interior *in = surface->primitive->interior;
-    if (!in || !surface->backside || in->fade_power <= 0 || in->fade_distance <= 0) return rgb_grey(1);
-    double x = distance / in->fade_distance, power = in->fade_power;
-    return rgb(fade_channel(in->fade_color.r, x, power), fade_channel(in->fade_color.g, x, power), fade_channel(in->fade_color.b, x, power));
-}
-
-/* Choose where the path goes on. Returns 0 where it ends. */
-static int scatter(PathWorker *w, Path *path, const Shading *s, const Sampler *sampler, uint32_t dimension, Ray *ray, int *straight)
+/* Choose where the path goes on from a hit at a distance along the ray. Returns 0 where it ends. */
+static int scatter(PathWorker *w, Path *path, const Shading *s, double distance, const Sampler *sampler, uint32_t dimension, Ray *ray,
+                   int *straight)
 {
     float u_lobe, u_roulette, u1, u2;
     BsdfSample next;
@@ -203,7 +308,9 @@ static int scatter(PathWorker *w, Path *path, const Shading *s, const Sampler *s
         fprintf(w->context->trace, "  goes on along %.5f %.5f %.5f pdf %.6g d %.5g i %.5g\n", next.wi.x, next.wi.y, next.wi.z,
                 next.pdf, rgb_luminance(next.weight.d), rgb_luminance(next.weight.i));
     *straight = next.straight;
+    if (next.transmitted) media_cross(&path->media, &s->surface);
     if (!next.straight) {
+        path->kind = next_kind(path->kind, &s->bsdf, next.transmitted);
         path->pdf = next.pdf;
         path->from = s->surface.position;
         if (path->segments >= ROULETTE_START) {
@@ -214,9 +321,13 @@ static int scatter(PathWorker *w, Path *path, const Shading *s, const Sampler *s
             path->neutral /= survive;
         }
     }
+    if (next.straight) {
+        ray->tmin = distance;
+        return 1;
+    }
     ray->origin = accel_offset(s->surface.position, s->surface.geometric_normal, next.wi);
     ray->direction = next.wi;
-    ray->tmin = 0, ray->tmax = INFINITY;
+    ray->tmin = 0;
     return 1;
 }
 
@@ -237,28 +348,29 @@ void path_trace(PathWorker *w, Ray ray, const Sampler *sampler)
     Path path; /* set field by field: its expansion is large, and mostly unused */
     path.beta = path.outside = rgb_grey(1);
     path.neutral = 1, path.pdf = 0, path.from = ray.origin, path.segments = 1, path.folded = 0;
+    path.media.count = 0, path.kind = RAY_CAMERA;
     expansion_reset(&path.expansion);
-    RayKind kind = RAY_CAMERA;
     Hit hit;
     Shading s;
     int straight = 0, passed = 0;
     for (;;) {
         w->segments++;
-        if (!accel_intersect(c->accel, &ray, kind, &hit)) {
+        if (!accel_intersect(c->accel, &ray, path.kind, &hit)) {
             hit_sky(w, &path, ray.direction);
             break;
         }
         shading_at(&s, c->scene, &ray, &hit);
         if (c->trace) trace_hit(c, &hit, &s);
-        Rgb fade = interior_fade(&s.surface, hit.t);
+        Rgb fade = media_fade(&path.media, hit.t - ray.tmin, &s.surface);
         path.beta = rgb_mul(path.beta, fade), path.outside = rgb_mul(path.outside, fade);
         hit_emitter(w, &path, &hit, &s);
-        if (path.segments >= c->max_depth) break;
+        int last = path.segments >= c->max_depth; /* but what is passed straight is no segment of its own */
+        if (last && (s.bsdf.p_passing <= 0 || s.bsdf.refracts)) break;
         uint32_t dimension = DIMENSION_PATH + (uint32_t)(path.segments + passed - 1) * DIMENSIONS_PER_VERTEX;
-        sample_light(w, &path, &s, sampler, dimension);
-        if (!scatter(w, &path, &s, sampler, dimension, &ray, &straight)) break;
+        if (!last) sample_light(w, &path, &s, sampler, dimension);
+        if (!scatter(w, &path, &s, hit.t, sampler, dimension, &ray, &straight) || (last && !straight)) break;
         if (straight && ++passed > STRAIGHT_MAX) break;
-        if (!straight) path.segments++, kind = RAY_BOUNCE;
+        if (!straight) path.segments++;
     }
     film_path_end(w->pixel);
 }

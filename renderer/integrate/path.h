@@ -15,6 +15,7 @@ typedef struct PathContext {
     const Lights *lights;
     int max_depth, orders;
     int split;            /* keep target hits apart */
+    int has_no_shadow;    /* some primitive throws no shadow: shadow rays and paths are not blocked by the same things */
     FILE *trace;          /* say what happens, or NULL */
 } PathContext;
 

@@ -116,7 +116,9 @@ static int render_open(Render *r, const Scene *scene, const RenderParams *params
     if (!code) code = accel_create(&r->accel, scene, r->params.nthreads, err);
     if (!code) code = lights_create(&r->lights, scene, err);
     int split = !r->params.plain && scene->ntargets > 0;
-    r->context = (PathContext){scene, r->accel, r->lights, r->params.max_depth, r->params.orders, split, NULL};
+    r->context = (PathContext){.scene = scene, .accel = r->accel, .lights = r->lights, .max_depth = r->params.max_depth,
+                               .orders = r->params.orders, .split = split};
+    for (int k = 0; k < scene->nprimitives; k++) r->context.has_no_shadow |= scene->primitives[k].no_shadow;
     return code;
 }
 
