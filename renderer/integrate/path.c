@@ -16,6 +16,7 @@ typedef struct Factor {
     Split split;
     Rgb albedo;
     Vec2 uv;
+    int reflects;             /* light stays on its side of the surface */
 } Factor;
 
 /* The fading interiors a ray is in. */
@@ -38,13 +39,20 @@ typedef struct Path {
 
 static Factor shading_factor(const Shading *s, Split split)
 {
-    return (Factor){s->surface.target, split, s->albedo, s->uv};
+    return (Factor){s->surface.target, split, s->albedo, s->uv, 0};
 }
 
-/* A factor is worth recording if its texture matters. */
-static int is_recorded(const PathContext *c, const Factor *f)
+/* Does the target's texture matter to this factor? */
+static int is_textured(const PathContext *c, const Factor *f)
 {
     return c->split && f->target >= 0 && !rgb_is_black(f->split.d);
+}
+
+/* A reflection counts as a hit of its target even where the texture does not matter, so that what is seen in a polished
+ * floor stays apart from what is seen on it. What merely passes a target does not count. */
+static int is_hit(const PathContext *c, const Factor *f)
+{
+    return c->split && f->target >= 0 && (f->reflects || !rgb_is_black(f->split.d));
 }
 
 /* Multiply by a factor: as a target hit while there is an order left, else as it is. */
@@ -52,12 +60,12 @@ static void apply_factor(const PathContext *c, Rgb *beta, Rgb *outside, Expansio
 {
     Rgb whole = split_apply(f->split, f->albedo);
     *beta = rgb_mul(*beta, whole);
-    if (is_recorded(c, f) && expansion_has_room(e, f->target, c->orders)) {
+    if (is_hit(c, f) && expansion_has_room(e, f->target, c->orders)) {
         expansion_push(e, f->target, f->split, f->uv, f->albedo);
         return;
     }
     *outside = rgb_mul(*outside, whole);
-    if (is_recorded(c, f)) *folded = 1;
+    if (is_textured(c, f)) *folded = 1;
 }
 
 /* Light reaches the path's end through some more factors. */
@@ -301,6 +309,7 @@ static int scatter(PathWorker *w, Path *path, const Shading *s, double distance,
     sampler_pair(sampler, dimension + VERTEX_DIRECTION, &u1, &u2);
     if (!bsdf_sample(&s->bsdf, u_lobe, u1, u2, &next)) return 0;
     Factor factor = shading_factor(s, next.weight);
+    factor.reflects = !next.transmitted;
     apply_factor(w->context, &path->beta, &path->outside, &path->expansion, &path->folded, &factor);
     if (!w->context->split ? rgb_is_black(path->beta) : rgb_is_black(path->outside)) return 0;
     path->neutral *= fminf(1, split_neutral(next.weight));
