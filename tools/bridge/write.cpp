@@ -325,10 +325,13 @@ void write_picture(const RetexImage &src, const char *path, const RetexWritePara
     spool.copy_to(sink);
 }
 
+// The transform is looked at only where someone has named a part of it: the built-in default is sound.
 void check_picture(const char *path, const RetexWriteParams &params)
 {
-    bool pfm = is_pfm(path);
-    encoding(params, pfm ? Depth::Float : depth_of(find_writer(path)->format_name()));
+    Depth depth = is_pfm(path) ? Depth::Float : depth_of(find_writer(path)->format_name());
+    bool named = params.display || params.view || params.colorspace;
+    if (named || std::getenv("OCIO"))
+        encoding(params, depth);
 }
 
 } // namespace
