@@ -91,11 +91,21 @@ static double side_stretch(const Primitive *primitive, double c, double s)
     return stretch(&primitive->transform, vec3(-s, c, 0), vec3(slope * c, slope * s, 1));
 }
 
+/* The same all round: a circle about an axis that stands on it, of any height. */
+static int is_round(const Transform *t)
+{
+    Vec3 x = column(t, 0), y = column(t, 1), z = column(t, 2);
+    double xx = vec_dot(x, x), bound = 1e-12 * xx, upright = 1e-12 * sqrt(xx * vec_dot(z, z));
+
+    return fabs(vec_dot(x, y)) <= bound && fabs(vec_dot(y, y) - xx) <= bound && fabs(vec_dot(x, z)) <= upright &&
+        fabs(vec_dot(y, z)) <= upright;
+}
+
 /* Areas of side, low cap, high cap; returns their sum. */
 static double cone_areas(const Primitive *primitive, double area[3])
 {
     double r0 = primitive->r0, r1 = primitive->r1, cap, sum = 0;
-    int turns = similarity(&primitive->transform) > 0 ? 1 : 64;
+    int turns = is_round(&primitive->transform) ? 1 : 64;
 
     for (int i = 0; i < turns; i++)
         sum += side_stretch(primitive, cos(2 * PI * i / turns), sin(2 * PI * i / turns));
