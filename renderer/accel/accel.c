@@ -595,6 +595,11 @@ int accel_has_transparent(const Accel *accel)
     return accel->has_transparent;
 }
 
+int accel_is_transparent(const Accel *accel, int primitive)
+{
+    return (accel->flags[primitive] & TRANSPARENT) != 0;
+}
+
 void accel_bounds(const Accel *accel, Vec3 *low, Vec3 *high)
 {
     *low = accel->low;

@@ -18,8 +18,9 @@ int accel_intersect(const Accel *accel, const Ray *ray, RayKind kind, Hit *hit);
 /* Is anything in between? skip_transparent: 0 = any hit blocks; 1 = primitives whose pigment (of either side, of any
  * face) is not opaque are skipped, and those of the finish that transmits; the caller walks them itself. */
 int accel_occluded(const Accel *accel, const Ray *ray, RayKind kind, int skip_transparent);
-/* 1 if any primitive could let shadow rays through: then occlusion must be walked. */
+/* 1 if any primitive could let shadow rays through: then occlusion must be walked. Or if this one could. */
 int accel_has_transparent(const Accel *accel);
+int accel_is_transparent(const Accel *accel, int primitive);
 /* World bounds of all bounded primitives and the camera. */
 void accel_bounds(const Accel *accel, Vec3 *low, Vec3 *high);
 /* Where to start a ray that leaves a surface in a direction, so that it does not meet it again. To walk on along a ray,

@@ -172,7 +172,7 @@ static int trace_shadow(PathWorker *w, Ray ray, int light_source, Media *media, 
     const PathContext *c = w->context;
     w->shadow_rays++;
     int through = accel_has_transparent(c->accel), n = 0;
-    if (accel_occluded(c->accel, &ray, RAY_SHADOW, through)) return -1;
+    if (!through && accel_occluded(c->accel, &ray, RAY_SHADOW, 0)) return -1;
     Hit hit;
     Shading s;
     for (int k = 0; k < STRAIGHT_MAX; k++) {
@@ -182,6 +182,12 @@ static int trace_shadow(PathWorker *w, Ray ray, int light_source, Media *media, 
         }
         Surface surface;
         Factor factor;
+        if (!accel_is_transparent(c->accel, hit.primitive)) return -1;
+        if (k == 0) { /* before walking through what is clear: is there anything that is not? */
+            Ray rest = ray;
+            rest.tmin = hit.t;
+            if (accel_occluded(c->accel, &rest, RAY_SHADOW, 1)) return -1;
+        }
         surface_at(&surface, c->scene, &ray, &hit);
         shading_straight(&s, c->scene, &ray, &surface);
         if (!shadow_factor(&s, light_source, &factor)) return -1;
