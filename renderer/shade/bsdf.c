@@ -155,10 +155,13 @@ static int sample_glossy(const Bsdf *b, float choice, float u1, float u2, Vec3 *
 
 static Split split_scale(Split s, float k) { return (Split){rgb_scale(s.d, k), rgb_scale(s.i, k)}; }
 
+/* An interpolated normal may send a mirrored or refracted ray to the wrong side of the surface, which would look black
+ * along its edges: the surface's own normal takes over, by which such a refracted ray is reflected totally. */
 static int sample_mirror(const Bsdf *b, BsdfSample *sample)
 {
     sample->wi = reflect(b->wo, b->normal);
     sample->weight = split_scale(b->mirror, 1 / b->p_mirror);
+    if (vec_dot(sample->wi, b->geometric) <= 0) sample->wi = reflect(b->wo, b->geometric);
     return vec_dot(sample->wi, b->geometric) > 0;
 }
 
@@ -171,9 +174,14 @@ static int sample_passing(const Bsdf *b, BsdfSample *sample)
         sample->straight = 1;
         return 1;
     }
-    /* Radiance changes by the square of the index ratio as its beam widens or narrows. */
-    sample->weight = split_scale(sample->weight, 1 / (b->eta * b->eta));
-    return refract(b->wo, b->normal, b->eta, &sample->wi) && vec_dot(sample->wi, b->geometric) < 0;
+    if (refract(b->wo, b->normal, b->eta, &sample->wi) && vec_dot(sample->wi, b->geometric) < 0) {
+        /* Radiance changes by the square of the index ratio as its beam widens or narrows. */
+        sample->weight = split_scale(sample->weight, 1 / (b->eta * b->eta));
+        return 1;
+    }
+    sample->transmitted = 0;
+    sample->wi = reflect(b->wo, b->geometric);
+    return 1;
 }
 
 int bsdf_sample(const Bsdf *b, float u_lobe, float u1, float u2, BsdfSample *sample)

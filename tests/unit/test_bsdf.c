@@ -264,6 +264,26 @@ static void frosted_air_is_clear(void **state)
     close_to(sampled_albedo(&b, 1 << 12), 1, 1e-4, "what passes");
 }
 
+static void edges_of_smooth_meshes_are_not_black(void **state)
+{
+    (void)state; /* what a tilted normal would send to the wrong side of the surface is mirrored by the surface's own */
+    for (int glass = 0; glass < 2; glass++)
+        for (double theta = glass ? 0.995 : 1.2; theta < (glass ? 1.02 : 1.36); theta += 0.01) {
+            Case c;
+            Bsdf b;
+            BsdfSample s;
+            case_begin(&c, glass); /* into a mirror, out of glass */
+            c.surface.shading_normal = glass ? direction(0.3, 0.3) : direction(0.2, 0.3 + PI);
+            if (glass) c.interior.ior = 1.5;
+            else c.finish.reflection_min = c.finish.reflection_max = rgb_grey(0.9f);
+            Vec3 wo = glass ? vec_neg(direction(theta, 0.3)) : direction(theta, 0.3);
+            bsdf_setup(&b, &c.surface, wo, 0, glass ? 1 : 0);
+            assert_int_equal(bsdf_sample(&b, 0.5f, 0.5f, 0.5f, &s), 1);
+            assert_int_equal(s.transmitted, 0);
+            close_to(s.wi.z, wo.z, 1e-9, "mirrored");
+        }
+}
+
 static void povray_highlight_peak(void **state)
 {
     (void)state; /* specular 0.5 under a unit light head-on adds 0.5 to the reflected radiance */
@@ -283,6 +303,6 @@ int main(void)
         cmocka_unit_test(glass_obeys_fresnel), cmocka_unit_test(refraction_bends_by_snell), cmocka_unit_test(supplement_split),
         cmocka_unit_test(cutouts_pass_straight), cmocka_unit_test(povray_highlight_peak), cmocka_unit_test(holes_have_no_coat),
         cmocka_unit_test(tint_of_metals_wears_off), cmocka_unit_test(highlights_sample_as_they_evaluate),
-        cmocka_unit_test(frosted_air_is_clear)};
+        cmocka_unit_test(frosted_air_is_clear), cmocka_unit_test(edges_of_smooth_meshes_are_not_black)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
