@@ -36,9 +36,9 @@ static Vec3 table_direction(double x, double y)
 static float cell_luminance(const Scene *scene, int x, int y)
 {
     float sum = 0;
-    if (!scene->sky) return rgb_luminance(scene->background);
+    if (!scene->sky) return fmaxf(0, rgb_luminance(scene->background));
     for (int k = 0; k < 4; k++)
-        sum += rgb_luminance(sky_radiance(scene, table_direction(x + 0.25 + 0.5 * (k & 1), y + 0.25 + 0.5 * (k >> 1))));
+        sum += fmaxf(0, rgb_luminance(sky_radiance(scene, table_direction(x + 0.25 + 0.5 * (k & 1), y + 0.25 + 0.5 * (k >> 1)))));
     return sum / 4;
 }
 
