@@ -466,6 +466,15 @@ void accel_close(Accel **accel)
 
 /* ---- queries ---- */
 
+/* Embree may stop the program over a ray that is not finite; no such ray meets anything. */
+static int can_be_traced(const Ray *ray)
+{
+    double origin = fabs(ray->origin.x) + fabs(ray->origin.y) + fabs(ray->origin.z);
+    double direction = fabs(ray->direction.x) + fabs(ray->direction.y) + fabs(ray->direction.z);
+
+    return origin < LARGEST_COORDINATE && direction < LARGEST_COORDINATE && !isnan(ray->tmin) && !isnan(ray->tmax);
+}
+
 /* Embree gets the ray in float, its range widened by what float may be off; the callbacks keep to the double one. */
 static struct RTCRay start_query(Query *query, const Accel *accel, const Ray *ray, RayKind kind, int skip_transparent)
 {
@@ -556,6 +565,8 @@ int accel_intersect(const Accel *accel, const Ray *ray, RayKind kind, Hit *hit)
     int plane;
 
     *hit = (Hit){.primitive = -1};
+    if (!can_be_traced(ray))
+        return 0;
     rayhit.ray = start_query(&query, accel, ray, kind, 0);
     rayhit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     rayhit.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
@@ -581,9 +592,12 @@ int accel_intersect(const Accel *accel, const Ray *ray, RayKind kind, Hit *hit)
 int accel_occluded(const Accel *accel, const Ray *ray, RayKind kind, int skip_transparent)
 {
     Query query;
-    struct RTCRay occluded = start_query(&query, accel, ray, kind, skip_transparent);
+    struct RTCRay occluded;
     double limit = ray->tmax;
 
+    if (!can_be_traced(ray))
+        return 0;
+    occluded = start_query(&query, accel, ray, kind, skip_transparent);
     if (accel->nplanes && nearest_plane(&query, &limit, 1) >= 0)
         return 1;
     trace_occluded(&query, &occluded);

@@ -377,12 +377,34 @@ static void bad_geometry(void **state)
     accel_close(&accel);
 }
 
+/* Embree's own checks may stop the program over these. */
+static void bad_rays(void **state)
+{
+    static const double bad[] = {NAN, INFINITY, -INFINITY, 1e30};
+    Primitive p = shape(SHAPE_SPHERE, transform_identity());
+    Scene scene;
+    Accel *accel = create(&scene, &p, 1);
+    Hit hit;
+
+    (void)state;
+    for (int i = 0; i < 4; i++) {
+        Ray origin = {{bad[i], 0, 0}, {0, 0, 1}, 0, INFINITY}, direction = {{0, 0, -3}, {0, bad[i], 1}, 0, INFINITY};
+        assert_false(accel_intersect(accel, &origin, RAY_CAMERA, &hit));
+        assert_int_equal(hit.primitive, -1);
+        assert_false(accel_occluded(accel, &origin, RAY_SHADOW, 0));
+        assert_false(accel_intersect(accel, &direction, RAY_CAMERA, &hit));
+        assert_false(accel_occluded(accel, &direction, RAY_SHADOW, 0));
+    }
+    accel_close(&accel);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(agrees_with_every_triangle), cmocka_unit_test(closed_meshes_are_tight),
         cmocka_unit_test(no_self_intersection),       cmocka_unit_test(rooms_do_not_leak),
         cmocka_unit_test(rays_see_what_they_may),     cmocka_unit_test(bad_geometry),
+        cmocka_unit_test(bad_rays),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
