@@ -250,6 +250,8 @@ static void list_all_names(Sdl *sdl)
         const Primitive *p = &scene->primitives[i];
         if (p->texture->idents != last_texture)
             list_names(sdl, &names, last_texture = p->texture->idents);
+        if (p->interior_texture)
+            list_names(sdl, &names, p->interior_texture->idents);
         for (int j = 0; p->mesh && j < p->mesh->ntextures; j++)
             list_names(sdl, &names, p->mesh->textures[j]->idents);
         if (p->idents != last_object)

@@ -563,6 +563,32 @@ static void test_lights(void **state)
     scene_close(&scene);
 }
 
+static void test_light_kinds_written_twice(void **state)
+{
+    (void)state;
+    const struct { const char *words; LightKind kind; } cases[] = {
+        {"cylinder parallel", LIGHT_CYLINDER}, {"parallel cylinder", LIGHT_CYLINDER},
+        {"spotlight parallel", LIGHT_PARALLEL}, {"parallel spotlight", LIGHT_PARALLEL}};
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+        char text[128];
+        snprintf(text, sizeof text, V37 "light_source{<0,5,0> 1 %s point_at 0}", cases[k].words);
+        Scene *scene = parse(text);
+        assert_int_equal(scene->lights[0].kind, cases[k].kind);
+        scene_close(&scene);
+    }
+}
+
+static void test_names_of_insides(void **state)
+{
+    (void)state; /* a texture that is used inside only can be a target too */
+    Scene *scene = parse(V37 "#declare Lining = texture{pigment{rgb 1}} sphere{0,1 pigment{rgb 0} interior_texture{Lining}}");
+    const char *specs[] = {"Lining"};
+    assert_int_equal(scene_resolve_targets(scene, specs, 1, NULL), 0);
+    assert_int_equal(scene->primitives[0].interior_target, 0);
+    assert_int_equal(scene->primitives[0].target, -1);
+    scene_close(&scene);
+}
+
 static void test_sky(void **state)
 {
     (void)state;
@@ -730,7 +756,7 @@ int main(void)
         cmocka_unit_test(test_working_space), cmocka_unit_test(test_interior), cmocka_unit_test(test_mesh2),
         cmocka_unit_test(test_mesh2_errors), cmocka_unit_test(test_mesh), cmocka_unit_test(test_loose_triangles),
         cmocka_unit_test(test_polygons), cmocka_unit_test(test_star), cmocka_unit_test(test_camera),
-        cmocka_unit_test(test_lights), cmocka_unit_test(test_sky), cmocka_unit_test(test_csg),
+        cmocka_unit_test(test_lights), cmocka_unit_test(test_light_kinds_written_twice), cmocka_unit_test(test_names_of_insides), cmocka_unit_test(test_sky), cmocka_unit_test(test_csg),
         cmocka_unit_test(test_targets), cmocka_unit_test(test_target_errors), cmocka_unit_test(test_truncated),
         cmocka_unit_test(test_damaged), cmocka_unit_test(test_limits),
     };
