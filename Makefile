@@ -69,7 +69,7 @@ lint:
 	@tests/lib/lint.sh
 
 format:
-	clang-format -i $$(git ls-files '*.c' '*.h' '*.cpp')
+	clang-format -i $$(git ls-files '*.c' '*.cpp')
 
 clean:
 	rm -rf $(BUILD)

@@ -148,7 +148,11 @@ static void print_line(const RetexDiffPart *part, int name)
 
 int main(int argc, char **argv)
 {
-    Cli cli = {.tool = "retex-diff", .usage = "[options] A B", .options = options, .argc = argc, .argv = argv,
+    Cli cli = {.tool = "retex-diff",
+               .usage = "[options] A B",
+               .options = options,
+               .argc = argc,
+               .argv = argv,
                .about = "Compares picture A with the reference B: exit 0 when they are the same or within the limits "
                         "given, 1 when they differ."};
     RetexDiffParams params = RETEX_DIFF_INIT;

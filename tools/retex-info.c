@@ -9,9 +9,9 @@
 #include "cli.h"
 
 static const CliOption options[] = {
-    { "json", 0, NULL, "print the manifest and the sizes as JSON", 0 },
-    { "check", 0, NULL, "compare every part's checksum with its data: exit status 1 if one is wrong", 0 },
-    { 0 },
+    {"json", 0, NULL, "print the manifest and the sizes as JSON", 0},
+    {"check", 0, NULL, "compare every part's checksum with its data: exit status 1 if one is wrong", 0},
+    {0},
 };
 
 /* Uncompressed bytes as stored, by what they are for; and how many AOVs the supplement would count. */
@@ -61,7 +61,7 @@ static int measure_set(const RetexSet *set, Sizes *sizes)
 
 static Sizes measure(const char *path, const RetexSet *set, const RetexSamples *samples)
 {
-    Sizes sizes = { .file = -1 };
+    Sizes sizes = {.file = -1};
     struct stat status;
 
     if (strcmp(path, "-") != 0 && stat(path, &status) == 0 && S_ISREG(status.st_mode))
@@ -92,9 +92,9 @@ static void print_target(const RetexSet *set, const RetexTarget *target)
     printf("  v            %.6g to %.6g%s\n", target->uv_min[1], target->uv_max[1],
            target->periodic[1] ? ", closed" : "");
     if (target->original >= 0)
-        printf("  original     %d x %d texels over %.6g,%.6g to %.6g,%.6g\n",
-               set->parts[target->original].image.width, set->parts[target->original].image.height,
-               target->original_min[0], target->original_min[1], target->original_max[0], target->original_max[1]);
+        printf("  original     %d x %d texels over %.6g,%.6g to %.6g,%.6g\n", set->parts[target->original].image.width,
+               set->parts[target->original].image.height, target->original_min[0], target->original_min[1],
+               target->original_max[0], target->original_max[1]);
 }
 
 static void print_set(const RetexSet *set, const Sizes *sizes)
@@ -102,8 +102,8 @@ static void print_set(const RetexSet *set, const Sizes *sizes)
     printf("layout         %s\n", set->layout);
     printf("size           %d x %d pixels, %s filter\n", set->width, set->height, set->filter);
     printf("samples        %d a pixel, seed %lu\n", set->spp, (unsigned long)set->seed);
-    printf("orders         %d%s, %.4f%% of the light folded\n", set->orders,
-           set->strict_paper ? " (strict)" : "", 100 * set->folded);
+    printf("orders         %d%s, %.4f%% of the light folded\n", set->orders, set->strict_paper ? " (strict)" : "",
+           100 * set->folded);
     printf("max depth      %d segments\n", set->max_depth);
     if (set->scene[0])
         printf("scene          %s\n", set->scene);
@@ -149,7 +149,7 @@ static void print_text(const RetexSet *set, const RetexSamples *samples, const S
 /* The manifest with the sizes before its own first key. */
 static int print_json(const Cli *cli, const RetexSet *set, const RetexSamples *samples, const Sizes *sizes)
 {
-    RetexError error = { 0 };
+    RetexError error = {0};
     char *manifest;
 
     if (retex_set_manifest(set, samples, &manifest, &error)) {
@@ -173,7 +173,7 @@ static int print_info(const Cli *cli, const char *path, int json)
 {
     RetexSet *set = NULL;
     RetexSamples *samples = NULL;
-    RetexError error = { 0 };
+    RetexError error = {0};
     int status = CLI_OK;
 
     if (retex_set_read(path, &set, &samples, cli->threads, &error))
@@ -191,7 +191,7 @@ static int print_info(const Cli *cli, const char *path, int json)
 /* A damaged set is an answer; a file that cannot be read, or is no set at all, a failure. */
 static int check(const Cli *cli, const char *path)
 {
-    RetexError error = { 0 };
+    RetexError error = {0};
     const int code = retex_set_check(path, cli->threads, &error);
 
     if (code == RETEX_EFORMAT && !strstr(error.message, "not a set")) {
@@ -207,8 +207,13 @@ static int check(const Cli *cli, const char *path)
 
 int main(int argc, char **argv)
 {
-    Cli cli = { .tool = "retex-info", .usage = "SET [--json] [--check]", .about = "Describe a set, samples or a pack.",
-                .options = options, .argc = argc, .argv = argv, .next = 1 };
+    Cli cli = {.tool = "retex-info",
+               .usage = "SET [--json] [--check]",
+               .about = "Describe a set, samples or a pack.",
+               .options = options,
+               .argc = argc,
+               .argv = argv,
+               .next = 1};
     const char *path = NULL;
     const CliOption *option;
     int json = 0, checking = 0;

@@ -70,7 +70,10 @@ static void report(const Cli *cli, const char *set_path, double set_bytes, const
 
 int main(int argc, char **argv)
 {
-    Cli cli = {.tool = "retex-pack", .options = options, .argc = argc, .argv = argv,
+    Cli cli = {.tool = "retex-pack",
+               .options = options,
+               .argc = argc,
+               .argv = argv,
                .usage = "SET [--quality 1..100 | --lossless] -o FILE.retex\n"
                         "       retex-pack --unpack FILE.retex -o SET.exr",
                .about = "Packs a set into one small file, radiance as JPEG and footprints without visible loss; or "
@@ -84,8 +87,10 @@ int main(int argc, char **argv)
     const char *output = cli_output(&cli);
     cli_input(&cli, job.input, job.unpack ? "a pack" : "a set, as from retex-render");
     if (cli_ends_with(output, job.unpack ? ".retex" : ".exr"))
-        cli_die(&cli, job.unpack ? "%s: what is unpacked is an OpenEXR file, .exr"
-                                 : "%s: a pack is no OpenEXR file; its name ends in .retex", output);
+        cli_die(&cli,
+                job.unpack ? "%s: what is unpacked is an OpenEXR file, .exr"
+                           : "%s: a pack is no OpenEXR file; its name ends in .retex",
+                output);
     if (retex_set_write_check(output, &err))
         cli_fail(&cli, &err);
     if (retex_set_read(job.input, &set, NULL, cli.threads, &err))

@@ -12,10 +12,10 @@
 #include "film/terms.h"
 
 typedef struct FootprintSums {
-    int samples;             /* paths that brought a connection */
-    double count, mean[2], m2[2]; /* Welford's running mean and sum of squared deviations of u and v */
+    int samples;                     /* paths that brought a connection */
+    double count, mean[2], m2[2];    /* Welford's running mean and sum of squared deviations of u and v */
     float light[3], light_albedo[3]; /* what the albedo there multiplied, without it and with it */
-    float albedo[3];         /* unweighted, for footprints that gave no light */
+    float albedo[3];                 /* unweighted, for footprints that gave no light */
 } FootprintSums;
 
 struct Film {
@@ -34,7 +34,7 @@ struct Film {
 struct FilmPixel {
     Film *film;
     TermCache cache;
-    float (*sums)[3];        /* by term */
+    float (*sums)[3]; /* by term */
     int nsums;
     int *touched, ntouched;
     double beauty[3];
@@ -42,31 +42,43 @@ struct FilmPixel {
     /* of the path in hand: every hit that connected, with how often */
     TargetHit hits[64];
     int connections[64], nhits;
-    double total, folded;    /* luminance of the tile so far */
+    double total, folded; /* luminance of the tile so far */
     double uv_min[RETEX_MAX_TARGETS][2], uv_max[RETEX_MAX_TARGETS][2];
     long dropped;
 };
 
-static int footprints_count(const Film *film) { return film->scene->ntargets * RETEX_MAX_ORDERS; }
-static int footprint_number(const TargetHit *hit) { return hit->target * RETEX_MAX_ORDERS + hit->index; }
+static int footprints_count(const Film *film)
+{
+    return film->scene->ntargets * RETEX_MAX_ORDERS;
+}
+static int footprint_number(const TargetHit *hit)
+{
+    return hit->target * RETEX_MAX_ORDERS + hit->index;
+}
 
 static void uv_range_reset(double low[][2], double high[][2])
 {
     for (int t = 0; t < RETEX_MAX_TARGETS; t++)
-        for (int k = 0; k < 2; k++) low[t][k] = INFINITY, high[t][k] = -INFINITY;
+        for (int k = 0; k < 2; k++)
+            low[t][k] = INFINITY, high[t][k] = -INFINITY;
 }
 
 static int film_alloc(Film *film, RetexError *err)
 {
     int w = film->params.width, h = film->params.height, code = retex_image_alloc(&film->beauty, w, h, 3, err);
-    if (code || !film->params.split) return code;
+    if (code || !film->params.split)
+        return code;
     for (int k = 0; k < footprints_count(film) && !code; k++) {
-        if (k % RETEX_MAX_ORDERS >= film->params.orders) continue;
+        if (k % RETEX_MAX_ORDERS >= film->params.orders)
+            continue;
         code = retex_image_alloc(&film->uv[k], w, h, 3, err);
-        if (!code) code = retex_image_alloc(&film->spread[k], w, h, 2, err);
-        if (!code) code = retex_image_alloc(&film->albedo[k], w, h, 3, err);
+        if (!code)
+            code = retex_image_alloc(&film->spread[k], w, h, 2, err);
+        if (!code)
+            code = retex_image_alloc(&film->albedo[k], w, h, 3, err);
     }
-    if (!code) code = terms_create(&film->terms, w, h, film->scene->ntargets, film->params.orders, err);
+    if (!code)
+        code = terms_create(&film->terms, w, h, film->scene->ntargets, film->params.orders, err);
     return code;
 }
 
@@ -74,7 +86,8 @@ int film_create(Film **out, const Scene *scene, const FilmParams *params, RetexE
 {
     Film *film = calloc(1, sizeof *film);
     *out = film;
-    if (!film) return retex_fail(err, RETEX_ENOMEM, "out of memory for the film");
+    if (!film)
+        return retex_fail(err, RETEX_ENOMEM, "out of memory for the film");
     film->scene = scene;
     film->params = *params;
     pthread_mutex_init(&film->lock, NULL);
@@ -83,13 +96,15 @@ int film_create(Film **out, const Scene *scene, const FilmParams *params, RetexE
     film->tile_folded = calloc((size_t)params->ntiles, sizeof(double));
     int code = film->tile_total && film->tile_folded ? film_alloc(film, err)
                                                      : retex_fail(err, RETEX_ENOMEM, "out of memory for the film");
-    if (code) film_close(out);
+    if (code)
+        film_close(out);
     return code;
 }
 
 void film_close(Film **film)
 {
-    if (!*film) return;
+    if (!*film)
+        return;
     retex_image_free(&(*film)->beauty);
     for (int k = 0; k < RETEX_MAX_TARGETS * RETEX_MAX_ORDERS; k++) {
         retex_image_free(&(*film)->uv[k]);
@@ -114,7 +129,8 @@ int film_pixel_create(FilmPixel **out, Film *film, RetexError *err)
         p->touched = calloc(TERMS_MAX, sizeof *p->touched);
         uv_range_reset(p->uv_min, p->uv_max);
     }
-    if (p && p->sums && p->touched) return RETEX_OK;
+    if (p && p->sums && p->touched)
+        return RETEX_OK;
     film_pixel_close(out);
     return retex_fail(err, RETEX_ENOMEM, "out of memory for a thread's pixel");
 }
@@ -123,7 +139,8 @@ int film_pixel_create(FilmPixel **out, Film *film, RetexError *err)
 void film_pixel_close(FilmPixel **pixel)
 {
     FilmPixel *p = *pixel;
-    if (!p) return;
+    if (!p)
+        return;
     pthread_mutex_lock(&p->film->lock);
     for (int t = 0; t < RETEX_MAX_TARGETS; t++)
         for (int k = 0; k < 2; k++) {
@@ -141,9 +158,11 @@ void film_pixel_close(FilmPixel **pixel)
 static void add_term(FilmPixel *p, TermKey key, Rgb value)
 {
     int term = terms_find(&p->film->terms, &p->cache, key);
-    if (term < 0) return; /* no room for one more: counted as dropped energy by the caller's sum */
+    if (term < 0)
+        return; /* no room for one more: counted as dropped energy by the caller's sum */
     float *sum = p->sums[term];
-    if (sum[0] == 0 && sum[1] == 0 && sum[2] == 0) p->touched[p->ntouched++] = term;
+    if (sum[0] == 0 && sum[1] == 0 && sum[2] == 0)
+        p->touched[p->ntouched++] = term;
     sum[0] += value.r, sum[1] += value.g, sum[2] += value.b;
 }
 
@@ -153,10 +172,12 @@ static void add_albedos(FilmPixel *p, const Expansion *e, HitMask hits, Rgb valu
 {
     for (int j = 0; j < e->nhits; j++) {
         const TargetHit *hit = &e->hits[j];
-        if (!(hits & hit_bit(hit->target, hit->index))) continue;
+        if (!(hits & hit_bit(hit->target, hit->index)))
+            continue;
         Rgb light = value;
         for (int k = 0; k < e->nhits; k++)
-            if (k != j && hits & hit_bit(e->hits[k].target, e->hits[k].index)) light = rgb_mul(light, e->hits[k].albedo);
+            if (k != j && hits & hit_bit(e->hits[k].target, e->hits[k].index))
+                light = rgb_mul(light, e->hits[k].albedo);
         FootprintSums *f = &p->footprints[footprint_number(hit)];
         f->light[0] += light.r, f->light[1] += light.g, f->light[2] += light.b;
         f->light_albedo[0] += light.r * hit->albedo.r;
@@ -172,9 +193,11 @@ static void note_connection(FilmPixel *p, const Expansion *e)
         const TargetHit *hit = &e->hits[j];
         int k = p->nhits - 1;
         while (k >= 0 && !(p->hits[k].target == hit->target && p->hits[k].index == hit->index &&
-                           p->hits[k].uv.u == hit->uv.u && p->hits[k].uv.v == hit->uv.v)) k--;
+                           p->hits[k].uv.u == hit->uv.u && p->hits[k].uv.v == hit->uv.v))
+            k--;
         if (k < 0) {
-            if (p->nhits == 64) continue;
+            if (p->nhits == 64)
+                continue;
             k = p->nhits++;
             p->hits[k] = *hit;
             p->connections[k] = 0;
@@ -192,14 +215,18 @@ void film_connect(FilmPixel *p, Rgb beauty, Rgb outside, const Expansion *e, int
     }
     p->beauty[0] += beauty.r, p->beauty[1] += beauty.g, p->beauty[2] += beauty.b;
     p->total += l;
-    if (folded) p->folded += l;
-    if (!p->film->params.split || rgb_is_black(outside)) return;
+    if (folded)
+        p->folded += l;
+    if (!p->film->params.split || rgb_is_black(outside))
+        return;
     for (int k = 0; k < e->nmonomials; k++) {
         Rgb value = rgb_mul(outside, e->monomials[k].coefficient);
         TermKey key = term_key(e->nhits, e->monomials[k].hits, p->film->params.strict_paper);
-        if (key == TERM_DROPPED || rgb_is_black(value)) continue;
+        if (key == TERM_DROPPED || rgb_is_black(value))
+            continue;
         add_term(p, key, value);
-        if (e->monomials[k].hits) add_albedos(p, e, e->monomials[k].hits, value);
+        if (e->monomials[k].hits)
+            add_albedos(p, e, e->monomials[k].hits, value);
     }
     note_connection(p, e);
 }
@@ -226,7 +253,8 @@ void film_path_end(FilmPixel *p)
         FootprintSums *f = &p->footprints[footprint_number(hit)];
         HitMask bit = hit_bit(hit->target, hit->index);
         footprint_add(f, hit, p->connections[k]);
-        if (!(seen & bit)) f->samples++;
+        if (!(seen & bit))
+            f->samples++;
         seen |= bit;
         for (int a = 0; a < 2; a++) {
             double x = a ? hit->uv.v : hit->uv.u;
@@ -256,10 +284,12 @@ void film_pixel_end(FilmPixel *p, int x, int y)
     Film *film = p->film;
     float scale = 1 / (float)film->params.spp;
     float *beauty = film->beauty.pixels + retex_image_index(&film->beauty, x, y);
-    for (int c = 0; c < 3; c++) beauty[c] = (float)(p->beauty[c] / film->params.spp), p->beauty[c] = 0;
+    for (int c = 0; c < 3; c++)
+        beauty[c] = (float)(p->beauty[c] / film->params.spp), p->beauty[c] = 0;
     for (int k = 0; k < p->ntouched; k++) {
         float *sum = p->sums[p->touched[k]], *pixel = terms_pixel(&film->terms, p->touched[k], x, y);
-        for (int c = 0; c < 3; c++) pixel[c] = sum[c] * scale, sum[c] = 0;
+        for (int c = 0; c < 3; c++)
+            pixel[c] = sum[c] * scale, sum[c] = 0;
     }
     p->ntouched = 0;
     for (int k = 0; k < footprints_count(film); k++)
@@ -276,18 +306,23 @@ void film_tile_end(FilmPixel *p, int tile)
     p->total = p->folded = 0;
 }
 
-long film_dropped(const Film *film) { return film->dropped; }
+long film_dropped(const Film *film)
+{
+    return film->dropped;
+}
 
 /* Hand an image over to a new part of the set. */
-static int move_part(RetexSet *set, const char *name, const char *letters, RetexPixelType type, RetexImage *image, int *index,
-                     RetexError *err)
+static int move_part(RetexSet *set, const char *name, const char *letters, RetexPixelType type, RetexImage *image,
+                     int *index, RetexError *err)
 {
     int part, code = retex_set_add_part(set, name, letters, type, 1, 1, &part, err);
-    if (code) return code;
+    if (code)
+        return code;
     retex_image_free(&set->parts[part].image);
     set->parts[part].image = *image;
     *image = (RetexImage){0};
-    if (index) *index = part;
+    if (index)
+        *index = part;
     return RETEX_OK;
 }
 
@@ -299,12 +334,16 @@ static int finish_footprints(Film *film, RetexSet *set, RetexError *err)
             int k = t * RETEX_MAX_ORDERS + j, code;
             RetexFootprint f = {.target = t, .hit = j + 1};
             snprintf(name, sizeof name, "uv_%.90s_%d", film->scene->targets[t].name, j + 1);
-            if ((code = move_part(set, name, "RGA", RETEX_FLOAT, &film->uv[k], &f.uv, err))) return code;
+            if ((code = move_part(set, name, "RGA", RETEX_FLOAT, &film->uv[k], &f.uv, err)))
+                return code;
             snprintf(name, sizeof name, "spread_%.90s_%d", film->scene->targets[t].name, j + 1);
-            if ((code = move_part(set, name, "RG", RETEX_HALF, &film->spread[k], &f.spread, err))) return code;
+            if ((code = move_part(set, name, "RG", RETEX_HALF, &film->spread[k], &f.spread, err)))
+                return code;
             snprintf(name, sizeof name, "albedo_%.90s_%d", film->scene->targets[t].name, j + 1);
-            if ((code = move_part(set, name, "RGB", RETEX_HALF, &film->albedo[k], &f.albedo, err))) return code;
-            if ((code = retex_set_add_footprint(set, &f, NULL, err))) return code;
+            if ((code = move_part(set, name, "RGB", RETEX_HALF, &film->albedo[k], &f.albedo, err)))
+                return code;
+            if ((code = retex_set_add_footprint(set, &f, NULL, err)))
+                return code;
         }
     return RETEX_OK;
 }
@@ -314,15 +353,19 @@ static void target_mean(const RetexSet *set, int target, float mean[3])
 {
     double sum[3] = {0, 0, 0}, weight = 0;
     for (int k = 0; k < set->nfootprints; k++) {
-        if (set->footprints[k].target != target) continue;
-        const RetexImage *uv = &set->parts[set->footprints[k].uv].image, *a = &set->parts[set->footprints[k].albedo].image;
+        if (set->footprints[k].target != target)
+            continue;
+        const RetexImage *uv = &set->parts[set->footprints[k].uv].image,
+                         *a = &set->parts[set->footprints[k].albedo].image;
         for (size_t i = 0; i < (size_t)uv->width * (size_t)uv->height; i++) {
             double w = uv->pixels[i * 3 + 2];
             weight += w;
-            for (int c = 0; c < 3; c++) sum[c] += w * a->pixels[i * 3 + (size_t)c];
+            for (int c = 0; c < 3; c++)
+                sum[c] += w * a->pixels[i * 3 + (size_t)c];
         }
     }
-    for (int c = 0; c < 3; c++) mean[c] = weight > 0 ? (float)(sum[c] / weight) : 0;
+    for (int c = 0; c < 3; c++)
+        mean[c] = weight > 0 ? (float)(sum[c] / weight) : 0;
 }
 
 static void finish_targets(const Film *film, RetexSet *set)
@@ -347,15 +390,18 @@ int film_finish(Film *film, RetexSet *set, RetexError *err)
     set->parts[0].image = film->beauty;
     film->beauty = (RetexImage){0};
     set->ntargets = 0;
-    if (!film->params.split) return RETEX_OK;
+    if (!film->params.split)
+        return RETEX_OK;
     set->orders = film->params.orders;
     set->strict_paper = film->params.strict_paper;
     double total = 0, folded = 0;
-    for (int k = 0; k < film->params.ntiles; k++) total += film->tile_total[k], folded += film->tile_folded[k];
+    for (int k = 0; k < film->params.ntiles; k++)
+        total += film->tile_total[k], folded += film->tile_folded[k];
     set->folded = total > 0 ? folded / total : 0;
     set->ntargets = film->scene->ntargets;
     int code = finish_footprints(film, set, err);
-    if (code) return code;
+    if (code)
+        return code;
     finish_targets(film, set);
     return terms_finish(&film->terms, set, err);
 }

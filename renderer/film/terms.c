@@ -6,7 +6,10 @@
 
 #define KEY(kind, rest) ((TermKey)(kind) << 56 | (rest))
 
-static int count_bits(HitMask m) { return __builtin_popcountll(m); }
+static int count_bits(HitMask m)
+{
+    return __builtin_popcountll(m);
+}
 static HitMask target_bits(HitMask m, int target)
 {
     return m >> (target * RETEX_MAX_ORDERS) & (((HitMask)1 << RETEX_MAX_ORDERS) - 1);
@@ -17,26 +20,34 @@ static HitMask as_prefix(HitMask hits)
 {
     HitMask prefix = 0;
     for (int t = 0; t < RETEX_MAX_TARGETS; t++)
-        for (int k = count_bits(target_bits(hits, t)) - 1; k >= 0; k--) prefix |= hit_bit(t, k);
+        for (int k = count_bits(target_bits(hits, t)) - 1; k >= 0; k--)
+            prefix |= hit_bit(t, k);
     return prefix;
 }
 
 TermKey term_key(int nhits, HitMask hits, int strict)
 {
     int n = count_bits(hits);
-    if (nhits == 0) return KEY(RETEX_TERM_FULL, 0);
-    if (n == 0) return KEY(RETEX_TERM_INDEP, (TermKey)nhits);
-    if (n == nhits) return KEY(RETEX_TERM_DEP, hits);
-    if (nhits == 2) return KEY(RETEX_TERM_CROSS2, hits);
-    if (nhits == 3) return KEY(RETEX_TERM_CROSS3, hits);
+    if (nhits == 0)
+        return KEY(RETEX_TERM_FULL, 0);
+    if (n == 0)
+        return KEY(RETEX_TERM_INDEP, (TermKey)nhits);
+    if (n == nhits)
+        return KEY(RETEX_TERM_DEP, hits);
+    if (nhits == 2)
+        return KEY(RETEX_TERM_CROSS2, hits);
+    if (nhits == 3)
+        return KEY(RETEX_TERM_CROSS3, hits);
     return strict ? TERM_DROPPED : KEY(RETEX_TERM_DEP, as_prefix(hits));
 }
 
 static int add_term(TermTable *table, TermKey key, RetexError *err)
 {
-    if (table->count == TERMS_MAX) return retex_fail(err, RETEX_ELIMIT, "more than %d terms", TERMS_MAX);
+    if (table->count == TERMS_MAX)
+        return retex_fail(err, RETEX_ELIMIT, "more than %d terms", TERMS_MAX);
     int code = retex_image_alloc(&table->images[table->count], table->width, table->height, 3, err);
-    if (!code) table->keys[table->count++] = key;
+    if (!code)
+        table->keys[table->count++] = key;
     return code;
 }
 
@@ -46,10 +57,12 @@ static int add_paper_terms(TermTable *table, int orders, RetexError *err)
     int code = add_term(table, KEY(RETEX_TERM_FULL, 0), err);
     for (int h = 1; h <= orders && !code; h++) {
         code = add_term(table, KEY(RETEX_TERM_INDEP, (TermKey)h), err);
-        if (!code) code = add_term(table, KEY(RETEX_TERM_DEP, ((HitMask)1 << h) - 1), err);
+        if (!code)
+            code = add_term(table, KEY(RETEX_TERM_DEP, ((HitMask)1 << h) - 1), err);
     }
     for (int h = 2; h <= 3 && h <= orders; h++)
-        for (HitMask m = 1; m < ((HitMask)1 << h) - 1 && !code; m++) code = add_term(table, term_key(h, m, 0), err);
+        for (HitMask m = 1; m < ((HitMask)1 << h) - 1 && !code; m++)
+            code = add_term(table, term_key(h, m, 0), err);
     return code;
 }
 
@@ -59,14 +72,17 @@ int terms_create(TermTable *table, int width, int height, int ntargets, int orde
     table->images = calloc(TERMS_MAX, sizeof *table->images);
     pthread_mutex_init(&table->lock, NULL);
     table->ready = 1;
-    if (!table->images) return retex_fail(err, RETEX_ENOMEM, "out of memory for the terms");
+    if (!table->images)
+        return retex_fail(err, RETEX_ENOMEM, "out of memory for the terms");
     return ntargets == 1 ? add_paper_terms(table, orders, err) : add_term(table, KEY(RETEX_TERM_FULL, 0), err);
 }
 
 void terms_close(TermTable *table)
 {
-    if (!table->ready) return;
-    for (int k = 0; k < table->count; k++) retex_image_free(&table->images[k]);
+    if (!table->ready)
+        return;
+    for (int k = 0; k < table->count; k++)
+        retex_image_free(&table->images[k]);
     free(table->images);
     pthread_mutex_destroy(&table->lock);
     *table = (TermTable){0};
@@ -76,8 +92,10 @@ static int find_shared(TermTable *table, TermKey key)
 {
     pthread_mutex_lock(&table->lock);
     int k = 0;
-    while (k < table->count && table->keys[k] != key) k++;
-    if (k == table->count && add_term(table, key, NULL)) k = -1;
+    while (k < table->count && table->keys[k] != key)
+        k++;
+    if (k == table->count && add_term(table, key, NULL))
+        k = -1;
     pthread_mutex_unlock(&table->lock);
     return k;
 }
@@ -85,9 +103,11 @@ static int find_shared(TermTable *table, TermKey key)
 int terms_find(TermTable *table, TermCache *cache, TermKey key)
 {
     unsigned slot = (unsigned)((key * 0x9e3779b97f4a7c15u) >> 56);
-    if (cache->terms[slot] && cache->keys[slot] == key) return cache->terms[slot] - 1;
+    if (cache->terms[slot] && cache->keys[slot] == key)
+        return cache->terms[slot] - 1;
     int term = find_shared(table, key);
-    if (term >= 0) cache->keys[slot] = key, cache->terms[slot] = term + 1;
+    if (term >= 0)
+        cache->keys[slot] = key, cache->terms[slot] = term + 1;
     return term;
 }
 
@@ -111,11 +131,14 @@ static void letters_name(char *out, size_t size, HitMask hits, int ntargets, int
     out[0] = 0;
     for (int t = 0; t < ntargets; t++) {
         HitMask m = target_bits(hits, t);
-        if (!m) continue;
+        if (!m)
+            continue;
         used += (size_t)snprintf(out + used, size - used, "%c", 'a' + t);
-        if (counts) used += (size_t)snprintf(out + used, size - used, "%d", count_bits(m));
+        if (counts)
+            used += (size_t)snprintf(out + used, size - used, "%d", count_bits(m));
         for (int k = 0; k < RETEX_MAX_ORDERS && !counts; k++)
-            if (m >> k & 1) used += (size_t)snprintf(out + used, size - used, "%d", k + 1);
+            if (m >> k & 1)
+                used += (size_t)snprintf(out + used, size - used, "%d", k + 1);
     }
 }
 
@@ -126,23 +149,31 @@ static void term_name(char *out, size_t size, TermKey key, int ntargets)
     char letters[64];
     letters_name(letters, sizeof letters, hits, ntargets, kind == RETEX_TERM_DEP);
     int one = ntargets == 1;
-    if (kind == RETEX_TERM_FULL) snprintf(out, size, "full_0");
-    else if (kind == RETEX_TERM_INDEP) snprintf(out, size, "indep_%d", (int)hits);
-    else if (kind == RETEX_TERM_DEP && one) snprintf(out, size, "dep_%d", count_bits(hits));
-    else if (kind == RETEX_TERM_DEP) snprintf(out, size, "dep_%s", letters);
+    if (kind == RETEX_TERM_FULL)
+        snprintf(out, size, "full_0");
+    else if (kind == RETEX_TERM_INDEP)
+        snprintf(out, size, "indep_%d", (int)hits);
+    else if (kind == RETEX_TERM_DEP && one)
+        snprintf(out, size, "dep_%d", count_bits(hits));
+    else if (kind == RETEX_TERM_DEP)
+        snprintf(out, size, "dep_%s", letters);
     else {
         int n = kind == RETEX_TERM_CROSS2 ? 2 : 3;
-        if (one) snprintf(out, size, "cross%d_%d", n, supplement_number(n, hits));
-        else snprintf(out, size, "cross%d_%s", n, letters);
+        if (one)
+            snprintf(out, size, "cross%d_%d", n, supplement_number(n, hits));
+        else
+            snprintf(out, size, "cross%d_%s", n, letters);
     }
 }
 
 static void term_factors(RetexTerm *term, TermKey key, int ntargets, int orders)
 {
-    if (term->kind == RETEX_TERM_FULL || term->kind == RETEX_TERM_INDEP) return;
+    if (term->kind == RETEX_TERM_FULL || term->kind == RETEX_TERM_INDEP)
+        return;
     for (int t = 0; t < ntargets; t++)
         for (int k = 0; k < RETEX_MAX_ORDERS; k++)
-            if (target_bits(key, t) >> k & 1) term->factors[term->nfactors++] = t * orders + k;
+            if (target_bits(key, t) >> k & 1)
+                term->factors[term->nfactors++] = t * orders + k;
 }
 
 static int compare_keys(const void *a, const void *b)
@@ -153,9 +184,11 @@ static int compare_keys(const void *a, const void *b)
 
 int terms_finish(TermTable *table, RetexSet *set, RetexError *err)
 {
-    TermKey (*order)[2] = calloc((size_t)table->count + 1, sizeof *order);
-    if (!order) return retex_fail(err, RETEX_ENOMEM, "out of memory for the terms");
-    for (int k = 0; k < table->count; k++) order[k][0] = table->keys[k], order[k][1] = (TermKey)k;
+    TermKey(*order)[2] = calloc((size_t)table->count + 1, sizeof *order);
+    if (!order)
+        return retex_fail(err, RETEX_ENOMEM, "out of memory for the terms");
+    for (int k = 0; k < table->count; k++)
+        order[k][0] = table->keys[k], order[k][1] = (TermKey)k;
     qsort(order, (size_t)table->count, sizeof *order, compare_keys);
     int code = RETEX_OK;
     for (int k = 0; k < table->count && !code; k++) {
@@ -164,7 +197,8 @@ int terms_finish(TermTable *table, RetexSet *set, RetexError *err)
         term_name(name, sizeof name, order[k][0], table->ntargets);
         term_factors(&term, order[k][0], table->ntargets, set->orders);
         code = retex_set_add_part(set, name, "RGB", RETEX_HALF, 1, 1, &term.radiance, err);
-        if (code) break;
+        if (code)
+            break;
         RetexImage *image = &set->parts[term.radiance].image;
         retex_image_free(image);
         *image = table->images[order[k][1]];

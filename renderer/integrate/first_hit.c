@@ -6,9 +6,12 @@
 #include "integrate/first_hit.h"
 #include "integrate/path.h"
 
-static const struct { unsigned bit; const char *name, *letters; } aov_table[] = {
-    {AOV_DEPTH, "depth", "R"}, {AOV_ALBEDO, "albedo", "RGB"}, {AOV_NORMAL, "normal", "RGB"},
-    {AOV_POSITION, "position", "RGB"}, {AOV_UV, "uv", "RGA"}, {AOV_OBJECT, "object", "R"},
+static const struct {
+    unsigned bit;
+    const char *name, *letters;
+} aov_table[] = {
+    {AOV_DEPTH, "depth", "R"},         {AOV_ALBEDO, "albedo", "RGB"}, {AOV_NORMAL, "normal", "RGB"},
+    {AOV_POSITION, "position", "RGB"}, {AOV_UV, "uv", "RGA"},         {AOV_OBJECT, "object", "R"},
 };
 enum { AOV_COUNT = sizeof aov_table / sizeof *aov_table };
 
@@ -20,22 +23,26 @@ typedef struct AovJob {
 static int centre_hit(const FirstHitWindow *w, int x, int y, Hit *hit, Shading *s)
 {
     Ray ray = camera_ray(&w->scene->camera, w->width, w->height, w->x0 + x + 0.5, w->y0 + y + 0.5);
-    if (!accel_intersect(w->accel, &ray, RAY_CAMERA, hit)) return 0;
+    if (!accel_intersect(w->accel, &ray, RAY_CAMERA, hit))
+        return 0;
     shading_at(s, w->scene, &ray, hit);
     return 1;
 }
 
 static void store(RetexImage *image, int x, int y, float a, float b, float c)
 {
-    if (!image) return;
+    if (!image)
+        return;
     float *p = image->pixels + retex_image_index(image, x, y), v[3] = {a, b, c};
-    for (int k = 0; k < image->channels; k++) p[k] = v[k];
+    for (int k = 0; k < image->channels; k++)
+        p[k] = v[k];
 }
 
 /* UV for the picture: a target's own, else what a target made of this surface would have. */
 static Vec2 any_uv(const Shading *s, const Scene *scene)
 {
-    if (s->surface.target >= 0) return s->uv;
+    if (s->surface.target >= 0)
+        return s->uv;
     Shading as_target = *s;
     as_target.surface.target = 0;
     Scene bare = {0};
@@ -74,13 +81,17 @@ int first_hit_aovs(RetexSet *set, const FirstHitWindow *window, unsigned aovs, R
     AovJob job = {.window = window};
     int parts[AOV_COUNT];
     for (int k = 0; k < AOV_COUNT; k++) {
-        if (!(aovs & aov_table[k].bit)) continue;
+        if (!(aovs & aov_table[k].bit))
+            continue;
         int code = retex_set_add_part(set, aov_table[k].name, aov_table[k].letters, RETEX_FLOAT, 0, 0, &parts[k], err);
-        if (code) return code;
+        if (code)
+            return code;
     }
     for (int k = 0; k < AOV_COUNT; k++)
-        if (aovs & aov_table[k].bit) job.images[k] = &set->parts[parts[k]].image;
-    if (aovs) retex_parallel(window->nthreads, window->h, aov_row, &job);
+        if (aovs & aov_table[k].bit)
+            job.images[k] = &set->parts[parts[k]].image;
+    if (aovs)
+        retex_parallel(window->nthreads, window->h, aov_row, &job);
     return RETEX_OK;
 }
 
@@ -94,7 +105,8 @@ static void mark(const Scene *scene, const IdentList *list, unsigned char *seen)
 {
     for (; list; list = list->next)
         for (int k = 0; k < scene->nidents; k++)
-            if (!strcmp(scene->idents[k], list->name)) seen[k] = 1;
+            if (!strcmp(scene->idents[k], list->name))
+                seen[k] = 1;
 }
 
 static void count_row(void *context, int y, int thread)
@@ -106,30 +118,37 @@ static void count_row(void *context, int y, int thread)
     for (int x = 0; x < job->window->w; x++) {
         Hit hit;
         Shading s;
-        if (!centre_hit(job->window, x, y, &hit, &s)) continue;
+        if (!centre_hit(job->window, x, y, &hit, &s))
+            continue;
         if (!job->idents) {
-            if (s.surface.target >= 0) counts[s.surface.target]++;
+            if (s.surface.target >= 0)
+                counts[s.surface.target]++;
             continue;
         }
         unsigned char *seen = calloc((size_t)job->items, 1);
-        if (!seen) continue;
+        if (!seen)
+            continue;
         mark(scene, s.surface.primitive->idents, seen);
         mark(scene, s.surface.texture->idents, seen);
         mark(scene, s.surface.texture->pigment->idents, seen);
-        for (int k = 0; k < job->items; k++) counts[k] += seen[k];
+        for (int k = 0; k < job->items; k++)
+            counts[k] += seen[k];
         free(seen);
     }
 }
 
 static int count_shares(const FirstHitWindow *window, int items, int idents, double *shares, RetexError *err)
 {
-    if (items == 0) return RETEX_OK;
+    if (items == 0)
+        return RETEX_OK;
     CountJob job = {window, calloc((size_t)window->h * (size_t)items, sizeof(long)), items, idents};
-    if (!job.counts) return retex_fail(err, RETEX_ENOMEM, "out of memory for shares of the picture");
+    if (!job.counts)
+        return retex_fail(err, RETEX_ENOMEM, "out of memory for shares of the picture");
     retex_parallel(window->nthreads, window->h, count_row, &job);
     for (int k = 0; k < items; k++) {
         long sum = 0;
-        for (int y = 0; y < window->h; y++) sum += job.counts[(size_t)y * (size_t)items + (size_t)k];
+        for (int y = 0; y < window->h; y++)
+            sum += job.counts[(size_t)y * (size_t)items + (size_t)k];
         shares[k] = (double)sum / ((double)window->w * window->h);
     }
     free(job.counts);
@@ -139,8 +158,9 @@ static int count_shares(const FirstHitWindow *window, int items, int idents, dou
 /* The shape's own UV goes once round from 0 to 1, if the pigment leaves it so. */
 static void closes(const Primitive *p, const Pigment *pigment, int *u, int *v)
 {
-    const double (*m)[4] = pigment->transform.m;
-    int own = pigment->uv_mapping ? m[0][0] == 1 && m[1][1] == 1 && m[0][1] == 0 && m[1][0] == 0 : pigment->kind != PIGMENT_IMAGE;
+    const double(*m)[4] = pigment->transform.m;
+    int own = pigment->uv_mapping ? m[0][0] == 1 && m[1][1] == 1 && m[0][1] == 0 && m[1][0] == 0
+                                  : pigment->kind != PIGMENT_IMAGE;
     *u &= own && (p->kind == SHAPE_SPHERE || p->kind == SHAPE_TORUS || (p->kind == SHAPE_CONE && !pigment->uv_mapping));
     *v &= own && p->kind == SHAPE_TORUS;
 }
@@ -152,11 +172,14 @@ static void set_periodic(RetexTarget *target, const Scene *scene, int t)
     for (int k = 0; k < scene->nprimitives; k++) {
         const Primitive *p = &scene->primitives[k];
         int inside = p->interior_texture && p->interior_target == t;
-        if (p->target == t) closes(p, p->texture->pigment, &u, &v);
-        if (inside) closes(p, p->interior_texture->pigment, &u, &v);
+        if (p->target == t)
+            closes(p, p->texture->pigment, &u, &v);
+        if (inside)
+            closes(p, p->interior_texture->pigment, &u, &v);
         any |= p->target == t || inside;
         for (int j = 0; p->face_targets && j < p->mesh->ntextures; j++)
-            if (p->face_targets[j] == t) u = v = 0;
+            if (p->face_targets[j] == t)
+                u = v = 0;
     }
     target->periodic[0] = any && u, target->periodic[1] = any && v;
 }

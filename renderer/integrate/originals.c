@@ -3,16 +3,21 @@
 #include "integrate/originals.h"
 #include "shade/pigment.h"
 
-static int is_inside(const Primitive *p, int target) { return p->interior_texture && p->interior_target == target; }
+static int is_inside(const Primitive *p, int target)
+{
+    return p->interior_texture && p->interior_target == target;
+}
 
 static const Primitive *first_primitive(const Scene *scene, int target)
 {
     for (int k = 0; k < scene->nprimitives; k++)
-        if (scene->primitives[k].target == target || is_inside(&scene->primitives[k], target)) return &scene->primitives[k];
+        if (scene->primitives[k].target == target || is_inside(&scene->primitives[k], target))
+            return &scene->primitives[k];
     for (int k = 0; k < scene->nprimitives; k++) {
         const Primitive *p = &scene->primitives[k];
         for (int j = 0; p->face_targets && j < p->mesh->ntextures; j++)
-            if (p->face_targets[j] == target) return p;
+            if (p->face_targets[j] == target)
+                return p;
     }
     return NULL;
 }
@@ -20,20 +25,25 @@ static const Primitive *first_primitive(const Scene *scene, int target)
 static const Texture *target_texture(const Primitive *p, int target)
 {
     for (int j = 0; p->target != target && p->face_targets && j < p->mesh->ntextures; j++)
-        if (p->face_targets[j] == target) return p->mesh->textures[j];
+        if (p->face_targets[j] == target)
+            return p->mesh->textures[j];
     return p->target != target && is_inside(p, target) ? p->interior_texture : p->texture;
 }
 
 static void original_size(const Pigment *pigment, int *width, int *height)
 {
     *width = *height = pigment_is_constant(pigment) ? 1 : ORIGINAL_SIZE;
-    if (pigment->kind != PIGMENT_IMAGE) return;
+    if (pigment->kind != PIGMENT_IMAGE)
+        return;
     int w = pigment->image->width, h = pigment->image->height, longest = w > h ? w : h;
     *width = w, *height = h;
-    if (longest <= ORIGINAL_SIZE) return;
+    if (longest <= ORIGINAL_SIZE)
+        return;
     *width = (int)((double)w * ORIGINAL_SIZE / longest), *height = (int)((double)h * ORIGINAL_SIZE / longest);
-    if (*width < 1) *width = 1;
-    if (*height < 1) *height = 1;
+    if (*width < 1)
+        *width = 1;
+    if (*height < 1)
+        *height = 1;
 }
 
 /* Each texel is the image averaged over the texel's own area, or the pigment at its centre. */
@@ -44,13 +54,17 @@ static int fill_original(RetexImage *dst, const Pigment *pigment, int axis, cons
         retex_image_free(dst);
         return pigment_bake(dst, pigment, axis, target->original_min, target->original_max, width, height, err);
     }
-    double sigma_u = 0.3 / dst->width, sigma_v = 0.3 / dst->height, covariance[3] = {sigma_u * sigma_u, 0, sigma_v * sigma_v};
-    if (dst->width == pigment->image->width && dst->height == pigment->image->height) covariance[0] = covariance[2] = 0;
+    double sigma_u = 0.3 / dst->width, sigma_v = 0.3 / dst->height,
+           covariance[3] = {sigma_u * sigma_u, 0, sigma_v * sigma_v};
+    if (dst->width == pigment->image->width && dst->height == pigment->image->height)
+        covariance[0] = covariance[2] = 0;
     for (int y = 0; y < dst->height; y++)
         for (int x = 0; x < dst->width; x++) {
             float rgba[4], *p = dst->pixels + retex_image_index(dst, x, y);
-            retex_texture_gaussian(pigment->image->texture, (x + 0.5) / dst->width, 1 - (y + 0.5) / dst->height, covariance, rgba);
-            for (int c = 0; c < 3; c++) p[c] = rgba[c];
+            retex_texture_gaussian(pigment->image->texture, (x + 0.5) / dst->width, 1 - (y + 0.5) / dst->height,
+                                   covariance, rgba);
+            for (int c = 0; c < 3; c++)
+                p[c] = rgba[c];
         }
     return RETEX_OK;
 }
@@ -58,7 +72,8 @@ static int fill_original(RetexImage *dst, const Pigment *pigment, int axis, cons
 /* The axis along which a plane or a box is flattest: how its planar UV looks at it. */
 static int dominant_axis(const Primitive *p)
 {
-    if (p->kind != SHAPE_PLANE) return 1;
+    if (p->kind != SHAPE_PLANE)
+        return 1;
     Vec3 n = transform_normal(&p->transform, vec3(0, 1, 0));
     n = transform_inverse_vector(&p->texture->pigment->transform, n);
     double x = fabs(n.x), y = fabs(n.y), z = fabs(n.z);
@@ -68,7 +83,8 @@ static int dominant_axis(const Primitive *p)
 static int add_original(RetexSet *set, const Scene *scene, int t, RetexError *err)
 {
     const Primitive *p = first_primitive(scene, t);
-    if (!p) return RETEX_OK;
+    if (!p)
+        return RETEX_OK;
     const Pigment *pigment = target_texture(p, t)->pigment;
     RetexTarget *target = &set->targets[t];
     for (int k = 0; k < 2; k++) {
@@ -81,7 +97,8 @@ static int add_original(RetexSet *set, const Scene *scene, int t, RetexError *er
     original_size(pigment, &width, &height);
     snprintf(name, sizeof name, "original_%.100s", target->name);
     int code = retex_set_add_part(set, name, "RGB", RETEX_HALF, width, height, &part, err);
-    if (code) return code;
+    if (code)
+        return code;
     target->original = part;
     return fill_original(&set->parts[part].image, pigment, dominant_axis(p), target, err);
 }
@@ -90,7 +107,8 @@ int originals_add(RetexSet *set, const Scene *scene, RetexError *err)
 {
     for (int t = 0; t < scene->ntargets; t++) {
         int code = add_original(set, scene, t, err);
-        if (code) return code;
+        if (code)
+            return code;
     }
     return RETEX_OK;
 }

@@ -5,18 +5,18 @@
  * holds as factors. Light that arrives goes to the film both ways. */
 #include "integrate/path.h"
 
-#define ROULETTE_START 4      /* segments before Russian roulette begins */
-#define STRAIGHT_MAX 128      /* surfaces a path or shadow ray may pass without bending */
+#define ROULETTE_START 4 /* segments before Russian roulette begins */
+#define STRAIGHT_MAX 128 /* surfaces a path or shadow ray may pass without bending */
 #define SHADOW_FACTORS_MAX 16
-#define MEDIA_MAX 4           /* fading interiors that a path may be in at once */
+#define MEDIA_MAX 4 /* fading interiors that a path may be in at once */
 
 /* One factor of a connection: a surface it scatters at or passes. */
 typedef struct Factor {
-    int target;               /* -1: none */
+    int target; /* -1: none */
     Split split;
     Rgb albedo;
     Vec2 uv;
-    int reflects;             /* light stays on its side of the surface */
+    int reflects; /* light stays on its side of the surface */
 } Factor;
 
 /* The fading interiors a ray is in. */
@@ -30,10 +30,10 @@ typedef struct Path {
     Media media;
     RayKind kind;
     Expansion expansion;
-    int folded;               /* a target hit beyond the last order kept its albedo */
-    float neutral;            /* throughput with NEUTRAL_ALBEDO everywhere: for Russian roulette */
-    float pdf;                /* density of the direction, 0 after a delta */
-    Vec3 from;                /* where that direction was sampled */
+    int folded;    /* a target hit beyond the last order kept its albedo */
+    float neutral; /* throughput with NEUTRAL_ALBEDO everywhere: for Russian roulette */
+    float pdf;     /* density of the direction, 0 after a delta */
+    Vec3 from;     /* where that direction was sampled */
     int segments;
 } Path;
 
@@ -65,7 +65,8 @@ static void apply_factor(const PathContext *c, Rgb *beta, Rgb *outside, Expansio
         return;
     }
     *outside = rgb_mul(*outside, whole);
-    if (is_textured(c, f)) *folded = 1;
+    if (is_textured(c, f))
+        *folded = 1;
 }
 
 /* Light reaches the path's end through some more factors. */
@@ -76,12 +77,16 @@ static void connect(PathWorker *w, const Path *path, Rgb light, const Factor *fa
     const Expansion *e = &path->expansion;
     int folded = path->folded;
     if (nfactors > 0) {
-        if (c->split) expansion_copy(&w->scratch, e);
+        if (c->split)
+            expansion_copy(&w->scratch, e);
         e = &w->scratch;
-        for (int k = 0; k < nfactors; k++) apply_factor(c, &beta, &outside, &w->scratch, &folded, &factors[k]);
+        for (int k = 0; k < nfactors; k++)
+            apply_factor(c, &beta, &outside, &w->scratch, &folded, &factors[k]);
     }
-    if (rgb_is_black(beta) && rgb_is_black(outside)) return;
-    if (c->trace) fprintf(c->trace, "  light %.6g %.6g %.6g over %d target hits\n", beta.r, beta.g, beta.b, e->nhits);
+    if (rgb_is_black(beta) && rgb_is_black(outside))
+        return;
+    if (c->trace)
+        fprintf(c->trace, "  light %.6g %.6g %.6g over %d target hits\n", beta.r, beta.g, beta.b, e->nhits);
     film_connect(w->pixel, beta, outside, e, folded);
 }
 
@@ -93,20 +98,23 @@ static float mis_weight(float a, float b)
 
 static float fade_channel(float color, double x, double power)
 {
-    if (power > 1000) return (float)exp(-(1 - color) * x);
+    if (power > 1000)
+        return (float)exp(-(1 - color) * x);
     return color + (1 - color) * (float)(1 / (1 + pow(x, power)));
 }
 
 static Rgb fade_over(const Interior *in, double distance)
 {
     double x = distance / in->fade_distance, power = in->fade_power;
-    return rgb(fade_channel(in->fade_color.r, x, power), fade_channel(in->fade_color.g, x, power), fade_channel(in->fade_color.b, x, power));
+    return rgb(fade_channel(in->fade_color.r, x, power), fade_channel(in->fade_color.g, x, power),
+               fade_channel(in->fade_color.b, x, power));
 }
 
 static int media_find(const Media *media, const Interior *interior)
 {
     int k = media->count - 1;
-    while (k >= 0 && media->interiors[k] != interior) k--;
+    while (k >= 0 && media->interiors[k] != interior)
+        k--;
     return k;
 }
 
@@ -121,7 +129,8 @@ static const Interior *fading_interior(const Surface *surface)
 static Rgb media_fade(const Media *media, double distance, const Surface *met)
 {
     Rgb fade = rgb_grey(1);
-    for (int k = 0; k < media->count; k++) fade = rgb_mul(fade, fade_over(media->interiors[k], distance));
+    for (int k = 0; k < media->count; k++)
+        fade = rgb_mul(fade, fade_over(media->interiors[k], distance));
     const Interior *in = met && met->backside ? fading_interior(met) : NULL;
     return in && media_find(media, in) < 0 ? rgb_mul(fade, fade_over(in, distance)) : fade;
 }
@@ -130,23 +139,28 @@ static Rgb media_fade(const Media *media, double distance, const Surface *met)
 static void media_cross(Media *media, const Surface *surface)
 {
     const Interior *in = fading_interior(surface);
-    if (!in) return;
+    if (!in)
+        return;
     int k = media_find(media, in);
-    if (!surface->backside && k < 0 && media->count < MEDIA_MAX) media->interiors[media->count++] = in;
-    if (surface->backside && k >= 0) media->interiors[k] = media->interiors[--media->count];
+    if (!surface->backside && k < 0 && media->count < MEDIA_MAX)
+        media->interiors[media->count++] = in;
+    if (surface->backside && k >= 0)
+        media->interiors[k] = media->interiors[--media->count];
 }
 
 /* What a surface between a point and a light does to the light: pass it straight, or block it. Light sources, which no
  * path can hit, shine through glass unbent; all others leave bent light to the paths that find it. */
 static int shadow_factor(const Shading *s, int light_source, Factor *factor)
 {
-    if (s->bsdf.refracts && !light_source) return 0;
+    if (s->bsdf.refracts && !light_source)
+        return 0;
     Split passing = s->bsdf.passing;
     if (s->bsdf.disney && s->bsdf.transmission > 0) {
         passing.d = rgb_grey(s->bsdf.transmission * (1 - fresnel_dielectric((float)s->bsdf.cos_o, s->bsdf.eta)));
         passing.i = rgb_grey(0);
     }
-    if (rgb_is_black(passing.d) && rgb_is_black(passing.i)) return 0;
+    if (rgb_is_black(passing.d) && rgb_is_black(passing.i))
+        return 0;
     *factor = shading_factor(s, passing);
     return 1;
 }
@@ -172,29 +186,35 @@ static int trace_shadow(PathWorker *w, Ray ray, int light_source, Media *media, 
     const PathContext *c = w->context;
     w->shadow_rays++;
     int through = accel_has_transparent(c->accel), n = 0;
-    if (!through && accel_occluded(c->accel, &ray, RAY_SHADOW, 0)) return -1;
+    if (!through && accel_occluded(c->accel, &ray, RAY_SHADOW, 0))
+        return -1;
     Hit hit;
     Shading s;
     for (int k = 0; k < STRAIGHT_MAX; k++) {
         if (!through || !accel_intersect(c->accel, &ray, RAY_SHADOW, &hit)) {
-            if (media->count > 0 && isfinite(ray.tmax)) *light = rgb_mul(*light, media_fade(media, ray.tmax - ray.tmin, NULL));
+            if (media->count > 0 && isfinite(ray.tmax))
+                *light = rgb_mul(*light, media_fade(media, ray.tmax - ray.tmin, NULL));
             return n;
         }
         Surface surface;
         Factor factor;
-        if (!accel_is_transparent(c->accel, hit.primitive)) return -1;
+        if (!accel_is_transparent(c->accel, hit.primitive))
+            return -1;
         if (k == 0) { /* before walking through what is clear: is there anything that is not? */
             Ray rest = ray;
             rest.tmin = hit.t;
-            if (accel_occluded(c->accel, &rest, RAY_SHADOW, 1)) return -1;
+            if (accel_occluded(c->accel, &rest, RAY_SHADOW, 1))
+                return -1;
         }
         surface_at(&surface, c->scene, &ray, &hit);
         shading_straight(&s, c->scene, &ray, &surface);
-        if (!shadow_factor(&s, light_source, &factor)) return -1;
+        if (!shadow_factor(&s, light_source, &factor))
+            return -1;
         if (factor.target < 0 || rgb_is_black(factor.split.d)) {
             *light = rgb_mul(*light, split_apply(factor.split, factor.albedo));
         } else {
-            if (n == room) return -1;
+            if (n == room)
+                return -1;
             factors[n++] = factor;
         }
         *light = rgb_mul(*light, media_fade(media, hit.t - ray.tmin, &surface));
@@ -222,7 +242,8 @@ static int hidden_by_itself(const PathContext *c, Ray ray, const Primitive *emit
 {
     Hit hit;
     while (accel_intersect(c->accel, &ray, (RayKind)(RAY_CAMERA | RAY_BOUNCE), &hit)) {
-        if (&c->scene->primitives[hit.primitive] == emitter) return 1;
+        if (&c->scene->primitives[hit.primitive] == emitter)
+            return 1;
         ray.tmin = hit.t;
     }
     return 0;
@@ -233,16 +254,20 @@ static int hidden_by_itself(const PathContext *c, Ray ray, const Primitive *emit
 static float path_density(const PathContext *c, const Ray *ray, RayKind kind, const LightSample *light, float pdf)
 {
     const Primitive *emitter = light->kind == LIGHT_SAMPLE_EMITTER ? light->surface.primitive : NULL;
-    if (emitter && (kind == RAY_CAMERA ? emitter->no_image : emitter->no_reflection)) pdf = 0;
-    if (!c->has_no_shadow) return pdf;
-    if (emitter && emitter->no_shadow && hidden_by_itself(c, *ray, emitter)) return -1;
+    if (emitter && (kind == RAY_CAMERA ? emitter->no_image : emitter->no_reflection))
+        pdf = 0;
+    if (!c->has_no_shadow)
+        return pdf;
+    if (emitter && emitter->no_shadow && hidden_by_itself(c, *ray, emitter))
+        return -1;
     return accel_occluded(c->accel, ray, kind, 1) ? 0 : pdf;
 }
 
 /* Radiance a sampled light sends, and the factor of its pigment where it is a shape. Returns the number of factors. */
 static int light_factors(const PathContext *c, LightSample *light, Factor *factors)
 {
-    if (light->kind != LIGHT_SAMPLE_EMITTER) return 0;
+    if (light->kind != LIGHT_SAMPLE_EMITTER)
+        return 0;
     Shading s = {.surface = light->surface};
     shading_color(&s, c->scene);
     light->radiance = rgb_grey(1);
@@ -257,30 +282,37 @@ static void sample_light(PathWorker *w, const Path *path, const Shading *s, cons
     LightSample light;
     sampler_pair(sampler, dimension + VERTEX_LIGHT_CHOICE, &u_pick, &u_part);
     sampler_pair(sampler, dimension + VERTEX_LIGHT_POINT, &u1, &u2);
-    if (!lights_sample(c->lights, s->surface.position, u_pick, u_part, u1, u2, &light)) return;
+    if (!lights_sample(c->lights, s->surface.position, u_pick, u_part, u1, u2, &light))
+        return;
     int source = light.kind == LIGHT_SAMPLE_SOURCE;
     Split f = bsdf_eval(&s->bsdf, light.direction, source, &pdf);
-    if (rgb_is_black(f.d) && rgb_is_black(f.i)) return;
+    if (rgb_is_black(f.d) && rgb_is_black(f.i))
+        return;
 
     Factor factors[SHADOW_FACTORS_MAX + 2];
     factors[0] = shading_factor(s, f);
     int n = 1 + light_factors(c, &light, factors + 1);
-    Ray ray = {accel_offset(s->surface.position, s->surface.geometric_normal, light.direction), light.direction, 0, INFINITY};
+    Ray ray = {accel_offset(s->surface.position, s->surface.geometric_normal, light.direction), light.direction, 0,
+               INFINITY};
     if (isfinite(light.distance)) { /* stop just before the light, seen from where the ray starts */
         Vec3 end = vec_mad(s->surface.position, light.direction, light.distance);
-        if (light.kind == LIGHT_SAMPLE_EMITTER) end = accel_offset(light.surface.position, light.surface.geometric_normal, vec_neg(light.direction));
+        if (light.kind == LIGHT_SAMPLE_EMITTER)
+            end = accel_offset(light.surface.position, light.surface.geometric_normal, vec_neg(light.direction));
         Vec3 way = vec_sub(end, ray.origin);
         ray.tmax = vec_length(way) * (1 - 1e-6);
     }
     int other_side = vec_dot(light.direction, s->bsdf.geometric) < 0;
     if (!light.shadowless) {
         Media media = path->media;
-        if (other_side) media_cross(&media, &s->surface);
+        if (other_side)
+            media_cross(&media, &s->surface);
         int passed = trace_shadow(w, ray, source, &media, &light.radiance, factors + n, SHADOW_FACTORS_MAX);
-        if (passed < 0) return;
+        if (passed < 0)
+            return;
         n += passed;
     }
-    if (!source && (pdf = path_density(c, &ray, next_kind(path->kind, &s->bsdf, other_side), &light, pdf)) < 0) return;
+    if (!source && (pdf = path_density(c, &ray, next_kind(path->kind, &s->bsdf, other_side), &light, pdf)) < 0)
+        return;
     float light_pdf = light.pdf * light.pick_probability;
     float weight = source ? 1 / light.pick_probability : mis_weight(light_pdf, pdf) / light_pdf;
     connect(w, path, rgb_scale(light.radiance, weight), factors, n);
@@ -289,9 +321,11 @@ static void sample_light(PathWorker *w, const Path *path, const Shading *s, cons
 /* The path itself ran into something that shines. */
 static void hit_emitter(PathWorker *w, const Path *path, const Hit *hit, const Shading *s)
 {
-    if (rgb_is_black(s->surface.texture->finish->emission)) return;
+    if (rgb_is_black(s->surface.texture->finish->emission))
+        return;
     float weight = 1;
-    if (path->pdf > 0) weight = mis_weight(path->pdf, lights_emitter_pdf(w->context->lights, path->from, hit->primitive, &s->surface));
+    if (path->pdf > 0)
+        weight = mis_weight(path->pdf, lights_emitter_pdf(w->context->lights, path->from, hit->primitive, &s->surface));
     Factor factor = shading_factor(s, emitted(s));
     connect(w, path, rgb_grey(weight), &factor, 1);
 }
@@ -299,38 +333,44 @@ static void hit_emitter(PathWorker *w, const Path *path, const Hit *hit, const S
 static void hit_sky(PathWorker *w, const Path *path, Vec3 direction)
 {
     Rgb radiance = sky_radiance(w->context->scene, direction);
-    if (rgb_is_black(radiance)) return;
+    if (rgb_is_black(radiance))
+        return;
     float weight = 1;
-    if (path->pdf > 0) weight = mis_weight(path->pdf, lights_sky_pdf(w->context->lights, path->from, direction));
+    if (path->pdf > 0)
+        weight = mis_weight(path->pdf, lights_sky_pdf(w->context->lights, path->from, direction));
     connect(w, path, rgb_scale(radiance, weight), NULL, 0);
 }
 
 /* Choose where the path goes on from a hit at a distance along the ray. Returns 0 where it ends. */
-static int scatter(PathWorker *w, Path *path, const Shading *s, double distance, const Sampler *sampler, uint32_t dimension, Ray *ray,
-                   int *straight)
+static int scatter(PathWorker *w, Path *path, const Shading *s, double distance, const Sampler *sampler,
+                   uint32_t dimension, Ray *ray, int *straight)
 {
     float u_lobe, u_roulette, u1, u2;
     BsdfSample next;
     sampler_pair(sampler, dimension + VERTEX_LOBE, &u_lobe, &u_roulette);
     sampler_pair(sampler, dimension + VERTEX_DIRECTION, &u1, &u2);
-    if (!bsdf_sample(&s->bsdf, u_lobe, u1, u2, &next)) return 0;
+    if (!bsdf_sample(&s->bsdf, u_lobe, u1, u2, &next))
+        return 0;
     Factor factor = shading_factor(s, next.weight);
     factor.reflects = !next.transmitted;
     apply_factor(w->context, &path->beta, &path->outside, &path->expansion, &path->folded, &factor);
-    if (!w->context->split ? rgb_is_black(path->beta) : rgb_is_black(path->outside)) return 0;
+    if (!w->context->split ? rgb_is_black(path->beta) : rgb_is_black(path->outside))
+        return 0;
     path->neutral *= fminf(1, split_neutral(next.weight));
     if (w->context->trace)
-        fprintf(w->context->trace, "  goes on along %.5f %.5f %.5f pdf %.6g d %.5g i %.5g\n", next.wi.x, next.wi.y, next.wi.z,
-                next.pdf, rgb_luminance(next.weight.d), rgb_luminance(next.weight.i));
+        fprintf(w->context->trace, "  goes on along %.5f %.5f %.5f pdf %.6g d %.5g i %.5g\n", next.wi.x, next.wi.y,
+                next.wi.z, next.pdf, rgb_luminance(next.weight.d), rgb_luminance(next.weight.i));
     *straight = next.straight;
-    if (next.transmitted) media_cross(&path->media, &s->surface);
+    if (next.transmitted)
+        media_cross(&path->media, &s->surface);
     if (!next.straight) {
         path->kind = next_kind(path->kind, &s->bsdf, next.transmitted);
         path->pdf = next.pdf;
         path->from = s->surface.position;
         if (path->segments >= ROULETTE_START) {
             float survive = fminf(0.95f, path->neutral);
-            if (u_roulette >= survive) return 0;
+            if (u_roulette >= survive)
+                return 0;
             path->beta = rgb_scale(path->beta, 1 / survive);
             path->outside = rgb_scale(path->outside, 1 / survive);
             path->neutral /= survive;
@@ -349,8 +389,9 @@ static int scatter(PathWorker *w, Path *path, const Shading *s, double distance,
 static void trace_hit(const PathContext *c, const Hit *hit, const Shading *s)
 {
     const Vec3 p = s->surface.position, n = s->surface.shading_normal;
-    fprintf(c->trace, "hit primitive %d (line %d) face %d at %.6g %.6g %.6g distance %.6g normal %.4f %.4f %.4f%s\n", hit->primitive,
-            s->surface.primitive->line, hit->face, p.x, p.y, p.z, hit->t, n.x, n.y, n.z, s->surface.backside ? " from inside" : "");
+    fprintf(c->trace, "hit primitive %d (line %d) face %d at %.6g %.6g %.6g distance %.6g normal %.4f %.4f %.4f%s\n",
+            hit->primitive, s->surface.primitive->line, hit->face, p.x, p.y, p.z, hit->t, n.x, n.y, n.z,
+            s->surface.backside ? " from inside" : "");
     fprintf(c->trace, "  albedo %.5f %.5f %.5f", s->albedo.r, s->albedo.g, s->albedo.b);
     if (s->surface.target >= 0)
         fprintf(c->trace, " target %s uv %.6f %.6f", c->scene->targets[s->surface.target].name, s->uv.u, s->uv.v);
@@ -375,17 +416,23 @@ void path_trace(PathWorker *w, Ray ray, const Sampler *sampler)
             break;
         }
         shading_at(&s, c->scene, &ray, &hit);
-        if (c->trace) trace_hit(c, &hit, &s);
+        if (c->trace)
+            trace_hit(c, &hit, &s);
         Rgb fade = media_fade(&path.media, hit.t - ray.tmin, &s.surface);
         path.beta = rgb_mul(path.beta, fade), path.outside = rgb_mul(path.outside, fade);
         hit_emitter(w, &path, &hit, &s);
         int last = path.segments >= c->max_depth; /* but what is passed straight is no segment of its own */
-        if (last && (s.bsdf.p_passing <= 0 || s.bsdf.refracts)) break;
+        if (last && (s.bsdf.p_passing <= 0 || s.bsdf.refracts))
+            break;
         uint32_t dimension = DIMENSION_PATH + (uint32_t)(path.segments + passed - 1) * DIMENSIONS_PER_VERTEX;
-        if (!last) sample_light(w, &path, &s, sampler, dimension);
-        if (!scatter(w, &path, &s, hit.t, sampler, dimension, &ray, &straight) || (last && !straight)) break;
-        if (straight && ++passed > STRAIGHT_MAX) break;
-        if (!straight) path.segments++;
+        if (!last)
+            sample_light(w, &path, &s, sampler, dimension);
+        if (!scatter(w, &path, &s, hit.t, sampler, dimension, &ray, &straight) || (last && !straight))
+            break;
+        if (straight && ++passed > STRAIGHT_MAX)
+            break;
+        if (!straight)
+            path.segments++;
     }
     film_path_end(w->pixel);
 }

@@ -15,13 +15,13 @@
 typedef struct Render {
     const Scene *scene;
     RenderParams params;
-    int width, height;            /* of the whole picture */
-    int x0, y0, w, h;             /* the part that is rendered */
+    int width, height; /* of the whole picture */
+    int x0, y0, w, h;  /* the part that is rendered */
     int tiles_x, tiles_y;
     Accel *accel;
     Lights *lights;
     Film *film;
-    FilmPixel **pixels;           /* by thread */
+    FilmPixel **pixels; /* by thread */
     PathContext context;
     long *segments, *shadow_rays; /* by thread */
     atomic_int done;
@@ -36,9 +36,12 @@ static double seconds(void)
 
 static int check_params(const RenderParams *p, RetexError *err)
 {
-    if (p->spp < 1 || p->spp > 1 << 20) return retex_fail(err, RETEX_EINVAL, "samples per pixel must be 1 to 1048576, not %d", p->spp);
-    if (p->max_depth < 1 || p->max_depth > 256) return retex_fail(err, RETEX_EINVAL, "max-depth must be 1 to 256, not %d", p->max_depth);
-    if (p->orders < 1 || p->orders > RETEX_MAX_ORDERS) return retex_fail(err, RETEX_EINVAL, "orders must be 1 to %d, not %d", RETEX_MAX_ORDERS, p->orders);
+    if (p->spp < 1 || p->spp > 1 << 20)
+        return retex_fail(err, RETEX_EINVAL, "samples per pixel must be 1 to 1048576, not %d", p->spp);
+    if (p->max_depth < 1 || p->max_depth > 256)
+        return retex_fail(err, RETEX_EINVAL, "max-depth must be 1 to 256, not %d", p->max_depth);
+    if (p->orders < 1 || p->orders > RETEX_MAX_ORDERS)
+        return retex_fail(err, RETEX_EINVAL, "orders must be 1 to %d, not %d", RETEX_MAX_ORDERS, p->orders);
     return RETEX_OK;
 }
 
@@ -48,11 +51,14 @@ static int set_window(Render *r, RetexError *err)
     r->width = p->width > 0 ? p->width : r->scene->width;
     r->height = p->height > 0 ? p->height : r->scene->height;
     if (r->width > RETEX_MAX_SIZE || r->height > RETEX_MAX_SIZE)
-        return retex_fail(err, RETEX_EINVAL, "a picture of %dx%d is larger than %d a side", r->width, r->height, RETEX_MAX_SIZE);
+        return retex_fail(err, RETEX_EINVAL, "a picture of %dx%d is larger than %d a side", r->width, r->height,
+                          RETEX_MAX_SIZE);
     r->x0 = 0, r->y0 = 0, r->w = r->width, r->h = r->height;
-    if (p->crop[2] > 0) r->x0 = p->crop[0], r->y0 = p->crop[1], r->w = p->crop[2], r->h = p->crop[3];
+    if (p->crop[2] > 0)
+        r->x0 = p->crop[0], r->y0 = p->crop[1], r->w = p->crop[2], r->h = p->crop[3];
     if (r->x0 < 0 || r->y0 < 0 || r->w < 1 || r->h < 1 || r->x0 + r->w > r->width || r->y0 + r->h > r->height)
-        return retex_fail(err, RETEX_EINVAL, "crop %d,%d,%d,%d does not lie inside the picture of %dx%d", r->x0, r->y0, r->w, r->h, r->width, r->height);
+        return retex_fail(err, RETEX_EINVAL, "crop %d,%d,%d,%d does not lie inside the picture of %dx%d", r->x0, r->y0,
+                          r->w, r->h, r->width, r->height);
     r->tiles_x = (r->w + TILE - 1) / TILE, r->tiles_y = (r->h + TILE - 1) / TILE;
     return RETEX_OK;
 }
@@ -63,7 +69,8 @@ static void pixel_offset(const Render *r, const Sampler *sampler, double *dx, do
     float u, v;
     sampler_pair(sampler, DIMENSION_PIXEL, &u, &v);
     *dx = u, *dy = v;
-    if (!r->params.gaussian) return;
+    if (!r->params.gaussian)
+        return;
     double radius = 0.5 * sqrt(-2 * log(1 - u)), phi = 2 * PI * v;
     *dx = 0.5 + radius * cos(phi), *dy = 0.5 + radius * sin(phi);
 }
@@ -84,20 +91,23 @@ static void render_tile(void *context, int tile, int thread)
     int x0 = tile % r->tiles_x * TILE, y0 = tile / r->tiles_x * TILE;
     for (int y = y0; y < y0 + TILE && y < r->h; y++)
         for (int x = x0; x < x0 + TILE && x < r->w; x++) {
-            for (int s = 0; s < r->params.spp; s++) trace_sample(r, &worker, r->x0 + x, r->y0 + y, s);
+            for (int s = 0; s < r->params.spp; s++)
+                trace_sample(r, &worker, r->x0 + x, r->y0 + y, s);
             film_pixel_end(pixel, x, y);
         }
     film_tile_end(pixel, tile);
     r->segments[thread] += worker.segments;
     r->shadow_rays[thread] += worker.shadow_rays;
     int done = atomic_fetch_add(&r->done, 1) + 1;
-    if (thread == 0 && r->params.progress) r->params.progress(r->params.progress_context, (double)done / (r->tiles_x * r->tiles_y));
+    if (thread == 0 && r->params.progress)
+        r->params.progress(r->params.progress_context, (double)done / (r->tiles_x * r->tiles_y));
 }
 
 static void render_close(Render *r)
 {
     if (r->pixels)
-        for (int k = 0; k < retex_threads(r->params.nthreads); k++) film_pixel_close(&r->pixels[k]);
+        for (int k = 0; k < retex_threads(r->params.nthreads); k++)
+            film_pixel_close(&r->pixels[k]);
     free(r->pixels);
     free(r->segments);
     free(r->shadow_rays);
@@ -112,35 +122,48 @@ static int render_open(Render *r, const Scene *scene, const RenderParams *params
     *r = (Render){.scene = scene};
     memcpy(&r->params, params, params->size < sizeof r->params ? params->size : sizeof r->params);
     int code = check_params(&r->params, err);
-    if (!code) code = set_window(r, err);
-    if (!code) code = accel_create(&r->accel, scene, r->params.nthreads, err);
-    if (!code) code = lights_create(&r->lights, scene, err);
+    if (!code)
+        code = set_window(r, err);
+    if (!code)
+        code = accel_create(&r->accel, scene, r->params.nthreads, err);
+    if (!code)
+        code = lights_create(&r->lights, scene, err);
     int split = !r->params.plain && scene->ntargets > 0;
-    r->context = (PathContext){.scene = scene, .accel = r->accel, .lights = r->lights, .max_depth = r->params.max_depth,
-                               .orders = r->params.orders, .split = split};
-    for (int k = 0; k < scene->nprimitives; k++) r->context.has_no_shadow |= scene->primitives[k].no_shadow;
+    r->context = (PathContext){.scene = scene,
+                               .accel = r->accel,
+                               .lights = r->lights,
+                               .max_depth = r->params.max_depth,
+                               .orders = r->params.orders,
+                               .split = split};
+    for (int k = 0; k < scene->nprimitives; k++)
+        r->context.has_no_shadow |= scene->primitives[k].no_shadow;
     return code;
 }
 
 static int render_film(Render *r, RetexError *err)
 {
     int threads = retex_threads(r->params.nthreads);
-    FilmParams film = {r->w, r->h, r->params.spp, r->params.orders, r->params.strict_paper, r->context.split, r->tiles_x * r->tiles_y};
+    FilmParams film = {
+        r->w, r->h, r->params.spp, r->params.orders, r->params.strict_paper, r->context.split, r->tiles_x * r->tiles_y};
     r->pixels = calloc((size_t)threads, sizeof *r->pixels);
     r->segments = calloc((size_t)threads, sizeof *r->segments);
     r->shadow_rays = calloc((size_t)threads, sizeof *r->shadow_rays);
-    if (!r->pixels || !r->segments || !r->shadow_rays) return retex_fail(err, RETEX_ENOMEM, "out of memory for %d threads", threads);
+    if (!r->pixels || !r->segments || !r->shadow_rays)
+        return retex_fail(err, RETEX_ENOMEM, "out of memory for %d threads", threads);
     int code = film_create(&r->film, r->scene, &film, err);
-    for (int k = 0; k < threads && !code; k++) code = film_pixel_create(&r->pixels[k], r->film, err);
+    for (int k = 0; k < threads && !code; k++)
+        code = film_pixel_create(&r->pixels[k], r->film, err);
     return code;
 }
 
 static int start_set(RetexSet **set, const Render *r, RetexError *err)
 {
     int code = retex_set_create(set, r->w, r->h, err);
-    if (code) return code;
+    if (code)
+        return code;
     RetexSet *s = *set;
-    if (s->nparts == 0 && (code = retex_set_add_part(s, "beauty", "RGB", RETEX_FLOAT, 0, 0, NULL, err))) return code;
+    if (s->nparts == 0 && (code = retex_set_add_part(s, "beauty", "RGB", RETEX_FLOAT, 0, 0, NULL, err)))
+        return code;
     const char *name = strrchr(r->scene->path, '/');
     snprintf(s->layout, sizeof s->layout, "%s", r->context.split ? "paper" : "plain");
     snprintf(s->filter, sizeof s->filter, "%s", r->params.gaussian ? "gaussian" : "box");
@@ -159,7 +182,8 @@ static void fill_stats(RenderStats *stats, const Render *r)
     stats->lights = lights_count(r->lights);
     stats->primitives = r->scene->nprimitives;
     for (int k = 0; k < r->scene->nprimitives; k++)
-        if (r->scene->primitives[k].kind == SHAPE_MESH) stats->triangles += r->scene->primitives[k].mesh->nfaces;
+        if (r->scene->primitives[k].kind == SHAPE_MESH)
+            stats->triangles += r->scene->primitives[k].mesh->nfaces;
 }
 
 static FirstHitWindow first_hit_window(const Render *r)
@@ -171,16 +195,22 @@ static FirstHitWindow first_hit_window(const Render *r)
 static int render_into(RetexSet *set, Render *r, RenderStats *stats, double started, RetexError *err)
 {
     int code = render_film(r, err);
-    if (code) return code;
+    if (code)
+        return code;
     stats->build_seconds = seconds() - started;
     retex_parallel(r->params.nthreads, r->tiles_x * r->tiles_y, render_tile, r);
-    if (r->params.progress) r->params.progress(r->params.progress_context, 1);
-    for (int k = 0; k < retex_threads(r->params.nthreads); k++) film_pixel_close(&r->pixels[k]);
+    if (r->params.progress)
+        r->params.progress(r->params.progress_context, 1);
+    for (int k = 0; k < retex_threads(r->params.nthreads); k++)
+        film_pixel_close(&r->pixels[k]);
     code = film_finish(r->film, set, err);
     FirstHitWindow window = first_hit_window(r);
-    if (!code && r->context.split) code = first_hit_targets(set, &window, err);
-    if (!code && r->context.split) code = originals_add(set, r->scene, err);
-    if (!code) code = first_hit_aovs(set, &window, r->params.aovs, err);
+    if (!code && r->context.split)
+        code = first_hit_targets(set, &window, err);
+    if (!code && r->context.split)
+        code = originals_add(set, r->scene, err);
+    if (!code)
+        code = first_hit_aovs(set, &window, r->params.aovs, err);
     stats->render_seconds = seconds() - started - stats->build_seconds;
     fill_stats(stats, r);
     return code;
@@ -190,16 +220,20 @@ int render_scene(RetexSet **set, const Scene *scene, const RenderParams *params,
 {
     const RenderParams defaults = RENDER_PARAMS_INIT;
     RenderStats ignored;
-    if (!stats) stats = &ignored;
+    if (!stats)
+        stats = &ignored;
     *stats = (RenderStats){0};
     *set = NULL;
     double started = seconds();
     Render r;
     int code = render_open(&r, scene, params ? params : &defaults, err);
-    if (!code) code = start_set(set, &r, err);
-    if (!code) code = render_into(*set, &r, stats, started, err);
+    if (!code)
+        code = start_set(set, &r, err);
+    if (!code)
+        code = render_into(*set, &r, stats, started, err);
     render_close(&r);
-    if (code) retex_set_close(set);
+    if (code)
+        retex_set_close(set);
     return code;
 }
 
@@ -208,7 +242,8 @@ int render_ident_shares(const Scene *scene, const RenderParams *params, double *
     Render r;
     int code = render_open(&r, scene, params, err);
     FirstHitWindow window = first_hit_window(&r);
-    if (!code) code = first_hit_idents(&window, shares, err);
+    if (!code)
+        code = first_hit_idents(&window, shares, err);
     render_close(&r);
     return code;
 }
@@ -218,8 +253,10 @@ int render_trace(const Scene *scene, const RenderParams *params, int x, int y, i
     Render r;
     int code = render_open(&r, scene, params, err);
     if (!code && (x < 0 || y < 0 || x >= r.width || y >= r.height))
-        code = retex_fail(err, RETEX_EINVAL, "pixel %d,%d does not lie inside the picture of %dx%d", x, y, r.width, r.height);
-    if (!code) code = render_film(&r, err);
+        code = retex_fail(err, RETEX_EINVAL, "pixel %d,%d does not lie inside the picture of %dx%d", x, y, r.width,
+                          r.height);
+    if (!code)
+        code = render_film(&r, err);
     if (!code) {
         PathWorker worker = {.context = &r.context, .pixel = r.pixels[0]};
         r.context.trace = out;

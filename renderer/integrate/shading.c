@@ -17,11 +17,13 @@ void shading_color(Shading *s, const Scene *scene)
     Rgbft c = pigment_eval(pigment, surface->position, surface->uv);
     s->albedo = rgb(fmaxf(c.r, 0), fmaxf(c.g, 0), fmaxf(c.b, 0));
     s->filter = fmaxf(c.filter, 0), s->transmit = fmaxf(c.transmit, 0);
-    if (surface->target < 0) return;
+    if (surface->target < 0)
+        return;
     s->uv = target_uv(pigment, surface->position, surface->geometric_normal, pigment->uv_mapping ? &surface->uv : NULL,
                       surface->has_natural ? &surface->natural : NULL);
     const RetexTexture *replacement = scene->targets[surface->target].replacement;
-    if (replacement) replace_color(s, replacement);
+    if (replacement)
+        replace_color(s, replacement);
 }
 
 void shading_at(Shading *s, const Scene *scene, const Ray *ray, const Hit *hit)

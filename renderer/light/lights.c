@@ -11,25 +11,28 @@ typedef enum EntryKind { ENTRY_SOURCE, ENTRY_EMITTER, ENTRY_SKY } EntryKind;
 
 typedef struct Entry {
     EntryKind kind;
-    int index;               /* of the source or primitive */
-    Vec3 center;             /* emitter: of its bounds */
+    int index;   /* of the source or primitive */
+    Vec3 center; /* emitter: of its bounds */
     double radius;
     double area;
-    float strength;          /* emitter: radiance * area; sky: irradiance; source: luminance of its colour times pi */
-    double *face_sums;       /* mesh emitters: running sums of face areas, nfaces + 1 */
-    int sphere;              /* sampled by the cone it is seen in */
+    float strength;    /* emitter: radiance * area; sky: irradiance; source: luminance of its colour times pi */
+    double *face_sums; /* mesh emitters: running sums of face areas, nfaces + 1 */
+    int sphere;        /* sampled by the cone it is seen in */
 } Entry;
 
 struct Lights {
     const Scene *scene;
     Environment *environment;
-    int count, sky;          /* sky: index of its entry, or -1 */
+    int count, sky; /* sky: index of its entry, or -1 */
     Entry *entries;
-    int *of_primitive;       /* entry of each primitive, or -1 */
-    float *power_sums;       /* count + 1, for many lights */
+    int *of_primitive; /* entry of each primitive, or -1 */
+    float *power_sums; /* count + 1, for many lights */
 };
 
-static int primitive_emits(const Primitive *p) { return !rgb_is_black(p->texture->finish->emission); }
+static int primitive_emits(const Primitive *p)
+{
+    return !rgb_is_black(p->texture->finish->emission);
+}
 
 static int mesh_emits(const Primitive *p, int face)
 {
@@ -43,9 +46,11 @@ static double mesh_sums(Entry *entry, const Primitive *p)
 {
     double total = 0;
     entry->face_sums = calloc((size_t)p->mesh->nfaces + 1, sizeof(double));
-    if (!entry->face_sums) return -1;
+    if (!entry->face_sums)
+        return -1;
     for (int k = 0; k < p->mesh->nfaces; k++) {
-        if (mesh_emits(p, k)) total += mesh_face_area(p, k);
+        if (mesh_emits(p, k))
+            total += mesh_face_area(p, k);
         entry->face_sums[k + 1] = total;
     }
     return total;
@@ -54,13 +59,16 @@ static double mesh_sums(Entry *entry, const Primitive *p)
 /* A sphere under rotation, translation and equal scaling. */
 static int is_round_sphere(const Primitive *p, double *radius)
 {
-    if (p->kind != SHAPE_SPHERE) return 0;
+    if (p->kind != SHAPE_SPHERE)
+        return 0;
     Vec3 a[3];
-    for (int k = 0; k < 3; k++) a[k] = vec3(p->transform.m[0][k], p->transform.m[1][k], p->transform.m[2][k]);
+    for (int k = 0; k < 3; k++)
+        a[k] = vec3(p->transform.m[0][k], p->transform.m[1][k], p->transform.m[2][k]);
     double r = vec_length(a[0]), tolerance = 1e-6 * r * r;
     *radius = r;
     return fabs(vec_dot(a[1], a[1]) - r * r) < tolerance && fabs(vec_dot(a[2], a[2]) - r * r) < tolerance &&
-           fabs(vec_dot(a[0], a[1])) < tolerance && fabs(vec_dot(a[0], a[2])) < tolerance && fabs(vec_dot(a[1], a[2])) < tolerance;
+           fabs(vec_dot(a[0], a[1])) < tolerance && fabs(vec_dot(a[0], a[2])) < tolerance &&
+           fabs(vec_dot(a[1], a[2])) < tolerance;
 }
 
 static int add_emitter(Lights *lights, int index, RetexError *err)
@@ -70,9 +78,11 @@ static int add_emitter(Lights *lights, int index, RetexError *err)
     Rgb emission = p->texture->finish->emission;
     if (p->kind == SHAPE_MESH) {
         e.area = mesh_sums(&e, p);
-        if (e.area < 0) return retex_fail(err, RETEX_ENOMEM, "out of memory for an emitter's faces");
+        if (e.area < 0)
+            return retex_fail(err, RETEX_ENOMEM, "out of memory for an emitter's faces");
         for (int k = 0; k < p->mesh->nfaces && rgb_is_black(emission); k++)
-            if (mesh_emits(p, k)) emission = p->mesh->textures[p->mesh->faces[k].texture]->finish->emission;
+            if (mesh_emits(p, k))
+                emission = p->mesh->textures[p->mesh->faces[k].texture]->finish->emission;
     } else if (primitive_emits(p)) {
         e.area = shape_area(p);
     }
@@ -85,7 +95,8 @@ static int add_emitter(Lights *lights, int index, RetexError *err)
     e.radius = vec_length(vec_sub(high, low)) / 2;
     double r;
     e.sphere = is_round_sphere(p, &r);
-    if (e.sphere) e.radius = r;
+    if (e.sphere)
+        e.radius = r;
     e.strength = rgb_luminance(emission) * NEUTRAL_ALBEDO * (float)e.area;
     lights->of_primitive[index] = lights->count;
     lights->entries[lights->count++] = e;
@@ -96,10 +107,12 @@ static void add_others(Lights *lights)
 {
     for (int k = 0; k < lights->scene->nlights; k++) {
         float strength = rgb_luminance(lights->scene->lights[k].color) * (float)PI;
-        if (strength > 0) lights->entries[lights->count++] = (Entry){.kind = ENTRY_SOURCE, .index = k, .strength = strength};
+        if (strength > 0)
+            lights->entries[lights->count++] = (Entry){.kind = ENTRY_SOURCE, .index = k, .strength = strength};
     }
     /* A sky of one colour is found as well by the BSDF alone, without noise where nothing is in the way. */
-    if (!lights->environment || !lights->scene->sky) return;
+    if (!lights->environment || !lights->scene->sky)
+        return;
     lights->sky = lights->count;
     lights->entries[lights->count++] =
         (Entry){.kind = ENTRY_SKY, .strength = environment_mean(lights->environment) * (float)PI};
@@ -109,10 +122,13 @@ static void sum_powers(Lights *lights)
 {
     float total = 0;
     lights->power_sums[0] = 0;
-    for (int k = 0; k < lights->count; k++) lights->power_sums[k + 1] = total += lights->entries[k].strength;
+    for (int k = 0; k < lights->count; k++)
+        lights->power_sums[k + 1] = total += lights->entries[k].strength;
     float floor_share = total * CHOICE_FLOOR / (float)(lights->count ? lights->count : 1), sum = 0;
-    for (int k = 0; k < lights->count; k++) lights->power_sums[k + 1] = sum += lights->entries[k].strength + floor_share;
-    for (int k = 1; k <= lights->count; k++) lights->power_sums[k] /= sum > 0 ? sum : 1;
+    for (int k = 0; k < lights->count; k++)
+        lights->power_sums[k + 1] = sum += lights->entries[k].strength + floor_share;
+    for (int k = 1; k <= lights->count; k++)
+        lights->power_sums[k] /= sum > 0 ? sum : 1;
 }
 
 int lights_create(Lights **out, const Scene *scene, RetexError *err)
@@ -120,7 +136,8 @@ int lights_create(Lights **out, const Scene *scene, RetexError *err)
     size_t most = (size_t)scene->nlights + (size_t)scene->nprimitives + 1;
     Lights *lights = calloc(1, sizeof *lights);
     *out = lights;
-    if (!lights) return retex_fail(err, RETEX_ENOMEM, "out of memory for the lights");
+    if (!lights)
+        return retex_fail(err, RETEX_ENOMEM, "out of memory for the lights");
     lights->scene = scene;
     lights->sky = -1;
     lights->entries = calloc(most, sizeof *lights->entries);
@@ -129,7 +146,8 @@ int lights_create(Lights **out, const Scene *scene, RetexError *err)
     int code = RETEX_OK;
     if (!lights->entries || !lights->of_primitive || !lights->power_sums)
         code = retex_fail(err, RETEX_ENOMEM, "out of memory for %d lights", (int)most);
-    if (!code) code = environment_create(&lights->environment, scene, err);
+    if (!code)
+        code = environment_create(&lights->environment, scene, err);
     for (int k = 0; k < scene->nprimitives && !code; k++) {
         lights->of_primitive[k] = -1;
         code = add_emitter(lights, k, err);
@@ -145,8 +163,10 @@ int lights_create(Lights **out, const Scene *scene, RetexError *err)
 
 void lights_close(Lights **lights)
 {
-    if (!*lights) return;
-    for (int k = 0; k < (*lights)->count; k++) free((*lights)->entries[k].face_sums);
+    if (!*lights)
+        return;
+    for (int k = 0; k < (*lights)->count; k++)
+        free((*lights)->entries[k].face_sums);
     environment_close(&(*lights)->environment);
     free((*lights)->entries);
     free((*lights)->of_primitive);
@@ -155,12 +175,16 @@ void lights_close(Lights **lights)
     *lights = NULL;
 }
 
-int lights_count(const Lights *lights) { return lights->count; }
+int lights_count(const Lights *lights)
+{
+    return lights->count;
+}
 
 /* Rough irradiance an entry may give at a point that faces it. */
 static float entry_estimate(const Lights *lights, const Entry *e, Vec3 position)
 {
-    if (e->kind == ENTRY_SKY) return e->strength;
+    if (e->kind == ENTRY_SKY)
+        return e->strength;
     if (e->kind == ENTRY_SOURCE) {
         const Light *light = &lights->scene->lights[e->index];
         Vec3 direction;
@@ -175,16 +199,21 @@ static float entry_estimate(const Lights *lights, const Entry *e, Vec3 position)
 static void local_shares(const Lights *lights, Vec3 position, float *shares)
 {
     float total = 0;
-    for (int k = 0; k < lights->count; k++) total += shares[k] = entry_estimate(lights, &lights->entries[k], position);
+    for (int k = 0; k < lights->count; k++)
+        total += shares[k] = entry_estimate(lights, &lights->entries[k], position);
     float least = total > 0 ? total * CHOICE_FLOOR / (float)lights->count : 1, sum = 0;
-    for (int k = 0; k < lights->count; k++) sum += shares[k] += least;
-    for (int k = 0; k < lights->count; k++) shares[k] /= sum;
+    for (int k = 0; k < lights->count; k++)
+        sum += shares[k] += least;
+    for (int k = 0; k < lights->count; k++)
+        shares[k] /= sum;
 }
 
 static float pick_probability(const Lights *lights, Vec3 position, int entry)
 {
-    if (lights->count == 1) return 1;
-    if (lights->count > LOCAL_CHOICE_MAX) return lights->power_sums[entry + 1] - lights->power_sums[entry];
+    if (lights->count == 1)
+        return 1;
+    if (lights->count > LOCAL_CHOICE_MAX)
+        return lights->power_sums[entry + 1] - lights->power_sums[entry];
     float shares[LOCAL_CHOICE_MAX];
     local_shares(lights, position, shares);
     return shares[entry];
@@ -193,13 +222,16 @@ static float pick_probability(const Lights *lights, Vec3 position, int entry)
 static int pick(const Lights *lights, Vec3 position, float u, float *probability)
 {
     *probability = 1;
-    if (lights->count == 1) return 0;
+    if (lights->count == 1)
+        return 0;
     if (lights->count > LOCAL_CHOICE_MAX) {
         int low = 0, high = lights->count;
         while (high - low > 1) {
             int middle = (low + high) / 2;
-            if (lights->power_sums[middle] <= u) low = middle;
-            else high = middle;
+            if (lights->power_sums[middle] <= u)
+                low = middle;
+            else
+                high = middle;
         }
         *probability = lights->power_sums[low + 1] - lights->power_sums[low];
         return low;
@@ -207,19 +239,22 @@ static int pick(const Lights *lights, Vec3 position, float u, float *probability
     float shares[LOCAL_CHOICE_MAX], sum = 0;
     local_shares(lights, position, shares);
     int k = 0;
-    while (k < lights->count - 1 && u >= sum + shares[k]) sum += shares[k++];
+    while (k < lights->count - 1 && u >= sum + shares[k])
+        sum += shares[k++];
     *probability = shares[k];
     return k;
 }
 
 /* Uniform in the cone in which a sphere is seen from outside. The sample's surface lies where that direction meets it. */
-static int sample_sphere_cone(const Entry *e, const Scene *scene, Vec3 position, float u1, float u2, LightSample *sample)
+static int sample_sphere_cone(const Entry *e, const Scene *scene, Vec3 position, float u1, float u2,
+                              LightSample *sample)
 {
     Vec3 axis = vec_sub(e->center, position), s, t;
     double distance2 = vec_dot(axis, axis), sin2 = e->radius * e->radius / distance2;
     axis = vec_scale(axis, 1 / sqrt(distance2));
     vec_frame(axis, &s, &t);
-    double one_minus = sin2 / (1 + sqrt(1 - sin2)), c = 1 - u1 * one_minus, sine = sqrt(fmax(0, 1 - c * c)), phi = 2 * PI * u2;
+    double one_minus = sin2 / (1 + sqrt(1 - sin2)), c = 1 - u1 * one_minus, sine = sqrt(fmax(0, 1 - c * c)),
+           phi = 2 * PI * u2;
     Vec3 d = vec_add(vec_scale(axis, c), vec_add(vec_scale(s, sine * cos(phi)), vec_scale(t, sine * sin(phi))));
     double along = c * sqrt(distance2), off2 = distance2 * sine * sine;
     sample->direction = vec_normalize(d);
@@ -243,40 +278,50 @@ static int find_face(const Entry *e, int count, float u)
     int low = 0, high = count;
     while (high - low > 1) {
         int middle = (low + high) / 2;
-        if (e->face_sums[middle] <= wanted) low = middle;
-        else high = middle;
+        if (e->face_sums[middle] <= wanted)
+            low = middle;
+        else
+            high = middle;
     }
     return low;
 }
 
-static int sample_emitter(const Lights *lights, const Entry *e, Vec3 position, float u_part, float u1, float u2, LightSample *sample)
+static int sample_emitter(const Lights *lights, const Entry *e, Vec3 position, float u_part, float u1, float u2,
+                          LightSample *sample)
 {
     const Primitive *p = &lights->scene->primitives[e->index];
     sample->kind = LIGHT_SAMPLE_EMITTER;
-    if (outside_sphere(e, position)) return sample_sphere_cone(e, lights->scene, position, u1, u2, sample);
+    if (outside_sphere(e, position))
+        return sample_sphere_cone(e, lights->scene, position, u1, u2, sample);
     double pdf_area;
     int face = e->face_sums ? find_face(e, p->mesh->nfaces, u_part) : (int)(u_part * 6);
     shape_sample(p, lights->scene, face, u1, u2, &sample->surface, &pdf_area);
-    if (e->face_sums) pdf_area = 1 / e->area;
+    if (e->face_sums)
+        pdf_area = 1 / e->area;
     Vec3 d = vec_sub(sample->surface.position, position);
     sample->distance = vec_length(d);
-    if (!(sample->distance > 0)) return 0;
+    if (!(sample->distance > 0))
+        return 0;
     sample->direction = vec_scale(d, 1 / sample->distance);
     double cosine = fabs(vec_dot(sample->direction, sample->surface.geometric_normal));
-    if (!(cosine > 1e-9)) return 0;
+    if (!(cosine > 1e-9))
+        return 0;
     surface_turn(&sample->surface, vec_dot(sample->direction, sample->surface.geometric_normal) > 0);
     sample->pdf = (float)(pdf_area * sample->distance * sample->distance / cosine);
     return 1;
 }
 
-int lights_sample(const Lights *lights, Vec3 position, float u_pick, float u_part, float u1, float u2, LightSample *sample)
+int lights_sample(const Lights *lights, Vec3 position, float u_pick, float u_part, float u1, float u2,
+                  LightSample *sample)
 {
-    if (lights->count == 0) return 0;
+    if (lights->count == 0)
+        return 0;
     float probability;
     const Entry *e = &lights->entries[pick(lights, position, u_pick, &probability)];
     sample->pick_probability = probability;
     sample->shadowless = 0;
-    if (e->kind == ENTRY_EMITTER) return sample_emitter(lights, e, position, u_part, u1, u2, sample);
+    if (e->kind == ENTRY_EMITTER)
+        return sample_emitter(lights, e, position, u_part, u1, u2, sample);
     if (e->kind == ENTRY_SKY) {
         sample->kind = LIGHT_SAMPLE_SKY;
         sample->direction = environment_sample(lights->environment, u1, u2, &sample->pdf);
@@ -288,14 +333,16 @@ int lights_sample(const Lights *lights, Vec3 position, float u_pick, float u_par
     sample->kind = LIGHT_SAMPLE_SOURCE;
     sample->pdf = 0;
     sample->shadowless = light->shadowless;
-    sample->radiance = source_irradiance(light, position, source_point(light, position, u1, u2), &sample->direction, &sample->distance);
+    sample->radiance = source_irradiance(light, position, source_point(light, position, u1, u2), &sample->direction,
+                                         &sample->distance);
     return !rgb_is_black(sample->radiance);
 }
 
 float lights_emitter_pdf(const Lights *lights, Vec3 from, int primitive, const Surface *surface)
 {
     int k = lights->of_primitive[primitive];
-    if (k < 0) return 0;
+    if (k < 0)
+        return 0;
     const Entry *e = &lights->entries[k];
     Vec3 d = vec_sub(surface->position, from);
     double distance2 = vec_dot(d, d), pdf;
@@ -303,7 +350,8 @@ float lights_emitter_pdf(const Lights *lights, Vec3 from, int primitive, const S
         Vec3 axis = vec_sub(e->center, from);
         double sin2 = e->radius * e->radius / vec_dot(axis, axis);
         /* the far side of the sphere is never sampled from here */
-        if (vec_dot(d, vec_sub(surface->position, e->center)) > 0) return 0;
+        if (vec_dot(d, vec_sub(surface->position, e->center)) > 0)
+            return 0;
         pdf = (1 + sqrt(1 - sin2)) / (2 * PI * sin2);
     } else {
         double cosine = fabs(vec_dot(d, surface->geometric_normal)) / sqrt(distance2);
@@ -315,6 +363,7 @@ float lights_emitter_pdf(const Lights *lights, Vec3 from, int primitive, const S
 
 float lights_sky_pdf(const Lights *lights, Vec3 from, Vec3 direction)
 {
-    if (lights->sky < 0) return 0;
+    if (lights->sky < 0)
+        return 0;
     return environment_pdf(lights->environment, direction) * pick_probability(lights, from, lights->sky);
 }

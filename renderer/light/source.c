@@ -4,8 +4,10 @@
 /* 0 below low, 1 above high, a smooth cubic between. */
 static double smooth_step(double low, double high, double x)
 {
-    if (x <= low) return 0;
-    if (x >= high) return 1;
+    if (x <= low)
+        return 0;
+    if (x >= high)
+        return 1;
     double t = (x - low) / (high - low);
     return (3 - 2 * t) * t * t;
 }
@@ -14,7 +16,8 @@ static double spot_attenuation(const Light *light, Vec3 to_light)
 {
     Vec3 axis = vec_normalize(vec_sub(light->point_at, light->location));
     double cosine = -vec_dot(axis, to_light);
-    if (cosine <= 0) return 0;
+    if (cosine <= 0)
+        return 0;
     double value = light->tightness > 0 ? pow(cosine, light->tightness) : 1;
     if (light->falloff > 0) {
         double outer = cos(light->falloff * PI / 180), inner = cos(light->radius * PI / 180);
@@ -27,23 +30,27 @@ static double cylinder_attenuation(const Light *light, Vec3 position)
 {
     Vec3 axis = vec_normalize(vec_sub(light->point_at, light->location)), d = vec_sub(position, light->location);
     double along = vec_dot(d, axis), across = vec_length(vec_mad(d, axis, -along));
-    if (along <= 0 || across >= light->falloff) return 0;
+    if (along <= 0 || across >= light->falloff)
+        return 0;
     double value = 1 - across / light->falloff;
-    double edge = across > light->radius && light->radius > 0
-                      ? smooth_step(0, 1 - light->radius / light->falloff, value) : 1;
+    double edge =
+        across > light->radius && light->radius > 0 ? smooth_step(0, 1 - light->radius / light->falloff, value) : 1;
     return edge * (light->tightness > 0 ? pow(value, light->tightness) : 1);
 }
 
 static double distance_fade(const Light *light, double distance)
 {
-    if (light->fade_power <= 0) return 1;
-    if (light->fade_distance > 0) return 2 / (1 + pow(distance / light->fade_distance, light->fade_power));
+    if (light->fade_power <= 0)
+        return 1;
+    if (light->fade_distance > 0)
+        return 2 / (1 + pow(distance / light->fade_distance, light->fade_power));
     return pow(fmax(distance, 1e-6), -light->fade_power);
 }
 
 Vec3 source_point(const Light *light, Vec3 position, float u1, float u2)
 {
-    if (!light->area) return light->location;
+    if (!light->area)
+        return light->location;
     int n1 = light->size1 > 1 ? light->size1 : 1, n2 = light->size2 > 1 ? light->size2 : 1;
     double a = n1 > 1 ? floor(u1 * n1) / (n1 - 1) - 0.5 : 0, b = n2 > 1 ? floor(u2 * n2) / (n2 - 1) - 0.5 : 0;
     Vec3 axis1 = light->axis1, axis2 = light->axis2;
@@ -55,13 +62,17 @@ Vec3 source_point(const Light *light, Vec3 position, float u1, float u2)
     }
     if (light->circular) { /* squares about the centre become circles */
         double m = fmax(fabs(a), fabs(b)), length = sqrt(a * a + b * b);
-        if (length > 0) a *= m / length, b *= m / length;
+        if (length > 0)
+            a *= m / length, b *= m / length;
     }
     return vec_mad(vec_mad(light->location, axis1, a), axis2, b);
 }
 
 /* Light that is parallel: it starts from the plane through its location. */
-static int is_beam(const Light *light) { return light->kind == LIGHT_PARALLEL || light->kind == LIGHT_CYLINDER; }
+static int is_beam(const Light *light)
+{
+    return light->kind == LIGHT_PARALLEL || light->kind == LIGHT_CYLINDER;
+}
 
 Rgb source_irradiance(const Light *light, Vec3 position, Vec3 light_point, Vec3 *direction, double *distance)
 {
@@ -69,13 +80,17 @@ Rgb source_irradiance(const Light *light, Vec3 position, Vec3 light_point, Vec3 
     Vec3 d = vec_sub(light_point, position);
     if (is_beam(light)) {
         *direction = vec_normalize(vec_sub(light_point, light->point_at));
-        *distance = fmax(0, vec_dot(d, *direction)); /* POV-Ray lights what lies behind the plane too, and nothing is in the way */
-        if (light->kind == LIGHT_CYLINDER) value *= cylinder_attenuation(light, position);
+        *distance = fmax(
+            0, vec_dot(d, *direction)); /* POV-Ray lights what lies behind the plane too, and nothing is in the way */
+        if (light->kind == LIGHT_CYLINDER)
+            value *= cylinder_attenuation(light, position);
     } else {
         *distance = vec_length(d);
-        if (*distance <= 0) return rgb_grey(0);
+        if (*distance <= 0)
+            return rgb_grey(0);
         *direction = vec_scale(d, 1 / *distance);
-        if (light->kind == LIGHT_SPOT) value *= spot_attenuation(light, *direction);
+        if (light->kind == LIGHT_SPOT)
+            value *= spot_attenuation(light, *direction);
     }
     return rgb_scale(light->color, (float)(value * distance_fade(light, *distance)));
 }

@@ -52,8 +52,10 @@ static int contains(const char *text, const char *part)
 static int near(const char *name, const char *wanted)
 {
     size_t length = strlen(wanted);
-    return distance(name, wanted) <= (length < 5 ? 1 : length < 9 ? 2 : 3) || contains(name, wanted) ||
-        (strlen(name) > 2 && contains(wanted, name));
+    return distance(name, wanted) <= (length < 5   ? 1
+                                      : length < 9 ? 2
+                                                   : 3) ||
+           contains(name, wanted) || (strlen(name) > 2 && contains(wanted, name));
 }
 
 static void append(char *text, size_t size, const char *part)

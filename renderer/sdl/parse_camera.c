@@ -14,7 +14,8 @@ void side_camera_default(SideCamera *camera)
 {
     *camera = (SideCamera){
         .camera = {CAMERA_PERSPECTIVE, {0, 0, 0}, {0, 0, 1}, {1.33, 0, 0}, {0, 1, 0}},
-        .sky = {0, 1, 0}, .look_at = {0, 0, 1},
+        .sky = {0, 1, 0},
+        .look_at = {0, 0, 1},
     };
 }
 
@@ -22,10 +23,8 @@ void side_camera_default(SideCamera *camera)
 
 static int accept_kind(Sdl *sdl, Reading *r)
 {
-    static const char *const others[] = {
-        "fisheye", "ultra_wide_angle", "omnimax", "panoramic", "spherical", "cylinder", "mesh_camera", "user_defined",
-        NULL
-    };
+    static const char *const others[] = {"fisheye",  "ultra_wide_angle", "omnimax",      "panoramic", "spherical",
+                                         "cylinder", "mesh_camera",      "user_defined", NULL};
     if (sdl_accept(sdl, "perspective")) {
         r->side.camera.kind = CAMERA_PERSPECTIVE;
         return 1;

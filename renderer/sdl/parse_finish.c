@@ -11,8 +11,13 @@ SideFinish *side_finish_new(Sdl *sdl, const SideFinish *from)
         *finish = *from;
     else
         finish->finish = (Finish){
-            .ambient = {0.1f, 0.1f, 0.1f}, .diffuse = 0.6, .brilliance = 1, .phong_size = 40, .roughness = 0.05,
-            .reflection_falloff = 1, .reflection_exponent = 1,
+            .ambient = {0.1f, 0.1f, 0.1f},
+            .diffuse = 0.6,
+            .brilliance = 1,
+            .phong_size = 40,
+            .roughness = 0.05,
+            .reflection_falloff = 1,
+            .reflection_exponent = 1,
             .retex = {.ior = 1.5, .specular_tint = 1},
         };
     finish->next = side->finishes;
@@ -99,9 +104,14 @@ static void diffuse(Sdl *sdl, Finish *f)
 /* Keywords with one plain number. */
 static int accept_number(Sdl *sdl, SideFinish *finish)
 {
-    static const struct { const char *word; size_t offset; } numbers[] = {
-        {"brilliance", offsetof(Finish, brilliance)}, {"crand", offsetof(Finish, crand)},
-        {"phong_size", offsetof(Finish, phong_size)}, {"roughness", offsetof(Finish, roughness)},
+    static const struct {
+        const char *word;
+        size_t offset;
+    } numbers[] = {
+        {"brilliance", offsetof(Finish, brilliance)},
+        {"crand", offsetof(Finish, crand)},
+        {"phong_size", offsetof(Finish, phong_size)},
+        {"roughness", offsetof(Finish, roughness)},
         {"reflection_exponent", offsetof(Finish, reflection_exponent)},
     };
     for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++)

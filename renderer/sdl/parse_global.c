@@ -23,9 +23,8 @@ static void ignored(Sdl *sdl)
             return;
         }
     static const char *const settings[] = {
-        "adc_bailout", "number_of_waves", "noise_generator", "irid_wavelength", "max_intersections", "mm_per_unit",
-        "max_trace_level", "hf_gray_16", "charset", NULL
-    };
+        "adc_bailout", "number_of_waves", "noise_generator", "irid_wavelength", "max_intersections",
+        "mm_per_unit", "max_trace_level", "hf_gray_16",      "charset",         NULL};
     for (int i = 0; settings[i]; i++)
         if (sdl_accept(sdl, settings[i])) {
             if (strcmp(settings[i], "charset") == 0)
@@ -68,8 +67,7 @@ static void sky_pigment(Sdl *sdl, SideSky *sky)
     const int room = (int)(sizeof sky->pigments / sizeof *sky->pigments);
     if (sky->npigments == room)
         sdl_error(sdl, "a sky_sphere has at most %d pigments", room);
-    sky->pigments[sky->npigments++] =
-        side_pigment_block(sdl, side_default_pigment(sdl));
+    sky->pigments[sky->npigments++] = side_pigment_block(sdl, side_default_pigment(sdl));
 }
 
 static void sky_move(Sdl *sdl, SideSky *sky, const Transform *by)

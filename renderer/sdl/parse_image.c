@@ -6,9 +6,8 @@
 /* Before the file's name. The name's ending is not looked at: OpenImageIO looks into the file. */
 static void accept_type(Sdl *sdl)
 {
-    static const char *const types[] = {
-        "png", "jpeg", "jpg", "gif", "tga", "tiff", "tif", "bmp", "ppm", "pgm", "pbm", "exr", "hdr", "iff", "sys", NULL
-    };
+    static const char *const types[] = {"png", "jpeg", "jpg", "gif", "tga", "tiff", "tif", "bmp",
+                                        "ppm", "pgm",  "pbm", "exr", "hdr", "iff",  "sys", NULL};
     for (int i = 0; types[i]; i++)
         if (sdl_accept(sdl, types[i]))
             return;

@@ -15,7 +15,8 @@ static Light *light_new(Sdl *sdl)
 /* Of two kinds that are both written POV-Ray takes, in either order, cylinder over parallel and parallel over spotlight. */
 static void set_kind(Light *light, LightKind kind)
 {
-    if ((kind == LIGHT_PARALLEL && light->kind == LIGHT_CYLINDER) || (kind == LIGHT_SPOT && light->kind == LIGHT_PARALLEL))
+    if ((kind == LIGHT_PARALLEL && light->kind == LIGHT_CYLINDER) ||
+        (kind == LIGHT_SPOT && light->kind == LIGHT_PARALLEL))
         return;
     light->kind = kind;
     if (kind == LIGHT_CYLINDER) {

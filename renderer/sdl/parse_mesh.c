@@ -81,8 +81,10 @@ static void texture_list(Sdl *sdl, Mesh *mesh)
     for (int i = 0; i < mesh->ntextures; i++) {
         if (sdl_accept(sdl, "material")) {
             const SideMaterial *material = side_material_block(sdl);
-            mesh->textures[i] = &side_texture_named(sdl, material->texture ? material->texture
-                                                    : side_of(sdl)->default_texture, material->idents)->texture;
+            mesh->textures[i] =
+                &side_texture_named(sdl, material->texture ? material->texture : side_of(sdl)->default_texture,
+                                    material->idents)
+                     ->texture;
         } else {
             const SideTexture *known = side_accept_ident(sdl, VALUE_TEXTURE);
             if (!known)

@@ -61,14 +61,18 @@ static void wear(Dressed *dressed, const SideTexture *texture)
 
 static int accept_flag(Sdl *sdl, Object *object)
 {
-    static const struct { const char *word; unsigned flag; } flags[] = {
-        {"no_shadow", OBJECT_NO_SHADOW}, {"no_image", OBJECT_NO_IMAGE}, {"no_reflection", OBJECT_NO_REFLECTION},
+    static const struct {
+        const char *word;
+        unsigned flag;
+    } flags[] = {
+        {"no_shadow", OBJECT_NO_SHADOW},
+        {"no_image", OBJECT_NO_IMAGE},
+        {"no_reflection", OBJECT_NO_REFLECTION},
         {"hollow", OBJECT_HOLLOW},
     };
-    static const char *const ignored[] = {
-        "double_illuminate", "sturm", "hierarchy", "no_radiosity", "split_union", "no_bump_scale", "cutaway_textures",
-        "global_lights", NULL
-    };
+    static const char *const ignored[] = {"double_illuminate", "sturm",         "hierarchy",
+                                          "no_radiosity",      "split_union",   "no_bump_scale",
+                                          "cutaway_textures",  "global_lights", NULL};
     for (size_t i = 0; i < sizeof flags / sizeof *flags; i++)
         if (sdl_accept(sdl, flags[i].word)) {
             if (sdl_optional_bool(sdl, 1))
@@ -163,20 +167,33 @@ void side_object_modifiers(Sdl *sdl, Object *object)
 
 typedef enum GroupKind { GROUP_UNION, GROUP_FIRST, GROUP_FIRST_BOUNDED } GroupKind;
 
-static const struct { const char *word; GroupKind kind; int gap; } groups[] = {
-    {"union", GROUP_UNION, -1}, {"merge", GROUP_UNION, GAP_MERGE}, {"light_group", GROUP_UNION, GAP_LIGHT_GROUP},
-    {"difference", GROUP_FIRST, GAP_DIFFERENCE}, {"intersection", GROUP_FIRST_BOUNDED, GAP_INTERSECTION},
+static const struct {
+    const char *word;
+    GroupKind kind;
+    int gap;
+} groups[] = {
+    {"union", GROUP_UNION, -1},
+    {"merge", GROUP_UNION, GAP_MERGE},
+    {"light_group", GROUP_UNION, GAP_LIGHT_GROUP},
+    {"difference", GROUP_FIRST, GAP_DIFFERENCE},
+    {"intersection", GROUP_FIRST_BOUNDED, GAP_INTERSECTION},
 };
 
-static int is_plane(const Object *object) { return object->kind == OBJECT_SHAPE && object->shape == SHAPE_PLANE; }
+static int is_plane(const Object *object)
+{
+    return object->kind == OBJECT_SHAPE && object->shape == SHAPE_PLANE;
+}
 
 /* Whether a group of this kind keeps the object, having kept `kept` of them. */
 static int keeps(GroupKind kind, const Object *object, int seen, int kept)
 {
     switch (kind) {
-    case GROUP_FIRST: return seen == 0 || object->kind == OBJECT_LIGHT;
-    case GROUP_FIRST_BOUNDED: return (kept == 0 && !is_plane(object)) || object->kind == OBJECT_LIGHT;
-    default: return 1;
+    case GROUP_FIRST:
+        return seen == 0 || object->kind == OBJECT_LIGHT;
+    case GROUP_FIRST_BOUNDED:
+        return (kept == 0 && !is_plane(object)) || object->kind == OBJECT_LIGHT;
+    default:
+        return 1;
     }
 }
 
@@ -208,18 +225,38 @@ static Object *group(Sdl *sdl, int which)
 
 /* ---- statements ---- */
 
-static const struct { const char *word; ShapeParser *parse; } shapes[] = {
-    {"sphere", side_sphere}, {"box", side_box}, {"plane", side_plane}, {"cylinder", side_cylinder}, {"cone", side_cone},
-    {"torus", side_torus}, {"disc", side_disc}, {"triangle", side_triangle}, {"smooth_triangle", side_smooth_triangle},
-    {"polygon", side_polygon}, {"mesh", side_mesh}, {"mesh2", side_mesh2},
+static const struct {
+    const char *word;
+    ShapeParser *parse;
+} shapes[] = {
+    {"sphere", side_sphere},     {"box", side_box},           {"plane", side_plane},
+    {"cylinder", side_cylinder}, {"cone", side_cone},         {"torus", side_torus},
+    {"disc", side_disc},         {"triangle", side_triangle}, {"smooth_triangle", side_smooth_triangle},
+    {"polygon", side_polygon},   {"mesh", side_mesh},         {"mesh2", side_mesh2},
 };
 
-static const struct { const char *word; Gap gap; } missing[] = {
-    {"bicubic_patch", GAP_BICUBIC_PATCH}, {"blob", GAP_BLOB}, {"cubic", GAP_CUBIC}, {"height_field", GAP_HEIGHT_FIELD},
-    {"isosurface", GAP_ISOSURFACE}, {"julia_fractal", GAP_JULIA_FRACTAL}, {"lathe", GAP_LATHE}, {"ovus", GAP_OVUS},
-    {"parametric", GAP_PARAMETRIC}, {"poly", GAP_POLY}, {"polynomial", GAP_POLYNOMIAL}, {"prism", GAP_PRISM},
-    {"quadric", GAP_QUADRIC}, {"quartic", GAP_QUARTIC}, {"sor", GAP_SOR}, {"sphere_sweep", GAP_SPHERE_SWEEP},
-    {"superellipsoid", GAP_SUPERELLIPSOID}, {"text", GAP_TEXT},
+static const struct {
+    const char *word;
+    Gap gap;
+} missing[] = {
+    {"bicubic_patch", GAP_BICUBIC_PATCH},
+    {"blob", GAP_BLOB},
+    {"cubic", GAP_CUBIC},
+    {"height_field", GAP_HEIGHT_FIELD},
+    {"isosurface", GAP_ISOSURFACE},
+    {"julia_fractal", GAP_JULIA_FRACTAL},
+    {"lathe", GAP_LATHE},
+    {"ovus", GAP_OVUS},
+    {"parametric", GAP_PARAMETRIC},
+    {"poly", GAP_POLY},
+    {"polynomial", GAP_POLYNOMIAL},
+    {"prism", GAP_PRISM},
+    {"quadric", GAP_QUADRIC},
+    {"quartic", GAP_QUARTIC},
+    {"sor", GAP_SOR},
+    {"sphere_sweep", GAP_SPHERE_SWEEP},
+    {"superellipsoid", GAP_SUPERELLIPSOID},
+    {"text", GAP_TEXT},
 };
 
 static const Object *known_object(Sdl *sdl)

@@ -4,7 +4,15 @@
 
 /* What follows a pattern's name. */
 typedef enum Args {
-    ARGS_NONE, ARGS_FLOAT, ARGS_BLOCK, ARGS_LIST, ARGS_FILE, ARGS_JULIA, ARGS_MAGNET, ARGS_SLOPE, ARGS_OBJECT,
+    ARGS_NONE,
+    ARGS_FLOAT,
+    ARGS_BLOCK,
+    ARGS_LIST,
+    ARGS_FILE,
+    ARGS_JULIA,
+    ARGS_MAGNET,
+    ARGS_SLOPE,
+    ARGS_OBJECT,
     ARGS_AVERAGE
 } Args;
 
@@ -14,25 +22,48 @@ static const struct Pattern {
     Gap gap;
     int list; /* how many colours or pigments may stand in a list */
 } patterns[] = {
-    {"agate", ARGS_NONE, GAP_AGATE, 0}, {"aoi", ARGS_NONE, GAP_AOI, 0}, {"average", ARGS_AVERAGE, GAP_AVERAGE, 0},
-    {"boxed", ARGS_NONE, GAP_BOXED, 0}, {"bozo", ARGS_NONE, GAP_BOZO, 0}, {"brick", ARGS_LIST, GAP_BRICK, 2},
-    {"bumps", ARGS_NONE, GAP_BUMPS, 0}, {"cells", ARGS_NONE, GAP_CELLS, 0}, {"crackle", ARGS_NONE, GAP_CRACKLE, 0},
-    {"cubic", ARGS_LIST, GAP_CUBIC_PATTERN, 6}, {"cylindrical", ARGS_NONE, GAP_CYLINDRICAL, 0},
-    {"density_file", ARGS_FILE, GAP_DENSITY_FILE, 0}, {"dents", ARGS_NONE, GAP_DENTS, 0},
-    {"facets", ARGS_NONE, GAP_FACETS, 0}, {"function", ARGS_BLOCK, GAP_FUNCTION, 0},
-    {"granite", ARGS_NONE, GAP_GRANITE, 0}, {"hexagon", ARGS_LIST, GAP_HEXAGON, 3},
-    {"image_pattern", ARGS_BLOCK, GAP_IMAGE_PATTERN, 0}, {"julia", ARGS_JULIA, GAP_JULIA, 0},
-    {"leopard", ARGS_NONE, GAP_LEOPARD, 0}, {"magnet", ARGS_MAGNET, GAP_MAGNET, 0},
-    {"mandel", ARGS_FLOAT, GAP_MANDEL, 0}, {"marble", ARGS_NONE, GAP_MARBLE, 0},
-    {"object", ARGS_OBJECT, GAP_OBJECT_PATTERN, 2}, {"onion", ARGS_NONE, GAP_ONION, 0},
-    {"pavement", ARGS_NONE, GAP_PAVEMENT, 0}, {"pigment_pattern", ARGS_BLOCK, GAP_PIGMENT_PATTERN, 0},
-    {"planar", ARGS_NONE, GAP_PLANAR, 0}, {"projection", ARGS_BLOCK, GAP_PROJECTION, 0},
-    {"quilted", ARGS_NONE, GAP_QUILTED, 0}, {"radial", ARGS_NONE, GAP_RADIAL, 0},
+    {"agate", ARGS_NONE, GAP_AGATE, 0},
+    {"aoi", ARGS_NONE, GAP_AOI, 0},
+    {"average", ARGS_AVERAGE, GAP_AVERAGE, 0},
+    {"boxed", ARGS_NONE, GAP_BOXED, 0},
+    {"bozo", ARGS_NONE, GAP_BOZO, 0},
+    {"brick", ARGS_LIST, GAP_BRICK, 2},
+    {"bumps", ARGS_NONE, GAP_BUMPS, 0},
+    {"cells", ARGS_NONE, GAP_CELLS, 0},
+    {"crackle", ARGS_NONE, GAP_CRACKLE, 0},
+    {"cubic", ARGS_LIST, GAP_CUBIC_PATTERN, 6},
+    {"cylindrical", ARGS_NONE, GAP_CYLINDRICAL, 0},
+    {"density_file", ARGS_FILE, GAP_DENSITY_FILE, 0},
+    {"dents", ARGS_NONE, GAP_DENTS, 0},
+    {"facets", ARGS_NONE, GAP_FACETS, 0},
+    {"function", ARGS_BLOCK, GAP_FUNCTION, 0},
+    {"granite", ARGS_NONE, GAP_GRANITE, 0},
+    {"hexagon", ARGS_LIST, GAP_HEXAGON, 3},
+    {"image_pattern", ARGS_BLOCK, GAP_IMAGE_PATTERN, 0},
+    {"julia", ARGS_JULIA, GAP_JULIA, 0},
+    {"leopard", ARGS_NONE, GAP_LEOPARD, 0},
+    {"magnet", ARGS_MAGNET, GAP_MAGNET, 0},
+    {"mandel", ARGS_FLOAT, GAP_MANDEL, 0},
+    {"marble", ARGS_NONE, GAP_MARBLE, 0},
+    {"object", ARGS_OBJECT, GAP_OBJECT_PATTERN, 2},
+    {"onion", ARGS_NONE, GAP_ONION, 0},
+    {"pavement", ARGS_NONE, GAP_PAVEMENT, 0},
+    {"pigment_pattern", ARGS_BLOCK, GAP_PIGMENT_PATTERN, 0},
+    {"planar", ARGS_NONE, GAP_PLANAR, 0},
+    {"projection", ARGS_BLOCK, GAP_PROJECTION, 0},
+    {"quilted", ARGS_NONE, GAP_QUILTED, 0},
+    {"radial", ARGS_NONE, GAP_RADIAL, 0},
     {"ripples", ARGS_NONE, GAP_RIPPLES, 0},
-    {"slope", ARGS_SLOPE, GAP_SLOPE, 0}, {"spherical", ARGS_NONE, GAP_SPHERICAL, 0},
-    {"spiral1", ARGS_FLOAT, GAP_SPIRAL, 0}, {"spiral2", ARGS_FLOAT, GAP_SPIRAL, 0},
-    {"spotted", ARGS_NONE, GAP_SPOTTED, 0}, {"square", ARGS_LIST, GAP_SQUARE, 4}, {"tiling", ARGS_FLOAT, GAP_TILING, 0},
-    {"triangular", ARGS_LIST, GAP_TRIANGULAR, 6}, {"waves", ARGS_NONE, GAP_WAVES, 0}, {"wood", ARGS_NONE, GAP_WOOD, 0},
+    {"slope", ARGS_SLOPE, GAP_SLOPE, 0},
+    {"spherical", ARGS_NONE, GAP_SPHERICAL, 0},
+    {"spiral1", ARGS_FLOAT, GAP_SPIRAL, 0},
+    {"spiral2", ARGS_FLOAT, GAP_SPIRAL, 0},
+    {"spotted", ARGS_NONE, GAP_SPOTTED, 0},
+    {"square", ARGS_LIST, GAP_SQUARE, 4},
+    {"tiling", ARGS_FLOAT, GAP_TILING, 0},
+    {"triangular", ARGS_LIST, GAP_TRIANGULAR, 6},
+    {"waves", ARGS_NONE, GAP_WAVES, 0},
+    {"wood", ARGS_NONE, GAP_WOOD, 0},
     {"wrinkles", ARGS_NONE, GAP_WRINKLES, 0},
 };
 
@@ -107,9 +138,8 @@ static void set_average(Sdl *sdl, SidePigment *pigment, const Rgbft *list, int n
 static void list_pattern(Sdl *sdl, const struct Pattern *pattern, SidePigment *pigment, const SideTexture **first,
                          int textures)
 {
-    Rgbft list[6] = {
-        {0, 0, 1, 0, 0}, {0, 1, 0, 0, 0}, {1, 0, 0, 0, 0}, {1, 0, 1, 0, 0}, {1, 1, 0, 0, 0}, {0, 1, 1, 0, 0}
-    };
+    Rgbft list[6] = {{0, 0, 1, 0, 0}, {0, 1, 0, 0, 0}, {1, 0, 0, 0, 0},
+                     {1, 0, 1, 0, 0}, {1, 1, 0, 0, 0}, {0, 1, 1, 0, 0}};
     side_color_list(sdl, list, pattern->list, pigment, first, textures);
     if (pattern->gap == GAP_BRICK)
         set_average(sdl, pigment, list + 1, 1);
@@ -160,15 +190,33 @@ static void averaged_pattern(Sdl *sdl, const struct Pattern *pattern, SidePigmen
     pigment->averaged = pattern->args == ARGS_AVERAGE ? AVERAGED_BY_WEIGHT : AVERAGED;
     gaps_add(&pigment->gaps, pattern->gap);
     switch (pattern->args) {
-    case ARGS_FLOAT: sdl_float(sdl); break;
-    case ARGS_BLOCK: sdl_skip_block(sdl); break;
-    case ARGS_LIST: list_pattern(sdl, pattern, pigment, first, textures); break;
-    case ARGS_FILE: sdl_accept(sdl, "df3"), sdl_string(sdl); break;
-    case ARGS_JULIA: sdl_vector2(sdl), sdl_optional_comma(sdl), sdl_float(sdl); break;
-    case ARGS_MAGNET: magnet_arguments(sdl); break;
-    case ARGS_SLOPE: slope_arguments(sdl); break;
-    case ARGS_OBJECT: object_pattern(sdl, pigment, first, textures); break;
-    case ARGS_AVERAGE: case ARGS_NONE: break;
+    case ARGS_FLOAT:
+        sdl_float(sdl);
+        break;
+    case ARGS_BLOCK:
+        sdl_skip_block(sdl);
+        break;
+    case ARGS_LIST:
+        list_pattern(sdl, pattern, pigment, first, textures);
+        break;
+    case ARGS_FILE:
+        sdl_accept(sdl, "df3"), sdl_string(sdl);
+        break;
+    case ARGS_JULIA:
+        sdl_vector2(sdl), sdl_optional_comma(sdl), sdl_float(sdl);
+        break;
+    case ARGS_MAGNET:
+        magnet_arguments(sdl);
+        break;
+    case ARGS_SLOPE:
+        slope_arguments(sdl);
+        break;
+    case ARGS_OBJECT:
+        object_pattern(sdl, pigment, first, textures);
+        break;
+    case ARGS_AVERAGE:
+    case ARGS_NONE:
+        break;
     }
 }
 
@@ -203,8 +251,11 @@ int side_accept_pattern(Sdl *sdl, SidePigment *pigment, const SideTexture **firs
 
 static int accept_wave(Sdl *sdl, Pigment *p)
 {
-    static const struct { const char *word; WaveKind wave; } waves[] = {
-        {"ramp_wave", WAVE_RAMP}, {"triangle_wave", WAVE_TRIANGLE}, {"sine_wave", WAVE_SINE},
+    static const struct {
+        const char *word;
+        WaveKind wave;
+    } waves[] = {
+        {"ramp_wave", WAVE_RAMP},       {"triangle_wave", WAVE_TRIANGLE}, {"sine_wave", WAVE_SINE},
         {"scallop_wave", WAVE_SCALLOP}, {"cubic_wave", WAVE_CUBIC},
     };
     for (size_t i = 0; i < sizeof waves / sizeof *waves; i++)
@@ -222,10 +273,9 @@ static int accept_wave(Sdl *sdl, Pigment *p)
 /* Modifiers of patterns that are averaged, and of noise: read over. */
 static int accept_ignored(Sdl *sdl)
 {
-    static const char *const floats[] = {
-        "octaves", "omega", "lambda", "agate_turb", "metric", "control0", "control1", "mortar", "noise_generator",
-        "coords", "accuracy", "interpolate", "exponent", "blend_mode", NULL
-    };
+    static const char *const floats[] = {"octaves",  "omega",       "lambda",   "agate_turb",      "metric",
+                                         "control0", "control1",    "mortar",   "noise_generator", "coords",
+                                         "accuracy", "interpolate", "exponent", "blend_mode",      NULL};
     static const char *const expressions[] = {"form", "offset", "brick_size", "size", "altitude", NULL};
     static const char *const pairs[] = {"exterior", "interior", NULL};
     for (int i = 0; floats[i]; i++)

@@ -10,9 +10,8 @@ SidePigment *side_pigment_new(Sdl *sdl, const SidePigment *from)
     if (from)
         *pigment = *from;
     else
-        pigment->pigment = (Pigment){
-            .kind = PIGMENT_COLOR, .frequency = 1, .wave_exponent = 1, .transform = transform_identity()
-        };
+        pigment->pigment =
+            (Pigment){.kind = PIGMENT_COLOR, .frequency = 1, .wave_exponent = 1, .transform = transform_identity()};
     pigment->next = side->pigments;
     side->pigments = pigment;
     return pigment;
@@ -42,8 +41,8 @@ static Rgbft map_at(const ColorMap *map, double x)
     for (int i = 1; i < map->count; i++)
         if (x <= e[i].value)
             return e[i].value > e[i - 1].value
-                ? lerp(e[i - 1].color, e[i].color, (x - e[i - 1].value) / (e[i].value - e[i - 1].value))
-                : e[i].color;
+                       ? lerp(e[i - 1].color, e[i].color, (x - e[i - 1].value) / (e[i].value - e[i - 1].value))
+                       : e[i].color;
     return e[map->count - 1].color;
 }
 
@@ -82,14 +81,21 @@ Rgbft side_pigment_mean(const SidePigment *pigment)
 {
     const Pigment *p = &pigment->pigment;
     switch (p->kind) {
-    case PIGMENT_CHECKER: return lerp(p->checker[0], p->checker[1], 0.5);
-    case PIGMENT_GRADIENT: return side_map_mean(&p->map);
-    case PIGMENT_IMAGE: return (Rgbft){0.5f, 0.5f, 0.5f, 0, 0};
-    default: return p->color;
+    case PIGMENT_CHECKER:
+        return lerp(p->checker[0], p->checker[1], 0.5);
+    case PIGMENT_GRADIENT:
+        return side_map_mean(&p->map);
+    case PIGMENT_IMAGE:
+        return (Rgbft){0.5f, 0.5f, 0.5f, 0, 0};
+    default:
+        return p->color;
     }
 }
 
-static int opaque(Rgbft c) { return c.filter == 0 && c.transmit == 0; }
+static int opaque(Rgbft c)
+{
+    return c.filter == 0 && c.transmit == 0;
+}
 
 /* Once images are loaded. */
 int side_pigment_opaque(const SidePigment *pigment)

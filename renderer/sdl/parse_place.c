@@ -216,13 +216,18 @@ static void place(Sdl *sdl, const Object *object, const Around *around)
     here.flags = (around->flags | (object->flags & ~OBJECT_INVERSE)) ^ (object->flags & OBJECT_INVERSE);
     here.idents = sdl_ident_join(sdl, around->idents, object->idents);
     switch (object->kind) {
-    case OBJECT_SHAPE: place_shape(sdl, object, &here); break;
-    case OBJECT_GROUP: place_children(sdl, object->children, &here); break;
+    case OBJECT_SHAPE:
+        place_shape(sdl, object, &here);
+        break;
+    case OBJECT_GROUP:
+        place_children(sdl, object->children, &here);
+        break;
     case OBJECT_LIGHT:
         place_light(sdl, object, &here.to_world);
         place_look(sdl, object, &here);
         break;
-    case OBJECT_EMPTY: break;
+    case OBJECT_EMPTY:
+        break;
     }
 }
 
@@ -231,4 +236,3 @@ void side_place(Sdl *sdl, const Object *object)
     const Around world = {.to_world = transform_identity()};
     place(sdl, object, &world);
 }
-

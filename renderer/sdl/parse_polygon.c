@@ -9,8 +9,12 @@
 
 #define MAX_POINTS 20000
 
-typedef struct Edge { Vec2 low, high; } Edge; /* low.v < high.v */
-typedef struct Crossing { double bottom, top, middle; } Crossing; /* u of an edge within a slab */
+typedef struct Edge {
+    Vec2 low, high;
+} Edge; /* low.v < high.v */
+typedef struct Crossing {
+    double bottom, top, middle;
+} Crossing; /* u of an edge within a slab */
 
 typedef struct Triangles {
     Vec2 *corners; /* three each */
@@ -30,7 +34,10 @@ static void add(Sdl *sdl, Triangles *out, Vec2 a, Vec2 b, Vec2 c)
 
 /* ---- a convex ring ---- */
 
-static double turn(Vec2 a, Vec2 b, Vec2 c) { return (b.u - a.u) * (c.v - b.v) - (b.v - a.v) * (c.u - b.u); }
+static double turn(Vec2 a, Vec2 b, Vec2 c)
+{
+    return (b.u - a.u) * (c.v - b.v) - (b.v - a.v) * (c.u - b.u);
+}
 
 static int is_convex(const Vec2 *p, int n)
 {
@@ -154,7 +161,10 @@ int side_polygon_triangulate(Sdl *sdl, const Vec2 *points, const int *starts, in
 
 /* ---- reading ---- */
 
-static int same_point(Vec3 a, Vec3 b) { return a.x == b.x && a.y == b.y && a.z == b.z; }
+static int same_point(Vec3 a, Vec3 b)
+{
+    return a.x == b.x && a.y == b.y && a.z == b.z;
+}
 
 /* Rings: each ends where its first point comes again. Gives starts[] and packs the points. */
 static int split_rings(Sdl *sdl, Vec3 *points, int n, int *starts)

@@ -34,7 +34,10 @@ static float decode(Space space, double gamma, float x)
     return (float)copysign(out, x);
 }
 
-static Rgb decode_rgb(Space s, double g, Rgb c) { return rgb(decode(s, g, c.r), decode(s, g, c.g), decode(s, g, c.b)); }
+static Rgb decode_rgb(Space s, double g, Rgb c)
+{
+    return rgb(decode(s, g, c.r), decode(s, g, c.g), decode(s, g, c.b));
+}
 
 /* Filter and transmit are shares, not colours. */
 static Rgbft decode_rgbft(Space s, double g, Rgbft c)
@@ -166,7 +169,10 @@ static void each_texture(Sdl *sdl, TextureVisitor *visit, void *context)
     }
 }
 
-static void visit_load(Sdl *sdl, const Texture **texture, void *context) { load_of_texture(sdl, *texture, context); }
+static void visit_load(Sdl *sdl, const Texture **texture, void *context)
+{
+    load_of_texture(sdl, *texture, context);
+}
 
 /* Layers are decided, and a texture takes the names of its pigment. Every texture is this scene's own copy by now. */
 static void visit_settle(Sdl *sdl, const Texture **texture, void *context)

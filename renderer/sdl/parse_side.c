@@ -6,13 +6,18 @@
 
 #define MAX_NESTING 200
 
-static const struct { const char *name, *instead; } gap_names[GAP_COUNT] = {
+static const struct {
+    const char *name, *instead;
+} gap_names[GAP_COUNT] = {
 #define X(id, name, instead) [GAP_##id] = {name, instead},
     GAP_TABLE(X)
 #undef X
 };
 
-void gaps_add(Gaps *gaps, Gap gap) { gaps->bits[gap / 64] |= (uint64_t)1 << gap % 64; }
+void gaps_add(Gaps *gaps, Gap gap)
+{
+    gaps->bits[gap / 64] |= (uint64_t)1 << gap % 64;
+}
 
 void gaps_join(Gaps *gaps, const Gaps *other)
 {
@@ -37,7 +42,10 @@ void side_enter(Sdl *sdl)
         sdl_error(sdl, "statements are nested more than %d deep", MAX_NESTING);
 }
 
-void side_leave(Sdl *sdl) { side_of(sdl)->depth--; }
+void side_leave(Sdl *sdl)
+{
+    side_of(sdl)->depth--;
+}
 
 void *side_grow(Sdl *sdl, void *array, int count, int *room, size_t size)
 {
@@ -72,14 +80,21 @@ int side_is_float_start(Sdl *sdl)
 {
     const Token *token = sdl_peek(sdl);
     switch (token->kind) {
-    case TOKEN_NUMBER: return 1;
-    case TOKEN_IDENT: return token->value && token->value->kind == VALUE_FLOAT;
-    case TOKEN_PUNCT: return token->punct == '-' || token->punct == '+' || token->punct == '(';
-    default: return !sdl_is_color_start(sdl) && sdl_is_expression_start(sdl) && !sdl_is(sdl, "<");
+    case TOKEN_NUMBER:
+        return 1;
+    case TOKEN_IDENT:
+        return token->value && token->value->kind == VALUE_FLOAT;
+    case TOKEN_PUNCT:
+        return token->punct == '-' || token->punct == '+' || token->punct == '(';
+    default:
+        return !sdl_is_color_start(sdl) && sdl_is_expression_start(sdl) && !sdl_is(sdl, "<");
     }
 }
 
-double side_optional_float(Sdl *sdl, double missing) { return side_is_float_start(sdl) ? sdl_float(sdl) : missing; }
+double side_optional_float(Sdl *sdl, double missing)
+{
+    return side_is_float_start(sdl) ? sdl_float(sdl) : missing;
+}
 
 void side_skip_statement(Sdl *sdl)
 {
@@ -137,9 +152,8 @@ static void set(Value *value, ValueKind kind, const void *data)
 /* Words whose value is known of, so that it can be named and handed on, but means nothing here. */
 static int declare_ignored(Sdl *sdl, Value *value)
 {
-    static const char *const words[] = {
-        "normal_map", "slope_map", "density", "density_map", "media", "fog", "rainbow", "radiosity", NULL
-    };
+    static const char *const words[] = {"normal_map", "slope_map", "density",   "density_map", "media",
+                                        "fog",        "rainbow",   "radiosity", NULL};
     for (int i = 0; words[i]; i++)
         if (sdl_is(sdl, words[i])) {
             side_skip_statement(sdl);
@@ -204,9 +218,19 @@ static int declare_same(Sdl *sdl, Value *value)
     if (token->kind != TOKEN_IDENT || !token->value)
         return 0;
     switch (token->value->kind) {
-    case VALUE_TRANSFORM: case VALUE_PIGMENT: case VALUE_NORMAL: case VALUE_FINISH: case VALUE_TEXTURE:
-    case VALUE_INTERIOR: case VALUE_MATERIAL: case VALUE_OBJECT: case VALUE_CAMERA: case VALUE_LIGHT:
-    case VALUE_COLOR_MAP: case VALUE_SKY_SPHERE: case VALUE_OTHER:
+    case VALUE_TRANSFORM:
+    case VALUE_PIGMENT:
+    case VALUE_NORMAL:
+    case VALUE_FINISH:
+    case VALUE_TEXTURE:
+    case VALUE_INTERIOR:
+    case VALUE_MATERIAL:
+    case VALUE_OBJECT:
+    case VALUE_CAMERA:
+    case VALUE_LIGHT:
+    case VALUE_COLOR_MAP:
+    case VALUE_SKY_SPHERE:
+    case VALUE_OTHER:
         *value = *token->value;
         sdl_next(sdl);
         return 1;
@@ -280,8 +304,14 @@ void scene_side_name(Sdl *sdl, Value *value, const char *name, int line)
 
 /* ---- statements ---- */
 
-static void statement_camera(Sdl *sdl) { side_camera_use(sdl, side_camera_block(sdl)); }
-static void statement_sky_sphere(Sdl *sdl) { side_of(sdl)->sky = side_sky_sphere(sdl); }
+static void statement_camera(Sdl *sdl)
+{
+    side_camera_use(sdl, side_camera_block(sdl));
+}
+static void statement_sky_sphere(Sdl *sdl)
+{
+    side_of(sdl)->sky = side_sky_sphere(sdl);
+}
 
 static void statement_fog(Sdl *sdl)
 {
@@ -303,10 +333,14 @@ static void statement_media(Sdl *sdl)
 
 void scene_side_statement(Sdl *sdl)
 {
-    static const struct { const char *word; void (*parse)(Sdl *sdl); } statements[] = {
-        {"camera", statement_camera}, {"global_settings", side_global_settings}, {"background", side_background},
-        {"sky_sphere", statement_sky_sphere}, {"fog", statement_fog}, {"rainbow", statement_rainbow},
-        {"media", statement_media}, {"default", scene_side_default} /* old scenes leave out the # */,
+    static const struct {
+        const char *word;
+        void (*parse)(Sdl *sdl);
+    } statements[] = {
+        {"camera", statement_camera},    {"global_settings", side_global_settings},
+        {"background", side_background}, {"sky_sphere", statement_sky_sphere},
+        {"fog", statement_fog},          {"rainbow", statement_rainbow},
+        {"media", statement_media},      {"default", scene_side_default} /* old scenes leave out the # */,
     };
     for (size_t i = 0; i < sizeof statements / sizeof *statements; i++)
         if (sdl_accept(sdl, statements[i].word)) {

@@ -9,8 +9,14 @@ SideTexture *side_texture_copy(Sdl *sdl, const SideTexture *from)
     return texture;
 }
 
-static const SidePigment *pigment_of(const SideTexture *t) { return (const SidePigment *)t->texture.pigment; }
-static const SideFinish *finish_of(const SideTexture *t) { return (const SideFinish *)t->texture.finish; }
+static const SidePigment *pigment_of(const SideTexture *t)
+{
+    return (const SidePigment *)t->texture.pigment;
+}
+static const SideFinish *finish_of(const SideTexture *t)
+{
+    return (const SideFinish *)t->texture.finish;
+}
 
 /* A pigment with uv_mapping lies in the surface's own space: what moves the surface does not move it. */
 const SideTexture *side_texture_moved(Sdl *sdl, const SideTexture *texture, const Transform *by)

@@ -4,34 +4,42 @@
 
 float fresnel_dielectric(float cos_i, float eta)
 {
-    if (eta == 1) return 0;
+    if (eta == 1)
+        return 0;
     float sin2_t = (1 - cos_i * cos_i) / (eta * eta);
-    if (sin2_t >= 1) return 1;
+    if (sin2_t >= 1)
+        return 1;
     float cos_t = sqrtf(1 - sin2_t);
     float parallel = (eta * cos_i - cos_t) / (eta * cos_i + cos_t);
     float perpendicular = (cos_i - eta * cos_t) / (cos_i + eta * cos_t);
     return (parallel * parallel + perpendicular * perpendicular) / 2;
 }
 
-static float power5(float x) { return x * x * x * x * x; }
+static float power5(float x)
+{
+    return x * x * x * x * x;
+}
 
 /* Fresnel term of the microfacet lobe at a half vector: supplement 4.1.2 with the base's share that transmits mixed in. */
 static Split microfacet_fresnel(const Bsdf *b, float cos_h)
 {
-    if (!b->disney) return metallic_tint(b->highlight, cos_h);
+    if (!b->disney)
+        return metallic_tint(b->highlight, cos_h);
     float m = b->metallic, w = power5(1 - cos_h), a = b->transmission;
     float f0 = (b->coat_eta - 1) / (b->coat_eta + 1);
     float r0_indep = (1 - m) * f0 * f0 * b->specular_tint;
     float indep = (1 - m) * fresnel_dielectric(cos_h, b->coat_eta) + m * (r0_indep + (1 - r0_indep) * w);
     float dep = m * (1 - w) * m;
-    if (a > 0) indep = (1 - a) * indep + a * fresnel_dielectric(cos_h, b->eta), dep *= 1 - a;
+    if (a > 0)
+        indep = (1 - a) * indep + a * fresnel_dielectric(cos_h, b->eta), dep *= 1 - a;
     return (Split){rgb_grey(dep * b->coverage), rgb_grey(indep * b->coverage)};
 }
 
 /* Share of the choice with which light at a microfacet goes through rather than back. */
 static float through_share(const Bsdf *b, float cos_h)
 {
-    if (!b->disney || b->transmission <= 0 || b->eta == 1) return 0;
+    if (!b->disney || b->transmission <= 0 || b->eta == 1)
+        return 0;
     float through = b->transmission * (1 - fresnel_dielectric(cos_h, b->eta)) * NEUTRAL_ALBEDO;
     return through > 0 ? through / (through + split_neutral(microfacet_fresnel(b, cos_h))) : 0;
 }
@@ -45,7 +53,8 @@ static float lambert_value(const Bsdf *b, float reflectance, float cosine)
 /* Diffuse lobe over albedo: Lambert, or Burley's 2015 diffuse and retro-reflective lobes. */
 static float diffuse_value(const Bsdf *b, Vec3 wi, double cos_i)
 {
-    if (!b->disney) return lambert_value(b, b->diffuse, (float)cos_i);
+    if (!b->disney)
+        return lambert_value(b, b->diffuse, (float)cos_i);
     Vec3 h = vec_normalize(vec_add(wi, b->wo));
     float cos_d = (float)vec_dot(wi, h), fl = power5(1 - (float)cos_i), fv = power5(1 - (float)b->cos_o);
     float rr = 2 * b->roughness * cos_d * cos_d;
@@ -53,7 +62,10 @@ static float diffuse_value(const Bsdf *b, Vec3 wi, double cos_i)
     return b->diffuse / (float)PI * (lambert + retro);
 }
 
-static Vec3 to_local(const Bsdf *b, Vec3 w) { return vec3(vec_dot(w, b->s), vec_dot(w, b->t), vec_dot(w, b->normal)); }
+static Vec3 to_local(const Bsdf *b, Vec3 w)
+{
+    return vec3(vec_dot(w, b->s), vec_dot(w, b->t), vec_dot(w, b->normal));
+}
 static Vec3 to_world(const Bsdf *b, Vec3 w)
 {
     return vec_add(vec_add(vec_scale(b->s, w.x), vec_scale(b->t, w.y)), vec_scale(b->normal, w.z));
@@ -76,9 +88,11 @@ static Split glossy_transmission(const Bsdf *b, Vec3 wi, float *pdf)
     Vec3 o = to_local(b, b->wo), i = to_local(b, wi), h = vec_normalize(vec_mad(o, i, b->eta));
     Split none = {{0, 0, 0}, {0, 0, 0}};
     *pdf = 0;
-    if (h.z < 0) h = vec_neg(h);
+    if (h.z < 0)
+        h = vec_neg(h);
     double oh = vec_dot(o, h), ih = vec_dot(i, h);
-    if (oh <= 0 || ih >= 0) return none;
+    if (oh <= 0 || ih >= 0)
+        return none;
     double sum = b->eta * ih + oh, transmitted = b->transmission * (1 - fresnel_dielectric((float)fmin(1, oh), b->eta));
     double value = ggx_d(h, b->alpha) * ggx_g2(o, vec3(i.x, i.y, -i.z), b->alpha) * transmitted * fabs(ih * oh) /
                    (o.z * sum * sum);
@@ -113,8 +127,10 @@ Split bsdf_eval(const Bsdf *b, Vec3 wi, int light_source, float *pdf)
     Split sum = {{0, 0, 0}, {0, 0, 0}};
     double cos_i = vec_dot(wi, b->normal), side = vec_dot(wi, b->geometric);
     *pdf = 0;
-    if (cos_i > 0 && side > 0) return eval_reflection(b, wi, cos_i, light_source, pdf);
-    if (cos_i >= 0 || side >= 0) return sum;
+    if (cos_i > 0 && side > 0)
+        return eval_reflection(b, wi, cos_i, light_source, pdf);
+    if (cos_i >= 0 || side >= 0)
+        return sum;
     if (b->diffuse_back > 0) {
         sum.d = rgb_grey(lambert_value(b, b->diffuse_back, (float)-cos_i) * (float)-cos_i);
         *pdf += b->p_back * (float)(-cos_i / PI);
@@ -133,13 +149,17 @@ static Vec3 cosine_direction(const Bsdf *b, float u1, float u2)
     return to_world(b, vec3(r * cos(phi), r * sin(phi), sqrt(fmax(0, 1 - u1))));
 }
 
-static Vec3 reflect(Vec3 wo, Vec3 n) { return vec_sub(vec_scale(n, 2 * vec_dot(wo, n)), wo); }
+static Vec3 reflect(Vec3 wo, Vec3 n)
+{
+    return vec_sub(vec_scale(n, 2 * vec_dot(wo, n)), wo);
+}
 
 /* Returns 0 on total internal reflection. eta: far over near, n on wo's side. */
 static int refract(Vec3 wo, Vec3 n, double eta, Vec3 *wi)
 {
     double cos_i = vec_dot(wo, n), sin2_t = (1 - cos_i * cos_i) / (eta * eta);
-    if (sin2_t >= 1) return 0;
+    if (sin2_t >= 1)
+        return 0;
     *wi = vec_normalize(vec_sub(vec_scale(n, cos_i / eta - sqrt(1 - sin2_t)), vec_scale(wo, 1 / eta)));
     return 1;
 }
@@ -148,12 +168,16 @@ static int refract(Vec3 wo, Vec3 n, double eta, Vec3 *wi)
 static int sample_glossy(const Bsdf *b, float choice, float u1, float u2, Vec3 *wi)
 {
     Vec3 h = to_world(b, ggx_sample_visible(to_local(b, b->wo), b->alpha, u1, u2));
-    if (choice < through_share(b, (float)fmin(1, vec_dot(b->wo, h)))) return refract(b->wo, h, b->eta, wi) && vec_dot(*wi, b->normal) < 0;
+    if (choice < through_share(b, (float)fmin(1, vec_dot(b->wo, h))))
+        return refract(b->wo, h, b->eta, wi) && vec_dot(*wi, b->normal) < 0;
     *wi = reflect(b->wo, h);
     return vec_dot(*wi, b->normal) > 0; /* below the horizon would be a second bounce, which the lobe leaves out */
 }
 
-static Split split_scale(Split s, float k) { return (Split){rgb_scale(s.d, k), rgb_scale(s.i, k)}; }
+static Split split_scale(Split s, float k)
+{
+    return (Split){rgb_scale(s.d, k), rgb_scale(s.i, k)};
+}
 
 /* An interpolated normal may send a mirrored or refracted ray to the wrong side of the surface, which would look black
  * along its edges: the surface's own normal takes over, by which such a refracted ray is reflected totally. */
@@ -161,7 +185,8 @@ static int sample_mirror(const Bsdf *b, BsdfSample *sample)
 {
     sample->wi = reflect(b->wo, b->normal);
     sample->weight = split_scale(b->mirror, 1 / b->p_mirror);
-    if (vec_dot(sample->wi, b->geometric) <= 0) sample->wi = reflect(b->wo, b->geometric);
+    if (vec_dot(sample->wi, b->geometric) <= 0)
+        sample->wi = reflect(b->wo, b->geometric);
     return vec_dot(sample->wi, b->geometric) > 0;
 }
 
@@ -188,21 +213,26 @@ int bsdf_sample(const Bsdf *b, float u_lobe, float u1, float u2, BsdfSample *sam
 {
     *sample = (BsdfSample){0};
     float u = u_lobe;
-    if ((u -= b->p_mirror) < 0) return sample_mirror(b, sample);
-    if ((u -= b->p_passing) < 0) return sample_passing(b, sample);
+    if ((u -= b->p_mirror) < 0)
+        return sample_mirror(b, sample);
+    if ((u -= b->p_passing) < 0)
+        return sample_passing(b, sample);
     if ((u -= b->p_diffuse) < 0) {
         sample->wi = cosine_direction(b, u1, u2);
     } else if ((u -= b->p_back) < 0) {
         Vec3 up = cosine_direction(b, u1, u2);
         sample->wi = vec_mad(up, b->normal, -2 * vec_dot(up, b->normal));
     } else {
-        if (b->p_glossy <= 0) return 0;
+        if (b->p_glossy <= 0)
+            return 0;
         float choice = u / b->p_glossy; /* what is left of u, stretched to [0,1) again */
-        if (!sample_glossy(b, choice, u1, u2, &sample->wi)) return 0;
+        if (!sample_glossy(b, choice, u1, u2, &sample->wi))
+            return 0;
     }
     sample->transmitted = vec_dot(sample->wi, b->normal) < 0;
     Split f = bsdf_eval(b, sample->wi, 0, &sample->pdf);
-    if (sample->pdf <= 0) return 0;
+    if (sample->pdf <= 0)
+        return 0;
     sample->weight = split_scale(f, 1 / sample->pdf);
     return 1;
 }

@@ -6,9 +6,15 @@
 
 #define SMOOTH_ALPHA 1e-3f /* below this width a microfacet lobe is a delta */
 
-static float clamp01(double x) { return (float)(x < 0 ? 0 : x > 1 ? 1 : x); }
+static float clamp01(double x)
+{
+    return (float)(x < 0 ? 0 : x > 1 ? 1 : x);
+}
 
-static int interior_bends(const Primitive *p) { return p->interior && p->interior->ior != 1 && p->interior->ior > 0; }
+static int interior_bends(const Primitive *p)
+{
+    return p->interior && p->interior->ior != 1 && p->interior->ior > 0;
+}
 
 int finish_transmits(const Finish *finish)
 {
@@ -29,9 +35,12 @@ static void setup_highlight(Bsdf *b, const Finish *f)
 {
     double exponent, amount;
     int albedo;
-    if (f->specular > 0) exponent = 1 / fmax(f->roughness, 1e-6), amount = f->specular, albedo = f->specular_albedo;
-    else exponent = 4 * f->phong_size, amount = f->phong, albedo = f->phong_albedo;
-    if (amount <= 0) return;
+    if (f->specular > 0)
+        exponent = 1 / fmax(f->roughness, 1e-6), amount = f->specular, albedo = f->specular_albedo;
+    else
+        exponent = 4 * f->phong_size, amount = f->phong, albedo = f->phong_albedo;
+    if (amount <= 0)
+        return;
     double alpha = sqrt(2 / (exponent + 2));
     float reflectance = clamp01(albedo ? amount : 4 * alpha * alpha * amount);
     float metallic = clamp01(f->metallic);
@@ -46,7 +55,8 @@ static void setup_mirror(Bsdf *b, const Finish *f, int transparent)
     float rise = f->reflection_fresnel ? fresnel_dielectric((float)b->cos_o, b->eta)
                                        : powf(1 - (float)b->cos_o, (float)f->reflection_falloff);
     Rgb r = rgb_lerp(f->reflection_min, f->reflection_max, rise);
-    if (transparent && b->refracts && fresnel_dielectric((float)b->cos_o, b->eta) >= 1) r = rgb_grey(1);
+    if (transparent && b->refracts && fresnel_dielectric((float)b->cos_o, b->eta) >= 1)
+        r = rgb_grey(1);
     float metallic = clamp01(f->reflection_metallic);
     b->mirror = metallic_tint((Split){rgb_scale(r, metallic), rgb_scale(r, 1 - metallic)}, (float)b->cos_o);
 }
@@ -70,7 +80,8 @@ static void setup_povray(Bsdf *b, const Finish *f, float filter, float transmit)
 static void setup_disney(Bsdf *b, const Finish *f, float filter, float transmit)
 {
     float a = clamp01(f->retex.transmission) * (1 - clamp01(f->retex.metallic));
-    float opacity = a > 0 ? 1 : clamp01(1 - filter - transmit); /* the pigment does not make clear what is clear already */
+    float opacity =
+        a > 0 ? 1 : clamp01(1 - filter - transmit); /* the pigment does not make clear what is clear already */
     b->coverage = opacity;
     b->disney = 1;
     b->metallic = clamp01(f->retex.metallic);
@@ -88,31 +99,39 @@ static void setup_disney(Bsdf *b, const Finish *f, float filter, float transmit)
         float indep = (1 - m) * fresnel_dielectric((float)b->cos_o, b->coat_eta) + m * (r0 + (1 - r0) * w);
         b->mirror.i = rgb_grey(opacity * ((1 - a) * indep + a * outer));
         b->mirror.d = rgb_grey(opacity * (1 - a) * m * m * (1 - w));
-        if (a > 0) b->passing.d = rgb_grey(a * (1 - outer));
+        if (a > 0)
+            b->passing.d = rgb_grey(a * (1 - outer));
     } else {
         b->alpha = alpha;
-        if (b->eta == 1) b->passing.d = rgb_grey(a); /* however rough, it does not bend */
+        if (b->eta == 1)
+            b->passing.d = rgb_grey(a); /* however rough, it does not bend */
     }
-    if (a == 0 && opacity < 1) b->passing = (Split){rgb_grey(filter), rgb_grey(transmit)}, b->refracts = 0;
+    if (a == 0 && opacity < 1)
+        b->passing = (Split){rgb_grey(filter), rgb_grey(transmit)}, b->refracts = 0;
 }
 
 /* Reflectance the microfacet lobe shows from cos_o, roughly: what its share of the choice goes by. */
 static float glossy_estimate(const Bsdf *b)
 {
-    if (b->alpha <= 0 || b->highlight_lights_only) return 0;
-    if (!b->disney) return split_neutral(b->highlight);
+    if (b->alpha <= 0 || b->highlight_lights_only)
+        return 0;
+    if (!b->disney)
+        return split_neutral(b->highlight);
     float m = b->metallic, f = fresnel_dielectric((float)b->cos_o, b->coat_eta);
-    return fmaxf(0.02f, (1 - m) * f + m * m * NEUTRAL_ALBEDO + m * (1 - m) * 0.04f) * (1 - b->transmission) * b->coverage;
+    return fmaxf(0.02f, (1 - m) * f + m * m * NEUTRAL_ALBEDO + m * (1 - m) * 0.04f) * (1 - b->transmission) *
+           b->coverage;
 }
 
 static void setup_choice(Bsdf *b)
 {
     float glossy = glossy_estimate(b);
-    if (b->disney && !b->smooth && b->eta != 1) glossy += b->transmission;
-    float w[5] = {b->diffuse * NEUTRAL_ALBEDO, b->diffuse_back * NEUTRAL_ALBEDO, glossy,
-                  split_neutral(b->mirror), split_neutral(b->passing)};
+    if (b->disney && !b->smooth && b->eta != 1)
+        glossy += b->transmission;
+    float w[5] = {b->diffuse * NEUTRAL_ALBEDO, b->diffuse_back * NEUTRAL_ALBEDO, glossy, split_neutral(b->mirror),
+                  split_neutral(b->passing)};
     float sum = w[0] + w[1] + w[2] + w[3] + w[4];
-    if (!(sum > 0)) return;
+    if (!(sum > 0))
+        return;
     b->p_diffuse = w[0] / sum, b->p_back = w[1] / sum, b->p_glossy = w[2] / sum;
     b->p_mirror = w[3] / sum, b->p_passing = w[4] / sum;
 }
@@ -132,11 +151,15 @@ void bsdf_setup(Bsdf *b, const Surface *surface, Vec3 wo, float filter, float tr
     }
     b->cos_o = fmin(1, b->cos_o);
     vec_frame(b->normal, &b->s, &b->t);
-    double ior = finish_transmits(finish) ? finish->retex.ior : interior_bends(primitive) ? primitive->interior->ior : 1;
+    double ior = finish_transmits(finish)    ? finish->retex.ior
+                 : interior_bends(primitive) ? primitive->interior->ior
+                                             : 1;
     b->refracts = ior != 1;
     int transparent = filter + transmit > 0 || finish_transmits(finish);
     b->eta = (float)(surface->backside && transparent ? 1 / ior : ior); /* an opaque sheet has a coat on both sides */
-    if (finish->retex.present) setup_disney(b, finish, filter, transmit);
-    else setup_povray(b, finish, filter, transmit);
+    if (finish->retex.present)
+        setup_disney(b, finish, filter, transmit);
+    else
+        setup_povray(b, finish, filter, transmit);
     setup_choice(b);
 }

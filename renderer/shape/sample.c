@@ -98,7 +98,7 @@ static int is_round(const Transform *t)
     double xx = vec_dot(x, x), bound = 1e-12 * xx, upright = 1e-12 * sqrt(xx * vec_dot(z, z));
 
     return fabs(vec_dot(x, y)) <= bound && fabs(vec_dot(y, y) - xx) <= bound && fabs(vec_dot(x, z)) <= upright &&
-        fabs(vec_dot(y, z)) <= upright;
+           fabs(vec_dot(y, z)) <= upright;
 }
 
 /* Areas of side, low cap, high cap; returns their sum. */

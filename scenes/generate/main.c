@@ -13,18 +13,18 @@ typedef struct Job {
 } Job;
 
 static const Job jobs[] = {
-    { "cornell-box/textures/encaustic-tiles.jpg", encaustic_tiles, 1024, 1024 },
-    { "glass-caustics/textures/marble-tiles.jpg", marble_tiles, 1024, 1024 },
-    { "living-room/textures/oak-planks.jpg", oak_planks, 1024, 1024 },
-    { "living-room/textures/linen.jpg", linen, 512, 512 },
-    { "living-room/textures/rug.jpg", rug, 900, 600 },
-    { "living-room/textures/painting.jpg", painting, 640, 480 },
-    { "textures/walnut-herringbone.jpg", walnut_herringbone, 1024, 1024 },
-    { "textures/terrazzo.jpg", terrazzo, 1024, 1024 },
-    { "textures/travertine.jpg", travertine, 1024, 1024 },
-    { "textures/damask.jpg", damask, 1024, 1024 },
-    { "textures/fans.jpg", fans, 1024, 1024 },
-    { "textures/brick.jpg", brick, 1024, 1024 },
+    {"cornell-box/textures/encaustic-tiles.jpg", encaustic_tiles, 1024, 1024},
+    {"glass-caustics/textures/marble-tiles.jpg", marble_tiles, 1024, 1024},
+    {"living-room/textures/oak-planks.jpg", oak_planks, 1024, 1024},
+    {"living-room/textures/linen.jpg", linen, 512, 512},
+    {"living-room/textures/rug.jpg", rug, 900, 600},
+    {"living-room/textures/painting.jpg", painting, 640, 480},
+    {"textures/walnut-herringbone.jpg", walnut_herringbone, 1024, 1024},
+    {"textures/terrazzo.jpg", terrazzo, 1024, 1024},
+    {"textures/travertine.jpg", travertine, 1024, 1024},
+    {"textures/damask.jpg", damask, 1024, 1024},
+    {"textures/fans.jpg", fans, 1024, 1024},
+    {"textures/brick.jpg", brick, 1024, 1024},
 };
 
 typedef struct Fill {
@@ -40,7 +40,7 @@ static void fill_row(void *context, int y, int thread)
     const RetexImage *image = fill->image;
     (void)thread;
     for (int x = 0; x < image->width; x++) {
-        Color sum = { 0, 0, 0 };
+        Color sum = {0, 0, 0};
         for (int k = 0; k < SAMPLES * SAMPLES; k++) {
             double px = x + (k % SAMPLES + 0.5) / SAMPLES, py = y + (k / SAMPLES + 0.5) / SAMPLES;
             Color c = fill->at(px / image->width, 1 - py / image->height);
@@ -60,10 +60,10 @@ static int make(const Job *job, const char *path, RetexError *error)
     RetexWriteParams params = RETEX_WRITE_INIT;
     params.colorspace = "sRGB";
     params.quality = 90;
-    RetexImage image = { 0 };
+    RetexImage image = {0};
     int status = retex_image_alloc(&image, job->width, job->height, 3, error);
     if (!status) {
-        Fill fill = { &image, job->at };
+        Fill fill = {&image, job->at};
         retex_parallel(0, image.height, fill_row, &fill);
         status = retex_image_write(&image, path, &params, error);
     }
@@ -79,7 +79,7 @@ int main(int argc, char **argv)
     }
     for (size_t i = 0; i < sizeof jobs / sizeof *jobs; i++) {
         char path[1024];
-        RetexError error = { 0 };
+        RetexError error = {0};
         if (argc == 3 && !strstr(jobs[i].path, argv[2]))
             continue;
         int length = snprintf(path, sizeof path, "%s/%s", argv[1], jobs[i].path);

@@ -9,7 +9,7 @@ static double linear(double s)
 
 Color color_hex(unsigned srgb)
 {
-    return (Color){ linear((srgb >> 16 & 255) / 255.0), linear((srgb >> 8 & 255) / 255.0), linear((srgb & 255) / 255.0) };
+    return (Color){linear((srgb >> 16 & 255) / 255.0), linear((srgb >> 8 & 255) / 255.0), linear((srgb & 255) / 255.0)};
 }
 
 double clamp01(double x)
@@ -20,12 +20,12 @@ double clamp01(double x)
 Color color_mix(Color a, Color b, double t)
 {
     t = clamp01(t);
-    return (Color){ a.r + (b.r - a.r) * t, a.g + (b.g - a.g) * t, a.b + (b.b - a.b) * t };
+    return (Color){a.r + (b.r - a.r) * t, a.g + (b.g - a.g) * t, a.b + (b.b - a.b) * t};
 }
 
 Color color_scale(Color a, double s)
 {
-    return (Color){ a.r * s, a.g * s, a.b * s };
+    return (Color){a.r * s, a.g * s, a.b * s};
 }
 
 double step_smooth(double low, double high, double x)
@@ -74,8 +74,8 @@ double noise(double x, double y, int px, int py, int seed)
     double fx = x - ix, fy = y - iy;
     double sx = fx * fx * fx * (fx * (fx * 6 - 15) + 10), sy = fy * fy * fy * (fy * (fy * 6 - 15) + 10);
     double low = corner(ix, iy, fx, fy, px, py, seed) * (1 - sx) + corner(ix + 1, iy, fx - 1, fy, px, py, seed) * sx;
-    double high = corner(ix, iy + 1, fx, fy - 1, px, py, seed) * (1 - sx)
-        + corner(ix + 1, iy + 1, fx - 1, fy - 1, px, py, seed) * sx;
+    double high = corner(ix, iy + 1, fx, fy - 1, px, py, seed) * (1 - sx) +
+                  corner(ix + 1, iy + 1, fx - 1, fy - 1, px, py, seed) * sx;
     return low * (1 - sy) + high * sy;
 }
 
@@ -95,7 +95,7 @@ double fractal(double x, double y, int px, int py, int octaves, int seed)
 
 Cell cell_at(double x, double y, int px, int py, double jitter, int seed)
 {
-    Cell cell = { 9, 9, 0, 0 };
+    Cell cell = {9, 9, 0, 0};
     int ix = (int)floor(x), iy = (int)floor(y);
     for (int j = iy - 2; j <= iy + 2; j++)
         for (int i = ix - 2; i <= ix + 2; i++) {

@@ -98,7 +98,8 @@ Color encaustic_tiles(double u, double v)
     /* Wear: each tile a little other, the pigment cloudy and pitted. */
     double cloud = fractal(u * 24, v * 24, 24, 24, 4, 60);
     color = color_scale(color, (0.92 + 0.14 * hash(i, j, 61)) * (1 + 0.12 * cloud));
-    color = color_mix(color, color_hex(0xb8ad99), 0.22 * step_smooth(0.25, 0.7, fractal(u * 90, v * 90, 90, 90, 2, 66)));
+    color =
+        color_mix(color, color_hex(0xb8ad99), 0.22 * step_smooth(0.25, 0.7, fractal(u * 90, v * 90, 90, 90, 2, 66)));
     double d = (1 - fmax(x, y)) * 0.125;
     return color_mix(color, grout, step_smooth(0.0022, 0.0012, d));
 }
@@ -106,7 +107,7 @@ Color encaustic_tiles(double u, double v)
 /* One layer of chips: cells cut apart by a straight-edged gap, some left out. */
 static Color chips(Color ground, double u, double v, int cells, double share, double gap, int seed)
 {
-    static const unsigned colors[] = { 0xc2553a, 0xe0a33a, 0x1f6f6b, 0x2b2f38, 0xd98e86, 0xf2ede2, 0x3f7f5a, 0x7b3f52 };
+    static const unsigned colors[] = {0xc2553a, 0xe0a33a, 0x1f6f6b, 0x2b2f38, 0xd98e86, 0xf2ede2, 0x3f7f5a, 0x7b3f52};
     double wx = 0.10 * fractal(u * cells * 2, v * cells * 2, cells * 2, cells * 2, 2, seed + 5);
     Cell c = cell_at(u * cells + wx, v * cells - wx, cells, cells, 0.95, seed);
     if (hash(c.x, c.y, seed + 2) >= share)

@@ -73,7 +73,8 @@ Color damask(double u, double v)
 Color fans(double u, double v)
 {
     enum { N = 5 };
-    const Color navy = color_hex(0x1c2b4f), gold = color_hex(0xd3a550), blush = color_hex(0xe2a79b), teal = color_hex(0x2d7d83);
+    const Color navy = color_hex(0x1c2b4f), gold = color_hex(0xd3a550), blush = color_hex(0xe2a79b),
+                teal = color_hex(0x2d7d83);
     double x = wrap(u, 1) * N, y = wrap(v, 1) * 4 * N;
     /* Rows lie half a radius apart, every second shifted by half; a lower row covers the one above. */
     for (int row = (int)floor(y) - 1; row <= (int)floor(y); row++) {
@@ -99,7 +100,8 @@ Color fans(double u, double v)
 Color brick(double u, double v)
 {
     enum { COURSES = 14, COUNT = 4 };
-    double warp_u = 0.0022 * fractal(u * 20, v * 20, 20, 20, 3, 350), warp_v = 0.0022 * fractal(u * 20, v * 20, 20, 20, 3, 355);
+    double warp_u = 0.0022 * fractal(u * 20, v * 20, 20, 20, 3, 350),
+           warp_v = 0.0022 * fractal(u * 20, v * 20, 20, 20, 3, 355);
     double y = wrap(v + warp_v, 1) * COURSES;
     int course = (int)y;
     double x = wrap((u + warp_u) * COUNT + (course % 2 ? 0.5 : 0), COUNT);
@@ -107,14 +109,17 @@ Color brick(double u, double v)
     x -= index;
     y -= course;
     double dx = fmin(x, 1 - x) / COUNT, dy = fmin(y, 1 - y) / COURSES, radius = 0.008;
-    double d = dx < radius && dy < radius ? radius - hypot(radius - dx, radius - dy) : fmin(dx, dy); /* rounded corners */
+    double d =
+        dx < radius && dy < radius ? radius - hypot(radius - dx, radius - dy) : fmin(dx, dy); /* rounded corners */
 
-    static const unsigned fired[] = { 0x9c4a33, 0xa8553a, 0x8a3d2c, 0xb5694b, 0x7a3a30, 0xa04f3e };
+    static const unsigned fired[] = {0x9c4a33, 0xa8553a, 0x8a3d2c, 0xb5694b, 0x7a3a30, 0xa04f3e};
     Color color = color_hex(fired[(int)(6 * hash(index, course, 360))]);
     double rough = fractal(u * 48, v * 48, 48, 48, 4, 362);
     color = color_scale(color, (0.85 + 0.3 * hash(index, course, 361)) * (1 + 0.35 * rough));
-    color = color_mix(color, color_hex(0x4a2a24), 0.6 * step_smooth(0.15, 0.6, fractal(u * 90, v * 90, 90, 90, 3, 367)));
+    color =
+        color_mix(color, color_hex(0x4a2a24), 0.6 * step_smooth(0.15, 0.6, fractal(u * 90, v * 90, 90, 90, 3, 367)));
     Color mortar = color_scale(color_hex(0xb3aca0), 1 + 0.25 * fractal(u * 120, v * 120, 120, 120, 3, 372));
-    mortar = color_scale(mortar, 0.72 + 0.28 * step_smooth(0.006, 0.001, d)); /* the joint lies back, in shade near the brick */
+    mortar = color_scale(mortar,
+                         0.72 + 0.28 * step_smooth(0.006, 0.001, d)); /* the joint lies back, in shade near the brick */
     return color_mix(mortar, color, step_smooth(0.0052, 0.0068, d + 0.0012 * rough));
 }

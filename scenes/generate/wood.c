@@ -6,9 +6,9 @@ enum { LONG = 1 << 14 }; /* a period that no board reaches the end of */
 
 typedef struct Wood {
     Color light, dark, pore;
-    double rings;   /* a metre across the board */
-    double tone;    /* how much boards differ, 0..1 */
-    double knots;   /* chance a board has one */
+    double rings; /* a metre across the board */
+    double tone;  /* how much boards differ, 0..1 */
+    double knots; /* chance a board has one */
 } Wood;
 
 /* x across, y along the board, both in metres; length is the board's. */
@@ -41,7 +41,7 @@ static Color wood_at(const Wood *wood, double x, double y, double length, int bo
     Color color = color_mix(wood->light, wood->dark, 0.32 + 0.42 * late + 0.35 * figure + 0.16 * fine + 0.75 * tone);
     color = color_mix(color, wood->pore, 0.38 * pores + 0.85 * knot_shade);
     double warm = 1 + 0.10 * (hash(board, 9, 7) - 0.5);
-    return (Color){ color.r * warm, color.g, color.b / warm };
+    return (Color){color.r * warm, color.g, color.b / warm};
 }
 
 /* How near the edge of a board (distance d, metres): the dark joint and the bevel beside it. */
@@ -56,11 +56,12 @@ Color oak_planks(double u, double v)
 {
     enum { ROWS = 12 };
     static const double side = 2, width = 2.0 / ROWS;
-    const Wood oak = { color_hex(0xd9b88a), color_hex(0x9c6f42), color_hex(0x6b4727), 95, 0.75, 0.22 };
+    const Wood oak = {color_hex(0xd9b88a), color_hex(0x9c6f42), color_hex(0x6b4727), 95, 0.75, 0.22};
     u = wrap(u, 1);
     int row = (int)(u * ROWS);
     double x = u * side - row * width;
-    double first = side * hash(row, 0, 3), length = 0.75 + 0.5 * hash(row, 1, 3); /* where the row's first board starts */
+    double first = side * hash(row, 0, 3),
+           length = 0.75 + 0.5 * hash(row, 1, 3); /* where the row's first board starts */
     double y = wrap(v * side - first, side);
     int second = y >= length;
     if (second) {
@@ -76,7 +77,7 @@ Color walnut_herringbone(double u, double v)
 {
     enum { N = 12, RATIO = 4 };
     static const double unit = 2 / (N * 1.4142135623730951); /* width of a block in metres */
-    const Wood walnut = { color_hex(0x8a6044), color_hex(0x3f2718), color_hex(0x22140c), 70, 0.95, 0.05 };
+    const Wood walnut = {color_hex(0x8a6044), color_hex(0x3f2718), color_hex(0x22140c), 70, 0.95, 0.05};
     double a = (u + v) * N, b = (u - v) * N;
     int ia = (int)floor(a), ib = (int)floor(b);
     int k = (int)wrap(ia - ib, 2 * RATIO);

@@ -7,11 +7,15 @@ int main(int argc, char **argv)
 {
     RetexError err;
     RetexSet *set = NULL;
-    if (argc != 3) return 2;
-    if (retex_set_read(argv[1], &set, NULL, 0, &err)) goto failed;
+    if (argc != 3)
+        return 2;
+    if (retex_set_read(argv[1], &set, NULL, 0, &err))
+        goto failed;
     RetexImage *beauty = &set->parts[0].image;
-    memset(beauty->pixels, 0, (size_t)beauty->width * (size_t)beauty->height * (size_t)beauty->channels * sizeof(float));
-    if (retex_set_write(set, NULL, argv[2], NULL, &err)) goto failed;
+    memset(beauty->pixels, 0,
+           (size_t)beauty->width * (size_t)beauty->height * (size_t)beauty->channels * sizeof(float));
+    if (retex_set_write(set, NULL, argv[2], NULL, &err))
+        goto failed;
     retex_set_close(&set);
     return 0;
 failed:

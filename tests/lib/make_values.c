@@ -8,7 +8,8 @@ int main(int argc, char **argv)
 {
     RetexError err;
     RetexSet *set = NULL;
-    if (argc < 3) return 2;
+    if (argc < 3)
+        return 2;
     if (retex_set_read(argv[1], &set, NULL, 0, &err)) {
         fprintf(stderr, "make_values: %s\n", err.message);
         return 2;
@@ -16,7 +17,8 @@ int main(int argc, char **argv)
     const RetexImage *image = &set->parts[0].image;
     for (int k = 2; k < argc; k++) {
         int x, y;
-        if (sscanf(argv[k], "%d,%d", &x, &y) != 2 || x < 0 || y < 0 || x >= image->width || y >= image->height) return 2;
+        if (sscanf(argv[k], "%d,%d", &x, &y) != 2 || x < 0 || y < 0 || x >= image->width || y >= image->height)
+            return 2;
         const float *p = image->pixels + retex_image_index(image, x, y);
         printf("%.9g %.9g %.9g\n", p[0], p[1], p[2]);
     }

@@ -401,9 +401,12 @@ static void bad_rays(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(agrees_with_every_triangle), cmocka_unit_test(closed_meshes_are_tight),
-        cmocka_unit_test(no_self_intersection),       cmocka_unit_test(rooms_do_not_leak),
-        cmocka_unit_test(rays_see_what_they_may),     cmocka_unit_test(bad_geometry),
+        cmocka_unit_test(agrees_with_every_triangle),
+        cmocka_unit_test(closed_meshes_are_tight),
+        cmocka_unit_test(no_self_intersection),
+        cmocka_unit_test(rooms_do_not_leak),
+        cmocka_unit_test(rays_see_what_they_may),
+        cmocka_unit_test(bad_geometry),
         cmocka_unit_test(bad_rays),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

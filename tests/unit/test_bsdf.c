@@ -21,21 +21,33 @@ typedef struct Case {
 
 static void case_begin(Case *c, int backside)
 {
-    *c = (Case){.finish = {.brilliance = 1, .reflection_falloff = 1, .reflection_exponent = 1, .phong_size = 40, .roughness = 0.05},
+    *c = (Case){.finish = {.brilliance = 1,
+                           .reflection_falloff = 1,
+                           .reflection_exponent = 1,
+                           .phong_size = 40,
+                           .roughness = 0.05},
                 .interior = {.ior = 1}};
     c->texture = (Texture){.pigment = &white, .finish = &c->finish};
     c->primitive = (Primitive){.kind = SHAPE_PLANE, .texture = &c->texture, .interior = &c->interior};
-    c->surface = (Surface){.primitive = &c->primitive, .texture = &c->texture, .target = -1, .geometric_normal = {0, 0, 1},
-                           .shading_normal = {0, 0, 1}, .backside = backside};
+    c->surface = (Surface){.primitive = &c->primitive,
+                           .texture = &c->texture,
+                           .target = -1,
+                           .geometric_normal = {0, 0, 1},
+                           .shading_normal = {0, 0, 1},
+                           .backside = backside};
 }
 
-static Vec3 direction(double theta, double phi) { return vec3(sin(theta) * cos(phi), sin(theta) * sin(phi), cos(theta)); }
+static Vec3 direction(double theta, double phi)
+{
+    return vec3(sin(theta) * cos(phi), sin(theta) * sin(phi), cos(theta));
+}
 
 static Bsdf make(Case *c, double theta, float filter, float transmit)
 {
     Bsdf b;
     Vec3 wo = direction(theta, 0.3);
-    if (c->surface.backside) wo = vec_neg(wo);
+    if (c->surface.backside)
+        wo = vec_neg(wo);
     bsdf_setup(&b, &c->surface, wo, filter, transmit);
     return b;
 }
@@ -51,7 +63,8 @@ static double sampled_albedo(const Bsdf *b, int count)
         sampler.sample = (uint32_t)k;
         sampler_pair(&sampler, 0, &u, &v);
         sampler_pair(&sampler, 1, &lobe, &rest);
-        if (bsdf_sample(b, lobe, u, v, &s)) sum += rgb_luminance(split_apply(s.weight, rgb_grey(1)));
+        if (bsdf_sample(b, lobe, u, v, &s))
+            sum += rgb_luminance(split_apply(s.weight, rgb_grey(1)));
     }
     return sum / count;
 }
@@ -76,7 +89,8 @@ static double integrated_albedo(const Bsdf *b, double *pdf)
 
 static void close_to(double a, double b, double tolerance, const char *what)
 {
-    if (fabs(a - b) > tolerance || !isfinite(a)) fail_msg("%s: %.6f, should be %.6f within %g", what, a, b, tolerance);
+    if (fabs(a - b) > tolerance || !isfinite(a))
+        fail_msg("%s: %.6f, should be %.6f within %g", what, a, b, tolerance);
 }
 
 static void lambert_is_exact(void **state)
@@ -97,8 +111,9 @@ static void lambert_is_exact(void **state)
 static void sampling_matches_evaluation(void **state)
 {
     (void)state;
-    const double settings[][4] = { /* metallic, roughness, tint, transmission */
-        {0, 0.5, 1, 0}, {1, 0.4, 1, 0}, {0.5, 0.7, 0.3, 0}, {0, 0.5, 1, 1}, {0.2, 0.6, 0, 0.5}, {0, 1, 1, 0}};
+    const double settings[][4] = {/* metallic, roughness, tint, transmission */
+                                  {0, 0.5, 1, 0}, {1, 0.4, 1, 0},     {0.5, 0.7, 0.3, 0},
+                                  {0, 0.5, 1, 1}, {0.2, 0.6, 0, 0.5}, {0, 1, 1, 0}};
     for (size_t k = 0; k < sizeof settings / sizeof *settings; k++)
         for (int side = 0; side < 2; side++)
             for (double theta = 0.2; theta < 1.5; theta += 0.6) {
@@ -132,7 +147,8 @@ static void energy_is_kept(void **state)
                 double a = sampled_albedo(&b, 1 << 14);
                 /* Burley's diffuse lobe knows nothing of the coat over it: with a dielectric coat it may exceed one */
                 assert_true(a <= (metal ? 1.001 : 1.35));
-                if (metal && r == 0) close_to(a, 1, 1e-4, "smooth white metal");
+                if (metal && r == 0)
+                    close_to(a, 1, 1e-4, "smooth white metal");
             }
 }
 
@@ -146,7 +162,8 @@ static void glass_obeys_fresnel(void **state)
         c.finish.reflection_max = rgb_grey(1), c.finish.reflection_fresnel = 1;
         Bsdf b = make(&c, theta, 0, 1);
         double s = sin(theta) / 1.5, ct = sqrt(1 - s * s), ci = cos(theta);
-        double rs = (ci - 1.5 * ct) / (ci + 1.5 * ct), rp = (1.5 * ci - ct) / (1.5 * ci + ct), f = (rs * rs + rp * rp) / 2;
+        double rs = (ci - 1.5 * ct) / (ci + 1.5 * ct), rp = (1.5 * ci - ct) / (1.5 * ci + ct),
+               f = (rs * rs + rp * rp) / 2;
         close_to(b.mirror.i.r, f, 1e-5, "reflectance");
         close_to(b.passing.i.r, 1 - f, 1e-5, "transmittance");
     }
@@ -179,7 +196,8 @@ static void supplement_split(void **state)
     case_begin(&c, 0);
     c.finish.retex.present = 1;
     double m = 0.6, t = 0.4, eta = 1.5, rho = 0.3;
-    c.finish.retex.metallic = m, c.finish.retex.roughness = 0.5, c.finish.retex.specular_tint = t, c.finish.retex.ior = eta;
+    c.finish.retex.metallic = m, c.finish.retex.roughness = 0.5, c.finish.retex.specular_tint = t,
+    c.finish.retex.ior = eta;
     c.finish.retex.transmission = 0;
     Bsdf b = make(&c, 0.6, 0, 0);
     Vec3 wi = vec_normalize(vec3(-0.3, 0.5, 0.8)), h = vec_normalize(vec_add(wi, b.wo));
@@ -214,7 +232,8 @@ static void cutouts_pass_straight(void **state)
 
 static void holes_have_no_coat(void **state)
 {
-    (void)state; /* where an image cuts holes, the extension's finish reflects as much less, rough or smooth, and passes the rest */
+    (void)
+        state; /* where an image cuts holes, the extension's finish reflects as much less, rough or smooth, and passes the rest */
     for (int smooth = 0; smooth < 2; smooth++) {
         Case c;
         case_begin(&c, 0);
@@ -229,7 +248,8 @@ static void holes_have_no_coat(void **state)
 
 static void tint_of_metals_wears_off(void **state)
 {
-    (void)state; /* POV-Ray's curve: all of the tint head-on, none at grazing angles; nothing is won or lost for white */
+    (void)
+        state; /* POV-Ray's curve: all of the tint head-on, none at grazing angles; nothing is won or lost for white */
     Split s = {{0.6f, 0.6f, 0.6f}, {0.2f, 0.2f, 0.2f}};
     Split front = metallic_tint(s, 1), grazing = metallic_tint(s, 0), between = metallic_tint(s, 0.3f);
     close_to(front.d.r, 0.6, 1e-4, "head-on");
@@ -274,8 +294,10 @@ static void edges_of_smooth_meshes_are_not_black(void **state)
             BsdfSample s;
             case_begin(&c, glass); /* into a mirror, out of glass */
             c.surface.shading_normal = glass ? direction(0.3, 0.3) : direction(0.2, 0.3 + PI);
-            if (glass) c.interior.ior = 1.5;
-            else c.finish.reflection_min = c.finish.reflection_max = rgb_grey(0.9f);
+            if (glass)
+                c.interior.ior = 1.5;
+            else
+                c.finish.reflection_min = c.finish.reflection_max = rgb_grey(0.9f);
             Vec3 wo = glass ? vec_neg(direction(theta, 0.3)) : direction(theta, 0.3);
             bsdf_setup(&b, &c.surface, wo, 0, glass ? 1 : 0);
             assert_int_equal(bsdf_sample(&b, 0.5f, 0.5f, 0.5f, &s), 1);
@@ -298,11 +320,18 @@ static void povray_highlight_peak(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(lambert_is_exact), cmocka_unit_test(sampling_matches_evaluation), cmocka_unit_test(energy_is_kept),
-        cmocka_unit_test(glass_obeys_fresnel), cmocka_unit_test(refraction_bends_by_snell), cmocka_unit_test(supplement_split),
-        cmocka_unit_test(cutouts_pass_straight), cmocka_unit_test(povray_highlight_peak), cmocka_unit_test(holes_have_no_coat),
-        cmocka_unit_test(tint_of_metals_wears_off), cmocka_unit_test(highlights_sample_as_they_evaluate),
-        cmocka_unit_test(frosted_air_is_clear), cmocka_unit_test(edges_of_smooth_meshes_are_not_black)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(lambert_is_exact),
+                                       cmocka_unit_test(sampling_matches_evaluation),
+                                       cmocka_unit_test(energy_is_kept),
+                                       cmocka_unit_test(glass_obeys_fresnel),
+                                       cmocka_unit_test(refraction_bends_by_snell),
+                                       cmocka_unit_test(supplement_split),
+                                       cmocka_unit_test(cutouts_pass_straight),
+                                       cmocka_unit_test(povray_highlight_peak),
+                                       cmocka_unit_test(holes_have_no_coat),
+                                       cmocka_unit_test(tint_of_metals_wears_off),
+                                       cmocka_unit_test(highlights_sample_as_they_evaluate),
+                                       cmocka_unit_test(frosted_air_is_clear),
+                                       cmocka_unit_test(edges_of_smooth_meshes_are_not_black)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -13,11 +13,17 @@ static const CliOption options[] = {
 };
 
 /* Walk `words` and check that the options and values come in this order; "" stands for a positional argument. */
-typedef struct Expected { const char *name, *value, *modifiers; } Expected;
+typedef struct Expected {
+    const char *name, *value, *modifiers;
+} Expected;
 
 static Cli walk(const char *const *words, int nwords, const Expected *expected, int nexpected)
 {
-    Cli cli = {.tool = "retex-test", .usage = "", .about = "", .options = options, .argc = nwords,
+    Cli cli = {.tool = "retex-test",
+               .usage = "",
+               .about = "",
+               .options = options,
+               .argc = nwords,
                .argv = (char **)(uintptr_t)words};
     for (int i = 0; i < nexpected; i++) {
         const CliOption *option = cli_next(&cli);
@@ -46,8 +52,10 @@ static void test_values_attached_and_not(void **state)
 static void test_modifiers_end_where_the_word_does(void **state)
 {
     (void)state;
-    const char *words[] = {"retex-test", "--texture:scale=2,2:rotate=30", "floor=oak.jpg", "--texture",
-                           "wall=rgb(1,0,0)", "--texture=x=y:z", "--texture:", "q=r"};
+    const char *words[] = {"retex-test",      "--texture:scale=2,2:rotate=30",
+                           "floor=oak.jpg",   "--texture",
+                           "wall=rgb(1,0,0)", "--texture=x=y:z",
+                           "--texture:",      "q=r"};
     const Expected expected[] = {{"texture", "floor=oak.jpg", "scale=2,2:rotate=30"},
                                  {"texture", "wall=rgb(1,0,0)", ""},
                                  {"texture", "x=y:z", ""},
@@ -70,7 +78,7 @@ static void test_positional_arguments(void **state)
 {
     (void)state;
     const char *words[] = {"retex-test", "a", "-", "-p", "b", "--", "--plain", "-", "--"};
-    const Expected expected[] = {{"", "a", 0}, {"", "-", 0},       {"plain", 0, 0}, {"", "b", 0},
+    const Expected expected[] = {{"", "a", 0},       {"", "-", 0}, {"plain", 0, 0}, {"", "b", 0},
                                  {"", "--plain", 0}, {"", "-", 0}, {"", "--", 0}};
     walk(words, COUNT(words), expected, COUNT(expected));
 }
@@ -103,9 +111,9 @@ static void test_numbers_to_their_bounds(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_values_attached_and_not),   cmocka_unit_test(test_modifiers_end_where_the_word_does),
-        cmocka_unit_test(test_clusters_of_letters),       cmocka_unit_test(test_positional_arguments),
-        cmocka_unit_test(test_common_options_are_kept),   cmocka_unit_test(test_numbers_to_their_bounds),
+        cmocka_unit_test(test_values_attached_and_not), cmocka_unit_test(test_modifiers_end_where_the_word_does),
+        cmocka_unit_test(test_clusters_of_letters),     cmocka_unit_test(test_positional_arguments),
+        cmocka_unit_test(test_common_options_are_kept), cmocka_unit_test(test_numbers_to_their_bounds),
     };
     return cmocka_run_group_tests_name("cli", tests, NULL, NULL);
 }

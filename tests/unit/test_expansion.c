@@ -24,10 +24,13 @@ static void multiplies_out(void **state)
         double product = 1, a[RETEX_MAX_FACTORS];
         for (int j = 0; j < n; j++) {
             float d = at_random(&seed), i = at_random(&seed);
-            if (at_random(&seed) < 0.4f) i = 0; /* diffuse */
-            else if (at_random(&seed) < 0.2f) d = 0;
+            if (at_random(&seed) < 0.4f)
+                i = 0; /* diffuse */
+            else if (at_random(&seed) < 0.2f)
+                d = 0;
             targets[j] = (int)(at_random(&seed) * 3);
-            if (!expansion_has_room(&e, targets[j], RETEX_MAX_ORDERS)) targets[j] = 7;
+            if (!expansion_has_room(&e, targets[j], RETEX_MAX_ORDERS))
+                targets[j] = 7;
             index[j] = seen[targets[j]]++;
             a[j] = at_random(&seed);
             product *= d * a[j] + i;
@@ -37,7 +40,8 @@ static void multiplies_out(void **state)
         for (int k = 0; k < e.nmonomials; k++) {
             double term = e.monomials[k].coefficient.g;
             for (int j = 0; j < n; j++)
-                if (e.monomials[k].hits & hit_bit(targets[j], index[j])) term *= a[j];
+                if (e.monomials[k].hits & hit_bit(targets[j], index[j]))
+                    term *= a[j];
             sum += term;
         }
         assert_true(fabs(sum - product) < 1e-5 * (1 + product));

@@ -68,17 +68,17 @@ static void test_rounding_to_half(void **state)
     (void)state;
     for (unsigned i = 0; i < 0x7bff; i++) {
         const float middle = (float)((half_value(i) + half_value(i + 1)) / 2); /* exact in float */
-        const float in[6] = { nextafterf(middle, 0), middle, nextafterf(middle, 1e9f), -nextafterf(middle, 0), -middle,
-                              -nextafterf(middle, 1e9f) };
+        const float in[6] = {nextafterf(middle, 0),  middle,  nextafterf(middle, 1e9f),
+                             -nextafterf(middle, 0), -middle, -nextafterf(middle, 1e9f)};
         const unsigned even = i & 1 ? i + 1 : i;
-        const unsigned want[6] = { i, even, i + 1, i | 0x8000, even | 0x8000, (i + 1) | 0x8000 };
+        const unsigned want[6] = {i, even, i + 1, i | 0x8000, even | 0x8000, (i + 1) | 0x8000};
         uint16_t out[6];
         retex_half_from_float_scalar(out, in, 6);
         for (int k = 0; k < 6; k++)
             assert_int_equal(out[k], want[k]);
     }
-    static const float large[8] = { 65504, 65519, 65520, 1e30f, -1e30f, INFINITY, -INFINITY, -65505 };
-    static const uint16_t clamped[8] = { 0x7bff, 0x7bff, 0x7bff, 0x7bff, 0xfbff, 0x7c00, 0xfc00, 0xfbff };
+    static const float large[8] = {65504, 65519, 65520, 1e30f, -1e30f, INFINITY, -INFINITY, -65505};
+    static const uint16_t clamped[8] = {0x7bff, 0x7bff, 0x7bff, 0x7bff, 0xfbff, 0x7c00, 0xfc00, 0xfbff};
     uint16_t out[8];
     retex_half_from_float(out, large, 8);
     assert_memory_equal(out, clamped, sizeof out);
@@ -112,11 +112,15 @@ enum { PARTS = 4 };
 /* Parts of different sizes, types and letters; some black, so that runs occur. */
 static void make_parts(RetexExrPart parts[PARTS], RetexImage images[PARTS])
 {
-    static const struct { const char *name, *letters; RetexPixelType type; int width, height; } shape[PARTS] = {
-        { "beauty", "RGB", RETEX_HALF, 75, 50 },
-        { "uv_floor_1", "RGA", RETEX_FLOAT, 75, 50 },
-        { "a_long_name_that_needs_the_long_name_flag_of_the_format", "RG", RETEX_HALF, 75, 50 },
-        { "original", "RGBA", RETEX_FLOAT, 130, 17 },
+    static const struct {
+        const char *name, *letters;
+        RetexPixelType type;
+        int width, height;
+    } shape[PARTS] = {
+        {"beauty", "RGB", RETEX_HALF, 75, 50},
+        {"uv_floor_1", "RGA", RETEX_FLOAT, 75, 50},
+        {"a_long_name_that_needs_the_long_name_flag_of_the_format", "RG", RETEX_HALF, 75, 50},
+        {"original", "RGBA", RETEX_FLOAT, 130, 17},
     };
     memset(images, 0, PARTS * sizeof *images);
     for (int i = 0; i < PARTS; i++) {
@@ -134,7 +138,7 @@ static void make_parts(RetexExrPart parts[PARTS], RetexImage images[PARTS])
 static void write_parts(RetexExrPart *parts, int count, int compress, int threads)
 {
     RetexExrEncoding *encoding;
-    RetexError err = { 0 };
+    RetexError err = {0};
     test_must(retex_exr_encode(&encoding, parts, count, compress, threads, &err), &err);
     test_must(retex_exr_write(encoding, 75, 50, "note", "a text", path, &err), &err);
     retex_exr_encoding_free(&encoding);
@@ -158,9 +162,9 @@ static uint32_t expected_crc(const RetexExrPart *part)
 
 static void check_part(RetexExr *exr, const RetexExrPart *part, int index, int threads)
 {
-    RetexImage image = { 0 };
-    RetexError err = { 0 };
-    RetexExrRequest request = { .part = retex_exr_find_part(exr, part->name), .image = &image, .with_crc = 1 };
+    RetexImage image = {0};
+    RetexError err = {0};
+    RetexExrRequest request = {.part = retex_exr_find_part(exr, part->name), .image = &image, .with_crc = 1};
     int width, height;
     assert_int_equal(request.part, index);
     retex_exr_part_size(exr, index, &width, &height);
@@ -193,7 +197,7 @@ static void test_parts_there_and_back(void **state)
         const int compress = variant & 1, threads = variant & 2 ? 7 : 1, count = variant & 4 ? 1 : PARTS;
         RetexInput *input;
         RetexExr *exr;
-        RetexError err = { 0 };
+        RetexError err = {0};
         write_parts(parts, count, compress, threads);
         test_must(retex_input_open(&input, path, &err), &err);
         test_must(retex_exr_open(&exr, input, &err), &err);
@@ -260,14 +264,14 @@ static int read_anything(void)
 {
     RetexInput *input = NULL;
     RetexExr *exr = NULL;
-    RetexError err = { 0 };
+    RetexError err = {0};
     int status = retex_input_open(&input, path, &err);
     if (!status)
         status = retex_exr_open(&exr, input, &err);
     for (int part = 0; !status && part < retex_exr_part_count(exr); part++) {
-        static const char *const channels[] = { "R", "G", "B" };
-        RetexExrRequest request = { .part = part };
-        RetexImage image = { 0 };
+        static const char *const channels[] = {"R", "G", "B"};
+        RetexExrRequest request = {.part = part};
+        RetexImage image = {0};
         const char *reason;
         int width, height;
         retex_exr_part_size(exr, part, &width, &height);
@@ -385,7 +389,7 @@ static void test_foreign_files_of_every_compression(void **state)
     (void)state;
     enum { WIDTH = 101, HEIGHT = 67, COUNT = WIDTH * HEIGHT };
     static uint16_t red[COUNT], green[COUNT];
-    const uint16_t *planes[2] = { red, green };
+    const uint16_t *planes[2] = {red, green};
     uint32_t seed = 3;
     for (int i = 0; i < COUNT; i++) {
         const float value = (float)(1 + i % WIDTH * 0.01 + i / WIDTH * 0.02), noisy = value + (float)test_random(&seed);
@@ -394,8 +398,8 @@ static void test_foreign_files_of_every_compression(void **state)
     }
     for (int kind = EXR_COMPRESSION_NONE; kind <= EXR_COMPRESSION_PXR24; kind++)
         for (int tiled = 0; tiled < 2; tiled++) {
-            RetexImage image = { 0 };
-            RetexError err = { 0 };
+            RetexImage image = {0};
+            RetexError err = {0};
             write_by_core(planes, WIDTH, HEIGHT, (exr_compression_t)kind, tiled);
             test_must(retex_image_read(&image, path, NULL, 0, &err), &err);
             assert_true(image.width == WIDTH && image.height == HEIGHT);
@@ -427,7 +431,7 @@ static void test_absurd_requests(void **state)
     RetexExrPart parts[PARTS];
     RetexImage images[PARTS];
     RetexExrEncoding *encoding;
-    RetexError err = { 0 };
+    RetexError err = {0};
     make_parts(parts, images);
     assert_int_equal(retex_exr_encode(&encoding, parts, 0, 1, 1, &err), RETEX_EINVAL);
     strcpy(parts[0].letters, "RG");

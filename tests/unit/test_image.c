@@ -57,7 +57,7 @@ static int remove_folder(void **state)
 static void test_errors_quote_themselves(void **state)
 {
     (void)state;
-    RetexError err = { 0 };
+    RetexError err = {0};
     assert_int_equal(retex_fail(NULL, RETEX_EIO, "x"), RETEX_EIO);
     assert_int_equal(retex_fail_at(&err, RETEX_EPARSE, "a.pov", 3, 4, "%d", 7), RETEX_EPARSE);
     assert_int_equal(retex_fail_at(&err, RETEX_EPARSE, err.file, 5, 6, "[%s]", err.message), RETEX_EPARSE);
@@ -69,15 +69,15 @@ static void test_errors_quote_themselves(void **state)
 static void test_sizes_out_of_bounds(void **state)
 {
     (void)state;
-    static const int shapes[][3] = { { 0, 1, 1 }, { 1, 0, 1 }, { 1, 1, 0 }, { 65537, 1, 1 }, { 1, 65537, 1 },
-                                     { 1, 1, 65 }, { -1, 1, 1 } };
+    static const int shapes[][3] = {{0, 1, 1},     {1, 0, 1},  {1, 1, 0}, {65537, 1, 1},
+                                    {1, 65537, 1}, {1, 1, 65}, {-1, 1, 1}};
     for (size_t i = 0; i < sizeof shapes / sizeof shapes[0]; i++) {
-        RetexImage im = { 0 };
-        RetexError err = { 0 };
+        RetexImage im = {0};
+        RetexError err = {0};
         assert_int_equal(retex_image_alloc(&im, shapes[i][0], shapes[i][1], shapes[i][2], &err), RETEX_EINVAL);
         assert_null(im.pixels);
     }
-    RetexImage im = { 0 };
+    RetexImage im = {0};
     assert_int_equal(retex_image_alloc(&im, 3, 2, 4, NULL), 0);
     assert_int_equal(retex_image_alloc(&im, 3, 2, 4, NULL), RETEX_EINVAL);
     for (int i = 0; i < 24; i++)
@@ -90,8 +90,8 @@ static void test_sizes_out_of_bounds(void **state)
 static void test_prepare_clips_and_checks(void **state)
 {
     (void)state;
-    RetexImage im = { 0 };
-    RetexRoi out, asked = { -5, 2, 100, 3, 1, 9 }, inverted = { 8, 8, 2, 2, 0, 3 };
+    RetexImage im = {0};
+    RetexRoi out, asked = {-5, 2, 100, 3, 1, 9}, inverted = {8, 8, 2, 2, 0, 3};
     assert_int_equal(retex_image_prepare(&im, 10, 5, 3, &asked, &out, NULL), 0);
     assert_true(out.x0 == 0 && out.x1 == 10 && out.y0 == 2 && out.y1 == 3 && out.c0 == 1 && out.c1 == 3);
     assert_int_equal(retex_image_prepare(&im, 10, 5, 3, &inverted, &out, NULL), 0);
@@ -112,8 +112,8 @@ static void test_exr_there_and_back(void **state)
 {
     (void)state;
     for (int channels = 1; channels <= 4; channels++) {
-        RetexImage im = { 0 }, back = { 0 };
-        RetexError err = { 0 };
+        RetexImage im = {0}, back = {0};
+        RetexError err = {0};
         if (channels == 2)
             continue;
         test_random_image(&im, 53, 37, channels, (uint32_t)channels, 0.01, 3);
@@ -140,8 +140,8 @@ static void test_exr_there_and_back(void **state)
 static void test_exr_through_a_pipe(void **state)
 {
     (void)state;
-    RetexImage im = { 0 }, back = { 0 };
-    RetexError err = { 0 };
+    RetexImage im = {0}, back = {0};
+    RetexError err = {0};
     int ends[2];
     test_random_image(&im, 640, 301, 3, 5, 0, 2); /* more than a pipe holds */
     assert_int_equal(pipe(ends), 0);
@@ -171,8 +171,8 @@ static void test_exr_through_a_pipe(void **state)
 static void test_a_full_device_is_an_error(void **state)
 {
     (void)state;
-    RetexImage im = { 0 };
-    RetexError err = { 0 };
+    RetexImage im = {0};
+    RetexError err = {0};
     test_random_image(&im, 8, 8, 3, 1, 0, 1);
     assert_int_equal(retex_image_write(&im, "/dev/full", NULL, &err), RETEX_EIO);
     assert_string_equal(err.message, "cannot write /dev/full: No space left on device");
@@ -183,7 +183,7 @@ static void test_a_full_device_is_an_error(void **state)
 
 static void write_text(RetexOutput *output, const char *text)
 {
-    RetexError err = { 0 };
+    RetexError err = {0};
     test_must(retex_output_write(output, text, strlen(text), &err), &err);
 }
 
@@ -201,7 +201,7 @@ static void test_output_is_old_or_new(void **state)
 {
     (void)state;
     RetexOutput *output;
-    RetexError err = { 0 };
+    RetexError err = {0};
     const char *path = in_folder("old");
     const int before = files_left();
 
@@ -249,8 +249,8 @@ static void test_the_manifest_part_is_an_image(void **state)
 {
     (void)state;
     RetexSet *set = test_set(24, 16, 3);
-    RetexImage im = { 0 };
-    RetexError err = { 0 };
+    RetexImage im = {0};
+    RetexError err = {0};
     test_must(retex_set_write(set, NULL, in_folder("set.exr"), NULL, &err), &err);
     test_must(retex_image_read(&im, in_folder("set.exr"), NULL, 0, &err), &err);
     for (int i = 0; i < 24 * 16; i++)
@@ -262,14 +262,10 @@ static void test_the_manifest_part_is_an_image(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_errors_quote_themselves),
-        cmocka_unit_test(test_sizes_out_of_bounds),
-        cmocka_unit_test(test_prepare_clips_and_checks),
-        cmocka_unit_test(test_exr_there_and_back),
-        cmocka_unit_test(test_exr_through_a_pipe),
-        cmocka_unit_test(test_a_full_device_is_an_error),
-        cmocka_unit_test(test_output_is_old_or_new),
-        cmocka_unit_test(test_the_manifest_part_is_an_image),
+        cmocka_unit_test(test_errors_quote_themselves),  cmocka_unit_test(test_sizes_out_of_bounds),
+        cmocka_unit_test(test_prepare_clips_and_checks), cmocka_unit_test(test_exr_there_and_back),
+        cmocka_unit_test(test_exr_through_a_pipe),       cmocka_unit_test(test_a_full_device_is_an_error),
+        cmocka_unit_test(test_output_is_old_or_new),     cmocka_unit_test(test_the_manifest_part_is_an_image),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }

@@ -298,8 +298,8 @@ static unsigned char *changed_pack(const unsigned char *data, size_t bytes, cons
         edited = malloc(stat.size + strlen(put) + 1);
         sprintf(edited, "%.*s%s%s", (int)(at - text), text, put, at + strlen(find));
         zip_int64_t index = zip_name_locate(zip, "manifest.json", 0);
-        assert_int_equal(zip_file_replace(zip, (zip_uint64_t)index,
-                                          zip_source_buffer(zip, edited, strlen(edited), 0), 0), 0);
+        assert_int_equal(
+            zip_file_replace(zip, (zip_uint64_t)index, zip_source_buffer(zip, edited, strlen(edited), 0), 0), 0);
         zip_set_file_compression(zip, (zip_uint64_t)index, ZIP_CM_STORE, 0);
         free(text);
     }

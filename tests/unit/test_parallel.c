@@ -26,7 +26,7 @@ static void count_job(void *context, int index, int thread)
 static void test_every_index_once(void **state)
 {
     (void)state;
-    static const int threads[] = { 0, 1, 2, 7, 64, 1000 };
+    static const int threads[] = {0, 1, 2, 7, 64, 1000};
     static Tally tally;
     for (size_t t = 0; t < sizeof threads / sizeof threads[0]; t++) {
         memset(&tally, 0, sizeof tally);
@@ -72,10 +72,10 @@ static void sum_job(void *context, int index, int thread)
 static void test_nested_and_equal_for_every_thread_count(void **state)
 {
     (void)state;
-    Sums reference = { { 0 } };
+    Sums reference = {{0}};
     retex_parallel(1, 100, sum_job, &reference);
     for (int threads = 2; threads < 9; threads += 3) {
-        Sums sums = { { 0 } };
+        Sums sums = {{0}};
         retex_parallel(threads, 100, sum_job, &sums);
         assert_memory_equal(&sums, &reference, sizeof sums);
     }

@@ -37,11 +37,23 @@ static void stage_open(Stage *s)
 static Primitive *stage_add(Stage *s, ShapeKind kind, Transform transform, float r, float g, float b)
 {
     int k = s->scene->nprimitives++;
-    s->pigments[k] = (Pigment){.kind = PIGMENT_COLOR, .color = {r, g, b, 0, 0}, .transform = transform_identity(), .frequency = 1};
-    s->finishes[k] = (Finish){.diffuse = 1, .brilliance = 1, .reflection_falloff = 1, .reflection_exponent = 1, .phong_size = 40, .roughness = 0.05};
+    s->pigments[k] =
+        (Pigment){.kind = PIGMENT_COLOR, .color = {r, g, b, 0, 0}, .transform = transform_identity(), .frequency = 1};
+    s->finishes[k] = (Finish){.diffuse = 1,
+                              .brilliance = 1,
+                              .reflection_falloff = 1,
+                              .reflection_exponent = 1,
+                              .phong_size = 40,
+                              .roughness = 0.05};
     s->interiors[k] = (Interior){.ior = 1};
     s->textures[k] = (Texture){.pigment = &s->pigments[k], .finish = &s->finishes[k]};
-    s->primitives[k] = (Primitive){.kind = kind, .transform = transform, .texture = &s->textures[k], .interior = &s->interiors[k], .target = -1, .r0 = 1, .r1 = 1};
+    s->primitives[k] = (Primitive){.kind = kind,
+                                   .transform = transform,
+                                   .texture = &s->textures[k],
+                                   .interior = &s->interiors[k],
+                                   .target = -1,
+                                   .r0 = 1,
+                                   .r1 = 1};
     return &s->primitives[k];
 }
 
@@ -51,12 +63,17 @@ static RetexSet *stage_render(Stage *s, int spp, int plain, int threads)
     RetexError err = {0};
     RetexSet *set = NULL;
     p.spp = spp, p.plain = plain, p.nthreads = threads;
-    if (s->max_depth) p.max_depth = s->max_depth;
-    if (render_scene(&set, s->scene, &p, NULL, &err)) fail_msg("render: %s", err.message);
+    if (s->max_depth)
+        p.max_depth = s->max_depth;
+    if (render_scene(&set, s->scene, &p, NULL, &err))
+        fail_msg("render: %s", err.message);
     return set;
 }
 
-static void stage_close(Stage *s) { scene_close(&s->scene); }
+static void stage_close(Stage *s)
+{
+    scene_close(&s->scene);
+}
 
 static const float *pixel(const RetexSet *set, int x, int y)
 {
@@ -65,7 +82,8 @@ static const float *pixel(const RetexSet *set, int x, int y)
 
 static void expect(double value, double wanted, double tolerance, const char *what)
 {
-    if (!(fabs(value - wanted) <= tolerance)) fail_msg("%s: %.6f, should be %.6f within %g", what, value, wanted, tolerance);
+    if (!(fabs(value - wanted) <= tolerance))
+        fail_msg("%s: %.6f, should be %.6f within %g", what, value, wanted, tolerance);
 }
 
 static Transform at(double x, double y, double z, double scale)
@@ -114,7 +132,8 @@ static void point_light_over_a_plane(void **state)
     RetexSet *set = stage_render(&s, 64, 0, 2);
     for (int y = 0; y < 12; y++)
         for (int x = 0; x < 16; x++) {
-            double px = 4 * ((x + 0.5) / 16 - 0.5) - 0.5, pz = 3 * (0.5 - (y + 0.5) / 12), c = 2 / sqrt(px * px + pz * pz + 4);
+            double px = 4 * ((x + 0.5) / 16 - 0.5) - 0.5, pz = 3 * (0.5 - (y + 0.5) / 12),
+                   c = 2 / sqrt(px * px + pz * pz + 4);
             expect(pixel(set, x, y)[0], 0.5 * c, 2e-3, "red");
             expect(pixel(set, x, y)[1], 0.25 * c, 1e-3, "green");
             expect(pixel(set, x, y)[2], 0.5 * c, 2e-3, "blue");
@@ -135,7 +154,8 @@ static void sphere_emitter_irradiance(void **state)
     RetexSet *set = stage_render(&s, 256, 0, 2);
     double mean = 0;
     for (int y = 0; y < 12; y++)
-        for (int x = 0; x < 16; x++) mean += pixel(set, x, y)[0] / (16 * 12);
+        for (int x = 0; x < 16; x++)
+            mean += pixel(set, x, y)[0] / (16 * 12);
     expect(mean, 0.6 * 8 * (0.5 / 3) * (0.5 / 3), 2e-4, "radiance below the sphere");
     retex_set_close(&set);
     stage_close(&s);
@@ -156,7 +176,8 @@ static void slab_reflects_by_fresnel(void **state)
     RetexSet *set = stage_render(&s, 4096, 0, 2);
     double mean = 0;
     for (int y = 0; y < 12; y++)
-        for (int x = 0; x < 16; x++) mean += pixel(set, x, y)[0] / (16 * 12);
+        for (int x = 0; x < 16; x++)
+            mean += pixel(set, x, y)[0] / (16 * 12);
     expect(mean, 0.04, 5e-4, "reflectance");
     retex_set_close(&set);
     stage_close(&s);
@@ -186,17 +207,20 @@ static void bits_do_not_depend_on_threads(void **state)
     Stage s;
     target_stage(&s);
     s.scene->width = 70, s.scene->height = 50;
-    for (int k = 0; k < 3; k++) sets[k] = stage_render(&s, 8, 0, threads[k]);
+    for (int k = 0; k < 3; k++)
+        sets[k] = stage_render(&s, 8, 0, threads[k]);
     for (int k = 1; k < 3; k++) {
         assert_int_equal(sets[k]->nparts, sets[0]->nparts);
         assert_true(sets[k]->folded == sets[0]->folded);
         for (int p = 0; p < sets[0]->nparts; p++) {
             const RetexImage *a = &sets[0]->parts[p].image, *b = &sets[k]->parts[p].image;
             assert_string_equal(sets[k]->parts[p].name, sets[0]->parts[p].name);
-            assert_memory_equal(a->pixels, b->pixels, (size_t)a->width * (size_t)a->height * (size_t)a->channels * sizeof(float));
+            assert_memory_equal(a->pixels, b->pixels,
+                                (size_t)a->width * (size_t)a->height * (size_t)a->channels * sizeof(float));
         }
     }
-    for (int k = 0; k < 3; k++) retex_set_close(&sets[k]);
+    for (int k = 0; k < 3; k++)
+        retex_set_close(&sets[k]);
     stage_close(&s);
 }
 
@@ -240,7 +264,8 @@ static void set_recombines(void **state)
     compare(&again, &plain->parts[0].image, 2e-3, "recoloured");
     retex_image_free(&again);
     retex_samples_close(&samples);
-    for (int k = 0; k < 2; k++) retex_texture_close(&textures[k]);
+    for (int k = 0; k < 2; k++)
+        retex_texture_close(&textures[k]);
     retex_set_close(&plain);
     retex_set_close(&set);
     stage_close(&s);
@@ -248,11 +273,13 @@ static void set_recombines(void **state)
 
 static void the_inside_is_another_surface(void **state)
 {
-    (void)state; /* the target is the sphere's outer texture; a camera in the sphere sees the inner one, with its own emission */
+    (void)
+        state; /* the target is the sphere's outer texture; a camera in the sphere sees the inner one, with its own emission */
     Stage s;
     stage_open(&s);
     stage_add(&s, SHAPE_SPHERE, at(0, 0, -5, 1), 1, 0, 0);
-    s.pigments[1] = (Pigment){.kind = PIGMENT_COLOR, .color = {0, 1, 0, 0, 0}, .transform = transform_identity(), .frequency = 1};
+    s.pigments[1] =
+        (Pigment){.kind = PIGMENT_COLOR, .color = {0, 1, 0, 0, 0}, .transform = transform_identity(), .frequency = 1};
     s.finishes[1] = s.finishes[0];
     s.finishes[1].diffuse = 0, s.finishes[1].emission = rgb_grey(0.5f);
     s.textures[1] = (Texture){.pigment = &s.pigments[1], .finish = &s.finishes[1]};
@@ -271,8 +298,9 @@ static void the_inside_is_another_surface(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(furnace_is_invisible), cmocka_unit_test(point_light_over_a_plane), cmocka_unit_test(sphere_emitter_irradiance),
-        cmocka_unit_test(slab_reflects_by_fresnel), cmocka_unit_test(bits_do_not_depend_on_threads), cmocka_unit_test(set_recombines),
+        cmocka_unit_test(furnace_is_invisible),          cmocka_unit_test(point_light_over_a_plane),
+        cmocka_unit_test(sphere_emitter_irradiance),     cmocka_unit_test(slab_reflects_by_fresnel),
+        cmocka_unit_test(bits_do_not_depend_on_threads), cmocka_unit_test(set_recombines),
         cmocka_unit_test(the_inside_is_another_surface)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

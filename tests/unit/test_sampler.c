@@ -20,7 +20,8 @@ static void pairs_are_nets(void **state)
                     float u, v;
                     sampler_pair(&s, dimension, &u, &v);
                     assert_true(u >= 0 && u < 1 && v >= 0 && v < 1);
-                    int box = (int)(u * (float)(1 << split)) * (1 << (M - split)) + (int)(v * (float)(1 << (M - split)));
+                    int box =
+                        (int)(u * (float)(1 << split)) * (1 << (M - split)) + (int)(v * (float)(1 << (M - split)));
                     assert_int_equal(seen[box]++, 0);
                 }
             }

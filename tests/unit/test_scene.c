@@ -170,10 +170,9 @@ static void test_texture_order(void **state)
 {
     (void)state;
     /* The pattern moves with what comes after the texture only. */
-    Scene *scene = parse(V37
-        "#declare P = pigment{checker rgb <1,0,0> rgb <0,1,0>}"
-        "sphere{0,1 pigment{P} translate 5*x} sphere{0,1 translate 5*x pigment{P}}"
-        "sphere{0,1 texture{pigment{P} translate x} scale 2}");
+    Scene *scene = parse(V37 "#declare P = pigment{checker rgb <1,0,0> rgb <0,1,0>}"
+                             "sphere{0,1 pigment{P} translate 5*x} sphere{0,1 translate 5*x pigment{P}}"
+                             "sphere{0,1 texture{pigment{P} translate x} scale 2}");
     const Primitive *p = scene->primitives;
     for (double x = -3.25; x < 4; x += 0.5) {
         Rgbft plain = color_at(&p[1], x, 0.5, 0.5), moved = color_at(&p[0], x + 5, 0.5, 0.5);
@@ -188,10 +187,10 @@ static void test_uv_mapping_stays(void **state)
 {
     (void)state;
     /* Measured: what moves the object or the texture leaves a uv-mapped pigment alone; the pigment's own does not. */
-    Scene *scene = parse(V37
-        "sphere{0,1 texture{pigment{uv_mapping checker scale .1 translate .05*x} scale 3} rotate 40*y}"
-        "sphere{0,1 uv_mapping texture{pigment{checker scale .1} translate .05*x} rotate 40*y}"
-        "union{sphere{0,1} uv_mapping pigment{checker scale .1 translate .05*x} translate x}");
+    Scene *scene =
+        parse(V37 "sphere{0,1 texture{pigment{uv_mapping checker scale .1 translate .05*x} scale 3} rotate 40*y}"
+                  "sphere{0,1 uv_mapping texture{pigment{checker scale .1} translate .05*x} rotate 40*y}"
+                  "union{sphere{0,1} uv_mapping pigment{checker scale .1 translate .05*x} translate x}");
     for (int i = 0; i < 3; i++) {
         const Pigment *pigment = scene->primitives[i].texture->pigment;
         assert_true(pigment->uv_mapping);
@@ -203,10 +202,10 @@ static void test_uv_mapping_stays(void **state)
 static void test_groups(void **state)
 {
     (void)state;
-    Scene *scene = parse(V37
-        "#declare Leg = cylinder{0,y,.1}"
-        "union{ object{Leg} object{Leg pigment{rgb <0,0,1>} translate x} no_shadow pigment{rgb <1,0,0>} scale 2 }"
-        "object{Leg}");
+    Scene *scene = parse(
+        V37 "#declare Leg = cylinder{0,y,.1}"
+            "union{ object{Leg} object{Leg pigment{rgb <0,0,1>} translate x} no_shadow pigment{rgb <1,0,0>} scale 2 }"
+            "object{Leg}");
     assert_int_equal(scene->nprimitives, 3);
     assert_color(color_at(&scene->primitives[0], 0, 0, 0), 1, 0, 0);
     assert_color(color_at(&scene->primitives[1], 0, 0, 0), 0, 0, 1);
@@ -230,12 +229,12 @@ static void test_default_at_instantiation(void **state)
 static void test_overrides(void **state)
 {
     (void)state;
-    Scene *scene = parse(V37
-        "#declare T = texture{pigment{rgb <1,0,0>} finish{specular .5}} #declare O = sphere{0,1 texture{T}}"
-        "object{O texture{pigment{rgb <0,1,0>}}}"      /* laid over */
-        "object{O pigment{rgb <0,0,1>}}"               /* changed in place: the finish stays */
-        "object{O texture{pigment{rgbt <0,1,0,1>}}}"   /* clear: what is under it shows */
-        "object{O}");
+    Scene *scene =
+        parse(V37 "#declare T = texture{pigment{rgb <1,0,0>} finish{specular .5}} #declare O = sphere{0,1 texture{T}}"
+                  "object{O texture{pigment{rgb <0,1,0>}}}"    /* laid over */
+                  "object{O pigment{rgb <0,0,1>}}"             /* changed in place: the finish stays */
+                  "object{O texture{pigment{rgbt <0,1,0,1>}}}" /* clear: what is under it shows */
+                  "object{O}");
     assert_color(color_at(&scene->primitives[0], 0, 0, 0), 0, 1, 0);
     assert_color(color_at(&scene->primitives[1], 0, 0, 0), 0, 0, 1);
     assert_near(scene->primitives[1].texture->finish->specular, 0.5);
@@ -290,10 +289,10 @@ static void test_textures_of_a_checker(void **state)
 static void test_finish(void **state)
 {
     (void)state;
-    Scene *scene = parse(V37
-        "#declare F = finish{diffuse albedo .7, .2 specular albedo .04 roughness .01 metallic brilliance 2}"
-        "sphere{0,1 finish{F reflection{.1, .9 fresnel on falloff 2 exponent .5 metallic .3} conserve_energy}}"
-        "sphere{0,1 finish{reflection{.5 fresnel} retex{roughness .3 ior 1.4}}} sphere{0,1 finish{reflection .3}}");
+    Scene *scene = parse(
+        V37 "#declare F = finish{diffuse albedo .7, .2 specular albedo .04 roughness .01 metallic brilliance 2}"
+            "sphere{0,1 finish{F reflection{.1, .9 fresnel on falloff 2 exponent .5 metallic .3} conserve_energy}}"
+            "sphere{0,1 finish{reflection{.5 fresnel} retex{roughness .3 ior 1.4}}} sphere{0,1 finish{reflection .3}}");
     const Finish *f = scene->primitives[0].texture->finish;
     assert_true(f->diffuse_albedo && f->specular_albedo && f->conserve_energy && f->reflection_fresnel);
     assert_near(f->diffuse, 0.7);
@@ -341,10 +340,15 @@ static void test_working_space(void **state)
     (void)state;
     const char *body = " sphere{0,1 pigment{gradient y color_map{[0 rgb .5][1 rgb .5]}}} light_source{y rgb .5}"
                        "background{rgb .5} sphere{0,1 pigment{rgbf .5}}";
-    struct { const char *head; double value; } cases[] = {
-        {"#version 3.7; global_settings{assumed_gamma 1}", 0.5}, {"#version 3.7;", 0.5},
+    struct {
+        const char *head;
+        double value;
+    } cases[] = {
+        {"#version 3.7; global_settings{assumed_gamma 1}", 0.5},
+        {"#version 3.7;", 0.5},
         {"#version 3.7; global_settings{assumed_gamma 2.2}", 0.217637641},
-        {"#version 3.7; global_settings{assumed_gamma srgb}", 0.214041140}, {"#version 3.5;", 0.214041140},
+        {"#version 3.7; global_settings{assumed_gamma srgb}", 0.214041140},
+        {"#version 3.5;", 0.214041140},
         {"#version 3.5; global_settings{assumed_gamma 1}", 0.5},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
@@ -377,11 +381,11 @@ static void test_interior(void **state)
 
 /* ---- meshes ---- */
 
-static const char mesh2_text[] = V37
-    "mesh2{ vertex_vectors{4, <0,0,0>,<1,0,0>,<1,1,0>,<0,1,0>} normal_vectors{1,<0,0,1>}"
-    " uv_vectors{4 <0,0>,<1,0>,<1,1>,<0,1>}"
-    " texture_list{2, texture{pigment{rgb <1,0,0>}} texture{pigment{rgb <0,1,0>}}}"
-    " face_indices{2, <0,1,2>,0, <0,2,3>,1} normal_indices{2,<0,0,0>,<0,0,0>} translate 5*x }";
+static const char mesh2_text[] =
+    V37 "mesh2{ vertex_vectors{4, <0,0,0>,<1,0,0>,<1,1,0>,<0,1,0>} normal_vectors{1,<0,0,1>}"
+        " uv_vectors{4 <0,0>,<1,0>,<1,1>,<0,1>}"
+        " texture_list{2, texture{pigment{rgb <1,0,0>}} texture{pigment{rgb <0,1,0>}}}"
+        " face_indices{2, <0,1,2>,0, <0,2,3>,1} normal_indices{2,<0,0,0>,<0,0,0>} translate 5*x }";
 
 static void test_mesh2(void **state)
 {
@@ -410,17 +414,18 @@ static void test_mesh2_errors(void **state)
     expect_error(V37 "mesh2{vertex_vectors{-1,0}}", "number of elements");
     expect_error(V37 "mesh2{vertex_vectors{3,0,x,y} texture_list{1,texture{}} face_indices{1,<0,1,2>,1}}", "texture 1");
     expect_error(V37 "mesh2{vertex_vectors{3,0,x,y} uv_vectors{1,<0,0>} face_indices{1,<0,1,2>}"
-                     " uv_indices{1,<0,0,1>}}", "UV 1");
+                     " uv_indices{1,<0,0,1>}}",
+                 "UV 1");
     expect_error(V37 "mesh2{face_indices{0}}", "vertex_vectors");
 }
 
 static void test_mesh(void **state)
 {
     (void)state;
-    Scene *scene = parse(V37
-        "#declare A = texture{pigment{rgb 1}} #declare B = texture{pigment{rgb <1,0,0>}}"
-        "mesh{ triangle{0,x,y texture{A}} smooth_triangle{0,z,x,z,y,z uv_vectors <0,0>,<1,0>,<0,1> texture{B}}"
-        " triangle{0,x,z texture{A}} triangle{0,z,y} inside_vector y pigment{rgb <0,0,1>} }");
+    Scene *scene = parse(
+        V37 "#declare A = texture{pigment{rgb 1}} #declare B = texture{pigment{rgb <1,0,0>}}"
+            "mesh{ triangle{0,x,y texture{A}} smooth_triangle{0,z,x,z,y,z uv_vectors <0,0>,<1,0>,<0,1> texture{B}}"
+            " triangle{0,x,z texture{A}} triangle{0,z,y} inside_vector y pigment{rgb <0,0,1>} }");
     const Mesh *mesh = only(scene)->mesh;
     assert_int_equal(mesh->nfaces, 4);
     assert_int_equal(mesh->ntextures, 2);
@@ -435,10 +440,9 @@ static void test_mesh(void **state)
 static void test_loose_triangles(void **state)
 {
     (void)state;
-    Scene *scene = parse(V37
-        "#declare Net = union{ triangle{0,x,y} triangle{x,y,z translate z}"
-        "  smooth_triangle{0,z,x,z,y,z} pigment{rgb 1} }"
-        "object{Net translate 3*x} sphere{0,1} triangle{0,x,y no_shadow} triangle{0,x,z}");
+    Scene *scene = parse(V37 "#declare Net = union{ triangle{0,x,y} triangle{x,y,z translate z}"
+                             "  smooth_triangle{0,z,x,z,y,z} pigment{rgb 1} }"
+                             "object{Net translate 3*x} sphere{0,1} triangle{0,x,y no_shadow} triangle{0,x,z}");
     assert_int_equal(scene->nprimitives, 4);
     const Mesh *mesh = scene->primitives[0].mesh;
     assert_int_equal(mesh->nfaces, 3);
@@ -464,12 +468,15 @@ static double mesh_area(const Scene *scene)
 static void test_polygons(void **state)
 {
     (void)state;
-    struct { const char *text; double area; } cases[] = {
+    struct {
+        const char *text;
+        double area;
+    } cases[] = {
         {"polygon{5,<0,0>,<2,0>,<2,1>,<0,1>,<0,0>}", 2},
-        {"polygon{4,<0,0>,<2,0>,<2,1>,<0,1>}", 2}, /* not closed */
+        {"polygon{4,<0,0>,<2,0>,<2,1>,<0,1>}", 2},                                       /* not closed */
         {"polygon{10,<0,0>,<4,0>,<4,4>,<0,4>,<0,0>,<1,1>,<1,2>,<2,2>,<2,1>,<1,1>}", 15}, /* a hole */
-        {"polygon{7,<0,0>,<3,0>,<3,3>,<2,3>,<2,1>,<0,1>,<0,0>}", 5}, /* an L */
-        {"polygon{5,<0,0>,<2,2>,<2,0>,<0,2>,<0,0>}", 2}, /* a bow tie */
+        {"polygon{7,<0,0>,<3,0>,<3,3>,<2,3>,<2,1>,<0,1>,<0,0>}", 5},                     /* an L */
+        {"polygon{5,<0,0>,<2,2>,<2,0>,<0,2>,<0,0>}", 2},                                 /* a bow tie */
         /* Two squares that overlap: even-odd leaves the common part out. */
         {"polygon{10,<0,0>,<2,0>,<2,2>,<0,2>,<0,0>,<1,1>,<3,1>,<3,3>,<1,3>,<1,1>}", 6},
     };
@@ -542,11 +549,11 @@ static void test_camera(void **state)
 static void test_lights(void **state)
 {
     (void)state;
-    Scene *scene = parse(V37
-        "#declare Bulb = sphere{0,.1 pigment{rgb 1}}"
-        "#declare L = light_source{<0,5,0> rgb <1,.5,.25> spotlight radius 20 falloff 25 tightness 3 point_at 0"
-        "  area_light x,z,4,5 jitter adaptive 1 fade_distance 2 fade_power 2 looks_like{Bulb}}"
-        "light_source{L rotate 90*z} light_source{0, 2 shadowless parallel point_at y}");
+    Scene *scene = parse(
+        V37 "#declare Bulb = sphere{0,.1 pigment{rgb 1}}"
+            "#declare L = light_source{<0,5,0> rgb <1,.5,.25> spotlight radius 20 falloff 25 tightness 3 point_at 0"
+            "  area_light x,z,4,5 jitter adaptive 1 fade_distance 2 fade_power 2 looks_like{Bulb}}"
+            "light_source{L rotate 90*z} light_source{0, 2 shadowless parallel point_at y}");
     assert_int_equal(scene->nlights, 2);
     const Light *light = &scene->lights[0];
     assert_int_equal(light->kind, LIGHT_SPOT);
@@ -566,9 +573,13 @@ static void test_lights(void **state)
 static void test_light_kinds_written_twice(void **state)
 {
     (void)state;
-    const struct { const char *words; LightKind kind; } cases[] = {
-        {"cylinder parallel", LIGHT_CYLINDER}, {"parallel cylinder", LIGHT_CYLINDER},
-        {"spotlight parallel", LIGHT_PARALLEL}, {"parallel spotlight", LIGHT_PARALLEL}};
+    const struct {
+        const char *words;
+        LightKind kind;
+    } cases[] = {{"cylinder parallel", LIGHT_CYLINDER},
+                 {"parallel cylinder", LIGHT_CYLINDER},
+                 {"spotlight parallel", LIGHT_PARALLEL},
+                 {"parallel spotlight", LIGHT_PARALLEL}};
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
         char text[128];
         snprintf(text, sizeof text, V37 "light_source{<0,5,0> 1 %s point_at 0}", cases[k].words);
@@ -581,7 +592,8 @@ static void test_light_kinds_written_twice(void **state)
 static void test_names_of_insides(void **state)
 {
     (void)state; /* a texture that is used inside only can be a target too */
-    Scene *scene = parse(V37 "#declare Lining = texture{pigment{rgb 1}} sphere{0,1 pigment{rgb 0} interior_texture{Lining}}");
+    Scene *scene =
+        parse(V37 "#declare Lining = texture{pigment{rgb 1}} sphere{0,1 pigment{rgb 0} interior_texture{Lining}}");
     const char *specs[] = {"Lining"};
     assert_int_equal(scene_resolve_targets(scene, specs, 1, NULL), 0);
     assert_int_equal(scene->primitives[0].interior_target, 0);
@@ -605,9 +617,8 @@ static void test_sky(void **state)
 static void test_csg(void **state)
 {
     (void)state;
-    Scene *scene = parse(V37
-        "difference{box{-1,1} sphere{0,1.2} pigment{rgb 1}} "
-        "intersection{plane{y,0} sphere{0,1} box{0,1}} merge{sphere{0,1} sphere{x,1}}");
+    Scene *scene = parse(V37 "difference{box{-1,1} sphere{0,1.2} pigment{rgb 1}} "
+                             "intersection{plane{y,0} sphere{0,1} box{0,1}} merge{sphere{0,1} sphere{x,1}}");
     assert_int_equal(scene->nprimitives, 4);
     assert_int_equal(scene->primitives[0].kind, SHAPE_BOX);
     assert_int_equal(scene->primitives[1].kind, SHAPE_SPHERE);
@@ -622,12 +633,12 @@ static void test_csg(void **state)
 
 /* ---- targets ---- */
 
-static const char target_text[] = V37
-    "#declare Oak = pigment{rgb <.5,.3,.1>} #declare Floor = texture{pigment{Oak} finish{specular .2}}"
-    "#declare Wall = material{texture{pigment{rgb 1}}} #declare WALL = texture{pigment{rgb .5}}"
-    "#declare Unused = texture{pigment{rgb 0}} #declare Chair = union{box{0,1} box{1,2} texture{Floor}}"
-    "plane{y,0 texture{Floor}} plane{x,0 material{Wall}} object{Chair} plane{z,0 texture{WALL}}"
-    "mesh2{vertex_vectors{3,0,x,y} texture_list{2,texture{Floor},texture{WALL}} face_indices{1,<0,1,2>,1}}";
+static const char target_text[] =
+    V37 "#declare Oak = pigment{rgb <.5,.3,.1>} #declare Floor = texture{pigment{Oak} finish{specular .2}}"
+        "#declare Wall = material{texture{pigment{rgb 1}}} #declare WALL = texture{pigment{rgb .5}}"
+        "#declare Unused = texture{pigment{rgb 0}} #declare Chair = union{box{0,1} box{1,2} texture{Floor}}"
+        "plane{y,0 texture{Floor}} plane{x,0 material{Wall}} object{Chair} plane{z,0 texture{WALL}}"
+        "mesh2{vertex_vectors{3,0,x,y} texture_list{2,texture{Floor},texture{WALL}} face_indices{1,<0,1,2>,1}}";
 
 static void test_targets(void **state)
 {
@@ -659,12 +670,20 @@ static void test_target_errors(void **state)
 {
     (void)state;
     Scene *scene = parse(target_text);
-    struct { const char *specs[2]; int n, code; const char *part; } cases[] = {
-        {{"flor"}, 1, RETEX_ENOTFOUND, "similar: Floor"}, {{"wall"}, 1, RETEX_ENOTFOUND, "could be `Wall` or `WALL`"},
-        {{"Unused"}, 1, RETEX_ENOTFOUND, "no texture"}, {{"a=Floor", "a=Wall"}, 2, RETEX_EINVAL, "twice"},
-        {{"=Floor"}, 1, RETEX_EINVAL, "name"}, {{"a="}, 1, RETEX_EINVAL, "identifier"},
+    struct {
+        const char *specs[2];
+        int n, code;
+        const char *part;
+    } cases[] = {
+        {{"flor"}, 1, RETEX_ENOTFOUND, "similar: Floor"},
+        {{"wall"}, 1, RETEX_ENOTFOUND, "could be `Wall` or `WALL`"},
+        {{"Unused"}, 1, RETEX_ENOTFOUND, "no texture"},
+        {{"a=Floor", "a=Wall"}, 2, RETEX_EINVAL, "twice"},
+        {{"=Floor"}, 1, RETEX_EINVAL, "name"},
+        {{"a="}, 1, RETEX_EINVAL, "identifier"},
         {{"a=Floor,,Wall"}, 1, RETEX_EINVAL, "identifier"},
-        {{"a.b=Floor"}, 1, RETEX_EINVAL, "letters"}, {{"xyzzy"}, 1, RETEX_ENOTFOUND, "there are: Floor"},
+        {{"a.b=Floor"}, 1, RETEX_EINVAL, "letters"},
+        {{"xyzzy"}, 1, RETEX_ENOTFOUND, "there are: Floor"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         RetexError err = {0};
@@ -736,7 +755,8 @@ static void test_limits(void **state)
 {
     (void)state;
     expect_error(V37 "#declare A = sphere{0,1} #for(I,1,60) #declare A = union{object{A} object{A}} #end"
-                     " object{A}", "parts");
+                     " object{A}",
+                 "parts");
     expect_error(V37 "#declare A = union{} #for(I,1,900) #declare A = union{object{A}} #end object{A}", "deep");
     expect_error(V37 "#macro R(N) union{ sphere{0,1} #if(N) R(N-1) #end } #end R(300)", "deep");
     expect_error(V37 "sphere{0,1 pigment{image_map{png \"no such file.png\"}}}", "no such file.png");
@@ -747,18 +767,40 @@ static void test_limits(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_sphere_and_transforms), cmocka_unit_test(test_box), cmocka_unit_test(test_plane),
-        cmocka_unit_test(test_cone_torus_disc), cmocka_unit_test(test_degenerate_shapes),
-        cmocka_unit_test(test_texture_order), cmocka_unit_test(test_uv_mapping_stays), cmocka_unit_test(test_groups),
-        cmocka_unit_test(test_default_at_instantiation), cmocka_unit_test(test_overrides),
-        cmocka_unit_test(test_layered_declaration), cmocka_unit_test(test_means),
-        cmocka_unit_test(test_textures_of_a_checker), cmocka_unit_test(test_finish), cmocka_unit_test(test_emitters),
-        cmocka_unit_test(test_working_space), cmocka_unit_test(test_interior), cmocka_unit_test(test_mesh2),
-        cmocka_unit_test(test_mesh2_errors), cmocka_unit_test(test_mesh), cmocka_unit_test(test_loose_triangles),
-        cmocka_unit_test(test_polygons), cmocka_unit_test(test_star), cmocka_unit_test(test_camera),
-        cmocka_unit_test(test_lights), cmocka_unit_test(test_light_kinds_written_twice), cmocka_unit_test(test_names_of_insides), cmocka_unit_test(test_sky), cmocka_unit_test(test_csg),
-        cmocka_unit_test(test_targets), cmocka_unit_test(test_target_errors), cmocka_unit_test(test_truncated),
-        cmocka_unit_test(test_damaged), cmocka_unit_test(test_limits),
+        cmocka_unit_test(test_sphere_and_transforms),
+        cmocka_unit_test(test_box),
+        cmocka_unit_test(test_plane),
+        cmocka_unit_test(test_cone_torus_disc),
+        cmocka_unit_test(test_degenerate_shapes),
+        cmocka_unit_test(test_texture_order),
+        cmocka_unit_test(test_uv_mapping_stays),
+        cmocka_unit_test(test_groups),
+        cmocka_unit_test(test_default_at_instantiation),
+        cmocka_unit_test(test_overrides),
+        cmocka_unit_test(test_layered_declaration),
+        cmocka_unit_test(test_means),
+        cmocka_unit_test(test_textures_of_a_checker),
+        cmocka_unit_test(test_finish),
+        cmocka_unit_test(test_emitters),
+        cmocka_unit_test(test_working_space),
+        cmocka_unit_test(test_interior),
+        cmocka_unit_test(test_mesh2),
+        cmocka_unit_test(test_mesh2_errors),
+        cmocka_unit_test(test_mesh),
+        cmocka_unit_test(test_loose_triangles),
+        cmocka_unit_test(test_polygons),
+        cmocka_unit_test(test_star),
+        cmocka_unit_test(test_camera),
+        cmocka_unit_test(test_lights),
+        cmocka_unit_test(test_light_kinds_written_twice),
+        cmocka_unit_test(test_names_of_insides),
+        cmocka_unit_test(test_sky),
+        cmocka_unit_test(test_csg),
+        cmocka_unit_test(test_targets),
+        cmocka_unit_test(test_target_errors),
+        cmocka_unit_test(test_truncated),
+        cmocka_unit_test(test_damaged),
+        cmocka_unit_test(test_limits),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

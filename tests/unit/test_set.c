@@ -39,7 +39,10 @@ static RetexSamples *make_samples(const RetexSet *set, int every)
     samples->images = calloc((size_t)set->nfootprints + 1, sizeof *samples->images);
     for (int i = 0; i < set->ntargets; i++) {
         snprintf(samples->target_names[i], sizeof samples->target_names[i], "%s", set->targets[i].name);
-        snprintf(samples->textures[i], sizeof samples->textures[i], "b\xfc" "hne %d.jpg", i);
+        snprintf(samples->textures[i], sizeof samples->textures[i],
+                 "b\xfc"
+                 "hne %d.jpg",
+                 i);
     }
     for (int i = 0; i < set->nfootprints; i++) {
         samples->footprint_target[i] = set->footprints[i].target;
@@ -146,12 +149,13 @@ static void test_set_there_and_back(void **state)
         RetexSet *set = test_set(70, 45, 9), *back;
         RetexSamples *none;
         RetexStoreParams params = RETEX_STORE_INIT;
-        RetexError err = { 0 };
+        RetexError err = {0};
         params.compress = compress;
         params.nthreads = 3;
         set->seed = 4000000000u;
         set->folded = 1.0 / 3;
-        strcpy(set->scene, "k\xc3\xbc" "che.pov");
+        strcpy(set->scene, "k\xc3\xbc"
+                           "che.pov");
         test_must(retex_set_write(set, NULL, path, &params, &err), &err);
         test_must(retex_set_check(path, 0, &err), &err);
         test_must(retex_set_read(path, &back, &none, 2, &err), &err);
@@ -174,7 +178,7 @@ static void test_samples_there_and_back(void **state)
 {
     (void)state;
     RetexSet *set = test_set(40, 30, 2), *none;
-    RetexError err = { 0 };
+    RetexError err = {0};
     for (int every = 0; every < 3; every++) {
         RetexSamples *samples = make_samples(set, every), *back;
         test_must(retex_samples_check(samples, set, &err), &err);
@@ -213,7 +217,7 @@ static void test_stream_through_a_pipe(void **state)
     (void)state;
     RetexSet *set = test_set(90, 60, 4), *back;
     RetexSamples *samples = make_samples(set, 2), *samples_back;
-    RetexError err = { 0 };
+    RetexError err = {0};
     int ends[2], status = 1;
     /* checksums of all parts, to compare with */
     test_must(retex_set_write(set, NULL, path, NULL, &err), &err);
@@ -248,17 +252,17 @@ static void test_names_are_checked(void **state)
 {
     (void)state;
     RetexSet *set = test_set(16, 16, 1);
-    RetexError err = { 0 };
-    static const char *const wrong[] = { "", "a b", "a.b", "\xc3\xa4", "a/b" };
+    RetexError err = {0};
+    static const char *const wrong[] = {"", "a b", "a.b", "\xc3\xa4", "a/b"};
     for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++)
         assert_int_equal(retex_set_add_part(set, wrong[i], "RGB", RETEX_HALF, 0, 0, NULL, &err), RETEX_EINVAL);
     assert_int_equal(retex_set_add_part(set, set->parts[1].name, "R", RETEX_HALF, 0, 0, NULL, &err), RETEX_EINVAL);
     assert_int_equal(retex_set_add_part(set, "x", "RR", RETEX_HALF, 0, 0, NULL, &err), RETEX_EINVAL);
     assert_int_equal(retex_set_add_part(set, "x", "r", RETEX_HALF, 0, 0, NULL, &err), RETEX_EINVAL);
     assert_int_equal(retex_set_add_part(set, "x", "R", RETEX_HALF, 70000, 1, NULL, &err), RETEX_EINVAL);
-    RetexFootprint footprint = { set->ntargets, 1, -1, -1, -1 };
+    RetexFootprint footprint = {set->ntargets, 1, -1, -1, -1};
     assert_int_equal(retex_set_add_footprint(set, &footprint, NULL, &err), RETEX_EINVAL);
-    RetexTerm term = { RETEX_TERM_DEP, 0, 1, { set->nfootprints } };
+    RetexTerm term = {RETEX_TERM_DEP, 0, 1, {set->nfootprints}};
     assert_int_equal(retex_set_add_term(set, &term, NULL, &err), RETEX_EINVAL);
 
     strcpy(set->targets[0].name, "Floor");
@@ -277,7 +281,7 @@ static void test_samples_of_another_set(void **state)
     (void)state;
     RetexSet *set = test_set(16, 16, 1), *other = test_set(16, 17, 1);
     RetexSamples *samples = make_samples(set, 1);
-    RetexError err = { 0 };
+    RetexError err = {0};
     assert_int_equal(retex_samples_check(samples, other, &err), RETEX_EINVAL);
     assert_int_equal(retex_samples_check(samples, set, &err), 0);
     strcpy(samples->target_names[0], "Ceiling");
@@ -295,7 +299,7 @@ static int read_manifest(const char *json, char *message)
     RetexSet *set;
     RetexSamples *samples;
     RetexSamplePart *parts;
-    RetexError err = { 0 };
+    RetexError err = {0};
     const int status = retex_manifest_read(json, "x.exr", &set, &samples, &parts, &err);
     strcpy(message, err.message);
     retex_set_close(&set);
@@ -320,36 +324,40 @@ static char *edited(const char *json, const char *after, const char *from, const
 static void test_manifests_that_lie(void **state)
 {
     (void)state;
-    static const struct { const char *after, *from, *to; int code; const char *says; } cases[] = {
-        { "", "{\"retex\":1", "{\"retex\":2", RETEX_EUNSUPPORTED, "version 2" },
-        { "", "{\"retex\":1", "{\"retex\":\"1\"", RETEX_EFORMAT, "no version" },
-        { "", "{\"retex\":1", "{\"retex\":1,\"later\":[{}]", 0, "" },
-        { "", "{\"retex\":1", "[\"retex\":1", RETEX_EFORMAT, "no JSON" },
-        { "", "\"set\"", "\"sett\"", RETEX_EFORMAT, "unknown kind" },
-        { "", "\"width\":", "\"width\":7", RETEX_EFORMAT, "another size" },
-        { "", "\"width\":", "\"width\":-", RETEX_EFORMAT, "\"width\"" },
-        { "", "\"height\":", "\"height\":99999", RETEX_EFORMAT, "\"height\"" },
-        { "", "\"layout\":\"", "\"layout\":\"0123456789abcdef", RETEX_EFORMAT, "\"layout\"" },
-        { "", "\"orders\":", "\"orders\":-", RETEX_EFORMAT, "\"orders\"" },
-        { "", "\"seed\":", "\"seed\":99999999999", RETEX_EFORMAT, "\"seed\"" },
-        { "", "\"folded\":", "\"folded\":null,\"x\":", RETEX_EFORMAT, "\"folded\"" },
-        { "\"targets\"", "\"periodic\":[", "\"periodic\":[7,", RETEX_EFORMAT, "\"periodic\"" },
-        { "\"footprints\"", "\"target\":", "\"target\":5", RETEX_EFORMAT, "\"target\"" },
-        { "\"footprints\"", "\"hit\":", "\"hit\":-", RETEX_EFORMAT, "\"hit\"" },
-        { "\"footprints\"", "\"uv\":\"", "\"uv\":\"no", RETEX_EFORMAT, "\"uv\"" },
-        { "\"footprints\"", "\"uv\":\"", "\"uv\":null,\"x\":\"", 0, "" },
-        { "\"terms\"", "\"kind\":\"", "\"kind\":\"x", RETEX_EFORMAT, "unknown kind" },
-        { "\"terms\"", "\"radiance\":\"", "\"radiance\":null,\"x\":\"", RETEX_EFORMAT, "\"radiance\"" },
-        { "\"terms\"", "\"factors\":[", "\"factors\":[600", RETEX_EFORMAT, "factor" },
-        { "\"parts\"", "\"name\":\"", "\"name\":\"a b", RETEX_EFORMAT, "named" },
-        { "\"parts\"", "\"letters\":\"", "\"letters\":\"a", RETEX_EFORMAT, "channels" },
-        { "\"parts\"", "\"type\":\"", "\"type\":\"x", RETEX_EFORMAT, "type" },
-        { "\"parts\"", "\"crc32\":\"", "\"crc32\":\"0", RETEX_EFORMAT, "checksum" },
-        { "\"parts\"", "\"parts\":[", "\"parts\":[],\"x\":[", RETEX_EFORMAT, "no parts" },
+    static const struct {
+        const char *after, *from, *to;
+        int code;
+        const char *says;
+    } cases[] = {
+        {"", "{\"retex\":1", "{\"retex\":2", RETEX_EUNSUPPORTED, "version 2"},
+        {"", "{\"retex\":1", "{\"retex\":\"1\"", RETEX_EFORMAT, "no version"},
+        {"", "{\"retex\":1", "{\"retex\":1,\"later\":[{}]", 0, ""},
+        {"", "{\"retex\":1", "[\"retex\":1", RETEX_EFORMAT, "no JSON"},
+        {"", "\"set\"", "\"sett\"", RETEX_EFORMAT, "unknown kind"},
+        {"", "\"width\":", "\"width\":7", RETEX_EFORMAT, "another size"},
+        {"", "\"width\":", "\"width\":-", RETEX_EFORMAT, "\"width\""},
+        {"", "\"height\":", "\"height\":99999", RETEX_EFORMAT, "\"height\""},
+        {"", "\"layout\":\"", "\"layout\":\"0123456789abcdef", RETEX_EFORMAT, "\"layout\""},
+        {"", "\"orders\":", "\"orders\":-", RETEX_EFORMAT, "\"orders\""},
+        {"", "\"seed\":", "\"seed\":99999999999", RETEX_EFORMAT, "\"seed\""},
+        {"", "\"folded\":", "\"folded\":null,\"x\":", RETEX_EFORMAT, "\"folded\""},
+        {"\"targets\"", "\"periodic\":[", "\"periodic\":[7,", RETEX_EFORMAT, "\"periodic\""},
+        {"\"footprints\"", "\"target\":", "\"target\":5", RETEX_EFORMAT, "\"target\""},
+        {"\"footprints\"", "\"hit\":", "\"hit\":-", RETEX_EFORMAT, "\"hit\""},
+        {"\"footprints\"", "\"uv\":\"", "\"uv\":\"no", RETEX_EFORMAT, "\"uv\""},
+        {"\"footprints\"", "\"uv\":\"", "\"uv\":null,\"x\":\"", 0, ""},
+        {"\"terms\"", "\"kind\":\"", "\"kind\":\"x", RETEX_EFORMAT, "unknown kind"},
+        {"\"terms\"", "\"radiance\":\"", "\"radiance\":null,\"x\":\"", RETEX_EFORMAT, "\"radiance\""},
+        {"\"terms\"", "\"factors\":[", "\"factors\":[600", RETEX_EFORMAT, "factor"},
+        {"\"parts\"", "\"name\":\"", "\"name\":\"a b", RETEX_EFORMAT, "named"},
+        {"\"parts\"", "\"letters\":\"", "\"letters\":\"a", RETEX_EFORMAT, "channels"},
+        {"\"parts\"", "\"type\":\"", "\"type\":\"x", RETEX_EFORMAT, "type"},
+        {"\"parts\"", "\"crc32\":\"", "\"crc32\":\"0", RETEX_EFORMAT, "checksum"},
+        {"\"parts\"", "\"parts\":[", "\"parts\":[],\"x\":[", RETEX_EFORMAT, "no parts"},
     };
     RetexSet *set = test_set(16, 16, 1);
     char *json, message[1024];
-    RetexError err = { 0 };
+    RetexError err = {0};
     test_must(retex_set_manifest(set, NULL, &json, &err), &err);
     assert_int_equal(read_manifest(json, message), 0);
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
@@ -418,7 +426,7 @@ static void test_damaged_files(void **state)
     for (int compress = 0; compress < 2; compress++) {
         RetexSet *set = test_set(20, 20, 6);
         RetexStoreParams params = RETEX_STORE_INIT;
-        RetexError err = { 0 };
+        RetexError err = {0};
         uint32_t seed = 11;
         size_t bytes;
         params.compress = compress;
@@ -451,8 +459,8 @@ static void test_damaged_files(void **state)
 static void test_what_is_no_set(void **state)
 {
     (void)state;
-    RetexImage image = { 0 };
-    RetexError err = { 0 };
+    RetexImage image = {0};
+    RetexError err = {0};
     char exr[80];
     store((const unsigned char *)"hello", 5);
     assert_int_equal(read_anything(&err), RETEX_EFORMAT);
@@ -475,14 +483,10 @@ static void test_what_is_no_set(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_set_there_and_back),
-        cmocka_unit_test(test_samples_there_and_back),
-        cmocka_unit_test(test_stream_through_a_pipe),
-        cmocka_unit_test(test_names_are_checked),
-        cmocka_unit_test(test_samples_of_another_set),
-        cmocka_unit_test(test_manifests_that_lie),
-        cmocka_unit_test(test_damaged_files),
-        cmocka_unit_test(test_what_is_no_set),
+        cmocka_unit_test(test_set_there_and_back),     cmocka_unit_test(test_samples_there_and_back),
+        cmocka_unit_test(test_stream_through_a_pipe),  cmocka_unit_test(test_names_are_checked),
+        cmocka_unit_test(test_samples_of_another_set), cmocka_unit_test(test_manifests_that_lie),
+        cmocka_unit_test(test_damaged_files),          cmocka_unit_test(test_what_is_no_set),
     };
     return cmocka_run_group_tests(tests, make_path, remove_path);
 }

@@ -2,7 +2,8 @@
 // computes in. OpenColorIO 2.1 brings none of its own, and a renderer should show the same picture on every machine.
 #include "bridge.hpp"
 
-namespace bridge {
+namespace bridge
+{
 
 const char *const own_configuration = R"yaml(ocio_profile_version: 2
 

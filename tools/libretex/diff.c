@@ -233,7 +233,7 @@ int retex_diff(RetexDiff **result, const char *a, const char *b, const RetexDiff
         code = retex_layers_open(&lb, b, params->nthreads, err);
     if (!code) {
         diff->parts = calloc((size_t)retex_layers_count(la), sizeof *diff->parts);
-        code = !diff->parts       ? retex_fail(err, RETEX_ENOMEM, "no memory to compare %s", a)
+        code = !diff->parts        ? retex_fail(err, RETEX_ENOMEM, "no memory to compare %s", a)
                : params->all_parts ? compare_all(diff, la, lb, params, err)
                                    : compare_one(diff, la, lb, params, err);
     }

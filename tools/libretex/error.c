@@ -10,7 +10,7 @@
 
 static int fail(RetexError *err, int code, const char *file, int line, int column, const char *fmt, va_list arguments)
 {
-    char message[sizeof ((RetexError *)0)->message] = "";
+    char message[sizeof((RetexError *)0)->message] = "";
 
     if (!err)
         return code;

@@ -56,7 +56,7 @@ static int64_t core_size(exr_const_context_t context, void *data)
 
 int retex_exr_probe(const RetexInput *input)
 {
-    static const unsigned char magic[4] = { 0x76, 0x2f, 0x31, 0x01 };
+    static const unsigned char magic[4] = {0x76, 0x2f, 0x31, 0x01};
     unsigned char begin[4];
 
     return retex_input_read(input, begin, sizeof begin, 0) == sizeof begin && memcmp(begin, magic, sizeof magic) == 0;
@@ -154,7 +154,7 @@ const char *retex_exr_channel_name(const RetexExr *exr, int part, int channel)
 static void data_window(const RetexExr *exr, int part, exr_attr_box2i_t *window)
 {
     if (exr_get_data_window(exr->context, part, window) != EXR_ERR_SUCCESS)
-        *window = (exr_attr_box2i_t){ .min = { .x = 0, .y = 0 }, .max = { .x = -1, .y = -1 } };
+        *window = (exr_attr_box2i_t){.min = {.x = 0, .y = 0}, .max = {.x = -1, .y = -1}};
 }
 
 void retex_exr_part_size(const RetexExr *exr, int part, int *width, int *height)
@@ -243,10 +243,10 @@ typedef struct Plan {
     exr_compression_t compression;
     int left, top, width, height; /* data window */
     int chunk_width, chunk_height;
-    int across, down;             /* chunks */
-    int nchannels;                /* of the part; all lie in every chunk */
+    int across, down; /* chunks */
+    int nchannels;    /* of the part; all lie in every chunk */
     const exr_attr_chlist_entry_t *channels;
-    int *slot;                    /* channel of the image that a channel of the part fills, or -1 */
+    int *slot; /* channel of the image that a channel of the part fills, or -1 */
     size_t pixel_bytes;
 } Plan;
 
@@ -486,9 +486,8 @@ static int plan_request(RetexExr *exr, Plan *plan, RetexExrRequest *request, Ret
         plan->chunk_width = plan->width;
         plan->chunk_height = lines;
     } else {
-        if (request->with_crc ||
-            exr_get_tile_sizes(exr->context, request->part, 0, 0, &tile_width, &tile_height) || tile_width < 1 ||
-            tile_height < 1)
+        if (request->with_crc || exr_get_tile_sizes(exr->context, request->part, 0, 0, &tile_width, &tile_height) ||
+            tile_width < 1 || tile_height < 1)
             return fail_damaged(exr, EXR_ERR_FILE_BAD_HEADER, err);
         plan->chunk_width = tile_width;
         plan->chunk_height = tile_height;
@@ -562,7 +561,7 @@ static int fail_chunk(RetexExr *exr, const Plan *plans, int nplans, exr_result_t
 
 static int run_jobs(RetexExr *exr, Plan *plans, int nplans, int nthreads, RetexError *err)
 {
-    DecodeWork work = { exr, NULL, NULL, 0 };
+    DecodeWork work = {exr, NULL, NULL, 0};
     int njobs = 0;
 
     nthreads = retex_threads(nthreads);

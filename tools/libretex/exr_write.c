@@ -200,7 +200,7 @@ static int lay_out_bands(RetexExrEncoding *encoding, RetexError *err)
 
 static int encode_bands(RetexExrEncoding *encoding, int nthreads, RetexError *err)
 {
-    EncodeWork work = { encoding, NULL, NULL };
+    EncodeWork work = {encoding, NULL, NULL};
     int failed = 0;
 
     nthreads = retex_threads(nthreads);
@@ -269,9 +269,9 @@ void retex_exr_encoding_free(RetexExrEncoding **result)
 typedef struct Sink {
     RetexExrMessage message; /* first: see exr_error.h */
     RetexOutput *output;
-    RetexError error;        /* of output, which knows more than Core does */
-    uint64_t position;       /* bytes sent so far */
-    uint64_t *table;         /* offsets of all chunks; relative to table_end until they are sent */
+    RetexError error;  /* of output, which knows more than Core does */
+    uint64_t position; /* bytes sent so far */
+    uint64_t *table;   /* offsets of all chunks; relative to table_end until they are sent */
     uint64_t table_start, table_bytes;
     int table_sent;
 } Sink;
@@ -351,8 +351,8 @@ static exr_result_t declare_part(exr_context_t context, const RetexExrEncoding *
                                  const exr_attr_box2i_t *display)
 {
     const RetexExrPart *part = &encoding->parts[index];
-    const exr_attr_box2i_t data = { .max = { .x = part->image->width - 1, .y = part->image->height - 1 } };
-    const exr_attr_v2f_t center = { .x = 0, .y = 0 };
+    const exr_attr_box2i_t data = {.max = {.x = part->image->width - 1, .y = part->image->height - 1}};
+    const exr_attr_v2f_t center = {.x = 0, .y = 0};
     exr_result_t code;
     int number;
 
@@ -393,7 +393,7 @@ static exr_result_t write_chunks(exr_context_t context, RetexExrEncoding *encodi
 static exr_result_t write_file(exr_context_t context, RetexExrEncoding *encoding, int width, int height,
                                const char *attribute, const char *value)
 {
-    const exr_attr_box2i_t display = { .max = { .x = width - 1, .y = height - 1 } };
+    const exr_attr_box2i_t display = {.max = {.x = width - 1, .y = height - 1}};
     exr_result_t code = EXR_ERR_SUCCESS;
     int long_names = 0;
 
@@ -416,7 +416,7 @@ int retex_exr_write(RetexExrEncoding *encoding, int width, int height, const cha
                     const char *path, RetexError *err)
 {
     exr_context_initializer_t settings = EXR_DEFAULT_CONTEXT_INITIALIZER;
-    Sink sink = { .message = { PTHREAD_MUTEX_INITIALIZER, "" } };
+    Sink sink = {.message = {PTHREAD_MUTEX_INITIALIZER, ""}};
     exr_context_t context = NULL;
     exr_result_t code;
     int status;

@@ -155,5 +155,5 @@ void retex_zip_free(RetexZip *zip)
     free(zip->deflater);
     free(zip->inflater);
     free(zip->scratch);
-    *zip = (RetexZip){ 0 };
+    *zip = (RetexZip){0};
 }

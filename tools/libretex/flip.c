@@ -198,9 +198,12 @@ static void load_row(float *padded, const RetexImage *im, const RetexImage *othe
 static void filter_rows(float *planes, float *padded, const RetexImage *im, const RetexImage *other, const Filters *f,
                         int y0, int rows)
 {
-    static const struct { int from; size_t offset; } plan[H_PLANES] = {
-        {0, offsetof(Filters, y)},     {1, offsetof(Filters, cx)},    {2, offsetof(Filters, cz1)},
-        {2, offsetof(Filters, cz2)},   {0, offsetof(Filters, edge)},  {0, offsetof(Filters, point)},
+    static const struct {
+        int from;
+        size_t offset;
+    } plan[H_PLANES] = {
+        {0, offsetof(Filters, y)},      {1, offsetof(Filters, cx)},   {2, offsetof(Filters, cz1)},
+        {2, offsetof(Filters, cz2)},    {0, offsetof(Filters, edge)}, {0, offsetof(Filters, point)},
         {0, offsetof(Filters, smooth)},
     };
     size_t width = (size_t)im->width, length = width + 2 * RADIUS;
@@ -220,8 +223,8 @@ static void filter_rows(float *planes, float *padded, const RetexImage *im, cons
 static void finish_row(float *features, const float *planes, float *column, const Filters *f, int r, int width)
 {
     size_t w = (size_t)width;
-#define PLANE(p) (planes + ((size_t)(p) * ROWS + (size_t)r) * w)
-#define FEATURE(p) (features + ((size_t)(p) * BAND + (size_t)r) * w)
+#define PLANE(p) (planes + ((size_t)(p)*ROWS + (size_t)r) * w)
+#define FEATURE(p) (features + ((size_t)(p)*BAND + (size_t)r) * w)
     float *y = column, *cx = column + w, *cz1 = column + 2 * w, *cz2 = column + 3 * w;
     convolve(y, PLANE(H_Y), w, f->y, width);
     convolve(cx, PLANE(H_CX), w, f->cx, width);
@@ -287,8 +290,7 @@ static void flip_band(void *context, int index, int thread)
         }
 }
 
-int retex_flip_map(RetexImage *map, const RetexImage *image, const RetexImage *reference, int nthreads,
-                   RetexError *err)
+int retex_flip_map(RetexImage *map, const RetexImage *image, const RetexImage *reference, int nthreads, RetexError *err)
 {
     if (image->channels != 3 || reference->channels != 3 || image->width != reference->width ||
         image->height != reference->height)

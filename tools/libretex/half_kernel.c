@@ -68,8 +68,8 @@ void retex_half_to_float_scalar(float *restrict dst, const uint16_t *restrict sr
 #if defined(__x86_64__) && defined(__GNUC__)
 #include <immintrin.h>
 
-__attribute__((target("avx,f16c")))
-static void from_float_f16c(uint16_t *restrict dst, const float *restrict src, size_t count)
+__attribute__((target("avx,f16c"))) static void from_float_f16c(uint16_t *restrict dst, const float *restrict src,
+                                                                size_t count)
 {
     const __m256 magnitude = _mm256_castsi256_ps(_mm256_set1_epi32(0x7fffffff));
     const __m256 largest = _mm256_set1_ps(65504.0f), infinity = _mm256_set1_ps(__builtin_inff());
@@ -79,8 +79,8 @@ static void from_float_f16c(uint16_t *restrict dst, const float *restrict src, s
         const __m256 value = _mm256_loadu_ps(src + i);
         const __m256 size = _mm256_and_ps(value, magnitude);
         /* finite and too large: 65504 with the value's sign (comparisons with NaN are false) */
-        const __m256 over = _mm256_and_ps(_mm256_cmp_ps(size, largest, _CMP_GT_OQ),
-                                          _mm256_cmp_ps(size, infinity, _CMP_LT_OQ));
+        const __m256 over =
+            _mm256_and_ps(_mm256_cmp_ps(size, largest, _CMP_GT_OQ), _mm256_cmp_ps(size, infinity, _CMP_LT_OQ));
         const __m256 clamped = _mm256_or_ps(largest, _mm256_andnot_ps(magnitude, value));
         const __m256 kept = _mm256_blendv_ps(value, clamped, over);
         _mm_storeu_si128((__m128i *)(dst + i), _mm256_cvtps_ph(kept, _MM_FROUND_TO_NEAREST_INT));
@@ -88,8 +88,8 @@ static void from_float_f16c(uint16_t *restrict dst, const float *restrict src, s
     retex_half_from_float_scalar(dst + i, src + i, count - i);
 }
 
-__attribute__((target("avx,f16c")))
-static void to_float_f16c(float *restrict dst, const uint16_t *restrict src, size_t count)
+__attribute__((target("avx,f16c"))) static void to_float_f16c(float *restrict dst, const uint16_t *restrict src,
+                                                              size_t count)
 {
     size_t i = 0;
 

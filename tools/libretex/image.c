@@ -50,7 +50,7 @@ void retex_image_free(RetexImage *im)
     if (!im)
         return;
     free(im->pixels);
-    *im = (RetexImage){ 0, 0, 0, NULL };
+    *im = (RetexImage){0, 0, 0, NULL};
 }
 
 int retex_image_copy(RetexImage *dst, const RetexImage *src, RetexError *err)
@@ -64,7 +64,7 @@ int retex_image_copy(RetexImage *dst, const RetexImage *src, RetexError *err)
 
 RetexRoi retex_image_roi(const RetexImage *im)
 {
-    return (RetexRoi){ 0, 0, im->width, im->height, 0, im->channels };
+    return (RetexRoi){0, 0, im->width, im->height, 0, im->channels};
 }
 
 static int clamp(int value, int low, int high)
@@ -100,7 +100,7 @@ int retex_image_prepare(RetexImage *dst, int width, int height, int channels, co
 /* Which channels of an EXR's first part are its colours: R, G, B, or the grey Y, and A. 0 where there are none. */
 static int choose_channels(const RetexExr *exr, RetexExrRequest *request, int *grey)
 {
-    static const char colors[3][2] = { "R", "G", "B" };
+    static const char colors[3][2] = {"R", "G", "B"};
 
     *grey = 1;
     for (int c = 0; c < 3; c++)
@@ -146,8 +146,8 @@ static int check_pixels(int width, int height, long max_pixels, const char *name
 /* Read an open EXR. RETEX_EUNSUPPORTED: whole and sound, but not for this reader. */
 static int read_exr(RetexImage *dst, RetexExr *exr, const char *name, long max_pixels, RetexError *err)
 {
-    RetexExrRequest request = { .part = 0 };
-    RetexImage image = { 0 };
+    RetexExrRequest request = {.part = 0};
+    RetexImage image = {0};
     const char *reason;
     int grey, width, height;
 
@@ -209,9 +209,9 @@ int retex_image_read(RetexImage *dst, const char *path, const char *colorspace, 
 
 static int write_exr(const RetexImage *src, const char *path, RetexError *err)
 {
-    RetexExrPart part = { .name = "beauty", .type = RETEX_HALF, .image = src };
+    RetexExrPart part = {.name = "beauty", .type = RETEX_HALF, .image = src};
     RetexExrEncoding *encoding = NULL;
-    RetexImage associated = { 0 };
+    RetexImage associated = {0};
     int status = 0;
 
     strcpy(part.letters, src->channels == 1 ? "Y" : src->channels == 3 ? "RGB" : "RGBA");

@@ -133,8 +133,8 @@ int64_t retex_input_read(const RetexInput *input, void *buffer, size_t bytes, ui
     }
     size_t done = 0;
     while (done < bytes) {
-        const ssize_t got = pread(input->descriptor, (unsigned char *)buffer + done, bytes - done,
-                                  (off_t)(offset + done));
+        const ssize_t got =
+            pread(input->descriptor, (unsigned char *)buffer + done, bytes - done, (off_t)(offset + done));
         if (got < 0 && errno == EINTR)
             continue;
         if (got < 0)

@@ -14,7 +14,7 @@
 struct RetexLayers {
     int nthreads;
     RetexInput *input;
-    RetexExr *exr;      /* one of these three */
+    RetexExr *exr; /* one of these three */
     RetexSet *set;
     RetexImage picture;
 };
@@ -150,8 +150,8 @@ static int read_exr_layer(RetexLayer *layer, RetexLayers *layers, int part, Rete
     size_t prefix = strlen(name);
     int width, height, channels = retex_exr_channel_count(layers->exr, part);
     if (!retex_exr_part_readable(layers->exr, part, &reason))
-        return retex_fail(err, RETEX_EUNSUPPORTED, "%s: part '%s' cannot be read: %s",
-                          retex_input_name(layers->input), name, reason);
+        return retex_fail(err, RETEX_EUNSUPPORTED, "%s: part '%s' cannot be read: %s", retex_input_name(layers->input),
+                          name, reason);
     retex_exr_part_size(layers->exr, part, &width, &height);
     int code = alloc_layer(layer, width, height, channels, err);
     for (int c = 0; !code && c < channels; c++) {

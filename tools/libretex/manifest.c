@@ -21,7 +21,7 @@ int retex_letters_are_valid(const char *letters)
 {
     const size_t length = strlen(letters);
 
-    if (length == 0 || length >= sizeof ((RetexPart *)0)->letters)
+    if (length == 0 || length >= sizeof((RetexPart *)0)->letters)
         return 0;
     for (const char *letter = letters; *letter; letter++)
         if (*letter < 'A' || *letter > 'Z' || strchr(letter + 1, *letter))
@@ -66,7 +66,7 @@ void retex_sample_part_names(const RetexSamples *samples, const RetexSet *set, R
         /* a target may be called anything, a part not */
         snprintf(target, sizeof target, "%s", samples->target_names[samples->footprint_target[i]]);
         for (char *letter = target; *letter; letter++)
-            if (!retex_name_is_valid((char[]){ *letter, 0 }))
+            if (!retex_name_is_valid((char[]){*letter, 0}))
                 *letter = '_';
         snprintf(name, RETEX_SAMPLE_NAME_MAX, "sample_%s_%d", target, samples->footprint_hit[i]);
         for (int again = 2; name_is_taken(name, set, parts, i); again++)
@@ -114,27 +114,19 @@ static json_t *write_target(const RetexSet *set, const RetexTarget *target, int 
 {
     const float *albedo = target->mean_albedo;
 
-    return json_pack("{s:o, s:o, s:[b, b], s:o, s:o, s:[o, o, o], s:o, s:o, s:o, s:o}",
-                     "name", text(target->name),
-                     "idents", text(target->idents),
-                     "periodic", target->periodic[0], target->periodic[1],
-                     "uv_min", pair(target->uv_min, finite),
-                     "uv_max", pair(target->uv_max, finite),
-                     "mean_albedo", real(albedo[0], finite), real(albedo[1], finite), real(albedo[2], finite),
-                     "original", part_name(set, target->original),
-                     "original_min", pair(target->original_min, finite),
-                     "original_max", pair(target->original_max, finite),
-                     "share", real(target->share, finite));
+    return json_pack("{s:o, s:o, s:[b, b], s:o, s:o, s:[o, o, o], s:o, s:o, s:o, s:o}", "name", text(target->name),
+                     "idents", text(target->idents), "periodic", target->periodic[0], target->periodic[1], "uv_min",
+                     pair(target->uv_min, finite), "uv_max", pair(target->uv_max, finite), "mean_albedo",
+                     real(albedo[0], finite), real(albedo[1], finite), real(albedo[2], finite), "original",
+                     part_name(set, target->original), "original_min", pair(target->original_min, finite),
+                     "original_max", pair(target->original_max, finite), "share", real(target->share, finite));
 }
 
 static json_t *write_footprint(const RetexSet *set, const RetexFootprint *footprint)
 {
-    return json_pack("{s:i, s:i, s:o, s:o, s:o}",
-                     "target", footprint->target,
-                     "hit", footprint->hit,
-                     "uv", part_name(set, footprint->uv),
-                     "spread", part_name(set, footprint->spread),
-                     "albedo", part_name(set, footprint->albedo));
+    return json_pack("{s:i, s:i, s:o, s:o, s:o}", "target", footprint->target, "hit", footprint->hit, "uv",
+                     part_name(set, footprint->uv), "spread", part_name(set, footprint->spread), "albedo",
+                     part_name(set, footprint->albedo));
 }
 
 static json_t *write_term(const RetexSet *set, const RetexTerm *term)
@@ -143,10 +135,8 @@ static json_t *write_term(const RetexSet *set, const RetexTerm *term)
 
     for (int i = 0; i < term->nfactors; i++)
         json_array_append_new(factors, json_integer(term->factors[i]));
-    return json_pack("{s:s, s:o, s:o}",
-                     "kind", retex_term_kinds[term->kind],
-                     "radiance", part_name(set, term->radiance),
-                     "factors", factors);
+    return json_pack("{s:s, s:o, s:o}", "kind", retex_term_kinds[term->kind], "radiance",
+                     part_name(set, term->radiance), "factors", factors);
 }
 
 static json_t *write_part(const char *name, const char *letters, RetexPixelType type, const RetexImage *image,
@@ -155,13 +145,9 @@ static json_t *write_part(const char *name, const char *letters, RetexPixelType 
     char hex[16];
 
     snprintf(hex, sizeof hex, "%08x", (unsigned)crc);
-    return json_pack("{s:s, s:s, s:s, s:i, s:i, s:s}",
-                     "name", name,
-                     "letters", letters,
-                     "type", type == RETEX_HALF ? "half" : "float",
-                     "width", image->width,
-                     "height", image->height,
-                     "crc32", hex);
+    return json_pack("{s:s, s:s, s:s, s:i, s:i, s:s}", "name", name, "letters", letters, "type",
+                     type == RETEX_HALF ? "half" : "float", "width", image->width, "height", image->height, "crc32",
+                     hex);
 }
 
 static void write_set(json_t *root, const RetexSet *set, int *finite)
@@ -202,9 +188,9 @@ static json_t *write_samples(const RetexSamples *samples, const RetexSamplePart 
         json_array_append_new(targets, json_pack("{s:o, s:o}", "name", text(samples->target_names[i]), "texture",
                                                  text(samples->textures[i])));
     for (int i = 0; i < samples->nimages; i++) {
-        json_t *part = parts[i].name[0] ? write_part(parts[i].name, "RGB", RETEX_FLOAT, &samples->images[i],
-                                                     parts[i].crc)
-                                        : json_null();
+        json_t *part = parts[i].name[0]
+                           ? write_part(parts[i].name, "RGB", RETEX_FLOAT, &samples->images[i], parts[i].crc)
+                           : json_null();
         json_array_append_new(images, json_pack("{s:i, s:i, s:o}", "target", samples->footprint_target[i], "hit",
                                                 samples->footprint_hit[i], "part", part));
     }
@@ -215,11 +201,11 @@ int retex_manifest_write(const RetexSet *set, const RetexSamples *samples, const
                          char **json, RetexError *err)
 {
     int finite = 1;
-    json_t *root = json_pack("{s:i, s:s, s:i, s:i}",
-                             "retex", RETEX_SET_VERSION,
-                             "kind", !samples ? "set" : !set ? "samples" : "stream",
-                             "width", set ? set->width : samples->width,
-                             "height", set ? set->height : samples->height);
+    json_t *root = json_pack("{s:i, s:s, s:i, s:i}", "retex", RETEX_SET_VERSION, "kind",
+                             !samples ? "set"
+                             : !set   ? "samples"
+                                      : "stream",
+                             "width", set ? set->width : samples->width, "height", set ? set->height : samples->height);
 
     *json = NULL;
     if (root && set)

@@ -228,8 +228,8 @@ static void read_terms(Reading *reading, const json_t *root, RetexSet *set)
     for (size_t i = 0; i < json_array_size(array) && !reading->status; i++) {
         const json_t *json = json_array_get(array, i);
         const json_t *factors = get_array(reading, json, "factors", RETEX_MAX_FACTORS);
-        RetexTerm term = { .radiance = get_part(reading, set, json, "radiance", 3, 0),
-                           .nfactors = (int)json_array_size(factors) };
+        RetexTerm term = {.radiance = get_part(reading, set, json, "radiance", 3, 0),
+                          .nfactors = (int)json_array_size(factors)};
         char kind[16] = "";
         int number = 0;
         get_text(reading, json, "kind", kind, sizeof kind);
@@ -292,7 +292,7 @@ static void read_sample_image(Reading *reading, const json_t *json, RetexSamples
                               RetexSamplePart *parts)
 {
     const json_t *json_part = json_object_get(json, "part");
-    RetexPart part = { .crc = 0 };
+    RetexPart part = {.crc = 0};
 
     samples->footprint_target[index] = get_integer(reading, json, "target", 0, samples->ntargets - 1);
     samples->footprint_hit[index] = get_integer(reading, json, "hit", 1, 1 << 20);
@@ -378,7 +378,7 @@ static void read_root(Reading *reading, const json_t *root, RetexSet **set, Rete
 int retex_manifest_read(const char *json, const char *name, RetexSet **set, RetexSamples **samples,
                         RetexSamplePart **sample_parts, RetexError *err)
 {
-    Reading reading = { name, err, 0 };
+    Reading reading = {name, err, 0};
     json_error_t where;
     json_t *root = json_loads(json, JSON_REJECT_DUPLICATES, &where);
 

@@ -22,13 +22,13 @@
 enum { BUFFER_BYTES = 1 << 18, NAME_ATTEMPTS = 100 };
 
 struct RetexOutput {
-    char shown[512];             /* the path as the user knows it, for messages */
-    char path[PATH_MAX];         /* what will be replaced; symbolic links resolved */
-    char folder[PATH_MAX];       /* of path, with the final '/', or "" for the current one */
+    char shown[512];                     /* the path as the user knows it, for messages */
+    char path[PATH_MAX];                 /* what will be replaced; symbolic links resolved */
+    char folder[PATH_MAX];               /* of path, with the final '/', or "" for the current one */
     char temporary[PATH_MAX + NAME_MAX]; /* hidden name, or "" while the file has none */
     int descriptor;
-    int direct;                  /* 1: no temporary file, straight to a device, pipe or standard output */
-    int borrowed;                /* 1: standard output, which is not ours to close */
+    int direct;   /* 1: no temporary file, straight to a device, pipe or standard output */
+    int borrowed; /* 1: standard output, which is not ours to close */
     size_t buffered;
     unsigned char *buffer;
 };
@@ -43,7 +43,7 @@ static void hidden_name(RetexOutput *output)
 {
     static atomic_uint counter;
     const char *base = output->path + strlen(output->folder);
-    struct timespec now = { 0, 0 };
+    struct timespec now = {0, 0};
 
     clock_gettime(CLOCK_REALTIME, &now);
     const unsigned salt = (unsigned)now.tv_nsec ^ (unsigned)getpid() << 10 ^ atomic_fetch_add(&counter, 1) << 24;

@@ -236,7 +236,7 @@ static void code_values(float value[256], const RetexPacked *packed)
     double range = log2(1 + packed->max / packed->scale);
     for (int i = 0; i < 256; i++)
         value[i] = (float)(packed->codec == RETEX_PACK_SRGB ? srgb_decode(i / 255.0)
-                                                             : packed->scale * (exp2(i / 255.0 * range) - 1));
+                                                            : packed->scale * (exp2(i / 255.0 * range) - 1));
 }
 
 static unsigned char code_of(double v, const RetexPacked *packed)

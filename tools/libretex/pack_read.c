@@ -27,8 +27,8 @@ typedef struct Item {
 
 typedef struct Reading {
     zip_t *zip;
-    size_t bytes;      /* of the whole pack */
-    zip_int64_t used;  /* entries that something referred to */
+    size_t bytes;     /* of the whole pack */
+    zip_int64_t used; /* entries that something referred to */
     RetexError *err;
 } Reading;
 
@@ -62,8 +62,8 @@ static int check_entries(const Reading *r)
         return bad(r, "it has too many entries");
     for (zip_int64_t i = 0; i < entries; i++) {
         zip_stat_t stat;
-        const zip_uint64_t wanted = ZIP_STAT_NAME | ZIP_STAT_SIZE | ZIP_STAT_COMP_SIZE | ZIP_STAT_COMP_METHOD |
-                                    ZIP_STAT_ENCRYPTION_METHOD;
+        const zip_uint64_t wanted =
+            ZIP_STAT_NAME | ZIP_STAT_SIZE | ZIP_STAT_COMP_SIZE | ZIP_STAT_COMP_METHOD | ZIP_STAT_ENCRYPTION_METHOD;
         if (zip_stat_index(r->zip, (zip_uint64_t)i, 0, &stat) || (stat.valid & wanted) != wanted)
             return bad(r, "an entry has no proper header");
         if (!name_is_ours(stat.name)) {
@@ -193,7 +193,7 @@ static int parse_pack(const Reading *r, Item *items, const RetexSet *set, const 
         items[i].part = &set->parts[i];
         memory += (uint64_t)im->width * (uint64_t)im->height * (uint64_t)im->channels * sizeof(float);
         code = memory > RETEX_EXR_MEMORY_MAX ? retex_fail(r->err, RETEX_ELIMIT, "the pack's images are too large")
-                                              : parse_item(r, &items[i], json_array_get(parts, (size_t)i));
+                                             : parse_item(r, &items[i], json_array_get(parts, (size_t)i));
     }
     json_decref(root);
     return code;
@@ -223,8 +223,8 @@ static int load_item(Reading *r, Item *item)
         code = load_blob(r, item, PACK_MASK, p->mask_bytes, item->mask_crc, &p->mask);
     if (!code) {
         RetexImage image = {0};
-        code = retex_image_alloc(&image, item->part->image.width, item->part->image.height,
-                                 item->part->image.channels, r->err);
+        code = retex_image_alloc(&image, item->part->image.width, item->part->image.height, item->part->image.channels,
+                                 r->err);
         item->part->image = image;
     }
     return code;

@@ -58,7 +58,7 @@ static void *worker_main(void *argument)
 
 void retex_parallel(int nthreads, int count, void (*job)(void *context, int index, int thread), void *context)
 {
-    Work work = { 0, count, job, context };
+    Work work = {0, count, job, context};
     Worker workers[MAX_THREADS];
     int started = 0;
 

@@ -58,7 +58,7 @@ static int make_room(void **array, int count, size_t element, int most, const ch
 int retex_set_add_part(RetexSet *set, const char *name, const char *letters, RetexPixelType type, int width, int height,
                        int *index, RetexError *err)
 {
-    RetexPart part = { .type = type };
+    RetexPart part = {.type = type};
     int status;
 
     if (!retex_name_is_valid(name))
@@ -191,8 +191,8 @@ int retex_samples_check(const RetexSamples *samples, const RetexSet *set, RetexE
             return retex_fail(err, RETEX_EINVAL, "the samples are for target %s where the set has %s",
                               samples->target_names[i], set->targets[i].name);
     if (samples->nimages != set->nfootprints)
-        return retex_fail(err, RETEX_EINVAL, "the samples have %d images for the set's %d footprints",
-                          samples->nimages, set->nfootprints);
+        return retex_fail(err, RETEX_EINVAL, "the samples have %d images for the set's %d footprints", samples->nimages,
+                          set->nfootprints);
     for (int i = 0; i < samples->nimages; i++) {
         const RetexImage *image = &samples->images[i];
         if (samples->footprint_target[i] != set->footprints[i].target ||

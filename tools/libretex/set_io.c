@@ -198,7 +198,7 @@ int retex_set_write(RetexSet *set, const RetexSamples *samples, const char *path
 {
     static const RetexStoreParams defaults = RETEX_STORE_INIT;
     RetexSamplePart *names = NULL;
-    RetexImage blank = { 0 };
+    RetexImage blank = {0};
     View view;
 
     int status = check_written(set, samples, err);
@@ -240,7 +240,7 @@ int retex_set_write_check(const char *path, RetexError *err)
 typedef struct Source {
     RetexInput *input;
     RetexExr *exr;
-    RetexSet *set;          /* described, without pixels; NULL where the file has none */
+    RetexSet *set; /* described, without pixels; NULL where the file has none */
     RetexSamples *samples;
     RetexSamplePart *names; /* of samples */
     RetexExrRequest *requests;
@@ -277,8 +277,8 @@ static int source_describe(Source *source, RetexError *err)
     status = retex_manifest_read(json, name, &source->set, &source->samples, &source->names, err);
     if (status)
         return status;
-    const size_t most = (size_t)(source->set ? source->set->nparts : 0) +
-                        (size_t)(source->samples ? source->samples->nimages : 0);
+    const size_t most =
+        (size_t)(source->set ? source->set->nparts : 0) + (size_t)(source->samples ? source->samples->nimages : 0);
     source->requests = calloc(most + 1, sizeof *source->requests);
     return source->requests ? 0 : retex_fail(err, RETEX_ENOMEM, "no memory to read %s", name);
 }
@@ -405,7 +405,7 @@ static int load_pack(RetexInput *input, const void **data, size_t *bytes, int *i
 
 int retex_set_read(const char *path, RetexSet **set, RetexSamples **samples, int nthreads, RetexError *err)
 {
-    Source source = { 0 };
+    Source source = {0};
     const void *data;
     size_t bytes;
     int is_pack;
@@ -441,8 +441,7 @@ static int compare_crcs(const Source *source, RetexError *err)
                               source->set->parts[i].name);
     for (int i = 0; source->samples && i < source->samples->nimages; i++)
         if (source->names[i].name[0] && source->requests[next++].crc != source->names[i].crc)
-            return retex_fail(err, RETEX_EFORMAT, "%s: the checksum of part %s is wrong", file,
-                              source->names[i].name);
+            return retex_fail(err, RETEX_EFORMAT, "%s: the checksum of part %s is wrong", file, source->names[i].name);
     return 0;
 }
 
@@ -468,7 +467,7 @@ static int check_exr(Source *source, int nthreads, RetexError *err)
 
 int retex_set_check(const char *path, int nthreads, RetexError *err)
 {
-    Source source = { 0 };
+    Source source = {0};
     const void *data;
     size_t bytes;
     int is_pack;
@@ -477,9 +476,9 @@ int retex_set_check(const char *path, int nthreads, RetexError *err)
     if (!status)
         status = load_pack(source.input, &data, &bytes, &is_pack, err);
     if (!status)
-        status = !is_pack ? check_exr(&source, nthreads, err)
-                          : retex_pack_name_error(retex_pack_check(data, bytes, err),
-                                                  retex_input_name(source.input), err);
+        status = !is_pack
+                     ? check_exr(&source, nthreads, err)
+                     : retex_pack_name_error(retex_pack_check(data, bytes, err), retex_input_name(source.input), err);
     source_close(&source);
     return status;
 }
