@@ -1,8 +1,8 @@
 /* A light path's throughput as a polynomial in the textures it met.
  *
- * Each hit j of a target multiplies the path by d_j a_j + i_j. Multiplied out, the path is a sum over the subsets S of its
- * hits of c_S * product over j in S of a_j (method: supplement 4.3, for any number of hits and targets). Only subsets that
- * are not zero are kept: a path over diffuse targets has one. */
+ * Each hit j of a target multiplies the path by d_j a_j + i_j. Multiplied out, the path is a sum over the subsets S
+ * of its hits of c_S * product over j in S of a_j (method: supplement 4.3, for any number of hits and targets). Only
+ * subsets that are not zero are kept: a path over diffuse targets has one. */
 #ifndef RENDERER_FILM_EXPANSION_H
 #define RENDERER_FILM_EXPANSION_H
 
@@ -44,8 +44,8 @@ static inline void expansion_reset(Expansion *e)
 }
 
 void expansion_copy(Expansion *to, const Expansion *from); /* only what is in use */
-/* Is there room for one more hit of a target, with so many orders? Eight hits in all leave light between several targets
- * enough terms: with two white ones the light beyond six would show. */
+/* Is there room for one more hit of a target, with so many orders? Eight hits in all leave light between several
+ * targets enough terms: with two white ones the light beyond six would show. */
 static inline int expansion_has_room(const Expansion *e, int target, int orders)
 {
     return e->nhits < RETEX_MAX_FACTORS && e->per_target[target] < orders;

@@ -1,9 +1,9 @@
-/* Layout `paper`: per hit count the dependent and independent radiance, cross terms of two and three hits, and per target
- * and hit index the UV statistics, unweighted over all connections (supplement 2, 4.2, 4.3). With several targets the
- * dependent radiance is kept by the number of factors of each target.
+/* Layout `paper`: per hit count the dependent and independent radiance, cross terms of two and three hits, and per
+ * target and hit index the UV statistics, unweighted over all connections (supplement 2, 4.2, 4.3). With several
+ * targets the dependent radiance is kept by the number of factors of each target.
  *
- * Terms come into being when a path first needs them; with one target all 21 exist from the start, which with the 12 UV
- * images make the paper's 33. */
+ * Terms come into being when a path first needs them; with one target all 21 exist from the start, which with the 12
+ * UV images make the paper's 33. */
 #include <pthread.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -23,9 +23,9 @@ void film_close(Film **film);
 int film_pixel_create(FilmPixel **pixel, Film *film, RetexError *err);
 void film_pixel_close(FilmPixel **pixel);
 
-/* Light that arrived: beauty is its whole contribution. With a split film, outside is the part of the throughput that no
- * recorded target hit made, times the light, and expansion holds the hits; folded: hits beyond the order kept their
- * albedo. Samples that are not finite are counted and dropped. */
+/* Light that arrived: beauty is its whole contribution. With a split film, outside is the part of the throughput that
+ * no recorded target hit made, times the light, and expansion holds the hits; folded: hits beyond the order kept
+ * their albedo. Samples that are not finite are counted and dropped. */
 void film_connect(FilmPixel *pixel, Rgb beauty, Rgb outside, const Expansion *expansion, int folded);
 /* A path ends: hits of targets that connected enter the footprints, each once for every connection behind it. */
 void film_path_end(FilmPixel *pixel);

@@ -117,7 +117,8 @@ float *terms_pixel(TermTable *table, int term, int x, int y)
     return image->pixels + retex_image_index(image, x, y);
 }
 
-/* Number of the cross term of one target in the supplement's order (4.3): sorted by its first factor, longer ones first. */
+/* Number of the cross term of one target in the supplement's order (4.3): sorted by its first factor, longer ones
+ * first. */
 static int supplement_number(int nhits, HitMask m)
 {
     static const int three[8] = {0, 3, 5, 1, 6, 2, 4, 0};

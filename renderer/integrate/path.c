@@ -1,8 +1,8 @@
-/* The path tracer: next-event estimation of one light at every vertex, multiple importance sampling with the BSDF, Russian
- * roulette on a throughput that knows no texture.
+/* The path tracer: next-event estimation of one light at every vertex, multiple importance sampling with the BSDF,
+ * Russian roulette on a throughput that knows no texture.
  *
- * A path carries its throughput twice: `beta` is the whole of it, `outside` leaves out the target hits that `expansion`
- * holds as factors. Light that arrives goes to the film both ways. */
+ * A path carries its throughput twice: `beta` is the whole of it, `outside` leaves out the target hits that
+ * `expansion` holds as factors. Light that arrives goes to the film both ways. */
 #include "integrate/path.h"
 
 #define ROULETTE_START 4 /* segments before Russian roulette begins */
@@ -124,8 +124,8 @@ static const Interior *fading_interior(const Surface *surface)
     return in && in->fade_power > 0 && in->fade_distance > 0 ? in : NULL;
 }
 
-/* POV-Ray's fading of light that went a distance and met a surface, or NULL. Leaving what was never entered: the camera or
- * a light stands in it. */
+/* POV-Ray's fading of light that went a distance and met a surface, or NULL. Leaving what was never entered: the
+ * camera or a light stands in it. */
 static Rgb media_fade(const Media *media, double distance, const Surface *met)
 {
     Rgb fade = rgb_grey(1);
@@ -179,8 +179,8 @@ static void shading_straight(Shading *s, const Scene *scene, const Ray *ray, Sur
     bsdf_setup(&s->bsdf, &s->surface, vec_neg(ray->direction), s->filter, s->transmit);
 }
 
-/* Follow a shadow ray: what the way does to the light goes into *light and, where targets do it, into factors. Returns how
- * many of these there are, or -1 where the way is blocked. */
+/* Follow a shadow ray: what the way does to the light goes into *light and, where targets do it, into factors.
+ * Returns how many of these there are, or -1 where the way is blocked. */
 static int trace_shadow(PathWorker *w, Ray ray, int light_source, Media *media, Rgb *light, Factor *factors, int room)
 {
     const PathContext *c = w->context;

@@ -15,7 +15,7 @@ typedef struct PathContext {
     const Lights *lights;
     int max_depth, orders;
     int split;            /* keep target hits apart */
-    int has_no_shadow;    /* some primitive throws no shadow: shadow rays and paths are not blocked by the same things */
+    int has_no_shadow;    /* some primitive throws no shadow: what blocks shadow rays and paths is not the same */
     FILE *trace;          /* say what happens, or NULL */
 } PathContext;
 

@@ -9,7 +9,7 @@
 enum {
     AOV_DEPTH = 1,    /* R: distance along the ray, scene units; inf where nothing is hit */
     AOV_ALBEDO = 2,   /* RGB: the pigment's colour, scene-linear */
-    AOV_NORMAL = 4,   /* RGB: x, y, z of the unit shading normal on the camera's side, world space; 0 where nothing is */
+    AOV_NORMAL = 4,   /* RGB: x, y, z of the unit shading normal, camera's side, world space; 0 where nothing is */
     AOV_POSITION = 8, /* RGB: world space */
     AOV_UV = 16,      /* RGA: u, v that a replacement texture would be looked up at, and 1 where something is hit */
     AOV_OBJECT = 32   /* R: number of the primitive from 1, 0 where nothing is hit */
@@ -23,8 +23,8 @@ typedef struct RenderParams {
     int spp;                 /* samples a pixel, 1..2^20; default 64 */
     uint32_t seed;           /* default 0 */
     int max_depth;           /* segments of a path, 1..256, camera and shadow rays included; default 16 */
-    int gaussian;            /* pixel filter: 0 box of one pixel (default), 1 Gaussian of standard deviation 0.5 pixel */
-    int orders;              /* highest number of hits of each target kept, 1..6; default 6; at most 8 of all together */
+    int gaussian;            /* pixel filter: 0 box of one pixel (default), 1 Gaussian of sigma 0.5 pixel */
+    int orders;              /* most hits of each target kept, 1..6; default 6; at most 8 of all together */
     int strict_paper;        /* drop mixed terms of four and more hits, as the supplement does; default 0 */
     int plain;               /* beauty only, no set; default 0 */
     unsigned aovs;           /* AOV_… bits */
@@ -40,8 +40,8 @@ typedef struct RenderStats {
     long lights, primitives, triangles;
 } RenderStats;
 
-/* Render into a new set. With plain, or without targets, the set has the beauty and the AOVs only. The picture is the same
- * to the bit for every nthreads. */
+/* Render into a new set. With plain, or without targets, the set has the beauty and the AOVs only. The picture is the
+ * same to the bit for every nthreads. */
 int render_scene(RetexSet **set, const Scene *scene, const RenderParams *params, RenderStats *stats, RetexError *err);
 
 /* Share of the picture (0..1) that each of scene->idents covers at the centres of pixels; shares has scene->nidents. */

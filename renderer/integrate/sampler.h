@@ -1,8 +1,8 @@
-/* Sample numbers: Owen-scrambled Sobol' points, keyed by seed, pixel, sample and dimension alone, so that a picture is
- * the same to the bit whatever thread renders which pixel.
+/* Sample numbers: Owen-scrambled Sobol' points, keyed by seed, pixel, sample and dimension alone, so that a picture
+ * is the same to the bit whatever thread renders which pixel.
  *
- * Dimensions are taken in pairs; every pair is the first two Sobol' dimensions, with its own Owen scrambling and its own
- * shuffled order of the samples (Burley, 'Practical hash-based Owen scrambling', JCGT 2020). */
+ * Dimensions are taken in pairs; every pair is the first two Sobol' dimensions, with its own Owen scrambling and its
+ * own shuffled order of the samples (Burley, 'Practical hash-based Owen scrambling', JCGT 2020). */
 #ifndef RENDERER_INTEGRATE_SAMPLER_H
 #define RENDERER_INTEGRATE_SAMPLER_H
 
@@ -30,7 +30,10 @@ static inline uint32_t hash_mix(uint32_t x)
     return x;
 }
 
-static inline uint32_t hash_pair(uint32_t a, uint32_t b) { return hash_mix(a ^ (hash_mix(b) + 0x9e3779b9u + (a << 6) + (a >> 2))); }
+static inline uint32_t hash_pair(uint32_t a, uint32_t b)
+{
+    return hash_mix(a ^ (hash_mix(b) + 0x9e3779b9u + (a << 6) + (a >> 2)));
+}
 
 static inline uint32_t reverse_bits(uint32_t x)
 {
@@ -41,7 +44,8 @@ static inline uint32_t reverse_bits(uint32_t x)
     return ((x & 0x55555555u) << 1) | ((x & 0xaaaaaaaau) >> 1);
 }
 
-/* Laine-Karras style permutation of reversed bits with the constants found by Vegdahl (2021): low bits affect high ones. */
+/* Laine-Karras style permutation of reversed bits with the constants found by Vegdahl (2021): low bits affect high
+ * ones. */
 static inline uint32_t owen_reversed(uint32_t x, uint32_t seed)
 {
     x ^= x * 0x3d20adeau;
@@ -52,8 +56,9 @@ static inline uint32_t owen_reversed(uint32_t x, uint32_t seed)
     return x;
 }
 
-/* Second Sobol' dimension, bits from the lowest: multiplication by the Pascal matrix mod 2. C(k, j) is odd where the bits
- * of j are among those of k (Lucas), so it is a sum over supersets of bits, taken one bit of the position at a time. */
+/* Second Sobol' dimension, bits from the lowest: multiplication by the Pascal matrix mod 2. C(k, j) is odd where the
+ * bits of j are among those of k (Lucas), so it is a sum over supersets of bits, taken one bit of the position at a
+ * time. */
 static inline uint32_t sobol_second(uint32_t index)
 {
     index ^= index >> 1 & 0x55555555u;

@@ -245,7 +245,8 @@ static int pick(const Lights *lights, Vec3 position, float u, float *probability
     return k;
 }
 
-/* Uniform in the cone in which a sphere is seen from outside. The sample's surface lies where that direction meets it. */
+/* Uniform in the cone in which a sphere is seen from outside. The sample's surface lies where that direction meets
+ * it. */
 static int sample_sphere_cone(const Entry *e, const Scene *scene, Vec3 position, float u1, float u2,
                               LightSample *sample)
 {

@@ -29,11 +29,12 @@ int lights_create(Lights **lights, const Scene *scene, RetexError *err);
 void lights_close(Lights **lights);
 int lights_count(const Lights *lights);
 
-/* Sample light for a point: u_pick chooses the light (and is stretched for the choice of its part), u1 and u2 the point on
- * it. Returns 0 where no light reaches the point. */
-int lights_sample(const Lights *lights, Vec3 position, float u_pick, float u_part, float u1, float u2, LightSample *sample);
-/* Density, with the probability of picking that light, with which lights_sample finds a direction that hit an emitter or
- * went to the sky: for multiple importance sampling. */
+/* Sample light for a point: u_pick chooses the light (and is stretched for the choice of its part), u1 and u2 the
+ * point on it. Returns 0 where no light reaches the point. */
+int lights_sample(const Lights *lights, Vec3 position, float u_pick, float u_part, float u1, float u2,
+                  LightSample *sample);
+/* Density, with the probability of picking that light, with which lights_sample finds a direction that hit an emitter
+ * or went to the sky: for multiple importance sampling. */
 float lights_emitter_pdf(const Lights *lights, Vec3 from, int primitive, const Surface *surface);
 float lights_sky_pdf(const Lights *lights, Vec3 from, Vec3 direction);
 
@@ -42,13 +43,14 @@ Rgb sky_radiance(const Scene *scene, Vec3 direction);
 
 /* environment.c: importance table of the sky */
 typedef struct Environment Environment;
-int environment_create(Environment **environment, const Scene *scene, RetexError *err); /* NULL where the sky is black */
+/* *environment is NULL where the sky is black. */
+int environment_create(Environment **environment, const Scene *scene, RetexError *err);
 void environment_close(Environment **environment);
 Vec3 environment_sample(const Environment *environment, float u1, float u2, float *pdf);
 float environment_pdf(const Environment *environment, Vec3 direction);
 float environment_mean(const Environment *environment); /* mean luminance over the sphere */
 
-/* source.c: one of POV-Ray's light sources seen from a point: direction, distance and irradiance on a facing surface. */
+/* source.c: one of POV-Ray's light sources seen from a point: direction, distance, irradiance on a facing surface. */
 Rgb source_irradiance(const Light *light, Vec3 position, Vec3 light_point, Vec3 *direction, double *distance);
 Vec3 source_point(const Light *light, Vec3 position, float u1, float u2);
 

@@ -12,7 +12,8 @@ static Light *light_new(Sdl *sdl)
     return light;
 }
 
-/* Of two kinds that are both written POV-Ray takes, in either order, cylinder over parallel and parallel over spotlight. */
+/* Of two kinds that are both written POV-Ray takes, in either order, cylinder over parallel and parallel over
+ * spotlight. */
 static void set_kind(Light *light, LightKind kind)
 {
     if ((kind == LIGHT_PARALLEL && light->kind == LIGHT_CYLINDER) ||

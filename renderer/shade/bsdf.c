@@ -20,7 +20,8 @@ static float power5(float x)
     return x * x * x * x * x;
 }
 
-/* Fresnel term of the microfacet lobe at a half vector: supplement 4.1.2 with the base's share that transmits mixed in. */
+/* Fresnel term of the microfacet lobe at a half vector: supplement 4.1.2 with the base's share that transmits mixed
+ * in. */
 static Split microfacet_fresnel(const Bsdf *b, float cos_h)
 {
     if (!b->disney)

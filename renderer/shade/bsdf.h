@@ -6,9 +6,9 @@
  * transmission, and straight passage through a surface that does not refract. Directions point away from the surface;
  * wo is where the path came from. Cosines are about the shading normal.
  *
- * Choices among lobes never look at a texture: they take NEUTRAL_ALBEDO in its place, so that a set, a plain render and a
- * render with replaced textures trace the same paths. Opacity (filter, transmit, image alpha) counts as geometry and is
- * looked at. */
+ * Choices among lobes never look at a texture: they take NEUTRAL_ALBEDO in its place, so that a set, a plain render
+ * and a render with replaced textures trace the same paths. Opacity (filter, transmit, image alpha) counts as
+ * geometry and is looked at. */
 #ifndef RENDERER_SHADE_BSDF_H
 #define RENDERER_SHADE_BSDF_H
 

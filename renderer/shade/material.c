@@ -1,5 +1,5 @@
-/* From a finish to a BSDF: what POV-Ray's keywords mean to a path tracer. Described for users in retex-scene(5), section
- * FINISH AND PHYSICS; keep the two in step. */
+/* From a finish to a BSDF: what POV-Ray's keywords mean to a path tracer. Described for users in retex-scene(5),
+ * section FINISH AND PHYSICS; keep the two in step. */
 #include "shade/bsdf.h"
 #include "shade/microfacet.h"
 #include "shade/pigment.h"

@@ -1,5 +1,6 @@
-/* GGX (Trowbridge-Reitz) microfacets in the shading frame, normal along z: distribution, Smith masking, visible normals.
- * Sources: Walter et al. 2007 (distribution, transmission), Heitz 2014 (height-correlated masking), Heitz 2018 (sampling). */
+/* GGX (Trowbridge-Reitz) microfacets in the shading frame, normal along z: distribution, Smith masking, visible
+ * normals. Sources: Walter et al. 2007 (distribution, transmission), Heitz 2014 (height-correlated masking), Heitz
+ * 2018 (sampling). */
 #ifndef RENDERER_SHADE_MICROFACET_H
 #define RENDERER_SHADE_MICROFACET_H
 
@@ -20,7 +21,10 @@ static inline double ggx_lambda(Vec3 w, double alpha)
 }
 
 static inline double ggx_g1(Vec3 w, double alpha) { return 1 / (1 + ggx_lambda(w, alpha)); }
-static inline double ggx_g2(Vec3 a, Vec3 b, double alpha) { return 1 / (1 + ggx_lambda(a, alpha) + ggx_lambda(b, alpha)); }
+static inline double ggx_g2(Vec3 a, Vec3 b, double alpha)
+{
+    return 1 / (1 + ggx_lambda(a, alpha) + ggx_lambda(b, alpha));
+}
 
 /* A normal seen from wo (wo.z > 0), with density ggx_visible_pdf. */
 static inline Vec3 ggx_sample_visible(Vec3 wo, double alpha, double u1, double u2)

@@ -1,5 +1,5 @@
-/* The scenes' textures, as functions of (u, v). Every one is periodic in both with period 1 (the pictures excepted), u to
- * the right, v up, and depends on nothing but its arguments, so that the files come out the same each time. */
+/* The scenes' textures, as functions of (u, v). Every one is periodic in both with period 1 (the pictures excepted),
+ * u to the right, v up, and depends on nothing but its arguments, so that the files come out the same each time. */
 #ifndef SCENES_GENERATE_H
 #define SCENES_GENERATE_H
 

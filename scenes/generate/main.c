@@ -1,5 +1,5 @@
-/* generate-textures DIRECTORY [WORD]: write the textures of all scenes below DIRECTORY (the scenes' own folder, to make the
- * committed files anew); with WORD only those whose path holds it. */
+/* generate-textures DIRECTORY [WORD]: write the textures of all scenes below DIRECTORY (the scenes' own folder, to
+ * make the committed files anew); with WORD only those whose path holds it. */
 #include <stdio.h>
 #include <string.h>
 #include <retex/image.h>

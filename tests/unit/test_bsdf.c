@@ -1,5 +1,5 @@
-/* The split BSDF against what must hold: sampling matches evaluation, densities add up to one, energy is kept, the split
- * adds up, smooth dielectrics give Fresnel's reflectance, and no choice depends on the albedo. */
+/* The split BSDF against what must hold: sampling matches evaluation, densities add up to one, energy is kept, the
+ * split adds up, smooth dielectrics give Fresnel's reflectance, and no choice depends on the albedo. */
 #include <stdarg.h>
 #include <stddef.h>
 #include <setjmp.h>
@@ -191,7 +191,8 @@ static void refraction_bends_by_snell(void **state)
 
 static void supplement_split(void **state)
 {
-    (void)state; /* Eq. 1 put together from F_dep and F_indep, for several albedos */
+    (void)state;
+    /* Eq. 1 put together from F_dep and F_indep, for several albedos */
     Case c;
     case_begin(&c, 0);
     c.finish.retex.present = 1;
@@ -232,8 +233,8 @@ static void cutouts_pass_straight(void **state)
 
 static void holes_have_no_coat(void **state)
 {
-    (void)
-        state; /* where an image cuts holes, the extension's finish reflects as much less, rough or smooth, and passes the rest */
+    (void)state;
+    /* where an image cuts holes, the extension's finish reflects as much less and passes the rest */
     for (int smooth = 0; smooth < 2; smooth++) {
         Case c;
         case_begin(&c, 0);
@@ -248,8 +249,8 @@ static void holes_have_no_coat(void **state)
 
 static void tint_of_metals_wears_off(void **state)
 {
-    (void)
-        state; /* POV-Ray's curve: all of the tint head-on, none at grazing angles; nothing is won or lost for white */
+    (void)state;
+    /* POV-Ray's curve: all of the tint head-on, none at grazing angles; nothing is won or lost for white */
     Split s = {{0.6f, 0.6f, 0.6f}, {0.2f, 0.2f, 0.2f}};
     Split front = metallic_tint(s, 1), grazing = metallic_tint(s, 0), between = metallic_tint(s, 0.3f);
     close_to(front.d.r, 0.6, 1e-4, "head-on");
@@ -276,7 +277,8 @@ static void highlights_sample_as_they_evaluate(void **state)
 
 static void frosted_air_is_clear(void **state)
 {
-    (void)state; /* rough, but with no change of index there is nothing to bend light */
+    (void)state;
+    /* rough, but with no change of index there is nothing to bend light */
     Case c;
     case_begin(&c, 0);
     c.finish.retex.present = 1, c.finish.retex.roughness = 0.5, c.finish.retex.ior = 1, c.finish.retex.transmission = 1;
@@ -286,7 +288,8 @@ static void frosted_air_is_clear(void **state)
 
 static void edges_of_smooth_meshes_are_not_black(void **state)
 {
-    (void)state; /* what a tilted normal would send to the wrong side of the surface is mirrored by the surface's own */
+    (void)state;
+    /* what a tilted normal would send to the wrong side of the surface is mirrored by the surface's own */
     for (int glass = 0; glass < 2; glass++)
         for (double theta = glass ? 0.995 : 1.2; theta < (glass ? 1.02 : 1.36); theta += 0.01) {
             Case c;
@@ -308,7 +311,8 @@ static void edges_of_smooth_meshes_are_not_black(void **state)
 
 static void povray_highlight_peak(void **state)
 {
-    (void)state; /* specular 0.5 under a unit light head-on adds 0.5 to the reflected radiance */
+    (void)state;
+    /* specular 0.5 under a unit light head-on adds 0.5 to the reflected radiance */
     Case c;
     case_begin(&c, 0);
     c.finish.specular = 0.5, c.finish.roughness = 0.01;

@@ -93,7 +93,8 @@ static Transform at(double x, double y, double z, double scale)
 
 static void furnace_is_invisible(void **state)
 {
-    (void)state; /* a white sphere under a white sky vanishes, diffuse or glass */
+    (void)state;
+    /* a white sphere under a white sky vanishes, diffuse or glass */
     for (int glass = 0; glass < 2; glass++) {
         Stage s;
         stage_open(&s);
@@ -122,7 +123,8 @@ static void furnace_is_invisible(void **state)
 
 static void point_light_over_a_plane(void **state)
 {
-    (void)state; /* L = albedo * colour * cos: no 1/pi, no falloff, as POV-Ray has it; exact, per pixel */
+    (void)state;
+    /* L = albedo * colour * cos: no 1/pi, no falloff, as POV-Ray has it; exact, per pixel */
     Stage s;
     stage_open(&s);
     s.scene->camera = (Camera){CAMERA_ORTHOGRAPHIC, {0, 5, 0}, {0, -1, 0}, {4, 0, 0}, {0, 0, 3}};
@@ -144,7 +146,8 @@ static void point_light_over_a_plane(void **state)
 
 static void sphere_emitter_irradiance(void **state)
 {
-    (void)state; /* a sphere of radius r at height h, radiance L: E = pi L (r/h)^2 straight below it */
+    (void)state;
+    /* a sphere of radius r at height h, radiance L: E = pi L (r/h)^2 straight below it */
     Stage s;
     stage_open(&s);
     s.scene->camera = (Camera){CAMERA_ORTHOGRAPHIC, {0, 1, 0}, {0, -1, 0}, {0.02, 0, 0}, {0, 0, 0.015}};
@@ -163,7 +166,8 @@ static void sphere_emitter_irradiance(void **state)
 
 static void slab_reflects_by_fresnel(void **state)
 {
-    (void)state; /* a glass plane over a black ground under a sky of 1: head-on 0.04 */
+    (void)state;
+    /* a glass plane over a black ground under a sky of 1: head-on 0.04 */
     Stage s;
     stage_open(&s);
     s.scene->camera = (Camera){CAMERA_ORTHOGRAPHIC, {0, 5, 0}, {0, -1, 0}, {4, 0, 0}, {0, 0, 3}};
@@ -233,7 +237,8 @@ static void compare(const RetexImage *a, const RetexImage *b, double tolerance, 
 
 static void set_recombines(void **state)
 {
-    (void)state; /* constant originals: the polynomial is the picture; other constants: it is the other picture */
+    (void)state;
+    /* constant originals: the polynomial is the picture; other constants: it is the other picture */
     Stage s;
     target_stage(&s);
     s.max_depth = RETEX_MAX_ORDERS + 1; /* no path has more hits than the set has orders: nothing is folded */
@@ -273,8 +278,8 @@ static void set_recombines(void **state)
 
 static void the_inside_is_another_surface(void **state)
 {
-    (void)
-        state; /* the target is the sphere's outer texture; a camera in the sphere sees the inner one, with its own emission */
+    (void)state;
+    /* the target is the sphere's outer texture; a camera in the sphere sees the inner one and its emission */
     Stage s;
     stage_open(&s);
     stage_add(&s, SHAPE_SPHERE, at(0, 0, -5, 1), 1, 0, 0);

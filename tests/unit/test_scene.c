@@ -591,7 +591,8 @@ static void test_light_kinds_written_twice(void **state)
 
 static void test_names_of_insides(void **state)
 {
-    (void)state; /* a texture that is used inside only can be a target too */
+    (void)state;
+    /* a texture that is used inside only can be a target too */
     Scene *scene =
         parse(V37 "#declare Lining = texture{pigment{rgb 1}} sphere{0,1 pigment{rgb 0} interior_texture{Lining}}");
     const char *specs[] = {"Lining"};

@@ -59,8 +59,8 @@ class Reader
     throw Failure(RETEX_EFORMAT, "cannot read: the file is truncated");
 }
 
-// From behind the start-of-image marker to the end-of-image marker. Data that is not made of markers is left to libjpeg,
-// which says so.
+// From behind the start-of-image marker to the end-of-image marker. Data that is not made of markers is left to
+// libjpeg, which says so.
 void check_jpeg(Reader &in)
 {
     enum { Stuffed = 0x00, Temporary = 0x01, Restart = 0xd0, RestartEnd = 0xd8, End = 0xd9, Scan = 0xda };

@@ -58,13 +58,13 @@ typedef struct RetexFootprint {
     int uv;                  /* part "RGA": mean u, mean v, and coverage (share of samples with a connection; 0 = this
                                 pixel has no such footprint and u, v mean nothing). float */
     int spread;              /* part "RG": standard deviation of u and of v. half */
-    int albedo;              /* part "RGB": mean original albedo, weighted per channel by the light it multiplies. half */
+    int albedo;              /* part "RGB": mean original albedo, weighted by the light it multiplies. half */
 } RetexFootprint;
 
 typedef enum RetexTermKind {
     RETEX_TERM_FULL,   /* paths that met no target */
     RETEX_TERM_INDEP,  /* no factor: every hit took its albedo-independent part */
-    RETEX_TERM_DEP,    /* every hit (of up to three) took its albedo-dependent part; with more hits also the mixed terms */
+    RETEX_TERM_DEP,    /* every hit (of up to three) took its albedo-dependent part; of more hits also mixed terms */
     RETEX_TERM_CROSS2, /* cross terms of paths with two hits, supplement 4.3 */
     RETEX_TERM_CROSS3  /* cross terms of paths with three hits */
 } RetexTermKind;
@@ -115,7 +115,8 @@ int retex_set_add_part(RetexSet *set, const char *name, const char *letters, Ret
 int retex_set_add_footprint(RetexSet *set, const RetexFootprint *footprint, int *index, RetexError *err);
 int retex_set_add_term(RetexSet *set, const RetexTerm *term, int *index, RetexError *err);
 int retex_set_find_part(const RetexSet *set, const char *name);     /* index or -1 */
-int retex_set_find_target(const RetexSet *set, const char *name);   /* exactly, else ignoring case where unique; or -1 */
+/* Exactly, else ignoring case where that is unique; or -1. */
+int retex_set_find_target(const RetexSet *set, const char *name);
 
 void retex_samples_close(RetexSamples **samples);
 /* Check that samples were made for this set (size, targets, footprints). */
