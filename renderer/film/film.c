@@ -390,6 +390,7 @@ int film_finish(Film *film, RetexSet *set, RetexError *err)
     set->parts[0].image = film->beauty;
     film->beauty = (RetexImage){0};
     set->ntargets = 0;
+    retex_set_identify(set);
     if (!film->params.split)
         return RETEX_OK;
     set->orders = film->params.orders;

@@ -96,6 +96,7 @@ static void expect_equal_sets(const RetexSet *a, const RetexSet *b)
 {
     assert_true(a->width == b->width && a->height == b->height && a->orders == b->orders && a->spp == b->spp);
     assert_true(a->max_depth == b->max_depth && a->seed == b->seed && a->strict_paper == b->strict_paper);
+    assert_int_equal(a->id, b->id);
     assert_true(a->folded == b->folded);
     assert_string_equal(a->layout, b->layout);
     assert_string_equal(a->filter, b->filter);
@@ -153,6 +154,8 @@ static void test_set_there_and_back(void **state)
         params.compress = compress;
         params.nthreads = 3;
         set->seed = 4000000000u;
+        retex_set_identify(set);
+        assert_int_not_equal(set->id, 0);
         set->folded = 1.0 / 3;
         strcpy(set->scene, "k\xc3\xbc"
                            "che.pov");
@@ -283,6 +286,13 @@ static void test_samples_of_another_set(void **state)
     RetexSamples *samples = make_samples(set, 1);
     RetexError err = {0};
     assert_int_equal(retex_samples_check(samples, other, &err), RETEX_EINVAL);
+    other->height = 16; /* the same shape, but another render */
+    samples->set_id = 7, other->id = 8;
+    assert_int_equal(retex_samples_check(samples, other, &err), RETEX_EINVAL);
+    assert_non_null(strstr(err.message, "another render"));
+    other->id = 7;
+    test_must(retex_samples_check(samples, other, &err), &err);
+    other->height = 17;
     assert_int_equal(retex_samples_check(samples, set, &err), 0);
     strcpy(samples->target_names[0], "Ceiling");
     assert_int_equal(retex_samples_check(samples, set, &err), RETEX_EINVAL);

@@ -150,6 +150,14 @@ static json_t *write_part(const char *name, const char *letters, RetexPixelType 
                      hex);
 }
 
+static json_t *identity(uint32_t id)
+{
+    char hex[16];
+
+    snprintf(hex, sizeof hex, "%08x", (unsigned)id);
+    return json_string(hex);
+}
+
 static void write_set(json_t *root, const RetexSet *set, int *finite)
 {
     json_t *targets = json_array(), *footprints = json_array(), *terms = json_array(), *parts = json_array();
@@ -172,6 +180,7 @@ static void write_set(json_t *root, const RetexSet *set, int *finite)
     json_object_set_new(root, "spp", json_integer(set->spp));
     json_object_set_new(root, "max_depth", json_integer(set->max_depth));
     json_object_set_new(root, "seed", json_integer(set->seed));
+    json_object_set_new(root, "id", identity(set->id));
     json_object_set_new(root, "folded", real(set->folded, finite));
     json_object_set_new(root, "strict_paper", json_boolean(set->strict_paper));
     json_object_set_new(root, "targets", targets);
@@ -194,7 +203,7 @@ static json_t *write_samples(const RetexSamples *samples, const RetexSamplePart 
         json_array_append_new(images, json_pack("{s:i, s:i, s:o}", "target", samples->footprint_target[i], "hit",
                                                 samples->footprint_hit[i], "part", part));
     }
-    return json_pack("{s:o, s:o}", "targets", targets, "images", images);
+    return json_pack("{s:o, s:o, s:o}", "set_id", identity(samples->set_id), "targets", targets, "images", images);
 }
 
 int retex_manifest_write(const RetexSet *set, const RetexSamples *samples, const RetexSamplePart *sample_parts,

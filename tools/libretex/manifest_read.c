@@ -254,6 +254,18 @@ static void read_terms(Reading *reading, const json_t *root, RetexSet *set)
     }
 }
 
+/* Eight hexadecimal digits. */
+static uint32_t get_identity(Reading *reading, const json_t *json, const char *key)
+{
+    char hex[16], *end;
+
+    get_text(reading, json, key, hex, sizeof hex);
+    unsigned long id = strtoul(hex, &end, 16);
+    if (!reading->status && (end != hex + 8 || *end))
+        bad(reading, RETEX_EFORMAT, "has no \"%s\" of eight hexadecimal digits", key);
+    return (uint32_t)id;
+}
+
 static void read_set(Reading *reading, const json_t *root, int width, int height, RetexSet **result)
 {
     RetexSet *set = calloc(1, sizeof *set);
@@ -276,6 +288,7 @@ static void read_set(Reading *reading, const json_t *root, int width, int height
     if (!json_is_integer(seed) || json_integer_value(seed) < 0 || json_integer_value(seed) > UINT32_MAX)
         bad(reading, RETEX_EFORMAT, "has no integer \"seed\" of 32 bits");
     set->seed = (uint32_t)json_integer_value(seed);
+    set->id = get_identity(reading, root, "id");
     set->folded = get_real(reading, json_object_get(root, "folded"), "folded");
     set->strict_paper = get_boolean(reading, json_object_get(root, "strict_paper"), "strict_paper");
     if (!reading->status)
@@ -329,6 +342,7 @@ static void read_samples(Reading *reading, const json_t *json, int width, int he
     }
     samples->width = width;
     samples->height = height;
+    samples->set_id = get_identity(reading, json, "set_id");
     samples->ntargets = (int)json_array_size(targets);
     for (int i = 0; i < samples->ntargets; i++) {
         const json_t *target = json_array_get(targets, (size_t)i);

@@ -167,6 +167,7 @@ static int create_samples(SampleWork *work, RetexError *err)
     samples->height = set->height;
     samples->nimages = set->nfootprints;
     samples->ntargets = set->ntargets;
+    samples->set_id = set->id;
     for (int i = 0; i < set->ntargets; i++)
         memcpy(samples->target_names[i], set->targets[i].name, sizeof samples->target_names[i]);
     for (int i = 0; i < work->nspecs; i++)

@@ -4,6 +4,7 @@
 #include <strings.h>
 
 #include <retex/set.h>
+#include <zlib.h>
 
 #include "manifest.h"
 
@@ -178,6 +179,16 @@ void retex_samples_close(RetexSamples **result)
     *result = NULL;
 }
 
+void retex_set_identify(RetexSet *set)
+{
+    const RetexImage *beauty = &set->parts[0].image;
+    const size_t rows = (size_t)beauty->height, bytes = (size_t)beauty->width * (size_t)beauty->channels * sizeof(float);
+    uLong id = crc32(0, NULL, 0);
+    for (size_t y = 0; y < rows; y++)
+        id = crc32(id, (const Bytef *)beauty->pixels + y * bytes, (uInt)bytes);
+    set->id = id ? (uint32_t)id : 1;
+}
+
 int retex_samples_check(const RetexSamples *samples, const RetexSet *set, RetexError *err)
 {
     if (samples->width != set->width || samples->height != set->height)
@@ -186,6 +197,8 @@ int retex_samples_check(const RetexSamples *samples, const RetexSet *set, RetexE
     if (samples->ntargets != set->ntargets)
         return retex_fail(err, RETEX_EINVAL, "the samples know %d targets, the set %d", samples->ntargets,
                           set->ntargets);
+    if (samples->set_id && set->id && samples->set_id != set->id)
+        return retex_fail(err, RETEX_EINVAL, "the samples were made for another render of these targets");
     for (int i = 0; i < set->ntargets; i++)
         if (strcmp(samples->target_names[i], set->targets[i].name) != 0)
             return retex_fail(err, RETEX_EINVAL, "the samples are for target %s where the set has %s",

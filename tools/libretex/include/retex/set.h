@@ -84,6 +84,7 @@ typedef struct RetexSet {
     char generator[64];    /* "retex-render 0.1.0" */
     int orders, spp, max_depth;
     uint32_t seed;
+    uint32_t id;           /* tells one render's set from another's; kept by packing; 0 = unknown */
     double folded;         /* share of the picture's luminance whose hits beyond `orders` kept their original albedo */
     int strict_paper;      /* 1: mixed terms of 4 and more hits were dropped, as the supplement does */
     int ntargets;
@@ -102,6 +103,7 @@ typedef struct RetexSamples {
     RetexImage *images;
     char textures[RETEX_MAX_TARGETS][256]; /* per target, what was put on it, for people to read; "" = nothing */
     char target_names[RETEX_MAX_TARGETS][RETEX_NAME_MAX]; /* so that samples can be checked against their set */
+    uint32_t set_id;       /* of the set they were made for */
     int ntargets;
     int footprint_target[512]; /* target and hit of footprint i, for the same check and for part names */
     int footprint_hit[512];
@@ -114,6 +116,8 @@ int retex_set_add_part(RetexSet *set, const char *name, const char *letters, Ret
                        int *index, RetexError *err);
 int retex_set_add_footprint(RetexSet *set, const RetexFootprint *footprint, int *index, RetexError *err);
 int retex_set_add_term(RetexSet *set, const RetexTerm *term, int *index, RetexError *err);
+/* Give the set an id made from its beauty's pixels: the renderer's last step. */
+void retex_set_identify(RetexSet *set);
 int retex_set_find_part(const RetexSet *set, const char *name);     /* index or -1 */
 /* Exactly, else ignoring case where that is unique; or -1. */
 int retex_set_find_target(const RetexSet *set, const char *name);
