@@ -1,0 +1,68 @@
+/* Manifests: what is accepted must be written and accepted again. */
+#include <retex/sample.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "lib_test.h"
+#include "manifest.h"
+#include "lib_fuzz.h"
+
+static void give(const RetexSet *set, const RetexSamples *samples)
+{
+    RetexError err = {0};
+    char *json;
+    test_must(retex_set_manifest(set, samples, &json, &err), &err);
+    fuzz_seed(json, strlen(json));
+    fuzz_words(json, strlen(json));
+    free(json);
+}
+
+static void begin(void)
+{
+    RetexSet *set = test_set(12, 8, 1);
+    RetexSamples *samples;
+    RetexTextureSpec spec = RETEX_TEXTURE_SPEC_INIT;
+    RetexError err = {0};
+    test_must(retex_texture_spec_parse(&spec, "", "Floor=rgb(1,0.5,0.2)", &err), &err);
+    test_must(retex_sample(&samples, set, &spec, 1, 1, &err), &err);
+    give(set, NULL);
+    give(NULL, samples);
+    give(set, samples);
+    retex_samples_close(&samples);
+    retex_set_close(&set);
+}
+
+/* Read; 0 where it was accepted, and its manifest written anew, to be freed. */
+static int read_and_write(const char *json, char **again)
+{
+    RetexSet *set = NULL;
+    RetexSamples *samples = NULL;
+    RetexSamplePart *parts = NULL;
+    *again = NULL;
+    int code = retex_manifest_read(json, "fuzz", &set, &samples, &parts, NULL);
+    if (!code)
+        fuzz_must(retex_manifest_write(set, samples, parts, again, NULL) == 0, "an accepted manifest can be written");
+    free(parts);
+    retex_samples_close(&samples);
+    retex_set_close(&set);
+    return code;
+}
+
+static int run(const unsigned char *bytes, size_t size)
+{
+    char *again, *third;
+    (void)size;
+    if (read_and_write((const char *)bytes, &again))
+        return 0;
+    fuzz_must(read_and_write(again, &third) == 0, "a written manifest is accepted");
+    fuzz_must(strcmp(again, third) == 0, "a manifest read and written stays the same");
+    free(again);
+    free(third);
+    return 1;
+}
+
+int main(int argc, char **argv)
+{
+    static const FuzzDriver driver = {"manifest", 1, begin, run};
+    return fuzz_main(&driver, argc, argv);
+}

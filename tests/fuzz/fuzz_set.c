@@ -1,0 +1,126 @@
+/* Sets, samples and streams of both as OpenEXR files, read from a file and through a pipe: both must say the same. What
+ * is accepted is checked, recombined and retextured. */
+#include <fcntl.h>
+#include <retex/sample.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include "layers.h"
+#include "lib_fuzz.h"
+#include "lib_test.h"
+
+static int file; /* in memory, known by name */
+static char path[64];
+
+static void give(RetexSet *set, const RetexSamples *samples, int compress)
+{
+    RetexStoreParams params = RETEX_STORE_INIT;
+    RetexError err = {0};
+    char name[64];
+    snprintf(name, sizeof name, "fuzz_set-%d.tmp.exr", (int)getpid());
+    params.compress = compress;
+    params.nthreads = 1;
+    test_must(retex_set_write(set, samples, name, &params, &err), &err);
+    FILE *in = fopen(name, "rb");
+    unsigned char *bytes = malloc(FUZZ_LARGEST);
+    if (in && bytes)
+        fuzz_seed(bytes, fread(bytes, 1, FUZZ_LARGEST, in));
+    free(bytes);
+    if (in)
+        fclose(in);
+    unlink(name);
+}
+
+static void begin(void)
+{
+    RetexTextureSpec spec = RETEX_TEXTURE_SPEC_INIT;
+    RetexError err = {0};
+    RetexSamples *samples;
+    RetexSet *set = test_set(12, 8, 1), *tall = test_set(3, 40, 2);
+    test_must(retex_texture_spec_parse(&spec, "", "Floor=rgb(1,0.5,0.2)", &err), &err);
+    test_must(retex_sample(&samples, set, &spec, 1, 1, &err), &err);
+    for (int compress = 0; compress < 2; compress++) {
+        give(set, NULL, compress);
+        give(tall, NULL, compress);
+        give(NULL, samples, compress);
+        give(set, samples, compress);
+    }
+    retex_samples_close(&samples);
+    retex_set_close(&set);
+    retex_set_close(&tall);
+    file = memfd_create("fuzz_set", 0);
+    snprintf(path, sizeof path, "/proc/self/fd/%d", file);
+}
+
+/* Fill a pipe and make it standard input; bytes are fewer than it holds. */
+static void pipe_in(const unsigned char *bytes, size_t size)
+{
+    int ends[2];
+    if (pipe(ends) || fcntl(ends[1], F_SETPIPE_SZ, 2 * (int)FUZZ_LARGEST) < 0 ||
+        write(ends[1], bytes, size) != (ssize_t)size || dup2(ends[0], 0) != 0)
+        fuzz_must(0, "a pipe can be had");
+    close(ends[0]);
+    close(ends[1]);
+}
+
+static void use_set(const RetexSet *set, const RetexSamples *samples)
+{
+    RetexTextureSpec spec = RETEX_TEXTURE_SPEC_INIT;
+    RetexImage picture = {0};
+    RetexSamples *own = NULL;
+    retex_combine(&picture, set, NULL, NULL, NULL, 1, NULL);
+    if (samples && retex_samples_check(samples, set, NULL) == 0)
+        retex_combine(&picture, set, samples, NULL, NULL, 1, NULL);
+    if (set->ntargets) {
+        spec.constant = 1;
+        memcpy(spec.target, set->targets[0].name, sizeof spec.target);
+        if (retex_sample(&own, set, &spec, 1, 1, NULL) == 0)
+            retex_combine(&picture, set, own, NULL, NULL, 1, NULL);
+    }
+    retex_samples_close(&own);
+    retex_image_free(&picture);
+}
+
+static void use_layers(void)
+{
+    RetexLayers *layers;
+    if (retex_layers_open(&layers, path, 1, NULL))
+        return;
+    for (int i = 0; i < retex_layers_count(layers); i++) {
+        RetexLayer layer = {0};
+        if (retex_layers_read(&layer, layers, i, NULL) == 0)
+            retex_layer_free(&layer);
+    }
+    retex_layers_close(&layers);
+}
+
+static int run(const unsigned char *bytes, size_t size)
+{
+    RetexSet *set = NULL, *piped = NULL;
+    RetexSamples *samples = NULL, *piped_samples = NULL;
+    if (size < 4 || memcmp(bytes, "v/1\1", 4) != 0)
+        return 0; /* the bridge and OpenImageIO are asked about others */
+    fuzz_must(ftruncate(file, 0) == 0 && pwrite(file, bytes, size, 0) == (ssize_t)size, "a file can be written");
+    int code = retex_set_read(path, &set, &samples, 1, NULL);
+    pipe_in(bytes, size);
+    fuzz_must(retex_set_read("-", &piped, &piped_samples, 1, NULL) == code, "a pipe reads as a file does");
+    fuzz_must(!set == !piped && !samples == !piped_samples, "a pipe gives what a file gives");
+    fuzz_must(code || retex_set_check(path, 1, NULL) <= 0, "a check answers");
+    if (set)
+        use_set(set, samples);
+    use_layers();
+    retex_set_close(&set);
+    retex_set_close(&piped);
+    retex_samples_close(&samples);
+    retex_samples_close(&piped_samples);
+    return !code;
+}
+
+int main(int argc, char **argv)
+{
+    static const FuzzDriver driver = {"set", 0, begin, run};
+    return fuzz_main(&driver, argc, argv);
+}

@@ -1,0 +1,79 @@
+/* Texture specifications as on the command line, `opts NAME=IMAGE`, divided at the first line end of the input; what is
+ * accepted must give finite colours wherever it is looked up. */
+#include <math.h>
+#include <retex/texture.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "lib_fuzz.h"
+
+static RetexImage image;
+
+static void begin(void)
+{
+    static const char *const seeds[] = {
+        "scale=2,2:rotate=30:offset=0,0.5:wrap=repeat\nFloor=oak.jpg",
+        "scale=0.5:wrap=mirror,clamp\nWall=a b/c=d.png",
+        "wrap=black:colorspace=sRGB\nfloor=rgb(0.8,0.1,0.1)",
+        "\nWall=rgb(1e-3, 2, 0)",
+        "offset=-1e3,1e9:rotate=-720.5:colorspace=Linear Rec.709\nFloor=:x",
+    };
+    uint64_t random = 1;
+    if (retex_image_alloc(&image, 5, 4, 4, NULL))
+        abort();
+    for (int i = 0; i < 5 * 4 * 4; i++)
+        image.pixels[i] = (float)(fuzz_next(&random) % 256) / 255;
+    for (size_t i = 0; i < sizeof seeds / sizeof *seeds; i++) {
+        fuzz_seed(seeds[i], strlen(seeds[i]));
+        fuzz_words(seeds[i], strlen(seeds[i]));
+    }
+}
+
+static void look_up(const RetexTextureSpec *spec)
+{
+    static const double places[] = {0.1, -3.7, 1e6, -1e300}, widths[] = {0, 1e-6, 0.1, 1e9};
+    RetexTexture *texture;
+    float rgba[4];
+    if (spec->constant ? retex_texture_load(&texture, spec, 1, NULL)
+                       : retex_texture_create(&texture, &image, spec, NULL))
+        return;
+    for (int i = 0; i < 16; i++) {
+        const double *covariance = (double[3]){widths[i % 4], widths[i % 4] / 3, widths[i % 4]};
+        retex_texture_gaussian(texture, places[i / 4], places[3 - i / 4], covariance, rgba);
+        fuzz_must(isfinite(rgba[0] + rgba[1] + rgba[2] + rgba[3]), "a filtered colour is finite");
+        retex_texture_point(texture, places[i / 4], places[i % 4], rgba);
+        fuzz_must(isfinite(rgba[0] + rgba[1] + rgba[2] + rgba[3]), "a colour is finite");
+        retex_texture_nearest(texture, places[i / 4], places[i % 4], rgba);
+        fuzz_must(isfinite(rgba[0] + rgba[1] + rgba[2] + rgba[3]), "a texel is finite");
+    }
+    retex_texture_close(&texture);
+}
+
+static int run(const unsigned char *bytes, size_t size)
+{
+    RetexTextureSpec spec;
+    char *opts = strdup((const char *)bytes), *line = opts ? strchr(opts, '\n') : NULL;
+    int code = -1;
+    (void)size;
+    if (line)
+        *line = '\0';
+    if (opts)
+        code = retex_texture_spec_parse(&spec, opts, line ? line + 1 : "", NULL);
+    if (!code) {
+        fuzz_must(spec.scale[0] != 0 && spec.scale[1] != 0, "a scale is not 0");
+        fuzz_must(isfinite(spec.scale[0]) && isfinite(spec.scale[1]) && isfinite(spec.rotate) &&
+                      isfinite(spec.offset[0]) && isfinite(spec.offset[1]),
+                  "numbers are finite");
+        look_up(&spec);
+    }
+    free(opts);
+    return !code;
+}
+
+int main(int argc, char **argv)
+{
+    static const FuzzDriver driver = {"spec", 1, begin, run};
+    int found = fuzz_main(&driver, argc, argv);
+    retex_image_free(&image);
+    return found;
+}

@@ -1,0 +1,34 @@
+#!/bin/sh
+# Runs fuzz drivers, one after the other: run.sh SECONDS [SEED [NAME…]] (of fuzz_NAME.c; all by default). $BUILD holds
+# the sanitized programs; what is found goes into $KEEP. Exit 1 when something was found.
+set -u
+seconds=$1 seed=${2-} here=$(pwd)
+shift; [ $# = 0 ] || shift
+[ -n "$seed" ] || seed=$(date +%s)
+[ $# != 0 ] || set -- spec manifest pack set scene
+case $BUILD in /*) ;; *) BUILD=$here/$BUILD ;; esac
+case $KEEP in /*) ;; *) KEEP=$here/$KEEP ;; esac
+mkdir -p "$KEEP"
+KEEP=$(cd "$KEEP" && pwd)
+
+# What scenes read: includes as they are, and in the place of every texture a picture of a few pixels.
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+mkdir "$work/textures"
+cp scenes/*/*.inc "$work"
+for texture in scenes/*/textures/*.jpg; do
+    "$BUILD/tests/bin/make_picture" "$work/textures/${texture##*/}" size=6x5 || exit 2
+done
+scenes=
+for scene in tests/fuzz/seeds/*.pov tests/scenes/*.pov scenes/*/*.pov; do scenes="$scenes $here/$scene"; done
+
+cd "$work" || exit 2
+status=0
+for name; do
+    arguments="--seconds $seconds --seed $seed --keep $KEEP"
+    [ "$name" != scene ] || arguments="$arguments --words $here/renderer/sdl/words.c
+        --words $here/renderer/sdl/function_builtin.c $scenes"
+    # shellcheck disable=SC2086 # words wanted
+    nice "$BUILD/tests/fuzz/fuzz_$name" $arguments || status=1
+done
+exit $status
