@@ -5,6 +5,8 @@
 #   make check-all    also those that take long or need heavy programs
 #   make check-update CASE=golden/NAME   make a golden reference anew, printing before and after
 #   make asan, tsan   the unit and command-line tests with the sanitizers
+#   make fuzz         mutated inputs with the sanitizers; FUZZ_SECONDS=60 for each kind of input
+#   make bench        ratios of speed: kernels against references, sets against plain renders
 #   make pictures     the README's pictures, into docs/pictures; takes long
 #   make lint         rules of the house that a script can check
 #   make format       clang-format over the sources

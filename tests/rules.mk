@@ -1,6 +1,9 @@
 # Tests: see tests/README.md.
 UNIT_TESTS := $(patsubst tests/unit/%.c,%,$(wildcard tests/unit/test_*.c))
 LIBTEST := $(BUILD)/tests/libtest.a
+FUZZ_PROGRAMS := $(patsubst tests/fuzz/%.c,$(BUILD)/tests/fuzz/%,$(wildcard tests/fuzz/fuzz_*.c))
+FUZZ_OBJECTS := $(patsubst %.c,$(BUILD)/obj/%.o,$(wildcard tests/fuzz/lib_*.c))
+BENCH_OBJECTS := $(patsubst %.c,$(BUILD)/obj/%.o,$(wildcard tests/bench/*.c))
 TEST_PROGRAMS := $(patsubst tests/lib/%.c,$(BUILD)/tests/bin/%,$(wildcard tests/lib/make_*.c))
 
 $(BUILD)/test.mk: tools/setup.sh
@@ -15,8 +18,8 @@ $(LIBTEST): $(patsubst %.c,$(BUILD)/obj/%.o,$(wildcard tests/lib/lib_*.c))
 # Unit tests may look inside: they see the libraries' private headers.
 $(BUILD)/obj/tests/%.o: tests/%.c $(BUILD)/config.mk | $(BUILD)/test.mk
 	@mkdir -p $(@D)
-	$(SAY)$(CC) $(CPPFLAGS_ALL) -Itests/lib -Itools/libretex -Irenderer $(LIBRETEX_CFLAGS) $(RENDER_CFLAGS) $(CFLAGS_ALL) \
-	    -MMD -MP -c $< -o $@
+	$(SAY)$(CC) $(CPPFLAGS_ALL) -Itests/lib -Itools/libretex -Irenderer $(LIBRETEX_CFLAGS) $(RENDER_CFLAGS) \
+	    $(CFLAGS_ALL) -MMD -MP -c $< -o $@
 
 $(BUILD)/tests/unit/%: $(BUILD)/obj/tests/unit/%.o $(LIBTEST) $(BUILD)/obj/tools/cli.o $(LIBRENDER) $(LIBRETEX) | $(BRIDGE)
 	@mkdir -p $(@D)
@@ -26,7 +29,17 @@ $(BUILD)/tests/bin/%: $(BUILD)/obj/tests/lib/%.o $(LIBTEST) $(LIBRETEX) | $(BRID
 	@mkdir -p $(@D)
 	$(SAY)$(LINK) -Wl,-rpath,'$$ORIGIN/../../lib' $^ -o $@ $(LIBRETEX_LIBS)
 
-.PHONY: unit-tests check check-all check-unit check-cli check-golden check-man check-fidelity check-update asan tsan
+$(BUILD)/tests/fuzz/fuzz_%: $(BUILD)/obj/tests/fuzz/fuzz_%.o $(FUZZ_OBJECTS) $(LIBTEST) $(LIBRENDER) $(LIBRETEX) \
+	    | $(BRIDGE)
+	@mkdir -p $(@D)
+	$(SAY)$(LINK) -Wl,-rpath,'$$ORIGIN/../../lib' $^ -o $@ $(RENDER_LIBS) $(LIBRETEX_LIBS)
+
+$(BUILD)/tests/bench/bench: $(BENCH_OBJECTS) $(LIBTEST) $(LIBRENDER) $(LIBRETEX) | $(BRIDGE)
+	@mkdir -p $(@D)
+	$(SAY)$(LINK) -Wl,-rpath,'$$ORIGIN/../../lib' $^ -o $@ $(RENDER_LIBS) $(LIBRETEX_LIBS)
+
+.PHONY: unit-tests check check-all check-unit check-cli check-golden check-man check-fidelity check-long check-update \
+	asan tsan bench fuzz fuzz-programs sanitized-fuzz
 unit-tests: $(UNIT_TESTS:%=$(BUILD)/tests/unit/%)
 tests: $(TEST_PROGRAMS) unit-tests all
 
@@ -35,18 +48,33 @@ SUITES ?= unit cli man golden fidelity
 RUN_CHECK = BUILD=$(BUILD) JOBS=$(JOBS) tests/lib/check.sh
 check: tests
 	@$(RUN_CHECK) $(SUITES)
-check-all: tests
-	@$(RUN_CHECK) --all $(SUITES)
+check-all: tests sanitized-fuzz
+	@$(RUN_CHECK) $(SUITES) long
 check-unit check-cli check-man check-golden check-fidelity: tests
 	@$(RUN_CHECK) $(@:check-%=%)
+check-long: tests sanitized-fuzz
+	@$(RUN_CHECK) long
 check-update: tests
 	@BUILD=$(BUILD) tests/lib/update.sh '$(CASE)'
 
 SANITIZED = CFLAGS='-O1 -g -fno-omit-frame-pointer -fsanitize=$(1)' CXXFLAGS='-O1 -g -fsanitize=$(1)' \
 	LDFLAGS='-fsanitize=$(1)'
+ADDRESS_SANITIZED = BUILD=$(BUILD)/asan $(call SANITIZED,address$(comma)undefined -fno-sanitize-recover=undefined)
 asan:
-	$(MAKE) BUILD=$(BUILD)/asan $(call SANITIZED,address$(comma)undefined -fno-sanitize-recover=undefined) SUITES='unit cli' check
+	$(MAKE) $(ADDRESS_SANITIZED) SUITES='unit cli' check
 tsan:
 	TSAN_OPTIONS='ignore_noninstrumented_modules=1 suppressions=$(CURDIR)/tests/lib/tsan.supp' \
 	    $(MAKE) BUILD=$(BUILD)/tsan $(call SANITIZED,thread) SUITES='unit cli' check
 comma := ,
+
+# FUZZ_SECONDS a driver; FUZZ_SEED=N repeats a run; FUZZ='scene pack' chooses. Findings are kept in $(BUILD)/fuzz.
+FUZZ_SECONDS ?= 60
+fuzz: sanitized-fuzz
+	@BUILD=$(BUILD)/asan KEEP=$(BUILD)/fuzz tests/fuzz/run.sh $(FUZZ_SECONDS) '$(FUZZ_SEED)' $(FUZZ)
+sanitized-fuzz: | $(BUILD)/test.mk
+	$(MAKE) $(ADDRESS_SANITIZED) fuzz-programs
+fuzz-programs: $(FUZZ_PROGRAMS) $(TEST_PROGRAMS)
+
+bench: $(BUILD)/tests/bench/bench
+	@mkdir -p $(BUILD)/bench
+	@$< scenes $(BUILD)/bench

@@ -1,5 +1,5 @@
 #!/bin/sh
-# Runs suites of tests and adds up what they report: check.sh [--all] SUITE…
+# Runs suites of tests and adds up what they report: check.sh SUITE…
 #
 # Every test program prints TAP (`ok N - name`, `not ok N - name`, `ok N - name # SKIP why`, a plan `1..N`) and is one
 # job of a suite; JOBS of them run at a time. A job that ends badly without a failed test, reports fewer results than
@@ -10,8 +10,6 @@
 set -u
 BUILD=${BUILD:-build}
 JOBS=${JOBS:-2}
-all=
-[ "${1-}" != --all ] || { all=all; shift; }
 logs=$BUILD/tests/log/$(echo "$*" | tr ' ' -)
 rm -rf "$logs"
 mkdir -p "$logs"
@@ -29,10 +27,8 @@ jobs_of() {
     golden) for t in tests/golden/*/; do
             [ ! -e "$t/command" ] || { t=${t%/}; echo "golden/${t##*/} tests/lib/golden.sh $t"; }
         done ;;
-    fidelity) for t in tests/fidelity/*.sh; do
-            case $t in *'*'*) continue ;; *-long.sh) [ -n "$all" ] || continue ;; esac
-            t=${t##*/}
-            echo "fidelity/${t%.sh} sh tests/fidelity/$t"
+    fidelity | long) for t in tests/"$1"/*.sh; do
+            [ ! -e "$t" ] || { t=${t##*/}; echo "$1/${t%.sh} sh tests/$1/$t"; }
         done ;;
     esac
 }
