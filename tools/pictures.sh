@@ -49,7 +49,7 @@ sample=/usr/share/povray-3.7/scenes/radiosity/cornell.pov
 if [ -e "$sample" ]; then
     set_of povray-cornell "$sample" 400x300 White
     picture povray-cornell povray-cornell
-    picture povray-cornell povray-cornell-damask --texture:scale=0.018 "White=$textures/damask.jpg"
+    picture povray-cornell povray-cornell-terrazzo --texture:scale=0.018 "White=$textures/terrazzo.jpg"
 else
     echo "$sample is not there (package povray-examples): its pictures are left as they are" >&2
 fi

@@ -1,13 +1,7 @@
 #!/bin/sh
 # Renders the scenes of tests/scenes and compares pixels with their closed forms, written in each scene's comments.
 set -u
-export LC_ALL=C
-here=$(pwd)
-case $BUILD in /*) ;; *) BUILD=$here/$BUILD ;; esac
-PATH=$BUILD/bin:$BUILD/tests/bin:$PATH
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-number=0
+. tests/lib/tap.sh
 
 check_scene() {
     name=$(basename "$1" .pov)
@@ -38,4 +32,4 @@ for scene in tests/scenes/*.pov; do
     check_scene "$scene"
 done
 [ ! -s "$work/errors" ] || sort -u "$work/errors" | sed 's/^/# /'
-echo "1..$number"
+finish
