@@ -44,7 +44,7 @@ unit-tests: $(UNIT_TESTS:%=$(BUILD)/tests/unit/%)
 tests: $(TEST_PROGRAMS) unit-tests all
 
 # Suites are run by tests/lib/check.sh, which adds up what they report.
-SUITES ?= unit cli man golden fidelity
+SUITES ?= lint unit cli man golden fidelity
 RUN_CHECK = BUILD=$(BUILD) JOBS=$(JOBS) tests/lib/check.sh
 check: tests
 	@$(RUN_CHECK) $(SUITES)

@@ -30,6 +30,7 @@ jobs_of() {
     fidelity | long) for t in tests/"$1"/*.sh; do
             [ ! -e "$t" ] || { t=${t##*/}; echo "$1/${t%.sh} sh tests/$1/$t"; }
         done ;;
+    lint) echo "lint/house sh tests/lib/lint.sh --tap" ;;
     esac
 }
 

@@ -182,7 +182,8 @@ void retex_samples_close(RetexSamples **result)
 void retex_set_identify(RetexSet *set)
 {
     const RetexImage *beauty = &set->parts[0].image;
-    const size_t rows = (size_t)beauty->height, bytes = (size_t)beauty->width * (size_t)beauty->channels * sizeof(float);
+    const size_t rows = (size_t)beauty->height;
+    const size_t bytes = (size_t)beauty->width * (size_t)beauty->channels * sizeof(float);
     uLong id = crc32(0, NULL, 0);
     for (size_t y = 0; y < rows; y++)
         id = crc32(id, (const Bytef *)beauty->pixels + y * bytes, (uInt)bytes);
