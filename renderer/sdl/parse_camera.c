@@ -165,6 +165,15 @@ static void apply_stand_in(Reading *r)
     c->up = vec_normalize(c->up);
 }
 
+/* Numbers beyond what a ray can hold, as 1/0 makes them, would only show as an empty picture. */
+static void check_finite(Sdl *sdl, const Camera *c)
+{
+    const Vec3 all[4] = {c->location, c->direction, c->right, c->up};
+    for (int i = 0; i < 4; i++)
+        if (!(fabs(all[i].x) < 1e18 && fabs(all[i].y) < 1e18 && fabs(all[i].z) < 1e18))
+            sdl_error(sdl, "the camera's place or direction is not finite");
+}
+
 const SideCamera *side_camera_block(Sdl *sdl)
 {
     Reading r = {.side = side_of(sdl)->camera, .transform = transform_identity()};
@@ -184,6 +193,7 @@ const SideCamera *side_camera_block(Sdl *sdl)
     c->direction = transform_vector(&r.transform, c->direction);
     c->right = transform_vector(&r.transform, c->right);
     c->up = transform_vector(&r.transform, c->up);
+    check_finite(sdl, c);
     *camera = r.side;
     return camera;
 }

@@ -518,6 +518,7 @@ static void test_camera(void **state)
 {
     (void)state;
     /* look_at is applied last wherever it stands; angle is horizontal. */
+    expect_error(V37 "camera{location <1e300*1e300,0,0> look_at 0}", "not finite");
     Scene *scene = parse(V37 "camera{look_at <0,0,4> angle 90 right 2*x up y location <0,0,-1>}");
     assert_vec(scene->camera.location, 0, 0, -1);
     assert_vec(scene->camera.direction, 0, 0, 1);
