@@ -220,13 +220,16 @@ int retex_output_write(RetexOutput *output, const void *data, size_t bytes, Rete
     return 0;
 }
 
-/* Give a nameless file a hidden name: a link cannot replace the old file, but the rename that follows can. */
-static int link_hidden(RetexOutput *output)
+/* Give a nameless file its name, in one step where nothing is there yet. Otherwise a hidden one: a link cannot replace
+ * the old file, but the rename that follows at once can. */
+static int link_nameless(RetexOutput *output)
 {
     char descriptor[64];
-    int code = EEXIST;
 
     snprintf(descriptor, sizeof descriptor, "/proc/self/fd/%d", output->descriptor);
+    int code = linkat(AT_FDCWD, descriptor, AT_FDCWD, output->path, AT_SYMLINK_FOLLOW) == 0 ? 0 : errno;
+    if (code != EEXIST)
+        return code;
     for (int attempt = 0; attempt < NAME_ATTEMPTS && code == EEXIST; attempt++) {
         hidden_name(output);
         code = linkat(AT_FDCWD, descriptor, AT_FDCWD, output->temporary, AT_SYMLINK_FOLLOW) == 0 ? 0 : errno;
@@ -236,24 +239,29 @@ static int link_hidden(RetexOutput *output)
     return code;
 }
 
+/* Some file systems tell of a failed write only when a descriptor is closed: close another one first, while the file
+ * can still be dropped. */
+static int close_checked(RetexOutput *output, RetexError *err)
+{
+    const int other = dup(output->descriptor);
+
+    return other < 0 || (close(other) != 0 && errno != EINTR) ? fail_system(output, errno, err) : 0;
+}
+
 static int finish(RetexOutput *output, RetexError *err)
 {
     int status = flush(output, err);
 
+    if (!status && !output->borrowed)
+        status = close_checked(output, err);
     if (status)
         return status;
     if (!output->direct && !output->temporary[0]) {
-        const int code = link_hidden(output);
+        const int code = link_nameless(output);
         if (code)
             return fail_system(output, code, err);
     }
-    if (!output->borrowed) {
-        const int descriptor = output->descriptor;
-        output->descriptor = -1;
-        if (close(descriptor) != 0 && errno != EINTR)
-            return fail_system(output, errno, err);
-    }
-    if (!output->direct && rename(output->temporary, output->path) != 0)
+    if (!output->direct && output->temporary[0] && rename(output->temporary, output->path) != 0)
         return fail_system(output, errno, err);
     output->temporary[0] = 0;
     return 0;
