@@ -455,21 +455,26 @@ static Num extent(Sdl *sdl, int high)
     return num_vector(bounds[high]);
 }
 
-/* trace(object, from, direction[, normal variable]): nothing is hit. */
+/* trace(object, from, direction[, normal variable]): zeros where nothing is hit. */
 static Num trace(Sdl *sdl)
 {
-    object_argument(sdl);
+    Value object = object_argument(sdl);
+    Vec3 point, normal;
     sdl_optional_comma(sdl);
-    vector_argument(sdl, NULL);
+    Vec3 from = vector_argument(sdl, NULL);
     sdl_optional_comma(sdl);
-    vector_argument(sdl, NULL);
+    Vec3 direction = vector_argument(sdl, NULL);
+    Value *variable = NULL;
     if (sdl_accept(sdl, ",")) {
         if (sdl_peek(sdl)->kind != TOKEN_IDENT)
             sdl_expected(sdl, "a variable for the normal");
-        *sdl_next(sdl)->value = value_from_num(num_vector(vec3(0, 0, 0)));
+        variable = sdl_next(sdl)->value;
     }
-    sdl_unsupported(sdl, "trace", "it hits nothing");
-    return num_vector(vec3(0, 0, 0));
+    if (!scene_side_trace(sdl, &object, from, direction, &point, &normal))
+        sdl_unsupported(sdl, "trace", "of this object it hits nothing");
+    if (variable)
+        *variable = value_from_num(num_vector(normal));
+    return num_vector(point);
 }
 
 static Num rotation(Sdl *sdl, int about_axis)
@@ -491,13 +496,15 @@ static Num rotation(Sdl *sdl, int about_axis)
 
 static Num turbulence(Sdl *sdl)
 {
+    double args[3]; /* lambda, omega, octaves */
     for (int i = 0; i < 3; i++) {
-        expression_parameter(sdl);
+        args[i] = expression_parameter(sdl);
         sdl_expect(sdl, ",");
     }
-    vector_argument(sdl, NULL);
-    sdl_unsupported(sdl, "vturbulence", "it gives <0,0,0>");
-    return num_vector(vec3(0, 0, 0));
+    Vec3 p = vector_argument(sdl, NULL);
+    sdl_step(sdl, 10);
+    sdl_unsupported(sdl, "POV-Ray's own noise", "noise of the same kind gives other values");
+    return num_vector(noise_turbulence(p, args[0], args[1], args[2]));
 }
 
 static double vector_length(Sdl *sdl)
@@ -559,11 +566,12 @@ static double file_exists(Sdl *sdl)
 
 static double is_inside(Sdl *sdl)
 {
-    object_argument(sdl);
+    Value object = object_argument(sdl);
     sdl_optional_comma(sdl);
-    vector_argument(sdl, NULL);
-    sdl_unsupported(sdl, "inside", "it is taken as 0");
-    return 0;
+    int inside = scene_side_inside(sdl, &object, vector_argument(sdl, NULL));
+    if (inside < 0)
+        sdl_unsupported(sdl, "inside", "of this object it is taken as 0");
+    return inside > 0;
 }
 
 static Num call_number(Sdl *sdl, int id)

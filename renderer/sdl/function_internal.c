@@ -4,7 +4,7 @@
 #include <stdio.h>
 #include "sdl/internal.h"
 
-enum { F_PH = 47, F_R = 57, F_SPHERE = 61, F_TH = 69, F_TORUS = 70 };
+enum { F_PH = 47, F_R = 57, F_SPHERE = 61, F_TH = 69, F_TORUS = 70, F_NOISE3D = 76, F_NOISE_GENERATOR = 78 };
 
 int internal_arguments(int number)
 {
@@ -12,8 +12,10 @@ int internal_arguments(int number)
     case F_PH:
     case F_R:
     case F_TH:
+    case F_NOISE3D:
         return 3;
     case F_SPHERE:
+    case F_NOISE_GENERATOR:
         return 4;
     case F_TORUS:
         return 5;
@@ -40,6 +42,10 @@ double internal_call(Sdl *sdl, int number, const double *args, int count)
         double ring = sqrt(x * x + z * z) - args[3];
         return sqrt(ring * ring + y * y) - args[4];
     }
+    case F_NOISE3D:
+    case F_NOISE_GENERATOR:
+        sdl_unsupported(sdl, "POV-Ray's own noise", "noise of the same kind gives other values");
+        return noise_scalar(vec3(x, y, z));
     default:
         snprintf(name, sizeof name, "internal(%d)", number);
         sdl_unsupported(sdl, name, "it gives 0");

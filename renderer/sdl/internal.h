@@ -217,7 +217,6 @@ struct Sdl {
 _Noreturn void sdl_fail(Sdl *sdl, int code, const char *fmt, ...) RETEX_PRINTF(3, 4);
 void sdl_message(Sdl *sdl, int level, const char *text);
 void sdl_debug_text(Sdl *sdl, const char *text);
-void sdl_step(Sdl *sdl, long count);
 
 /* words.c */
 Word *word_intern(Sdl *sdl, const char *text, size_t length);
@@ -324,6 +323,10 @@ Num function_call(Sdl *sdl, const Value *function); /* with its arguments, from 
 /* function_internal.c */
 double internal_call(Sdl *sdl, int number, const double *args, int count);
 int internal_arguments(int number);
+
+/* noise.c */
+double noise_scalar(Vec3 p); /* 0 to 1 */
+Vec3 noise_turbulence(Vec3 p, double lambda, double omega, double octaves);
 
 /* spline.c */
 void spline_declare(Sdl *sdl, Value *value);    /* after `spline` */

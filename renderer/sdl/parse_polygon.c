@@ -248,6 +248,7 @@ static void build(Sdl *sdl, Object *object, Vec3 *points, int n)
         object->kind = OBJECT_EMPTY;
         return;
     }
+    object->polygon = 1;
     object->mesh = flat_mesh(sdl, corners, ncorners, points[0], s, t);
 }
 

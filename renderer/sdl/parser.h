@@ -49,6 +49,7 @@ Arena *sdl_arena(Sdl *sdl);
 Scene *sdl_scene(Sdl *sdl);
 const SdlOptions *sdl_options(Sdl *sdl);
 double sdl_version(Sdl *sdl); /* 3.62 until #version says otherwise */
+void sdl_step(Sdl *sdl, long count); /* counts against the budget; an error beyond it */
 void *sdl_alloc(Sdl *sdl, size_t bytes); /* zeroed; an error at the limit, never NULL */
 
 _Noreturn void sdl_error(Sdl *sdl, const char *fmt, ...) RETEX_PRINTF(2, 3); /* at the current token */
@@ -106,8 +107,11 @@ void scene_side_finish(Sdl *sdl);
 void scene_side_begin(Sdl *sdl);
 void *sdl_side(Sdl *sdl);
 void sdl_set_side(Sdl *sdl, void *side);
-/* Built-in functions that look at objects: min_extent, max_extent, inside, trace, vnormalize is not one. Return 0 when
- * not known. */
+/* Built-in functions that look at objects: min_extent and max_extent, trace, inside. Return 0 (inside: -1) when the
+ * value is no object. */
 int scene_side_extent(Sdl *sdl, const Value *object, Vec3 *low, Vec3 *high);
+/* The nearest point of the object on the ray, with its unit normal; both zero where it hits nothing. */
+int scene_side_trace(Sdl *sdl, const Value *object, Vec3 from, Vec3 direction, Vec3 *point, Vec3 *normal);
+int scene_side_inside(Sdl *sdl, const Value *object, Vec3 p);
 
 #endif

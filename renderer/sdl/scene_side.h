@@ -191,6 +191,7 @@ typedef struct Object {
     int open;
     const Mesh *mesh;        /* its textures are SideTextures in the mesh's own space */
     int loose;               /* a triangle of its own, which may be gathered into one mesh with its like */
+    int polygon;             /* the mesh is a polygon */
     const Light *light;
     const ObjectList *children; /* of a group; of a light: what it looks like */
     Transform transform;     /* canonical shape, or the children's space, to here */
@@ -245,6 +246,7 @@ typedef struct Side {
     Mesh *placed_mesh;       /* the last mesh whose own textures were placed */
     const Mesh *placed_mesh_from;
     Transform placed_mesh_by;
+    struct Tracer *tracer;   /* trace.c: objects made ready for rays */
 } Side;
 
 static inline Side *side_of(Sdl *sdl) { return sdl_side(sdl); }
@@ -322,6 +324,9 @@ ShapeParser side_sphere, side_box, side_plane, side_cylinder, side_cone, side_to
 const Object *side_light_source(Sdl *sdl); /* after light_source */
 int side_polygon_triangulate(Sdl *sdl, const Vec2 *points, const int *starts, int nrings, Vec2 **corners,
                              int *ncorners);
+
+/* trace.c */
+int side_mesh_holds(Sdl *sdl, const Mesh *mesh, Vec3 p); /* an odd number of faces lies between p and far away */
 
 /* parse_camera.c, parse_global.c */
 void side_camera_default(SideCamera *camera);
