@@ -146,6 +146,46 @@ static double cone_pdf(const Primitive *primitive, Vec3 p, int face)
     return here > 0 ? area[0] / (total * here) : 0;
 }
 
+/* ---- torus ---- */
+
+/* A point by its angles around the axis and around the tube, and the world area of a unit of both there. */
+static double torus_at(const Primitive *primitive, double around, double tube, Vec3 *p)
+{
+    double r = fabs(primitive->r1), ring = primitive->r0 + r * cos(tube);
+    Vec3 e = vec3(-ring * sin(around), 0, ring * cos(around));
+    Vec3 f = vec3(-r * sin(tube) * cos(around), r * cos(tube), -r * sin(tube) * sin(around));
+
+    *p = vec3(ring * cos(around), r * sin(tube), ring * sin(around));
+    return stretch(&primitive->transform, e, f);
+}
+
+/* 0 where the tube is wider than the ring and meets itself. */
+static double torus_area(const Primitive *primitive)
+{
+    double r0 = primitive->r0, r1 = fabs(primitive->r1), scale = similarity(&primitive->transform), sum = 0;
+    const int turns = 64;
+    Vec3 p;
+
+    if (r1 > r0)
+        return 0;
+    if (scale > 0)
+        return 4 * PI * PI * r0 * r1 * scale * scale;
+    for (int i = 0; i < turns * turns; i++)
+        sum += torus_at(primitive, 2 * PI * (i % turns) / turns, 2 * PI * (i / turns) / turns, &p);
+    return 4 * PI * PI * sum / (turns * turns);
+}
+
+/* Both angles are chosen evenly. */
+static double torus_pdf(const Primitive *primitive, Vec3 p)
+{
+    double tube = atan2(p.y, hypot(p.x, p.z) - primitive->r0), area;
+
+    if (fabs(primitive->r1) > primitive->r0)
+        return 0;
+    area = 4 * PI * PI * torus_at(primitive, atan2(p.z, p.x), tube, &p);
+    return area > 0 ? 1 / area : 0;
+}
+
 /* ---- all ---- */
 
 static double disc_area(const Primitive *primitive)
@@ -180,8 +220,9 @@ double shape_area(const Primitive *primitive)
         for (int i = 0; i < primitive->mesh->nfaces; i++)
             sum += mesh_face_area(primitive, i);
         return sum;
-    case SHAPE_PLANE:
     case SHAPE_TORUS:
+        return torus_area(primitive);
+    case SHAPE_PLANE:
         break;
     }
     return 0;
@@ -207,8 +248,9 @@ static double pdf_at(const Primitive *primitive, Vec3 p, int face)
         return one_over(disc_area(primitive));
     case SHAPE_MESH:
         return one_over(mesh_face_area(primitive, face));
-    case SHAPE_PLANE:
     case SHAPE_TORUS:
+        return torus_pdf(primitive, p);
+    case SHAPE_PLANE:
         break;
     }
     return 0;
@@ -251,14 +293,15 @@ void shape_sample(const Primitive *primitive, const Scene *scene, int face, doub
     case SHAPE_MESH:
         mesh_point(primitive->mesh, face, root * (1 - u2), root * u2, &point);
         break;
-    case SHAPE_PLANE:
     case SHAPE_TORUS:
+        face = 0;
+        torus_at(primitive, angle, 2 * PI * u1, &p);
+        torus_point(primitive, p, &point);
+        break;
+    case SHAPE_PLANE:
         /* Not sampled; a point of the shape all the same, at density 0. */
         face = 0;
-        if (primitive->kind == SHAPE_TORUS)
-            torus_point(primitive, vec3(r0 + fabs(primitive->r1), 0, 0), &point);
-        else
-            plane_point(vec3(0, 0, 0), &point);
+        plane_point(vec3(0, 0, 0), &point);
         break;
     }
     surface_from_point(surface, primitive, face, &point);

@@ -42,7 +42,8 @@ int shape_intersect(const Primitive *primitive, const Ray *ray, double *t, int *
 /* World-space bounding box; planes have none (returns 0). */
 int shape_bounds(const Primitive *primitive, Vec3 *low, Vec3 *high);
 
-/* Emitters: sampling by area. Total world-space area; 0 where the shape cannot be sampled (plane, torus). */
+/* Emitters: sampling by area. Total world-space area; 0 where the shape cannot be sampled: planes,
+ * and tori whose tube is wider than their ring. */
 double shape_area(const Primitive *primitive);
 /* A point uniform in area from u1, u2 in [0,1). Gives position, normals, face and UVs through a Surface (backside 0),
  * and the density per unit area at that point (not constant under non-uniform scaling of curved shapes). Shapes choose

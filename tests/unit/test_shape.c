@@ -363,13 +363,17 @@ static void sampling_has_its_density(void **state)
     check_sampling(shape(SHAPE_CONE, 1, 1, twice), 4 * (2 * PI + 2 * PI));
     check_sampling(shape(SHAPE_CONE, 2, 0, twice), 4 * (2 * PI * sqrt(5) + 4 * PI));
     check_sampling(shape(SHAPE_DISC, 2, 1, twice), 12 * PI);
+    check_sampling(shape(SHAPE_TORUS, 2, 0.5, twice), 4 * 4 * PI * PI);
     for (int i = 0; i < 5; i++) {
         check_sampling(shape(SHAPE_SPHERE, 0, 0, random_transform(1, 1, 0)), 0);
         check_sampling(shape(SHAPE_CONE, 1, 0.3, random_transform(1, 1, 0)), 0);
         check_sampling(shape(SHAPE_DISC, 1, 0.3, random_transform(1, 1, 0)), 0);
+        check_sampling(shape(SHAPE_TORUS, 1, 0.4, random_transform(1, 1, 0)), 0);
         check_sampling(shape(SHAPE_BOX, 0, 0, random_transform(1, 1, 0)), 0);
     }
     assert_true(shape_area(&(Primitive){.kind = SHAPE_PLANE, .transform = twice}) == 0);
+    Primitive spindle = shape(SHAPE_TORUS, 1, 1.5, twice);
+    assert_true(shape_area(&spindle) == 0);
 }
 
 /* The density over a grid of the surface, its patches measured by differences, adds up to 1. */
