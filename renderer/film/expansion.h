@@ -44,11 +44,18 @@ static inline void expansion_reset(Expansion *e)
 }
 
 void expansion_copy(Expansion *to, const Expansion *from); /* only what is in use */
-/* Is there room for one more hit of a target, with so many orders? Eight hits in all leave light between several
- * targets enough terms: with two white ones the light beyond six would show. */
-static inline int expansion_has_room(const Expansion *e, int target, int orders)
+/* Most hits of all targets together that a path keeps apart. Eight leave light between several targets enough terms:
+ * with two white ones the light beyond six would show. With n hits of T targets there are (T + n)! / (T! n!) terms, so
+ * many targets get fewer hits: a set has room for about a thousand. */
+static inline int expansion_most_hits(int ntargets)
 {
-    return e->nhits < RETEX_MAX_FACTORS && e->per_target[target] < orders;
+    return ntargets <= 4 ? RETEX_MAX_FACTORS : RETEX_MAX_FACTORS + 4 - ntargets;
+}
+
+/* Is there room for one more hit of a target, with so many orders for each and so many hits of all? */
+static inline int expansion_has_room(const Expansion *e, int target, int orders, int most_hits)
+{
+    return e->nhits < most_hits && e->per_target[target] < orders;
 }
 /* Multiply by d a + i of one more hit, which must have room. */
 void expansion_push(Expansion *e, int target, Split factor, Vec2 uv, Rgb albedo);

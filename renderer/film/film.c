@@ -29,6 +29,7 @@ struct Film {
     pthread_mutex_t lock;
     double uv_min[RETEX_MAX_TARGETS][2], uv_max[RETEX_MAX_TARGETS][2]; /* under lock */
     long dropped;
+    int lost; /* light found no term to go to */
 };
 
 struct FilmPixel {
@@ -45,6 +46,7 @@ struct FilmPixel {
     double total, folded; /* luminance of the tile so far */
     double uv_min[RETEX_MAX_TARGETS][2], uv_max[RETEX_MAX_TARGETS][2];
     long dropped;
+    int lost; /* light found no term to go to */
 };
 
 static int footprints_count(const Film *film)
@@ -148,6 +150,7 @@ void film_pixel_close(FilmPixel **pixel)
             p->film->uv_max[t][k] = fmax(p->film->uv_max[t][k], p->uv_max[t][k]);
         }
     p->film->dropped += p->dropped;
+    p->film->lost |= p->lost;
     pthread_mutex_unlock(&p->film->lock);
     free(p->sums);
     free(p->touched);
@@ -158,8 +161,10 @@ void film_pixel_close(FilmPixel **pixel)
 static void add_term(FilmPixel *p, TermKey key, Rgb value)
 {
     int term = terms_find(&p->film->terms, &p->cache, key);
-    if (term < 0)
-        return; /* no room for one more: counted as dropped energy by the caller's sum */
+    if (term < 0) { /* no room for one more: film_finish says so */
+        p->lost = 1;
+        return;
+    }
     float *sum = p->sums[term];
     if (sum[0] == 0 && sum[1] == 0 && sum[2] == 0)
         p->touched[p->ntouched++] = term;
@@ -393,6 +398,9 @@ int film_finish(Film *film, RetexSet *set, RetexError *err)
     retex_set_identify(set);
     if (!film->params.split)
         return RETEX_OK;
+    if (film->lost)
+        return retex_fail(err, RETEX_ELIMIT, "the set needs more than %d terms, or more memory than there is: %s",
+                          TERMS_MAX, "take fewer targets or orders");
     set->orders = film->params.orders;
     set->strict_paper = film->params.strict_paper;
     double total = 0, folded = 0;

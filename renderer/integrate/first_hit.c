@@ -38,19 +38,6 @@ static void store(RetexImage *image, int x, int y, float a, float b, float c)
         p[k] = v[k];
 }
 
-/* UV for the picture: a target's own, else what a target made of this surface would have. */
-static Vec2 any_uv(const Shading *s, const Scene *scene)
-{
-    if (s->surface.target >= 0)
-        return s->uv;
-    Shading as_target = *s;
-    as_target.surface.target = 0;
-    Scene bare = {0};
-    (void)scene;
-    shading_color(&as_target, &bare);
-    return as_target.uv;
-}
-
 static void aov_row(void *context, int y, int thread)
 {
     AovJob *job = context;
@@ -69,7 +56,7 @@ static void aov_row(void *context, int y, int thread)
         store(job->images[2], x, y, (float)n.x, (float)n.y, (float)n.z);
         store(job->images[3], x, y, (float)p.x, (float)p.y, (float)p.z);
         if (job->images[4]) {
-            Vec2 uv = any_uv(&s, w->scene);
+            Vec2 uv = surface_target_uv(&s.surface);
             store(job->images[4], x, y, (float)uv.u, (float)uv.v, 1);
         }
         store(job->images[5], x, y, (float)(hit.primitive + 1), 0, 0);

@@ -60,7 +60,7 @@ static void apply_factor(const PathContext *c, Rgb *beta, Rgb *outside, Expansio
 {
     Rgb whole = split_apply(f->split, f->albedo);
     *beta = rgb_mul(*beta, whole);
-    if (is_hit(c, f) && expansion_has_room(e, f->target, c->orders)) {
+    if (is_hit(c, f) && expansion_has_room(e, f->target, c->orders, expansion_most_hits(c->scene->ntargets))) {
         expansion_push(e, f->target, f->split, f->uv, f->albedo);
         return;
     }

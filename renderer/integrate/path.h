@@ -36,6 +36,8 @@ typedef struct Shading {
     Bsdf bsdf;
 } Shading;
 
+/* Where a replacement texture is looked up on a surface, were it a target. */
+Vec2 surface_target_uv(const Surface *surface);
 /* The colour at a surface (shading->surface is filled), with its replacement. */
 void shading_color(Shading *shading, const Scene *scene);
 void shading_at(Shading *shading, const Scene *scene, const Ray *ray, const Hit *hit);

@@ -10,6 +10,13 @@ static void replace_color(Shading *s, const RetexTexture *replacement)
     s->albedo = rgb_lerp(s->albedo, rgb(rgba[0], rgba[1], rgba[2]), rgba[3]);
 }
 
+Vec2 surface_target_uv(const Surface *surface)
+{
+    const Pigment *pigment = surface->texture->pigment;
+    return target_uv(pigment, surface->position, surface->geometric_normal, pigment->uv_mapping ? &surface->uv : NULL,
+                     surface->has_natural ? &surface->natural : NULL);
+}
+
 void shading_color(Shading *s, const Scene *scene)
 {
     const Surface *surface = &s->surface;
@@ -19,8 +26,7 @@ void shading_color(Shading *s, const Scene *scene)
     s->filter = fmaxf(c.filter, 0), s->transmit = fmaxf(c.transmit, 0);
     if (surface->target < 0)
         return;
-    s->uv = target_uv(pigment, surface->position, surface->geometric_normal, pigment->uv_mapping ? &surface->uv : NULL,
-                      surface->has_natural ? &surface->natural : NULL);
+    s->uv = surface_target_uv(surface);
     const RetexTexture *replacement = scene->targets[surface->target].replacement;
     if (replacement)
         replace_color(s, replacement);

@@ -64,7 +64,6 @@ typedef struct Pigment {
     double frequency, phase, wave_exponent;
     ImageMap *image;         /* PIGMENT_IMAGE */
     int uv_mapping;
-    int quick;               /* reserved: 0 */
     Transform transform;     /* pattern space to world; inverse takes a world point to where the pattern is evaluated.
                                 With uv_mapping it takes (u, v, 0) instead of the point */
     const IdentList *idents;

@@ -29,7 +29,7 @@ static void multiplies_out(void **state)
             else if (at_random(&seed) < 0.2f)
                 d = 0;
             targets[j] = (int)(at_random(&seed) * 3);
-            if (!expansion_has_room(&e, targets[j], RETEX_MAX_ORDERS))
+            if (!expansion_has_room(&e, targets[j], RETEX_MAX_ORDERS, RETEX_MAX_FACTORS))
                 targets[j] = 7;
             index[j] = seen[targets[j]]++;
             a[j] = at_random(&seed);
@@ -68,8 +68,22 @@ static void monomials_find_their_terms(void **state)
     assert_true(term_key(4, mask(2, 3, 2), 1) == TERM_DROPPED);
 }
 
+static void any_number_of_targets_has_its_terms(void **state)
+{
+    (void)state;
+    for (int targets = 1; targets <= RETEX_MAX_TARGETS; targets++) {
+        double prefixes = 1; /* counts of factors of each target: targets + n over n */
+        int n = expansion_most_hits(targets), cross = 8 * targets + 3 * targets * targets;
+        for (int k = 1; k <= n; k++)
+            prefixes = prefixes * (targets + k) / k;
+        assert_true(n >= 4 && n <= RETEX_MAX_FACTORS);
+        assert_true(prefixes + cross + n <= TERMS_MAX);
+    }
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(multiplies_out), cmocka_unit_test(monomials_find_their_terms)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(multiplies_out), cmocka_unit_test(monomials_find_their_terms),
+                                       cmocka_unit_test(any_number_of_targets_has_its_terms)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -53,9 +53,8 @@ typedef struct RetexWriteParams {
     const char *view;       /* OCIO view; NULL = the display's default */
     const char *colorspace; /* write in this colour space instead of through display and view; NULL = none */
     int quality;            /* of JPEG, 1..100; default 95 */
-    int dither;             /* reserved: 0 */
 } RetexWriteParams;
-#define RETEX_WRITE_INIT { sizeof(RetexWriteParams), NULL, NULL, NULL, 95, 0 }
+#define RETEX_WRITE_INIT { sizeof(RetexWriteParams), NULL, NULL, NULL, 95 }
 
 /* Write a picture of 1 (grey), 3 (RGB) or 4 (RGBA) channels; the format follows the name's ending, "-" is EXR to
  * standard output. EXR (half) and other float formats stay scene-linear unless colorspace says otherwise; 8- and 16-bit
