@@ -185,7 +185,6 @@ typedef struct SkySphere {
     int npigments;           /* later ones lie over earlier ones by their filter and transmit */
     const Pigment **pigments;
     Rgb emission;            /* factor on it, default 1 */
-    Transform transform;     /* already applied to the pigments; kept for reading */
 } SkySphere;
 
 typedef struct Target {
