@@ -11,12 +11,12 @@ void expansion_copy(Expansion *to, const Expansion *from)
     memcpy(to->monomials, from->monomials, (size_t)from->nmonomials * sizeof *to->monomials);
 }
 
-void expansion_push(Expansion *e, int target, Split factor, Vec2 uv, Rgb albedo)
+void expansion_push(Expansion *e, int target, Split factor, Vec2 uv, Rgb albedo, int sharp)
 {
     int index = e->per_target[target]++, before = e->nmonomials;
     HitMask bit = hit_bit(target, index);
     int independent = !rgb_is_black(factor.i), dependent = !rgb_is_black(factor.d);
-    e->hits[e->nhits++] = (TargetHit){target, index, uv, albedo};
+    e->hits[e->nhits++] = (TargetHit){target, index, uv, albedo, sharp};
     for (int k = 0; k < before; k++) {
         Monomial *m = &e->monomials[k];
         if (dependent && independent)

@@ -16,6 +16,7 @@ typedef struct TargetHit {
     int target, index;
     Vec2 uv;
     Rgb albedo;         /* the original's, there */
+    int sharp;          /* every bounce between the camera and it was specular, or nearly so */
 } TargetHit;
 
 /* A set of hits: bit target * RETEX_MAX_ORDERS + index. */
@@ -58,6 +59,6 @@ static inline int expansion_has_room(const Expansion *e, int target, int orders,
     return e->nhits < most_hits && e->per_target[target] < orders;
 }
 /* Multiply by d a + i of one more hit, which must have room. */
-void expansion_push(Expansion *e, int target, Split factor, Vec2 uv, Rgb albedo);
+void expansion_push(Expansion *e, int target, Split factor, Vec2 uv, Rgb albedo, int sharp);
 
 #endif

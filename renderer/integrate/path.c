@@ -6,6 +6,7 @@
 #include "integrate/path.h"
 
 #define ROULETTE_START 4 /* segments before Russian roulette begins */
+#define SHARP_PDF 25     /* per steradian: a bounce into a lobe no wider than about 7 degrees keeps things sharp */
 #define STRAIGHT_MAX 128 /* surfaces a path or shadow ray may pass without bending */
 #define SHADOW_FACTORS_MAX 16
 #define MEDIA_MAX 4 /* fading interiors that a path may be in at once */
@@ -17,6 +18,7 @@ typedef struct Factor {
     Rgb albedo;
     Vec2 uv;
     int reflects; /* light stays on its side of the surface */
+    int sharp;    /* nothing on the way from the camera scattered widely */
 } Factor;
 
 /* The fading interiors a ray is in. */
@@ -31,6 +33,7 @@ typedef struct Path {
     RayKind kind;
     Expansion expansion;
     int folded;    /* a target hit beyond the last order kept its albedo */
+    int sharp;     /* so far every bounce was specular, or nearly so */
     float neutral; /* throughput with NEUTRAL_ALBEDO everywhere: for Russian roulette */
     float pdf;     /* density of the direction, 0 after a delta */
     Vec3 from;     /* where that direction was sampled */
@@ -39,7 +42,7 @@ typedef struct Path {
 
 static Factor shading_factor(const Shading *s, Split split)
 {
-    return (Factor){s->surface.target, split, s->albedo, s->uv, 0};
+    return (Factor){s->surface.target, split, s->albedo, s->uv, 0, 0};
 }
 
 /* Does the target's texture matter to this factor? */
@@ -61,7 +64,7 @@ static void apply_factor(const PathContext *c, Rgb *beta, Rgb *outside, Expansio
     Rgb whole = split_apply(f->split, f->albedo);
     *beta = rgb_mul(*beta, whole);
     if (is_hit(c, f) && expansion_has_room(e, f->target, c->orders, expansion_most_hits(c->scene->ntargets))) {
-        expansion_push(e, f->target, f->split, f->uv, f->albedo);
+        expansion_push(e, f->target, f->split, f->uv, f->albedo, f->sharp);
         return;
     }
     *outside = rgb_mul(*outside, whole);
@@ -291,6 +294,7 @@ static void sample_light(PathWorker *w, const Path *path, const Shading *s, cons
 
     Factor factors[SHADOW_FACTORS_MAX + 2];
     factors[0] = shading_factor(s, f);
+    factors[0].sharp = path->sharp;
     int n = 1 + light_factors(c, &light, factors + 1);
     Ray ray = {accel_offset(s->surface.position, s->surface.geometric_normal, light.direction), light.direction, 0,
                INFINITY};
@@ -327,6 +331,7 @@ static void hit_emitter(PathWorker *w, const Path *path, const Hit *hit, const S
     if (path->pdf > 0)
         weight = mis_weight(path->pdf, lights_emitter_pdf(w->context->lights, path->from, hit->primitive, &s->surface));
     Factor factor = shading_factor(s, emitted(s));
+    factor.sharp = path->sharp;
     connect(w, path, rgb_grey(weight), &factor, 1);
 }
 
@@ -353,6 +358,7 @@ static int scatter(PathWorker *w, Path *path, const Shading *s, double distance,
         return 0;
     Factor factor = shading_factor(s, next.weight);
     factor.reflects = !next.transmitted;
+    factor.sharp = path->sharp;
     apply_factor(w->context, &path->beta, &path->outside, &path->expansion, &path->folded, &factor);
     if (!w->context->split ? rgb_is_black(path->beta) : rgb_is_black(path->outside))
         return 0;
@@ -366,6 +372,7 @@ static int scatter(PathWorker *w, Path *path, const Shading *s, double distance,
     if (!next.straight) {
         path->kind = next_kind(path->kind, &s->bsdf, next.transmitted);
         path->pdf = next.pdf;
+        path->sharp &= next.pdf == 0 || next.pdf > SHARP_PDF;
         path->from = s->surface.position;
         if (path->segments >= ROULETTE_START) {
             float survive = fminf(0.95f, path->neutral);
@@ -403,7 +410,7 @@ void path_trace(PathWorker *w, Ray ray, const Sampler *sampler)
     const PathContext *c = w->context;
     Path path; /* set field by field: its expansion is large, and mostly unused */
     path.beta = path.outside = rgb_grey(1);
-    path.neutral = 1, path.pdf = 0, path.from = ray.origin, path.segments = 1, path.folded = 0;
+    path.neutral = 1, path.pdf = 0, path.from = ray.origin, path.segments = 1, path.folded = 0, path.sharp = 1;
     path.media.count = 0, path.kind = RAY_CAMERA;
     expansion_reset(&path.expansion);
     Hit hit;

@@ -34,7 +34,7 @@ static void multiplies_out(void **state)
             index[j] = seen[targets[j]]++;
             a[j] = at_random(&seed);
             product *= d * a[j] + i;
-            expansion_push(&e, targets[j], (Split){rgb_grey(d), rgb_grey(i)}, (Vec2){0, 0}, rgb_grey(0.5f));
+            expansion_push(&e, targets[j], (Split){rgb_grey(d), rgb_grey(i)}, (Vec2){0, 0}, rgb_grey(0.5f), 0);
         }
         double sum = 0;
         for (int k = 0; k < e.nmonomials; k++) {
