@@ -11,6 +11,7 @@
 #include <unistd.h>
 #include <jansson.h>
 #include "cli.h"
+#include "film/film.h"
 #include "integrate/render.h"
 #include "sdl/sdl.h"
 
@@ -20,6 +21,7 @@ enum {
     OPT_REPLACE,
     OPT_PLAIN,
     OPT_LAYOUT,
+    OPT_CLUSTERS,
     OPT_ORDERS,
     OPT_STRICT_PAPER,
     OPT_SPP,
@@ -46,7 +48,9 @@ static const CliOption options[] = {
                      "put IMAGE on a target and render that: the truth of a retexture (opts as retex-sample --texture)",
                      1},
     [OPT_PLAIN] = {"plain", 0, NULL, "the picture only, no set", 0},
-    [OPT_LAYOUT] = {"layout", 0, "NAME", "statistics of the set: paper", 0},
+    [OPT_LAYOUT] = {"layout", 0, "NAME", "statistics of the set: footprints or paper (footprints)", 0},
+    [OPT_CLUSTERS] = {"clusters", 0, "K|S+B",
+                      "clusters of footprints a pixel and target, in all, or sharp + broad ones (4, which is 3+1)", 0},
     [OPT_ORDERS] = {"orders", 0, "N", "highest number of target hits kept, 1 to 6 (6)", 0},
     [OPT_STRICT_PAPER] = {"strict-paper", 0, NULL, "drop the mixed terms of four and more hits, as the paper does", 0},
     [OPT_SPP] = {"spp", 0, "N", "samples a pixel (64)", 0},
@@ -129,6 +133,24 @@ static void parse_replace(Arguments *a)
         cli_die(a->cli, "--replace: %s", err.message);
 }
 
+/* 4 or 3+1: of K clusters a quarter, but at least one, is broad. */
+static void parse_clusters(Arguments *a)
+{
+    int sharp, broad, used = 0;
+    const char *text = a->cli->value;
+    if (isdigit((unsigned char)text[0]) && sscanf(text, "%2d%n", &sharp, &used) == 1 && !text[used]) {
+        broad = sharp < 8 ? 1 : sharp / 4;
+        sharp -= broad;
+    } else if (!isdigit((unsigned char)text[0]) || sscanf(text, "%2d+%2d%n", &sharp, &broad, &used) != 2 ||
+               text[used]) {
+        cli_die(a->cli, "--clusters wants a number, or two as in 3+1, not `%s`", text);
+    }
+    if (sharp < 1 || sharp > FILM_SHARP_MAX || broad < 1 || broad > FILM_BROAD_MAX)
+        cli_die(a->cli, "--clusters wants 1 to %d sharp and 1 to %d broad ones, not `%s`", FILM_SHARP_MAX,
+                FILM_BROAD_MAX, text);
+    a->render.sharp = sharp, a->render.broad = broad;
+}
+
 static void parse_choice(Arguments *a, const CliOption *o)
 {
     Cli *cli = a->cli;
@@ -136,8 +158,10 @@ static void parse_choice(Arguments *a, const CliOption *o)
         a->render.gaussian = !strcmp(cli->value, "gaussian");
         if (!a->render.gaussian && strcmp(cli->value, "box"))
             cli_die(cli, "--filter knows box and gaussian, not `%s`", cli->value);
-    } else if (strcmp(cli->value, "paper")) {
-        cli_die(cli, "--layout knows paper, not `%s`", cli->value);
+    } else {
+        a->render.paper = !strcmp(cli->value, "paper");
+        if (!a->render.paper && strcmp(cli->value, "footprints"))
+            cli_die(cli, "--layout knows footprints and paper, not `%s`", cli->value);
     }
 }
 
@@ -178,6 +202,9 @@ static void parse_option(Arguments *a, const CliOption *o)
     case OPT_LAYOUT:
     case OPT_FILTER:
         parse_choice(a, o);
+        break;
+    case OPT_CLUSTERS:
+        parse_clusters(a);
         break;
     case OPT_ORDERS:
         r->orders = (int)cli_integer(cli, o, 1, RETEX_MAX_ORDERS);

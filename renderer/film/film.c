@@ -1,86 +1,70 @@
-/* Layout `paper`: per hit count the dependent and independent radiance, cross terms of two and three hits, and per
- * target and hit index the UV statistics, unweighted over all connections (supplement 2, 4.2, 4.3). With several
- * targets the dependent radiance is kept by the number of factors of each target.
- *
- * Terms come into being when a path first needs them; with one target all 21 exist from the start, which with the 12
- * UV images make the paper's 33. */
+/* What both layouts share: the beauty, sums of energy, the range of UV, and handing images over to a set. */
+#include <math.h>
 #include <pthread.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include "film/film.h"
-#include "film/terms.h"
-
-typedef struct FootprintSums {
-    int samples;                     /* paths that brought a connection */
-    double count, mean[2], m2[2];    /* Welford's running mean and sum of squared deviations of u and v */
-    float light[3], light_albedo[3]; /* what the albedo there multiplied, without it and with it */
-    float albedo[3];                 /* unweighted, for footprints that gave no light */
-} FootprintSums;
+#include "film/footprints.h"
+#include "film/paper.h"
 
 struct Film {
     const Scene *scene;
     FilmParams params;
-    TermTable terms;
     RetexImage beauty;
-    RetexImage uv[RETEX_MAX_TARGETS * RETEX_MAX_ORDERS], spread[RETEX_MAX_TARGETS * RETEX_MAX_ORDERS],
-        albedo[RETEX_MAX_TARGETS * RETEX_MAX_ORDERS];
+    PaperFilm *paper; /* one of these two, where there is a split */
+    FootprintFilm *footprints;
     double *tile_total, *tile_folded;
     pthread_mutex_t lock;
-    double uv_min[RETEX_MAX_TARGETS][2], uv_max[RETEX_MAX_TARGETS][2]; /* under lock */
+    UvRange range; /* under lock, as is: */
     long dropped;
-    int lost; /* light found no term to go to */
 };
 
 struct FilmPixel {
     Film *film;
-    TermCache cache;
-    float (*sums)[3]; /* by term */
-    int nsums;
-    int *touched, ntouched;
+    PaperPixel *paper;
+    FootprintPixel *footprints;
     double beauty[3];
-    FootprintSums footprints[RETEX_MAX_TARGETS * RETEX_MAX_ORDERS];
-    /* of the path in hand: every hit that connected, with how often */
-    TargetHit hits[64];
-    int connections[64], nhits;
     double total, folded; /* luminance of the tile so far */
-    double uv_min[RETEX_MAX_TARGETS][2], uv_max[RETEX_MAX_TARGETS][2];
+    UvRange range;
     long dropped;
-    int lost; /* light found no term to go to */
 };
 
-static int footprints_count(const Film *film)
-{
-    return film->scene->ntargets * RETEX_MAX_ORDERS;
-}
-static int footprint_number(const TargetHit *hit)
-{
-    return hit->target * RETEX_MAX_ORDERS + hit->index;
-}
+/* ---- ranges of UV ---- */
 
-static void uv_range_reset(double low[][2], double high[][2])
+void uv_range_reset(UvRange *range)
 {
     for (int t = 0; t < RETEX_MAX_TARGETS; t++)
         for (int k = 0; k < 2; k++)
-            low[t][k] = INFINITY, high[t][k] = -INFINITY;
+            range->low[t][k] = INFINITY, range->high[t][k] = -INFINITY;
 }
+
+void uv_range_add(UvRange *range, int target, const double uv[2])
+{
+    for (int k = 0; k < 2; k++) {
+        range->low[target][k] = fmin(range->low[target][k], uv[k]);
+        range->high[target][k] = fmax(range->high[target][k], uv[k]);
+    }
+}
+
+void uv_range_merge(UvRange *into, const UvRange *from)
+{
+    for (int t = 0; t < RETEX_MAX_TARGETS; t++)
+        for (int k = 0; k < 2; k++) {
+            into->low[t][k] = fmin(into->low[t][k], from->low[t][k]);
+            into->high[t][k] = fmax(into->high[t][k], from->high[t][k]);
+        }
+}
+
+/* ---- life ---- */
 
 static int film_alloc(Film *film, RetexError *err)
 {
-    int w = film->params.width, h = film->params.height, code = retex_image_alloc(&film->beauty, w, h, 3, err);
-    if (code || !film->params.split)
-        return code;
-    for (int k = 0; k < footprints_count(film) && !code; k++) {
-        if (k % RETEX_MAX_ORDERS >= film->params.orders)
-            continue;
-        code = retex_image_alloc(&film->uv[k], w, h, 3, err);
-        if (!code)
-            code = retex_image_alloc(&film->spread[k], w, h, 2, err);
-        if (!code)
-            code = retex_image_alloc(&film->albedo[k], w, h, 3, err);
-    }
-    if (!code)
-        code = terms_create(&film->terms, w, h, film->scene->ntargets, film->params.orders, err);
+    const FilmParams *p = &film->params;
+    int code = retex_image_alloc(&film->beauty, p->width, p->height, 3, err);
+    if (!code && p->split)
+        code = p->paper ? paper_create(&film->paper, film->scene, p, err)
+                        : footprints_create(&film->footprints, film->scene, p, err);
     return code;
 }
 
@@ -93,7 +77,7 @@ int film_create(Film **out, const Scene *scene, const FilmParams *params, RetexE
     film->scene = scene;
     film->params = *params;
     pthread_mutex_init(&film->lock, NULL);
-    uv_range_reset(film->uv_min, film->uv_max);
+    uv_range_reset(&film->range);
     film->tile_total = calloc((size_t)params->ntiles, sizeof(double));
     film->tile_folded = calloc((size_t)params->ntiles, sizeof(double));
     int code = film->tile_total && film->tile_folded ? film_alloc(film, err)
@@ -108,12 +92,8 @@ void film_close(Film **film)
     if (!*film)
         return;
     retex_image_free(&(*film)->beauty);
-    for (int k = 0; k < RETEX_MAX_TARGETS * RETEX_MAX_ORDERS; k++) {
-        retex_image_free(&(*film)->uv[k]);
-        retex_image_free(&(*film)->spread[k]);
-        retex_image_free(&(*film)->albedo[k]);
-    }
-    terms_close(&(*film)->terms);
+    paper_close(&(*film)->paper);
+    footprints_close(&(*film)->footprints);
     free((*film)->tile_total);
     free((*film)->tile_folded);
     pthread_mutex_destroy(&(*film)->lock);
@@ -123,18 +103,19 @@ void film_close(Film **film)
 
 int film_pixel_create(FilmPixel **out, Film *film, RetexError *err)
 {
-    FilmPixel *p = calloc(1, sizeof *p);
-    *out = p;
-    if (p) {
-        p->film = film;
-        p->sums = calloc(TERMS_MAX, sizeof *p->sums);
-        p->touched = calloc(TERMS_MAX, sizeof *p->touched);
-        uv_range_reset(p->uv_min, p->uv_max);
-    }
-    if (p && p->sums && p->touched)
-        return RETEX_OK;
-    film_pixel_close(out);
-    return retex_fail(err, RETEX_ENOMEM, "out of memory for a thread's pixel");
+    FilmPixel *p = *out = calloc(1, sizeof *p);
+    if (!p)
+        return retex_fail(err, RETEX_ENOMEM, "out of memory for a thread's pixel");
+    p->film = film;
+    uv_range_reset(&p->range);
+    int code = RETEX_OK;
+    if (film->paper)
+        code = paper_pixel_create(&p->paper, film->paper, err);
+    if (film->footprints)
+        code = footprints_pixel_create(&p->footprints, film->footprints, err);
+    if (code)
+        film_pixel_close(out);
+    return code;
 }
 
 /* Merge what a thread knows of UV ranges; minima and maxima do not depend on order. */
@@ -144,72 +125,33 @@ void film_pixel_close(FilmPixel **pixel)
     if (!p)
         return;
     pthread_mutex_lock(&p->film->lock);
-    for (int t = 0; t < RETEX_MAX_TARGETS; t++)
-        for (int k = 0; k < 2; k++) {
-            p->film->uv_min[t][k] = fmin(p->film->uv_min[t][k], p->uv_min[t][k]);
-            p->film->uv_max[t][k] = fmax(p->film->uv_max[t][k], p->uv_max[t][k]);
-        }
+    uv_range_merge(&p->film->range, &p->range);
     p->film->dropped += p->dropped;
-    p->film->lost |= p->lost;
     pthread_mutex_unlock(&p->film->lock);
-    free(p->sums);
-    free(p->touched);
+    paper_pixel_close(&p->paper);
+    footprints_pixel_close(&p->footprints);
     free(p);
     *pixel = NULL;
 }
 
-static void add_term(FilmPixel *p, TermKey key, Rgb value)
+int film_surveying(const Film *film)
 {
-    int term = terms_find(&p->film->terms, &p->cache, key);
-    if (term < 0) { /* no room for one more: film_finish says so */
-        p->lost = 1;
-        return;
-    }
-    float *sum = p->sums[term];
-    if (sum[0] == 0 && sum[1] == 0 && sum[2] == 0)
-        p->touched[p->ntouched++] = term;
-    sum[0] += value.r, sum[1] += value.g, sum[2] += value.b;
+    return film->footprints && footprints_surveying(film->footprints);
 }
 
-/* The original albedo of each hit of a monomial, weighted by the light it multiplied: so a term of one factor keeps its
- * original to the bit that arithmetic allows, whatever the texture does inside the pixel. */
-static void add_albedos(FilmPixel *p, const Expansion *e, HitMask hits, Rgb value)
+int film_survey_end(Film *film, FilmPixel *const *pixels, int npixels, RetexError *err)
 {
-    for (int j = 0; j < e->nhits; j++) {
-        const TargetHit *hit = &e->hits[j];
-        if (!(hits & hit_bit(hit->target, hit->index)))
-            continue;
-        Rgb light = value;
-        for (int k = 0; k < e->nhits; k++)
-            if (k != j && hits & hit_bit(e->hits[k].target, e->hits[k].index))
-                light = rgb_mul(light, e->hits[k].albedo);
-        FootprintSums *f = &p->footprints[footprint_number(hit)];
-        f->light[0] += light.r, f->light[1] += light.g, f->light[2] += light.b;
-        f->light_albedo[0] += light.r * hit->albedo.r;
-        f->light_albedo[1] += light.g * hit->albedo.g;
-        f->light_albedo[2] += light.b * hit->albedo.b;
+    for (int k = 0; k < npixels; k++) {
+        footprints_survey_take(film->footprints, pixels[k]->footprints);
+        pixels[k]->beauty[0] = pixels[k]->beauty[1] = pixels[k]->beauty[2] = 0;
+        pixels[k]->total = pixels[k]->folded = 0;
+        pixels[k]->dropped = 0;
+        uv_range_reset(&pixels[k]->range);
     }
+    return footprints_survey_end(film->footprints, err);
 }
 
-/* Remember that each hit of the expansion has one more connection behind it. */
-static void note_connection(FilmPixel *p, const Expansion *e)
-{
-    for (int j = 0; j < e->nhits; j++) {
-        const TargetHit *hit = &e->hits[j];
-        int k = p->nhits - 1;
-        while (k >= 0 && !(p->hits[k].target == hit->target && p->hits[k].index == hit->index &&
-                           p->hits[k].uv.u == hit->uv.u && p->hits[k].uv.v == hit->uv.v))
-            k--;
-        if (k < 0) {
-            if (p->nhits == 64)
-                continue;
-            k = p->nhits++;
-            p->hits[k] = *hit;
-            p->connections[k] = 0;
-        }
-        p->connections[k]++;
-    }
-}
+/* ---- light ---- */
 
 void film_connect(FilmPixel *p, Rgb beauty, Rgb outside, const Expansion *e, int folded)
 {
@@ -220,88 +162,32 @@ void film_connect(FilmPixel *p, Rgb beauty, Rgb outside, const Expansion *e, int
     }
     p->beauty[0] += beauty.r, p->beauty[1] += beauty.g, p->beauty[2] += beauty.b;
     p->total += l;
-    if (folded)
-        p->folded += l;
-    if (!p->film->params.split || rgb_is_black(outside))
-        return;
-    for (int k = 0; k < e->nmonomials; k++) {
-        Rgb value = rgb_mul(outside, e->monomials[k].coefficient);
-        TermKey key = term_key(e->nhits, e->monomials[k].hits, p->film->params.strict_paper);
-        if (key == TERM_DROPPED || rgb_is_black(value))
-            continue;
-        add_term(p, key, value);
-        if (e->monomials[k].hits)
-            add_albedos(p, e, e->monomials[k].hits, value);
-    }
-    note_connection(p, e);
-}
-
-static void footprint_add(FootprintSums *f, const TargetHit *hit, int weight)
-{
-    double before = f->count, uv[2] = {hit->uv.u, hit->uv.v};
-    f->count += weight;
-    for (int k = 0; k < 2; k++) {
-        double delta = uv[k] - f->mean[k];
-        f->mean[k] += delta * weight / f->count;
-        f->m2[k] += delta * delta * weight * before / f->count;
-    }
-    f->albedo[0] += hit->albedo.r * (float)weight;
-    f->albedo[1] += hit->albedo.g * (float)weight;
-    f->albedo[2] += hit->albedo.b * (float)weight;
+    double more = 0;
+    if (p->paper && !rgb_is_black(outside))
+        paper_connect(p->paper, e, outside);
+    if (p->footprints && !rgb_is_black(outside))
+        more = footprints_connect(p->footprints, e, outside);
+    p->folded += folded ? l : more;
 }
 
 void film_path_end(FilmPixel *p)
 {
-    HitMask seen = 0;
-    for (int k = 0; k < p->nhits; k++) {
-        const TargetHit *hit = &p->hits[k];
-        FootprintSums *f = &p->footprints[footprint_number(hit)];
-        HitMask bit = hit_bit(hit->target, hit->index);
-        footprint_add(f, hit, p->connections[k]);
-        if (!(seen & bit))
-            f->samples++;
-        seen |= bit;
-        for (int a = 0; a < 2; a++) {
-            double x = a ? hit->uv.v : hit->uv.u;
-            p->uv_min[hit->target][a] = fmin(p->uv_min[hit->target][a], x);
-            p->uv_max[hit->target][a] = fmax(p->uv_max[hit->target][a], x);
-        }
-    }
-    p->nhits = 0;
-}
-
-static void store_footprint(Film *film, int k, const FootprintSums *f, int x, int y)
-{
-    float *uv = film->uv[k].pixels + retex_image_index(&film->uv[k], x, y);
-    float *spread = film->spread[k].pixels + retex_image_index(&film->spread[k], x, y);
-    float *albedo = film->albedo[k].pixels + retex_image_index(&film->albedo[k], x, y);
-    for (int a = 0; a < 2; a++) {
-        uv[a] = (float)f->mean[a];
-        spread[a] = (float)sqrt(f->m2[a] / f->count);
-    }
-    uv[2] = (float)f->samples / (float)film->params.spp;
-    for (int c = 0; c < 3; c++)
-        albedo[c] = f->light[c] > 0 ? f->light_albedo[c] / f->light[c] : (float)(f->albedo[c] / f->count);
+    if (p->paper)
+        paper_path_end(p->paper, &p->range);
+    if (p->footprints)
+        footprints_path_end(p->footprints, &p->range);
 }
 
 void film_pixel_end(FilmPixel *p, int x, int y)
 {
     Film *film = p->film;
-    float scale = 1 / (float)film->params.spp;
     float *beauty = film->beauty.pixels + retex_image_index(&film->beauty, x, y);
     for (int c = 0; c < 3; c++)
         beauty[c] = (float)(p->beauty[c] / film->params.spp), p->beauty[c] = 0;
-    for (int k = 0; k < p->ntouched; k++) {
-        float *sum = p->sums[p->touched[k]], *pixel = terms_pixel(&film->terms, p->touched[k], x, y);
-        for (int c = 0; c < 3; c++)
-            pixel[c] = sum[c] * scale, sum[c] = 0;
-    }
-    p->ntouched = 0;
-    for (int k = 0; k < footprints_count(film); k++)
-        if (p->footprints[k].count > 0) {
-            store_footprint(film, k, &p->footprints[k], x, y);
-            p->footprints[k] = (FootprintSums){0};
-        }
+    if (p->paper)
+        paper_pixel_end(p->paper, x, y);
+    if (p->footprints)
+        footprints_pixel_end(p->footprints, x, y);
 }
 
 void film_tile_end(FilmPixel *p, int tile)
@@ -316,9 +202,10 @@ long film_dropped(const Film *film)
     return film->dropped;
 }
 
-/* Hand an image over to a new part of the set. */
-static int move_part(RetexSet *set, const char *name, const char *letters, RetexPixelType type, RetexImage *image,
-                     int *index, RetexError *err)
+/* ---- into a set ---- */
+
+int film_move_part(RetexSet *set, const char *name, const char *letters, RetexPixelType type, RetexImage *image,
+                   int *index, RetexError *err)
 {
     int part, code = retex_set_add_part(set, name, letters, type, 1, 1, &part, err);
     if (code)
@@ -328,28 +215,6 @@ static int move_part(RetexSet *set, const char *name, const char *letters, Retex
     *image = (RetexImage){0};
     if (index)
         *index = part;
-    return RETEX_OK;
-}
-
-static int finish_footprints(Film *film, RetexSet *set, RetexError *err)
-{
-    char name[RETEX_NAME_MAX];
-    for (int t = 0; t < film->scene->ntargets; t++)
-        for (int j = 0; j < film->params.orders; j++) {
-            int k = t * RETEX_MAX_ORDERS + j, code;
-            RetexFootprint f = {.target = t, .hit = j + 1};
-            snprintf(name, sizeof name, "uv_%.90s_%d", film->scene->targets[t].name, j + 1);
-            if ((code = move_part(set, name, "RGA", RETEX_FLOAT, &film->uv[k], &f.uv, err)))
-                return code;
-            snprintf(name, sizeof name, "spread_%.90s_%d", film->scene->targets[t].name, j + 1);
-            if ((code = move_part(set, name, "RG", RETEX_HALF, &film->spread[k], &f.spread, err)))
-                return code;
-            snprintf(name, sizeof name, "albedo_%.90s_%d", film->scene->targets[t].name, j + 1);
-            if ((code = move_part(set, name, "RGB", RETEX_HALF, &film->albedo[k], &f.albedo, err)))
-                return code;
-            if ((code = retex_set_add_footprint(set, &f, NULL, err)))
-                return code;
-        }
     return RETEX_OK;
 }
 
@@ -380,11 +245,10 @@ static void finish_targets(const Film *film, RetexSet *set)
         snprintf(target->name, sizeof target->name, "%s", film->scene->targets[t].name);
         snprintf(target->idents, sizeof target->idents, "%s", film->scene->targets[t].idents);
         target->original = -1;
-        target_mean(set, t, target->mean_albedo);
         for (int k = 0; k < 2; k++) {
-            int met = film->uv_max[t][k] >= film->uv_min[t][k];
-            target->uv_min[k] = met ? film->uv_min[t][k] : 0;
-            target->uv_max[k] = met ? film->uv_max[t][k] : 1;
+            int met = film->range.high[t][k] >= film->range.low[t][k];
+            target->uv_min[k] = met ? film->range.low[t][k] : 0;
+            target->uv_max[k] = met ? film->range.high[t][k] : 1;
         }
     }
 }
@@ -398,9 +262,6 @@ int film_finish(Film *film, RetexSet *set, RetexError *err)
     retex_set_identify(set);
     if (!film->params.split)
         return RETEX_OK;
-    if (film->lost)
-        return retex_fail(err, RETEX_ELIMIT, "the set needs more than %d terms, or more memory than there is: %s",
-                          TERMS_MAX, "take fewer targets or orders");
     set->orders = film->params.orders;
     set->strict_paper = film->params.strict_paper;
     double total = 0, folded = 0;
@@ -408,9 +269,9 @@ int film_finish(Film *film, RetexSet *set, RetexError *err)
         total += film->tile_total[k], folded += film->tile_folded[k];
     set->folded = total > 0 ? folded / total : 0;
     set->ntargets = film->scene->ntargets;
-    int code = finish_footprints(film, set, err);
-    if (code)
-        return code;
     finish_targets(film, set);
-    return terms_finish(&film->terms, set, err);
+    int code = film->paper ? paper_finish(film->paper, set, err) : footprints_finish(film->footprints, set, err);
+    for (int t = 0; t < set->ntargets && !code; t++)
+        target_mean(set, t, set->targets[t].mean_albedo);
+    return code;
 }

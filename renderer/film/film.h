@@ -5,6 +5,9 @@
 #include "film/expansion.h"
 #include "scene/scene.h"
 
+#define FILM_SHARP_MAX 16
+#define FILM_BROAD_MAX 4
+
 typedef struct Film Film;
 
 typedef struct FilmParams {
@@ -13,7 +16,19 @@ typedef struct FilmParams {
     int strict_paper;
     int split;              /* 0: the beauty only (plain and replaced renders) */
     int ntiles;
+    int paper;              /* layout: 0 footprints, 1 paper */
+    int sharp, broad;       /* layout footprints: clusters a pixel and target */
+    int periodic[RETEX_MAX_TARGETS][2]; /* targets that close in u, v */
 } FilmParams;
+
+/* Where on the targets light was met. */
+typedef struct UvRange {
+    double low[RETEX_MAX_TARGETS][2], high[RETEX_MAX_TARGETS][2]; /* inf, -inf: nowhere */
+} UvRange;
+
+void uv_range_reset(UvRange *range);
+void uv_range_add(UvRange *range, int target, const double uv[2]);
+void uv_range_merge(UvRange *into, const UvRange *from);
 
 /* One thread's scratch: sums of the pixel in hand. */
 typedef struct FilmPixel FilmPixel;
@@ -22,6 +37,11 @@ int film_create(Film **film, const Scene *scene, const FilmParams *params, Retex
 void film_close(Film **film);
 int film_pixel_create(FilmPixel **pixel, Film *film, RetexError *err);
 void film_pixel_close(FilmPixel **pixel);
+
+/* A film of several targets looks at some paths first, anywhere in the picture, to see what is worth keeping. While
+ * it surveys, pixels are not stored; the survey's end forgets all light so far. */
+int film_surveying(const Film *film);
+int film_survey_end(Film *film, FilmPixel *const *pixels, int npixels, RetexError *err);
 
 /* Light that arrived: beauty is its whole contribution. With a split film, outside is the part of the throughput that
  * no recorded target hit made, times the light, and expansion holds the hits; folded: hits beyond the order kept
@@ -34,6 +54,9 @@ void film_tile_end(FilmPixel *pixel, int tile);        /* energy sums, kept by t
 
 /* Move everything into a set: parts, terms, footprints, shares of energy. The film is empty afterwards. */
 int film_finish(Film *film, RetexSet *set, RetexError *err);
+/* For the layouts: hand an image over to a new part of the set. */
+int film_move_part(RetexSet *set, const char *name, const char *letters, RetexPixelType type, RetexImage *image,
+                   int *index, RetexError *err);
 long film_dropped(const Film *film); /* samples that were not finite */
 
 #endif

@@ -152,8 +152,7 @@ static void closes(const Primitive *p, const Pigment *pigment, int *u, int *v)
     *v &= own && p->kind == SHAPE_TORUS;
 }
 
-/* A target closes in u where every primitive it is on does and looks textures up by its own parametrisation. */
-static void set_periodic(RetexTarget *target, const Scene *scene, int t)
+void target_periodic(const Scene *scene, int t, int periodic[2])
 {
     int any = 0, u = 1, v = 1;
     for (int k = 0; k < scene->nprimitives; k++) {
@@ -168,7 +167,7 @@ static void set_periodic(RetexTarget *target, const Scene *scene, int t)
             if (p->face_targets[j] == t)
                 u = v = 0;
     }
-    target->periodic[0] = any && u, target->periodic[1] = any && v;
+    periodic[0] = any && u, periodic[1] = any && v;
 }
 
 int first_hit_targets(RetexSet *set, const FirstHitWindow *window, RetexError *err)
@@ -177,7 +176,7 @@ int first_hit_targets(RetexSet *set, const FirstHitWindow *window, RetexError *e
     int code = count_shares(window, window->scene->ntargets, 0, shares, err);
     for (int t = 0; t < set->ntargets; t++) {
         set->targets[t].share = shares[t];
-        set_periodic(&set->targets[t], window->scene, t);
+        target_periodic(window->scene, t, set->targets[t].periodic);
     }
     return code;
 }

@@ -17,6 +17,8 @@ typedef struct FirstHitWindow {
 int first_hit_aovs(RetexSet *set, const FirstHitWindow *window, unsigned aovs, RetexError *err);
 /* Fill share, and periodic of all targets. */
 int first_hit_targets(RetexSet *set, const FirstHitWindow *window, RetexError *err);
+/* Does a target close in u (v): every primitive it is on does, and looks textures up by its own parametrisation? */
+void target_periodic(const Scene *scene, int target, int periodic[2]);
 int first_hit_idents(const FirstHitWindow *window, double *shares, RetexError *err);
 
 #endif

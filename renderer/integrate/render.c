@@ -10,6 +10,7 @@
 #include "integrate/originals.h"
 
 #define TILE 32
+#define SURVEY_CHUNK 512 /* paths */
 
 /* All of one render. */
 typedef struct Render {
@@ -42,6 +43,9 @@ static int check_params(const RenderParams *p, RetexError *err)
         return retex_fail(err, RETEX_EINVAL, "max-depth must be 1 to 256, not %d", p->max_depth);
     if (p->orders < 1 || p->orders > RETEX_MAX_ORDERS)
         return retex_fail(err, RETEX_EINVAL, "orders must be 1 to %d, not %d", RETEX_MAX_ORDERS, p->orders);
+    if (p->sharp < 1 || p->sharp > FILM_SHARP_MAX || p->broad < 1 || p->broad > FILM_BROAD_MAX)
+        return retex_fail(err, RETEX_EINVAL, "clusters must be 1 to %d sharp and 1 to %d broad ones, not %d and %d",
+                          FILM_SHARP_MAX, FILM_BROAD_MAX, p->sharp, p->broad);
     return RETEX_OK;
 }
 
@@ -103,6 +107,28 @@ static void render_tile(void *context, int tile, int thread)
         r->params.progress(r->params.progress_context, (double)done / (r->tiles_x * r->tiles_y));
 }
 
+/* The survey's paths: spread evenly over the whole picture, whatever part of it is rendered, so that all parts keep the
+ * same light apart. */
+static void survey_chunk(void *context, int chunk, int thread)
+{
+    Render *r = context;
+    PathWorker worker = {.context = &r->context, .pixel = r->pixels[thread]};
+    for (int k = chunk * SURVEY_CHUNK; k < (chunk + 1) * SURVEY_CHUNK; k++) {
+        double u = 0.5 + 0.7548776662466927 * k, v = 0.5 + 0.5698402909980532 * k; /* additive recurrence R2 */
+        int x = (int)((u - floor(u)) * r->width), y = (int)((v - floor(v)) * r->height);
+        trace_sample(r, &worker, x, y, k % r->params.spp);
+    }
+}
+
+/* About two per cent of the render's paths, if that is enough to tell anything. */
+static int survey(Render *r, RetexError *err)
+{
+    double paths = 0.02 * r->width * r->height * r->params.spp;
+    int chunks = (int)(fmin(fmax(paths, 4096), 65536) / SURVEY_CHUNK), threads = retex_threads(r->params.nthreads);
+    retex_parallel(r->params.nthreads, chunks, survey_chunk, r);
+    return film_survey_end(r->film, r->pixels, threads, err);
+}
+
 static void render_close(Render *r)
 {
     if (r->pixels)
@@ -143,8 +169,18 @@ static int render_open(Render *r, const Scene *scene, const RenderParams *params
 static int render_film(Render *r, RetexError *err)
 {
     int threads = retex_threads(r->params.nthreads);
-    FilmParams film = {
-        r->w, r->h, r->params.spp, r->params.orders, r->params.strict_paper, r->context.split, r->tiles_x * r->tiles_y};
+    FilmParams film = {.width = r->w,
+                       .height = r->h,
+                       .spp = r->params.spp,
+                       .orders = r->params.orders,
+                       .strict_paper = r->params.strict_paper,
+                       .split = r->context.split,
+                       .ntiles = r->tiles_x * r->tiles_y,
+                       .paper = r->params.paper,
+                       .sharp = r->params.sharp,
+                       .broad = r->params.broad};
+    for (int t = 0; t < r->scene->ntargets; t++)
+        target_periodic(r->scene, t, film.periodic[t]);
     r->pixels = calloc((size_t)threads, sizeof *r->pixels);
     r->segments = calloc((size_t)threads, sizeof *r->segments);
     r->shadow_rays = calloc((size_t)threads, sizeof *r->shadow_rays);
@@ -153,6 +189,8 @@ static int render_film(Render *r, RetexError *err)
     int code = film_create(&r->film, r->scene, &film, err);
     for (int k = 0; k < threads && !code; k++)
         code = film_pixel_create(&r->pixels[k], r->film, err);
+    if (!code && film_surveying(r->film))
+        code = survey(r, err);
     return code;
 }
 
@@ -165,7 +203,7 @@ static int start_set(RetexSet **set, const Render *r, RetexError *err)
     if (s->nparts == 0 && (code = retex_set_add_part(s, "beauty", "RGB", RETEX_FLOAT, 0, 0, NULL, err)))
         return code;
     const char *name = strrchr(r->scene->path, '/');
-    snprintf(s->layout, sizeof s->layout, "%s", r->context.split ? "paper" : "plain");
+    snprintf(s->layout, sizeof s->layout, "%s", !r->context.split ? "plain" : r->params.paper ? "paper" : "footprints");
     snprintf(s->filter, sizeof s->filter, "%s", r->params.gaussian ? "gaussian" : "box");
     snprintf(s->scene, sizeof s->scene, "%.255s", name ? name + 1 : r->scene->path);
     snprintf(s->generator, sizeof s->generator, "retex-render 0.1.0");

@@ -24,6 +24,9 @@ typedef struct RenderParams {
     uint32_t seed;           /* default 0 */
     int max_depth;           /* segments of a path, 1..256, camera and shadow rays included; default 16 */
     int gaussian;            /* pixel filter: 0 box of one pixel (default), 1 Gaussian of sigma 0.5 pixel */
+    int paper;               /* layout: 0 footprints (default), 1 paper */
+    int sharp, broad;        /* layout footprints: clusters kept per target of what is seen sharply (1..16; default 3)
+                                and of the rest (1..4; default 1) */
     int orders;              /* most hits of each target kept, 1..6; default 6; at most 8 of all together */
     int strict_paper;        /* drop mixed terms of four and more hits, as the supplement does; default 0 */
     int plain;               /* beauty only, no set; default 0 */
@@ -32,7 +35,8 @@ typedef struct RenderParams {
     void (*progress)(void *context, double done); /* 0..1, from the calling thread; NULL = none */
     void *progress_context;
 } RenderParams;
-#define RENDER_PARAMS_INIT { sizeof(RenderParams), 0, 0, {0, 0, 0, 0}, 64, 0, 16, 0, 6, 0, 0, 0, 0, NULL, NULL }
+#define RENDER_PARAMS_INIT \
+    { sizeof(RenderParams), 0, 0, {0, 0, 0, 0}, 64, 0, 16, 0, 1, 3, 1, 6, 0, 0, 0, 0, NULL, NULL }
 
 typedef struct RenderStats {
     double build_seconds, render_seconds;

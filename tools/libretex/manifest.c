@@ -114,19 +114,20 @@ static json_t *write_target(const RetexSet *set, const RetexTarget *target, int 
 {
     const float *albedo = target->mean_albedo;
 
-    return json_pack("{s:o, s:o, s:[b, b], s:o, s:o, s:[o, o, o], s:o, s:o, s:o, s:o}", "name", text(target->name),
+    return json_pack("{s:o, s:o, s:[b, b], s:o, s:o, s:[o, o, o], s:o, s:o, s:o, s:o, s:o}", "name", text(target->name),
                      "idents", text(target->idents), "periodic", target->periodic[0], target->periodic[1], "uv_min",
                      pair(target->uv_min, finite), "uv_max", pair(target->uv_max, finite), "mean_albedo",
                      real(albedo[0], finite), real(albedo[1], finite), real(albedo[2], finite), "original",
                      part_name(set, target->original), "original_min", pair(target->original_min, finite),
-                     "original_max", pair(target->original_max, finite), "share", real(target->share, finite));
+                     "original_max", pair(target->original_max, finite), "share", real(target->share, finite),
+                     "uv_scale", pair(target->uv_scale, finite));
 }
 
 static json_t *write_footprint(const RetexSet *set, const RetexFootprint *footprint)
 {
-    return json_pack("{s:i, s:i, s:o, s:o, s:o}", "target", footprint->target, "hit", footprint->hit, "uv",
-                     part_name(set, footprint->uv), "spread", part_name(set, footprint->spread), "albedo",
-                     part_name(set, footprint->albedo));
+    return json_pack("{s:i, s:i, s:s, s:o, s:o, s:o}", "target", footprint->target, "hit", footprint->hit, "kind",
+                     retex_footprint_kinds[footprint->kind], "uv", part_name(set, footprint->uv), "spread",
+                     part_name(set, footprint->spread), "albedo", part_name(set, footprint->albedo));
 }
 
 static json_t *write_term(const RetexSet *set, const RetexTerm *term)

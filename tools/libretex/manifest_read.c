@@ -105,6 +105,14 @@ static int get_part(Reading *reading, const RetexSet *set, const json_t *object,
     return part;
 }
 
+/* Standard deviations of u and v, and perhaps their correlation. */
+static int get_spread(Reading *reading, const RetexSet *set, const json_t *json)
+{
+    const char *name = json_string_value(json_object_get(json, "spread"));
+    const int part = name ? retex_set_find_part(set, name) : -1;
+    return get_part(reading, set, json, "spread", part >= 0 && set->parts[part].image.channels == 3 ? 3 : 2, 1);
+}
+
 static void check_size(Reading *reading, const RetexSet *set, int part, const char *key)
 {
     if (part >= 0 && (set->parts[part].image.width != set->width || set->parts[part].image.height != set->height))
@@ -180,6 +188,8 @@ static void read_target(Reading *reading, const json_t *json, RetexSet *set, Ret
     get_pair(reading, json, "uv_max", target->uv_max);
     get_pair(reading, json, "original_min", target->original_min);
     get_pair(reading, json, "original_max", target->original_max);
+    if (json_object_get(json, "uv_scale"))
+        get_pair(reading, json, "uv_scale", target->uv_scale);
     target->share = get_real(reading, json_object_get(json, "share"), "share");
     const json_t *original = json_object_get(json, "original");
     const char *name = json_string_value(original);
@@ -198,6 +208,22 @@ static void read_targets(Reading *reading, const json_t *root, RetexSet *set)
     }
 }
 
+/* Number of the object's "kind" among names; the first where it has none. */
+static int get_kind(Reading *reading, const json_t *json, const char *const *names, int count)
+{
+    char kind[16] = "";
+    int number = 0;
+
+    if (!json_object_get(json, "kind"))
+        return 0;
+    get_text(reading, json, "kind", kind, sizeof kind);
+    while (number < count && strcmp(kind, names[number]) != 0)
+        number++;
+    if (number == count)
+        bad(reading, RETEX_EFORMAT, "has something of unknown kind \"%s\"", kind);
+    return number < count ? number : 0;
+}
+
 static void read_footprints(Reading *reading, const json_t *root, RetexSet *set)
 {
     const json_t *array = get_array(reading, root, "footprints", RETEX_SET_FOOTPRINTS_MAX);
@@ -208,11 +234,12 @@ static void read_footprints(Reading *reading, const json_t *root, RetexSet *set)
             .target = get_integer(reading, json, "target", 0, set->ntargets - 1),
             .hit = get_integer(reading, json, "hit", 1, 1 << 20),
             .uv = get_part(reading, set, json, "uv", 3, 1),
-            .spread = get_part(reading, set, json, "spread", 2, 1),
+            .spread = get_spread(reading, set, json),
             .albedo = get_part(reading, set, json, "albedo", 3, 1),
         };
         if (reading->status)
             return;
+        footprint.kind = (RetexFootprintKind)get_kind(reading, json, retex_footprint_kinds, RETEX_FOOTPRINT_KINDS);
         check_size(reading, set, footprint.uv, "uv");
         check_size(reading, set, footprint.spread, "spread");
         check_size(reading, set, footprint.albedo, "albedo");
@@ -230,13 +257,9 @@ static void read_terms(Reading *reading, const json_t *root, RetexSet *set)
         const json_t *factors = get_array(reading, json, "factors", RETEX_MAX_FACTORS);
         RetexTerm term = {.radiance = get_part(reading, set, json, "radiance", 3, 0),
                           .nfactors = (int)json_array_size(factors)};
-        char kind[16] = "";
-        int number = 0;
-        get_text(reading, json, "kind", kind, sizeof kind);
-        while (number < RETEX_TERM_KINDS && strcmp(kind, retex_term_kinds[number]) != 0)
-            number++;
-        if (number == RETEX_TERM_KINDS)
-            bad(reading, RETEX_EFORMAT, "has a term of unknown kind \"%s\"", kind);
+        if (!json_object_get(json, "kind"))
+            bad(reading, RETEX_EFORMAT, "has a term without a \"kind\"");
+        term.kind = (RetexTermKind)get_kind(reading, json, retex_term_kinds, RETEX_TERM_KINDS);
         for (int f = 0; f < term.nfactors; f++) {
             const json_t *value = json_array_get(factors, (size_t)f);
             const json_int_t factor = json_integer_value(value);
@@ -247,7 +270,6 @@ static void read_terms(Reading *reading, const json_t *root, RetexSet *set)
         }
         if (reading->status)
             return;
-        term.kind = (RetexTermKind)number;
         check_size(reading, set, term.radiance, "radiance");
         if (!reading->status)
             reading->status = retex_set_add_term(set, &term, NULL, reading->err);

@@ -71,18 +71,22 @@ static void snap_uv(RetexImage *uv, const RetexImage *spread)
     const double finest = ldexp(1, -18); /* 1/64 texel of a 4K texture */
     for (size_t i = 0; i < (size_t)uv->width * (size_t)uv->height; i++)
         for (size_t c = 0; c < 2; c++) {
-            double sigma = (double)spread->pixels[2 * i + c], value = (double)uv->pixels[3 * i + c];
+            double sigma = (double)spread->pixels[(size_t)spread->channels * i + c];
+            double value = (double)uv->pixels[3 * i + c];
             double step = sigma > 0 && isfinite(sigma) ? fmax(exp2(floor(log2(sigma / 8))), finest) : finest;
             if (isfinite(value))
                 uv->pixels[3 * i + c] = (float)(rint(value / step) * step);
         }
 }
 
-/* Round standard deviations to five significant bits: to within 3%. */
+/* Round standard deviations to five significant bits: to within 3%. A correlation, the third channel, keeps its bits:
+ * near 1 they are the narrower width. */
 static void round_spread(RetexImage *spread)
 {
-    for (size_t i = 0; i < 2 * (size_t)spread->width * (size_t)spread->height; i++) {
+    for (size_t i = 0; i < (size_t)spread->channels * (size_t)spread->width * (size_t)spread->height; i++) {
         int exponent;
+        if (i % (size_t)spread->channels == 2)
+            continue;
         double fraction = frexp((double)spread->pixels[i], &exponent);
         if (isfinite(fraction))
             spread->pixels[i] = (float)ldexp(rint(fraction * 32) / 32, exponent);
@@ -95,9 +99,9 @@ static int simplify(RetexPart *part, const Item *item, RetexImage *changed, Rete
 {
     RetexImage *im = &part->image;
     const RetexImage *spread = item->spread;
-    int snap = spread && part->type == RETEX_FLOAT && im->channels == 3 && spread->channels == 2 &&
+    int snap = spread && part->type == RETEX_FLOAT && im->channels == 3 && spread->channels >= 2 &&
                spread->width == im->width && spread->height == im->height;
-    if (!snap && !(item->is_spread && im->channels == 2))
+    if (!snap && !item->is_spread)
         return 0;
     int code = retex_image_copy(changed, im, err);
     if (code)

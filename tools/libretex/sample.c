@@ -11,6 +11,7 @@
 #include <retex/parallel.h>
 
 #define ROWS_A_JOB 8
+#define SHARP_FILTER retex_texture_gaussian
 #define MAX_FOOTPRINTS ((int)(sizeof((RetexSamples *)0)->footprint_target / sizeof(int)))
 
 typedef struct SampleWork {
@@ -59,7 +60,8 @@ static int check_part(const RetexSet *set, int part, int channels)
     if (part < 0 || part >= set->nparts)
         return 0;
     const RetexImage *im = &set->parts[part].image;
-    return im->pixels && im->width == set->width && im->height == set->height && im->channels == channels;
+    return im->pixels && im->width == set->width && im->height == set->height &&
+           (im->channels == channels || (channels == 2 && im->channels == 3));
 }
 
 /* Footprints of edited targets need all their parts; of the others nothing is looked at. */
@@ -112,17 +114,24 @@ static int load_textures(SampleWork *work, int nthreads, RetexError *err)
 
 /* ---- the work itself ---- */
 
-static void sample_row(const RetexTexture *texture, const float *restrict uv, const float *restrict spread,
-                       const float *restrict albedo, float *restrict out, int width)
+/* How a footprint's distribution of UV is taken: what is seen sharply through a box pixel filter fills its ellipse
+ * evenly, all else is taken as a Gaussian. */
+typedef void Filter(const RetexTexture *texture, double u, double v, const double covariance[3], float rgba[4]);
+
+static void sample_row(const RetexTexture *texture, Filter *filter, const float *restrict uv,
+                       const float *restrict spread, int spreads, const float *restrict albedo, float *restrict out,
+                       int width)
 {
-    for (int x = 0; x < width; x++, uv += 3, spread += 2, albedo += 3, out += 3) {
+    for (int x = 0; x < width; x++, uv += 3, spread += spreads, albedo += 3, out += 3) {
         if (!(uv[2] > 0)) {
             out[0] = out[1] = out[2] = 0;
             continue;
         }
-        const double covariance[3] = {(double)spread[0] * spread[0], 0, (double)spread[1] * spread[1]};
+        double correlation = spreads == 3 ? spread[2] : 0;
+        const double covariance[3] = {(double)spread[0] * spread[0], correlation * spread[0] * spread[1],
+                                      (double)spread[1] * spread[1]};
         float rgba[4];
-        retex_texture_gaussian(texture, uv[0], uv[1], covariance, rgba);
+        filter(texture, uv[0], uv[1], covariance, rgba);
         for (int c = 0; c < 3; c++)
             out[c] = rgba[c] * rgba[3] + (1 - rgba[3]) * albedo[c];
     }
@@ -136,12 +145,14 @@ static void sample_job(void *context, int index, int thread)
     int footprint = work->edited[index / work->blocks], block = index % work->blocks;
     const RetexFootprint *f = &set->footprints[footprint];
     RetexImage *image = &work->samples->images[footprint];
+    const RetexImage *spread = &set->parts[f->spread].image;
+    int even = f->kind == RETEX_FOOTPRINT_SHARP && strcmp(set->filter, "box") == 0;
     int last = (block + 1) * ROWS_A_JOB < set->height ? (block + 1) * ROWS_A_JOB : set->height;
     for (int y = block * ROWS_A_JOB; y < last; y++) {
         size_t row = (size_t)y * (size_t)set->width;
-        sample_row(work->textures[f->target], set->parts[f->uv].image.pixels + 3 * row,
-                   set->parts[f->spread].image.pixels + 2 * row, set->parts[f->albedo].image.pixels + 3 * row,
-                   image->pixels + 3 * row, set->width);
+        sample_row(work->textures[f->target], even ? SHARP_FILTER : retex_texture_gaussian,
+                   set->parts[f->uv].image.pixels + 3 * row, spread->pixels + (size_t)spread->channels * row,
+                   spread->channels, set->parts[f->albedo].image.pixels + 3 * row, image->pixels + 3 * row, set->width);
     }
 }
 

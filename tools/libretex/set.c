@@ -106,9 +106,13 @@ int retex_set_add_footprint(RetexSet *set, const RetexFootprint *footprint, int 
         return retex_fail(err, RETEX_EINVAL, "the footprint lies on target %d of %d", footprint->target, set->ntargets);
     if (footprint->hit < 1)
         return retex_fail(err, RETEX_EINVAL, "hits count from 1, not %d", footprint->hit);
+    if (footprint->kind < RETEX_FOOTPRINT_HIT || footprint->kind > RETEX_FOOTPRINT_LATER)
+        return retex_fail(err, RETEX_EINVAL, "the footprint is of no known kind (%d)", (int)footprint->kind);
+    const int correlated =
+        footprint->spread >= 0 && footprint->spread < set->nparts && strlen(set->parts[footprint->spread].letters) == 3;
     status = check_part(set, footprint->uv, 3, 1, "a footprint's UV", err);
     if (!status)
-        status = check_part(set, footprint->spread, 2, 1, "a footprint's spread", err);
+        status = check_part(set, footprint->spread, correlated ? 3 : 2, 1, "a footprint's spread", err);
     if (!status)
         status = check_part(set, footprint->albedo, 3, 1, "a footprint's albedo", err);
     if (!status)

@@ -49,15 +49,24 @@ typedef struct RetexTarget {
     float mean_albedo[3];    /* of the original, over all that was met; scene-linear */
     int original;            /* part that holds the original texture over original_min..original_max, or -1 */
     double original_min[2], original_max[2]; /* UV rectangle the original covers: an image_map's is 0,0 1,1 */
+    double uv_scale[2];      /* scene units a unit of u and of v spans on the surface, at the median; 0 = unknown */
     double share;            /* of the picture's pixels, whose centre sees the target directly; 0..1 */
 } RetexTarget;
 
+typedef enum RetexFootprintKind {
+    RETEX_FOOTPRINT_HIT,   /* layout paper: the j-th hit of the target along the path */
+    RETEX_FOOTPRINT_SHARP, /* layout footprints: met first, seen directly, in mirrors or through glass */
+    RETEX_FOOTPRINT_BROAD, /* met first, by light scattered widely before */
+    RETEX_FOOTPRINT_LATER  /* all hits after the first one, pooled */
+} RetexFootprintKind;
+
 typedef struct RetexFootprint {
     int target;              /* index of the target it lies on */
-    int hit;                 /* layout paper: the how-manieth hit of that target along the path, from 1 */
+    int hit;                 /* its number among the target's, from 1; layout paper: the how-manieth hit it is of */
+    RetexFootprintKind kind;
     int uv;                  /* part "RGA": mean u, mean v, and coverage (share of samples with a connection; 0 = this
                                 pixel has no such footprint and u, v mean nothing). float */
-    int spread;              /* part "RG": standard deviation of u and of v. half */
+    int spread;              /* part "RG": standard deviation of u and of v, or "RGB": also their correlation. half */
     int albedo;              /* part "RGB": mean original albedo, weighted by the light it multiplies. half */
 } RetexFootprint;
 
@@ -78,7 +87,7 @@ typedef struct RetexTerm {
 
 typedef struct RetexSet {
     int width, height;
-    char layout[16];       /* "paper" */
+    char layout[16];       /* "footprints", "paper", or "plain": no terms */
     char filter[16];       /* pixel filter: "box" or "gaussian" */
     char scene[256];       /* base name of the scene file */
     char generator[64];    /* "retex-render 0.1.0" */

@@ -2,7 +2,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include "film/terms.h"
+#include "film/paper_terms.h"
 
 #define KEY(kind, rest) ((TermKey)(kind) << 56 | (rest))
 

@@ -1,6 +1,6 @@
 /* The terms of layout `paper`: which radiance image a monomial of a path belongs to. */
-#ifndef RENDERER_FILM_TERMS_H
-#define RENDERER_FILM_TERMS_H
+#ifndef RENDERER_FILM_PAPER_TERMS_H
+#define RENDERER_FILM_PAPER_TERMS_H
 
 #include <pthread.h>
 #include "film/expansion.h"

@@ -1,0 +1,49 @@
+/* Weighted means and covariances of UV, updated without cancellation (Welford; Chan et al. for merging). */
+#include <math.h>
+#include "film/cluster.h"
+
+static double difference(double to, double from, int periodic)
+{
+    double d = to - from;
+    return periodic ? d - rint(d) : d;
+}
+
+static double wrapped(double x, int periodic)
+{
+    return periodic ? x - floor(x) : x;
+}
+
+void uv_stats_add(UvStats *stats, double weight, const double uv[2], const int periodic[2])
+{
+    double share, d[2];
+    stats->weight += weight;
+    share = weight / stats->weight;
+    for (int k = 0; k < 2; k++) {
+        d[k] = difference(uv[k], stats->mean[k], periodic[k]);
+        stats->mean[k] = wrapped(stats->mean[k] + share * d[k], periodic[k]);
+    }
+    double rest = weight * (1 - share);
+    stats->m2[0] += rest * d[0] * d[0];
+    stats->m2[1] += rest * d[0] * d[1];
+    stats->m2[2] += rest * d[1] * d[1];
+}
+
+void uv_stats_merge(UvStats *into, const UvStats *from, const int periodic[2])
+{
+    double total = into->weight + from->weight, share = from->weight / total, d[2];
+    for (int k = 0; k < 2; k++) {
+        d[k] = difference(from->mean[k], into->mean[k], periodic[k]);
+        into->mean[k] = wrapped(into->mean[k] + share * d[k], periodic[k]);
+    }
+    double between = into->weight * share;
+    into->m2[0] += from->m2[0] + between * d[0] * d[0];
+    into->m2[1] += from->m2[1] + between * d[0] * d[1];
+    into->m2[2] += from->m2[2] + between * d[1] * d[1];
+    into->weight = total;
+}
+
+double uv_stats_merge_cost(const UvStats *a, const UvStats *b, const int periodic[2])
+{
+    double u = difference(a->mean[0], b->mean[0], periodic[0]), v = difference(a->mean[1], b->mean[1], periodic[1]);
+    return a->weight * b->weight / (a->weight + b->weight) * (u * u + v * v);
+}

@@ -1,0 +1,641 @@
+/* Clusters of one pixel, and the images they end in; see footprints.h. */
+#include <math.h>
+#include <pthread.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include "film/cluster.h"
+#include "film/footprints.h"
+#include "film/plan.h"
+
+#define SLOTS_MAX (FILM_SHARP_MAX + FILM_BROAD_MAX)
+#define PENDING_MAX 64
+#define COEFFICIENT_IMAGES_MAX 1024 /* a set has room for them beside its footprints */
+/* What an unknown texture is taken for where its hit only weighs another's. */
+#define UNKNOWN_ALBEDO 0.5f
+/* What the survey takes for every texture: white paint. */
+#define WHITE_ALBEDO 0.8f
+/* Coefficients are rounded to this share of what the pixel would be were its targets white: steps no one sees, and
+ * small coefficients of few bits, which compress. */
+#define COEFFICIENT_STEP (1.0f / 8192)
+/* Mean UVs are rounded to this share of their standard deviation. */
+#define UV_STEP (1.0 / 32)
+
+typedef float Coefficients[PLAN_COEFFICIENTS_MAX][3];
+
+/* Original albedo of a footprint, weighted by the light it multiplies. */
+typedef struct AlbedoSums {
+    float light[3], reflected[3];
+} AlbedoSums;
+
+typedef struct Cluster {
+    UvStats uv;
+    AlbedoSums albedo;
+    int samples; /* paths */
+    Coefficients c;
+} Cluster;
+
+/* One path's light by the hit that comes first. */
+typedef struct Pending {
+    int target, order; /* the how-manieth target hit of its path */
+    int sharp;
+    Vec2 position;
+    double weight;
+    AlbedoSums albedo;
+    Coefficients c;
+} Pending;
+
+/* The clusters of one pixel on one target: sharp ones, then broad ones. */
+typedef struct TargetClusters {
+    int nsharp, nbroad;
+    Cluster sharp[FILM_SHARP_MAX], broad[FILM_BROAD_MAX];
+    UvStats later;
+    AlbedoSums later_albedo;
+    int later_samples, later_seen; /* seen: by the path in hand */
+} TargetClusters;
+
+/* Images of one footprint. */
+typedef struct FootprintImages {
+    RetexImage uv, spread, albedo;
+    RetexImage coefficients[PLAN_COEFFICIENTS_MAX]; /* of clusters */
+} FootprintImages;
+
+struct FootprintFilm {
+    const Scene *scene;
+    FilmParams params;
+    Plan plan;
+    PlanSurvey *survey;                        /* while surveying */
+    RetexImage free;                           /* C0 */
+    FootprintImages *slots[RETEX_MAX_TARGETS]; /* sharp, broad */
+    FootprintImages later[RETEX_MAX_TARGETS];
+};
+
+struct FootprintPixel {
+    FootprintFilm *film;
+    PlanSurvey *survey;
+    double free[3];
+    TargetClusters *targets;
+    Pending pending[PENDING_MAX];
+    int npending;
+    UvRange range; /* of the path in hand */
+};
+
+/* ---- life ---- */
+
+static int slots_count(const FilmParams *p)
+{
+    return p->sharp + p->broad;
+}
+
+static int alloc_footprint(const FilmParams *p, FootprintImages *f, int coefficients, RetexError *err)
+{
+    int code = retex_image_alloc(&f->uv, p->width, p->height, 3, err);
+    if (!code)
+        code = retex_image_alloc(&f->spread, p->width, p->height, 3, err);
+    if (!code)
+        code = retex_image_alloc(&f->albedo, p->width, p->height, 3, err);
+    for (int i = 0; i < coefficients && !code; i++)
+        code = retex_image_alloc(&f->coefficients[i], p->width, p->height, 3, err);
+    return code;
+}
+
+static void free_footprint(FootprintImages *f)
+{
+    retex_image_free(&f->uv);
+    retex_image_free(&f->spread);
+    retex_image_free(&f->albedo);
+    for (int i = 0; i < PLAN_COEFFICIENTS_MAX; i++)
+        retex_image_free(&f->coefficients[i]);
+}
+
+/* Does any cluster have a further hit of this target? */
+static int has_later(const Plan *plan, int target)
+{
+    for (int t = 0; t < plan->ntargets; t++)
+        for (int i = 0; i < plan->count[t]; i++)
+            if (plan->powers[t][i][target])
+                return 1;
+    return 0;
+}
+
+static int alloc_images(FootprintFilm *film, RetexError *err)
+{
+    const FilmParams *p = &film->params;
+    int code = retex_image_alloc(&film->free, p->width, p->height, 3, err);
+    for (int t = 0; t < film->plan.ntargets && !code; t++) {
+        film->slots[t] = calloc((size_t)slots_count(p), sizeof *film->slots[t]);
+        if (!film->slots[t])
+            return retex_fail(err, RETEX_ENOMEM, "out of memory for the film");
+        for (int k = 0; k < slots_count(p) && !code; k++)
+            code = alloc_footprint(p, &film->slots[t][k], film->plan.count[t], err);
+        if (!code && has_later(&film->plan, t))
+            code = alloc_footprint(p, &film->later[t], 0, err);
+    }
+    return code;
+}
+
+int footprints_create(FootprintFilm **out, const Scene *scene, const FilmParams *params, RetexError *err)
+{
+    FootprintFilm *film = *out = calloc(1, sizeof *film);
+    if (!film)
+        return retex_fail(err, RETEX_ENOMEM, "out of memory for the film");
+    film->scene = scene;
+    film->params = *params;
+    if (scene->ntargets > 1) {
+        film->survey = calloc(1, sizeof *film->survey);
+        return film->survey ? RETEX_OK : retex_fail(err, RETEX_ENOMEM, "out of memory for the film");
+    }
+    plan_make(&film->plan, scene->ntargets, params->orders, PLAN_COEFFICIENTS_MAX, NULL);
+    return alloc_images(film, err);
+}
+
+void footprints_close(FootprintFilm **out)
+{
+    FootprintFilm *film = *out;
+    if (!film)
+        return;
+    retex_image_free(&film->free);
+    for (int t = 0; t < RETEX_MAX_TARGETS; t++) {
+        for (int k = 0; film->slots[t] && k < slots_count(&film->params); k++)
+            free_footprint(&film->slots[t][k]);
+        free(film->slots[t]);
+        free_footprint(&film->later[t]);
+    }
+    free(film->survey);
+    free(film);
+    *out = NULL;
+}
+
+int footprints_pixel_create(FootprintPixel **out, FootprintFilm *film, RetexError *err)
+{
+    FootprintPixel *p = *out = calloc(1, sizeof *p);
+    if (p) {
+        p->film = film;
+        p->targets = calloc((size_t)film->scene->ntargets + 1, sizeof *p->targets);
+        p->survey = film->survey ? calloc(1, sizeof *p->survey) : NULL;
+        uv_range_reset(&p->range);
+    }
+    if (p && p->targets && !film->survey == !p->survey)
+        return RETEX_OK;
+    footprints_pixel_close(out);
+    return retex_fail(err, RETEX_ENOMEM, "out of memory for a thread's pixel");
+}
+
+void footprints_pixel_close(FootprintPixel **pixel)
+{
+    if (!*pixel)
+        return;
+    free((*pixel)->targets);
+    free((*pixel)->survey);
+    free(*pixel);
+    *pixel = NULL;
+}
+
+/* ---- the survey ---- */
+
+int footprints_surveying(const FootprintFilm *film)
+{
+    return film->survey != NULL;
+}
+
+void footprints_survey_take(FootprintFilm *film, FootprintPixel *pixel)
+{
+    plan_survey_merge(film->survey, pixel->survey);
+    free(pixel->survey);
+    pixel->survey = NULL;
+}
+
+int footprints_survey_end(FootprintFilm *film, RetexError *err)
+{
+    int most = COEFFICIENT_IMAGES_MAX / (film->scene->ntargets * slots_count(&film->params));
+    plan_make(&film->plan, film->scene->ntargets, film->params.orders, most, film->survey);
+    free(film->survey);
+    film->survey = NULL;
+    return alloc_images(film, err);
+}
+
+static void survey_monomial(PlanSurvey *survey, const Expansion *e, HitMask hits, Rgb value)
+{
+    unsigned char powers[RETEX_MAX_TARGETS] = {0};
+    int first = -1;
+    float luminance = rgb_luminance(value);
+    for (int j = 0; j < e->nhits; j++) {
+        const TargetHit *hit = &e->hits[j];
+        if (!(hits & hit_bit(hit->target, hit->index)))
+            continue;
+        luminance *= WHITE_ALBEDO;
+        if (first < 0)
+            first = hit->target;
+        else
+            powers[hit->target]++;
+    }
+    plan_survey_total(survey, luminance);
+    if (first >= 0)
+        plan_survey_add(survey, plan_key(first, powers), luminance);
+}
+
+/* ---- light ---- */
+
+static void add_rgb(float sum[3], Rgb c)
+{
+    sum[0] += c.r, sum[1] += c.g, sum[2] += c.b;
+}
+
+static void add_albedo(AlbedoSums *a, Rgb light, Rgb albedo)
+{
+    add_rgb(a->light, light);
+    add_rgb(a->reflected, rgb_mul(light, albedo));
+}
+
+static void flush_pending(FootprintPixel *p);
+
+/* The path's entry for a hit; a hit met again, as the path goes on from where it connected, is the same. */
+static Pending *find_pending(FootprintPixel *p, const TargetHit *hit, int order)
+{
+    for (int k = p->npending - 1; k >= 0; k--) {
+        Pending *q = &p->pending[k];
+        if (q->order == order && q->target == hit->target && q->position.u == hit->uv.u && q->position.v == hit->uv.v)
+            return q;
+    }
+    if (p->npending == PENDING_MAX)
+        flush_pending(p);
+    Pending *q = &p->pending[p->npending++];
+    q->target = hit->target, q->order = order, q->sharp = hit->sharp, q->position = hit->uv;
+    q->weight = 0;
+    q->albedo = (AlbedoSums){0};
+    memset(q->c, 0, sizeof q->c[0] * (size_t)p->film->plan.count[hit->target]);
+    return q;
+}
+
+static void add_later(FootprintPixel *p, const TargetHit *hit, double weight, Rgb light)
+{
+    TargetClusters *t = &p->targets[hit->target];
+    const double uv[2] = {hit->uv.u, hit->uv.v};
+    if (weight > 0)
+        uv_stats_add(&t->later, weight, uv, p->film->params.periodic[hit->target]);
+    add_albedo(&t->later_albedo, light, hit->albedo);
+    t->later_seen = 1;
+    uv_range_add(&p->range, hit->target, uv);
+}
+
+/* The hits of a monomial beyond its first, as far as the plan keeps them. */
+typedef struct Kept {
+    const TargetHit *hits[RETEX_MAX_FACTORS];
+    int count, coefficient;
+    double folded; /* luminance, where some hit was not kept */
+} Kept;
+
+static void keep_hits(const Plan *plan, const Expansion *e, HitMask hits, int first, Rgb *value, Kept *kept)
+{
+    int target = e->hits[first].target, folding = 0;
+    kept->count = kept->coefficient = 0;
+    kept->folded = 0;
+    for (int j = first + 1; j < e->nhits; j++) {
+        const TargetHit *hit = &e->hits[j];
+        if (!(hits & hit_bit(hit->target, hit->index)))
+            continue;
+        int next = plan->next[target][kept->coefficient][hit->target];
+        if (next >= 0) {
+            kept->coefficient = next;
+            kept->hits[kept->count++] = hit;
+        } else {
+            *value = rgb_mul(*value, hit->albedo);
+            folding = 1;
+        }
+    }
+    if (!folding)
+        return;
+    Rgb light = rgb_mul(*value, e->hits[first].albedo);
+    for (int k = 0; k < kept->count; k++)
+        light = rgb_mul(light, kept->hits[k]->albedo);
+    kept->folded = rgb_luminance(light);
+}
+
+static double add_monomial(FootprintPixel *p, const Expansion *e, HitMask hits, Rgb value)
+{
+    Kept kept;
+    int first = 0;
+    while (!(hits & hit_bit(e->hits[first].target, e->hits[first].index)))
+        first++;
+    const TargetHit *hit = &e->hits[first];
+    keep_hits(&p->film->plan, e, hits, first, &value, &kept);
+    if (rgb_is_black(value))
+        return kept.folded;
+    double weight = rgb_luminance(value);
+    Rgb light = value;
+    for (int k = 0; k < kept.count; k++) {
+        weight *= UNKNOWN_ALBEDO;
+        light = rgb_mul(light, kept.hits[k]->albedo);
+    }
+    Pending *q = find_pending(p, hit, first);
+    q->weight += weight;
+    add_rgb(q->c[kept.coefficient], value);
+    add_albedo(&q->albedo, light, hit->albedo);
+    for (int k = 0; k < kept.count; k++) {
+        Rgb others = rgb_mul(value, hit->albedo);
+        for (int i = 0; i < kept.count; i++)
+            if (i != k)
+                others = rgb_mul(others, kept.hits[i]->albedo);
+        add_later(p, kept.hits[k], weight, others);
+    }
+    return kept.folded;
+}
+
+double footprints_connect(FootprintPixel *p, const Expansion *e, Rgb outside)
+{
+    double folded = 0;
+    for (int k = 0; k < e->nmonomials; k++) {
+        HitMask hits = e->monomials[k].hits;
+        Rgb value = rgb_mul(outside, e->monomials[k].coefficient);
+        if (rgb_is_black(value))
+            continue;
+        if (p->survey)
+            survey_monomial(p->survey, e, hits, value);
+        else if (hits)
+            folded += add_monomial(p, e, hits, value);
+        else
+            p->free[0] += value.r, p->free[1] += value.g, p->free[2] += value.b;
+    }
+    return folded;
+}
+
+/* ---- clusters ---- */
+
+static void merge_albedo(AlbedoSums *into, const AlbedoSums *from)
+{
+    for (int c = 0; c < 3; c++)
+        into->light[c] += from->light[c], into->reflected[c] += from->reflected[c];
+}
+
+static void merge_cluster(Cluster *into, const Cluster *from, int coefficients, const int periodic[2])
+{
+    uv_stats_merge(&into->uv, &from->uv, periodic);
+    merge_albedo(&into->albedo, &from->albedo);
+    into->samples += from->samples;
+    for (int i = 0; i < coefficients; i++)
+        for (int c = 0; c < 3; c++)
+            into->c[i][c] += from->c[i][c];
+}
+
+static void add_pending(Cluster *into, const Pending *q, int coefficients, const int periodic[2])
+{
+    const double uv[2] = {q->position.u, q->position.v};
+    uv_stats_add(&into->uv, q->weight, uv, periodic);
+    merge_albedo(&into->albedo, &q->albedo);
+    into->samples++;
+    for (int i = 0; i < coefficients; i++)
+        for (int c = 0; c < 3; c++)
+            into->c[i][c] += q->c[i][c];
+}
+
+static void start_cluster(Cluster *cluster, const Pending *q, int coefficients, const int periodic[2])
+{
+    cluster->uv = (UvStats){0};
+    cluster->albedo = (AlbedoSums){0};
+    cluster->samples = 0;
+    memset(cluster->c, 0, sizeof cluster->c[0] * (size_t)coefficients);
+    add_pending(cluster, q, coefficients, periodic);
+}
+
+/* One more among count clusters that are all there may be: merge the cheapest pair (Ward 1963). */
+static void squeeze(Cluster *clusters, int count, const Pending *q, int coefficients, const int periodic[2])
+{
+    const UvStats one = {q->weight, {q->position.u, q->position.v}, {0, 0, 0}};
+    double best = INFINITY;
+    int a = 0, b = -1; /* b = -1: the new one */
+    for (int i = 0; i < count; i++) {
+        double cost = uv_stats_merge_cost(&clusters[i].uv, &one, periodic);
+        if (cost < best)
+            best = cost, a = i, b = -1;
+        for (int k = i + 1; k < count; k++) {
+            cost = uv_stats_merge_cost(&clusters[i].uv, &clusters[k].uv, periodic);
+            if (cost < best)
+                best = cost, a = i, b = k;
+        }
+    }
+    if (b < 0) {
+        add_pending(&clusters[a], q, coefficients, periodic);
+        return;
+    }
+    merge_cluster(&clusters[a], &clusters[b], coefficients, periodic);
+    start_cluster(&clusters[b], q, coefficients, periodic);
+}
+
+static void flush_pending(FootprintPixel *p)
+{
+    const FilmParams *params = &p->film->params;
+    for (int k = 0; k < p->npending; k++) {
+        Pending *q = &p->pending[k];
+        TargetClusters *t = &p->targets[q->target];
+        int *count = q->sharp ? &t->nsharp : &t->nbroad, room = q->sharp ? params->sharp : params->broad;
+        Cluster *clusters = q->sharp ? t->sharp : t->broad;
+        int coefficients = p->film->plan.count[q->target];
+        const int *periodic = params->periodic[q->target];
+        const double uv[2] = {q->position.u, q->position.v};
+        if (!(q->weight > 0))
+            continue;
+        uv_range_add(&p->range, q->target, uv);
+        if (*count < room)
+            start_cluster(&clusters[(*count)++], q, coefficients, periodic);
+        else
+            squeeze(clusters, room, q, coefficients, periodic);
+    }
+    p->npending = 0;
+}
+
+void footprints_path_end(FootprintPixel *p, UvRange *range)
+{
+    flush_pending(p);
+    for (int t = 0; t < p->film->scene->ntargets; t++) {
+        p->targets[t].later_samples += p->targets[t].later_seen;
+        p->targets[t].later_seen = 0;
+    }
+    uv_range_merge(range, &p->range);
+    uv_range_reset(&p->range);
+}
+
+/* ---- the finished pixel ---- */
+
+static float *pixel_of(RetexImage *image, int x, int y)
+{
+    return image->pixels + retex_image_index(image, x, y);
+}
+
+/* To a power of two times step, or as it is where there is none. */
+static double round_to(double value, double step)
+{
+    if (!(step > 0))
+        return value;
+    int exponent;
+    frexp(step, &exponent);
+    return ldexp(rint(ldexp(value, 1 - exponent)), exponent - 1);
+}
+
+static void store_footprint(FootprintImages *to, const UvStats *uv, const AlbedoSums *albedo, float coverage, int x,
+                            int y)
+{
+    float *mean = pixel_of(&to->uv, x, y), *spread = pixel_of(&to->spread, x, y), *a = pixel_of(&to->albedo, x, y);
+    double su = sqrt(uv->m2[0] / uv->weight), sv = sqrt(uv->m2[2] / uv->weight);
+    mean[0] = (float)round_to(uv->mean[0], UV_STEP * su);
+    mean[1] = (float)round_to(uv->mean[1], UV_STEP * sv);
+    mean[2] = coverage;
+    spread[0] = (float)su, spread[1] = (float)sv;
+    spread[2] = su > 0 && sv > 0 ? (float)(uv->m2[1] / (uv->weight * su * sv)) : 0;
+    float grey = (albedo->light[0] > 0 ? albedo->reflected[0] / albedo->light[0] : 0);
+    for (int c = 0; c < 3; c++)
+        a[c] = albedo->light[c] > 0 ? albedo->reflected[c] / albedo->light[c] : grey;
+}
+
+static int compare_clusters(const void *a, const void *b)
+{
+    const Cluster *x = a, *y = b;
+    double p = x->uv.mean[0] + x->uv.mean[1], q = y->uv.mean[0] + y->uv.mean[1];
+    return p < q ? -1 : p > q;
+}
+
+/* The largest channel of the pixel as it would be with white textures, in the set's units. */
+static float white_pixel(const FootprintPixel *p)
+{
+    double sum[3] = {p->free[0], p->free[1], p->free[2]};
+    for (int t = 0; t < p->film->scene->ntargets; t++)
+        for (int k = 0; k < p->targets[t].nsharp + p->targets[t].nbroad; k++) {
+            const TargetClusters *of = &p->targets[t];
+            const Cluster *cluster = k < of->nsharp ? &of->sharp[k] : &of->broad[k - of->nsharp];
+            for (int i = 0; i < p->film->plan.count[t]; i++)
+                for (int c = 0; c < 3; c++)
+                    sum[c] += cluster->c[i][c];
+        }
+    return (float)(fmax(sum[0], fmax(sum[1], sum[2])) / p->film->params.spp);
+}
+
+/* Clusters into their images, in the order of their place on the texture, so that neighbours agree. */
+static void store_clusters(FootprintPixel *p, FootprintImages *slots, Cluster *clusters, int count, int coefficients,
+                           double step, int x, int y)
+{
+    float scale = 1 / (float)p->film->params.spp;
+    qsort(clusters, (size_t)count, sizeof *clusters, compare_clusters);
+    for (int k = 0; k < count; k++) {
+        store_footprint(&slots[k], &clusters[k].uv, &clusters[k].albedo, (float)clusters[k].samples * scale, x, y);
+        for (int i = 0; i < coefficients; i++) {
+            float *to = pixel_of(&slots[k].coefficients[i], x, y);
+            for (int c = 0; c < 3; c++)
+                to[c] = (float)round_to(clusters[k].c[i][c] * scale, step);
+        }
+    }
+}
+
+void footprints_pixel_end(FootprintPixel *p, int x, int y)
+{
+    FootprintFilm *film = p->film;
+    if (film->survey)
+        return;
+    double step = COEFFICIENT_STEP * white_pixel(p);
+    float scale = 1 / (float)film->params.spp, *c0 = pixel_of(&film->free, x, y);
+    for (int c = 0; c < 3; c++)
+        c0[c] = (float)(p->free[c] * scale), p->free[c] = 0;
+    for (int t = 0; t < film->scene->ntargets; t++) {
+        TargetClusters *of = &p->targets[t];
+        int coefficients = film->plan.count[t];
+        store_clusters(p, film->slots[t], of->sharp, of->nsharp, coefficients, step, x, y);
+        store_clusters(p, film->slots[t] + film->params.sharp, of->broad, of->nbroad, coefficients, step, x, y);
+        if (of->later.weight > 0)
+            store_footprint(&film->later[t], &of->later, &of->later_albedo, (float)of->later_samples * scale, x, y);
+        of->nsharp = of->nbroad = of->later_samples = 0;
+        of->later = (UvStats){0};
+        of->later_albedo = (AlbedoSums){0};
+    }
+}
+
+/* ---- into the set ---- */
+
+static int finish_footprint(RetexSet *set, FootprintImages *images, RetexFootprint *f, const char *suffix,
+                            RetexError *err)
+{
+    char name[RETEX_NAME_MAX];
+    const char *target = set->targets[f->target].name;
+    snprintf(name, sizeof name, "uv_%.90s_%s", target, suffix);
+    int code = film_move_part(set, name, "RGA", RETEX_FLOAT, &images->uv, &f->uv, err);
+    snprintf(name, sizeof name, "spread_%.90s_%s", target, suffix);
+    if (!code)
+        code = film_move_part(set, name, "RGB", RETEX_HALF, &images->spread, &f->spread, err);
+    snprintf(name, sizeof name, "albedo_%.90s_%s", target, suffix);
+    if (!code)
+        code = film_move_part(set, name, "RGB", RETEX_HALF, &images->albedo, &f->albedo, err);
+    return code ? code : retex_set_add_footprint(set, f, NULL, err);
+}
+
+static void slot_name(const FootprintFilm *film, int slot, char name[16])
+{
+    if (slot < film->params.sharp)
+        snprintf(name, 16, "sharp%d", slot + 1);
+    else
+        snprintf(name, 16, "broad%d", slot - film->params.sharp + 1);
+}
+
+static int finish_footprints(FootprintFilm *film, RetexSet *set, int first[RETEX_MAX_TARGETS],
+                             int later[RETEX_MAX_TARGETS], RetexError *err)
+{
+    int slots = slots_count(&film->params), code = RETEX_OK;
+    for (int t = 0; t < set->ntargets && !code; t++) {
+        first[t] = set->nfootprints;
+        for (int k = 0; k < slots && !code; k++) {
+            char name[16];
+            RetexFootprint f = {.target = t, .hit = k + 1};
+            f.kind = k < film->params.sharp ? RETEX_FOOTPRINT_SHARP : RETEX_FOOTPRINT_BROAD;
+            slot_name(film, k, name);
+            code = finish_footprint(set, &film->slots[t][k], &f, name, err);
+        }
+        later[t] = set->nfootprints;
+        RetexFootprint f = {.target = t, .hit = slots + 1, .kind = RETEX_FOOTPRINT_LATER};
+        if (!code && has_later(&film->plan, t))
+            code = finish_footprint(set, &film->later[t], &f, "later", err);
+    }
+    return code;
+}
+
+/* dep_Floor_sharp1, and with further hits dep_Floor_sharp1_a2b1: two of the first target, one of the second. */
+static void coefficient_name(const FootprintFilm *film, const RetexSet *set, int t, int slot, int i,
+                             char name[RETEX_NAME_MAX])
+{
+    char cluster[16];
+    slot_name(film, slot, cluster);
+    int used = snprintf(name, RETEX_NAME_MAX, "dep_%.80s_%s", set->targets[t].name, cluster);
+    for (int later = 0, any = 0; later < set->ntargets; later++)
+        if (film->plan.powers[t][i][later])
+            used += snprintf(name + used, (size_t)(RETEX_NAME_MAX - used), "%s%c%d", any++ ? "" : "_", 'a' + later,
+                             film->plan.powers[t][i][later]);
+}
+
+static int finish_coefficients(FootprintFilm *film, RetexSet *set, int t, const int *first, const int *later,
+                               RetexError *err)
+{
+    int code = RETEX_OK;
+    for (int k = 0; k < slots_count(&film->params); k++)
+        for (int i = 0; i < film->plan.count[t] && !code; i++) {
+            char name[RETEX_NAME_MAX];
+            RetexTerm term = {.kind = RETEX_TERM_DEP, .nfactors = 1, .factors = {first[t] + k}};
+            coefficient_name(film, set, t, k, i, name);
+            for (int b = 0; b < set->ntargets; b++)
+                for (int n = 0; n < film->plan.powers[t][i][b]; n++)
+                    term.factors[term.nfactors++] = later[b];
+            code =
+                film_move_part(set, name, "RGB", RETEX_HALF, &film->slots[t][k].coefficients[i], &term.radiance, err);
+            if (!code)
+                code = retex_set_add_term(set, &term, NULL, err);
+        }
+    return code;
+}
+
+int footprints_finish(FootprintFilm *film, RetexSet *set, RetexError *err)
+{
+    int first[RETEX_MAX_TARGETS], later[RETEX_MAX_TARGETS];
+    RetexTerm free_term = {.kind = RETEX_TERM_INDEP};
+    int code = finish_footprints(film, set, first, later, err);
+    if (!code)
+        code = film_move_part(set, "indep", "RGB", RETEX_HALF, &film->free, &free_term.radiance, err);
+    if (!code)
+        code = retex_set_add_term(set, &free_term, NULL, err);
+    for (int t = 0; t < set->ntargets && !code; t++)
+        code = finish_coefficients(film, set, t, first, later, err);
+    return code;
+}

@@ -1,0 +1,33 @@
+/* Layout `footprints`: light is kept apart by where it met a target first.
+ *
+ * A monomial of a light path, c_S times the textures at its hits S, goes by the first hit of S: into one of few
+ * clusters of UV that a pixel has for each target, those seen sharply apart from the rest. A cluster holds the radiance
+ * that its texture multiplies: once, and again for each combination of further hits that the plan keeps; these
+ * take the target's pooled `later` footprint. I = C0 + sum over clusters k of A_k (c_k0 + sum over i of c_ki B^i). */
+#ifndef RENDERER_FILM_FOOTPRINTS_H
+#define RENDERER_FILM_FOOTPRINTS_H
+
+#include "film/film.h"
+
+typedef struct FootprintFilm FootprintFilm;
+typedef struct FootprintPixel FootprintPixel;
+
+int footprints_create(FootprintFilm **film, const Scene *scene, const FilmParams *params, RetexError *err);
+void footprints_close(FootprintFilm **film);
+int footprints_pixel_create(FootprintPixel **pixel, FootprintFilm *film, RetexError *err);
+void footprints_pixel_close(FootprintPixel **pixel);
+
+/* With several targets a survey comes first: what light there is between them decides what is kept. */
+int footprints_surveying(const FootprintFilm *film);
+void footprints_survey_take(FootprintFilm *film, FootprintPixel *pixel); /* what this thread saw */
+int footprints_survey_end(FootprintFilm *film, RetexError *err);
+
+/* Returns the luminance of the light whose surplus hits had to take their original albedo. */
+double footprints_connect(FootprintPixel *pixel, const Expansion *expansion, Rgb outside);
+void footprints_path_end(FootprintPixel *pixel, UvRange *range);
+void footprints_pixel_end(FootprintPixel *pixel, int x, int y);
+
+/* Move all into the set, which knows its targets' names. */
+int footprints_finish(FootprintFilm *film, RetexSet *set, RetexError *err);
+
+#endif

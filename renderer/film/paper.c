@@ -1,0 +1,268 @@
+/* Layout `paper`; see paper.h. Terms come into being when a path first needs them; with one target all 21 exist from the
+ * start, which with the 12 UV images make the paper's 33. */
+#include <math.h>
+#include <stdatomic.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include "film/paper.h"
+#include "film/paper_terms.h"
+
+typedef struct FootprintSums {
+    int samples;                     /* paths that brought a connection */
+    double count, mean[2], m2[2];    /* Welford's running mean and sum of squared deviations of u and v */
+    float light[3], light_albedo[3]; /* what the albedo there multiplied, without it and with it */
+    float albedo[3];                 /* unweighted, for footprints that gave no light */
+} FootprintSums;
+
+struct PaperFilm {
+    const Scene *scene;
+    FilmParams params;
+    TermTable terms;
+    RetexImage uv[RETEX_MAX_TARGETS * RETEX_MAX_ORDERS], spread[RETEX_MAX_TARGETS * RETEX_MAX_ORDERS],
+        albedo[RETEX_MAX_TARGETS * RETEX_MAX_ORDERS];
+    atomic_int lost; /* light found no term to go to */
+};
+
+struct PaperPixel {
+    PaperFilm *film;
+    TermCache cache;
+    float (*sums)[3]; /* by term */
+    int *touched, ntouched;
+    FootprintSums footprints[RETEX_MAX_TARGETS * RETEX_MAX_ORDERS];
+    /* of the path in hand: every hit that connected, with how often */
+    TargetHit hits[64];
+    int connections[64], nhits;
+};
+
+static int footprints_count(const PaperFilm *film)
+{
+    return film->scene->ntargets * RETEX_MAX_ORDERS;
+}
+static int footprint_number(const TargetHit *hit)
+{
+    return hit->target * RETEX_MAX_ORDERS + hit->index;
+}
+
+static int paper_alloc(PaperFilm *film, RetexError *err)
+{
+    int w = film->params.width, h = film->params.height, code = RETEX_OK;
+    for (int k = 0; k < footprints_count(film) && !code; k++) {
+        if (k % RETEX_MAX_ORDERS >= film->params.orders)
+            continue;
+        code = retex_image_alloc(&film->uv[k], w, h, 3, err);
+        if (!code)
+            code = retex_image_alloc(&film->spread[k], w, h, 2, err);
+        if (!code)
+            code = retex_image_alloc(&film->albedo[k], w, h, 3, err);
+    }
+    return code ? code : terms_create(&film->terms, w, h, film->scene->ntargets, film->params.orders, err);
+}
+
+int paper_create(PaperFilm **out, const Scene *scene, const FilmParams *params, RetexError *err)
+{
+    PaperFilm *film = *out = calloc(1, sizeof *film);
+    if (!film)
+        return retex_fail(err, RETEX_ENOMEM, "out of memory for the film");
+    film->scene = scene;
+    film->params = *params;
+    return paper_alloc(film, err);
+}
+
+void paper_close(PaperFilm **film)
+{
+    if (!*film)
+        return;
+    for (int k = 0; k < RETEX_MAX_TARGETS * RETEX_MAX_ORDERS; k++) {
+        retex_image_free(&(*film)->uv[k]);
+        retex_image_free(&(*film)->spread[k]);
+        retex_image_free(&(*film)->albedo[k]);
+    }
+    terms_close(&(*film)->terms);
+    free(*film);
+    *film = NULL;
+}
+
+int paper_pixel_create(PaperPixel **out, PaperFilm *film, RetexError *err)
+{
+    PaperPixel *p = *out = calloc(1, sizeof *p);
+    if (p) {
+        p->film = film;
+        p->sums = calloc(TERMS_MAX, sizeof *p->sums);
+        p->touched = calloc(TERMS_MAX, sizeof *p->touched);
+    }
+    if (p && p->sums && p->touched)
+        return RETEX_OK;
+    paper_pixel_close(out);
+    return retex_fail(err, RETEX_ENOMEM, "out of memory for a thread's pixel");
+}
+
+void paper_pixel_close(PaperPixel **pixel)
+{
+    if (!*pixel)
+        return;
+    free((*pixel)->sums);
+    free((*pixel)->touched);
+    free(*pixel);
+    *pixel = NULL;
+}
+
+static void add_term(PaperPixel *p, TermKey key, Rgb value)
+{
+    int term = terms_find(&p->film->terms, &p->cache, key);
+    if (term < 0) { /* no room for one more: paper_finish says so */
+        p->film->lost = 1;
+        return;
+    }
+    float *sum = p->sums[term];
+    if (sum[0] == 0 && sum[1] == 0 && sum[2] == 0)
+        p->touched[p->ntouched++] = term;
+    sum[0] += value.r, sum[1] += value.g, sum[2] += value.b;
+}
+
+/* The original albedo of each hit of a monomial, weighted by the light it multiplied: so a term of one factor keeps its
+ * original to the bit that arithmetic allows, whatever the texture does inside the pixel. */
+static void add_albedos(PaperPixel *p, const Expansion *e, HitMask hits, Rgb value)
+{
+    for (int j = 0; j < e->nhits; j++) {
+        const TargetHit *hit = &e->hits[j];
+        if (!(hits & hit_bit(hit->target, hit->index)))
+            continue;
+        Rgb light = value;
+        for (int k = 0; k < e->nhits; k++)
+            if (k != j && hits & hit_bit(e->hits[k].target, e->hits[k].index))
+                light = rgb_mul(light, e->hits[k].albedo);
+        FootprintSums *f = &p->footprints[footprint_number(hit)];
+        f->light[0] += light.r, f->light[1] += light.g, f->light[2] += light.b;
+        f->light_albedo[0] += light.r * hit->albedo.r;
+        f->light_albedo[1] += light.g * hit->albedo.g;
+        f->light_albedo[2] += light.b * hit->albedo.b;
+    }
+}
+
+/* Remember that each hit of the expansion has one more connection behind it. */
+static void note_connection(PaperPixel *p, const Expansion *e)
+{
+    for (int j = 0; j < e->nhits; j++) {
+        const TargetHit *hit = &e->hits[j];
+        int k = p->nhits - 1;
+        while (k >= 0 && !(p->hits[k].target == hit->target && p->hits[k].index == hit->index &&
+                           p->hits[k].uv.u == hit->uv.u && p->hits[k].uv.v == hit->uv.v))
+            k--;
+        if (k < 0) {
+            if (p->nhits == 64)
+                continue;
+            k = p->nhits++;
+            p->hits[k] = *hit;
+            p->connections[k] = 0;
+        }
+        p->connections[k]++;
+    }
+}
+
+void paper_connect(PaperPixel *p, const Expansion *e, Rgb outside)
+{
+    for (int k = 0; k < e->nmonomials; k++) {
+        Rgb value = rgb_mul(outside, e->monomials[k].coefficient);
+        TermKey key = term_key(e->nhits, e->monomials[k].hits, p->film->params.strict_paper);
+        if (key == TERM_DROPPED || rgb_is_black(value))
+            continue;
+        add_term(p, key, value);
+        if (e->monomials[k].hits)
+            add_albedos(p, e, e->monomials[k].hits, value);
+    }
+    note_connection(p, e);
+}
+
+static void footprint_add(FootprintSums *f, const TargetHit *hit, int weight)
+{
+    double before = f->count, uv[2] = {hit->uv.u, hit->uv.v};
+    f->count += weight;
+    for (int k = 0; k < 2; k++) {
+        double delta = uv[k] - f->mean[k];
+        f->mean[k] += delta * weight / f->count;
+        f->m2[k] += delta * delta * weight * before / f->count;
+    }
+    f->albedo[0] += hit->albedo.r * (float)weight;
+    f->albedo[1] += hit->albedo.g * (float)weight;
+    f->albedo[2] += hit->albedo.b * (float)weight;
+}
+
+void paper_path_end(PaperPixel *p, UvRange *range)
+{
+    HitMask seen = 0;
+    for (int k = 0; k < p->nhits; k++) {
+        const TargetHit *hit = &p->hits[k];
+        FootprintSums *f = &p->footprints[footprint_number(hit)];
+        HitMask bit = hit_bit(hit->target, hit->index);
+        const double uv[2] = {hit->uv.u, hit->uv.v};
+        footprint_add(f, hit, p->connections[k]);
+        if (!(seen & bit))
+            f->samples++;
+        seen |= bit;
+        uv_range_add(range, hit->target, uv);
+    }
+    p->nhits = 0;
+}
+
+static void store_footprint(PaperFilm *film, int k, const FootprintSums *f, int x, int y)
+{
+    float *uv = film->uv[k].pixels + retex_image_index(&film->uv[k], x, y);
+    float *spread = film->spread[k].pixels + retex_image_index(&film->spread[k], x, y);
+    float *albedo = film->albedo[k].pixels + retex_image_index(&film->albedo[k], x, y);
+    for (int a = 0; a < 2; a++) {
+        uv[a] = (float)f->mean[a];
+        spread[a] = (float)sqrt(f->m2[a] / f->count);
+    }
+    uv[2] = (float)f->samples / (float)film->params.spp;
+    for (int c = 0; c < 3; c++)
+        albedo[c] = f->light[c] > 0 ? f->light_albedo[c] / f->light[c] : (float)(f->albedo[c] / f->count);
+}
+
+void paper_pixel_end(PaperPixel *p, int x, int y)
+{
+    PaperFilm *film = p->film;
+    float scale = 1 / (float)film->params.spp;
+    for (int k = 0; k < p->ntouched; k++) {
+        float *sum = p->sums[p->touched[k]], *pixel = terms_pixel(&film->terms, p->touched[k], x, y);
+        for (int c = 0; c < 3; c++)
+            pixel[c] = sum[c] * scale, sum[c] = 0;
+    }
+    p->ntouched = 0;
+    for (int k = 0; k < footprints_count(film); k++)
+        if (p->footprints[k].count > 0) {
+            store_footprint(film, k, &p->footprints[k], x, y);
+            p->footprints[k] = (FootprintSums){0};
+        }
+}
+
+static int finish_footprints(PaperFilm *film, RetexSet *set, RetexError *err)
+{
+    char name[RETEX_NAME_MAX];
+    for (int t = 0; t < film->scene->ntargets; t++)
+        for (int j = 0; j < film->params.orders; j++) {
+            int k = t * RETEX_MAX_ORDERS + j, code;
+            RetexFootprint f = {.target = t, .hit = j + 1};
+            snprintf(name, sizeof name, "uv_%.90s_%d", film->scene->targets[t].name, j + 1);
+            if ((code = film_move_part(set, name, "RGA", RETEX_FLOAT, &film->uv[k], &f.uv, err)))
+                return code;
+            snprintf(name, sizeof name, "spread_%.90s_%d", film->scene->targets[t].name, j + 1);
+            if ((code = film_move_part(set, name, "RG", RETEX_HALF, &film->spread[k], &f.spread, err)))
+                return code;
+            snprintf(name, sizeof name, "albedo_%.90s_%d", film->scene->targets[t].name, j + 1);
+            if ((code = film_move_part(set, name, "RGB", RETEX_HALF, &film->albedo[k], &f.albedo, err)))
+                return code;
+            if ((code = retex_set_add_footprint(set, &f, NULL, err)))
+                return code;
+        }
+    return RETEX_OK;
+}
+
+int paper_finish(PaperFilm *film, RetexSet *set, RetexError *err)
+{
+    if (film->lost)
+        return retex_fail(err, RETEX_ELIMIT, "the set needs more than %d terms, or more memory than there is: %s",
+                          TERMS_MAX, "take fewer targets or orders");
+    int code = finish_footprints(film, set, err);
+    return code ? code : terms_finish(&film->terms, set, err);
+}

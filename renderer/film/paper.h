@@ -1,0 +1,24 @@
+/* Layout `paper`: per hit count the dependent and independent radiance, cross terms of two and three hits, and per
+ * target and hit index the UV statistics, unweighted over all connections (supplement 2, 4.2, 4.3). With several
+ * targets the dependent radiance is kept by the number of factors of each target. */
+#ifndef RENDERER_FILM_PAPER_H
+#define RENDERER_FILM_PAPER_H
+
+#include "film/film.h"
+
+typedef struct PaperFilm PaperFilm;
+typedef struct PaperPixel PaperPixel;
+
+int paper_create(PaperFilm **film, const Scene *scene, const FilmParams *params, RetexError *err);
+void paper_close(PaperFilm **film);
+int paper_pixel_create(PaperPixel **pixel, PaperFilm *film, RetexError *err);
+void paper_pixel_close(PaperPixel **pixel);
+
+void paper_connect(PaperPixel *pixel, const Expansion *expansion, Rgb outside);
+void paper_path_end(PaperPixel *pixel, UvRange *range);
+void paper_pixel_end(PaperPixel *pixel, int x, int y);
+
+/* Move all into the set, which knows its targets' names. */
+int paper_finish(PaperFilm *film, RetexSet *set, RetexError *err);
+
+#endif
