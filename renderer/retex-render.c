@@ -11,6 +11,8 @@
 #include <unistd.h>
 #include <jansson.h>
 #include "cli.h"
+#include "texture_args.h"
+#include "texture_table.h"
 #include "film/film.h"
 #include "integrate/render.h"
 #include "sdl/sdl.h"
@@ -19,6 +21,7 @@ enum {
     OPT_TARGET,
     OPT_LIST,
     OPT_REPLACE,
+    OPT_VARIANTS,
     OPT_PLAIN,
     OPT_LAYOUT,
     OPT_CLUSTERS,
@@ -47,6 +50,9 @@ static const CliOption options[] = {
     [OPT_REPLACE] = {"replace", 0, "NAME=IMAGE",
                      "put IMAGE on a target and render that: the truth of a retexture (opts as retex-sample --texture)",
                      1},
+    [OPT_VARIANTS] = {"variants", 0, "FILE.csv",
+                      "one --replace picture a row, as retex-combine --batch, up to 16 at once along the same paths",
+                      0},
     [OPT_PLAIN] = {"plain", 0, NULL, "the picture only, no set", 0},
     [OPT_LAYOUT] = {"layout", 0, "NAME", "statistics of the set: footprints or paper (footprints)", 0},
     [OPT_CLUSTERS] = {"clusters", 0, "K|S+B",
@@ -78,10 +84,12 @@ typedef struct Arguments {
     Cli *cli;
     RenderParams render;
     SdlOptions sdl;
-    const char *scene, *stats;
+    const char *scene, *stats, *variants;
+    TextureTable table;
     const char *targets[LIST_MAX], *includes[LIST_MAX], *declares[LIST_MAX];
     int ntargets, nincludes, ndeclares, nreplacements, list, trace[3], tracing;
     RetexTextureSpec replacements[RETEX_MAX_TARGETS];
+    RenderVariant replaced;
 } Arguments;
 
 static void push(Cli *cli, const char **list, int *count, const char *what)
@@ -196,6 +204,9 @@ static void parse_option(Arguments *a, const CliOption *o)
     case OPT_REPLACE:
         parse_replace(a);
         break;
+    case OPT_VARIANTS:
+        a->variants = cli->value;
+        break;
     case OPT_PLAIN:
         r->plain = 1;
         break;
@@ -272,6 +283,15 @@ static void progress(void *context, double done)
     cli_progress(context, "render", done);
 }
 
+/* One more target, unless it is there. */
+static void add_target(Arguments *a, const char *name)
+{
+    for (int k = 0; k < a->ntargets; k++)
+        if (!strcasecmp(a->targets[k], name))
+            return;
+    a->targets[a->ntargets++] = name;
+}
+
 static void parse_arguments(Arguments *a)
 {
     Cli *cli = a->cli;
@@ -288,11 +308,20 @@ static void parse_arguments(Arguments *a)
     }
     if (!a->scene)
         cli_die(cli, "which scene? (try --help)");
-    if (a->nreplacements && !a->ntargets) /* replacing names the targets */
+    if (a->variants)
+        texture_table_open(&a->table, cli, a->variants);
+    if ((a->nreplacements || a->variants) && !a->ntargets) { /* replacing names the targets */
         for (int k = 0; k < a->nreplacements; k++)
             a->targets[a->ntargets++] = a->replacements[k].target;
-    if (a->nreplacements)
+        for (int k = 0; k < a->table.ncolumns; k++)
+            add_target(a, a->table.columns[k]);
+    }
+    if (a->nreplacements || a->variants)
         a->render.plain = 1;
+    if (a->variants && cli->output)
+        cli_die(cli, "--variants names its outputs itself: no -o");
+    if (a->variants && (a->list || a->tracing || a->render.aovs || a->stats))
+        cli_die(cli, "--variants makes pictures only: no --list-targets, --trace-pixel, --aov or --stats");
     const char *answer = a->list ? "list-targets" : a->tracing ? "trace-pixel" : NULL;
     if (answer && cli->output)
         cli_die(cli, "--%s goes to standard output: no -o", answer);
@@ -333,11 +362,93 @@ static void replace_textures(Arguments *a, Scene *scene, RetexTexture **loaded)
         int t = find_target(scene, a->replacements[k].target);
         if (t < 0)
             cli_die(a->cli, "--replace: `%s` is no target: name it with -t", a->replacements[k].target);
-        if (scene->targets[t].replacement)
+        if (a->replaced.textures[t])
             cli_die(a->cli, "--replace: `%s` is replaced twice", a->replacements[k].target);
         if (retex_texture_load(&loaded[k], &a->replacements[k], a->cli->threads, &err))
             cli_fail(a->cli, &err);
-        scene->targets[t].replacement = loaded[k];
+        a->replaced.textures[t] = loaded[k];
+        a->render.variants = &a->replaced, a->render.nvariants = 1;
+    }
+}
+
+/* The pictures of one traversal. */
+typedef struct VariantRows {
+    int count, lines[VARIANTS_MAX];
+    const char *outputs[VARIANTS_MAX];
+    RetexTextureSpec specs[VARIANTS_MAX][RETEX_MAX_TARGETS];
+    int nspecs[VARIANTS_MAX];
+} VariantRows;
+
+/* Up to VARIANTS_MAX more rows, with their outputs looked at. */
+static void read_rows(Arguments *a, VariantRows *rows)
+{
+    RetexError err;
+    rows->count = 0;
+    for (int k; (k = rows->count) < VARIANTS_MAX; rows->count++) {
+        if (!texture_table_row(&a->table, a->cli, &rows->outputs[k], rows->specs[k], &rows->nspecs[k]))
+            return;
+        rows->lines[k] = a->table.row_line;
+        texture_args_check_output(a->cli, a->scene, rows->outputs[k]);
+        texture_args_check_output(a->cli, a->variants, rows->outputs[k]);
+        for (int j = 0; j < rows->nspecs[k]; j++)
+            if (!rows->specs[k][j].constant)
+                texture_args_check_output(a->cli, rows->specs[k][j].image, rows->outputs[k]);
+        if (retex_image_write_check(rows->outputs[k], NULL, &err))
+            texture_table_fail_picture(&a->table, a->cli, &err);
+    }
+}
+
+static void render_rows(Arguments *a, const Scene *scene, const VariantRows *rows)
+{
+    RenderVariant variants[VARIANTS_MAX];
+    RetexTexture *loaded[VARIANTS_MAX][RETEX_MAX_TARGETS] = {{NULL}};
+    RetexImage pictures[VARIANTS_MAX] = {{0}};
+    RenderStats stats;
+    RetexError err;
+    for (int k = 0; k < rows->count; k++) {
+        variants[k] = a->replaced;
+        a->table.row_line = rows->lines[k];
+        for (int j = 0; j < rows->nspecs[k]; j++) {
+            if (retex_texture_load(&loaded[k][j], &rows->specs[k][j], a->cli->threads, &err))
+                texture_table_fail_picture(&a->table, a->cli, &err);
+            variants[k].textures[find_target(scene, rows->specs[k][j].target)] = loaded[k][j];
+        }
+    }
+    a->render.variants = variants, a->render.nvariants = rows->count;
+    if (render_variants(pictures, scene, &a->render, &stats, &err))
+        cli_fail(a->cli, &err);
+    for (int k = 0; k < rows->count; k++) {
+        a->table.row_line = rows->lines[k];
+        if (retex_image_write(&pictures[k], rows->outputs[k], NULL, &err))
+            texture_table_fail_picture(&a->table, a->cli, &err);
+        retex_image_free(&pictures[k]);
+        for (int j = 0; j < rows->nspecs[k]; j++)
+            retex_texture_close(&loaded[k][j]);
+    }
+    cli_info(a->cli, "%d picture%s, %d samples: %.2f s", rows->count, rows->count == 1 ? "" : "s", a->render.spp,
+             stats.render_seconds);
+    if (stats.dropped)
+        cli_warn(a->cli, "%ld contributions were not finite and left out", stats.dropped);
+}
+
+/* --variants: all rows of the table, so many at a time. The first lot is read before the scene is. */
+static void render_table(Arguments *a, const Scene *scene, VariantRows *rows)
+{
+    for (; rows->count > 0; read_rows(a, rows))
+        render_rows(a, scene, rows);
+    texture_table_close(&a->table);
+}
+
+/* Every column is a target, and no two are the same. */
+static void check_columns(Arguments *a, const Scene *scene)
+{
+    int taken[RETEX_MAX_TARGETS] = {0};
+    for (int k = 0; k < a->table.ncolumns; k++) {
+        int t = find_target(scene, a->table.columns[k]);
+        if (t < 0)
+            cli_die(a->cli, "--variants: `%s` is no target: name it with -t", a->table.columns[k]);
+        if (taken[t]++)
+            cli_die(a->cli, "--variants: target `%s` has two columns", a->table.columns[k]);
     }
 }
 
@@ -524,7 +635,10 @@ int main(int argc, char **argv)
     RetexTexture *loaded[RETEX_MAX_TARGETS] = {0};
     RenderStats stats;
     parse_arguments(&a);
-    const char *output = a.list || a.tracing ? NULL : cli_output(&cli);
+    const char *output = a.list || a.tracing || a.variants ? NULL : cli_output(&cli);
+    VariantRows *rows = a.variants ? calloc(1, sizeof *rows) : NULL;
+    if (rows)
+        read_rows(&a, rows);
     if (output)
         check_output(&a, output), check_stats(&a, output);
     double started = seconds();
@@ -538,10 +652,13 @@ int main(int argc, char **argv)
     if (!a.list)
         check_memory(&a, scene);
     replace_textures(&a, scene, loaded);
+    check_columns(&a, scene);
     double parse_seconds = seconds() - started;
     int failed = 0;
     if (a.list)
         list_targets(&a, scene);
+    else if (rows)
+        render_table(&a, scene, rows);
     else if (a.tracing)
         failed = render_trace(scene, &a.render, a.trace[0], a.trace[1], a.trace[2], stdout, &err);
     else
@@ -554,6 +671,7 @@ int main(int argc, char **argv)
         if (a.stats)
             write_stats(&a, &stats, set, parse_seconds);
     }
+    free(rows);
     retex_set_close(&set);
     scene_close(&scene);
     for (int k = 0; k < a.nreplacements; k++)

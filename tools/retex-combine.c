@@ -1,8 +1,8 @@
 /* retex-combine: recombine a set, with its own textures or new ones, into a picture. See retex-combine(1). */
-#include <errno.h>
 #include <stdlib.h>
 
 #include "texture_args.h"
+#include "texture_table.h"
 
 static const CliOption options[] = {
     {"texture", 0, "NAME=IMAGE", "put IMAGE, a file or rgb(r,g,b), on target NAME; opts as for retex-sample", 1},
@@ -123,137 +123,6 @@ static int make_picture(const Cli *cli, const Job *job, const RetexSamples *samp
 
 /* ---- --batch ---- */
 
-/* A table of comma-separated values as RFC 4180 has it, read a record at a time from memory. */
-typedef struct Table {
-    const char *name;
-    char *text, *at;
-    int line;     /* of `at` */
-    int row_line; /* where the record last read begins */
-    char *cells[1 + RETEX_MAX_TARGETS];
-    int ncells;
-} Table;
-
-static _Noreturn void fail_row(const Cli *cli, const Table *table, int code, const char *message)
-{
-    RetexError err = {0};
-    retex_fail_at(&err, code, table->name, table->row_line, 0, "%s", message);
-    cli_fail(cli, &err);
-}
-
-static char *read_text(const Cli *cli, const char *path)
-{
-    cli_input(cli, path, "a table");
-    FILE *file = strcmp(path, "-") == 0 ? stdin : fopen(path, "rb");
-    char *text = NULL;
-    size_t used = 0, room = 0, got = 1;
-    while (file && got > 0) {
-        if (used + 1 >= room) {
-            char *more = realloc(text, room = room ? 2 * room : 65536);
-            if (!more)
-                cli_die(cli, "not enough memory for %s", path);
-            text = more;
-        }
-        got = fread(text + used, 1, room - used - 1, file);
-        used += got;
-    }
-    if (!file || ferror(file))
-        cli_die(cli, "%s: cannot read: %s", path, strerror(errno));
-    if (file != stdin)
-        fclose(file);
-    text[used] = '\0';
-    if (strlen(text) != used)
-        cli_die(cli, "%s: not a table: it holds NUL bytes", path);
-    return text;
-}
-
-/* Take one cell off the text, in place; quoted ones may hold commas, line ends and doubled quotes. */
-static char *next_cell(const Cli *cli, Table *table)
-{
-    char *cell = table->at, *out = cell;
-    if (*table->at != '"') {
-        table->at += strcspn(table->at, ",\r\n");
-        return cell;
-    }
-    for (table->at++;; table->at++) {
-        if (*table->at == '\0')
-            fail_row(cli, table, RETEX_EPARSE, "a quoted cell has no closing quote");
-        if (*table->at == '"' && *++table->at != '"')
-            break;
-        table->line += *table->at == '\n';
-        *out++ = *table->at;
-    }
-    if (*table->at && !strchr(",\r\n", *table->at))
-        fail_row(cli, table, RETEX_EPARSE, "something follows a closing quote");
-    if (out < table->at)
-        *out = '\0';
-    return cell;
-}
-
-/* The next record that is not an empty line; 0 at the end. */
-static int next_row(const Cli *cli, Table *table)
-{
-    while (*table->at == '\r' || *table->at == '\n')
-        table->line += *table->at++ == '\n';
-    if (!*table->at)
-        return 0;
-    table->row_line = table->line;
-    table->ncells = 0;
-    for (;;) {
-        if (table->ncells == 1 + RETEX_MAX_TARGETS)
-            fail_row(cli, table, RETEX_EPARSE, "too many cells");
-        table->cells[table->ncells++] = next_cell(cli, table);
-        char end = *table->at;
-        if (end)
-            *table->at++ = '\0';
-        if (end == ',')
-            continue;
-        if (end == '\r' && *table->at == '\n')
-            table->at++;
-        table->line += end != '\0';
-        return 1;
-    }
-}
-
-/* A cell: IMAGE, rgb(r,g,b), or `:opts IMAGE`. */
-static void parse_cell(const Cli *cli, const Table *table, RetexTextureSpec *spec, const char *target, char *cell)
-{
-    RetexError err = {0};
-    const char *opts = "";
-    char argument[sizeof spec->target + sizeof spec->image + 2];
-    if (*cell == ':') {
-        char *space = strchr(cell, ' ');
-        if (!space)
-            fail_row(cli, table, RETEX_EPARSE, "options without an image; expected `:scale=2 IMAGE`");
-        *space = '\0';
-        opts = cell + 1;
-        cell = space + 1 + strspn(space + 1, " ");
-    }
-    if (snprintf(argument, sizeof argument, "%s=%s", target, cell) >= (int)sizeof argument)
-        fail_row(cli, table, RETEX_EPARSE, "the image's name is too long");
-    if (retex_texture_spec_parse(spec, opts, argument, &err))
-        fail_row(cli, table, err.code, err.message);
-}
-
-/* The header: `output`, then targets. */
-static int read_header(const Cli *cli, Table *table, const RetexSet *set, const char *targets[RETEX_MAX_TARGETS])
-{
-    table->row_line = 1;
-    if (!next_row(cli, table) || strcmp(table->cells[0], "output") != 0)
-        fail_row(cli, table, RETEX_EPARSE, "the first row must name the columns: output, then targets");
-    int columns = table->ncells - 1, taken[RETEX_MAX_TARGETS] = {0};
-    for (int i = 0; i < columns; i++) {
-        int t = retex_set_find_target(set, table->cells[1 + i]);
-        if (t < 0 || taken[t]++) {
-            char message[512];
-            snprintf(message, sizeof message,
-                     t < 0 ? "the set has no target '%.200s'" : "target '%.200s' has two columns", table->cells[1 + i]);
-            fail_row(cli, table, t < 0 ? RETEX_ENOTFOUND : RETEX_EPARSE, message);
-        }
-        targets[i] = set->targets[t].name;
-    }
-    return columns;
-}
-
 /* Samples of a row and, where it says nothing, those of the whole run, whose images are only borrowed. */
 static int make_row(const Cli *cli, const Job *job, RetexSamples *row, const char *output, double began,
                     RetexError *err)
@@ -278,52 +147,50 @@ static int make_row(const Cli *cli, const Job *job, RetexSamples *row, const cha
     return code;
 }
 
-/* An error of a row's picture: the table's line, then the file it was in. */
-static _Noreturn void fail_picture(const Cli *cli, const Table *table, const RetexError *err)
+/* The set's own names for the table's columns. */
+static void find_columns(const Cli *cli, TextureTable *table, const RetexSet *set)
 {
-    char message[1600];
-    snprintf(message, sizeof message, "%s%s%s", err->file, err->file[0] ? ": " : "", err->message);
-    fail_row(cli, table, err->code, message);
+    int taken[RETEX_MAX_TARGETS] = {0};
+    for (int i = 0; i < table->ncolumns; i++) {
+        int t = retex_set_find_target(set, table->columns[i]);
+        if (t < 0 || taken[t]++) {
+            char message[512];
+            snprintf(message, sizeof message,
+                     t < 0 ? "the set has no target '%.200s'" : "target '%.200s' has two columns", table->columns[i]);
+            texture_table_fail(table, cli, t < 0 ? RETEX_ENOTFOUND : RETEX_EPARSE, message);
+        }
+        table->columns[i] = set->targets[t].name;
+    }
 }
 
 static void run_batch(const Cli *cli, const Job *job)
 {
-    Table table = {.name = strcmp(job->batch, "-") ? job->batch : "standard input", .line = 1};
-    const char *targets[RETEX_MAX_TARGETS];
-    table.text = read_text(cli, job->batch);
-    table.at = table.text + (strncmp(table.text, "\xef\xbb\xbf", 3) == 0 ? 3 : 0); /* a byte order mark */
-    int columns = read_header(cli, &table, job->set, targets), pictures = 0;
-    double first = texture_args_now();
-    while (next_row(cli, &table)) {
-        RetexTextureSpec specs[RETEX_MAX_TARGETS];
+    TextureTable table;
+    texture_table_open(&table, cli, job->batch);
+    find_columns(cli, &table, job->set);
+    const char *output;
+    RetexTextureSpec specs[RETEX_MAX_TARGETS];
+    int count, pictures = 0;
+    double first = texture_args_now(), began = first;
+    while (texture_table_row(&table, cli, &output, specs, &count)) {
         RetexSamples *row = NULL;
         RetexError err = {0};
-        int count = 0;
-        double began = texture_args_now();
-        if (table.ncells > 1 + columns)
-            fail_row(cli, &table, RETEX_EPARSE, "more cells than the first row has");
-        if (!*table.cells[0])
-            fail_row(cli, &table, RETEX_EPARSE, "no output in the first cell");
-        if (strcmp(table.cells[0], "-") == 0)
-            fail_row(cli, &table, RETEX_EPARSE, "a table cannot write to standard output");
-        check_output(cli, job, table.cells[0]);
-        if (retex_image_write_check(table.cells[0], &job->write, &err))
-            fail_picture(cli, &table, &err);
-        for (int i = 1; i < table.ncells; i++)
-            if (*table.cells[i])
-                parse_cell(cli, &table, &specs[count++], targets[i - 1], table.cells[i]);
+        check_output(cli, job, output);
+        if (retex_image_write_check(output, &job->write, &err))
+            texture_table_fail_picture(&table, cli, &err);
         for (int i = 0; i < count; i++)
             if (!specs[i].constant)
-                texture_args_check_output(cli, specs[i].image, table.cells[0]);
+                texture_args_check_output(cli, specs[i].image, output);
         int code = retex_sample(&row, job->set, specs, count, cli->threads, &err);
         if (!code)
-            code = make_row(cli, job, row, table.cells[0], began, &err);
+            code = make_row(cli, job, row, output, began, &err);
         if (code)
-            fail_picture(cli, &table, &err);
+            texture_table_fail_picture(&table, cli, &err);
         retex_samples_close(&row);
         pictures++;
+        began = texture_args_now();
     }
-    free(table.text);
+    texture_table_close(&table);
     cli_info(cli, "%d picture%s, %.2f s", pictures, pictures == 1 ? "" : "s", texture_args_now() - first);
 }
 

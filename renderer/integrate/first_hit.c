@@ -25,7 +25,7 @@ static int centre_hit(const FirstHitWindow *w, int x, int y, Hit *hit, Shading *
     Ray ray = camera_ray(&w->scene->camera, w->width, w->height, w->x0 + x + 0.5, w->y0 + y + 0.5);
     if (!accel_intersect(w->accel, &ray, RAY_CAMERA, hit))
         return 0;
-    shading_at(s, w->scene, &ray, hit);
+    shading_at(s, w->scene, w->variants, 1, &ray, hit);
     return 1;
 }
 
@@ -51,8 +51,9 @@ static void aov_row(void *context, int y, int thread)
             continue;
         }
         Vec3 n = s.bsdf.normal, p = s.surface.position;
+        Rgb albedo = shading_albedo(&s, 0);
         store(job->images[0], x, y, (float)hit.t, 0, 0);
-        store(job->images[1], x, y, s.albedo.r, s.albedo.g, s.albedo.b);
+        store(job->images[1], x, y, albedo.r, albedo.g, albedo.b);
         store(job->images[2], x, y, (float)n.x, (float)n.y, (float)n.z);
         store(job->images[3], x, y, (float)p.x, (float)p.y, (float)p.z);
         if (job->images[4]) {

@@ -11,6 +11,7 @@ typedef struct FirstHitWindow {
     int width, height;          /* of the whole picture */
     int x0, y0, w, h;           /* the part that is looked at */
     int nthreads;
+    const RenderVariant *variants; /* or NULL: the first one's colours are shown */
 } FirstHitWindow;
 
 /* Add a part for each of the AOV_… bits. */

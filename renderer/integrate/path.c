@@ -1,21 +1,22 @@
 /* The path tracer: next-event estimation of one light at every vertex, multiple importance sampling with the BSDF,
  * Russian roulette on a throughput that knows no texture.
  *
- * A path carries its throughput twice: `beta` is the whole of it, `outside` leaves out the target hits that
- * `expansion` holds as factors. Light that arrives goes to the film both ways. */
+ * A path carries its throughput more than once: `beta` is the whole of it, by variant of the textures, for no choice
+ * along a path looks at a texture; `outside`, for sets, leaves out the target hits that `expansion` holds as factors.
+ * Light that arrives goes to the film both ways. */
 #include "integrate/path.h"
 
 #define ROULETTE_START 4 /* segments before Russian roulette begins */
 #define SHARP_PDF 25     /* per steradian: a bounce into a lobe no wider than about 7 degrees keeps things sharp */
 #define STRAIGHT_MAX 128 /* surfaces a path or shadow ray may pass without bending */
-#define SHADOW_FACTORS_MAX 16
-#define MEDIA_MAX 4 /* fading interiors that a path may be in at once */
+#define MEDIA_MAX 4      /* fading interiors that a path may be in at once */
 
 /* One factor of a connection: a surface it scatters at or passes. */
 typedef struct Factor {
     int target; /* -1: none */
     Split split;
     Rgb albedo;
+    const Rgb *albedos; /* by variant, or NULL: the same in all */
     Vec2 uv;
     int reflects; /* light stays on its side of the surface */
     int sharp;    /* nothing on the way from the camera scattered widely */
@@ -28,7 +29,7 @@ typedef struct Media {
 } Media;
 
 typedef struct Path {
-    Rgb beta, outside;
+    Rgb beta[VARIANTS_MAX], outside;
     Media media;
     RayKind kind;
     Expansion expansion;
@@ -42,7 +43,7 @@ typedef struct Path {
 
 static Factor shading_factor(const Shading *s, Split split)
 {
-    return (Factor){s->surface.target, split, s->albedo, s->uv, 0, 0};
+    return (Factor){s->surface.target, split, shading_albedo(s, 0), s->replaced ? s->albedos : NULL, s->uv, 0, 0};
 }
 
 /* Does the target's texture matter to this factor? */
@@ -62,7 +63,9 @@ static int is_hit(const PathContext *c, const Factor *f)
 static void apply_factor(const PathContext *c, Rgb *beta, Rgb *outside, Expansion *e, int *folded, const Factor *f)
 {
     Rgb whole = split_apply(f->split, f->albedo);
-    *beta = rgb_mul(*beta, whole);
+    beta[0] = rgb_mul(beta[0], whole);
+    for (int v = 1; v < c->nvariants; v++)
+        beta[v] = rgb_mul(beta[v], f->albedos ? split_apply(f->split, f->albedos[v]) : whole);
     if (is_hit(c, f) && expansion_has_room(e, f->target, c->orders, expansion_most_hits(c->scene->ntargets))) {
         expansion_push(e, f->target, f->split, f->uv, f->albedo, f->sharp);
         return;
@@ -72,11 +75,29 @@ static void apply_factor(const PathContext *c, Rgb *beta, Rgb *outside, Expansio
         *folded = 1;
 }
 
+/* Nothing is left of it in any variant. */
+static int is_spent(const PathContext *c, const Rgb *beta)
+{
+    for (int v = 0; v < c->nvariants; v++)
+        if (!rgb_is_black(beta[v]))
+            return 0;
+    return 1;
+}
+
+static void scale_path(const PathContext *c, Path *path, Rgb by)
+{
+    for (int v = 0; v < c->nvariants; v++)
+        path->beta[v] = rgb_mul(path->beta[v], by);
+    path->outside = rgb_mul(path->outside, by);
+}
+
 /* Light reaches the path's end through some more factors. */
 static void connect(PathWorker *w, const Path *path, Rgb light, const Factor *factors, int nfactors)
 {
     const PathContext *c = w->context;
-    Rgb beta = rgb_mul(path->beta, light), outside = rgb_mul(path->outside, light);
+    Rgb beta[VARIANTS_MAX], outside = rgb_mul(path->outside, light);
+    for (int v = 0; v < c->nvariants; v++)
+        beta[v] = rgb_mul(path->beta[v], light);
     const Expansion *e = &path->expansion;
     int folded = path->folded;
     if (nfactors > 0) {
@@ -84,13 +105,15 @@ static void connect(PathWorker *w, const Path *path, Rgb light, const Factor *fa
             expansion_copy(&w->scratch, e);
         e = &w->scratch;
         for (int k = 0; k < nfactors; k++)
-            apply_factor(c, &beta, &outside, &w->scratch, &folded, &factors[k]);
+            apply_factor(c, beta, &outside, &w->scratch, &folded, &factors[k]);
     }
-    if (rgb_is_black(beta) && rgb_is_black(outside))
+    if (is_spent(c, beta) && rgb_is_black(outside))
         return;
     if (c->trace)
-        fprintf(c->trace, "  light %.6g %.6g %.6g over %d target hits\n", beta.r, beta.g, beta.b, e->nhits);
-    film_connect(w->pixel, beta, outside, e, folded);
+        fprintf(c->trace, "  light %.6g %.6g %.6g over %d target hits\n", beta[0].r, beta[0].g, beta[0].b, e->nhits);
+    film_connect(w->pixel, beta[0], outside, e, folded);
+    if (w->control)
+        control_connect(w->control, beta);
 }
 
 static float mis_weight(float a, float b)
@@ -168,12 +191,22 @@ static int shadow_factor(const Shading *s, int light_source, Factor *factor)
     return 1;
 }
 
+/* Colours of variants for a factor that outlives its shading. */
+static const Rgb *keep_albedos(const PathContext *c, Rgb *room, const Shading *s)
+{
+    if (!s->replaced)
+        return NULL;
+    for (int v = 0; v < c->nvariants; v++)
+        room[v] = s->albedos[v];
+    return room;
+}
+
 /* What a surface is to a ray that goes through it unbent. Reflectance is taken from outside on either side: light that
  * came in through the one face of a pane goes out through the other, and is never totally reflected. */
-static void shading_straight(Shading *s, const Scene *scene, const Ray *ray, Surface *surface)
+static void shading_straight(Shading *s, const PathContext *c, const Ray *ray, Surface *surface)
 {
     s->surface = *surface;
-    shading_color(s, scene);
+    shading_color(s, c->variants, c->nvariants);
     if (surface->backside) {
         s->surface.backside = 0;
         s->surface.geometric_normal = vec_neg(surface->geometric_normal);
@@ -210,7 +243,7 @@ static int trace_shadow(PathWorker *w, Ray ray, int light_source, Media *media, 
                 return -1;
         }
         surface_at(&surface, c->scene, &ray, &hit);
-        shading_straight(&s, c->scene, &ray, &surface);
+        shading_straight(&s, c, &ray, &surface);
         if (!shadow_factor(&s, light_source, &factor))
             return -1;
         if (factor.target < 0 || rgb_is_black(factor.split.d)) {
@@ -218,6 +251,7 @@ static int trace_shadow(PathWorker *w, Ray ray, int light_source, Media *media, 
         } else {
             if (n == room)
                 return -1;
+            factor.albedos = keep_albedos(c, w->shadow_albedos[n], &s);
             factors[n++] = factor;
         }
         *light = rgb_mul(*light, media_fade(media, hit.t - ray.tmin, &surface));
@@ -267,14 +301,16 @@ static float path_density(const PathContext *c, const Ray *ray, RayKind kind, co
 }
 
 /* Radiance a sampled light sends, and the factor of its pigment where it is a shape. Returns the number of factors. */
-static int light_factors(const PathContext *c, LightSample *light, Factor *factors)
+static int light_factors(PathWorker *w, LightSample *light, Factor *factors)
 {
+    const PathContext *c = w->context;
     if (light->kind != LIGHT_SAMPLE_EMITTER)
         return 0;
     Shading s = {.surface = light->surface};
-    shading_color(&s, c->scene);
+    shading_color(&s, c->variants, c->nvariants);
     light->radiance = rgb_grey(1);
     factors[0] = shading_factor(&s, emitted(&s));
+    factors[0].albedos = keep_albedos(c, w->light_albedos, &s);
     return 1;
 }
 
@@ -295,7 +331,7 @@ static void sample_light(PathWorker *w, const Path *path, const Shading *s, cons
     Factor factors[SHADOW_FACTORS_MAX + 2];
     factors[0] = shading_factor(s, f);
     factors[0].sharp = path->sharp;
-    int n = 1 + light_factors(c, &light, factors + 1);
+    int n = 1 + light_factors(w, &light, factors + 1);
     Ray ray = {accel_offset(s->surface.position, s->surface.geometric_normal, light.direction), light.direction, 0,
                INFINITY};
     if (isfinite(light.distance)) { /* stop just before the light, seen from where the ray starts */
@@ -359,8 +395,8 @@ static int scatter(PathWorker *w, Path *path, const Shading *s, double distance,
     Factor factor = shading_factor(s, next.weight);
     factor.reflects = !next.transmitted;
     factor.sharp = path->sharp;
-    apply_factor(w->context, &path->beta, &path->outside, &path->expansion, &path->folded, &factor);
-    if (!w->context->split ? rgb_is_black(path->beta) : rgb_is_black(path->outside))
+    apply_factor(w->context, path->beta, &path->outside, &path->expansion, &path->folded, &factor);
+    if (!w->context->split ? is_spent(w->context, path->beta) : rgb_is_black(path->outside))
         return 0;
     path->neutral *= fminf(1, split_neutral(next.weight));
     if (w->context->trace)
@@ -378,8 +414,7 @@ static int scatter(PathWorker *w, Path *path, const Shading *s, double distance,
             float survive = fminf(0.95f, path->neutral);
             if (u_roulette >= survive)
                 return 0;
-            path->beta = rgb_scale(path->beta, 1 / survive);
-            path->outside = rgb_scale(path->outside, 1 / survive);
+            scale_path(w->context, path, rgb_grey(1 / survive));
             path->neutral /= survive;
         }
     }
@@ -399,7 +434,8 @@ static void trace_hit(const PathContext *c, const Hit *hit, const Shading *s)
     fprintf(c->trace, "hit primitive %d (line %d) face %d at %.6g %.6g %.6g distance %.6g normal %.4f %.4f %.4f%s\n",
             hit->primitive, s->surface.primitive->line, hit->face, p.x, p.y, p.z, hit->t, n.x, n.y, n.z,
             s->surface.backside ? " from inside" : "");
-    fprintf(c->trace, "  albedo %.5f %.5f %.5f", s->albedo.r, s->albedo.g, s->albedo.b);
+    const Rgb albedo = shading_albedo(s, 0);
+    fprintf(c->trace, "  albedo %.5f %.5f %.5f", albedo.r, albedo.g, albedo.b);
     if (s->surface.target >= 0)
         fprintf(c->trace, " target %s uv %.6f %.6f", c->scene->targets[s->surface.target].name, s->uv.u, s->uv.v);
     fputc('\n', c->trace);
@@ -409,7 +445,9 @@ void path_trace(PathWorker *w, Ray ray, const Sampler *sampler)
 {
     const PathContext *c = w->context;
     Path path; /* set field by field: its expansion is large, and mostly unused */
-    path.beta = path.outside = rgb_grey(1);
+    for (int v = 0; v < c->nvariants; v++)
+        path.beta[v] = rgb_grey(1);
+    path.outside = rgb_grey(1);
     path.neutral = 1, path.pdf = 0, path.from = ray.origin, path.segments = 1, path.folded = 0, path.sharp = 1;
     path.media.count = 0, path.kind = RAY_CAMERA;
     expansion_reset(&path.expansion);
@@ -422,11 +460,10 @@ void path_trace(PathWorker *w, Ray ray, const Sampler *sampler)
             hit_sky(w, &path, ray.direction);
             break;
         }
-        shading_at(&s, c->scene, &ray, &hit);
+        shading_at(&s, c->scene, c->variants, c->nvariants, &ray, &hit);
         if (c->trace)
             trace_hit(c, &hit, &s);
-        Rgb fade = media_fade(&path.media, hit.t - ray.tmin, &s.surface);
-        path.beta = rgb_mul(path.beta, fade), path.outside = rgb_mul(path.outside, fade);
+        scale_path(c, &path, media_fade(&path.media, hit.t - ray.tmin, &s.surface));
         hit_emitter(w, &path, &hit, &s);
         int last = path.segments >= c->max_depth; /* but what is passed straight is no segment of its own */
         if (last && (s.bsdf.p_passing <= 0 || s.bsdf.refracts))

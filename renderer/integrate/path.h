@@ -3,11 +3,14 @@
 #define RENDERER_INTEGRATE_PATH_H
 
 #include "accel/accel.h"
+#include "film/control.h"
 #include "film/film.h"
 #include "integrate/render.h"
 #include "integrate/sampler.h"
 #include "light/lights.h"
 #include "shade/bsdf.h"
+
+#define SHADOW_FACTORS_MAX 16 /* targets a shadow ray may pass */
 
 typedef struct PathContext {
     const Scene *scene;
@@ -15,6 +18,8 @@ typedef struct PathContext {
     const Lights *lights;
     int max_depth, orders;
     int split;            /* keep target hits apart */
+    int nvariants;        /* 1..VARIANTS_MAX: what the same path brings with different textures */
+    const RenderVariant *variants; /* or NULL: the original */
     int has_no_shadow;    /* some primitive throws no shadow: what blocks shadow rays and paths is not the same */
     FILE *trace;          /* say what happens, or NULL */
 } PathContext;
@@ -23,14 +28,19 @@ typedef struct PathContext {
 typedef struct PathWorker {
     const PathContext *context;
     FilmPixel *pixel;
+    ControlPixel *control; /* gets all variants, or NULL */
     Expansion scratch;    /* a path's expansion with a connection's own hits */
     long segments, shadow_rays;
+    /* Colours of variants at a sampled light and at what a shadow ray passes. */
+    Rgb light_albedos[VARIANTS_MAX], shadow_albedos[SHADOW_FACTORS_MAX][VARIANTS_MAX];
 } PathWorker;
 
 /* Everything shading needs at a hit: the surface, its colour and its BSDF. */
 typedef struct Shading {
     Surface surface;
-    Rgb albedo;           /* with a replacement texture: that one's */
+    Rgb albedo;           /* the original's */
+    int replaced;         /* some variant has another one: by variant */
+    Rgb albedos[VARIANTS_MAX];
     float filter, transmit;
     Vec2 uv;              /* of a target: where a replacement is looked up */
     Bsdf bsdf;
@@ -38,9 +48,14 @@ typedef struct Shading {
 
 /* Where a replacement texture is looked up on a surface, were it a target. */
 Vec2 surface_target_uv(const Surface *surface);
-/* The colour at a surface (shading->surface is filled), with its replacement. */
-void shading_color(Shading *shading, const Scene *scene);
-void shading_at(Shading *shading, const Scene *scene, const Ray *ray, const Hit *hit);
+/* The colours at a surface (shading->surface is filled), the original's and those of variants (NULL = none). */
+void shading_color(Shading *shading, const RenderVariant *variants, int nvariants);
+void shading_at(Shading *shading, const Scene *scene, const RenderVariant *variants, int nvariants, const Ray *ray,
+                const Hit *hit);
+static inline Rgb shading_albedo(const Shading *s, int variant)
+{
+    return s->replaced ? s->albedos[variant] : s->albedo;
+}
 
 void path_trace(PathWorker *worker, Ray ray, const Sampler *sampler);
 

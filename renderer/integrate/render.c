@@ -22,9 +22,11 @@ typedef struct Render {
     Accel *accel;
     Lights *lights;
     Film *film;
-    FilmPixel **pixels; /* by thread */
+    FilmPixel **pixels;      /* by thread */
+    ControlFilm *control;    /* of several variants, or NULL */
+    ControlPixel **controls; /* by thread */
     PathContext context;
-    long *segments, *shadow_rays; /* by thread */
+    PathWorker *workers; /* by thread */
     atomic_int done;
 } Render;
 
@@ -41,6 +43,8 @@ static int check_params(const RenderParams *p, RetexError *err)
         return retex_fail(err, RETEX_EINVAL, "samples per pixel must be 1 to 1048576, not %d", p->spp);
     if (p->max_depth < 1 || p->max_depth > 256)
         return retex_fail(err, RETEX_EINVAL, "max-depth must be 1 to 256, not %d", p->max_depth);
+    if (p->nvariants < 0 || p->nvariants > VARIANTS_MAX)
+        return retex_fail(err, RETEX_EINVAL, "variants must be 0 to %d, not %d", VARIANTS_MAX, p->nvariants);
     if (p->orders < 1 || p->orders > RETEX_MAX_ORDERS)
         return retex_fail(err, RETEX_EINVAL, "orders must be 1 to %d, not %d", RETEX_MAX_ORDERS, p->orders);
     if (p->sharp < 1 || p->sharp > FILM_SHARP_MAX || p->broad < 1 || p->broad > FILM_BROAD_MAX)
@@ -85,23 +89,25 @@ static void trace_sample(const Render *r, PathWorker *worker, int x, int y, int 
     double dx, dy;
     pixel_offset(r, &sampler, &dx, &dy);
     path_trace(worker, camera_ray(&r->scene->camera, r->width, r->height, x + dx, y + dy), &sampler);
+    if (worker->control)
+        control_sample_end(worker->control, 0);
 }
 
 static void render_tile(void *context, int tile, int thread)
 {
     Render *r = context;
     FilmPixel *pixel = r->pixels[thread];
-    PathWorker worker = {.context = &r->context, .pixel = pixel};
+    PathWorker *worker = &r->workers[thread];
     int x0 = tile % r->tiles_x * TILE, y0 = tile / r->tiles_x * TILE;
     for (int y = y0; y < y0 + TILE && y < r->h; y++)
         for (int x = x0; x < x0 + TILE && x < r->w; x++) {
             for (int s = 0; s < r->params.spp; s++)
-                trace_sample(r, &worker, r->x0 + x, r->y0 + y, s);
+                trace_sample(r, worker, r->x0 + x, r->y0 + y, s);
             film_pixel_end(pixel, x, y);
+            if (r->control)
+                control_pixel_end(r->controls[thread], x, y);
         }
     film_tile_end(pixel, tile);
-    r->segments[thread] += worker.segments;
-    r->shadow_rays[thread] += worker.shadow_rays;
     int done = atomic_fetch_add(&r->done, 1) + 1;
     if (thread == 0 && r->params.progress)
         r->params.progress(r->params.progress_context, (double)done / (r->tiles_x * r->tiles_y));
@@ -134,10 +140,14 @@ static void render_close(Render *r)
     if (r->pixels)
         for (int k = 0; k < retex_threads(r->params.nthreads); k++)
             film_pixel_close(&r->pixels[k]);
+    if (r->controls)
+        for (int k = 0; k < retex_threads(r->params.nthreads); k++)
+            control_pixel_close(&r->controls[k]);
     free(r->pixels);
-    free(r->segments);
-    free(r->shadow_rays);
+    free(r->controls);
+    free(r->workers);
     film_close(&r->film);
+    control_film_close(&r->control);
     lights_close(&r->lights);
     accel_close(&r->accel);
 }
@@ -160,13 +170,16 @@ static int render_open(Render *r, const Scene *scene, const RenderParams *params
                                .lights = r->lights,
                                .max_depth = r->params.max_depth,
                                .orders = r->params.orders,
-                               .split = split};
+                               .split = split,
+                               .nvariants = 1,
+                               .variants = r->params.nvariants > 0 ? r->params.variants : NULL};
     for (int k = 0; k < scene->nprimitives; k++)
         r->context.has_no_shadow |= scene->primitives[k].no_shadow;
     return code;
 }
 
-static int render_film(Render *r, RetexError *err)
+/* control: a film of all variants too, with moments of so many halves. */
+static int render_film(Render *r, int control, int halves, RetexError *err)
 {
     int threads = retex_threads(r->params.nthreads);
     FilmParams film = {.width = r->w,
@@ -182,13 +195,19 @@ static int render_film(Render *r, RetexError *err)
     for (int t = 0; t < r->scene->ntargets; t++)
         target_periodic(r->scene, t, film.periodic[t]);
     r->pixels = calloc((size_t)threads, sizeof *r->pixels);
-    r->segments = calloc((size_t)threads, sizeof *r->segments);
-    r->shadow_rays = calloc((size_t)threads, sizeof *r->shadow_rays);
-    if (!r->pixels || !r->segments || !r->shadow_rays)
+    r->controls = calloc((size_t)threads, sizeof *r->controls);
+    r->workers = calloc((size_t)threads, sizeof *r->workers);
+    if (!r->pixels || !r->controls || !r->workers)
         return retex_fail(err, RETEX_ENOMEM, "out of memory for %d threads", threads);
     int code = film_create(&r->film, r->scene, &film, err);
     for (int k = 0; k < threads && !code; k++)
         code = film_pixel_create(&r->pixels[k], r->film, err);
+    if (!code && control)
+        code = control_film_create(&r->control, r->w, r->h, r->params.spp, r->context.nvariants, halves, err);
+    for (int k = 0; k < threads && !code && r->control; k++)
+        code = control_pixel_create(&r->controls[k], r->control, err);
+    for (int k = 0; k < threads; k++)
+        r->workers[k].context = &r->context, r->workers[k].pixel = r->pixels[k], r->workers[k].control = r->controls[k];
     if (!code && film_surveying(r->film))
         code = survey(r, err);
     return code;
@@ -215,8 +234,8 @@ static void fill_stats(RenderStats *stats, const Render *r)
 {
     stats->paths = (long)r->w * r->h * r->params.spp;
     for (int k = 0; k < retex_threads(r->params.nthreads); k++)
-        stats->segments += r->segments[k], stats->shadow_rays += r->shadow_rays[k];
-    stats->dropped = film_dropped(r->film);
+        stats->segments += r->workers[k].segments, stats->shadow_rays += r->workers[k].shadow_rays;
+    stats->dropped = film_dropped(r->film) + (r->control ? control_film_dropped(r->control) : 0);
     stats->lights = lights_count(r->lights);
     stats->primitives = r->scene->nprimitives;
     for (int k = 0; k < r->scene->nprimitives; k++)
@@ -226,21 +245,32 @@ static void fill_stats(RenderStats *stats, const Render *r)
 
 static FirstHitWindow first_hit_window(const Render *r)
 {
-    return (FirstHitWindow){r->scene, r->accel, r->width, r->height, r->x0, r->y0, r->w, r->h, r->params.nthreads};
+    return (FirstHitWindow){r->scene, r->accel, r->width, r->height,          r->x0,
+                            r->y0,    r->w,     r->h,     r->params.nthreads, r->context.variants};
+}
+
+/* Trace all paths. */
+static void render_paths(Render *r, RenderStats *stats, double started)
+{
+    stats->build_seconds = seconds() - started;
+    retex_parallel(r->params.nthreads, r->tiles_x * r->tiles_y, render_tile, r);
+    if (r->params.progress)
+        r->params.progress(r->params.progress_context, 1);
+    for (int k = 0; k < retex_threads(r->params.nthreads); k++) {
+        film_pixel_close(&r->pixels[k]);
+        control_pixel_close(&r->controls[k]);
+    }
+    stats->render_seconds = seconds() - started - stats->build_seconds;
+    fill_stats(stats, r);
 }
 
 /* Render, and fill what the film leaves open. */
 static int render_into(RetexSet *set, Render *r, RenderStats *stats, double started, RetexError *err)
 {
-    int code = render_film(r, err);
+    int code = render_film(r, 0, 0, err);
     if (code)
         return code;
-    stats->build_seconds = seconds() - started;
-    retex_parallel(r->params.nthreads, r->tiles_x * r->tiles_y, render_tile, r);
-    if (r->params.progress)
-        r->params.progress(r->params.progress_context, 1);
-    for (int k = 0; k < retex_threads(r->params.nthreads); k++)
-        film_pixel_close(&r->pixels[k]);
+    render_paths(r, stats, started);
     code = film_finish(r->film, set, err);
     FirstHitWindow window = first_hit_window(r);
     if (!code && r->context.split)
@@ -250,7 +280,6 @@ static int render_into(RetexSet *set, Render *r, RenderStats *stats, double star
     if (!code)
         code = first_hit_aovs(set, &window, r->params.aovs, err);
     stats->render_seconds = seconds() - started - stats->build_seconds;
-    fill_stats(stats, r);
     return code;
 }
 
@@ -275,6 +304,33 @@ int render_scene(RetexSet **set, const Scene *scene, const RenderParams *params,
     return code;
 }
 
+int render_variants(RetexImage *pictures, const Scene *scene, const RenderParams *params, RenderStats *stats,
+                    RetexError *err)
+{
+    RenderStats ignored;
+    if (!stats)
+        stats = &ignored;
+    *stats = (RenderStats){0};
+    double started = seconds();
+    RenderParams plain = *params;
+    Render r;
+    plain.plain = 1;
+    int code = render_open(&r, scene, &plain, err);
+    if (!code && r.params.nvariants < 1)
+        code = retex_fail(err, RETEX_EINVAL, "no variants to render");
+    r.context.nvariants = r.params.nvariants;
+    if (!code)
+        code = render_film(&r, 1, 0, err);
+    if (!code)
+        render_paths(&r, stats, started);
+    for (int v = 0; v < r.params.nvariants && !code; v++) {
+        pictures[v] = *control_film_picture(r.control, v);
+        *control_film_picture(r.control, v) = (RetexImage){0};
+    }
+    render_close(&r);
+    return code;
+}
+
 int render_ident_shares(const Scene *scene, const RenderParams *params, double *shares, RetexError *err)
 {
     Render r;
@@ -294,12 +350,11 @@ int render_trace(const Scene *scene, const RenderParams *params, int x, int y, i
         code = retex_fail(err, RETEX_EINVAL, "pixel %d,%d does not lie inside the picture of %dx%d", x, y, r.width,
                           r.height);
     if (!code)
-        code = render_film(&r, err);
+        code = render_film(&r, 0, 0, err);
     if (!code) {
-        PathWorker worker = {.context = &r.context, .pixel = r.pixels[0]};
         r.context.trace = out;
         fprintf(out, "pixel %d,%d sample %d of %dx%d\n", x, y, sample, r.width, r.height);
-        trace_sample(&r, &worker, x, y, sample);
+        trace_sample(&r, &r.workers[0], x, y, sample);
     }
     render_close(&r);
     return code;

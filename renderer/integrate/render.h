@@ -3,6 +3,7 @@
 #define RENDERER_INTEGRATE_RENDER_H
 
 #include <stdio.h>
+#include "film/control.h"
 #include "scene/scene.h"
 
 /* Further pictures, one part each, taken at the first hit of the pixel centre's ray, unfiltered. */
@@ -14,6 +15,11 @@ enum {
     AOV_UV = 16,      /* RGA: u, v that a replacement texture would be looked up at, and 1 where something is hit */
     AOV_OBJECT = 32   /* R: number of the primitive from 1, 0 where nothing is hit */
 };
+
+/* What lies on the scene's targets in one of several pictures: a texture, or NULL for the original. */
+typedef struct RenderVariant {
+    const RetexTexture *textures[RETEX_MAX_TARGETS];
+} RenderVariant;
 
 /* Begin with RENDER_PARAMS_INIT. */
 typedef struct RenderParams {
@@ -34,9 +40,11 @@ typedef struct RenderParams {
     int nthreads;            /* 0 = all cores */
     void (*progress)(void *context, double done); /* 0..1, from the calling thread; NULL = none */
     void *progress_context;
+    const RenderVariant *variants; /* textures instead of the originals; NULL = none. render_scene takes the first */
+    int nvariants;           /* 0..VARIANTS_MAX */
 } RenderParams;
 #define RENDER_PARAMS_INIT \
-    { sizeof(RenderParams), 0, 0, {0, 0, 0, 0}, 64, 0, 16, 0, 1, 3, 1, 6, 0, 0, 0, 0, NULL, NULL }
+    { sizeof(RenderParams), 0, 0, {0, 0, 0, 0}, 64, 0, 16, 0, 1, 3, 1, 6, 0, 0, 0, 0, NULL, NULL, NULL, 0 }
 
 typedef struct RenderStats {
     double build_seconds, render_seconds;
@@ -47,6 +55,11 @@ typedef struct RenderStats {
 /* Render into a new set. With plain, or without targets, the set has the beauty and the AOVs only. The picture is the
  * same to the bit for every nthreads. */
 int render_scene(RetexSet **set, const Scene *scene, const RenderParams *params, RenderStats *stats, RetexError *err);
+
+/* Render nvariants pictures, pictures[k] (unallocated) with the textures of variants[k], all along the same paths: each
+ * is to the bit what render_scene gives for that variant alone with `plain`. */
+int render_variants(RetexImage *pictures, const Scene *scene, const RenderParams *params, RenderStats *stats,
+                    RetexError *err);
 
 /* Share of the picture (0..1) that each of scene->idents covers at the centres of pixels; shares has scene->nidents. */
 int render_ident_shares(const Scene *scene, const RenderParams *params, double *shares, RetexError *err);

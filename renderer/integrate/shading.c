@@ -3,11 +3,11 @@
 #include "shade/pigment.h"
 
 /* A replacement takes the pigment's colour, not its opacity; where it is transparent the original shows through. */
-static void replace_color(Shading *s, const RetexTexture *replacement)
+static Rgb replaced_color(const Shading *s, const RetexTexture *replacement)
 {
     float rgba[4];
     retex_texture_point(replacement, s->uv.u, s->uv.v, rgba);
-    s->albedo = rgb_lerp(s->albedo, rgb(rgba[0], rgba[1], rgba[2]), rgba[3]);
+    return rgb_lerp(s->albedo, rgb(rgba[0], rgba[1], rgba[2]), rgba[3]);
 }
 
 Vec2 surface_target_uv(const Surface *surface)
@@ -17,24 +17,29 @@ Vec2 surface_target_uv(const Surface *surface)
                      surface->has_natural ? &surface->natural : NULL);
 }
 
-void shading_color(Shading *s, const Scene *scene)
+void shading_color(Shading *s, const RenderVariant *variants, int nvariants)
 {
     const Surface *surface = &s->surface;
     const Pigment *pigment = surface->texture->pigment;
     Rgbft c = pigment_eval(pigment, surface->position, surface->uv);
     s->albedo = rgb(fmaxf(c.r, 0), fmaxf(c.g, 0), fmaxf(c.b, 0));
     s->filter = fmaxf(c.filter, 0), s->transmit = fmaxf(c.transmit, 0);
+    s->replaced = 0;
     if (surface->target < 0)
         return;
     s->uv = surface_target_uv(surface);
-    const RetexTexture *replacement = scene->targets[surface->target].replacement;
-    if (replacement)
-        replace_color(s, replacement);
+    for (int v = 0; variants && v < nvariants; v++)
+        s->replaced |= variants[v].textures[surface->target] != NULL;
+    for (int v = 0; s->replaced && v < nvariants; v++) {
+        const RetexTexture *replacement = variants[v].textures[surface->target];
+        s->albedos[v] = replacement ? replaced_color(s, replacement) : s->albedo;
+    }
 }
 
-void shading_at(Shading *s, const Scene *scene, const Ray *ray, const Hit *hit)
+void shading_at(Shading *s, const Scene *scene, const RenderVariant *variants, int nvariants, const Ray *ray,
+                const Hit *hit)
 {
     surface_at(&s->surface, scene, ray, hit);
-    shading_color(s, scene);
+    shading_color(s, variants, nvariants);
     bsdf_setup(&s->bsdf, &s->surface, vec_neg(ray->direction), s->filter, s->transmit);
 }

@@ -190,7 +190,6 @@ typedef struct SkySphere {
 typedef struct Target {
     char name[RETEX_NAME_MAX];
     char idents[512];        /* matched identifiers, comma-separated */
-    const RetexTexture *replacement; /* --replace: this instead of the pigment, or NULL */
 } Target;
 
 typedef struct Scene {

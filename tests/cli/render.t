@@ -36,7 +36,7 @@ $ retex-render --spp 0 bad.pov -o x.exr
 ! retex-render: error: --spp: expected a whole number from 1 to 1048576, not '0'
 = 2
 $ retex-render --layout cubist scenes/cornell-box/cornell-box.pov -o x.exr
-! retex-render: error: --layout knows paper, not `cubist`
+! retex-render: error: --layout knows footprints and paper, not `cubist`
 = 2
 $ retex-render --replace floor=none.jpg -q --size 32x24 --spp 1 scenes/cornell-box/cornell-box.pov -o x.exr
 ! retex-render: error: cannot read none.jpg: No such file or directory
@@ -128,3 +128,15 @@ $ ls x.*
 # A target whose surfaces all belong to another.
 $ retex-render -q --size 8x6 --spp 1 -t ball -t b=Ball ball.pov -o y.exr
 ! retex-render: warning: target `b` has no surface: those it names belong to targets named before it
+
+# Many pictures along the same paths: each is to the bit what --replace gives. More than sixteen take more traversals.
+$ { echo output,floor; for k in $(seq 17); do echo "v$k.exr,\"rgb(0.$k,0.5,0)\""; done; echo v18.exr,:scale=2 scenes/textures/brick.jpg; echo v19.exr,; } >rows.csv; retex-render -q --size 32x24 --spp 2 --variants rows.csv scenes/cornell-box/cornell-box.pov; retex-render -q --size 32x24 --spp 2 --replace 'floor=rgb(0.5,0.5,0)' scenes/cornell-box/cornell-box.pov -o w5.exr; retex-render -q --size 32x24 --spp 2 --replace:scale=2 floor=scenes/textures/brick.jpg scenes/cornell-box/cornell-box.pov -o w18.exr; retex-render -q --size 32x24 --spp 2 --plain scenes/cornell-box/cornell-box.pov -o w19.exr; for k in 5 18 19; do cmp v$k.exr w$k.exr; done; ls v*.exr | wc -l; rm v*.exr w*.exr
+> 19
+$ printf 'output,floor\nscenes/cornell-box/cornell-box.pov,\n' | retex-render -q --variants - scenes/cornell-box/cornell-box.pov; printf 'output,floor\nx.png,none.jpg\n' | retex-render -q --variants - --size 8x6 scenes/cornell-box/cornell-box.pov; printf 'output,floor\nx.nothing,\n' | retex-render -q --variants - scenes/cornell-box/cornell-box.pov; printf 'output,nope\n' | retex-render -q --variants - scenes/cornell-box/cornell-box.pov; printf 'output,nope\n' | retex-render -q -t floor --variants - scenes/cornell-box/cornell-box.pov; printf 'output,floor\n' | retex-render -q --variants - scenes/cornell-box/cornell-box.pov -o x.exr
+! retex-render: error: the output scenes/cornell-box/cornell-box.pov would replace the input
+! retex-render: error: standard input:2: cannot read none.jpg: No such file or directory
+! retex-render: error: standard input:2: x.nothing: no picture format has the ending .nothing; try .png, .jpg, .tif, .exr or .hdr
+! retex-render: error: no texture, pigment, material or object `nope` in the scene; there are: Floor, White, Red, Green
+! retex-render: error: --variants: `nope` is no target: name it with -t
+! retex-render: error: --variants names its outputs itself: no -o
+= 2

@@ -19,6 +19,7 @@ typedef struct Stage {
     Primitive primitives[4];
     Light lights[2];
     int max_depth; /* 0 = the renderer's own */
+    const RenderVariant *variant; /* or NULL */
 } Stage;
 
 static void stage_open(Stage *s)
@@ -63,6 +64,7 @@ static RetexSet *stage_render(Stage *s, int spp, int plain, int threads)
     RetexError err = {0};
     RetexSet *set = NULL;
     p.spp = spp, p.plain = plain, p.nthreads = threads;
+    p.variants = s->variant, p.nvariants = s->variant != NULL;
     if (s->max_depth)
         p.max_depth = s->max_depth;
     if (render_scene(&set, s->scene, &p, NULL, &err))
@@ -256,13 +258,15 @@ static void set_recombines(void **state)
     RetexTexture *textures[2];
     RetexSamples *samples = NULL;
     const float colors[2][3] = {{0.9f, 0.9f, 0.9f}, {0.8f, 0.05f, 0.02f}};
+    RenderVariant replaced = {{NULL}};
     for (int k = 0; k < 2; k++) {
         strcpy(specs[k].target, k ? "Ball" : "Floor");
         specs[k].constant = 1;
         memcpy(specs[k].color, colors[k], sizeof colors[k]);
         assert_int_equal(retex_texture_load(&textures[k], &specs[k], 1, NULL), 0);
-        s.scene->targets[k].replacement = textures[k];
+        replaced.textures[k] = textures[k];
     }
+    s.variant = &replaced;
     plain = stage_render(&s, 32, 1, 2);
     assert_int_equal(retex_sample(&samples, set, specs, 2, 0, NULL), 0);
     assert_int_equal(retex_combine(&again, set, samples, NULL, NULL, 0, NULL), 0);
