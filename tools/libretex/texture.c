@@ -416,7 +416,10 @@ void retex_texture_nearest(const RetexTexture *texture, double u, double v, floa
     look_up(texture, u, v, 1, rgba);
 }
 
-void retex_texture_gaussian(const RetexTexture *texture, double u, double v, const double covariance[3], float rgba[4])
+typedef void Filter(const RetexTexture *texture, const TextureFootprint *footprint, float rgba[4]);
+
+static void filter_at(const RetexTexture *texture, double u, double v, const double covariance[3], Filter *filter,
+                      float rgba[4])
 {
     double uv[2];
     TextureFootprint footprint;
@@ -429,7 +432,17 @@ void retex_texture_gaussian(const RetexTexture *texture, double u, double v, con
     } else {
         footprint.x = uv[0] * texture->levels[0].width;
         footprint.y = (1 - uv[1]) * texture->levels[0].height;
-        texture_gaussian_kernel(texture, &footprint, rgba);
+        filter(texture, &footprint, rgba);
         unassociate(rgba);
     }
+}
+
+void retex_texture_gaussian(const RetexTexture *texture, double u, double v, const double covariance[3], float rgba[4])
+{
+    filter_at(texture, u, v, covariance, texture_gaussian_kernel, rgba);
+}
+
+void retex_texture_disc(const RetexTexture *texture, double u, double v, const double covariance[3], float rgba[4])
+{
+    filter_at(texture, u, v, covariance, texture_disc_kernel, rgba);
 }

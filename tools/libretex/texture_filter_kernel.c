@@ -9,15 +9,10 @@
  * The sum goes by rows. Along y the Gaussian is the marginal one; within a row it is the conditional one, whose
  * centre moves by slope = xy / yy per row and whose variance is xx - xy^2 / yy. This is exact for any orientation,
  * and where the smaller eigenvalue is large enough for sampling at texels, so are both variances. */
-#include "texture_pyramid.h"
+#include "texture_kernel.h"
 
-#include <math.h>
-#include <string.h>
-
-typedef float Float4 __attribute__((vector_size(16)));
 typedef int Int4 __attribute__((vector_size(16)));
 
-#define TENT_VARIANCE (1.0 / 6)
 /* A Gaussian sampled at texels with this variance keeps its own variance within 2.8% at any phase. */
 #define LEAST_VARIANCE 0.35
 /* Below this the tent is told from a Gaussian. */
@@ -29,82 +24,12 @@ typedef int Int4 __attribute__((vector_size(16)));
 #define TAP_BUDGET 1000           /* a look-up; longer footprints skip texels along their length */
 #define MAX_TAPS 512              /* along one axis */
 
-static inline Float4 load4(const float *p)
-{
-    Float4 v;
-    memcpy(&v, p, sizeof v);
-    return v;
-}
-
-/* The next whole number below or above; baseline x86-64 has a function call for floorf. Within int's range only. */
-static inline int whole_below(double x)
-{
-    int i = (int)x;
-    return i - (x < i);
-}
-
-static inline int whole_above(double x)
-{
-    int i = (int)x;
-    return i + (x > i);
-}
-
-/* i folded into 0..n-1; -1 or n where it lies outside an axis that neither repeats nor mirrors. */
-static inline int wrap_index(int i, int n, RetexWrap wrap)
-{
-    if ((unsigned)i < (unsigned)n)
-        return i;
-    switch (wrap) {
-    case RETEX_WRAP_REPEAT:
-        i %= n;
-        return i < 0 ? i + n : i;
-    case RETEX_WRAP_MIRROR:
-        i %= 2 * n;
-        i = i < 0 ? i + 2 * n : i;
-        return i < n ? i : 2 * n - 1 - i;
-    case RETEX_WRAP_CLAMP:
-    case RETEX_WRAP_BLACK:
-        break;
-    }
-    return i < 0 ? -1 : n;
-}
-
 /* A footprint of less than a texel on an axis that ends in black: the border is sharp there, as for the point
  * look-up. The border's texels go on outside, and the result is weighted by how much of the footprint lies within. */
 typedef struct Edges {
     int sharp[2];
 } Edges;
 #define EDGE_TEXELS ((RetexWrap)(RETEX_WRAP_BLACK + 1)) /* a wrap mode of the kernel's own */
-
-static inline int clamp_index(int i, int n)
-{
-    return i < 0 ? 0 : i >= n ? n - 1 : i;
-}
-
-/* One row of a level, as far as it can be seen: inside texels and what lies to the left and right; NULL = nothing. */
-typedef struct Row {
-    const float *texels;
-    const float *beside[2];
-} Row;
-
-static inline Row find_row(const RetexTexture *texture, const TextureLevel *level, int y, const Edges *edges)
-{
-    Row row = {NULL, {NULL, NULL}};
-    int at = edges->sharp[1] ? clamp_index(y, level->height) : wrap_index(y, level->height, texture->spec.wrap[1]);
-    if ((unsigned)at < (unsigned)level->height) {
-        row.texels = level->texels + (size_t)at * (size_t)level->width * 4;
-        for (int side = 0; side < 2; side++)
-            if (level->sides[side])
-                row.beside[side] = level->sides[side] + (size_t)at * 4;
-    } else if (texture->spec.wrap[1] == RETEX_WRAP_CLAMP) {
-        int below = at > 0;
-        row.texels = level->ends[below];
-        if (texture->spec.wrap[0] == RETEX_WRAP_CLAMP)
-            for (int side = 0; side < 2; side++)
-                row.beside[side] = texture->corners[2 * below + side];
-    }
-    return row;
-}
 
 /* Sum of weight[i] * texel(first + i * step) of one row. */
 static inline Float4 sum_row(const Row *row, int width, RetexWrap wrap, const float *restrict weight, int count,
@@ -242,25 +167,6 @@ static inline void make_window(Window *restrict window, const float *restrict ta
         gaussian_window(window, shape, centre);
 }
 
-/* A step that shares no factor with the period meets all of a repeating axis's texels, not a few again and again. */
-static int coprime_step(int step, int texels, RetexWrap wrap)
-{
-    int period = wrap == RETEX_WRAP_MIRROR ? 2 * texels : texels;
-    if (wrap == RETEX_WRAP_CLAMP || wrap == RETEX_WRAP_BLACK || period < 2)
-        return step;
-    for (int tries = 0; tries < 16; tries++, step++) {
-        int a = step, b = period;
-        while (b) {
-            int rest = a % b;
-            a = b;
-            b = rest;
-        }
-        if (a == 1)
-            return step;
-    }
-    return step;
-}
-
 /* Keep the look-up within its budget by skipping texels along the longer way. */
 static inline void limit_taps(Shape *x, Shape *y, const TextureLevel *level, const RetexTexture *texture)
 {
@@ -272,40 +178,6 @@ static inline void limit_taps(Shape *x, Shape *y, const TextureLevel *level, con
         x->step = coprime_step(step, level->width, texture->spec.wrap[0]);
     else
         y->step = coprime_step(step, level->height, texture->spec.wrap[1]);
-}
-
-/* p (1 - p) of blur, averaged over a footprint of that standard deviation (of the axis as 1): on a repeating axis it
- * tends to its mean, 1/6, about as exp(-2 pi^2 sd^2). */
-static inline double mean_position(double x, double variance, double size, RetexWrap wrap)
-{
-    double p = x / size, damping = 1 + 10 * variance / (size * size);
-    if (wrap == RETEX_WRAP_CLAMP || wrap == RETEX_WRAP_BLACK)
-        p = p < 0 ? 0 : p > 1 ? 1 : p;
-    else
-        p -= floor(p); /* a mirrored image has the same blur at p and 1 - p */
-    return 1.0 / 6 + (p * (1 - p) - 1.0 / 6) / (damping * damping);
-}
-
-/* Covariance that the sum over a level's texels has to supply, in that level's texels. */
-typedef struct Rest {
-    double xx, xy, yy;
-} Rest;
-
-static inline Rest level_rest(const TextureLevel *level, const TextureFootprint *f, const double position[2])
-{
-    double sx = level->scale[0], sy = level->scale[1];
-    double blur_x = level->blur[0][0] + level->blur[0][1] * position[0];
-    double blur_y = level->blur[1][0] + level->blur[1][1] * position[1];
-    Rest rest = {(f->xx + TENT_VARIANCE - blur_x) / (sx * sx), f->xy / (sx * sy),
-                 (f->yy + TENT_VARIANCE - blur_y) / (sy * sy)};
-    return rest;
-}
-
-/* An axis along which the image cannot change: one texel, and nothing else beside it. */
-static inline int is_flat(const RetexTexture *texture, int axis)
-{
-    const TextureLevel *image = &texture->levels[0];
-    return (axis ? image->height : image->width) == 1 && texture->spec.wrap[axis] != RETEX_WRAP_BLACK;
 }
 
 /* Whether both eigenvalues of what is left to do on a level are at least LEAST_VARIANCE. */
@@ -366,23 +238,12 @@ static inline Float4 sum_level(const RetexTexture *texture, const TextureLevel *
         int at = rows.first + j * shape_y.step;
         if (!upright)
             make_window(&columns, texture->tail, &shape_x, x + (float)slope * ((float)at - y));
-        Row row = find_row(texture, level, at, edges);
+        Row row = find_row(texture, level, at, edges->sharp[1]);
         sum += rows.weight[j] * sum_row(&row, level->width, edges->sharp[0] ? EDGE_TEXELS : texture->spec.wrap[0],
                                         columns.weight, columns.count, columns.first, shape_x.step);
         total += rows.weight[j] * columns.total;
     }
     return sum / total;
-}
-
-/* Fold a coordinate of a repeating axis into its first period, for float's sake. */
-static inline double first_period(double x, int texels, RetexWrap wrap)
-{
-    double period = wrap == RETEX_WRAP_MIRROR ? 2.0 * texels : texels;
-    if (wrap == RETEX_WRAP_REPEAT || wrap == RETEX_WRAP_MIRROR)
-        return x - period * floor(x / period);
-    /* Far outside nothing changes any more; an int has to hold it. */
-    double far = 1e6;
-    return x < -far ? -far : x > far ? far : x;
 }
 
 /* How much of a Gaussian at x lies within 0..size. */

@@ -40,9 +40,10 @@ typedef struct TextureFootprint {
     double xx, xy, yy;
 } TextureFootprint;
 
-/* Premultiplied results. The first is the bilinear look-up; the second needs a covariance that is finite and positive
+/* Premultiplied results. The first is the bilinear look-up; the others need a covariance that is finite and positive
  * semidefinite. */
 void texture_point_kernel(const RetexTexture *texture, double x, double y, float rgba[4]);
 void texture_gaussian_kernel(const RetexTexture *texture, const TextureFootprint *footprint, float rgba[4]);
+void texture_disc_kernel(const RetexTexture *texture, const TextureFootprint *footprint, float rgba[4]);
 
 #endif

@@ -58,6 +58,12 @@ void retex_texture_nearest(const RetexTexture *texture, double u, double v, floa
  * with alpha as their weight; rgba, unassociated. Thread-safe. */
 void retex_texture_gaussian(const RetexTexture *texture, double u, double v, const double covariance[3], float rgba[4]);
 
+/* The same over a disc: the texture averaged evenly over the ellipse of that mean and covariance, whose half axes are
+ * two standard deviations along its principal axes (a disc of radius R has the variance R^2 / 4 along each axis). What
+ * a footprint is that a box pixel filter sees sharply. Very long ellipses, of more than forty times their width, skip
+ * texels along their length. */
+void retex_texture_disc(const RetexTexture *texture, double u, double v, const double covariance[3], float rgba[4]);
+
 #ifdef __cplusplus
 }
 #endif
