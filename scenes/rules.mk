@@ -13,5 +13,5 @@ $(BUILD)/scenes/generate-textures: $(TEXTURE_OBJECTS) $(LIBRETEX) | $(BRIDGE)
 TEXTURES ?= $(BUILD)/scenes
 .PHONY: textures
 textures: $(BUILD)/scenes/generate-textures
-	@mkdir -p $(addprefix $(TEXTURES)/,textures $(patsubst %,%/textures,cornell-box glass-caustics living-room))
+	@mkdir -p $(addprefix $(TEXTURES)/,textures $(patsubst %,%/textures,cornell-box glass-caustics kitchen living-room))
 	$< $(TEXTURES)

@@ -35,11 +35,13 @@ Color marble_tiles(double u, double v);
 Color encaustic_tiles(double u, double v);
 Color terrazzo(double u, double v);
 Color travertine(double u, double v);
+Color octagon_tiles(double u, double v);
 
 Color linen(double u, double v);
 Color damask(double u, double v);
 Color fans(double u, double v);
 Color brick(double u, double v);
+Color zellige(double u, double v);
 
 Color rug(double u, double v);
 Color painting(double u, double v);

@@ -15,6 +15,8 @@ typedef struct Job {
 static const Job jobs[] = {
     {"cornell-box/textures/encaustic-tiles.jpg", encaustic_tiles, 1024, 1024},
     {"glass-caustics/textures/marble-tiles.jpg", marble_tiles, 1024, 1024},
+    {"kitchen/textures/octagon-tiles.jpg", octagon_tiles, 1024, 1024},
+    {"kitchen/textures/zellige.jpg", zellige, 1024, 1024},
     {"living-room/textures/oak-planks.jpg", oak_planks, 1024, 1024},
     {"living-room/textures/linen.jpg", linen, 512, 512},
     {"living-room/textures/rug.jpg", rug, 900, 600},

@@ -150,3 +150,31 @@ Color travertine(double u, double v)
     color = color_scale(color, 0.9 + 0.2 * hash(column, row, 99));
     return color_mix(color, color_hex(0x8b7d6a), step_smooth(0.004, 0.0025, d));
 }
+
+/* 2 m by 2 m: six by six octagons of limestone, a small square of slate at every corner. */
+Color octagon_tiles(double u, double v)
+{
+    enum { N = 6 };
+    static const double side = 2.0 / N, reach = 0.19; /* of the slate's corners, in tiles */
+    double x = wrap(u, 1) * N, y = wrap(v, 1) * N;
+    int i = (int)x, j = (int)y, ci = (int)(x + 0.5), cj = (int)(y + 0.5);
+    double corner = fabs(x - ci) + fabs(y - cj), d;
+    Color color;
+    if (corner < reach) {
+        double grain = fractal(u * 60, v * 60, 60, 60, 4, 520);
+        double tone = 0.85 + 0.3 * hash(ci % N, cj % N, 525);
+        color = color_scale(color_mix(color_hex(0x3d4348), color_hex(0x565d60), 0.5 + 0.8 * grain), tone);
+        d = (reach - corner) * 0.7071 * side;
+    } else {
+        double sx = x - i + 20 * hash(i, j, 500), sy = y - j + 20 * hash(i, j, 501);
+        double cloud = fractal(sx * 1.6, sy * 1.6, LONG, LONG, 5, 502);
+        double speck = step_smooth(0.22, 0.5, fractal(sx * 30, sy * 22, LONG, LONG, 3, 508));
+        color = color_mix(color_hex(0xdfd5c2), color_hex(0xb9aa92), 0.4 + 0.75 * cloud);
+        color = color_mix(color, color_hex(0x8d7d68), 0.40 * speck);
+        color = color_mix(color, color_hex(0xa89a86), 0.5 * veins(sx, sy, 0.9, 0.02, 512));
+        color = color_scale(color, 0.91 + 0.16 * hash(i, j, 515));
+        d = fmin(fmin(fmin(x - i, i + 1 - x), fmin(y - j, j + 1 - y)), (corner - reach) * 0.7071) * side;
+    }
+    color = color_scale(color, 1 - 0.14 * step_smooth(0.007, 0.003, d));
+    return color_mix(color, color_hex(0x857a6b), step_smooth(0.0028, 0.0016, d));
+}

@@ -123,3 +123,28 @@ Color brick(double u, double v)
                          0.72 + 0.28 * step_smooth(0.006, 0.001, d)); /* the joint lies back, in shade near the brick */
     return color_mix(mortar, color, step_smooth(0.0052, 0.0068, d + 0.0012 * rough));
 }
+
+/* 1 m by 1 m: ten by ten squares cut and glazed by hand, no two of one green. */
+Color zellige(double u, double v)
+{
+    enum { N = 10 };
+    static const unsigned glazes[] = {0x2e6f68, 0x3f877c, 0x5aa093, 0x276058, 0x4b8f8b, 0x6fae9d};
+    double warp_u = 0.0016 * fractal(u * 26, v * 26, 26, 26, 3, 530),
+           warp_v = 0.0016 * fractal(u * 26, v * 26, 26, 26, 3, 535);
+    double x = wrap(u + warp_u, 1) * N, y = wrap(v + warp_v, 1) * N;
+    int i = (int)x, j = (int)y;
+    x -= i;
+    y -= j;
+    Color glaze = color_mix(color_hex(glazes[(int)(6 * hash(i, j, 540))]), color_hex(glazes[(int)(6 * hash(i, j, 541))]),
+                            hash(i, j, 542));
+    /* The glaze ran while it was soft: a slope over the tile, clouds, and thin where it pooled away from the edge. */
+    double slope = (hash(i, j, 543) - 0.5) * (x - 0.5) + (hash(i, j, 544) - 0.5) * (y - 0.5);
+    double cloud = fractal(u * 30 + 0.7 * hash(i, j, 545), v * 30, 30, 30, 4, 546);
+    glaze = color_scale(glaze, (0.86 + 0.34 * hash(i, j, 547)) * (1 + 0.55 * slope + 0.20 * cloud));
+    double d = fmin(fmin(x, 1 - x), fmin(y, 1 - y));
+    glaze = color_mix(glaze, color_scale(glaze, 1.35), 0.7 * step_smooth(0.09, 0.03, d + 0.02 * cloud));
+    double chip = fractal(u * 90, v * 90, 90, 90, 3, 550);
+    glaze = color_mix(glaze, color_hex(0xb08a6a), step_smooth(0.042, 0.034, d - 0.028 * fmax(chip, 0)) * 0.9);
+    Color grout = color_scale(color_hex(0xcfc8ba), 1 + 0.2 * chip);
+    return color_mix(grout, glaze, step_smooth(0.014, 0.024, d));
+}
