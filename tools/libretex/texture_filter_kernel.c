@@ -15,14 +15,14 @@ typedef int Int4 __attribute__((vector_size(16)));
 
 /* A Gaussian sampled at texels with this variance keeps its own variance within 2.8% at any phase. */
 #define LEAST_VARIANCE 0.35
-/* Below this the tent is told from a Gaussian. */
-#define TENT_LIMIT 0.40f
-/* Windows end at 3 standard deviations, lowered so that they end at zero; that takes 8.2% of the variance. */
-#define WINDOW_REACH 3.0f
-#define WINDOW_EDGE 0.011108997f  /* exp(-3^2 / 2) */
-#define WINDOW_VARIANCE 0.917808f /* of the lowered window, relative to the Gaussian it was made of */
-#define TAP_BUDGET 1000           /* a look-up; longer footprints skip texels along their length */
-#define MAX_TAPS 512              /* along one axis */
+/* Below this the tent is told from a Gaussian: a window of few texels, cut off, has not the variance of a long one. */
+#define TENT_LIMIT 0.70f
+/* Windows end at 3.25 standard deviations, lowered so that they end at zero; that takes 4.7% of the variance. */
+#define WINDOW_REACH 3.25f
+#define WINDOW_EDGE 0.00508606923f /* exp(-3.25^2 / 2) */
+#define WINDOW_VARIANCE 0.952889f  /* of the lowered window, relative to the Gaussian it was made of */
+#define TAP_BUDGET 1150            /* a look-up; longer footprints skip texels along their length */
+#define MAX_TAPS 512               /* along one axis */
 
 /* A footprint of less than a texel on an axis that ends in black: the border is sharp there, as for the point
  * look-up. The border's texels go on outside, and the result is weighted by how much of the footprint lies within. */
@@ -210,6 +210,18 @@ static inline int find_level(const RetexTexture *texture, const TextureFootprint
     return level;
 }
 
+/* The variance that a window has, where it lies: a tent's swings between 0 and 1/4 as its centre goes from texel to
+ * texel. */
+static inline float spread(const Window *window, float centre)
+{
+    float sum = 0;
+    for (int i = 0; i < window->count; i++) {
+        float d = (float)(window->first + i) - centre;
+        sum += window->weight[i] * d * d;
+    }
+    return sum / window->total;
+}
+
 /* Sum over a level's texels of a Gaussian with mean (x, y), in texel indices, and covariance rest. */
 static inline Float4 sum_level(const RetexTexture *texture, const TextureLevel *level, float x, float y, Rest rest,
                                const Edges *edges)
@@ -229,6 +241,13 @@ static inline Float4 sum_level(const RetexTexture *texture, const TextureLevel *
 
     Window rows, columns;
     make_window(&rows, texture->tail, &shape_y, y);
+    if (shape_y.tent && slope != 0) { /* the covariance is the slope times what the rows really have */
+        slope = rest.xy / spread(&rows, y);
+        int step = shape_x.step;
+        shape_x = find_shape(rest.xx - slope * rest.xy);
+        shape_x.step = step;
+        finish_shape(&shape_x);
+    }
     int upright = fabs(slope) * rows.count * shape_y.step < 1e-3;
     if (upright)
         make_window(&columns, texture->tail, &shape_x, x);
