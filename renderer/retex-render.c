@@ -22,6 +22,9 @@ enum {
     OPT_LIST,
     OPT_REPLACE,
     OPT_VARIANTS,
+    OPT_CONTROL,
+    OPT_CONTROL_MODE,
+    OPT_CONTROL_DATA,
     OPT_PLAIN,
     OPT_LAYOUT,
     OPT_CLUSTERS,
@@ -53,6 +56,9 @@ static const CliOption options[] = {
     [OPT_VARIANTS] = {"variants", 0, "FILE.csv",
                       "one --replace picture a row, as retex-combine --batch, up to 16 at once along the same paths",
                       0},
+    [OPT_CONTROL] = {"control", 0, "SET", "with --replace: take the noise off that SET's picture tells of", 0},
+    [OPT_CONTROL_MODE] = {"control-mode", 0, "MODE", "of --control: unbiased, halves or biased (unbiased)", 0},
+    [OPT_CONTROL_DATA] = {"control-data", 0, "MODE", "add the parts that --control reads: biased or unbiased", 0},
     [OPT_PLAIN] = {"plain", 0, NULL, "the picture only, no set", 0},
     [OPT_LAYOUT] = {"layout", 0, "NAME", "statistics of the set: footprints or paper (footprints)", 0},
     [OPT_CLUSTERS] = {"clusters", 0, "K|S+B",
@@ -84,7 +90,9 @@ typedef struct Arguments {
     Cli *cli;
     RenderParams render;
     SdlOptions sdl;
-    const char *scene, *stats, *variants;
+    const char *scene, *stats, *variants, *control;
+    ControlMode control_mode;
+    int seeded;
     TextureTable table;
     const char *targets[LIST_MAX], *includes[LIST_MAX], *declares[LIST_MAX];
     int ntargets, nincludes, ndeclares, nreplacements, list, trace[3], tracing;
@@ -159,6 +167,19 @@ static void parse_clusters(Arguments *a)
     a->render.sharp = sharp, a->render.broad = broad;
 }
 
+/* Which of some names the value is. */
+static int choose(const Cli *cli, const CliOption *o, int count, const char *const *names)
+{
+    char known[128] = "";
+    for (int k = 0; k < count; k++) {
+        if (!strcmp(cli->value, names[k]))
+            return k;
+        size_t used = strlen(known);
+        snprintf(known + used, sizeof known - used, "%s%s", k ? (k + 1 < count ? ", " : " and ") : "", names[k]);
+    }
+    cli_die(cli, "--%s knows %s, not `%s`", o->name, known, cli->value);
+}
+
 static void parse_choice(Arguments *a, const CliOption *o)
 {
     Cli *cli = a->cli;
@@ -204,6 +225,15 @@ static void parse_option(Arguments *a, const CliOption *o)
     case OPT_REPLACE:
         parse_replace(a);
         break;
+    case OPT_CONTROL:
+        a->control = cli->value;
+        break;
+    case OPT_CONTROL_MODE:
+        a->control_mode = (ControlMode)choose(cli, o, 3, (const char *const[]){"unbiased", "halves", "biased"});
+        break;
+    case OPT_CONTROL_DATA:
+        r->control_data = 1 + choose(cli, o, 2, (const char *const[]){"biased", "unbiased"});
+        break;
     case OPT_VARIANTS:
         a->variants = cli->value;
         break;
@@ -234,6 +264,7 @@ static void parse_option(Arguments *a, const CliOption *o)
         break;
     case OPT_SEED:
         r->seed = (uint32_t)cli_integer(cli, o, 0, 0xffffffffL);
+        a->seeded = 1;
         break;
     case OPT_DEPTH:
         r->max_depth = (int)cli_integer(cli, o, 1, 256);
@@ -322,6 +353,12 @@ static void parse_arguments(Arguments *a)
         cli_die(cli, "--variants names its outputs itself: no -o");
     if (a->variants && (a->list || a->tracing || a->render.aovs || a->stats))
         cli_die(cli, "--variants makes pictures only: no --list-targets, --trace-pixel, --aov or --stats");
+    if (a->control && (!a->nreplacements || a->variants))
+        cli_die(cli, "--control goes with --replace: what is new in the picture?");
+    if (a->control && (a->render.aovs || a->render.control_data))
+        cli_die(cli, "--control makes a picture only: no --aov or --control-data");
+    if (a->control && cli->output)
+        texture_args_check_output(cli, a->control, cli->output);
     const char *answer = a->list ? "list-targets" : a->tracing ? "trace-pixel" : NULL;
     if (answer && cli->output)
         cli_die(cli, "--%s goes to standard output: no -o", answer);
@@ -525,7 +562,7 @@ static OutputKind output_kind(const Arguments *a, const char *output)
     int exr = !strcmp(output, "-") || !strncmp(output, "/dev/", 5) || cli_ends_with(output, ".exr");
     if (cli_ends_with(output, ".retex"))
         return OUTPUT_PACK;
-    return exr && (!a->render.plain || a->render.aovs) ? OUTPUT_SET : OUTPUT_PICTURE;
+    return exr && (!a->render.plain || a->render.aovs || a->render.control_data) ? OUTPUT_SET : OUTPUT_PICTURE;
 }
 
 /* Before the work: whether the result can be written, and what of it would be lost. */
@@ -595,6 +632,37 @@ static void report(const Arguments *a, const RetexSet *set, const RenderStats *s
                  set->orders, 100 * set->folded);
 }
 
+/* --control: a picture from new samples and a set. */
+static void render_controlled(Arguments *a, const Scene *scene, const char *output)
+{
+    RetexError err;
+    RetexSet *set = NULL;
+    RetexImage picture = {0};
+    RenderStats stats;
+    double distance;
+    cli_input(a->cli, a->control, "a set, as from retex-render");
+    if (retex_set_read(a->control, &set, NULL, a->cli->threads, &err))
+        cli_fail(a->cli, &err);
+    if (!set)
+        cli_die(a->cli, "%s holds samples but no set", a->control);
+    if (!a->seeded)
+        a->render.seed = set->seed + 1;
+    if (render_control(&picture, scene, &a->render, set, a->control_mode, &distance, &stats, &err))
+        cli_die(a->cli, "--control %s: %s", a->control, err.message);
+    if (distance > 8)
+        cli_warn(a->cli, "--control %s: its picture is not this scene's as it was, %.0f standard deviations off",
+                 a->control, distance);
+    if (retex_image_write(&picture, output, NULL, &err))
+        cli_fail(a->cli, &err);
+    cli_info(a->cli, "%dx%d, %d samples: %.2f s", picture.width, picture.height, a->render.spp, stats.render_seconds);
+    if (stats.dropped)
+        cli_warn(a->cli, "%ld contributions were not finite and left out", stats.dropped);
+    if (a->stats)
+        write_stats(a, &stats, set, 0);
+    retex_image_free(&picture);
+    retex_set_close(&set);
+}
+
 /* A surface goes to the first target that names it: one that is left without any is a mistake. */
 static void check_targets(const Arguments *a, const Scene *scene)
 {
@@ -659,6 +727,8 @@ int main(int argc, char **argv)
         list_targets(&a, scene);
     else if (rows)
         render_table(&a, scene, rows);
+    else if (a.control)
+        render_controlled(&a, scene, output);
     else if (a.tracing)
         failed = render_trace(scene, &a.render, a.trace[0], a.trace[1], a.trace[2], stdout, &err);
     else

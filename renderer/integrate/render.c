@@ -25,6 +25,7 @@ typedef struct Render {
     FilmPixel **pixels;      /* by thread */
     ControlFilm *control;    /* of several variants, or NULL */
     ControlPixel **controls; /* by thread */
+    int halves;              /* of the samples: 2 are independent of each other */
     PathContext context;
     PathWorker *workers; /* by thread */
     atomic_int done;
@@ -85,12 +86,14 @@ static void pixel_offset(const Render *r, const Sampler *sampler, double *dx, do
 
 static void trace_sample(const Render *r, PathWorker *worker, int x, int y, int sample)
 {
-    Sampler sampler = sampler_start(r->params.seed, (uint32_t)x, (uint32_t)y, (uint32_t)sample);
+    int half = sample % r->halves; /* each with points of its own: those of one would fill each other's gaps */
+    Sampler sampler = sampler_start(half ? hash_pair(r->params.seed, 1) : r->params.seed, (uint32_t)x, (uint32_t)y,
+                                    (uint32_t)(sample / r->halves));
     double dx, dy;
     pixel_offset(r, &sampler, &dx, &dy);
     path_trace(worker, camera_ray(&r->scene->camera, r->width, r->height, x + dx, y + dy), &sampler);
     if (worker->control)
-        control_sample_end(worker->control, 0);
+        control_sample_end(worker->control, half);
 }
 
 static void render_tile(void *context, int tile, int thread)
@@ -155,7 +158,7 @@ static void render_close(Render *r)
 /* What any use of the scene needs: the window, the ray structure and the lights. */
 static int render_open(Render *r, const Scene *scene, const RenderParams *params, RetexError *err)
 {
-    *r = (Render){.scene = scene};
+    *r = (Render){.scene = scene, .halves = 1};
     memcpy(&r->params, params, params->size < sizeof r->params ? params->size : sizeof r->params);
     int code = check_params(&r->params, err);
     if (!code)
@@ -249,6 +252,17 @@ static FirstHitWindow first_hit_window(const Render *r)
                             r->y0,    r->w,     r->h,     r->params.nthreads, r->context.variants};
 }
 
+typedef struct HalfSamples {
+    int samples[2];
+} HalfSamples;
+
+/* How many samples fall to each half. */
+static HalfSamples half_samples(const Render *r)
+{
+    int spp = r->params.spp;
+    return r->halves == 2 ? (HalfSamples){{(spp + 1) / 2, spp / 2}} : (HalfSamples){{spp, 0}};
+}
+
 /* Trace all paths. */
 static void render_paths(Render *r, RenderStats *stats, double started)
 {
@@ -267,7 +281,9 @@ static void render_paths(Render *r, RenderStats *stats, double started)
 /* Render, and fill what the film leaves open. */
 static int render_into(RetexSet *set, Render *r, RenderStats *stats, double started, RetexError *err)
 {
-    int code = render_film(r, 0, 0, err);
+    int data = r->params.control_data;
+    r->halves = data == 2 ? 2 : 1;
+    int code = render_film(r, data > 0, r->halves, err);
     if (code)
         return code;
     render_paths(r, stats, started);
@@ -279,6 +295,10 @@ static int render_into(RetexSet *set, Render *r, RenderStats *stats, double star
         code = originals_add(set, r->scene, err);
     if (!code)
         code = first_hit_aovs(set, &window, r->params.aovs, err);
+    if (!code && data) {
+        ControlMoments *moments[2] = {control_film_moments(r->control, 0), control_film_moments(r->control, 1)};
+        code = control_data_add(set, moments, half_samples(r).samples, r->halves, err);
+    }
     stats->render_seconds = seconds() - started - stats->build_seconds;
     return code;
 }
@@ -326,6 +346,62 @@ int render_variants(RetexImage *pictures, const Scene *scene, const RenderParams
     for (int v = 0; v < r.params.nvariants && !code; v++) {
         pictures[v] = *control_film_picture(r.control, v);
         *control_film_picture(r.control, v) = (RetexImage){0};
+    }
+    render_close(&r);
+    return code;
+}
+
+/* One line where the set is of another picture. */
+static int check_control(const Render *r, const RetexSet *set, RetexError *err)
+{
+    const char *slash = strrchr(r->scene->path, '/'), *scene = slash ? slash + 1 : r->scene->path;
+    if (set->width != r->w || set->height != r->h)
+        return retex_fail(err, RETEX_EINVAL, "the set is %dx%d, this picture %dx%d", set->width, set->height, r->w,
+                          r->h);
+    if (strncmp(set->scene, scene, sizeof set->scene - 1))
+        return retex_fail(err, RETEX_EINVAL, "the set is of %s, this is %s", set->scene, scene);
+    if (strcmp(set->filter, r->params.gaussian ? "gaussian" : "box"))
+        return retex_fail(err, RETEX_EINVAL, "the set has the pixel filter %s, this picture another", set->filter);
+    if (set->max_depth != r->params.max_depth)
+        return retex_fail(err, RETEX_EINVAL, "the set has paths of up to %d segments, this picture of up to %d",
+                          set->max_depth, r->params.max_depth);
+    for (int t = 0; set->ntargets && t < r->scene->ntargets; t++)
+        if (retex_set_find_target(set, r->scene->targets[t].name) < 0)
+            return retex_fail(err, RETEX_EINVAL, "the set has no target `%s`", r->scene->targets[t].name);
+    if (set->seed == r->params.seed)
+        return retex_fail(err, RETEX_EINVAL, "the set has seed %u too: its noise must not be that of the new samples",
+                          (unsigned)set->seed);
+    return RETEX_OK;
+}
+
+int render_control(RetexImage *picture, const Scene *scene, const RenderParams *params, const RetexSet *set,
+                   ControlMode mode, double *distance, RenderStats *stats, RetexError *err)
+{
+    RenderStats ignored;
+    if (!stats)
+        stats = &ignored;
+    *stats = (RenderStats){0};
+    double started = seconds();
+    RenderParams plain = *params;
+    RenderVariant variants[2] = {{{NULL}}, {{NULL}}};
+    Render r;
+    if (params->nvariants > 0)
+        variants[0] = params->variants[0];
+    plain.plain = 1, plain.variants = variants, plain.nvariants = 2;
+    int code = render_open(&r, scene, &plain, err);
+    r.context.nvariants = 2;
+    r.halves = mode == CONTROL_HALVES ? 2 : 1;
+    if (!code)
+        code = check_control(&r, set, err);
+    if (!code)
+        code = render_film(&r, 1, r.halves, err);
+    if (!code) {
+        render_paths(&r, stats, started);
+        ControlMoments *moments[2] = {control_film_moments(r.control, 0), control_film_moments(r.control, 1)};
+        HalfSamples half = half_samples(&r);
+        code = control_variate(picture, moments, half.samples, set, mode, err);
+        if (distance)
+            *distance = control_distance(moments, half.samples, r.halves, set);
     }
     render_close(&r);
     return code;

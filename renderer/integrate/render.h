@@ -3,7 +3,7 @@
 #define RENDERER_INTEGRATE_RENDER_H
 
 #include <stdio.h>
-#include "film/control.h"
+#include "integrate/control_variate.h"
 #include "scene/scene.h"
 
 /* Further pictures, one part each, taken at the first hit of the pixel centre's ray, unfiltered. */
@@ -42,9 +42,11 @@ typedef struct RenderParams {
     void *progress_context;
     const RenderVariant *variants; /* textures instead of the originals; NULL = none. render_scene takes the first */
     int nvariants;           /* 0..VARIANTS_MAX */
+    int control_data;        /* 1, 2: also what later control variates read, of so many parts of the samples: two are
+                                independent, so that the picture is another one than without; default 0 */
 } RenderParams;
 #define RENDER_PARAMS_INIT \
-    { sizeof(RenderParams), 0, 0, {0, 0, 0, 0}, 64, 0, 16, 0, 1, 3, 1, 6, 0, 0, 0, 0, NULL, NULL, NULL, 0 }
+    { sizeof(RenderParams), 0, 0, {0, 0, 0, 0}, 64, 0, 16, 0, 1, 3, 1, 6, 0, 0, 0, 0, NULL, NULL, NULL, 0, 0 }
 
 typedef struct RenderStats {
     double build_seconds, render_seconds;
@@ -56,10 +58,16 @@ typedef struct RenderStats {
  * same to the bit for every nthreads. */
 int render_scene(RetexSet **set, const Scene *scene, const RenderParams *params, RenderStats *stats, RetexError *err);
 
-/* Render nvariants pictures, pictures[k] (unallocated) with the textures of variants[k], all along the same paths: each
- * is to the bit what render_scene gives for that variant alone with `plain`. */
+/* Render nvariants pictures, pictures[k] (unallocated) with the textures of variants[k], all along the same paths:
+ * each is to the bit what render_scene gives for that variant alone with `plain`. */
 int render_variants(RetexImage *pictures, const Scene *scene, const RenderParams *params, RenderStats *stats,
                     RetexError *err);
+
+/* The picture with the textures of params' first variant, from new samples and the beauty of a set of the same view
+ * with its original textures, see control_variate.h. *distance (may be NULL): how unlike the set what was found of the
+ * originals is, in standard deviations. */
+int render_control(RetexImage *picture, const Scene *scene, const RenderParams *params, const RetexSet *set,
+                   ControlMode mode, double *distance, RenderStats *stats, RetexError *err);
 
 /* Share of the picture (0..1) that each of scene->idents covers at the centres of pixels; shares has scene->nidents. */
 int render_ident_shares(const Scene *scene, const RenderParams *params, double *shares, RetexError *err);

@@ -125,6 +125,16 @@ $ ls x.*
 ! ls: cannot access 'x.*': No such file or directory
 = 2
 
+# --control needs something new, and another seed than the set's.
+$ retex-render -q --size 8x6 --spp 2 -t ball ball.pov -o y.exr; retex-render -q --size 8x6 --spp 2 --control y.exr ball.pov -o x.exr; retex-render -q --size 8x6 --spp 2 --seed 0 --control y.exr --replace 'ball=rgb(1,0,0)' ball.pov -o x.exr; retex-render -q --size 8x6 --spp 2 --control y.exr --control-mode magic --replace 'ball=rgb(1,0,0)' ball.pov -o x.exr; retex-render -q --size 8x6 --spp 2 --control y.exr --replace 'ball=rgb(1,0,0)' ball.pov -o y.exr
+! retex-render: error: --control goes with --replace: what is new in the picture?
+! retex-render: error: --control y.exr: the set has seed 0 too: its noise must not be that of the new samples
+! retex-render: error: --control-mode knows unbiased, halves and biased, not `magic`
+! retex-render: error: the output y.exr would replace the input
+= 2
+$ retex-render -q --size 8x6 --spp 2 --plain --control-data unbiased ball.pov -o y.exr; retex-info --check y.exr; retex-render -q --size 8x6 --spp 2 --control y.exr --replace 'ball=rgb(1,0,0)' ball.pov -o y.png
+> y.exr: ok
+
 # A target whose surfaces all belong to another.
 $ retex-render -q --size 8x6 --spp 1 -t ball -t b=Ball ball.pov -o y.exr
 ! retex-render: warning: target `b` has no surface: those it names belong to targets named before it
