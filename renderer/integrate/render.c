@@ -8,6 +8,7 @@
 #include "integrate/first_hit.h"
 #include "integrate/path.h"
 #include "integrate/originals.h"
+#include "integrate/uv_scale.h"
 
 #define TILE 32
 #define SURVEY_CHUNK 512 /* paths */
@@ -291,6 +292,11 @@ static int render_into(RetexSet *set, Render *r, RenderStats *stats, double star
     FirstHitWindow window = first_hit_window(r);
     if (!code && r->context.split)
         code = first_hit_targets(set, &window, err);
+    double scales[RETEX_MAX_TARGETS][2];
+    if (!code && r->context.split)
+        code = uv_scale_measure(r->scene, r->accel, scales, err);
+    for (int t = 0; t < set->ntargets && !code; t++)
+        memcpy(set->targets[t].uv_scale, scales[t], sizeof scales[t]);
     if (!code && r->context.split)
         code = originals_add(set, r->scene, err);
     if (!code)
@@ -415,6 +421,16 @@ int render_ident_shares(const Scene *scene, const RenderParams *params, double *
     if (!code)
         code = first_hit_idents(&window, shares, err);
     render_close(&r);
+    return code;
+}
+
+int render_uv_scales(const Scene *scene, int nthreads, double scales[][2], RetexError *err)
+{
+    Accel *accel = NULL;
+    int code = accel_create(&accel, scene, nthreads, err);
+    if (!code)
+        code = uv_scale_measure(scene, accel, scales, err);
+    accel_close(&accel);
     return code;
 }
 

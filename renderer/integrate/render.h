@@ -72,6 +72,9 @@ int render_control(RetexImage *picture, const Scene *scene, const RenderParams *
 /* Share of the picture (0..1) that each of scene->idents covers at the centres of pixels; shares has scene->nidents. */
 int render_ident_shares(const Scene *scene, const RenderParams *params, double *shares, RetexError *err);
 
+/* Scene units that a unit of u and of v spans on each target; see uv_scale.h. */
+int render_uv_scales(const Scene *scene, int nthreads, double scales[][2], RetexError *err);
+
 /* Print what happens along one path, step by step with values. x, y and sample as in the picture. */
 int render_trace(const Scene *scene, const RenderParams *params, int x, int y, int sample, FILE *out, RetexError *err);
 
