@@ -134,6 +134,15 @@ static int alloc_images(FootprintFilm *film, RetexError *err)
     return code;
 }
 
+static void make_plan(FootprintFilm *film)
+{
+    int n = film->scene->ntargets;
+    PlanLimits limits = {film->params.orders, expansion_most_hits(n), COEFFICIENT_IMAGES_MAX};
+    if (n > 0)
+        limits.coefficients /= n * slots_count(&film->params);
+    plan_make(&film->plan, n, &limits, film->survey);
+}
+
 int footprints_create(FootprintFilm **out, const Scene *scene, const FilmParams *params, RetexError *err)
 {
     FootprintFilm *film = *out = calloc(1, sizeof *film);
@@ -145,7 +154,7 @@ int footprints_create(FootprintFilm **out, const Scene *scene, const FilmParams 
         film->survey = calloc(1, sizeof *film->survey);
         return film->survey ? RETEX_OK : retex_fail(err, RETEX_ENOMEM, "out of memory for the film");
     }
-    plan_make(&film->plan, scene->ntargets, params->orders, PLAN_COEFFICIENTS_MAX, NULL);
+    make_plan(film);
     return alloc_images(film, err);
 }
 
@@ -207,8 +216,7 @@ void footprints_survey_take(FootprintFilm *film, FootprintPixel *pixel)
 
 int footprints_survey_end(FootprintFilm *film, RetexError *err)
 {
-    int most = COEFFICIENT_IMAGES_MAX / (film->scene->ntargets * slots_count(&film->params));
-    plan_make(&film->plan, film->scene->ntargets, film->params.orders, most, film->survey);
+    make_plan(film);
     free(film->survey);
     film->survey = NULL;
     return alloc_images(film, err);

@@ -3,9 +3,9 @@
 #include <string.h>
 #include "film/plan.h"
 
-/* Coefficients with less than this share of the light, were every target painted white, are left out: together they
- * stay below half a per cent. */
-#define LEAST_SHARE 1e-4
+/* Coefficients with less than this share of the light, were every target painted white, are left out. */
+#define LEAST_SHARE 1e-5
+#define ALWAYS_LATER 2  /* further hits that are always kept apart */
 #define UNIT 16777216.0 /* of energies: 2^-24 */
 #define LARGEST 1e9f    /* luminance of one connection */
 
@@ -60,12 +60,15 @@ static int find(const Plan *plan, int first, const unsigned char powers[RETEX_MA
     return -1;
 }
 
-static int power_sum(const unsigned char powers[RETEX_MAX_TARGETS])
+/* No more factors of one target, and of all, than asked for? */
+static int is_allowed(int first, const unsigned char powers[RETEX_MAX_TARGETS], const PlanLimits *limits)
 {
-    int sum = 0;
-    for (int t = 0; t < RETEX_MAX_TARGETS; t++)
-        sum += powers[t];
-    return sum;
+    int all = 1, good = 1;
+    for (int t = 0; t < RETEX_MAX_TARGETS; t++) {
+        good &= powers[t] + (t == first) <= limits->orders;
+        all += powers[t];
+    }
+    return good && all <= limits->factors;
 }
 
 /* With all that leads to it: one hit less of any target. */
@@ -112,7 +115,7 @@ static int compare_entries(const void *a, const void *b)
     return x->key < y->key ? -1 : x->key > y->key;
 }
 
-static void keep_surveyed(Plan *plan, int orders, const PlanSurvey *survey)
+static void keep_surveyed(Plan *plan, const PlanLimits *limits, const PlanSurvey *survey)
 {
     Entry entries[PLAN_SURVEY_SLOTS];
     int count = 0;
@@ -124,22 +127,34 @@ static void keep_surveyed(Plan *plan, int orders, const PlanSurvey *survey)
         unsigned char powers[RETEX_MAX_TARGETS];
         for (int t = 0; t < RETEX_MAX_TARGETS; t++)
             powers[t] = (unsigned char)(entries[k].key >> (3 * t) & 7);
-        if (power_sum(powers) < orders)
+        if (is_allowed((int)(entries[k].key >> 24), powers, limits))
             keep(plan, (int)(entries[k].key >> 24), powers);
     }
 }
 
-void plan_make(Plan *plan, int ntargets, int orders, int most, const PlanSurvey *survey)
+/* Every way of a few further hits, whatever the survey saw of it: single bright paths take them. */
+static void keep_few(Plan *plan, int first, int target, int left, unsigned char powers[RETEX_MAX_TARGETS])
+{
+    keep(plan, first, powers);
+    for (int t = target; t < plan->ntargets && left > 0; t++) {
+        powers[t]++;
+        keep_few(plan, first, t, left - 1, powers);
+        powers[t]--;
+    }
+}
+
+void plan_make(Plan *plan, int ntargets, const PlanLimits *limits, const PlanSurvey *survey)
 {
     unsigned char powers[RETEX_MAX_TARGETS] = {0};
+    int most = limits->coefficients;
     *plan = (Plan){.ntargets = ntargets, .most = most < PLAN_COEFFICIENTS_MAX ? most : PLAN_COEFFICIENTS_MAX};
     for (int t = 0; t < ntargets; t++)
-        keep(plan, t, powers);
-    for (int n = 1; ntargets == 1 && n < orders; n++) {
+        keep_few(plan, t, 0, ntargets == 1 ? 0 : ALWAYS_LATER, powers);
+    for (int n = 1; ntargets == 1 && n < limits->orders; n++) {
         powers[0] = (unsigned char)n;
         keep(plan, 0, powers);
     }
     if (ntargets > 1)
-        keep_surveyed(plan, orders, survey);
+        keep_surveyed(plan, limits, survey);
     connect_steps(plan);
 }

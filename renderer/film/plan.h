@@ -33,8 +33,13 @@ void plan_survey_add(PlanSurvey *survey, uint32_t key, float luminance);
 void plan_survey_total(PlanSurvey *survey, float luminance);
 void plan_survey_merge(PlanSurvey *into, const PlanSurvey *from);
 
-/* One target: all powers up to orders - 1. Several: those that the survey shows light for, at most so many (1 to
- * PLAN_COEFFICIENTS_MAX) a target. */
-void plan_make(Plan *plan, int ntargets, int orders, int most, const PlanSurvey *survey);
+typedef struct PlanLimits {
+    int orders;       /* most factors of one target, the first hit included */
+    int factors;      /* of all targets together */
+    int coefficients; /* of clusters on one target; more than PLAN_COEFFICIENTS_MAX is as many */
+} PlanLimits;
+
+/* One target: all powers up to orders - 1. Several: those that the survey shows light for. */
+void plan_make(Plan *plan, int ntargets, const PlanLimits *limits, const PlanSurvey *survey);
 
 #endif

@@ -134,7 +134,7 @@ static void survey_chunk(void *context, int chunk, int thread)
 static int survey(Render *r, RetexError *err)
 {
     double paths = 0.02 * r->width * r->height * r->params.spp;
-    int chunks = (int)(fmin(fmax(paths, 4096), 65536) / SURVEY_CHUNK), threads = retex_threads(r->params.nthreads);
+    int chunks = (int)(fmin(fmax(paths, 8192), 131072) / SURVEY_CHUNK), threads = retex_threads(r->params.nthreads);
     retex_parallel(r->params.nthreads, chunks, survey_chunk, r);
     return film_survey_end(r->film, r->pixels, threads, err);
 }

@@ -46,7 +46,7 @@ typedef struct RenderParams {
                                 independent, so that the picture is another one than without; default 0 */
 } RenderParams;
 #define RENDER_PARAMS_INIT \
-    { sizeof(RenderParams), 0, 0, {0, 0, 0, 0}, 64, 0, 16, 0, 1, 3, 1, 6, 0, 0, 0, 0, NULL, NULL, NULL, 0, 0 }
+    { sizeof(RenderParams), 0, 0, {0, 0, 0, 0}, 64, 0, 16, 0, 0, 3, 1, 6, 0, 0, 0, 0, NULL, NULL, NULL, 0, 0 }
 
 typedef struct RenderStats {
     double build_seconds, render_seconds;

@@ -18,7 +18,8 @@ typedef struct Stage {
     Interior interiors[4];
     Primitive primitives[4];
     Light lights[2];
-    int max_depth; /* 0 = the renderer's own */
+    int max_depth;                /* 0 = the renderer's own */
+    int paper;                    /* the layout */
     const RenderVariant *variant; /* or NULL */
 } Stage;
 
@@ -64,6 +65,7 @@ static RetexSet *stage_render(Stage *s, int spp, int plain, int threads)
     RetexError err = {0};
     RetexSet *set = NULL;
     p.spp = spp, p.plain = plain, p.nthreads = threads;
+    p.paper = s->paper;
     p.variants = s->variant, p.nvariants = s->variant != NULL;
     if (s->max_depth)
         p.max_depth = s->max_depth;
@@ -237,16 +239,17 @@ static void compare(const RetexImage *a, const RetexImage *b, double tolerance, 
             fail_msg("%s: sample %zu is %.6f, should be %.6f", what, i, a->pixels[i], b->pixels[i]);
 }
 
-static void set_recombines(void **state)
+static void check_recombining(int paper)
 {
-    (void)state;
     /* constant originals: the polynomial is the picture; other constants: it is the other picture */
     Stage s;
     target_stage(&s);
+    s.paper = paper;
     s.max_depth = RETEX_MAX_ORDERS + 1; /* no path has more hits than the set has orders: nothing is folded */
     RetexSet *set = stage_render(&s, 32, 0, 2), *plain = stage_render(&s, 32, 1, 2);
     assert_int_equal(plain->nterms, 0);
-    assert_true(set->folded == 0);
+    assert_string_equal(set->layout, paper ? "paper" : "footprints");
+    assert_true(set->folded <= (paper ? 0 : 1e-4)); /* footprints: what the survey saw no light in */
     compare(&plain->parts[0].image, &set->parts[0].image, 1e-5, "plain against set");
     RetexImage again = {0};
     assert_int_equal(retex_combine(&again, set, NULL, NULL, NULL, 0, NULL), 0);
@@ -280,6 +283,18 @@ static void set_recombines(void **state)
     stage_close(&s);
 }
 
+static void paper_recombines(void **state)
+{
+    (void)state;
+    check_recombining(1);
+}
+
+static void footprints_recombine(void **state)
+{
+    (void)state;
+    check_recombining(0);
+}
+
 static void the_inside_is_another_surface(void **state)
 {
     (void)state;
@@ -309,7 +324,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(furnace_is_invisible),          cmocka_unit_test(point_light_over_a_plane),
         cmocka_unit_test(sphere_emitter_irradiance),     cmocka_unit_test(slab_reflects_by_fresnel),
-        cmocka_unit_test(bits_do_not_depend_on_threads), cmocka_unit_test(set_recombines),
-        cmocka_unit_test(the_inside_is_another_surface)};
+        cmocka_unit_test(bits_do_not_depend_on_threads), cmocka_unit_test(paper_recombines),
+        cmocka_unit_test(footprints_recombine),          cmocka_unit_test(the_inside_is_another_surface)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -11,7 +11,6 @@
 #include <retex/parallel.h>
 
 #define ROWS_A_JOB 8
-#define SHARP_FILTER retex_texture_gaussian
 #define MAX_FOOTPRINTS ((int)(sizeof((RetexSamples *)0)->footprint_target / sizeof(int)))
 
 typedef struct SampleWork {
@@ -150,7 +149,7 @@ static void sample_job(void *context, int index, int thread)
     int last = (block + 1) * ROWS_A_JOB < set->height ? (block + 1) * ROWS_A_JOB : set->height;
     for (int y = block * ROWS_A_JOB; y < last; y++) {
         size_t row = (size_t)y * (size_t)set->width;
-        sample_row(work->textures[f->target], even ? SHARP_FILTER : retex_texture_gaussian,
+        sample_row(work->textures[f->target], even ? retex_texture_disc : retex_texture_gaussian,
                    set->parts[f->uv].image.pixels + 3 * row, spread->pixels + (size_t)spread->channels * row,
                    spread->channels, set->parts[f->albedo].image.pixels + 3 * row, image->pixels + 3 * row, set->width);
     }
