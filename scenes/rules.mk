@@ -1,4 +1,5 @@
-# The program that makes the scenes' textures; see scenes/README.md. The files it makes are committed: nothing else needs it.
+# The program that makes the scenes' textures; see scenes/README.md. The files that it makes for the scenes are
+# committed: nothing else needs it but what the tests of fidelity retexture with.
 TEXTURE_OBJECTS := $(patsubst %.c,$(BUILD)/obj/%.o,$(wildcard scenes/generate/*.c))
 
 $(BUILD)/obj/scenes/%.o: scenes/%.c $(BUILD)/config.mk
@@ -15,3 +16,11 @@ TEXTURES ?= $(BUILD)/scenes
 textures: $(BUILD)/scenes/generate-textures
 	@mkdir -p $(addprefix $(TEXTURES)/,textures $(patsubst %,%/textures,cornell-box glass-caustics kitchen living-room))
 	$< $(TEXTURES)
+
+# What the tests of fidelity retexture with. Kept until the program changes.
+.PHONY: fidelity-textures
+fidelity-textures: $(BUILD)/fidelity/textures/.made
+$(BUILD)/fidelity/textures/.made: $(BUILD)/scenes/generate-textures
+	@mkdir -p $(@D)
+	$< --set fidelity $(@D)
+	@touch $@

@@ -46,4 +46,18 @@ Color zellige(double u, double v);
 Color rug(double u, double v);
 Color painting(double u, double v);
 
+/* For tests of fidelity, and for their scenes. */
+Color checker(double u, double v);
+Color grout(double u, double v);
+Color text(double u, double v);
+Color saturated(double u, double v);
+Color constant(double u, double v);
+Color dark(double u, double v);
+Color globe(double u, double v); /* periodic in u only */
+Color cobbles(double u, double v);
+
+/* Fill a square image whose side is a power of two with stones and leaves on the ground, detail at every scale. */
+struct RetexImage;
+int photo(struct RetexImage *image); /* not 0: out of memory */
+
 #endif

@@ -135,8 +135,8 @@ Color zellige(double u, double v)
     int i = (int)x, j = (int)y;
     x -= i;
     y -= j;
-    Color glaze = color_mix(color_hex(glazes[(int)(6 * hash(i, j, 540))]), color_hex(glazes[(int)(6 * hash(i, j, 541))]),
-                            hash(i, j, 542));
+    Color glaze = color_mix(color_hex(glazes[(int)(6 * hash(i, j, 540))]),
+                            color_hex(glazes[(int)(6 * hash(i, j, 541))]), hash(i, j, 542));
     /* The glaze ran while it was soft: a slope over the tile, clouds, and thin where it pooled away from the edge. */
     double slope = (hash(i, j, 543) - 0.5) * (x - 0.5) + (hash(i, j, 544) - 0.5) * (y - 0.5);
     double cloud = fractal(u * 30 + 0.7 * hash(i, j, 545), v * 30, 30, 30, 4, 546);
