@@ -253,7 +253,7 @@ static void check_recombining(int paper)
     compare(&plain->parts[0].image, &set->parts[0].image, 1e-5, "plain against set");
     RetexImage again = {0};
     assert_int_equal(retex_combine(&again, set, NULL, NULL, NULL, 0, NULL), 0);
-    compare(&again, &set->parts[0].image, 1e-4, "unedited");
+    compare(&again, &set->parts[0].image, paper ? 1e-4 : 1e-3, "unedited"); /* footprints: rounded on purpose */
     retex_image_free(&again);
     retex_set_close(&plain);
 
@@ -273,7 +273,7 @@ static void check_recombining(int paper)
     plain = stage_render(&s, 32, 1, 2);
     assert_int_equal(retex_sample(&samples, set, specs, 2, 0, NULL), 0);
     assert_int_equal(retex_combine(&again, set, samples, NULL, NULL, 0, NULL), 0);
-    compare(&again, &plain->parts[0].image, 2e-3, "recoloured");
+    compare(&again, &plain->parts[0].image, paper ? 2e-3 : 5e-3, "recoloured");
     retex_image_free(&again);
     retex_samples_close(&samples);
     for (int k = 0; k < 2; k++)
