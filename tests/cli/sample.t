@@ -20,13 +20,25 @@ $ retex-sample -q s.exr --texture floor -o x.exr
 ! retex-sample: error: texture 'floor': expected NAME=IMAGE, a target and what to put on it
 = 2
 $ retex-sample -q s.exr --texture:size=3 floor=brick.jpg -o x.exr
-! retex-sample: error: no texture option is called 'size'; there are scale, rotate, offset, wrap, colorspace
+! retex-sample: error: no texture option is called 'size'; there are scale, rotate, offset, flip, wrap, repeat, width, colorspace
 = 2
 $ retex-sample -q s.exr --texture:scale=0 floor=brick.jpg -o x.exr
 ! retex-sample: error: texture option scale='0': a scale cannot be 0
 = 2
 $ retex-sample -q s.exr --texture:wrap=around floor=brick.jpg -o x.exr
 ! retex-sample: error: texture option wrap='around': expected repeat, mirror, clamp or black, or two of them for u,v
+= 2
+$ retex-sample -q s.exr --texture:flip=w floor=brick.jpg -o x.exr
+! retex-sample: error: texture option flip='w': expected u, v or uv
+= 2
+$ retex-sample -q s.exr --texture:repeat=tiles floor=brick.jpg -o x.exr
+! retex-sample: error: texture option repeat='tiles': expected straight, brick, half-drop or mirror
+= 2
+$ retex-sample -q s.exr --texture:repeat=brick:wrap=repeat,clamp floor=brick.jpg -o x.exr
+! retex-sample: error: texture options: repeat=brick needs wrap=repeat, the default, on both axes
+= 2
+$ retex-sample -q s.exr --texture:width=1.2,0 floor=brick.jpg -o x.exr
+! retex-sample: error: texture option width='1.2,0': expected one or two lengths above 0, as in width=1.2 or width=1.2,0.2
 = 2
 $ retex-sample -q s.exr --texture floor=brick.jpg --texture Floor=brick.jpg -o x.exr
 ! retex-sample: error: target Floor is given two textures

@@ -16,6 +16,9 @@ static void begin(void)
         "scale=0.5:wrap=mirror,clamp\nWall=a b/c=d.png",
         "wrap=black:colorspace=sRGB\nfloor=rgb(0.8,0.1,0.1)",
         "\nWall=rgb(1e-3, 2, 0)",
+        "flip=uv:repeat=brick:width=1.2\nFloor=planks.png",
+        "width=1e-3,2:repeat=half-drop:flip=v\nFloor=a",
+        "repeat=mirror:wrap=clamp,repeat:width=3:rotate=90\nWall=a",
         "offset=-1e3,1e9:rotate=-720.5:colorspace=Linear Rec.709\nFloor=:x",
     };
     uint64_t random = 1;
@@ -32,7 +35,7 @@ static void begin(void)
 static void look_up(const RetexTextureSpec *spec)
 {
     static const double places[] = {0.1, -3.7, 1e6, -1e300}, widths[] = {0, 1e-6, 0.1, 1e9};
-    RetexTexture *texture;
+    RetexTexture *texture, *square;
     float rgba[4];
     if (spec->constant ? retex_texture_load(&texture, spec, 1, NULL)
                        : retex_texture_create(&texture, &image, spec, NULL))
@@ -41,10 +44,17 @@ static void look_up(const RetexTextureSpec *spec)
         const double *covariance = (double[3]){widths[i % 4], widths[i % 4] / 3, widths[i % 4]};
         retex_texture_gaussian(texture, places[i / 4], places[3 - i / 4], covariance, rgba);
         fuzz_must(isfinite(rgba[0] + rgba[1] + rgba[2] + rgba[3]), "a filtered colour is finite");
+        retex_texture_disc(texture, places[i / 4], places[3 - i / 4], covariance, rgba);
+        fuzz_must(isfinite(rgba[0] + rgba[1] + rgba[2] + rgba[3]), "a colour averaged over a disc is finite");
         retex_texture_point(texture, places[i / 4], places[i % 4], rgba);
         fuzz_must(isfinite(rgba[0] + rgba[1] + rgba[2] + rgba[3]), "a colour is finite");
         retex_texture_nearest(texture, places[i / 4], places[i % 4], rgba);
         fuzz_must(isfinite(rgba[0] + rgba[1] + rgba[2] + rgba[3]), "a texel is finite");
+    }
+    if (!retex_texture_square(&square, texture, NULL)) {
+        retex_texture_disc(square, 0.1, 0.2, (double[3]){0.1, 0, 0.1}, rgba);
+        fuzz_must(isfinite(rgba[0] + rgba[1] + rgba[2] + rgba[3]), "a square is finite");
+        retex_texture_close(&square);
     }
     retex_texture_close(&texture);
 }
@@ -64,6 +74,10 @@ static int run(const unsigned char *bytes, size_t size)
         fuzz_must(isfinite(spec.scale[0]) && isfinite(spec.scale[1]) && isfinite(spec.rotate) &&
                       isfinite(spec.offset[0]) && isfinite(spec.offset[1]),
                   "numbers are finite");
+        fuzz_must(isfinite(spec.width[0]) && spec.width[0] >= 0 && isfinite(spec.width[1]) && spec.width[1] >= 0,
+                  "a width is finite and not negative");
+        spec.uv_scale[0] = 2;
+        spec.uv_scale[1] = 0.3;
         look_up(&spec);
     }
     free(opts);

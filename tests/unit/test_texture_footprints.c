@@ -73,8 +73,8 @@ static void free_moments(Moments *m)
     retex_texture_close(&m->second);
 }
 
-/* What bilinear reconstruction adds to x^2, f (1 - f) at the fraction f between two texels, averaged over a footprint of
- * that variance around x: a Fourier series, each wave damped by the footprint's transform. */
+/* What bilinear reconstruction adds to x^2, f (1 - f) at the fraction f between two texels, averaged over a footprint
+ * of that variance around x: a Fourier series, each wave damped by the footprint's transform. */
 static double tent_variance(double x, double variance, int disc)
 {
     double sum = 1.0 / 6;

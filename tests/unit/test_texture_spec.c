@@ -26,6 +26,8 @@ static void test_defaults(void **state)
     assert_true(spec.offset[0] == 0 && spec.offset[1] == 0);
     assert_true(spec.wrap[0] == RETEX_WRAP_REPEAT && spec.wrap[1] == RETEX_WRAP_REPEAT);
     assert_int_equal(spec.size, sizeof spec);
+    assert_true(!spec.flip[0] && !spec.flip[1] && spec.repeat == RETEX_REPEAT_STRAIGHT);
+    assert_true(spec.width[0] == 0 && spec.width[1] == 0 && spec.uv_scale[0] == 0 && spec.uv_scale[1] == 0);
 }
 
 static void test_options(void **state)
@@ -43,6 +45,22 @@ static void test_options(void **state)
     assert_true(spec.wrap[0] == RETEX_WRAP_BLACK && spec.wrap[1] == RETEX_WRAP_BLACK);
     spec = parse("scale=2:scale=4", "a=b"); /* the last one holds */
     assert_true(spec.scale[0] == 4);
+    spec = parse("flip=u", "a=b");
+    assert_true(spec.flip[0] && !spec.flip[1]);
+    spec = parse("flip=V:repeat=Half-Drop", "a=b");
+    assert_true(!spec.flip[0] && spec.flip[1] && spec.repeat == RETEX_REPEAT_HALF_DROP);
+    spec = parse("flip=vu:repeat=brick:wrap=repeat", "a=b");
+    assert_true(spec.flip[0] && spec.flip[1] && spec.repeat == RETEX_REPEAT_BRICK);
+    spec = parse("repeat=mirror:wrap=clamp", "a=b");
+    assert_true(spec.repeat == RETEX_REPEAT_MIRROR && spec.wrap[0] == RETEX_WRAP_CLAMP);
+    spec = parse("wrap=mirror:repeat=brick:wrap=repeat:repeat=straight", "a=b");
+    assert_true(spec.repeat == RETEX_REPEAT_STRAIGHT);
+    spec = parse("width=1.2", "a=b");
+    assert_true(spec.width[0] == 1.2 && spec.width[1] == 0 && retex_texture_spec_needs_scale(&spec));
+    spec = parse("width=1.2,0.2", "a=b");
+    assert_true(spec.width[0] == 1.2 && spec.width[1] == 0.2);
+    spec = parse("width=1.2", "a=rgb(1,1,1)");
+    assert_int_equal(retex_texture_spec_needs_scale(&spec), 0);
 }
 
 static void test_images(void **state)
@@ -91,6 +109,17 @@ static void test_mistakes(void **state)
         {"wrap=tile", "a=b", "repeat, mirror, clamp or black"},
         {"wrap=repeat,tile", "a=b", "repeat, mirror"},
         {"wrap=", "a=b", "repeat, mirror"},
+        {"flip=", "a=b", "u, v or uv"},
+        {"flip=uu", "a=b", "u, v or uv"},
+        {"flip=x", "a=b", "u, v or uv"},
+        {"repeat=bricks", "a=b", "straight, brick, half-drop or mirror"},
+        {"repeat=brick:wrap=repeat,clamp", "a=b", "repeat=brick needs wrap=repeat"},
+        {"wrap=mirror:repeat=half-drop", "a=b", "repeat=half-drop needs wrap=repeat"},
+        {"width=0", "a=b", "lengths above 0"},
+        {"width=1,-2", "a=b", "lengths above 0"},
+        {"width=1m", "a=b", "lengths above 0"},
+        {"width=1,2,3", "a=b", "lengths above 0"},
+        {"width=1,0", "a=b", "lengths above 0"},
         {"colorspace=", "a=b", "colour space"},
         {"size=2", "a=b", "'size'; there are scale"},
         {"=2", "a=b", "''"},

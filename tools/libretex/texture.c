@@ -1,9 +1,11 @@
 /* Textures: loading, the MIP pyramid, and the way from surface UV to texels.
  *
  * A file becomes premultiplied RGBA floats; level after level is halved, an odd number of texels rounding down with
- * each new texel still the exact average of its share. Look-ups are in texture_filter_kernel.c. */
+ * each new texel still the exact average of its share. Look-ups are in texture_filter_kernel.c and
+ * texture_disc_kernel.c. */
 #include "texture_pyramid.h"
 
+#include <limits.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -12,6 +14,8 @@
 
 #define MAX_TEXTURE_PIXELS (1L << 28) /* 16384 x 16384: 4 GiB of floats */
 #define ROWS_A_JOB 16
+#define LARGEST_COLOR 1e30f /* so that sums of weighted texels stay finite */
+#define LEAST_ALPHA 1e-20f  /* less has no colour that float could tell */
 /* A footprint of a thousand textures is the average, whatever its size; larger numbers only lose digits. */
 #define MAX_FOOTPRINT 1000.0
 
@@ -162,6 +166,11 @@ static int add_level(RetexTexture *texture, int nthreads)
     return 0;
 }
 
+static float limit_color(float value)
+{
+    return value > LARGEST_COLOR ? LARGEST_COLOR : value < -LARGEST_COLOR ? -LARGEST_COLOR : value;
+}
+
 static void premultiply_job(void *context, int index, int thread)
 {
     TextureLevel *image = context;
@@ -170,7 +179,7 @@ static void premultiply_job(void *context, int index, int thread)
     for (int x = 0; x < image->width; x++, p += 4) {
         float alpha = isfinite(p[3]) ? p[3] < 0 ? 0 : p[3] > 1 ? 1 : p[3] : 0;
         for (int c = 0; c < 3; c++)
-            p[c] = isfinite(p[c]) ? p[c] * alpha : 0; /* one bad texel must not spoil all coarser levels */
+            p[c] = isfinite(p[c]) ? limit_color(p[c]) * alpha : 0; /* one bad texel must not spoil all coarser levels */
         p[3] = alpha;
     }
 }
@@ -184,18 +193,18 @@ static void fill_tail(RetexTexture *texture)
     }
 }
 
-/* The pixels (RGBA) become the texture's. */
-static int build_pyramid(RetexTexture *texture, RetexImage *pixels, int nthreads, RetexError *err)
+static int no_memory(const RetexTexture *texture, int width, int height, RetexError *err)
 {
-    TextureLevel *image = &texture->levels[0];
-    image->width = pixels->width;
-    image->height = pixels->height;
-    image->texels = pixels->pixels;
-    *pixels = (RetexImage){0};
-    image->scale[0] = image->scale[1] = 1;
+    return retex_fail_at(err, RETEX_ENOMEM, texture->spec.image, 0, 0,
+                         "not enough memory for a texture of %d x %d texels", width, height);
+}
+
+/* Level 0 has its texels. */
+static int grow_pyramid(RetexTexture *texture, int nthreads, RetexError *err)
+{
+    const TextureLevel *image = &texture->levels[0];
     texture->nlevels = 1;
     fill_tail(texture);
-    retex_parallel(nthreads, image->height, premultiply_job, image);
     int failed = take_borders(texture);
     while (!failed) {
         const TextureLevel *last = &texture->levels[texture->nlevels - 1];
@@ -203,15 +212,102 @@ static int build_pyramid(RetexTexture *texture, RetexImage *pixels, int nthreads
             break;
         failed = add_level(texture, nthreads);
     }
-    if (failed)
-        return retex_fail_at(err, RETEX_ENOMEM, texture->spec.image, 0, 0,
-                             "not enough memory for a texture of %d x %d texels", image->width, image->height);
+    return failed ? no_memory(texture, image->width, image->height, err) : RETEX_OK;
+}
+
+/* Two repeats in place of one: beside each other, the right one moved down, or one above the other, the upper one moved
+ * right. What the filters see is an image like any other. */
+static int compose_repeats(RetexTexture *texture, RetexImage *pixels, RetexError *err)
+{
+    int across = texture->spec.repeat == RETEX_REPEAT_HALF_DROP;
+    if (!across && texture->spec.repeat != RETEX_REPEAT_BRICK)
+        return RETEX_OK;
+    int width = pixels->width, height = pixels->height;
+    RetexImage both = {0};
+    if (width > INT_MAX / 2 || height > INT_MAX / 2 ||
+        retex_image_alloc(&both, across ? 2 * width : width, across ? height : 2 * height, 4, NULL))
+        return no_memory(texture, width, height, err);
+    size_t texel = 4 * sizeof(float), half = (size_t)(width / 2), rest = (size_t)width - half;
+    for (int y = 0; y < height; y++) {
+        const float *from = pixels->pixels + (size_t)y * (size_t)width * 4;
+        if (across) {
+            float *to = both.pixels + (size_t)y * (size_t)width * 8;
+            int above = (y + height - height / 2) % height;
+            memcpy(to, from, (size_t)width * texel);
+            memcpy(to + (size_t)width * 4, pixels->pixels + (size_t)above * (size_t)width * 4, (size_t)width * texel);
+        } else {
+            float *upper = both.pixels + (size_t)y * (size_t)width * 4;
+            memcpy(upper, from + rest * 4, half * texel);
+            memcpy(upper + half * 4, from, rest * texel);
+            memcpy(upper + (size_t)height * (size_t)width * 4, from, (size_t)width * texel);
+        }
+    }
+    texture->repeats[!across] = 2;
+    retex_image_free(pixels);
+    *pixels = both;
     return RETEX_OK;
+}
+
+/* All of the spec's placement into one matrix and offset, for an image of that size. */
+static void finish_map(RetexTexture *texture, int width, int height)
+{
+    const RetexTextureSpec *spec = &texture->spec;
+    double angle = fmod(spec->rotate, 360) * M_PI / 180, c = cos(angle), s = sin(angle);
+    if (fmod(spec->rotate, 90) == 0) { /* quarter turns are exact */
+        c = rint(c);
+        s = rint(s);
+    }
+    double before[2] = {spec->scale[0], spec->scale[1]}, after[2] = {1, 1}, turn[2][2] = {{c, -s}, {s, c}};
+    if (spec->width[0] > 0) {
+        double size[2] = {spec->width[0], spec->width[1] > 0 ? spec->width[1] : spec->width[0] * height / width};
+        for (int axis = 0; axis < 2; axis++) {
+            before[axis] *= spec->uv_scale[axis];
+            after[axis] = 1 / size[axis];
+        }
+    }
+    for (int axis = 0; axis < 2; axis++) {
+        double sign = spec->flip[axis] ? -1 : 1, share = 1.0 / texture->repeats[axis];
+        for (int i = 0; i < 2; i++)
+            texture->matrix[axis][i] = sign * share * after[axis] * turn[axis][i] * before[i];
+        texture->offset[axis] = share * (spec->flip[axis] ? 1 - spec->offset[axis] : spec->offset[axis]);
+    }
+}
+
+/* The pixels (RGBA) become the texture's. */
+static int take_pixels(RetexTexture *texture, RetexImage *pixels, int nthreads, RetexError *err)
+{
+    TextureLevel *image = &texture->levels[0];
+    int width = pixels->width, height = pixels->height, code = compose_repeats(texture, pixels, err);
+    if (code)
+        return code;
+    finish_map(texture, width, height);
+    image->width = pixels->width;
+    image->height = pixels->height;
+    image->texels = pixels->pixels;
+    image->scale[0] = image->scale[1] = 1;
+    *pixels = (RetexImage){0};
+    retex_parallel(nthreads, image->height, premultiply_job, image);
+    return grow_pyramid(texture, nthreads, err);
 }
 
 /* ---- life ---- */
 
-static int check_spec(const RetexTextureSpec *spec, RetexError *err)
+static int check_width(const RetexTextureSpec *spec, RetexError *err)
+{
+    for (int axis = 0; axis < 2; axis++)
+        if (!isfinite(spec->width[axis]) || spec->width[axis] < 0)
+            return retex_fail(err, RETEX_EINVAL, "texture: width must be finite and above 0");
+    if (spec->width[1] > 0 && !(spec->width[0] > 0))
+        return retex_fail(err, RETEX_EINVAL, "texture: a second width needs a first one");
+    for (int axis = 0; axis < 2 && spec->width[0] > 0; axis++)
+        if (!isfinite(spec->uv_scale[axis]) || !(spec->uv_scale[axis] > 0))
+            return retex_fail(err, RETEX_EINVAL,
+                              "the size of target %s is not known: width= cannot be used on it, only scale=",
+                              spec->target[0] ? spec->target : "(none)");
+    return RETEX_OK;
+}
+
+static int check_spec(const RetexTextureSpec *spec, int constant, RetexError *err)
 {
     for (int axis = 0; axis < 2; axis++) {
         if (!isfinite(spec->scale[axis]) || spec->scale[axis] == 0 || !isfinite(spec->offset[axis]))
@@ -221,28 +317,31 @@ static int check_spec(const RetexTextureSpec *spec, RetexError *err)
     }
     if (!isfinite(spec->rotate))
         return retex_fail(err, RETEX_EINVAL, "texture: rotate must be finite");
-    return RETEX_OK;
+    if ((unsigned)spec->repeat > RETEX_REPEAT_MIRROR)
+        return retex_fail(err, RETEX_EINVAL, "texture: no repeat has the number %d", (int)spec->repeat);
+    int shifted = spec->repeat == RETEX_REPEAT_BRICK || spec->repeat == RETEX_REPEAT_HALF_DROP;
+    if (shifted && (spec->wrap[0] != RETEX_WRAP_REPEAT || spec->wrap[1] != RETEX_WRAP_REPEAT))
+        return retex_fail(err, RETEX_EINVAL, "texture: shifted repeats need wrap = repeat on both axes");
+    return constant ? RETEX_OK : check_width(spec, err);
 }
 
-static RetexTexture *new_texture(const RetexTextureSpec *spec, RetexError *err)
+static RetexTexture *new_texture(const RetexTextureSpec *given, int constant, RetexError *err)
 {
-    if (check_spec(spec, err))
+    RetexTextureSpec spec = RETEX_TEXTURE_SPEC_INIT; /* for what an older caller's has not */
+    memcpy(&spec, given, given->size < sizeof spec ? given->size : sizeof spec);
+    if (check_spec(&spec, constant, err))
         return NULL;
     RetexTexture *texture = calloc(1, sizeof *texture);
     if (!texture) {
         retex_fail(err, RETEX_ENOMEM, "not enough memory for a texture");
         return NULL;
     }
-    texture->spec = *spec;
-    double angle = fmod(spec->rotate, 360) * M_PI / 180, c = cos(angle), s = sin(angle);
-    if (fmod(spec->rotate, 90) == 0) { /* quarter turns are exact */
-        c = rint(c);
-        s = rint(s);
-    }
-    texture->matrix[0][0] = c * spec->scale[0];
-    texture->matrix[0][1] = -s * spec->scale[1];
-    texture->matrix[1][0] = s * spec->scale[0];
-    texture->matrix[1][1] = c * spec->scale[1];
+    spec.constant = constant;
+    for (int axis = 0; axis < 2; axis++)
+        if (spec.repeat == RETEX_REPEAT_MIRROR && spec.wrap[axis] == RETEX_WRAP_REPEAT)
+            spec.wrap[axis] = RETEX_WRAP_MIRROR;
+    texture->spec = spec;
+    texture->repeats[0] = texture->repeats[1] = 1;
     return texture;
 }
 
@@ -271,14 +370,15 @@ int retex_texture_load(RetexTexture **out, const RetexTextureSpec *spec, int nth
 {
     RetexError why = {0};
     *out = NULL;
-    RetexTexture *texture = new_texture(spec, &why);
+    RetexTexture *texture = new_texture(spec, spec->constant, &why);
     int code = why.code;
     if (texture && !spec->constant) {
         RetexImage image = {0};
         code = retex_image_read(&image, spec->image, spec->colorspace[0] ? spec->colorspace : NULL, MAX_TEXTURE_PIXELS,
                                 &why);
         if (!code)
-            code = build_pyramid(texture, &image, nthreads, &why);
+            code = take_pixels(texture, &image, nthreads, &why);
+        retex_image_free(&image);
     }
     if (code) {
         retex_texture_close(&texture);
@@ -297,7 +397,7 @@ int retex_texture_create(RetexTexture **out, const RetexImage *image, const Rete
     *out = NULL;
     if (!image || !image->pixels || (image->channels != 1 && image->channels != 3 && image->channels != 4))
         return retex_fail(err, RETEX_EINVAL, "a texture is made of 1, 3 or 4 channels");
-    RetexTexture *texture = new_texture(spec ? spec : &plain, &why);
+    RetexTexture *texture = new_texture(spec ? spec : &plain, 0, &why);
     RetexImage copy = {0};
     int code = texture ? retex_image_alloc(&copy, image->width, image->height, 4, &why) : why.code;
     if (!code) {
@@ -308,8 +408,8 @@ int retex_texture_create(RetexTexture **out, const RetexImage *image, const Rete
             for (int c = 0; c < 4; c++)
                 to[c] = c < image->channels ? from[c] : c == 3 ? 1 : from[0];
         }
-        texture->spec.constant = 0;
-        code = build_pyramid(texture, &copy, 0, &why);
+        code = take_pixels(texture, &copy, 0, &why);
+        retex_image_free(&copy);
     }
     if (code) {
         retex_texture_close(&texture);
@@ -321,10 +421,47 @@ int retex_texture_create(RetexTexture **out, const RetexImage *image, const Rete
     return RETEX_OK;
 }
 
+int retex_texture_square(RetexTexture **out, const RetexTexture *texture, RetexError *err)
+{
+    *out = NULL;
+    RetexTexture *square = calloc(1, sizeof *square);
+    if (!square)
+        return retex_fail(err, RETEX_ENOMEM, "not enough memory for a texture");
+    square->spec = texture->spec;
+    memcpy(square->repeats, texture->repeats, sizeof square->repeats);
+    memcpy(square->matrix, texture->matrix, sizeof square->matrix);
+    memcpy(square->offset, texture->offset, sizeof square->offset);
+    for (int c = 0; c < 3; c++)
+        square->spec.color[c] = limit_color(texture->spec.color[c] * texture->spec.color[c]);
+    int code = RETEX_OK;
+    if (texture->nlevels) {
+        const TextureLevel *from = &texture->levels[0];
+        TextureLevel *to = &square->levels[0];
+        RetexImage pixels = {0};
+        code = retex_image_alloc(&pixels, from->width, from->height, 4, err);
+        if (!code) {
+            *to =
+                (TextureLevel){.width = from->width, .height = from->height, .texels = pixels.pixels, .scale = {1, 1}};
+            size_t count = 4 * (size_t)from->width * (size_t)from->height;
+            for (size_t i = 0; i < count; i += 4) {
+                const float *p = from->texels + i;
+                for (int c = 0; c < 3; c++)
+                    to->texels[i + c] = p[3] > 0 ? limit_color(p[c] / p[3] * (p[c] / p[3])) * p[3] : 0;
+                to->texels[i + 3] = p[3];
+            }
+            code = grow_pyramid(square, 0, err);
+        }
+    }
+    if (code)
+        retex_texture_close(&square);
+    *out = square;
+    return code;
+}
+
 int retex_texture_size(const RetexTexture *texture, int *width, int *height)
 {
-    *width = texture->nlevels ? texture->levels[0].width : 1;
-    *height = texture->nlevels ? texture->levels[0].height : 1;
+    *width = texture->nlevels ? texture->levels[0].width / texture->repeats[0] : 1;
+    *height = texture->nlevels ? texture->levels[0].height / texture->repeats[1] : 1;
     return RETEX_OK;
 }
 
@@ -334,7 +471,7 @@ int retex_texture_size(const RetexTexture *texture, int *width, int *height)
 static int texture_uv(const RetexTexture *texture, double u, double v, double uv[2])
 {
     for (int i = 0; i < 2; i++)
-        uv[i] = texture->matrix[i][0] * u + texture->matrix[i][1] * v + texture->spec.offset[i];
+        uv[i] = texture->matrix[i][0] * u + texture->matrix[i][1] * v + texture->offset[i];
     return isfinite(uv[0]) && isfinite(uv[1]);
 }
 
@@ -367,7 +504,7 @@ static int texel_covariance(const RetexTexture *texture, const double c[3], Text
 
 static void unassociate(float rgba[4])
 {
-    if (!(rgba[3] > 0)) {
+    if (!(rgba[3] > LEAST_ALPHA)) {
         rgba[0] = rgba[1] = rgba[2] = rgba[3] = 0;
         return;
     }

@@ -19,8 +19,8 @@
 #define MAX_ACROSS (2 * MAX_LENGTH + 8)
 #define LEAST_HALF 0.002f
 
-/* The level as lines of texels: rows, or columns where the footprint lies flat. In this file index 0 of a pair is along,
- * from line to line, and index 1 across, from texel to texel of a line. */
+/* The level as lines of texels: rows, or columns where the footprint lies flat. In this file index 0 of a pair is
+ * along, from line to line, and index 1 across, from texel to texel of a line. */
 typedef struct Lines {
     const RetexTexture *texture;
     const TextureLevel *level;
@@ -109,12 +109,10 @@ static inline Rest ellipse_rest(const TextureLevel *level, const TextureFootprin
 static inline int level_leaves(const RetexTexture *texture, int level, const TextureFootprint *f,
                                const double position[2], double least)
 {
-    int flat[2];
     Rest rest = ellipse_rest(&texture->levels[level], f, position);
     double x = rest.xx - least, y = rest.yy - least;
-    find_flat(texture, &texture->levels[level], flat);
-    if (flat[0] || flat[1])
-        return (flat[0] || x >= 0) && (flat[1] || y >= 0);
+    if (is_flat(texture, 0) || is_flat(texture, 1))
+        return (is_flat(texture, 0) || x >= 0) && (is_flat(texture, 1) || y >= 0);
     return x >= 0 && y >= 0 && x * y >= rest.xy * rest.xy;
 }
 
@@ -174,6 +172,12 @@ static inline void begin_strip(Strip *strip, int used)
     memset(strip->change, 0, (size_t)used * sizeof *strip->change);
 }
 
+/* Differences leave roundings of either sign; with weights of one sign colours stay between those of the texels. */
+static inline float positive(float weight)
+{
+    return weight > 0 ? weight : 0;
+}
+
 /* Sum of a line's texels with its weights; then the strip's next line is its line. base: the texel of the strip's
  * first. */
 static inline Float4 sum_line(const Lines *lines, int line, int base, Strip *restrict strip)
@@ -189,22 +193,22 @@ static inline Float4 sum_line(const Lines *lines, int line, int base, Strip *res
         for (; i + 1 < high; i += 2, p += 2 * step) {
             Float2 one = strip->change[i], two = strip->change[i + 1];
             float second = weight + (one[0] + two[0]);
-            sum += load4(p) * (weight + one[0]);
-            odd += load4(p + step) * second;
+            sum += load4(p) * positive(weight + one[0]);
+            odd += load4(p + step) * positive(second);
             weight = second;
             strip->change[i] = (Float2){one[1], 0};
             strip->change[i + 1] = (Float2){two[1], 0};
         }
         if (i < high) {
             Float2 one = strip->change[i];
-            sum += load4(p) * (weight + one[0]);
+            sum += load4(p) * positive(weight + one[0]);
             strip->change[i] = (Float2){one[1], 0};
         }
     } else {
         for (; i < high; i++) {
             Float2 one = strip->change[i];
             weight += one[0];
-            sum += load4(find_texel(lines, at, wrap_line(lines, 1, base + i))) * weight;
+            sum += load4(find_texel(lines, at, wrap_line(lines, 1, base + i))) * positive(weight);
             strip->change[i] = (Float2){one[1], 0};
         }
     }
@@ -277,7 +281,7 @@ static void find_chords(Chords *restrict chords, int count, const Shape *restric
         left = left < high ? left : high;
         right = right > low ? right : low;
         right = right < high ? right : high;
-        float weight = chords->weight[i] * s, density = weight * 0.5f / h;
+        float weight = chords->weight[i] * s, density = right > left ? weight * 0.5f / h : 0;
         chords->weight[i] = weight;
         chords->here[i] = density * (1 - t);
         chords->next[i] = density * t;

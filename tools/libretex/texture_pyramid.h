@@ -4,7 +4,7 @@
 
 #include <retex/texture.h>
 
-#define TEXTURE_MAX_LEVELS 17 /* of 65536 texels a side: 65536, 32768, ... 1 */
+#define TEXTURE_MAX_LEVELS 18 /* of 131072 texels a side, two repeats of 65536: 131072, 65536, ... 1 */
 #define TEXTURE_TAIL_STEPS 64 /* of the table below, per unit */
 #define TEXTURE_TAIL_END 4
 
@@ -24,8 +24,11 @@ typedef struct TextureLevel {
 } TextureLevel;
 
 struct RetexTexture {
-    RetexTextureSpec spec;
-    double matrix[2][2]; /* surface UV -> texture UV, before the offset */
+    RetexTextureSpec spec; /* with wrap = mirror for repeat = mirror */
+    int repeats[2];        /* that the image holds along u and v: 2 where every second one is shifted */
+    /* uv' = matrix uv + offset, from the surface's UV to that of the image with all its repeats: all of the spec. */
+    double matrix[2][2];
+    double offset[2];
     int nlevels;         /* 0 = constant */
     TextureLevel levels[TEXTURE_MAX_LEVELS];
     float corners[4][4]; /* of the image: top left, top right, bottom left, bottom right; premultiplied */

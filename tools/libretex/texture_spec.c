@@ -8,7 +8,7 @@
 #include <string.h>
 #include <strings.h>
 
-#define OPTION_NAMES "scale, rotate, offset, wrap, colorspace"
+#define OPTION_NAMES "scale, rotate, offset, flip, wrap, repeat, width, colorspace"
 
 /* A finite number from text on; *end is behind it. 0 where there is none. */
 static int parse_number(const char *text, const char **end, double *value)
@@ -64,6 +64,38 @@ static int parse_wrap(RetexWrap wrap[2], const char *text)
     return text[first] == '\0' || parse_wrap_word(&wrap[1], text + first + 1, strlen(text + first + 1));
 }
 
+static int parse_flip(int flip[2], const char *text)
+{
+    size_t length = strlen(text);
+    if (length < 1 || strspn(text, "uvUV") != length)
+        return 0;
+    flip[0] = strpbrk(text, "uU") != NULL;
+    flip[1] = strpbrk(text, "vV") != NULL;
+    return (size_t)(flip[0] + flip[1]) == length;
+}
+
+static const char *const repeat_words[] = {"straight", "brick", "half-drop", "mirror"};
+
+static int parse_repeat(RetexRepeat *repeat, const char *text)
+{
+    for (int i = 0; i < 4; i++)
+        if (strcasecmp(repeat_words[i], text) == 0) {
+            *repeat = (RetexRepeat)i;
+            return 1;
+        }
+    return 0;
+}
+
+/* One length leaves the other to the image. */
+static int parse_width(double width[2], const char *text)
+{
+    if (!parse_pair(width, text) || !(width[0] > 0) || !(width[1] > 0))
+        return 0;
+    if (!strchr(text, ','))
+        width[1] = 0;
+    return 1;
+}
+
 static int parse_option(RetexTextureSpec *spec, const char *name, const char *value, RetexError *err)
 {
     if (strcmp(name, "scale") == 0) {
@@ -90,6 +122,19 @@ static int parse_option(RetexTextureSpec *spec, const char *name, const char *va
             return retex_fail(err, RETEX_EPARSE,
                               "texture option wrap='%s': expected repeat, mirror, clamp or black, or "
                               "two of them for u,v",
+                              value);
+    } else if (strcmp(name, "flip") == 0) {
+        if (!parse_flip(spec->flip, value))
+            return retex_fail(err, RETEX_EPARSE, "texture option flip='%s': expected u, v or uv", value);
+    } else if (strcmp(name, "repeat") == 0) {
+        if (!parse_repeat(&spec->repeat, value))
+            return retex_fail(err, RETEX_EPARSE,
+                              "texture option repeat='%s': expected straight, brick, half-drop or mirror", value);
+    } else if (strcmp(name, "width") == 0) {
+        if (!parse_width(spec->width, value))
+            return retex_fail(err, RETEX_EPARSE,
+                              "texture option width='%s': expected one or two lengths above 0, as in width=1.2 or "
+                              "width=1.2,0.2",
                               value);
     } else if (strcmp(name, "colorspace") == 0) {
         if (!*value || strlen(value) >= sizeof spec->colorspace)
@@ -126,6 +171,10 @@ static int parse_options(RetexTextureSpec *spec, const char *opts, RetexError *e
         code = parse_option(spec, at, equals + 1, err);
     }
     free(text);
+    int shifted = spec->repeat == RETEX_REPEAT_BRICK || spec->repeat == RETEX_REPEAT_HALF_DROP;
+    if (!code && shifted && (spec->wrap[0] != RETEX_WRAP_REPEAT || spec->wrap[1] != RETEX_WRAP_REPEAT))
+        code = retex_fail(err, RETEX_EPARSE, "texture options: repeat=%s needs wrap=repeat, the default, on both axes",
+                          repeat_words[spec->repeat]);
     return code;
 }
 
@@ -153,6 +202,11 @@ static int parse_color(RetexTextureSpec *spec, const char *text, RetexError *err
         return retex_fail(err, RETEX_EPARSE, "colour '%s': nothing may follow rgb(r,g,b)", text);
     spec->constant = 1;
     return 0;
+}
+
+int retex_texture_spec_needs_scale(const RetexTextureSpec *spec)
+{
+    return !spec->constant && spec->width[0] > 0;
 }
 
 int retex_texture_spec_parse(RetexTextureSpec *spec, const char *opts, const char *arg, RetexError *err)

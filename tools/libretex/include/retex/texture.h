@@ -1,8 +1,17 @@
 /* Textures and how they lie on a target.
  *
- * u runs right, v up, v = 0 at the image's bottom row; texel centres lie at (i + 0.5) / width. The surface's UV is
- * taken through uv' = R(rotate, counter-clockwise about 0) (scale * uv) + offset before the look-up, so scale 2
- * shows two repeats. */
+ * u runs right, v up, v = 0 at the image's bottom row; texel centres lie at (i + 0.5) / width. Before the look-up the
+ * surface's UV is taken through
+ *
+ *     uv' = M uv + offset,  M = R(rotate) diag(scale)
+ *
+ * R turns counter-clockwise about 0; scale 2 shows two repeats. With `width` repeats have a size in scene units, and
+ * the turning happens in these units, so that a plank stays a plank:
+ *
+ *     M = diag(1 / width, 1 / height) R(rotate) diag(uv_scale * scale)
+ *
+ * Last comes `flip`, u' -> 1 - u' and v' -> 1 - v'. A footprint's mean goes through all of it, its covariance C becomes
+ * M C M^T: exactly, in every look-up below. Constants ignore it. */
 #ifndef RETEX_TEXTURE_H
 #define RETEX_TEXTURE_H
 
@@ -13,6 +22,16 @@ extern "C" {
 #endif
 
 typedef enum RetexWrap { RETEX_WRAP_REPEAT, RETEX_WRAP_MIRROR, RETEX_WRAP_CLAMP, RETEX_WRAP_BLACK } RetexWrap;
+
+/* How repeats lie beside each other. Brick and half-drop need wrap = repeat on both axes and twice the memory: two
+ * repeats are kept, 1 GiB for an image of 5792 x 5792 texels, pyramid not counted (a third more). A shift is a whole
+ * number of texels, so that no repeat is softer than another: half of the image's, rounded down. */
+typedef enum RetexRepeat {
+    RETEX_REPEAT_STRAIGHT,
+    RETEX_REPEAT_BRICK,     /* every second row of repeats, floor(v') odd, moved right by half a repeat */
+    RETEX_REPEAT_HALF_DROP, /* every second column, floor(u') odd, moved down by half a repeat */
+    RETEX_REPEAT_MIRROR     /* book-matched: every second repeat mirrored, as by wrap = mirror */
+} RetexRepeat;
 
 /* What the user said: --texture:scale=2,2:rotate=30:wrap=mirror NAME=IMAGE. Begin with RETEX_TEXTURE_SPEC_INIT. */
 typedef struct RetexTextureSpec {
@@ -26,22 +45,37 @@ typedef struct RetexTextureSpec {
     double offset[2];      /* default 0, 0; in repeats of the texture */
     RetexWrap wrap[2];     /* u, v; default repeat */
     char colorspace[64];   /* "" = by the file's type */
+    int flip[2];           /* 1: mirrored left-right (u), up-down (v), after all else; default 0, 0 */
+    RetexRepeat repeat;    /* default straight */
+    double width[2];       /* of one repeat along u and along v, in scene units, > 0. 0, 0 (the default) = a repeat is
+                              one unit of UV; second 0 = by the image's aspect, width[0] * its height / its width */
+    double uv_scale[2];    /* scene units that one unit of surface u and of v measures, > 0: filled in by the caller
+                              from the set or the scene, after parsing. Default 0, 0 = unknown; needed with width */
 } RetexTextureSpec;
 #define RETEX_TEXTURE_SPEC_INIT \
-    { sizeof(RetexTextureSpec), "", "", 0, {0, 0, 0}, {1, 1}, 0, {0, 0}, {RETEX_WRAP_REPEAT, RETEX_WRAP_REPEAT}, "" }
+    { sizeof(RetexTextureSpec), "", "", 0, {0, 0, 0}, {1, 1}, 0, {0, 0}, {RETEX_WRAP_REPEAT, RETEX_WRAP_REPEAT}, \
+      "", {0, 0}, RETEX_REPEAT_STRAIGHT, {0, 0}, {0, 0} }
 
 /* opts: what follows `--texture:` ("scale=2,2:rotate=30", or "" or NULL); arg: "NAME=IMAGE" or "NAME=rgb(r,g,b)". */
 int retex_texture_spec_parse(RetexTextureSpec *spec, const char *opts, const char *arg, RetexError *err);
 
+/* 1 where uv_scale has to be filled in before the texture is loaded: an image with a width. */
+int retex_texture_spec_needs_scale(const RetexTextureSpec *spec);
+
 typedef struct RetexTexture RetexTexture;
 
-/* Load and build the MIP pyramid. RETEX_EIO or RETEX_EFORMAT with the file's name where it cannot. */
+/* Load and build the MIP pyramid. RETEX_EIO or RETEX_EFORMAT with the file's name where it cannot; RETEX_EINVAL for a
+ * width without uv_scale. Colours beyond 1e30 become 1e30. */
 int retex_texture_load(RetexTexture **texture, const RetexTextureSpec *spec, int nthreads, RetexError *err);
 /* A texture from pixels in memory (1, 3 or 4 channels, scene-linear, unassociated alpha; row 0 is the top). Copies. */
 int retex_texture_create(RetexTexture **texture, const RetexImage *image,
                          const RetexTextureSpec *spec /* NULL = plain */, RetexError *err);
+/* A texture of the same placement whose colours are the squares of the (unassociated) colours, with the same alpha:
+ * E[a^2] - E[a]^2 is a texture's variance within a footprint. */
+int retex_texture_square(RetexTexture **square, const RetexTexture *texture, RetexError *err);
 void retex_texture_close(RetexTexture **texture);
-int retex_texture_size(const RetexTexture *texture, int *width, int *height); /* 1, 1 for a constant */
+/* Texels of one repeat; 1, 1 for a constant. */
+int retex_texture_size(const RetexTexture *texture, int *width, int *height);
 
 /* One point, bilinear between texel centres, after the spec's UV transform and wraps: rgba, unassociated alpha.
  * `wrap=black` gives (0,0,0,0) outside [0,1]. Thread-safe. What --replace and a pigment's interpolated image_map
@@ -60,8 +94,8 @@ void retex_texture_gaussian(const RetexTexture *texture, double u, double v, con
 
 /* The same over a disc: the texture averaged evenly over the ellipse of that mean and covariance, whose half axes are
  * two standard deviations along its principal axes (a disc of radius R has the variance R^2 / 4 along each axis). What
- * a footprint is that a box pixel filter sees sharply. Very long ellipses, of more than forty times their width, skip
- * texels along their length. */
+ * a footprint is that a box pixel filter sees sharply. Very long ellipses, of more than some forty times their width,
+ * skip texels along their length. */
 void retex_texture_disc(const RetexTexture *texture, double u, double v, const double covariance[3], float rgba[4]);
 
 #ifdef __cplusplus
