@@ -73,11 +73,11 @@ camera {
 #declare Cabinet = Lacquer(<0.66, 0.645, 0.61>, 0.4)
 #declare Oak     = Lacquer(<0.47, 0.30, 0.16>, 0.45)
 #declare Walnut  = Lacquer(<0.22, 0.115, 0.06>, 0.4)
-#declare Quartz  = Lacquer(<0.70, 0.69, 0.67>, 0.22)
+#declare Quartz  = Lacquer(<0.70, 0.69, 0.67>, 0.4)
 #declare Black   = Lacquer(<0.022, 0.022, 0.024>, 0.35)
 #declare Black_Glass = Lacquer(<0.012, 0.012, 0.013>, 0.08)
 #declare Steel   = Metal(<0.66, 0.66, 0.65>, 0.28)
-#declare Polished_Steel = Metal(<0.72, 0.71, 0.69>, 0.18)
+#declare Polished_Steel = Metal(<0.72, 0.71, 0.69>, 0.22)
 #declare Brass   = Metal(<0.83, 0.61, 0.30>, 0.3)
 #declare Copper  = Metal(<0.90, 0.50, 0.33>, 0.22)
 #declare Chrome  = texture { pigment { rgb 0.9 } finish { diffuse 0 reflection { 0.88 } } }
