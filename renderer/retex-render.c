@@ -14,6 +14,7 @@
 #include "texture_args.h"
 #include "texture_table.h"
 #include "film/film.h"
+#include "integrate/guides.h"
 #include "integrate/render.h"
 #include "sdl/sdl.h"
 
@@ -37,6 +38,7 @@ enum {
     OPT_CROP,
     OPT_FILTER,
     OPT_AOV,
+    OPT_AOV_DIR,
     OPT_INCLUDE,
     OPT_DECLARE,
     OPT_AMBIENT,
@@ -71,7 +73,11 @@ static const CliOption options[] = {
     [OPT_DEPTH] = {"max-depth", 0, "N", "most segments of a path (16)", 0},
     [OPT_CROP] = {"crop", 0, "X,Y,W,H", "render this part of the picture only", 0},
     [OPT_FILTER] = {"filter", 0, "NAME", "pixel filter: box or gaussian (box)", 0},
-    [OPT_AOV] = {"aov", 0, "LIST", "add parts, of: beauty, depth, albedo, normal, position, uv, object", 0},
+    [OPT_AOV] = {"aov", 0, "LIST",
+                 "add parts, of: beauty, depth, albedo, normal, position, uv, object, roughness, metallic, irradiance",
+                 0},
+    [OPT_AOV_DIR] = {"aov-dir", 0, "DIR", "write the beauty and those of --aov, or all, as DIR/NAME.exr and .png too",
+                     0},
     [OPT_INCLUDE] = {"include", 'I', "DIR", "look for included files and images here too; repeatable", 0},
     [OPT_DECLARE] = {"declare", 'D', "NAME=VALUE",
                      "declare a number or a quoted string, or set clock, frame_number, initial_frame, final_frame, "
@@ -90,7 +96,7 @@ typedef struct Arguments {
     Cli *cli;
     RenderParams render;
     SdlOptions sdl;
-    const char *scene, *stats, *variants, *control;
+    const char *scene, *stats, *variants, *control, *aov_dir;
     ControlMode control_mode;
     int seeded;
     TextureTable table;
@@ -123,16 +129,21 @@ static void numbers(Cli *cli, const CliOption *option, char separator, int count
 
 static unsigned parse_aovs(Cli *cli)
 {
-    static const char *const names[] = {"depth", "albedo", "normal", "position", "uv", "object", "beauty"};
+    static const char *const names[] = {"depth",  "albedo",    "normal",   "position",   "uv",
+                                        "object", "roughness", "metallic", "irradiance", "beauty"};
+    enum { COUNT = sizeof names / sizeof *names };
     unsigned bits = 0;
     for (const char *name = cli->value;; name++) {
         size_t length = strcspn(name, ",");
         int k = 0;
-        while (k < 7 && (strlen(names[k]) != length || strncmp(names[k], name, length)))
+        while (k < COUNT && (strlen(names[k]) != length || strncmp(names[k], name, length)))
             k++;
-        if (k == 7)
-            cli_die(cli, "--aov knows beauty,depth,albedo,normal,position,uv,object, not `%.*s`", (int)length, name);
-        if (k < 6)
+        if (k == COUNT)
+            cli_die(
+                cli,
+                "--aov knows beauty,depth,albedo,normal,position,uv,object,roughness,metallic,irradiance, not `%.*s`",
+                (int)length, name);
+        if (k < COUNT - 1)
             bits |= 1u << k;
         name += length;
         if (!*name)
@@ -277,6 +288,9 @@ static void parse_option(Arguments *a, const CliOption *o)
     case OPT_AOV:
         r->aovs |= parse_aovs(cli);
         break;
+    case OPT_AOV_DIR:
+        a->aov_dir = cli->value;
+        break;
     case OPT_INCLUDE:
         push(cli, a->includes, &a->nincludes, o->name);
         break;
@@ -359,6 +373,11 @@ static void parse_arguments(Arguments *a)
         cli_die(cli, "--control makes a picture only: no --aov or --control-data");
     if (a->control && cli->output)
         texture_args_check_output(cli, a->control, cli->output);
+    if (a->aov_dir && (a->list || a->tracing || a->variants || a->control))
+        cli_die(cli,
+                "--aov-dir goes with a render of its own: no --list-targets, --trace-pixel, --variants or --control");
+    if (a->aov_dir && !a->render.aovs)
+        a->render.aovs = AOV_ALL;
     const char *answer = a->list ? "list-targets" : a->tracing ? "trace-pixel" : NULL;
     if (answer && cli->output)
         cli_die(cli, "--%s goes to standard output: no -o", answer);
@@ -576,7 +595,7 @@ static void check_output(const Arguments *a, const char *output)
         cli_die(a->cli, "the output %s would replace the scene", output);
     if (kind == OUTPUT_PICTURE ? retex_image_write_check(output, NULL, &err) : retex_set_write_check(output, &err))
         cli_fail(a->cli, &err);
-    if (kind == OUTPUT_PICTURE && a->render.aovs)
+    if (kind == OUTPUT_PICTURE && a->render.aovs && !a->aov_dir)
         cli_warn(a->cli, "%s holds the picture only: --aov needs .exr or .retex", output);
     if (kind == OUTPUT_PICTURE && !a->render.plain && a->ntargets)
         cli_warn(a->cli, "%s holds the picture only: a set needs .exr or .retex", output);
@@ -610,7 +629,7 @@ static void check_memory(const Arguments *a, const Scene *scene)
     const RenderParams *r = &a->render;
     double width = r->crop[2] ? r->crop[2] : r->width ? r->width : scene->width;
     double height = r->crop[3] ? r->crop[3] : r->height ? r->height : scene->height;
-    double channels = 3 + 14 * (r->aovs != 0), memory = (double)sysconf(_SC_PHYS_PAGES) * (double)sysconf(_SC_PAGESIZE);
+    double channels = 3 + 19 * (r->aovs != 0), memory = (double)sysconf(_SC_PHYS_PAGES) * (double)sysconf(_SC_PAGESIZE);
     if (!r->plain && scene->ntargets)
         channels += r->orders * (8 * scene->ntargets + 6); /* footprints, terms */
     double bytes = width * height * channels * sizeof(float);
@@ -703,12 +722,15 @@ int main(int argc, char **argv)
     RetexTexture *loaded[RETEX_MAX_TARGETS] = {0};
     RenderStats stats;
     parse_arguments(&a);
-    const char *output = a.list || a.tracing || a.variants ? NULL : cli_output(&cli);
+    int needless = a.list || a.tracing || a.variants || (a.aov_dir && !cli.output && isatty(STDOUT_FILENO));
+    const char *output = needless ? NULL : cli_output(&cli);
     VariantRows *rows = a.variants ? calloc(1, sizeof *rows) : NULL;
     if (rows)
         read_rows(&a, rows);
     if (output)
         check_output(&a, output), check_stats(&a, output);
+    if (a.aov_dir && guides_check(a.aov_dir, &err))
+        cli_die(&cli, "--aov-dir: %s", err.message);
     double started = seconds();
     if (sdl_parse_file(&scene, a.scene, &a.sdl, &err))
         cli_fail(&cli, &err);
@@ -736,7 +758,10 @@ int main(int argc, char **argv)
     if (failed)
         cli_fail(&cli, &err);
     if (set) {
-        write_result(&a, set, output);
+        if (a.aov_dir && guides_write(set, a.aov_dir, &err))
+            cli_fail(&cli, &err);
+        if (output)
+            write_result(&a, set, output);
         report(&a, set, &stats);
         if (a.stats)
             write_stats(&a, &stats, set, parse_seconds);

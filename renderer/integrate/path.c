@@ -428,6 +428,19 @@ static int scatter(PathWorker *w, Path *path, const Shading *s, double distance,
     return 1;
 }
 
+/* Make it a white diffuse surface. */
+static void whiten(Shading *s, const Ray *ray)
+{
+    static const Finish finish = {.diffuse = 1, .brilliance = 1, .roughness = 0.05, .phong_size = 40};
+    static const Texture texture = {.finish = &finish};
+    s->surface.texture = &texture;
+    s->surface.target = -1;
+    s->albedo = rgb_grey(1);
+    s->replaced = 0;
+    s->filter = s->transmit = 0;
+    bsdf_setup(&s->bsdf, &s->surface, vec_neg(ray->direction), 0, 0);
+}
+
 static void trace_hit(const PathContext *c, const Hit *hit, const Shading *s)
 {
     const Vec3 p = s->surface.position, n = s->surface.shading_normal;
@@ -457,10 +470,13 @@ void path_trace(PathWorker *w, Ray ray, const Sampler *sampler)
     for (;;) {
         w->segments++;
         if (!accel_intersect(c->accel, &ray, path.kind, &hit)) {
-            hit_sky(w, &path, ray.direction);
+            if (!c->white || path.segments > 1)
+                hit_sky(w, &path, ray.direction);
             break;
         }
         shading_at(&s, c->scene, c->variants, c->nvariants, &ray, &hit);
+        if (c->white && path.segments == 1)
+            whiten(&s, &ray);
         if (c->trace)
             trace_hit(c, &hit, &s);
         scale_path(c, &path, media_fade(&path.media, hit.t - ray.tmin, &s.surface));

@@ -20,6 +20,7 @@ typedef struct PathContext {
     int split;            /* keep target hits apart */
     int nvariants;        /* 1..VARIANTS_MAX: what the same path brings with different textures */
     const RenderVariant *variants; /* or NULL: the original */
+    int white;            /* the first hit is a white diffuse surface instead, that gives no light itself */
     int has_no_shadow;    /* some primitive throws no shadow: what blocks shadow rays and paths is not the same */
     FILE *trace;          /* say what happens, or NULL */
 } PathContext;

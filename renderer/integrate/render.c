@@ -79,7 +79,9 @@ static void pixel_offset(const Render *r, const Sampler *sampler, double *dx, do
     float u, v;
     sampler_pair(sampler, DIMENSION_PIXEL, &u, &v);
     *dx = u, *dy = v;
-    if (!r->params.gaussian)
+    if (r->context.white)
+        *dx = *dy = 0.5;
+    if (!r->params.gaussian || r->context.white)
         return;
     double radius = 0.5 * sqrt(-2 * log(1 - u)), phi = 2 * PI * v;
     *dx = 0.5 + radius * cos(phi), *dy = 0.5 + radius * sin(phi);
@@ -139,7 +141,7 @@ static int survey(Render *r, RetexError *err)
     return film_survey_end(r->film, r->pixels, threads, err);
 }
 
-static void render_close(Render *r)
+static void close_films(Render *r)
 {
     if (r->pixels)
         for (int k = 0; k < retex_threads(r->params.nthreads); k++)
@@ -152,6 +154,11 @@ static void render_close(Render *r)
     free(r->workers);
     film_close(&r->film);
     control_film_close(&r->control);
+}
+
+static void render_close(Render *r)
+{
+    close_films(r);
     lights_close(&r->lights);
     accel_close(&r->accel);
 }
@@ -279,6 +286,43 @@ static void render_paths(Render *r, RenderStats *stats, double started)
     fill_stats(stats, r);
 }
 
+/* A part `irradiance`: a pass of its own, with other samples, over the points that the pixels' centres see. */
+static int add_irradiance(RetexSet *set, const Render *r, RetexError *err)
+{
+    Render pass = {.scene = r->scene,
+                   .params = r->params,
+                   .width = r->width,
+                   .height = r->height,
+                   .x0 = r->x0,
+                   .y0 = r->y0,
+                   .w = r->w,
+                   .h = r->h,
+                   .tiles_x = r->tiles_x,
+                   .tiles_y = r->tiles_y,
+                   .context = r->context,
+                   .halves = 1};
+    RetexSet *found = NULL;
+    RenderStats ignored = {0};
+    int part;
+    pass.context.white = 1, pass.context.split = 0;
+    pass.params.seed = hash_pair(r->params.seed, 2), pass.params.progress = NULL;
+    pass.lights = r->lights;
+    int code = start_set(&found, &pass, err);
+    if (!code)
+        code = render_film(&pass, 0, 0, err);
+    if (!code) {
+        render_paths(&pass, &ignored, 0);
+        code = film_finish(pass.film, found, err);
+    }
+    if (!code)
+        code = retex_set_add_part(set, "irradiance", "RGB", RETEX_FLOAT, 0, 0, &part, err);
+    for (size_t i = 0; i < (size_t)r->w * (size_t)r->h * 3 && !code; i++)
+        set->parts[part].image.pixels[i] = (float)PI * found->parts[0].image.pixels[i];
+    close_films(&pass);
+    retex_set_close(&found);
+    return code;
+}
+
 /* Render, and fill what the film leaves open. */
 static int render_into(RetexSet *set, Render *r, RenderStats *stats, double started, RetexError *err)
 {
@@ -301,6 +345,8 @@ static int render_into(RetexSet *set, Render *r, RenderStats *stats, double star
         code = originals_add(set, r->scene, err);
     if (!code)
         code = first_hit_aovs(set, &window, r->params.aovs, err);
+    if (!code && r->params.aovs & AOV_IRRADIANCE)
+        code = add_irradiance(set, r, err);
     if (!code && data) {
         ControlMoments *moments[2] = {control_film_moments(r->control, 0), control_film_moments(r->control, 1)};
         code = control_data_add(set, moments, half_samples(r).samples, r->halves, err);

@@ -13,7 +13,13 @@ enum {
     AOV_NORMAL = 4,   /* RGB: x, y, z of the unit shading normal, camera's side, world space; 0 where nothing is */
     AOV_POSITION = 8, /* RGB: world space */
     AOV_UV = 16,      /* RGA: u, v that a replacement texture would be looked up at, and 1 where something is hit */
-    AOV_OBJECT = 32   /* R: number of the primitive from 1, 0 where nothing is hit */
+    AOV_OBJECT = 32,  /* R: number of the primitive from 1, 0 where nothing is hit */
+    AOV_ROUGHNESS = 64, /* R: of the sharpest thing the surface does: 0 mirrors and clear glass, 1 what is only diffuse;
+                           between, the square root of GGX's alpha */
+    AOV_METALLIC = 128, /* R: 0..1, how much the surface's reflections have the pigment's colour */
+    AOV_IRRADIANCE = 256, /* RGB: what arrives at the first hit, on the side that is seen, direct and indirect: pi times
+                            the radiance of a white diffuse surface in its place; spp paths */
+    AOV_ALL = 511
 };
 
 /* What lies on the scene's targets in one of several pictures: a texture, or NULL for the original. */

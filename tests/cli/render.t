@@ -100,7 +100,7 @@ $ retex-render --trace-pixel 1,1,0 --size 8x6 ball.pov -o x.txt
 ! retex-render: error: --trace-pixel goes to standard output: no -o
 = 2
 $ retex-render --aov depth, --size 8x6 ball.pov -o x.exr
-! retex-render: error: --aov knows beauty,depth,albedo,normal,position,uv,object, not ``
+! retex-render: error: --aov knows beauty,depth,albedo,normal,position,uv,object,roughness,metallic,irradiance, not ``
 = 2
 $ retex-render --size +8x6 ball.pov -o x.exr
 ! retex-render: error: --size wants WxH, not `+8x6`
@@ -113,6 +113,18 @@ $ retex-render -D clock=noon --size 8x6 ball.pov -o x.exr
 = 2
 $ retex-render -q --size 8x6 --spp 1 --aov depth ball.pov -o y.png
 ! retex-render: warning: y.png holds the picture only: --aov needs .exr or .retex
+$ retex-render -q --size 8x6 --spp 1 --aov depth,irradiance --aov-dir guides ball.pov -o y.png; ls guides; retex-render -q --size 8x6 --spp 1 --aov-dir guides ball.pov -o y.exr; ls guides | wc -l; rm -r guides
+> beauty.exr
+> beauty.png
+> depth.exr
+> depth.png
+> irradiance.exr
+> irradiance.png
+> 20
+$ retex-render -q --size 8x6 --spp 1 --aov-dir nowhere/guides ball.pov -o y.png; retex-render -q --size 8x6 --aov-dir guides --list-targets ball.pov
+! retex-render: error: --aov-dir: cannot make the folder nowhere/guides: No such file or directory
+! retex-render: error: --aov-dir goes with a render of its own: no --list-targets, --trace-pixel, --variants or --control
+= 2
 
 # No scene, or nothing in it.
 $ : >empty.pov; retex-render empty.pov -o x.exr

@@ -319,12 +319,89 @@ static void the_inside_is_another_surface(void **state)
     stage_close(&s);
 }
 
+static float part_at(const RetexSet *set, const char *name, int x, int y)
+{
+    int part = retex_set_find_part(set, name);
+    if (part < 0)
+        fail_msg("no part %s", name);
+    const RetexImage *image = &set->parts[part].image;
+    return image->pixels[retex_image_index(image, x, y)];
+}
+
+static void irradiance_knows_no_material(void **state)
+{
+    (void)state;
+    /* a light of colour c brings pi c cos to what is black, shiny or shines itself; a sky of 1 brings pi */
+    for (int sky = 0; sky < 2; sky++) {
+        Stage s;
+        RenderParams p = RENDER_PARAMS_INIT;
+        RetexSet *set = NULL;
+        stage_open(&s);
+        s.scene->camera = (Camera){CAMERA_ORTHOGRAPHIC, {0, 5, 0}, {0, -1, 0}, {4, 0, 0}, {0, 0, 3}};
+        stage_add(&s, SHAPE_PLANE, transform_identity(), 0, 0.25f, 1);
+        s.finishes[0].diffuse = 0.3, s.finishes[0].emission = rgb_grey(2);
+        s.finishes[0].reflection_max = rgb_grey(0.5f);
+        s.finishes[0].reflection_metallic = 0.75;
+        s.scene->nlights = !sky;
+        s.scene->background = rgb_grey((float)sky);
+        s.lights[0] = (Light){.kind = LIGHT_POINT, .location = {0.5, 2, 0}, .color = {1, 1, 0.5f}};
+        p.spp = 64, p.plain = 1, p.aovs = AOV_ALL;
+        assert_int_equal(render_scene(&set, s.scene, &p, NULL, NULL), 0);
+        for (int y = 0; y < 12; y++)
+            for (int x = 0; x < 16; x++) {
+                double px = 4 * ((x + 0.5) / 16 - 0.5) - 0.5, pz = 3 * (0.5 - (y + 0.5) / 12);
+                double wanted = sky ? PI : PI * 2 / sqrt(px * px + pz * pz + 4);
+                expect(part_at(set, "irradiance", x, y), wanted, sky ? 0.02 : 1e-4, "irradiance");
+                expect(part_at(set, "roughness", x, y), 0, 0, "roughness");
+                expect(part_at(set, "metallic", x, y), 0.75, 1e-6, "metallic");
+            }
+        retex_set_close(&set);
+        stage_close(&s);
+    }
+}
+
+static void variants_share_paths(void **state)
+{
+    (void)state;
+    /* each variant is to the bit what it is alone; they differ; moments are those of the pictures */
+    Stage s;
+    target_stage(&s);
+    RenderVariant variants[3] = {{{NULL}}, {{NULL}}, {{NULL}}};
+    RetexTexture *textures[2];
+    for (int k = 0; k < 2; k++) {
+        RetexTextureSpec spec = RETEX_TEXTURE_SPEC_INIT;
+        spec.constant = 1, spec.color[k] = 0.7f;
+        assert_int_equal(retex_texture_load(&textures[k], &spec, 1, NULL), 0);
+        variants[k].textures[0] = textures[k];
+    }
+    variants[1].textures[1] = textures[0];
+    RenderParams p = RENDER_PARAMS_INIT;
+    RetexImage pictures[3] = {{0}};
+    p.spp = 16, p.variants = variants, p.nvariants = 3, p.nthreads = 2;
+    assert_int_equal(render_variants(pictures, s.scene, &p, NULL, NULL), 0);
+    for (int k = 0; k < 3; k++) {
+        s.variant = &variants[k];
+        RetexSet *alone = stage_render(&s, 16, 1, 1);
+        assert_memory_equal(alone->parts[0].image.pixels, pictures[k].pixels, 16 * 12 * 3 * sizeof(float));
+        assert_memory_not_equal(pictures[k].pixels, pictures[(k + 1) % 3].pixels, 16 * 12 * 3 * sizeof(float));
+        retex_set_close(&alone);
+    }
+    p.nvariants = VARIANTS_MAX + 1;
+    assert_int_equal(render_variants(pictures, s.scene, &p, NULL, NULL), RETEX_EINVAL);
+    for (int k = 0; k < 3; k++)
+        retex_image_free(&pictures[k]);
+    for (int k = 0; k < 2; k++)
+        retex_texture_close(&textures[k]);
+    stage_close(&s);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(furnace_is_invisible),          cmocka_unit_test(point_light_over_a_plane),
         cmocka_unit_test(sphere_emitter_irradiance),     cmocka_unit_test(slab_reflects_by_fresnel),
         cmocka_unit_test(bits_do_not_depend_on_threads), cmocka_unit_test(paper_recombines),
-        cmocka_unit_test(footprints_recombine),          cmocka_unit_test(the_inside_is_another_surface)};
+        cmocka_unit_test(footprints_recombine),          cmocka_unit_test(the_inside_is_another_surface),
+        cmocka_unit_test(irradiance_knows_no_material),  cmocka_unit_test(variants_share_paths)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

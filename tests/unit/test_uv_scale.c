@@ -79,9 +79,9 @@ static void known_surfaces(void **state)
 static void a_sphere(void **state)
 {
     (void)state;
-    /* radius 2, u round the axis and v along it: |dP/dv| = pi r everywhere, |dP/du| = 2 pi r cos(latitude); from afar, half
-     * of what is seen of the disc lies within latitude asin(x), with (x sqrt(1 - x^2) + asin x) / (pi / 2) = 1/2, x = 0.4040:
-     * there the cosine is 0.9148 */
+    /* radius 2, u round the axis and v along it: |dP/dv| = pi r everywhere, |dP/du| = 2 pi r cos(latitude); from
+     * afar, half of the disc that is seen lies within latitude asin(x), (x sqrt(1 - x^2) + asin x) / (pi / 2) = 1/2,
+     * x = 0.4040: there the cosine is 0.9148 */
     static const char *const target = "A";
     Scene *scene = read_scene("camera { orthographic location -9 * z direction z right 5.3333 * x up 4 * y }"
                               "#declare A = texture { uv_mapping pigment { rgb 1 } }"
