@@ -261,6 +261,49 @@ static void test_disc_limits(void **state)
     }
 }
 
+/* Whatever is asked of whatever texture: finite colours, and none that is not between those of the texels. */
+static void test_extremes(void **state)
+{
+    (void)state;
+    static const int sizes[][2] = {{1, 1}, {1, 7}, {9, 1}, {2, 3}, {4096, 5}, {3, 8192}, {61, 64}};
+    static const double places[] = {0.3, 0, 1, -0.5, 1e6, -1e18, 1e300, NAN, INFINITY};
+    static const double covariances[][3] = {
+        {0, 0, 0},       {1e-12, 0, 1e-12}, {1e-4, 0, 1e-4},  {1e-4, 1e-4, 1e-4}, {1, -0.99, 1},
+        {1e6, 0, 1e-9},  {1e-9, 0, 1e6},    {1e6, 1e6, 1e6},  {1e12, 0, 1e12},    {1e300, 0, 0},
+        {0, 0, 1e-300},  {NAN, 0, 1},       {1, NAN, 1},      {1, 0, INFINITY},   {-1, 0, -1},
+        {1e-4, 5, 1e-4}, {0, 1, 0},         {1e5, -1e5, 1e5}, {3e-7, 0, 3e-7},    {0.25, 0, 0},
+    };
+    for (int n = 0; n < 7 * 16 * 3; n++) {
+        const int *size = sizes[n / 48];
+        int kind = n / 16 % 3; /* LDR; HDR; invisible */
+        RetexTextureSpec spec = RETEX_TEXTURE_SPEC_INIT;
+        RetexImage im = {0};
+        RetexError err = {0};
+        RetexTexture *textures[2];
+        float largest = kind == 1 ? 1e6f : 1;
+        spec.wrap[0] = (RetexWrap)(n % 4);
+        spec.wrap[1] = (RetexWrap)(n / 4 % 4);
+        spec.repeat = n % 16 ? RETEX_REPEAT_STRAIGHT : kind == 1 ? RETEX_REPEAT_BRICK : RETEX_REPEAT_HALF_DROP;
+        spec.rotate = n % 3 ? 0 : 45;
+        test_random_image(&im, size[0], size[1], 4, 3, 0, (double)largest);
+        for (int i = 0; i < size[0] * size[1]; i++)
+            im.pixels[4 * i + 3] = kind == 2 ? 0 : kind == 1 && i % 5 == 0 ? 1e-38f : 1;
+        test_must(retex_texture_create(&textures[0], &im, &spec, &err), &err);
+        test_must(retex_texture_square(&textures[1], textures[0], &err), &err);
+        for (int i = 0; i < 9 * 20 * 4; i++) {
+            Filter *filter = i & 1 ? retex_texture_disc : retex_texture_gaussian;
+            float p[4], limit = (i & 2 ? largest * largest : largest) * 1.001f;
+            filter(textures[i / 2 % 2], places[i / 80], places[(i / 80 + i) % 9], covariances[i / 4 % 20], p);
+            for (int k = 0; k < 4; k++)
+                assert_true(isfinite(p[k]) && p[k] >= 0 && p[k] <= (k < 3 ? limit : 1));
+            assert_true(kind != 2 || p[3] == 0);
+        }
+        retex_texture_close(&textures[0]);
+        retex_texture_close(&textures[1]);
+        retex_image_free(&im);
+    }
+}
+
 static void test_speed(void **state)
 {
     (void)state;
@@ -289,10 +332,8 @@ static void test_speed(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_covariance),
-        cmocka_unit_test(test_disc_integral),
-        cmocka_unit_test(test_disc_limits),
-        cmocka_unit_test(test_speed),
+        cmocka_unit_test(test_covariance), cmocka_unit_test(test_disc_integral), cmocka_unit_test(test_disc_limits),
+        cmocka_unit_test(test_extremes),   cmocka_unit_test(test_speed),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

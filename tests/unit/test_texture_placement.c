@@ -1,5 +1,5 @@
-/* How a texture lies on its target: every edit is exact on points and on footprints, means and covariances alike; images
- * of shifted repeats; squares. */
+/* How a texture lies on its target: every edit is exact on points and on footprints, means and covariances alike;
+ * images of shifted repeats; squares. */
 #include "lib_test.h"
 
 #include <math.h>

@@ -241,8 +241,9 @@ static inline Float4 sum_level(const RetexTexture *texture, const TextureLevel *
 
     Window rows, columns;
     make_window(&rows, texture->tail, &shape_y, y);
-    if (shape_y.tent && slope != 0) { /* the covariance is the slope times what the rows really have */
-        slope = rest.xy / spread(&rows, y);
+    if (shape_y.tent && slope != 0) {           /* the covariance is the slope times what the rows really have */
+        double least = rest.yy - TENT_VARIANCE; /* of the footprint alone, which it can only exceed */
+        slope = rest.xy / fmax(spread(&rows, y), least > 1e-9 ? least : 1e-9);
         int step = shape_x.step;
         shape_x = find_shape(rest.xx - slope * rest.xy);
         shape_x.step = step;
