@@ -5,7 +5,6 @@
 
 /* Coefficients with less than this share of the light, were every target painted white, are left out. */
 #define LEAST_SHARE 1e-5
-#define ALWAYS_LATER 2  /* further hits that are always kept apart */
 #define UNIT 16777216.0 /* of energies: 2^-24 */
 #define LARGEST 1e9f    /* luminance of one connection */
 
@@ -132,7 +131,14 @@ static void keep_surveyed(Plan *plan, const PlanLimits *limits, const PlanSurvey
     }
 }
 
-/* Every way of a few further hits, whatever the survey saw of it: single bright paths take them. */
+/* So many further hits are kept in every combination, whatever the survey saw of it, for single bright paths take them:
+ * all of one target, 15 combinations of two and of four, 10 of three. */
+static int always_kept(int ntargets, int orders)
+{
+    int most = ntargets == 1 ? RETEX_MAX_ORDERS : ntargets == 2 ? 4 : ntargets <= 4 ? 2 : 1;
+    return most < orders - 1 ? most : orders - 1;
+}
+
 static void keep_few(Plan *plan, int first, int target, int left, unsigned char powers[RETEX_MAX_TARGETS])
 {
     keep(plan, first, powers);
@@ -149,11 +155,7 @@ void plan_make(Plan *plan, int ntargets, const PlanLimits *limits, const PlanSur
     int most = limits->coefficients;
     *plan = (Plan){.ntargets = ntargets, .most = most < PLAN_COEFFICIENTS_MAX ? most : PLAN_COEFFICIENTS_MAX};
     for (int t = 0; t < ntargets; t++)
-        keep_few(plan, t, 0, ntargets == 1 ? 0 : ALWAYS_LATER, powers);
-    for (int n = 1; ntargets == 1 && n < limits->orders; n++) {
-        powers[0] = (unsigned char)n;
-        keep(plan, 0, powers);
-    }
+        keep_few(plan, t, 0, always_kept(ntargets, limits->orders), powers);
     if (ntargets > 1)
         keep_surveyed(plan, limits, survey);
     connect_steps(plan);
