@@ -104,6 +104,8 @@ typedef struct Arguments {
     int ntargets, nincludes, ndeclares, nreplacements, list, trace[3], tracing;
     RetexTextureSpec replacements[RETEX_MAX_TARGETS];
     RenderVariant replaced;
+    double uv_scales[RETEX_MAX_TARGETS][2]; /* once measured */
+    int measured;
 } Arguments;
 
 static void push(Cli *cli, const char **list, int *count, const char *what)
@@ -410,6 +412,19 @@ static int find_target(const Scene *scene, const char *name)
     return count == 1 ? found : -1;
 }
 
+/* Load a texture for target t; one that is asked for by its width needs the scale of the target's UV. */
+static int load_texture(Arguments *a, const Scene *scene, int t, RetexTextureSpec *spec, RetexTexture **texture,
+                        RetexError *err)
+{
+    if (retex_texture_spec_needs_scale(spec)) {
+        if (!a->measured && render_uv_scales(scene, a->cli->threads, a->uv_scales, err))
+            return err->code;
+        a->measured = 1;
+        memcpy(spec->uv_scale, a->uv_scales[t], sizeof spec->uv_scale);
+    }
+    return retex_texture_load(texture, spec, a->cli->threads, err);
+}
+
 /* Load replacement textures onto their targets. */
 static void replace_textures(Arguments *a, Scene *scene, RetexTexture **loaded)
 {
@@ -420,7 +435,7 @@ static void replace_textures(Arguments *a, Scene *scene, RetexTexture **loaded)
             cli_die(a->cli, "--replace: `%s` is no target: name it with -t", a->replacements[k].target);
         if (a->replaced.textures[t])
             cli_die(a->cli, "--replace: `%s` is replaced twice", a->replacements[k].target);
-        if (retex_texture_load(&loaded[k], &a->replacements[k], a->cli->threads, &err))
+        if (load_texture(a, scene, t, &a->replacements[k], &loaded[k], &err))
             cli_fail(a->cli, &err);
         a->replaced.textures[t] = loaded[k];
         a->render.variants = &a->replaced, a->render.nvariants = 1;
@@ -454,7 +469,7 @@ static void read_rows(Arguments *a, VariantRows *rows)
     }
 }
 
-static void render_rows(Arguments *a, const Scene *scene, const VariantRows *rows)
+static void render_rows(Arguments *a, const Scene *scene, VariantRows *rows)
 {
     RenderVariant variants[VARIANTS_MAX];
     RetexTexture *loaded[VARIANTS_MAX][RETEX_MAX_TARGETS] = {{NULL}};
@@ -465,9 +480,10 @@ static void render_rows(Arguments *a, const Scene *scene, const VariantRows *row
         variants[k] = a->replaced;
         a->table.row_line = rows->lines[k];
         for (int j = 0; j < rows->nspecs[k]; j++) {
-            if (retex_texture_load(&loaded[k][j], &rows->specs[k][j], a->cli->threads, &err))
+            int t = find_target(scene, rows->specs[k][j].target);
+            if (load_texture(a, scene, t, &rows->specs[k][j], &loaded[k][j], &err))
                 texture_table_fail_picture(&a->table, a->cli, &err);
-            variants[k].textures[find_target(scene, rows->specs[k][j].target)] = loaded[k][j];
+            variants[k].textures[t] = loaded[k][j];
         }
     }
     a->render.variants = variants, a->render.nvariants = rows->count;

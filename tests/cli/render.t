@@ -147,6 +147,10 @@ $ retex-render -q --size 8x6 --spp 2 -t ball ball.pov -o y.exr; retex-render -q 
 $ retex-render -q --size 8x6 --spp 2 --plain --control-data unbiased ball.pov -o y.exr; retex-info --check y.exr; retex-render -q --size 8x6 --spp 2 --control y.exr --replace 'ball=rgb(1,0,0)' ball.pov -o y.png
 > y.exr: ok
 
+# A width in scene units, here of a floor with a repeat of 8/3: the same as a scale.
+$ retex-render -q --size 32x24 --spp 2 --replace:width=1.3333333333333333 floor=scenes/textures/brick.jpg scenes/cornell-box/cornell-box.pov -o w1.exr; retex-render -q --size 32x24 --spp 2 --replace:scale=2 floor=scenes/textures/brick.jpg scenes/cornell-box/cornell-box.pov -o w2.exr; retex-diff w1.exr w2.exr --fail-psnr 70 >/dev/null; echo $?; rm w1.exr w2.exr
+> 0
+
 # A target whose surfaces all belong to another.
 $ retex-render -q --size 8x6 --spp 1 -t ball -t b=Ball ball.pov -o y.exr
 ! retex-render: warning: target `b` has no surface: those it names belong to targets named before it
