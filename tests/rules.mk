@@ -78,3 +78,8 @@ fuzz-programs: $(FUZZ_PROGRAMS) $(TEST_PROGRAMS)
 bench: $(BUILD)/tests/bench/bench
 	@mkdir -p $(BUILD)/bench
 	@$< scenes $(BUILD)/bench
+
+# How another method fares: DIR holds its pictures SCENE-TEXTURE.png; the truths are the fidelity run's.
+.PHONY: compare-external
+compare-external: all
+	@BUILD=$(BUILD) tests/external/compare.sh '$(DIR)'
