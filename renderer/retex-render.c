@@ -645,9 +645,10 @@ static void check_memory(const Arguments *a, const Scene *scene)
     const RenderParams *r = &a->render;
     double width = r->crop[2] ? r->crop[2] : r->width ? r->width : scene->width;
     double height = r->crop[3] ? r->crop[3] : r->height ? r->height : scene->height;
-    double channels = 3 + 19 * (r->aovs != 0), memory = (double)sysconf(_SC_PHYS_PAGES) * (double)sysconf(_SC_PAGESIZE);
-    if (!r->plain && scene->ntargets)
-        channels += r->orders * (8 * scene->ntargets + 6); /* footprints, terms */
+    FilmParams film = {
+        .orders = r->orders, .split = !r->plain, .paper = r->paper, .sharp = r->sharp, .broad = r->broad};
+    double channels = (double)film_floats(&film, scene->ntargets) + 19 * (r->aovs != 0),
+           memory = (double)sysconf(_SC_PHYS_PAGES) * (double)sysconf(_SC_PAGESIZE);
     double bytes = width * height * channels * sizeof(float);
     if (memory > 0 && bytes > memory)
         cli_die(a->cli, "%.0fx%.0f pixels need %.1f GB of memory, this machine has %.1f: render parts with --crop",

@@ -7,6 +7,7 @@
 #include "film/film.h"
 #include "film/footprints.h"
 #include "film/paper.h"
+#include "film/plan.h"
 
 struct Film {
     const Scene *scene;
@@ -195,6 +196,15 @@ void film_tile_end(FilmPixel *p, int tile)
     p->film->tile_total[tile] = p->total;
     p->film->tile_folded[tile] = p->folded;
     p->total = p->folded = 0;
+}
+
+long film_floats(const FilmParams *params, int ntargets)
+{
+    if (!params->split || ntargets == 0)
+        return 3;
+    if (params->paper)
+        return 3 + params->orders * (8 * ntargets + 6); /* footprints, terms */
+    return 6 + ntargets * (9 + (params->sharp + params->broad) * (9 + 3 * plan_least(ntargets, params->orders)));
 }
 
 long film_dropped(const Film *film)

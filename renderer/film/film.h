@@ -57,6 +57,8 @@ int film_finish(Film *film, RetexSet *set, RetexError *err);
 /* For the layouts: hand an image over to a new part of the set. */
 int film_move_part(RetexSet *set, const char *name, const char *letters, RetexPixelType type, RetexImage *image,
                    int *index, RetexError *err);
+/* Numbers a pixel that the film holds at least. */
+long film_floats(const FilmParams *params, int ntargets);
 long film_dropped(const Film *film); /* samples that were not finite */
 
 #endif

@@ -132,11 +132,19 @@ static void keep_surveyed(Plan *plan, const PlanLimits *limits, const PlanSurvey
 }
 
 /* So many further hits are kept in every combination, whatever the survey saw of it, for single bright paths take them:
- * all of one target, 15 combinations of two and of four, 10 of three. */
+ * all of one target, 15 combinations of two and of four, 20 of three. */
 static int always_kept(int ntargets, int orders)
 {
-    int most = ntargets == 1 ? RETEX_MAX_ORDERS : ntargets == 2 ? 4 : ntargets <= 4 ? 2 : 1;
+    int most = ntargets == 1 ? RETEX_MAX_ORDERS : ntargets == 2 ? 4 : ntargets == 3 ? 3 : ntargets == 4 ? 2 : 1;
     return most < orders - 1 ? most : orders - 1;
+}
+
+int plan_least(int ntargets, int orders)
+{
+    int combinations = 1, later = always_kept(ntargets, orders);
+    for (int k = 1; k <= later; k++) /* (ntargets + later)! / (ntargets! later!) */
+        combinations = combinations * (ntargets + k) / k;
+    return combinations;
 }
 
 static void keep_few(Plan *plan, int first, int target, int left, unsigned char powers[RETEX_MAX_TARGETS])

@@ -42,4 +42,7 @@ typedef struct PlanLimits {
 /* One target: all powers up to orders - 1. Several: those that the survey shows light for. */
 void plan_make(Plan *plan, int ntargets, const PlanLimits *limits, const PlanSurvey *survey);
 
+/* Coefficients that clusters keep at least, if there is room. */
+int plan_least(int ntargets, int orders);
+
 #endif

@@ -31,5 +31,5 @@ figure() {
 same() {
     psnr=$(figure "$1" "$2" psnr) relmse=$(figure "$1" "$2" relmse)
     echo "# $4: $psnr dB, relMSE $relmse"
-    result "$([ "$(at_least "${psnr:-0}" "$3")$(at_most "${relmse:-1}" 1e-4)" = 11 ] && echo 1)" "$4"
+    result "$([ "$(at_least "${psnr:-0}" "$3")$(at_most "${relmse:-1}" "${5:-1e-4}")" = 11 ] && echo 1)" "$4"
 }
