@@ -3,6 +3,9 @@
  * What is averaged is the bilinear reconstruction of the image, as in texture_filter_kernel.c, and levels of the
  * pyramid are made up for in the same way: the ellipse shrinks by the variance that the level's texels have already.
  *
+ * On coarser levels, where an ellipse covers many texels, these count as what they are, averages over squares: a box
+ * takes the place of the tent.
+ *
  * The ellipse is cut into chords across its longer image axis. Along a chord the integral of the reconstruction is
  * exact: a texel's weight is the difference of the tent's integral S at the chord's ends. Summed by differences: an end
  * changes S at three neighbouring texels only, so a chord costs six additions a line of texels, however long it is.
@@ -13,11 +16,14 @@
 /* The smaller eigenvalue that a level must leave: below it, how texels lie to the ellipse would show. */
 #define LEAST_VARIANCE 0.2
 /* What a level should leave where that is not too dear: its texels blur the ellipse's rim. */
-#define GOOD_VARIANCE 4.0
-#define TAP_BUDGET 300 /* beyond it a coarser level will do, if it leaves LEAST_VARIANCE */
-#define MAX_LENGTH 80  /* lines to each side; beyond, lines are skipped */
+#define GOOD_VARIANCE 3.4
+#define TAP_BUDGET 400 /* beyond it a coarser level will do, if it leaves LEAST_VARIANCE */
+/* Leaving this, a coarser level's texels need no interpolation, and the rim stays sharper without. */
+#define BOX_LEAST 1.0
+#define BOX_VARIANCE (1.0 / 12)
+#define MAX_LENGTH 80 /* lines to each side; beyond, lines are skipped */
 #define MAX_ACROSS (2 * MAX_LENGTH + 8)
-#define LEAST_HALF 0.002f
+#define LEAST_HALF 0.002f /* of a chord: shorter ones lose digits */
 
 /* The level as lines of texels: rows, or columns where the footprint lies flat. In this file index 0 of a pair is
  * along, from line to line, and index 1 across, from texel to texel of a line. */
@@ -25,6 +31,7 @@ typedef struct Lines {
     const RetexTexture *texture;
     const TextureLevel *level;
     int turned;   /* 1: lines are columns */
+    int box;      /* 1: texels are averages of what they cover; 0: they are interpolated */
     int count[2]; /* lines; texels of each */
     size_t step;  /* floats from texel to texel of a line */
     RetexWrap wrap[2];
@@ -98,18 +105,18 @@ static inline void find_flat(const RetexTexture *texture, const TextureLevel *le
 }
 
 /* The covariance of the ellipse on a level: what is left but for the level's own reconstruction. */
-static inline Rest ellipse_rest(const TextureLevel *level, const TextureFootprint *f, const double position[2])
+static inline Rest ellipse_rest(const TextureLevel *level, const TextureFootprint *f, const double position[2], int box)
 {
     Rest rest = level_rest(level, f, position);
-    rest.xx -= TENT_VARIANCE;
-    rest.yy -= TENT_VARIANCE;
+    rest.xx -= box ? BOX_VARIANCE : TENT_VARIANCE;
+    rest.yy -= box ? BOX_VARIANCE : TENT_VARIANCE;
     return rest;
 }
 
 static inline int level_leaves(const RetexTexture *texture, int level, const TextureFootprint *f,
                                const double position[2], double least)
 {
-    Rest rest = ellipse_rest(&texture->levels[level], f, position);
+    Rest rest = ellipse_rest(&texture->levels[level], f, position, 0);
     double x = rest.xx - least, y = rest.yy - least;
     if (is_flat(texture, 0) || is_flat(texture, 1))
         return (is_flat(texture, 0) || x >= 0) && (is_flat(texture, 1) || y >= 0);
@@ -122,7 +129,7 @@ static inline int taps_of(const Ellipse *e)
     return (int)((2 * length + 2) * (2 * half + 2 + fabs(e->slope)));
 }
 
-static inline int find_level(const RetexTexture *texture, const TextureFootprint *f, const double position[2])
+static inline int find_level(const RetexTexture *texture, const TextureFootprint *f, const double position[2], int *box)
 {
     double trace = f->xx + f->yy, smaller = trace > 0 ? (f->xx * f->yy - f->xy * f->xy) / trace : 0;
     int level = smaller > GOOD_VARIANCE ? ilogb(smaller / GOOD_VARIANCE) / 2 : 0, flat[2], turned;
@@ -134,11 +141,12 @@ static inline int find_level(const RetexTexture *texture, const TextureFootprint
         level++;
     for (; level + 1 < texture->nlevels; level++) {
         find_flat(texture, &texture->levels[level], flat);
-        Rest rest = ellipse_rest(&texture->levels[level], f, position);
+        Rest rest = ellipse_rest(&texture->levels[level], f, position, 0);
         Ellipse e = find_ellipse(&rest, flat, &turned);
         if (taps_of(&e) <= TAP_BUDGET || !level_leaves(texture, level + 1, f, position, LEAST_VARIANCE))
             break;
     }
+    *box = level > 0 && level_leaves(texture, level, f, position, BOX_LEAST);
     return level;
 }
 
@@ -226,11 +234,11 @@ typedef struct End {
     int texel;
 } End;
 
-static inline End find_end(float x)
+static inline End find_end(float x, int box)
 {
     int i = (int)x;
     float f = x - (float)i, g = 1 - f;
-    return (End){0.5f * g * g, 0.5f * f * f, i};
+    return box ? (End){g, 0, i} : (End){0.5f * g * g, 0.5f * f * f, i};
 }
 
 static inline void add_end(Strip *restrict strip, End end, Float2 weight)
@@ -268,13 +276,14 @@ static inline float limit(float x, const float range[2])
     return x < range[1] ? x : range[1];
 }
 
-static void find_chords(Chords *restrict chords, int count, const Shape *restrict shape)
+static inline void find_chords(Chords *restrict chords, int count, const Shape *restrict shape, int box)
 {
     float inverse = shape->length > 0 ? 1 / shape->length : 0, y = shape->y, x = shape->x, slope = shape->slope;
     float half = shape->half, low = shape->cut[0], high = shape->cut[1];
     for (int i = 0; i < count; i++) {
         float d = chords->at[i] - y, u = d * inverse, s2 = 1 - u * u;
-        float s = sqrtf(s2 > 0 ? s2 : 0), middle = x + slope * d, h = half * s, t = chords->at[i] - chords->line[i];
+        float s = sqrtf(s2 > 0 ? s2 : 0), middle = x + slope * d, h = half * s,
+              t = box ? 0 : chords->at[i] - chords->line[i];
         h = h > LEAST_HALF ? h : LEAST_HALF;
         float left = middle - h, right = middle + h;
         left = left > low ? left : low;
@@ -285,8 +294,8 @@ static void find_chords(Chords *restrict chords, int count, const Shape *restric
         chords->weight[i] = weight;
         chords->here[i] = density * (1 - t);
         chords->next[i] = density * t;
-        chords->left[i] = find_end(left);
-        chords->right[i] = find_end(right);
+        chords->left[i] = find_end(left, box);
+        chords->right[i] = find_end(right, box);
     }
 }
 
@@ -303,16 +312,18 @@ static inline Float4 sum_dense(const Lines *lines, const Ellipse *e)
 {
     Strip strip;
     Chords chords;
-    int line = whole_below(e->at[0]), texel = whole_below(e->at[1]);
+    double centre = lines->box ? 0.5 : 0; /* of a line or texel */
+    double at[2] = {e->at[0] + centre, e->at[1] + centre};
+    int line = whole_below(at[0]), texel = whole_below(at[1]);
     Shape shape = {.length = (float)e->length, .slope = (float)e->slope, .half = (float)e->half};
     int shift = (int)(shape.half + fabsf(shape.slope) * shape.length) + 2, base = texel - shift, used = 2 * shift + 6;
     used = used < MAX_ACROSS ? used : MAX_ACROSS;
     begin_strip(&strip, used);
-    shape.y = (float)(e->at[0] - line);
-    shape.x = (float)(e->at[1] - texel) + (float)shift;
+    shape.y = (float)(at[0] - line);
+    shape.x = (float)(at[1] - texel) + (float)shift;
     float rows[2];
-    find_cut(lines, 0, line, rows);
-    find_cut(lines, 1, base, shape.cut);
+    find_cut(lines, 0, line - centre, rows);
+    find_cut(lines, 1, base - centre, shape.cut);
     shape.cut[0] = limit(shape.cut[0], (float[2]){0, (float)(used - 3)});
     shape.cut[1] = limit(shape.cut[1], (float[2]){0, (float)(used - 3)});
     float from = shape.y - shape.length, to = shape.y + shape.length;
@@ -320,7 +331,7 @@ static inline Float4 sum_dense(const Lines *lines, const Ellipse *e)
     Float4 sum = {0, 0, 0, 0};
     if (begin > end)
         return sum;
-    int fine = shape.length < 2 || (shape.half < 3 && fabsf(shape.slope) > 0.2f), first = whole_below(begin), count = 0;
+    int fine = shape.length < 2 || (shape.half < 3 && fabsf(shape.slope) > 0.6f), first = whole_below(begin), count = 0;
     for (int j = first; j == first || (float)j < end; j++) {
         float a = begin > (float)j ? begin : (float)j, b = end < (float)(j + 1) ? end : (float)(j + 1);
         const Rule *rule = &rules[fine][(a == from) + 2 * (b == to)];
@@ -330,16 +341,19 @@ static inline Float4 sum_dense(const Lines *lines, const Ellipse *e)
             chords.line[count] = (float)j;
         }
     }
-    find_chords(&chords, count, &shape);
-    int at = first;
+    if (lines->box)
+        find_chords(&chords, count, &shape, 1);
+    else
+        find_chords(&chords, count, &shape, 0);
+    int row = first;
     for (int i = 0; i < count; i++) {
-        if ((int)chords.line[i] > at)
-            sum += sum_line(lines, line + at++, base, &strip);
+        if ((int)chords.line[i] > row)
+            sum += sum_line(lines, line + row++, base, &strip);
         total += chords.weight[i];
         add_chord(&strip, chords.left[i], chords.right[i], (Float2){chords.here[i], chords.next[i]});
     }
-    sum += sum_line(lines, line + at, base, &strip);
-    sum += sum_line(lines, line + at + 1, base, &strip);
+    sum += sum_line(lines, line + row, base, &strip);
+    sum += sum_line(lines, line + row + 1, base, &strip);
     if (begin > from || end < to)
         total = shape.length > 0 ? (float)M_PI_2 * shape.length : total;
     return sum / total;
@@ -371,7 +385,7 @@ static inline Float4 sum_sparse(const Lines *lines, const Ellipse *e)
         right = right < columns[1] ? right : columns[1];
         if (left >= right)
             continue;
-        add_chord(&strip, find_end(left), find_end(right), (Float2){s * 0.5f / h, 0});
+        add_chord(&strip, find_end(left, 0), find_end(right, 0), (Float2){s * 0.5f / h, 0});
         sum += sum_line(lines, line, texel - shift, &strip);
     }
     return sum / total;
@@ -407,9 +421,9 @@ void texture_disc_kernel(const RetexTexture *texture, const TextureFootprint *fo
     double y = first_period(footprint->y, image->height, texture->spec.wrap[1]);
     double position[2] = {mean_position(x, footprint->xx, image->width, texture->spec.wrap[0]),
                           mean_position(y, footprint->yy, image->height, texture->spec.wrap[1])};
-    int found = find_level(texture, footprint, position), flat[2], turned;
+    int box, found = find_level(texture, footprint, position, &box), flat[2], turned;
     const TextureLevel *level = &texture->levels[found];
-    Rest rest = ellipse_rest(level, footprint, position);
+    Rest rest = ellipse_rest(level, footprint, position, box);
     find_flat(texture, level, flat);
     Ellipse e = find_ellipse(&rest, flat, &turned);
     double at[2] = {flat[0] ? 0 : x / level->scale[0] - 0.5, flat[1] ? 0 : y / level->scale[1] - 0.5};
@@ -418,6 +432,7 @@ void texture_disc_kernel(const RetexTexture *texture, const TextureFootprint *fo
     Lines lines = {texture,
                    level,
                    turned,
+                   box,
                    {turned ? level->width : level->height, turned ? level->height : level->width},
                    turned ? 4 * (size_t)level->width : 4,
                    {texture->spec.wrap[!turned], texture->spec.wrap[turned]}};
