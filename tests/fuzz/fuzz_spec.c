@@ -18,6 +18,7 @@ static void begin(void)
         "\nWall=rgb(1e-3, 2, 0)",
         "flip=uv:repeat=brick:width=1.2\nFloor=planks.png",
         "width=1e-3,2:repeat=half-drop:flip=v\nFloor=a",
+        "scale=1e308,2:rotate=30:offset=0,-1.7e308\nWall=a",
         "repeat=mirror:wrap=clamp,repeat:width=3:rotate=90\nWall=a",
         "offset=-1e3,1e9:rotate=-720.5:colorspace=Linear Rec.709\nFloor=:x",
     };

@@ -285,6 +285,8 @@ static void test_extremes(void **state)
         spec.wrap[1] = (RetexWrap)(n / 4 % 4);
         spec.repeat = n % 16 ? RETEX_REPEAT_STRAIGHT : kind == 1 ? RETEX_REPEAT_BRICK : RETEX_REPEAT_HALF_DROP;
         spec.rotate = n % 3 ? 0 : 45;
+        spec.scale[0] = n % 5 ? 1 : 1e308;
+        spec.offset[1] = n % 7 ? 0 : -1.7e308;
         test_random_image(&im, size[0], size[1], 4, 3, 0, (double)largest);
         for (int i = 0; i < size[0] * size[1]; i++)
             im.pixels[4 * i + 3] = kind == 2 ? 0 : kind == 1 && i % 5 == 0 ? 1e-38f : 1;

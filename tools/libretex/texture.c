@@ -495,6 +495,10 @@ static int texel_covariance(const RetexTexture *texture, const double c[3], Text
     double xy = m[0][0] * m[1][0] * uu + (m[0][0] * m[1][1] + m[0][1] * m[1][0]) * uv + m[0][1] * m[1][1] * vv;
     double yy = m[1][0] * m[1][0] * uu + 2 * m[1][0] * m[1][1] * uv + m[1][1] * m[1][1] * vv;
     double limit = MAX_FOOTPRINT * MAX_FOOTPRINT;
+    if (!isfinite(xx + yy) || !isfinite(xy)) { /* a scale may be near a double's end */
+        xx = yy = limit / 2;
+        xy = 0;
+    }
     double shrink = xx + yy > limit ? limit / (xx + yy) : 1;
     f->xx = xx * shrink * width * width;
     f->xy = -xy * shrink * width * height;

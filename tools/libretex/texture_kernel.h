@@ -86,8 +86,10 @@ static inline Row find_row(const RetexTexture *texture, const TextureLevel *leve
 static inline double first_period(double x, int texels, RetexWrap wrap)
 {
     double period = wrap == RETEX_WRAP_MIRROR ? 2.0 * texels : texels;
-    if (wrap == RETEX_WRAP_REPEAT || wrap == RETEX_WRAP_MIRROR)
-        return x - period * floor(x / period);
+    if (wrap == RETEX_WRAP_REPEAT || wrap == RETEX_WRAP_MIRROR) {
+        double folded = x - period * floor(x / period);
+        return folded >= 0 && folded <= period ? folded : 0; /* too far away for a double to tell where */
+    }
     /* Far outside nothing changes any more; an int has to hold it. */
     double far = 1e6;
     return x < -far ? -far : x > far ? far : x;
