@@ -17,7 +17,7 @@
 #define LEAST_VARIANCE 0.2
 /* What a level should leave where that is not too dear: its texels blur the ellipse's rim. */
 #define GOOD_VARIANCE 3.4
-#define TAP_BUDGET 400 /* beyond it a coarser level will do, if it leaves LEAST_VARIANCE */
+#define TAP_BUDGET 350 /* beyond it a coarser level will do, if it leaves LEAST_VARIANCE */
 /* Leaving this, a coarser level's texels need no interpolation, and the rim stays sharper without. */
 #define BOX_LEAST 1.0
 #define BOX_VARIANCE (1.0 / 12)
@@ -180,12 +180,6 @@ static inline void begin_strip(Strip *strip, int used)
     memset(strip->change, 0, (size_t)used * sizeof *strip->change);
 }
 
-/* Differences leave roundings of either sign; with weights of one sign colours stay between those of the texels. */
-static inline float positive(float weight)
-{
-    return weight > 0 ? weight : 0;
-}
-
 /* Sum of a line's texels with its weights; then the strip's next line is its line. base: the texel of the strip's
  * first. */
 static inline Float4 sum_line(const Lines *lines, int line, int base, Strip *restrict strip)
@@ -193,32 +187,27 @@ static inline Float4 sum_line(const Lines *lines, int line, int base, Strip *res
     Float4 sum = {0, 0, 0, 0}, odd = {0, 0, 0, 0};
     int low = strip->low[0] < strip->low[1] ? strip->low[0] : strip->low[1];
     int high = strip->high[0] > strip->high[1] ? strip->high[0] : strip->high[1];
-    int at = wrap_line(lines, 0, line), i = low;
-    float weight = 0;
+    int at = wrap_line(lines, 0, line), i;
+    float weight = 0, weights[MAX_ACROSS];
+    for (i = low; i < high; i++) {
+        Float2 change = strip->change[i];
+        weight += change[0];
+        /* Differences leave roundings of either sign; with weights of one sign colours stay between the texels'. */
+        weights[i] = weight > 0 ? weight : 0;
+        strip->change[i] = (Float2){change[1], 0};
+    }
     if (low < high && (unsigned)at < (unsigned)lines->count[0] && base + low >= 0 && base + high <= lines->count[1]) {
         size_t step = lines->step;
         const float *p = find_texel(lines, at, base + low);
-        for (; i + 1 < high; i += 2, p += 2 * step) {
-            Float2 one = strip->change[i], two = strip->change[i + 1];
-            float second = weight + (one[0] + two[0]);
-            sum += load4(p) * positive(weight + one[0]);
-            odd += load4(p + step) * positive(second);
-            weight = second;
-            strip->change[i] = (Float2){one[1], 0};
-            strip->change[i + 1] = (Float2){two[1], 0};
+        for (i = low; i + 1 < high; i += 2, p += 2 * step) {
+            sum += load4(p) * weights[i];
+            odd += load4(p + step) * weights[i + 1];
         }
-        if (i < high) {
-            Float2 one = strip->change[i];
-            sum += load4(p) * positive(weight + one[0]);
-            strip->change[i] = (Float2){one[1], 0};
-        }
+        if (i < high)
+            sum += load4(p) * weights[i];
     } else {
-        for (; i < high; i++) {
-            Float2 one = strip->change[i];
-            weight += one[0];
-            sum += load4(find_texel(lines, at, wrap_line(lines, 1, base + i))) * positive(weight);
-            strip->change[i] = (Float2){one[1], 0};
-        }
+        for (i = low; i < high; i++)
+            sum += load4(find_texel(lines, at, wrap_line(lines, 1, base + i))) * weights[i];
     }
     strip->low[1] = strip->low[0];
     strip->high[1] = strip->high[0];
