@@ -106,6 +106,9 @@ typedef struct Arguments {
     RenderVariant replaced;
     double uv_scales[RETEX_MAX_TARGETS][2]; /* once measured */
     int measured;
+    RetexSet *control_set;
+    char set_targets[RETEX_MAX_TARGETS][RETEX_NAME_MAX + 512]; /* its targets, as of -t */
+    int named;                                                 /* -t was given */
 } Arguments;
 
 static void push(Cli *cli, const char **list, int *count, const char *what)
@@ -231,6 +234,7 @@ static void parse_option(Arguments *a, const CliOption *o)
     switch (o - options) {
     case OPT_TARGET:
         push(cli, a->targets, &a->ntargets, o->name);
+        a->named = 1;
         break;
     case OPT_LIST:
         a->list = 1;
@@ -398,6 +402,27 @@ static double seconds(void)
     struct timespec t;
     clock_gettime(CLOCK_MONOTONIC, &t);
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+/* The set of --control. Its targets are those of the render, unless some are named: then it tells the most. */
+static void read_control(Arguments *a)
+{
+    RetexError err;
+    RetexSet *set = NULL;
+    cli_input(a->cli, a->control, "a set, as from retex-render");
+    if (retex_set_read(a->control, &set, NULL, a->cli->threads, &err))
+        cli_fail(a->cli, &err);
+    if (!set)
+        cli_die(a->cli, "%s holds samples but no set", a->control);
+    a->control_set = set;
+    for (int k = 0; k < a->nreplacements; k++)
+        if (set->ntargets && !a->named && retex_set_find_target(set, a->replacements[k].target) < 0)
+            cli_die(a->cli, "--control %s: the set has no target `%s`", a->control, a->replacements[k].target);
+    for (int t = 0; t < set->ntargets && !a->named; t++) {
+        snprintf(a->set_targets[t], sizeof a->set_targets[t], "%s=%s", set->targets[t].name, set->targets[t].idents);
+        a->targets[t] = a->set_targets[t];
+        a->ntargets = t + 1;
+    }
 }
 
 static int find_target(const Scene *scene, const char *name)
@@ -672,15 +697,10 @@ static void report(const Arguments *a, const RetexSet *set, const RenderStats *s
 static void render_controlled(Arguments *a, const Scene *scene, const char *output)
 {
     RetexError err;
-    RetexSet *set = NULL;
+    RetexSet *set = a->control_set;
     RetexImage picture = {0};
     RenderStats stats;
     double distance;
-    cli_input(a->cli, a->control, "a set, as from retex-render");
-    if (retex_set_read(a->control, &set, NULL, a->cli->threads, &err))
-        cli_fail(a->cli, &err);
-    if (!set)
-        cli_die(a->cli, "%s holds samples but no set", a->control);
     if (!a->seeded)
         a->render.seed = set->seed + 1;
     if (render_control(&picture, scene, &a->render, set, a->control_mode, &distance, &stats, &err))
@@ -696,7 +716,7 @@ static void render_controlled(Arguments *a, const Scene *scene, const char *outp
     if (a->stats)
         write_stats(a, &stats, set, 0);
     retex_image_free(&picture);
-    retex_set_close(&set);
+    retex_set_close(&a->control_set);
 }
 
 /* A surface goes to the first target that names it: one that is left without any is a mistake. */
@@ -748,6 +768,8 @@ int main(int argc, char **argv)
         check_output(&a, output), check_stats(&a, output);
     if (a.aov_dir && guides_check(a.aov_dir, &err))
         cli_die(&cli, "--aov-dir: %s", err.message);
+    if (a.control)
+        read_control(&a);
     double started = seconds();
     if (sdl_parse_file(&scene, a.scene, &a.sdl, &err))
         cli_fail(&cli, &err);

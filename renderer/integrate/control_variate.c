@@ -3,7 +3,8 @@
 #include <string.h>
 #include "integrate/control_variate.h"
 
-enum { REPLACED = 0, ORIGINAL = 1 };
+enum { REPLACED = 0, ORIGINAL = 1, CONSTANT = 2 };
+#define RIDGE 1e-3 /* keeps apart controls that are nearly the same */
 
 /* The control's mean and the variance of that mean, or no variance where it is not known. */
 typedef struct Control {
@@ -127,12 +128,44 @@ static int from_halves(RetexImage *dst, ControlMoments *const *moments, const in
     return code;
 }
 
+/* Both controls, with alphas from the pixels around. What the set's own noise adds to variances and covariances is in
+ * proportion: it is made of the same paths. */
+static int from_both(RetexImage *dst, const ControlMoments *m, int samples, const RetexSet *set,
+                     const RetexImage *combined, RetexError *err)
+{
+    static const int pairs[5][2] = {
+        {REPLACED, ORIGINAL}, {REPLACED, CONSTANT}, {ORIGINAL, ORIGINAL}, {ORIGINAL, CONSTANT}, {CONSTANT, CONSTANT}};
+    RetexImage c[5] = {{0}};
+    int code = RETEX_OK;
+    for (int k = 0; k < 5 && !code; k++)
+        code = smooth(&c[k], &m->covariance[control_pair(pairs[k][0], pairs[k][1])], 1, err);
+    double share = 1 / (1 + (double)samples / set->spp);
+    const float *f1 = m->mean[REPLACED].pixels, *f0 = m->mean[ORIGINAL].pixels, *fc = m->mean[CONSTANT].pixels,
+                *g0 = set->parts[0].image.pixels, *gc = combined->pixels;
+    size_t count = (size_t)dst->width * (size_t)dst->height * 3;
+    for (size_t i = 0; i < count && !code; i++) {
+        double r0 = c[0].pixels[i], rc = c[1].pixels[i], v0 = c[2].pixels[i] * (1 + RIDGE), v0c = c[3].pixels[i],
+               vc = c[4].pixels[i] * (1 + RIDGE), det = v0 * vc - v0c * v0c, a0 = 0, ac = 0;
+        if (det > 0)
+            a0 = (r0 * vc - rc * v0c) / det, ac = (rc * v0 - r0 * v0c) / det;
+        else if (vc > 0)
+            ac = rc / vc;
+        else if (v0 > 0)
+            a0 = r0 / v0;
+        dst->pixels[i] = (float)(f1[i] - share * (a0 * (f0[i] - g0[i]) + ac * (fc[i] - gc[i])));
+    }
+    for (int k = 0; k < 5; k++)
+        retex_image_free(&c[k]);
+    return code;
+}
+
 int control_variate(RetexImage *dst, ControlMoments *const *moments, const int *samples, const RetexSet *set,
-                    ControlMode mode, RetexError *err)
+                    const RetexImage *combined, ControlMode mode, RetexError *err)
 {
     int code = retex_image_alloc(dst, set->width, set->height, 3, err);
     if (!code)
         code = mode == CONTROL_HALVES ? from_halves(dst, moments, samples, set, err)
+               : combined             ? from_both(dst, moments[0], samples[0], set, combined, err)
                                       : from_all(dst, moments[0], samples[0], set, mode == CONTROL_UNBIASED, err);
     if (code)
         retex_image_free(dst);

@@ -25,10 +25,13 @@ typedef enum ControlMode {
  * pixel, and a few samples say little of it. */
 #define CONTROL_RADIUS 2
 
-/* dst: unallocated, RGB. Variants 0 and 1 of the moments are the replaced and the original textures; with
+/* combined: the set with the constants of variant 2, see control_constants.h, or NULL where there is no such variant.
+ * With it CONTROL_UNBIASED takes off both differences: the two alphas together leave the least variance.
+ *
+ * dst: unallocated, RGB. Variants 0 and 1 of the moments are the replaced and the original textures; with
  * CONTROL_HALVES there are two halves with samples[h] samples each, else one. */
 int control_variate(RetexImage *dst, ControlMoments *const *moments, const int *samples, const RetexSet *set,
-                    ControlMode mode, RetexError *err);
+                    const RetexImage *combined, ControlMode mode, RetexError *err);
 
 /* How far F0 as a whole lies from G, in standard deviations: what differs much is not the same scene. */
 double control_distance(ControlMoments *const *moments, const int *samples, int nhalves, const RetexSet *set);

@@ -203,10 +203,10 @@ static const Rgb *keep_albedos(const PathContext *c, Rgb *room, const Shading *s
 
 /* What a surface is to a ray that goes through it unbent. Reflectance is taken from outside on either side: light that
  * came in through the one face of a pane goes out through the other, and is never totally reflected. */
-static void shading_straight(Shading *s, const PathContext *c, const Ray *ray, Surface *surface)
+static void shading_straight(Shading *s, const PathWorker *w, const Ray *ray, Surface *surface)
 {
     s->surface = *surface;
-    shading_color(s, c->variants, c->nvariants);
+    shading_color(s, w->variants, w->context->nvariants);
     if (surface->backside) {
         s->surface.backside = 0;
         s->surface.geometric_normal = vec_neg(surface->geometric_normal);
@@ -243,7 +243,7 @@ static int trace_shadow(PathWorker *w, Ray ray, int light_source, Media *media, 
                 return -1;
         }
         surface_at(&surface, c->scene, &ray, &hit);
-        shading_straight(&s, c, &ray, &surface);
+        shading_straight(&s, w, &ray, &surface);
         if (!shadow_factor(&s, light_source, &factor))
             return -1;
         if (factor.target < 0 || rgb_is_black(factor.split.d)) {
@@ -307,7 +307,7 @@ static int light_factors(PathWorker *w, LightSample *light, Factor *factors)
     if (light->kind != LIGHT_SAMPLE_EMITTER)
         return 0;
     Shading s = {.surface = light->surface};
-    shading_color(&s, c->variants, c->nvariants);
+    shading_color(&s, w->variants, c->nvariants);
     light->radiance = rgb_grey(1);
     factors[0] = shading_factor(&s, emitted(&s));
     factors[0].albedos = keep_albedos(c, w->light_albedos, &s);
@@ -474,7 +474,7 @@ void path_trace(PathWorker *w, Ray ray, const Sampler *sampler)
                 hit_sky(w, &path, ray.direction);
             break;
         }
-        shading_at(&s, c->scene, c->variants, c->nvariants, &ray, &hit);
+        shading_at(&s, c->scene, w->variants, c->nvariants, &ray, &hit);
         if (c->white && path.segments == 1)
             whiten(&s, &ray);
         if (c->trace)

@@ -19,7 +19,6 @@ typedef struct PathContext {
     int max_depth, orders;
     int split;            /* keep target hits apart */
     int nvariants;        /* 1..VARIANTS_MAX: what the same path brings with different textures */
-    const RenderVariant *variants; /* or NULL: the original */
     int white;            /* the first hit is a white diffuse surface instead, that gives no light itself */
     int has_no_shadow;    /* some primitive throws no shadow: what blocks shadow rays and paths is not the same */
     FILE *trace;          /* say what happens, or NULL */
@@ -29,7 +28,10 @@ typedef struct PathContext {
 typedef struct PathWorker {
     const PathContext *context;
     FilmPixel *pixel;
+    const RenderVariant *variants; /* or NULL: the original */
     ControlPixel *control; /* gets all variants, or NULL */
+    RenderVariant own[CONTROL_VARIANTS_MAX]; /* variants, where they have constants by pixel */
+    Rgb constants[RETEX_MAX_TARGETS];        /* of the pixel in hand */
     Expansion scratch;    /* a path's expansion with a connection's own hits */
     long segments, shadow_rays;
     /* Colours of variants at a sampled light and at what a shadow ray passes. */

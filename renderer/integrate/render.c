@@ -5,6 +5,7 @@
 #include <time.h>
 #include <retex/parallel.h>
 #include "integrate/camera.h"
+#include "integrate/control_constants.h"
 #include "integrate/first_hit.h"
 #include "integrate/path.h"
 #include "integrate/originals.h"
@@ -23,10 +24,12 @@ typedef struct Render {
     Accel *accel;
     Lights *lights;
     Film *film;
-    FilmPixel **pixels;      /* by thread */
-    ControlFilm *control;    /* of several variants, or NULL */
-    ControlPixel **controls; /* by thread */
-    int halves;              /* of the samples: 2 are independent of each other */
+    FilmPixel **pixels;            /* by thread */
+    ControlFilm *control;          /* of several variants, or NULL */
+    ControlPixel **controls;       /* by thread */
+    const RenderVariant *variants; /* or NULL: the original */
+    const RetexImage *constants;   /* or NULL: by target, of the last variant */
+    int halves;                    /* of the samples: 2 are independent of each other */
     PathContext context;
     PathWorker *workers; /* by thread */
     atomic_int done;
@@ -107,6 +110,10 @@ static void render_tile(void *context, int tile, int thread)
     int x0 = tile % r->tiles_x * TILE, y0 = tile / r->tiles_x * TILE;
     for (int y = y0; y < y0 + TILE && y < r->h; y++)
         for (int x = x0; x < x0 + TILE && x < r->w; x++) {
+            for (int t = 0; r->constants && t < r->scene->ntargets; t++) {
+                const float *p = r->constants[t].pixels + retex_image_index(&r->constants[t], x, y);
+                worker->constants[t] = rgb(p[0], p[1], p[2]);
+            }
             for (int s = 0; s < r->params.spp; s++)
                 trace_sample(r, worker, r->x0 + x, r->y0 + y, s);
             film_pixel_end(pixel, x, y);
@@ -124,7 +131,7 @@ static void render_tile(void *context, int tile, int thread)
 static void survey_chunk(void *context, int chunk, int thread)
 {
     Render *r = context;
-    PathWorker worker = {.context = &r->context, .pixel = r->pixels[thread]};
+    PathWorker worker = {.context = &r->context, .pixel = r->pixels[thread], .variants = r->variants};
     for (int k = chunk * SURVEY_CHUNK; k < (chunk + 1) * SURVEY_CHUNK; k++) {
         double u = 0.5 + 0.7548776662466927 * k, v = 0.5 + 0.5698402909980532 * k; /* additive recurrence R2 */
         int x = (int)((u - floor(u)) * r->width), y = (int)((v - floor(v)) * r->height);
@@ -182,11 +189,24 @@ static int render_open(Render *r, const Scene *scene, const RenderParams *params
                                .max_depth = r->params.max_depth,
                                .orders = r->params.orders,
                                .split = split,
-                               .nvariants = 1,
-                               .variants = r->params.nvariants > 0 ? r->params.variants : NULL};
+                               .nvariants = 1};
+    r->variants = r->params.nvariants > 0 ? r->params.variants : NULL;
     for (int k = 0; k < scene->nprimitives; k++)
         r->context.has_no_shadow |= scene->primitives[k].no_shadow;
     return code;
+}
+
+static void open_worker(Render *r, int k)
+{
+    PathWorker *w = &r->workers[k];
+    w->context = &r->context;
+    w->pixel = r->pixels[k], w->control = r->controls[k];
+    w->variants = r->variants;
+    if (!r->constants)
+        return;
+    memcpy(w->own, r->variants, (size_t)r->context.nvariants * sizeof *w->own);
+    w->own[r->context.nvariants - 1].constants = w->constants;
+    w->variants = w->own;
 }
 
 /* control: a film of all variants too, with moments of so many halves. */
@@ -218,7 +238,7 @@ static int render_film(Render *r, int control, int halves, RetexError *err)
     for (int k = 0; k < threads && !code && r->control; k++)
         code = control_pixel_create(&r->controls[k], r->control, err);
     for (int k = 0; k < threads; k++)
-        r->workers[k].context = &r->context, r->workers[k].pixel = r->pixels[k], r->workers[k].control = r->controls[k];
+        open_worker(r, k);
     if (!code && film_surveying(r->film))
         code = survey(r, err);
     return code;
@@ -257,7 +277,7 @@ static void fill_stats(RenderStats *stats, const Render *r)
 static FirstHitWindow first_hit_window(const Render *r)
 {
     return (FirstHitWindow){r->scene, r->accel, r->width, r->height,          r->x0,
-                            r->y0,    r->w,     r->h,     r->params.nthreads, r->context.variants};
+                            r->y0,    r->w,     r->h,     r->params.nthreads, r->variants};
 }
 
 typedef struct HalfSamples {
@@ -426,6 +446,32 @@ static int check_control(const Render *r, const RetexSet *set, RetexError *err)
     return RETEX_OK;
 }
 
+/* The constants by pixel, and what the set is with them. */
+static int find_constants(Render *r, const RetexSet *set, RetexImage *constants, RetexImage *combined, RetexError *err)
+{
+    FirstHitWindow window = first_hit_window(r);
+    int code = control_constants(constants, &window, set, err);
+    if (!code)
+        code = control_constants_combine(combined, set, r->scene, constants, r->params.nthreads, err);
+    r->constants = constants;
+    return code;
+}
+
+static int trace_control(Render *r, RetexImage *picture, const RetexSet *set, const RetexImage *combined,
+                         ControlMode mode, double *distance, RenderStats *stats, double started, RetexError *err)
+{
+    r->halves = mode == CONTROL_HALVES ? 2 : 1;
+    int code = render_film(r, 1, r->halves, err);
+    if (code)
+        return code;
+    render_paths(r, stats, started);
+    ControlMoments *moments[2] = {control_film_moments(r->control, 0), control_film_moments(r->control, 1)};
+    HalfSamples half = half_samples(r);
+    if (distance)
+        *distance = control_distance(moments, half.samples, r->halves, set);
+    return control_variate(picture, moments, half.samples, set, combined, mode, err);
+}
+
 int render_control(RetexImage *picture, const Scene *scene, const RenderParams *params, const RetexSet *set,
                    ControlMode mode, double *distance, RenderStats *stats, RetexError *err)
 {
@@ -435,26 +481,24 @@ int render_control(RetexImage *picture, const Scene *scene, const RenderParams *
     *stats = (RenderStats){0};
     double started = seconds();
     RenderParams plain = *params;
-    RenderVariant variants[2] = {{{NULL}}, {{NULL}}};
+    RenderVariant variants[CONTROL_VARIANTS_MAX] = {{{NULL}, NULL}};
+    RetexImage constants[RETEX_MAX_TARGETS] = {{0}}, combined = {0};
     Render r;
     if (params->nvariants > 0)
         variants[0] = params->variants[0];
     plain.plain = 1, plain.variants = variants, plain.nvariants = 2;
     int code = render_open(&r, scene, &plain, err);
-    r.context.nvariants = 2;
-    r.halves = mode == CONTROL_HALVES ? 2 : 1;
     if (!code)
         code = check_control(&r, set, err);
+    int two = !code && mode == CONTROL_UNBIASED && control_constants_fit(scene, set);
+    r.context.nvariants = 2 + two;
+    if (two)
+        code = find_constants(&r, set, constants, &combined, err);
     if (!code)
-        code = render_film(&r, 1, r.halves, err);
-    if (!code) {
-        render_paths(&r, stats, started);
-        ControlMoments *moments[2] = {control_film_moments(r.control, 0), control_film_moments(r.control, 1)};
-        HalfSamples half = half_samples(&r);
-        code = control_variate(picture, moments, half.samples, set, mode, err);
-        if (distance)
-            *distance = control_distance(moments, half.samples, r.halves, set);
-    }
+        code = trace_control(&r, picture, set, two ? &combined : NULL, mode, distance, stats, started, err);
+    for (int t = 0; t < RETEX_MAX_TARGETS; t++)
+        retex_image_free(&constants[t]);
+    retex_image_free(&combined);
     render_close(&r);
     return code;
 }

@@ -25,6 +25,7 @@ enum {
 /* What lies on the scene's targets in one of several pictures: a texture, or NULL for the original. */
 typedef struct RenderVariant {
     const RetexTexture *textures[RETEX_MAX_TARGETS];
+    const Rgb *constants; /* or NULL; by target, a colour instead of all textures */
 } RenderVariant;
 
 /* Begin with RENDER_PARAMS_INIT. */

@@ -29,10 +29,12 @@ void shading_color(Shading *s, const RenderVariant *variants, int nvariants)
         return;
     s->uv = surface_target_uv(surface);
     for (int v = 0; variants && v < nvariants; v++)
-        s->replaced |= variants[v].textures[surface->target] != NULL;
+        s->replaced |= variants[v].constants || variants[v].textures[surface->target];
     for (int v = 0; s->replaced && v < nvariants; v++) {
         const RetexTexture *replacement = variants[v].textures[surface->target];
-        s->albedos[v] = replacement ? replaced_color(s, replacement) : s->albedo;
+        s->albedos[v] = variants[v].constants ? variants[v].constants[surface->target]
+                        : replacement         ? replaced_color(s, replacement)
+                                              : s->albedo;
     }
 }
 
