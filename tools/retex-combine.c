@@ -1,4 +1,5 @@
 /* retex-combine: recombine a set, with its own textures or new ones, into a picture. See retex-combine(1). */
+#include <math.h>
 #include <stdlib.h>
 
 #include "texture_args.h"
@@ -11,17 +12,19 @@ static const CliOption options[] = {
     {"colorspace", 0, "NAME", "write in this OCIO colour space instead", 0},
     {"quality", 0, "N", "of a JPEG, 1 to 100; default 95", 0},
     {"cross", 0, "0|2|3", "use cross terms of paths with up to so many hits; default 3", 0},
+    {"error", 0, "FILE.exr", "write the error to be expected against rendering again, per pixel", 0},
     {"batch", 0, "FILE.csv", "one picture a row: its name, then one texture a target", 0},
     {0},
 };
 
 typedef struct Job {
-    const char *set_path, *samples_path, *batch;
+    const char *set_path, *samples_path, *batch, *error;
     TextureArgs textures;
     RetexWriteParams write;
     RetexCombineParams combine;
     RetexSet *set;
-    RetexSamples *samples; /* of the whole run; NULL = all original */
+    RetexSamples *samples;   /* of the whole run; NULL = all original */
+    RetexSamples *variances; /* of the textures within the footprints, for --error */
 } Job;
 
 static void parse(Cli *cli, Job *job)
@@ -45,6 +48,8 @@ static void parse(Cli *cli, Job *job)
             job->combine.cross = (int)cli_integer(cli, option, 0, 3);
             if (job->combine.cross == 1)
                 cli_die(cli, "--cross: expected 0, 2 or 3; one hit has no cross terms");
+        } else if (strcmp(option->name, "error") == 0) {
+            job->error = cli->value;
         } else {
             job->batch = cli->value;
         }
@@ -58,6 +63,10 @@ static void parse(Cli *cli, Job *job)
         cli_die(cli, "the set or the samples and the table cannot both be standard input");
     if (job->batch && cli->output)
         cli_die(cli, "--batch names its outputs itself: no -o");
+    if (job->error && job->batch)
+        cli_die(cli, "--error is of one picture: no --batch");
+    if (job->error && !job->textures.count)
+        cli_die(cli, "--error needs the textures: name them with --texture");
     if (job->write.colorspace && (job->write.display || job->write.view))
         cli_die(cli, "--colorspace excludes --display and --view");
 }
@@ -69,6 +78,17 @@ static void check_output(const Cli *cli, const Job *job, const char *output)
     if (job->samples_path)
         texture_args_check_output(cli, job->samples_path, output);
     texture_args_check_outputs(cli, &job->textures, output);
+}
+
+/* The error's file must replace nothing either, the picture included. */
+static void check_error_output(const Cli *cli, const Job *job, const char *output)
+{
+    RetexError err = {0};
+    check_output(cli, job, job->error);
+    if (strcmp(job->error, output) == 0)
+        cli_die(cli, "the picture and --error are the same file");
+    if (retex_image_write_check(job->error, NULL, &err))
+        cli_fail(cli, &err);
 }
 
 /* The set, and the samples of the whole run: from the stream or a file, and from --texture. */
@@ -92,7 +112,8 @@ static void load(const Cli *cli, Job *job)
     if (!job->textures.count)
         return;
     RetexSamples *more = NULL;
-    if (retex_sample(&more, job->set, job->textures.specs, job->textures.count, cli->threads, &err))
+    if (retex_sample_with_variances(&more, job->error ? &job->variances : NULL, job->set, job->textures.specs,
+                                    job->textures.count, cli->threads, &err))
         cli_fail(cli, &err);
     if (!job->samples) {
         job->samples = more;
@@ -101,6 +122,24 @@ static void load(const Cli *cli, Job *job)
     if (retex_samples_merge(job->samples, more, &err))
         cli_fail(cli, &err);
     retex_samples_close(&more);
+}
+
+/* Write the error to be expected; text says it in numbers. */
+static int make_error(const Cli *cli, const Job *job, const RetexSamples *samples, char *text, size_t size,
+                      RetexError *err)
+{
+    RetexImage error = {0};
+    double squares = 0;
+    int code = retex_estimate_error(&error, job->set, samples, job->variances, &job->combine, NULL, cli->threads, err);
+    size_t count = 3 * (size_t)error.width * (size_t)error.height;
+    for (size_t i = 0; !code && i < count; i++)
+        squares += (double)error.pixels[i] * error.pixels[i];
+    if (!code)
+        snprintf(text, size, ", expected error %.3g rms", sqrt(squares / (double)count));
+    if (!code)
+        code = retex_image_write(&error, job->error, NULL, err);
+    retex_image_free(&error);
+    return code;
 }
 
 /* One picture. */
@@ -112,11 +151,13 @@ static int make_picture(const Cli *cli, const Job *job, const RetexSamples *samp
     if (!code)
         code = retex_image_write(&picture, output, &job->write, err);
     retex_image_free(&picture);
+    char text[2048], expected[64] = "";
+    if (!code && job->error)
+        code = make_error(cli, job, samples, expected, sizeof expected, err);
     if (code)
         return code;
-    char text[2048];
-    cli_info(cli, "%s: %s, %d x %d, %.2f s", strcmp(output, "-") ? output : "standard output",
-             texture_args_describe(samples, text, sizeof text), job->set->width, job->set->height,
+    cli_info(cli, "%s: %s, %d x %d%s, %.2f s", strcmp(output, "-") ? output : "standard output",
+             texture_args_describe(samples, text, sizeof text), job->set->width, job->set->height, expected,
              texture_args_now() - began);
     return RETEX_OK;
 }
@@ -212,6 +253,8 @@ int main(int argc, char **argv)
         check_output(&cli, &job, output);
         if (retex_image_write_check(output, &job.write, &err))
             cli_fail(&cli, &err);
+        if (job.error)
+            check_error_output(&cli, &job, output);
         if ((job.write.display || job.write.view) && (strcmp(output, "-") == 0 || cli_ends_with(output, ".exr")))
             cli_warn(&cli, "an OpenEXR file stays scene-linear: --display and --view do nothing; --colorspace would");
     }
@@ -222,6 +265,7 @@ int main(int argc, char **argv)
     else if (make_picture(&cli, &job, job.samples, output, began, &err))
         cli_fail(&cli, &err);
     retex_samples_close(&job.samples);
+    retex_samples_close(&job.variances);
     retex_set_close(&job.set);
     return cli_close(&cli, CLI_OK);
 }

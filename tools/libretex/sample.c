@@ -4,6 +4,7 @@
  * then turns and stretches it exactly. Where the texture is transparent the original albedo of the footprint shows. */
 #include <retex/sample.h>
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -15,11 +16,12 @@
 
 typedef struct SampleWork {
     const RetexSet *set;
-    RetexSamples *samples;
+    RetexSamples *samples, *variances;         /* variances: NULL = not wanted */
     RetexTexture *textures[RETEX_MAX_TARGETS]; /* by target; NULL = keeps its original */
+    RetexTexture *squares[RETEX_MAX_TARGETS];  /* of their colours, for variances */
     const RetexTextureSpec *specs;             /* while loading */
     int spec_target[RETEX_MAX_TARGETS];
-    int nspecs, loading_threads;
+    int nspecs, loading_threads, with_variances;
     RetexError errors[RETEX_MAX_TARGETS];
     int *edited; /* footprints of edited targets */
     int nedited, blocks;
@@ -92,8 +94,12 @@ static void load_job(void *context, int index, int thread)
 {
     SampleWork *work = context;
     (void)thread;
-    retex_texture_load(&work->textures[work->spec_target[index]], &work->specs[index], work->loading_threads,
-                       &work->errors[index]);
+    int target = work->spec_target[index];
+    RetexTextureSpec spec = work->specs[index];
+    memcpy(spec.uv_scale, work->set->targets[target].uv_scale, sizeof spec.uv_scale);
+    int code = retex_texture_load(&work->textures[target], &spec, work->loading_threads, &work->errors[index]);
+    if (!code && work->with_variances)
+        retex_texture_square(&work->squares[target], work->textures[target], &work->errors[index]);
 }
 
 /* Side by side: most of the time goes to decoding, which has one thread a file. */
@@ -117,22 +123,62 @@ static int load_textures(SampleWork *work, int nthreads, RetexError *err)
  * evenly, all else is taken as a Gaussian. */
 typedef void Filter(const RetexTexture *texture, double u, double v, const double covariance[3], float rgba[4]);
 
-static void sample_row(const RetexTexture *texture, Filter *filter, const float *restrict uv,
-                       const float *restrict spread, int spreads, const float *restrict albedo, float *restrict out,
-                       int width)
+/* One span of a footprint's pixels. */
+typedef struct Span {
+    const float *uv, *spread, *albedo;
+    int spreads, width; /* channels of spread; pixels */
+} Span;
+
+static Span footprint_row(const RetexSet *set, const RetexFootprint *f, int y)
 {
-    for (int x = 0; x < width; x++, uv += 3, spread += spreads, albedo += 3, out += 3) {
+    size_t row = (size_t)y * (size_t)set->width;
+    const RetexImage *spread = &set->parts[f->spread].image;
+    return (Span){set->parts[f->uv].image.pixels + 3 * row, spread->pixels + (size_t)spread->channels * row,
+                  set->parts[f->albedo].image.pixels + 3 * row, spread->channels, set->width};
+}
+
+static void footprint_covariance(const Span *span, int x, double covariance[3])
+{
+    const float *spread = span->spread + (size_t)span->spreads * (size_t)x;
+    double correlation = span->spreads == 3 ? spread[2] : 0;
+    covariance[0] = (double)spread[0] * spread[0];
+    covariance[1] = correlation * spread[0] * spread[1];
+    covariance[2] = (double)spread[1] * spread[1];
+}
+
+static void sample_row(const RetexTexture *texture, Filter *filter, const Span *span, float *restrict out)
+{
+    for (int x = 0; x < span->width; x++, out += 3) {
+        const float *uv = span->uv + 3 * (size_t)x, *albedo = span->albedo + 3 * (size_t)x;
+        double covariance[3];
+        float rgba[4];
         if (!(uv[2] > 0)) {
             out[0] = out[1] = out[2] = 0;
             continue;
         }
-        double correlation = spreads == 3 ? spread[2] : 0;
-        const double covariance[3] = {(double)spread[0] * spread[0], correlation * spread[0] * spread[1],
-                                      (double)spread[1] * spread[1]};
-        float rgba[4];
+        footprint_covariance(span, x, covariance);
         filter(texture, uv[0], uv[1], covariance, rgba);
         for (int c = 0; c < 3; c++)
             out[c] = rgba[c] * rgba[3] + (1 - rgba[3]) * albedo[c];
+    }
+}
+
+/* How far the texture's colours scatter within the footprint: E[a^2] - E[a]^2. */
+static void variance_row(const RetexTexture *texture, const RetexTexture *square, Filter *filter, const Span *span,
+                         float *restrict out)
+{
+    for (int x = 0; x < span->width; x++, out += 3) {
+        const float *uv = span->uv + 3 * (size_t)x;
+        double covariance[3];
+        float mean[4], squares[4];
+        out[0] = out[1] = out[2] = 0;
+        if (!(uv[2] > 0))
+            continue;
+        footprint_covariance(span, x, covariance);
+        filter(texture, uv[0], uv[1], covariance, mean);
+        filter(square, uv[0], uv[1], covariance, squares);
+        for (int c = 0; c < 3; c++)
+            out[c] = fmaxf(squares[c] - mean[c] * mean[c], 0) * mean[3] * mean[3];
     }
 }
 
@@ -143,15 +189,16 @@ static void sample_job(void *context, int index, int thread)
     (void)thread;
     int footprint = work->edited[index / work->blocks], block = index % work->blocks;
     const RetexFootprint *f = &set->footprints[footprint];
-    RetexImage *image = &work->samples->images[footprint];
-    const RetexImage *spread = &set->parts[f->spread].image;
     int even = f->kind == RETEX_FOOTPRINT_SHARP && strcmp(set->filter, "box") == 0;
+    Filter *filter = even ? retex_texture_disc : retex_texture_gaussian;
     int last = (block + 1) * ROWS_A_JOB < set->height ? (block + 1) * ROWS_A_JOB : set->height;
     for (int y = block * ROWS_A_JOB; y < last; y++) {
-        size_t row = (size_t)y * (size_t)set->width;
-        sample_row(work->textures[f->target], even ? retex_texture_disc : retex_texture_gaussian,
-                   set->parts[f->uv].image.pixels + 3 * row, spread->pixels + (size_t)spread->channels * row,
-                   spread->channels, set->parts[f->albedo].image.pixels + 3 * row, image->pixels + 3 * row, set->width);
+        Span span = footprint_row(set, f, y);
+        size_t row = 3 * (size_t)y * (size_t)set->width;
+        sample_row(work->textures[f->target], filter, &span, work->samples->images[footprint].pixels + row);
+        if (work->variances)
+            variance_row(work->textures[f->target], work->squares[f->target], filter, &span,
+                         work->variances->images[footprint].pixels + row);
     }
 }
 
@@ -163,15 +210,13 @@ static void describe_texture(char *text, size_t size, const RetexTextureSpec *sp
         snprintf(text, size, "%.*s", (int)size - 1, spec->image);
 }
 
-static int create_samples(SampleWork *work, RetexError *err)
+static int create_samples(const SampleWork *work, RetexSamples **out, RetexError *err)
 {
     const RetexSet *set = work->set;
-    RetexSamples *samples = calloc(1, sizeof *samples);
-    work->samples = samples;
-    work->edited = calloc((size_t)set->nfootprints + 1, sizeof *work->edited);
+    RetexSamples *samples = *out = calloc(1, sizeof *samples);
     if (samples)
         samples->images = calloc((size_t)set->nfootprints + 1, sizeof *samples->images);
-    if (!samples || !samples->images || !work->edited)
+    if (!samples || !samples->images)
         return retex_fail(err, RETEX_ENOMEM, "not enough memory for samples");
     samples->width = set->width;
     samples->height = set->height;
@@ -185,39 +230,63 @@ static int create_samples(SampleWork *work, RetexError *err)
     for (int i = 0; i < set->nfootprints; i++) {
         samples->footprint_target[i] = set->footprints[i].target;
         samples->footprint_hit[i] = set->footprints[i].hit;
-        if (!work->textures[set->footprints[i].target])
-            continue;
-        work->edited[work->nedited++] = i;
-        int code = retex_image_alloc(&samples->images[i], set->width, set->height, 3, err);
+    }
+    for (int i = 0; i < work->nedited; i++) {
+        int code = retex_image_alloc(&samples->images[work->edited[i]], set->width, set->height, 3, err);
         if (code)
             return code;
     }
     return RETEX_OK;
 }
 
-int retex_sample(RetexSamples **samples, const RetexSet *set, const RetexTextureSpec *specs, int nspecs, int nthreads,
-                 RetexError *err)
+static int list_edited(SampleWork *work, RetexError *err)
 {
-    *samples = NULL;
-    SampleWork work = {.set = set, .specs = specs, .nspecs = nspecs};
+    work->edited = calloc((size_t)work->set->nfootprints + 1, sizeof *work->edited);
+    if (!work->edited)
+        return retex_fail(err, RETEX_ENOMEM, "not enough memory for samples");
+    for (int i = 0; i < work->set->nfootprints; i++)
+        if (work->textures[work->set->footprints[i].target])
+            work->edited[work->nedited++] = i;
+    return RETEX_OK;
+}
+
+int retex_sample_with_variances(RetexSamples **samples, RetexSamples **variances, const RetexSet *set,
+                                const RetexTextureSpec *specs, int nspecs, int nthreads, RetexError *err)
+{
+    SampleWork work = {.set = set, .specs = specs, .nspecs = nspecs, .with_variances = variances != NULL};
     int code = find_targets(&work, err);
     if (!code)
         code = check_footprints(&work, err);
     if (!code)
         code = load_textures(&work, nthreads, err);
     if (!code)
-        code = create_samples(&work, err);
+        code = list_edited(&work, err);
+    if (!code)
+        code = create_samples(&work, &work.samples, err);
+    if (!code && variances)
+        code = create_samples(&work, &work.variances, err);
     if (!code) {
         work.blocks = (set->height + ROWS_A_JOB - 1) / ROWS_A_JOB;
         retex_parallel(nthreads, work.blocks * work.nedited, sample_job, &work);
-        *samples = work.samples;
     } else {
         retex_samples_close(&work.samples);
+        retex_samples_close(&work.variances);
     }
-    for (int i = 0; i < RETEX_MAX_TARGETS; i++)
+    *samples = work.samples;
+    if (variances)
+        *variances = work.variances;
+    for (int i = 0; i < RETEX_MAX_TARGETS; i++) {
         retex_texture_close(&work.textures[i]);
+        retex_texture_close(&work.squares[i]);
+    }
     free(work.edited);
     return code;
+}
+
+int retex_sample(RetexSamples **samples, const RetexSet *set, const RetexTextureSpec *specs, int nspecs, int nthreads,
+                 RetexError *err)
+{
+    return retex_sample_with_variances(samples, NULL, set, specs, nspecs, nthreads, err);
 }
 
 /* ---- more of them ---- */
