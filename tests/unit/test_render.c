@@ -261,7 +261,7 @@ static void check_recombining(int paper)
     RetexTexture *textures[2];
     RetexSamples *samples = NULL;
     const float colors[2][3] = {{0.9f, 0.9f, 0.9f}, {0.8f, 0.05f, 0.02f}};
-    RenderVariant replaced = {{NULL}};
+    RenderVariant replaced = {{NULL}, NULL};
     for (int k = 0; k < 2; k++) {
         strcpy(specs[k].target, k ? "Ball" : "Floor");
         specs[k].constant = 1;
@@ -366,7 +366,7 @@ static void variants_share_paths(void **state)
     /* each variant is to the bit what it is alone; they differ; moments are those of the pictures */
     Stage s;
     target_stage(&s);
-    RenderVariant variants[3] = {{{NULL}}, {{NULL}}, {{NULL}}};
+    RenderVariant variants[3] = {{{NULL}, NULL}, {{NULL}, NULL}, {{NULL}, NULL}};
     RetexTexture *textures[2];
     for (int k = 0; k < 2; k++) {
         RetexTextureSpec spec = RETEX_TEXTURE_SPEC_INIT;
