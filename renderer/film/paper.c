@@ -1,5 +1,5 @@
-/* Layout `paper`; see paper.h. Terms come into being when a path first needs them; with one target all 21 exist from the
- * start, which with the 12 UV images make the paper's 33. */
+/* Layout `paper`; see paper.h. Terms come into being when a path first needs them; with one target all 21 exist from
+ * the start, which with the 12 UV images make the paper's 33. */
 #include <math.h>
 #include <stdatomic.h>
 #include <stdio.h>
