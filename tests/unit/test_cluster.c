@@ -1,0 +1,191 @@
+/* Clusters of UV against sums in two passes; merging, periodic axes, Ward's cost. */
+#include "lib_test.h"
+
+#include <math.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "film/cluster.h"
+
+#define COUNT 400
+
+static const int open_axes[2] = {0, 0}, closed_axes[2] = {1, 1};
+
+typedef struct Point {
+    double weight, uv[2];
+} Point;
+
+/* A tilted cloud of the given size about a place. */
+static void make_points(Point *points, int count, double u, double v, double size, uint32_t seed)
+{
+    for (int i = 0; i < count; i++) {
+        double a = test_random(&seed) - 0.5, b = test_random(&seed) - 0.5;
+        points[i] = (Point){0.01 + pow(test_random(&seed), 6) * 100, {u + size * (a + 0.3 * b), v + size * b}};
+    }
+}
+
+static UvStats add_all(const Point *points, int count, const int periodic[2])
+{
+    UvStats stats = {0};
+    for (int i = 0; i < count; i++)
+        uv_stats_add(&stats, points[i].weight, points[i].uv, periodic);
+    return stats;
+}
+
+/* In two passes, relative to the first point so that nothing cancels. */
+static UvStats sum_directly(const Point *points, int count)
+{
+    UvStats s = {0};
+    double mean[2] = {0, 0};
+    for (int i = 0; i < count; i++) {
+        s.weight += points[i].weight;
+        for (int k = 0; k < 2; k++)
+            mean[k] += points[i].weight * (points[i].uv[k] - points[0].uv[k]);
+    }
+    for (int k = 0; k < 2; k++)
+        mean[k] /= s.weight, s.mean[k] = points[0].uv[k] + mean[k];
+    for (int i = 0; i < count; i++) {
+        double u = points[i].uv[0] - points[0].uv[0] - mean[0], v = points[i].uv[1] - points[0].uv[1] - mean[1];
+        s.m2[0] += points[i].weight * u * u;
+        s.m2[1] += points[i].weight * u * v;
+        s.m2[2] += points[i].weight * v * v;
+    }
+    return s;
+}
+
+static void expect_equal(const UvStats *a, const UvStats *b, double size)
+{
+    double spread = b->weight * size * size;
+    assert_true(fabs(a->weight - b->weight) < 1e-12 * b->weight);
+    for (int k = 0; k < 2; k++)
+        assert_true(fabs(a->mean[k] - b->mean[k]) < 1e-6 * size);
+    for (int k = 0; k < 3; k++)
+        assert_true(fabs(a->m2[k] - b->m2[k]) < 1e-6 * spread);
+}
+
+static void sums_agree_with_two_passes(void **state)
+{
+    (void)state;
+    static const double places[] = {0, 0.5, -3.25, 1000}, sizes[] = {1e-4, 0.01, 1, 50};
+    Point points[COUNT];
+    for (uint32_t i = 0; i < 16; i++) {
+        double size = sizes[i / 4];
+        make_points(points, COUNT, places[i % 4], -2 * places[i % 4], size, i + 1);
+        UvStats stats = add_all(points, COUNT, open_axes), want = sum_directly(points, COUNT);
+        expect_equal(&stats, &want, size);
+    }
+}
+
+static void one_point_has_no_spread(void **state)
+{
+    (void)state;
+    const Point point = {3, {17.25, -0.75}};
+    UvStats stats = add_all(&point, 1, open_axes);
+    assert_true(stats.weight == 3 && stats.mean[0] == 17.25 && stats.mean[1] == -0.75);
+    assert_true(stats.m2[0] == 0 && stats.m2[1] == 0 && stats.m2[2] == 0);
+    stats = add_all(&point, 1, closed_axes); /* brought into the first period */
+    assert_true(stats.mean[0] == 0.25 && stats.mean[1] == 0.25);
+}
+
+static void merging_is_adding_all(void **state)
+{
+    (void)state;
+    Point points[COUNT];
+    for (uint32_t seed = 1; seed <= 20; seed++) {
+        int split = 1 + (int)seed * 19;
+        make_points(points, split, 900, 0.3, 1e-4, seed);
+        make_points(points + split, COUNT - split, 900.0003, 0.2999, 1e-4, seed + 100);
+        UvStats stats = add_all(points, split, open_axes), rest = add_all(points + split, COUNT - split, open_axes);
+        UvStats other = rest, want = sum_directly(points, COUNT);
+        uv_stats_merge(&other, &stats, open_axes);
+        uv_stats_merge(&stats, &rest, open_axes);
+        expect_equal(&stats, &want, 1e-4);
+        expect_equal(&other, &want, 1e-4);
+    }
+}
+
+/* Distance on a circle of length 1. */
+static double around(double a, double b)
+{
+    return fabs(a - b - rint(a - b));
+}
+
+static void a_seam_is_no_distance(void **state)
+{
+    (void)state;
+    const Point points[2] = {{1, {0.99, 0.99}}, {1, {0.01, 0.01}}};
+    UvStats closed = add_all(points, 2, closed_axes), open = add_all(points, 2, open_axes);
+    for (int k = 0; k < 2; k++) {
+        assert_true(around(closed.mean[k], 0) < 1e-12);
+        assert_true(fabs(open.mean[k] - 0.5) < 1e-12);
+    }
+    for (int k = 0; k < 3; k++) {
+        assert_true(fabs(closed.m2[k] - 2 * 0.01 * 0.01) < 1e-12);
+        assert_true(fabs(open.m2[k] - 2 * 0.49 * 0.49) < 1e-12);
+    }
+    const int only_v[2] = {0, 1};
+    UvStats mixed = add_all(points, 2, only_v);
+    assert_true(fabs(mixed.mean[0] - 0.5) < 1e-12 && around(mixed.mean[1], 0) < 1e-12);
+}
+
+/* A cloud across the seam has the spread it has elsewhere, however it is added up, and its mean lies in [0,1). */
+static void a_cloud_may_lie_across_a_seam(void **state)
+{
+    (void)state;
+    Point points[COUNT];
+    for (uint32_t seed = 1; seed <= 20; seed++) {
+        make_points(points, COUNT, -0.01 + 0.001 * seed, 7, 0.05, seed);
+        UvStats want = sum_directly(points, COUNT);
+        for (int i = 0; i < COUNT; i++)
+            for (int k = 0; k < 2; k++)
+                points[i].uv[k] -= floor(points[i].uv[k]);
+        UvStats all = add_all(points, COUNT, closed_axes), half = add_all(points, 150, closed_axes),
+                rest = add_all(points + 150, COUNT - 150, closed_axes);
+        uv_stats_merge(&half, &rest, closed_axes);
+        const UvStats *both[2] = {&all, &half};
+        for (int i = 0; i < 2; i++) {
+            for (int k = 0; k < 2; k++) {
+                assert_true(both[i]->mean[k] >= 0 && both[i]->mean[k] < 1);
+                assert_true(around(both[i]->mean[k], want.mean[k]) < 1e-9);
+            }
+            for (int k = 0; k < 3; k++)
+                assert_true(fabs(both[i]->m2[k] - want.m2[k]) < 1e-9 * want.weight);
+        }
+    }
+}
+
+/* Ward's cost is by how much the sum of squared deviations along both axes grows. */
+static void the_cost_is_what_merging_adds(void **state)
+{
+    (void)state;
+    Point points[40];
+    for (uint32_t seed = 1; seed <= 40; seed++) {
+        const int *periodic = seed % 2 ? closed_axes : open_axes;
+        make_points(points, 20, 0.95, 0.2, 0.02, seed);
+        make_points(points + 20, 20, 0.95 + 0.004 * seed, 0.25, 0.02, seed + 50);
+        UvStats a = add_all(points, 20, periodic), b = add_all(points + 20, 20, periodic), both = a;
+        double cost = uv_stats_merge_cost(&a, &b, periodic);
+        assert_true(cost >= 0);
+        assert_true(fabs(cost - uv_stats_merge_cost(&b, &a, periodic)) < 1e-12 * cost);
+        uv_stats_merge(&both, &b, periodic);
+        double growth = both.m2[0] + both.m2[2] - a.m2[0] - a.m2[2] - b.m2[0] - b.m2[2];
+        assert_true(fabs(cost - growth) < 1e-9 * (cost + both.m2[0] + both.m2[2]));
+        b = a;
+        b.weight *= 3;
+        assert_true(uv_stats_merge_cost(&a, &b, periodic) == 0);
+    }
+    const UvStats low = {1, {0.01, 0.5}, {0, 0, 0}}, high = {1, {0.99, 0.5}, {0, 0, 0}};
+    assert_true(fabs(uv_stats_merge_cost(&low, &high, closed_axes) - 0.5 * 0.02 * 0.02) < 1e-12);
+    assert_true(fabs(uv_stats_merge_cost(&low, &high, open_axes) - 0.5 * 0.98 * 0.98) < 1e-12);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(sums_agree_with_two_passes),    cmocka_unit_test(one_point_has_no_spread),
+        cmocka_unit_test(merging_is_adding_all),         cmocka_unit_test(a_seam_is_no_distance),
+        cmocka_unit_test(a_cloud_may_lie_across_a_seam), cmocka_unit_test(the_cost_is_what_merging_adds),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
