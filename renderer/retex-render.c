@@ -609,9 +609,10 @@ static void write_stats(Arguments *a, const RenderStats *s, const RetexSet *set,
         cli_die(a->cli, "out of memory for the statistics");
     size_t length = strlen(text);
     text[length++] = '\n'; /* in place of the closing zero */
-    if (retex_file_write(a->stats, text, length, &err))
-        cli_die(a->cli, "--stats: %s", err.message);
+    int failed = retex_file_write(a->stats, text, length, &err);
     free(text);
+    if (failed)
+        cli_die(a->cli, "--stats: %s", err.message);
 }
 
 /* What an output's name asks for: a pack by its ending, a set where EXR can be one, else a picture. */

@@ -15,7 +15,7 @@ static void expect(double value, double wanted, double tolerance, const char *wh
         fail_msg("%s: %.8f, should be %.8f within %g", what, value, wanted, tolerance);
 }
 
-/* A film of random light: variant 1 is x, variant 0 is 2 x, variant 2, if there is one, 0.5 y; light comes in two parts. */
+/* A film of random light, that comes in two parts: variant 1 is x, variant 0 is 2 x, variant 2, if any, y / 2. */
 static ControlFilm *fill(int nvariants, int nhalves, float sums[HEIGHT][WIDTH])
 {
     ControlFilm *film;
