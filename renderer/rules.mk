@@ -11,7 +11,7 @@ $(BUILD)/lib/librender.a: $(RENDERER_SOURCES:%.c=$(BUILD)/obj/%.o)
 	@mkdir -p $(@D)
 	$(SAY)rm -f $@ && $(AR) rcs $@ $^
 
-$(BUILD)/bin/retex-render: $(BUILD)/obj/renderer/retex-render.o $(TOOL_OBJECTS) $(LIBRENDER) $(LIBRETEX) | $(BRIDGE)
+$(BUILD)/bin/retex-render: $(patsubst %.c,$(BUILD)/obj/%.o,$(wildcard renderer/*.c)) $(TOOL_OBJECTS) $(LIBRENDER) $(LIBRETEX) | $(BRIDGE)
 	@mkdir -p $(@D)
 	$(SAY)$(LINK) $^ -o $@ $(RENDER_LIBS) $(LIBRETEX_LIBS)
 

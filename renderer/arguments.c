@@ -1,0 +1,367 @@
+/* The command line of retex-render: its options, and what they exclude. */
+#include <ctype.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+#include "retex-render.h"
+#include "film/film.h"
+
+enum {
+    OPT_TARGET,
+    OPT_LIST,
+    OPT_REPLACE,
+    OPT_VARIANTS,
+    OPT_CONTROL,
+    OPT_CONTROL_MODE,
+    OPT_CONTROL_DATA,
+    OPT_PLAIN,
+    OPT_LAYOUT,
+    OPT_CLUSTERS,
+    OPT_ORDERS,
+    OPT_STRICT_PAPER,
+    OPT_SPP,
+    OPT_SIZE,
+    OPT_SEED,
+    OPT_DEPTH,
+    OPT_CROP,
+    OPT_FILTER,
+    OPT_AOV,
+    OPT_AOV_DIR,
+    OPT_INCLUDE,
+    OPT_DECLARE,
+    OPT_AMBIENT,
+    OPT_STRICT,
+    OPT_STATS,
+    OPT_TRACE
+};
+
+static const CliOption options[] = {
+    [OPT_TARGET] = {"target", 't', "NAME[=IDENT,…]",
+                    "make what was #declared as IDENT (or NAME) target NAME; repeatable", 0},
+    [OPT_LIST] = {"list-targets", 0, NULL, "print the identifiers that can be targets, with their share of the picture",
+                  0},
+    [OPT_REPLACE] = {"replace", 0, "NAME=IMAGE",
+                     "put IMAGE on a target and render that: the truth of a retexture (opts as retex-sample --texture)",
+                     1},
+    [OPT_VARIANTS] = {"variants", 0, "FILE.csv",
+                      "one --replace picture a row, as retex-combine --batch, up to 16 at once along the same paths",
+                      0},
+    [OPT_CONTROL] = {"control", 0, "SET", "with --replace: take the noise off that SET's picture tells of", 0},
+    [OPT_CONTROL_MODE] = {"control-mode", 0, "MODE", "of --control: unbiased, halves or biased (unbiased)", 0},
+    [OPT_CONTROL_DATA] = {"control-data", 0, "MODE", "add the parts that --control reads: biased or unbiased", 0},
+    [OPT_PLAIN] = {"plain", 0, NULL, "the picture only, no set", 0},
+    [OPT_LAYOUT] = {"layout", 0, "NAME", "statistics of the set: footprints or paper (footprints)", 0},
+    [OPT_CLUSTERS] = {"clusters", 0, "K|S+B",
+                      "clusters of footprints a pixel and target, in all, or sharp + broad ones (4, which is 3+1)", 0},
+    [OPT_ORDERS] = {"orders", 0, "N", "highest number of target hits kept, 1 to 6 (6)", 0},
+    [OPT_STRICT_PAPER] = {"strict-paper", 0, NULL, "drop the mixed terms of four and more hits, as the paper does", 0},
+    [OPT_SPP] = {"spp", 0, "N", "samples a pixel (64)", 0},
+    [OPT_SIZE] = {"size", 0, "WxH", "size of the picture (the scene's own shape, 640 wide)", 0},
+    [OPT_SEED] = {"seed", 0, "N", "another number gives other noise (0)", 0},
+    [OPT_DEPTH] = {"max-depth", 0, "N", "most segments of a path (16)", 0},
+    [OPT_CROP] = {"crop", 0, "X,Y,W,H", "render this part of the picture only", 0},
+    [OPT_FILTER] = {"filter", 0, "NAME", "pixel filter: box or gaussian (box)", 0},
+    [OPT_AOV] = {"aov", 0, "LIST",
+                 "add parts, of: beauty, depth, albedo, normal, position, uv, object, roughness, metallic, irradiance",
+                 0},
+    [OPT_AOV_DIR] = {"aov-dir", 0, "DIR", "write the beauty and those of --aov, or all, as DIR/NAME.exr and .png too",
+                     0},
+    [OPT_INCLUDE] = {"include", 'I', "DIR", "look for included files and images here too; repeatable", 0},
+    [OPT_DECLARE] = {"declare", 'D', "NAME=VALUE",
+                     "declare a number or a quoted string, or set clock, frame_number, initial_frame, final_frame, "
+                     "before the scene is read; repeatable",
+                     0},
+    [OPT_AMBIENT] = {"ambient", 0, NULL, "let `ambient` give light", 0},
+    [OPT_STRICT] = {"strict", 0, NULL, "what is not supported is an error", 0},
+    [OPT_STATS] = {"stats", 0, "FILE.json", "write times, rays, paths and memory; - is standard output", 0},
+    [OPT_TRACE] = {"trace-pixel", 0, "X,Y,S", "print the path of sample S of a pixel, step by step, and stop", 0},
+    {0},
+};
+
+static void push(Cli *cli, const char **list, int *count, const char *what)
+{
+    if (*count == LIST_MAX)
+        cli_die(cli, "more than %d of --%s", LIST_MAX, what);
+    list[(*count)++] = cli->value;
+}
+
+/* N whole numbers with one separator; anything behind them is an error. */
+static void numbers(Cli *cli, const CliOption *option, char separator, int count, int *out)
+{
+    const char *p = cli->value;
+    for (int k = 0; k < count; k++) {
+        char *end;
+        long v = strtol(p, &end, 10);
+        if (!isdigit((unsigned char)*p) || v < 0 || v > 1 << 24 || *end != (k + 1 < count ? separator : 0))
+            cli_die(cli, "--%s wants %s, not `%s`", option->name, option->argument, cli->value);
+        out[k] = (int)v;
+        p = end + 1;
+    }
+}
+
+static unsigned parse_aovs(Cli *cli)
+{
+    static const char *const names[] = {"depth",  "albedo",    "normal",   "position",   "uv",
+                                        "object", "roughness", "metallic", "irradiance", "beauty"};
+    enum { COUNT = sizeof names / sizeof *names };
+    unsigned bits = 0;
+    for (const char *name = cli->value;; name++) {
+        size_t length = strcspn(name, ",");
+        int k = 0;
+        while (k < COUNT && (strlen(names[k]) != length || strncmp(names[k], name, length)))
+            k++;
+        if (k == COUNT)
+            cli_die(
+                cli,
+                "--aov knows beauty,depth,albedo,normal,position,uv,object,roughness,metallic,irradiance, not `%.*s`",
+                (int)length, name);
+        if (k < COUNT - 1)
+            bits |= 1u << k;
+        name += length;
+        if (!*name)
+            return bits;
+    }
+}
+
+static void parse_replace(Arguments *a)
+{
+    RetexError err;
+    if (a->nreplacements == RETEX_MAX_TARGETS)
+        cli_die(a->cli, "more than %d of --replace", RETEX_MAX_TARGETS);
+    if (retex_texture_spec_parse(&a->replacements[a->nreplacements++], a->cli->modifiers, a->cli->value, &err))
+        cli_die(a->cli, "--replace: %s", err.message);
+}
+
+/* 4 or 3+1: of K clusters a quarter, but at least one, is broad. */
+static void parse_clusters(Arguments *a)
+{
+    int sharp, broad, used = 0;
+    const char *text = a->cli->value;
+    if (isdigit((unsigned char)text[0]) && sscanf(text, "%2d%n", &sharp, &used) == 1 && !text[used]) {
+        broad = sharp < 8 ? 1 : sharp / 4;
+        sharp -= broad;
+    } else if (!isdigit((unsigned char)text[0]) || sscanf(text, "%2d+%2d%n", &sharp, &broad, &used) != 2 ||
+               text[used]) {
+        cli_die(a->cli, "--clusters wants a number, or two as in 3+1, not `%s`", text);
+    }
+    if (sharp < 1 || sharp > FILM_SHARP_MAX || broad < 1 || broad > FILM_BROAD_MAX)
+        cli_die(a->cli, "--clusters wants 1 to %d sharp and 1 to %d broad ones, not `%s`", FILM_SHARP_MAX,
+                FILM_BROAD_MAX, text);
+    a->render.sharp = sharp, a->render.broad = broad;
+}
+
+/* Which of some names the value is. */
+static int choose(const Cli *cli, const CliOption *o, int count, const char *const *names)
+{
+    char known[128] = "";
+    for (int k = 0; k < count; k++) {
+        if (!strcmp(cli->value, names[k]))
+            return k;
+        size_t used = strlen(known);
+        snprintf(known + used, sizeof known - used, "%s%s", k ? (k + 1 < count ? ", " : " and ") : "", names[k]);
+    }
+    cli_die(cli, "--%s knows %s, not `%s`", o->name, known, cli->value);
+}
+
+static void parse_choice(Arguments *a, const CliOption *o)
+{
+    Cli *cli = a->cli;
+    if (o == &options[OPT_FILTER]) {
+        a->render.gaussian = !strcmp(cli->value, "gaussian");
+        if (!a->render.gaussian && strcmp(cli->value, "box"))
+            cli_die(cli, "--filter knows box and gaussian, not `%s`", cli->value);
+    } else {
+        a->render.paper = !strcmp(cli->value, "paper");
+        if (!a->render.paper && strcmp(cli->value, "footprints"))
+            cli_die(cli, "--layout knows footprints and paper, not `%s`", cli->value);
+    }
+}
+
+/* What begins like a number must be one: `A=1/3` would be a string that nobody meant. The built-ins are numbers. */
+static void check_declare(const Cli *cli)
+{
+    static const char *const built_in[] = {"clock=", "frame_number=", "initial_frame=", "final_frame="};
+    const char *value = strchr(cli->value, '=');
+    int number = value && value[1] && strchr("0123456789.+-", value[1]);
+    char *end;
+    for (int k = 0; k < 4; k++)
+        number |= !strncmp(cli->value, built_in[k], strlen(built_in[k]));
+    if (!number)
+        return;
+    strtod(value + 1, &end);
+    if (*end || end == value + 1)
+        cli_die(cli, "--declare: expected NAME=NUMBER or NAME=\"TEXT\", not `%s`", cli->value);
+}
+
+static void parse_option(Arguments *a, const CliOption *o)
+{
+    Cli *cli = a->cli;
+    RenderParams *r = &a->render;
+    int size[2];
+    switch (o - options) {
+    case OPT_TARGET:
+        push(cli, a->targets, &a->ntargets, o->name);
+        a->named = 1;
+        break;
+    case OPT_LIST:
+        a->list = 1;
+        break;
+    case OPT_REPLACE:
+        parse_replace(a);
+        break;
+    case OPT_CONTROL:
+        a->control = cli->value;
+        break;
+    case OPT_CONTROL_MODE:
+        a->control_mode = (ControlMode)choose(cli, o, 3, (const char *const[]){"unbiased", "halves", "biased"});
+        break;
+    case OPT_CONTROL_DATA:
+        r->control_data = 1 + choose(cli, o, 2, (const char *const[]){"biased", "unbiased"});
+        break;
+    case OPT_VARIANTS:
+        a->variants = cli->value;
+        break;
+    case OPT_PLAIN:
+        r->plain = 1;
+        break;
+    case OPT_LAYOUT:
+    case OPT_FILTER:
+        parse_choice(a, o);
+        break;
+    case OPT_CLUSTERS:
+        parse_clusters(a);
+        break;
+    case OPT_ORDERS:
+        r->orders = (int)cli_integer(cli, o, 1, RETEX_MAX_ORDERS);
+        break;
+    case OPT_STRICT_PAPER:
+        r->strict_paper = 1;
+        break;
+    case OPT_SPP:
+        r->spp = (int)cli_integer(cli, o, 1, 1 << 20);
+        break;
+    case OPT_SIZE:
+        numbers(cli, o, 'x', 2, size);
+        r->width = size[0], r->height = size[1];
+        if (r->width < 1 || r->height < 1)
+            cli_die(cli, "--size wants WxH, not `%s`", cli->value);
+        break;
+    case OPT_SEED:
+        r->seed = (uint32_t)cli_integer(cli, o, 0, 0xffffffffL);
+        a->seeded = 1;
+        break;
+    case OPT_DEPTH:
+        r->max_depth = (int)cli_integer(cli, o, 1, 256);
+        break;
+    case OPT_CROP:
+        numbers(cli, o, ',', 4, r->crop);
+        if (r->crop[2] < 1 || r->crop[3] < 1)
+            cli_die(cli, "--crop wants X,Y,W,H, not `%s`", cli->value);
+        break;
+    case OPT_AOV:
+        r->aovs |= parse_aovs(cli);
+        break;
+    case OPT_AOV_DIR:
+        a->aov_dir = cli->value;
+        break;
+    case OPT_INCLUDE:
+        push(cli, a->includes, &a->nincludes, o->name);
+        break;
+    case OPT_DECLARE:
+        check_declare(cli);
+        push(cli, a->declares, &a->ndeclares, o->name);
+        break;
+    case OPT_AMBIENT:
+        a->sdl.ambient = 1;
+        break;
+    case OPT_STRICT:
+        a->sdl.strict = 1;
+        break;
+    case OPT_STATS:
+        a->stats = cli->value;
+        break;
+    case OPT_TRACE:
+        numbers(cli, o, ',', 3, a->trace);
+        a->tracing = 1;
+        break;
+    default:
+        break;
+    }
+}
+
+static void scene_message(void *context, int level, const char *text)
+{
+    const Cli *cli = context;
+    if (level > 0 || cli->verbose)
+        cli_info(cli, "%s", text);
+}
+
+static void progress(void *context, double done)
+{
+    cli_progress(context, "render", done);
+}
+
+/* One more target, unless it is there. */
+static void add_target(Arguments *a, const char *name)
+{
+    for (int k = 0; k < a->ntargets; k++)
+        if (!strcasecmp(a->targets[k], name))
+            return;
+    a->targets[a->ntargets++] = name;
+}
+
+void parse_arguments(Arguments *a)
+{
+    Cli *cli = a->cli;
+    const CliOption *o;
+    cli->options = options;
+    a->render = (RenderParams)RENDER_PARAMS_INIT;
+    a->sdl = (SdlOptions)SDL_OPTIONS_INIT;
+    while ((o = cli_next(cli))) {
+        if (o != &cli_positional)
+            parse_option(a, o);
+        else if (a->scene)
+            cli_die(cli, "one scene at a time: `%s` and `%s`", a->scene, cli->value);
+        else
+            a->scene = cli->value;
+    }
+    if (!a->scene)
+        cli_die(cli, "which scene? (try --help)");
+    if (a->variants)
+        texture_table_open(&a->table, cli, a->variants);
+    if ((a->nreplacements || a->variants) && !a->ntargets) { /* replacing names the targets */
+        for (int k = 0; k < a->nreplacements; k++)
+            a->targets[a->ntargets++] = a->replacements[k].target;
+        for (int k = 0; k < a->table.ncolumns; k++)
+            add_target(a, a->table.columns[k]);
+    }
+    if (a->nreplacements || a->variants)
+        a->render.plain = 1;
+    if (a->variants && cli->output)
+        cli_die(cli, "--variants names its outputs itself: no -o");
+    if (a->variants && (a->list || a->tracing || a->render.aovs || a->stats))
+        cli_die(cli, "--variants makes pictures only: no --list-targets, --trace-pixel, --aov or --stats");
+    if (a->control && (!a->nreplacements || a->variants))
+        cli_die(cli, "--control goes with --replace: what is new in the picture?");
+    if (a->control && (a->render.aovs || a->render.control_data))
+        cli_die(cli, "--control makes a picture only: no --aov or --control-data");
+    if (a->control && cli->output)
+        texture_args_check_output(cli, a->control, cli->output);
+    if (a->aov_dir && (a->list || a->tracing || a->variants || a->control))
+        cli_die(cli,
+                "--aov-dir goes with a render of its own: no --list-targets, --trace-pixel, --variants or --control");
+    if (a->aov_dir && !a->render.aovs)
+        a->render.aovs = AOV_ALL;
+    const char *answer = a->list ? "list-targets" : a->tracing ? "trace-pixel" : NULL;
+    if (answer && cli->output)
+        cli_die(cli, "--%s goes to standard output: no -o", answer);
+    if (answer && a->stats)
+        cli_die(cli, "--%s makes no picture, so there are no --stats", answer);
+    a->sdl.include_paths = a->includes, a->sdl.ninclude_paths = a->nincludes;
+    a->sdl.declares = a->declares, a->sdl.ndeclares = a->ndeclares;
+    a->sdl.message = scene_message, a->sdl.message_context = cli;
+    a->sdl.width = a->render.width, a->sdl.height = a->render.height;
+    a->render.nthreads = cli->threads;
+    a->render.progress = progress, a->render.progress_context = cli;
+}

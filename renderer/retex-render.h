@@ -1,0 +1,65 @@
+/* What the parts of retex-render share: what was said on the command line, and what is done for it. Every mistake
+ * prints one line and exits with CLI_FAIL. */
+#ifndef RENDERER_RETEX_RENDER_H
+#define RENDERER_RETEX_RENDER_H
+
+#include <retex/retex.h>
+#include "cli.h"
+#include "texture_args.h"
+#include "texture_table.h"
+#include "integrate/render.h"
+#include "sdl/sdl.h"
+
+#define LIST_MAX 64
+
+typedef struct Arguments {
+    Cli *cli;
+    RenderParams render;
+    SdlOptions sdl;
+    const char *scene, *stats, *variants, *control, *aov_dir;
+    ControlMode control_mode;
+    int seeded;
+    TextureTable table;
+    const char *targets[LIST_MAX], *includes[LIST_MAX], *declares[LIST_MAX];
+    int ntargets, nincludes, ndeclares, nreplacements, list, trace[3], tracing;
+    RetexTextureSpec replacements[RETEX_MAX_TARGETS];
+    RenderVariant replaced;
+    double uv_scales[RETEX_MAX_TARGETS][2]; /* once measured */
+    int measured;
+    RetexSet *control_set;
+    char set_targets[RETEX_MAX_TARGETS][RETEX_NAME_MAX + 512]; /* its targets, as of -t */
+    int named;                                                 /* -t was given */
+} Arguments;
+
+/* ---- arguments.c ---- */
+
+void parse_arguments(Arguments *arguments);
+
+/* ---- replaced.c: --replace, --variants and --control ---- */
+
+/* The pictures of one traversal. */
+typedef struct VariantRows {
+    int count, lines[VARIANTS_MAX];
+    const char *outputs[VARIANTS_MAX];
+    RetexTextureSpec specs[VARIANTS_MAX][RETEX_MAX_TARGETS];
+    int nspecs[VARIANTS_MAX];
+} VariantRows;
+
+/* Up to VARIANTS_MAX more rows of the table, with their outputs looked at. */
+void read_rows(Arguments *arguments, VariantRows *rows);
+/* Every column is a target, and no two are the same. */
+void check_columns(Arguments *arguments, const Scene *scene);
+/* All rows of the table, so many at a time. The first lot is read before the scene is. */
+void render_table(Arguments *arguments, const Scene *scene, VariantRows *rows);
+/* The set of --control. Its targets are those of the render, unless some are named: then it tells the most. */
+void read_control(Arguments *arguments);
+/* A picture from new samples and that set. */
+void render_controlled(Arguments *arguments, const Scene *scene, const char *output);
+/* Load replacement textures onto their targets. */
+void replace_textures(Arguments *arguments, const Scene *scene, RetexTexture **loaded);
+
+/* ---- retex-render.c ---- */
+
+void write_stats(Arguments *arguments, const RenderStats *stats, const RetexSet *set, double parse_seconds);
+
+#endif
