@@ -84,6 +84,9 @@ static void print_target(const RetexSet *set, const RetexTarget *target)
 {
     printf("target %s\n", target->name);
     printf("  idents       %s\n", target->idents);
+    if (target->uv_scale[0] > 0 && target->uv_scale[1] > 0)
+        printf("  size         %.6g x %.6g scene units a unit of u and of v\n", target->uv_scale[0],
+               target->uv_scale[1]);
     printf("  share        %.2f%% of the picture\n", 100 * target->share);
     printf("  mean albedo  %.4f %.4f %.4f\n", (double)target->mean_albedo[0], (double)target->mean_albedo[1],
            (double)target->mean_albedo[2]);
@@ -97,13 +100,40 @@ static void print_target(const RetexSet *set, const RetexTarget *target)
                target->original_max[0], target->original_max[1]);
 }
 
+/* Of layout footprints: how many clusters the first target has; all have as many. */
+static void print_clusters(const RetexSet *set)
+{
+    int sharp = 0, broad = 0;
+
+    for (int i = 0; i < set->nfootprints; i++) {
+        sharp += set->footprints[i].target == 0 && set->footprints[i].kind == RETEX_FOOTPRINT_SHARP;
+        broad += set->footprints[i].target == 0 && set->footprints[i].kind == RETEX_FOOTPRINT_BROAD;
+    }
+    if (sharp || broad)
+        printf("clusters       %d sharp, %d broad\n", sharp, broad);
+}
+
+/* Light whose hits were too many to be kept apart does not follow a new texture. */
+static void warn_folded(const Cli *cli, const RetexSet *set)
+{
+    const double worst = set->folded > set->folded_white ? set->folded : set->folded_white;
+
+    if (worst > 0.005)
+        cli_warn(cli, "%.2f%% of the light keeps the original textures: more --orders or fewer targets hold it apart",
+                 100 * worst);
+}
+
 static void print_set(const RetexSet *set, const Sizes *sizes)
 {
     printf("layout         %s\n", set->layout);
     printf("size           %d x %d pixels, %s filter\n", set->width, set->height, set->filter);
     printf("samples        %d a pixel, seed %lu\n", set->spp, (unsigned long)set->seed);
-    printf("orders         %d%s, %.4f%% of the light folded\n", set->orders, set->strict_paper ? " (strict)" : "",
-           100 * set->folded);
+    printf("orders         %d%s\n", set->orders, set->strict_paper ? " (strict)" : "");
+    printf("folded         %.4f%% of the light", 100 * set->folded);
+    if (set->folded_white > 0)
+        printf(", %.4f%% were the targets white", 100 * set->folded_white);
+    printf("\n");
+    print_clusters(set);
     printf("max depth      %d segments\n", set->max_depth);
     if (set->scene[0])
         printf("scene          %s\n", set->scene);
@@ -183,6 +213,8 @@ static int print_info(const Cli *cli, const char *path, int json)
         status = print_json(cli, set, samples, &sizes);
     else
         print_text(set, samples, &sizes);
+    if (set)
+        warn_folded(cli, set);
     retex_set_close(&set);
     retex_samples_close(&samples);
     return status;

@@ -15,7 +15,7 @@ struct Film {
     RetexImage beauty;
     PaperFilm *paper; /* one of these two, where there is a split */
     FootprintFilm *footprints;
-    double *tile_total, *tile_folded;
+    LightSums *tiles;
     pthread_mutex_t lock;
     UvRange range; /* under lock, as is: */
     long dropped;
@@ -26,7 +26,7 @@ struct FilmPixel {
     PaperPixel *paper;
     FootprintPixel *footprints;
     double beauty[3];
-    double total, folded; /* luminance of the tile so far */
+    LightSums light; /* of the tile so far */
     UvRange range;
     long dropped;
 };
@@ -79,10 +79,8 @@ int film_create(Film **out, const Scene *scene, const FilmParams *params, RetexE
     film->params = *params;
     pthread_mutex_init(&film->lock, NULL);
     uv_range_reset(&film->range);
-    film->tile_total = calloc((size_t)params->ntiles, sizeof(double));
-    film->tile_folded = calloc((size_t)params->ntiles, sizeof(double));
-    int code = film->tile_total && film->tile_folded ? film_alloc(film, err)
-                                                     : retex_fail(err, RETEX_ENOMEM, "out of memory for the film");
+    film->tiles = calloc((size_t)params->ntiles, sizeof *film->tiles);
+    int code = film->tiles ? film_alloc(film, err) : retex_fail(err, RETEX_ENOMEM, "out of memory for the film");
     if (code)
         film_close(out);
     return code;
@@ -95,8 +93,7 @@ void film_close(Film **film)
     retex_image_free(&(*film)->beauty);
     paper_close(&(*film)->paper);
     footprints_close(&(*film)->footprints);
-    free((*film)->tile_total);
-    free((*film)->tile_folded);
+    free((*film)->tiles);
     pthread_mutex_destroy(&(*film)->lock);
     free(*film);
     *film = NULL;
@@ -145,7 +142,7 @@ int film_survey_end(Film *film, FilmPixel *const *pixels, int npixels, RetexErro
     for (int k = 0; k < npixels; k++) {
         footprints_survey_take(film->footprints, pixels[k]->footprints);
         pixels[k]->beauty[0] = pixels[k]->beauty[1] = pixels[k]->beauty[2] = 0;
-        pixels[k]->total = pixels[k]->folded = 0;
+        pixels[k]->light = (LightSums){0};
         pixels[k]->dropped = 0;
         uv_range_reset(&pixels[k]->range);
     }
@@ -162,13 +159,13 @@ void film_connect(FilmPixel *p, Rgb beauty, Rgb outside, const Expansion *e, int
         return;
     }
     p->beauty[0] += beauty.r, p->beauty[1] += beauty.g, p->beauty[2] += beauty.b;
-    p->total += l;
-    double more = 0;
+    p->light.total += l;
     if (p->paper && !rgb_is_black(outside))
         paper_connect(p->paper, e, outside);
     if (p->footprints && !rgb_is_black(outside))
-        more = footprints_connect(p->footprints, e, outside);
-    p->folded += folded ? l : more;
+        footprints_connect(p->footprints, e, outside, &p->light);
+    if (folded)
+        p->light.folded += l;
 }
 
 void film_path_end(FilmPixel *p)
@@ -193,9 +190,8 @@ void film_pixel_end(FilmPixel *p, int x, int y)
 
 void film_tile_end(FilmPixel *p, int tile)
 {
-    p->film->tile_total[tile] = p->total;
-    p->film->tile_folded[tile] = p->folded;
-    p->total = p->folded = 0;
+    p->film->tiles[tile] = p->light;
+    p->light = (LightSums){0};
 }
 
 long film_floats(const FilmParams *params, int ntargets)
@@ -274,10 +270,13 @@ int film_finish(Film *film, RetexSet *set, RetexError *err)
         return RETEX_OK;
     set->orders = film->params.orders;
     set->strict_paper = film->params.strict_paper;
-    double total = 0, folded = 0;
-    for (int k = 0; k < film->params.ntiles; k++)
-        total += film->tile_total[k], folded += film->tile_folded[k];
-    set->folded = total > 0 ? folded / total : 0;
+    LightSums sums = {0};
+    for (int k = 0; k < film->params.ntiles; k++) {
+        sums.total += film->tiles[k].total, sums.folded += film->tiles[k].folded;
+        sums.total_white += film->tiles[k].total_white, sums.folded_white += film->tiles[k].folded_white;
+    }
+    set->folded = sums.total > 0 ? sums.folded / sums.total : 0;
+    set->folded_white = sums.total_white > 0 ? sums.folded_white / sums.total_white : 0;
     set->ntargets = film->scene->ntargets;
     finish_targets(film, set);
     int code = film->paper ? paper_finish(film->paper, set, err) : footprints_finish(film->footprints, set, err);

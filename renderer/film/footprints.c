@@ -222,16 +222,24 @@ int footprints_survey_end(FootprintFilm *film, RetexError *err)
     return alloc_images(film, err);
 }
 
+/* Luminance of a monomial were all its targets white paint. */
+static float white_luminance(HitMask hits, Rgb value)
+{
+    float luminance = rgb_luminance(value);
+    for (int n = __builtin_popcountll(hits); n > 0; n--)
+        luminance *= WHITE_ALBEDO;
+    return luminance;
+}
+
 static void survey_monomial(PlanSurvey *survey, const Expansion *e, HitMask hits, Rgb value)
 {
     unsigned char powers[RETEX_MAX_TARGETS] = {0};
     int first = -1;
-    float luminance = rgb_luminance(value);
+    float luminance = white_luminance(hits, value);
     for (int j = 0; j < e->nhits; j++) {
         const TargetHit *hit = &e->hits[j];
         if (!(hits & hit_bit(hit->target, hit->index)))
             continue;
-        luminance *= WHITE_ALBEDO;
         if (first < 0)
             first = hit->target;
         else
@@ -289,15 +297,14 @@ static void add_later(FootprintPixel *p, const TargetHit *hit, double weight, Rg
 /* The hits of a monomial beyond its first, as far as the plan keeps them. */
 typedef struct Kept {
     const TargetHit *hits[RETEX_MAX_FACTORS];
-    int count, coefficient;
-    double folded; /* luminance, where some hit was not kept */
+    int count, coefficient, folded;
 } Kept;
 
+/* Which of the hits after the first; the albedo of the others goes into value. */
 static void keep_hits(const Plan *plan, const Expansion *e, HitMask hits, int first, Rgb *value, Kept *kept)
 {
-    int target = e->hits[first].target, folding = 0;
-    kept->count = kept->coefficient = 0;
-    kept->folded = 0;
+    int target = e->hits[first].target;
+    *kept = (Kept){.count = 0};
     for (int j = first + 1; j < e->nhits; j++) {
         const TargetHit *hit = &e->hits[j];
         if (!(hits & hit_bit(hit->target, hit->index)))
@@ -308,27 +315,25 @@ static void keep_hits(const Plan *plan, const Expansion *e, HitMask hits, int fi
             kept->hits[kept->count++] = hit;
         } else {
             *value = rgb_mul(*value, hit->albedo);
-            folding = 1;
+            kept->folded = 1;
         }
     }
-    if (!folding)
-        return;
-    Rgb light = rgb_mul(*value, e->hits[first].albedo);
-    for (int k = 0; k < kept->count; k++)
-        light = rgb_mul(light, kept->hits[k]->albedo);
-    kept->folded = rgb_luminance(light);
 }
 
-static double add_monomial(FootprintPixel *p, const Expansion *e, HitMask hits, Rgb value)
+static void add_monomial(FootprintPixel *p, const Expansion *e, HitMask hits, Rgb value, LightSums *sums)
 {
     Kept kept;
     int first = 0;
     while (!(hits & hit_bit(e->hits[first].target, e->hits[first].index)))
         first++;
     const TargetHit *hit = &e->hits[first];
+    float white = white_luminance(hits, value);
+    sums->total_white += white;
     keep_hits(&p->film->plan, e, hits, first, &value, &kept);
+    if (kept.folded)
+        sums->folded_white += white;
     if (rgb_is_black(value))
-        return kept.folded;
+        return;
     double weight = rgb_luminance(value);
     Rgb light = value;
     for (int k = 0; k < kept.count; k++) {
@@ -346,25 +351,26 @@ static double add_monomial(FootprintPixel *p, const Expansion *e, HitMask hits, 
                 others = rgb_mul(others, kept.hits[i]->albedo);
         add_later(p, kept.hits[k], weight, others);
     }
-    return kept.folded;
+    if (kept.folded)
+        sums->folded += rgb_luminance(rgb_mul(light, hit->albedo));
 }
 
-double footprints_connect(FootprintPixel *p, const Expansion *e, Rgb outside)
+void footprints_connect(FootprintPixel *p, const Expansion *e, Rgb outside, LightSums *sums)
 {
-    double folded = 0;
     for (int k = 0; k < e->nmonomials; k++) {
         HitMask hits = e->monomials[k].hits;
         Rgb value = rgb_mul(outside, e->monomials[k].coefficient);
         if (rgb_is_black(value))
             continue;
-        if (p->survey)
+        if (p->survey) {
             survey_monomial(p->survey, e, hits, value);
-        else if (hits)
-            folded += add_monomial(p, e, hits, value);
-        else
+        } else if (hits) {
+            add_monomial(p, e, hits, value, sums);
+        } else {
             p->free[0] += value.r, p->free[1] += value.g, p->free[2] += value.b;
+            sums->total_white += rgb_luminance(value);
+        }
     }
-    return folded;
 }
 
 /* ---- clusters ---- */

@@ -22,8 +22,8 @@ int footprints_surveying(const FootprintFilm *film);
 void footprints_survey_take(FootprintFilm *film, FootprintPixel *pixel); /* what this thread saw */
 int footprints_survey_end(FootprintFilm *film, RetexError *err);
 
-/* Returns the luminance of the light whose surplus hits had to take their original albedo. */
-double footprints_connect(FootprintPixel *pixel, const Expansion *expansion, Rgb outside);
+/* Adds what had to be folded, and what there is with white targets, to sums. */
+void footprints_connect(FootprintPixel *pixel, const Expansion *expansion, Rgb outside, LightSums *sums);
 void footprints_path_end(FootprintPixel *pixel, UvRange *range);
 void footprints_pixel_end(FootprintPixel *pixel, int x, int y);
 

@@ -15,8 +15,8 @@ extern "C" {
 int retex_sample(RetexSamples **samples, const RetexSet *set, const RetexTextureSpec *specs, int nspecs, int nthreads,
                  RetexError *err);
 
-/* As retex_sample, and *variances (may be NULL: not wanted) gets how far the textures scatter within each footprint, per
- * channel, colour squared: what retex_estimate_error makes of it. */
+/* As retex_sample, and *variances (may be NULL: not wanted) gets how far the textures scatter within each footprint,
+ * per channel, colour squared: what retex_estimate_error makes of it. */
 int retex_sample_with_variances(RetexSamples **samples, RetexSamples **variances, const RetexSet *set,
                                 const RetexTextureSpec *specs, int nspecs, int nthreads, RetexError *err);
 

@@ -95,6 +95,7 @@ typedef struct RetexSet {
     uint32_t seed;
     uint32_t id;           /* tells one render's set from another's; kept by packing; 0 = unknown */
     double folded;         /* share of the picture's luminance whose hits beyond `orders` kept their original albedo */
+    double folded_white;   /* layout footprints: the same share, were every target painted white (albedo 0.8) */
     int strict_paper;      /* 1: mixed terms of 4 and more hits were dropped, as the supplement does */
     int ntargets;
     RetexTarget targets[RETEX_MAX_TARGETS];
