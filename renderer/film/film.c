@@ -154,6 +154,7 @@ int film_survey_end(Film *film, FilmPixel *const *pixels, int npixels, RetexErro
 void film_connect(FilmPixel *p, Rgb beauty, Rgb outside, const Expansion *e, int folded)
 {
     float l = rgb_luminance(beauty);
+    double folded_before = p->light.folded;
     if (!isfinite(beauty.r + beauty.g + beauty.b + outside.r + outside.g + outside.b)) {
         p->dropped++;
         return;
@@ -164,8 +165,8 @@ void film_connect(FilmPixel *p, Rgb beauty, Rgb outside, const Expansion *e, int
         paper_connect(p->paper, e, outside);
     if (p->footprints && !rgb_is_black(outside))
         footprints_connect(p->footprints, e, outside, &p->light);
-    if (folded)
-        p->light.folded += l;
+    if (folded) /* all of it, and not again what the layout folded of it */
+        p->light.folded = folded_before + l;
 }
 
 void film_path_end(FilmPixel *p)
