@@ -1,0 +1,614 @@
+/* Layout footprints, through the film: light paths made by hand, and what a pixel keeps of them. */
+#include "lib_test.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "film/film.h"
+
+#define SHARP 1
+#define BROAD 0
+
+/* A film of two pixels side by side, of which most tests fill the left one. */
+typedef struct Fixture {
+    Scene scene;
+    FilmParams params;
+    Film *film;
+    FilmPixel *pixel;
+    RetexSet *set;
+    Expansion path;
+    Rgb light; /* that was connected */
+} Fixture;
+
+static void begin(Fixture *f, int ntargets, int spp, int orders, int sharp, int broad)
+{
+    static const char *const names[] = {"Floor", "Wall", "Lid"};
+    *f = (Fixture){.scene = {.ntargets = ntargets}};
+    for (int t = 0; t < ntargets; t++)
+        snprintf(f->scene.targets[t].name, sizeof f->scene.targets[t].name, "%s", names[t]);
+    f->params = (FilmParams){.width = 2, .height = 1, .spp = spp, .orders = orders, .split = 1, .ntiles = 1};
+    f->params.sharp = sharp, f->params.broad = broad;
+}
+
+/* Open the film; of several targets only after a look at f->path, which may be of any light. */
+static void open_film(Fixture *f)
+{
+    RetexError err = {0};
+    test_must(film_create(&f->film, &f->scene, &f->params, &err), &err);
+    test_must(film_pixel_create(&f->pixel, f->film, &err), &err);
+    assert_int_equal(film_surveying(f->film), f->params.split && f->scene.ntargets > 1);
+    if (!film_surveying(f->film))
+        return;
+    if (f->path.nmonomials)
+        film_connect(f->pixel, rgb_grey(100), rgb_grey(1), &f->path, 1);
+    film_path_end(f->pixel);
+    test_must(film_survey_end(f->film, &f->pixel, 1, &err), &err);
+    assert_false(film_surveying(f->film));
+}
+
+static void begin_path(Fixture *f)
+{
+    expansion_reset(&f->path);
+}
+
+/* One more hit, all of whose light the albedo multiplies. */
+static void hit(Fixture *f, int target, double u, double v, Rgb albedo, int sharp)
+{
+    expansion_push(&f->path, target, (Split){rgb_grey(1), rgb_grey(0)}, (Vec2){u, v}, albedo, sharp);
+}
+
+/* What the path carries with the original albedos. */
+static Rgb path_value(const Expansion *e)
+{
+    Rgb sum = {0, 0, 0};
+    for (int k = 0; k < e->nmonomials; k++) {
+        Rgb value = e->monomials[k].coefficient;
+        for (int j = 0; j < e->nhits; j++)
+            if (e->monomials[k].hits & hit_bit(e->hits[j].target, e->hits[j].index))
+                value = rgb_mul(value, e->hits[j].albedo);
+        sum = rgb_add(sum, value);
+    }
+    return sum;
+}
+
+static void connect_light(Fixture *f, Rgb light)
+{
+    Rgb beauty = rgb_mul(light, path_value(&f->path));
+    film_connect(f->pixel, beauty, light, &f->path, 0);
+    f->light = rgb_add(f->light, beauty);
+}
+
+/* A path of one hit that connects once. */
+static void one_hit(Fixture *f, double u, double v, Rgb albedo, int sharp, Rgb light)
+{
+    begin_path(f);
+    hit(f, 0, u, v, albedo, sharp);
+    connect_light(f, light);
+    film_path_end(f->pixel);
+}
+
+static void finish(Fixture *f)
+{
+    RetexError err = {0};
+    film_pixel_end(f->pixel, 0, 0);
+    film_pixel_end(f->pixel, 1, 0); /* without light, and without what was in the other */
+    film_tile_end(f->pixel, 0);
+    film_pixel_close(&f->pixel);
+    test_must(retex_set_create(&f->set, 2, 1, &err), &err);
+    test_must(retex_set_add_part(f->set, "beauty", "RGB", RETEX_FLOAT, 0, 0, NULL, &err), &err);
+    test_must(film_finish(f->film, f->set, &err), &err);
+}
+
+static void end(Fixture *f)
+{
+    film_close(&f->film);
+    retex_set_close(&f->set);
+}
+
+/* Values of a part in the left pixel. */
+static const float *part(const Fixture *f, const char *name)
+{
+    int k = retex_set_find_part(f->set, name);
+    if (k < 0)
+        fail_msg("there is no part %s", name);
+    return f->set->parts[k].image.pixels;
+}
+
+static const RetexFootprint *footprint(const Fixture *f, const char *uv)
+{
+    int k = retex_set_find_part(f->set, uv);
+    for (int i = 0; i < f->set->nfootprints; i++)
+        if (f->set->footprints[i].uv == k)
+            return &f->set->footprints[i];
+    fail_msg("there is no footprint %s", uv);
+    return NULL;
+}
+
+static void expect_rgb(const float *got, float r, float g, float b, double tolerance)
+{
+    assert_float_equal(got[0], r, tolerance);
+    assert_float_equal(got[1], g, tolerance);
+    assert_float_equal(got[2], b, tolerance);
+}
+
+/* The polynomial with the footprints' own albedos, and with white textures: the largest channel, which is what
+ * coefficients are rounded by. Every coefficient may be off by half a step. */
+static double expect_beauty(const Fixture *f, size_t pixel)
+{
+    const RetexSet *set = f->set;
+    double sum[3] = {0, 0, 0}, white[3] = {0, 0, 0}, largest = 0;
+    for (int t = 0; t < set->nterms; t++)
+        for (size_t c = 0; c < 3; c++) {
+            double value = set->parts[set->terms[t].radiance].image.pixels[3 * pixel + c];
+            assert_true(value >= 0);
+            white[c] += value;
+            for (int k = 0; k < set->terms[t].nfactors; k++) {
+                const RetexFootprint *at = &set->footprints[set->terms[t].factors[k]];
+                value *= set->parts[at->albedo].image.pixels[3 * pixel + c];
+            }
+            sum[c] += value;
+        }
+    for (size_t c = 0; c < 3; c++)
+        largest = fmax(largest, white[c]);
+    for (size_t c = 0; c < 3; c++) {
+        double want = set->parts[0].image.pixels[3 * pixel + c];
+        if (fabs(sum[c] - want) > (set->nterms * 0.5 / 8192 + 1e-5) * largest)
+            fail_msg("pixel %zu, channel %zu: the terms give %g, not %g", pixel, c, sum[c], want);
+    }
+    return largest;
+}
+
+static void two_places_are_two_clusters(void **state)
+{
+    (void)state;
+    Fixture f;
+    begin(&f, 1, 8, 6, 2, 1);
+    open_film(&f);
+    for (int k = 0; k < 8; k++)
+        if (k % 4 == 3)
+            one_hit(&f, 0.8, 0.9, rgb(0.1f, 0.2f, 0.9f), SHARP, rgb(4, 8, 16));
+        else
+            one_hit(&f, 0.125, 0.25, rgb(0.5f, 0.25f, 1), SHARP, rgb(1, 2, 3));
+    finish(&f);
+    const float *near = part(&f, "uv_Floor_sharp1"), *far = part(&f, "uv_Floor_sharp2");
+    assert_true(near[0] == 0.125f && near[1] == 0.25f && near[2] == 0.75f);
+    assert_float_equal(far[0], 0.8f, 1e-6);
+    assert_float_equal(far[1], 0.9f, 1e-6);
+    assert_true(far[2] == 0.25f);
+    expect_rgb(part(&f, "dep_Floor_sharp1"), 0.75f, 1.5f, 2.25f, 1e-3);
+    expect_rgb(part(&f, "dep_Floor_sharp2"), 1, 2, 4, 1e-3);
+    expect_rgb(part(&f, "albedo_Floor_sharp1"), 0.5f, 0.25f, 1, 1e-6);
+    expect_rgb(part(&f, "albedo_Floor_sharp2"), 0.1f, 0.2f, 0.9f, 1e-6);
+    expect_rgb(part(&f, "spread_Floor_sharp1"), 0, 0, 0, 1e-7);
+    expect_beauty(&f, 0);
+    expect_beauty(&f, 1);
+    end(&f);
+}
+
+static void what_is_not_needed_is_empty(void **state)
+{
+    (void)state;
+    static const char *const unused[] = {"sharp2", "sharp3", "broad1", "later"};
+    Fixture f;
+    begin(&f, 1, 1, 6, 3, 1);
+    open_film(&f);
+    one_hit(&f, 0.5, 0.5, rgb_grey(0.5f), SHARP, rgb_grey(1));
+    finish(&f);
+    for (size_t k = 0; k < sizeof unused / sizeof unused[0]; k++) {
+        char name[64];
+        snprintf(name, sizeof name, "uv_Floor_%s", unused[k]);
+        assert_true(part(&f, name)[2] == 0);
+        snprintf(name, sizeof name, "dep_Floor_%s", unused[k]);
+        if (k < 3)
+            expect_rgb(part(&f, name), 0, 0, 0, 0);
+    }
+    /* the other pixel has no light, and nothing of this one */
+    assert_true(part(&f, "uv_Floor_sharp1")[2] == 1 && part(&f, "uv_Floor_sharp1")[3 + 2] == 0);
+    expect_rgb(part(&f, "dep_Floor_sharp1") + 3, 0, 0, 0, 0);
+    expect_beauty(&f, 1);
+    end(&f);
+}
+
+static void the_set_says_what_is_what(void **state)
+{
+    (void)state;
+    Fixture f;
+    begin(&f, 1, 2, 3, 2, 1);
+    open_film(&f);
+    one_hit(&f, 2.5, -1, rgb(0.5f, 0.5f, 0.5f), SHARP, rgb_grey(1));
+    one_hit(&f, 3.5, -2, rgb(0.25f, 0.5f, 1), BROAD, rgb_grey(1));
+    finish(&f);
+    assert_int_equal(f.set->ntargets, 1);
+    assert_int_equal(f.set->orders, 3);
+    assert_int_equal(f.set->nfootprints, 4);
+    assert_int_equal(f.set->nterms, 1 + 3 * 3);
+    static const char *const uvs[] = {"uv_Floor_sharp1", "uv_Floor_sharp2", "uv_Floor_broad1", "uv_Floor_later"};
+    static const RetexFootprintKind kinds[] = {RETEX_FOOTPRINT_SHARP, RETEX_FOOTPRINT_SHARP, RETEX_FOOTPRINT_BROAD,
+                                               RETEX_FOOTPRINT_LATER};
+    for (int i = 0; i < 4; i++) {
+        assert_ptr_equal(footprint(&f, uvs[i]), &f.set->footprints[i]);
+        assert_int_equal(f.set->footprints[i].kind, kinds[i]);
+        assert_int_equal(f.set->footprints[i].hit, i + 1);
+        assert_string_equal(f.set->parts[f.set->footprints[i].uv].letters, "RGA");
+        assert_string_equal(f.set->parts[f.set->footprints[i].spread].letters, "RGB");
+        assert_int_equal(f.set->parts[f.set->footprints[i].uv].type, RETEX_FLOAT);
+    }
+    assert_int_equal(f.set->terms[0].nfactors, 0);
+    for (int t = 1; t < f.set->nterms; t++) { /* cluster by cluster, power by power */
+        const RetexTerm *term = &f.set->terms[t];
+        assert_int_equal(term->nfactors, 1 + (t - 1) % 3);
+        assert_int_equal(term->factors[0], (t - 1) / 3);
+        for (int k = 1; k < term->nfactors; k++)
+            assert_int_equal(term->factors[k], 3);
+    }
+    const RetexTarget *target = &f.set->targets[0];
+    assert_true(target->uv_min[0] == 2.5 && target->uv_max[0] == 3.5);
+    assert_true(target->uv_min[1] == -2 && target->uv_max[1] == -1);
+    expect_rgb(target->mean_albedo, 0.375f, 0.5f, 0.75f, 1e-6);
+    /* what a render needs of memory, which is asked for before: all that the set holds */
+    long floats = 0;
+    for (int k = 0; k < f.set->nparts; k++)
+        floats += f.set->parts[k].image.channels;
+    assert_int_equal(film_floats(&f.params, 1), floats);
+    end(&f);
+}
+
+static void a_cluster_knows_its_spread(void **state)
+{
+    (void)state;
+    enum { PATHS = 500 };
+    Fixture f;
+    uint32_t seed = 3;
+    double weight = 0, mean[2] = {0, 0}, uv[PATHS][2], w[PATHS], m2[3] = {0, 0, 0};
+    begin(&f, 1, PATHS, 6, 1, 1);
+    open_film(&f);
+    for (int k = 0; k < PATHS; k++) {
+        uv[k][0] = 100 + 1e-3 * test_random(&seed);
+        uv[k][1] = -50 + 2 * (uv[k][0] - 100) + 1e-3 * test_random(&seed);
+        float light = (float)(0.1 + test_random(&seed));
+        one_hit(&f, uv[k][0], uv[k][1], rgb_grey(0.3f), SHARP, rgb_grey(light));
+        w[k] = light;
+        weight += light;
+    }
+    for (int k = 0; k < PATHS; k++)
+        for (int i = 0; i < 2; i++)
+            mean[i] += w[k] / weight * uv[k][i];
+    for (int k = 0; k < PATHS; k++) {
+        double u = uv[k][0] - mean[0], v = uv[k][1] - mean[1];
+        m2[0] += w[k] / weight * u * u, m2[1] += w[k] / weight * u * v, m2[2] += w[k] / weight * v * v;
+    }
+    finish(&f);
+    const float *got = part(&f, "uv_Floor_sharp1"), *spread = part(&f, "spread_Floor_sharp1");
+    double su = sqrt(m2[0]), sv = sqrt(m2[2]);
+    assert_float_equal(got[2], 1, 0);
+    assert_true(fabs(got[0] - mean[0]) <= su / 64 + 1e-5); /* rounded; float has steps of 8e-6 there */
+    assert_true(fabs(got[1] - mean[1]) <= sv / 64 + 1e-5);
+    assert_float_equal(spread[0], su, 1e-5 * su);
+    assert_float_equal(spread[1], sv, 1e-5 * sv);
+    assert_float_equal(spread[2], m2[1] / (su * sv), 1e-4);
+    end(&f);
+}
+
+static void the_nearest_places_merge(void **state)
+{
+    (void)state;
+    static const double places[3] = {0.1, 0.12, 0.9};
+    static const int orders[6][3] = {{0, 1, 2}, {0, 2, 1}, {1, 0, 2}, {1, 2, 0}, {2, 0, 1}, {2, 1, 0}};
+    for (int k = 0; k < 6; k++) {
+        Fixture f;
+        begin(&f, 1, 4, 6, 2, 1);
+        open_film(&f);
+        for (int i = 0; i < 3; i++) {
+            int place = orders[k][i];
+            one_hit(&f, places[place], 0.5, rgb_grey(0.2f * (float)(place + 1)), SHARP, rgb_grey(place ? 1 : 3));
+        }
+        finish(&f);
+        const float *near = part(&f, "uv_Floor_sharp1"), *far = part(&f, "uv_Floor_sharp2");
+        double sd = 0.02 * sqrt(3) / 4; /* of weights 3 and 1 */
+        assert_float_equal(near[0], 0.105, sd / 64 + 1e-6);
+        assert_float_equal(near[1], 0.5, 1e-6);
+        assert_float_equal(near[2], 0.5, 0);
+        assert_float_equal(part(&f, "spread_Floor_sharp1")[0], sd, 1e-5);
+        assert_float_equal(far[0], 0.9, 1e-6);
+        assert_float_equal(far[2], 0.25, 0);
+        expect_rgb(part(&f, "dep_Floor_sharp1"), 1, 1, 1, 1e-3);
+        expect_rgb(part(&f, "dep_Floor_sharp2"), 0.25f, 0.25f, 0.25f, 1e-3);
+        expect_rgb(part(&f, "albedo_Floor_sharp1"), 0.25f, 0.25f, 0.25f, 1e-6);
+        expect_beauty(&f, 0);
+        end(&f);
+    }
+}
+
+/* Not even at the same place, and not where there are more than there is room for. */
+static void sharp_and_broad_stay_apart(void **state)
+{
+    (void)state;
+    Fixture f;
+    begin(&f, 1, 8, 6, 1, 1);
+    open_film(&f);
+    for (int k = 0; k < 4; k++) {
+        one_hit(&f, 0.25, 0.5, rgb_grey(0.5f), SHARP, rgb_grey(8));
+        one_hit(&f, 0.25 + 0.5 * (k % 2), 0.5, rgb_grey(0.25f), BROAD, rgb_grey(2));
+    }
+    finish(&f);
+    assert_true(part(&f, "uv_Floor_sharp1")[0] == 0.25f && part(&f, "uv_Floor_sharp1")[2] == 0.5f);
+    assert_float_equal(part(&f, "uv_Floor_broad1")[0], 0.5f, 0.25 / 64);
+    assert_float_equal(part(&f, "spread_Floor_broad1")[0], 0.25f, 1e-6);
+    assert_true(part(&f, "uv_Floor_broad1")[2] == 0.5f);
+    expect_rgb(part(&f, "dep_Floor_sharp1"), 4, 4, 4, 2e-3);
+    expect_rgb(part(&f, "dep_Floor_broad1"), 1, 1, 1, 2e-3);
+    end(&f);
+}
+
+static void further_hits_come_later(void **state)
+{
+    (void)state;
+    Fixture f;
+    begin(&f, 1, 2, 6, 2, 1);
+    open_film(&f);
+    begin_path(&f);
+    hit(&f, 0, 0.25, 0.25, rgb_grey(0.5f), SHARP);
+    hit(&f, 0, 0.75, 0.5, rgb_grey(0.5f), BROAD);
+    connect_light(&f, rgb_grey(4));
+    hit(&f, 0, 0.25, 0, rgb_grey(0.5f), BROAD);
+    connect_light(&f, rgb_grey(8));
+    film_path_end(f.pixel);
+    finish(&f);
+    expect_rgb(part(&f, "dep_Floor_sharp1"), 0, 0, 0, 0);
+    expect_rgb(part(&f, "dep_Floor_sharp1_a1"), 2, 2, 2, 1e-3);
+    expect_rgb(part(&f, "dep_Floor_sharp1_a2"), 4, 4, 4, 1e-3);
+    expect_rgb(part(&f, "dep_Floor_sharp1_a3"), 0, 0, 0, 0);
+    const float *first = part(&f, "uv_Floor_sharp1"), *later = part(&f, "uv_Floor_later");
+    assert_true(first[0] == 0.25f && first[1] == 0.25f && first[2] == 0.5f); /* one path, however often it connects */
+    assert_true(part(&f, "uv_Floor_broad1")[2] == 0 && part(&f, "uv_Floor_sharp2")[2] == 0);
+    assert_true(later[2] == 0.5f);
+    assert_true(later[0] > 0.25f && later[0] < 0.75f && later[1] > 0 && later[1] < 0.5f);
+    expect_rgb(part(&f, "albedo_Floor_later"), 0.5f, 0.5f, 0.5f, 1e-6);
+    assert_true(f.set->folded == 0);
+    expect_beauty(&f, 0);
+    end(&f);
+}
+
+/* A monomial goes by its own first hit, which need not be its path's. */
+static void monomials_go_their_own_ways(void **state)
+{
+    (void)state;
+    Fixture f;
+    begin(&f, 1, 1, 6, 2, 1);
+    open_film(&f);
+    begin_path(&f);
+    expansion_push(&f.path, 0, (Split){rgb_grey(0.5f), rgb_grey(0.25f)}, (Vec2){0.25, 0}, rgb_grey(1), SHARP);
+    expansion_push(&f.path, 0, (Split){rgb_grey(0.5f), rgb_grey(0.125f)}, (Vec2){0.75, 0}, rgb_grey(0.5f), BROAD);
+    connect_light(&f, rgb_grey(32));
+    film_path_end(f.pixel);
+    finish(&f);
+    expect_rgb(part(&f, "indep"), 1, 1, 1, 1e-6);
+    expect_rgb(part(&f, "dep_Floor_sharp1"), 2, 2, 2, 2e-3);
+    expect_rgb(part(&f, "dep_Floor_broad1"), 4, 4, 4, 2e-3);
+    expect_rgb(part(&f, "dep_Floor_sharp1_a1"), 8, 8, 8, 2e-3);
+    assert_true(part(&f, "uv_Floor_sharp1")[0] == 0.25f && part(&f, "uv_Floor_broad1")[0] == 0.75f);
+    assert_true(part(&f, "uv_Floor_later")[0] == 0.75f);
+    expect_beauty(&f, 0);
+    end(&f);
+}
+
+/* Clusters of varying albedo, several hits of targets that each have one colour, light that meets none: it all adds up
+ * to the picture. */
+static void the_terms_add_up(void **state)
+{
+    (void)state;
+    for (uint32_t round = 1; round <= 12; round++) {
+        enum { SPP = 300 };
+        Fixture f;
+        uint32_t seed = round;
+        int targets = 1 + (int)round % 3, hits = round < 7 ? 1 : 4;
+        begin(&f, targets, SPP, 6, 1 + (int)round % 4, 1 + (int)round % 2);
+        open_film(&f);
+        for (int k = 0; k < SPP; k++) {
+            begin_path(&f);
+            for (int n = (int)(test_random(&seed) * (hits + 1)); n > 0; n--) {
+                int t = (int)(test_random(&seed) * targets);
+                float level = hits == 1 ? (float)test_random(&seed) : 0.3f + 0.2f * (float)t;
+                Split split = {rgb_grey((float)test_random(&seed)), rgb_grey(0)};
+                if (test_random(&seed) < 0.5)
+                    split.i = rgb_grey((float)test_random(&seed));
+                expansion_push(&f.path, t, split, (Vec2){test_random(&seed), test_random(&seed)},
+                               rgb(level, 0.5f * level, 1 - level), test_random(&seed) < 0.5);
+            }
+            connect_light(&f, rgb((float)test_random(&seed), (float)test_random(&seed), 1));
+            film_path_end(f.pixel);
+        }
+        Rgb light = f.light;
+        finish(&f);
+        expect_rgb(f.set->parts[0].image.pixels, light.r / SPP, light.g / SPP, light.b / SPP, 1e-4);
+        assert_true(expect_beauty(&f, 0) > 0.1);
+        assert_true(f.set->folded == 0);
+        end(&f);
+    }
+}
+
+static void a_seam_is_one_place(void **state)
+{
+    (void)state;
+    for (int closed = 0; closed < 2; closed++) {
+        Fixture f;
+        begin(&f, 1, 2, 6, 1, 1);
+        f.params.periodic[0][0] = closed;
+        open_film(&f);
+        one_hit(&f, 0.99, 0.5, rgb_grey(0.5f), SHARP, rgb_grey(1));
+        one_hit(&f, 0.01, 0.5, rgb_grey(0.5f), SHARP, rgb_grey(1));
+        finish(&f);
+        const float u = part(&f, "uv_Floor_sharp1")[0], sd = part(&f, "spread_Floor_sharp1")[0];
+        assert_float_equal(sd, closed ? 0.01f : 0.49f, 1e-6);
+        assert_true(closed ? fabsf(u - rintf(u)) < 0.001f : fabsf(u - 0.5f) < 0.01f);
+        end(&f);
+    }
+}
+
+/* Places that are black in the original are found all the same, and may become bright. */
+static void black_albedo_has_footprints(void **state)
+{
+    (void)state;
+    Fixture f;
+    begin(&f, 1, 2, 6, 3, 1);
+    open_film(&f);
+    one_hit(&f, 0.25, 0.75, rgb_grey(0), SHARP, rgb(1, 2, 4));
+    begin_path(&f);
+    hit(&f, 0, 0.5, 0.75, rgb_grey(0), BROAD);
+    hit(&f, 0, 0.125, 0.5, rgb_grey(0), BROAD);
+    connect_light(&f, rgb_grey(2));
+    film_path_end(f.pixel);
+    finish(&f);
+    const float *sharp = part(&f, "uv_Floor_sharp1"), *later = part(&f, "uv_Floor_later");
+    assert_true(sharp[0] == 0.25f && sharp[1] == 0.75f && sharp[2] == 0.5f);
+    assert_true(part(&f, "uv_Floor_broad1")[0] == 0.5f && part(&f, "uv_Floor_broad1")[2] == 0.5f);
+    assert_true(later[0] == 0.125f && later[1] == 0.5f && later[2] == 0.5f);
+    expect_rgb(part(&f, "dep_Floor_sharp1"), 0.5f, 1, 2, 1e-3);
+    expect_rgb(part(&f, "dep_Floor_broad1_a1"), 1, 1, 1, 1e-3);
+    static const char *const albedos[] = {"albedo_Floor_sharp1", "albedo_Floor_broad1", "albedo_Floor_later"};
+    for (size_t k = 0; k < 3; k++)
+        expect_rgb(part(&f, albedos[k]), 0, 0, 0, 0);
+    expect_rgb(f.set->parts[0].image.pixels, 0, 0, 0, 0);
+    expect_beauty(&f, 0);
+    end(&f);
+}
+
+/* Hits for which there is no coefficient keep their own colour, and how much light that is is counted. */
+static void surplus_hits_fold(void **state)
+{
+    (void)state;
+    Fixture f;
+    begin(&f, 1, 4, 2, 1, 1);
+    open_film(&f);
+    begin_path(&f);
+    hit(&f, 0, 0.25, 0.5, rgb_grey(0.5f), SHARP);
+    hit(&f, 0, 0.5, 0.5, rgb_grey(0.5f), BROAD);
+    hit(&f, 0, 0.75, 0.5, rgb(0.25f, 0.5f, 0.75f), BROAD);
+    connect_light(&f, rgb_grey(16));
+    film_path_end(f.pixel);
+    one_hit(&f, 0.25, 0.5, rgb_grey(0.5f), SHARP, rgb_grey(4));
+    begin_path(&f); /* of which the path itself knows that a hit was too many: all of its light counts, once */
+    hit(&f, 0, 0.25, 0.5, rgb_grey(0.5f), SHARP);
+    film_connect(f.pixel, rgb_grey(1), rgb_grey(2), &f.path, 1);
+    hit(&f, 0, 0.5, 0.5, rgb_grey(0.5f), BROAD);
+    hit(&f, 0, 0.5, 0.5, rgb_grey(0.5f), BROAD);
+    film_connect(f.pixel, rgb_grey(1), rgb_grey(8), &f.path, 1);
+    film_path_end(f.pixel);
+    finish(&f);
+    expect_rgb(part(&f, "dep_Floor_sharp1_a1"), 2, 3, 4, 1e-3);
+    expect_rgb(part(&f, "dep_Floor_sharp1"), 1.5f, 1.5f, 1.5f, 1e-3);
+    assert_int_equal(retex_set_find_part(f.set, "dep_Floor_sharp1_a2"), -1);
+    assert_true(part(&f, "uv_Floor_later")[0] == 0.5f);
+    double surplus = 4 * (0.2126 * 0.25 + 0.7152 * 0.5 + 0.0722 * 0.75);
+    assert_float_equal(f.set->folded, (surplus + 2) / (surplus + 2 + 2), 1e-6);
+    expect_beauty(&f, 0);
+    end(&f);
+}
+
+static void targets_follow_each_other(void **state)
+{
+    (void)state;
+    Fixture f;
+    begin(&f, 2, 2, 6, 2, 1);
+    begin_path(&f); /* for the survey: none of it may be left in the picture */
+    hit(&f, 0, 0.5, 0.5, rgb_grey(1), SHARP);
+    for (int k = 0; k < 5; k++)
+        hit(&f, 1, 70, 70, rgb_grey(1), BROAD);
+    open_film(&f);
+    begin_path(&f);
+    hit(&f, 0, 0.25, 0.5, rgb_grey(0.5f), SHARP);
+    hit(&f, 1, 0.125, 0.5, rgb_grey(0.25f), BROAD);
+    connect_light(&f, rgb_grey(2));
+    hit(&f, 0, 0.75, 0.5, rgb_grey(0.5f), BROAD);
+    connect_light(&f, rgb_grey(4));
+    film_path_end(f.pixel);
+    begin_path(&f);
+    hit(&f, 1, 0.375, 0.5, rgb_grey(0.25f), SHARP);
+    connect_light(&f, rgb_grey(6));
+    for (int k = 0; k < 5; k++)
+        hit(&f, 1, 0.125, 0.5, rgb_grey(0.25f), BROAD);
+    connect_light(&f, rgb_grey(4096)); /* as with the floor first, but of this the survey saw nothing */
+    film_path_end(f.pixel);
+    finish(&f);
+    expect_rgb(part(&f, "dep_Floor_sharp1_b1"), 1, 1, 1, 0.3);
+    expect_rgb(part(&f, "dep_Floor_sharp1_a1b1"), 2, 2, 2, 0.3);
+    expect_rgb(part(&f, "dep_Floor_sharp1_b5"), 0, 0, 0, 0);
+    expect_rgb(part(&f, "dep_Wall_sharp1"), 3, 3, 3, 0.3);
+    assert_int_equal(retex_set_find_part(f.set, "dep_Wall_sharp1_b5"), -1);
+    expect_rgb(part(&f, "dep_Wall_sharp1_b4"), 512, 512, 512, 0.3);
+    const RetexTerm *term = NULL;
+    for (int t = 0; t < f.set->nterms; t++)
+        if (f.set->terms[t].radiance == retex_set_find_part(f.set, "dep_Floor_sharp1_a1b1"))
+            term = &f.set->terms[t];
+    assert_non_null(term);
+    assert_int_equal(term->nfactors, 3);
+    assert_ptr_equal(&f.set->footprints[term->factors[0]], footprint(&f, "uv_Floor_sharp1"));
+    assert_ptr_equal(&f.set->footprints[term->factors[1]], footprint(&f, "uv_Floor_later"));
+    assert_ptr_equal(&f.set->footprints[term->factors[2]], footprint(&f, "uv_Wall_later"));
+    assert_true(part(&f, "uv_Floor_later")[0] == 0.75f && part(&f, "uv_Wall_later")[0] == 0.125f);
+    assert_true(part(&f, "uv_Wall_sharp1")[0] == 0.375f);
+    assert_true(f.set->targets[1].uv_max[0] == 0.375);
+    double all = 0.25 + 0.25 + 1.5 + 1, folded = 1; /* 4096 * 0.25^6 = 1 */
+    assert_float_equal(f.set->folded, folded / all, 1e-6);
+    expect_beauty(&f, 0);
+    end(&f);
+}
+
+static void light_that_is_no_number_is_dropped(void **state)
+{
+    (void)state;
+    Fixture f;
+    begin(&f, 1, 1, 6, 3, 1);
+    open_film(&f);
+    begin_path(&f);
+    hit(&f, 0, 0.5, 0.5, rgb_grey(1), SHARP);
+    film_connect(f.pixel, rgb(NAN, 1, 1), rgb_grey(1), &f.path, 0);
+    film_connect(f.pixel, rgb_grey(1), rgb(1, INFINITY, 1), &f.path, 0);
+    connect_light(&f, rgb_grey(1));
+    film_path_end(f.pixel);
+    finish(&f);
+    assert_int_equal(film_dropped(f.film), 2);
+    expect_rgb(part(&f, "dep_Floor_sharp1"), 1, 1, 1, 0);
+    expect_beauty(&f, 0);
+    end(&f);
+}
+
+static void a_plain_film_keeps_the_beauty(void **state)
+{
+    (void)state;
+    Fixture f;
+    begin(&f, 1, 2, 6, 3, 1);
+    f.params.split = 0;
+    open_film(&f);
+    one_hit(&f, 0.5, 0.5, rgb_grey(0.5f), SHARP, rgb(4, 8, 12));
+    finish(&f);
+    expect_rgb(f.set->parts[0].image.pixels, 1, 2, 3, 0);
+    assert_true(f.set->nparts == 1 && f.set->ntargets == 0 && f.set->nterms == 0);
+    assert_int_equal(film_floats(&f.params, 1), 3);
+    end(&f);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(two_places_are_two_clusters),
+        cmocka_unit_test(what_is_not_needed_is_empty),
+        cmocka_unit_test(the_set_says_what_is_what),
+        cmocka_unit_test(a_cluster_knows_its_spread),
+        cmocka_unit_test(the_nearest_places_merge),
+        cmocka_unit_test(sharp_and_broad_stay_apart),
+        cmocka_unit_test(further_hits_come_later),
+        cmocka_unit_test(monomials_go_their_own_ways),
+        cmocka_unit_test(the_terms_add_up),
+        cmocka_unit_test(a_seam_is_one_place),
+        cmocka_unit_test(black_albedo_has_footprints),
+        cmocka_unit_test(surplus_hits_fold),
+        cmocka_unit_test(targets_follow_each_other),
+        cmocka_unit_test(light_that_is_no_number_is_dropped),
+        cmocka_unit_test(a_plain_film_keeps_the_beauty),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
