@@ -1,0 +1,57 @@
+# The table of `make fidelity` as Markdown: awk -f report.awk -v size=WxH -v truth=SAMPLES fidelity.csv
+BEGIN { FS = "," }
+NR == 1 { next }
+{
+    value[$1, $2, $3, $4] = $5
+    if (!seen[$1]++) scene[++scenes] = $1
+    if (!seen[$2]++) texture[++textures] = $2
+    if (!seen["n" $3]++) count[++counts] = $3
+    if ($4 != "again" && !seen["m" $4]++) method[++methods] = $4
+}
+function gap(s, t, n, m) { return value[s, t, n, m] - value[s, t, n, "again"] }
+END {
+    print "# Retexturing against rendering again\n"
+    print "PSNR in decibels (sRGB-encoded, clipped to 0..1) against converged pictures of " truth " samples, at " size \
+        " pixels:"
+    print "the scene rendered again with the new textures, and sets of the same number of samples and the same seed,"
+    print "retextured. `gap` is what retexturing loses to rendering again; where it is above 0, it is the better picture,"
+    print "for it filters textures where rendering samples them. Made by `make fidelity`; the same figures are in"
+    print "[fidelity.csv](fidelity.csv). Of two targets both change. The scenes are in `scenes/` and"
+    print "`tests/fidelity/scenes/`, the textures are those of `make fidelity-textures`.\n"
+    print "| samples | set | mean gap | worst gap | where |"
+    print "|---|---|---|---|---|"
+    for (c = 1; c <= counts; c++)
+        for (m = 1; m <= methods; m++) {
+            sum = all = 0; worst = 1e9
+            for (s = 1; s <= scenes; s++)
+                for (t = 1; t <= textures; t++) {
+                    if (!((scene[s], texture[t], count[c], method[m]) in value)) continue
+                    g = gap(scene[s], texture[t], count[c], method[m])
+                    sum += g; all++
+                    if (g < worst) { worst = g; where = scene[s] ", " texture[t] }
+                }
+            if (all) printf "| %d | %s | %+.2f dB | %+.2f dB | %s |\n", count[c], method[m], sum / all, worst, where
+        }
+    print "\n`footprints` keeps 3 sharp and 1 broad cluster a pixel and target, the default; `footprints-8` 6 and 2"
+    print "(`--clusters 8`). `paper-cross-2` leaves the cross terms of three hits out, `paper-cross-0` all of them"
+    print "(`retex-combine --cross`)."
+    for (s = 1; s <= scenes; s++) {
+        print "\n## " scene[s] "\n"
+        line = "| texture |"; rule = "|---|"
+        for (c = 1; c <= counts; c++) {
+            line = line " again, " count[c] " | footprints | footprints-8 | paper |"
+            rule = rule "---|---|---|---|"
+        }
+        print line "\n" rule
+        for (t = 1; t <= textures; t++) {
+            line = "| " texture[t] " |"
+            for (c = 1; c <= counts; c++) {
+                line = line sprintf(" %.2f |", value[scene[s], texture[t], count[c], "again"])
+                split("footprints footprints-8 paper", column, " ")
+                for (m = 1; m <= 3; m++)
+                    line = line sprintf(" %+.2f |", gap(scene[s], texture[t], count[c], column[m]))
+            }
+            print line
+        }
+    }
+}
