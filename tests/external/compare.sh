@@ -2,8 +2,9 @@
 # How well another method retextures our scenes: make compare-external DIR=FOLDER.
 #
 # FOLDER holds pictures SCENE-TEXTURE.png (.jpg, .tif, .exr) that it made. Each is compared with the truth of that name in
-# $FIDELITY/truth, beside our own retexture in $FIDELITY/retextured. Prints a table; writes it to $OUT/scores.csv, and to
-# $OUT/SCENE-TEXTURE.png what is seen: theirs, ours, the truth; below, how theirs and ours differ from it.
+# $FIDELITY/truth, beside our own retexture in $FIDELITY/retextured, all clipped to 0..1 as a PNG is. Prints a table; writes
+# it to $OUT/scores.csv, and to $OUT/SCENE-TEXTURE.png what is seen: theirs, ours, the truth; below, how theirs and ours
+# differ from it, in the sum of the three channels twice over.
 #
 # FIDELITY and OUT are fidelity and external in $BUILD unless they are set. Exit 2 where there is nothing to compare.
 set -u
@@ -17,15 +18,25 @@ fail() { echo "compare-external: $*" >&2; exit 2; }
 [ $# = 1 ] && [ -n "$1" ] || fail "which folder? make compare-external DIR=FOLDER"
 [ -d "$1" ] || fail "$1 is no folder"
 ls "$fidelity"/truth/*.exr >/dev/null 2>&1 || fail "there are no truths in $fidelity/truth: \`make fidelity\` makes them"
+command -v oiiotool >/dev/null || fail "it needs oiiotool (openimageio-tools)"
 mkdir -p "$out" || exit 2
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
 # PSNR, FLIP and mean absolute error of a picture against the truth, or nothing where its size is another.
 scores() { # PICTURE TRUTH
-    retex-diff --json "$1" "$2" 2>/dev/null | tr ',{}' '\n\n\n' | awk -F': *' '
+    clipped "$1" "$work/scored.exr"
+    retex-diff --json "$work/scored.exr" "$2" 2>/dev/null | tr ',{}' '\n\n\n' | awk -F': *' '
         { gsub(/["\t ]/, "", $1); value[$1] = $2 }
         END { if (value["psnr"] ~ /[0-9]/) print value["psnr"], value["flip_mean"], value["mae"] }'
+}
+
+# Scene-linear, what is brighter than a PNG can be clipped as it is there.
+clipped() { # PICTURE EXR
+    case $1 in
+    *.exr) oiiotool "$1" --ch R,G,B --clamp:min=0:max=1 -d float -o "$2" ;;
+    *) oiiotool "$1" --ch 0,1,2 --chnames R,G,B --colorconvert sRGB linear -d float -o "$2" ;;
+    esac
 }
 
 # As it is seen: 8 bits, sRGB.
@@ -37,7 +48,7 @@ shown() { # PICTURE PNG
 }
 
 difference() { # PNG TRUTH PNG
-    oiiotool "$1" "$2" --absdiff --chsum:weight=0.5,0.5,0.5 --mulc 2 --clamp:min=0:max=1 --colormap magma -d uint8 -o "$3"
+    oiiotool "$1" "$2" --absdiff --chsum:weight=1,1,1 --mulc 2 --clamp:min=0:max=1 --colormap magma -d uint8 -o "$3"
 }
 
 sheet() { # NAME THEIRS OURS TRUTH
@@ -63,17 +74,16 @@ for picture in "$1"/*.png "$1"/*.jpg "$1"/*.tif "$1"/*.exr; do
         echo "compare-external: $picture: there is no $truth" >&2
         continue
     fi
-    theirs=$(scores "$picture" "$truth") our=
+    clipped "$truth" "$work/truth.exr"
+    theirs=$(scores "$picture" "$work/truth.exr") our=
     if [ -z "$theirs" ]; then
         echo "compare-external: $picture: cannot be compared with $truth:" \
             "$(retex-diff "$picture" "$truth" 2>&1 | head -n 1)" >&2
         continue
     fi
-    [ ! -e "$ours" ] || our=$(scores "$ours" "$truth")
+    [ ! -e "$ours" ] || our=$(scores "$ours" "$work/truth.exr")
     echo "$name $theirs ${our:-- - -}" >>"$work/rows"
-    if command -v oiiotool >/dev/null; then
-        sheet "$name" "$picture" "$ours" "$truth"
-    fi
+    sheet "$name" "$picture" "$ours" "$truth"
 done
 [ -s "$work/rows" ] || fail "$1 has no picture SCENE-TEXTURE.png with a truth in $fidelity/truth"
 
@@ -101,8 +111,4 @@ awk '
         for (k = 1; k <= 6; k++) v[k] = both || k < 4 ? sum[both, k] / count[both] : "-"
         row(both && count[0] ? "mean of those with both" : "mean", v)
     }' "$work/rows"
-if command -v oiiotool >/dev/null; then
-    echo "sheets: $out"
-else
-    echo "no sheets: they need oiiotool"
-fi
+echo "sheets: $out"
