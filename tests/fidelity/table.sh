@@ -108,22 +108,25 @@ retextured() { # SCENE SPP METHOD TEXTURE…
 }
 
 score() { # SCENE TEXTURE SPP METHOD FILE
+    # shellcheck disable=SC2020 # characters wanted
     retex-diff --json "$work/truth/$1-$2.exr" "$5" | tr ',{}' '\n\n\n' |
-        awk -F: -v s="$1" -v t="$2" -v n="$3" -v m="$4" '$1 ~ /"psnr"/ { printf "%s,%s,%s,%s,%.2f\n", s, t, n, m, $2 }'
+        awk -F: -v s="$1" -v t="$2" -v n="$3" -v m="$4" '
+            $1 ~ /"psnr"/ { printf "%s,%s,%s,%s,%.2f\n", s, t, n, m, $2; found = 1 }
+            END { exit !found }'
 }
 
 run() { # SCENE TEXTURE…: everything about some textures in a scene
     place=$1
     shift
     rendered "$place" "$work/truth" '' "$truth_spp" 1000 "$@"
-    for number in $samples; do
-        rendered "$place" "$work/again" "-$number" "$number" 1 "$@"
-        for name in $sets; do make_set "$place" "$number" "$name"; done
-        for name in $methods; do retextured "$place" "$number" "$name" "$@"; done
+    for count in $samples; do
+        rendered "$place" "$work/again" "-$count" "$count" 1 "$@"
+        for name in $sets; do make_set "$place" "$count" "$name"; done
+        for name in $methods; do retextured "$place" "$count" "$name" "$@"; done
         for picture; do
-            score "$place" "$picture" "$number" again "$work/again/$place-$picture-$number.exr"
+            score "$place" "$picture" "$count" again "$work/again/$place-$picture-$count.exr"
             for name in $methods; do
-                score "$place" "$picture" "$number" "$name" "$work/retextured/$place-$picture-$number-$name.exr"
+                score "$place" "$picture" "$count" "$name" "$work/retextured/$place-$picture-$count-$name.exr"
             done
         done
     done
