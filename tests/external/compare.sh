@@ -1,12 +1,14 @@
 #!/bin/sh
 # How well another method retextures our scenes: make compare-external DIR=FOLDER.
 #
-# FOLDER holds pictures SCENE-TEXTURE.png (.jpg, .tif, .exr) that it made. Each is compared with the truth of that name in
-# $FIDELITY/truth, beside our own retexture in $FIDELITY/retextured, all clipped to 0..1 as a PNG is. Prints a table; writes
-# it to $OUT/scores.csv, and to $OUT/SCENE-TEXTURE.png what is seen: theirs, ours, the truth; below, how theirs and ours
-# differ from it, in the sum of the three channels twice over.
+# FOLDER holds pictures SCENE-TEXTURE.png (.jpg, .tif, .exr) that it made. Each is compared with the truth of that name
+# in $FIDELITY/truth, beside our own retexture in $FIDELITY/retextured, all clipped to 0..1 as a PNG is. Prints a table;
+# writes it to $OUT/scores.csv, and to $OUT/SCENE-TEXTURE.png what is seen: theirs, ours, the truth; below, how theirs
+# and ours differ from it, in the sum of the three channels twice over.
 #
-# FIDELITY and OUT are fidelity and external in $BUILD unless they are set. Exit 2 where there is nothing to compare.
+# FIDELITY and OUT are fidelity and external in $BUILD unless they are set. Ours is SCENE-TEXTURE.exr or, as make fidelity
+# names it, SCENE-TEXTURE-$OURS.exr, where OURS is 1024-footprints unless it is set. Exit 2 where there is nothing to
+# compare.
 set -u
 export LC_ALL=C
 BUILD=${BUILD:-build}
@@ -17,7 +19,8 @@ fail() { echo "compare-external: $*" >&2; exit 2; }
 
 [ $# = 1 ] && [ -n "$1" ] || fail "which folder? make compare-external DIR=FOLDER"
 [ -d "$1" ] || fail "$1 is no folder"
-ls "$fidelity"/truth/*.exr >/dev/null 2>&1 || fail "there are no truths in $fidelity/truth: \`make fidelity\` makes them"
+ls "$fidelity"/truth/*.exr >/dev/null 2>&1 ||
+    fail "there are no truths in $fidelity/truth: \`make fidelity\` makes them"
 command -v oiiotool >/dev/null || fail "it needs oiiotool (openimageio-tools)"
 mkdir -p "$out" || exit 2
 work=$(mktemp -d)
@@ -70,6 +73,7 @@ for picture in "$1"/*.png "$1"/*.jpg "$1"/*.tif "$1"/*.exr; do
     name=$(basename "$picture")
     name=${name%.*}
     truth=$fidelity/truth/$name.exr ours=$fidelity/retextured/$name.exr
+    [ -e "$ours" ] || ours=$fidelity/retextured/$name-${OURS:-1024-footprints}.exr
     if [ ! -e "$truth" ]; then
         echo "compare-external: $picture: there is no $truth" >&2
         continue
@@ -88,7 +92,8 @@ done
 [ -s "$work/rows" ] || fail "$1 has no picture SCENE-TEXTURE.png with a truth in $fidelity/truth"
 
 awk 'BEGIN { print "picture,psnr,flip,mae,our_psnr,our_flip,our_mae" }
-    { line = $1; for (k = 2; k <= 7; k++) line = line "," ($k == "-" ? "" : $k); print line }' "$work/rows" >"$out/scores.csv"
+    { line = $1; for (k = 2; k <= 7; k++) line = line "," ($k == "-" ? "" : $k); print line }' \
+    "$work/rows" >"$out/scores.csv"
 awk '
     function cell(text, format) { return text == "-" ? sprintf("%8s", "-") : sprintf(format, text) }
     function row(name, v) {

@@ -3,7 +3,9 @@
 set -u
 . tests/lib/tap.sh
 mkdir -p "$work/theirs" "$work/fidelity/truth" "$work/fidelity/retextured"
-compare() { FIDELITY=$work/fidelity OUT=$work/out sh tests/external/compare.sh "$work/theirs" >"$work/said" 2>"$work/errors"; }
+compare() {
+    FIDELITY=$work/fidelity OUT=$work/out sh tests/external/compare.sh "$work/theirs" >"$work/said" 2>"$work/errors"
+}
 is() { [ "$1" = "$2" ] && echo 1; }
 if ! command -v oiiotool >/dev/null; then
     skip "pictures of other methods" "oiiotool is not on this machine"
@@ -17,7 +19,7 @@ result "$(grep -c 'make fidelity' "$work/errors")" "and says what makes them"
 
 make_picture "$work/fidelity/truth/room-oak.exr" size=32x24
 make_picture "$work/fidelity/truth/room-brick.exr" size=32x24 seed=5
-make_picture "$work/fidelity/retextured/room-oak.exr" size=32x24 noise=0.001
+make_picture "$work/fidelity/retextured/room-oak-1024-footprints.exr" size=32x24 noise=0.001
 compare
 result "$(is "$?" 2)" "without pictures too"
 
@@ -28,10 +30,9 @@ compare
 result "$(is "$?" 0)" "with both it scores"
 sed 's/^/# /' "$work/said"
 result "$(grep -c 'room-unknown' "$work/errors")" "a picture without a truth is named"
-result "$(awk -F, '$1 == "room-oak" { print ($2 > 20 && $2 < 45 && $5 > $2 + 10 && $6 < $3) }' "$work/out/scores.csv")" \
-    "ours is nearer, and said to be"
-result "$(awk -F, '$1 == "room-brick" { print ($2 > 10 && $5 == "") }' "$work/out/scores.csv")" \
-    "a picture that we have none of is scored too"
+scored() { awk -F, "\$1 == \"$1\" { print ($2) }" "$work/out/scores.csv"; }
+result "$(scored room-oak '$2 > 20 && $2 < 45 && $5 > $2 + 10 && $6 < $3')" "ours is nearer, and said to be"
+result "$(scored room-brick '$2 > 10 && $5 == ""')" "a picture that we have none of is scored too"
 result "$(is "$(oiiotool --info "$work/out/room-oak.png" | awk '{ print $3 "x" $5 }' | tr -d ,)" 104x52)" \
     "the sheet has three columns and two rows"
 

@@ -1,6 +1,6 @@
 #!/bin/sh
-# retex-render --control: an unbiased picture from few new samples and an old set. Cornell box, floor of brick, against the
-# truth at 4096 samples.
+# retex-render --control: an unbiased picture from few new samples and an old set. Cornell box, floor of brick, against
+# the truth at 4096 samples.
 #
 # - the mean of 24 seeds at 8 samples is the truth: what it is off by is what is left of the noise of 24, and what the
 #   set itself, which all of them share, is off by. Within a factor of 1.5, for both are estimates. So for both ways to
@@ -37,7 +37,8 @@ for case in 8:7:unbiased 8:3:halves 8:3:biased 2:6:unbiased 2:4:biased; do
     render --spp "$spp" --seed 5 --replace "$new" "$scene" -o "$work/plain.exr"
     render --spp "$spp" --seed 5 --control "$work/set.exr" --control-mode "$mode" --replace "$new" "$scene" \
         -o "$work/controlled.exr"
-    plain=$(figure "$work/plain.exr" "$work/truth.exr" psnr) found=$(figure "$work/controlled.exr" "$work/truth.exr" psnr)
+    plain=$(figure "$work/plain.exr" "$work/truth.exr" psnr)
+    found=$(figure "$work/controlled.exr" "$work/truth.exr" psnr)
     echo "# $spp samples: --replace $plain dB, --control $mode $found dB"
     result "$(awk "BEGIN { print ($found >= $plain + $gain) }")" "$mode: better than --replace at $spp samples"
 done
