@@ -1,0 +1,416 @@
+/* The error to be expected of a retexture: its formula on one pixel, and what textures scatter within footprints. */
+#include "lib_test.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include <cmocka.h>
+
+static char path[64];
+
+static int make_path(void **state)
+{
+    (void)state;
+    strcpy(path, "/tmp/retex-estimate-XXXXXX.exr");
+    const int descriptor = mkstemps(path, 4);
+    return descriptor < 0 ? -1 : close(descriptor);
+}
+
+static int remove_path(void **state)
+{
+    (void)state;
+    return unlink(path);
+}
+
+/* ---- textures ---- */
+
+/* Store four by four texels, a quarter of them mean + 3 contrast, the others mean - contrast, and name them. */
+static RetexTextureSpec store_texture(const char *target, float mean, float contrast, float alpha)
+{
+    RetexImage im = {0};
+    RetexError err = {0};
+    test_must(retex_image_alloc(&im, 4, 4, 4, &err), &err);
+    for (int i = 0; i < 16; i++)
+        for (int c = 0; c < 4; c++)
+            im.pixels[4 * i + c] = c == 3 ? alpha : mean + (i % 2 && i / 4 % 2 ? 3 : -1) * contrast;
+    test_must(retex_image_write(&im, path, NULL, &err), &err);
+    retex_image_free(&im);
+    RetexTextureSpec spec = RETEX_TEXTURE_SPEC_INIT;
+    snprintf(spec.target, sizeof spec.target, "%s", target);
+    snprintf(spec.image, sizeof spec.image, "%s", path);
+    return spec;
+}
+
+static RetexTextureSpec constant_spec(const char *target, float r, float g, float b)
+{
+    RetexTextureSpec spec = RETEX_TEXTURE_SPEC_INIT;
+    snprintf(spec.target, sizeof spec.target, "%s", target);
+    spec.constant = 1;
+    spec.color[0] = r, spec.color[1] = g, spec.color[2] = b;
+    return spec;
+}
+
+/* ---- a set of one pixel ---- */
+
+static int add_part(RetexSet *set, const char *name, const char *letters, float a, float b, float c)
+{
+    RetexError err = {0};
+    int part;
+    test_must(retex_set_add_part(set, name, letters, RETEX_FLOAT, 0, 0, &part, &err), &err);
+    float *pixel = set->parts[part].image.pixels;
+    pixel[0] = a, pixel[1] = b, pixel[2] = c;
+    return part;
+}
+
+static int add_footprint(RetexSet *set, RetexFootprintKind kind, float coverage, float sd)
+{
+    char name[64];
+    RetexError err = {0};
+    RetexFootprint footprint = {.target = 0, .hit = set->nfootprints + 1, .kind = kind};
+    snprintf(name, sizeof name, "uv%d", set->nfootprints);
+    footprint.uv = add_part(set, name, "RGA", 0.3f, 0.6f, coverage);
+    snprintf(name, sizeof name, "spread%d", set->nfootprints);
+    footprint.spread = add_part(set, name, "RGB", sd, sd, 0);
+    snprintf(name, sizeof name, "albedo%d", set->nfootprints);
+    footprint.albedo = add_part(set, name, "RGB", 0.5f, 0.5f, 0.5f);
+    int index;
+    test_must(retex_set_add_footprint(set, &footprint, &index, &err), &err);
+    return index;
+}
+
+/* radiance times A_a B_b^powers; a < 0: times nothing. */
+static void add_term(RetexSet *set, float radiance, int a, int b, int powers)
+{
+    char name[64];
+    RetexError err = {0};
+    RetexTerm term = {.kind = a < 0 ? RETEX_TERM_INDEP : RETEX_TERM_DEP};
+    snprintf(name, sizeof name, "term%d", set->nterms);
+    term.radiance = add_part(set, name, "RGB", radiance, 2 * radiance, 0);
+    if (a >= 0)
+        term.factors[term.nfactors++] = a;
+    for (int k = 0; k < powers; k++)
+        term.factors[term.nfactors++] = b;
+    test_must(retex_set_add_term(set, &term, NULL, &err), &err);
+}
+
+static RetexSet *small_set(int spp)
+{
+    RetexSet *set = NULL;
+    RetexError err = {0};
+    test_must(retex_set_create(&set, 1, 1, &err), &err);
+    strcpy(set->layout, "footprints");
+    strcpy(set->filter, "box");
+    set->spp = spp;
+    set->ntargets = 1;
+    strcpy(set->targets[0].name, "Floor");
+    set->targets[0].original = -1;
+    add_part(set, "beauty", "RGB", 1, 1, 1);
+    return set;
+}
+
+/* Samples that hold these numbers, one a footprint. */
+static RetexSamples *small_samples(const RetexSet *set, const float *values)
+{
+    RetexSamples *samples;
+    RetexTextureSpec spec = constant_spec("Floor", 0, 0, 0);
+    RetexError err = {0};
+    test_must(retex_sample(&samples, set, &spec, 1, 1, &err), &err);
+    for (int i = 0; i < samples->nimages; i++)
+        for (int c = 0; c < 3; c++)
+            samples->images[i].pixels[c] = values[i];
+    return samples;
+}
+
+static void estimate(float rgb[3], const RetexSet *set, const float *values, const float *variances)
+{
+    RetexSamples *samples = small_samples(set, values), *scatter = small_samples(set, variances);
+    RetexImage error = {0};
+    RetexError err = {0};
+    test_must(retex_estimate_error(&error, set, samples, scatter, NULL, NULL, 1, &err), &err);
+    memcpy(rgb, error.pixels, 3 * sizeof *rgb);
+    retex_image_free(&error);
+    retex_samples_close(&samples);
+    retex_samples_close(&scatter);
+}
+
+/* How much light and texture are taken to agree, by kind: what is left of a footprint that endless paths met. */
+static double agreement(RetexFootprintKind kind)
+{
+    static const float one = 1;
+    RetexSet *set = small_set(1 << 30);
+    float rgb[3];
+    add_term(set, 1, add_footprint(set, kind, 1, 0), 0, 0);
+    estimate(rgb, set, &one, &one);
+    retex_set_close(&set);
+    return (double)rgb[0];
+}
+
+static void the_formula_holds_on_a_pixel(void **state)
+{
+    (void)state;
+    static const float a[2] = {0.4f, 0.2f}, var[2] = {0.04f, 0.01f};
+    RetexSet *set = small_set(16);
+    int sharp = add_footprint(set, RETEX_FOOTPRINT_SHARP, 0.5f, 0),
+        later = add_footprint(set, RETEX_FOOTPRINT_LATER, 0.25f, 0);
+    add_term(set, 0.5f, -1, 0, 0);
+    add_term(set, 2, sharp, 0, 0);
+    add_term(set, 3, sharp, later, 1);
+    add_term(set, 5, sharp, later, 2);
+    set->folded = 0.1;
+    double value = 0.5 + 2 * 0.4 + 3 * 0.4 * 0.2 + 5 * 0.4 * 0.2 * 0.2;
+    double by_sharp = 2 + 3 * 0.2 + 5 * 0.2 * 0.2, by_later = 3 * 0.4 + 2 * 5 * 0.4 * 0.2;
+    double k0 = agreement(RETEX_FOOTPRINT_SHARP), k1 = agreement(RETEX_FOOTPRINT_LATER);
+    double want = sqrt(by_sharp * by_sharp * 0.04 * (k0 * k0 + 1.0 / 8) +
+                       by_later * by_later * 0.01 * (k1 * k1 + 1.0 / 4) + 0.1 * value * 0.1 * value);
+    float rgb[3];
+    estimate(rgb, set, a, var);
+    assert_float_equal(rgb[0], want, 1e-5 * want);
+    assert_float_equal(rgb[1], 2 * want, 2e-5 * want); /* twice the light */
+    assert_float_equal(rgb[2], 0, 0);
+    retex_set_close(&set);
+}
+
+static void agreements_are_shares(void **state)
+{
+    (void)state;
+    static const RetexFootprintKind kinds[] = {RETEX_FOOTPRINT_HIT, RETEX_FOOTPRINT_SHARP, RETEX_FOOTPRINT_BROAD,
+                                               RETEX_FOOTPRINT_LATER};
+    for (size_t k = 0; k < sizeof kinds / sizeof kinds[0]; k++)
+        assert_true(agreement(kinds[k]) > 0 && agreement(kinds[k]) < 1);
+}
+
+/* Fewer than one path meets nothing: a footprint of next to no coverage does not make the error endless. */
+static void one_path_is_the_least(void **state)
+{
+    (void)state;
+    static const float one = 1;
+    float rgb[2][3];
+    for (int i = 0; i < 2; i++) {
+        RetexSet *set = small_set(1);
+        add_term(set, 1, add_footprint(set, RETEX_FOOTPRINT_SHARP, i ? 1 : 1e-30f, 0), 0, 0);
+        estimate(rgb[i], set, &one, &one);
+        retex_set_close(&set);
+    }
+    assert_memory_equal(rgb[0], rgb[1], sizeof rgb[0]);
+}
+
+/* ---- textures within footprints ---- */
+
+static void sample_variances(const RetexSet *set, const RetexTextureSpec *specs, int nspecs, RetexSamples **samples,
+                             RetexSamples **variances)
+{
+    RetexError err = {0};
+    test_must(retex_sample_with_variances(samples, variances, set, specs, nspecs, 2, &err), &err);
+}
+
+static void a_wide_footprint_sees_all_of_a_texture(void **state)
+{
+    (void)state;
+    static const RetexFootprintKind kinds[] = {RETEX_FOOTPRINT_SHARP, RETEX_FOOTPRINT_BROAD, RETEX_FOOTPRINT_HIT};
+    for (size_t k = 0; k < 3; k++) {
+        RetexSet *set = small_set(16);
+        RetexSamples *samples, *variances;
+        int wide = add_footprint(set, kinds[k], 1, 6), none = add_footprint(set, kinds[k], 0, 6);
+        RetexTextureSpec spec = store_texture("Floor", 0.375f, 0.125f, 1); /* 0.75 over a quarter, else 0.25 */
+        sample_variances(set, &spec, 1, &samples, &variances);
+        for (int c = 0; c < 3; c++) {
+            assert_float_equal(samples->images[wide].pixels[c], 0.375f, 0.01f);
+            assert_float_equal(variances->images[wide].pixels[c], 0.25f * 0.75f * 0.5f * 0.5f, 0.002f);
+            assert_float_equal(variances->images[none].pixels[c], 0, 0);
+        }
+        retex_samples_close(&samples);
+        retex_samples_close(&variances);
+        /* through a texture half clear half as much is seen of how it scatters */
+        spec = store_texture("Floor", 0.375f, 0.125f, 0.5f);
+        sample_variances(set, &spec, 1, &samples, &variances);
+        for (int c = 0; c < 3; c++)
+            assert_float_equal(variances->images[wide].pixels[c], 0.25f * 0.75f * 0.5f * 0.5f / 4, 0.001f);
+        retex_samples_close(&samples);
+        retex_samples_close(&variances);
+        retex_set_close(&set);
+    }
+}
+
+static void what_is_even_does_not_scatter(void **state)
+{
+    (void)state;
+    RetexSet *set = test_set(40, 20, 3);
+    for (int image = 0; image < 2; image++) {
+        RetexSamples *samples, *variances;
+        RetexTextureSpec specs[2] = {constant_spec("Floor", 0.3f, 0.6f, 4), constant_spec("Wall", 0, 0, 0)};
+        if (image)
+            specs[0] = store_texture("Floor", 0.3f, 0, 1);
+        sample_variances(set, specs, 1 + image, &samples, &variances);
+        for (int i = 0; i < set->nfootprints; i++) {
+            assert_true(!samples->images[i].pixels == !variances->images[i].pixels);
+            for (size_t n = 0; samples->images[i].pixels && n < 40 * 20 * 3; n++)
+                assert_true(variances->images[i].pixels[n] >= 0 && variances->images[i].pixels[n] < 1e-6f);
+        }
+        retex_samples_close(&samples);
+        retex_samples_close(&variances);
+    }
+    retex_set_close(&set);
+}
+
+static void samples_are_the_same_with_variances(void **state)
+{
+    (void)state;
+    RetexSet *set = test_set(70, 50, 6);
+    RetexSamples *plain, *samples, *variances;
+    RetexError err = {0};
+    RetexTextureSpec specs[2] = {store_texture("Floor", 0.375f, 0.125f, 0.75f),
+                                 constant_spec("Wall", 0.1f, 0.2f, 0.3f)};
+    specs[0].rotate = 30;
+    test_must(retex_sample(&plain, set, specs, 2, 3, &err), &err);
+    sample_variances(set, specs, 2, &samples, &variances);
+    test_must(retex_samples_check(variances, set, &err), &err);
+    assert_int_equal(plain->nimages, samples->nimages);
+    for (int i = 0; i < plain->nimages; i++)
+        assert_memory_equal(plain->images[i].pixels, samples->images[i].pixels, 70 * 50 * 3 * sizeof(float));
+    retex_samples_close(&plain);
+    retex_samples_close(&samples);
+    retex_samples_close(&variances);
+    retex_set_close(&set);
+}
+
+/* ---- pictures ---- */
+
+static RetexImage estimate_picture(const RetexSet *set, const RetexTextureSpec *specs, int nspecs, int nthreads)
+{
+    RetexSamples *samples, *variances;
+    RetexImage error = {0};
+    RetexError err = {0};
+    test_must(retex_sample_with_variances(&samples, &variances, set, specs, nspecs, nthreads, &err), &err);
+    test_must(retex_estimate_error(&error, set, samples, variances, NULL, NULL, nthreads, &err), &err);
+    retex_samples_close(&samples);
+    retex_samples_close(&variances);
+    return error;
+}
+
+static void constants_have_only_what_was_folded(void **state)
+{
+    (void)state;
+    RetexSet *set = test_set(40, 30, 2);
+    RetexTextureSpec specs[2] = {constant_spec("Floor", 0.3f, 0.6f, 0), constant_spec("Wall", 0.9f, 0.9f, 0.5f)};
+    for (int folded = 0; folded < 2; folded++) {
+        set->folded = 0.25 * folded;
+        RetexImage error = estimate_picture(set, specs, 2, 2), picture = {0};
+        RetexSamples *samples;
+        RetexError err = {0};
+        test_must(retex_sample(&samples, set, specs, 2, 2, &err), &err);
+        test_must(retex_combine(&picture, set, samples, NULL, NULL, 2, &err), &err);
+        for (size_t i = 0; i < 40 * 30 * 3; i++) /* how colours of one value scatter is off by a float's rounding */
+            assert_float_equal(error.pixels[i], set->folded * (double)picture.pixels[i],
+                               1e-3f * picture.pixels[i] + 1e-9f);
+        retex_samples_close(&samples);
+        retex_image_free(&picture);
+        retex_image_free(&error);
+    }
+    retex_set_close(&set);
+}
+
+static void contrast_makes_errors(void **state)
+{
+    (void)state;
+    RetexSet *set = test_set(40, 30, 2);
+    double sums[3];
+    for (int k = 0; k < 3; k++) {
+        RetexTextureSpec spec = store_texture("Floor", 0.5f, ldexpf(1, k - 6), 1);
+        RetexImage error = estimate_picture(set, &spec, 1, 2);
+        sums[k] = 0;
+        for (size_t i = 0; i < 40 * 30 * 3; i++) {
+            assert_true(isfinite(error.pixels[i]) && error.pixels[i] >= 0);
+            sums[k] += (double)error.pixels[i];
+        }
+        retex_image_free(&error);
+    }
+    assert_true(sums[0] > 0);
+    for (int k = 1; k < 3; k++) /* twice the contrast, twice the error; later hits see each other's colour, too */
+        assert_true(fabs(sums[k] / sums[k - 1] - 2) < 0.05);
+    retex_set_close(&set);
+}
+
+static void threads_and_regions_change_nothing(void **state)
+{
+    (void)state;
+    RetexSet *set = test_set(150, 90, 4);
+    RetexTextureSpec specs[2] = {store_texture("Wall", 0.4f, 0.1f, 1), constant_spec("Floor", 0.2f, 0.7f, 0)};
+    RetexImage whole = estimate_picture(set, specs, 2, 1), part = {0};
+    RetexSamples *samples, *variances;
+    RetexError err = {0};
+    for (int threads = 2; threads <= 7; threads += 5) {
+        RetexImage again = estimate_picture(set, specs, 2, threads);
+        assert_memory_equal(whole.pixels, again.pixels, 150 * 90 * 3 * sizeof(float));
+        retex_image_free(&again);
+    }
+    const RetexRoi roi = {3, 147, 5, 30, 1, 3};
+    test_must(retex_sample_with_variances(&samples, &variances, set, specs, 2, 1, &err), &err);
+    test_must(retex_image_alloc(&part, 150, 90, 3, &err), &err);
+    for (size_t i = 0; i < 150 * 90 * 3; i++)
+        part.pixels[i] = -1;
+    test_must(retex_estimate_error(&part, set, samples, variances, NULL, &roi, 3, &err), &err);
+    for (int y = 0; y < 90; y++)
+        for (int x = 0; x < 150; x++)
+            for (int c = 0; c < 3; c++) {
+                size_t i = retex_image_index(&whole, x, y) + (size_t)c;
+                int inside = x >= roi.x0 && x < roi.x1 && y >= roi.y0 && y < roi.y1 && c >= roi.c0 && c < roi.c1;
+                assert_true(part.pixels[i] == (inside ? whole.pixels[i] : -1));
+            }
+    retex_samples_close(&samples);
+    retex_samples_close(&variances);
+    retex_image_free(&part);
+    retex_image_free(&whole);
+    retex_set_close(&set);
+}
+
+static void mistakes_are_told(void **state)
+{
+    (void)state;
+    RetexSet *set = test_set(20, 10, 4), *other = test_set(21, 10, 4);
+    RetexTextureSpec spec = constant_spec("Floor", 0.2f, 0.7f, 0);
+    RetexSamples *samples, *variances, *foreign;
+    RetexImage error = {0}, small = {0};
+    RetexError err = {0};
+    RetexCombineParams params = RETEX_COMBINE_INIT;
+    sample_variances(set, &spec, 1, &samples, &variances);
+    test_must(retex_sample(&foreign, other, &spec, 1, 1, &err), &err);
+    test_must(retex_image_alloc(&small, 5, 5, 3, &err), &err);
+    assert_int_equal(retex_estimate_error(&error, set, NULL, variances, NULL, NULL, 1, &err), RETEX_EINVAL);
+    assert_int_equal(retex_estimate_error(&error, set, samples, NULL, NULL, NULL, 1, &err), RETEX_EINVAL);
+    assert_int_equal(retex_estimate_error(&error, set, samples, foreign, NULL, NULL, 1, &err), RETEX_EINVAL);
+    assert_int_equal(retex_estimate_error(&error, set, foreign, variances, NULL, NULL, 1, &err), RETEX_EINVAL);
+    assert_int_equal(retex_estimate_error(&small, set, samples, variances, NULL, NULL, 1, &err), RETEX_EINVAL);
+    params.cross = 1;
+    assert_int_equal(retex_estimate_error(&error, set, samples, variances, &params, NULL, 1, &err), RETEX_EINVAL);
+    assert_null(error.pixels);
+    strcpy(spec.target, "Sofa");
+    RetexSamples *none, *neither;
+    assert_int_equal(retex_sample_with_variances(&none, &neither, set, &spec, 1, 1, &err), RETEX_ENOTFOUND);
+    assert_true(!none && !neither);
+    retex_image_free(&small);
+    retex_samples_close(&samples);
+    retex_samples_close(&variances);
+    retex_samples_close(&foreign);
+    retex_set_close(&set);
+    retex_set_close(&other);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_formula_holds_on_a_pixel),
+        cmocka_unit_test(agreements_are_shares),
+        cmocka_unit_test(one_path_is_the_least),
+        cmocka_unit_test(a_wide_footprint_sees_all_of_a_texture),
+        cmocka_unit_test(what_is_even_does_not_scatter),
+        cmocka_unit_test(samples_are_the_same_with_variances),
+        cmocka_unit_test(constants_have_only_what_was_folded),
+        cmocka_unit_test(contrast_makes_errors),
+        cmocka_unit_test(threads_and_regions_change_nothing),
+        cmocka_unit_test(mistakes_are_told),
+    };
+    return cmocka_run_group_tests(tests, make_path, remove_path);
+}
