@@ -6,9 +6,9 @@
 # writes it to $OUT/scores.csv, and to $OUT/SCENE-TEXTURE.png what is seen: theirs, ours, the truth; below, how theirs
 # and ours differ from it, in the sum of the three channels twice over.
 #
-# FIDELITY and OUT are fidelity and external in $BUILD unless they are set. Ours is SCENE-TEXTURE.exr or, as make fidelity
-# names it, SCENE-TEXTURE-$OURS.exr, where OURS is 1024-footprints unless it is set. Exit 2 where there is nothing to
-# compare.
+# FIDELITY and OUT are fidelity and external in $BUILD unless they are set. Ours is SCENE-TEXTURE.exr or, as make
+# fidelity names it, SCENE-TEXTURE-$OURS.exr, where OURS is 1024-footprints unless it is set. Exit 2 where there is
+# nothing to compare.
 set -u
 export LC_ALL=C
 BUILD=${BUILD:-build}
