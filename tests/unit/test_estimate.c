@@ -346,7 +346,7 @@ static void threads_and_regions_change_nothing(void **state)
         assert_memory_equal(whole.pixels, again.pixels, 150 * 90 * 3 * sizeof(float));
         retex_image_free(&again);
     }
-    const RetexRoi roi = {3, 147, 5, 30, 1, 3};
+    const RetexRoi roi = {3, 5, 147, 30, 1, 2};
     test_must(retex_sample_with_variances(&samples, &variances, set, specs, 2, 1, &err), &err);
     test_must(retex_image_alloc(&part, 150, 90, 3, &err), &err);
     for (size_t i = 0; i < 150 * 90 * 3; i++)

@@ -90,16 +90,21 @@ static void one_hit(Fixture *f, double u, double v, Rgb albedo, int sharp, Rgb l
     film_path_end(f->pixel);
 }
 
-static void finish(Fixture *f)
+static void make_set(Fixture *f)
 {
     RetexError err = {0};
-    film_pixel_end(f->pixel, 0, 0);
-    film_pixel_end(f->pixel, 1, 0); /* without light, and without what was in the other */
     film_tile_end(f->pixel, 0);
     film_pixel_close(&f->pixel);
     test_must(retex_set_create(&f->set, 2, 1, &err), &err);
     test_must(retex_set_add_part(f->set, "beauty", "RGB", RETEX_FLOAT, 0, 0, NULL, &err), &err);
     test_must(film_finish(f->film, f->set, &err), &err);
+}
+
+static void finish(Fixture *f)
+{
+    film_pixel_end(f->pixel, 0, 0);
+    film_pixel_end(f->pixel, 1, 0); /* without light */
+    make_set(f);
 }
 
 static void end(Fixture *f)
@@ -395,6 +400,73 @@ static void monomials_go_their_own_ways(void **state)
     end(&f);
 }
 
+/* Also where both hits are at the same place. */
+static void one_place_may_be_met_twice(void **state)
+{
+    (void)state;
+    Fixture f;
+    begin(&f, 1, 1, 6, 2, 1);
+    open_film(&f);
+    begin_path(&f);
+    for (int sharp = SHARP; sharp >= BROAD; sharp--)
+        expansion_push(&f.path, 0, (Split){rgb_grey(0.5f), rgb_grey(0.5f)}, (Vec2){0.25, 0}, rgb_grey(1), sharp);
+    connect_light(&f, rgb_grey(4));
+    film_path_end(f.pixel);
+    finish(&f);
+    static const char *const parts[] = {"indep", "dep_Floor_sharp1", "dep_Floor_broad1", "dep_Floor_sharp1_a1"};
+    for (size_t k = 0; k < sizeof parts / sizeof parts[0]; k++)
+        expect_rgb(part(&f, parts[k]), 1, 1, 1, 1e-3);
+    end(&f);
+}
+
+/* Coefficients are rounded to the nearest step, a power of two of about 1/8192 of the white pixel. */
+static void steps_are_rounded_to(void **state)
+{
+    (void)state;
+    static const double steps[] = {0.2, 0.8, 4.6};
+    for (size_t k = 0; k < sizeof steps / sizeof steps[0]; k++) {
+        Fixture f;
+        float value = (float)(0.5 + steps[k] / 8192);
+        begin(&f, 1, 1, 6, 1, 1);
+        open_film(&f);
+        begin_path(&f);
+        connect_light(&f, rgb(1 - value, 0, 0));
+        one_hit(&f, 0.5, 0.5, rgb_grey(0.5f), SHARP, rgb(value, 1.0f / 1024 - 1e-6f, 0));
+        finish(&f);
+        expect_rgb(part(&f, "dep_Floor_sharp1"), (float)(0.5 + rint(steps[k]) / 8192), 1.0f / 1024, 0, 0);
+        expect_rgb(part(&f, "indep"), 1 - value, 0, 0, 0); /* of which there is one only: as it is */
+        end(&f);
+    }
+}
+
+/* Clusters, later hits and albedos of one pixel are not in the next. */
+static void pixels_do_not_mix(void **state)
+{
+    (void)state;
+    Fixture f;
+    begin(&f, 1, 1, 6, 1, 1);
+    open_film(&f);
+    for (int x = 1; x >= 0; x--) {
+        begin_path(&f);
+        hit(&f, 0, 0.25 + 0.5 * x, 0.5, rgb_grey(0.25f + 0.5f * (float)x), SHARP);
+        connect_light(&f, rgb_grey(2));
+        hit(&f, 0, 0.125 + 0.5 * x, 0.5, rgb_grey(0.125f + 0.5f * (float)x), BROAD);
+        connect_light(&f, rgb_grey(2));
+        film_path_end(f.pixel);
+        film_pixel_end(f.pixel, x, 0);
+    }
+    make_set(&f);
+    for (int x = 0; x < 2; x++) {
+        float at = 0.5f * (float)x;
+        expect_rgb(part(&f, "uv_Floor_sharp1") + 3 * x, 0.25f + at, 0.5f, 1, 0);
+        expect_rgb(part(&f, "uv_Floor_later") + 3 * x, 0.125f + at, 0.5f, 1, 0);
+        expect_rgb(part(&f, "albedo_Floor_sharp1") + 3 * x, 0.25f + at, 0.25f + at, 0.25f + at, 1e-6);
+        expect_rgb(part(&f, "albedo_Floor_later") + 3 * x, 0.125f + at, 0.125f + at, 0.125f + at, 1e-6);
+        expect_beauty(&f, (size_t)x);
+    }
+    end(&f);
+}
+
 /* Clusters of varying albedo, several hits of targets that each have one colour, light that meets none: it all adds up
  * to the picture. */
 static void the_terms_add_up(void **state)
@@ -602,6 +674,9 @@ int main(void)
         cmocka_unit_test(sharp_and_broad_stay_apart),
         cmocka_unit_test(further_hits_come_later),
         cmocka_unit_test(monomials_go_their_own_ways),
+        cmocka_unit_test(one_place_may_be_met_twice),
+        cmocka_unit_test(steps_are_rounded_to),
+        cmocka_unit_test(pixels_do_not_mix),
         cmocka_unit_test(the_terms_add_up),
         cmocka_unit_test(a_seam_is_one_place),
         cmocka_unit_test(black_albedo_has_footprints),
