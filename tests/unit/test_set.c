@@ -97,7 +97,7 @@ static void expect_equal_sets(const RetexSet *a, const RetexSet *b)
     assert_true(a->width == b->width && a->height == b->height && a->orders == b->orders && a->spp == b->spp);
     assert_true(a->max_depth == b->max_depth && a->seed == b->seed && a->strict_paper == b->strict_paper);
     assert_int_equal(a->id, b->id);
-    assert_true(a->folded == b->folded);
+    assert_true(a->folded == b->folded && a->folded_white == b->folded_white);
     assert_string_equal(a->layout, b->layout);
     assert_string_equal(a->filter, b->filter);
     assert_string_equal(a->scene, b->scene);
@@ -114,6 +114,7 @@ static void expect_equal_sets(const RetexSet *a, const RetexSet *b)
         assert_memory_equal(ta.original_min, tb.original_min, sizeof ta.original_min);
         assert_memory_equal(ta.original_max, tb.original_max, sizeof ta.original_max);
         assert_memory_equal(ta.mean_albedo, tb.mean_albedo, sizeof ta.mean_albedo);
+        assert_memory_equal(ta.uv_scale, tb.uv_scale, sizeof ta.uv_scale);
         assert_true(ta.share == tb.share);
     }
     assert_int_equal(a->nparts, b->nparts);
@@ -175,6 +176,35 @@ static void test_set_there_and_back(void **state)
         retex_set_close(&back);
         retex_set_close(NULL);
     }
+}
+
+/* What layout footprints has and paper has not: kinds, spreads with a correlation, how large a unit of UV is. */
+static void test_footprints_there_and_back(void **state)
+{
+    (void)state;
+    RetexSet *set = test_set(30, 20, 7), *back;
+    RetexError err = {0};
+    strcpy(set->layout, "footprints");
+    set->folded_white = 0.125;
+    for (int t = 0; t < set->ntargets; t++)
+        set->targets[t].uv_scale[0] = 0.1 + t, set->targets[t].uv_scale[1] = 1e6;
+    for (int i = 0; i < set->nfootprints; i++) {
+        char name[32];
+        set->footprints[i].kind = (RetexFootprintKind)(i % 4);
+        if (i % 4 == RETEX_FOOTPRINT_HIT)
+            continue;
+        snprintf(name, sizeof name, "spread-%d", i);
+        test_must(retex_set_add_part(set, name, "RGB", RETEX_HALF, 0, 0, &set->footprints[i].spread, &err), &err);
+        RetexImage *image = &set->parts[set->footprints[i].spread].image;
+        retex_image_free(image);
+        test_random_image(image, 30, 20, 3, (uint32_t)i, -1, 1);
+    }
+    test_must(retex_set_write(set, NULL, path, NULL, &err), &err);
+    test_must(retex_set_check(path, 0, &err), &err);
+    test_must(retex_set_read(path, &back, NULL, 0, &err), &err);
+    expect_equal_sets(set, back);
+    retex_set_close(&set);
+    retex_set_close(&back);
 }
 
 static void test_samples_there_and_back(void **state)
@@ -263,7 +293,7 @@ static void test_names_are_checked(void **state)
     assert_int_equal(retex_set_add_part(set, "x", "RR", RETEX_HALF, 0, 0, NULL, &err), RETEX_EINVAL);
     assert_int_equal(retex_set_add_part(set, "x", "r", RETEX_HALF, 0, 0, NULL, &err), RETEX_EINVAL);
     assert_int_equal(retex_set_add_part(set, "x", "R", RETEX_HALF, 70000, 1, NULL, &err), RETEX_EINVAL);
-    RetexFootprint footprint = {set->ntargets, 1, -1, -1, -1};
+    RetexFootprint footprint = {.target = set->ntargets, .hit = 1, .uv = -1, .spread = -1, .albedo = -1};
     assert_int_equal(retex_set_add_footprint(set, &footprint, NULL, &err), RETEX_EINVAL);
     RetexTerm term = {RETEX_TERM_DEP, 0, 1, {set->nfootprints}};
     assert_int_equal(retex_set_add_term(set, &term, NULL, &err), RETEX_EINVAL);
@@ -351,11 +381,30 @@ static void test_manifests_that_lie(void **state)
         {"", "\"orders\":", "\"orders\":-", RETEX_EFORMAT, "\"orders\""},
         {"", "\"seed\":", "\"seed\":99999999999", RETEX_EFORMAT, "\"seed\""},
         {"", "\"folded\":", "\"folded\":null,\"x\":", RETEX_EFORMAT, "\"folded\""},
+        {"", "\"folded_white\":", "\"folded_white\":\"0\",\"x\":", RETEX_EFORMAT, "\"folded_white\""},
+        {"", "\"folded_white\":", "\"x\":", 0, ""},
         {"\"targets\"", "\"periodic\":[", "\"periodic\":[7,", RETEX_EFORMAT, "\"periodic\""},
+        {"\"targets\"", "\"uv_scale\":[", "\"uv_scale\":[1,", RETEX_EFORMAT, "\"uv_scale\""},
+        {"\"targets\"", "\"uv_scale\":[", "\"uv_scale\":[1],\"x\":[", RETEX_EFORMAT, "\"uv_scale\""},
+        {"\"targets\"", "\"uv_scale\":[", "\"uv_scale\":[1,\"2\"],\"x\":[", RETEX_EFORMAT, "\"uv_scale\""},
+        {"\"targets\"", "\"uv_scale\":[", "\"uv_scale\":7,\"x\":[", RETEX_EFORMAT, "\"uv_scale\""},
+        {"\"targets\"", "\"uv_scale\":[", "\"x\":[", 0, ""},
         {"\"footprints\"", "\"target\":", "\"target\":5", RETEX_EFORMAT, "\"target\""},
         {"\"footprints\"", "\"hit\":", "\"hit\":-", RETEX_EFORMAT, "\"hit\""},
         {"\"footprints\"", "\"uv\":\"", "\"uv\":\"no", RETEX_EFORMAT, "\"uv\""},
         {"\"footprints\"", "\"uv\":\"", "\"uv\":null,\"x\":\"", 0, ""},
+        {"\"footprints\"", "\"kind\":\"hit", "\"kind\":\"hitt", RETEX_EFORMAT, "unknown kind \"hitt\""},
+        {"\"footprints\"", "\"kind\":\"hit", "\"kind\":\"dep", RETEX_EFORMAT, "unknown kind \"dep\""},
+        {"\"footprints\"", "\"kind\":\"hit", "\"kind\":\"", RETEX_EFORMAT, "unknown kind \"\""},
+        {"\"footprints\"", "\"kind\":\"", "\"kind\":\"0123456789abcdef", RETEX_EFORMAT, "\"kind\""},
+        {"\"footprints\"", "\"kind\":\"", "\"kind\":1,\"x\":\"", RETEX_EFORMAT, "\"kind\""},
+        {"\"footprints\"", "\"kind\":\"hit", "\"kind\":\"sharp", 0, ""},
+        {"\"footprints\"", "\"kind\":\"hit", "\"kind\":\"broad", 0, ""},
+        {"\"footprints\"", "\"kind\":\"hit", "\"kind\":\"later", 0, ""},
+        {"\"footprints\"", "\"kind\":\"", "\"x\":\"", 0, ""},
+        {"\"parts\"", "\"letters\":\"RG\"", "\"letters\":\"RGB\"", 0, ""}, /* spread with the correlation */
+        {"\"parts\"", "\"letters\":\"RG\"", "\"letters\":\"RGBA\"", RETEX_EFORMAT, "4 channels instead of 2"},
+        {"\"parts\"", "\"letters\":\"RG\"", "\"letters\":\"R\"", RETEX_EFORMAT, "1 channels instead of 2"},
         {"\"terms\"", "\"kind\":\"", "\"kind\":\"x", RETEX_EFORMAT, "unknown kind"},
         {"\"terms\"", "\"radiance\":\"", "\"radiance\":null,\"x\":\"", RETEX_EFORMAT, "\"radiance\""},
         {"\"terms\"", "\"factors\":[", "\"factors\":[600", RETEX_EFORMAT, "factor"},
@@ -493,10 +542,11 @@ static void test_what_is_no_set(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_set_there_and_back),     cmocka_unit_test(test_samples_there_and_back),
-        cmocka_unit_test(test_stream_through_a_pipe),  cmocka_unit_test(test_names_are_checked),
-        cmocka_unit_test(test_samples_of_another_set), cmocka_unit_test(test_manifests_that_lie),
-        cmocka_unit_test(test_damaged_files),          cmocka_unit_test(test_what_is_no_set),
+        cmocka_unit_test(test_set_there_and_back),     cmocka_unit_test(test_footprints_there_and_back),
+        cmocka_unit_test(test_samples_there_and_back), cmocka_unit_test(test_stream_through_a_pipe),
+        cmocka_unit_test(test_names_are_checked),      cmocka_unit_test(test_samples_of_another_set),
+        cmocka_unit_test(test_manifests_that_lie),     cmocka_unit_test(test_damaged_files),
+        cmocka_unit_test(test_what_is_no_set),
     };
     return cmocka_run_group_tests(tests, make_path, remove_path);
 }
