@@ -1,0 +1,50 @@
+# retex-combine --error: the error to be expected, in numbers and as a picture, and mistakes.
+$ make_set s.exr 48 32; cp "$SCENES/textures/brick.jpg" .; retex-combine s.exr --threads 1 --texture floor=brick.jpg --error e.exr -o y.exr 2>&1 | sed 's/[0-9.]* s$/N s/; s/error [0-9][0-9.e-]* rms/error N rms/'
+> retex-combine: y.exr: Floor <- brick.jpg, 48 x 32, expected error N rms, N s
+$ retex-combine -q s.exr --texture floor=brick.jpg -o z.exr; cmp y.exr z.exr; retex-diff -q e.exr e.exr; retex-diff -q e.exr y.exr --fail-psnr 60; echo $?
+> 1
+
+# A constant colour is exact; the more contrast, the more error.
+$ retex-combine s.exr --texture 'floor=rgb(0.9,0,0)' --texture 'wall=rgb(0,1,0.5)' --error 0.exr -o 0.png 2>&1 | grep -o 'expected error 0 rms'
+> expected error 0 rms
+
+# The same bits whatever the number of threads, and through a pipe.
+$ for n in 1 2 7; do retex-combine -q s.exr --threads $n --texture:scale=3:rotate=20 wall=brick.jpg --error $n.exr -o 0.png; done; cmp 1.exr 2.exr; cmp 1.exr 7.exr
+$ retex-combine -q - --texture:scale=3:rotate=20 wall=brick.jpg --error pipe.exr <s.exr >p.exr; cmp 1.exr pipe.exr
+$ rm ?.exr ?.png pipe.exr; make_set s.exr 48 32
+
+$ printf 'output,floor\nx.png,brick.jpg\n' >batch.csv; retex-combine -q s.exr --batch batch.csv --error x.exr
+! retex-combine: error: --error is of one picture: no --batch
+= 2
+$ retex-combine -q s.exr --error x.exr -o x.png
+! retex-combine: error: --error needs the textures: name them with --texture
+= 2
+$ retex-sample -q s.exr --texture floor=brick.jpg -o a.exr; retex-combine -q s.exr a.exr --error x.exr -o x.png
+! retex-combine: error: --error needs the textures: name them with --texture
+= 2
+$ retex-combine -q s.exr --texture floor=brick.jpg --error x.exr -o x.exr
+! retex-combine: error: the picture and --error are the same file
+= 2
+$ retex-combine -q s.exr --texture floor=brick.jpg --error - >/dev/null
+! retex-combine: error: the picture and --error are the same file
+= 2
+$ retex-combine -q s.exr --texture floor=brick.jpg --error brick.jpg -o x.png
+! retex-combine: error: the output brick.jpg would replace the input
+= 2
+$ retex-combine -q s.exr --texture floor=brick.jpg --error s.exr -o x.png
+! retex-combine: error: the output s.exr would replace the input
+= 2
+$ retex-combine -q s.exr --texture floor=brick.jpg --error nowhere/x.exr -o x.png
+! retex-combine: error: cannot write nowhere/x.exr: No such file or directory
+= 2
+$ retex-combine -q s.exr --texture floor=brick.jpg --error x -o x.png
+! retex-combine: error: x: cannot tell the picture's format: the name has no ending, such as .png or .exr
+= 2
+$ ls x.*
+! ls: cannot access 'x.*': No such file or directory
+= 2
+
+$ retex-combine -q s.exr --texture floor=brick.jpg --error /dev/full -o full.png; echo $?; ls full.png
+> 2
+> full.png
+! retex-combine: error: cannot write /dev/full: No space left on device

@@ -1,0 +1,89 @@
+# retex-render --layout and --clusters, and what retex-info says of the sets.
+$ ln -s "$SCENES" scenes; retex-render -q --size 16x12 --spp 2 -t floor scenes/cornell-box/cornell-box.pov -o f.exr; retex-info f.exr | grep '^layout\|^orders\|^clusters\|^AOVs'
+> layout         footprints
+> orders         6
+> clusters       3 sharp, 1 broad
+> AOVs           35: 25 radiance, 5 UV, 5 spread
+$ retex-render -q --size 16x12 --spp 2 -t floor --layout footprints --clusters 3+1 --orders 6 scenes/cornell-box/cornell-box.pov -o g.exr; cmp f.exr g.exr
+$ retex-render -q --size 16x12 --spp 2 -t floor --clusters 8 --orders 2 scenes/cornell-box/cornell-box.pov | retex-info - 2>/dev/null | grep '^clusters\|^AOVs'
+> clusters       6 sharp, 2 broad
+> AOVs           35: 17 radiance, 9 UV, 9 spread
+$ retex-render -q --size 16x12 --spp 2 -t floor --clusters 16+4 --orders 1 scenes/cornell-box/cornell-box.pov | retex-info - 2>/dev/null | grep '^clusters\|^AOVs'
+> clusters       16 sharp, 4 broad
+> AOVs           61: 21 radiance, 20 UV, 20 spread
+$ retex-render -q --size 16x12 --spp 2 -t floor --layout paper scenes/cornell-box/cornell-box.pov -o p.exr; retex-info p.exr | grep '^layout\|^orders\|^clusters\|^AOVs'
+> layout         paper
+> orders         6
+> AOVs           33: 21 radiance, 6 UV, 6 spread
+
+# Kinds, by footprint; with several targets each has its own.
+$ retex-info --json f.exr | grep -o '"kind":"\(sharp\|broad\|later\|hit\)"' | sort | uniq -c
+>       1 "kind":"broad"
+>       1 "kind":"later"
+>       3 "kind":"sharp"
+$ retex-info --json p.exr | grep -o '"kind":"\(sharp\|broad\|later\|hit\)"' | sort | uniq -c
+>       6 "kind":"hit"
+$ retex-render -q --size 16x12 --spp 2 -t floor -t white scenes/cornell-box/cornell-box.pov -o two.exr; retex-info --json two.exr | grep -o '"kind":"\(sharp\|broad\|later\|hit\)"' | sort | uniq -c; retex-info --check two.exr
+>       2 "kind":"broad"
+>       2 "kind":"later"
+>       6 "kind":"sharp"
+> two.exr: ok
+$ retex-info --json two.exr | grep -o '"name":"dep_floor_sharp1[^"]*"' | head -n 4
+> "name":"dep_floor_sharp1"
+> "name":"dep_floor_sharp1_a1"
+> "name":"dep_floor_sharp1_a2"
+> "name":"dep_floor_sharp1_a3"
+
+# Both layouts show the picture that was rendered, and take new textures.
+$ for s in f p two; do retex-combine -q $s.exr -o back.exr; retex-render -q --size 16x12 --spp 2 --plain scenes/cornell-box/cornell-box.pov -o plain.exr; retex-diff -q back.exr plain.exr --fail-psnr 45 || echo $s; done
+$ for s in f p; do retex-combine -q $s.exr --texture 'floor=rgb(0.7,0.1,0.2)' -o red.exr; retex-render -q --size 16x12 --spp 2 --replace 'floor=rgb(0.7,0.1,0.2)' scenes/cornell-box/cornell-box.pov -o truth.exr; retex-diff -q red.exr truth.exr --fail-psnr 55 || echo $s; done
+
+# A pack holds either.
+$ for s in f p two; do retex-pack -q --lossless $s.exr -o $s.retex; retex-combine -q $s.retex -o a.exr; retex-combine -q $s.exr -o b.exr; cmp a.exr b.exr; done; retex-info two.retex | grep '^clusters'
+> clusters       3 sharp, 1 broad
+
+$ retex-render --layout cubist scenes/cornell-box/cornell-box.pov -o x.exr
+! retex-render: error: --layout knows footprints and paper, not `cubist`
+= 2
+$ retex-render --layout '' scenes/cornell-box/cornell-box.pov -o x.exr
+! retex-render: error: --layout knows footprints and paper, not ``
+= 2
+$ retex-render --clusters 0 scenes/cornell-box/cornell-box.pov -o x.exr
+! retex-render: error: --clusters wants 1 to 16 sharp and 1 to 4 broad ones, not `0`
+= 2
+$ retex-render --clusters 1 scenes/cornell-box/cornell-box.pov -o x.exr
+! retex-render: error: --clusters wants 1 to 16 sharp and 1 to 4 broad ones, not `1`
+= 2
+$ retex-render --clusters 17+1 scenes/cornell-box/cornell-box.pov -o x.exr
+! retex-render: error: --clusters wants 1 to 16 sharp and 1 to 4 broad ones, not `17+1`
+= 2
+$ retex-render --clusters 3+5 scenes/cornell-box/cornell-box.pov -o x.exr
+! retex-render: error: --clusters wants 1 to 16 sharp and 1 to 4 broad ones, not `3+5`
+= 2
+$ retex-render --clusters 3+0 scenes/cornell-box/cornell-box.pov -o x.exr
+! retex-render: error: --clusters wants 1 to 16 sharp and 1 to 4 broad ones, not `3+0`
+= 2
+$ retex-render --clusters 99999999999 scenes/cornell-box/cornell-box.pov -o x.exr
+! retex-render: error: --clusters wants a number, or two as in 3+1, not `99999999999`
+= 2
+$ retex-render --clusters 3+ scenes/cornell-box/cornell-box.pov -o x.exr
+! retex-render: error: --clusters wants a number, or two as in 3+1, not `3+`
+= 2
+$ retex-render --clusters +1 scenes/cornell-box/cornell-box.pov -o x.exr
+! retex-render: error: --clusters wants a number, or two as in 3+1, not `+1`
+= 2
+$ retex-render --clusters -1 scenes/cornell-box/cornell-box.pov -o x.exr
+! retex-render: error: --clusters wants a number, or two as in 3+1, not `-1`
+= 2
+$ retex-render --clusters many scenes/cornell-box/cornell-box.pov -o x.exr
+! retex-render: error: --clusters wants a number, or two as in 3+1, not `many`
+= 2
+$ retex-render --clusters 3+1+1 scenes/cornell-box/cornell-box.pov -o x.exr
+! retex-render: error: --clusters wants a number, or two as in 3+1, not `3+1+1`
+= 2
+$ retex-render --clusters '' scenes/cornell-box/cornell-box.pov -o x.exr
+! retex-render: error: --clusters wants a number, or two as in 3+1, not ``
+= 2
+$ ls x.*
+! ls: cannot access 'x.*': No such file or directory
+= 2
