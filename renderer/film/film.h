@@ -30,8 +30,8 @@ void uv_range_reset(UvRange *range);
 void uv_range_add(UvRange *range, int target, const double uv[2]);
 void uv_range_merge(UvRange *into, const UvRange *from);
 
-/* Luminance, summed: all light, and that whose surplus hits had to take their original albedo; as it is, and as it would
- * be with white targets. */
+/* Luminance, summed: all light, and that whose surplus hits had to take their original albedo; as it is, and as it
+ * would be with white targets. */
 typedef struct LightSums {
     double total, folded, total_white, folded_white;
 } LightSums;

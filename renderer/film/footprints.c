@@ -31,7 +31,7 @@ typedef struct AlbedoSums {
 typedef struct Cluster {
     UvStats uv;
     AlbedoSums albedo;
-    int samples; /* paths */
+    double squares; /* of the paths' weights */
     Coefficients c;
 } Cluster;
 
@@ -385,7 +385,7 @@ static void merge_cluster(Cluster *into, const Cluster *from, int coefficients, 
 {
     uv_stats_merge(&into->uv, &from->uv, periodic);
     merge_albedo(&into->albedo, &from->albedo);
-    into->samples += from->samples;
+    into->squares += from->squares;
     for (int i = 0; i < coefficients; i++)
         for (int c = 0; c < 3; c++)
             into->c[i][c] += from->c[i][c];
@@ -396,7 +396,7 @@ static void add_pending(Cluster *into, const Pending *q, int coefficients, const
     const double uv[2] = {q->position.u, q->position.v};
     uv_stats_add(&into->uv, q->weight, uv, periodic);
     merge_albedo(&into->albedo, &q->albedo);
-    into->samples++;
+    into->squares += q->weight * q->weight;
     for (int i = 0; i < coefficients; i++)
         for (int c = 0; c < 3; c++)
             into->c[i][c] += q->c[i][c];
@@ -406,7 +406,7 @@ static void start_cluster(Cluster *cluster, const Pending *q, int coefficients, 
 {
     cluster->uv = (UvStats){0};
     cluster->albedo = (AlbedoSums){0};
-    cluster->samples = 0;
+    cluster->squares = 0;
     memset(cluster->c, 0, sizeof cluster->c[0] * (size_t)coefficients);
     add_pending(cluster, q, coefficients, periodic);
 }
@@ -522,6 +522,12 @@ static float white_pixel(const FootprintPixel *p)
     return (float)(fmax(sum[0], fmax(sum[1], sum[2])) / p->film->params.spp);
 }
 
+/* So many paths of equal weight would know as much (Kish 1965): few bright ones count for few. */
+static double effective_samples(const Cluster *cluster)
+{
+    return cluster->uv.weight * cluster->uv.weight / cluster->squares;
+}
+
 /* Clusters into their images, in the order of their place on the texture, so that neighbours agree. */
 static void store_clusters(FootprintPixel *p, FootprintImages *slots, Cluster *clusters, int count, int coefficients,
                            double step, int x, int y)
@@ -529,7 +535,8 @@ static void store_clusters(FootprintPixel *p, FootprintImages *slots, Cluster *c
     float scale = 1 / (float)p->film->params.spp;
     qsort(clusters, (size_t)count, sizeof *clusters, compare_clusters);
     for (int k = 0; k < count; k++) {
-        store_footprint(&slots[k], &clusters[k].uv, &clusters[k].albedo, (float)clusters[k].samples * scale, x, y);
+        store_footprint(&slots[k], &clusters[k].uv, &clusters[k].albedo, (float)effective_samples(&clusters[k]) * scale,
+                        x, y);
         for (int i = 0; i < coefficients; i++) {
             float *to = pixel_of(&slots[k].coefficients[i], x, y);
             for (int c = 0; c < 3; c++)
