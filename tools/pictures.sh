@@ -27,11 +27,16 @@ picture() {
     retex-combine -q "$from" "$@" -o "$to"
 }
 
-set_of living-room scenes/living-room/living-room.pov 640x480 Floor Wall
+set_of living-room scenes/living-room/living-room.pov 640x360 Floor Wall
 picture living-room living-room
 picture living-room living-room-walnut --texture "Floor=$textures/walnut-herringbone.jpg"
 picture living-room living-room-terrazzo-brick --texture "Floor=$textures/terrazzo.jpg" --texture "Wall=$textures/brick.jpg"
 picture living-room living-room-damask --texture "Wall=$textures/damask.jpg"
+
+set_of kitchen scenes/kitchen/kitchen.pov 640x480 Floor Wall
+picture kitchen kitchen
+picture kitchen kitchen-terrazzo --texture "Floor=$textures/terrazzo.jpg"
+picture kitchen kitchen-travertine-fans --texture "Floor=$textures/travertine.jpg" --texture "Wall=$textures/fans.jpg"
 
 set_of glass-caustics scenes/glass-caustics/glass-caustics.pov 640x480 Floor
 picture glass-caustics glass-caustics
