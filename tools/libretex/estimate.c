@@ -4,11 +4,12 @@
  * the sum of the light by the mean of the texture. That is wrong by as much as light and texture happen to agree inside
  * the footprint, which grows with how far the texture scatters there and with how much light it multiplies:
  *
- *     e^2 = sum over footprints f of (dI/dA_f)^2 Var(A_f) (k_f^2 + 1 / n_f)  +  (folded I)^2
+ *     e^2 = sum over footprints f of (dI/dA_f)^2 Var(A_f) (k_f^2 + s_f / n_f)  +  (folded I)^2
  *
  * dI/dA_f: the picture's derivative to the footprint's texture; Var(A_f): the texture's variance within it; n_f: the
- * paths that met it, for rendering again looks the texture up at as many places; k_f: how much light and texture
- * agree beyond chance, measured for each kind of footprint over the scenes of `make fidelity`. */
+ * paths that met it, for rendering again looks the texture up at as many places; s_f: what of that chance is left, for
+ * samples of a pixel are spread evenly over what is seen sharply; k_f: how much light and texture agree beyond chance.
+ * s_f and k_f were measured for each kind of footprint in the scenes of tests/fidelity/error.sh. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -20,8 +21,9 @@
 
 #define ROWS_A_JOB 8
 
-/* k_f by kind of footprint: hit, sharp, broad, later. */
-static const float agreement[] = {0.3f, 0.1f, 0.1f, 0.1f};
+/* k_f and s_f by kind of footprint: hit, sharp, broad, later. */
+static const float agreement[] = {0.3f, 0.05f, 0.1f, 0.1f};
+static const float chance[] = {1, 0.3f, 1, 1};
 
 typedef struct EstimateWork {
     RetexImage *dst;
@@ -65,14 +67,15 @@ static void estimate_row(const EstimateWork *work, int y, float *restrict scratc
     for (size_t i = 0; i < n; i++)
         sum[i] = (float)set->folded * sum[i] * (float)set->folded * sum[i];
     for (int f = 0; f < set->nfootprints; f++) {
-        const float *variance = work->variances->images[f].pixels, k = agreement[set->footprints[f].kind];
+        const float *variance = work->variances->images[f].pixels;
+        const float k = agreement[set->footprints[f].kind], s = chance[set->footprints[f].kind];
         const RetexImage *uv = set->footprints[f].uv >= 0 ? &set->parts[set->footprints[f].uv].image : NULL;
         if (!variance || !uv)
             continue;
         for (size_t i = 0; i < n; i++) {
             float d = derivatives[(size_t)f * n + i], paths = uv->pixels[(first + i) / 3 * 3 + 2] * (float)set->spp;
             if (d != 0)
-                sum[i] += d * d * variance[first + i] * (k * k + 1 / fmaxf(paths, 1));
+                sum[i] += d * d * variance[first + i] * (k * k + s / fmaxf(paths, 1));
         }
     }
     float *out = work->dst->pixels + first;
