@@ -28,6 +28,8 @@ static void begin(void)
     give(set, NULL);
     give(NULL, samples);
     give(set, samples);
+    test_make_footprints(set);
+    give(set, NULL);
     retex_samples_close(&samples);
     retex_set_close(&set);
 }

@@ -40,6 +40,7 @@ static void begin(void)
     RetexError err = {0};
     RetexSamples *samples;
     RetexSet *set = test_set(12, 8, 1), *tall = test_set(3, 40, 2);
+    test_make_footprints(tall);
     test_must(retex_texture_spec_parse(&spec, "", "Floor=rgb(1,0.5,0.2)", &err), &err);
     test_must(retex_sample(&samples, set, &spec, 1, 1, &err), &err);
     for (int compress = 0; compress < 2; compress++) {
@@ -70,17 +71,20 @@ static void use_set(const RetexSet *set, const RetexSamples *samples)
 {
     RetexTextureSpec spec = RETEX_TEXTURE_SPEC_INIT;
     RetexImage picture = {0};
-    RetexSamples *own = NULL;
+    RetexSamples *own = NULL, *variances = NULL;
     retex_combine(&picture, set, NULL, NULL, NULL, 1, NULL);
     if (samples && retex_samples_check(samples, set, NULL) == 0)
         retex_combine(&picture, set, samples, NULL, NULL, 1, NULL);
     if (set->ntargets) {
         spec.constant = 1;
         memcpy(spec.target, set->targets[0].name, sizeof spec.target);
-        if (retex_sample(&own, set, &spec, 1, 1, NULL) == 0)
+        if (retex_sample_with_variances(&own, &variances, set, &spec, 1, 1, NULL) == 0) {
             retex_combine(&picture, set, own, NULL, NULL, 1, NULL);
+            retex_estimate_error(&picture, set, own, variances, NULL, NULL, 1, NULL);
+        }
     }
     retex_samples_close(&own);
+    retex_samples_close(&variances);
     retex_image_free(&picture);
 }
 

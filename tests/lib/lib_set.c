@@ -158,3 +158,28 @@ RetexSet *test_set(int width, int height, uint32_t seed)
     round_to_stored(set);
     return set;
 }
+
+void test_make_footprints(RetexSet *set)
+{
+    uint32_t seed = 1;
+    snprintf(set->layout, sizeof set->layout, "footprints");
+    set->folded_white = 0.125;
+    for (int t = 0; t < set->ntargets; t++)
+        set->targets[t].uv_scale[0] = 0.1 + t, set->targets[t].uv_scale[1] = 1e6;
+    for (int i = 0; i < set->nfootprints; i++) {
+        RetexFootprint *f = &set->footprints[i];
+        char name[32];
+        f->kind = (RetexFootprintKind)(i % 4);
+        if (f->kind == RETEX_FOOTPRINT_HIT)
+            continue;
+        const int deviations = f->spread;
+        snprintf(name, sizeof name, "spread-%d", i);
+        f->spread = add_part(set, name, "RGB", RETEX_HALF);
+        for (size_t k = 0; k < (size_t)set->width * (size_t)set->height; k++) {
+            float *to = set->parts[f->spread].image.pixels + 3 * k;
+            memcpy(to, set->parts[deviations].image.pixels + 2 * k, 2 * sizeof *to);
+            to[2] = (float)(2 * test_random(&seed) - 1);
+        }
+    }
+    round_to_stored(set);
+}

@@ -184,21 +184,7 @@ static void test_footprints_there_and_back(void **state)
     (void)state;
     RetexSet *set = test_set(30, 20, 7), *back;
     RetexError err = {0};
-    strcpy(set->layout, "footprints");
-    set->folded_white = 0.125;
-    for (int t = 0; t < set->ntargets; t++)
-        set->targets[t].uv_scale[0] = 0.1 + t, set->targets[t].uv_scale[1] = 1e6;
-    for (int i = 0; i < set->nfootprints; i++) {
-        char name[32];
-        set->footprints[i].kind = (RetexFootprintKind)(i % 4);
-        if (i % 4 == RETEX_FOOTPRINT_HIT)
-            continue;
-        snprintf(name, sizeof name, "spread-%d", i);
-        test_must(retex_set_add_part(set, name, "RGB", RETEX_HALF, 0, 0, &set->footprints[i].spread, &err), &err);
-        RetexImage *image = &set->parts[set->footprints[i].spread].image;
-        retex_image_free(image);
-        test_random_image(image, 30, 20, 3, (uint32_t)i, -1, 1);
-    }
+    test_make_footprints(set);
     test_must(retex_set_write(set, NULL, path, NULL, &err), &err);
     test_must(retex_set_check(path, 0, &err), &err);
     test_must(retex_set_read(path, &back, NULL, 0, &err), &err);
