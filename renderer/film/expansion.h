@@ -29,11 +29,13 @@ typedef struct Monomial {
     Rgb coefficient;    /* c_S */
 } Monomial;
 
+#define EXPANSION_MONOMIALS_MAX 256 /* eight hits with both parts; of diffuse targets each has one */
+
 typedef struct Expansion {
     int nhits, nmonomials;
     int per_target[RETEX_MAX_TARGETS]; /* hits of each target so far */
     TargetHit hits[RETEX_MAX_FACTORS];
-    Monomial monomials[1 << RETEX_MAX_FACTORS];
+    Monomial monomials[EXPANSION_MONOMIALS_MAX];
 } Expansion;
 
 static inline void expansion_reset(Expansion *e)
@@ -45,19 +47,23 @@ static inline void expansion_reset(Expansion *e)
 }
 
 void expansion_copy(Expansion *to, const Expansion *from); /* only what is in use */
-/* Most hits of all targets together that a path keeps apart. Eight leave light between several targets enough terms:
- * with two white ones the light beyond six would show. With n hits of T targets there are (T + n)! / (T! n!) terms, so
- * many targets get fewer hits: a set has room for about a thousand. */
-static inline int expansion_most_hits(int ntargets)
+
+/* Most hits of all targets together that a path keeps apart. Layout paper has a term for each combination of them:
+ * with n hits of T targets there are (T + n)! / (T! n!), so many targets get fewer hits, for a set has room for about
+ * a thousand. */
+static inline int expansion_most_hits(int ntargets, int paper)
 {
-    return ntargets <= 4 ? RETEX_MAX_FACTORS : RETEX_MAX_FACTORS + 4 - ntargets;
+    if (!paper)
+        return RETEX_MAX_FACTORS;
+    return ntargets <= 4 ? 8 : 12 - ntargets;
 }
 
 /* Is there room for one more hit of a target, with so many orders for each and so many hits of all? */
 static inline int expansion_has_room(const Expansion *e, int target, int orders, int most_hits)
 {
-    return e->nhits < most_hits && e->per_target[target] < orders;
+    return e->nhits < most_hits && e->per_target[target] < orders && 2 * e->nmonomials <= EXPANSION_MONOMIALS_MAX;
 }
+
 /* Multiply by d a + i of one more hit, which must have room. */
 void expansion_push(Expansion *e, int target, Split factor, Vec2 uv, Rgb albedo, int sharp);
 

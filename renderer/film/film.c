@@ -132,41 +132,26 @@ void film_pixel_close(FilmPixel **pixel)
     *pixel = NULL;
 }
 
-int film_surveying(const Film *film)
-{
-    return film->footprints && footprints_surveying(film->footprints);
-}
-
-int film_survey_end(Film *film, FilmPixel *const *pixels, int npixels, RetexError *err)
-{
-    for (int k = 0; k < npixels; k++) {
-        footprints_survey_take(film->footprints, pixels[k]->footprints);
-        pixels[k]->beauty[0] = pixels[k]->beauty[1] = pixels[k]->beauty[2] = 0;
-        pixels[k]->light = (LightSums){0};
-        pixels[k]->dropped = 0;
-        uv_range_reset(&pixels[k]->range);
-    }
-    return footprints_survey_end(film->footprints, err);
-}
-
 /* ---- light ---- */
 
 void film_connect(FilmPixel *p, Rgb beauty, Rgb outside, const Expansion *e, int folded)
 {
     float l = rgb_luminance(beauty);
-    double folded_before = p->light.folded;
     if (!isfinite(beauty.r + beauty.g + beauty.b + outside.r + outside.g + outside.b)) {
         p->dropped++;
         return;
     }
     p->beauty[0] += beauty.r, p->beauty[1] += beauty.g, p->beauty[2] += beauty.b;
+    LightSums before = p->light;
     p->light.total += l;
     if (p->paper && !rgb_is_black(outside))
         paper_connect(p->paper, e, outside);
     if (p->footprints && !rgb_is_black(outside))
         footprints_connect(p->footprints, e, outside, &p->light);
-    if (folded) /* all of it, and not again what the layout folded of it */
-        p->light.folded = folded_before + l;
+    if (folded) { /* all of it, and not again what the layout folded of it */
+        p->light.folded = before.folded + l;
+        p->light.folded_white = before.folded_white + p->light.total_white - before.total_white;
+    }
 }
 
 void film_path_end(FilmPixel *p)
@@ -201,7 +186,10 @@ long film_floats(const FilmParams *params, int ntargets)
         return 3;
     if (params->paper)
         return 3 + params->orders * (8 * ntargets + 6); /* footprints, terms */
-    return 6 + ntargets * (9 + (params->sharp + params->broad) * (9 + 3 * plan_least(ntargets, params->orders)));
+    Plan plan;
+    plan_make(&plan, ntargets, params->orders, expansion_most_hits(ntargets, 0));
+    /* sharp clusters have few coefficients where they are at all */
+    return 6 + ntargets * (10 + params->broad * (9 + 3 * plan.count) + 12);
 }
 
 long film_dropped(const Film *film)

@@ -44,11 +44,6 @@ void film_close(Film **film);
 int film_pixel_create(FilmPixel **pixel, Film *film, RetexError *err);
 void film_pixel_close(FilmPixel **pixel);
 
-/* A film of several targets looks at some paths first, anywhere in the picture, to see what is worth keeping. While
- * it surveys, pixels are not stored; the survey's end forgets all light so far. */
-int film_surveying(const Film *film);
-int film_survey_end(Film *film, FilmPixel *const *pixels, int npixels, RetexError *err);
-
 /* Light that arrived: beauty is its whole contribution. With a split film, outside is the part of the throughput that
  * no recorded target hit made, times the light, and expansion holds the hits; folded: hits beyond the order kept
  * their albedo. Samples that are not finite are counted and dropped. */

@@ -10,10 +10,10 @@
 
 #define SLOTS_MAX (FILM_SHARP_MAX + FILM_BROAD_MAX)
 #define PENDING_MAX 64
-#define COEFFICIENT_IMAGES_MAX 1024 /* a set has room for them beside its footprints */
 /* What an unknown texture is taken for where its hit only weighs another's. */
 #define UNKNOWN_ALBEDO 0.5f
-/* What the survey takes for every texture: white paint. */
+#define LEAST_ALBEDO 1e-3f
+/* White paint. */
 #define WHITE_ALBEDO 0.8f
 /* Coefficients are rounded to this share of what the pixel would be were its targets white: steps no one sees, and
  * small coefficients of few bits, which compress. */
@@ -52,6 +52,7 @@ typedef struct TargetClusters {
     UvStats later;
     AlbedoSums later_albedo;
     int later_samples, later_seen; /* seen: by the path in hand */
+    double mixed;                  /* weight of its hits in mixtures */
 } TargetClusters;
 
 /* Images of one footprint. */
@@ -64,15 +65,14 @@ struct FootprintFilm {
     const Scene *scene;
     FilmParams params;
     Plan plan;
-    PlanSurvey *survey;                        /* while surveying */
     RetexImage free;                           /* C0 */
     FootprintImages *slots[RETEX_MAX_TARGETS]; /* sharp, broad */
     FootprintImages later[RETEX_MAX_TARGETS];
+    RetexImage shares[RETEX_MAX_TARGETS]; /* of mixtures; with several targets */
 };
 
 struct FootprintPixel {
     FootprintFilm *film;
-    PlanSurvey *survey;
     double free[3];
     TargetClusters *targets;
     Pending pending[PENDING_MAX];
@@ -108,39 +108,27 @@ static void free_footprint(FootprintImages *f)
         retex_image_free(&f->coefficients[i]);
 }
 
-/* Does any cluster have a further hit of this target? */
-static int has_later(const Plan *plan, int target)
+static int has_mixtures(const Plan *plan)
 {
-    for (int t = 0; t < plan->ntargets; t++)
-        for (int i = 0; i < plan->count[t]; i++)
-            if (plan->powers[t][i][target])
-                return 1;
-    return 0;
+    return plan->coefficients[plan->count - 1].mixed > 0;
 }
 
 static int alloc_images(FootprintFilm *film, RetexError *err)
 {
     const FilmParams *p = &film->params;
     int code = retex_image_alloc(&film->free, p->width, p->height, 3, err);
-    for (int t = 0; t < film->plan.ntargets && !code; t++) {
+    for (int t = 0; t < film->scene->ntargets && !code; t++) {
         film->slots[t] = calloc((size_t)slots_count(p), sizeof *film->slots[t]);
         if (!film->slots[t])
             return retex_fail(err, RETEX_ENOMEM, "out of memory for the film");
         for (int k = 0; k < slots_count(p) && !code; k++)
-            code = alloc_footprint(p, &film->slots[t][k], film->plan.count[t], err);
-        if (!code && has_later(&film->plan, t))
+            code = alloc_footprint(p, &film->slots[t][k], film->plan.count, err);
+        if (!code && film->plan.count > 1)
             code = alloc_footprint(p, &film->later[t], 0, err);
+        if (!code && has_mixtures(&film->plan))
+            code = retex_image_alloc(&film->shares[t], p->width, p->height, 1, err);
     }
     return code;
-}
-
-static void make_plan(FootprintFilm *film)
-{
-    int n = film->scene->ntargets;
-    PlanLimits limits = {film->params.orders, expansion_most_hits(n), COEFFICIENT_IMAGES_MAX};
-    if (n > 0)
-        limits.coefficients /= n * slots_count(&film->params);
-    plan_make(&film->plan, n, &limits, film->survey);
 }
 
 int footprints_create(FootprintFilm **out, const Scene *scene, const FilmParams *params, RetexError *err)
@@ -150,11 +138,7 @@ int footprints_create(FootprintFilm **out, const Scene *scene, const FilmParams 
         return retex_fail(err, RETEX_ENOMEM, "out of memory for the film");
     film->scene = scene;
     film->params = *params;
-    if (scene->ntargets > 1) {
-        film->survey = calloc(1, sizeof *film->survey);
-        return film->survey ? RETEX_OK : retex_fail(err, RETEX_ENOMEM, "out of memory for the film");
-    }
-    make_plan(film);
+    plan_make(&film->plan, scene->ntargets, params->orders, expansion_most_hits(scene->ntargets, 0));
     return alloc_images(film, err);
 }
 
@@ -169,8 +153,8 @@ void footprints_close(FootprintFilm **out)
             free_footprint(&film->slots[t][k]);
         free(film->slots[t]);
         free_footprint(&film->later[t]);
+        retex_image_free(&film->shares[t]);
     }
-    free(film->survey);
     free(film);
     *out = NULL;
 }
@@ -181,10 +165,9 @@ int footprints_pixel_create(FootprintPixel **out, FootprintFilm *film, RetexErro
     if (p) {
         p->film = film;
         p->targets = calloc((size_t)film->scene->ntargets + 1, sizeof *p->targets);
-        p->survey = film->survey ? calloc(1, sizeof *p->survey) : NULL;
         uv_range_reset(&p->range);
     }
-    if (p && p->targets && !film->survey == !p->survey)
+    if (p && p->targets)
         return RETEX_OK;
     footprints_pixel_close(out);
     return retex_fail(err, RETEX_ENOMEM, "out of memory for a thread's pixel");
@@ -195,32 +178,11 @@ void footprints_pixel_close(FootprintPixel **pixel)
     if (!*pixel)
         return;
     free((*pixel)->targets);
-    free((*pixel)->survey);
     free(*pixel);
     *pixel = NULL;
 }
 
-/* ---- the survey ---- */
-
-int footprints_surveying(const FootprintFilm *film)
-{
-    return film->survey != NULL;
-}
-
-void footprints_survey_take(FootprintFilm *film, FootprintPixel *pixel)
-{
-    plan_survey_merge(film->survey, pixel->survey);
-    free(pixel->survey);
-    pixel->survey = NULL;
-}
-
-int footprints_survey_end(FootprintFilm *film, RetexError *err)
-{
-    make_plan(film);
-    free(film->survey);
-    film->survey = NULL;
-    return alloc_images(film, err);
-}
+/* ---- light ---- */
 
 /* Luminance of a monomial were all its targets white paint. */
 static float white_luminance(HitMask hits, Rgb value)
@@ -231,30 +193,17 @@ static float white_luminance(HitMask hits, Rgb value)
     return luminance;
 }
 
-static void survey_monomial(PlanSurvey *survey, const Expansion *e, HitMask hits, Rgb value)
-{
-    unsigned char powers[RETEX_MAX_TARGETS] = {0};
-    int first = -1;
-    float luminance = white_luminance(hits, value);
-    for (int j = 0; j < e->nhits; j++) {
-        const TargetHit *hit = &e->hits[j];
-        if (!(hits & hit_bit(hit->target, hit->index)))
-            continue;
-        if (first < 0)
-            first = hit->target;
-        else
-            powers[hit->target]++;
-    }
-    plan_survey_total(survey, luminance);
-    if (first >= 0)
-        plan_survey_add(survey, plan_key(first, powers), luminance);
-}
-
-/* ---- light ---- */
-
 static void add_rgb(float sum[3], Rgb c)
 {
     sum[0] += c.r, sum[1] += c.g, sum[2] += c.b;
+}
+
+/* Another hit's albedo, as it weighs a hit's own: a black one must not make the hit's own unknown, for it may be the
+ * black one that is edited. */
+static Rgb weighing_albedo(const TargetHit *hit)
+{
+    return rgb(fmaxf(hit->albedo.r, LEAST_ALBEDO), fmaxf(hit->albedo.g, LEAST_ALBEDO),
+               fmaxf(hit->albedo.b, LEAST_ALBEDO));
 }
 
 static void add_albedo(AlbedoSums *a, Rgb light, Rgb albedo)
@@ -279,11 +228,11 @@ static Pending *find_pending(FootprintPixel *p, const TargetHit *hit, int order)
     q->target = hit->target, q->order = order, q->sharp = hit->sharp, q->position = hit->uv;
     q->weight = 0;
     q->albedo = (AlbedoSums){0};
-    memset(q->c, 0, sizeof q->c[0] * (size_t)p->film->plan.count[hit->target]);
+    memset(q->c, 0, sizeof q->c[0] * (size_t)p->film->plan.count);
     return q;
 }
 
-static void add_later(FootprintPixel *p, const TargetHit *hit, double weight, Rgb light)
+static void add_later(FootprintPixel *p, const TargetHit *hit, double weight, double mixed, Rgb light)
 {
     TargetClusters *t = &p->targets[hit->target];
     const double uv[2] = {hit->uv.u, hit->uv.v};
@@ -291,6 +240,7 @@ static void add_later(FootprintPixel *p, const TargetHit *hit, double weight, Rg
         uv_stats_add(&t->later, weight, uv, p->film->params.periodic[hit->target]);
     add_albedo(&t->later_albedo, light, hit->albedo);
     t->later_seen = 1;
+    t->mixed += mixed;
     uv_range_add(&p->range, hit->target, uv);
 }
 
@@ -303,13 +253,12 @@ typedef struct Kept {
 /* Which of the hits after the first; the albedo of the others goes into value. */
 static void keep_hits(const Plan *plan, const Expansion *e, HitMask hits, int first, Rgb *value, Kept *kept)
 {
-    int target = e->hits[first].target;
     *kept = (Kept){.count = 0};
     for (int j = first + 1; j < e->nhits; j++) {
         const TargetHit *hit = &e->hits[j];
         if (!(hits & hit_bit(hit->target, hit->index)))
             continue;
-        int next = plan->next[target][kept->coefficient][hit->target];
+        int next = plan->coefficients[kept->coefficient].next[hit->target];
         if (next >= 0) {
             kept->coefficient = next;
             kept->hits[kept->count++] = hit;
@@ -338,18 +287,19 @@ static void add_monomial(FootprintPixel *p, const Expansion *e, HitMask hits, Rg
     Rgb light = value;
     for (int k = 0; k < kept.count; k++) {
         weight *= UNKNOWN_ALBEDO;
-        light = rgb_mul(light, kept.hits[k]->albedo);
+        light = rgb_mul(light, weighing_albedo(kept.hits[k]));
     }
     Pending *q = find_pending(p, hit, first);
     q->weight += weight;
     add_rgb(q->c[kept.coefficient], value);
     add_albedo(&q->albedo, light, hit->albedo);
+    int mixed = p->film->plan.coefficients[kept.coefficient].mixed;
     for (int k = 0; k < kept.count; k++) {
-        Rgb others = rgb_mul(value, hit->albedo);
+        Rgb others = rgb_mul(value, weighing_albedo(hit));
         for (int i = 0; i < kept.count; i++)
             if (i != k)
-                others = rgb_mul(others, kept.hits[i]->albedo);
-        add_later(p, kept.hits[k], weight, others);
+                others = rgb_mul(others, weighing_albedo(kept.hits[i]));
+        add_later(p, kept.hits[k], weight, mixed ? weight / mixed : 0, others);
     }
     if (kept.folded)
         sums->folded += rgb_luminance(rgb_mul(light, hit->albedo));
@@ -362,9 +312,7 @@ void footprints_connect(FootprintPixel *p, const Expansion *e, Rgb outside, Ligh
         Rgb value = rgb_mul(outside, e->monomials[k].coefficient);
         if (rgb_is_black(value))
             continue;
-        if (p->survey) {
-            survey_monomial(p->survey, e, hits, value);
-        } else if (hits) {
+        if (hits) {
             add_monomial(p, e, hits, value, sums);
         } else {
             p->free[0] += value.r, p->free[1] += value.g, p->free[2] += value.b;
@@ -443,7 +391,7 @@ static void flush_pending(FootprintPixel *p)
         TargetClusters *t = &p->targets[q->target];
         int *count = q->sharp ? &t->nsharp : &t->nbroad, room = q->sharp ? params->sharp : params->broad;
         Cluster *clusters = q->sharp ? t->sharp : t->broad;
-        int coefficients = p->film->plan.count[q->target];
+        int coefficients = p->film->plan.count;
         const int *periodic = params->periodic[q->target];
         const double uv[2] = {q->position.u, q->position.v};
         if (!(q->weight > 0))
@@ -495,9 +443,10 @@ static void store_footprint(FootprintImages *to, const UvStats *uv, const Albedo
     mean[2] = coverage;
     spread[0] = (float)su, spread[1] = (float)sv;
     spread[2] = su > 0 && sv > 0 ? (float)(uv->m2[1] / (uv->weight * su * sv)) : 0;
-    float grey = (albedo->light[0] > 0 ? albedo->reflected[0] / albedo->light[0] : 0);
-    for (int c = 0; c < 3; c++)
-        a[c] = albedo->light[c] > 0 ? albedo->reflected[c] / albedo->light[c] : grey;
+    float light = albedo->light[0] + albedo->light[1] + albedo->light[2];
+    float reflected = albedo->reflected[0] + albedo->reflected[1] + albedo->reflected[2];
+    for (int c = 0; c < 3; c++) /* a channel without light: grey of the others */
+        a[c] = albedo->light[c] > 0 ? albedo->reflected[c] / albedo->light[c] : light > 0 ? reflected / light : 0;
 }
 
 static int compare_clusters(const void *a, const void *b)
@@ -515,7 +464,7 @@ static float white_pixel(const FootprintPixel *p)
         for (int k = 0; k < p->targets[t].nsharp + p->targets[t].nbroad; k++) {
             const TargetClusters *of = &p->targets[t];
             const Cluster *cluster = k < of->nsharp ? &of->sharp[k] : &of->broad[k - of->nsharp];
-            for (int i = 0; i < p->film->plan.count[t]; i++)
+            for (int i = 0; i < p->film->plan.count; i++)
                 for (int c = 0; c < 3; c++)
                     sum[c] += cluster->c[i][c];
         }
@@ -538,31 +487,44 @@ static void store_clusters(FootprintPixel *p, FootprintImages *slots, Cluster *c
         store_footprint(&slots[k], &clusters[k].uv, &clusters[k].albedo, (float)effective_samples(&clusters[k]) * scale,
                         x, y);
         for (int i = 0; i < coefficients; i++) {
+            const float *sum = clusters[k].c[i];
+            if (sum[0] == 0 && sum[1] == 0 && sum[2] == 0)
+                continue; /* memory that is never touched is never taken */
             float *to = pixel_of(&slots[k].coefficients[i], x, y);
             for (int c = 0; c < 3; c++)
-                to[c] = (float)round_to(clusters[k].c[i][c] * scale, step);
+                to[c] = (float)round_to(sum[c] * scale, step);
         }
     }
+}
+
+/* How often each target was met in mixtures; they add up to 1, or are all 0. */
+static void store_shares(FootprintPixel *p, int x, int y)
+{
+    double sum = 0;
+    for (int t = 0; t < p->film->scene->ntargets; t++)
+        sum += p->targets[t].mixed;
+    for (int t = 0; t < p->film->scene->ntargets && sum > 0; t++)
+        *pixel_of(&p->film->shares[t], x, y) = (float)(p->targets[t].mixed / sum);
 }
 
 void footprints_pixel_end(FootprintPixel *p, int x, int y)
 {
     FootprintFilm *film = p->film;
-    if (film->survey)
-        return;
     double step = COEFFICIENT_STEP * white_pixel(p);
     float scale = 1 / (float)film->params.spp, *c0 = pixel_of(&film->free, x, y);
     for (int c = 0; c < 3; c++)
         c0[c] = (float)(p->free[c] * scale), p->free[c] = 0;
+    store_shares(p, x, y);
     for (int t = 0; t < film->scene->ntargets; t++) {
         TargetClusters *of = &p->targets[t];
-        int coefficients = film->plan.count[t];
+        int coefficients = film->plan.count;
         store_clusters(p, film->slots[t], of->sharp, of->nsharp, coefficients, step, x, y);
         store_clusters(p, film->slots[t] + film->params.sharp, of->broad, of->nbroad, coefficients, step, x, y);
         if (of->later.weight > 0)
             store_footprint(&film->later[t], &of->later, &of->later_albedo, (float)of->later_samples * scale, x, y);
         of->nsharp = of->nbroad = of->later_samples = 0;
         of->later = (UvStats){0};
+        of->mixed = 0;
         of->later_albedo = (AlbedoSums){0};
     }
 }
@@ -608,23 +570,41 @@ static int finish_footprints(FootprintFilm *film, RetexSet *set, int first[RETEX
         }
         later[t] = set->nfootprints;
         RetexFootprint f = {.target = t, .hit = slots + 1, .kind = RETEX_FOOTPRINT_LATER};
-        if (!code && has_later(&film->plan, t))
+        if (!code && film->plan.count > 1)
             code = finish_footprint(set, &film->later[t], &f, "later", err);
     }
     return code;
 }
 
-/* dep_Floor_sharp1, and with further hits dep_Floor_sharp1_a2b1: two of the first target, one of the second. */
+static int finish_shares(FootprintFilm *film, RetexSet *set, const int *later, RetexError *err)
+{
+    int code = RETEX_OK;
+    for (int t = 0; t < set->ntargets && has_mixtures(&film->plan) && !code; t++) {
+        char name[RETEX_NAME_MAX];
+        RetexShare *share = &set->mixture[set->nmixture];
+        snprintf(name, sizeof name, "share_%.90s", set->targets[t].name);
+        share->footprint = later[t];
+        code = film_move_part(set, name, "R", RETEX_HALF, &film->shares[t], &share->weight, err);
+        set->nmixture += !code;
+    }
+    return code;
+}
+
+/* dep_Floor_sharp1, and with further hits dep_Floor_sharp1_a2b1: two of the first target, one of the second; or
+ * dep_Floor_sharp1_m5: five of any. */
 static void coefficient_name(const FootprintFilm *film, const RetexSet *set, int t, int slot, int i,
                              char name[RETEX_NAME_MAX])
 {
     char cluster[16];
     slot_name(film, slot, cluster);
     int used = snprintf(name, RETEX_NAME_MAX, "dep_%.80s_%s", set->targets[t].name, cluster);
+    const PlanCoefficient *c = &film->plan.coefficients[i];
+    if (c->mixed)
+        snprintf(name + used, (size_t)(RETEX_NAME_MAX - used), "_m%d", c->mixed);
     for (int later = 0, any = 0; later < set->ntargets; later++)
-        if (film->plan.powers[t][i][later])
+        if (c->powers[later])
             used += snprintf(name + used, (size_t)(RETEX_NAME_MAX - used), "%s%c%d", any++ ? "" : "_", 'a' + later,
-                             film->plan.powers[t][i][later]);
+                             c->powers[later]);
 }
 
 static int finish_coefficients(FootprintFilm *film, RetexSet *set, int t, const int *first, const int *later,
@@ -632,12 +612,13 @@ static int finish_coefficients(FootprintFilm *film, RetexSet *set, int t, const 
 {
     int code = RETEX_OK;
     for (int k = 0; k < slots_count(&film->params); k++)
-        for (int i = 0; i < film->plan.count[t] && !code; i++) {
+        for (int i = 0; i < film->plan.count && !code; i++) {
             char name[RETEX_NAME_MAX];
             RetexTerm term = {.kind = RETEX_TERM_DEP, .nfactors = 1, .factors = {first[t] + k}};
+            term.nmixed = film->plan.coefficients[i].mixed;
             coefficient_name(film, set, t, k, i, name);
             for (int b = 0; b < set->ntargets; b++)
-                for (int n = 0; n < film->plan.powers[t][i][b]; n++)
+                for (int n = 0; n < film->plan.coefficients[i].powers[b]; n++)
                     term.factors[term.nfactors++] = later[b];
             code =
                 film_move_part(set, name, "RGB", RETEX_HALF, &film->slots[t][k].coefficients[i], &term.radiance, err);
@@ -652,6 +633,8 @@ int footprints_finish(FootprintFilm *film, RetexSet *set, RetexError *err)
     int first[RETEX_MAX_TARGETS], later[RETEX_MAX_TARGETS];
     RetexTerm free_term = {.kind = RETEX_TERM_INDEP};
     int code = finish_footprints(film, set, first, later, err);
+    if (!code)
+        code = finish_shares(film, set, later, err);
     if (!code)
         code = film_move_part(set, "indep", "RGB", RETEX_HALF, &film->free, &free_term.radiance, err);
     if (!code)

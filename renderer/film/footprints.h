@@ -17,11 +17,6 @@ void footprints_close(FootprintFilm **film);
 int footprints_pixel_create(FootprintPixel **pixel, FootprintFilm *film, RetexError *err);
 void footprints_pixel_close(FootprintPixel **pixel);
 
-/* With several targets a survey comes first: what light there is between them decides what is kept. */
-int footprints_surveying(const FootprintFilm *film);
-void footprints_survey_take(FootprintFilm *film, FootprintPixel *pixel); /* what this thread saw */
-int footprints_survey_end(FootprintFilm *film, RetexError *err);
-
 /* Adds what had to be folded, and what there is with white targets, to sums. */
 void footprints_connect(FootprintPixel *pixel, const Expansion *expansion, Rgb outside, LightSums *sums);
 void footprints_path_end(FootprintPixel *pixel, UvRange *range);

@@ -66,7 +66,7 @@ static void apply_factor(const PathContext *c, Rgb *beta, Rgb *outside, Expansio
     beta[0] = rgb_mul(beta[0], whole);
     for (int v = 1; v < c->nvariants; v++)
         beta[v] = rgb_mul(beta[v], f->albedos ? split_apply(f->split, f->albedos[v]) : whole);
-    if (is_hit(c, f) && expansion_has_room(e, f->target, c->orders, expansion_most_hits(c->scene->ntargets))) {
+    if (is_hit(c, f) && expansion_has_room(e, f->target, c->orders, c->most_hits)) {
         expansion_push(e, f->target, f->split, f->uv, f->albedo, f->sharp);
         return;
     }

@@ -17,6 +17,7 @@ typedef struct PathContext {
     const Accel *accel;
     const Lights *lights;
     int max_depth, orders;
+    int most_hits;        /* of all targets together */
     int split;            /* keep target hits apart */
     int nvariants;        /* 1..VARIANTS_MAX: what the same path brings with different textures */
     int white;            /* the first hit is a white diffuse surface instead, that gives no light itself */

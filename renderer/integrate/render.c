@@ -12,7 +12,6 @@
 #include "integrate/uv_scale.h"
 
 #define TILE 32
-#define SURVEY_CHUNK 512 /* paths */
 
 /* All of one render. */
 typedef struct Render {
@@ -126,28 +125,6 @@ static void render_tile(void *context, int tile, int thread)
         r->params.progress(r->params.progress_context, (double)done / (r->tiles_x * r->tiles_y));
 }
 
-/* The survey's paths: spread evenly over the whole picture, whatever part of it is rendered, so that all parts keep the
- * same light apart. */
-static void survey_chunk(void *context, int chunk, int thread)
-{
-    Render *r = context;
-    PathWorker worker = {.context = &r->context, .pixel = r->pixels[thread], .variants = r->variants};
-    for (int k = chunk * SURVEY_CHUNK; k < (chunk + 1) * SURVEY_CHUNK; k++) {
-        double u = 0.5 + 0.7548776662466927 * k, v = 0.5 + 0.5698402909980532 * k; /* additive recurrence R2 */
-        int x = (int)((u - floor(u)) * r->width), y = (int)((v - floor(v)) * r->height);
-        trace_sample(r, &worker, x, y, k % r->params.spp);
-    }
-}
-
-/* About two per cent of the render's paths, if that is enough to tell anything. */
-static int survey(Render *r, RetexError *err)
-{
-    double paths = 0.02 * r->width * r->height * r->params.spp;
-    int chunks = (int)(fmin(fmax(paths, 8192), 131072) / SURVEY_CHUNK), threads = retex_threads(r->params.nthreads);
-    retex_parallel(r->params.nthreads, chunks, survey_chunk, r);
-    return film_survey_end(r->film, r->pixels, threads, err);
-}
-
 static void close_films(Render *r)
 {
     if (r->pixels)
@@ -188,6 +165,7 @@ static int render_open(Render *r, const Scene *scene, const RenderParams *params
                                .lights = r->lights,
                                .max_depth = r->params.max_depth,
                                .orders = r->params.orders,
+                               .most_hits = expansion_most_hits(scene->ntargets, r->params.paper),
                                .split = split,
                                .nvariants = 1};
     r->variants = r->params.nvariants > 0 ? r->params.variants : NULL;
@@ -239,8 +217,6 @@ static int render_film(Render *r, int control, int halves, RetexError *err)
         code = control_pixel_create(&r->controls[k], r->control, err);
     for (int k = 0; k < threads; k++)
         open_worker(r, k);
-    if (!code && film_surveying(r->film))
-        code = survey(r, err);
     return code;
 }
 

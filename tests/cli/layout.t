@@ -31,8 +31,8 @@ $ retex-render -q --size 16x12 --spp 2 -t floor -t white scenes/cornell-box/corn
 $ retex-info --json two.exr | grep -o '"name":"dep_floor_sharp1[^"]*"' | head -n 4
 > "name":"dep_floor_sharp1"
 > "name":"dep_floor_sharp1_a1"
+> "name":"dep_floor_sharp1_b1"
 > "name":"dep_floor_sharp1_a2"
-> "name":"dep_floor_sharp1_a3"
 
 # Both layouts show the picture that was rendered, and take new textures.
 $ for s in f p two; do retex-combine -q $s.exr -o back.exr; retex-render -q --size 16x12 --spp 2 --plain scenes/cornell-box/cornell-box.pov -o plain.exr; retex-diff -q back.exr plain.exr --fail-psnr 45 || echo $s; done

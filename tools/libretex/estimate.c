@@ -47,7 +47,8 @@ static void add_term(const Monomial *m, size_t first, size_t n, size_t stride, f
             for (int j = 0; j < m->nfactors; j++)
                 if (j != k)
                     others *= m->factors[j][first + i];
-            derivatives[(size_t)m->footprints[k] * stride + i] += others;
+            if (m->footprints[k] >= 0) /* mixtures scatter too, but carry little */
+                derivatives[(size_t)m->footprints[k] * stride + i] += others;
         }
         for (int k = 0; k < m->nfactors; k++)
             radiance *= m->factors[k][first + i];

@@ -268,11 +268,32 @@ static void read_terms(Reading *reading, const json_t *root, RetexSet *set)
             else
                 term.factors[f] = (int)factor;
         }
+        if (json_object_get(json, "mixed"))
+            term.nmixed = get_integer(reading, json, "mixed", 0, RETEX_MAX_FACTORS - term.nfactors);
+        if (term.nmixed && !set->nmixture)
+            bad(reading, RETEX_EFORMAT, "has a term with mixed factors but no \"mixture\"");
         if (reading->status)
             return;
         check_size(reading, set, term.radiance, "radiance");
         if (!reading->status)
             reading->status = retex_set_add_term(set, &term, NULL, reading->err);
+    }
+}
+
+static void read_mixture(Reading *reading, const json_t *root, RetexSet *set)
+{
+    const json_t *array = json_object_get(root, "mixture");
+
+    if (!array)
+        return;
+    array = get_array(reading, root, "mixture", RETEX_MAX_TARGETS);
+    for (size_t i = 0; i < json_array_size(array) && !reading->status; i++) {
+        const json_t *json = json_array_get(array, i);
+        RetexShare *share = &set->mixture[i];
+        share->footprint = get_integer(reading, json, "footprint", 0, set->nfootprints - 1);
+        share->weight = get_part(reading, set, json, "weight", 1, 0);
+        check_size(reading, set, share->weight, "weight");
+        set->nmixture = (int)i + 1;
     }
 }
 
@@ -321,6 +342,8 @@ static void read_set(Reading *reading, const json_t *root, int width, int height
         read_targets(reading, root, set);
     if (!reading->status)
         read_footprints(reading, root, set);
+    if (!reading->status)
+        read_mixture(reading, root, set);
     if (!reading->status)
         read_terms(reading, root, set);
 }

@@ -29,7 +29,44 @@ static int is_left_out(const RetexTerm *term, int cross)
 void polynomial_close(Polynomial *polynomial)
 {
     free(polynomial->monomials);
+    retex_image_free(&polynomial->mixture);
     *polynomial = (Polynomial){0};
+}
+
+/* The mean of the mixture's factors, weighted by their shares. */
+static int open_mixture(RetexImage *mixture, const RetexSet *set, const RetexSamples *samples, RetexError *err)
+{
+    int code = retex_image_alloc(mixture, set->width, set->height, 3, err);
+    for (int k = 0; k < set->nmixture && !code; k++) {
+        const float *factor = find_factor(set, samples, set->mixture[k].footprint);
+        const RetexImage *weight = &set->parts[set->mixture[k].weight].image;
+        if (!factor || weight->channels != 1 || weight->width != set->width || weight->height != set->height)
+            return retex_fail(err, RETEX_EFORMAT, "the set's mixture lacks a footprint or its weight");
+        for (size_t i = 0; i < (size_t)set->width * (size_t)set->height; i++)
+            for (size_t c = 0; c < 3; c++)
+                mixture->pixels[3 * i + c] += weight->pixels[i] * factor[3 * i + c];
+    }
+    return code;
+}
+
+/* One term with its images; returns 0 where some are missing. */
+static int find_monomial(Monomial *m, const RetexSet *set, const RetexSamples *samples, const RetexTerm *term,
+                         const RetexImage *mixture)
+{
+    m->radiance = find_pixels(set, term->radiance);
+    int complete = m->radiance && term->nfactors >= 0 && term->nmixed >= 0 && term->nfactors <= RETEX_MAX_FACTORS &&
+                   term->nmixed <= RETEX_MAX_FACTORS - term->nfactors && (!term->nmixed || mixture->pixels);
+    for (int k = 0; complete && k < term->nfactors; k++) {
+        m->footprints[k] = term->factors[k];
+        m->factors[k] = find_factor(set, samples, term->factors[k]);
+        complete = m->factors[k] != NULL;
+    }
+    if (!complete)
+        return 0;
+    m->nfactors = term->nfactors + term->nmixed;
+    for (int k = term->nfactors; k < m->nfactors; k++)
+        m->footprints[k] = -1, m->factors[k] = mixture->pixels;
+    return 1;
 }
 
 int polynomial_open(Polynomial *polynomial, const RetexSet *set, const RetexSamples *samples,
@@ -46,23 +83,16 @@ int polynomial_open(Polynomial *polynomial, const RetexSet *set, const RetexSamp
     polynomial->monomials = calloc((size_t)set->nterms + 1, sizeof *polynomial->monomials);
     if (!polynomial->monomials)
         return retex_fail(err, RETEX_ENOMEM, "not enough memory for %d terms", set->nterms);
-    for (int i = 0; i < set->nterms; i++) {
-        const RetexTerm *term = &set->terms[i];
-        if (is_left_out(term, cross))
+    if (set->nmixture > 0)
+        code = open_mixture(&polynomial->mixture, set, samples, err);
+    for (int i = 0; i < set->nterms && !code; i++) {
+        if (is_left_out(&set->terms[i], cross))
             continue;
         Monomial *m = &polynomial->monomials[polynomial->count++];
-        m->radiance = find_pixels(set, term->radiance);
-        m->nfactors = term->nfactors;
-        int complete = m->radiance && term->nfactors >= 0 && term->nfactors <= RETEX_MAX_FACTORS;
-        for (int k = 0; complete && k < term->nfactors; k++) {
-            m->footprints[k] = term->factors[k];
-            m->factors[k] = find_factor(set, samples, term->factors[k]);
-            complete = m->factors[k] != NULL;
-        }
-        if (!complete) {
-            polynomial_close(polynomial);
-            return retex_fail(err, RETEX_EFORMAT, "term %d of the set lacks its radiance or one of its footprints", i);
-        }
+        if (!find_monomial(m, set, samples, &set->terms[i], &polynomial->mixture))
+            code = retex_fail(err, RETEX_EFORMAT, "term %d of the set lacks its radiance or one of its footprints", i);
     }
-    return RETEX_OK;
+    if (code)
+        polynomial_close(polynomial);
+    return code;
 }

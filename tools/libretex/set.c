@@ -130,8 +130,10 @@ int retex_set_add_term(RetexSet *set, const RetexTerm *term, int *index, RetexEr
 {
     if (term->kind < RETEX_TERM_FULL || term->kind > RETEX_TERM_CROSS3)
         return retex_fail(err, RETEX_EINVAL, "the term is of no known kind (%d)", (int)term->kind);
-    if (term->nfactors < 0 || term->nfactors > RETEX_MAX_FACTORS)
-        return retex_fail(err, RETEX_EINVAL, "a term has 0 to %d factors, not %d", RETEX_MAX_FACTORS, term->nfactors);
+    const int most = RETEX_MAX_FACTORS;
+    if (term->nfactors < 0 || term->nmixed < 0 || term->nfactors > most || term->nmixed > most - term->nfactors)
+        return retex_fail(err, RETEX_EINVAL, "a term has 0 to %d factors, not %d and %d mixed ones", most,
+                          term->nfactors, term->nmixed);
     for (int i = 0; i < term->nfactors; i++)
         if (term->factors[i] < 0 || term->factors[i] >= set->nfootprints)
             return retex_fail(err, RETEX_EINVAL, "a factor refers to footprint %d of %d", term->factors[i],

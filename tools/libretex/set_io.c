@@ -45,6 +45,8 @@ static void choose_parts(const RetexSet *set, const RetexSamples *samples, char 
     kept[0] = 1;
     for (int i = 0; i < set->nterms; i++)
         kept[set->terms[i].radiance] = 1;
+    for (int i = 0; i < set->nmixture; i++)
+        kept[set->mixture[i].weight] = 1;
     for (int i = 0; i < set->nfootprints; i++) {
         const int parts[3] = {set->footprints[i].albedo, set->footprints[i].uv, set->footprints[i].spread};
         for (int k = 0; k < 3 && !samples->images[i].pixels; k++)
@@ -95,6 +97,8 @@ static int view_make(View *view, const RetexSet *set, const RetexSamples *sample
         view->set.terms[i] = set->terms[i];
         view->set.terms[i].radiance = place[set->terms[i].radiance];
     }
+    for (int i = 0; i < set->nmixture; i++)
+        view->set.mixture[i].weight = place[set->mixture[i].weight];
     return 0;
 }
 
@@ -123,7 +127,12 @@ static int check_set(const RetexSet *set, RetexError *err)
     for (int i = 0; i < set->nterms && sound; i++)
         sound = part_in_range(set, set->terms[i].radiance, 0) && set->terms[i].kind >= RETEX_TERM_FULL &&
                 set->terms[i].kind <= RETEX_TERM_CROSS3 && set->terms[i].nfactors >= 0 &&
-                set->terms[i].nfactors <= RETEX_MAX_FACTORS;
+                set->terms[i].nfactors <= RETEX_MAX_FACTORS && set->terms[i].nmixed >= 0 &&
+                set->terms[i].nmixed <= RETEX_MAX_FACTORS - set->terms[i].nfactors;
+    sound = sound && set->nmixture >= 0 && set->nmixture <= RETEX_MAX_TARGETS;
+    for (int i = 0; i < set->nmixture && sound; i++)
+        sound = part_in_range(set, set->mixture[i].weight, 0) && set->mixture[i].footprint >= 0 &&
+                set->mixture[i].footprint < set->nfootprints;
     return sound ? 0 : retex_fail(err, RETEX_EINVAL, "the set refers to parts it does not have");
 }
 

@@ -24,7 +24,7 @@ extern "C" {
 #define RETEX_SET_VERSION 1   /* of the manifest */
 #define RETEX_MAX_TARGETS 8
 #define RETEX_MAX_ORDERS 6    /* hits of one target that a path keeps apart */
-#define RETEX_MAX_FACTORS 8   /* hits of all targets together */
+#define RETEX_MAX_FACTORS 12  /* hits of all targets together */
 #define RETEX_NAME_MAX 128    /* bytes of a target or part name, with the final NUL */
 
 typedef enum RetexPixelType { RETEX_HALF, RETEX_FLOAT } RetexPixelType;
@@ -84,7 +84,14 @@ typedef struct RetexTerm {
     int radiance;      /* part "RGB". half */
     int nfactors;      /* 0..RETEX_MAX_FACTORS */
     int factors[RETEX_MAX_FACTORS]; /* indices of footprints, one for each factor */
+    int nmixed;        /* and so many times the set's mixture; nfactors + nmixed <= RETEX_MAX_FACTORS */
 } RetexTerm;
+
+/* Of a mixture: the mean of several footprints' textures, each weighted by how often light met it. */
+typedef struct RetexShare {
+    int footprint;
+    int weight;        /* part "R": 0..1, of all shares together 1, or all 0. half */
+} RetexShare;
 
 typedef struct RetexSet {
     int width, height;
@@ -104,6 +111,8 @@ typedef struct RetexSet {
     RetexFootprint *footprints;
     RetexTerm *terms;
     RetexPart *parts;      /* parts[0] is the beauty */
+    int nmixture;
+    RetexShare mixture[RETEX_MAX_TARGETS]; /* stands for hits too many to be kept in all combinations of targets */
 } RetexSet;
 
 /* The textures filtered at a set's footprints: image i belongs to footprint i and is RGB of the set's size, or
