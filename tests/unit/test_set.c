@@ -493,8 +493,8 @@ static void test_damaged_files(void **state)
             undetected += retex_set_check(path, 1, &err) == 0 && place > bytes / 2;
             data[place] = old;
         }
-        /* in the pixels, which fill the second half, flipped bits are found by the checksums, but for one in the heading
-         * of a chunk, which no one reads: the pixels are the same */
+        /* in the pixels, which fill the second half, flipped bits are found by the checksums, but for one in the
+         * heading of a chunk, which no one reads: the pixels are the same */
         assert_in_range(undetected, 0, 3);
         assert_true(unnoticed < 1200);
         free(data);
