@@ -8,9 +8,11 @@ static double difference(double to, double from, int periodic)
     return periodic ? d - rint(d) : d;
 }
 
+/* Into [0,1): what is below 0 by less than a double can tell from 1 is 0. */
 static double wrapped(double x, int periodic)
 {
-    return periodic ? x - floor(x) : x;
+    double rest = periodic ? x - floor(x) : x;
+    return periodic && rest >= 1 ? 0 : rest;
 }
 
 void uv_stats_add(UvStats *stats, double weight, const double uv[2], const int periodic[2])

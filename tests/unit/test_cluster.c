@@ -155,6 +155,20 @@ static void a_cloud_may_lie_across_a_seam(void **state)
     }
 }
 
+/* A place below 0 by less than a double can tell from 1 is no 1 either. */
+static void the_end_of_a_period_is_its_beginning(void **state)
+{
+    (void)state;
+    const Point below = {1, {-1e-18, -1e-300}}, above = {1, {1e-18, 0}};
+    UvStats stats = add_all(&below, 1, closed_axes), other = add_all(&above, 1, closed_axes);
+    assert_true(stats.mean[0] == 0 && stats.mean[1] == 0);
+    other.mean[0] = -3e-18;
+    uv_stats_merge(&stats, &other, closed_axes);
+    assert_true(stats.mean[0] == 0 && stats.mean[1] == 0);
+    stats = add_all(&below, 1, open_axes);
+    assert_true(stats.mean[0] == -1e-18 && stats.mean[1] == -1e-300);
+}
+
 /* Ward's cost is by how much the sum of squared deviations along both axes grows. */
 static void the_cost_is_what_merging_adds(void **state)
 {
@@ -185,7 +199,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(sums_agree_with_two_passes),    cmocka_unit_test(one_point_has_no_spread),
         cmocka_unit_test(merging_is_adding_all),         cmocka_unit_test(a_seam_is_no_distance),
-        cmocka_unit_test(a_cloud_may_lie_across_a_seam), cmocka_unit_test(the_cost_is_what_merging_adds),
+        cmocka_unit_test(a_cloud_may_lie_across_a_seam), cmocka_unit_test(the_end_of_a_period_is_its_beginning),
+        cmocka_unit_test(the_cost_is_what_merging_adds),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
