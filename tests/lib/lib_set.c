@@ -159,6 +159,27 @@ RetexSet *test_set(int width, int height, uint32_t seed)
     return set;
 }
 
+/* A mixture of one footprint of each target, none along one side, and two terms that have it: one once, one as often as
+ * a term may. */
+static void add_mixture(RetexSet *set, uint32_t *seed)
+{
+    const int last = set->nterms - 1;
+    for (int t = 0; t < 2; t++) {
+        set->mixture[t].footprint = 2 + t;
+        set->mixture[t].weight = add_part(set, t ? "share-1" : "share-0", "R", RETEX_HALF);
+    }
+    set->nmixture = 2;
+    for (int i = 0; i < set->width * set->height; i++) {
+        const float share = (float)test_random(seed);
+        if (i % set->width < set->width / 8)
+            continue;
+        set->parts[set->mixture[0].weight].image.pixels[i] = share;
+        set->parts[set->mixture[1].weight].image.pixels[i] = 1 - share;
+    }
+    set->terms[1].nmixed = 1;
+    set->terms[last].nmixed = RETEX_MAX_FACTORS - set->terms[last].nfactors;
+}
+
 void test_make_footprints(RetexSet *set)
 {
     uint32_t seed = 1;
@@ -181,5 +202,6 @@ void test_make_footprints(RetexSet *set)
             to[2] = (float)(2 * test_random(&seed) - 1);
         }
     }
+    add_mixture(set, &seed);
     round_to_stored(set);
 }

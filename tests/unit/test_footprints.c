@@ -630,6 +630,113 @@ static void targets_follow_each_other(void **state)
     end(&f);
 }
 
+/* A mixture's shares tell how often each target was met in it, by weight; they add up to 1, or are all 0. */
+static void shares_add_up(void **state)
+{
+    (void)state;
+    static const int orders[][6] = {{1, 0, 1, 0, 1}, {0, 0, 0, 0, 0, 0}};
+    Fixture f;
+    begin(&f, 2, 3, 6, 1, 1);
+    open_film(&f);
+    for (int n = 0; n < 2; n++) {
+        begin_path(&f);
+        hit(&f, 1, 0.25, 0.5, rgb_grey(0.5f), SHARP);
+        for (int k = 0; k < 5 + n; k++)
+            hit(&f, orders[n][k], 0.5, 0.5, rgb_grey(0.5f), BROAD);
+        connect_light(&f, rgb_grey(n ? 192 : 32)); /* which weigh 3 and 1, for 0.5 of an unknown texture */
+        film_path_end(f.pixel);
+    }
+    begin_path(&f); /* so few hits are not mixed */
+    hit(&f, 0, 0.25, 0.5, rgb_grey(0.5f), SHARP);
+    for (int k = 0; k < 4; k++)
+        hit(&f, 1, 0.5, 0.5, rgb_grey(0.5f), BROAD);
+    connect_light(&f, rgb_grey(1000));
+    film_path_end(f.pixel);
+    finish(&f);
+    assert_int_equal(f.set->nmixture, 2);
+    for (int t = 0; t < 2; t++) {
+        const RetexFootprint *at = &f.set->footprints[f.set->mixture[t].footprint];
+        assert_int_equal(at->target, t);
+        assert_int_equal(at->kind, RETEX_FOOTPRINT_LATER);
+        assert_string_equal(f.set->parts[f.set->mixture[t].weight].letters, "R");
+    }
+    const float *floor_share = part(&f, "share_Floor"), *wall_share = part(&f, "share_Wall");
+    assert_float_equal(floor_share[0], (2.0 / 5 + 3) / 4, 1e-6);
+    assert_float_equal(floor_share[0] + wall_share[0], 1, 1e-6);
+    assert_true(floor_share[1] == 0 && wall_share[1] == 0);
+    expect_rgb(part(&f, "dep_Wall_sharp1_m5"), 32.0f / 3, 32.0f / 3, 32.0f / 3, 0.2);
+    expect_rgb(part(&f, "dep_Wall_sharp1_m6"), 64, 64, 64, 0.2);
+    expect_rgb(part(&f, "dep_Floor_sharp1_m5"), 0, 0, 0, 0);
+    for (int t = 0; t < f.set->nterms; t++) {
+        const RetexTerm *term = &f.set->terms[t];
+        assert_true(term->nmixed == 0 || (term->nfactors == 1 && term->nmixed >= 5 && term->nmixed <= 11));
+        if (term->radiance == retex_set_find_part(f.set, "dep_Wall_sharp1_m6"))
+            assert_int_equal(term->nmixed, 6);
+    }
+    expect_beauty(&f, 0);
+    expect_beauty(&f, 1);
+    end(&f);
+}
+
+/* What one target's albedo is does not depend on another that is black: that one may be edited. */
+static void a_black_target_hides_no_other(void **state)
+{
+    (void)state;
+    Fixture f;
+    begin(&f, 2, 2, 6, 1, 1);
+    open_film(&f);
+    begin_path(&f);
+    hit(&f, 0, 0.25, 0.5, rgb_grey(0), SHARP);
+    hit(&f, 1, 0.75, 0.5, rgb_grey(0.5f), BROAD);
+    connect_light(&f, rgb_grey(8));
+    film_path_end(f.pixel);
+    begin_path(&f);
+    hit(&f, 1, 0.25, 0.5, rgb(0.5f, 0.25f, 1), SHARP);
+    hit(&f, 0, 0.75, 0.5, rgb_grey(0), BROAD);
+    hit(&f, 0, 0.75, 0.5, rgb_grey(0), BROAD);
+    connect_light(&f, rgb_grey(2));
+    film_path_end(f.pixel);
+    finish(&f);
+    expect_rgb(f.set->parts[0].image.pixels, 0, 0, 0, 0);
+    expect_rgb(part(&f, "dep_Floor_sharp1_b1"), 4, 4, 4, 1e-3);
+    expect_rgb(part(&f, "albedo_Wall_later"), 0.5f, 0.5f, 0.5f, 1e-6);
+    expect_rgb(part(&f, "dep_Wall_sharp1_a2"), 1, 1, 1, 1e-3);
+    expect_rgb(part(&f, "albedo_Wall_sharp1"), 0.5f, 0.25f, 1, 1e-6);
+    expect_rgb(part(&f, "albedo_Floor_sharp1"), 0, 0, 0, 0);
+    expect_rgb(part(&f, "albedo_Floor_later"), 0, 0, 0, 0);
+    expect_beauty(&f, 0);
+    end(&f);
+}
+
+/* Light that the original's black hides may be folded all the same: as much as if all targets were white. */
+static void folded_light_is_counted_as_white(void **state)
+{
+    (void)state;
+    Fixture f;
+    begin(&f, 1, 4, 2, 1, 1);
+    open_film(&f);
+    begin_path(&f);
+    for (int k = 0; k < 3; k++)
+        hit(&f, 0, 0.25, 0.5, rgb_grey(0), k ? BROAD : SHARP);
+    connect_light(&f, rgb_grey(10)); /* of orders 2 the third is too many */
+    film_path_end(f.pixel);
+    one_hit(&f, 0.25, 0.5, rgb_grey(0.5f), SHARP, rgb_grey(4));
+    begin_path(&f);
+    connect_light(&f, rgb_grey(2));
+    film_path_end(f.pixel);
+    begin_path(&f); /* or the path itself knows */
+    for (int k = 0; k < 2; k++)
+        hit(&f, 0, 0.25, 0.5, rgb_grey(0.5f), k ? BROAD : SHARP);
+    film_connect(f.pixel, rgb_grey(1.25f), rgb_grey(5), &f.path, 1);
+    film_path_end(f.pixel);
+    finish(&f);
+    double hidden = 10 * 0.8 * 0.8 * 0.8, known = 5 * 0.8 * 0.8;
+    assert_float_equal(f.set->folded_white, (hidden + known) / (hidden + known + 4 * 0.8 + 2), 1e-6);
+    assert_float_equal(f.set->folded, 1.25 / (1.25 + 2 + 2), 1e-6);
+    expect_beauty(&f, 0);
+    end(&f);
+}
+
 static void light_that_is_no_number_is_dropped(void **state)
 {
     (void)state;
@@ -683,6 +790,9 @@ int main(void)
         cmocka_unit_test(black_albedo_has_footprints),
         cmocka_unit_test(surplus_hits_fold),
         cmocka_unit_test(targets_follow_each_other),
+        cmocka_unit_test(shares_add_up),
+        cmocka_unit_test(a_black_target_hides_no_other),
+        cmocka_unit_test(folded_light_is_counted_as_white),
         cmocka_unit_test(light_that_is_no_number_is_dropped),
         cmocka_unit_test(a_plain_film_keeps_the_beauty),
     };

@@ -86,9 +86,19 @@ static void expect_equal_terms(const RetexSet *a, const RetexSet *b)
     for (int i = 0; i < a->nterms; i++) {
         assert_int_equal(a->terms[i].kind, b->terms[i].kind);
         assert_int_equal(a->terms[i].nfactors, b->terms[i].nfactors);
+        assert_int_equal(a->terms[i].nmixed, b->terms[i].nmixed);
         for (int f = 0; f < a->terms[i].nfactors; f++)
             assert_int_equal(a->terms[i].factors[f], b->terms[i].factors[f]);
         expect_equal_part(a, a->terms[i].radiance, b, b->terms[i].radiance);
+    }
+}
+
+static void expect_equal_mixtures(const RetexSet *a, const RetexSet *b)
+{
+    assert_int_equal(a->nmixture, b->nmixture);
+    for (int i = 0; i < a->nmixture; i++) {
+        assert_int_equal(a->mixture[i].footprint, b->mixture[i].footprint);
+        expect_equal_part(a, a->mixture[i].weight, b, b->mixture[i].weight);
     }
 }
 
@@ -123,6 +133,7 @@ static void expect_equal_sets(const RetexSet *a, const RetexSet *b)
     assert_int_equal(a->nfootprints, b->nfootprints);
     for (int i = 0; i < a->nfootprints; i++)
         assert_memory_equal(&a->footprints[i], &b->footprints[i], sizeof a->footprints[i]);
+    expect_equal_mixtures(a, b);
     expect_equal_terms(a, b);
 }
 
@@ -178,7 +189,8 @@ static void test_set_there_and_back(void **state)
     }
 }
 
-/* What layout footprints has and paper has not: kinds, spreads with a correlation, how large a unit of UV is. */
+/* What layout footprints has and paper has not: kinds, spreads with a correlation, how large a unit of UV is, a mixture
+ * of targets. */
 static void test_footprints_there_and_back(void **state)
 {
     (void)state;
@@ -217,6 +229,7 @@ static void test_samples_there_and_back(void **state)
 static void expect_stream(const RetexSet *set, const RetexSamples *samples, const RetexSet *back)
 {
     expect_equal_terms(set, back);
+    expect_equal_mixtures(set, back);
     expect_equal_part(set, 0, back, 0);
     assert_int_equal(back->nfootprints, set->nfootprints);
     for (int i = 0; i < set->nfootprints; i++) {
@@ -235,6 +248,7 @@ static void test_stream_through_a_pipe(void **state)
 {
     (void)state;
     RetexSet *set = test_set(90, 60, 4), *back;
+    test_make_footprints(set);
     RetexSamples *samples = make_samples(set, 2), *samples_back;
     RetexError err = {0};
     int ends[2], status = 1;
@@ -282,6 +296,10 @@ static void test_names_are_checked(void **state)
     RetexFootprint footprint = {.target = set->ntargets, .hit = 1, .uv = -1, .spread = -1, .albedo = -1};
     assert_int_equal(retex_set_add_footprint(set, &footprint, NULL, &err), RETEX_EINVAL);
     RetexTerm term = {.kind = RETEX_TERM_DEP, .nfactors = 1, .factors = {set->nfootprints}};
+    assert_int_equal(retex_set_add_term(set, &term, NULL, &err), RETEX_EINVAL);
+    term.factors[0] = 0, term.nmixed = RETEX_MAX_FACTORS; /* with the other factor one too many */
+    assert_int_equal(retex_set_add_term(set, &term, NULL, &err), RETEX_EINVAL);
+    term.nmixed = -1;
     assert_int_equal(retex_set_add_term(set, &term, NULL, &err), RETEX_EINVAL);
 
     strcpy(set->targets[0].name, "Floor");
@@ -347,14 +365,45 @@ static char *edited(const char *json, const char *after, const char *from, const
     return copy;
 }
 
+/* In a manifest the first `from` behind `after` becomes `to`: how reading it ends, and part of the message. */
+typedef struct ManifestCase {
+    const char *after, *from, *to;
+    int code;
+    const char *says;
+} ManifestCase;
+
+static void check_manifests(const char *json, const ManifestCase *cases, size_t count)
+{
+    char message[1024];
+    assert_int_equal(read_manifest(json, message), 0);
+    for (size_t i = 0; i < count; i++) {
+        char *copy = edited(json, cases[i].after, cases[i].from, cases[i].to);
+        const int status = read_manifest(copy, message);
+        if (status != cases[i].code || !strstr(message, cases[i].says))
+            fail_msg("case %zu: %d \"%s\"", i, status, message);
+        free(copy);
+    }
+}
+
+/* Characters replaced at random: it may be anything, but no crash. */
+static void turn_inside_out(char *json)
+{
+    char message[1024];
+    const size_t length = strlen(json);
+    uint32_t seed = 1;
+    for (int i = 0; i < 3000; i++) {
+        const size_t place = (size_t)(test_random(&seed) * (double)length);
+        const char old = json[place];
+        json[place] = i % 3 == 0 ? 0 : (char)(32 + test_random(&seed) * 90);
+        read_manifest(json, message);
+        json[place] = old;
+    }
+}
+
 static void test_manifests_that_lie(void **state)
 {
     (void)state;
-    static const struct {
-        const char *after, *from, *to;
-        int code;
-        const char *says;
-    } cases[] = {
+    static const ManifestCase cases[] = {
         {"", "{\"retex\":1", "{\"retex\":2", RETEX_EUNSUPPORTED, "version 2"},
         {"", "{\"retex\":1", "{\"retex\":\"1\"", RETEX_EFORMAT, "no version"},
         {"", "{\"retex\":1", "{\"retex\":1,\"later\":[{}]", 0, ""},
@@ -394,6 +443,11 @@ static void test_manifests_that_lie(void **state)
         {"\"terms\"", "\"kind\":\"", "\"kind\":\"x", RETEX_EFORMAT, "unknown kind"},
         {"\"terms\"", "\"radiance\":\"", "\"radiance\":null,\"x\":\"", RETEX_EFORMAT, "\"radiance\""},
         {"\"terms\"", "\"factors\":[", "\"factors\":[600", RETEX_EFORMAT, "factor"},
+        {"", "\"mixture\":[]", "\"x\":[]", 0, ""}, /* older sets have none */
+        {"", "\"mixture\":[]", "\"mixture\":{}", RETEX_EFORMAT, "no list \"mixture\""},
+        {"", "\"mixture\":[]", "\"mixture\":null", RETEX_EFORMAT, "no list \"mixture\""},
+        {"\"terms\"", "\"factors\":[", "\"mixed\":0,\"factors\":[", 0, ""},
+        {"\"terms\"", "\"factors\":[", "\"mixed\":1,\"factors\":[", RETEX_EFORMAT, "mixed factors but no \"mixture\""},
         {"\"parts\"", "\"name\":\"", "\"name\":\"a b", RETEX_EFORMAT, "named"},
         {"\"parts\"", "\"letters\":\"", "\"letters\":\"a", RETEX_EFORMAT, "channels"},
         {"\"parts\"", "\"type\":\"", "\"type\":\"x", RETEX_EFORMAT, "type"},
@@ -401,30 +455,66 @@ static void test_manifests_that_lie(void **state)
         {"\"parts\"", "\"parts\":[", "\"parts\":[],\"x\":[", RETEX_EFORMAT, "no parts"},
     };
     RetexSet *set = test_set(16, 16, 1);
-    char *json, message[1024];
+    char *json;
     RetexError err = {0};
     test_must(retex_set_manifest(set, NULL, &json, &err), &err);
-    assert_int_equal(read_manifest(json, message), 0);
-    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
-        char *copy = edited(json, cases[i].after, cases[i].from, cases[i].to);
-        const int status = read_manifest(copy, message);
-        if (status != cases[i].code || !strstr(message, cases[i].says))
-            fail_msg("case %zu: %d \"%s\"", i, status, message);
-        free(copy);
-    }
-    /* cut anywhere it is no JSON; turned inside out it may be anything, but no crash */
-    const size_t length = strlen(json);
-    uint32_t seed = 1;
-    for (int i = 0; i < 3000; i++) {
-        const size_t place = (size_t)(test_random(&seed) * (double)length);
-        const char old = json[place];
-        json[place] = i % 3 == 0 ? 0 : (char)(32 + test_random(&seed) * 90);
-        read_manifest(json, message);
-        json[place] = old;
-    }
+    check_manifests(json, cases, sizeof cases / sizeof cases[0]);
+    turn_inside_out(json);
     free(json);
     set->folded = __builtin_nan("");
     assert_int_equal(retex_set_manifest(set, NULL, &json, &err), RETEX_EINVAL);
+    retex_set_close(&set);
+}
+
+static void test_mixtures_that_lie(void **state)
+{
+    (void)state;
+    static const ManifestCase cases[] = {
+        {"", "\"mixture\":", "\"x\":", RETEX_EFORMAT, "mixed factors but no \"mixture\""},
+        {"", "\"mixture\":[", "\"mixture\":[],\"x\":[", RETEX_EFORMAT, "mixed factors but no \"mixture\""},
+        {"", "\"mixture\":[", "\"mixture\":[7,", RETEX_EFORMAT, "\"footprint\""},
+        {"", "\"mixture\":[", "\"mixture\":[1,2,3,4,5,6,7,", RETEX_EFORMAT, "no list \"mixture\" of at most 8"},
+        {"\"mixture\"", "\"footprint\":2", "\"footprint\":5", 0, ""},
+        {"\"mixture\"", "\"footprint\":2", "\"footprint\":6", RETEX_EFORMAT, "\"footprint\" from 0 to 5"},
+        {"\"mixture\"", "\"footprint\":2", "\"footprint\":-1", RETEX_EFORMAT, "\"footprint\""},
+        {"\"mixture\"", "\"footprint\":2", "\"footprint\":2.5", RETEX_EFORMAT, "\"footprint\""},
+        {"\"mixture\"", "\"footprint\":2", "\"x\":2", RETEX_EFORMAT, "\"footprint\""},
+        {"\"mixture\"", "\"share-0\"", "\"depth\"", 0, ""},
+        {"\"mixture\"", "\"share-0\"", "\"beauty\"", RETEX_EFORMAT, "3 channels instead of 1"},
+        {"\"mixture\"", "\"share-0\"", "\"small\"", RETEX_EFORMAT, "\"weight\" a part of another size"},
+        {"\"mixture\"", "\"share-0\"", "\"share-9\"", RETEX_EFORMAT, "\"weight\""},
+        {"\"mixture\"", "\"share-0\"", "null", RETEX_EFORMAT, "\"weight\""},
+        {"\"mixture\"", "\"weight\"", "\"x\"", RETEX_EFORMAT, "\"weight\""},
+        {"\"terms\"", "\"mixed\":1", "\"mixed\":11", 0, ""},
+        {"\"terms\"", "\"mixed\":1", "\"mixed\":12", RETEX_EFORMAT, "\"mixed\" from 0 to 11"},
+        {"\"terms\"", "\"mixed\":1", "\"mixed\":-1", RETEX_EFORMAT, "\"mixed\""},
+        {"\"terms\"", "\"mixed\":1", "\"mixed\":null", RETEX_EFORMAT, "\"mixed\""},
+        {"\"terms\"", "\"mixed\":10", "\"mixed\":11", RETEX_EFORMAT, "\"mixed\" from 0 to 10"},
+    };
+    RetexSet *set = test_set(16, 16, 1);
+    char *json;
+    RetexError err = {0};
+    test_make_footprints(set);
+    test_must(retex_set_add_part(set, "small", "R", RETEX_HALF, 3, 2, NULL, &err), &err);
+    test_must(retex_set_manifest(set, NULL, &json, &err), &err);
+    check_manifests(json, cases, sizeof cases / sizeof cases[0]);
+    turn_inside_out(json);
+    free(json);
+    /* nor is one written */
+    const RetexShare share = set->mixture[1];
+    set->mixture[1].weight = set->nparts;
+    assert_int_equal(retex_set_write(set, NULL, path, NULL, &err), RETEX_EINVAL);
+    set->mixture[1].weight = -1;
+    assert_int_equal(retex_set_write(set, NULL, path, NULL, &err), RETEX_EINVAL);
+    set->mixture[1] = share;
+    set->mixture[1].footprint = set->nfootprints;
+    assert_int_equal(retex_set_write(set, NULL, path, NULL, &err), RETEX_EINVAL);
+    set->mixture[1] = share;
+    set->nmixture = RETEX_MAX_TARGETS + 1;
+    assert_int_equal(retex_set_write(set, NULL, path, NULL, &err), RETEX_EINVAL);
+    set->nmixture = 2;
+    set->terms[1].nmixed = RETEX_MAX_FACTORS;
+    assert_int_equal(retex_set_write(set, NULL, path, NULL, &err), RETEX_EINVAL);
     retex_set_close(&set);
 }
 
@@ -532,8 +622,8 @@ int main(void)
         cmocka_unit_test(test_set_there_and_back),     cmocka_unit_test(test_footprints_there_and_back),
         cmocka_unit_test(test_samples_there_and_back), cmocka_unit_test(test_stream_through_a_pipe),
         cmocka_unit_test(test_names_are_checked),      cmocka_unit_test(test_samples_of_another_set),
-        cmocka_unit_test(test_manifests_that_lie),     cmocka_unit_test(test_damaged_files),
-        cmocka_unit_test(test_what_is_no_set),
+        cmocka_unit_test(test_manifests_that_lie),     cmocka_unit_test(test_mixtures_that_lie),
+        cmocka_unit_test(test_damaged_files),          cmocka_unit_test(test_what_is_no_set),
     };
     return cmocka_run_group_tests(tests, make_path, remove_path);
 }
