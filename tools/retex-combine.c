@@ -1,6 +1,9 @@
 /* retex-combine: recombine a set, with its own textures or new ones, into a picture. See retex-combine(1). */
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include "texture_args.h"
 #include "texture_table.h"
@@ -80,12 +83,45 @@ static void check_output(const Cli *cli, const Job *job, const char *output)
     texture_args_check_outputs(cli, &job->textures, output);
 }
 
+/* The folder that a file is or would be in. */
+static int stat_folder(const char *path, struct stat *folder)
+{
+    char name[4096];
+    const char *slash = strrchr(path, '/');
+    int length = slash == path ? 1 : slash ? (int)(slash - path) : 0;
+    if (!length)
+        return stat(".", folder);
+    return snprintf(name, sizeof name, "%.*s", length, path) < (int)sizeof name ? stat(name, folder) : -1;
+}
+
+static const char *base_name(const char *path)
+{
+    const char *slash = strrchr(path, '/');
+    return slash ? slash + 1 : path;
+}
+
+/* Whether two outputs, which need not be there yet, are one file. */
+static int is_same_output(const char *a, const char *b)
+{
+    struct stat x, y;
+    if (strcmp(a, b) == 0)
+        return 1;
+    if (strcmp(a, "-") == 0 || strcmp(b, "-") == 0)
+        return 0;
+    int there = stat(a, &x) == 0, also_there = stat(b, &y) == 0;
+    if (there != also_there)
+        return 0;
+    if (!there && (strcmp(base_name(a), base_name(b)) != 0 || stat_folder(a, &x) || stat_folder(b, &y)))
+        return 0;
+    return x.st_dev == y.st_dev && x.st_ino == y.st_ino;
+}
+
 /* The error's file must replace nothing either, the picture included. */
 static void check_error_output(const Cli *cli, const Job *job, const char *output)
 {
     RetexError err = {0};
     check_output(cli, job, job->error);
-    if (strcmp(job->error, output) == 0)
+    if (is_same_output(job->error, output))
         cli_die(cli, "the picture and --error are the same file");
     if (retex_image_write_check(job->error, NULL, &err))
         cli_fail(cli, &err);
@@ -142,18 +178,24 @@ static int make_error(const Cli *cli, const Job *job, const RetexSamples *sample
     return code;
 }
 
-/* One picture. */
+/* One picture. The error to be expected comes first, and goes again where the picture cannot be written: neither stays
+ * alone. */
 static int make_picture(const Cli *cli, const Job *job, const RetexSamples *samples, const char *output, double began,
                         RetexError *err)
 {
     RetexImage picture = {0};
-    int code = retex_combine(&picture, job->set, samples, &job->combine, NULL, cli->threads, err);
-    if (!code)
-        code = retex_image_write(&picture, output, &job->write, err);
-    retex_image_free(&picture);
+    struct stat old;
     char text[2048], expected[64] = "";
+    int is_new = job->error && stat(job->error, &old) != 0;
+    int code = retex_combine(&picture, job->set, samples, &job->combine, NULL, cli->threads, err);
     if (!code && job->error)
         code = make_error(cli, job, samples, expected, sizeof expected, err);
+    if (!code) {
+        code = retex_image_write(&picture, output, &job->write, err);
+        if (code && is_new)
+            unlink(job->error);
+    }
+    retex_image_free(&picture);
     if (code)
         return code;
     cli_info(cli, "%s: %s, %d x %d%s, %.2f s", strcmp(output, "-") ? output : "standard output",

@@ -25,6 +25,17 @@ $ retex-sample -q s.exr --texture floor=brick.jpg -o a.exr; retex-combine -q s.e
 $ retex-combine -q s.exr --texture floor=brick.jpg --error x.exr -o x.exr
 ! retex-combine: error: the picture and --error are the same file
 = 2
+$ retex-combine -q s.exr --texture floor=brick.jpg --error ./x.exr -o x.exr
+! retex-combine: error: the picture and --error are the same file
+= 2
+$ mkdir folder; retex-combine -q s.exr --texture floor=brick.jpg --error folder/../x.exr -o "$PWD/x.exr"
+! retex-combine: error: the picture and --error are the same file
+= 2
+$ cp s.exr old.exr; ln old.exr hard.exr; ln -s old.exr soft.exr; for f in hard soft ./old; do retex-combine -q s.exr --texture floor=brick.jpg --error $f.exr -o old.exr; done; cmp s.exr old.exr
+! retex-combine: error: the picture and --error are the same file
+! retex-combine: error: the picture and --error are the same file
+! retex-combine: error: the picture and --error are the same file
+$ retex-combine -q s.exr --texture floor=brick.jpg --error folder/x.exr -o ./y.exr; retex-combine -q s.exr --texture floor=brick.jpg --error folder/y.exr -o y.exr; cmp folder/x.exr folder/y.exr; rm -r folder ?.exr; make_set s.exr 48 32
 $ retex-combine -q s.exr --texture floor=brick.jpg --error - >/dev/null
 ! retex-combine: error: the picture and --error are the same file
 = 2
@@ -44,7 +55,19 @@ $ ls x.*
 ! ls: cannot access 'x.*': No such file or directory
 = 2
 
+# Neither file is left alone where the other cannot be written.
 $ retex-combine -q s.exr --texture floor=brick.jpg --error /dev/full -o full.png; echo $?; ls full.png
 > 2
-> full.png
 ! retex-combine: error: cannot write /dev/full: No space left on device
+! ls: cannot access 'full.png': No such file or directory
+= 2
+$ retex-combine -q s.exr --texture floor=brick.jpg --error full.exr -o /dev/full; echo $?; ls full.exr
+> 2
+! retex-combine: error: cannot write /dev/full: No space left on device
+! ls: cannot access 'full.exr': No such file or directory
+= 2
+$ retex-combine -q s.exr --texture floor=brick.jpg --error full.exr -o - >/dev/full; echo $?; ls full.exr
+> 2
+! retex-combine: error: cannot write standard output: No space left on device
+! ls: cannot access 'full.exr': No such file or directory
+= 2
