@@ -316,7 +316,9 @@ void parse_arguments(Arguments *a)
     Cli *cli = a->cli;
     const CliOption *o;
     cli->options = options;
-    a->render = (RenderParams)RENDER_PARAMS_INIT;
+    const RenderParams defaults = RENDER_PARAMS_INIT;
+    a->render = defaults;
+    a->render.sharp = 0; /* until --clusters says how many */
     a->sdl = (SdlOptions)SDL_OPTIONS_INIT;
     while ((o = cli_next(cli))) {
         if (o != &cli_positional)
@@ -328,6 +330,10 @@ void parse_arguments(Arguments *a)
     }
     if (!a->scene)
         cli_die(cli, "which scene? (try --help)");
+    if (a->render.paper && a->render.sharp)
+        cli_die(cli, "--layout paper has no clusters: no --clusters");
+    if (!a->render.sharp)
+        a->render.sharp = defaults.sharp;
     if (a->variants)
         texture_table_open(&a->table, cli, a->variants);
     if ((a->nreplacements || a->variants) && !a->ntargets) { /* replacing names the targets */

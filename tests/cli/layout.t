@@ -33,6 +33,24 @@ $ retex-info --json two.exr | grep -o '"name":"dep_floor_sharp1[^"]*"' | head -n
 > "name":"dep_floor_sharp1_a1"
 > "name":"dep_floor_sharp1_b1"
 > "name":"dep_floor_sharp1_a2"
+$ retex-info --json two.exr | grep -o '"name":"\(dep_floor_sharp1_[^"]*m[^"]*\|share_[^"]*\)"'
+> "name":"share_floor"
+> "name":"share_white"
+> "name":"dep_floor_sharp1_m5"
+> "name":"dep_floor_sharp1_m6"
+> "name":"dep_floor_sharp1_m7"
+> "name":"dep_floor_sharp1_m8"
+> "name":"dep_floor_sharp1_m9"
+> "name":"dep_floor_sharp1_m10"
+> "name":"dep_floor_sharp1_m11"
+
+# What retex-info advises where light keeps the original.
+$ printf '#version 3.7; global_settings { assumed_gamma 1 } #declare Shell = pigment { rgb 0.8 } #declare Ball = pigment { rgb 0.7 } camera { location <0.5, 0.3, -1> look_at 0 } sphere { 0, 3 pigment { Shell } finish { diffuse 1 } } sphere { y, 0.5 pigment { Ball } } light_source { 0 rgb 1 }' >shell.pov
+$ for options in '--orders 3 -t shell' '--orders 5 -t shell -t ball' '-t shell' '-t shell -t ball'; do retex-render -q --size 16x12 --spp 2 $options shell.pov | retex-info - 2>&1 >/dev/null | sed 's/[0-9.]*%/N%/'; done
+> retex-info: warning: N% of the light keeps the original textures: more --orders hold it apart
+> retex-info: warning: N% of the light keeps the original textures: more --orders hold it apart
+> retex-info: warning: N% of the light keeps the original textures: it meets them more often than a set can hold apart
+> retex-info: warning: N% of the light keeps the original textures: fewer targets may hold it apart
 
 # Both layouts show the picture that was rendered, and take new textures.
 $ for s in f p two; do retex-combine -q $s.exr -o back.exr; retex-render -q --size 16x12 --spp 2 --plain scenes/cornell-box/cornell-box.pov -o plain.exr; retex-diff -q back.exr plain.exr --fail-psnr 45 || echo $s; done
@@ -83,6 +101,12 @@ $ retex-render --clusters 3+1+1 scenes/cornell-box/cornell-box.pov -o x.exr
 = 2
 $ retex-render --clusters '' scenes/cornell-box/cornell-box.pov -o x.exr
 ! retex-render: error: --clusters wants a number, or two as in 3+1, not ``
+= 2
+$ retex-render --layout paper --clusters 4 scenes/cornell-box/cornell-box.pov -o x.exr
+! retex-render: error: --layout paper has no clusters: no --clusters
+= 2
+$ retex-render --clusters 3+1 --layout paper scenes/cornell-box/cornell-box.pov -o x.exr
+! retex-render: error: --layout paper has no clusters: no --clusters
 = 2
 $ ls x.*
 ! ls: cannot access 'x.*': No such file or directory
