@@ -53,7 +53,7 @@ static const CliOption options[] = {
     [OPT_PLAIN] = {"plain", 0, NULL, "the picture only, no set", 0},
     [OPT_LAYOUT] = {"layout", 0, "NAME", "statistics of the set: footprints or paper (footprints)", 0},
     [OPT_CLUSTERS] = {"clusters", 0, "K|S+B",
-                      "clusters of footprints a pixel and target, in all, or sharp + broad ones (4, which is 3+1)", 0},
+                      "clusters of footprints a pixel and target, or at most S sharp and B broad ones (4)", 0},
     [OPT_ORDERS] = {"orders", 0, "N", "highest number of target hits kept, 1 to 6 (6)", 0},
     [OPT_STRICT_PAPER] = {"strict-paper", 0, NULL, "drop the mixed terms of four and more hits, as the paper does", 0},
     [OPT_SPP] = {"spp", 0, "N", "samples a pixel (64)", 0},
@@ -133,21 +133,21 @@ static void parse_replace(Arguments *a)
         cli_die(a->cli, "--replace: %s", err.message);
 }
 
-/* 4 or 3+1: of K clusters a quarter, but at least one, is broad. */
+/* 4, of either kind, or 2+1. */
 static void parse_clusters(Arguments *a)
 {
-    int sharp, broad, used = 0;
+    int all, sharp, broad, used = 0;
     const char *text = a->cli->value;
-    if (isdigit((unsigned char)text[0]) && sscanf(text, "%2d%n", &sharp, &used) == 1 && !text[used]) {
-        broad = sharp < 8 ? 1 : sharp / 4;
-        sharp -= broad;
-    } else if (!isdigit((unsigned char)text[0]) || sscanf(text, "%2d+%2d%n", &sharp, &broad, &used) != 2 ||
-               text[used]) {
-        cli_die(a->cli, "--clusters wants a number, or two as in 3+1, not `%s`", text);
-    }
-    if (sharp < 1 || sharp > FILM_SHARP_MAX || broad < 1 || broad > FILM_BROAD_MAX)
-        cli_die(a->cli, "--clusters wants 1 to %d sharp and 1 to %d broad ones, not `%s`", FILM_SHARP_MAX,
-                FILM_BROAD_MAX, text);
+    if (isdigit((unsigned char)text[0]) && sscanf(text, "%2d%n", &all, &used) == 1 && !text[used])
+        sharp = broad = all;
+    else if (isdigit((unsigned char)text[0]) && sscanf(text, "%2d+%2d%n", &sharp, &broad, &used) == 2 && !text[used])
+        all = sharp + broad;
+    else
+        cli_die(a->cli, "--clusters wants a number, or two as in 2+1, not `%s`", text);
+    if (all < 2 || all > FILM_CLUSTERS_MAX || sharp < 1 || broad < 1)
+        cli_die(a->cli, "--clusters wants 2 to %d, at least one sharp and one broad, not `%s`", FILM_CLUSTERS_MAX,
+                text);
+    a->render.clusters = all;
     a->render.sharp = sharp, a->render.broad = broad;
 }
 

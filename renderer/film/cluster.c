@@ -44,8 +44,19 @@ void uv_stats_merge(UvStats *into, const UvStats *from, const int periodic[2])
     into->weight = total;
 }
 
-double uv_stats_merge_cost(const UvStats *a, const UvStats *b, const int periodic[2])
+double uv_stats_ward(const UvStats *a, const UvStats *b, const int periodic[2])
 {
     double u = difference(a->mean[0], b->mean[0], periodic[0]), v = difference(a->mean[1], b->mean[1], periodic[1]);
     return a->weight * b->weight / (a->weight + b->weight) * (u * u + v * v);
+}
+
+static double variation(double weight, double squares)
+{
+    return weight * squares / (squares + weight * UV_FEATURE * UV_FEATURE);
+}
+
+double uv_stats_variation_gain(const UvStats *a, const UvStats *b, const int periodic[2])
+{
+    double sa = a->m2[0] + a->m2[2], sb = b->m2[0] + b->m2[2], both = sa + sb + uv_stats_ward(a, b, periodic);
+    return variation(a->weight + b->weight, both) - variation(a->weight, sa) - variation(b->weight, sb);
 }

@@ -188,8 +188,8 @@ long film_floats(const FilmParams *params, int ntargets)
         return 3 + params->orders * (8 * ntargets + 6); /* footprints, terms */
     Plan plan;
     plan_make(&plan, ntargets, params->orders, expansion_most_hits(ntargets, 0));
-    /* sharp clusters have few coefficients where they are at all */
-    return 6 + ntargets * (10 + params->broad * (9 + 3 * plan.count) + 12);
+    /* few pixels have all clusters, and what is never written takes no memory: one cluster, and its coefficients */
+    return 6 + ntargets * (10 + 9 + 3 * plan.count);
 }
 
 long film_dropped(const Film *film)

@@ -5,8 +5,7 @@
 #include "film/expansion.h"
 #include "scene/scene.h"
 
-#define FILM_SHARP_MAX 16
-#define FILM_BROAD_MAX 4
+#define FILM_CLUSTERS_MAX 16
 
 typedef struct Film Film;
 
@@ -17,7 +16,8 @@ typedef struct FilmParams {
     int split;              /* 0: the beauty only (plain and replaced renders) */
     int ntiles;
     int paper;              /* layout: 0 footprints, 1 paper */
-    int sharp, broad;       /* layout footprints: clusters a pixel and target */
+    int clusters;           /* layout footprints: a pixel and target, of both kinds together, 2..FILM_CLUSTERS_MAX */
+    int sharp, broad;       /* at most so many of each kind, 1..clusters */
     int periodic[RETEX_MAX_TARGETS][2]; /* targets that close in u, v */
 } FilmParams;
 

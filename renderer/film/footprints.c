@@ -8,8 +8,8 @@
 #include "film/footprints.h"
 #include "film/plan.h"
 
-#define SLOTS_MAX (FILM_SHARP_MAX + FILM_BROAD_MAX)
 #define PENDING_MAX 64
+#define PARTS_MAX 1500 /* of a set, with room for its beauty, originals and AOVs */
 /* What an unknown texture is taken for where its hit only weighs another's. */
 #define UNKNOWN_ALBEDO 0.5f
 #define LEAST_ALBEDO 1e-3f
@@ -45,11 +45,16 @@ typedef struct Pending {
     Coefficients c;
 } Pending;
 
-/* The clusters of one pixel on one target: sharp ones, then broad ones. */
+/* Clusters of one kind. */
+typedef struct Clusters {
+    int count;
+    Cluster of[FILM_CLUSTERS_MAX];
+} Clusters;
+
+/* The clusters of one pixel on one target. */
 typedef struct TargetClusters {
-    int nsharp, nbroad;
-    Cluster sharp[FILM_SHARP_MAX], broad[FILM_BROAD_MAX];
-    UvStats later;
+    Clusters sharp, broad;
+    UvStats later[2]; /* two clusters of all further hits; weight 0: none */
     AlbedoSums later_albedo;
     int later_samples, later_seen; /* seen: by the path in hand */
     double mixed;                  /* weight of its hits in mixtures */
@@ -139,6 +144,10 @@ int footprints_create(FootprintFilm **out, const Scene *scene, const FilmParams 
     film->scene = scene;
     film->params = *params;
     plan_make(&film->plan, scene->ntargets, params->orders, expansion_most_hits(scene->ntargets, 0));
+    int parts = scene->ntargets * (slots_count(params) * (film->plan.count + 3) + 4);
+    if (parts > PARTS_MAX)
+        return retex_fail(err, RETEX_ELIMIT, "the set may need %d parts, more than %d: take fewer targets or clusters",
+                          parts, PARTS_MAX);
     return alloc_images(film, err);
 }
 
@@ -232,12 +241,44 @@ static Pending *find_pending(FootprintPixel *p, const TargetHit *hit, int order)
     return q;
 }
 
+/* One more among two: it, or the pair it meets, goes together where that loses least. */
+static void pool_later(UvStats later[2], const UvStats *one, const int periodic[2])
+{
+    for (int k = 0; k < 2; k++)
+        if (later[k].weight == 0) {
+            later[k] = *one;
+            return;
+        }
+    double first = uv_stats_variation_gain(&later[0], one, periodic),
+           second = uv_stats_variation_gain(&later[1], one, periodic),
+           both = uv_stats_variation_gain(&later[0], &later[1], periodic);
+    if (both < first && both < second) {
+        uv_stats_merge(&later[0], &later[1], periodic);
+        later[1] = *one;
+    } else {
+        uv_stats_merge(&later[second < first], one, periodic);
+    }
+}
+
+/* The footprint that stands for all further hits: both clusters, or, where these lie so far apart that together they
+ * would see the texture's mean, the one that has most of the light. */
+static UvStats whole_later(const UvStats later[2], const int periodic[2])
+{
+    const double wide = UV_FEATURE * UV_FEATURE;
+    const UvStats *heavy = &later[later[1].weight > later[0].weight], *light = &later[heavy == &later[0]];
+    UvStats both = *heavy;
+    if (light->weight > 0)
+        uv_stats_merge(&both, light, periodic);
+    return both.m2[0] + both.m2[2] > wide * both.weight && heavy->m2[0] + heavy->m2[2] < wide * heavy->weight ? *heavy
+                                                                                                              : both;
+}
+
 static void add_later(FootprintPixel *p, const TargetHit *hit, double weight, double mixed, Rgb light)
 {
     TargetClusters *t = &p->targets[hit->target];
     const double uv[2] = {hit->uv.u, hit->uv.v};
     if (weight > 0)
-        uv_stats_add(&t->later, weight, uv, p->film->params.periodic[hit->target]);
+        pool_later(t->later, &(UvStats){weight, {uv[0], uv[1]}, {0, 0, 0}}, p->film->params.periodic[hit->target]);
     add_albedo(&t->later_albedo, light, hit->albedo);
     t->later_seen = 1;
     t->mixed += mixed;
@@ -359,28 +400,56 @@ static void start_cluster(Cluster *cluster, const Pending *q, int coefficients, 
     add_pending(cluster, q, coefficients, periodic);
 }
 
-/* One more among count clusters that are all there may be: merge the cheapest pair (Ward 1963). */
-static void squeeze(Cluster *clusters, int count, const Pending *q, int coefficients, const int periodic[2])
+/* Two clusters of one kind, or one and what is to be added (b = -1). */
+typedef struct Pair {
+    Clusters *clusters;
+    int a, b;
+    double cost;
+} Pair;
+
+static double merge_cost(const UvStats *a, const UvStats *b, int sharp, const int periodic[2])
 {
-    const UvStats one = {q->weight, {q->position.u, q->position.v}, {0, 0, 0}};
-    double best = INFINITY;
-    int a = 0, b = -1; /* b = -1: the new one */
-    for (int i = 0; i < count; i++) {
-        double cost = uv_stats_merge_cost(&clusters[i].uv, &one, periodic);
-        if (cost < best)
-            best = cost, a = i, b = -1;
-        for (int k = i + 1; k < count; k++) {
-            cost = uv_stats_merge_cost(&clusters[i].uv, &clusters[k].uv, periodic);
-            if (cost < best)
-                best = cost, a = i, b = k;
+    return sharp ? uv_stats_ward(a, b, periodic) / (UV_FEATURE * UV_FEATURE) : uv_stats_variation_gain(a, b, periodic);
+}
+
+/* Look for a cheaper pair than the best so far: among the clusters, and of each with the new one (NULL: not with it). */
+static void find_cheapest(Pair *best, Clusters *clusters, int sharp, const UvStats *one, const int periodic[2])
+{
+    for (int i = 0; i < clusters->count; i++) {
+        double cost = one ? merge_cost(&clusters->of[i].uv, one, sharp, periodic) : INFINITY;
+        if (cost < best->cost)
+            *best = (Pair){clusters, i, -1, cost};
+        for (int k = i + 1; k < clusters->count; k++) {
+            cost = merge_cost(&clusters->of[i].uv, &clusters->of[k].uv, sharp, periodic);
+            if (cost < best->cost)
+                *best = (Pair){clusters, i, k, cost};
         }
     }
-    if (b < 0) {
-        add_pending(&clusters[a], q, coefficients, periodic);
+}
+
+/* One more, where there are as many clusters as there may be: merge the cheapest pair of either kind, or of its
+ * own where that has all that it may have. */
+static void squeeze(Clusters *own, Clusters *other, int own_is_full, const Pending *q, int coefficients,
+                    const int periodic[2])
+{
+    const UvStats one = {q->weight, {q->position.u, q->position.v}, {0, 0, 0}};
+    Pair best = {.cost = INFINITY};
+    find_cheapest(&best, own, q->sharp, &one, periodic);
+    if (!own_is_full)
+        find_cheapest(&best, other, !q->sharp, NULL, periodic);
+    if (best.b < 0) {
+        add_pending(&own->of[best.a], q, coefficients, periodic);
         return;
     }
-    merge_cluster(&clusters[a], &clusters[b], coefficients, periodic);
-    start_cluster(&clusters[b], q, coefficients, periodic);
+    Clusters *merged = best.clusters;
+    merge_cluster(&merged->of[best.a], &merged->of[best.b], coefficients, periodic);
+    if (merged == own) {
+        start_cluster(&own->of[best.b], q, coefficients, periodic);
+        return;
+    }
+    if (best.b != --merged->count)
+        merged->of[best.b] = merged->of[merged->count];
+    start_cluster(&own->of[own->count++], q, coefficients, periodic);
 }
 
 static void flush_pending(FootprintPixel *p)
@@ -389,18 +458,17 @@ static void flush_pending(FootprintPixel *p)
     for (int k = 0; k < p->npending; k++) {
         Pending *q = &p->pending[k];
         TargetClusters *t = &p->targets[q->target];
-        int *count = q->sharp ? &t->nsharp : &t->nbroad, room = q->sharp ? params->sharp : params->broad;
-        Cluster *clusters = q->sharp ? t->sharp : t->broad;
-        int coefficients = p->film->plan.count;
+        Clusters *own = q->sharp ? &t->sharp : &t->broad, *other = q->sharp ? &t->broad : &t->sharp;
+        int room = q->sharp ? params->sharp : params->broad, coefficients = p->film->plan.count;
         const int *periodic = params->periodic[q->target];
         const double uv[2] = {q->position.u, q->position.v};
         if (!(q->weight > 0))
             continue;
         uv_range_add(&p->range, q->target, uv);
-        if (*count < room)
-            start_cluster(&clusters[(*count)++], q, coefficients, periodic);
+        if (own->count < room && own->count + other->count < params->clusters)
+            start_cluster(&own->of[own->count++], q, coefficients, periodic);
         else
-            squeeze(clusters, room, q, coefficients, periodic);
+            squeeze(own, other, own->count == room, q, coefficients, periodic);
     }
     p->npending = 0;
 }
@@ -456,18 +524,22 @@ static int compare_clusters(const void *a, const void *b)
     return p < q ? -1 : p > q;
 }
 
+static void add_white(double sum[3], const Clusters *clusters, int coefficients)
+{
+    for (int k = 0; k < clusters->count; k++)
+        for (int i = 0; i < coefficients; i++)
+            for (int c = 0; c < 3; c++)
+                sum[c] += clusters->of[k].c[i][c];
+}
+
 /* The largest channel of the pixel as it would be with white textures, in the set's units. */
 static float white_pixel(const FootprintPixel *p)
 {
     double sum[3] = {p->free[0], p->free[1], p->free[2]};
-    for (int t = 0; t < p->film->scene->ntargets; t++)
-        for (int k = 0; k < p->targets[t].nsharp + p->targets[t].nbroad; k++) {
-            const TargetClusters *of = &p->targets[t];
-            const Cluster *cluster = k < of->nsharp ? &of->sharp[k] : &of->broad[k - of->nsharp];
-            for (int i = 0; i < p->film->plan.count; i++)
-                for (int c = 0; c < 3; c++)
-                    sum[c] += cluster->c[i][c];
-        }
+    for (int t = 0; t < p->film->scene->ntargets; t++) {
+        add_white(sum, &p->targets[t].sharp, p->film->plan.count);
+        add_white(sum, &p->targets[t].broad, p->film->plan.count);
+    }
     return (float)(fmax(sum[0], fmax(sum[1], sum[2])) / p->film->params.spp);
 }
 
@@ -478,16 +550,16 @@ static double effective_samples(const Cluster *cluster)
 }
 
 /* Clusters into their images, in the order of their place on the texture, so that neighbours agree. */
-static void store_clusters(FootprintPixel *p, FootprintImages *slots, Cluster *clusters, int count, int coefficients,
-                           double step, int x, int y)
+static void store_clusters(FootprintPixel *p, FootprintImages *slots, Clusters *clusters, double step, int x, int y)
 {
     float scale = 1 / (float)p->film->params.spp;
-    qsort(clusters, (size_t)count, sizeof *clusters, compare_clusters);
-    for (int k = 0; k < count; k++) {
-        store_footprint(&slots[k], &clusters[k].uv, &clusters[k].albedo, (float)effective_samples(&clusters[k]) * scale,
-                        x, y);
+    int coefficients = p->film->plan.count;
+    qsort(clusters->of, (size_t)clusters->count, sizeof *clusters->of, compare_clusters);
+    for (int k = 0; k < clusters->count; k++) {
+        const Cluster *cluster = &clusters->of[k];
+        store_footprint(&slots[k], &cluster->uv, &cluster->albedo, (float)effective_samples(cluster) * scale, x, y);
         for (int i = 0; i < coefficients; i++) {
-            const float *sum = clusters[k].c[i];
+            const float *sum = cluster->c[i];
             if (sum[0] == 0 && sum[1] == 0 && sum[2] == 0)
                 continue; /* memory that is never touched is never taken */
             float *to = pixel_of(&slots[k].coefficients[i], x, y);
@@ -495,6 +567,7 @@ static void store_clusters(FootprintPixel *p, FootprintImages *slots, Cluster *c
                 to[c] = (float)round_to(sum[c] * scale, step);
         }
     }
+    clusters->count = 0;
 }
 
 /* How often each target was met in mixtures; they add up to 1, or are all 0. */
@@ -517,19 +590,28 @@ void footprints_pixel_end(FootprintPixel *p, int x, int y)
     store_shares(p, x, y);
     for (int t = 0; t < film->scene->ntargets; t++) {
         TargetClusters *of = &p->targets[t];
-        int coefficients = film->plan.count;
-        store_clusters(p, film->slots[t], of->sharp, of->nsharp, coefficients, step, x, y);
-        store_clusters(p, film->slots[t] + film->params.sharp, of->broad, of->nbroad, coefficients, step, x, y);
-        if (of->later.weight > 0)
-            store_footprint(&film->later[t], &of->later, &of->later_albedo, (float)of->later_samples * scale, x, y);
-        of->nsharp = of->nbroad = of->later_samples = 0;
-        of->later = (UvStats){0};
+        store_clusters(p, film->slots[t], &of->sharp, step, x, y);
+        store_clusters(p, film->slots[t] + film->params.sharp, &of->broad, step, x, y);
+        UvStats later = whole_later(of->later, film->params.periodic[t]);
+        if (later.weight > 0)
+            store_footprint(&film->later[t], &later, &of->later_albedo, (float)of->later_samples * scale, x, y);
+        of->later_samples = 0;
+        of->later[0] = of->later[1] = (UvStats){0};
         of->mixed = 0;
         of->later_albedo = (AlbedoSums){0};
     }
 }
 
 /* ---- into the set ---- */
+
+static int is_empty(const RetexImage *image)
+{
+    size_t count = (size_t)image->width * (size_t)image->height * (size_t)image->channels;
+    for (size_t i = 0; i < count; i++)
+        if (image->pixels[i] != 0)
+            return 0;
+    return 1;
+}
 
 static int finish_footprint(RetexSet *set, FootprintImages *images, RetexFootprint *f, const char *suffix,
                             RetexError *err)
@@ -555,20 +637,28 @@ static void slot_name(const FootprintFilm *film, int slot, char name[16])
         snprintf(name, 16, "broad%d", slot - film->params.sharp + 1);
 }
 
-static int finish_footprints(FootprintFilm *film, RetexSet *set, int first[RETEX_MAX_TARGETS],
-                             int later[RETEX_MAX_TARGETS], RetexError *err)
+/* Where the footprints of the film are in the set. */
+typedef struct Places {
+    int clusters[2 * FILM_CLUSTERS_MAX]; /* -1: no pixel has so many, and the set leaves it out */
+    int later;
+} Places;
+
+static int finish_footprints(FootprintFilm *film, RetexSet *set, Places *places, RetexError *err)
 {
     int slots = slots_count(&film->params), code = RETEX_OK;
     for (int t = 0; t < set->ntargets && !code; t++) {
-        first[t] = set->nfootprints;
         for (int k = 0; k < slots && !code; k++) {
             char name[16];
             RetexFootprint f = {.target = t, .hit = k + 1};
             f.kind = k < film->params.sharp ? RETEX_FOOTPRINT_SHARP : RETEX_FOOTPRINT_BROAD;
+            places[t].clusters[k] = -1;
+            if (is_empty(&film->slots[t][k].uv))
+                continue;
+            places[t].clusters[k] = set->nfootprints;
             slot_name(film, k, name);
             code = finish_footprint(set, &film->slots[t][k], &f, name, err);
         }
-        later[t] = set->nfootprints;
+        places[t].later = set->nfootprints;
         RetexFootprint f = {.target = t, .hit = slots + 1, .kind = RETEX_FOOTPRINT_LATER};
         if (!code && film->plan.count > 1)
             code = finish_footprint(set, &film->later[t], &f, "later", err);
@@ -576,14 +666,14 @@ static int finish_footprints(FootprintFilm *film, RetexSet *set, int first[RETEX
     return code;
 }
 
-static int finish_shares(FootprintFilm *film, RetexSet *set, const int *later, RetexError *err)
+static int finish_shares(FootprintFilm *film, RetexSet *set, const Places *places, RetexError *err)
 {
     int code = RETEX_OK;
     for (int t = 0; t < set->ntargets && has_mixtures(&film->plan) && !code; t++) {
         char name[RETEX_NAME_MAX];
         RetexShare *share = &set->mixture[set->nmixture];
         snprintf(name, sizeof name, "share_%.90s", set->targets[t].name);
-        share->footprint = later[t];
+        share->footprint = places[t].later;
         code = film_move_part(set, name, "R", RETEX_HALF, &film->shares[t], &share->weight, err);
         set->nmixture += !code;
     }
@@ -607,39 +697,44 @@ static void coefficient_name(const FootprintFilm *film, const RetexSet *set, int
                              c->powers[later]);
 }
 
-static int finish_coefficients(FootprintFilm *film, RetexSet *set, int t, const int *first, const int *later,
+/* One cluster's coefficients, but for those that no pixel has. */
+static int finish_coefficients(FootprintFilm *film, RetexSet *set, int t, int slot, const Places *places,
                                RetexError *err)
 {
     int code = RETEX_OK;
-    for (int k = 0; k < slots_count(&film->params); k++)
-        for (int i = 0; i < film->plan.count && !code; i++) {
-            char name[RETEX_NAME_MAX];
-            RetexTerm term = {.kind = RETEX_TERM_DEP, .nfactors = 1, .factors = {first[t] + k}};
-            term.nmixed = film->plan.coefficients[i].mixed;
-            coefficient_name(film, set, t, k, i, name);
-            for (int b = 0; b < set->ntargets; b++)
-                for (int n = 0; n < film->plan.coefficients[i].powers[b]; n++)
-                    term.factors[term.nfactors++] = later[b];
-            code =
-                film_move_part(set, name, "RGB", RETEX_HALF, &film->slots[t][k].coefficients[i], &term.radiance, err);
-            if (!code)
-                code = retex_set_add_term(set, &term, NULL, err);
-        }
+    for (int i = 0; i < film->plan.count && !code; i++) {
+        RetexImage *image = &film->slots[t][slot].coefficients[i];
+        const PlanCoefficient *c = &film->plan.coefficients[i];
+        RetexTerm term = {.kind = RETEX_TERM_DEP, .nfactors = 1, .factors = {places[t].clusters[slot]}};
+        char name[RETEX_NAME_MAX];
+        if (is_empty(image))
+            continue;
+        term.nmixed = c->mixed;
+        for (int b = 0; b < set->ntargets; b++)
+            for (int n = 0; n < c->powers[b]; n++)
+                term.factors[term.nfactors++] = places[b].later;
+        coefficient_name(film, set, t, slot, i, name);
+        code = film_move_part(set, name, "RGB", RETEX_HALF, image, &term.radiance, err);
+        if (!code)
+            code = retex_set_add_term(set, &term, NULL, err);
+    }
     return code;
 }
 
 int footprints_finish(FootprintFilm *film, RetexSet *set, RetexError *err)
 {
-    int first[RETEX_MAX_TARGETS], later[RETEX_MAX_TARGETS];
+    Places places[RETEX_MAX_TARGETS];
     RetexTerm free_term = {.kind = RETEX_TERM_INDEP};
-    int code = finish_footprints(film, set, first, later, err);
+    int code = finish_footprints(film, set, places, err);
     if (!code)
-        code = finish_shares(film, set, later, err);
+        code = finish_shares(film, set, places, err);
     if (!code)
         code = film_move_part(set, "indep", "RGB", RETEX_HALF, &film->free, &free_term.radiance, err);
     if (!code)
         code = retex_set_add_term(set, &free_term, NULL, err);
-    for (int t = 0; t < set->ntargets && !code; t++)
-        code = finish_coefficients(film, set, t, first, later, err);
+    for (int t = 0; t < set->ntargets; t++)
+        for (int k = 0; k < slots_count(&film->params) && !code; k++)
+            if (places[t].clusters[k] >= 0)
+                code = finish_coefficients(film, set, t, k, places, err);
     return code;
 }

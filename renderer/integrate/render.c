@@ -51,9 +51,10 @@ static int check_params(const RenderParams *p, RetexError *err)
         return retex_fail(err, RETEX_EINVAL, "variants must be 0 to %d, not %d", VARIANTS_MAX, p->nvariants);
     if (p->orders < 1 || p->orders > RETEX_MAX_ORDERS)
         return retex_fail(err, RETEX_EINVAL, "orders must be 1 to %d, not %d", RETEX_MAX_ORDERS, p->orders);
-    if (p->sharp < 1 || p->sharp > FILM_SHARP_MAX || p->broad < 1 || p->broad > FILM_BROAD_MAX)
-        return retex_fail(err, RETEX_EINVAL, "clusters must be 1 to %d sharp and 1 to %d broad ones, not %d and %d",
-                          FILM_SHARP_MAX, FILM_BROAD_MAX, p->sharp, p->broad);
+    if (p->clusters < 2 || p->clusters > FILM_CLUSTERS_MAX || p->sharp < 1 || p->sharp > p->clusters || p->broad < 1 ||
+        p->broad > p->clusters)
+        return retex_fail(err, RETEX_EINVAL, "clusters must be 2 to %d, of them 1 to all sharp and 1 to all broad ones",
+                          FILM_CLUSTERS_MAX);
     return RETEX_OK;
 }
 
@@ -199,6 +200,7 @@ static int render_film(Render *r, int control, int halves, RetexError *err)
                        .split = r->context.split,
                        .ntiles = r->tiles_x * r->tiles_y,
                        .paper = r->params.paper,
+                       .clusters = r->params.clusters,
                        .sharp = r->params.sharp,
                        .broad = r->params.broad};
     for (int t = 0; t < r->scene->ntargets; t++)

@@ -38,9 +38,9 @@ typedef struct RenderParams {
     int max_depth;           /* segments of a path, 1..256, camera and shadow rays included; default 16 */
     int gaussian;            /* pixel filter: 0 box of one pixel (default), 1 Gaussian of sigma 0.5 pixel */
     int paper;               /* layout: 0 footprints (default), 1 paper */
-    int sharp, broad;        /* layout footprints: clusters kept per target of what is seen sharply (1..16; default 3)
-                                and of the rest (1..4; default 1) */
-    int orders;              /* most hits of each target kept, 1..6; default 6; at most 8 of all together */
+    int clusters;            /* layout footprints: clusters kept a pixel and target, 2..16; default 4 */
+    int sharp, broad;        /* at most so many of what is seen sharply and of the rest, 1..clusters; default 4, 4 */
+    int orders;              /* most hits of each target kept, 1..6; default 6; of all together at most 12, or 8 in paper */
     int strict_paper;        /* drop mixed terms of four and more hits, as the supplement does; default 0 */
     int plain;               /* beauty only, no set; default 0 */
     unsigned aovs;           /* AOV_… bits */
@@ -53,7 +53,7 @@ typedef struct RenderParams {
                                 independent, so that the picture is another one than without; default 0 */
 } RenderParams;
 #define RENDER_PARAMS_INIT \
-    { sizeof(RenderParams), 0, 0, {0, 0, 0, 0}, 64, 0, 16, 0, 0, 3, 1, 6, 0, 0, 0, 0, NULL, NULL, NULL, 0, 0 }
+    { sizeof(RenderParams), 0, 0, {0, 0, 0, 0}, 64, 0, 16, 0, 0, 4, 4, 4, 6, 0, 0, 0, 0, NULL, NULL, NULL, 0, 0 }
 
 typedef struct RenderStats {
     double build_seconds, render_seconds;

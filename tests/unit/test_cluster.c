@@ -179,19 +179,19 @@ static void the_cost_is_what_merging_adds(void **state)
         make_points(points, 20, 0.95, 0.2, 0.02, seed);
         make_points(points + 20, 20, 0.95 + 0.004 * seed, 0.25, 0.02, seed + 50);
         UvStats a = add_all(points, 20, periodic), b = add_all(points + 20, 20, periodic), both = a;
-        double cost = uv_stats_merge_cost(&a, &b, periodic);
+        double cost = uv_stats_ward(&a, &b, periodic);
         assert_true(cost >= 0);
-        assert_true(fabs(cost - uv_stats_merge_cost(&b, &a, periodic)) < 1e-12 * cost);
+        assert_true(fabs(cost - uv_stats_ward(&b, &a, periodic)) < 1e-12 * cost);
         uv_stats_merge(&both, &b, periodic);
         double growth = both.m2[0] + both.m2[2] - a.m2[0] - a.m2[2] - b.m2[0] - b.m2[2];
         assert_true(fabs(cost - growth) < 1e-9 * (cost + both.m2[0] + both.m2[2]));
         b = a;
         b.weight *= 3;
-        assert_true(uv_stats_merge_cost(&a, &b, periodic) == 0);
+        assert_true(uv_stats_ward(&a, &b, periodic) == 0);
     }
     const UvStats low = {1, {0.01, 0.5}, {0, 0, 0}}, high = {1, {0.99, 0.5}, {0, 0, 0}};
-    assert_true(fabs(uv_stats_merge_cost(&low, &high, closed_axes) - 0.5 * 0.02 * 0.02) < 1e-12);
-    assert_true(fabs(uv_stats_merge_cost(&low, &high, open_axes) - 0.5 * 0.98 * 0.98) < 1e-12);
+    assert_true(fabs(uv_stats_ward(&low, &high, closed_axes) - 0.5 * 0.02 * 0.02) < 1e-12);
+    assert_true(fabs(uv_stats_ward(&low, &high, open_axes) - 0.5 * 0.98 * 0.98) < 1e-12);
 }
 
 int main(void)

@@ -39,8 +39,10 @@ static int open_mixture(RetexImage *mixture, const RetexSet *set, const RetexSam
     int code = retex_image_alloc(mixture, set->width, set->height, 3, err);
     for (int k = 0; k < set->nmixture && !code; k++) {
         const float *factor = find_factor(set, samples, set->mixture[k].footprint);
-        const RetexImage *weight = &set->parts[set->mixture[k].weight].image;
-        if (!factor || weight->channels != 1 || weight->width != set->width || weight->height != set->height)
+        const int part = set->mixture[k].weight;
+        const RetexImage *weight = part >= 0 && part < set->nparts ? &set->parts[part].image : NULL;
+        if (!factor || !weight || !weight->pixels || weight->channels != 1 || weight->width != set->width ||
+            weight->height != set->height)
             return retex_fail(err, RETEX_EFORMAT, "the set's mixture lacks a footprint or its weight");
         for (size_t i = 0; i < (size_t)set->width * (size_t)set->height; i++)
             for (size_t c = 0; c < 3; c++)

@@ -14,7 +14,7 @@ typedef struct Monomial {
 typedef struct Polynomial {
     Monomial *monomials;
     int count;
-    RetexImage mixture; /* the set's mixture, where some term has it; its factors have no footprint (-1) */
+    RetexImage mixture; /* the set's mixture, if it has one; its factors have no footprint (-1) */
 } Polynomial;
 
 /* The terms that params ask for (NULL = defaults). samples may be NULL. Borrows the pixels of both. */

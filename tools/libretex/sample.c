@@ -96,7 +96,13 @@ static void load_job(void *context, int index, int thread)
     (void)thread;
     int target = work->spec_target[index];
     RetexTextureSpec spec = work->specs[index];
-    memcpy(spec.uv_scale, work->set->targets[target].uv_scale, sizeof spec.uv_scale);
+    const RetexTarget *t = &work->set->targets[target];
+    memcpy(spec.uv_scale, t->uv_scale, sizeof spec.uv_scale);
+    for (int axis = 0; axis < 2; axis++)
+        if (!t->periodic[axis]) {
+            spec.uv_min[axis] = t->uv_min[axis];
+            spec.uv_max[axis] = t->uv_max[axis];
+        }
     int code = retex_texture_load(&work->textures[target], &spec, work->loading_threads, &work->errors[index]);
     if (!code && work->with_variances)
         retex_texture_square(&work->squares[target], work->textures[target], &work->errors[index]);

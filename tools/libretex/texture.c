@@ -559,6 +559,24 @@ void retex_texture_nearest(const RetexTexture *texture, double u, double v, floa
 
 typedef void Filter(const RetexTexture *texture, const TextureFootprint *footprint, float rgba[4]);
 
+/* How far from (u, v) the surface reaches, along those axes of the texture that lie along one of its own. */
+static void set_limits(const RetexTexture *texture, const double at[2], TextureFootprint *f)
+{
+    const RetexTextureSpec *spec = &texture->spec;
+    const double texels[2] = {texture->levels[0].width, -(double)texture->levels[0].height}; /* y goes down */
+    for (int axis = 0; axis < 2; axis++) {
+        const double *m = texture->matrix[axis];
+        int along = m[0] == 0;
+        f->low[axis] = -INFINITY, f->high[axis] = INFINITY;
+        if (m[!along] != 0 || !(spec->uv_min[along] < spec->uv_max[along]))
+            continue;
+        double share = m[along] * texels[axis], a = (spec->uv_min[along] - at[along]) * share,
+               b = (spec->uv_max[along] - at[along]) * share;
+        f->low[axis] = a < b ? a : b;
+        f->high[axis] = a < b ? b : a;
+    }
+}
+
 static void filter_at(const RetexTexture *texture, double u, double v, const double covariance[3], Filter *filter,
                       float rgba[4])
 {
@@ -573,6 +591,7 @@ static void filter_at(const RetexTexture *texture, double u, double v, const dou
     } else {
         footprint.x = uv[0] * texture->levels[0].width;
         footprint.y = (1 - uv[1]) * texture->levels[0].height;
+        set_limits(texture, (const double[2]){u, v}, &footprint);
         filter(texture, &footprint, rgba);
         unassociate(rgba);
     }

@@ -97,6 +97,24 @@ static inline void tent_window(Window *restrict window, const float *restrict ta
     window->total = total;
 }
 
+/* Take off what lies beyond low and high; of a texel that is cut, its share. What would lose nearly all is kept. */
+static inline void cut_window(Window *restrict window, int step, float low, float high)
+{
+    float total = 0, rest[MAX_TAPS];
+    for (int i = 0; i < window->count; i++) {
+        float at = (float)(window->first + i * step), begin = at - 0.5f * (float)step, end = begin + (float)step;
+        float inside = (end < high ? end : high) - (begin > low ? begin : low);
+        rest[i] = inside <= 0             ? 0
+                  : inside >= (float)step ? window->weight[i]
+                                          : window->weight[i] * inside / (float)step;
+        total += rest[i];
+    }
+    if (total < 1e-3f * window->total)
+        return;
+    memcpy(window->weight, rest, (size_t)window->count * sizeof *rest);
+    window->total = total;
+}
+
 /* What makes a window, apart from its centre. */
 typedef struct Shape {
     int tent; /* 1: a tent blurred by sd; 0: a Gaussian of variance 1 / inverse, up to reach */
@@ -222,9 +240,14 @@ static inline float spread(const Window *window, float centre)
     return sum / window->total;
 }
 
+/* How far from its centre a footprint may reach, in the level's texels. */
+typedef struct Limits {
+    float low[2], high[2];
+} Limits;
+
 /* Sum over a level's texels of a Gaussian with mean (x, y), in texel indices, and covariance rest. */
 static inline Float4 sum_level(const RetexTexture *texture, const TextureLevel *level, float x, float y, Rest rest,
-                               const Edges *edges)
+                               const Limits *limits, const Edges *edges)
 {
     /* Where an axis has one texel that goes on for ever, its marginal is all there is. */
     int flat_x = level->width == 1 && (texture->spec.wrap[0] <= RETEX_WRAP_MIRROR || is_flat(texture, 0));
@@ -241,6 +264,8 @@ static inline Float4 sum_level(const RetexTexture *texture, const TextureLevel *
 
     Window rows, columns;
     make_window(&rows, texture->tail, &shape_y, y);
+    if (limits->low[1] > -shape_y.reach || limits->high[1] < shape_y.reach)
+        cut_window(&rows, shape_y.step, y + limits->low[1], y + limits->high[1]);
     if (shape_y.tent && slope != 0) {           /* the covariance is the slope times what the rows really have */
         double least = rest.yy - TENT_VARIANCE; /* of the footprint alone, which it can only exceed */
         slope = rest.xy / fmax(spread(&rows, y), least > 1e-9 ? least : 1e-9);
@@ -250,14 +275,22 @@ static inline Float4 sum_level(const RetexTexture *texture, const TextureLevel *
         finish_shape(&shape_x);
     }
     int upright = fabs(slope) * rows.count * shape_y.step < 1e-3;
-    if (upright)
+    float reach = shape_x.reach + (float)fabs(slope) * (shape_y.reach + 1);
+    int cut = limits->low[0] > -reach || limits->high[0] < reach;
+    if (upright) {
         make_window(&columns, texture->tail, &shape_x, x);
+        if (cut)
+            cut_window(&columns, shape_x.step, x + limits->low[0], x + limits->high[0]);
+    }
     Float4 sum = {0, 0, 0, 0};
     float total = 0;
     for (int j = 0; j < rows.count; j++) {
         int at = rows.first + j * shape_y.step;
-        if (!upright)
+        if (!upright) {
             make_window(&columns, texture->tail, &shape_x, x + (float)slope * ((float)at - y));
+            if (cut)
+                cut_window(&columns, shape_x.step, x + limits->low[0], x + limits->high[0]);
+        }
         Row row = find_row(texture, level, at, edges->sharp[1]);
         sum += rows.weight[j] * sum_row(&row, level->width, edges->sharp[0] ? EDGE_TEXELS : texture->spec.wrap[0],
                                         columns.weight, columns.count, columns.first, shape_x.step);
@@ -284,8 +317,13 @@ void texture_gaussian_kernel(const RetexTexture *texture, const TextureFootprint
     Rest rest = level_rest(level, footprint, position);
     Edges edges = {{texture->spec.wrap[0] == RETEX_WRAP_BLACK && rest.xx < TENT_LIMIT,
                     texture->spec.wrap[1] == RETEX_WRAP_BLACK && rest.yy < TENT_LIMIT}};
-    Float4 sum =
-        sum_level(texture, level, (float)(x / level->scale[0] - 0.5), (float)(y / level->scale[1] - 0.5), rest, &edges);
+    Limits limits;
+    for (int axis = 0; axis < 2; axis++) {
+        limits.low[axis] = (float)(footprint->low[axis] / level->scale[axis]);
+        limits.high[axis] = (float)(footprint->high[axis] / level->scale[axis]);
+    }
+    Float4 sum = sum_level(texture, level, (float)(x / level->scale[0] - 0.5), (float)(y / level->scale[1] - 0.5), rest,
+                           &limits, &edges);
     if (edges.sharp[0])
         sum *= coverage(x, footprint->xx, image->width);
     if (edges.sharp[1])

@@ -41,6 +41,7 @@ struct RetexTexture {
 typedef struct TextureFootprint {
     double x, y;
     double xx, xy, yy;
+    double low[2], high[2]; /* how far the surface reaches from there along x and y; -inf, inf: as far as you like */
 } TextureFootprint;
 
 /* Premultiplied results. The first is the bilinear look-up; the others need a covariance that is finite and positive

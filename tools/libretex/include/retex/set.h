@@ -64,9 +64,9 @@ typedef struct RetexFootprint {
     int target;              /* index of the target it lies on */
     int hit;                 /* its number among the target's, from 1; layout paper: the how-manieth hit it is of */
     RetexFootprintKind kind;
-    int uv;                  /* part "RGA": mean u, mean v, and coverage: the share of samples with a connection, in
-                                layout footprints of the effective ones, (sum of weights)^2 / sum of squares; 0 =
-                                this pixel has no such footprint and u, v mean nothing. float */
+    int uv;                  /* part "RGA": mean u, mean v, and coverage: the share of samples with a connection, of
+                                clusters that of the effective ones, (sum of weights)^2 / sum of squares; 0 = this
+                                pixel has no such footprint and u, v mean nothing. float */
     int spread;              /* part "RG": standard deviation of u and of v, or "RGB": also their correlation. half */
     int albedo;              /* part "RGB": mean original albedo, weighted by the light it multiplies. half */
 } RetexFootprint;

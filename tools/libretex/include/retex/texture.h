@@ -51,10 +51,13 @@ typedef struct RetexTextureSpec {
                               one unit of UV; second 0 = by the image's aspect, width[0] * its height / its width */
     double uv_scale[2];    /* scene units that one unit of surface u and of v measures, > 0: filled in by the caller
                               from the set or the scene, after parsing. Default 0, 0 = unknown; needed with width */
+    double uv_min[2], uv_max[2]; /* the part of the surface that exists, along u and v: Gaussian footprints are cut off
+                              there, as far as the texture is not turned against it. Filled in by the caller; the
+                              default, min = max, is no limit */
 } RetexTextureSpec;
 #define RETEX_TEXTURE_SPEC_INIT \
     { sizeof(RetexTextureSpec), "", "", 0, {0, 0, 0}, {1, 1}, 0, {0, 0}, {RETEX_WRAP_REPEAT, RETEX_WRAP_REPEAT}, \
-      "", {0, 0}, RETEX_REPEAT_STRAIGHT, {0, 0}, {0, 0} }
+      "", {0, 0}, RETEX_REPEAT_STRAIGHT, {0, 0}, {0, 0}, {0, 0}, {0, 0} }
 
 /* opts: what follows `--texture:` ("scale=2,2:rotate=30", or "" or NULL); arg: "NAME=IMAGE" or "NAME=rgb(r,g,b)". */
 int retex_texture_spec_parse(RetexTextureSpec *spec, const char *opts, const char *arg, RetexError *err);
