@@ -12,13 +12,13 @@ typedef struct UvStats {
 void uv_stats_add(UvStats *stats, double weight, const double uv[2], const int periodic[2]);
 void uv_stats_merge(UvStats *into, const UvStats *from, const int periodic[2]);
 
-/* By how much merging two raises the sum of squared deviations (Ward 1963): between points seen sharply, whose mean
- * every texture follows. */
+/* By how much merging two raises the sum of squared deviations (Ward 1963): for points seen sharply, whose mean every
+ * texture follows. */
 double uv_stats_ward(const UvStats *a, const UvStats *b, const int periodic[2]);
 
-/* By how much merging two raises what an unknown texture varies within clusters, taken as weight V / (V + UV_FEATURE^2),
- * V the variance of UV: like Ward's rule, in units of UV_FEATURE^2, as long as clusters are small. Larger ones see the
- * texture's mean, however large: so a few points far away, as on a plane to the horizon, do not claim a cluster each. */
+/* By how much merging two raises what an unknown texture varies within clusters, weight V / (V + UV_FEATURE^2), V the
+ * variance of UV: Ward's rule in units of UV_FEATURE^2 while clusters are small. Larger ones see the texture's
+ * mean, however large: so a few points far away, as on a plane to the horizon, do not claim a cluster each. */
 double uv_stats_variation_gain(const UvStats *a, const UvStats *b, const int periodic[2]);
 #define UV_FEATURE 0.5 /* of UV, in which most textures have changed all they do */
 

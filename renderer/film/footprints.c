@@ -412,7 +412,7 @@ static double merge_cost(const UvStats *a, const UvStats *b, int sharp, const in
     return sharp ? uv_stats_ward(a, b, periodic) / (UV_FEATURE * UV_FEATURE) : uv_stats_variation_gain(a, b, periodic);
 }
 
-/* Look for a cheaper pair than the best so far: among the clusters, and of each with the new one (NULL: not with it). */
+/* Look for a cheaper pair than the best so far: among the clusters, and of each with the new one (NULL: without). */
 static void find_cheapest(Pair *best, Clusters *clusters, int sharp, const UvStats *one, const int periodic[2])
 {
     for (int i = 0; i < clusters->count; i++) {

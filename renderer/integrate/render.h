@@ -40,7 +40,7 @@ typedef struct RenderParams {
     int paper;               /* layout: 0 footprints (default), 1 paper */
     int clusters;            /* layout footprints: clusters kept a pixel and target, 2..16; default 4 */
     int sharp, broad;        /* at most so many of what is seen sharply and of the rest, 1..clusters; default 4, 4 */
-    int orders;              /* most hits of each target kept, 1..6; default 6; of all together at most 12, or 8 in paper */
+    int orders;              /* most hits of each target kept, 1..6; default 6; of all together 12, in paper 8 */
     int strict_paper;        /* drop mixed terms of four and more hits, as the supplement does; default 0 */
     int plain;               /* beauty only, no set; default 0 */
     unsigned aovs;           /* AOV_… bits */
