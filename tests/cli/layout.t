@@ -2,47 +2,56 @@
 $ ln -s "$SCENES" scenes; retex-render -q --size 16x12 --spp 2 -t floor scenes/cornell-box/cornell-box.pov -o f.exr; retex-info f.exr | grep '^layout\|^orders\|^clusters\|^AOVs'
 > layout         footprints
 > orders         6
-> clusters       3 sharp, 1 broad
-> AOVs           35: 25 radiance, 5 UV, 5 spread
-$ retex-render -q --size 16x12 --spp 2 -t floor --layout footprints --clusters 3+1 --orders 6 scenes/cornell-box/cornell-box.pov -o g.exr; cmp f.exr g.exr
-$ retex-render -q --size 16x12 --spp 2 -t floor --clusters 8 --orders 2 scenes/cornell-box/cornell-box.pov | retex-info - 2>/dev/null | grep '^clusters\|^AOVs'
-> clusters       6 sharp, 2 broad
-> AOVs           35: 17 radiance, 9 UV, 9 spread
-$ retex-render -q --size 16x12 --spp 2 -t floor --clusters 16+4 --orders 1 scenes/cornell-box/cornell-box.pov | retex-info - 2>/dev/null | grep '^clusters\|^AOVs'
-> clusters       16 sharp, 4 broad
-> AOVs           61: 21 radiance, 20 UV, 20 spread
+> clusters       2 sharp, 2 broad
+> AOVs           21: 11 radiance, 5 UV, 5 spread
+$ retex-render -q --size 16x12 --spp 2 -t floor --layout footprints --clusters 4 --orders 6 scenes/cornell-box/cornell-box.pov -o g.exr; cmp f.exr g.exr; retex-render -q --size 16x12 --spp 2 -t floor --clusters 4+4 scenes/cornell-box/cornell-box.pov -o g.exr; retex-info g.exr | grep '^clusters'
+> clusters       2 sharp, 2 broad
 $ retex-render -q --size 16x12 --spp 2 -t floor --layout paper scenes/cornell-box/cornell-box.pov -o p.exr; retex-info p.exr | grep '^layout\|^orders\|^clusters\|^AOVs'
 > layout         paper
 > orders         6
 > AOVs           33: 21 radiance, 6 UV, 6 spread
 
+# As many clusters as the samples of a pixel need and K or S+B allow; what no pixel has is left out.
+$ for k in 2 1+1 2+1 3+1 1+3 4 8 12+4 16; do printf '%s: ' $k; retex-render -q --size 16x12 --spp 32 -t floor --orders 1 --clusters $k scenes/cornell-box/cornell-box.pov | retex-info - 2>/dev/null | grep '^clusters\|^AOVs' | tr -s ' \n' ' '; echo; done
+> 2: clusters 2 sharp, 2 broad AOVs 13: 5 radiance, 4 UV, 4 spread
+> 1+1: clusters 1 sharp, 1 broad AOVs 7: 3 radiance, 2 UV, 2 spread
+> 2+1: clusters 2 sharp, 1 broad AOVs 10: 4 radiance, 3 UV, 3 spread
+> 3+1: clusters 3 sharp, 1 broad AOVs 13: 5 radiance, 4 UV, 4 spread
+> 1+3: clusters 1 sharp, 3 broad AOVs 13: 5 radiance, 4 UV, 4 spread
+> 4: clusters 4 sharp, 4 broad AOVs 25: 9 radiance, 8 UV, 8 spread
+> 8: clusters 8 sharp, 8 broad AOVs 49: 17 radiance, 16 UV, 16 spread
+> 12+4: clusters 12 sharp, 4 broad AOVs 49: 17 radiance, 16 UV, 16 spread
+> 16: clusters 16 sharp, 16 broad AOVs 97: 33 radiance, 32 UV, 32 spread
+$ retex-info --json f.exr | grep -o '"hit":[0-9]*,"kind":"[a-z]*"'
+> "hit":1,"kind":"sharp"
+> "hit":2,"kind":"sharp"
+> "hit":5,"kind":"broad"
+> "hit":6,"kind":"broad"
+> "hit":9,"kind":"later"
+
 # Kinds, by footprint; with several targets each has its own.
 $ retex-info --json f.exr | grep -o '"kind":"\(sharp\|broad\|later\|hit\)"' | sort | uniq -c
->       1 "kind":"broad"
+>       2 "kind":"broad"
 >       1 "kind":"later"
->       3 "kind":"sharp"
+>       2 "kind":"sharp"
 $ retex-info --json p.exr | grep -o '"kind":"\(sharp\|broad\|later\|hit\)"' | sort | uniq -c
 >       6 "kind":"hit"
 $ retex-render -q --size 16x12 --spp 2 -t floor -t white scenes/cornell-box/cornell-box.pov -o two.exr; retex-info --json two.exr | grep -o '"kind":"\(sharp\|broad\|later\|hit\)"' | sort | uniq -c; retex-info --check two.exr
->       2 "kind":"broad"
+>       3 "kind":"broad"
 >       2 "kind":"later"
->       6 "kind":"sharp"
+>       4 "kind":"sharp"
 > two.exr: ok
 $ retex-info --json two.exr | grep -o '"name":"dep_floor_sharp1[^"]*"' | head -n 4
 > "name":"dep_floor_sharp1"
 > "name":"dep_floor_sharp1_a1"
 > "name":"dep_floor_sharp1_b1"
-> "name":"dep_floor_sharp1_a2"
+> "name":"dep_floor_sharp1_a1b1"
 $ retex-info --json two.exr | grep -o '"name":"\(dep_floor_sharp1_[^"]*m[^"]*\|share_[^"]*\)"'
 > "name":"share_floor"
 > "name":"share_white"
 > "name":"dep_floor_sharp1_m5"
 > "name":"dep_floor_sharp1_m6"
 > "name":"dep_floor_sharp1_m7"
-> "name":"dep_floor_sharp1_m8"
-> "name":"dep_floor_sharp1_m9"
-> "name":"dep_floor_sharp1_m10"
-> "name":"dep_floor_sharp1_m11"
 
 # What retex-info advises where light keeps the original.
 $ printf '#version 3.7; global_settings { assumed_gamma 1 } #declare Shell = pigment { rgb 0.8 } #declare Ball = pigment { rgb 0.7 } camera { location <0.5, 0.3, -1> look_at 0 } sphere { 0, 3 pigment { Shell } finish { diffuse 1 } } sphere { y, 0.5 pigment { Ball } } light_source { 0 rgb 1 }' >shell.pov
@@ -58,7 +67,7 @@ $ for s in f p; do retex-combine -q $s.exr --texture 'floor=rgb(0.7,0.1,0.2)' -o
 
 # A pack holds either.
 $ for s in f p two; do retex-pack -q --lossless $s.exr -o $s.retex; retex-combine -q $s.retex -o a.exr; retex-combine -q $s.exr -o b.exr; cmp a.exr b.exr; done; retex-info two.retex | grep '^clusters'
-> clusters       3 sharp, 1 broad
+> clusters       2 sharp, 1 broad
 
 $ retex-render --layout cubist scenes/cornell-box/cornell-box.pov -o x.exr
 ! retex-render: error: --layout knows footprints and paper, not `cubist`
@@ -67,46 +76,52 @@ $ retex-render --layout '' scenes/cornell-box/cornell-box.pov -o x.exr
 ! retex-render: error: --layout knows footprints and paper, not ``
 = 2
 $ retex-render --clusters 0 scenes/cornell-box/cornell-box.pov -o x.exr
-! retex-render: error: --clusters wants 1 to 16 sharp and 1 to 4 broad ones, not `0`
+! retex-render: error: --clusters wants 2 to 16, at least one sharp and one broad, not `0`
 = 2
 $ retex-render --clusters 1 scenes/cornell-box/cornell-box.pov -o x.exr
-! retex-render: error: --clusters wants 1 to 16 sharp and 1 to 4 broad ones, not `1`
+! retex-render: error: --clusters wants 2 to 16, at least one sharp and one broad, not `1`
 = 2
-$ retex-render --clusters 17+1 scenes/cornell-box/cornell-box.pov -o x.exr
-! retex-render: error: --clusters wants 1 to 16 sharp and 1 to 4 broad ones, not `17+1`
+$ retex-render --clusters 17 scenes/cornell-box/cornell-box.pov -o x.exr
+! retex-render: error: --clusters wants 2 to 16, at least one sharp and one broad, not `17`
 = 2
-$ retex-render --clusters 3+5 scenes/cornell-box/cornell-box.pov -o x.exr
-! retex-render: error: --clusters wants 1 to 16 sharp and 1 to 4 broad ones, not `3+5`
+$ retex-render --clusters 12+5 scenes/cornell-box/cornell-box.pov -o x.exr
+! retex-render: error: --clusters wants 2 to 16, at least one sharp and one broad, not `12+5`
+= 2
+$ retex-render --clusters 0+3 scenes/cornell-box/cornell-box.pov -o x.exr
+! retex-render: error: --clusters wants 2 to 16, at least one sharp and one broad, not `0+3`
 = 2
 $ retex-render --clusters 3+0 scenes/cornell-box/cornell-box.pov -o x.exr
-! retex-render: error: --clusters wants 1 to 16 sharp and 1 to 4 broad ones, not `3+0`
+! retex-render: error: --clusters wants 2 to 16, at least one sharp and one broad, not `3+0`
 = 2
 $ retex-render --clusters 99999999999 scenes/cornell-box/cornell-box.pov -o x.exr
-! retex-render: error: --clusters wants a number, or two as in 3+1, not `99999999999`
+! retex-render: error: --clusters wants a number, or two as in 2+1, not `99999999999`
 = 2
 $ retex-render --clusters 3+ scenes/cornell-box/cornell-box.pov -o x.exr
-! retex-render: error: --clusters wants a number, or two as in 3+1, not `3+`
+! retex-render: error: --clusters wants a number, or two as in 2+1, not `3+`
 = 2
 $ retex-render --clusters +1 scenes/cornell-box/cornell-box.pov -o x.exr
-! retex-render: error: --clusters wants a number, or two as in 3+1, not `+1`
+! retex-render: error: --clusters wants a number, or two as in 2+1, not `+1`
 = 2
 $ retex-render --clusters -1 scenes/cornell-box/cornell-box.pov -o x.exr
-! retex-render: error: --clusters wants a number, or two as in 3+1, not `-1`
+! retex-render: error: --clusters wants a number, or two as in 2+1, not `-1`
 = 2
 $ retex-render --clusters many scenes/cornell-box/cornell-box.pov -o x.exr
-! retex-render: error: --clusters wants a number, or two as in 3+1, not `many`
+! retex-render: error: --clusters wants a number, or two as in 2+1, not `many`
 = 2
 $ retex-render --clusters 3+1+1 scenes/cornell-box/cornell-box.pov -o x.exr
-! retex-render: error: --clusters wants a number, or two as in 3+1, not `3+1+1`
+! retex-render: error: --clusters wants a number, or two as in 2+1, not `3+1+1`
 = 2
 $ retex-render --clusters '' scenes/cornell-box/cornell-box.pov -o x.exr
-! retex-render: error: --clusters wants a number, or two as in 3+1, not ``
+! retex-render: error: --clusters wants a number, or two as in 2+1, not ``
 = 2
 $ retex-render --layout paper --clusters 4 scenes/cornell-box/cornell-box.pov -o x.exr
 ! retex-render: error: --layout paper has no clusters: no --clusters
 = 2
 $ retex-render --clusters 3+1 --layout paper scenes/cornell-box/cornell-box.pov -o x.exr
 ! retex-render: error: --layout paper has no clusters: no --clusters
+= 2
+$ retex-render --size 16x12 --spp 2 -t floor -t white --clusters 16 scenes/cornell-box/cornell-box.pov -o x.exr
+! retex-render: error: the set may need 1608 parts, more than 1500: take fewer targets or clusters
 = 2
 $ ls x.*
 ! ls: cannot access 'x.*': No such file or directory
