@@ -1,4 +1,4 @@
-/* Clusters of UV against sums in two passes; merging, periodic axes, Ward's cost. */
+/* Clusters of UV against sums in two passes; merging, periodic axes; what merging costs. */
 #include "lib_test.h"
 
 #include <math.h>
@@ -194,13 +194,90 @@ static void the_cost_is_what_merging_adds(void **state)
     assert_true(fabs(uv_stats_ward(&low, &high, open_axes) - 0.5 * 0.98 * 0.98) < 1e-12);
 }
 
+/* A cluster of the given variance in all, half of it along each axis. */
+static UvStats blob(double weight, double u, double v, double variance)
+{
+    return (UvStats){weight, {u, v}, {0.5 * weight * variance, 0, 0.5 * weight * variance}};
+}
+
+/* Merging never makes a texture vary less, whatever is merged; and either may be called the first. */
+static void variation_never_falls(void **state)
+{
+    (void)state;
+    uint32_t seed = 5;
+    for (int k = 0; k < 20000; k++) {
+        const int *periodic = k % 2 ? closed_axes : open_axes;
+        UvStats c[2];
+        for (int i = 0; i < 2; i++) {
+            double weight = pow(10, 12 * test_random(&seed) - 6), size = pow(10, 10 * test_random(&seed) - 5);
+            c[i] = blob(weight, size * test_random(&seed), test_random(&seed), k % 5 == i ? 0 : size * size);
+        }
+        double gain = uv_stats_variation_gain(&c[0], &c[1], periodic), all = c[0].weight + c[1].weight;
+        assert_true(gain >= -1e-12 * all && gain <= all * (1 + 1e-12));
+        assert_true(fabs(gain - uv_stats_variation_gain(&c[1], &c[0], periodic)) <= 1e-12 * all);
+    }
+}
+
+/* As long as clusters lie within a small part of what a texture changes in, it is Ward's rule. */
+static void small_clusters_merge_by_ward(void **state)
+{
+    (void)state;
+    uint32_t seed = 9;
+    for (int k = 0; k < 1000; k++) {
+        const int *periodic = k % 2 ? closed_axes : open_axes;
+        double size = 0.05 * UV_FEATURE * pow(10, -2 * test_random(&seed));
+        UvStats a = blob(0.1 + test_random(&seed), 0.99, 0.4, k % 3 ? size * size : 0);
+        UvStats b = blob(0.1 + test_random(&seed), 0.99 + 2 * size, 0.4 - size, k % 3 == 2 ? size * size : 0);
+        double ward = uv_stats_ward(&a, &b, periodic) / (UV_FEATURE * UV_FEATURE);
+        assert_true(fabs(uv_stats_variation_gain(&a, &b, periodic) - ward) < 0.05 * ward);
+    }
+}
+
+/* Where both see the texture's mean nothing is lost, however far they lie from each other; where one of them sees a
+ * place, that place is lost, even where it is the middle of the other. */
+static void wide_clusters_cost_nothing_but_to_tight_ones(void **state)
+{
+    (void)state;
+    for (double far = 0; far <= 1e6; far = 10 * far + 1) {
+        UvStats wide = blob(3, 0, 0, 400), other = blob(1, far, -far, 900), tight = blob(1, far, -far, 1e-6);
+        assert_true(uv_stats_variation_gain(&wide, &other, open_axes) < 0.001 * 4);
+        assert_float_equal(uv_stats_variation_gain(&wide, &tight, open_axes), 1, 0.01); /* all of its weight */
+    }
+    UvStats wide = blob(3, 0.5, 0.5, 400), same = blob(1, 0.5, 0.5, 0);
+    assert_true(uv_stats_ward(&wide, &same, open_axes) == 0);
+    assert_float_equal(uv_stats_variation_gain(&wide, &same, open_axes), 1, 0.01);
+}
+
+/* What merging two places costs has an end: the weight of both. */
+static void far_points_do_not_claim_more_and_more(void **state)
+{
+    (void)state;
+    const UvStats here = blob(1, 0, 0, 0);
+    double before = 0;
+    for (double far = 0.01; far < 1e9; far *= 10) {
+        UvStats there = blob(1, far, 0, 0);
+        double gain = uv_stats_variation_gain(&here, &there, open_axes);
+        assert_true(gain > before || (far > 1e6 && gain >= before));
+        assert_true(gain <= 2);
+        before = gain;
+    }
+    assert_float_equal(before, 2, 1e-6);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(sums_agree_with_two_passes),    cmocka_unit_test(one_point_has_no_spread),
-        cmocka_unit_test(merging_is_adding_all),         cmocka_unit_test(a_seam_is_no_distance),
-        cmocka_unit_test(a_cloud_may_lie_across_a_seam), cmocka_unit_test(the_end_of_a_period_is_its_beginning),
+        cmocka_unit_test(sums_agree_with_two_passes),
+        cmocka_unit_test(one_point_has_no_spread),
+        cmocka_unit_test(merging_is_adding_all),
+        cmocka_unit_test(a_seam_is_no_distance),
+        cmocka_unit_test(a_cloud_may_lie_across_a_seam),
+        cmocka_unit_test(the_end_of_a_period_is_its_beginning),
         cmocka_unit_test(the_cost_is_what_merging_adds),
+        cmocka_unit_test(variation_never_falls),
+        cmocka_unit_test(small_clusters_merge_by_ward),
+        cmocka_unit_test(wide_clusters_cost_nothing_but_to_tight_ones),
+        cmocka_unit_test(far_points_do_not_claim_more_and_more),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
