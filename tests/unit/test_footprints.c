@@ -130,8 +130,6 @@ static void expect_rgb(const float *got, float r, float g, float b, double toler
     assert_float_equal(got[2], b, tolerance);
 }
 
-/* The polynomial with the footprints' own albedos, and with white textures: the largest channel, which is what
- * coefficients are rounded by. Every coefficient may be off by half a step. */
 /* What no pixel has is left out of the set. */
 static void assert_absent(const Fixture *f, const char *name)
 {
@@ -150,6 +148,8 @@ static double mixture(const RetexSet *set, size_t pixel, size_t channel)
     return sum;
 }
 
+/* The polynomial with the footprints' own albedos, and with white textures: the largest channel, which is what
+ * coefficients are rounded by. Every coefficient may be off by half a step. */
 static double expect_beauty(const Fixture *f, size_t pixel)
 {
     const RetexSet *set = f->set;
@@ -743,6 +743,220 @@ static void folded_light_is_counted_as_white(void **state)
     end(&f);
 }
 
+/* Of either kind a pixel may have all clusters; params.clusters is how many of both together. */
+static void begin_shared(Fixture *f, int ntargets, int spp, int orders, int clusters)
+{
+    begin(f, ntargets, spp, orders, clusters, clusters);
+    f->params.clusters = clusters;
+}
+
+static int has_cluster(const Fixture *f, const char *kind, int number)
+{
+    char name[RETEX_NAME_MAX];
+    snprintf(name, sizeof name, "uv_Floor_%s%d", kind, number);
+    int k = retex_set_find_part(f->set, name);
+    return k >= 0 && f->set->parts[k].image.pixels[2] > 0;
+}
+
+/* How many clusters of a kind the left pixel has: the first slots, and none behind them. */
+static int count_clusters(const Fixture *f, const char *kind)
+{
+    int count = 0;
+    while (has_cluster(f, kind, count + 1))
+        count++;
+    for (int k = count + 1; k <= FILM_CLUSTERS_MAX; k++)
+        assert_false(has_cluster(f, kind, k));
+    return count;
+}
+
+static void expect_place(const Fixture *f, const char *name, double u, double sd)
+{
+    char uv[RETEX_NAME_MAX], spread[RETEX_NAME_MAX];
+    snprintf(uv, sizeof uv, "uv_%s", name);
+    snprintf(spread, sizeof spread, "spread_%s", name);
+    assert_float_equal(part(f, uv)[0], u, sd / 64 + 1e-6 * fmax(fabs(u), 1));
+    assert_float_equal(part(f, spread)[0], sd, 1e-5 * fmax(sd, 1));
+}
+
+/* What nothing sharp needs, broad light has; and the other way about. */
+static void either_kind_may_have_all(void **state)
+{
+    (void)state;
+    static const double places[4] = {0.1, 0.12, 0.5, 0.9};
+    for (int sharp = 0; sharp < 2; sharp++) {
+        Fixture f;
+        begin_shared(&f, 1, 8, 6, 4);
+        open_film(&f);
+        for (int k = 0; k < 8; k++)
+            one_hit(&f, places[k % 4], 0.5, rgb_grey(0.5f), sharp, rgb_grey(1));
+        finish(&f);
+        assert_int_equal(count_clusters(&f, "sharp"), sharp ? 4 : 0);
+        assert_int_equal(count_clusters(&f, "broad"), sharp ? 0 : 4);
+        for (int k = 0; k < 4; k++) {
+            char name[32];
+            snprintf(name, sizeof name, "Floor_%s%d", sharp ? "sharp" : "broad", k + 1);
+            expect_place(&f, name, places[k], 0);
+        }
+        expect_beauty(&f, 0);
+        end(&f);
+    }
+}
+
+/* Where one of the other kind comes last, or came first, the cheapest pair makes room for it. */
+static void kinds_make_room_for_each_other(void **state)
+{
+    (void)state;
+    static const double places[4] = {0.1, 0.12, 0.5, 0.9};
+    for (int round = 0; round < 10; round++) {
+        int sharp = round % 2, at = round / 2; /* when the odd one comes */
+        Fixture f;
+        begin_shared(&f, 1, 5, 6, 4);
+        open_film(&f);
+        for (int k = 0; k < 5; k++)
+            if (k == at)
+                one_hit(&f, 0.11, 0.5, rgb_grey(0.5f), !sharp, rgb_grey(1));
+            else
+                one_hit(&f, places[k - (k > at)], 0.5, rgb_grey(0.25f), sharp, rgb_grey(1));
+        finish(&f);
+        assert_int_equal(count_clusters(&f, "sharp"), sharp ? 3 : 1);
+        assert_int_equal(count_clusters(&f, "broad"), sharp ? 1 : 3);
+        expect_place(&f, sharp ? "Floor_sharp1" : "Floor_broad1", 0.11, 0.01);
+        expect_place(&f, sharp ? "Floor_sharp2" : "Floor_broad2", 0.5, 0);
+        expect_place(&f, sharp ? "Floor_sharp3" : "Floor_broad3", 0.9, 0);
+        expect_place(&f, sharp ? "Floor_broad1" : "Floor_sharp1", 0.11, 0);
+        expect_rgb(part(&f, sharp ? "dep_Floor_sharp1" : "dep_Floor_broad1"), 0.4f, 0.4f, 0.4f, 1e-3);
+        expect_rgb(part(&f, sharp ? "dep_Floor_broad1" : "dep_Floor_sharp1"), 0.2f, 0.2f, 0.2f, 1e-3);
+        expect_beauty(&f, 0);
+        end(&f);
+    }
+}
+
+/* Of many places in any order: as many clusters as there may be, and of each kind some where there was light of it. */
+static void no_more_than_there_may_be(void **state)
+{
+    (void)state;
+    static const int allowed[][3] = {{4, 4, 4}, {2, 2, 2}, {16, 16, 16}, {3, 2, 1}, {4, 1, 3}, {16, 12, 4}, {2, 1, 1}};
+    enum { PATHS = 200 };
+    for (uint32_t round = 0; round < 4 * sizeof allowed / sizeof allowed[0]; round++) {
+        const int *most = allowed[round / 4];
+        uint32_t seed = round + 1;
+        Fixture f;
+        begin(&f, 1, PATHS, 6, most[1], most[2]);
+        f.params.clusters = most[0];
+        open_film(&f);
+        for (int k = 0; k < PATHS; k++) {
+            int sharp = round % 4 == 0   ? k % 2
+                        : round % 4 == 1 ? k < PATHS / 2
+                        : round % 4 == 2 ? k >= PATHS / 2
+                                         : k == 77;
+            one_hit(&f, test_random(&seed), 100 * pow(test_random(&seed), 8), rgb_grey(0.5f), sharp,
+                    rgb_grey((float)test_random(&seed)));
+        }
+        finish(&f);
+        int sharp = count_clusters(&f, "sharp"), broad = count_clusters(&f, "broad");
+        assert_in_range(sharp, 1, most[1]);
+        assert_in_range(broad, 1, most[2]);
+        assert_int_equal(sharp + broad, round % 4 == 3 && most[1] < most[0] ? 1 + most[2] : most[0]);
+        assert_true(expect_beauty(&f, 0) > 0.1);
+        end(&f);
+    }
+}
+
+/* A little broad light from far off, as on a plane to the horizon, leaves the near places their clusters; sharp light
+ * is merged by the squares of distances. */
+static void far_points_claim_no_clusters(void **state)
+{
+    (void)state;
+    static const double near[3] = {0.1, 0.6, 1.2}, far[3] = {100, -2000, 50000};
+    for (int first = 0; first < 2; first++)
+        for (int sharp = 0; sharp < 2; sharp++) {
+            Fixture f;
+            begin_shared(&f, 1, 6, 6, 4);
+            open_film(&f);
+            for (int k = 0; k < 6; k++)
+                if ((k < 3) == first)
+                    one_hit(&f, far[k % 3], 0.5, rgb_grey(0.5f), sharp, rgb_grey(1));
+                else
+                    one_hit(&f, near[k % 3], 0.5, rgb_grey(0.5f), sharp, rgb_grey(10));
+            finish(&f);
+            int apart = 0; /* near places that are as they were */
+            for (int k = 1; k <= 4; k++) {
+                char name[32];
+                snprintf(name, sizeof name, "uv_Floor_%s%d", sharp ? "sharp" : "broad", k);
+                for (int i = 0; i < 3; i++)
+                    apart += fabs(part(&f, name)[0] - near[i]) < 1e-6;
+            }
+            assert_int_equal(apart, sharp ? 0 : 3);
+            expect_beauty(&f, 0);
+            end(&f);
+        }
+}
+
+/* A path whose first hit is always the same, and whose further one is there. */
+static void later_hit(Fixture *f, double u, float light)
+{
+    begin_path(f);
+    hit(f, 0, 0.5, 0.5, rgb_grey(0.5f), SHARP);
+    hit(f, 0, u, 0.5, rgb_grey(0.5f), BROAD);
+    connect_light(f, rgb_grey(light));
+    film_path_end(f->pixel);
+}
+
+/* Where all further hits together are wider than what a texture changes in, the heavier half stands for them, if it is
+ * not as wide itself. */
+static void further_hits_have_a_place(void **state)
+{
+    (void)state;
+    static const struct {
+        int count;
+        double u[4];
+        float light[4];
+        double mean, sd;
+    } cases[] = {
+        {2, {0.25, 0.75}, {1, 1}, 0.5, 0.25},                 /* near: pooled */
+        {2, {0.25, 1.2}, {1, 1}, 0.725, 0.475},               /* just so */
+        {2, {0.25, 5}, {3, 1}, 0.25, 0},                      /* apart: the heavier one */
+        {2, {0.25, 5}, {1, 3}, 5, 0},                         /* whichever came first */
+        {3, {0.25, 9, 0.375}, {2, 3, 2}, 0.3125, 0.0625},     /* of which two are heavier than one */
+        {3, {9, 0.25, 0.375}, {5, 2, 2}, 9, 0},               /* or lighter */
+        {4, {0, 10, 20, 30}, {1, 1, 1, 1}, 15, 11.180339887}, /* none has a place */
+        {2, {0.25, 1000}, {1000, 1}, 0.25, 0},                /* a single hit far off */
+    };
+    for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++) {
+        Fixture f;
+        begin(&f, 1, cases[k].count, 6, 2, 1);
+        open_film(&f);
+        for (int i = 0; i < cases[k].count; i++)
+            later_hit(&f, cases[k].u[i], cases[k].light[i]);
+        finish(&f);
+        expect_place(&f, "Floor_later", cases[k].mean, cases[k].sd);
+        assert_true(part(&f, "uv_Floor_later")[2] == 1); /* all paths, wherever they were */
+        expect_beauty(&f, 0);
+        end(&f);
+    }
+}
+
+/* Before anything is rendered, and by what the set may need at most. */
+static void too_many_parts_are_refused(void **state)
+{
+    (void)state;
+    static const struct {
+        int ntargets, clusters, sharp, broad, code;
+    } cases[] = {
+        {1, 16, 16, 16, RETEX_OK}, {2, 14, 14, 14, RETEX_OK}, {2, 15, 15, 15, RETEX_ELIMIT},
+        {2, 16, 12, 4, RETEX_OK},  {3, 11, 11, 11, RETEX_OK}, {3, 12, 12, 12, RETEX_ELIMIT},
+    };
+    for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++) {
+        Fixture f;
+        RetexError err = {0};
+        begin(&f, cases[k].ntargets, 1, 6, cases[k].sharp, cases[k].broad);
+        f.params.clusters = cases[k].clusters;
+        assert_int_equal(film_create(&f.film, &f.scene, &f.params, &err), cases[k].code);
+        assert_true(!cases[k].code || strstr(err.message, "more than 1500"));
+        end(&f);
+    }
+}
+
 static void light_that_is_no_number_is_dropped(void **state)
 {
     (void)state;
@@ -799,6 +1013,12 @@ int main(void)
         cmocka_unit_test(shares_add_up),
         cmocka_unit_test(a_black_target_hides_no_other),
         cmocka_unit_test(folded_light_is_counted_as_white),
+        cmocka_unit_test(either_kind_may_have_all),
+        cmocka_unit_test(kinds_make_room_for_each_other),
+        cmocka_unit_test(no_more_than_there_may_be),
+        cmocka_unit_test(far_points_claim_no_clusters),
+        cmocka_unit_test(further_hits_have_a_place),
+        cmocka_unit_test(too_many_parts_are_refused),
         cmocka_unit_test(light_that_is_no_number_is_dropped),
         cmocka_unit_test(a_plain_film_keeps_the_beauty),
     };
