@@ -306,6 +306,167 @@ static void test_extremes(void **state)
     }
 }
 
+/* ---- the surface's border ---- */
+
+/* A quadrant each of red, green, blue and white, by u < 0.5 and v < 0.5. */
+static RetexTexture *quadrants(int size, const RetexTextureSpec *spec)
+{
+    static const float colors[2][2][3] = {{{1, 0, 0}, {0, 1, 0}}, {{0, 0, 1}, {1, 1, 1}}};
+    RetexImage im = {0};
+    RetexTexture *texture;
+    RetexError err = {0};
+    test_must(retex_image_alloc(&im, size, size, 3, &err), &err);
+    for (int y = 0; y < size; y++)
+        for (int x = 0; x < size; x++)
+            memcpy(im.pixels + retex_image_index(&im, x, y), colors[2 * y < size][2 * x >= size], sizeof colors[0][0]);
+    test_must(retex_texture_create(&texture, &im, spec, &err), &err);
+    retex_image_free(&im);
+    return texture;
+}
+
+static RetexTextureSpec placed(int way, int limited)
+{
+    RetexTextureSpec spec = RETEX_TEXTURE_SPEC_INIT;
+    spec.rotate = 90 * (double)(way % 4) - (way & 64 ? 360 : 0);
+    spec.flip[0] = way >> 2 & 1;
+    spec.flip[1] = way >> 3 & 1;
+    spec.scale[0] = way & 16 ? -1 : 1;
+    spec.scale[1] = way & 32 ? -1 : 1;
+    for (int axis = 0; axis < 2 && limited; axis++)
+        spec.uv_min[axis] = 0, spec.uv_max[axis] = 1;
+    return spec;
+}
+
+/* In a corner of the surface, where the repeated image has all four colours side by side, only that of the corner is
+ * seen, however the image is turned by quarters and mirrored. */
+static void test_borders(void **state)
+{
+    (void)state;
+    uint32_t seed = 41;
+    for (int n = 0; n < 128 * 3; n++) {
+        static const int sizes[] = {64, 50, 256};
+        RetexTextureSpec cut = placed(n / 3, 1), whole = placed(n / 3, 0);
+        RetexTexture *t = quadrants(sizes[n % 3], &cut), *without = quadrants(sizes[n % 3], &whole);
+        int others = 0;
+        for (int i = 0; i < 40; i++) {
+            int right = i & 1, up = i >> 1 & 1;
+            double u = 0.1 * test_random(&seed), v = 0.1 * test_random(&seed), cov[3] = {0, 0, 0};
+            float got[4], want[4], mixed[4];
+            u = right ? 1 - u : u;
+            v = up ? 1 - v : v;
+            cov[0] = pow(0.1 * pow(0.05, test_random(&seed)), 2);
+            cov[2] = pow(0.1 * pow(0.05, test_random(&seed)), 2);
+            retex_texture_gaussian(t, u, v, cov, got);
+            retex_texture_gaussian(without, u, v, cov, mixed);
+            retex_texture_nearest(t, right ? 0.75 : 0.25, up ? 0.75 : 0.25, want);
+            for (int k = 0; k < 4; k++)
+                assert_float_equal(got[k], want[k], 1e-5);
+            others += memcmp(got, mixed, sizeof got) != 0;
+        }
+        assert_in_range(others, 10, 40);
+        retex_texture_close(&t);
+        retex_texture_close(&without);
+    }
+}
+
+/* Mean of what a Gaussian leaves beyond a border at distance z below its mean, all in standard deviations. */
+static double mean_above(double z)
+{
+    return exp(-0.5 * z * z) / sqrt(2 * M_PI) / (0.5 * erfc(z / sqrt(2)));
+}
+
+/* Pictures of x and y: where the mean of the rest lies. */
+static void test_rest_of_a_footprint(void **state)
+{
+    (void)state;
+    enum { SIZE = 512 };
+    RetexTextureSpec spec = RETEX_TEXTURE_SPEC_INIT;
+    RetexImage im = {0};
+    RetexTexture *texture;
+    RetexError err = {0};
+    uint32_t seed = 43;
+    spec.wrap[0] = spec.wrap[1] = RETEX_WRAP_CLAMP;
+    spec.uv_min[0] = 0.5, spec.uv_max[0] = 2;
+    spec.uv_min[1] = -1, spec.uv_max[1] = 2;
+    test_must(retex_image_alloc(&im, SIZE, SIZE, 3, &err), &err);
+    for (int y = 0; y < SIZE; y++)
+        for (int x = 0; x < SIZE; x++) {
+            float *p = im.pixels + retex_image_index(&im, x, y);
+            p[0] = ((float)x + 0.5f) / SIZE;
+            p[1] = 1 - ((float)y + 0.5f) / SIZE;
+        }
+    test_must(retex_texture_create(&texture, &im, &spec, &err), &err);
+    double worst = 0;
+    for (int i = 0; i < 4000; i++) {
+        double su = 0.004 + 0.05 * test_random(&seed), sv = 0.004 + 0.05 * test_random(&seed);
+        double z = 3 * test_random(&seed);
+        float got[4];
+        retex_texture_gaussian(texture, 0.5 + z * su, 0.5, (double[3]){su * su, 0, sv * sv}, got);
+        double off = mean_above(-z), u = ((double)got[0] - 0.5) / su - z - off, v = ((double)got[1] - 0.5) / sv;
+        double e = fmax(fabs(u), fabs(v));
+        worst = fmax(worst, e);
+    }
+    print_message("mean of what is left of a footprint: off by %.4f standard deviations\n", worst);
+    assert_true(worst < 0.1); /* at a border it would be 0.8 */
+    retex_texture_close(&texture);
+    retex_image_free(&im);
+}
+
+/* What is nowhere near a border is the same to the bit; so is all where the image is turned by other than quarters, and
+ * of discs. A place outside, which only rounding makes, has a colour too. */
+static void test_uncut(void **state)
+{
+    (void)state;
+    static const double rotations[] = {0, 30, 90, 45, -89};
+    uint32_t seed = 47;
+    for (int n = 0; n < 5 * 16; n++) {
+        RetexTextureSpec whole = RETEX_TEXTURE_SPEC_INIT, cut;
+        RetexImage im = {0};
+        RetexTexture *a, *b;
+        RetexError err = {0};
+        whole.wrap[0] = (RetexWrap)(n % 4);
+        whole.wrap[1] = (RetexWrap)(n / 4 % 4);
+        whole.rotate = rotations[n / 16];
+        cut = whole;
+        for (int axis = 0; axis < 2; axis++)
+            cut.uv_min[axis] = -0.25, cut.uv_max[axis] = 1.5;
+        test_random_image(&im, 48, 37, 4, 3, 0, 1);
+        test_must(retex_texture_create(&a, &im, &whole, &err), &err);
+        test_must(retex_texture_create(&b, &im, &cut, &err), &err);
+        int turned = fmod(whole.rotate, 90) != 0, others = 0;
+        for (int i = 0; i < 200; i++) {
+            double longer = 0.3 * pow(200, -test_random(&seed)), cov[3], p[2];
+            float x[4], y[4];
+            set_covariance(cov, longer, longer * pow(10, -test_random(&seed)), M_PI * test_random(&seed));
+            for (int axis = 0; axis < 2; axis++) { /* windows reach 3.25 standard deviations and some texels */
+                double margin = turned ? 0 : 4.5 * longer + 0.3;
+                p[axis] = -0.25 + margin + (1.75 - 2 * margin) * test_random(&seed);
+            }
+            if (turned || 4.5 * longer + 0.3 < 0.8) {
+                retex_texture_gaussian(a, p[0], p[1], cov, x);
+                retex_texture_gaussian(b, p[0], p[1], cov, y);
+                assert_memory_equal(x, y, sizeof x);
+            }
+            p[0] = -0.25 + longer * test_random(&seed); /* at a border */
+            retex_texture_disc(a, p[0], p[1], cov, x);
+            retex_texture_disc(b, p[0], p[1], cov, y);
+            assert_memory_equal(x, y, sizeof x);
+            retex_texture_gaussian(a, p[0], p[1], cov, x);
+            retex_texture_gaussian(b, p[0], p[1], cov, y);
+            others += memcmp(x, y, sizeof x) != 0;
+            p[0] = -0.25 - (i % 2 ? 1e-9 : 1000 * longer);
+            retex_texture_gaussian(b, p[0], p[1], cov, y);
+            for (int k = 0; k < 4; k++)
+                assert_true(isfinite(y[k]) && y[k] >= 0 && y[k] <= 1.0001f);
+        }
+        int repeats = n % 4 <= RETEX_WRAP_MIRROR && n / 4 % 4 <= RETEX_WRAP_MIRROR;
+        assert_true(turned ? others == 0 : others > 50 || !repeats);
+        retex_texture_close(&a);
+        retex_texture_close(&b);
+        retex_image_free(&im);
+    }
+}
+
 static void test_speed(void **state)
 {
     (void)state;
@@ -334,8 +495,10 @@ static void test_speed(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_covariance), cmocka_unit_test(test_disc_integral), cmocka_unit_test(test_disc_limits),
-        cmocka_unit_test(test_extremes),   cmocka_unit_test(test_speed),
+        cmocka_unit_test(test_covariance),  cmocka_unit_test(test_disc_integral),
+        cmocka_unit_test(test_disc_limits), cmocka_unit_test(test_extremes),
+        cmocka_unit_test(test_borders),     cmocka_unit_test(test_rest_of_a_footprint),
+        cmocka_unit_test(test_uncut),       cmocka_unit_test(test_speed),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
