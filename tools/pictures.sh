@@ -44,6 +44,16 @@ picture glass-caustics glass-caustics-fans --texture "Floor=$textures/fans.jpg"
 retex-render --size 640x480 --spp "$spp" --replace "Floor=$textures/fans.jpg" \
     scenes/glass-caustics/glass-caustics.pov -o "$out/glass-caustics-fans-truth.jpg"
 
+# Part of it at four times the size, dot for dot: the floor through the glass ball, and in the mirror.
+crop='--size 1280x960 --crop 130,150,420,330'
+# shellcheck disable=SC2086
+[ -e "$sets/glass-crop.exr" ] ||
+    retex-render $crop --spp "$spp" -t Floor scenes/glass-caustics/glass-caustics.pov -o "$sets/glass-crop.exr"
+picture glass-crop glass-crop --quality 97 --texture "Floor=$textures/fans.jpg"
+# shellcheck disable=SC2086
+retex-render $crop --spp "$spp" --seed 1 --replace "Floor=$textures/fans.jpg" scenes/glass-caustics/glass-caustics.pov \
+    -o "$out/glass-crop-truth.jpg"
+
 set_of cornell-box scenes/cornell-box/cornell-box.pov 400x400 Floor
 picture cornell-box cornell-box
 picture cornell-box cornell-box-red --texture 'Floor=rgb(0.8,0.02,0.02)'
