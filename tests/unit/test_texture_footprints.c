@@ -375,7 +375,7 @@ static double mean_above(double z)
     return exp(-0.5 * z * z) / sqrt(2 * M_PI) / (0.5 * erfc(z / sqrt(2)));
 }
 
-/* Pictures of x and y: where the mean of the rest lies. */
+/* Pictures of x and y: where the mean of the rest lies, also of footprints that lie aslant. */
 static void test_rest_of_a_footprint(void **state)
 {
     (void)state;
@@ -399,10 +399,11 @@ static void test_rest_of_a_footprint(void **state)
     double worst = 0;
     for (int i = 0; i < 4000; i++) {
         double su = 0.004 + 0.05 * test_random(&seed), sv = 0.004 + 0.05 * test_random(&seed);
-        double z = 3 * test_random(&seed);
+        double correlation = i % 4 ? 1.9 * test_random(&seed) - 0.95 : 0, z = 3 * test_random(&seed);
         float got[4];
-        retex_texture_gaussian(texture, 0.5 + z * su, 0.5, (double[3]){su * su, 0, sv * sv}, got);
-        double off = mean_above(-z), u = ((double)got[0] - 0.5) / su - z - off, v = ((double)got[1] - 0.5) / sv;
+        retex_texture_gaussian(texture, 0.5 + z * su, 0.5, (double[3]){su * su, correlation * su * sv, sv * sv}, got);
+        double off = mean_above(-z), u = ((double)got[0] - 0.5) / su - z - off,
+               v = ((double)got[1] - 0.5) / sv - correlation * off;
         double e = fmax(fabs(u), fabs(v));
         worst = fmax(worst, e);
     }

@@ -97,21 +97,17 @@ static inline void tent_window(Window *restrict window, const float *restrict ta
     window->total = total;
 }
 
-/* Take off what lies beyond low and high; of a texel that is cut, its share. What would lose nearly all is kept. */
+/* Take off what lies beyond low and high; of a texel that is cut, its share. */
 static inline void cut_window(Window *restrict window, int step, float low, float high)
 {
-    float total = 0, rest[MAX_TAPS];
+    float total = 0;
     for (int i = 0; i < window->count; i++) {
         float at = (float)(window->first + i * step), begin = at - 0.5f * (float)step, end = begin + (float)step;
         float inside = (end < high ? end : high) - (begin > low ? begin : low);
-        rest[i] = inside <= 0             ? 0
-                  : inside >= (float)step ? window->weight[i]
-                                          : window->weight[i] * inside / (float)step;
-        total += rest[i];
+        if (!(inside >= (float)step))
+            window->weight[i] *= inside > 0 ? inside / (float)step : 0;
+        total += window->weight[i];
     }
-    if (total < 1e-3f * window->total)
-        return;
-    memcpy(window->weight, rest, (size_t)window->count * sizeof *rest);
     window->total = total;
 }
 
@@ -244,10 +240,12 @@ static inline float spread(const Window *window, float centre)
 typedef struct Limits {
     float low[2], high[2];
 } Limits;
+static const Limits no_limits = {{-INFINITY, -INFINITY}, {INFINITY, INFINITY}};
 
-/* Sum over a level's texels of a Gaussian with mean (x, y), in texel indices, and covariance rest. */
+/* Sum over a level's texels of a Gaussian with mean (x, y), in texel indices, and covariance rest. *kept: how much of
+ * it lies within the limits. */
 static inline Float4 sum_level(const RetexTexture *texture, const TextureLevel *level, float x, float y, Rest rest,
-                               const Limits *limits, const Edges *edges)
+                               const Limits *limits, const Edges *edges, float *kept)
 {
     /* Where an axis has one texel that goes on for ever, its marginal is all there is. */
     int flat_x = level->width == 1 && (texture->spec.wrap[0] <= RETEX_WRAP_MIRROR || is_flat(texture, 0));
@@ -264,8 +262,7 @@ static inline Float4 sum_level(const RetexTexture *texture, const TextureLevel *
 
     Window rows, columns;
     make_window(&rows, texture->tail, &shape_y, y);
-    if (limits->low[1] > -shape_y.reach || limits->high[1] < shape_y.reach)
-        cut_window(&rows, shape_y.step, y + limits->low[1], y + limits->high[1]);
+    float total = 0, whole = rows.total;
     if (shape_y.tent && slope != 0) {           /* the covariance is the slope times what the rows really have */
         double least = rest.yy - TENT_VARIANCE; /* of the footprint alone, which it can only exceed */
         slope = rest.xy / fmax(spread(&rows, y), least > 1e-9 ? least : 1e-9);
@@ -274,20 +271,23 @@ static inline Float4 sum_level(const RetexTexture *texture, const TextureLevel *
         shape_x.step = step;
         finish_shape(&shape_x);
     }
+    if (limits->low[1] > -shape_y.reach || limits->high[1] < shape_y.reach)
+        cut_window(&rows, shape_y.step, y + limits->low[1], y + limits->high[1]);
     int upright = fabs(slope) * rows.count * shape_y.step < 1e-3;
     float reach = shape_x.reach + (float)fabs(slope) * (shape_y.reach + 1);
     int cut = limits->low[0] > -reach || limits->high[0] < reach;
     if (upright) {
         make_window(&columns, texture->tail, &shape_x, x);
+        whole *= columns.total;
         if (cut)
             cut_window(&columns, shape_x.step, x + limits->low[0], x + limits->high[0]);
     }
     Float4 sum = {0, 0, 0, 0};
-    float total = 0;
     for (int j = 0; j < rows.count; j++) {
         int at = rows.first + j * shape_y.step;
         if (!upright) {
             make_window(&columns, texture->tail, &shape_x, x + (float)slope * ((float)at - y));
+            whole *= j == 0 ? columns.total : 1; /* they are all alike */
             if (cut)
                 cut_window(&columns, shape_x.step, x + limits->low[0], x + limits->high[0]);
         }
@@ -296,6 +296,7 @@ static inline Float4 sum_level(const RetexTexture *texture, const TextureLevel *
                                         columns.weight, columns.count, columns.first, shape_x.step);
         total += rows.weight[j] * columns.total;
     }
+    *kept = total / whole;
     return sum / total;
 }
 
@@ -322,8 +323,10 @@ void texture_gaussian_kernel(const RetexTexture *texture, const TextureFootprint
         limits.low[axis] = (float)(footprint->low[axis] / level->scale[axis]);
         limits.high[axis] = (float)(footprint->high[axis] / level->scale[axis]);
     }
-    Float4 sum = sum_level(texture, level, (float)(x / level->scale[0] - 0.5), (float)(y / level->scale[1] - 0.5), rest,
-                           &limits, &edges);
+    float column = (float)(x / level->scale[0] - 0.5), row = (float)(y / level->scale[1] - 0.5), kept;
+    Float4 sum = sum_level(texture, level, column, row, rest, &limits, &edges, &kept);
+    if (!(kept > 1e-3f)) /* what would lose nearly all is kept */
+        sum = sum_level(texture, level, column, row, rest, &no_limits, &edges, &kept);
     if (edges.sharp[0])
         sum *= coverage(x, footprint->xx, image->width);
     if (edges.sharp[1])
