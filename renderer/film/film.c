@@ -189,7 +189,7 @@ long film_floats(const FilmParams *params, int ntargets)
     Plan plan;
     plan_make(&plan, ntargets, params->orders, expansion_most_hits(ntargets, 0));
     /* few pixels have all clusters, and what is never written takes no memory: one cluster, and its coefficients */
-    return 6 + ntargets * (10 + 9 + 3 * plan.count);
+    return 6 + ntargets * (12 + 10 + 3 * (plan.count - 1));
 }
 
 long film_dropped(const Film *film)

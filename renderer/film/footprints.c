@@ -1,6 +1,6 @@
 /* Clusters of one pixel, and the images they end in; see footprints.h. */
+#include <limits.h>
 #include <math.h>
-#include <pthread.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -8,11 +8,15 @@
 #include "film/footprints.h"
 #include "film/plan.h"
 
+#define LATER_COUNT 2
 #define PENDING_MAX 64
 #define PARTS_MAX 1500 /* of a set, with room for its beauty, originals and AOVs */
 /* What an unknown texture is taken for where its hit only weighs another's. */
 #define UNKNOWN_ALBEDO 0.5f
 #define LEAST_ALBEDO 1e-3f
+#define AGAIN_WEIGHT 1e-3f
+#define SHARE_STEP (1.0 / 512)
+#define LEAST_SHARE 1e-5f /* of further hits: a half holds it */
 /* White paint. */
 #define WHITE_ALBEDO 0.8f
 /* Coefficients are rounded to this share of what the pixel would be were its targets white: steps no one sees, and
@@ -32,7 +36,8 @@ typedef struct Cluster {
     UvStats uv;
     AlbedoSums albedo;
     double squares; /* of the paths' weights */
-    Coefficients c;
+    float c[3];     /* light that meets the target here, and no other after it */
+    float again;    /* luminance of that which does */
 } Cluster;
 
 /* One path's light by the hit that comes first. */
@@ -42,38 +47,55 @@ typedef struct Pending {
     Vec2 position;
     double weight;
     AlbedoSums albedo;
+    float again; /* as of clusters */
     Coefficients c;
 } Pending;
 
-/* Clusters of one kind. */
+/* Clusters of one kind, and the light of all of them that meets targets again: [0] stays empty. */
 typedef struct Clusters {
     int count;
     Cluster of[FILM_CLUSTERS_MAX];
+    Coefficients again;
 } Clusters;
+
+/* Further hits of a target. */
+typedef struct Later {
+    UvStats uv;     /* weight 0: none */
+    double squares; /* of the weights of all connections */
+    AlbedoSums albedo;
+} Later;
 
 /* The clusters of one pixel on one target. */
 typedef struct TargetClusters {
     Clusters sharp, broad;
-    UvStats later[2]; /* two clusters of all further hits; weight 0: none */
-    AlbedoSums later_albedo;
-    int later_samples, later_seen; /* seen: by the path in hand */
-    double mixed;                  /* weight of its hits in mixtures */
+    Later later[LATER_COUNT];
 } TargetClusters;
 
 /* Images of one footprint. */
 typedef struct FootprintImages {
     RetexImage uv, spread, albedo;
-    RetexImage coefficients[PLAN_COEFFICIENTS_MAX]; /* of clusters */
+    RetexImage light; /* of clusters */
+    RetexImage share; /* in the light of its mixture */
 } FootprintImages;
+
+/* Images of the clusters of one kind on a target. */
+typedef struct KindImages {
+    FootprintImages of[FILM_CLUSTERS_MAX];
+    RetexImage again[PLAN_COEFFICIENTS_MAX];
+} KindImages;
+
+/* Images of a target. */
+typedef struct TargetImages {
+    KindImages kinds[2]; /* sharp, broad */
+    FootprintImages later[LATER_COUNT];
+} TargetImages;
 
 struct FootprintFilm {
     const Scene *scene;
     FilmParams params;
     Plan plan;
-    RetexImage free;                           /* C0 */
-    FootprintImages *slots[RETEX_MAX_TARGETS]; /* sharp, broad */
-    FootprintImages later[RETEX_MAX_TARGETS];
-    RetexImage shares[RETEX_MAX_TARGETS]; /* of mixtures; with several targets */
+    RetexImage free; /* C0 */
+    TargetImages *targets;
 };
 
 struct FootprintPixel {
@@ -87,20 +109,22 @@ struct FootprintPixel {
 
 /* ---- life ---- */
 
-static int slots_count(const FilmParams *p)
+static int most_of_kind(const FilmParams *p, int kind)
 {
-    return p->sharp + p->broad;
+    return kind ? p->broad : p->sharp;
 }
 
-static int alloc_footprint(const FilmParams *p, FootprintImages *f, int coefficients, RetexError *err)
+static int alloc_footprint(const FilmParams *p, FootprintImages *f, RetexError *err)
 {
     int code = retex_image_alloc(&f->uv, p->width, p->height, 3, err);
     if (!code)
         code = retex_image_alloc(&f->spread, p->width, p->height, 3, err);
     if (!code)
         code = retex_image_alloc(&f->albedo, p->width, p->height, 3, err);
-    for (int i = 0; i < coefficients && !code; i++)
-        code = retex_image_alloc(&f->coefficients[i], p->width, p->height, 3, err);
+    if (!code)
+        code = retex_image_alloc(&f->light, p->width, p->height, 3, err);
+    if (!code)
+        code = retex_image_alloc(&f->share, p->width, p->height, 1, err);
     return code;
 }
 
@@ -109,46 +133,55 @@ static void free_footprint(FootprintImages *f)
     retex_image_free(&f->uv);
     retex_image_free(&f->spread);
     retex_image_free(&f->albedo);
-    for (int i = 0; i < PLAN_COEFFICIENTS_MAX; i++)
-        retex_image_free(&f->coefficients[i]);
+    retex_image_free(&f->light);
+    retex_image_free(&f->share);
 }
 
-static int has_mixtures(const Plan *plan)
-{
-    return plan->coefficients[plan->count - 1].mixed > 0;
-}
-
-static int alloc_images(FootprintFilm *film, RetexError *err)
+static int alloc_target(const FootprintFilm *film, TargetImages *target, RetexError *err)
 {
     const FilmParams *p = &film->params;
-    int code = retex_image_alloc(&film->free, p->width, p->height, 3, err);
-    for (int t = 0; t < film->scene->ntargets && !code; t++) {
-        film->slots[t] = calloc((size_t)slots_count(p), sizeof *film->slots[t]);
-        if (!film->slots[t])
-            return retex_fail(err, RETEX_ENOMEM, "out of memory for the film");
-        for (int k = 0; k < slots_count(p) && !code; k++)
-            code = alloc_footprint(p, &film->slots[t][k], film->plan.count, err);
-        if (!code && film->plan.count > 1)
-            code = alloc_footprint(p, &film->later[t], 0, err);
-        if (!code && has_mixtures(&film->plan))
-            code = retex_image_alloc(&film->shares[t], p->width, p->height, 1, err);
+    int code = RETEX_OK;
+    for (int kind = 0; kind < 2; kind++) {
+        for (int k = 0; k < most_of_kind(p, kind) && !code; k++)
+            code = alloc_footprint(p, &target->kinds[kind].of[k], err);
+        for (int i = 1; i < film->plan.count && !code; i++)
+            code = retex_image_alloc(&target->kinds[kind].again[i], p->width, p->height, 3, err);
     }
+    for (int k = 0; k < LATER_COUNT && film->plan.count > 1 && !code; k++)
+        code = alloc_footprint(p, &target->later[k], err);
     return code;
+}
+
+static void free_target(TargetImages *target)
+{
+    for (int kind = 0; kind < 2; kind++) {
+        for (int k = 0; k < FILM_CLUSTERS_MAX; k++)
+            free_footprint(&target->kinds[kind].of[k]);
+        for (int i = 0; i < PLAN_COEFFICIENTS_MAX; i++)
+            retex_image_free(&target->kinds[kind].again[i]);
+    }
+    for (int k = 0; k < LATER_COUNT; k++)
+        free_footprint(&target->later[k]);
 }
 
 int footprints_create(FootprintFilm **out, const Scene *scene, const FilmParams *params, RetexError *err)
 {
     FootprintFilm *film = *out = calloc(1, sizeof *film);
-    if (!film)
+    if (film)
+        film->targets = calloc((size_t)scene->ntargets + 1, sizeof *film->targets);
+    if (!film || !film->targets)
         return retex_fail(err, RETEX_ENOMEM, "out of memory for the film");
     film->scene = scene;
     film->params = *params;
     plan_make(&film->plan, scene->ntargets, params->orders, expansion_most_hits(scene->ntargets, 0));
-    int parts = scene->ntargets * (slots_count(params) * (film->plan.count + 3) + 4);
+    int parts = scene->ntargets * (5 * (params->sharp + params->broad) + 2 * film->plan.count + 4 * LATER_COUNT);
     if (parts > PARTS_MAX)
         return retex_fail(err, RETEX_ELIMIT, "the set may need %d parts, more than %d: take fewer targets or clusters",
                           parts, PARTS_MAX);
-    return alloc_images(film, err);
+    int code = retex_image_alloc(&film->free, params->width, params->height, 3, err);
+    for (int t = 0; t < scene->ntargets && !code; t++)
+        code = alloc_target(film, &film->targets[t], err);
+    return code;
 }
 
 void footprints_close(FootprintFilm **out)
@@ -157,13 +190,9 @@ void footprints_close(FootprintFilm **out)
     if (!film)
         return;
     retex_image_free(&film->free);
-    for (int t = 0; t < RETEX_MAX_TARGETS; t++) {
-        for (int k = 0; film->slots[t] && k < slots_count(&film->params); k++)
-            free_footprint(&film->slots[t][k]);
-        free(film->slots[t]);
-        free_footprint(&film->later[t]);
-        retex_image_free(&film->shares[t]);
-    }
+    for (int t = 0; film->targets && t < film->scene->ntargets; t++)
+        free_target(&film->targets[t]);
+    free(film->targets);
     free(film);
     *out = NULL;
 }
@@ -235,54 +264,57 @@ static Pending *find_pending(FootprintPixel *p, const TargetHit *hit, int order)
         flush_pending(p);
     Pending *q = &p->pending[p->npending++];
     q->target = hit->target, q->order = order, q->sharp = hit->sharp, q->position = hit->uv;
-    q->weight = 0;
+    q->weight = q->again = 0;
     q->albedo = (AlbedoSums){0};
     memset(q->c, 0, sizeof q->c[0] * (size_t)p->film->plan.count);
     return q;
 }
 
-/* One more among two: it, or the pair it meets, goes together where that loses least. */
-static void pool_later(UvStats later[2], const UvStats *one, const int periodic[2])
+static void merge_albedo(AlbedoSums *into, const AlbedoSums *from)
 {
-    for (int k = 0; k < 2; k++)
-        if (later[k].weight == 0) {
+    for (int c = 0; c < 3; c++)
+        into->light[c] += from->light[c], into->reflected[c] += from->reflected[c];
+}
+
+static void merge_later(Later *into, const Later *from, const int periodic[2])
+{
+    uv_stats_merge(&into->uv, &from->uv, periodic);
+    into->squares += from->squares;
+    merge_albedo(&into->albedo, &from->albedo);
+}
+
+/* One more among two: it, or the pair it meets, goes together where that loses least. */
+static void pool_later(Later later[LATER_COUNT], const Later *one, const int periodic[2])
+{
+    for (int k = 0; k < LATER_COUNT; k++) {
+        if (later[k].uv.weight == 0) {
             later[k] = *one;
             return;
         }
-    double first = uv_stats_variation_gain(&later[0], one, periodic),
-           second = uv_stats_variation_gain(&later[1], one, periodic),
-           both = uv_stats_variation_gain(&later[0], &later[1], periodic);
+        if (uv_stats_variation_gain(&later[k].uv, &one->uv, periodic) <= 0) {
+            merge_later(&later[k], one, periodic);
+            return;
+        }
+    }
+    double first = uv_stats_variation_gain(&later[0].uv, &one->uv, periodic),
+           second = uv_stats_variation_gain(&later[1].uv, &one->uv, periodic),
+           both = uv_stats_variation_gain(&later[0].uv, &later[1].uv, periodic);
     if (both < first && both < second) {
-        uv_stats_merge(&later[0], &later[1], periodic);
+        merge_later(&later[0], &later[1], periodic);
         later[1] = *one;
     } else {
-        uv_stats_merge(&later[second < first], one, periodic);
+        merge_later(&later[second < first], one, periodic);
     }
 }
 
-/* The footprint that stands for all further hits: both clusters, or, where these lie so far apart that together they
- * would see the texture's mean, the one that has most of the light. */
-static UvStats whole_later(const UvStats later[2], const int periodic[2])
+static void add_later(FootprintPixel *p, const TargetHit *hit, double weight, Rgb light)
 {
-    const double wide = UV_FEATURE * UV_FEATURE;
-    const UvStats *heavy = &later[later[1].weight > later[0].weight], *light = &later[heavy == &later[0]];
-    UvStats both = *heavy;
-    if (light->weight > 0)
-        uv_stats_merge(&both, light, periodic);
-    return both.m2[0] + both.m2[2] > wide * both.weight && heavy->m2[0] + heavy->m2[2] < wide * heavy->weight ? *heavy
-                                                                                                              : both;
-}
-
-static void add_later(FootprintPixel *p, const TargetHit *hit, double weight, double mixed, Rgb light)
-{
-    TargetClusters *t = &p->targets[hit->target];
-    const double uv[2] = {hit->uv.u, hit->uv.v};
-    if (weight > 0)
-        pool_later(t->later, &(UvStats){weight, {uv[0], uv[1]}, {0, 0, 0}}, p->film->params.periodic[hit->target]);
-    add_albedo(&t->later_albedo, light, hit->albedo);
-    t->later_seen = 1;
-    t->mixed += mixed;
-    uv_range_add(&p->range, hit->target, uv);
+    Later one = {.uv = {weight, {hit->uv.u, hit->uv.v}, {0, 0, 0}}, .squares = weight * weight};
+    if (!(weight > 0))
+        return;
+    add_albedo(&one.albedo, light, hit->albedo);
+    pool_later(p->targets[hit->target].later, &one, p->film->params.periodic[hit->target]);
+    uv_range_add(&p->range, hit->target, one.uv.mean);
 }
 
 /* The hits of a monomial beyond its first, as far as the plan keeps them. */
@@ -333,14 +365,16 @@ static void add_monomial(FootprintPixel *p, const Expansion *e, HitMask hits, Rg
     Pending *q = find_pending(p, hit, first);
     q->weight += weight;
     add_rgb(q->c[kept.coefficient], value);
-    add_albedo(&q->albedo, light, hit->albedo);
-    int mixed = p->film->plan.coefficients[kept.coefficient].mixed;
+    if (kept.coefficient)
+        q->again += rgb_luminance(light);
+    /* a cluster's own light is what its albedo is for; light that goes on to targets tells where there is no other */
+    add_albedo(&q->albedo, kept.coefficient ? rgb_scale(light, AGAIN_WEIGHT) : light, hit->albedo);
     for (int k = 0; k < kept.count; k++) {
         Rgb others = rgb_mul(value, weighing_albedo(hit));
         for (int i = 0; i < kept.count; i++)
             if (i != k)
                 others = rgb_mul(others, weighing_albedo(kept.hits[i]));
-        add_later(p, kept.hits[k], weight, mixed ? weight / mixed : 0, others);
+        add_later(p, kept.hits[k], weight, others);
     }
     if (kept.folded)
         sums->folded += rgb_luminance(rgb_mul(light, hit->albedo));
@@ -364,40 +398,31 @@ void footprints_connect(FootprintPixel *p, const Expansion *e, Rgb outside, Ligh
 
 /* ---- clusters ---- */
 
-static void merge_albedo(AlbedoSums *into, const AlbedoSums *from)
-{
-    for (int c = 0; c < 3; c++)
-        into->light[c] += from->light[c], into->reflected[c] += from->reflected[c];
-}
-
-static void merge_cluster(Cluster *into, const Cluster *from, int coefficients, const int periodic[2])
+static void merge_cluster(Cluster *into, const Cluster *from, const int periodic[2])
 {
     uv_stats_merge(&into->uv, &from->uv, periodic);
     merge_albedo(&into->albedo, &from->albedo);
     into->squares += from->squares;
-    for (int i = 0; i < coefficients; i++)
-        for (int c = 0; c < 3; c++)
-            into->c[i][c] += from->c[i][c];
+    for (int c = 0; c < 3; c++)
+        into->c[c] += from->c[c];
+    into->again += from->again;
 }
 
-static void add_pending(Cluster *into, const Pending *q, int coefficients, const int periodic[2])
+static void add_pending(Cluster *into, const Pending *q, const int periodic[2])
 {
     const double uv[2] = {q->position.u, q->position.v};
     uv_stats_add(&into->uv, q->weight, uv, periodic);
     merge_albedo(&into->albedo, &q->albedo);
     into->squares += q->weight * q->weight;
-    for (int i = 0; i < coefficients; i++)
-        for (int c = 0; c < 3; c++)
-            into->c[i][c] += q->c[i][c];
+    for (int c = 0; c < 3; c++)
+        into->c[c] += q->c[0][c];
+    into->again += q->again;
 }
 
-static void start_cluster(Cluster *cluster, const Pending *q, int coefficients, const int periodic[2])
+static void start_cluster(Cluster *cluster, const Pending *q, const int periodic[2])
 {
-    cluster->uv = (UvStats){0};
-    cluster->albedo = (AlbedoSums){0};
-    cluster->squares = 0;
-    memset(cluster->c, 0, sizeof cluster->c[0] * (size_t)coefficients);
-    add_pending(cluster, q, coefficients, periodic);
+    *cluster = (Cluster){.squares = 0};
+    add_pending(cluster, q, periodic);
 }
 
 /* Two clusters of one kind, or one and what is to be added (b = -1). */
@@ -429,8 +454,7 @@ static void find_cheapest(Pair *best, Clusters *clusters, int sharp, const UvSta
 
 /* One more, where there are as many clusters as there may be: merge the cheapest pair of either kind, or of its
  * own where that has all that it may have. */
-static void squeeze(Clusters *own, Clusters *other, int own_is_full, const Pending *q, int coefficients,
-                    const int periodic[2])
+static void squeeze(Clusters *own, Clusters *other, int own_is_full, const Pending *q, const int periodic[2])
 {
     const UvStats one = {q->weight, {q->position.u, q->position.v}, {0, 0, 0}};
     Pair best = {.cost = INFINITY};
@@ -438,18 +462,18 @@ static void squeeze(Clusters *own, Clusters *other, int own_is_full, const Pendi
     if (!own_is_full)
         find_cheapest(&best, other, !q->sharp, NULL, periodic);
     if (best.b < 0) {
-        add_pending(&own->of[best.a], q, coefficients, periodic);
+        add_pending(&own->of[best.a], q, periodic);
         return;
     }
     Clusters *merged = best.clusters;
-    merge_cluster(&merged->of[best.a], &merged->of[best.b], coefficients, periodic);
+    merge_cluster(&merged->of[best.a], &merged->of[best.b], periodic);
     if (merged == own) {
-        start_cluster(&own->of[best.b], q, coefficients, periodic);
+        start_cluster(&own->of[best.b], q, periodic);
         return;
     }
     if (best.b != --merged->count)
         merged->of[best.b] = merged->of[merged->count];
-    start_cluster(&own->of[own->count++], q, coefficients, periodic);
+    start_cluster(&own->of[own->count++], q, periodic);
 }
 
 static void flush_pending(FootprintPixel *p)
@@ -459,16 +483,19 @@ static void flush_pending(FootprintPixel *p)
         Pending *q = &p->pending[k];
         TargetClusters *t = &p->targets[q->target];
         Clusters *own = q->sharp ? &t->sharp : &t->broad, *other = q->sharp ? &t->broad : &t->sharp;
-        int room = q->sharp ? params->sharp : params->broad, coefficients = p->film->plan.count;
+        int room = q->sharp ? params->sharp : params->broad;
         const int *periodic = params->periodic[q->target];
         const double uv[2] = {q->position.u, q->position.v};
         if (!(q->weight > 0))
             continue;
         uv_range_add(&p->range, q->target, uv);
+        for (int i = 1; i < p->film->plan.count; i++)
+            for (int c = 0; c < 3; c++)
+                own->again[i][c] += q->c[i][c];
         if (own->count < room && own->count + other->count < params->clusters)
-            start_cluster(&own->of[own->count++], q, coefficients, periodic);
+            start_cluster(&own->of[own->count++], q, periodic);
         else
-            squeeze(own, other, own->count == room, q, coefficients, periodic);
+            squeeze(own, other, own->count == room, q, periodic);
     }
     p->npending = 0;
 }
@@ -476,10 +503,6 @@ static void flush_pending(FootprintPixel *p)
 void footprints_path_end(FootprintPixel *p, UvRange *range)
 {
     flush_pending(p);
-    for (int t = 0; t < p->film->scene->ntargets; t++) {
-        p->targets[t].later_samples += p->targets[t].later_seen;
-        p->targets[t].later_seen = 0;
-    }
     uv_range_merge(range, &p->range);
     uv_range_reset(&p->range);
 }
@@ -526,10 +549,12 @@ static int compare_clusters(const void *a, const void *b)
 
 static void add_white(double sum[3], const Clusters *clusters, int coefficients)
 {
-    for (int k = 0; k < clusters->count; k++)
-        for (int i = 0; i < coefficients; i++)
-            for (int c = 0; c < 3; c++)
-                sum[c] += clusters->of[k].c[i][c];
+    for (int c = 0; c < 3; c++) {
+        for (int k = 0; k < clusters->count; k++)
+            sum[c] += clusters->of[k].c[c];
+        for (int i = 1; i < coefficients; i++)
+            sum[c] += clusters->again[i][c];
+    }
 }
 
 /* The largest channel of the pixel as it would be with white textures, in the set's units. */
@@ -549,35 +574,66 @@ static double effective_samples(const Cluster *cluster)
     return cluster->uv.weight * cluster->uv.weight / cluster->squares;
 }
 
+static void store_light(RetexImage *image, const float sum[3], float scale, double step, int x, int y)
+{
+    if (sum[0] == 0 && sum[1] == 0 && sum[2] == 0)
+        return; /* memory that is never touched is never taken */
+    float *to = pixel_of(image, x, y);
+    for (int c = 0; c < 3; c++)
+        to[c] = (float)round_to(sum[c] * scale, step);
+}
+
+static void store_share(RetexImage *image, float share, int x, int y)
+{
+    *pixel_of(image, x, y) = fmaxf((float)round_to(share, SHARE_STEP), LEAST_SHARE);
+}
+
 /* Clusters into their images, in the order of their place on the texture, so that neighbours agree. */
-static void store_clusters(FootprintPixel *p, FootprintImages *slots, Clusters *clusters, double step, int x, int y)
+static void store_clusters(FootprintPixel *p, KindImages *images, Clusters *clusters, double step, int x, int y)
 {
     float scale = 1 / (float)p->film->params.spp;
-    int coefficients = p->film->plan.count;
+    float again = 0;
+    for (int k = 0; k < clusters->count; k++)
+        again += clusters->of[k].again;
     qsort(clusters->of, (size_t)clusters->count, sizeof *clusters->of, compare_clusters);
     for (int k = 0; k < clusters->count; k++) {
         const Cluster *cluster = &clusters->of[k];
-        store_footprint(&slots[k], &cluster->uv, &cluster->albedo, (float)effective_samples(cluster) * scale, x, y);
-        for (int i = 0; i < coefficients; i++) {
-            const float *sum = cluster->c[i];
-            if (sum[0] == 0 && sum[1] == 0 && sum[2] == 0)
-                continue; /* memory that is never touched is never taken */
-            float *to = pixel_of(&slots[k].coefficients[i], x, y);
-            for (int c = 0; c < 3; c++)
-                to[c] = (float)round_to(sum[c] * scale, step);
-        }
+        float coverage = (float)effective_samples(cluster) * scale;
+        store_footprint(&images->of[k], &cluster->uv, &cluster->albedo, coverage, x, y);
+        store_light(&images->of[k].light, cluster->c, scale, step, x, y);
+        if (again > 0)
+            store_share(&images->of[k].share, cluster->again / again, x, y);
     }
+    for (int i = 1; i < p->film->plan.count; i++)
+        store_light(&images->again[i], clusters->again[i], scale, step, x, y);
     clusters->count = 0;
+    memset(clusters->again, 0, sizeof clusters->again[0] * (size_t)p->film->plan.count);
 }
 
-/* How often each target was met in mixtures; they add up to 1, or are all 0. */
-static void store_shares(FootprintPixel *p, int x, int y)
+static double light_sum(const AlbedoSums *albedo)
 {
+    return (double)albedo->light[0] + albedo->light[1] + albedo->light[2];
+}
+
+/* Further hits, with the share that each has in the light of all. */
+static void store_later(FootprintPixel *p, int x, int y)
+{
+    int ntargets = p->film->scene->ntargets;
     double sum = 0;
-    for (int t = 0; t < p->film->scene->ntargets; t++)
-        sum += p->targets[t].mixed;
-    for (int t = 0; t < p->film->scene->ntargets && sum > 0; t++)
-        *pixel_of(&p->film->shares[t], x, y) = (float)(p->targets[t].mixed / sum);
+    for (int t = 0; t < ntargets; t++)
+        for (int k = 0; k < LATER_COUNT; k++)
+            sum += light_sum(&p->targets[t].later[k].albedo);
+    for (int t = 0; t < ntargets; t++)
+        for (int k = 0; k < LATER_COUNT; k++) {
+            Later *later = &p->targets[t].later[k];
+            FootprintImages *images = &p->film->targets[t].later[k];
+            if (!(later->uv.weight > 0))
+                continue;
+            double effective = later->uv.weight * later->uv.weight / later->squares / p->film->params.spp;
+            store_footprint(images, &later->uv, &later->albedo, (float)fmin(effective, 1), x, y);
+            store_share(&images->share, sum > 0 ? (float)(light_sum(&later->albedo) / sum) : 0, x, y);
+            *later = (Later){.squares = 0};
+        }
 }
 
 void footprints_pixel_end(FootprintPixel *p, int x, int y)
@@ -587,19 +643,11 @@ void footprints_pixel_end(FootprintPixel *p, int x, int y)
     float scale = 1 / (float)film->params.spp, *c0 = pixel_of(&film->free, x, y);
     for (int c = 0; c < 3; c++)
         c0[c] = (float)(p->free[c] * scale), p->free[c] = 0;
-    store_shares(p, x, y);
     for (int t = 0; t < film->scene->ntargets; t++) {
-        TargetClusters *of = &p->targets[t];
-        store_clusters(p, film->slots[t], &of->sharp, step, x, y);
-        store_clusters(p, film->slots[t] + film->params.sharp, &of->broad, step, x, y);
-        UvStats later = whole_later(of->later, film->params.periodic[t]);
-        if (later.weight > 0)
-            store_footprint(&film->later[t], &later, &of->later_albedo, (float)of->later_samples * scale, x, y);
-        of->later_samples = 0;
-        of->later[0] = of->later[1] = (UvStats){0};
-        of->mixed = 0;
-        of->later_albedo = (AlbedoSums){0};
+        store_clusters(p, &film->targets[t].kinds[0], &p->targets[t].sharp, step, x, y);
+        store_clusters(p, &film->targets[t].kinds[1], &p->targets[t].broad, step, x, y);
     }
+    store_later(p, x, y);
 }
 
 /* ---- into the set ---- */
@@ -613,11 +661,15 @@ static int is_empty(const RetexImage *image)
     return 1;
 }
 
-static int finish_footprint(RetexSet *set, FootprintImages *images, RetexFootprint *f, const char *suffix,
+/* Its images become parts: uv_NAME_suffix and so on. The footprint's number in the set, or -1 where no pixel has it. */
+static int finish_footprint(RetexSet *set, FootprintImages *images, RetexFootprint *f, const char *suffix, int *index,
                             RetexError *err)
 {
     char name[RETEX_NAME_MAX];
     const char *target = set->targets[f->target].name;
+    *index = -1;
+    if (is_empty(&images->uv))
+        return RETEX_OK;
     snprintf(name, sizeof name, "uv_%.90s_%s", target, suffix);
     int code = film_move_part(set, name, "RGA", RETEX_FLOAT, &images->uv, &f->uv, err);
     snprintf(name, sizeof name, "spread_%.90s_%s", target, suffix);
@@ -626,115 +678,154 @@ static int finish_footprint(RetexSet *set, FootprintImages *images, RetexFootpri
     snprintf(name, sizeof name, "albedo_%.90s_%s", target, suffix);
     if (!code)
         code = film_move_part(set, name, "RGB", RETEX_HALF, &images->albedo, &f->albedo, err);
-    return code ? code : retex_set_add_footprint(set, f, NULL, err);
+    return code ? code : retex_set_add_footprint(set, f, index, err);
 }
 
-static void slot_name(const FootprintFilm *film, int slot, char name[16])
+/* A term of the factors that it has already, if any pixel has light of it. */
+static int finish_term(RetexSet *set, const RetexTerm *factors, RetexImage *image, const char *name, RetexError *err)
 {
-    if (slot < film->params.sharp)
-        snprintf(name, 16, "sharp%d", slot + 1);
-    else
-        snprintf(name, 16, "broad%d", slot - film->params.sharp + 1);
+    RetexTerm term = *factors;
+    term.kind = RETEX_TERM_DEP;
+    if (is_empty(image))
+        return RETEX_OK;
+    int code = film_move_part(set, name, "RGB", RETEX_HALF, image, &term.radiance, err);
+    return code ? code : retex_set_add_term(set, &term, NULL, err);
 }
 
-/* Where the footprints of the film are in the set. */
+/* Factors of the terms: which of the set's mixtures, or footprints, stand for what. */
 typedef struct Places {
-    int clusters[2 * FILM_CLUSTERS_MAX]; /* -1: no pixel has so many, and the set leaves it out */
-    int later;
+    int kinds[RETEX_MAX_TARGETS][2]; /* all clusters of a kind; NONE = no pixel has one */
+    int later[RETEX_MAX_TARGETS];
+    int any; /* further hits of all targets */
 } Places;
+#define NONE INT_MIN
 
-static int finish_footprints(FootprintFilm *film, RetexSet *set, Places *places, RetexError *err)
+/* A mixture of so many shares: none, the footprint itself, or a mixture of the set. */
+static int finish_mixture(RetexSet *set, const RetexMixture *mixture, int *place, RetexError *err)
 {
-    int slots = slots_count(&film->params), code = RETEX_OK;
-    for (int t = 0; t < set->ntargets && !code; t++) {
-        for (int k = 0; k < slots && !code; k++) {
-            char name[16];
-            RetexFootprint f = {.target = t, .hit = k + 1};
-            f.kind = k < film->params.sharp ? RETEX_FOOTPRINT_SHARP : RETEX_FOOTPRINT_BROAD;
-            places[t].clusters[k] = -1;
-            if (is_empty(&film->slots[t][k].uv))
-                continue;
-            places[t].clusters[k] = set->nfootprints;
-            slot_name(film, k, name);
-            code = finish_footprint(set, &film->slots[t][k], &f, name, err);
-        }
-        places[t].later = set->nfootprints;
-        RetexFootprint f = {.target = t, .hit = slots + 1, .kind = RETEX_FOOTPRINT_LATER};
-        if (!code && film->plan.count > 1)
-            code = finish_footprint(set, &film->later[t], &f, "later", err);
+    int index = 0, code = RETEX_OK;
+    *place = mixture->nshares ? mixture->shares[0].footprint : NONE;
+    if (mixture->nshares > 1) {
+        code = retex_set_add_mixture(set, mixture, &index, err);
+        *place = RETEX_MIXTURE(index);
     }
     return code;
 }
 
-static int finish_shares(FootprintFilm *film, RetexSet *set, const Places *places, RetexError *err)
+static void add_share(RetexMixture *mixture, int footprint, int weight)
 {
-    int code = RETEX_OK;
-    for (int t = 0; t < set->ntargets && has_mixtures(&film->plan) && !code; t++) {
-        char name[RETEX_NAME_MAX];
-        RetexShare *share = &set->mixture[set->nmixture];
-        snprintf(name, sizeof name, "share_%.90s", set->targets[t].name);
-        share->footprint = places[t].later;
-        code = film_move_part(set, name, "R", RETEX_HALF, &film->shares[t], &share->weight, err);
-        set->nmixture += !code;
-    }
-    return code;
+    if (footprint >= 0)
+        mixture->shares[mixture->nshares++] = (struct RetexShare){footprint, weight};
 }
 
-/* dep_Floor_sharp1, and with further hits dep_Floor_sharp1_a2b1: two of the first target, one of the second; or
- * dep_Floor_sharp1_m5: five of any. */
-static void coefficient_name(const FootprintFilm *film, const RetexSet *set, int t, int slot, int i,
-                             char name[RETEX_NAME_MAX])
+/* The clusters of one kind, each with the light that meets no other target. */
+static int finish_kind(FootprintFilm *film, RetexSet *set, int t, int kind, Places *places, RetexError *err)
 {
-    char cluster[16];
-    slot_name(film, slot, cluster);
-    int used = snprintf(name, RETEX_NAME_MAX, "dep_%.80s_%s", set->targets[t].name, cluster);
-    const PlanCoefficient *c = &film->plan.coefficients[i];
-    if (c->mixed)
-        snprintf(name + used, (size_t)(RETEX_NAME_MAX - used), "_m%d", c->mixed);
-    for (int later = 0, any = 0; later < set->ntargets; later++)
-        if (c->powers[later])
-            used += snprintf(name + used, (size_t)(RETEX_NAME_MAX - used), "%s%c%d", any++ ? "" : "_", 'a' + later,
-                             c->powers[later]);
-}
-
-/* One cluster's coefficients, but for those that no pixel has. */
-static int finish_coefficients(FootprintFilm *film, RetexSet *set, int t, int slot, const Places *places,
-                               RetexError *err)
-{
-    int code = RETEX_OK;
-    for (int i = 0; i < film->plan.count && !code; i++) {
-        RetexImage *image = &film->slots[t][slot].coefficients[i];
-        const PlanCoefficient *c = &film->plan.coefficients[i];
-        RetexTerm term = {.kind = RETEX_TERM_DEP, .nfactors = 1, .factors = {places[t].clusters[slot]}};
-        char name[RETEX_NAME_MAX];
-        if (is_empty(image))
+    static const char *const kinds[] = {"sharp", "broad"};
+    RetexMixture all = {0};
+    int code = RETEX_OK,
+        several = most_of_kind(&film->params, kind) > 1 && !is_empty(&film->targets[t].kinds[kind].of[1].uv);
+    for (int k = 0; k < most_of_kind(&film->params, kind) && !code; k++) {
+        FootprintImages *images = &film->targets[t].kinds[kind].of[k];
+        RetexFootprint f = {.target = t, .hit = 1 + k + kind * film->params.sharp};
+        char suffix[16], name[RETEX_NAME_MAX];
+        int index;
+        f.kind = kind ? RETEX_FOOTPRINT_BROAD : RETEX_FOOTPRINT_SHARP;
+        snprintf(suffix, sizeof suffix, "%s%d", kinds[kind], k + 1);
+        code = finish_footprint(set, images, &f, suffix, &index, err);
+        if (code || index < 0)
             continue;
-        term.nmixed = c->mixed;
+        snprintf(name, sizeof name, "dep_%.90s_%s", set->targets[t].name, suffix);
+        code = finish_term(set, &(RetexTerm){.nfactors = 1, .factors = {index}}, &images->light, name, err);
+        int weight = -1;
+        snprintf(name, sizeof name, "share_%.90s_%s", set->targets[t].name, suffix);
+        if (!code && film->plan.count > 1 && several)
+            code = film_move_part(set, name, "R", RETEX_HALF, &images->share, &weight, err);
+        add_share(&all, index, weight);
+    }
+    if (code || film->plan.count == 1)
+        return code;
+    return finish_mixture(set, &all, &places->kinds[t][kind], err);
+}
+
+static int finish_later(FootprintFilm *film, RetexSet *set, int t, RetexMixture *any, Places *places, RetexError *err)
+{
+    RetexMixture own = {0};
+    int code = RETEX_OK;
+    for (int k = 0; k < LATER_COUNT && film->plan.count > 1 && !code; k++) {
+        FootprintImages *images = &film->targets[t].later[k];
+        RetexFootprint f = {.target = t, .kind = RETEX_FOOTPRINT_LATER};
+        char suffix[16], name[RETEX_NAME_MAX];
+        int index, weight = -1;
+        f.hit = 1 + film->params.sharp + film->params.broad + k;
+        snprintf(suffix, sizeof suffix, "later%d", k + 1);
+        code = finish_footprint(set, images, &f, suffix, &index, err);
+        snprintf(name, sizeof name, "share_%.90s_%s", set->targets[t].name, suffix);
+        if (!code && index >= 0)
+            code = film_move_part(set, name, "R", RETEX_HALF, &images->share, &weight, err);
+        add_share(&own, index, weight);
+        add_share(any, index, weight);
+    }
+    return code ? code : finish_mixture(set, &own, &places->later[t], err);
+}
+
+/* dep_Floor_sharp_a2b1: sharp clusters, then two hits of the first target and one of the second;
+ * dep_Floor_sharp_m5: then five of any. */
+static void again_name(const RetexSet *set, int t, int kind, const PlanCoefficient *c, char name[RETEX_NAME_MAX])
+{
+    int used = snprintf(name, RETEX_NAME_MAX, "dep_%.80s_%s_", set->targets[t].name, kind ? "broad" : "sharp");
+    if (c->mixed)
+        snprintf(name + used, (size_t)(RETEX_NAME_MAX - used), "m%d", c->mixed);
+    for (int later = 0; later < set->ntargets; later++)
+        if (c->powers[later])
+            used += snprintf(name + used, (size_t)(RETEX_NAME_MAX - used), "%c%d", 'a' + later, c->powers[later]);
+}
+
+static void add_factors(RetexTerm *term, int place, int count)
+{
+    for (int n = 0; n < count; n++)
+        term->factors[term->nfactors++] = place;
+}
+
+/* The light of one kind that meets targets again, but for what no pixel has. */
+static int finish_again(FootprintFilm *film, RetexSet *set, int t, int kind, const Places *places, RetexError *err)
+{
+    int code = RETEX_OK;
+    for (int i = 1; i < film->plan.count && !code; i++) {
+        RetexImage *image = &film->targets[t].kinds[kind].again[i];
+        const PlanCoefficient *c = &film->plan.coefficients[i];
+        RetexTerm term = {.nfactors = 0};
+        char name[RETEX_NAME_MAX];
+        if (is_empty(image)) /* before the factors: they may not be there either */
+            continue;
+        add_factors(&term, places->kinds[t][kind], 1);
+        add_factors(&term, places->any, c->mixed);
         for (int b = 0; b < set->ntargets; b++)
-            for (int n = 0; n < c->powers[b]; n++)
-                term.factors[term.nfactors++] = places[b].later;
-        coefficient_name(film, set, t, slot, i, name);
-        code = film_move_part(set, name, "RGB", RETEX_HALF, image, &term.radiance, err);
-        if (!code)
-            code = retex_set_add_term(set, &term, NULL, err);
+            add_factors(&term, places->later[b], c->powers[b]);
+        again_name(set, t, kind, c, name);
+        code = finish_term(set, &term, image, name, err);
     }
     return code;
 }
 
 int footprints_finish(FootprintFilm *film, RetexSet *set, RetexError *err)
 {
-    Places places[RETEX_MAX_TARGETS];
+    Places places = {.any = NONE};
+    RetexMixture any = {0};
     RetexTerm free_term = {.kind = RETEX_TERM_INDEP};
-    int code = finish_footprints(film, set, places, err);
-    if (!code)
-        code = finish_shares(film, set, places, err);
-    if (!code)
-        code = film_move_part(set, "indep", "RGB", RETEX_HALF, &film->free, &free_term.radiance, err);
+    int code = film_move_part(set, "indep", "RGB", RETEX_HALF, &film->free, &free_term.radiance, err);
     if (!code)
         code = retex_set_add_term(set, &free_term, NULL, err);
+    for (int t = 0; t < set->ntargets && !code; t++) {
+        for (int kind = 0; kind < 2 && !code; kind++)
+            code = finish_kind(film, set, t, kind, &places, err);
+        if (!code)
+            code = finish_later(film, set, t, &any, &places, err);
+    }
+    if (!code && film->plan.coefficients[film->plan.count - 1].mixed)
+        code = finish_mixture(set, &any, &places.any, err);
     for (int t = 0; t < set->ntargets; t++)
-        for (int k = 0; k < slots_count(&film->params) && !code; k++)
-            if (places[t].clusters[k] >= 0)
-                code = finish_coefficients(film, set, t, k, places, err);
+        for (int kind = 0; kind < 2 && !code; kind++)
+            code = finish_again(film, set, t, kind, &places, err);
     return code;
 }

@@ -86,6 +86,8 @@ static void begin(void)
     give(set, 0, 20);
     give(odd, 0, 98);
     give(odd, 1, 98);
+    test_make_footprints(odd);
+    give(odd, 0, 98);
     retex_set_close(&set);
     retex_set_close(&odd);
 }

@@ -50,6 +50,9 @@ static void begin(void)
         give(set, samples, compress);
     }
     retex_samples_close(&samples);
+    test_must(retex_sample(&samples, tall, &spec, 1, 1, &err), &err);
+    give(tall, samples, 0);
+    retex_samples_close(&samples);
     retex_set_close(&set);
     retex_set_close(&tall);
     file = memfd_create("fuzz_set", 0);

@@ -159,25 +159,35 @@ RetexSet *test_set(int width, int height, uint32_t seed)
     return set;
 }
 
-/* A mixture of one footprint of each target, none along one side, and two terms that have it: one once, one as often as
- * a term may. */
-static void add_mixture(RetexSet *set, uint32_t *seed)
+/* One share's weights: none along one side. */
+static struct RetexShare add_share(RetexSet *set, int footprint, const char *name, const char *letters, uint32_t *seed)
 {
-    const int last = set->nterms - 1;
-    for (int t = 0; t < 2; t++) {
-        set->mixture[t].footprint = 2 + t;
-        set->mixture[t].weight = add_part(set, t ? "share-1" : "share-0", "R", RETEX_HALF);
-    }
-    set->nmixture = 2;
-    for (int i = 0; i < set->width * set->height; i++) {
-        const float share = (float)test_random(seed);
-        if (i % set->width < set->width / 8)
-            continue;
-        set->parts[set->mixture[0].weight].image.pixels[i] = share;
-        set->parts[set->mixture[1].weight].image.pixels[i] = 1 - share;
-    }
-    set->terms[1].nmixed = 1;
-    set->terms[last].nmixed = RETEX_MAX_FACTORS - set->terms[last].nfactors;
+    struct RetexShare share = {footprint, add_part(set, name, letters, RETEX_HALF)};
+    RetexImage *image = &set->parts[share.weight].image;
+    int row = set->width * image->channels;
+    for (int i = 0; i < row * set->height; i++)
+        if (i % row >= row / 8)
+            image->pixels[i] = (float)(4 * test_random(seed));
+    return share;
+}
+
+/* A mixture of one footprint of each target, and one of three weighted colour by colour; and two terms that have them:
+ * one once, one as often as a term may. */
+static void add_mixtures(RetexSet *set, uint32_t *seed)
+{
+    RetexMixture of_two = {.nshares = 2}, of_three = {.nshares = 3};
+    RetexTerm *once = &set->terms[1], *often = &set->terms[set->nterms - 1];
+    RetexError err = {0};
+    of_two.shares[0] = add_share(set, 2, "share-0", "R", seed);
+    of_two.shares[1] = add_share(set, 3, "share-1", "R", seed);
+    of_three.shares[0] = add_share(set, 0, "share-2", "RGB", seed);
+    of_three.shares[1] = add_share(set, 4, "share-3", "R", seed);
+    of_three.shares[2] = add_share(set, 5, "share-4", "RGB", seed);
+    test_must(retex_set_add_mixture(set, &of_two, NULL, &err), &err);
+    test_must(retex_set_add_mixture(set, &of_three, NULL, &err), &err);
+    once->factors[once->nfactors++] = RETEX_MIXTURE(0);
+    while (often->nfactors < RETEX_MAX_FACTORS)
+        often->factors[often->nfactors] = RETEX_MIXTURE(often->nfactors % 2), often->nfactors++;
 }
 
 void test_make_footprints(RetexSet *set)
@@ -202,6 +212,6 @@ void test_make_footprints(RetexSet *set)
             to[2] = (float)(2 * test_random(&seed) - 1);
         }
     }
-    add_mixture(set, &seed);
+    add_mixtures(set, &seed);
     round_to_stored(set);
 }

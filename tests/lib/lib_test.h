@@ -21,7 +21,7 @@ void test_random_image(RetexImage *im, int width, int height, int channels, uint
 RetexSet *test_set(int width, int height, uint32_t seed);
 
 /* Give it what layout footprints has and paper has not: all kinds of footprints, three of four with a spread that has a
- * correlation, sizes of a unit of UV, and a mixture. */
+ * correlation, sizes of a unit of UV, and mixtures. */
 void test_make_footprints(RetexSet *set);
 
 /* Fails the process with a message, for helpers outside of a test. */

@@ -23,6 +23,26 @@ static RetexTextureSpec constant_spec(const char *target, float r, float g, floa
     return spec;
 }
 
+static double footprint_value(const RetexSet *set, const RetexSamples *samples, int f, size_t i)
+{
+    const float *image = samples && samples->images[f].pixels ? samples->images[f].pixels
+                                                              : set->parts[set->footprints[f].albedo].image.pixels;
+    return (double)image[i];
+}
+
+/* Of random weights either all colours have some, or none has. */
+static double mixture_value(const RetexSet *set, const RetexSamples *samples, const RetexMixture *mixture, size_t i)
+{
+    double sum = 0, weights = 0;
+    for (int k = 0; k < mixture->nshares; k++) {
+        const RetexImage *weight = &set->parts[mixture->shares[k].weight].image;
+        double w = (double)weight->pixels[weight->channels == 3 ? i : i / 3];
+        sum += w * footprint_value(set, samples, mixture->shares[k].footprint, i);
+        weights += w;
+    }
+    return weights > 0 ? sum / weights : 0;
+}
+
 /* The scalar reference, straight from Eq. 4 of the supplement. */
 static double reference_value(const RetexSet *set, const RetexSamples *samples, int cross, size_t i)
 {
@@ -34,10 +54,8 @@ static double reference_value(const RetexSet *set, const RetexSamples *samples, 
         double product = (double)set->parts[term->radiance].image.pixels[i];
         for (int k = 0; k < term->nfactors; k++) {
             int f = term->factors[k];
-            const float *image = samples && samples->images[f].pixels
-                                     ? samples->images[f].pixels
-                                     : set->parts[set->footprints[f].albedo].image.pixels;
-            product *= (double)image[i];
+            product *= f < 0 ? mixture_value(set, samples, &set->mixtures[RETEX_MIXTURE(f)], i)
+                             : footprint_value(set, samples, f, i);
         }
         sum += product;
     }
@@ -66,8 +84,10 @@ static void test_reference(void **state)
     (void)state;
     RetexCombineParams params = RETEX_COMBINE_INIT;
     static const int sizes[][2] = {{48, 32}, {1, 1}, {517, 3}, {7, 61}};
-    for (uint32_t n = 0; n < 4; n++) {
-        RetexSet *set = test_set(sizes[n][0], sizes[n][1], n + 1);
+    for (uint32_t n = 0; n < 8; n++) {
+        RetexSet *set = test_set(sizes[n % 4][0], sizes[n % 4][1], n + 1);
+        if (n >= 4)
+            test_make_footprints(set);
         RetexTextureSpec specs[2] = {constant_spec("Wall", 0.9f, 0.1f, 0.4f), constant_spec("floor", 0.2f, 0.7f, 0)};
         for (int nspecs = 0; nspecs <= 2; nspecs++) {
             RetexSamples *samples = sample(set, specs, nspecs, 2);
@@ -174,6 +194,7 @@ static void test_threads(void **state)
 {
     (void)state;
     RetexSet *set = test_set(150, 90, 4);
+    test_make_footprints(set);
     RetexTextureSpec specs[2] = {constant_spec("Wall", 0.9f, 0.1f, 0.4f), constant_spec("Floor", 0.2f, 0.7f, 0)};
     RetexImage first = {0};
     RetexError err = {0};
@@ -195,6 +216,7 @@ static void test_region(void **state)
 {
     (void)state;
     RetexSet *set = test_set(40, 30, 5);
+    test_make_footprints(set);
     RetexImage whole = {0}, part = {0};
     RetexError err = {0};
     test_must(retex_combine(&whole, set, NULL, NULL, NULL, 1, &err), &err);

@@ -1,6 +1,7 @@
 /* The error to be expected of a retexture: its formula on one pixel, and what textures scatter within footprints. */
 #include "lib_test.h"
 
+#include <limits.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -55,6 +56,8 @@ static RetexTextureSpec constant_spec(const char *target, float r, float g, floa
 
 /* ---- a set of one pixel ---- */
 
+#define NONE INT_MIN
+
 static int add_part(RetexSet *set, const char *name, const char *letters, float a, float b, float c)
 {
     RetexError err = {0};
@@ -81,15 +84,15 @@ static int add_footprint(RetexSet *set, RetexFootprintKind kind, float coverage,
     return index;
 }
 
-/* radiance times A_a B_b^powers; a < 0: times nothing. */
+/* radiance times A_a B_b^powers, of footprints or mixtures; a = NONE: times nothing. */
 static void add_term(RetexSet *set, float radiance, int a, int b, int powers)
 {
     char name[64];
     RetexError err = {0};
-    RetexTerm term = {.kind = a < 0 ? RETEX_TERM_INDEP : RETEX_TERM_DEP};
+    RetexTerm term = {.kind = a == NONE ? RETEX_TERM_INDEP : RETEX_TERM_DEP};
     snprintf(name, sizeof name, "term%d", set->nterms);
     term.radiance = add_part(set, name, "RGB", radiance, 2 * radiance, 0);
-    if (a >= 0)
+    if (a != NONE)
         term.factors[term.nfactors++] = a;
     for (int k = 0; k < powers; k++)
         term.factors[term.nfactors++] = b;
@@ -156,7 +159,7 @@ static void the_formula_holds_on_a_pixel(void **state)
     RetexSet *set = small_set(16);
     int sharp = add_footprint(set, RETEX_FOOTPRINT_SHARP, 0.5f, 0),
         later = add_footprint(set, RETEX_FOOTPRINT_LATER, 0.25f, 0);
-    add_term(set, 0.5f, -1, 0, 0);
+    add_term(set, 0.5f, NONE, 0, 0);
     add_term(set, 2, sharp, 0, 0);
     add_term(set, 3, sharp, later, 1);
     add_term(set, 5, sharp, later, 2);
@@ -196,6 +199,82 @@ static void one_path_is_the_least(void **state)
         retex_set_close(&set);
     }
     assert_memory_equal(rgb[0], rgb[1], sizeof rgb[0]);
+}
+
+/* ---- mixtures ---- */
+
+static struct RetexShare share(RetexSet *set, int footprint, const char *letters, float r, float g, float b)
+{
+    char name[64];
+    RetexError err = {0};
+    struct RetexShare share = {.footprint = footprint};
+    snprintf(name, sizeof name, "share%d", set->nparts);
+    test_must(retex_set_add_part(set, name, letters, RETEX_FLOAT, 0, 0, &share.weight, &err), &err);
+    float *pixel = set->parts[share.weight].image.pixels;
+    pixel[0] = r;
+    if (letters[1])
+        pixel[1] = g, pixel[2] = b;
+    return share;
+}
+
+static int add_mixture(RetexSet *set, struct RetexShare first, struct RetexShare second)
+{
+    RetexError err = {0};
+    RetexMixture mixture = {.nshares = 2, .shares = {first, second}};
+    int index;
+    test_must(retex_set_add_mixture(set, &mixture, &index, &err), &err);
+    return RETEX_MIXTURE(index);
+}
+
+/* What scatters with a mixture are its footprints, by their shares, on top of what each does by itself. */
+static void a_mixture_scatters_with_its_footprints(void **state)
+{
+    (void)state;
+    static const float a[3] = {0.4f, 0.2f, 0.8f}, var[3] = {0.04f, 0.01f, 0.09f};
+    RetexSet *set = small_set(16);
+    int sharp = add_footprint(set, RETEX_FOOTPRINT_SHARP, 0.5f, 0);
+    int later[2];
+    for (int k = 0; k < 2; k++)
+        later[k] = add_footprint(set, RETEX_FOOTPRINT_LATER, 0.25f, 0);
+    /* m = 1/4 later1 + 3/4 later2; n = 1/2 sharp + 1/2 later2 in red, all later2 in green */
+    int m = add_mixture(set, share(set, later[0], "R", 0.5f, 0, 0), share(set, later[1], "R", 1.5f, 0, 0));
+    int n = add_mixture(set, share(set, sharp, "RGB", 2, 0, 1), share(set, later[1], "RGB", 2, 3, 1));
+    add_term(set, 2, sharp, 0, 0);
+    add_term(set, 3, sharp, m, 2);
+    add_term(set, 5, n, m, 1);
+    const double mean = 0.25 * 0.2 + 0.75 * 0.8, of[3] = {0.04, 0.01, 0.09};
+    double squares[3], sums[2] = {0, 0};
+    for (int f = 0; f < 3; f++) {
+        double k = agreement(f ? RETEX_FOOTPRINT_LATER : RETEX_FOOTPRINT_SHARP), chance = f ? 1.0 / 4 : 0.3 / 8;
+        squares[f] = of[f] * (k * k + chance);
+    }
+    for (int green = 0; green < 2; green++) {
+        double by_n = 5 * mean, other = green ? 0.8 : 0.5 * 0.4 + 0.5 * 0.8, by_m = 2 * 3 * 0.4 * mean + 5 * other;
+        double by[3] = {2 + 3 * mean * mean + (green ? 0 : 0.5) * by_n, 0.25 * by_m,
+                        0.75 * by_m + (green ? 1 : 0.5) * by_n};
+        for (int f = 0; f < 3; f++)
+            sums[green] += by[f] * by[f] * squares[f];
+    }
+    float rgb[3];
+    estimate(rgb, set, a, var);
+    assert_float_equal(rgb[0], sqrt(sums[0]), 1e-5 * sqrt(sums[0]));
+    assert_float_equal(rgb[1], 2 * sqrt(sums[1]), 2e-5 * sqrt(sums[1]));
+    assert_float_equal(rgb[2], 0, 0);
+    retex_set_close(&set);
+}
+
+static void a_mixture_of_nothing_scatters_nothing(void **state)
+{
+    (void)state;
+    static const float a[2] = {0.4f, 0.2f}, var[2] = {0.04f, 0.01f};
+    RetexSet *set = small_set(16);
+    int one = add_footprint(set, RETEX_FOOTPRINT_LATER, 0.5f, 0), two = add_footprint(set, RETEX_FOOTPRINT_LATER, 1, 0);
+    add_term(set, 3, add_mixture(set, share(set, one, "R", 0, 0, 0), share(set, two, "RGB", 0, 0, 0)), 0, 0);
+    float rgb[3];
+    estimate(rgb, set, a, var);
+    for (int c = 0; c < 3; c++)
+        assert_true(rgb[c] == 0);
+    retex_set_close(&set);
 }
 
 /* ---- textures within footprints ---- */
@@ -295,6 +374,7 @@ static void constants_have_only_what_was_folded(void **state)
 {
     (void)state;
     RetexSet *set = test_set(40, 30, 2);
+    test_make_footprints(set);
     RetexTextureSpec specs[2] = {constant_spec("Floor", 0.3f, 0.6f, 0), constant_spec("Wall", 0.9f, 0.9f, 0.5f)};
     for (int folded = 0; folded < 2; folded++) {
         set->folded = 0.25 * folded;
@@ -338,6 +418,7 @@ static void threads_and_regions_change_nothing(void **state)
 {
     (void)state;
     RetexSet *set = test_set(150, 90, 4);
+    test_make_footprints(set);
     RetexTextureSpec specs[2] = {store_texture("Wall", 0.4f, 0.1f, 1), constant_spec("Floor", 0.2f, 0.7f, 0)};
     RetexImage whole = estimate_picture(set, specs, 2, 1), part = {0};
     RetexSamples *samples, *variances;
@@ -403,6 +484,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_formula_holds_on_a_pixel),
+        cmocka_unit_test(a_mixture_scatters_with_its_footprints),
+        cmocka_unit_test(a_mixture_of_nothing_scatters_nothing),
         cmocka_unit_test(agreements_are_shares),
         cmocka_unit_test(one_path_is_the_least),
         cmocka_unit_test(a_wide_footprint_sees_all_of_a_texture),

@@ -1,7 +1,8 @@
-/* Terms with a mixture, whose values are known by hand: with new textures on either target, on both, on none; through
+/* Terms with mixtures, whose values are known by hand: with new textures on either target, on both, on none; through
  * files, streams and packs; and mixtures that are not whole. */
 #include "lib_test.h"
 
+#include <limits.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -11,6 +12,7 @@
 #include <cmocka.h>
 
 enum { PIXELS = 3, FLOOR_FIRST = 0, FLOOR_LATER, WALL_FIRST, WALL_LATER };
+enum { LATER = RETEX_MIXTURE(0), FIRST = RETEX_MIXTURE(1) };
 
 static char path[64];
 
@@ -57,20 +59,32 @@ static void add_footprint(RetexSet *set, int target, int hit, RetexFootprintKind
     test_must(retex_set_add_footprint(set, &f, NULL, &err), &err);
 }
 
-static void add_share(RetexSet *set, int footprint, const float *weights)
+/* Of one floor and one wall; weights of one number a pixel ("R"), or of three. */
+static void add_mixture(RetexSet *set, const char *letters, int floor, const float *floor_weights, int wall,
+                        const float *wall_weights)
 {
-    RetexShare *share = &set->mixture[set->nmixture];
-    share->footprint = footprint;
-    share->weight = add_part(set, set->nmixture++ ? "share_1" : "share_0", "R", RETEX_HALF);
-    memcpy(set->parts[share->weight].image.pixels, weights, PIXELS * sizeof *weights);
+    const float *weights[2] = {floor_weights, wall_weights};
+    RetexMixture mixture = {.nshares = 2, .shares = {{.footprint = floor}, {.footprint = wall}}};
+    RetexError err = {0};
+    for (int k = 0; k < 2; k++) {
+        char name[32];
+        snprintf(name, sizeof name, "share_%d_%d", set->nmixtures, k);
+        int part = mixture.shares[k].weight = add_part(set, name, letters, RETEX_HALF);
+        memcpy(set->parts[part].image.pixels, weights[k], PIXELS * strlen(letters) * sizeof *weights[k]);
+    }
+    int index;
+    test_must(retex_set_add_mixture(set, &mixture, &index, &err), &err);
+    assert_int_equal(index, set->nmixtures - 1);
 }
 
-/* Of every pixel's light green has twice what red has, blue nothing. */
-static void add_term(RetexSet *set, float light, int nfactors, int first, int second, int nmixed)
+/* Of every pixel's light green has twice what red has, blue nothing. The last factor may occur several times. */
+static void add_term(RetexSet *set, float light, int nfactors, int first, int second, int others)
 {
-    RetexTerm term = {.nfactors = nfactors, .factors = {first, second}, .nmixed = nmixed};
+    RetexTerm term = {.nfactors = nfactors, .factors = {first, second}};
     RetexError err = {0};
     char name[32];
+    for (int k = 2; k < nfactors; k++)
+        term.factors[k] = others;
     term.kind = nfactors ? RETEX_TERM_DEP : RETEX_TERM_INDEP;
     snprintf(name, sizeof name, "term_%d", set->nterms);
     term.radiance = add_part(set, name, "RGB", RETEX_HALF);
@@ -81,11 +95,14 @@ static void add_term(RetexSet *set, float light, int nfactors, int first, int se
     test_must(retex_set_add_term(set, &term, NULL, &err), &err);
 }
 
-/* The floor is 0.5, the wall 0.25. Of the mixture the left pixel's is a quarter floor, three quarters wall; the next
- * has none; the right one's is all floor. */
+/* The floor is 0.5, the wall 0.25. Of the mixture of later ones the left pixel's is a quarter floor, three quarters
+ * wall; the next has none; the right one's is all floor. Of first ones the left pixel's is floor in red, wall in green;
+ * the next is three quarters floor in red, all wall in blue, and for green, which has no weight, what it is on the
+ * whole: three eighths floor; the right one has none. */
 static RetexSet *make_set(void)
 {
-    static const float floor_shares[PIXELS] = {0.25f, 0, 1}, wall_shares[PIXELS] = {0.75f, 0, 0};
+    static const float floor_later[PIXELS] = {1, 0, 2}, wall_later[PIXELS] = {3, 0, 0};
+    static const float floor_first[3 * PIXELS] = {0.5f, 0, 0, 3, 0, 0}, wall_first[3 * PIXELS] = {0, 7, 0, 1, 0, 4};
     RetexSet *set;
     RetexError err = {0};
     test_must(retex_set_create(&set, PIXELS, 1, &err), &err);
@@ -100,32 +117,37 @@ static RetexSet *make_set(void)
     add_footprint(set, 0, 2, RETEX_FOOTPRINT_LATER, 0.5f);
     add_footprint(set, 1, 1, RETEX_FOOTPRINT_SHARP, 0.25f);
     add_footprint(set, 1, 2, RETEX_FOOTPRINT_LATER, 0.25f);
-    add_share(set, FLOOR_LATER, floor_shares);
-    add_share(set, WALL_LATER, wall_shares);
+    add_mixture(set, "R", FLOOR_LATER, floor_later, WALL_LATER, wall_later);
+    add_mixture(set, "RGB", FLOOR_FIRST, floor_first, WALL_FIRST, wall_first);
     add_term(set, 1, 0, 0, 0, 0);
     add_term(set, 2, 1, FLOOR_FIRST, 0, 0);
-    add_term(set, 16, 1, FLOOR_FIRST, 0, 2);
-    add_term(set, 64, 2, WALL_FIRST, FLOOR_LATER, 3);
+    add_term(set, 16, 3, FLOOR_FIRST, LATER, LATER);
+    add_term(set, 64, 5, WALL_FIRST, FLOOR_LATER, LATER);
+    add_term(set, 8, 2, FIRST, FLOOR_LATER, 0);
     return set;
 }
 
 /* ---- its pictures ---- */
 
-/* Red of each pixel, with m the mixture: 1 + 2 f + 16 f m^2 + 64 w f m^3. */
+/* Red of each pixel and half its green, with m the mixture of later ones and n that of first ones:
+ * 1 + 2 f + 16 f m^2 + 64 w f m^3 + 8 n f. */
 typedef struct Retexture {
     int white_floor, white_wall;
-    float red[PIXELS];
+    float red[PIXELS], half_green[PIXELS];
 } Retexture;
 
 static const Retexture retextures[] = {
-    /* m = 5/16, 0, 1/2: 1 + 1 + 25/32 + 125/512; 1 + 1; 1 + 1 + 2 + 1 */
-    {0, 0, {3.025390625f, 2, 5}},
-    /* m = 7/16, 0, 1: 1 + 2 + 49/16 + 343/256; 1 + 2; 1 + 2 + 16 + 16 */
-    {1, 0, {7.40234375f, 3, 35}},
-    /* m = 7/8, 0, 1/2: 1 + 1 + 49/8 + 343/16; 1 + 1; 1 + 1 + 2 + 4 */
-    {0, 1, {29.5625f, 2, 8}},
-    /* m = 1, 0, 1 */
-    {1, 1, {83, 3, 83}},
+    /* m = 5/16, 0, 1/2: 1 + 1 + 25/32 + 125/512; 1 + 1; 1 + 1 + 2 + 1;
+     * n = 1/2, 7/16, 0 and 1/4, 11/32, 0: 2; 7/4; 0 and 1; 11/8; 0 */
+    {0, 0, {5.025390625f, 3.75f, 5}, {4.025390625f, 3.375f, 5}},
+    /* m = 7/16, 0, 1: 1 + 2 + 49/16 + 343/256; 1 + 2; 1 + 2 + 16 + 16;
+     * n = 1, 13/16, 0 and 1/4, 17/32, 0: 8; 13/2; 0 and 2; 17/4; 0 */
+    {1, 0, {15.40234375f, 9.5f, 35}, {9.40234375f, 7.25f, 35}},
+    /* m = 7/8, 0, 1/2: 1 + 1 + 49/8 + 343/16; 1 + 1; 1 + 1 + 2 + 4;
+     * n = 1/2, 5/8, 0 and 1, 13/16, 0: 2; 5/2; 0 and 4; 13/4; 0 */
+    {0, 1, {31.5625f, 4.5f, 8}, {33.5625f, 5.25f, 8}},
+    /* m = 1, 0, 1; n = 1, 1, 0 */
+    {1, 1, {91, 11, 83}, {91, 11, 83}},
 };
 enum { RETEXTURES = sizeof retextures / sizeof retextures[0] };
 
@@ -151,9 +173,9 @@ static void expect_picture(const RetexSet *set, const RetexSamples *samples, con
     test_must(retex_combine(&picture, set, samples, NULL, NULL, 1, &err), &err);
     for (size_t i = 0; i < PIXELS; i++) {
         const float *got = picture.pixels + 3 * i;
-        if (got[0] != r->red[i] || got[1] != 2 * r->red[i] || got[2] != 0)
-            fail_msg("floor %d, wall %d, pixel %zu: %.9g %.9g %.9g, not %.9g", r->white_floor, r->white_wall, i,
-                     (double)got[0], (double)got[1], (double)got[2], (double)r->red[i]);
+        if (got[0] != r->red[i] || got[1] != 2 * r->half_green[i] || got[2] != 0)
+            fail_msg("floor %d, wall %d, pixel %zu: %.9g %.9g %.9g, not %.9g %.9g 0", r->white_floor, r->white_wall, i,
+                     (double)got[0], (double)got[1], (double)got[2], (double)r->red[i], (double)(2 * r->half_green[i]));
     }
     retex_image_free(&picture);
 }
@@ -170,17 +192,48 @@ static void test_by_hand(void **state)
     retex_set_close(&set);
 }
 
-/* A term may have as many factors as there can be, mixed ones included. */
+/* A term may have as many factors as there can be, mixtures among them. */
 static void test_most_factors(void **state)
 {
     (void)state;
     RetexSet *set = make_set();
     RetexImage picture = {0};
     RetexError err = {0};
-    add_term(set, 4096, 2, FLOOR_FIRST, FLOOR_LATER, RETEX_MAX_FACTORS - 2);
+    add_term(set, 4096, RETEX_MAX_FACTORS, FLOOR_FIRST, FLOOR_LATER, LATER);
     test_must(retex_combine(&picture, set, NULL, NULL, NULL, 1, &err), &err);
-    assert_true(picture.pixels[3] == 2);
+    assert_true(picture.pixels[3] == 3.75f);
     assert_true(picture.pixels[6] == 6); /* 5 + 4096 / 2^12 */
+    retex_image_free(&picture);
+    retex_set_close(&set);
+}
+
+/* And a mixture as many shares, a set as many mixtures. */
+static void test_most_shares(void **state)
+{
+    (void)state;
+    RetexSet *set = make_set();
+    RetexMixture mixture = {.nshares = RETEX_SHARES_MAX};
+    RetexImage picture = {0};
+    RetexError err = {0};
+    int weight = add_part(set, "eighth", "R", RETEX_HALF), index = 1;
+    for (size_t i = 0; i < PIXELS; i++)
+        set->parts[weight].image.pixels[i] = 0.125f;
+    for (int k = 0; k < RETEX_SHARES_MAX; k++) /* a quarter of them wall: 7/16 */
+        mixture.shares[k] = (struct RetexShare){k % 4 ? FLOOR_LATER : WALL_FIRST, weight};
+    while (set->nmixtures < RETEX_MIXTURES_MAX)
+        test_must(retex_set_add_mixture(set, &mixture, &index, &err), &err);
+    assert_int_equal(index, RETEX_MIXTURES_MAX - 1);
+    assert_int_equal(retex_set_add_mixture(set, &mixture, NULL, &err), RETEX_ELIMIT);
+    assert_int_equal(set->nmixtures, RETEX_MIXTURES_MAX);
+    add_term(set, 16, 1, RETEX_MIXTURE(index), 0, 0);
+    test_must(retex_set_write(set, NULL, path, NULL, &err), &err);
+    retex_set_close(&set);
+    test_must(retex_set_read(path, &set, NULL, 1, &err), &err);
+    assert_int_equal(set->nmixtures, RETEX_MIXTURES_MAX);
+    assert_int_equal(set->mixtures[index].nshares, RETEX_SHARES_MAX);
+    test_must(retex_combine(&picture, set, NULL, NULL, NULL, 1, &err), &err);
+    for (size_t i = 0; i < PIXELS; i++)
+        assert_true(picture.pixels[3 * i] == retextures[0].red[i] + 7);
     retex_image_free(&picture);
     retex_set_close(&set);
 }
@@ -254,15 +307,20 @@ static void test_pack(void **state)
     for (params.lossless = 0; params.lossless < 2; params.lossless++) {
         test_must(retex_pack_write(set, path, &params, NULL, &err), &err);
         test_must(retex_set_read(path, &back, NULL, 1, &err), &err);
-        assert_int_equal(back->nmixture, 2);
-        for (int i = 0; i < 2; i++) { /* shares keep every bit */
-            const RetexPart *before = &set->parts[set->mixture[i].weight],
-                            *after = &back->parts[back->mixture[i].weight];
-            assert_int_equal(back->mixture[i].footprint, set->mixture[i].footprint);
-            assert_memory_equal(before->image.pixels, after->image.pixels, PIXELS * sizeof(float));
+        assert_int_equal(back->nmixtures, 2);
+        for (int m = 0; m < 2; m++) /* shares keep every bit */
+            for (int i = 0; i < 2; i++) {
+                const struct RetexShare *share = &set->mixtures[m].shares[i], *same = &back->mixtures[m].shares[i];
+                const RetexPart *before = &set->parts[share->weight], *after = &back->parts[same->weight];
+                assert_int_equal(same->footprint, share->footprint);
+                assert_int_equal(after->image.channels, before->image.channels);
+                assert_memory_equal(before->image.pixels, after->image.pixels,
+                                    PIXELS * (size_t)before->image.channels * sizeof(float));
+            }
+        for (int i = 0; i < set->nterms; i++) {
+            assert_int_equal(back->terms[i].nfactors, set->terms[i].nfactors);
+            assert_memory_equal(back->terms[i].factors, set->terms[i].factors, sizeof set->terms[i].factors);
         }
-        for (int i = 0; i < set->nterms; i++)
-            assert_int_equal(back->terms[i].nmixed, set->terms[i].nmixed);
         for (int k = 0; k < RETEXTURES && params.lossless; k++) {
             RetexSamples *samples = make_samples(back, &retextures[k], NULL);
             expect_picture(back, samples, &retextures[k]);
@@ -288,39 +346,76 @@ static void expect_failure(const RetexSet *set, const char *says)
 static void test_not_whole(void **state)
 {
     (void)state;
+    static const char whole[] = "mixture of the set lacks a footprint or its weight";
     RetexSet *set = make_set();
     RetexError err = {0};
     int small;
     test_must(retex_set_add_part(set, "small", "R", RETEX_HALF, 2, 1, &small, &err), &err);
-    const int places[] = {0, small, set->footprints[0].spread};
-    const RetexShare share = set->mixture[1];
+    const int places[] = {-1, small, add_part(set, "two", "RG", RETEX_HALF), set->nparts};
+    struct RetexShare *share = &set->mixtures[1].shares[1];
+    const struct RetexShare kept = *share;
     for (size_t k = 0; k < sizeof places / sizeof places[0]; k++) {
-        set->mixture[1].weight = places[k];
-        expect_failure(set, "mixture lacks a footprint or its weight");
+        share->weight = places[k];
+        expect_failure(set, whole);
     }
-    set->mixture[1] = share;
-    set->mixture[1].footprint = set->nfootprints;
-    expect_failure(set, "mixture lacks a footprint or its weight");
-    set->mixture[1] = share;
+    *share = kept;
+    share->footprint = set->nfootprints;
+    expect_failure(set, whole);
+    *share = kept;
     set->footprints[WALL_LATER].albedo = -1; /* as in a stream whose samples are not at hand */
-    expect_failure(set, "mixture lacks a footprint or its weight");
-    set->nmixture = 0;
+    expect_failure(set, whole);
+    set->nmixtures = 0;
     expect_failure(set, "term 2 of the set lacks");
-    set->terms[2].nmixed = set->terms[3].nmixed = 0;
+    for (int t = 2; t < set->nterms; t++)
+        set->terms[t].nfactors = 0;
     RetexImage picture = {0};
     test_must(retex_combine(&picture, set, NULL, NULL, NULL, 1, &err), &err); /* needs no mixture */
     retex_image_free(&picture);
-    set->terms[2].nmixed = -1;
-    expect_failure(set, "term 2 of the set lacks");
+    const int factors[] = {RETEX_MIXTURE(0), INT_MIN, set->nfootprints, INT_MAX};
+    for (size_t k = 0; k < sizeof factors / sizeof factors[0]; k++) {
+        set->terms[1].factors[0] = factors[k];
+        expect_failure(set, "term 1 of the set lacks");
+    }
+    set->terms[1].nfactors = -1;
+    expect_failure(set, "term 1 of the set lacks");
+    retex_set_close(&set);
+}
+
+/* What is wrong is not added. */
+static void test_additions(void **state)
+{
+    (void)state;
+    RetexSet *set = make_set();
+    RetexError err = {0};
+    int two = add_part(set, "two", "RG", RETEX_HALF), one = set->mixtures[0].shares[0].weight;
+    const RetexMixture wrong[] = {
+        {.nshares = 0},
+        {.nshares = -1},
+        {.nshares = RETEX_SHARES_MAX + 1},
+        {.nshares = 1, .shares = {{-1, one}}},
+        {.nshares = 1, .shares = {{set->nfootprints, one}}},
+        {.nshares = 2, .shares = {{0, one}, {1, two}}},
+        {.nshares = 2, .shares = {{0, one}, {1, set->nparts}}},
+        {.nshares = 1, .shares = {{0, -1}}},
+    };
+    for (size_t k = 0; k < sizeof wrong / sizeof wrong[0]; k++)
+        assert_int_equal(retex_set_add_mixture(set, &wrong[k], NULL, &err), RETEX_EINVAL);
+    assert_int_equal(set->nmixtures, 2);
+    RetexTerm term = set->terms[1];
+    const int factors[] = {RETEX_MIXTURE(2), INT_MIN, set->nfootprints};
+    for (size_t k = 0; k < sizeof factors / sizeof factors[0]; k++) {
+        term.factors[0] = factors[k];
+        assert_int_equal(retex_set_add_term(set, &term, NULL, &err), RETEX_EINVAL);
+    }
     retex_set_close(&set);
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_by_hand),   cmocka_unit_test(test_most_factors), cmocka_unit_test(test_error),
-        cmocka_unit_test(test_file),      cmocka_unit_test(test_stream),       cmocka_unit_test(test_pack),
-        cmocka_unit_test(test_not_whole),
+        cmocka_unit_test(test_by_hand), cmocka_unit_test(test_most_factors), cmocka_unit_test(test_most_shares),
+        cmocka_unit_test(test_error),   cmocka_unit_test(test_file),         cmocka_unit_test(test_stream),
+        cmocka_unit_test(test_pack),    cmocka_unit_test(test_not_whole),    cmocka_unit_test(test_additions),
     };
     return cmocka_run_group_tests(tests, make_path, remove_path);
 }

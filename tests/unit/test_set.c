@@ -86,7 +86,6 @@ static void expect_equal_terms(const RetexSet *a, const RetexSet *b)
     for (int i = 0; i < a->nterms; i++) {
         assert_int_equal(a->terms[i].kind, b->terms[i].kind);
         assert_int_equal(a->terms[i].nfactors, b->terms[i].nfactors);
-        assert_int_equal(a->terms[i].nmixed, b->terms[i].nmixed);
         for (int f = 0; f < a->terms[i].nfactors; f++)
             assert_int_equal(a->terms[i].factors[f], b->terms[i].factors[f]);
         expect_equal_part(a, a->terms[i].radiance, b, b->terms[i].radiance);
@@ -95,10 +94,14 @@ static void expect_equal_terms(const RetexSet *a, const RetexSet *b)
 
 static void expect_equal_mixtures(const RetexSet *a, const RetexSet *b)
 {
-    assert_int_equal(a->nmixture, b->nmixture);
-    for (int i = 0; i < a->nmixture; i++) {
-        assert_int_equal(a->mixture[i].footprint, b->mixture[i].footprint);
-        expect_equal_part(a, a->mixture[i].weight, b, b->mixture[i].weight);
+    assert_int_equal(a->nmixtures, b->nmixtures);
+    for (int i = 0; i < a->nmixtures; i++) {
+        const RetexMixture *ma = &a->mixtures[i], *mb = &b->mixtures[i];
+        assert_int_equal(ma->nshares, mb->nshares);
+        for (int k = 0; k < ma->nshares; k++) {
+            assert_int_equal(ma->shares[k].footprint, mb->shares[k].footprint);
+            expect_equal_part(a, ma->shares[k].weight, b, mb->shares[k].weight);
+        }
     }
 }
 
@@ -189,8 +192,8 @@ static void test_set_there_and_back(void **state)
     }
 }
 
-/* What layout footprints has and paper has not: kinds, spreads with a correlation, how large a unit of UV is, a mixture
- * of targets. */
+/* What layout footprints has and paper has not: kinds, spreads with a correlation, how large a unit of UV is,
+ * mixtures. */
 static void test_footprints_there_and_back(void **state)
 {
     (void)state;
@@ -297,9 +300,11 @@ static void test_names_are_checked(void **state)
     assert_int_equal(retex_set_add_footprint(set, &footprint, NULL, &err), RETEX_EINVAL);
     RetexTerm term = {.kind = RETEX_TERM_DEP, .nfactors = 1, .factors = {set->nfootprints}};
     assert_int_equal(retex_set_add_term(set, &term, NULL, &err), RETEX_EINVAL);
-    term.factors[0] = 0, term.nmixed = RETEX_MAX_FACTORS; /* with the other factor one too many */
+    term.factors[0] = RETEX_MIXTURE(0); /* it has none */
     assert_int_equal(retex_set_add_term(set, &term, NULL, &err), RETEX_EINVAL);
-    term.nmixed = -1;
+    term.factors[0] = 0, term.nfactors = RETEX_MAX_FACTORS + 1;
+    assert_int_equal(retex_set_add_term(set, &term, NULL, &err), RETEX_EINVAL);
+    term.nfactors = -1;
     assert_int_equal(retex_set_add_term(set, &term, NULL, &err), RETEX_EINVAL);
 
     strcpy(set->targets[0].name, "Floor");
@@ -443,11 +448,14 @@ static void test_manifests_that_lie(void **state)
         {"\"terms\"", "\"kind\":\"", "\"kind\":\"x", RETEX_EFORMAT, "unknown kind"},
         {"\"terms\"", "\"radiance\":\"", "\"radiance\":null,\"x\":\"", RETEX_EFORMAT, "\"radiance\""},
         {"\"terms\"", "\"factors\":[", "\"factors\":[600", RETEX_EFORMAT, "factor"},
-        {"", "\"mixture\":[]", "\"x\":[]", 0, ""}, /* older sets have none */
-        {"", "\"mixture\":[]", "\"mixture\":{}", RETEX_EFORMAT, "no list \"mixture\""},
-        {"", "\"mixture\":[]", "\"mixture\":null", RETEX_EFORMAT, "no list \"mixture\""},
-        {"\"terms\"", "\"factors\":[", "\"mixed\":0,\"factors\":[", 0, ""},
-        {"\"terms\"", "\"factors\":[", "\"mixed\":1,\"factors\":[", RETEX_EFORMAT, "mixed factors but no \"mixture\""},
+        {"\"terms\"", "\"factors\":[", "\"factors\":[-1", RETEX_EFORMAT, "no footprint and no mixture"},
+        {"\"terms\"", "\"factors\":[0", "\"factors\":[0.5", RETEX_EFORMAT, "no footprint and no mixture"},
+        {"\"terms\"", "\"factors\":[0", "\"factors\":[null", RETEX_EFORMAT, "no footprint and no mixture"},
+        {"\"terms\"", "\"factors\":[0", "\"factors\":[0,0,0,0,0,0,0,0,0,0,0,0", 0, ""},
+        {"\"terms\"", "\"factors\":[0", "\"factors\":[0,0,0,0,0,0,0,0,0,0,0,0,0", RETEX_EFORMAT, "at most 12"},
+        {"", "\"mixtures\":[]", "\"x\":[]", 0, ""}, /* may be left out */
+        {"", "\"mixtures\":[]", "\"mixtures\":{}", RETEX_EFORMAT, "no list \"mixtures\""},
+        {"", "\"mixtures\":[]", "\"mixtures\":null", RETEX_EFORMAT, "no list \"mixtures\""},
         {"\"parts\"", "\"name\":\"", "\"name\":\"a b", RETEX_EFORMAT, "named"},
         {"\"parts\"", "\"letters\":\"", "\"letters\":\"a", RETEX_EFORMAT, "channels"},
         {"\"parts\"", "\"type\":\"", "\"type\":\"x", RETEX_EFORMAT, "type"},
@@ -470,50 +478,80 @@ static void test_mixtures_that_lie(void **state)
 {
     (void)state;
     static const ManifestCase cases[] = {
-        {"", "\"mixture\":", "\"x\":", RETEX_EFORMAT, "mixed factors but no \"mixture\""},
-        {"", "\"mixture\":[", "\"mixture\":[],\"x\":[", RETEX_EFORMAT, "mixed factors but no \"mixture\""},
-        {"", "\"mixture\":[", "\"mixture\":[7,", RETEX_EFORMAT, "\"footprint\""},
-        {"", "\"mixture\":[", "\"mixture\":[1,2,3,4,5,6,7,", RETEX_EFORMAT, "no list \"mixture\" of at most 8"},
-        {"\"mixture\"", "\"footprint\":2", "\"footprint\":5", 0, ""},
-        {"\"mixture\"", "\"footprint\":2", "\"footprint\":6", RETEX_EFORMAT, "\"footprint\" from 0 to 5"},
-        {"\"mixture\"", "\"footprint\":2", "\"footprint\":-1", RETEX_EFORMAT, "\"footprint\""},
-        {"\"mixture\"", "\"footprint\":2", "\"footprint\":2.5", RETEX_EFORMAT, "\"footprint\""},
-        {"\"mixture\"", "\"footprint\":2", "\"x\":2", RETEX_EFORMAT, "\"footprint\""},
-        {"\"mixture\"", "\"share-0\"", "\"depth\"", 0, ""},
-        {"\"mixture\"", "\"share-0\"", "\"beauty\"", RETEX_EFORMAT, "3 channels instead of 1"},
-        {"\"mixture\"", "\"share-0\"", "\"small\"", RETEX_EFORMAT, "\"weight\" a part of another size"},
-        {"\"mixture\"", "\"share-0\"", "\"share-9\"", RETEX_EFORMAT, "\"weight\""},
-        {"\"mixture\"", "\"share-0\"", "null", RETEX_EFORMAT, "\"weight\""},
-        {"\"mixture\"", "\"weight\"", "\"x\"", RETEX_EFORMAT, "\"weight\""},
-        {"\"terms\"", "\"mixed\":1", "\"mixed\":11", 0, ""},
-        {"\"terms\"", "\"mixed\":1", "\"mixed\":12", RETEX_EFORMAT, "\"mixed\" from 0 to 11"},
-        {"\"terms\"", "\"mixed\":1", "\"mixed\":-1", RETEX_EFORMAT, "\"mixed\""},
-        {"\"terms\"", "\"mixed\":1", "\"mixed\":null", RETEX_EFORMAT, "\"mixed\""},
-        {"\"terms\"", "\"mixed\":10", "\"mixed\":11", RETEX_EFORMAT, "\"mixed\" from 0 to 10"},
+        {"", "\"mixtures\":", "\"x\":", RETEX_EFORMAT, "no footprint and no mixture"},
+        {"", "\"mixtures\":[", "\"mixtures\":[],\"x\":[", RETEX_EFORMAT, "no footprint and no mixture"},
+        {"", "\"mixtures\":[", "\"mixtures\":[7,", RETEX_EFORMAT, "a mixture that is no list of at most 16"},
+        {"", "\"mixtures\":[", "\"mixtures\":[{},", RETEX_EFORMAT, "a mixture that is no list of at most 16"},
+        {"", "\"mixtures\":[", "\"mixtures\":[[],", RETEX_EINVAL, "1 to 16 shares, not 0"},
+        {"", "\"mixtures\":[[", "\"mixtures\":[[7,", RETEX_EFORMAT, "\"footprint\""},
+        {"", "\"mixtures\":[[", "\"mixtures\":[[1,2,3,4,5,6,7,8,9,10,11,12,13,14,15,", RETEX_EFORMAT,
+         "a mixture that is no list of at most 16"},
+        {"", "\"mixtures\":[", "\"mixtures\":[1,2,3,4,5,6,7,8,9,10,11,12,13,14,15,16,17,18,19,20,21,22,23,24,",
+         RETEX_EFORMAT, "no list \"mixtures\" of at most 25"},
+        {"\"mixtures\"", "\"footprint\":2", "\"footprint\":5", 0, ""},
+        {"\"mixtures\"", "\"footprint\":2", "\"footprint\":6", RETEX_EFORMAT, "\"footprint\" from 0 to 5"},
+        {"\"mixtures\"", "\"footprint\":2", "\"footprint\":-1", RETEX_EFORMAT, "\"footprint\""},
+        {"\"mixtures\"", "\"footprint\":2", "\"footprint\":2.5", RETEX_EFORMAT, "\"footprint\""},
+        {"\"mixtures\"", "\"footprint\":2", "\"x\":2", RETEX_EFORMAT, "\"footprint\""},
+        {"\"mixtures\"", "\"share-0\"", "\"depth\"", 0, ""},
+        {"\"mixtures\"", "\"share-0\"", "\"beauty\"", 0, ""}, /* colour by colour */
+        {"\"mixtures\"", "\"share-2\"", "\"depth\"", 0, ""},
+        {"\"mixtures\"", "\"share-0\"", "\"two\"", RETEX_EFORMAT, "2 channels instead of 1"},
+        {"\"mixtures\"", "\"share-2\"", "\"two\"", RETEX_EFORMAT, "2 channels instead of 1"},
+        {"\"mixtures\"", "\"share-0\"", "\"small\"", RETEX_EFORMAT, "\"weight\" a part of another size"},
+        {"\"mixtures\"", "\"share-2\"", "\"small-rgb\"", RETEX_EFORMAT, "\"weight\" a part of another size"},
+        {"\"mixtures\"", "\"share-0\"", "\"share-9\"", RETEX_EFORMAT, "\"weight\""},
+        {"\"mixtures\"", "\"share-0\"", "null", RETEX_EFORMAT, "\"weight\""},
+        {"\"mixtures\"", "\"weight\"", "\"x\"", RETEX_EFORMAT, "\"weight\""},
+        {"\"terms\"", "-1", "-2", 0, ""},
+        {"\"terms\"", "-1", "-3", RETEX_EFORMAT, "no footprint and no mixture"},
+        {"\"terms\"", "-1", "-2147483648", RETEX_EFORMAT, "no footprint and no mixture"},
+        {"\"terms\"", "-1", "-4294967297", RETEX_EFORMAT, "no footprint and no mixture"},
+        {"\"terms\"", "-1", "-1.0", RETEX_EFORMAT, "no footprint and no mixture"},
     };
     RetexSet *set = test_set(16, 16, 1);
     char *json;
     RetexError err = {0};
     test_make_footprints(set);
     test_must(retex_set_add_part(set, "small", "R", RETEX_HALF, 3, 2, NULL, &err), &err);
+    test_must(retex_set_add_part(set, "small-rgb", "RGB", RETEX_HALF, 3, 2, NULL, &err), &err);
+    test_must(retex_set_add_part(set, "two", "RG", RETEX_HALF, 0, 0, NULL, &err), &err);
     test_must(retex_set_manifest(set, NULL, &json, &err), &err);
     check_manifests(json, cases, sizeof cases / sizeof cases[0]);
     turn_inside_out(json);
     free(json);
-    /* nor is one written */
-    const RetexShare share = set->mixture[1];
-    set->mixture[1].weight = set->nparts;
-    assert_int_equal(retex_set_write(set, NULL, path, NULL, &err), RETEX_EINVAL);
-    set->mixture[1].weight = -1;
-    assert_int_equal(retex_set_write(set, NULL, path, NULL, &err), RETEX_EINVAL);
-    set->mixture[1] = share;
-    set->mixture[1].footprint = set->nfootprints;
-    assert_int_equal(retex_set_write(set, NULL, path, NULL, &err), RETEX_EINVAL);
-    set->mixture[1] = share;
-    set->nmixture = RETEX_MAX_TARGETS + 1;
-    assert_int_equal(retex_set_write(set, NULL, path, NULL, &err), RETEX_EINVAL);
-    set->nmixture = 2;
-    set->terms[1].nmixed = RETEX_MAX_FACTORS;
+    retex_set_close(&set);
+}
+
+/* Nor is one written. */
+static void test_mixtures_that_are_wrong(void **state)
+{
+    (void)state;
+    static const int nshares[] = {-1, 0, RETEX_SHARES_MAX + 1}, nmixtures[] = {-1, RETEX_MIXTURES_MAX + 1};
+    RetexSet *set = test_set(16, 16, 1);
+    RetexError err = {0};
+    test_make_footprints(set);
+    RetexMixture *mixture = &set->mixtures[1];
+    const RetexMixture kept = *mixture;
+    const int weights[] = {-1, set->nparts}, footprints[] = {-1, set->nfootprints};
+    for (int k = 0; k < 2; k++) {
+        mixture->shares[2].weight = weights[k];
+        assert_int_equal(retex_set_write(set, NULL, path, NULL, &err), RETEX_EINVAL);
+        *mixture = kept;
+        mixture->shares[2].footprint = footprints[k];
+        assert_int_equal(retex_set_write(set, NULL, path, NULL, &err), RETEX_EINVAL);
+        *mixture = kept;
+        set->nmixtures = nmixtures[k];
+        assert_int_equal(retex_set_write(set, NULL, path, NULL, &err), RETEX_EINVAL);
+        set->nmixtures = 2;
+    }
+    for (int k = 0; k < 3; k++) {
+        mixture->nshares = nshares[k];
+        assert_int_equal(retex_set_write(set, NULL, path, NULL, &err), RETEX_EINVAL);
+    }
+    *mixture = kept;
+    test_must(retex_set_write(set, NULL, path, NULL, &err), &err);
+    set->terms[1].nfactors = RETEX_MAX_FACTORS + 1;
     assert_int_equal(retex_set_write(set, NULL, path, NULL, &err), RETEX_EINVAL);
     retex_set_close(&set);
 }
@@ -619,11 +657,12 @@ static void test_what_is_no_set(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_set_there_and_back),     cmocka_unit_test(test_footprints_there_and_back),
-        cmocka_unit_test(test_samples_there_and_back), cmocka_unit_test(test_stream_through_a_pipe),
-        cmocka_unit_test(test_names_are_checked),      cmocka_unit_test(test_samples_of_another_set),
-        cmocka_unit_test(test_manifests_that_lie),     cmocka_unit_test(test_mixtures_that_lie),
-        cmocka_unit_test(test_damaged_files),          cmocka_unit_test(test_what_is_no_set),
+        cmocka_unit_test(test_set_there_and_back),      cmocka_unit_test(test_footprints_there_and_back),
+        cmocka_unit_test(test_samples_there_and_back),  cmocka_unit_test(test_stream_through_a_pipe),
+        cmocka_unit_test(test_names_are_checked),       cmocka_unit_test(test_samples_of_another_set),
+        cmocka_unit_test(test_manifests_that_lie),      cmocka_unit_test(test_mixtures_that_lie),
+        cmocka_unit_test(test_mixtures_that_are_wrong), cmocka_unit_test(test_damaged_files),
+        cmocka_unit_test(test_what_is_no_set),
     };
     return cmocka_run_group_tests(tests, make_path, remove_path);
 }

@@ -34,8 +34,14 @@ typedef struct EstimateWork {
     float *scratch; /* by thread: a row's derivatives, by footprint */
 } EstimateWork;
 
+/* Row of a factor's derivatives: footprints, then mixtures. */
+static size_t derivative_row(const RetexSet *set, int factor)
+{
+    return (size_t)(factor >= 0 ? factor : set->nfootprints + RETEX_MIXTURE(factor));
+}
+
 /* Add to the row's derivatives those of one term, and to its sum the term itself. */
-static void add_term(const Monomial *m, size_t first, size_t n, size_t stride, float *restrict sum,
+static void add_term(const RetexSet *set, const Monomial *m, size_t first, size_t n, float *restrict sum,
                      float *restrict derivatives)
 {
     for (size_t i = 0; i < n; i++) {
@@ -47,13 +53,35 @@ static void add_term(const Monomial *m, size_t first, size_t n, size_t stride, f
             for (int j = 0; j < m->nfactors; j++)
                 if (j != k)
                     others *= m->factors[j][first + i];
-            if (m->footprints[k] >= 0) /* mixtures scatter too, but carry little */
-                derivatives[(size_t)m->footprints[k] * stride + i] += others;
+            derivatives[derivative_row(set, m->footprints[k]) * n + i] += others;
         }
         for (int k = 0; k < m->nfactors; k++)
             radiance *= m->factors[k][first + i];
         sum[i] += radiance;
     }
+}
+
+/* A mixture's derivative belongs to its footprints, by their shares. */
+static void share_derivatives(const RetexSet *set, const RetexMixture *mixture, size_t first, size_t n,
+                              const float *restrict of_mixture, float *restrict derivatives)
+{
+    for (size_t i = 0; i < n; i++) {
+        float weights[RETEX_SHARES_MAX], sum = 0;
+        if (of_mixture[i] == 0)
+            continue;
+        for (int k = 0; k < mixture->nshares; k++) {
+            const RetexImage *image = &set->parts[mixture->shares[k].weight].image;
+            weights[k] = image->pixels[image->channels == 3 ? first + i : (first + i) / 3];
+            sum += weights[k];
+        }
+        for (int k = 0; k < mixture->nshares && sum > 0; k++)
+            derivatives[(size_t)mixture->shares[k].footprint * n + i] += of_mixture[i] * weights[k] / sum;
+    }
+}
+
+static size_t scratch_rows(const RetexSet *set)
+{
+    return 1 + (size_t)set->nfootprints + (size_t)set->nmixtures; /* the sum first */
 }
 
 static void estimate_row(const EstimateWork *work, int y, float *restrict scratch)
@@ -62,9 +90,12 @@ static void estimate_row(const EstimateWork *work, int y, float *restrict scratc
     const RetexRoi *roi = &work->roi;
     size_t first = 3 * ((size_t)y * (size_t)set->width + (size_t)roi->x0), n = 3 * (size_t)(roi->x1 - roi->x0);
     float *sum = scratch, *derivatives = scratch + n;
-    memset(scratch, 0, sizeof *scratch * n * ((size_t)set->nfootprints + 1));
+    memset(scratch, 0, sizeof *scratch * n * scratch_rows(set));
     for (int t = 0; t < work->polynomial.count; t++)
-        add_term(&work->polynomial.monomials[t], first, n, n, sum, derivatives);
+        add_term(set, &work->polynomial.monomials[t], first, n, sum, derivatives);
+    for (int m = 0; m < set->nmixtures; m++)
+        share_derivatives(set, &set->mixtures[m], first, n, derivatives + ((size_t)set->nfootprints + (size_t)m) * n,
+                          derivatives);
     for (size_t i = 0; i < n; i++)
         sum[i] = (float)set->folded * sum[i] * (float)set->folded * sum[i];
     for (int f = 0; f < set->nfootprints; f++) {
@@ -88,7 +119,7 @@ static void estimate_row(const EstimateWork *work, int y, float *restrict scratc
 static void estimate_job(void *context, int index, int thread)
 {
     const EstimateWork *work = context;
-    size_t room = 3 * (size_t)work->set->width * ((size_t)work->set->nfootprints + 1);
+    size_t room = 3 * (size_t)work->set->width * scratch_rows(work->set);
     int y = work->roi.y0 + index * ROWS_A_JOB;
     for (int k = 0; k < ROWS_A_JOB && y < work->roi.y1; k++, y++)
         estimate_row(work, y, work->scratch + room * (size_t)thread);
@@ -107,7 +138,7 @@ int retex_estimate_error(RetexImage *dst, const RetexSet *set, const RetexSample
     if (!code)
         code = retex_image_prepare(dst, set->width, set->height, 3, roi, &work.roi, err);
     nthreads = retex_threads(nthreads);
-    work.scratch = calloc((size_t)nthreads * 3 * (size_t)set->width * ((size_t)set->nfootprints + 1), sizeof(float));
+    work.scratch = calloc((size_t)nthreads * 3 * (size_t)set->width * scratch_rows(set), sizeof(float));
     if (!code && !work.scratch)
         code = retex_fail(err, RETEX_ENOMEM, "not enough memory to estimate the error");
     if (!code)

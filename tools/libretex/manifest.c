@@ -136,11 +136,18 @@ static json_t *write_term(const RetexSet *set, const RetexTerm *term)
 
     for (int i = 0; i < term->nfactors; i++)
         json_array_append_new(factors, json_integer(term->factors[i]));
-    json_t *json = json_pack("{s:s, s:o, s:o}", "kind", retex_term_kinds[term->kind], "radiance",
-                             part_name(set, term->radiance), "factors", factors);
-    if (term->nmixed)
-        json_object_set_new(json, "mixed", json_integer(term->nmixed));
-    return json;
+    return json_pack("{s:s, s:o, s:o}", "kind", retex_term_kinds[term->kind], "radiance",
+                     part_name(set, term->radiance), "factors", factors);
+}
+
+static json_t *write_mixture(const RetexSet *set, const RetexMixture *mixture)
+{
+    json_t *shares = json_array();
+
+    for (int i = 0; i < mixture->nshares; i++)
+        json_array_append_new(shares, json_pack("{s:i, s:o}", "footprint", mixture->shares[i].footprint, "weight",
+                                                part_name(set, mixture->shares[i].weight)));
+    return shares;
 }
 
 static json_t *write_part(const char *name, const char *letters, RetexPixelType type, const RetexImage *image,
@@ -176,10 +183,9 @@ static void write_set(json_t *root, const RetexSet *set, int *finite)
         const RetexPart *part = &set->parts[i];
         json_array_append_new(parts, write_part(part->name, part->letters, part->type, &part->image, part->crc));
     }
-    json_t *mixture = json_array();
-    for (int i = 0; i < set->nmixture; i++)
-        json_array_append_new(mixture, json_pack("{s:i, s:o}", "footprint", set->mixture[i].footprint, "weight",
-                                                 part_name(set, set->mixture[i].weight)));
+    json_t *mixtures = json_array();
+    for (int i = 0; i < set->nmixtures; i++)
+        json_array_append_new(mixtures, write_mixture(set, &set->mixtures[i]));
     json_object_set_new(root, "layout", text(set->layout));
     json_object_set_new(root, "filter", text(set->filter));
     json_object_set_new(root, "scene", text(set->scene));
@@ -194,7 +200,7 @@ static void write_set(json_t *root, const RetexSet *set, int *finite)
     json_object_set_new(root, "strict_paper", json_boolean(set->strict_paper));
     json_object_set_new(root, "targets", targets);
     json_object_set_new(root, "footprints", footprints);
-    json_object_set_new(root, "mixture", mixture);
+    json_object_set_new(root, "mixtures", mixtures);
     json_object_set_new(root, "terms", terms);
     json_object_set_new(root, "parts", parts);
 }

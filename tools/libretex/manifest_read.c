@@ -263,15 +263,11 @@ static void read_terms(Reading *reading, const json_t *root, RetexSet *set)
         for (int f = 0; f < term.nfactors; f++) {
             const json_t *value = json_array_get(factors, (size_t)f);
             const json_int_t factor = json_integer_value(value);
-            if (!json_is_integer(value) || factor < 0 || factor >= set->nfootprints)
-                bad(reading, RETEX_EFORMAT, "has a factor that is no footprint");
+            if (!json_is_integer(value) || factor < RETEX_MIXTURE(set->nmixtures - 1) || factor >= set->nfootprints)
+                bad(reading, RETEX_EFORMAT, "has a factor that is no footprint and no mixture");
             else
                 term.factors[f] = (int)factor;
         }
-        if (json_object_get(json, "mixed"))
-            term.nmixed = get_integer(reading, json, "mixed", 0, RETEX_MAX_FACTORS - term.nfactors);
-        if (term.nmixed && !set->nmixture)
-            bad(reading, RETEX_EFORMAT, "has a term with mixed factors but no \"mixture\"");
         if (reading->status)
             return;
         check_size(reading, set, term.radiance, "radiance");
@@ -280,21 +276,34 @@ static void read_terms(Reading *reading, const json_t *root, RetexSet *set)
     }
 }
 
-static void read_mixture(Reading *reading, const json_t *root, RetexSet *set)
+static void read_mixture(Reading *reading, const json_t *array, RetexSet *set)
 {
-    const json_t *array = json_object_get(root, "mixture");
+    RetexMixture mixture = {.nshares = (int)json_array_size(array)};
 
-    if (!array)
+    if (!json_is_array(array) || json_array_size(array) > RETEX_SHARES_MAX) {
+        bad(reading, RETEX_EFORMAT, "has a mixture that is no list of at most %d", RETEX_SHARES_MAX);
         return;
-    array = get_array(reading, root, "mixture", RETEX_MAX_TARGETS);
-    for (size_t i = 0; i < json_array_size(array) && !reading->status; i++) {
-        const json_t *json = json_array_get(array, i);
-        RetexShare *share = &set->mixture[i];
-        share->footprint = get_integer(reading, json, "footprint", 0, set->nfootprints - 1);
-        share->weight = get_part(reading, set, json, "weight", 1, 0);
-        check_size(reading, set, share->weight, "weight");
-        set->nmixture = (int)i + 1;
     }
+    for (int i = 0; i < mixture.nshares && !reading->status; i++) {
+        const json_t *json = json_array_get(array, (size_t)i);
+        const char *name = json_string_value(json_object_get(json, "weight"));
+        const int part = name ? retex_set_find_part(set, name) : -1;
+        mixture.shares[i].footprint = get_integer(reading, json, "footprint", 0, set->nfootprints - 1);
+        mixture.shares[i].weight =
+            get_part(reading, set, json, "weight", part >= 0 && set->parts[part].image.channels == 3 ? 3 : 1, 0);
+        check_size(reading, set, mixture.shares[i].weight, "weight");
+    }
+    if (!reading->status)
+        reading->status = retex_set_add_mixture(set, &mixture, NULL, reading->err);
+}
+
+static void read_mixtures(Reading *reading, const json_t *root, RetexSet *set)
+{
+    if (!json_object_get(root, "mixtures"))
+        return;
+    const json_t *array = get_array(reading, root, "mixtures", RETEX_MIXTURES_MAX);
+    for (size_t i = 0; i < json_array_size(array) && !reading->status; i++)
+        read_mixture(reading, json_array_get(array, i), set);
 }
 
 /* Eight hexadecimal digits. */
@@ -343,7 +352,7 @@ static void read_set(Reading *reading, const json_t *root, int width, int height
     if (!reading->status)
         read_footprints(reading, root, set);
     if (!reading->status)
-        read_mixture(reading, root, set);
+        read_mixtures(reading, root, set);
     if (!reading->status)
         read_terms(reading, root, set);
 }

@@ -29,46 +29,75 @@ static int is_left_out(const RetexTerm *term, int cross)
 void polynomial_close(Polynomial *polynomial)
 {
     free(polynomial->monomials);
-    retex_image_free(&polynomial->mixture);
+    for (int m = 0; m < polynomial->nmixtures; m++)
+        retex_image_free(&polynomial->mixtures[m]);
     *polynomial = (Polynomial){0};
 }
 
-/* The mean of the mixture's factors, weighted by their shares. */
-static int open_mixture(RetexImage *mixture, const RetexSet *set, const RetexSamples *samples, RetexError *err)
+/* Add a share's weights, and its texture times them. */
+static void add_share(float *restrict sum, float *restrict weights, const RetexImage *weight,
+                      const float *restrict factor, size_t pixels)
 {
-    int code = retex_image_alloc(mixture, set->width, set->height, 3, err);
-    for (int k = 0; k < set->nmixture && !code; k++) {
-        const float *factor = find_factor(set, samples, set->mixture[k].footprint);
-        const int part = set->mixture[k].weight;
-        const RetexImage *weight = part >= 0 && part < set->nparts ? &set->parts[part].image : NULL;
-        if (!factor || !weight || !weight->pixels || weight->channels != 1 || weight->width != set->width ||
-            weight->height != set->height)
-            return retex_fail(err, RETEX_EFORMAT, "the set's mixture lacks a footprint or its weight");
-        for (size_t i = 0; i < (size_t)set->width * (size_t)set->height; i++)
-            for (size_t c = 0; c < 3; c++)
-                mixture->pixels[3 * i + c] += weight->pixels[i] * factor[3 * i + c];
+    const float *w = weight->pixels;
+    size_t step = weight->channels == 3;
+    for (size_t i = 0; i < pixels; i++)
+        for (size_t c = 0; c < 3; c++) {
+            float share = w[step ? 3 * i + c : i];
+            weights[3 * i + c] += share;
+            sum[3 * i + c] += share * factor[3 * i + c];
+        }
+}
+
+/* A colour that has no weight takes the mean of those that have. */
+static void divide(float *restrict sum, const float *restrict weights, size_t pixels)
+{
+    for (size_t i = 0; i < pixels; i++, sum += 3, weights += 3) {
+        float all = weights[0] + weights[1] + weights[2], mean = all > 0 ? (sum[0] + sum[1] + sum[2]) / all : 0;
+        for (int c = 0; c < 3; c++)
+            sum[c] = weights[c] > 0 ? sum[c] / weights[c] : mean;
     }
+}
+
+static int open_mixture(RetexImage *image, const RetexSet *set, const RetexSamples *samples,
+                        const RetexMixture *mixture, RetexError *err)
+{
+    size_t pixels = (size_t)set->width * (size_t)set->height;
+    RetexImage weights = {0};
+    int code = retex_image_alloc(image, set->width, set->height, 3, err);
+    if (!code)
+        code = retex_image_alloc(&weights, set->width, set->height, 3, err);
+    for (int k = 0; k < mixture->nshares && !code; k++) {
+        const float *factor = find_factor(set, samples, mixture->shares[k].footprint);
+        const int part = mixture->shares[k].weight;
+        const RetexImage *weight = part >= 0 && part < set->nparts ? &set->parts[part].image : NULL;
+        if (factor && weight && weight->pixels && weight->width == set->width && weight->height == set->height &&
+            (weight->channels == 1 || weight->channels == 3))
+            add_share(image->pixels, weights.pixels, weight, factor, pixels);
+        else
+            code = retex_fail(err, RETEX_EFORMAT, "a mixture of the set lacks a footprint or its weight");
+    }
+    if (!code)
+        divide(image->pixels, weights.pixels, pixels);
+    retex_image_free(&weights);
     return code;
 }
 
 /* One term with its images; returns 0 where some are missing. */
-static int find_monomial(Monomial *m, const RetexSet *set, const RetexSamples *samples, const RetexTerm *term,
-                         const RetexImage *mixture)
+static int find_monomial(Monomial *m, const Polynomial *polynomial, const RetexSet *set, const RetexSamples *samples,
+                         const RetexTerm *term)
 {
     m->radiance = find_pixels(set, term->radiance);
-    int complete = m->radiance && term->nfactors >= 0 && term->nmixed >= 0 && term->nfactors <= RETEX_MAX_FACTORS &&
-                   term->nmixed <= RETEX_MAX_FACTORS - term->nfactors && (!term->nmixed || mixture->pixels);
+    m->nfactors = term->nfactors;
+    int complete = m->radiance && term->nfactors >= 0 && term->nfactors <= RETEX_MAX_FACTORS;
     for (int k = 0; complete && k < term->nfactors; k++) {
-        m->footprints[k] = term->factors[k];
-        m->factors[k] = find_factor(set, samples, term->factors[k]);
+        int factor = m->footprints[k] = term->factors[k], mixture = RETEX_MIXTURE(factor);
+        if (factor < 0)
+            m->factors[k] = mixture < polynomial->nmixtures ? polynomial->mixtures[mixture].pixels : NULL;
+        else
+            m->factors[k] = find_factor(set, samples, factor);
         complete = m->factors[k] != NULL;
     }
-    if (!complete)
-        return 0;
-    m->nfactors = term->nfactors + term->nmixed;
-    for (int k = term->nfactors; k < m->nfactors; k++)
-        m->footprints[k] = -1, m->factors[k] = mixture->pixels;
-    return 1;
+    return complete;
 }
 
 int polynomial_open(Polynomial *polynomial, const RetexSet *set, const RetexSamples *samples,
@@ -85,13 +114,15 @@ int polynomial_open(Polynomial *polynomial, const RetexSet *set, const RetexSamp
     polynomial->monomials = calloc((size_t)set->nterms + 1, sizeof *polynomial->monomials);
     if (!polynomial->monomials)
         return retex_fail(err, RETEX_ENOMEM, "not enough memory for %d terms", set->nterms);
-    if (set->nmixture > 0)
-        code = open_mixture(&polynomial->mixture, set, samples, err);
+    for (int m = 0; m < set->nmixtures && m < RETEX_MIXTURES_MAX && !code; m++) {
+        polynomial->nmixtures = m + 1;
+        code = open_mixture(&polynomial->mixtures[m], set, samples, &set->mixtures[m], err);
+    }
     for (int i = 0; i < set->nterms && !code; i++) {
         if (is_left_out(&set->terms[i], cross))
             continue;
         Monomial *m = &polynomial->monomials[polynomial->count++];
-        if (!find_monomial(m, set, samples, &set->terms[i], &polynomial->mixture))
+        if (!find_monomial(m, polynomial, set, samples, &set->terms[i]))
             code = retex_fail(err, RETEX_EFORMAT, "term %d of the set lacks its radiance or one of its footprints", i);
     }
     if (code)

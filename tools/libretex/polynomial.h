@@ -14,7 +14,8 @@ typedef struct Monomial {
 typedef struct Polynomial {
     Monomial *monomials;
     int count;
-    RetexImage mixture; /* the set's mixture, if it has one; its factors have no footprint (-1) */
+    int nmixtures;
+    RetexImage mixtures[RETEX_MIXTURES_MAX]; /* the set's; their factors' footprints are RETEX_MIXTURE(index) */
 } Polynomial;
 
 /* The terms that params ask for (NULL = defaults). samples may be NULL. Borrows the pixels of both. */

@@ -130,14 +130,16 @@ int retex_set_add_term(RetexSet *set, const RetexTerm *term, int *index, RetexEr
 {
     if (term->kind < RETEX_TERM_FULL || term->kind > RETEX_TERM_CROSS3)
         return retex_fail(err, RETEX_EINVAL, "the term is of no known kind (%d)", (int)term->kind);
-    const int most = RETEX_MAX_FACTORS;
-    if (term->nfactors < 0 || term->nmixed < 0 || term->nfactors > most || term->nmixed > most - term->nfactors)
-        return retex_fail(err, RETEX_EINVAL, "a term has 0 to %d factors, not %d and %d mixed ones", most,
-                          term->nfactors, term->nmixed);
-    for (int i = 0; i < term->nfactors; i++)
-        if (term->factors[i] < 0 || term->factors[i] >= set->nfootprints)
-            return retex_fail(err, RETEX_EINVAL, "a factor refers to footprint %d of %d", term->factors[i],
-                              set->nfootprints);
+    if (term->nfactors < 0 || term->nfactors > RETEX_MAX_FACTORS)
+        return retex_fail(err, RETEX_EINVAL, "a term has 0 to %d factors, not %d", RETEX_MAX_FACTORS, term->nfactors);
+    for (int i = 0; i < term->nfactors; i++) {
+        const int factor = term->factors[i];
+        if (factor >= set->nfootprints)
+            return retex_fail(err, RETEX_EINVAL, "a factor refers to footprint %d of %d", factor, set->nfootprints);
+        if (factor < 0 && RETEX_MIXTURE(factor) >= set->nmixtures)
+            return retex_fail(err, RETEX_EINVAL, "a factor refers to mixture %d of %d", RETEX_MIXTURE(factor),
+                              set->nmixtures);
+    }
     int status = check_part(set, term->radiance, 3, 0, "a term's radiance", err);
     if (!status)
         status = make_room((void **)&set->terms, set->nterms, sizeof *set->terms, RETEX_SET_TERMS_MAX, "terms", err);
@@ -146,6 +148,28 @@ int retex_set_add_term(RetexSet *set, const RetexTerm *term, int *index, RetexEr
     if (index)
         *index = set->nterms;
     set->terms[set->nterms++] = *term;
+    return 0;
+}
+
+int retex_set_add_mixture(RetexSet *set, const RetexMixture *mixture, int *index, RetexError *err)
+{
+    if (set->nmixtures == RETEX_MIXTURES_MAX)
+        return retex_fail(err, RETEX_ELIMIT, "a set has at most %d mixtures", RETEX_MIXTURES_MAX);
+    if (mixture->nshares < 1 || mixture->nshares > RETEX_SHARES_MAX)
+        return retex_fail(err, RETEX_EINVAL, "a mixture has 1 to %d shares, not %d", RETEX_SHARES_MAX,
+                          mixture->nshares);
+    for (int i = 0; i < mixture->nshares; i++) {
+        const int footprint = mixture->shares[i].footprint, weight = mixture->shares[i].weight;
+        if (footprint < 0 || footprint >= set->nfootprints)
+            return retex_fail(err, RETEX_EINVAL, "a mixture refers to footprint %d of %d", footprint, set->nfootprints);
+        const int colored = weight >= 0 && weight < set->nparts && strlen(set->parts[weight].letters) == 3;
+        const int status = check_part(set, weight, colored ? 3 : 1, 0, "a mixture's weight", err);
+        if (status)
+            return status;
+    }
+    if (index)
+        *index = set->nmixtures;
+    set->mixtures[set->nmixtures++] = *mixture;
     return 0;
 }
 

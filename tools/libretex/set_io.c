@@ -45,8 +45,9 @@ static void choose_parts(const RetexSet *set, const RetexSamples *samples, char 
     kept[0] = 1;
     for (int i = 0; i < set->nterms; i++)
         kept[set->terms[i].radiance] = 1;
-    for (int i = 0; i < set->nmixture; i++)
-        kept[set->mixture[i].weight] = 1;
+    for (int i = 0; i < set->nmixtures; i++)
+        for (int k = 0; k < set->mixtures[i].nshares; k++)
+            kept[set->mixtures[i].shares[k].weight] = 1;
     for (int i = 0; i < set->nfootprints; i++) {
         const int parts[3] = {set->footprints[i].albedo, set->footprints[i].uv, set->footprints[i].spread};
         for (int k = 0; k < 3 && !samples->images[i].pixels; k++)
@@ -97,14 +98,24 @@ static int view_make(View *view, const RetexSet *set, const RetexSamples *sample
         view->set.terms[i] = set->terms[i];
         view->set.terms[i].radiance = place[set->terms[i].radiance];
     }
-    for (int i = 0; i < set->nmixture; i++)
-        view->set.mixture[i].weight = place[set->mixture[i].weight];
+    for (int i = 0; i < set->nmixtures; i++)
+        for (int k = 0; k < set->mixtures[i].nshares; k++)
+            view->set.mixtures[i].shares[k].weight = place[set->mixtures[i].shares[k].weight];
     return 0;
 }
 
 static int part_in_range(const RetexSet *set, int part, int optional)
 {
     return (part >= 0 && part < set->nparts) || (optional && part == -1);
+}
+
+static int mixture_is_sound(const RetexSet *set, const RetexMixture *mixture)
+{
+    int sound = mixture->nshares >= 1 && mixture->nshares <= RETEX_SHARES_MAX;
+    for (int k = 0; k < mixture->nshares && sound; k++)
+        sound = part_in_range(set, mixture->shares[k].weight, 0) && mixture->shares[k].footprint >= 0 &&
+                mixture->shares[k].footprint < set->nfootprints;
+    return sound;
 }
 
 /* Everything about a set that others may have filled in by hand. */
@@ -127,12 +138,10 @@ static int check_set(const RetexSet *set, RetexError *err)
     for (int i = 0; i < set->nterms && sound; i++)
         sound = part_in_range(set, set->terms[i].radiance, 0) && set->terms[i].kind >= RETEX_TERM_FULL &&
                 set->terms[i].kind <= RETEX_TERM_CROSS3 && set->terms[i].nfactors >= 0 &&
-                set->terms[i].nfactors <= RETEX_MAX_FACTORS && set->terms[i].nmixed >= 0 &&
-                set->terms[i].nmixed <= RETEX_MAX_FACTORS - set->terms[i].nfactors;
-    sound = sound && set->nmixture >= 0 && set->nmixture <= RETEX_MAX_TARGETS;
-    for (int i = 0; i < set->nmixture && sound; i++)
-        sound = part_in_range(set, set->mixture[i].weight, 0) && set->mixture[i].footprint >= 0 &&
-                set->mixture[i].footprint < set->nfootprints;
+                set->terms[i].nfactors <= RETEX_MAX_FACTORS;
+    sound = sound && set->nmixtures >= 0 && set->nmixtures <= RETEX_MIXTURES_MAX;
+    for (int i = 0; i < set->nmixtures && sound; i++)
+        sound = mixture_is_sound(set, &set->mixtures[i]);
     return sound ? 0 : retex_fail(err, RETEX_EINVAL, "the set refers to parts it does not have");
 }
 

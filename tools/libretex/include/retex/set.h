@@ -25,6 +25,8 @@ extern "C" {
 #define RETEX_MAX_TARGETS 8
 #define RETEX_MAX_ORDERS 6    /* hits of one target that a path keeps apart */
 #define RETEX_MAX_FACTORS 12  /* hits of all targets together */
+#define RETEX_MIXTURES_MAX (3 * RETEX_MAX_TARGETS + 1)
+#define RETEX_SHARES_MAX 16
 #define RETEX_NAME_MAX 128    /* bytes of a target or part name, with the final NUL */
 
 typedef enum RetexPixelType { RETEX_HALF, RETEX_FLOAT } RetexPixelType;
@@ -57,7 +59,7 @@ typedef enum RetexFootprintKind {
     RETEX_FOOTPRINT_HIT,   /* layout paper: the j-th hit of the target along the path */
     RETEX_FOOTPRINT_SHARP, /* layout footprints: met first, seen directly, in mirrors or through glass */
     RETEX_FOOTPRINT_BROAD, /* met first, by light scattered widely before */
-    RETEX_FOOTPRINT_LATER  /* all hits after the first one, pooled */
+    RETEX_FOOTPRINT_LATER  /* hits after the first one, pooled into two */
 } RetexFootprintKind;
 
 typedef struct RetexFootprint {
@@ -65,8 +67,8 @@ typedef struct RetexFootprint {
     int hit;                 /* its number among the target's, from 1; layout paper: the how-manieth hit it is of */
     RetexFootprintKind kind;
     int uv;                  /* part "RGA": mean u, mean v, and coverage: the share of samples with a connection, of
-                                clusters that of the effective ones, (sum of weights)^2 / sum of squares; 0 = this
-                                pixel has no such footprint and u, v mean nothing. float */
+                                layout footprints that of the effective ones, (sum of weights)^2 / sum of squares;
+                                0 = this pixel has no such footprint and u, v mean nothing. float */
     int spread;              /* part "RG": standard deviation of u and of v, or "RGB": also their correlation. half */
     int albedo;              /* part "RGB": mean original albedo, weighted by the light it multiplies. half */
 } RetexFootprint;
@@ -83,15 +85,21 @@ typedef struct RetexTerm {
     RetexTermKind kind;
     int radiance;      /* part "RGB". half */
     int nfactors;      /* 0..RETEX_MAX_FACTORS */
-    int factors[RETEX_MAX_FACTORS]; /* indices of footprints, one for each factor */
-    int nmixed;        /* and so many times the set's mixture; nfactors + nmixed <= RETEX_MAX_FACTORS */
+    int factors[RETEX_MAX_FACTORS]; /* of each the index of a footprint, or RETEX_MIXTURE(index of a mixture) */
 } RetexTerm;
 
-/* Of a mixture: the mean of several footprints' textures, each weighted by how often light met it. */
-typedef struct RetexShare {
-    int footprint;
-    int weight;        /* part "R": 0..1, of all shares together 1, or all 0. half */
-} RetexShare;
+#define RETEX_MIXTURE(m) (-1 - (m)) /* and back */
+
+/* The mean of several footprints' textures, pixel by pixel: sum of weights times textures over the sum of weights. A
+ * colour that has no weight takes the mean of those that have; 0 where none has. It stands for hits that are not kept
+ * apart: of all clusters of a kind, of several later ones, or of several targets. */
+typedef struct RetexMixture {
+    int nshares;
+    struct RetexShare {
+        int footprint;
+        int weight;    /* part "R", or "RGB": colour by colour. Not negative. half */
+    } shares[RETEX_SHARES_MAX];
+} RetexMixture;
 
 typedef struct RetexSet {
     int width, height;
@@ -111,8 +119,8 @@ typedef struct RetexSet {
     RetexFootprint *footprints;
     RetexTerm *terms;
     RetexPart *parts;      /* parts[0] is the beauty */
-    int nmixture;
-    RetexShare mixture[RETEX_MAX_TARGETS]; /* stands for hits too many to be kept in all combinations of targets */
+    int nmixtures;
+    RetexMixture mixtures[RETEX_MIXTURES_MAX];
 } RetexSet;
 
 /* The textures filtered at a set's footprints: image i belongs to footprint i and is RGB of the set's size, or
@@ -135,6 +143,7 @@ void retex_set_close(RetexSet **set); /* NULL and pointers to NULL are fine */
 int retex_set_add_part(RetexSet *set, const char *name, const char *letters, RetexPixelType type, int width, int height,
                        int *index, RetexError *err);
 int retex_set_add_footprint(RetexSet *set, const RetexFootprint *footprint, int *index, RetexError *err);
+int retex_set_add_mixture(RetexSet *set, const RetexMixture *mixture, int *index, RetexError *err);
 int retex_set_add_term(RetexSet *set, const RetexTerm *term, int *index, RetexError *err);
 /* Give the set an id made from its beauty's pixels: the renderer's last step. */
 void retex_set_identify(RetexSet *set);
