@@ -82,7 +82,7 @@ bench: $(BUILD)/tests/bench/bench
 # Retextures against rendering again, in all scenes: docs/fidelity.md. Takes hours; FIDELITY_… of the script choose less.
 .PHONY: fidelity
 fidelity: all fidelity-textures
-	@BUILD=$(BUILD) tests/fidelity/table.sh
+	@BUILD=$(BUILD) tests/fidelity/table/run.sh
 
 # How another method fares: DIR holds its pictures SCENE-TEXTURE.png; the truths are the fidelity run's.
 .PHONY: compare-external

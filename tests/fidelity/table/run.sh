@@ -150,5 +150,5 @@ table=$work/fidelity.csv
 mv "$table.new" "$table"
 if [ -z "${FIDELITY_SCENES:-}${FIDELITY_SPP:-}${FIDELITY_SIZE:-}${FIDELITY_TRUTH_SPP:-}" ]; then
     cp "$table" docs/fidelity.csv
-    awk -f "$here/report.awk" -v size="$size" -v truth="$truth_spp" "$table" >docs/fidelity.md
+    awk -f "$here/table/report.awk" -v size="$size" -v truth="$truth_spp" "$table" >docs/fidelity.md
 fi
