@@ -32,9 +32,32 @@ END {
                 }
             if (all) printf "| %d | %s | %+.2f dB | %+.2f dB | %s |\n", count[c], method[m], sum / all, worst, where
         }
-    print "\n`footprints` keeps 3 sharp and 1 broad cluster a pixel and target, the default; `footprints-8` 6 and 2"
-    print "(`--clusters 8`). `paper-cross-2` leaves the cross terms of three hits out, `paper-cross-0` all of them"
+    print "\n`footprints` keeps 4 clusters a pixel and target, the default; `footprints-8` 8 (`--clusters 8`)."
+    print "`paper-cross-2` leaves the cross terms of three hits out, `paper-cross-0` all of them"
     print "(`retex-combine --cross`)."
+    print "\nMean gap by scene, and in brackets the mean PSNR of rendering again:\n"
+    line = "| scene |"; rule = "|---|"
+    for (c = 1; c <= counts; c++) {
+        line = line " footprints, " count[c] " | footprints-8 | paper |"
+        rule = rule "---|---|---|"
+    }
+    print line "\n" rule
+    split("footprints footprints-8 paper", column, " ")
+    for (s = 1; s <= scenes; s++) {
+        line = "| " scene[s] " |"
+        for (c = 1; c <= counts; c++)
+            for (m = 1; m <= 3; m++) {
+                sum = all = again = 0
+                for (t = 1; t <= textures; t++)
+                    if ((scene[s], texture[t], count[c], column[m]) in value) {
+                        sum += gap(scene[s], texture[t], count[c], column[m])
+                        again += value[scene[s], texture[t], count[c], "again"]
+                        all++
+                    }
+                line = line sprintf(m == 1 ? " %+.2f (%.1f) |" : " %+.2f |", sum / all, again / all)
+            }
+        print line
+    }
     for (s = 1; s <= scenes; s++) {
         print "\n## " scene[s] "\n"
         line = "| texture |"; rule = "|---|"
@@ -44,6 +67,7 @@ END {
         }
         print line "\n" rule
         for (t = 1; t <= textures; t++) {
+            if (!((scene[s], texture[t], count[1], "again") in value)) continue
             line = "| " texture[t] " |"
             for (c = 1; c <= counts; c++) {
                 line = line sprintf(" %.2f |", value[scene[s], texture[t], count[c], "again"])
