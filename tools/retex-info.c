@@ -100,7 +100,7 @@ static void print_target(const RetexSet *set, const RetexTarget *target)
                target->original_max[0], target->original_max[1]);
 }
 
-/* Of layout footprints: how many clusters the first target has; all have as many. */
+/* Of layout footprints: how many clusters a pixel of the first target has at most. */
 static void print_clusters(const RetexSet *set)
 {
     int sharp = 0, broad = 0;

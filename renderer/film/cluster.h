@@ -1,4 +1,4 @@
-/* Clusters of weighted UVs that merge by Ward's rule. */
+/* Clusters of weighted UVs, and what merging them costs. */
 #ifndef RENDERER_FILM_CLUSTER_H
 #define RENDERER_FILM_CLUSTER_H
 
