@@ -1,0 +1,43 @@
+/* The images of layout `footprints`: filled in footprints.c, moved into a set in footprints_finish.c. */
+#ifndef RENDERER_FILM_FOOTPRINT_IMAGES_H
+#define RENDERER_FILM_FOOTPRINT_IMAGES_H
+
+#include "film/footprints.h"
+#include "film/plan.h"
+
+#define LATER_COUNT 2 /* footprints of further hits, a target */
+
+/* Images of one footprint. */
+typedef struct FootprintImages {
+    RetexImage uv, spread, albedo;
+    RetexImage light; /* of clusters */
+    RetexImage share; /* in the light of its mixture */
+} FootprintImages;
+
+/* Images of the clusters of one kind on a target. */
+typedef struct KindImages {
+    FootprintImages of[FILM_CLUSTERS_MAX];
+    RetexImage again[PLAN_COEFFICIENTS_MAX];
+} KindImages;
+
+/* Images of a target. */
+typedef struct TargetImages {
+    KindImages kinds[2]; /* sharp, broad */
+    FootprintImages later[LATER_COUNT];
+} TargetImages;
+
+struct FootprintFilm {
+    const Scene *scene;
+    FilmParams params;
+    Plan plan;
+    RetexImage free; /* C0 */
+    TargetImages *targets;
+};
+
+/* Clusters that a pixel may have: of what is seen sharply (kind 0), or of the rest (1). */
+static inline int most_of_kind(const FilmParams *p, int kind)
+{
+    return kind ? p->broad : p->sharp;
+}
+
+#endif
