@@ -1,5 +1,5 @@
-/* From the images of layout `footprints` to the parts, footprints, mixtures and terms of a set. What no pixel has is left
- * out. */
+/* From the images of layout `footprints` to the parts, footprints, mixtures and terms of a set. What no pixel has is
+ * left out. */
 #include <limits.h>
 #include <stdio.h>
 #include "film/footprint_images.h"
