@@ -1,6 +1,8 @@
 /* What the unit tests share: see lib_test.h. */
 #include "lib_test.h"
 
+#include <math.h>
+
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -25,4 +27,12 @@ void test_random_image(RetexImage *im, int width, int height, int channels, uint
     test_must(retex_image_alloc(im, width, height, channels, &err), &err);
     for (size_t i = 0; i < (size_t)width * (size_t)height * (size_t)channels; i++)
         im->pixels[i] = (float)(low + (high - low) * test_random(&seed));
+}
+
+void test_turned_covariance(double covariance[3], double longer, double shorter, double angle)
+{
+    double c = cos(angle), s = sin(angle);
+    covariance[0] = c * c * longer * longer + s * s * shorter * shorter;
+    covariance[1] = c * s * (longer * longer - shorter * shorter);
+    covariance[2] = s * s * longer * longer + c * c * shorter * shorter;
 }

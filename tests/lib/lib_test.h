@@ -15,6 +15,9 @@ double test_random(uint32_t *state);
 /* Allocate a picture of values uniform in [low, high). */
 void test_random_image(RetexImage *im, int width, int height, int channels, uint32_t seed, double low, double high);
 
+/* Covariance {uu, uv, vv} of a footprint with those standard deviations, its longer axis turned by angle (radians). */
+void test_turned_covariance(double covariance[3], double longer, double shorter, double angle);
+
 /* A set of layout paper as a render would leave it, small but with everything in it: two targets ('Floor', a periodic
  * 'Wall'), three hits each, all kinds of terms, an AOV; radiance of five decades with black parts, UV gradients, no
  * coverage along one side. The same seed gives the same set. */

@@ -32,15 +32,6 @@ static RetexTexture *random_texture(int width, int height, int channels, uint32_
     return texture;
 }
 
-/* Covariance of a footprint with those standard deviations, in repeats, its longer axis turned by angle. */
-static void set_covariance(double covariance[3], double longer, double shorter, double angle)
-{
-    double c = cos(angle), s = sin(angle);
-    covariance[0] = c * c * longer * longer + s * s * shorter * shorter;
-    covariance[1] = c * s * (longer * longer - shorter * shorter);
-    covariance[2] = s * s * longer * longer + c * c * shorter * shorter;
-}
-
 /* The scalar reference: the integral over the footprint, 5 standard deviations each way, of the point look-up. */
 static void integrate(const RetexTexture *texture, double u, double v, const double covariance[3], int steps,
                       double rgba[4])
@@ -132,7 +123,7 @@ static void test_transform(void **state)
         retex_texture_point(plain, tu, tv, b);
         for (int k = 0; k < 4; k++)
             assert_float_equal(a[k], b[k], 1e-5);
-        set_covariance(cov, longer, 0.3 * longer, angle);
+        test_turned_covariance(cov, longer, 0.3 * longer, angle);
         double m[2][2] = {{2 * c, 3 * s}, {2 * s, -3 * c}};
         tcov[0] = m[0][0] * m[0][0] * cov[0] + 2 * m[0][0] * m[0][1] * cov[1] + m[0][1] * m[0][1] * cov[2];
         tcov[1] =
@@ -213,7 +204,7 @@ static void test_integral(void **state)
                        cov[3];
                 double u = 1.4 * test_random(&seed) - 0.2, v = 1.4 * test_random(&seed) - 0.2, want[4];
                 float got[4];
-                set_covariance(cov, longer, shorter, M_PI * test_random(&seed));
+                test_turned_covariance(cov, longer, shorter, M_PI * test_random(&seed));
                 retex_texture_gaussian(t, u, v, cov, got);
                 integrate(t, u, v, cov, 200, want);
                 for (int k = 0; k < 4; k++) {
@@ -282,7 +273,7 @@ static void measure_variance(int width, int height, double most_aspect, double *
         double angle = M_PI * test_random(&seed), longer = shorter * aspect, cov[3], uvcov[3];
         if (longer > 0.2 * smaller)
             longer = 0.2 * smaller;
-        set_covariance(cov, longer, shorter, angle);
+        test_turned_covariance(cov, longer, shorter, angle);
         uvcov[0] = cov[0] / width / width;
         uvcov[1] = cov[1] / width / height;
         uvcov[2] = cov[2] / height / height;
@@ -413,7 +404,7 @@ static void test_speed(void **state)
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         double cov[3], seconds;
         float p[4], sum = 0;
-        set_covariance(cov, cases[i].longer / 1024, cases[i].shorter / 1024, cases[i].angle);
+        test_turned_covariance(cov, cases[i].longer / 1024, cases[i].shorter / 1024, cases[i].angle);
         clock_t began = clock();
         for (int k = 0; k < 200000; k++) {
             retex_texture_gaussian(t, (k % 640) / 640.0, (k / 640) / 480.0, cov, p);

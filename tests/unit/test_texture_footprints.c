@@ -25,15 +25,6 @@ static RetexTexture *random_texture(int width, int height, uint32_t seed, int wr
     return texture;
 }
 
-/* Covariance of a footprint with those standard deviations, its longer axis turned by angle. */
-static void set_covariance(double covariance[3], double longer, double shorter, double angle)
-{
-    double c = cos(angle), s = sin(angle);
-    covariance[0] = c * c * longer * longer + s * s * shorter * shorter;
-    covariance[1] = c * s * (longer * longer - shorter * shorter);
-    covariance[2] = s * s * longer * longer + c * c * shorter * shorter;
-}
-
 /* ---- the kernel's covariance ---- */
 
 /* Pictures of x, y, x^2 and of xy, y^2, in texels from the middle, y up. */
@@ -99,7 +90,7 @@ static void measure(const Moments *m, int disc, double x, double y, double longe
     Filter *filter = disc ? retex_texture_disc : retex_texture_gaussian;
     double cov[3], uv[3], w = m->width, h = m->height;
     float p[4], q[4];
-    set_covariance(cov, longer, shorter, angle);
+    test_turned_covariance(cov, longer, shorter, angle);
     uv[0] = cov[0] / (w * w);
     uv[1] = cov[1] / (w * h);
     uv[2] = cov[2] / (h * h);
@@ -197,7 +188,7 @@ static void test_disc_integral(void **state)
             double longer = 0.3 * pow(80, test_random(&seed)), shorter = longer * pow(8, -test_random(&seed)), cov[3];
             double u = 1.4 * test_random(&seed) - 0.2, v = 1.4 * test_random(&seed) - 0.2, want[4];
             float got[4];
-            set_covariance(cov, longer, shorter, M_PI * test_random(&seed));
+            test_turned_covariance(cov, longer, shorter, M_PI * test_random(&seed));
             cov[0] /= size[0] * size[0];
             cov[1] /= size[0] * size[1];
             cov[2] /= size[1] * size[1];
@@ -439,7 +430,7 @@ static void test_uncut(void **state)
         for (int i = 0; i < 200; i++) {
             double longer = 0.3 * pow(200, -test_random(&seed)), cov[3], p[2];
             float x[4], y[4];
-            set_covariance(cov, longer, longer * pow(10, -test_random(&seed)), M_PI * test_random(&seed));
+            test_turned_covariance(cov, longer, longer * pow(10, -test_random(&seed)), M_PI * test_random(&seed));
             for (int axis = 0; axis < 2; axis++) { /* windows reach 3.25 standard deviations and some texels */
                 double margin = turned ? 0 : 4.5 * longer + 0.3;
                 p[axis] = -0.25 + margin + (1.75 - 2 * margin) * test_random(&seed);
@@ -480,7 +471,7 @@ static void test_speed(void **state)
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         double cov[3], rate[2];
         float p[4];
-        set_covariance(cov, cases[i].longer / 1024, cases[i].shorter / 1024, cases[i].angle);
+        test_turned_covariance(cov, cases[i].longer / 1024, cases[i].shorter / 1024, cases[i].angle);
         for (int disc = 0; disc < 2; disc++) {
             Filter *filter = disc ? retex_texture_disc : retex_texture_gaussian;
             clock_t began = clock();

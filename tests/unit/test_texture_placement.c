@@ -19,14 +19,6 @@ static RetexTexture *create(const RetexImage *im, const RetexTextureSpec *spec)
     return texture;
 }
 
-static void set_covariance(double covariance[3], double longer, double shorter, double angle)
-{
-    double c = cos(angle), s = sin(angle);
-    covariance[0] = c * c * longer * longer + s * s * shorter * shorter;
-    covariance[1] = c * s * (longer * longer - shorter * shorter);
-    covariance[2] = s * s * longer * longer + c * c * shorter * shorter;
-}
-
 static void map_covariance(double out[3], const Map *map, const double c[3])
 {
     const double(*m)[2] = map->m;
@@ -52,7 +44,7 @@ static void compare(const RetexTexture *edited, const RetexTexture *plain, const
         double tu = map->m[0][0] * u + map->m[0][1] * v + map->offset[0];
         double tv = map->m[1][0] * u + map->m[1][1] * v + map->offset[1];
         float a[4], b[4];
-        set_covariance(cov, longer, longer * pow(6, -test_random(&seed)), angle);
+        test_turned_covariance(cov, longer, longer * pow(6, -test_random(&seed)), angle);
         map_covariance(moved, map, cov);
         retex_texture_point(edited, u, v, a);
         retex_texture_point(plain, tu, tv, b);
