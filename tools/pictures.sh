@@ -1,13 +1,13 @@
 #!/bin/sh
 # make pictures: the pictures of the README, made by the tools, into docs/pictures. pictures.sh BUILD. Takes some minutes a
-# scene; PICTURES_SPP (default 256) sets the samples a pixel.
+# scene; PICTURES_SPP (default 192) sets the samples a pixel.
 set -eu
 here=$(pwd)
 case $1 in /*) build=$1 ;; *) build=$here/$1 ;; esac
 PATH=$build/bin:$PATH
 out=$here/docs/pictures
 sets=$build/pictures
-spp=${PICTURES_SPP:-256}
+spp=${PICTURES_SPP:-192}
 textures=$here/scenes/textures
 mkdir -p "$out" "$sets"
 

@@ -9,8 +9,8 @@
 #define PARTS_MAX 1500 /* of a set, with room for its beauty, originals and AOVs */
 /* What an unknown texture is taken for where its hit only weighs another's. */
 #define UNKNOWN_ALBEDO 0.5f
-#define LEAST_ALBEDO 1e-3f
-#define AGAIN_WEIGHT 1e-3f
+#define LEAST_ALBEDO 1e-3f /* of other hits, where originals are averaged: a black one may be the one that is edited */
+#define AGAIN_WEIGHT 1e-3f /* in a cluster's albedo, of light that goes on to targets */
 #define SHARE_STEP (1.0 / 512)
 #define LEAST_SHARE 1e-5f /* of further hits: a half holds it */
 /* White paint. */
