@@ -197,6 +197,7 @@ static void write_set(json_t *root, const RetexSet *set, int *finite)
     json_object_set_new(root, "id", identity(set->id));
     json_object_set_new(root, "folded", real(set->folded, finite));
     json_object_set_new(root, "folded_white", real(set->folded_white, finite));
+    json_object_set_new(root, "denoised", json_boolean(set->denoised));
     json_object_set_new(root, "strict_paper", json_boolean(set->strict_paper));
     json_object_set_new(root, "targets", targets);
     json_object_set_new(root, "footprints", footprints);

@@ -344,6 +344,8 @@ static void read_set(Reading *reading, const json_t *root, int width, int height
     set->folded = get_real(reading, json_object_get(root, "folded"), "folded");
     if (json_object_get(root, "folded_white"))
         set->folded_white = get_real(reading, json_object_get(root, "folded_white"), "folded_white");
+    if (json_object_get(root, "denoised"))
+        set->denoised = get_boolean(reading, json_object_get(root, "denoised"), "denoised");
     set->strict_paper = get_boolean(reading, json_object_get(root, "strict_paper"), "strict_paper");
     if (!reading->status)
         read_parts(reading, root, set);

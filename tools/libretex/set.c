@@ -85,6 +85,30 @@ int retex_set_add_part(RetexSet *set, const char *name, const char *letters, Ret
     return 0;
 }
 
+static void move_up(int *reference, int part)
+{
+    if (*reference > part)
+        --*reference;
+}
+
+void retex_set_remove_part(RetexSet *set, int part)
+{
+    retex_image_free(&set->parts[part].image);
+    memmove(&set->parts[part], &set->parts[part + 1], sizeof *set->parts * (size_t)(--set->nparts - part));
+    for (int t = 0; t < set->ntargets; t++)
+        move_up(&set->targets[t].original, part);
+    for (int f = 0; f < set->nfootprints; f++) {
+        move_up(&set->footprints[f].uv, part);
+        move_up(&set->footprints[f].spread, part);
+        move_up(&set->footprints[f].albedo, part);
+    }
+    for (int t = 0; t < set->nterms; t++)
+        move_up(&set->terms[t].radiance, part);
+    for (int m = 0; m < set->nmixtures; m++)
+        for (int k = 0; k < set->mixtures[m].nshares; k++)
+            move_up(&set->mixtures[m].shares[k].weight, part);
+}
+
 /* A part a footprint or term refers to: it must exist, or be left out (-1) where that is allowed. */
 static int check_part(const RetexSet *set, int part, size_t channels, int optional, const char *what, RetexError *err)
 {

@@ -4,6 +4,7 @@
 
 #define RETEX_VERSION "0.1.0"
 
+#include <retex/denoise.h>
 #include <retex/diff.h>
 #include <retex/error.h>
 #include <retex/image.h>

@@ -112,6 +112,7 @@ typedef struct RetexSet {
     uint32_t id;           /* tells one render's set from another's; kept by packing; 0 = unknown */
     double folded;         /* share of the picture's luminance whose hits beyond `orders` kept their original albedo */
     double folded_white;   /* layout footprints: the same share, were every target painted white (albedo 0.8) */
+    int denoised;          /* 1: the coefficients were filtered, see denoise.h */
     int strict_paper;      /* 1: mixed terms of 4 and more hits were dropped, as the supplement does */
     int ntargets;
     RetexTarget targets[RETEX_MAX_TARGETS];
@@ -142,6 +143,8 @@ void retex_set_close(RetexSet **set); /* NULL and pointers to NULL are fine */
 /* Append; *index (may be NULL) gets its number. The image is allocated zeroed, width 0 = the set's own size. */
 int retex_set_add_part(RetexSet *set, const char *name, const char *letters, RetexPixelType type, int width, int height,
                        int *index, RetexError *err);
+/* Remove a part that no term, footprint, mixture or target names; those behind it move up, and references follow. */
+void retex_set_remove_part(RetexSet *set, int part);
 int retex_set_add_footprint(RetexSet *set, const RetexFootprint *footprint, int *index, RetexError *err);
 int retex_set_add_mixture(RetexSet *set, const RetexMixture *mixture, int *index, RetexError *err);
 int retex_set_add_term(RetexSet *set, const RetexTerm *term, int *index, RetexError *err);

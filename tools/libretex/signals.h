@@ -1,0 +1,36 @@
+/* The signals of a set, which are denoised each with weights of its own: see <retex/denoise.h>. */
+#ifndef RETEX_SIGNALS_H
+#define RETEX_SIGNALS_H
+
+#include <retex/set.h>
+
+/* An image of a signal: the radiance of one of its terms. */
+typedef struct SignalMember {
+    int part;
+    float weight; /* in the signal's total */
+    int term;     /* -1: the beauty of a set without terms */
+} SignalMember;
+
+typedef struct Signal {
+    int target;   /* -1: light that no target's texture multiplies */
+    RetexFootprintKind kind; /* of the first factor's footprint */
+    int noise;    /* part noise_… */
+    int cover;    /* part guide_cover_… of the target, or -1 */
+    int nmembers;
+    SignalMember *members;
+} Signal;
+
+typedef struct Signals {
+    int count;
+    Signal *of;
+    SignalMember *members; /* of all */
+} Signals;
+
+/* Find a set's signals, and their parts: RETEX_ENOTFOUND where one is missing. */
+int signals_open(Signals *signals, const RetexSet *set, RetexError *err);
+void signals_close(Signals *signals);
+
+/* Kind and target of what a term's factor lies on. */
+void factor_place(const RetexSet *set, int factor, int *target, RetexFootprintKind *kind);
+
+#endif
