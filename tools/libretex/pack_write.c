@@ -1,5 +1,5 @@
-/* Writing a pack: parts are encoded on all threads, the manifest says how, a stored zip holds both. The bytes depend on
- * the set and the parameters only: no dates, no order of threads. */
+/* Writing a pack: what only denoising reads is left out, the other parts are encoded on all threads, the manifest says
+ * how, a stored zip holds both. The bytes depend on the set and the parameters only: no dates, no order of threads. */
 #include <retex/pack.h>
 
 #include <jansson.h>
@@ -15,6 +15,7 @@
 #include "output.h"
 #include "pack_codec.h"
 #include "pack_format.h"
+#include "set_parts.h"
 
 /* Encoding one part. */
 typedef struct Item {
@@ -271,17 +272,13 @@ static int write_zip(const char *manifest, const Item *items, int count, const c
     return code;
 }
 
-int retex_pack_write(const RetexSet *set, const char *path, const RetexPackParams *params, size_t *bytes,
-                     RetexError *err)
+/* Pack all of a set. */
+static int write_pack(const RetexSet *set, const char *path, const RetexPackParams *params, size_t *bytes,
+                      RetexError *err)
 {
-    static const RetexPackParams defaults = RETEX_PACK_INIT;
     char *manifest = NULL;
     size_t total;
     int code = 0;
-    if (!params)
-        params = &defaults;
-    if (params->quality < 1 || params->quality > 100)
-        return retex_fail(err, RETEX_EINVAL, "quality is 1 to 100, not %d", params->quality);
     Item *items = calloc((size_t)set->nparts + 1, sizeof *items);
     if (!items)
         return retex_fail(err, RETEX_ENOMEM, "no memory to pack a set");
@@ -300,5 +297,28 @@ int retex_pack_write(const RetexSet *set, const char *path, const RetexPackParam
     for (int i = 0; i < set->nparts; i++)
         retex_packed_free(&items[i].packed);
     free(items);
+    return code;
+}
+
+int retex_pack_write(const RetexSet *set, const char *path, const RetexPackParams *params, size_t *bytes,
+                     RetexError *err)
+{
+    static const RetexPackParams defaults = RETEX_PACK_INIT;
+    SetView view;
+    if (!params)
+        params = &defaults;
+    if (params->quality < 1 || params->quality > 100)
+        return retex_fail(err, RETEX_EINVAL, "quality is 1 to 100, not %d", params->quality);
+    char *kept = malloc((size_t)set->nparts + 1);
+    if (!kept)
+        return retex_fail(err, RETEX_ENOMEM, "no memory to pack a set");
+    for (int i = 0; i < set->nparts; i++)
+        kept[i] = !part_is_denoise_data(set, i);
+    int code = set_view_make(&view, set, kept, err);
+    free(kept);
+    if (code)
+        return code;
+    code = write_pack(&view.set, path, params, bytes, err);
+    set_view_free(&view);
     return code;
 }

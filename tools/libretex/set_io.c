@@ -13,6 +13,7 @@
 #include "manifest.h"
 #include "output.h"
 #include "pack_format.h"
+#include "set_parts.h"
 
 static const char MANIFEST_ATTRIBUTE[] = "retex";
 
@@ -20,20 +21,6 @@ static const char MANIFEST_ATTRIBUTE[] = "retex";
 enum { LARGEST_GAIN = 1100 };
 
 /* --- writing ---------------------------------------------------------------------------------------------------- */
-
-/* What of a set goes into a file: arrays of its own, the pixels borrowed. */
-typedef struct View {
-    RetexSet set;
-    int *source; /* part i of the view is part source[i] of the set */
-} View;
-
-static void view_free(View *view)
-{
-    free(view->set.parts);
-    free(view->set.footprints);
-    free(view->set.terms);
-    free(view->source);
-}
 
 /* Decide which parts are kept. With samples only what recombination needs: the picture, the terms, and whole
  * footprints where no sample takes their place, so that another target can be sampled further down the pipe. */
@@ -54,54 +41,6 @@ static void choose_parts(const RetexSet *set, const RetexSamples *samples, char 
             if (parts[k] >= 0)
                 kept[parts[k]] = 1;
     }
-}
-
-static int renumber(const int *place, int part)
-{
-    return part < 0 ? -1 : place[part];
-}
-
-static int view_make(View *view, const RetexSet *set, const RetexSamples *samples, RetexError *err)
-{
-    char kept[RETEX_SET_PARTS_MAX];
-    int place[RETEX_SET_PARTS_MAX];
-
-    memset(view, 0, sizeof *view);
-    view->set = *set;
-    view->set.nparts = 0;
-    view->set.parts = calloc((size_t)set->nparts, sizeof *set->parts);
-    view->set.footprints = calloc((size_t)set->nfootprints + 1, sizeof *set->footprints);
-    view->set.terms = calloc((size_t)set->nterms + 1, sizeof *set->terms);
-    view->source = calloc((size_t)set->nparts, sizeof *view->source);
-    if (!view->set.parts || !view->set.footprints || !view->set.terms || !view->source) {
-        view_free(view);
-        return retex_fail(err, RETEX_ENOMEM, "no memory to write a set");
-    }
-    choose_parts(set, samples, kept);
-    for (int i = 0; i < set->nparts; i++) {
-        place[i] = kept[i] ? view->set.nparts : -1;
-        if (kept[i]) {
-            view->source[view->set.nparts] = i;
-            view->set.parts[view->set.nparts++] = set->parts[i];
-        }
-    }
-    for (int i = 0; i < set->ntargets; i++)
-        view->set.targets[i].original = renumber(place, set->targets[i].original);
-    for (int i = 0; i < set->nfootprints; i++) {
-        RetexFootprint *footprint = &view->set.footprints[i];
-        *footprint = set->footprints[i];
-        footprint->uv = renumber(place, footprint->uv);
-        footprint->spread = renumber(place, footprint->spread);
-        footprint->albedo = renumber(place, footprint->albedo);
-    }
-    for (int i = 0; i < set->nterms; i++) {
-        view->set.terms[i] = set->terms[i];
-        view->set.terms[i].radiance = place[set->terms[i].radiance];
-    }
-    for (int i = 0; i < set->nmixtures; i++)
-        for (int k = 0; k < set->mixtures[i].nshares; k++)
-            view->set.mixtures[i].shares[k].weight = place[set->mixtures[i].shares[k].weight];
-    return 0;
 }
 
 static int part_in_range(const RetexSet *set, int part, int optional)
@@ -217,13 +156,15 @@ int retex_set_write(RetexSet *set, const RetexSamples *samples, const char *path
     static const RetexStoreParams defaults = RETEX_STORE_INIT;
     RetexSamplePart *names = NULL;
     RetexImage blank = {0};
-    View view;
+    SetView view;
+    char kept[RETEX_SET_PARTS_MAX];
 
     int status = check_written(set, samples, err);
     if (status)
         return status;
     if (set) {
-        status = view_make(&view, set, samples, err);
+        choose_parts(set, samples, kept);
+        status = set_view_make(&view, set, kept, err);
         if (status)
             return status;
     }
@@ -243,7 +184,7 @@ int retex_set_write(RetexSet *set, const RetexSamples *samples, const char *path
     retex_image_free(&blank);
     free(names);
     if (set)
-        view_free(&view);
+        set_view_free(&view);
     return status;
 }
 

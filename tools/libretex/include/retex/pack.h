@@ -13,12 +13,13 @@ extern "C" {
 typedef struct RetexPackParams {
     size_t size;
     int quality;   /* of the JPEGs, 1..100; default 98 */
-    int lossless;  /* 1: every part keeps its stored bits; default 0 */
+    int lossless;  /* 1: every part that is packed keeps its stored bits; default 0 */
     int nthreads;  /* 0 = all cores */
 } RetexPackParams;
 #define RETEX_PACK_INIT { sizeof(RetexPackParams), 98, 0, 0 }
 
-/* Write set as a pack; "-" is standard output. *bytes (may be NULL) gets the pack's size. */
+/* Write set as a pack, without what only denoising reads (see denoise.h); "-" is standard output. *bytes (may be NULL)
+ * gets the pack's size. */
 int retex_pack_write(const RetexSet *set, const char *path, const RetexPackParams *params /* NULL = defaults */,
                      size_t *bytes, RetexError *err);
 /* Read a pack from memory (the whole file). retex_set_read calls it when it finds a pack. */

@@ -1,0 +1,106 @@
+/* retex-denoise: remove the noise from a set's coefficients, once. See retex-denoise(1). */
+#include <stdio.h>
+#include <string.h>
+#include <time.h>
+
+#include <retex/denoise.h>
+#include <retex/pack.h>
+
+#include "cli.h"
+
+static const CliOption options[] = {
+    {"strength", 0, "F", "how unlike pixels may be and still help each other, 0.1 to 10; default 1", 0},
+    {"radius", 0, "N", "of the window in which they are looked for, 1 to 10 pixels; default 7", 0},
+    {"no-footprints", 0, NULL, "leave UV footprints as they are", 0},
+    {0},
+};
+
+static const char *parse(Cli *cli, RetexDenoiseParams *params)
+{
+    const char *input = NULL;
+    for (const CliOption *option; (option = cli_next(cli));) {
+        if (option == &cli_positional) {
+            if (input)
+                cli_die(cli, "one set is enough; what is '%s'?", cli->value);
+            input = cli->value;
+        } else if (strcmp(option->name, "strength") == 0) {
+            params->strength = (float)cli_number(cli, option, 0.1, 10);
+        } else if (strcmp(option->name, "radius") == 0) {
+            params->radius = (int)cli_integer(cli, option, 1, 10);
+        } else {
+            params->footprints = 0;
+        }
+    }
+    if (!input)
+        cli_die(cli, "no set given; - is standard input");
+    return input;
+}
+
+/* What comes out is a set; a name that promises a picture is a slip of the pen, retex-combine being meant. */
+static void check_ending(const Cli *cli, const char *output)
+{
+    static const char *const others[] = {".png", ".jpg", ".jpeg", ".tif", ".tiff", ".hdr", ".pfm", ".webp"};
+    for (size_t i = 0; i < sizeof others / sizeof *others; i++)
+        if (cli_ends_with(output, others[i]))
+            cli_die(cli, "%s: a set is an OpenEXR file, .exr, or a pack, .retex; pictures are made by retex-combine",
+                    output);
+}
+
+static double seconds_now(void)
+{
+    struct timespec t;
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+static void progress(void *context, double done)
+{
+    cli_progress(context, "denoise", done);
+}
+
+static int write_set(const Cli *cli, RetexSet *set, const char *output, RetexError *err)
+{
+    RetexStoreParams store = RETEX_STORE_INIT;
+    RetexPackParams pack = RETEX_PACK_INIT;
+    store.nthreads = pack.nthreads = cli->threads;
+    return cli_ends_with(output, ".retex") ? retex_pack_write(set, output, &pack, NULL, err)
+                                           : retex_set_write(set, NULL, output, &store, err);
+}
+
+int main(int argc, char **argv)
+{
+    Cli cli = {.tool = "retex-denoise",
+               .usage = "SET [--strength F] [--radius N] [--no-footprints] -o SET",
+               .about = "Removes the noise from a set's coefficients, once, so that every retexture of it is clean.",
+               .options = options,
+               .argc = argc,
+               .argv = argv,
+               .next = 1};
+    RetexDenoiseParams params = RETEX_DENOISE_INIT;
+    RetexSet *set = NULL;
+    RetexError err = {0};
+
+    const char *input = parse(&cli, &params), *output = cli_output(&cli);
+    cli_input(&cli, input, "a set, as from retex-render");
+    check_ending(&cli, output);
+    if (retex_set_write_check(output, &err))
+        cli_fail(&cli, &err);
+    const double began = seconds_now();
+    if (retex_set_read(input, &set, NULL, cli.threads, &err))
+        cli_fail(&cli, &err);
+    const double read = seconds_now();
+    params.progress = progress;
+    params.progress_context = &cli;
+    if (retex_denoise(set, &params, NULL, cli.threads, &err))
+        cli_fail(&cli, &err);
+    const double denoised = seconds_now();
+    if (write_set(&cli, set, output, &err))
+        cli_fail(&cli, &err);
+    const double written = seconds_now();
+
+    cli_info(&cli, "%s: %d x %d, %.2f s", strcmp(output, "-") == 0 ? "standard output" : output, set->width,
+             set->height, written - began);
+    cli_detail(&cli, "read %.2f s, denoised %.2f s, written %.2f s", read - began, denoised - read, written - denoised);
+    retex_set_close(&set);
+    return cli_close(&cli, CLI_OK);
+}
