@@ -20,6 +20,8 @@ enum {
     OPT_CLUSTERS,
     OPT_ORDERS,
     OPT_STRICT_PAPER,
+    OPT_DENOISE,
+    OPT_NO_DENOISE_DATA,
     OPT_SPP,
     OPT_SIZE,
     OPT_SEED,
@@ -56,6 +58,8 @@ static const CliOption options[] = {
                       "clusters of footprints a pixel and target, or at most S sharp and B broad ones (4)", 0},
     [OPT_ORDERS] = {"orders", 0, "N", "highest number of target hits kept, 1 to 6 (6)", 0},
     [OPT_STRICT_PAPER] = {"strict-paper", 0, NULL, "drop the mixed terms of four and more hits, as the paper does", 0},
+    [OPT_DENOISE] = {"denoise", 0, NULL, "filter the noise out of the result, as retex-denoise does", 0},
+    [OPT_NO_DENOISE_DATA] = {"no-denoise-data", 0, NULL, "leave out of the set the parts that retex-denoise reads", 0},
     [OPT_SPP] = {"spp", 0, "N", "samples a pixel (64)", 0},
     [OPT_SIZE] = {"size", 0, "WxH", "size of the picture (the scene's own shape, 640 wide)", 0},
     [OPT_SEED] = {"seed", 0, "N", "another number gives other noise (0)", 0},
@@ -238,6 +242,12 @@ static void parse_option(Arguments *a, const CliOption *o)
     case OPT_STRICT_PAPER:
         r->strict_paper = 1;
         break;
+    case OPT_DENOISE:
+        a->denoise = 1;
+        break;
+    case OPT_NO_DENOISE_DATA:
+        a->no_denoise_data = 1;
+        break;
     case OPT_SPP:
         r->spp = (int)cli_integer(cli, o, 1, 1 << 20);
         break;
@@ -311,6 +321,21 @@ static void add_target(Arguments *a, const char *name)
     a->targets[a->ntargets++] = name;
 }
 
+static void check_denoise(const Arguments *a)
+{
+    if (!a->denoise)
+        return;
+    if (a->no_denoise_data)
+        cli_die(a->cli, "--denoise reads what --no-denoise-data leaves out: one of them");
+    if (a->list || a->tracing || a->variants || a->control)
+        cli_die(a->cli,
+                "--denoise goes with a render of its own: no --list-targets, --trace-pixel, --variants or --control");
+    if (a->render.control_data)
+        cli_die(a->cli, "--denoise makes another picture than --control-data tells of: one of them");
+    if (a->render.spp < 2)
+        cli_die(a->cli, "--denoise needs two samples a pixel at least: one does not tell how noisy it is");
+}
+
 void parse_arguments(Arguments *a)
 {
     Cli *cli = a->cli;
@@ -354,6 +379,7 @@ void parse_arguments(Arguments *a)
         cli_die(cli, "--control makes a picture only: no --aov or --control-data");
     if (a->control && cli->output)
         texture_args_check_output(cli, a->control, cli->output);
+    check_denoise(a);
     if (a->aov_dir && (a->list || a->tracing || a->variants || a->control))
         cli_die(cli,
                 "--aov-dir goes with a render of its own: no --list-targets, --trace-pixel, --variants or --control");

@@ -7,6 +7,7 @@
 #include <time.h>
 #include <unistd.h>
 #include <jansson.h>
+#include <retex/denoise.h>
 #include "retex-render.h"
 #include "film/film.h"
 #include "integrate/guides.h"
@@ -112,6 +113,20 @@ static void check_output(const Arguments *a, const char *output)
         cli_warn(a->cli, "%s holds the picture only: a set needs .exr or .retex", output);
 }
 
+static void denoise_progress(void *context, double done)
+{
+    cli_progress(context, "denoise", done);
+}
+
+static void denoise(Arguments *a, RetexSet *set)
+{
+    RetexError err;
+    RetexDenoiseParams params = RETEX_DENOISE_INIT;
+    params.progress = denoise_progress, params.progress_context = a->cli;
+    if (retex_denoise(set, &params, NULL, a->cli->threads, &err))
+        cli_fail(a->cli, &err);
+}
+
 static void write_result(Arguments *a, RetexSet *set, const char *output)
 {
     RetexError err;
@@ -140,8 +155,13 @@ static void check_memory(const Arguments *a, const Scene *scene)
     const RenderParams *r = &a->render;
     double width = r->crop[2] ? r->crop[2] : r->width ? r->width : scene->width;
     double height = r->crop[3] ? r->crop[3] : r->height ? r->height : scene->height;
-    FilmParams film = {
-        .orders = r->orders, .split = !r->plain, .paper = r->paper, .sharp = r->sharp, .broad = r->broad};
+    FilmParams film = {.orders = r->orders,
+                       .split = !r->plain,
+                       .paper = r->paper,
+                       .sharp = r->sharp,
+                       .broad = r->broad,
+                       .spp = r->spp,
+                       .noise = r->denoise_data};
     double channels = (double)film_floats(&film, scene->ntargets) + 19 * (r->aovs != 0),
            memory = (double)sysconf(_SC_PHYS_PAGES) * (double)sysconf(_SC_PAGESIZE);
     double bytes = width * height * channels * sizeof(float);
@@ -213,6 +233,9 @@ int main(int argc, char **argv)
         cli_die(&cli, "--aov-dir: %s", err.message);
     if (a.control)
         read_control(&a);
+    /* a set keeps it for later, but packs leave it out, and a picture without targets can only be filtered here */
+    int keeps = output && a.ntargets && !a.render.plain && output_kind(&a, output) == OUTPUT_SET;
+    a.render.denoise_data = a.denoise || (keeps && !a.no_denoise_data);
     double started = seconds();
     if (sdl_parse_file(&scene, a.scene, &a.sdl, &err))
         cli_fail(&cli, &err);
@@ -240,6 +263,8 @@ int main(int argc, char **argv)
     if (failed)
         cli_fail(&cli, &err);
     if (set) {
+        if (a.denoise)
+            denoise(&a, set);
         if (a.aov_dir && guides_write(set, a.aov_dir, &err))
             cli_fail(&cli, &err);
         if (output)

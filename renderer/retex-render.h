@@ -29,6 +29,7 @@ typedef struct Arguments {
     RetexSet *control_set;
     char set_targets[RETEX_MAX_TARGETS][RETEX_NAME_MAX + 512]; /* its targets, as of -t */
     int named;                                                 /* -t was given */
+    int denoise, no_denoise_data;
 } Arguments;
 
 /* ---- arguments.c ---- */

@@ -6,6 +6,7 @@
 #include <string.h>
 #include "film/film.h"
 #include "film/footprints.h"
+#include "film/noise.h"
 #include "film/paper.h"
 #include "film/plan.h"
 
@@ -15,6 +16,7 @@ struct Film {
     RetexImage beauty;
     PaperFilm *paper; /* one of these two, where there is a split */
     FootprintFilm *footprints;
+    NoiseImages noise;
     LightSums *tiles;
     pthread_mutex_t lock;
     UvRange range; /* under lock, as is: */
@@ -26,7 +28,9 @@ struct FilmPixel {
     PaperPixel *paper;
     FootprintPixel *footprints;
     double beauty[3];
-    LightSums light; /* of the tile so far */
+    int paths;         /* so far */
+    SignalTotals half; /* of the first half of the paths */
+    LightSums light;   /* of the tile so far */
     UvRange range;
     long dropped;
 };
@@ -66,7 +70,7 @@ static int film_alloc(Film *film, RetexError *err)
     if (!code && p->split)
         code = p->paper ? paper_create(&film->paper, film->scene, p, err)
                         : footprints_create(&film->footprints, film->scene, p, err);
-    return code;
+    return code ? code : noise_create(&film->noise, p, film->scene->ntargets, err);
 }
 
 int film_create(Film **out, const Scene *scene, const FilmParams *params, RetexError *err)
@@ -93,6 +97,7 @@ void film_close(Film **film)
     retex_image_free(&(*film)->beauty);
     paper_close(&(*film)->paper);
     footprints_close(&(*film)->footprints);
+    noise_close(&(*film)->noise);
     free((*film)->tiles);
     pthread_mutex_destroy(&(*film)->lock);
     free(*film);
@@ -154,18 +159,37 @@ void film_connect(FilmPixel *p, Rgb beauty, Rgb outside, const Expansion *e, int
     }
 }
 
+/* What each signal got in the pixel so far. */
+static void signal_totals(const FilmPixel *p, SignalTotals *totals)
+{
+    if (p->paper)
+        paper_totals(p->paper, totals);
+    else if (p->footprints)
+        footprints_totals(p->footprints, totals);
+    else
+        memcpy(totals->of[0], p->beauty, sizeof p->beauty);
+}
+
 void film_path_end(FilmPixel *p)
 {
     if (p->paper)
         paper_path_end(p->paper, &p->range);
     if (p->footprints)
         footprints_path_end(p->footprints, &p->range);
+    if (++p->paths == p->film->params.spp / 2 && p->film->noise.count)
+        signal_totals(p, &p->half);
 }
 
 void film_pixel_end(FilmPixel *p, int x, int y)
 {
     Film *film = p->film;
     float *beauty = film->beauty.pixels + retex_image_index(&film->beauty, x, y);
+    if (film->noise.count) {
+        SignalTotals all;
+        signal_totals(p, &all);
+        noise_store(&film->noise, &p->half, &all, x, y);
+    }
+    p->paths = 0;
     for (int c = 0; c < 3; c++)
         beauty[c] = (float)(p->beauty[c] / film->params.spp), p->beauty[c] = 0;
     if (p->paper)
@@ -182,14 +206,15 @@ void film_tile_end(FilmPixel *p, int tile)
 
 long film_floats(const FilmParams *params, int ntargets)
 {
+    int noise = 3 * noise_count(params, ntargets);
     if (!params->split || ntargets == 0)
-        return 3;
+        return 3 + noise;
     if (params->paper)
-        return 3 + params->orders * (8 * ntargets + 6); /* footprints, terms */
+        return 3 + noise + params->orders * (8 * ntargets + 6); /* footprints, terms */
     Plan plan;
     plan_make(&plan, ntargets, params->orders, expansion_most_hits(ntargets, 0));
     /* few pixels have all clusters, and what is never written takes no memory: one cluster, and its coefficients */
-    return 6 + ntargets * (12 + 10 + 3 * (plan.count - 1));
+    return 6 + noise + ntargets * (12 + 10 + 3 * (plan.count - 1));
 }
 
 long film_dropped(const Film *film)
@@ -256,7 +281,7 @@ int film_finish(Film *film, RetexSet *set, RetexError *err)
     set->ntargets = 0;
     retex_set_identify(set);
     if (!film->params.split)
-        return RETEX_OK;
+        return noise_finish(&film->noise, set, err);
     set->orders = film->params.orders;
     set->strict_paper = film->params.strict_paper;
     LightSums sums = {0};
@@ -271,5 +296,5 @@ int film_finish(Film *film, RetexSet *set, RetexError *err)
     int code = film->paper ? paper_finish(film->paper, set, err) : footprints_finish(film->footprints, set, err);
     for (int t = 0; t < set->ntargets && !code; t++)
         target_mean(set, t, set->targets[t].mean_albedo);
-    return code;
+    return code ? code : noise_finish(&film->noise, set, err);
 }

@@ -19,6 +19,7 @@ typedef struct FilmParams {
     int clusters;           /* layout footprints: a pixel and target, of both kinds together, 2..FILM_CLUSTERS_MAX */
     int sharp, broad;       /* at most so many of each kind, 1..clusters */
     int periodic[RETEX_MAX_TARGETS][2]; /* targets that close in u, v */
+    int noise;              /* also keep how noisy each signal is, see noise.h; needs two samples */
 } FilmParams;
 
 /* Where on the targets light was met. */

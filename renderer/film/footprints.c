@@ -6,7 +6,7 @@
 #include "film/footprint_images.h"
 
 #define PENDING_MAX 64
-#define PARTS_MAX 1500 /* of a set, with room for its beauty, originals and AOVs */
+#define PARTS_MAX 1480 /* of a set, with room for its beauty, originals, AOVs and what denoising needs */
 /* What an unknown texture is taken for where its hit only weighs another's. */
 #define UNKNOWN_ALBEDO 0.5f
 #define LEAST_ALBEDO 1e-3f /* of other hits, where originals are averaged: a black one may be the one that is edited */
@@ -469,6 +469,28 @@ void footprints_path_end(FootprintPixel *p, UvRange *range)
     flush_pending(p);
     uv_range_merge(range, &p->range);
     uv_range_reset(&p->range);
+}
+
+static void signal_total(double total[3], const Clusters *clusters, const Plan *plan)
+{
+    total[0] = total[1] = total[2] = 0;
+    for (int k = 0; k < clusters->count; k++)
+        for (int c = 0; c < 3; c++)
+            total[c] += clusters->of[k].c[c];
+    for (int i = 1; i < plan->count; i++) {
+        double weight = ldexp(1, -plan_hits(&plan->coefficients[i]));
+        for (int c = 0; c < 3; c++)
+            total[c] += weight * clusters->again[i][c];
+    }
+}
+
+void footprints_totals(const FootprintPixel *p, SignalTotals *totals)
+{
+    memcpy(totals->of[0], p->free, sizeof p->free);
+    for (int t = 0; t < p->film->scene->ntargets; t++) {
+        signal_total(totals->of[1 + 2 * t], &p->targets[t].sharp, &p->film->plan);
+        signal_total(totals->of[2 + 2 * t], &p->targets[t].broad, &p->film->plan);
+    }
 }
 
 /* ---- the finished pixel ---- */

@@ -7,7 +7,7 @@
 #ifndef RENDERER_FILM_FOOTPRINTS_H
 #define RENDERER_FILM_FOOTPRINTS_H
 
-#include "film/film.h"
+#include "film/noise.h"
 
 typedef struct FootprintFilm FootprintFilm;
 typedef struct FootprintPixel FootprintPixel;
@@ -20,6 +20,8 @@ void footprints_pixel_close(FootprintPixel **pixel);
 /* Adds what had to be folded, and what there is with white targets, to sums. */
 void footprints_connect(FootprintPixel *pixel, const Expansion *expansion, Rgb outside, LightSums *sums);
 void footprints_path_end(FootprintPixel *pixel, UvRange *range);
+/* Between paths: sharp and broad clusters with the light that goes on to targets, each further hit as albedo 1/2. */
+void footprints_totals(const FootprintPixel *pixel, SignalTotals *totals);
 void footprints_pixel_end(FootprintPixel *pixel, int x, int y);
 
 /* Move all into the set, which knows its targets' names. */

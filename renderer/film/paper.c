@@ -219,6 +219,18 @@ static void store_footprint(PaperFilm *film, int k, const FootprintSums *f, int 
         albedo[c] = f->light[c] > 0 ? f->light_albedo[c] / f->light[c] : (float)(f->albedo[c] / f->count);
 }
 
+void paper_totals(const PaperPixel *p, SignalTotals *totals)
+{
+    memset(totals->of, 0, sizeof totals->of[0] * (size_t)(1 + p->film->scene->ntargets));
+    for (int k = 0; k < p->ntouched; k++) {
+        const float *sum = p->sums[p->touched[k]];
+        int nfactors, target = terms_place(&p->film->terms, p->touched[k], &nfactors);
+        double weight = nfactors ? ldexp(1, 1 - nfactors) : 1;
+        for (int c = 0; c < 3; c++)
+            totals->of[1 + target][c] += weight * sum[c];
+    }
+}
+
 void paper_pixel_end(PaperPixel *p, int x, int y)
 {
     PaperFilm *film = p->film;

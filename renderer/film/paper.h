@@ -4,7 +4,7 @@
 #ifndef RENDERER_FILM_PAPER_H
 #define RENDERER_FILM_PAPER_H
 
-#include "film/film.h"
+#include "film/noise.h"
 
 typedef struct PaperFilm PaperFilm;
 typedef struct PaperPixel PaperPixel;
@@ -16,6 +16,8 @@ void paper_pixel_close(PaperPixel **pixel);
 
 void paper_connect(PaperPixel *pixel, const Expansion *expansion, Rgb outside);
 void paper_path_end(PaperPixel *pixel, UvRange *range);
+/* Terms by the target of their first factor, each further factor as albedo 1/2. */
+void paper_totals(const PaperPixel *pixel, SignalTotals *totals);
 void paper_pixel_end(PaperPixel *pixel, int x, int y);
 
 /* Move all into the set, which knows its targets' names. */

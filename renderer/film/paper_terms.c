@@ -5,6 +5,7 @@
 #include "film/paper_terms.h"
 
 #define KEY(kind, rest) ((TermKey)(kind) << 56 | (rest))
+#define REST(key) ((key) & (((TermKey)1 << 56) - 1))
 
 static int count_bits(HitMask m)
 {
@@ -111,6 +112,20 @@ int terms_find(TermTable *table, TermCache *cache, TermKey key)
     return term;
 }
 
+int terms_place(const TermTable *table, int term, int *nfactors)
+{
+    TermKey key = table->keys[term];
+    RetexTermKind kind = (RetexTermKind)(key >> 56);
+    int target = 0;
+    *nfactors = 0;
+    if (kind == RETEX_TERM_FULL || kind == RETEX_TERM_INDEP)
+        return -1;
+    *nfactors = count_bits(REST(key));
+    while (!target_bits(key, target))
+        target++;
+    return target;
+}
+
 float *terms_pixel(TermTable *table, int term, int x, int y)
 {
     RetexImage *image = &table->images[term];
@@ -146,7 +161,7 @@ static void letters_name(char *out, size_t size, HitMask hits, int ntargets, int
 static void term_name(char *out, size_t size, TermKey key, int ntargets)
 {
     RetexTermKind kind = (RetexTermKind)(key >> 56);
-    HitMask hits = key & (((TermKey)1 << 56) - 1);
+    HitMask hits = REST(key);
     char letters[64];
     letters_name(letters, sizeof letters, hits, ntargets, kind == RETEX_TERM_DEP);
     int one = ntargets == 1;

@@ -34,6 +34,8 @@ int terms_create(TermTable *table, int width, int height, int ntargets, int orde
 void terms_close(TermTable *table);
 /* Number of the term, made on first use; -1 where memory or TERMS_MAX is exhausted. */
 int terms_find(TermTable *table, TermCache *cache, TermKey key);
+/* The target of a term's first factor, or -1, and how many factors it has. */
+int terms_place(const TermTable *table, int term, int *nfactors);
 float *terms_pixel(TermTable *table, int term, int x, int y);
 /* Move all terms into the set, in an order that does not depend on when they came; footprints must be there already. */
 int terms_finish(TermTable *table, RetexSet *set, RetexError *err);

@@ -29,7 +29,7 @@ static void add_combinations(Plan *plan, int ntargets, int from, int hits, unsig
     }
 }
 
-static int power_sum(const PlanCoefficient *c)
+int plan_hits(const PlanCoefficient *c)
 {
     int sum = c->mixed;
     for (int t = 0; t < RETEX_MAX_TARGETS; t++)
@@ -49,7 +49,7 @@ static void add_steps(Plan *plan, int ntargets, int first_mixed)
             more[t]++;
             int next = c->mixed ? -1 : find(plan, more);
             for (int m = first_mixed; next < 0 && m < plan->count; m++)
-                if (plan->coefficients[m].mixed == power_sum(c) + 1)
+                if (plan->coefficients[m].mixed == plan_hits(c) + 1)
                     next = m;
             c->next[t] = (signed char)next;
         }

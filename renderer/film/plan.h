@@ -22,6 +22,9 @@ typedef struct Plan {
     PlanCoefficient coefficients[PLAN_COEFFICIENTS_MAX];
 } Plan;
 
+/* Further hits that a coefficient stands for. */
+int plan_hits(const PlanCoefficient *coefficient);
+
 /* orders: most factors of one target, the first hit included, 1..RETEX_MAX_ORDERS; factors: of all targets together. */
 void plan_make(Plan *plan, int ntargets, int orders, int factors);
 

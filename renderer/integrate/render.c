@@ -202,7 +202,8 @@ static int render_film(Render *r, int control, int halves, RetexError *err)
                        .paper = r->params.paper,
                        .clusters = r->params.clusters,
                        .sharp = r->params.sharp,
-                       .broad = r->params.broad};
+                       .broad = r->params.broad,
+                       .noise = r->params.denoise_data};
     for (int t = 0; t < r->scene->ntargets; t++)
         target_periodic(r->scene, t, film.periodic[t]);
     r->pixels = calloc((size_t)threads, sizeof *r->pixels);
@@ -304,6 +305,7 @@ static int add_irradiance(RetexSet *set, const Render *r, RetexError *err)
     int part;
     pass.context.white = 1, pass.context.split = 0;
     pass.params.seed = hash_pair(r->params.seed, 2), pass.params.progress = NULL;
+    pass.params.denoise_data = 0;
     pass.lights = r->lights;
     int code = start_set(&found, &pass, err);
     if (!code)
@@ -384,7 +386,7 @@ int render_variants(RetexImage *pictures, const Scene *scene, const RenderParams
     double started = seconds();
     RenderParams plain = *params;
     Render r;
-    plain.plain = 1;
+    plain.plain = 1, plain.denoise_data = 0;
     int code = render_open(&r, scene, &plain, err);
     if (!code && r.params.nvariants < 1)
         code = retex_fail(err, RETEX_EINVAL, "no variants to render");
@@ -464,7 +466,7 @@ int render_control(RetexImage *picture, const Scene *scene, const RenderParams *
     Render r;
     if (params->nvariants > 0)
         variants[0] = params->variants[0];
-    plain.plain = 1, plain.variants = variants, plain.nvariants = 2;
+    plain.plain = 1, plain.variants = variants, plain.nvariants = 2, plain.denoise_data = 0;
     int code = render_open(&r, scene, &plain, err);
     if (!code)
         code = check_control(&r, set, err);

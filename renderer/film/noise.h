@@ -1,0 +1,31 @@
+/* How noisy each signal of a set is, for denoising: half of the difference between the mean of the first half of a
+ * pixel's samples and that of the rest. What signals are, and the names of the parts: <retex/denoise.h>. */
+#ifndef RENDERER_FILM_NOISE_H
+#define RENDERER_FILM_NOISE_H
+
+#include "film/film.h"
+
+#define NOISE_SIGNALS_MAX (1 + 2 * RETEX_MAX_TARGETS)
+
+/* Sums over a pixel's samples so far, by signal: light that no target's texture multiplies (the beauty, where there is
+ * no split), then that of each target; in layout footprints sharp and broad. */
+typedef struct SignalTotals {
+    double of[NOISE_SIGNALS_MAX][3];
+} SignalTotals;
+
+typedef struct NoiseImages {
+    int count, paper; /* signals, 0 = none are kept; by the hits of layout paper */
+    int spp;
+    RetexImage of[NOISE_SIGNALS_MAX];
+} NoiseImages;
+
+/* How many signals there are; 0 without params->noise, and of a single sample, which has no halves. */
+int noise_count(const FilmParams *params, int ntargets);
+int noise_create(NoiseImages *images, const FilmParams *params, int ntargets, RetexError *err);
+void noise_close(NoiseImages *images);
+/* half: totals of the first spp / 2 samples; all: of all. */
+void noise_store(NoiseImages *images, const SignalTotals *half, const SignalTotals *all, int x, int y);
+/* A part for each signal that terms of the set belong to, or for the beauty of a set without terms. */
+int noise_finish(NoiseImages *images, RetexSet *set, RetexError *err);
+
+#endif
