@@ -1,19 +1,48 @@
 /* Denoising a set; see <retex/denoise.h>. */
 #include <retex/denoise.h>
 
+#include <stdlib.h>
 #include <string.h>
 
-#include "signals.h"
+#include <retex/parallel.h>
+#include <retex/sample.h>
+
+#include "denoise_tile.h"
 
 static int is_denoise_data(const char *name)
 {
     return !strncmp(name, "noise_", 6) || !strncmp(name, "guide_", 6);
 }
 
+static int find_guide(const RetexSet *set, const char *name, int channels, int *part, RetexError *err)
+{
+    *part = signals_find_part(set, name, channels, err);
+    return *part < 0 ? *part : RETEX_OK;
+}
+
+static int find_guides(Guides *g, const RetexSet *set, RetexError *err)
+{
+    int code = find_guide(set, "guide_normal", 3, &g->normal, err);
+    if (!code)
+        code = find_guide(set, "guide_position", 3, &g->position, err);
+    if (!code)
+        code = find_guide(set, "guide_specular", 1, &g->specular, err);
+    if (!code)
+        code = find_guide(set, "guide_seen_normal", 3, &g->seen_normal, err);
+    if (!code)
+        code = find_guide(set, "guide_seen_position", 3, &g->seen_position, err);
+    if (!code)
+        code = find_guide(set, "guide_seen_albedo", 3, &g->seen_albedo, err);
+    if (!code)
+        code = find_guide(set, "guide_seen_material", 3, &g->seen_material, err);
+    return code;
+}
+
 int retex_denoise_has_data(const RetexSet *set)
 {
     Signals signals;
-    if (signals_open(&signals, set, NULL))
+    Guides guides;
+    if (find_guides(&guides, set, NULL) || signals_open(&signals, set, NULL))
         return 0;
     signals_close(&signals);
     return 1;
@@ -26,14 +55,180 @@ void retex_denoise_drop_data(RetexSet *set)
             retex_set_remove_part(set, k);
 }
 
+/* ---- bands of tiles ---- */
+
+/* A tile's results lie in a band until no other tile reads what was there. */
+typedef struct DenoiseWork {
+    Denoiser denoiser;
+    TileRoom **rooms; /* by thread */
+    int nthreads, tiles_x;
+    Band bands[2], *band;
+    SignalSums *sums; /* by tile of the band, then signal: added up in order */
+    SignalSums *all;  /* by signal */
+} DenoiseWork;
+
+static void denoise_job(void *context, int index, int thread)
+{
+    DenoiseWork *w = context;
+    const Denoiser *d = &w->denoiser;
+    tile_denoise(d, w->rooms[thread], d->roi.x0 + index * DENOISE_TILE, w->band->first, w->band,
+                 w->sums + (size_t)index * (size_t)d->signals.count);
+}
+
+static void close_band(Band *band, int nparts)
+{
+    for (int k = 0; band->parts && k < nparts; k++)
+        free(band->parts[k]);
+    free(band->parts);
+    band->parts = NULL;
+}
+
+static int open_band(Band *band, const Denoiser *d, RetexError *err)
+{
+    const RetexSet *set = d->set;
+    band->rows = 0;
+    band->parts = calloc((size_t)set->nparts, sizeof *band->parts);
+    for (int s = 0; band->parts && s < d->signals.count; s++)
+        for (int k = 0; k < d->signals.of[s].nmembers; k++) {
+            int part = d->signals.of[s].members[k].part;
+            size_t floats = (size_t)DENOISE_TILE * (size_t)set->width * (size_t)set->parts[part].image.channels;
+            if (!band->parts[part] && !(band->parts[part] = malloc(floats * sizeof(float))))
+                return retex_fail(err, RETEX_ENOMEM, "not enough memory to denoise");
+        }
+    return band->parts ? RETEX_OK : retex_fail(err, RETEX_ENOMEM, "not enough memory to denoise");
+}
+
+/* Into the set. */
+static void commit_band(const Band *band, const Denoiser *d)
+{
+    for (int part = 0; part < d->set->nparts; part++) {
+        RetexImage *im = &d->set->parts[part].image;
+        size_t channels = (size_t)im->channels, row = (size_t)(d->roi.x1 - d->roi.x0) * channels;
+        for (int y = 0; band->parts[part] && y < band->rows; y++)
+            memcpy(im->pixels + retex_image_index(im, d->roi.x0, band->first + y),
+                   band->parts[part] + ((size_t)y * (size_t)im->width + (size_t)d->roi.x0) * channels,
+                   row * sizeof(float));
+    }
+}
+
+static void add_sums(DenoiseWork *w)
+{
+    int count = w->denoiser.signals.count;
+    for (int k = 0; k < w->tiles_x * count; k++)
+        for (int c = 0; c < 3; c++) {
+            w->all[k % count].before[c] += w->sums[k].before[c];
+            w->all[k % count].after[c] += w->sums[k].after[c];
+        }
+}
+
+static int open_work(DenoiseWork *w, RetexError *err)
+{
+    const Denoiser *d = &w->denoiser;
+    size_t count = (size_t)d->signals.count;
+    int code = RETEX_OK;
+    w->tiles_x = (d->roi.x1 - d->roi.x0 + DENOISE_TILE - 1) / DENOISE_TILE;
+    w->rooms = calloc((size_t)w->nthreads, sizeof *w->rooms);
+    w->sums = calloc((size_t)w->tiles_x * count + 1, sizeof *w->sums);
+    w->all = calloc(count + 1, sizeof *w->all);
+    if (!w->rooms || !w->sums || !w->all)
+        code = retex_fail(err, RETEX_ENOMEM, "not enough memory to denoise");
+    for (int k = 0; k < w->nthreads && k < w->tiles_x && !code; k++)
+        code = tile_room_create(&w->rooms[k], d, err);
+    for (int k = 0; k < 2 && !code; k++)
+        code = open_band(&w->bands[k], d, err);
+    return code;
+}
+
+static void close_work(DenoiseWork *w)
+{
+    for (int k = 0; w->rooms && k < w->nthreads; k++)
+        tile_room_close(&w->rooms[k]);
+    for (int k = 0; k < 2; k++)
+        close_band(&w->bands[k], w->denoiser.set->nparts);
+    free(w->rooms);
+    free(w->sums);
+    free(w->all);
+    signals_close(&w->denoiser.signals);
+}
+
+static void filter(DenoiseWork *w)
+{
+    const Denoiser *d = &w->denoiser;
+    int number = 0;
+    for (int y = d->roi.y0; y < d->roi.y1; y += DENOISE_TILE, number++) {
+        w->band = &w->bands[number % 2];
+        w->band->first = y;
+        w->band->rows = d->roi.y1 - y < DENOISE_TILE ? d->roi.y1 - y : DENOISE_TILE;
+        memset(w->sums, 0, sizeof *w->sums * (size_t)w->tiles_x * (size_t)d->signals.count);
+        retex_parallel(w->nthreads, w->tiles_x, denoise_job, w);
+        add_sums(w);
+        commit_band(&w->bands[(number + 1) % 2], d); /* nothing reads the band before any more */
+        w->bands[(number + 1) % 2].rows = 0;
+        if (d->params.progress)
+            d->params.progress(d->params.progress_context, (double)(y - d->roi.y0) / (d->roi.y1 - d->roi.y0));
+    }
+    for (int k = 0; k < 2; k++)
+        commit_band(&w->bands[k], d);
+}
+
+/* Means of all signals are as they were. */
+static void restore_means(const DenoiseWork *w)
+{
+    const Denoiser *d = &w->denoiser;
+    for (int s = 0; s < d->signals.count; s++) {
+        const SignalSums *sums = &w->all[s];
+        float scale[3];
+        for (int c = 0; c < 3; c++)
+            scale[c] = sums->after[c] > 0 && sums->before[c] > 0 ? (float)(sums->before[c] / sums->after[c]) : 1;
+        for (int k = 0; k < d->signals.of[s].nmembers; k++) {
+            RetexImage *im = &d->set->parts[d->signals.of[s].members[k].part].image;
+            for (int y = d->roi.y0; y < d->roi.y1; y++) {
+                float *row = im->pixels + retex_image_index(im, 0, y);
+                for (int x = 3 * d->roi.x0; x < 3 * d->roi.x1; x++)
+                    row[x] *= scale[x % 3];
+            }
+        }
+    }
+}
+
+static int check_params(const RetexDenoiseParams *p, RetexError *err)
+{
+    if (!(p->strength >= 0.1f && p->strength <= 10))
+        return retex_fail(err, RETEX_EINVAL, "the strength of denoising must be 0.1 to 10, not %g", p->strength);
+    if (p->radius < 1 || p->radius > DENOISE_RADIUS_MAX)
+        return retex_fail(err, RETEX_EINVAL, "the radius of denoising must be 1 to %d, not %d", DENOISE_RADIUS_MAX,
+                          p->radius);
+    return RETEX_OK;
+}
+
 int retex_denoise(RetexSet *set, const RetexDenoiseParams *params, const RetexRoi *roi, int nthreads, RetexError *err)
 {
-    Signals signals;
-    int code = signals_open(&signals, set, err);
-    (void)params, (void)roi, (void)nthreads;
+    DenoiseWork work = {.denoiser = {.set = set, .params = RETEX_DENOISE_INIT}, .nthreads = retex_threads(nthreads)};
+    Denoiser *d = &work.denoiser;
+    if (params)
+        memcpy(&d->params, params, params->size < sizeof d->params ? params->size : sizeof d->params);
+    int code = check_params(&d->params, err);
+    if (!code && set->spp == 1)
+        code = retex_fail(err, RETEX_EINVAL, "one sample a pixel does not tell noise from picture");
+    if (!code)
+        code = find_guides(&d->guides, set, err);
+    if (!code)
+        code = signals_open(&d->signals, set, err);
+    if (!code)
+        code = retex_image_prepare(&set->parts[0].image, set->width, set->height, 3, roi, &d->roi, err);
+    if (!code)
+        code = open_work(&work, err);
+    if (!code) {
+        filter(&work);
+        restore_means(&work);
+    }
+    close_work(&work);
+    if (!code && set->nterms)
+        code = retex_combine(&set->parts[0].image, set, NULL, NULL, roi, nthreads, err);
     if (code)
         return code;
-    signals_close(&signals);
+    if (d->params.progress)
+        d->params.progress(d->params.progress_context, 1);
     retex_denoise_drop_data(set);
     set->denoised = 1;
     return RETEX_OK;

@@ -23,18 +23,17 @@ static void signal_name(const RetexSet *set, const Signal *signal, char name[RET
         snprintf(name, RETEX_NAME_MAX, "noise_%.90s_%s", set->targets[signal->target].name, kinds[signal->kind]);
 }
 
-/* A part of the set's size, or RETEX_ENOTFOUND. */
-static int find_part(const RetexSet *set, const char *name, int channels, int *part, RetexError *err)
+int signals_find_part(const RetexSet *set, const char *name, int channels, RetexError *err)
 {
-    *part = retex_set_find_part(set, name);
-    if (*part < 0)
+    int part = retex_set_find_part(set, name);
+    if (part < 0)
         return retex_fail(err, RETEX_ENOTFOUND, "the set lacks the part %s: it was rendered or packed without %s", name,
                           "what denoising needs, or is denoised already");
-    const RetexImage *image = &set->parts[*part].image;
+    const RetexImage *image = &set->parts[part].image;
     if (image->width != set->width || image->height != set->height || image->channels != channels)
         return retex_fail(err, RETEX_EFORMAT, "the part %s of the set is not %dx%d of %d channels", name, set->width,
                           set->height, channels);
-    return RETEX_OK;
+    return part;
 }
 
 /* The signal that a term belongs to, made where it is the first. */
@@ -57,17 +56,16 @@ static Signal *signal_of(Signals *signals, const RetexSet *set, const RetexTerm 
 static int find_parts(const Signals *signals, const RetexSet *set, RetexError *err)
 {
     char name[RETEX_NAME_MAX];
-    int code = RETEX_OK;
-    for (int k = 0; k < signals->count && !code; k++) {
+    for (int k = 0; k < signals->count; k++) {
         Signal *signal = &signals->of[k];
         signal_name(set, signal, name);
-        code = find_part(set, name, 3, &signal->noise, err);
-        if (code || signal->target < 0)
-            continue;
-        snprintf(name, sizeof name, "guide_cover_%.90s", set->targets[signal->target].name);
-        code = find_part(set, name, 1, &signal->cover, err);
+        if ((signal->noise = signals_find_part(set, name, 3, err)) < 0)
+            return signal->noise;
+        snprintf(name, sizeof name, "guide_cover_%.90s", set->targets[signal->target < 0 ? 0 : signal->target].name);
+        if (signal->target >= 0 && (signal->cover = signals_find_part(set, name, 1, err)) < 0)
+            return signal->cover;
     }
-    return code;
+    return RETEX_OK;
 }
 
 /* Terms by signal. */

@@ -30,6 +30,9 @@ typedef struct Signals {
 int signals_open(Signals *signals, const RetexSet *set, RetexError *err);
 void signals_close(Signals *signals);
 
+/* A part of the set's size with so many channels: its index, or RETEX_ENOTFOUND or RETEX_EFORMAT. */
+int signals_find_part(const RetexSet *set, const char *name, int channels, RetexError *err);
+
 /* Kind and target of what a term's factor lies on. */
 void factor_place(const RetexSet *set, int factor, int *target, RetexFootprintKind *kind);
 

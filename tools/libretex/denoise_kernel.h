@@ -1,0 +1,67 @@
+/* The inner loops of denoising: one displacement of the window over one tile. Private to libretex.
+ *
+ * Planes are DENOISE_PITCH x DENOISE_ROWS floats: a tile of DENOISE_TILE pixels a side and around it DENOISE_HALO more.
+ * Sums and weights are DENOISE_TILE x DENOISE_TILE floats, of the tile alone. */
+#ifndef RETEX_DENOISE_KERNEL_H
+#define RETEX_DENOISE_KERNEL_H
+
+#include <stddef.h>
+
+enum {
+    DENOISE_TILE = 64,
+    DENOISE_RADIUS_MAX = 10,
+    DENOISE_PATCH = 3, /* patches of 7x7 pixels are compared */
+    DENOISE_HALO = DENOISE_RADIUS_MAX + DENOISE_PATCH,
+    DENOISE_PITCH = 96,
+    DENOISE_ROWS = DENOISE_TILE + 2 * DENOISE_HALO,
+    DENOISE_PLANE = DENOISE_PITCH * DENOISE_ROWS,
+    DENOISE_PIXELS = DENOISE_TILE * DENOISE_TILE,
+    DENOISE_FEATURES_MAX = 40,
+    DENOISE_GROUPS_MAX = 16
+};
+
+static inline size_t denoise_at(int x, int y)
+{
+    return (size_t)(y + DENOISE_HALO) * DENOISE_PITCH + (size_t)(x + DENOISE_HALO);
+}
+
+/* Features that are compared together: the weight follows the group that differs most. */
+typedef struct DenoiseGroup {
+    int first, count;        /* of the planes */
+    const float *scale;      /* by pixel: 1 / squared difference at which the weight is 1/e */
+    const float *normal[3];  /* or NULL; the difference counts along this direction only, and per pixel of distance */
+} DenoiseGroup;
+
+typedef struct DenoiseFeatures {
+    const float *valid;      /* 1 within the picture, else 0 */
+    const float *planes[DENOISE_FEATURES_MAX];
+    int ngroups;
+    DenoiseGroup groups[DENOISE_GROUPS_MAX];
+} DenoiseFeatures;
+
+/* weight = by how much pixels that lie (dx, dy) apart are alike in all features, 0..1. */
+void denoise_features_kernel(float *restrict weight, const DenoiseFeatures *features, int dx, int dy, int scalar);
+
+/* One signal. Halves are independent estimates; each is filtered with the weights that the other gives (Rousselle et
+ * al. 2012). */
+typedef struct DenoiseSignal {
+    const float *half[2][3];  /* over the modulation */
+    const float *variance[3]; /* of a half, over the modulation squared */
+    const float *kind;        /* 1 or -1: pixels of different kinds are not compared */
+    const float *modulation[3];
+    float epsilon;            /* variance below which no difference is seen */
+    float strength;           /* squared: how many variances apart still count as alike */
+    int nplanes;              /* of images, channel by channel, that are filtered with the mean of both weights */
+    const float *const *planes;
+    /* sums: */
+    float *sum[2][3], *norm[2][3];
+    float *const *sums;       /* nplanes */
+    float *weight;            /* the mean of both weights, or NULL */
+    float *scratch;           /* DENOISE_SCRATCH floats */
+} DenoiseSignal;
+enum { DENOISE_SCRATCH = 3 * (DENOISE_TILE + 2 * DENOISE_PATCH) * (DENOISE_TILE + 2 * DENOISE_PATCH + DENOISE_TILE) };
+
+/* Add to the sums what pixels at (dx, dy) give; features is the weight by features. */
+void denoise_signal_kernel(const DenoiseSignal *signal, const float *restrict features, int dx, int dy, int scalar);
+
+#endif

@@ -1,0 +1,42 @@
+/* Denoising one tile: what is prepared for the kernels, and what their sums become. Private to libretex. */
+#ifndef RETEX_DENOISE_TILE_H
+#define RETEX_DENOISE_TILE_H
+
+#include <retex/denoise.h>
+#include "denoise_kernel.h"
+#include "signals.h"
+
+/* Parts of a set that hold guides. */
+typedef struct Guides {
+    int normal, position, specular, seen_normal, seen_position, seen_albedo, seen_material;
+} Guides;
+
+/* Rows of results, by part of the set: NULL where a part stays as it is. */
+typedef struct Band {
+    int first, rows;
+    float **parts;
+} Band;
+
+/* All of one call. */
+typedef struct Denoiser {
+    RetexSet *set;
+    RetexDenoiseParams params;
+    RetexRoi roi;
+    Guides guides;
+    Signals signals;
+} Denoiser;
+
+/* Sums over pixels of a signal's totals, before and after. */
+typedef struct SignalSums {
+    double before[3], after[3];
+} SignalSums;
+
+/* One thread's room. */
+typedef struct TileRoom TileRoom;
+int tile_room_create(TileRoom **room, const Denoiser *denoiser, RetexError *err);
+void tile_room_close(TileRoom **room);
+
+/* Filter the tile whose corner is (x0, y0) into band; sums has an entry for each signal. */
+void tile_denoise(const Denoiser *denoiser, TileRoom *room, int x0, int y0, Band *band, SignalSums *sums);
+
+#endif
