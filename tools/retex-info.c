@@ -130,6 +130,10 @@ static void print_set(const RetexSet *set, const Sizes *sizes)
     printf("layout         %s\n", set->layout);
     printf("size           %d x %d pixels, %s filter\n", set->width, set->height, set->filter);
     printf("samples        %d a pixel, seed %lu\n", set->spp, (unsigned long)set->seed);
+    if (set->denoised)
+        printf("denoised       yes\n");
+    else
+        printf("denoise data   %s\n", retex_denoise_has_data(set) ? "yes" : "no");
     printf("orders         %d%s\n", set->orders, set->strict_paper ? " (strict)" : "");
     printf("folded         %.4f%% of the light", 100 * set->folded);
     if (set->folded_white > 0)
@@ -194,9 +198,10 @@ static int print_json(const Cli *cli, const RetexSet *set, const RetexSamples *s
     else
         printf("null");
     printf(",\"aovs\":%d,\"bytes\":{\"radiance\":%lld,\"uv\":%lld,\"spread\":%lld,\"albedo\":%lld,\"originals\":%lld,"
-           "\"other\":%lld,\"samples\":%lld},%s\n",
+           "\"other\":%lld,\"samples\":%lld},",
            sizes->radiance_aovs + sizes->uv_aovs + sizes->spread_aovs, sizes->radiance, sizes->uv, sizes->spread,
-           sizes->albedo, sizes->originals, sizes->other, sizes->samples, manifest + 1);
+           sizes->albedo, sizes->originals, sizes->other, sizes->samples);
+    printf("\"denoise_data\":%s,%s\n", set && retex_denoise_has_data(set) ? "true" : "false", manifest + 1);
     free(manifest);
     return CLI_OK;
 }

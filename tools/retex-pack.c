@@ -9,7 +9,7 @@
 
 static const CliOption options[] = {
     {"quality", 0, "1..100", "of the JPEGs; default 98", 0},
-    {"lossless", 0, NULL, "keep every bit of every part", 0},
+    {"lossless", 0, NULL, "keep every bit of every part but what denoising reads", 0},
     {"codec", 0, "NAME", "what radiance is stored as: jpeg, the default", 0},
     {"unpack", 0, NULL, "read a pack and write a set: SET.exr", 0},
     {0},

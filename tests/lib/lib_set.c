@@ -215,3 +215,65 @@ void test_make_footprints(RetexSet *set)
     add_mixtures(set, &seed);
     round_to_stored(set);
 }
+
+/* The name of a term's signal: see <retex/denoise.h>. */
+static void name_signal(const RetexSet *set, const RetexTerm *term, char *name, size_t size)
+{
+    static const char *const kinds[] = {"hit", "sharp", "broad", "later"};
+    if (term->nfactors == 0) {
+        snprintf(name, size, "noise_indep");
+        return;
+    }
+    const int factor = term->factors[0];
+    const RetexFootprint *first =
+        &set->footprints[factor < 0 ? set->mixtures[RETEX_MIXTURE(factor)].shares[0].footprint : factor];
+    snprintf(name, size, "noise_%s_%s", set->targets[first->target].name, kinds[first->kind]);
+}
+
+static void add_random_part(RetexSet *set, const char *name, const char *letters, RetexPixelType type, double low,
+                            double high, uint32_t *seed)
+{
+    if (retex_set_find_part(set, name) >= 0)
+        return;
+    const int part = add_part(set, name, letters, type);
+    RetexImage *im = &set->parts[part].image;
+    for (size_t i = 0; i < (size_t)im->width * (size_t)im->height * (size_t)im->channels; i++)
+        im->pixels[i] = (float)(low + (high - low) * test_random(seed));
+}
+
+/* A guide has one value in the left half and another in the right. */
+static void add_guide(RetexSet *set, const char *name, const char *letters, RetexPixelType type, double low,
+                      double high, uint32_t *seed)
+{
+    add_random_part(set, name, letters, type, low, high, seed);
+    RetexImage *im = &set->parts[set->nparts - 1].image;
+    const int row = im->width * im->channels;
+    for (int i = 0; i < row * im->height; i++) {
+        const int right = i % row / im->channels >= im->width / 2;
+        im->pixels[i] = im->pixels[(right ? row - im->channels : 0) + i % im->channels];
+    }
+}
+
+void test_add_denoise_data(RetexSet *set)
+{
+    uint32_t seed = 3;
+    char name[RETEX_NAME_MAX];
+    for (int t = 0; t < set->nterms; t++) {
+        name_signal(set, &set->terms[t], name, sizeof name);
+        add_random_part(set, name, "RGB", RETEX_HALF, -0.02, 0.02, &seed);
+    }
+    if (set->nterms == 0)
+        add_random_part(set, "noise_beauty", "RGB", RETEX_HALF, -0.02, 0.02, &seed);
+    add_guide(set, "guide_normal", "RGB", RETEX_HALF, -1, 1, &seed);
+    add_guide(set, "guide_position", "RGB", RETEX_FLOAT, -5, 5, &seed);
+    add_guide(set, "guide_specular", "R", RETEX_HALF, 0, 1, &seed);
+    add_guide(set, "guide_seen_normal", "RGB", RETEX_HALF, -1, 1, &seed);
+    add_guide(set, "guide_seen_position", "RGB", RETEX_FLOAT, -5, 5, &seed);
+    add_guide(set, "guide_seen_albedo", "RGB", RETEX_HALF, 0, 1, &seed);
+    add_guide(set, "guide_seen_material", "RGB", RETEX_HALF, 0, 1, &seed);
+    for (int t = 0; t < set->ntargets; t++) {
+        snprintf(name, sizeof name, "guide_cover_%.90s", set->targets[t].name);
+        add_guide(set, name, "R", RETEX_HALF, 0, 1, &seed);
+    }
+    round_to_stored(set);
+}

@@ -27,6 +27,9 @@ RetexSet *test_set(int width, int height, uint32_t seed);
  * correlation, sizes of a unit of UV, and mixtures. */
 void test_make_footprints(RetexSet *set);
 
+/* Give it what denoising reads, as <retex/denoise.h> lists it: noise, and guides of two surfaces side by side. */
+void test_add_denoise_data(RetexSet *set);
+
 /* Fails the process with a message, for helpers outside of a test. */
 void test_must(int code, const RetexError *err);
 

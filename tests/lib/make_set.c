@@ -1,19 +1,46 @@
 /* Writes the synthetic set of lib_set.c, what the command-line tests work on:
- * make_set FILE.exr [WIDTH HEIGHT [SEED]] */
+ * make_set FILE.exr [WIDTH HEIGHT [SEED]] [WORD...]; WORD:
+ *     footprints  layout footprints instead of paper
+ *     denoise     with what denoising reads
+ *     nan         NaN and infinities in the noise */
+#include <ctype.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "lib_test.h"
+
+static void spoil_noise(RetexSet *set)
+{
+    for (int i = 0; i < set->nparts; i++)
+        for (int k = 0; k < 9 && strncmp(set->parts[i].name, "noise_", 6) == 0; k++)
+            set->parts[i].image.pixels[k] = k % 3 ? NAN : k % 2 ? INFINITY : -INFINITY;
+}
 
 int main(int argc, char **argv)
 {
     RetexError err = {0};
+    int numbers[3] = {48, 32, 1}, next = 2;
     if (argc < 2) {
-        fprintf(stderr, "usage: make_set FILE.exr [WIDTH HEIGHT [SEED]]\n");
+        fprintf(stderr, "usage: make_set FILE.exr [WIDTH HEIGHT [SEED]] [footprints] [denoise] [nan]\n");
         return 2;
     }
-    RetexSet *set =
-        test_set(argc > 3 ? atoi(argv[2]) : 48, argc > 3 ? atoi(argv[3]) : 32, argc > 4 ? (uint32_t)atoi(argv[4]) : 1);
+    for (int n = 0; n < 3 && next < argc && isdigit((unsigned char)argv[next][0]); n++)
+        numbers[n] = atoi(argv[next++]);
+    RetexSet *set = test_set(numbers[0], numbers[1], (uint32_t)numbers[2]);
+    for (; next < argc; next++) {
+        if (strcmp(argv[next], "footprints") == 0) {
+            test_make_footprints(set);
+        } else if (strcmp(argv[next], "denoise") == 0) {
+            test_add_denoise_data(set);
+        } else if (strcmp(argv[next], "nan") == 0) {
+            spoil_noise(set);
+        } else {
+            fprintf(stderr, "make_set: what is '%s'?\n", argv[next]);
+            return 2;
+        }
+    }
     test_must(retex_set_write(set, NULL, argv[1], NULL, &err), &err);
     retex_set_close(&set);
     return 0;

@@ -3,8 +3,8 @@
 #
 # An example is a literal display (.Bd -literal … .Ed, or a .Dl line) of the section EXAMPLES; a leading `$ ` is left out.
 # Each must exit with 0, or with the number a comment line `.\" exit N` before it says. In the folder are scenes/ (the
-# scenes), room.exr (a set, with targets Floor and Wall), oak.jpg and brick.jpg (textures), a.exr and b.exr (two pictures
-# that differ a little).
+# scenes), room.exr (a set as it is rendered, with targets Floor and Wall), oak.jpg and brick.jpg (textures), a.exr and
+# b.exr (two pictures that differ a little).
 set -u
 here=$(pwd)
 page=$here/$1
@@ -35,7 +35,7 @@ cd "$folder/work" || exit 1
 ln -s "$here/scenes" scenes
 cp "$here/scenes/textures/brick.jpg" brick.jpg
 cp "$here/scenes/living-room/textures/oak-planks.jpg" oak.jpg
-make_set room.exr 64 48 && make_picture a.exr noise=0.01 && make_picture b.exr || exit 1
+make_set room.exr 64 48 denoise && make_picture a.exr noise=0.01 && make_picture b.exr || exit 1
 
 number=0
 for example in "$folder"/examples/???; do

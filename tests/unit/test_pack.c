@@ -137,6 +137,37 @@ static void test_default_is_close_and_smaller(void **state)
     retex_set_close(&set);
 }
 
+/* What only denoising reads is not packed; the caller's set keeps it, and what has such a name but is used is packed. */
+static void test_denoise_data_is_dropped(void **state)
+{
+    (void)state;
+    for (int keep_bits = 0; keep_bits < 2; keep_bits++) {
+        size_t bytes, data_bytes;
+        RetexPackParams params = RETEX_PACK_INIT;
+        params.lossless = keep_bits;
+        RetexSet *set = test_set(37, 29, 3);
+        test_make_footprints(set);
+        strcpy(set->parts[set->terms[2].radiance].name, "guide_light");
+        const int nparts = set->nparts;
+        unsigned char *without = pack(set, &params, &bytes);
+        test_add_denoise_data(set);
+        const int all = set->nparts;
+        unsigned char *with = pack(set, &params, &data_bytes);
+        assert_int_equal(bytes, data_bytes);
+        assert_memory_equal(with, without, bytes);
+        assert_int_equal(set->nparts, all);
+        assert_true(retex_denoise_has_data(set));
+        RetexSet *back = unpack(with, bytes);
+        assert_int_equal(back->nparts, nparts);
+        assert_false(retex_denoise_has_data(back));
+        assert_string_equal(back->parts[back->terms[2].radiance].name, "guide_light");
+        free(with);
+        free(without);
+        retex_set_close(&set);
+        retex_set_close(&back);
+    }
+}
+
 static void test_quality_trades_size(void **state)
 {
     (void)state;
@@ -399,6 +430,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_lossless_keeps_every_bit),
         cmocka_unit_test(test_default_is_close_and_smaller),
+        cmocka_unit_test(test_denoise_data_is_dropped),
         cmocka_unit_test(test_quality_trades_size),
         cmocka_unit_test(test_radiance_that_does_not_suit_jpeg_keeps_its_bits),
         cmocka_unit_test(test_black_parts_cost_nothing),

@@ -245,6 +245,8 @@ static void expect_stream(const RetexSet *set, const RetexSamples *samples, cons
         expect_equal_part(set, set->footprints[i].spread, back, back->footprints[i].spread);
     }
     assert_true(back->nparts < set->nparts);
+    for (int i = 0; i < back->nparts; i++)
+        assert_true(strncmp(back->parts[i].name, "noise_", 6) != 0 && strncmp(back->parts[i].name, "guide_", 6) != 0);
 }
 
 static void test_stream_through_a_pipe(void **state)
@@ -252,6 +254,7 @@ static void test_stream_through_a_pipe(void **state)
     (void)state;
     RetexSet *set = test_set(90, 60, 4), *back;
     test_make_footprints(set);
+    test_add_denoise_data(set);
     RetexSamples *samples = make_samples(set, 2), *samples_back;
     RetexError err = {0};
     int ends[2], status = 1;
@@ -316,6 +319,69 @@ static void test_names_are_checked(void **state)
     retex_set_close(&set);
     assert_int_equal(retex_set_create(&set, 0, 5, &err), RETEX_EINVAL);
     assert_null(set);
+}
+
+/* Names of the parts that a set refers to, in the order of the references; room for all. */
+static int list_references(const RetexSet *set, char names[][RETEX_NAME_MAX])
+{
+    int parts[512], count = 0;
+    for (int i = 0; i < set->ntargets; i++)
+        parts[count++] = set->targets[i].original;
+    for (int i = 0; i < set->nfootprints; i++) {
+        parts[count++] = set->footprints[i].uv;
+        parts[count++] = set->footprints[i].spread;
+        parts[count++] = set->footprints[i].albedo;
+    }
+    for (int i = 0; i < set->nterms; i++)
+        parts[count++] = set->terms[i].radiance;
+    for (int i = 0; i < set->nmixtures; i++)
+        for (int k = 0; k < set->mixtures[i].nshares; k++)
+            parts[count++] = set->mixtures[i].shares[k].weight;
+    for (int i = 0; i < count; i++) {
+        assert_in_range(parts[i] + 1, 0, set->nparts);
+        strcpy(names[i], parts[i] < 0 ? "" : set->parts[parts[i]].name);
+    }
+    return count;
+}
+
+/* Parts go that nothing refers to, and some that nothing refers to any more: all other references stay what they were. */
+static void test_references_follow_when_parts_go(void **state)
+{
+    (void)state;
+    static char before[512][RETEX_NAME_MAX], after[512][RETEX_NAME_MAX];
+    static const char *const unused[] = {"depth", "guide_specular", "noise_indep", "guide_cover_Wall", "guide_normal"};
+    RetexSet *set = test_set(12, 10, 1);
+    RetexError err = {0};
+    test_make_footprints(set);
+    test_add_denoise_data(set);
+    test_must(retex_set_add_part(set, "last", "RGB", RETEX_HALF, 0, 0, &set->targets[1].original, &err), &err);
+    const int count = list_references(set, before);
+    for (size_t i = 0; i < sizeof unused / sizeof *unused; i++) {
+        const int nparts = set->nparts;
+        retex_set_remove_part(set, retex_set_find_part(set, unused[i]));
+        assert_int_equal(set->nparts, nparts - 1);
+        assert_int_equal(retex_set_find_part(set, unused[i]), -1);
+        assert_int_equal(list_references(set, after), count);
+        assert_memory_equal(before, after, sizeof before);
+    }
+    int *const references[] = {&set->footprints[0].uv, &set->footprints[2].spread, &set->footprints[4].albedo,
+                               &set->targets[0].original};
+    for (size_t i = 0; i < sizeof references / sizeof *references; i++) {
+        const int part = *references[i];
+        *references[i] = -1;
+        list_references(set, before);
+        retex_set_remove_part(set, part);
+        assert_int_equal(*references[i], -1);
+        assert_int_equal(list_references(set, after), count);
+        assert_memory_equal(before, after, sizeof before);
+    }
+    assert_int_equal(set->targets[1].original, retex_set_find_part(set, "last"));
+    test_must(retex_set_write(set, NULL, path, NULL, &err), &err); /* and it is a set that can be read */
+    retex_set_close(&set);
+    test_must(retex_set_read(path, &set, NULL, 0, &err), &err);
+    assert_int_equal(list_references(set, after), count);
+    assert_memory_equal(before, after, sizeof before);
+    retex_set_close(&set);
 }
 
 static void test_samples_of_another_set(void **state)
@@ -678,11 +744,17 @@ static void test_what_is_no_set(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_set_there_and_back),      cmocka_unit_test(test_footprints_there_and_back),
-        cmocka_unit_test(test_samples_there_and_back),  cmocka_unit_test(test_stream_through_a_pipe),
-        cmocka_unit_test(test_names_are_checked),       cmocka_unit_test(test_samples_of_another_set),
-        cmocka_unit_test(test_manifests_that_lie),      cmocka_unit_test(test_mixtures_that_lie),
-        cmocka_unit_test(test_mixtures_that_are_wrong), cmocka_unit_test(test_damaged_files),
+        cmocka_unit_test(test_set_there_and_back),
+        cmocka_unit_test(test_footprints_there_and_back),
+        cmocka_unit_test(test_samples_there_and_back),
+        cmocka_unit_test(test_stream_through_a_pipe),
+        cmocka_unit_test(test_references_follow_when_parts_go),
+        cmocka_unit_test(test_names_are_checked),
+        cmocka_unit_test(test_samples_of_another_set),
+        cmocka_unit_test(test_manifests_that_lie),
+        cmocka_unit_test(test_mixtures_that_lie),
+        cmocka_unit_test(test_mixtures_that_are_wrong),
+        cmocka_unit_test(test_damaged_files),
         cmocka_unit_test(test_what_is_no_set),
     };
     return cmocka_run_group_tests(tests, make_path, remove_path);

@@ -1,0 +1,329 @@
+/* The signals of a set: which terms they have, with which weights, what is said where a part is missing or wrong; and
+ * sets that lie. */
+#include "lib_test.h"
+#include <cmocka.h>
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "set_parts.h"
+#include "signals.h"
+
+/* One signal as it should be: its parts, and its terms with their weights, named by their radiance. */
+typedef struct Expected {
+    int target;
+    RetexFootprintKind kind;
+    const char *noise, *cover;
+    int nmembers;
+    struct {
+        const char *radiance;
+        float weight;
+    } members[12];
+} Expected;
+
+static const char *part_name(const RetexSet *set, int part)
+{
+    return part < 0 ? NULL : set->parts[part].name;
+}
+
+static void expect_signals(const RetexSet *set, const Expected *expected, int count)
+{
+    Signals signals;
+    RetexError err = {0};
+    test_must(signals_open(&signals, set, &err), &err);
+    assert_int_equal(signals.count, count);
+    for (int k = 0; k < count; k++) {
+        const Signal *signal = &signals.of[k];
+        assert_int_equal(signal->target, expected[k].target);
+        assert_int_equal(signal->kind, expected[k].kind);
+        assert_string_equal(part_name(set, signal->noise), expected[k].noise);
+        assert_true((signal->cover < 0) == !expected[k].cover);
+        if (expected[k].cover)
+            assert_string_equal(part_name(set, signal->cover), expected[k].cover);
+        assert_int_equal(signal->nmembers, expected[k].nmembers);
+        for (int m = 0; m < signal->nmembers; m++) {
+            const SignalMember *member = &signal->members[m];
+            assert_string_equal(part_name(set, member->part), expected[k].members[m].radiance);
+            assert_true(member->weight == expected[k].members[m].weight);
+            if (set->nterms)
+                assert_int_equal(set->terms[member->term].radiance, member->part);
+            else
+                assert_int_equal(member->term, -1);
+        }
+    }
+    signals_close(&signals);
+    assert_null(signals.of);
+}
+
+static void test_signals_of_paper(void **state)
+{
+    (void)state;
+    static const Expected expected[] = {
+        {.target = -1,
+         .noise = "noise_indep",
+         .nmembers = 7,
+         .members = {{"full0", 1},
+                     {"t0_indep1", 1},
+                     {"t0_indep2", 1},
+                     {"t0_indep3", 1},
+                     {"t1_indep1", 1},
+                     {"t1_indep2", 1},
+                     {"t1_indep3", 1}}},
+        {.target = 0,
+         .noise = "noise_Floor_hit",
+         .cover = "guide_cover_Floor",
+         .nmembers = 5,
+         .members = {{"t0_dep1", 1}, {"t0_dep2", 0.5f}, {"t0_dep3", 0.25f}, {"t0_cross2", 1}, {"t0_cross3", 0.5f}}},
+        {.target = 1,
+         .noise = "noise_Wall_hit",
+         .cover = "guide_cover_Wall",
+         .nmembers = 5,
+         .members = {{"t1_dep1", 1}, {"t1_dep2", 0.5f}, {"t1_dep3", 0.25f}, {"t1_cross2", 1}, {"t1_cross3", 0.5f}}},
+    };
+    RetexSet *set = test_set(16, 12, 1);
+    assert_false(retex_denoise_has_data(set));
+    test_add_denoise_data(set);
+    assert_true(retex_denoise_has_data(set));
+    expect_signals(set, expected, 3);
+    retex_set_close(&set);
+}
+
+/* A set of layout footprints as the renderer makes it: a sharp and a broad cluster of the target, two later footprints,
+ * and terms that have mixtures behind their first factor. */
+static RetexSet *footprints_set(void)
+{
+    RetexSet *set = test_set(16, 12, 1);
+    RetexError err = {0};
+    test_make_footprints(set);
+    for (int i = 0; i < set->nfootprints; i++) {
+        static const RetexFootprintKind kinds[] = {RETEX_FOOTPRINT_SHARP, RETEX_FOOTPRINT_BROAD, RETEX_FOOTPRINT_LATER};
+        set->footprints[i].kind = kinds[i % 3];
+    }
+    /* one more term, whose only hit is of a mixture: that counts as its first share's footprint, here 2 and 0 */
+    RetexTerm term = {.kind = RETEX_TERM_DEP, .nfactors = 2, .factors = {RETEX_MIXTURE(1), RETEX_MIXTURE(0)}};
+    test_must(retex_set_add_part(set, "mixed", "RGB", RETEX_HALF, 0, 0, &term.radiance, &err), &err);
+    test_must(retex_set_add_term(set, &term, NULL, &err), &err);
+    return set;
+}
+
+static void test_signals_of_footprints(void **state)
+{
+    (void)state;
+    /* lib_set.c: t0_dep1 got mixture 0 as a second factor, the last term mixtures up to twelve */
+    static const Expected expected[] = {
+        {.target = -1,
+         .noise = "noise_indep",
+         .nmembers = 7,
+         .members = {{"full0", 1},
+                     {"t0_indep1", 1},
+                     {"t0_indep2", 1},
+                     {"t0_indep3", 1},
+                     {"t1_indep1", 1},
+                     {"t1_indep2", 1},
+                     {"t1_indep3", 1}}},
+        {.target = 0,
+         .kind = RETEX_FOOTPRINT_SHARP,
+         .noise = "noise_Floor_sharp",
+         .cover = "guide_cover_Floor",
+         .nmembers = 4,
+         .members = {{"t0_dep1", 0.5f}, {"t0_dep2", 0.5f}, {"t0_dep3", 0.25f}, {"mixed", 0.5f}}},
+        {.target = 0,
+         .kind = RETEX_FOOTPRINT_BROAD,
+         .noise = "noise_Floor_broad",
+         .cover = "guide_cover_Floor",
+         .nmembers = 1,
+         .members = {{"t0_cross2", 1}}},
+        {.target = 0,
+         .kind = RETEX_FOOTPRINT_LATER,
+         .noise = "noise_Floor_later",
+         .cover = "guide_cover_Floor",
+         .nmembers = 1,
+         .members = {{"t0_cross3", 0.5f}}},
+        {.target = 1,
+         .kind = RETEX_FOOTPRINT_SHARP,
+         .noise = "noise_Wall_sharp",
+         .cover = "guide_cover_Wall",
+         .nmembers = 3,
+         .members = {{"t1_dep1", 1}, {"t1_dep2", 0.5f}, {"t1_dep3", 0.25f}}},
+        {.target = 1,
+         .kind = RETEX_FOOTPRINT_BROAD,
+         .noise = "noise_Wall_broad",
+         .cover = "guide_cover_Wall",
+         .nmembers = 1,
+         .members = {{"t1_cross2", 1}}},
+        {.target = 1,
+         .kind = RETEX_FOOTPRINT_LATER,
+         .noise = "noise_Wall_later",
+         .cover = "guide_cover_Wall",
+         .nmembers = 1,
+         .members = {{"t1_cross3", 1.0f / 2048}}},
+    };
+    RetexSet *set = footprints_set();
+    test_add_denoise_data(set);
+    expect_signals(set, expected, (int)(sizeof expected / sizeof *expected));
+    retex_set_close(&set);
+}
+
+static RetexSet *plain_set(void)
+{
+    RetexSet *set;
+    RetexError err = {0};
+    test_must(retex_set_create(&set, 9, 7, &err), &err);
+    strcpy(set->layout, "plain");
+    test_must(retex_set_add_part(set, "beauty", "RGB", RETEX_HALF, 0, 0, NULL, &err), &err);
+    return set;
+}
+
+static void test_signal_of_plain(void **state)
+{
+    (void)state;
+    static const Expected expected[] = {
+        {.target = -1, .noise = "noise_beauty", .nmembers = 1, .members = {{"beauty", 1}}}};
+    RetexSet *set = plain_set();
+    assert_false(retex_denoise_has_data(set));
+    test_add_denoise_data(set);
+    expect_signals(set, expected, 1);
+    retex_set_close(&set);
+}
+
+/* Every part that the signals have, taken away or made wrong in turn. */
+static void test_missing_and_wrong_parts(void **state)
+{
+    (void)state;
+    static const char *const names[] = {"noise_indep", "noise_Floor_sharp", "noise_Wall_later", "guide_cover_Floor",
+                                        "guide_cover_Wall"};
+    Signals signals;
+    RetexError err = {0};
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+        RetexSet *set = footprints_set();
+        test_add_denoise_data(set);
+        RetexPart *part = &set->parts[retex_set_find_part(set, names[i])];
+        const int channels = part->image.channels;
+
+        for (int what = 0; what < 3; what++) {
+            retex_image_free(&part->image);
+            test_must(retex_image_alloc(&part->image, what == 0 ? 15 : 16, what == 1 ? 13 : 12,
+                                        what == 2 ? 4 - channels : channels, &err),
+                      &err);
+            assert_int_equal(signals_open(&signals, set, &err), RETEX_EFORMAT);
+            assert_non_null(strstr(err.message, names[i]));
+            assert_null(signals.of);
+            assert_false(retex_denoise_has_data(set));
+            assert_int_equal(retex_denoise(set, NULL, NULL, 1, &err), RETEX_EFORMAT);
+            assert_false(set->denoised);
+        }
+        retex_set_remove_part(set, retex_set_find_part(set, names[i]));
+        assert_int_equal(signals_open(&signals, set, &err), RETEX_ENOTFOUND);
+        assert_non_null(strstr(err.message, names[i]));
+        assert_false(retex_denoise_has_data(set));
+        assert_int_equal(retex_denoise(set, NULL, NULL, 1, &err), RETEX_ENOTFOUND);
+        retex_set_close(&set);
+    }
+}
+
+/* More kinds of first factors than the renderer's: no more than there is room for. */
+static void test_too_many_signals(void **state)
+{
+    (void)state;
+    RetexSet *set = plain_set();
+    RetexError err = {0};
+    Signals signals;
+    set->ntargets = RETEX_MAX_TARGETS;
+    for (int t = 0; t < RETEX_MAX_TARGETS; t++) {
+        set->targets[t].original = -1;
+        snprintf(set->targets[t].name, sizeof set->targets[t].name, "T%d", t);
+        for (int kind = 0; kind < 4; kind++) {
+            RetexFootprint footprint = {
+                .target = t, .hit = 1 + kind, .kind = (RetexFootprintKind)kind, .uv = -1, .spread = -1, .albedo = -1};
+            RetexTerm term = {.kind = RETEX_TERM_DEP, .nfactors = 1};
+            test_must(retex_set_add_footprint(set, &footprint, &term.factors[0], &err), &err);
+            test_must(retex_set_add_term(set, &term, NULL, &err), &err);
+        }
+    }
+    test_add_denoise_data(set);
+    assert_int_equal(signals_open(&signals, set, &err), RETEX_EFORMAT);
+    assert_null(signals.of);
+    retex_set_close(&set);
+}
+
+/* What is denoise data: by name, and used by nothing else. */
+static void test_which_parts_are_dropped(void **state)
+{
+    (void)state;
+    RetexSet *set = footprints_set();
+    const int before = set->nparts;
+    test_add_denoise_data(set);
+    for (int i = 0; i < set->nparts; i++)
+        assert_int_equal(part_is_denoise_data(set, i), i >= before);
+    strcpy(set->parts[set->terms[3].radiance].name, "noise_of-no-kind");
+    assert_false(part_is_denoise_data(set, set->terms[3].radiance));
+    strcpy(set->parts[set->footprints[2].uv].name, "guide_to-the-galaxy");
+    assert_false(part_is_denoise_data(set, set->footprints[2].uv));
+    strcpy(set->parts[set->mixtures[1].shares[2].weight].name, "guide_x");
+    assert_false(part_is_denoise_data(set, set->mixtures[1].shares[2].weight));
+    strcpy(set->parts[set->targets[1].original].name, "noise_x");
+    assert_false(part_is_denoise_data(set, set->targets[1].original));
+    strcpy(set->parts[0].name, "noise_beauty");
+    assert_false(part_is_denoise_data(set, 0));
+    retex_set_close(&set);
+}
+
+static void denoise(RetexSet *set)
+{
+    RetexDenoiseParams params = RETEX_DENOISE_INIT;
+    RetexError err = {0};
+    params.radius = 2;
+    test_must(retex_denoise(set, &params, NULL, 2, &err), &err);
+    assert_true(set->denoised);
+    assert_false(retex_denoise_has_data(set));
+    for (int i = 0; i < set->nparts; i++)
+        assert_false(part_is_denoise_data(set, i));
+    assert_int_equal(retex_denoise(set, &params, NULL, 2, &err), RETEX_ENOTFOUND);
+}
+
+/* Whatever stands in the data. */
+static void test_noise_that_is_no_number(void **state)
+{
+    (void)state;
+    static const float values[] = {NAN, INFINITY, -INFINITY, 3e38f, -3e38f, 1e-45f};
+    for (size_t v = 0; v < sizeof values / sizeof *values; v++)
+        for (int all = 0; all < 2; all++) {
+            RetexSet *set = footprints_set();
+            test_add_denoise_data(set);
+            for (int i = 0; i < set->nparts; i++) {
+                RetexImage *im = &set->parts[i].image;
+                if (part_is_denoise_data(set, i))
+                    for (int k = 0; k < im->width * im->height * im->channels; k += all ? 1 : 7)
+                        im->pixels[k] = values[v];
+            }
+            denoise(set);
+            retex_set_close(&set);
+        }
+}
+
+/* Footprints without some of their parts, as in what retex-sample writes: nothing to smooth there. */
+static void test_footprints_without_parts(void **state)
+{
+    (void)state;
+    RetexSet *set = footprints_set();
+    RetexError err = {0};
+    test_add_denoise_data(set);
+    set->footprints[1].uv = set->footprints[2].spread = set->footprints[4].albedo = -1;
+    set->footprints[5].uv = set->footprints[5].spread = set->footprints[5].albedo = -1;
+    const int code = retex_denoise(set, NULL, NULL, 1, &err);
+    assert_int_equal(set->denoised, code == 0);
+    retex_set_close(&set);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_signals_of_paper),        cmocka_unit_test(test_signals_of_footprints),
+        cmocka_unit_test(test_signal_of_plain),         cmocka_unit_test(test_missing_and_wrong_parts),
+        cmocka_unit_test(test_too_many_signals),        cmocka_unit_test(test_which_parts_are_dropped),
+        cmocka_unit_test(test_noise_that_is_no_number), cmocka_unit_test(test_footprints_without_parts),
+    };
+    return cmocka_run_group_tests_name("signals", tests, NULL, NULL);
+}
