@@ -2,7 +2,7 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include "film/cluster.h"
+#include <retex/uv_stats.h>
 #include "film/footprint_images.h"
 
 #define PENDING_MAX 64
@@ -18,8 +18,6 @@
 /* Coefficients are rounded to this share of what the pixel would be were its targets white: steps no one sees, and
  * small coefficients of few bits, which compress. */
 #define COEFFICIENT_STEP (1.0f / 8192)
-/* Mean UVs are rounded to this share of their standard deviation. */
-#define UV_STEP (1.0 / 32)
 
 typedef float Coefficients[PLAN_COEFFICIENTS_MAX][3];
 
@@ -500,26 +498,12 @@ static float *pixel_of(RetexImage *image, int x, int y)
     return image->pixels + retex_image_index(image, x, y);
 }
 
-/* To a power of two times step, or as it is where there is none. */
-static double round_to(double value, double step)
-{
-    if (!(step > 0))
-        return value;
-    int exponent;
-    frexp(step, &exponent);
-    return ldexp(rint(ldexp(value, 1 - exponent)), exponent - 1);
-}
-
 static void store_footprint(FootprintImages *to, const UvStats *uv, const AlbedoSums *albedo, float coverage, int x,
                             int y)
 {
     float *mean = pixel_of(&to->uv, x, y), *spread = pixel_of(&to->spread, x, y), *a = pixel_of(&to->albedo, x, y);
-    double su = sqrt(uv->m2[0] / uv->weight), sv = sqrt(uv->m2[2] / uv->weight);
-    mean[0] = (float)round_to(uv->mean[0], UV_STEP * su);
-    mean[1] = (float)round_to(uv->mean[1], UV_STEP * sv);
+    uv_stats_store(uv, mean, spread);
     mean[2] = coverage;
-    spread[0] = (float)su, spread[1] = (float)sv;
-    spread[2] = su > 0 && sv > 0 ? (float)(uv->m2[1] / (uv->weight * su * sv)) : 0;
     float light = albedo->light[0] + albedo->light[1] + albedo->light[2];
     float reflected = albedo->reflected[0] + albedo->reflected[1] + albedo->reflected[2];
     for (int c = 0; c < 3; c++) /* a channel without light: grey of the others */
@@ -566,12 +550,12 @@ static void store_light(RetexImage *image, const float sum[3], float scale, doub
         return; /* memory that is never touched is never taken */
     float *to = pixel_of(image, x, y);
     for (int c = 0; c < 3; c++)
-        to[c] = (float)round_to(sum[c] * scale, step);
+        to[c] = (float)retex_round_to(sum[c] * scale, step);
 }
 
 static void store_share(RetexImage *image, float share, int x, int y)
 {
-    *pixel_of(image, x, y) = fmaxf((float)round_to(share, SHARE_STEP), LEAST_SHARE);
+    *pixel_of(image, x, y) = fmaxf((float)retex_round_to(share, SHARE_STEP), LEAST_SHARE);
 }
 
 /* Clusters into their images, in the order of their place on the texture, so that neighbours agree. */

@@ -14,5 +14,6 @@
 #include <retex/sample.h>
 #include <retex/set.h>
 #include <retex/texture.h>
+#include <retex/uv_stats.h>
 
 #endif

@@ -1,6 +1,10 @@
 /* Clusters of weighted UVs, and what merging them costs. */
-#ifndef RENDERER_FILM_CLUSTER_H
-#define RENDERER_FILM_CLUSTER_H
+#ifndef RETEX_UV_STATS_H
+#define RETEX_UV_STATS_H
+
+#ifdef __cplusplus
+extern "C" {
+#endif
 
 /* A weighted distribution of UV. On a periodic axis the mean lies in [0,1), and distances go the short way round. */
 typedef struct UvStats {
@@ -22,4 +26,16 @@ double uv_stats_ward(const UvStats *a, const UvStats *b, const int periodic[2]);
 double uv_stats_variation_gain(const UvStats *a, const UvStats *b, const int periodic[2]);
 #define UV_FEATURE 0.5 /* of UV, in which most textures have changed all they do */
 
+/* As footprints hold it: mean u and v, rounded to a 32nd of their standard deviation at most; spread: these deviations,
+ * and the correlation. */
+void uv_stats_store(const UvStats *stats, float mean[2], float spread[3]);
+/* And back. */
+void uv_stats_load(UvStats *stats, double weight, const float mean[2], const float spread[3]);
+
+/* To a multiple of the largest power of two that is no more than step; as it is where step is not above 0. */
+double retex_round_to(double value, double step);
+
+#ifdef __cplusplus
+}
+#endif
 #endif

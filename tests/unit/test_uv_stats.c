@@ -6,7 +6,7 @@
 
 #include <cmocka.h>
 
-#include "film/cluster.h"
+#include <retex/uv_stats.h>
 
 #define COUNT 400
 

@@ -1,6 +1,7 @@
 /* Weighted means and covariances of UV, updated without cancellation (Welford; Chan et al. for merging). */
 #include <math.h>
-#include "film/cluster.h"
+
+#include <retex/uv_stats.h>
 
 static double difference(double to, double from, int periodic)
 {
@@ -59,4 +60,33 @@ double uv_stats_variation_gain(const UvStats *a, const UvStats *b, const int per
 {
     double sa = a->m2[0] + a->m2[2], sb = b->m2[0] + b->m2[2], both = sa + sb + uv_stats_ward(a, b, periodic);
     return variation(a->weight + b->weight, both) - variation(a->weight, sa) - variation(b->weight, sb);
+}
+
+double retex_round_to(double value, double step)
+{
+    if (!(step > 0))
+        return value;
+    int exponent;
+    frexp(step, &exponent);
+    return ldexp(rint(ldexp(value, 1 - exponent)), exponent - 1);
+}
+
+#define UV_STEP (1.0 / 32)
+
+void uv_stats_store(const UvStats *stats, float mean[2], float spread[3])
+{
+    double su = sqrt(stats->m2[0] / stats->weight), sv = sqrt(stats->m2[2] / stats->weight);
+    mean[0] = (float)retex_round_to(stats->mean[0], UV_STEP * su);
+    mean[1] = (float)retex_round_to(stats->mean[1], UV_STEP * sv);
+    spread[0] = (float)su, spread[1] = (float)sv;
+    spread[2] = su > 0 && sv > 0 ? (float)(stats->m2[1] / (stats->weight * su * sv)) : 0;
+}
+
+void uv_stats_load(UvStats *stats, double weight, const float mean[2], const float spread[3])
+{
+    stats->weight = weight;
+    stats->mean[0] = mean[0], stats->mean[1] = mean[1];
+    stats->m2[0] = weight * spread[0] * spread[0];
+    stats->m2[1] = weight * spread[2] * spread[0] * spread[1];
+    stats->m2[2] = weight * spread[1] * spread[1];
 }
