@@ -7,12 +7,15 @@ $ retex-sample --version
 > retex-sample 0.1.0
 $ retex-combine --version
 > retex-combine 0.1.0
+$ retex-denoise --version
+> retex-denoise 0.1.0
 $ retex-info --version
 > retex-info 0.1.0
 $ retex-render --version
 > retex-render 0.1.0
 
-$ for t in diff pack sample combine info render; do retex-$t --nonsense; echo $?; done
+$ for t in diff pack sample combine denoise info render; do retex-$t --nonsense; echo $?; done
+> 2
 > 2
 > 2
 > 2
@@ -23,11 +26,13 @@ $ for t in diff pack sample combine info render; do retex-$t --nonsense; echo $?
 ! retex-pack: error: unknown option --nonsense; try --help
 ! retex-sample: error: unknown option --nonsense; try --help
 ! retex-combine: error: unknown option --nonsense; try --help
+! retex-denoise: error: unknown option --nonsense; try --help
 ! retex-info: error: unknown option --nonsense; try --help
 ! retex-render: error: unknown option --nonsense; try --help
 
 # --help goes to standard output and names every option.
-$ for t in diff pack sample combine info render; do retex-$t --help >help || echo $t; grep -c -e '--threads N' help; done
+$ for t in diff pack sample combine denoise info render; do retex-$t --help >help || echo $t; grep -c -e '--threads N' help; done
+> 1
 > 1
 > 1
 > 1
@@ -36,6 +41,7 @@ $ for t in diff pack sample combine info render; do retex-$t --help >help || ech
 > 1
 $ retex-diff --help | awk 'length > 79'
 $ retex-pack --help | awk 'length > 79'
+$ retex-denoise --help | awk 'length > 79'
 
 $ retex-pack --threads many set.exr
 ! retex-pack: error: --threads: expected a whole number from 0 to 256, not 'many'
@@ -80,10 +86,11 @@ $ make_set s.exr; for c in 'retex-render s.pov' 'retex-combine s.exr -o -' 'rete
 > retex-combine: error: /dev/stdout is a terminal; name a file: -o FILE
 > retex-combine: error: /dev/tty is a terminal; name a file: -o FILE
 > retex-pack: error: no output file: give -o FILE, or redirect standard output
-$ for c in 'retex-sample - --texture a=b -o x.exr' 'retex-combine - -o x.png' 'retex-combine s.exr --batch -' 'retex-pack - -o x.retex' 'retex-info -' 'retex-diff - s.exr'; do sleep 1 | timeout 10 script -qec "$c" /dev/null; done | tr -d '\r'
+$ for c in 'retex-sample - --texture a=b -o x.exr' 'retex-combine - -o x.png' 'retex-combine s.exr --batch -' 'retex-pack - -o x.retex' 'retex-denoise - -o x.exr' 'retex-info -' 'retex-diff - s.exr'; do sleep 1 | timeout 10 script -qec "$c" /dev/null; done | tr -d '\r'
 > retex-sample: error: standard input is a terminal; expected a set, as from retex-render
 > retex-combine: error: standard input is a terminal; expected a set, as from retex-render or retex-sample
 > retex-combine: error: standard input is a terminal; expected a table
 > retex-pack: error: standard input is a terminal; expected a set, as from retex-render
+> retex-denoise: error: standard input is a terminal; expected a set, as from retex-render
 > retex-info: error: standard input is a terminal; expected a set, as from retex-render
 > retex-diff: error: standard input is a terminal; expected an OpenEXR file

@@ -1,6 +1,7 @@
 /* Writes the synthetic set of lib_set.c, what the command-line tests work on:
  * make_set FILE.exr [WIDTH HEIGHT [SEED]] [WORD...]; WORD:
  *     footprints  layout footprints instead of paper
+ *     plain       no terms, no targets: the beauty, and the other parts as AOVs
  *     denoise     with what denoising reads
  *     nan         NaN and infinities in the noise */
 #include <ctype.h>
@@ -23,7 +24,7 @@ int main(int argc, char **argv)
     RetexError err = {0};
     int numbers[3] = {48, 32, 1}, next = 2;
     if (argc < 2) {
-        fprintf(stderr, "usage: make_set FILE.exr [WIDTH HEIGHT [SEED]] [footprints] [denoise] [nan]\n");
+        fprintf(stderr, "usage: make_set FILE.exr [WIDTH HEIGHT [SEED]] [footprints] [plain] [denoise] [nan]\n");
         return 2;
     }
     for (int n = 0; n < 3 && next < argc && isdigit((unsigned char)argv[next][0]); n++)
@@ -32,6 +33,9 @@ int main(int argc, char **argv)
     for (; next < argc; next++) {
         if (strcmp(argv[next], "footprints") == 0) {
             test_make_footprints(set);
+        } else if (strcmp(argv[next], "plain") == 0) {
+            strcpy(set->layout, "plain");
+            set->nterms = set->nmixtures = set->nfootprints = set->ntargets = 0;
         } else if (strcmp(argv[next], "denoise") == 0) {
             test_add_denoise_data(set);
         } else if (strcmp(argv[next], "nan") == 0) {

@@ -344,7 +344,8 @@ static int list_references(const RetexSet *set, char names[][RETEX_NAME_MAX])
     return count;
 }
 
-/* Parts go that nothing refers to, and some that nothing refers to any more: all other references stay what they were. */
+/* Parts go that nothing refers to, and some that nothing refers to any more: all other references stay what they were.
+ */
 static void test_references_follow_when_parts_go(void **state)
 {
     (void)state;

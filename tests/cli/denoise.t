@@ -1,0 +1,157 @@
+# retex-denoise: what it writes, pipes, what is refused, and that no partial file stays.
+$ make_set s.exr 64 48 denoise; retex-denoise s.exr -o d.exr 2>&1 | sed 's/[0-9]*\.[0-9]* s$/N s/'; retex-info --check d.exr
+> retex-denoise: d.exr: 64 x 48, N s
+> d.exr: ok
+$ retex-info s.exr | grep '^denoise'; retex-info d.exr | grep '^denoise'
+> denoise data   yes
+> denoised       yes
+$ for f in s.exr d.exr; do retex-info --json $f | grep -o '"denoised":[a-z]*\|"denoise_data":[a-z]*'; done
+> "denoise_data":true
+> "denoised":false
+> "denoise_data":false
+> "denoised":true
+$ retex-info --json s.exr | grep -c '"noise_indep"'; retex-info --json d.exr | grep -c '"noise_\|"guide_'
+> 1
+> 0
+= 1
+$ retex-denoise -q s.exr -o again.exr; cmp d.exr again.exr; retex-denoise -q --threads 1 s.exr -o one.exr; cmp d.exr one.exr
+$ retex-denoise -v s.exr -o again.exr 2>&1 | sed 's/[0-9]*\.[0-9]* s/N s/g'
+> retex-denoise: again.exr: 64 x 48, N s
+> retex-denoise: read N s, denoised N s, written N s
+
+# It retextures like any other set, and its picture is its recombination.
+$ retex-combine -q d.exr --texture 'floor=rgb(0.8,0.1,0.1)' -o red.exr; retex-diff -q d.exr red.exr
+= 1
+$ retex-combine -q d.exr -o same.exr; retex-diff -q same.exr d.exr --fail-rel 0.001
+
+# The other layout.
+$ make_set f.exr 32 24 footprints denoise; retex-denoise -q f.exr -o fd.exr; retex-info --check fd.exr; retex-denoise -q --no-footprints f.exr -o kept.exr; retex-diff -q --part t0_uv1 kept.exr f.exr; retex-diff -q --part t1_uv3 kept.exr f.exr
+> fd.exr: ok
+
+# Options at both ends of what they may be.
+$ for o in '--strength 0.1' '--strength 10' '--radius 1' '--radius 10' --no-footprints; do retex-denoise -q s.exr $o -o x.exr && retex-info --check x.exr; done; rm x.exr
+> x.exr: ok
+> x.exr: ok
+> x.exr: ok
+> x.exr: ok
+> x.exr: ok
+$ retex-denoise s.exr -o x.exr --strength 0
+! retex-denoise: error: --strength: expected a number from 0.1 to 10, not '0'
+= 2
+$ retex-denoise s.exr -o x.exr --strength nan
+! retex-denoise: error: --strength: expected a number from 0.1 to 10, not 'nan'
+= 2
+$ retex-denoise s.exr -o x.exr --radius 11
+! retex-denoise: error: --radius: expected a whole number from 1 to 10, not '11'
+= 2
+$ retex-denoise s.exr -o x.exr --radius 2.5
+! retex-denoise: error: --radius: expected a whole number from 1 to 10, not '2.5'
+= 2
+$ retex-denoise s.exr -o x.exr --footprints
+! retex-denoise: error: unknown option --footprints; try --help
+= 2
+$ retex-denoise
+! retex-denoise: error: no set given; - is standard input
+= 2
+$ retex-denoise s.exr t.exr -o x.exr
+! retex-denoise: error: one set is enough; what is 't.exr'?
+= 2
+$ retex-denoise s.exr -o x.png
+! retex-denoise: error: x.png: a set is an OpenEXR file, .exr, or a pack, .retex; pictures are made by retex-combine
+= 2
+$ ls x.*
+! ls: cannot access 'x.*': No such file or directory
+= 2
+
+# Pipes: in, out, both; and between the other tools.
+$ retex-denoise -q - <s.exr >piped.exr; retex-diff -q --all-parts --allow-inf piped.exr d.exr
+$ retex-denoise s.exr 2>&1 >/dev/null | sed 's/[0-9]*\.[0-9]* s$/N s/'
+> retex-denoise: standard output: 64 x 48, N s
+$ cat s.exr | retex-denoise -q - | retex-sample -q - --texture 'floor=rgb(0.8,0.1,0.1)' | retex-combine -q - -o through.exr; cmp red.exr through.exr
+$ ln -s "$SCENES" scenes; retex-render -q --size 16x12 --spp 2 -t floor scenes/cornell-box/cornell-box.pov | retex-denoise -q - | retex-sample -q - --texture 'floor=rgb(1,0,0)' | retex-combine -q - -o x.png; ls x.png; rm x.png
+> x.png
+
+# The picture alone, without terms.
+$ make_set plain.exr 32 24 plain denoise; retex-denoise -q plain.exr -o x.exr; retex-info x.exr | grep '^layout\|^denoise'; retex-diff -q x.exr plain.exr --fail-abs 0; echo $?; rm x.exr
+> layout         plain
+> denoised       yes
+> 1
+
+# A pack: by the name, as retex-pack makes it; made before, it lacks what is needed.
+$ retex-denoise -q s.exr -o d.retex; retex-pack -q d.exr -o packed.retex; cmp d.retex packed.retex; retex-info d.retex | grep '^denoise'
+> denoised       yes
+$ retex-pack -q s.exr -o s.retex; retex-info s.retex | grep '^denoise'; retex-info --json s.retex | grep -c '"noise_\|"guide_'
+> denoise data   no
+> 0
+= 1
+$ retex-denoise s.retex -o x.exr 2>err; echo $?; sed 's/part [a-zA-Z_]*:/part NAME:/' err
+> 2
+> retex-denoise: error: the set lacks the part NAME: it was rendered or packed without what denoising needs, or is denoised already
+$ retex-pack -q --lossless s.exr -o l.retex; retex-pack -q --unpack l.retex -o unpacked.exr; make_set without.exr 64 48; retex-diff -q --all-parts --allow-inf unpacked.exr without.exr
+
+# Input and output the same file; a link is followed.
+$ cp s.exr same.exr; retex-denoise -q same.exr -o same.exr; cmp same.exr d.exr; cp s.exr same.exr; ln -s same.exr link.exr; retex-denoise -q link.exr -o link.exr; cmp same.exr d.exr; test -L link.exr
+
+# Sets without what is needed: rendered or packed without it, denoised already, on their way to retex-combine.
+$ retex-denoise d.exr -o x.exr 2>err; echo $?; sed 's/part [a-zA-Z_]*:/part NAME:/' err
+> 2
+> retex-denoise: error: the set lacks the part NAME: it was rendered or packed without what denoising needs, or is denoised already
+$ make_set w.exr; retex-denoise w.exr -o x.exr 2>err; echo $?; sed 's/part [a-zA-Z_]*:/part NAME:/' err
+> 2
+> retex-denoise: error: the set lacks the part NAME: it was rendered or packed without what denoising needs, or is denoised already
+$ retex-sample -q s.exr --texture 'floor=rgb(1,0,0)' | retex-denoise - -o x.exr 2>err; echo $?; sed 's/part [a-zA-Z_]*:/part NAME:/' err
+> 2
+> retex-denoise: error: the set lacks the part NAME: it was rendered or packed without what denoising needs, or is denoised already
+
+# Input that is no set, or damaged: one line, and nothing is written.
+$ retex-denoise none.exr -o x.exr
+! retex-denoise: error: cannot read none.exr: No such file or directory
+= 2
+$ retex-sample -q s.exr --texture 'floor=rgb(1,0,0)' -o samples.exr; retex-denoise samples.exr -o x.exr
+! retex-denoise: error: samples.exr holds samples, no set
+= 2
+$ make_picture p.exr; retex-denoise p.exr -o x.exr
+! retex-denoise: error: p.exr is not a set (no `retex` attribute)
+= 2
+$ : >empty.exr; retex-denoise empty.exr -o x.exr
+! retex-denoise: error: empty.exr is not a set: it is empty
+= 2
+$ head -c 50000 s.exr >cut.exr; retex-denoise cut.exr -o x.exr 2>err; echo $?; wc -l <err; grep -c 'retex-denoise: error: cut.exr: part .* is damaged' err
+> 2
+> 1
+> 1
+$ head -c 50000 s.exr | retex-denoise - -o x.exr 2>err; echo $?; wc -l <err; grep -c 'retex-denoise: error: standard input: part .* is damaged' err
+> 2
+> 1
+> 1
+$ ls x.*
+! ls: cannot access 'x.*': No such file or directory
+= 2
+
+# Noise that is no number leaves light that is: retex-diff fails on NaN.
+$ for layout in '' footprints; do make_set nan.exr 32 24 $layout denoise nan; retex-denoise -q nan.exr -o n.exr; retex-info --check n.exr; retex-diff -q --all-parts --allow-inf n.exr n.exr; done
+> n.exr: ok
+> n.exr: ok
+
+# A full disk, a closed pipe, a folder that is not there, seen before the work; an old file stays whole.
+$ retex-denoise -q s.exr -o /dev/full
+! retex-denoise: error: cannot write /dev/full: No space left on device
+= 2
+$ retex-denoise -q s.exr >/dev/full
+! retex-denoise: error: cannot write standard output: No space left on device
+= 2
+$ { sleep 0.3; retex-denoise -q s.exr; echo $? >&2; } | :
+! retex-denoise: error: cannot write standard output: Broken pipe
+! 2
+$ retex-denoise -q none.exr -o nowhere/x.exr
+! retex-denoise: error: cannot write nowhere/x.exr: No such file or directory
+= 2
+$ echo old >old.exr; retex-denoise -q cut.exr -o old.exr 2>/dev/null; cat old.exr; ls -A | grep -v '^[a-z-]*\.[a-z]*$'
+> old
+> err
+> scenes
+
+# The bar is drawn on a terminal, and only there.
+$ skip-without script no terminal to try
+$ timeout 20 script -qec 'retex-denoise s.exr -o x.exr' /dev/null </dev/null | grep -c 'denoise \[#*\] 100%'; timeout 20 script -qec 'retex-denoise -q s.exr -o x.exr' /dev/null </dev/null
+> 1
