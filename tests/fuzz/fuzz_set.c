@@ -1,6 +1,7 @@
 /* Sets, samples and streams of both as OpenEXR files, read from a file and through a pipe: both must say the same. What
- * is accepted is checked, recombined and retextured. */
+ * is accepted is checked, recombined, retextured and denoised. */
 #include <fcntl.h>
+#include <retex/denoise.h>
 #include <retex/sample.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -53,6 +54,10 @@ static void begin(void)
     test_must(retex_sample(&samples, tall, &spec, 1, 1, &err), &err);
     give(tall, samples, 0);
     retex_samples_close(&samples);
+    test_add_denoise_data(set);
+    test_add_denoise_data(tall);
+    give(set, NULL, 0);
+    give(tall, NULL, 0);
     retex_set_close(&set);
     retex_set_close(&tall);
     file = memfd_create("fuzz_set", 0);
@@ -91,6 +96,18 @@ static void use_set(const RetexSet *set, const RetexSamples *samples)
     retex_image_free(&picture);
 }
 
+/* Denoising changes a set: the last thing done to it. */
+static void denoise(RetexSet *set)
+{
+    RetexDenoiseParams params = RETEX_DENOISE_INIT;
+    RetexImage picture = {0};
+    params.radius = 2;
+    if (set->width > 64 || set->height > 64 || retex_denoise(set, &params, NULL, 1, NULL))
+        return;
+    retex_combine(&picture, set, NULL, NULL, NULL, 1, NULL);
+    retex_image_free(&picture);
+}
+
 static void use_layers(void)
 {
     RetexLayers *layers;
@@ -118,6 +135,8 @@ static int run(const unsigned char *bytes, size_t size)
     fuzz_must(code || retex_set_check(path, 1, NULL) <= 0, "a check answers");
     if (set)
         use_set(set, samples);
+    if (set)
+        denoise(set);
     use_layers();
     retex_set_close(&set);
     retex_set_close(&piped);
