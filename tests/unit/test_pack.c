@@ -137,7 +137,7 @@ static void test_default_is_close_and_smaller(void **state)
     retex_set_close(&set);
 }
 
-/* What only denoising reads is not packed; the caller's set keeps it, and what has such a name but is used is packed. */
+/* What only denoising reads is not packed; the caller's set keeps it; what has such a name but is used is packed. */
 static void test_denoise_data_is_dropped(void **state)
 {
     (void)state;

@@ -188,7 +188,7 @@ static void test_signal_of_plain(void **state)
     retex_set_close(&set);
 }
 
-/* A part that is not as it should be: the signals say so, if it is theirs, and denoising, which leaves the set alone. */
+/* A part is not as it should be: the signals say so, if it is theirs, and so does denoising, which leaves the set. */
 static void expect_refused(RetexSet *set, const char *name, int code)
 {
     Signals signals;
