@@ -39,29 +39,6 @@ static void store(RetexImage *image, int x, int y, float a, float b, float c)
         p[k] = v[k];
 }
 
-static int is_mirror(const Finish *finish)
-{
-    return !rgb_is_black(finish->reflection_min) || !rgb_is_black(finish->reflection_max);
-}
-
-/* Of the sharpest lobe: POV-Ray's reflection and clear refraction are mirrors. */
-static float roughness(const Bsdf *b, const Finish *finish)
-{
-    if (b->disney)
-        return b->roughness;
-    if (is_mirror(finish) || !rgb_is_black(b->passing.d) || !rgb_is_black(b->passing.i))
-        return 0;
-    return b->alpha > 0 ? sqrtf(b->alpha) : 1;
-}
-
-static float metallic(const Bsdf *b, const Finish *finish)
-{
-    if (b->disney)
-        return b->metallic;
-    double most = fmax(is_mirror(finish) ? finish->reflection_metallic : 0, b->alpha > 0 ? finish->metallic : 0);
-    return (float)fmin(1, fmax(0, most));
-}
-
 static void aov_row(void *context, int y, int thread)
 {
     AovJob *job = context;
@@ -85,8 +62,8 @@ static void aov_row(void *context, int y, int thread)
             store(job->images[4], x, y, (float)uv.u, (float)uv.v, 1);
         }
         store(job->images[5], x, y, (float)(hit.primitive + 1), 0, 0);
-        store(job->images[6], x, y, roughness(&s.bsdf, s.surface.texture->finish), 0, 0);
-        store(job->images[7], x, y, metallic(&s.bsdf, s.surface.texture->finish), 0, 0);
+        store(job->images[6], x, y, shading_roughness(&s), 0, 0);
+        store(job->images[7], x, y, shading_metallic(&s), 0, 0);
     }
 }
 

@@ -268,12 +268,6 @@ static Split emitted(const Shading *s)
     return (Split){rgb_scale(s->surface.texture->finish->emission, opacity), {0, 0, 0}};
 }
 
-/* Which rays a path goes on with: light that bends in glass is still looked at by the camera. */
-static RayKind next_kind(RayKind kind, const Bsdf *bsdf, int transmitted)
-{
-    return transmitted && bsdf->refracts ? kind : RAY_BOUNCE;
-}
-
 /* Is a point of an emitter that throws no shadow behind the emitter's own front? */
 static int hidden_by_itself(const PathContext *c, Ray ray, const Primitive *emitter)
 {
@@ -351,7 +345,7 @@ static void sample_light(PathWorker *w, const Path *path, const Shading *s, cons
             return;
         n += passed;
     }
-    if (!source && (pdf = path_density(c, &ray, next_kind(path->kind, &s->bsdf, other_side), &light, pdf)) < 0)
+    if (!source && (pdf = path_density(c, &ray, path_next_kind(path->kind, &s->bsdf, other_side), &light, pdf)) < 0)
         return;
     float light_pdf = light.pdf * light.pick_probability;
     float weight = source ? 1 / light.pick_probability : mis_weight(light_pdf, pdf) / light_pdf;
@@ -406,7 +400,7 @@ static int scatter(PathWorker *w, Path *path, const Shading *s, double distance,
     if (next.transmitted)
         media_cross(&path->media, &s->surface);
     if (!next.straight) {
-        path->kind = next_kind(path->kind, &s->bsdf, next.transmitted);
+        path->kind = path_next_kind(path->kind, &s->bsdf, next.transmitted);
         path->pdf = next.pdf;
         path->sharp &= next.pdf == 0 || next.pdf > SHARP_PDF;
         path->from = s->surface.position;

@@ -61,6 +61,16 @@ static inline Rgb shading_albedo(const Shading *s, int variant)
     return s->replaced ? s->albedos[variant] : s->albedo;
 }
 
+/* AOV_ROUGHNESS and AOV_METALLIC of render.h. */
+float shading_roughness(const Shading *shading);
+float shading_metallic(const Shading *shading);
+
+/* Which rays a path goes on with: light that bends in glass is still looked at by the camera. */
+static inline RayKind path_next_kind(RayKind kind, const Bsdf *bsdf, int transmitted)
+{
+    return transmitted && bsdf->refracts ? kind : RAY_BOUNCE;
+}
+
 void path_trace(PathWorker *worker, Ray ray, const Sampler *sampler);
 
 #endif

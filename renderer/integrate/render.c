@@ -6,6 +6,7 @@
 #include <retex/parallel.h>
 #include "integrate/camera.h"
 #include "integrate/control_constants.h"
+#include "integrate/denoise_guides.h"
 #include "integrate/first_hit.h"
 #include "integrate/path.h"
 #include "integrate/originals.h"
@@ -188,6 +189,12 @@ static void open_worker(Render *r, int k)
     w->variants = w->own;
 }
 
+/* A single sample does not tell how noisy it is. */
+static int keeps_denoise_data(const RenderParams *p)
+{
+    return p->denoise_data && p->spp > 1;
+}
+
 /* control: a film of all variants too, with moments of so many halves. */
 static int render_film(Render *r, int control, int halves, RetexError *err)
 {
@@ -203,7 +210,7 @@ static int render_film(Render *r, int control, int halves, RetexError *err)
                        .clusters = r->params.clusters,
                        .sharp = r->params.sharp,
                        .broad = r->params.broad,
-                       .noise = r->params.denoise_data};
+                       .noise = keeps_denoise_data(&r->params)};
     for (int t = 0; t < r->scene->ntargets; t++)
         target_periodic(r->scene, t, film.periodic[t]);
     r->pixels = calloc((size_t)threads, sizeof *r->pixels);
@@ -345,6 +352,8 @@ static int render_into(RetexSet *set, Render *r, RenderStats *stats, double star
         code = originals_add(set, r->scene, err);
     if (!code)
         code = first_hit_aovs(set, &window, r->params.aovs, err);
+    if (!code && keeps_denoise_data(&r->params))
+        code = denoise_guides_add(set, &window, r->context.split, err);
     if (!code && r->params.aovs & AOV_IRRADIANCE)
         code = add_irradiance(set, r, err);
     if (!code && data) {

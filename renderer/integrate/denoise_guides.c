@@ -1,0 +1,198 @@
+/* See denoise_guides.h. */
+#include <stdio.h>
+#include <retex/parallel.h>
+#include "integrate/camera.h"
+#include "integrate/denoise_guides.h"
+#include "integrate/path.h"
+
+#define PLACES 16
+#define LATTICE_STEP 5  /* rows between places of neighbouring columns: of all steps it keeps them the farthest apart */
+#define FOLLOWED_MAX 16 /* mirrors and glasses on the way */
+
+enum {
+    GUIDE_NORMAL,
+    GUIDE_POSITION,
+    GUIDE_SPECULAR,
+    GUIDE_SEEN_NORMAL,
+    GUIDE_SEEN_POSITION,
+    GUIDE_SEEN_ALBEDO,
+    GUIDE_SEEN_MATERIAL,
+    GUIDE_COUNT
+};
+
+static const struct {
+    const char *name, *letters;
+    RetexPixelType type;
+} guide_table[GUIDE_COUNT] = {
+    [GUIDE_NORMAL] = {"guide_normal", "RGB", RETEX_HALF},
+    [GUIDE_POSITION] = {"guide_position", "RGB", RETEX_FLOAT},
+    [GUIDE_SPECULAR] = {"guide_specular", "R", RETEX_HALF},
+    [GUIDE_SEEN_NORMAL] = {"guide_seen_normal", "RGB", RETEX_HALF},
+    [GUIDE_SEEN_POSITION] = {"guide_seen_position", "RGB", RETEX_FLOAT},
+    [GUIDE_SEEN_ALBEDO] = {"guide_seen_albedo", "RGB", RETEX_HALF},
+    [GUIDE_SEEN_MATERIAL] = {"guide_seen_material", "RGB", RETEX_HALF},
+};
+
+typedef struct GuideJob {
+    const FirstHitWindow *window;
+    int split;
+    RetexImage *guides[GUIDE_COUNT], *covers[RETEX_MAX_TARGETS];
+} GuideJob;
+
+/* Sums over the places of a pixel. */
+typedef struct Sight {
+    int places; /* that see anything */
+    Vec3 normal, position;
+} Sight;
+
+typedef struct GuideSums {
+    Sight first, seen;
+    int specular;
+    Rgb albedo;
+    double roughness, metallic;
+    double cover[RETEX_MAX_TARGETS];
+} GuideSums;
+
+static void add_sight(Sight *sight, const Shading *s)
+{
+    sight->places++;
+    sight->normal = vec_add(sight->normal, s->bsdf.normal);
+    sight->position = vec_add(sight->position, s->surface.position);
+}
+
+/* What a texture on the surface may be is not known where it is a target. */
+static Rgb known_albedo(const GuideJob *job, const Shading *s)
+{
+    return job->split && s->surface.target >= 0 ? rgb_grey(1) : shading_albedo(s, 0);
+}
+
+/* A lamp, whose colour is no pigment that light falls on. */
+static int is_emitter(const Shading *s)
+{
+    return rgb_luminance(s->surface.texture->finish->emission) > s->bsdf.diffuse;
+}
+
+static void add_seen(const GuideJob *job, GuideSums *sums, const Shading *s)
+{
+    add_sight(&sums->seen, s);
+    sums->albedo = rgb_add(sums->albedo, is_emitter(s) ? rgb_grey(1) : known_albedo(job, s));
+    sums->roughness += shading_roughness(s);
+    sums->metallic += shading_metallic(s);
+}
+
+/* Where a mirror or clear glass, unless it is more of something else, sends the ray on, and what it leaves of the light.
+ * Returns 0 where the surface is itself what is seen. */
+static int follow(const GuideJob *job, const Shading *s, const Hit *hit, Ray *ray, RayKind *kind, float *throughput)
+{
+    const Bsdf *b = &s->bsdf;
+    int mirror = b->p_mirror > b->p_passing;
+    float likely = mirror ? b->p_mirror : b->p_passing;
+    BsdfSample next;
+    if (!(likely > fmaxf(b->p_diffuse, fmaxf(b->p_back, b->p_glossy))))
+        return 0;
+    if (!bsdf_sample(b, mirror ? likely / 2 : b->p_mirror + likely / 2, 0, 0, &next))
+        return 0;
+    *throughput *= fminf(1, rgb_luminance(split_apply(mirror ? b->mirror : b->passing, known_albedo(job, s))));
+    if (next.straight) {
+        ray->tmin = hit->t;
+        return 1;
+    }
+    *kind = path_next_kind(*kind, b, next.transmitted);
+    *ray = (Ray){accel_offset(s->surface.position, s->surface.geometric_normal, next.wi), next.wi, 0, INFINITY};
+    return 1;
+}
+
+/* A target counts where it is met first, be it a mirror itself. */
+static void add_cover(double cover[RETEX_MAX_TARGETS], unsigned *met, const Shading *s, float throughput)
+{
+    if (s->surface.target >= 0 && !(*met >> s->surface.target & 1)) {
+        cover[s->surface.target] += throughput;
+        *met |= 1u << s->surface.target;
+    }
+}
+
+static void look(const GuideJob *job, GuideSums *sums, Ray ray)
+{
+    const FirstHitWindow *w = job->window;
+    RayKind kind = RAY_CAMERA;
+    float throughput = 1;
+    unsigned met = 0;
+    Hit hit;
+    Shading s;
+    for (int followed = 0;; followed++) {
+        if (!accel_intersect(w->accel, &ray, kind, &hit)) {
+            sums->albedo = rgb_add(sums->albedo, rgb_grey(1));
+            return;
+        }
+        shading_at(&s, w->scene, w->variants, 1, &ray, &hit);
+        if (followed == 0)
+            add_sight(&sums->first, &s);
+        add_cover(sums->cover, &met, &s, throughput);
+        if (followed == FOLLOWED_MAX || !follow(job, &s, &hit, &ray, &kind, &throughput))
+            break;
+        sums->specular += followed == 0;
+    }
+    add_seen(job, sums, &s);
+}
+
+static void store(RetexImage *image, int x, int y, double scale, double a, double b, double c)
+{
+    float *p = image->pixels + retex_image_index(image, x, y);
+    const double v[3] = {a, b, c};
+    for (int k = 0; k < image->channels; k++)
+        p[k] = (float)(v[k] * scale);
+}
+
+static void store_sight(RetexImage *normal, RetexImage *position, int x, int y, const Sight *sight)
+{
+    if (!sight->places)
+        return;
+    store(normal, x, y, 1.0 / sight->places, sight->normal.x, sight->normal.y, sight->normal.z);
+    store(position, x, y, 1.0 / sight->places, sight->position.x, sight->position.y, sight->position.z);
+}
+
+static void guide_row(void *context, int y, int thread)
+{
+    const GuideJob *job = context;
+    const FirstHitWindow *w = job->window;
+    RetexImage *const *to = job->guides;
+    (void)thread;
+    for (int x = 0; x < w->w; x++) {
+        GuideSums sums = {.specular = 0};
+        for (int k = 0; k < PLACES; k++)
+            look(job, &sums,
+                 camera_ray(&w->scene->camera, w->width, w->height, w->x0 + x + (k + 0.5) / PLACES,
+                            w->y0 + y + (k * LATTICE_STEP % PLACES + 0.5) / PLACES));
+        store_sight(to[GUIDE_NORMAL], to[GUIDE_POSITION], x, y, &sums.first);
+        store(to[GUIDE_SPECULAR], x, y, 1.0 / PLACES, sums.specular, 0, 0);
+        store_sight(to[GUIDE_SEEN_NORMAL], to[GUIDE_SEEN_POSITION], x, y, &sums.seen);
+        store(to[GUIDE_SEEN_ALBEDO], x, y, 1.0 / PLACES, sums.albedo.r, sums.albedo.g, sums.albedo.b);
+        double each = sums.seen.places ? 1.0 / sums.seen.places : 0;
+        store(to[GUIDE_SEEN_MATERIAL], x, y, 1, sums.roughness * each, sums.metallic * each,
+              1 - (double)sums.seen.places / PLACES);
+        for (int t = 0; t < w->scene->ntargets && job->split; t++)
+            store(job->covers[t], x, y, 1.0 / PLACES, sums.cover[t], 0, 0);
+    }
+}
+
+int denoise_guides_add(RetexSet *set, const FirstHitWindow *window, int split, RetexError *err)
+{
+    GuideJob job = {.window = window, .split = split};
+    int first = set->nparts, covers = split ? set->ntargets : 0, code = RETEX_OK;
+    for (int k = 0; k < GUIDE_COUNT && !code; k++)
+        code =
+            retex_set_add_part(set, guide_table[k].name, guide_table[k].letters, guide_table[k].type, 0, 0, NULL, err);
+    for (int t = 0; t < covers && !code; t++) {
+        char name[RETEX_NAME_MAX];
+        snprintf(name, sizeof name, "guide_cover_%.90s", set->targets[t].name);
+        code = retex_set_add_part(set, name, "R", RETEX_HALF, 0, 0, NULL, err);
+    }
+    if (code)
+        return code;
+    for (int k = 0; k < GUIDE_COUNT; k++) /* now that the parts stay where they are */
+        job.guides[k] = &set->parts[first + k].image;
+    for (int t = 0; t < covers; t++)
+        job.covers[t] = &set->parts[first + GUIDE_COUNT + t].image;
+    retex_parallel(window->nthreads, window->h, guide_row, &job);
+    return RETEX_OK;
+}
