@@ -7,7 +7,8 @@
 #   make asan, tsan   the unit and command-line tests with the sanitizers
 #   make fuzz         mutated inputs with the sanitizers; FUZZ_SECONDS=60 for each kind of input
 #   make bench        ratios of speed: kernels against references, sets against plain renders
-#   make fidelity     retextures against rendering again: docs/fidelity.md; takes hours
+#   make fidelity     retextures against rendering again: docs/fidelity.md, docs/denoise.md; takes hours
+#   make fidelity-denoise   the second of these alone
 #   make pictures     the README's pictures, into docs/pictures; takes long
 #   make compare-external DIR=FOLDER   score pictures of another method against our truths; sheets in build/external
 #   make lint         rules of the house that a script can check

@@ -79,10 +79,14 @@ bench: $(BUILD)/tests/bench/bench
 	@mkdir -p $(BUILD)/bench
 	@$< scenes $(BUILD)/bench
 
-# Retextures against rendering again, in all scenes: docs/fidelity.md. Takes hours; FIDELITY_… of the script choose less.
-.PHONY: fidelity
+# Retextures against rendering again, in all scenes: docs/fidelity.md; then what denoising gains: docs/denoise.md. Takes
+# hours; FIDELITY_… and DENOISE_… of the scripts choose less.
+.PHONY: fidelity fidelity-denoise
 fidelity: all fidelity-textures
 	@BUILD=$(BUILD) tests/fidelity/table/run.sh
+	@BUILD=$(BUILD) tests/fidelity/table/denoise.sh
+fidelity-denoise: all fidelity-textures
+	@BUILD=$(BUILD) tests/fidelity/table/denoise.sh
 
 # How another method fares: DIR holds its pictures SCENE-TEXTURE.png; the truths are the fidelity run's.
 .PHONY: compare-external

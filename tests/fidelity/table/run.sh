@@ -11,101 +11,15 @@
 #
 # FIDELITY_SCENES, FIDELITY_SPP, FIDELITY_SIZE and FIDELITY_TRUTH_SPP choose less, or more; then docs/ is left alone.
 set -eu
-build=${BUILD:-build} here=tests/fidelity
+. tests/fidelity/table/lib.sh
 size=${FIDELITY_SIZE:-128x96} truth_spp=${FIDELITY_TRUTH_SPP:-8192} samples=${FIDELITY_SPP-128 1024}
-scenes=${FIDELITY_SCENES:-cornell-box glass-caustics living-room kitchen globe glossy-pair horizon}
-textures='checker wood grout text saturated constant dark photo'
+scenes=${FIDELITY_SCENES:-$all_scenes}
 turned='wood-turned text-turned' # checked in:
 turned_scenes='cornell-box horizon'
 sets='footprints footprints-8 paper'
 methods='footprints footprints-8 paper paper-cross-2 paper-cross-0'
-work=$build/fidelity images=$build/fidelity/textures
-PATH=$build/bin:$PATH
+work=$build/fidelity
 mkdir -p "$work/truth" "$work/again" "$work/sets" "$work/retextured"
-
-scene_file() {
-    case $1 in
-    globe | glossy-pair | horizon) echo "$here/scenes/$1.pov" ;;
-    *) echo "scenes/$1/$1.pov" ;;
-    esac
-}
-
-targets_of() {
-    case $1 in
-    living-room | kitchen) echo 'Floor Wall' ;;
-    globe) echo Globe ;;
-    glossy-pair) echo 'Left Right' ;;
-    horizon) echo Ground ;;
-    *) echo Floor ;;
-    esac
-}
-
-target_flags() { for target in $(targets_of "$1"); do printf ' -t %s' "$target"; done; }
-
-# The cell of a table: the texture for the first target, or the one three further on for the second.
-cell() { # TEXTURE NUMBER
-    case $1 in
-    *-turned)
-        set -- "${1%-turned}" "$2"
-        printf ':rotate=30 '
-        ;;
-    esac
-    set -- "$(echo "$textures $textures" | tr ' ' '\n' | awk -v n="$1" -v k="$2" \
-        '{ name[NR] = $0 } END { for (i = 1; name[i] != n; i++); print name[i + 3 * (k - 1)] }')"
-    ls "$images/$1".*
-}
-
-# One row a texture: where its picture goes, and what lies on each target.
-batch() { # SCENE PREFIX SUFFIX TEXTURE…
-    scene=$1 prefix=$2 suffix=$3
-    shift 3
-    echo "output $(targets_of "$scene")" | tr ' ' ','
-    for texture; do
-        row=$prefix$scene-$texture$suffix.exr number=0
-        for target in $(targets_of "$scene"); do
-            number=$((number + 1)) row=$row,$(cell "$texture" $number)
-        done
-        echo "$row"
-    done
-}
-
-
-# Rendered along the same paths, all textures at once: rendered SCENE FOLDER SUFFIX SPP SEED TEXTURE…
-rendered() {
-    scene=$1 folder=$2 suffix=$3 spp=$4 seed=$5
-    shift 5
-    for last; do :; done
-    [ ! -e "$folder/$scene-$last$suffix.exr" ] || return 0
-    batch "$scene" "$folder/" "$suffix" "$@" >"$work/batch.csv"
-    # shellcheck disable=SC2046 # words wanted
-    retex-render -q --size "$size" --spp "$spp" --seed "$seed" $(target_flags "$scene") --variants "$work/batch.csv" \
-        "$(scene_file "$scene")"
-}
-
-make_set() { # SCENE SPP NAME
-    [ ! -e "$work/sets/$1-$2-$3.exr" ] || return 0
-    case $3 in
-    footprints-8) set -- "$1" "$2" "$3" --clusters 8 ;;
-    paper) set -- "$1" "$2" "$3" --layout paper ;;
-    esac
-    scene=$1 spp=$2 name=$3
-    shift 3
-    # shellcheck disable=SC2046
-    retex-render -q --size "$size" --spp "$spp" --seed 1 $(target_flags "$scene") "$@" "$(scene_file "$scene")" \
-        -o "$work/sets/$scene-$spp-$name.exr"
-}
-
-retextured() { # SCENE SPP METHOD TEXTURE…
-    scene=$1 spp=$2 method=$3
-    shift 3
-    for last; do :; done
-    [ ! -e "$work/retextured/$scene-$last-$spp-$method.exr" ] || return 0
-    batch "$scene" "$work/retextured/" "-$spp-$method" "$@" >"$work/batch.csv"
-    case $method in
-    paper-cross-*) retex-combine -q --cross "${method##*-}" "$work/sets/$scene-$spp-paper.exr" --batch "$work/batch.csv" ;;
-    *) retex-combine -q "$work/sets/$scene-$spp-$method.exr" --batch "$work/batch.csv" ;;
-    esac
-}
 
 score() { # SCENE TEXTURE SPP METHOD FILE
     # shellcheck disable=SC2020 # characters wanted

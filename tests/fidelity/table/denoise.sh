@@ -1,0 +1,130 @@
+#!/bin/sh
+# How much denoising a set gains: retextures of sets as rendered and denoised, against the scene rendered again, with
+# four times as many samples too, and rendered again and denoised by the same filter, its fair rival.
+#
+#   make fidelity-denoise    some hours on two cores, into docs/denoise.csv, docs/denoise.md, docs/pictures/denoise-*;
+#                            `make fidelity` does it too
+#
+# Seven scenes times eight textures, as in run.sh. Sets of layout footprints at 128 samples have five seeds; all else,
+# and 1024 samples and layout paper, has one. The figures are PSNR of the whole picture and of its regions
+# (regions.py), and FLIP. Everything is kept in $BUILD/fidelity-denoise and not made twice: what is there from an
+# earlier run, or was copied there, counts. DENOISE_FRESH=1 makes anew what the filter has touched.
+#
+# DENOISE_SCENES, DENOISE_SIZE, DENOISE_TRUTH_SPP and DENOISE_SEEDS choose less, or more; then docs/ is left alone and
+# the report is in $BUILD/fidelity-denoise alone. DENOISE_FLAGS are options of retex-denoise for sets, to try them out:
+# the rival does not have them.
+set -eu
+. tests/fidelity/table/lib.sh
+size=${DENOISE_SIZE:-192x144} truth_spp=${DENOISE_TRUTH_SPP:-4096} seeds=${DENOISE_SEEDS:-1 2 3 4 5}
+scenes=${DENOISE_SCENES:-$all_scenes}
+few=128 more=512 many=1024 # samples: of what is compared, four times as many, and where there is little noise
+guide_spp=256              # of the light that regions are found from
+work=$build/fidelity-denoise
+export PYTHONDONTWRITEBYTECODE=1
+python=${PYTHON:-/usr/bin/python3}
+"$python" -c 'import numpy, OpenImageIO' || {
+    echo "fidelity-denoise: $python needs numpy and OpenImageIO (python3-numpy, python3-openimageio)" >&2
+    exit 1
+}
+mkdir -p "$work/truth" "$work/guides" "$work/again" "$work/sets" "$work/retextured" "$work/scores"
+
+# Pictures of another size or of other truths are not to be taken for these.
+settings="$size $truth_spp"
+[ -e "$work/settings" ] || echo "$settings" >"$work/settings"
+if [ "$(cat "$work/settings")" != "$settings" ]; then
+    echo "fidelity-denoise: $work has pictures of $(cat "$work/settings") (size, samples of the truth): remove it" >&2
+    exit 1
+fi
+if [ -n "${DENOISE_FRESH:-}" ]; then
+    for scene in $scenes; do
+        rm -f "$work/sets/$scene"-*denoised-seed*.exr "$work/retextured/$scene"-*denoised-seed*.exr \
+            "$work/again/$scene"-*-rival.exr
+    done
+fi
+
+# What regions are found from: the first hits and, with grey targets, all light that arrives there and the direct.
+guides() { # SCENE
+    [ ! -e "$work/guides/$1.exr" ] || return 0
+    scene=$1
+    set --
+    for target in $(targets_of "$scene"); do set -- "$@" --replace "$target=rgb(.5,.5,.5)"; done
+    retex-render -q --plain --size "$size" --spp "$guide_spp" --seed 2000 --max-depth 2 --aov irradiance "$@" \
+        "$(scene_file "$scene")" -o "$work/guides/$scene-direct.exr"
+    retex-render -q --plain --size "$size" --spp "$guide_spp" --seed 2000 \
+        --aov irradiance,normal,position,depth,object,roughness "$@" \
+        "$(scene_file "$scene")" -o "$work/guides/$scene.exr"
+}
+
+# Rendered again with one texture, and denoised.
+rival() { # SCENE SPP TEXTURE
+    result=$work/again/$1-$3-$2-rival.exr
+    [ ! -e "$result" ] || return 0
+    scene=$1 spp=$2 texture=$3 number=0
+    set --
+    for target in $(targets_of "$scene"); do
+        number=$((number + 1))
+        set -- "$@" --replace "$target=$(cell "$texture" $number)"
+    done
+    retex-render -q --plain --denoise --size "$size" --spp "$spp" --seed 1 "$@" "$(scene_file "$scene")" -o "$result"
+}
+
+denoised_set() { # SCENE SPP FROM TO
+    [ ! -e "$work/sets/$1-$2-$4.exr" ] || return 0
+    # shellcheck disable=SC2086 # words wanted
+    retex-denoise -q ${DENOISE_FLAGS:-} "$work/sets/$1-$2-$3.exr" -o "$work/sets/$1-$2-$4.exr"
+}
+
+# What to score, a line each: method, samples, seed, and what its files' names have after scene and texture.
+scored() { # SCENE SPP METHOD SEED SET-NAME
+    # shellcheck disable=SC2086
+    retextured "$1" "$2" "$5" $textures
+    echo "$3 $2 $4 retextured -$2-$5"
+}
+
+run() { # SCENE
+    place=$1
+    # shellcheck disable=SC2086
+    {
+        guides "$place"
+        rendered "$place" "$work/truth" '' "$truth_spp" 1000 $textures
+        rendered "$place" "$work/again" "-$few" "$few" 1 $textures
+        rendered "$place" "$work/again" "-$more" "$more" 1 $textures
+        for picture in $textures; do rival "$place" "$few" "$picture"; done
+    } >&2
+    echo "again $few 1 again -$few"
+    echo "again $more 1 again -$more"
+    echo "rival $few 1 again -$few-rival"
+    for count in $few $many; do
+        for number_of_seed in $seeds; do
+            [ "$count" = "$few" ] || [ "$number_of_seed" = "${seeds%% *}" ] || continue
+            make_set "$place" "$count" "footprints-seed$number_of_seed"
+            denoised_set "$place" "$count" "footprints-seed$number_of_seed" "denoised-seed$number_of_seed"
+            scored "$place" "$count" set "$number_of_seed" "footprints-seed$number_of_seed"
+            scored "$place" "$count" denoised "$number_of_seed" "denoised-seed$number_of_seed"
+        done
+    done
+    make_set "$place" "$few" paper-seed1
+    denoised_set "$place" "$few" paper-seed1 paper-denoised-seed1
+    scored "$place" "$few" paper 1 paper-seed1
+    scored "$place" "$few" paper-denoised 1 paper-denoised-seed1
+}
+
+tables=
+for each in $scenes; do
+    echo "fidelity-denoise: $each" >&2
+    run "$each" >"$work/scores/$each.list"
+    # shellcheck disable=SC2086
+    "$python" "$here/table/score.py" "$work" "$each" $textures <"$work/scores/$each.list" >"$work/scores/$each.new"
+    mv "$work/scores/$each.new" "$work/scores/$each.csv"
+    tables="$tables $work/scores/$each.csv"
+done
+# shellcheck disable=SC2086
+awk 'NR == 1 || FNR > 1' $tables >"$work/denoise.csv"
+"$python" "$here/table/denoise-report.py" "$work" "$size" "$truth_spp" "$here/table/denoise-notes.md" \
+    >"$work/denoise.new"
+mv "$work/denoise.new" "$work/denoise.md"
+if [ -z "${DENOISE_SCENES:-}${DENOISE_SIZE:-}${DENOISE_TRUTH_SPP:-}${DENOISE_SEEDS:-}${DENOISE_FLAGS:-}" ]; then
+    mkdir -p docs/pictures
+    cp "$work/denoise.csv" "$work/denoise.md" docs/
+    cp "$work"/pictures/denoise-*.jpg docs/pictures/
+fi
