@@ -52,6 +52,8 @@ static void setup_highlight(Bsdf *b, const Finish *f)
  * falloff curve. */
 static void setup_mirror(Bsdf *b, const Finish *f, int transparent)
 {
+    if (rgb_is_black(f->reflection_min) && rgb_is_black(f->reflection_max) && !(transparent && b->refracts))
+        return; /* most surfaces: no curve of theirs is worth a power */
     float rise = f->reflection_fresnel ? fresnel_dielectric((float)b->cos_o, b->eta)
                                        : powf(1 - (float)b->cos_o, (float)f->reflection_falloff);
     Rgb r = rgb_lerp(f->reflection_min, f->reflection_max, rise);
