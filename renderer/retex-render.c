@@ -162,7 +162,8 @@ static void check_memory(const Arguments *a, const Scene *scene)
                        .broad = r->broad,
                        .spp = r->spp,
                        .noise = r->denoise_data};
-    double channels = (double)film_floats(&film, scene->ntargets) + 19 * (r->aovs != 0),
+    double channels = (double)film_floats(&film, scene->ntargets) + 19 * (r->aovs != 0) +
+                      (r->denoise_data ? 19 + scene->ntargets : 0),
            memory = (double)sysconf(_SC_PHYS_PAGES) * (double)sysconf(_SC_PAGESIZE);
     double bytes = width * height * channels * sizeof(float);
     if (memory > 0 && bytes > memory)

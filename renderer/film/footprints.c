@@ -6,7 +6,7 @@
 #include "film/footprint_images.h"
 
 #define PENDING_MAX 64
-#define PARTS_MAX 1480 /* of a set, with room for its beauty, originals, AOVs and what denoising needs */
+#define PARTS_MAX 1490 /* of a set, with room for its beauty, originals, AOVs and what denoising needs */
 /* What an unknown texture is taken for where its hit only weighs another's. */
 #define UNKNOWN_ALBEDO 0.5f
 #define LEAST_ALBEDO 1e-3f /* of other hits, where originals are averaged: a black one may be the one that is edited */

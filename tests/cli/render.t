@@ -166,3 +166,55 @@ $ printf 'output,floor\nscenes/cornell-box/cornell-box.pov,\n' | retex-render -q
 ! retex-render: error: --variants: `nope` is no target: name it with -t
 ! retex-render: error: --variants names its outputs itself: no -o
 = 2
+
+# What denoising reads is in sets of two samples and more, but not in packs and pictures; without it the set is the same.
+$ rm -f ?.exr; set -- -q --size 32x24 --spp 4 -t floor; retex-render "$@" scenes/cornell-box/cornell-box.pov -o d.exr; retex-render "$@" --no-denoise-data scenes/cornell-box/cornell-box.pov -o n.exr; retex-render "$@" --spp 1 scenes/cornell-box/cornell-box.pov -o o.exr; retex-render "$@" scenes/cornell-box/cornell-box.pov -o p.retex; retex-render "$@" --plain --aov depth scenes/cornell-box/cornell-box.pov -o a.exr; for f in d.exr n.exr o.exr p.retex a.exr; do retex-info --json $f | grep -o '"\(noise\|guide\)_[A-Za-z_]*"' | sort -u | wc -l; done; retex-info --json d.exr | grep -o '"\(noise\|guide\)_[A-Za-z_]*"' | sort -u
+> 11
+> 0
+> 0
+> 0
+> 0
+> "guide_cover_floor"
+> "guide_normal"
+> "guide_position"
+> "guide_seen_albedo"
+> "guide_seen_material"
+> "guide_seen_normal"
+> "guide_seen_position"
+> "guide_specular"
+> "noise_floor_broad"
+> "noise_floor_sharp"
+> "noise_indep"
+$ retex-render -q --size 32x24 --spp 4 -t floor --no-denoise-data scenes/cornell-box/cornell-box.pov -o p2.retex; cmp p.retex p2.retex; rm p2.retex
+$ for n in 1 2 7; do retex-render -q --threads $n --size 70x50 --spp 4 -t floor -t white scenes/cornell-box/cornell-box.pov -o $n.exr; done; cmp 1.exr 2.exr; cmp 1.exr 7.exr
+
+# --denoise does at once what retex-denoise does later, but for the halves of the file; of sets, packs and pictures.
+$ retex-render -q --size 32x24 --spp 4 -t floor --denoise scenes/cornell-box/cornell-box.pov -o e.exr; retex-info --json e.exr | grep -c '"\(noise\|guide\)_'; retex-info --json e.exr | grep -o '"denoised":[a-z]*'; retex-info --check e.exr; retex-denoise -q d.exr -o f.exr; retex-diff e.exr f.exr --fail-psnr 50 >/dev/null; echo $?; retex-render -q --size 32x24 --spp 4 -t floor --denoise scenes/cornell-box/cornell-box.pov -o e.retex; retex-info --json e.retex | grep -o '"denoised":[a-z]*'
+> 0
+> "denoised":true
+> e.exr: ok
+> 0
+> "denoised":true
+$ retex-render -q --size 32x24 --spp 4 --plain scenes/cornell-box/cornell-box.pov -o x1.exr; retex-render -q --size 32x24 --spp 4 --plain --denoise scenes/cornell-box/cornell-box.pov -o x2.exr; retex-render -q --size 32x24 --spp 4 --denoise --replace 'floor=rgb(0.5,0.5,0)' scenes/cornell-box/cornell-box.pov -o x3.png; ls x?.*; rm x?.*
+> x1.exr
+> x2.exr
+> x3.png
+$ retex-render -q --size 8x6 --spp 2 --denoise --aov-dir guides ball.pov -o y.png; ls guides | wc -l; rm -r guides
+> 20
+
+# What it cannot go with is said before anything is rendered.
+$ set -- --denoise --size 2000x2000 --spp 4096 ball.pov; for o in --no-denoise-data --list-targets '--trace-pixel 1,1,0' '--variants rows.csv' '--control d.exr --replace ball=rgb(1,0,0)' '--control-data biased' '--spp 1'; do timeout 5 retex-render "$@" $o >x.exr; echo $?; done; rm x.exr
+> 2
+> 2
+> 2
+> 2
+> 2
+> 2
+> 2
+! retex-render: error: --denoise reads what --no-denoise-data leaves out: one of them
+! retex-render: error: --denoise goes with a render of its own: no --list-targets, --trace-pixel, --variants or --control
+! retex-render: error: --denoise goes with a render of its own: no --list-targets, --trace-pixel, --variants or --control
+! retex-render: error: --denoise goes with a render of its own: no --list-targets, --trace-pixel, --variants or --control
+! retex-render: error: --denoise goes with a render of its own: no --list-targets, --trace-pixel, --variants or --control
+! retex-render: error: --denoise makes another picture than --control-data tells of: one of them
+! retex-render: error: --denoise needs two samples a pixel at least: one does not tell how noisy it is

@@ -941,7 +941,7 @@ static void too_many_parts_are_refused(void **state)
         begin(&f, cases[k].ntargets, 1, 6, cases[k].sharp, cases[k].broad);
         f.params.clusters = cases[k].clusters;
         assert_int_equal(film_create(&f.film, &f.scene, &f.params, &err), cases[k].code);
-        assert_true(!cases[k].code || strstr(err.message, "more than 1480"));
+        assert_true(!cases[k].code || strstr(err.message, "more than 1490"));
         end(&f);
     }
 }
