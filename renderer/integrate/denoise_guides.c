@@ -80,8 +80,8 @@ static void add_seen(const GuideJob *job, GuideSums *sums, const Shading *s)
     sums->metallic += shading_metallic(s);
 }
 
-/* Where a mirror or clear glass, unless it is more of something else, sends the ray on, and what it leaves of the light.
- * Returns 0 where the surface is itself what is seen. */
+/* Where a mirror or clear glass, unless it is more of something else, sends the ray on, and what it leaves of the
+ * light. Returns 0 where the surface is itself what is seen. */
 static int follow(const GuideJob *job, const Shading *s, const Hit *hit, Ray *ray, RayKind *kind, float *throughput)
 {
     const Bsdf *b = &s->bsdf;

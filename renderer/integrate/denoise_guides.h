@@ -1,5 +1,5 @@
-/* What denoising goes by, free of noise: normals, places, colours and cover of what each pixel sees, and of what it sees
- * in mirrors and through clear glass. The parts guide_… of <retex/denoise.h>. */
+/* What denoising goes by, free of noise: normals, places, colours and cover of what each pixel sees, and of what it
+ * sees in mirrors and through clear glass. The parts guide_… of <retex/denoise.h>. */
 #ifndef RENDERER_INTEGRATE_DENOISE_GUIDES_H
 #define RENDERER_INTEGRATE_DENOISE_GUIDES_H
 

@@ -51,8 +51,8 @@ typedef struct RenderParams {
     int nvariants;           /* 0..VARIANTS_MAX */
     int control_data;        /* 1, 2: also what later control variates read, of so many parts of the samples: two are
                                 independent, so that the picture is another one than without; default 0 */
-    int denoise_data;        /* 1: also what retex_denoise reads, see <retex/denoise.h>; nothing of one sample, which does
-                                not tell how noisy it is; default 0 */
+    int denoise_data;        /* 1: also what retex_denoise reads, see <retex/denoise.h>; nothing where spp is 1, which
+                                does not tell how noisy it is; default 0 */
 } RenderParams;
 #define RENDER_PARAMS_INIT \
     { sizeof(RenderParams), 0, 0, {0, 0, 0, 0}, 64, 0, 16, 0, 0, 4, 4, 4, 6, 0, 0, 0, 0, NULL, NULL, NULL, 0, 0, 0 }

@@ -12,6 +12,7 @@
 
 #include <retex/denoise.h>
 
+#include "film/film.h"
 #include "integrate/render.h"
 #include "sdl/sdl.h"
 #include "signals.h"
@@ -211,6 +212,22 @@ static void one_sample_tells_nothing(void **state)
     scene_close(&scene);
 }
 
+/* Three numbers a pixel for each signal. */
+static void the_film_counts_its_noise(void **state)
+{
+    (void)state;
+    static const struct {
+        int split, paper, spp, ntargets, signals;
+    } cases[] = {{0, 0, 2, 0, 1}, {1, 0, 2, 1, 3}, {1, 0, 2, 2, 5}, {1, 1, 2, 2, 3}, {1, 0, 1, 2, 0}};
+    for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++) {
+        FilmParams with = {.split = cases[k].split, .paper = cases[k].paper, .spp = cases[k].spp, .orders = 6};
+        FilmParams without = with;
+        with.noise = 1;
+        assert_int_equal(film_floats(&with, cases[k].ntargets) - film_floats(&without, cases[k].ntargets),
+                         3 * cases[k].signals);
+    }
+}
+
 static void expect_same(const RetexSet *a, const RetexSet *b)
 {
     assert_int_equal(a->nparts, b->nparts);
@@ -271,9 +288,9 @@ static void threads_change_nothing(void **state)
 
 /* ---- guides ---- */
 
-/* Looking along z at 4 x 3 units, a pixel is 1/8 wide. Behind: a wall at z = 5, up to y = 1.2; before it a mirror at the
- * left, which shows a plane behind the camera, and a pane of glass at the right; between them a ball of radius 0.7, a
- * lamp, a clear sheet that bends nothing, rough metal. */
+/* Looking along z at 4 x 3 units, a pixel is 1/8 wide. Behind: a wall at z = 5, up to y = 1.2; before it a mirror at
+ * the left, which shows a plane behind the camera, and a pane of glass at the right; between them a ball of radius 0.7,
+ * a lamp, a clear sheet that bends nothing, rough metal. */
 static const char bench[] =
     "global_settings { assumed_gamma 1 }\n"
     "camera { orthographic location <0, 0, -10> direction z right 4 * x up 3 * y }\n"
@@ -468,6 +485,7 @@ int main(void)
         cmocka_unit_test(parts_are_those_of_the_terms),
         cmocka_unit_test(signals_without_noise_have_their_part),
         cmocka_unit_test(one_sample_tells_nothing),
+        cmocka_unit_test(the_film_counts_its_noise),
         cmocka_unit_test(the_rest_of_the_set_is_the_same),
         cmocka_unit_test(threads_change_nothing),
         cmocka_unit_test(guides_tell_what_lies_where),
