@@ -17,7 +17,8 @@ void footprints_close(Footprints **footprints);
 
 /* Distribute light, the filtered sum of a signal's clusters at (x, y), to the clusters, into band. Sharp clusters keep
  * their places and the proportions of their light; where the pixel has none, those of the neighbour that counts most.
- * Broad ones are pooled over neighbours if params.footprints. */
+ * Broad ones are pooled over neighbours if params.footprints. Shares in light that meets targets again are kept or
+ * pooled likewise; where they are all 0 they become those of the light. signal is one of denoiser->signals. */
 void footprints_share_light(const Footprints *footprints, const Denoiser *denoiser, const Signal *signal, int x, int y,
                             const Neighbour *neighbours, int count, const float light[3], Band *band);
 
