@@ -88,8 +88,8 @@ static float cluster_light(const Place *place, size_t i)
 
 static float cluster_cover(const Place *place, size_t i)
 {
-    float a = place->light.pixels && place->uv.pixels ? place->uv.pixels[3 * i + 2] : 0;
-    return a > 0 && a < PLACES_FINITE ? a : 0;
+    const float *uv = place->light.pixels && place->uv.pixels ? place->uv.pixels + 3 * i : NULL;
+    return uv && uv[2] > 0 && fabsf(uv[0]) + fabsf(uv[1]) + uv[2] < PLACES_FINITE ? uv[2] : 0;
 }
 
 static double sum_over(const Group *g, size_t i, float (*value)(const Place *, size_t))

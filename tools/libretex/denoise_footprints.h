@@ -12,8 +12,8 @@ typedef struct Neighbour {
 
 /* The clusters of a signal of layout footprints, and how its parts are used. Found once a call. */
 typedef struct Footprints Footprints;
-int footprints_open(Footprints **footprints, const Denoiser *denoiser, RetexError *err);
-void footprints_close(Footprints **footprints);
+int denoise_footprints_open(Footprints **footprints, const Denoiser *denoiser, RetexError *err);
+void denoise_footprints_close(Footprints **footprints);
 
 /* Distribute light, the filtered sum of a signal's clusters at (x, y), to the clusters, into band. Sharp clusters keep
  * their places and the proportions of their light; where the pixel has none, those of the neighbour that counts most.

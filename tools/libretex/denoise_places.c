@@ -187,7 +187,7 @@ static int find_all_again(Footprints *f, const Denoiser *d, RetexError *err)
     return code;
 }
 
-int footprints_open(Footprints **out, const Denoiser *d, RetexError *err)
+int denoise_footprints_open(Footprints **out, const Denoiser *d, RetexError *err)
 {
     const RetexSet *set = d->set;
     size_t footprints = (size_t)set->nfootprints, signals = (size_t)d->signals.count;
@@ -207,7 +207,7 @@ int footprints_open(Footprints **out, const Denoiser *d, RetexError *err)
     if (!code)
         code = find_all_again(f, d, err);
     if (code) {
-        footprints_close(out);
+        denoise_footprints_close(out);
         return code;
     }
     count_uses(f->uses, set);
@@ -220,7 +220,7 @@ int footprints_open(Footprints **out, const Denoiser *d, RetexError *err)
     return RETEX_OK;
 }
 
-void footprints_close(Footprints **out)
+void denoise_footprints_close(Footprints **out)
 {
     Footprints *f = *out;
     if (!f)
