@@ -6,7 +6,7 @@
 
 #include "denoise_places.h"
 
-#define NEGLIGIBLE 1e-3f /* neighbours that count for less are left out */
+#define NEGLIGIBLE 1e-2f /* neighbours that count for less are left out */
 #define CLUSTERS_LEAST 2 /* of broad light that a pixel may have, whatever it had */
 #define CLUSTERS_MOST 3
 #define FAR 0.05 /* of its weight, that merging a cluster would lose: it opens another one if there is room */
@@ -187,12 +187,14 @@ static int load_pool(Pool *pool, const Group *g, const Place *place, size_t i, f
                  fabsf(light[2]);
     if (!(size < PLACES_FINITE) || !(own >= 0) || !(shared >= 0) || !(all > 0) || !(all < PLACES_FINITE))
         return 0;
-    double w = (double)weight * all;
+    const float w = weight * all;
+    if (!(w > 0))
+        return 0;
     uv_stats_load(&pool->uv, w, uv, spreads);
-    pool->squares = w * w / uv[2];
-    pool->luminance = (double)weight * own, pool->shared = (double)weight * shared;
+    pool->squares = (double)w * w / uv[2];
+    pool->luminance = weight * own, pool->shared = weight * shared;
     for (int c = 0; c < 3; c++) {
-        pool->light[c] = (double)weight * fmaxf(light[c], 0);
+        pool->light[c] = light[c] > 0 ? weight * light[c] : 0;
         pool->reflected[c] = pool->light[c] * albedo[c];
         pool->albedo[c] = w * albedo[c];
     }

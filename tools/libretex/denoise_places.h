@@ -5,7 +5,7 @@
 
 #include "denoise_footprints.h"
 
-#define PLACES_FINITE 1e30f /* larger numbers stand for none */
+#define PLACES_FINITE 1e12f /* larger numbers stand for none */
 #define GROUP_MAX RETEX_SHARES_MAX
 
 /* An image of the set that is of its size; part is -1 and pixels NULL where there is none. */

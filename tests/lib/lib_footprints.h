@@ -1,0 +1,69 @@
+/* Small sets of layout footprints, filled by hand, and what denoising makes of their footprints. */
+#ifndef LIB_FOOTPRINTS_H
+#define LIB_FOOTPRINTS_H
+
+#include "denoise_footprints.h"
+#include "lib_test.h"
+
+enum { WIDTH = 8, HEIGHT = 4 };
+
+/* A set in the calls, and a band that holds all its rows; what has not been written is -7. */
+typedef struct Work {
+    Denoiser d;
+    Footprints *footprints;
+    Band band;
+    unsigned char *written;
+} Work;
+
+/* ---- sets ---- */
+
+/* A part of the set's size, named by what it is and a number. */
+int add_part(RetexSet *set, const char *letters, const char *what, int number);
+int add_footprint(RetexSet *set, int target, RetexFootprintKind kind, int hit, const char *spread);
+/* Its factors: the first once, the second for all others. */
+int add_term(RetexSet *set, int nfactors, int first, int others);
+/* A mixture of so many footprints from `first` on, whose weights are new parts. */
+int add_mixture(RetexSet *set, int first, int count, const char *letters);
+/* Targets, a beauty, and the term without factors. */
+RetexSet *start_set(int width, int height, int ntargets);
+/* One target with so many clusters, footprints 0..count-1, whose terms are 1..count. */
+RetexSet *cluster_set(RetexFootprintKind kind, int count);
+/* The same, and light that meets the target again, twice: the last term, on two later footprints. Mixtures: the
+ * clusters', the later ones'. */
+RetexSet *again_set(RetexFootprintKind kind, int count);
+
+/* Places in it. */
+float *pixel(const RetexSet *set, int part, int x, int y);
+int share_part(const RetexSet *set, int footprint);
+void put(RetexSet *set, int footprint, int x, int y, float u, float v, float coverage);
+void put_spread(RetexSet *set, int footprint, int x, int y, float su, float sv, float correlation);
+void put_rgb(RetexSet *set, int part, int x, int y, float r, float g, float b);
+int light_part(const RetexSet *set, int cluster);
+void put_light(RetexSet *set, int cluster, int x, int y, float light);
+void put_share(RetexSet *set, int footprint, int x, int y, float share);
+void put_again(RetexSet *set, int x, int y, float light);
+
+/* ---- calls ---- */
+
+/* Gives the set what denoising reads, and takes it. */
+Work open_work(RetexSet *set, int footprints);
+void close_work(Work *w);
+const Signal *find_signal(const Work *w, int target, RetexFootprintKind kind);
+/* To pixel (1,1), with neighbours to its right of these weights. */
+void share_light(Work *w, RetexFootprintKind kind, const float *weights, int count, const float light[3]);
+void pool_later(Work *w, const float *weights, int count);
+/* Of that pixel. */
+const float *result(const Work *w, int part);
+const float *result_uv(const Work *w, int footprint);
+const float *result_spread(const Work *w, int footprint);
+const float *result_albedo(const Work *w, int footprint);
+void expect_values(const float *is, int count, const float *should, float tolerance);
+/* Footprint and share of a pixel are those of another in the set. */
+void expect_copied(const Work *w, int footprint, int x, int y);
+#define EXPECT(tolerance, is, ...)                                                                                     \
+    do {                                                                                                               \
+        const float should[] = {__VA_ARGS__};                                                                          \
+        expect_values(is, sizeof should / sizeof *should, should, tolerance);                                          \
+    } while (0)
+
+#endif
