@@ -10,7 +10,7 @@
 
 static const CliOption options[] = {
     {"strength", 0, "F", "how unlike pixels may be and still help each other, 0.1 to 10; default 1", 0},
-    {"radius", 0, "N", "of the window in which they are looked for, 1 to 10 pixels; default 7", 0},
+    {"radius", 0, "N", "of the window in which they are looked for, 1 to 10 pixels; default 5", 0},
     {"no-footprints", 0, NULL, "leave UV footprints as they are", 0},
     {0},
 };

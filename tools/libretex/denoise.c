@@ -7,12 +7,8 @@
 #include <retex/parallel.h>
 #include <retex/sample.h>
 
-#include "denoise_tile.h"
-
-static int is_denoise_data(const char *name)
-{
-    return !strncmp(name, "noise_", 6) || !strncmp(name, "guide_", 6);
-}
+#include "denoise_footprints.h"
+#include "set_parts.h"
 
 static int find_guide(const RetexSet *set, const char *name, int channels, int *part, RetexError *err)
 {
@@ -51,7 +47,7 @@ int retex_denoise_has_data(const RetexSet *set)
 void retex_denoise_drop_data(RetexSet *set)
 {
     for (int k = set->nparts - 1; k > 0; k--)
-        if (is_denoise_data(set->parts[k].name))
+        if (part_is_denoise_data(set, k))
             retex_set_remove_part(set, k);
 }
 
@@ -71,7 +67,7 @@ static void denoise_job(void *context, int index, int thread)
 {
     DenoiseWork *w = context;
     const Denoiser *d = &w->denoiser;
-    tile_denoise(d, w->rooms[thread], d->roi.x0 + index * DENOISE_TILE, w->band->first, w->band,
+    tile_denoise(d, w->rooms[thread], d->roi.x0 + index * DENOISE_STEP, w->band,
                  w->sums + (size_t)index * (size_t)d->signals.count);
 }
 
@@ -83,19 +79,33 @@ static void close_band(Band *band, int nparts)
     band->parts = NULL;
 }
 
-static int open_band(Band *band, const Denoiser *d, RetexError *err)
+static int open_band(Band *band, const Denoiser *d, const unsigned char *written, RetexError *err)
 {
     const RetexSet *set = d->set;
     band->rows = 0;
     band->parts = calloc((size_t)set->nparts, sizeof *band->parts);
-    for (int s = 0; band->parts && s < d->signals.count; s++)
-        for (int k = 0; k < d->signals.of[s].nmembers; k++) {
-            int part = d->signals.of[s].members[k].part;
-            size_t floats = (size_t)DENOISE_TILE * (size_t)set->width * (size_t)set->parts[part].image.channels;
-            if (!band->parts[part] && !(band->parts[part] = malloc(floats * sizeof(float))))
-                return retex_fail(err, RETEX_ENOMEM, "not enough memory to denoise");
-        }
+    for (int k = 0; band->parts && k < set->nparts; k++) {
+        size_t floats = (size_t)DENOISE_STEP * (size_t)set->width * (size_t)set->parts[k].image.channels;
+        if (written[k] && !(band->parts[k] = malloc(floats * sizeof(float))))
+            return retex_fail(err, RETEX_ENOMEM, "not enough memory to denoise");
+    }
     return band->parts ? RETEX_OK : retex_fail(err, RETEX_ENOMEM, "not enough memory to denoise");
+}
+
+static int open_bands(DenoiseWork *w, RetexError *err)
+{
+    const Denoiser *d = &w->denoiser;
+    unsigned char *written = calloc((size_t)d->set->nparts, 1);
+    int code = written ? RETEX_OK : retex_fail(err, RETEX_ENOMEM, "not enough memory to denoise");
+    for (int s = 0; s < d->signals.count && !code; s++)
+        for (int k = 0; k < d->signals.of[s].nmembers; k++)
+            written[d->signals.of[s].members[k].part] = 1;
+    if (!code)
+        footprints_mark_written(d->footprints, d, written);
+    for (int k = 0; k < 2 && !code; k++)
+        code = open_band(&w->bands[k], d, written, err);
+    free(written);
+    return code;
 }
 
 /* Into the set. */
@@ -126,7 +136,7 @@ static int open_work(DenoiseWork *w, RetexError *err)
     const Denoiser *d = &w->denoiser;
     size_t count = (size_t)d->signals.count;
     int code = RETEX_OK;
-    w->tiles_x = (d->roi.x1 - d->roi.x0 + DENOISE_TILE - 1) / DENOISE_TILE;
+    w->tiles_x = (d->roi.x1 - d->roi.x0 + DENOISE_STEP - 1) / DENOISE_STEP;
     w->rooms = calloc((size_t)w->nthreads, sizeof *w->rooms);
     w->sums = calloc((size_t)w->tiles_x * count + 1, sizeof *w->sums);
     w->all = calloc(count + 1, sizeof *w->all);
@@ -134,9 +144,9 @@ static int open_work(DenoiseWork *w, RetexError *err)
         code = retex_fail(err, RETEX_ENOMEM, "not enough memory to denoise");
     for (int k = 0; k < w->nthreads && k < w->tiles_x && !code; k++)
         code = tile_room_create(&w->rooms[k], d, err);
-    for (int k = 0; k < 2 && !code; k++)
-        code = open_band(&w->bands[k], d, err);
-    return code;
+    if (!code)
+        code = denoise_footprints_open(&w->denoiser.footprints, d, err);
+    return code ? code : open_bands(w, err);
 }
 
 static void close_work(DenoiseWork *w)
@@ -148,6 +158,7 @@ static void close_work(DenoiseWork *w)
     free(w->rooms);
     free(w->sums);
     free(w->all);
+    denoise_footprints_close(&w->denoiser.footprints);
     signals_close(&w->denoiser.signals);
 }
 
@@ -155,10 +166,10 @@ static void filter(DenoiseWork *w)
 {
     const Denoiser *d = &w->denoiser;
     int number = 0;
-    for (int y = d->roi.y0; y < d->roi.y1; y += DENOISE_TILE, number++) {
+    for (int y = d->roi.y0; y < d->roi.y1; y += DENOISE_STEP, number++) {
         w->band = &w->bands[number % 2];
         w->band->first = y;
-        w->band->rows = d->roi.y1 - y < DENOISE_TILE ? d->roi.y1 - y : DENOISE_TILE;
+        w->band->rows = d->roi.y1 - y < DENOISE_STEP ? d->roi.y1 - y : DENOISE_STEP;
         memset(w->sums, 0, sizeof *w->sums * (size_t)w->tiles_x * (size_t)d->signals.count);
         retex_parallel(w->nthreads, w->tiles_x, denoise_job, w);
         add_sums(w);

@@ -9,6 +9,7 @@
 #define NEGLIGIBLE 1e-2f /* neighbours that count for less are left out */
 #define CLUSTERS_LEAST 2 /* of broad light that a pixel may have, whatever it had */
 #define CLUSTERS_MOST 3
+#define NEAR 0.1 /* of a place's width: how far other pixels' may be */
 #define FAR 0.05 /* of its weight, that merging a cluster would lose: it opens another one if there is room */
 #define SHARE_STEP (1.0 / 512) /* as the film rounds them */
 #define LEAST_SHARE 1e-5f
@@ -158,6 +159,7 @@ typedef struct Pool {
 
 typedef struct Pools {
     int count, room;
+    int near; /* only what is near to what the pixel itself has */
     Pool of[CLUSTERS_MOST];
 } Pools;
 
@@ -213,6 +215,13 @@ static void merge_pool(Pool *into, const Pool *from, const int periodic[2])
     }
 }
 
+/* Whether the places are farther apart than the first is wide. */
+static int is_far(const UvStats *a, const UvStats *b, const int periodic[2])
+{
+    double squared = uv_stats_ward(a, b, periodic) * (a->weight + b->weight) / (a->weight * b->weight);
+    return squared > NEAR * NEAR * (a->m2[0] + a->m2[2]) / a->weight;
+}
+
 /* To where that loses least; `open`: or to a place of its own, if there is room. */
 static void add_pool(Pools *pools, const Pool *one, const int periodic[2], int open)
 {
@@ -223,6 +232,8 @@ static void add_pool(Pools *pools, const Pool *one, const int periodic[2], int o
         if (gain < least || best < 0)
             least = gain, best = k;
     }
+    if (best >= 0 && !open && pools->near && is_far(&pools->of[best].uv, &one->uv, periodic))
+        return;
     if (best < 0 || (pools->count < pools->room && (open || least > FAR * one->uv.weight)))
         pools->of[pools->count++] = *one;
     else
@@ -258,7 +269,7 @@ static int compare_pools(const Pool *a, const Pool *b)
 static void pool_group(Pools *pools, const Footprints *f, const Group *g, int most, const Neighbour *neighbours,
                        int count)
 {
-    *pools = (Pools){.room = most};
+    *pools = (Pools){.room = most, .near = g->kind != RETEX_FOOTPRINT_BROAD};
     for (int n = 0; n < count; n++) {
         size_t i = (size_t)neighbours[n].y * f->width + (size_t)neighbours[n].x;
         if (!(neighbours[n].weight > NEGLIGIBLE && neighbours[n].weight < PLACES_FINITE))

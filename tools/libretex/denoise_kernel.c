@@ -8,6 +8,14 @@ enum { WIDE = DENOISE_TILE + 2 * DENOISE_PATCH, BOX = 2 * DENOISE_PATCH + 1 };
 
 #define INLINE static inline __attribute__((always_inline))
 
+/* The candidates. Color: factor of squared differences in color; which features count; near: how fast pixels count
+ * less the farther away they are, per squared pixel. The second is for where features change from pixel to pixel, the
+ * third for where they tell nothing, the fourth for even light. */
+static const struct {
+    float color, near;
+    enum { STRICT, LOOSE, NONE } features;
+} ways[DENOISE_CANDIDATES] = {{1, 0.05f, STRICT}, {0.2f, 0.1f, LOOSE}, {1, 0.1f, NONE}, {0.05f, 0.1f, STRICT}};
+
 /* Near exp(-x) for x >= 0, and 0 from 8 on. */
 INLINE float falloff(float x)
 {
@@ -17,8 +25,10 @@ INLINE float falloff(float x)
     return y * y;
 }
 
-INLINE void group_distance(float *restrict worst, const DenoiseFeatures *f, const DenoiseGroup *g, size_t p, ptrdiff_t o,
-                           float per_pixel)
+/* ---- features ---- */
+
+INLINE void group_distance(float *restrict strict, float *restrict loose, const DenoiseFeatures *f,
+                           const DenoiseGroup *g, size_t p, ptrdiff_t o, float per_pixel)
 {
     float distance[DENOISE_TILE] = {0};
     if (g->normal[0]) {
@@ -38,28 +48,33 @@ INLINE void group_distance(float *restrict worst, const DenoiseFeatures *f, cons
             }
         }
     }
-    const float *restrict scale = g->scale + p;
+    const float *restrict scale = g->strict + p, *restrict looser = g->loose + p;
     for (int i = 0; i < DENOISE_TILE; i++) {
-        float d = distance[i] * scale[i];
-        worst[i] = d > worst[i] ? d : worst[i];
+        float d = distance[i] * scale[i], e = distance[i] * looser[i];
+        strict[i] = d > strict[i] ? d : strict[i];
+        loose[i] = e > loose[i] ? e : loose[i];
     }
 }
 
-INLINE void features_body(float *restrict weight, const DenoiseFeatures *f, int dx, int dy)
+INLINE void features_body(DenoiseAlike *restrict alike, const DenoiseFeatures *f, int dx, int dy)
 {
     ptrdiff_t o = (ptrdiff_t)dy * DENOISE_PITCH + dx;
     float per_pixel = 1 / (float)(dx * dx + dy * dy + !(dx | dy));
     for (int y = 0; y < DENOISE_TILE; y++) {
-        size_t p = denoise_at(0, y);
-        float worst[DENOISE_TILE] = {0};
+        size_t p = denoise_at(0, y), at = (size_t)y * DENOISE_TILE;
+        float strict[DENOISE_TILE] = {0}, loose[DENOISE_TILE] = {0};
         const float *restrict valid = f->valid + p;
-        float *restrict out = weight + (size_t)y * DENOISE_TILE;
         for (int g = 0; g < f->ngroups; g++)
-            group_distance(worst, f, &f->groups[g], p, o, per_pixel);
-        for (int i = 0; i < DENOISE_TILE; i++)
-            out[i] = valid[i + o] * falloff(worst[i]);
+            group_distance(strict, loose, f, &f->groups[g], p, o, per_pixel);
+        for (int i = 0; i < DENOISE_TILE; i++) {
+            alike->valid[at + (size_t)i] = valid[i + o];
+            alike->strict[at + (size_t)i] = valid[i + o] * falloff(strict[i]);
+            alike->loose[at + (size_t)i] = valid[i + o] * falloff(loose[i]);
+        }
     }
 }
+
+/* ---- colors ---- */
 
 /* Differences of one row of both halves, in units of their noise, and which count. */
 INLINE void difference_row(const DenoiseSignal *s, size_t p, ptrdiff_t o, float *restrict first, float *restrict second,
@@ -102,38 +117,64 @@ INLINE void box_column(float *restrict out, const float *restrict rows)
     }
 }
 
-/* Add one row of what pixels at offset o give, with the weights of both halves. */
-INLINE void accumulate_row(const DenoiseSignal *s, size_t p, ptrdiff_t o, size_t at, const float *restrict first,
-                           const float *restrict second)
+/* From sums over patches to means; of pixels of different kinds nothing is alike. */
+INLINE void distance_row(float *restrict distance, const float *restrict counts, const float *restrict kind,
+                         ptrdiff_t o)
+{
+    for (int i = 0; i < DENOISE_TILE; i++) {
+        float n = counts[i] > 1 ? counts[i] : 1, d = distance[i] / (3 * n);
+        d = d > 0 ? d : 0;
+        distance[i] = kind[i] * kind[i + o] > 0 ? d : 1e9f;
+    }
+}
+
+INLINE void weight_row(float *restrict weight, const float *restrict distance, const float *restrict alike, float color,
+                       float near)
+{
+    for (int i = 0; i < DENOISE_TILE; i++) {
+        float a = falloff(distance[i] * color), b = alike[i] * near;
+        weight[i] = a < b ? a : b;
+    }
+}
+
+/* Add one row of what pixels from q on give to a half's sums. */
+INLINE void add_half(const DenoiseSignal *s, const DenoiseSums *to, int half, size_t q, size_t at,
+                     const float *restrict weight)
+{
+    const float *restrict a = s->half[half][0] + q, *restrict b = s->half[half][1] + q,
+                          *restrict c = s->half[half][2] + q, *restrict m = s->modulation + q;
+    float *restrict x = to->sum[half][0] + at, *restrict y = to->sum[half][1] + at, *restrict z = to->sum[half][2] + at,
+                    *restrict norm = to->norm[half] + at;
+    for (int i = 0; i < DENOISE_TILE; i++) {
+        float w = weight[i] * m[i];
+        x[i] += w * a[i], y[i] += w * b[i], z[i] += w * c[i], norm[i] += w;
+    }
+}
+
+INLINE void add_planes(const DenoiseSignal *s, size_t q, size_t at, const float *restrict first,
+                       const float *restrict second, float *restrict kept)
 {
     float mean[DENOISE_TILE];
     for (int i = 0; i < DENOISE_TILE; i++)
         mean[i] = 0.5f * (first[i] + second[i]);
-    for (int c = 0; c < 3; c++) {
-        const float *restrict a = s->half[0][c] + p + o, *restrict b = s->half[1][c] + p + o,
-                              *restrict m = s->modulation[c] + p + o;
-        float *restrict sum_a = s->sum[0][c] + at, *restrict sum_b = s->sum[1][c] + at;
-        float *restrict norm_a = s->norm[0][c] + at, *restrict norm_b = s->norm[1][c] + at;
-        for (int i = 0; i < DENOISE_TILE; i++) {
-            float wa = second[i] * m[i], wb = first[i] * m[i]; /* each half by the other's weights */
-            sum_a[i] += wa * a[i], norm_a[i] += wa;
-            sum_b[i] += wb * b[i], norm_b[i] += wb;
-        }
-    }
     for (int k = 0; k < s->nplanes; k++) {
-        const float *restrict value = s->planes[k] + p + o;
+        const float *restrict value = s->planes[k] + q;
         float *restrict sum = s->sums[k] + at;
         for (int i = 0; i < DENOISE_TILE; i++)
             sum[i] += mean[i] * value[i];
     }
-    if (s->weight)
-        memcpy(s->weight + at, mean, sizeof mean);
+    if (kept)
+        memcpy(kept + at, mean, sizeof mean);
 }
 
-INLINE void signal_body(const DenoiseSignal *s, const float *restrict features, int dx, int dy)
+INLINE void signal_body(const DenoiseSignal *s, const DenoiseAlike *restrict alike, int dx, int dy,
+                        float *restrict weight)
 {
     ptrdiff_t o = (ptrdiff_t)dy * DENOISE_PITCH + dx;
     float *boxed[3] = {s->scratch, s->scratch + WIDE * DENOISE_TILE, s->scratch + 2 * WIDE * DENOISE_TILE};
+    float near[DENOISE_CANDIDATES];
+    for (int k = 0; k < DENOISE_CANDIDATES; k++)
+        near[k] = falloff(ways[k].near * (float)(dx * dx + dy * dy));
     for (int y = 0; y < WIDE; y++) {
         float row[3][WIDE];
         difference_row(s, denoise_at(-DENOISE_PATCH, y - DENOISE_PATCH), o, row[0], row[1], row[2]);
@@ -141,31 +182,38 @@ INLINE void signal_body(const DenoiseSignal *s, const float *restrict features, 
             box_row(boxed[k] + y * DENOISE_TILE, row[k]);
     }
     for (int y = 0; y < DENOISE_TILE; y++) {
-        float first[DENOISE_TILE], second[DENOISE_TILE], counts[DENOISE_TILE];
-        size_t p = denoise_at(0, y), at = (size_t)y * DENOISE_TILE;
-        const float *restrict kind = s->kind + p, *restrict alike = features + at;
-        box_column(first, boxed[0] + at);
-        box_column(second, boxed[1] + at);
+        float distance[2][DENOISE_TILE], counts[DENOISE_TILE], w[2][DENOISE_TILE];
+        size_t p = denoise_at(0, y), at = (size_t)y * DENOISE_TILE, q = (size_t)((ptrdiff_t)p + o);
         box_column(counts, boxed[2] + at);
-        for (int i = 0; i < DENOISE_TILE; i++) {
-            float both = kind[i] * kind[i + o], n = counts[i] > 1 ? counts[i] : 1, scale = 1 / (3 * n);
-            float a = first[i] * scale, b = second[i] * scale, most = both > 0 ? alike[i] : 0;
-            a = falloff(a > 0 ? a : 0), b = falloff(b > 0 ? b : 0);
-            first[i] = a < most ? a : most;
-            second[i] = b < most ? b : most;
+        for (int h = 0; h < 2; h++) {
+            box_column(distance[h], boxed[h] + at);
+            distance_row(distance[h], counts, s->kind + p, o);
         }
-        accumulate_row(s, p, o, at, first, second);
+        for (int k = 0; k < DENOISE_CANDIDATES; k++) {
+            const float *features = ways[k].features == STRICT  ? alike->strict
+                                    : ways[k].features == LOOSE ? alike->loose
+                                                                : alike->valid;
+            for (int h = 0; h < 2; h++)
+                weight_row(w[h], distance[h], features + at, ways[k].color, near[k]);
+            add_half(s, &s->candidates[k], 0, q, at, w[1]); /* each by the other's weights */
+            add_half(s, &s->candidates[k], 1, q, at, w[0]);
+            if (k == 0)
+                add_planes(s, q, at, w[0], w[1], weight);
+        }
     }
 }
 
-#define VARIANTS(attributes, suffix)                                                                                  \
-    attributes static void features_##suffix(float *restrict weight, const DenoiseFeatures *f, int dx, int dy)         \
-    {                                                                                                                 \
-        features_body(weight, f, dx, dy);                                                                             \
-    }                                                                                                                 \
-    attributes static void signal_##suffix(const DenoiseSignal *s, const float *restrict features, int dx, int dy)     \
-    {                                                                                                                 \
-        signal_body(s, features, dx, dy);                                                                             \
+/* ---- variants ---- */
+
+#define VARIANTS(attributes, suffix)                                                                                   \
+    attributes static void features_##suffix(DenoiseAlike *alike, const DenoiseFeatures *f, int dx, int dy)            \
+    {                                                                                                                  \
+        features_body(alike, f, dx, dy);                                                                               \
+    }                                                                                                                  \
+    attributes static void signal_##suffix(const DenoiseSignal *s, const DenoiseAlike *alike, int dx, int dy,          \
+                                           float *weight)                                                              \
+    {                                                                                                                  \
+        signal_body(s, alike, dx, dy, weight);                                                                         \
     }
 
 VARIANTS(, baseline)
@@ -185,12 +233,13 @@ static int has_avx2(void)
 }
 #endif
 
-void denoise_features_kernel(float *restrict weight, const DenoiseFeatures *features, int dx, int dy, int scalar)
+void denoise_features_kernel(DenoiseAlike *alike, const DenoiseFeatures *features, int dx, int dy, int scalar)
 {
-    (scalar ? features_scalar : has_avx2() ? features_avx2 : features_baseline)(weight, features, dx, dy);
+    (scalar ? features_scalar : has_avx2() ? features_avx2 : features_baseline)(alike, features, dx, dy);
 }
 
-void denoise_signal_kernel(const DenoiseSignal *signal, const float *restrict features, int dx, int dy, int scalar)
+void denoise_signal_kernel(const DenoiseSignal *signal, const DenoiseAlike *alike, int dx, int dy, float *weight,
+                           int scalar)
 {
-    (scalar ? signal_scalar : has_avx2() ? signal_avx2 : signal_baseline)(signal, features, dx, dy);
+    (scalar ? signal_scalar : has_avx2() ? signal_avx2 : signal_baseline)(signal, alike, dx, dy, weight);
 }

@@ -9,6 +9,8 @@
 
 enum {
     DENOISE_TILE = 64,
+    DENOISE_MARGIN = 4, /* of a tile's pixels at each side, which the next tile makes: here they only help to choose */
+    DENOISE_STEP = DENOISE_TILE - 2 * DENOISE_MARGIN,
     DENOISE_RADIUS_MAX = 10,
     DENOISE_PATCH = 3, /* patches of 7x7 pixels are compared */
     DENOISE_HALO = DENOISE_RADIUS_MAX + DENOISE_PATCH,
@@ -16,7 +18,8 @@ enum {
     DENOISE_ROWS = DENOISE_TILE + 2 * DENOISE_HALO,
     DENOISE_PLANE = DENOISE_PITCH * DENOISE_ROWS,
     DENOISE_PIXELS = DENOISE_TILE * DENOISE_TILE,
-    DENOISE_FEATURES_MAX = 40,
+    DENOISE_CANDIDATES = 4, /* ways to weigh neighbours */
+    DENOISE_FEATURES_MAX = 32,
     DENOISE_GROUPS_MAX = 16
 };
 
@@ -25,43 +28,53 @@ static inline size_t denoise_at(int x, int y)
     return (size_t)(y + DENOISE_HALO) * DENOISE_PITCH + (size_t)(x + DENOISE_HALO);
 }
 
-/* Features that are compared together: the weight follows the group that differs most. */
+/* Features that are compared together: the weight follows the group that differs most. Scales are 1 / squared
+ * difference at which the weight is 1/e, by pixel. */
 typedef struct DenoiseGroup {
-    int first, count;        /* of the planes */
-    const float *scale;      /* by pixel: 1 / squared difference at which the weight is 1/e */
-    const float *normal[3];  /* or NULL; the difference counts along this direction only, and per pixel of distance */
+    int first, count;            /* of the planes */
+    const float *strict, *loose; /* scales */
+    const float *normal[3];      /* or NULL; the difference counts along this direction only, per pixel of distance */
 } DenoiseGroup;
 
 typedef struct DenoiseFeatures {
-    const float *valid;      /* 1 within the picture, else 0 */
+    const float *valid; /* 1 within the picture, else 0 */
     const float *planes[DENOISE_FEATURES_MAX];
     int ngroups;
     DenoiseGroup groups[DENOISE_GROUPS_MAX];
 } DenoiseFeatures;
 
-/* weight = by how much pixels that lie (dx, dy) apart are alike in all features, 0..1. */
-void denoise_features_kernel(float *restrict weight, const DenoiseFeatures *features, int dx, int dy, int scalar);
+/* How alike pixels that lie some way apart are, 0..1: whatever their features, and by both scales of these. */
+typedef struct DenoiseAlike {
+    float valid[DENOISE_PIXELS], strict[DENOISE_PIXELS], loose[DENOISE_PIXELS];
+} DenoiseAlike;
+
+void denoise_features_kernel(DenoiseAlike *alike, const DenoiseFeatures *features, int dx, int dy, int scalar);
+
+/* What one way to weigh neighbours has brought, by half. */
+typedef struct DenoiseSums {
+    float *sum[2][3], *norm[2];
+} DenoiseSums;
 
 /* One signal. Halves are independent estimates; each is filtered with the weights that the other gives (Rousselle et
  * al. 2012). */
 typedef struct DenoiseSignal {
-    const float *half[2][3];  /* over the modulation */
-    const float *variance[3]; /* of a half, over the modulation squared */
-    const float *kind;        /* 1 or -1: pixels of different kinds are not compared */
-    const float *modulation[3];
-    float epsilon;            /* variance below which no difference is seen */
-    float strength;           /* squared: how many variances apart still count as alike */
-    int nplanes;              /* of images, channel by channel, that are filtered with the mean of both weights */
-    const float *const *planes;
-    /* sums: */
-    float *sum[2][3], *norm[2][3];
-    float *const *sums;       /* nplanes */
-    float *weight;            /* the mean of both weights, or NULL */
-    float *scratch;           /* DENOISE_SCRATCH floats */
+    const float *half[2][3];     /* over the modulation */
+    const float *variance[3];    /* of a half, over the modulation squared */
+    const float *kind;           /* 1 or -1: pixels of different kinds are not compared */
+    const float *modulation;     /* its mean over colours: what a pixel counts */
+    float epsilon;               /* variance below which no difference is seen */
+    float strength;              /* squared: how many variances apart still count as alike */
+    DenoiseSums candidates[DENOISE_CANDIDATES];
+    int nplanes;                 /* of images, */
+    const float *const *planes;  /* channel by channel, that are filtered with the first candidate's weights */
+    float *const *sums;          /* nplanes */
+    float *scratch;              /* DENOISE_SCRATCH floats */
 } DenoiseSignal;
-enum { DENOISE_SCRATCH = 3 * (DENOISE_TILE + 2 * DENOISE_PATCH) * (DENOISE_TILE + 2 * DENOISE_PATCH + DENOISE_TILE) };
+enum { DENOISE_SCRATCH = 3 * (DENOISE_TILE + 2 * DENOISE_PATCH) * DENOISE_TILE };
 
-/* Add to the sums what pixels at (dx, dy) give; features is the weight by features. */
-void denoise_signal_kernel(const DenoiseSignal *signal, const float *restrict features, int dx, int dy, int scalar);
+/* Add to the sums what pixels at (dx, dy) give. weight (may be NULL) gets the first candidate's, the mean of both
+ * halves. */
+void denoise_signal_kernel(const DenoiseSignal *signal, const DenoiseAlike *alike, int dx, int dy, float *weight,
+                           int scalar);
 
 #endif

@@ -1,31 +1,47 @@
-/* See denoise_tile.h. */
+/* See denoise_tile.h. The weights are those of Rousselle et al. 2012, limited by features as in Rousselle et al. 2013;
+ * there are several candidates, and each half of the samples tells how good the other's are. */
 #include "denoise_tile.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#define STRENGTH 0.45f      /* of params.strength 1, in standard deviations: k of Rousselle et al. 2012 */
-#define FEATURE_STRENGTH 0.6f /* k_f of Rousselle et al. 2013 */
-#define LEAST_COVER 0.02f   /* of a target: less is not told from none */
+#include "denoise_features.h"
+#include "denoise_footprints.h"
+
+#define STRENGTH 0.45f       /* of params.strength 1, in standard deviations: k of Rousselle et al. 2012 */
+#define LEAST_COVER 0.02f    /* of a target: less is not told from none */
 #define SPECULAR_SHARE 0.04f /* of a target's light that its texture does not multiply, roughly */
 #define LEAST_MODULATION 0.02f
-#define PLANE_SLOPE 0.3f    /* how far from the tangent plane, per distance, surfaces count as one */
+#define LEAST_DIFFERENCE 1e-6f /* squared, of the mean: what no one sees */
+#define ERROR_RADIUS 2         /* of the patch by which a candidate is chosen */
+#define CHOICE_RADIUS 2        /* choices change over so many pixels */
+#define NEIGHBOUR_STEP 3       /* footprints are pooled from a grid of pixels of this step, */
+#define NEIGHBOUR_REACH 2      /* so many steps to each side */
+#define NEIGHBOURS_MAX ((2 * NEIGHBOUR_REACH + 1) * (2 * NEIGHBOUR_REACH + 1))
+#define LEAST_WEIGHT 0.02f /* of a neighbour that is pooled */
+
+_Static_assert(ERROR_RADIUS + CHOICE_RADIUS <= DENOISE_MARGIN, "what is chosen must not depend on tiles");
+
+/* The pixel as it is, and the candidates. */
+enum { CHOICES = DENOISE_CANDIDATES + 1 };
 
 /* What a tile holds of one signal. */
 typedef struct SignalRoom {
-    float *half[2][3], *variance[3], *kind, *modulation[3];
-    int nplanes;
-    float **planes, **sums; /* channel by channel: all clusters together where there are several, then other members */
-    float *sum[2][3], *norm[2][3];
+    int nclusters, nplanes;
+    float *half[2][3], *variance[3], *kind, *modulation[3], *mean_modulation; /* planes */
+    float **planes, **sums; /* channel by channel: all clusters together where there are any, then other members */
+    DenoiseSums candidates[DENOISE_CANDIDATES];
+    float *chosen[CHOICES]; /* how much of each, by pixel */
+    float *neighbours;      /* of signals with clusters: weights by neighbour, then pixel */
 } SignalRoom;
 
 struct TileRoom {
     float *memory;
-    float *valid, *features[DENOISE_FEATURES_MAX], *scales[DENOISE_GROUPS_MAX];
-    float *alike; /* weight by features */
-    float *spare; /* a plane */
-    float *scratch;
+    float *features; /* FEATURES_ROOM planes */
+    float *spare;    /* a plane */
+    float *scratch, *errors[CHOICES], *neighbours;
+    DenoiseAlike *alike;
     SignalRoom *signals;
     float **pointers;
 };
@@ -35,78 +51,89 @@ struct TileRoom {
 /* Members that are clusters: light of one footprint among several of its kind. */
 static int is_cluster(const RetexSet *set, const SignalMember *member)
 {
-    return member->term >= 0 && set->terms[member->term].nfactors == 1 && set->terms[member->term].factors[0] >= 0 &&
-           set->footprints[set->terms[member->term].factors[0]].kind != RETEX_FOOTPRINT_HIT;
+    if (member->term < 0 || set->terms[member->term].nfactors != 1 || set->terms[member->term].factors[0] < 0)
+        return 0;
+    return set->footprints[set->terms[member->term].factors[0]].kind != RETEX_FOOTPRINT_HIT;
 }
 
-static int count_clusters(const RetexSet *set, const Signal *signal)
-{
-    int count = 0;
-    for (int k = 0; k < signal->nmembers; k++)
-        count += is_cluster(set, &signal->members[k]);
-    return count;
-}
+/* Memory is laid out twice: first from NULL, to see how much it takes. */
+typedef struct Layout {
+    float *memory;
+    size_t used;
+    float **pointers;
+    size_t npointers;
+} Layout;
 
-/* Images of a signal that are filtered: one for all clusters, one for each other member. */
-static int count_images(const RetexSet *set, const Signal *signal)
+static float *take(Layout *l, size_t floats)
 {
-    int clusters = count_clusters(set, signal);
-    return signal->nmembers - clusters + (clusters > 0);
-}
-
-static float *take(float **memory, size_t floats)
-{
-    float *p = *memory;
-    *memory += floats;
+    float *p = l->memory ? l->memory + l->used : NULL;
+    l->used += (floats + 15) / 16 * 16;
     return p;
 }
 
-static void lay_out(TileRoom *room, const Denoiser *d)
+static void lay_out_signal(SignalRoom *r, Layout *l, const RetexSet *set, const Signal *signal)
 {
-    float *at = room->memory, **pointer = room->pointers;
-    room->valid = take(&at, DENOISE_PLANE), room->spare = take(&at, DENOISE_PLANE);
-    for (int k = 0; k < DENOISE_FEATURES_MAX; k++)
-        room->features[k] = take(&at, DENOISE_PLANE);
-    for (int k = 0; k < DENOISE_GROUPS_MAX; k++)
-        room->scales[k] = take(&at, DENOISE_PLANE);
-    room->alike = take(&at, DENOISE_PIXELS);
-    room->scratch = take(&at, DENOISE_SCRATCH);
-    for (int s = 0; s < d->signals.count; s++) {
-        SignalRoom *r = &room->signals[s];
-        r->nplanes = 3 * count_images(d->set, &d->signals.of[s]);
-        r->planes = pointer, pointer += r->nplanes;
-        r->sums = pointer, pointer += r->nplanes;
-        r->kind = take(&at, DENOISE_PLANE);
-        for (int c = 0; c < 3; c++) {
-            r->variance[c] = take(&at, DENOISE_PLANE), r->modulation[c] = take(&at, DENOISE_PLANE);
-            for (int h = 0; h < 2; h++) {
-                r->half[h][c] = take(&at, DENOISE_PLANE);
-                r->sum[h][c] = take(&at, DENOISE_PIXELS), r->norm[h][c] = take(&at, DENOISE_PIXELS);
-            }
-        }
-        for (int k = 0; k < r->nplanes; k++)
-            r->planes[k] = take(&at, DENOISE_PLANE), r->sums[k] = take(&at, DENOISE_PIXELS);
+    r->nclusters = 0;
+    for (int k = 0; k < signal->nmembers; k++)
+        r->nclusters += is_cluster(set, &signal->members[k]);
+    r->nplanes = 3 * (signal->nmembers - r->nclusters + (r->nclusters > 0));
+    r->kind = take(l, DENOISE_PLANE), r->mean_modulation = take(l, DENOISE_PLANE);
+    for (int c = 0; c < 3; c++) {
+        r->variance[c] = take(l, DENOISE_PLANE), r->modulation[c] = take(l, DENOISE_PLANE);
+        r->half[0][c] = take(l, DENOISE_PLANE), r->half[1][c] = take(l, DENOISE_PLANE);
     }
+    for (int k = 0; k < DENOISE_CANDIDATES; k++)
+        for (int h = 0; h < 2; h++) {
+            r->candidates[k].norm[h] = take(l, DENOISE_PIXELS);
+            for (int c = 0; c < 3; c++)
+                r->candidates[k].sum[h][c] = take(l, DENOISE_PIXELS);
+        }
+    for (int k = 0; k < CHOICES; k++)
+        r->chosen[k] = take(l, DENOISE_PIXELS);
+    r->neighbours = r->nclusters ? take(l, (size_t)NEIGHBOURS_MAX * DENOISE_PIXELS) : NULL;
+    r->planes = l->pointers + l->npointers, r->sums = r->planes + r->nplanes;
+    l->npointers += 2 * (size_t)r->nplanes;
+    for (int k = 0; k < r->nplanes; k++) {
+        float *plane = take(l, DENOISE_PLANE), *sum = take(l, DENOISE_PIXELS);
+        if (l->memory)
+            r->planes[k] = plane, r->sums[k] = sum;
+    }
+}
+
+static void lay_out(TileRoom *room, Layout *l, const Denoiser *d)
+{
+    l->used = l->npointers = 0;
+    room->features = take(l, (size_t)FEATURES_ROOM * DENOISE_PLANE);
+    room->spare = take(l, DENOISE_PLANE);
+    room->scratch = take(l, DENOISE_SCRATCH);
+    room->neighbours = take(l, (size_t)NEIGHBOURS_MAX * DENOISE_PIXELS);
+    for (int k = 0; k < CHOICES; k++)
+        room->errors[k] = take(l, DENOISE_PIXELS);
+    room->alike = (DenoiseAlike *)take(l, sizeof(DenoiseAlike) / sizeof(float));
+    for (int s = 0; s < d->signals.count; s++)
+        lay_out_signal(&room->signals[s], l, d->set, &d->signals.of[s]);
 }
 
 int tile_room_create(TileRoom **out, const Denoiser *d, RetexError *err)
 {
     TileRoom *room = *out = calloc(1, sizeof *room);
-    size_t planes = 2 + DENOISE_FEATURES_MAX + DENOISE_GROUPS_MAX, images = 1, pointers = 1;
-    for (int s = 0; s < d->signals.count; s++) {
-        size_t n = 3 * (size_t)count_images(d->set, &d->signals.of[s]);
-        planes += 13 + n, images += 12 + n, pointers += 2 * n;
-    }
+    size_t members = 0;
+    Layout layout = {NULL, 0, NULL, 0};
+    for (int s = 0; s < d->signals.count; s++)
+        members += (size_t)d->signals.of[s].nmembers + 1;
     if (room) {
-        room->memory = calloc(planes * DENOISE_PLANE + images * DENOISE_PIXELS + DENOISE_SCRATCH, sizeof(float));
         room->signals = calloc((size_t)d->signals.count + 1, sizeof *room->signals);
-        room->pointers = calloc(pointers, sizeof *room->pointers);
+        layout.pointers = room->pointers = calloc(6 * members + 1, sizeof *room->pointers);
     }
-    if (!room || !room->memory || !room->signals || !room->pointers) {
+    if (room && room->signals && room->pointers) {
+        lay_out(room, &layout, d);
+        layout.memory = room->memory = calloc(layout.used, sizeof(float));
+    }
+    if (!room || !room->memory) {
         tile_room_close(out);
         return retex_fail(err, RETEX_ENOMEM, "not enough memory to denoise a tile");
     }
-    lay_out(room, d);
+    lay_out(room, &layout, d);
     return RETEX_OK;
 }
 
@@ -122,147 +149,40 @@ void tile_room_close(TileRoom **out)
     *out = NULL;
 }
 
-/* ---- gathering ---- */
-
-static int clamp(int x, int size)
-{
-    return x < 0 ? 0 : x < size ? x : size - 1;
-}
-
-/* A channel of a part around the tile; what lies outside the picture is as its border. */
-static void gather(float *restrict plane, const RetexSet *set, int part, int channel, int x0, int y0)
-{
-    const RetexImage *im = &set->parts[part].image;
-    for (int y = -DENOISE_HALO; y < DENOISE_TILE + DENOISE_HALO; y++) {
-        const float *row = im->pixels + retex_image_index(im, 0, clamp(y0 + y, im->height)) + channel;
-        float *restrict to = plane + denoise_at(-DENOISE_HALO, y);
-        for (int x = 0; x < DENOISE_PITCH; x++) {
-            float v = row[(size_t)clamp(x0 + x - DENOISE_HALO, im->width) * (size_t)im->channels];
-            to[x] = fabsf(v) < 1e30f ? v : 0; /* not what is not finite */
-        }
-    }
-}
-
-static void add_gathered(float *restrict plane, float *restrict spare, const RetexSet *set, int part, int channel,
-                         int x0, int y0, float weight)
-{
-    gather(spare, set, part, channel, x0, y0);
-    for (int i = 0; i < DENOISE_PLANE; i++)
-        plane[i] += weight * spare[i];
-}
-
-/* ---- features ---- */
-
-/* Squared change of features from pixel to pixel: the lesser of both sides, so that edges are no slopes. */
-static void add_gradient(float *restrict squares, const float *restrict f)
-{
-    for (int y = 1; y < DENOISE_ROWS - 1; y++)
-        for (int x = 1; x < DENOISE_PITCH - 1; x++) {
-            size_t i = (size_t)y * DENOISE_PITCH + (size_t)x;
-            float l = f[i] - f[i - 1], r = f[i + 1] - f[i], u = f[i] - f[i - DENOISE_PITCH],
-                  d = f[i + DENOISE_PITCH] - f[i];
-            squares[i] += fminf(l * l, r * r) + fminf(u * u, d * d);
-        }
-}
-
-static void add_group(DenoiseFeatures *f, TileRoom *room, int first, int count, float least)
-{
-    DenoiseGroup *g = &f->groups[f->ngroups];
-    float *scale = room->scales[f->ngroups++];
-    memset(scale, 0, sizeof *scale * DENOISE_PLANE);
-    for (int k = 0; k < count; k++)
-        add_gradient(scale, room->features[first + k]);
-    for (int i = 0; i < DENOISE_PLANE; i++)
-        scale[i] = 1 / (FEATURE_STRENGTH * FEATURE_STRENGTH * fmaxf(least, scale[i]));
-    *g = (DenoiseGroup){.first = first, .count = count, .scale = scale};
-}
-
-/* Positions are alike where they lie in one plane. */
-static void add_position(DenoiseFeatures *f, TileRoom *room, int first, int normal)
-{
-    DenoiseGroup *g = &f->groups[f->ngroups];
-    float *scale = room->scales[f->ngroups++];
-    memset(scale, 0, sizeof *scale * DENOISE_PLANE);
-    for (int k = 0; k < 3; k++)
-        add_gradient(scale, room->features[first + k]);
-    for (int i = 0; i < DENOISE_PLANE; i++)
-        scale[i] = 1 / (PLANE_SLOPE * PLANE_SLOPE * 0.5f * fmaxf(1e-20f, scale[i]));
-    *g = (DenoiseGroup){.first = first, .count = 3, .scale = scale};
-    for (int k = 0; k < 3; k++)
-        g->normal[k] = room->features[normal + k];
-}
-
-static int is_constant(const float *plane, float value)
-{
-    for (int i = 0; i < DENOISE_PLANE; i++)
-        if (plane[i] != value)
-            return 0;
-    return 1;
-}
-
-static void gather_features(DenoiseFeatures *f, TileRoom *room, const Denoiser *d, int x0, int y0)
-{
-    const Guides *g = &d->guides;
-    const int parts[] = {g->seen_normal, g->seen_position, g->seen_albedo, g->seen_material,
-                         g->normal,      g->position,      g->specular};
-    const int counts[] = {3, 3, 3, 3, 3, 3, 1};
-    int n = 0;
-    *f = (DenoiseFeatures){.valid = room->valid};
-    for (int k = 0; k < 7; k++)
-        for (int c = 0; c < counts[k]; c++)
-            gather(room->features[n++], d->set, parts[k], c, x0, y0);
-    for (int s = 0; s < d->signals.count; s++)
-        if (d->signals.of[s].cover >= 0 && d->signals.of[s].kind != RETEX_FOOTPRINT_BROAD)
-            gather(room->features[n++], d->set, d->signals.of[s].cover, 0, x0, y0);
-    for (int k = 0; k < n; k++)
-        f->planes[k] = room->features[k];
-    add_group(f, room, 0, 3, 4e-3f);
-    add_position(f, room, 3, 0);
-    add_group(f, room, 6, 3, 2e-3f);
-    add_group(f, room, 9, 3, 4e-3f);
-    if (!is_constant(room->features[18], 0)) { /* else it is what is seen */
-        add_group(f, room, 12, 3, 4e-3f);
-        add_position(f, room, 15, 12);
-        add_group(f, room, 18, 1, 4e-3f);
-    }
-    for (int k = 19; k < n; k++)
-        add_group(f, room, k, 1, 4e-3f);
-    for (int y = -DENOISE_HALO; y < DENOISE_TILE + DENOISE_HALO; y++)
-        for (int x = -DENOISE_HALO; x < DENOISE_PITCH - DENOISE_HALO; x++)
-            room->valid[denoise_at(x, y)] =
-                x0 + x >= 0 && x0 + x < d->set->width && y0 + y >= 0 && y0 + y < d->set->height;
-}
-
 /* ---- signals ---- */
 
-/* What the light is multiplied by at the pixel, as far as guides know: it is taken out before pixels are compared. */
+/* What the light is multiplied by at the pixel, as far as guides know: it is taken out before pixels are compared.
+ * Light that comes straight from a target goes with how much of it the pixel sees; other light with the colour of what is
+ * seen, of targets with what their texture does not multiply. */
 static void find_modulation(SignalRoom *r, TileRoom *room, const Denoiser *d, const Signal *signal, int x0, int y0)
 {
+    int sharp = signal->kind == RETEX_FOOTPRINT_SHARP && signal->target >= 0,
+        any = signal->kind == RETEX_FOOTPRINT_HIT && signal->target >= 0;
     for (int i = 0; i < DENOISE_PLANE; i++)
         r->kind[i] = 1;
-    if (signal->target >= 0 && signal->kind != RETEX_FOOTPRINT_BROAD) {
-        int sharp = signal->kind == RETEX_FOOTPRINT_SHARP;
-        gather(room->spare, d->set, signal->cover, 0, x0, y0);
-        for (int i = 0; i < DENOISE_PLANE; i++) {
-            int covered = sharp && room->spare[i] > LEAST_COVER;
-            for (int c = 0; c < 3; c++)
-                r->modulation[c][i] = covered ? room->spare[i] : 1;
-            r->kind[i] = covered ? 1 : sharp ? -1 : 1;
-        }
-        return;
-    }
-    for (int c = 0; c < 3; c++)
-        gather(r->modulation[c], d->set, d->guides.seen_albedo, c, x0, y0);
-    for (int s = 0; s < d->signals.count; s++) {
-        const Signal *other = &d->signals.of[s];
-        if (other->cover < 0 || other->kind == RETEX_FOOTPRINT_BROAD)
-            continue;
+    if (sharp)
+        plane_gather(room->spare, d->set, signal->cover, 0, x0, y0);
+    for (int i = 0; i < DENOISE_PLANE && (sharp || any); i++) {
+        int covered = sharp && room->spare[i] > LEAST_COVER;
         for (int c = 0; c < 3; c++)
-            add_gathered(r->modulation[c], room->spare, d->set, other->cover, 0, x0, y0, SPECULAR_SHARE - 1);
+            r->modulation[c][i] = covered ? room->spare[i] : 1;
+        r->kind[i] = sharp && !covered ? -1 : 1;
     }
-    for (int c = 0; c < 3; c++)
-        for (int i = 0; i < DENOISE_PLANE; i++)
+    for (int c = 0; c < 3 && !sharp && !any; c++)
+        plane_gather(r->modulation[c], d->set, d->guides.seen_albedo, c, x0, y0);
+    for (int t = 0; t < d->set->ntargets && !sharp && !any; t++) {
+        if (d->signals.covers[t] < 0)
+            continue;
+        plane_gather(room->spare, d->set, d->signals.covers[t], 0, x0, y0);
+        for (int c = 0; c < 3; c++)
+            for (int i = 0; i < DENOISE_PLANE; i++)
+                r->modulation[c][i] -= (1 - SPECULAR_SHARE) * room->spare[i];
+    }
+    for (int i = 0; i < DENOISE_PLANE; i++) {
+        for (int c = 0; c < 3; c++)
             r->modulation[c][i] = fmaxf(r->modulation[c][i], LEAST_MODULATION);
+        r->mean_modulation[i] = (r->modulation[0][i] + r->modulation[1][i] + r->modulation[2][i]) / 3;
+    }
 }
 
 /* Mean over 5x5 pixels of a plane, through spare. */
@@ -275,34 +195,37 @@ static void smooth(float *restrict plane, float *restrict spare)
                            spare[i + DENOISE_PITCH] + spare[i + 2 * DENOISE_PITCH]);
 }
 
-/* Planes of a signal: images to filter, halves of the total, the variance of these. */
-static void gather_signal(SignalRoom *r, TileRoom *room, const Denoiser *d, const Signal *signal, int x0, int y0)
+/* Images to filter; their total goes to the first half's planes. */
+static void gather_members(SignalRoom *r, TileRoom *room, const Denoiser *d, const Signal *signal, int x0, int y0)
 {
-    const RetexSet *set = d->set;
-    int clusters = count_clusters(set, signal), image = clusters > 0;
+    int image = r->nclusters > 0;
     for (int k = 0; k < r->nplanes; k++)
         memset(r->planes[k], 0, sizeof(float) * DENOISE_PLANE);
     for (int c = 0; c < 3; c++)
         memset(r->half[0][c], 0, sizeof(float) * DENOISE_PLANE);
     for (int k = 0; k < signal->nmembers; k++) {
         const SignalMember *m = &signal->members[k];
-        int to = is_cluster(set, m) ? 0 : image++;
+        int to = is_cluster(d->set, m) ? 0 : image++;
         for (int c = 0; c < 3; c++) {
-            gather(room->spare, set, m->part, c, x0, y0);
             float *restrict plane = r->planes[3 * to + c], *restrict total = r->half[0][c];
+            plane_gather(room->spare, d->set, m->part, c, x0, y0);
             for (int i = 0; i < DENOISE_PLANE; i++)
                 plane[i] += room->spare[i], total[i] += m->weight * room->spare[i];
         }
     }
-    float first = 2 * (float)(set->spp - set->spp / 2) / (float)set->spp, second = 2 - first;
+}
+
+/* From the total and its noise to both halves and the variance of these. */
+static void split_halves(SignalRoom *r, TileRoom *room, const Denoiser *d, const Signal *signal, int x0, int y0)
+{
+    float first = 2 * (float)(d->set->spp - d->set->spp / 2) / (float)d->set->spp, second = 2 - first;
     for (int c = 0; c < 3; c++) {
         float *restrict a = r->half[0][c], *restrict b = r->half[1][c], *restrict v = r->variance[c];
         const float *restrict m = r->modulation[c];
-        gather(room->spare, set, signal->noise, c, x0, y0);
+        plane_gather(room->spare, d->set, signal->noise, c, x0, y0);
         for (int i = 0; i < DENOISE_PLANE; i++) {
-            float total = a[i], noise = room->spare[i] / m[i];
-            a[i] = total / m[i] + first * noise;
-            b[i] = total / m[i] - second * noise;
+            float total = a[i] / m[i], noise = room->spare[i] / m[i];
+            a[i] = total + first * noise, b[i] = total - second * noise;
             v[i] = 2 * noise * noise;
         }
         smooth(v, room->spare);
@@ -312,103 +235,235 @@ static void gather_signal(SignalRoom *r, TileRoom *room, const Denoiser *d, cons
 static DenoiseSignal start_signal(SignalRoom *r, TileRoom *room, const Denoiser *d)
 {
     DenoiseSignal s = {.kind = r->kind,
+                       .modulation = r->mean_modulation,
                        .strength = STRENGTH * STRENGTH * d->params.strength * d->params.strength,
-                       .nplanes = r->nplanes,
+                       .nplanes = r->nplanes > 3 ? r->nplanes : 0,
                        .planes = (const float *const *)r->planes,
                        .sums = r->sums,
                        .scratch = room->scratch};
     double level = 0;
     for (int c = 0; c < 3; c++) {
-        s.variance[c] = r->variance[c], s.modulation[c] = r->modulation[c];
-        for (int h = 0; h < 2; h++) {
-            s.half[h][c] = r->half[h][c], s.sum[h][c] = r->sum[h][c], s.norm[h][c] = r->norm[h][c];
-            memset(r->sum[h][c], 0, sizeof(float) * DENOISE_PIXELS);
-            memset(r->norm[h][c], 0, sizeof(float) * DENOISE_PIXELS);
-        }
+        s.variance[c] = r->variance[c];
+        s.half[0][c] = r->half[0][c], s.half[1][c] = r->half[1][c];
         for (int i = 0; i < DENOISE_PLANE; i++)
             level += fabsf(r->half[0][c][i]);
     }
+    level /= 3 * DENOISE_PLANE;
+    s.epsilon = fmaxf(1e-20f, LEAST_DIFFERENCE * (float)(level * level));
+    memcpy(s.candidates, r->candidates, sizeof s.candidates);
+    for (int k = 0; k < DENOISE_CANDIDATES; k++)
+        for (int h = 0; h < 2; h++) {
+            memset(r->candidates[k].norm[h], 0, sizeof(float) * DENOISE_PIXELS);
+            for (int c = 0; c < 3; c++)
+                memset(r->candidates[k].sum[h][c], 0, sizeof(float) * DENOISE_PIXELS);
+        }
     for (int k = 0; k < r->nplanes; k++)
         memset(r->sums[k], 0, sizeof(float) * DENOISE_PIXELS);
-    level /= 3 * DENOISE_PLANE;
-    s.epsilon = fmaxf(1e-20f, 1e-6f * (float)(level * level));
     return s;
+}
+
+/* ---- choosing ---- */
+
+/* Mean over so many pixels to each side, within the tile. */
+static void box(float *restrict image, float *restrict spare, int radius)
+{
+    for (int y = 0; y < DENOISE_TILE; y++)
+        for (int x = 0; x < DENOISE_TILE; x++) {
+            int x0 = x < radius ? 0 : x - radius, x1 = x + radius < DENOISE_TILE ? x + radius : DENOISE_TILE - 1;
+            float sum = 0;
+            for (int k = x0; k <= x1; k++)
+                sum += image[y * DENOISE_TILE + k];
+            spare[y * DENOISE_TILE + x] = sum / (float)(x1 - x0 + 1);
+        }
+    for (int y = 0; y < DENOISE_TILE; y++) {
+        int y0 = y < radius ? 0 : y - radius, y1 = y + radius < DENOISE_TILE ? y + radius : DENOISE_TILE - 1;
+        for (int x = 0; x < DENOISE_TILE; x++) {
+            float sum = 0;
+            for (int k = y0; k <= y1; k++)
+                sum += spare[k * DENOISE_TILE + x];
+            image[y * DENOISE_TILE + x] = sum / (float)(y1 - y0 + 1);
+        }
+    }
+}
+
+/* A choice's value of one half and channel. */
+static float choice_value(const SignalRoom *r, int choice, int half, int c, size_t p, size_t i)
+{
+    const DenoiseSums *s = &r->candidates[choice ? choice - 1 : 0];
+    return choice ? s->sum[half][c][i] / s->norm[half][i] : r->half[half][c][p];
+}
+
+/* How far each choice is from the other half, squared and in units of noise, around each pixel. */
+static void find_errors(const SignalRoom *r, TileRoom *room, float epsilon)
+{
+    for (int k = 0; k < CHOICES; k++) {
+        for (int y = 0; y < DENOISE_TILE; y++)
+            for (int x = 0; x < DENOISE_TILE; x++) {
+                size_t i = (size_t)y * DENOISE_TILE + (size_t)x, p = denoise_at(x, y);
+                float error = 0;
+                for (int c = 0; c < 3; c++) {
+                    float a = choice_value(r, k, 0, c, p, i) - r->half[1][c][p],
+                          b = choice_value(r, k, 1, c, p, i) - r->half[0][c][p];
+                    error += (a * a + b * b) / (epsilon + r->variance[c][p]);
+                }
+                room->errors[k][i] = error;
+            }
+        box(room->errors[k], room->spare, ERROR_RADIUS);
+    }
+}
+
+/* Which choice is nearest to the truth. A half differs from the other by the variance of both, V each: its squared
+ * difference is 4V where nothing is filtered, counted twice; a candidate's is twice its own error and V. */
+static void choose(SignalRoom *r, TileRoom *room, float epsilon)
+{
+    find_errors(r, room, epsilon);
+    for (size_t i = 0; i < DENOISE_PIXELS; i++) {
+        float variance = 0.25f * room->errors[0][i], least = variance;
+        int best = 0;
+        for (int k = 1; k < CHOICES; k++) {
+            float error = 0.5f * room->errors[k][i] - variance;
+            if (error < least)
+                least = error, best = k;
+        }
+        for (int k = 0; k < CHOICES; k++)
+            r->chosen[k][i] = k == best;
+    }
+    for (int k = 0; k < CHOICES; k++)
+        box(r->chosen[k], room->spare, CHOICE_RADIUS);
 }
 
 /* ---- results ---- */
 
-static float *band_pixel(const Denoiser *d, const Band *band, int part, int x, int y)
+/* A pixel of the tile. */
+typedef struct TilePixel {
+    int x, y;    /* in the picture */
+    size_t p, i; /* in planes, in sums */
+} TilePixel;
+
+/* The filtered total, in place of what the first candidate's weights made of it: members keep their proportions of
+ * these. Returns by what sums are to be multiplied. */
+static float filtered_scale(const SignalRoom *r, const Denoiser *d, const Signal *signal, const TilePixel *at, int c,
+                            SignalSums *sums)
 {
-    size_t channels = (size_t)d->set->parts[part].image.channels;
-    return band->parts[part] + ((size_t)(y - band->first) * (size_t)d->set->width + (size_t)x) * channels;
+    float m = r->modulation[c][at->p], total = 0, members = 0;
+    int image = r->nclusters > 0;
+    for (int k = 0; k < CHOICES; k++)
+        total +=
+            r->chosen[k][at->i] * (choice_value(r, k, 0, c, at->p, at->i) + choice_value(r, k, 1, c, at->p, at->i));
+    total = fmaxf(0, 0.5f * m * total);
+    sums->before[c] += 0.5f * m * (r->half[0][c][at->p] + r->half[1][c][at->p]), sums->after[c] += total;
+    if (r->nplanes == 3) { /* which were not filtered: the signal is but one image */
+        int member = r->nclusters ? 0 : signal->nmembers - 1;
+        r->sums[c][at->i] = total / signal->members[member].weight;
+        return 1;
+    }
+    if (r->nclusters)
+        members = r->sums[c][at->i];
+    for (int k = 0; k < signal->nmembers; k++)
+        if (!is_cluster(d->set, &signal->members[k]))
+            members += signal->members[k].weight * r->sums[3 * image++ + c][at->i];
+    return members > 0 ? total / members : 0;
 }
 
-static float luminance(const float *c)
+static int find_neighbours(Neighbour *out, const Denoiser *d, const float *weights, const TilePixel *at)
 {
-    return 0.2126f * c[0] + 0.7152f * c[1] + 0.0722f * c[2];
+    int count = 1, number = 0, reach = d->params.radius / NEIGHBOUR_STEP;
+    out[0] = (Neighbour){at->x, at->y, 1};
+    if (reach > NEIGHBOUR_REACH)
+        reach = NEIGHBOUR_REACH;
+    for (int dy = -reach; dy <= reach; dy++)
+        for (int dx = -reach; dx <= reach; dx++, number++) {
+            float weight = weights[(size_t)number * DENOISE_PIXELS + at->i];
+            if ((dx || dy) && weight > LEAST_WEIGHT)
+                out[count++] = (Neighbour){at->x + NEIGHBOUR_STEP * dx, at->y + NEIGHBOUR_STEP * dy, weight};
+        }
+    return count;
 }
 
-/* One pixel: p in planes, i in sums. */
-static void finish_pixel(const Denoiser *d, const Signal *signal, const SignalRoom *r, size_t p, size_t i, int x, int y,
-                         Band *band, SignalSums *sums)
+static void finish_signal(const SignalRoom *r, const Denoiser *d, const Signal *signal, const TilePixel *at, Band *band,
+                          SignalSums *sums)
 {
-    const RetexSet *set = d->set;
-    int clusters = count_clusters(set, signal), image = clusters > 0;
-    float scale[3], own = 0;
-    for (int c = 0; c < 3; c++) {
-        float m = r->modulation[c][p], before = 0.5f * (r->half[0][c][p] + r->half[1][c][p]) * m, members = 0;
-        float total = 0.5f * m * (r->sum[0][c][i] / r->norm[0][c][i] + r->sum[1][c][i] / r->norm[1][c][i]);
-        float norm = 0.5f * (r->norm[0][c][i] + r->norm[1][c][i]);
-        int at = clusters > 0;
-        for (int k = 0; k < signal->nmembers; k++)
-            if (!is_cluster(set, &signal->members[k]))
-                members += signal->members[k].weight * r->sums[3 * at++ + c][i];
-        if (clusters > 0)
-            members += r->sums[c][i];
-        scale[c] = members > 0 ? total / members : 0;
-        sums->before[c] += before, sums->after[c] += total;
-        (void)norm;
-    }
+    float scale[3], light[3];
+    int image = r->nclusters > 0;
+    for (int c = 0; c < 3; c++)
+        scale[c] = filtered_scale(r, d, signal, at, c, sums);
     for (int k = 0; k < signal->nmembers; k++) {
         const SignalMember *m = &signal->members[k];
-        const RetexImage *im = &set->parts[m->part].image;
-        const float *from = im->pixels + retex_image_index(im, x, y);
-        if (is_cluster(set, m))
-            own += luminance(from);
-    }
-    for (int k = 0; k < signal->nmembers; k++) {
-        const SignalMember *m = &signal->members[k];
-        const RetexImage *im = &set->parts[m->part].image;
-        const float *from = im->pixels + retex_image_index(im, x, y);
-        float *to = band_pixel(d, band, m->part, x, y);
-        int cluster = is_cluster(set, m);
-        float share = !cluster ? 1 : own > 0 ? luminance(from) / own : 0;
-        int at = cluster ? 0 : image++;
+        if (is_cluster(d->set, m))
+            continue;
+        float *to = band->parts[m->part] + 3 * ((size_t)(at->y - band->first) * (size_t)d->set->width + (size_t)at->x);
         for (int c = 0; c < 3; c++)
-            to[c] = share * scale[c] * r->sums[3 * at + c][i];
+            to[c] = scale[c] * r->sums[3 * image + c][at->i];
+        image++;
+    }
+    if (r->nclusters) {
+        Neighbour neighbours[NEIGHBOURS_MAX];
+        int count = find_neighbours(neighbours, d, r->neighbours, at);
+        for (int c = 0; c < 3; c++)
+            light[c] = scale[c] * r->sums[c][at->i];
+        footprints_share_light(d->footprints, d, signal, at->x, at->y, neighbours, count, light, band);
     }
 }
 
-void tile_denoise(const Denoiser *d, TileRoom *room, int x0, int y0, Band *band, SignalSums *sums)
+static void finish_pixel(const Denoiser *d, TileRoom *room, const TilePixel *at, Band *band, SignalSums *sums)
 {
-    DenoiseFeatures features;
-    DenoiseSignal signals[1 + 2 * RETEX_MAX_TARGETS];
-    int radius = d->params.radius;
-    gather_features(&features, room, d, x0, y0);
-    for (int s = 0; s < d->signals.count; s++) {
-        find_modulation(&room->signals[s], room, d, &d->signals.of[s], x0, y0);
-        gather_signal(&room->signals[s], room, d, &d->signals.of[s], x0, y0);
-        signals[s] = start_signal(&room->signals[s], room, d);
+    for (int s = 0; s < d->signals.count; s++)
+        finish_signal(&room->signals[s], d, &d->signals.of[s], at, band, &sums[s]);
+    if (d->params.footprints && d->set->nfootprints) {
+        Neighbour neighbours[NEIGHBOURS_MAX];
+        int count = find_neighbours(neighbours, d, room->neighbours, at);
+        footprints_pool_later(d->footprints, d, at->x, at->y, neighbours, count, band);
     }
+}
+
+/* Number of the neighbour at a displacement, or -1. */
+static int neighbour_number(const Denoiser *d, int dx, int dy)
+{
+    int reach = d->params.radius / NEIGHBOUR_STEP;
+    reach = reach > NEIGHBOUR_REACH ? NEIGHBOUR_REACH : reach;
+    if (dx % NEIGHBOUR_STEP || dy % NEIGHBOUR_STEP || abs(dx) > reach * NEIGHBOUR_STEP ||
+        abs(dy) > reach * NEIGHBOUR_STEP)
+        return -1;
+    return (dy / NEIGHBOUR_STEP + reach) * (2 * reach + 1) + dx / NEIGHBOUR_STEP + reach;
+}
+
+static void search_window(const Denoiser *d, TileRoom *room, const DenoiseFeatures *features,
+                          const DenoiseSignal *signals)
+{
+    int radius = d->params.radius;
     for (int dy = -radius; dy <= radius; dy++)
         for (int dx = -radius; dx <= radius; dx++) {
-            denoise_features_kernel(room->alike, &features, dx, dy, d->params.scalar);
-            for (int s = 0; s < d->signals.count; s++)
-                denoise_signal_kernel(&signals[s], room->alike, dx, dy, d->params.scalar);
+            int number = neighbour_number(d, dx, dy);
+            size_t at = (size_t)(number < 0 ? 0 : number) * DENOISE_PIXELS;
+            denoise_features_kernel(room->alike, features, dx, dy, d->params.scalar);
+            if (number >= 0)
+                memcpy(room->neighbours + at, room->alike->strict, sizeof room->alike->strict);
+            for (int s = 0; s < d->signals.count; s++) {
+                float *kept = number >= 0 && room->signals[s].neighbours ? room->signals[s].neighbours + at : NULL;
+                denoise_signal_kernel(&signals[s], room->alike, dx, dy, kept, d->params.scalar);
+            }
         }
-    for (int y = y0; y < y0 + DENOISE_TILE && y < d->roi.y1; y++)
-        for (int x = x0; x < x0 + DENOISE_TILE && x < d->roi.x1; x++)
-            for (int s = 0; s < d->signals.count; s++)
-                finish_pixel(d, &d->signals.of[s], &room->signals[s], denoise_at(x - x0, y - y0),
-                             (size_t)(y - y0) * DENOISE_TILE + (size_t)(x - x0), x, y, band, &sums[s]);
+}
+
+void tile_denoise(const Denoiser *d, TileRoom *room, int left, Band *band, SignalSums *sums)
+{
+    int x0 = left - DENOISE_MARGIN, y0 = band->first - DENOISE_MARGIN;
+    DenoiseFeatures features;
+    DenoiseSignal signals[1 + 2 * RETEX_MAX_TARGETS];
+    features_gather(&features, room->features, d, x0, y0);
+    for (int s = 0; s < d->signals.count; s++) {
+        SignalRoom *r = &room->signals[s];
+        find_modulation(r, room, d, &d->signals.of[s], x0, y0);
+        gather_members(r, room, d, &d->signals.of[s], x0, y0);
+        split_halves(r, room, d, &d->signals.of[s], x0, y0);
+        signals[s] = start_signal(r, room, d);
+    }
+    search_window(d, room, &features, signals);
+    for (int s = 0; s < d->signals.count; s++)
+        choose(&room->signals[s], room, signals[s].epsilon);
+    for (int y = band->first; y < band->first + band->rows; y++)
+        for (int x = left; x < left + DENOISE_STEP && x < d->roi.x1; x++) {
+            TilePixel at = {x, y, denoise_at(x - x0, y - y0), (size_t)(y - y0) * DENOISE_TILE + (size_t)(x - x0)};
+            finish_pixel(d, room, &at, band, sums);
+        }
 }

@@ -24,6 +24,7 @@ typedef struct Denoiser {
     RetexRoi roi;
     Guides guides;
     Signals signals;
+    struct Footprints *footprints;
 } Denoiser;
 
 /* Sums over pixels of a signal's totals, before and after. */
@@ -36,7 +37,8 @@ typedef struct TileRoom TileRoom;
 int tile_room_create(TileRoom **room, const Denoiser *denoiser, RetexError *err);
 void tile_room_close(TileRoom **room);
 
-/* Filter the tile whose corner is (x0, y0) into band; sums has an entry for each signal. */
-void tile_denoise(const Denoiser *denoiser, TileRoom *room, int x0, int y0, Band *band, SignalSums *sums);
+/* Filter the DENOISE_STEP pixels a side from (x0, band->first) on, as far as they are of the band and the region, into
+ * band; sums has an entry for each signal. */
+void tile_denoise(const Denoiser *denoiser, TileRoom *room, int x0, Band *band, SignalSums *sums);
 
 #endif

@@ -53,7 +53,7 @@ static Signal *signal_of(Signals *signals, const RetexSet *set, const RetexTerm 
     return signal;
 }
 
-static int find_parts(const Signals *signals, const RetexSet *set, RetexError *err)
+static int find_parts(Signals *signals, const RetexSet *set, RetexError *err)
 {
     char name[RETEX_NAME_MAX];
     for (int k = 0; k < signals->count; k++) {
@@ -61,9 +61,12 @@ static int find_parts(const Signals *signals, const RetexSet *set, RetexError *e
         signal_name(set, signal, name);
         if ((signal->noise = signals_find_part(set, name, 3, err)) < 0)
             return signal->noise;
-        snprintf(name, sizeof name, "guide_cover_%.90s", set->targets[signal->target < 0 ? 0 : signal->target].name);
-        if (signal->target >= 0 && (signal->cover = signals_find_part(set, name, 1, err)) < 0)
+        if (signal->target < 0)
+            continue;
+        snprintf(name, sizeof name, "guide_cover_%.90s", set->targets[signal->target].name);
+        if ((signal->cover = signals_find_part(set, name, 1, err)) < 0)
             return signal->cover;
+        signals->covers[signal->target] = signal->cover;
     }
     return RETEX_OK;
 }
@@ -100,6 +103,8 @@ int signals_open(Signals *signals, const RetexSet *set, RetexError *err)
 {
     *signals = (Signals){.of = calloc(SIGNALS_MAX, sizeof *signals->of),
                          .members = calloc((size_t)set->nterms + 1, sizeof *signals->members)};
+    for (int t = 0; t < RETEX_MAX_TARGETS; t++)
+        signals->covers[t] = -1;
     int code = signals->of && signals->members ? sort_terms(signals, set, err)
                                                : retex_fail(err, RETEX_ENOMEM, "no memory for the signals of a set");
     if (!code)

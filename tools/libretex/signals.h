@@ -24,6 +24,7 @@ typedef struct Signals {
     int count;
     Signal *of;
     SignalMember *members; /* of all */
+    int covers[RETEX_MAX_TARGETS]; /* parts guide_cover_… by target; -1 where no signal is of the target */
 } Signals;
 
 /* Find a set's signals, and their parts: RETEX_ENOTFOUND where one is missing. */

@@ -5,17 +5,18 @@
 #   make fidelity-denoise    some hours on two cores, into docs/denoise.csv, docs/denoise.md, docs/pictures/denoise-*;
 #                            `make fidelity` does it too
 #
-# Seven scenes times eight textures, as in run.sh. Sets of layout footprints at 128 samples have five seeds; all else,
+# Seven scenes times eight textures, as in run.sh, but what denoising can do depends on how many pixels an edge or a
+# shadow has: so these are parts, 144x112 pixels, of pictures of 512x384. Sets of layout footprints at 128 samples have five seeds; all else,
 # and 1024 samples and layout paper, has one. The figures are PSNR of the whole picture and of its regions
 # (regions.py), and FLIP. Everything is kept in $BUILD/fidelity-denoise and not made twice: what is there from an
 # earlier run, or was copied there, counts. DENOISE_FRESH=1 makes anew what the filter has touched.
 #
-# DENOISE_SCENES, DENOISE_SIZE, DENOISE_TRUTH_SPP and DENOISE_SEEDS choose less, or more; then docs/ is left alone and
-# the report is in $BUILD/fidelity-denoise alone. DENOISE_FLAGS are options of retex-denoise for sets, to try them out:
+# DENOISE_SCENES, DENOISE_SIZE (of whole pictures), DENOISE_TRUTH_SPP and DENOISE_SEEDS choose less, or more; then docs/
+# is left alone and the report is in $BUILD/fidelity-denoise alone. DENOISE_FLAGS are options of retex-denoise for sets, to try them out:
 # the rival does not have them.
 set -eu
 . tests/fidelity/table/lib.sh
-size=${DENOISE_SIZE:-192x144} truth_spp=${DENOISE_TRUTH_SPP:-4096} seeds=${DENOISE_SEEDS:-1 2 3 4 5}
+size=${DENOISE_SIZE:-512x384} truth_spp=${DENOISE_TRUTH_SPP:-4096} seeds=${DENOISE_SEEDS:-1 2 3 4 5}
 scenes=${DENOISE_SCENES:-$all_scenes}
 few=128 more=512 many=1024 # samples: of what is compared, four times as many, and where there is little noise
 guide_spp=256              # of the light that regions are found from
@@ -26,6 +27,20 @@ python=${PYTHON:-/usr/bin/python3}
     echo "fidelity-denoise: $python needs numpy and OpenImageIO (python3-numpy, python3-openimageio)" >&2
     exit 1
 }
+# The part of a scene's picture.
+view() {
+    echo "--size $size"
+    [ -z "${DENOISE_SIZE:-}" ] || return 0
+    case $1 in
+    glass-caustics) echo '--crop 120,160,144,112' ;; # ball, caustic, brass, mirror
+    kitchen) echo '--crop 120,200,144,112' ;;        # cabinets, island, sun on the floor
+    globe) echo '--crop 230,130,144,112' ;;          # globe, rings, mirror, steel ball
+    glossy-pair) echo '--crop 190,190,144,112' ;;    # both panels, ball
+    horizon) echo '--crop 200,170,144,112' ;;        # cone, mirror ball, shadow
+    *) echo '--crop 160,160,144,112' ;;              # boxes and shadow; sofa, table with glass, rug
+    esac
+}
+
 mkdir -p "$work/truth" "$work/guides" "$work/again" "$work/sets" "$work/retextured" "$work/scores"
 
 # Pictures of another size or of other truths are not to be taken for these.
@@ -48,9 +63,11 @@ guides() { # SCENE
     scene=$1
     set --
     for target in $(targets_of "$scene"); do set -- "$@" --replace "$target=rgb(.5,.5,.5)"; done
-    retex-render -q --plain --size "$size" --spp "$guide_spp" --seed 2000 --max-depth 2 --aov irradiance "$@" \
+    # shellcheck disable=SC2046 # words wanted
+    retex-render -q --plain $(view "$scene") --spp "$guide_spp" --seed 2000 --max-depth 2 --aov irradiance "$@" \
         "$(scene_file "$scene")" -o "$work/guides/$scene-direct.exr"
-    retex-render -q --plain --size "$size" --spp "$guide_spp" --seed 2000 \
+    # shellcheck disable=SC2046
+    retex-render -q --plain $(view "$scene") --spp "$guide_spp" --seed 2000 \
         --aov irradiance,normal,position,depth,object,roughness "$@" \
         "$(scene_file "$scene")" -o "$work/guides/$scene.exr"
 }
@@ -65,7 +82,8 @@ rival() { # SCENE SPP TEXTURE
         number=$((number + 1))
         set -- "$@" --replace "$target=$(cell "$texture" $number)"
     done
-    retex-render -q --plain --denoise --size "$size" --spp "$spp" --seed 1 "$@" "$(scene_file "$scene")" -o "$result"
+    # shellcheck disable=SC2046
+    retex-render -q --plain --denoise $(view "$scene") --spp "$spp" --seed 1 "$@" "$(scene_file "$scene")" -o "$result"
 }
 
 denoised_set() { # SCENE SPP FROM TO

@@ -1,7 +1,7 @@
 # shellcheck shell=sh
 # shellcheck disable=SC2034,SC2154 # who sources it uses the former and gives the latter
 # What the tables of fidelity share; sourced from the top of the repository. Pictures go below $work, are $size pixels,
-# and are not made again where they are there.
+# or the part of so large a picture that view says, and are not made again where they are there.
 build=${BUILD:-build} here=tests/fidelity
 all_scenes='cornell-box glass-caustics living-room kitchen globe glossy-pair horizon'
 textures='checker wood grout text saturated constant dark photo'
@@ -24,6 +24,8 @@ targets_of() {
     *) echo Floor ;;
     esac
 }
+
+view() { echo "--size $size"; } # SCENE
 
 target_flags() { for target in $(targets_of "$1"); do printf ' -t %s' "$target"; done; }
 
@@ -62,7 +64,7 @@ rendered() { # SCENE FOLDER SUFFIX SPP SEED TEXTURE…
     [ ! -e "$folder/$scene-$last$suffix.exr" ] || return 0
     batch "$scene" "$folder/" "$suffix" "$@" >"$work/batch-$scene.csv"
     # shellcheck disable=SC2046 # words wanted
-    retex-render -q --size "$size" --spp "$spp" --seed "$seed" $(target_flags "$scene") \
+    retex-render -q $(view "$scene") --spp "$spp" --seed "$seed" $(target_flags "$scene") \
         --variants "$work/batch-$scene.csv" "$(scene_file "$scene")"
 }
 
@@ -78,7 +80,7 @@ make_set() { # SCENE SPP NAME
     paper) set -- --layout paper ;;
     esac
     # shellcheck disable=SC2046
-    retex-render -q --size "$size" --spp "$spp" --seed "$seed" $(target_flags "$scene") "$@" \
+    retex-render -q $(view "$scene") --spp "$spp" --seed "$seed" $(target_flags "$scene") "$@" \
         "$(scene_file "$scene")" -o "$work/sets/$scene-$spp-$name.exr"
 }
 
