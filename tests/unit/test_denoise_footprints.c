@@ -288,6 +288,7 @@ static void test_what_is_no_number(void **state)
 
 /* ---- later, and layout paper ---- */
 
+/* The same place is near, the other one far; of the second target the pixel alone has something. */
 static void test_later(void **state)
 {
     (void)state;
@@ -313,13 +314,13 @@ static void test_later(void **state)
     put_rgb(set, set->footprints[2].albedo, 1, 1, 1, 0, 0);
     Work w = open_work(set, 1);
     pool_later(&w, weights, 2);
-    EXPECT(0, result_uv(&w, 2), 0.125f, 0.25f, 0.25f);
-    EXPECT(1e-6f, result_uv(&w, 3), 0.75f, 0.25f, 0.25f * 1.25f * 1.25f / (0.75f * 0.75f + 0.25f));
+    EXPECT(1e-6f, result_uv(&w, 2), 0.75f, 0.25f, 0.25f * 1.25f * 1.25f / (0.75f * 0.75f + 0.25f));
+    EXPECT(0, result_uv(&w, 3), 0, 0, 0);
     EXPECT(0, result_uv(&w, 4), 0, 0, 0.25f);
-    EXPECT(1e-6f, result_albedo(&w, 3), 0.6f, 0, 0);
-    EXPECT(1.0f / 1024, result(&w, share_part(set, 2)), 0.25f);
-    EXPECT(1.0f / 1024, result(&w, share_part(set, 3)), 0.625f);
-    EXPECT(1.0f / 1024, result(&w, share_part(set, 4)), 0.125f);
+    EXPECT(1e-6f, result_albedo(&w, 2), 0.6f, 0, 0);
+    EXPECT(1.0f / 1024, result(&w, share_part(set, 2)), 1.25f / 1.5f);
+    EXPECT(0, result(&w, share_part(set, 3)), 0);
+    EXPECT(1.0f / 1024, result(&w, share_part(set, 4)), 0.25f / 1.5f);
     put_share(set, 2, 1, 1, 0); /* nobody has any: as it was */
     put_share(set, 4, 1, 1, 0);
     pool_later(&w, weights, 1);
@@ -328,30 +329,86 @@ static void test_later(void **state)
     close_work(&w);
 }
 
+/* A later footprint's width is what it may be away by a tenth of, the short way round where the texture is periodic;
+ * beyond, it is as if the neighbour were not. */
+static void test_later_near_and_far(void **state)
+{
+    (void)state;
+    static const float weights[] = {1, 1}, near[] = {0.03125f, -0.03125f, 1.03125f, 0.0625f, 0.5f, 4.5f};
+    for (int k = 0; k < 6; k++)
+        for (int periodic = 0; periodic < 2; periodic++) {
+            const float u = near[k];
+            const int pooled = fabsf(u) < 0.04f || (periodic && k == 2);
+            RetexSet *set = again_set(RETEX_FOOTPRINT_SHARP, 1);
+            set->targets[0].periodic[0] = periodic;
+            for (int x = 1; x < 3; x++) {
+                put(set, 1, x, 1, x == 1 ? 0 : u, 0.5f, 0.125f);
+                put_spread(set, 1, x, 1, 0.25f, 0.375f, 0.5f); /* 0.45 wide */
+                put_share(set, 1, x, 1, 1);
+                put_again(set, x, 1, 4);
+                put_rgb(set, set->footprints[1].albedo, x, 1, (float)(x - 1), 0.5f, 0);
+            }
+            Work w = open_work(set, 1);
+            pool_later(&w, weights, 2);
+            const float half = 0.03125f / 2, su = sqrtf(0.0625f + (pooled ? half * half : 0));
+            const float middle = k != 1 ? half : periodic ? 1 - half : -half;
+            EXPECT(0.25f / 64, result_uv(&w, 1), pooled ? middle : 0, 0.5f, pooled ? 0.25f : 0.125f);
+            EXPECT(1e-6f, result_spread(&w, 1), su, 0.375f, 0.5f * 0.25f / su);
+            EXPECT(1e-6f, result_albedo(&w, 1), pooled ? 0.5f : 0, 0.5f, 0);
+            EXPECT(0, result_uv(&w, 2), 0, 0, 0);
+            close_work(&w);
+        }
+}
+
+/* Where the pixel itself has none, a neighbour's is what others are near to. */
+static void test_later_of_none(void **state)
+{
+    (void)state;
+    static const float weights[] = {1, 1, 0.5f, 0.5f};
+    RetexSet *set = again_set(RETEX_FOOTPRINT_SHARP, 1);
+    for (int x = 2; x < 5; x++) {
+        put(set, 1, x, 1, x == 3 ? 3 : 0.25f, 0.5f, 0.125f);
+        put_spread(set, 1, x, 1, 0.25f, 0.25f, 0);
+        put_share(set, 1, x, 1, 1);
+        put_again(set, x, 1, 4);
+    }
+    Work w = open_work(set, 1);
+    pool_later(&w, weights, 4);
+    EXPECT(1e-6f, result_uv(&w, 1), 0.25f, 0.5f, 0.125f * 1.5f * 1.5f / 1.25f);
+    EXPECT(1e-6f, result_spread(&w, 1), 0.25f, 0.25f, 0);
+    EXPECT(0, result(&w, share_part(set, 1)), 1);
+    close_work(&w);
+}
+
 static void test_paper(void **state)
 {
     (void)state;
-    static const float weights[] = {1, 0.5f, 0.5f};
+    static const float weights[] = {1, 0.5f, 0.5f, 0.5f};
     RetexSet *set = start_set(WIDTH, HEIGHT, 1);
     strcpy(set->layout, "paper");
     for (int k = 0; k < 2; k++)
         add_footprint(set, 0, RETEX_FOOTPRINT_HIT, 1 + k, "RG");
     add_term(set, 2, 0, 1);
     put(set, 1, 1, 1, 0, 0.5f, 0.5f);
-    put(set, 1, 2, 1, 4, 0.5f, 1);
-    put_spread(set, 1, 1, 1, 1, 0.25f, 0);
-    put_spread(set, 1, 2, 1, 1, 0.25f, 0);
+    put(set, 1, 2, 1, 0.0625f, 0.5f, 1); /* near: a tenth of the width is 0.1 */
+    put(set, 1, 4, 1, 4, 0.5f, 1);       /* far */
+    for (int x = 1; x < 5; x++)
+        put_spread(set, 1, x, 1, 1, 0.25f, 0);
     put_rgb(set, set->footprints[1].albedo, 1, 1, 0, 0.5f, 1);
     put_rgb(set, set->footprints[1].albedo, 2, 1, 1, 0.5f, 0);
+    put_rgb(set, set->footprints[1].albedo, 4, 1, 9, 9, 9);
     Work w = open_work(set, 1);
     assert_false(w.written[set->footprints[0].uv]);
     assert_false(w.written[set->terms[1].radiance]); /* no cluster */
-    pool_later(&w, weights, 3);
-    EXPECT(2.24f / 64, result_uv(&w, 1), 2);
-    EXPECT(0.25f / 64, result_uv(&w, 1) + 1, 0.5f);
-    EXPECT(1e-6f, result_uv(&w, 1) + 2, 0.5f); /* (0.5 + 0.5 * 1 + 0.5 * 0) / 2 */
-    EXPECT(1e-6f, result_spread(&w, 1), sqrtf(5), 0.25f);
-    EXPECT(1e-6f, result_albedo(&w, 1), 0.5f, 0.5f, 0.5f);
+    for (int far = 0; far < 2; far++) {
+        pool_later(&w, weights, far ? 4 : 3);
+        EXPECT(1.0f / 64, result_uv(&w, 1), 0.03125f);
+        EXPECT(0.25f / 64, result_uv(&w, 1) + 1, 0.5f);
+        if (!far)
+            EXPECT(1e-6f, result_uv(&w, 1) + 2, 0.5f); /* (0.5 + 0.5 * 1 + 0.5 * 0) / 2 */
+        EXPECT(1e-6f, result_spread(&w, 1), sqrtf(1 + 0.03125f * 0.03125f), 0.25f);
+        EXPECT(1e-6f, result_albedo(&w, 1), 0.5f, 0.5f, 0.5f);
+    }
     close_work(&w);
 }
 
@@ -390,6 +447,8 @@ int main(void)
         cmocka_unit_test(test_broad_without_any),
         cmocka_unit_test(test_what_is_no_number),
         cmocka_unit_test(test_later),
+        cmocka_unit_test(test_later_near_and_far),
+        cmocka_unit_test(test_later_of_none),
         cmocka_unit_test(test_paper),
         cmocka_unit_test(test_which_parts_are_written),
     };
