@@ -5,9 +5,15 @@
 #include "integrate/denoise_guides.h"
 #include "integrate/path.h"
 
-#define PLACES 16
-#define LATTICE_STEP 5  /* rows between places of neighbouring columns: of all steps it keeps them the farthest apart */
-#define FOLLOWED_MAX 16 /* mirrors and glasses on the way */
+/* Places of a pixel form a lattice: of all steps, in rows between neighbouring columns, these keep them the farthest
+ * apart. A pixel where the few do not all see the same is looked at again in many. */
+#define PLACES_FEW 8
+#define STEP_FEW 3
+#define PLACES_MANY 64
+#define STEP_MANY 19
+#define ONE_NORMAL 0.999 /* length of the mean of normals that count as one */
+#define ONE_ALBEDO 1e-4  /* variance of the luminance of albedos that count as one */
+#define FOLLOWED_MAX 16  /* mirrors and glasses on the way */
 
 enum {
     GUIDE_NORMAL,
@@ -46,8 +52,11 @@ typedef struct Sight {
 } Sight;
 
 typedef struct GuideSums {
+    int places;
     Sight first, seen;
     int specular;
+    double luminance, luminance_squared; /* of the albedos */
+    int primitive, differ;               /* the first place's and what it sees; whether others differ */
     Rgb albedo;
     double roughness, metallic;
     double cover[RETEX_MAX_TARGETS];
@@ -72,10 +81,17 @@ static int is_emitter(const Shading *s)
     return rgb_luminance(s->surface.texture->finish->emission) > s->bsdf.diffuse;
 }
 
+static void add_albedo(GuideSums *sums, Rgb albedo)
+{
+    double l = rgb_luminance(albedo);
+    sums->albedo = rgb_add(sums->albedo, albedo);
+    sums->luminance += l, sums->luminance_squared += l * l;
+}
+
 static void add_seen(const GuideJob *job, GuideSums *sums, const Shading *s)
 {
     add_sight(&sums->seen, s);
-    sums->albedo = rgb_add(sums->albedo, is_emitter(s) ? rgb_grey(1) : known_albedo(job, s));
+    add_albedo(sums, is_emitter(s) ? rgb_grey(1) : known_albedo(job, s));
     sums->roughness += shading_roughness(s);
     sums->metallic += shading_metallic(s);
 }
@@ -111,6 +127,14 @@ static void add_cover(double cover[RETEX_MAX_TARGETS], unsigned *met, const Shad
     }
 }
 
+/* What is seen at a place, by number. */
+static void note_primitive(GuideSums *sums, int primitive)
+{
+    if (sums->places++ == 0)
+        sums->primitive = primitive;
+    sums->differ |= primitive != sums->primitive;
+}
+
 static void look(const GuideJob *job, GuideSums *sums, Ray ray)
 {
     const FirstHitWindow *w = job->window;
@@ -121,7 +145,8 @@ static void look(const GuideJob *job, GuideSums *sums, Ray ray)
     Shading s;
     for (int followed = 0;; followed++) {
         if (!accel_intersect(w->accel, &ray, kind, &hit)) {
-            sums->albedo = rgb_add(sums->albedo, rgb_grey(1));
+            add_albedo(sums, rgb_grey(1));
+            note_primitive(sums, -1);
             return;
         }
         shading_at(&s, w->scene, w->variants, 1, &ray, &hit);
@@ -133,6 +158,7 @@ static void look(const GuideJob *job, GuideSums *sums, Ray ray)
         sums->specular += followed == 0;
     }
     add_seen(job, sums, &s);
+    note_primitive(sums, hit.primitive);
 }
 
 static void store(RetexImage *image, int x, int y, double scale, double a, double b, double c)
@@ -151,6 +177,30 @@ static void store_sight(RetexImage *normal, RetexImage *position, int x, int y, 
     store(position, x, y, 1.0 / sight->places, sight->position.x, sight->position.y, sight->position.z);
 }
 
+static void look_at(const GuideJob *job, GuideSums *sums, int x, int y, int places, int step)
+{
+    const FirstHitWindow *w = job->window;
+    *sums = (GuideSums){.places = 0};
+    for (int k = 0; k < places; k++)
+        look(job, sums,
+             camera_ray(&w->scene->camera, w->width, w->height, w->x0 + x + (k + 0.5) / places,
+                        w->y0 + y + (k * step % places + 0.5) / places));
+}
+
+static int is_one_normal(const Sight *sight)
+{
+    return sight->places == 0 || vec_length(sight->normal) > ONE_NORMAL * sight->places;
+}
+
+/* Did all places see the same? */
+static int is_even(const GuideSums *s)
+{
+    double mean = s->luminance / s->places;
+    return !s->differ && (s->first.places == 0 || s->first.places == s->places) &&
+           (s->specular == 0 || s->specular == s->places) && is_one_normal(&s->first) && is_one_normal(&s->seen) &&
+           s->luminance_squared / s->places - mean * mean < ONE_ALBEDO;
+}
+
 static void guide_row(void *context, int y, int thread)
 {
     const GuideJob *job = context;
@@ -158,20 +208,20 @@ static void guide_row(void *context, int y, int thread)
     RetexImage *const *to = job->guides;
     (void)thread;
     for (int x = 0; x < w->w; x++) {
-        GuideSums sums = {.specular = 0};
-        for (int k = 0; k < PLACES; k++)
-            look(job, &sums,
-                 camera_ray(&w->scene->camera, w->width, w->height, w->x0 + x + (k + 0.5) / PLACES,
-                            w->y0 + y + (k * LATTICE_STEP % PLACES + 0.5) / PLACES));
+        GuideSums sums;
+        look_at(job, &sums, x, y, PLACES_FEW, STEP_FEW);
+        if (!is_even(&sums))
+            look_at(job, &sums, x, y, PLACES_MANY, STEP_MANY);
+        const double share = 1.0 / sums.places;
         store_sight(to[GUIDE_NORMAL], to[GUIDE_POSITION], x, y, &sums.first);
-        store(to[GUIDE_SPECULAR], x, y, 1.0 / PLACES, sums.specular, 0, 0);
+        store(to[GUIDE_SPECULAR], x, y, share, sums.specular, 0, 0);
         store_sight(to[GUIDE_SEEN_NORMAL], to[GUIDE_SEEN_POSITION], x, y, &sums.seen);
-        store(to[GUIDE_SEEN_ALBEDO], x, y, 1.0 / PLACES, sums.albedo.r, sums.albedo.g, sums.albedo.b);
+        store(to[GUIDE_SEEN_ALBEDO], x, y, share, sums.albedo.r, sums.albedo.g, sums.albedo.b);
         double each = sums.seen.places ? 1.0 / sums.seen.places : 0;
         store(to[GUIDE_SEEN_MATERIAL], x, y, 1, sums.roughness * each, sums.metallic * each,
-              1 - (double)sums.seen.places / PLACES);
+              1 - sums.seen.places * share);
         for (int t = 0; t < w->scene->ntargets && job->split; t++)
-            store(job->covers[t], x, y, 1.0 / PLACES, sums.cover[t], 0, 0);
+            store(job->covers[t], x, y, share, sums.cover[t], 0, 0);
     }
 }
 

@@ -152,8 +152,8 @@ void tile_room_close(TileRoom **out)
 /* ---- signals ---- */
 
 /* What the light is multiplied by at the pixel, as far as guides know: it is taken out before pixels are compared.
- * Light that comes straight from a target goes with how much of it the pixel sees; other light with the colour of what is
- * seen, of targets with what their texture does not multiply. */
+ * Light that comes straight from a target goes with how much of it the pixel sees; other light with the colour of what
+ * is seen, of targets with what their texture does not multiply. */
 static void find_modulation(SignalRoom *r, TileRoom *room, const Denoiser *d, const Signal *signal, int x0, int y0)
 {
     int sharp = signal->kind == RETEX_FOOTPRINT_SHARP && signal->target >= 0,
