@@ -1,0 +1,274 @@
+/* Denoising whole sets: what a call does and refuses, and that it does the same however it is done. */
+#include "lib_denoise.h"
+#include <cmocka.h>
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+static const char *const layouts[] = {"plain", "paper", "footprints"};
+
+static RetexSet *noisy_set(const char *layout, int width, int height)
+{
+    RetexSet *set = denoise_set(layout, width, height);
+    denoise_add_noise(set, 7);
+    return set;
+}
+
+/* ---- repeatable ---- */
+
+static void test_threads_and_vectors(void **state)
+{
+    (void)state;
+    static const struct {
+        int nthreads, scalar;
+    } ways[] = {{2, 0}, {7, 0}, {1, 1}};
+    for (int k = 0; k < 3; k++) {
+        RetexSet *first = noisy_set(layouts[k], 150, 130);
+        denoise_all(first, NULL, 1);
+        for (int w = 0; w < 3; w++) {
+            RetexSet *set = noisy_set(layouts[k], 150, 130);
+            RetexDenoiseParams params = RETEX_DENOISE_INIT;
+            params.scalar = ways[w].scalar;
+            denoise_all(set, &params, ways[w].nthreads);
+            denoise_expect_same(first, set);
+            retex_set_close(&set);
+        }
+        retex_set_close(&first);
+    }
+}
+
+/* What lies in the region was filtered, with what lies around it; around it nothing changed. */
+static void test_region(void **state)
+{
+    (void)state;
+    static const RetexRoi roi = {37, 21, 119, 100, 0, 3};
+    for (int k = 0; k < 3; k++) {
+        RetexSet *before = noisy_set(layouts[k], 150, 130), *set = noisy_set(layouts[k], 150, 130);
+        RetexError err = {0};
+        int changed = 0;
+        test_must(retex_denoise(set, NULL, &roi, 2, &err), &err);
+        retex_denoise_drop_data(before);
+        assert_int_equal(before->nparts, set->nparts);
+        for (int part = 0; part < set->nparts; part++) {
+            const RetexImage *a = &before->parts[part].image, *b = &set->parts[part].image;
+            for (int y = 0; y < set->height; y++)
+                for (int x = 0; x < set->width; x++) {
+                    const size_t i = retex_image_index(a, x, y);
+                    const int inside = x >= roi.x0 && x < roi.x1 && y >= roi.y0 && y < roi.y1;
+                    const int same = memcmp(a->pixels + i, b->pixels + i, sizeof(float) * (size_t)a->channels) == 0;
+                    if (!inside && !same)
+                        fail_msg("%s changed at %d,%d", set->parts[part].name, x, y);
+                    changed += !same;
+                }
+        }
+        assert_true(changed > 82 * 79 * 9 / 10);
+        retex_set_close(&before);
+        retex_set_close(&set);
+    }
+}
+
+/* ---- what a set is afterwards ---- */
+
+static void test_data_is_gone(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 3; k++) {
+        RetexSet *set = noisy_set(layouts[k], 40, 30), *clean = denoise_set(layouts[k], 40, 30);
+        RetexError err = {0};
+        assert_true(retex_denoise_has_data(set));
+        assert_int_equal(set->denoised, 0);
+        denoise_all(set, NULL, 1);
+        assert_false(retex_denoise_has_data(set));
+        assert_int_equal(set->denoised, 1);
+        assert_string_equal(set->parts[0].name, "beauty");
+        for (int part = 0; part < set->nparts; part++)
+            assert_true(strncmp(set->parts[part].name, "noise_", 6) && strncmp(set->parts[part].name, "guide_", 6));
+        assert_int_equal(set->nterms, clean->nterms);
+        assert_int_equal(set->nfootprints, clean->nfootprints);
+        for (int t = 0; t < set->nterms; t++)
+            assert_string_equal(set->parts[set->terms[t].radiance].name, clean->parts[clean->terms[t].radiance].name);
+        assert_int_equal(retex_denoise(set, NULL, NULL, 1, &err), RETEX_ENOTFOUND); /* twice */
+        retex_set_close(&set);
+        retex_set_close(&clean);
+    }
+}
+
+static void test_beauty_is_the_recombination(void **state)
+{
+    (void)state;
+    for (int k = 1; k < 3; k++) {
+        RetexSet *set = noisy_set(layouts[k], 70, 60);
+        RetexImage picture = {0};
+        RetexError err = {0};
+        denoise_all(set, NULL, 2);
+        test_must(retex_combine(&picture, set, NULL, NULL, NULL, 1, &err), &err);
+        assert_memory_equal(picture.pixels, set->parts[0].image.pixels, sizeof(float) * 3 * 70 * 60);
+        retex_image_free(&picture);
+        retex_set_close(&set);
+    }
+}
+
+static void record(void *context, double done)
+{
+    double *last = context;
+    assert_true(done >= *last && done <= 1);
+    *last = done;
+}
+
+static void test_progress(void **state)
+{
+    (void)state;
+    RetexSet *set = noisy_set("plain", 20, 150);
+    double last = 0;
+    RetexDenoiseParams params = RETEX_DENOISE_INIT;
+    params.progress = record, params.progress_context = &last;
+    denoise_all(set, &params, 2);
+    assert_true(last == 1);
+    retex_set_close(&set);
+}
+
+/* ---- refused ---- */
+
+static void expect_refused(RetexSet *set, const RetexDenoiseParams *params, int code, const char *word)
+{
+    RetexSet *before = noisy_set("footprints", 20, 15);
+    RetexError err = {0};
+    assert_int_equal(retex_denoise(set, params, NULL, 1, &err), code);
+    assert_int_equal(err.code, code);
+    if (!strstr(err.message, word))
+        fail_msg("'%s' is not in '%s'", word, err.message);
+    assert_int_equal(retex_denoise(set, params, NULL, 1, NULL), code);
+    assert_int_equal(set->denoised, 0);
+    for (int t = 0; t < set->nterms; t++)
+        assert_memory_equal(set->parts[set->terms[t].radiance].image.pixels,
+                            before->parts[before->terms[t].radiance].image.pixels, sizeof(float) * 3 * 20 * 15);
+    retex_set_close(&before);
+}
+
+static void test_parameters(void **state)
+{
+    (void)state;
+    static const float strengths[] = {0, 0.09f, 10.01f, -1, NAN, INFINITY};
+    static const int radii[] = {0, -1, 11, 1000};
+    RetexSet *set = noisy_set("footprints", 20, 15);
+    for (int k = 0; k < 6; k++) {
+        RetexDenoiseParams params = RETEX_DENOISE_INIT;
+        params.strength = strengths[k];
+        expect_refused(set, &params, RETEX_EINVAL, "strength");
+    }
+    for (int k = 0; k < 4; k++) {
+        RetexDenoiseParams params = RETEX_DENOISE_INIT;
+        params.radius = radii[k];
+        expect_refused(set, &params, RETEX_EINVAL, "radius");
+    }
+    set->spp = 1;
+    expect_refused(set, NULL, RETEX_EINVAL, "one sample");
+    retex_set_close(&set);
+}
+
+/* An older caller's params are shorter: what they lack is as by default. */
+static void test_shorter_params(void **state)
+{
+    (void)state;
+    RetexSet *set = noisy_set("footprints", 20, 15), *other = noisy_set("footprints", 20, 15);
+    RetexDenoiseParams params = {.size = offsetof(RetexDenoiseParams, radius), .strength = 1, .radius = 77};
+    denoise_all(set, &params, 1);
+    denoise_all(other, NULL, 1);
+    denoise_expect_same(set, other);
+    retex_set_close(&set);
+    retex_set_close(&other);
+}
+
+static void test_missing_parts(void **state)
+{
+    (void)state;
+    static const char *const names[] = {"guide_normal",        "guide_position",    "guide_specular",
+                                        "guide_seen_normal",   "guide_seen_albedo", "guide_seen_position",
+                                        "guide_seen_material", "guide_cover_T0",    "noise_indep",
+                                        "noise_T0_sharp",      "noise_T0_broad"};
+    for (size_t k = 0; k < sizeof names / sizeof *names; k++) {
+        RetexSet *set = noisy_set("footprints", 20, 15);
+        RetexError err = {0};
+        const int part = retex_set_find_part(set, names[k]);
+        assert_true(part > 0);
+        if (k % 2) {
+            retex_set_remove_part(set, part);
+            expect_refused(set, NULL, RETEX_ENOTFOUND, names[k]);
+        } else { /* of another size */
+            retex_image_free(&set->parts[part].image);
+            test_must(retex_image_alloc(&set->parts[part].image, 20, 14, k == 2 ? 1 : 3, &err), &err);
+            expect_refused(set, NULL, RETEX_EFORMAT, names[k]);
+        }
+        assert_false(retex_denoise_has_data(set));
+        retex_set_close(&set);
+    }
+}
+
+/* ---- odd sets ---- */
+
+/* Values that are no numbers, one in seven of those in parts whose name begins so. */
+static void spoil(RetexSet *set, const char *prefix)
+{
+    static const float none[] = {NAN, INFINITY, -INFINITY, 3e38f, -3e38f};
+    for (int part = 0; part < set->nparts; part++) {
+        RetexImage *im = &set->parts[part].image;
+        for (int i = part % 7; i < im->width * im->height * im->channels; i += 7)
+            if (strncmp(set->parts[part].name, prefix, strlen(prefix)) == 0)
+                im->pixels[i] = none[i / 7 % 5];
+    }
+}
+
+static void test_what_is_no_number(void **state)
+{
+    (void)state;
+    static const char *const prefixes[] = {"term", "beauty", "noise_", "guide_", "uv", "spread", "albedo", "share"};
+    for (int k = 0; k < 3; k++)
+        for (int n = 0; n < 8; n++) {
+            RetexSet *set = noisy_set(layouts[k], 60, 50);
+            spoil(set, prefixes[n]);
+            denoise_all(set, NULL, 1);
+            for (int t = 0; t < set->nterms; t++) {
+                const RetexImage *im = &set->parts[set->terms[t].radiance].image;
+                for (int i = 0; i < 60 * 50 * 3; i++)
+                    if (!isfinite(im->pixels[i]))
+                        fail_msg("%s, %s: term %d has %g", layouts[k], prefixes[n], t, (double)im->pixels[i]);
+            }
+            if (n < 4)
+                denoise_expect_finite(set);
+            retex_set_close(&set);
+        }
+}
+
+static void test_sizes(void **state)
+{
+    (void)state;
+    static const int sizes[][2] = {{1, 1}, {3, 200}, {64, 64}, {57, 1}, {56, 57}};
+    for (int k = 0; k < 3; k++)
+        for (int n = 0; n < 5; n++)
+            for (int radius = 1; radius <= 10; radius += 9) {
+                RetexSet *set = noisy_set(layouts[k], sizes[n][0], sizes[n][1]);
+                RetexDenoiseParams params = RETEX_DENOISE_INIT;
+                params.radius = radius;
+                denoise_all(set, &params, 2);
+                denoise_expect_finite(set);
+                retex_set_close(&set);
+            }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_threads_and_vectors),
+        cmocka_unit_test(test_region),
+        cmocka_unit_test(test_data_is_gone),
+        cmocka_unit_test(test_beauty_is_the_recombination),
+        cmocka_unit_test(test_progress),
+        cmocka_unit_test(test_parameters),
+        cmocka_unit_test(test_shorter_params),
+        cmocka_unit_test(test_missing_parts),
+        cmocka_unit_test(test_what_is_no_number),
+        cmocka_unit_test(test_sizes),
+    };
+    return cmocka_run_group_tests_name("denoise", tests, NULL, NULL);
+}
