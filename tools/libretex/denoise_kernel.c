@@ -1,5 +1,5 @@
-/* See denoise_kernel.h. Each loop is written once and compiled for AVX2, for what every machine of the kind has, and
- * without any vector unit: elementwise arithmetic, so that all give the same bits. */
+/* See denoise_kernel.h. Each loop is written once and compiled for AVX-512, for AVX2, for what every machine of the
+ * kind has, and without any vector unit: elementwise arithmetic, so that all give the same bits. */
 #include "denoise_kernel.h"
 
 #include <string.h>
@@ -137,44 +137,54 @@ INLINE void weight_row(float *restrict weight, const float *restrict distance, c
     }
 }
 
-/* Add one row of what pixels from q on give to a half's sums. */
-INLINE void add_half(const DenoiseSignal *s, const DenoiseSums *to, int half, size_t q, size_t at,
-                     const float *restrict weight)
+/* One row of weights at each displacement of a batch; what a batch has not weighs nothing. */
+typedef float Weights[DENOISE_BATCH][DENOISE_TILE];
+
+/* Add one row of what pixels from each q on give to a half's sums. All displacements go in one pass, for the sums would
+ * otherwise be read and written for each. */
+INLINE void add_half(const DenoiseSignal *s, const DenoiseSums *to, int half, const size_t q[DENOISE_BATCH], size_t at,
+                     float w[restrict DENOISE_BATCH][DENOISE_TILE])
 {
-    const float *restrict a = s->half[half][0] + q, *restrict b = s->half[half][1] + q,
-                          *restrict c = s->half[half][2] + q, *restrict m = s->modulation + q;
+    const float *restrict a = s->half[half][0], *restrict b = s->half[half][1], *restrict c = s->half[half][2],
+                          *restrict m = s->modulation;
     float *restrict x = to->sum[half][0] + at, *restrict y = to->sum[half][1] + at, *restrict z = to->sum[half][2] + at,
                     *restrict norm = to->norm[half] + at;
-    for (int i = 0; i < DENOISE_TILE; i++) {
-        float w = weight[i] * m[i];
-        x[i] += w * a[i], y[i] += w * b[i], z[i] += w * c[i], norm[i] += w;
+    for (size_t i = 0; i < DENOISE_TILE; i++) {
+        float xs = x[i], ys = y[i], zs = z[i], ns = norm[i];
+        for (int n = 0; n < DENOISE_BATCH; n++) {
+            float v = w[n][i] * m[q[n] + i];
+            xs += v * a[q[n] + i], ys += v * b[q[n] + i], zs += v * c[q[n] + i], ns += v;
+        }
+        x[i] = xs, y[i] = ys, z[i] = zs, norm[i] = ns;
     }
 }
 
-INLINE void add_planes(const DenoiseSignal *s, size_t q, size_t at, const float *restrict first,
-                       const float *restrict second, float *restrict kept)
+INLINE void add_planes(const DenoiseSignal *s, const DenoiseBatch *batch, const size_t q[DENOISE_BATCH], size_t at,
+                       Weights w[restrict 2])
 {
-    float mean[DENOISE_TILE];
-    for (int i = 0; i < DENOISE_TILE; i++)
-        mean[i] = 0.5f * (first[i] + second[i]);
-    for (int k = 0; k < s->nplanes; k++) {
-        const float *restrict value = s->planes[k] + q;
-        float *restrict sum = s->sums[k] + at;
+    Weights mean;
+    for (int n = 0; n < DENOISE_BATCH; n++)
         for (int i = 0; i < DENOISE_TILE; i++)
-            sum[i] += mean[i] * value[i];
+            mean[n][i] = 0.5f * (w[0][n][i] + w[1][n][i]);
+    for (int k = 0; k < s->nplanes; k++) {
+        const float *restrict value = s->planes[k];
+        float *restrict sum = s->sums[k] + at;
+        for (size_t i = 0; i < DENOISE_TILE; i++) {
+            float all = sum[i];
+            for (int n = 0; n < DENOISE_BATCH; n++)
+                all += mean[n][i] * value[q[n] + i];
+            sum[i] = all;
+        }
     }
-    if (kept)
-        memcpy(kept + at, mean, sizeof mean);
+    for (int n = 0; n < DENOISE_BATCH; n++)
+        if (batch->weights[n])
+            memcpy(batch->weights[n] + at, mean[n], sizeof mean[n]);
 }
 
-INLINE void signal_body(const DenoiseSignal *s, const DenoiseAlike *restrict alike, int dx, int dy,
-                        float *restrict weight)
+/* Distances of all pixels to those at one displacement, by half. */
+INLINE void find_distances(const DenoiseSignal *s, ptrdiff_t o, float *restrict distances)
 {
-    ptrdiff_t o = (ptrdiff_t)dy * DENOISE_PITCH + dx;
     float *boxed[3] = {s->scratch, s->scratch + WIDE * DENOISE_TILE, s->scratch + 2 * WIDE * DENOISE_TILE};
-    float near[DENOISE_CANDIDATES];
-    for (int k = 0; k < DENOISE_CANDIDATES; k++)
-        near[k] = falloff(ways[k].near * (float)(dx * dx + dy * dy));
     for (int y = 0; y < WIDE; y++) {
         float row[3][WIDE];
         difference_row(s, denoise_at(-DENOISE_PATCH, y - DENOISE_PATCH), o, row[0], row[1], row[2]);
@@ -182,23 +192,46 @@ INLINE void signal_body(const DenoiseSignal *s, const DenoiseAlike *restrict ali
             box_row(boxed[k] + y * DENOISE_TILE, row[k]);
     }
     for (int y = 0; y < DENOISE_TILE; y++) {
-        float distance[2][DENOISE_TILE], counts[DENOISE_TILE], w[2][DENOISE_TILE];
-        size_t p = denoise_at(0, y), at = (size_t)y * DENOISE_TILE, q = (size_t)((ptrdiff_t)p + o);
+        float counts[DENOISE_TILE];
+        size_t at = (size_t)y * DENOISE_TILE;
         box_column(counts, boxed[2] + at);
         for (int h = 0; h < 2; h++) {
-            box_column(distance[h], boxed[h] + at);
-            distance_row(distance[h], counts, s->kind + p, o);
+            float *distance = distances + (size_t)h * DENOISE_PIXELS + at;
+            box_column(distance, boxed[h] + at);
+            distance_row(distance, counts, s->kind + denoise_at(0, y), o);
         }
+    }
+}
+
+INLINE void signal_body(const DenoiseSignal *s, const DenoiseBatch *batch)
+{
+    float *distances = s->scratch + 3 * WIDE * DENOISE_TILE;
+    float near[DENOISE_CANDIDATES][DENOISE_BATCH];
+    for (int n = 0; n < batch->count; n++) {
+        int dx = batch->dx + n;
+        for (int k = 0; k < DENOISE_CANDIDATES; k++)
+            near[k][n] = falloff(ways[k].near * (float)(dx * dx + batch->dy * batch->dy));
+        find_distances(s, (ptrdiff_t)batch->dy * DENOISE_PITCH + dx, distances + (size_t)n * 2 * DENOISE_PIXELS);
+    }
+    for (int y = 0; y < DENOISE_TILE; y++) {
+        Weights w[2] = {{{0}}};
+        size_t at = (size_t)y * DENOISE_TILE, q[DENOISE_BATCH];
+        for (int n = 0; n < DENOISE_BATCH; n++)
+            q[n] = denoise_at(n < batch->count ? batch->dx + n : 0, n < batch->count ? y + batch->dy : y);
         for (int k = 0; k < DENOISE_CANDIDATES; k++) {
-            const float *features = ways[k].features == STRICT  ? alike->strict
-                                    : ways[k].features == LOOSE ? alike->loose
-                                                                : alike->valid;
-            for (int h = 0; h < 2; h++)
-                weight_row(w[h], distance[h], features + at, ways[k].color, near[k]);
+            for (int n = 0; n < batch->count; n++) {
+                const DenoiseAlike *alike = batch->alike[n];
+                const float *features = ways[k].features == STRICT  ? alike->strict
+                                        : ways[k].features == LOOSE ? alike->loose
+                                                                    : alike->valid;
+                for (int h = 0; h < 2; h++)
+                    weight_row(w[h][n], distances + (size_t)(2 * n + h) * DENOISE_PIXELS + at, features + at,
+                               ways[k].color, near[k][n]);
+            }
             add_half(s, &s->candidates[k], 0, q, at, w[1]); /* each by the other's weights */
             add_half(s, &s->candidates[k], 1, q, at, w[0]);
             if (k == 0)
-                add_planes(s, q, at, w[0], w[1], weight);
+                add_planes(s, batch, q, at, w);
         }
     }
 }
@@ -210,36 +243,33 @@ INLINE void signal_body(const DenoiseSignal *s, const DenoiseAlike *restrict ali
     {                                                                                                                  \
         features_body(alike, f, dx, dy);                                                                               \
     }                                                                                                                  \
-    attributes static void signal_##suffix(const DenoiseSignal *s, const DenoiseAlike *alike, int dx, int dy,          \
-                                           float *weight)                                                              \
+    attributes static void signal_##suffix(const DenoiseSignal *s, const DenoiseBatch *batch)                          \
     {                                                                                                                  \
-        signal_body(s, alike, dx, dy, weight);                                                                         \
+        signal_body(s, batch);                                                                                         \
     }
 
 VARIANTS(, baseline)
 VARIANTS(__attribute__((optimize("no-tree-vectorize,no-tree-slp-vectorize"))), scalar)
 #if defined(__x86_64__) && defined(__GNUC__)
 VARIANTS(__attribute__((target("avx2"))), avx2)
-static int has_avx2(void)
-{
-    return __builtin_cpu_supports("avx2");
-}
+VARIANTS(__attribute__((target("avx512f,avx512vl,avx512bw,avx512dq,prefer-vector-width=512"))), avx512)
+#define HAS_AVX2 __builtin_cpu_supports("avx2")
+#define HAS_AVX512                                                                                                     \
+    (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512bw") &&  \
+     __builtin_cpu_supports("avx512dq"))
+/* The widest of a function's variants that the machine has. */
+#define CHOOSE(function, scalar)                                                                                       \
+    ((scalar) ? function##_scalar : HAS_AVX512 ? function##_avx512 : HAS_AVX2 ? function##_avx2 : function##_baseline)
 #else
-#define features_avx2 features_baseline
-#define signal_avx2 signal_baseline
-static int has_avx2(void)
-{
-    return 0;
-}
+#define CHOOSE(function, scalar) ((scalar) ? function##_scalar : function##_baseline)
 #endif
 
 void denoise_features_kernel(DenoiseAlike *alike, const DenoiseFeatures *features, int dx, int dy, int scalar)
 {
-    (scalar ? features_scalar : has_avx2() ? features_avx2 : features_baseline)(alike, features, dx, dy);
+    CHOOSE(features, scalar)(alike, features, dx, dy);
 }
 
-void denoise_signal_kernel(const DenoiseSignal *signal, const DenoiseAlike *alike, int dx, int dy, float *weight,
-                           int scalar)
+void denoise_signal_kernel(const DenoiseSignal *signal, const DenoiseBatch *batch, int scalar)
 {
-    (scalar ? signal_scalar : has_avx2() ? signal_avx2 : signal_baseline)(signal, alike, dx, dy, weight);
+    CHOOSE(signal, scalar)(signal, batch);
 }

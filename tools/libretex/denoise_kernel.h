@@ -1,4 +1,4 @@
-/* The inner loops of denoising: one displacement of the window over one tile. Private to libretex.
+/* The inner loops of denoising: displacements of the window over one tile. Private to libretex.
  *
  * Planes are DENOISE_PITCH x DENOISE_ROWS floats: a tile of DENOISE_TILE pixels a side and around it DENOISE_HALO more.
  * Sums and weights are DENOISE_TILE x DENOISE_TILE floats, of the tile alone. */
@@ -19,6 +19,7 @@ enum {
     DENOISE_PLANE = DENOISE_PITCH * DENOISE_ROWS,
     DENOISE_PIXELS = DENOISE_TILE * DENOISE_TILE,
     DENOISE_CANDIDATES = 4, /* ways to weigh neighbours */
+    DENOISE_BATCH = 4,      /* displacements at once: sums stay in the cache */
     DENOISE_FEATURES_MAX = 32,
     DENOISE_GROUPS_MAX = 16
 };
@@ -70,11 +71,20 @@ typedef struct DenoiseSignal {
     float *const *sums;          /* nplanes */
     float *scratch;              /* DENOISE_SCRATCH floats */
 } DenoiseSignal;
-enum { DENOISE_SCRATCH = 3 * (DENOISE_TILE + 2 * DENOISE_PATCH) * DENOISE_TILE };
+enum {
+    DENOISE_SCRATCH =
+        3 * (DENOISE_TILE + 2 * DENOISE_PATCH) * DENOISE_TILE + DENOISE_BATCH * 2 * DENOISE_PIXELS
+};
 
-/* Add to the sums what pixels at (dx, dy) give. weight (may be NULL) gets the first candidate's, the mean of both
- * halves. */
-void denoise_signal_kernel(const DenoiseSignal *signal, const DenoiseAlike *alike, int dx, int dy, float *weight,
-                           int scalar);
+/* Some displacements of one row, (dx, dy) to (dx + count - 1, dy): how alike pixels are at each, and where (may be
+ * NULL) the first candidate's weights go, the mean of both halves. */
+typedef struct DenoiseBatch {
+    int dx, dy, count;
+    const DenoiseAlike *alike[DENOISE_BATCH];
+    float *weights[DENOISE_BATCH];
+} DenoiseBatch;
+
+/* Add to the sums what pixels that far away give. */
+void denoise_signal_kernel(const DenoiseSignal *signal, const DenoiseBatch *batch, int scalar);
 
 #endif

@@ -41,7 +41,7 @@ struct TileRoom {
     float *features; /* FEATURES_ROOM planes */
     float *spare;    /* a plane */
     float *scratch, *errors[CHOICES], *neighbours;
-    DenoiseAlike *alike;
+    DenoiseAlike *alike; /* DENOISE_BATCH */
     SignalRoom *signals;
     float **pointers;
 };
@@ -109,7 +109,7 @@ static void lay_out(TileRoom *room, Layout *l, const Denoiser *d)
     room->neighbours = take(l, (size_t)NEIGHBOURS_MAX * DENOISE_PIXELS);
     for (int k = 0; k < CHOICES; k++)
         room->errors[k] = take(l, DENOISE_PIXELS);
-    room->alike = (DenoiseAlike *)take(l, sizeof(DenoiseAlike) / sizeof(float));
+    room->alike = (DenoiseAlike *)take(l, DENOISE_BATCH * sizeof(DenoiseAlike) / sizeof(float));
     for (int s = 0; s < d->signals.count; s++)
         lay_out_signal(&room->signals[s], l, d->set, &d->signals.of[s]);
 }
@@ -432,15 +432,22 @@ static void search_window(const Denoiser *d, TileRoom *room, const DenoiseFeatur
 {
     int radius = d->params.radius;
     for (int dy = -radius; dy <= radius; dy++)
-        for (int dx = -radius; dx <= radius; dx++) {
-            int number = neighbour_number(d, dx, dy);
-            size_t at = (size_t)(number < 0 ? 0 : number) * DENOISE_PIXELS;
-            denoise_features_kernel(room->alike, features, dx, dy, d->params.scalar);
-            if (number >= 0)
-                memcpy(room->neighbours + at, room->alike->strict, sizeof room->alike->strict);
+        for (int dx = -radius; dx <= radius; dx += DENOISE_BATCH) {
+            DenoiseBatch batch = {.dx = dx, .dy = dy};
+            int numbers[DENOISE_BATCH];
+            for (; batch.count < DENOISE_BATCH && dx + batch.count <= radius; batch.count++) {
+                int n = batch.count, number = numbers[n] = neighbour_number(d, dx + n, dy);
+                denoise_features_kernel(room->alike + n, features, dx + n, dy, d->params.scalar);
+                batch.alike[n] = room->alike + n;
+                if (number >= 0)
+                    memcpy(room->neighbours + (size_t)number * DENOISE_PIXELS, room->alike[n].strict,
+                           sizeof room->alike->strict);
+            }
             for (int s = 0; s < d->signals.count; s++) {
-                float *kept = number >= 0 && room->signals[s].neighbours ? room->signals[s].neighbours + at : NULL;
-                denoise_signal_kernel(&signals[s], room->alike, dx, dy, kept, d->params.scalar);
+                float *kept = room->signals[s].neighbours;
+                for (int n = 0; n < batch.count; n++)
+                    batch.weights[n] = kept && numbers[n] >= 0 ? kept + (size_t)numbers[n] * DENOISE_PIXELS : NULL;
+                denoise_signal_kernel(&signals[s], &batch, d->params.scalar);
             }
         }
 }
