@@ -1,0 +1,355 @@
+/* What denoising makes of noise, and of what is none: on sets whose truth is known. */
+#include "lib_denoise.h"
+#include <cmocka.h>
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "lib_footprints.h"
+
+static const char *const layouts[] = {"plain", "paper", "footprints"};
+
+/* ---- how near to the truth ---- */
+
+typedef enum { SMOOTH, SILHOUETTE, SHADOW, REGIONS } Region;
+
+static Region region_of(const RetexSet *set, int x, int y)
+{
+    return fabs(denoise_from_silhouette(set, x, y)) < 2.5 ? SILHOUETTE
+           : fabs(denoise_from_shadow(set, x, y)) < 3     ? SHADOW
+                                                          : SMOOTH;
+}
+
+/* Mean squared errors of a signal's total, by region. */
+static void find_errors(double errors[REGIONS], const RetexSet *set, const RetexSet *truth, const Signal *signal)
+{
+    int counts[REGIONS] = {0};
+    memset(errors, 0, sizeof *errors * REGIONS);
+    for (int y = 0; y < set->height; y++)
+        for (int x = 0; x < set->width; x++) {
+            Region region = region_of(set, x, y);
+            counts[region]++;
+            for (int c = 0; c < 3; c++) {
+                double d = denoise_total(set, signal, x, y, c) - denoise_total(truth, signal, x, y, c);
+                errors[region] += d * d;
+            }
+        }
+    for (int k = 0; k < REGIONS; k++)
+        errors[k] /= 3 * counts[k];
+}
+
+static double decibels(double from, double to)
+{
+    return from > 0 ? 10 * log10(from / to) : 0;
+}
+
+static void test_noise_falls(void **state)
+{
+    (void)state;
+    static const char *const names[REGIONS] = {"smooth", "silhouette", "shadow"};
+    static const double least[REGIONS] = {6, -0.2, -0.2};
+    for (int k = 0; k < 3; k++)
+        for (int spp = 5; spp <= 32; spp += 27) {
+            RetexSet *set = denoise_set(layouts[k], 150, 130), *truth = denoise_set(layouts[k], 150, 130);
+            Signals signals = denoise_signals(truth);
+            double before[8][REGIONS], after[REGIONS];
+            set->spp = spp;
+            denoise_add_noise(set, 7);
+            for (int s = 0; s < signals.count; s++)
+                find_errors(before[s], set, truth, &signals.of[s]);
+            denoise_all(set, NULL, 2);
+            for (int s = 0; s < signals.count; s++) {
+                find_errors(after, set, truth, &signals.of[s]);
+                for (int r = 0; r < REGIONS; r++) {
+                    double gain = decibels(before[s][r], after[r]);
+                    printf("# %s, %d samples, %s, %s: %.1f dB\n", layouts[k], spp,
+                           denoise_signal_name(truth, &signals.of[s]), names[r], gain);
+                    if (before[s][r] > 0 && !(gain >= least[r]))
+                        fail_msg("%g dB are less than %g", gain, least[r]);
+                }
+            }
+            signals_close(&signals);
+            retex_set_close(&set);
+            retex_set_close(&truth);
+        }
+}
+
+/* ---- what is kept ---- */
+
+/* Every pixel's light differs from the next one's by up to a half. */
+static void add_detail(RetexSet *set)
+{
+    uint32_t seed = 9;
+    Signals signals = denoise_signals(set);
+    for (int s = 0; s < signals.count; s++)
+        for (int k = 0; k < signals.of[s].nmembers; k++) {
+            float *to = set->parts[signals.of[s].members[k].part].image.pixels;
+            for (int i = 0; i < 3 * set->width * set->height; i++)
+                to[i] *= (float)(1 - 0.5 * test_random(&seed));
+        }
+    signals_close(&signals);
+}
+
+static void test_no_noise(void **state)
+{
+    (void)state;
+    for (int detail = 0; detail < 2; detail++)
+        for (int k = 0; k < 3; k++) {
+            RetexSet *set = denoise_set(layouts[k], 150, 130), *truth = denoise_set(layouts[k], 150, 130);
+            Signals signals = denoise_signals(truth);
+            double worst = 0, worst_part = 0;
+            if (detail)
+                add_detail(set), add_detail(truth);
+            denoise_all(set, NULL, 2);
+            for (int s = 0; s < signals.count; s++)
+                for (int y = 0; y < set->height; y++)
+                    for (int x = 0; x < set->width; x++)
+                        for (int c = 0; c < 3; c++) {
+                            double is = denoise_total(set, &signals.of[s], x, y, c),
+                                   was = denoise_total(truth, &signals.of[s], x, y, c);
+                            worst = fmax(worst, was > 0 ? fabs(is / was - 1) : fabs(is));
+                            for (int m = 0; m < signals.of[s].nmembers; m++) {
+                                int part = signals.of[s].members[m].part;
+                                double a = pixel(set, part, x, y)[c], b = pixel(truth, part, x, y)[c];
+                                worst_part = fmax(worst_part, b > 0 ? fabs(a / b - 1) : fabs(a));
+                            }
+                        }
+            printf("# %s, %s: differs by %.2g, terms by %.2g\n", layouts[k], detail ? "detail" : "smooth", worst,
+                   worst_part);
+            assert_true(worst < 1e-4);
+            signals_close(&signals);
+            retex_set_close(&set);
+            retex_set_close(&truth);
+        }
+}
+
+static double signal_mean(const RetexSet *set, const Signal *signal, int c)
+{
+    double sum = 0;
+    for (int y = 0; y < set->height; y++)
+        for (int x = 0; x < set->width; x++)
+            sum += denoise_total(set, signal, x, y, c);
+    return sum / (set->width * set->height);
+}
+
+static void expect_means(const RetexSet *set, const Signals *signals, double before[8][3])
+{
+    for (int s = 0; s < signals->count; s++)
+        for (int c = 0; c < 3; c++) {
+            double after = signal_mean(set, &signals->of[s], c);
+            if (!(fabs(after - before[s][c]) <= 1e-4 * before[s][c]))
+                fail_msg("the mean of %d, %d was %g and is %g", s, c, before[s][c], after);
+        }
+}
+
+static void find_means(const RetexSet *set, const Signals *signals, double means[8][3])
+{
+    for (int s = 0; s < signals->count; s++)
+        for (int c = 0; c < 3; c++)
+            means[s][c] = signal_mean(set, &signals->of[s], c);
+}
+
+static void test_means(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 3; k++) {
+        RetexSet *set = denoise_set(layouts[k], 150, 130), *truth = denoise_set(layouts[k], 150, 130);
+        Signals signals = denoise_signals(truth);
+        double means[8][3];
+        denoise_add_noise(set, 5);
+        find_means(set, &signals, means);
+        denoise_all(set, NULL, 2);
+        expect_means(set, &signals, means);
+        signals_close(&signals);
+        retex_set_close(&set);
+        retex_set_close(&truth);
+    }
+}
+
+/* One half of a pixel of every signal saw a thousand times the light. */
+static void test_firefly(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 3; k++) {
+        RetexSet *set = denoise_set(layouts[k], 150, 130), *truth = denoise_set(layouts[k], 150, 130);
+        Signals signals = denoise_signals(truth);
+        const int x = 100, y = 90, left = 70;
+        double means[8][3], was[8];
+        denoise_add_noise(set, 5);
+        for (int s = 0; s < signals.count; s++) {
+            const Signal *signal = &signals.of[s];
+            for (int m = 0; m < signal->nmembers; m++)
+                for (int c = 0; c < 3; c++) {
+                    float *to = pixel(set, signal->members[m].part, m ? x : left, y) + c,
+                          *noise = pixel(set, signal->noise, m ? x : left, y) + c;
+                    *noise += signal->members[m].weight * *to * 500, *to *= 501;
+                }
+            was[s] = denoise_total(set, signal, left, y, 0);
+        }
+        find_means(set, &signals, means);
+        denoise_all(set, NULL, 2);
+        expect_means(set, &signals, means);
+        for (int s = 0; s < signals.count; s++) {
+            double share = denoise_total(set, &signals.of[s], left, y, 0) / was[s];
+            printf("# %s, %s: %.3f of the firefly is left\n", layouts[k], denoise_signal_name(truth, &signals.of[s]),
+                   share);
+            assert_true(share < 0.2);
+        }
+        signals_close(&signals);
+        retex_set_close(&set);
+        retex_set_close(&truth);
+    }
+}
+
+/* An emitter of radiance 100 beside a surface of 0.1, seen in so many samples by each half: what varies is how many of
+ * them meet the emitter, and how much light the surface has. */
+static void put_emitter(RetexSet *set, int emitter_varies)
+{
+    uint32_t seed = 3;
+    for (int y = 0; y < set->height; y++)
+        for (int x = 0; x < set->width; x++) {
+            double share = fmin(1, fmax(0, denoise_from_silhouette(set, x, y) + 0.5)), halves[2] = {0, 0};
+            for (int k = 0; k < set->spp; k++) {
+                double bright = -log(1 - test_random(&seed));
+                halves[k % 2] += test_random(&seed) < share ? 0.1 * bright : emitter_varies ? 100 * bright : 100;
+            }
+            float total = (float)((halves[0] + halves[1]) / set->spp),
+                  noise = (float)((halves[0] - halves[1]) / set->spp);
+            put_rgb(set, 0, x, y, total, total, total);
+            put_rgb(set, retex_set_find_part(set, "noise_beauty"), x, y, noise, noise, noise);
+        }
+}
+
+static void test_silhouette(void **state)
+{
+    (void)state;
+    for (int varies = 0; varies < 2; varies++)
+        for (int spp = 4; spp <= 64; spp *= 4) {
+            RetexSet *set = denoise_set("plain", 150, 130);
+            double worst[4] = {0}, sum[4] = {0}, least = 100;
+            int count[4] = {0};
+            set->spp = spp;
+            put_emitter(set, varies);
+            denoise_all(set, NULL, 2);
+            for (int y = 0; y < 130; y++)
+                for (int x = 0; x < 150; x++) {
+                    double far = denoise_from_silhouette(set, x, y), is = pixel(set, 0, x, y)[0];
+                    int ring = far < 1.5 ? 0 : far < 2.5 ? 1 : far < 3.5 ? 2 : 3;
+                    if (far > 0.5 && far < 9)
+                        worst[ring] = fmax(worst[ring], is), sum[ring] += is, count[ring]++;
+                    if (far < -0.5 && far > -6)
+                        least = fmin(least, is);
+                }
+            assert_true(least > 40);
+            for (int k = 0; k < 4; k++) /* the pixel beside those that see both takes a little */
+                assert_true(sum[k] / count[k] < (k ? spp < 16 ? 0.25 : 0.115 : 2.5) && (!k || worst[k] < 3));
+            printf("# emitter %s, %d samples: at least %.3g of 100; of 0.1, by distance:", varies ? "varies" : "steady",
+                   spp, least);
+            for (int k = 0; k < 4; k++)
+                printf(" %.3g (at most %.3g)", sum[k] / count[k], worst[k]);
+            printf("\n");
+            retex_set_close(&set);
+        }
+}
+
+/* ---- members of a signal ---- */
+
+/* A set with and without noise, and after denoising. */
+typedef struct Sets {
+    RetexSet *truth, *noisy, *denoised;
+    Signals signals;
+} Sets;
+
+static Sets open_sets(const char *layout, int footprints)
+{
+    Sets sets = {denoise_set(layout, 150, 130), denoise_set(layout, 150, 130), denoise_set(layout, 150, 130), {0}};
+    RetexDenoiseParams params = RETEX_DENOISE_INIT;
+    params.footprints = footprints;
+    sets.signals = denoise_signals(sets.truth);
+    denoise_add_noise(sets.noisy, 5);
+    denoise_add_noise(sets.denoised, 5);
+    denoise_all(sets.denoised, &params, 2);
+    return sets;
+}
+
+static void close_sets(Sets *sets)
+{
+    signals_close(&sets->signals);
+    retex_set_close(&sets->truth);
+    retex_set_close(&sets->noisy);
+    retex_set_close(&sets->denoised);
+}
+
+/* A member's share of its signal. */
+static double share_of(const RetexSet *set, const Signal *signal, int member, int x, int y)
+{
+    double total = denoise_total(set, signal, x, y, 1);
+    const SignalMember *m = &signal->members[member];
+    return total > 0 ? m->weight * pixel(set, m->part, x, y)[1] / total : 0;
+}
+
+/* It is as noisy, and smooth in truth. Between clusters light stays as it was, or goes with them: of these below. */
+static void test_shares_of_members(void **state)
+{
+    (void)state;
+    for (int k = 1; k < 3; k++) {
+        Sets sets = open_sets(layouts[k], 1);
+        for (int s = 0; s < sets.signals.count; s++) {
+            const Signal *signal = &sets.signals.of[s];
+            double noisy = 0, denoised = 0;
+            for (int m = 0; m < signal->nmembers; m++)
+                for (int y = 0; y < 130 && !(k == 2 && sets.truth->terms[signal->members[m].term].nfactors == 1); y++)
+                    for (int x = 0; x < 150; x++) {
+                        double share = share_of(sets.truth, signal, m, x, y);
+                        if (region_of(sets.truth, x, y) != SMOOTH || share == 0)
+                            continue;
+                        noisy += pow(share_of(sets.noisy, signal, m, x, y) - share, 2);
+                        denoised += pow(share_of(sets.denoised, signal, m, x, y) - share, 2);
+                    }
+            printf("# %s, %s, shares of %d members: %.1f dB\n", layouts[k], denoise_signal_name(sets.truth, signal),
+                   signal->nmembers, decibels(noisy, denoised));
+            assert_true(signal->nmembers == 1 || decibels(noisy, denoised) > 6);
+        }
+        close_sets(&sets);
+    }
+}
+
+/* Sharp clusters keep the proportions of their light, and others where footprints are left alone; footprints stay where
+ * there was light. */
+static void test_proportions_of_clusters(void **state)
+{
+    (void)state;
+    for (int footprints = 0; footprints < 2; footprints++) {
+        Sets sets = open_sets("footprints", footprints);
+        for (int kind = 0; kind < 2 - footprints; kind++)
+            for (int y = 0; y < 130; y++)
+                for (int x = 0; x < 150; x++) {
+                    const int first = sets.truth->terms[1 + 2 * kind].radiance,
+                              second = sets.truth->terms[2 + 2 * kind].radiance;
+                    const float *a = pixel(sets.denoised, first, x, y), *b = pixel(sets.denoised, second, x, y),
+                                *c = pixel(sets.noisy, first, x, y), *d = pixel(sets.noisy, second, x, y);
+                    for (int k = 0; k < 3 && c[0] + d[0] > 0; k++)
+                        if (!(fabsf(a[k] * d[k] - b[k] * c[k]) <= 1e-5f * (a[k] + b[k]) * (c[k] + d[k])))
+                            fail_msg("%g : %g were %g : %g", (double)a[k], (double)b[k], (double)c[k], (double)d[k]);
+                    const int uv = sets.truth->footprints[2 * kind].uv;
+                    if (c[0] + d[0] > 0)
+                        assert_memory_equal(pixel(sets.denoised, uv, x, y), pixel(sets.noisy, uv, x, y), 12);
+                }
+        close_sets(&sets);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_noise_falls),
+        cmocka_unit_test(test_no_noise),
+        cmocka_unit_test(test_means),
+        cmocka_unit_test(test_firefly),
+        cmocka_unit_test(test_silhouette),
+        cmocka_unit_test(test_shares_of_members),
+        cmocka_unit_test(test_proportions_of_clusters),
+    };
+    return cmocka_run_group_tests_name("denoise_noise", tests, NULL, NULL);
+}
