@@ -31,12 +31,14 @@ static void expect_proportions(RetexFootprintKind kind, int footprints)
     static const float weights[] = {1, 1, 1, 1}, light[] = {2, 4, 8};
     RetexSet *set = sharp_set(kind);
     put_rgb(set, light_part(set, 0), 1, 1, 0.5f, 0.5f, 0.5f);
-    put_rgb(set, light_part(set, 2), 1, 1, 1 / 0.2126f, 0.5f / 0.7152f, 0); /* luminance 1.5 */
+    put_rgb(set, light_part(set, 2), 1, 1, 1.5f, 0.5f, 0); /* of red 3/4, of green half, of blue nothing */
     Work w = open_work(set, footprints);
     share_light(&w, kind, weights, 4, light);
-    EXPECT(1e-6f, result(&w, light_part(set, 0)), 0.5f, 1, 2);
+    /* both cover as much: of what is seen sharply that is half of it */
+    float red = kind == RETEX_FOOTPRINT_SHARP ? 0.375f : 0.25f, blue = kind == RETEX_FOOTPRINT_SHARP ? 0.75f : 1;
+    EXPECT(1e-6f, result(&w, light_part(set, 0)), 2 * red, 4 * 0.5f, 8 * blue);
     EXPECT(0, result(&w, light_part(set, 1)), 0, 0, 0);
-    EXPECT(1e-5f, result(&w, light_part(set, 2)), 1.5f, 3, 6);
+    EXPECT(1e-5f, result(&w, light_part(set, 2)), 2 * (1 - red), 4 * 0.5f, 8 * (1 - blue));
     for (int k = 0; k < 3; k++)
         expect_copied(&w, k, 1, 1);
     close_work(&w);
@@ -87,8 +89,9 @@ static void test_borrowing(void **state)
         share_light(&w, RETEX_FOOTPRINT_SHARP, weights, dark == 2 ? 2 : 4, dark == 1 ? black : light);
         float f = dark ? 0 : 1;
         EXPECT(0, result(&w, light_part(set, 0)), 0, 0, 0);
-        EXPECT(1e-6f, result(&w, light_part(set, 1)), f * 2 / 3, f * 4 / 3, f * 8 / 3);
-        EXPECT(1e-6f, result(&w, light_part(set, 2)), f * 4 / 3, f * 8 / 3, f * 16 / 3);
+        float first = 0.5f * (1.0f / 3 + 0.5f) * f, second = f - first; /* half by light, half by cover */
+        EXPECT(1e-6f, result(&w, light_part(set, 1)), 2 * first, 4 * first, 8 * first);
+        EXPECT(1e-6f, result(&w, light_part(set, 2)), 2 * second, 4 * second, 8 * second);
         for (int k = 0; k < 3; k++)
             expect_copied(&w, k, dark == 2 ? 1 : lender, 1);
         close_work(&w);

@@ -124,6 +124,31 @@ static void mend_shares(const Group *g, const Pixel *p, size_t from, float (*val
             store_share(&g->of[k], p, value(&g->of[k], from) / all);
 }
 
+/* How much of the pixel a cluster is, if it has light. */
+static float lit_cover(const Place *place, size_t i)
+{
+    return cluster_light(place, i) > 0 ? cluster_cover(place, i) : 0;
+}
+
+/* What a cluster has of the light: by its own light, colour by colour; of what is seen sharply half of it by how much of
+ * the pixel it is, for how bright it happened to be is chance in part (measured: halves are better than either). */
+static void share_cluster(const Group *g, int k, const Pixel *p, size_t from, const float light[3])
+{
+    double cover = g->kind == RETEX_FOOTPRINT_SHARP ? sum_over(g, from, lit_cover) : 0,
+           by_cover = cover > 0 ? lit_cover(&g->of[k], from) / cover : 0,
+           by_light = cluster_light(&g->of[k], from) / sum_over(g, from, cluster_light);
+    float *to = written(p, &g->of[k].light);
+    for (int c = 0; c < 3; c++) {
+        double sum = 0, own = 0;
+        for (int j = 0; j < g->nlit; j++) {
+            double l = cluster_light(&g->of[j], from) > 0 ? fmaxf(0, g->of[j].light.pixels[3 * from + (size_t)c]) : 0;
+            sum += l, own += j == k ? l : 0;
+        }
+        double share = sum > 0 ? own / sum : by_light;
+        to[c] = (float)(cover > 0 ? 0.5 * (share + by_cover) : share) * light[c];
+    }
+}
+
 static void keep_clusters(const Footprints *f, const Group *g, const Pixel *p, const Neighbour *neighbours, int count,
                           const float light[3])
 {
@@ -138,7 +163,9 @@ static void keep_clusters(const Footprints *f, const Group *g, const Pixel *p, c
     if (!(all > 0))
         all = sum_over(g, from, value);
     for (int k = 0; k < g->nlit; k++)
-        if (g->of[k].light.pixels)
+        if (g->of[k].light.pixels && value == cluster_light)
+            share_cluster(g, k, p, from, light);
+        else if (g->of[k].light.pixels)
             store_light(&g->of[k], p, light, all > 0 ? value(&g->of[k], from) / all : 0);
     if (!g->movable)
         return;
