@@ -105,6 +105,7 @@ int main(int argc, char **argv)
     }
     describe_machine();
     bench_kernels();
+    bench_denoise(argv[1]);
     bench_pictures(argv[1], argv[2]);
     return 0;
 }

@@ -11,6 +11,7 @@ void bench_section(const char *title);
 extern volatile float bench_sink; /* where results go, so that computing them is not left out */
 
 void bench_kernels(void);
+void bench_denoise(const char *scenes /* folder */);
 void bench_pictures(const char *scenes /* folder */, const char *folder /* for files of its own */);
 
 #endif

@@ -6,9 +6,9 @@
 #include "lib_test.h"
 #include "signals.h"
 
-/* Layout plain, paper (21 terms, two targets of three hits each, the second seen nowhere) or footprints (two clusters of
- * either kind, light that meets the target again, shares in it), with what denoising reads; without noise, the beauty
- * black but in layout plain. */
+/* Layout plain, paper (21 terms, two targets of three hits each, the second seen nowhere) or footprints (two clusters
+ * of either kind, light that meets the target again, shares in it), with what denoising reads; without noise, the
+ * beauty black but in layout plain. */
 RetexSet *denoise_set(const char *layout, int width, int height);
 
 /* Light as two halves of set->spp samples would have seen it, each drawn independently: every sample is the truth times

@@ -6,15 +6,16 @@
 
 int main(int argc, char **argv)
 {
-    RetexError err;
+    RetexError err = {0};
     RetexSet *set = NULL;
+    RetexImage picture = {0};
     if (argc < 3)
         return 2;
-    if (retex_set_read(argv[1], &set, NULL, 0, &err)) {
+    if (retex_set_read(argv[1], &set, NULL, 0, NULL) && retex_image_read(&picture, argv[1], NULL, 0, &err)) {
         fprintf(stderr, "make_values: %s\n", err.message);
         return 2;
     }
-    const RetexImage *image = &set->parts[0].image;
+    const RetexImage *image = set ? &set->parts[0].image : &picture;
     for (int k = 2; k < argc; k++) {
         int x, y;
         if (sscanf(argv[k], "%d,%d", &x, &y) != 2 || x < 0 || y < 0 || x >= image->width || y >= image->height)
@@ -23,5 +24,6 @@ int main(int argc, char **argv)
         printf("%.9g %.9g %.9g\n", p[0], p[1], p[2]);
     }
     retex_set_close(&set);
+    retex_image_free(&picture);
     return 0;
 }

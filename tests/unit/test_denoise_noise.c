@@ -118,6 +118,7 @@ static void test_no_noise(void **state)
             printf("# %s, %s: differs by %.2g, terms by %.2g\n", layouts[k], detail ? "detail" : "smooth", worst,
                    worst_part);
             assert_true(worst < 1e-4);
+            assert_true(worst_part < 1e-4 || k == 2); /* clusters share their light in other ways, see below */
             signals_close(&signals);
             retex_set_close(&set);
             retex_set_close(&truth);
@@ -290,6 +291,19 @@ static double share_of(const RetexSet *set, const Signal *signal, int member, in
 }
 
 /* It is as noisy, and smooth in truth. Between clusters light stays as it was, or goes with them: of these below. */
+static double share_error(const RetexSet *set, const Sets *sets, const Signal *signal, int clusters)
+{
+    double sum = 0;
+    for (int m = 0; m < signal->nmembers; m++)
+        for (int i = 0; i < 150 * 130; i++) {
+            const int x = i % 150, y = i / 150, cluster = sets->truth->terms[signal->members[m].term].nfactors == 1;
+            double share = share_of(sets->truth, signal, m, x, y);
+            if (region_of(set, x, y) == SMOOTH && share > 0 && (clusters || !cluster))
+                sum += pow(share_of(set, signal, m, x, y) - share, 2);
+        }
+    return sum;
+}
+
 static void test_shares_of_members(void **state)
 {
     (void)state;
@@ -297,45 +311,38 @@ static void test_shares_of_members(void **state)
         Sets sets = open_sets(layouts[k], 1);
         for (int s = 0; s < sets.signals.count; s++) {
             const Signal *signal = &sets.signals.of[s];
-            double noisy = 0, denoised = 0;
-            for (int m = 0; m < signal->nmembers; m++)
-                for (int y = 0; y < 130 && !(k == 2 && sets.truth->terms[signal->members[m].term].nfactors == 1); y++)
-                    for (int x = 0; x < 150; x++) {
-                        double share = share_of(sets.truth, signal, m, x, y);
-                        if (region_of(sets.truth, x, y) != SMOOTH || share == 0)
-                            continue;
-                        noisy += pow(share_of(sets.noisy, signal, m, x, y) - share, 2);
-                        denoised += pow(share_of(sets.denoised, signal, m, x, y) - share, 2);
-                    }
+            double gain = decibels(share_error(sets.noisy, &sets, signal, k == 1),
+                                   share_error(sets.denoised, &sets, signal, k == 1));
             printf("# %s, %s, shares of %d members: %.1f dB\n", layouts[k], denoise_signal_name(sets.truth, signal),
-                   signal->nmembers, decibels(noisy, denoised));
-            assert_true(signal->nmembers == 1 || decibels(noisy, denoised) > 6);
+                   signal->nmembers, gain);
+            assert_true(signal->nmembers == 1 || gain > 6);
         }
         close_sets(&sets);
     }
 }
 
-/* Sharp clusters keep the proportions of their light, and others where footprints are left alone; footprints stay where
- * there was light. */
+/* Light of broad clusters, where footprints are left alone, keeps its proportions; of sharp ones half of it does and
+ * half goes by cover, which is the same for both. Footprints stay where there was light. */
 static void test_proportions_of_clusters(void **state)
 {
     (void)state;
     for (int footprints = 0; footprints < 2; footprints++) {
         Sets sets = open_sets("footprints", footprints);
         for (int kind = 0; kind < 2 - footprints; kind++)
-            for (int y = 0; y < 130; y++)
-                for (int x = 0; x < 150; x++) {
-                    const int first = sets.truth->terms[1 + 2 * kind].radiance,
-                              second = sets.truth->terms[2 + 2 * kind].radiance;
-                    const float *a = pixel(sets.denoised, first, x, y), *b = pixel(sets.denoised, second, x, y),
-                                *c = pixel(sets.noisy, first, x, y), *d = pixel(sets.noisy, second, x, y);
-                    for (int k = 0; k < 3 && c[0] + d[0] > 0; k++)
-                        if (!(fabsf(a[k] * d[k] - b[k] * c[k]) <= 1e-5f * (a[k] + b[k]) * (c[k] + d[k])))
-                            fail_msg("%g : %g were %g : %g", (double)a[k], (double)b[k], (double)c[k], (double)d[k]);
-                    const int uv = sets.truth->footprints[2 * kind].uv;
-                    if (c[0] + d[0] > 0)
-                        assert_memory_equal(pixel(sets.denoised, uv, x, y), pixel(sets.noisy, uv, x, y), 12);
+            for (int i = 0; i < 150 * 130; i++) {
+                const int x = i % 150, y = i / 150, first = sets.truth->terms[1 + 2 * kind].radiance,
+                          second = sets.truth->terms[2 + 2 * kind].radiance;
+                const float *a = pixel(sets.denoised, first, x, y), *b = pixel(sets.denoised, second, x, y),
+                            *c = pixel(sets.noisy, first, x, y), *d = pixel(sets.noisy, second, x, y);
+                for (int k = 0; k < 3 && c[k] + d[k] > 0; k++) {
+                    float share = a[k] / (a[k] + b[k]), was = c[k] / (c[k] + d[k]);
+                    if (!(fabsf(share - (kind ? was : 0.5f * (was + 0.5f))) <= 1e-5f))
+                        fail_msg("%g : %g were %g : %g", (double)a[k], (double)b[k], (double)c[k], (double)d[k]);
                 }
+                const int uv = sets.truth->footprints[2 * kind].uv;
+                if (c[0] + d[0] > 0)
+                    assert_memory_equal(pixel(sets.denoised, uv, x, y), pixel(sets.noisy, uv, x, y), 12);
+            }
         close_sets(&sets);
     }
 }

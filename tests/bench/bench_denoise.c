@@ -1,0 +1,113 @@
+/* Denoising: its inner loops against plain code, and what it takes beside rendering. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "bench.h"
+#include "integrate/render.h"
+#include "lib_denoise_kernel.h"
+#include "sdl/sdl.h"
+
+typedef struct Kernels {
+    Room *room;
+    Sums *sums;
+    DenoiseSignal signal;
+    DenoiseBatch batch;
+} Kernels;
+
+static void features(void *context)
+{
+    Kernels *k = context;
+    denoise_features_kernel(k->room->alike, &k->room->features, 3, -2, 0);
+}
+
+static void features_scalar(void *context)
+{
+    Kernels *k = context;
+    denoise_features_kernel(k->room->alike, &k->room->features, 3, -2, 1);
+}
+
+static void signal(void *context)
+{
+    Kernels *k = context;
+    denoise_signal_kernel(&k->signal, &k->batch, 0);
+}
+
+static void signal_scalar(void *context)
+{
+    Kernels *k = context;
+    denoise_signal_kernel(&k->signal, &k->batch, 1);
+}
+
+static void bench_denoise_kernels(void)
+{
+    Kernels k = {.room = open_room(1), .sums = calloc(1, sizeof *k.sums)};
+    k.signal = signal_of(k.room, k.sums);
+    k.batch = (DenoiseBatch){.dx = -1, .dy = 2, .count = DENOISE_BATCH};
+    for (int n = 0; n < DENOISE_BATCH; n++) {
+        denoise_features_kernel(k.room->alike + n, &k.room->features, k.batch.dx + n, k.batch.dy, 1);
+        k.batch.alike[n] = k.room->alike + n;
+    }
+    bench_section("Denoising: times as fast as the scalar reference");
+    bench_pair("features of a tile at one displacement", features, features_scalar, &k);
+    bench_pair("a signal of two images, a batch of displacements", signal, signal_scalar, &k);
+    k.signal.nplanes = 0;
+    bench_pair("a signal of one image", signal, signal_scalar, &k);
+    free(k.room);
+    free(k.sums);
+}
+
+/* ---- a whole set ---- */
+
+typedef struct Work {
+    Scene *scene;
+    RenderParams params;
+} Work;
+
+static RetexSet *render_once(const Work *w)
+{
+    RenderStats stats;
+    RetexSet *set;
+    RetexError err = {0};
+    test_must(render_scene(&set, w->scene, &w->params, &stats, &err), &err);
+    return set;
+}
+
+static void render(void *context)
+{
+    RetexSet *set = render_once(context);
+    retex_set_close(&set);
+}
+
+static void render_denoised(void *context)
+{
+    RetexSet *set = render_once(context);
+    RetexError err = {0};
+    test_must(retex_denoise(set, NULL, NULL, 1, &err), &err);
+    retex_set_close(&set);
+}
+
+static void bench_set(const char *scenes, const char *name, int spp)
+{
+    static const char *const targets[] = {"Floor"};
+    Work w = {.params = RENDER_PARAMS_INIT};
+    RetexError err = {0};
+    char text[96], path[512];
+    snprintf(path, sizeof path, "%s/%s/%s.pov", scenes, name, name);
+    test_must(sdl_parse_file(&w.scene, path, NULL, &err), &err);
+    test_must(scene_resolve_targets(w.scene, targets, 1, &err), &err);
+    w.params.width = 128, w.params.height = 96, w.params.spp = spp;
+    w.params.nthreads = w.params.denoise_data = 1;
+    snprintf(text, sizeof text, "%s, 128x96, %d samples a pixel", name, spp);
+    bench_pair(text, render, render_denoised, &w);
+    scene_close(&w.scene);
+}
+
+void bench_denoise(const char *scenes)
+{
+    bench_denoise_kernels();
+    bench_section("Rendering and denoising a set: times as long as rendering it");
+    bench_set(scenes, "cornell-box", 16);
+    bench_set(scenes, "cornell-box", 64);
+    bench_set(scenes, "glass-caustics", 16);
+}

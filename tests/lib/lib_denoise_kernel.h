@@ -1,0 +1,32 @@
+/* What the inner loops of denoising read, of random numbers. */
+#ifndef LIB_DENOISE_KERNEL_H
+#define LIB_DENOISE_KERNEL_H
+
+#include "denoise_kernel.h"
+#include "lib_test.h"
+
+enum { PLANES = 9, GROUPS = 4, IMAGES = 6 };
+
+/* What both kernels read, of random numbers. */
+typedef struct Room {
+    float planes[PLANES][DENOISE_PLANE], scales[2 * GROUPS][DENOISE_PLANE], valid[DENOISE_PLANE];
+    float half[2][3][DENOISE_PLANE], variance[3][DENOISE_PLANE], kind[DENOISE_PLANE], modulation[DENOISE_PLANE];
+    float images[IMAGES][DENOISE_PLANE], scratch[DENOISE_SCRATCH];
+    const float *image_planes[IMAGES];
+    DenoiseFeatures features;
+    DenoiseAlike alike[DENOISE_BATCH];
+} Room;
+
+/* What the signal kernel writes. */
+typedef struct Sums {
+    float sum[DENOISE_CANDIDATES][2][4][DENOISE_PIXELS], images[IMAGES][DENOISE_PIXELS],
+        weight[DENOISE_BATCH][DENOISE_PIXELS];
+    float *image_sums[IMAGES];
+} Sums;
+
+/* Three groups of features and one of positions; weights from 0 to 1 come of it. To be freed. */
+Room *open_room(uint32_t seed);
+/* With all images. */
+DenoiseSignal signal_of(Room *r, Sums *sums);
+
+#endif
