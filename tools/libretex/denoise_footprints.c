@@ -130,8 +130,8 @@ static float lit_cover(const Place *place, size_t i)
     return cluster_light(place, i) > 0 ? cluster_cover(place, i) : 0;
 }
 
-/* What a cluster has of the light: by its own light, colour by colour; of what is seen sharply half of it by how much of
- * the pixel it is, for how bright it happened to be is chance in part (measured: halves are better than either). */
+/* What a cluster has of the light: by its own light, colour by colour; of what is seen sharply half of it by how much
+ * of the pixel it is, for how bright it happened to be is chance in part (measured: halves are better than either). */
 static void share_cluster(const Group *g, int k, const Pixel *p, size_t from, const float light[3])
 {
     double cover = g->kind == RETEX_FOOTPRINT_SHARP ? sum_over(g, from, lit_cover) : 0,
