@@ -21,21 +21,24 @@ static void test_threads_and_vectors(void **state)
 {
     (void)state;
     static const struct {
+        const char *layout;
         int nthreads, scalar;
-    } ways[] = {{2, 0}, {7, 0}, {1, 1}};
-    for (int k = 0; k < 3; k++) {
-        RetexSet *first = noisy_set(layouts[k], 150, 130);
-        denoise_all(first, NULL, 1);
-        for (int w = 0; w < 3; w++) {
-            RetexSet *set = noisy_set(layouts[k], 150, 130);
-            RetexDenoiseParams params = RETEX_DENOISE_INIT;
-            params.scalar = ways[w].scalar;
-            denoise_all(set, &params, ways[w].nthreads);
-            denoise_expect_same(first, set);
-            retex_set_close(&set);
+    } ways[] = {{"plain", 7, 1}, {"paper", 7, 1}, {"footprints", 2, 0}, {"footprints", 7, 0}, {"footprints", 1, 1}};
+    RetexSet *first = NULL;
+    for (int k = 0; k < 5; k++) {
+        RetexDenoiseParams params = RETEX_DENOISE_INIT;
+        params.scalar = ways[k].scalar;
+        if (k < 3) {
+            retex_set_close(&first);
+            first = noisy_set(ways[k].layout, 150, 130);
+            denoise_all(first, NULL, 1);
         }
-        retex_set_close(&first);
+        RetexSet *set = noisy_set(ways[k].layout, 150, 130);
+        denoise_all(set, &params, ways[k].nthreads);
+        denoise_expect_same(first, set);
+        retex_set_close(&set);
     }
+    retex_set_close(&first);
 }
 
 /* What lies in the region was filtered, with what lies around it; around it nothing changed. */
@@ -225,12 +228,12 @@ static void test_what_is_no_number(void **state)
     static const char *const prefixes[] = {"term", "beauty", "noise_", "guide_", "uv", "spread", "albedo", "share"};
     for (int k = 0; k < 3; k++)
         for (int n = 0; n < 8; n++) {
-            RetexSet *set = noisy_set(layouts[k], 60, 50);
+            RetexSet *set = noisy_set(layouts[k], 50, 40);
             spoil(set, prefixes[n]);
             denoise_all(set, NULL, 1);
             for (int t = 0; t < set->nterms; t++) {
                 const RetexImage *im = &set->parts[set->terms[t].radiance].image;
-                for (int i = 0; i < 60 * 50 * 3; i++)
+                for (int i = 0; i < 50 * 40 * 3; i++)
                     if (!isfinite(im->pixels[i]))
                         fail_msg("%s, %s: term %d has %g", layouts[k], prefixes[n], t, (double)im->pixels[i]);
             }
