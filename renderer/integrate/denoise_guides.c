@@ -5,12 +5,13 @@
 #include "integrate/denoise_guides.h"
 #include "integrate/path.h"
 
-/* Places of a pixel form a lattice: of all steps, in rows between neighbouring columns, these keep them the farthest
- * apart. A pixel where the few do not all see the same is looked at again in many. */
+/* A pixel is looked at in few places, and where these do not all see the same again in many. Of few, place k is in
+ * column k and row few_rows[k]: no correlation, no third moments, and far apart. Many form a lattice of such a step, in
+ * rows between neighbouring columns, that their correlation is 0.015 and they are far apart. */
 #define PLACES_FEW 8
-#define STEP_FEW 3
+static const int few_rows[PLACES_FEW] = {1, 7, 3, 5, 2, 4, 0, 6};
 #define PLACES_MANY 64
-#define STEP_MANY 19
+#define STEP_MANY 9
 #define ONE_NORMAL 0.999 /* length of the mean of normals that count as one */
 #define ONE_ALBEDO 1e-4  /* variance of the luminance of albedos that count as one */
 #define FOLLOWED_MAX 16  /* mirrors and glasses on the way */
@@ -177,14 +178,16 @@ static void store_sight(RetexImage *normal, RetexImage *position, int x, int y, 
     store(position, x, y, 1.0 / sight->places, sight->position.x, sight->position.y, sight->position.z);
 }
 
-static void look_at(const GuideJob *job, GuideSums *sums, int x, int y, int places, int step)
+static void look_at(const GuideJob *job, GuideSums *sums, int x, int y, int places)
 {
     const FirstHitWindow *w = job->window;
     *sums = (GuideSums){.places = 0};
-    for (int k = 0; k < places; k++)
+    for (int k = 0; k < places; k++) {
+        int row = places == PLACES_FEW ? few_rows[k] : k * STEP_MANY % places;
         look(job, sums,
              camera_ray(&w->scene->camera, w->width, w->height, w->x0 + x + (k + 0.5) / places,
-                        w->y0 + y + (k * step % places + 0.5) / places));
+                        w->y0 + y + (row + 0.5) / places));
+    }
 }
 
 static int is_one_normal(const Sight *sight)
@@ -209,9 +212,9 @@ static void guide_row(void *context, int y, int thread)
     (void)thread;
     for (int x = 0; x < w->w; x++) {
         GuideSums sums;
-        look_at(job, &sums, x, y, PLACES_FEW, STEP_FEW);
+        look_at(job, &sums, x, y, PLACES_FEW);
         if (!is_even(&sums))
-            look_at(job, &sums, x, y, PLACES_MANY, STEP_MANY);
+            look_at(job, &sums, x, y, PLACES_MANY);
         const double share = 1.0 / sums.places;
         store_sight(to[GUIDE_NORMAL], to[GUIDE_POSITION], x, y, &sums.first);
         store(to[GUIDE_SPECULAR], x, y, share, sums.specular, 0, 0);
