@@ -33,6 +33,15 @@ picture living-room living-room-walnut --texture "Floor=$textures/walnut-herring
 picture living-room living-room-terrazzo-brick --texture "Floor=$textures/terrazzo.jpg" --texture "Wall=$textures/brick.jpg"
 picture living-room living-room-damask --texture "Wall=$textures/damask.jpg"
 
+# Few samples, as rendered and denoised.
+[ -e "$sets/living-room-64.exr" ] || retex-render --size 640x480 --spp 64 -t Floor -t Wall \
+    scenes/living-room/living-room.pov -o "$sets/living-room-64.exr"
+retex-denoise -q "$sets/living-room-64.exr" -o "$sets/living-room-64-denoised.exr"
+for set in living-room-64 living-room-64-denoised; do
+    picture "$set" "$set" --quality 97 --texture "Floor=$textures/walnut-herringbone.jpg" \
+        --texture:scale=2 "Wall=$textures/damask.jpg"
+done
+
 set_of kitchen scenes/kitchen/kitchen.pov 640x480 Floor Wall
 picture kitchen kitchen
 picture kitchen kitchen-terrazzo --texture "Floor=$textures/terrazzo.jpg"

@@ -138,7 +138,9 @@ for each in $scenes; do
 done
 # shellcheck disable=SC2086
 awk 'NR == 1 || FNR > 1' $tables >"$work/denoise.csv"
-"$python" "$here/table/denoise-report.py" "$work" "$size" "$truth_spp" "$here/table/denoise-notes.md" \
+shown="of parts, 144x112 pixels, of pictures of $size"
+[ -z "${DENOISE_SIZE:-}" ] || shown="of $size pixels"
+"$python" "$here/table/denoise-report.py" "$work" "$shown" "$truth_spp" "$here/table/denoise-notes.md" \
     >"$work/denoise.new"
 mv "$work/denoise.new" "$work/denoise.md"
 if [ -z "${DENOISE_SCENES:-}${DENOISE_SIZE:-}${DENOISE_TRUTH_SPP:-}${DENOISE_SEEDS:-}${DENOISE_FLAGS:-}" ]; then
