@@ -166,7 +166,7 @@ static void test_parameters(void **state)
         expect_refused(set, &params, RETEX_EINVAL, "radius");
     }
     set->spp = 1;
-    expect_refused(set, NULL, RETEX_EINVAL, "one sample");
+    expect_refused(set, NULL, RETEX_EINVAL, "two samples");
     retex_set_close(&set);
 }
 

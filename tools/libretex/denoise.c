@@ -8,6 +8,7 @@
 #include <retex/sample.h>
 
 #include "denoise_footprints.h"
+#include "half.h"
 #include "set_parts.h"
 
 static int find_guide(const RetexSet *set, const char *name, int channels, int *part, RetexError *err)
@@ -202,6 +203,19 @@ static void restore_means(const DenoiseWork *w)
     }
 }
 
+/* Halves as they will be stored, so that it does not matter whether the set was written and read in between. */
+static void round_halves(RetexPart *part)
+{
+    const RetexImage *im = &part->image;
+    size_t count = (size_t)im->width * (size_t)im->height * (size_t)im->channels;
+    uint16_t halves[256];
+    for (size_t i = 0; i < count && part->type == RETEX_HALF; i += 256) {
+        size_t n = count - i < 256 ? count - i : 256;
+        retex_half_from_float(halves, im->pixels + i, n);
+        retex_half_to_float(im->pixels + i, halves, n);
+    }
+}
+
 static int check_params(const RetexDenoiseParams *p, RetexError *err)
 {
     if (!(p->strength >= 0.1f && p->strength <= 10))
@@ -219,8 +233,8 @@ int retex_denoise(RetexSet *set, const RetexDenoiseParams *params, const RetexRo
     if (params)
         memcpy(&d->params, params, params->size < sizeof d->params ? params->size : sizeof d->params);
     int code = check_params(&d->params, err);
-    if (!code && set->spp == 1)
-        code = retex_fail(err, RETEX_EINVAL, "one sample a pixel does not tell noise from picture");
+    if (!code && set->spp < 2)
+        code = retex_fail(err, RETEX_EINVAL, "less than two samples a pixel do not tell noise from picture");
     if (!code)
         code = find_guides(&d->guides, set, err);
     if (!code)
@@ -232,12 +246,16 @@ int retex_denoise(RetexSet *set, const RetexDenoiseParams *params, const RetexRo
     if (!code) {
         filter(&work);
         restore_means(&work);
+        for (int k = 0; k < set->nparts; k++)
+            if (work.bands[0].parts[k])
+                round_halves(&set->parts[k]);
     }
     close_work(&work);
     if (!code && set->nterms)
         code = retex_combine(&set->parts[0].image, set, NULL, NULL, roi, nthreads, err);
     if (code)
         return code;
+    round_halves(&set->parts[0]);
     if (d->params.progress)
         d->params.progress(d->params.progress_context, 1);
     retex_denoise_drop_data(set);

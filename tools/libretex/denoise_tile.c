@@ -16,6 +16,7 @@
 #define LEAST_DIFFERENCE 1e-6f /* squared, of the mean: what no one sees */
 #define ERROR_RADIUS 2         /* of the patch by which a candidate is chosen */
 #define CHOICE_RADIUS 2        /* choices change over so many pixels */
+#define SPIKE 40               /* times the variance around, the squared difference of halves: it chooses for itself */
 #define NEIGHBOUR_STEP 3       /* footprints are pooled from a grid of pixels of this step, */
 #define NEIGHBOUR_REACH 2      /* so many steps to each side */
 #define NEIGHBOURS_MAX ((2 * NEIGHBOUR_REACH + 1) * (2 * NEIGHBOUR_REACH + 1))
@@ -314,22 +315,46 @@ static void find_errors(const SignalRoom *r, TileRoom *room, float epsilon)
 
 /* Which choice is nearest to the truth. A half differs from the other by the variance of both, V each: its squared
  * difference is 4V where nothing is filtered, counted twice; a candidate's is twice its own error and V. */
+static int best_choice(const TileRoom *room, size_t i)
+{
+    float variance = 0.25f * room->errors[0][i], least = variance;
+    int best = 0;
+    for (int k = 1; k < CHOICES; k++) {
+        float error = 0.5f * room->errors[k][i] - variance;
+        if (error < least)
+            least = error, best = k;
+    }
+    return best;
+}
+
+/* One path of much light, in one half: other pixels are better off without it, and choose to stay as they are. */
+static int is_spike(const SignalRoom *r, size_t p)
+{
+    float squared = 0, variance = 0;
+    for (int c = 0; c < 3; c++) {
+        float d = r->half[0][c][p] - r->half[1][c][p];
+        squared += d * d, variance += r->variance[c][p];
+    }
+    return squared > SPIKE * variance;
+}
+
 static void choose(SignalRoom *r, TileRoom *room, float epsilon)
 {
+    unsigned char best[DENOISE_PIXELS];
     find_errors(r, room, epsilon);
     for (size_t i = 0; i < DENOISE_PIXELS; i++) {
-        float variance = 0.25f * room->errors[0][i], least = variance;
-        int best = 0;
-        for (int k = 1; k < CHOICES; k++) {
-            float error = 0.5f * room->errors[k][i] - variance;
-            if (error < least)
-                least = error, best = k;
-        }
+        best[i] = (unsigned char)best_choice(room, i);
         for (int k = 0; k < CHOICES; k++)
-            r->chosen[k][i] = k == best;
+            r->chosen[k][i] = k == best[i];
     }
     for (int k = 0; k < CHOICES; k++)
         box(r->chosen[k], room->spare, CHOICE_RADIUS);
+    for (int y = 0; y < DENOISE_TILE; y++)
+        for (int x = 0; x < DENOISE_TILE; x++) {
+            size_t i = (size_t)y * DENOISE_TILE + (size_t)x;
+            for (int k = 0; k < CHOICES && is_spike(r, denoise_at(x, y)); k++)
+                r->chosen[k][i] = k == best[i];
+        }
 }
 
 /* ---- results ---- */
