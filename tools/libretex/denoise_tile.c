@@ -9,10 +9,10 @@
 #include "denoise_features.h"
 #include "denoise_footprints.h"
 
-#define STRENGTH 0.45f       /* of params.strength 1, in standard deviations: k of Rousselle et al. 2012 */
-#define LEAST_COVER 0.02f    /* of a target: less is not told from none */
-#define SPECULAR_SHARE 0.04f /* of a target's light that its texture does not multiply, roughly */
-#define LEAST_MODULATION 0.02f
+#define STRENGTH 0.45f    /* of params.strength 1, in standard deviations: k of Rousselle et al. 2012 */
+#define LEAST_COVER 0.02f /* of a target: less is not told from none */
+#define LEAST_MODULATION 0.2f
+#define TARGET_BRIGHTNESS 0.3f /* of light that a target's texture does not multiply: mirrors more, dull ones less */
 #define LEAST_DIFFERENCE 1e-6f /* squared, of the mean: what no one sees */
 #define ERROR_RADIUS 2         /* of the patch by which a candidate is chosen */
 #define CHOICE_RADIUS 2        /* choices change over so many pixels */
@@ -152,40 +152,6 @@ void tile_room_close(TileRoom **out)
 
 /* ---- signals ---- */
 
-/* What the light is multiplied by at the pixel, as far as guides know: it is taken out before pixels are compared.
- * Light that comes straight from a target goes with how much of it the pixel sees; other light with the colour of what
- * is seen, of targets with what their texture does not multiply. */
-static void find_modulation(SignalRoom *r, TileRoom *room, const Denoiser *d, const Signal *signal, int x0, int y0)
-{
-    int sharp = signal->kind == RETEX_FOOTPRINT_SHARP && signal->target >= 0,
-        any = signal->kind == RETEX_FOOTPRINT_HIT && signal->target >= 0;
-    for (int i = 0; i < DENOISE_PLANE; i++)
-        r->kind[i] = 1;
-    if (sharp)
-        plane_gather(room->spare, d->set, signal->cover, 0, x0, y0);
-    for (int i = 0; i < DENOISE_PLANE && (sharp || any); i++) {
-        int covered = sharp && room->spare[i] > LEAST_COVER;
-        for (int c = 0; c < 3; c++)
-            r->modulation[c][i] = covered ? room->spare[i] : 1;
-        r->kind[i] = sharp && !covered ? -1 : 1;
-    }
-    for (int c = 0; c < 3 && !sharp && !any; c++)
-        plane_gather(r->modulation[c], d->set, d->guides.seen_albedo, c, x0, y0);
-    for (int t = 0; t < d->set->ntargets && !sharp && !any; t++) {
-        if (d->signals.covers[t] < 0)
-            continue;
-        plane_gather(room->spare, d->set, d->signals.covers[t], 0, x0, y0);
-        for (int c = 0; c < 3; c++)
-            for (int i = 0; i < DENOISE_PLANE; i++)
-                r->modulation[c][i] -= (1 - SPECULAR_SHARE) * room->spare[i];
-    }
-    for (int i = 0; i < DENOISE_PLANE; i++) {
-        for (int c = 0; c < 3; c++)
-            r->modulation[c][i] = fmaxf(r->modulation[c][i], LEAST_MODULATION);
-        r->mean_modulation[i] = (r->modulation[0][i] + r->modulation[1][i] + r->modulation[2][i]) / 3;
-    }
-}
-
 /* Mean over 5x5 pixels of a plane, through spare. */
 static void smooth(float *restrict plane, float *restrict spare)
 {
@@ -213,6 +179,48 @@ static void gather_members(SignalRoom *r, TileRoom *room, const Denoiser *d, con
             for (int i = 0; i < DENOISE_PLANE; i++)
                 plane[i] += room->spare[i], total[i] += m->weight * room->spare[i];
         }
+    }
+}
+
+/* The colour of what is seen; of targets, which guides have as white, how bright they may be in light that their texture
+ * does not multiply. */
+static void find_seen_modulation(SignalRoom *r, TileRoom *room, const Denoiser *d, int x0, int y0)
+{
+    for (int c = 0; c < 3; c++)
+        plane_gather(r->modulation[c], d->set, d->guides.seen_albedo, c, x0, y0);
+    for (int t = 0; t < d->set->ntargets; t++) {
+        if (d->signals.covers[t] < 0)
+            continue;
+        plane_gather(room->spare, d->set, d->signals.covers[t], 0, x0, y0);
+        for (int c = 0; c < 3; c++)
+            for (int i = 0; i < DENOISE_PLANE; i++)
+                r->modulation[c][i] -= (1 - TARGET_BRIGHTNESS) * room->spare[i];
+    }
+}
+
+/* What the light is multiplied by at the pixel, as far as guides know: it is taken out before pixels are compared.
+ * Light that comes straight from a target goes with how much of it the pixel sees; other light with the colour of what
+ * is seen. Not by less than LEAST_MODULATION: near nothing, guides of few places are far off. */
+static void find_modulation(SignalRoom *r, TileRoom *room, const Denoiser *d, const Signal *signal, int x0, int y0)
+{
+    int sharp = signal->kind == RETEX_FOOTPRINT_SHARP && signal->target >= 0,
+        any = signal->kind == RETEX_FOOTPRINT_HIT && signal->target >= 0;
+    for (int i = 0; i < DENOISE_PLANE; i++)
+        r->kind[i] = 1;
+    if (sharp)
+        plane_gather(room->spare, d->set, signal->cover, 0, x0, y0);
+    for (int i = 0; i < DENOISE_PLANE && (sharp || any); i++) {
+        int covered = sharp && room->spare[i] > LEAST_COVER;
+        for (int c = 0; c < 3; c++)
+            r->modulation[c][i] = covered ? room->spare[i] : 1;
+        r->kind[i] = sharp && !covered ? -1 : 1;
+    }
+    if (!sharp && !any)
+        find_seen_modulation(r, room, d, x0, y0);
+    for (int i = 0; i < DENOISE_PLANE; i++) {
+        for (int c = 0; c < 3; c++)
+            r->modulation[c][i] = fmaxf(r->modulation[c][i], LEAST_MODULATION);
+        r->mean_modulation[i] = (r->modulation[0][i] + r->modulation[1][i] + r->modulation[2][i]) / 3;
     }
 }
 
@@ -485,8 +493,8 @@ void tile_denoise(const Denoiser *d, TileRoom *room, int left, Band *band, Signa
     features_gather(&features, room->features, d, x0, y0);
     for (int s = 0; s < d->signals.count; s++) {
         SignalRoom *r = &room->signals[s];
-        find_modulation(r, room, d, &d->signals.of[s], x0, y0);
         gather_members(r, room, d, &d->signals.of[s], x0, y0);
+        find_modulation(r, room, d, &d->signals.of[s], x0, y0);
         split_halves(r, room, d, &d->signals.of[s], x0, y0);
         signals[s] = start_signal(r, room, d);
     }
