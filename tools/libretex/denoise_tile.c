@@ -182,8 +182,8 @@ static void gather_members(SignalRoom *r, TileRoom *room, const Denoiser *d, con
     }
 }
 
-/* The colour of what is seen; of targets, which guides have as white, how bright they may be in light that their texture
- * does not multiply. */
+/* The colour of what is seen; of targets, which guides have as white, how bright they may be in light that their
+ * texture does not multiply. */
 static void find_seen_modulation(SignalRoom *r, TileRoom *room, const Denoiser *d, int x0, int y0)
 {
     for (int c = 0; c < 3; c++)
