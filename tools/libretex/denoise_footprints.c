@@ -130,12 +130,29 @@ static float lit_cover(const Place *place, size_t i)
     return cluster_light(place, i) > 0 ? cluster_cover(place, i) : 0;
 }
 
-/* What a cluster has of the light: by its own light, colour by colour; of what is seen sharply half of it by how much
- * of the pixel it is, for how bright it happened to be is chance in part (measured: halves are better than either). */
-static void share_cluster(const Group *g, int k, const Pixel *p, size_t from, const float light[3])
+/* How far the light of clusters is to be believed, 0..1, where it differs from how much of the pixel they are: how bright
+ * they happened to be is chance in part. So many effective samples tell a sum to one in their root; what is left of the
+ * squared difference without that is real (James and Stein 1961). */
+static double light_belief(const Footprints *f, const Group *g, size_t from)
 {
-    double cover = g->kind == RETEX_FOOTPRINT_SHARP ? sum_over(g, from, lit_cover) : 0,
-           by_cover = cover > 0 ? lit_cover(&g->of[k], from) / cover : 0,
+    double cover = sum_over(g, from, lit_cover), light = sum_over(g, from, cluster_light), chance = 0, differs = 0;
+    if (g->kind != RETEX_FOOTPRINT_SHARP || !(cover > 0))
+        return 1;
+    for (int k = 0; k < g->nlit; k++) {
+        double of_light = cluster_light(&g->of[k], from) / light, of_cover = lit_cover(&g->of[k], from);
+        if (!(of_cover > 0))
+            continue;
+        chance += of_light * of_light / (of_cover * f->spp);
+        differs += (of_light - of_cover / cover) * (of_light - of_cover / cover);
+    }
+    return differs > chance ? 1 - chance / differs : 0;
+}
+
+/* What a cluster has of the light: colour by colour, by its own light as far as that is to be believed, else by how much
+ * of the pixel it is. */
+static void share_cluster(const Group *g, int k, const Pixel *p, size_t from, double belief, const float light[3])
+{
+    double cover = sum_over(g, from, lit_cover), by_cover = cover > 0 ? lit_cover(&g->of[k], from) / cover : 0,
            by_light = cluster_light(&g->of[k], from) / sum_over(g, from, cluster_light);
     float *to = written(p, &g->of[k].light);
     for (int c = 0; c < 3; c++) {
@@ -145,7 +162,7 @@ static void share_cluster(const Group *g, int k, const Pixel *p, size_t from, co
             sum += l, own += j == k ? l : 0;
         }
         double share = sum > 0 ? own / sum : by_light;
-        to[c] = (float)(cover > 0 ? 0.5 * (share + by_cover) : share) * light[c];
+        to[c] = (float)(belief * share + (1 - belief) * by_cover) * light[c];
     }
 }
 
@@ -162,9 +179,10 @@ static void keep_clusters(const Footprints *f, const Group *g, const Pixel *p, c
     float (*value)(const Place *, size_t) = all > 0 ? cluster_light : cluster_cover;
     if (!(all > 0))
         all = sum_over(g, from, value);
+    double belief = value == cluster_light ? light_belief(f, g, from) : 0;
     for (int k = 0; k < g->nlit; k++)
         if (g->of[k].light.pixels && value == cluster_light)
-            share_cluster(g, k, p, from, light);
+            share_cluster(g, k, p, from, belief, light);
         else if (g->of[k].light.pixels)
             store_light(&g->of[k], p, light, all > 0 ? value(&g->of[k], from) / all : 0);
     if (!g->movable)

@@ -194,7 +194,8 @@ int denoise_footprints_open(Footprints **out, const Denoiser *d, RetexError *err
     Footprints *f = *out = calloc(1, sizeof *f);
     int code = RETEX_OK;
     if (f) {
-        f->width = (size_t)set->width, f->pixels = f->width * (size_t)set->height, f->nsignals = d->signals.count;
+        f->width = (size_t)set->width, f->pixels = f->width * (size_t)set->height, f->nsignals = d->signals.count,
+        f->spp = set->spp;
         f->uses = calloc((size_t)set->nparts + 1, sizeof *f->uses);
         f->signals = calloc(signals + 1, sizeof *f->signals);
         f->later = calloc(RETEX_MAX_TARGETS + 1, sizeof *f->later);

@@ -34,6 +34,7 @@ typedef struct Group {
 
 struct Footprints {
     size_t width, pixels;
+    double spp;
     Group *signals;      /* by signal */
     Group *later, *hits; /* by target; one for each footprint */
     int nsignals, nlater, nhits;
