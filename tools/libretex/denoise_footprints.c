@@ -148,8 +148,8 @@ static double light_belief(const Footprints *f, const Group *g, size_t from)
     return differs > chance ? 1 - chance / differs : 0;
 }
 
-/* What a cluster has of the light: colour by colour, by its own light as far as that is to be believed, else by how much
- * of the pixel it is. */
+/* What a cluster has of the light: colour by colour, by its own light as far as that is to be believed, else by how
+ * much of the pixel it is. */
 static void share_cluster(const Group *g, int k, const Pixel *p, size_t from, double belief, const float light[3])
 {
     double cover = sum_over(g, from, lit_cover), by_cover = cover > 0 ? lit_cover(&g->of[k], from) / cover : 0,
