@@ -130,9 +130,9 @@ static float lit_cover(const Place *place, size_t i)
     return cluster_light(place, i) > 0 ? cluster_cover(place, i) : 0;
 }
 
-/* How far the light of clusters is to be believed, 0..1, where it differs from how much of the pixel they are: how bright
- * they happened to be is chance in part. So many effective samples tell a sum to one in their root; what is left of the
- * squared difference without that is real (James and Stein 1961). */
+/* How far the light of clusters is to be believed, 0..1, where it differs from how much of the pixel they are: how
+ * bright they happened to be is chance in part. So many effective samples tell a sum to one in their root; what is left
+ * of the squared difference without that is real (James and Stein 1961). */
 static double light_belief(const Footprints *f, const Group *g, size_t from)
 {
     double cover = sum_over(g, from, lit_cover), light = sum_over(g, from, cluster_light), chance = 0, differs = 0;
