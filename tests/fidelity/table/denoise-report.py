@@ -200,10 +200,10 @@ def main(work, size, truth_samples, notes):
     t = Table(f"{work}/denoise.csv")
     print(f"""# Denoised sets against rendering again
 
-PSNR in decibels (sRGB-encoded, clipped to 0..1) and mean FLIP against converged pictures of {truth_samples} samples
-{size}. `set` is a set, layout footprints, retextured; `denoised` the same after `retex-denoise`; `again` the
-scene rendered anew with the new texture; `again denoised` that with `--denoise`, the same filter: a fair rival, which
-must filter every texture anew and sees it only with its noise. Sets of 128 samples have {len(t.seeds[SET])} seeds, all
+PSNR in decibels (sRGB-encoded, clipped to 0..1) and mean FLIP against converged pictures of {truth_samples} samples,
+{size}. `set` is a set, layout footprints, retextured; `denoised` the same after
+`retex-denoise`; `again` the scene rendered anew with the new texture; `again denoised` that with `--denoise`, the same
+filter: a fair rival, which must filter every texture anew and sees it only with its noise. Sets of 128 samples have {len(t.seeds[SET])} seeds, all
 else one; means are of all scenes, textures and seeds. Scenes and textures are those of [fidelity.md](fidelity.md).
 The truths have a little noise too: gains at 1024 samples are larger than they seem. Made by `make fidelity-denoise`;
 all figures are in [denoise.csv](denoise.csv).""")

@@ -138,8 +138,8 @@ for each in $scenes; do
 done
 # shellcheck disable=SC2086
 awk 'NR == 1 || FNR > 1' $tables >"$work/denoise.csv"
-shown="of parts, 144x112 pixels, of pictures of $size"
-[ -z "${DENOISE_SIZE:-}" ] || shown="of $size pixels"
+shown="parts of 144x112 pixels of pictures of $size"
+[ -z "${DENOISE_SIZE:-}" ] || shown="$size pixels"
 "$python" "$here/table/denoise-report.py" "$work" "$shown" "$truth_spp" "$here/table/denoise-notes.md" \
     >"$work/denoise.new"
 mv "$work/denoise.new" "$work/denoise.md"
