@@ -165,8 +165,8 @@ static void test_parameters(void **state)
         params.radius = radii[k];
         expect_refused(set, &params, RETEX_EINVAL, "radius");
     }
-    set->spp = 1;
-    expect_refused(set, NULL, RETEX_EINVAL, "two samples");
+    for (set->spp = 0; set->spp < 2; set->spp++)
+        expect_refused(set, NULL, RETEX_EINVAL, "two samples");
     retex_set_close(&set);
 }
 
