@@ -11,35 +11,28 @@
 #include "half.h"
 #include "set_parts.h"
 
-static int find_guide(const RetexSet *set, const char *name, int channels, int *part, RetexError *err)
+static int find_guides(int parts[GUIDE_COUNT], const RetexSet *set, RetexError *err)
 {
-    *part = signals_find_part(set, name, channels, err);
-    return *part < 0 ? *part : RETEX_OK;
-}
-
-static int find_guides(Guides *g, const RetexSet *set, RetexError *err)
-{
-    int code = find_guide(set, "guide_normal", 3, &g->normal, err);
-    if (!code)
-        code = find_guide(set, "guide_position", 3, &g->position, err);
-    if (!code)
-        code = find_guide(set, "guide_specular", 1, &g->specular, err);
-    if (!code)
-        code = find_guide(set, "guide_seen_normal", 3, &g->seen_normal, err);
-    if (!code)
-        code = find_guide(set, "guide_seen_position", 3, &g->seen_position, err);
-    if (!code)
-        code = find_guide(set, "guide_seen_albedo", 3, &g->seen_albedo, err);
-    if (!code)
-        code = find_guide(set, "guide_seen_material", 3, &g->seen_material, err);
-    return code;
+    static const struct {
+        const char *name;
+        int channels;
+    } table[GUIDE_COUNT] = {
+        [GUIDE_SEEN_NORMAL] = {"guide_seen_normal", 3}, [GUIDE_SEEN_POSITION] = {"guide_seen_position", 3},
+        [GUIDE_SEEN_ALBEDO] = {"guide_seen_albedo", 3}, [GUIDE_SEEN_MATERIAL] = {"guide_seen_material", 3},
+        [GUIDE_NORMAL] = {"guide_normal", 3},           [GUIDE_POSITION] = {"guide_position", 3},
+        [GUIDE_SPECULAR] = {"guide_specular", 1},
+    };
+    for (int k = 0; k < GUIDE_COUNT; k++)
+        if ((parts[k] = signals_find_part(set, table[k].name, table[k].channels, err)) < 0)
+            return parts[k];
+    return RETEX_OK;
 }
 
 int retex_denoise_has_data(const RetexSet *set)
 {
     Signals signals;
-    Guides guides;
-    if (find_guides(&guides, set, NULL) || signals_open(&signals, set, NULL))
+    int guides[GUIDE_COUNT];
+    if (find_guides(guides, set, NULL) || signals_open(&signals, set, NULL))
         return 0;
     signals_close(&signals);
     return 1;
@@ -236,7 +229,7 @@ int retex_denoise(RetexSet *set, const RetexDenoiseParams *params, const RetexRo
     if (!code && set->spp < 2)
         code = retex_fail(err, RETEX_EINVAL, "less than two samples a pixel do not tell noise from picture");
     if (!code)
-        code = find_guides(&d->guides, set, err);
+        code = find_guides(d->guides, set, err);
     if (!code)
         code = signals_open(&d->signals, set, err);
     if (!code)

@@ -12,7 +12,7 @@
 #define LEAST_SHARE 4e-3f
 #define LEAST_DISTANCE 1e-20f
 
-/* The planes, in their order. */
+/* Planes of guides, by channel, then those of covers. */
 enum {
     SEEN_NORMAL = 0,
     SEEN_POSITION = 3,
@@ -100,13 +100,10 @@ static int is_zero(const float *plane)
 
 static int gather_planes(float *planes, const Denoiser *d, int x0, int y0)
 {
-    const Guides *g = &d->guides;
-    const int parts[] = {g->seen_normal, g->seen_position, g->seen_albedo, g->seen_material,
-                         g->normal,      g->position,      g->specular};
     int n = 0;
-    for (int k = 0; k < 7; k++)
-        for (int c = 0; c < d->set->parts[parts[k]].image.channels; c++)
-            plane_gather(planes + (size_t)n++ * DENOISE_PLANE, d->set, parts[k], c, x0, y0);
+    for (int k = 0; k < GUIDE_COUNT; k++)
+        for (int c = 0; c < d->set->parts[d->guides[k]].image.channels; c++)
+            plane_gather(planes + (size_t)n++ * DENOISE_PLANE, d->set, d->guides[k], c, x0, y0);
     for (int t = 0; t < d->set->ntargets; t++)
         if (d->signals.covers[t] >= 0)
             plane_gather(planes + (size_t)n++ * DENOISE_PLANE, d->set, d->signals.covers[t], 0, x0, y0);

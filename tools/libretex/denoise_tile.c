@@ -187,7 +187,7 @@ static void gather_members(SignalRoom *r, TileRoom *room, const Denoiser *d, con
 static void find_seen_modulation(SignalRoom *r, TileRoom *room, const Denoiser *d, int x0, int y0)
 {
     for (int c = 0; c < 3; c++)
-        plane_gather(r->modulation[c], d->set, d->guides.seen_albedo, c, x0, y0);
+        plane_gather(r->modulation[c], d->set, d->guides[GUIDE_SEEN_ALBEDO], c, x0, y0);
     for (int t = 0; t < d->set->ntargets; t++) {
         if (d->signals.covers[t] < 0)
             continue;

@@ -6,10 +6,17 @@
 #include "denoise_kernel.h"
 #include "signals.h"
 
-/* Parts of a set that hold guides. */
-typedef struct Guides {
-    int normal, position, specular, seen_normal, seen_position, seen_albedo, seen_material;
-} Guides;
+/* The guides of a set, in the order in which features take them. */
+enum {
+    GUIDE_SEEN_NORMAL,
+    GUIDE_SEEN_POSITION,
+    GUIDE_SEEN_ALBEDO,
+    GUIDE_SEEN_MATERIAL,
+    GUIDE_NORMAL,
+    GUIDE_POSITION,
+    GUIDE_SPECULAR,
+    GUIDE_COUNT
+};
 
 /* Rows of results, by part of the set: NULL where a part stays as it is. */
 typedef struct Band {
@@ -22,7 +29,7 @@ typedef struct Denoiser {
     RetexSet *set;
     RetexDenoiseParams params;
     RetexRoi roi;
-    Guides guides;
+    int guides[GUIDE_COUNT]; /* parts */
     Signals signals;
     struct Footprints *footprints;
 } Denoiser;
