@@ -86,21 +86,11 @@ static Group start_group(const Footprints *f, const RetexSet *set, int target, R
     return g;
 }
 
-/* The footprint of a term that is light of one cluster, or -1. */
-static int cluster_of(const RetexSet *set, const SignalMember *member)
-{
-    const RetexTerm *term = member->term < 0 ? NULL : &set->terms[member->term];
-    return term && term->nfactors == 1 && term->factors[0] >= 0 &&
-                   set->footprints[term->factors[0]].kind != RETEX_FOOTPRINT_HIT
-               ? term->factors[0]
-               : -1;
-}
-
 static int has_cluster(const RetexSet *set, const Signal *signal, int footprint)
 {
     int count = 0;
     for (int k = 0; k < signal->nmembers; k++)
-        count += cluster_of(set, &signal->members[k]) == footprint;
+        count += signal_cluster(set, &signal->members[k]) == footprint;
     return count;
 }
 
@@ -109,7 +99,7 @@ static void find_clusters(Footprints *f, const RetexSet *set, const Signal *sign
 {
     *g = start_group(f, set, signal->target, signal->kind);
     for (int k = 0; k < signal->nmembers; k++) {
-        int footprint = cluster_of(set, &signal->members[k]);
+        int footprint = signal_cluster(set, &signal->members[k]);
         if (footprint < 0)
             continue;
         add_place(f, set, g, footprint, signal->members[k].part);

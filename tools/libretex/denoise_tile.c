@@ -49,14 +49,6 @@ struct TileRoom {
 
 /* ---- room ---- */
 
-/* Members that are clusters: light of one footprint among several of its kind. */
-static int is_cluster(const RetexSet *set, const SignalMember *member)
-{
-    if (member->term < 0 || set->terms[member->term].nfactors != 1 || set->terms[member->term].factors[0] < 0)
-        return 0;
-    return set->footprints[set->terms[member->term].factors[0]].kind != RETEX_FOOTPRINT_HIT;
-}
-
 /* Memory is laid out twice: first from NULL, to see how much it takes. */
 typedef struct Layout {
     float *memory;
@@ -76,7 +68,7 @@ static void lay_out_signal(SignalRoom *r, Layout *l, const RetexSet *set, const 
 {
     r->nclusters = 0;
     for (int k = 0; k < signal->nmembers; k++)
-        r->nclusters += is_cluster(set, &signal->members[k]);
+        r->nclusters += signal_cluster(set, &signal->members[k]) >= 0;
     r->nplanes = 3 * (signal->nmembers - r->nclusters + (r->nclusters > 0));
     r->kind = take(l, DENOISE_PLANE), r->mean_modulation = take(l, DENOISE_PLANE);
     for (int c = 0; c < 3; c++) {
@@ -172,7 +164,7 @@ static void gather_members(SignalRoom *r, TileRoom *room, const Denoiser *d, con
         memset(r->half[0][c], 0, sizeof(float) * DENOISE_PLANE);
     for (int k = 0; k < signal->nmembers; k++) {
         const SignalMember *m = &signal->members[k];
-        int to = is_cluster(d->set, m) ? 0 : image++;
+        int to = signal_cluster(d->set, m) >= 0 ? 0 : image++;
         for (int c = 0; c < 3; c++) {
             float *restrict plane = r->planes[3 * to + c], *restrict total = r->half[0][c];
             plane_gather(room->spare, d->set, m->part, c, x0, y0);
@@ -393,17 +385,22 @@ static float filtered_scale(const SignalRoom *r, const Denoiser *d, const Signal
     if (r->nclusters)
         members = r->sums[c][at->i];
     for (int k = 0; k < signal->nmembers; k++)
-        if (!is_cluster(d->set, &signal->members[k]))
+        if (signal_cluster(d->set, &signal->members[k]) < 0)
             members += signal->members[k].weight * r->sums[3 * image++ + c][at->i];
     return members > 0 ? total / members : 0;
 }
 
+/* How many steps to each side neighbours are, within the window. */
+static int neighbour_reach(const Denoiser *d)
+{
+    int reach = d->params.radius / NEIGHBOUR_STEP;
+    return reach > NEIGHBOUR_REACH ? NEIGHBOUR_REACH : reach;
+}
+
 static int find_neighbours(Neighbour *out, const Denoiser *d, const float *weights, const TilePixel *at)
 {
-    int count = 1, number = 0, reach = d->params.radius / NEIGHBOUR_STEP;
+    int count = 1, number = 0, reach = neighbour_reach(d);
     out[0] = (Neighbour){at->x, at->y, 1};
-    if (reach > NEIGHBOUR_REACH)
-        reach = NEIGHBOUR_REACH;
     for (int dy = -reach; dy <= reach; dy++)
         for (int dx = -reach; dx <= reach; dx++, number++) {
             float weight = weights[(size_t)number * DENOISE_PIXELS + at->i];
@@ -422,7 +419,7 @@ static void finish_signal(const SignalRoom *r, const Denoiser *d, const Signal *
         scale[c] = filtered_scale(r, d, signal, at, c, sums);
     for (int k = 0; k < signal->nmembers; k++) {
         const SignalMember *m = &signal->members[k];
-        if (is_cluster(d->set, m))
+        if (signal_cluster(d->set, m) >= 0)
             continue;
         float *to = band->parts[m->part] + 3 * ((size_t)(at->y - band->first) * (size_t)d->set->width + (size_t)at->x);
         for (int c = 0; c < 3; c++)
@@ -452,8 +449,7 @@ static void finish_pixel(const Denoiser *d, TileRoom *room, const TilePixel *at,
 /* Number of the neighbour at a displacement, or -1. */
 static int neighbour_number(const Denoiser *d, int dx, int dy)
 {
-    int reach = d->params.radius / NEIGHBOUR_STEP;
-    reach = reach > NEIGHBOUR_REACH ? NEIGHBOUR_REACH : reach;
+    int reach = neighbour_reach(d);
     if (dx % NEIGHBOUR_STEP || dy % NEIGHBOUR_STEP || abs(dx) > reach * NEIGHBOUR_STEP ||
         abs(dy) > reach * NEIGHBOUR_STEP)
         return -1;

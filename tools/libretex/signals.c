@@ -14,6 +14,15 @@ void factor_place(const RetexSet *set, int factor, int *target, RetexFootprintKi
     *kind = set->footprints[footprint].kind;
 }
 
+int signal_cluster(const RetexSet *set, const SignalMember *member)
+{
+    const RetexTerm *term = member->term < 0 ? NULL : &set->terms[member->term];
+    return term && term->nfactors == 1 && term->factors[0] >= 0 &&
+                   set->footprints[term->factors[0]].kind != RETEX_FOOTPRINT_HIT
+               ? term->factors[0]
+               : -1;
+}
+
 static void signal_name(const RetexSet *set, const Signal *signal, char name[RETEX_NAME_MAX])
 {
     static const char *const kinds[] = {"hit", "sharp", "broad", "later"};

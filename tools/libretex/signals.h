@@ -34,6 +34,10 @@ void signals_close(Signals *signals);
 /* A part of the set's size with so many channels: its index, or RETEX_ENOTFOUND or RETEX_EFORMAT. */
 int signals_find_part(const RetexSet *set, const char *name, int channels, RetexError *err);
 
+/* The footprint whose light alone a member is, a cluster's: its term has that one factor. Else -1, as always in
+ * layout paper. */
+int signal_cluster(const RetexSet *set, const SignalMember *member);
+
 /* Kind and target of what a term's factor lies on. */
 void factor_place(const RetexSet *set, int factor, int *target, RetexFootprintKind *kind);
 
