@@ -7,6 +7,7 @@
 #   make asan, tsan   the unit and command-line tests with the sanitizers
 #   make fuzz         mutated inputs with the sanitizers; FUZZ_SECONDS=60 for each kind of input
 #   make bench        ratios of speed: kernels against references, sets against plain renders
+#   make bench-render speed and error of rendering, against Cycles and against rays of Embree alone
 #   make fidelity     retextures against rendering again: docs/fidelity.md, docs/denoise.md; takes hours
 #   make fidelity-denoise   the second of these alone
 #   make pictures     the README's pictures, into docs/pictures; takes long

@@ -3,7 +3,7 @@ UNIT_TESTS := $(patsubst tests/unit/%.c,%,$(wildcard tests/unit/test_*.c))
 LIBTEST := $(BUILD)/tests/libtest.a
 FUZZ_PROGRAMS := $(patsubst tests/fuzz/%.c,$(BUILD)/tests/fuzz/%,$(wildcard tests/fuzz/fuzz_*.c))
 FUZZ_OBJECTS := $(patsubst %.c,$(BUILD)/obj/%.o,$(wildcard tests/fuzz/lib_*.c))
-BENCH_OBJECTS := $(patsubst %.c,$(BUILD)/obj/%.o,$(wildcard tests/bench/*.c))
+BENCH_OBJECTS := $(patsubst %.c,$(BUILD)/obj/%.o,$(wildcard tests/bench/bench*.c))
 TEST_PROGRAMS := $(patsubst tests/lib/%.c,$(BUILD)/tests/bin/%,$(wildcard tests/lib/make_*.c))
 
 $(BUILD)/test.mk: tools/setup.sh
@@ -35,6 +35,10 @@ $(BUILD)/tests/fuzz/fuzz_%: $(BUILD)/obj/tests/fuzz/fuzz_%.o $(FUZZ_OBJECTS) $(L
 	$(SAY)$(LINK) -Wl,-rpath,'$$ORIGIN/../../lib' $^ -o $@ $(RENDER_LIBS) $(LIBRETEX_LIBS)
 
 $(BUILD)/tests/bench/bench: $(BENCH_OBJECTS) $(LIBTEST) $(LIBRENDER) $(LIBRETEX) | $(BRIDGE)
+	@mkdir -p $(@D)
+	$(SAY)$(LINK) -Wl,-rpath,'$$ORIGIN/../../lib' $^ -o $@ $(RENDER_LIBS) $(LIBRETEX_LIBS)
+
+$(BUILD)/tests/bench/embree_rays: $(BUILD)/obj/tests/bench/embree_rays.o $(LIBTEST) $(LIBRENDER) $(LIBRETEX) | $(BRIDGE)
 	@mkdir -p $(@D)
 	$(SAY)$(LINK) -Wl,-rpath,'$$ORIGIN/../../lib' $^ -o $@ $(RENDER_LIBS) $(LIBRETEX_LIBS)
 
@@ -78,6 +82,11 @@ fuzz-programs: $(FUZZ_PROGRAMS) $(TEST_PROGRAMS)
 bench: $(BUILD)/tests/bench/bench
 	@mkdir -p $(BUILD)/bench
 	@$< scenes $(BUILD)/bench
+
+# Rendering against Cycles, where blender is there, and against Embree alone: $(BUILD)/bench/render.txt.
+.PHONY: bench-render
+bench-render: all $(BUILD)/tests/bench/embree_rays
+	@BUILD=$(BUILD) tests/bench/render/run.sh
 
 # Retextures against rendering again, in all scenes: docs/fidelity.md; then what denoising gains: docs/denoise.md. Takes
 # hours; FIDELITY_… and DENOISE_… of the scripts choose less.
