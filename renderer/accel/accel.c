@@ -1,12 +1,13 @@
 /* Ray queries through Embree: the only file that knows it. Builds with Embree 3 and 4.
  *
  * Embree works in float; this renderer asks for double positions and for rays that never meet the surface they leave.
- * So Embree only proposes: a filter function refuses every triangle whose distance, in double, lies outside the ray's
- * own double range (float is asked first, and is enough but for hits near its ends). A ray that starts on a triangle's
- * plane, within the rounding error of the plane's equation, does not meet it, however large the triangle. Curved shapes
- * are user geometry and double throughout. Boxes and meshes are one triangle geometry in world space; planes, which
- * have no bounds, are tested one by one. Visibility by kind of ray is decided in the same places: Embree may be built
- * without masks.
+ * So Embree only proposes. A triangle it finds is checked in double against its plane: one that lies outside the ray's
+ * own double range, or on whose plane the ray starts (within the rounding error of the plane's equation, however large
+ * the triangle), is passed, and the ray goes on behind it. That happens rarely, for rays start off the surface they
+ * leave by more than float's rounding (accel_offset). Occlusion, which stops at any triangle, asks a filter function
+ * instead. Curved shapes are user geometry and double throughout. Boxes and meshes are one triangle geometry in world
+ * space; planes, which have no bounds, are tested one by one. Visibility by kind of ray is decided in the same places:
+ * Embree may be built without masks.
  *
  * The scene is ROBUST: it costs a quarter, but without it 6 in 100 rays aimed at an edge between two triangles, and 1
  * in 100 000 at random, pass through. */
@@ -32,14 +33,17 @@ typedef struct RTCIntersectContext QueryContext;
 #define SPATIAL_SPLIT_LIMIT 4000000 /* triangles: beyond it building would take too long for what tracing gains */
 
 typedef struct Triangle {
-    int32_t primitive, face;
+    Vec3 normal;   /* of unit length, outward */
+    double offset; /* normal . p on its plane */
+    int32_t primitive;
+    uint32_t face : 31, interpolated : 1; /* interpolated: it has normals or UVs */
 } Triangle;
 
 struct Accel {
     RTCDevice device;
     RTCScene scene;
     const Scene *source;
-    Vec3 *vertices; /* of all triangles, world space */
+    Vec3 *vertices; /* of all triangles, world space; Embree has them in float */
     uint32_t (*corners)[3];
     Triangle *triangles;
     size_t nvertices, ntriangles;
@@ -58,11 +62,9 @@ typedef struct Query {
     QueryContext context;
     const Accel *accel;
     const Ray *ray;
-    unsigned kind, refused;       /* flags a primitive must and must not have */
-    double origin_size;           /* its largest coordinate */
-    float clear_height;           /* a plane further from the origin than this is met for certain, */
-    float clear_start, clear_end; /* and within the range for certain between these */
-    double t;                     /* of the nearest curved shape so far */
+    unsigned kind, refused; /* flags a primitive must and must not have */
+    double rounding;        /* a plane whose height over the origin is this small goes through it */
+    double t;               /* of the nearest curved shape so far */
     int face;
 } Query;
 
@@ -85,22 +87,17 @@ static inline double largest(Vec3 a)
     return larger(fabs(a.x), larger(fabs(a.y), fabs(a.z)));
 }
 
-/* Distance to the triangle's plane; 0 where the ray runs along it or starts on it. */
-static int plane_distance(const Query *query, size_t triangle, double *t)
+/* Distance to the triangle's plane; 0 where the ray runs along it or starts on it, or is not to see the triangle. */
+static int triangle_distance(const Query *query, const Triangle *triangle, double *t)
 {
-    const Accel *accel = query->accel;
     const Ray *ray = query->ray;
-    const uint32_t *corner = accel->corners[triangle];
-    Vec3 v0 = accel->vertices[corner[0]], to = vec_sub(v0, ray->origin);
-    Vec3 n = vec_cross(vec_sub(accel->vertices[corner[1]], v0), vec_sub(accel->vertices[corner[2]], v0));
-    double height = vec_dot(n, to), fall = vec_dot(n, ray->direction);
-    /* Every coordinate that went into the height is at most this. */
-    double size = 2 * (accel->reach + query->origin_size);
+    Vec3 n = triangle->normal;
+    double height = triangle->offset - vec_dot(n, ray->origin), fall = vec_dot(n, ray->direction);
 
-    if (fabs(height) <= 8 * DBL_EPSILON * size * (fabs(n.x) + fabs(n.y) + fabs(n.z)) || fall == 0)
+    if (fabs(height) <= query->rounding * (fabs(n.x) + fabs(n.y) + fabs(n.z)) || fall == 0)
         return 0;
     *t = height / fall;
-    return 1;
+    return *t > ray->tmin && *t < ray->tmax && visible(query, triangle->primitive);
 }
 
 /* Barycentrics of where the ray meets the plane, pulled into the triangle: Embree has decided that it is inside. */
@@ -119,33 +116,19 @@ static void barycentrics(const Accel *accel, size_t triangle, const Ray *ray, do
         b1 /= sum;
         b2 /= sum;
     }
-    hit->b1 = (float)b1;
-    hit->b2 = (float)b2;
+    hit->b1 = b1;
+    hit->b2 = b2;
 }
 
 /* ---- callbacks ---- */
 
-/* Most hits are far from all limits, and float is enough to tell. */
-static int clearly_met(const Query *query, const struct RTCRay *ray, const struct RTCHit *hit)
-{
-    float fall = hit->Ng_x * ray->dir_x + hit->Ng_y * ray->dir_y + hit->Ng_z * ray->dir_z, height = ray->tfar * fall;
-    float nn = hit->Ng_x * hit->Ng_x + hit->Ng_y * hit->Ng_y + hit->Ng_z * hit->Ng_z;
-
-    return height * height > query->clear_height * query->clear_height * nn && ray->tfar > query->clear_start &&
-           ray->tfar < query->clear_end;
-}
-
 /* Called for single rays only, so N is 1. */
-static void filter_triangle(const struct RTCFilterFunctionNArguments *args)
+static void filter_occluder(const struct RTCFilterFunctionNArguments *args)
 {
     const Query *query = (const Query *)args->context;
-    const struct RTCHit *hit = (const struct RTCHit *)args->hit;
     double t;
 
-    if (!visible(query, query->accel->triangles[hit->primID].primitive))
-        args->valid[0] = 0;
-    else if (!clearly_met(query, (const struct RTCRay *)args->ray, hit) &&
-             !(plane_distance(query, hit->primID, &t) && t > query->ray->tmin && t < query->ray->tmax))
+    if (!triangle_distance(query, &query->accel->triangles[((const struct RTCHit *)args->hit)->primID], &t))
         args->valid[0] = 0;
 }
 
@@ -295,23 +278,27 @@ static int finite_point(Vec3 p)
     return isfinite(p.x) && isfinite(p.y) && isfinite(p.z);
 }
 
-static int has_area(const Accel *accel, const uint32_t corner[3])
+/* Left out where it has no area. */
+static void add_triangle(Accel *accel, size_t *count, size_t base, const int corner[3], int index, int face)
 {
-    Vec3 v0 = accel->vertices[corner[0]];
-    Vec3 n = vec_cross(vec_sub(accel->vertices[corner[1]], v0), vec_sub(accel->vertices[corner[2]], v0));
-
-    return vec_dot(n, n) > 0;
-}
-
-static void add_triangle(Accel *accel, size_t *count, size_t base, const int corner[3], int primitive, int face)
-{
+    const Primitive *primitive = &accel->source->primitives[index];
+    const MeshFace *f = primitive->kind == SHAPE_MESH ? &primitive->mesh->faces[face] : NULL;
     uint32_t *out = accel->corners[*count];
+    Vec3 at[3], n;
 
-    for (int k = 0; k < 3; k++)
+    for (int k = 0; k < 3; k++) {
         out[k] = (uint32_t)(base + (size_t)corner[k]);
-    if (!has_area(accel, out))
+        at[k] = accel->vertices[out[k]];
+    }
+    n = vec_cross(vec_sub(at[1], at[0]), vec_sub(at[2], at[0]));
+    if (!(vec_dot(n, n) > 0))
         return;
-    accel->triangles[*count] = (Triangle){primitive, face};
+    n = triangle_normal(primitive, face, at);
+    accel->triangles[*count] = (Triangle){.normal = n,
+                                          .offset = vec_dot(n, at[0]),
+                                          .primitive = index,
+                                          .face = (uint32_t)face,
+                                          .interpolated = f && (mesh_face_has_normals(f) || mesh_face_has_uvs(f))};
     ++*count;
 }
 
@@ -360,8 +347,7 @@ static int add_triangle_geometry(Accel *accel, RetexError *err)
     }
     rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, accel->corners, 0,
                                3 * sizeof(uint32_t), accel->ntriangles);
-    rtcSetGeometryIntersectFilterFunction(geometry, filter_triangle);
-    rtcSetGeometryOccludedFilterFunction(geometry, filter_triangle);
+    rtcSetGeometryOccludedFilterFunction(geometry, filter_occluder);
     rtcCommitGeometry(geometry);
     accel->triangle_geometry = rtcAttachGeometry(accel->scene, geometry);
     rtcReleaseGeometry(geometry);
@@ -492,11 +478,8 @@ static struct RTCRay start_query(Query *query, const Accel *accel, const Ray *ra
     query->ray = ray;
     query->kind = (unsigned)kind;
     query->refused = skip_transparent ? TRANSPARENT : 0;
-    query->origin_size = origin_size;
-    /* Float is off by about 1e-7 of the coordinates: at this height, by FLOAT_DOUBT of the distance at the most. */
-    query->clear_height = (float)(1e-4 * (accel->reach + origin_size));
-    query->clear_start = (float)(ray->tmin > 0 ? ray->tmin + doubt_start : 0);
-    query->clear_end = ray->tmax < INFINITY ? (float)(ray->tmax - doubt_end) : INFINITY;
+    /* Every coordinate that goes into the height is at most the sum of both. */
+    query->rounding = 16 * DBL_EPSILON * (accel->reach + origin_size);
     query->t = INFINITY;
     query->face = 0;
     return (struct RTCRay){.org_x = (float)ray->origin.x,
@@ -557,35 +540,61 @@ static int nearest_plane(const Query *query, double *limit, int any)
     return found;
 }
 
+/* Is the triangle that Embree found one that the ray meets? */
+static int accept_triangle(const Query *query, unsigned index, Hit *hit)
+{
+    const Accel *accel = query->accel;
+    const Triangle *triangle = &accel->triangles[index];
+
+    if (!triangle_distance(query, triangle, &hit->t))
+        return 0;
+    hit->primitive = triangle->primitive;
+    hit->face = (int)triangle->face;
+    hit->normal = triangle->normal;
+    hit->b1 = hit->b2 = 0;
+    if (triangle->interpolated)
+        barycentrics(accel, index, query->ray, hit->t, hit);
+    return 1;
+}
+
+/* Let the ray look for what is further away than what it found. */
+static void go_behind(struct RTCRayHit *rayhit, float end)
+{
+    rayhit->ray.tnear = nextafterf(rayhit->ray.tfar, INFINITY);
+    rayhit->ray.tfar = end;
+    rayhit->hit.geomID = RTC_INVALID_GEOMETRY_ID;
+}
+
 int accel_intersect(const Accel *accel, const Ray *ray, RayKind kind, Hit *hit)
 {
     Query query;
     struct RTCRayHit rayhit;
     double limit = ray->tmax;
+    float end;
     int plane;
 
-    *hit = (Hit){.primitive = -1};
+    hit->primitive = -1;
     if (!can_be_traced(ray))
         return 0;
     rayhit.ray = start_query(&query, accel, ray, kind, 0);
+    end = rayhit.ray.tfar;
     rayhit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     rayhit.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-    trace(&query, &rayhit);
-    if (rayhit.hit.geomID != RTC_INVALID_GEOMETRY_ID) {
+    for (trace(&query, &rayhit); rayhit.hit.geomID != RTC_INVALID_GEOMETRY_ID; trace(&query, &rayhit)) {
         unsigned index = rayhit.hit.primID;
         if (rayhit.hit.geomID == accel->curved_geometry) {
-            *hit = (Hit){.t = query.t, .primitive = accel->curved[index], .face = query.face};
-        } else if (plane_distance(&query, index, &hit->t)) {
-            hit->primitive = accel->triangles[index].primitive;
-            hit->face = accel->triangles[index].face;
-            barycentrics(accel, index, ray, hit->t, hit);
+            hit->t = query.t, hit->primitive = accel->curved[index], hit->face = query.face;
+            break;
         }
-        if (hit->primitive >= 0)
-            limit = hit->t;
+        if (accept_triangle(&query, index, hit))
+            break;
+        go_behind(&rayhit, end);
     }
+    if (hit->primitive >= 0)
+        limit = hit->t;
     plane = accel->nplanes ? nearest_plane(&query, &limit, 0) : -1;
     if (plane >= 0)
-        *hit = (Hit){.t = limit, .primitive = plane};
+        hit->t = limit, hit->primitive = plane, hit->face = 0;
     return hit->primitive >= 0;
 }
 
@@ -622,9 +631,10 @@ void accel_bounds(const Accel *accel, Vec3 *low, Vec3 *high)
 
 Vec3 accel_offset(Vec3 position, Vec3 geometric_normal, Vec3 direction)
 {
-    /* Positions are good to about 1e-15 of the coordinates they were made from, which may be larger than those of the
-     * point itself: hence the floor. Intersections are in double, so far less than a float's rounding is enough. */
-    double distance = 1e-9 * fmax(largest(position), 1e-2);
+    /* A few roundings of a float, so that Embree seldom proposes the surface that is left. What decides is in double:
+     * positions are good to about 1e-15 of the coordinates they were made from, which may be larger than those of the
+     * point itself; hence the floor. */
+    double distance = larger(4e-7 * largest(position), 1e-11);
 
     return vec_mad(position, geometric_normal, vec_dot(direction, geometric_normal) < 0 ? -distance : distance);
 }

@@ -36,6 +36,19 @@ static inline void vec_frame(Vec3 n, Vec3 *s, Vec3 *t)
     *t = vec3(b, sign + n.y * n.y * a, -n.y);
 }
 
+/* Sine and cosine of u turns, u in [0, 1), to 1e-11: for directions, where libm's call is the dearest part. */
+static inline void turn_sincos(double u, double *sine, double *cosine)
+{
+    int quarter = (int)(4 * u + 0.5);
+    double f = (4 * u - quarter) * (PI / 2), f2 = f * f;
+    double s = f * (1 + f2 * (-1.0 / 6 + f2 * (1.0 / 120 + f2 * (-1.0 / 5040 + f2 * (1.0 / 362880 - f2 / 39916800)))));
+    double c = 1 + f2 * (-1.0 / 2 + f2 * (1.0 / 24 + f2 * (-1.0 / 720 + f2 * (1.0 / 40320 +
+               f2 * (-1.0 / 3628800 + f2 / 479001600)))));
+    double y = quarter & 1 ? c : s, x = quarter & 1 ? s : c;
+    *sine = quarter & 2 ? -y : y;
+    *cosine = (quarter + 1) & 2 ? -x : x;
+}
+
 static inline Rgb rgb(float r, float g, float b) { return (Rgb){r, g, b}; }
 static inline Rgb rgb_grey(float v) { return rgb(v, v, v); }
 static inline Rgb rgb_add(Rgb a, Rgb b) { return rgb(a.r + b.r, a.g + b.g, a.b + b.b); }

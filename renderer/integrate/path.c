@@ -308,14 +308,13 @@ static int light_factors(PathWorker *w, LightSample *light, Factor *factors)
     return 1;
 }
 
-static void sample_light(PathWorker *w, const Path *path, const Shading *s, const Sampler *sampler, uint32_t dimension)
+static void sample_light(PathWorker *w, const Path *path, const Shading *s, const VertexSamples *u)
 {
     const PathContext *c = w->context;
-    float u_pick, u_part, u1, u2, pdf;
+    float pdf;
     LightSample light;
-    sampler_pair(sampler, dimension + VERTEX_LIGHT_CHOICE, &u_pick, &u_part);
-    sampler_pair(sampler, dimension + VERTEX_LIGHT_POINT, &u1, &u2);
-    if (!lights_sample(c->lights, s->surface.position, u_pick, u_part, u1, u2, &light))
+    if (!lights_sample(c->lights, s->surface.position, u->light_choice, u->light_part, u->light_point_u,
+                       u->light_point_v, &light))
         return;
     int source = light.kind == LIGHT_SAMPLE_SOURCE;
     Split f = bsdf_eval(&s->bsdf, light.direction, source, &pdf);
@@ -377,14 +376,11 @@ static void hit_sky(PathWorker *w, const Path *path, Vec3 direction)
 }
 
 /* Choose where the path goes on from a hit at a distance along the ray. Returns 0 where it ends. */
-static int scatter(PathWorker *w, Path *path, const Shading *s, double distance, const Sampler *sampler,
-                   uint32_t dimension, Ray *ray, int *straight)
+static int scatter(PathWorker *w, Path *path, const Shading *s, double distance, const VertexSamples *u, Ray *ray,
+                   int *straight)
 {
-    float u_lobe, u_roulette, u1, u2;
     BsdfSample next;
-    sampler_pair(sampler, dimension + VERTEX_LOBE, &u_lobe, &u_roulette);
-    sampler_pair(sampler, dimension + VERTEX_DIRECTION, &u1, &u2);
-    if (!bsdf_sample(&s->bsdf, u_lobe, u1, u2, &next))
+    if (!bsdf_sample(&s->bsdf, u->lobe, u->direction_u, u->direction_v, &next))
         return 0;
     Factor factor = shading_factor(s, next.weight);
     factor.reflects = !next.transmitted;
@@ -406,7 +402,7 @@ static int scatter(PathWorker *w, Path *path, const Shading *s, double distance,
         path->from = s->surface.position;
         if (path->segments >= ROULETTE_START) {
             float survive = fminf(0.95f, path->neutral);
-            if (u_roulette >= survive)
+            if (u->roulette >= survive)
                 return 0;
             scale_path(w->context, path, rgb_grey(1 / survive));
             path->neutral /= survive;
@@ -460,6 +456,7 @@ void path_trace(PathWorker *w, Ray ray, const Sampler *sampler)
     expansion_reset(&path.expansion);
     Hit hit;
     Shading s;
+    VertexSamples u;
     int straight = 0, passed = 0;
     for (;;) {
         w->segments++;
@@ -478,10 +475,10 @@ void path_trace(PathWorker *w, Ray ray, const Sampler *sampler)
         int last = path.segments >= c->max_depth; /* but what is passed straight is no segment of its own */
         if (last && (s.bsdf.p_passing <= 0 || s.bsdf.refracts))
             break;
-        uint32_t dimension = DIMENSION_PATH + (uint32_t)(path.segments + passed - 1) * DIMENSIONS_PER_VERTEX;
+        vertex_samples(&w->keys, sampler, (unsigned)(path.segments + passed - 1), &u);
         if (!last)
-            sample_light(w, &path, &s, sampler, dimension);
-        if (!scatter(w, &path, &s, hit.t, sampler, dimension, &ray, &straight) || (last && !straight))
+            sample_light(w, &path, &s, &u);
+        if (!scatter(w, &path, &s, hit.t, &u, &ray, &straight) || (last && !straight))
             break;
         if (straight && ++passed > STRAIGHT_MAX)
             break;

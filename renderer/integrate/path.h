@@ -6,7 +6,7 @@
 #include "film/control.h"
 #include "film/film.h"
 #include "integrate/render.h"
-#include "integrate/sampler.h"
+#include "integrate/vertex_samples.h"
 #include "light/lights.h"
 #include "shade/bsdf.h"
 
@@ -34,6 +34,7 @@ typedef struct PathWorker {
     RenderVariant own[CONTROL_VARIANTS_MAX]; /* variants, where they have constants by pixel */
     Rgb constants[RETEX_MAX_TARGETS];        /* of the pixel in hand */
     Expansion scratch;    /* a path's expansion with a connection's own hits */
+    PixelKeys keys;
     long segments, shadow_rays;
     /* Colours of variants at a sampled light and at what a shadow ray passes. */
     Rgb light_albedos[VARIANTS_MAX], shadow_albedos[SHADOW_FACTORS_MAX][VARIANTS_MAX];

@@ -13,15 +13,16 @@ static Rgb replaced_color(const Shading *s, const RetexTexture *replacement)
 Vec2 surface_target_uv(const Surface *surface)
 {
     const Pigment *pigment = surface->texture->pigment;
-    return target_uv(pigment, surface->position, surface->geometric_normal, pigment->uv_mapping ? &surface->uv : NULL,
-                     surface->has_natural ? &surface->natural : NULL);
+    SurfaceUv of = surface_uv(surface);
+    return target_uv(pigment, surface->position, surface->geometric_normal, pigment->uv_mapping ? &of.uv : NULL,
+                     of.has_natural ? &of.natural : NULL);
 }
 
 void shading_color(Shading *s, const RenderVariant *variants, int nvariants)
 {
     const Surface *surface = &s->surface;
     const Pigment *pigment = surface->texture->pigment;
-    Rgbft c = pigment_eval(pigment, surface->position, surface->uv);
+    Rgbft c = pigment_eval(pigment, surface->position, pigment->uv_mapping ? surface_uv(surface).uv : (Vec2){0, 0});
     s->albedo = rgb(fmaxf(c.r, 0), fmaxf(c.g, 0), fmaxf(c.b, 0));
     s->filter = fmaxf(c.filter, 0), s->transmit = fmaxf(c.transmit, 0);
     s->replaced = 0;

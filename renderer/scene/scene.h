@@ -139,6 +139,12 @@ typedef struct Mesh {
     int inward;              /* 1: the faces' winding (edge 01 x edge 02) points inside; set from mesh_winds_inward */
 } Mesh;
 
+static inline int mesh_face_has_normals(const MeshFace *f)
+{
+    return f->normal[0] >= 0 && f->normal[1] >= 0 && f->normal[2] >= 0;
+}
+static inline int mesh_face_has_uvs(const MeshFace *f) { return f->uv[0] >= 0 && f->uv[1] >= 0 && f->uv[2] >= 0; }
+
 typedef struct Primitive {
     ShapeKind kind;
     double r0, r1;           /* see ShapeKind */

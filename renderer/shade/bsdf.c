@@ -123,9 +123,24 @@ static Split eval_reflection(const Bsdf *b, Vec3 wi, double cos_i, int light_sou
     return sum;
 }
 
+static Split eval_lambert(const Bsdf *b, Vec3 wi, float *pdf)
+{
+    float cosine = (float)vec_dot(wi, b->normal);
+    int back = cosine < 0;
+    Split none = {{0, 0, 0}, {0, 0, 0}};
+    *pdf = 0;
+    if (cosine == 0 || (vec_dot(wi, b->geometric) < 0) != back)
+        return none;
+    cosine = fabsf(cosine) / (float)PI;
+    *pdf = (back ? b->p_back : b->p_diffuse) * cosine;
+    return (Split){rgb_grey((back ? b->diffuse_back : b->diffuse) * cosine), {0, 0, 0}};
+}
+
 Split bsdf_eval(const Bsdf *b, Vec3 wi, int light_source, float *pdf)
 {
     Split sum = {{0, 0, 0}, {0, 0, 0}};
+    if (b->lambert)
+        return eval_lambert(b, wi, pdf);
     double cos_i = vec_dot(wi, b->normal), side = vec_dot(wi, b->geometric);
     *pdf = 0;
     if (cos_i > 0 && side > 0)
@@ -146,8 +161,30 @@ Split bsdf_eval(const Bsdf *b, Vec3 wi, int light_source, float *pdf)
 
 static Vec3 cosine_direction(const Bsdf *b, float u1, float u2)
 {
-    double r = sqrt(u1), phi = 2 * PI * u2;
-    return to_world(b, vec3(r * cos(phi), r * sin(phi), sqrt(fmax(0, 1 - u1))));
+    double r = sqrt(u1), sine, cosine;
+    Vec3 s, t;
+    turn_sincos(u2, &sine, &cosine);
+    vec_frame(b->normal, &s, &t);
+    return vec_mad(vec_mad(vec_scale(b->normal, sqrt(1 - u1)), s, r * cosine), t, r * sine);
+}
+
+/* Value and density are the same but for a factor. */
+static int sample_lambert(const Bsdf *b, float u_lobe, float u1, float u2, BsdfSample *sample)
+{
+    int back = u_lobe >= b->p_diffuse;
+    float p = back ? b->p_back : b->p_diffuse;
+    if (p <= 0)
+        return 0;
+    Vec3 wi = cosine_direction(b, u1, u2);
+    float cosine = (float)vec_dot(wi, b->normal);
+    sample->wi = back ? vec_mad(wi, b->normal, -2 * (double)cosine) : wi;
+    if (cosine <= 0 || (vec_dot(sample->wi, b->geometric) > 0) == back)
+        return 0;
+    sample->weight = (Split){rgb_grey((back ? b->diffuse_back : b->diffuse) / p), {0, 0, 0}};
+    sample->pdf = p * cosine / (float)PI;
+    sample->transmitted = back;
+    sample->straight = 0;
+    return 1;
 }
 
 static Vec3 reflect(Vec3 wo, Vec3 n)
@@ -212,6 +249,8 @@ static int sample_passing(const Bsdf *b, BsdfSample *sample)
 
 int bsdf_sample(const Bsdf *b, float u_lobe, float u1, float u2, BsdfSample *sample)
 {
+    if (b->lambert)
+        return sample_lambert(b, u_lobe, u1, u2, sample);
     *sample = (BsdfSample){0};
     float u = u_lobe;
     if ((u -= b->p_mirror) < 0)

@@ -23,10 +23,12 @@ static inline Rgb split_apply(Split s, Rgb albedo) { return rgb_add(rgb_mul(s.d,
 static inline float split_neutral(Split s) { return rgb_luminance(split_apply(s, rgb_grey(NEUTRAL_ALBEDO))); }
 
 typedef struct Bsdf {
-    Vec3 normal, s, t;       /* shading frame; normal on wo's side */
+    Vec3 normal;             /* shading normal on wo's side */
+    Vec3 s, t;               /* with it the frame of the microfacet lobe; 0 without one */
     Vec3 geometric;          /* geometric normal on wo's side */
     Vec3 wo;
     double cos_o;            /* dot(wo, normal), > 0 */
+    int lambert;             /* there are only diffuse lobes, of brilliance 1 */
     float eta;               /* index of refraction on the far side over that on wo's side */
     int refracts;            /* eta matters: transmission bends */
 

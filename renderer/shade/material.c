@@ -138,6 +138,23 @@ static void setup_choice(Bsdf *b)
     b->p_mirror = w[3] / sum, b->p_passing = w[4] / sum;
 }
 
+/* Most surfaces: nothing but diffuse, on either side. */
+static int finish_is_lambert(const Finish *f)
+{
+    return !f->retex.present && f->specular <= 0 && f->phong <= 0 && f->brilliance == 1 &&
+           rgb_is_black(f->reflection_min) && rgb_is_black(f->reflection_max);
+}
+
+static void setup_lambert(Bsdf *b, const Finish *f)
+{
+    b->lambert = 1;
+    b->diffuse = fmaxf(0, (float)f->diffuse);
+    b->diffuse_back = fmaxf(0, (float)f->diffuse_back);
+    float sum = b->diffuse + b->diffuse_back;
+    if (sum > 0)
+        b->p_diffuse = b->diffuse / sum, b->p_back = b->diffuse_back / sum;
+}
+
 void bsdf_setup(Bsdf *b, const Surface *surface, Vec3 wo, float filter, float transmit)
 {
     const Finish *finish = surface->texture->finish;
@@ -152,16 +169,21 @@ void bsdf_setup(Bsdf *b, const Surface *surface, Vec3 wo, float filter, float tr
         b->cos_o = fmax(1e-4, vec_dot(wo, b->normal));
     }
     b->cos_o = fmin(1, b->cos_o);
-    vec_frame(b->normal, &b->s, &b->t);
     double ior = finish_transmits(finish)    ? finish->retex.ior
                  : interior_bends(primitive) ? primitive->interior->ior
                                              : 1;
     b->refracts = ior != 1;
     int transparent = filter + transmit > 0 || finish_transmits(finish);
     b->eta = (float)(surface->backside && transparent ? 1 / ior : ior); /* an opaque sheet has a coat on both sides */
+    if (!transparent && finish_is_lambert(finish)) {
+        setup_lambert(b, finish);
+        return;
+    }
     if (finish->retex.present)
         setup_disney(b, finish, filter, transmit);
     else
         setup_povray(b, finish, filter, transmit);
     setup_choice(b);
+    if (b->alpha > 0)
+        vec_frame(b->normal, &b->s, &b->t);
 }

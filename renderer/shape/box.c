@@ -32,7 +32,15 @@ void box_point(Vec3 p, int face, ShapePoint *out)
     out->normal = vec3(face >> 1 == 0, face >> 1 == 1, face >> 1 == 2);
     if (face % 2 == 0)
         out->normal = vec_neg(out->normal);
-    out->shading = out->normal;
+}
+
+void box_uv(Vec3 p, int face, ShapeUv *out)
+{
+    ShapePoint on;
+    double x, y, z;
+
+    box_point(p, face, &on);
+    x = on.p.x, y = on.p.y, z = on.p.z;
     /* POV-Ray unfolds the box into a cross, 4 by 3 fields: -x +z +x -z from left to right in the middle row, the bottom
      * below +z and the top above it. */
     switch (face) {

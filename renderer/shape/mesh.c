@@ -19,24 +19,29 @@ static Vec3 winding_normal(const Mesh *mesh, const int vertex[3])
 void mesh_point(const Mesh *mesh, int face, double b1, double b2, ShapePoint *out)
 {
     const MeshFace *f = &mesh->faces[face];
-    double b0 = 1 - b1 - b2;
-    Vec3 n = winding_normal(mesh, f->vertex), smooth = {0, 0, 0};
+    Vec3 n = winding_normal(mesh, f->vertex);
+    double third = 1.0 / 3;
+    int turn = mesh->inward;
 
-    out->p = interpolate(mesh->vertices, f->vertex, b0, b1, b2);
-    if (f->normal[0] >= 0 && f->normal[1] >= 0 && f->normal[2] >= 0) {
-        double third = 1.0 / 3;
-        if (vec_dot(interpolate(mesh->normals, f->normal, third, third, third), n) < 0)
-            n = vec_neg(n);
-        smooth = vec_normalize(interpolate(mesh->normals, f->normal, b0, b1, b2));
-        if (vec_dot(smooth, n) < 0)
-            smooth = vec_neg(smooth);
-    } else if (mesh->inward) {
-        n = vec_neg(n);
-    }
-    out->normal = n;
-    /* Normals that cancel out, or lie in the face, tell nothing: the face's own stands in. */
-    out->shading = fabs(vec_dot(smooth, vec_normalize(n))) > 1e-6 ? smooth : n;
-    out->has_uv = out->has_natural = f->uv[0] >= 0 && f->uv[1] >= 0 && f->uv[2] >= 0;
+    if (mesh_face_has_normals(f))
+        turn = vec_dot(interpolate(mesh->normals, f->normal, third, third, third), n) < 0;
+    out->p = interpolate(mesh->vertices, f->vertex, 1 - b1 - b2, b1, b2);
+    out->normal = turn ? vec_neg(n) : n;
+}
+
+Vec3 mesh_shading_normal(const Mesh *mesh, int face, double b1, double b2)
+{
+    const MeshFace *f = &mesh->faces[face];
+
+    return mesh_face_has_normals(f) ? interpolate(mesh->normals, f->normal, 1 - b1 - b2, b1, b2) : vec3(0, 0, 0);
+}
+
+void mesh_uv(const Mesh *mesh, int face, double b1, double b2, ShapeUv *out)
+{
+    const MeshFace *f = &mesh->faces[face];
+    double b0 = 1 - b1 - b2;
+
+    out->has_uv = out->has_natural = mesh_face_has_uvs(f);
     if (out->has_uv) {
         const Vec2 *a = &mesh->uvs[f->uv[0]], *b = &mesh->uvs[f->uv[1]], *c = &mesh->uvs[f->uv[2]];
         out->uv.u = b0 * a->u + b1 * b->u + b2 * c->u;

@@ -71,11 +71,13 @@ int sphere_hit(const ShapeRay *ray, double *t)
 
 void sphere_point(Vec3 p, ShapePoint *out)
 {
-    double rho;
+    out->p = out->normal = vec_normalize(p);
+}
 
-    p = vec_normalize(p);
-    rho = hypot(p.x, p.z);
-    out->p = out->normal = out->shading = p;
+void sphere_uv(Vec3 p, ShapeUv *out)
+{
+    double rho = hypot(p.x, p.z);
+
     out->uv.u = rho > 0 ? turn_of(p.x, p.z) : 0;
     out->uv.v = 0.5 + atan2(p.y, rho) / PI;
     out->natural = out->uv;
@@ -95,8 +97,7 @@ int plane_hit(const ShapeRay *ray, double *t)
 void plane_point(Vec3 p, ShapePoint *out)
 {
     out->p = vec3(p.x, 0, p.z);
-    out->normal = out->shading = vec3(0, 1, 0);
-    out->has_uv = out->has_natural = 0;
+    out->normal = vec3(0, 1, 0);
 }
 
 /* ---- disc ---- */
@@ -126,10 +127,14 @@ static Vec2 square_round(Vec3 p, double radius)
     return radius > 0 ? (Vec2){0.5 + p.x / (2 * radius), 0.5 + p.y / (2 * radius)} : (Vec2){0.5, 0.5};
 }
 
-void disc_point(const Primitive *primitive, Vec3 p, ShapePoint *out)
+void disc_point(Vec3 p, ShapePoint *out)
 {
     out->p = vec3(p.x, p.y, 0);
-    out->normal = out->shading = vec3(0, 0, 1);
+    out->normal = vec3(0, 0, 1);
+}
+
+void disc_uv(const Primitive *primitive, Vec3 p, ShapeUv *out)
+{
     out->natural = square_round(p, primitive->r0);
     out->has_uv = 0;
     out->has_natural = 1;
@@ -192,12 +197,9 @@ void cone_point(const Primitive *primitive, Vec3 p, int face, ShapePoint *out)
 {
     double slope = primitive->r1 - primitive->r0, rho = hypot(p.x, p.y), radius;
 
-    out->has_uv = 0;
-    out->has_natural = 1;
     if (face) {
         out->p = vec3(p.x, p.y, face - 1);
-        out->normal = out->shading = vec3(0, 0, face == 1 ? -1 : 1);
-        out->natural = square_round(p, face == 1 ? primitive->r0 : primitive->r1);
+        out->normal = vec3(0, 0, face == 1 ? -1 : 1);
         return;
     }
     p.z = fmin(fmax(p.z, 0), 1);
@@ -210,6 +212,14 @@ void cone_point(const Primitive *primitive, Vec3 p, int face, ShapePoint *out)
         out->p = p;
         out->normal = vec3(0, 0, slope < 0 ? 1 : -1);
     }
-    out->shading = out->normal;
-    out->natural = (Vec2){turn_of(p.x, p.y), p.z};
+}
+
+void cone_uv(const Primitive *primitive, Vec3 p, int face, ShapeUv *out)
+{
+    out->has_uv = 0;
+    out->has_natural = 1;
+    if (face)
+        out->natural = square_round(p, face == 1 ? primitive->r0 : primitive->r1);
+    else
+        out->natural = (Vec2){turn_of(p.x, p.y), fmin(fmax(p.z, 0), 1)};
 }

@@ -288,7 +288,7 @@ void shape_sample(const Primitive *primitive, const Scene *scene, int face, doub
     case SHAPE_DISC:
         face = 0;
         root = sqrt(r1 * r1 + u1 * (r0 * r0 - r1 * r1));
-        disc_point(primitive, vec3(root * cos(angle), root * sin(angle), 0), &point);
+        disc_point(vec3(root * cos(angle), root * sin(angle), 0), &point);
         break;
     case SHAPE_MESH:
         mesh_point(primitive->mesh, face, root * (1 - u2), root * u2, &point);
@@ -305,5 +305,7 @@ void shape_sample(const Primitive *primitive, const Scene *scene, int face, doub
         break;
     }
     surface_from_point(surface, primitive, face, &point);
+    if (primitive->kind == SHAPE_MESH)
+        surface->b1 = root * (1 - u2), surface->b2 = root * u2;
     *pdf_area = pdf_at(primitive, point.p, face);
 }

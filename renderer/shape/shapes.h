@@ -25,11 +25,14 @@ typedef struct ShapeRay {
 /* A point on the shape. */
 typedef struct ShapePoint {
     Vec3 p, normal;  /* canonical space; normal outward, of any length */
-    Vec3 shading;    /* the same as normal but for meshes */
+} ShapePoint;
+
+/* Its UVs. */
+typedef struct ShapeUv {
     Vec2 uv, natural;
     int has_uv;      /* 0: uv_mapping falls back to the world's x and y */
     int has_natural;
-} ShapePoint;
+} ShapeUv;
 
 int sphere_hit(const ShapeRay *ray, double *t);
 int plane_hit(const ShapeRay *ray, double *t);
@@ -40,11 +43,21 @@ int torus_hit(const Primitive *primitive, const ShapeRay *ray, double *t);
 /* p is near the surface; it is put onto it. */
 void sphere_point(Vec3 p, ShapePoint *out);
 void plane_point(Vec3 p, ShapePoint *out);
-void disc_point(const Primitive *primitive, Vec3 p, ShapePoint *out);
+void disc_point(Vec3 p, ShapePoint *out);
 void cone_point(const Primitive *primitive, Vec3 p, int face, ShapePoint *out);
 void torus_point(const Primitive *primitive, Vec3 p, ShapePoint *out);
 void box_point(Vec3 p, int face, ShapePoint *out);
+/* Point and normal of a triangle of a mesh, and the interpolated normal, of any length; 0 where it has none. */
 void mesh_point(const Mesh *mesh, int face, double b1, double b2, ShapePoint *out);
+Vec3 mesh_shading_normal(const Mesh *mesh, int face, double b1, double b2);
+
+/* UVs of a point that is on the surface. */
+void sphere_uv(Vec3 p, ShapeUv *out);
+void disc_uv(const Primitive *primitive, Vec3 p, ShapeUv *out);
+void cone_uv(const Primitive *primitive, Vec3 p, int face, ShapeUv *out);
+void torus_uv(const Primitive *primitive, Vec3 p, ShapeUv *out);
+void box_uv(Vec3 p, int face, ShapeUv *out);
+void mesh_uv(const Mesh *mesh, int face, double b1, double b2, ShapeUv *out);
 
 /* World space from canonical space, and the face's texture and target. Leaves backside 0. */
 void surface_from_point(Surface *surface, const Primitive *primitive, int face, const ShapePoint *point);

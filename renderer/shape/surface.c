@@ -106,10 +106,9 @@ int shape_bounds(const Primitive *primitive, Vec3 *low, Vec3 *high)
 
 /* ---- the surface at a hit ---- */
 
-void surface_from_point(Surface *surface, const Primitive *primitive, int face, const ShapePoint *point)
+/* The face's texture and target. */
+static void set_material(Surface *surface, const Primitive *primitive, int face)
 {
-    const Transform *t = &primitive->transform;
-    double sign = primitive->inverse ? -1 : 1;
     int of_mesh =
         primitive->kind == SHAPE_MESH && primitive->mesh->ntextures > 0 ? primitive->mesh->faces[face].texture : -1;
 
@@ -117,19 +116,22 @@ void surface_from_point(Surface *surface, const Primitive *primitive, int face, 
     surface->face = face;
     surface->texture = of_mesh >= 0 ? primitive->mesh->textures[of_mesh] : primitive->texture;
     surface->target = of_mesh >= 0 && primitive->face_targets ? primitive->face_targets[of_mesh] : primitive->target;
-    surface->position = transform_point(t, point->p);
-    surface->geometric_normal = vec_scale(vec_normalize(transform_normal(t, point->normal)), sign);
-    surface->shading_normal = surface->geometric_normal;
-    if (primitive->kind == SHAPE_MESH) {
-        Vec3 shading = vec_scale(vec_normalize(transform_normal(t, point->shading)), sign);
-        /* A shear may tip the interpolated normal over the face's. */
-        if (vec_dot(shading, surface->geometric_normal) > 0)
-            surface->shading_normal = shading;
-    }
     surface->backside = 0;
-    surface->uv = point->has_uv ? point->uv : (Vec2){surface->position.x, surface->position.y};
-    surface->natural = point->has_natural ? point->natural : (Vec2){0, 0};
-    surface->has_natural = point->has_natural;
+}
+
+static Vec3 world_normal(const Primitive *primitive, Vec3 normal)
+{
+    Vec3 n = vec_normalize(transform_normal(&primitive->transform, normal));
+
+    return primitive->inverse ? vec_neg(n) : n;
+}
+
+void surface_from_point(Surface *surface, const Primitive *primitive, int face, const ShapePoint *point)
+{
+    set_material(surface, primitive, face);
+    surface->position = transform_point(&primitive->transform, point->p);
+    surface->geometric_normal = surface->shading_normal = world_normal(primitive, point->normal);
+    surface->b1 = surface->b2 = 0;
 }
 
 void surface_turn(Surface *surface, int backside)
@@ -143,19 +145,55 @@ void surface_turn(Surface *surface, int backside)
     surface->target = primitive->interior_target;
 }
 
+Vec3 triangle_normal(const Primitive *primitive, int face, const Vec3 corner[3])
+{
+    Vec3 n = vec_normalize(vec_cross(vec_sub(corner[1], corner[0]), vec_sub(corner[2], corner[0])));
+    ShapePoint point;
+
+    if (primitive->kind == SHAPE_BOX)
+        box_point(vec3(0.5, 0.5, 0.5), face, &point);
+    else
+        mesh_point(primitive->mesh, face, 0, 0, &point);
+    return vec_dot(n, world_normal(primitive, point.normal)) < 0 ? vec_neg(n) : n;
+}
+
+/* A mesh's interpolated normal, on the side of the face's own. Normals that cancel out, or lie in the face, tell
+ * nothing: the face's own stands in. */
+static Vec3 smooth_normal(const Primitive *primitive, const Hit *hit)
+{
+    Vec3 n = world_normal(primitive, mesh_shading_normal(primitive->mesh, hit->face, hit->b1, hit->b2));
+    double side = vec_dot(n, hit->normal);
+
+    if (fabs(side) < 1e-6)
+        return hit->normal;
+    return side < 0 ? vec_neg(n) : n;
+}
+
+static void triangle_at(Surface *surface, const Primitive *primitive, const Ray *ray, const Hit *hit)
+{
+    set_material(surface, primitive, hit->face);
+    surface->position = vec_mad(ray->origin, ray->direction, hit->t);
+    surface->geometric_normal = surface->shading_normal = hit->normal;
+    surface->b1 = hit->b1, surface->b2 = hit->b2;
+    if (primitive->kind == SHAPE_MESH && mesh_face_has_normals(&primitive->mesh->faces[hit->face]))
+        surface->shading_normal = smooth_normal(primitive, hit);
+}
+
 void surface_at(Surface *surface, const Scene *scene, const Ray *ray, const Hit *hit)
 {
     const Primitive *primitive = &scene->primitives[hit->primitive];
-    Vec3 p = transform_inverse_point(&primitive->transform, vec_mad(ray->origin, ray->direction, hit->t));
-    ShapePoint point;
+    ShapePoint point = {.normal = {0, 1, 0}};
+    Vec3 p;
 
-    memset(&point, 0, sizeof(point));
+    if (primitive->kind == SHAPE_MESH || primitive->kind == SHAPE_BOX) {
+        triangle_at(surface, primitive, ray, hit);
+        surface_turn(surface, vec_dot(ray->direction, surface->geometric_normal) > 0);
+        return;
+    }
+    p = transform_inverse_point(&primitive->transform, vec_mad(ray->origin, ray->direction, hit->t));
     switch (primitive->kind) {
     case SHAPE_SPHERE:
         sphere_point(p, &point);
-        break;
-    case SHAPE_BOX:
-        box_point(p, hit->face, &point);
         break;
     case SHAPE_PLANE:
         plane_point(p, &point);
@@ -167,12 +205,47 @@ void surface_at(Surface *surface, const Scene *scene, const Ray *ray, const Hit 
         torus_point(primitive, p, &point);
         break;
     case SHAPE_DISC:
-        disc_point(primitive, p, &point);
+        disc_point(p, &point);
         break;
+    case SHAPE_BOX:
     case SHAPE_MESH:
-        mesh_point(primitive->mesh, hit->face, hit->b1, hit->b2, &point);
         break;
     }
     surface_from_point(surface, primitive, hit->face, &point);
     surface_turn(surface, vec_dot(ray->direction, surface->geometric_normal) > 0);
+}
+
+SurfaceUv surface_uv(const Surface *surface)
+{
+    const Primitive *primitive = surface->primitive;
+    ShapeUv of = {{0, 0}, {0, 0}, 0, 0};
+    Vec3 p = {0, 0, 0};
+
+    if (primitive->kind != SHAPE_MESH)
+        p = transform_inverse_point(&primitive->transform, surface->position);
+    switch (primitive->kind) {
+    case SHAPE_SPHERE:
+        sphere_uv(p, &of);
+        break;
+    case SHAPE_BOX:
+        box_uv(p, surface->face, &of);
+        break;
+    case SHAPE_PLANE:
+        break;
+    case SHAPE_CONE:
+        cone_uv(primitive, p, surface->face, &of);
+        break;
+    case SHAPE_TORUS:
+        torus_uv(primitive, p, &of);
+        break;
+    case SHAPE_DISC:
+        disc_uv(primitive, p, &of);
+        break;
+    case SHAPE_MESH:
+        mesh_uv(primitive->mesh, surface->face, surface->b1, surface->b2, &of);
+        break;
+    }
+    if (!of.has_uv)
+        of.uv = (Vec2){surface->position.x, surface->position.y};
+    return (SurfaceUv){of.uv, of.natural, of.has_natural};
 }

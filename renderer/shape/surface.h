@@ -15,7 +15,8 @@ typedef struct Hit {
     int primitive;     /* index, or -1 for none */
     int face;          /* of a mesh; else the shape's own part (box side 0..5: -x +x -y +y -z +z, cone 0 side 1 low cap
                           2 high cap) */
-    float b1, b2;      /* barycentrics of a triangle: weights of corners 1 and 2 */
+    double b1, b2;     /* barycentrics of a triangle that has normals or UVs: weights of corners 1 and 2; else 0 */
+    Vec3 normal;       /* of a triangle: unit length, outward, world space */
 } Hit;
 
 /* Everything shading wants to know. Normals are of unit length, in world space. */
@@ -28,12 +29,17 @@ typedef struct Surface {
     Vec3 geometric_normal;   /* outward, as the shape has it (not turned to the ray) */
     Vec3 shading_normal;     /* outward, interpolated where the mesh has normals; same side as geometric_normal */
     int backside;            /* 1: the ray came from inside (dot(direction, geometric_normal) > 0) */
+    double b1, b2;           /* as in Hit */
+} Surface;
+
+typedef struct SurfaceUv {
     Vec2 uv;                 /* of uv_mapping: the shape's own, or world x,y for cylinders, cones and shapes without */
     Vec2 natural;            /* natural parametrisation of sphere, box, cone, torus, disc, mesh with UVs: shapes.h */
     int has_natural;         /* 0: plane, mesh without UVs */
-} Surface;
+} SurfaceUv;
 
 void surface_at(Surface *surface, const Scene *scene, const Ray *ray, const Hit *hit);
+SurfaceUv surface_uv(const Surface *surface); /* apart: most surfaces have one colour */
 /* Of a surface fresh from shape_sample: which side it is seen from, with the texture there. */
 void surface_turn(Surface *surface, int backside);
 
@@ -54,7 +60,8 @@ void shape_sample(const Primitive *primitive, const Scene *scene, int face, doub
 double shape_pdf_area(const Primitive *primitive, const Surface *surface); /* of shape_sample, at that point */
 double mesh_face_area(const Primitive *primitive, int face);
 
-/* Boxes and meshes as triangles. */
+/* Boxes and meshes as triangles. Unit normal of a triangle of theirs with these corners in the world, as in Hit. */
+Vec3 triangle_normal(const Primitive *primitive, int face, const Vec3 corner[3]);
 extern const int box_triangles[12][3]; /* into the corners; two a face, in the order of Hit's faces */
 Vec3 box_corner(int index);            /* of the unit box: bit 0 x, bit 1 y, bit 2 z */
 /* 1: the mesh is closed and its winding makes normals that point inside. For Mesh.inward, once the mesh is complete. */

@@ -172,10 +172,16 @@ void torus_point(const Primitive *primitive, Vec3 p, ShapePoint *out)
     }
     pull = vec_length(arm);
     out->p = pull > 0 ? vec_mad(ring, arm, minor / pull) : p;
-    out->normal = out->shading = pull > 0 ? arm : vec3(0, 1, 0);
+    out->normal = pull > 0 ? arm : vec3(0, 1, 0);
+}
+
+void torus_uv(const Primitive *primitive, Vec3 p, ShapeUv *out)
+{
+    double rho = hypot(p.x, p.z);
+
     /* POV-Ray counts from -x (measured); its torus image_map counts from x. */
     out->uv.u = rho > 0 ? turn_of(-p.x, p.z) : 0;
-    out->uv.v = 0.5 + atan2(p.y, rho - major) / (2 * PI);
+    out->uv.v = 0.5 + atan2(p.y, rho - primitive->r0) / (2 * PI);
     out->natural = out->uv;
     out->has_uv = out->has_natural = 1;
 }

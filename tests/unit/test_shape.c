@@ -52,6 +52,13 @@ static Surface surface_of(const Primitive *p, const Ray *ray, double t, int face
     Hit hit = {.t = t, .face = face};
     Surface s;
 
+    if (p->kind == SHAPE_BOX) {
+        Vec3 corner[3];
+        for (int k = 0; k < 3; k++)
+            corner[k] = transform_point(&p->transform, box_corner(box_triangles[2 * face][k]));
+        hit.normal = triangle_normal(p, face, corner);
+    }
+
     surface_at(&s, &scene, ray, &hit);
     return s;
 }
@@ -223,6 +230,11 @@ static void assert_uv(Vec2 uv, double u, double v)
     assert_true(fabs(uv.v - v) < 1e-3);
 }
 
+static SurfaceUv uv_of(Surface s)
+{
+    return surface_uv(&s);
+}
+
 static Surface box_surface(int face, Vec3 at)
 {
     Primitive box =
@@ -246,25 +258,25 @@ static void uv_is_povray(void **state)
     int face;
 
     (void)state;
-    assert_uv(box_surface(0, vec3(-1, 0.85, 0.85)).uv, 0.231, 0.642);
-    assert_uv(box_surface(1, vec3(1, 0.85, -0.85)).uv, 0.731, 0.642);
-    assert_uv(box_surface(2, vec3(-0.85, -1, -0.85)).uv, 0.269, 0.025);
-    assert_uv(box_surface(3, vec3(-0.85, 1, 0.85)).uv, 0.269, 0.692);
-    assert_uv(box_surface(4, vec3(-0.85, 0.85, -1)).uv, 0.981, 0.642);
-    assert_uv(box_surface(5, vec3(0.85, 0.85, 1)).uv, 0.481, 0.642);
-    assert_uv(box_surface(4, vec3(-0.5, 0.5, -1)).natural, 0.25, 0.75);
+    assert_uv(uv_of(box_surface(0, vec3(-1, 0.85, 0.85))).uv, 0.231, 0.642);
+    assert_uv(uv_of(box_surface(1, vec3(1, 0.85, -0.85))).uv, 0.731, 0.642);
+    assert_uv(uv_of(box_surface(2, vec3(-0.85, -1, -0.85))).uv, 0.269, 0.025);
+    assert_uv(uv_of(box_surface(3, vec3(-0.85, 1, 0.85))).uv, 0.269, 0.692);
+    assert_uv(uv_of(box_surface(4, vec3(-0.85, 0.85, -1))).uv, 0.981, 0.642);
+    assert_uv(uv_of(box_surface(5, vec3(0.85, 0.85, 1))).uv, 0.481, 0.642);
+    assert_uv(uv_of(box_surface(4, vec3(-0.5, 0.5, -1))).natural, 0.25, 0.75);
     assert_true(shape_intersect(&sphere, &ray, &t, &face));
-    assert_uv(surface_of(&sphere, &ray, t, face).uv, 0.744, 0.488);
+    assert_uv(uv_of(surface_of(&sphere, &ray, t, face)).uv, 0.744, 0.488);
     ray.origin = vec3(-0.8625, 0.8625, -5);
     assert_true(shape_intersect(&torus, &ray, &t, &face));
-    assert_uv(surface_of(&torus, &ray, t, face).uv, 0.118, 0.681);
+    assert_uv(uv_of(surface_of(&torus, &ray, t, face)).uv, 0.118, 0.681);
     ray.origin = vec3(0.9375, -0.9375, -5);
     assert_true(shape_intersect(&torus, &ray, &t, &face));
-    assert_uv(surface_of(&torus, &ray, t, face).uv, 0.632, 0.455);
+    assert_uv(uv_of(surface_of(&torus, &ray, t, face)).uv, 0.632, 0.455);
     ray.origin = vec3(0.5, 0.1, -5);
     assert_true(shape_intersect(&disc, &ray, &t, &face));
-    assert_uv(surface_of(&disc, &ray, t, face).uv, 0.5, 0.1);
-    assert_uv(surface_of(&disc, &ray, t, face).natural, 0.625, 0.55);
+    assert_uv(uv_of(surface_of(&disc, &ray, t, face)).uv, 0.5, 0.1);
+    assert_uv(uv_of(surface_of(&disc, &ray, t, face)).natural, 0.625, 0.55);
 }
 
 static void box_points_lie_on_faces(void **state)
@@ -279,6 +291,20 @@ static void box_points_lie_on_faces(void **state)
         Surface face = box_surface(i / 2, vec3(0, 0, 0));
         assert_true(vec_dot(n, face.geometric_normal) == 1);
     }
+}
+
+static Surface mesh_surface(const Primitive *p, Hit hit, const Ray *ray)
+{
+    Scene scene = {.primitives = (Primitive *)p, .nprimitives = 1};
+    const int *vertex = p->mesh->faces[hit.face].vertex;
+    Vec3 corner[3];
+    Surface s;
+
+    for (int k = 0; k < 3; k++)
+        corner[k] = transform_point(&p->transform, p->mesh->vertices[vertex[k]]);
+    hit.normal = triangle_normal(p, hit.face, corner);
+    surface_at(&s, &scene, ray, &hit);
+    return s;
 }
 
 static void mesh_normals(void **state)
@@ -298,28 +324,27 @@ static void mesh_normals(void **state)
                  .uvs = uvs,
                  .faces = faces};
     Primitive p = shape(SHAPE_MESH, 0, 0, transform_identity());
-    Scene scene = {.primitives = &p, .nprimitives = 1};
     Ray ray = {{0.25, 0.25, -1}, {0, 0, 1}, 0, INFINITY};
-    Hit hit = {.t = 1, .face = 0, .b1 = 0.25f, .b2 = 0.25f};
+    Hit hit = {.t = 1, .face = 0, .b1 = 0.25, .b2 = 0.25};
     Surface s;
 
     (void)state;
     p.mesh = &mesh;
     mesh.inward = mesh_winds_inward(&mesh);
     assert_int_equal(mesh.inward, 1);
-    surface_at(&s, &scene, &ray, &hit);
-    assert_true(s.geometric_normal.z == -1 && s.shading_normal.x > 0.04 && s.backside == 0 && s.has_natural);
-    assert_uv(s.uv, 0.5, 0.75);
+    s = mesh_surface(&p, hit, &ray);
+    assert_true(s.geometric_normal.z == -1 && s.shading_normal.x > 0.04 && s.backside == 0 && uv_of(s).has_natural);
+    assert_uv(uv_of(s).uv, 0.5, 0.75);
     hit.face = 1;
-    surface_at(&s, &scene, &ray, &hit);
-    assert_true(s.geometric_normal.y == -1 && !s.has_natural);
-    assert_uv(s.uv, s.position.x, s.position.y);
+    s = mesh_surface(&p, hit, &ray);
+    assert_true(s.geometric_normal.y == -1 && !uv_of(s).has_natural);
+    assert_uv(uv_of(s).uv, s.position.x, s.position.y);
     hit.face = 2; /* normals of no length */
-    surface_at(&s, &scene, &ray, &hit);
+    s = mesh_surface(&p, hit, &ray);
     assert_true(fabs(s.geometric_normal.x) == 1 && fabs(s.shading_normal.x) == 1);
     p.inverse = 1;
     hit.face = 0;
-    surface_at(&s, &scene, &ray, &hit);
+    s = mesh_surface(&p, hit, &ray);
     assert_true(s.geometric_normal.z == 1 && s.backside == 1);
     mesh.nfaces = 3;
     assert_int_equal(mesh_winds_inward(&mesh), 0);
