@@ -15,7 +15,7 @@ build=${BUILD:-build} here=tests/bench/render
 case $build in /*) ;; *) build=$PWD/$build ;; esac
 PATH=$build/bin:$PATH
 work=$build/bench/render out=$build/bench/render.txt
-turns=${BENCH_TURNS:-3} size=${BENCH_SIZE:-512} reference_spp=${BENCH_REFERENCE_SPP:-4096}
+turns=${BENCH_TURNS:-3} size=${BENCH_SIZE:-512} reference_spp=${BENCH_REFERENCE_SPP:-2048}
 spp=${BENCH_SPP:-128} interior_spp=${BENCH_INTERIOR_SPP:-16}
 error_size=256
 python=${PYTHON:-/usr/bin/python3}
