@@ -51,7 +51,7 @@ struct Accel {
     int ncurved, nplanes;
     unsigned triangle_geometry, curved_geometry;
     unsigned char *flags; /* of each primitive */
-    int has_transparent;
+    int has_transparent, has_straight; /* among what throws shadows: of any kind, or that does not bend light */
     double reach; /* the triangles' largest coordinate */
     Vec3 low, high;
     RetexError error; /* Embree's first complaint */
@@ -234,6 +234,16 @@ static unsigned char primitive_flags(const Primitive *primitive)
     return (unsigned char)(flags | (through ? TRANSPARENT : 0));
 }
 
+/* Has the primitive one texture, and does that bend what it lets through? */
+static int always_bends(const Primitive *primitive)
+{
+    const Finish *finish = primitive->texture->finish;
+    double ior = finish_transmits(finish) ? finish->retex.ior : primitive->interior ? primitive->interior->ior : 1;
+    int several = primitive->interior_texture || (primitive->kind == SHAPE_MESH && primitive->mesh->ntextures > 0);
+
+    return !several && ior != 1 && ior > 0;
+}
+
 static void grow(Accel *accel, Vec3 low, Vec3 high)
 {
     accel->low = vec3(fmin(accel->low.x, low.x), fmin(accel->low.y, low.y), fmin(accel->low.z, low.z));
@@ -250,7 +260,10 @@ static int survey(Accel *accel, RetexError *err)
         const Primitive *primitive = &scene->primitives[i];
         Vec3 low, high;
         accel->flags[i] = primitive_flags(primitive);
-        accel->has_transparent |= (accel->flags[i] & TRANSPARENT) && (accel->flags[i] & RAY_SHADOW);
+        if ((accel->flags[i] & TRANSPARENT) && (accel->flags[i] & RAY_SHADOW)) {
+            accel->has_transparent = 1;
+            accel->has_straight |= !always_bends(primitive);
+        }
         if (!shape_bounds(primitive, &low, &high)) {
             accel->planes[accel->nplanes++] = i;
             continue;
@@ -453,20 +466,24 @@ void accel_close(Accel **accel)
 /* ---- queries ---- */
 
 /* Embree may stop the program over a ray that is not finite; no such ray meets anything. */
-static int can_be_traced(const Ray *ray)
+static inline int can_be_traced(const Ray *ray, double origin_size)
 {
-    double origin = fabs(ray->origin.x) + fabs(ray->origin.y) + fabs(ray->origin.z);
-    double direction = fabs(ray->direction.x) + fabs(ray->direction.y) + fabs(ray->direction.z);
+    const Vec3 *d = &ray->direction;
 
-    return origin < LARGEST_COORDINATE && direction < LARGEST_COORDINATE && !isnan(ray->tmin) && !isnan(ray->tmax);
+    return origin_size < LARGEST_COORDINATE && fabs(d->x) + fabs(d->y) + fabs(d->z) < LARGEST_COORDINATE &&
+           ray->tmin == ray->tmin && ray->tmax == ray->tmax;
 }
 
-/* Embree gets the ray in float, its range widened by what float may be off; the callbacks keep to the double one. */
-static struct RTCRay start_query(Query *query, const Accel *accel, const Ray *ray, RayKind kind, int skip_transparent)
+/* Embree gets the ray in float, its range widened by what float may be off; the double one decides. Returns 0 where
+ * the ray meets nothing for certain. */
+static inline int start_query(Query *query, struct RTCRay *to, const Accel *accel, const Ray *ray, RayKind kind,
+                              int skip_transparent)
 {
-    double origin_size = largest(ray->origin), doubt_start = FLOAT_DOUBT * (ray->tmin + origin_size);
-    double doubt_end = FLOAT_DOUBT * (ray->tmax + origin_size);
+    double origin_size = fabs(ray->origin.x) + fabs(ray->origin.y) + fabs(ray->origin.z);
+    double start = ray->tmin > 0 ? ray->tmin - FLOAT_DOUBT * (ray->tmin + origin_size) : 0;
 
+    if (!can_be_traced(ray, origin_size))
+        return 0;
 #if defined(RETEX_EMBREE4)
     rtcInitRayQueryContext(&query->context);
 #else
@@ -482,15 +499,18 @@ static struct RTCRay start_query(Query *query, const Accel *accel, const Ray *ra
     query->rounding = 16 * DBL_EPSILON * (accel->reach + origin_size);
     query->t = INFINITY;
     query->face = 0;
-    return (struct RTCRay){.org_x = (float)ray->origin.x,
-                           .org_y = (float)ray->origin.y,
-                           .org_z = (float)ray->origin.z,
-                           .dir_x = (float)ray->direction.x,
-                           .dir_y = (float)ray->direction.y,
-                           .dir_z = (float)ray->direction.z,
-                           .tnear = (float)larger(0, ray->tmin - doubt_start),
-                           .tfar = (float)(ray->tmax + doubt_end),
-                           .mask = 0xffffffffu};
+    to->org_x = (float)ray->origin.x;
+    to->org_y = (float)ray->origin.y;
+    to->org_z = (float)ray->origin.z;
+    to->dir_x = (float)ray->direction.x;
+    to->dir_y = (float)ray->direction.y;
+    to->dir_z = (float)ray->direction.z;
+    to->tnear = start > 0 ? (float)start : 0;
+    to->tfar = (float)(ray->tmax + FLOAT_DOUBT * (ray->tmax + origin_size));
+    to->time = 0;
+    to->mask = 0xffffffffu;
+    to->id = to->flags = 0;
+    return 1;
 }
 
 static void trace(Query *query, struct RTCRayHit *rayhit)
@@ -574,9 +594,8 @@ int accel_intersect(const Accel *accel, const Ray *ray, RayKind kind, Hit *hit)
     int plane;
 
     hit->primitive = -1;
-    if (!can_be_traced(ray))
+    if (!start_query(&query, &rayhit.ray, accel, ray, kind, 0))
         return 0;
-    rayhit.ray = start_query(&query, accel, ray, kind, 0);
     end = rayhit.ray.tfar;
     rayhit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     rayhit.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
@@ -604,18 +623,17 @@ int accel_occluded(const Accel *accel, const Ray *ray, RayKind kind, int skip_tr
     struct RTCRay occluded;
     double limit = ray->tmax;
 
-    if (!can_be_traced(ray))
+    if (!start_query(&query, &occluded, accel, ray, kind, skip_transparent))
         return 0;
-    occluded = start_query(&query, accel, ray, kind, skip_transparent);
     if (accel->nplanes && nearest_plane(&query, &limit, 1) >= 0)
         return 1;
     trace_occluded(&query, &occluded);
     return occluded.tfar < 0;
 }
 
-int accel_has_transparent(const Accel *accel)
+int accel_has_transparent(const Accel *accel, int light_source)
 {
-    return accel->has_transparent;
+    return light_source ? accel->has_transparent : accel->has_straight;
 }
 
 int accel_is_transparent(const Accel *accel, int primitive)
@@ -627,14 +645,4 @@ void accel_bounds(const Accel *accel, Vec3 *low, Vec3 *high)
 {
     *low = accel->low;
     *high = accel->high;
-}
-
-Vec3 accel_offset(Vec3 position, Vec3 geometric_normal, Vec3 direction)
-{
-    /* A few roundings of a float, so that Embree seldom proposes the surface that is left. What decides is in double:
-     * positions are good to about 1e-15 of the coordinates they were made from, which may be larger than those of the
-     * point itself; hence the floor. */
-    double distance = larger(4e-7 * largest(position), 1e-11);
-
-    return vec_mad(position, geometric_normal, vec_dot(direction, geometric_normal) < 0 ? -distance : distance);
 }

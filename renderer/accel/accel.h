@@ -18,13 +18,28 @@ int accel_intersect(const Accel *accel, const Ray *ray, RayKind kind, Hit *hit);
 /* Is anything in between? skip_transparent: 0 = any hit blocks; 1 = primitives whose pigment (of either side, of any
  * face) is not opaque are skipped, and those of the finish that transmits; the caller walks them itself. */
 int accel_occluded(const Accel *accel, const Ray *ray, RayKind kind, int skip_transparent);
-/* 1 if any primitive could let shadow rays through: then occlusion must be walked. Or if this one could. */
-int accel_has_transparent(const Accel *accel);
+/* 1 if any primitive could let shadow rays through, of light sources (which shine through bending glass unbent) or of
+ * other lights: then occlusion must be walked. Or if this one could. */
+int accel_has_transparent(const Accel *accel, int light_source);
 int accel_is_transparent(const Accel *accel, int primitive);
 /* World bounds of all bounded primitives and the camera. */
 void accel_bounds(const Accel *accel, Vec3 *low, Vec3 *high);
 /* Where to start a ray that leaves a surface in a direction, so that it does not meet it again. To walk on along a ray,
  * tmin = the t of the last hit works as well. */
-Vec3 accel_offset(Vec3 position, Vec3 geometric_normal, Vec3 direction);
+static inline double accel_margin(Vec3 position)
+{
+    /* A few roundings of a float, so that Embree seldom proposes the surface that is left. What decides is in double:
+     * positions are good to about 1e-15 of the coordinates they were made from, which may be larger than those of the
+     * point itself; hence the floor. */
+    double x = fabs(position.x), y = fabs(position.y), z = fabs(position.z);
+    double largest = x > y ? x : y;
+    largest = z > largest ? z : largest;
+    return largest > 2.5e-5 ? 4e-7 * largest : 1e-11;
+}
+static inline Vec3 accel_offset(Vec3 position, Vec3 geometric_normal, Vec3 direction)
+{
+    double margin = accel_margin(position);
+    return vec_mad(position, geometric_normal, vec_dot(direction, geometric_normal) < 0 ? -margin : margin);
+}
 
 #endif

@@ -49,6 +49,10 @@ static inline void turn_sincos(double u, double *sine, double *cosine)
     *cosine = (quarter + 1) & 2 ? -x : x;
 }
 
+/* Not fmaxf and fminf, which are calls. NaN becomes 0. */
+static inline float not_negative(float x) { return x > 0 ? x : 0; }
+static inline float at_most(float x, float most) { return x < most ? x : most; }
+
 static inline Rgb rgb(float r, float g, float b) { return (Rgb){r, g, b}; }
 static inline Rgb rgb_grey(float v) { return rgb(v, v, v); }
 static inline Rgb rgb_add(Rgb a, Rgb b) { return rgb(a.r + b.r, a.g + b.g, a.b + b.b); }

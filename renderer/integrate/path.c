@@ -95,6 +95,14 @@ static void scale_path(const PathContext *c, Path *path, Rgb by)
 static void connect(PathWorker *w, const Path *path, Rgb light, const Factor *factors, int nfactors)
 {
     const PathContext *c = w->context;
+    if (c->simple) {
+        Rgb sum = rgb_mul(path->beta[0], light);
+        for (int k = 0; k < nfactors; k++)
+            sum = rgb_mul(sum, split_apply(factors[k].split, factors[k].albedo));
+        if (!rgb_is_black(sum))
+            film_connect(w->pixel, sum, sum, NULL, 0);
+        return;
+    }
     Rgb beta[VARIANTS_MAX], outside = rgb_mul(path->outside, light);
     for (int v = 0; v < c->nvariants; v++)
         beta[v] = rgb_mul(path->beta[v], light);
@@ -221,7 +229,7 @@ static int trace_shadow(PathWorker *w, Ray ray, int light_source, Media *media, 
 {
     const PathContext *c = w->context;
     w->shadow_rays++;
-    int through = accel_has_transparent(c->accel), n = 0;
+    int through = accel_has_transparent(c->accel, light_source), n = 0;
     if (!through && accel_occluded(c->accel, &ray, RAY_SHADOW, 0))
         return -1;
     Hit hit;
@@ -264,7 +272,7 @@ static int trace_shadow(PathWorker *w, Ray ray, int light_source, Media *media, 
 /* Radiance over albedo: what is not there does not shine. */
 static Split emitted(const Shading *s)
 {
-    float opacity = fminf(1, fmaxf(0, 1 - s->filter - s->transmit));
+    float opacity = at_most(not_negative(1 - s->filter - s->transmit), 1);
     return (Split){rgb_scale(s->surface.texture->finish->emission, opacity), {0, 0, 0}};
 }
 
@@ -300,7 +308,8 @@ static int light_factors(PathWorker *w, LightSample *light, Factor *factors)
     const PathContext *c = w->context;
     if (light->kind != LIGHT_SAMPLE_EMITTER)
         return 0;
-    Shading s = {.surface = light->surface};
+    Shading s;
+    s.surface = light->surface;
     shading_color(&s, w->variants, c->nvariants);
     light->radiance = rgb_grey(1);
     factors[0] = shading_factor(&s, emitted(&s));
@@ -328,11 +337,9 @@ static void sample_light(PathWorker *w, const Path *path, const Shading *s, cons
     Ray ray = {accel_offset(s->surface.position, s->surface.geometric_normal, light.direction), light.direction, 0,
                INFINITY};
     if (isfinite(light.distance)) { /* stop just before the light, seen from where the ray starts */
-        Vec3 end = vec_mad(s->surface.position, light.direction, light.distance);
+        ray.tmax = light.distance * (1 - 1e-6) - accel_margin(s->surface.position);
         if (light.kind == LIGHT_SAMPLE_EMITTER)
-            end = accel_offset(light.surface.position, light.surface.geometric_normal, vec_neg(light.direction));
-        Vec3 way = vec_sub(end, ray.origin);
-        ray.tmax = vec_length(way) * (1 - 1e-6);
+            ray.tmax -= accel_margin(light.surface.position);
     }
     int other_side = vec_dot(light.direction, s->bsdf.geometric) < 0;
     if (!light.shadowless) {
@@ -388,7 +395,7 @@ static int scatter(PathWorker *w, Path *path, const Shading *s, double distance,
     apply_factor(w->context, path->beta, &path->outside, &path->expansion, &path->folded, &factor);
     if (!w->context->split ? is_spent(w->context, path->beta) : rgb_is_black(path->outside))
         return 0;
-    path->neutral *= fminf(1, split_neutral(next.weight));
+    path->neutral *= at_most(split_neutral(next.weight), 1);
     if (w->context->trace)
         fprintf(w->context->trace, "  goes on along %.5f %.5f %.5f pdf %.6g d %.5g i %.5g\n", next.wi.x, next.wi.y,
                 next.wi.z, next.pdf, rgb_luminance(next.weight.d), rgb_luminance(next.weight.i));
@@ -401,7 +408,7 @@ static int scatter(PathWorker *w, Path *path, const Shading *s, double distance,
         path->sharp &= next.pdf == 0 || next.pdf > SHARP_PDF;
         path->from = s->surface.position;
         if (path->segments >= ROULETTE_START) {
-            float survive = fminf(0.95f, path->neutral);
+            float survive = at_most(path->neutral, 0.95f);
             if (u->roulette >= survive)
                 return 0;
             scale_path(w->context, path, rgb_grey(1 / survive));

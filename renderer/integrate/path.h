@@ -19,6 +19,7 @@ typedef struct PathContext {
     int max_depth, orders;
     int most_hits;        /* of all targets together */
     int split;            /* keep target hits apart */
+    int simple;           /* neither split nor several variants nor a trace: a path is its beta alone */
     int nvariants;        /* 1..VARIANTS_MAX: what the same path brings with different textures */
     int white;            /* the first hit is a white diffuse surface instead, that gives no light itself */
     int has_no_shadow;    /* some primitive throws no shadow: what blocks shadow rays and paths is not the same */

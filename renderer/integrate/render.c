@@ -227,6 +227,7 @@ static int render_film(Render *r, int control, int halves, RetexError *err)
         code = control_pixel_create(&r->controls[k], r->control, err);
     for (int k = 0; k < threads; k++)
         open_worker(r, k);
+    r->context.simple = !r->context.split && r->context.nvariants == 1 && !r->control;
     return code;
 }
 
@@ -523,7 +524,7 @@ int render_trace(const Scene *scene, const RenderParams *params, int x, int y, i
     if (!code)
         code = render_film(&r, 0, 0, err);
     if (!code) {
-        r.context.trace = out;
+        r.context.trace = out, r.context.simple = 0;
         fprintf(out, "pixel %d,%d sample %d of %dx%d\n", x, y, sample, r.width, r.height);
         trace_sample(&r, &r.workers[0], x, y, sample);
     }

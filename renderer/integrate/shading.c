@@ -23,8 +23,8 @@ void shading_color(Shading *s, const RenderVariant *variants, int nvariants)
     const Surface *surface = &s->surface;
     const Pigment *pigment = surface->texture->pigment;
     Rgbft c = pigment_eval(pigment, surface->position, pigment->uv_mapping ? surface_uv(surface).uv : (Vec2){0, 0});
-    s->albedo = rgb(fmaxf(c.r, 0), fmaxf(c.g, 0), fmaxf(c.b, 0));
-    s->filter = fmaxf(c.filter, 0), s->transmit = fmaxf(c.transmit, 0);
+    s->albedo = rgb(not_negative(c.r), not_negative(c.g), not_negative(c.b));
+    s->filter = not_negative(c.filter), s->transmit = not_negative(c.transmit);
     s->replaced = 0;
     if (surface->target < 0)
         return;

@@ -24,28 +24,28 @@ static inline float split_neutral(Split s) { return rgb_luminance(split_apply(s,
 
 typedef struct Bsdf {
     Vec3 normal;             /* shading normal on wo's side */
-    Vec3 s, t;               /* with it the frame of the microfacet lobe; 0 without one */
     Vec3 geometric;          /* geometric normal on wo's side */
     Vec3 wo;
     double cos_o;            /* dot(wo, normal), > 0 */
-    int lambert;             /* there are only diffuse lobes, of brilliance 1 */
     float eta;               /* index of refraction on the far side over that on wo's side */
     int refracts;            /* eta matters: transmission bends */
+    int lambert;             /* only diffuse lobes, of brilliance 1: what follows after alpha is not set */
+    float p_diffuse, p_back, p_glossy, p_mirror, p_passing; /* add up to 1, or to 0 where nothing is scattered */
 
-    float diffuse, diffuse_back, brilliance;
+    float diffuse, diffuse_back;
     int disney;              /* diffuse lobe with retro-reflection, Fresnel of the supplement's Eq. 1 */
-    float metallic, roughness, specular_tint, coat_eta, transmission;
-
+    float transmission;
+    Split passing;           /* weight of straight or smoothly refracted passage, already at cos_o */
     float alpha;             /* GGX; 0 = no microfacet lobe, or a smooth one that counts as mirror */
+
+    Vec3 s, t;               /* with normal the frame of the microfacet lobe */
+    float brilliance;
+    float metallic, roughness, specular_tint, coat_eta; /* disney */
     float coverage;          /* disney: share of the surface that is there, where an image cuts holes */
     Split highlight;         /* POV-Ray highlight: reflectance of the microfacet lobe, head-on */
     int highlight_lights_only; /* seen by light sources only: the mirror lobe shows the rest */
     int smooth;              /* disney with roughness about 0: its reflection and transmission are deltas */
-
     Split mirror;            /* weight of the mirror lobe, already at cos_o */
-    Split passing;           /* weight of straight or smoothly refracted passage, already at cos_o */
-
-    float p_diffuse, p_back, p_glossy, p_mirror, p_passing; /* add up to 1, or to 0 where nothing is scattered */
 } Bsdf;
 
 typedef struct BsdfSample {

@@ -147,35 +147,46 @@ static int finish_is_lambert(const Finish *f)
 
 static void setup_lambert(Bsdf *b, const Finish *f)
 {
-    b->lambert = 1;
-    b->diffuse = fmaxf(0, (float)f->diffuse);
-    b->diffuse_back = fmaxf(0, (float)f->diffuse_back);
-    float sum = b->diffuse + b->diffuse_back;
+    float diffuse = f->diffuse > 0 ? (float)f->diffuse : 0, back = f->diffuse_back > 0 ? (float)f->diffuse_back : 0;
+    float sum = diffuse + back;
+    b->lambert = 1, b->disney = 0, b->alpha = b->transmission = 0;
+    b->passing = (Split){{0, 0, 0}, {0, 0, 0}};
+    b->diffuse = diffuse, b->diffuse_back = back;
+    b->p_glossy = b->p_mirror = b->p_passing = b->p_diffuse = b->p_back = 0;
     if (sum > 0)
-        b->p_diffuse = b->diffuse / sum, b->p_back = b->diffuse_back / sum;
+        b->p_diffuse = diffuse / sum, b->p_back = back / sum;
+}
+
+/* Normals on the side that the surface is seen from. */
+static void set_side(Bsdf *b, const Surface *surface, Vec3 wo)
+{
+    b->wo = wo;
+    b->geometric = surface->backside ? vec_neg(surface->geometric_normal) : surface->geometric_normal;
+    b->normal = surface->backside ? vec_neg(surface->shading_normal) : surface->shading_normal;
+    b->cos_o = vec_dot(wo, b->normal);
+    if (b->cos_o <= 1e-4) { /* the interpolated normal faces away: fall back on the surface's own */
+        b->normal = b->geometric;
+        b->cos_o = vec_dot(wo, b->normal);
+        b->cos_o = b->cos_o > 1e-4 ? b->cos_o : 1e-4;
+    }
+    b->cos_o = b->cos_o < 1 ? b->cos_o : 1;
 }
 
 void bsdf_setup(Bsdf *b, const Surface *surface, Vec3 wo, float filter, float transmit)
 {
     const Finish *finish = surface->texture->finish;
     const Primitive *primitive = surface->primitive;
-    *b = (Bsdf){.wo = wo, .brilliance = 1, .eta = 1};
-    double flip = surface->backside ? -1 : 1;
-    b->geometric = vec_scale(surface->geometric_normal, flip);
-    b->normal = vec_scale(surface->shading_normal, flip);
-    b->cos_o = vec_dot(wo, b->normal);
-    if (b->cos_o <= 1e-4) { /* the interpolated normal faces away: fall back on the surface's own */
-        b->normal = b->geometric;
-        b->cos_o = fmax(1e-4, vec_dot(wo, b->normal));
-    }
-    b->cos_o = fmin(1, b->cos_o);
     double ior = finish_transmits(finish)    ? finish->retex.ior
                  : interior_bends(primitive) ? primitive->interior->ior
                                              : 1;
-    b->refracts = ior != 1;
     int transparent = filter + transmit > 0 || finish_transmits(finish);
+    int lambert = !transparent && finish_is_lambert(finish);
+    if (!lambert)
+        *b = (Bsdf){.brilliance = 1};
+    set_side(b, surface, wo);
+    b->refracts = ior != 1;
     b->eta = (float)(surface->backside && transparent ? 1 / ior : ior); /* an opaque sheet has a coat on both sides */
-    if (!transparent && finish_is_lambert(finish)) {
+    if (lambert) {
         setup_lambert(b, finish);
         return;
     }

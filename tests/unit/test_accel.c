@@ -335,14 +335,14 @@ static void rays_see_what_they_may(void **state)
     assert_true(accel_intersect(accel, &ray, RAY_CAMERA, &hit) && hit.primitive == 3 && fabs(hit.t - 2) < 1e-15);
     assert_false(accel_intersect(accel, &ray, RAY_BOUNCE, &hit));
     assert_int_equal(hit.primitive, -1);
-    assert_true(accel_has_transparent(accel));
+    assert_true(accel_has_transparent(accel, 1));
     accel_bounds(accel, &low, &high);
     assert_true(low.x == -1 && high.z == 8 && low.z == 0);
     accel_close(&accel);
     accel_close(&accel);
     accel = create(&scene, p, 0);
     assert_false(accel_intersect(accel, &ray, RAY_CAMERA, &hit));
-    assert_false(accel_has_transparent(accel));
+    assert_false(accel_has_transparent(accel, 1));
     accel_close(&accel);
 }
 
