@@ -400,6 +400,8 @@ static void nearest_primitive(Sdl *sdl, void *context, Ray *ray, int index)
     } else if (!(p->kind == SHAPE_BOX ? box_hit(&p->transform, ray, &hit.t, &hit.face)
                                       : shape_intersect(p, ray, &hit.t, &hit.face)))
         return;
+    if (p->kind == SHAPE_BOX)
+        hit.normal = box_normal(p, hit.face);
     ray->tmax = hit.t;
     found->hit = hit;
 }

@@ -145,15 +145,20 @@ void surface_turn(Surface *surface, int backside)
     surface->target = primitive->interior_target;
 }
 
-Vec3 triangle_normal(const Primitive *primitive, int face, const Vec3 corner[3])
+Vec3 box_normal(const Primitive *primitive, int side)
+{
+    ShapePoint point;
+
+    box_point(vec3(0.5, 0.5, 0.5), side, &point);
+    return world_normal(primitive, point.normal);
+}
+
+Vec3 face_normal(const Primitive *primitive, int face, const Vec3 corner[3])
 {
     Vec3 n = vec_normalize(vec_cross(vec_sub(corner[1], corner[0]), vec_sub(corner[2], corner[0])));
     ShapePoint point;
 
-    if (primitive->kind == SHAPE_BOX)
-        box_point(vec3(0.5, 0.5, 0.5), face, &point);
-    else
-        mesh_point(primitive->mesh, face, 0, 0, &point);
+    mesh_point(primitive->mesh, face, 0, 0, &point);
     return vec_dot(n, world_normal(primitive, point.normal)) < 0 ? vec_neg(n) : n;
 }
 

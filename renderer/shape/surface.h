@@ -60,8 +60,10 @@ void shape_sample(const Primitive *primitive, const Scene *scene, int face, doub
 double shape_pdf_area(const Primitive *primitive, const Surface *surface); /* of shape_sample, at that point */
 double mesh_face_area(const Primitive *primitive, int face);
 
-/* Boxes and meshes as triangles. Unit normal of a triangle of theirs with these corners in the world, as in Hit. */
-Vec3 triangle_normal(const Primitive *primitive, int face, const Vec3 corner[3]);
+/* Boxes and meshes as triangles. Unit normals in the world, as in Hit: of a box's side, and of a mesh's face with these
+ * corners. */
+Vec3 box_normal(const Primitive *primitive, int side);
+Vec3 face_normal(const Primitive *primitive, int face, const Vec3 corner[3]);
 extern const int box_triangles[12][3]; /* into the corners; two a face, in the order of Hit's faces */
 Vec3 box_corner(int index);            /* of the unit box: bit 0 x, bit 1 y, bit 2 z */
 /* 1: the mesh is closed and its winding makes normals that point inside. For Mesh.inward, once the mesh is complete. */

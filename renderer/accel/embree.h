@@ -1,0 +1,47 @@
+/* What Embree is given and asked; private to renderer/accel. Builds with Embree 3 and 4. */
+#ifndef RENDERER_ACCEL_EMBREE_H
+#define RENDERER_ACCEL_EMBREE_H
+
+#if defined(RETEX_EMBREE4)
+#include <embree4/rtcore.h>
+typedef struct RTCRayQueryContext QueryContext;
+#else
+#include <embree3/rtcore.h>
+typedef struct RTCIntersectContext QueryContext;
+#endif
+#include "accel/accel.h"
+
+#define TRANSPARENT 0x80u       /* in flags, beside the RayKinds that see the primitive */
+#define LARGEST_COORDINATE 1e18 /* Embree takes anything beyond about 1.8e18 as no geometry */
+
+typedef struct Triangle {
+    Vec3 normal;   /* of unit length, outward */
+    double offset; /* normal . p on its plane */
+    int32_t primitive;
+    uint32_t face : 31, interpolated : 1; /* interpolated: it has normals or UVs */
+} Triangle;
+
+struct Accel {
+    RTCDevice device;
+    RTCScene scene;
+    const Scene *source;
+    Vec3 *vertices; /* of all triangles, world space; Embree has them in float */
+    uint32_t (*corners)[3];
+    Triangle *triangles;
+    size_t nvertices, ntriangles;
+    int *curved, *planes; /* primitive indices */
+    int ncurved, nplanes;
+    unsigned triangle_geometry, curved_geometry;
+    unsigned char *flags; /* of each primitive */
+    int has_transparent, has_straight; /* among what throws shadows: of any kind, or that does not bend light */
+    double reach; /* the triangles' largest coordinate */
+    Vec3 low, high;
+    RetexError error; /* Embree's first complaint */
+};
+
+/* query.c: what Embree calls back. */
+void accel_filter_occluder(const struct RTCFilterFunctionNArguments *args);
+void accel_intersect_curved(const struct RTCIntersectFunctionNArguments *args);
+void accel_occlude_curved(const struct RTCOccludedFunctionNArguments *args);
+
+#endif

@@ -1,0 +1,400 @@
+/* Ray queries through Embree.
+ *
+ * Embree works in float; this renderer asks for double positions and for rays that never meet the surface they leave.
+ * So Embree only proposes. A triangle it finds is checked in double against its plane: one that lies outside the ray's
+ * own double range, or on whose plane the ray starts (within the rounding error of the plane's equation, however large
+ * the triangle), is passed, and the ray goes on behind it. That happens rarely, for rays start off the surface they
+ * leave by more than float's rounding (accel_offset). Occlusion, which stops at any triangle, asks a filter function
+ * instead. Curved shapes are user geometry and double throughout. Boxes and meshes are one triangle geometry in world
+ * space. Visibility by kind of ray is decided in the same places: Embree may be built without masks.
+ *
+ * Rays come one by one or in packets, which pay where they run side by side. */
+#include <float.h>
+#include <string.h>
+#include "accel/embree.h"
+
+#define FLOAT_DOUBT 1e-3 /* share by which a distance in float may be off, along grazing triangles too */
+
+/* A ray in double, and the nearest curved shape on it so far. */
+typedef struct QueryRay {
+    const Ray *ray;
+    double rounding; /* a plane whose height over the origin is this small goes through it */
+    double t;
+    int face;
+} QueryRay;
+
+typedef enum HitField { HIT_PRIMITIVE = 5, HIT_GEOMETRY, HIT_INSTANCE, HIT_HITS = 12 /* after a ray's */ } HitField;
+
+/* Embree hands the context to every callback: ours carries the rays in double, by the rays' ids. */
+typedef struct Query {
+    QueryContext context;
+    const Accel *accel;
+    unsigned kind, refused; /* flags a primitive must and must not have */
+    QueryRay *rays;
+} Query;
+
+static inline int visible(const Query *query, int primitive)
+{
+    unsigned flags = query->accel->flags[primitive];
+
+    return (flags & query->kind) && !(flags & query->refused);
+}
+
+/* ---- triangles in double ---- */
+
+/* Distance to the triangle's plane; 0 where the ray runs along it or starts on it, or is not to see the triangle. */
+static inline int triangle_distance(const Query *query, const QueryRay *of, const Triangle *triangle, double *t)
+{
+    const Ray *ray = of->ray;
+    Vec3 n = triangle->normal;
+    double height = triangle->offset - vec_dot(n, ray->origin), fall = vec_dot(n, ray->direction);
+
+    if (fabs(height) <= of->rounding || fall == 0)
+        return 0;
+    *t = height / fall;
+    return *t > ray->tmin && *t < ray->tmax && visible(query, triangle->primitive);
+}
+
+/* Barycentrics of where the ray meets the plane, pulled into the triangle: Embree has decided that it is inside. */
+static void barycentrics(const Accel *accel, size_t triangle, const Ray *ray, double t, Hit *hit)
+{
+    const uint32_t *corner = accel->corners[triangle];
+    Vec3 v0 = accel->vertices[corner[0]], e1 = vec_sub(accel->vertices[corner[1]], v0);
+    Vec3 e2 = vec_sub(accel->vertices[corner[2]], v0), n = vec_cross(e1, e2);
+    Vec3 q = vec_sub(vec_mad(ray->origin, ray->direction, t), v0);
+    double nn = vec_dot(n, n), b1 = vec_dot(vec_cross(q, e2), n) / nn, b2 = vec_dot(vec_cross(e1, q), n) / nn;
+
+    b1 = fmin(fmax(b1, 0), 1);
+    b2 = fmin(fmax(b2, 0), 1);
+    if (b1 + b2 > 1) {
+        double sum = b1 + b2;
+        b1 /= sum;
+        b2 /= sum;
+    }
+    hit->b1 = b1;
+    hit->b2 = b2;
+}
+
+/* ---- callbacks ---- */
+
+/* N rays or hits lie field by field, as in RTCRay and RTCHit; Embree has accessors for C++ only. */
+static inline float *ray_tfar(const void *rays, unsigned n, unsigned i)
+{
+    return (float *)rays + (8 * n + i);
+}
+static inline unsigned ray_id(const void *rays, unsigned n, unsigned i)
+{
+    return ((const unsigned *)rays)[10 * n + i];
+}
+static inline unsigned *hit_field(const void *hits, unsigned n, unsigned i, HitField field)
+{
+    return (unsigned *)hits + ((unsigned)field * n + i);
+}
+
+void accel_filter_occluder(const struct RTCFilterFunctionNArguments *args)
+{
+    const Query *query = (const Query *)args->context;
+    double t;
+
+    for (unsigned i = 0; i < args->N; i++)
+        if (args->valid[i] &&
+            !triangle_distance(query, &query->rays[ray_id(args->ray, args->N, i)],
+                               &query->accel->triangles[*hit_field(args->hit, args->N, i, HIT_PRIMITIVE)], &t))
+            args->valid[i] = 0;
+}
+
+static int meet_curved(const Query *query, const QueryRay *of, unsigned index, float tfar, double *t, int *face)
+{
+    const Accel *accel = query->accel;
+    int primitive = accel->curved[index];
+    Ray ray = *of->ray;
+
+    if (!visible(query, primitive))
+        return 0;
+    ray.tmax = ray.tmax < tfar ? ray.tmax : tfar;
+    return shape_intersect(&accel->source->primitives[primitive], &ray, t, face);
+}
+
+void accel_intersect_curved(const struct RTCIntersectFunctionNArguments *args)
+{
+    Query *query = (Query *)args->context;
+    const void *rays = args->rayhit, *hits = (const unsigned *)rays + HIT_HITS * args->N;
+
+    for (unsigned i = 0; i < args->N; i++) {
+        QueryRay *of = &query->rays[ray_id(rays, args->N, i)];
+        if (!args->valid[i] || !meet_curved(query, of, args->primID, *ray_tfar(rays, args->N, i), &of->t, &of->face))
+            continue;
+        *ray_tfar(rays, args->N, i) = (float)of->t;
+        *hit_field(hits, args->N, i, HIT_GEOMETRY) = query->accel->curved_geometry;
+        *hit_field(hits, args->N, i, HIT_PRIMITIVE) = args->primID;
+        *hit_field(hits, args->N, i, HIT_INSTANCE) = RTC_INVALID_GEOMETRY_ID;
+    }
+}
+
+void accel_occlude_curved(const struct RTCOccludedFunctionNArguments *args)
+{
+    const Query *query = (const Query *)args->context;
+    double t;
+    int face;
+
+    for (unsigned i = 0; i < args->N; i++)
+        if (args->valid[i] && meet_curved(query, &query->rays[ray_id(args->ray, args->N, i)], args->primID,
+                                          *ray_tfar(args->ray, args->N, i), &t, &face))
+            *ray_tfar(args->ray, args->N, i) = -INFINITY;
+}
+
+/* ---- starting ---- */
+
+/* Embree may stop the program over a ray that is not finite; no such ray meets anything. */
+static inline int can_be_traced(const Ray *ray, double origin_size)
+{
+    const Vec3 *d = &ray->direction;
+
+    return origin_size < LARGEST_COORDINATE && fabs(d->x) + fabs(d->y) + fabs(d->z) < LARGEST_COORDINATE &&
+           ray->tmin == ray->tmin && ray->tmax == ray->tmax;
+}
+
+static inline void start_query(Query *query, const Accel *accel, RayKind kind, int skip_transparent, QueryRay *rays)
+{
+#if defined(RETEX_EMBREE4)
+    rtcInitRayQueryContext(&query->context);
+#else
+    rtcInitIntersectContext(&query->context);
+    query->context.flags =
+        kind == RAY_CAMERA ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
+#endif
+    query->accel = accel;
+    query->kind = (unsigned)kind;
+    query->refused = skip_transparent ? TRANSPARENT : 0;
+    query->rays = rays;
+}
+
+/* Embree gets the ray in float, its range widened by what float may be off; the double one decides. Returns 0 where
+ * the ray meets nothing for certain. */
+static inline int start_ray(QueryRay *of, const Accel *accel, const Ray *ray, float *tnear, float *tfar)
+{
+    double size = fabs(ray->origin.x) + fabs(ray->origin.y) + fabs(ray->origin.z);
+    double start = ray->tmin > 0 ? ray->tmin - FLOAT_DOUBT * (ray->tmin + size) : 0;
+
+    of->ray = ray;
+    /* Every coordinate that goes into the height is at most the sum of both; the normal's are 1.8 together. */
+    of->rounding = 28 * DBL_EPSILON * (accel->reach + size);
+    of->t = INFINITY;
+    of->face = 0;
+    *tnear = start > 0 ? (float)start : 0;
+    *tfar = (float)(ray->tmax + FLOAT_DOUBT * (ray->tmax + size));
+    return can_be_traced(ray, size);
+}
+
+static inline int start_single(QueryRay *of, struct RTCRay *to, const Accel *accel, const Ray *ray)
+{
+    to->org_x = (float)ray->origin.x, to->org_y = (float)ray->origin.y, to->org_z = (float)ray->origin.z;
+    to->dir_x = (float)ray->direction.x, to->dir_y = (float)ray->direction.y, to->dir_z = (float)ray->direction.z;
+    to->time = 0, to->mask = 0xffffffffu, to->id = to->flags = 0;
+    return start_ray(of, accel, ray, &to->tnear, &to->tfar);
+}
+
+/* The nearest plane before limit; any plane will do where any is set. Returns its primitive or -1. */
+static int nearest_plane(const Query *query, const Ray *of, double *limit, int any)
+{
+    const Accel *accel = query->accel;
+    Ray ray = *of;
+    int found = -1, face;
+    double t;
+
+    ray.tmax = fmin(ray.tmax, *limit);
+    for (int i = 0; i < accel->nplanes; i++) {
+        int primitive = accel->planes[i];
+        if (!visible(query, primitive) || !shape_intersect(&accel->source->primitives[primitive], &ray, &t, &face))
+            continue;
+        found = primitive;
+        *limit = ray.tmax = t;
+        if (any)
+            break;
+    }
+    return found;
+}
+
+/* ---- single rays ---- */
+
+static void trace(Query *query, struct RTCRayHit *rayhit)
+{
+#if defined(RETEX_EMBREE4)
+    struct RTCIntersectArguments args;
+    rtcInitIntersectArguments(&args);
+    args.context = &query->context;
+    args.flags = query->kind == RAY_CAMERA ? RTC_RAY_QUERY_FLAG_COHERENT : RTC_RAY_QUERY_FLAG_INCOHERENT;
+    rtcIntersect1(query->accel->scene, rayhit, &args);
+#else
+    rtcIntersect1(query->accel->scene, &query->context, rayhit);
+#endif
+}
+
+static void trace_occluded(Query *query, struct RTCRay *ray)
+{
+#if defined(RETEX_EMBREE4)
+    struct RTCOccludedArguments args;
+    rtcInitOccludedArguments(&args);
+    args.context = &query->context;
+    args.flags = RTC_RAY_QUERY_FLAG_INCOHERENT;
+    rtcOccluded1(query->accel->scene, ray, &args);
+#else
+    rtcOccluded1(query->accel->scene, &query->context, ray);
+#endif
+}
+
+/* What Embree found, as a hit; 0 where the ray does not meet that triangle. */
+static inline int accept(const Query *query, const QueryRay *of, unsigned geometry, unsigned index, Hit *hit)
+{
+    const Accel *accel = query->accel;
+    const Triangle *triangle = &accel->triangles[index];
+
+    if (geometry == accel->curved_geometry) {
+        hit->t = of->t, hit->primitive = accel->curved[index], hit->face = of->face;
+        return 1;
+    }
+    if (!triangle_distance(query, of, triangle, &hit->t))
+        return 0;
+    hit->primitive = triangle->primitive;
+    hit->face = (int)triangle->face;
+    hit->normal = triangle->normal;
+    hit->b1 = hit->b2 = 0;
+    if (triangle->interpolated)
+        barycentrics(accel, index, of->ray, hit->t, hit);
+    return 1;
+}
+
+/* Let the ray look for what is further away than what it found. */
+static void go_behind(struct RTCRayHit *rayhit, float end)
+{
+    rayhit->ray.tnear = nextafterf(rayhit->ray.tfar, INFINITY);
+    rayhit->ray.tfar = end;
+    rayhit->hit.geomID = RTC_INVALID_GEOMETRY_ID;
+}
+
+static int add_planes(const Query *query, const Ray *ray, Hit *hit)
+{
+    double limit = hit->primitive >= 0 ? hit->t : ray->tmax;
+    int plane = query->accel->nplanes ? nearest_plane(query, ray, &limit, 0) : -1;
+
+    if (plane >= 0)
+        hit->t = limit, hit->primitive = plane, hit->face = 0;
+    return hit->primitive >= 0;
+}
+
+int accel_intersect(const Accel *accel, const Ray *ray, RayKind kind, Hit *hit)
+{
+    Query query;
+    QueryRay of;
+    struct RTCRayHit rayhit;
+    float end;
+
+    hit->primitive = -1;
+    start_query(&query, accel, kind, 0, &of);
+    if (!start_single(&of, &rayhit.ray, accel, ray))
+        return 0;
+    end = rayhit.ray.tfar;
+    rayhit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    rayhit.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+    for (trace(&query, &rayhit); rayhit.hit.geomID != RTC_INVALID_GEOMETRY_ID; trace(&query, &rayhit)) {
+        if (accept(&query, &of, rayhit.hit.geomID, rayhit.hit.primID, hit))
+            break;
+        go_behind(&rayhit, end);
+    }
+    return add_planes(&query, ray, hit);
+}
+
+int accel_occluded(const Accel *accel, const Ray *ray, RayKind kind, int skip_transparent)
+{
+    Query query;
+    QueryRay of;
+    struct RTCRay occluded;
+    double limit = ray->tmax;
+
+    start_query(&query, accel, kind, skip_transparent, &of);
+    if (!start_single(&of, &occluded, accel, ray))
+        return 0;
+    if (accel->nplanes && nearest_plane(&query, ray, &limit, 1) >= 0)
+        return 1;
+    trace_occluded(&query, &occluded);
+    return occluded.tfar < 0;
+}
+
+/* ---- packets ---- */
+
+typedef struct Packet {
+    _Alignas(64) struct RTCRayHit16 rays;
+    _Alignas(64) int valid[ACCEL_PACKET];
+    QueryRay of[ACCEL_PACKET];
+} Packet;
+
+static void start_packet(Packet *p, const Accel *accel, const Ray *rays, int count)
+{
+    struct RTCRay16 *to = &p->rays.ray;
+
+    for (int i = 0; i < ACCEL_PACKET; i++) {
+        const Ray *ray = &rays[i < count ? i : 0];
+        to->org_x[i] = (float)ray->origin.x, to->org_y[i] = (float)ray->origin.y, to->org_z[i] = (float)ray->origin.z;
+        to->dir_x[i] = (float)ray->direction.x, to->dir_y[i] = (float)ray->direction.y;
+        to->dir_z[i] = (float)ray->direction.z;
+        to->time[i] = 0, to->mask[i] = 0xffffffffu, to->id[i] = (unsigned)i, to->flags[i] = 0;
+        p->valid[i] = start_ray(&p->of[i], accel, ray, &to->tnear[i], &to->tfar[i]) && i < count ? -1 : 0;
+    }
+}
+
+void accel_intersect_packet(const Accel *accel, const Ray *rays, int count, RayKind kind, Hit *hits)
+{
+    Packet p;
+    Query query;
+
+    start_query(&query, accel, kind, 0, p.of);
+    start_packet(&p, accel, rays, count);
+    for (int i = 0; i < ACCEL_PACKET; i++)
+        p.rays.hit.geomID[i] = p.rays.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
+#if defined(RETEX_EMBREE4)
+    struct RTCIntersectArguments args;
+    rtcInitIntersectArguments(&args);
+    args.context = &query.context;
+    args.flags = RTC_RAY_QUERY_FLAG_COHERENT;
+    rtcIntersect16(p.valid, accel->scene, &p.rays, &args);
+#else
+    rtcIntersect16(p.valid, accel->scene, &query.context, &p.rays);
+#endif
+    for (int i = 0; i < count; i++) {
+        hits[i].primitive = -1;
+        if (!p.valid[i])
+            continue;
+        if (p.rays.hit.geomID[i] != RTC_INVALID_GEOMETRY_ID &&
+            !accept(&query, &p.of[i], p.rays.hit.geomID[i], p.rays.hit.primID[i], &hits[i]))
+            accel_intersect(accel, &rays[i], kind, &hits[i]); /* seldom: it takes another look behind that */
+        else
+            add_planes(&query, &rays[i], &hits[i]);
+    }
+}
+
+unsigned accel_occluded_packet(const Accel *accel, const Ray *rays, int count, RayKind kind)
+{
+    Packet p;
+    Query query;
+    unsigned blocked = 0;
+
+    start_query(&query, accel, kind, 0, p.of);
+    start_packet(&p, accel, rays, count);
+#if defined(RETEX_EMBREE4)
+    struct RTCOccludedArguments args;
+    rtcInitOccludedArguments(&args);
+    args.context = &query.context;
+    args.flags = RTC_RAY_QUERY_FLAG_COHERENT;
+    rtcOccluded16(p.valid, accel->scene, &p.rays.ray, &args);
+#else
+    query.context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+    rtcOccluded16(p.valid, accel->scene, &query.context, &p.rays.ray);
+#endif
+    for (int i = 0; i < count; i++) {
+        double limit = rays[i].tmax;
+        int behind = p.valid[i] &&
+                     (p.rays.ray.tfar[i] < 0 || (accel->nplanes && nearest_plane(&query, &rays[i], &limit, 1) >= 0));
+        blocked |= (unsigned)behind << i;
+    }
+    return blocked;
+}
