@@ -4,6 +4,7 @@
  * A path carries its throughput more than once: `beta` is the whole of it, by variant of the textures, for no choice
  * along a path looks at a texture; `outside`, for sets, leaves out the target hits that `expansion` holds as factors.
  * Light that arrives goes to the film both ways. */
+#include <string.h>
 #include "integrate/path.h"
 
 #define ROULETTE_START 4 /* segments before Russian roulette begins */
@@ -40,6 +41,27 @@ typedef struct Path {
     Vec3 from;     /* where that direction was sampled */
     int segments;
 } Path;
+
+/* Light picked for a vertex, before it is known whether anything is in the way. */
+typedef struct LightTry {
+    int found; /* 0: none that could give any */
+    enum { WAY_UNKNOWN, WAY_FREE, WAY_BLOCKED } way;
+    LightSample light;
+    Ray ray;        /* to the light */
+    int other_side; /* of the surface */
+    float pdf;      /* with which the BSDF would find the direction */
+    Factor factors[2];
+    int nfactors;
+} LightTry;
+
+/* Where a ray met the scene, and what is chosen there. */
+typedef struct Vertex {
+    int met;
+    Hit hit;
+    Shading s;
+    VertexSamples u;
+    LightTry light;
+} Vertex;
 
 static Factor shading_factor(const Shading *s, Split split)
 {
@@ -317,45 +339,60 @@ static int light_factors(PathWorker *w, LightSample *light, Factor *factors)
     return 1;
 }
 
-static void sample_light(PathWorker *w, const Path *path, const Shading *s, const VertexSamples *u)
+static void pick_light(PathWorker *w, Vertex *v)
 {
     const PathContext *c = w->context;
-    float pdf;
-    LightSample light;
+    const Shading *s = &v->s;
+    const VertexSamples *u = &v->u;
+    LightTry *t = &v->light;
+    LightSample *light = &t->light;
+    t->found = 0;
     if (!lights_sample(c->lights, s->surface.position, u->light_choice, u->light_part, u->light_point_u,
-                       u->light_point_v, &light))
+                       u->light_point_v, light))
         return;
-    int source = light.kind == LIGHT_SAMPLE_SOURCE;
-    Split f = bsdf_eval(&s->bsdf, light.direction, source, &pdf);
+    Split f = bsdf_eval(&s->bsdf, light->direction, light->kind == LIGHT_SAMPLE_SOURCE, &t->pdf);
     if (rgb_is_black(f.d) && rgb_is_black(f.i))
         return;
-
-    Factor factors[SHADOW_FACTORS_MAX + 2];
-    factors[0] = shading_factor(s, f);
-    factors[0].sharp = path->sharp;
-    int n = 1 + light_factors(w, &light, factors + 1);
-    Ray ray = {accel_offset(s->surface.position, s->surface.geometric_normal, light.direction), light.direction, 0,
-               INFINITY};
-    if (isfinite(light.distance)) { /* stop just before the light, seen from where the ray starts */
-        ray.tmax = light.distance * (1 - 1e-6) - accel_margin(s->surface.position);
-        if (light.kind == LIGHT_SAMPLE_EMITTER)
-            ray.tmax -= accel_margin(light.surface.position);
+    t->found = 1;
+    t->way = light->shadowless ? WAY_FREE : WAY_UNKNOWN;
+    t->factors[0] = shading_factor(s, f);
+    t->nfactors = 1 + light_factors(w, light, t->factors + 1);
+    t->other_side = vec_dot(light->direction, s->bsdf.geometric) < 0;
+    t->ray = (Ray){accel_offset(s->surface.position, s->surface.geometric_normal, light->direction), light->direction,
+                   0, INFINITY};
+    if (isfinite(light->distance)) { /* stop just before the light, seen from where the ray starts */
+        t->ray.tmax = light->distance * (1 - 1e-6) - accel_margin(s->surface.position);
+        if (light->kind == LIGHT_SAMPLE_EMITTER)
+            t->ray.tmax -= accel_margin(light->surface.position);
     }
-    int other_side = vec_dot(light.direction, s->bsdf.geometric) < 0;
-    if (!light.shadowless) {
+}
+
+/* Light that was picked for the path's end reaches it, if nothing is in the way. */
+static void connect_light(PathWorker *w, const Path *path, Vertex *v)
+{
+    LightTry *t = &v->light;
+    int source = t->light.kind == LIGHT_SAMPLE_SOURCE, n = t->nfactors;
+    Factor factors[SHADOW_FACTORS_MAX + 2];
+    if (!t->found || t->way == WAY_BLOCKED)
+        return;
+    memcpy(factors, t->factors, (size_t)n * sizeof *factors);
+    factors[0].sharp = path->sharp;
+    if (t->way == WAY_UNKNOWN) {
         Media media = path->media;
-        if (other_side)
-            media_cross(&media, &s->surface);
-        int passed = trace_shadow(w, ray, source, &media, &light.radiance, factors + n, SHADOW_FACTORS_MAX);
+        if (t->other_side)
+            media_cross(&media, &v->s.surface);
+        int passed = trace_shadow(w, t->ray, source, &media, &t->light.radiance, factors + n, SHADOW_FACTORS_MAX);
         if (passed < 0)
             return;
         n += passed;
     }
-    if (!source && (pdf = path_density(c, &ray, path_next_kind(path->kind, &s->bsdf, other_side), &light, pdf)) < 0)
+    RayKind kind = path_next_kind(path->kind, &v->s.bsdf, t->other_side);
+    float pdf = source ? 0 : path_density(w->context, &t->ray, kind, &t->light, t->pdf);
+    if (pdf < 0)
         return;
-    float light_pdf = light.pdf * light.pick_probability;
-    float weight = source ? 1 / light.pick_probability : mis_weight(light_pdf, pdf) / light_pdf;
-    connect(w, path, rgb_scale(light.radiance, weight), factors, n);
+    float light_pdf = t->light.pdf * t->light.pick_probability;
+    float weight = source ? 1 / t->light.pick_probability : mis_weight(light_pdf, pdf) / light_pdf;
+    connect(w, path, rgb_scale(t->light.radiance, weight), factors, n);
 }
 
 /* The path itself ran into something that shines. */
@@ -382,10 +419,11 @@ static void hit_sky(PathWorker *w, const Path *path, Vec3 direction)
     connect(w, path, rgb_scale(radiance, weight), NULL, 0);
 }
 
-/* Choose where the path goes on from a hit at a distance along the ray. Returns 0 where it ends. */
-static int scatter(PathWorker *w, Path *path, const Shading *s, double distance, const VertexSamples *u, Ray *ray,
-                   int *straight)
+/* Choose where the path goes on. Returns 0 where it ends. */
+static int scatter(PathWorker *w, Path *path, const Vertex *v, Ray *ray, int *straight)
 {
+    const Shading *s = &v->s;
+    const VertexSamples *u = &v->u;
     BsdfSample next;
     if (!bsdf_sample(&s->bsdf, u->lobe, u->direction_u, u->direction_v, &next))
         return 0;
@@ -416,7 +454,7 @@ static int scatter(PathWorker *w, Path *path, const Shading *s, double distance,
         }
     }
     if (next.straight) {
-        ray->tmin = distance;
+        ray->tmin = v->hit.t;
         return 1;
     }
     ray->origin = accel_offset(s->surface.position, s->surface.geometric_normal, next.wi);
@@ -451,46 +489,119 @@ static void trace_hit(const PathContext *c, const Hit *hit, const Shading *s)
     fputc('\n', c->trace);
 }
 
-void path_trace(PathWorker *w, Ray ray, const Sampler *sampler)
+/* What a ray looks like where it met the scene, and the light picked there, of so many segments before. */
+static void fill_vertex(PathWorker *w, const Ray *ray, const Sampler *sampler, int number, int last, Vertex *v)
 {
     const PathContext *c = w->context;
-    Path path; /* set field by field: its expansion is large, and mostly unused */
+    shading_at(&v->s, c->scene, w->variants, c->nvariants, ray, &v->hit);
+    if (c->white && number == 0)
+        whiten(&v->s, ray);
+    if (c->trace)
+        trace_hit(c, &v->hit, &v->s);
+    vertex_samples(&w->keys, sampler, (unsigned)number, &v->u);
+    v->light.found = 0;
+    if (!last)
+        pick_light(w, v);
+}
+
+static void start_path(const PathContext *c, Path *path, const Ray *ray)
+{
     for (int v = 0; v < c->nvariants; v++)
-        path.beta[v] = rgb_grey(1);
-    path.outside = rgb_grey(1);
-    path.neutral = 1, path.pdf = 0, path.from = ray.origin, path.segments = 1, path.folded = 0, path.sharp = 1;
-    path.media.count = 0, path.kind = RAY_CAMERA;
-    expansion_reset(&path.expansion);
-    Hit hit;
-    Shading s;
-    VertexSamples u;
+        path->beta[v] = rgb_grey(1);
+    path->outside = rgb_grey(1);
+    path->neutral = 1, path->pdf = 0, path->from = ray->origin, path->segments = 1, path->folded = 0, path->sharp = 1;
+    path->media.count = 0, path->kind = RAY_CAMERA;
+    expansion_reset(&path->expansion);
+}
+
+/* One path, whose first vertex is known. */
+static void follow(PathWorker *w, Ray ray, const Sampler *sampler, Vertex *first)
+{
+    const PathContext *c = w->context;
+    Path path; /* not cleared: its expansion is large, and mostly unused */
+    Vertex next, *v = first;
     int straight = 0, passed = 0;
+    start_path(c, &path, &ray);
     for (;;) {
+        int last = path.segments >= c->max_depth; /* but what is passed straight is no segment of its own */
         w->segments++;
-        if (!accel_intersect(c->accel, &ray, path.kind, &hit)) {
+        if (v != first && (v->met = accel_intersect(c->accel, &ray, path.kind, &v->hit)))
+            fill_vertex(w, &ray, sampler, path.segments + passed - 1, last, v);
+        if (!v->met) {
             if (!c->white || path.segments > 1)
                 hit_sky(w, &path, ray.direction);
             break;
         }
-        shading_at(&s, c->scene, w->variants, c->nvariants, &ray, &hit);
-        if (c->white && path.segments == 1)
-            whiten(&s, &ray);
-        if (c->trace)
-            trace_hit(c, &hit, &s);
-        scale_path(c, &path, media_fade(&path.media, hit.t - ray.tmin, &s.surface));
-        hit_emitter(w, &path, &hit, &s);
-        int last = path.segments >= c->max_depth; /* but what is passed straight is no segment of its own */
-        if (last && (s.bsdf.p_passing <= 0 || s.bsdf.refracts))
+        if (path.media.count || v->s.surface.backside)
+            scale_path(c, &path, media_fade(&path.media, v->hit.t - ray.tmin, &v->s.surface));
+        hit_emitter(w, &path, &v->hit, &v->s);
+        if (last && (v->s.bsdf.p_passing <= 0 || v->s.bsdf.refracts))
             break;
-        vertex_samples(&w->keys, sampler, (unsigned)(path.segments + passed - 1), &u);
-        if (!last)
-            sample_light(w, &path, &s, &u);
-        if (!scatter(w, &path, &s, hit.t, &u, &ray, &straight) || (last && !straight))
+        connect_light(w, &path, v);
+        if (!scatter(w, &path, v, &ray, &straight) || (last && !straight))
             break;
         if (straight && ++passed > STRAIGHT_MAX)
             break;
         if (!straight)
             path.segments++;
+        v = &next;
     }
     film_path_end(w->pixel);
+}
+
+void path_trace(PathWorker *w, const Ray *ray, const Sampler *sampler)
+{
+    const PathContext *c = w->context;
+    Vertex first;
+    if ((first.met = accel_intersect(c->accel, ray, RAY_CAMERA, &first.hit)))
+        fill_vertex(w, ray, sampler, 0, c->max_depth <= 1, &first);
+    follow(w, *ray, sampler, &first);
+}
+
+/* Is anything between the vertices and the lights picked for them? Only what lets light through is left open. */
+static void look_for_lights(PathWorker *w, Vertex *vertices, int count)
+{
+    const Accel *accel = w->context->accel;
+    LightTry *tries[ACCEL_PACKET];
+    Ray rays[ACCEL_PACKET];
+    Hit hits[ACCEL_PACKET];
+    int n = 0, through = 0;
+    for (int i = 0; i < count; i++) {
+        LightTry *t = &vertices[i].light;
+        if (!vertices[i].met || !t->found || t->way != WAY_UNKNOWN || t->other_side)
+            continue;
+        through |= accel_has_transparent(accel, t->light.kind == LIGHT_SAMPLE_SOURCE);
+        rays[n] = t->ray;
+        tries[n++] = t;
+    }
+    if (n == 0)
+        return;
+    unsigned blocked = 0;
+    if (through)
+        accel_intersect_packet(accel, rays, n, RAY_SHADOW, hits);
+    else
+        blocked = accel_occluded_packet(accel, rays, n, RAY_SHADOW);
+    for (int i = 0; i < n; i++) {
+        if (through && hits[i].primitive >= 0 && accel_is_transparent(accel, hits[i].primitive))
+            continue;
+        w->shadow_rays++;
+        tries[i]->way = (through ? hits[i].primitive >= 0 : blocked >> i & 1) ? WAY_BLOCKED : WAY_FREE;
+    }
+}
+
+void path_trace_packet(PathWorker *w, const Ray *rays, const Sampler *samplers, int count)
+{
+    const PathContext *c = w->context;
+    Vertex first[ACCEL_PACKET];
+    Hit hits[ACCEL_PACKET];
+    accel_intersect_packet(c->accel, rays, count, RAY_CAMERA, hits);
+    for (int i = 0; i < count; i++) {
+        Vertex *v = &first[i];
+        v->hit = hits[i];
+        if ((v->met = hits[i].primitive >= 0))
+            fill_vertex(w, &rays[i], &samplers[i], 0, c->max_depth <= 1, v);
+    }
+    look_for_lights(w, first, count);
+    for (int i = 0; i < count; i++)
+        follow(w, rays[i], &samplers[i], &first[i]);
 }

@@ -73,6 +73,9 @@ static inline RayKind path_next_kind(RayKind kind, const Bsdf *bsdf, int transmi
     return transmitted && bsdf->refracts ? kind : RAY_BOUNCE;
 }
 
-void path_trace(PathWorker *worker, Ray ray, const Sampler *sampler);
+void path_trace(PathWorker *worker, const Ray *ray, const Sampler *sampler);
+/* Up to ACCEL_PACKET paths of one pixel, one after the other but for what they share: the rays from the camera and to
+ * the first lights go together. Not of several variants, and not traced. */
+void path_trace_packet(PathWorker *worker, const Ray *rays, const Sampler *samplers, int count);
 
 #endif

@@ -91,16 +91,39 @@ static void pixel_offset(const Render *r, const Sampler *sampler, double *dx, do
     *dx = 0.5 + radius * cos(phi), *dy = 0.5 + radius * sin(phi);
 }
 
-static void trace_sample(const Render *r, PathWorker *worker, int x, int y, int sample)
+/* Of a sample: its numbers, and the ray from the camera. */
+static Ray start_sample(const Render *r, int x, int y, int sample, Sampler *sampler)
 {
     int half = sample % r->halves; /* each with points of its own: those of one would fill each other's gaps */
-    Sampler sampler = sampler_start(half ? hash_pair(r->params.seed, 1) : r->params.seed, (uint32_t)x, (uint32_t)y,
-                                    (uint32_t)(sample / r->halves));
     double dx, dy;
-    pixel_offset(r, &sampler, &dx, &dy);
-    path_trace(worker, camera_ray(&r->scene->camera, r->width, r->height, x + dx, y + dy), &sampler);
+    *sampler = sampler_start(half ? hash_pair(r->params.seed, 1) : r->params.seed, (uint32_t)x, (uint32_t)y,
+                             (uint32_t)(sample / r->halves));
+    pixel_offset(r, sampler, &dx, &dy);
+    return camera_ray(&r->scene->camera, r->width, r->height, x + dx, y + dy);
+}
+
+static void trace_sample(const Render *r, PathWorker *worker, int x, int y, int sample)
+{
+    Sampler sampler;
+    Ray ray = start_sample(r, x, y, sample, &sampler);
+    path_trace(worker, &ray, &sampler);
     if (worker->control)
-        control_sample_end(worker->control, half);
+        control_sample_end(worker->control, sample % r->halves);
+}
+
+static void trace_pixel(const Render *r, PathWorker *worker, int x, int y)
+{
+    Ray rays[ACCEL_PACKET];
+    Sampler samplers[ACCEL_PACKET];
+    int packets = !worker->control && r->context.nvariants == 1;
+    for (int s = 0; s < r->params.spp && !packets; s++)
+        trace_sample(r, worker, x, y, s);
+    for (int s = 0; s < r->params.spp && packets; s += ACCEL_PACKET) {
+        int count = r->params.spp - s < ACCEL_PACKET ? r->params.spp - s : ACCEL_PACKET;
+        for (int i = 0; i < count; i++)
+            rays[i] = start_sample(r, x, y, s + i, &samplers[i]);
+        path_trace_packet(worker, rays, samplers, count);
+    }
 }
 
 static void render_tile(void *context, int tile, int thread)
@@ -115,8 +138,7 @@ static void render_tile(void *context, int tile, int thread)
                 const float *p = r->constants[t].pixels + retex_image_index(&r->constants[t], x, y);
                 worker->constants[t] = rgb(p[0], p[1], p[2]);
             }
-            for (int s = 0; s < r->params.spp; s++)
-                trace_sample(r, worker, r->x0 + x, r->y0 + y, s);
+            trace_pixel(r, worker, r->x0 + x, r->y0 + y);
             film_pixel_end(pixel, x, y);
             if (r->control)
                 control_pixel_end(r->controls[thread], x, y);
