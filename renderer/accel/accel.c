@@ -85,7 +85,9 @@ static unsigned char primitive_flags(const Primitive *primitive)
 static int always_bends(const Primitive *primitive)
 {
     const Finish *finish = primitive->texture->finish;
-    double ior = finish && finish_transmits(finish) ? finish->retex.ior : primitive->interior ? primitive->interior->ior : 1;
+    double ior = finish && finish_transmits(finish) ? finish->retex.ior
+                 : primitive->interior              ? primitive->interior->ior
+                                                    : 1;
     int several = primitive->interior_texture || (primitive->kind == SHAPE_MESH && primitive->mesh->ntextures > 0);
 
     return !several && ior != 1 && ior > 0;
@@ -154,11 +156,7 @@ static void add_triangle(Accel *accel, size_t *count, size_t base, const int cor
     if (!(vec_dot(n, n) > 0))
         return;
     n = f ? face_normal(primitive, face, at) : box_normal(primitive, face);
-    accel->triangles[*count] = (Triangle){.normal = n,
-                                          .offset = vec_dot(n, at[0]),
-                                          .primitive = index,
-                                          .face = (uint32_t)face,
-                                          .interpolated = f && (mesh_face_has_normals(f) || mesh_face_has_uvs(f))};
+    accel->triangles[*count] = (Triangle){n, vec_dot(n, at[0]), index, face};
     ++*count;
 }
 

@@ -17,8 +17,7 @@ typedef struct RTCIntersectContext QueryContext;
 typedef struct Triangle {
     Vec3 normal;   /* of unit length, outward */
     double offset; /* normal . p on its plane */
-    int32_t primitive;
-    uint32_t face : 31, interpolated : 1; /* interpolated: it has normals or UVs */
+    int32_t primitive, face;
 } Triangle;
 
 struct Accel {

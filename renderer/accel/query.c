@@ -55,26 +55,6 @@ static inline int triangle_distance(const Query *query, const QueryRay *of, cons
     return *t > ray->tmin && *t < ray->tmax && visible(query, triangle->primitive);
 }
 
-/* Barycentrics of where the ray meets the plane, pulled into the triangle: Embree has decided that it is inside. */
-static void barycentrics(const Accel *accel, size_t triangle, const Ray *ray, double t, Hit *hit)
-{
-    const uint32_t *corner = accel->corners[triangle];
-    Vec3 v0 = accel->vertices[corner[0]], e1 = vec_sub(accel->vertices[corner[1]], v0);
-    Vec3 e2 = vec_sub(accel->vertices[corner[2]], v0), n = vec_cross(e1, e2);
-    Vec3 q = vec_sub(vec_mad(ray->origin, ray->direction, t), v0);
-    double nn = vec_dot(n, n), b1 = vec_dot(vec_cross(q, e2), n) / nn, b2 = vec_dot(vec_cross(e1, q), n) / nn;
-
-    b1 = fmin(fmax(b1, 0), 1);
-    b2 = fmin(fmax(b2, 0), 1);
-    if (b1 + b2 > 1) {
-        double sum = b1 + b2;
-        b1 /= sum;
-        b2 /= sum;
-    }
-    hit->b1 = b1;
-    hit->b2 = b2;
-}
-
 /* ---- callbacks ---- */
 
 /* N rays or hits lie field by field, as in RTCRay and RTCHit; Embree has accessors for C++ only. */
@@ -244,7 +224,8 @@ static void trace_occluded(Query *query, struct RTCRay *ray)
 }
 
 /* What Embree found, as a hit; 0 where the ray does not meet that triangle. */
-static inline int accept(const Query *query, const QueryRay *of, unsigned geometry, unsigned index, Hit *hit)
+static inline int accept(const Query *query, const QueryRay *of, unsigned geometry, unsigned index, float u, float v,
+                         Hit *hit)
 {
     const Accel *accel = query->accel;
     const Triangle *triangle = &accel->triangles[index];
@@ -256,11 +237,9 @@ static inline int accept(const Query *query, const QueryRay *of, unsigned geomet
     if (!triangle_distance(query, of, triangle, &hit->t))
         return 0;
     hit->primitive = triangle->primitive;
-    hit->face = (int)triangle->face;
+    hit->face = triangle->face;
     hit->normal = triangle->normal;
-    hit->b1 = hit->b2 = 0;
-    if (triangle->interpolated)
-        barycentrics(accel, index, of->ray, hit->t, hit);
+    hit->b1 = u, hit->b2 = v; /* in float, which is enough to interpolate; Embree keeps them inside */
     return 1;
 }
 
@@ -297,7 +276,7 @@ int accel_intersect(const Accel *accel, const Ray *ray, RayKind kind, Hit *hit)
     rayhit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     rayhit.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
     for (trace(&query, &rayhit); rayhit.hit.geomID != RTC_INVALID_GEOMETRY_ID; trace(&query, &rayhit)) {
-        if (accept(&query, &of, rayhit.hit.geomID, rayhit.hit.primID, hit))
+        if (accept(&query, &of, rayhit.hit.geomID, rayhit.hit.primID, rayhit.hit.u, rayhit.hit.v, hit))
             break;
         go_behind(&rayhit, end);
     }
@@ -365,7 +344,8 @@ void accel_intersect_packet(const Accel *accel, const Ray *rays, int count, RayK
         if (!p.valid[i])
             continue;
         if (p.rays.hit.geomID[i] != RTC_INVALID_GEOMETRY_ID &&
-            !accept(&query, &p.of[i], p.rays.hit.geomID[i], p.rays.hit.primID[i], &hits[i]))
+            !accept(&query, &p.of[i], p.rays.hit.geomID[i], p.rays.hit.primID[i], p.rays.hit.u[i], p.rays.hit.v[i],
+                    &hits[i]))
             accel_intersect(accel, &rays[i], kind, &hits[i]); /* seldom: it takes another look behind that */
         else
             add_planes(&query, &rays[i], &hits[i]);

@@ -15,7 +15,7 @@ typedef struct Hit {
     int primitive;     /* index, or -1 for none */
     int face;          /* of a mesh; else the shape's own part (box side 0..5: -x +x -y +y -z +z, cone 0 side 1 low cap
                           2 high cap) */
-    double b1, b2;     /* barycentrics of a triangle that has normals or UVs: weights of corners 1 and 2; else 0 */
+    double b1, b2;     /* barycentrics of a triangle: weights of corners 1 and 2 */
     Vec3 normal;       /* of a triangle: unit length, outward, world space */
 } Hit;
 
