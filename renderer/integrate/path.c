@@ -7,7 +7,7 @@
 #include <string.h>
 #include "integrate/path.h"
 
-#define ROULETTE_START 4 /* segments before Russian roulette begins */
+#define ROULETTE_START 2 /* segments before Russian roulette begins */
 #define SHARP_PDF 25     /* per steradian: a bounce into a lobe no wider than about 7 degrees keeps things sharp */
 #define STRAIGHT_MAX 128 /* surfaces a path or shadow ray may pass without bending */
 #define MEDIA_MAX 4      /* fading interiors that a path may be in at once */
@@ -419,6 +419,13 @@ static void hit_sky(PathWorker *w, const Path *path, Vec3 direction)
     connect(w, path, rgb_scale(radiance, weight), NULL, 0);
 }
 
+/* Radiance in glass is that outside times the square of the index, and back again on the way out: no reason to end a
+ * path. */
+static float squeeze_undone(const Bsdf *bsdf, const BsdfSample *next)
+{
+    return next->transmitted && bsdf->refracts ? bsdf->eta * bsdf->eta : 1;
+}
+
 /* Choose where the path goes on. Returns 0 where it ends. */
 static int scatter(PathWorker *w, Path *path, const Vertex *v, Ray *ray, int *straight)
 {
@@ -433,7 +440,7 @@ static int scatter(PathWorker *w, Path *path, const Vertex *v, Ray *ray, int *st
     apply_factor(w->context, path->beta, &path->outside, &path->expansion, &path->folded, &factor);
     if (!w->context->split ? is_spent(w->context, path->beta) : rgb_is_black(path->outside))
         return 0;
-    path->neutral *= at_most(split_neutral(next.weight), 1);
+    path->neutral *= at_most(split_neutral(next.weight) * squeeze_undone(&s->bsdf, &next), 1);
     if (w->context->trace)
         fprintf(w->context->trace, "  goes on along %.5f %.5f %.5f pdf %.6g d %.5g i %.5g\n", next.wi.x, next.wi.y,
                 next.wi.z, next.pdf, rgb_luminance(next.weight.d), rgb_luminance(next.weight.i));
@@ -446,7 +453,7 @@ static int scatter(PathWorker *w, Path *path, const Vertex *v, Ray *ray, int *st
         path->sharp &= next.pdf == 0 || next.pdf > SHARP_PDF;
         path->from = s->surface.position;
         if (path->segments >= ROULETTE_START) {
-            float survive = at_most(path->neutral, 0.95f);
+            float survive = at_most(path->neutral, 1);
             if (u->roulette >= survive)
                 return 0;
             scale_path(w->context, path, rgb_grey(1 / survive));
