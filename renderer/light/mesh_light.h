@@ -28,8 +28,8 @@ int mesh_light_create(MeshLight **light, const Primitive *primitive, RetexError 
 void mesh_light_close(MeshLight **light);
 /* A face by its power, from u in [0,1). */
 int mesh_light_face(const MeshLight *light, float u);
-/* A point of a face, uniform in area: a Surface of backside 0 as from shape_sample, but for the shading normal, which is
- * that of a flat face. */
+/* A point of a face, uniform in area: a Surface of backside 0 as from shape_sample, but with the shading normal
+ * of a flat face. */
 void mesh_light_point(const MeshLight *light, int index, const Primitive *primitive, double u1, double u2,
                       Surface *surface);
 
