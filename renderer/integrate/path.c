@@ -367,9 +367,13 @@ static void pick_light(PathWorker *w, Vertex *v)
     t->ray = (Ray){accel_offset(s->surface.position, s->surface.geometric_normal, light->direction), light->direction,
                    0, INFINITY};
     if (isfinite(light->distance)) { /* stop just before the light, seen from where the ray starts */
-        t->ray.tmax = light->distance * (1 - 1e-6) - accel_margin(s->surface.position);
-        if (light->kind == LIGHT_SAMPLE_EMITTER)
-            t->ray.tmax -= accel_margin(light->surface.position);
+        double margin = accel_margin(s->surface.position);
+        t->ray.tmax = light->distance * (1 - 1e-6) - margin;
+        if (light->kind ==
+            LIGHT_SAMPLE_EMITTER) { /* whose surface the ray, begun beside, meets the earlier the flatter */
+            double slope = fabs(vec_dot(light->direction, light->surface.geometric_normal));
+            t->ray.tmax -= (margin + accel_margin(light->surface.position)) / (slope > 1e-3 ? slope : 1e-3);
+        }
     }
 }
 
