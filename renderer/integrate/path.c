@@ -38,7 +38,7 @@ typedef struct Path {
     int sharp;     /* so far every bounce was specular, or nearly so */
     float neutral; /* throughput with NEUTRAL_ALBEDO everywhere: for Russian roulette */
     float pdf;     /* density of the direction, 0 after a delta */
-    Vec3 from;     /* where that direction was sampled */
+    LitPoint from; /* where that direction was sampled */
     int segments;
 } Path;
 
@@ -339,6 +339,12 @@ static int light_factors(PathWorker *w, LightSample *light, Factor *factors)
     return 1;
 }
 
+static LitPoint lit_point(const Shading *s)
+{
+    const Vec3 none = {0, 0, 0};
+    return (LitPoint){s->surface.position, bsdf_only_reflects(&s->bsdf) ? s->bsdf.normal : none};
+}
+
 static void pick_light(PathWorker *w, Vertex *v)
 {
     const PathContext *c = w->context;
@@ -346,9 +352,9 @@ static void pick_light(PathWorker *w, Vertex *v)
     const VertexSamples *u = &v->u;
     LightTry *t = &v->light;
     LightSample *light = &t->light;
+    LitPoint point = lit_point(s);
     t->found = 0;
-    if (!lights_sample(c->lights, s->surface.position, u->light_choice, u->light_part, u->light_point_u,
-                       u->light_point_v, light))
+    if (!lights_sample(c->lights, &point, u->light_choice, u->light_part, u->light_point_u, u->light_point_v, light))
         return;
     Split f = bsdf_eval(&s->bsdf, light->direction, light->kind == LIGHT_SAMPLE_SOURCE, &t->pdf);
     if (rgb_is_black(f.d) && rgb_is_black(f.i))
@@ -361,9 +367,13 @@ static void pick_light(PathWorker *w, Vertex *v)
     t->ray = (Ray){accel_offset(s->surface.position, s->surface.geometric_normal, light->direction), light->direction,
                    0, INFINITY};
     if (isfinite(light->distance)) { /* stop just before the light, seen from where the ray starts */
-        t->ray.tmax = light->distance * (1 - 1e-6) - accel_margin(s->surface.position);
-        if (light->kind == LIGHT_SAMPLE_EMITTER)
-            t->ray.tmax -= accel_margin(light->surface.position);
+        double margin = accel_margin(s->surface.position);
+        t->ray.tmax = light->distance * (1 - 1e-6) - margin;
+        if (light->kind ==
+            LIGHT_SAMPLE_EMITTER) { /* whose surface the ray, begun beside, meets the earlier the flatter */
+            double slope = fabs(vec_dot(light->direction, light->surface.geometric_normal));
+            t->ray.tmax -= (margin + accel_margin(light->surface.position)) / (slope > 1e-3 ? slope : 1e-3);
+        }
     }
 }
 
@@ -402,7 +412,8 @@ static void hit_emitter(PathWorker *w, const Path *path, const Hit *hit, const S
         return;
     float weight = 1;
     if (path->pdf > 0)
-        weight = mis_weight(path->pdf, lights_emitter_pdf(w->context->lights, path->from, hit->primitive, &s->surface));
+        weight =
+            mis_weight(path->pdf, lights_emitter_pdf(w->context->lights, &path->from, hit->primitive, &s->surface));
     Factor factor = shading_factor(s, emitted(s));
     factor.sharp = path->sharp;
     connect(w, path, rgb_grey(weight), &factor, 1);
@@ -415,7 +426,7 @@ static void hit_sky(PathWorker *w, const Path *path, Vec3 direction)
         return;
     float weight = 1;
     if (path->pdf > 0)
-        weight = mis_weight(path->pdf, lights_sky_pdf(w->context->lights, path->from, direction));
+        weight = mis_weight(path->pdf, lights_sky_pdf(w->context->lights, &path->from, direction));
     connect(w, path, rgb_scale(radiance, weight), NULL, 0);
 }
 
@@ -451,7 +462,7 @@ static int scatter(PathWorker *w, Path *path, const Vertex *v, Ray *ray, int *st
         path->kind = path_next_kind(path->kind, &s->bsdf, next.transmitted);
         path->pdf = next.pdf;
         path->sharp &= next.pdf == 0 || next.pdf > SHARP_PDF;
-        path->from = s->surface.position;
+        path->from = lit_point(s);
         if (path->segments >= ROULETTE_START) {
             float survive = at_most(path->neutral, 1);
             if (u->roulette >= survive)
@@ -516,7 +527,8 @@ static void start_path(const PathContext *c, Path *path, const Ray *ray)
     for (int v = 0; v < c->nvariants; v++)
         path->beta[v] = rgb_grey(1);
     path->outside = rgb_grey(1);
-    path->neutral = 1, path->pdf = 0, path->from = ray->origin, path->segments = 1, path->folded = 0, path->sharp = 1;
+    path->neutral = 1, path->pdf = 0, path->from = (LitPoint){ray->origin, {0, 0, 0}};
+    path->segments = 1, path->folded = 0, path->sharp = 1;
     path->media.count = 0, path->kind = RAY_CAMERA;
     expansion_reset(&path->expansion);
 }

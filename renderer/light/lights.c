@@ -1,11 +1,17 @@
 /* The list of all lights and the choice among them. */
+#include <limits.h>
 #include <stdlib.h>
 #include <string.h>
+#include "light/light_tree.h"
 #include "light/lights.h"
+#include "light/mesh_light.h"
 #include "shade/bsdf.h"
 
-#define LOCAL_CHOICE_MAX 48 /* up to here a light is chosen by what it may give at the point; beyond, by power alone */
-#define CHOICE_FLOOR 0.02f  /* every light keeps at least this share of an equal choice: estimates may be wrong */
+#define EXACT_MAX 4        /* up to here lights are chosen by an estimate of each; beyond, by the tree */
+#define FACES_WHOLE 8      /* a mesh of no more emitting faces is one light; of more, each face is */
+#define CHOICE_FLOOR 0.02f /* every light keeps at least this share of an equal choice: estimates may be wrong */
+#define BESIDE_MIN 0.05f   /* the same for the tree as a whole and what is beside it */
+#define BACK_OF_CLOSED 0.1 /* the inner side of a closed mesh counts so much: it may be a room */
 
 typedef enum EntryKind { ENTRY_SOURCE, ENTRY_EMITTER, ENTRY_SKY } EntryKind;
 
@@ -15,10 +21,17 @@ typedef struct Entry {
     Vec3 center; /* emitter: of its bounds */
     double radius;
     double area;
-    float strength;    /* emitter: radiance * area; sky: irradiance; source: luminance of its colour times pi */
-    double *face_sums; /* mesh emitters: running sums of face areas, nfaces + 1 */
-    int sphere;        /* sampled by the cone it is seen in */
+    float strength;  /* emitter: radiance * area; sky: irradiance; source: luminance of its colour times pi */
+    MeshLight *mesh; /* emitting meshes */
+    int sphere;      /* sampled by the cone it is seen in */
+    int leaf;        /* first in the tree: one, or as many as the mesh has emitting faces; -1: beside the tree */
+    int beside;      /* index of what is beside the tree */
 } Entry;
+
+/* What a leaf of the tree is. */
+typedef struct Leaf {
+    int entry, face; /* face: of the mesh light, or -1: the whole entry */
+} Leaf;
 
 struct Lights {
     const Scene *scene;
@@ -26,34 +39,25 @@ struct Lights {
     int count, sky; /* sky: index of its entry, or -1 */
     Entry *entries;
     int *of_primitive; /* entry of each primitive, or -1 */
-    float *power_sums; /* count + 1, for many lights */
+    /* many lights; tree is NULL for few */
+    LightTree *tree;
+    Leaf *leaves;
+    int nbeside;        /* lights that are infinitely far: sky and beams */
+    int *beside;        /* their entries */
+    float *beside_sums; /* running sums of their irradiance, nbeside + 1 */
 };
+
+/* What was chosen. */
+typedef struct Pick {
+    const Entry *entry;
+    int face; /* of its mesh light, or -1: not chosen yet */
+    float probability;
+    float u_part; /* what is left of the random number, for the part */
+} Pick;
 
 static int primitive_emits(const Primitive *p)
 {
     return !rgb_is_black(p->texture->finish->emission);
-}
-
-static int mesh_emits(const Primitive *p, int face)
-{
-    int t = p->mesh->faces[face].texture;
-    const Texture *texture = t < 0 ? p->texture : p->mesh->textures[t];
-    return !rgb_is_black(texture->finish->emission);
-}
-
-/* Running sums of the areas of the faces that emit; returns their total. */
-static double mesh_sums(Entry *entry, const Primitive *p)
-{
-    double total = 0;
-    entry->face_sums = calloc((size_t)p->mesh->nfaces + 1, sizeof(double));
-    if (!entry->face_sums)
-        return -1;
-    for (int k = 0; k < p->mesh->nfaces; k++) {
-        if (mesh_emits(p, k))
-            total += mesh_face_area(p, k);
-        entry->face_sums[k + 1] = total;
-    }
-    return total;
 }
 
 /* A sphere under rotation, translation and equal scaling. */
@@ -75,29 +79,28 @@ static int add_emitter(Lights *lights, int index, RetexError *err)
 {
     const Primitive *p = &lights->scene->primitives[index];
     Entry e = {.kind = ENTRY_EMITTER, .index = index};
-    Rgb emission = p->texture->finish->emission;
+    double power = 0, r;
     if (p->kind == SHAPE_MESH) {
-        e.area = mesh_sums(&e, p);
-        if (e.area < 0)
-            return retex_fail(err, RETEX_ENOMEM, "out of memory for an emitter's faces");
-        for (int k = 0; k < p->mesh->nfaces && rgb_is_black(emission); k++)
-            if (mesh_emits(p, k))
-                emission = p->mesh->textures[p->mesh->faces[k].texture]->finish->emission;
+        int code = mesh_light_create(&e.mesh, p, err);
+        if (code)
+            return code;
+        if (e.mesh)
+            e.area = e.mesh->area, power = e.mesh->power;
     } else if (primitive_emits(p)) {
         e.area = shape_area(p);
+        power = rgb_luminance(p->texture->finish->emission) * e.area;
     }
     Vec3 low, high;
     if (!(e.area > 0) || !shape_bounds(p, &low, &high)) {
-        free(e.face_sums);
+        mesh_light_close(&e.mesh);
         return RETEX_OK;
     }
     e.center = vec_scale(vec_add(low, high), 0.5);
     e.radius = vec_length(vec_sub(high, low)) / 2;
-    double r;
     e.sphere = is_round_sphere(p, &r);
     if (e.sphere)
         e.radius = r;
-    e.strength = rgb_luminance(emission) * NEUTRAL_ALBEDO * (float)e.area;
+    e.strength = NEUTRAL_ALBEDO * (float)power;
     lights->of_primitive[index] = lights->count;
     lights->entries[lights->count++] = e;
     return RETEX_OK;
@@ -118,17 +121,116 @@ static void add_others(Lights *lights)
         (Entry){.kind = ENTRY_SKY, .strength = environment_mean(lights->environment) * (float)PI};
 }
 
-static void sum_powers(Lights *lights)
+/* ---- many lights ---- */
+
+static int is_beside(const Lights *lights, const Entry *e)
 {
-    float total = 0;
-    lights->power_sums[0] = 0;
-    for (int k = 0; k < lights->count; k++)
-        lights->power_sums[k + 1] = total += lights->entries[k].strength;
-    float floor_share = total * CHOICE_FLOOR / (float)(lights->count ? lights->count : 1), sum = 0;
-    for (int k = 0; k < lights->count; k++)
-        lights->power_sums[k + 1] = sum += lights->entries[k].strength + floor_share;
-    for (int k = 1; k <= lights->count; k++)
-        lights->power_sums[k] /= sum > 0 ? sum : 1;
+    return e->kind == ENTRY_SKY || (e->kind == ENTRY_SOURCE && source_is_beam(&lights->scene->lights[e->index]));
+}
+
+/* Is each face of its mesh a light? */
+static int is_by_face(const Entry *e)
+{
+    return e->mesh && e->mesh->count > FACES_WHOLE;
+}
+
+/* As many leaves as an entry has in the tree. */
+static int leaf_count(const Lights *lights, const Entry *e)
+{
+    if (is_beside(lights, e))
+        return 0;
+    return is_by_face(e) ? e->mesh->count : 1;
+}
+
+static LightBounds face_bounds(const MeshLight *mesh, int face)
+{
+    const MeshLightFace *f = &mesh->faces[face];
+    double a[3], b[3], c[3], low[3], high[3], falling = NEUTRAL_ALBEDO * fmaxf(0, f->radiance) / f->inverse_area;
+    a[0] = f->corner.x, a[1] = f->corner.y, a[2] = f->corner.z;
+    b[0] = f->edge1.x, b[1] = f->edge1.y, b[2] = f->edge1.z;
+    c[0] = f->edge2.x, c[1] = f->edge2.y, c[2] = f->edge2.z;
+    for (int k = 0; k < 3; k++) {
+        low[k] = a[k] + fmin(0, fmin(b[k], c[k]));
+        high[k] = a[k] + fmax(0, fmax(b[k], c[k]));
+    }
+    return (LightBounds){.low = vec3(low[0], low[1], low[2]),
+                         .high = vec3(high[0], high[1], high[2]),
+                         .axis = f->normal,
+                         .reach = PI / 2,
+                         .back = mesh->closed ? BACK_OF_CLOSED : 1,
+                         .falling = falling,
+                         .peak = NEUTRAL_ALBEDO * PI * fmaxf(0, f->radiance)};
+}
+
+/* An emitting shape as a whole: flat, or seen from any side with a quarter of its surface. */
+static LightBounds shape_light_bounds(const Primitive *p, const Entry *e)
+{
+    LightBounds b = {.axis = {0, 0, 1}, .spread = PI, .reach = PI / 2, .back = 1, .falling = e->strength / 4};
+    shape_bounds(p, &b.low, &b.high);
+    b.peak = e->area > 0 ? PI * e->strength / e->area : 0;
+    if (p->kind == SHAPE_DISC) {
+        b.axis = vec_normalize(transform_normal(&p->transform, vec3(0, 0, 1)));
+        b.spread = 0;
+        b.falling = e->strength;
+    }
+    return b;
+}
+
+static LightBounds entry_bounds(const Lights *lights, const Entry *e)
+{
+    if (e->kind == ENTRY_SOURCE)
+        return source_bounds(&lights->scene->lights[e->index]);
+    return shape_light_bounds(&lights->scene->primitives[e->index], e);
+}
+
+/* The infinite lights, with running sums of what they may give. */
+static void sum_beside(Lights *lights)
+{
+    float sum = 0;
+    for (int k = 0; k < lights->count; k++) {
+        if (!is_beside(lights, &lights->entries[k]))
+            continue;
+        lights->entries[k].beside = lights->nbeside;
+        lights->beside[lights->nbeside++] = k;
+        lights->beside_sums[lights->nbeside] = sum += fmaxf(lights->entries[k].strength, 1e-20f);
+    }
+}
+
+/* A tree, where there are many lights that are somewhere. */
+static int grow_tree(Lights *lights, RetexError *err)
+{
+    long leaves = 0;
+    int finite = 0, n = 0;
+    for (int k = 0; k < lights->count; k++) {
+        int of_entry = leaf_count(lights, &lights->entries[k]);
+        lights->entries[k].leaf = -1;
+        leaves += of_entry, finite += of_entry > 0;
+    }
+    if (finite == leaves && finite <= EXACT_MAX && lights->count <= EXACT_MAX)
+        return RETEX_OK;
+    LightBounds *bounds = malloc((size_t)leaves * sizeof *bounds + 1);
+    lights->leaves = malloc((size_t)leaves * sizeof *lights->leaves + 1);
+    lights->beside = malloc(((size_t)lights->count + 1) * sizeof *lights->beside);
+    lights->beside_sums = calloc((size_t)lights->count + 1, sizeof *lights->beside_sums);
+    int code = RETEX_OK;
+    if (!bounds || !lights->leaves || !lights->beside || !lights->beside_sums || leaves > INT_MAX / 2)
+        code = retex_fail(err, RETEX_ENOMEM, "out of memory for %ld lights", leaves);
+    for (int k = 0; k < lights->count && !code; k++) {
+        Entry *e = &lights->entries[k];
+        int of_entry = leaf_count(lights, e);
+        if (of_entry > 0)
+            e->leaf = n;
+        for (int f = 0; f < of_entry; f++) {
+            lights->leaves[n] = (Leaf){k, is_by_face(e) ? f : -1};
+            bounds[n++] = is_by_face(e) ? face_bounds(e->mesh, f) : entry_bounds(lights, e);
+        }
+    }
+    if (!code)
+        sum_beside(lights);
+    if (!code && n > 0)
+        code = light_tree_create(&lights->tree, bounds, n, err);
+    free(bounds);
+    return code;
 }
 
 int lights_create(Lights **out, const Scene *scene, RetexError *err)
@@ -142,9 +244,8 @@ int lights_create(Lights **out, const Scene *scene, RetexError *err)
     lights->sky = -1;
     lights->entries = calloc(most, sizeof *lights->entries);
     lights->of_primitive = malloc(most * sizeof *lights->of_primitive);
-    lights->power_sums = calloc(most + 1, sizeof *lights->power_sums);
     int code = RETEX_OK;
-    if (!lights->entries || !lights->of_primitive || !lights->power_sums)
+    if (!lights->entries || !lights->of_primitive)
         code = retex_fail(err, RETEX_ENOMEM, "out of memory for %d lights", (int)most);
     if (!code)
         code = environment_create(&lights->environment, scene, err);
@@ -152,13 +253,13 @@ int lights_create(Lights **out, const Scene *scene, RetexError *err)
         lights->of_primitive[k] = -1;
         code = add_emitter(lights, k, err);
     }
-    if (code) {
-        lights_close(out);
-        return code;
+    if (!code) {
+        add_others(lights);
+        code = grow_tree(lights, err);
     }
-    add_others(lights);
-    sum_powers(lights);
-    return RETEX_OK;
+    if (code)
+        lights_close(out);
+    return code;
 }
 
 void lights_close(Lights **lights)
@@ -166,11 +267,14 @@ void lights_close(Lights **lights)
     if (!*lights)
         return;
     for (int k = 0; k < (*lights)->count; k++)
-        free((*lights)->entries[k].face_sums);
+        mesh_light_close(&(*lights)->entries[k].mesh);
+    light_tree_close(&(*lights)->tree);
     environment_close(&(*lights)->environment);
     free((*lights)->entries);
     free((*lights)->of_primitive);
-    free((*lights)->power_sums);
+    free((*lights)->leaves);
+    free((*lights)->beside);
+    free((*lights)->beside_sums);
     free(*lights);
     *lights = NULL;
 }
@@ -179,6 +283,8 @@ int lights_count(const Lights *lights)
 {
     return lights->count;
 }
+
+/* ---- the choice ---- */
 
 /* Rough irradiance an entry may give at a point that faces it. */
 static float entry_estimate(const Lights *lights, const Entry *e, Vec3 position)
@@ -208,41 +314,87 @@ static void local_shares(const Lights *lights, Vec3 position, float *shares)
         shares[k] /= sum;
 }
 
-static float pick_probability(const Lights *lights, Vec3 position, int entry)
+/* Share of the tree as a whole; the rest is that of the lights beside it. */
+static float tree_share(const Lights *lights, const LitPoint *point)
+{
+    if (lights->nbeside == 0)
+        return 1;
+    if (!lights->tree)
+        return 0;
+    float tree = light_tree_estimate(lights->tree, point), beside = lights->beside_sums[lights->nbeside];
+    return fminf(1 - BESIDE_MIN, fmaxf(BESIDE_MIN, tree / (tree + beside)));
+}
+
+static float beside_share(const Lights *lights, int k)
+{
+    return (lights->beside_sums[k + 1] - lights->beside_sums[k]) / lights->beside_sums[lights->nbeside];
+}
+
+/* Is every light estimated? */
+static int is_exact(const Lights *lights)
+{
+    return !lights->tree && lights->nbeside == 0;
+}
+
+static float exact_probability(const Lights *lights, Vec3 position, int entry)
 {
     if (lights->count == 1)
         return 1;
-    if (lights->count > LOCAL_CHOICE_MAX)
-        return lights->power_sums[entry + 1] - lights->power_sums[entry];
-    float shares[LOCAL_CHOICE_MAX];
+    float shares[EXACT_MAX];
     local_shares(lights, position, shares);
     return shares[entry];
 }
 
-static int pick(const Lights *lights, Vec3 position, float u, float *probability)
+/* Probability of an entry, or of a face of its mesh where faces are lights of their own. */
+static float pick_probability(const Lights *lights, const LitPoint *point, int entry, int face)
 {
-    *probability = 1;
+    if (is_exact(lights))
+        return exact_probability(lights, point->position, entry);
+    const Entry *e = &lights->entries[entry];
+    float share = tree_share(lights, point);
+    if (e->leaf < 0)
+        return (1 - share) * beside_share(lights, e->beside);
+    return share * light_tree_probability(lights->tree, point, e->leaf + (is_by_face(e) ? face : 0));
+}
+
+static Pick exact_pick(const Lights *lights, Vec3 position, float u, float u_part)
+{
     if (lights->count == 1)
-        return 0;
-    if (lights->count > LOCAL_CHOICE_MAX) {
-        int low = 0, high = lights->count;
-        while (high - low > 1) {
-            int middle = (low + high) / 2;
-            if (lights->power_sums[middle] <= u)
-                low = middle;
-            else
-                high = middle;
-        }
-        *probability = lights->power_sums[low + 1] - lights->power_sums[low];
-        return low;
-    }
-    float shares[LOCAL_CHOICE_MAX], sum = 0;
+        return (Pick){lights->entries, -1, 1, u_part};
+    float shares[EXACT_MAX], sum = 0;
     local_shares(lights, position, shares);
     int k = 0;
     while (k < lights->count - 1 && u >= sum + shares[k])
         sum += shares[k++];
-    *probability = shares[k];
-    return k;
+    return (Pick){&lights->entries[k], -1, shares[k], u_part};
+}
+
+static Pick beside_pick(const Lights *lights, float share, double u, float u_part)
+{
+    const float *sums = lights->beside_sums;
+    int low = 0, high = lights->nbeside;
+    while (high - low > 1) {
+        int middle = (low + high) / 2;
+        if (sums[middle] <= u * sums[lights->nbeside])
+            low = middle;
+        else
+            high = middle;
+    }
+    return (Pick){&lights->entries[lights->beside[low]], -1, share * beside_share(lights, low), u_part};
+}
+
+static Pick pick(const Lights *lights, const LitPoint *point, float u_pick, float u_part)
+{
+    if (is_exact(lights))
+        return exact_pick(lights, point->position, u_pick, u_part);
+    /* both numbers make one: the way down to one of very many takes more than the bits of a float */
+    double u = u_pick + u_part * 0x1p-24;
+    float share = tree_share(lights, point), probability;
+    if (u >= share)
+        return beside_pick(lights, 1 - share, (u - share) / (1 - share), u_part);
+    u /= share;
+    const Leaf *leaf = &lights->leaves[light_tree_pick(lights->tree, point, &u, &probability)];
+    return (Pick){&lights->entries[leaf->entry], leaf->face, share * probability, fminf((float)u, 1 - 0x1p-24f)};
 }
 
 /* Uniform in the cone in which a sphere is seen from outside. The sample's surface lies where that direction meets
@@ -273,32 +425,28 @@ static int outside_sphere(const Entry *e, Vec3 position)
     return e->sphere && vec_dot(d, d) > e->radius * e->radius * 1.0001;
 }
 
-static int find_face(const Entry *e, int count, float u)
+/* A point of an emitter that is sampled by its area; returns the density there. */
+static double sample_area(const Lights *lights, const Pick *pick, float u1, float u2, Surface *surface)
 {
-    double wanted = u * e->face_sums[count];
-    int low = 0, high = count;
-    while (high - low > 1) {
-        int middle = (low + high) / 2;
-        if (e->face_sums[middle] <= wanted)
-            low = middle;
-        else
-            high = middle;
+    const Entry *e = pick->entry;
+    const Primitive *p = &lights->scene->primitives[e->index];
+    double density;
+    if (!e->mesh) {
+        shape_sample(p, lights->scene, -1, u1, u2, surface, &density);
+        return density;
     }
-    return low;
+    int face = pick->face >= 0 ? pick->face : mesh_light_face(e->mesh, pick->u_part);
+    mesh_light_point(e->mesh, face, p, u1, u2, surface);
+    return (pick->face >= 0 ? 1 : e->mesh->faces[face].share) * e->mesh->faces[face].inverse_area;
 }
 
-static int sample_emitter(const Lights *lights, const Entry *e, Vec3 position, float u_part, float u1, float u2,
+static int sample_emitter(const Lights *lights, const Pick *pick, Vec3 position, float u1, float u2,
                           LightSample *sample)
 {
-    const Primitive *p = &lights->scene->primitives[e->index];
     sample->kind = LIGHT_SAMPLE_EMITTER;
-    if (outside_sphere(e, position))
-        return sample_sphere_cone(e, lights->scene, position, u1, u2, sample);
-    double pdf_area;
-    int face = e->face_sums ? find_face(e, p->mesh->nfaces, u_part) : (int)(u_part * 6);
-    shape_sample(p, lights->scene, face, u1, u2, &sample->surface, &pdf_area);
-    if (e->face_sums)
-        pdf_area = 1 / e->area;
+    if (outside_sphere(pick->entry, position))
+        return sample_sphere_cone(pick->entry, lights->scene, position, u1, u2, sample);
+    double pdf_area = sample_area(lights, pick, u1, u2, &sample->surface);
     Vec3 d = vec_sub(sample->surface.position, position);
     sample->distance = vec_length(d);
     if (!(sample->distance > 0))
@@ -312,17 +460,18 @@ static int sample_emitter(const Lights *lights, const Entry *e, Vec3 position, f
     return 1;
 }
 
-int lights_sample(const Lights *lights, Vec3 position, float u_pick, float u_part, float u1, float u2,
+int lights_sample(const Lights *lights, const LitPoint *point, float u_pick, float u_part, float u1, float u2,
                   LightSample *sample)
 {
     if (lights->count == 0)
         return 0;
-    float probability;
-    const Entry *e = &lights->entries[pick(lights, position, u_pick, &probability)];
-    sample->pick_probability = probability;
+    Vec3 position = point->position;
+    Pick picked = pick(lights, point, u_pick, u_part);
+    const Entry *e = picked.entry;
+    sample->pick_probability = picked.probability;
     sample->shadowless = 0;
     if (e->kind == ENTRY_EMITTER)
-        return sample_emitter(lights, e, position, u_part, u1, u2, sample);
+        return sample_emitter(lights, &picked, position, u1, u2, sample);
     if (e->kind == ENTRY_SKY) {
         sample->kind = LIGHT_SAMPLE_SKY;
         sample->direction = environment_sample(lights->environment, u1, u2, &sample->pdf);
@@ -339,16 +488,29 @@ int lights_sample(const Lights *lights, Vec3 position, float u_pick, float u_par
     return !rgb_is_black(sample->radiance);
 }
 
-float lights_emitter_pdf(const Lights *lights, Vec3 from, int primitive, const Surface *surface)
+/* Density per unit area of the shape where a path met it; *face: of the mesh light. 0 where it does not emit. */
+static double area_density(const Entry *e, const Surface *surface, int *face)
 {
-    int k = lights->of_primitive[primitive];
+    *face = -1;
+    if (!e->mesh)
+        return shape_pdf_area(surface->primitive, surface);
+    *face = e->mesh->of_face[surface->face];
+    if (*face < 0)
+        return 0;
+    const MeshLightFace *f = &e->mesh->faces[*face];
+    return (is_by_face(e) ? 1 : f->share) * f->inverse_area;
+}
+
+float lights_emitter_pdf(const Lights *lights, const LitPoint *from, int primitive, const Surface *surface)
+{
+    int k = lights->of_primitive[primitive], face = -1;
     if (k < 0)
         return 0;
     const Entry *e = &lights->entries[k];
-    Vec3 d = vec_sub(surface->position, from);
+    Vec3 d = vec_sub(surface->position, from->position);
     double distance2 = vec_dot(d, d), pdf;
-    if (outside_sphere(e, from)) {
-        Vec3 axis = vec_sub(e->center, from);
+    if (outside_sphere(e, from->position)) {
+        Vec3 axis = vec_sub(e->center, from->position);
         double sin2 = e->radius * e->radius / vec_dot(axis, axis);
         /* the far side of the sphere is never sampled from here */
         if (vec_dot(d, vec_sub(surface->position, e->center)) > 0)
@@ -356,15 +518,15 @@ float lights_emitter_pdf(const Lights *lights, Vec3 from, int primitive, const S
         pdf = (1 + sqrt(1 - sin2)) / (2 * PI * sin2);
     } else {
         double cosine = fabs(vec_dot(d, surface->geometric_normal)) / sqrt(distance2);
-        double area = e->face_sums ? 1 / e->area : shape_pdf_area(surface->primitive, surface);
+        double area = area_density(e, surface, &face);
         pdf = cosine > 1e-9 ? area * distance2 / cosine : 0;
     }
-    return (float)pdf * pick_probability(lights, from, k);
+    return pdf > 0 ? (float)pdf * pick_probability(lights, from, k, face) : 0;
 }
 
-float lights_sky_pdf(const Lights *lights, Vec3 from, Vec3 direction)
+float lights_sky_pdf(const Lights *lights, const LitPoint *from, Vec3 direction)
 {
     if (lights->sky < 0)
         return 0;
-    return environment_pdf(lights->environment, direction) * pick_probability(lights, from, lights->sky);
+    return environment_pdf(lights->environment, direction) * pick_probability(lights, from, lights->sky, -1);
 }

@@ -3,6 +3,7 @@
 #ifndef RENDERER_LIGHT_LIGHTS_H
 #define RENDERER_LIGHT_LIGHTS_H
 
+#include "light/light_tree.h"
 #include "scene/scene.h"
 #include "shape/surface.h"
 
@@ -29,14 +30,14 @@ int lights_create(Lights **lights, const Scene *scene, RetexError *err);
 void lights_close(Lights **lights);
 int lights_count(const Lights *lights);
 
-/* Sample light for a point: u_pick chooses the light (and is stretched for the choice of its part), u1 and u2 the
- * point on it. Returns 0 where no light reaches the point. */
-int lights_sample(const Lights *lights, Vec3 position, float u_pick, float u_part, float u1, float u2,
+/* Sample light for a point: u_pick chooses the light, u_part the part of it (of many lights, both together), u1 and u2
+ * the point on it. Returns 0 where no light reaches the point. */
+int lights_sample(const Lights *lights, const LitPoint *point, float u_pick, float u_part, float u1, float u2,
                   LightSample *sample);
 /* Density, with the probability of picking that light, with which lights_sample finds a direction that hit an emitter
  * or went to the sky: for multiple importance sampling. */
-float lights_emitter_pdf(const Lights *lights, Vec3 from, int primitive, const Surface *surface);
-float lights_sky_pdf(const Lights *lights, Vec3 from, Vec3 direction);
+float lights_emitter_pdf(const Lights *lights, const LitPoint *from, int primitive, const Surface *surface);
+float lights_sky_pdf(const Lights *lights, const LitPoint *from, Vec3 direction);
 
 /* Radiance of sky and background in a direction. */
 Rgb sky_radiance(const Scene *scene, Vec3 direction);
@@ -52,6 +53,9 @@ float environment_mean(const Environment *environment); /* mean luminance over t
 
 /* source.c: one of POV-Ray's light sources seen from a point: direction, distance, irradiance on a facing surface. */
 Rgb source_irradiance(const Light *light, Vec3 position, Vec3 light_point, Vec3 *direction, double *distance);
+int source_is_beam(const Light *light); /* parallel light, that comes from infinitely far */
+/* For the tree; not for beams. */
+LightBounds source_bounds(const Light *light);
 Vec3 source_point(const Light *light, Vec3 position, float u1, float u2);
 
 #endif

@@ -68,8 +68,8 @@ Vec3 source_point(const Light *light, Vec3 position, float u1, float u2)
     return vec_mad(vec_mad(light->location, axis1, a), axis2, b);
 }
 
-/* Light that is parallel: it starts from the plane through its location. */
-static int is_beam(const Light *light)
+/* It starts from the plane through its location. */
+int source_is_beam(const Light *light)
 {
     return light->kind == LIGHT_PARALLEL || light->kind == LIGHT_CYLINDER;
 }
@@ -78,7 +78,7 @@ Rgb source_irradiance(const Light *light, Vec3 position, Vec3 light_point, Vec3 
 {
     double value = PI;
     Vec3 d = vec_sub(light_point, position);
-    if (is_beam(light)) {
+    if (source_is_beam(light)) {
         *direction = vec_normalize(vec_sub(light_point, light->point_at));
         *distance = fmax(
             0, vec_dot(d, *direction)); /* POV-Ray lights what lies behind the plane too, and nothing is in the way */
@@ -93,4 +93,33 @@ Rgb source_irradiance(const Light *light, Vec3 position, Vec3 light_point, Vec3 
             value *= spot_attenuation(light, *direction);
     }
     return rgb_scale(light->color, (float)(value * distance_fade(light, *distance)));
+}
+
+/* Fading as even light, or as light that falls with the square of the distance, whichever comes closer. */
+static void set_fading(const Light *light, LightBounds *b)
+{
+    double strength = PI * fmaxf(0, rgb_luminance(light->color)), at = light->fade_distance;
+    if (light->fade_power < 1.5) {
+        b->even = light->fade_power > 0 ? 2 * strength : strength;
+        return;
+    }
+    b->falling = at > 0 ? 2 * strength * at * at : strength;
+    b->peak = at > 0 ? 2 * strength : INFINITY;
+}
+
+LightBounds source_bounds(const Light *light)
+{
+    LightBounds b = {.low = light->location, .high = light->location, .axis = {0, 0, 1}, .spread = PI, .reach = PI / 2};
+    set_fading(light, &b);
+    if (light->kind == LIGHT_SPOT) {
+        b.axis = vec_normalize(vec_sub(light->point_at, light->location));
+        b.spread = 0;
+        b.reach = light->falloff > 0 ? fmin(90, light->falloff) * PI / 180 : PI / 2;
+    }
+    if (light->area) {
+        double x = vec_length(light->axis1), y = vec_length(light->axis2), most = (x + y) / 2;
+        b.low = vec_sub(b.low, vec3(most, most, most));
+        b.high = vec_add(b.high, vec3(most, most, most));
+    }
+    return b;
 }

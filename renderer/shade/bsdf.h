@@ -65,6 +65,12 @@ Split bsdf_eval(const Bsdf *bsdf, Vec3 wi, int light_source, float *pdf);
 /* Returns 0 where nothing is scattered. */
 int bsdf_sample(const Bsdf *bsdf, float u_lobe, float u1, float u2, BsdfSample *sample);
 
+/* No lobe but a delta sends light through. */
+static inline int bsdf_only_reflects(const Bsdf *b)
+{
+    return b->diffuse_back <= 0 && !(b->disney && b->transmission > 0);
+}
+
 /* Unpolarised Fresnel reflectance of a dielectric; cos_i >= 0 on the incoming side, eta = far over near. */
 float fresnel_dielectric(float cos_i, float eta);
 /* 1 where the extension lets light through, whatever the pigment says. */

@@ -1,0 +1,41 @@
+/* A tree over lights: one of many is chosen by what it may give at a point, in time that grows with the logarithm of
+ * their number (Conty Estevez and Kulla, 'Importance Sampling of Many Lights with Adaptive Tree Splitting', 2018).
+ * Clusters are bounded by a sphere, the cone of the directions they face, and their power; one random number goes down
+ * from the root. Nodes have up to eight children: they are weighed side by side, and fewer rough choices are made on
+ * the way than by twos. */
+#ifndef RENDERER_LIGHT_LIGHT_TREE_H
+#define RENDERER_LIGHT_LIGHT_TREE_H
+
+#include <retex/error.h>
+#include "base/vec.h"
+
+/* A point that light falls on. */
+typedef struct LitPoint {
+    Vec3 position;
+    Vec3 normal; /* unit length, on the side that light must come from; 0 where it may come from both */
+} LitPoint;
+
+/* What bounds a light, in world space. Its irradiance at distance d on a surface that faces it is about
+ * even + falling / (d^2 + falling / peak). */
+typedef struct LightBounds {
+    Vec3 low, high;
+    Vec3 axis;     /* of its cone, unit length */
+    double spread; /* half-angle of the cone its surface normals lie in, 0..pi */
+    double reach;  /* how far from a normal it shines, 0..pi/2 */
+    double back;   /* share of it that shines against its normals, 0..1; above 0 that side is never left out */
+    double even, falling, peak;
+} LightBounds;
+
+typedef struct LightTree LightTree;
+
+/* count >= 1. */
+int light_tree_create(LightTree **tree, const LightBounds *lights, int count, RetexError *err);
+void light_tree_close(LightTree **tree);
+/* Choose a light by *u in [0,1), which is stretched to [0,1) again. */
+int light_tree_pick(const LightTree *tree, const LitPoint *point, double *u, float *probability);
+/* With which light_tree_pick chooses that light. They add up to 1; one that can light the point has some. */
+float light_tree_probability(const LightTree *tree, const LitPoint *point, int light);
+/* Rough irradiance of all of them on a surface that faces them. */
+float light_tree_estimate(const LightTree *tree, const LitPoint *point);
+
+#endif

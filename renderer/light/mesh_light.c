@@ -1,0 +1,144 @@
+/* Emitting meshes: everything about their faces that sampling would work out each time. */
+#include <stdlib.h>
+#include <string.h>
+#include "light/mesh_light.h"
+
+#define CLOSED 1e-3 /* a mesh is closed if its faces' areas as vectors add up to no more than this share */
+
+static const Texture *face_texture(const Primitive *p, int face)
+{
+    int t = p->mesh->ntextures > 0 ? p->mesh->faces[face].texture : -1;
+    return t < 0 ? p->texture : p->mesh->textures[t];
+}
+
+/* Returns 0 for a face without area. */
+static int fill_face(MeshLightFace *f, const Primitive *p, int face)
+{
+    const int *index = p->mesh->faces[face].vertex;
+    Vec3 corners[3];
+    Surface surface;
+    double density;
+    for (int k = 0; k < 3; k++)
+        corners[k] = transform_point(&p->transform, p->mesh->vertices[index[k]]);
+    shape_sample(p, NULL, face, 0.5, 0.5, &surface, &density);
+    *f = (MeshLightFace){.corner = corners[0],
+                         .edge1 = vec_sub(corners[1], corners[0]),
+                         .edge2 = vec_sub(corners[2], corners[0]),
+                         .normal = surface.geometric_normal,
+                         .inverse_area = density,
+                         .radiance = rgb_luminance(face_texture(p, face)->finish->emission),
+                         .face = face,
+                         .target = surface.target,
+                         .texture = surface.texture};
+    return density > 0 && isfinite(density);
+}
+
+/* Areas as vectors, of all faces, add up to nothing where the mesh is closed. */
+static int is_closed(const Primitive *p)
+{
+    Vec3 sum = {0, 0, 0};
+    double area = 0;
+    for (int k = 0; k < p->mesh->nfaces; k++) {
+        Surface surface;
+        double density, face = mesh_face_area(p, k);
+        shape_sample(p, NULL, k, 0.5, 0.5, &surface, &density);
+        sum = vec_mad(sum, surface.geometric_normal, face);
+        area += face;
+    }
+    return vec_length(sum) < CLOSED * area;
+}
+
+static int count_faces(const Primitive *p)
+{
+    int count = 0;
+    for (int k = 0; k < p->mesh->nfaces; k++)
+        count += !rgb_is_black(face_texture(p, k)->finish->emission);
+    return count;
+}
+
+/* Faces of no luminance, blue below black, are chosen by area alone if there is nothing else. */
+static void sum_shares(MeshLight *light)
+{
+    double sum = 0;
+    for (int k = 0; k < light->count; k++) {
+        MeshLightFace *f = &light->faces[k];
+        light->area += 1 / f->inverse_area;
+        light->power += fmaxf(0, f->radiance) / f->inverse_area;
+    }
+    for (int k = 0; k < light->count; k++) {
+        MeshLightFace *f = &light->faces[k];
+        double area = 1 / f->inverse_area;
+        f->share = light->power > 0 ? fmaxf(0, f->radiance) * area / light->power : area / light->area;
+        light->sums[k + 1] = sum += f->share;
+    }
+    light->sums[light->count] = 1;
+}
+
+int mesh_light_create(MeshLight **out, const Primitive *p, RetexError *err)
+{
+    *out = NULL;
+    int most = count_faces(p);
+    if (most == 0)
+        return RETEX_OK;
+    MeshLight *light = *out = calloc(1, sizeof *light);
+    if (light) {
+        light->faces = malloc((size_t)most * sizeof *light->faces);
+        light->sums = calloc((size_t)most + 1, sizeof *light->sums);
+        light->of_face = malloc((size_t)p->mesh->nfaces * sizeof *light->of_face);
+    }
+    if (!light || !light->faces || !light->sums || !light->of_face) {
+        mesh_light_close(out);
+        return retex_fail(err, RETEX_ENOMEM, "out of memory for an emitter's faces");
+    }
+    for (int k = 0; k < p->mesh->nfaces; k++) {
+        light->of_face[k] = -1;
+        if (!rgb_is_black(face_texture(p, k)->finish->emission) && fill_face(&light->faces[light->count], p, k))
+            light->of_face[k] = light->count++;
+    }
+    if (light->count == 0) {
+        mesh_light_close(out);
+        return RETEX_OK;
+    }
+    light->closed = is_closed(p);
+    sum_shares(light);
+    return RETEX_OK;
+}
+
+void mesh_light_close(MeshLight **light)
+{
+    if (!*light)
+        return;
+    free((*light)->faces);
+    free((*light)->sums);
+    free((*light)->of_face);
+    free(*light);
+    *light = NULL;
+}
+
+int mesh_light_face(const MeshLight *light, float u)
+{
+    int low = 0, high = light->count;
+    while (high - low > 1) {
+        int middle = (low + high) / 2;
+        if (light->sums[middle] <= u)
+            low = middle;
+        else
+            high = middle;
+    }
+    return low;
+}
+
+void mesh_light_point(const MeshLight *light, int index, const Primitive *p, double u1, double u2, Surface *surface)
+{
+    const MeshLightFace *f = &light->faces[index];
+    double root = sqrt(u1), b1 = root * (1 - u2), b2 = root * u2;
+    *surface = (Surface){.primitive = p,
+                         .face = f->face,
+                         .texture = f->texture,
+                         .target = f->target,
+                         .position = vec_mad(vec_mad(f->corner, f->edge1, b1), f->edge2, b2),
+                         .geometric_normal = f->normal,
+                         .shading_normal = f->normal,
+                         .b1 = b1,
+                         .b2 = b2};
+}

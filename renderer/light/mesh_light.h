@@ -1,0 +1,36 @@
+/* The emitting faces of a mesh in world space, ready to be sampled. */
+#ifndef RENDERER_LIGHT_MESH_LIGHT_H
+#define RENDERER_LIGHT_MESH_LIGHT_H
+
+#include "shape/surface.h"
+
+typedef struct MeshLightFace {
+    Vec3 corner, edge1, edge2;
+    Vec3 normal;         /* of the surface: outward, unit length */
+    double inverse_area;
+    double share;        /* of the mesh's power */
+    float radiance;      /* luminance of its emission */
+    int face, target;    /* of the mesh; of the face's outside */
+    const Texture *texture; /* of its outside */
+} MeshLightFace;
+
+typedef struct MeshLight {
+    int count;
+    MeshLightFace *faces;
+    double *sums;        /* running sums of shares, count + 1, the last one 1 */
+    int *of_face;        /* by face of the mesh: index into faces, or -1 */
+    double area, power;  /* power: luminance of emission times area */
+    int closed;          /* as far as its faces' areas tell: most is seen from outside */
+} MeshLight;
+
+/* *light is NULL where no face emits. */
+int mesh_light_create(MeshLight **light, const Primitive *primitive, RetexError *err);
+void mesh_light_close(MeshLight **light);
+/* A face by its power, from u in [0,1). */
+int mesh_light_face(const MeshLight *light, float u);
+/* A point of a face, uniform in area: a Surface of backside 0 as from shape_sample, but with the shading normal
+ * of a flat face. */
+void mesh_light_point(const MeshLight *light, int index, const Primitive *primitive, double u1, double u2,
+                      Surface *surface);
+
+#endif

@@ -1,0 +1,264 @@
+/* The choice among lights: its probabilities add up, are those of what is chosen, and leave nothing out; densities of
+ * sampling an emitter are those of hitting it. */
+#include <stdarg.h>
+#include <stddef.h>
+#include <setjmp.h>
+#include <cmocka.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+#include "integrate/sampler.h"
+#include "light/lights.h"
+#include "sdl/sdl.h"
+
+static uint32_t state_of_random = 1;
+
+static double random_unit(void)
+{
+    state_of_random = hash_mix(state_of_random + 0x9e3779b9u);
+    return unit_float(state_of_random);
+}
+
+static Vec3 random_point(double size)
+{
+    double x = random_unit(), y = random_unit(), z = random_unit();
+    return vec3(size * (2 * x - 1), size * (2 * y - 1), size * (2 * z - 1));
+}
+
+static Vec3 random_direction(void)
+{
+    Vec3 d = random_point(1);
+    while (!(vec_dot(d, d) > 0.01 && vec_dot(d, d) < 1))
+        d = random_point(1);
+    return vec_normalize(d);
+}
+
+/* One of each kind: points, spots, faces seen from one or both sides, shapes, light without fading. */
+static LightBounds random_light(int kind)
+{
+    Vec3 p = random_point(5);
+    double size = kind == 0 ? 0 : 0.1;
+    LightBounds b = {.low = p, .high = vec_add(p, vec3(size, size, size)), .axis = random_direction(), .reach = PI / 2};
+    b.falling = 0.1 + random_unit(), b.peak = 10;
+    b.spread = kind == 0 || kind == 3 ? PI : 0;
+    b.back = kind == 2 ? 1 : kind == 4 ? 0.1 : 0;
+    if (kind == 1)
+        b.reach = 0.3;
+    if (kind == 5)
+        b.even = b.falling, b.falling = b.peak = 0;
+    return b;
+}
+
+static LitPoint random_lit(int k)
+{
+    LitPoint p = {random_point(6), {0, 0, 0}};
+    if (k % 2)
+        p.normal = random_direction();
+    return p;
+}
+
+/* May the middle of a light shine on a point? */
+static int reaches(const LightBounds *l, const LitPoint *p)
+{
+    Vec3 to = vec_normalize(vec_sub(vec_scale(vec_add(l->low, l->high), 0.5), p->position));
+    if (vec_dot(p->normal, p->normal) > 0 && vec_dot(to, p->normal) <= 0)
+        return 0;
+    double cosine = -vec_dot(to, l->axis);
+    return l->spread == PI || cosine > cos(l->reach) || (l->back > 0 && -cosine > cos(l->reach));
+}
+
+static void tree_probabilities(void **state)
+{
+    (void)state;
+    static const int counts[] = {1, 2, 7, 8, 9, 60, 700};
+    static LightBounds lights[700];
+    for (size_t c = 0; c < sizeof counts / sizeof *counts; c++) {
+        LightTree *tree;
+        int n = counts[c];
+        for (int k = 0; k < n; k++)
+            lights[k] = random_light(k % 6);
+        assert_int_equal(light_tree_create(&tree, lights, n, NULL), 0);
+        for (int j = 0; j < 40; j++) {
+            LitPoint p = random_lit(j);
+            double sum = 0;
+            for (int k = 0; k < n; k++) {
+                float probability = light_tree_probability(tree, &p, k);
+                assert_true(probability > 0 || !reaches(&lights[k], &p));
+                sum += probability;
+            }
+            if (fabs(sum - 1) > 1e-4)
+                fail_msg("probabilities of %d lights add up to %.6f", n, sum);
+            for (int k = 0; k < 20; k++) {
+                double u = random_unit();
+                float probability;
+                int light = light_tree_pick(tree, &p, &u, &probability);
+                assert_true(u >= 0 && u < 1 && probability > 0);
+                assert_true(fabsf(probability - light_tree_probability(tree, &p, light)) <= 1e-4f * probability);
+            }
+        }
+        light_tree_close(&tree);
+    }
+}
+
+/* As often as they say. */
+static void tree_frequencies(void **state)
+{
+    (void)state;
+    enum { N = 40, SAMPLES = 1 << 16 };
+    LightBounds lights[N];
+    int found[N] = {0};
+    LightTree *tree;
+    for (int k = 0; k < N; k++)
+        lights[k] = random_light(k % 6);
+    assert_int_equal(light_tree_create(&tree, lights, N, NULL), 0);
+    LitPoint p = random_lit(1);
+    for (int k = 0; k < SAMPLES; k++) {
+        double u = (k + 0.5) / SAMPLES;
+        float probability;
+        found[light_tree_pick(tree, &p, &u, &probability)]++;
+    }
+    for (int k = 0; k < N; k++) {
+        double wanted = light_tree_probability(tree, &p, k);
+        if (fabs((double)found[k] / SAMPLES - wanted) > 4.0 / SAMPLES)
+            fail_msg("light %d: chosen %.5f of the time, should be %.5f", k, (double)found[k] / SAMPLES, wanted);
+    }
+    light_tree_close(&tree);
+}
+
+/* Lights all in one place still make a tree. */
+static void tree_of_one_place(void **state)
+{
+    (void)state;
+    enum { N = 1000 };
+    static LightBounds lights[N];
+    LightTree *tree;
+    for (int k = 0; k < N; k++)
+        lights[k] = (LightBounds){.axis = {0, 0, 1}, .spread = PI, .reach = PI / 2, .falling = 1, .peak = INFINITY};
+    assert_int_equal(light_tree_create(&tree, lights, N, NULL), 0);
+    LitPoint there = {{0, 0, 0}, {0, 0, 0}}, away = {{1, 0, 0}, {0, 0, 0}};
+    for (int k = 0; k < N; k++) {
+        assert_true(fabsf(light_tree_probability(tree, &there, k) - 1.0f / N) < 0.001f / N);
+        assert_true(fabsf(light_tree_probability(tree, &away, k) - 1.0f / N) < 0.001f / N);
+    }
+    light_tree_close(&tree);
+}
+
+/* ---- whole scenes ---- */
+
+static Scene *read_scene(const char *text)
+{
+    char path[] = "/tmp/retex-lights-XXXXXX";
+    int file = mkstemp(path);
+    RetexError err = {0};
+    Scene *scene;
+    assert_true(file >= 0);
+    assert_int_equal(write(file, text, strlen(text)), (long)strlen(text));
+    close(file);
+    if (sdl_parse_file(&scene, path, NULL, &err))
+        fail_msg("%d:%d: %s", err.line, err.column, err.message);
+    unlink(path);
+    return scene;
+}
+
+#define HEAD                                                                                                           \
+    "#version 3.7; global_settings { assumed_gamma 1 } camera { location -5*z look_at 0 }"                             \
+    "#declare Shine = texture { pigment { rgb 1 } finish { ambient 0 diffuse 0 emission 2 } }"                         \
+    "#declare Blue = texture { pigment { checker rgb 1 rgb .5 } finish { ambient 0 diffuse 0 emission <0, 0, 3> } }"   \
+    "#declare Dark = texture { pigment { rgb 1 } finish { ambient 0 diffuse 1 } }"
+/* N x N cells of two faces at height 3 */
+#define SHEET(N)                                                                                                       \
+    "mesh { #for (I, 0, " #N " - 1) #for (J, 0, " #N " - 1)"                                                           \
+    "#local A = <2*I/" #N " - 1, 3, 2*J/" #N " - 1>; #local D = 2*x/" #N "; #local E = 2*z/" #N ";"                    \
+    "triangle { A, A + D, A + D + E } triangle { A, A + D + E, A + E } #end #end texture { Shine } }"
+
+static const char *const SCENES[] = {
+    HEAD "sphere { 2*y, .5 texture { Shine } }",
+    HEAD SHEET(1),
+    HEAD SHEET(5),
+    HEAD SHEET(5) "sphere { 2*y, .5 scale <1, 2, 1> texture { Shine } } box { <1, 0, 1>, 2 texture { Shine } }"
+                  "disc { -2*y, y, 1 texture { Blue } } torus { 1, .2 texture { Shine } } light_source { 4*x, rgb 1 }",
+    HEAD "mesh { #for (I, 0, 19) triangle { <I, 0, 2>, <I + 1, 0, 2>, <I, 1, 3>"
+         "#if (mod(I, 3)) texture { Shine } #else #if (mod(I, 2)) texture { Blue } #else texture { Dark } #end #end }"
+         "#end scale <.2, 1, 1> rotate 20*x } light_source { 3, rgb 2 parallel point_at 0 }"
+         "sky_sphere { pigment { gradient y } }",
+};
+
+/* What is sampled has the density that hitting it is given. */
+static void densities_agree(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < sizeof SCENES / sizeof *SCENES; i++) {
+        Scene *scene = read_scene(SCENES[i]);
+        Lights *lights;
+        int found = 0;
+        assert_int_equal(lights_create(&lights, scene, NULL), 0);
+        for (int k = 0; k < 4000; k++) {
+            LitPoint p = random_lit(k);
+            LightSample s;
+            float u[4], pdf;
+            for (int j = 0; j < 4; j++)
+                u[j] = (float)random_unit();
+            if (!lights_sample(lights, &p, u[0], u[1], u[2], u[3], &s) || s.kind == LIGHT_SAMPLE_SOURCE)
+                continue;
+            found++;
+            if (s.kind == LIGHT_SAMPLE_SKY)
+                pdf = lights_sky_pdf(lights, &p, s.direction);
+            else
+                pdf = lights_emitter_pdf(lights, &p, (int)(s.surface.primitive - scene->primitives), &s.surface);
+            if (fabsf(pdf - s.pdf * s.pick_probability) > 1e-3f * pdf)
+                fail_msg("scene %d: sampled with density %g, hit with %g", (int)i, s.pdf * s.pick_probability, pdf);
+        }
+        if (found < 500)
+            fail_msg("scene %d: %d samples", (int)i, found);
+        lights_close(&lights);
+        scene_close(&scene);
+    }
+}
+
+/* Irradiance that all samples together find at a point. */
+static double mean_irradiance(const char *text, LitPoint p)
+{
+    Scene *scene = read_scene(text);
+    Lights *lights;
+    double sum = 0;
+    enum { SAMPLES = 1 << 18 };
+    assert_int_equal(lights_create(&lights, scene, NULL), 0);
+    Sampler sampler = sampler_start(1, 0, 0, 0);
+    for (uint32_t k = 0; k < SAMPLES; k++) {
+        LightSample s;
+        float u[4];
+        sampler.sample = k;
+        sampler_pair(&sampler, 0, &u[0], &u[1]);
+        sampler_pair(&sampler, 1, &u[2], &u[3]);
+        if (lights_sample(lights, &p, u[0], u[1], u[2], u[3], &s))
+            sum += 2 * fmax(0, vec_dot(s.direction, p.normal)) / (s.pdf * s.pick_probability) / SAMPLES;
+    }
+    lights_close(&lights);
+    scene_close(&scene);
+    return sum;
+}
+
+/* Light does not depend on how a sheet is cut into faces, nor on what the faces are chosen by. */
+static void faces_give_what_their_sheet_gives(void **state)
+{
+    (void)state;
+    LitPoint points[] = {{{0, 0, 0}, {0, 1, 0}}, {{2, 2.5, 0.3}, {-0.6, 0.8, 0}}, {{0.3, 5, 0}, {0, -0.8, 0.6}}};
+    for (int k = 0; k < 3; k++) {
+        double whole = mean_irradiance(HEAD SHEET(1), points[k]), cut = mean_irradiance(HEAD SHEET(12), points[k]);
+        if (fabs(whole - cut) > 0.004 * whole)
+            fail_msg("point %d: a sheet gives %.5f, its faces %.5f", k, whole, cut);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(tree_probabilities),
+        cmocka_unit_test(tree_frequencies),
+        cmocka_unit_test(tree_of_one_place),
+        cmocka_unit_test(densities_agree),
+        cmocka_unit_test(faces_give_what_their_sheet_gives),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
