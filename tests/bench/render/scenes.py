@@ -99,12 +99,10 @@ class Scene:
         (x, y, z), a, b = self.light["centre"], self.light["x"] / 2, self.light["y"] / 2
         radiance = self.light["watts"] / (4 * self.light["x"] * self.light["y"])  # Cycles has 4 for the pi of physics
         corners = [f"<{x + i * a}, {z}, {y + j * b}>" for i, j in ((-1, -1), (1, -1), (1, 1), (-1, 1))]
-        for i, j in ((1, 2), (2, 3)):
-            corner = [corners[0], corners[i], corners[j]]
-            out.write("mesh { triangle { " + ", ".join(corner) + " }\n"
-                      f"  texture {{ pigment {{ rgb {self.ceiling} }}\n"
-                      f"    finish {{ diffuse 1 ambient 0 emission {radiance / self.ceiling:.9g} }} }}\n"
-                      "  interior_texture { pigment { rgbt 1 } finish { diffuse 0 ambient 0 } } no_image }\n")
+        faces = " ".join("triangle { " + ", ".join(corners[k] for k in face) + " }" for face in ((0, 1, 2), (0, 2, 3)))
+        out.write(f"mesh {{ {faces}\n  texture {{ pigment {{ rgb {self.ceiling} }}\n"
+                  f"    finish {{ diffuse 1 ambient 0 emission {radiance / self.ceiling:.9g} }} }}\n"
+                  "  interior_texture { pigment { rgbt 1 } finish { diffuse 0 ambient 0 } } no_image }\n")
 
 
 def pov_material(material):
