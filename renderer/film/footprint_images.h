@@ -1,4 +1,4 @@
-/* The images of layout `footprints`: filled in footprints.c, moved into a set in footprints_finish.c. */
+/* The images of layout `footprints`: filled in footprint_store.c, moved into a set in footprints_finish.c. */
 #ifndef RENDERER_FILM_FOOTPRINT_IMAGES_H
 #define RENDERER_FILM_FOOTPRINT_IMAGES_H
 
