@@ -9,12 +9,12 @@
 #include <retex/image.h>
 #include <retex/set.h>
 
+#include "exr_chunk.h"
 #include "input.h"
 
 enum {
     RETEX_EXR_PARTS_MAX = 2048,
-    RETEX_EXR_NAME_MAX = 192,   /* bytes of a part or channel name, with the final NUL */
-    RETEX_EXR_LETTERS_MAX = 7   /* channels of a part that we write or read at once */
+    RETEX_EXR_NAME_MAX = 192   /* bytes of a part or channel name, with the final NUL */
 };
 
 /* A part to be written. */

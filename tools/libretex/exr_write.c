@@ -11,17 +11,14 @@
 
 #include <retex/parallel.h>
 
+#include "exr_chunk.h"
 #include "exr_error.h"
 #include "exr_io.h"
-#include "exr_zip.h"
-#include "half.h"
 #include "output.h"
-
-enum { BAND_LINES = 16 }; /* what EXR's ZIP takes as one chunk; uncompressed, one line is a chunk */
 
 typedef struct Band {
     int part, first_line, lines;
-    unsigned char *data; /* the stored bytes: line by line, in each line plane by plane, planes in EXR's order */
+    unsigned char *data; /* what is stored; NULL: in a spool */
     size_t bytes;
     uint32_t crc[RETEX_EXR_LETTERS_MAX]; /* of this band's piece of each plane, in the order of letters */
 } Band;
@@ -33,130 +30,58 @@ struct RetexExrEncoding {
     int nbands;
 };
 
-typedef struct EncodeScratch {
-    RetexZip zip;
-    unsigned char *raw;
-    uint16_t *halves; /* one line, interleaved */
-    size_t raw_bytes, halves_count;
-} EncodeScratch;
-
 typedef struct EncodeWork {
     RetexExrEncoding *encoding;
-    EncodeScratch *scratch; /* one a thread */
-    int *failed;            /* one a band */
+    RetexChunkScratch *scratch; /* one a thread */
+    int *failed;                /* one a band */
 } EncodeWork;
 
-/* Bytes of one stored sample. */
-static size_t sample_bytes(RetexPixelType type)
+static RetexChunkShape band_shape(const RetexExrPart *part, const Band *band)
 {
-    return type == RETEX_HALF ? 2 : 4;
+    return (RetexChunkShape){part->letters, part->type, part->image->width, band->lines};
 }
 
-/* EXR keeps channels in alphabetical order: order[i] is the letter that comes i-th. */
-static void channel_order(const char *letters, int count, int *order)
+static int encode_band(Band *band, const RetexExrPart *part, int compress, RetexChunkScratch *scratch)
 {
-    for (int i = 0; i < count; i++) {
-        int place = i;
-        for (; place > 0 && letters[order[place - 1]] > letters[i]; place--)
-            order[place] = order[place - 1];
-        order[place] = i;
-    }
-}
+    const RetexChunkShape shape = band_shape(part, band);
+    const float *pixels = part->image->pixels + retex_image_index(part->image, 0, band->first_line);
 
-static void take_plane_half(uint16_t *restrict out, const uint16_t *restrict in, int width, int stride)
-{
-    for (int x = 0; x < width; x++)
-        out[x] = in[(size_t)x * (size_t)stride];
-}
-
-static void take_plane_float(unsigned char *restrict out, const float *restrict in, int width, int stride)
-{
-    for (int x = 0; x < width; x++)
-        memcpy(out + (size_t)x * 4, &in[(size_t)x * (size_t)stride], 4);
-}
-
-/* Convert a band to its stored, uncompressed form, and checksum it. halves: room for one line. */
-static void store_band(Band *band, const RetexExrPart *part, unsigned char *raw, uint16_t *halves)
-{
-    const RetexImage *image = part->image;
-    const size_t plane = (size_t)image->width * sample_bytes(part->type);
-    int order[RETEX_EXR_LETTERS_MAX];
-
-    channel_order(part->letters, image->channels, order);
-    for (int c = 0; c < image->channels; c++)
-        band->crc[c] = (uint32_t)crc32(0, NULL, 0);
-    for (int y = band->first_line; y < band->first_line + band->lines; y++) {
-        const float *line = image->pixels + retex_image_index(image, 0, y);
-        if (part->type == RETEX_HALF)
-            retex_half_from_float(halves, line, (size_t)image->width * (size_t)image->channels);
-        for (int i = 0; i < image->channels; i++, raw += plane) {
-            const int c = order[i];
-            if (part->type == RETEX_HALF)
-                take_plane_half((uint16_t *)(void *)raw, halves + c, image->width, image->channels);
-            else
-                take_plane_float(raw, line + c, image->width, image->channels);
-            band->crc[c] = (uint32_t)crc32(band->crc[c], raw, (uInt)plane);
-        }
-    }
-}
-
-static int need(void **memory, size_t *have, size_t want, size_t unit)
-{
-    if (*have >= want)
+    band->bytes = retex_chunk_bytes(&shape);
+    band->data = malloc(band->bytes);
+    if (!band->data || !retex_chunk_need(scratch, &shape))
+        return 0;
+    if (!compress) {
+        retex_chunk_store(scratch, &shape, pixels, band->data, band->crc);
         return 1;
-    free(*memory);
-    *memory = malloc(want * unit);
-    *have = *memory ? want : 0;
-    return *memory != NULL;
+    }
+    retex_chunk_store(scratch, &shape, pixels, scratch->raw, band->crc);
+    band->bytes = retex_chunk_pack(scratch, scratch->raw, band->bytes, band->data);
+    unsigned char *less = realloc(band->data, band->bytes);
+    if (less)
+        band->data = less;
+    return 1;
 }
 
-static void encode_band(void *context, int index, int thread)
+static void encode_job(void *context, int index, int thread)
 {
     EncodeWork *work = context;
-    EncodeScratch *scratch = &work->scratch[thread];
     Band *band = &work->encoding->bands[index];
-    const RetexExrPart *part = &work->encoding->parts[band->part];
-    const size_t line = (size_t)part->image->width * (size_t)part->image->channels;
-    const size_t bytes = line * sample_bytes(part->type) * (size_t)band->lines;
 
-    work->failed[index] = 1;
-    if (!need((void **)&scratch->halves, &scratch->halves_count, line, 2))
-        return;
-    if (work->encoding->compress) {
-        if (!need((void **)&scratch->raw, &scratch->raw_bytes, bytes, 1))
-            return;
-        store_band(band, part, scratch->raw, scratch->halves);
-        unsigned char *packed = malloc(bytes);
-        if (!packed)
-            return;
-        band->bytes = retex_zip_pack(&scratch->zip, packed, scratch->raw, bytes);
-        if (band->bytes == 0) { /* no gain: as it is */
-            memcpy(packed, scratch->raw, bytes);
-            band->bytes = bytes;
-        }
-        band->data = realloc(packed, band->bytes);
-        if (!band->data)
-            band->data = packed;
-    } else {
-        band->bytes = bytes;
-        band->data = malloc(bytes);
-        if (!band->data)
-            return;
-        store_band(band, part, band->data, scratch->halves);
-    }
-    work->failed[index] = 0;
+    work->failed[index] =
+        !encode_band(band, &work->encoding->parts[band->part], work->encoding->compress, &work->scratch[thread]);
 }
 
 /* Put the bands' checksums together: planes one after another, each from the top. */
 static uint32_t part_crc(const RetexExrEncoding *encoding, int part, const Band *first)
 {
-    const RetexImage *image = encoding->parts[part].image;
-    const size_t plane = (size_t)image->width * sample_bytes(encoding->parts[part].type);
+    const RetexExrPart *of = &encoding->parts[part];
     uint32_t crc = (uint32_t)crc32(0, NULL, 0);
 
-    for (int c = 0; c < image->channels; c++)
-        for (const Band *band = first; band < encoding->bands + encoding->nbands && band->part == part; band++)
-            crc = (uint32_t)crc32_combine(crc, band->crc[c], (z_off_t)(plane * (size_t)band->lines));
+    for (int c = 0; c < of->image->channels; c++)
+        for (const Band *band = first; band < encoding->bands + encoding->nbands && band->part == part; band++) {
+            const RetexChunkShape shape = band_shape(of, band);
+            crc = (uint32_t)crc32_combine(crc, band->crc[c], (z_off_t)retex_chunk_plane(&shape));
+        }
     return crc;
 }
 
@@ -182,17 +107,17 @@ static int lay_out_bands(RetexExrEncoding *encoding, RetexError *err)
     int count = 0;
 
     for (int i = 0; i < encoding->nparts; i++)
-        count += (encoding->parts[i].image->height + BAND_LINES - 1) / BAND_LINES;
+        count += (encoding->parts[i].image->height + RETEX_CHUNK_LINES - 1) / RETEX_CHUNK_LINES;
     encoding->bands = calloc((size_t)count, sizeof *encoding->bands);
     if (!encoding->bands)
         return retex_fail(err, RETEX_ENOMEM, "no memory to write an EXR file");
     for (int i = 0; i < encoding->nparts; i++) {
         const int height = encoding->parts[i].image->height;
-        for (int y = 0; y < height; y += BAND_LINES) {
+        for (int y = 0; y < height; y += RETEX_CHUNK_LINES) {
             Band *band = &encoding->bands[encoding->nbands++];
             band->part = i;
             band->first_line = y;
-            band->lines = height - y < BAND_LINES ? height - y : BAND_LINES;
+            band->lines = height - y < RETEX_CHUNK_LINES ? height - y : RETEX_CHUNK_LINES;
         }
     }
     return 0;
@@ -207,14 +132,11 @@ static int encode_bands(RetexExrEncoding *encoding, int nthreads, RetexError *er
     work.scratch = calloc((size_t)nthreads, sizeof *work.scratch);
     work.failed = calloc((size_t)encoding->nbands, sizeof *work.failed);
     if (work.scratch && work.failed)
-        retex_parallel(nthreads, encoding->nbands, encode_band, &work);
+        retex_parallel(nthreads, encoding->nbands, encode_job, &work);
     for (int i = 0; i < encoding->nbands; i++)
         failed |= !work.failed || work.failed[i];
-    for (int i = 0; work.scratch && i < nthreads; i++) {
-        retex_zip_free(&work.scratch[i].zip);
-        free(work.scratch[i].raw);
-        free(work.scratch[i].halves);
-    }
+    for (int i = 0; work.scratch && i < nthreads; i++)
+        retex_chunk_free(&work.scratch[i]);
     free(work.scratch);
     free(work.failed);
     return failed ? retex_fail(err, RETEX_ENOMEM, "no memory to write an EXR file") : 0;
