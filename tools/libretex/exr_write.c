@@ -15,10 +15,12 @@
 #include "exr_error.h"
 #include "exr_io.h"
 #include "output.h"
+#include "spool_chunks.h"
 
 typedef struct Band {
     int part, first_line, lines;
-    unsigned char *data; /* what is stored; NULL: in a spool */
+    unsigned char *data;            /* what is stored; NULL: fetched when its turn comes */
+    const RetexSpoolChunk *spooled; /* or NULL */
     size_t bytes;
     uint32_t crc[RETEX_EXR_LETTERS_MAX]; /* of this band's piece of each plane, in the order of letters */
 } Band;
@@ -26,6 +28,9 @@ typedef struct Band {
 struct RetexExrEncoding {
     RetexExrPart *parts; /* a copy */
     int nparts, compress;
+    RetexChunkScratch scratch; /* for what is fetched */
+    unsigned char *packed;
+    size_t packed_bytes;
     Band *bands;
     int nbands;
 };
@@ -41,6 +46,15 @@ static RetexChunkShape band_shape(const RetexExrPart *part, const Band *band)
     return (RetexChunkShape){part->letters, part->type, part->image->width, band->lines};
 }
 
+/* Compress what is in scratch->raw. */
+static void pack_band(Band *band, RetexChunkScratch *scratch)
+{
+    band->bytes = retex_chunk_pack(scratch, scratch->raw, band->bytes, band->data);
+    unsigned char *less = realloc(band->data, band->bytes);
+    if (less)
+        band->data = less;
+}
+
 static int encode_band(Band *band, const RetexExrPart *part, int compress, RetexChunkScratch *scratch)
 {
     const RetexChunkShape shape = band_shape(part, band);
@@ -50,15 +64,40 @@ static int encode_band(Band *band, const RetexExrPart *part, int compress, Retex
     band->data = malloc(band->bytes);
     if (!band->data || !retex_chunk_need(scratch, &shape))
         return 0;
-    if (!compress) {
-        retex_chunk_store(scratch, &shape, pixels, band->data, band->crc);
+    retex_chunk_store(scratch, &shape, pixels, compress ? scratch->raw : band->data, band->crc);
+    if (compress)
+        pack_band(band, scratch);
+    return 1;
+}
+
+/* A band that is 0 everywhere. */
+static int encode_zero_band(Band *band, const RetexChunkShape *shape, int compress, RetexChunkScratch *scratch)
+{
+    const int channels = (int)strlen(shape->letters);
+
+    band->bytes = retex_chunk_bytes(shape);
+    if (!retex_chunk_need(scratch, shape))
+        return 0;
+    memset(scratch->raw, 0, band->bytes);
+    for (int c = 0; c < channels; c++)
+        band->crc[c] = c ? band->crc[0] : (uint32_t)crc32_z(crc32(0, NULL, 0), scratch->raw, retex_chunk_plane(shape));
+    if (!compress)
         return 1;
-    }
-    retex_chunk_store(scratch, &shape, pixels, scratch->raw, band->crc);
-    band->bytes = retex_chunk_pack(scratch, scratch->raw, band->bytes, band->data);
-    unsigned char *less = realloc(band->data, band->bytes);
-    if (less)
-        band->data = less;
+    band->data = malloc(band->bytes);
+    if (band->data)
+        pack_band(band, scratch);
+    return band->data != NULL;
+}
+
+/* Of what a spool holds only the size is needed yet. */
+static int encode_spooled_band(Band *band, const RetexExrPart *part, int compress, RetexChunkScratch *scratch)
+{
+    const RetexChunkShape shape = band_shape(part, band);
+
+    if (!band->spooled->bytes)
+        return encode_zero_band(band, &shape, compress, scratch);
+    memcpy(band->crc, band->spooled->crc, sizeof band->crc);
+    band->bytes = compress ? band->spooled->bytes : retex_chunk_bytes(&shape);
     return 1;
 }
 
@@ -66,9 +105,11 @@ static void encode_job(void *context, int index, int thread)
 {
     EncodeWork *work = context;
     Band *band = &work->encoding->bands[index];
+    const RetexExrPart *part = &work->encoding->parts[band->part];
+    const int compress = work->encoding->compress;
 
-    work->failed[index] =
-        !encode_band(band, &work->encoding->parts[band->part], work->encoding->compress, &work->scratch[thread]);
+    work->failed[index] = band->spooled ? !encode_spooled_band(band, part, compress, &work->scratch[thread])
+                                        : !encode_band(band, part, compress, &work->scratch[thread]);
 }
 
 /* Put the bands' checksums together: planes one after another, each from the top. */
@@ -92,7 +133,7 @@ static int check_parts(const RetexExrPart *parts, int nparts, RetexError *err)
                           RETEX_EXR_PARTS_MAX);
     for (int i = 0; i < nparts; i++) {
         const RetexImage *image = parts[i].image;
-        if (!image || !image->pixels || (size_t)image->channels != strlen(parts[i].letters))
+        if (!image || (!image->pixels && !parts[i].spool) || (size_t)image->channels != strlen(parts[i].letters))
             return retex_fail(err, RETEX_EINVAL, "part %s has no image, or one whose channels are not %s",
                               parts[i].name, parts[i].letters);
         for (int j = 0; j < i; j++)
@@ -116,6 +157,9 @@ static int lay_out_bands(RetexExrEncoding *encoding, RetexError *err)
         for (int y = 0; y < height; y += RETEX_CHUNK_LINES) {
             Band *band = &encoding->bands[encoding->nbands++];
             band->part = i;
+            if (!encoding->parts[i].image->pixels)
+                band->spooled =
+                    retex_spool_chunk(encoding->parts[i].spool, encoding->parts[i].spooled, y / RETEX_CHUNK_LINES);
             band->first_line = y;
             band->lines = height - y < RETEX_CHUNK_LINES ? height - y : RETEX_CHUNK_LINES;
         }
@@ -181,6 +225,8 @@ void retex_exr_encoding_free(RetexExrEncoding **result)
         return;
     for (int i = 0; i < encoding->nbands; i++)
         free(encoding->bands[i].data);
+    retex_chunk_free(&encoding->scratch);
+    free(encoding->packed);
     free(encoding->bands);
     free(encoding->parts);
     free(encoding);
@@ -295,7 +341,35 @@ static exr_result_t declare_part(exr_context_t context, const RetexExrEncoding *
     return code;
 }
 
-static exr_result_t write_chunks(exr_context_t context, RetexExrEncoding *encoding)
+/* Get a band whose data is not at hand, into the encoding's own memory. */
+static const unsigned char *fetch_band(RetexExrEncoding *encoding, const Band *band, RetexError *err)
+{
+    const RetexExrPart *part = &encoding->parts[band->part];
+    const RetexChunkShape shape = band_shape(part, band);
+    const size_t bytes = retex_chunk_bytes(&shape);
+
+    if (encoding->packed_bytes < bytes) {
+        free(encoding->packed);
+        encoding->packed = malloc(bytes);
+        encoding->packed_bytes = encoding->packed ? bytes : 0;
+    }
+    if (!encoding->packed || !retex_chunk_need(&encoding->scratch, &shape)) {
+        retex_fail(err, RETEX_ENOMEM, "no memory to write an EXR file");
+        return NULL;
+    }
+    if (!band->spooled->bytes)
+        return memset(encoding->packed, 0, bytes);
+    if (retex_spool_read(part->spool, band->spooled, encoding->packed, err))
+        return NULL;
+    if (encoding->compress)
+        return encoding->packed;
+    if (retex_chunk_unpack(&encoding->scratch, encoding->packed, band->spooled->bytes, encoding->scratch.raw, bytes))
+        return encoding->scratch.raw;
+    retex_fail(err, RETEX_EFORMAT, "the temporary file is damaged");
+    return NULL;
+}
+
+static exr_result_t write_chunks(exr_context_t context, RetexExrEncoding *encoding, RetexError *err)
 {
     exr_result_t code = EXR_ERR_SUCCESS;
 
@@ -303,9 +377,12 @@ static exr_result_t write_chunks(exr_context_t context, RetexExrEncoding *encodi
         Band *band = &encoding->bands[i];
         const int chunks = band_chunks(encoding, band);
         const size_t bytes = band->bytes / (unsigned)chunks;
+        const unsigned char *data = band->data ? band->data : fetch_band(encoding, band, err);
+        if (!data)
+            return EXR_ERR_WRITE_IO;
         for (int chunk = 0; chunk < chunks && !code; chunk++)
-            code = exr_write_scanline_chunk(context, band->part, band->first_line + chunk,
-                                            band->data + (size_t)chunk * bytes, bytes);
+            code = exr_write_scanline_chunk(context, band->part, band->first_line + chunk, data + (size_t)chunk * bytes,
+                                            bytes);
         free(band->data);
         band->data = NULL;
     }
@@ -313,7 +390,7 @@ static exr_result_t write_chunks(exr_context_t context, RetexExrEncoding *encodi
 }
 
 static exr_result_t write_file(exr_context_t context, RetexExrEncoding *encoding, int width, int height,
-                               const char *attribute, const char *value)
+                               const char *attribute, const char *value, RetexError *err)
 {
     const exr_attr_box2i_t display = {.max = {.x = width - 1, .y = height - 1}};
     exr_result_t code = EXR_ERR_SUCCESS;
@@ -330,7 +407,7 @@ static exr_result_t write_file(exr_context_t context, RetexExrEncoding *encoding
     if (!code)
         code = exr_write_header(context);
     if (!code)
-        code = write_chunks(context, encoding);
+        code = write_chunks(context, encoding, err);
     return code;
 }
 
@@ -355,7 +432,7 @@ int retex_exr_write(RetexExrEncoding *encoding, int width, int height, const cha
     }
     code = exr_start_write(&context, path, EXR_WRITE_FILE_DIRECTLY, &settings);
     if (!code)
-        code = write_file(context, encoding, width, height, attribute, value);
+        code = write_file(context, encoding, width, height, attribute, value, &sink.error);
     if (context) {
         const exr_result_t finished = exr_finish(&context);
         code = code ? code : finished;
