@@ -155,17 +155,19 @@ static void check_memory(const Arguments *a, const Scene *scene)
     const RenderParams *r = &a->render;
     double width = r->crop[2] ? r->crop[2] : r->width ? r->width : scene->width;
     double height = r->crop[3] ? r->crop[3] : r->height ? r->height : scene->height;
-    FilmParams film = {.orders = r->orders,
+    FilmParams film = {.width = (int)width,
+                       .height = (int)height,
+                       .orders = r->orders,
                        .split = !r->plain,
                        .paper = r->paper,
                        .sharp = r->sharp,
                        .broad = r->broad,
                        .spp = r->spp,
                        .noise = r->denoise_data};
-    double channels = (double)film_floats(&film, scene->ntargets) + 19 * (r->aovs != 0) +
-                      (r->denoise_data ? 19 + scene->ntargets : 0),
+    double guides = r->denoise_data && !r->spool ? 19 + scene->ntargets : 0,
            memory = (double)sysconf(_SC_PHYS_PAGES) * (double)sysconf(_SC_PAGESIZE);
-    double bytes = width * height * channels * sizeof(float);
+    double bytes = film_bytes(&film, scene->ntargets, r->spool != NULL) +
+                   width * height * sizeof(float) * (guides + 19 * (r->aovs != 0));
     if (memory > 0 && bytes > memory)
         cli_die(a->cli, "%.0fx%.0f pixels need %.1f GB of memory, this machine has %.1f: render parts with --crop",
                 width, height, bytes / 1e9, memory / 1e9);
@@ -237,6 +239,7 @@ int main(int argc, char **argv)
     /* a set keeps it for later, but packs leave it out, and a picture without targets can only be filtered here */
     int keeps = output && a.ntargets && !a.render.plain && output_kind(&a, output) == OUTPUT_SET;
     a.render.denoise_data = a.denoise || (keeps && !a.no_denoise_data);
+    a.render.spool = keeps && !a.denoise ? output : NULL;
     double started = seconds();
     if (sdl_parse_file(&scene, a.scene, &a.sdl, &err))
         cli_fail(&cli, &err);

@@ -12,7 +12,8 @@
 #include "integrate/originals.h"
 #include "integrate/uv_scale.h"
 
-#define TILE 32
+#define TILE_WIDTH 32
+#define TILE_HEIGHT BAND_LINES
 
 /* All of one render. */
 typedef struct Render {
@@ -30,6 +31,8 @@ typedef struct Render {
     const RenderVariant *variants; /* or NULL: the original */
     const RetexImage *constants;   /* or NULL: by target, of the last variant */
     int halves;                    /* of the samples: 2 are independent of each other */
+    DenoiseGuides guides;
+    int guided;
     PathContext context;
     PathWorker *workers; /* by thread */
     atomic_int done;
@@ -73,7 +76,7 @@ static int set_window(Render *r, RetexError *err)
     if (r->x0 < 0 || r->y0 < 0 || r->w < 1 || r->h < 1 || r->x0 + r->w > r->width || r->y0 + r->h > r->height)
         return retex_fail(err, RETEX_EINVAL, "crop %d,%d,%d,%d does not lie inside the picture of %dx%d", r->x0, r->y0,
                           r->w, r->h, r->width, r->height);
-    r->tiles_x = (r->w + TILE - 1) / TILE, r->tiles_y = (r->h + TILE - 1) / TILE;
+    r->tiles_x = (r->w + TILE_WIDTH - 1) / TILE_WIDTH, r->tiles_y = (r->h + TILE_HEIGHT - 1) / TILE_HEIGHT;
     return RETEX_OK;
 }
 
@@ -126,24 +129,32 @@ static void trace_pixel(const Render *r, PathWorker *worker, int x, int y)
     }
 }
 
+static void render_pixel(Render *r, int thread, int x, int y)
+{
+    FilmPixel *pixel = r->pixels[thread];
+    PathWorker *worker = &r->workers[thread];
+    for (int t = 0; r->constants && t < r->scene->ntargets; t++) {
+        const float *p = r->constants[t].pixels + retex_image_index(&r->constants[t], x, y);
+        worker->constants[t] = rgb(p[0], p[1], p[2]);
+    }
+    trace_pixel(r, worker, r->x0 + x, r->y0 + y);
+    film_pixel_end(pixel, x, y);
+    if (r->control)
+        control_pixel_end(r->controls[thread], x, y);
+    if (r->guided)
+        denoise_guides_pixel(&r->guides, pixel, x, y);
+}
+
 static void render_tile(void *context, int tile, int thread)
 {
     Render *r = context;
-    FilmPixel *pixel = r->pixels[thread];
-    PathWorker *worker = &r->workers[thread];
-    int x0 = tile % r->tiles_x * TILE, y0 = tile / r->tiles_x * TILE;
-    for (int y = y0; y < y0 + TILE && y < r->h; y++)
-        for (int x = x0; x < x0 + TILE && x < r->w; x++) {
-            for (int t = 0; r->constants && t < r->scene->ntargets; t++) {
-                const float *p = r->constants[t].pixels + retex_image_index(&r->constants[t], x, y);
-                worker->constants[t] = rgb(p[0], p[1], p[2]);
-            }
-            trace_pixel(r, worker, r->x0 + x, r->y0 + y);
-            film_pixel_end(pixel, x, y);
-            if (r->control)
-                control_pixel_end(r->controls[thread], x, y);
-        }
-    film_tile_end(pixel, tile);
+    int x0 = tile % r->tiles_x * TILE_WIDTH, y0 = tile / r->tiles_x * TILE_HEIGHT;
+    if (film_failed(r->film))
+        return;
+    for (int y = y0; y < y0 + TILE_HEIGHT && y < r->h; y++)
+        for (int x = x0; x < x0 + TILE_WIDTH && x < r->w; x++)
+            render_pixel(r, thread, x, y);
+    film_tile_end(r->pixels[thread], tile);
     int done = atomic_fetch_add(&r->done, 1) + 1;
     if (thread == 0 && r->params.progress)
         r->params.progress(r->params.progress_context, (double)done / (r->tiles_x * r->tiles_y));
@@ -217,6 +228,12 @@ static int keeps_denoise_data(const RenderParams *p)
     return p->denoise_data && p->spp > 1;
 }
 
+static FirstHitWindow first_hit_window(const Render *r)
+{
+    return (FirstHitWindow){r->scene, r->accel, r->width, r->height,          r->x0,
+                            r->y0,    r->w,     r->h,     r->params.nthreads, r->variants};
+}
+
 /* control: a film of all variants too, with moments of so many halves. */
 static int render_film(Render *r, int control, int halves, RetexError *err)
 {
@@ -240,9 +257,15 @@ static int render_film(Render *r, int control, int halves, RetexError *err)
     r->workers = calloc((size_t)threads, sizeof *r->workers);
     if (!r->pixels || !r->controls || !r->workers)
         return retex_fail(err, RETEX_ENOMEM, "out of memory for %d threads", threads);
-    int code = film_create(&r->film, r->scene, &film, err);
+    int code = r->params.spool ? retex_spool_create(&film.spool, r->w, r->h, r->params.spool, err) : RETEX_OK;
+    if (!code)
+        code = film_create(&r->film, r->scene, &film, err);
     for (int k = 0; k < threads && !code; k++)
         code = film_pixel_create(&r->pixels[k], r->film, err);
+    r->guided = keeps_denoise_data(&r->params);
+    FirstHitWindow window = first_hit_window(r);
+    if (!code && r->guided)
+        code = denoise_guides_create(&r->guides, r->film, &window, r->context.split, err);
     if (!code && control)
         code = control_film_create(&r->control, r->w, r->h, r->params.spp, r->context.nvariants, halves, err);
     for (int k = 0; k < threads && !code && r->control; k++)
@@ -281,12 +304,6 @@ static void fill_stats(RenderStats *stats, const Render *r)
     for (int k = 0; k < r->scene->nprimitives; k++)
         if (r->scene->primitives[k].kind == SHAPE_MESH)
             stats->triangles += r->scene->primitives[k].mesh->nfaces;
-}
-
-static FirstHitWindow first_hit_window(const Render *r)
-{
-    return (FirstHitWindow){r->scene, r->accel, r->width, r->height,          r->x0,
-                            r->y0,    r->w,     r->h,     r->params.nthreads, r->variants};
 }
 
 typedef struct HalfSamples {
@@ -335,7 +352,7 @@ static int add_irradiance(RetexSet *set, const Render *r, RetexError *err)
     int part;
     pass.context.white = 1, pass.context.split = 0;
     pass.params.seed = hash_pair(r->params.seed, 2), pass.params.progress = NULL;
-    pass.params.denoise_data = 0;
+    pass.params.denoise_data = 0, pass.params.spool = NULL;
     pass.lights = r->lights;
     int code = start_set(&found, &pass, err);
     if (!code)
@@ -375,14 +392,15 @@ static int render_into(RetexSet *set, Render *r, RenderStats *stats, double star
         code = originals_add(set, r->scene, err);
     if (!code)
         code = first_hit_aovs(set, &window, r->params.aovs, err);
-    if (!code && keeps_denoise_data(&r->params))
-        code = denoise_guides_add(set, &window, r->context.split, err);
+    if (!code && r->guided)
+        code = denoise_guides_finish(&r->guides, r->film, set, err);
     if (!code && r->params.aovs & AOV_IRRADIANCE)
         code = add_irradiance(set, r, err);
     if (!code && data) {
         ControlMoments *moments[2] = {control_film_moments(r->control, 0), control_film_moments(r->control, 1)};
         code = control_data_add(set, moments, half_samples(r).samples, r->halves, err);
     }
+    film_give_spool(r->film, set);
     stats->render_seconds = seconds() - started - stats->build_seconds;
     return code;
 }
@@ -418,7 +436,7 @@ int render_variants(RetexImage *pictures, const Scene *scene, const RenderParams
     double started = seconds();
     RenderParams plain = *params;
     Render r;
-    plain.plain = 1, plain.denoise_data = 0;
+    plain.plain = 1, plain.denoise_data = 0, plain.spool = NULL;
     int code = render_open(&r, scene, &plain, err);
     if (!code && r.params.nvariants < 1)
         code = retex_fail(err, RETEX_EINVAL, "no variants to render");
@@ -499,6 +517,7 @@ int render_control(RetexImage *picture, const Scene *scene, const RenderParams *
     if (params->nvariants > 0)
         variants[0] = params->variants[0];
     plain.plain = 1, plain.variants = variants, plain.nvariants = 2, plain.denoise_data = 0;
+    plain.spool = NULL;
     int code = render_open(&r, scene, &plain, err);
     if (!code)
         code = check_control(&r, set, err);

@@ -53,9 +53,12 @@ typedef struct RenderParams {
                                 independent, so that the picture is another one than without; default 0 */
     int denoise_data;        /* 1: also what retex_denoise reads, see <retex/denoise.h>; nothing where spp is 1, which
                                 does not tell how noisy it is; default 0 */
+    const char *spool;       /* NULL (default): the set comes back in memory. Else the path of the file that it will be
+                                written to: then render_scene leaves parts in a spool in that file's folder, see
+                                <retex/spool.h>, for retex_set_write or retex_set_load */
 } RenderParams;
 #define RENDER_PARAMS_INIT \
-    { sizeof(RenderParams), 0, 0, {0, 0, 0, 0}, 64, 0, 16, 0, 0, 4, 4, 4, 6, 0, 0, 0, 0, NULL, NULL, NULL, 0, 0, 0 }
+    { sizeof(RenderParams), 0, 0, {0, 0, 0, 0}, 64, 0, 16, 0, 0, 4, 4, 4, 6, 0, 0, 0, 0, NULL, NULL, NULL, 0, 0, 0, NULL }
 
 typedef struct RenderStats {
     double build_seconds, render_seconds;
