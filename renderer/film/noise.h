@@ -25,8 +25,8 @@ int noise_create(NoiseImages *images, const FilmParams *params, const Scene *sce
 /* half: totals of the first spp / 2 samples; all: of all. */
 void noise_store(const NoiseImages *images, BandRows *rows, const SignalTotals *half, const SignalTotals *all, int x,
                  int y);
-/* A part for each signal that terms of the set belong to, or for the beauty of a set without terms; in layout footprints
- * for all, of which retex_set_prune leaves those. */
+/* A part for each signal that terms of the set belong to, or for the beauty of a set without terms; in layout
+ * footprints for all, of which retex_set_prune leaves those. */
 int noise_finish(const NoiseImages *images, Bands *bands, RetexSet *set, RetexError *err);
 
 #endif

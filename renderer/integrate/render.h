@@ -58,7 +58,7 @@ typedef struct RenderParams {
                                 <retex/spool.h>, for retex_set_write or retex_set_load */
 } RenderParams;
 #define RENDER_PARAMS_INIT \
-    { sizeof(RenderParams), 0, 0, {0, 0, 0, 0}, 64, 0, 16, 0, 0, 4, 4, 4, 6, 0, 0, 0, 0, NULL, NULL, NULL, 0, 0, 0, NULL }
+    { .size = sizeof(RenderParams), .spp = 64, .max_depth = 16, .clusters = 4, .sharp = 4, .broad = 4, .orders = 6 }
 
 typedef struct RenderStats {
     double build_seconds, render_seconds;

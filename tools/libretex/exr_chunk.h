@@ -1,5 +1,5 @@
-/* What an EXR file stores of 16 lines of a part: samples as halves or floats, line by line, in each line plane by plane,
- * planes in alphabetical order; one chunk of EXR's ZIP. */
+/* What an EXR file stores of 16 lines of a part: samples as halves or floats, line by line, in each line plane by
+ * plane, planes in alphabetical order; one chunk of EXR's ZIP. */
 #ifndef RETEX_LIBRETEX_EXR_CHUNK_H
 #define RETEX_LIBRETEX_EXR_CHUNK_H
 
@@ -43,7 +43,7 @@ void retex_chunk_store(RetexChunkScratch *scratch, const RetexChunkShape *shape,
 void retex_chunk_fetch(RetexChunkScratch *scratch, const RetexChunkShape *shape, const unsigned char *raw,
                        float *pixels);
 
-/* Compress, into room for as many bytes as there are: how many it takes, which is all of them where nothing is gained. */
+/* Compress, into room for as many bytes as there are. How many it takes: all of them where nothing is gained. */
 size_t retex_chunk_pack(RetexChunkScratch *scratch, const unsigned char *raw, size_t bytes, unsigned char *packed);
 /* And back. 0 where it is damaged. */
 int retex_chunk_unpack(RetexChunkScratch *scratch, const unsigned char *packed, size_t packed_bytes,

@@ -254,8 +254,8 @@ static int any_light(const float *pixels, size_t count)
     return 0;
 }
 
-/* Keep the band that scratch holds; one whose pixels are so dark that all are stored as 0 leaves a record without bytes.
- */
+/* Keep the band that scratch holds. One whose pixels are so dark that all are stored as 0 leaves a record without
+ * bytes. */
 static int put_chunk(RetexSpool *spool, int number, int band, size_t bytes, SpoolScratch *scratch, RetexError *err)
 {
     RetexSpoolChunk *chunk = &spool->images[number]->chunks[band];
