@@ -11,8 +11,8 @@ typedef struct BandImage {
     RetexPixelType type;
     size_t channels;
     int spooled;       /* its number in the spool */
-    atomic_int filled; /* without a spool: a pixel is not 0 */
-    RetexImage whole;  /* as is: all of it, once a pixel was asked for; under the lock */
+    atomic_int filled; /* where it is kept whole: a pixel is not 0 */
+    RetexImage whole;  /* then, once a pixel was asked for; under the lock */
 } BandImage;
 
 struct BandRows {
@@ -25,7 +25,7 @@ struct BandRows {
 };
 
 struct Bands {
-    int width, height, count;
+    int width, height, count, whole;
     RetexSpool *spool;
     pthread_mutex_t lock;
     atomic_int starved; /* memory was short */
@@ -35,7 +35,7 @@ struct Bands {
     BandImage *images[BAND_IMAGES_MAX];
 };
 
-int bands_create(Bands **result, int width, int height, RetexSpool *spool, RetexError *err)
+int bands_create(Bands **result, int width, int height, RetexSpool *spool, int whole, RetexError *err)
 {
     Bands *bands = *result = calloc(1, sizeof *bands);
     if (!bands) {
@@ -44,7 +44,7 @@ int bands_create(Bands **result, int width, int height, RetexSpool *spool, Retex
     }
     bands->width = width, bands->height = height;
     bands->count = (height + BAND_LINES - 1) / BAND_LINES;
-    bands->spool = spool;
+    bands->spool = spool, bands->whole = whole;
     pthread_mutex_init(&bands->lock, NULL);
     bands->open = calloc((size_t)bands->count, sizeof *bands->open);
     return bands->open ? RETEX_OK : retex_fail(err, RETEX_ENOMEM, "out of memory for the film");
@@ -54,7 +54,7 @@ static void rows_close(Bands *bands, BandRows *rows)
 {
     for (int k = 0; k < bands->nimages; k++) {
         free(rows->cleared[k]);
-        if (bands->spool)
+        if (!bands->whole)
             free(rows->rows[k]);
     }
     free(rows->nowhere);
@@ -104,7 +104,9 @@ int bands_add(Bands *bands, const char *name, const char *letters, RetexPixelTyp
     snprintf(image->name, sizeof image->name, "%s", name);
     snprintf(image->letters, sizeof image->letters, "%s", letters);
     image->type = type, image->channels = strlen(letters);
-    int code = bands->spool ? retex_spool_add(bands->spool, name, letters, type, &image->spooled, err) : RETEX_OK;
+    int code = RETEX_OK;
+    if (bands->spool)
+        code = retex_spool_add(bands->spool, name, letters, bands->whole ? RETEX_FLOAT : type, &image->spooled, err);
     pthread_mutex_lock(&bands->lock);
     if (!code && bands->nimages == BAND_IMAGES_MAX)
         code = retex_fail(err, RETEX_ELIMIT, "the film has at most %d images", BAND_IMAGES_MAX);
@@ -153,20 +155,25 @@ BandRows *bands_open(Bands *bands, int band)
     return rows;
 }
 
+/* Where a band of an image that is kept whole is, or NULL; the lock is held. */
+static float *whole_rows(Bands *bands, int k, int band)
+{
+    BandImage *image = bands->images[k];
+    if (!image->whole.pixels &&
+        retex_image_alloc(&image->whole, bands->width, bands->height, (int)image->channels, NULL))
+        return NULL;
+    return image->whole.pixels + retex_image_index(&image->whole, 0, band * BAND_LINES);
+}
+
 /* Rows of zeros for an image that has none yet; the lock is held. */
 static float *give_rows(BandRows *rows, int k)
 {
     Bands *bands = rows->of;
-    BandImage *image = bands->images[k];
-    if (bands->spool) {
-        float *cleared = rows->cleared[k];
-        rows->cleared[k] = NULL;
-        return cleared ? cleared : calloc((size_t)bands->width * BAND_LINES * image->channels, sizeof(float));
-    }
-    if (!image->whole.pixels &&
-        retex_image_alloc(&image->whole, bands->width, bands->height, (int)image->channels, NULL))
-        return NULL;
-    return image->whole.pixels + retex_image_index(&image->whole, 0, rows->band * BAND_LINES);
+    if (bands->whole)
+        return whole_rows(bands, k, rows->band);
+    float *cleared = rows->cleared[k];
+    rows->cleared[k] = NULL;
+    return cleared ? cleared : calloc((size_t)bands->width * BAND_LINES * bands->images[k]->channels, sizeof(float));
 }
 
 static float *need_rows(BandRows *rows, int image)
@@ -203,22 +210,35 @@ void bands_add_albedo(const BandRows *rows, int uv_image, int albedo_image, Rete
     }
 }
 
+static void note_filled(BandImage *image, const float *pixels, size_t count)
+{
+    for (size_t i = 0; i < count && !image->filled; i++)
+        if (pixels[i] != 0)
+            image->filled = 1;
+}
+
+/* Numbers of a band of an image. */
+static size_t band_size(const Bands *bands, int k, int band)
+{
+    int left = bands->height - band * BAND_LINES;
+    return (size_t)bands->width * (size_t)(left < BAND_LINES ? left : BAND_LINES) * bands->images[k]->channels;
+}
+
 /* Keep an image's rows of a finished band. */
 static int keep_rows(BandRows *rows, int k, RetexError *err)
 {
     Bands *bands = rows->of;
     BandImage *image = bands->images[k];
-    size_t count = (size_t)bands->width * (size_t)rows->lines * image->channels;
+    size_t count = band_size(bands, k, rows->band);
     float *kept = rows->rows[k];
     int code = RETEX_OK;
     rows->rows[k] = NULL;
-    if (!bands->spool) {
-        for (size_t i = 0; i < count && !image->filled; i++)
-            if (kept[i] != 0)
-                image->filled = 1;
-        return RETEX_OK;
+    if (bands->spool)
+        code = retex_spool_put(bands->spool, image->spooled, rows->band, kept, err);
+    if (bands->whole) {
+        note_filled(image, kept, count);
+        return code;
     }
-    code = retex_spool_put(bands->spool, image->spooled, rows->band, kept, err);
     memset(kept, 0, count * sizeof *kept);
     rows->cleared[k] = kept;
     return code;
@@ -246,6 +266,43 @@ int bands_finish(BandRows *rows, RetexError *err)
     return code;
 }
 
+/* ---- bands that are finished ---- */
+
+int bands_resume(Bands *bands, int band, RetexError *err)
+{
+    int code = RETEX_OK;
+    for (int k = 0; k < bands->nimages && bands->whole && !code; k++) {
+        float *rows = whole_rows(bands, k, band);
+        if (!rows)
+            return retex_fail(err, RETEX_ENOMEM, "out of memory for the film");
+        code = retex_spool_load_band(bands->spool, bands->images[k]->spooled, band, rows, err);
+        if (!code)
+            note_filled(bands->images[k], rows, band_size(bands, k, band));
+    }
+    return code;
+}
+
+int bands_copy(const Bands *bands, int band, RetexSpool *spool, RetexError *err)
+{
+    int code = RETEX_OK;
+    for (int k = 0; k < bands->nimages && !code; k++) {
+        const BandImage *image = bands->images[k];
+        int number;
+        if (!image->whole.pixels)
+            continue;
+        code = retex_spool_add(spool, image->name, image->letters, RETEX_FLOAT, &number, err);
+        if (!code)
+            code = retex_spool_put(spool, number, band,
+                                   image->whole.pixels + retex_image_index(&image->whole, 0, band * BAND_LINES), err);
+    }
+    return code;
+}
+
+RetexSpool *bands_spool(const Bands *bands)
+{
+    return bands->spool;
+}
+
 /* ---- into a set ---- */
 
 int bands_find(const Bands *bands, const char *name)
@@ -259,13 +316,13 @@ int bands_find(const Bands *bands, const char *name)
 int bands_is_empty(const Bands *bands, int image)
 {
     const BandImage *im = bands->images[image];
-    return bands->spool ? retex_spool_is_empty(bands->spool, im->spooled) : !im->filled;
+    return bands->whole ? !im->filled : retex_spool_is_empty(bands->spool, im->spooled);
 }
 
 int bands_move_part(Bands *bands, int number, RetexSet *set, int *part, RetexError *err)
 {
     BandImage *image = bands->images[number];
-    if (bands->spool)
+    if (!bands->whole)
         return retex_set_add_spooled(set, image->name, image->letters, image->type, image->spooled, part, err);
     if (!image->whole.pixels) {
         int code = retex_image_alloc(&image->whole, bands->width, bands->height, (int)image->channels, err);
@@ -285,8 +342,10 @@ int bands_move_part(Bands *bands, int number, RetexSet *set, int *part, RetexErr
 
 RetexSpool *bands_take_spool(Bands *bands)
 {
-    close_rows(bands);
     RetexSpool *spool = bands->spool;
+    if (bands->whole)
+        return NULL;
+    close_rows(bands);
     bands->spool = NULL;
     return spool;
 }

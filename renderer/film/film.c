@@ -15,6 +15,7 @@
 /* What is known of a band so far; under the film's lock. */
 typedef struct BandState {
     int tiles; /* that are finished */
+    atomic_int done;
     UvRange range;
     long dropped;
     RetexBandStats stats; /* of all of it, when it is */
@@ -24,6 +25,7 @@ struct Film {
     const Scene *scene;
     FilmParams params;
     RetexImage beauty;
+    int beauty_image; /* in the spool */
     Bands *bands;
     PaperFilm *paper; /* one of these two, where there is a split */
     FootprintFilm *footprints;
@@ -92,11 +94,13 @@ static int alloc_states(Film *film, RetexError *err)
 static int film_alloc(Film *film, RetexError *err)
 {
     const FilmParams *p = &film->params;
-    int code = bands_create(&film->bands, p->width, p->height, p->spool, err);
+    int code = bands_create(&film->bands, p->width, p->height, p->spool, !p->spooled, err);
     if (!code)
         code = alloc_states(film, err);
     if (!code)
         code = retex_image_alloc(&film->beauty, p->width, p->height, 3, err);
+    if (!code && p->spool)
+        code = retex_spool_add(p->spool, "beauty", "RGB", RETEX_FLOAT, &film->beauty_image, err);
     if (!code && p->split)
         code = p->paper ? paper_create(&film->paper, film->scene, p, film->bands, err)
                         : footprints_create(&film->footprints, film->scene, p, film->bands, err);
@@ -248,6 +252,11 @@ void film_pixel_end(FilmPixel *p, int x, int y)
         footprints_pixel_end(p->footprints, rows, x, y);
 }
 
+static float *beauty_rows(const Film *film, int band)
+{
+    return film->beauty.pixels + retex_image_index(&film->beauty, 0, band * BAND_LINES);
+}
+
 /* Sum over the tiles of a band in their order, and over its footprints' pixels. */
 static void finish_stats(Film *film, int band, int tiles, const BandRows *rows)
 {
@@ -264,6 +273,19 @@ static void finish_stats(Film *film, int band, int tiles, const BandRows *rows)
         paper_band_stats(film->paper, rows, s);
     if (film->footprints)
         footprints_band_stats(film->footprints, rows, s);
+}
+
+/* The band's images are where they stay. */
+static int commit_band(Film *film, int band, RetexError *err)
+{
+    RetexSpool *spool = bands_spool(film->bands);
+    int code = RETEX_OK;
+    if (spool)
+        code = retex_spool_put(spool, film->beauty_image, band, beauty_rows(film, band), err);
+    if (!code && spool)
+        code = retex_spool_commit(spool, band, &film->states[band].stats, err);
+    film->states[band].done = !code;
+    return code;
 }
 
 void film_tile_end(FilmPixel *p, int tile)
@@ -286,7 +308,7 @@ void film_tile_end(FilmPixel *p, int tile)
     if (!last || !rows)
         return;
     finish_stats(film, band, tiles, rows);
-    if (bands_finish(rows, &err))
+    if (bands_finish(rows, &err) || commit_band(film, band, &err))
         fail(film, &err);
 }
 
@@ -294,6 +316,75 @@ int film_failed(const Film *film)
 {
     return film->failed;
 }
+
+/* ---- bands that are finished ---- */
+
+int film_bands(const Film *film)
+{
+    return bands_count(film->bands);
+}
+
+int film_band_is_done(const Film *film, int band)
+{
+    return film->states[band].done;
+}
+
+int film_bands_done(const Film *film)
+{
+    int done = 0;
+    for (int k = 0; k < film_bands(film); k++)
+        done += film->states[k].done;
+    return done;
+}
+
+int film_resume(Film *film, RetexError *err)
+{
+    RetexSpool *spool = bands_spool(film->bands);
+    int code = RETEX_OK;
+    for (int k = 0; k < film_bands(film) && !code; k++) {
+        const RetexBandStats *stats = retex_spool_committed(spool, k);
+        if (!stats)
+            continue;
+        code = retex_spool_load_band(spool, film->beauty_image, k, beauty_rows(film, k), err);
+        if (!code)
+            code = bands_resume(film->bands, k, err);
+        film->states[k].stats = *stats;
+        film->states[k].done = 1;
+    }
+    return code;
+}
+
+/* Whole images, of which no spool has a copy. */
+static int copy_bands(const Film *film, RetexSpool *spool, RetexError *err)
+{
+    int beauty, code = retex_spool_add(spool, "beauty", "RGB", RETEX_FLOAT, &beauty, err);
+    for (int k = 0; k < film_bands(film) && !code; k++) {
+        if (!film->states[k].done)
+            continue;
+        code = retex_spool_put(spool, beauty, k, beauty_rows(film, k), err);
+        if (!code)
+            code = bands_copy(film->bands, k, spool, err);
+        if (!code)
+            code = retex_spool_commit(spool, k, &film->states[k].stats, err);
+    }
+    return code;
+}
+
+int film_keep(Film *film, uint64_t key, const char *path, int replace, RetexError *err)
+{
+    RetexSpool *spool = bands_spool(film->bands), *copy = NULL;
+    if (spool)
+        return retex_spool_keep(spool, path, replace, err);
+    int code = retex_spool_create(&copy, film->params.width, film->params.height, key, path, err);
+    if (!code)
+        code = copy_bands(film, copy, err);
+    if (!code)
+        code = retex_spool_keep(copy, path, replace, err);
+    retex_spool_close(&copy);
+    return code;
+}
+
+/* ---- images of others ---- */
 
 int film_add_image(Film *film, const char *name, const char *letters, RetexPixelType type, int *image, RetexError *err)
 {

@@ -21,8 +21,8 @@ typedef struct FilmParams {
     int sharp, broad;       /* at most so many of each kind, 1..clusters */
     int periodic[RETEX_MAX_TARGETS][2]; /* targets that close in u, v */
     int noise;              /* also keep how noisy each signal is, see noise.h; needs two samples */
-    RetexSpool *spool;      /* where finished bands go, film_create takes it over; NULL: all is kept in memory. The
-                               beauty always is */
+    RetexSpool *spool;      /* where finished bands go, film_create takes it over; or NULL. The beauty is in memory too */
+    int spooled;            /* then: images leave memory for the spool */
 } FilmParams;
 
 /* Where on the targets light was met. */
@@ -56,6 +56,15 @@ void film_path_end(FilmPixel *pixel);
 void film_pixel_end(FilmPixel *pixel, int x, int y);   /* store and reset */
 void film_tile_end(FilmPixel *pixel, int tile);        /* the last tile of a band finishes it */
 int film_failed(const Film *film);                     /* a band could not be kept: film_finish says why */
+
+/* Bands that are finished, and kept. */
+int film_bands(const Film *film); /* of all */
+int film_bands_done(const Film *film);
+int film_band_is_done(const Film *film, int band);
+/* When all images are added: take over what the spool holds already. */
+int film_resume(Film *film, RetexError *err);
+/* Leave finished bands in a file, for another film of this key to go on from. */
+int film_keep(Film *film, uint64_t key, const char *path, int replace, RetexError *err);
 
 /* Images beside those of the layout, which others fill for the tile in hand, see bands.h. */
 int film_add_image(Film *film, const char *name, const char *letters, RetexPixelType type, int *image, RetexError *err);

@@ -60,7 +60,7 @@ static void spool_parts(RetexSet *set)
     RetexError err;
     int *numbers = calloc((size_t)set->nparts, sizeof *numbers);
     PutJob job = {NULL, set, numbers};
-    test_must(retex_spool_create(&job.spool, set->width, set->height, path, &err), &err);
+    test_must(retex_spool_create(&job.spool, set->width, set->height, 0, path, &err), &err);
     for (int i = 0; i < set->nparts; i++) {
         const RetexPart *part = &set->parts[i];
         numbers[i] = -1;
@@ -163,7 +163,7 @@ static void what_is_empty_is_known(void **state)
     RetexSpool *spool = NULL;
     static const float values[] = {0, -0.0f, 1e-12f, 1, NAN};
     static const int empty[] = {1, 1, 0, 0, 0};
-    test_must(retex_spool_create(&spool, WIDTH, HEIGHT, NULL, &err), &err);
+    test_must(retex_spool_create(&spool, WIDTH, HEIGHT, 0, NULL, &err), &err);
     for (int k = 0; k < 5; k++) {
         char name[] = "part0";
         float pixels[WIDTH * 9] = {0};
@@ -185,12 +185,12 @@ static void a_spool_needs_no_folder_of_the_output(void **state)
     RetexError err;
     for (int k = 0; k < 6; k++) {
         RetexSpool *spool = NULL;
-        test_must(retex_spool_create(&spool, 8, 8, near[k], &err), &err);
+        test_must(retex_spool_create(&spool, 8, 8, 0, near[k], &err), &err);
         retex_spool_close(&spool);
     }
     RetexSpool *spool = NULL;
     int number;
-    test_must(retex_spool_create(&spool, 8, 8, NULL, &err), &err);
+    test_must(retex_spool_create(&spool, 8, 8, 0, NULL, &err), &err);
     assert_int_equal(retex_spool_add(spool, "a part", "R", RETEX_HALF, &number, &err), RETEX_EINVAL);
     assert_int_equal(retex_spool_add(spool, "part", "", RETEX_HALF, &number, &err), RETEX_EINVAL);
     retex_spool_close(&spool);

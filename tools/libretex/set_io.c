@@ -14,6 +14,7 @@
 #include "output.h"
 #include "pack_format.h"
 #include "set_parts.h"
+#include "spool_chunks.h"
 
 static const char MANIFEST_ATTRIBUTE[] = "retex";
 
@@ -228,6 +229,11 @@ static int source_describe(Source *source, RetexError *err)
 
     if (retex_input_size(source->input) == 0)
         return retex_fail(err, RETEX_EFORMAT, "%s is not a set: it is empty", name);
+    unsigned char begin[16];
+    const int64_t got = retex_input_read(source->input, begin, sizeof begin, 0);
+    if (got > 0 && retex_spool_probe(begin, (size_t)got))
+        return retex_fail(err, RETEX_EFORMAT, "%s is not a set yet, but rows of one: %s", name,
+                          "retex-render goes on from them with --resume or --merge");
     if (!retex_exr_probe(source->input))
         return retex_fail(err, RETEX_EFORMAT, "%s is not a set: neither an OpenEXR file nor a pack", name);
     status = retex_exr_open(&source->exr, source->input, err);

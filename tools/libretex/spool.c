@@ -1,6 +1,4 @@
-/* The spool: see <retex/spool.h>.
- *
- * The file is a sequence of records, each a header and its bytes. Nothing in it is changed once it is written. */
+/* The spool: see <retex/spool.h>. The file is described in spool_file.h. */
 #include <errno.h>
 #include <fcntl.h>
 #include <limits.h>
@@ -13,15 +11,7 @@
 #include <unistd.h>
 #include <zlib.h>
 
-#include "manifest.h"
-#include "spool_chunks.h"
-
-typedef struct SpoolImage {
-    char letters[8], name[RETEX_NAME_MAX];
-    RetexPixelType type;
-    atomic_int filled;        /* a pixel is not 0 */
-    RetexSpoolChunk chunks[]; /* by band */
-} SpoolImage;
+#include "spool_file.h"
 
 /* What one thread works with; kept for the next. */
 typedef struct SpoolScratch {
@@ -30,23 +20,6 @@ typedef struct SpoolScratch {
     size_t packed_bytes;
     struct SpoolScratch *next;
 } SpoolScratch;
-
-struct RetexSpool {
-    int width, height, nbands;
-    int descriptor;
-    char shown[PATH_MAX + 32]; /* what the file is, for messages */
-    pthread_mutex_t lock;
-    uint64_t end;          /* under lock, as is: */
-    SpoolScratch *scratch; /* that no thread uses */
-    int nimages;
-    SpoolImage *images[RETEX_SET_PARTS_MAX];
-};
-
-/* Of a chunk. */
-typedef struct Record {
-    uint32_t magic, image, band, bytes, crc[RETEX_EXR_LETTERS_MAX];
-} Record;
-enum { RECORD_CHUNK = 0x6b6e6863 };
 
 static int fail_system(const RetexSpool *spool, int code, RetexError *err)
 {
@@ -62,7 +35,7 @@ static int open_in(RetexSpool *spool, const char *folder)
 
     snprintf(spool->shown, sizeof spool->shown, "a temporary file in %s", folder);
 #ifdef O_TMPFILE
-    spool->descriptor = open(folder, O_TMPFILE | O_RDWR | O_CLOEXEC, 0600);
+    spool->descriptor = open(folder, O_TMPFILE | O_RDWR | O_CLOEXEC, 0666);
     if (spool->descriptor >= 0)
         return 1;
 #endif
@@ -107,18 +80,50 @@ static int open_file(RetexSpool *spool, const char *near, RetexError *err)
     return open_in(spool, "/tmp") ? 0 : fail_system(spool, errno, err);
 }
 
-int retex_spool_create(RetexSpool **result, int width, int height, const char *near, RetexError *err)
+static RetexSpool *spool_new(int width, int height, uint64_t key)
 {
-    RetexSpool *spool = *result = calloc(1, sizeof *spool);
+    RetexSpool *spool = calloc(1, sizeof *spool);
 
     if (!spool)
-        return retex_fail(err, RETEX_ENOMEM, "no memory for a spool");
+        return NULL;
     spool->width = width;
     spool->height = height;
     spool->nbands = (height + RETEX_SPOOL_LINES - 1) / RETEX_SPOOL_LINES;
+    spool->key = key;
     spool->descriptor = -1;
+    spool->stats = calloc((size_t)spool->nbands, sizeof *spool->stats);
+    spool->committed = calloc((size_t)spool->nbands, 1);
     pthread_mutex_init(&spool->lock, NULL);
-    const int status = open_file(spool, near, err);
+    if (!spool->stats || !spool->committed)
+        retex_spool_close(&spool);
+    return spool;
+}
+
+int retex_spool_create(RetexSpool **result, int width, int height, uint64_t key, const char *near, RetexError *err)
+{
+    RetexSpool *spool = *result = spool_new(width, height, key);
+
+    if (!spool)
+        return retex_fail(err, RETEX_ENOMEM, "no memory for a spool");
+    int status = open_file(spool, near, err);
+    if (!status)
+        status = spool_begin(spool, err);
+    if (status)
+        retex_spool_close(result);
+    return status;
+}
+
+int retex_spool_open(RetexSpool **result, int width, int height, uint64_t key, const char *path, int make,
+                     RetexError *err)
+{
+    RetexSpool *spool = *result = spool_new(width, height, key);
+
+    if (!spool)
+        return retex_fail(err, RETEX_ENOMEM, "no memory for a spool");
+    snprintf(spool->shown, sizeof spool->shown, "%s", path);
+    spool->descriptor = open(path, (make ? O_RDWR | O_CREAT : O_RDONLY) | O_CLOEXEC, 0666);
+    int status = spool->descriptor < 0 ? retex_fail(err, RETEX_EIO, "cannot open %s: %s", path, strerror(errno))
+                                       : spool_recover(spool, make, err);
     if (status)
         retex_spool_close(result);
     return status;
@@ -134,6 +139,8 @@ void retex_spool_close(RetexSpool **result)
         close(spool->descriptor);
     for (int i = 0; i < spool->nimages; i++)
         free(spool->images[i]);
+    free(spool->stats);
+    free(spool->committed);
     for (SpoolScratch *scratch = spool->scratch, *next; scratch; scratch = next) {
         next = scratch->next;
         retex_chunk_free(&scratch->chunk);
@@ -145,39 +152,100 @@ void retex_spool_close(RetexSpool **result)
     *result = NULL;
 }
 
+/* Linux gives a file that was made without a name one where it was made; elsewhere its bytes are copied. */
+static int link_to(const RetexSpool *spool, const char *path)
+{
+    char descriptor[64];
+
+    snprintf(descriptor, sizeof descriptor, "/proc/self/fd/%d", spool->descriptor);
+    return linkat(AT_FDCWD, descriptor, AT_FDCWD, path, AT_SYMLINK_FOLLOW) == 0 ? 0 : errno;
+}
+
+static int copy_to(const RetexSpool *spool, const char *path)
+{
+    unsigned char buffer[65536];
+    int code = 0, copy = open(path, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+
+    if (copy < 0)
+        return errno;
+    for (uint64_t done = 0; done < spool->end && !code;) {
+        const ssize_t got = pread(spool->descriptor, buffer, sizeof buffer, (off_t)done);
+        if (got <= 0)
+            code = got < 0 ? errno : EIO;
+        else
+            code = spool_write_at(copy, buffer, (size_t)got, done);
+        done += got > 0 ? (uint64_t)got : 0;
+    }
+    if (close(copy) != 0 && !code)
+        code = errno;
+    if (code)
+        unlink(path);
+    return code;
+}
+
+int retex_spool_keep(RetexSpool *spool, const char *path, int replace, RetexError *err)
+{
+    char hidden[PATH_MAX];
+    const char *name = path;
+    int code;
+
+    if (replace) {
+        snprintf(hidden, sizeof hidden, "%s.tmp%08x", path, (unsigned)getpid());
+        name = hidden;
+    }
+    code = link_to(spool, name);
+    if (code && code != EEXIST)
+        code = copy_to(spool, name);
+    if (!code && replace && rename(hidden, path) != 0) {
+        code = errno;
+        unlink(hidden);
+    }
+    return code ? retex_fail(err, RETEX_EIO, "cannot write %s: %s", path, strerror(code)) : 0;
+}
+
+static int find_image(const RetexSpool *spool, const char *name)
+{
+    for (int i = 0; i < spool->nimages; i++)
+        if (strcmp(spool->images[i]->name, name) == 0)
+            return i;
+    return -1;
+}
+
+static int add_image(RetexSpool *spool, SpoolImage *added, int *image, RetexError *err)
+{
+    const int there = find_image(spool, added->name);
+
+    if (there >= 0) {
+        const SpoolImage *old = spool->images[there];
+        if (old->type != added->type || strcmp(old->letters, added->letters) != 0)
+            return retex_fail(err, RETEX_EFORMAT, "%s has another image %s", spool->shown, added->name);
+        free(added);
+        *image = there;
+        return 0;
+    }
+    const int status = spool_add_image(spool, added, err);
+    if (!status)
+        *image = spool->nimages - 1;
+    return status;
+}
+
 int retex_spool_add(RetexSpool *spool, const char *name, const char *letters, RetexPixelType type, int *image,
                     RetexError *err)
 {
     if (!retex_name_is_valid(name) || !retex_letters_are_valid(letters))
         return retex_fail(err, RETEX_EINVAL, "\"%s\" with channels \"%s\" is no image", name, letters);
-    SpoolImage *added = calloc(1, sizeof *added + (size_t)spool->nbands * sizeof *added->chunks);
+    SpoolImage *added = spool_image_new(spool, name, letters, type);
     if (!added)
         return retex_fail(err, RETEX_ENOMEM, "no memory for a spool");
-    snprintf(added->name, sizeof added->name, "%s", name);
-    snprintf(added->letters, sizeof added->letters, "%s", letters);
-    added->type = type;
     pthread_mutex_lock(&spool->lock);
-    const int full = spool->nimages == RETEX_SET_PARTS_MAX;
-    if (!full) {
-        *image = spool->nimages;
-        spool->images[spool->nimages++] = added;
-    }
+    const int status = add_image(spool, added, image, err);
     pthread_mutex_unlock(&spool->lock);
-    if (!full)
-        return 0;
-    free(added);
-    return retex_fail(err, RETEX_ELIMIT, "a spool has at most %d images", RETEX_SET_PARTS_MAX);
+    if (status)
+        free(added);
+    return status;
 }
 
 /* --- bands --------------------------------------------------------------------------------------------------- */
-
-static RetexChunkShape band_shape(const RetexSpool *spool, const SpoolImage *image, int band)
-{
-    const int left = spool->height - band * RETEX_SPOOL_LINES;
-
-    return (RetexChunkShape){image->letters, image->type, spool->width,
-                             left < RETEX_SPOOL_LINES ? left : RETEX_SPOOL_LINES};
-}
 
 static SpoolScratch *take_scratch(RetexSpool *spool)
 {
@@ -199,10 +267,10 @@ static void return_scratch(RetexSpool *spool, SpoolScratch *scratch)
     pthread_mutex_unlock(&spool->lock);
 }
 
-/* Room for the header of a record and a chunk after it. */
+/* Room for a chunk. */
 static int prepare(SpoolScratch *scratch, const RetexChunkShape *shape)
 {
-    const size_t bytes = sizeof(Record) + retex_chunk_bytes(shape);
+    const size_t bytes = retex_chunk_bytes(shape);
 
     if (!scratch || !retex_chunk_need(&scratch->chunk, shape))
         return 0;
@@ -212,33 +280,6 @@ static int prepare(SpoolScratch *scratch, const RetexChunkShape *shape)
         scratch->packed_bytes = scratch->packed ? bytes : 0;
     }
     return scratch->packed != NULL;
-}
-
-static int write_at(int descriptor, const unsigned char *data, size_t bytes, uint64_t offset)
-{
-    while (bytes) {
-        const ssize_t written = pwrite(descriptor, data, bytes, (off_t)offset);
-        if (written < 0 && errno == EINTR)
-            continue;
-        if (written <= 0)
-            return written < 0 ? errno : EIO;
-        data += written;
-        offset += (uint64_t)written;
-        bytes -= (size_t)written;
-    }
-    return 0;
-}
-
-/* One writer at a time, so that the file is whole up to some point whenever the process ends. */
-static int append(RetexSpool *spool, const unsigned char *data, size_t bytes, uint64_t *offset, RetexError *err)
-{
-    pthread_mutex_lock(&spool->lock);
-    *offset = spool->end;
-    const int code = write_at(spool->descriptor, data, bytes, spool->end);
-    if (!code)
-        spool->end += bytes;
-    pthread_mutex_unlock(&spool->lock);
-    return code ? fail_system(spool, code, err) : 0;
 }
 
 static int all_zero(const unsigned char *bytes, size_t count)
@@ -256,29 +297,22 @@ static int any_light(const float *pixels, size_t count)
 
 /* Keep the band that scratch holds. One whose pixels are so dark that all are stored as 0 leaves a record without
  * bytes. */
-static int put_chunk(RetexSpool *spool, int number, int band, size_t bytes, SpoolScratch *scratch, RetexError *err)
+static int put_chunk(RetexSpool *spool, int number, int band, size_t bytes, int lit, SpoolScratch *scratch,
+                     RetexError *err)
 {
+    SpoolRecord record = {.kind = SPOOL_CHUNK, .image = (uint32_t)number, .band = (uint32_t)band, .lit = (uint32_t)lit};
     RetexSpoolChunk *chunk = &spool->images[number]->chunks[band];
-    Record record = {RECORD_CHUNK, (uint32_t)number, (uint32_t)band, 0, {0}};
-    uint64_t offset;
 
-    if (!all_zero(scratch->chunk.raw, bytes))
-        record.bytes =
-            (uint32_t)retex_chunk_pack(&scratch->chunk, scratch->chunk.raw, bytes, scratch->packed + sizeof record);
     memcpy(record.crc, chunk->crc, sizeof record.crc);
-    memcpy(scratch->packed, &record, sizeof record);
-    const int status = append(spool, scratch->packed, sizeof record + record.bytes, &offset, err);
-    if (status)
-        return status;
-    chunk->offset = offset + sizeof record;
-    chunk->bytes = record.bytes;
-    return 0;
+    if (!all_zero(scratch->chunk.raw, bytes))
+        record.bytes = (uint32_t)retex_chunk_pack(&scratch->chunk, scratch->chunk.raw, bytes, scratch->packed);
+    return spool_append_chunk(spool, &record, scratch->packed, err);
 }
 
 int retex_spool_put(RetexSpool *spool, int number, int band, const float *pixels, RetexError *err)
 {
     SpoolImage *image = spool->images[number];
-    const RetexChunkShape shape = band_shape(spool, image, band);
+    const RetexChunkShape shape = spool_shape(spool, image, band);
     const int lit = any_light(pixels, (size_t)shape.width * (size_t)shape.lines * strlen(shape.letters));
     SpoolScratch *scratch = take_scratch(spool);
     int status = 0;
@@ -287,14 +321,63 @@ int retex_spool_put(RetexSpool *spool, int number, int band, const float *pixels
         const size_t bytes = retex_chunk_bytes(&shape);
         retex_chunk_store(&scratch->chunk, &shape, pixels, scratch->chunk.raw, image->chunks[band].crc);
         if (lit || !all_zero(scratch->chunk.raw, bytes)) /* a zero may have a sign */
-            status = put_chunk(spool, number, band, bytes, scratch, err);
-        if (lit)
-            image->filled = 1;
+            status = put_chunk(spool, number, band, bytes, lit, scratch, err);
     } else {
         status = retex_fail(err, RETEX_ENOMEM, "no memory to store a part of the picture");
     }
     return_scratch(spool, scratch);
     return status;
+}
+
+int retex_spool_commit(RetexSpool *spool, int band, const RetexBandStats *stats, RetexError *err)
+{
+    SpoolRecord record = {.kind = SPOOL_COMMIT, .band = (uint32_t)band, .bytes = sizeof *stats};
+
+    pthread_mutex_lock(&spool->lock);
+    const int status = spool_append(spool, &record, stats, NULL, err);
+    if (!status) {
+        spool->stats[band] = *stats;
+        spool->committed[band] = 1;
+    }
+    pthread_mutex_unlock(&spool->lock);
+    return status;
+}
+
+const RetexBandStats *retex_spool_committed(const RetexSpool *spool, int band)
+{
+    return spool->committed[band] ? &spool->stats[band] : NULL;
+}
+
+static int copy_chunk(RetexSpool *spool, const RetexSpool *from, int number, int band, RetexError *err)
+{
+    const SpoolImage *image = from->images[number];
+    const RetexSpoolChunk *chunk = &image->chunks[band];
+    const int to = find_image(spool, image->name);
+    SpoolRecord record = {
+        .kind = SPOOL_CHUNK, .band = (uint32_t)band, .bytes = chunk->bytes, .lit = chunk->lit, .image = (uint32_t)to};
+
+    if (!chunk->bytes && !chunk->lit)
+        return 0;
+    if (to < 0 || spool->images[to]->type != image->type || strcmp(spool->images[to]->letters, image->letters) != 0)
+        return retex_fail(err, RETEX_EFORMAT, "%s has an image %s that this render has not", from->shown, image->name);
+    unsigned char *packed = malloc((size_t)chunk->bytes + 1);
+    if (!packed)
+        return retex_fail(err, RETEX_ENOMEM, "no memory to read a part of the picture");
+    memcpy(record.crc, chunk->crc, sizeof record.crc);
+    int status = retex_spool_read(from, chunk, packed, err);
+    if (!status)
+        status = spool_append_chunk(spool, &record, packed, err);
+    free(packed);
+    return status;
+}
+
+int retex_spool_copy_band(RetexSpool *spool, const RetexSpool *from, int band, RetexError *err)
+{
+    int status = 0;
+
+    for (int i = 0; i < from->nimages && !status; i++)
+        status = copy_chunk(spool, from, i, band, err);
+    return status ? status : retex_spool_commit(spool, band, &from->stats[band], err);
 }
 
 int retex_spool_is_empty(const RetexSpool *spool, int image)
@@ -339,6 +422,22 @@ static int load_band(const RetexSpool *spool, const RetexSpoolChunk *chunk, cons
     return 0;
 }
 
+int retex_spool_load_band(const RetexSpool *spool, int number, int band, float *pixels, RetexError *err)
+{
+    const SpoolImage *image = spool->images[number];
+    const RetexChunkShape shape = spool_shape(spool, image, band);
+    SpoolScratch scratch = {.packed = NULL};
+    int status = 0;
+
+    if (image->chunks[band].bytes)
+        status = load_band(spool, &image->chunks[band], &shape, &scratch, pixels, err);
+    else
+        memset(pixels, 0, (size_t)shape.width * (size_t)shape.lines * strlen(image->letters) * sizeof *pixels);
+    retex_chunk_free(&scratch.chunk);
+    free(scratch.packed);
+    return status;
+}
+
 int retex_spool_load(const RetexSpool *spool, int number, RetexImage *dst, RetexError *err)
 {
     const SpoolImage *image = spool->images[number];
@@ -346,7 +445,7 @@ int retex_spool_load(const RetexSpool *spool, int number, RetexImage *dst, Retex
     int status = retex_image_alloc(dst, spool->width, spool->height, (int)strlen(image->letters), err);
 
     for (int band = 0; band < spool->nbands && !status; band++) {
-        const RetexChunkShape shape = band_shape(spool, image, band);
+        const RetexChunkShape shape = spool_shape(spool, image, band);
         const RetexSpoolChunk *chunk = &image->chunks[band];
         if (chunk->bytes)
             status = load_band(spool, chunk, &shape, &scratch,

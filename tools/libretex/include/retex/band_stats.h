@@ -9,14 +9,14 @@
 extern "C" {
 #endif
 
-typedef struct RetexBandStats {
+struct RetexBandStats {
     /* Luminance, summed: all light, and that whose surplus hits had to take their original albedo; as it is, and as it
      * would be with white targets. */
     double total, folded, total_white, folded_white;
     double uv_low[RETEX_MAX_TARGETS][2], uv_high[RETEX_MAX_TARGETS][2]; /* by target; inf, -inf: not met */
     double albedo[RETEX_MAX_TARGETS][3], coverage[RETEX_MAX_TARGETS];   /* originals times coverage, coverage */
     long dropped; /* samples that were not finite */
-} RetexBandStats;
+};
 
 void retex_band_stats_reset(RetexBandStats *stats); /* of nothing */
 
