@@ -416,15 +416,16 @@ void cli_progress(const Cli *cli, const char *label, double done)
     if (started < 0)
         started = now, drawn = terminal ? 0 : now;
     done = fmin(fmax(done, 0), 1);
+    double elapsed = now - started;
+    if (done >= 1)
+        started = -1; /* what comes next is another one */
     if (now - drawn < (terminal ? 0.1 : 30) && !(done >= 1 && terminal))
         return;
     drawn = now;
     if (terminal)
-        progress_bar(label, done, now - started);
+        progress_bar(label, done, elapsed);
     else
-        progress_line(label, done, now - started);
-    if (done >= 1)
-        started = -1;
+        progress_line(label, done, elapsed);
     fflush(stderr);
 }
 
