@@ -1,5 +1,5 @@
 /* The images of a film, in bands of 16 rows: a band is in memory while its tiles are rendered, and goes to the spool
- * when the last of them is finished. Or images are kept whole, and the spool, if there is one, has a copy to the bit. */
+ * when the last of them is finished. Or images are kept whole, and the spool, if there is one, has a copy. */
 #ifndef RENDERER_FILM_BANDS_H
 #define RENDERER_FILM_BANDS_H
 

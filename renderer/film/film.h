@@ -21,7 +21,7 @@ typedef struct FilmParams {
     int sharp, broad;       /* at most so many of each kind, 1..clusters */
     int periodic[RETEX_MAX_TARGETS][2]; /* targets that close in u, v */
     int noise;              /* also keep how noisy each signal is, see noise.h; needs two samples */
-    RetexSpool *spool;      /* where finished bands go, film_create takes it over; or NULL. The beauty is in memory too */
+    RetexSpool *spool;      /* where finished bands go, film_create takes it over; or NULL. The beauty stays too */
     int spooled;            /* then: images leave memory for the spool */
 } FilmParams;
 

@@ -272,6 +272,17 @@ static int check_header(const RetexSpool *spool, const Header *header, RetexErro
     return 0;
 }
 
+/* Whether the file ends before its header does. */
+static int is_begun_only(const RetexSpool *spool)
+{
+    const Header own = header_of(spool);
+    Header header;
+    const off_t size = lseek(spool->descriptor, 0, SEEK_END);
+
+    return size >= 0 && (size_t)size < sizeof header && read_at(spool->descriptor, &header, (size_t)size, 0) &&
+           memcmp(&header, &own, (size_t)size) == 0;
+}
+
 int spool_recover(RetexSpool *spool, int make, RetexError *err)
 {
     Header header;
@@ -279,8 +290,7 @@ int spool_recover(RetexSpool *spool, int make, RetexError *err)
 
     if (flock(spool->descriptor, (make ? LOCK_EX : LOCK_SH) | LOCK_NB) != 0 && errno == EWOULDBLOCK)
         return retex_fail(err, RETEX_EIO, "%s is in use by another render", spool->shown);
-    const off_t size = lseek(spool->descriptor, 0, SEEK_END);
-    if (make && size == 0)
+    if (make && is_begun_only(spool))
         return spool_begin(spool, err);
     if (!read_at(spool->descriptor, &header, sizeof header, 0))
         memset(&header, 0, sizeof header);

@@ -1,5 +1,6 @@
 /* The spool: where images of one size go, band by band as they are finished, until the file that they belong to can be
- * written. Bands are kept as an EXR file stores them, compressed, in a temporary file; those without light cost nothing.
+ * written. Bands are kept as an EXR file stores them, compressed, in a temporary file; those without light cost
+ * nothing.
  *
  * With a name it is a journal: whole up to the last band that was committed, whenever the process ends, so that another
  * one can go on from there. */
