@@ -1,6 +1,6 @@
 /* The file of a spool: a header, then records, each with its bytes. Nothing in it is changed once it is written, and
- * there is one writer at a time, so that it is whole up to some record whenever the process ends. Numbers are the machine's:
- * a journal does not travel between machines of different kinds, and says so. */
+ * there is one writer at a time, so that it is whole up to some record whenever the process ends. Numbers are the
+ * machine's: a journal does not travel between machines of different kinds, and says so. */
 #ifndef RETEX_LIBRETEX_SPOOL_FILE_H
 #define RETEX_LIBRETEX_SPOOL_FILE_H
 
