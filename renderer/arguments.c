@@ -34,6 +34,9 @@ enum {
     OPT_DECLARE,
     OPT_AMBIENT,
     OPT_STRICT,
+    OPT_RESUME,
+    OPT_SHARD,
+    OPT_MERGE,
     OPT_STATS,
     OPT_TRACE
 };
@@ -78,6 +81,9 @@ static const CliOption options[] = {
                      0},
     [OPT_AMBIENT] = {"ambient", 0, NULL, "let `ambient` give light", 0},
     [OPT_STRICT] = {"strict", 0, NULL, "what is not supported is an error", 0},
+    [OPT_RESUME] = {"resume", 0, NULL, "keep finished rows in OUTPUT.partial, and go on from there if it is there", 0},
+    [OPT_SHARD] = {"shard", 0, "I/N", "render every N-th band of rows only, from the I-th, for --merge", 0},
+    [OPT_MERGE] = {"merge", 0, "FILE", "put together what all shards of this render left; repeatable", 0},
     [OPT_STATS] = {"stats", 0, "FILE.json", "write times, rays, paths and memory; - is standard output", 0},
     [OPT_TRACE] = {"trace-pixel", 0, "X,Y,S", "print the path of sample S of a pixel, step by step, and stop", 0},
     {0},
@@ -288,6 +294,18 @@ static void parse_option(Arguments *a, const CliOption *o)
     case OPT_STRICT:
         a->sdl.strict = 1;
         break;
+    case OPT_RESUME:
+        r->resume = 1;
+        break;
+    case OPT_SHARD:
+        numbers(cli, o, '/', 2, size);
+        r->shard = size[0], r->nshards = size[1];
+        if (r->nshards < 1 || r->nshards > 4096 || r->shard < 1 || r->shard > r->nshards)
+            cli_die(cli, "--shard wants I/N, I from 1 to N, not `%s`", cli->value);
+        break;
+    case OPT_MERGE:
+        push(cli, a->merged, &a->nmerged, o->name);
+        break;
     case OPT_STATS:
         a->stats = cli->value;
         break;
@@ -336,6 +354,26 @@ static void check_denoise(const Arguments *a)
         cli_die(a->cli, "--denoise needs two samples a pixel at least: one does not tell how noisy it is");
 }
 
+/* Rendering in pieces: of a picture or a set, whose rows are all there is to keep. */
+static void check_pieces(const Arguments *a)
+{
+    const RenderParams *r = &a->render;
+    const char *option = r->resume ? "resume" : r->nshards ? "shard" : a->nmerged ? "merge" : NULL;
+    if (!option)
+        return;
+    if (a->list || a->tracing || a->variants || a->control || r->control_data)
+        cli_die(a->cli, "--%s goes with a render of its own: no %s", option,
+                "--list-targets, --trace-pixel, --variants, --control or --control-data");
+    if (r->paper)
+        cli_die(a->cli, "--%s: layout paper is rendered in one piece", option);
+    if (a->nmerged && (r->resume || r->nshards))
+        cli_die(a->cli, "--merge has all rows already: no --resume or --shard");
+    if (!a->cli->output || !strcmp(a->cli->output, "-"))
+        cli_die(a->cli, "--%s needs an output file: -o FILE", option);
+    if (r->nshards && (r->aovs || a->aov_dir || a->stats))
+        cli_die(a->cli, "--shard leaves rows only: --aov, --aov-dir and --stats go with --merge");
+}
+
 void parse_arguments(Arguments *a)
 {
     Cli *cli = a->cli;
@@ -380,6 +418,7 @@ void parse_arguments(Arguments *a)
     if (a->control && cli->output)
         texture_args_check_output(cli, a->control, cli->output);
     check_denoise(a);
+    check_pieces(a);
     if (a->aov_dir && (a->list || a->tracing || a->variants || a->control))
         cli_die(cli,
                 "--aov-dir goes with a render of its own: no --list-targets, --trace-pixel, --variants or --control");

@@ -1,4 +1,5 @@
 /* retex-render: from a scene file to a set, a plain picture, or a picture with replaced textures. */
+#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -96,6 +97,58 @@ static OutputKind output_kind(const Arguments *a, const char *output)
     return exr && (!a->render.plain || a->render.aovs || a->render.control_data) ? OUTPUT_SET : OUTPUT_PICTURE;
 }
 
+/* Finished rows are kept beside a file. */
+static void name_journal(Arguments *a, const char *output)
+{
+    struct stat old;
+    RenderParams *r = &a->render;
+    if (!output || !strcmp(output, "-") || !strncmp(output, "/dev/", 5) ||
+        (!stat(output, &old) && !S_ISREG(old.st_mode)) || r->paper || r->control_data)
+        return;
+    if (snprintf(a->journal, sizeof a->journal, "%s.partial", output) >= (int)sizeof a->journal)
+        cli_die(a->cli, "the output's name is too long");
+    r->journal = a->journal, r->output = output;
+    r->merged = a->merged, r->nmerged = a->nmerged;
+    if (!r->resume && access(a->journal, F_OK) == 0)
+        cli_warn(a->cli, "%s is left as it is: --resume would go on from it", a->journal);
+}
+
+static volatile sig_atomic_t stop;
+
+static void on_signal(int number)
+{
+    (void)number;
+    stop = 1;
+}
+
+/* The first Ctrl-C lets finished rows be kept, where there is a place for them; the second one ends at once. */
+static void catch_signals(Arguments *a, void (*handler)(int))
+{
+    struct sigaction action = {.sa_handler = handler, .sa_flags = (int)SA_RESETHAND};
+    if (!a->render.journal)
+        return;
+    a->render.stop = &stop;
+    sigaction(SIGINT, &action, NULL);
+    sigaction(SIGTERM, &action, NULL);
+}
+
+/* Render, or only some rows of it: then there is no set. */
+static int render(Arguments *a, const Scene *scene, RetexSet **set, RenderStats *stats, RetexError *err)
+{
+    if (a->render.journal)
+        a->render.key = render_fingerprint(a, scene);
+    catch_signals(a, on_signal);
+    int code = a->render.nshards ? render_shard(scene, &a->render, stats, err)
+                                 : render_scene(set, scene, &a->render, stats, err);
+    catch_signals(a, SIG_DFL);
+    if (!code && a->render.nshards) {
+        cli_info(a->cli, "shard %d of %d: %.2f s", a->render.shard, a->render.nshards, stats->render_seconds);
+        if (a->render.resume)
+            unlink(a->journal);
+    }
+    return code;
+}
+
 /* Before the work: whether the result can be written, and what of it would be lost. */
 static void check_output(const Arguments *a, const char *output)
 {
@@ -105,8 +158,11 @@ static void check_output(const Arguments *a, const char *output)
     if (strcmp(output, "-") && !stat(a->scene, &scene) && !stat(output, &old) && S_ISREG(old.st_mode) &&
         scene.st_dev == old.st_dev && scene.st_ino == old.st_ino)
         cli_die(a->cli, "the output %s would replace the scene", output);
-    if (kind == OUTPUT_PICTURE ? retex_image_write_check(output, NULL, &err) : retex_set_write_check(output, &err))
+    if (kind == OUTPUT_PICTURE && !a->render.nshards ? retex_image_write_check(output, NULL, &err)
+                                                     : retex_set_write_check(output, &err))
         cli_fail(a->cli, &err);
+    if (a->render.nshards)
+        return;
     if (kind == OUTPUT_PICTURE && a->render.aovs && !a->aov_dir)
         cli_warn(a->cli, "%s holds the picture only: --aov needs .exr or .retex", output);
     if (kind == OUTPUT_PICTURE && !a->render.plain && a->ntargets)
@@ -155,17 +211,19 @@ static void check_memory(const Arguments *a, const Scene *scene)
     const RenderParams *r = &a->render;
     double width = r->crop[2] ? r->crop[2] : r->width ? r->width : scene->width;
     double height = r->crop[3] ? r->crop[3] : r->height ? r->height : scene->height;
-    FilmParams film = {.orders = r->orders,
+    FilmParams film = {.width = (int)width,
+                       .height = (int)height,
+                       .orders = r->orders,
                        .split = !r->plain,
                        .paper = r->paper,
                        .sharp = r->sharp,
                        .broad = r->broad,
                        .spp = r->spp,
                        .noise = r->denoise_data};
-    double channels = (double)film_floats(&film, scene->ntargets) + 19 * (r->aovs != 0) +
-                      (r->denoise_data ? 19 + scene->ntargets : 0),
+    double guides = r->denoise_data && !r->spooled ? 19 + scene->ntargets : 0,
            memory = (double)sysconf(_SC_PHYS_PAGES) * (double)sysconf(_SC_PAGESIZE);
-    double bytes = width * height * channels * sizeof(float);
+    double bytes = film_bytes(&film, scene->ntargets, r->spooled) +
+                   width * height * sizeof(float) * (guides + 19 * (r->aovs != 0));
     if (memory > 0 && bytes > memory)
         cli_die(a->cli, "%.0fx%.0f pixels need %.1f GB of memory, this machine has %.1f: render parts with --crop",
                 width, height, bytes / 1e9, memory / 1e9);
@@ -235,8 +293,10 @@ int main(int argc, char **argv)
     if (a.control)
         read_control(&a);
     /* a set keeps it for later, but packs leave it out, and a picture without targets can only be filtered here */
-    int keeps = output && a.ntargets && !a.render.plain && output_kind(&a, output) == OUTPUT_SET;
+    int keeps = output && a.ntargets && !a.render.plain && (a.render.nshards || output_kind(&a, output) == OUTPUT_SET);
     a.render.denoise_data = a.denoise || (keeps && !a.no_denoise_data);
+    a.render.spooled = keeps && !a.denoise;
+    name_journal(&a, output);
     double started = seconds();
     if (sdl_parse_file(&scene, a.scene, &a.sdl, &err))
         cli_fail(&cli, &err);
@@ -260,7 +320,7 @@ int main(int argc, char **argv)
     else if (a.tracing)
         failed = render_trace(scene, &a.render, a.trace[0], a.trace[1], a.trace[2], stdout, &err);
     else
-        failed = render_scene(&set, scene, &a.render, &stats, &err);
+        failed = render(&a, scene, &set, &stats, &err);
     if (failed)
         cli_fail(&cli, &err);
     if (set) {
@@ -270,6 +330,8 @@ int main(int argc, char **argv)
             cli_fail(&cli, &err);
         if (output)
             write_result(&a, set, output);
+        if (a.render.resume)
+            unlink(a.journal);
         report(&a, set, &stats);
         if (a.stats)
             write_stats(&a, &stats, set, parse_seconds);

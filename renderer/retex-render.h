@@ -30,6 +30,9 @@ typedef struct Arguments {
     char set_targets[RETEX_MAX_TARGETS][RETEX_NAME_MAX + 512]; /* its targets, as of -t */
     int named;                                                 /* -t was given */
     int denoise, no_denoise_data;
+    const char *merged[LIST_MAX];
+    int nmerged;
+    char journal[4096]; /* OUTPUT.partial, or "" where the output is no file */
 } Arguments;
 
 /* ---- arguments.c ---- */
@@ -58,6 +61,11 @@ void read_control(Arguments *arguments);
 void render_controlled(Arguments *arguments, const Scene *scene, const char *output);
 /* Load replacement textures onto their targets. */
 void replace_textures(Arguments *arguments, const Scene *scene, RetexTexture **loaded);
+
+/* ---- fingerprint.c ---- */
+
+/* Of everything that the rendered rows depend on. */
+uint64_t render_fingerprint(const Arguments *arguments, const Scene *scene);
 
 /* ---- retex-render.c ---- */
 

@@ -369,31 +369,63 @@ static double seconds_now(void)
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
+/* 12 s, 3 min 05 s, 2 h 10 min. */
+static const char *duration(double seconds, char text[32])
+{
+    long s = (long)(seconds + 0.5);
+    if (s < 60)
+        snprintf(text, 32, "%ld s", s);
+    else if (s < 3600)
+        snprintf(text, 32, "%ld min %02ld s", s / 60, s % 60);
+    else
+        snprintf(text, 32, "%ld h %02ld min", s / 3600, s / 60 % 60);
+    return text;
+}
+
+/* The same for a log: now and then a line. */
+static void progress_line(const char *label, double done, double elapsed)
+{
+    char so_far[32], left[32];
+    if (done > 0 && done < 1)
+        fprintf(stderr, "%s: %.0f%%, %s, %s left\n", label, 100 * done, duration(elapsed, so_far),
+                duration(elapsed * (1 - done) / done, left));
+}
+
+static void progress_bar(const char *label, double done, double elapsed)
+{
+    enum { BAR = 30 };
+    char bar[BAR + 1] = {0}, so_far[32], left[32];
+    for (int i = 0; i < BAR; i++)
+        bar[i] = i < (int)(done * BAR) ? '#' : '.';
+    if (done >= 1)
+        fprintf(stderr, "\r%s [%s] 100%%  %.1f s\033[K\n", label, bar, elapsed);
+    else if (done > 0.02 || (done > 0 && elapsed > 10))
+        fprintf(stderr, "\r%s [%s] %3.0f%%  %s, %s left\033[K", label, bar, 100 * done, duration(elapsed, so_far),
+                duration(elapsed * (1 - done) / done, left));
+    else
+        fprintf(stderr, "\r%s [%s] %3.0f%%\033[K", label, bar, 100 * done);
+}
+
 void cli_progress(const Cli *cli, const char *label, double done)
 {
-    enum { BAR = 40 };
     static double started = -1, drawn;
-    if (cli->quiet || !isatty(STDERR_FILENO))
+    int terminal = isatty(STDERR_FILENO);
+    if (cli->quiet || (!terminal && !cli->verbose))
         return;
     double now = seconds_now();
     if (started < 0)
-        started = now;
+        started = now, drawn = terminal ? 0 : now;
     done = fmin(fmax(done, 0), 1);
-    if (done < 1 && now - drawn < 0.1)
+    double elapsed = now - started;
+    if (done >= 1)
+        started = -1; /* what comes next is another one */
+    if (now - drawn < (terminal ? 0.1 : 30) && !(done >= 1 && terminal))
         return;
     drawn = now;
-    char bar[BAR + 1] = {0};
-    for (int i = 0; i < BAR; i++)
-        bar[i] = i < (int)(done * BAR) ? '#' : '.';
-    double elapsed = now - started;
-    if (done >= 1) {
-        fprintf(stderr, "\r%s [%s] 100%%  %.1f s\033[K\n", label, bar, elapsed);
-        started = -1;
-    } else if (done > 0.02) {
-        fprintf(stderr, "\r%s [%s] %3.0f%%  %.0f s left\033[K", label, bar, 100 * done, elapsed * (1 - done) / done);
-    } else {
-        fprintf(stderr, "\r%s [%s] %3.0f%%\033[K", label, bar, 100 * done);
-    }
+    if (terminal)
+        progress_bar(label, done, elapsed);
+    else
+        progress_line(label, done, elapsed);
     fflush(stderr);
 }
 

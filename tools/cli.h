@@ -63,8 +63,9 @@ void cli_input(const Cli *cli, const char *path, const char *what);
 /* Whether path ends in ending (".exr"), in whatever case. */
 int cli_ends_with(const char *path, const char *ending);
 
-/* A progress bar on stderr, drawn only on a terminal and without -q; done is 0..1; label e.g. "render". Call with 1 to
- * finish the line. Rate-limited inside; safe to call often from one thread. */
+/* A progress bar on stderr, on a terminal and without -q, with the time so far and the time left; elsewhere with -v a
+ * line every half a minute. done is 0..1; label e.g. "render". Call with 1 to finish the line. Rate-limited inside;
+ * safe to call often from one thread. */
 void cli_progress(const Cli *cli, const char *label, double done);
 
 /* Flush and close stdout, so that a full disk is seen: exits with CLI_FAIL if it was. Call last. */

@@ -1,36 +1,51 @@
 /* What both layouts share: the beauty, sums of energy, the range of UV, and handing images over to a set. */
 #include <math.h>
 #include <pthread.h>
+#include <stdatomic.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <retex/band_stats.h>
 #include "film/film.h"
 #include "film/footprints.h"
 #include "film/noise.h"
 #include "film/paper.h"
 #include "film/plan.h"
 
+/* What is known of a band so far; under the film's lock. */
+typedef struct BandState {
+    int tiles; /* that are finished */
+    atomic_int done;
+    UvRange range;
+    long dropped;
+    RetexBandStats stats; /* of all of it, when it is */
+} BandState;
+
 struct Film {
     const Scene *scene;
     FilmParams params;
     RetexImage beauty;
+    int beauty_image; /* in the spool */
+    Bands *bands;
     PaperFilm *paper; /* one of these two, where there is a split */
     FootprintFilm *footprints;
     NoiseImages noise;
     LightSums *tiles;
+    BandState *states; /* by band */
     pthread_mutex_t lock;
-    UvRange range; /* under lock, as is: */
-    long dropped;
+    atomic_int failed;
+    RetexError error; /* of the first band that could not be kept; under lock */
 };
 
 struct FilmPixel {
     Film *film;
     PaperPixel *paper;
     FootprintPixel *footprints;
+    BandRows *rows; /* that the tile in hand writes to, once it does */
     double beauty[3];
     int paths;         /* so far */
     SignalTotals half; /* of the first half of the paths */
-    LightSums light;   /* of the tile so far */
+    LightSums light;   /* of the tile so far, as is: */
     UvRange range;
     long dropped;
 };
@@ -63,28 +78,48 @@ void uv_range_merge(UvRange *into, const UvRange *from)
 
 /* ---- life ---- */
 
+static int alloc_states(Film *film, RetexError *err)
+{
+    film->tiles = calloc((size_t)film->params.ntiles, sizeof *film->tiles);
+    film->states = calloc((size_t)bands_count(film->bands), sizeof *film->states);
+    if (!film->tiles || !film->states)
+        return retex_fail(err, RETEX_ENOMEM, "out of memory for the film");
+    for (int k = 0; k < bands_count(film->bands); k++) {
+        uv_range_reset(&film->states[k].range);
+        retex_band_stats_reset(&film->states[k].stats);
+    }
+    return RETEX_OK;
+}
+
 static int film_alloc(Film *film, RetexError *err)
 {
     const FilmParams *p = &film->params;
-    int code = retex_image_alloc(&film->beauty, p->width, p->height, 3, err);
+    int code = bands_create(&film->bands, p->width, p->height, p->spool, !p->spooled, err);
+    if (!code)
+        code = alloc_states(film, err);
+    if (!code)
+        code = retex_image_alloc(&film->beauty, p->width, p->height, 3, err);
+    if (!code && p->spool)
+        code = retex_spool_add(p->spool, "beauty", "RGB", RETEX_FLOAT, &film->beauty_image, err);
     if (!code && p->split)
-        code = p->paper ? paper_create(&film->paper, film->scene, p, err)
-                        : footprints_create(&film->footprints, film->scene, p, err);
-    return code ? code : noise_create(&film->noise, p, film->scene->ntargets, err);
+        code = p->paper ? paper_create(&film->paper, film->scene, p, film->bands, err)
+                        : footprints_create(&film->footprints, film->scene, p, film->bands, err);
+    return code ? code : noise_create(&film->noise, p, film->scene, film->bands, err);
 }
 
 int film_create(Film **out, const Scene *scene, const FilmParams *params, RetexError *err)
 {
     Film *film = calloc(1, sizeof *film);
     *out = film;
-    if (!film)
+    if (!film) {
+        RetexSpool *spool = params->spool;
+        retex_spool_close(&spool);
         return retex_fail(err, RETEX_ENOMEM, "out of memory for the film");
+    }
     film->scene = scene;
     film->params = *params;
     pthread_mutex_init(&film->lock, NULL);
-    uv_range_reset(&film->range);
-    film->tiles = calloc((size_t)params->ntiles, sizeof *film->tiles);
-    int code = film->tiles ? film_alloc(film, err) : retex_fail(err, RETEX_ENOMEM, "out of memory for the film");
+    int code = film_alloc(film, err);
     if (code)
         film_close(out);
     return code;
@@ -97,8 +132,9 @@ void film_close(Film **film)
     retex_image_free(&(*film)->beauty);
     paper_close(&(*film)->paper);
     footprints_close(&(*film)->footprints);
-    noise_close(&(*film)->noise);
+    bands_close(&(*film)->bands);
     free((*film)->tiles);
+    free((*film)->states);
     pthread_mutex_destroy(&(*film)->lock);
     free(*film);
     *film = NULL;
@@ -121,16 +157,11 @@ int film_pixel_create(FilmPixel **out, Film *film, RetexError *err)
     return code;
 }
 
-/* Merge what a thread knows of UV ranges; minima and maxima do not depend on order. */
 void film_pixel_close(FilmPixel **pixel)
 {
     FilmPixel *p = *pixel;
     if (!p)
         return;
-    pthread_mutex_lock(&p->film->lock);
-    uv_range_merge(&p->film->range, &p->range);
-    p->film->dropped += p->dropped;
-    pthread_mutex_unlock(&p->film->lock);
     paper_pixel_close(&p->paper);
     footprints_pixel_close(&p->footprints);
     free(p);
@@ -180,29 +211,194 @@ void film_path_end(FilmPixel *p)
         signal_totals(p, &p->half);
 }
 
+static void fail(Film *film, const RetexError *err)
+{
+    pthread_mutex_lock(&film->lock);
+    if (!film->failed)
+        film->error = *err;
+    film->failed = 1;
+    pthread_mutex_unlock(&film->lock);
+}
+
+/* The rows of the tile in hand; NULL where there is no memory for them. */
+static BandRows *rows_at(FilmPixel *p, int y)
+{
+    RetexError err;
+    if (!p->rows && !(p->rows = bands_open(p->film->bands, y / BAND_LINES))) {
+        retex_fail(&err, RETEX_ENOMEM, "out of memory for the film");
+        fail(p->film, &err);
+    }
+    return p->rows;
+}
+
 void film_pixel_end(FilmPixel *p, int x, int y)
 {
     Film *film = p->film;
+    BandRows *rows = rows_at(p, y);
     float *beauty = film->beauty.pixels + retex_image_index(&film->beauty, x, y);
+    if (!rows)
+        return;
     if (film->noise.count) {
         SignalTotals all;
         signal_totals(p, &all);
-        noise_store(&film->noise, &p->half, &all, x, y);
+        noise_store(&film->noise, rows, &p->half, &all, x, y);
     }
     p->paths = 0;
     for (int c = 0; c < 3; c++)
         beauty[c] = (float)(p->beauty[c] / film->params.spp), p->beauty[c] = 0;
     if (p->paper)
-        paper_pixel_end(p->paper, x, y);
+        paper_pixel_end(p->paper, rows, x, y);
     if (p->footprints)
-        footprints_pixel_end(p->footprints, x, y);
+        footprints_pixel_end(p->footprints, rows, x, y);
+}
+
+static float *beauty_rows(const Film *film, int band)
+{
+    return film->beauty.pixels + retex_image_index(&film->beauty, 0, band * BAND_LINES);
+}
+
+/* Sum over the tiles of a band in their order, and over its footprints' pixels. */
+static void finish_stats(Film *film, int band, int tiles, const BandRows *rows)
+{
+    BandState *state = &film->states[band];
+    RetexBandStats *s = &state->stats;
+    for (int k = band * tiles; k < (band + 1) * tiles; k++) {
+        s->total += film->tiles[k].total, s->folded += film->tiles[k].folded;
+        s->total_white += film->tiles[k].total_white, s->folded_white += film->tiles[k].folded_white;
+    }
+    memcpy(s->uv_low, state->range.low, sizeof s->uv_low);
+    memcpy(s->uv_high, state->range.high, sizeof s->uv_high);
+    s->dropped = state->dropped;
+    if (film->paper)
+        paper_band_stats(film->paper, rows, s);
+    if (film->footprints)
+        footprints_band_stats(film->footprints, rows, s);
+}
+
+/* The band's images are where they stay. */
+static int commit_band(Film *film, int band, RetexError *err)
+{
+    RetexSpool *spool = bands_spool(film->bands);
+    int code = RETEX_OK;
+    if (spool)
+        code = retex_spool_put(spool, film->beauty_image, band, beauty_rows(film, band), err);
+    if (!code && spool)
+        code = retex_spool_commit(spool, band, &film->states[band].stats, err);
+    film->states[band].done = !code;
+    return code;
 }
 
 void film_tile_end(FilmPixel *p, int tile)
 {
-    p->film->tiles[tile] = p->light;
+    Film *film = p->film;
+    int tiles = film->params.ntiles / bands_count(film->bands), band = tile / tiles;
+    BandState *state = &film->states[band];
+    BandRows *rows = p->rows;
+    RetexError err;
+    pthread_mutex_lock(&film->lock);
+    film->tiles[tile] = p->light;
+    uv_range_merge(&state->range, &p->range);
+    state->dropped += p->dropped;
+    int last = ++state->tiles == tiles;
+    pthread_mutex_unlock(&film->lock);
     p->light = (LightSums){0};
+    uv_range_reset(&p->range);
+    p->dropped = 0;
+    p->rows = NULL;
+    if (!last || !rows)
+        return;
+    finish_stats(film, band, tiles, rows);
+    if (bands_finish(rows, &err) || commit_band(film, band, &err))
+        fail(film, &err);
 }
+
+int film_failed(const Film *film)
+{
+    return film->failed;
+}
+
+/* ---- bands that are finished ---- */
+
+int film_bands(const Film *film)
+{
+    return bands_count(film->bands);
+}
+
+int film_band_is_done(const Film *film, int band)
+{
+    return film->states[band].done;
+}
+
+int film_bands_done(const Film *film)
+{
+    int done = 0;
+    for (int k = 0; k < film_bands(film); k++)
+        done += film->states[k].done;
+    return done;
+}
+
+int film_resume(Film *film, RetexError *err)
+{
+    RetexSpool *spool = bands_spool(film->bands);
+    int code = RETEX_OK;
+    for (int k = 0; k < film_bands(film) && !code; k++) {
+        const RetexBandStats *stats = retex_spool_committed(spool, k);
+        if (!stats)
+            continue;
+        code = retex_spool_load_band(spool, film->beauty_image, k, beauty_rows(film, k), err);
+        if (!code)
+            code = bands_resume(film->bands, k, err);
+        film->states[k].stats = *stats;
+        film->states[k].done = 1;
+    }
+    return code;
+}
+
+/* Whole images, of which no spool has a copy. */
+static int copy_bands(const Film *film, RetexSpool *spool, RetexError *err)
+{
+    int beauty, code = retex_spool_add(spool, "beauty", "RGB", RETEX_FLOAT, &beauty, err);
+    for (int k = 0; k < film_bands(film) && !code; k++) {
+        if (!film->states[k].done)
+            continue;
+        code = retex_spool_put(spool, beauty, k, beauty_rows(film, k), err);
+        if (!code)
+            code = bands_copy(film->bands, k, spool, err);
+        if (!code)
+            code = retex_spool_commit(spool, k, &film->states[k].stats, err);
+    }
+    return code;
+}
+
+int film_keep(Film *film, uint64_t key, const char *path, int replace, RetexError *err)
+{
+    RetexSpool *spool = bands_spool(film->bands), *copy = NULL;
+    if (spool)
+        return retex_spool_keep(spool, path, replace, err);
+    int code = retex_spool_create(&copy, film->params.width, film->params.height, key, path, err);
+    if (!code)
+        code = copy_bands(film, copy, err);
+    if (!code)
+        code = retex_spool_keep(copy, path, replace, err);
+    retex_spool_close(&copy);
+    return code;
+}
+
+/* ---- images of others ---- */
+
+int film_add_image(Film *film, const char *name, const char *letters, RetexPixelType type, int *image, RetexError *err)
+{
+    return bands_add(film->bands, name, letters, type, image, err);
+}
+
+float *film_image_pixel(FilmPixel *p, int image, int x, int y)
+{
+    static _Thread_local float nowhere[8];
+    BandRows *rows = rows_at(p, y);
+    return rows ? bands_pixel(rows, image, x, y) : nowhere;
+}
+
+/* ---- memory ---- */
 
 long film_floats(const FilmParams *params, int ntargets)
 {
@@ -217,84 +413,98 @@ long film_floats(const FilmParams *params, int ntargets)
     return 6 + noise + ntargets * (12 + 10 + 3 * (plan.count - 1));
 }
 
+double film_bytes(const FilmParams *params, int ntargets, int spooled)
+{
+    double row = params->width * (double)sizeof(float);
+    double floats = film_floats(params, ntargets);
+    return spooled ? 3 * row * params->height + floats * row * BAND_LINES : floats * row * params->height;
+}
+
 long film_dropped(const Film *film)
 {
-    return film->dropped;
+    long dropped = 0;
+    for (int k = 0; k < bands_count(film->bands); k++)
+        dropped += film->states[k].stats.dropped;
+    return dropped;
 }
 
 /* ---- into a set ---- */
 
-int film_move_part(RetexSet *set, const char *name, const char *letters, RetexPixelType type, RetexImage *image,
-                   int *index, RetexError *err)
+static void name_targets(const Film *film, RetexSet *set)
 {
-    int part, code = retex_set_add_part(set, name, letters, type, 1, 1, &part, err);
-    if (code)
-        return code;
-    retex_image_free(&set->parts[part].image);
-    set->parts[part].image = *image;
-    *image = (RetexImage){0};
-    if (index)
-        *index = part;
-    return RETEX_OK;
-}
-
-/* Mean original albedo of a target over its footprints, weighted by coverage; the same for any number of threads. */
-static void target_mean(const RetexSet *set, int target, float mean[3])
-{
-    double sum[3] = {0, 0, 0}, weight = 0;
-    for (int k = 0; k < set->nfootprints; k++) {
-        if (set->footprints[k].target != target)
-            continue;
-        const RetexImage *uv = &set->parts[set->footprints[k].uv].image,
-                         *a = &set->parts[set->footprints[k].albedo].image;
-        for (size_t i = 0; i < (size_t)uv->width * (size_t)uv->height; i++) {
-            double w = uv->pixels[i * 3 + 2];
-            weight += w;
-            for (int c = 0; c < 3; c++)
-                sum[c] += w * a->pixels[i * 3 + (size_t)c];
-        }
-    }
-    for (int c = 0; c < 3; c++)
-        mean[c] = weight > 0 ? (float)(sum[c] / weight) : 0;
-}
-
-static void finish_targets(const Film *film, RetexSet *set)
-{
+    set->ntargets = film->scene->ntargets;
     for (int t = 0; t < set->ntargets; t++) {
         RetexTarget *target = &set->targets[t];
         snprintf(target->name, sizeof target->name, "%s", film->scene->targets[t].name);
         snprintf(target->idents, sizeof target->idents, "%s", film->scene->targets[t].idents);
         target->original = -1;
-        for (int k = 0; k < 2; k++) {
-            int met = film->range.high[t][k] >= film->range.low[t][k];
-            target->uv_min[k] = met ? film->range.low[t][k] : 0;
-            target->uv_max[k] = met ? film->range.high[t][k] : 1;
-        }
+    }
+}
+
+static int finish_stats_of_all(const Film *film, RetexSet *set, RetexError *err)
+{
+    int count = bands_count(film->bands);
+    RetexBandStats *all = calloc((size_t)count, sizeof *all);
+    if (!all)
+        return retex_fail(err, RETEX_ENOMEM, "out of memory for the set");
+    for (int k = 0; k < count; k++)
+        all[k] = film->states[k].stats;
+    retex_band_stats_finish(set, all, count);
+    free(all);
+    return RETEX_OK;
+}
+
+/* Layout, then noise. */
+static int finish_images(Film *film, RetexSet *set, RetexError *err)
+{
+    int code = RETEX_OK;
+    if (film->paper)
+        code = paper_finish(film->paper, set, err);
+    if (film->footprints)
+        code = footprints_finish(film->footprints, set, err);
+    return code ? code : noise_finish(&film->noise, film->bands, set, err);
+}
+
+/* Which of the film's parts no pixel has. */
+static void find_empty(const Film *film, const RetexSet *set, char *empty)
+{
+    for (int i = 0; i < set->nparts; i++) {
+        int image = bands_find(film->bands, set->parts[i].name);
+        empty[i] = image >= 0 && bands_is_empty(film->bands, image);
     }
 }
 
 int film_finish(Film *film, RetexSet *set, RetexError *err)
 {
+    char empty[BAND_IMAGES_MAX];
+    if (film->failed)
+        return retex_fail(err, film->error.code, "%s", film->error.message);
     retex_image_free(&set->parts[0].image);
     set->parts[0].image = film->beauty;
     film->beauty = (RetexImage){0};
-    set->ntargets = 0;
     retex_set_identify(set);
-    if (!film->params.split)
-        return noise_finish(&film->noise, set, err);
-    set->orders = film->params.orders;
-    set->strict_paper = film->params.strict_paper;
-    LightSums sums = {0};
-    for (int k = 0; k < film->params.ntiles; k++) {
-        sums.total += film->tiles[k].total, sums.folded += film->tiles[k].folded;
-        sums.total_white += film->tiles[k].total_white, sums.folded_white += film->tiles[k].folded_white;
+    if (film->params.split) {
+        set->orders = film->params.orders;
+        set->strict_paper = film->params.strict_paper;
+        name_targets(film, set);
+        int code = finish_stats_of_all(film, set, err);
+        if (code)
+            return code;
     }
-    set->folded = sums.total > 0 ? sums.folded / sums.total : 0;
-    set->folded_white = sums.total_white > 0 ? sums.folded_white / sums.total_white : 0;
-    set->ntargets = film->scene->ntargets;
-    finish_targets(film, set);
-    int code = film->paper ? paper_finish(film->paper, set, err) : footprints_finish(film->footprints, set, err);
-    for (int t = 0; t < set->ntargets && !code; t++)
-        target_mean(set, t, set->targets[t].mean_albedo);
-    return code ? code : noise_finish(&film->noise, set, err);
+    int code = finish_images(film, set, err);
+    if (!code && film->footprints) {
+        find_empty(film, set, empty);
+        retex_set_prune(set, empty);
+    }
+    return code;
+}
+
+int film_move_image(Film *film, int image, RetexSet *set, RetexError *err)
+{
+    return bands_move_part(film->bands, image, set, NULL, err);
+}
+
+void film_give_spool(Film *film, RetexSet *set)
+{
+    set->spool = bands_take_spool(film->bands);
 }

@@ -2,6 +2,7 @@
 #ifndef RENDERER_FILM_FILM_H
 #define RENDERER_FILM_FILM_H
 
+#include "film/bands.h"
 #include "film/expansion.h"
 #include "scene/scene.h"
 
@@ -14,12 +15,14 @@ typedef struct FilmParams {
     int spp, orders;
     int strict_paper;
     int split;              /* 0: the beauty only (plain and replaced renders) */
-    int ntiles;
+    int ntiles;             /* of equal rows, BAND_LINES high */
     int paper;              /* layout: 0 footprints, 1 paper */
     int clusters;           /* layout footprints: a pixel and target, of both kinds together, 2..FILM_CLUSTERS_MAX */
     int sharp, broad;       /* at most so many of each kind, 1..clusters */
     int periodic[RETEX_MAX_TARGETS][2]; /* targets that close in u, v */
     int noise;              /* also keep how noisy each signal is, see noise.h; needs two samples */
+    RetexSpool *spool;      /* where finished bands go, film_create takes it over; or NULL. The beauty stays too */
+    int spooled;            /* then: images leave memory for the spool */
 } FilmParams;
 
 /* Where on the targets light was met. */
@@ -31,8 +34,7 @@ void uv_range_reset(UvRange *range);
 void uv_range_add(UvRange *range, int target, const double uv[2]);
 void uv_range_merge(UvRange *into, const UvRange *from);
 
-/* Luminance, summed: all light, and that whose surplus hits had to take their original albedo; as it is, and as it
- * would be with white targets. */
+/* Luminance, summed; as of RetexBandStats. */
 typedef struct LightSums {
     double total, folded, total_white, folded_white;
 } LightSums;
@@ -52,15 +54,32 @@ void film_connect(FilmPixel *pixel, Rgb beauty, Rgb outside, const Expansion *ex
 /* A path ends: hits of targets that connected enter the footprints, each once for every connection behind it. */
 void film_path_end(FilmPixel *pixel);
 void film_pixel_end(FilmPixel *pixel, int x, int y);   /* store and reset */
-void film_tile_end(FilmPixel *pixel, int tile);        /* energy sums, kept by tile so that their order is fixed */
+void film_tile_end(FilmPixel *pixel, int tile);        /* the last tile of a band finishes it */
+int film_failed(const Film *film);                     /* a band could not be kept: film_finish says why */
 
-/* Move everything into a set: parts, terms, footprints, shares of energy. The film is empty afterwards. */
+/* Bands that are finished, and kept. */
+int film_bands(const Film *film); /* of all */
+int film_bands_done(const Film *film);
+int film_band_is_done(const Film *film, int band);
+/* When all images are added: take over what the spool holds already. */
+int film_resume(Film *film, RetexError *err);
+/* Leave finished bands in a file, for another film of this key to go on from. */
+int film_keep(Film *film, uint64_t key, const char *path, int replace, RetexError *err);
+
+/* Images beside those of the layout, which others fill for the tile in hand, see bands.h. */
+int film_add_image(Film *film, const char *name, const char *letters, RetexPixelType type, int *image, RetexError *err);
+float *film_image_pixel(FilmPixel *pixel, int image, int x, int y);
+/* After film_finish: make it a part of the set. */
+int film_move_image(Film *film, int image, RetexSet *set, RetexError *err);
+
+/* Make all of it a set: parts, terms, footprints, shares of energy; what no pixel has is left out. */
 int film_finish(Film *film, RetexSet *set, RetexError *err);
-/* For the layouts: hand an image over to a new part of the set. */
-int film_move_part(RetexSet *set, const char *name, const char *letters, RetexPixelType type, RetexImage *image,
-                   int *index, RetexError *err);
-/* Numbers a pixel that the film holds at least. */
+/* When all images are in the set: let it have the spool. */
+void film_give_spool(Film *film, RetexSet *set);
+/* Numbers a pixel that the film's images have at least, all together. */
 long film_floats(const FilmParams *params, int ntargets);
+/* Bytes that they take at least, with a spool or without. */
+double film_bytes(const FilmParams *params, int ntargets, int spooled);
 long film_dropped(const Film *film); /* samples that were not finite */
 
 #endif

@@ -1,4 +1,4 @@
-/* The images of layout `footprints`: filled in footprints.c, moved into a set in footprints_finish.c. */
+/* The images of layout `footprints`: filled in footprint_store.c, made parts of a set in footprints_finish.c. */
 #ifndef RENDERER_FILM_FOOTPRINT_IMAGES_H
 #define RENDERER_FILM_FOOTPRINT_IMAGES_H
 
@@ -7,17 +7,17 @@
 
 #define LATER_COUNT 2 /* footprints of further hits, a target */
 
-/* Images of one footprint. */
+/* Images of one footprint: their numbers in the film's bands. */
 typedef struct FootprintImages {
-    RetexImage uv, spread, albedo;
-    RetexImage light; /* of clusters */
-    RetexImage share; /* in the light of its mixture */
+    int uv, spread, albedo;
+    int light; /* of clusters */
+    int share; /* in the light of its mixture; where there are further hits */
 } FootprintImages;
 
 /* Images of the clusters of one kind on a target. */
 typedef struct KindImages {
     FootprintImages of[FILM_CLUSTERS_MAX];
-    RetexImage again[PLAN_COEFFICIENTS_MAX];
+    int again[PLAN_COEFFICIENTS_MAX];
 } KindImages;
 
 /* Images of a target. */
@@ -29,8 +29,9 @@ typedef struct TargetImages {
 struct FootprintFilm {
     const Scene *scene;
     FilmParams params;
+    Bands *bands; /* borrowed */
     Plan plan;
-    RetexImage free; /* C0 */
+    int free; /* C0 */
     TargetImages *targets;
 };
 
@@ -38,6 +39,12 @@ struct FootprintFilm {
 static inline int most_of_kind(const FilmParams *p, int kind)
 {
     return kind ? p->broad : p->sharp;
+}
+
+/* Later footprints that a target may have: none where no further hit is kept. */
+static inline int most_later(const FootprintFilm *film)
+{
+    return film->plan.count > 1 ? LATER_COUNT : 0;
 }
 
 #endif

@@ -7,12 +7,14 @@
 #ifndef RENDERER_FILM_FOOTPRINTS_H
 #define RENDERER_FILM_FOOTPRINTS_H
 
+#include <retex/band_stats.h>
 #include "film/noise.h"
 
 typedef struct FootprintFilm FootprintFilm;
 typedef struct FootprintPixel FootprintPixel;
 
-int footprints_create(FootprintFilm **film, const Scene *scene, const FilmParams *params, RetexError *err);
+int footprints_create(FootprintFilm **film, const Scene *scene, const FilmParams *params, Bands *bands /* borrowed */,
+                      RetexError *err);
 void footprints_close(FootprintFilm **film);
 int footprints_pixel_create(FootprintPixel **pixel, FootprintFilm *film, RetexError *err);
 void footprints_pixel_close(FootprintPixel **pixel);
@@ -22,9 +24,11 @@ void footprints_connect(FootprintPixel *pixel, const Expansion *expansion, Rgb o
 void footprints_path_end(FootprintPixel *pixel, UvRange *range);
 /* Between paths: sharp and broad clusters with the light that goes on to targets, each further hit as albedo 1/2. */
 void footprints_totals(const FootprintPixel *pixel, SignalTotals *totals);
-void footprints_pixel_end(FootprintPixel *pixel, int x, int y);
+void footprints_pixel_end(FootprintPixel *pixel, BandRows *rows, int x, int y);
+/* Of a finished band: albedo and coverage. */
+void footprints_band_stats(const FootprintFilm *film, const BandRows *rows, RetexBandStats *stats);
 
-/* Move all into the set, which knows its targets' names. */
+/* Make all images parts of the set, which knows its targets' names; those that no pixel has too. */
 int footprints_finish(FootprintFilm *film, RetexSet *set, RetexError *err);
 
 #endif

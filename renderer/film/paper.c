@@ -18,8 +18,10 @@ typedef struct FootprintSums {
 struct PaperFilm {
     const Scene *scene;
     FilmParams params;
+    Bands *bands; /* borrowed */
     TermTable terms;
-    RetexImage uv[RETEX_MAX_TARGETS * RETEX_MAX_ORDERS], spread[RETEX_MAX_TARGETS * RETEX_MAX_ORDERS],
+    /* images of the bands */
+    int uv[RETEX_MAX_TARGETS * RETEX_MAX_ORDERS], spread[RETEX_MAX_TARGETS * RETEX_MAX_ORDERS],
         albedo[RETEX_MAX_TARGETS * RETEX_MAX_ORDERS];
     atomic_int lost; /* light found no term to go to */
 };
@@ -44,28 +46,37 @@ static int footprint_number(const TargetHit *hit)
     return hit->target * RETEX_MAX_ORDERS + hit->index;
 }
 
-static int paper_alloc(PaperFilm *film, RetexError *err)
+static int add_footprint(PaperFilm *film, int k, RetexError *err)
 {
-    int w = film->params.width, h = film->params.height, code = RETEX_OK;
-    for (int k = 0; k < footprints_count(film) && !code; k++) {
-        if (k % RETEX_MAX_ORDERS >= film->params.orders)
-            continue;
-        code = retex_image_alloc(&film->uv[k], w, h, 3, err);
-        if (!code)
-            code = retex_image_alloc(&film->spread[k], w, h, 2, err);
-        if (!code)
-            code = retex_image_alloc(&film->albedo[k], w, h, 3, err);
-    }
-    return code ? code : terms_create(&film->terms, w, h, film->scene->ntargets, film->params.orders, err);
+    const char *target = film->scene->targets[k / RETEX_MAX_ORDERS].name;
+    int hit = k % RETEX_MAX_ORDERS + 1;
+    char name[RETEX_NAME_MAX];
+    snprintf(name, sizeof name, "uv_%.90s_%d", target, hit);
+    int code = bands_add(film->bands, name, "RGA", RETEX_FLOAT, &film->uv[k], err);
+    snprintf(name, sizeof name, "spread_%.90s_%d", target, hit);
+    if (!code)
+        code = bands_add(film->bands, name, "RG", RETEX_HALF, &film->spread[k], err);
+    snprintf(name, sizeof name, "albedo_%.90s_%d", target, hit);
+    return code ? code : bands_add(film->bands, name, "RGB", RETEX_HALF, &film->albedo[k], err);
 }
 
-int paper_create(PaperFilm **out, const Scene *scene, const FilmParams *params, RetexError *err)
+static int paper_alloc(PaperFilm *film, RetexError *err)
+{
+    int code = RETEX_OK;
+    for (int k = 0; k < footprints_count(film) && !code; k++)
+        if (k % RETEX_MAX_ORDERS < film->params.orders)
+            code = add_footprint(film, k, err);
+    return code ? code : terms_create(&film->terms, film->bands, film->scene->ntargets, film->params.orders, err);
+}
+
+int paper_create(PaperFilm **out, const Scene *scene, const FilmParams *params, Bands *bands, RetexError *err)
 {
     PaperFilm *film = *out = calloc(1, sizeof *film);
     if (!film)
         return retex_fail(err, RETEX_ENOMEM, "out of memory for the film");
     film->scene = scene;
     film->params = *params;
+    film->bands = bands;
     return paper_alloc(film, err);
 }
 
@@ -73,11 +84,6 @@ void paper_close(PaperFilm **film)
 {
     if (!*film)
         return;
-    for (int k = 0; k < RETEX_MAX_TARGETS * RETEX_MAX_ORDERS; k++) {
-        retex_image_free(&(*film)->uv[k]);
-        retex_image_free(&(*film)->spread[k]);
-        retex_image_free(&(*film)->albedo[k]);
-    }
     terms_close(&(*film)->terms);
     free(*film);
     *film = NULL;
@@ -205,11 +211,11 @@ void paper_path_end(PaperPixel *p, UvRange *range)
     p->nhits = 0;
 }
 
-static void store_footprint(PaperFilm *film, int k, const FootprintSums *f, int x, int y)
+static void store_footprint(const PaperFilm *film, int k, const FootprintSums *f, BandRows *rows, int x, int y)
 {
-    float *uv = film->uv[k].pixels + retex_image_index(&film->uv[k], x, y);
-    float *spread = film->spread[k].pixels + retex_image_index(&film->spread[k], x, y);
-    float *albedo = film->albedo[k].pixels + retex_image_index(&film->albedo[k], x, y);
+    float *uv = bands_pixel(rows, film->uv[k], x, y);
+    float *spread = bands_pixel(rows, film->spread[k], x, y);
+    float *albedo = bands_pixel(rows, film->albedo[k], x, y);
     for (int a = 0; a < 2; a++) {
         uv[a] = (float)f->mean[a];
         spread[a] = (float)sqrt(f->m2[a] / f->count);
@@ -231,43 +237,46 @@ void paper_totals(const PaperPixel *p, SignalTotals *totals)
     }
 }
 
-void paper_pixel_end(PaperPixel *p, int x, int y)
+void paper_pixel_end(PaperPixel *p, BandRows *rows, int x, int y)
 {
     PaperFilm *film = p->film;
     float scale = 1 / (float)film->params.spp;
     for (int k = 0; k < p->ntouched; k++) {
-        float *sum = p->sums[p->touched[k]], *pixel = terms_pixel(&film->terms, p->touched[k], x, y);
+        float *sum = p->sums[p->touched[k]], *pixel = bands_pixel(rows, film->terms.images[p->touched[k]], x, y);
         for (int c = 0; c < 3; c++)
             pixel[c] = sum[c] * scale, sum[c] = 0;
     }
     p->ntouched = 0;
     for (int k = 0; k < footprints_count(film); k++)
         if (p->footprints[k].count > 0) {
-            store_footprint(film, k, &p->footprints[k], x, y);
+            store_footprint(film, k, &p->footprints[k], rows, x, y);
             p->footprints[k] = (FootprintSums){0};
         }
 }
 
+void paper_band_stats(const PaperFilm *film, const BandRows *rows, RetexBandStats *stats)
+{
+    for (int t = 0; t < film->scene->ntargets; t++)
+        for (int k = t * RETEX_MAX_ORDERS; k < t * RETEX_MAX_ORDERS + film->params.orders; k++)
+            bands_add_albedo(rows, film->uv[k], film->albedo[k], stats, t);
+}
+
 static int finish_footprints(PaperFilm *film, RetexSet *set, RetexError *err)
 {
-    char name[RETEX_NAME_MAX];
+    int code = RETEX_OK;
     for (int t = 0; t < film->scene->ntargets; t++)
-        for (int j = 0; j < film->params.orders; j++) {
-            int k = t * RETEX_MAX_ORDERS + j, code;
+        for (int j = 0; j < film->params.orders && !code; j++) {
+            int k = t * RETEX_MAX_ORDERS + j;
             RetexFootprint f = {.target = t, .hit = j + 1};
-            snprintf(name, sizeof name, "uv_%.90s_%d", film->scene->targets[t].name, j + 1);
-            if ((code = film_move_part(set, name, "RGA", RETEX_FLOAT, &film->uv[k], &f.uv, err)))
-                return code;
-            snprintf(name, sizeof name, "spread_%.90s_%d", film->scene->targets[t].name, j + 1);
-            if ((code = film_move_part(set, name, "RG", RETEX_HALF, &film->spread[k], &f.spread, err)))
-                return code;
-            snprintf(name, sizeof name, "albedo_%.90s_%d", film->scene->targets[t].name, j + 1);
-            if ((code = film_move_part(set, name, "RGB", RETEX_HALF, &film->albedo[k], &f.albedo, err)))
-                return code;
-            if ((code = retex_set_add_footprint(set, &f, NULL, err)))
-                return code;
+            code = bands_move_part(film->bands, film->uv[k], set, &f.uv, err);
+            if (!code)
+                code = bands_move_part(film->bands, film->spread[k], set, &f.spread, err);
+            if (!code)
+                code = bands_move_part(film->bands, film->albedo[k], set, &f.albedo, err);
+            if (!code)
+                code = retex_set_add_footprint(set, &f, NULL, err);
         }
-    return RETEX_OK;
+    return code;
 }
 
 int paper_finish(PaperFilm *film, RetexSet *set, RetexError *err)

@@ -9,7 +9,8 @@
 typedef struct PaperFilm PaperFilm;
 typedef struct PaperPixel PaperPixel;
 
-int paper_create(PaperFilm **film, const Scene *scene, const FilmParams *params, RetexError *err);
+int paper_create(PaperFilm **film, const Scene *scene, const FilmParams *params, Bands *bands /* borrowed */,
+                 RetexError *err);
 void paper_close(PaperFilm **film);
 int paper_pixel_create(PaperPixel **pixel, PaperFilm *film, RetexError *err);
 void paper_pixel_close(PaperPixel **pixel);
@@ -18,9 +19,11 @@ void paper_connect(PaperPixel *pixel, const Expansion *expansion, Rgb outside);
 void paper_path_end(PaperPixel *pixel, UvRange *range);
 /* Terms by the target of their first factor, each further factor as albedo 1/2. */
 void paper_totals(const PaperPixel *pixel, SignalTotals *totals);
-void paper_pixel_end(PaperPixel *pixel, int x, int y);
+void paper_pixel_end(PaperPixel *pixel, BandRows *rows, int x, int y);
+/* Of a finished band: albedo and coverage. */
+void paper_band_stats(const PaperFilm *film, const BandRows *rows, RetexBandStats *stats);
 
-/* Move all into the set, which knows its targets' names. */
+/* Make all images parts of the set, which knows its targets' names. */
 int paper_finish(PaperFilm *film, RetexSet *set, RetexError *err);
 
 #endif

@@ -42,96 +42,6 @@ TermKey term_key(int nhits, HitMask hits, int strict)
     return strict ? TERM_DROPPED : KEY(RETEX_TERM_DEP, as_prefix(hits));
 }
 
-static int add_term(TermTable *table, TermKey key, RetexError *err)
-{
-    if (table->count == TERMS_MAX)
-        return retex_fail(err, RETEX_ELIMIT, "more than %d terms", TERMS_MAX);
-    int code = retex_image_alloc(&table->images[table->count], table->width, table->height, 3, err);
-    if (!code)
-        table->keys[table->count++] = key;
-    return code;
-}
-
-/* The paper's 21 radiance images of one target. */
-static int add_paper_terms(TermTable *table, int orders, RetexError *err)
-{
-    int code = add_term(table, KEY(RETEX_TERM_FULL, 0), err);
-    for (int h = 1; h <= orders && !code; h++) {
-        code = add_term(table, KEY(RETEX_TERM_INDEP, (TermKey)h), err);
-        if (!code)
-            code = add_term(table, KEY(RETEX_TERM_DEP, ((HitMask)1 << h) - 1), err);
-    }
-    for (int h = 2; h <= 3 && h <= orders; h++)
-        for (HitMask m = 1; m < ((HitMask)1 << h) - 1 && !code; m++)
-            code = add_term(table, term_key(h, m, 0), err);
-    return code;
-}
-
-int terms_create(TermTable *table, int width, int height, int ntargets, int orders, RetexError *err)
-{
-    table->width = width, table->height = height, table->ntargets = ntargets;
-    table->images = calloc(TERMS_MAX, sizeof *table->images);
-    pthread_mutex_init(&table->lock, NULL);
-    table->ready = 1;
-    if (!table->images)
-        return retex_fail(err, RETEX_ENOMEM, "out of memory for the terms");
-    return ntargets == 1 ? add_paper_terms(table, orders, err) : add_term(table, KEY(RETEX_TERM_FULL, 0), err);
-}
-
-void terms_close(TermTable *table)
-{
-    if (!table->ready)
-        return;
-    for (int k = 0; k < table->count; k++)
-        retex_image_free(&table->images[k]);
-    free(table->images);
-    pthread_mutex_destroy(&table->lock);
-    *table = (TermTable){0};
-}
-
-static int find_shared(TermTable *table, TermKey key)
-{
-    pthread_mutex_lock(&table->lock);
-    int k = 0;
-    while (k < table->count && table->keys[k] != key)
-        k++;
-    if (k == table->count && add_term(table, key, NULL))
-        k = -1;
-    pthread_mutex_unlock(&table->lock);
-    return k;
-}
-
-int terms_find(TermTable *table, TermCache *cache, TermKey key)
-{
-    unsigned slot = (unsigned)((key * 0x9e3779b97f4a7c15u) >> 56);
-    if (cache->terms[slot] && cache->keys[slot] == key)
-        return cache->terms[slot] - 1;
-    int term = find_shared(table, key);
-    if (term >= 0)
-        cache->keys[slot] = key, cache->terms[slot] = term + 1;
-    return term;
-}
-
-int terms_place(const TermTable *table, int term, int *nfactors)
-{
-    TermKey key = table->keys[term];
-    RetexTermKind kind = (RetexTermKind)(key >> 56);
-    int target = 0;
-    *nfactors = 0;
-    if (kind == RETEX_TERM_FULL || kind == RETEX_TERM_INDEP)
-        return -1;
-    *nfactors = count_bits(REST(key));
-    while (!target_bits(key, target))
-        target++;
-    return target;
-}
-
-float *terms_pixel(TermTable *table, int term, int x, int y)
-{
-    RetexImage *image = &table->images[term];
-    return image->pixels + retex_image_index(image, x, y);
-}
-
 /* Number of the cross term of one target in the supplement's order (4.3): sorted by its first factor, longer ones
  * first. */
 static int supplement_number(int nhits, HitMask m)
@@ -182,6 +92,86 @@ static void term_name(char *out, size_t size, TermKey key, int ntargets)
     }
 }
 
+static int add_term(TermTable *table, TermKey key, RetexError *err)
+{
+    char name[RETEX_NAME_MAX];
+    if (table->count == TERMS_MAX)
+        return retex_fail(err, RETEX_ELIMIT, "more than %d terms", TERMS_MAX);
+    term_name(name, sizeof name, key, table->ntargets);
+    int code = bands_add(table->bands, name, "RGB", RETEX_HALF, &table->images[table->count], err);
+    if (!code)
+        table->keys[table->count++] = key;
+    return code;
+}
+
+/* The paper's 21 radiance images of one target. */
+static int add_paper_terms(TermTable *table, int orders, RetexError *err)
+{
+    int code = add_term(table, KEY(RETEX_TERM_FULL, 0), err);
+    for (int h = 1; h <= orders && !code; h++) {
+        code = add_term(table, KEY(RETEX_TERM_INDEP, (TermKey)h), err);
+        if (!code)
+            code = add_term(table, KEY(RETEX_TERM_DEP, ((HitMask)1 << h) - 1), err);
+    }
+    for (int h = 2; h <= 3 && h <= orders; h++)
+        for (HitMask m = 1; m < ((HitMask)1 << h) - 1 && !code; m++)
+            code = add_term(table, term_key(h, m, 0), err);
+    return code;
+}
+
+int terms_create(TermTable *table, Bands *bands, int ntargets, int orders, RetexError *err)
+{
+    table->bands = bands, table->ntargets = ntargets;
+    pthread_mutex_init(&table->lock, NULL);
+    table->ready = 1;
+    return ntargets == 1 ? add_paper_terms(table, orders, err) : add_term(table, KEY(RETEX_TERM_FULL, 0), err);
+}
+
+void terms_close(TermTable *table)
+{
+    if (!table->ready)
+        return;
+    pthread_mutex_destroy(&table->lock);
+    *table = (TermTable){0};
+}
+
+static int find_shared(TermTable *table, TermKey key)
+{
+    pthread_mutex_lock(&table->lock);
+    int k = 0;
+    while (k < table->count && table->keys[k] != key)
+        k++;
+    if (k == table->count && add_term(table, key, NULL))
+        k = -1;
+    pthread_mutex_unlock(&table->lock);
+    return k;
+}
+
+int terms_find(TermTable *table, TermCache *cache, TermKey key)
+{
+    unsigned slot = (unsigned)((key * 0x9e3779b97f4a7c15u) >> 56);
+    if (cache->terms[slot] && cache->keys[slot] == key)
+        return cache->terms[slot] - 1;
+    int term = find_shared(table, key);
+    if (term >= 0)
+        cache->keys[slot] = key, cache->terms[slot] = term + 1;
+    return term;
+}
+
+int terms_place(const TermTable *table, int term, int *nfactors)
+{
+    TermKey key = table->keys[term];
+    RetexTermKind kind = (RetexTermKind)(key >> 56);
+    int target = 0;
+    *nfactors = 0;
+    if (kind == RETEX_TERM_FULL || kind == RETEX_TERM_INDEP)
+        return -1;
+    *nfactors = count_bits(REST(key));
+    while (!target_bits(key, target))
+        target++;
+    return target;
+}
+
 static void term_factors(RetexTerm *term, TermKey key, int ntargets, int orders)
 {
     if (term->kind == RETEX_TERM_FULL || term->kind == RETEX_TERM_INDEP)
@@ -208,18 +198,11 @@ int terms_finish(TermTable *table, RetexSet *set, RetexError *err)
     qsort(order, (size_t)table->count, sizeof *order, compare_keys);
     int code = RETEX_OK;
     for (int k = 0; k < table->count && !code; k++) {
-        char name[RETEX_NAME_MAX];
         RetexTerm term = {.kind = (RetexTermKind)(order[k][0] >> 56)};
-        term_name(name, sizeof name, order[k][0], table->ntargets);
         term_factors(&term, order[k][0], table->ntargets, set->orders);
-        code = retex_set_add_part(set, name, "RGB", RETEX_HALF, 1, 1, &term.radiance, err);
-        if (code)
-            break;
-        RetexImage *image = &set->parts[term.radiance].image;
-        retex_image_free(image);
-        *image = table->images[order[k][1]];
-        table->images[order[k][1]] = (RetexImage){0};
-        code = retex_set_add_term(set, &term, NULL, err);
+        code = bands_move_part(table->bands, table->images[order[k][1]], set, &term.radiance, err);
+        if (!code)
+            code = retex_set_add_term(set, &term, NULL, err);
     }
     free(order);
     return code;

@@ -3,6 +3,7 @@
 #define RENDERER_FILM_PAPER_TERMS_H
 
 #include <pthread.h>
+#include "film/bands.h"
 #include "film/expansion.h"
 
 #define TERMS_MAX 1280 /* with footprints, originals and AOVs below what a set may have of parts */
@@ -16,10 +17,11 @@ typedef uint64_t TermKey;
 TermKey term_key(int nhits, HitMask hits, int strict);
 
 typedef struct TermTable {
-    int width, height, ntargets;
+    Bands *bands;           /* borrowed */
+    int ntargets;
     int count;
     TermKey keys[TERMS_MAX];
-    RetexImage *images;     /* TERMS_MAX of them, allocated as terms come */
+    int images[TERMS_MAX];  /* of the bands, made as terms come */
     pthread_mutex_t lock;
     int ready;              /* the lock exists */
 } TermTable;
@@ -30,14 +32,13 @@ typedef struct TermCache {
     int terms[256];         /* number + 1, 0 = empty */
 } TermCache;
 
-int terms_create(TermTable *table, int width, int height, int ntargets, int orders, RetexError *err);
+int terms_create(TermTable *table, Bands *bands, int ntargets, int orders, RetexError *err);
 void terms_close(TermTable *table);
 /* Number of the term, made on first use; -1 where memory or TERMS_MAX is exhausted. */
 int terms_find(TermTable *table, TermCache *cache, TermKey key);
 /* The target of a term's first factor, or -1, and how many factors it has. */
 int terms_place(const TermTable *table, int term, int *nfactors);
-float *terms_pixel(TermTable *table, int term, int x, int y);
-/* Move all terms into the set, in an order that does not depend on when they came; footprints must be there already. */
+/* Make all terms the set's, in an order that does not depend on when they came; footprints must be there already. */
 int terms_finish(TermTable *table, RetexSet *set, RetexError *err);
 
 #endif

@@ -1,6 +1,5 @@
 /* See denoise_guides.h. */
 #include <stdio.h>
-#include <retex/parallel.h>
 #include "integrate/camera.h"
 #include "integrate/denoise_guides.h"
 #include "integrate/path.h"
@@ -16,17 +15,6 @@ static const int few_rows[PLACES_FEW] = {1, 7, 3, 5, 2, 4, 0, 6};
 #define ONE_ALBEDO 1e-4  /* variance of the luminance of albedos that count as one */
 #define FOLLOWED_MAX 16  /* mirrors and glasses on the way */
 
-enum {
-    GUIDE_NORMAL,
-    GUIDE_POSITION,
-    GUIDE_SPECULAR,
-    GUIDE_SEEN_NORMAL,
-    GUIDE_SEEN_POSITION,
-    GUIDE_SEEN_ALBEDO,
-    GUIDE_SEEN_MATERIAL,
-    GUIDE_COUNT
-};
-
 static const struct {
     const char *name, *letters;
     RetexPixelType type;
@@ -39,12 +27,6 @@ static const struct {
     [GUIDE_SEEN_ALBEDO] = {"guide_seen_albedo", "RGB", RETEX_HALF},
     [GUIDE_SEEN_MATERIAL] = {"guide_seen_material", "RGB", RETEX_HALF},
 };
-
-typedef struct GuideJob {
-    const FirstHitWindow *window;
-    int split;
-    RetexImage *guides[GUIDE_COUNT], *covers[RETEX_MAX_TARGETS];
-} GuideJob;
 
 /* Sums over the places of a pixel. */
 typedef struct Sight {
@@ -71,7 +53,7 @@ static void add_sight(Sight *sight, const Shading *s)
 }
 
 /* What a texture on the surface may be is not known where it is a target. */
-static Rgb known_albedo(const GuideJob *job, const Shading *s)
+static Rgb known_albedo(const DenoiseGuides *job, const Shading *s)
 {
     return job->split && s->surface.target >= 0 ? rgb_grey(1) : shading_albedo(s, 0);
 }
@@ -89,7 +71,7 @@ static void add_albedo(GuideSums *sums, Rgb albedo)
     sums->luminance += l, sums->luminance_squared += l * l;
 }
 
-static void add_seen(const GuideJob *job, GuideSums *sums, const Shading *s)
+static void add_seen(const DenoiseGuides *job, GuideSums *sums, const Shading *s)
 {
     add_sight(&sums->seen, s);
     add_albedo(sums, is_emitter(s) ? rgb_grey(1) : known_albedo(job, s));
@@ -99,7 +81,8 @@ static void add_seen(const GuideJob *job, GuideSums *sums, const Shading *s)
 
 /* Where a mirror or clear glass, unless it is more of something else, sends the ray on, and what it leaves of the
  * light. Returns 0 where the surface is itself what is seen. */
-static int follow(const GuideJob *job, const Shading *s, const Hit *hit, Ray *ray, RayKind *kind, float *throughput)
+static int follow(const DenoiseGuides *job, const Shading *s, const Hit *hit, Ray *ray, RayKind *kind,
+                  float *throughput)
 {
     const Bsdf *b = &s->bsdf;
     int mirror = b->p_mirror > b->p_passing;
@@ -136,9 +119,9 @@ static void note_primitive(GuideSums *sums, int primitive)
     sums->differ |= primitive != sums->primitive;
 }
 
-static void look(const GuideJob *job, GuideSums *sums, Ray ray)
+static void look(const DenoiseGuides *job, GuideSums *sums, Ray ray)
 {
-    const FirstHitWindow *w = job->window;
+    const FirstHitWindow *w = &job->window;
     RayKind kind = RAY_CAMERA;
     float throughput = 1;
     unsigned met = 0;
@@ -162,25 +145,36 @@ static void look(const GuideJob *job, GuideSums *sums, Ray ray)
     note_primitive(sums, hit.primitive);
 }
 
-static void store(RetexImage *image, int x, int y, double scale, double a, double b, double c)
+/* Where the guides of a pixel go. */
+typedef struct GuidePlace {
+    FilmPixel *pixel;
+    int x, y;
+} GuidePlace;
+
+static void store(const GuidePlace *at, int image, double scale, double a, double b, double c)
 {
-    float *p = image->pixels + retex_image_index(image, x, y);
-    const double v[3] = {a, b, c};
-    for (int k = 0; k < image->channels; k++)
-        p[k] = (float)(v[k] * scale);
+    float *p = film_image_pixel(at->pixel, image, at->x, at->y);
+    p[0] = (float)(a * scale), p[1] = (float)(b * scale), p[2] = (float)(c * scale);
 }
 
-static void store_sight(RetexImage *normal, RetexImage *position, int x, int y, const Sight *sight)
+/* Of one channel; memory that is never touched is never taken. */
+static void store_one(const GuidePlace *at, int image, double value)
+{
+    if (value != 0)
+        *film_image_pixel(at->pixel, image, at->x, at->y) = (float)value;
+}
+
+static void store_sight(const GuidePlace *at, int normal, int position, const Sight *sight)
 {
     if (!sight->places)
         return;
-    store(normal, x, y, 1.0 / sight->places, sight->normal.x, sight->normal.y, sight->normal.z);
-    store(position, x, y, 1.0 / sight->places, sight->position.x, sight->position.y, sight->position.z);
+    store(at, normal, 1.0 / sight->places, sight->normal.x, sight->normal.y, sight->normal.z);
+    store(at, position, 1.0 / sight->places, sight->position.x, sight->position.y, sight->position.z);
 }
 
-static void look_at(const GuideJob *job, GuideSums *sums, int x, int y, int places)
+static void look_at(const DenoiseGuides *job, GuideSums *sums, int x, int y, int places)
 {
-    const FirstHitWindow *w = job->window;
+    const FirstHitWindow *w = &job->window;
     *sums = (GuideSums){.places = 0};
     for (int k = 0; k < places; k++) {
         int row = places == PLACES_FEW ? few_rows[k] : k * STEP_MANY % places;
@@ -204,48 +198,46 @@ static int is_even(const GuideSums *s)
            s->luminance_squared / s->places - mean * mean < ONE_ALBEDO;
 }
 
-static void guide_row(void *context, int y, int thread)
+void denoise_guides_pixel(const DenoiseGuides *job, FilmPixel *pixel, int x, int y)
 {
-    const GuideJob *job = context;
-    const FirstHitWindow *w = job->window;
-    RetexImage *const *to = job->guides;
-    (void)thread;
-    for (int x = 0; x < w->w; x++) {
-        GuideSums sums;
-        look_at(job, &sums, x, y, PLACES_FEW);
-        if (!is_even(&sums))
-            look_at(job, &sums, x, y, PLACES_MANY);
-        const double share = 1.0 / sums.places;
-        store_sight(to[GUIDE_NORMAL], to[GUIDE_POSITION], x, y, &sums.first);
-        store(to[GUIDE_SPECULAR], x, y, share, sums.specular, 0, 0);
-        store_sight(to[GUIDE_SEEN_NORMAL], to[GUIDE_SEEN_POSITION], x, y, &sums.seen);
-        store(to[GUIDE_SEEN_ALBEDO], x, y, share, sums.albedo.r, sums.albedo.g, sums.albedo.b);
-        double each = sums.seen.places ? 1.0 / sums.seen.places : 0;
-        store(to[GUIDE_SEEN_MATERIAL], x, y, 1, sums.roughness * each, sums.metallic * each,
-              1 - sums.seen.places * share);
-        for (int t = 0; t < w->scene->ntargets && job->split; t++)
-            store(job->covers[t], x, y, share, sums.cover[t], 0, 0);
-    }
+    const int *to = job->guides;
+    const GuidePlace at = {pixel, x, y};
+    GuideSums sums;
+    look_at(job, &sums, x, y, PLACES_FEW);
+    if (!is_even(&sums))
+        look_at(job, &sums, x, y, PLACES_MANY);
+    const double share = 1.0 / sums.places;
+    store_sight(&at, to[GUIDE_NORMAL], to[GUIDE_POSITION], &sums.first);
+    store_one(&at, to[GUIDE_SPECULAR], share * sums.specular);
+    store_sight(&at, to[GUIDE_SEEN_NORMAL], to[GUIDE_SEEN_POSITION], &sums.seen);
+    store(&at, to[GUIDE_SEEN_ALBEDO], share, sums.albedo.r, sums.albedo.g, sums.albedo.b);
+    double each = sums.seen.places ? 1.0 / sums.seen.places : 0;
+    store(&at, to[GUIDE_SEEN_MATERIAL], 1, sums.roughness * each, sums.metallic * each, 1 - sums.seen.places * share);
+    for (int t = 0; t < job->window.scene->ntargets && job->split; t++)
+        store_one(&at, job->covers[t], share * sums.cover[t]);
 }
 
-int denoise_guides_add(RetexSet *set, const FirstHitWindow *window, int split, RetexError *err)
+int denoise_guides_create(DenoiseGuides *g, Film *film, const FirstHitWindow *window, int split, RetexError *err)
 {
-    GuideJob job = {.window = window, .split = split};
-    int first = set->nparts, covers = split ? set->ntargets : 0, code = RETEX_OK;
+    int code = RETEX_OK;
+    *g = (DenoiseGuides){.window = *window, .split = split};
     for (int k = 0; k < GUIDE_COUNT && !code; k++)
         code =
-            retex_set_add_part(set, guide_table[k].name, guide_table[k].letters, guide_table[k].type, 0, 0, NULL, err);
-    for (int t = 0; t < covers && !code; t++) {
+            film_add_image(film, guide_table[k].name, guide_table[k].letters, guide_table[k].type, &g->guides[k], err);
+    for (int t = 0; t < window->scene->ntargets && split && !code; t++) {
         char name[RETEX_NAME_MAX];
-        snprintf(name, sizeof name, "guide_cover_%.90s", set->targets[t].name);
-        code = retex_set_add_part(set, name, "R", RETEX_HALF, 0, 0, NULL, err);
+        snprintf(name, sizeof name, "guide_cover_%.90s", window->scene->targets[t].name);
+        code = film_add_image(film, name, "R", RETEX_HALF, &g->covers[t], err);
     }
-    if (code)
-        return code;
-    for (int k = 0; k < GUIDE_COUNT; k++) /* now that the parts stay where they are */
-        job.guides[k] = &set->parts[first + k].image;
-    for (int t = 0; t < covers; t++)
-        job.covers[t] = &set->parts[first + GUIDE_COUNT + t].image;
-    retex_parallel(window->nthreads, window->h, guide_row, &job);
-    return RETEX_OK;
+    return code;
+}
+
+int denoise_guides_finish(const DenoiseGuides *g, Film *film, RetexSet *set, RetexError *err)
+{
+    int code = RETEX_OK;
+    for (int k = 0; k < GUIDE_COUNT && !code; k++)
+        code = film_move_image(film, g->guides[k], set, err);
+    for (int t = 0; t < g->window.scene->ntargets && g->split && !code; t++)
+        code = film_move_image(film, g->covers[t], set, err);
+    return code;
 }

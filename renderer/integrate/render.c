@@ -12,7 +12,8 @@
 #include "integrate/originals.h"
 #include "integrate/uv_scale.h"
 
-#define TILE 32
+#define TILE_WIDTH 32
+#define TILE_HEIGHT BAND_LINES
 
 /* All of one render. */
 typedef struct Render {
@@ -30,6 +31,10 @@ typedef struct Render {
     const RenderVariant *variants; /* or NULL: the original */
     const RetexImage *constants;   /* or NULL: by target, of the last variant */
     int halves;                    /* of the samples: 2 are independent of each other */
+    DenoiseGuides guides;
+    int guided;
+    char *had;  /* by band: taken over from another render */
+    int wanted; /* tiles, of all that are to be rendered */
     PathContext context;
     PathWorker *workers; /* by thread */
     atomic_int done;
@@ -59,6 +64,13 @@ static int check_params(const RenderParams *p, RetexError *err)
     return RETEX_OK;
 }
 
+/* Of a render beside the one that files are for. */
+static void forget_files(RenderParams *p)
+{
+    p->spooled = p->resume = p->nshards = p->nmerged = 0;
+    p->journal = NULL;
+}
+
 static int set_window(Render *r, RetexError *err)
 {
     const RenderParams *p = &r->params;
@@ -73,7 +85,7 @@ static int set_window(Render *r, RetexError *err)
     if (r->x0 < 0 || r->y0 < 0 || r->w < 1 || r->h < 1 || r->x0 + r->w > r->width || r->y0 + r->h > r->height)
         return retex_fail(err, RETEX_EINVAL, "crop %d,%d,%d,%d does not lie inside the picture of %dx%d", r->x0, r->y0,
                           r->w, r->h, r->width, r->height);
-    r->tiles_x = (r->w + TILE - 1) / TILE, r->tiles_y = (r->h + TILE - 1) / TILE;
+    r->tiles_x = (r->w + TILE_WIDTH - 1) / TILE_WIDTH, r->tiles_y = (r->h + TILE_HEIGHT - 1) / TILE_HEIGHT;
     return RETEX_OK;
 }
 
@@ -126,27 +138,46 @@ static void trace_pixel(const Render *r, PathWorker *worker, int x, int y)
     }
 }
 
+static void render_pixel(Render *r, int thread, int x, int y)
+{
+    FilmPixel *pixel = r->pixels[thread];
+    PathWorker *worker = &r->workers[thread];
+    for (int t = 0; r->constants && t < r->scene->ntargets; t++) {
+        const float *p = r->constants[t].pixels + retex_image_index(&r->constants[t], x, y);
+        worker->constants[t] = rgb(p[0], p[1], p[2]);
+    }
+    trace_pixel(r, worker, r->x0 + x, r->y0 + y);
+    film_pixel_end(pixel, x, y);
+    if (r->control)
+        control_pixel_end(r->controls[thread], x, y);
+    if (r->guided)
+        denoise_guides_pixel(&r->guides, pixel, x, y);
+}
+
+static int is_stopped(const Render *r)
+{
+    return r->params.stop && *r->params.stop;
+}
+
+/* Whether a band is to be rendered: of this shard, and not done by another render. */
+static int is_wanted(const Render *r, int band)
+{
+    return (!r->params.nshards || band % r->params.nshards == r->params.shard - 1) && !r->had[band];
+}
+
 static void render_tile(void *context, int tile, int thread)
 {
     Render *r = context;
-    FilmPixel *pixel = r->pixels[thread];
-    PathWorker *worker = &r->workers[thread];
-    int x0 = tile % r->tiles_x * TILE, y0 = tile / r->tiles_x * TILE;
-    for (int y = y0; y < y0 + TILE && y < r->h; y++)
-        for (int x = x0; x < x0 + TILE && x < r->w; x++) {
-            for (int t = 0; r->constants && t < r->scene->ntargets; t++) {
-                const float *p = r->constants[t].pixels + retex_image_index(&r->constants[t], x, y);
-                worker->constants[t] = rgb(p[0], p[1], p[2]);
-            }
-            trace_pixel(r, worker, r->x0 + x, r->y0 + y);
-            film_pixel_end(pixel, x, y);
-            if (r->control)
-                control_pixel_end(r->controls[thread], x, y);
-        }
-    film_tile_end(pixel, tile);
+    int x0 = tile % r->tiles_x * TILE_WIDTH, y0 = tile / r->tiles_x * TILE_HEIGHT;
+    if (film_failed(r->film) || is_stopped(r) || !is_wanted(r, tile / r->tiles_x))
+        return;
+    for (int y = y0; y < y0 + TILE_HEIGHT && y < r->h; y++)
+        for (int x = x0; x < x0 + TILE_WIDTH && x < r->w; x++)
+            render_pixel(r, thread, x, y);
+    film_tile_end(r->pixels[thread], tile);
     int done = atomic_fetch_add(&r->done, 1) + 1;
     if (thread == 0 && r->params.progress)
-        r->params.progress(r->params.progress_context, (double)done / (r->tiles_x * r->tiles_y));
+        r->params.progress(r->params.progress_context, (double)done / r->wanted);
 }
 
 static void close_films(Render *r)
@@ -160,6 +191,7 @@ static void close_films(Render *r)
     free(r->pixels);
     free(r->controls);
     free(r->workers);
+    free(r->had);
     film_close(&r->film);
     control_film_close(&r->control);
 }
@@ -217,6 +249,68 @@ static int keeps_denoise_data(const RenderParams *p)
     return p->denoise_data && p->spp > 1;
 }
 
+static FirstHitWindow first_hit_window(const Render *r)
+{
+    return (FirstHitWindow){r->scene, r->accel, r->width, r->height,          r->x0,
+                            r->y0,    r->w,     r->h,     r->params.nthreads, r->variants};
+}
+
+/* Where finished bands go, if anywhere. */
+static int open_spool(RetexSpool **spool, const Render *r, RetexError *err)
+{
+    const RenderParams *p = &r->params;
+    if (p->resume)
+        return retex_spool_open(spool, r->w, r->h, p->key, p->journal, 1, err);
+    if (p->spooled || p->nshards || p->nmerged)
+        return retex_spool_create(spool, r->w, r->h, p->key, p->output, err);
+    return RETEX_OK;
+}
+
+/* The bands of one file that a shard left. */
+static int merge_file(Render *r, RetexSpool *spool, const char *path, RetexError *err)
+{
+    RetexSpool *from = NULL;
+    int code = retex_spool_open(&from, r->w, r->h, r->params.key, path, 0, err);
+    for (int band = 0; band < r->tiles_y && !code; band++) {
+        if (!retex_spool_committed(from, band))
+            continue;
+        code = retex_spool_committed(spool, band)
+                   ? retex_fail(err, RETEX_EINVAL, "%s has rows that another file of --merge has too", path)
+                   : retex_spool_copy_band(spool, from, band, err);
+    }
+    retex_spool_close(&from);
+    return code;
+}
+
+static int merge_files(Render *r, RetexSpool *spool, RetexError *err)
+{
+    int code = RETEX_OK, missing = 0;
+    for (int k = 0; k < r->params.nmerged && !code; k++)
+        code = merge_file(r, spool, r->params.merged[k], err);
+    for (int band = 0; band < r->tiles_y && r->params.nmerged; band++)
+        missing += !retex_spool_committed(spool, band);
+    if (!code && missing)
+        code = retex_fail(err, RETEX_EINVAL, "--merge: %d of %d bands are in none of the files: a shard is missing",
+                          missing, r->tiles_y);
+    return code;
+}
+
+/* What others have rendered already, now that the film has all its images. */
+static int take_over(Render *r, RetexSpool *spool, RetexError *err)
+{
+    r->had = calloc((size_t)r->tiles_y, 1);
+    if (!r->had)
+        return retex_fail(err, RETEX_ENOMEM, "out of memory for the film");
+    int code = spool ? merge_files(r, spool, err) : RETEX_OK;
+    if (!code && spool)
+        code = film_resume(r->film, err);
+    for (int band = 0; band < r->tiles_y; band++)
+        r->had[band] = (char)film_band_is_done(r->film, band);
+    for (int band = 0; band < r->tiles_y; band++)
+        r->wanted += is_wanted(r, band) ? r->tiles_x : 0;
+    return code;
+}
+
 /* control: a film of all variants too, with moments of so many halves. */
 static int render_film(Render *r, int control, int halves, RetexError *err)
 {
@@ -232,7 +326,8 @@ static int render_film(Render *r, int control, int halves, RetexError *err)
                        .clusters = r->params.clusters,
                        .sharp = r->params.sharp,
                        .broad = r->params.broad,
-                       .noise = keeps_denoise_data(&r->params)};
+                       .noise = keeps_denoise_data(&r->params),
+                       .spooled = r->params.spooled};
     for (int t = 0; t < r->scene->ntargets; t++)
         target_periodic(r->scene, t, film.periodic[t]);
     r->pixels = calloc((size_t)threads, sizeof *r->pixels);
@@ -240,9 +335,17 @@ static int render_film(Render *r, int control, int halves, RetexError *err)
     r->workers = calloc((size_t)threads, sizeof *r->workers);
     if (!r->pixels || !r->controls || !r->workers)
         return retex_fail(err, RETEX_ENOMEM, "out of memory for %d threads", threads);
-    int code = film_create(&r->film, r->scene, &film, err);
+    int code = open_spool(&film.spool, r, err);
+    if (!code)
+        code = film_create(&r->film, r->scene, &film, err);
     for (int k = 0; k < threads && !code; k++)
         code = film_pixel_create(&r->pixels[k], r->film, err);
+    r->guided = keeps_denoise_data(&r->params);
+    FirstHitWindow window = first_hit_window(r);
+    if (!code && r->guided)
+        code = denoise_guides_create(&r->guides, r->film, &window, r->context.split, err);
+    if (!code)
+        code = take_over(r, film.spool, err);
     if (!code && control)
         code = control_film_create(&r->control, r->w, r->h, r->params.spp, r->context.nvariants, halves, err);
     for (int k = 0; k < threads && !code && r->control; k++)
@@ -272,7 +375,10 @@ static int start_set(RetexSet **set, const Render *r, RetexError *err)
 
 static void fill_stats(RenderStats *stats, const Render *r)
 {
-    stats->paths = (long)r->w * r->h * r->params.spp;
+    for (int band = 0; band < r->tiles_y; band++)
+        if (is_wanted(r, band))
+            stats->paths +=
+                (long)r->w * (band < r->tiles_y - 1 ? TILE_HEIGHT : r->h - band * TILE_HEIGHT) * r->params.spp;
     for (int k = 0; k < retex_threads(r->params.nthreads); k++)
         stats->segments += r->workers[k].segments, stats->shadow_rays += r->workers[k].shadow_rays;
     stats->dropped = film_dropped(r->film) + (r->control ? control_film_dropped(r->control) : 0);
@@ -281,12 +387,6 @@ static void fill_stats(RenderStats *stats, const Render *r)
     for (int k = 0; k < r->scene->nprimitives; k++)
         if (r->scene->primitives[k].kind == SHAPE_MESH)
             stats->triangles += r->scene->primitives[k].mesh->nfaces;
-}
-
-static FirstHitWindow first_hit_window(const Render *r)
-{
-    return (FirstHitWindow){r->scene, r->accel, r->width, r->height,          r->x0,
-                            r->y0,    r->w,     r->h,     r->params.nthreads, r->variants};
 }
 
 typedef struct HalfSamples {
@@ -336,6 +436,7 @@ static int add_irradiance(RetexSet *set, const Render *r, RetexError *err)
     pass.context.white = 1, pass.context.split = 0;
     pass.params.seed = hash_pair(r->params.seed, 2), pass.params.progress = NULL;
     pass.params.denoise_data = 0;
+    forget_files(&pass.params);
     pass.lights = r->lights;
     int code = start_set(&found, &pass, err);
     if (!code)
@@ -353,6 +454,20 @@ static int add_irradiance(RetexSet *set, const Render *r, RetexError *err)
     return code;
 }
 
+/* The film is not complete, because it was to stop: keep what is there of it. */
+static int keep_bands(const Render *r, RetexError *err)
+{
+    const RenderParams *p = &r->params;
+    int done = film_bands_done(r->film);
+    if (!p->journal || !done)
+        return retex_fail(err, RETEX_ESTOPPED, "stopped");
+    RetexError why;
+    if (!p->resume && film_keep(r->film, p->key, p->journal, 0, &why))
+        return retex_fail(err, RETEX_ESTOPPED, "stopped; what was finished is lost: %s", why.message);
+    return retex_fail(err, RETEX_ESTOPPED, "stopped; %d of %d bands are finished and in %s: %s", done,
+                      film_bands(r->film), p->journal, "the same command with --resume goes on");
+}
+
 /* Render, and fill what the film leaves open. */
 static int render_into(RetexSet *set, Render *r, RenderStats *stats, double started, RetexError *err)
 {
@@ -362,6 +477,8 @@ static int render_into(RetexSet *set, Render *r, RenderStats *stats, double star
     if (code)
         return code;
     render_paths(r, stats, started);
+    if (is_stopped(r) && film_bands_done(r->film) < film_bands(r->film))
+        return keep_bands(r, err);
     code = film_finish(r->film, set, err);
     FirstHitWindow window = first_hit_window(r);
     if (!code && r->context.split)
@@ -375,14 +492,15 @@ static int render_into(RetexSet *set, Render *r, RenderStats *stats, double star
         code = originals_add(set, r->scene, err);
     if (!code)
         code = first_hit_aovs(set, &window, r->params.aovs, err);
-    if (!code && keeps_denoise_data(&r->params))
-        code = denoise_guides_add(set, &window, r->context.split, err);
+    if (!code && r->guided)
+        code = denoise_guides_finish(&r->guides, r->film, set, err);
     if (!code && r->params.aovs & AOV_IRRADIANCE)
         code = add_irradiance(set, r, err);
     if (!code && data) {
         ControlMoments *moments[2] = {control_film_moments(r->control, 0), control_film_moments(r->control, 1)};
         code = control_data_add(set, moments, half_samples(r).samples, r->halves, err);
     }
+    film_give_spool(r->film, set);
     stats->render_seconds = seconds() - started - stats->build_seconds;
     return code;
 }
@@ -408,6 +526,26 @@ int render_scene(RetexSet **set, const Scene *scene, const RenderParams *params,
     return code;
 }
 
+int render_shard(const Scene *scene, const RenderParams *params, RenderStats *stats, RetexError *err)
+{
+    *stats = (RenderStats){0};
+    double started = seconds();
+    Render r;
+    int code = render_open(&r, scene, params, err);
+    if (!code)
+        code = render_film(&r, 0, 0, err);
+    if (!code) {
+        render_paths(&r, stats, started);
+        code = film_failed(r.film) ? film_finish(r.film, NULL, err) : RETEX_OK;
+    }
+    if (!code && is_stopped(&r) && r.done < r.wanted)
+        code = keep_bands(&r, err);
+    if (!code)
+        code = film_keep(r.film, r.params.key, r.params.output, 1, err);
+    render_close(&r);
+    return code;
+}
+
 int render_variants(RetexImage *pictures, const Scene *scene, const RenderParams *params, RenderStats *stats,
                     RetexError *err)
 {
@@ -419,6 +557,7 @@ int render_variants(RetexImage *pictures, const Scene *scene, const RenderParams
     RenderParams plain = *params;
     Render r;
     plain.plain = 1, plain.denoise_data = 0;
+    forget_files(&plain);
     int code = render_open(&r, scene, &plain, err);
     if (!code && r.params.nvariants < 1)
         code = retex_fail(err, RETEX_EINVAL, "no variants to render");
@@ -499,6 +638,7 @@ int render_control(RetexImage *picture, const Scene *scene, const RenderParams *
     if (params->nvariants > 0)
         variants[0] = params->variants[0];
     plain.plain = 1, plain.variants = variants, plain.nvariants = 2, plain.denoise_data = 0;
+    forget_files(&plain);
     int code = render_open(&r, scene, &plain, err);
     if (!code)
         code = check_control(&r, set, err);

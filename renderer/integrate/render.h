@@ -2,6 +2,8 @@
 #ifndef RENDERER_INTEGRATE_RENDER_H
 #define RENDERER_INTEGRATE_RENDER_H
 
+#include <signal.h>
+#include <stdint.h>
 #include <stdio.h>
 #include "integrate/control_variate.h"
 #include "scene/scene.h"
@@ -53,9 +55,19 @@ typedef struct RenderParams {
                                 independent, so that the picture is another one than without; default 0 */
     int denoise_data;        /* 1: also what retex_denoise reads, see <retex/denoise.h>; nothing where spp is 1, which
                                 does not tell how noisy it is; default 0 */
+    int spooled;             /* 1: render_scene leaves parts of the set in a spool, see <retex/spool.h>, for
+                                retex_set_write or retex_set_load; default 0 */
+    const char *output;      /* what the result will be written to, so that the spool is near it; NULL = nothing */
+    uint64_t key;            /* tells this render from others: of the files below those with another are refused */
+    const char *journal;     /* where finished rows are kept when the render is stopped; NULL (default) = nowhere */
+    int resume;              /* 1: they are kept there all the time, and those that are there are taken over */
+    int shard, nshards;      /* render every nshards-th band only, from number shard - 1; 0, 0 (default) = all */
+    const char *const *merged; /* files that render_shard left: their bands, which must be all, are taken over */
+    int nmerged;
+    const volatile sig_atomic_t *stop; /* not 0: take no more tiles, and fail with RETEX_ESTOPPED; NULL = never */
 } RenderParams;
 #define RENDER_PARAMS_INIT \
-    { sizeof(RenderParams), 0, 0, {0, 0, 0, 0}, 64, 0, 16, 0, 0, 4, 4, 4, 6, 0, 0, 0, 0, NULL, NULL, NULL, 0, 0, 0 }
+    { .size = sizeof(RenderParams), .spp = 64, .max_depth = 16, .clusters = 4, .sharp = 4, .broad = 4, .orders = 6 }
 
 typedef struct RenderStats {
     double build_seconds, render_seconds;
@@ -66,6 +78,9 @@ typedef struct RenderStats {
 /* Render into a new set. With plain, or without targets, the set has the beauty and the AOVs only. The picture is the
  * same to the bit for every nthreads. */
 int render_scene(RetexSet **set, const Scene *scene, const RenderParams *params, RenderStats *stats, RetexError *err);
+
+/* Render one shard, and leave its bands in the file params->output. */
+int render_shard(const Scene *scene, const RenderParams *params, RenderStats *stats, RetexError *err);
 
 /* Render nvariants pictures, pictures[k] (unallocated) with the textures of variants[k], all along the same paths:
  * each is to the bit what render_scene gives for that variant alone with `plain`. */

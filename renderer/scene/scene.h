@@ -201,6 +201,7 @@ typedef struct Target {
 typedef struct Scene {
     Arena *arena;
     char path[1024];
+    uint64_t digest;         /* of all files that it was read from, see base/digest.h */
     int width, height;       /* the size its author had in mind, from the camera's right and up: 640 wide */
     Camera camera;
     Rgb background;

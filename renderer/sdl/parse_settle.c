@@ -8,6 +8,7 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include "base/digest.h"
 #include "sdl/scene_side.h"
 
 /* ---- the working space ---- */
@@ -137,6 +138,8 @@ static void load_image(Sdl *sdl, SideImage *image, int *room)
         map->has_alpha = has_alpha(&pixels);
         map->width = pixels.width;
         map->height = pixels.height;
+        scene->digest = digest_bytes(scene->digest, pixels.pixels,
+                                     retex_image_index(&pixels, 0, pixels.height) * sizeof(float));
         retex_texture_create(&map->texture, &pixels, NULL, &err);
         retex_image_free(&pixels);
     }

@@ -7,6 +7,7 @@
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
+#include "base/digest.h"
 #include "sdl/internal.h"
 
 /* Sources with fewer tokens stay when their #include ends: they may be included again, in a loop. */
@@ -168,6 +169,8 @@ static Source *load(Sdl *sdl, const char *path)
 {
     size_t size;
     char *bytes = read_all(sdl, path, &size);
+    Scene *scene = sdl_scene(sdl);
+    scene->digest = digest_bytes(scene->digest, bytes, size);
     Source *source = tokenize(sdl, path, bytes, size);
     free(bytes);
     if (!source)

@@ -9,12 +9,12 @@
 #include <retex/image.h>
 #include <retex/set.h>
 
+#include "exr_chunk.h"
 #include "input.h"
 
 enum {
     RETEX_EXR_PARTS_MAX = 2048,
-    RETEX_EXR_NAME_MAX = 192,   /* bytes of a part or channel name, with the final NUL */
-    RETEX_EXR_LETTERS_MAX = 7   /* channels of a part that we write or read at once */
+    RETEX_EXR_NAME_MAX = 192   /* bytes of a part or channel name, with the final NUL */
 };
 
 /* A part to be written. */
@@ -22,11 +22,14 @@ typedef struct RetexExrPart {
     char name[RETEX_EXR_NAME_MAX]; /* unique in the file */
     char letters[RETEX_EXR_LETTERS_MAX + 1]; /* one for each channel of image, in its order */
     RetexPixelType type;           /* how samples are stored; see half.h for what becomes of floats */
-    const RetexImage *image;       /* borrowed until the encoding is freed */
+    const RetexImage *image;       /* borrowed until the encoding is freed, as is: */
+    const RetexSpool *spool;       /* where the pixels are if image has none, */
+    int spooled;                   /* under this number */
     uint32_t crc;                  /* filled by retex_exr_encode: see RetexPart */
 } RetexExrPart;
 
-/* All chunks of a file, converted and compressed, in memory: checksums are known before the header is written. */
+/* All chunks of a file, converted and compressed, in memory or still in a spool: checksums are known before the header
+ * is written. */
 typedef struct RetexExrEncoding RetexExrEncoding;
 
 int retex_exr_encode(RetexExrEncoding **encoding, RetexExrPart *parts, int nparts, int compress, int nthreads,

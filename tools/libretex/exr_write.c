@@ -11,17 +11,16 @@
 
 #include <retex/parallel.h>
 
+#include "exr_chunk.h"
 #include "exr_error.h"
 #include "exr_io.h"
-#include "exr_zip.h"
-#include "half.h"
 #include "output.h"
-
-enum { BAND_LINES = 16 }; /* what EXR's ZIP takes as one chunk; uncompressed, one line is a chunk */
+#include "spool_chunks.h"
 
 typedef struct Band {
     int part, first_line, lines;
-    unsigned char *data; /* the stored bytes: line by line, in each line plane by plane, planes in EXR's order */
+    unsigned char *data;            /* what is stored; NULL: fetched when its turn comes */
+    const RetexSpoolChunk *spooled; /* or NULL */
     size_t bytes;
     uint32_t crc[RETEX_EXR_LETTERS_MAX]; /* of this band's piece of each plane, in the order of letters */
 } Band;
@@ -29,134 +28,101 @@ typedef struct Band {
 struct RetexExrEncoding {
     RetexExrPart *parts; /* a copy */
     int nparts, compress;
+    RetexChunkScratch scratch; /* for what is fetched */
+    unsigned char *packed;
+    size_t packed_bytes;
     Band *bands;
     int nbands;
 };
 
-typedef struct EncodeScratch {
-    RetexZip zip;
-    unsigned char *raw;
-    uint16_t *halves; /* one line, interleaved */
-    size_t raw_bytes, halves_count;
-} EncodeScratch;
-
 typedef struct EncodeWork {
     RetexExrEncoding *encoding;
-    EncodeScratch *scratch; /* one a thread */
-    int *failed;            /* one a band */
+    RetexChunkScratch *scratch; /* one a thread */
+    int *failed;                /* one a band */
 } EncodeWork;
 
-/* Bytes of one stored sample. */
-static size_t sample_bytes(RetexPixelType type)
+static RetexChunkShape band_shape(const RetexExrPart *part, const Band *band)
 {
-    return type == RETEX_HALF ? 2 : 4;
+    return (RetexChunkShape){part->letters, part->type, part->image->width, band->lines};
 }
 
-/* EXR keeps channels in alphabetical order: order[i] is the letter that comes i-th. */
-static void channel_order(const char *letters, int count, int *order)
+/* Compress what is in scratch->raw. */
+static void pack_band(Band *band, RetexChunkScratch *scratch)
 {
-    for (int i = 0; i < count; i++) {
-        int place = i;
-        for (; place > 0 && letters[order[place - 1]] > letters[i]; place--)
-            order[place] = order[place - 1];
-        order[place] = i;
-    }
+    band->bytes = retex_chunk_pack(scratch, scratch->raw, band->bytes, band->data);
+    unsigned char *less = realloc(band->data, band->bytes);
+    if (less)
+        band->data = less;
 }
 
-static void take_plane_half(uint16_t *restrict out, const uint16_t *restrict in, int width, int stride)
+static int encode_band(Band *band, const RetexExrPart *part, int compress, RetexChunkScratch *scratch)
 {
-    for (int x = 0; x < width; x++)
-        out[x] = in[(size_t)x * (size_t)stride];
+    const RetexChunkShape shape = band_shape(part, band);
+    const float *pixels = part->image->pixels + retex_image_index(part->image, 0, band->first_line);
+
+    band->bytes = retex_chunk_bytes(&shape);
+    band->data = malloc(band->bytes);
+    if (!band->data || !retex_chunk_need(scratch, &shape))
+        return 0;
+    retex_chunk_store(scratch, &shape, pixels, compress ? scratch->raw : band->data, band->crc);
+    if (compress)
+        pack_band(band, scratch);
+    return 1;
 }
 
-static void take_plane_float(unsigned char *restrict out, const float *restrict in, int width, int stride)
+/* A band that is 0 everywhere. */
+static int encode_zero_band(Band *band, const RetexChunkShape *shape, int compress, RetexChunkScratch *scratch)
 {
-    for (int x = 0; x < width; x++)
-        memcpy(out + (size_t)x * 4, &in[(size_t)x * (size_t)stride], 4);
-}
+    const int channels = (int)strlen(shape->letters);
 
-/* Convert a band to its stored, uncompressed form, and checksum it. halves: room for one line. */
-static void store_band(Band *band, const RetexExrPart *part, unsigned char *raw, uint16_t *halves)
-{
-    const RetexImage *image = part->image;
-    const size_t plane = (size_t)image->width * sample_bytes(part->type);
-    int order[RETEX_EXR_LETTERS_MAX];
-
-    channel_order(part->letters, image->channels, order);
-    for (int c = 0; c < image->channels; c++)
-        band->crc[c] = (uint32_t)crc32(0, NULL, 0);
-    for (int y = band->first_line; y < band->first_line + band->lines; y++) {
-        const float *line = image->pixels + retex_image_index(image, 0, y);
-        if (part->type == RETEX_HALF)
-            retex_half_from_float(halves, line, (size_t)image->width * (size_t)image->channels);
-        for (int i = 0; i < image->channels; i++, raw += plane) {
-            const int c = order[i];
-            if (part->type == RETEX_HALF)
-                take_plane_half((uint16_t *)(void *)raw, halves + c, image->width, image->channels);
-            else
-                take_plane_float(raw, line + c, image->width, image->channels);
-            band->crc[c] = (uint32_t)crc32(band->crc[c], raw, (uInt)plane);
-        }
-    }
-}
-
-static int need(void **memory, size_t *have, size_t want, size_t unit)
-{
-    if (*have >= want)
+    band->bytes = retex_chunk_bytes(shape);
+    if (!retex_chunk_need(scratch, shape))
+        return 0;
+    memset(scratch->raw, 0, band->bytes);
+    for (int c = 0; c < channels; c++)
+        band->crc[c] = c ? band->crc[0] : (uint32_t)crc32_z(crc32(0, NULL, 0), scratch->raw, retex_chunk_plane(shape));
+    if (!compress)
         return 1;
-    free(*memory);
-    *memory = malloc(want * unit);
-    *have = *memory ? want : 0;
-    return *memory != NULL;
+    band->data = malloc(band->bytes);
+    if (band->data)
+        pack_band(band, scratch);
+    return band->data != NULL;
 }
 
-static void encode_band(void *context, int index, int thread)
+/* Of what a spool holds only the size is needed yet. */
+static int encode_spooled_band(Band *band, const RetexExrPart *part, int compress, RetexChunkScratch *scratch)
+{
+    const RetexChunkShape shape = band_shape(part, band);
+
+    if (!band->spooled->bytes)
+        return encode_zero_band(band, &shape, compress, scratch);
+    memcpy(band->crc, band->spooled->crc, sizeof band->crc);
+    band->bytes = compress ? band->spooled->bytes : retex_chunk_bytes(&shape);
+    return 1;
+}
+
+static void encode_job(void *context, int index, int thread)
 {
     EncodeWork *work = context;
-    EncodeScratch *scratch = &work->scratch[thread];
     Band *band = &work->encoding->bands[index];
     const RetexExrPart *part = &work->encoding->parts[band->part];
-    const size_t line = (size_t)part->image->width * (size_t)part->image->channels;
-    const size_t bytes = line * sample_bytes(part->type) * (size_t)band->lines;
+    const int compress = work->encoding->compress;
 
-    work->failed[index] = 1;
-    if (!need((void **)&scratch->halves, &scratch->halves_count, line, 2))
-        return;
-    if (work->encoding->compress) {
-        if (!need((void **)&scratch->raw, &scratch->raw_bytes, bytes, 1))
-            return;
-        store_band(band, part, scratch->raw, scratch->halves);
-        unsigned char *packed = malloc(bytes);
-        if (!packed)
-            return;
-        band->bytes = retex_zip_pack(&scratch->zip, packed, scratch->raw, bytes);
-        if (band->bytes == 0) { /* no gain: as it is */
-            memcpy(packed, scratch->raw, bytes);
-            band->bytes = bytes;
-        }
-        band->data = realloc(packed, band->bytes);
-        if (!band->data)
-            band->data = packed;
-    } else {
-        band->bytes = bytes;
-        band->data = malloc(bytes);
-        if (!band->data)
-            return;
-        store_band(band, part, band->data, scratch->halves);
-    }
-    work->failed[index] = 0;
+    work->failed[index] = band->spooled ? !encode_spooled_band(band, part, compress, &work->scratch[thread])
+                                        : !encode_band(band, part, compress, &work->scratch[thread]);
 }
 
 /* Put the bands' checksums together: planes one after another, each from the top. */
 static uint32_t part_crc(const RetexExrEncoding *encoding, int part, const Band *first)
 {
-    const RetexImage *image = encoding->parts[part].image;
-    const size_t plane = (size_t)image->width * sample_bytes(encoding->parts[part].type);
+    const RetexExrPart *of = &encoding->parts[part];
     uint32_t crc = (uint32_t)crc32(0, NULL, 0);
 
-    for (int c = 0; c < image->channels; c++)
-        for (const Band *band = first; band < encoding->bands + encoding->nbands && band->part == part; band++)
-            crc = (uint32_t)crc32_combine(crc, band->crc[c], (z_off_t)(plane * (size_t)band->lines));
+    for (int c = 0; c < of->image->channels; c++)
+        for (const Band *band = first; band < encoding->bands + encoding->nbands && band->part == part; band++) {
+            const RetexChunkShape shape = band_shape(of, band);
+            crc = (uint32_t)crc32_combine(crc, band->crc[c], (z_off_t)retex_chunk_plane(&shape));
+        }
     return crc;
 }
 
@@ -167,7 +133,7 @@ static int check_parts(const RetexExrPart *parts, int nparts, RetexError *err)
                           RETEX_EXR_PARTS_MAX);
     for (int i = 0; i < nparts; i++) {
         const RetexImage *image = parts[i].image;
-        if (!image || !image->pixels || (size_t)image->channels != strlen(parts[i].letters))
+        if (!image || (!image->pixels && !parts[i].spool) || (size_t)image->channels != strlen(parts[i].letters))
             return retex_fail(err, RETEX_EINVAL, "part %s has no image, or one whose channels are not %s",
                               parts[i].name, parts[i].letters);
         for (int j = 0; j < i; j++)
@@ -182,17 +148,20 @@ static int lay_out_bands(RetexExrEncoding *encoding, RetexError *err)
     int count = 0;
 
     for (int i = 0; i < encoding->nparts; i++)
-        count += (encoding->parts[i].image->height + BAND_LINES - 1) / BAND_LINES;
+        count += (encoding->parts[i].image->height + RETEX_CHUNK_LINES - 1) / RETEX_CHUNK_LINES;
     encoding->bands = calloc((size_t)count, sizeof *encoding->bands);
     if (!encoding->bands)
         return retex_fail(err, RETEX_ENOMEM, "no memory to write an EXR file");
     for (int i = 0; i < encoding->nparts; i++) {
         const int height = encoding->parts[i].image->height;
-        for (int y = 0; y < height; y += BAND_LINES) {
+        for (int y = 0; y < height; y += RETEX_CHUNK_LINES) {
             Band *band = &encoding->bands[encoding->nbands++];
             band->part = i;
+            if (!encoding->parts[i].image->pixels)
+                band->spooled =
+                    retex_spool_chunk(encoding->parts[i].spool, encoding->parts[i].spooled, y / RETEX_CHUNK_LINES);
             band->first_line = y;
-            band->lines = height - y < BAND_LINES ? height - y : BAND_LINES;
+            band->lines = height - y < RETEX_CHUNK_LINES ? height - y : RETEX_CHUNK_LINES;
         }
     }
     return 0;
@@ -207,14 +176,11 @@ static int encode_bands(RetexExrEncoding *encoding, int nthreads, RetexError *er
     work.scratch = calloc((size_t)nthreads, sizeof *work.scratch);
     work.failed = calloc((size_t)encoding->nbands, sizeof *work.failed);
     if (work.scratch && work.failed)
-        retex_parallel(nthreads, encoding->nbands, encode_band, &work);
+        retex_parallel(nthreads, encoding->nbands, encode_job, &work);
     for (int i = 0; i < encoding->nbands; i++)
         failed |= !work.failed || work.failed[i];
-    for (int i = 0; work.scratch && i < nthreads; i++) {
-        retex_zip_free(&work.scratch[i].zip);
-        free(work.scratch[i].raw);
-        free(work.scratch[i].halves);
-    }
+    for (int i = 0; work.scratch && i < nthreads; i++)
+        retex_chunk_free(&work.scratch[i]);
     free(work.scratch);
     free(work.failed);
     return failed ? retex_fail(err, RETEX_ENOMEM, "no memory to write an EXR file") : 0;
@@ -259,6 +225,8 @@ void retex_exr_encoding_free(RetexExrEncoding **result)
         return;
     for (int i = 0; i < encoding->nbands; i++)
         free(encoding->bands[i].data);
+    retex_chunk_free(&encoding->scratch);
+    free(encoding->packed);
     free(encoding->bands);
     free(encoding->parts);
     free(encoding);
@@ -373,7 +341,35 @@ static exr_result_t declare_part(exr_context_t context, const RetexExrEncoding *
     return code;
 }
 
-static exr_result_t write_chunks(exr_context_t context, RetexExrEncoding *encoding)
+/* Get a band whose data is not at hand, into the encoding's own memory. */
+static const unsigned char *fetch_band(RetexExrEncoding *encoding, const Band *band, RetexError *err)
+{
+    const RetexExrPart *part = &encoding->parts[band->part];
+    const RetexChunkShape shape = band_shape(part, band);
+    const size_t bytes = retex_chunk_bytes(&shape);
+
+    if (encoding->packed_bytes < bytes) {
+        free(encoding->packed);
+        encoding->packed = malloc(bytes);
+        encoding->packed_bytes = encoding->packed ? bytes : 0;
+    }
+    if (!encoding->packed || !retex_chunk_need(&encoding->scratch, &shape)) {
+        retex_fail(err, RETEX_ENOMEM, "no memory to write an EXR file");
+        return NULL;
+    }
+    if (!band->spooled->bytes)
+        return memset(encoding->packed, 0, bytes);
+    if (retex_spool_read(part->spool, band->spooled, encoding->packed, err))
+        return NULL;
+    if (encoding->compress)
+        return encoding->packed;
+    if (retex_chunk_unpack(&encoding->scratch, encoding->packed, band->spooled->bytes, encoding->scratch.raw, bytes))
+        return encoding->scratch.raw;
+    retex_fail(err, RETEX_EFORMAT, "the temporary file is damaged");
+    return NULL;
+}
+
+static exr_result_t write_chunks(exr_context_t context, RetexExrEncoding *encoding, RetexError *err)
 {
     exr_result_t code = EXR_ERR_SUCCESS;
 
@@ -381,9 +377,12 @@ static exr_result_t write_chunks(exr_context_t context, RetexExrEncoding *encodi
         Band *band = &encoding->bands[i];
         const int chunks = band_chunks(encoding, band);
         const size_t bytes = band->bytes / (unsigned)chunks;
+        const unsigned char *data = band->data ? band->data : fetch_band(encoding, band, err);
+        if (!data)
+            return EXR_ERR_WRITE_IO;
         for (int chunk = 0; chunk < chunks && !code; chunk++)
-            code = exr_write_scanline_chunk(context, band->part, band->first_line + chunk,
-                                            band->data + (size_t)chunk * bytes, bytes);
+            code = exr_write_scanline_chunk(context, band->part, band->first_line + chunk, data + (size_t)chunk * bytes,
+                                            bytes);
         free(band->data);
         band->data = NULL;
     }
@@ -391,7 +390,7 @@ static exr_result_t write_chunks(exr_context_t context, RetexExrEncoding *encodi
 }
 
 static exr_result_t write_file(exr_context_t context, RetexExrEncoding *encoding, int width, int height,
-                               const char *attribute, const char *value)
+                               const char *attribute, const char *value, RetexError *err)
 {
     const exr_attr_box2i_t display = {.max = {.x = width - 1, .y = height - 1}};
     exr_result_t code = EXR_ERR_SUCCESS;
@@ -408,7 +407,7 @@ static exr_result_t write_file(exr_context_t context, RetexExrEncoding *encoding
     if (!code)
         code = exr_write_header(context);
     if (!code)
-        code = write_chunks(context, encoding);
+        code = write_chunks(context, encoding, err);
     return code;
 }
 
@@ -433,7 +432,7 @@ int retex_exr_write(RetexExrEncoding *encoding, int width, int height, const cha
     }
     code = exr_start_write(&context, path, EXR_WRITE_FILE_DIRECTLY, &settings);
     if (!code)
-        code = write_file(context, encoding, width, height, attribute, value);
+        code = write_file(context, encoding, width, height, attribute, value, &sink.error);
     if (context) {
         const exr_result_t finished = exr_finish(&context);
         code = code ? code : finished;

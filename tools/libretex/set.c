@@ -35,6 +35,7 @@ void retex_set_close(RetexSet **result)
     free(set->parts);
     free(set->footprints);
     free(set->terms);
+    retex_spool_close(&set->spool);
     free(set);
     *result = NULL;
 }
@@ -56,11 +57,11 @@ static int make_room(void **array, int count, size_t element, int most, const ch
     return 0;
 }
 
-int retex_set_add_part(RetexSet *set, const char *name, const char *letters, RetexPixelType type, int width, int height,
-                       int *index, RetexError *err)
+/* A part without pixels. */
+static int describe_part(RetexSet *set, const char *name, const char *letters, RetexPixelType type, int width,
+                         int height, RetexPart **result, RetexError *err)
 {
     RetexPart part = {.type = type};
-    int status;
 
     if (!retex_name_is_valid(name))
         return retex_fail(err, RETEX_EINVAL, "\"%s\" is no name for a part: letters, digits, '_' and '-'", name);
@@ -70,18 +71,51 @@ int retex_set_add_part(RetexSet *set, const char *name, const char *letters, Ret
         return retex_fail(err, RETEX_EINVAL, "the set has a part %s already", name);
     if ((width == 0) != (height == 0))
         return retex_fail(err, RETEX_EINVAL, "part %s: %d x %d pixels are out of bounds", name, width, height);
-    status = make_room((void **)&set->parts, set->nparts, sizeof *set->parts, RETEX_SET_PARTS_MAX, "parts", err);
+    const int status =
+        make_room((void **)&set->parts, set->nparts, sizeof *set->parts, RETEX_SET_PARTS_MAX, "parts", err);
     if (status)
         return status;
     strcpy(part.name, name);
     strcpy(part.letters, letters);
-    status = retex_image_alloc(&part.image, width ? width : set->width, height ? height : set->height,
-                               (int)strlen(letters), err);
+    part.image.width = width ? width : set->width;
+    part.image.height = height ? height : set->height;
+    part.image.channels = (int)strlen(letters);
+    *result = &set->parts[set->nparts];
+    **result = part;
+    return 0;
+}
+
+int retex_set_add_part(RetexSet *set, const char *name, const char *letters, RetexPixelType type, int width, int height,
+                       int *index, RetexError *err)
+{
+    RetexPart *part;
+    int status = describe_part(set, name, letters, type, width, height, &part, err);
+
+    if (status)
+        return status;
+    const RetexImage shape = part->image;
+    part->image = (RetexImage){0};
+    status = retex_image_alloc(&part->image, shape.width, shape.height, shape.channels, err);
     if (status)
         return status;
     if (index)
         *index = set->nparts;
-    set->parts[set->nparts++] = part;
+    set->nparts++;
+    return 0;
+}
+
+int retex_set_add_spooled(RetexSet *set, const char *name, const char *letters, RetexPixelType type, int image,
+                          int *index, RetexError *err)
+{
+    RetexPart *part;
+    const int status = describe_part(set, name, letters, type, 0, 0, &part, err);
+
+    if (status)
+        return status;
+    part->spooled = image + 1;
+    if (index)
+        *index = set->nparts;
+    set->nparts++;
     return 0;
 }
 

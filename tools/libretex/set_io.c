@@ -14,6 +14,7 @@
 #include "output.h"
 #include "pack_format.h"
 #include "set_parts.h"
+#include "spool_chunks.h"
 
 static const char MANIFEST_ATTRIBUTE[] = "retex";
 
@@ -65,7 +66,7 @@ static int check_set(const RetexSet *set, RetexError *err)
         return retex_fail(err, RETEX_EINVAL, "the set's first part is no RGB picture of %d x %d pixels", set->width,
                           set->height);
     for (int i = 0; i < set->nparts; i++)
-        if (!set->parts[i].image.pixels)
+        if (set->parts[i].spooled ? !set->spool : !set->parts[i].image.pixels)
             return retex_fail(err, RETEX_EINVAL, "part %s has no pixels", set->parts[i].name);
     int sound = set->ntargets >= 0 && set->ntargets <= RETEX_MAX_TARGETS && set->nfootprints >= 0 &&
                 set->nfootprints <= RETEX_SET_FOOTPRINTS_MAX && set->nterms >= 0 && set->nterms <= RETEX_SET_TERMS_MAX;
@@ -107,9 +108,12 @@ static int write_parts(RetexSet *set, const RetexSamples *samples, RetexSamplePa
 
     if (!parts)
         return retex_fail(err, RETEX_ENOMEM, "no memory to write %s", path);
-    for (int i = 0; set && i < set->nparts; i++)
-        add_exr_part(&parts[count++], set->parts[i].name, set->parts[i].letters, set->parts[i].type,
-                     &set->parts[i].image);
+    for (int i = 0; set && i < set->nparts; i++) {
+        const RetexPart *part = &set->parts[i];
+        if (part->spooled)
+            parts[count].spool = set->spool, parts[count].spooled = part->spooled - 1;
+        add_exr_part(&parts[count++], part->name, part->letters, part->type, &part->image);
+    }
     for (int i = 0; samples && i < samples->nimages; i++)
         if (names[i].name[0])
             add_exr_part(&parts[count++], names[i].name, "RGB", RETEX_FLOAT, &samples->images[i]);
@@ -225,6 +229,11 @@ static int source_describe(Source *source, RetexError *err)
 
     if (retex_input_size(source->input) == 0)
         return retex_fail(err, RETEX_EFORMAT, "%s is not a set: it is empty", name);
+    unsigned char begin[16];
+    const int64_t got = retex_input_read(source->input, begin, sizeof begin, 0);
+    if (got > 0 && retex_spool_probe(begin, (size_t)got))
+        return retex_fail(err, RETEX_EFORMAT, "%s is not a set yet, but rows of one: %s", name,
+                          "retex-render goes on from them with --resume or --merge");
     if (!retex_exr_probe(source->input))
         return retex_fail(err, RETEX_EFORMAT, "%s is not a set: neither an OpenEXR file nor a pack", name);
     status = retex_exr_open(&source->exr, source->input, err);

@@ -23,13 +23,29 @@ int signal_cluster(const RetexSet *set, const SignalMember *member)
                : -1;
 }
 
-static void signal_name(const RetexSet *set, const Signal *signal, char name[RETEX_NAME_MAX])
+static void noise_name(const RetexSet *set, int target, RetexFootprintKind kind, char name[RETEX_NAME_MAX])
 {
     static const char *const kinds[] = {"hit", "sharp", "broad", "later"};
-    if (signal->target < 0)
+    if (target < 0)
         snprintf(name, RETEX_NAME_MAX, "noise_%s", set->nterms ? "indep" : "beauty");
     else
-        snprintf(name, RETEX_NAME_MAX, "noise_%.90s_%s", set->targets[signal->target].name, kinds[signal->kind]);
+        snprintf(name, RETEX_NAME_MAX, "noise_%.90s_%s", set->targets[target].name, kinds[kind]);
+}
+
+/* Where the light of a term meets a target first: target -1 where it does not. */
+static void term_place(const RetexSet *set, const RetexTerm *term, int *target, RetexFootprintKind *kind)
+{
+    *target = -1, *kind = RETEX_FOOTPRINT_HIT;
+    if (term && term->nfactors)
+        factor_place(set, term->factors[0], target, kind);
+}
+
+void signal_noise_name(const RetexSet *set, const RetexTerm *term, char name[RETEX_NAME_MAX])
+{
+    int target;
+    RetexFootprintKind kind;
+    term_place(set, term, &target, &kind);
+    noise_name(set, target, kind, name);
 }
 
 int signals_find_part(const RetexSet *set, const char *name, int channels, RetexError *err)
@@ -48,10 +64,9 @@ int signals_find_part(const RetexSet *set, const char *name, int channels, Retex
 /* The signal that a term belongs to, made where it is the first. */
 static Signal *signal_of(Signals *signals, const RetexSet *set, const RetexTerm *term)
 {
-    int target = -1;
-    RetexFootprintKind kind = RETEX_FOOTPRINT_HIT;
-    if (term && term->nfactors)
-        factor_place(set, term->factors[0], &target, &kind);
+    int target;
+    RetexFootprintKind kind;
+    term_place(set, term, &target, &kind);
     for (int k = 0; k < signals->count; k++)
         if (signals->of[k].target == target && signals->of[k].kind == kind)
             return &signals->of[k];
@@ -67,7 +82,7 @@ static int find_parts(Signals *signals, const RetexSet *set, RetexError *err)
     char name[RETEX_NAME_MAX];
     for (int k = 0; k < signals->count; k++) {
         Signal *signal = &signals->of[k];
-        signal_name(set, signal, name);
+        noise_name(set, signal->target, signal->kind, name);
         if ((signal->noise = signals_find_part(set, name, 3, err)) < 0)
             return signal->noise;
         if (signal->target < 0)

@@ -38,6 +38,9 @@ int signals_find_part(const RetexSet *set, const char *name, int channels, Retex
  * layout paper. */
 int signal_cluster(const RetexSet *set, const SignalMember *member);
 
+/* The name of the part that says how noisy the signal of a term is; term NULL: the beauty of a set without terms. */
+void signal_noise_name(const RetexSet *set, const RetexTerm *term, char name[RETEX_NAME_MAX]);
+
 /* Kind and target of what a term's factor lies on. */
 void factor_place(const RetexSet *set, int factor, int *target, RetexFootprintKind *kind);
 

@@ -23,7 +23,8 @@ typedef enum RetexCode {
     RETEX_EUNSUPPORTED = -6, /* understood, but beyond this version */
     RETEX_EPARSE = -7,       /* a scene, option or table with an error in its text */
     RETEX_ELIMIT = -8,       /* a budget (steps, depth, length) is used up */
-    RETEX_EINTERNAL = -9     /* a broken promise of the library itself */
+    RETEX_EINTERNAL = -9,    /* a broken promise of the library itself */
+    RETEX_ESTOPPED = -10     /* the caller asked for it */
 } RetexCode;
 
 /* Filled on failure only; untouched on success. file is "" and line and column are 0 where there is none; lines and

@@ -23,6 +23,9 @@ typedef struct RetexImage {
     float *pixels;               /* width * height * channels; owned by the image */
 } RetexImage;
 
+/* How samples are stored. In memory they are always float. */
+typedef enum RetexPixelType { RETEX_HALF, RETEX_FLOAT } RetexPixelType;
+
 static inline size_t retex_image_index(const RetexImage *im, int x, int y)
 {
     return ((size_t)y * (size_t)im->width + (size_t)x) * (size_t)im->channels;

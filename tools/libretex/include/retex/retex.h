@@ -4,6 +4,7 @@
 
 #define RETEX_VERSION "0.1.0"
 
+#include <retex/band_stats.h>
 #include <retex/denoise.h>
 #include <retex/diff.h>
 #include <retex/error.h>
@@ -13,6 +14,7 @@
 #include <retex/parallel.h>
 #include <retex/sample.h>
 #include <retex/set.h>
+#include <retex/spool.h>
 #include <retex/texture.h>
 #include <retex/uv_stats.h>
 

@@ -16,6 +16,7 @@
 
 #include <stdint.h>
 #include <retex/image.h>
+#include <retex/spool.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -29,8 +30,6 @@ extern "C" {
 #define RETEX_SHARES_MAX 16
 #define RETEX_NAME_MAX 128    /* bytes of a target or part name, with the final NUL */
 
-typedef enum RetexPixelType { RETEX_HALF, RETEX_FLOAT } RetexPixelType;
-
 /* One named image of the file. letters names its channels ("RGB", "RGA", "RG", "R"): the EXR channels are `R` in part 0
  * and `NAME.R` in all others. Values are float in memory; type is how they are stored. A part may have its own size
  * (originals have), all AOVs have the set's. */
@@ -40,6 +39,7 @@ typedef struct RetexPart {
     RetexPixelType type;
     uint32_t crc;              /* CRC-32 of the stored samples, planes in the order of letters, little-endian, rows from
                                   the top; filled by reading and writing */
+    int spooled;               /* 0, or 1 + its number in the set's spool: then image has its size, but no pixels */
     RetexImage image;
 } RetexPart;
 
@@ -122,6 +122,7 @@ typedef struct RetexSet {
     RetexPart *parts;      /* parts[0] is the beauty */
     int nmixtures;
     RetexMixture mixtures[RETEX_MIXTURES_MAX];
+    RetexSpool *spool;     /* owned; NULL: all parts are in memory */
 } RetexSet;
 
 /* The textures filtered at a set's footprints: image i belongs to footprint i and is RGB of the set's size, or
@@ -143,6 +144,16 @@ void retex_set_close(RetexSet **set); /* NULL and pointers to NULL are fine */
 /* Append; *index (may be NULL) gets its number. The image is allocated zeroed, width 0 = the set's own size. */
 int retex_set_add_part(RetexSet *set, const char *name, const char *letters, RetexPixelType type, int width, int height,
                        int *index, RetexError *err);
+/* Append a part whose pixels are in the set's spool, under the same name, letters and type. Only retex_set_write takes
+ * such a set; for all else it is loaded. */
+int retex_set_add_spooled(RetexSet *set, const char *name, const char *letters, RetexPixelType type, int image,
+                          int *index, RetexError *err);
+/* Bring all parts into memory, and close the spool. */
+int retex_set_load(RetexSet *set, int nthreads, RetexError *err);
+/* Leave out what no pixel has; empty[i]: part i is 0 everywhere. Footprints go without UV, and with them their parts,
+ * their shares in mixtures, and mixtures of none; a mixture of one becomes that footprint. Terms of hits go without
+ * radiance, and noise of signals that have no term. What remains keeps its order. */
+void retex_set_prune(RetexSet *set, const char *empty);
 /* Remove a part that no term, footprint, mixture or target names; those behind it move up, and references follow. */
 void retex_set_remove_part(RetexSet *set, int part);
 int retex_set_add_footprint(RetexSet *set, const RetexFootprint *footprint, int *index, RetexError *err);

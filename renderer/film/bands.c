@@ -1,0 +1,351 @@
+/* See bands.h. Memory is taken where a pixel is first asked for: most images have nothing in most bands. */
+#include <pthread.h>
+#include <stdatomic.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include "film/bands.h"
+
+typedef struct BandImage {
+    char name[RETEX_NAME_MAX], letters[8];
+    RetexPixelType type;
+    size_t channels;
+    int spooled;       /* its number in the spool */
+    atomic_int filled; /* where it is kept whole: a pixel is not 0 */
+    RetexImage whole;  /* then, once a pixel was asked for; under the lock */
+} BandImage;
+
+struct BandRows {
+    Bands *of;
+    int band, lines;
+    BandRows *next;                         /* of those that no band needs now */
+    _Atomic(float *) rows[BAND_IMAGES_MAX]; /* NULL: no pixel was asked for */
+    float *cleared[BAND_IMAGES_MAX];        /* of zeros, from earlier bands; under the lock */
+    float *nowhere;                         /* where pixels go that there is no memory for */
+};
+
+struct Bands {
+    int width, height, count, whole;
+    RetexSpool *spool;
+    pthread_mutex_t lock;
+    atomic_int starved; /* memory was short */
+    BandRows **open;    /* by band; under the lock, as is: */
+    BandRows *free;
+    int nimages;
+    BandImage *images[BAND_IMAGES_MAX];
+};
+
+int bands_create(Bands **result, int width, int height, RetexSpool *spool, int whole, RetexError *err)
+{
+    Bands *bands = *result = calloc(1, sizeof *bands);
+    if (!bands) {
+        retex_spool_close(&spool);
+        return retex_fail(err, RETEX_ENOMEM, "out of memory for the film");
+    }
+    bands->width = width, bands->height = height;
+    bands->count = (height + BAND_LINES - 1) / BAND_LINES;
+    bands->spool = spool, bands->whole = whole;
+    pthread_mutex_init(&bands->lock, NULL);
+    bands->open = calloc((size_t)bands->count, sizeof *bands->open);
+    return bands->open ? RETEX_OK : retex_fail(err, RETEX_ENOMEM, "out of memory for the film");
+}
+
+static void rows_close(Bands *bands, BandRows *rows)
+{
+    for (int k = 0; k < bands->nimages; k++) {
+        free(rows->cleared[k]);
+        if (!bands->whole)
+            free(rows->rows[k]);
+    }
+    free(rows->nowhere);
+    free(rows);
+}
+
+/* Memory that bands were worked on in. */
+static void close_rows(Bands *bands)
+{
+    for (int k = 0; bands->open && k < bands->count; k++)
+        if (bands->open[k])
+            rows_close(bands, bands->open[k]);
+    for (BandRows *rows = bands->free, *next; rows; rows = next) {
+        next = rows->next;
+        rows_close(bands, rows);
+    }
+    free(bands->open);
+    bands->open = NULL, bands->free = NULL;
+}
+
+void bands_close(Bands **result)
+{
+    Bands *bands = result ? *result : NULL;
+    if (!bands)
+        return;
+    close_rows(bands);
+    for (int k = 0; k < bands->nimages; k++) {
+        retex_image_free(&bands->images[k]->whole);
+        free(bands->images[k]);
+    }
+    retex_spool_close(&bands->spool);
+    pthread_mutex_destroy(&bands->lock);
+    free(bands);
+    *result = NULL;
+}
+
+int bands_count(const Bands *bands)
+{
+    return bands->count;
+}
+
+int bands_add(Bands *bands, const char *name, const char *letters, RetexPixelType type, int *number, RetexError *err)
+{
+    BandImage *image = calloc(1, sizeof *image);
+    if (!image)
+        return retex_fail(err, RETEX_ENOMEM, "out of memory for the film");
+    snprintf(image->name, sizeof image->name, "%s", name);
+    snprintf(image->letters, sizeof image->letters, "%s", letters);
+    image->type = type, image->channels = strlen(letters);
+    int code = RETEX_OK;
+    if (bands->spool)
+        code = retex_spool_add(bands->spool, name, letters, bands->whole ? RETEX_FLOAT : type, &image->spooled, err);
+    pthread_mutex_lock(&bands->lock);
+    if (!code && bands->nimages == BAND_IMAGES_MAX)
+        code = retex_fail(err, RETEX_ELIMIT, "the film has at most %d images", BAND_IMAGES_MAX);
+    if (!code) {
+        *number = bands->nimages;
+        bands->images[bands->nimages++] = image;
+    }
+    pthread_mutex_unlock(&bands->lock);
+    if (code)
+        free(image);
+    return code;
+}
+
+/* ---- a band that is worked on ---- */
+
+static BandRows *rows_create(Bands *bands)
+{
+    BandRows *rows = calloc(1, sizeof *rows);
+    if (!rows)
+        return NULL;
+    rows->of = bands;
+    rows->nowhere = calloc((size_t)bands->width * BAND_LINES * sizeof bands->images[0]->letters, sizeof(float));
+    if (rows->nowhere)
+        return rows;
+    free(rows);
+    return NULL;
+}
+
+BandRows *bands_open(Bands *bands, int band)
+{
+    pthread_mutex_lock(&bands->lock);
+    BandRows *rows = bands->open[band];
+    if (!rows) {
+        rows = bands->free;
+        if (rows)
+            bands->free = rows->next;
+        else
+            rows = rows_create(bands);
+    }
+    if (rows) {
+        int left = bands->height - band * BAND_LINES;
+        rows->band = band, rows->lines = left < BAND_LINES ? left : BAND_LINES;
+        bands->open[band] = rows;
+    }
+    pthread_mutex_unlock(&bands->lock);
+    return rows;
+}
+
+/* Where a band of an image that is kept whole is, or NULL; the lock is held. */
+static float *whole_rows(Bands *bands, int k, int band)
+{
+    BandImage *image = bands->images[k];
+    if (!image->whole.pixels &&
+        retex_image_alloc(&image->whole, bands->width, bands->height, (int)image->channels, NULL))
+        return NULL;
+    return image->whole.pixels + retex_image_index(&image->whole, 0, band * BAND_LINES);
+}
+
+/* Rows of zeros for an image that has none yet; the lock is held. */
+static float *give_rows(BandRows *rows, int k)
+{
+    Bands *bands = rows->of;
+    if (bands->whole)
+        return whole_rows(bands, k, rows->band);
+    float *cleared = rows->cleared[k];
+    rows->cleared[k] = NULL;
+    return cleared ? cleared : calloc((size_t)bands->width * BAND_LINES * bands->images[k]->channels, sizeof(float));
+}
+
+static float *need_rows(BandRows *rows, int image)
+{
+    pthread_mutex_lock(&rows->of->lock);
+    float *given = rows->rows[image];
+    if (!given && (given = give_rows(rows, image)))
+        atomic_store_explicit(&rows->rows[image], given, memory_order_release);
+    pthread_mutex_unlock(&rows->of->lock);
+    if (given)
+        return given;
+    rows->of->starved = 1; /* bands_finish says so */
+    return rows->nowhere;
+}
+
+float *bands_pixel(BandRows *rows, int image, int x, int y)
+{
+    float *at = atomic_load_explicit(&rows->rows[image], memory_order_acquire);
+    if (!at)
+        at = need_rows(rows, image);
+    size_t pixel = (size_t)(y - rows->band * BAND_LINES) * (size_t)rows->of->width + (size_t)x;
+    return at + pixel * rows->of->images[image]->channels;
+}
+
+void bands_add_albedo(const BandRows *rows, int uv_image, int albedo_image, RetexBandStats *stats, int target)
+{
+    const float *uv = rows->rows[uv_image], *albedo = rows->rows[albedo_image];
+    size_t count = (size_t)rows->of->width * (size_t)rows->lines;
+    for (size_t i = 0; uv && albedo && i < count; i++) {
+        double weight = uv[3 * i + 2];
+        stats->coverage[target] += weight;
+        for (size_t c = 0; c < 3; c++)
+            stats->albedo[target][c] += weight * albedo[3 * i + c];
+    }
+}
+
+static void note_filled(BandImage *image, const float *pixels, size_t count)
+{
+    for (size_t i = 0; i < count && !image->filled; i++)
+        if (pixels[i] != 0)
+            image->filled = 1;
+}
+
+/* Numbers of a band of an image. */
+static size_t band_size(const Bands *bands, int k, int band)
+{
+    int left = bands->height - band * BAND_LINES;
+    return (size_t)bands->width * (size_t)(left < BAND_LINES ? left : BAND_LINES) * bands->images[k]->channels;
+}
+
+/* Keep an image's rows of a finished band. */
+static int keep_rows(BandRows *rows, int k, RetexError *err)
+{
+    Bands *bands = rows->of;
+    BandImage *image = bands->images[k];
+    size_t count = band_size(bands, k, rows->band);
+    float *kept = rows->rows[k];
+    int code = RETEX_OK;
+    rows->rows[k] = NULL;
+    if (bands->spool)
+        code = retex_spool_put(bands->spool, image->spooled, rows->band, kept, err);
+    if (bands->whole) {
+        note_filled(image, kept, count);
+        return code;
+    }
+    memset(kept, 0, count * sizeof *kept);
+    rows->cleared[k] = kept;
+    return code;
+}
+
+int bands_finish(BandRows *rows, RetexError *err)
+{
+    Bands *bands = rows->of;
+    int code = RETEX_OK;
+    pthread_mutex_lock(&bands->lock);
+    int nimages = bands->nimages; /* what comes later is not of this band */
+    pthread_mutex_unlock(&bands->lock);
+    if (bands->starved)
+        code = retex_fail(err, RETEX_ENOMEM, "out of memory for the film");
+    for (int k = 0; k < nimages && !code; k++)
+        if (rows->rows[k])
+            code = keep_rows(rows, k, err);
+    pthread_mutex_lock(&bands->lock);
+    if (!code) { /* else they stay where they are, to be freed */
+        bands->open[rows->band] = NULL;
+        rows->next = bands->free;
+        bands->free = rows;
+    }
+    pthread_mutex_unlock(&bands->lock);
+    return code;
+}
+
+/* ---- bands that are finished ---- */
+
+int bands_resume(Bands *bands, int band, RetexError *err)
+{
+    int code = RETEX_OK;
+    for (int k = 0; k < bands->nimages && bands->whole && !code; k++) {
+        float *rows = whole_rows(bands, k, band);
+        if (!rows)
+            return retex_fail(err, RETEX_ENOMEM, "out of memory for the film");
+        code = retex_spool_load_band(bands->spool, bands->images[k]->spooled, band, rows, err);
+        if (!code)
+            note_filled(bands->images[k], rows, band_size(bands, k, band));
+    }
+    return code;
+}
+
+int bands_copy(const Bands *bands, int band, RetexSpool *spool, RetexError *err)
+{
+    int code = RETEX_OK;
+    for (int k = 0; k < bands->nimages && !code; k++) {
+        const BandImage *image = bands->images[k];
+        int number;
+        if (!image->whole.pixels)
+            continue;
+        code = retex_spool_add(spool, image->name, image->letters, RETEX_FLOAT, &number, err);
+        if (!code)
+            code = retex_spool_put(spool, number, band,
+                                   image->whole.pixels + retex_image_index(&image->whole, 0, band * BAND_LINES), err);
+    }
+    return code;
+}
+
+RetexSpool *bands_spool(const Bands *bands)
+{
+    return bands->spool;
+}
+
+/* ---- into a set ---- */
+
+int bands_find(const Bands *bands, const char *name)
+{
+    for (int k = 0; k < bands->nimages; k++)
+        if (strcmp(bands->images[k]->name, name) == 0)
+            return k;
+    return -1;
+}
+
+int bands_is_empty(const Bands *bands, int image)
+{
+    const BandImage *im = bands->images[image];
+    return bands->whole ? !im->filled : retex_spool_is_empty(bands->spool, im->spooled);
+}
+
+int bands_move_part(Bands *bands, int number, RetexSet *set, int *part, RetexError *err)
+{
+    BandImage *image = bands->images[number];
+    if (!bands->whole)
+        return retex_set_add_spooled(set, image->name, image->letters, image->type, image->spooled, part, err);
+    if (!image->whole.pixels) {
+        int code = retex_image_alloc(&image->whole, bands->width, bands->height, (int)image->channels, err);
+        if (code)
+            return code;
+    }
+    int index, code = retex_set_add_part(set, image->name, image->letters, image->type, 1, 1, &index, err);
+    if (code)
+        return code;
+    retex_image_free(&set->parts[index].image);
+    set->parts[index].image = image->whole;
+    image->whole = (RetexImage){0};
+    if (part)
+        *part = index;
+    return RETEX_OK;
+}
+
+RetexSpool *bands_take_spool(Bands *bands)
+{
+    RetexSpool *spool = bands->spool;
+    if (bands->whole)
+        return NULL;
+    close_rows(bands);
+    bands->spool = NULL;
+    return spool;
+}

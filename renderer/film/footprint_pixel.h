@@ -1,0 +1,65 @@
+/* What a pixel gathers while its paths are traced: filled in footprints.c, stored by footprint_store.c. */
+#ifndef RENDERER_FILM_FOOTPRINT_PIXEL_H
+#define RENDERER_FILM_FOOTPRINT_PIXEL_H
+
+#include <retex/uv_stats.h>
+#include "film/footprint_images.h"
+
+#define PENDING_MAX 64
+
+typedef float Coefficients[PLAN_COEFFICIENTS_MAX][3];
+
+/* Original albedo of a footprint, weighted by the light it multiplies. */
+typedef struct AlbedoSums {
+    float light[3], reflected[3];
+} AlbedoSums;
+
+typedef struct Cluster {
+    UvStats uv;
+    AlbedoSums albedo;
+    double squares; /* of the paths' weights */
+    float c[3];     /* light that meets the target here, and no other after it */
+    float again;    /* luminance of that which does */
+} Cluster;
+
+/* One path's light by the hit that comes first. */
+typedef struct Pending {
+    int target, order; /* the how-manieth target hit of its path */
+    int sharp;
+    Vec2 position;
+    double weight;
+    AlbedoSums albedo;
+    float again; /* as of clusters */
+    Coefficients c;
+} Pending;
+
+/* Clusters of one kind, and the light of all of them that meets targets again: [0] stays empty. */
+typedef struct Clusters {
+    int count;
+    Cluster of[FILM_CLUSTERS_MAX];
+    Coefficients again;
+} Clusters;
+
+/* Further hits of a target. */
+typedef struct Later {
+    UvStats uv;     /* weight 0: none */
+    double squares; /* of the weights of all connections */
+    AlbedoSums albedo;
+} Later;
+
+/* The clusters of one pixel on one target. */
+typedef struct TargetClusters {
+    Clusters sharp, broad;
+    Later later[LATER_COUNT];
+} TargetClusters;
+
+struct FootprintPixel {
+    FootprintFilm *film;
+    double free[3];
+    TargetClusters *targets;
+    Pending pending[PENDING_MAX];
+    int npending;
+    UvRange range; /* of the path in hand */
+};
+
+#endif

@@ -1,0 +1,53 @@
+/* What makes one render another: by it the rows that an interrupted render or a shard left are recognised. */
+#include <stdio.h>
+#include <string.h>
+#include "base/digest.h"
+#include "retex-render.h"
+
+static uint64_t digest_file(uint64_t digest, const char *path)
+{
+    unsigned char buffer[65536];
+    size_t got;
+    FILE *file = fopen(path, "rb");
+    if (!file) /* it was read before, and is gone now: the texture in memory is what counts */
+        return digest_text(digest, path);
+    while ((got = fread(buffer, 1, sizeof buffer, file)) > 0)
+        digest = digest_bytes(digest, buffer, got);
+    fclose(file);
+    return digest;
+}
+
+static uint64_t digest_texture(uint64_t d, const RetexTextureSpec *s)
+{
+    const int numbers[] = {s->constant, (int)s->wrap[0], (int)s->wrap[1], s->flip[0], s->flip[1], (int)s->repeat};
+    d = digest_text(d, s->target);
+    d = digest_text(d, s->colorspace);
+    d = digest_bytes(d, numbers, sizeof numbers);
+    d = digest_bytes(d, s->color, sizeof s->color);
+    d = digest_bytes(d, s->scale, sizeof s->scale);
+    d = digest_bytes(d, &s->rotate, sizeof s->rotate);
+    d = digest_bytes(d, s->offset, sizeof s->offset);
+    d = digest_bytes(d, s->width, sizeof s->width);
+    return s->constant ? d : digest_file(d, s->image);
+}
+
+uint64_t render_fingerprint(const Arguments *a, const Scene *scene)
+{
+    const RenderParams *r = &a->render;
+    const int numbers[] = {r->width,     r->height,    r->crop[0],      r->crop[1],      r->crop[2],
+                           r->crop[3],   r->spp,       r->plain,        r->gaussian,     r->paper,
+                           r->orders,    r->sharp,     r->broad,        r->clusters,     r->spooled,
+                           r->max_depth, (int)r->seed, r->strict_paper, r->denoise_data, a->sdl.ambient};
+    uint64_t d = digest_text(DIGEST_BEGIN, RETEX_VERSION);
+    d = digest_number(d, scene->digest);
+    d = digest_bytes(d, numbers, sizeof numbers);
+    for (int k = 0; k < a->ndeclares; k++)
+        d = digest_text(d, a->declares[k]);
+    for (int t = 0; t < scene->ntargets; t++) {
+        d = digest_text(d, scene->targets[t].name);
+        d = digest_text(d, scene->targets[t].idents);
+    }
+    for (int k = 0; k < a->nreplacements; k++)
+        d = digest_texture(d, &a->replacements[k]);
+    return d;
+}

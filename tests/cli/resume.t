@@ -1,0 +1,115 @@
+# Renders that go on from what an earlier one finished, and renders in shards: the files are those of one undisturbed
+# render, to the bit.
+$ cp -r "$SCENES/cornell-box" .; echo 'exec retex-render -q --size 64x120 --spp 16 -t floor cornell-box/cornell-box.pov "$@"' >render; chmod +x render; ./render -o ref.exr && ./render --resume -o a.exr && cmp a.exr ref.exr; ls
+> a.exr
+> cornell-box
+> ref.exr
+> render
+
+# Killed at any moment.
+$ (for k in 05 1 15 2 25 3 4; do timeout -s KILL 0.$k ./render --resume -o k.exr && break; done) 2>/dev/null; ./render --resume --threads 1 -o k.exr; cmp k.exr ref.exr; ls
+> a.exr
+> cornell-box
+> k.exr
+> ref.exr
+> render
+$ for m in --plain "--replace floor=rgb(0.1,0.2,0.3)" --denoise; do for e in exr png; do ./render $m -o p.$e; (for k in 05 1 15 2; do timeout -s KILL 0.$k ./render $m --resume -o q.$e && break; done) 2>/dev/null; ./render $m --resume -o q.$e; cmp p.$e q.$e; done; done; ./render -o p.retex; (timeout -s KILL 0.3 ./render --resume -o q.retex; true) 2>/dev/null; ./render --resume -o q.retex; cmp p.retex q.retex; ls *.partial
+! retex-render: warning: p.png holds the picture only: a set needs .exr or .retex
+! retex-render: warning: q.png holds the picture only: a set needs .exr or .retex
+! ls: cannot access '*.partial': No such file or directory
+= 2
+
+# Ctrl-C, with --resume and without: the first one keeps finished rows and says how to go on.
+$ echo 'exec retex-render -q --threads 1 --size 16x4096 --spp 8 -t floor cornell-box/cornell-box.pov "$@"' >long; chmod +x long; ./long -o long.exr
+$ for o in --resume ''; do for s in INT TERM; do timeout --preserve-status -s $s 1 ./long $o -o i.exr 2>err; echo $?; sed 's/[0-9]* of 256/N of 256/' err; ls i.exr; ./long --resume -o i.exr; cmp i.exr long.exr; rm i.exr; done; done; ls i.*
+> 2
+> retex-render: error: stopped; N of 256 bands are finished and in i.exr.partial: the same command with --resume goes on
+> 2
+> retex-render: error: stopped; N of 256 bands are finished and in i.exr.partial: the same command with --resume goes on
+> 2
+> retex-render: error: stopped; N of 256 bands are finished and in i.exr.partial: the same command with --resume goes on
+> 2
+> retex-render: error: stopped; N of 256 bands are finished and in i.exr.partial: the same command with --resume goes on
+! ls: cannot access 'i.exr': No such file or directory
+! ls: cannot access 'i.exr': No such file or directory
+! ls: cannot access 'i.exr': No such file or directory
+! ls: cannot access 'i.exr': No such file or directory
+! ls: cannot access 'i.*': No such file or directory
+= 2
+$ timeout --preserve-status -s INT 0.5 ./long --plain -o i.png 2>err; sed 's/[0-9]* of 256/N of 256/' err; ./long --plain -o i.png 2>&1; ./long --plain -o ref.png; cmp i.png ref.png; ./long --plain --resume -o i.png; cmp i.png ref.png; ls *.partial
+> retex-render: error: stopped; N of 256 bands are finished and in i.png.partial: the same command with --resume goes on
+> retex-render: warning: i.png.partial is left as it is: --resume would go on from it
+! ls: cannot access '*.partial': No such file or directory
+= 2
+$ timeout -s INT 0.5 ./long -o - >i.exr 2>err; ls *.partial
+! ls: cannot access '*.partial': No such file or directory
+= 2
+
+# Shards are put together, in any order; all are needed, each once, and of one render.
+$ for k in 1 2 3; do ./render --shard $k/3 -o s$k; done; ./render --merge s2 --merge s1 --merge s3 -o m.exr; cmp m.exr ref.exr; ./render --merge s2 --merge s1 --merge s3 --aov depth -o m.exr; ./render --aov depth -o d.exr; cmp m.exr d.exr; ls s?
+> s1
+> s2
+> s3
+$ rm m.exr; ./render --merge s2 --merge s3 -o m.exr
+! retex-render: error: --merge: 3 of 8 bands are in none of the files: a shard is missing
+= 2
+$ ./render --merge s2 --merge s1 --merge s2 --merge s3 -o m.exr
+! retex-render: error: s2 has rows that another file of --merge has too
+= 2
+$ ./render --merge s1 --merge s2 --merge s3 --spp 17 -o m.exr
+! retex-render: error: s1 is of another render: other options, another scene or version
+= 2
+$ ./render --merge s1 --merge s2 --merge ref.exr -o m.exr
+! retex-render: error: ref.exr is no unfinished render
+= 2
+$ ./render --merge s1 --merge nowhere -o m.exr
+! retex-render: error: cannot open nowhere: No such file or directory
+= 2
+$ retex-info s1
+! retex-info: error: s1 is not a set yet, but rows of one: retex-render goes on from them with --resume or --merge
+= 2
+$ retex-combine s1 -o x.png
+! retex-combine: error: s1 is not a set yet, but rows of one: retex-render goes on from them with --resume or --merge
+= 2
+$ for k in 1 2; do ./render --plain --shard $k/2 -o t$k; ./render --denoise --shard $k/2 -o u$k; done; ./render --plain -o ref.png; ./render --plain --merge t1 --merge t2 -o t.png; cmp t.png ref.png; ./render --denoise -o v.exr; ./render --denoise --merge u1 --merge u2 -o u.exr; cmp u.exr v.exr
+
+# A journal may have lost its end, or more.
+$ cp s1 x.exr.partial; printf 'something' >>x.exr.partial; ./render --resume -o x.exr; cmp x.exr ref.exr
+$ for n in 10 40 47 48 100 5000 20000 60000; do head -c $n s1 >x.exr.partial; rm x.exr; ./render --resume -o x.exr; cmp x.exr ref.exr; done
+$ for n in 50 200 9000 30000; do (head -c $n s2; printf x; tail -c +$((n + 2)) s2) >x.exr.partial; rm x.exr; ./render --resume -o x.exr; cmp x.exr ref.exr; done
+
+# That of another render is not touched.
+$ cp s1 y.exr.partial; ./render --resume --spp 4 -o y.exr; cmp s1 y.exr.partial
+! retex-render: error: y.exr.partial is of another render: other options, another scene or version
+$ sed 's/0.73/0.74/' cornell-box/cornell-box.pov >cornell-box/other.pov; cmp -s cornell-box/cornell-box.pov cornell-box/other.pov || retex-render -q --size 64x120 --spp 16 -t floor cornell-box/other.pov --resume -o y.exr; cmp s1 y.exr.partial
+! retex-render: error: y.exr.partial is of another render: other options, another scene or version
+$ echo text >z.exr.partial; ./render --resume -o z.exr; cat z.exr.partial; ./render -o z.exr; cmp z.exr ref.exr
+> text
+! retex-render: error: z.exr.partial is no unfinished render
+! retex-render: warning: z.exr.partial is left as it is: --resume would go on from it
+
+# What does not go together.
+$ ./render --resume
+! retex-render: error: --resume needs an output file: -o FILE
+= 2
+$ ./render --shard 4/3 -o x
+! retex-render: error: --shard wants I/N, I from 1 to N, not `4/3`
+= 2
+$ ./render --shard 1 -o x
+! retex-render: error: --shard wants I/N, not `1`
+= 2
+$ ./render --merge s1 --resume -o x.exr
+! retex-render: error: --merge has all rows already: no --resume or --shard
+= 2
+$ ./render --resume --layout paper -o x.exr
+! retex-render: error: --resume: layout paper is rendered in one piece
+= 2
+$ ./render --resume --list-targets
+! retex-render: error: --resume goes with a render of its own: no --list-targets, --trace-pixel, --variants, --control or --control-data
+= 2
+$ ./render --shard 1/2 --aov depth -o x
+! retex-render: error: --shard leaves rows only: --aov, --aov-dir and --stats go with --merge
+= 2
+$ ./render --shard 1/2 -o nowhere/x
+! retex-render: error: cannot write nowhere/x: No such file or directory
+= 2

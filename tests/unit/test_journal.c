@@ -1,0 +1,252 @@
+/* Journals: what was committed is there when a spool is opened again, however its file ends or is damaged. */
+#include "lib_test.h"
+#include <cmocka.h>
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include <retex/band_stats.h>
+
+#define WIDTH 5
+#define HEIGHT 40
+#define BANDS 3
+#define KEY 0x1234567890u
+
+static char path[64], copy[80];
+
+static int make_path(void **state)
+{
+    (void)state;
+    strcpy(path, "/tmp/retex-journal-XXXXXX");
+    const int descriptor = mkstemp(path);
+    snprintf(copy, sizeof copy, "%s.copy", path);
+    return descriptor < 0 ? -1 : close(descriptor) || unlink(path);
+}
+
+static int remove_path(void **state)
+{
+    (void)state;
+    unlink(path);
+    unlink(copy);
+    return 0;
+}
+
+/* A pixel of a band: image 1 is black in the first. */
+static float value_of(int image, int band, int i)
+{
+    return image == 1 && band == 0 ? 0 : (float)(1 + image + 2 * band) + (float)(i % 7) / 8;
+}
+
+static void put_band(RetexSpool *spool, int band, int commit)
+{
+    RetexError err;
+    RetexBandStats stats;
+    float pixels[16 * WIDTH * 3];
+    for (int image = 0; image < 2; image++) {
+        for (int i = 0; i < 16 * WIDTH * 3; i++)
+            pixels[i] = value_of(image, band, i);
+        test_must(retex_spool_put(spool, image, band, pixels, &err), &err);
+    }
+    retex_band_stats_reset(&stats);
+    stats.total = band + 0.5;
+    if (commit)
+        test_must(retex_spool_commit(spool, band, &stats, &err), &err);
+}
+
+static void add_images(RetexSpool *spool)
+{
+    RetexError err;
+    int number;
+    test_must(retex_spool_add(spool, "first", "RGB", RETEX_HALF, &number, &err), &err);
+    assert_int_equal(number, 0);
+    test_must(retex_spool_add(spool, "second", "RGB", RETEX_FLOAT, &number, &err), &err);
+    assert_int_equal(number, 1);
+}
+
+/* Two of three bands are committed, a third is there in part. */
+static void make_journal(void)
+{
+    RetexError err;
+    RetexSpool *spool = NULL;
+    test_must(retex_spool_open(&spool, WIDTH, HEIGHT, KEY, path, 1, &err), &err);
+    add_images(spool);
+    put_band(spool, 1, 1);
+    put_band(spool, 0, 1);
+    put_band(spool, 2, 0);
+    retex_spool_close(&spool);
+}
+
+/* How many bands are committed; they must be as they were. */
+static int check_bands(const RetexSpool *spool)
+{
+    RetexError err;
+    float pixels[16 * WIDTH * 3];
+    int count = 0;
+    for (int band = 0; band < BANDS; band++) {
+        const RetexBandStats *stats = retex_spool_committed(spool, band);
+        if (!stats)
+            continue;
+        assert_true(stats->total == band + 0.5);
+        count++;
+        for (int image = 0; image < 2; image++) {
+            test_must(retex_spool_load_band(spool, image, band, pixels, &err), &err);
+            for (int i = 0; i < (band < 2 ? 16 : 8) * WIDTH * 3; i++)
+                assert_true(pixels[i] == value_of(image, band, i));
+        }
+    }
+    return count;
+}
+
+static void what_was_committed_is_there(void **state)
+{
+    (void)state;
+    RetexError err;
+    RetexSpool *spool = NULL;
+    make_journal();
+    test_must(retex_spool_open(&spool, WIDTH, HEIGHT, KEY, path, 1, &err), &err);
+    add_images(spool);
+    assert_int_equal(check_bands(spool), 2);
+    assert_null(retex_spool_committed(spool, 2));
+    assert_false(retex_spool_is_empty(spool, 1));
+    put_band(spool, 2, 1);
+    assert_int_equal(check_bands(spool), 3);
+    retex_spool_close(&spool);
+    test_must(retex_spool_open(&spool, WIDTH, HEIGHT, KEY, path, 0, &err), &err);
+    assert_int_equal(check_bands(spool), 3);
+    retex_spool_close(&spool);
+}
+
+static void another_render_is_refused(void **state)
+{
+    (void)state;
+    RetexError err;
+    RetexSpool *spool = NULL, *second = NULL;
+    int number;
+    make_journal();
+    assert_int_equal(retex_spool_open(&spool, WIDTH, HEIGHT, KEY + 1, path, 1, &err), RETEX_EINVAL);
+    assert_int_equal(retex_spool_open(&spool, WIDTH, HEIGHT + 1, KEY, path, 0, &err), RETEX_EINVAL);
+    assert_null(spool);
+    test_must(retex_spool_open(&spool, WIDTH, HEIGHT, KEY, path, 1, &err), &err);
+    assert_int_equal(retex_spool_open(&second, WIDTH, HEIGHT, KEY, path, 0, &err), RETEX_EIO); /* in use */
+    assert_int_equal(retex_spool_add(spool, "first", "RGB", RETEX_FLOAT, &number, &err), RETEX_EFORMAT);
+    retex_spool_close(&spool);
+    assert_int_equal(retex_spool_open(&spool, WIDTH, HEIGHT, KEY, copy, 0, &err), RETEX_EIO); /* not there */
+}
+
+static unsigned char *read_journal(size_t *size)
+{
+    FILE *file = fopen(path, "rb");
+    unsigned char *bytes = malloc(1 << 16);
+    assert_true(file && bytes);
+    *size = fread(bytes, 1, 1 << 16, file);
+    fclose(file);
+    return bytes;
+}
+
+static void write_copy(const unsigned char *bytes, size_t size)
+{
+    FILE *file = fopen(copy, "wb");
+    assert_non_null(file);
+    assert_int_equal(fwrite(bytes, 1, size, file), size);
+    fclose(file);
+}
+
+static void a_journal_may_end_anywhere(void **state)
+{
+    (void)state;
+    RetexError err;
+    size_t size;
+    int before = 0;
+    make_journal();
+    unsigned char *bytes = read_journal(&size);
+    for (size_t cut = 0; cut <= size; cut++) {
+        RetexSpool *spool = NULL;
+        write_copy(bytes, cut);
+        test_must(retex_spool_open(&spool, WIDTH, HEIGHT, KEY, copy, 1, &err), &err);
+        const int count = check_bands(spool);
+        assert_in_range(count, before, 2);
+        before = count;
+        add_images(spool);
+        put_band(spool, 2, 1);
+        assert_int_equal(check_bands(spool), count + 1);
+        retex_spool_close(&spool);
+    }
+    assert_int_equal(before, 2);
+    free(bytes);
+}
+
+static void damage_costs_bands_at_most(void **state)
+{
+    (void)state;
+    RetexError err;
+    size_t size;
+    make_journal();
+    unsigned char *bytes = read_journal(&size);
+    for (size_t at = 0; at < size; at++) {
+        RetexSpool *spool = NULL;
+        bytes[at] ^= 0x41;
+        write_copy(bytes, size);
+        bytes[at] ^= 0x41;
+        if (retex_spool_open(&spool, WIDTH, HEIGHT, KEY, copy, 1, &err) == 0)
+            check_bands(spool);
+        else
+            assert_true(at < 64); /* the header */
+        retex_spool_close(&spool);
+    }
+    free(bytes);
+}
+
+static void a_nameless_spool_gets_a_name(void **state)
+{
+    (void)state;
+    RetexError err;
+    RetexSpool *spool = NULL, *read = NULL;
+    for (int elsewhere = 0; elsewhere < 2; elsewhere++) {
+        test_must(retex_spool_create(&spool, WIDTH, HEIGHT, KEY, elsewhere ? "/dev/null" : path, &err), &err);
+        add_images(spool);
+        put_band(spool, 1, 1);
+        test_must(retex_spool_keep(spool, path, 1, &err), &err);
+        assert_int_equal(retex_spool_keep(spool, path, 0, &err), RETEX_EIO); /* is there */
+        assert_int_equal(retex_spool_keep(spool, "/no/such/folder/x", 1, &err), RETEX_EIO);
+        test_must(retex_spool_open(&read, WIDTH, HEIGHT, KEY, path, 0, &err), &err);
+        assert_int_equal(check_bands(read), 1);
+        retex_spool_close(&read);
+        retex_spool_close(&spool);
+    }
+}
+
+static void bands_are_copied(void **state)
+{
+    (void)state;
+    RetexError err;
+    RetexSpool *from = NULL, *to = NULL;
+    int number;
+    make_journal();
+    test_must(retex_spool_open(&from, WIDTH, HEIGHT, KEY, path, 0, &err), &err);
+    test_must(retex_spool_create(&to, WIDTH, HEIGHT, KEY, NULL, &err), &err);
+    assert_int_equal(retex_spool_copy_band(to, from, 1, &err), RETEX_EFORMAT); /* it has no such images */
+    add_images(to);
+    for (int band = 0; band < 2; band++)
+        test_must(retex_spool_copy_band(to, from, band, &err), &err);
+    assert_int_equal(check_bands(to), 2);
+    test_must(retex_spool_add(to, "third", "R", RETEX_HALF, &number, &err), &err);
+    assert_true(retex_spool_is_empty(to, number) && !retex_spool_is_empty(to, 0));
+    retex_spool_close(&from);
+    retex_spool_close(&to);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_setup_teardown(what_was_committed_is_there, make_path, remove_path),
+        cmocka_unit_test_setup_teardown(another_render_is_refused, make_path, remove_path),
+        cmocka_unit_test_setup_teardown(a_journal_may_end_anywhere, make_path, remove_path),
+        cmocka_unit_test_setup_teardown(damage_costs_bands_at_most, make_path, remove_path),
+        cmocka_unit_test_setup_teardown(a_nameless_spool_gets_a_name, make_path, remove_path),
+        cmocka_unit_test_setup_teardown(bands_are_copied, make_path, remove_path),
+    };
+    cmocka_set_message_output(CM_OUTPUT_TAP);
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
