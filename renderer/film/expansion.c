@@ -7,8 +7,10 @@ void expansion_copy(Expansion *to, const Expansion *from)
     to->nhits = from->nhits;
     to->nmonomials = from->nmonomials;
     memcpy(to->per_target, from->per_target, sizeof to->per_target);
-    memcpy(to->hits, from->hits, (size_t)from->nhits * sizeof *to->hits);
-    memcpy(to->monomials, from->monomials, (size_t)from->nmonomials * sizeof *to->monomials);
+    for (int k = 0; k < from->nhits; k++) /* few: not worth a call */
+        to->hits[k] = from->hits[k];
+    for (int k = 0; k < from->nmonomials; k++)
+        to->monomials[k] = from->monomials[k];
 }
 
 void expansion_push(Expansion *e, int target, Split factor, Vec2 uv, Rgb albedo, int sharp)

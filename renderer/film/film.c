@@ -59,14 +59,6 @@ void uv_range_reset(UvRange *range)
             range->low[t][k] = INFINITY, range->high[t][k] = -INFINITY;
 }
 
-void uv_range_add(UvRange *range, int target, const double uv[2])
-{
-    for (int k = 0; k < 2; k++) {
-        range->low[target][k] = fmin(range->low[target][k], uv[k]);
-        range->high[target][k] = fmax(range->high[target][k], uv[k]);
-    }
-}
-
 void uv_range_merge(UvRange *into, const UvRange *from)
 {
     for (int t = 0; t < RETEX_MAX_TARGETS; t++)
@@ -151,7 +143,7 @@ int film_pixel_create(FilmPixel **out, Film *film, RetexError *err)
     if (film->paper)
         code = paper_pixel_create(&p->paper, film->paper, err);
     if (film->footprints)
-        code = footprints_pixel_create(&p->footprints, film->footprints, err);
+        code = footprints_pixel_create(&p->footprints, film->footprints, &p->range, err);
     if (code)
         film_pixel_close(out);
     return code;
@@ -206,7 +198,7 @@ void film_path_end(FilmPixel *p)
     if (p->paper)
         paper_path_end(p->paper, &p->range);
     if (p->footprints)
-        footprints_path_end(p->footprints, &p->range);
+        footprints_path_end(p->footprints);
     if (++p->paths == p->film->params.spp / 2 && p->film->noise.count)
         signal_totals(p, &p->half);
 }

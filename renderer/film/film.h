@@ -31,7 +31,13 @@ typedef struct UvRange {
 } UvRange;
 
 void uv_range_reset(UvRange *range);
-void uv_range_add(UvRange *range, int target, const double uv[2]);
+static inline void uv_range_add(UvRange *range, int target, const double uv[2])
+{
+    for (int k = 0; k < 2; k++) {
+        range->low[target][k] = uv[k] < range->low[target][k] ? uv[k] : range->low[target][k];
+        range->high[target][k] = uv[k] > range->high[target][k] ? uv[k] : range->high[target][k];
+    }
+}
 void uv_range_merge(UvRange *into, const UvRange *from);
 
 /* Luminance, summed; as of RetexBandStats. */

@@ -29,9 +29,17 @@ typedef struct Pending {
     Vec2 position;
     double weight;
     AlbedoSums albedo;
-    float again; /* as of clusters */
+    float again;   /* as of clusters */
+    unsigned used; /* bits: coefficients that are not 0; the others are not set */
     Coefficients c;
 } Pending;
+
+/* One path's light by a further hit. */
+typedef struct PendingLater {
+    int target, order;
+    double uv[2], weight;
+    AlbedoSums albedo;
+} PendingLater;
 
 /* Clusters of one kind, and the light of all of them that meets targets again: [0] stays empty. */
 typedef struct Clusters {
@@ -43,7 +51,7 @@ typedef struct Clusters {
 /* Further hits of a target. */
 typedef struct Later {
     UvStats uv;     /* weight 0: none */
-    double squares; /* of the weights of all connections */
+    double squares; /* of the paths' weights */
     AlbedoSums albedo;
 } Later;
 
@@ -59,7 +67,9 @@ struct FootprintPixel {
     TargetClusters *targets;
     Pending pending[PENDING_MAX];
     int npending;
-    UvRange range; /* of the path in hand */
+    PendingLater later[PENDING_MAX];
+    int nlater;
+    UvRange *range; /* of what was met */
 };
 
 #endif

@@ -13,13 +13,13 @@
 
 /* ---- life ---- */
 
-int footprints_pixel_create(FootprintPixel **out, FootprintFilm *film, RetexError *err)
+int footprints_pixel_create(FootprintPixel **out, FootprintFilm *film, UvRange *range, RetexError *err)
 {
     FootprintPixel *p = *out = calloc(1, sizeof *p);
     if (p) {
         p->film = film;
         p->targets = calloc((size_t)film->scene->ntargets + 1, sizeof *p->targets);
-        uv_range_reset(&p->range);
+        p->range = range;
     }
     if (p && p->targets)
         return RETEX_OK;
@@ -42,7 +42,7 @@ void footprints_pixel_close(FootprintPixel **pixel)
 static float white_luminance(HitMask hits, Rgb value)
 {
     float luminance = rgb_luminance(value);
-    for (int n = __builtin_popcountll(hits); n > 0; n--)
+    for (; hits; hits &= hits - 1)
         luminance *= WHITE_ALBEDO;
     return luminance;
 }
@@ -56,8 +56,9 @@ static void add_rgb(float sum[3], Rgb c)
  * black one that is edited. */
 static Rgb weighing_albedo(const TargetHit *hit)
 {
-    return rgb(fmaxf(hit->albedo.r, LEAST_ALBEDO), fmaxf(hit->albedo.g, LEAST_ALBEDO),
-               fmaxf(hit->albedo.b, LEAST_ALBEDO));
+    Rgb a = hit->albedo;
+    return rgb(a.r > LEAST_ALBEDO ? a.r : LEAST_ALBEDO, a.g > LEAST_ALBEDO ? a.g : LEAST_ALBEDO,
+               a.b > LEAST_ALBEDO ? a.b : LEAST_ALBEDO);
 }
 
 static void add_albedo(AlbedoSums *a, Rgb light, Rgb albedo)
@@ -67,6 +68,7 @@ static void add_albedo(AlbedoSums *a, Rgb light, Rgb albedo)
 }
 
 static void flush_pending(FootprintPixel *p);
+static void flush_later(FootprintPixel *p);
 
 /* The path's entry for a hit; a hit met again, as the path goes on from where it connected, is the same. */
 static Pending *find_pending(FootprintPixel *p, const TargetHit *hit, int order)
@@ -81,9 +83,24 @@ static Pending *find_pending(FootprintPixel *p, const TargetHit *hit, int order)
     Pending *q = &p->pending[p->npending++];
     q->target = hit->target, q->order = order, q->sharp = hit->sharp, q->position = hit->uv;
     q->weight = q->again = 0;
+    q->used = 0;
     q->albedo = (AlbedoSums){0};
-    memset(q->c, 0, sizeof q->c[0] * (size_t)p->film->plan.count);
     return q;
+}
+
+/* Likewise for a further hit. */
+static PendingLater *find_later(FootprintPixel *p, const TargetHit *hit, int order)
+{
+    for (int k = p->nlater - 1; k >= 0; k--) {
+        PendingLater *l = &p->later[k];
+        if (l->order == order && l->target == hit->target && l->uv[0] == hit->uv.u && l->uv[1] == hit->uv.v)
+            return l;
+    }
+    if (p->nlater == PENDING_MAX)
+        flush_later(p);
+    PendingLater *l = &p->later[p->nlater++];
+    *l = (PendingLater){hit->target, order, {hit->uv.u, hit->uv.v}, 0, {{0}, {0}}};
+    return l;
 }
 
 static void merge_albedo(AlbedoSums *into, const AlbedoSums *from)
@@ -123,14 +140,25 @@ static void pool_later(Later later[LATER_COUNT], const Later *one, const int per
     }
 }
 
-static void add_later(FootprintPixel *p, const TargetHit *hit, double weight, Rgb light)
+static void flush_later(FootprintPixel *p)
 {
-    Later one = {.uv = {weight, {hit->uv.u, hit->uv.v}, {0, 0, 0}}, .squares = weight * weight};
+    for (int k = 0; k < p->nlater; k++) {
+        const PendingLater *l = &p->later[k];
+        Later one = {.uv = {l->weight, {l->uv[0], l->uv[1]}, {0, 0, 0}}, .squares = l->weight * l->weight};
+        one.albedo = l->albedo;
+        pool_later(p->targets[l->target].later, &one, p->film->params.periodic[l->target]);
+        uv_range_add(p->range, l->target, l->uv);
+    }
+    p->nlater = 0;
+}
+
+static void add_later(FootprintPixel *p, const TargetHit *hit, int order, double weight, Rgb light)
+{
     if (!(weight > 0))
         return;
-    add_albedo(&one.albedo, light, hit->albedo);
-    pool_later(p->targets[hit->target].later, &one, p->film->params.periodic[hit->target]);
-    uv_range_add(&p->range, hit->target, one.uv.mean);
+    PendingLater *l = find_later(p, hit, order);
+    l->weight += weight;
+    add_albedo(&l->albedo, light, hit->albedo);
 }
 
 /* The hits of a monomial beyond its first, as far as the plan keeps them. */
@@ -142,7 +170,7 @@ typedef struct Kept {
 /* Which of the hits after the first; the albedo of the others goes into value. */
 static void keep_hits(const Plan *plan, const Expansion *e, HitMask hits, int first, Rgb *value, Kept *kept)
 {
-    *kept = (Kept){.count = 0};
+    kept->count = kept->coefficient = kept->folded = 0;
     for (int j = first + 1; j < e->nhits; j++) {
         const TargetHit *hit = &e->hits[j];
         if (!(hits & hit_bit(hit->target, hit->index)))
@@ -180,7 +208,12 @@ static void add_monomial(FootprintPixel *p, const Expansion *e, HitMask hits, Rg
     }
     Pending *q = find_pending(p, hit, first);
     q->weight += weight;
-    add_rgb(q->c[kept.coefficient], value);
+    float *c = q->c[kept.coefficient];
+    if (q->used >> kept.coefficient & 1)
+        add_rgb(c, value);
+    else
+        c[0] = value.r, c[1] = value.g, c[2] = value.b;
+    q->used |= 1u << kept.coefficient;
     if (kept.coefficient)
         q->again += rgb_luminance(light);
     /* a cluster's own light is what its albedo is for; light that goes on to targets tells where there is no other */
@@ -190,7 +223,7 @@ static void add_monomial(FootprintPixel *p, const Expansion *e, HitMask hits, Rg
         for (int i = 0; i < kept.count; i++)
             if (i != k)
                 others = rgb_mul(others, weighing_albedo(kept.hits[i]));
-        add_later(p, kept.hits[k], weight, others);
+        add_later(p, kept.hits[k], (int)(kept.hits[k] - e->hits), weight, others);
     }
     if (kept.folded)
         sums->folded += rgb_luminance(rgb_mul(light, hit->albedo));
@@ -230,7 +263,7 @@ static void add_pending(Cluster *into, const Pending *q, const int periodic[2])
     uv_stats_add(&into->uv, q->weight, uv, periodic);
     merge_albedo(&into->albedo, &q->albedo);
     into->squares += q->weight * q->weight;
-    for (int c = 0; c < 3; c++)
+    for (int c = 0; c < 3 && q->used & 1; c++)
         into->c[c] += q->c[0][c];
     into->again += q->again;
 }
@@ -304,9 +337,9 @@ static void flush_pending(FootprintPixel *p)
         const double uv[2] = {q->position.u, q->position.v};
         if (!(q->weight > 0))
             continue;
-        uv_range_add(&p->range, q->target, uv);
-        for (int i = 1; i < p->film->plan.count; i++)
-            for (int c = 0; c < 3; c++)
+        uv_range_add(p->range, q->target, uv);
+        for (int i = 1; q->used >> i; i++)
+            for (int c = 0; c < 3 && q->used >> i & 1; c++)
                 own->again[i][c] += q->c[i][c];
         if (own->count < room && own->count + other->count < params->clusters)
             start_cluster(&own->of[own->count++], q, periodic);
@@ -316,11 +349,10 @@ static void flush_pending(FootprintPixel *p)
     p->npending = 0;
 }
 
-void footprints_path_end(FootprintPixel *p, UvRange *range)
+void footprints_path_end(FootprintPixel *p)
 {
     flush_pending(p);
-    uv_range_merge(range, &p->range);
-    uv_range_reset(&p->range);
+    flush_later(p);
 }
 
 static void signal_total(double total[3], const Clusters *clusters, const Plan *plan)
