@@ -141,6 +141,8 @@ static int render(Arguments *a, const Scene *scene, RetexSet **set, RenderStats 
     int code = a->render.nshards ? render_shard(scene, &a->render, stats, err)
                                  : render_scene(set, scene, &a->render, stats, err);
     catch_signals(a, SIG_DFL);
+    if (code == RETEX_ESTOPPED && isatty(STDERR_FILENO))
+        fputc('\n', stderr); /* after the progress bar */
     if (!code && a->render.nshards) {
         cli_info(a->cli, "shard %d of %d: %.2f s", a->render.shard, a->render.nshards, stats->render_seconds);
         if (a->render.resume)

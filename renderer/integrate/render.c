@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
+#include <unistd.h>
 #include <retex/parallel.h>
 #include "integrate/camera.h"
 #include "integrate/control_constants.h"
@@ -405,7 +406,7 @@ static void render_paths(Render *r, RenderStats *stats, double started)
 {
     stats->build_seconds = seconds() - started;
     retex_parallel(r->params.nthreads, r->tiles_x * r->tiles_y, render_tile, r);
-    if (r->params.progress)
+    if (r->params.progress && !is_stopped(r))
         r->params.progress(r->params.progress_context, 1);
     for (int k = 0; k < retex_threads(r->params.nthreads); k++) {
         film_pixel_close(&r->pixels[k]);
@@ -459,6 +460,8 @@ static int keep_bands(const Render *r, RetexError *err)
 {
     const RenderParams *p = &r->params;
     int done = film_bands_done(r->film);
+    if (p->resume && !done)
+        unlink(p->journal);
     if (!p->journal || !done)
         return retex_fail(err, RETEX_ESTOPPED, "stopped");
     RetexError why;

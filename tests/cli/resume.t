@@ -36,12 +36,12 @@ $ for o in --resume ''; do for s in INT TERM; do timeout --preserve-status -s $s
 ! ls: cannot access 'i.exr': No such file or directory
 ! ls: cannot access 'i.*': No such file or directory
 = 2
-$ timeout --preserve-status -s INT 0.5 ./long --plain -o i.png 2>err; sed 's/[0-9]* of 256/N of 256/' err; ./long --plain -o i.png 2>&1; ./long --plain -o ref.png; cmp i.png ref.png; ./long --plain --resume -o i.png; cmp i.png ref.png; ls *.partial
+$ set -- --plain --spp 24; timeout --preserve-status -s INT 1 ./long "$@" -o i.png 2>err; sed 's/[0-9]* of 256/N of 256/' err; ./long --plain --spp 1 -o i.png 2>&1; ./long "$@" -o ref.png; ./long "$@" --resume -o i.png; cmp i.png ref.png; ls *.partial
 > retex-render: error: stopped; N of 256 bands are finished and in i.png.partial: the same command with --resume goes on
 > retex-render: warning: i.png.partial is left as it is: --resume would go on from it
 ! ls: cannot access '*.partial': No such file or directory
 = 2
-$ timeout -s INT 0.5 ./long -o - >i.exr 2>err; ls *.partial
+$ timeout -s INT 1 ./long -o - >i.exr 2>err; ls *.partial
 ! ls: cannot access '*.partial': No such file or directory
 = 2
 
