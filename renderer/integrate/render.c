@@ -3,7 +3,6 @@
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
-#include <unistd.h>
 #include <retex/parallel.h>
 #include "integrate/camera.h"
 #include "integrate/control_constants.h"
@@ -11,6 +10,7 @@
 #include "integrate/first_hit.h"
 #include "integrate/path.h"
 #include "integrate/originals.h"
+#include "integrate/pieces.h"
 #include "integrate/uv_scale.h"
 
 #define TILE_WIDTH 32
@@ -256,53 +256,13 @@ static FirstHitWindow first_hit_window(const Render *r)
                             r->y0,    r->w,     r->h,     r->params.nthreads, r->variants};
 }
 
-/* Where finished bands go, if anywhere. */
-static int open_spool(RetexSpool **spool, const Render *r, RetexError *err)
-{
-    const RenderParams *p = &r->params;
-    if (p->resume)
-        return retex_spool_open(spool, r->w, r->h, p->key, p->journal, 1, err);
-    if (p->spooled || p->nshards || p->nmerged)
-        return retex_spool_create(spool, r->w, r->h, p->key, p->output, err);
-    return RETEX_OK;
-}
-
-/* The bands of one file that a shard left. */
-static int merge_file(Render *r, RetexSpool *spool, const char *path, RetexError *err)
-{
-    RetexSpool *from = NULL;
-    int code = retex_spool_open(&from, r->w, r->h, r->params.key, path, 0, err);
-    for (int band = 0; band < r->tiles_y && !code; band++) {
-        if (!retex_spool_committed(from, band))
-            continue;
-        code = retex_spool_committed(spool, band)
-                   ? retex_fail(err, RETEX_EINVAL, "%s has rows that another file of --merge has too", path)
-                   : retex_spool_copy_band(spool, from, band, err);
-    }
-    retex_spool_close(&from);
-    return code;
-}
-
-static int merge_files(Render *r, RetexSpool *spool, RetexError *err)
-{
-    int code = RETEX_OK, missing = 0;
-    for (int k = 0; k < r->params.nmerged && !code; k++)
-        code = merge_file(r, spool, r->params.merged[k], err);
-    for (int band = 0; band < r->tiles_y && r->params.nmerged; band++)
-        missing += !retex_spool_committed(spool, band);
-    if (!code && missing)
-        code = retex_fail(err, RETEX_EINVAL, "--merge: %d of %d bands are in none of the files: a shard is missing",
-                          missing, r->tiles_y);
-    return code;
-}
-
 /* What others have rendered already, now that the film has all its images. */
 static int take_over(Render *r, RetexSpool *spool, RetexError *err)
 {
     r->had = calloc((size_t)r->tiles_y, 1);
     if (!r->had)
         return retex_fail(err, RETEX_ENOMEM, "out of memory for the film");
-    int code = spool ? merge_files(r, spool, err) : RETEX_OK;
+    int code = spool ? pieces_merge(spool, &r->params, r->w, r->h, err) : RETEX_OK;
     if (!code && spool)
         code = film_resume(r->film, err);
     for (int band = 0; band < r->tiles_y; band++)
@@ -336,7 +296,7 @@ static int render_film(Render *r, int control, int halves, RetexError *err)
     r->workers = calloc((size_t)threads, sizeof *r->workers);
     if (!r->pixels || !r->controls || !r->workers)
         return retex_fail(err, RETEX_ENOMEM, "out of memory for %d threads", threads);
-    int code = open_spool(&film.spool, r, err);
+    int code = pieces_open(&film.spool, &r->params, r->w, r->h, err);
     if (!code)
         code = film_create(&r->film, r->scene, &film, err);
     for (int k = 0; k < threads && !code; k++)
@@ -455,22 +415,6 @@ static int add_irradiance(RetexSet *set, const Render *r, RetexError *err)
     return code;
 }
 
-/* The film is not complete, because it was to stop: keep what is there of it. */
-static int keep_bands(const Render *r, RetexError *err)
-{
-    const RenderParams *p = &r->params;
-    int done = film_bands_done(r->film);
-    if (p->resume && !done)
-        unlink(p->journal);
-    if (!p->journal || !done)
-        return retex_fail(err, RETEX_ESTOPPED, "stopped");
-    RetexError why;
-    if (!p->resume && film_keep(r->film, p->key, p->journal, 0, &why))
-        return retex_fail(err, RETEX_ESTOPPED, "stopped; what was finished is lost: %s", why.message);
-    return retex_fail(err, RETEX_ESTOPPED, "stopped; %d of %d bands are finished and in %s: %s", done,
-                      film_bands(r->film), p->journal, "the same command with --resume goes on");
-}
-
 /* Render, and fill what the film leaves open. */
 static int render_into(RetexSet *set, Render *r, RenderStats *stats, double started, RetexError *err)
 {
@@ -481,7 +425,7 @@ static int render_into(RetexSet *set, Render *r, RenderStats *stats, double star
         return code;
     render_paths(r, stats, started);
     if (is_stopped(r) && film_bands_done(r->film) < film_bands(r->film))
-        return keep_bands(r, err);
+        return pieces_keep(r->film, &r->params, err);
     code = film_finish(r->film, set, err);
     FirstHitWindow window = first_hit_window(r);
     if (!code && r->context.split)
@@ -542,7 +486,7 @@ int render_shard(const Scene *scene, const RenderParams *params, RenderStats *st
         code = film_failed(r.film) ? film_finish(r.film, NULL, err) : RETEX_OK;
     }
     if (!code && is_stopped(&r) && r.done < r.wanted)
-        code = keep_bands(&r, err);
+        code = pieces_keep(r.film, &r.params, err);
     if (!code)
         code = film_keep(r.film, r.params.key, r.params.output, 1, err);
     render_close(&r);
