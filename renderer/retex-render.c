@@ -124,12 +124,14 @@ static void on_signal(int number)
 /* The first Ctrl-C lets finished rows be kept, where there is a place for them; the second one ends at once. */
 static void catch_signals(Arguments *a, void (*handler)(int))
 {
-    struct sigaction action = {.sa_handler = handler, .sa_flags = (int)SA_RESETHAND};
+    static const int signals[] = {SIGINT, SIGTERM};
+    struct sigaction action = {.sa_handler = handler, .sa_flags = (int)SA_RESETHAND}, old;
     if (!a->render.journal)
         return;
     a->render.stop = &stop;
-    sigaction(SIGINT, &action, NULL);
-    sigaction(SIGTERM, &action, NULL);
+    for (int k = 0; k < 2; k++)
+        if (!sigaction(signals[k], NULL, &old) && old.sa_handler != SIG_IGN) /* as in the background of a script */
+            sigaction(signals[k], &action, NULL);
 }
 
 /* Render, or only some rows of it: then there is no set. */
