@@ -548,6 +548,8 @@ int render_shard(const Scene *scene, const RenderParams *params, RenderStats *st
     Render r;
     int code = render_open(&r, scene, params, err);
     if (!code)
+        code = open_guide(&r, err);
+    if (!code)
         code = render_film(&r, 0, 0, err);
     if (!code) {
         render_paths(&r, stats, started);

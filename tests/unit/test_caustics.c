@@ -1,5 +1,5 @@
-/* The guide to caustics: its density is one over the sphere and that of its directions, it is the same for any number of
- * threads, and the mean of a picture does not depend on it. */
+/* The guide to caustics: its density is one over the sphere and that of its directions, it is the same for any number
+ * of threads, and the mean of a picture does not depend on it. */
 #include <stdarg.h>
 #include <stddef.h>
 #include <setjmp.h>
