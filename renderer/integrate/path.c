@@ -61,6 +61,7 @@ typedef struct Vertex {
     Shading s;
     VertexSamples u;
     LightTry light;
+    const CausticsCell *cell; /* where caustics come from, or NULL: none, or nothing scatters widely */
 } Vertex;
 
 static Factor shading_factor(const Shading *s, Split split)
@@ -345,6 +346,73 @@ static LitPoint lit_point(const Shading *s)
     return (LitPoint){s->surface.position, bsdf_only_reflects(&s->bsdf) ? s->bsdf.normal : none};
 }
 
+/* ---- directions by the guide to caustics ---- */
+
+/* Probability of the lobes that are no deltas: the guide takes a share of their choice. */
+static float wide_probability(const Bsdf *b)
+{
+    return b->p_diffuse + b->p_back + b->p_glossy;
+}
+
+static const CausticsCell *guide_cell(const PathContext *c, const Shading *s)
+{
+    return c->caustics && wide_probability(&s->bsdf) > 0 ? caustics_find(c->caustics, s->surface.position) : NULL;
+}
+
+/* Density of a direction by either way, given the BSDF's own. The guide only knows what comes to wo's side. */
+static float guided_density(const Vertex *v, Vec3 wi, float pdf)
+{
+    const Bsdf *b = &v->s.bsdf;
+    if (!v->cell)
+        return pdf;
+    pdf *= 1 - v->cell->share;
+    if (vec_dot(wi, b->normal) <= 0 || vec_dot(wi, b->geometric) <= 0)
+        return pdf;
+    return pdf + v->cell->share * wide_probability(b) * caustics_density(v->cell, v->s.surface.position, wi);
+}
+
+/* A direction by the guide, as one of the BSDF's. */
+static int sample_guide(const Vertex *v, float u_lobe, BsdfSample *sample)
+{
+    const Bsdf *b = &v->s.bsdf;
+    *sample = (BsdfSample){0};
+    sample->wi = caustics_sample(v->cell, v->s.surface.position, u_lobe, v->u.direction_u, v->u.direction_v);
+    if (vec_dot(sample->wi, b->normal) <= 0 || vec_dot(sample->wi, b->geometric) <= 0)
+        return 0;
+    Split f = bsdf_eval(b, sample->wi, 0, &sample->pdf);
+    if (sample->pdf <= 0)
+        return 0;
+    sample->weight = (Split){rgb_scale(f.d, 1 / sample->pdf), rgb_scale(f.i, 1 / sample->pdf)};
+    return 1;
+}
+
+/* Choose a direction by the BSDF or the guide: first between deltas and the rest. The sample's weight and density are
+ * the BSDF's own; *pdf gets that of both ways. */
+static int sample_direction(const Vertex *v, BsdfSample *sample, float *pdf)
+{
+    const Bsdf *b = &v->s.bsdf;
+    const VertexSamples *u = &v->u;
+    float u_lobe = u->lobe;
+    int found;
+    if (!v->cell) {
+        found = bsdf_sample(b, u_lobe, u->direction_u, u->direction_v, sample);
+        *pdf = sample->pdf;
+        return found;
+    }
+    float share = v->cell->share, wide = wide_probability(b), delta = 1 - wide, rest = (u_lobe - delta) / wide;
+    if (rest >= 0 && rest < share) {
+        found = sample_guide(v, rest / share, sample);
+    } else {
+        if (rest >= 0) /* what is left of u, stretched */
+            u_lobe = at_most(delta + (rest - share) / (1 - share) * wide, 1 - 0x1p-24f);
+        found = bsdf_sample(b, u_lobe, u->direction_u, u->direction_v, sample);
+    }
+    if (!found)
+        return 0;
+    *pdf = sample->pdf > 0 ? guided_density(v, sample->wi, sample->pdf) : 0;
+    return 1;
+}
+
 static void pick_light(PathWorker *w, Vertex *v)
 {
     const PathContext *c = w->context;
@@ -359,6 +427,8 @@ static void pick_light(PathWorker *w, Vertex *v)
     Split f = bsdf_eval(&s->bsdf, light->direction, light->kind == LIGHT_SAMPLE_SOURCE, &t->pdf);
     if (rgb_is_black(f.d) && rgb_is_black(f.i))
         return;
+    if (light->kind != LIGHT_SAMPLE_SOURCE)
+        t->pdf = guided_density(v, light->direction, t->pdf);
     t->found = 1;
     t->way = light->shadowless ? WAY_FREE : WAY_UNKNOWN;
     t->factors[0] = shading_factor(s, f);
@@ -441,31 +511,36 @@ static float squeeze_undone(const Bsdf *bsdf, const BsdfSample *next)
 static int scatter(PathWorker *w, Path *path, const Vertex *v, Ray *ray, int *straight)
 {
     const Shading *s = &v->s;
-    const VertexSamples *u = &v->u;
     BsdfSample next;
-    if (!bsdf_sample(&s->bsdf, u->lobe, u->direction_u, u->direction_v, &next))
+    float pdf;
+    if (!sample_direction(v, &next, &pdf))
         return 0;
+    /* Where the guide goes light is expected: roulette does not count how often it goes there. */
+    path->neutral *= at_most(split_neutral(next.weight) * squeeze_undone(&s->bsdf, &next), 1);
+    if (pdf != next.pdf) {
+        float guided = next.pdf / pdf;
+        next.weight = (Split){rgb_scale(next.weight.d, guided), rgb_scale(next.weight.i, guided)};
+    }
     Factor factor = shading_factor(s, next.weight);
     factor.reflects = !next.transmitted;
     factor.sharp = path->sharp;
     apply_factor(w->context, path->beta, &path->outside, &path->expansion, &path->folded, &factor);
     if (!w->context->split ? is_spent(w->context, path->beta) : rgb_is_black(path->outside))
         return 0;
-    path->neutral *= at_most(split_neutral(next.weight) * squeeze_undone(&s->bsdf, &next), 1);
     if (w->context->trace)
         fprintf(w->context->trace, "  goes on along %.5f %.5f %.5f pdf %.6g d %.5g i %.5g\n", next.wi.x, next.wi.y,
-                next.wi.z, next.pdf, rgb_luminance(next.weight.d), rgb_luminance(next.weight.i));
+                next.wi.z, pdf, rgb_luminance(next.weight.d), rgb_luminance(next.weight.i));
     *straight = next.straight;
     if (next.transmitted)
         media_cross(&path->media, &s->surface);
     if (!next.straight) {
         path->kind = path_next_kind(path->kind, &s->bsdf, next.transmitted);
-        path->pdf = next.pdf;
+        path->pdf = pdf;
         path->sharp &= next.pdf == 0 || next.pdf > SHARP_PDF;
         path->from = lit_point(s);
         if (path->segments >= ROULETTE_START) {
             float survive = at_most(path->neutral, 1);
-            if (u->roulette >= survive)
+            if (v->u.roulette >= survive)
                 return 0;
             scale_path(w->context, path, rgb_grey(1 / survive));
             path->neutral /= survive;
@@ -518,6 +593,7 @@ static void fill_vertex(PathWorker *w, const Ray *ray, const Sampler *sampler, i
         trace_hit(c, &v->hit, &v->s);
     vertex_samples(&w->keys, sampler, (unsigned)number, &v->u);
     v->light.found = 0;
+    v->cell = guide_cell(c, &v->s);
     if (!last)
         pick_light(w, v);
 }

@@ -5,6 +5,7 @@
 #include "accel/accel.h"
 #include "film/control.h"
 #include "film/film.h"
+#include "integrate/caustics.h"
 #include "integrate/render.h"
 #include "integrate/vertex_samples.h"
 #include "light/lights.h"
@@ -16,6 +17,7 @@ typedef struct PathContext {
     const Scene *scene;
     const Accel *accel;
     const Lights *lights;
+    const Caustics *caustics; /* or NULL */
     int max_depth, orders;
     int most_hits;        /* of all targets together */
     int split;            /* keep target hits apart */

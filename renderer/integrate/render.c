@@ -25,6 +25,7 @@ typedef struct Render {
     int tiles_x, tiles_y;
     Accel *accel;
     Lights *lights;
+    Caustics *caustics; /* or NULL */
     Film *film;
     FilmPixel **pixels;            /* by thread */
     ControlFilm *control;          /* of several variants, or NULL */
@@ -200,6 +201,7 @@ static void close_films(Render *r)
 static void render_close(Render *r)
 {
     close_films(r);
+    caustics_close(&r->caustics);
     lights_close(&r->lights);
     accel_close(&r->accel);
 }
@@ -228,6 +230,17 @@ static int render_open(Render *r, const Scene *scene, const RenderParams *params
     r->variants = r->params.nvariants > 0 ? r->params.variants : NULL;
     for (int k = 0; k < scene->nprimitives; k++)
         r->context.has_no_shadow |= scene->primitives[k].no_shadow;
+    return code;
+}
+
+/* For whatever traces paths: a guide to caustics where there may be some, the same for any part of the picture. */
+static int open_guide(Render *r, RetexError *err)
+{
+    if (r->params.no_caustics_guide)
+        return RETEX_OK;
+    int code = caustics_create(&r->caustics, r->scene, r->accel, r->lights, (long)r->width * r->height * r->params.spp,
+                               r->params.nthreads, err);
+    r->context.caustics = r->caustics;
     return code;
 }
 
@@ -464,6 +477,8 @@ int render_scene(RetexSet **set, const Scene *scene, const RenderParams *params,
     Render r;
     int code = render_open(&r, scene, params ? params : &defaults, err);
     if (!code)
+        code = open_guide(&r, err);
+    if (!code)
         code = start_set(set, &r, err);
     if (!code)
         code = render_into(*set, &r, stats, started, err);
@@ -479,6 +494,8 @@ int render_shard(const Scene *scene, const RenderParams *params, RenderStats *st
     double started = seconds();
     Render r;
     int code = render_open(&r, scene, params, err);
+    if (!code)
+        code = open_guide(&r, err);
     if (!code)
         code = render_film(&r, 0, 0, err);
     if (!code) {
@@ -509,6 +526,8 @@ int render_variants(RetexImage *pictures, const Scene *scene, const RenderParams
     if (!code && r.params.nvariants < 1)
         code = retex_fail(err, RETEX_EINVAL, "no variants to render");
     r.context.nvariants = r.params.nvariants;
+    if (!code)
+        code = open_guide(&r, err);
     if (!code)
         code = render_film(&r, 1, 0, err);
     if (!code)
@@ -591,7 +610,9 @@ int render_control(RetexImage *picture, const Scene *scene, const RenderParams *
         code = check_control(&r, set, err);
     int two = !code && mode == CONTROL_UNBIASED && control_constants_fit(scene, set);
     r.context.nvariants = 2 + two;
-    if (two)
+    if (!code)
+        code = open_guide(&r, err);
+    if (two && !code)
         code = find_constants(&r, set, constants, &combined, err);
     if (!code)
         code = trace_control(&r, picture, set, two ? &combined : NULL, mode, distance, stats, started, err);
@@ -630,6 +651,8 @@ int render_trace(const Scene *scene, const RenderParams *params, int x, int y, i
     if (!code && (x < 0 || y < 0 || x >= r.width || y >= r.height))
         code = retex_fail(err, RETEX_EINVAL, "pixel %d,%d does not lie inside the picture of %dx%d", x, y, r.width,
                           r.height);
+    if (!code)
+        code = open_guide(&r, err);
     if (!code)
         code = render_film(&r, 0, 0, err);
     if (!code) {

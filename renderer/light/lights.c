@@ -38,7 +38,9 @@ struct Lights {
     Environment *environment;
     int count, sky; /* sky: index of its entry, or -1 */
     Entry *entries;
-    int *of_primitive; /* entry of each primitive, or -1 */
+    int *of_primitive;    /* entry of each primitive, or -1 */
+    int nemitters;        /* the first entries are the emitting shapes */
+    double *emitter_sums; /* running sums of their power, nemitters + 1 */
     /* many lights; tree is NULL for few */
     LightTree *tree;
     Leaf *leaves;
@@ -233,6 +235,13 @@ static int grow_tree(Lights *lights, RetexError *err)
     return code;
 }
 
+static void sum_emitters(Lights *lights)
+{
+    lights->nemitters = lights->count;
+    for (int k = 0; k < lights->count; k++)
+        lights->emitter_sums[k + 1] = lights->emitter_sums[k] + lights->entries[k].strength;
+}
+
 int lights_create(Lights **out, const Scene *scene, RetexError *err)
 {
     size_t most = (size_t)scene->nlights + (size_t)scene->nprimitives + 1;
@@ -244,8 +253,9 @@ int lights_create(Lights **out, const Scene *scene, RetexError *err)
     lights->sky = -1;
     lights->entries = calloc(most, sizeof *lights->entries);
     lights->of_primitive = malloc(most * sizeof *lights->of_primitive);
+    lights->emitter_sums = calloc(most + 1, sizeof *lights->emitter_sums);
     int code = RETEX_OK;
-    if (!lights->entries || !lights->of_primitive)
+    if (!lights->entries || !lights->of_primitive || !lights->emitter_sums)
         code = retex_fail(err, RETEX_ENOMEM, "out of memory for %d lights", (int)most);
     if (!code)
         code = environment_create(&lights->environment, scene, err);
@@ -254,6 +264,7 @@ int lights_create(Lights **out, const Scene *scene, RetexError *err)
         code = add_emitter(lights, k, err);
     }
     if (!code) {
+        sum_emitters(lights);
         add_others(lights);
         code = grow_tree(lights, err);
     }
@@ -272,6 +283,7 @@ void lights_close(Lights **lights)
     environment_close(&(*lights)->environment);
     free((*lights)->entries);
     free((*lights)->of_primitive);
+    free((*lights)->emitter_sums);
     free((*lights)->leaves);
     free((*lights)->beside);
     free((*lights)->beside_sums);
@@ -529,4 +541,48 @@ float lights_sky_pdf(const Lights *lights, const LitPoint *from, Vec3 direction)
     if (lights->sky < 0)
         return 0;
     return environment_pdf(lights->environment, direction) * pick_probability(lights, from, lights->sky, -1);
+}
+
+/* ---- light that is followed ---- */
+
+int lights_emit(const Lights *lights)
+{
+    return lights->nemitters > 0 && lights->emitter_sums[lights->nemitters] > 0;
+}
+
+int lights_emission(const Lights *lights, float u_pick, float u_part, float u1, float u2, EmissionPoint *point)
+{
+    if (!lights_emit(lights))
+        return 0;
+    double wanted = u_pick * lights->emitter_sums[lights->nemitters];
+    int low = 0, high = lights->nemitters;
+    while (high - low > 1) {
+        int middle = (low + high) / 2;
+        if (lights->emitter_sums[middle] <= wanted)
+            low = middle;
+        else
+            high = middle;
+    }
+    Pick whole = {&lights->entries[low], -1, 1, u_part};
+    Surface surface;
+    double density = sample_area(lights, &whole, u1, u2, &surface);
+    double part = whole.entry->strength / lights->emitter_sums[lights->nemitters];
+    if (!(density > 0 && part > 0))
+        return 0;
+    float radiance = rgb_luminance(surface.texture->finish->emission) * NEUTRAL_ALBEDO;
+    *point = (EmissionPoint){surface.position, surface.geometric_normal, radiance / (float)(density * part)};
+    return 1;
+}
+
+float lights_estimate(const Lights *lights, const LitPoint *point)
+{
+    float sum = 0;
+    if (is_exact(lights)) {
+        for (int k = 0; k < lights->count; k++)
+            sum += entry_estimate(lights, &lights->entries[k], point->position);
+        return sum;
+    }
+    if (lights->tree)
+        sum = light_tree_estimate(lights->tree, point);
+    return lights->nbeside > 0 ? sum + lights->beside_sums[lights->nbeside] : sum;
 }

@@ -39,6 +39,17 @@ int lights_sample(const Lights *lights, const LitPoint *point, float u_pick, flo
 float lights_emitter_pdf(const Lights *lights, const LitPoint *from, int primitive, const Surface *surface);
 float lights_sky_pdf(const Lights *lights, const LitPoint *from, Vec3 direction);
 
+/* A point of an emitting shape, for light that is followed from there. */
+typedef struct EmissionPoint {
+    Vec3 position, normal;
+    float power; /* luminance of its radiance, with NEUTRAL_ALBEDO, over the density of the point: area is in it */
+} EmissionPoint;
+int lights_emit(const Lights *lights); /* 1: there are shapes that do */
+/* Shapes are chosen by their power. Returns 0 where there is none. */
+int lights_emission(const Lights *lights, float u_pick, float u_part, float u1, float u2, EmissionPoint *point);
+/* Rough irradiance of all lights on a surface that faces them. */
+float lights_estimate(const Lights *lights, const LitPoint *point);
+
 /* Radiance of sky and background in a direction. */
 Rgb sky_radiance(const Scene *scene, Vec3 direction);
 
