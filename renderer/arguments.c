@@ -24,6 +24,7 @@ enum {
     OPT_NO_DENOISE_DATA,
     OPT_NO_CAUSTICS_GUIDE,
     OPT_SPP,
+    OPT_NOISE,
     OPT_SIZE,
     OPT_SEED,
     OPT_DEPTH,
@@ -66,6 +67,7 @@ static const CliOption options[] = {
     [OPT_NO_CAUSTICS_GUIDE] = {"no-caustics-guide", 0, NULL, "let paths find caustics by chance alone", 0},
     [OPT_NO_DENOISE_DATA] = {"no-denoise-data", 0, NULL, "leave out of the set the parts that retex-denoise reads", 0},
     [OPT_SPP] = {"spp", 0, "N", "samples a pixel (64)", 0},
+    [OPT_NOISE] = {"noise", 0, "X", "as many samples, up to --spp, as bring the noise of each tile down to X", 0},
     [OPT_SIZE] = {"size", 0, "WxH", "size of the picture (the scene's own shape, 640 wide)", 0},
     [OPT_SEED] = {"seed", 0, "N", "another number gives other noise (0)", 0},
     [OPT_DEPTH] = {"max-depth", 0, "N", "most segments of a path (16)", 0},
@@ -261,6 +263,9 @@ static void parse_option(Arguments *a, const CliOption *o)
         break;
     case OPT_SPP:
         r->spp = (int)cli_integer(cli, o, 1, 1 << 20);
+        break;
+    case OPT_NOISE:
+        r->noise = cli_number(cli, o, 1e-6, 10);
         break;
     case OPT_SIZE:
         numbers(cli, o, 'x', 2, size);

@@ -39,6 +39,7 @@ uint64_t render_fingerprint(const Arguments *a, const Scene *scene)
         r->plain,   r->gaussian,  r->paper,     r->orders,       r->sharp,        r->broad,       r->clusters,
         r->spooled, r->max_depth, (int)r->seed, r->strict_paper, r->denoise_data, a->sdl.ambient, r->no_caustics_guide};
     uint64_t d = digest_text(DIGEST_BEGIN, RETEX_VERSION);
+    d = digest_bytes(d, &r->noise, sizeof r->noise);
     d = digest_number(d, scene->digest);
     d = digest_bytes(d, numbers, sizeof numbers);
     for (int k = 0; k < a->ndeclares; k++)

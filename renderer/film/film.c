@@ -17,7 +17,7 @@ typedef struct BandState {
     int tiles; /* that are finished */
     atomic_int done;
     UvRange range;
-    long dropped;
+    long dropped, samples;
     RetexBandStats stats; /* of all of it, when it is */
 } BandState;
 
@@ -43,11 +43,12 @@ struct FilmPixel {
     FootprintPixel *footprints;
     BandRows *rows; /* that the tile in hand writes to, once it does */
     double beauty[3];
+    int spp;           /* of the tile's pixels */
     int paths;         /* so far */
     SignalTotals half; /* of the first half of the paths */
     LightSums light;   /* of the tile so far, as is: */
     UvRange range;
-    long dropped;
+    long dropped, samples;
 };
 
 /* ---- ranges of UV ---- */
@@ -138,6 +139,7 @@ int film_pixel_create(FilmPixel **out, Film *film, RetexError *err)
     if (!p)
         return retex_fail(err, RETEX_ENOMEM, "out of memory for a thread's pixel");
     p->film = film;
+    p->spp = film->params.spp;
     uv_range_reset(&p->range);
     int code = RETEX_OK;
     if (film->paper)
@@ -199,7 +201,7 @@ void film_path_end(FilmPixel *p)
         paper_path_end(p->paper, &p->range);
     if (p->footprints)
         footprints_path_end(p->footprints);
-    if (++p->paths == p->film->params.spp / 2 && p->film->noise.count)
+    if (++p->paths == p->spp / 2 && p->film->noise.count)
         signal_totals(p, &p->half);
 }
 
@@ -223,6 +225,19 @@ static BandRows *rows_at(FilmPixel *p, int y)
     return p->rows;
 }
 
+void film_tile_begin(FilmPixel *p, int spp)
+{
+    p->spp = spp;
+}
+
+Rgb film_pixel_take(FilmPixel *p)
+{
+    Rgb sum = rgb((float)p->beauty[0], (float)p->beauty[1], (float)p->beauty[2]);
+    p->beauty[0] = p->beauty[1] = p->beauty[2] = 0;
+    p->paths = 0;
+    return sum;
+}
+
 void film_pixel_end(FilmPixel *p, int x, int y)
 {
     Film *film = p->film;
@@ -233,15 +248,16 @@ void film_pixel_end(FilmPixel *p, int x, int y)
     if (film->noise.count) {
         SignalTotals all;
         signal_totals(p, &all);
-        noise_store(&film->noise, rows, &p->half, &all, x, y);
+        noise_store(&film->noise, rows, &p->half, &all, p->spp, x, y);
     }
+    p->samples += p->paths;
     p->paths = 0;
     for (int c = 0; c < 3; c++)
-        beauty[c] = (float)(p->beauty[c] / film->params.spp), p->beauty[c] = 0;
+        beauty[c] = (float)(p->beauty[c] / p->spp), p->beauty[c] = 0;
     if (p->paper)
-        paper_pixel_end(p->paper, rows, x, y);
+        paper_pixel_end(p->paper, rows, p->spp, x, y);
     if (p->footprints)
-        footprints_pixel_end(p->footprints, rows, x, y);
+        footprints_pixel_end(p->footprints, rows, p->spp, x, y);
 }
 
 static float *beauty_rows(const Film *film, int band)
@@ -261,6 +277,7 @@ static void finish_stats(Film *film, int band, int tiles, const BandRows *rows)
     memcpy(s->uv_low, state->range.low, sizeof s->uv_low);
     memcpy(s->uv_high, state->range.high, sizeof s->uv_high);
     s->dropped = state->dropped;
+    s->samples = state->samples;
     if (film->paper)
         paper_band_stats(film->paper, rows, s);
     if (film->footprints)
@@ -291,11 +308,12 @@ void film_tile_end(FilmPixel *p, int tile)
     film->tiles[tile] = p->light;
     uv_range_merge(&state->range, &p->range);
     state->dropped += p->dropped;
+    state->samples += p->samples;
     int last = ++state->tiles == tiles;
     pthread_mutex_unlock(&film->lock);
     p->light = (LightSums){0};
     uv_range_reset(&p->range);
-    p->dropped = 0;
+    p->dropped = p->samples = 0;
     p->rows = NULL;
     if (!last || !rows)
         return;

@@ -12,7 +12,8 @@ typedef struct Film Film;
 
 typedef struct FilmParams {
     int width, height;      /* of the picture that is kept */
-    int spp, orders;
+    int spp;                /* samples a pixel; the most, where tiles say how many */
+    int orders;
     int strict_paper;
     int split;              /* 0: the beauty only (plain and replaced renders) */
     int ntiles;             /* of equal rows, BAND_LINES high */
@@ -59,6 +60,9 @@ void film_pixel_close(FilmPixel **pixel);
 void film_connect(FilmPixel *pixel, Rgb beauty, Rgb outside, const Expansion *expansion, int folded);
 /* A path ends: hits of targets that connected enter the footprints, each once for every connection behind it. */
 void film_path_end(FilmPixel *pixel);
+/* Before a tile's first pixel, where its pixels have not as many samples as FilmParams say. */
+void film_tile_begin(FilmPixel *pixel, int spp);
+Rgb film_pixel_take(FilmPixel *pixel); /* the sum of light so far instead of film_pixel_end: of a film without split */
 void film_pixel_end(FilmPixel *pixel, int x, int y);   /* store and reset */
 void film_tile_end(FilmPixel *pixel, int tile);        /* the last tile of a band finishes it */
 int film_failed(const Film *film);                     /* a band could not be kept: film_finish says why */

@@ -63,6 +63,7 @@ typedef struct TargetClusters {
 
 struct FootprintPixel {
     FootprintFilm *film;
+    int spp; /* of the pixel, when it is finished */
     double free[3];
     TargetClusters *targets;
     Pending pending[PENDING_MAX];

@@ -161,7 +161,7 @@ static float white_pixel(const FootprintPixel *p)
         add_white(sum, &p->targets[t].sharp, p->film->plan.count);
         add_white(sum, &p->targets[t].broad, p->film->plan.count);
     }
-    return (float)(fmax(sum[0], fmax(sum[1], sum[2])) / p->film->params.spp);
+    return (float)(fmax(sum[0], fmax(sum[1], sum[2])) / p->spp);
 }
 
 /* So many paths of equal weight would know as much (Kish 1965): few bright ones count for few. */
@@ -188,7 +188,7 @@ static void store_share(int image, float share, const Place *at)
 static void store_clusters(FootprintPixel *p, const KindImages *images, Clusters *clusters, double step,
                            const Place *at)
 {
-    float scale = 1 / (float)p->film->params.spp;
+    float scale = 1 / (float)p->spp;
     float again = 0;
     for (int k = 0; k < clusters->count; k++)
         again += clusters->of[k].again;
@@ -226,19 +226,20 @@ static void store_later(FootprintPixel *p, const Place *at)
             const FootprintImages *images = &p->film->targets[t].later[k];
             if (!(later->uv.weight > 0))
                 continue;
-            double effective = later->uv.weight * later->uv.weight / later->squares / p->film->params.spp;
+            double effective = later->uv.weight * later->uv.weight / later->squares / p->spp;
             store_footprint(images, &later->uv, &later->albedo, (float)fmin(effective, 1), at);
             store_share(images->share, sum > 0 ? (float)(light_sum(&later->albedo) / sum) : 0, at);
             *later = (Later){.squares = 0};
         }
 }
 
-void footprints_pixel_end(FootprintPixel *p, BandRows *rows, int x, int y)
+void footprints_pixel_end(FootprintPixel *p, BandRows *rows, int spp, int x, int y)
 {
     const Place at = {rows, x, y};
     FootprintFilm *film = p->film;
+    p->spp = spp;
     double step = COEFFICIENT_STEP * white_pixel(p);
-    float scale = 1 / (float)film->params.spp, *c0 = pixel_of(&at, film->free);
+    float scale = 1 / (float)spp, *c0 = pixel_of(&at, film->free);
     for (int c = 0; c < 3; c++)
         c0[c] = (float)(p->free[c] * scale), p->free[c] = 0;
     for (int t = 0; t < film->scene->ntargets; t++) {

@@ -25,7 +25,7 @@ void footprints_connect(FootprintPixel *pixel, const Expansion *expansion, Rgb o
 void footprints_path_end(FootprintPixel *pixel);
 /* Between paths: sharp and broad clusters with the light that goes on to targets, each further hit as albedo 1/2. */
 void footprints_totals(const FootprintPixel *pixel, SignalTotals *totals);
-void footprints_pixel_end(FootprintPixel *pixel, BandRows *rows, int x, int y);
+void footprints_pixel_end(FootprintPixel *pixel, BandRows *rows, int spp, int x, int y);
 /* Of a finished band: albedo and coverage. */
 void footprints_band_stats(const FootprintFilm *film, const BandRows *rows, RetexBandStats *stats);
 

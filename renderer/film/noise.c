@@ -27,7 +27,6 @@ int noise_create(NoiseImages *images, const FilmParams *params, const Scene *sce
     int code = RETEX_OK;
     images->count = noise_count(params, scene->ntargets);
     images->paper = params->split && params->paper;
-    images->spp = params->spp;
     for (int k = 0; k < images->count && !code; k++) {
         signal_name(scene, params, k, name);
         code = bands_add(bands, name, "RGB", RETEX_HALF, &images->of[k], err);
@@ -35,10 +34,10 @@ int noise_create(NoiseImages *images, const FilmParams *params, const Scene *sce
     return code;
 }
 
-void noise_store(const NoiseImages *images, BandRows *rows, const SignalTotals *half, const SignalTotals *all, int x,
-                 int y)
+void noise_store(const NoiseImages *images, BandRows *rows, const SignalTotals *half, const SignalTotals *all, int spp,
+                 int x, int y)
 {
-    int first = images->spp / 2, rest = images->spp - first;
+    int first = spp / 2, rest = spp - first;
     for (int k = 0; k < images->count; k++) {
         const double *h = half->of[k], *a = all->of[k];
         if (a[0] == 0 && a[1] == 0 && a[2] == 0)

@@ -15,16 +15,15 @@ typedef struct SignalTotals {
 
 typedef struct NoiseImages {
     int count, paper; /* signals, 0 = none are kept; by the hits of layout paper */
-    int spp;
     int of[NOISE_SIGNALS_MAX]; /* images of the film */
 } NoiseImages;
 
 /* How many signals there are; 0 without params->noise, and of a single sample, which has no halves. */
 int noise_count(const FilmParams *params, int ntargets);
 int noise_create(NoiseImages *images, const FilmParams *params, const Scene *scene, Bands *bands, RetexError *err);
-/* half: totals of the first spp / 2 samples; all: of all. */
-void noise_store(const NoiseImages *images, BandRows *rows, const SignalTotals *half, const SignalTotals *all, int x,
-                 int y);
+/* half: totals of the first spp / 2 samples; all: of all spp. */
+void noise_store(const NoiseImages *images, BandRows *rows, const SignalTotals *half, const SignalTotals *all, int spp,
+                 int x, int y);
 /* A part for each signal that terms of the set belong to, or for the beauty of a set without terms; in layout
  * footprints for all, of which retex_set_prune leaves those. */
 int noise_finish(const NoiseImages *images, Bands *bands, RetexSet *set, RetexError *err);

@@ -211,7 +211,7 @@ void paper_path_end(PaperPixel *p, UvRange *range)
     p->nhits = 0;
 }
 
-static void store_footprint(const PaperFilm *film, int k, const FootprintSums *f, BandRows *rows, int x, int y)
+static void store_footprint(const PaperFilm *film, int k, const FootprintSums *f, BandRows *rows, int spp, int x, int y)
 {
     float *uv = bands_pixel(rows, film->uv[k], x, y);
     float *spread = bands_pixel(rows, film->spread[k], x, y);
@@ -220,7 +220,7 @@ static void store_footprint(const PaperFilm *film, int k, const FootprintSums *f
         uv[a] = (float)f->mean[a];
         spread[a] = (float)sqrt(f->m2[a] / f->count);
     }
-    uv[2] = (float)f->samples / (float)film->params.spp;
+    uv[2] = (float)f->samples / (float)spp;
     for (int c = 0; c < 3; c++)
         albedo[c] = f->light[c] > 0 ? f->light_albedo[c] / f->light[c] : (float)(f->albedo[c] / f->count);
 }
@@ -237,10 +237,10 @@ void paper_totals(const PaperPixel *p, SignalTotals *totals)
     }
 }
 
-void paper_pixel_end(PaperPixel *p, BandRows *rows, int x, int y)
+void paper_pixel_end(PaperPixel *p, BandRows *rows, int spp, int x, int y)
 {
     PaperFilm *film = p->film;
-    float scale = 1 / (float)film->params.spp;
+    float scale = 1 / (float)spp;
     for (int k = 0; k < p->ntouched; k++) {
         float *sum = p->sums[p->touched[k]], *pixel = bands_pixel(rows, film->terms.images[p->touched[k]], x, y);
         for (int c = 0; c < 3; c++)
@@ -249,7 +249,7 @@ void paper_pixel_end(PaperPixel *p, BandRows *rows, int x, int y)
     p->ntouched = 0;
     for (int k = 0; k < footprints_count(film); k++)
         if (p->footprints[k].count > 0) {
-            store_footprint(film, k, &p->footprints[k], rows, x, y);
+            store_footprint(film, k, &p->footprints[k], rows, spp, x, y);
             p->footprints[k] = (FootprintSums){0};
         }
 }

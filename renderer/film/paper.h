@@ -19,7 +19,7 @@ void paper_connect(PaperPixel *pixel, const Expansion *expansion, Rgb outside);
 void paper_path_end(PaperPixel *pixel, UvRange *range);
 /* Terms by the target of their first factor, each further factor as albedo 1/2. */
 void paper_totals(const PaperPixel *pixel, SignalTotals *totals);
-void paper_pixel_end(PaperPixel *pixel, BandRows *rows, int x, int y);
+void paper_pixel_end(PaperPixel *pixel, BandRows *rows, int spp, int x, int y);
 /* Of a finished band: albedo and coverage. */
 void paper_band_stats(const PaperFilm *film, const BandRows *rows, RetexBandStats *stats);
 

@@ -4,6 +4,7 @@
 #include <string.h>
 #include <time.h>
 #include <retex/parallel.h>
+#include "integrate/adaptive.h"
 #include "integrate/camera.h"
 #include "integrate/control_constants.h"
 #include "integrate/denoise_guides.h"
@@ -39,7 +40,9 @@ typedef struct Render {
     int wanted; /* tiles, of all that are to be rendered */
     PathContext context;
     PathWorker *workers; /* by thread */
+    Adaptive **pilots;   /* by thread, or NULL: all tiles get as many samples */
     atomic_int done;
+    atomic_long paths;
 } Render;
 
 static double seconds(void)
@@ -53,6 +56,10 @@ static int check_params(const RenderParams *p, RetexError *err)
 {
     if (p->spp < 1 || p->spp > 1 << 20)
         return retex_fail(err, RETEX_EINVAL, "samples per pixel must be 1 to 1048576, not %d", p->spp);
+    if (!(p->noise >= 0))
+        return retex_fail(err, RETEX_EINVAL, "noise must be above 0, not %g", p->noise);
+    if (p->noise > 0 && (p->control_data || p->nvariants > 1))
+        return retex_fail(err, RETEX_EINVAL, "noise does not go with several variants or data of control variates");
     if (p->max_depth < 1 || p->max_depth > 256)
         return retex_fail(err, RETEX_EINVAL, "max-depth must be 1 to 256, not %d", p->max_depth);
     if (p->nvariants < 0 || p->nvariants > VARIANTS_MAX)
@@ -106,12 +113,12 @@ static void pixel_offset(const Render *r, const Sampler *sampler, double *dx, do
 }
 
 /* Of a sample: its numbers, and the ray from the camera. */
-static Ray start_sample(const Render *r, int x, int y, int sample, Sampler *sampler)
+static Ray start_sample(const Render *r, uint32_t seed, int x, int y, int sample, Sampler *sampler)
 {
     int half = sample % r->halves; /* each with points of its own: those of one would fill each other's gaps */
     double dx, dy;
-    *sampler = sampler_start(half ? hash_pair(r->params.seed, 1) : r->params.seed, (uint32_t)x, (uint32_t)y,
-                             (uint32_t)(sample / r->halves));
+    *sampler =
+        sampler_start(half ? hash_pair(seed, 1) : seed, (uint32_t)x, (uint32_t)y, (uint32_t)(sample / r->halves));
     pixel_offset(r, sampler, &dx, &dy);
     return camera_ray(&r->scene->camera, r->width, r->height, x + dx, y + dy);
 }
@@ -119,28 +126,47 @@ static Ray start_sample(const Render *r, int x, int y, int sample, Sampler *samp
 static void trace_sample(const Render *r, PathWorker *worker, int x, int y, int sample)
 {
     Sampler sampler;
-    Ray ray = start_sample(r, x, y, sample, &sampler);
+    Ray ray = start_sample(r, r->params.seed, x, y, sample, &sampler);
     path_trace(worker, &ray, &sampler);
     if (worker->control)
         control_sample_end(worker->control, sample % r->halves);
 }
 
-static void trace_pixel(const Render *r, PathWorker *worker, int x, int y)
+static void trace_pixel(const Render *r, PathWorker *worker, int spp, int x, int y)
 {
     Ray rays[ACCEL_PACKET];
     Sampler samplers[ACCEL_PACKET];
     int packets = !worker->control && r->context.nvariants == 1;
-    for (int s = 0; s < r->params.spp && !packets; s++)
+    for (int s = 0; s < spp && !packets; s++)
         trace_sample(r, worker, x, y, s);
-    for (int s = 0; s < r->params.spp && packets; s += ACCEL_PACKET) {
-        int count = r->params.spp - s < ACCEL_PACKET ? r->params.spp - s : ACCEL_PACKET;
+    for (int s = 0; s < spp && packets; s += ACCEL_PACKET) {
+        int count = spp - s < ACCEL_PACKET ? spp - s : ACCEL_PACKET;
         for (int i = 0; i < count; i++)
-            rays[i] = start_sample(r, x, y, s + i, &samplers[i]);
+            rays[i] = start_sample(r, r->params.seed, x, y, s + i, &samplers[i]);
         path_trace_packet(worker, rays, samplers, count);
     }
 }
 
-static void render_pixel(Render *r, int thread, int x, int y)
+/* Samples a pixel of a tile. */
+static int tile_samples(const Render *r, int thread, int x0, int y0)
+{
+    Sampler sampler;
+    Adaptive *pilot = r->pilots ? r->pilots[thread] : NULL;
+    if (!pilot)
+        return r->params.spp;
+    for (int y = y0; y < y0 + TILE_HEIGHT && y < r->h; y++)
+        for (int x = x0; x < x0 + TILE_WIDTH && x < r->w; x++) {
+            for (int s = 0; s < ADAPTIVE_PILOT; s++) {
+                Ray ray = start_sample(r, hash_pair(r->params.seed, 3), r->x0 + x, r->y0 + y, s, &sampler);
+                path_trace(adaptive_worker(pilot), &ray, &sampler);
+                adaptive_path_end(pilot);
+            }
+            adaptive_pixel_end(pilot);
+        }
+    return adaptive_tile_samples(pilot, r->params.noise, r->params.spp);
+}
+
+static void render_pixel(Render *r, int thread, int spp, int x, int y)
 {
     FilmPixel *pixel = r->pixels[thread];
     PathWorker *worker = &r->workers[thread];
@@ -148,7 +174,7 @@ static void render_pixel(Render *r, int thread, int x, int y)
         const float *p = r->constants[t].pixels + retex_image_index(&r->constants[t], x, y);
         worker->constants[t] = rgb(p[0], p[1], p[2]);
     }
-    trace_pixel(r, worker, r->x0 + x, r->y0 + y);
+    trace_pixel(r, worker, spp, r->x0 + x, r->y0 + y);
     film_pixel_end(pixel, x, y);
     if (r->control)
         control_pixel_end(r->controls[thread], x, y);
@@ -173,10 +199,15 @@ static void render_tile(void *context, int tile, int thread)
     int x0 = tile % r->tiles_x * TILE_WIDTH, y0 = tile / r->tiles_x * TILE_HEIGHT;
     if (film_failed(r->film) || is_stopped(r) || !is_wanted(r, tile / r->tiles_x))
         return;
+    int spp = tile_samples(r, thread, x0, y0);
+    film_tile_begin(r->pixels[thread], spp);
     for (int y = y0; y < y0 + TILE_HEIGHT && y < r->h; y++)
         for (int x = x0; x < x0 + TILE_WIDTH && x < r->w; x++)
-            render_pixel(r, thread, x, y);
+            render_pixel(r, thread, spp, x, y);
     film_tile_end(r->pixels[thread], tile);
+    int across = r->w - x0 < TILE_WIDTH ? r->w - x0 : TILE_WIDTH,
+        down = r->h - y0 < TILE_HEIGHT ? r->h - y0 : TILE_HEIGHT;
+    atomic_fetch_add(&r->paths, (long)across * down * (spp + (r->pilots ? ADAPTIVE_PILOT : 0)));
     int done = atomic_fetch_add(&r->done, 1) + 1;
     if (thread == 0 && r->params.progress)
         r->params.progress(r->params.progress_context, (double)done / r->wanted);
@@ -190,6 +221,10 @@ static void close_films(Render *r)
     if (r->controls)
         for (int k = 0; k < retex_threads(r->params.nthreads); k++)
             control_pixel_close(&r->controls[k]);
+    if (r->pilots)
+        for (int k = 0; k < retex_threads(r->params.nthreads); k++)
+            adaptive_close(&r->pilots[k]);
+    free(r->pilots);
     free(r->pixels);
     free(r->controls);
     free(r->workers);
@@ -285,6 +320,18 @@ static int take_over(Render *r, RetexSpool *spool, RetexError *err)
     return code;
 }
 
+static int open_pilots(Render *r, int threads, RetexError *err)
+{
+    int code = RETEX_OK;
+    if (!(r->params.noise > 0))
+        return code;
+    if (!(r->pilots = calloc((size_t)threads, sizeof *r->pilots)))
+        return retex_fail(err, RETEX_ENOMEM, "out of memory for %d threads", threads);
+    for (int k = 0; k < threads && !code; k++)
+        code = adaptive_create(&r->pilots[k], &r->context, r->variants, err);
+    return code;
+}
+
 /* control: a film of all variants too, with moments of so many halves. */
 static int render_film(Render *r, int control, int halves, RetexError *err)
 {
@@ -327,7 +374,7 @@ static int render_film(Render *r, int control, int halves, RetexError *err)
     for (int k = 0; k < threads; k++)
         open_worker(r, k);
     r->context.simple = !r->context.split && r->context.nvariants == 1 && !r->control;
-    return code;
+    return code ? code : open_pilots(r, threads, err);
 }
 
 static int start_set(RetexSet **set, const Render *r, RetexError *err)
@@ -349,10 +396,7 @@ static int start_set(RetexSet **set, const Render *r, RetexError *err)
 
 static void fill_stats(RenderStats *stats, const Render *r)
 {
-    for (int band = 0; band < r->tiles_y; band++)
-        if (is_wanted(r, band))
-            stats->paths +=
-                (long)r->w * (band < r->tiles_y - 1 ? TILE_HEIGHT : r->h - band * TILE_HEIGHT) * r->params.spp;
+    stats->paths = atomic_load(&r->paths);
     for (int k = 0; k < retex_threads(r->params.nthreads); k++)
         stats->segments += r->workers[k].segments, stats->shadow_rays += r->workers[k].shadow_rays;
     stats->dropped = film_dropped(r->film) + (r->control ? control_film_dropped(r->control) : 0);
@@ -409,7 +453,7 @@ static int add_irradiance(RetexSet *set, const Render *r, RetexError *err)
     int part;
     pass.context.white = 1, pass.context.split = 0;
     pass.params.seed = hash_pair(r->params.seed, 2), pass.params.progress = NULL;
-    pass.params.denoise_data = 0;
+    pass.params.denoise_data = 0, pass.params.noise = 0;
     forget_files(&pass.params);
     pass.lights = r->lights;
     int code = start_set(&found, &pass, err);

@@ -36,6 +36,8 @@ typedef struct RenderParams {
     int width, height;       /* of the whole picture; 0 = the scene's own */
     int crop[4];             /* x, y, width, height of the part to render; width 0 = all. The result has this size */
     int spp;                 /* samples a pixel, 1..2^20; default 64 */
+    double noise;            /* above 0: tiles get as many samples, up to spp, as bring their noise down to this, see
+                                adaptive.h; default 0: all get spp */
     uint32_t seed;           /* default 0 */
     int max_depth;           /* segments of a path, 1..256, camera and shadow rays included; default 16 */
     int gaussian;            /* pixel filter: 0 box of one pixel (default), 1 Gaussian of sigma 0.5 pixel */

@@ -16,11 +16,12 @@ struct RetexBandStats {
     double uv_low[RETEX_MAX_TARGETS][2], uv_high[RETEX_MAX_TARGETS][2]; /* by target; inf, -inf: not met */
     double albedo[RETEX_MAX_TARGETS][3], coverage[RETEX_MAX_TARGETS];   /* originals times coverage, coverage */
     long dropped; /* samples that were not finite */
+    long samples; /* of all pixels */
 };
 
 void retex_band_stats_reset(RetexBandStats *stats); /* of nothing */
 
-/* Fill folded, folded_white, and uv_min, uv_max and mean_albedo of the targets from all bands, from the top. */
+/* Fill spp (the mean, of the set's size), folded, folded_white, and uv_min, uv_max and mean_albedo of the targets from all bands, from the top. */
 void retex_band_stats_finish(RetexSet *set, const RetexBandStats *bands, int nbands);
 
 #ifdef __cplusplus
