@@ -4,8 +4,9 @@
 #
 # - it stands the right way round and is as bright as in POV-Ray: mean radiance, clipped to 0..1, of four regions of
 #   `povray scene.pov +W320 +H180 Declare=Radiosity=1` (3.7.0.10), within 20%, for radiosity is an estimate too;
-# - retextured with constants, one target and all of them, the picture is --replace's at the same seed, to 50 dB and
-#   relMSE 5e-4: a target that keeps its original multiplies light of several bounces by averages of it.
+# - retextured with constants, all targets at once, the picture is --replace's at the same seed, to 50 dB and relMSE
+#   5e-4; with one of them, to 40 dB and relMSE 5e-3, for targets that keep their originals multiply light of several
+#   bounces by averages of these: in single pixels far off, by chance (43 to 58 dB over seeds).
 set -u
 . tests/lib/tap.sh
 scene=${RETEX_SHARED:-../shared}/scenes/living-room-bitterli/scene.pov
@@ -59,7 +60,8 @@ for choice in $targets all; do
         retex-combine -q "$work/set.exr" $textures -o "$work/retextured.exr"
         # shellcheck disable=SC2086
         small --plain $replacements "$scene" -o "$work/truth.exr"
-        same "$work/retextured.exr" "$work/truth.exr" 50 "$choice ${color%%=*}" 5e-4
+        case $choice in all) least=50 most=5e-4 ;; *) least=40 most=5e-3 ;; esac
+        same "$work/retextured.exr" "$work/truth.exr" $least "$choice ${color%%=*}" $most
     done
 done
 finish
