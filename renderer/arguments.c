@@ -364,6 +364,12 @@ static void check_denoise(const Arguments *a)
         cli_die(a->cli, "--denoise needs two samples a pixel at least: one does not tell how noisy it is");
 }
 
+static void check_noise(const Arguments *a)
+{
+    if (a->render.noise > 0 && (a->control || a->variants || a->render.control_data))
+        cli_die(a->cli, "--noise goes without --control, --control-data and --variants: their samples are counted");
+}
+
 /* Rendering in pieces: of a picture or a set, whose rows are all there is to keep. */
 static void check_pieces(const Arguments *a)
 {
@@ -428,6 +434,7 @@ void parse_arguments(Arguments *a)
     if (a->control && cli->output)
         texture_args_check_output(cli, a->control, cli->output);
     check_denoise(a);
+    check_noise(a);
     check_pieces(a);
     if (a->aov_dir && (a->list || a->tracing || a->variants || a->control))
         cli_die(cli,

@@ -4,7 +4,9 @@
 # - identity: the set recombined with its own originals is its picture, with the beauty part black; with constant-colour
 #   originals to 60 dB. For textured originals the figure is printed: layout paper multiplies averages.
 # - replace: --replace is the render of a scene edited by hand, to 80 dB at the same seed.
-# - recolour: retextured with constants, the picture is --replace's at the same seed, to 50 dB and relMSE 1e-4.
+# - recolour: retextured with constants, the picture is --replace's at the same seed, to 50 dB and relMSE 1e-4; where
+#   another target keeps its original, to 45 dB and 5e-4: that multiplies light of several bounces by its averages, which
+#   few samples know to so much only (living room, 16 samples: 48 to 50 dB over seeds).
 # - energy: what lies beyond the last order is below 0.1%.
 set -u
 . tests/lib/tap.sh
@@ -88,7 +90,9 @@ check_scene() { # SCENE TARGET…
             retex-combine -q "$work/set.exr" $textures -o "$work/retextured.exr"
             # shellcheck disable=SC2086
             render $flags $replacements "$file" -o "$work/truth.exr"
-            same "$work/retextured.exr" "$work/truth.exr" 50 "$scene: $choice ${color%%=*}"
+            least=50 most=1e-4
+            [ $# = 1 ] || [ "$choice" = all ] || least=45 most=5e-4
+            same "$work/retextured.exr" "$work/truth.exr" $least "$scene: $choice ${color%%=*}" $most
         done
     done
 }

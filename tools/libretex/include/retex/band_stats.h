@@ -21,7 +21,8 @@ struct RetexBandStats {
 
 void retex_band_stats_reset(RetexBandStats *stats); /* of nothing */
 
-/* Fill spp (the mean, of the set's size), folded, folded_white, and uv_min, uv_max and mean_albedo of the targets from all bands, from the top. */
+/* Fill spp (the mean, for the set's size), folded, folded_white, and uv_min, uv_max and mean_albedo of the targets from
+ * all bands, from the top. */
 void retex_band_stats_finish(RetexSet *set, const RetexBandStats *bands, int nbands);
 
 #ifdef __cplusplus
