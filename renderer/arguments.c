@@ -22,7 +22,7 @@ enum {
     OPT_STRICT_PAPER,
     OPT_DENOISE,
     OPT_NO_DENOISE_DATA,
-    OPT_NO_CAUSTICS_GUIDE,
+    OPT_CAUSTICS_GUIDE,
     OPT_SPP,
     OPT_NOISE,
     OPT_SIZE,
@@ -64,7 +64,7 @@ static const CliOption options[] = {
     [OPT_ORDERS] = {"orders", 0, "N", "highest number of target hits kept, 1 to 6 (6)", 0},
     [OPT_STRICT_PAPER] = {"strict-paper", 0, NULL, "drop the mixed terms of four and more hits, as the paper does", 0},
     [OPT_DENOISE] = {"denoise", 0, NULL, "filter the noise out of the result, as retex-denoise does", 0},
-    [OPT_NO_CAUSTICS_GUIDE] = {"no-caustics-guide", 0, NULL, "let paths find caustics by chance alone", 0},
+    [OPT_CAUSTICS_GUIDE] = {"caustics-guide", 0, NULL, "let photons show paths where caustics of small lamps come from", 0},
     [OPT_NO_DENOISE_DATA] = {"no-denoise-data", 0, NULL, "leave out of the set the parts that retex-denoise reads", 0},
     [OPT_SPP] = {"spp", 0, "N", "samples a pixel (64)", 0},
     [OPT_NOISE] = {"noise", 0, "X", "as many samples, up to --spp, as bring the noise of each tile down to X", 0},
@@ -255,8 +255,8 @@ static void parse_option(Arguments *a, const CliOption *o)
     case OPT_DENOISE:
         a->denoise = 1;
         break;
-    case OPT_NO_CAUSTICS_GUIDE:
-        a->render.no_caustics_guide = 1;
+    case OPT_CAUSTICS_GUIDE:
+        a->render.caustics_guide = 1;
         break;
     case OPT_NO_DENOISE_DATA:
         a->no_denoise_data = 1;

@@ -271,7 +271,7 @@ static int render_open(Render *r, const Scene *scene, const RenderParams *params
 /* For whatever traces paths: a guide to caustics where there may be some, the same for any part of the picture. */
 static int open_guide(Render *r, RetexError *err)
 {
-    if (r->params.no_caustics_guide)
+    if (!r->params.caustics_guide)
         return RETEX_OK;
     int code = caustics_create(&r->caustics, r->scene, r->accel, r->lights, (long)r->width * r->height * r->params.spp,
                                r->params.nthreads, err);

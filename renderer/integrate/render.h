@@ -67,7 +67,7 @@ typedef struct RenderParams {
     const char *const *merged; /* files that render_shard left: their bands, which must be all, are taken over */
     int nmerged;
     const volatile sig_atomic_t *stop; /* not 0: take no more tiles, and fail with RETEX_ESTOPPED; NULL = never */
-    int no_caustics_guide;   /* 1: paths find caustics by chance alone, see caustics.h; default 0 */
+    int caustics_guide;      /* 1: photons show paths where caustics come from, see caustics.h; default 0: by chance */
 } RenderParams;
 #define RENDER_PARAMS_INIT \
     { .size = sizeof(RenderParams), .spp = 64, .max_depth = 16, .clusters = 4, .sharp = 4, .broad = 4, .orders = 6 }

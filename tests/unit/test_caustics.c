@@ -147,7 +147,7 @@ static RetexSet *render(const Scene *scene, int spp, int without, int nthreads)
     RenderParams p = RENDER_PARAMS_INIT;
     RetexSet *set = NULL;
     RetexError err = {0};
-    p.width = 32, p.height = 24, p.spp = spp, p.plain = 1, p.nthreads = nthreads, p.no_caustics_guide = without;
+    p.width = 32, p.height = 24, p.spp = spp, p.plain = 1, p.nthreads = nthreads, p.caustics_guide = !without;
     if (render_scene(&set, scene, &p, NULL, &err))
         fail_msg("%s", err.message);
     return set;
