@@ -81,7 +81,7 @@ for scene in $scenes; do
         done
     done
 done
-# Two samples are the fewest that denoising data are of; memory does not depend on their number.
+# Two samples are the fewest that denoising data are of.
 run memory living-room 1 "$memory_size" 2 plain Floor
 for row in footprints paper; do
     run memory living-room 1 "$memory_size" 2 $row Floor

@@ -99,8 +99,8 @@ def memory(found, size):
     rows = {key: runs[0] for key, runs in found.items() if key[0] == "memory"}
     if not rows:
         return
-    print(f"\n## Memory\n\nThe peak of `scenes/living-room` at {size}, with 2 samples a pixel, on whose number it does not "
-          "depend; the plain\npicture's is that of the scene and the program.\n")
+    print(f"\n## Memory\n\nThe peak of `scenes/living-room` at {size}, 2 samples a pixel; more samples need a little more. "
+          "The plain\npicture's is that of program and scene.\n")
     print("| render | targets | memory MB | file MB |\n|---|---|---|---|")
     for (_, _, edit, name), run in rows.items():
         targets = "" if name == "plain" else edit.count("+") + 1
