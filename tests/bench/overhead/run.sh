@@ -1,14 +1,14 @@
 #!/bin/sh
-# What a set costs over the plain picture, as in tables 1 to 3 of the paper: make bench-overhead. Prints a page, which is
-# also $BUILD/bench/overhead.md, with the figures in overhead.csv; with BENCH_DOCS=1 both go to docs/ too.
+# What a set costs over the plain picture, as in tables 1 to 3 of the paper: make bench-overhead. Prints a page, which
+# is also $BUILD/bench/overhead.md, with the figures in overhead.csv; with BENCH_DOCS=1 both go to docs/ too.
 #
 # In the living room the floor, the wall and both are changed, and in an artist's living room, where it is there, floor,
 # painting and both. For each, whole processes that write to the disk are measured in turn: the plain picture, sets, and
 # what the method of Rousselle and others needs, twice. Every other turn goes backwards, so that a machine that gets
 # slower or faster within a turn does not favour what comes first. Overheads are of the same turn.
 #
-# As it stands it takes about three hours a scene on two cores. BENCH_TURNS, BENCH_SIZE, BENCH_SPP, BENCH_MEMORY_SIZE and
-# BENCH_SCENES='living-room artist' choose less.
+# As it stands it takes about three hours a scene on two cores. BENCH_TURNS, BENCH_SIZE, BENCH_SPP, BENCH_MEMORY_SIZE
+# and BENCH_SCENES='living-room artist' choose less.
 set -eu
 export LC_ALL=C
 build=${BUILD:-build} here=tests/bench/overhead

@@ -56,7 +56,8 @@ class Row:
     def __init__(self, runs, plain):
         plains = {p["turn"]: p for p in plain}
         self.runs = runs
-        self.over = {clock: [100 * (r[clock] / plains[r["turn"]][clock] - 1) for r in runs] for clock in ("wall", "cpu")}
+        self.over = {clock: [100 * (r[clock] / plains[r["turn"]][clock] - 1) for r in runs]
+                     for clock in ("wall", "cpu")}
 
     def values(self, name):
         return [r[name] for r in self.runs]
@@ -89,8 +90,8 @@ def section(scene, edit, rows):
 
 
 def paper():
-    print("\n## The paper's figures\n\nIts Living Room, 128 samples a pixel, averages of five runs; over its plain path "
-          "tracer:\n\n| changed | its set | Rousselle, first render | Rousselle, re-render |\n|---|---|---|---|")
+    print("\n## The paper's figures\n\nIts Living Room, 128 samples a pixel, averages of five runs; over its plain "
+          "path tracer:\n\n| changed | its set | Rousselle, first render | Rousselle, re-render |\n|---|---|---|---|")
     for edit, figures in PAPER.items():
         print(f"| {edit} | " + " | ".join(f"{f:.2f} %" for f in figures) + " |")
 
@@ -99,8 +100,8 @@ def memory(found, size):
     rows = {key: runs[0] for key, runs in found.items() if key[0] == "memory"}
     if not rows:
         return
-    print(f"\n## Memory\n\nThe peak of `scenes/living-room` at {size}, 2 samples a pixel; more samples need a little more. "
-          "The plain\npicture's is that of program and scene.\n")
+    print(f"\n## Memory\n\nThe peak of `scenes/living-room` at {size}, 2 samples a pixel; more samples need a little "
+          "more. The plain\npicture's is that of program and scene.\n")
     print("| render | targets | memory MB | file MB |\n|---|---|---|---|")
     for (_, _, edit, name), run in rows.items():
         targets = "" if name == "plain" else edit.count("+") + 1

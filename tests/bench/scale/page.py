@@ -15,7 +15,7 @@ TITLES = {
     "points": ("Lights: light sources", "lights", "`light_source`s in their places."),
     "targets": ("Targets", "targets", "Back wall, floor, balls, left and right wall, ceiling, table and front wall are "
                 "added one after the other;\neight targets are everything."),
-    "resolution": ("Resolution", "size", "With {sizes_spp} samples a pixel, of which writing the set is a large share."),
+    "resolution": ("Resolution", "size", "With {sizes_spp} samples a pixel: the fewer, the more writing weighs."),
 }
 LIMIT = 8e9
 
@@ -83,21 +83,24 @@ def large(found):
     for (series, at, _), runs in found.items():
         if series != "large":
             continue
-        print(f"\n## A large set\n\n`scenes/living-room` at {at}, one target, `--clusters 8`, 4 samples a pixel: ", end="")
+        print(f"\n## A large set\n\n`scenes/living-room` at {at}, one target, `--clusters 8`, 4 samples a pixel: ",
+              end="")
         run = next(iter(runs.values()))
         if run["status"]:
             print("was not rendered.")
             return
         peak = run["peak_memory_bytes"]
-        print(f"peak memory {peak / 1e9:.2f} GB,\n{'less' if peak < LIMIT else 'more'} than the {LIMIT / 1e9:.0f} GB of "
-              f"a small machine; the file has {run['bytes'] / 1e9:.2f} GB.")
+        than = "less" if peak < LIMIT else "more"
+        print(f"peak memory {peak / 1e9:.2f} GB,\n{than} than the {LIMIT / 1e9:.0f} GB of a "
+              f"small machine; the file has {run['bytes'] / 1e9:.2f} GB.")
 
 
 def main(records, table, cores, size, spp, sizes_spp):
     found = read(records)
     rows = list(points(found))
     turns = max((r["turns"] for r in rows), default=1)
-    print(INTRODUCTION.format(cores=cores, size=size, spp=spp, turns=f"{turns} turns" if turns > 1 else "one turn"), end="")
+    turns = f"{turns} turns" if turns > 1 else "one turn"
+    print(INTRODUCTION.format(cores=cores, size=size, spp=spp, turns=turns), end="")
     with open(table, "w", encoding="ascii", newline="") as file:
         out = csv.DictWriter(file, COLUMNS, lineterminator="\n")
         out.writeheader()

@@ -7,9 +7,10 @@
 # Reading the scene is not in the cost: of each process the time of one that renders four pixels is taken off. Last, the
 # peak memory of a large set.
 #
-# As it stands it takes about half an hour on two cores, and 8 GB. BENCH_MAX=7 goes to ten million triangles (else a
-# million, 6; takes some minutes more); BENCH_TURNS, BENCH_SPP, BENCH_SIZE, BENCH_SERIES='triangles lights points targets
-# resolution', BENCH_SIZES, BENCH_SIZES_SPP (samples there) and BENCH_LARGE (size of the large set, or `no') choose less.
+# As it stands it takes about half an hour on two cores. BENCH_MAX=7 goes to ten million triangles (else a million, 6;
+# takes some minutes and 3 GB more); BENCH_TURNS, BENCH_SPP, BENCH_SIZE, BENCH_SERIES='triangles lights points targets
+# resolution', BENCH_SIZES, BENCH_SIZES_SPP (samples there) and BENCH_LARGE (size of the large set, or `no') choose
+# less.
 set -eu
 export LC_ALL=C
 build=${BUILD:-build} here=tests/bench/scale
@@ -19,7 +20,7 @@ work=$build/bench/scale records=$build/bench/scale/runs out=$build/bench
 turns=${BENCH_TURNS:-3} spp=${BENCH_SPP:-64} size=${BENCH_SIZE:-320x180} most=${BENCH_MAX:-6}
 sizes=${BENCH_SIZES:-160x90 320x180 640x360 1280x720 1920x1080 3840x2160} sizes_spp=${BENCH_SIZES_SPP:-8}
 large=${BENCH_LARGE:-3840x2160}
-series=${BENCH_SERIES:-triangles lights points targets resolution}
+series=${BENCH_SERIES-triangles lights points targets resolution}
 python=${PYTHON:-/usr/bin/python3}
 if ! "$python" -c 'import numpy' 2>/dev/null; then
     echo "bench-scale: $python needs numpy (python3-numpy)" >&2

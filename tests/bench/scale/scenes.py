@@ -75,7 +75,8 @@ def lights(out, count, points):
     random = np.random.default_rng(1)
     radius = 0.008
     radiance = LAMP * 1.6 / (4 * np.pi * radius ** 2) / count
-    out.write(f"#declare Lit = texture {{ pigment {{ rgb 1 }} finish {{ diffuse 0 ambient 0 emission {radiance} }} }}\n")
+    out.write("#declare Lit = texture { pigment { rgb 1 } finish { diffuse 0 ambient 0 "
+              f"emission {radiance:.6g} }} }}\n")
     for x, y, z in random.uniform((-2.9, 2.3, -2.4), (2.9, 2.75, 2.4), (count, 3)):
         at = f"<{x:.4f}, {y:.4f}, {z:.4f}>"
         out.write(f"light_source {{ {at} rgb {4 / count:.6g} fade_distance 1 fade_power 2 }}\n" if points else
