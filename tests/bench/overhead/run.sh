@@ -4,8 +4,8 @@
 #
 # In the living room the floor, the wall and both are changed, and in an artist's living room, where it is there, floor,
 # painting and both. For each, whole processes that write to the disk are measured in turn: the plain picture, sets, and
-# what the method of Rousselle and others needs, twice. Every other turn goes backwards, so that a machine that gets
-# slower or faster within a turn does not favour what comes first. Overheads are of the same turn.
+# what the method of Rousselle and others needs, twice. A turn begins and ends with the plain picture, and every other
+# turn goes backwards, so that a machine that gets slower or faster favours nothing. Overheads are of the same turn.
 #
 # As it stands it takes about three hours a scene on two cores. BENCH_TURNS, BENCH_SIZE, BENCH_SPP, BENCH_MEMORY_SIZE
 # and BENCH_SCENES='living-room artist' choose less.
@@ -60,7 +60,7 @@ run() { # PART SCENE TURN SIZE SPP ROW TARGET...
 }
 
 forwards='plain footprints paper footprints-bare paper-bare initial-biased again-biased initial-unbiased again-unbiased
-    again'
+    again plain'
 backwards=$(for row in $forwards; do echo "$row"; done | tac)
 for scene in $scenes; do
     if [ ! -e "$(file "$scene")" ]; then

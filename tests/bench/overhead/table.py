@@ -5,7 +5,7 @@ Prints what measure.py wrote as Markdown, and writes the figures as CSV.
 import csv
 import json
 import sys
-from statistics import median
+from statistics import mean, median
 
 ROWS = {
     "plain": "plain picture",
@@ -31,9 +31,10 @@ values, are in [overhead.csv](overhead.csv).
 
 Pictures are {size} with {spp} samples a pixel. A figure is that of a whole process, from reading the scene to
 the written OpenEXR file; sets have the denoising data that users get, unless said otherwise. All rows of a table were
-run in turn, {turns}; times are medians, with least and largest wall time in brackets, and an overhead is
-the median of those over the plain picture of the same turn, of which the paper says "baseline path tracer". Wall
-time is what one waits, processor time what all cores spend.
+run in turn, {turns}, each turn with the plain picture first and last; times are medians, with least and largest wall
+time in brackets, and an overhead is the median of those over the mean plain picture of the same turn, the paper's
+"baseline path tracer". Wall time is what one waits, processor time what all cores spend. How far the plain pictures
+of one turn differ, which stands in the CSV, is the measurement's own error.
 
 "Rousselle" is the method that the paper compares with, as `retex-render` has it: a first render with
 `--plain --control-data biased` or `unbiased`, and for each change of texture a re-render with
@@ -54,10 +55,10 @@ def read(path):
 
 class Row:
     def __init__(self, runs, plain):
-        plains = {p["turn"]: p for p in plain}
+        def base(turn, clock):
+            return mean(p[clock] for p in plain if p["turn"] == turn)
         self.runs = runs
-        self.over = {clock: [100 * (r[clock] / plains[r["turn"]][clock] - 1) for r in runs]
-                     for clock in ("wall", "cpu")}
+        self.over = {clock: [100 * (r[clock] / base(r["turn"], clock) - 1) for r in runs] for clock in ("wall", "cpu")}
 
     def values(self, name):
         return [r[name] for r in self.runs]
@@ -68,7 +69,7 @@ class Row:
     def csv(self):
         figures = [f(self.values(clock)) for clock in ("wall", "cpu") for f in (median, min, max)]
         figures += [f(self.over[clock]) for clock in ("wall", "cpu") for f in (median, min, max)]
-        return [len(self.runs)] + [f"{v:.3f}" for v in figures + [self.speed()]] + \
+        return [len(set(self.values("turn")))] + [f"{v:.3f}" for v in figures + [self.speed()]] + \
             [max(self.values("peak_memory_bytes")), self.runs[0]["bytes"]]
 
 
@@ -110,7 +111,7 @@ def memory(found, size):
 
 def main(records, table, cores, size, spp, memory_size):
     found = read(records)
-    turns = max(len(runs) for runs in found.values())
+    turns = max(len({r["turn"] for r in runs}) for runs in found.values())
     print(INTRODUCTION.format(cores=cores, size=size, spp=spp, turns=f"{turns} times" if turns > 1 else "once"), end="")
     with open(table, "w", encoding="ascii", newline="") as file:
         out = csv.writer(file, lineterminator="\n")
