@@ -28,7 +28,8 @@ lamp, and what varies is one thing at a time; the set has one target, the back w
 of the picture. Pictures are {size} with {spp} samples a pixel where nothing else is said.
 
 The time is that of the process, with writing the file, less that of one that renders four pixels, which reads the
-scene and prepares it; that is the column "reading". Rays are those of the plain picture, shadow rays included.
+scene and prepares it; that is the column "reading". Sets are compared with plain pictures of the same turn. Rays are those
+of the plain picture, shadow rays included.
 
 ![](pictures/scale.png)
 """
@@ -49,12 +50,13 @@ def points(found):
         if render == "once" or series == "large":
             continue
         once = found[series, "0" if series == "targets" else at, "once"]
-        costs = [(r["cpu"] - once[turn]["cpu"]) / r["paths"] * 1e6 for turn, r in runs.items()]
+        by_turn = {turn: (r["cpu"] - once[turn]["cpu"]) / r["paths"] * 1e6 for turn, r in runs.items()}
+        costs = list(by_turn.values())
         some = next(iter(runs.values()))
-        yield dict(zip(COLUMNS, [series, at, render, len(costs), median(costs), min(costs), max(costs),
-                                 (some["segments"] + some["shadow_rays"]) / some["paths"],
-                                 median(o["cpu"] for o in once.values()),
-                                 max(r["peak_memory_bytes"] for r in runs.values()), some["bytes"]]))
+        figures = [series, at, render, len(costs), median(costs), min(costs), max(costs),
+                   (some["segments"] + some["shadow_rays"]) / some["paths"], median(o["cpu"] for o in once.values()),
+                   max(r["peak_memory_bytes"] for r in runs.values()), some["bytes"]]
+        yield dict(zip(COLUMNS, figures), by_turn=by_turn)
 
 
 def cell(row):
@@ -72,7 +74,9 @@ def section(series, rows, sizes_spp):
     for at in dict.fromkeys(r["at"] for r in rows):
         plain, made = by.get((at, "plain")), by.get((at, "set"))
         against = plain or by["0", "plain"]
-        ratio = f"{made['us_per_path'] / against['us_per_path']:.3f}" if made else ""
+        ratio = ""
+        if made:
+            ratio = f"{median(made['by_turn'][t] / cost for t, cost in against['by_turn'].items()):.3f}"
         memory = [f"{r['peak_memory_bytes'] / 1e6:.0f}" if r else "" for r in (plain, made)]
         name = f"{int(at):,}" if at.isdigit() else at
         print(f"| {name} |{cell(plain)}{cell(made)} {ratio} | {against['rays_per_path']:.2f} |"
@@ -102,7 +106,7 @@ def main(records, table, cores, size, spp, sizes_spp):
     turns = f"{turns} turns" if turns > 1 else "one turn"
     print(INTRODUCTION.format(cores=cores, size=size, spp=spp, turns=turns), end="")
     with open(table, "w", encoding="ascii", newline="") as file:
-        out = csv.DictWriter(file, COLUMNS, lineterminator="\n")
+        out = csv.DictWriter(file, COLUMNS, extrasaction="ignore", lineterminator="\n")
         out.writeheader()
         out.writerows({k: f"{v:.4g}" if isinstance(v, float) else v for k, v in r.items()} for r in rows)
     for series in dict.fromkeys(r["series"] for r in rows):
