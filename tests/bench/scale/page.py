@@ -28,8 +28,8 @@ lamp, and what varies is one thing at a time; the set has one target, the back w
 of the picture. Pictures are {size} with {spp} samples a pixel where nothing else is said.
 
 The time is that of the process, with writing the file, less that of one that renders four pixels, which reads the
-scene and prepares it; that is the column "reading". Sets are compared with plain pictures of the same turn. Rays are those
-of the plain picture, shadow rays included.
+scene and prepares it; that is the column "reading". Sets are compared with plain pictures of the same turn. Rays
+are those of the plain picture, shadow rays included.
 
 ![](pictures/scale.png)
 """

@@ -7,10 +7,10 @@
 # Reading the scene is not in the cost: of each process the time of one that renders four pixels is taken off. Last, the
 # peak memory of a large set.
 #
-# As it stands it takes about three quarters of an hour on two cores. BENCH_MAX=7 goes to ten million triangles (else a million, 6;
-# takes some minutes and 3 GB more); BENCH_TURNS, BENCH_SPP, BENCH_SIZE, BENCH_SERIES='triangles lights points targets
-# resolution', BENCH_SIZES, BENCH_SIZES_SPP (samples there) and BENCH_LARGE (size of the large set, or `no') choose
-# less.
+# As it stands it takes about three quarters of an hour on two cores. BENCH_MAX=7 goes to ten million triangles (else a
+# million, 6; takes some minutes and 3 GB more); BENCH_TURNS, BENCH_SPP, BENCH_SIZE, BENCH_SERIES='triangles lights
+# points targets resolution', BENCH_SIZES, BENCH_SIZES_SPP (samples there) and BENCH_LARGE (size of the large set, or
+# `no') choose less.
 set -eu
 export LC_ALL=C
 build=${BUILD:-build} here=tests/bench/scale
