@@ -27,8 +27,8 @@ and largest in brackets; they are in [scale.csv](scale.csv) too. The scene is a 
 lamp, and what varies is one thing at a time; the set has one target, the back wall, which covers two fifths
 of the picture. Pictures are {size} with {spp} samples a pixel where nothing else is said.
 
-The time is that of the process, with writing the file, less that of one that renders four pixels, which reads the
-scene and prepares it; that is the column "reading". Sets are compared with plain pictures of the same turn. Rays
+The time is that of the process, with writing the file, from when it has read and prepared the scene; until then
+is the column "reading". Sets are compared with plain pictures of the same turn. Rays
 are those of the plain picture, shadow rays included.
 
 ![](pictures/scale.png)
@@ -47,14 +47,14 @@ def read(path):
 def points(found):
     """Rows of the CSV, as dictionaries."""
     for (series, at, render), runs in found.items():
-        if render == "once" or series == "large":
+        if series == "large":
             continue
-        once = found[series, "0" if series == "targets" else at, "once"]
-        by_turn = {turn: (r["cpu"] - once[turn]["cpu"]) / r["paths"] * 1e6 for turn, r in runs.items()}
+        by_turn = {turn: (r["cpu"] - r["reading_cpu"]) / r["paths"] * 1e6 for turn, r in runs.items()}
         costs = list(by_turn.values())
         some = next(iter(runs.values()))
         figures = [series, at, render, len(costs), median(costs), min(costs), max(costs),
-                   (some["segments"] + some["shadow_rays"]) / some["paths"], median(o["cpu"] for o in once.values()),
+                   (some["segments"] + some["shadow_rays"]) / some["paths"],
+                   median(r["reading_cpu"] for r in runs.values()),
                    max(r["peak_memory_bytes"] for r in runs.values()), some["bytes"]]
         yield dict(zip(COLUMNS, figures), by_turn=by_turn)
 

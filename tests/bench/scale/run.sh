@@ -4,8 +4,7 @@
 # with BENCH_DOCS=1 they go to docs/ and docs/pictures/ too.
 #
 # A room of scenes.py is rendered with more and more triangles, lights, targets and pixels, plain and as a set, in turn.
-# Reading the scene is not in the cost: of each process the time of one that renders four pixels is taken off. Last, the
-# peak memory of a large set.
+# Reading the scene is not in the cost. Last, the peak memory of a large set.
 #
 # As it stands it takes about three quarters of an hour on two cores. BENCH_MAX=7 goes to ten million triangles (else a
 # million, 6; takes some minutes and 3 GB more); BENCH_TURNS, BENCH_SPP, BENCH_SIZE, BENCH_SERIES='triangles lights
@@ -41,13 +40,11 @@ run() { # SERIES AT RENDER TURN SCENE OPTION...
     "$python" tests/bench/overhead/measure.py "$records" $key -- retex-render "$@" -o "$work/out.exr" "$file"
 }
 both() { # SERIES AT TURN SCENE SIZE SPP: plain and as a set of one target
-    run "$1" "$2" once "$3" "$4" --plain --size 2x2 --spp 1
     run "$1" "$2" plain "$3" "$4" --plain --size "$5" --spp "$6"
     run "$1" "$2" set "$3" "$4" -t Back --size "$5" --spp "$6"
 }
 targets() { # TURN
     file=$(scene triangles 100000)
-    run targets 0 once "$1" "$file" --plain --size 2x2 --spp 1
     run targets 0 plain "$1" "$file" --plain --size "$size" --spp "$spp"
     options='' count=0
     for target in Back Floor Ball Left Right Ceiling Table Front; do
