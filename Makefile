@@ -8,6 +8,8 @@
 #   make fuzz         mutated inputs with the sanitizers; FUZZ_SECONDS=60 for each kind of input
 #   make bench        ratios of speed: kernels against references, sets against plain renders
 #   make bench-render speed and error of rendering, against Cycles and against rays of Embree alone
+#   make bench-overhead   what sets cost over plain pictures, as in the paper; BENCH_DOCS=1: docs/overhead.md
+#   make bench-scale  cost a path by triangles, lights, targets and resolution; BENCH_DOCS=1: docs/scale.md
 #   make fidelity     retextures against rendering again: docs/fidelity.md, docs/denoise.md; takes hours
 #   make fidelity-denoise   the second of these alone
 #   make pictures     the README's pictures, into docs/pictures; takes long

@@ -88,6 +88,13 @@ bench: $(BUILD)/tests/bench/bench
 bench-render: all $(BUILD)/tests/bench/embree_rays
 	@BUILD=$(BUILD) tests/bench/render/run.sh
 
+# What sets cost over plain pictures, and how costs grow; BENCH_DOCS=1 puts the pages into docs/.
+.PHONY: bench-overhead bench-scale
+bench-overhead: all
+	@BUILD=$(BUILD) tests/bench/overhead/run.sh
+bench-scale: all
+	@BUILD=$(BUILD) tests/bench/scale/run.sh
+
 # Retextures against rendering again, in all scenes: docs/fidelity.md; then what denoising gains: docs/denoise.md. Takes
 # hours; FIDELITY_… and DENOISE_… of the scripts choose less.
 .PHONY: fidelity fidelity-denoise

@@ -1,0 +1,95 @@
+#!/bin/sh
+# What a set costs over the plain picture, as in tables 1 to 3 of the paper: make bench-overhead. Prints a page, which
+# is also $BUILD/bench/overhead.md, with the figures in overhead.csv; with BENCH_DOCS=1 both go to docs/ too.
+#
+# In the living room the floor, the wall and both are changed, and in an artist's living room, where it is there, floor,
+# painting and both. For each, whole processes that write to the disk are measured in turn: the plain picture, sets, and
+# what the method of Rousselle and others needs, twice. A turn begins and ends with the plain picture, and every other
+# turn goes backwards, so that a machine that gets slower or faster favours nothing. Overheads are of the same turn.
+#
+# As it stands it takes about three hours a scene on two cores. BENCH_TURNS, BENCH_SIZE, BENCH_SPP, BENCH_MEMORY_SIZE
+# and BENCH_SCENES='living-room artist' choose less.
+set -eu
+export LC_ALL=C
+build=${BUILD:-build} here=tests/bench/overhead
+case $build in /*) ;; *) build=$PWD/$build ;; esac
+PATH=$build/bin:$PATH
+work=$build/bench/overhead records=$build/bench/overhead/runs
+turns=${BENCH_TURNS:-5} size=${BENCH_SIZE:-640x360} spp=${BENCH_SPP:-128} memory_size=${BENCH_MEMORY_SIZE:-1920x1080}
+scenes=${BENCH_SCENES:-living-room artist}
+python=${PYTHON:-/usr/bin/python3}
+artist=${RETEX_SHARED:-../shared}/scenes/living-room-bitterli/scene.pov
+mkdir -p "$work"
+: >"$records"
+
+file() { # SCENE: where it is
+    case $1 in artist) echo "$artist" ;; *) echo "scenes/$1/$1.pov" ;; esac
+}
+options() { # ROW TARGET...: of retex-render, one a line
+    row=$1
+    shift
+    case $row in
+    plain | initial-*) echo --plain ;;
+    again*) for t in "$@"; do printf '%s\n' --replace "$t=scenes/textures/$(texture "$t")"; done ;;
+    *) for t in "$@"; do printf '%s\n' --target "$t"; done ;;
+    esac
+    case $row in paper*) printf '%s\n' --layout paper ;; esac
+    case $row in
+    *-bare) echo --no-denoise-data ;;
+    initial-*) printf '%s\n' --control-data "${row#initial-}" ;;
+    again-biased) printf '%s\n' --control "$work/initial-biased.exr" --control-mode biased ;;
+    again-unbiased) printf '%s\n' --control "$work/initial-unbiased.exr" --control-mode halves ;;
+    esac
+}
+texture() { # TARGET
+    case $1 in Floor) echo walnut-herringbone.jpg ;; Wall) echo damask.jpg ;; *) echo fans.jpg ;; esac
+}
+run() { # PART SCENE TURN SIZE SPP ROW TARGET...
+    part=$1 scene=$2 turn=$3 wide=$4 samples=$5 row=$6
+    shift 6
+    edit=$(echo "$*" | tr ' ' '+')
+    given=$(options "$row" "$@")
+    # No option has blanks in it unless a folder does.
+    IFS='
+'
+    # shellcheck disable=SC2086
+    set -- $given
+    unset IFS
+    "$python" $here/measure.py "$records" "part=$part" "scene=$scene" "edit=$edit" "row=$row" "turn=$turn" -- \
+        retex-render "$@" --size "$wide" --spp "$samples" -o "$work/$row.exr" "$(file "$scene")"
+}
+
+forwards='plain footprints paper footprints-bare paper-bare initial-biased again-biased initial-unbiased again-unbiased
+    again plain'
+backwards=$(for row in $forwards; do echo "$row"; done | tac)
+for scene in $scenes; do
+    if [ ! -e "$(file "$scene")" ]; then
+        echo "bench-overhead: no $(file "$scene"): $scene is left out" >&2
+        continue
+    fi
+    other=Wall
+    [ "$scene" != artist ] || other=Painting
+    for turn in $(seq "$turns"); do
+        rows=$forwards
+        # The pictures that control is by are those of the turn before, which are the same.
+        [ $((turn % 2)) = 1 ] || rows=$backwards
+        for targets in Floor $other "Floor $other"; do
+            for row in $rows; do
+                # shellcheck disable=SC2086
+                run time "$scene" "$turn" "$size" "$spp" "$row" $targets
+            done
+        done
+    done
+done
+# Two samples are the fewest that denoising data are of.
+run memory living-room 1 "$memory_size" 2 plain Floor
+for row in footprints paper; do
+    run memory living-room 1 "$memory_size" 2 $row Floor
+    run memory living-room 1 "$memory_size" 2 $row Floor Wall
+done
+rm -f "$work"/*.exr
+"$python" $here/table.py "$records" "$build/bench/overhead.csv" "$(nproc)" "$size" "$spp" "$memory_size" |
+    tee "$build/bench/overhead.md"
+if [ "${BENCH_DOCS:-}" = 1 ]; then
+    cp "$build/bench/overhead.md" "$build/bench/overhead.csv" docs/
+fi

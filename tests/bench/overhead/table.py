@@ -1,0 +1,131 @@
+"""The page of make bench-overhead: table.py RECORDS OUT.csv CORES SIZE SPP MEMORY_SIZE
+
+Prints what measure.py wrote as Markdown, and writes the figures as CSV.
+"""
+import csv
+import json
+import sys
+from statistics import mean, median
+
+ROWS = {
+    "plain": "plain picture",
+    "footprints": "set, `footprints`",
+    "footprints-bare": "set, `footprints`, no denoising data",
+    "paper": "set, `paper`",
+    "paper-bare": "set, `paper`, no denoising data",
+    "initial-biased": "Rousselle, biased: first render",
+    "again-biased": "Rousselle, biased: re-render",
+    "initial-unbiased": "Rousselle, unbiased: first render",
+    "again-unbiased": "Rousselle, unbiased: re-render",
+    "again": "plain re-render",
+}
+# Overheads in percent of tables 1 to 3: Living Room, 128 samples.
+PAPER = {"floor": (14.07, 3.00, 30.97), "wall": (11.46, 3.46, 28.16), "floor and wall": (21.16, 4.39, 30.96)}
+SCENES = {"living-room": "scenes/living-room", "artist": "the artist's living room"}
+
+INTRODUCTION = """# What a set costs
+
+How much longer a render takes that leaves a set, than one of the plain picture: what tables 1 to 3 of the paper
+measure. `make bench-overhead` made this page, on {cores} cores; the same figures, with their least and largest
+values, are in [overhead.csv](overhead.csv).
+
+Pictures are {size} with {spp} samples a pixel. A figure is that of a whole process, from reading the scene to
+the written OpenEXR file; sets have the denoising data that users get, unless said otherwise. All rows of a table were
+run in turn, {turns}, each turn with the plain picture first and last; times are medians, with least and largest wall
+time in brackets, and an overhead is the median of those over the mean plain picture of the same turn, the paper's
+"baseline path tracer". Wall time is what one waits, processor time what all cores spend. How far the plain pictures
+of one turn differ, which stands in the CSV, is the measurement's own error.
+
+"Rousselle" is the method that the paper compares with, as `retex-render` has it: a first render with
+`--plain --control-data biased` or `unbiased`, and for each change of texture a re-render with
+`--replace ... --control`, in `--control-mode biased` or `halves`. A set needs no re-render. "Plain re-render" is
+`--replace` alone, the scene with its new textures rendered anew; its overhead says what the texture files cost.
+"""
+
+
+def read(path):
+    """Of (part, scene, edit, row), the runs by turn."""
+    found = {}
+    with open(path, encoding="ascii") as file:
+        for record in map(json.loads, file):
+            key = tuple(record[name] for name in ("part", "scene", "edit", "row"))
+            found.setdefault(key, []).append(record)
+    return found
+
+
+class Row:
+    def __init__(self, runs, plain):
+        def base(turn, clock):
+            return mean(p[clock] for p in plain if p["turn"] == turn)
+        self.runs = runs
+        self.over = {clock: [100 * (r[clock] / base(r["turn"], clock) - 1) for r in runs] for clock in ("wall", "cpu")}
+
+    def values(self, name):
+        return [r[name] for r in self.runs]
+
+    def speed(self):
+        return median(r["paths"] / r["wall"] / 1e6 for r in self.runs)
+
+    def csv(self):
+        figures = [f(self.values(clock)) for clock in ("wall", "cpu") for f in (median, min, max)]
+        figures += [f(self.over[clock]) for clock in ("wall", "cpu") for f in (median, min, max)]
+        return [len(set(self.values("turn")))] + [f"{v:.3f}" for v in figures + [self.speed()]] + \
+            [max(self.values("peak_memory_bytes")), self.runs[0]["bytes"]]
+
+
+CSV = ["part", "scene", "targets", "row", "turns"] + \
+    [f"{what}{end}" for what in ("wall_s", "cpu_s", "over_wall_percent", "over_cpu_percent")
+     for end in ("", "_min", "_max")] + ["mpaths_per_s", "peak_memory_bytes", "file_bytes"]
+
+
+def section(scene, edit, rows):
+    print(f"\n## {SCENES[scene]}: {' and '.join(edit.split('+'))}\n")
+    print("| render | wall s | processor s | over plain, wall | processor | Mpaths/s | memory MB | file MB |\n"
+          "|---|---|---|---|---|---|---|---|")
+    for name, row in rows.items():
+        wall = row.values("wall")
+        over = [f"{median(row.over[clock]):+.1f} %" if name != "plain" else "" for clock in ("wall", "cpu")]
+        print(f"| {ROWS[name]} | {median(wall):.2f} ({min(wall):.2f} .. {max(wall):.2f}) |"
+              f" {median(row.values('cpu')):.2f} | {' | '.join(over)} | {row.speed():.3f} |"
+              f" {max(row.values('peak_memory_bytes')) / 1e6:.0f} | {row.runs[0]['bytes'] / 1e6:.1f} |")
+
+
+def paper():
+    print("\n## The paper's figures\n\nIts Living Room, 128 samples a pixel, averages of five runs; over its plain "
+          "path tracer:\n\n| changed | its set | Rousselle, first render | Rousselle, re-render |\n|---|---|---|---|")
+    for edit, figures in PAPER.items():
+        print(f"| {edit} | " + " | ".join(f"{f:.2f} %" for f in figures) + " |")
+
+
+def memory(found, size):
+    rows = {key: runs[0] for key, runs in found.items() if key[0] == "memory"}
+    if not rows:
+        return
+    print(f"\n## Memory\n\nThe peak of `scenes/living-room` at {size}, 2 samples a pixel; more samples need a little "
+          "more. The plain\npicture's is that of program and scene.\n")
+    print("| render | targets | memory MB | file MB |\n|---|---|---|---|")
+    for (_, _, edit, name), run in rows.items():
+        targets = "" if name == "plain" else edit.count("+") + 1
+        print(f"| {ROWS[name]} | {targets} | {run['peak_memory_bytes'] / 1e6:.0f} | {run['bytes'] / 1e6:.1f} |")
+
+
+def main(records, table, cores, size, spp, memory_size):
+    found = read(records)
+    turns = max(len({r["turn"] for r in runs}) for runs in found.values())
+    print(INTRODUCTION.format(cores=cores, size=size, spp=spp, turns=f"{turns} times" if turns > 1 else "once"), end="")
+    with open(table, "w", encoding="ascii", newline="") as file:
+        out = csv.writer(file, lineterminator="\n")
+        out.writerow(CSV)
+        for scene, edit in dict.fromkeys(key[1:3] for key in found if key[0] == "time"):
+            plain = found["time", scene, edit, "plain"]
+            rows = {name: Row(found["time", scene, edit, name], plain) for name in ROWS}
+            section(scene, edit, rows)
+            out.writerows(["time", scene, edit, name, *row.csv()] for name, row in rows.items())
+        for key, runs in found.items():
+            if key[0] == "memory":
+                out.writerow([*key, *Row(runs, runs).csv()])
+    paper()
+    memory(found, memory_size)
+
+
+main(*sys.argv[1:])
