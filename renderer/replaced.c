@@ -27,7 +27,10 @@ static int load_texture(Arguments *a, const Scene *scene, int t, RetexTextureSpe
         a->measured = 1;
         memcpy(spec->uv_scale, a->uv_scales[t], sizeof spec->uv_scale);
     }
-    return retex_texture_load(texture, spec, a->cli->threads, err);
+    int code = retex_texture_load(texture, spec, a->cli->threads, err);
+    if (!code)
+        retex_texture_compact(*texture);
+    return code;
 }
 
 void replace_textures(Arguments *a, const Scene *scene, RetexTexture **loaded)

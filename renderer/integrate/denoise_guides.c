@@ -119,16 +119,16 @@ static void note_primitive(GuideSums *sums, int primitive)
     sums->differ |= primitive != sums->primitive;
 }
 
-static void look(const DenoiseGuides *job, GuideSums *sums, Ray ray)
+/* hit: the first along the ray. */
+static void look(const DenoiseGuides *job, GuideSums *sums, Ray ray, Hit hit)
 {
     const FirstHitWindow *w = &job->window;
     RayKind kind = RAY_CAMERA;
     float throughput = 1;
     unsigned met = 0;
-    Hit hit;
     Shading s;
     for (int followed = 0;; followed++) {
-        if (!accel_intersect(w->accel, &ray, kind, &hit)) {
+        if (followed ? !accel_intersect(w->accel, &ray, kind, &hit) : hit.primitive < 0) {
             add_albedo(sums, rgb_grey(1));
             note_primitive(sums, -1);
             return;
@@ -176,11 +176,18 @@ static void look_at(const DenoiseGuides *job, GuideSums *sums, int x, int y, int
 {
     const FirstHitWindow *w = &job->window;
     *sums = (GuideSums){.places = 0};
-    for (int k = 0; k < places; k++) {
-        int row = places == PLACES_FEW ? few_rows[k] : k * STEP_MANY % places;
-        look(job, sums,
-             camera_ray(&w->scene->camera, w->width, w->height, w->x0 + x + (k + 0.5) / places,
-                        w->y0 + y + (row + 0.5) / places));
+    Ray rays[ACCEL_PACKET];
+    Hit hits[ACCEL_PACKET];
+    for (int first = 0; first < places; first += ACCEL_PACKET) {
+        int count = places - first < ACCEL_PACKET ? places - first : ACCEL_PACKET;
+        for (int i = 0, k = first; i < count; i++, k++) {
+            int row = places == PLACES_FEW ? few_rows[k] : k * STEP_MANY % places;
+            rays[i] = camera_ray(&w->scene->camera, w->width, w->height, w->x0 + x + (k + 0.5) / places,
+                                 w->y0 + y + (row + 0.5) / places);
+        }
+        accel_intersect_packet(w->accel, rays, count, RAY_CAMERA, hits);
+        for (int i = 0; i < count; i++)
+            look(job, sums, rays[i], hits[i]);
     }
 }
 
