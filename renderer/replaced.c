@@ -27,10 +27,7 @@ static int load_texture(Arguments *a, const Scene *scene, int t, RetexTextureSpe
         a->measured = 1;
         memcpy(spec->uv_scale, a->uv_scales[t], sizeof spec->uv_scale);
     }
-    int code = retex_texture_load(texture, spec, a->cli->threads, err);
-    if (!code)
-        retex_texture_compact(*texture);
-    return code;
+    return retex_texture_load(texture, spec, a->cli->threads, err);
 }
 
 void replace_textures(Arguments *a, const Scene *scene, RetexTexture **loaded)

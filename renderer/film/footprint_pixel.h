@@ -24,7 +24,7 @@ typedef struct Cluster {
 
 /* One path's light by the hit that comes first. */
 typedef struct Pending {
-    int target, order; /* the how-manieth target hit of its path */
+    int target;
     int sharp;
     Vec2 position;
     double weight;
@@ -36,7 +36,7 @@ typedef struct Pending {
 
 /* One path's light by a further hit. */
 typedef struct PendingLater {
-    int target, order;
+    int target;
     double uv[2], weight;
     AlbedoSums albedo;
 } PendingLater;
@@ -70,6 +70,7 @@ struct FootprintPixel {
     int npending;
     PendingLater later[PENDING_MAX];
     int nlater;
+    unsigned char pending_of[RETEX_MAX_FACTORS], later_of[RETEX_MAX_FACTORS]; /* the last entry by order, from 1; 0: none */
     UvRange *range; /* of what was met */
 };
 

@@ -70,18 +70,21 @@ static void add_albedo(AlbedoSums *a, Rgb light, Rgb albedo)
 static void flush_pending(FootprintPixel *p);
 static void flush_later(FootprintPixel *p);
 
-/* The path's entry for a hit; a hit met again, as the path goes on from where it connected, is the same. */
+/* The path's entry for a hit, the order-th of the path; a hit met again, as the path goes on from where it connected,
+ * is the same. */
 static Pending *find_pending(FootprintPixel *p, const TargetHit *hit, int order)
 {
-    for (int k = p->npending - 1; k >= 0; k--) {
-        Pending *q = &p->pending[k];
-        if (q->order == order && q->target == hit->target && q->position.u == hit->uv.u && q->position.v == hit->uv.v)
+    int last = p->pending_of[order];
+    if (last) {
+        Pending *q = &p->pending[last - 1];
+        if (q->target == hit->target && q->position.u == hit->uv.u && q->position.v == hit->uv.v)
             return q;
     }
     if (p->npending == PENDING_MAX)
         flush_pending(p);
     Pending *q = &p->pending[p->npending++];
-    q->target = hit->target, q->order = order, q->sharp = hit->sharp, q->position = hit->uv;
+    p->pending_of[order] = (unsigned char)p->npending;
+    q->target = hit->target, q->sharp = hit->sharp, q->position = hit->uv;
     q->weight = q->again = 0;
     q->used = 0;
     q->albedo = (AlbedoSums){0};
@@ -91,15 +94,17 @@ static Pending *find_pending(FootprintPixel *p, const TargetHit *hit, int order)
 /* Likewise for a further hit. */
 static PendingLater *find_later(FootprintPixel *p, const TargetHit *hit, int order)
 {
-    for (int k = p->nlater - 1; k >= 0; k--) {
-        PendingLater *l = &p->later[k];
-        if (l->order == order && l->target == hit->target && l->uv[0] == hit->uv.u && l->uv[1] == hit->uv.v)
+    int last = p->later_of[order];
+    if (last) {
+        PendingLater *l = &p->later[last - 1];
+        if (l->target == hit->target && l->uv[0] == hit->uv.u && l->uv[1] == hit->uv.v)
             return l;
     }
     if (p->nlater == PENDING_MAX)
         flush_later(p);
     PendingLater *l = &p->later[p->nlater++];
-    *l = (PendingLater){hit->target, order, {hit->uv.u, hit->uv.v}, 0, {{0}, {0}}};
+    p->later_of[order] = (unsigned char)p->nlater;
+    *l = (PendingLater){hit->target, {hit->uv.u, hit->uv.v}, 0, {{0}, {0}}};
     return l;
 }
 
@@ -149,6 +154,8 @@ static void flush_later(FootprintPixel *p)
         pool_later(p->targets[l->target].later, &one, p->film->params.periodic[l->target]);
         uv_range_add(p->range, l->target, l->uv);
     }
+    if (p->nlater)
+        memset(p->later_of, 0, sizeof p->later_of);
     p->nlater = 0;
 }
 
@@ -346,6 +353,8 @@ static void flush_pending(FootprintPixel *p)
         else
             squeeze(own, other, own->count == room, q, periodic);
     }
+    if (p->npending)
+        memset(p->pending_of, 0, sizeof p->pending_of);
     p->npending = 0;
 }
 

@@ -140,8 +140,7 @@ static void load_image(Sdl *sdl, SideImage *image, int *room)
         map->height = pixels.height;
         scene->digest = digest_bytes(scene->digest, pixels.pixels,
                                      retex_image_index(&pixels, 0, pixels.height) * sizeof(float));
-        if (!retex_texture_create(&map->texture, &pixels, NULL, &err))
-            retex_texture_compact(map->texture);
+        retex_texture_create(&map->texture, &pixels, NULL, &err);
         retex_image_free(&pixels);
     }
     if (!map->texture)

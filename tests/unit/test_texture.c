@@ -1,7 +1,6 @@
 /* Textures: wraps, the UV transform, and the Gaussian filter against a plain numerical integral of the point
  * look-up and against waves, whose filtered amplitude is known exactly. */
 #include "lib_test.h"
-#include "texture_pyramid.h"
 
 #include <complex.h>
 #include <math.h>
@@ -395,35 +394,6 @@ static void test_bad_values(void **state)
     retex_texture_close(NULL);
 }
 
-/* As bytes, look-ups are the same to the bit; an image of more values is left alone. */
-static void test_compact(void **state)
-{
-    (void)state;
-    for (int values = 200; values <= 300; values += 100) {
-        RetexImage im = {0};
-        test_random_image(&im, 61, 43, 4, 5, 0, 1);
-        for (size_t i = 0; i < 61 * 43 * 4; i++)
-            im.pixels[i] = i % 4 == 3 ? 1 : powf(floorf(im.pixels[i] * (float)values) / (float)values, 2.2f);
-        RetexTexture *plain = make_texture(&im, RETEX_WRAP_REPEAT, RETEX_WRAP_CLAMP);
-        RetexTexture *compact = make_texture(&im, RETEX_WRAP_REPEAT, RETEX_WRAP_CLAMP);
-        retex_texture_compact(compact);
-        assert_true((compact->codes != NULL) == (values <= 256));
-        for (int k = 0; k < 5000; k++) {
-            float a[4], b[4];
-            double u = k * 0.0137 - 20, v = k * 0.00071 - 1;
-            retex_texture_point(plain, u, v, a);
-            retex_texture_point(compact, u, v, b);
-            assert_memory_equal(a, b, sizeof a);
-            retex_texture_nearest(plain, u, v, a);
-            retex_texture_nearest(compact, u, v, b);
-            assert_memory_equal(a, b, sizeof a);
-        }
-        retex_texture_close(&plain);
-        retex_texture_close(&compact);
-        retex_image_free(&im);
-    }
-}
-
 static void test_speed(void **state)
 {
     (void)state;
@@ -452,7 +422,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_point),      cmocka_unit_test(test_transform), cmocka_unit_test(test_limits),
         cmocka_unit_test(test_integral),   cmocka_unit_test(test_variance),  cmocka_unit_test(test_alpha),
-        cmocka_unit_test(test_bad_values), cmocka_unit_test(test_compact),   cmocka_unit_test(test_speed),
+        cmocka_unit_test(test_bad_values), cmocka_unit_test(test_speed),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -362,8 +362,6 @@ void retex_texture_close(RetexTexture **texture)
             free(level->ends[k]);
         }
     }
-    free((*texture)->codes);
-    free((*texture)->values);
     free(*texture);
     *texture = NULL;
 }

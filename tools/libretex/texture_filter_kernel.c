@@ -334,15 +334,6 @@ void texture_gaussian_kernel(const RetexTexture *texture, const TextureFootprint
     memcpy(rgba, &sum, sizeof sum);
 }
 
-static inline Float4 texel(const RetexTexture *texture, size_t index)
-{
-    const unsigned char *code = texture->codes + 4 * index;
-    const float *values = texture->values;
-    return texture->codes
-               ? (Float4){values[code[0]], values[256 + code[1]], values[512 + code[2]], values[768 + code[3]]}
-               : load4(texture->levels[0].texels + 4 * index);
-}
-
 void texture_point_kernel(const RetexTexture *texture, double x, double y, float rgba[4])
 {
     const TextureLevel *image = &texture->levels[0];
@@ -359,8 +350,8 @@ void texture_point_kernel(const RetexTexture *texture, double x, double y, float
         columns[i] = clamp_index(wrap_index(x0 + i, image->width, wrap_x), image->width);
     for (int j = 0; j < 2; j++) {
         int line = clamp_index(wrap_index(y0 + j, image->height, wrap_y), image->height);
-        size_t row = (size_t)line * (size_t)image->width;
-        lines[j] = texel(texture, row + (size_t)columns[0]) * (1 - tx) + texel(texture, row + (size_t)columns[1]) * tx;
+        const float *row = image->texels + (size_t)line * (size_t)image->width * 4;
+        lines[j] = load4(row + (size_t)columns[0] * 4) * (1 - tx) + load4(row + (size_t)columns[1] * 4) * tx;
     }
     Float4 sum = lines[0] * (1 - ty) + lines[1] * ty;
     memcpy(rgba, &sum, sizeof sum);

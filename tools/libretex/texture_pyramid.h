@@ -31,8 +31,6 @@ struct RetexTexture {
     double offset[2];
     int nlevels;         /* 0 = constant */
     TextureLevel levels[TEXTURE_MAX_LEVELS];
-    unsigned char *codes; /* of the image's texels, for point look-ups: RGBA, numbers of values; NULL = none */
-    float *values;        /* [4][256] by channel */
     float corners[4][4]; /* of the image: top left, top right, bottom left, bottom right; premultiplied */
     /* E max(z + N(0,1), 0) - max(z, 0) for z = 0 .. TEXTURE_TAIL_END: what a bilinear tent blurred by a Gaussian is
      * made of */

@@ -80,11 +80,6 @@ void retex_texture_close(RetexTexture **texture);
 /* Texels of one repeat; 1, 1 for a constant. */
 int retex_texture_size(const RetexTexture *texture, int *width, int *height);
 
-/* For look-ups of single points in any order, as a renderer makes them: keep the image's texels as bytes too, where
- * channels have no more than 256 values. They are found faster, and are the same to the bit. Nothing happens where
- * there are more, or no memory. Not while others use the texture. */
-void retex_texture_compact(RetexTexture *texture);
-
 /* One point, bilinear between texel centres, after the spec's UV transform and wraps: rgba, unassociated alpha.
  * `wrap=black` gives (0,0,0,0) outside [0,1]. Thread-safe. What --replace and a pigment's interpolated image_map
  * use. */
