@@ -70,7 +70,8 @@ struct FootprintPixel {
     int npending;
     PendingLater later[PENDING_MAX];
     int nlater;
-    unsigned char pending_of[RETEX_MAX_FACTORS], later_of[RETEX_MAX_FACTORS]; /* the last entry by order, from 1; 0: none */
+    /* The last entry for a path's hit of each order, counted from 1; 0: none. */
+    unsigned char pending_of[RETEX_MAX_FACTORS], later_of[RETEX_MAX_FACTORS];
     UvRange *range; /* of what was met */
 };
 
