@@ -439,11 +439,12 @@ static void pick_light(PathWorker *w, Vertex *v)
     if (isfinite(light->distance)) { /* stop just before the light, seen from where the ray starts */
         double margin = accel_margin(s->surface.position);
         t->ray.tmax = light->distance * (1 - 1e-6) - margin;
-        if (light->kind ==
-            LIGHT_SAMPLE_EMITTER) { /* whose surface the ray, begun beside, meets the earlier the flatter */
+        if (light->kind == LIGHT_SAMPLE_EMITTER) {
+            /* Its surface is met by the ray, begun beside, the earlier the flatter. */
             double slope = fabs(vec_dot(light->direction, light->surface.geometric_normal));
             t->ray.tmax -= (margin + accel_margin(light->surface.position)) / (slope > 1e-3 ? slope : 1e-3);
         }
+        t->ray.tmax = t->ray.tmax > 0 ? t->ray.tmax : 0; /* Embree takes what is below 0 for met already */
     }
 }
 
