@@ -8,7 +8,7 @@
 
 #include "integrate/path.h"
 
-#define ADAPTIVE_PILOT 8  /* samples a pixel that decide */
+#define ADAPTIVE_PILOT 4  /* samples a pixel that decide */
 #define ADAPTIVE_LEAST 16 /* samples a pixel that are kept at least, if the most is not less */
 
 /* One thread's. */
