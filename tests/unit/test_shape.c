@@ -233,11 +233,11 @@ static SurfaceUv uv_of(Surface s)
 
 static Surface box_surface(int face, Vec3 at)
 {
-    Primitive box =
-        shape(SHAPE_BOX, 0, 0, transform_then(transform_scale(vec3(2, 2, 2)), transform_translate(vec3(-1, -1, -1))));
+    static Primitive box; /* surfaces point to it */
     Vec3 out = {face / 2 == 0, face / 2 == 1, face / 2 == 2};
     Ray ray;
 
+    box = shape(SHAPE_BOX, 0, 0, transform_then(transform_scale(vec3(2, 2, 2)), transform_translate(vec3(-1, -1, -1))));
     out = vec_scale(out, face & 1 ? 1 : -1);
     ray = (Ray){vec_mad(at, out, 5), vec_neg(out), 0, INFINITY};
     return surface_of(&box, &ray, 5, face);
