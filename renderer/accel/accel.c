@@ -282,6 +282,8 @@ int accel_create(Accel **out, const Scene *scene, int nthreads, RetexError *err)
         status = collect_triangles(accel, err);
     if (status == 0)
         status = build(accel, nthreads, err);
+    free(accel->vertices);
+    accel->vertices = NULL;
     if (status < 0)
         accel_close(&accel);
     *out = accel;
@@ -298,7 +300,6 @@ void accel_close(Accel **accel)
         rtcReleaseScene(a->scene);
     if (a->device)
         rtcReleaseDevice(a->device);
-    free(a->vertices);
     free(a->corners);
     free(a->triangles);
     free(a->curved);

@@ -24,7 +24,7 @@ struct Accel {
     RTCDevice device;
     RTCScene scene;
     const Scene *source;
-    Vec3 *vertices; /* of all triangles, world space; Embree has them in float */
+    Vec3 *vertices; /* of all triangles, world space, while building; then Embree has them, in float */
     uint32_t (*corners)[3];
     Triangle *triangles;
     size_t nvertices, ntriangles;

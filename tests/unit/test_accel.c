@@ -398,6 +398,45 @@ static void bad_rays(void **state)
     accel_close(&accel);
 }
 
+/* Packets of any number find what single rays find: triangles, curved shapes, planes, nothing, rays that are none. */
+static void packets_are_single_rays(void **state)
+{
+    Mesh mesh = ball(12, 16, 0.3);
+    Primitive p[4] = {shape(SHAPE_MESH, transform_translate(vec3(-1.5, 0, 0))),
+                      shape(SHAPE_SPHERE, transform_translate(vec3(1.5, 0, 0))),
+                      shape(SHAPE_BOX, transform_translate(vec3(0, 1, 0))),
+                      shape(SHAPE_PLANE, transform_translate(vec3(0, -2, 0)))};
+    Scene scene;
+    Accel *accel;
+    int met = 0;
+
+    (void)state;
+    p[0].mesh = &mesh;
+    accel = create(&scene, p, 4);
+    for (int n = 0; n < 2000; n++) {
+        Ray rays[ACCEL_PACKET];
+        Hit hits[ACCEL_PACKET], hit;
+        int count = 1 + n % ACCEL_PACKET;
+        for (int i = 0; i < count; i++)
+            rays[i] = (Ray){vec_scale(direction(), 4 * uniform()), direction(), 0, i % 3 ? INFINITY : 3 * uniform()};
+        if (n % 7 == 0)
+            rays[0].direction.x = NAN;
+        accel_intersect_packet(accel, rays, count, RAY_CAMERA, hits);
+        unsigned blocked = accel_occluded_packet(accel, rays, count, RAY_SHADOW);
+        assert_int_equal(blocked >> (count - 1) >> 1, 0);
+        for (int i = 0; i < count; i++) {
+            int found = accel_intersect(accel, &rays[i], RAY_CAMERA, &hit);
+            assert_int_equal(hits[i].primitive, hit.primitive);
+            assert_int_equal(blocked >> i & 1, accel_occluded(accel, &rays[i], RAY_SHADOW, 0));
+            assert_true(!found || (hits[i].t == hit.t && hits[i].face == hit.face));
+            met += found;
+        }
+    }
+    assert_true(met > 5000);
+    accel_close(&accel);
+    free_mesh(&mesh);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -408,6 +447,7 @@ int main(void)
         cmocka_unit_test(rays_see_what_they_may),
         cmocka_unit_test(bad_geometry),
         cmocka_unit_test(bad_rays),
+        cmocka_unit_test(packets_are_single_rays),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -5,7 +5,7 @@
 #include <cmocka.h>
 #include <stdlib.h>
 #include <string.h>
-#include "integrate/sampler.h"
+#include "integrate/vertex_samples.h"
 
 static void pairs_are_nets(void **state)
 {
@@ -60,9 +60,32 @@ static void dimensions_do_not_correlate(void **state)
     assert_true(sum / N < 0.005 && sum / N > -0.005);
 }
 
+/* All of a vertex at once are the pairs one by one, with vectors or without; keys are kept from sample to sample and
+ * forgotten with the pixel. */
+static void vertices_are_pairs(void **state)
+{
+    (void)state;
+    PixelKeys keys = {0}, plain_keys = {0};
+    for (uint32_t k = 0; k < 400; k++) {
+        Sampler s = sampler_start(5, k / 40, 3, k);
+        for (unsigned vertex = 0; vertex < VERTEX_KEYS_MAX + 3; vertex++) {
+            VertexSamples all, plain;
+            float pair[VERTEX_NUMBERS];
+            vertex_samples(&keys, &s, vertex, &all);
+            vertex_samples_plain(&plain_keys, &s, vertex, &plain);
+            for (uint32_t p = 0; p < DIMENSIONS_PER_VERTEX; p++)
+                sampler_pair(&s, DIMENSION_PATH + vertex * DIMENSIONS_PER_VERTEX + p, &pair[p],
+                             &pair[p + DIMENSIONS_PER_VERTEX]);
+            assert_memory_equal(&all, pair, sizeof pair);
+            assert_memory_equal(&plain, pair, sizeof pair);
+        }
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(pairs_are_nets), cmocka_unit_test(keys_give_other_numbers),
-                                       cmocka_unit_test(dimensions_do_not_correlate)};
+                                       cmocka_unit_test(dimensions_do_not_correlate),
+                                       cmocka_unit_test(vertices_are_pairs)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
