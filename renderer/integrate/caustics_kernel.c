@@ -1,25 +1,7 @@
 /* Lobes of a cell of the guide to caustics: drawing a direction and its density. */
 #include <string.h>
+#include "base/float4.h"
 #include "integrate/caustics.h"
-
-typedef float Float4 __attribute__((vector_size(16)));
-
-static inline Float4 splat(float x)
-{
-    return (Float4){x, x, x, x};
-}
-
-static inline Float4 load(const float *p)
-{
-    Float4 v;
-    memcpy(&v, p, sizeof v);
-    return v;
-}
-
-static inline Float4 root(Float4 v)
-{
-    return (Float4){sqrtf(v[0]), sqrtf(v[1]), sqrtf(v[2]), sqrtf(v[3])};
-}
 
 /* Weights of four lobes at a place. */
 static inline Float4 weigh_four(const CausticsCell *c, int k, Float4 px, Float4 py, Float4 pz)

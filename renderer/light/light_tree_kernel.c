@@ -1,11 +1,11 @@
 /* Going down the light tree. */
 #include <string.h>
+#include "base/float4.h"
 #include "light/light_tree_nodes.h"
 
 #define WIDTH LIGHT_TREE_WIDTH
 #define SLACK .01f /* of cosines: bounds are rounded, and nothing is left out by less or counts less */
 
-typedef float Float4 __attribute__((vector_size(16)));
 typedef int Int4 __attribute__((vector_size(16)));
 
 /* A LitPoint in floats. */
@@ -23,23 +23,6 @@ static Lit lit_point(const LitPoint *p)
                  (float)p->normal.y,
                  (float)p->normal.z,
                  vec_dot(p->normal, p->normal) > 0 ? 0.0f : 1.0f};
-}
-
-static inline Float4 splat(float x)
-{
-    return (Float4){x, x, x, x};
-}
-
-static inline Float4 load(const float *p)
-{
-    Float4 v;
-    memcpy(&v, p, sizeof v);
-    return v;
-}
-
-static inline Float4 root(Float4 v)
-{
-    return (Float4){sqrtf(v[0]), sqrtf(v[1]), sqrtf(v[2]), sqrtf(v[3])};
 }
 
 static inline Float4 choose(Int4 which, Float4 yes, Float4 no)

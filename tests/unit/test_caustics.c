@@ -1,17 +1,13 @@
 /* The guide to caustics: its density is one over the sphere and that of its directions, it is the same for any number
  * of threads, and the mean of a picture does not depend on it. */
-#include <stdarg.h>
-#include <stddef.h>
-#include <setjmp.h>
-#include <cmocka.h>
+#include "lib_scene.h"
+
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 #include "integrate/caustics.h"
 #include "integrate/render.h"
 #include "integrate/sampler.h"
-#include "sdl/sdl.h"
 
 static const char LENS[] =
     "#version 3.7; global_settings { assumed_gamma 1 } camera { location <0, 3, -4> look_at 0 angle 40 }"
@@ -22,21 +18,6 @@ static const char LENS[] =
     "disc { <0, 5, 0>, y, .6 texture { pigment { rgb 1 } finish { diffuse 0 emission 20 } } }";
 static const char NO_GLASS[] = "#version 3.7; camera { location -4*z look_at 0 } sphere { 0, 1 pigment { rgb 1 } }"
                                "disc { 5*y, y, .3 texture { pigment { rgb 1 } finish { diffuse 0 emission 9 } } }";
-
-static Scene *read_scene(const char *text)
-{
-    char path[] = "/tmp/retex-caustics-XXXXXX";
-    int file = mkstemp(path);
-    RetexError err = {0};
-    Scene *scene;
-    assert_true(file >= 0);
-    assert_int_equal(write(file, text, strlen(text)), (long)strlen(text));
-    close(file);
-    if (sdl_parse_file(&scene, path, NULL, &err))
-        fail_msg("%d:%d: %s", err.line, err.column, err.message);
-    unlink(path);
-    return scene;
-}
 
 static Caustics *make_guide(const Scene *scene, int nthreads)
 {
@@ -75,7 +56,7 @@ static void density_is_that_of_samples(void **state)
 {
     (void)state;
     enum { N = 600, SAMPLES = 20000, PARTS = 4 };
-    Scene *scene = read_scene(LENS);
+    Scene *scene = test_scene(LENS);
     Caustics *caustics = make_guide(scene, 2);
     Vec3 points[400];
     int n, seen = 0;
@@ -119,7 +100,7 @@ static void density_is_that_of_samples(void **state)
 static void same_for_any_threads(void **state)
 {
     (void)state;
-    Scene *scene = read_scene(LENS);
+    Scene *scene = test_scene(LENS);
     Caustics *one = make_guide(scene, 1), *seven = make_guide(scene, 7);
     Vec3 points[400];
     int n = guided_points(one, points, 400);
@@ -137,7 +118,7 @@ static void same_for_any_threads(void **state)
 static void nothing_without_glass(void **state)
 {
     (void)state;
-    Scene *scene = read_scene(NO_GLASS);
+    Scene *scene = test_scene(NO_GLASS);
     assert_null(make_guide(scene, 1));
     scene_close(&scene);
 }
@@ -165,7 +146,7 @@ static double mean_of(const RetexSet *set)
 static void mean_stays(void **state)
 {
     (void)state;
-    Scene *scene = read_scene(LENS);
+    Scene *scene = test_scene(LENS);
     RetexSet *guided = render(scene, 2048, 0, 0), *chance = render(scene, 2048, 1, 0);
     double a = mean_of(guided), b = mean_of(chance);
     if (fabs(a - b) > 0.004 * b)

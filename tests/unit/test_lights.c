@@ -1,16 +1,12 @@
 /* The choice among lights: its probabilities add up, are those of what is chosen, and leave nothing out; densities of
  * sampling an emitter are those of hitting it. */
-#include <stdarg.h>
-#include <stddef.h>
-#include <setjmp.h>
-#include <cmocka.h>
+#include "lib_scene.h"
+
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 #include "integrate/sampler.h"
 #include "light/lights.h"
-#include "sdl/sdl.h"
 
 static uint32_t state_of_random = 1;
 
@@ -146,21 +142,6 @@ static void tree_of_one_place(void **state)
 
 /* ---- whole scenes ---- */
 
-static Scene *read_scene(const char *text)
-{
-    char path[] = "/tmp/retex-lights-XXXXXX";
-    int file = mkstemp(path);
-    RetexError err = {0};
-    Scene *scene;
-    assert_true(file >= 0);
-    assert_int_equal(write(file, text, strlen(text)), (long)strlen(text));
-    close(file);
-    if (sdl_parse_file(&scene, path, NULL, &err))
-        fail_msg("%d:%d: %s", err.line, err.column, err.message);
-    unlink(path);
-    return scene;
-}
-
 #define HEAD                                                                                                           \
     "#version 3.7; global_settings { assumed_gamma 1 } camera { location -5*z look_at 0 }"                             \
     "#declare Shine = texture { pigment { rgb 1 } finish { ambient 0 diffuse 0 emission 2 } }"                         \
@@ -189,7 +170,7 @@ static void densities_agree(void **state)
 {
     (void)state;
     for (size_t i = 0; i < sizeof SCENES / sizeof *SCENES; i++) {
-        Scene *scene = read_scene(SCENES[i]);
+        Scene *scene = test_scene(SCENES[i]);
         Lights *lights;
         int found = 0;
         assert_int_equal(lights_create(&lights, scene, NULL), 0);
@@ -219,7 +200,7 @@ static void densities_agree(void **state)
 /* Irradiance that all samples together find at a point. */
 static double mean_irradiance(const char *text, LitPoint p)
 {
-    Scene *scene = read_scene(text);
+    Scene *scene = test_scene(text);
     Lights *lights;
     double sum = 0;
     enum { SAMPLES = 1 << 18 };

@@ -1,0 +1,19 @@
+/* Four floats side by side, in what registers the machine has: for kernels. */
+#ifndef RENDERER_BASE_FLOAT4_H
+#define RENDERER_BASE_FLOAT4_H
+
+#include <math.h>
+#include <string.h>
+
+typedef float Float4 __attribute__((vector_size(16)));
+
+static inline Float4 splat(float x) { return (Float4){x, x, x, x}; }
+static inline Float4 load(const float *p)
+{
+    Float4 v;
+    memcpy(&v, p, sizeof v);
+    return v;
+}
+static inline Float4 root(Float4 v) { return (Float4){sqrtf(v[0]), sqrtf(v[1]), sqrtf(v[2]), sqrtf(v[3])}; }
+
+#endif
