@@ -27,10 +27,10 @@ static void combine_span(const CombineWork *work, size_t first, size_t pixels)
     const RetexRoi *roi = &work->roi;
     for (int t = 0; t < work->polynomial.count; t++) {
         const Monomial *m = &work->polynomial.monomials[t];
-        const float *factors[RETEX_MAX_FACTORS];
-        for (int k = 0; k < m->nfactors; k++)
+        const float *factors[RETEX_MAX_FACTORS + 1];
+        for (int k = 0; k < m->nimages; k++)
             factors[k] = m->factors[k] + 3 * first;
-        combine_term_kernel(sum, m->radiance + 3 * first, factors, m->nfactors, 3 * pixels);
+        combine_term_kernel(sum, m->radiance + 3 * first, factors, m->nimages, 3 * pixels);
     }
     float *out = work->dst->pixels + 3 * first;
     if (roi->c0 == 0 && roi->c1 == 3) {
@@ -64,6 +64,6 @@ int retex_combine(RetexImage *dst, const RetexSet *set, const RetexSamples *samp
         code = retex_image_prepare(dst, set->width, set->height, 3, roi, &work.roi, err);
     if (!code)
         retex_parallel(nthreads, (work.roi.y1 - work.roi.y0 + ROWS_A_JOB - 1) / ROWS_A_JOB, combine_job, &work);
-    polynomial_close(&work.polynomial);
+    polynomial_close(&work.polynomial, set);
     return code;
 }

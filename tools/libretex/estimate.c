@@ -46,6 +46,8 @@ static void add_term(const RetexSet *set, const Monomial *m, size_t first, size_
 {
     for (size_t i = 0; i < n; i++) {
         float radiance = m->radiance[first + i];
+        for (int k = m->nfactors; k < m->nimages; k++)
+            radiance *= m->factors[k][first + i];
         if (radiance == 0)
             continue;
         for (int k = 0; k < m->nfactors; k++) {
@@ -61,8 +63,15 @@ static void add_term(const RetexSet *set, const Monomial *m, size_t first, size_
     }
 }
 
+/* Value of colour c at the picture's pixel x, y in an image that may be smaller and have one channel for all colours. */
+static float value_at(const RetexSet *set, const RetexImage *image, int x, int y, int c)
+{
+    const int scale = retex_set_scale(set, image);
+    return image->pixels[retex_image_index(image, x / scale, y / scale) + (image->channels == 3 ? (size_t)c : 0)];
+}
+
 /* A mixture's derivative belongs to its footprints, by their shares. */
-static void share_derivatives(const RetexSet *set, const RetexMixture *mixture, size_t first, size_t n,
+static void share_derivatives(const RetexSet *set, const RetexMixture *mixture, int x0, int y, size_t n,
                               const float *restrict of_mixture, float *restrict derivatives)
 {
     for (size_t i = 0; i < n; i++) {
@@ -71,7 +80,7 @@ static void share_derivatives(const RetexSet *set, const RetexMixture *mixture, 
             continue;
         for (int k = 0; k < mixture->nshares; k++) {
             const RetexImage *image = &set->parts[mixture->shares[k].weight].image;
-            weights[k] = image->pixels[image->channels == 3 ? first + i : (first + i) / 3];
+            weights[k] = value_at(set, image, x0 + (int)(i / 3), y, (int)(i % 3));
             sum += weights[k];
         }
         for (int k = 0; k < mixture->nshares && sum > 0; k++)
@@ -94,20 +103,23 @@ static void estimate_row(const EstimateWork *work, int y, float *restrict scratc
     for (int t = 0; t < work->polynomial.count; t++)
         add_term(set, &work->polynomial.monomials[t], first, n, sum, derivatives);
     for (int m = 0; m < set->nmixtures; m++)
-        share_derivatives(set, &set->mixtures[m], first, n, derivatives + ((size_t)set->nfootprints + (size_t)m) * n,
-                          derivatives);
+        share_derivatives(set, &set->mixtures[m], roi->x0, y, n,
+                          derivatives + ((size_t)set->nfootprints + (size_t)m) * n, derivatives);
     for (size_t i = 0; i < n; i++)
         sum[i] = (float)set->folded * sum[i] * (float)set->folded * sum[i];
     for (int f = 0; f < set->nfootprints; f++) {
-        const float *variance = work->variances->images[f].pixels;
+        const RetexImage *variance = &work->variances->images[f];
         const float k = agreement[set->footprints[f].kind], s = chance[set->footprints[f].kind];
         const RetexImage *uv = set->footprints[f].uv >= 0 ? &set->parts[set->footprints[f].uv].image : NULL;
-        if (!variance || !uv)
+        if (!variance->pixels || !uv)
             continue;
         for (size_t i = 0; i < n; i++) {
-            float d = derivatives[(size_t)f * n + i], paths = uv->pixels[(first + i) / 3 * 3 + 2] * (float)set->spp;
-            if (d != 0)
-                sum[i] += d * d * variance[first + i] * (k * k + s / fmaxf(paths, 1));
+            const float d = derivatives[(size_t)f * n + i];
+            const int x = roi->x0 + (int)(i / 3);
+            if (d == 0)
+                continue;
+            const float paths = value_at(set, uv, x, y, 2) * (float)set->spp;
+            sum[i] += d * d * value_at(set, variance, x, y, (int)(i % 3)) * (k * k + s / fmaxf(paths, 1));
         }
     }
     float *out = work->dst->pixels + first;
@@ -144,6 +156,6 @@ int retex_estimate_error(RetexImage *dst, const RetexSet *set, const RetexSample
     if (!code)
         retex_parallel(nthreads, (work.roi.y1 - work.roi.y0 + ROWS_A_JOB - 1) / ROWS_A_JOB, estimate_job, &work);
     free(work.scratch);
-    polynomial_close(&work.polynomial);
+    polynomial_close(&work.polynomial, set);
     return code;
 }

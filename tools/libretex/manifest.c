@@ -40,8 +40,7 @@ int retex_samples_are_sound(const RetexSamples *samples, RetexError *err)
         if (samples->footprint_target[i] < 0 || samples->footprint_target[i] >= samples->ntargets)
             return retex_fail(err, RETEX_EINVAL, "sample image %d is for target %d of %d", i,
                               samples->footprint_target[i], samples->ntargets);
-        if (image->pixels &&
-            (image->width != samples->width || image->height != samples->height || image->channels != 3))
+        if (image->pixels && (image->width > samples->width || image->height > samples->height || image->channels != 3))
             return retex_fail(err, RETEX_EINVAL, "sample image %d has the wrong size", i);
     }
     return 0;
@@ -136,8 +135,11 @@ static json_t *write_term(const RetexSet *set, const RetexTerm *term)
 
     for (int i = 0; i < term->nfactors; i++)
         json_array_append_new(factors, json_integer(term->factors[i]));
-    return json_pack("{s:s, s:o, s:o}", "kind", retex_term_kinds[term->kind], "radiance",
-                     part_name(set, term->radiance), "factors", factors);
+    json_t *json = json_pack("{s:s, s:o, s:o}", "kind", retex_term_kinds[term->kind], "radiance",
+                             part_name(set, term->radiance), "factors", factors);
+    if (term->gain)
+        json_object_set_new(json, "gain", part_name(set, term->gain));
+    return json;
 }
 
 static json_t *write_mixture(const RetexSet *set, const RetexMixture *mixture)
@@ -167,6 +169,20 @@ static json_t *identity(uint32_t id)
 
     snprintf(hex, sizeof hex, "%08x", (unsigned)id);
     return json_string(hex);
+}
+
+/* Version 1 knew neither gains nor AOVs smaller than the picture. */
+static int version_of(const RetexSet *set)
+{
+    int version = 1;
+
+    for (int i = 0; set && i < set->nfootprints; i++)
+        if (retex_set_footprint_scale(set, i) != 1)
+            version = RETEX_SET_VERSION;
+    for (int i = 0; set && i < set->nterms; i++)
+        if (set->terms[i].gain)
+            version = RETEX_SET_VERSION;
+    return version;
 }
 
 static void write_set(json_t *root, const RetexSet *set, int *finite)
@@ -227,7 +243,7 @@ int retex_manifest_write(const RetexSet *set, const RetexSamples *samples, const
                          char **json, RetexError *err)
 {
     int finite = 1;
-    json_t *root = json_pack("{s:i, s:s, s:i, s:i}", "retex", RETEX_SET_VERSION, "kind",
+    json_t *root = json_pack("{s:i, s:s, s:i, s:i}", "retex", version_of(set), "kind",
                              !samples ? "set"
                              : !set   ? "samples"
                                       : "stream",

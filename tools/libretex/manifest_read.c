@@ -113,10 +113,26 @@ static int get_spread(Reading *reading, const RetexSet *set, const json_t *json)
     return get_part(reading, set, json, "spread", part >= 0 && set->parts[part].image.channels == 3 ? 3 : 2, 1);
 }
 
+/* One of a channel for all colours, or of three. */
+static int get_part_of_one_or_three(Reading *reading, const RetexSet *set, const json_t *json, const char *key)
+{
+    const char *name = json_string_value(json_object_get(json, key));
+    const int part = name ? retex_set_find_part(set, name) : -1;
+    return get_part(reading, set, json, key, part >= 0 && set->parts[part].image.channels == 3 ? 3 : 1, 0);
+}
+
 static void check_size(Reading *reading, const RetexSet *set, int part, const char *key)
 {
     if (part >= 0 && (set->parts[part].image.width != set->width || set->parts[part].image.height != set->height))
         bad(reading, RETEX_EFORMAT, "has in \"%s\" a part of another size than the set's", key);
+}
+
+/* One that may be smaller. */
+static void check_scale(Reading *reading, const RetexSet *set, int part, const char *key)
+{
+    if (part >= 0 && !retex_set_scale(set, &set->parts[part].image))
+        bad(reading, RETEX_EFORMAT,
+            "has in \"%s\" a part that is neither of the set's size nor 2, 4 or 8 times smaller", key);
 }
 
 static void read_part(Reading *reading, const json_t *json, RetexPart *part, char *name, size_t name_room)
@@ -240,11 +256,13 @@ static void read_footprints(Reading *reading, const json_t *root, RetexSet *set)
         if (reading->status)
             return;
         footprint.kind = (RetexFootprintKind)get_kind(reading, json, retex_footprint_kinds, RETEX_FOOTPRINT_KINDS);
-        check_size(reading, set, footprint.uv, "uv");
-        check_size(reading, set, footprint.spread, "spread");
-        check_size(reading, set, footprint.albedo, "albedo");
+        check_scale(reading, set, footprint.uv, "uv");
+        check_scale(reading, set, footprint.spread, "spread");
+        check_scale(reading, set, footprint.albedo, "albedo");
         if (!reading->status)
             reading->status = retex_set_add_footprint(set, &footprint, NULL, reading->err);
+        if (!reading->status && !retex_set_footprint_scale(set, set->nfootprints - 1))
+            bad(reading, RETEX_EFORMAT, "has a footprint whose parts differ in size");
     }
 }
 
@@ -257,6 +275,11 @@ static void read_terms(Reading *reading, const json_t *root, RetexSet *set)
         const json_t *factors = get_array(reading, json, "factors", RETEX_MAX_FACTORS);
         RetexTerm term = {.radiance = get_part(reading, set, json, "radiance", 3, 0),
                           .nfactors = (int)json_array_size(factors)};
+        if (json_object_get(json, "gain")) {
+            term.gain = get_part_of_one_or_three(reading, set, json, "gain");
+            if (term.gain == 0)
+                bad(reading, RETEX_EFORMAT, "has the picture for a \"gain\"");
+        }
         if (!json_object_get(json, "kind"))
             bad(reading, RETEX_EFORMAT, "has a term without a \"kind\"");
         term.kind = (RetexTermKind)get_kind(reading, json, retex_term_kinds, RETEX_TERM_KINDS);
@@ -271,6 +294,7 @@ static void read_terms(Reading *reading, const json_t *root, RetexSet *set)
         if (reading->status)
             return;
         check_size(reading, set, term.radiance, "radiance");
+        check_scale(reading, set, term.gain ? term.gain : -1, "gain");
         if (!reading->status)
             reading->status = retex_set_add_term(set, &term, NULL, reading->err);
     }
@@ -286,12 +310,15 @@ static void read_mixture(Reading *reading, const json_t *array, RetexSet *set)
     }
     for (int i = 0; i < mixture.nshares && !reading->status; i++) {
         const json_t *json = json_array_get(array, (size_t)i);
-        const char *name = json_string_value(json_object_get(json, "weight"));
-        const int part = name ? retex_set_find_part(set, name) : -1;
         mixture.shares[i].footprint = get_integer(reading, json, "footprint", 0, set->nfootprints - 1);
-        mixture.shares[i].weight =
-            get_part(reading, set, json, "weight", part >= 0 && set->parts[part].image.channels == 3 ? 3 : 1, 0);
-        check_size(reading, set, mixture.shares[i].weight, "weight");
+        mixture.shares[i].weight = get_part_of_one_or_three(reading, set, json, "weight");
+        check_scale(reading, set, mixture.shares[i].weight, "weight");
+        if (reading->status)
+            return;
+        const int scale = retex_set_scale(set, &set->parts[mixture.shares[i].weight].image);
+        if (scale != retex_set_footprint_scale(set, mixture.shares[i].footprint) ||
+            scale != retex_set_scale(set, &set->parts[mixture.shares[0].weight].image))
+            bad(reading, RETEX_EFORMAT, "has a mixture whose footprints and weights differ in size");
     }
     if (!reading->status)
         reading->status = retex_set_add_mixture(set, &mixture, NULL, reading->err);
@@ -371,7 +398,7 @@ static void read_sample_image(Reading *reading, const json_t *json, RetexSamples
         return;
     read_part(reading, json_part, &part, parts[index].name, sizeof parts[index].name);
     if (!reading->status && (part.image.channels != 3 || part.type != RETEX_FLOAT ||
-                             part.image.width != samples->width || part.image.height != samples->height))
+                             part.image.width > samples->width || part.image.height > samples->height))
         bad(reading, RETEX_EFORMAT, "has a sample image of the wrong shape");
     if (!reading->status && !parts[index].name[0])
         bad(reading, RETEX_EFORMAT, "has a sample image without a name");

@@ -61,8 +61,7 @@ static int check_part(const RetexSet *set, int part, int channels)
     if (part < 0 || part >= set->nparts)
         return 0;
     const RetexImage *im = &set->parts[part].image;
-    return im->pixels && im->width == set->width && im->height == set->height &&
-           (im->channels == channels || (channels == 2 && im->channels == 3));
+    return im->pixels && retex_set_scale(set, im) && (im->channels == channels || (channels == 2 && im->channels == 3));
 }
 
 /* Footprints of edited targets need all their parts; of the others nothing is looked at. */
@@ -79,7 +78,8 @@ static int check_footprints(const SampleWork *work, RetexError *err)
         int edited = 0;
         for (int k = 0; k < work->nspecs; k++)
             edited |= work->spec_target[k] == f->target;
-        if (edited && (!check_part(set, f->uv, 3) || !check_part(set, f->spread, 2) || !check_part(set, f->albedo, 3)))
+        if (edited && (!retex_set_footprint_scale(set, i) || !check_part(set, f->uv, 3) ||
+                       !check_part(set, f->spread, 2) || !check_part(set, f->albedo, 3)))
             return retex_fail(err, RETEX_EFORMAT,
                               "nothing can be put on target %s: the set does not hold its footprints; "
                               "one that was sampled and sent through a pipe has left them behind",
@@ -129,7 +129,7 @@ static int load_textures(SampleWork *work, int nthreads, RetexError *err)
  * evenly, all else is taken as a Gaussian. */
 typedef void Filter(const RetexTexture *texture, double u, double v, const double covariance[3], float rgba[4]);
 
-/* One span of a footprint's pixels. */
+/* One row of a footprint's pixels. */
 typedef struct Span {
     const float *uv, *spread, *albedo;
     int spreads, width; /* channels of spread; pixels */
@@ -137,10 +137,9 @@ typedef struct Span {
 
 static Span footprint_row(const RetexSet *set, const RetexFootprint *f, int y)
 {
-    size_t row = (size_t)y * (size_t)set->width;
-    const RetexImage *spread = &set->parts[f->spread].image;
-    return (Span){set->parts[f->uv].image.pixels + 3 * row, spread->pixels + (size_t)spread->channels * row,
-                  set->parts[f->albedo].image.pixels + 3 * row, spread->channels, set->width};
+    const RetexImage *uv = &set->parts[f->uv].image, *spread = &set->parts[f->spread].image;
+    return (Span){uv->pixels + retex_image_index(uv, 0, y), spread->pixels + retex_image_index(spread, 0, y),
+                  set->parts[f->albedo].image.pixels + retex_image_index(uv, 0, y), spread->channels, uv->width};
 }
 
 static void footprint_covariance(const Span *span, int x, double covariance[3])
@@ -197,11 +196,12 @@ static void sample_job(void *context, int index, int thread)
     const RetexFootprint *f = &set->footprints[footprint];
     int even = f->kind == RETEX_FOOTPRINT_SHARP && strcmp(set->filter, "box") == 0;
     Filter *filter = even ? retex_texture_disc : retex_texture_gaussian;
-    int last = (block + 1) * ROWS_A_JOB < set->height ? (block + 1) * ROWS_A_JOB : set->height;
+    const RetexImage *image = &work->samples->images[footprint];
+    int last = (block + 1) * ROWS_A_JOB < image->height ? (block + 1) * ROWS_A_JOB : image->height;
     for (int y = block * ROWS_A_JOB; y < last; y++) {
         Span span = footprint_row(set, f, y);
-        size_t row = 3 * (size_t)y * (size_t)set->width;
-        sample_row(work->textures[f->target], filter, &span, work->samples->images[footprint].pixels + row);
+        size_t row = retex_image_index(image, 0, y);
+        sample_row(work->textures[f->target], filter, &span, image->pixels + row);
         if (work->variances)
             variance_row(work->textures[f->target], work->squares[f->target], filter, &span,
                          work->variances->images[footprint].pixels + row);
@@ -238,7 +238,8 @@ static int create_samples(const SampleWork *work, RetexSamples **out, RetexError
         samples->footprint_hit[i] = set->footprints[i].hit;
     }
     for (int i = 0; i < work->nedited; i++) {
-        int code = retex_image_alloc(&samples->images[work->edited[i]], set->width, set->height, 3, err);
+        const RetexImage *uv = &set->parts[set->footprints[work->edited[i]].uv].image;
+        int code = retex_image_alloc(&samples->images[work->edited[i]], uv->width, uv->height, 3, err);
         if (code)
             return code;
     }

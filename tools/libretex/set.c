@@ -136,8 +136,10 @@ void retex_set_remove_part(RetexSet *set, int part)
         move_up(&set->footprints[f].spread, part);
         move_up(&set->footprints[f].albedo, part);
     }
-    for (int t = 0; t < set->nterms; t++)
+    for (int t = 0; t < set->nterms; t++) {
         move_up(&set->terms[t].radiance, part);
+        move_up(&set->terms[t].gain, part);
+    }
     for (int m = 0; m < set->nmixtures; m++)
         for (int k = 0; k < set->mixtures[m].nshares; k++)
             move_up(&set->mixtures[m].shares[k].weight, part);
@@ -199,6 +201,9 @@ int retex_set_add_term(RetexSet *set, const RetexTerm *term, int *index, RetexEr
                               set->nmixtures);
     }
     int status = check_part(set, term->radiance, 3, 0, "a term's radiance", err);
+    const int colored = term->gain > 0 && term->gain < set->nparts && strlen(set->parts[term->gain].letters) == 3;
+    if (!status && term->gain)
+        status = check_part(set, term->gain, colored ? 3 : 1, 0, "a term's gain", err);
     if (!status)
         status = make_room((void **)&set->terms, set->nterms, sizeof *set->terms, RETEX_SET_TERMS_MAX, "terms", err);
     if (status)
@@ -237,6 +242,31 @@ int retex_set_find_part(const RetexSet *set, const char *name)
         if (strcmp(set->parts[i].name, name) == 0)
             return i;
     return -1;
+}
+
+int retex_set_scale(const RetexSet *set, const RetexImage *image)
+{
+    for (int scale = 1; scale <= RETEX_SCALE_MAX; scale *= 2)
+        if (image->width == (set->width + scale - 1) / scale && image->height == (set->height + scale - 1) / scale)
+            return scale;
+    return 0;
+}
+
+int retex_set_footprint_scale(const RetexSet *set, int footprint)
+{
+    const RetexFootprint *f = &set->footprints[footprint];
+    const int parts[] = {f->uv, f->spread, f->albedo};
+    int scale = 0;
+
+    for (int k = 0; k < 3; k++) {
+        if (parts[k] < 0)
+            continue;
+        const int own = retex_set_scale(set, &set->parts[parts[k]].image);
+        if (!own || (scale && own != scale))
+            return 0;
+        scale = own;
+    }
+    return scale ? scale : 1;
 }
 
 int retex_set_find_target(const RetexSet *set, const char *name)
@@ -300,7 +330,9 @@ int retex_samples_check(const RetexSamples *samples, const RetexSet *set, RetexE
         if (samples->footprint_target[i] != set->footprints[i].target ||
             samples->footprint_hit[i] != set->footprints[i].hit)
             return retex_fail(err, RETEX_EINVAL, "sample image %d belongs to another footprint than the set's", i);
-        if (image->pixels && (image->width != set->width || image->height != set->height || image->channels != 3))
+        const RetexImage *uv = set->footprints[i].uv >= 0 ? &set->parts[set->footprints[i].uv].image : NULL;
+        const int fits = uv ? image->width == uv->width && image->height == uv->height : retex_set_scale(set, image);
+        if (image->pixels && (image->channels != 3 || !fits))
             return retex_fail(err, RETEX_EINVAL, "sample image %d has the wrong size", i);
     }
     return 0;

@@ -32,7 +32,7 @@ static void choose_parts(const RetexSet *set, const RetexSamples *samples, char 
         return;
     kept[0] = 1;
     for (int i = 0; i < set->nterms; i++)
-        kept[set->terms[i].radiance] = 1;
+        kept[set->terms[i].radiance] = kept[set->terms[i].gain] = 1; /* no gain: the picture, which is kept */
     for (int i = 0; i < set->nmixtures; i++)
         for (int k = 0; k < set->mixtures[i].nshares; k++)
             kept[set->mixtures[i].shares[k].weight] = 1;

@@ -15,7 +15,7 @@ int part_is_used(const RetexSet *set, int part)
             return 1;
     }
     for (int i = 0; i < set->nterms; i++)
-        if (set->terms[i].radiance == part)
+        if (set->terms[i].radiance == part || (part && set->terms[i].gain == part))
             return 1;
     for (int i = 0; i < set->nmixtures; i++)
         for (int k = 0; k < set->mixtures[i].nshares; k++)
@@ -59,6 +59,8 @@ static void copy_references(SetView *view, const RetexSet *set, const int *place
     for (int i = 0; i < set->nterms; i++) {
         view->set.terms[i] = set->terms[i];
         view->set.terms[i].radiance = place[set->terms[i].radiance];
+        if (set->terms[i].gain)
+            view->set.terms[i].gain = place[set->terms[i].gain];
     }
     for (int i = 0; i < set->nmixtures; i++)
         for (int k = 0; k < set->mixtures[i].nshares; k++)

@@ -22,7 +22,7 @@
 extern "C" {
 #endif
 
-#define RETEX_SET_VERSION 1   /* of the manifest */
+#define RETEX_SET_VERSION 2   /* of the manifest: the newest that is read, and written where 1 would not do */
 #define RETEX_MAX_TARGETS 8
 #define RETEX_MAX_ORDERS 6    /* hits of one target that a path keeps apart */
 #define RETEX_MAX_FACTORS 12  /* hits of all targets together */
@@ -30,9 +30,11 @@ extern "C" {
 #define RETEX_SHARES_MAX 16
 #define RETEX_NAME_MAX 128    /* bytes of a target or part name, with the final NUL */
 
-/* One named image of the file. letters names its channels ("RGB", "RGA", "RG", "R"): the EXR channels are `R` in part 0
- * and `NAME.R` in all others. Values are float in memory; type is how they are stored. A part may have its own size
- * (originals have), all AOVs have the set's. */
+/* One named image of the file. All AOVs have the set's size, but those that a footprint, a mixture's weight or a term's
+ * gain refers to may be smaller by a scale of 2, 4 or 8: ceil(width / scale) x ceil(height / scale) pixels, of which
+ * each stands for scale x scale of the picture's. What is made of them (samples, mixtures,
+ * gains) is enlarged bilinearly, its pixels' values lying at their centres. Originals have a size of their own. letters names its channels ("RGB", "RGA", "RG", "R"): the EXR channels are `R` in part 0
+ * and `NAME.R` in all others. Values are float in memory; type is how they are stored. */
 typedef struct RetexPart {
     char name[RETEX_NAME_MAX]; /* letters, digits, '_' and '-' */
     char letters[8];
@@ -84,15 +86,18 @@ typedef enum RetexTermKind {
 typedef struct RetexTerm {
     RetexTermKind kind;
     int radiance;      /* part "RGB". half */
+    int gain;          /* part "R" or "RGB" that multiplies radiance, as a factor does, or 0: none. half */
     int nfactors;      /* 0..RETEX_MAX_FACTORS */
     int factors[RETEX_MAX_FACTORS]; /* of each the index of a footprint, or RETEX_MIXTURE(index of a mixture) */
 } RetexTerm;
 
 #define RETEX_MIXTURE(m) (-1 - (m)) /* and back */
+#define RETEX_SCALE_MAX 8
 
 /* The mean of several footprints' textures, pixel by pixel: sum of weights times textures over the sum of weights. A
  * colour that has no weight takes the mean of those that have; 0 where none has. It stands for hits that are not kept
- * apart: of all clusters of a kind, of several later ones, or of several targets. */
+ * apart: of all clusters of a kind, of several later ones, or of several targets. Its footprints and weights all have
+ * one scale. */
 typedef struct RetexMixture {
     int nshares;
     struct RetexShare {
@@ -125,7 +130,7 @@ typedef struct RetexSet {
     RetexSpool *spool;     /* owned; NULL: all parts are in memory */
 } RetexSet;
 
-/* The textures filtered at a set's footprints: image i belongs to footprint i and is RGB of the set's size, or
+/* The textures filtered at a set's footprints: image i belongs to footprint i and is RGB of the size of its parts, or
  * unallocated where that footprint's target keeps its original. */
 typedef struct RetexSamples {
     int width, height;
@@ -162,6 +167,10 @@ int retex_set_add_term(RetexSet *set, const RetexTerm *term, int *index, RetexEr
 /* Give the set an id made from its beauty's pixels: the renderer's last step. */
 void retex_set_identify(RetexSet *set);
 int retex_set_find_part(const RetexSet *set, const char *name);     /* index or -1 */
+/* 1, 2, 4 or 8: how many times smaller than the set's an image is; 0 where it is of none of these sizes. */
+int retex_set_scale(const RetexSet *set, const RetexImage *image);
+/* The scale of a footprint: that of its parts that are there, which have one; 1 where none is. 0: they differ. */
+int retex_set_footprint_scale(const RetexSet *set, int footprint);
 /* Exactly, else ignoring case where that is unique; or -1. */
 int retex_set_find_target(const RetexSet *set, const char *name);
 
