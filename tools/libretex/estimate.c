@@ -63,7 +63,7 @@ static void add_term(const RetexSet *set, const Monomial *m, size_t first, size_
     }
 }
 
-/* Value of colour c at the picture's pixel x, y in an image that may be smaller and have one channel for all colours. */
+/* Value of colour c at the picture's pixel x, y in an image that may be smaller, and may have one channel for all. */
 static float value_at(const RetexSet *set, const RetexImage *image, int x, int y, int c)
 {
     const int scale = retex_set_scale(set, image);

@@ -32,9 +32,10 @@ extern "C" {
 
 /* One named image of the file. All AOVs have the set's size, but those that a footprint, a mixture's weight or a term's
  * gain refers to may be smaller by a scale of 2, 4 or 8: ceil(width / scale) x ceil(height / scale) pixels, of which
- * each stands for scale x scale of the picture's. What is made of them (samples, mixtures,
- * gains) is enlarged bilinearly, its pixels' values lying at their centres. Originals have a size of their own. letters names its channels ("RGB", "RGA", "RG", "R"): the EXR channels are `R` in part 0
- * and `NAME.R` in all others. Values are float in memory; type is how they are stored. */
+ * each stands for scale x scale of the picture's. What is made of them (samples, mixtures, gains) is enlarged
+ * bilinearly, its pixels' values lying at their centres. Originals have a size of their own. letters names its channels
+ * ("RGB", "RGA", "RG", "R"): the EXR channels are `R` in part 0 and `NAME.R` in all others. Values are float in memory;
+ * type is how they are stored. */
 typedef struct RetexPart {
     char name[RETEX_NAME_MAX]; /* letters, digits, '_' and '-' */
     char letters[8];
