@@ -476,7 +476,7 @@ static void test_manifests_that_lie(void **state)
 {
     (void)state;
     static const ManifestCase cases[] = {
-        {"", "{\"retex\":1", "{\"retex\":2", RETEX_EUNSUPPORTED, "version 2"},
+        {"", "{\"retex\":1", "{\"retex\":3", RETEX_EUNSUPPORTED, "version 3"},
         {"", "{\"retex\":1", "{\"retex\":\"1\"", RETEX_EFORMAT, "no version"},
         {"", "{\"retex\":1", "{\"retex\":1,\"later\":[{}]", 0, ""},
         {"", "{\"retex\":1", "[\"retex\":1", RETEX_EFORMAT, "no JSON"},
@@ -565,8 +565,8 @@ static void test_mixtures_that_lie(void **state)
         {"\"mixtures\"", "\"share-2\"", "\"depth\"", 0, ""},
         {"\"mixtures\"", "\"share-0\"", "\"two\"", RETEX_EFORMAT, "2 channels instead of 1"},
         {"\"mixtures\"", "\"share-2\"", "\"two\"", RETEX_EFORMAT, "2 channels instead of 1"},
-        {"\"mixtures\"", "\"share-0\"", "\"small\"", RETEX_EFORMAT, "\"weight\" a part of another size"},
-        {"\"mixtures\"", "\"share-2\"", "\"small-rgb\"", RETEX_EFORMAT, "\"weight\" a part of another size"},
+        {"\"mixtures\"", "\"share-0\"", "\"small\"", RETEX_EFORMAT, "\"weight\" a part that is neither of the set's size"},
+        {"\"mixtures\"", "\"share-2\"", "\"small-rgb\"", RETEX_EFORMAT, "\"weight\" a part that is neither of the set's size"},
         {"\"mixtures\"", "\"share-0\"", "\"share-9\"", RETEX_EFORMAT, "\"weight\""},
         {"\"mixtures\"", "\"share-0\"", "null", RETEX_EFORMAT, "\"weight\""},
         {"\"mixtures\"", "\"weight\"", "\"x\"", RETEX_EFORMAT, "\"weight\""},
