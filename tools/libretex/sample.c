@@ -4,187 +4,33 @@
  * then turns and stretches it exactly. Where the texture is transparent the original albedo of the footprint shows. */
 #include <retex/sample.h>
 
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include <retex/parallel.h>
 
+#include "sample_row.h"
+#include "target_textures.h"
+
 #define ROWS_A_JOB 8
-#define MAX_FOOTPRINTS ((int)(sizeof((RetexSamples *)0)->footprint_target / sizeof(int)))
 
 typedef struct SampleWork {
     const RetexSet *set;
-    RetexSamples *samples, *variances;         /* variances: NULL = not wanted */
-    RetexTexture *textures[RETEX_MAX_TARGETS]; /* by target; NULL = keeps its original */
-    RetexTexture *squares[RETEX_MAX_TARGETS];  /* of their colours, for variances */
-    const RetexTextureSpec *specs;             /* while loading */
-    int spec_target[RETEX_MAX_TARGETS];
-    int nspecs, loading_threads, with_variances;
-    RetexError errors[RETEX_MAX_TARGETS];
+    const RetexTextureSpec *specs;
+    int nspecs;
+    RetexSamples *samples, *variances; /* variances: NULL = not wanted */
+    TargetTextures textures;
     int *edited; /* footprints of edited targets */
     int nedited, blocks;
 } SampleWork;
 
-/* ---- checks ---- */
-
-static int unknown_target(const RetexSet *set, const char *name, RetexError *err)
-{
-    char names[sizeof err->message] = "";
-    size_t used = 0;
-    for (int i = 0; i < set->ntargets && used < sizeof names; i++)
-        used += (size_t)snprintf(names + used, sizeof names - used, "%s%s", i ? ", " : "", set->targets[i].name);
-    if (!set->ntargets)
-        return retex_fail(err, RETEX_ENOTFOUND, "no target is called '%s': the set has no targets", name);
-    return retex_fail(err, RETEX_ENOTFOUND, "no target is called '%s'; the set has %.800s", name, names);
-}
-
-static int find_targets(SampleWork *work, RetexError *err)
-{
-    int taken[RETEX_MAX_TARGETS] = {0};
-    if (work->nspecs > RETEX_MAX_TARGETS)
-        return retex_fail(err, RETEX_EINVAL, "%d textures are more than a set has targets", work->nspecs);
-    for (int i = 0; i < work->nspecs; i++) {
-        int target = retex_set_find_target(work->set, work->specs[i].target);
-        if (target < 0)
-            return unknown_target(work->set, work->specs[i].target, err);
-        if (taken[target]++)
-            return retex_fail(err, RETEX_EINVAL, "target %s is given two textures", work->set->targets[target].name);
-        work->spec_target[i] = target;
-    }
-    return RETEX_OK;
-}
-
-static int check_part(const RetexSet *set, int part, int channels)
-{
-    if (part < 0 || part >= set->nparts)
-        return 0;
-    const RetexImage *im = &set->parts[part].image;
-    return im->pixels && retex_set_scale(set, im) && (im->channels == channels || (channels == 2 && im->channels == 3));
-}
-
-/* Footprints of edited targets need all their parts; of the others nothing is looked at. */
-static int check_footprints(const SampleWork *work, RetexError *err)
-{
-    const RetexSet *set = work->set;
-    if (set->nfootprints > MAX_FOOTPRINTS)
-        return retex_fail(err, RETEX_ELIMIT, "the set has %d footprints, more than %d", set->nfootprints,
-                          MAX_FOOTPRINTS);
-    for (int i = 0; i < set->nfootprints; i++) {
-        const RetexFootprint *f = &set->footprints[i];
-        if (f->target < 0 || f->target >= set->ntargets)
-            return retex_fail(err, RETEX_EFORMAT, "footprint %d of the set has no target", i);
-        int edited = 0;
-        for (int k = 0; k < work->nspecs; k++)
-            edited |= work->spec_target[k] == f->target;
-        if (edited && (!retex_set_footprint_scale(set, i) || !check_part(set, f->uv, 3) ||
-                       !check_part(set, f->spread, 2) || !check_part(set, f->albedo, 3)))
-            return retex_fail(err, RETEX_EFORMAT,
-                              "nothing can be put on target %s: the set does not hold its footprints; "
-                              "one that was sampled and sent through a pipe has left them behind",
-                              set->targets[f->target].name);
-    }
-    return RETEX_OK;
-}
-
-/* ---- loading ---- */
-
-static void load_job(void *context, int index, int thread)
-{
-    SampleWork *work = context;
-    (void)thread;
-    int target = work->spec_target[index];
-    RetexTextureSpec spec = work->specs[index];
-    const RetexTarget *t = &work->set->targets[target];
-    memcpy(spec.uv_scale, t->uv_scale, sizeof spec.uv_scale);
-    for (int axis = 0; axis < 2; axis++)
-        if (!t->periodic[axis]) {
-            spec.uv_min[axis] = t->uv_min[axis];
-            spec.uv_max[axis] = t->uv_max[axis];
-        }
-    int code = retex_texture_load(&work->textures[target], &spec, work->loading_threads, &work->errors[index]);
-    if (!code && work->with_variances)
-        retex_texture_square(&work->squares[target], work->textures[target], &work->errors[index]);
-}
-
-/* Side by side: most of the time goes to decoding, which has one thread a file. */
-static int load_textures(SampleWork *work, int nthreads, RetexError *err)
-{
-    int threads = retex_threads(nthreads);
-    work->loading_threads = work->nspecs && threads > work->nspecs ? threads / work->nspecs : 1;
-    retex_parallel(threads, work->nspecs, load_job, work);
-    for (int i = 0; i < work->nspecs; i++)
-        if (work->errors[i].code) {
-            if (err)
-                *err = work->errors[i];
-            return work->errors[i].code;
-        }
-    return RETEX_OK;
-}
-
-/* ---- the work itself ---- */
-
-/* How a footprint's distribution of UV is taken: what is seen sharply through a box pixel filter fills its ellipse
- * evenly, all else is taken as a Gaussian. */
-typedef void Filter(const RetexTexture *texture, double u, double v, const double covariance[3], float rgba[4]);
-
-/* One row of a footprint's pixels. */
-typedef struct Span {
-    const float *uv, *spread, *albedo;
-    int spreads, width; /* channels of spread; pixels */
-} Span;
-
-static Span footprint_row(const RetexSet *set, const RetexFootprint *f, int y)
+static FootprintRow footprint_row(const RetexSet *set, const RetexFootprint *f, int y)
 {
     const RetexImage *uv = &set->parts[f->uv].image, *spread = &set->parts[f->spread].image;
-    return (Span){uv->pixels + retex_image_index(uv, 0, y), spread->pixels + retex_image_index(spread, 0, y),
-                  set->parts[f->albedo].image.pixels + retex_image_index(uv, 0, y), spread->channels, uv->width};
-}
-
-static void footprint_covariance(const Span *span, int x, double covariance[3])
-{
-    const float *spread = span->spread + (size_t)span->spreads * (size_t)x;
-    double correlation = span->spreads == 3 ? spread[2] : 0;
-    covariance[0] = (double)spread[0] * spread[0];
-    covariance[1] = correlation * spread[0] * spread[1];
-    covariance[2] = (double)spread[1] * spread[1];
-}
-
-static void sample_row(const RetexTexture *texture, Filter *filter, const Span *span, float *restrict out)
-{
-    for (int x = 0; x < span->width; x++, out += 3) {
-        const float *uv = span->uv + 3 * (size_t)x, *albedo = span->albedo + 3 * (size_t)x;
-        double covariance[3];
-        float rgba[4];
-        if (!(uv[2] > 0)) {
-            out[0] = out[1] = out[2] = 0;
-            continue;
-        }
-        footprint_covariance(span, x, covariance);
-        filter(texture, uv[0], uv[1], covariance, rgba);
-        for (int c = 0; c < 3; c++)
-            out[c] = rgba[c] * rgba[3] + (1 - rgba[3]) * albedo[c];
-    }
-}
-
-/* How far the texture's colours scatter within the footprint: E[a^2] - E[a]^2. */
-static void variance_row(const RetexTexture *texture, const RetexTexture *square, Filter *filter, const Span *span,
-                         float *restrict out)
-{
-    for (int x = 0; x < span->width; x++, out += 3) {
-        const float *uv = span->uv + 3 * (size_t)x;
-        double covariance[3];
-        float mean[4], squares[4];
-        out[0] = out[1] = out[2] = 0;
-        if (!(uv[2] > 0))
-            continue;
-        footprint_covariance(span, x, covariance);
-        filter(texture, uv[0], uv[1], covariance, mean);
-        filter(square, uv[0], uv[1], covariance, squares);
-        for (int c = 0; c < 3; c++)
-            out[c] = fmaxf(squares[c] - mean[c] * mean[c], 0) * mean[3] * mean[3];
-    }
+    return (FootprintRow){uv->pixels + retex_image_index(uv, 0, y), spread->pixels + retex_image_index(spread, 0, y),
+                          set->parts[f->albedo].image.pixels + retex_image_index(uv, 0, y), spread->channels,
+                          uv->width};
 }
 
 static void sample_job(void *context, int index, int thread)
@@ -194,16 +40,15 @@ static void sample_job(void *context, int index, int thread)
     (void)thread;
     int footprint = work->edited[index / work->blocks], block = index % work->blocks;
     const RetexFootprint *f = &set->footprints[footprint];
-    int even = f->kind == RETEX_FOOTPRINT_SHARP && strcmp(set->filter, "box") == 0;
-    Filter *filter = even ? retex_texture_disc : retex_texture_gaussian;
+    int even = footprint_is_even(set, f);
     const RetexImage *image = &work->samples->images[footprint];
     int last = (block + 1) * ROWS_A_JOB < image->height ? (block + 1) * ROWS_A_JOB : image->height;
     for (int y = block * ROWS_A_JOB; y < last; y++) {
-        Span span = footprint_row(set, f, y);
+        FootprintRow from = footprint_row(set, f, y);
         size_t row = retex_image_index(image, 0, y);
-        sample_row(work->textures[f->target], filter, &span, image->pixels + row);
+        sample_row(work->textures.of[f->target], even, &from, image->pixels + row);
         if (work->variances)
-            variance_row(work->textures[f->target], work->squares[f->target], filter, &span,
+            variance_row(work->textures.of[f->target], work->textures.squares[f->target], even, &from,
                          work->variances->images[footprint].pixels + row);
     }
 }
@@ -232,7 +77,8 @@ static int create_samples(const SampleWork *work, RetexSamples **out, RetexError
     for (int i = 0; i < set->ntargets; i++)
         memcpy(samples->target_names[i], set->targets[i].name, sizeof samples->target_names[i]);
     for (int i = 0; i < work->nspecs; i++)
-        describe_texture(samples->textures[work->spec_target[i]], sizeof samples->textures[0], &work->specs[i]);
+        describe_texture(samples->textures[retex_set_find_target(set, work->specs[i].target)],
+                         sizeof samples->textures[0], &work->specs[i]);
     for (int i = 0; i < set->nfootprints; i++) {
         samples->footprint_target[i] = set->footprints[i].target;
         samples->footprint_hit[i] = set->footprints[i].hit;
@@ -252,7 +98,7 @@ static int list_edited(SampleWork *work, RetexError *err)
     if (!work->edited)
         return retex_fail(err, RETEX_ENOMEM, "not enough memory for samples");
     for (int i = 0; i < work->set->nfootprints; i++)
-        if (work->textures[work->set->footprints[i].target])
+        if (work->textures.of[work->set->footprints[i].target])
             work->edited[work->nedited++] = i;
     return RETEX_OK;
 }
@@ -260,12 +106,8 @@ static int list_edited(SampleWork *work, RetexError *err)
 int retex_sample_with_variances(RetexSamples **samples, RetexSamples **variances, const RetexSet *set,
                                 const RetexTextureSpec *specs, int nspecs, int nthreads, RetexError *err)
 {
-    SampleWork work = {.set = set, .specs = specs, .nspecs = nspecs, .with_variances = variances != NULL};
-    int code = find_targets(&work, err);
-    if (!code)
-        code = check_footprints(&work, err);
-    if (!code)
-        code = load_textures(&work, nthreads, err);
+    SampleWork work = {.set = set, .specs = specs, .nspecs = nspecs};
+    int code = target_textures_load(&work.textures, set, specs, nspecs, variances != NULL, nthreads, err);
     if (!code)
         code = list_edited(&work, err);
     if (!code)
@@ -282,10 +124,7 @@ int retex_sample_with_variances(RetexSamples **samples, RetexSamples **variances
     *samples = work.samples;
     if (variances)
         *variances = work.variances;
-    for (int i = 0; i < RETEX_MAX_TARGETS; i++) {
-        retex_texture_close(&work.textures[i]);
-        retex_texture_close(&work.squares[i]);
-    }
+    target_textures_close(&work.textures);
     free(work.edited);
     return code;
 }

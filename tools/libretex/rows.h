@@ -1,0 +1,16 @@
+/* Rows of a set's parts, wherever these are kept. Private to libretex. */
+#ifndef LIBRETEX_ROWS_H
+#define LIBRETEX_ROWS_H
+
+#include <retex/set.h>
+
+typedef struct RowReader RowReader; /* one a thread */
+
+int row_reader_open(RowReader **reader, const RetexSet *set, RetexError *err);
+void row_reader_close(RowReader **reader);
+
+/* Row y of a part, its channels interleaved; NULL in *row where all of it is 0. It stays as it is until the next call
+ * for the same part. */
+int row_reader_get(RowReader *reader, int part, int y, const float **row, RetexError *err);
+
+#endif
