@@ -2,9 +2,11 @@
  *
  * What a term means - no hit, dependent, independent, cross - is the set's business; here it is a polynomial. A
  * factor is the new texture's sample at its footprint or, where the target keeps its original, the footprint's mean
- * original albedo, which is exact for it. */
+ * original albedo, which is exact for it. Bands of rows are made side by side; nothing of the picture's size is. */
 #include <retex/sample.h>
 
+#include <stdatomic.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include <retex/parallel.h>
@@ -13,57 +15,130 @@
 #include "polynomial.h"
 
 #define SPAN_PIXELS 512 /* its sum and one span of each image fit the first two caches */
-#define ROWS_A_JOB 8
 
 typedef struct CombineWork {
-    RetexImage *dst;
-    RetexRoi roi;
-    Polynomial polynomial;
+    const Polynomial *polynomial;
+    int y0, y1; /* of the picture */
+    int band;   /* rows a job */
+    RetexRowSink *sink;
+    void *context;
+    atomic_int code;
+    RetexError *errors; /* by thread */
 } CombineWork;
 
-static void combine_span(const CombineWork *work, size_t first, size_t pixels)
+static void combine_row(const PolynomialRow *row, int width, float *restrict out)
 {
-    float sum[3 * SPAN_PIXELS] = {0};
-    const RetexRoi *roi = &work->roi;
-    for (int t = 0; t < work->polynomial.count; t++) {
-        const Monomial *m = &work->polynomial.monomials[t];
-        const float *factors[RETEX_MAX_FACTORS + 1];
-        for (int k = 0; k < m->nimages; k++)
-            factors[k] = m->factors[k] + 3 * first;
-        combine_term_kernel(sum, m->radiance + 3 * first, factors, m->nimages, 3 * pixels);
+    for (int x = 0; x < width; x += SPAN_PIXELS) {
+        size_t first = 3 * (size_t)x, numbers = 3 * (size_t)(width - x < SPAN_PIXELS ? width - x : SPAN_PIXELS);
+        memset(out + first, 0, numbers * sizeof *out);
+        for (int t = 0; t < row->count; t++) {
+            const Monomial *m = &row->monomials[t];
+            const float *factors[RETEX_MAX_FACTORS + 1];
+            for (int k = 0; k < m->nimages; k++)
+                factors[k] = m->factors[k] + first;
+            combine_term_kernel(out + first, m->radiance + first, factors, m->nimages, numbers);
+        }
     }
-    float *out = work->dst->pixels + 3 * first;
-    if (roi->c0 == 0 && roi->c1 == 3) {
-        memcpy(out, sum, 3 * pixels * sizeof *out);
-        return;
+}
+
+static int combine_band(const CombineWork *work, int y0, int y1, RetexError *err)
+{
+    const int width = work->polynomial->set->width;
+    PolynomialRow row;
+    float *rows = malloc(sizeof *rows * 3 * (size_t)width * (size_t)(y1 - y0));
+    int code = polynomial_row_open(&row, work->polynomial, err);
+    if (!code && !rows)
+        code = retex_fail(err, RETEX_ENOMEM, "not enough memory to combine");
+    for (int y = y0; !code && y < y1; y++) {
+        code = polynomial_row_make(&row, y, err);
+        if (!code)
+            combine_row(&row, width, rows + 3 * (size_t)width * (size_t)(y - y0));
     }
-    for (size_t i = 0; i < pixels; i++)
-        for (int c = roi->c0; c < roi->c1; c++)
-            out[3 * i + (size_t)c] = sum[3 * i + (size_t)c];
+    if (!code)
+        code = work->sink(work->context, y0, y1, rows, err);
+    polynomial_row_close(&row);
+    free(rows);
+    return code;
 }
 
 static void combine_job(void *context, int index, int thread)
 {
-    const CombineWork *work = context;
-    const RetexRoi *roi = &work->roi;
-    (void)thread;
-    int first = roi->y0 + index * ROWS_A_JOB, last = first + ROWS_A_JOB < roi->y1 ? first + ROWS_A_JOB : roi->y1;
-    for (int y = first; y < last; y++)
-        for (int x = roi->x0; x < roi->x1; x += SPAN_PIXELS) {
-            int pixels = roi->x1 - x < SPAN_PIXELS ? roi->x1 - x : SPAN_PIXELS;
-            combine_span(work, (size_t)y * (size_t)work->dst->width + (size_t)x, (size_t)pixels);
-        }
+    CombineWork *work = context;
+    /* bands begin at multiples of their height, wherever the region does */
+    int first = work->y0 / work->band + index, y0 = first * work->band, y1 = y0 + work->band;
+    if (work->code)
+        return;
+    int code = combine_band(work, y0 > work->y0 ? y0 : work->y0, y1 < work->y1 ? y1 : work->y1, &work->errors[thread]);
+    if (code)
+        atomic_store(&work->code, code);
+}
+
+static int combine(const Polynomial *polynomial, int y0, int y1, RetexRowSink *sink, void *context, int nthreads,
+                   RetexError *err)
+{
+    const int threads = retex_threads(nthreads);
+    CombineWork work = {polynomial, y0, y1, RETEX_BAND_ROWS, sink, context, 0, calloc((size_t)threads, sizeof *err)};
+    if (!work.errors)
+        return retex_fail(err, RETEX_ENOMEM, "not enough memory to combine");
+    if (y1 > y0)
+        retex_parallel(threads, (y1 - 1) / work.band - y0 / work.band + 1, combine_job, &work);
+    for (int i = 0; i < threads && work.code; i++)
+        if (work.errors[i].code && err)
+            *err = work.errors[i];
+    free(work.errors);
+    return work.code;
+}
+
+int retex_retexture(const RetexSet *set, const RetexSamples *samples, const RetexTextureSpec *specs, int nspecs,
+                    const RetexCombineParams *params, RetexRowSink *sink, void *context, int nthreads, RetexError *err)
+{
+    TargetTextures textures;
+    Polynomial polynomial;
+    int code = target_textures_load(&textures, set, specs, nspecs, 0, nthreads, err);
+    if (code)
+        return code;
+    code = polynomial_open(&polynomial, set, samples, &textures, params, nthreads, err);
+    if (!code) {
+        code = combine(&polynomial, 0, set->height, sink, context, nthreads, err);
+        polynomial_close(&polynomial);
+    }
+    target_textures_close(&textures);
+    return code;
+}
+
+/* ---- into an image ---- */
+
+typedef struct Region {
+    RetexImage *dst;
+    RetexRoi roi;
+} Region;
+
+static int copy_rows(void *context, int y0, int y1, const float *rows, RetexError *err)
+{
+    const Region *region = context;
+    const RetexRoi *roi = &region->roi;
+    (void)err;
+    for (int y = y0; y < y1; y++) {
+        const float *from = rows + 3 * ((size_t)(y - y0) * (size_t)region->dst->width + (size_t)roi->x0);
+        float *to = region->dst->pixels + retex_image_index(region->dst, roi->x0, y);
+        for (int x = roi->x0; x < roi->x1; x++, from += 3, to += 3)
+            for (int c = roi->c0; c < roi->c1; c++)
+                to[c] = from[c];
+    }
+    return RETEX_OK;
 }
 
 int retex_combine(RetexImage *dst, const RetexSet *set, const RetexSamples *samples, const RetexCombineParams *params,
                   const RetexRoi *roi, int nthreads, RetexError *err)
 {
-    CombineWork work = {.dst = dst};
-    int code = polynomial_open(&work.polynomial, set, samples, params, err);
+    Region region = {.dst = dst};
+    Polynomial polynomial;
+    int code = polynomial_open(&polynomial, set, samples, NULL, params, nthreads, err);
+    if (code)
+        return code;
+    code = retex_image_prepare(dst, set->width, set->height, 3, roi, &region.roi, err);
     if (!code)
-        code = retex_image_prepare(dst, set->width, set->height, 3, roi, &work.roi, err);
-    if (!code)
-        retex_parallel(nthreads, (work.roi.y1 - work.roi.y0 + ROWS_A_JOB - 1) / ROWS_A_JOB, combine_job, &work);
-    polynomial_close(&work.polynomial, set);
+        code = combine(&polynomial, region.roi.y0, region.roi.y1, copy_rows, &region, nthreads, err);
+    polynomial_close(&polynomial);
     return code;
 }

@@ -31,7 +31,8 @@ typedef struct EstimateWork {
     const RetexSet *set;
     const RetexSamples *variances;
     Polynomial polynomial;
-    float *scratch; /* by thread: a row's derivatives, by footprint */
+    float *scratch;     /* by thread: a row's derivatives, by footprint */
+    RetexError *errors; /* by thread */
 } EstimateWork;
 
 /* Row of a factor's derivatives: footprints, then mixtures. */
@@ -93,15 +94,15 @@ static size_t scratch_rows(const RetexSet *set)
     return 1 + (size_t)set->nfootprints + (size_t)set->nmixtures; /* the sum first */
 }
 
-static void estimate_row(const EstimateWork *work, int y, float *restrict scratch)
+static void estimate_row(const EstimateWork *work, const PolynomialRow *row, int y, float *restrict scratch)
 {
     const RetexSet *set = work->set;
     const RetexRoi *roi = &work->roi;
-    size_t first = 3 * ((size_t)y * (size_t)set->width + (size_t)roi->x0), n = 3 * (size_t)(roi->x1 - roi->x0);
+    size_t n = 3 * (size_t)(roi->x1 - roi->x0);
     float *sum = scratch, *derivatives = scratch + n;
     memset(scratch, 0, sizeof *scratch * n * scratch_rows(set));
-    for (int t = 0; t < work->polynomial.count; t++)
-        add_term(set, &work->polynomial.monomials[t], first, n, sum, derivatives);
+    for (int t = 0; t < row->count; t++)
+        add_term(set, &row->monomials[t], 3 * (size_t)roi->x0, n, sum, derivatives);
     for (int m = 0; m < set->nmixtures; m++)
         share_derivatives(set, &set->mixtures[m], roi->x0, y, n,
                           derivatives + ((size_t)set->nfootprints + (size_t)m) * n, derivatives);
@@ -122,7 +123,7 @@ static void estimate_row(const EstimateWork *work, int y, float *restrict scratc
             sum[i] += d * d * value_at(set, variance, x, y, (int)(i % 3)) * (k * k + s / fmaxf(paths, 1));
         }
     }
-    float *out = work->dst->pixels + first;
+    float *out = work->dst->pixels + retex_image_index(work->dst, roi->x0, y);
     for (size_t i = 0; i < n; i++)
         if ((int)(i % 3) >= roi->c0 && (int)(i % 3) < roi->c1)
             out[i] = sqrtf(sum[i]);
@@ -130,11 +131,17 @@ static void estimate_row(const EstimateWork *work, int y, float *restrict scratc
 
 static void estimate_job(void *context, int index, int thread)
 {
-    const EstimateWork *work = context;
+    EstimateWork *work = context;
+    RetexError *err = &work->errors[thread];
     size_t room = 3 * (size_t)work->set->width * scratch_rows(work->set);
-    int y = work->roi.y0 + index * ROWS_A_JOB;
-    for (int k = 0; k < ROWS_A_JOB && y < work->roi.y1; k++, y++)
-        estimate_row(work, y, work->scratch + room * (size_t)thread);
+    PolynomialRow row;
+    int y = work->roi.y0 + index * ROWS_A_JOB, code = polynomial_row_open(&row, &work->polynomial, err);
+    for (int k = 0; !code && k < ROWS_A_JOB && y < work->roi.y1; k++, y++) {
+        code = polynomial_row_make(&row, y, err);
+        if (!code)
+            estimate_row(work, &row, y, work->scratch + room * (size_t)thread);
+    }
+    polynomial_row_close(&row);
 }
 
 int retex_estimate_error(RetexImage *dst, const RetexSet *set, const RetexSamples *samples,
@@ -146,16 +153,25 @@ int retex_estimate_error(RetexImage *dst, const RetexSet *set, const RetexSample
         return retex_fail(err, RETEX_EINVAL, "an error is estimated for samples and their variances");
     int code = retex_samples_check(variances, set, err);
     if (!code)
-        code = polynomial_open(&work.polynomial, set, samples, params, err);
-    if (!code)
-        code = retex_image_prepare(dst, set->width, set->height, 3, roi, &work.roi, err);
+        code = polynomial_open(&work.polynomial, set, samples, NULL, params, nthreads, err);
+    if (code)
+        return code;
+    code = retex_image_prepare(dst, set->width, set->height, 3, roi, &work.roi, err);
     nthreads = retex_threads(nthreads);
+    work.errors = calloc((size_t)nthreads, sizeof *work.errors);
     work.scratch = calloc((size_t)nthreads * 3 * (size_t)set->width * scratch_rows(set), sizeof(float));
-    if (!code && !work.scratch)
+    if (!code && (!work.scratch || !work.errors))
         code = retex_fail(err, RETEX_ENOMEM, "not enough memory to estimate the error");
     if (!code)
         retex_parallel(nthreads, (work.roi.y1 - work.roi.y0 + ROWS_A_JOB - 1) / ROWS_A_JOB, estimate_job, &work);
+    for (int i = 0; !code && i < nthreads; i++)
+        if (work.errors[i].code) {
+            code = work.errors[i].code;
+            if (err)
+                *err = work.errors[i];
+        }
     free(work.scratch);
-    polynomial_close(&work.polynomial, set);
+    free(work.errors);
+    polynomial_close(&work.polynomial);
     return code;
 }

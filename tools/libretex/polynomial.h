@@ -1,28 +1,50 @@
-/* A set and its samples as a polynomial: every term with its images found. Private to libretex. */
+/* A set and its textures as a polynomial, row by row: every term with the pixels of its factors. What is smaller than
+ * the picture is made once, at its own size; everything else only while its row is at hand, so that no image of the
+ * picture's size is ever whole in memory. Private to libretex. */
 #ifndef LIBRETEX_POLYNOMIAL_H
 #define LIBRETEX_POLYNOMIAL_H
 
 #include <retex/sample.h>
 
-typedef struct Monomial {
-    const float *radiance; /* RGB of the set's size */
-    int nfactors;          /* of the term, */
-    int nimages;           /* and with its gain, which comes last */
-    const float *factors[RETEX_MAX_FACTORS + 1]; /* RGB of the set's size: samples, or the original albedo */
-    int footprints[RETEX_MAX_FACTORS];
-} Monomial;
+#include "rows.h"
+#include "target_textures.h"
 
 typedef struct Polynomial {
-    Monomial *monomials;
-    int count;
-    /* Factors that are smaller than the set, at its size, and mixtures; NULL where the set's own or the samples' image
-     * serves. By footprint; by mixture; by part. */
-    RetexImage *footprints, *mixtures, *gains;
+    const RetexSet *set;
+    const RetexSamples *samples;    /* or NULL */
+    const TargetTextures *textures; /* or NULL; sampled where samples have no image */
+    int cross;
+    RetexImage *footprints, *mixtures, *gains; /* those that are smaller, by number; of gains that of the part */
 } Polynomial;
 
-/* The terms that params ask for (NULL = defaults). samples may be NULL. Borrows the pixels of both. */
+/* The terms that params ask for (NULL = defaults). Borrows set, samples and textures. */
 int polynomial_open(Polynomial *polynomial, const RetexSet *set, const RetexSamples *samples,
-                    const RetexCombineParams *params, RetexError *err);
-void polynomial_close(Polynomial *polynomial, const RetexSet *set);
+                    const TargetTextures *textures, const RetexCombineParams *params, int nthreads, RetexError *err);
+void polynomial_close(Polynomial *polynomial);
+
+/* One term over one row. */
+typedef struct Monomial {
+    const float *radiance; /* RGB, 3 * width numbers */
+    int nfactors;          /* of the term, */
+    int nimages;           /* and with its gain, which comes last */
+    const float *factors[RETEX_MAX_FACTORS + 1]; /* RGB: samples, or the original albedo */
+    int footprints[RETEX_MAX_FACTORS];           /* or mixtures: as in RetexTerm */
+} Monomial;
+
+typedef struct PolynomialRow {
+    const Polynomial *polynomial;
+    RowReader *reader;
+    Monomial *monomials; /* those that are not black all over the row */
+    int count;
+    const float **made; /* rows of footprints, mixtures and gains, as soon as they are made; see polynomial.c */
+    float **scratch;    /* where they are made, if they have to be */
+    float *weights;
+} PolynomialRow;
+
+/* One a thread. */
+int polynomial_row_open(PolynomialRow *row, const Polynomial *polynomial, RetexError *err);
+void polynomial_row_close(PolynomialRow *row);
+/* Fill in the monomials of row y. */
+int polynomial_row_make(PolynomialRow *row, int y, RetexError *err);
 
 #endif

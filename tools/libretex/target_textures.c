@@ -95,7 +95,8 @@ static void load_job(void *context, int index, int thread)
         }
     int code = retex_texture_load(&loading->textures->of[target], &spec, loading->threads, &loading->errors[index]);
     if (!code && loading->with_squares)
-        retex_texture_square(&loading->textures->squares[target], loading->textures->of[target], &loading->errors[index]);
+        retex_texture_square(&loading->textures->squares[target], loading->textures->of[target],
+                             &loading->errors[index]);
 }
 
 /* Side by side: most of the time goes to decoding, which has one thread a file. */

@@ -37,6 +37,18 @@ int retex_combine(RetexImage *dst, const RetexSet *set, const RetexSamples *samp
                   const RetexCombineParams *params /* NULL = defaults */, const RetexRoi *roi /* NULL = all */,
                   int nthreads /* 0 = all cores */, RetexError *err);
 
+#define RETEX_BAND_ROWS 64
+
+/* Takes rows y0 <= y < y1 of a picture, RGB interleaved; y0 is a multiple of RETEX_BAND_ROWS, y1 the next one or the
+ * picture's height. Called from several threads at once, in any order; returns 0 or a negative RetexCode. */
+typedef int RetexRowSink(void *context, int y0, int y1, const float *rows, RetexError *err);
+
+/* Sampling and recombination in one pass, band by band: the rows are those that retex_sample, retex_samples_merge into
+ * samples and retex_combine would give. samples may be NULL. */
+int retex_retexture(const RetexSet *set, const RetexSamples *samples, const RetexTextureSpec *specs, int nspecs,
+                    const RetexCombineParams *params /* NULL = defaults */, RetexRowSink *sink, void *context,
+                    int nthreads /* 0 = all cores */, RetexError *err);
+
 /* dst (RGB, the set's size) = the standard deviation, per pixel and scene-linear, of the difference to be expected
  * between this retexture and rendering again at the set's samples: from how the textures scatter inside the footprints,
  * how much light multiplies them there, and the energy that was folded. samples and variances are those of one call of
