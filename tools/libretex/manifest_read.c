@@ -316,7 +316,9 @@ static void read_mixture(Reading *reading, const json_t *array, RetexSet *set)
         if (reading->status)
             return;
         const int scale = retex_set_scale(set, &set->parts[mixture.shares[i].weight].image);
-        if (scale != retex_set_footprint_scale(set, mixture.shares[i].footprint) ||
+        const RetexFootprint *f = &set->footprints[mixture.shares[i].footprint];
+        const int sampled = f->uv < 0 && f->spread < 0 && f->albedo < 0; /* in a stream */
+        if ((!sampled && scale != retex_set_footprint_scale(set, mixture.shares[i].footprint)) ||
             scale != retex_set_scale(set, &set->parts[mixture.shares[0].weight].image))
             bad(reading, RETEX_EFORMAT, "has a mixture whose footprints and weights differ in size");
     }

@@ -1,0 +1,302 @@
+/* Sets whose footprints, weights and gains are smaller than the picture: against the formula, pixel by pixel, and
+ * through every door a set goes through. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include <cmocka.h>
+
+#include <retex/retex.h>
+
+#include "lib_test.h"
+
+enum { WIDTH = 37, HEIGHT = 23, SHARP_SCALE = 1, BROAD_SCALE = 4, LATER_SCALE = 8, GAIN_SCALE = 2 };
+enum { SHARP, BROAD1, BROAD2, LATER, FOOTPRINTS };
+
+static int add_part(RetexSet *set, const char *name, const char *letters, int scale, uint32_t *seed)
+{
+    RetexError err = {0};
+    int part;
+    test_must(retex_set_add_part(set, name, letters, RETEX_FLOAT, (WIDTH + scale - 1) / scale,
+                                 (HEIGHT + scale - 1) / scale, &part, &err),
+              &err);
+    RetexImage *im = &set->parts[part].image;
+    for (size_t i = 0; i < retex_image_index(im, 0, im->height); i++)
+        im->pixels[i] = (float)test_random(seed);
+    return part;
+}
+
+static void add_footprint(RetexSet *set, const char *name, RetexFootprintKind kind, int scale, uint32_t *seed)
+{
+    char text[3][32];
+    RetexError err = {0};
+    static const char *const what[3] = {"uv", "spread", "albedo"}, *const letters[3] = {"RGA", "RGB", "RGB"};
+    int parts[3];
+    for (int k = 0; k < 3; k++) {
+        snprintf(text[k], sizeof text[k], "%s_%s", what[k], name);
+        parts[k] = add_part(set, text[k], letters[k], scale, seed);
+    }
+    RetexImage *spread = &set->parts[parts[1]].image;
+    for (size_t i = 0; i < retex_image_index(spread, 0, spread->height); i++)
+        spread->pixels[i] *= 0.1f;
+    RetexFootprint footprint = {0, set->nfootprints + 1, kind, parts[0], parts[1], parts[2]};
+    test_must(retex_set_add_footprint(set, &footprint, NULL, &err), &err);
+}
+
+static void add_term(RetexSet *set, int radiance, int gain, int nfactors, int first, int second)
+{
+    RetexError err = {0};
+    RetexTerm term = {nfactors ? RETEX_TERM_DEP : RETEX_TERM_INDEP, radiance, gain, nfactors, {first, second}};
+    test_must(retex_set_add_term(set, &term, NULL, &err), &err);
+}
+
+/* C0 + D (S + g S L + h M + h M L), of which the broad mixture M = (w1 B1 + w2 B2) / (w1 + w2) is four times smaller
+ * than the picture, the later footprint L eight times and the gain g twice; h has three colours and the full size. */
+static RetexSet *make_set(void)
+{
+    RetexSet *set;
+    RetexError err = {0};
+    uint32_t seed = 5;
+    test_must(retex_set_create(&set, WIDTH, HEIGHT, &err), &err);
+    strcpy(set->layout, "footprints"), strcpy(set->filter, "box");
+    set->spp = 16, set->orders = 6, set->ntargets = 1;
+    strcpy(set->targets[0].name, "Floor");
+    set->targets[0].original = -1;
+    add_part(set, "beauty", "RGB", 1, &seed);
+    add_footprint(set, "sharp", RETEX_FOOTPRINT_SHARP, SHARP_SCALE, &seed);
+    add_footprint(set, "broad1", RETEX_FOOTPRINT_BROAD, BROAD_SCALE, &seed);
+    add_footprint(set, "broad2", RETEX_FOOTPRINT_BROAD, BROAD_SCALE, &seed);
+    add_footprint(set, "later", RETEX_FOOTPRINT_LATER, LATER_SCALE, &seed);
+    RetexMixture mixture = {2,
+                            {{BROAD1, add_part(set, "weight1", "R", BROAD_SCALE, &seed)},
+                             {BROAD2, add_part(set, "weight2", "R", BROAD_SCALE, &seed)}}};
+    test_must(retex_set_add_mixture(set, &mixture, NULL, &err), &err);
+    int light = add_part(set, "light", "RGB", 1, &seed), g = add_part(set, "g", "R", GAIN_SCALE, &seed);
+    int h = add_part(set, "h", "RGB", 1, &seed);
+    add_term(set, add_part(set, "indep", "RGB", 1, &seed), 0, 0, 0, 0);
+    add_term(set, light, 0, 1, SHARP, 0);
+    add_term(set, light, g, 2, SHARP, LATER);
+    add_term(set, light, h, 1, RETEX_MIXTURE(0), 0);
+    add_term(set, light, h, 2, RETEX_MIXTURE(0), LATER);
+    return set;
+}
+
+/* ---- the formula ---- */
+
+static double pixel(const RetexImage *im, int x, int y, int c)
+{
+    x = x < 0 ? 0 : x >= im->width ? im->width - 1 : x;
+    y = y < 0 ? 0 : y >= im->height ? im->height - 1 : y;
+    return (double)im->pixels[retex_image_index(im, x, y) + (im->channels == 1 ? 0 : (size_t)c)];
+}
+
+/* Weight of a small pixel's value in one of the picture's: a tent between centres. */
+static double enlarged(const RetexImage *im, int scale, int x, int y, int c)
+{
+    double u = (x + 0.5) / scale - 0.5, v = (y + 0.5) / scale - 0.5, sum = 0;
+    if (scale == 1)
+        return pixel(im, x, y, c);
+    for (int j = 0; j < 2; j++)
+        for (int i = 0; i < 2; i++) {
+            int px = (int)floor(u) + i, py = (int)floor(v) + j;
+            sum += (1 - fabs(u - px)) * (1 - fabs(v - py)) * pixel(im, px, py, c);
+        }
+    return sum;
+}
+
+static const RetexImage *part(const RetexSet *set, const char *name)
+{
+    int k = retex_set_find_part(set, name);
+    assert_true(k >= 0);
+    return &set->parts[k].image;
+}
+
+/* Image of a footprint: what was sampled, or the original albedo. */
+static const RetexImage *factor(const RetexSet *set, const RetexSamples *samples, int footprint)
+{
+    return samples && samples->images[footprint].pixels ? &samples->images[footprint]
+                                                        : &set->parts[set->footprints[footprint].albedo].image;
+}
+
+static RetexImage mixed(const RetexSet *set, const RetexSamples *samples)
+{
+    const RetexImage *b1 = factor(set, samples, BROAD1), *b2 = factor(set, samples, BROAD2);
+    const RetexImage *w1 = part(set, "weight1"), *w2 = part(set, "weight2");
+    RetexImage mix = {0};
+    test_must(retex_image_alloc(&mix, b1->width, b1->height, 3, NULL), NULL);
+    for (int y = 0; y < mix.height; y++)
+        for (int x = 0; x < mix.width; x++)
+            for (int c = 0; c < 3; c++) {
+                double a = pixel(w1, x, y, c), b = pixel(w2, x, y, c);
+                mix.pixels[retex_image_index(&mix, x, y) + (size_t)c] =
+                    (float)((a * pixel(b1, x, y, c) + b * pixel(b2, x, y, c)) / (a + b));
+            }
+    return mix;
+}
+
+static void expect_formula(const RetexSet *set, const RetexSamples *samples, const RetexImage *picture)
+{
+    RetexImage mix = mixed(set, samples);
+    const RetexImage *sharp = factor(set, samples, SHARP), *later = factor(set, samples, LATER);
+    for (int y = 0; y < HEIGHT; y++)
+        for (int x = 0; x < WIDTH; x++)
+            for (int c = 0; c < 3; c++) {
+                double s = pixel(sharp, x, y, c), l = enlarged(later, LATER_SCALE, x, y, c);
+                double m = enlarged(&mix, BROAD_SCALE, x, y, c), d = pixel(part(set, "light"), x, y, c);
+                double g = enlarged(part(set, "g"), GAIN_SCALE, x, y, c), h = pixel(part(set, "h"), x, y, c);
+                double want = pixel(part(set, "indep"), x, y, c) + d * (s + g * s * l + h * m + h * m * l);
+                assert_float_equal(picture->pixels[retex_image_index(picture, x, y) + (size_t)c], want, 2e-5);
+            }
+    retex_image_free(&mix);
+}
+
+static RetexTextureSpec stripes(void)
+{
+    RetexTextureSpec spec = RETEX_TEXTURE_SPEC_INIT;
+    RetexImage image = {0};
+    RetexError err = {0};
+    test_random_image(&image, 16, 16, 3, 9, 0, 1);
+    strcpy(spec.target, "Floor");
+    strcpy(spec.image, "scale_texture.exr");
+    test_must(retex_image_write(&image, spec.image, NULL, &err), &err);
+    retex_image_free(&image);
+    return spec;
+}
+
+/* ---- the tests ---- */
+
+static void test_formula(void **state)
+{
+    (void)state;
+    RetexSet *set = make_set();
+    RetexImage picture = {0};
+    RetexError err = {0};
+    test_must(retex_combine(&picture, set, NULL, NULL, NULL, 0, &err), &err);
+    expect_formula(set, NULL, &picture);
+    retex_image_free(&picture);
+    RetexTextureSpec spec = stripes();
+    RetexSamples *samples;
+    test_must(retex_sample(&samples, set, &spec, 1, 0, &err), &err);
+    assert_int_equal(samples->images[BROAD1].width, (WIDTH + BROAD_SCALE - 1) / BROAD_SCALE);
+    test_must(retex_combine(&picture, set, samples, NULL, NULL, 0, &err), &err);
+    expect_formula(set, samples, &picture);
+    retex_image_free(&picture);
+    retex_samples_close(&samples);
+    retex_set_close(&set);
+    unlink(spec.image);
+}
+
+static int keep_rows(void *context, int y0, int y1, const float *rows, RetexError *err)
+{
+    RetexImage *picture = context;
+    (void)err;
+    assert_int_equal(y0 % RETEX_BAND_ROWS, 0);
+    memcpy(picture->pixels + retex_image_index(picture, 0, y0), rows,
+           sizeof *rows * 3 * (size_t)picture->width * (size_t)(y1 - y0));
+    return 0;
+}
+
+/* In one pass, and by samples that went through a file or a stream, comes the same picture. */
+static void test_doors(void **state)
+{
+    (void)state;
+    RetexSet *set = make_set(), *back;
+    RetexSamples *samples, *again;
+    RetexTextureSpec spec = stripes();
+    RetexImage picture = {0}, other = {0};
+    RetexError err = {0};
+    const size_t bytes = sizeof(float) * 3 * WIDTH * HEIGHT;
+    retex_set_identify(set);
+    test_must(retex_sample(&samples, set, &spec, 1, 1, &err), &err);
+    test_must(retex_combine(&picture, set, samples, NULL, NULL, 1, &err), &err);
+    test_must(retex_image_alloc(&other, WIDTH, HEIGHT, 3, &err), &err);
+    for (int threads = 1; threads < 4; threads++) {
+        memset(other.pixels, 0, bytes);
+        test_must(retex_retexture(set, NULL, &spec, 1, NULL, keep_rows, &other, threads, &err), &err);
+        assert_memory_equal(other.pixels, picture.pixels, bytes);
+    }
+    for (int stream = 0; stream < 2; stream++) {
+        test_must(retex_set_write(set, stream ? samples : NULL, "scale.exr", NULL, &err), &err);
+        test_must(retex_set_read("scale.exr", &back, &again, 0, &err), &err);
+        retex_image_free(&other);
+        test_must(retex_combine(&other, back, stream ? again : samples, NULL, NULL, 0, &err), &err);
+        assert_memory_equal(other.pixels, picture.pixels, bytes);
+        assert_true(back->terms[2].gain > 0 && back->terms[0].gain == 0);
+        retex_set_close(&back);
+        retex_samples_close(&again);
+    }
+    retex_image_free(&other);
+    retex_image_free(&picture);
+    retex_samples_close(&samples);
+    retex_set_close(&set);
+    unlink("scale.exr");
+    unlink(spec.image);
+}
+
+/* The error to be expected is there wherever the texture scatters, and nowhere else. */
+static void test_estimate(void **state)
+{
+    (void)state;
+    RetexSet *set = make_set();
+    RetexSamples *samples, *variances;
+    RetexTextureSpec specs[2] = {stripes(), RETEX_TEXTURE_SPEC_INIT};
+    RetexError err = {0};
+    strcpy(specs[1].target, "Floor");
+    specs[1].constant = 1;
+    for (int k = 0; k < 2; k++) {
+        RetexImage error = {0};
+        double sum = 0;
+        test_must(retex_sample_with_variances(&samples, &variances, set, &specs[k], 1, 0, &err), &err);
+        test_must(retex_estimate_error(&error, set, samples, variances, NULL, NULL, 0, &err), &err);
+        for (size_t i = 0; i < 3 * WIDTH * HEIGHT; i++)
+            sum += (double)error.pixels[i];
+        assert_true(k ? sum == 0 : sum > 0 && isfinite(sum));
+        retex_image_free(&error);
+        retex_samples_close(&samples);
+        retex_samples_close(&variances);
+    }
+    retex_set_close(&set);
+    unlink(specs[0].image);
+}
+
+/* What cannot be is refused: a size that is none, a mixture of several, a gain that is the picture. */
+static void test_what_cannot_be(void **state)
+{
+    (void)state;
+    RetexSet *set = make_set();
+    RetexError err = {0};
+    RetexImage picture = {0};
+    RetexImage *weight = &set->parts[set->mixtures[0].shares[1].weight].image;
+    weight->width--;
+    assert_int_equal(retex_combine(&picture, set, NULL, NULL, NULL, 0, &err), RETEX_EFORMAT);
+    assert_non_null(strstr(err.message, "mixture"));
+    weight->width++;
+    RetexImage *gain = &set->parts[set->terms[2].gain].image;
+    gain->height--;
+    assert_int_equal(retex_combine(&picture, set, NULL, NULL, NULL, 0, &err), RETEX_EFORMAT);
+    gain->height++;
+    RetexTerm term = set->terms[2];
+    term.gain = set->nparts;
+    assert_int_equal(retex_set_add_term(set, &term, NULL, &err), RETEX_EINVAL);
+    term.gain = set->footprints[0].uv;
+    strcpy(set->parts[term.gain].letters, "RG");
+    assert_int_equal(retex_set_add_term(set, &term, NULL, &err), RETEX_EINVAL);
+    retex_set_close(&set);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_formula),
+        cmocka_unit_test(test_doors),
+        cmocka_unit_test(test_estimate),
+        cmocka_unit_test(test_what_cannot_be),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
