@@ -1,0 +1,53 @@
+/* Chunks of an EXR file, one at a time: what reading whole parts and reading rows share. Private to libretex. */
+#ifndef LIBRETEX_EXR_DECODE_H
+#define LIBRETEX_EXR_DECODE_H
+
+#include "exr_error.h"
+#include "exr_io.h"
+#include "exr_zip.h"
+
+struct RetexExr {
+    RetexExrMessage message; /* first: see exr_error.h */
+    RetexInput *input;
+    exr_context_t context;
+    int nparts;
+};
+
+/* How one request is met. */
+typedef struct ExrPlan {
+    RetexExrRequest *request;
+    exr_storage_t storage;
+    exr_compression_t compression;
+    int left, top, width, height; /* data window */
+    int chunk_width, chunk_height;
+    int across, down; /* chunks */
+    int nchannels;    /* of the part; all lie in every chunk */
+    const exr_attr_chlist_entry_t *channels;
+    int *slot; /* channel of the image that a channel of the part fills, or -1 */
+    size_t pixel_bytes;
+} ExrPlan;
+
+/* Of one thread. */
+typedef struct ExrScratch {
+    RetexZip zip;
+    unsigned char *packed, *raw;
+    float *row;
+    size_t packed_bytes, raw_bytes, row_count;
+} ExrScratch;
+
+void exr_data_window(const RetexExr *exr, int part, exr_attr_box2i_t *window); /* empty where there is none */
+int exr_fail(RetexExr *exr, exr_result_t code, RetexError *err);
+
+/* Find out how to meet a request, which plan borrows. */
+int exr_plan_open(RetexExr *exr, ExrPlan *plan, RetexExrRequest *request, RetexError *err);
+void exr_plan_close(ExrPlan *plan);
+
+size_t exr_channel_bytes(const exr_attr_chlist_entry_t *channel);
+
+/* Read a chunk, by its place among the part's, into the image (NULL: nowhere), whose first row is row top of the part,
+ * and into the checksums of the request's channels, where it has any. Thread-safe, each with its own scratch. */
+exr_result_t exr_chunk_read(RetexExr *exr, const ExrPlan *plan, int column, int row, RetexImage *image, int top,
+                            uint32_t *crc, ExrScratch *scratch);
+void exr_scratch_free(ExrScratch *scratch);
+
+#endif
