@@ -202,6 +202,36 @@ static int keep_rows(void *context, int y0, int y1, const float *rows, RetexErro
     return 0;
 }
 
+/* The set stays in its file, of one kind or another, and row by row comes the same picture; loaded it is whole. */
+static void expect_open(const RetexTextureSpec *spec, const RetexImage *picture)
+{
+    RetexSet *set;
+    RetexSamples *samples;
+    RetexImage other = {0};
+    RetexError err = {0};
+    test_must(retex_set_read("scale.exr", &set, NULL, 0, &err), &err);
+    for (int compress = 0; compress < 2; compress++) {
+        RetexStoreParams store = RETEX_STORE_INIT;
+        RetexSet *open;
+        store.compress = compress;
+        test_must(retex_set_write(set, NULL, "open.exr", &store, &err), &err);
+        test_must(retex_set_open("open.exr", &open, NULL, 0, &err), &err);
+        assert_null(open->parts[3].image.pixels);
+        assert_int_equal(retex_sample(&samples, open, spec, 1, 0, &err), RETEX_EINVAL);
+        test_must(retex_image_alloc(&other, WIDTH, HEIGHT, 3, &err), &err);
+        test_must(retex_retexture(open, NULL, spec, 1, NULL, keep_rows, &other, 0, &err), &err);
+        assert_memory_equal(other.pixels, picture->pixels, sizeof(float) * 3 * WIDTH * HEIGHT);
+        retex_image_free(&other);
+        test_must(retex_set_load(open, 0, &err), &err);
+        for (int i = 0; i < set->nparts; i++)
+            assert_memory_equal(open->parts[i].image.pixels, set->parts[i].image.pixels,
+                                sizeof(float) * retex_image_index(&set->parts[i].image, 0, set->parts[i].image.height));
+        retex_set_close(&open);
+    }
+    retex_set_close(&set);
+    unlink("open.exr");
+}
+
 /* In one pass, and by samples that went through a file or a stream, comes the same picture. */
 static void test_doors(void **state)
 {
@@ -231,6 +261,8 @@ static void test_doors(void **state)
         retex_set_close(&back);
         retex_samples_close(&again);
     }
+    test_must(retex_set_write(set, NULL, "scale.exr", NULL, &err), &err);
+    expect_open(&spec, &picture);
     retex_image_free(&other);
     retex_image_free(&picture);
     retex_samples_close(&samples);

@@ -151,6 +151,8 @@ int retex_estimate_error(RetexImage *dst, const RetexSet *set, const RetexSample
     EstimateWork work = {.dst = dst, .set = set, .variances = variances};
     if (!samples || !variances)
         return retex_fail(err, RETEX_EINVAL, "an error is estimated for samples and their variances");
+    if (set->source)
+        return retex_fail(err, RETEX_EINVAL, "the set is not in memory");
     int code = retex_samples_check(variances, set, err);
     if (!code)
         code = polynomial_open(&work.polynomial, set, samples, NULL, params, nthreads, err);

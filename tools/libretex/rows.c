@@ -3,30 +3,59 @@
 
 #include <stdlib.h>
 
+#include "set_source.h"
+
 struct RowReader {
     const RetexSet *set;
+    void *source; /* its reader, or NULL */
+    float **rows; /* by part: what came last from the source */
 };
 
 int row_reader_open(RowReader **result, const RetexSet *set, RetexError *err)
 {
     RowReader *reader = *result = calloc(1, sizeof *reader);
-    if (!reader)
+    if (reader)
+        reader->rows = calloc((size_t)set->nparts + 1, sizeof *reader->rows);
+    if (!reader || !reader->rows) {
+        free(reader);
+        *result = NULL;
         return retex_fail(err, RETEX_ENOMEM, "no memory to read a set's rows");
+    }
     reader->set = set;
-    return RETEX_OK;
+    int code = set->source ? set->source->reader_open(set->source, &reader->source, err) : RETEX_OK;
+    if (code)
+        row_reader_close(result);
+    return code;
 }
 
-void row_reader_close(RowReader **reader)
+void row_reader_close(RowReader **result)
 {
-    free(*reader);
-    *reader = NULL;
+    RowReader *reader = *result;
+    if (!reader)
+        return;
+    if (reader->source)
+        reader->set->source->reader_close(reader->source);
+    for (int i = 0; i < reader->set->nparts; i++)
+        free(reader->rows[i]);
+    free(reader->rows);
+    free(reader);
+    *result = NULL;
 }
 
 int row_reader_get(RowReader *reader, int part, int y, const float **row, RetexError *err)
 {
     const RetexPart *p = &reader->set->parts[part];
-    if (!p->image.pixels)
+    int black = 0;
+    if (p->image.pixels) {
+        *row = p->image.pixels + retex_image_index(&p->image, 0, y);
+        return RETEX_OK;
+    }
+    if (!reader->source)
         return retex_fail(err, RETEX_EINVAL, "part %s of the set is not in memory", p->name);
-    *row = p->image.pixels + retex_image_index(&p->image, 0, y);
-    return RETEX_OK;
+    const size_t bytes = sizeof(float) * (size_t)p->image.width * (size_t)p->image.channels;
+    if (!reader->rows[part] && !(reader->rows[part] = malloc(bytes)))
+        return retex_fail(err, RETEX_ENOMEM, "no memory to read a set's rows");
+    int code = reader->set->source->read_row(reader->source, part, y, reader->rows[part], &black, err);
+    *row = black ? NULL : reader->rows[part];
+    return code;
 }

@@ -92,14 +92,23 @@ static int create_samples(const SampleWork *work, RetexSamples **out, RetexError
     return RETEX_OK;
 }
 
+static int is_loaded(const RetexSet *set, const RetexFootprint *f)
+{
+    return set->parts[f->uv].image.pixels && set->parts[f->spread].image.pixels && set->parts[f->albedo].image.pixels;
+}
+
 static int list_edited(SampleWork *work, RetexError *err)
 {
     work->edited = calloc((size_t)work->set->nfootprints + 1, sizeof *work->edited);
     if (!work->edited)
         return retex_fail(err, RETEX_ENOMEM, "not enough memory for samples");
-    for (int i = 0; i < work->set->nfootprints; i++)
-        if (work->textures.of[work->set->footprints[i].target])
-            work->edited[work->nedited++] = i;
+    for (int i = 0; i < work->set->nfootprints; i++) {
+        if (!work->textures.of[work->set->footprints[i].target])
+            continue;
+        if (!is_loaded(work->set, &work->set->footprints[i]))
+            return retex_fail(err, RETEX_EINVAL, "the set is not in memory");
+        work->edited[work->nedited++] = i;
+    }
     return RETEX_OK;
 }
 

@@ -7,6 +7,7 @@
 #include <zlib.h>
 
 #include "manifest.h"
+#include "set_source.h"
 
 int retex_set_create(RetexSet **result, int width, int height, RetexError *err)
 {
@@ -36,6 +37,8 @@ void retex_set_close(RetexSet **result)
     free(set->footprints);
     free(set->terms);
     retex_spool_close(&set->spool);
+    if (set->source)
+        set->source->close(set->source);
     free(set);
     *result = NULL;
 }

@@ -9,6 +9,7 @@
 #include <retex/pack.h>
 
 #include "exr_io.h"
+#include "exr_source.h"
 #include "input.h"
 #include "manifest.h"
 #include "output.h"
@@ -307,17 +308,21 @@ static int request_samples(Source *source, RetexError *err)
     return status;
 }
 
-static int check_memory(const Source *source, RetexError *err)
+static int check_stored(const Source *source, RetexError *err)
 {
-    const char *name = retex_input_name(source->input);
-
-    if (source->memory_bytes > RETEX_EXR_MEMORY_MAX)
-        return retex_fail(err, RETEX_ELIMIT, "%s needs %.1f GiB of memory, more than the limit of %.0f", name,
-                          (double)source->memory_bytes / 0x1p30, (double)RETEX_EXR_MEMORY_MAX / 0x1p30);
     if (source->stored_bytes / LARGEST_GAIN > retex_input_size(source->input))
         return retex_fail(err, RETEX_EFORMAT, "%s is damaged or truncated: it is too small for what it should hold",
-                          name);
+                          retex_input_name(source->input));
     return 0;
+}
+
+static int check_memory(const Source *source, RetexError *err)
+{
+    if (source->memory_bytes > RETEX_EXR_MEMORY_MAX)
+        return retex_fail(err, RETEX_ELIMIT, "%s needs %.1f GiB of memory, more than the limit of %.0f",
+                          retex_input_name(source->input), (double)source->memory_bytes / 0x1p30,
+                          (double)RETEX_EXR_MEMORY_MAX / 0x1p30);
+    return check_stored(source, err);
 }
 
 /* Give the requested images their pixels. */
@@ -333,7 +338,26 @@ static int read_pixels(Source *source, int nthreads, RetexError *err)
     return status ? status : retex_exr_read(source->exr, source->requests, source->nrequests, nthreads, err);
 }
 
-static int read_exr(Source *source, RetexSet **set, RetexSamples **samples, int nthreads, RetexError *err)
+/* The set's parts stay where they are. */
+static int keep_open(Source *source, RetexError *err)
+{
+    source->nrequests = 0;
+    source->stored_bytes = 0;
+    int status = request_set(source, err);
+    if (!status)
+        status = check_stored(source, err);
+    if (status)
+        return status;
+    RetexExrRequest *requests = source->requests;
+    RetexInput *input = source->input;
+    RetexExr *exr = source->exr;
+    source->requests = NULL;
+    source->input = NULL;
+    source->exr = NULL;
+    return exr_source_open(&source->set->source, input, exr, requests, source->nrequests, err);
+}
+
+static int read_exr(Source *source, RetexSet **set, RetexSamples **samples, int open, int nthreads, RetexError *err)
 {
     int status = source_describe(source, err);
 
@@ -342,12 +366,14 @@ static int read_exr(Source *source, RetexSet **set, RetexSamples **samples, int 
     if (!(set && source->set) && !(samples && source->samples))
         return retex_fail(err, RETEX_EFORMAT, "%s holds %s, no %s", retex_input_name(source->input),
                           source->set ? "a set" : "samples", source->set ? "samples" : "set");
-    if (set && source->set)
-        status = request_set(source, err);
-    if (!status && samples && source->samples)
+    if (samples && source->samples)
         status = request_samples(source, err);
+    if (!status && !open && set && source->set)
+        status = request_set(source, err);
     if (!status)
         status = read_pixels(source, nthreads, err);
+    if (!status && open && source->set)
+        status = keep_open(source, err);
     if (status)
         return status;
     if (set) {
@@ -371,7 +397,8 @@ static int load_pack(RetexInput *input, const void **data, size_t *bytes, int *i
     return *is_pack ? retex_input_load(input, data, bytes, err) : 0;
 }
 
-int retex_set_read(const char *path, RetexSet **set, RetexSamples **samples, int nthreads, RetexError *err)
+/* Read what is wanted, or with open all but the set's parts. */
+static int read_file(const char *path, RetexSet **set, RetexSamples **samples, int open, int nthreads, RetexError *err)
 {
     Source source = {0};
     const void *data;
@@ -388,7 +415,7 @@ int retex_set_read(const char *path, RetexSet **set, RetexSamples **samples, int
     if (!status)
         status = load_pack(source.input, &data, &bytes, &is_pack, err);
     if (!status && !is_pack)
-        status = read_exr(&source, set, samples, nthreads, err);
+        status = read_exr(&source, set, samples, open, nthreads, err);
     else if (!status && !set)
         status = retex_fail(err, RETEX_EFORMAT, "%s holds a set, no samples", retex_input_name(source.input));
     else if (!status)
@@ -396,6 +423,16 @@ int retex_set_read(const char *path, RetexSet **set, RetexSamples **samples, int
                                        err);
     source_close(&source);
     return status;
+}
+
+int retex_set_read(const char *path, RetexSet **set, RetexSamples **samples, int nthreads, RetexError *err)
+{
+    return read_file(path, set, samples, 0, nthreads, err);
+}
+
+int retex_set_open(const char *path, RetexSet **set, RetexSamples **samples, int nthreads, RetexError *err)
+{
+    return read_file(path, set, samples, 1, nthreads, err);
 }
 
 static int compare_crcs(const Source *source, RetexError *err)

@@ -1,45 +1,102 @@
-/* From a set's spool into memory. */
+/* From a set's spool or source into memory. */
+#include <stdatomic.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include <retex/parallel.h>
 #include <retex/set.h>
 
+#include "rows.h"
+#include "set_source.h"
+
+#define ROWS_A_JOB 64 /* a pack's band */
+
 typedef struct LoadJob {
     RetexSet *set;
-    int *codes; /* by part */
-    RetexError *errors;
+    RetexImage *loaded; /* by part */
+    int blocks;         /* a part, at most */
+    atomic_int code;
+    RetexError *errors; /* by thread */
 } LoadJob;
 
-static void load_part(void *context, int index, int thread)
+static int load_rows(LoadJob *job, int part, int y0, int y1, RetexError *err)
+{
+    RetexImage *image = &job->loaded[part];
+    RowReader *reader;
+    int code = row_reader_open(&reader, job->set, err);
+    for (int y = y0; !code && y < y1; y++) {
+        const float *row;
+        code = row_reader_get(reader, part, y, &row, err);
+        if (!code && row)
+            memcpy(image->pixels + retex_image_index(image, 0, y), row,
+                   sizeof *row * (size_t)image->width * (size_t)image->channels);
+    }
+    row_reader_close(&reader);
+    return code;
+}
+
+static void load_job(void *context, int index, int thread)
 {
     LoadJob *job = context;
-    RetexPart *part = &job->set->parts[index];
+    const int part = index / job->blocks, y0 = index % job->blocks * ROWS_A_JOB;
+    const RetexPart *p = &job->set->parts[part];
+    int code = 0;
 
-    (void)thread;
-    if (!part->spooled)
+    if (job->code || p->image.pixels || y0 >= p->image.height)
         return;
-    RetexImage loaded = {0};
-    job->codes[index] = retex_spool_load(job->set->spool, part->spooled - 1, &loaded, &job->errors[index]);
-    if (job->codes[index])
-        return;
-    part->image = loaded;
-    part->spooled = 0;
+    if (!p->spooled)
+        code = load_rows(job, part, y0, y0 + ROWS_A_JOB < p->image.height ? y0 + ROWS_A_JOB : p->image.height,
+                         &job->errors[thread]);
+    else if (y0 == 0)
+        code = retex_spool_load(job->set->spool, p->spooled - 1, &job->loaded[part], &job->errors[thread]);
+    if (code)
+        atomic_store(&job->code, code);
+}
+
+static int prepare(LoadJob *job, RetexError *err)
+{
+    int code = job->loaded && job->errors ? 0 : retex_fail(err, RETEX_ENOMEM, "no memory to load a set");
+
+    for (int i = 0; !code && i < job->set->nparts; i++) {
+        const RetexPart *part = &job->set->parts[i];
+        const int blocks = (part->image.height + ROWS_A_JOB - 1) / ROWS_A_JOB;
+        job->blocks = blocks > job->blocks ? blocks : job->blocks;
+        if (!part->spooled && !part->image.pixels)
+            code = retex_image_alloc(&job->loaded[i], part->image.width, part->image.height, part->image.channels, err);
+    }
+    return code;
 }
 
 int retex_set_load(RetexSet *set, int nthreads, RetexError *err)
 {
-    LoadJob job = {set, calloc((size_t)set->nparts + 1, sizeof *job.codes),
-                   calloc((size_t)set->nparts + 1, sizeof *job.errors)};
-    int code = job.codes && job.errors ? 0 : retex_fail(err, RETEX_ENOMEM, "no memory to load a set");
+    const int threads = retex_threads(nthreads);
+    LoadJob job = {.set = set,
+                   .loaded = calloc((size_t)set->nparts + 1, sizeof *job.loaded),
+                   .blocks = 1,
+                   .errors = calloc((size_t)threads, sizeof *job.errors)};
+    int code = prepare(&job, err);
 
-    if (!code && set->spool)
-        retex_parallel(nthreads, set->nparts, load_part, &job);
-    for (int i = 0; !code && i < set->nparts; i++)
-        if (job.codes[i])
-            code = retex_fail(err, job.codes[i], "%s", job.errors[i].message);
-    free(job.codes);
+    if (!code && (set->spool || set->source))
+        retex_parallel(threads, set->nparts * job.blocks, load_job, &job);
+    for (int i = 0; !code && job.code && i < threads; i++)
+        if (job.errors[i].code) {
+            code = job.errors[i].code;
+            if (err)
+                *err = job.errors[i];
+        }
+    for (int i = 0; job.loaded && i < set->nparts; i++) {
+        if (code)
+            retex_image_free(&job.loaded[i]);
+        else if (!set->parts[i].image.pixels)
+            set->parts[i].image = job.loaded[i], set->parts[i].spooled = 0;
+    }
+    free(job.loaded);
     free(job.errors);
-    if (!code)
-        retex_spool_close(&set->spool);
-    return code;
+    if (code)
+        return code;
+    retex_spool_close(&set->spool);
+    if (set->source)
+        set->source->close(set->source);
+    set->source = NULL;
+    return 0;
 }

@@ -1,0 +1,17 @@
+/* Where the parts of a set are that are not in memory: in a file that is open. Private to libretex. */
+#ifndef LIBRETEX_SET_SOURCE_H
+#define LIBRETEX_SET_SOURCE_H
+
+#include <retex/set.h>
+
+struct RetexSetSource {
+    void (*close)(RetexSetSource *source);
+    /* Readers of rows, one a thread. */
+    int (*reader_open)(RetexSetSource *source, void **reader, RetexError *err);
+    void (*reader_close)(void *reader);
+    /* Row y of the set's part of that number, its channels interleaved; *black: all of it is 0, and row may be left
+     * unfilled. Cheapest from the top, row after row. */
+    int (*read_row)(void *reader, int part, int y, float *row, int *black, RetexError *err);
+};
+
+#endif
