@@ -207,6 +207,7 @@ static void expect_open(const RetexTextureSpec *spec, const RetexImage *picture)
 {
     RetexSet *set;
     RetexSamples *samples;
+    RetexTexture *textures[RETEX_MAX_TARGETS];
     RetexImage other = {0};
     RetexError err = {0};
     test_must(retex_set_read("scale.exr", &set, NULL, 0, &err), &err);
@@ -217,11 +218,13 @@ static void expect_open(const RetexTextureSpec *spec, const RetexImage *picture)
         test_must(retex_set_write(set, NULL, "open.exr", &store, &err), &err);
         test_must(retex_set_open("open.exr", &open, NULL, 0, &err), &err);
         assert_null(open->parts[3].image.pixels);
+        test_must(retex_textures_load(textures, open, spec, 1, 0, &err), &err);
         assert_int_equal(retex_sample(&samples, open, spec, 1, 0, &err), RETEX_EINVAL);
         test_must(retex_image_alloc(&other, WIDTH, HEIGHT, 3, &err), &err);
-        test_must(retex_retexture(open, NULL, spec, 1, NULL, keep_rows, &other, 0, &err), &err);
+        test_must(retex_retexture(open, NULL, textures, NULL, keep_rows, &other, 0, &err), &err);
         assert_memory_equal(other.pixels, picture->pixels, sizeof(float) * 3 * WIDTH * HEIGHT);
         retex_image_free(&other);
+        retex_textures_close(textures);
         test_must(retex_set_load(open, 0, &err), &err);
         for (int i = 0; i < set->nparts; i++)
             assert_memory_equal(open->parts[i].image.pixels, set->parts[i].image.pixels,
@@ -239,6 +242,7 @@ static void test_doors(void **state)
     RetexSet *set = make_set(), *back;
     RetexSamples *samples, *again;
     RetexTextureSpec spec = stripes();
+    RetexTexture *textures[RETEX_MAX_TARGETS];
     RetexImage picture = {0}, other = {0};
     RetexError err = {0};
     const size_t bytes = sizeof(float) * 3 * WIDTH * HEIGHT;
@@ -246,11 +250,13 @@ static void test_doors(void **state)
     test_must(retex_sample(&samples, set, &spec, 1, 1, &err), &err);
     test_must(retex_combine(&picture, set, samples, NULL, NULL, 1, &err), &err);
     test_must(retex_image_alloc(&other, WIDTH, HEIGHT, 3, &err), &err);
+    test_must(retex_textures_load(textures, set, &spec, 1, 0, &err), &err);
     for (int threads = 1; threads < 4; threads++) {
         memset(other.pixels, 0, bytes);
-        test_must(retex_retexture(set, NULL, &spec, 1, NULL, keep_rows, &other, threads, &err), &err);
+        test_must(retex_retexture(set, NULL, textures, NULL, keep_rows, &other, threads, &err), &err);
         assert_memory_equal(other.pixels, picture.pixels, bytes);
     }
+    retex_textures_close(textures);
     for (int stream = 0; stream < 2; stream++) {
         test_must(retex_set_write(set, stream ? samples : NULL, "scale.exr", NULL, &err), &err);
         test_must(retex_set_read("scale.exr", &back, &again, 0, &err), &err);

@@ -89,20 +89,15 @@ static int combine(const Polynomial *polynomial, int y0, int y1, RetexRowSink *s
     return work.code;
 }
 
-int retex_retexture(const RetexSet *set, const RetexSamples *samples, const RetexTextureSpec *specs, int nspecs,
+int retex_retexture(const RetexSet *set, const RetexSamples *samples, RetexTexture *const textures[RETEX_MAX_TARGETS],
                     const RetexCombineParams *params, RetexRowSink *sink, void *context, int nthreads, RetexError *err)
 {
-    TargetTextures textures;
     Polynomial polynomial;
-    int code = target_textures_load(&textures, set, specs, nspecs, 0, nthreads, err);
+    int code = polynomial_open(&polynomial, set, samples, textures, params, nthreads, err);
     if (code)
         return code;
-    code = polynomial_open(&polynomial, set, samples, &textures, params, nthreads, err);
-    if (!code) {
-        code = combine(&polynomial, 0, set->height, sink, context, nthreads, err);
-        polynomial_close(&polynomial);
-    }
-    target_textures_close(&textures);
+    code = combine(&polynomial, 0, set->height, sink, context, nthreads, err);
+    polynomial_close(&polynomial);
     return code;
 }
 

@@ -39,7 +39,7 @@ static const RetexImage *find_part(const RetexSet *set, int part, int least, int
     return im->channels >= least && im->channels <= most ? im : NULL;
 }
 
-/* The image whose size a footprint's samples have: they themselves, the UV they will be made from, or the original
+/* The image whose size a footprint's samples have: the UV they will be made from, they themselves, or the original
  * albedo. NULL where the footprint is not there. */
 static const RetexImage *footprint_shape(const Polynomial *p, int footprint)
 {
@@ -47,10 +47,10 @@ static const RetexImage *footprint_shape(const Polynomial *p, int footprint)
     if (footprint < 0 || footprint >= set->nfootprints)
         return NULL;
     const RetexFootprint *f = &set->footprints[footprint];
+    if (p->textures && p->textures[f->target])
+        return find_part(set, f->uv, 3, 3);
     if (p->samples && p->samples->images[footprint].pixels)
         return &p->samples->images[footprint];
-    if (p->textures && p->textures->of[f->target])
-        return find_part(set, f->uv, 3, 3);
     return find_part(set, f->albedo, 3, 3);
 }
 
@@ -89,8 +89,8 @@ static int make_footprint_row(const Polynomial *p, RowReader *reader, int footpr
 {
     const RetexSet *set = p->set;
     const RetexFootprint *f = &set->footprints[footprint];
-    const RetexTexture *texture = p->textures ? p->textures->of[f->target] : NULL;
-    if (p->samples && p->samples->images[footprint].pixels) {
+    const RetexTexture *texture = p->textures ? p->textures[f->target] : NULL;
+    if (!texture && p->samples && p->samples->images[footprint].pixels) {
         const RetexImage *image = &p->samples->images[footprint];
         *row = image->pixels + retex_image_index(image, 0, y);
         return RETEX_OK;
@@ -302,7 +302,7 @@ void polynomial_close(Polynomial *p)
     *p = (Polynomial){0};
 }
 
-int polynomial_open(Polynomial *p, const RetexSet *set, const RetexSamples *samples, const TargetTextures *textures,
+int polynomial_open(Polynomial *p, const RetexSet *set, const RetexSamples *samples, RetexTexture *const *textures,
                     const RetexCombineParams *params, int nthreads, RetexError *err)
 {
     static const RetexCombineParams defaults = RETEX_COMBINE_INIT;

@@ -7,19 +7,18 @@
 #include <retex/sample.h>
 
 #include "rows.h"
-#include "target_textures.h"
 
 typedef struct Polynomial {
     const RetexSet *set;
     const RetexSamples *samples;    /* or NULL */
-    const TargetTextures *textures; /* or NULL; sampled where samples have no image */
+    RetexTexture *const *textures; /* by target; they go before samples. Or NULL */
     int cross;
     RetexImage *footprints, *mixtures, *gains; /* those that are smaller, by number; of gains that of the part */
 } Polynomial;
 
 /* The terms that params ask for (NULL = defaults). Borrows set, samples and textures. */
 int polynomial_open(Polynomial *polynomial, const RetexSet *set, const RetexSamples *samples,
-                    const TargetTextures *textures, const RetexCombineParams *params, int nthreads, RetexError *err);
+                    RetexTexture *const *textures, const RetexCombineParams *params, int nthreads, RetexError *err);
 void polynomial_close(Polynomial *polynomial);
 
 /* One term over one row. */

@@ -11,7 +11,6 @@
 #include <retex/parallel.h>
 
 #include "sample_row.h"
-#include "target_textures.h"
 
 #define ROWS_A_JOB 8
 
@@ -19,9 +18,9 @@ typedef struct SampleWork {
     const RetexSet *set;
     const RetexTextureSpec *specs;
     int nspecs;
-    RetexSamples *samples, *variances; /* variances: NULL = not wanted */
-    TargetTextures textures;
-    int *edited; /* footprints of edited targets */
+    RetexSamples *samples, *variances;                                      /* variances: NULL = not wanted */
+    RetexTexture *textures[RETEX_MAX_TARGETS], *squares[RETEX_MAX_TARGETS]; /* by target */
+    int *edited;                                                            /* footprints of edited targets */
     int nedited, blocks;
 } SampleWork;
 
@@ -46,9 +45,9 @@ static void sample_job(void *context, int index, int thread)
     for (int y = block * ROWS_A_JOB; y < last; y++) {
         FootprintRow from = footprint_row(set, f, y);
         size_t row = retex_image_index(image, 0, y);
-        sample_row(work->textures.of[f->target], even, &from, image->pixels + row);
+        sample_row(work->textures[f->target], even, &from, image->pixels + row);
         if (work->variances)
-            variance_row(work->textures.of[f->target], work->textures.squares[f->target], even, &from,
+            variance_row(work->textures[f->target], work->squares[f->target], even, &from,
                          work->variances->images[footprint].pixels + row);
     }
 }
@@ -103,7 +102,7 @@ static int list_edited(SampleWork *work, RetexError *err)
     if (!work->edited)
         return retex_fail(err, RETEX_ENOMEM, "not enough memory for samples");
     for (int i = 0; i < work->set->nfootprints; i++) {
-        if (!work->textures.of[work->set->footprints[i].target])
+        if (!work->textures[work->set->footprints[i].target])
             continue;
         if (!is_loaded(work->set, &work->set->footprints[i]))
             return retex_fail(err, RETEX_EINVAL, "the set is not in memory");
@@ -116,7 +115,10 @@ int retex_sample_with_variances(RetexSamples **samples, RetexSamples **variances
                                 const RetexTextureSpec *specs, int nspecs, int nthreads, RetexError *err)
 {
     SampleWork work = {.set = set, .specs = specs, .nspecs = nspecs};
-    int code = target_textures_load(&work.textures, set, specs, nspecs, variances != NULL, nthreads, err);
+    int code = retex_textures_load(work.textures, set, specs, nspecs, nthreads, err);
+    for (int i = 0; i < set->ntargets && !code && variances; i++)
+        if (work.textures[i])
+            code = retex_texture_square(&work.squares[i], work.textures[i], err);
     if (!code)
         code = list_edited(&work, err);
     if (!code)
@@ -133,7 +135,8 @@ int retex_sample_with_variances(RetexSamples **samples, RetexSamples **variances
     *samples = work.samples;
     if (variances)
         *variances = work.variances;
-    target_textures_close(&work.textures);
+    retex_textures_close(work.textures);
+    retex_textures_close(work.squares);
     free(work.edited);
     return code;
 }

@@ -43,9 +43,15 @@ int retex_combine(RetexImage *dst, const RetexSet *set, const RetexSamples *samp
  * picture's height. Called from several threads at once, in any order; returns 0 or a negative RetexCode. */
 typedef int RetexRowSink(void *context, int y0, int y1, const float *rows, RetexError *err);
 
+/* Load textures for a set's targets: textures[t], NULL where target t is given none. specs name their targets, each at
+ * most once; the set must hold these targets' footprints. To be closed by the caller, also after a failure. */
+int retex_textures_load(RetexTexture *textures[RETEX_MAX_TARGETS], const RetexSet *set, const RetexTextureSpec *specs,
+                        int nspecs, int nthreads, RetexError *err);
+void retex_textures_close(RetexTexture *textures[RETEX_MAX_TARGETS]);
+
 /* Sampling and recombination in one pass, band by band: the rows are those that retex_sample, retex_samples_merge into
- * samples and retex_combine would give. samples may be NULL. */
-int retex_retexture(const RetexSet *set, const RetexSamples *samples, const RetexTextureSpec *specs, int nspecs,
+ * samples (which may be NULL) and retex_combine would give. */
+int retex_retexture(const RetexSet *set, const RetexSamples *samples, RetexTexture *const textures[RETEX_MAX_TARGETS],
                     const RetexCombineParams *params /* NULL = defaults */, RetexRowSink *sink, void *context,
                     int nthreads /* 0 = all cores */, RetexError *err);
 

@@ -1,5 +1,5 @@
-/* See target_textures.h. */
-#include "target_textures.h"
+/* The textures that are put on a set's targets: checked against the set, and loaded. */
+#include <retex/sample.h>
 
 #include <stdio.h>
 #include <string.h>
@@ -9,11 +9,11 @@
 #include "manifest.h"
 
 typedef struct Loading {
-    TargetTextures *textures;
+    RetexTexture **textures; /* by target */
     const RetexSet *set;
     const RetexTextureSpec *specs;
     int target[RETEX_MAX_TARGETS]; /* by spec */
-    int nspecs, threads, with_squares;
+    int nspecs, threads;
     RetexError errors[RETEX_MAX_TARGETS];
 } Loading;
 
@@ -93,10 +93,7 @@ static void load_job(void *context, int index, int thread)
             spec.uv_min[axis] = t->uv_min[axis];
             spec.uv_max[axis] = t->uv_max[axis];
         }
-    int code = retex_texture_load(&loading->textures->of[target], &spec, loading->threads, &loading->errors[index]);
-    if (!code && loading->with_squares)
-        retex_texture_square(&loading->textures->squares[target], loading->textures->of[target],
-                             &loading->errors[index]);
+    retex_texture_load(&loading->textures[target], &spec, loading->threads, &loading->errors[index]);
 }
 
 /* Side by side: most of the time goes to decoding, which has one thread a file. */
@@ -114,25 +111,19 @@ static int load_textures(Loading *loading, int nthreads, RetexError *err)
     return RETEX_OK;
 }
 
-void target_textures_close(TargetTextures *textures)
+void retex_textures_close(RetexTexture *textures[RETEX_MAX_TARGETS])
 {
-    for (int i = 0; i < RETEX_MAX_TARGETS; i++) {
-        retex_texture_close(&textures->of[i]);
-        retex_texture_close(&textures->squares[i]);
-    }
+    for (int i = 0; i < RETEX_MAX_TARGETS; i++)
+        retex_texture_close(&textures[i]);
 }
 
-int target_textures_load(TargetTextures *textures, const RetexSet *set, const RetexTextureSpec *specs, int nspecs,
-                         int with_squares, int nthreads, RetexError *err)
+int retex_textures_load(RetexTexture *textures[RETEX_MAX_TARGETS], const RetexSet *set, const RetexTextureSpec *specs,
+                        int nspecs, int nthreads, RetexError *err)
 {
-    Loading loading = {textures, set, specs, .nspecs = nspecs, .with_squares = with_squares};
-    memset(textures, 0, sizeof *textures);
+    Loading loading = {textures, set, specs, .nspecs = nspecs};
+    memset(textures, 0, RETEX_MAX_TARGETS * sizeof *textures);
     int code = find_targets(&loading, err);
     if (!code)
         code = check_footprints(&loading, err);
-    if (!code)
-        code = load_textures(&loading, nthreads, err);
-    if (code)
-        target_textures_close(textures);
-    return code;
+    return code ? code : load_textures(&loading, nthreads, err);
 }
