@@ -6,6 +6,7 @@
 #include <retex/parallel.h>
 #include <retex/set.h>
 
+#include "manifest.h"
 #include "rows.h"
 #include "set_source.h"
 
@@ -13,6 +14,7 @@
 
 typedef struct LoadJob {
     RetexSet *set;
+    const char *wanted; /* by part */
     RetexImage *loaded; /* by part */
     int blocks;         /* a part, at most */
     atomic_int code;
@@ -42,7 +44,7 @@ static void load_job(void *context, int index, int thread)
     const RetexPart *p = &job->set->parts[part];
     int code = 0;
 
-    if (job->code || p->image.pixels || y0 >= p->image.height)
+    if (job->code || !job->wanted[part] || p->image.pixels || y0 >= p->image.height)
         return;
     if (!p->spooled)
         code = load_rows(job, part, y0, y0 + ROWS_A_JOB < p->image.height ? y0 + ROWS_A_JOB : p->image.height,
@@ -61,16 +63,17 @@ static int prepare(LoadJob *job, RetexError *err)
         const RetexPart *part = &job->set->parts[i];
         const int blocks = (part->image.height + ROWS_A_JOB - 1) / ROWS_A_JOB;
         job->blocks = blocks > job->blocks ? blocks : job->blocks;
-        if (!part->spooled && !part->image.pixels)
+        if (job->wanted[i] && !part->spooled && !part->image.pixels)
             code = retex_image_alloc(&job->loaded[i], part->image.width, part->image.height, part->image.channels, err);
     }
     return code;
 }
 
-int retex_set_load(RetexSet *set, int nthreads, RetexError *err)
+static int load(RetexSet *set, const char *wanted, int nthreads, RetexError *err)
 {
     const int threads = retex_threads(nthreads);
     LoadJob job = {.set = set,
+                   .wanted = wanted,
                    .loaded = calloc((size_t)set->nparts + 1, sizeof *job.loaded),
                    .blocks = 1,
                    .errors = calloc((size_t)threads, sizeof *job.errors)};
@@ -87,11 +90,20 @@ int retex_set_load(RetexSet *set, int nthreads, RetexError *err)
     for (int i = 0; job.loaded && i < set->nparts; i++) {
         if (code)
             retex_image_free(&job.loaded[i]);
-        else if (!set->parts[i].image.pixels)
+        else if (wanted[i] && !set->parts[i].image.pixels)
             set->parts[i].image = job.loaded[i], set->parts[i].spooled = 0;
     }
     free(job.loaded);
     free(job.errors);
+    return code;
+}
+
+int retex_set_load(RetexSet *set, int nthreads, RetexError *err)
+{
+    char wanted[RETEX_SET_PARTS_MAX];
+
+    memset(wanted, 1, sizeof wanted);
+    int code = load(set, wanted, nthreads, err);
     if (code)
         return code;
     retex_spool_close(&set->spool);
@@ -99,4 +111,33 @@ int retex_set_load(RetexSet *set, int nthreads, RetexError *err)
         set->source->close(set->source);
     set->source = NULL;
     return 0;
+}
+
+static void want(char *wanted, int part)
+{
+    if (part >= 0)
+        wanted[part] = 1;
+}
+
+int retex_set_keep(RetexSet *set, uint64_t most_bytes, int nthreads, RetexError *err)
+{
+    char wanted[RETEX_SET_PARTS_MAX] = {0};
+    uint64_t bytes = 0;
+
+    for (int i = 0; i < set->nterms; i++) {
+        want(wanted, set->terms[i].radiance);
+        want(wanted, set->terms[i].gain ? set->terms[i].gain : -1);
+    }
+    for (int i = 0; i < set->nmixtures; i++)
+        for (int k = 0; k < set->mixtures[i].nshares; k++)
+            want(wanted, set->mixtures[i].shares[k].weight);
+    for (int i = 0; i < set->nfootprints; i++) {
+        want(wanted, set->footprints[i].uv);
+        want(wanted, set->footprints[i].spread);
+        want(wanted, set->footprints[i].albedo);
+    }
+    for (int i = 0; i < set->nparts; i++)
+        if (wanted[i])
+            bytes += sizeof(float) * retex_image_index(&set->parts[i].image, 0, set->parts[i].image.height);
+    return bytes > most_bytes ? 0 : load(set, wanted, nthreads, err);
 }

@@ -159,6 +159,9 @@ int retex_set_add_spooled(RetexSet *set, const char *name, const char *letters, 
                           int *index, RetexError *err);
 /* Bring all parts into memory, and close the spool or the source. */
 int retex_set_load(RetexSet *set, int nthreads, RetexError *err);
+/* Bring what recombination reads into memory, for several pictures one after the other, if that takes no more than so
+ * many bytes; else all stays where it is. */
+int retex_set_keep(RetexSet *set, uint64_t most_bytes, int nthreads, RetexError *err);
 /* Leave out what no pixel has; empty[i]: part i is 0 everywhere. Footprints go without UV, and with them their parts,
  * their shares in mixtures, and mixtures of none; a mixture of one becomes that footprint. Terms of hits go without
  * radiance, and noise of signals that have no term. What remains keeps its order. */
