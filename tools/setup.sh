@@ -17,6 +17,7 @@ pkg OpenEXR libopenexr-dev
 pkg OpenColorIO libopencolorio-dev
 embree rtcore.h libembree-dev
 pkg libturbojpeg libturbojpeg0-dev
+pkg libjpeg libjpeg-dev
 pkg jansson libjansson-dev
 pkg libzip libzip-dev
 pkg zlib zlib1g-dev
@@ -101,10 +102,10 @@ cflags() { "$PKG_CONFIG" --cflags "$@" | sed 's/-I/-isystem /g'; }
 config() {
     embree_name=$(embree)
     echo "# Made by tools/setup.sh; remove it after installing other versions of the libraries."
-    echo "LIBRETEX_CFLAGS := $(cflags OpenEXR jansson libzip libturbojpeg zlib)"
-    echo "LIBRETEX_LIBS := $("$PKG_CONFIG" --libs-only-L OpenEXR jansson libzip libturbojpeg zlib)" \
+    echo "LIBRETEX_CFLAGS := $(cflags OpenEXR jansson libzip libjpeg libturbojpeg zlib)"
+    echo "LIBRETEX_LIBS := $("$PKG_CONFIG" --libs-only-L OpenEXR jansson libzip libjpeg libturbojpeg zlib)" \
         "$("$PKG_CONFIG" --libs-only-l OpenEXR | tr ' ' '\n' | grep OpenEXRCore)" \
-        "$("$PKG_CONFIG" --libs jansson libzip libturbojpeg zlib) -ldl -lm"
+        "$("$PKG_CONFIG" --libs jansson libzip libjpeg libturbojpeg zlib) -ldl -lm"
     echo "BRIDGE_CFLAGS := $(cflags OpenImageIO OpenColorIO OpenEXR)"
     echo "BRIDGE_LIBS := $("$PKG_CONFIG" --libs OpenImageIO OpenColorIO)"
     echo "RENDER_CFLAGS := -DRETEX_$(echo "$embree_name" | tr a-z A-Z)"

@@ -69,6 +69,32 @@ static int append(void *output, const void *data, size_t bytes, RetexError *err)
     return retex_output_write(output, data, bytes, err);
 }
 
+/* Encode through the bridge, from samples that it stored in pieces of a few pixels. */
+static int bridge_encode(const RetexImage *im, const char *path, const RetexWriteParams *params, RetexOutput *output,
+                         RetexError *err)
+{
+    RetexBridgePlan *plan = NULL;
+    RetexBridgeStored stored;
+    int code = retex_bridge_plan(&plan, &stored, path, im->width, im->height, im->channels, params, err);
+    if (code)
+        return code;
+    const size_t pixels = (size_t)im->width * (size_t)im->height,
+                 bytes = (size_t)stored.channels * (size_t)stored.bits / 8;
+    char *samples = malloc(pixels * bytes);
+    assert_non_null(samples);
+    for (size_t done = 0; !code && done < pixels;) {
+        const size_t some = pixels - done < 7 ? pixels - done : 7;
+        code = retex_bridge_convert(plan, im->pixels + done * (size_t)im->channels, (long)some, samples + done * bytes,
+                                    err);
+        done += some;
+    }
+    if (!code)
+        code = retex_bridge_write(plan, samples, append, output, err);
+    free(samples);
+    retex_bridge_plan_free(&plan);
+    return code;
+}
+
 /* Through the bridge whatever the format. */
 static int bridge_write(const RetexImage *im, const char *path, const RetexWriteParams *params, RetexError *err)
 {
@@ -76,7 +102,7 @@ static int bridge_write(const RetexImage *im, const char *path, const RetexWrite
     int code = retex_output_open(&output, path, err);
     if (code)
         return code;
-    code = retex_bridge_write(im, path, params, append, output, err);
+    code = bridge_encode(im, path, params, output, err);
     if (!code)
         return retex_output_commit(&output, err);
     retex_output_abandon(&output);

@@ -34,6 +34,9 @@ Transform transform_from(const std::string &colorspace);
 Transform transform_to(const std::string &colorspace);
 // From scene-linear Rec.709 to what a display shows; "" = the configuration's default.
 Transform transform_to_display(const std::string &display, const std::string &view);
+// Whether that is plain sRGB of our own configuration; and the same of a colour space.
+bool display_is_srgb(const std::string &display, const std::string &view);
+bool colorspace_is_srgb(const std::string &colorspace);
 // From values encoded with a plain power law (PNG's gAMA) to scene-linear.
 Transform transform_from_gamma(float gamma);
 // From sRGB of that many levels (256 or 65536), each level exact; for floats that are level / (levels - 1).

@@ -237,6 +237,21 @@ Transform transform_to_display(const std::string &display, const std::string &vi
     return from_processor(config->getProcessor(step));
 }
 
+bool colorspace_is_srgb(const std::string &colorspace)
+{
+    return is_own_srgb(config_with(colorspace), colorspace);
+}
+
+bool display_is_srgb(const std::string &display, const std::string &view)
+{
+    const Configurations &all = configurations();
+    if (all.user)
+        return false;
+    std::string shown_on = find_display(all.own, display);
+    std::string shown_as = find_view(all.own, shown_on, view);
+    return colorspace_is_srgb(all.own->getDisplayViewColorSpaceName(shown_on.c_str(), shown_as.c_str()));
+}
+
 Transform transform_from_gamma(float gamma)
 {
     return per_channel([gamma](float v) { return v > 0 ? std::pow(v, gamma) : 0.0f; });

@@ -15,7 +15,6 @@
 #include <vector>
 
 #include <OpenImageIO/imageio.h>
-#include <OpenImageIO/parallel.h>
 #include <strings.h>
 #include <sys/mman.h>
 #include <sys/stat.h>
@@ -47,42 +46,12 @@ Depth depth_of(const std::string &format)
     return Depth::Eight;
 }
 
-// The picture as RGBA, alpha unassociated.
-std::vector<float> spread(const RetexImage &src)
-{
-    std::vector<float> rgba(size_t(src.width) * src.height * 4);
-    OIIO::parallel_for(0, src.height, [&](int y) {
-        const float *from = src.pixels + retex_image_index(&src, 0, y);
-        float *to = rgba.data() + size_t(y) * src.width * 4;
-        for (int x = 0; x < src.width; x++, from += src.channels, to += 4)
-            for (int c = 0; c < 4; c++)
-                to[c] = c < src.channels ? from[c] : c == 3 ? 1.0f : from[0];
-    });
-    return rgba;
-}
-
 template <typename Value> Value quantise(float v)
 {
     const float top = float(Value(~Value(0)));
     if (!(v > 0)) // NaN too
         return 0;
     return v >= 1 ? Value(~Value(0)) : Value(v * top + 0.5f);
-}
-
-// Pixels as the format stores them: the wanted channels, with alpha applied or not.
-template <typename Value, typename Convert>
-std::vector<Value> store(const std::vector<float> &rgba, int channels, bool multiply, Convert convert)
-{
-    size_t pixels = rgba.size() / 4;
-    std::vector<Value> out(pixels * channels);
-    OIIO::parallel_for_chunked(0, int64_t(pixels), 65536, [&](int64_t first, int64_t last) {
-        for (int64_t i = first; i < last; i++) {
-            float alpha = multiply ? rgba[4 * i + 3] : 1;
-            for (int c = 0; c < channels; c++)
-                out[i * channels + c] = convert(c == 3 ? rgba[4 * i + 3] : rgba[4 * i + c] * alpha);
-        }
-    });
-    return out;
 }
 
 // Where the bytes go.
@@ -144,7 +113,7 @@ void Spool::copy_to(const Sink &sink) const
 }
 
 // Portable float map, which OpenImageIO reads but does not write: rows from the bottom.
-void write_pfm(Spool &spool, int width, int height, int channels, const std::vector<float> &pixels)
+void write_pfm(Spool &spool, int width, int height, int channels, const float *pixels)
 {
     const uint16_t probe = 1;
     bool little = *reinterpret_cast<const uint8_t *>(&probe) == 1;
@@ -153,7 +122,7 @@ void write_pfm(Spool &spool, int width, int height, int channels, const std::vec
     spool.append(header.data(), header.size());
     size_t row = size_t(width) * channels;
     for (int y = height; y-- > 0;)
-        spool.append(pixels.data() + y * row, row * sizeof(float));
+        spool.append(pixels + y * row, row * sizeof(float));
 }
 
 // A file of our own with a name, for as long as it takes: a format whose library insists on its ending (JPEG 2000).
@@ -208,117 +177,172 @@ bool keeps_unassociated(const std::string &format)
     return format == "png" || format == "tiff" || format == "targa";
 }
 
+bool is_pfm(const std::string &path)
+{
+    return strcasecmp(ending(path).c_str(), "pfm") == 0;
+}
+
+bool is_encoded(Depth depth)
+{
+    return depth == Depth::Eight || depth == Depth::Sixteen;
+}
+
+std::string text(const char *given)
+{
+    return given ? given : "";
+}
+
 // What the pixels are turned into before they are stored.
 Transform encoding(const RetexWriteParams &params, Depth depth)
 {
     if (params.colorspace && *params.colorspace)
         return transform_to(params.colorspace);
     check_configuration();
-    if (depth == Depth::Half || depth == Depth::Float)
-        return {};
-    return transform_to_display(params.display ? params.display : "", params.view ? params.view : "");
+    return is_encoded(depth) ? transform_to_display(text(params.display), text(params.view)) : Transform{};
 }
 
-OIIO::ImageSpec describe(const RetexImage &src, int channels, OIIO::TypeDesc type, const std::string &format,
-                         const RetexWriteParams &params, Depth depth)
+bool encodes_srgb(const RetexWriteParams &params, Depth depth)
 {
-    OIIO::ImageSpec spec(src.width, src.height, channels, type);
+    if (params.colorspace && *params.colorspace)
+        return colorspace_is_srgb(params.colorspace);
+    return is_encoded(depth) && display_is_srgb(text(params.display), text(params.view));
+}
+
+} // namespace
+} // namespace bridge
+
+// How a picture goes into its file.
+struct RetexBridgePlan {
+    std::string path, format;
+    int width, height, channels; // of the picture
+    int stored;                  // channels of the file
+    bridge::Depth depth;
+    bridge::Transform encode;
+    // The colours are multiplied by alpha before they are encoded, or after.
+    bool multiply_light, multiply_codes;
+    int quality;
+    bool names_colorspace;
+};
+
+namespace bridge
+{
+namespace
+{
+
+std::unique_ptr<RetexBridgePlan> make_plan(const char *path, int width, int height, int channels,
+                                           const RetexWriteParams &params)
+{
+    if (width < 1 || height < 1 || (channels != 1 && channels != 3 && channels != 4))
+        throw Failure(RETEX_EINVAL, "only pictures of 1, 3 or 4 channels can be written");
+    auto plan = std::make_unique<RetexBridgePlan>();
+    bool pfm = is_pfm(path);
+    auto out = pfm ? nullptr : find_writer(path);
+    plan->path = path;
+    plan->format = pfm ? "pfm" : out->format_name();
+    plan->width = width;
+    plan->height = height;
+    plan->channels = plan->stored = channels;
+    plan->depth = pfm ? Depth::Float : depth_of(plan->format);
+    plan->quality = std::min(100, std::max(1, params.quality));
+    plan->names_colorspace = params.colorspace && *params.colorspace;
+    if (channels == 4 && (pfm || !out->supports("alpha")))
+        plan->stored = 3;
+    if (channels == 1 && (plan->format == "hdr" || plan->format == "webp"))
+        plan->stored = 3;
+    // Where alpha is lost the picture is shown over black; WebP's writer divides by it in linear light.
+    plan->multiply_light = channels == 4 && (plan->stored != 4 || plan->format == "webp");
+    plan->multiply_codes = plan->stored == 4 && !keeps_unassociated(plan->format) && plan->format != "webp";
+    plan->encode = encoding(params, plan->depth);
+    return plan;
+}
+
+RetexBridgeStored describe_stored(const RetexBridgePlan &plan, const RetexWriteParams &params)
+{
+    RetexBridgeStored stored;
+    stored.channels = plan.stored;
+    stored.bits = plan.depth == Depth::Eight ? 8 : plan.depth == Depth::Sixteen ? 16 : 32;
+    stored.is_srgb = encodes_srgb(params, plan.depth) && plan.stored <= plan.channels && !plan.multiply_codes &&
+                     !(plan.multiply_light && plan.stored == 4);
+    return stored;
+}
+
+// Pixels as the format stores them: the wanted channels, with alpha applied or not.
+template <typename Value, typename Convert>
+void store(Value *out, const RetexBridgePlan &plan, const std::vector<float> &rgba, Convert convert)
+{
+    for (size_t i = 0; i < rgba.size(); i += 4) {
+        float alpha = plan.multiply_codes ? rgba[i + 3] : 1;
+        for (int c = 0; c < plan.stored; c++)
+            *out++ = convert(c == 3 ? rgba[i + 3] : rgba[i + c] * alpha);
+    }
+}
+
+void convert_pixels(const RetexBridgePlan &plan, const float *from, size_t pixels, void *samples)
+{
+    std::vector<float> rgba(pixels * 4);
+    for (size_t i = 0; i < pixels; i++, from += plan.channels) {
+        for (int c = 0; c < 4; c++)
+            rgba[4 * i + c] = c < plan.channels ? from[c] : c == 3 ? 1.0f : from[0];
+        for (int c = 0; plan.multiply_light && c < 3; c++)
+            rgba[4 * i + c] *= rgba[4 * i + 3];
+    }
+    if (plan.encode)
+        plan.encode(rgba.data(), long(pixels));
+    // Halves end at 65504: a bright highlight stays a number.
+    float limit = plan.depth == Depth::Half ? 65504.0f : 3e38f;
+    if (plan.depth == Depth::Eight)
+        store(static_cast<uint8_t *>(samples), plan, rgba, quantise<uint8_t>);
+    else if (plan.depth == Depth::Sixteen)
+        store(static_cast<uint16_t *>(samples), plan, rgba, quantise<uint16_t>);
+    else
+        store(static_cast<float *>(samples), plan, rgba, [limit](float v) { return v > limit ? limit : v; });
+}
+
+OIIO::TypeDesc sample_type(const RetexBridgePlan &plan)
+{
+    return plan.depth == Depth::Eight     ? OIIO::TypeDesc::UINT8
+           : plan.depth == Depth::Sixteen ? OIIO::TypeDesc::UINT16
+                                          : OIIO::TypeDesc::FLOAT;
+}
+
+OIIO::ImageSpec describe(const RetexBridgePlan &plan)
+{
+    OIIO::ImageSpec spec(plan.width, plan.height, plan.stored,
+                         plan.depth == Depth::Half ? OIIO::TypeDesc(OIIO::TypeDesc::HALF) : sample_type(plan));
     spec.attribute("Software", "retex");
-    bool encoded = depth == Depth::Eight || depth == Depth::Sixteen;
-    if (!params.colorspace || !*params.colorspace)
-        spec.attribute("oiio:ColorSpace", encoded ? "sRGB" : "Linear");
-    if (keeps_unassociated(format))
+    if (!plan.names_colorspace)
+        spec.attribute("oiio:ColorSpace", is_encoded(plan.depth) ? "sRGB" : "Linear");
+    if (keeps_unassociated(plan.format))
         spec.attribute("oiio:UnassociatedAlpha", 1);
-    if (format == "jpeg") {
-        int quality = std::min(100, std::max(1, params.quality));
-        spec.attribute("Compression", "jpeg:" + std::to_string(quality));
-        if (quality >= 90)
+    if (plan.format == "jpeg") {
+        spec.attribute("Compression", "jpeg:" + std::to_string(plan.quality));
+        if (plan.quality >= 90)
             spec.attribute("jpeg:subsampling", "4:4:4");
-    } else if (format == "webp") {
-        spec.attribute("Compression", "webp:" + std::to_string(std::min(100, std::max(1, params.quality))));
-    } else if (format == "tiff" || format == "openexr") {
+    } else if (plan.format == "webp") {
+        spec.attribute("Compression", "webp:" + std::to_string(plan.quality));
+    } else if (plan.format == "tiff" || plan.format == "openexr") {
         spec.attribute("Compression", "zip");
     }
     return spec;
 }
 
-bool is_pfm(const std::string &path)
+void write_picture(const RetexBridgePlan &plan, const void *samples, const Sink &sink)
 {
-    return strcasecmp(ending(path).c_str(), "pfm") == 0;
-}
-
-// What a picture becomes in its file, and how OpenImageIO is told.
-struct Stored {
-    int channels;
-    OIIO::TypeDesc type;
-    std::vector<uint8_t> bytes;
-    std::vector<uint16_t> words;
-    std::vector<float> floats;
-    const void *data() const
-    {
-        return !bytes.empty()   ? static_cast<const void *>(bytes.data())
-               : !words.empty() ? static_cast<const void *>(words.data())
-                                : floats.data();
-    }
-};
-
-Stored make_stored(const RetexImage &src, int channels, Depth depth, const std::string &format, const Transform &encode)
-{
-    std::vector<float> rgba = spread(src);
-    // Where alpha is lost the picture is shown over black; WebP's writer divides by it in linear light.
-    if (src.channels == 4 && (channels != 4 || format == "webp"))
-        for (size_t i = 0; i < rgba.size(); i += 4)
-            for (int c = 0; c < 3; c++)
-                rgba[i + c] *= rgba[i + 3];
-    apply_transform(encode, rgba.data(), src.width, src.height);
-    bool multiply = channels == 4 && !keeps_unassociated(format) && format != "webp";
-    Stored stored;
-    stored.channels = channels;
-    if (depth == Depth::Eight) {
-        stored.type = OIIO::TypeDesc::UINT8;
-        stored.bytes = store<uint8_t>(rgba, channels, multiply, quantise<uint8_t>);
-    } else if (depth == Depth::Sixteen) {
-        stored.type = OIIO::TypeDesc::UINT16;
-        stored.words = store<uint16_t>(rgba, channels, multiply, quantise<uint16_t>);
-    } else {
-        // Halves end at 65504: a bright highlight stays a number.
-        float limit = depth == Depth::Half ? 65504.0f : 3e38f;
-        stored.type = OIIO::TypeDesc::FLOAT;
-        stored.floats = store<float>(rgba, channels, multiply, [limit](float v) { return v > limit ? limit : v; });
-    }
-    return stored;
-}
-
-void write_picture(const RetexImage &src, const char *path, const RetexWriteParams &params, const Sink &sink)
-{
-    if (src.width < 1 || src.height < 1 || (src.channels != 1 && src.channels != 3 && src.channels != 4))
-        throw Failure(RETEX_EINVAL, "only pictures of 1, 3 or 4 channels can be written");
-    bool pfm = is_pfm(path);
-    auto out = pfm ? nullptr : find_writer(path);
-    std::string format = pfm ? "pfm" : out->format_name();
-    Depth depth = pfm ? Depth::Float : depth_of(format);
-    int channels = src.channels;
-    if (channels == 4 && (pfm || !out->supports("alpha")))
-        channels = 3;
-    if (channels == 1 && (format == "hdr" || format == "webp"))
-        channels = 3;
-    Stored stored = make_stored(src, channels, depth, format, encoding(params, depth));
     Spool spool;
-    if (pfm) {
-        write_pfm(spool, src.width, src.height, channels, stored.floats);
+    if (plan.format == "pfm") {
+        write_pfm(spool, plan.width, plan.height, plan.stored, static_cast<const float *>(samples));
         spool.copy_to(sink);
         return;
     }
-    OIIO::ImageSpec spec =
-        describe(src, channels, depth == Depth::Half ? OIIO::TypeDesc::HALF : stored.type, format, params, depth);
+    OIIO::ImageSpec spec = describe(plan);
     auto write_to = [&](const std::string &name) {
-        if (!out->open(name, spec) || !out->write_image(stored.type, stored.data()) || !out->close())
+        auto out = find_writer(plan.path);
+        if (!out->open(name, spec) || !out->write_image(sample_type(plan), samples) || !out->close())
             throw Failure(RETEX_EIO, "cannot write: " + out->geterror());
     };
     write_to(spool.path());
     if (spool.empty()) {
-        NamedSpool named(ending(path));
-        out = find_writer(path); // a used one does not always open again
+        NamedSpool named(ending(plan.path));
         write_to(named.path);
         copy_file(named.path, spool);
     }
@@ -337,18 +361,51 @@ void check_picture(const char *path, const RetexWriteParams &params)
 } // namespace
 } // namespace bridge
 
-extern "C" __attribute__((visibility("default"))) RetexBridgeWrite retex_oiio_write;
-extern "C" __attribute__((visibility("default"))) RetexBridgeCheck retex_oiio_check;
+#define RETEX_EXPORTED extern "C" __attribute__((visibility("default")))
+RETEX_EXPORTED RetexBridgeMakePlan retex_oiio_plan;
+RETEX_EXPORTED RetexBridgeFreePlan retex_oiio_plan_free;
+RETEX_EXPORTED RetexBridgeConvert retex_oiio_convert;
+RETEX_EXPORTED RetexBridgeWrite retex_oiio_write;
+RETEX_EXPORTED RetexBridgeCheck retex_oiio_check;
 
 static const RetexWriteParams default_params = RETEX_WRITE_INIT;
 
-int retex_oiio_write(const RetexImage *src, const char *path, const RetexWriteParams *params, RetexBridgeSink *sink,
-                     void *context, RetexError *err)
+int retex_oiio_plan(RetexBridgePlan **plan, RetexBridgeStored *stored, const char *path, int width, int height,
+                    int channels, const RetexWriteParams *params, RetexError *err)
+{
+    return bridge::guarded(path, err, [&] {
+        const RetexWriteParams &wishes = params ? *params : default_params;
+        auto made = bridge::make_plan(path, width, height, channels, wishes);
+        *stored = bridge::describe_stored(*made, wishes);
+        *plan = made.release();
+    });
+}
+
+void retex_oiio_plan_free(RetexBridgePlan **plan)
+{
+    delete *plan;
+    *plan = nullptr;
+}
+
+int retex_oiio_convert(const RetexBridgePlan *plan, const float *rows, long pixels, void *samples, RetexError *err)
+{
+    return bridge::guarded(plan->path.c_str(), err, [&] {
+        // Few at a time: they stay in the cache.
+        const long some = 4096;
+        size_t bytes = size_t(plan->stored) * bridge::sample_type(*plan).size();
+        for (long done = 0; done < pixels; done += some)
+            bridge::convert_pixels(*plan, rows + size_t(done) * plan->channels, size_t(std::min(some, pixels - done)),
+                                   static_cast<char *>(samples) + size_t(done) * bytes);
+    });
+}
+
+int retex_oiio_write(const RetexBridgePlan *plan, const void *samples, RetexBridgeSink *sink, void *context,
+                     RetexError *err)
 {
     RetexError sink_error{};
     int sink_code = 0;
-    int code = bridge::guarded(path, err, [&] {
-        bridge::write_picture(*src, path, params ? *params : default_params, [&](const void *data, size_t bytes) {
+    int code = bridge::guarded(plan->path.c_str(), err, [&] {
+        bridge::write_picture(*plan, samples, [&](const void *data, size_t bytes) {
             sink_code = sink(context, data, bytes, &sink_error);
             if (sink_code)
                 throw bridge::Failure(sink_code, sink_error.message);

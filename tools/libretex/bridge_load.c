@@ -7,6 +7,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 #include <unistd.h>
 
 #define BRIDGE_NAME "libretex-oiio.so"
@@ -14,6 +15,9 @@
 static struct {
     pthread_once_t once;
     RetexBridgeRead *read;
+    RetexBridgeMakePlan *plan;
+    RetexBridgeFreePlan *plan_free;
+    RetexBridgeConvert *convert;
     RetexBridgeWrite *write;
     RetexBridgeCheck *check;
     char message[512]; /* why it could not be loaded; "" = it is */
@@ -72,9 +76,13 @@ static void load_bridge(void)
     RetexBridgeAbi *abi = NULL;
     *(void **)&abi = dlsym(library, "retex_oiio_abi");
     *(void **)&bridge.read = dlsym(library, "retex_oiio_read");
+    *(void **)&bridge.plan = dlsym(library, "retex_oiio_plan");
+    *(void **)&bridge.plan_free = dlsym(library, "retex_oiio_plan_free");
+    *(void **)&bridge.convert = dlsym(library, "retex_oiio_convert");
     *(void **)&bridge.write = dlsym(library, "retex_oiio_write");
     *(void **)&bridge.check = dlsym(library, "retex_oiio_check");
-    if (!abi || !bridge.read || !bridge.write || !bridge.check || abi() != RETEX_BRIDGE_ABI)
+    if (!abi || !bridge.read || !bridge.plan || !bridge.plan_free || !bridge.convert || !bridge.write ||
+        !bridge.check || abi() != RETEX_BRIDGE_ABI)
         keep_message(BRIDGE_NAME " is of another version");
     else
         bridge.message[0] = '\0';
@@ -89,6 +97,12 @@ static int bridge_ready(const char *path, RetexError *err)
     return RETEX_OK;
 }
 
+int retex_names_linear(const char *colorspace)
+{
+    return !colorspace || !colorspace[0] || strcasecmp(colorspace, "linear") == 0 ||
+           strcasecmp(colorspace, "scene_linear") == 0;
+}
+
 int retex_bridge_read(RetexImage *dst, const char *path, const char *colorspace, long max_pixels, RetexError *err)
 {
     static const RetexBridgeHost host = {retex_image_alloc, retex_image_free};
@@ -96,11 +110,30 @@ int retex_bridge_read(RetexImage *dst, const char *path, const char *colorspace,
     return code ? code : bridge.read(&host, dst, path, colorspace, max_pixels, err);
 }
 
-int retex_bridge_write(const RetexImage *src, const char *path, const RetexWriteParams *params, RetexBridgeSink *sink,
-                       void *context, RetexError *err)
+int retex_bridge_plan(RetexBridgePlan **plan, RetexBridgeStored *stored, const char *path, int width, int height,
+                      int channels, const RetexWriteParams *params, RetexError *err)
 {
     int code = bridge_ready(path, err);
-    return code ? code : bridge.write(src, path, params, sink, context, err);
+    *plan = NULL;
+    return code ? code : bridge.plan(plan, stored, path, width, height, channels, params, err);
+}
+
+/* Who has a plan has loaded the bridge. */
+void retex_bridge_plan_free(RetexBridgePlan **plan)
+{
+    if (plan && *plan)
+        bridge.plan_free(plan);
+}
+
+int retex_bridge_convert(const RetexBridgePlan *plan, const float *rows, long pixels, void *samples, RetexError *err)
+{
+    return bridge.convert(plan, rows, pixels, samples, err);
+}
+
+int retex_bridge_write(const RetexBridgePlan *plan, const void *samples, RetexBridgeSink *sink, void *context,
+                       RetexError *err)
+{
+    return bridge.write(plan, samples, sink, context, err);
 }
 
 int retex_bridge_check(const char *path, const RetexWriteParams *params, RetexError *err)

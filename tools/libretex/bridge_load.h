@@ -1,4 +1,4 @@
-/* The bridge: OpenImageIO and OpenColorIO behind two C calls. They live in a library of their own, libretex-oiio.so,
+/* The bridge: OpenImageIO and OpenColorIO behind a few C calls. They live in a library of their own, libretex-oiio.so,
  * loaded on first use, because linking OpenImageIO costs every process 0.17 s of start-up and most need none of it. */
 #ifndef RETEX_BRIDGE_LOAD_H
 #define RETEX_BRIDGE_LOAD_H
@@ -9,16 +9,37 @@
 extern "C" {
 #endif
 
+/* Whether a colour space, by its name or by none, is what we compute in: then OpenColorIO is not needed for an EXR. */
+int retex_names_linear(const char *colorspace);
+
 /* Read any file OpenImageIO knows as R,G,B,A, scene-linear Rec.709, unassociated alpha; as retex_image_read, of
  * which it is the general case. dst is unallocated. */
 int retex_bridge_read(RetexImage *dst, const char *path, const char *colorspace, long max_pixels, RetexError *err);
 
+/* How a picture of that size goes into a file of the format that path's ending names, in the colours that params, which
+ * must outlive it, name. */
+typedef struct RetexBridgePlan RetexBridgePlan;
+
+/* What such a file stores of a pixel. */
+typedef struct RetexBridgeStored {
+    int channels; /* fewer than the picture has where the format knows no alpha */
+    int bits;     /* a sample: 8, 16, or 32 for floats */
+    int is_srgb;  /* colours are shown as plain sRGB, alpha apart or lost: whoever knows the curve may store them */
+} RetexBridgeStored;
+
+int retex_bridge_plan(RetexBridgePlan **plan, RetexBridgeStored *stored, const char *path, int width, int height,
+                      int channels, const RetexWriteParams *params, RetexError *err);
+void retex_bridge_plan_free(RetexBridgePlan **plan); /* NULL in it is fine */
+
+/* Scene-linear pixels as the file stores them; from any thread. */
+int retex_bridge_convert(const RetexBridgePlan *plan, const float *rows, long pixels, void *samples, RetexError *err);
+
 /* Where the bytes of a written picture go: returns 0 or a RETEX_E… that ends the writing, with err filled. */
 typedef int RetexBridgeSink(void *context, const void *data, size_t bytes, RetexError *err);
 
-/* Encode a picture in the format that path's ending names, and hand it to sink. path is not opened. */
-int retex_bridge_write(const RetexImage *src, const char *path, const RetexWriteParams *params, RetexBridgeSink *sink,
-                       void *context, RetexError *err);
+/* Encode all stored samples of the picture and hand the file to sink. The path of the plan is not opened. */
+int retex_bridge_write(const RetexBridgePlan *plan, const void *samples, RetexBridgeSink *sink, void *context,
+                       RetexError *err);
 
 /* Whether there is such a format, and the colour space or the display that params name. */
 int retex_bridge_check(const char *path, const RetexWriteParams *params, RetexError *err);
@@ -30,12 +51,17 @@ typedef struct RetexBridgeHost {
     void (*image_free)(RetexImage *im);
 } RetexBridgeHost;
 
-#define RETEX_BRIDGE_ABI 2
+#define RETEX_BRIDGE_ABI 3
 typedef int RetexBridgeAbi(void);
 typedef int RetexBridgeRead(const RetexBridgeHost *host, RetexImage *dst, const char *path, const char *colorspace,
                             long max_pixels, RetexError *err);
-typedef int RetexBridgeWrite(const RetexImage *src, const char *path, const RetexWriteParams *params,
-                             RetexBridgeSink *sink, void *context, RetexError *err);
+typedef int RetexBridgeMakePlan(RetexBridgePlan **plan, RetexBridgeStored *stored, const char *path, int width,
+                                int height, int channels, const RetexWriteParams *params, RetexError *err);
+typedef void RetexBridgeFreePlan(RetexBridgePlan **plan);
+typedef int RetexBridgeConvert(const RetexBridgePlan *plan, const float *rows, long pixels, void *samples,
+                               RetexError *err);
+typedef int RetexBridgeWrite(const RetexBridgePlan *plan, const void *samples, RetexBridgeSink *sink, void *context,
+                             RetexError *err);
 typedef int RetexBridgeCheck(const char *path, const RetexWriteParams *params, RetexError *err);
 
 #ifdef __cplusplus

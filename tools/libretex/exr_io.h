@@ -34,6 +34,10 @@ typedef struct RetexExrEncoding RetexExrEncoding;
 
 int retex_exr_encode(RetexExrEncoding **encoding, RetexExrPart *parts, int nparts, int compress, int nthreads,
                      RetexError *err);
+/* The same for a file of one part whose rows come later, image->pixels being NULL: from any thread, in any order, those
+ * of whole chunks, each once. Their checksum is not known. */
+int retex_exr_encoding_open(RetexExrEncoding **encoding, const RetexExrPart *part, int compress, RetexError *err);
+int retex_exr_encode_rows(RetexExrEncoding *encoding, int y0, int y1, const float *rows, RetexError *err);
 /* Write to path ("-" = standard output) front to back; attribute (a string of part 0) may be NULL. Consumes encoding:
  * chunks are freed as they are written. width, height: the display window. */
 int retex_exr_write(RetexExrEncoding *encoding, int width, int height, const char *attribute, const char *value,

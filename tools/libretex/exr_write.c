@@ -55,10 +55,10 @@ static void pack_band(Band *band, RetexChunkScratch *scratch)
         band->data = less;
 }
 
-static int encode_band(Band *band, const RetexExrPart *part, int compress, RetexChunkScratch *scratch)
+static int encode_band(Band *band, const RetexExrPart *part, const float *pixels, int compress,
+                       RetexChunkScratch *scratch)
 {
     const RetexChunkShape shape = band_shape(part, band);
-    const float *pixels = part->image->pixels + retex_image_index(part->image, 0, band->first_line);
 
     band->bytes = retex_chunk_bytes(&shape);
     band->data = malloc(band->bytes);
@@ -108,8 +108,12 @@ static void encode_job(void *context, int index, int thread)
     const RetexExrPart *part = &work->encoding->parts[band->part];
     const int compress = work->encoding->compress;
 
-    work->failed[index] = band->spooled ? !encode_spooled_band(band, part, compress, &work->scratch[thread])
-                                        : !encode_band(band, part, compress, &work->scratch[thread]);
+    if (band->spooled)
+        work->failed[index] = !encode_spooled_band(band, part, compress, &work->scratch[thread]);
+    else
+        work->failed[index] =
+            !encode_band(band, part, part->image->pixels + retex_image_index(part->image, 0, band->first_line),
+                         compress, &work->scratch[thread]);
 }
 
 /* Put the bands' checksums together: planes one after another, each from the top. */
@@ -126,14 +130,16 @@ static uint32_t part_crc(const RetexExrEncoding *encoding, int part, const Band 
     return crc;
 }
 
-static int check_parts(const RetexExrPart *parts, int nparts, RetexError *err)
+/* Where rows come later images have no pixels yet. */
+static int check_parts(const RetexExrPart *parts, int nparts, int rows_later, RetexError *err)
 {
     if (nparts < 1 || nparts > RETEX_EXR_PARTS_MAX)
         return retex_fail(err, RETEX_EINVAL, "an EXR file of %d parts cannot be written (1 to %d can)", nparts,
                           RETEX_EXR_PARTS_MAX);
     for (int i = 0; i < nparts; i++) {
         const RetexImage *image = parts[i].image;
-        if (!image || (!image->pixels && !parts[i].spool) || (size_t)image->channels != strlen(parts[i].letters))
+        if (!image || (!image->pixels && !parts[i].spool && !rows_later) ||
+            (size_t)image->channels != strlen(parts[i].letters))
             return retex_fail(err, RETEX_EINVAL, "part %s has no image, or one whose channels are not %s",
                               parts[i].name, parts[i].letters);
         for (int j = 0; j < i; j++)
@@ -157,7 +163,7 @@ static int lay_out_bands(RetexExrEncoding *encoding, RetexError *err)
         for (int y = 0; y < height; y += RETEX_CHUNK_LINES) {
             Band *band = &encoding->bands[encoding->nbands++];
             band->part = i;
-            if (!encoding->parts[i].image->pixels)
+            if (encoding->parts[i].spool && !encoding->parts[i].image->pixels)
                 band->spooled =
                     retex_spool_chunk(encoding->parts[i].spool, encoding->parts[i].spooled, y / RETEX_CHUNK_LINES);
             band->first_line = y;
@@ -186,13 +192,10 @@ static int encode_bands(RetexExrEncoding *encoding, int nthreads, RetexError *er
     return failed ? retex_fail(err, RETEX_ENOMEM, "no memory to write an EXR file") : 0;
 }
 
-int retex_exr_encode(RetexExrEncoding **result, RetexExrPart *parts, int nparts, int compress, int nthreads,
-                     RetexError *err)
+static int open_encoding(RetexExrEncoding **result, const RetexExrPart *parts, int nparts, int compress,
+                         RetexError *err)
 {
     *result = NULL;
-    int status = check_parts(parts, nparts, err);
-    if (status)
-        return status;
     RetexExrEncoding *encoding = calloc(1, sizeof *encoding);
     if (!encoding || !(encoding->parts = calloc((size_t)nparts, sizeof *parts))) {
         free(encoding);
@@ -201,7 +204,22 @@ int retex_exr_encode(RetexExrEncoding **result, RetexExrPart *parts, int nparts,
     memcpy(encoding->parts, parts, (size_t)nparts * sizeof *parts);
     encoding->nparts = nparts;
     encoding->compress = compress;
-    status = lay_out_bands(encoding, err);
+    const int status = lay_out_bands(encoding, err);
+    if (status)
+        retex_exr_encoding_free(&encoding);
+    *result = encoding;
+    return status;
+}
+
+int retex_exr_encode(RetexExrEncoding **result, RetexExrPart *parts, int nparts, int compress, int nthreads,
+                     RetexError *err)
+{
+    RetexExrEncoding *encoding = NULL;
+    int status = check_parts(parts, nparts, 0, err);
+
+    *result = NULL;
+    if (!status)
+        status = open_encoding(&encoding, parts, nparts, compress, err);
     if (!status)
         status = encode_bands(encoding, nthreads, err);
     if (status) {
@@ -215,6 +233,27 @@ int retex_exr_encode(RetexExrEncoding **result, RetexExrPart *parts, int nparts,
     }
     *result = encoding;
     return 0;
+}
+
+int retex_exr_encoding_open(RetexExrEncoding **result, const RetexExrPart *part, int compress, RetexError *err)
+{
+    const int status = check_parts(part, 1, 1, err);
+
+    *result = NULL;
+    return status ? status : open_encoding(result, part, 1, compress, err);
+}
+
+int retex_exr_encode_rows(RetexExrEncoding *encoding, int y0, int y1, const float *rows, RetexError *err)
+{
+    const RetexExrPart *part = &encoding->parts[0];
+    RetexChunkScratch scratch = {.raw = NULL};
+    int encoded = 1;
+
+    for (int y = y0; y < y1 && encoded; y += RETEX_CHUNK_LINES)
+        encoded = encode_band(&encoding->bands[y / RETEX_CHUNK_LINES], part,
+                              rows + retex_image_index(part->image, 0, y - y0), encoding->compress, &scratch);
+    retex_chunk_free(&scratch);
+    return encoded ? 0 : retex_fail(err, RETEX_ENOMEM, "no memory to write an EXR file");
 }
 
 void retex_exr_encoding_free(RetexExrEncoding **result)

@@ -1,11 +1,10 @@
-/* Images: memory, regions, and the choice of who reads or writes a file.
+/* Images: memory, regions, and the choice of who reads a file; for writing see picture.c.
  *
  * EXR goes through OpenEXRCore, which starts in 2 ms; every other format, and what Core cannot decode, through the
  * bridge, which loads OpenImageIO. */
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
 #include <sys/mman.h>
 #include <unistd.h>
 
@@ -14,7 +13,6 @@
 #include "bridge_load.h"
 #include "exr_io.h"
 #include "input.h"
-#include "output.h"
 
 int retex_image_alloc(RetexImage *im, int width, int height, int channels, RetexError *err)
 {
@@ -174,12 +172,6 @@ static int read_exr(RetexImage *dst, RetexExr *exr, const char *name, long max_p
     return 0;
 }
 
-static int names_linear(const char *colorspace)
-{
-    return !colorspace || !colorspace[0] || strcasecmp(colorspace, "linear") == 0 ||
-           strcasecmp(colorspace, "scene_linear") == 0;
-}
-
 int retex_image_read(RetexImage *dst, const char *path, const char *colorspace, long max_pixels, RetexError *err)
 {
     const int standard_input = strcmp(path, "-") == 0;
@@ -191,12 +183,12 @@ int retex_image_read(RetexImage *dst, const char *path, const char *colorspace, 
     int status = retex_input_open(&input, path, err);
     if (status)
         return status;
-    if (!standard_input && (!retex_exr_probe(input) || !names_linear(colorspace))) {
+    if (!standard_input && (!retex_exr_probe(input) || !retex_names_linear(colorspace))) {
         retex_input_close(&input);
         return retex_bridge_read(dst, path, colorspace, max_pixels, err);
     }
     status = retex_exr_open(&exr, input, err);
-    if (!status && !names_linear(colorspace))
+    if (!status && !retex_names_linear(colorspace))
         status = retex_fail(err, RETEX_EUNSUPPORTED, "standard input is read as scene-linear only, not %s", colorspace);
     if (!status)
         status = read_exr(dst, exr, retex_input_name(input), max_pixels, err);
@@ -205,86 +197,4 @@ int retex_image_read(RetexImage *dst, const char *path, const char *colorspace, 
     if (status == RETEX_EUNSUPPORTED && !standard_input)
         status = retex_bridge_read(dst, path, colorspace, max_pixels, err);
     return status;
-}
-
-static int write_exr(const RetexImage *src, const char *path, RetexError *err)
-{
-    RetexExrPart part = {.name = "beauty", .type = RETEX_HALF, .image = src};
-    RetexExrEncoding *encoding = NULL;
-    RetexImage associated = {0};
-    int status = 0;
-
-    strcpy(part.letters, src->channels == 1 ? "Y" : src->channels == 3 ? "RGB" : "RGBA");
-    if (src->channels == 4) {
-        status = retex_image_copy(&associated, src, err);
-        if (status)
-            return status;
-        const size_t count = (size_t)src->width * (size_t)src->height;
-        for (size_t i = 0; i < count; i++)
-            for (int c = 0; c < 3; c++)
-                associated.pixels[4 * i + (size_t)c] *= src->pixels[4 * i + 3];
-        part.image = &associated;
-    }
-    status = retex_exr_encode(&encoding, &part, 1, strcmp(path, "-") != 0, 0, err);
-    if (!status)
-        status = retex_exr_write(encoding, src->width, src->height, NULL, NULL, path, err);
-    retex_exr_encoding_free(&encoding);
-    retex_image_free(&associated);
-    return status;
-}
-
-static int append(void *output, const void *data, size_t bytes, RetexError *err)
-{
-    return retex_output_write(output, data, bytes, err);
-}
-
-static int write_through_bridge(const RetexImage *src, const char *path, const RetexWriteParams *params,
-                                RetexError *err)
-{
-    RetexOutput *output = NULL;
-    int status = retex_output_open(&output, path, err);
-
-    if (status)
-        return status;
-    status = retex_bridge_write(src, path, params, append, output, err);
-    if (!status)
-        return retex_output_commit(&output, err);
-    retex_output_abandon(&output);
-    return status;
-}
-
-static int check_write(const char *path, const RetexWriteParams *params, int *is_exr, RetexError *err)
-{
-    const char *ending = strrchr(path, '.');
-
-    *is_exr = names_linear(params->colorspace) &&
-              (strcmp(path, "-") == 0 || (ending && strcasecmp(ending, ".exr") == 0) || strncmp(path, "/dev/", 5) == 0);
-    if (params->quality < 1 || params->quality > 100)
-        return retex_fail(err, RETEX_EINVAL, "quality is 1 to 100, not %d", params->quality);
-    if (!*is_exr && strcmp(path, "-") == 0)
-        return retex_fail(err, RETEX_EUNSUPPORTED, "standard output takes scene-linear EXR only, not %s",
-                          params->colorspace);
-    return 0;
-}
-
-int retex_image_write_check(const char *path, const RetexWriteParams *params, RetexError *err)
-{
-    static const RetexWriteParams defaults = RETEX_WRITE_INIT;
-    int is_exr, status = check_write(path, params ? params : &defaults, &is_exr, err);
-
-    if (!status)
-        status = retex_output_check(path, err);
-    return status || is_exr ? status : retex_bridge_check(path, params, err);
-}
-
-int retex_image_write(const RetexImage *src, const char *path, const RetexWriteParams *params, RetexError *err)
-{
-    static const RetexWriteParams defaults = RETEX_WRITE_INIT;
-    int is_exr, status = check_write(path, params ? params : &defaults, &is_exr, err);
-
-    if (status)
-        return status;
-    if (!src->pixels || (src->channels != 1 && src->channels != 3 && src->channels != 4))
-        return retex_fail(err, RETEX_EINVAL, "a picture has 1, 3 or 4 channels, not %d", src->channels);
-    return is_exr ? write_exr(src, path, err) : write_through_bridge(src, path, params, err);
 }

@@ -12,6 +12,7 @@
 #include <retex/metrics.h>
 #include <retex/pack.h>
 #include <retex/parallel.h>
+#include <retex/picture.h>
 #include <retex/sample.h>
 #include <retex/set.h>
 #include <retex/spool.h>

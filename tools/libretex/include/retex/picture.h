@@ -1,0 +1,37 @@
+/* Pictures written while they are made: rows are handed in as bands from any thread, in any order, and are converted
+ * and compressed in the calling thread. The whole picture is never in memory as floats. */
+#ifndef RETEX_PICTURE_H
+#define RETEX_PICTURE_H
+
+#include <retex/image.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Rows of a band; the last band of a picture has what is left. */
+#define RETEX_PICTURE_BAND 64
+
+typedef struct RetexPicture RetexPicture;
+
+/* Begin a picture of 1 (grey), 3 (RGB) or 4 (RGBA, unassociated) channels; path and params as for retex_image_write,
+ * which is this, band by band. Whatever needs OpenImageIO begins loading it in a thread of its own; JPEG, PNG and EXR
+ * do not, unless params or $OCIO ask for colours other than the built-in ones. A format or a colour space that is
+ * unknown fails here or at the first rows; retex_image_write_check tells at once. */
+int retex_picture_open(RetexPicture **picture, const char *path, int width, int height, int channels,
+                       const RetexWriteParams *params /* NULL = defaults; not needed afterwards */, RetexError *err);
+
+/* Give rows y0 <= y < y1: y0 a multiple of RETEX_PICTURE_BAND, y1 the next one, or the height. They are scene-linear,
+ * interleaved, and not needed afterwards. From any thread, each band once. The file is the same to the byte whatever
+ * the order and the threads. */
+int retex_picture_rows(RetexPicture *picture, int y0, int y1, const float *rows, RetexError *err);
+
+/* Complete the file and put it in its place; fails if any call before did, or rows are missing. Not keep: give up.
+ * Unless it succeeds nothing new is left behind and an old file is whole. Nulls *picture; NULL in it is fine. To be
+ * called before the process exits, while no other thread uses the picture. */
+int retex_picture_close(RetexPicture **picture, int keep, RetexError *err);
+
+#ifdef __cplusplus
+}
+#endif
+#endif
