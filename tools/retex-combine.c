@@ -17,17 +17,18 @@ static const CliOption options[] = {
     {"cross", 0, "0|2|3", "use cross terms of paths with up to so many hits; default 3", 0},
     {"error", 0, "FILE.exr", "write the error to be expected against rendering again, per pixel", 0},
     {"batch", 0, "FILE.csv", "one picture a row: its name, then one texture a target", 0},
+    {"memory", 0, "MB", "of a batch: keep the set in memory if it takes no more; default 2048", 0},
     {0},
 };
 
 typedef struct Job {
     const char *set_path, *samples_path, *batch, *error;
     TextureArgs textures;
+    int memory; /* megabytes that --batch may keep of the set */
     RetexWriteParams write;
     RetexCombineParams combine;
-    RetexSet *set;
-    RetexSamples *samples;   /* of the whole run; NULL = all original */
-    RetexSamples *variances; /* of the textures within the footprints, for --error */
+    RetexSet *set;         /* open: its rows are read as they are needed */
+    RetexSamples *samples; /* of the set's file or stream, or of a file of their own; or NULL */
 } Job;
 
 static void parse(Cli *cli, Job *job)
@@ -53,6 +54,8 @@ static void parse(Cli *cli, Job *job)
                 cli_die(cli, "--cross: expected 0, 2 or 3; one hit has no cross terms");
         } else if (strcmp(option->name, "error") == 0) {
             job->error = cli->value;
+        } else if (strcmp(option->name, "memory") == 0) {
+            job->memory = (int)cli_integer(cli, option, 0, 1 << 20);
         } else {
             job->batch = cli->value;
         }
@@ -127,46 +130,68 @@ static void check_error_output(const Cli *cli, const Job *job, const char *outpu
         cli_fail(cli, &err);
 }
 
-/* The set, and the samples of the whole run: from the stream or a file, and from --texture. */
+/* The set, and the samples that came with it or have a file of their own. */
 static void load(const Cli *cli, Job *job)
 {
     RetexError err = {0};
     cli_input(cli, job->set_path, "a set, as from retex-render or retex-sample");
-    if (retex_set_read(job->set_path, &job->set, job->samples_path ? NULL : &job->samples, cli->threads, &err))
+    if (retex_set_open(job->set_path, &job->set, job->samples_path ? NULL : &job->samples, cli->threads, &err))
         cli_fail(cli, &err);
     if (!job->set)
         cli_die(cli, "%s holds samples but no set", job->set_path);
-    if (job->samples_path) {
-        cli_input(cli, job->samples_path, "samples, as from retex-sample");
-        if (retex_set_read(job->samples_path, NULL, &job->samples, cli->threads, &err))
-            cli_fail(cli, &err);
-        if (!job->samples)
-            cli_die(cli, "%s holds no samples", job->samples_path);
-        if (retex_samples_check(job->samples, job->set, &err))
-            cli_fail(cli, &err);
-    }
-    if (!job->textures.count)
+    if (!job->samples_path)
         return;
-    RetexSamples *more = NULL;
-    if (retex_sample_with_variances(&more, job->error ? &job->variances : NULL, job->set, job->textures.specs,
-                                    job->textures.count, cli->threads, &err))
+    cli_input(cli, job->samples_path, "samples, as from retex-sample");
+    if (retex_set_read(job->samples_path, NULL, &job->samples, cli->threads, &err))
         cli_fail(cli, &err);
-    if (!job->samples) {
-        job->samples = more;
-        return;
+    if (!job->samples)
+        cli_die(cli, "%s holds no samples", job->samples_path);
+    if (retex_samples_check(job->samples, job->set, &err))
+        cli_fail(cli, &err);
+}
+
+/* What is put on each target: one texture, or what came with the set as samples. */
+typedef struct Row {
+    const RetexTextureSpec *specs;
+    int count;
+    RetexTexture *const *textures; /* by target */
+} Row;
+
+static const char *describe(const Job *job, const Row *row, char *text, size_t size)
+{
+    size_t used = 0;
+    for (int t = 0; t < job->set->ntargets && used < size; t++) {
+        const RetexTextureSpec *spec = NULL;
+        const char *sampled = job->samples ? job->samples->textures[t] : "";
+        for (int i = 0; i < row->count; i++)
+            if (retex_set_find_target(job->set, row->specs[i].target) == t)
+                spec = &row->specs[i];
+        if (!spec && !sampled[0])
+            continue;
+        used += (size_t)snprintf(text + used, size - used, "%s%s <- ", used ? ", " : "", job->set->targets[t].name);
+        if (used < size && spec && spec->constant)
+            used += (size_t)snprintf(text + used, size - used, "rgb(%g,%g,%g)", (double)spec->color[0],
+                                     (double)spec->color[1], (double)spec->color[2]);
+        else if (used < size)
+            used += (size_t)snprintf(text + used, size - used, "%s", spec ? spec->image : sampled);
     }
-    if (retex_samples_merge(job->samples, more, &err))
-        cli_fail(cli, &err);
-    retex_samples_close(&more);
+    return used ? text : "original textures";
 }
 
 /* Write the error to be expected; text says it in numbers. */
-static int make_error(const Cli *cli, const Job *job, const RetexSamples *samples, char *text, size_t size,
-                      RetexError *err)
+static int make_error(const Cli *cli, Job *job, const Row *row, char *text, size_t size, RetexError *err)
 {
     RetexImage error = {0};
+    RetexSamples *samples = NULL, *variances = NULL;
     double squares = 0;
-    int code = retex_estimate_error(&error, job->set, samples, job->variances, &job->combine, NULL, cli->threads, err);
+    int code = retex_set_load(job->set, cli->threads, err);
+    if (!code)
+        code = retex_sample_with_variances(&samples, &variances, job->set, row->specs, row->count, cli->threads, err);
+    if (!code && job->samples)
+        code = retex_samples_merge(job->samples, samples, err);
+    if (!code)
+        code = retex_estimate_error(&error, job->set, job->samples ? job->samples : samples, variances, &job->combine,
+                                    NULL, cli->threads, err);
     size_t count = 3 * (size_t)error.width * (size_t)error.height;
     for (size_t i = 0; !code && i < count; i++)
         squares += (double)error.pixels[i] * error.pixels[i];
@@ -175,58 +200,104 @@ static int make_error(const Cli *cli, const Job *job, const RetexSamples *sample
     if (!code)
         code = retex_image_write(&error, job->error, NULL, err);
     retex_image_free(&error);
+    retex_samples_close(&samples);
+    retex_samples_close(&variances);
     return code;
 }
 
-/* One picture. The error to be expected comes first, and goes again where the picture cannot be written: neither stays
- * alone. */
-static int make_picture(const Cli *cli, const Job *job, const RetexSamples *samples, const char *output, double began,
-                        RetexError *err)
+static int write_rows(void *picture, int y0, int y1, const float *rows, RetexError *err)
 {
-    RetexImage picture = {0};
+    return retex_picture_rows(picture, y0, y1, rows, err);
+}
+
+/* One picture, written while it is made. The error to be expected comes first, and goes again where the picture cannot
+ * be written: neither stays alone. */
+static int make_picture(const Cli *cli, Job *job, const Row *row, const char *output, double began, RetexError *err)
+{
+    RetexPicture *picture = NULL;
     struct stat old;
     char text[2048], expected[64] = "";
     int is_new = job->error && stat(job->error, &old) != 0;
-    int code = retex_combine(&picture, job->set, samples, &job->combine, NULL, cli->threads, err);
-    if (!code && job->error)
-        code = make_error(cli, job, samples, expected, sizeof expected, err);
-    if (!code) {
-        code = retex_image_write(&picture, output, &job->write, err);
-        if (code && is_new)
-            unlink(job->error);
-    }
-    retex_image_free(&picture);
+    int code = job->error ? make_error(cli, job, row, expected, sizeof expected, err) : RETEX_OK;
+    if (code)
+        return code;
+    code = retex_picture_open(&picture, output, job->set->width, job->set->height, 3, &job->write, err);
+    if (!code)
+        code = retex_retexture(job->set, job->samples, row->textures, &job->combine, write_rows, picture, cli->threads,
+                               err);
+    int closed = retex_picture_close(&picture, !code, code ? NULL : err);
+    code = code ? code : closed;
+    if (code && is_new)
+        unlink(job->error);
     if (code)
         return code;
     cli_info(cli, "%s: %s, %d x %d%s, %.2f s", strcmp(output, "-") ? output : "standard output",
-             texture_args_describe(samples, text, sizeof text), job->set->width, job->set->height, expected,
+             describe(job, row, text, sizeof text), job->set->width, job->set->height, expected,
              texture_args_now() - began);
     return RETEX_OK;
 }
 
+static int make_one(const Cli *cli, Job *job, const char *output, double began, RetexError *err)
+{
+    RetexTexture *textures[RETEX_MAX_TARGETS];
+    const Row row = {job->textures.specs, job->textures.count, textures};
+    int code = retex_textures_load(textures, job->set, row.specs, row.count, cli->threads, err);
+    if (!code) {
+        cli_detail(cli, "ready after %.2f s", texture_args_now() - began);
+        code = make_picture(cli, job, &row, output, began, err);
+    }
+    retex_textures_close(textures);
+    return code;
+}
+
 /* ---- --batch ---- */
 
-/* Samples of a row and, where it says nothing, those of the whole run, whose images are only borrowed. */
-static int make_row(const Cli *cli, const Job *job, RetexSamples *row, const char *output, double began,
+/* Textures of the row before, which the next may have too. */
+typedef struct Kept {
+    RetexTextureSpec specs[RETEX_MAX_TARGETS];
+    int count;
+    RetexTexture *textures[RETEX_MAX_TARGETS]; /* by target */
+} Kept;
+
+/* A row's own textures, and those of the whole run where it says nothing. */
+static int complete_row(const Job *job, RetexTextureSpec *specs, int count)
+{
+    for (int i = 0; i < job->textures.count; i++) {
+        int target = retex_set_find_target(job->set, job->textures.specs[i].target), k = 0;
+        while (k < count && retex_set_find_target(job->set, specs[k].target) != target)
+            k++;
+        if (k == count)
+            specs[count++] = job->textures.specs[i];
+    }
+    return count;
+}
+
+/* Load what the row before had not; kept has the row's textures then. */
+static int load_row(const Cli *cli, const Job *job, Kept *kept, const RetexTextureSpec *specs, int count,
                     RetexError *err)
 {
-    const RetexSamples *common = job->samples;
-    char *borrowed = calloc((size_t)row->nimages + 1, 1);
-    if (!borrowed)
-        return retex_fail(err, RETEX_ENOMEM, "not enough memory");
-    for (int i = 0; common && i < row->nimages; i++)
-        if (!row->images[i].pixels && common->images[i].pixels) {
-            row->images[i] = common->images[i];
-            borrowed[i] = 1;
+    Kept next = {.count = count};
+    RetexTexture *loaded[RETEX_MAX_TARGETS] = {0};
+    RetexTextureSpec missing[RETEX_MAX_TARGETS];
+    int nmissing = 0;
+    for (int i = 0; i < count; i++) {
+        int k = 0, target = retex_set_find_target(job->set, specs[i].target);
+        next.specs[i] = specs[i];
+        while (k < kept->count && memcmp(&kept->specs[k], &specs[i], sizeof specs[i]) != 0)
+            k++;
+        if (k < kept->count && target >= 0) {
+            next.textures[target] = kept->textures[target];
+            kept->textures[target] = NULL;
+        } else {
+            missing[nmissing++] = specs[i];
         }
-    for (int t = 0; common && t < row->ntargets; t++)
-        if (!row->textures[t][0])
-            memcpy(row->textures[t], common->textures[t], sizeof row->textures[t]);
-    int code = make_picture(cli, job, row, output, began, err);
-    for (int i = 0; i < row->nimages; i++)
-        if (borrowed[i])
-            row->images[i] = (RetexImage){0};
-    free(borrowed);
+    }
+    retex_textures_close(kept->textures);
+    int code = retex_textures_load(loaded, job->set, missing, nmissing, cli->threads, err);
+    for (int t = 0; t < RETEX_MAX_TARGETS; t++)
+        if (loaded[t])
+            next.textures[t] = loaded[t];
+    *kept = next;
     return code;
 }
 
@@ -246,40 +317,41 @@ static void find_columns(const Cli *cli, TextureTable *table, const RetexSet *se
     }
 }
 
-static void run_batch(const Cli *cli, const Job *job)
+static void run_batch(const Cli *cli, Job *job)
 {
     TextureTable table;
     texture_table_open(&table, cli, job->batch);
     find_columns(cli, &table, job->set);
     const char *output;
+    RetexError err = {0};
     RetexTextureSpec specs[RETEX_MAX_TARGETS];
+    Kept kept = {.count = 0};
     int count, pictures = 0;
     double first = texture_args_now(), began = first;
+    if (retex_set_keep(job->set, (uint64_t)job->memory << 20, cli->threads, &err))
+        cli_fail(cli, &err);
     while (texture_table_row(&table, cli, &output, specs, &count)) {
-        RetexSamples *row = NULL;
-        RetexError err = {0};
         check_output(cli, job, output);
         if (retex_image_write_check(output, &job->write, &err))
             texture_table_fail_picture(&table, cli, &err);
         for (int i = 0; i < count; i++)
             if (!specs[i].constant)
                 texture_args_check_output(cli, specs[i].image, output);
-        int code = retex_sample(&row, job->set, specs, count, cli->threads, &err);
-        if (!code)
-            code = make_row(cli, job, row, output, began, &err);
-        if (code)
+        count = complete_row(job, specs, count);
+        const Row row = {kept.specs, count, kept.textures};
+        if (load_row(cli, job, &kept, specs, count, &err) || make_picture(cli, job, &row, output, began, &err))
             texture_table_fail_picture(&table, cli, &err);
-        retex_samples_close(&row);
         pictures++;
         began = texture_args_now();
     }
+    retex_textures_close(kept.textures);
     texture_table_close(&table);
     cli_info(cli, "%d picture%s, %.2f s", pictures, pictures == 1 ? "" : "s", texture_args_now() - first);
 }
 
 int main(int argc, char **argv)
 {
-    static Job job = {.write = RETEX_WRITE_INIT, .combine = RETEX_COMBINE_INIT};
+    static Job job = {.write = RETEX_WRITE_INIT, .combine = RETEX_COMBINE_INIT, .memory = 2048};
     Cli cli = {.tool = "retex-combine",
                .usage = "SET [SAMPLES] [--texture[:opts] NAME=IMAGE ...] -o FILE",
                .about = "Recombine a set, with its own textures or new ones, into a picture.",
@@ -301,13 +373,11 @@ int main(int argc, char **argv)
             cli_warn(&cli, "an OpenEXR file stays scene-linear: --display and --view do nothing; --colorspace would");
     }
     load(&cli, &job);
-    cli_detail(&cli, "read and sampled in %.2f s", texture_args_now() - began);
     if (job.batch)
         run_batch(&cli, &job);
-    else if (make_picture(&cli, &job, job.samples, output, began, &err))
+    else if (make_one(&cli, &job, output, began, &err))
         cli_fail(&cli, &err);
     retex_samples_close(&job.samples);
-    retex_samples_close(&job.variances);
     retex_set_close(&job.set);
     return cli_close(&cli, CLI_OK);
 }

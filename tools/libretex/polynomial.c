@@ -84,6 +84,8 @@ static int is_left_out(const RetexTerm *term, int cross)
 
 /* ---- rows at a footprint's own size ---- */
 
+static const float zeros[3 * RETEX_MAX_SIZE];
+
 static int make_footprint_row(const Polynomial *p, RowReader *reader, int footprint, int y, float *scratch,
                               const float **row, RetexError *err)
 {
@@ -107,6 +109,8 @@ static int make_footprint_row(const Polynomial *p, RowReader *reader, int footpr
         code = row_reader_get(reader, f->albedo, y, &from.albedo, err);
     if (code)
         return code;
+    from.spread = from.spread ? from.spread : zeros;
+    from.albedo = from.albedo ? from.albedo : zeros;
     sample_row(texture, footprint_is_even(set, f), &from, scratch);
     *row = scratch;
     return RETEX_OK;

@@ -341,6 +341,7 @@ static int read_pixels(Source *source, int nthreads, RetexError *err)
 /* The set's parts stay where they are. */
 static int keep_open(Source *source, RetexError *err)
 {
+    memset(source->requests, 0, sizeof *source->requests * (size_t)source->nrequests); /* those of samples */
     source->nrequests = 0;
     source->stored_bytes = 0;
     int status = request_set(source, err);
