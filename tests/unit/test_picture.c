@@ -1,0 +1,503 @@
+/* Pictures written band by band: the same file whatever the order of the bands and the threads, the same pixels as from
+ * the libraries that make such files in one go, and nothing left behind where it fails. */
+#include "lib_test.h"
+#include <cmocka.h>
+
+#include <dirent.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <jpeglib.h>
+
+#include "bridge_load.h"
+#include "exr_io.h"
+#include "png_filter.h"
+#include "srgb_codes.h"
+
+static char folder[64];
+
+static const char *in_folder(const char *name)
+{
+    static char path[8][512];
+    static int next;
+    next = (next + 1) % 8;
+    snprintf(path[next], sizeof path[next], "%s/%s", folder, name);
+    return path[next];
+}
+
+static int make_folder(void **state)
+{
+    (void)state;
+    strcpy(folder, "/tmp/retex-picture-XXXXXX");
+    return mkdtemp(folder) ? 0 : -1;
+}
+
+static int remove_folder(void **state)
+{
+    (void)state;
+    char command[128];
+    snprintf(command, sizeof command, "rm -r '%s'", folder);
+    return system(command);
+}
+
+static int files_left(void)
+{
+    DIR *dir = opendir(folder);
+    int count = 0;
+    for (struct dirent *entry; (entry = readdir(dir));)
+        count += strcmp(entry->d_name, ".") != 0 && strcmp(entry->d_name, "..") != 0;
+    closedir(dir);
+    return count;
+}
+
+typedef struct Bytes {
+    unsigned char *data;
+    size_t count;
+} Bytes;
+
+static Bytes load(const char *path)
+{
+    Bytes bytes = {NULL, 0};
+    struct stat status;
+    FILE *file = fopen(path, "rb");
+    assert_non_null(file);
+    assert_int_equal(fstat(fileno(file), &status), 0);
+    bytes.count = (size_t)status.st_size;
+    bytes.data = malloc(bytes.count + 1);
+    assert_int_equal(fread(bytes.data, 1, bytes.count, file), bytes.count);
+    fclose(file);
+    return bytes;
+}
+
+static void assert_same_file(const char *a, const char *b)
+{
+    Bytes x = load(a), y = load(b);
+    assert_int_equal(x.count, y.count);
+    assert_memory_equal(x.data, y.data, x.count);
+    free(x.data);
+    free(y.data);
+}
+
+/* Smooth light with noise, and some that is black, too bright or no number. */
+static void paint(RetexImage *im, int width, int height, int channels)
+{
+    RetexError err = {0};
+    uint32_t state = 7;
+    test_must(retex_image_alloc(im, width, height, channels, &err), &err);
+    for (int y = 0; y < height; y++)
+        for (int x = 0; x < width; x++)
+            for (int c = 0; c < channels; c++)
+                im->pixels[retex_image_index(im, x, y) + (size_t)c] =
+                    (float)(0.5 + 0.5 * sin(0.05 * x + c) * cos(0.03 * y) + 0.05 * test_random(&state));
+    im->pixels[0] = NAN;
+    if (width > 2) {
+        im->pixels[channels] = INFINITY;
+        im->pixels[2 * channels] = -1;
+    }
+}
+
+typedef struct Job {
+    RetexPicture *picture;
+    const RetexImage *image;
+    int nbands, stride; /* bands are taken in the order 0, stride, 2 stride …, modulo their number */
+} Job;
+
+static void write_band(void *context, int index, int thread)
+{
+    const Job *job = context;
+    const int y0 = (int)((long)index * job->stride % job->nbands) * RETEX_PICTURE_BAND;
+    const int y1 = y0 + RETEX_PICTURE_BAND < job->image->height ? y0 + RETEX_PICTURE_BAND : job->image->height;
+    RetexError err = {0};
+    (void)thread;
+    /* in memory of its own: nothing beyond the band may be looked at */
+    const size_t values = retex_image_index(job->image, 0, y1) - retex_image_index(job->image, 0, y0);
+    float *rows = malloc(values * sizeof *rows);
+    memcpy(rows, job->image->pixels + retex_image_index(job->image, 0, y0), values * sizeof *rows);
+    test_must(retex_picture_rows(job->picture, y0, y1, rows, &err), &err);
+    free(rows);
+}
+
+static void write_bands(const RetexImage *im, const char *path, const RetexWriteParams *params, int nthreads,
+                        int stride)
+{
+    Job job = {NULL, im, (im->height + RETEX_PICTURE_BAND - 1) / RETEX_PICTURE_BAND, stride};
+    RetexError err = {0};
+    test_must(retex_picture_open(&job.picture, path, im->width, im->height, im->channels, params, &err), &err);
+    retex_parallel(nthreads, job.nbands, write_band, &job);
+    test_must(retex_picture_close(&job.picture, 1, &err), &err);
+    assert_null(job.picture);
+}
+
+static const int sizes[][2] = {{1, 1}, {3, 2}, {37, 63}, {64, 64}, {100, 65}, {203, 500}, {16, 1100}};
+enum { SIZES = sizeof sizes / sizeof sizes[0] };
+
+/* The file as the bridge makes it in one go, OpenImageIO and the libraries behind it. */
+static int append(void *file, const void *data, size_t bytes, RetexError *err)
+{
+    return fwrite(data, 1, bytes, file) == bytes ? 0 : retex_fail(err, RETEX_EIO, "cannot write");
+}
+
+static void write_in_one_go(const RetexImage *im, const char *path, const RetexWriteParams *params)
+{
+    RetexBridgePlan *plan = NULL;
+    RetexBridgeStored stored;
+    RetexError err = {0};
+    const size_t pixels = (size_t)im->width * (size_t)im->height;
+    FILE *file = fopen(path, "wb");
+    assert_non_null(file);
+    test_must(retex_bridge_plan(&plan, &stored, path, im->width, im->height, im->channels, params, &err), &err);
+    void *samples = malloc(pixels * (size_t)(stored.channels * stored.bits / 8));
+    test_must(retex_bridge_convert(plan, im->pixels, (long)pixels, samples, &err), &err);
+    test_must(retex_bridge_write(plan, samples, append, file, &err), &err);
+    free(samples);
+    retex_bridge_plan_free(&plan);
+    assert_int_equal(fclose(file), 0);
+}
+
+/* What OpenImageIO reads, its pixels untouched, must be the same of both. */
+static void assert_same_pixels(const char *a, const char *b)
+{
+    RetexImage x = {0}, y = {0};
+    RetexError err = {0};
+    test_must(retex_bridge_read(&x, a, "raw", 0, &err), &err);
+    test_must(retex_bridge_read(&y, b, "raw", 0, &err), &err);
+    assert_int_equal(x.width, y.width);
+    assert_int_equal(x.height, y.height);
+    assert_memory_equal(x.pixels, y.pixels, retex_image_index(&x, 0, x.height) * sizeof(float));
+    retex_image_free(&x);
+    retex_image_free(&y);
+}
+
+static void test_any_order_and_threads(void **state)
+{
+    (void)state;
+    static const char *const endings[] = {"jpg", "png", "exr", "tif", "bmp", "hdr"};
+    for (int s = 0; s < SIZES; s++)
+        for (size_t k = 0; k < sizeof endings / sizeof endings[0]; k++)
+            for (int channels = 3; channels <= 4; channels++) {
+                RetexImage im = {0};
+                RetexError err = {0};
+                char one[16], other[16];
+                snprintf(one, sizeof one, "one.%s", endings[k]);
+                snprintf(other, sizeof other, "other.%s", endings[k]);
+                paint(&im, sizes[s][0], sizes[s][1], channels);
+                test_must(retex_image_write(&im, in_folder(one), NULL, &err), &err);
+                /* strides prime to the numbers of bands: 1, 2, 8, 18 */
+                static const int orders[][2] = {{1, 1}, {1, 17}, {2, 5}, {7, 1}, {7, 7}};
+                for (int i = 0; i < 5; i++) {
+                    write_bands(&im, in_folder(other), NULL, orders[i][0], orders[i][1]);
+                    if (strcmp(endings[k], "tif") == 0) /* it says when it was written */
+                        assert_same_pixels(in_folder(one), in_folder(other));
+                    else
+                        assert_same_file(in_folder(one), in_folder(other));
+                }
+                retex_image_free(&im);
+            }
+}
+
+static void test_pixels_are_those_of_one_go(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *ending, *view, *colorspace;
+        int quality;
+    } ways[] = {{"jpg", NULL, NULL, 95},      {"jpg", NULL, NULL, 89},   {"jpg", NULL, NULL, 1},
+                {"jpg", NULL, "ACEScct", 90}, {"JPEG", "Raw", NULL, 80}, {"png", NULL, NULL, 95},
+                {"png", NULL, "ACEScct", 95}, {"PNG", "Raw", NULL, 95},  {"tif", NULL, NULL, 95},
+                {"tif", NULL, "ACEScct", 95}, {"tga", NULL, NULL, 95},   {"bmp", NULL, "sRGB", 95},
+                {"exr", NULL, "ACEScg", 95},  {"pfm", NULL, NULL, 95},   {"webp", NULL, NULL, 90}};
+    for (int s = 0; s < SIZES; s++)
+        for (size_t k = 0; k < sizeof ways / sizeof ways[0]; k++)
+            for (int channels = 1; channels <= 4; channels += channels == 1 ? 2 : 1) {
+                RetexImage im = {0};
+                RetexWriteParams params = RETEX_WRITE_INIT;
+                char ours[16], theirs[16];
+                params.view = ways[k].view;
+                params.colorspace = ways[k].colorspace;
+                params.quality = ways[k].quality;
+                snprintf(ours, sizeof ours, "ours.%s", ways[k].ending);
+                snprintf(theirs, sizeof theirs, "theirs.%s", ways[k].ending);
+                paint(&im, sizes[s][0], sizes[s][1], channels);
+                write_in_one_go(&im, in_folder(theirs), &params);
+                write_bands(&im, in_folder(ours), &params, 2, 1);
+                assert_same_pixels(in_folder(ours), in_folder(theirs));
+                retex_image_free(&im);
+            }
+}
+
+/* The same as from the encoding of a whole image that sets are written with. */
+static void test_exr_is_that_of_sets(void **state)
+{
+    (void)state;
+    for (int s = 0; s < SIZES; s++) {
+        RetexImage im = {0};
+        RetexError err = {0};
+        RetexExrEncoding *encoding = NULL;
+        paint(&im, sizes[s][0], sizes[s][1], 3);
+        RetexExrPart part = {.name = "beauty", .letters = "RGB", .type = RETEX_HALF, .image = &im};
+        test_must(retex_exr_encode(&encoding, &part, 1, 1, 1, &err), &err);
+        test_must(retex_exr_write(encoding, im.width, im.height, NULL, NULL, in_folder("set.exr"), &err), &err);
+        retex_exr_encoding_free(&encoding);
+        write_bands(&im, in_folder("bands.exr"), NULL, 2, 1);
+        assert_same_file(in_folder("set.exr"), in_folder("bands.exr"));
+        retex_image_free(&im);
+    }
+}
+
+/* Decode, saying no to anything that libjpeg would complain of. */
+static unsigned decode_strictly(const char *path, int width, int height, unsigned *restart)
+{
+    struct jpeg_decompress_struct jpeg;
+    struct jpeg_error_mgr errors;
+    FILE *file = fopen(path, "rb");
+    assert_non_null(file);
+    jpeg.err = jpeg_std_error(&errors);
+    jpeg_create_decompress(&jpeg);
+    jpeg_stdio_src(&jpeg, file);
+    jpeg_read_header(&jpeg, TRUE);
+    jpeg_start_decompress(&jpeg);
+    assert_int_equal(jpeg.output_width, width);
+    assert_int_equal(jpeg.output_height, height);
+    *restart = jpeg.restart_interval;
+    JSAMPROW row = malloc((size_t)width * 3);
+    while (jpeg.output_scanline < jpeg.output_height)
+        jpeg_read_scanlines(&jpeg, &row, 1);
+    free(row);
+    jpeg_finish_decompress(&jpeg);
+    const unsigned warnings = (unsigned)errors.num_warnings;
+    const int rest = fgetc(file); /* libjpeg reads ahead: all of a small file */
+    jpeg_destroy_decompress(&jpeg);
+    fclose(file);
+    return warnings + (rest != EOF);
+}
+
+static void test_jpeg_is_plain(void **state)
+{
+    (void)state;
+    RetexImage im = {0};
+    RetexWriteParams params = RETEX_WRITE_INIT;
+    unsigned restart;
+    paint(&im, 19, 1000, 3); /* 16 bands: markers 0 to 7 come twice */
+    write_bands(&im, in_folder("p.jpg"), &params, 2, 7);
+    assert_int_equal(decode_strictly(in_folder("p.jpg"), 19, 1000, &restart), 0);
+    assert_int_equal(restart, 3 * 8);
+    params.quality = 50; /* chroma at half the size: MCUs of 16 lines */
+    write_bands(&im, in_folder("p.jpg"), &params, 2, 1);
+    assert_int_equal(decode_strictly(in_folder("p.jpg"), 19, 1000, &restart), 0);
+    assert_int_equal(restart, 2 * 4);
+    retex_image_free(&im);
+    paint(&im, 19, 64, 3);
+    write_bands(&im, in_folder("p.jpg"), NULL, 1, 1);
+    assert_int_equal(decode_strictly(in_folder("p.jpg"), 19, 64, &restart), 0);
+    assert_int_equal(restart, 0);
+    retex_image_free(&im);
+    paint(&im, 65500, 65, 1); /* the largest there is, with the most MCUs a band */
+    write_bands(&im, in_folder("p.jpg"), NULL, 2, 1);
+    assert_int_equal(decode_strictly(in_folder("p.jpg"), 65500, 65, &restart), 0);
+    assert_int_equal(restart, 65504);
+    retex_image_free(&im);
+}
+
+static void test_png_filters_can_be_undone(void **state)
+{
+    (void)state;
+    unsigned char line[60], above[60], out[61], trial[60];
+    uint32_t seed = 3;
+    int used[5] = {0};
+    for (int round = 0; round < 2000; round++) {
+        const size_t pixel = 1 + (size_t)round % 4;
+        const int noise = round % 7 * 6 + 1;
+        for (int i = 0; i < 60; i++) {
+            above[i] = (unsigned char)(round + i * (round % 5) + noise * test_random(&seed));
+            line[i] = (unsigned char)(round % 3 == 0   ? 255 * (round % 2) + 2 * test_random(&seed)
+                                      : round % 3 == 1 ? above[i] + noise * test_random(&seed)
+                                                       : round + i * (round % 5) + noise * test_random(&seed));
+        }
+        const int is_first = round % 11 == 0;
+        retex_png_filter(out, trial, line, is_first ? NULL : above, 60, pixel);
+        assert_true(out[0] < 5 && (!is_first || out[0] < 2));
+        used[out[0]]++;
+        for (size_t i = 0; i < 60; i++) { /* as the specification undoes them */
+            const int a = i < pixel ? 0 : line[i - pixel], b = above[i], c = i < pixel ? 0 : above[i - pixel];
+            const int p = a + b - c, pa = abs(p - a), pb = abs(p - b), pc = abs(p - c);
+            const int paeth = pa <= pb && pa <= pc ? a : pb <= pc ? b : c;
+            const int predicted[5] = {0, a, b, (a + b) / 2, paeth};
+            assert_int_equal((unsigned char)(out[1 + i] + predicted[out[0]]), line[i]);
+        }
+    }
+    for (int filter = 0; filter < 5; filter++)
+        assert_true(used[filter] > 0);
+}
+
+/* The tables against the curve: around every step, and at floats all over the range. */
+static void test_srgb_codes(void **state)
+{
+    (void)state;
+    enum { COUNT = 1 << 16 };
+    float *values = malloc(COUNT * sizeof *values);
+    uint8_t *codes_8 = malloc(COUNT);
+    uint16_t *codes_16 = malloc(COUNT * sizeof *codes_16);
+    uint32_t bits = 0;
+    for (int round = 0; round < 64; round++) {
+        for (int i = 0; i < COUNT; i++)
+            if (round < 4) { /* where the code changes, give or take */
+                const double shown = (i + 0.5) / (COUNT - 1);
+                const float near = (float)(shown <= 0.04045 ? shown / 12.92 : pow((shown + 0.055) / 1.055, 2.4));
+                values[i] = round == 0 ? near : nextafterf(near, round == 1 ? 0 : 2);
+            } else {
+                bits += 1021; /* from 0 through all exponents, past NaN, to negative values */
+                memcpy(&values[i], &bits, sizeof bits);
+            }
+        retex_srgb_codes_8(codes_8, values, COUNT);
+        retex_srgb_codes_16(codes_16, values, COUNT);
+        for (int i = 0; i < COUNT; i++) {
+            assert_int_equal(codes_8[i], retex_srgb_code(values[i], 8));
+            assert_int_equal(codes_16[i], retex_srgb_code(values[i], 16));
+        }
+    }
+    assert_int_equal(retex_linear_code(NAN, 8), 0);
+    assert_int_equal(retex_linear_code(2, 16), 65535);
+    assert_int_equal(retex_linear_code(0.5f, 8), 128);
+    free(values);
+    free(codes_8);
+    free(codes_16);
+}
+
+static void expect_old(const char *path)
+{
+    Bytes bytes = load(path);
+    assert_int_equal(bytes.count, 3);
+    assert_memory_equal(bytes.data, "old", 3);
+    free(bytes.data);
+}
+
+static void test_given_up_or_failed(void **state)
+{
+    (void)state;
+    static const char *const names[] = {"f.jpg", "f.png", "f.exr", "f.tif"};
+    RetexImage im = {0};
+    paint(&im, 50, 200, 3);
+    for (int k = 0; k < 4; k++) {
+        RetexPicture *picture;
+        RetexError err = {0};
+        const char *path = in_folder(names[k]), *full = in_folder("full");
+        char other[600];
+        test_must(retex_file_write(path, "old", 3, &err), &err);
+        const int before = files_left();
+
+        /* given up, after some bands */
+        test_must(retex_picture_open(&picture, path, 50, 200, 3, NULL, &err), &err);
+        test_must(retex_picture_rows(picture, 0, 64, im.pixels, &err), &err);
+        test_must(retex_picture_close(&picture, 0, &err), &err);
+        test_must(retex_picture_close(&picture, 1, &err), &err);
+        expect_old(path);
+
+        /* rows that are no band, that come twice, that are missing */
+        test_must(retex_picture_open(&picture, path, 50, 200, 3, NULL, &err), &err);
+        test_must(retex_picture_rows(picture, 64, 128, im.pixels, &err), &err);
+        assert_int_equal(retex_picture_close(&picture, 1, &err), RETEX_EINVAL);
+        assert_non_null(strstr(err.message, "rows from 0 on are missing"));
+        static const int wrong[][2] = {{1, 65}, {0, 63}, {192, 256}, {-64, 0}, {256, 320}, {0, 128}, {64, 128}};
+        for (int i = 0; i < 7; i++) {
+            test_must(retex_picture_open(&picture, path, 50, 200, 3, NULL, &err), &err);
+            test_must(retex_picture_rows(picture, 64, 128, im.pixels, &err), &err);
+            assert_int_equal(retex_picture_rows(picture, wrong[i][0], wrong[i][1], im.pixels, &err), RETEX_EINVAL);
+            for (int y = 0; y < 200; y += 128)
+                test_must(retex_picture_rows(picture, y, y + 64, im.pixels, &err), &err);
+            test_must(retex_picture_rows(picture, 192, 200, im.pixels, &err), &err);
+            assert_int_equal(retex_picture_close(&picture, 1, &err), RETEX_EINVAL); /* what failed stays failed */
+            assert_null(picture);
+        }
+        expect_old(path);
+        assert_int_equal(files_left(), before);
+
+        /* a full disk, and a folder that is not there */
+        snprintf(other, sizeof other, "%s%s", full, strrchr(names[k], '.'));
+        assert_int_equal(symlink("/dev/full", other), 0);
+        assert_int_equal(retex_image_write(&im, other, NULL, &err), RETEX_EIO);
+        assert_non_null(strstr(err.message, "No space left on device"));
+        assert_int_equal(unlink(other), 0);
+        snprintf(other, sizeof other, "/nowhere/at/all/%s", names[k]);
+        assert_int_equal(retex_picture_open(&picture, other, 50, 200, 3, NULL, &err), RETEX_EIO);
+        assert_null(picture);
+        assert_non_null(strstr(err.message, "No such file or directory"));
+        assert_int_equal(files_left(), before);
+    }
+    retex_image_free(&im);
+}
+
+static void test_what_cannot_be(void **state)
+{
+    (void)state;
+    RetexPicture *picture;
+    RetexError err = {0};
+    RetexWriteParams params = RETEX_WRITE_INIT;
+    RetexImage im = {0};
+    static const int shapes[][3] = {{0, 1, 3}, {1, 0, 3}, {65537, 1, 3}, {1, 65537, 3},
+                                    {1, 1, 2}, {1, 1, 5}, {1, 1, 0}};
+    for (int i = 0; i < 7; i++)
+        assert_int_equal(
+            retex_picture_open(&picture, in_folder("w.png"), shapes[i][0], shapes[i][1], shapes[i][2], NULL, &err),
+            RETEX_EINVAL);
+    assert_int_equal(retex_picture_open(&picture, in_folder("w.jpg"), 65501, 1, 3, NULL, &err), RETEX_EINVAL);
+    assert_non_null(strstr(err.message, "a JPEG has at most 65500 x 65500 pixels"));
+    params.quality = 0;
+    assert_int_equal(retex_picture_open(&picture, in_folder("w.jpg"), 1, 1, 3, &params, &err), RETEX_EINVAL);
+    assert_int_equal(retex_image_write(&im, in_folder("w.jpg"), NULL, &err), RETEX_EINVAL);
+    /* found out by whoever waits for the bridge */
+    paint(&im, 2, 2, 3);
+    params = (RetexWriteParams)RETEX_WRITE_INIT;
+    params.view = "Bleu";
+    assert_int_equal(retex_image_write(&im, in_folder("w.png"), &params, &err), RETEX_ENOTFOUND);
+    assert_non_null(strstr(err.message, "has no view 'Bleu'"));
+    assert_int_equal(retex_image_write(&im, in_folder("w.xyz"), NULL, &err), RETEX_EINVAL);
+    assert_int_equal(access(in_folder("w.png"), F_OK), -1);
+    retex_image_free(&im);
+}
+
+/* JPEG, PNG and EXR must not wait for OpenImageIO, unless their colours ask for it; in a child, with no bridge. */
+static void test_no_bridge_is_needed(void **state)
+{
+    (void)state;
+    pid_t child = fork();
+    if (child == 0) {
+        RetexImage im = {0};
+        RetexWriteParams params = RETEX_WRITE_INIT;
+        RetexError err = {0};
+        int failed = 0;
+        setenv("RETEX_BRIDGE", "/nowhere/at/all.so", 1);
+        unsetenv("OCIO");
+        paint(&im, 5, 5, 3);
+        failed |= retex_image_write_check(in_folder("n.png"), NULL, &err);
+        failed |= retex_image_write(&im, in_folder("n.png"), NULL, &err);
+        failed |= retex_image_write(&im, in_folder("n.jpg"), NULL, &err);
+        failed |= retex_image_write(&im, in_folder("n.exr"), NULL, &err);
+        failed |= retex_image_write(&im, in_folder("n.tif"), NULL, &err) != RETEX_EUNSUPPORTED;
+        params.view = "Raw";
+        failed |= retex_image_write(&im, in_folder("n.png"), &params, &err) != RETEX_EUNSUPPORTED;
+        setenv("OCIO", "/nowhere/config.ocio", 1);
+        failed |= retex_image_write(&im, in_folder("n.jpg"), NULL, &err) != RETEX_EUNSUPPORTED;
+        _exit(failed != 0);
+    }
+    int status;
+    assert_int_equal(waitpid(child, &status, 0), child);
+    assert_true(WIFEXITED(status));
+    assert_int_equal(WEXITSTATUS(status), 0);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_no_bridge_is_needed), /* first: nothing has loaded the bridge yet */
+        cmocka_unit_test(test_any_order_and_threads),     cmocka_unit_test(test_pixels_are_those_of_one_go),
+        cmocka_unit_test(test_exr_is_that_of_sets),       cmocka_unit_test(test_jpeg_is_plain),
+        cmocka_unit_test(test_png_filters_can_be_undone), cmocka_unit_test(test_srgb_codes),
+        cmocka_unit_test(test_given_up_or_failed),        cmocka_unit_test(test_what_cannot_be),
+    };
+    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+}
