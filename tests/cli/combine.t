@@ -8,6 +8,11 @@ $ retex-combine -q s.exr -o original.exr; retex-diff -q original.exr fused.exr -
 $ for f in x.png x.jpg x.tif x.hdr x.exr; do retex-combine -q s.exr --texture floor=brick.jpg -o $f && retex-diff -q $f fused.exr --fail-psnr 20 || echo $f; done
 $ retex-pack -q --lossless s.exr -o s.retex; retex-combine -q s.retex --texture floor=brick.jpg -o pack.exr; cmp pack.exr fused.exr
 
+# JPEG, PNG and EXR need no OpenImageIO; the others say so.
+$ for f in x.jpg x.png x.exr; do RETEX_BRIDGE=none.so retex-combine -q s.exr -o $f || echo $f; done
+$ RETEX_BRIDGE=none.so retex-combine -q s.exr -o x.bmp 2>&1 | cut -d: -f1-4
+> retex-combine: error: x.bmp: this needs OpenImageIO, which cannot be loaded
+
 # Several pictures with the set read once.
 $ printf 'output,Floor,Wall\none.png,brick.jpg,\ntwo.png,"rgb(0.1,0.2,0.3)",brick.jpg\n' >batch.csv; retex-combine -q s.exr --batch batch.csv; ls one.png two.png
 > one.png

@@ -407,9 +407,7 @@ static void test_given_up_or_failed(void **state)
             test_must(retex_picture_open(&picture, path, 50, 200, 3, NULL, &err), &err);
             test_must(retex_picture_rows(picture, 64, 128, im.pixels, &err), &err);
             assert_int_equal(retex_picture_rows(picture, wrong[i][0], wrong[i][1], im.pixels, &err), RETEX_EINVAL);
-            for (int y = 0; y < 200; y += 128)
-                test_must(retex_picture_rows(picture, y, y + 64, im.pixels, &err), &err);
-            test_must(retex_picture_rows(picture, 192, 200, im.pixels, &err), &err);
+            assert_int_equal(retex_picture_rows(picture, 0, 64, im.pixels, &err), RETEX_EINVAL);
             assert_int_equal(retex_picture_close(&picture, 1, &err), RETEX_EINVAL); /* what failed stays failed */
             assert_null(picture);
         }

@@ -12,9 +12,11 @@
 #include <cstring>
 #include <functional>
 #include <memory>
+#include <thread>
 #include <vector>
 
 #include <OpenImageIO/imageio.h>
+#include <OpenImageIO/thread.h>
 #include <strings.h>
 #include <sys/mman.h>
 #include <sys/stat.h>
@@ -335,6 +337,9 @@ void write_picture(const RetexBridgePlan &plan, const void *samples, const Sink 
         return;
     }
     OIIO::ImageSpec spec = describe(plan);
+    // TIFF's strips are compressed in a pool that has one thread less than there are cores, and not at all in one of 1.
+    if (plan.format == "tiff" && std::thread::hardware_concurrency() > 1 && OIIO::default_thread_pool()->size() < 2)
+        OIIO::default_thread_pool()->resize(2);
     auto write_to = [&](const std::string &name) {
         auto out = find_writer(plan.path);
         if (!out->open(name, spec) || !out->write_image(sample_type(plan), samples) || !out->close())

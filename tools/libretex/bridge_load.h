@@ -16,8 +16,8 @@ int retex_names_linear(const char *colorspace);
  * which it is the general case. dst is unallocated. */
 int retex_bridge_read(RetexImage *dst, const char *path, const char *colorspace, long max_pixels, RetexError *err);
 
-/* How a picture of that size goes into a file of the format that path's ending names, in the colours that params, which
- * must outlive it, name. */
+/* How a picture of that size goes into a file of the format that path's ending names, in the colours that params name.
+ * Neither is needed afterwards. */
 typedef struct RetexBridgePlan RetexBridgePlan;
 
 /* What such a file stores of a pixel. */

@@ -220,7 +220,7 @@ int retex_picture_lay(RetexPicture *picture, int band, unsigned char *data, size
     return status;
 }
 
-/* Take a band for this thread: it must be one, and of nobody else. */
+/* Take a band for this thread: it must be one, and of nobody else. After a failure there is no point in going on. */
 static int take_band(RetexPicture *picture, int y0, int y1, RetexError *err)
 {
     const int band = y0 / RETEX_PICTURE_BAND;
@@ -228,11 +228,14 @@ static int take_band(RetexPicture *picture, int y0, int y1, RetexError *err)
                   y1 - y0 == retex_picture_band_lines(picture, band);
 
     pthread_mutex_lock(&picture->lock);
+    *err = picture->error;
     if (is_band && picture->pieces[band].state == 0)
         picture->pieces[band].state = 1;
     else
         is_band = 0;
     pthread_mutex_unlock(&picture->lock);
+    if (err->code)
+        return err->code;
     return is_band ? 0
                    : retex_fail(err, RETEX_EINVAL, "rows %d to %d are no band of %s, or given twice", y0, y1,
                                 picture->path);

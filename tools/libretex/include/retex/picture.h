@@ -22,8 +22,8 @@ int retex_picture_open(RetexPicture **picture, const char *path, int width, int 
                        const RetexWriteParams *params /* NULL = defaults; not needed afterwards */, RetexError *err);
 
 /* Give rows y0 <= y < y1: y0 a multiple of RETEX_PICTURE_BAND, y1 the next one, or the height. They are scene-linear,
- * interleaved, and not needed afterwards. From any thread, each band once. The file is the same to the byte whatever
- * the order and the threads. */
+ * interleaved, and not needed afterwards. From any thread, each band once; after a failure every call fails with
+ * it. The file is the same to the byte whatever the order and the threads. */
 int retex_picture_rows(RetexPicture *picture, int y0, int y1, const float *rows, RetexError *err);
 
 /* Complete the file and put it in its place; fails if any call before did, or rows are missing. Not keep: give up.
