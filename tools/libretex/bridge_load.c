@@ -14,6 +14,7 @@
 static struct {
     pthread_once_t once;
     RetexBridgeRead *read;
+    RetexBridgeReadNarrow *read_narrow;
     RetexBridgeWrite *write;
     RetexBridgeCheck *check;
     char message[512]; /* why it could not be loaded; "" = it is */
@@ -72,9 +73,10 @@ static void load_bridge(void)
     RetexBridgeAbi *abi = NULL;
     *(void **)&abi = dlsym(library, "retex_oiio_abi");
     *(void **)&bridge.read = dlsym(library, "retex_oiio_read");
+    *(void **)&bridge.read_narrow = dlsym(library, "retex_oiio_read_narrow");
     *(void **)&bridge.write = dlsym(library, "retex_oiio_write");
     *(void **)&bridge.check = dlsym(library, "retex_oiio_check");
-    if (!abi || !bridge.read || !bridge.write || !bridge.check || abi() != RETEX_BRIDGE_ABI)
+    if (!abi || !bridge.read || !bridge.read_narrow || !bridge.write || !bridge.check || abi() != RETEX_BRIDGE_ABI)
         keep_message(BRIDGE_NAME " is of another version");
     else
         bridge.message[0] = '\0';
@@ -89,11 +91,19 @@ static int bridge_ready(const char *path, RetexError *err)
     return RETEX_OK;
 }
 
+static const RetexBridgeHost host = {retex_image_alloc, retex_image_free, malloc, free};
+
 int retex_bridge_read(RetexImage *dst, const char *path, const char *colorspace, long max_pixels, RetexError *err)
 {
-    static const RetexBridgeHost host = {retex_image_alloc, retex_image_free};
     int code = bridge_ready(path, err);
     return code ? code : bridge.read(&host, dst, path, colorspace, max_pixels, err);
+}
+
+int retex_bridge_read_narrow(RetexNarrowImage *dst, const char *path, const char *colorspace, long max_pixels,
+                             RetexError *err)
+{
+    int code = bridge_ready(path, err);
+    return code ? code : bridge.read_narrow(&host, dst, path, colorspace, max_pixels, err);
 }
 
 int retex_bridge_write(const RetexImage *src, const char *path, const RetexWriteParams *params, RetexBridgeSink *sink,

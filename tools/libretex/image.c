@@ -207,6 +207,21 @@ int retex_image_read(RetexImage *dst, const char *path, const char *colorspace, 
     return status;
 }
 
+int retex_image_read_narrow(RetexNarrowImage *dst, const char *path, const char *colorspace, long max_pixels,
+                            RetexError *err)
+{
+    RetexInput *input = NULL;
+
+    if (strcmp(path, "-") == 0)
+        return 0;
+    int status = retex_input_open(&input, path, err);
+    if (status)
+        return status;
+    const int exr = retex_exr_probe(input);
+    retex_input_close(&input);
+    return exr ? 0 : retex_bridge_read_narrow(dst, path, colorspace, max_pixels, err);
+}
+
 static int write_exr(const RetexImage *src, const char *path, RetexError *err)
 {
     RetexExrPart part = {.name = "beauty", .type = RETEX_HALF, .image = src};

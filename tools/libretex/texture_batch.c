@@ -10,19 +10,20 @@
 
 #define LEAST_ALPHA 1e-20f /* less has no colour that float could tell */
 
-void texture_gather_block(const RetexTexture *texture, const TextureLevel *level, int x, int y, float texels[64])
+void texture_gather_block(const RetexTexture *texture, const TextureLevel *level, int x, int y, char *texels)
 {
+    size_t size = texel_size(texture->narrow);
     for (int j = 0; j < 4; j++) {
         Row row = find_row(texture, level, y + j, 0);
-        for (int i = 0; i < 4; i++, texels += 4) {
+        for (int i = 0; i < 4; i++, texels += size) {
             int at = wrap_index(x + i, level->width, texture->spec.wrap[0]);
-            const float *p = NULL;
+            const char *p = NULL;
             if (row.texels)
-                p = (unsigned)at < (unsigned)level->width ? row.texels + (size_t)at * 4 : row.beside[at > 0];
+                p = (unsigned)at < (unsigned)level->width ? row.texels + (size_t)at * size : row.beside[at > 0];
             if (p)
-                memcpy(texels, p, 4 * sizeof *texels);
+                memcpy(texels, p, size);
             else
-                memset(texels, 0, 4 * sizeof *texels);
+                memset(texels, 0, size);
         }
     }
 }
@@ -31,7 +32,7 @@ void texture_gather_block(const RetexTexture *texture, const TextureLevel *level
 static int count_levels(const RetexTexture *texture)
 {
     int count = 1;
-    for (; count < texture->nlevels; count++) {
+    for (; count < texture->nlevels && count < BATCH_LEVELS; count++) {
         const double *scale = texture->levels[count].scale;
         if (scale[0] > 1.5 * scale[1] || scale[1] > 1.5 * scale[0])
             break;
@@ -59,7 +60,7 @@ static void prepare(BatchTexture *t, const RetexTexture *texture, RetexTextureFi
         for (int i = 0; i < t->levels; i++) {
             const TextureLevel *level = &texture->levels[i];
             int alone = (axis ? level->height : level->width) == 1 && (t->period[axis] > 0 || is_flat(texture, axis));
-            t->inverse_scale[i][axis] = 1 / level->scale[axis];
+            t->texels[axis][i] = (float)(axis ? level->height : level->width);
             t->inverse_area[2 * axis][i] = (float)(1 / (level->scale[axis] * level->scale[axis]));
             t->inverse_area[1][i] = (float)(1 / (level->scale[0] * level->scale[1]));
             t->spread[axis][i] = alone ? 0 : 1;

@@ -8,6 +8,7 @@
 
 #include "texture_pyramid.h"
 
+#define BATCH_LEVELS 16
 #define BATCH_SIZE 256 /* footprints in one call of a kernel */
 
 /* A texture's placement and levels, as the kernels read them. */
@@ -20,10 +21,10 @@ typedef struct BatchTexture {
     int black[2];                   /* the image ends in nothing */
     float to_texels[2][2];          /* surface UV to texels of level 0, y down */
     int levels;                     /* that are halved along both axes alike */
-    double inverse_scale[TEXTURE_MAX_LEVELS][2];
-    float inverse_area[3][TEXTURE_MAX_LEVELS]; /* what divides xx, xy and yy on a level */
-    float blur[2][2][TEXTURE_MAX_LEVELS];      /* of axis and term: variance that a level has already */
-    float spread[2][TEXTURE_MAX_LEVELS];       /* 0 along an axis of one texel that goes on for ever, else 1 */
+    float texels[2][BATCH_LEVELS];           /* of a level */
+    float inverse_area[3][BATCH_LEVELS]; /* what divides xx, xy and yy on a level */
+    float blur[2][2][BATCH_LEVELS];      /* of axis and term: variance that a level has already */
+    float spread[2][BATCH_LEVELS];       /* 0 along an axis of one texel that goes on for ever, else 1 */
 } BatchTexture;
 
 /* In: live footprints. Out: premultiplied colours, and which of them the kernel left alone. */
@@ -43,7 +44,7 @@ int texture_batch_kernels(TextureBatchKernel *kernels[3]);
 void texture_filter_batches(TextureBatchKernel *kernel, const RetexTexture *texture, RetexTextureFilter shape,
                             const float *uv, const float *spread, int spreads, size_t n, float *rgba);
 
-/* The 4 x 4 texels from column x and row y on, where some of them lie beyond the level's borders. */
-void texture_gather_block(const RetexTexture *texture, const TextureLevel *level, int x, int y, float texels[64]);
+/* The 4 x 4 texels from column x and row y on, as they are stored, where some lie beyond the level's borders. */
+void texture_gather_block(const RetexTexture *texture, const TextureLevel *level, int x, int y, char *texels);
 
 #endif

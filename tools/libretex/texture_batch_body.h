@@ -12,21 +12,43 @@
 #define Mask NAME(Mask)
 #define Places NAME(Places)
 #define Group NAME(Group)
+#define Spread NAME(Spread)
+#define Double NAME(Double)
+#define DoubleMask NAME(DoubleMask)
+#define Half NAME(Half)
+#define HalfMask NAME(HalfMask)
 typedef float Lanes __attribute__((vector_size(4 * LANES)));
 typedef int Mask __attribute__((vector_size(4 * LANES)));
+/* Half of the lanes, as doubles. */
+typedef double Double __attribute__((vector_size(4 * LANES)));
+typedef int64_t DoubleMask __attribute__((vector_size(4 * LANES)));
+typedef float Half __attribute__((vector_size(2 * LANES)));
+typedef int HalfMask __attribute__((vector_size(2 * LANES)));
+
 
 #ifndef TEXTURE_BATCH_CONSTANTS
 #define TEXTURE_BATCH_CONSTANTS
 #define MAX_BANDS 16
 #define MAX_BLOCKS 4 /* across, in a band */
 #define MAX_COLUMNS (4 * MAX_BLOCKS + 2)
-#define NKEYS (2 * MAX_BANDS * MAX_BLOCKS)
+#define NKEYS (4 * MAX_BANDS * MAX_BLOCKS)
+#ifndef FINE_NODES
+#define FINE_NODES 2
+#define FINE_RULE batch_nodes2, batch_weights2
+#endif
+#ifndef BOX_NODES
+#define BOX_NODES 1
+#define BOX_RULE batch_nodes1, batch_weights1
+#endif
 #define BATCH_BOX_VARIANCE (1.0f / 12)
 #define BATCH_TENT_VARIANCE (1.0f / 6)
 /* The smaller variance that a level leaves a disc, in its texels: of round ones, and of very long ones. */
 #define ROUND_LEAST 0.75f
 #define LONG_LEAST 0.3f
-#define BOX_FROM 0.6f      /* the smaller variance from which level 0's texels need no interpolation */
+#ifndef BOX_FROM
+#define BOX_FROM 0.36f
+#endif
+//     /* the smaller variance from which level 0's texels need no interpolation */
 #define LEAST_RADIUS 0.02f /* texels */
 /* A Gaussian ends at 3.25 standard deviations, lowered so that it is 0 there, which leaves it .9267 of its variance. */
 #define GAUSSIAN_REACH 3.25f
@@ -38,6 +60,8 @@ typedef int Mask __attribute__((vector_size(4 * LANES)));
 #define OUTER_DISC 1.30656296f
 
 /* Rules of Gauss on 0..1, as in texture_disc_kernel.c: inside, after an ellipse's tip, before one, between both. */
+static const float batch_nodes1[1][4] = {{0.5f, 0.6f, 0.4f, 0.5f}};
+static const float batch_weights1[1][4] = {{1, 0.860663f, 0.860663f, 0.785398f}};
 static const float batch_nodes2[2][4] = {{0.21132487f, 0.2899492f, 0.17883809f, 0.25f},
                                          {0.78867513f, 0.82116191f, 0.7100508f, 0.75f}};
 static const float batch_weights2[2][4] = {{0.5f, 0.5154537f, 0.42939674f, 0.45344984f},
@@ -50,6 +74,17 @@ static const float batch_weights3[3][4] = {{0.27777778f, 0.30992775f, 0.24579041
                                            {0.27777778f, 0.24579041f, 0.30992775f, 0.27768018f}};
 #endif
 
+#if LANES == 16 /* which weights the texels of a block's row have; turned: [1] */
+static const int batch_rows[2][4][16] = {{{0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3},
+                                          {4, 4, 4, 4, 5, 5, 5, 5, 6, 6, 6, 6, 7, 7, 7, 7},
+                                          {8, 8, 8, 8, 9, 9, 9, 9, 10, 10, 10, 10, 11, 11, 11, 11},
+                                          {12, 12, 12, 12, 13, 13, 13, 13, 14, 14, 14, 14, 15, 15, 15, 15}},
+                                         {{0, 0, 0, 0, 4, 4, 4, 4, 8, 8, 8, 8, 12, 12, 12, 12},
+                                          {1, 1, 1, 1, 5, 5, 5, 5, 9, 9, 9, 9, 13, 13, 13, 13},
+                                          {2, 2, 2, 2, 6, 6, 6, 6, 10, 10, 10, 10, 14, 14, 14, 14},
+                                          {3, 3, 3, 3, 7, 7, 7, 7, 11, 11, 11, 11, 15, 15, 15, 15}}};
+#endif
+
 /* ---- vectors ---- */
 
 #if LANES == 16
@@ -59,6 +94,7 @@ static const float batch_weights3[3][4] = {{0.27777778f, 0.30992775f, 0.24579041
 #define LOOK_UP(table, index)                                                                                          \
     ((Lanes)_mm512_permutexvar_ps((__m512i)(index), _mm512_broadcast_f32x4(_mm_loadu_ps(table))))
 #define PICK(array, index) ((Lanes)_mm512_i32gather_ps((__m512i)(index), array, 4))
+#define OF_LEVEL(table, level) ((Lanes)_mm512_permutexvar_ps((__m512i)(level), _mm512_loadu_ps(table)))
 #elif LANES == 8
 #define MIN(a, b) ((Lanes)_mm256_min_ps((__m256)(a), (__m256)(b)))
 #define MAX(a, b) ((Lanes)_mm256_max_ps((__m256)(a), (__m256)(b)))
@@ -66,12 +102,16 @@ static const float batch_weights3[3][4] = {{0.27777778f, 0.30992775f, 0.24579041
 #define LOOK_UP(table, index)                                                                                          \
     ((Lanes)_mm256_permutevar8x32_ps(_mm256_broadcast_ps((const __m128 *)(const void *)(table)), (__m256i)(index)))
 #define PICK(array, index) ((Lanes)_mm256_i32gather_ps(array, (__m256i)(index), 4))
+#define OF_LEVEL(table, level)                                                                                         \
+    SELECT((level) > 7, (Lanes)_mm256_permutevar8x32_ps(_mm256_loadu_ps((table) + 8), (__m256i)(level)),               \
+           (Lanes)_mm256_permutevar8x32_ps(_mm256_loadu_ps(table), (__m256i)(level)))
 #else
 #define MIN(a, b) NAME(lesser)(a, b)
 #define MAX(a, b) NAME(greater)(a, b)
 #define SQRT(a) NAME(root)(a)
 #define LOOK_UP(table, index) NAME(pick)(table, index)
 #define PICK(array, index) NAME(pick)(array, index)
+#define OF_LEVEL(table, level) NAME(pick)(table, level)
 INLINE Lanes NAME(lesser)(Lanes a, Lanes b)
 {
     Mask less = a < b;
@@ -97,6 +137,15 @@ INLINE Lanes NAME(pick)(const float *array, Mask index)
 }
 #endif
 
+#define SELECT(mask, a, b) ((Lanes)(((mask) & (Mask)(a)) | (~(mask) & (Mask)(b))))
+#define SELECT_INT(mask, a, b) (((mask) & (a)) | (~(mask) & (b)))
+#define LOAD(value, from) memcpy(&(value), from, sizeof(value))
+#define STORE(to, value) NAME(store)(to, (Mask)(value))
+INLINE void NAME(store)(void *to, Mask value)
+{
+    memcpy(to, &value, sizeof value);
+}
+
 INLINE Lanes NAME(all)(float value)
 {
     return value - (Lanes){0};
@@ -117,186 +166,201 @@ INLINE Mask NAME(whole_below)(Lanes x)
 
 /* A batch's footprints on their way. Along is from line to line, across from texel to texel of a line. */
 typedef struct Places {
-    double x[BATCH_SIZE], y[BATCH_SIZE];                     /* texels of the image */
-    float xx[BATCH_SIZE], xy[BATCH_SIZE], yy[BATCH_SIZE];    /* texels squared: of the image, then of the level */
-    int level[BATCH_SIZE], fine[BATCH_SIZE], far[BATCH_SIZE]; /* fine: texels are interpolated; far: not for us */
-    int column[BATCH_SIZE], row[BATCH_SIZE];                 /* of the level: the whole part of the mean */
-    float at_x[BATCH_SIZE], at_y[BATCH_SIZE];                /* and the rest of it */
-    int turned[BATCH_SIZE];                                  /* lines are columns */
-    float along[BATCH_SIZE], across[BATCH_SIZE];             /* at_x and at_y, as lines have them */
+    int level[BATCH_SIZE];
+    int column[BATCH_SIZE], row[BATCH_SIZE];                       /* of the level: the whole part of the mean */
+    float at_x[BATCH_SIZE], at_y[BATCH_SIZE];                      /* and the rest of it */
+    float xx[BATCH_SIZE], yy[BATCH_SIZE];                          /* variances in the level's texels */
+    int line[BATCH_SIZE], texel[BATCH_SIZE]; /* the ellipse's first line; the whole part of the mean across */
+    float along[BATCH_SIZE], across[BATCH_SIZE];                   /* at_x and at_y, as lines have them */
     float length[BATCH_SIZE], half[BATCH_SIZE], slope[BATCH_SIZE]; /* the ellipse, as in texture_disc_kernel.c */
     float lean[BATCH_SIZE], reach[BATCH_SIZE]; /* of the blocks: their slope, how far they go to each side */
-    float first[BATCH_SIZE];                   /* line, from the whole part of the mean */
+    int first[BATCH_SIZE];                     /* line, from the whole part of the mean */
     int lines[BATCH_SIZE], columns[BATCH_SIZE], key[BATCH_SIZE];
 } Places;
 
-INLINE void NAME(place_means)(const BatchTexture *t, const Batch *batch, Places *p)
+/* u and v where they are far away become 0. */
+INLINE void NAME(find_mean)(const BatchTexture *t, int axis, Lanes u, Lanes v, Double *mean)
 {
-    const double whole = 6755399441055744.0; /* 1.5 * 2^52: adding it rounds */
-    for (int axis = 0; axis < 2; axis++) {
-        double a = t->matrix[axis][0], b = t->matrix[axis][1], c = t->offset[axis], period = t->period[axis];
-        double inverse = period > 0 ? 1 / period : 0, size = t->size[axis], *out = axis ? p->y : p->x;
-        for (int i = 0; i < batch->count; i++) {
-            double at = a * (double)batch->u[i] + b * (double)batch->v[i] + c;
-            at = at > -1e6 ? at : -2e6; /* NaN too */
-            at = at < 1e6 ? at : 2e6;
-            double turns = at * inverse, below = turns + whole - whole;
-            below -= below > turns ? 1.0 : 0.0;
-            out[i] = (at - period * below) * size;
-        }
-        for (int i = 0; i < batch->count; i++) {
-            double at = a * (double)batch->u[i] + b * (double)batch->v[i] + c;
-            int far = !(at > -1e6) | !(at < 1e6);
-            p->far[i] = axis ? p->far[i] | far : far;
-        }
+    const Double whole = 6755399441055744.0 - (Double){0}; /* 1.5 * 2^52: adding it rounds */
+    const Double period = t->period[axis] - (Double){0}, one = 1 - (Double){0};
+    double inverse = t->period[axis] > 0 ? 1 / t->period[axis] : 0;
+    Half halves[2][2];
+    memcpy(halves[0], &u, sizeof u);
+    memcpy(halves[1], &v, sizeof v);
+    for (int h = 0; h < 2; h++) {
+        Double at = t->matrix[axis][0] * __builtin_convertvector(halves[0][h], Double) +
+                    t->matrix[axis][1] * __builtin_convertvector(halves[1][h], Double) + t->offset[axis];
+        Double turns = at * inverse, below = turns + whole - whole;
+        below -= (Double)((below > turns) & (DoubleMask)one);
+        mean[h] = at - period * below;
     }
 }
 
-INLINE void NAME(find_covariances)(const BatchTexture *t, const Batch *batch, Places *p)
+/* The mean in texels of the level, as a whole number and a rest. */
+INLINE void NAME(split_mean)(const Double *mean, Lanes texels, Mask *index, Lanes *rest)
+{
+    const Double whole = 6755399441055744.0 - (Double){0}, one = 1 - (Double){0};
+    Half sizes[2], rests[2];
+    HalfMask indices[2];
+    memcpy(sizes, &texels, sizeof texels);
+    for (int h = 0; h < 2; h++) {
+        Double x = mean[h] * __builtin_convertvector(sizes[h], Double) - 0.5, below = x + whole - whole;
+        below -= (Double)((below > x) & (DoubleMask)one);
+        indices[h] = __builtin_convertvector(below, HalfMask);
+        rests[h] = __builtin_convertvector(x - below, Half);
+    }
+    memcpy(index, indices, sizeof indices);
+    memcpy(rest, rests, sizeof rests);
+}
+
+/* A covariance: of one footprint each, in texels squared. */
+typedef struct Spread {
+    Lanes xx, xy, yy;
+} Spread;
+
+INLINE Spread NAME(find_spread)(const BatchTexture *t, Lanes su, Lanes sv, Lanes correlation)
 {
     const float(*m)[2] = t->to_texels;
     float a = m[0][0], b = m[0][1], c = m[1][0], d = m[1][1];
-    for (int i = 0; i < batch->count; i++) {
-        float su = batch->su[i], sv = batch->sv[i], r = batch->correlation[i];
-        r = r < 1 ? r : 1;
-        r = r > -1 ? r : -1;
-        float uu = su * su, vv = sv * sv, uv = r * su * sv;
-        p->xx[i] = a * a * uu + 2 * a * b * uv + b * b * vv;
-        p->xy[i] = a * c * uu + (a * d + b * c) * uv + b * d * vv;
-        p->yy[i] = c * c * uu + 2 * c * d * uv + d * d * vv;
-    }
+    Lanes r = MAX(MIN(correlation, NAME(all)(1)), NAME(all)(-1)), uu = su * su, vv = sv * sv, uv = r * su * sv;
+    return (Spread){a * a * uu + 2 * a * b * uv + b * b * vv, a * c * uu + (a * d + b * c) * uv + b * d * vv,
+                    c * c * uu + 2 * c * d * uv + d * d * vv};
 }
 
-/* By the smaller variance: halving texels divides it by four. */
-INLINE void NAME(choose_levels)(const BatchTexture *t, int count, Places *p)
+/* By the smaller variance: halving texels divides it by four. *fine: texels are interpolated. */
+INLINE Mask NAME(choose_level)(const BatchTexture *t, const Spread *s, Mask *fine)
 {
-    float limit = 1e12f;
-    int last = t->levels - 1, gaussian = t->gaussian;
-    for (int i = 0; i < count; i++) {
-        float xx = p->xx[i], xy = p->xy[i], yy = p->yy[i], sum = xx + yy, difference = xx - yy;
-        int far = !(sum < limit);
-        sum = far ? 1 : sum;
-        float root = sqrtf(difference * difference + 4 * xy * xy);
-        root = root < sum ? root : sum;
-        float smaller = 0.5f * (sum - root), larger = 0.5f * (sum + root);
-        float ratio = sqrtf(smaller / (larger > 1e-12f ? larger : 1e-12f));
-        float least = LONG_LEAST + (ROUND_LEAST - LONG_LEAST) * ratio;
-        float texels = gaussian ? (smaller + 0.25f) / (GAUSSIAN_LEAST + 1.0f / 12)
-                                : (smaller + 0.25f) / (least + BATCH_TENT_VARIANCE);
-        int bits;
-        memcpy(&bits, &texels, sizeof bits);
-        int level = ((bits >> 23) - 127) >> 1;
-        level = level > 0 ? level : 0;
-        level = level < last ? level : last;
-        int fine = level == 0 && smaller < (gaussian ? GAUSSIAN_LEAST - BATCH_TENT_VARIANCE : BOX_FROM);
-        p->level[i] = level;
-        p->fine[i] = fine;
-        p->far[i] |= far;
+    Lanes sum = s->xx + s->yy, difference = s->xx - s->yy, needed;
+    Lanes root = MIN(SQRT(difference * difference + 4 * s->xy * s->xy), sum);
+    Lanes smaller = 0.5f * (sum - root), larger = MAX(0.5f * (sum + root), NAME(all)(1e-12f));
+    if (t->gaussian) {
+        needed = NAME(all)(GAUSSIAN_LEAST + 1.0f / 12);
+        *fine = smaller < GAUSSIAN_LEAST - BATCH_TENT_VARIANCE;
+    } else {
+        needed = LONG_LEAST + BATCH_TENT_VARIANCE + (ROUND_LEAST - LONG_LEAST) * SQRT(smaller / larger);
+        *fine = smaller < BOX_FROM;
     }
+    Mask level = (((Mask)((smaller + 0.25f) / needed) >> 23) - 127) >> 1;
+    level &= level > 0;
+    Mask over = level > t->levels - 1;
+    level = (over & (t->levels - 1)) | (~over & level);
+    *fine &= level == 0;
+    return level;
 }
 
-/* What is left of the covariance on the level. */
-INLINE void NAME(reduce_covariances)(const BatchTexture *t, int count, Places *p)
+/* What a level leaves of a variance. */
+INLINE Lanes NAME(reduce_variance)(const BatchTexture *t, int axis, const Double *mean, Lanes variance, Mask level,
+                                   Mask fine)
 {
-    float ends = t->gaussian ? BATCH_TENT_VARIANCE : 0;
-    for (int axis = 0; axis < 2; axis++) {
-        const double *mean = axis ? p->y : p->x;
-        float *variance = axis ? p->yy : p->xx;
-        float inverse = (float)(1 / t->size[axis]), wraps = t->period[axis] > 0 ? 1 : 0;
-        for (int i = 0; i < count; i++) {
-            int level = p->level[i];
-            float at = (float)mean[i] * inverse, damping = 1 + 10 * variance[i] * inverse * inverse;
-            at = at < 0 ? 0 : at;
-            at = at > 1 && wraps > 0 ? at - 1 : at > 1 ? 1 : at;
-            float position = BATCH_TENT_VARIANCE + (at * (1 - at) - BATCH_TENT_VARIANCE) / (damping * damping);
-            float blur = t->blur[axis][0][level] + t->blur[axis][1][level] * position;
-            float texel = p->fine[i] ? 0 : ends > 0 ? 0 : BATCH_BOX_VARIANCE;
-            float shared = p->fine[i] ? 0 : BATCH_TENT_VARIANCE;
-            float rest = (variance[i] + shared - blur) * t->inverse_area[2 * axis][level] - texel;
-            variance[i] = (rest > 0 ? rest : 0) * t->spread[axis][level];
-        }
-    }
-    for (int i = 0; i < count; i++) {
-        int level = p->level[i];
-        p->xy[i] *= t->inverse_area[1][level] * t->spread[0][level] * t->spread[1][level];
-    }
+    Half halves[2] = {__builtin_convertvector(mean[0], Half), __builtin_convertvector(mean[1], Half)};
+    Lanes at;
+    memcpy(&at, halves, sizeof at);
+    float size = (float)t->size[axis];
+    Lanes damping = 1 + variance * (10 / (size * size));
+    if (t->period[axis] > 0)
+        at -= SELECT(at > 1, NAME(all)(1), NAME(all)(0));
+    at = MAX(MIN(at, NAME(all)(1)), NAME(all)(0));
+    Lanes position = BATCH_TENT_VARIANCE + (at * (1 - at) - BATCH_TENT_VARIANCE) / (damping * damping);
+    Lanes blur = OF_LEVEL(t->blur[axis][0], level) + OF_LEVEL(t->blur[axis][1], level) * position;
+    Lanes tent = SELECT(fine, NAME(all)(0), NAME(all)(BATCH_TENT_VARIANCE));
+    Lanes box = SELECT(fine, NAME(all)(0), NAME(all)(t->gaussian ? 0 : BATCH_BOX_VARIANCE));
+    Lanes rest = (variance + tent - blur) * OF_LEVEL(t->inverse_area[2 * axis], level) - box;
+    return MAX(rest, NAME(all)(0)) * OF_LEVEL(t->spread[axis], level);
 }
 
-/* The mean in the level's texels, as a whole number and a rest. */
-INLINE void NAME(split_means)(const BatchTexture *t, int count, Places *p)
+/* The texels of an open interval: the first, and how many. */
+INLINE Mask NAME(first_within)(Lanes begin, Lanes end, Mask *count)
 {
-    for (int axis = 0; axis < 2; axis++) {
-        const double *mean = axis ? p->y : p->x;
-        int *index = axis ? p->row : p->column;
-        float *at = axis ? p->at_y : p->at_x;
-        for (int i = 0; i < count; i++) {
-            double x = mean[i] * t->inverse_scale[p->level[i]][axis] - 0.5;
-            x = x > -1e9 ? x : -1e9;
-            x = x < 1e9 ? x : 1e9;
-            int below = (int)x;
-            below -= (double)below > x ? 1 : 0;
-            index[i] = below;
-            at[i] = (float)(x - (double)below);
-        }
-    }
+    Mask first = NAME(whole_below)(begin) + 1, last = -NAME(whole_below)(-end) - 1;
+    *count = last - first + 1;
+    return first;
 }
 
 /* The ellipse in lines, and the blocks that it meets. */
-INLINE void NAME(find_windows)(const BatchTexture *t, int count, Places *p)
+INLINE void NAME(find_window)(const BatchTexture *t, const Spread *s, Lanes at_x, Lanes at_y, Mask column, Mask row,
+                              Mask fine, Mask far, Places *p, int i)
 {
-    int gaussian = t->gaussian;
-    float wider = GAUSSIAN_REACH / sqrtf(GAUSSIAN_VARIANCE);
-    for (int i = 0; i < count; i++) {
-        int turned = p->xx[i] > p->yy[i], fine = p->fine[i];
-        float along = turned ? p->xx[i] : p->yy[i], across = turned ? p->yy[i] : p->xx[i];
-        float mean = turned ? p->at_x[i] : p->at_y[i], beside = turned ? p->at_y[i] : p->at_x[i];
-        float slope = along > 1e-12f ? p->xy[i] / along : 0, rest = across - slope * p->xy[i];
-        float radius = gaussian ? fine ? 2 * OUTER_DISC : wider : 2;
-        float length = radius * sqrtf(along), half = radius * sqrtf(rest > 0 ? rest : 0);
-        float width = radius * sqrtf(across);
-        length = length > LEAST_RADIUS ? length : LEAST_RADIUS;
-        half = half > LEAST_RADIUS ? half : LEAST_RADIUS;
-        width = width > half ? width : half;
-        float edge = fine ? 1 : gaussian ? 0 : 0.5f, steep = slope < 0 ? -slope : slope;
+    const Lanes least = NAME(all)(LEAST_RADIUS), none = NAME(all)(0);
+    float wider = t->gaussian ? GAUSSIAN_REACH / sqrtf(GAUSSIAN_VARIANCE) : 2;
+    Mask turned = s->xx > 1.1f * s->yy; /* round ones all alike */
+    Lanes along = SELECT(turned, s->xx, s->yy), across = SELECT(turned, s->yy, s->xx);
+    Lanes mean = SELECT(turned, at_x, at_y), beside = SELECT(turned, at_y, at_x);
+    Lanes slope = s->xy / MAX(along, NAME(all)(1e-12f));
+    Lanes radius = SELECT(fine, NAME(all)(t->gaussian ? 2 * OUTER_DISC : 2), NAME(all)(wider));
+    Lanes length = MAX(radius * SQRT(along), least), half = radius * SQRT(MAX(across - slope * s->xy, none));
+    half = MAX(half, least);
+    Lanes width = MAX(radius * SQRT(across), half);
+    Lanes edge = SELECT(fine, NAME(all)(1), NAME(all)(t->gaussian ? 0 : 0.5f));
 
-        float begin = mean - length - edge, end = mean + length + edge;
-        int far = !(length < 2 * MAX_BANDS) | !(width < 1e4f);
-        begin = far ? 0 : begin;
-        end = far ? 0 : end;
-        int first = (int)begin, last = (int)end;
-        first += (float)first > begin ? 0 : 1;
-        last -= (float)last < end ? 0 : 1;
-        int lines = last - first + 1;
+    far |= ~(length < 2 * MAX_BANDS) | ~(width < 8 * MAX_BLOCKS * MAX_BANDS);
+    length = SELECT(far, least, length);
+    half = SELECT(far, least, half);
+    width = SELECT(far, least, width);
+    slope = SELECT(far, none, slope);
+    Mask lines, columns;
+    Mask first = NAME(first_within)(mean - length - edge, mean + length + edge, &lines);
+    Lanes upright = width + edge, leaning = half + MAX(slope, -slope) * (1.5f + edge) + edge;
+    (void)NAME(first_within)(beside - upright, beside + upright, &columns);
+    Mask narrow = __builtin_convertvector(2 * leaning, Mask) + 1;
+    Mask leans = ((narrow + 3) >> 2) < ((columns + 3) >> 2);
+    columns = (leans & narrow) | (~leans & columns);
+    far |= (lines > 4 * MAX_BANDS) | (columns > 4 * MAX_BLOCKS);
+    Mask key = (turned & (2 * MAX_BANDS * MAX_BLOCKS)) + (fine & (MAX_BANDS * MAX_BLOCKS)) + ((lines + 3) >> 2) * MAX_BLOCKS + ((columns + 3) >> 2);
+    key = ((key - MAX_BLOCKS - 1) & ~far) | (NKEYS & far);
 
-        float upright = width + edge, leaning = half + steep * (1.5f + edge) + edge;
-        upright = far ? 0 : upright;
-        leaning = far ? 0 : leaning;
-        begin = beside - upright;
-        end = beside + upright;
-        int left = (int)begin, right = (int)end, columns, narrow = (int)(2 * leaning) + 1;
-        left += (float)left > begin ? 0 : 1;
-        right -= (float)right < end ? 0 : 1;
-        columns = right - left + 1;
-        int leans = (narrow + 3) >> 2 < (columns + 3) >> 2;
-        columns = leans ? narrow : columns;
-        lines = lines > 1 ? lines : 1;
-        columns = columns > 1 ? columns : 1;
-        far |= (lines > 4 * MAX_BANDS) | (columns > 4 * MAX_BLOCKS) | p->far[i];
+    STORE(p->line + i, first + SELECT_INT(turned, column, row));
+    STORE(p->texel + i, SELECT_INT(turned, row, column));
+    STORE(p->along + i, mean);
+    STORE(p->across + i, beside);
+    STORE(p->length + i, length);
+    STORE(p->half + i, half);
+    STORE(p->slope + i, slope);
+    STORE(p->lean + i, SELECT(leans, slope, none));
+    STORE(p->reach + i, SELECT(leans, leaning, upright));
+    STORE(p->first + i, first);
+    STORE(p->lines + i, lines);
+    STORE(p->columns + i, columns);
+    STORE(p->key + i, key);
+}
 
-        p->turned[i] = turned;
-        p->along[i] = mean;
-        p->across[i] = beside;
-        p->length[i] = length;
-        p->half[i] = half;
-        p->slope[i] = slope;
-        p->lean[i] = leans ? slope : 0;
-        p->reach[i] = leans ? leaning : upright;
-        p->first[i] = (float)first;
-        p->lines[i] = lines;
-        p->columns[i] = columns;
-        int key = ((fine * MAX_BANDS + ((lines - 1) >> 2)) * MAX_BLOCKS) + ((columns - 1) >> 2);
-        p->key[i] = far ? NKEYS : key;
+/* All of it, for the footprints from i on. */
+INLINE void NAME(place)(const BatchTexture *t, const Batch *batch, Places *p, int i)
+{
+    Lanes u, v, su, sv, correlation, at[2];
+    LOAD(u, batch->u + i);
+    LOAD(v, batch->v + i);
+    LOAD(su, batch->su + i);
+    LOAD(sv, batch->sv + i);
+    LOAD(correlation, batch->correlation + i);
+    Mask far = {0}, fine, index[2];
+    for (int axis = 0; axis < 2; axis++) {
+        Lanes x = (float)t->matrix[axis][0] * u + (float)t->matrix[axis][1] * v + (float)t->offset[axis];
+        far |= ~(MAX(x, -x) < 1e6f);
     }
+    Spread s = NAME(find_spread)(t, su, sv, correlation);
+    far |= ~(s.xx + s.yy < 1e12f);
+    const Lanes none = NAME(all)(0);
+    u = SELECT(far, none, u);
+    v = SELECT(far, none, v);
+    s = (Spread){SELECT(far, none, s.xx), SELECT(far, none, s.xy), SELECT(far, none, s.yy)};
+
+    Double mean[2][2];
+    Mask level = NAME(choose_level)(t, &s, &fine);
+    for (int axis = 0; axis < 2; axis++) {
+        NAME(find_mean)(t, axis, u, v, mean[axis]);
+        NAME(split_mean)(mean[axis], OF_LEVEL(t->texels[axis], level), &index[axis], &at[axis]);
+    }
+    s.xx = NAME(reduce_variance)(t, 0, mean[0], s.xx, level, fine);
+    s.yy = NAME(reduce_variance)(t, 1, mean[1], s.yy, level, fine);
+    s.xy *= OF_LEVEL(t->inverse_area[1], level) * OF_LEVEL(t->spread[0], level) * OF_LEVEL(t->spread[1], level);
+    STORE(p->level + i, level);
+    STORE(p->column + i, index[0]);
+    STORE(p->row + i, index[1]);
+    STORE(p->xx + i, s.xx);
+    STORE(p->yy + i, s.yy);
+    STORE(p->at_x + i, at[0]);
+    STORE(p->at_y + i, at[1]);
+    NAME(find_window)(t, &s, at[0], at[1], index[0], index[1], fine, far, p, i);
 }
 
 /* What a black border cuts is not for us. */
@@ -324,8 +388,10 @@ typedef struct Group {
     const BatchTexture *texture;
     const Places *places;
     int index[LANES]; /* in the batch */
-    int fine, bands, blocks, lines, columns;
-    Lanes along, across, length, half, slope, lean, reach, first;
+    int contiguous;   /* 1: one after the other */
+    int turned, fine, bands, blocks, lines, columns;
+    Lanes along, across, length, half, slope, lean, reach, first, line, texel; /* the last three: whole numbers */
+    Mask level;
     Lanes total;
     float sums[LANES][16]; /* four neighbouring texels' RGBA */
 } Group;
@@ -345,7 +411,9 @@ INLINE void NAME(begin_band)(const Group *g, int number, Band *band)
     band->lines = g->lines - 4 * number < 4 ? g->lines - 4 * number : 4;
     band->column = NAME(whole_below)(g->across + g->lean * (band->begin + 1.5f) - g->reach) + 1;
     band->middle = g->across - NAME(to_float)(band->column);
-    memset(band->weights, 0, sizeof band->weights);
+    for (int j = 0; j < 4; j++)
+        for (int c = 0; c < 4 * g->blocks; c++)
+            band->weights[j][c] = NAME(all)(0);
 }
 
 /* A chord's ends, and its rule's weight. */
@@ -355,11 +423,11 @@ typedef struct Chord {
 } Chord;
 
 /* Chords between `low` and the next line's place; the ellipse's size is given apart, for a Gaussian has two. */
-INLINE void NAME(find_chords)(const Group *g, const Band *band, Lanes low, Lanes length, Lanes half, int count,
-                              const float nodes[][4], const float weights[][4], Chord *chords)
+INLINE void NAME(find_chords)(const Group *g, const Band *band, Lanes low, Lanes length, Lanes inverse, Lanes half,
+                              int count, const float nodes[][4], const float weights[][4], Chord *chords)
 {
     Lanes high = low + 1, begin = MAX(low, -length), end = MIN(high, length);
-    Lanes span = MAX(end - begin, NAME(all)(0)), inverse = 1 / length;
+    Lanes span = MAX(end - begin, NAME(all)(0));
     Mask rule = ((low < -length) & 1) + ((high > length) & 2);
     for (int k = 0; k < count; k++) {
         Lanes at = begin + span * LOOK_UP(nodes[k], rule), u = at * inverse;
@@ -375,19 +443,23 @@ INLINE void NAME(find_chords)(const Group *g, const Band *band, Lanes low, Lanes
 INLINE void NAME(weigh_fine)(Group *g, Band *band, Lanes length, Lanes half, Lanes scale)
 {
     Lanes lines[5][MAX_COLUMNS];
-    Chord chords[3];
-    memset(lines, 0, sizeof lines);
+    Chord chords[FINE_NODES];
+    Lanes inverse = 1 / length;
+    for (int j = 0; j < 5; j++)
+        for (int c = 0; c < g->columns + 2; c++)
+            lines[j][c] = NAME(all)(0);
     for (int i = 0; i <= band->lines; i++) {
-        Lanes here[3], next[3];
-        NAME(find_chords)(g, band, band->begin + (float)(i - 1), length, half, 3, batch_nodes3, batch_weights3, chords);
-        for (int k = 0; k < 3; k++) {
+        Lanes here[FINE_NODES], next[FINE_NODES];
+        NAME(find_chords)
+        (g, band, band->begin + (float)(i - 1), length, inverse, half, FINE_NODES, FINE_RULE, chords);
+        for (int k = 0; k < FINE_NODES; k++) {
             next[k] = chords[k].weight * chords[k].share * scale;
             here[k] = chords[k].weight * scale - next[k];
         }
         Lanes *before = lines[i > 0 ? i - 1 : 4], *after = lines[i < 4 ? i : 4];
-        for (int c = 0; c < g->columns + 2; c++) {
+        for (int c = 0; c <= g->columns; c++) { /* no chord reaches beyond the last column's neighbour */
             Lanes at = NAME(all)((float)(c - 1)), sum = {0}, more = {0};
-            for (int k = 0; k < 3; k++) {
+            for (int k = 0; k < FINE_NODES; k++) {
                 Lanes r = MAX(chords[k].right - at, NAME(all)(0)), l = MAX(chords[k].left - at, NAME(all)(0));
                 Lanes area = (r - l) * (r + l);
                 sum += here[k] * area;
@@ -407,13 +479,14 @@ INLINE void NAME(weigh_fine)(Group *g, Band *band, Lanes length, Lanes half, Lan
 /* Texels are averages over squares: how much of a chord each covers. */
 INLINE void NAME(weigh_boxes)(Group *g, Band *band)
 {
-    Chord chords[2];
+    Chord chords[BOX_NODES];
+    Lanes inverse = 1 / g->length;
     for (int j = 0; j < band->lines; j++) {
         NAME(find_chords)
-        (g, band, band->begin + ((float)j - 0.5f), g->length, g->half, 2, batch_nodes2, batch_weights2, chords);
+        (g, band, band->begin + ((float)j - 0.5f), g->length, inverse, g->half, BOX_NODES, BOX_RULE, chords);
         for (int c = 0; c < g->columns; c++) {
             Lanes begin = NAME(all)((float)c - 0.5f), end = NAME(all)((float)c + 0.5f), w = {0};
-            for (int k = 0; k < 2; k++)
+            for (int k = 0; k < BOX_NODES; k++)
                 w += chords[k].weight *
                      MAX(MIN(chords[k].right, end) - MAX(chords[k].left, begin), NAME(all)(0));
             band->weights[j][c] = w;
@@ -518,81 +591,155 @@ INLINE void NAME(turn_weights)(const Band *band, int block, float out[LANES][16]
 #endif
 }
 
-/* Add 4 x 4 texels to four sums, one a column. Weights come by lines, which may be columns. */
-INLINE void NAME(sum_block)(float sums[16], const float weights[16], int turned, const float *texels, size_t stride)
+/* Add a band's texels to four sums, one for every fourth column. Weights come by lines, which may be columns. The blocks
+ * lie `step` texels apart. */
+INLINE void NAME(sum_texels)(float sums[16], const float weights[][16], int blocks, int turned, int narrow,
+                             const char *texels, size_t stride, size_t step)
 {
+    size_t size = narrow ? 4 * sizeof(uint16_t) : 4 * sizeof(float);
 #if LANES == 16
-    static const int rows[2][4][16] = {{{0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3},
-                                        {4, 4, 4, 4, 5, 5, 5, 5, 6, 6, 6, 6, 7, 7, 7, 7},
-                                        {8, 8, 8, 8, 9, 9, 9, 9, 10, 10, 10, 10, 11, 11, 11, 11},
-                                        {12, 12, 12, 12, 13, 13, 13, 13, 14, 14, 14, 14, 15, 15, 15, 15}},
-                                       {{0, 0, 0, 0, 4, 4, 4, 4, 8, 8, 8, 8, 12, 12, 12, 12},
-                                        {1, 1, 1, 1, 5, 5, 5, 5, 9, 9, 9, 9, 13, 13, 13, 13},
-                                        {2, 2, 2, 2, 6, 6, 6, 6, 10, 10, 10, 10, 14, 14, 14, 14},
-                                        {3, 3, 3, 3, 7, 7, 7, 7, 11, 11, 11, 11, 15, 15, 15, 15}}};
-    __m512 w = _mm512_loadu_ps(weights), sum = _mm512_loadu_ps(sums);
-    for (int r = 0; r < 4; r++, texels += stride)
-        sum = _mm512_add_ps(sum, _mm512_mul_ps(_mm512_loadu_ps(texels), _mm512_permutexvar_ps(_mm512_loadu_si512(rows[turned][r]), w)));
+    const __m512i *rows = (const __m512i *)batch_rows[turned];
+    __m512 sum = _mm512_loadu_ps(sums);
+    for (int k = 0; k < blocks; k++) {
+        __m512 w = _mm512_loadu_ps(weights[k]);
+        const char *from = texels + (size_t)k * step * size;
+        for (int r = 0; r < 4; r++, from += stride * size) {
+            __m512 t = narrow ? _mm512_cvtepi32_ps(_mm512_cvtepu16_epi32(_mm256_loadu_si256((const __m256i *)from)))
+                              : _mm512_loadu_ps((const float *)(const void *)from);
+            sum = _mm512_add_ps(sum, _mm512_mul_ps(t, _mm512_permutexvar_ps(_mm512_loadu_si512(rows + r), w)));
+        }
+    }
     _mm512_storeu_ps(sums, sum);
+#elif LANES == 8
+    int row = turned ? 1 : 4, column = turned ? 4 : 1;
+    __m256 low = _mm256_loadu_ps(sums), high = _mm256_loadu_ps(sums + 8);
+    for (int k = 0; k < blocks; k++) {
+        const char *from = texels + (size_t)k * step * size;
+        const float *w = weights[k];
+        for (int r = 0; r < 4; r++, from += stride * size, w += row) {
+            __m256 a, b;
+            if (narrow) {
+                __m128i c = _mm_loadu_si128((const __m128i *)from), d = _mm_loadu_si128((const __m128i *)from + 1);
+                a = _mm256_cvtepi32_ps(_mm256_cvtepu16_epi32(c));
+                b = _mm256_cvtepi32_ps(_mm256_cvtepu16_epi32(d));
+            } else {
+                a = _mm256_loadu_ps((const float *)(const void *)from);
+                b = _mm256_loadu_ps((const float *)(const void *)from + 8);
+            }
+            __m256 first = _mm256_insertf128_ps(_mm256_broadcast_ss(w), _mm_broadcast_ss(w + column), 1);
+            __m256 second = _mm256_insertf128_ps(_mm256_broadcast_ss(w + 2 * column), _mm_broadcast_ss(w + 3 * column), 1);
+            low = _mm256_add_ps(low, _mm256_mul_ps(a, first));
+            high = _mm256_add_ps(high, _mm256_mul_ps(b, second));
+        }
+    }
+    _mm256_storeu_ps(sums, low);
+    _mm256_storeu_ps(sums + 8, high);
 #else
     int row = turned ? 1 : 4, column = turned ? 4 : 1;
     Float4 sum[4];
     memcpy(sum, sums, sizeof sum);
-    for (int r = 0; r < 4; r++, texels += stride)
-        for (int c = 0; c < 4; c++)
-            sum[c] += load4(texels + 4 * c) * weights[row * r + column * c];
+    for (int k = 0; k < blocks; k++) {
+        const char *from = texels + (size_t)k * step * size;
+        for (int r = 0; r < 4; r++, from += stride * size)
+            for (int c = 0; c < 4; c++)
+                sum[c] += raw_texel(from + (size_t)c * size, narrow) * weights[k][row * r + column * c];
+    }
     memcpy(sums, sum, sizeof sum);
 #endif
 }
 
-INLINE void NAME(sum_blocks)(Group *g, int number, const Band *band)
+/* Where a band's blocks lie in their levels: texels from the level's first one; -1 where some lie outside. */
+INLINE Mask NAME(find_blocks)(const Group *g, int number, const Band *band, Mask *x, Mask *y)
 {
-    const Places *p = g->places;
-    float weights[LANES][16], around[64];
-    int columns[LANES];
-    memcpy(columns, &band->column, sizeof columns);
-    for (int block = 0; block < g->blocks; block++) {
-        NAME(turn_weights)(band, block, weights);
-        for (int lane = 0; lane < LANES; lane++) {
-            int i = g->index[lane], turned = p->turned[i];
-            const TextureLevel *level = &g->texture->texture->levels[p->level[i]];
-            int line = (turned ? p->column[i] : p->row[i]) + (int)p->first[i] + 4 * number;
-            int texel = (turned ? p->row[i] : p->column[i]) + columns[lane] + 4 * block;
-            int x = turned ? line : texel, y = turned ? texel : line;
-            if ((unsigned)x <= (unsigned)(level->width - 4) && (unsigned)y <= (unsigned)(level->height - 4) &&
-                level->width >= 4 && level->height >= 4) {
-                NAME(sum_block)
-                (g->sums[lane], weights[lane], turned,
-                 level->texels + ((size_t)y * (size_t)level->width + (size_t)x) * 4, (size_t)level->width * 4);
-            } else {
-                texture_gather_block(g->texture->texture, level, x, y, around);
-                NAME(sum_block)(g->sums[lane], weights[lane], turned, around, 16);
+    const BatchTexture *t = g->texture;
+    Mask lines = (Mask)g->line + 4 * number, texels = (Mask)g->texel + band->column;
+    *x = g->turned ? lines : texels;
+    *y = g->turned ? texels : lines;
+    Mask width = __builtin_convertvector(OF_LEVEL(t->texels[0], g->level), Mask);
+    Mask height = __builtin_convertvector(OF_LEVEL(t->texels[1], g->level), Mask);
+    int across = 4 * g->blocks;
+    Mask inside = (*x >= 0) & (*y >= 0) & (*x <= width - (g->turned ? 4 : across)) &
+                  (*y <= height - (g->turned ? across : 4));
+    return ((*y * width + *x) & inside) | ~inside;
+}
+
+INLINE void NAME(sum_band)(Group *g, int number, const Band *band, int turned, int narrow)
+{
+    float weights[MAX_BLOCKS][LANES][16], own[MAX_BLOCKS][16];
+    int first[LANES], columns[LANES], rows[LANES], levels[LANES];
+    Mask x, y, begin = NAME(find_blocks)(g, number, band, &x, &y);
+    STORE(first, begin);
+    STORE(columns, x);
+    STORE(rows, y);
+    STORE(levels, g->level);
+    for (int k = 0; k < g->blocks; k++)
+        NAME(turn_weights)(band, k, weights[k]);
+    for (int lane = 0; lane < LANES; lane++) {
+        const TextureLevel *level = &g->texture->texture->levels[levels[lane]];
+        size_t stride = (size_t)level->width;
+        for (int k = 0; k < g->blocks; k++)
+            memcpy(own[k], weights[k][lane], sizeof own[k]);
+        if (first[lane] >= 0) {
+            const char *texels = (const char *)level->texels + (size_t)first[lane] * (narrow ? 8 : 16);
+            NAME(sum_texels)(g->sums[lane], own, g->blocks, turned, narrow, texels, stride, turned ? 4 * stride : 4);
+        } else {
+            for (int k = 0; k < g->blocks; k++) {
+                char around[16 * 4 * sizeof(float)];
+                texture_gather_block(g->texture->texture, level, columns[lane] + (turned ? 0 : 4 * k),
+                                     rows[lane] + (turned ? 4 * k : 0), around);
+                NAME(sum_texels)(g->sums[lane], own + k, 1, turned, narrow, around, 4, 0);
             }
         }
     }
+}
+
+INLINE void NAME(sum_blocks)(Group *g, int number, const Band *band)
+{
+    int narrow = g->texture->texture->narrow;
+    if (g->turned && narrow)
+        NAME(sum_band)(g, number, band, 1, 1);
+    else if (g->turned)
+        NAME(sum_band)(g, number, band, 1, 0);
+    else if (narrow)
+        NAME(sum_band)(g, number, band, 0, 1);
+    else
+        NAME(sum_band)(g, number, band, 0, 0);
 }
 
 INLINE void NAME(filter_group)(Group *g, Batch *batch)
 {
     Band band;
     const Places *p = g->places;
-    Mask index;
-    memcpy(&index, g->index, sizeof index);
-    g->along = PICK(p->along, index);
-    g->across = PICK(p->across, index);
-    g->length = PICK(p->length, index);
-    g->half = PICK(p->half, index);
-    g->slope = PICK(p->slope, index);
-    g->lean = PICK(p->lean, index);
-    g->reach = PICK(p->reach, index);
-    g->first = PICK(p->first, index);
+    const void *arrays[] = {p->along, p->across, p->length, p->half, p->slope, p->lean,
+                            p->reach, p->first,  p->line,   p->texel, p->level};
+    Lanes values[11];
+    if (g->contiguous) {
+        for (int k = 0; k < 11; k++)
+            LOAD(values[k], (const float *)arrays[k] + g->index[0]);
+    } else {
+        Mask index;
+        LOAD(index, g->index);
+        for (int k = 0; k < 11; k++)
+            values[k] = PICK((const float *)arrays[k], index);
+    }
+    g->along = values[0];
+    g->across = values[1];
+    g->length = values[2];
+    g->half = values[3];
+    g->slope = values[4];
+    g->lean = values[5];
+    g->reach = values[6];
+    g->first = NAME(to_float)((Mask)values[7]);
+    g->line = values[8];
+    g->texel = values[9];
+    g->level = (Mask)values[10];
     g->total = NAME(all)(0);
     memset(g->sums, 0, sizeof g->sums);
     for (int b = 0; b < g->bands; b++) {
         NAME(weigh_band)(g, b, &band);
         NAME(sum_blocks)(g, b, &band);
     }
-    Lanes inverse = 1 / g->total;
+    Lanes inverse = 1 / (g->total * (g->texture->texture->narrow ? NARROW_ONE : 1));
     for (int lane = 0; lane < LANES; lane++) {
         const float *s = g->sums[lane];
         Float4 sum = ((load4(s) + load4(s + 4)) + (load4(s + 8) + load4(s + 12))) * inverse[lane];
@@ -606,12 +753,11 @@ static void NAME(filter_batch)(const BatchTexture *texture, Batch *batch)
     Places places;
     Group group = {.texture = texture, .places = &places};
     int ends[NKEYS + 1], order[BATCH_SIZE], begin = 0;
-    NAME(place_means)(texture, batch, &places);
-    NAME(find_covariances)(texture, batch, &places);
-    NAME(choose_levels)(texture, batch->count, &places);
-    NAME(reduce_covariances)(texture, batch->count, &places);
-    NAME(split_means)(texture, batch->count, &places);
-    NAME(find_windows)(texture, batch->count, &places);
+    for (int i = batch->count; i % LANES; i++) { /* footprints of no meaning, for whole vectors */
+        batch->u[i] = batch->v[i] = batch->su[i] = batch->sv[i] = batch->correlation[i] = 0;
+    }
+    for (int i = 0; i < batch->count; i += LANES)
+        NAME(place)(texture, batch, &places, i);
     NAME(leave_borders)(texture, batch->count, &places);
 
     memset(ends, 0, sizeof ends);
@@ -626,7 +772,8 @@ static void NAME(filter_batch)(const BatchTexture *texture, Batch *batch)
         order[ends[places.key[i]]++] = i;
 
     for (int key = 0; key < NKEYS; key++) {
-        group.fine = key / (MAX_BANDS * MAX_BLOCKS);
+        group.turned = key / (2 * MAX_BANDS * MAX_BLOCKS);
+        group.fine = key / (MAX_BANDS * MAX_BLOCKS) % 2;
         group.bands = key / MAX_BLOCKS % MAX_BANDS + 1;
         group.blocks = key % MAX_BLOCKS + 1;
         for (; begin < ends[key]; begin += LANES) {
@@ -637,6 +784,7 @@ static void NAME(filter_batch)(const BatchTexture *texture, Batch *batch)
                 group.lines = places.lines[i] > group.lines ? places.lines[i] : group.lines;
                 group.columns = places.columns[i] > group.columns ? places.columns[i] : group.columns;
             }
+            group.contiguous = begin + LANES <= ends[key] && group.index[LANES - 1] == group.index[0] + LANES - 1;
             NAME(filter_group)(&group, batch);
         }
         begin = ends[key];
@@ -657,3 +805,13 @@ static void NAME(filter_batch)(const BatchTexture *texture, Batch *batch)
 #undef SQRT
 #undef LOOK_UP
 #undef PICK
+#undef OF_LEVEL
+#undef SELECT
+#undef SELECT_INT
+#undef LOAD
+#undef STORE
+#undef Spread
+#undef Double
+#undef DoubleMask
+#undef Half
+#undef HalfMask

@@ -1,5 +1,7 @@
 /* The kernels of texture_batch_body.h, one for each width of vectors, and the choice between them at run time. */
 #include "texture_batch.h"
+#include <stdint.h>
+
 #include "texture_kernel.h"
 
 #define INLINE static inline __attribute__((always_inline))
