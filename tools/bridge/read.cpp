@@ -416,8 +416,9 @@ void read_levels(OIIO::ImageInput &in, const OIIO::ImageSpec &spec, const Channe
     OIIO::TypeDesc type = OIIO::BaseTypeFromC<Level>::value;
     for (int y = 0; y < spec.height; y += strip) {
         int end = std::min(y + strip, spec.height);
-        bool read = spec.tile_width ? in.read_image(0, 0, first, last, type, rows.data())
-                                    : in.read_scanlines(0, 0, spec.y + y, spec.y + end, 0, first, last, type, rows.data());
+        bool read = spec.tile_width
+                        ? in.read_image(0, 0, first, last, type, rows.data())
+                        : in.read_scanlines(0, 0, spec.y + y, spec.y + end, 0, first, last, type, rows.data());
         if (!read)
             fail_read(in.geterror());
         OIIO::parallel_for_chunked(0, end - y, 16, [&](int64_t begin, int64_t stop) {

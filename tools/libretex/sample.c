@@ -125,9 +125,8 @@ static int load_textures(SampleWork *work, int nthreads, RetexError *err)
 
 /* ---- the work itself ---- */
 
-/* How a footprint's distribution of UV is taken: what is seen sharply through a box pixel filter fills its ellipse
- * evenly, all else is taken as a Gaussian. */
-typedef void Filter(const RetexTexture *texture, double u, double v, const double covariance[3], float rgba[4]);
+/* Pixels that are filtered in one call. */
+#define SPAN_PIXELS 1024
 
 /* One span of a footprint's pixels. */
 typedef struct Span {
@@ -143,48 +142,44 @@ static Span footprint_row(const RetexSet *set, const RetexFootprint *f, int y)
                   set->parts[f->albedo].image.pixels + 3 * row, spread->channels, set->width};
 }
 
-static void footprint_covariance(const Span *span, int x, double covariance[3])
+/* Part of a span's footprints, filtered. */
+static void filter_span(const RetexTexture *texture, RetexTextureFilter shape, const Span *span, int from, int count,
+                        float *restrict rgba)
 {
-    const float *spread = span->spread + (size_t)span->spreads * (size_t)x;
-    double correlation = span->spreads == 3 ? spread[2] : 0;
-    covariance[0] = (double)spread[0] * spread[0];
-    covariance[1] = correlation * spread[0] * spread[1];
-    covariance[2] = (double)spread[1] * spread[1];
+    retex_texture_filter(texture, shape, span->uv + 3 * (size_t)from,
+                         span->spread + (size_t)span->spreads * (size_t)from, span->spreads, (size_t)count, rgba);
 }
 
-static void sample_row(const RetexTexture *texture, Filter *filter, const Span *span, float *restrict out)
+static void sample_row(const RetexTexture *texture, RetexTextureFilter shape, const Span *span, float *restrict out)
 {
-    for (int x = 0; x < span->width; x++, out += 3) {
-        const float *uv = span->uv + 3 * (size_t)x, *albedo = span->albedo + 3 * (size_t)x;
-        double covariance[3];
-        float rgba[4];
-        if (!(uv[2] > 0)) {
-            out[0] = out[1] = out[2] = 0;
-            continue;
+    float rgba[4 * SPAN_PIXELS];
+    for (int from = 0; from < span->width; from += SPAN_PIXELS) {
+        int count = span->width - from < SPAN_PIXELS ? span->width - from : SPAN_PIXELS;
+        filter_span(texture, shape, span, from, count, rgba);
+        for (int x = 0; x < count; x++, out += 3) {
+            size_t at = 3 * (size_t)(from + x);
+            const float *color = rgba + 4 * x, *albedo = span->albedo + at;
+            int covered = span->uv[at + 2] > 0;
+            for (int c = 0; c < 3; c++)
+                out[c] = covered ? color[c] * color[3] + (1 - color[3]) * albedo[c] : 0;
         }
-        footprint_covariance(span, x, covariance);
-        filter(texture, uv[0], uv[1], covariance, rgba);
-        for (int c = 0; c < 3; c++)
-            out[c] = rgba[c] * rgba[3] + (1 - rgba[3]) * albedo[c];
     }
 }
 
 /* How far the texture's colours scatter within the footprint: E[a^2] - E[a]^2. */
-static void variance_row(const RetexTexture *texture, const RetexTexture *square, Filter *filter, const Span *span,
-                         float *restrict out)
+static void variance_row(const RetexTexture *texture, const RetexTexture *square, RetexTextureFilter shape,
+                         const Span *span, float *restrict out)
 {
-    for (int x = 0; x < span->width; x++, out += 3) {
-        const float *uv = span->uv + 3 * (size_t)x;
-        double covariance[3];
-        float mean[4], squares[4];
-        out[0] = out[1] = out[2] = 0;
-        if (!(uv[2] > 0))
-            continue;
-        footprint_covariance(span, x, covariance);
-        filter(texture, uv[0], uv[1], covariance, mean);
-        filter(square, uv[0], uv[1], covariance, squares);
-        for (int c = 0; c < 3; c++)
-            out[c] = fmaxf(squares[c] - mean[c] * mean[c], 0) * mean[3] * mean[3];
+    float means[4 * SPAN_PIXELS], squares[4 * SPAN_PIXELS];
+    for (int from = 0; from < span->width; from += SPAN_PIXELS) {
+        int count = span->width - from < SPAN_PIXELS ? span->width - from : SPAN_PIXELS;
+        filter_span(texture, shape, span, from, count, means);
+        filter_span(square, shape, span, from, count, squares);
+        for (int x = 0; x < count; x++, out += 3) { /* without coverage all is 0 */
+            const float *mean = means + 4 * x;
+            for (int c = 0; c < 3; c++)
+                out[c] = fmaxf(squares[4 * x + c] - mean[c] * mean[c], 0) * mean[3] * mean[3];
+        }
     }
 }
 
@@ -195,15 +190,17 @@ static void sample_job(void *context, int index, int thread)
     (void)thread;
     int footprint = work->edited[index / work->blocks], block = index % work->blocks;
     const RetexFootprint *f = &set->footprints[footprint];
+    /* How a footprint's distribution of UV is taken: what is seen sharply through a box pixel filter fills its ellipse
+     * evenly, all else is taken as a Gaussian. */
     int even = f->kind == RETEX_FOOTPRINT_SHARP && strcmp(set->filter, "box") == 0;
-    Filter *filter = even ? retex_texture_disc : retex_texture_gaussian;
+    RetexTextureFilter shape = even ? RETEX_TEXTURE_DISC : RETEX_TEXTURE_GAUSSIAN;
     int last = (block + 1) * ROWS_A_JOB < set->height ? (block + 1) * ROWS_A_JOB : set->height;
     for (int y = block * ROWS_A_JOB; y < last; y++) {
         Span span = footprint_row(set, f, y);
         size_t row = 3 * (size_t)y * (size_t)set->width;
-        sample_row(work->textures[f->target], filter, &span, work->samples->images[footprint].pixels + row);
+        sample_row(work->textures[f->target], shape, &span, work->samples->images[footprint].pixels + row);
         if (work->variances)
-            variance_row(work->textures[f->target], work->squares[f->target], filter, &span,
+            variance_row(work->textures[f->target], work->squares[f->target], shape, &span,
                          work->variances->images[footprint].pixels + row);
     }
 }

@@ -14,8 +14,8 @@
 #include <retex/parallel.h>
 
 #define MAX_TEXTURE_PIXELS (1L << 28) /* 16384 x 16384: 4 GiB of floats */
-#define LARGEST_COLOR 1e30f /* so that sums of weighted texels stay finite */
-#define LEAST_ALPHA 1e-20f  /* less has no colour that float could tell */
+#define LARGEST_COLOR 1e30f           /* so that sums of weighted texels stay finite */
+#define LEAST_ALPHA 1e-20f            /* less has no colour that float could tell */
 /* A footprint of a thousand textures is the average, whatever its size; larger numbers only lose digits. */
 #define MAX_FOOTPRINT 1000.0
 

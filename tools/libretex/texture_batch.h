@@ -15,13 +15,13 @@
 typedef struct BatchTexture {
     const RetexTexture *texture;
     int gaussian;
-    double matrix[2][2], offset[2]; /* surface UV to the image's, in images, y down */
-    double period[2];               /* of the image along x and y; 0: it does not repeat */
-    double size[2];                 /* texels of level 0 */
-    int black[2];                   /* the image ends in nothing */
-    float to_texels[2][2];          /* surface UV to texels of level 0, y down */
-    int levels;                     /* that are halved along both axes alike */
-    float texels[2][BATCH_LEVELS];           /* of a level */
+    double matrix[2][2], offset[2];      /* surface UV to the image's, in images, y down */
+    double period[2];                    /* of the image along x and y; 0: it does not repeat */
+    double size[2];                      /* texels of level 0 */
+    int black[2];                        /* the image ends in nothing */
+    float to_texels[2][2];               /* surface UV to texels of level 0, y down */
+    int levels;                          /* that are halved along both axes alike */
+    float texels[2][BATCH_LEVELS];       /* of a level */
     float inverse_area[3][BATCH_LEVELS]; /* what divides xx, xy and yy on a level */
     float blur[2][2][BATCH_LEVELS];      /* of axis and term: variance that a level has already */
     float spread[2][BATCH_LEVELS];       /* 0 along an axis of one texel that goes on for ever, else 1 */

@@ -25,7 +25,6 @@ typedef int64_t DoubleMask __attribute__((vector_size(4 * LANES)));
 typedef float Half __attribute__((vector_size(2 * LANES)));
 typedef int HalfMask __attribute__((vector_size(2 * LANES)));
 
-
 #ifndef TEXTURE_BATCH_CONSTANTS
 #define TEXTURE_BATCH_CONSTANTS
 #define MAX_BANDS 16
@@ -167,11 +166,11 @@ INLINE Mask NAME(whole_below)(Lanes x)
 /* A batch's footprints on their way. Along is from line to line, across from texel to texel of a line. */
 typedef struct Places {
     int level[BATCH_SIZE];
-    int column[BATCH_SIZE], row[BATCH_SIZE];                       /* of the level: the whole part of the mean */
-    float at_x[BATCH_SIZE], at_y[BATCH_SIZE];                      /* and the rest of it */
-    float xx[BATCH_SIZE], yy[BATCH_SIZE];                          /* variances in the level's texels */
-    int line[BATCH_SIZE], texel[BATCH_SIZE]; /* the ellipse's first line; the whole part of the mean across */
-    float along[BATCH_SIZE], across[BATCH_SIZE];                   /* at_x and at_y, as lines have them */
+    int column[BATCH_SIZE], row[BATCH_SIZE];     /* of the level: the whole part of the mean */
+    float at_x[BATCH_SIZE], at_y[BATCH_SIZE];    /* and the rest of it */
+    float xx[BATCH_SIZE], yy[BATCH_SIZE];        /* variances in the level's texels */
+    int line[BATCH_SIZE], texel[BATCH_SIZE];     /* the ellipse's first line; the whole part of the mean across */
+    float along[BATCH_SIZE], across[BATCH_SIZE]; /* at_x and at_y, as lines have them */
     float length[BATCH_SIZE], half[BATCH_SIZE], slope[BATCH_SIZE]; /* the ellipse, as in texture_disc_kernel.c */
     float lean[BATCH_SIZE], reach[BATCH_SIZE]; /* of the blocks: their slope, how far they go to each side */
     int first[BATCH_SIZE];                     /* line, from the whole part of the mean */
@@ -305,7 +304,8 @@ INLINE void NAME(find_window)(const BatchTexture *t, const Spread *s, Lanes at_x
     Mask leans = ((narrow + 3) >> 2) < ((columns + 3) >> 2);
     columns = (leans & narrow) | (~leans & columns);
     far |= (lines > 4 * MAX_BANDS) | (columns > 4 * MAX_BLOCKS);
-    Mask key = (turned & (2 * MAX_BANDS * MAX_BLOCKS)) + (fine & (MAX_BANDS * MAX_BLOCKS)) + ((lines + 3) >> 2) * MAX_BLOCKS + ((columns + 3) >> 2);
+    Mask key = (turned & (2 * MAX_BANDS * MAX_BLOCKS)) + (fine & (MAX_BANDS * MAX_BLOCKS)) +
+               ((lines + 3) >> 2) * MAX_BLOCKS + ((columns + 3) >> 2);
     key = ((key - MAX_BLOCKS - 1) & ~far) | (NKEYS & far);
 
     STORE(p->line + i, first + SELECT_INT(turned, column, row));
@@ -487,8 +487,7 @@ INLINE void NAME(weigh_boxes)(Group *g, Band *band)
         for (int c = 0; c < g->columns; c++) {
             Lanes begin = NAME(all)((float)c - 0.5f), end = NAME(all)((float)c + 0.5f), w = {0};
             for (int k = 0; k < BOX_NODES; k++)
-                w += chords[k].weight *
-                     MAX(MIN(chords[k].right, end) - MAX(chords[k].left, begin), NAME(all)(0));
+                w += chords[k].weight * MAX(MIN(chords[k].right, end) - MAX(chords[k].left, begin), NAME(all)(0));
             band->weights[j][c] = w;
         }
     }
@@ -574,10 +573,9 @@ INLINE void NAME(turn_weights)(const Band *band, int block, float out[LANES][16]
         const __m256 *r = (const __m256 *)w[j];
         __m256 a = _mm256_unpacklo_ps(r[0], r[1]), b = _mm256_unpackhi_ps(r[0], r[1]);
         __m256 c = _mm256_unpacklo_ps(r[2], r[3]), d = _mm256_unpackhi_ps(r[2], r[3]);
-        __m256 lanes[4] = {(__m256)_mm256_unpacklo_pd((__m256d)a, (__m256d)c),
-                           (__m256)_mm256_unpackhi_pd((__m256d)a, (__m256d)c),
-                           (__m256)_mm256_unpacklo_pd((__m256d)b, (__m256d)d),
-                           (__m256)_mm256_unpackhi_pd((__m256d)b, (__m256d)d)};
+        __m256 lanes[4] = {
+            (__m256)_mm256_unpacklo_pd((__m256d)a, (__m256d)c), (__m256)_mm256_unpackhi_pd((__m256d)a, (__m256d)c),
+            (__m256)_mm256_unpacklo_pd((__m256d)b, (__m256d)d), (__m256)_mm256_unpackhi_pd((__m256d)b, (__m256d)d)};
         for (int k = 0; k < 4; k++) {
             _mm_storeu_ps(out[k] + 4 * j, _mm256_castps256_ps128(lanes[k]));
             _mm_storeu_ps(out[k + 4] + 4 * j, _mm256_extractf128_ps(lanes[k], 1));
@@ -627,7 +625,8 @@ INLINE void NAME(sum_texels)(float sums[16], const float weights[][16], int bloc
                 b = _mm256_loadu_ps((const float *)(const void *)from + 8);
             }
             __m256 first = _mm256_insertf128_ps(_mm256_broadcast_ss(w), _mm_broadcast_ss(w + column), 1);
-            __m256 second = _mm256_insertf128_ps(_mm256_broadcast_ss(w + 2 * column), _mm_broadcast_ss(w + 3 * column), 1);
+            __m256 second =
+                _mm256_insertf128_ps(_mm256_broadcast_ss(w + 2 * column), _mm_broadcast_ss(w + 3 * column), 1);
             low = _mm256_add_ps(low, _mm256_mul_ps(a, first));
             high = _mm256_add_ps(high, _mm256_mul_ps(b, second));
         }
@@ -658,8 +657,8 @@ INLINE Mask NAME(find_blocks)(const Group *g, int number, const Band *band, Mask
     Mask width = __builtin_convertvector(OF_LEVEL(t->texels[0], g->level), Mask);
     Mask height = __builtin_convertvector(OF_LEVEL(t->texels[1], g->level), Mask);
     int across = 4 * g->blocks;
-    Mask inside = (*x >= 0) & (*y >= 0) & (*x <= width - (g->turned ? 4 : across)) &
-                  (*y <= height - (g->turned ? across : 4));
+    Mask inside =
+        (*x >= 0) & (*y >= 0) & (*x <= width - (g->turned ? 4 : across)) & (*y <= height - (g->turned ? across : 4));
     return ((*y * width + *x) & inside) | ~inside;
 }
 
@@ -710,7 +709,7 @@ INLINE void NAME(filter_group)(Group *g, Batch *batch)
 {
     Band band;
     const Places *p = g->places;
-    const void *arrays[] = {p->along, p->across, p->length, p->half, p->slope, p->lean,
+    const void *arrays[] = {p->along, p->across, p->length, p->half,  p->slope, p->lean,
                             p->reach, p->first,  p->line,   p->texel, p->level};
     Lanes values[11];
     if (g->contiguous) {

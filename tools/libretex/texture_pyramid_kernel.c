@@ -97,13 +97,15 @@ static inline void halve_pairs(char *restrict out, const char *restrict above, c
     size_t size = texel_size(narrow);
     if (!narrow) {
         for (int x = 0; x < half; x++, out += size, above += 2 * size, below += 2 * size) {
-            Float4 sum = (load4((const float *)(const void *)above) + load4((const float *)(const void *)(above + size))) +
-                         (load4((const float *)(const void *)below) + load4((const float *)(const void *)(below + size)));
+            Float4 sum =
+                (load4((const float *)(const void *)above) + load4((const float *)(const void *)(above + size))) +
+                (load4((const float *)(const void *)below) + load4((const float *)(const void *)(below + size)));
             store_texel(out, 0, sum * 0.25f);
         }
         return;
     }
-    const uint16_t *restrict a = (const uint16_t *)(const void *)above, *restrict b = (const uint16_t *)(const void *)below;
+    const uint16_t *restrict a = (const uint16_t *)(const void *)above, *restrict b =
+                                                                            (const uint16_t *)(const void *)below;
     uint16_t *restrict to = (uint16_t *)(void *)out;
     for (int x = 0; x < half; x++)
         for (int c = 0; c < 4; c++)
