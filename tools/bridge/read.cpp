@@ -5,7 +5,9 @@
 #include <cerrno>
 #include <cmath>
 #include <cstdio>
+#include <cstdint>
 #include <cstring>
+#include <memory>
 #include <new>
 #include <vector>
 
@@ -254,25 +256,41 @@ Transform decoding(const OIIO::ImageSpec &spec, const char *format, const char *
     return transform_from("sRGB");
 }
 
-// Turn the picture upright: EXIF orientations 2..8.
+// Which pixel of the file stands at x, y of the upright picture: EXIF orientations 1..8.
+struct Upright {
+    Upright(int width_, int height_, int orientation_) : width(width_), height(height_), orientation(orientation_)
+    {
+        if (orientation < 2 || orientation > 8)
+            orientation = 1;
+    }
+    bool turned() const // rows and columns change places
+    {
+        return orientation >= 5;
+    }
+    size_t source(int x, int y) const
+    {
+        int sx = turned() ? y : x, sy = turned() ? x : y;
+        if (orientation == 2 || orientation == 3 || orientation == 7 || orientation == 8)
+            sx = width - 1 - sx;
+        if (orientation == 3 || orientation == 4 || orientation == 6 || orientation == 7)
+            sy = height - 1 - sy;
+        return size_t(sy) * width + sx;
+    }
+    int width, height, orientation; // of the file
+};
+
 void orient(const RetexBridgeHost *host, OwnedImage &picture, int orientation)
 {
-    if (orientation < 2 || orientation > 8)
-        return;
     const RetexImage &from = picture.image;
-    bool turned = orientation >= 5; // rows and columns change places
-    OwnedImage upright(host, turned ? from.height : from.width, turned ? from.width : from.height);
-    RetexImage &to = upright.image;
-    for (int y = 0; y < to.height; y++)
-        for (int x = 0; x < to.width; x++) {
-            int sx = turned ? y : x, sy = turned ? x : y;
-            if (orientation == 2 || orientation == 3 || orientation == 7 || orientation == 8)
-                sx = from.width - 1 - sx;
-            if (orientation == 3 || orientation == 4 || orientation == 6 || orientation == 7)
-                sy = from.height - 1 - sy;
-            std::copy_n(from.pixels + retex_image_index(&from, sx, sy), 4, to.pixels + retex_image_index(&to, x, y));
-        }
-    picture.swap(upright);
+    Upright upright(from.width, from.height, orientation);
+    if (upright.orientation == 1)
+        return;
+    OwnedImage to(host, upright.turned() ? from.height : from.width, upright.turned() ? from.width : from.height);
+    for (int y = 0; y < to.image.height; y++)
+        for (int x = 0; x < to.image.width; x++)
+            std::copy_n(from.pixels + 4 * upright.source(x, y), 4,
+                        to.image.pixels + retex_image_index(&to.image, x, y));
+    picture.swap(to);
 }
 
 // An EXR may store less or more than what it shows: cut and pad (transparent) to the display window.
@@ -289,7 +307,8 @@ void fit_window(const RetexBridgeHost *host, OwnedImage &picture, const OIIO::Im
     picture.swap(shown);
 }
 
-RetexImage read_picture(const RetexBridgeHost *host, const char *path, const char *colorspace, long max_pixels)
+// A file that holds a picture of a size that can be read.
+std::unique_ptr<OIIO::ImageInput> open_picture(const char *path, long max_pixels)
 {
     check_file(path);
     check_whole(path);
@@ -298,12 +317,19 @@ RetexImage read_picture(const RetexBridgeHost *host, const char *path, const cha
     auto in = OIIO::ImageInput::open(path, &wish);
     if (!in)
         fail_read(OIIO::geterror());
-    OIIO::ImageSpec spec = in->spec();
+    const OIIO::ImageSpec &spec = in->spec();
     check_size(spec.width, spec.height, max_pixels);
     if (spec.deep)
         throw Failure(RETEX_EUNSUPPORTED, "a deep picture, which cannot be used here");
     if (spec.depth > 1)
         throw Failure(RETEX_EUNSUPPORTED, "a volume, not a picture");
+    return in;
+}
+
+RetexImage read_picture(const RetexBridgeHost *host, const char *path, const char *colorspace, long max_pixels)
+{
+    auto in = open_picture(path, max_pixels);
+    OIIO::ImageSpec spec = in->spec();
     std::string format = in->format_name();
     bool windowed = format == "openexr" && spec.full_width > 0 && spec.full_height > 0 &&
                     (spec.x != spec.full_x || spec.y != spec.full_y || spec.width != spec.full_width ||
@@ -324,11 +350,128 @@ RetexImage read_picture(const RetexBridgeHost *host, const char *path, const cha
     return picture.release();
 }
 
+// Memory of the caller's that is freed unless it is handed over.
+using OwnedPixels = std::unique_ptr<uint16_t, void (*)(void *)>;
+
+OwnedPixels new_pixels(const RetexBridgeHost *host, int width, int height)
+{
+    OwnedPixels pixels(static_cast<uint16_t *>(host->alloc(sizeof(uint16_t) * 4 * width * height)), host->free);
+    if (!pixels)
+        throw std::bad_alloc();
+    return pixels;
+}
+
+// How integers of a file become linear ones of 16 bits: a level's place in the table is its own.
+std::vector<uint16_t> linear_levels(const Transform &decode, int levels)
+{
+    std::vector<float> ramp(size_t(levels) * 4);
+    for (int i = 0; i < levels; i++)
+        std::fill_n(ramp.begin() + 4 * i, 4, float(i) / float(levels - 1));
+    if (decode)
+        decode(ramp.data(), levels);
+    std::vector<uint16_t> table(levels);
+    for (int i = 0; i < levels; i++)
+        table[i] = uint16_t(std::min(std::max(ramp[4 * i], 0.0f), 1.0f) * 65535.0f + 0.5f);
+    return table;
+}
+
+// One row of a file's integers, the wanted channels alone, to premultiplied R,G,B,A.
+template <typename Level>
+void convert_row(const Level *from, int count, const Channels &channels, int first, const uint16_t *table, int width,
+                 uint16_t *to)
+{
+    int r = channels.rgba[0] - first, g = channels.rgba[1] - first, b = channels.rgba[2] - first;
+    if (channels.rgba[3] < 0) {
+        for (int x = 0; x < width; x++, from += count, to += 4) {
+            to[0] = table[from[r]];
+            to[1] = table[from[g]];
+            to[2] = table[from[b]];
+            to[3] = 65535;
+        }
+        return;
+    }
+    int a = channels.rgba[3] - first;
+    for (int x = 0; x < width; x++, from += count, to += 4) {
+        uint32_t alpha = from[a] * uint32_t(65535 / Level(-1));
+        to[0] = uint16_t((table[from[r]] * alpha + 32767) / 65535);
+        to[1] = uint16_t((table[from[g]] * alpha + 32767) / 65535);
+        to[2] = uint16_t((table[from[b]] * alpha + 32767) / 65535);
+        to[3] = uint16_t(alpha);
+    }
+}
+
+// Rows are converted while they are in the processor's cache, some at a time where the file allows.
+template <typename Level>
+void read_levels(OIIO::ImageInput &in, const OIIO::ImageSpec &spec, const Channels &channels, const Transform &decode,
+                 uint16_t *pixels)
+{
+    int first = *std::min_element(channels.rgba, channels.rgba + 3), last = 1;
+    if (channels.rgba[3] >= 0)
+        first = std::min(first, channels.rgba[3]);
+    for (int c : channels.rgba)
+        last = std::max(last, c + 1);
+    int count = last - first, strip = spec.tile_width ? spec.height : std::min(spec.height, 64);
+    std::vector<uint16_t> table = linear_levels(decode, int(Level(-1)) + 1);
+    std::vector<Level> rows(size_t(strip) * spec.width * count);
+    OIIO::TypeDesc type = OIIO::BaseTypeFromC<Level>::value;
+    for (int y = 0; y < spec.height; y += strip) {
+        int end = std::min(y + strip, spec.height);
+        bool read = spec.tile_width
+                        ? in.read_image(0, 0, first, last, type, rows.data())
+                        : in.read_scanlines(0, 0, spec.y + y, spec.y + end, 0, first, last, type, rows.data());
+        if (!read)
+            fail_read(in.geterror());
+        OIIO::parallel_for_chunked(0, end - y, 16, [&](int64_t begin, int64_t stop) {
+            for (int64_t i = begin; i < stop; i++)
+                convert_row(rows.data() + size_t(i) * spec.width * count, count, channels, first, table.data(),
+                            spec.width, pixels + 4 * size_t(y + i) * spec.width);
+        });
+    }
+}
+
+RetexNarrowImage read_narrow(const RetexBridgeHost *host, const char *path, const char *colorspace, long max_pixels)
+{
+    auto in = open_picture(path, max_pixels);
+    OIIO::ImageSpec spec = in->spec();
+    Channels channels = find_channels(spec);
+    bool wide = spec.format == OIIO::TypeDesc::UINT16, colours = true;
+    for (int c = 0; c < 3; c++)
+        colours = colours && channels.rgba[c] >= 0;
+    bool named = colorspace && *colorspace && strcasecmp(colorspace, "sRGB") != 0;
+    bool associated = channels.rgba[3] >= 0 && !spec.get_int_attribute("oiio:UnassociatedAlpha", 0);
+    if (named || associated || channels.cmyk || !colours || spec.nchannels > 4 ||
+        (!wide && spec.format != OIIO::TypeDesc::UINT8))
+        return RetexNarrowImage{};
+    Transform decode = decoding(spec, in->format_name(), colorspace);
+    OwnedPixels pixels = new_pixels(host, spec.width, spec.height);
+    if (wide)
+        read_levels<uint16_t>(*in, spec, channels, decode, pixels.get());
+    else
+        read_levels<uint8_t>(*in, spec, channels, decode, pixels.get());
+
+    Upright upright(spec.width, spec.height, spec.get_int_attribute("Orientation", 1));
+    RetexNarrowImage image{spec.width, spec.height, nullptr};
+    if (upright.orientation != 1) {
+        if (upright.turned())
+            std::swap(image.width, image.height);
+        OwnedPixels turned = new_pixels(host, image.width, image.height);
+        OIIO::parallel_for(0, image.height, [&](int y) {
+            for (int x = 0; x < image.width; x++)
+                std::copy_n(pixels.get() + 4 * upright.source(x, y), 4,
+                            turned.get() + 4 * (size_t(y) * image.width + x));
+        });
+        pixels.swap(turned);
+    }
+    image.pixels = pixels.release();
+    return image;
+}
+
 } // namespace
 } // namespace bridge
 
 extern "C" __attribute__((visibility("default"))) RetexBridgeAbi retex_oiio_abi;
 extern "C" __attribute__((visibility("default"))) RetexBridgeRead retex_oiio_read;
+extern "C" __attribute__((visibility("default"))) RetexBridgeReadNarrow retex_oiio_read_narrow;
 
 int retex_oiio_abi(void)
 {
@@ -339,4 +482,10 @@ int retex_oiio_read(const RetexBridgeHost *host, RetexImage *dst, const char *pa
                     long max_pixels, RetexError *err)
 {
     return bridge::guarded(path, err, [&] { *dst = bridge::read_picture(host, path, colorspace, max_pixels); });
+}
+
+int retex_oiio_read_narrow(const RetexBridgeHost *host, RetexNarrowImage *dst, const char *path, const char *colorspace,
+                           long max_pixels, RetexError *err)
+{
+    return bridge::guarded(path, err, [&] { *dst = bridge::read_narrow(host, path, colorspace, max_pixels); });
 }

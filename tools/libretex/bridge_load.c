@@ -15,6 +15,7 @@
 static struct {
     pthread_once_t once;
     RetexBridgeRead *read;
+    RetexBridgeReadNarrow *read_narrow;
     RetexBridgeMakePlan *plan;
     RetexBridgeFreePlan *plan_free;
     RetexBridgeConvert *convert;
@@ -76,13 +77,14 @@ static void load_bridge(void)
     RetexBridgeAbi *abi = NULL;
     *(void **)&abi = dlsym(library, "retex_oiio_abi");
     *(void **)&bridge.read = dlsym(library, "retex_oiio_read");
+    *(void **)&bridge.read_narrow = dlsym(library, "retex_oiio_read_narrow");
     *(void **)&bridge.plan = dlsym(library, "retex_oiio_plan");
     *(void **)&bridge.plan_free = dlsym(library, "retex_oiio_plan_free");
     *(void **)&bridge.convert = dlsym(library, "retex_oiio_convert");
     *(void **)&bridge.write = dlsym(library, "retex_oiio_write");
     *(void **)&bridge.check = dlsym(library, "retex_oiio_check");
-    if (!abi || !bridge.read || !bridge.plan || !bridge.plan_free || !bridge.convert || !bridge.write ||
-        !bridge.check || abi() != RETEX_BRIDGE_ABI)
+    if (!abi || !bridge.read || !bridge.read_narrow || !bridge.plan || !bridge.plan_free || !bridge.convert ||
+        !bridge.write || !bridge.check || abi() != RETEX_BRIDGE_ABI)
         keep_message(BRIDGE_NAME " is of another version");
     else
         bridge.message[0] = '\0';
@@ -103,11 +105,19 @@ int retex_names_linear(const char *colorspace)
            strcasecmp(colorspace, "scene_linear") == 0;
 }
 
+static const RetexBridgeHost host = {retex_image_alloc, retex_image_free, malloc, free};
+
 int retex_bridge_read(RetexImage *dst, const char *path, const char *colorspace, long max_pixels, RetexError *err)
 {
-    static const RetexBridgeHost host = {retex_image_alloc, retex_image_free};
     int code = bridge_ready(path, err);
     return code ? code : bridge.read(&host, dst, path, colorspace, max_pixels, err);
+}
+
+int retex_bridge_read_narrow(RetexNarrowImage *dst, const char *path, const char *colorspace, long max_pixels,
+                             RetexError *err)
+{
+    int code = bridge_ready(path, err);
+    return code ? code : bridge.read_narrow(&host, dst, path, colorspace, max_pixels, err);
 }
 
 int retex_bridge_plan(RetexBridgePlan **plan, RetexBridgeStored *stored, const char *path, int width, int height,

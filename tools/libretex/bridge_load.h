@@ -3,6 +3,8 @@
 #ifndef RETEX_BRIDGE_LOAD_H
 #define RETEX_BRIDGE_LOAD_H
 
+#include <stdint.h>
+
 #include <retex/image.h>
 
 #ifdef __cplusplus
@@ -15,6 +17,22 @@ int retex_names_linear(const char *colorspace);
 /* Read any file OpenImageIO knows as R,G,B,A, scene-linear Rec.709, unassociated alpha; as retex_image_read, of
  * which it is the general case. dst is unallocated. */
 int retex_bridge_read(RetexImage *dst, const char *path, const char *colorspace, long max_pixels, RetexError *err);
+
+/* An image of 16-bit integers, 65535 for 1: R,G,B,A, scene-linear Rec.709, premultiplied, rows from the top. The pixels
+ * are freed with free(). */
+typedef struct RetexNarrowImage {
+    int width, height;
+    uint16_t *pixels;
+} RetexNarrowImage;
+
+/* The same picture without floats, for files of 8- and 16-bit integers whose channels are decoded one by one. Others are
+ * left alone: dst->pixels stays NULL. */
+int retex_bridge_read_narrow(RetexNarrowImage *dst, const char *path, const char *colorspace, long max_pixels,
+                             RetexError *err);
+
+/* In image.c: the same for any path that retex_image_read takes. */
+int retex_image_read_narrow(RetexNarrowImage *dst, const char *path, const char *colorspace, long max_pixels,
+                            RetexError *err);
 
 /* How a picture of that size goes into a file of the format that path's ending names, in the colours that params name.
  * Neither is needed afterwards. */
@@ -49,12 +67,16 @@ int retex_bridge_check(const char *path, const RetexWriteParams *params, RetexEr
 typedef struct RetexBridgeHost {
     int (*image_alloc)(RetexImage *im, int width, int height, int channels, RetexError *err);
     void (*image_free)(RetexImage *im);
+    void *(*alloc)(size_t bytes);
+    void (*free)(void *block);
 } RetexBridgeHost;
 
 #define RETEX_BRIDGE_ABI 3
 typedef int RetexBridgeAbi(void);
 typedef int RetexBridgeRead(const RetexBridgeHost *host, RetexImage *dst, const char *path, const char *colorspace,
                             long max_pixels, RetexError *err);
+typedef int RetexBridgeReadNarrow(const RetexBridgeHost *host, RetexNarrowImage *dst, const char *path,
+                                  const char *colorspace, long max_pixels, RetexError *err);
 typedef int RetexBridgeMakePlan(RetexBridgePlan **plan, RetexBridgeStored *stored, const char *path, int width,
                                 int height, int channels, const RetexWriteParams *params, RetexError *err);
 typedef void RetexBridgeFreePlan(RetexBridgePlan **plan);

@@ -198,3 +198,18 @@ int retex_image_read(RetexImage *dst, const char *path, const char *colorspace, 
         status = retex_bridge_read(dst, path, colorspace, max_pixels, err);
     return status;
 }
+
+int retex_image_read_narrow(RetexNarrowImage *dst, const char *path, const char *colorspace, long max_pixels,
+                            RetexError *err)
+{
+    RetexInput *input = NULL;
+
+    if (strcmp(path, "-") == 0)
+        return 0;
+    int status = retex_input_open(&input, path, err);
+    if (status)
+        return status;
+    const int exr = retex_exr_probe(input);
+    retex_input_close(&input);
+    return exr ? 0 : retex_bridge_read_narrow(dst, path, colorspace, max_pixels, err);
+}

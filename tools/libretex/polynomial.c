@@ -105,13 +105,14 @@ static int make_footprint_row(const Polynomial *p, RowReader *reader, int footpr
     if (code || !from.uv)
         return code;
     code = row_reader_get(reader, f->spread, y, &from.spread, err);
-    if (!code)
+    if (!code && !retex_texture_is_opaque(texture)) {
         code = row_reader_get(reader, f->albedo, y, &from.albedo, err);
+        from.albedo = from.albedo ? from.albedo : zeros;
+    }
     if (code)
         return code;
     from.spread = from.spread ? from.spread : zeros;
-    from.albedo = from.albedo ? from.albedo : zeros;
-    sample_row(texture, footprint_is_even(set, f), &from, scratch);
+    sample_row(texture, footprint_filter(set, f), &from, scratch);
     *row = scratch;
     return RETEX_OK;
 }

@@ -39,15 +39,17 @@ static void sample_job(void *context, int index, int thread)
     (void)thread;
     int footprint = work->edited[index / work->blocks], block = index % work->blocks;
     const RetexFootprint *f = &set->footprints[footprint];
-    int even = footprint_is_even(set, f);
+    RetexTextureFilter filter = footprint_filter(set, f);
     const RetexImage *image = &work->samples->images[footprint];
     int last = (block + 1) * ROWS_A_JOB < image->height ? (block + 1) * ROWS_A_JOB : image->height;
     for (int y = block * ROWS_A_JOB; y < last; y++) {
         FootprintRow from = footprint_row(set, f, y);
         size_t row = retex_image_index(image, 0, y);
-        sample_row(work->textures[f->target], even, &from, image->pixels + row);
+        if (retex_texture_is_opaque(work->textures[f->target]))
+            from.albedo = NULL;
+        sample_row(work->textures[f->target], filter, &from, image->pixels + row);
         if (work->variances)
-            variance_row(work->textures[f->target], work->squares[f->target], even, &from,
+            variance_row(work->textures[f->target], work->squares[f->target], filter, &from,
                          work->variances->images[footprint].pixels + row);
     }
 }

@@ -4,55 +4,54 @@
 #include <math.h>
 #include <string.h>
 
-typedef void Filter(const RetexTexture *texture, double u, double v, const double covariance[3], float rgba[4]);
+#define SPAN_PIXELS 1024 /* filtered in one call */
 
-int footprint_is_even(const RetexSet *set, const RetexFootprint *footprint)
+RetexTextureFilter footprint_filter(const RetexSet *set, const RetexFootprint *footprint)
 {
-    return footprint->kind == RETEX_FOOTPRINT_SHARP && strcmp(set->filter, "box") == 0;
+    int even = footprint->kind == RETEX_FOOTPRINT_SHARP && strcmp(set->filter, "box") == 0;
+    return even ? RETEX_TEXTURE_DISC : RETEX_TEXTURE_GAUSSIAN;
 }
 
-static void footprint_covariance(const FootprintRow *row, int x, double covariance[3])
+/* Part of a row's footprints, filtered. */
+static void filter_span(const RetexTexture *texture, RetexTextureFilter filter, const FootprintRow *row, int from,
+                        int count, float *restrict rgba)
 {
-    const float *spread = row->spread + (size_t)row->spreads * (size_t)x;
-    double correlation = row->spreads == 3 ? spread[2] : 0;
-    covariance[0] = (double)spread[0] * spread[0];
-    covariance[1] = correlation * spread[0] * spread[1];
-    covariance[2] = (double)spread[1] * spread[1];
+    retex_texture_filter(texture, filter, row->uv + 3 * (size_t)from, row->spread + (size_t)row->spreads * (size_t)from,
+                         row->spreads, (size_t)count, rgba);
 }
 
-void sample_row(const RetexTexture *texture, int even, const FootprintRow *row, float *restrict rgb)
+void sample_row(const RetexTexture *texture, RetexTextureFilter filter, const FootprintRow *row, float *restrict rgb)
 {
-    Filter *filter = even ? retex_texture_disc : retex_texture_gaussian;
-    for (int x = 0; x < row->width; x++, rgb += 3) {
-        const float *uv = row->uv + 3 * (size_t)x, *albedo = row->albedo + 3 * (size_t)x;
-        double covariance[3];
-        float rgba[4];
-        if (!(uv[2] > 0)) {
-            rgb[0] = rgb[1] = rgb[2] = 0;
-            continue;
+    float rgba[4 * SPAN_PIXELS];
+    for (int from = 0; from < row->width; from += SPAN_PIXELS) {
+        int count = row->width - from < SPAN_PIXELS ? row->width - from : SPAN_PIXELS;
+        filter_span(texture, filter, row, from, count, rgba);
+        for (int x = 0; x < count; x++, rgb += 3) {
+            size_t at = 3 * (size_t)(from + x);
+            const float *color = rgba + 4 * x;
+            if (!row->albedo) {
+                memcpy(rgb, color, 3 * sizeof *rgb);
+                continue;
+            }
+            int covered = row->uv[at + 2] > 0;
+            for (int c = 0; c < 3; c++)
+                rgb[c] = covered ? color[c] * color[3] + (1 - color[3]) * row->albedo[at + (size_t)c] : 0;
         }
-        footprint_covariance(row, x, covariance);
-        filter(texture, uv[0], uv[1], covariance, rgba);
-        for (int c = 0; c < 3; c++)
-            rgb[c] = rgba[c] * rgba[3] + (1 - rgba[3]) * albedo[c];
     }
 }
 
-void variance_row(const RetexTexture *texture, const RetexTexture *square, int even, const FootprintRow *row,
-                  float *restrict rgb)
+void variance_row(const RetexTexture *texture, const RetexTexture *square, RetexTextureFilter filter,
+                  const FootprintRow *row, float *restrict rgb)
 {
-    Filter *filter = even ? retex_texture_disc : retex_texture_gaussian;
-    for (int x = 0; x < row->width; x++, rgb += 3) {
-        const float *uv = row->uv + 3 * (size_t)x;
-        double covariance[3];
-        float mean[4], squares[4];
-        rgb[0] = rgb[1] = rgb[2] = 0;
-        if (!(uv[2] > 0))
-            continue;
-        footprint_covariance(row, x, covariance);
-        filter(texture, uv[0], uv[1], covariance, mean);
-        filter(square, uv[0], uv[1], covariance, squares);
-        for (int c = 0; c < 3; c++)
-            rgb[c] = fmaxf(squares[c] - mean[c] * mean[c], 0) * mean[3] * mean[3];
+    float means[4 * SPAN_PIXELS], squares[4 * SPAN_PIXELS];
+    for (int from = 0; from < row->width; from += SPAN_PIXELS) {
+        int count = row->width - from < SPAN_PIXELS ? row->width - from : SPAN_PIXELS;
+        filter_span(texture, filter, row, from, count, means);
+        filter_span(square, filter, row, from, count, squares);
+        for (int x = 0; x < count; x++, rgb += 3) { /* without coverage all is 0 */
+            const float *mean = means + 4 * x;
+            for (int c = 0; c < 3; c++)
+                rgb[c] = fmaxf(squares[4 * x + c] - mean[c] * mean[c], 0) * mean[3] * mean[3];
+        }
     }
 }

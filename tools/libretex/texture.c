@@ -3,194 +3,26 @@
  * A file becomes premultiplied RGBA floats; level after level is halved, an odd number of texels rounding down with
  * each new texel still the exact average of its share. Look-ups are in texture_filter_kernel.c and
  * texture_disc_kernel.c. */
+#include "bridge_load.h"
 #include "texture_pyramid.h"
 
 #include <limits.h>
 #include <math.h>
+#include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include <retex/parallel.h>
 
 #define MAX_TEXTURE_PIXELS (1L << 28) /* 16384 x 16384: 4 GiB of floats */
-#define ROWS_A_JOB 16
-#define LARGEST_COLOR 1e30f /* so that sums of weighted texels stay finite */
-#define LEAST_ALPHA 1e-20f  /* less has no colour that float could tell */
+#define LARGEST_COLOR 1e30f           /* so that sums of weighted texels stay finite */
+#define LEAST_ALPHA 1e-20f            /* less has no colour that float could tell */
 /* A footprint of a thousand textures is the average, whatever its size; larger numbers only lose digits. */
 #define MAX_FOOTPRINT 1000.0
-
-/* ---- halving ---- */
-
-/* Which of n texels, with what weights, make texel i of the next coarser level. Returns how many: 1, 2 or 3. */
-static int halving_weights(int n, int i, float weight[3], int *first)
-{
-    int half = n / 2;
-    *first = 2 * i;
-    if (n == 1) {
-        *first = 0;
-        weight[0] = 1;
-        return 1;
-    }
-    if (n % 2 == 0) {
-        weight[0] = weight[1] = 0.5f;
-        return 2;
-    }
-    weight[0] = (float)(half - i) / (float)n;
-    weight[1] = (float)half / (float)n;
-    weight[2] = (float)(i + 1) / (float)n;
-    return 3;
-}
-
-/* The variance halving n texels adds, in texels of the finer level, at relative position p: blur[0] + blur[1] p (1
- * - p). It is the variance of the weights above. */
-static void halving_blur(int n, double blur[2])
-{
-    double half = n / 2, share = half / n;
-    blur[0] = blur[1] = 0;
-    if (n > 1 && n % 2 == 0) {
-        blur[0] = 0.25;
-    } else if (n > 1) {
-        blur[0] = (half + 1) / n - share * share;
-        blur[1] = 4 * share * share;
-    }
-}
-
-static void halve_line(float *restrict out, const float *restrict in, int n)
-{
-    int half = n > 1 ? n / 2 : 1;
-    for (int i = 0; i < half; i++) {
-        float weight[3];
-        int first, count = halving_weights(n, i, weight, &first);
-        for (int c = 0; c < 4; c++) {
-            float sum = 0;
-            for (int k = 0; k < count; k++)
-                sum += weight[k] * in[4 * (first + k) + c];
-            out[4 * i + c] = sum;
-        }
-    }
-}
-
-typedef struct HalvingWork {
-    const TextureLevel *from;
-    TextureLevel *to;
-} HalvingWork;
-
-static void halve_row(const TextureLevel *from, TextureLevel *to, int y)
-{
-    float down[3], across[3];
-    int top, left, rows = halving_weights(from->height, y, down, &top);
-    float *out = to->texels + (size_t)y * (size_t)to->width * 4;
-    for (int x = 0; x < to->width; x++, out += 4) {
-        int columns = halving_weights(from->width, x, across, &left);
-        float sum[4] = {0, 0, 0, 0};
-        for (int j = 0; j < rows; j++) {
-            const float *in = from->texels + ((size_t)(top + j) * (size_t)from->width + (size_t)left) * 4;
-            for (int i = 0; i < columns; i++)
-                for (int c = 0; c < 4; c++)
-                    sum[c] += down[j] * across[i] * in[4 * i + c];
-        }
-        memcpy(out, sum, sizeof sum);
-    }
-}
-
-static void halve_job(void *context, int index, int thread)
-{
-    const HalvingWork *work = context;
-    (void)thread;
-    for (int y = index * ROWS_A_JOB; y < (index + 1) * ROWS_A_JOB && y < work->to->height; y++)
-        halve_row(work->from, work->to, y);
-}
-
-/* ---- the pyramid ---- */
-
-static float *new_texels(int width, int height)
-{
-    return malloc(sizeof(float) * 4 * (size_t)width * (size_t)height);
-}
-
-/* The image's border, for axes that clamp. */
-static int take_borders(RetexTexture *texture)
-{
-    TextureLevel *image = &texture->levels[0];
-    size_t width = (size_t)image->width, height = (size_t)image->height;
-    for (int k = 0; k < 2; k++) {
-        size_t column = k ? width - 1 : 0, row = k ? height - 1 : 0;
-        if (texture->spec.wrap[0] == RETEX_WRAP_CLAMP) {
-            if (!(image->sides[k] = new_texels(1, image->height)))
-                return -1;
-            for (size_t y = 0; y < height; y++)
-                memcpy(image->sides[k] + 4 * y, image->texels + (y * width + column) * 4, 4 * sizeof(float));
-        }
-        if (texture->spec.wrap[1] == RETEX_WRAP_CLAMP) {
-            if (!(image->ends[k] = new_texels(image->width, 1)))
-                return -1;
-            memcpy(image->ends[k], image->texels + row * width * 4, width * 4 * sizeof(float));
-        }
-        memcpy(texture->corners[k], image->texels + column * 4, 4 * sizeof(float));
-        memcpy(texture->corners[2 + k], image->texels + ((height - 1) * width + column) * 4, 4 * sizeof(float));
-    }
-    return 0;
-}
-
-static int add_level(RetexTexture *texture, int nthreads)
-{
-    const TextureLevel *from = &texture->levels[texture->nlevels - 1], *image = &texture->levels[0];
-    TextureLevel *to = &texture->levels[texture->nlevels++];
-    to->width = from->width > 1 ? from->width / 2 : 1;
-    to->height = from->height > 1 ? from->height / 2 : 1;
-    if (!(to->texels = new_texels(to->width, to->height)))
-        return -1;
-    HalvingWork work = {from, to};
-    retex_parallel(nthreads, (to->height + ROWS_A_JOB - 1) / ROWS_A_JOB, halve_job, &work);
-    for (int k = 0; k < 2; k++) {
-        if (from->sides[k]) {
-            if (!(to->sides[k] = new_texels(1, to->height)))
-                return -1;
-            halve_line(to->sides[k], from->sides[k], from->height);
-        }
-        if (from->ends[k]) {
-            if (!(to->ends[k] = new_texels(to->width, 1)))
-                return -1;
-            halve_line(to->ends[k], from->ends[k], from->width);
-        }
-    }
-    int sizes[2] = {from->width, from->height};
-    to->scale[0] = (double)image->width / to->width;
-    to->scale[1] = (double)image->height / to->height;
-    for (int axis = 0; axis < 2; axis++) {
-        double blur[2];
-        halving_blur(sizes[axis], blur);
-        for (int i = 0; i < 2; i++)
-            to->blur[axis][i] = from->blur[axis][i] + blur[i] * from->scale[axis] * from->scale[axis];
-    }
-    return 0;
-}
 
 static float limit_color(float value)
 {
     return value > LARGEST_COLOR ? LARGEST_COLOR : value < -LARGEST_COLOR ? -LARGEST_COLOR : value;
-}
-
-static void premultiply_job(void *context, int index, int thread)
-{
-    TextureLevel *image = context;
-    (void)thread;
-    float *p = image->texels + (size_t)index * (size_t)image->width * 4;
-    for (int x = 0; x < image->width; x++, p += 4) {
-        float alpha = isfinite(p[3]) ? p[3] < 0 ? 0 : p[3] > 1 ? 1 : p[3] : 0;
-        for (int c = 0; c < 3; c++)
-            p[c] = isfinite(p[c]) ? limit_color(p[c]) * alpha : 0; /* one bad texel must not spoil all coarser levels */
-        p[3] = alpha;
-    }
-}
-
-static void fill_tail(RetexTexture *texture)
-{
-    int n = (int)(sizeof texture->tail / sizeof texture->tail[0]);
-    for (int i = 0; i < n; i++) {
-        double z = i / (double)TEXTURE_TAIL_STEPS;
-        texture->tail[i] = (float)(exp(-0.5 * z * z) / sqrt(2 * M_PI) - 0.5 * z * erfc(z / sqrt(2)));
-    }
 }
 
 static int no_memory(const RetexTexture *texture, int width, int height, RetexError *err)
@@ -199,52 +31,37 @@ static int no_memory(const RetexTexture *texture, int width, int height, RetexEr
                          "not enough memory for a texture of %d x %d texels", width, height);
 }
 
-/* Level 0 has its texels. */
-static int grow_pyramid(RetexTexture *texture, int nthreads, RetexError *err)
-{
-    const TextureLevel *image = &texture->levels[0];
-    texture->nlevels = 1;
-    fill_tail(texture);
-    int failed = take_borders(texture);
-    while (!failed) {
-        const TextureLevel *last = &texture->levels[texture->nlevels - 1];
-        if ((last->width == 1 && last->height == 1) || texture->nlevels == TEXTURE_MAX_LEVELS)
-            break;
-        failed = add_level(texture, nthreads);
-    }
-    return failed ? no_memory(texture, image->width, image->height, err) : RETEX_OK;
-}
-
 /* Two repeats in place of one: beside each other, the right one moved down, or one above the other, the upper one moved
  * right. What the filters see is an image like any other. */
-static int compose_repeats(RetexTexture *texture, RetexImage *pixels, RetexError *err)
+static int compose_repeats(RetexTexture *texture, TextureTexels *image, RetexError *err)
 {
     int across = texture->spec.repeat == RETEX_REPEAT_HALF_DROP;
     if (!across && texture->spec.repeat != RETEX_REPEAT_BRICK)
         return RETEX_OK;
-    int width = pixels->width, height = pixels->height;
-    RetexImage both = {0};
-    if (width > INT_MAX / 2 || height > INT_MAX / 2 ||
-        retex_image_alloc(&both, across ? 2 * width : width, across ? height : 2 * height, 4, NULL))
+    int width = image->width, height = image->height;
+    TextureTexels both = {across ? 2 * width : width, across ? height : 2 * height, image->narrow, NULL};
+    if (width > INT_MAX / 2 || height > INT_MAX / 2 || texture_texels_alloc(&both))
         return no_memory(texture, width, height, err);
-    size_t texel = 4 * sizeof(float), half = (size_t)(width / 2), rest = (size_t)width - half;
+    size_t texel = texture_texel_size(image->narrow), row = (size_t)width * texel;
+    size_t half = (size_t)(width / 2) * texel, rest = row - half;
+    const char *texels = image->texels;
     for (int y = 0; y < height; y++) {
-        const float *from = pixels->pixels + (size_t)y * (size_t)width * 4;
+        const char *from = texels + (size_t)y * row;
         if (across) {
-            float *to = both.pixels + (size_t)y * (size_t)width * 8;
+            char *to = (char *)both.texels + 2 * (size_t)y * row;
             int above = (y + height - height / 2) % height;
-            memcpy(to, from, (size_t)width * texel);
-            memcpy(to + (size_t)width * 4, pixels->pixels + (size_t)above * (size_t)width * 4, (size_t)width * texel);
+            memcpy(to, from, row);
+            memcpy(to + row, texels + (size_t)above * row, row);
         } else {
-            float *upper = both.pixels + (size_t)y * (size_t)width * 4;
-            memcpy(upper, from + rest * 4, half * texel);
-            memcpy(upper + half * 4, from, rest * texel);
-            memcpy(upper + (size_t)height * (size_t)width * 4, from, (size_t)width * texel);
+            char *upper = (char *)both.texels + (size_t)y * row;
+            memcpy(upper, from + rest, half);
+            memcpy(upper + half, from, rest);
+            memcpy(upper + (size_t)height * row, from, row);
         }
     }
     texture->repeats[!across] = 2;
-    retex_image_free(pixels);
-    *pixels = both;
+    free(image->texels);
+    *image = both;
     return RETEX_OK;
 }
 
@@ -273,21 +90,73 @@ static void finish_map(RetexTexture *texture, int width, int height)
     }
 }
 
-/* The pixels (RGBA) become the texture's. */
-static int take_pixels(RetexTexture *texture, RetexImage *pixels, int nthreads, RetexError *err)
+typedef struct LookWork {
+    const TextureTexels *texels;
+    atomic_int found; /* a texel that is not opaque */
+} LookWork;
+
+static void look_job(void *context, int index, int thread)
 {
-    TextureLevel *image = &texture->levels[0];
-    int width = pixels->width, height = pixels->height, code = compose_repeats(texture, pixels, err);
+    LookWork *work = context;
+    const size_t width = (size_t)work->texels->width, first = (size_t)index * width;
+    const uint16_t *narrow = work->texels->texels;
+    const float *wide = work->texels->texels;
+    int clear = 0;
+    (void)thread;
+    for (size_t i = first; i < first + width; i++)
+        clear |= work->texels->narrow ? narrow[4 * i + 3] != (uint16_t)NARROW_ONE : !(wide[4 * i + 3] >= 1);
+    if (clear)
+        atomic_store(&work->found, 1);
+}
+
+static void look_through(RetexTexture *texture, const TextureTexels *texels, int nthreads)
+{
+    LookWork work = {texels, 0};
+    retex_parallel(nthreads, texels->height, look_job, &work);
+    texture->opaque =
+        !work.found && texture->spec.wrap[0] != RETEX_WRAP_BLACK && texture->spec.wrap[1] != RETEX_WRAP_BLACK;
+}
+
+int retex_texture_is_opaque(const RetexTexture *texture)
+{
+    return texture->nlevels == 0 || texture->opaque;
+}
+
+/* The texels, premultiplied, become the texture's. */
+static int take_texels(RetexTexture *texture, TextureTexels *texels, int nthreads, RetexError *err)
+{
+    int width = texels->width, height = texels->height, code = compose_repeats(texture, texels, err);
     if (code)
         return code;
     finish_map(texture, width, height);
-    image->width = pixels->width;
-    image->height = pixels->height;
-    image->texels = pixels->pixels;
-    image->scale[0] = image->scale[1] = 1;
+    look_through(texture, texels, nthreads);
+    if (texture_grow_pyramid(texture, texels, nthreads))
+        return no_memory(texture, width, height, err);
+    return RETEX_OK;
+}
+
+static void premultiply_job(void *context, int index, int thread)
+{
+    const RetexImage *image = context;
+    (void)thread;
+    float *p = image->pixels + (size_t)index * (size_t)image->width * 4;
+    for (int x = 0; x < image->width; x++, p += 4) {
+        float alpha = isfinite(p[3]) ? p[3] < 0 ? 0 : p[3] > 1 ? 1 : p[3] : 0;
+        for (int c = 0; c < 3; c++)
+            p[c] = isfinite(p[c]) ? limit_color(p[c]) * alpha : 0; /* one bad texel must not spoil all coarser levels */
+        p[3] = alpha;
+    }
+}
+
+/* The pixels (RGBA) become the texture's. */
+static int take_pixels(RetexTexture *texture, RetexImage *pixels, int nthreads, RetexError *err)
+{
+    TextureTexels texels = {pixels->width, pixels->height, 0, pixels->pixels};
+    retex_parallel(nthreads, pixels->height, premultiply_job, pixels);
     *pixels = (RetexImage){0};
-    retex_parallel(nthreads, image->height, premultiply_job, image);
-    return grow_pyramid(texture, nthreads, err);
+    int code = take_texels(texture, &texels, nthreads, err);
+    free(texels.texels);
+    return code;
 }
 
 /* ---- life ---- */
@@ -351,12 +220,7 @@ void retex_texture_close(RetexTexture **texture)
         return;
     for (int i = 0; i < TEXTURE_MAX_LEVELS; i++) {
         TextureLevel *level = &(*texture)->levels[i];
-        if (i == 0) {
-            RetexImage image = {level->width, level->height, 4, level->texels};
-            retex_image_free(&image);
-        } else {
-            free(level->texels);
-        }
+        free(level->texels);
         for (int k = 0; k < 2; k++) {
             free(level->sides[k]);
             free(level->ends[k]);
@@ -373,11 +237,17 @@ int retex_texture_load(RetexTexture **out, const RetexTextureSpec *spec, int nth
     RetexTexture *texture = new_texture(spec, spec->constant, &why);
     int code = why.code;
     if (texture && !spec->constant) {
+        const char *colorspace = spec->colorspace[0] ? spec->colorspace : NULL;
+        RetexNarrowImage narrow = {0};
         RetexImage image = {0};
-        code = retex_image_read(&image, spec->image, spec->colorspace[0] ? spec->colorspace : NULL, MAX_TEXTURE_PIXELS,
-                                &why);
+        code = retex_image_read_narrow(&narrow, spec->image, colorspace, MAX_TEXTURE_PIXELS, &why);
+        TextureTexels texels = {narrow.width, narrow.height, 1, narrow.pixels};
+        if (!code && !narrow.pixels)
+            code = retex_image_read(&image, spec->image, colorspace, MAX_TEXTURE_PIXELS, &why);
         if (!code)
-            code = take_pixels(texture, &image, nthreads, &why);
+            code = narrow.pixels ? take_texels(texture, &texels, nthreads, &why)
+                                 : take_pixels(texture, &image, nthreads, &why);
+        free(texels.texels);
         retex_image_free(&image);
     }
     if (code) {
@@ -436,21 +306,20 @@ int retex_texture_square(RetexTexture **out, const RetexTexture *texture, RetexE
     int code = RETEX_OK;
     if (texture->nlevels) {
         const TextureLevel *from = &texture->levels[0];
-        TextureLevel *to = &square->levels[0];
-        RetexImage pixels = {0};
-        code = retex_image_alloc(&pixels, from->width, from->height, 4, err);
-        if (!code) {
-            *to =
-                (TextureLevel){.width = from->width, .height = from->height, .texels = pixels.pixels, .scale = {1, 1}};
-            size_t count = 4 * (size_t)from->width * (size_t)from->height;
-            for (size_t i = 0; i < count; i += 4) {
-                const float *p = from->texels + i;
-                for (int c = 0; c < 3; c++)
-                    to->texels[i + c] = p[3] > 0 ? limit_color(p[c] / p[3] * (p[c] / p[3])) * p[3] : 0;
-                to->texels[i + 3] = p[3];
-            }
-            code = grow_pyramid(square, 0, err);
+        TextureTexels texels = {from->width, from->height, 0, NULL};
+        if (texture_texels_alloc(&texels))
+            code = no_memory(texture, from->width, from->height, err);
+        size_t count = (size_t)from->width * (size_t)from->height;
+        for (size_t i = 0; !code && i < count; i++) {
+            float p[4], *to = (float *)texels.texels + 4 * i;
+            texture_read_texel(from->texels, i, texture->narrow, p);
+            for (int c = 0; c < 3; c++)
+                to[c] = p[3] > 0 ? limit_color(p[c] / p[3] * (p[c] / p[3])) * p[3] : 0;
+            to[3] = p[3];
         }
+        if (!code && texture_grow_pyramid(square, &texels, 0))
+            code = no_memory(texture, from->width, from->height, err);
+        free(texels.texels);
     }
     if (code)
         retex_texture_close(&square);

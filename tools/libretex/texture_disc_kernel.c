@@ -33,7 +33,7 @@ typedef struct Lines {
     int turned;   /* 1: lines are columns */
     int box;      /* 1: texels are averages of what they cover; 0: they are interpolated */
     int count[2]; /* lines; texels of each */
-    size_t step;  /* floats from texel to texel of a line */
+    size_t step;  /* bytes from texel to texel of a line */
     RetexWrap wrap[2];
 } Lines;
 
@@ -158,19 +158,34 @@ static inline int wrap_line(const Lines *lines, int axis, int i)
     return lines->wrap[axis] == RETEX_WRAP_BLACK ? clamp_index(i, n) : wrap_index(i, n, lines->wrap[axis]);
 }
 
-static const float *find_texel(const Lines *lines, int line, int texel)
+static const char *find_texel(const Lines *lines, int line, int texel)
 {
     const TextureLevel *level = lines->level;
     const RetexTexture *texture = lines->texture;
+    size_t size = texel_size(texture->narrow);
     int x = lines->turned ? line : texel, y = lines->turned ? texel : line; /* wrapped already */
     if ((unsigned)y < (unsigned)level->height) {
         if ((unsigned)x < (unsigned)level->width)
-            return level->texels + ((size_t)y * (size_t)level->width + (size_t)x) * 4;
-        return level->sides[x > 0] + (size_t)y * 4;
+            return (const char *)level->texels + ((size_t)y * (size_t)level->width + (size_t)x) * size;
+        return (const char *)level->sides[x > 0] + (size_t)y * size;
     }
     if ((unsigned)x < (unsigned)level->width)
-        return level->ends[y > 0] + (size_t)x * 4;
+        return (const char *)level->ends[y > 0] + (size_t)x * size;
     return texture->corners[2 * (y > 0) + (x > 0)];
+}
+
+/* Sum of weights times texels that lie `step` bytes apart. */
+static inline Float4 sum_texels(const char *p, const float *weights, int count, size_t step, int narrow)
+{
+    Float4 sum = {0, 0, 0, 0}, odd = {0, 0, 0, 0};
+    int i = 0;
+    for (; i + 1 < count; i += 2, p += 2 * step) {
+        sum += raw_texel(p, narrow) * weights[i];
+        odd += raw_texel(p + step, narrow) * weights[i + 1];
+    }
+    if (i < count)
+        sum += raw_texel(p, narrow) * weights[i];
+    return sum + odd;
 }
 
 static inline void begin_strip(Strip *strip, int used)
@@ -184,7 +199,7 @@ static inline void begin_strip(Strip *strip, int used)
  * first. */
 static inline Float4 sum_line(const Lines *lines, int line, int base, Strip *restrict strip)
 {
-    Float4 sum = {0, 0, 0, 0}, odd = {0, 0, 0, 0};
+    Float4 sum = {0, 0, 0, 0};
     int low = strip->low[0] < strip->low[1] ? strip->low[0] : strip->low[1];
     int high = strip->high[0] > strip->high[1] ? strip->high[0] : strip->high[1];
     int at = wrap_line(lines, 0, line), i;
@@ -197,23 +212,18 @@ static inline Float4 sum_line(const Lines *lines, int line, int base, Strip *res
         strip->change[i] = (Float2){change[1], 0};
     }
     if (low < high && (unsigned)at < (unsigned)lines->count[0] && base + low >= 0 && base + high <= lines->count[1]) {
-        size_t step = lines->step;
-        const float *p = find_texel(lines, at, base + low);
-        for (i = low; i + 1 < high; i += 2, p += 2 * step) {
-            sum += load4(p) * weights[i];
-            odd += load4(p + step) * weights[i + 1];
-        }
-        if (i < high)
-            sum += load4(p) * weights[i];
+        const char *p = find_texel(lines, at, base + low);
+        sum = lines->texture->narrow ? sum_texels(p, weights + low, high - low, lines->step, 1)
+                                     : sum_texels(p, weights + low, high - low, lines->step, 0);
     } else {
         for (i = low; i < high; i++)
-            sum += load4(find_texel(lines, at, wrap_line(lines, 1, base + i))) * weights[i];
+            sum += raw_texel(find_texel(lines, at, wrap_line(lines, 1, base + i)), lines->texture->narrow) * weights[i];
     }
     strip->low[1] = strip->low[0];
     strip->high[1] = strip->high[0];
     strip->low[0] = MAX_ACROSS;
     strip->high[0] = 0;
-    return sum + odd;
+    return sum;
 }
 
 /* What an end at x changes in its line's weights: `first` at texel (int)x, `last` at the next but one, the rest of 1 at
@@ -423,10 +433,10 @@ void texture_disc_kernel(const RetexTexture *texture, const TextureFootprint *fo
                    turned,
                    box,
                    {turned ? level->width : level->height, turned ? level->height : level->width},
-                   turned ? 4 * (size_t)level->width : 4,
+                   texel_size(texture->narrow) * (turned ? (size_t)level->width : 1),
                    {texture->spec.wrap[!turned], texture->spec.wrap[turned]}};
     double filled = found == texture->nlevels - 1 ? draw_nearer(&lines, &e) : 1;
     Float4 sum = e.length > MAX_LENGTH ? sum_sparse(&lines, &e) : sum_dense(&lines, &e);
-    sum *= (float)filled;
+    sum *= (float)filled * texel_unit(texture->narrow);
     memcpy(rgba, &sum, sizeof sum);
 }

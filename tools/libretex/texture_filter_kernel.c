@@ -31,28 +31,30 @@ typedef struct Edges {
 } Edges;
 #define EDGE_TEXELS ((RetexWrap)(RETEX_WRAP_BLACK + 1)) /* a wrap mode of the kernel's own */
 
-/* Sum of weight[i] * texel(first + i * step) of one row. */
-static inline Float4 sum_row(const Row *row, int width, RetexWrap wrap, const float *restrict weight, int count,
-                             int first, int step)
+/* Sum of weight[i] * texel(first + i * step) of one row, texels as they are stored. */
+static inline Float4 sum_row(const Row *row, int width, RetexWrap wrap, int narrow, const float *restrict weight,
+                             int count, int first, int step)
 {
     Float4 sum = {0, 0, 0, 0}, odd = {0, 0, 0, 0};
+    size_t size = texel_size(narrow);
     if (!row->texels)
         return sum;
     if (first >= 0 && first + (count - 1) * step < width) {
-        const float *p = row->texels + (size_t)first * 4;
+        const char *p = row->texels + (size_t)first * size;
+        size_t pace = size * (size_t)step;
         int i = 0;
-        for (; i + 1 < count; i += 2, p += 8 * (size_t)step) { /* two sums, for neither has to wait for the other */
-            sum += load4(p) * weight[i];
-            odd += load4(p + 4 * (size_t)step) * weight[i + 1];
+        for (; i + 1 < count; i += 2, p += 2 * pace) { /* two sums, for neither has to wait for the other */
+            sum += raw_texel(p, narrow) * weight[i];
+            odd += raw_texel(p + pace, narrow) * weight[i + 1];
         }
-        return i < count ? sum + odd + load4(p) * weight[i] : sum + odd;
+        return i < count ? sum + odd + raw_texel(p, narrow) * weight[i] : sum + odd;
     }
     for (int i = 0; i < count; i++) {
         int outside = first + i * step;
         int at = wrap == EDGE_TEXELS ? clamp_index(outside, width) : wrap_index(outside, width, wrap);
-        const float *p = (unsigned)at < (unsigned)width ? row->texels + (size_t)at * 4 : row->beside[at > 0];
+        const char *p = (unsigned)at < (unsigned)width ? row->texels + (size_t)at * size : row->beside[at > 0];
         if (p)
-            sum += load4(p) * weight[i];
+            sum += raw_texel(p, narrow) * weight[i];
     }
     return sum;
 }
@@ -292,12 +294,15 @@ static inline Float4 sum_level(const RetexTexture *texture, const TextureLevel *
                 cut_window(&columns, shape_x.step, x + limits->low[0], x + limits->high[0]);
         }
         Row row = find_row(texture, level, at, edges->sharp[1]);
-        sum += rows.weight[j] * sum_row(&row, level->width, edges->sharp[0] ? EDGE_TEXELS : texture->spec.wrap[0],
-                                        columns.weight, columns.count, columns.first, shape_x.step);
+        RetexWrap wrap = edges->sharp[0] ? EDGE_TEXELS : texture->spec.wrap[0];
+        sum += rows.weight[j] *
+               (texture->narrow
+                    ? sum_row(&row, level->width, wrap, 1, columns.weight, columns.count, columns.first, shape_x.step)
+                    : sum_row(&row, level->width, wrap, 0, columns.weight, columns.count, columns.first, shape_x.step));
         total += rows.weight[j] * columns.total;
     }
     *kept = total / whole;
-    return sum / total;
+    return sum * texel_unit(texture->narrow) / total;
 }
 
 /* How much of a Gaussian at x lies within 0..size. */
@@ -345,14 +350,16 @@ void texture_point_kernel(const RetexTexture *texture, double x, double y, float
     RetexWrap wrap_x = texture->spec.wrap[0] == RETEX_WRAP_BLACK ? RETEX_WRAP_CLAMP : texture->spec.wrap[0];
     RetexWrap wrap_y = texture->spec.wrap[1] == RETEX_WRAP_BLACK ? RETEX_WRAP_CLAMP : texture->spec.wrap[1];
     Float4 lines[2];
+    size_t size = texel_size(texture->narrow);
     int columns[2];
     for (int i = 0; i < 2; i++)
         columns[i] = clamp_index(wrap_index(x0 + i, image->width, wrap_x), image->width);
     for (int j = 0; j < 2; j++) {
         int line = clamp_index(wrap_index(y0 + j, image->height, wrap_y), image->height);
-        const float *row = image->texels + (size_t)line * (size_t)image->width * 4;
-        lines[j] = load4(row + (size_t)columns[0] * 4) * (1 - tx) + load4(row + (size_t)columns[1] * 4) * tx;
+        const char *row = (const char *)image->texels + (size_t)line * (size_t)image->width * size;
+        lines[j] = raw_texel(row + (size_t)columns[0] * size, texture->narrow) * (1 - tx) +
+                   raw_texel(row + (size_t)columns[1] * size, texture->narrow) * tx;
     }
-    Float4 sum = lines[0] * (1 - ty) + lines[1] * ty;
+    Float4 sum = (lines[0] * (1 - ty) + lines[1] * ty) * texel_unit(texture->narrow);
     memcpy(rgba, &sum, sizeof sum);
 }

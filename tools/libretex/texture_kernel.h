@@ -6,6 +6,7 @@
 #include "texture_pyramid.h"
 
 #include <math.h>
+#include <stdint.h>
 #include <string.h>
 
 typedef float Float4 __attribute__((vector_size(16)));
@@ -17,6 +18,27 @@ static inline Float4 load4(const float *p)
     Float4 v;
     memcpy(&v, p, sizeof v);
     return v;
+}
+
+/* A texel as it is stored, and its size in bytes. */
+static inline Float4 raw_texel(const void *p, int narrow)
+{
+    if (!narrow)
+        return load4(p);
+    uint16_t t[4];
+    memcpy(t, p, sizeof t);
+    return (Float4){t[0], t[1], t[2], t[3]};
+}
+
+static inline size_t texel_size(int narrow)
+{
+    return narrow ? 4 * sizeof(uint16_t) : 4 * sizeof(float);
+}
+
+/* What sums of raw texels are multiplied with. */
+static inline float texel_unit(int narrow)
+{
+    return narrow ? 1 / NARROW_ONE : 1;
 }
 
 /* The next whole number below or above; baseline x86-64 has a function call for floorf. Within int's range only. */
@@ -59,8 +81,8 @@ static inline int clamp_index(int i, int n)
 
 /* One row of a level, as far as it can be seen: inside texels and what lies to the left and right; NULL = nothing. */
 typedef struct Row {
-    const float *texels;
-    const float *beside[2];
+    const char *texels;
+    const char *beside[2];
 } Row;
 
 static inline Row find_row(const RetexTexture *texture, const TextureLevel *level, int y, int sharp)
@@ -68,10 +90,11 @@ static inline Row find_row(const RetexTexture *texture, const TextureLevel *leve
     Row row = {NULL, {NULL, NULL}};
     int at = sharp ? clamp_index(y, level->height) : wrap_index(y, level->height, texture->spec.wrap[1]);
     if ((unsigned)at < (unsigned)level->height) {
-        row.texels = level->texels + (size_t)at * (size_t)level->width * 4;
+        size_t size = texel_size(texture->narrow);
+        row.texels = (const char *)level->texels + (size_t)at * (size_t)level->width * size;
         for (int side = 0; side < 2; side++)
             if (level->sides[side])
-                row.beside[side] = level->sides[side] + (size_t)at * 4;
+                row.beside[side] = (const char *)level->sides[side] + (size_t)at * size;
     } else if (texture->spec.wrap[1] == RETEX_WRAP_CLAMP) {
         int below = at > 0;
         row.texels = level->ends[below];

@@ -5,6 +5,7 @@
 #include <retex/texture.h>
 
 #define TEXTURE_MAX_LEVELS 18 /* of 131072 texels a side, two repeats of 65536: 131072, 65536, ... 1 */
+#define NARROW_ONE 65535.0f
 #define TEXTURE_TAIL_STEPS 64 /* of the table below, per unit */
 #define TEXTURE_TAIL_END 4
 
@@ -12,11 +13,11 @@
  * parts, which need not be whole texels of the image. Colours are premultiplied by alpha, RGBA, rows from the top. */
 typedef struct TextureLevel {
     int width, height;
-    float *texels;
+    void *texels; /* 4 floats each, or 4 uint16_t of a narrow texture */
     /* Of a clamped axis: the image's border goes on outside it, filtered along the border only. Outside texels of a
      * level are the border's, not the level's own, which hold averages of what lies inside. NULL otherwise. */
-    float *sides[2]; /* left and right of the image: height texels */
-    float *ends[2];  /* above and below: width texels */
+    void *sides[2];  /* left and right of the image: height texels */
+    void *ends[2];   /* above and below: width texels */
     double scale[2]; /* image texels per texel of this level, u and v */
     /* Variance that averaging has added along each axis, in image texels squared, at the relative position p of the
      * axis: blur[0] + blur[1] p (1 - p). Halving an odd number of texels blurs more in the middle than at the ends. */
@@ -29,13 +30,27 @@ struct RetexTexture {
     /* uv' = matrix uv + offset, from the surface's UV to that of the image with all its repeats: all of the spec. */
     double matrix[2][2];
     double offset[2];
-    int nlevels;         /* 0 = constant */
+    int nlevels; /* 0 = constant */
+    int opaque;  /* 1: alpha is 1 wherever the texture is looked up */
+    int narrow;  /* 1: texels are 16-bit integers, NARROW_ONE standing for 1; else floats */
     TextureLevel levels[TEXTURE_MAX_LEVELS];
-    float corners[4][4]; /* of the image: top left, top right, bottom left, bottom right; premultiplied */
+    char corners[4][16]; /* texels of the image: top left, top right, bottom left, bottom right */
     /* E max(z + N(0,1), 0) - max(z, 0) for z = 0 .. TEXTURE_TAIL_END: what a bilinear tent blurred by a Gaussian is
      * made of */
     float tail[TEXTURE_TAIL_STEPS * TEXTURE_TAIL_END + 2];
 };
+
+/* An image on its way into a texture: premultiplied, rows from the top; the texels are freed with free(). */
+typedef struct TextureTexels {
+    int width, height, narrow;
+    void *texels;
+} TextureTexels;
+
+size_t texture_texel_size(int narrow);           /* bytes */
+int texture_texels_alloc(TextureTexels *texels); /* by its other members; not 0: out of memory */
+void texture_read_texel(const void *texels, size_t index, int narrow, float rgba[4]);
+/* The texels become level 0, and all other levels are made of it. Not 0: out of memory. */
+int texture_grow_pyramid(RetexTexture *texture, TextureTexels *texels, int nthreads);
 
 /* A footprint in texels of the image, y down. */
 typedef struct TextureFootprint {

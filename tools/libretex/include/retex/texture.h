@@ -80,6 +80,9 @@ void retex_texture_close(RetexTexture **texture);
 /* Texels of one repeat; 1, 1 for a constant. */
 int retex_texture_size(const RetexTexture *texture, int *width, int *height);
 
+/* 1: nothing shows through it anywhere. */
+int retex_texture_is_opaque(const RetexTexture *texture);
+
 /* One point, bilinear between texel centres, after the spec's UV transform and wraps: rgba, unassociated alpha.
  * `wrap=black` gives (0,0,0,0) outside [0,1]. Thread-safe. What --replace and a pigment's interpolated image_map
  * use. */
@@ -100,6 +103,19 @@ void retex_texture_gaussian(const RetexTexture *texture, double u, double v, con
  * a footprint is that a box pixel filter sees sharply. Very long ellipses, of more than some forty times their width,
  * skip texels along their length. */
 void retex_texture_disc(const RetexTexture *texture, double u, double v, const double covariance[3], float rgba[4]);
+
+/* ---- many footprints at once ---- */
+
+typedef enum RetexTextureFilter { RETEX_TEXTURE_DISC, RETEX_TEXTURE_GAUSSIAN } RetexTextureFilter;
+
+/* n footprints as sets hold them, filtered as retex_texture_disc or retex_texture_gaussian would, some ten times as
+ * fast. Colours differ from theirs by no more than can be seen; they do not depend on what is filtered beside them, nor
+ * on the machine. Where coverage is not above 0 the result is 0, 0, 0, 0 and costs next to nothing. Thread-safe. */
+void retex_texture_filter(const RetexTexture *texture, RetexTextureFilter shape,
+                          const float *uv /* n x 3: u, v, coverage */,
+                          const float *spread /* n x spreads: standard deviations along u and v, their correlation */,
+                          int spreads /* 2: the correlation is 0; 3 */, size_t n,
+                          float *rgba /* n x 4, unassociated alpha */);
 
 #ifdef __cplusplus
 }
