@@ -56,6 +56,7 @@ $(BUILD)/config.mk: tools/setup.sh
 
 include tools/rules.mk
 include renderer/rules.mk
+include oiio_plugins/rules.mk
 include scenes/rules.mk
 include tests/rules.mk
 

@@ -129,22 +129,6 @@ static int choose(const Cli *cli, const CliOption *o, int count, const char *con
     cli_die(cli, "--%s knows %s, not `%s`", o->name, known, cli->value);
 }
 
-/* What begins like a number must be one: `A=1/3` would be a string that nobody meant. The built-ins are numbers. */
-static void check_declare(const Cli *cli)
-{
-    static const char *const built_in[] = {"clock=", "frame_number=", "initial_frame=", "final_frame="};
-    const char *value = strchr(cli->value, '=');
-    int number = value && value[1] && strchr("0123456789.+-", value[1]);
-    char *end;
-    for (int k = 0; k < 4; k++)
-        number |= !strncmp(cli->value, built_in[k], strlen(built_in[k]));
-    if (!number)
-        return;
-    strtod(value + 1, &end);
-    if (*end || end == value + 1)
-        cli_die(cli, "--declare: expected NAME=NUMBER or NAME=\"TEXT\", not `%s`", cli->value);
-}
-
 static void parse_option(Arguments *a, const CliOption *o)
 {
     Cli *cli = a->cli;
@@ -187,7 +171,8 @@ static void parse_option(Arguments *a, const CliOption *o)
         push(cli, a->includes, &a->nincludes, o->name);
         break;
     case OPT_DECLARE:
-        check_declare(cli);
+        if (job_check_declare(cli->value, &err))
+            cli_die(cli, "--declare: %s", err.message);
         push(cli, a->declares, &a->ndeclares, o->name);
         break;
     case OPT_RESUME:

@@ -14,6 +14,10 @@ int job_set_option(RenderParams *render, SdlOptions *sdl, const char *name, cons
 /* count whole numbers of 0 to 2^24 with a separator between them and nothing behind them; 0 where the text is not. */
 int job_numbers(const char *text, char separator, int count, int *numbers);
 
+/* NAME=VALUE of SdlOptions: what begins like a number must be one, for `A=1/3` would be a string that nobody meant; the
+ * built-ins are numbers. */
+int job_check_declare(const char *declare, RetexError *err);
+
 /* Read a scene and find its targets, each as after -t. A scene with nothing in it is refused. */
 int job_open_scene(Scene **scene, const char *path, const SdlOptions *sdl, const char *const *targets, int ntargets,
                    RetexError *err);

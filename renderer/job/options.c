@@ -191,3 +191,19 @@ int job_set_option(RenderParams *render, SdlOptions *sdl, const char *name, cons
         }
     return value ? set_value(&option) : retex_fail(err, RETEX_EPARSE, "%s wants a value", name);
 }
+
+int job_check_declare(const char *declare, RetexError *err)
+{
+    static const char *const built_in[] = {"clock=", "frame_number=", "initial_frame=", "final_frame="};
+    const char *value = strchr(declare, '=');
+    int number = value && value[1] && strchr("0123456789.+-", value[1]);
+    char *end;
+    for (int k = 0; k < 4; k++)
+        number |= !strncmp(declare, built_in[k], strlen(built_in[k]));
+    if (!number)
+        return RETEX_OK;
+    strtod(value + 1, &end);
+    if (*end || end == value + 1)
+        return retex_fail(err, RETEX_EPARSE, "expected NAME=NUMBER or NAME=\"TEXT\", not `%s`", declare);
+    return RETEX_OK;
+}
