@@ -182,6 +182,7 @@ class PackSource final : public Source
         OIIO::ImageSpec spec = part_spec(set_->description(), index);
         if (index > 0)
             return spec;
+        spec.set_format(OIIO::TypeDesc::FLOAT);
         describe_picture(spec, set_->description(), textures_.empty() ? picture().manifest : "");
         if (!textures_.empty())
             spec.attribute("retex:textures", shown_);
@@ -205,6 +206,7 @@ class PackSource final : public Source
     {
         auto picture = std::make_shared<Picture>();
         picture->part = set_->description().parts[0];
+        picture->part.type = RETEX_FLOAT;
         picture->part.image = RetexImage{};
         picture->part.image = set_->picture(textures_, threads_);
         if (textures_.empty())

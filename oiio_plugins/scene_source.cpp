@@ -21,7 +21,7 @@ const size_t scenes_kept = 3;
 // Of the whole process; told as `retex:renders` where $RETEX_OIIO_DEBUG is set.
 std::atomic<int> renders{0};
 
-// A scene whose texture is a scene, itself perhaps, would be rendered inside its own rendering.
+// A scene whose texture is a scene, itself perhaps, would be waited for by its own reading.
 class NotNested
 {
   public:
@@ -90,7 +90,6 @@ class SceneJob
     SceneJob(const std::string &path, const Arguments &arguments, int threads)
         : options_(parse_scene_options(arguments, threads)), scene_(nullptr, close_scene)
     {
-        NotNested guard;
         RetexError err{};
         scene_ = parse_scene(path, options_, &warnings_);
         if (options_.width || options_.height)
@@ -121,6 +120,7 @@ class SceneJob
     }
     const RetexSet &set()
     {
+        NotNested guard;
         std::lock_guard<std::mutex> lock(mutex_);
         if (!set_)
             render();
@@ -169,7 +169,6 @@ class SceneJob
     }
     void render()
     {
-        NotNested guard;
         RetexError err{};
         RetexSet *rendered = nullptr;
         must(render_scene(&rendered, scene_.get(), &options_.render, nullptr, &err), err);
@@ -230,6 +229,7 @@ class SceneSource final : public Source
 std::shared_ptr<Source> open_scene(const std::string &path, const Arguments &arguments, int threads)
 {
     static Cache<SceneJob> cache(scenes_kept);
+    NotNested guard;
     std::string key = path;
     for (const auto &argument : arguments)
         if (argument.first != "threads") // the picture is the same

@@ -15,22 +15,21 @@ namespace plugins
 namespace
 {
 
-// What is wrong with the options of a name is said when pixels are asked for: of a name with options that cannot be
-// opened, oiiotool says no more than that there is no such file.
-class WrongOptions final : public Source
+// What stands for a name with options that cannot be opened: of such a one oiiotool would say no more than that there is
+// no such file. So it opens, and says what is wrong when pixels are asked for.
+class Unreadable final : public Source
 {
   public:
-    WrongOptions(const std::shared_ptr<Source> &plain, const std::string &why) : plain_(plain), why_(why)
+    explicit Unreadable(const std::string &why) : why_(why)
     {
     }
     int count() override
     {
         return 1;
     }
-    OIIO::ImageSpec spec(int index) override
+    OIIO::ImageSpec spec(int) override
     {
-        OIIO::ImageSpec spec = plain_->spec(index);
-        spec.erase_attribute("retex");
+        OIIO::ImageSpec spec(1, 1, 3, OIIO::TypeDesc::FLOAT);
         spec.attribute("retex:error", why_);
         return spec;
     }
@@ -40,7 +39,6 @@ class WrongOptions final : public Source
     }
 
   private:
-    const std::shared_ptr<Source> plain_; // without the options
     const std::string why_;
 };
 
@@ -60,13 +58,12 @@ class SetInput final : public OIIO::ImageInput
     }
     bool valid_file(const std::string &name) const override
     {
-        return guarded([&] { check_file(split(name).path); }).empty();
+        return guarded([&] { check_content(split(name).path); }).empty();
     }
     bool open(const std::string &name, OIIO::ImageSpec &spec) override
     {
         return entry([&] {
             Name parts = split(name);
-            check_file(parts.path);
             close();
             source_ = open_source(parts);
             seek(0);
@@ -126,24 +123,34 @@ class SetInput final : public OIIO::ImageInput
     }
     std::shared_ptr<Source> open_source(const Name &name) const
     {
-        if (name.arguments.empty())
+        if (name.arguments.empty()) {
+            check_content(name.path);
             return format_.open(name.path, name.arguments, host_threads());
+        }
+        read_begin(name.path);
         try {
+            check_content(name.path);
             return format_.open(name.path, name.arguments, host_threads());
         } catch (const std::exception &e) {
-            return std::make_shared<WrongOptions>(format_.open(name.path, {}, host_threads()), e.what());
+            return std::make_shared<Unreadable>(e.what());
         }
     }
-    // OpenImageIO offers any file that nothing else can read.
-    void check_file(const std::string &path) const
+    static std::string read_begin(const std::string &path)
     {
-        unsigned char begin[64];
+        char begin[64];
         std::unique_ptr<FILE, int (*)(FILE *)> file(std::fopen(path.c_str(), "rb"), std::fclose);
         size_t got = file ? std::fread(begin, 1, sizeof begin, file.get()) : 0;
         if (!file || std::ferror(file.get()))
             throw Failure("cannot read " + path + ": " + std::strerror(errno));
-        if (!format_.probe(begin, got))
-            throw Failure(path + ": no ." + format_.name + " file" + (got ? " by what is in it" : ": it is empty"));
+        return std::string(begin, got);
+    }
+    // OpenImageIO offers any file that nothing else can read.
+    void check_content(const std::string &path) const
+    {
+        std::string begin = read_begin(path);
+        if (!format_.probe(begin.data(), begin.size()))
+            throw Failure(path + ": no ." + format_.name + " file" +
+                          (begin.empty() ? ": it is empty" : " by what is in it"));
     }
     // As many as the host lets OpenImageIO use; 0 = all cores.
     int host_threads() const
