@@ -74,17 +74,6 @@ std::shared_ptr<PackSet> read_pack(const std::string &path, int threads)
 
 // ---- textures ----
 
-std::string unescaped(const std::string &text)
-{
-    std::string plain;
-    for (size_t i = 0; i < text.size(); i++) {
-        bool ampersand = text.compare(i, 3, "%26") == 0, percent = text.compare(i, 3, "%25") == 0;
-        plain += ampersand ? '&' : text[i];
-        i += ampersand || percent ? 2 : 0;
-    }
-    return plain;
-}
-
 std::string target_names(const RetexSet &set)
 {
     std::string names;
@@ -119,13 +108,11 @@ std::vector<RetexTextureSpec> parse_textures(const Arguments &arguments)
              o != arguments.end() && o->first.compare(0, begin.size(), begin) == 0; ++o) {
             if (o->second.find(':') != std::string::npos)
                 throw Failure(o->first + ": no colon can be in '" + o->second + "'");
-            options += (options.empty() ? "" : ":") + o->first.substr(begin.size()) + "=" + unescaped(o->second);
+            options += (options.empty() ? "" : ":") + o->first.substr(begin.size()) + "=" + o->second;
         }
         RetexTextureSpec texture;
         RetexError err{};
-        must(retex_texture_spec_parse(&texture, options.c_str(), (name + "=" + unescaped(argument.second)).c_str(),
-                                      &err),
-             err);
+        must(retex_texture_spec_parse(&texture, options.c_str(), (name + "=" + argument.second).c_str(), &err), err);
         textures.push_back(texture);
     }
     return textures;

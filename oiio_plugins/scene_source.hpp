@@ -7,8 +7,8 @@
 namespace plugins
 {
 
-// The scene is read here. A picture alone is rendered when its pixels are asked for; which parts a set has, and what its
-// manifest says, only a render can tell: then it is now.
+// The scene is read here. A picture alone is rendered when its pixels are asked for; which parts a set has, and what
+// its manifest says, only a render can tell: then it is now.
 std::shared_ptr<Source> open_scene(const std::string &path, const Arguments &arguments, int threads);
 
 } // namespace plugins

@@ -15,8 +15,20 @@ namespace plugins
 namespace
 {
 
-// What stands for a name with options that cannot be opened: of such a one oiiotool would say no more than that there is
-// no such file. So it opens, and says what is wrong when pixels are asked for.
+// %26 -> & and %25 -> %: between options an & ends the value.
+std::string unescaped(const std::string &text)
+{
+    std::string plain;
+    for (size_t i = 0; i < text.size(); i++) {
+        bool ampersand = text.compare(i, 3, "%26") == 0, percent = text.compare(i, 3, "%25") == 0;
+        plain += ampersand ? '&' : text[i];
+        i += ampersand || percent ? 2 : 0;
+    }
+    return plain;
+}
+
+// What stands for a name with options that cannot be opened: of such a one oiiotool would say no more than that there
+// is no such file. So it opens, and says what is wrong when pixels are asked for.
 class Unreadable final : public Source
 {
   public:
@@ -119,6 +131,8 @@ class SetInput final : public OIIO::ImageInput
             throw Failure(name + ": expected option=value and & between options behind the ?");
         if (!OIIO::Strutil::iequals(OIIO::Filesystem::extension(parts.path, false), format_.name))
             throw Failure(parts.path + ": no ." + format_.name + " file");
+        for (auto &argument : parts.arguments)
+            argument.second = unescaped(argument.second);
         return parts;
     }
     std::shared_ptr<Source> open_source(const Name &name) const
