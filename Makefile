@@ -56,6 +56,7 @@ $(BUILD)/config.mk: tools/setup.sh
 
 include tools/rules.mk
 include renderer/rules.mk
+include oiio_plugins/rules.mk
 include scenes/rules.mk
 include tests/rules.mk
 
@@ -70,6 +71,8 @@ install: all
 	$(INSTALL) -m 755 $(TOOLS:%=$(BUILD)/bin/%) $(DESTDIR)$(PREFIX)/bin
 	$(INSTALL) -m 644 $(LIBRETEX) $(BRIDGE) $(DESTDIR)$(PREFIX)/lib
 	$(INSTALL) -m 644 tools/libretex/include/retex/*.h $(DESTDIR)$(PREFIX)/include/retex
+	$(INSTALL) -d $(DESTDIR)$(PREFIX)/$(PLUGIN_FOLDER)
+	$(INSTALL) -m 755 $(PLUGINS) $(DESTDIR)$(PREFIX)/$(PLUGIN_FOLDER)
 	for page in man/*.[1-9]; do [ ! -e $$page ] || $(INSTALL) -D -m 644 -t \
 	    $(DESTDIR)$(PREFIX)/share/man/man$${page##*.} $$page || exit 1; done
 
@@ -77,7 +80,7 @@ lint:
 	@tests/lib/lint.sh
 
 format:
-	clang-format -i $$(git ls-files '*.c' '*.cpp')
+	clang-format -i $$(git ls-files '*.c' '*.cpp' 'oiio_plugins/*.hpp')
 
 clean:
 	rm -rf $(BUILD)

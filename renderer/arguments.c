@@ -5,7 +5,6 @@
 #include <string.h>
 #include <strings.h>
 #include "retex-render.h"
-#include "film/film.h"
 
 enum {
     OPT_TARGET,
@@ -104,39 +103,8 @@ static void push(Cli *cli, const char **list, int *count, const char *what)
 /* N whole numbers with one separator; anything behind them is an error. */
 static void numbers(Cli *cli, const CliOption *option, char separator, int count, int *out)
 {
-    const char *p = cli->value;
-    for (int k = 0; k < count; k++) {
-        char *end;
-        long v = strtol(p, &end, 10);
-        if (!isdigit((unsigned char)*p) || v < 0 || v > 1 << 24 || *end != (k + 1 < count ? separator : 0))
-            cli_die(cli, "--%s wants %s, not `%s`", option->name, option->argument, cli->value);
-        out[k] = (int)v;
-        p = end + 1;
-    }
-}
-
-static unsigned parse_aovs(Cli *cli)
-{
-    static const char *const names[] = {"depth",  "albedo",    "normal",   "position",   "uv",
-                                        "object", "roughness", "metallic", "irradiance", "beauty"};
-    enum { COUNT = sizeof names / sizeof *names };
-    unsigned bits = 0;
-    for (const char *name = cli->value;; name++) {
-        size_t length = strcspn(name, ",");
-        int k = 0;
-        while (k < COUNT && (strlen(names[k]) != length || strncmp(names[k], name, length)))
-            k++;
-        if (k == COUNT)
-            cli_die(
-                cli,
-                "--aov knows beauty,depth,albedo,normal,position,uv,object,roughness,metallic,irradiance, not `%.*s`",
-                (int)length, name);
-        if (k < COUNT - 1)
-            bits |= 1u << k;
-        name += length;
-        if (!*name)
-            return bits;
-    }
+    if (!job_numbers(cli->value, separator, count, out))
+        cli_die(cli, "--%s wants %s, not `%s`", option->name, option->argument, cli->value);
 }
 
 static void parse_replace(Arguments *a)
@@ -146,24 +114,6 @@ static void parse_replace(Arguments *a)
         cli_die(a->cli, "more than %d of --replace", RETEX_MAX_TARGETS);
     if (retex_texture_spec_parse(&a->replacements[a->nreplacements++], a->cli->modifiers, a->cli->value, &err))
         cli_die(a->cli, "--replace: %s", err.message);
-}
-
-/* 4, of either kind, or 2+1. */
-static void parse_clusters(Arguments *a)
-{
-    int all, sharp, broad, used = 0;
-    const char *text = a->cli->value;
-    if (isdigit((unsigned char)text[0]) && sscanf(text, "%2d%n", &all, &used) == 1 && !text[used])
-        sharp = broad = all;
-    else if (isdigit((unsigned char)text[0]) && sscanf(text, "%2d+%2d%n", &sharp, &broad, &used) == 2 && !text[used])
-        all = sharp + broad;
-    else
-        cli_die(a->cli, "--clusters wants a number, or two as in 2+1, not `%s`", text);
-    if (all < 2 || all > FILM_CLUSTERS_MAX || sharp < 1 || broad < 1)
-        cli_die(a->cli, "--clusters wants 2 to %d, at least one sharp and one broad, not `%s`", FILM_CLUSTERS_MAX,
-                text);
-    a->render.clusters = all;
-    a->render.sharp = sharp, a->render.broad = broad;
 }
 
 /* Which of some names the value is. */
@@ -179,40 +129,11 @@ static int choose(const Cli *cli, const CliOption *o, int count, const char *con
     cli_die(cli, "--%s knows %s, not `%s`", o->name, known, cli->value);
 }
 
-static void parse_choice(Arguments *a, const CliOption *o)
-{
-    Cli *cli = a->cli;
-    if (o == &options[OPT_FILTER]) {
-        a->render.gaussian = !strcmp(cli->value, "gaussian");
-        if (!a->render.gaussian && strcmp(cli->value, "box"))
-            cli_die(cli, "--filter knows box and gaussian, not `%s`", cli->value);
-    } else {
-        a->render.paper = !strcmp(cli->value, "paper");
-        if (!a->render.paper && strcmp(cli->value, "footprints"))
-            cli_die(cli, "--layout knows footprints and paper, not `%s`", cli->value);
-    }
-}
-
-/* What begins like a number must be one: `A=1/3` would be a string that nobody meant. The built-ins are numbers. */
-static void check_declare(const Cli *cli)
-{
-    static const char *const built_in[] = {"clock=", "frame_number=", "initial_frame=", "final_frame="};
-    const char *value = strchr(cli->value, '=');
-    int number = value && value[1] && strchr("0123456789.+-", value[1]);
-    char *end;
-    for (int k = 0; k < 4; k++)
-        number |= !strncmp(cli->value, built_in[k], strlen(built_in[k]));
-    if (!number)
-        return;
-    strtod(value + 1, &end);
-    if (*end || end == value + 1)
-        cli_die(cli, "--declare: expected NAME=NUMBER or NAME=\"TEXT\", not `%s`", cli->value);
-}
-
 static void parse_option(Arguments *a, const CliOption *o)
 {
     Cli *cli = a->cli;
     RenderParams *r = &a->render;
+    RetexError err;
     int size[2];
     switch (o - options) {
     case OPT_TARGET:
@@ -237,57 +158,11 @@ static void parse_option(Arguments *a, const CliOption *o)
     case OPT_VARIANTS:
         a->variants = cli->value;
         break;
-    case OPT_PLAIN:
-        r->plain = 1;
-        break;
-    case OPT_LAYOUT:
-    case OPT_FILTER:
-        parse_choice(a, o);
-        break;
-    case OPT_CLUSTERS:
-        parse_clusters(a);
-        break;
-    case OPT_ORDERS:
-        r->orders = (int)cli_integer(cli, o, 1, RETEX_MAX_ORDERS);
-        break;
-    case OPT_STRICT_PAPER:
-        r->strict_paper = 1;
-        break;
     case OPT_DENOISE:
         a->denoise = 1;
         break;
-    case OPT_CAUSTICS_GUIDE:
-        a->render.caustics_guide = 1;
-        break;
     case OPT_NO_DENOISE_DATA:
         a->no_denoise_data = 1;
-        break;
-    case OPT_SPP:
-        r->spp = (int)cli_integer(cli, o, 1, 1 << 20);
-        break;
-    case OPT_NOISE:
-        r->noise = cli_number(cli, o, 1e-6, 10);
-        break;
-    case OPT_SIZE:
-        numbers(cli, o, 'x', 2, size);
-        r->width = size[0], r->height = size[1];
-        if (r->width < 1 || r->height < 1)
-            cli_die(cli, "--size wants WxH, not `%s`", cli->value);
-        break;
-    case OPT_SEED:
-        r->seed = (uint32_t)cli_integer(cli, o, 0, 0xffffffffL);
-        a->seeded = 1;
-        break;
-    case OPT_DEPTH:
-        r->max_depth = (int)cli_integer(cli, o, 1, 256);
-        break;
-    case OPT_CROP:
-        numbers(cli, o, ',', 4, r->crop);
-        if (r->crop[2] < 1 || r->crop[3] < 1)
-            cli_die(cli, "--crop wants X,Y,W,H, not `%s`", cli->value);
-        break;
-    case OPT_AOV:
-        r->aovs |= parse_aovs(cli);
         break;
     case OPT_AOV_DIR:
         a->aov_dir = cli->value;
@@ -296,14 +171,9 @@ static void parse_option(Arguments *a, const CliOption *o)
         push(cli, a->includes, &a->nincludes, o->name);
         break;
     case OPT_DECLARE:
-        check_declare(cli);
+        if (job_check_declare(cli->value, &err))
+            cli_die(cli, "--declare: %s", err.message);
         push(cli, a->declares, &a->ndeclares, o->name);
-        break;
-    case OPT_AMBIENT:
-        a->sdl.ambient = 1;
-        break;
-    case OPT_STRICT:
-        a->sdl.strict = 1;
         break;
     case OPT_RESUME:
         r->resume = 1;
@@ -325,6 +195,9 @@ static void parse_option(Arguments *a, const CliOption *o)
         a->tracing = 1;
         break;
     default:
+        a->seeded |= o == &options[OPT_SEED];
+        if (job_set_option(r, &a->sdl, o->name, o->argument ? cli->value : NULL, &err))
+            cli_die(cli, "--%s", err.message);
         break;
     }
 }
@@ -450,7 +323,6 @@ void parse_arguments(Arguments *a)
     a->sdl.include_paths = a->includes, a->sdl.ninclude_paths = a->nincludes;
     a->sdl.declares = a->declares, a->sdl.ndeclares = a->ndeclares;
     a->sdl.message = scene_message, a->sdl.message_context = cli;
-    a->sdl.width = a->render.width, a->sdl.height = a->render.height;
     a->render.nthreads = cli->threads;
     a->render.progress = progress, a->render.progress_context = cli;
 }

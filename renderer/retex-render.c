@@ -10,7 +10,6 @@
 #include <jansson.h>
 #include <retex/denoise.h>
 #include "retex-render.h"
-#include "film/film.h"
 #include "integrate/guides.h"
 
 static double seconds(void)
@@ -209,30 +208,6 @@ static void write_result(Arguments *a, RetexSet *set, const char *output)
         cli_fail(a->cli, &err);
 }
 
-/* The least that the images of a render take; refused before it begins where the machine has not so much. */
-static void check_memory(const Arguments *a, const Scene *scene)
-{
-    const RenderParams *r = &a->render;
-    double width = r->crop[2] ? r->crop[2] : r->width ? r->width : scene->width;
-    double height = r->crop[3] ? r->crop[3] : r->height ? r->height : scene->height;
-    FilmParams film = {.width = (int)width,
-                       .height = (int)height,
-                       .orders = r->orders,
-                       .split = !r->plain,
-                       .paper = r->paper,
-                       .sharp = r->sharp,
-                       .broad = r->broad,
-                       .spp = r->spp,
-                       .noise = r->denoise_data};
-    double guides = r->denoise_data && !r->spooled ? 19 + scene->ntargets : 0,
-           memory = (double)sysconf(_SC_PHYS_PAGES) * (double)sysconf(_SC_PAGESIZE);
-    double bytes = film_bytes(&film, scene->ntargets, r->spooled) +
-                   width * height * sizeof(float) * (guides + 19 * (r->aovs != 0));
-    if (memory > 0 && bytes > memory)
-        cli_die(a->cli, "%.0fx%.0f pixels need %.1f GB of memory, this machine has %.1f: render parts with --crop",
-                width, height, bytes / 1e9, memory / 1e9);
-}
-
 static void report(const Arguments *a, const RetexSet *set, const RenderStats *s)
 {
     double seconds = s->render_seconds > 0 ? s->render_seconds : 1e-9;
@@ -246,28 +221,12 @@ static void report(const Arguments *a, const RetexSet *set, const RenderStats *s
                  set->orders, 100 * set->folded);
 }
 
-/* A surface goes to the first target that names it: one that is left without any is a mistake. */
 static void check_targets(const Arguments *a, const Scene *scene)
 {
-    int surfaces[RETEX_MAX_TARGETS] = {0};
-    for (int k = 0; k < scene->nprimitives; k++) {
-        const Primitive *p = &scene->primitives[k];
-        if (p->target >= 0)
-            surfaces[p->target]++;
-        for (int f = 0; p->face_targets && f < p->mesh->ntextures; f++)
-            if (p->face_targets[f] >= 0)
-                surfaces[p->face_targets[f]]++;
-    }
     for (int t = 0; t < scene->ntargets; t++)
-        if (!surfaces[t])
+        if (job_target_is_empty(scene, t))
             cli_warn(a->cli, "target `%s` has no surface%s", scene->targets[t].name,
                      t ? ": those it names belong to targets named before it" : "");
-}
-
-static int is_empty(const Scene *scene)
-{
-    const Rgb *background = &scene->background;
-    return !scene->nprimitives && !scene->nlights && !scene->sky && !background->r && !background->g && !background->b;
 }
 
 int main(int argc, char **argv)
@@ -302,15 +261,11 @@ int main(int argc, char **argv)
     a.render.spooled = keeps && !a.denoise;
     name_journal(&a, output);
     double started = seconds();
-    if (sdl_parse_file(&scene, a.scene, &a.sdl, &err))
-        cli_fail(&cli, &err);
-    if (scene_resolve_targets(scene, a.targets, a.ntargets, &err))
+    if (job_open_scene(&scene, a.scene, &a.sdl, a.targets, a.ntargets, &err))
         cli_fail(&cli, &err);
     check_targets(&a, scene);
-    if (is_empty(scene))
-        cli_die(&cli, "%s: there is nothing in the scene: no object, no light, no sky", a.scene);
-    if (!a.list)
-        check_memory(&a, scene);
+    if (!a.list && job_check_memory(scene, &a.render, &err))
+        cli_fail(&cli, &err);
     replace_textures(&a, scene, loaded);
     check_columns(&a, scene);
     double parse_seconds = seconds() - started;

@@ -7,8 +7,7 @@
 #include "cli.h"
 #include "texture_args.h"
 #include "texture_table.h"
-#include "integrate/render.h"
-#include "sdl/sdl.h"
+#include "job/job.h"
 
 #define LIST_MAX 64
 

@@ -42,13 +42,13 @@ $(BUILD)/tests/bench/embree_rays: $(BUILD)/obj/tests/bench/embree_rays.o $(LIBTE
 	@mkdir -p $(@D)
 	$(SAY)$(LINK) -Wl,-rpath,'$$ORIGIN/../../lib' $^ -o $@ $(RENDER_LIBS) $(LIBRETEX_LIBS)
 
-.PHONY: unit-tests check check-all check-unit check-cli check-golden check-man check-fidelity check-long check-update \
+.PHONY: unit-tests check check-all check-unit check-cli check-oiio check-golden check-man check-fidelity check-long check-update \
 	asan tsan bench fuzz fuzz-programs sanitized-fuzz
 unit-tests: $(UNIT_TESTS:%=$(BUILD)/tests/unit/%)
 tests: $(TEST_PROGRAMS) unit-tests all
 
 # Suites are run by tests/lib/check.sh, which adds up what they report.
-SUITES ?= lint unit cli man golden fidelity
+SUITES ?= lint unit cli oiio man golden fidelity
 RUN_CHECK = BUILD=$(BUILD) JOBS=$(JOBS) tests/lib/check.sh
 check: tests
 	@$(RUN_CHECK) $(SUITES)

@@ -27,6 +27,8 @@ needs_test='
 pkg cmocka libcmocka-dev
 command mandoc mandoc
 command oiiotool openimageio-tools
+python OpenImageIO python3-openimageio
+python numpy python3-numpy
 '
 
 CC=${CC:-gcc}
@@ -52,6 +54,7 @@ present() { # kind what
     header) echo "#include <$2>" | "$CC" -E -x c - >/dev/null 2>&1 ;;
     pkg) "$PKG_CONFIG" --exists "$2" 2>/dev/null ;;
     embree) [ -n "$(embree)" ] ;;
+    python) /usr/bin/python3 -c "import $2" >/dev/null 2>&1 ;;
     file) [ -e "$2" ] ;;
     esac
 }

@@ -7,18 +7,21 @@
 #     !  a line of its standard error
 #     =  its exit status, where it is not 0
 # Empty lines and lines with # are comments. Files that commands leave behind are there for those that follow; $SCENES is
-# the folder of scenes. A block whose command is `skip-without COMMAND why` skips the rest of the file where COMMAND is
-# not on the machine. case.sh --update SUITE FILE writes what the commands do now into the file.
+# the folder of scenes, $TESTS that of the suite. A block whose command is `skip-without COMMAND why` skips the rest of
+# the file where COMMAND is not on the machine, one of `skip-unless COMMAND` where that fails. Programs of suite oiio find
+# our plugins. case.sh --update SUITE FILE writes what the commands do now into the file.
 set -u
 update=
 [ "$1" != --update ] || { update=1; shift; }
 here=$(pwd)
 file=$here/tests/$1/$2
-PATH=$here/$BUILD/bin:$here/$BUILD/tests/bin:$PATH
 SCENES=$here/scenes
+TESTS=$here/tests/$1
 LC_ALL=C
-export PATH SCENES LC_ALL
-case $BUILD in /*) PATH=$BUILD/bin:$BUILD/tests/bin:$PATH ;; esac
+case $BUILD in /*) build=$BUILD ;; *) build=$here/$BUILD ;; esac
+PATH=$build/bin:$build/tests/bin:$PATH
+export PATH SCENES TESTS LC_ALL
+[ "$1" != oiio ] || export OIIO_LIBRARY_PATH="$build/plugins"
 
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
@@ -48,6 +51,10 @@ finish() {
         # shellcheck disable=SC2086 # words wanted
         set -- $command
         command -v "$2" >/dev/null || skipping="$2 is not on this machine"
+        cp ../expected ../actual
+        ;;
+    skip-unless\ *)
+        sh -c "${command#skip-unless }" >/dev/null 2>&1 </dev/null || skipping="${command#skip-unless } fails here"
         cp ../expected ../actual
         ;;
     *) [ -n "$skipping" ] || run ;;

@@ -22,8 +22,10 @@ jobs_of() {
             t=${t##*/}
             echo "unit/${t%.c} env CMOCKA_MESSAGE_OUTPUT=TAP $BUILD/tests/unit/${t%.c}"
         done ;;
-    cli) for t in tests/cli/*.t; do [ ! -e "$t" ] || { t=${t##*/}; echo "cli/${t%.t} tests/lib/case.sh cli $t"; }; done ;;
-    man) for t in man/*.1; do [ ! -e "$t" ] || { t=${t##*/}; echo "man/${t%.1} tests/lib/man.sh man/$t"; }; done ;;
+    cli | oiio) for t in tests/"$1"/*.t; do
+            [ ! -e "$t" ] || { t=${t##*/}; echo "$1/${t%.t} tests/lib/case.sh $1 $t"; }
+        done ;;
+    man) for t in man/*.[17]; do [ ! -e "$t" ] || { t=${t##*/}; echo "man/${t%.?} tests/lib/man.sh man/$t"; }; done ;;
     golden) for t in tests/golden/*/; do
             [ ! -e "$t/command" ] || { t=${t%/}; echo "golden/${t##*/} tests/lib/golden.sh $t"; }
         done ;;

@@ -28,7 +28,10 @@ forbid tools/libretex 'OpenImageIO|OpenColorIO' "only the bridge may include Ope
 forbid renderer 'OpenImageIO|OpenColorIO|ImfHeader|openexr|turbojpeg|zip\.h' "the renderer knows libretex only"
 forbid renderer 'libretex/|bridge|exr_io|half\.h|manifest\.h|pack_|input\.h|output\.h' \
     "the renderer uses libretex's public headers only"
-forbid renderer 'oiio_plugins' "the renderer must not know the plugins"
+forbid renderer 'oiio_plugins|set_input|(pack|scene)_source|scene_options' "the renderer must not know the plugins"
+forbid tools 'oiio_plugins|set_input|(pack|scene)_source|scene_options' "libretex and the tools must not know the plugins"
+forbid oiio_plugins 'cli\.h|texture_args|texture_table|libretex/|exr_io|half\.h|manifest\.h|pack_(codec|format)|input\.h' \
+    "the plugins use libretex's public headers only"
 for file in renderer/*/*.[ch]; do
     [ -e "$file" ] || continue
     ! grep -qE '#include *"cli\.h"' "$file" || complain "$file: only mains may include cli.h"

@@ -3,15 +3,16 @@
 #
 # An example is a literal display (.Bd -literal … .Ed, or a .Dl line) of the section EXAMPLES; a leading `$ ` is left out.
 # Each must exit with 0, or with the number a comment line `.\" exit N` before it says. In the folder are scenes/ (the
-# scenes), room.exr (a set as it is rendered, with targets Floor and Wall), oak.jpg and brick.jpg (textures), a.exr and
-# b.exr (two pictures that differ a little).
+# scenes), room.exr (a set as it is rendered, with targets Floor and Wall), room.retex (it packed), oak.jpg and brick.jpg
+# (textures), a.exr and b.exr (two pictures that differ a little). Programs find our plugins for OpenImageIO.
 set -u
 here=$(pwd)
 page=$here/$1
 case $BUILD in /*) build=$BUILD ;; *) build=$here/$BUILD ;; esac
 PATH=$build/bin:$build/tests/bin:$PATH
 LC_ALL=C
-export PATH LC_ALL
+OIIO_LIBRARY_PATH=$build/plugins
+export PATH LC_ALL OIIO_LIBRARY_PATH
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 mkdir "$folder/work" "$folder/examples"
@@ -35,7 +36,7 @@ cd "$folder/work" || exit 1
 ln -s "$here/scenes" scenes
 cp "$here/scenes/textures/brick.jpg" brick.jpg
 cp "$here/scenes/living-room/textures/oak-planks.jpg" oak.jpg
-make_set room.exr 64 48 denoise && make_picture a.exr noise=0.01 && make_picture b.exr || exit 1
+make_set room.exr 64 48 denoise && retex-pack -q room.exr -o room.retex && make_picture a.exr noise=0.01 && make_picture b.exr || exit 1
 
 number=0
 for example in "$folder"/examples/???; do

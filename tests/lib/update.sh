@@ -1,5 +1,6 @@
 #!/bin/sh
-# Makes one reference anew, on a clean tree: update.sh golden/NAME | cli/NAME | fidelity/NAME. Prints what was and what is.
+# Makes one reference anew, on a clean tree: update.sh golden/NAME | cli/NAME | oiio/NAME | fidelity/NAME. Prints what was
+# and what is.
 set -eu
 case=${1-}
 if [ -z "$case" ]; then
@@ -27,7 +28,7 @@ golden)
     cp "$new" "$folder/expected.exr"
     ls -l "$folder/expected.exr"
     ;;
-cli | fidelity)
+cli | oiio | fidelity)
     tests/lib/case.sh --update "$suite" "${name%.t}.t"
     git --no-pager diff -- "tests/$suite"
     ;;

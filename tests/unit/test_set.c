@@ -718,6 +718,41 @@ static void test_damaged_files(void **state)
     }
 }
 
+/* What rows are as they are stored, and their checksums, tell of the same samples as a file. */
+static void test_stored_rows(void **state)
+{
+    (void)state;
+    RetexError err = {0};
+    RetexSet *set = test_set(37, 19, 5), *read;
+    test_must(retex_set_write(set, NULL, path, NULL, &err), &err);
+    test_must(retex_set_read(path, &read, NULL, 0, &err), &err);
+    int part = 0;
+    while (set->parts[part].type != RETEX_HALF)
+        part++;
+    set->parts[part].image.pixels[0] = 1e9f;
+    for (int i = 0; i < set->nparts; i++)
+        set->parts[i].crc = 0;
+    test_must(retex_set_checksum(set, 2, &err), &err);
+    for (int i = 0; i < set->nparts; i++) {
+        const RetexPart *of = &set->parts[i];
+        const int count = of->image.width * of->image.channels;
+        uint16_t halves[4 * 64];
+        float floats[4 * 64];
+        assert_int_equal(of->crc == read->parts[i].crc, i != part);
+        retex_part_stored_row(of, 0, of->type == RETEX_HALF ? (void *)halves : floats);
+        if (of->type == RETEX_HALF)
+            retex_half_to_float(floats, halves, (size_t)count);
+        if (i == part)
+            assert_true(floats[0] == 65504);
+        assert_memory_equal(floats + (i == part), read->parts[i].image.pixels + (i == part),
+                            (size_t)(count - (i == part)) * sizeof(float));
+    }
+    retex_image_free(&set->parts[part].image);
+    assert_int_equal(retex_set_checksum(set, 1, &err), RETEX_EINVAL);
+    retex_set_close(&set);
+    retex_set_close(&read);
+}
+
 static void test_what_is_no_set(void **state)
 {
     (void)state;
@@ -756,6 +791,7 @@ int main(void)
         cmocka_unit_test(test_mixtures_that_lie),
         cmocka_unit_test(test_mixtures_that_are_wrong),
         cmocka_unit_test(test_damaged_files),
+        cmocka_unit_test(test_stored_rows),
         cmocka_unit_test(test_what_is_no_set),
     };
     return cmocka_run_group_tests(tests, make_path, remove_path);

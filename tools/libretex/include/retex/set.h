@@ -213,6 +213,14 @@ int retex_set_write(RetexSet *set, const RetexSamples *samples, const char *path
  * that makes them. */
 int retex_set_write_check(const char *path, RetexError *err);
 
+/* One row of a part as retex_set_write would store it: samples of its type in the order of letters, pixel by pixel, in
+ * this machine's byte order. Halves are rounded to the nearest, and finite values beyond 65504 become 65504. */
+void retex_part_stored_row(const RetexPart *part, int y, void *samples);
+
+/* Give the parts, all in memory, the checksums that retex_set_write would, so that the manifest is true of rows stored
+ * by other means. */
+int retex_set_checksum(RetexSet *set, int nthreads /* 0 = all cores */, RetexError *err);
+
 /* Compare every part's stored CRC with its data: 0, or RETEX_EFORMAT naming the first damaged part. */
 int retex_set_check(const char *path, int nthreads, RetexError *err);
 

@@ -1,0 +1,219 @@
+// See pack_source.hpp. How a set comes out of its pack is behind `PackSet` and `read_pack` alone.
+#include "pack_source.hpp"
+
+#include <vector>
+
+#include <retex/retex.h>
+
+#include "cache.hpp"
+#include "failure.hpp"
+
+namespace plugins
+{
+namespace
+{
+
+// So many sets are kept in memory, and so many of their pictures, which are small.
+const size_t sets_kept = 3, pictures_kept = 8;
+
+// ---- the set ----
+
+// A pack's set. Never changed, so any thread may look.
+class PackSet
+{
+  public:
+    PackSet(const std::string &path, int threads)
+    {
+        RetexError err{};
+        must(retex_set_read(path.c_str(), &set_, nullptr, threads, &err), err);
+    }
+    ~PackSet()
+    {
+        retex_set_close(&set_);
+    }
+    PackSet(const PackSet &) = delete;
+    PackSet &operator=(const PackSet &) = delete;
+
+    const RetexSet &description() const // without pixels
+    {
+        return *set_;
+    }
+    const RetexPart &part(int index) const
+    {
+        return set_->parts[index];
+    }
+    // With those textures; without any the one that was rendered, as far as the set holds it.
+    RetexImage picture(const std::vector<RetexTextureSpec> &textures, int threads) const
+    {
+        RetexError err{};
+        RetexSamples *samples = nullptr;
+        RetexImage picture{};
+        int code = 0;
+        if (!set_->nterms && textures.empty())
+            code = retex_image_copy(&picture, &set_->parts[0].image, &err);
+        else if (!textures.empty())
+            code = retex_sample(&samples, set_, textures.data(), int(textures.size()), threads, &err);
+        if (!code && !picture.pixels)
+            code = retex_combine(&picture, set_, samples, nullptr, nullptr, threads, &err);
+        retex_samples_close(&samples);
+        if (code)
+            retex_image_free(&picture);
+        must(code, err);
+        return picture;
+    }
+
+  private:
+    RetexSet *set_ = nullptr;
+};
+
+std::shared_ptr<PackSet> read_pack(const std::string &path, int threads)
+{
+    static Cache<PackSet> cache(sets_kept);
+    return cache.get(path, file_stamp(path), [&] { return std::make_shared<PackSet>(path, threads); });
+}
+
+// ---- textures ----
+
+std::string target_names(const RetexSet &set)
+{
+    std::string names;
+    for (int t = 0; t < set.ntargets; t++)
+        names += (t ? ", " : "") + std::string(set.targets[t].name);
+    return names.empty() ? "none" : names;
+}
+
+// Neither a wrong name nor a missing file should be found out when the pixels are wanted.
+void check_texture(const RetexSet &set, const RetexTextureSpec &texture)
+{
+    if (retex_set_find_target(&set, texture.target) < 0)
+        throw Failure(std::string("the set has no target '") + texture.target + "'; there are: " + target_names(set));
+    if (!texture.constant && file_stamp(texture.image) == "absent")
+        throw Failure(std::string("cannot read ") + texture.image + ": No such file or directory");
+}
+
+// Options of a target come behind the target itself: that is the order of the alphabet.
+std::vector<RetexTextureSpec> parse_textures(const Arguments &arguments)
+{
+    std::vector<RetexTextureSpec> textures;
+    for (const auto &argument : arguments) {
+        const std::string &name = argument.first;
+        size_t dot = name.find('.');
+        if (dot != std::string::npos && !arguments.count(name.substr(0, dot)))
+            throw Failure(name + ": " + name.substr(0, dot) + " has no texture; expected " + name.substr(0, dot) +
+                          "=IMAGE too");
+        if (dot != std::string::npos)
+            continue;
+        std::string options, begin = name + ".";
+        for (auto o = arguments.lower_bound(begin);
+             o != arguments.end() && o->first.compare(0, begin.size(), begin) == 0; ++o) {
+            if (o->second.find(':') != std::string::npos)
+                throw Failure(o->first + ": no colon can be in '" + o->second + "'");
+            options += (options.empty() ? "" : ":") + o->first.substr(begin.size()) + "=" + o->second;
+        }
+        RetexTextureSpec texture;
+        RetexError err{};
+        must(retex_texture_spec_parse(&texture, options.c_str(), (name + "=" + argument.second).c_str(), &err), err);
+        textures.push_back(texture);
+    }
+    return textures;
+}
+
+// ---- the source ----
+
+struct Picture {
+    RetexPart part{};
+    std::string manifest; // of the set with this picture in front; "" where it is another one than was rendered
+    ~Picture()
+    {
+        retex_image_free(&part.image);
+    }
+};
+
+// The set has the picture in front as it is shown, so that what is written of all parts is a set again.
+void make_manifest(Picture &picture, const RetexSet &set)
+{
+    RetexError err{};
+    RetexSet front = set;
+    front.nparts = 1;
+    front.parts = &picture.part;
+    must(retex_set_checksum(&front, 1, &err), err);
+    std::vector<RetexPart> parts(set.parts, set.parts + set.nparts);
+    parts[0] = picture.part;
+    front.nparts = set.nparts;
+    front.parts = parts.data();
+    picture.manifest = manifest_of(front);
+}
+
+class PackSource final : public Source
+{
+  public:
+    PackSource(const std::string &path, const Arguments &arguments, int threads)
+        : textures_(parse_textures(arguments)), threads_(threads), key_(path), stamp_(file_stamp(path)),
+          set_(read_pack(path, threads))
+    {
+        for (const RetexTextureSpec &texture : textures_) {
+            check_texture(set_->description(), texture);
+            stamp_ += texture.constant ? "" : " " + file_stamp(texture.image);
+        }
+        for (const auto &argument : arguments) {
+            key_ += "&" + argument.first + "=" + argument.second;
+            shown_ += (shown_.empty() ? "" : "&") + argument.first + "=" + argument.second;
+        }
+    }
+    int count() override
+    {
+        return textures_.empty() ? set_->description().nparts : 1;
+    }
+    OIIO::ImageSpec spec(int index) override
+    {
+        OIIO::ImageSpec spec = part_spec(set_->description(), index);
+        if (index > 0)
+            return spec;
+        spec.set_format(OIIO::TypeDesc::FLOAT);
+        describe_picture(spec, set_->description(), textures_.empty() ? picture().manifest : "");
+        if (!textures_.empty())
+            spec.attribute("retex:textures", shown_);
+        return spec;
+    }
+    const RetexPart &part(int index) override
+    {
+        return index ? set_->part(index) : picture().part;
+    }
+
+  private:
+    const Picture &picture()
+    {
+        static Cache<Picture> cache(pictures_kept);
+        std::lock_guard<std::mutex> lock(mutex_);
+        if (!picture_)
+            picture_ = cache.get(key_, stamp_, [&] { return make_picture(); });
+        return *picture_;
+    }
+    std::shared_ptr<Picture> make_picture() const
+    {
+        auto picture = std::make_shared<Picture>();
+        picture->part = set_->description().parts[0];
+        picture->part.type = RETEX_FLOAT;
+        picture->part.image = RetexImage{};
+        picture->part.image = set_->picture(textures_, threads_);
+        if (textures_.empty())
+            make_manifest(*picture, set_->description());
+        return picture;
+    }
+
+    const std::vector<RetexTextureSpec> textures_;
+    const int threads_;
+    std::string key_, stamp_, shown_;
+    const std::shared_ptr<PackSet> set_;
+    std::mutex mutex_;
+    std::shared_ptr<Picture> picture_;
+};
+
+} // namespace
+
+std::shared_ptr<Source> open_pack(const std::string &path, const Arguments &arguments, int threads)
+{
+    return std::make_shared<PackSource>(path, arguments, threads);
+}
+
+} // namespace plugins

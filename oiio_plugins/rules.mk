@@ -1,0 +1,25 @@
+# Plugins for OpenImageIO: NAME.imageio.so, of NAME_imageio.cpp and what both share. Each has the libraries inside, with
+# no symbol to be seen but those that OpenImageIO looks for; the bridge is found beside it at run time.
+PLUGINS := $(patsubst oiio_plugins/%_imageio.cpp,$(BUILD)/plugins/%.imageio.so,$(wildcard oiio_plugins/*_imageio.cpp))
+PLUGIN_FOLDER := lib/retex/plugins
+PLUGIN_OBJECTS := $(BUILD)/obj/oiio_plugins/failure.o $(BUILD)/obj/oiio_plugins/set_input.o \
+	$(BUILD)/obj/oiio_plugins/set_spec.o
+LINK_PLUGIN = $(CXX) -shared $(CXXFLAGS_ALL) $(LDFLAGS) -Wl,--version-script=oiio_plugins/exports.map -Wl,--as-needed \
+	-Wl,-rpath,'$$ORIGIN/../lib:$$ORIGIN/../..' -Wl,--enable-new-dtags
+
+$(BUILD)/obj/oiio_plugins/%.o: oiio_plugins/%.cpp $(BUILD)/config.mk
+	@mkdir -p $(@D)
+	$(SAY)$(CXX) $(CPPFLAGS_ALL) -Irenderer $(BRIDGE_CFLAGS) $(CXXFLAGS_ALL) -Wno-missing-field-initializers -MMD -MP \
+	    -c $< -o $@
+
+$(BUILD)/plugins/retex.imageio.so: $(BUILD)/obj/oiio_plugins/retex_imageio.o $(BUILD)/obj/oiio_plugins/pack_source.o \
+	    $(PLUGIN_OBJECTS) $(LIBRETEX) | $(BRIDGE)
+	@mkdir -p $(@D)
+	$(SAY)$(LINK_PLUGIN) $^ -o $@ $(LIBRETEX_LIBS) $(BRIDGE_LIBS)
+
+$(BUILD)/plugins/pov.imageio.so: $(BUILD)/obj/oiio_plugins/pov_imageio.o $(BUILD)/obj/oiio_plugins/scene_source.o \
+	    $(BUILD)/obj/oiio_plugins/scene_options.o $(PLUGIN_OBJECTS) $(LIBRENDER) $(LIBRETEX) | $(BRIDGE)
+	@mkdir -p $(@D)
+	$(SAY)$(LINK_PLUGIN) $^ -o $@ $(RENDER_LIBS) $(LIBRETEX_LIBS) $(BRIDGE_LIBS)
+
+all: $(PLUGINS)

@@ -1,0 +1,110 @@
+// See scene_options.hpp.
+#include "scene_options.hpp"
+
+#include <algorithm>
+
+#include <OpenImageIO/strutil.h>
+
+#include "failure.hpp"
+
+namespace plugins
+{
+namespace
+{
+
+const char *const known = "targets, spp, noise, size, width, height, crop, seed, max_depth, filter, layout, clusters, "
+                          "orders, strict_paper, plain, aov, denoise, no_denoise_data, caustics_guide, include, "
+                          "declare.NAME, ambient, strict and threads";
+
+int whole(const std::string &name, const std::string &value, int low, int high)
+{
+    OIIO::string_view text = value;
+    int number = 0;
+    if (!OIIO::Strutil::parse_int(text, number) || !text.empty() || number < low || number > high)
+        throw Failure(name + ": expected a whole number from " + std::to_string(low) + " to " + std::to_string(high) +
+                      ", not '" + value + "'");
+    return number;
+}
+
+std::vector<std::string> list(const std::string &name, const std::string &value)
+{
+    std::vector<std::string> items = OIIO::Strutil::splits(value, ",");
+    for (const std::string &item : items)
+        if (item.empty())
+            throw Failure(name + ": an empty name in '" + value + "'");
+    return items;
+}
+
+// Floor, Wall=Brick+Plaster -> what -t takes: Floor, Wall=Brick,Plaster
+std::vector<std::string> targets(const std::string &value)
+{
+    std::vector<std::string> items = list("targets", value);
+    for (std::string &item : items)
+        std::replace(item.begin(), item.end(), '+', ',');
+    if (items.size() > RETEX_MAX_TARGETS)
+        throw Failure("targets: more than " + std::to_string(RETEX_MAX_TARGETS));
+    return items;
+}
+
+void set_option(SceneOptions &options, const std::string &name, const std::string &value)
+{
+    RetexError err{};
+    if (name == "targets") {
+        options.targets = targets(value);
+    } else if (name == "include") {
+        options.includes = list(name, value);
+    } else if (name == "width") {
+        options.width = whole(name, value, 1, RETEX_MAX_SIZE);
+    } else if (name == "height") {
+        options.height = whole(name, value, 1, RETEX_MAX_SIZE);
+    } else if (name == "threads") {
+        options.render.nthreads = whole(name, value, 0, 256);
+    } else if (name == "denoise") {
+        options.denoise = whole(name, value, 0, 1);
+    } else if (name == "no-denoise-data") {
+        options.no_denoise_data = whole(name, value, 0, 1);
+    } else if (job_set_option(&options.render, &options.sdl, name.c_str(), value.c_str(), &err)) {
+        throw Failure(err.code == RETEX_ENOTFOUND ? "there is no option '" + name + "'; there are " + known
+                                                  : std::string(err.message));
+    }
+}
+
+void check(const SceneOptions &options, const Arguments &arguments)
+{
+    if (options.render.paper && arguments.count("clusters"))
+        throw Failure("layout paper has no clusters: one of them");
+    if (options.render.width && (options.width || options.height))
+        throw Failure("size says it all: no width or height beside it");
+    if (options.denoise && options.no_denoise_data)
+        throw Failure("denoise reads what no_denoise_data leaves out: one of them");
+    if (options.denoise && options.render.spp < 2)
+        throw Failure("denoise needs two samples a pixel at least: one does not tell how noisy it is");
+}
+
+} // namespace
+
+SceneOptions parse_scene_options(const Arguments &arguments, int threads)
+{
+    static const std::string declare = "declare.";
+    SceneOptions options;
+    options.render.nthreads = threads;
+    for (const auto &argument : arguments) {
+        std::string name = argument.first;
+        if (name.compare(0, declare.size(), declare) == 0) {
+            RetexError err{};
+            std::string text = name.substr(declare.size()) + "=" + argument.second;
+            if (job_check_declare(text.c_str(), &err))
+                throw Failure(std::string(name) + ": " + err.message);
+            options.declares.push_back(text);
+            continue;
+        }
+        std::replace(name.begin(), name.end(), '_', '-');
+        set_option(options, name, argument.second);
+    }
+    check(options, arguments);
+    bool keeps = !options.targets.empty() && !options.render.plain;
+    options.render.denoise_data = options.denoise || (keeps && !options.no_denoise_data);
+    return options;
+}
+
+} // namespace plugins

@@ -1,0 +1,241 @@
+// See scene_source.hpp.
+#include "scene_source.hpp"
+
+#include <atomic>
+#include <cmath>
+#include <cstdlib>
+
+#include <retex/denoise.h>
+
+#include "cache.hpp"
+#include "failure.hpp"
+#include "scene_options.hpp"
+
+namespace plugins
+{
+namespace
+{
+
+const size_t scenes_kept = 3;
+
+// Of the whole process; told as `retex:renders` where $RETEX_OIIO_DEBUG is set.
+std::atomic<int> renders{0};
+
+// A scene whose texture is a scene, itself perhaps, would be waited for by its own reading.
+class NotNested
+{
+  public:
+    NotNested()
+    {
+        if (inside())
+            throw Failure("a scene cannot be a texture of a scene");
+        inside() = true;
+    }
+    ~NotNested()
+    {
+        inside() = false;
+    }
+    NotNested(const NotNested &) = delete;
+    NotNested &operator=(const NotNested &) = delete;
+
+  private:
+    static bool &inside()
+    {
+        static thread_local bool is = false;
+        return is;
+    }
+};
+
+std::vector<const char *> pointers(const std::vector<std::string> &texts)
+{
+    std::vector<const char *> all;
+    for (const std::string &text : texts)
+        all.push_back(text.c_str());
+    return all;
+}
+
+void keep_warning(void *context, int level, const char *text)
+{
+    auto *warnings = static_cast<std::string *>(context);
+    if (level > 0 && warnings->size() < 4000)
+        *warnings += (warnings->empty() ? "" : "\n") + std::string(text);
+}
+
+using ScenePointer = std::unique_ptr<Scene, void (*)(Scene *)>;
+
+void close_scene(Scene *scene)
+{
+    scene_close(&scene);
+}
+
+ScenePointer parse_scene(const std::string &path, const SceneOptions &options, std::string *warnings)
+{
+    RetexError err{};
+    Scene *scene = nullptr;
+    std::vector<const char *> targets = pointers(options.targets), includes = pointers(options.includes),
+                              declares = pointers(options.declares);
+    SdlOptions sdl = options.sdl;
+    sdl.include_paths = includes.data(), sdl.ninclude_paths = int(includes.size());
+    sdl.declares = declares.data(), sdl.ndeclares = int(declares.size());
+    sdl.message = keep_warning, sdl.message_context = warnings;
+    warnings->clear();
+    must(job_open_scene(&scene, path.c_str(), &sdl, targets.data(), int(targets.size()), &err), err);
+    return {scene, close_scene};
+}
+
+// A scene that is read and, once that is wanted, rendered.
+class SceneJob
+{
+  public:
+    SceneJob(const std::string &path, const Arguments &arguments, int threads)
+        : options_(parse_scene_options(arguments, threads)), scene_(nullptr, close_scene)
+    {
+        RetexError err{};
+        scene_ = parse_scene(path, options_, &warnings_);
+        if (options_.width || options_.height)
+            settle_size(path);
+        for (int t = 0; t < scene_->ntargets; t++)
+            if (job_target_is_empty(scene_.get(), t))
+                keep_warning(&warnings_, 1,
+                             (std::string("target `") + scene_->targets[t].name + "` has no surface").c_str());
+        must(job_check_memory(scene_.get(), &options_.render, &err), err);
+        describe();
+    }
+    ~SceneJob()
+    {
+        retex_set_close(&set_);
+    }
+    SceneJob(const SceneJob &) = delete;
+    SceneJob &operator=(const SceneJob &) = delete;
+
+    // Nothing but a picture, so that all is known before it is rendered.
+    bool is_picture() const
+    {
+        return (options_.targets.empty() || options_.render.plain) && !options_.render.aovs;
+    }
+    // Of the picture alone, without pixels.
+    const RetexSet &description() const
+    {
+        return description_;
+    }
+    const RetexSet &set()
+    {
+        NotNested guard;
+        std::lock_guard<std::mutex> lock(mutex_);
+        if (!set_)
+            render();
+        return *set_;
+    }
+    const std::string &manifest() const
+    {
+        return manifest_;
+    }
+    const std::string &warnings() const
+    {
+        return warnings_;
+    }
+
+  private:
+    // The scene itself may go by the size of the picture: it is read again once that is known.
+    void settle_size(const std::string &path)
+    {
+        double shape = double(scene_->width) / scene_->height;
+        int width = options_.width ? options_.width : int(std::lround(options_.height * shape));
+        int height = options_.height ? options_.height : int(std::lround(options_.width / shape));
+        options_.render.width = options_.sdl.width = std::max(width, 1);
+        options_.render.height = options_.sdl.height = std::max(height, 1);
+        scene_ = parse_scene(path, options_, &warnings_);
+    }
+    void describe()
+    {
+        const RenderParams &r = options_.render;
+        const char *slash = std::strrchr(scene_->path, '/');
+        int width = r.width ? r.width : scene_->width, height = r.height ? r.height : scene_->height;
+        if (r.crop[2] && (r.crop[0] + r.crop[2] > width || r.crop[1] + r.crop[3] > height))
+            throw Failure("crop does not lie inside the picture of " + std::to_string(width) + "x" +
+                          std::to_string(height));
+        description_.width = r.crop[2] ? r.crop[2] : width;
+        description_.height = r.crop[3] ? r.crop[3] : height;
+        if (description_.width > RETEX_MAX_SIZE || description_.height > RETEX_MAX_SIZE)
+            throw Failure("a picture may have " + std::to_string(RETEX_MAX_SIZE) + " pixels a side");
+        std::snprintf(description_.layout, sizeof description_.layout, "plain");
+        std::snprintf(description_.scene, sizeof description_.scene, "%.255s", slash ? slash + 1 : scene_->path);
+        description_.spp = r.spp, description_.max_depth = r.max_depth, description_.seed = r.seed;
+        description_.nparts = 1, description_.parts = &front_;
+        std::snprintf(front_.name, sizeof front_.name, "beauty");
+        std::snprintf(front_.letters, sizeof front_.letters, "RGB");
+        front_.type = RETEX_FLOAT;
+        front_.image.width = description_.width, front_.image.height = description_.height, front_.image.channels = 3;
+    }
+    void render()
+    {
+        RetexError err{};
+        RetexSet *rendered = nullptr;
+        must(render_scene(&rendered, scene_.get(), &options_.render, nullptr, &err), err);
+        std::unique_ptr<RetexSet, void (*)(RetexSet *)> owned(rendered, [](RetexSet *set) { retex_set_close(&set); });
+        renders++;
+        if (options_.denoise)
+            must(retex_denoise(rendered, nullptr, nullptr, options_.render.nthreads, &err), err);
+        if (!is_picture()) {
+            must(retex_set_checksum(rendered, options_.render.nthreads, &err), err);
+            manifest_ = manifest_of(*rendered);
+        }
+        set_ = owned.release();
+        scene_.reset(); // all that is wanted of it is rendered
+    }
+
+    SceneOptions options_;
+    ScenePointer scene_;
+    std::string warnings_, manifest_;
+    RetexSet description_{};
+    RetexPart front_{};
+    std::mutex mutex_;
+    RetexSet *set_ = nullptr;
+};
+
+class SceneSource final : public Source
+{
+  public:
+    explicit SceneSource(const std::shared_ptr<SceneJob> &job) : job_(job)
+    {
+    }
+    int count() override
+    {
+        return job_->is_picture() ? 1 : job_->set().nparts;
+    }
+    OIIO::ImageSpec spec(int index) override
+    {
+        const RetexSet &set = job_->is_picture() ? job_->description() : job_->set();
+        OIIO::ImageSpec spec = part_spec(set, index);
+        if (index == 0)
+            describe_picture(spec, set, job_->manifest());
+        if (index == 0 && !job_->warnings().empty())
+            spec.attribute("retex:warnings", job_->warnings());
+        if (index == 0 && std::getenv("RETEX_OIIO_DEBUG"))
+            spec.attribute("retex:renders", renders.load());
+        return spec;
+    }
+    const RetexPart &part(int index) override
+    {
+        return job_->set().parts[index];
+    }
+
+  private:
+    const std::shared_ptr<SceneJob> job_;
+};
+
+} // namespace
+
+std::shared_ptr<Source> open_scene(const std::string &path, const Arguments &arguments, int threads)
+{
+    static Cache<SceneJob> cache(scenes_kept);
+    NotNested guard;
+    std::string key = path;
+    for (const auto &argument : arguments)
+        if (argument.first != "threads") // the picture is the same
+            key += "&" + argument.first + "=" + argument.second;
+    return std::make_shared<SceneSource>(
+        cache.get(key, file_stamp(path), [&] { return std::make_shared<SceneJob>(path, arguments, threads); }));
+}
+
+} // namespace plugins

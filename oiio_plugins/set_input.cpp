@@ -1,0 +1,201 @@
+// See set_input.hpp. Nothing that is thrown leaves an entry from OpenImageIO.
+#include "set_input.hpp"
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+
+#include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/strutil.h>
+
+#include "failure.hpp"
+
+namespace plugins
+{
+namespace
+{
+
+// %26 -> & and %25 -> %: between options an & ends the value.
+std::string unescaped(const std::string &text)
+{
+    std::string plain;
+    for (size_t i = 0; i < text.size(); i++) {
+        bool ampersand = text.compare(i, 3, "%26") == 0, percent = text.compare(i, 3, "%25") == 0;
+        plain += ampersand ? '&' : text[i];
+        i += ampersand || percent ? 2 : 0;
+    }
+    return plain;
+}
+
+// What stands for a name with options that cannot be opened: of such a one oiiotool would say no more than that there
+// is no such file. So it opens, and says what is wrong when pixels are asked for.
+class Unreadable final : public Source
+{
+  public:
+    explicit Unreadable(const std::string &why) : why_(why)
+    {
+    }
+    int count() override
+    {
+        return 1;
+    }
+    OIIO::ImageSpec spec(int) override
+    {
+        OIIO::ImageSpec spec(1, 1, 3, OIIO::TypeDesc::FLOAT);
+        spec.attribute("retex:error", why_);
+        return spec;
+    }
+    const RetexPart &part(int) override
+    {
+        throw Failure(why_);
+    }
+
+  private:
+    const std::string why_;
+};
+
+class SetInput final : public OIIO::ImageInput
+{
+  public:
+    explicit SetInput(const Format &format) : format_(format)
+    {
+    }
+    const char *format_name() const override
+    {
+        return format_.name;
+    }
+    int supports(OIIO::string_view feature) const override
+    {
+        return feature == "arbitrary_metadata";
+    }
+    bool valid_file(const std::string &name) const override
+    {
+        return guarded([&] { check_content(split(name).path); }).empty();
+    }
+    bool open(const std::string &name, OIIO::ImageSpec &spec) override
+    {
+        return entry([&] {
+            Name parts = split(name);
+            close();
+            source_ = open_source(parts);
+            seek(0);
+            spec = m_spec;
+        });
+    }
+    bool close() override
+    {
+        source_.reset();
+        current_ = -1;
+        return true;
+    }
+    int current_subimage() const override
+    {
+        lock_guard lock(*this);
+        return current_ < 0 ? 0 : current_;
+    }
+    // OpenImageIO counts subimages by seeking until it fails: that is no error.
+    bool seek_subimage(int subimage, int miplevel) override
+    {
+        lock_guard lock(*this);
+        bool there = false;
+        bool done = entry([&] {
+            there = source_ && miplevel == 0 && subimage >= 0 && (subimage == 0 || subimage < source_->count());
+            if (there)
+                seek(subimage);
+        });
+        return done && there;
+    }
+    bool read_native_scanline(int subimage, int miplevel, int y, int, void *data) override
+    {
+        lock_guard lock(*this);
+        if (!seek_subimage(subimage, miplevel))
+            return false;
+        return entry([&] {
+            const RetexPart &part = source_->part(subimage);
+            if (y < 0 || y >= part.image.height)
+                throw Failure("there is no line " + std::to_string(y) + " in " + part.name);
+            retex_part_stored_row(&part, y, data);
+        });
+    }
+
+  private:
+    struct Name {
+        std::string path;
+        Arguments arguments;
+    };
+
+    Name split(const std::string &name) const
+    {
+        Name parts;
+        if (!OIIO::Strutil::get_rest_arguments(name, parts.path, parts.arguments))
+            throw Failure(name + ": expected option=value and & between options behind the ?");
+        if (!OIIO::Strutil::iequals(OIIO::Filesystem::extension(parts.path, false), format_.name))
+            throw Failure(parts.path + ": no ." + format_.name + " file");
+        for (auto &argument : parts.arguments)
+            argument.second = unescaped(argument.second);
+        return parts;
+    }
+    std::shared_ptr<Source> open_source(const Name &name) const
+    {
+        if (name.arguments.empty()) {
+            check_content(name.path);
+            return format_.open(name.path, name.arguments, host_threads());
+        }
+        read_begin(name.path);
+        try {
+            check_content(name.path);
+            return format_.open(name.path, name.arguments, host_threads());
+        } catch (const std::exception &e) {
+            return std::make_shared<Unreadable>(e.what());
+        }
+    }
+    static std::string read_begin(const std::string &path)
+    {
+        char begin[64];
+        std::unique_ptr<FILE, int (*)(FILE *)> file(std::fopen(path.c_str(), "rb"), std::fclose);
+        size_t got = file ? std::fread(begin, 1, sizeof begin, file.get()) : 0;
+        if (!file || std::ferror(file.get()))
+            throw Failure("cannot read " + path + ": " + std::strerror(errno));
+        return std::string(begin, got);
+    }
+    // OpenImageIO offers any file that nothing else can read.
+    void check_content(const std::string &path) const
+    {
+        std::string begin = read_begin(path);
+        if (!format_.probe(begin.data(), begin.size()))
+            throw Failure(path + ": no ." + format_.name + " file" +
+                          (begin.empty() ? ": it is empty" : " by what is in it"));
+    }
+    // As many as the host lets OpenImageIO use; 0 = all cores.
+    int host_threads() const
+    {
+        return threads() > 0 ? threads() : OIIO::get_int_attribute("threads");
+    }
+    void seek(int subimage)
+    {
+        if (subimage == current_)
+            return;
+        m_spec = source_->spec(subimage);
+        current_ = subimage;
+    }
+    bool entry(const std::function<void()> &body)
+    {
+        std::string why = guarded(body);
+        if (!why.empty())
+            errorfmt("{}", why);
+        return why.empty();
+    }
+
+    const Format &format_;
+    std::shared_ptr<Source> source_;
+    int current_ = -1;
+};
+
+} // namespace
+
+OIIO::ImageInput *create_input(const Format &format)
+{
+    return new SetInput(format);
+}
+
+} // namespace plugins

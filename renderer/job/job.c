@@ -1,0 +1,61 @@
+/* See job.h. */
+#include <unistd.h>
+#include "film/film.h"
+#include "job/job.h"
+
+int job_target_is_empty(const Scene *scene, int t)
+{
+    for (int k = 0; k < scene->nprimitives; k++) {
+        const Primitive *p = &scene->primitives[k];
+        if (p->target == t)
+            return 0;
+        for (int f = 0; p->face_targets && f < p->mesh->ntextures; f++)
+            if (p->face_targets[f] == t)
+                return 0;
+    }
+    return 1;
+}
+
+static int is_empty(const Scene *scene)
+{
+    const Rgb *background = &scene->background;
+    return !scene->nprimitives && !scene->nlights && !scene->sky && !background->r && !background->g && !background->b;
+}
+
+int job_open_scene(Scene **scene, const char *path, const SdlOptions *sdl, const char *const *targets, int ntargets,
+                   RetexError *err)
+{
+    int code = sdl_parse_file(scene, path, sdl, err);
+    if (!code)
+        code = scene_resolve_targets(*scene, targets, ntargets, err);
+    if (!code && is_empty(*scene))
+        code =
+            retex_fail_at(err, RETEX_EINVAL, path, 0, 0, "there is nothing in the scene: no object, no light, no sky");
+    if (code)
+        scene_close(scene);
+    return code;
+}
+
+int job_check_memory(const Scene *scene, const RenderParams *r, RetexError *err)
+{
+    double width = r->crop[2] ? r->crop[2] : r->width ? r->width : scene->width;
+    double height = r->crop[3] ? r->crop[3] : r->height ? r->height : scene->height;
+    FilmParams film = {.width = (int)width,
+                       .height = (int)height,
+                       .orders = r->orders,
+                       .split = !r->plain,
+                       .paper = r->paper,
+                       .sharp = r->sharp,
+                       .broad = r->broad,
+                       .spp = r->spp,
+                       .noise = r->denoise_data};
+    double guides = r->denoise_data && !r->spooled ? 19 + scene->ntargets : 0,
+           memory = (double)sysconf(_SC_PHYS_PAGES) * (double)sysconf(_SC_PAGESIZE);
+    double bytes = film_bytes(&film, scene->ntargets, r->spooled) +
+                   width * height * sizeof(float) * (guides + 19 * (r->aovs != 0));
+    if (memory > 0 && bytes > memory)
+        return retex_fail(err, RETEX_ENOMEM,
+                          "%.0fx%.0f pixels need %.1f GB of memory, this machine has %.1f: render parts with --crop",
+                          width, height, bytes / 1e9, memory / 1e9);
+    return RETEX_OK;
+}

@@ -1,0 +1,209 @@
+/* Options of a render, from text: the same names, values and complaints on the command line and in a name that
+ * OpenImageIO opens. */
+#include <ctype.h>
+#include <errno.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include "film/film.h"
+#include "job/job.h"
+
+typedef struct Option {
+    RenderParams *render;
+    SdlOptions *sdl;
+    const char *name, *value;
+    RetexError *err;
+} Option;
+
+static int read_whole(const Option *o, long low, long high, long *number)
+{
+    char *end;
+    errno = 0;
+    *number = strtol(o->value, &end, 10);
+    if (errno || end == o->value || *end || isspace((unsigned char)o->value[0]) || *number < low || *number > high)
+        return retex_fail(o->err, RETEX_EPARSE, "%s: expected a whole number from %ld to %ld, not '%s'", o->name, low,
+                          high, o->value);
+    return RETEX_OK;
+}
+
+static int set_whole(const Option *o, long low, long high, int *field)
+{
+    long number;
+    int code = read_whole(o, low, high, &number);
+    if (!code)
+        *field = (int)number;
+    return code;
+}
+
+static int set_seed(const Option *o)
+{
+    long number;
+    int code = read_whole(o, 0, 0xffffffffL, &number);
+    if (!code)
+        o->render->seed = (uint32_t)number;
+    return code;
+}
+
+static int set_noise(const Option *o)
+{
+    char *end;
+    const double low = 1e-6, high = 10;
+    double value = strtod(o->value, &end);
+    if (end == o->value || *end || isspace((unsigned char)o->value[0]) || !isfinite(value) || value < low ||
+        value > high)
+        return retex_fail(o->err, RETEX_EPARSE, "%s: expected a number from %g to %g, not '%s'", o->name, low, high,
+                          o->value);
+    o->render->noise = value;
+    return RETEX_OK;
+}
+
+int job_numbers(const char *text, char separator, int count, int *numbers)
+{
+    for (int k = 0; k < count; k++) {
+        char *end;
+        long v = strtol(text, &end, 10);
+        if (!isdigit((unsigned char)*text) || v < 0 || v > 1 << 24 || *end != (k + 1 < count ? separator : 0))
+            return 0;
+        numbers[k] = (int)v;
+        text = end + 1;
+    }
+    return 1;
+}
+
+static int set_size(const Option *o)
+{
+    int size[2];
+    if (!job_numbers(o->value, 'x', 2, size) || size[0] < 1 || size[1] < 1)
+        return retex_fail(o->err, RETEX_EPARSE, "%s wants WxH, not `%s`", o->name, o->value);
+    o->render->width = o->sdl->width = size[0];
+    o->render->height = o->sdl->height = size[1];
+    return RETEX_OK;
+}
+
+static int set_crop(const Option *o)
+{
+    int crop[4];
+    if (!job_numbers(o->value, ',', 4, crop) || crop[2] < 1 || crop[3] < 1)
+        return retex_fail(o->err, RETEX_EPARSE, "%s wants X,Y,W,H, not `%s`", o->name, o->value);
+    memcpy(o->render->crop, crop, sizeof crop);
+    return RETEX_OK;
+}
+
+/* Which of two names the value is. */
+static int set_choice(const Option *o, const char *first, const char *second, int *field)
+{
+    if (strcmp(o->value, first) && strcmp(o->value, second))
+        return retex_fail(o->err, RETEX_EPARSE, "%s knows %s and %s, not `%s`", o->name, first, second, o->value);
+    *field = !strcmp(o->value, second);
+    return RETEX_OK;
+}
+
+/* 4, of either kind, or 2+1. */
+static int set_clusters(const Option *o)
+{
+    int all, sharp, broad, used = 0;
+    const char *text = o->value;
+    if (isdigit((unsigned char)text[0]) && sscanf(text, "%2d%n", &all, &used) == 1 && !text[used])
+        sharp = broad = all;
+    else if (isdigit((unsigned char)text[0]) && sscanf(text, "%2d+%2d%n", &sharp, &broad, &used) == 2 && !text[used])
+        all = sharp + broad;
+    else
+        return retex_fail(o->err, RETEX_EPARSE, "%s wants a number, or two as in 2+1, not `%s`", o->name, text);
+    if (all < 2 || all > FILM_CLUSTERS_MAX || sharp < 1 || broad < 1)
+        return retex_fail(o->err, RETEX_EPARSE, "%s wants 2 to %d, at least one sharp and one broad, not `%s`", o->name,
+                          FILM_CLUSTERS_MAX, text);
+    o->render->clusters = all;
+    o->render->sharp = sharp, o->render->broad = broad;
+    return RETEX_OK;
+}
+
+static int add_aovs(const Option *o)
+{
+    static const char *const names[] = {"depth",  "albedo",    "normal",   "position",   "uv",
+                                        "object", "roughness", "metallic", "irradiance", "beauty"};
+    enum { COUNT = sizeof names / sizeof *names };
+    unsigned bits = 0;
+    for (const char *name = o->value;; name++) {
+        size_t length = strcspn(name, ",");
+        int k = 0;
+        while (k < COUNT && (strlen(names[k]) != length || strncmp(names[k], name, length)))
+            k++;
+        if (k == COUNT)
+            return retex_fail(
+                o->err, RETEX_EPARSE,
+                "%s knows beauty,depth,albedo,normal,position,uv,object,roughness,metallic,irradiance, not `%.*s`",
+                o->name, (int)length, name);
+        if (k < COUNT - 1)
+            bits |= 1u << k;
+        name += length;
+        if (!*name)
+            break;
+    }
+    o->render->aovs |= bits;
+    return RETEX_OK;
+}
+
+/* Options that take a value. */
+static int set_value(const Option *o)
+{
+    RenderParams *r = o->render;
+    if (!strcmp(o->name, "spp"))
+        return set_whole(o, 1, 1 << 20, &r->spp);
+    if (!strcmp(o->name, "max-depth"))
+        return set_whole(o, 1, 256, &r->max_depth);
+    if (!strcmp(o->name, "orders"))
+        return set_whole(o, 1, RETEX_MAX_ORDERS, &r->orders);
+    if (!strcmp(o->name, "seed"))
+        return set_seed(o);
+    if (!strcmp(o->name, "noise"))
+        return set_noise(o);
+    if (!strcmp(o->name, "size"))
+        return set_size(o);
+    if (!strcmp(o->name, "crop"))
+        return set_crop(o);
+    if (!strcmp(o->name, "filter"))
+        return set_choice(o, "box", "gaussian", &r->gaussian);
+    if (!strcmp(o->name, "layout"))
+        return set_choice(o, "footprints", "paper", &r->paper);
+    if (!strcmp(o->name, "clusters"))
+        return set_clusters(o);
+    if (!strcmp(o->name, "aov"))
+        return add_aovs(o);
+    return retex_fail(o->err, RETEX_ENOTFOUND, "%s is no option of a render", o->name);
+}
+
+int job_set_option(RenderParams *render, SdlOptions *sdl, const char *name, const char *value, RetexError *err)
+{
+    const struct {
+        const char *name;
+        int *field;
+    } flags[] = {{"plain", &render->plain},
+                 {"strict-paper", &render->strict_paper},
+                 {"caustics-guide", &render->caustics_guide},
+                 {"ambient", &sdl->ambient},
+                 {"strict", &sdl->strict}};
+    const Option option = {render, sdl, name, value, err};
+    for (size_t k = 0; k < sizeof flags / sizeof *flags; k++)
+        if (!strcmp(name, flags[k].name)) {
+            *flags[k].field = 1;
+            return value ? set_whole(&option, 0, 1, flags[k].field) : RETEX_OK;
+        }
+    return value ? set_value(&option) : retex_fail(err, RETEX_EPARSE, "%s wants a value", name);
+}
+
+int job_check_declare(const char *declare, RetexError *err)
+{
+    static const char *const built_in[] = {"clock=", "frame_number=", "initial_frame=", "final_frame="};
+    const char *value = strchr(declare, '=');
+    int number = value && value[1] && strchr("0123456789.+-", value[1]);
+    char *end;
+    for (int k = 0; k < 4; k++)
+        number |= !strncmp(declare, built_in[k], strlen(built_in[k]));
+    if (!number)
+        return RETEX_OK;
+    strtod(value + 1, &end);
+    if (*end || end == value + 1)
+        return retex_fail(err, RETEX_EPARSE, "expected NAME=NUMBER or NAME=\"TEXT\", not `%s`", declare);
+    return RETEX_OK;
+}

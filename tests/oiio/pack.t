@@ -1,0 +1,98 @@
+# retex.imageio: packs through the programs of OpenImageIO.
+$ skip-without oiiotool openimageio-tools
+$ retex-render -q --size 48x32 --spp 2 -t Floor -t Wall=White "$SCENES/cornell-box/cornell-box.pov" -o s.exr; retex-pack -q s.exr -o room.retex; cp "$SCENES/textures/brick.jpg" .
+$ retex-combine -q room.retex -o plain.exr; retex-combine -q room.retex --texture Floor=brick.jpg -o brick.exr
+
+# Its picture, the parts of its set by name, and what is told of them.
+$ iinfo room.retex
+> room.retex :   48 x   32, 3 channel, float retex (123 subimages)
+$ iinfo -v -a room.retex | grep -A 12 'subimage  1:' | sort
+>     channel list: indep.R, indep.G, indep.B
+>     channel list: spread_Floor_sharp1.R, spread_Floor_sharp1.G, spread_Floor_sharp1.B
+>     channel list: uv_Floor_sharp1.R, uv_Floor_sharp1.G, uv_Floor_sharp1.A
+>     oiio:ColorSpace: "Linear"
+>     oiio:ColorSpace: "Linear"
+>     oiio:subimagename: "indep"
+>     oiio:subimagename: "uv_Floor_sharp1"
+>     retex:role: "radiance"
+>     retex:role: "uv"
+>     retex:target: "Floor"
+>  subimage  1:   48 x   32, 3 channel, half retex
+>  subimage  2:   48 x   32, 3 channel, float retex
+>  subimage  3:   48 x   32, 3 channel, half retex
+$ iinfo -v room.retex | grep -v 'retex: \|subimages' | sort
+>     Software: "retex-render 0.1.0"
+>     channel list: R, G, B
+>     oiio:ColorSpace: "Linear"
+>     oiio:subimagename: "beauty"
+>     retex:layout: "footprints"
+>     retex:max_depth: 16
+>     retex:role: "picture"
+>     retex:scene: "cornell-box.pov"
+>     retex:seed: 0
+>     retex:spp: 2
+>     retex:targets: "Floor,Wall"
+> room.retex :   48 x   32, 3 channel, float retex
+$ oiiotool room.retex -d half --subimage 0 -o x.exr && retex-diff x.exr plain.exr >/dev/null && echo same
+> same
+
+# All that is written of it is the set again, checksums included.
+$ oiiotool room.retex -o set.exr; retex-info --check set.exr
+> set.exr: ok
+$ retex-pack -q --unpack room.retex -o un.exr; for part in un set; do retex-info --json $part.exr | tr ',' '\n' | grep -v 'file_bytes\|crc32' >$part.txt; done; cmp un.txt set.txt
+$ for set in un set; do retex-combine -q $set.exr --texture Floor=brick.jpg -o $set-brick.exr; done; cmp un-brick.exr set-brick.exr
+$ oiiotool room.retex -q -o x.png 2>&1 >/dev/null | head -1
+> oiiotool WARNING: -o : png does not support multiple subimages for x.png
+
+# Textures: to the bit what retex-combine makes.
+$ oiiotool 'room.retex?Floor=brick.jpg' -d half -o x.exr && retex-diff x.exr brick.exr >/dev/null && echo same
+> same
+$ retex-combine -q room.retex --texture:scale=2,2:rotate=30:wrap=mirror floor=brick.jpg --texture 'Wall=rgb(0.8,0.1,0.1)' -o both.exr; oiiotool 'room.retex?floor=brick.jpg&floor.scale=2,2&floor.rotate=30&floor.wrap=mirror&Wall=rgb(0.8,0.1,0.1)' -d half -o x.exr && retex-diff x.exr both.exr >/dev/null && echo same
+> same
+$ retex-diff brick.exr both.exr >/dev/null || echo 'not the same'
+> not the same
+$ cp brick.jpg 'a&b%.jpg'; oiiotool 'room.retex?Floor=a%26b%25.jpg' -d half -o x.exr && retex-diff x.exr brick.exr >/dev/null && echo same
+> same
+$ oiiotool 'room.retex?Floor=brick.jpg' --tocolorspace sRGB -o x.png; retex-combine -q room.retex --texture Floor=brick.jpg -o y.png; retex-diff x.png y.png --fail-psnr 60 >/dev/null && echo near
+> near
+$ maketx room.retex -o x.tx && oiiotool 'room.retex?Floor=brick.jpg' -otex y.tx && iinfo x.tx y.tx
+> x.tx :   48 x   32, 3 channel, float tiff (+mipmap)
+> y.tx :   48 x   32, 3 channel, float tiff (+mipmap)
+$ retex-combine -q room.retex --texture Wall=room.retex -o x.exr && oiiotool 'room.retex?Wall=room.retex' -d half -o y.exr && retex-diff x.exr y.exr >/dev/null && echo same
+> same
+
+# What is wrong with options.
+$ for o in Flor=brick.jpg Floor=none.jpg Floor=- Floor.scale=2 'Floor=brick.jpg&Floor.scal=2' 'Floor=brick.jpg&Floor.scale=0' 'Floor=brick.jpg&floor=brick.jpg' 'Floor=rgb(1,2)' 'Floor=brick.jpg&Floor.wrap=a:b'; do oiiotool "room.retex?$o" -o no.exr 2>&1 | grep ERROR; done
+> oiiotool ERROR: read : "room.retex?Flor=brick.jpg": the set has no target 'Flor'; there are: Floor, Wall
+> oiiotool ERROR: read : "room.retex?Floor=none.jpg": cannot read none.jpg: No such file or directory
+> oiiotool ERROR: read : "room.retex?Floor=-": cannot read -: No such file or directory
+> oiiotool ERROR: read : "room.retex?Floor.scale=2": Floor.scale: Floor has no texture; expected Floor=IMAGE too
+> oiiotool ERROR: read : "room.retex?Floor=brick.jpg&Floor.scal=2": no texture option is called 'scal'; there are scale, rotate, offset, flip, wrap, repeat, width, colorspace
+> oiiotool ERROR: read : "room.retex?Floor=brick.jpg&Floor.scale=0": texture option scale='0': a scale cannot be 0
+> oiiotool ERROR: read : "room.retex?Floor=brick.jpg&floor=brick.jpg": target Floor is given two textures
+> oiiotool ERROR: read : "room.retex?Floor=rgb(1,2)": colour 'rgb(1,2)': expected rgb(r,g,b) with three numbers
+> oiiotool ERROR: read : "room.retex?Floor=brick.jpg&Floor.wrap=a:b": Floor.wrap: no colon can be in 'a:b'
+$ oiiotool 'room.retex?Floor' -o no.exr 2>&1 | grep ERROR; iinfo 'room.retex?Floor'
+> oiiotool ERROR: read : File does not exist: "room.retex?Floor"
+! iinfo ERROR: "room.retex?Floor" : ImageInput::create() called with malformed filename
+= 1
+
+# What is no pack.
+$ head -c 20000 room.retex >cut.retex; cp brick.jpg picture.retex; printf 'not a pack' >junk.retex; printf 'PK\003\004' >short.retex; : >empty.retex; mkdir folder.retex; cp room.retex room.png
+$ for f in cut junk short empty folder none; do iinfo $f.retex; oiiotool $f.retex -o no.exr 2>&1 | grep ERROR; done
+> oiiotool ERROR: read : cut.retex: the pack is damaged or truncated: Not a zip archive
+> oiiotool ERROR: read : junk.retex: no .retex file by what is in it
+> oiiotool ERROR: read : short.retex: the pack is damaged or truncated: Not a zip archive
+> oiiotool ERROR: read : empty.retex: no .retex file: it is empty
+> oiiotool ERROR: read : cannot read folder.retex: Is a directory
+> oiiotool ERROR: read : File does not exist: "none.retex"
+! iinfo ERROR: "cut.retex" : cut.retex: the pack is damaged or truncated: Not a zip archive
+! iinfo ERROR: "junk.retex" : junk.retex: no .retex file by what is in it
+! iinfo ERROR: "short.retex" : short.retex: the pack is damaged or truncated: Not a zip archive
+! iinfo ERROR: "empty.retex" : empty.retex: no .retex file: it is empty
+! iinfo ERROR: "folder.retex" : cannot read folder.retex: Is a directory
+! iinfo ERROR: "none.retex" : cannot read none.retex: No such file or directory
+$ iinfo picture.retex room.png
+> picture.retex : 1024 x 1024, 3 channel, uint8 jpeg
+! iinfo ERROR: "room.png" : Not a PNG file
+= 1

@@ -1,0 +1,81 @@
+# pov.imageio: scenes through the programs of OpenImageIO. Pictures and sets are those of retex-render.
+$ skip-without oiiotool openimageio-tools
+$ cp -r "$SCENES/cornell-box/." .; mv cornell-box.pov box.pov; cp "$SCENES/textures/brick.jpg" .
+
+# A picture alone is known before it is rendered.
+$ iinfo -v 'box.pov?spp=2&width=32&seed=7' | sort
+>     channel list: R, G, B
+>     oiio:ColorSpace: "Linear"
+>     oiio:subimagename: "beauty"
+>     retex:layout: "plain"
+>     retex:max_depth: 16
+>     retex:role: "picture"
+>     retex:scene: "box.pov"
+>     retex:seed: 7
+>     retex:spp: 2
+> box.pov?spp=2&width=32&seed=7 :   32 x   32, 3 channel, float pov
+$ oiiotool 'box.pov?spp=2&width=32&seed=7' -d half -o a.exr; retex-render -q --plain --spp 2 --size 32x32 --seed 7 box.pov -o b.exr; retex-diff a.exr b.exr >/dev/null && echo same
+> same
+$ oiiotool 'box.pov?spp=2&height=16&filter=gaussian&max_depth=3&crop=4,4,10,8' -d half -o a.exr; retex-render -q --plain --spp 2 --size 16x16 --filter gaussian --max-depth 3 --crop 4,4,10,8 box.pov -o b.exr; retex-diff a.exr b.exr >/dev/null && echo same
+> same
+$ oiiotool 'box.pov?spp=4&size=32x24&denoise=1&threads=1' -d half -o a.exr; retex-render -q --plain --spp 4 --size 32x24 --denoise box.pov -o b.exr; retex-diff a.exr b.exr >/dev/null && echo same
+> same
+$ printf 'camera { location -3*z direction z right x up y }\n#ifndef (C) #declare C = 0; #end\nlight_source { -9*z rgb 1 }\n#include "ball.inc"\n' >d.pov; mkdir inc; printf 'sphere { 0, clock pigment { rgb C } }\n' >inc/ball.inc; oiiotool 'd.pov?include=inc&declare.C=0.5&declare.clock=1&size=16x16&spp=2' -d half -o a.exr; retex-render -q --plain -I inc -D C=0.5 -D clock=1 --size 16x16 --spp 2 d.pov -o b.exr; retex-diff a.exr b.exr >/dev/null && echo same
+> same
+
+# A set: what oiiotool writes of it is the one that retex-render writes, but for bytes of compression.
+$ oiiotool 'box.pov?spp=2&size=32x24&targets=Floor,Walls=White+Red' -o a.exr; retex-render -q --spp 2 --size 32x24 -t Floor -t Walls=White,Red box.pov -o b.exr; retex-info --check a.exr; for f in a b; do retex-info --json $f.exr | tr ',' '\n' | grep -v file_bytes >$f.txt; done; cmp a.txt b.txt; grep -c crc32 a.txt | sed 's/^[1-9].*/checksums/'
+> a.exr: ok
+> checksums
+! retex-info: warning: 1.81% of the light keeps the original textures: fewer targets may hold it apart
+! retex-info: warning: 1.81% of the light keeps the original textures: fewer targets may hold it apart
+$ for f in a b; do retex-combine -q $f.exr --texture Floor=brick.jpg --texture 'Walls=rgb(.2,.5,.2)' -o $f.png; done; cmp a.png b.png
+$ oiiotool 'box.pov?spp=2&size=32x24&targets=Floor&layout=paper&orders=2&strict_paper=1&no_denoise_data=1&aov=depth,uv&noise=0.5' -o a.exr; retex-render -q --spp 2 --size 32x24 -t Floor --layout paper --orders 2 --strict-paper --no-denoise-data --aov depth,uv --noise 0.5 box.pov -o b.exr; for f in a b; do retex-info --json $f.exr | tr ',' '\n' | grep -v file_bytes >$f.txt; done; cmp a.txt b.txt; retex-info --check a.exr
+> a.exr: ok
+$ oiiotool 'box.pov?spp=4&size=32x24&targets=Floor&denoise=1' -o a.exr; retex-render -q --spp 4 --size 32x24 -t Floor --denoise box.pov -o b.exr; for f in a b; do retex-info --json $f.exr | tr ',' '\n' | grep -v file_bytes >$f.txt; done; cmp a.txt b.txt; retex-info --check a.exr
+> a.exr: ok
+$ retex-pack -q a.exr -o a.retex; retex-combine -q a.retex --texture Floor=brick.jpg -o x.exr; oiiotool 'a.retex?Floor=brick.jpg' -d half -o y.exr; retex-diff x.exr y.exr >/dev/null && echo same
+> same
+$ iinfo -a 'box.pov?spp=1&size=16x12&aov=depth,normal'
+> box.pov?spp=1&size=16x12&aov=depth,normal :   16 x   12, 3 channel, float pov (3 subimages)
+
+# What is wrong with options.
+$ for o in sppp=2 spp=many spp=0 width=0 size=3 'size=8x8&width=8' targets=Nope targets=Floor,, crop=0,0,900,900 plain=2 aov=smell clusters=99 'layout=paper&clusters=3' 'denoise=1&spp=1' 'denoise=1&no_denoise_data=1' threads=x declare.A=1/3 threads=999; do oiiotool "box.pov?$o" -o no.exr 2>&1 | grep ERROR; done
+> oiiotool ERROR: read : "box.pov?sppp=2": there is no option 'sppp'; there are targets, spp, noise, size, width, height, crop, seed, max_depth, filter, layout, clusters, orders, strict_paper, plain, aov, denoise, no_denoise_data, caustics_guide, include, declare.NAME, ambient, strict and threads
+> oiiotool ERROR: read : "box.pov?spp=many": spp: expected a whole number from 1 to 1048576, not 'many'
+> oiiotool ERROR: read : "box.pov?spp=0": spp: expected a whole number from 1 to 1048576, not '0'
+> oiiotool ERROR: read : "box.pov?width=0": width: expected a whole number from 1 to 65536, not '0'
+> oiiotool ERROR: read : "box.pov?size=3": size wants WxH, not `3`
+> oiiotool ERROR: read : "box.pov?size=8x8&width=8": size says it all: no width or height beside it
+> oiiotool ERROR: read : "box.pov?targets=Nope": no texture, pigment, material or object `Nope` in the scene; there are: Floor, White, Red, Green
+> oiiotool ERROR: read : "box.pov?targets=Floor,,": targets: an empty name in 'Floor,,'
+> oiiotool ERROR: read : "box.pov?crop=0,0,900,900": crop does not lie inside the picture of 640x640
+> oiiotool ERROR: read : "box.pov?plain=2": plain: expected a whole number from 0 to 1, not '2'
+> oiiotool ERROR: read : "box.pov?aov=smell": aov knows beauty,depth,albedo,normal,position,uv,object,roughness,metallic,irradiance, not `smell`
+> oiiotool ERROR: read : "box.pov?clusters=99": clusters wants 2 to 16, at least one sharp and one broad, not `99`
+> oiiotool ERROR: read : "box.pov?layout=paper&clusters=3": layout paper has no clusters: one of them
+> oiiotool ERROR: read : "box.pov?denoise=1&spp=1": denoise needs two samples a pixel at least: one does not tell how noisy it is
+> oiiotool ERROR: read : "box.pov?denoise=1&no_denoise_data=1": denoise reads what no_denoise_data leaves out: one of them
+> oiiotool ERROR: read : "box.pov?threads=x": threads: expected a whole number from 0 to 256, not 'x'
+> oiiotool ERROR: read : "box.pov?declare.A=1/3": declare.A: expected NAME=NUMBER or NAME="TEXT", not `A=1/3`
+> oiiotool ERROR: read : "box.pov?threads=999": threads: expected a whole number from 0 to 256, not '999'
+
+# What is no scene; one that is its own texture.
+$ printf 'sphere { 0, 1\n  nonsense\n}\n' >bad.pov; : >empty.pov; head -c 1000 /dev/zero >zero.pov; printf '// nothing\n' >nothing.pov; printf 'camera { location -z }\nplane { z, 1 pigment { image_map { png "self.pov" } } }\n' >self.pov
+$ for f in bad empty zero nothing none self; do iinfo $f.pov; oiiotool $f.pov -o no.exr 2>&1 | grep ERROR; done
+> oiiotool ERROR: read : bad.pov:2:3: expected an object modifier or }, found `nonsense`, which is not declared
+> oiiotool ERROR: read : empty.pov: no .pov file: it is empty
+> oiiotool ERROR: read : zero.pov: no .pov file by what is in it
+> oiiotool ERROR: read : nothing.pov: there is nothing in the scene: no object, no light, no sky
+> oiiotool ERROR: read : File does not exist: "none.pov"
+> oiiotool ERROR: read : self.pov:3:1: self.pov:2: image_map: cannot read: a scene cannot be a texture of a scene
+! iinfo ERROR: "bad.pov" : bad.pov:2:3: expected an object modifier or }, found `nonsense`, which is not declared
+! iinfo ERROR: "empty.pov" : empty.pov: no .pov file: it is empty
+! iinfo ERROR: "zero.pov" : zero.pov: no .pov file by what is in it
+! iinfo ERROR: "nothing.pov" : nothing.pov: there is nothing in the scene: no object, no light, no sky
+! iinfo ERROR: "none.pov" : cannot read none.pov: No such file or directory
+! iinfo ERROR: "self.pov" : self.pov:3:1: self.pov:2: image_map: cannot read: a scene cannot be a texture of a scene
+
+# What is strange in a scene is told.
+$ printf 'camera { location -3*z }\nlight_source { -9*z rgb 1 }\nsphere { 0, 1 pigment { rgb 1 } }\n#warning "mind"\n' >c.pov; iinfo -v 'c.pov?spp=1&size=8x6' | grep warnings
+>     retex:warnings: "c.pov:4: warning: mind"
