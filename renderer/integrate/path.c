@@ -5,6 +5,7 @@
  * along a path looks at a texture; `outside`, for sets, leaves out the target hits that `expansion` holds as factors.
  * Light that arrives goes to the film both ways. */
 #include <string.h>
+#include "integrate/denoise_guides.h"
 #include "integrate/path.h"
 
 #define ROULETTE_START 2 /* segments before Russian roulette begins */
@@ -618,6 +619,8 @@ static void follow(PathWorker *w, Ray ray, const Sampler *sampler, Vertex *first
     Vertex next, *v = first;
     int straight = 0, passed = 0;
     start_path(c, &path, &ray);
+    if (w->guides)
+        denoise_guides_look(w->guides, &ray, &first->hit, &first->s);
     for (;;) {
         int last = path.segments >= c->max_depth; /* but what is passed straight is no segment of its own */
         w->segments++;
