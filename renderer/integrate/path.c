@@ -132,12 +132,12 @@ static void connect(PathWorker *w, const Path *path, Rgb light, const Factor *fa
         beta[v] = rgb_mul(path->beta[v], light);
     const Expansion *e = &path->expansion;
     int folded = path->folded;
-    if (nfactors > 0) {
-        if (c->split)
+    for (int k = 0; k < nfactors; k++) {
+        if (e != &w->scratch && is_hit(c, &factors[k])) {
             expansion_copy(&w->scratch, e);
-        e = &w->scratch;
-        for (int k = 0; k < nfactors; k++)
-            apply_factor(c, beta, &outside, &w->scratch, &folded, &factors[k]);
+            e = &w->scratch;
+        }
+        apply_factor(c, beta, &outside, &w->scratch, &folded, &factors[k]);
     }
     if (is_spent(c, beta) && rgb_is_black(outside))
         return;
