@@ -145,7 +145,7 @@ int film_pixel_create(FilmPixel **out, Film *film, RetexError *err)
     if (film->paper)
         code = paper_pixel_create(&p->paper, film->paper, err);
     if (film->footprints)
-        code = footprints_pixel_create(&p->footprints, film->footprints, &p->range, err);
+        code = footprints_pixel_create(&p->footprints, film->footprints, &p->light, &p->range, err);
     if (code)
         film_pixel_close(out);
     return code;
@@ -172,16 +172,13 @@ void film_connect(FilmPixel *p, Rgb beauty, Rgb outside, const Expansion *e, int
         return;
     }
     p->beauty[0] += beauty.r, p->beauty[1] += beauty.g, p->beauty[2] += beauty.b;
-    LightSums before = p->light;
     p->light.total += l;
+    if (folded)
+        p->light.folded += l;
     if (p->paper && !rgb_is_black(outside))
         paper_connect(p->paper, e, outside);
     if (p->footprints && !rgb_is_black(outside))
-        footprints_connect(p->footprints, e, outside, &p->light);
-    if (folded) { /* all of it, and not again what the layout folded of it */
-        p->light.folded = before.folded + l;
-        p->light.folded_white = before.folded_white + p->light.total_white - before.total_white;
-    }
+        footprints_connect(p->footprints, e, outside, folded);
 }
 
 /* What each signal got in the pixel so far. */

@@ -22,6 +22,18 @@ typedef struct Cluster {
     float again;    /* luminance of that which does */
 } Cluster;
 
+/* Light of those of a path's connections that met the same targets at the same places: what becomes of it is the same
+ * but for its amount. */
+typedef struct Run {
+    HitMask met;                       /* which of the hits */
+    int nhits;                         /* up to the last of these */
+    TargetHit hits[RETEX_MAX_FACTORS]; /* of the path, as they come */
+    int folded;                        /* as of the connections */
+    Rgb value;
+} Run;
+
+#define RUNS_BITS 4
+
 /* One path's light by the hit that comes first. */
 typedef struct Pending {
     int target;
@@ -44,6 +56,7 @@ typedef struct PendingLater {
 /* Clusters of one kind, and the light of all of them that meets targets again: [0] stays empty. */
 typedef struct Clusters {
     int count;
+    unsigned used; /* bits: coefficients of `again` that are not 0 */
     Cluster of[FILM_CLUSTERS_MAX];
     Coefficients again;
 } Clusters;
@@ -66,13 +79,16 @@ struct FootprintPixel {
     int spp; /* of the pixel, when it is finished */
     double free[3];
     TargetClusters *targets;
+    Run runs[1 << RUNS_BITS]; /* by a hash of what they met */
+    unsigned running;         /* bits: runs that have anything */
     Pending pending[PENDING_MAX];
     int npending;
     PendingLater later[PENDING_MAX];
     int nlater;
     /* The last entry for a path's hit of each order, counted from 1; 0: none. */
     unsigned char pending_of[RETEX_MAX_FACTORS], later_of[RETEX_MAX_FACTORS];
-    UvRange *range; /* of what was met */
+    LightSums *light; /* of what arrives */
+    UvRange *range;   /* of what was met */
 };
 
 #endif

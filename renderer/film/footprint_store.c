@@ -204,6 +204,7 @@ static void store_clusters(FootprintPixel *p, const KindImages *images, Clusters
     for (int i = 1; i < p->film->plan.count; i++)
         store_light(images->again[i], clusters->again[i], scale, step, at);
     clusters->count = 0;
+    clusters->used = 0;
     memset(clusters->again, 0, sizeof clusters->again[0] * (size_t)p->film->plan.count);
 }
 

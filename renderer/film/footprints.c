@@ -13,13 +13,14 @@
 
 /* ---- life ---- */
 
-int footprints_pixel_create(FootprintPixel **out, FootprintFilm *film, UvRange *range, RetexError *err)
+int footprints_pixel_create(FootprintPixel **out, FootprintFilm *film, LightSums *light, UvRange *range,
+                            RetexError *err)
 {
     FootprintPixel *p = *out = calloc(1, sizeof *p);
     if (p) {
         p->film = film;
         p->targets = calloc((size_t)film->scene->ntargets + 1, sizeof *p->targets);
-        p->range = range;
+        p->light = light, p->range = range;
     }
     if (p && p->targets)
         return RETEX_OK;
@@ -124,24 +125,24 @@ static void merge_later(Later *into, const Later *from, const int periodic[2])
 /* One more among two: it, or the pair it meets, goes together where that loses least. */
 static void pool_later(Later later[LATER_COUNT], const Later *one, const int periodic[2])
 {
+    double gain[LATER_COUNT];
     for (int k = 0; k < LATER_COUNT; k++) {
         if (later[k].uv.weight == 0) {
             later[k] = *one;
             return;
         }
-        if (uv_stats_variation_gain(&later[k].uv, &one->uv, periodic) <= 0) {
+        gain[k] = uv_stats_variation_gain(&later[k].uv, &one->uv, periodic);
+        if (gain[k] <= 0) {
             merge_later(&later[k], one, periodic);
             return;
         }
     }
-    double first = uv_stats_variation_gain(&later[0].uv, &one->uv, periodic),
-           second = uv_stats_variation_gain(&later[1].uv, &one->uv, periodic),
-           both = uv_stats_variation_gain(&later[0].uv, &later[1].uv, periodic);
-    if (both < first && both < second) {
+    double both = uv_stats_variation_gain(&later[0].uv, &later[1].uv, periodic);
+    if (both < gain[0] && both < gain[1]) {
         merge_later(&later[0], &later[1], periodic);
         later[1] = *one;
     } else {
-        merge_later(&later[second < first], one, periodic);
+        merge_later(&later[gain[1] < gain[0]], one, periodic);
     }
 }
 
@@ -174,13 +175,18 @@ typedef struct Kept {
     int count, coefficient, folded;
 } Kept;
 
+static int is_met(const Run *run, int hit)
+{
+    return (run->met & hit_bit(run->hits[hit].target, run->hits[hit].index)) != 0;
+}
+
 /* Which of the hits after the first; the albedo of the others goes into value. */
-static void keep_hits(const Plan *plan, const Expansion *e, HitMask hits, int first, Rgb *value, Kept *kept)
+static void keep_hits(const Plan *plan, const Run *run, int first, Rgb *value, Kept *kept)
 {
     kept->count = kept->coefficient = kept->folded = 0;
-    for (int j = first + 1; j < e->nhits; j++) {
-        const TargetHit *hit = &e->hits[j];
-        if (!(hits & hit_bit(hit->target, hit->index)))
+    for (int j = first + 1; j < run->nhits; j++) {
+        const TargetHit *hit = &run->hits[j];
+        if (!is_met(run, j))
             continue;
         int next = plan->coefficients[kept->coefficient].next[hit->target];
         if (next >= 0) {
@@ -193,18 +199,24 @@ static void keep_hits(const Plan *plan, const Expansion *e, HitMask hits, int fi
     }
 }
 
-static void add_monomial(FootprintPixel *p, const Expansion *e, HitMask hits, Rgb value, LightSums *sums)
+static void add_white_light(LightSums *sums, float white, int folded)
+{
+    sums->total_white += white;
+    if (folded)
+        sums->folded_white += white;
+}
+
+/* A run is over. */
+static void flush_run(FootprintPixel *p, const Run *run)
 {
     Kept kept;
+    Rgb value = run->value;
     int first = 0;
-    while (!(hits & hit_bit(e->hits[first].target, e->hits[first].index)))
+    while (!is_met(run, first))
         first++;
-    const TargetHit *hit = &e->hits[first];
-    float white = white_luminance(hits, value);
-    sums->total_white += white;
-    keep_hits(&p->film->plan, e, hits, first, &value, &kept);
-    if (kept.folded)
-        sums->folded_white += white;
+    const TargetHit *hit = &run->hits[first];
+    keep_hits(&p->film->plan, run, first, &value, &kept);
+    add_white_light(p->light, white_luminance(run->met, run->value), run->folded || kept.folded);
     if (rgb_is_black(value))
         return;
     double weight = rgb_luminance(value);
@@ -230,13 +242,60 @@ static void add_monomial(FootprintPixel *p, const Expansion *e, HitMask hits, Rg
         for (int i = 0; i < kept.count; i++)
             if (i != k)
                 others = rgb_mul(others, weighing_albedo(kept.hits[i]));
-        add_later(p, kept.hits[k], (int)(kept.hits[k] - e->hits), weight, others);
+        add_later(p, kept.hits[k], (int)(kept.hits[k] - run->hits), weight, others);
     }
-    if (kept.folded)
-        sums->folded += rgb_luminance(rgb_mul(light, hit->albedo));
+    if (kept.folded && !run->folded) /* else all of it counts as folded already */
+        p->light->folded += rgb_luminance(rgb_mul(light, hit->albedo));
 }
 
-void footprints_connect(FootprintPixel *p, const Expansion *e, Rgb outside, LightSums *sums)
+/* Does a connection meet what the run has? */
+static int goes_on(const Run *run, const Expansion *e, HitMask met, int folded)
+{
+    if (run->met != met || run->folded != folded || run->nhits > e->nhits)
+        return 0;
+    for (int j = 0; j < run->nhits; j++) {
+        const TargetHit *a = &run->hits[j], *b = &e->hits[j];
+        if (is_met(run, j) &&
+            (a->target != b->target || a->index != b->index || a->uv.u != b->uv.u || a->uv.v != b->uv.v))
+            return 0;
+    }
+    return 1;
+}
+
+static void start_run(Run *run, const Expansion *e, HitMask met, Rgb value, int folded)
+{
+    run->met = met, run->folded = folded, run->value = value;
+    run->nhits = 0;
+    for (HitMask left = met; left; run->nhits++) {
+        const TargetHit *hit = &e->hits[run->nhits];
+        run->hits[run->nhits] = *hit;
+        left &= ~hit_bit(hit->target, hit->index);
+    }
+}
+
+static void add_to_run(FootprintPixel *p, const Expansion *e, HitMask met, Rgb value, int folded)
+{
+    unsigned place = (unsigned)(met * 0x9e3779b97f4a7c15u >> (64 - RUNS_BITS));
+    Run *run = &p->runs[place];
+    if (p->running >> place & 1) {
+        if (goes_on(run, e, met, folded)) {
+            run->value = rgb_add(run->value, value);
+            return;
+        }
+        flush_run(p, run);
+    }
+    start_run(run, e, met, value, folded);
+    p->running |= 1u << place;
+}
+
+static void flush_runs(FootprintPixel *p)
+{
+    for (unsigned left = p->running; left; left &= left - 1)
+        flush_run(p, &p->runs[__builtin_ctz(left)]);
+    p->running = 0;
+}
+
+void footprints_connect(FootprintPixel *p, const Expansion *e, Rgb outside, int folded)
 {
     for (int k = 0; k < e->nmonomials; k++) {
         HitMask hits = e->monomials[k].hits;
@@ -244,10 +303,10 @@ void footprints_connect(FootprintPixel *p, const Expansion *e, Rgb outside, Ligh
         if (rgb_is_black(value))
             continue;
         if (hits) {
-            add_monomial(p, e, hits, value, sums);
+            add_to_run(p, e, hits, value, folded);
         } else {
             p->free[0] += value.r, p->free[1] += value.g, p->free[2] += value.b;
-            sums->total_white += rgb_luminance(value);
+            add_white_light(p->light, rgb_luminance(value), folded);
         }
     }
 }
@@ -345,6 +404,7 @@ static void flush_pending(FootprintPixel *p)
         if (!(q->weight > 0))
             continue;
         uv_range_add(p->range, q->target, uv);
+        own->used |= q->used & ~1u;
         for (int i = 1; q->used >> i; i++)
             for (int c = 0; c < 3 && q->used >> i & 1; c++)
                 own->again[i][c] += q->c[i][c];
@@ -360,6 +420,7 @@ static void flush_pending(FootprintPixel *p)
 
 void footprints_path_end(FootprintPixel *p)
 {
+    flush_runs(p);
     flush_pending(p);
     flush_later(p);
 }
@@ -370,11 +431,9 @@ static void signal_total(double total[3], const Clusters *clusters, const Plan *
     for (int k = 0; k < clusters->count; k++)
         for (int c = 0; c < 3; c++)
             total[c] += clusters->of[k].c[c];
-    for (int i = 1; i < plan->count; i++) {
-        double weight = ldexp(1, -plan_hits(&plan->coefficients[i]));
-        for (int c = 0; c < 3; c++)
-            total[c] += weight * clusters->again[i][c];
-    }
+    for (int i = 1; clusters->used >> i; i++)
+        for (int c = 0; c < 3 && clusters->used >> i & 1; c++)
+            total[c] += plan->coefficients[i].weight * clusters->again[i][c];
 }
 
 void footprints_totals(const FootprintPixel *p, SignalTotals *totals)

@@ -16,12 +16,13 @@ typedef struct FootprintPixel FootprintPixel;
 int footprints_create(FootprintFilm **film, const Scene *scene, const FilmParams *params, Bands *bands /* borrowed */,
                       RetexError *err);
 void footprints_close(FootprintFilm **film);
-/* range grows by what is met. */
-int footprints_pixel_create(FootprintPixel **pixel, FootprintFilm *film, UvRange *range, RetexError *err);
+/* range grows by what is met; light gets what had to be folded, and what there is with white targets. */
+int footprints_pixel_create(FootprintPixel **pixel, FootprintFilm *film, LightSums *light, UvRange *range,
+                            RetexError *err);
 void footprints_pixel_close(FootprintPixel **pixel);
 
-/* Adds what had to be folded, and what there is with white targets, to sums. */
-void footprints_connect(FootprintPixel *pixel, const Expansion *expansion, Rgb outside, LightSums *sums);
+/* folded: all of it counts as folded. */
+void footprints_connect(FootprintPixel *pixel, const Expansion *expansion, Rgb outside, int folded);
 void footprints_path_end(FootprintPixel *pixel);
 /* Between paths: sharp and broad clusters with the light that goes on to targets, each further hit as albedo 1/2. */
 void footprints_totals(const FootprintPixel *pixel, SignalTotals *totals);

@@ -1,4 +1,5 @@
 /* Choosing coefficients; see plan.h. */
+#include <math.h>
 #include <string.h>
 #include "film/plan.h"
 
@@ -37,11 +38,12 @@ int plan_hits(const PlanCoefficient *c)
     return sum;
 }
 
-/* Where one more hit leads: its combination, else the mixture of as many hits. */
-static void add_steps(Plan *plan, int ntargets, int first_mixed)
+/* What each weighs, and where one more hit leads: its combination, else the mixture of as many hits. */
+static void complete(Plan *plan, int ntargets, int first_mixed)
 {
     for (int k = 0; k < plan->count; k++) {
         PlanCoefficient *c = &plan->coefficients[k];
+        c->weight = ldexp(1, -plan_hits(c));
         memset(c->next, -1, sizeof c->next);
         for (int t = 0; t < ntargets; t++) {
             unsigned char more[RETEX_MAX_TARGETS];
@@ -66,5 +68,5 @@ void plan_make(Plan *plan, int ntargets, int orders, int factors)
     int first_mixed = plan->count;
     for (int hits = together + 1; hits <= most; hits++)
         plan->coefficients[plan->count++].mixed = (unsigned char)hits;
-    add_steps(plan, ntargets, first_mixed);
+    complete(plan, ntargets, first_mixed);
 }

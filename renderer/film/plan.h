@@ -14,6 +14,7 @@
 typedef struct PlanCoefficient {
     unsigned char powers[RETEX_MAX_TARGETS]; /* further hits of each target; all 0 where mixed */
     unsigned char mixed;                     /* further hits of whatever target, or 0 */
+    double weight;                           /* 2^-n of n further hits, each as albedo 1/2 */
     signed char next[RETEX_MAX_TARGETS];     /* the coefficient after one more hit of a target, or -1 */
 } PlanCoefficient;
 

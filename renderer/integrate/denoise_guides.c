@@ -1,16 +1,12 @@
 /* See denoise_guides.h. */
 #include <stdio.h>
-#include "integrate/camera.h"
 #include "integrate/denoise_guides.h"
 #include "integrate/path.h"
 
-/* A pixel is looked at in few places, and where these do not all see the same again in many. Of few, place k is in
- * column k and row few_rows[k]: no correlation, no third moments, and far apart. Many form a lattice of such a step, in
- * rows between neighbouring columns, that their correlation is 0.015 and they are far apart. */
-#define PLACES_FEW 8
-static const int few_rows[PLACES_FEW] = {1, 7, 3, 5, 2, 4, 0, 6};
+/* A pixel is looked at in few places, and where these do not all see the same in many: as many of its samples as are
+ * spread evenly. */
+#define PLACES_FEW 16
 #define PLACES_MANY 64
-#define STEP_MANY 9
 #define ONE_NORMAL 0.999 /* length of the mean of normals that count as one */
 #define ONE_ALBEDO 1e-4  /* variance of the luminance of albedos that count as one */
 #define FOLLOWED_MAX 16  /* mirrors and glasses on the way */
@@ -27,23 +23,6 @@ static const struct {
     [GUIDE_SEEN_ALBEDO] = {"guide_seen_albedo", "RGB", RETEX_HALF},
     [GUIDE_SEEN_MATERIAL] = {"guide_seen_material", "RGB", RETEX_HALF},
 };
-
-/* Sums over the places of a pixel. */
-typedef struct Sight {
-    int places; /* that see anything */
-    Vec3 normal, position;
-} Sight;
-
-typedef struct GuideSums {
-    int places;
-    Sight first, seen;
-    int specular;
-    double luminance, luminance_squared; /* of the albedos */
-    int primitive, differ;               /* the first place's and what it sees; whether others differ */
-    Rgb albedo;
-    double roughness, metallic;
-    double cover[RETEX_MAX_TARGETS];
-} GuideSums;
 
 static void add_sight(Sight *sight, const Shading *s)
 {
@@ -64,14 +43,14 @@ static int is_emitter(const Shading *s)
     return rgb_luminance(s->surface.texture->finish->emission) > s->bsdf.diffuse;
 }
 
-static void add_albedo(GuideSums *sums, Rgb albedo)
+static void add_albedo(PixelGuides *sums, Rgb albedo)
 {
     double l = rgb_luminance(albedo);
     sums->albedo = rgb_add(sums->albedo, albedo);
     sums->luminance += l, sums->luminance_squared += l * l;
 }
 
-static void add_seen(const DenoiseGuides *job, GuideSums *sums, const Shading *s)
+static void add_seen(const DenoiseGuides *job, PixelGuides *sums, const Shading *s)
 {
     add_sight(&sums->seen, s);
     add_albedo(sums, is_emitter(s) ? rgb_grey(1) : known_albedo(job, s));
@@ -112,36 +91,39 @@ static void add_cover(double cover[RETEX_MAX_TARGETS], unsigned *met, const Shad
 }
 
 /* What is seen at a place, by number. */
-static void note_primitive(GuideSums *sums, int primitive)
+static void note_primitive(PixelGuides *sums, int primitive)
 {
     if (sums->places++ == 0)
         sums->primitive = primitive;
     sums->differ |= primitive != sums->primitive;
 }
 
-/* hit: the first along the ray. */
-static void look(const DenoiseGuides *job, GuideSums *sums, Ray ray, Hit hit)
+/* first: what the ray meets at hit, if anything. */
+static void look(PixelGuides *sums, Ray ray, Hit hit, const Shading *first)
 {
+    const DenoiseGuides *job = sums->of;
     const FirstHitWindow *w = &job->window;
     RayKind kind = RAY_CAMERA;
     float throughput = 1;
     unsigned met = 0;
-    Shading s;
+    Shading next;
+    const Shading *s = first;
     for (int followed = 0;; followed++) {
         if (followed ? !accel_intersect(w->accel, &ray, kind, &hit) : hit.primitive < 0) {
             add_albedo(sums, rgb_grey(1));
             note_primitive(sums, -1);
             return;
         }
-        shading_at(&s, w->scene, w->variants, 1, &ray, &hit);
         if (followed == 0)
-            add_sight(&sums->first, &s);
-        add_cover(sums->cover, &met, &s, throughput);
-        if (followed == FOLLOWED_MAX || !follow(job, &s, &hit, &ray, &kind, &throughput))
+            add_sight(&sums->first, s);
+        else
+            shading_at(&next, w->scene, w->variants, 1, &ray, &hit), s = &next;
+        add_cover(sums->cover, &met, s, throughput);
+        if (followed == FOLLOWED_MAX || !follow(job, s, &hit, &ray, &kind, &throughput))
             break;
         sums->specular += followed == 0;
     }
-    add_seen(job, sums, &s);
+    add_seen(job, sums, s);
     note_primitive(sums, hit.primitive);
 }
 
@@ -172,32 +154,13 @@ static void store_sight(const GuidePlace *at, int normal, int position, const Si
     store(at, position, 1.0 / sight->places, sight->position.x, sight->position.y, sight->position.z);
 }
 
-static void look_at(const DenoiseGuides *job, GuideSums *sums, int x, int y, int places)
-{
-    const FirstHitWindow *w = &job->window;
-    *sums = (GuideSums){.places = 0};
-    Ray rays[ACCEL_PACKET];
-    Hit hits[ACCEL_PACKET];
-    for (int first = 0; first < places; first += ACCEL_PACKET) {
-        int count = places - first < ACCEL_PACKET ? places - first : ACCEL_PACKET;
-        for (int i = 0, k = first; i < count; i++, k++) {
-            int row = places == PLACES_FEW ? few_rows[k] : k * STEP_MANY % places;
-            rays[i] = camera_ray(&w->scene->camera, w->width, w->height, w->x0 + x + (k + 0.5) / places,
-                                 w->y0 + y + (row + 0.5) / places);
-        }
-        accel_intersect_packet(w->accel, rays, count, RAY_CAMERA, hits);
-        for (int i = 0; i < count; i++)
-            look(job, sums, rays[i], hits[i]);
-    }
-}
-
 static int is_one_normal(const Sight *sight)
 {
     return sight->places == 0 || vec_length(sight->normal) > ONE_NORMAL * sight->places;
 }
 
 /* Did all places see the same? */
-static int is_even(const GuideSums *s)
+static int is_even(const PixelGuides *s)
 {
     double mean = s->luminance / s->places;
     return !s->differ && (s->first.places == 0 || s->first.places == s->places) &&
@@ -205,23 +168,48 @@ static int is_even(const GuideSums *s)
            s->luminance_squared / s->places - mean * mean < ONE_ALBEDO;
 }
 
-void denoise_guides_pixel(const DenoiseGuides *job, FilmPixel *pixel, int x, int y)
+void denoise_guides_look(PixelGuides *p, const Ray *ray, const Hit *hit, const Shading *shading)
 {
+    if (denoise_guides_missing(p) == 0)
+        return;
+    look(p, *ray, *hit, shading);
+    if (p->places == PLACES_FEW)
+        p->uneven = !is_even(p);
+}
+
+int denoise_guides_missing(const PixelGuides *p)
+{
+    return (p->uneven ? PLACES_MANY : PLACES_FEW) - p->places;
+}
+
+void denoise_guides_look_along(PixelGuides *p, const Ray *rays, int count)
+{
+    const FirstHitWindow *w = &p->of->window;
+    Hit hits[ACCEL_PACKET];
+    Shading s;
+    accel_intersect_packet(w->accel, rays, count, RAY_CAMERA, hits);
+    for (int i = 0; i < count; i++) {
+        if (hits[i].primitive >= 0)
+            shading_at(&s, w->scene, w->variants, 1, &rays[i], &hits[i]);
+        denoise_guides_look(p, &rays[i], &hits[i], &s);
+    }
+}
+
+void denoise_guides_pixel_end(PixelGuides *p, FilmPixel *pixel, int x, int y)
+{
+    const DenoiseGuides *job = p->of;
     const int *to = job->guides;
     const GuidePlace at = {pixel, x, y};
-    GuideSums sums;
-    look_at(job, &sums, x, y, PLACES_FEW);
-    if (!is_even(&sums))
-        look_at(job, &sums, x, y, PLACES_MANY);
-    const double share = 1.0 / sums.places;
-    store_sight(&at, to[GUIDE_NORMAL], to[GUIDE_POSITION], &sums.first);
-    store_one(&at, to[GUIDE_SPECULAR], share * sums.specular);
-    store_sight(&at, to[GUIDE_SEEN_NORMAL], to[GUIDE_SEEN_POSITION], &sums.seen);
-    store(&at, to[GUIDE_SEEN_ALBEDO], share, sums.albedo.r, sums.albedo.g, sums.albedo.b);
-    double each = sums.seen.places ? 1.0 / sums.seen.places : 0;
-    store(&at, to[GUIDE_SEEN_MATERIAL], 1, sums.roughness * each, sums.metallic * each, 1 - sums.seen.places * share);
+    const double share = 1.0 / p->places;
+    store_sight(&at, to[GUIDE_NORMAL], to[GUIDE_POSITION], &p->first);
+    store_one(&at, to[GUIDE_SPECULAR], share * p->specular);
+    store_sight(&at, to[GUIDE_SEEN_NORMAL], to[GUIDE_SEEN_POSITION], &p->seen);
+    store(&at, to[GUIDE_SEEN_ALBEDO], share, p->albedo.r, p->albedo.g, p->albedo.b);
+    double each = p->seen.places ? 1.0 / p->seen.places : 0;
+    store(&at, to[GUIDE_SEEN_MATERIAL], 1, p->roughness * each, p->metallic * each, 1 - p->seen.places * share);
     for (int t = 0; t < job->window.scene->ntargets && job->split; t++)
-        store_one(&at, job->covers[t], share * sums.cover[t]);
+        store_one(&at, job->covers[t], share * p->cover[t]);
+    *p = (PixelGuides){.of = job};
 }
 
 int denoise_guides_create(DenoiseGuides *g, Film *film, const FirstHitWindow *window, int split, RetexError *err)

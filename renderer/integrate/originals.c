@@ -46,7 +46,19 @@ static void original_size(const Pigment *pigment, int *width, int *height)
         *height = 1;
 }
 
-/* Each texel is the image averaged over the texel's own area, or the pigment at its centre. */
+/* The image's texel, or where there are fewer, the image averaged over the area of one. */
+static void fill_texel(float rgba[4], const ImageMap *image, const RetexImage *dst, int x, int y)
+{
+    double u = (x + 0.5) / dst->width, v = 1 - (y + 0.5) / dst->height;
+    double sigma_u = 0.3 / dst->width, sigma_v = 0.3 / dst->height,
+           covariance[3] = {sigma_u * sigma_u, 0, sigma_v * sigma_v};
+    if (dst->width == image->width && dst->height == image->height)
+        retex_texture_nearest(image->texture, u, v, rgba);
+    else
+        retex_texture_gaussian(image->texture, u, v, covariance, rgba);
+}
+
+/* Each texel is the image's, or the pigment at its centre. */
 static int fill_original(RetexImage *dst, const Pigment *pigment, int axis, const RetexTarget *target, RetexError *err)
 {
     if (pigment->kind != PIGMENT_IMAGE) {
@@ -54,15 +66,10 @@ static int fill_original(RetexImage *dst, const Pigment *pigment, int axis, cons
         retex_image_free(dst);
         return pigment_bake(dst, pigment, axis, target->original_min, target->original_max, width, height, err);
     }
-    double sigma_u = 0.3 / dst->width, sigma_v = 0.3 / dst->height,
-           covariance[3] = {sigma_u * sigma_u, 0, sigma_v * sigma_v};
-    if (dst->width == pigment->image->width && dst->height == pigment->image->height)
-        covariance[0] = covariance[2] = 0;
     for (int y = 0; y < dst->height; y++)
         for (int x = 0; x < dst->width; x++) {
             float rgba[4], *p = dst->pixels + retex_image_index(dst, x, y);
-            retex_texture_gaussian(pigment->image->texture, (x + 0.5) / dst->width, 1 - (y + 0.5) / dst->height,
-                                   covariance, rgba);
+            fill_texel(rgba, pigment->image, dst, x, y);
             for (int c = 0; c < 3; c++)
                 p[c] = rgba[c];
         }

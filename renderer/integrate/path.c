@@ -5,6 +5,7 @@
  * along a path looks at a texture; `outside`, for sets, leaves out the target hits that `expansion` holds as factors.
  * Light that arrives goes to the film both ways. */
 #include <string.h>
+#include "integrate/denoise_guides.h"
 #include "integrate/path.h"
 
 #define ROULETTE_START 2 /* segments before Russian roulette begins */
@@ -131,12 +132,12 @@ static void connect(PathWorker *w, const Path *path, Rgb light, const Factor *fa
         beta[v] = rgb_mul(path->beta[v], light);
     const Expansion *e = &path->expansion;
     int folded = path->folded;
-    if (nfactors > 0) {
-        if (c->split)
+    for (int k = 0; k < nfactors; k++) {
+        if (e != &w->scratch && is_hit(c, &factors[k])) {
             expansion_copy(&w->scratch, e);
-        e = &w->scratch;
-        for (int k = 0; k < nfactors; k++)
-            apply_factor(c, beta, &outside, &w->scratch, &folded, &factors[k]);
+            e = &w->scratch;
+        }
+        apply_factor(c, beta, &outside, &w->scratch, &folded, &factors[k]);
     }
     if (is_spent(c, beta) && rgb_is_black(outside))
         return;
@@ -618,6 +619,8 @@ static void follow(PathWorker *w, Ray ray, const Sampler *sampler, Vertex *first
     Vertex next, *v = first;
     int straight = 0, passed = 0;
     start_path(c, &path, &ray);
+    if (w->guides)
+        denoise_guides_look(w->guides, &ray, &first->hit, &first->s);
     for (;;) {
         int last = path.segments >= c->max_depth; /* but what is passed straight is no segment of its own */
         w->segments++;

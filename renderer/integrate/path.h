@@ -34,6 +34,7 @@ typedef struct PathWorker {
     FilmPixel *pixel;
     const RenderVariant *variants; /* or NULL: the original */
     ControlPixel *control; /* gets all variants, or NULL */
+    struct PixelGuides *guides; /* get what rays from the camera meet, or NULL */
     RenderVariant own[CONTROL_VARIANTS_MAX]; /* variants, where they have constants by pixel */
     Rgb constants[RETEX_MAX_TARGETS];        /* of the pixel in hand */
     Expansion scratch;    /* a path's expansion with a connection's own hits */

@@ -35,9 +35,9 @@ typedef struct Render {
     const RetexImage *constants;   /* or NULL: by target, of the last variant */
     int halves;                    /* of the samples: 2 are independent of each other */
     DenoiseGuides guides;
-    int guided;
-    char *had;  /* by band: taken over from another render */
-    int wanted; /* tiles, of all that are to be rendered */
+    PixelGuides *pixel_guides; /* by thread, or NULL: no guides */
+    char *had;                 /* by band: taken over from another render */
+    int wanted;                /* tiles, of all that are to be rendered */
     PathContext context;
     PathWorker *workers; /* by thread */
     Adaptive **pilots;   /* by thread, or NULL: all tiles get as many samples */
@@ -166,6 +166,21 @@ static int tile_samples(const Render *r, int thread, int x0, int y0)
     return adaptive_tile_samples(pilot, r->params.noise, r->params.spp);
 }
 
+/* Guides look on where further samples would, if there were fewer than they want. */
+static void end_guides(const Render *r, int thread, int spp, int x, int y)
+{
+    PixelGuides *guides = &r->pixel_guides[thread];
+    Ray rays[ACCEL_PACKET];
+    Sampler unused;
+    for (int s = spp, count; (count = denoise_guides_missing(guides)) > 0; s += count) {
+        count = count < ACCEL_PACKET ? count : ACCEL_PACKET;
+        for (int i = 0; i < count; i++)
+            rays[i] = start_sample(r, r->params.seed, r->x0 + x, r->y0 + y, s + i, &unused);
+        denoise_guides_look_along(guides, rays, count);
+    }
+    denoise_guides_pixel_end(guides, r->pixels[thread], x, y);
+}
+
 static void render_pixel(Render *r, int thread, int spp, int x, int y)
 {
     FilmPixel *pixel = r->pixels[thread];
@@ -178,8 +193,8 @@ static void render_pixel(Render *r, int thread, int spp, int x, int y)
     film_pixel_end(pixel, x, y);
     if (r->control)
         control_pixel_end(r->controls[thread], x, y);
-    if (r->guided)
-        denoise_guides_pixel(&r->guides, pixel, x, y);
+    if (r->pixel_guides)
+        end_guides(r, thread, spp, x, y);
 }
 
 static int is_stopped(const Render *r)
@@ -227,6 +242,7 @@ static void close_films(Render *r)
     free(r->pilots);
     free(r->pixels);
     free(r->controls);
+    free(r->pixel_guides);
     free(r->workers);
     free(r->had);
     film_close(&r->film);
@@ -284,6 +300,7 @@ static void open_worker(Render *r, int k)
     PathWorker *w = &r->workers[k];
     w->context = &r->context;
     w->pixel = r->pixels[k], w->control = r->controls[k];
+    w->guides = r->pixel_guides ? &r->pixel_guides[k] : NULL;
     w->variants = r->variants;
     if (!r->constants)
         return;
@@ -332,6 +349,16 @@ static int open_pilots(Render *r, int threads, RetexError *err)
     return code;
 }
 
+static int open_guides(Render *r, int threads, RetexError *err)
+{
+    FirstHitWindow window = first_hit_window(r);
+    if (!(r->pixel_guides = calloc((size_t)threads, sizeof *r->pixel_guides)))
+        return retex_fail(err, RETEX_ENOMEM, "out of memory for %d threads", threads);
+    for (int k = 0; k < threads; k++)
+        r->pixel_guides[k].of = &r->guides;
+    return denoise_guides_create(&r->guides, r->film, &window, r->context.split, err);
+}
+
 /* control: a film of all variants too, with moments of so many halves. */
 static int render_film(Render *r, int control, int halves, RetexError *err)
 {
@@ -361,10 +388,8 @@ static int render_film(Render *r, int control, int halves, RetexError *err)
         code = film_create(&r->film, r->scene, &film, err);
     for (int k = 0; k < threads && !code; k++)
         code = film_pixel_create(&r->pixels[k], r->film, err);
-    r->guided = keeps_denoise_data(&r->params);
-    FirstHitWindow window = first_hit_window(r);
-    if (!code && r->guided)
-        code = denoise_guides_create(&r->guides, r->film, &window, r->context.split, err);
+    if (!code && keeps_denoise_data(&r->params))
+        code = open_guides(r, threads, err);
     if (!code)
         code = take_over(r, film.spool, err);
     if (!code && control)
@@ -496,7 +521,7 @@ static int render_into(RetexSet *set, Render *r, RenderStats *stats, double star
         code = originals_add(set, r->scene, err);
     if (!code)
         code = first_hit_aovs(set, &window, r->params.aovs, err);
-    if (!code && r->guided)
+    if (!code && r->pixel_guides)
         code = denoise_guides_finish(&r->guides, r->film, set, err);
     if (!code && r->params.aovs & AOV_IRRADIANCE)
         code = add_irradiance(set, r, err);

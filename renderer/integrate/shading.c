@@ -10,25 +10,33 @@ static Rgb replaced_color(const Shading *s, const RetexTexture *replacement)
     return rgb_lerp(s->albedo, rgb(rgba[0], rgba[1], rgba[2]), rgba[3]);
 }
 
-Vec2 surface_target_uv(const Surface *surface)
+static Vec2 target_uv_of(const Surface *surface, const SurfaceUv *of)
 {
     const Pigment *pigment = surface->texture->pigment;
+    return target_uv(pigment, surface->position, surface->geometric_normal, pigment->uv_mapping ? &of->uv : NULL,
+                     of->has_natural ? &of->natural : NULL);
+}
+
+Vec2 surface_target_uv(const Surface *surface)
+{
     SurfaceUv of = surface_uv(surface);
-    return target_uv(pigment, surface->position, surface->geometric_normal, pigment->uv_mapping ? &of.uv : NULL,
-                     of.has_natural ? &of.natural : NULL);
+    return target_uv_of(surface, &of);
 }
 
 void shading_color(Shading *s, const RenderVariant *variants, int nvariants)
 {
     const Surface *surface = &s->surface;
     const Pigment *pigment = surface->texture->pigment;
-    Rgbft c = pigment_eval(pigment, surface->position, pigment->uv_mapping ? surface_uv(surface).uv : (Vec2){0, 0});
+    SurfaceUv of = {.has_natural = 0};
+    if (pigment->uv_mapping || surface->target >= 0)
+        of = surface_uv(surface);
+    Rgbft c = pigment_eval(pigment, surface->position, of.uv);
     s->albedo = rgb(not_negative(c.r), not_negative(c.g), not_negative(c.b));
     s->filter = not_negative(c.filter), s->transmit = not_negative(c.transmit);
     s->replaced = 0;
     if (surface->target < 0)
         return;
-    s->uv = surface_target_uv(surface);
+    s->uv = target_uv_of(surface, &of);
     for (int v = 0; variants && v < nvariants; v++)
         s->replaced |= variants[v].constants || variants[v].textures[surface->target];
     for (int v = 0; s->replaced && v < nvariants; v++) {

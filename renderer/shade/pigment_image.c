@@ -3,27 +3,26 @@
  * image. */
 #include "shade/pigment_image.h"
 
-static double turn(double x, double y)
+/* Round the y axis, 0..1. */
+static double turn(Vec3 p)
 {
-    double t = atan2(y, x) / (2 * PI);
+    double t = p.x == 0 && p.z == 0 ? 0 : atan2(p.z, p.x) / (2 * PI);
 
     return t < 0 ? t + 1 : t;
 }
 
 Vec2 pigment_image_uv(const ImageMap *image, Vec3 p)
 {
-    double rho = hypot(p.x, p.z), around = rho > 0 ? turn(p.x, p.z) : 0;
-
     switch (image->map_type) {
     case MAP_PLANAR:
         break;
     case MAP_SPHERICAL:
-        return (Vec2){around, 0.5 + atan2(p.y, rho) / PI};
+        return (Vec2){turn(p), 0.5 + atan2(p.y, hypot(p.x, p.z)) / PI};
     case MAP_CYLINDRICAL:
-        return (Vec2){around, p.y};
+        return (Vec2){turn(p), p.y};
     case MAP_TORUS:
         /* The ring has radius 1. */
-        return (Vec2){around, 0.5 + atan2(p.y, rho - 1) / (2 * PI)};
+        return (Vec2){turn(p), 0.5 + atan2(p.y, hypot(p.x, p.z) - 1) / (2 * PI)};
     }
     return (Vec2){p.x, p.y};
 }

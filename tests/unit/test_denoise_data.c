@@ -310,13 +310,18 @@ static const char bench[] =
 
 enum { WIDTH = 32, HEIGHT = 24 };
 
-static RetexSet *render_bench(Scene **scene, const char *back, int ntargets, int plain)
+static RetexSet *render_samples(Scene **scene, const char *back, int ntargets, int plain, int spp)
 {
     static const char *const targets[] = {"Wall", "Back"};
     RenderParams p = RENDER_PARAMS_INIT;
     *scene = read_scene(bench, back, targets, ntargets);
-    p.width = WIDTH, p.height = HEIGHT, p.spp = 2, p.nthreads = 2, p.denoise_data = 1, p.plain = plain;
+    p.width = WIDTH, p.height = HEIGHT, p.spp = spp, p.nthreads = 2, p.denoise_data = 1, p.plain = plain;
     return render(*scene, &p);
+}
+
+static RetexSet *render_bench(Scene **scene, const char *back, int ntargets, int plain)
+{
+    return render_samples(scene, back, ntargets, plain, 2);
 }
 
 static double x_of(int x)
@@ -327,6 +332,15 @@ static double x_of(int x)
 static double y_of(int y)
 {
     return 1.5 - 0.125 * (y + 0.5);
+}
+
+/* The mean of places that lie about the pixel's centre by samples' own spread. */
+static void expect_place(const RetexSet *set, const char *name, int x, int y, double z)
+{
+    const float *p = pixel(set, name, x, y);
+    expect(p[0], x_of(x), 0.125 / 32, name);
+    expect(p[1], y_of(y), 0.125 / 32, name);
+    expect(p[2], z, 1e-4, name);
 }
 
 /* First hit and what is seen, by kind of surface: a column and row whose pixel lies wholly on one. */
@@ -351,10 +365,10 @@ static void guides_tell_what_lies_where(void **state)
     for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++) {
         int x = cases[k].x, y = cases[k].y;
         expect3(set, "guide_normal", x, y, 0, 0, -1);
-        expect3(set, "guide_position", x, y, x_of(x), y_of(y), cases[k].first_z);
+        expect_place(set, "guide_position", x, y, cases[k].first_z);
         expect(pixel(set, "guide_specular", x, y)[0], cases[k].specular, 0, cases[k].what);
         expect3(set, "guide_seen_normal", x, y, 0, 0, cases[k].normal_z);
-        expect3(set, "guide_seen_position", x, y, x_of(x), y_of(y), cases[k].seen_z);
+        expect_place(set, "guide_seen_position", x, y, cases[k].seen_z);
         const double *a = cases[k].albedo, *m = cases[k].material;
         expect3(set, "guide_seen_albedo", x, y, a[0], a[1], a[2]);
         expect3(set, "guide_seen_material", x, y, m[0], m[1], m[2]);
@@ -456,6 +470,29 @@ static void plain_guides_show_all_colours(void **state)
     scene_close(&scene);
 }
 
+/* Whether paths look, or nothing but the guides, the places are the same. */
+static void more_samples_change_no_guide(void **state)
+{
+    (void)state;
+    Scene *scene;
+    RetexSet *few = render_bench(&scene, "BACK=1", 2, 0);
+    scene_close(&scene);
+    RetexSet *many = render_samples(&scene, "BACK=1", 2, 0, 80);
+    int count = 0;
+    for (int k = 0; k < few->nparts; k++) {
+        const RetexImage *image = &few->parts[k].image;
+        if (strncmp(few->parts[k].name, "guide_", 6))
+            continue;
+        count++;
+        assert_memory_equal(image->pixels, pixel(many, few->parts[k].name, 0, 0),
+                            (size_t)WIDTH * HEIGHT * (size_t)image->channels * sizeof(float));
+    }
+    assert_int_equal(count, 7 + 2);
+    retex_set_close(&few);
+    retex_set_close(&many);
+    scene_close(&scene);
+}
+
 /* A part of the picture has the guides that the whole has there. */
 static void a_crop_has_the_guides_of_the_whole(void **state)
 {
@@ -492,6 +529,7 @@ int main(void)
         cmocka_unit_test(guides_of_the_sky),
         cmocka_unit_test(cover_is_the_share_of_the_pixel),
         cmocka_unit_test(plain_guides_show_all_colours),
+        cmocka_unit_test(more_samples_change_no_guide),
         cmocka_unit_test(a_crop_has_the_guides_of_the_whole),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

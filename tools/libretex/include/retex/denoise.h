@@ -17,8 +17,9 @@
  *     guide_cover_TARGET   R, half     how much of the target is seen there: share of the pixel times the luminance
  *                                      that the mirrors and glass before it leave, 0..1
  *
- * Guides are taken at fixed places of the pixel, along the likelier way at each mirror and glass: they are free of
- * noise. A signal is what is filtered with weights of its own: a picture that is the sum of terms,
+ * Guides are taken at the first 16 of the pixel's samples, or the first 64 where those do not all see the same, along
+ * the likelier way at each mirror and glass: they are free of noise, but for how samples are spread. A signal is what
+ * is filtered with weights of its own: a picture that is the sum of terms,
  *
  *     total = sum over the terms t of the signal of  C_t / 2^(factors of t - 1)
  *
