@@ -18,15 +18,15 @@ int retex_names_linear(const char *colorspace);
  * which it is the general case. dst is unallocated. */
 int retex_bridge_read(RetexImage *dst, const char *path, const char *colorspace, long max_pixels, RetexError *err);
 
-/* An image of 16-bit integers, 65535 for 1: R,G,B,A, scene-linear Rec.709, premultiplied, rows from the top. The pixels
- * are freed with free(). */
+/* An image of 16-bit integers, 65535 for 1: R,G,B,A, scene-linear Rec.709, premultiplied, rows from the top. The
+ * pixels are freed with free(). */
 typedef struct RetexNarrowImage {
     int width, height;
     uint16_t *pixels;
 } RetexNarrowImage;
 
-/* The same picture without floats, for files of 8- and 16-bit integers whose channels are decoded one by one. Others are
- * left alone: dst->pixels stays NULL. */
+/* The same picture without floats, for files of 8- and 16-bit integers whose channels are decoded one by one. Others
+ * are left alone: dst->pixels stays NULL. */
 int retex_bridge_read_narrow(RetexNarrowImage *dst, const char *path, const char *colorspace, long max_pixels,
                              RetexError *err);
 

@@ -1,8 +1,8 @@
 /* Textures: loading, the MIP pyramid, and the way from surface UV to texels.
  *
- * A file becomes premultiplied RGBA floats; level after level is halved, an odd number of texels rounding down with
- * each new texel still the exact average of its share. Look-ups are in texture_filter_kernel.c and
- * texture_disc_kernel.c. */
+ * A file becomes premultiplied RGBA, integers of 16 bits where the file has integers, else floats; the pyramid is in
+ * texture_pyramid_kernel.c. Look-ups one at a time are in texture_filter_kernel.c and texture_disc_kernel.c, those of
+ * whole rows in texture_batch.c. */
 #include "bridge_load.h"
 #include "texture_pyramid.h"
 

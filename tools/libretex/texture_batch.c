@@ -70,19 +70,25 @@ static void prepare(BatchTexture *t, const RetexTexture *texture, RetexTextureFi
     }
 }
 
-/* Gaussians are cut off where the surface ends, discs are not: see RetexTextureSpec. */
-static int is_limited(const RetexTexture *texture)
+/* Gaussians are cut off where the surface ends, discs are not: see RetexTextureSpec. Along which of the surface's axes
+ * there is such an end, as far as the texture is not turned against it. */
+static int find_limits(const RetexTexture *texture, RetexTextureFilter shape, int limited[2])
 {
     const RetexTextureSpec *spec = &texture->spec;
-    return spec->uv_min[0] < spec->uv_max[0] || spec->uv_min[1] < spec->uv_max[1];
+    limited[0] = limited[1] = 0;
+    for (int axis = 0; axis < 2 && shape == RETEX_TEXTURE_GAUSSIAN; axis++) {
+        int along = texture->matrix[axis][0] == 0;
+        if (texture->matrix[axis][!along] == 0 && spec->uv_min[along] < spec->uv_max[along])
+            limited[along] = 1;
+    }
+    return limited[0] || limited[1];
 }
 
-static int near_limit(const RetexTextureSpec *spec, const float *uv, const float *spread)
+static int near_limit(const RetexTextureSpec *spec, const int limited[2], const float *uv, const float *spread)
 {
     for (int axis = 0; axis < 2; axis++) {
         double reach = 3.5 * (double)spread[axis], at = (double)uv[axis];
-        if (spec->uv_min[axis] < spec->uv_max[axis] &&
-            (at - reach < spec->uv_min[axis] || at + reach > spec->uv_max[axis]))
+        if (limited[axis] && (at - reach < spec->uv_min[axis] || at + reach > spec->uv_max[axis]))
             return 1;
     }
     return 0;
@@ -127,7 +133,7 @@ void texture_filter_batches(TextureBatchKernel *kernel, const RetexTexture *text
     BatchTexture prepared;
     Batch batch;
     size_t from[BATCH_SIZE + 1];
-    int limited = shape == RETEX_TEXTURE_GAUSSIAN && is_limited(texture);
+    int limited[2], any_limit = find_limits(texture, shape, limited);
     prepare(&prepared, texture, shape);
     for (size_t i = 0; i < n;) {
         batch.count = 0;
@@ -137,7 +143,7 @@ void texture_filter_batches(TextureBatchKernel *kernel, const RetexTexture *text
                 memset(rgba + 4 * i, 0, 4 * sizeof *rgba);
                 continue;
             }
-            if (limited && near_limit(&texture->spec, at, s)) {
+            if (any_limit && near_limit(&texture->spec, limited, at, s)) {
                 filter_one(texture, shape, at, s, spreads, rgba + 4 * i);
                 continue;
             }

@@ -1,8 +1,8 @@
 /* Many footprints of one texture at once. Private to libretex.
  *
- * What is summed is what texture_disc_kernel.c and texture_filter_kernel.c sum, on coarser levels of the pyramid: texels
- * times weights, the weights of 4 x 4 texels at a time, for as many footprints as the machine's vectors have lanes. All
- * kernels do the same arithmetic in the same order and give the same bits. */
+ * What is summed is what texture_disc_kernel.c and texture_filter_kernel.c sum, on coarser levels of the pyramid:
+ * texels times weights, the weights of 4 x 4 texels at a time, for as many footprints as the machine's vectors have
+ * lanes. All kernels do the same arithmetic in the same order and give the same bits. */
 #ifndef RETEX_TEXTURE_BATCH_H
 #define RETEX_TEXTURE_BATCH_H
 

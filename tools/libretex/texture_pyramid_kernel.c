@@ -1,5 +1,5 @@
-/* The MIP pyramid: level after level is halved, an odd number of texels rounding down with each new texel still the exact
- * average of its share. */
+/* The MIP pyramid: level after level is halved, an odd number of texels rounding down with each new texel still the
+ * exact average of its share. */
 #include <stdlib.h>
 
 #include "texture_kernel.h"
