@@ -3,8 +3,8 @@
  * those of the bands.
  *
  * Renders have noise in their low bits, where filters leave little to repeat: coding runs and frequencies only (Z_RLE),
- * after the best of all filters, packs them a little more tightly than zlib's level 6 does in a quarter of the time. A
- * drawing that repeats itself is packed less tightly. */
+ * after the best of all filters, packs them as tightly as level 6 does in a sixth of the time. A drawing that repeats
+ * itself is packed less tightly. */
 #include <limits.h>
 #include <stdlib.h>
 #include <string.h>
