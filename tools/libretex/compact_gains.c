@@ -20,11 +20,12 @@ static void sum_row(void *context, int y, int thread)
     (void)thread;
     for (int x = 0; x < set->width; x++) {
         const size_t pixel = (size_t)y * (size_t)set->width + (size_t)x;
-        double of[RETEX_SHARES_MAX][3], all[3] = {0};
+        ClusterLight of[RETEX_SHARES_MAX];
+        double all[3] = {0};
         compact_cluster_light(work->light, work->kind, pixel, of);
         for (int k = 0; k < work->kind->count; k++)
             for (int c = 0; c < 3; c++)
-                all[c] += of[k][c];
+                all[c] += of[k].own[c] + of[k].again[c];
         for (int c = 0; c < 3; c++)
             work->sum->pixels[3 * pixel + (size_t)c] = (float)all[c];
     }

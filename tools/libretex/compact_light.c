@@ -157,7 +157,7 @@ int compact_shows_again(const CompactLight *light, const CompactKind *kind, size
 }
 
 void compact_cluster_light(const CompactLight *light, const CompactKind *kind, size_t pixel,
-                           double of[RETEX_SHARES_MAX][3])
+                           ClusterLight of[RETEX_SHARES_MAX])
 {
     const RetexSet *set = light->set;
     double again[3] = {0}, shares[RETEX_SHARES_MAX], all = 0;
@@ -172,7 +172,9 @@ void compact_cluster_light(const CompactLight *light, const CompactKind *kind, s
     for (int k = 0; k < kind->count; k++) {
         const int shown = kind->own[k] >= 0 && is_covered(set, kind->footprints[k], pixel);
         const float *own = shown ? set->parts[set->terms[kind->own[k]].radiance].image.pixels + 3 * pixel : NULL;
-        for (int c = 0; c < 3; c++)
-            of[k][c] = (own ? (double)own[c] : 0) + (all > 0 ? again[c] * shares[k] / all : 0);
+        for (int c = 0; c < 3; c++) {
+            of[k].own[c] = own ? (double)own[c] : 0;
+            of[k].again[c] = all > 0 ? again[c] * shares[k] / all : 0;
+        }
     }
 }

@@ -6,6 +6,7 @@
 
 /* What further hits are taken to meet where terms of several hits are added up. */
 #define COMPACT_GREY 0.5f
+#define COMPACT_KINDS (3 * RETEX_MAX_TARGETS)
 
 /* Footprints of one target and kind, with what says how much light is whose. */
 typedef struct CompactKind {
@@ -15,15 +16,15 @@ typedef struct CompactKind {
     int footprints[RETEX_SHARES_MAX];
     int own[RETEX_SHARES_MAX];   /* the term of this footprint alone, or -1 */
     int share[RETEX_SHARES_MAX]; /* the part that weighs it in a mixture, or -1 */
-    int first;  /* the factor that stands for all of them */
-    int nagain; /* terms that begin with it and go on */
+    int first;                   /* the factor that stands for all of them */
+    int nagain;                  /* terms that begin with it and go on */
     int *again;
 } CompactKind;
 
 typedef struct CompactLight {
     const RetexSet *set;
     int nkinds;
-    CompactKind kinds[3 * RETEX_MAX_TARGETS];
+    CompactKind kinds[COMPACT_KINDS];
     int *again; /* of all kinds */
 } CompactLight;
 
@@ -34,10 +35,14 @@ void compact_light_close(CompactLight *light);
 /* A term's light where all hits but the first meet COMPACT_GREY: what its radiance is times this. */
 float compact_grey(const RetexTerm *term);
 
-/* Light of each of a kind's clusters in a pixel, in RGB, further hits on COMPACT_GREY; 0 where the set shows none. Not
- * of later footprints. */
+/* Light of a cluster in a pixel, RGB, 0 where the set shows none: that which meets no other, and that which goes on,
+ * further hits on COMPACT_GREY. */
+typedef struct ClusterLight {
+    double own[3], again[3];
+} ClusterLight;
+/* Of each of a kind's clusters; not of later footprints. */
 void compact_cluster_light(const CompactLight *light, const CompactKind *kind, size_t pixel,
-                           double of[RETEX_SHARES_MAX][3]);
+                           ClusterLight of[RETEX_SHARES_MAX]);
 /* Whether the kind has a footprint in the pixel on which light that goes on begins. */
 int compact_shows_again(const CompactLight *light, const CompactKind *kind, size_t pixel);
 

@@ -11,13 +11,14 @@ extern "C" {
 /* Begin with RETEX_COMPACT_INIT. */
 typedef struct RetexCompactParams {
     size_t size;
-    double psnr; /* dB, 20 to 120: what pictures of the compact set have at least against the set's own where a size
-                    can be chosen for it, measured as retex_metrics does with textures of many scales; default 60 */
+    double psnr; /* dB, 20 to 120: what pictures of the compact set should have at least against the set's own, measured
+                    as retex_metrics does it, but in part of the set and with waves for textures, and not counting noise
+                    that averages away; default 55 */
     int broad;   /* How many times smaller than the picture broad footprints are, 1, 2, 4 or 8, */
     int later;   /* later ones, */
     int gain;    /* and gains. 0, the default: as many times as psnr allows. */
 } RetexCompactParams;
-#define RETEX_COMPACT_INIT { sizeof(RetexCompactParams), 60, 0, 0, 0 }
+#define RETEX_COMPACT_INIT { sizeof(RetexCompactParams), 55, 0, 0, 0 }
 
 /* *compact is created: the set without what only denoising reads. In layout footprints, for each target and kind of
  * cluster, sharp and broad, all light is one image, what it would be if further hits met a texture of 0.5 everywhere;
