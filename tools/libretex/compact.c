@@ -1,6 +1,6 @@
-/* Compacting a set: see compact.h. The set is sorted by whose light is where (compact_light.h); sizes are chosen by trial
- * (compact_choose.h); then each kind's footprints are made anew (compact_clusters.h), its terms become gains of one
- * radiance (compact_gains.h), and the new set is put together (compact_build.h). */
+/* Compacting a set: see compact.h. The set is sorted by whose light is where (compact_light.h); sizes are chosen by
+ * trial (compact_choose.h); then each kind's footprints are made anew (compact_clusters.h), its terms become gains of
+ * one radiance (compact_gains.h), and the new set is put together (compact_build.h). */
 #include <retex/compact.h>
 
 #include <stdlib.h>
