@@ -5,6 +5,7 @@
 #include <retex/set.h>
 
 #include "manifest.h"
+#include "set_parts.h"
 #include "signals.h"
 
 #define GONE INT_MIN /* of a factor */
@@ -98,10 +99,13 @@ static void prune_terms(Pruning *p)
 
     for (int t = 0; t < set->nterms; t++) {
         RetexTerm *term = &set->terms[t];
-        if ((term->nfactors && p->empty[term->radiance]) || !prune_factors(p, term))
+        if ((term->nfactors && (p->empty[term->radiance] || (term->gain && p->empty[term->gain]))) ||
+            !prune_factors(p, term)) {
             drop(p, term->radiance);
-        else
+            drop(p, term->gain ? term->gain : -1);
+        } else {
             set->terms[count++] = *term;
+        }
     }
     set->nterms = count;
 }
@@ -133,6 +137,6 @@ void retex_set_prune(RetexSet *set, const char *empty)
     prune_terms(&p);
     prune_noise(&p);
     for (int i = set->nparts - 1; i > 0; i--)
-        if (!p.kept[i])
+        if (!p.kept[i] && !part_is_used(set, i)) /* several may have shared it */
             retex_set_remove_part(set, i);
 }

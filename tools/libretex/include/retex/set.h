@@ -26,7 +26,7 @@ extern "C" {
 #define RETEX_MAX_TARGETS 8
 #define RETEX_MAX_ORDERS 6    /* hits of one target that a path keeps apart */
 #define RETEX_MAX_FACTORS 12  /* hits of all targets together */
-#define RETEX_MIXTURES_MAX (3 * RETEX_MAX_TARGETS + 1)
+#define RETEX_MIXTURES_MAX (5 * RETEX_MAX_TARGETS + 1)
 #define RETEX_SHARES_MAX 16
 #define RETEX_NAME_MAX 128    /* bytes of a target or part name, with the final NUL */
 
@@ -164,7 +164,8 @@ int retex_set_load(RetexSet *set, int nthreads, RetexError *err);
 int retex_set_keep(RetexSet *set, uint64_t most_bytes, int nthreads, RetexError *err);
 /* Leave out what no pixel has; empty[i]: part i is 0 everywhere. Footprints go without UV, and with them their parts,
  * their shares in mixtures, and mixtures of none; a mixture of one becomes that footprint. Terms of hits go without
- * radiance, and noise of signals that have no term. What remains keeps its order. */
+ * radiance or gain, and noise of signals that have no term. Parts that something else refers to stay. What remains
+ * keeps its order. */
 void retex_set_prune(RetexSet *set, const char *empty);
 /* Remove a part that no term, footprint, mixture or target names; those behind it move up, and references follow. */
 void retex_set_remove_part(RetexSet *set, int part);

@@ -1,0 +1,429 @@
+/* A compact set shows what the set does, in fewer numbers. */
+#include "lib_footprints.h"
+#include <cmocka.h>
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "set_parts.h"
+
+enum { WIDE = 50, HIGH = 37 }; /* no multiple of 8 */
+
+/* ---- sets ---- */
+
+static float *at(RetexSet *set, int part, int x, int y)
+{
+    return pixel(set, part, x, y);
+}
+
+/* Light of two decades, with a part that has none, and a gradient. */
+static void fill_light(RetexSet *set, int part, uint32_t *seed)
+{
+    for (int y = 0; y < HIGH; y++)
+        for (int x = 0; x < WIDE; x++)
+            for (int c = 0; c < 3; c++)
+                at(set, part, x, y)[c] = x < 12 ? 0 : (float)(0.02 + test_random(seed) * 0.3 * x / WIDE);
+}
+
+static void fill_footprint(RetexSet *set, int f, uint32_t *seed)
+{
+    for (int y = 0; y < HIGH; y++)
+        for (int x = 0; x < WIDE; x++) {
+            const float u = (float)(0.1 * set->footprints[f].hit + 0.3 * test_random(seed));
+            put(set, f, x, y, u, (float)y / HIGH, 0.5f);
+            put_spread(set, f, x, y, 0.01f, 0.02f, 0.5f);
+            put_rgb(set, set->footprints[f].albedo, x, y, 0.25f, 0.5f, 0.75f);
+        }
+}
+
+static void fill_share(RetexSet *set, int part, uint32_t *seed)
+{
+    for (int i = 0; i < WIDE * HIGH; i++)
+        set->parts[part].image.pixels[i] = (float)(0.1 + test_random(seed));
+}
+
+/* For each target: so many sharp and broad clusters, two later footprints, and light that goes on once and twice; with
+ * several, once more to any of them. */
+static RetexSet *whole_set(int ntargets, int count)
+{
+    RetexSet *set = start_set(WIDE, HIGH, ntargets);
+    int first[RETEX_MAX_TARGETS][2], later[RETEX_MAX_TARGETS];
+    RetexMixture any = {0};
+    RetexError err;
+    uint32_t seed = 7;
+    for (int t = 0; t < ntargets; t++) {
+        for (int kind = 0; kind < 2; kind++) {
+            const int start = set->nfootprints;
+            for (int k = 0; k < count; k++)
+                add_footprint(set, t, kind ? RETEX_FOOTPRINT_BROAD : RETEX_FOOTPRINT_SHARP, 1 + k + kind * count,
+                              "RGB");
+            for (int k = 0; k < count; k++)
+                add_term(set, 1, start + k, 0);
+            first[t][kind] = count > 1 ? add_mixture(set, start, count, "R") : start;
+        }
+        const int start = set->nfootprints;
+        for (int k = 0; k < 2; k++)
+            add_footprint(set, t, RETEX_FOOTPRINT_LATER, 1 + 2 * count + k, "RGB");
+        later[t] = add_mixture(set, start, 2, "R");
+        for (int k = 0; k < 2; k++)
+            any.shares[any.nshares++] = set->mixtures[RETEX_MIXTURE(later[t])].shares[k];
+    }
+    int all;
+    test_must(retex_set_add_mixture(set, &any, &all, &err), &err);
+    for (int t = 0; t < ntargets; t++)
+        for (int kind = 0; kind < 2; kind++) {
+            for (int b = 0; b < ntargets; b++)
+                add_term(set, 2, first[t][kind], later[b]);
+            add_term(set, 3, first[t][kind], RETEX_MIXTURE(all));
+        }
+    for (int i = 0; i < set->nfootprints; i++)
+        fill_footprint(set, i, &seed);
+    for (int i = 0; i < set->nterms; i++)
+        fill_light(set, set->terms[i].radiance, &seed);
+    for (int m = 0; m < set->nmixtures; m++)
+        for (int k = 0; k < set->mixtures[m].nshares; k++)
+            fill_share(set, set->mixtures[m].shares[k].weight, &seed);
+    return set;
+}
+
+static RetexSet *compacted(const RetexSet *set, int broad, int later, int gain)
+{
+    RetexCompactParams params = RETEX_COMPACT_INIT;
+    RetexError err = {0};
+    RetexSet *compact;
+    params.broad = broad, params.later = later, params.gain = gain;
+    test_must(retex_set_compact(&compact, set, &params, 2, &err), &err);
+    return compact;
+}
+
+/* The set's picture with constant textures, or the originals. */
+static RetexImage picture(const RetexSet *set, const float *grey)
+{
+    RetexTextureSpec specs[RETEX_MAX_TARGETS];
+    RetexSamples *samples = NULL;
+    RetexImage image = {0};
+    RetexError err = {0};
+    for (int t = 0; t < set->ntargets && grey; t++) {
+        specs[t] = (RetexTextureSpec)RETEX_TEXTURE_SPEC_INIT;
+        strcpy(specs[t].target, set->targets[t].name);
+        specs[t].constant = 1;
+        for (int c = 0; c < 3; c++)
+            specs[t].color[c] = grey[c];
+    }
+    if (grey)
+        test_must(retex_sample(&samples, set, specs, set->ntargets, 1, &err), &err);
+    test_must(retex_combine(&image, set, samples, NULL, NULL, 1, &err), &err);
+    retex_samples_close(&samples);
+    return image;
+}
+
+/* Within a thousandth of the brightest. */
+static void expect_same_picture(const RetexSet *a, const RetexSet *b, const float *grey)
+{
+    RetexImage one = picture(a, grey), other = picture(b, grey);
+    float most = 0;
+    for (int i = 0; i < 3 * WIDE * HIGH; i++)
+        most = fmaxf(most, one.pixels[i]);
+    assert_true(most > 0);
+    for (int i = 0; i < 3 * WIDE * HIGH; i++)
+        assert_float_equal(one.pixels[i], other.pixels[i], 1e-3f * most);
+    retex_image_free(&one);
+    retex_image_free(&other);
+}
+
+/* ---- tests ---- */
+
+static const float half[] = {0.5f, 0.5f, 0.5f}, bright[] = {0.9f, 0.6f, 0.1f};
+
+static void grey_is_exact_at_all_scales(void **state)
+{
+    (void)state;
+    for (int ntargets = 1; ntargets <= 3; ntargets++)
+        for (int scale = 1; scale <= 8; scale *= 2) {
+            RetexSet *set = whole_set(ntargets, 3), *compact = compacted(set, scale, scale, scale);
+            expect_same_picture(set, compact, half);
+            retex_set_close(&set);
+            retex_set_close(&compact);
+        }
+}
+
+static void constants_are_exact_where_gains_are_whole(void **state)
+{
+    (void)state;
+    for (int ntargets = 1; ntargets <= 2; ntargets++)
+        for (int count = 1; count <= 4; count += 3) {
+            RetexSet *set = whole_set(ntargets, count), *compact = compacted(set, 4, 8, 1);
+            expect_same_picture(set, compact, bright);
+            retex_set_close(&set);
+            retex_set_close(&compact);
+        }
+}
+
+static void originals_are_exact(void **state)
+{
+    RetexSet *set = whole_set(2, 2), *compact = compacted(set, 4, 8, 1);
+    (void)state;
+    expect_same_picture(set, compact, NULL);
+    retex_set_close(&set);
+    retex_set_close(&compact);
+}
+
+static double sum_of(const RetexSet *set, int part)
+{
+    double sum = 0;
+    for (int i = 0; i < 3 * WIDE * HIGH; i++)
+        sum += (double)set->parts[part].image.pixels[i];
+    return sum;
+}
+
+static void energy_is_kept_in_one_image(void **state)
+{
+    RetexSet *set = whole_set(1, 3), *compact = compacted(set, 4, 8, 2);
+    double should = 0;
+    (void)state;
+    for (int i = 0; i < set->nterms; i++) {
+        const RetexTerm *term = &set->terms[i];
+        const RetexFootprintKind kind =
+            term->nfactors && term->factors[0] >= 0 ? set->footprints[term->factors[0]].kind : RETEX_FOOTPRINT_HIT;
+        const int again = term->nfactors > 1 && term->factors[0] == RETEX_MIXTURE(0); /* of the sharp clusters */
+        if (kind == RETEX_FOOTPRINT_SHARP || again)
+            should += sum_of(set, term->radiance) * pow(0.5, term->nfactors - 1);
+    }
+    const int part = retex_set_find_part(compact, "dep_T0_sharp");
+    assert_true(part > 0);
+    assert_float_equal(sum_of(compact, part) / should, 1, 1e-5);
+    assert_true(retex_set_find_part(compact, "gain_T0_sharp") > 0);
+    assert_true(retex_set_find_part(compact, "weight_T0_sharp2") > 0);
+    assert_true(retex_set_find_part(compact, "albedo_T0_broad") > 0);
+    retex_set_close(&set);
+    retex_set_close(&compact);
+}
+
+static void one_cluster_needs_no_mixture(void **state)
+{
+    RetexSet *set = whole_set(1, 1), *compact = compacted(set, 4, 8, 2);
+    (void)state;
+    assert_int_equal(retex_set_find_part(compact, "weight_T0_sharp1"), -1);
+    for (int i = 0; i < compact->nterms; i++)
+        if (compact->terms[i].nfactors == 1)
+            assert_true(compact->terms[i].factors[0] >= 0);
+    retex_set_close(&set);
+    retex_set_close(&compact);
+}
+
+/* Light on both sides of a seam is one place there, not one in the middle. */
+static void places_are_not_averaged_across_a_seam(void **state)
+{
+    RetexSet *set = start_set(WIDE, HIGH, 1);
+    const int f = add_footprint(set, 0, RETEX_FOOTPRINT_BROAD, 1, "RGB"), light = add_term(set, 1, f, 0);
+    (void)state;
+    set->targets[0].periodic[0] = 1;
+    for (int y = 0; y < HIGH; y++)
+        for (int x = 0; x < WIDE; x++) {
+            put(set, f, x, y, x % 2 ? 0.98f : 0.02f, 0.5f, 1);
+            put_spread(set, f, x, y, 0.001f, 0.001f, 0);
+            put_rgb(set, light, x, y, 1, 1, 1);
+        }
+    RetexSet *compact = compacted(set, 4, 8, 2);
+    assert_int_equal(compact->nfootprints, 1);
+    const RetexFootprint *to = &compact->footprints[0];
+    const RetexImage *uv = &compact->parts[to->uv].image;
+    assert_int_equal(uv->width, (WIDE + 3) / 4);
+    for (int i = 0; i < uv->width * uv->height; i++) {
+        const float u = uv->pixels[3 * i], distance = fminf(u, 1 - u);
+        assert_true(distance < 0.01f);
+        assert_true(compact->parts[to->spread].image.pixels[3 * i] < 0.03f);
+    }
+    retex_set_close(&set);
+    retex_set_close(&compact);
+}
+
+/* Where a kind, or a target's later hits, have no light, all else is as it was. */
+static void empty_kinds_do_no_harm(void **state)
+{
+    RetexSet *set = whole_set(2, 2);
+    (void)state;
+    for (int i = 0; i < set->nfootprints; i++)
+        if (set->footprints[i].target == 1 && set->footprints[i].kind != RETEX_FOOTPRINT_BROAD)
+            memset(set->parts[set->footprints[i].uv].image.pixels, 0, sizeof(float) * 3 * WIDE * HIGH);
+    for (int m = 0; m < set->nmixtures; m++)
+        for (int k = 0; k < set->mixtures[m].nshares; k++) {
+            const RetexFootprint *f = &set->footprints[set->mixtures[m].shares[k].footprint];
+            if (f->target == 1 && f->kind != RETEX_FOOTPRINT_BROAD)
+                memset(set->parts[set->mixtures[m].shares[k].weight].image.pixels, 0, sizeof(float) * WIDE * HIGH);
+        }
+    RetexSet *compact = compacted(set, 4, 8, 1);
+    expect_same_picture(set, compact, bright);
+    retex_set_close(&set);
+    retex_set_close(&compact);
+}
+
+/* The grey world of gains that do not change goes into the smallest images; an edge in them does not. */
+static void sizes_follow_the_loss(void **state)
+{
+    (void)state;
+    for (int edge = 0; edge < 2; edge++) {
+        RetexSet *set = whole_set(1, 1), *compact;
+        RetexError err = {0};
+        for (int i = 1; i < set->nterms; i++)
+            for (int y = 0; y < HIGH; y++)
+                for (int x = 0; x < WIDE; x++) {
+                    const float light = edge && set->terms[i].nfactors > 1 && (x / 5 + y / 5) % 2 ? 0 : 0.3f;
+                    put_rgb(set, set->terms[i].radiance, x, y, light, light, light);
+                }
+        for (int i = 0; i < set->nfootprints; i++)
+            for (int k = 0; k < WIDE * HIGH; k++)
+                put(set, i, k % WIDE, k / WIDE, 0.3f, 0.4f, 1);
+        test_must(retex_set_compact(&compact, set, NULL, 2, &err), &err);
+        const int gain = retex_set_find_part(compact, "gain_T0_sharp");
+        assert_true(gain > 0);
+        assert_int_equal(retex_set_scale(compact, &compact->parts[gain].image), edge ? 1 : 8);
+        retex_set_close(&set);
+        retex_set_close(&compact);
+    }
+}
+
+static void threads_do_not_matter(void **state)
+{
+    RetexSet *set = whole_set(2, 3), *one, *many;
+    RetexError err = {0};
+    (void)state;
+    test_must(retex_set_compact(&one, set, NULL, 1, &err), &err);
+    test_must(retex_set_compact(&many, set, NULL, 7, &err), &err);
+    assert_int_equal(one->nparts, many->nparts);
+    for (int i = 0; i < one->nparts; i++) {
+        const RetexImage *a = &one->parts[i].image, *b = &many->parts[i].image;
+        assert_int_equal(a->width, b->width);
+        assert_memory_equal(a->pixels, b->pixels,
+                            sizeof(float) * (size_t)a->width * (size_t)a->height * (size_t)a->channels);
+    }
+    retex_set_close(&set);
+    retex_set_close(&one);
+    retex_set_close(&many);
+}
+
+static void expect_copy(const RetexSet *set, const RetexSet *copy)
+{
+    int parts = 0;
+    for (int i = 0; i < set->nparts; i++) {
+        if (part_is_denoise_data(set, i))
+            continue;
+        const RetexImage *a = &set->parts[i].image, *b = &copy->parts[parts].image;
+        assert_string_equal(set->parts[i].name, copy->parts[parts++].name);
+        assert_memory_equal(a->pixels, b->pixels,
+                            sizeof(float) * (size_t)a->width * (size_t)a->height * (size_t)a->channels);
+    }
+    assert_int_equal(copy->nparts, parts);
+    assert_int_equal(copy->nterms, set->nterms);
+    assert_int_equal(copy->nfootprints, set->nfootprints);
+    assert_int_equal(copy->nmixtures, set->nmixtures);
+}
+
+static void others_come_out_as_they_are(void **state)
+{
+    RetexSet *paper = test_set(24, 16, 3), *set = whole_set(1, 2), *compact = compacted(set, 4, 8, 2), *again, *copy;
+    RetexError err = {0};
+    (void)state;
+    test_add_denoise_data(paper);
+    test_must(retex_set_compact(&copy, paper, NULL, 1, &err), &err);
+    assert_true(copy->nparts < paper->nparts);
+    expect_copy(paper, copy);
+    test_must(retex_set_compact(&again, compact, NULL, 1, &err), &err);
+    expect_copy(compact, again);
+    retex_set_close(&paper);
+    retex_set_close(&copy);
+    retex_set_close(&set);
+    retex_set_close(&compact);
+    retex_set_close(&again);
+}
+
+static void survives_writing(void **state)
+{
+    RetexSet *set = whole_set(2, 3), *compact = compacted(set, 4, 8, 2), *read = NULL;
+    RetexError err = {0};
+    char path[] = "/tmp/test_compact_XXXXXX";
+    (void)state;
+    const int file = mkstemp(path);
+    assert_true(file >= 0);
+    close(file);
+    test_must(retex_set_write(compact, NULL, path, NULL, &err), &err);
+    test_must(retex_set_read(path, &read, NULL, 1, &err), &err);
+    expect_same_picture(compact, read, bright);
+    remove(path);
+    retex_set_close(&set);
+    retex_set_close(&compact);
+    retex_set_close(&read);
+}
+
+static void wrong_params_are_refused(void **state)
+{
+    static const RetexCompactParams wrong[] = {{sizeof *wrong, 55, 3, 0, 0},
+                                               {sizeof *wrong, 55, 0, 16, 0},
+                                               {sizeof *wrong, 55, 0, 0, -1},
+                                               {sizeof *wrong, 10, 0, 0, 0},
+                                               {sizeof *wrong, NAN, 0, 0, 0}};
+    RetexSet *set = whole_set(1, 1), *compact;
+    (void)state;
+    for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
+        RetexError err = {0};
+        assert_int_equal(retex_set_compact(&compact, set, &wrong[i], 1, &err), RETEX_EINVAL);
+        assert_null(compact);
+    }
+    retex_set_close(&set);
+}
+
+/* Two clusters have one albedo: that one of them is empty does not take it from the other. */
+static void pruning_keeps_what_is_shared(void **state)
+{
+    RetexSet *set = whole_set(1, 2), *compact = compacted(set, 4, 8, 2);
+    char empty[256] = {0};
+    (void)state;
+    const int count = compact->nfootprints, parts = compact->nparts;
+    empty[compact->footprints[1].uv] = 1;
+    retex_set_prune(compact, empty);
+    assert_int_equal(compact->nfootprints, count - 1);
+    assert_true(compact->nparts < parts);
+    const int albedo = compact->footprints[0].albedo;
+    assert_string_equal(compact->parts[albedo].name, "albedo_T0_sharp");
+    assert_true(retex_set_find_part(compact, "dep_T0_sharp") > 0);
+    RetexImage shown = picture(compact, bright);
+    retex_image_free(&shown);
+
+    /* A gain that is empty takes its term away, but not the radiance of the others. */
+    memset(empty, 0, sizeof empty);
+    const int terms = compact->nterms, gain = compact->terms[compact->nterms - 1].gain;
+    const int radiance = compact->terms[compact->nterms - 1].radiance;
+    char name[RETEX_NAME_MAX], kept[RETEX_NAME_MAX];
+    strcpy(name, compact->parts[gain].name);
+    strcpy(kept, compact->parts[radiance].name);
+    empty[gain] = 1;
+    retex_set_prune(compact, empty);
+    assert_int_equal(compact->nterms, terms - 1);
+    assert_int_equal(retex_set_find_part(compact, name), -1);
+    assert_true(retex_set_find_part(compact, kept) > 0);
+    retex_set_close(&set);
+    retex_set_close(&compact);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(grey_is_exact_at_all_scales),
+        cmocka_unit_test(constants_are_exact_where_gains_are_whole),
+        cmocka_unit_test(originals_are_exact),
+        cmocka_unit_test(energy_is_kept_in_one_image),
+        cmocka_unit_test(one_cluster_needs_no_mixture),
+        cmocka_unit_test(places_are_not_averaged_across_a_seam),
+        cmocka_unit_test(empty_kinds_do_no_harm),
+        cmocka_unit_test(sizes_follow_the_loss),
+        cmocka_unit_test(threads_do_not_matter),
+        cmocka_unit_test(others_come_out_as_they_are),
+        cmocka_unit_test(survives_writing),
+        cmocka_unit_test(wrong_params_are_refused),
+        cmocka_unit_test(pruning_keeps_what_is_shared),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,301 @@
+/* See compact_build.h. */
+#include "compact_build.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "compact_clusters.h"
+#include "compact_gains.h"
+#include "set_parts.h"
+
+typedef struct Compaction {
+    const CompactLight *light;
+    RetexSet *set; /* the new one */
+    const CompactScales *scales;
+    int nthreads;
+    int places[COMPACT_KINDS], again[COMPACT_KINDS]; /* of each kind, the factor that stands for it: for its own light,
+                                                        and for that which goes on */
+    int mixtures[RETEX_MIXTURES_MAX];                /* of the old ones of later footprints, the new factor */
+    int footprints[COMPACT_KINDS][RETEX_SHARES_MAX];
+    int weights[COMPACT_KINDS][RETEX_SHARES_MAX], shares[COMPACT_KINDS][RETEX_SHARES_MAX]; /* parts, again */
+    int counts[COMPACT_KINDS]; /* of each kind's new footprints and their weights */
+} Compaction;
+
+static const char *const kind_names[] = {"hit", "sharp", "broad", "later"};
+
+/* ---- what stays as it is ---- */
+
+int compact_copy_part(RetexSet *set, const RetexPart *part, int *index, RetexError *err)
+{
+    if (part->spooled || !part->image.pixels)
+        return retex_fail(err, RETEX_EINVAL, "part %s of the set is not in memory", part->name);
+    int code = retex_set_add_part(set, part->name, part->letters, part->type, part->image.width, part->image.height,
+                                  index, err);
+    if (!code)
+        memcpy(set->parts[*index].image.pixels, part->image.pixels,
+               (size_t)part->image.width * (size_t)part->image.height * (size_t)part->image.channels * sizeof(float));
+    return code;
+}
+
+int compact_copy_head(RetexSet **copy, const RetexSet *set, RetexError *err)
+{
+    int code = retex_set_create(copy, set->width, set->height, err);
+    if (code)
+        return code;
+    RetexSet empty = *set;
+    empty.nparts = empty.nfootprints = empty.nterms = empty.nmixtures = 0;
+    empty.parts = NULL, empty.footprints = NULL, empty.terms = NULL, empty.spool = NULL;
+    **copy = empty;
+    return code;
+}
+
+/* Parts that neither terms nor footprints nor mixtures use stay; so do those of terms without factors. */
+static int is_kept(const RetexSet *set, int part)
+{
+    if (part_is_denoise_data(set, part))
+        return 0;
+    if (!part_is_used(set, part))
+        return 1;
+    for (int i = 0; i < set->nterms; i++)
+        if (set->terms[i].radiance == part && !set->terms[i].nfactors)
+            return 1;
+    for (int t = 0; t < set->ntargets; t++)
+        if (set->targets[t].original == part)
+            return 1;
+    return part == 0;
+}
+
+static int copy_kept(const Compaction *work, RetexError *err)
+{
+    const RetexSet *old = work->light->set;
+    RetexSet *set = work->set;
+    int code = RETEX_OK;
+    for (int i = 0; i < old->nparts && !code; i++) {
+        int index = -1;
+        if (!is_kept(old, i))
+            continue;
+        code = compact_copy_part(set, &old->parts[i], &index, err);
+        for (int t = 0; t < old->ntargets; t++)
+            if (old->targets[t].original == i)
+                set->targets[t].original = index;
+        for (int k = 0; k < old->nterms && !code; k++) {
+            RetexTerm term = old->terms[k];
+            if (term.nfactors || term.radiance != i)
+                continue;
+            term.radiance = index;
+            code = retex_set_add_term(set, &term, NULL, err);
+        }
+    }
+    return code;
+}
+
+/* ---- what is made anew ---- */
+
+/* Move an image into the set as a part. */
+static int move_image(RetexSet *set, RetexImage *image, const char *letters, RetexPixelType type, int *index,
+                      RetexError *err, const char *format, ...) RETEX_PRINTF(7, 8);
+static int move_image(RetexSet *set, RetexImage *image, const char *letters, RetexPixelType type, int *index,
+                      RetexError *err, const char *format, ...)
+{
+    char name[2 * RETEX_NAME_MAX];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(name, sizeof name, format, arguments);
+    va_end(arguments);
+    int code = retex_set_add_part(set, name, letters, type, image->width, image->height, index, err);
+    if (code)
+        return code;
+    retex_image_free(&set->parts[*index].image);
+    set->parts[*index].image = *image;
+    *image = (RetexImage){0};
+    return code;
+}
+
+/* One cluster as a footprint, which refers to the albedo that all of its kind have. */
+static int add_cluster(Compaction *work, int number, CompactClusters *clusters, int k, int albedo, RetexError *err)
+{
+    const CompactKind *kind = &work->light->kinds[number];
+    const char *target = work->set->targets[kind->target].name, *name = kind_names[kind->kind];
+    RetexFootprint f = {.target = kind->target, .kind = kind->kind, .albedo = albedo};
+    f.hit = work->light->set->footprints[kind->footprints[k]].hit;
+    int code =
+        move_image(work->set, &clusters->uv[k], "RGA", RETEX_FLOAT, &f.uv, err, "uv_%s_%s%d", target, name, k + 1);
+    if (!code)
+        code = move_image(work->set, &clusters->spread[k], "RGB", RETEX_HALF, &f.spread, err, "spread_%s_%s%d", target,
+                          name, k + 1);
+    if (!code && (clusters->count > 1 || kind->kind == RETEX_FOOTPRINT_LATER))
+        code = move_image(work->set, &clusters->weight[k], "R", RETEX_HALF, &work->weights[number][k], err,
+                          "weight_%s_%s%d", target, name, k + 1);
+    work->shares[number][k] = -1;
+    if (!code && clusters->count > 1 && clusters->again[k].pixels)
+        code = move_image(work->set, &clusters->again[k], "R", RETEX_HALF, &work->shares[number][k], err,
+                          "share_%s_%s%d", target, name, k + 1);
+    return code ? code : retex_set_add_footprint(work->set, &f, &work->footprints[number][k], err);
+}
+
+/* The factor that stands for a kind, its footprints weighed by these parts. */
+static int add_mixture(Compaction *work, int number, const int *weights, int *place, RetexError *err)
+{
+    RetexMixture mixture = {.nshares = work->counts[number]};
+    int index = 0;
+    *place = work->footprints[number][0];
+    if (mixture.nshares == 1)
+        return RETEX_OK;
+    for (int k = 0; k < mixture.nshares; k++)
+        mixture.shares[k] = (struct RetexShare){work->footprints[number][k], weights[k]};
+    int code = retex_set_add_mixture(work->set, &mixture, &index, err);
+    *place = RETEX_MIXTURE(index);
+    return code;
+}
+
+static int add_clusters(Compaction *work, int number, RetexError *err)
+{
+    const CompactKind *kind = &work->light->kinds[number];
+    CompactClusters clusters;
+    int albedo, code = compact_clusters_make(&clusters, work->light, kind, work->scales->clusters[number],
+                                             work->scales->split[number], work->nthreads, err);
+    if (code)
+        return code;
+    work->counts[number] = clusters.count;
+    code = move_image(work->set, &clusters.albedo, "RGB", RETEX_HALF, &albedo, err, "albedo_%s_%s",
+                      work->set->targets[kind->target].name, kind_names[kind->kind]);
+    for (int k = 0; k < clusters.count && !code; k++)
+        code = add_cluster(work, number, &clusters, k, albedo, err);
+    compact_clusters_free(&clusters);
+    if (!code)
+        code = add_mixture(work, number, work->weights[number], &work->places[number], err);
+    work->again[number] = work->places[number];
+    if (!code && work->counts[number] > 1 && work->shares[number][0] >= 0)
+        code = add_mixture(work, number, work->shares[number], &work->again[number], err);
+    return code;
+}
+
+/* ---- terms ---- */
+
+static int find_kind(const CompactLight *light, int target, RetexFootprintKind kind)
+{
+    for (int i = 0; i < light->nkinds; i++)
+        if (light->kinds[i].target == target && light->kinds[i].kind == kind)
+            return i;
+    return -1;
+}
+
+/* Mixtures of later footprints: of one target, or of several. */
+static int add_later_mixtures(Compaction *work, RetexError *err)
+{
+    const RetexSet *old = work->light->set;
+    int code = RETEX_OK;
+    for (int m = 0; m < old->nmixtures && !code; m++) {
+        RetexMixture mixture = {0};
+        int index = 0, targets[RETEX_MAX_TARGETS] = {0}, count = 0, one = 0;
+        if (old->footprints[old->mixtures[m].shares[0].footprint].kind != RETEX_FOOTPRINT_LATER)
+            continue;
+        for (int k = 0; k < old->mixtures[m].nshares; k++)
+            targets[old->footprints[old->mixtures[m].shares[k].footprint].target] = 1;
+        for (int t = 0; t < old->ntargets; t++) {
+            if (!targets[t])
+                continue;
+            one = find_kind(work->light, t, RETEX_FOOTPRINT_LATER);
+            count++;
+            for (int k = 0; k < work->counts[one]; k++)
+                mixture.shares[mixture.nshares++] =
+                    (struct RetexShare){work->footprints[one][k], work->weights[one][k]};
+        }
+        work->mixtures[m] = work->places[one];
+        if (count == 1)
+            continue;
+        code = retex_set_add_mixture(work->set, &mixture, &index, err);
+        work->mixtures[m] = RETEX_MIXTURE(index);
+    }
+    return code;
+}
+
+static int later_factor(const Compaction *work, int factor)
+{
+    const RetexSet *old = work->light->set;
+    return factor < 0 ? work->mixtures[RETEX_MIXTURE(factor)]
+                      : work->places[find_kind(work->light, old->footprints[factor].target, RETEX_FOOTPRINT_LATER)];
+}
+
+/* The gain's name is that of the radiance it replaces. */
+static int add_gain(Compaction *work, int number, int radiance, int old, RetexTerm *term, RetexError *err)
+{
+    const CompactKind *kind = &work->light->kinds[number];
+    const char *target = work->set->targets[kind->target].name, *name = kind_names[kind->kind];
+    const RetexSet *set = work->light->set;
+    RetexImage gain = {0};
+    char whole[RETEX_NAME_MAX];
+    snprintf(whole, sizeof whole, "dep_%s_%s_", target, name);
+    int code = compact_make_gain(&gain, work->light, kind, &work->set->parts[radiance].image, old,
+                                 work->scales->gains[number], work->nthreads, err);
+    if (code)
+        return code;
+    if (old < 0) {
+        code = move_image(work->set, &gain, "RGB", RETEX_HALF, &term->gain, err, "gain_%s_%s", target, name);
+    } else {
+        const char *part = set->parts[set->terms[old].radiance].name;
+        const size_t common = strncmp(part, whole, strlen(whole)) == 0 ? strlen(whole) : 0;
+        code = move_image(work->set, &gain, "RGB", RETEX_HALF, &term->gain, err, "gain_%s_%s_%s", target, name,
+                          part + common);
+    }
+    retex_image_free(&gain);
+    return code;
+}
+
+static int add_term(Compaction *work, int number, int radiance, int old, int with_gain, RetexError *err)
+{
+    RetexTerm term = {.kind = RETEX_TERM_DEP, .nfactors = 1};
+    if (old >= 0)
+        term = work->light->set->terms[old];
+    term.radiance = radiance;
+    term.factors[0] = old < 0 ? work->places[number] : work->again[number];
+    for (int k = 1; k < term.nfactors; k++)
+        term.factors[k] = later_factor(work, term.factors[k]);
+    int code = with_gain ? add_gain(work, number, radiance, old, &term, err) : RETEX_OK;
+    return code ? code : retex_set_add_term(work->set, &term, NULL, err);
+}
+
+static int add_terms(Compaction *work, int number, RetexError *err)
+{
+    const CompactKind *kind = &work->light->kinds[number];
+    RetexImage sum = {0};
+    int radiance, owns = 0;
+    for (int k = 0; k < kind->count; k++)
+        owns += kind->own[k] >= 0;
+    if (!owns && !kind->nagain)
+        return RETEX_OK;
+    int code = compact_sum_light(&sum, work->light, kind, work->nthreads, err);
+    if (!code)
+        code = move_image(work->set, &sum, "RGB", RETEX_HALF, &radiance, err, "dep_%s_%s",
+                          work->set->targets[kind->target].name, kind_names[kind->kind]);
+    if (!code && owns)
+        code = add_term(work, number, radiance, -1, kind->nagain > 0, err);
+    for (int i = 0; i < kind->nagain && !code; i++)
+        code = add_term(work, number, radiance, kind->again[i], 1, err);
+    retex_image_free(&sum);
+    return code;
+}
+
+/* ---- all of it ---- */
+
+int compact_build(RetexSet **result, const CompactLight *light, const CompactScales *scales, int nthreads,
+                  RetexError *err)
+{
+    Compaction work = {.light = light, .scales = scales, .nthreads = nthreads};
+    int code = compact_copy_head(&work.set, light->set, err);
+    if (!code)
+        code = copy_kept(&work, err);
+    for (int i = 0; i < light->nkinds && !code; i++)
+        code = add_clusters(&work, i, err);
+    if (!code)
+        code = add_later_mixtures(&work, err);
+    for (int i = 0; i < light->nkinds && !code; i++)
+        if (light->kinds[i].kind != RETEX_FOOTPRINT_LATER)
+            code = add_terms(&work, i, err);
+    if (code)
+        retex_set_close(&work.set);
+    *result = work.set;
+    return code;
+}

@@ -1,0 +1,23 @@
+/* Clusters of blocks of pixels. Private to libretex. */
+#ifndef RETEX_LIBRETEX_COMPACT_CLUSTERS_H
+#define RETEX_LIBRETEX_COMPACT_CLUSTERS_H
+
+#include "compact_light.h"
+
+/* Footprints of a kind at a scale: one pixel for a block of scale x scale of the picture's. */
+typedef struct CompactClusters {
+    int count;
+    RetexImage uv[RETEX_SHARES_MAX], spread[RETEX_SHARES_MAX];
+    RetexImage weight[RETEX_SHARES_MAX]; /* in all light, or, where there is `again`, in that which meets no other */
+    RetexImage again[RETEX_SHARES_MAX];  /* in light that goes on; unallocated where not wanted */
+    RetexImage albedo;                   /* of all of them */
+} CompactClusters;
+
+/* Merge the clusters of each block into no more than the kind has in a pixel, by the light they weigh. Blocks without
+ * light take the clusters of a neighbour, for enlarging reaches as far. split: the light that
+ * goes on has weights of its own. */
+int compact_clusters_make(CompactClusters *clusters, const CompactLight *light, const CompactKind *kind, int scale,
+                          int split, int nthreads, RetexError *err);
+void compact_clusters_free(CompactClusters *clusters);
+
+#endif
