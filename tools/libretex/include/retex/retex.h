@@ -5,6 +5,7 @@
 #define RETEX_VERSION "0.1.0"
 
 #include <retex/band_stats.h>
+#include <retex/compact.h>
 #include <retex/denoise.h>
 #include <retex/diff.h>
 #include <retex/error.h>

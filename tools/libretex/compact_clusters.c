@@ -1,0 +1,315 @@
+/* See compact_clusters.h. */
+#include "compact_clusters.h"
+
+#include <math.h>
+#include <string.h>
+
+#include <retex/parallel.h>
+#include <retex/uv_stats.h>
+
+#define POOL 16            /* clusters kept apart while a block's are gathered */
+#define SHARE_STEP (1.0 / 512)
+#define LEAST_SHARE (1.0 / 1024) /* of a block's light, of clusters that are kept */
+#define SAME_PLACE 0.25    /* distance in standard deviations within which no texture tells two clusters apart */
+
+typedef struct Pool {
+    const int *periodic;
+    int sharp, count;
+    UvStats of[POOL + 1];
+    double cost[POOL + 1][POOL + 1]; /* of merging i with j < i */
+} Pool;
+
+typedef struct ClustersWork {
+    CompactClusters *clusters;
+    const CompactLight *light;
+    const CompactKind *kind;
+    int scale;
+    unsigned char *lit;
+} ClustersWork;
+
+static double merging_cost(const Pool *pool, int i, int j)
+{
+    return pool->sharp ? uv_stats_ward(&pool->of[i], &pool->of[j], pool->periodic)
+                       : uv_stats_variation_gain(&pool->of[i], &pool->of[j], pool->periodic);
+}
+
+static void find_costs(Pool *pool, int i)
+{
+    for (int j = 0; j < pool->count; j++)
+        if (j != i)
+            pool->cost[j < i ? i : j][j < i ? j : i] = merging_cost(pool, i, j);
+}
+
+/* Cluster j's place is taken by the last one. */
+static void remove_cluster(Pool *pool, int j)
+{
+    const int last = --pool->count;
+    if (j == last)
+        return;
+    pool->of[j] = pool->of[last];
+    for (int k = 0; k < last; k++)
+        if (k != j)
+            pool->cost[k < j ? j : k][k < j ? k : j] = pool->cost[last][k];
+}
+
+static void merge_pair(Pool *pool, int i, int j)
+{
+    uv_stats_merge(&pool->of[i], &pool->of[j], pool->periodic);
+    remove_cluster(pool, j);
+    find_costs(pool, i);
+}
+
+static void merge_cheapest(Pool *pool)
+{
+    int first = 1, second = 0;
+    for (int i = 1; i < pool->count; i++)
+        for (int j = 0; j < i; j++)
+            if (pool->cost[i][j] < pool->cost[first][second])
+                first = i, second = j;
+    merge_pair(pool, second, first);
+}
+
+static void add_cluster(Pool *pool, const UvStats *stats)
+{
+    pool->of[pool->count++] = *stats;
+    find_costs(pool, pool->count - 1);
+    if (pool->count > POOL)
+        merge_cheapest(pool);
+}
+
+/* Whether their distance is small against what each of them spans. */
+static int are_one_place(const Pool *pool, int i, int j)
+{
+    const UvStats *a = &pool->of[i], *b = &pool->of[j];
+    const double within = a->m2[0] + a->m2[2] + b->m2[0] + b->m2[2];
+    return uv_stats_ward(a, b, pool->periodic) <= SAME_PLACE * SAME_PLACE * within;
+}
+
+static void merge_places(Pool *pool)
+{
+    for (int i = 1; i < pool->count; i++)
+        for (int j = 0; j < i; j++)
+            if (are_one_place(pool, i, j)) {
+                merge_pair(pool, j, i);
+                i = 0;
+                break;
+            }
+}
+
+static void drop_faint(Pool *pool)
+{
+    double all = 0;
+    for (int i = 0; i < pool->count; i++)
+        all += pool->of[i].weight;
+    for (int i = pool->count - 1; i >= 0; i--)
+        if (pool->of[i].weight < LEAST_SHARE * all)
+            remove_cluster(pool, i);
+}
+
+static void sort_places(Pool *pool)
+{
+    for (int i = 1; i < pool->count; i++)
+        for (int j = i; j > 0; j--) {
+            UvStats *a = &pool->of[j - 1], *b = &pool->of[j], swapped = *a;
+            if (a->mean[0] + a->mean[1] <= b->mean[0] + b->mean[1])
+                break;
+            *a = *b, *b = swapped;
+        }
+}
+
+/* ---- blocks ---- */
+
+typedef struct Albedo {
+    double sum[3], weight[3];
+} Albedo;
+
+static void gather_cluster(const ClustersWork *work, int k, size_t pixel, const double rgb[3], Pool *pool,
+                           Albedo *albedo)
+{
+    const RetexSet *set = work->light->set;
+    const RetexFootprint *f = &set->footprints[work->kind->footprints[k]];
+    const float *uv = set->parts[f->uv].image.pixels + 3 * pixel, *met = set->parts[f->albedo].image.pixels + 3 * pixel;
+    const double weight = compact_luminance(rgb);
+    UvStats stats;
+    if (!(uv[2] > 0) || !(weight > 0) || !isfinite(weight))
+        return;
+    uv_stats_load(&stats, weight, uv, set->parts[f->spread].image.pixels + 3 * pixel);
+    add_cluster(pool, &stats);
+    for (int c = 0; c < 3; c++) {
+        albedo->sum[c] += rgb[c] * (double)met[c];
+        albedo->weight[c] += rgb[c];
+    }
+}
+
+/* Light of all terms of further hits; of that by share, for later footprints. */
+static double later_light(const ClustersWork *work, size_t pixel, double of[RETEX_SHARES_MAX][3])
+{
+    const RetexSet *set = work->light->set;
+    double again = 0;
+    for (int i = 0; i < set->nterms; i++) {
+        const RetexTerm *term = &set->terms[i];
+        if (term->nfactors < 2)
+            continue;
+        const float *rgb = set->parts[term->radiance].image.pixels + 3 * pixel, grey = compact_grey(term);
+        again += compact_luminance((const double[3]){grey * rgb[0], grey * rgb[1], grey * rgb[2]});
+    }
+    for (int k = 0; k < work->kind->count; k++) {
+        const int share = work->kind->share[k];
+        const double weight = again * (share >= 0 ? (double)set->parts[share].image.pixels[pixel] : 1);
+        of[k][0] = of[k][1] = of[k][2] = weight;
+    }
+    return again;
+}
+
+/* All clusters of a block. Returns the light that they are shares of: for later footprints, which are weighed across
+ * targets, that of all; else 0, for their own sum. */
+static double gather_block(const ClustersWork *work, int bx, int by, Pool *pool, Albedo *albedo)
+{
+    const RetexSet *set = work->light->set;
+    double light[RETEX_SHARES_MAX][3], all = 0;
+    for (int y = by * work->scale; y < (by + 1) * work->scale && y < set->height; y++)
+        for (int x = bx * work->scale; x < (bx + 1) * work->scale && x < set->width; x++) {
+            const size_t pixel = (size_t)y * (size_t)set->width + (size_t)x;
+            if (work->kind->kind == RETEX_FOOTPRINT_LATER)
+                all += later_light(work, pixel, light);
+            else
+                compact_cluster_light(work->light, work->kind, pixel, light);
+            for (int k = 0; k < work->kind->count; k++)
+                gather_cluster(work, k, pixel, light[k], pool, albedo);
+        }
+    return all;
+}
+
+static void store_block(const ClustersWork *work, size_t block, const Pool *pool, double all, const Albedo *albedo)
+{
+    CompactClusters *clusters = work->clusters;
+    double sum = 0, weights = 0;
+    for (int i = 0; i < pool->count && work->kind->kind != RETEX_FOOTPRINT_LATER; i++)
+        all += pool->of[i].weight;
+    for (int i = 0; i < pool->count; i++) {
+        float *uv = clusters->uv[i].pixels + 3 * block;
+        const double share = pool->of[i].weight / all;
+        uv_stats_store(&pool->of[i], uv, clusters->spread[i].pixels + 3 * block);
+        uv[2] = 1;
+        clusters->weight[i].pixels[block] = (float)(fmax(rint(share / SHARE_STEP), 1) * SHARE_STEP);
+    }
+    for (int c = 0; c < 3; c++)
+        sum += albedo->sum[c], weights += albedo->weight[c];
+    for (int c = 0; c < 3; c++)
+        clusters->albedo.pixels[3 * block + (size_t)c] =
+            (float)(albedo->weight[c] > 0 ? albedo->sum[c] / albedo->weight[c] : weights > 0 ? sum / weights : 0);
+}
+
+static void blocks_job(void *context, int by, int thread)
+{
+    const ClustersWork *work = context;
+    const int width = work->clusters->albedo.width;
+    (void)thread;
+    for (int bx = 0; bx < width; bx++) {
+        const size_t block = (size_t)by * (size_t)width + (size_t)bx;
+        Pool pool = {.periodic = work->light->set->targets[work->kind->target].periodic,
+                     .sharp = work->kind->kind == RETEX_FOOTPRINT_SHARP};
+        Albedo albedo = {0};
+        const double all = gather_block(work, bx, by, &pool, &albedo);
+        drop_faint(&pool);
+        while (pool.count > work->kind->count)
+            merge_cheapest(&pool);
+        merge_places(&pool);
+        sort_places(&pool);
+        store_block(work, block, &pool, all, &albedo);
+        work->lit[block] = pool.count > 0;
+    }
+}
+
+/* Of later footprints other targets' may be there, to which this one must add next to nothing. */
+static void copy_block(CompactClusters *clusters, size_t to, size_t from, float weight)
+{
+    for (int k = 0; k < clusters->count; k++) {
+        memcpy(clusters->uv[k].pixels + 3 * to, clusters->uv[k].pixels + 3 * from, 3 * sizeof(float));
+        memcpy(clusters->spread[k].pixels + 3 * to, clusters->spread[k].pixels + 3 * from, 3 * sizeof(float));
+        clusters->weight[k].pixels[to] = weight * clusters->weight[k].pixels[from];
+    }
+    memcpy(clusters->albedo.pixels + 3 * to, clusters->albedo.pixels + 3 * from, 3 * sizeof(float));
+}
+
+/* Those beside, then those above and below, then across corners. */
+static void fill_holes(CompactClusters *clusters, const unsigned char *lit, float weight)
+{
+    static const int beside[8][2] = {{-1, 0}, {1, 0}, {0, -1}, {0, 1}, {-1, -1}, {1, -1}, {-1, 1}, {1, 1}};
+    const int width = clusters->albedo.width, height = clusters->albedo.height;
+    for (int y = 0; y < height; y++)
+        for (int x = 0; x < width; x++)
+            for (int k = 0; k < 8 && !lit[y * width + x]; k++) {
+                const int nx = x + beside[k][0], ny = y + beside[k][1];
+                if (nx < 0 || ny < 0 || nx >= width || ny >= height || !lit[ny * width + nx])
+                    continue;
+                copy_block(clusters, (size_t)(y * width + x), (size_t)(ny * width + nx), weight);
+                break;
+            }
+}
+
+/* ---- all of them ---- */
+
+static int alloc_images(CompactClusters *clusters, const ClustersWork *work, RetexError *err)
+{
+    const int scale = work->scale;
+    const int width = (work->light->set->width + scale - 1) / scale;
+    const int height = (work->light->set->height + scale - 1) / scale;
+    clusters->count = work->kind->count;
+    int code = retex_image_alloc(&clusters->albedo, width, height, 3, err);
+    for (int k = 0; k < clusters->count && !code; k++) {
+        code = retex_image_alloc(&clusters->uv[k], width, height, 3, err);
+        if (!code)
+            code = retex_image_alloc(&clusters->spread[k], width, height, 3, err);
+        if (!code)
+            code = retex_image_alloc(&clusters->weight[k], width, height, 1, err);
+    }
+    return code;
+}
+
+static void free_cluster(CompactClusters *clusters, int k)
+{
+    retex_image_free(&clusters->uv[k]);
+    retex_image_free(&clusters->spread[k]);
+    retex_image_free(&clusters->weight[k]);
+}
+
+static int is_empty(const CompactClusters *clusters, int k)
+{
+    const size_t blocks = (size_t)clusters->uv[k].width * (size_t)clusters->uv[k].height;
+    for (size_t i = 0; i < blocks; i++)
+        if (clusters->uv[k].pixels[3 * i + 2] > 0)
+            return 0;
+    return 1;
+}
+
+int compact_clusters_make(CompactClusters *clusters, const CompactLight *light, const CompactKind *kind, int scale,
+                          int nthreads, RetexError *err)
+{
+    RetexImage lit = {0};
+    ClustersWork work = {clusters, light, kind, scale, NULL};
+    *clusters = (CompactClusters){0};
+    int code = alloc_images(clusters, &work, err);
+    if (!code)
+        code = retex_image_alloc(&lit, clusters->albedo.width, clusters->albedo.height, 1, err);
+    if (code) {
+        compact_clusters_free(clusters);
+        return code;
+    }
+    work.lit = (unsigned char *)lit.pixels;
+    retex_parallel(nthreads, clusters->albedo.height, blocks_job, &work);
+    if (scale > 1)
+        fill_holes(clusters, work.lit, kind->kind == RETEX_FOOTPRINT_LATER ? (float)SHARE_STEP : 1);
+    while (clusters->count > 1 && is_empty(clusters, clusters->count - 1))
+        free_cluster(clusters, --clusters->count);
+    retex_image_free(&lit);
+    return RETEX_OK;
+}
+
+void compact_clusters_free(CompactClusters *clusters)
+{
+    for (int k = 0; k < clusters->count; k++)
+        free_cluster(clusters, k);
+    retex_image_free(&clusters->albedo);
+    clusters->count = 0;
+}

@@ -1,0 +1,134 @@
+/* See compact_gains.h. */
+#include "compact_gains.h"
+
+#include <math.h>
+#include <string.h>
+
+#include <retex/parallel.h>
+
+typedef struct GainWork {
+    const CompactLight *light;
+    const CompactKind *kind;
+    RetexImage *sum, *gain;
+    int term, scale;
+} GainWork;
+
+static void sum_row(void *context, int y, int thread)
+{
+    const GainWork *work = context;
+    const RetexSet *set = work->light->set;
+    (void)thread;
+    for (int x = 0; x < set->width; x++) {
+        const size_t pixel = (size_t)y * (size_t)set->width + (size_t)x;
+        double of[RETEX_SHARES_MAX][3], all[3] = {0};
+        compact_cluster_light(work->light, work->kind, pixel, of);
+        for (int k = 0; k < work->kind->count; k++)
+            for (int c = 0; c < 3; c++)
+                all[c] += of[k][c];
+        for (int c = 0; c < 3; c++)
+            work->sum->pixels[3 * pixel + (size_t)c] = (float)all[c];
+    }
+}
+
+int compact_sum_light(RetexImage *sum, const CompactLight *light, const CompactKind *kind, int nthreads,
+                      RetexError *err)
+{
+    GainWork work = {.light = light, .kind = kind, .sum = sum};
+    int code = retex_image_alloc(sum, light->set->width, light->set->height, 3, err);
+    if (!code)
+        retex_parallel(nthreads, light->set->height, sum_row, &work);
+    return code;
+}
+
+/* A term's light in a pixel, as the set shows it. */
+static void term_light(const GainWork *work, size_t pixel, double rgb[3])
+{
+    const RetexSet *set = work->light->set;
+    rgb[0] = rgb[1] = rgb[2] = 0;
+    if (work->term < 0) {
+        for (int k = 0; k < work->kind->count; k++) {
+            const int own = work->kind->own[k];
+            if (own < 0 || !(set->parts[set->footprints[work->kind->footprints[k]].uv].image.pixels[3 * pixel + 2] > 0))
+                continue;
+            for (int c = 0; c < 3; c++)
+                rgb[c] += (double)set->parts[set->terms[own].radiance].image.pixels[3 * pixel + (size_t)c];
+        }
+    } else if (compact_shows_again(work->light, work->kind, pixel)) {
+        for (int c = 0; c < 3; c++)
+            rgb[c] = (double)set->parts[set->terms[work->term].radiance].image.pixels[3 * pixel + (size_t)c];
+    }
+}
+
+/* -1: no light, to be filled. */
+static void gain_row(void *context, int by, int thread)
+{
+    const GainWork *work = context;
+    const RetexSet *set = work->light->set;
+    (void)thread;
+    for (int bx = 0; bx < work->gain->width; bx++) {
+        double of[3] = {0}, all[3] = {0}, light[3];
+        for (int y = by * work->scale; y < (by + 1) * work->scale && y < set->height; y++)
+            for (int x = bx * work->scale; x < (bx + 1) * work->scale && x < set->width; x++) {
+                const size_t pixel = (size_t)y * (size_t)set->width + (size_t)x;
+                term_light(work, pixel, light);
+                for (int c = 0; c < 3; c++) {
+                    of[c] += light[c];
+                    all[c] += (double)work->sum->pixels[3 * pixel + (size_t)c];
+                }
+            }
+        float *gain = work->gain->pixels + retex_image_index(work->gain, bx, by);
+        for (int c = 0; c < 3; c++)
+            gain[c] = all[c] > 0 ? (float)(of[c] / all[c]) : -1;
+    }
+}
+
+/* Holes become means of what is around them, near ones first: from an image of half the size, whose pixels are the
+ * means of those that are none. */
+static int fill_holes(RetexImage *image, RetexError *err)
+{
+    const int width = (image->width + 1) / 2, height = (image->height + 1) / 2;
+    RetexImage half = {0};
+    int holes = 0;
+    int code = retex_image_alloc(&half, width, height, 3, err);
+    if (code)
+        return code;
+    for (int y = 0; y < height; y++)
+        for (int x = 0; x < width; x++)
+            for (int c = 0; c < 3; c++) {
+                float sum = 0, count = 0;
+                for (int k = 0; k < 4; k++) {
+                    const int px = 2 * x + k % 2, py = 2 * y + k / 2;
+                    const float value = px < image->width && py < image->height
+                                            ? image->pixels[retex_image_index(image, px, py) + (size_t)c]
+                                            : -1;
+                    if (value >= 0)
+                        sum += value, count++;
+                }
+                half.pixels[retex_image_index(&half, x, y) + (size_t)c] = count > 0 ? sum / count : -1;
+                holes |= !(count > 0);
+            }
+    if (holes && (width > 1 || height > 1))
+        code = fill_holes(&half, err);
+    for (int y = 0; y < image->height && !code; y++)
+        for (int x = 0; x < image->width; x++)
+            for (int c = 0; c < 3; c++) {
+                float *value = image->pixels + retex_image_index(image, x, y) + c;
+                if (*value < 0)
+                    *value = fmaxf(half.pixels[retex_image_index(&half, x / 2, y / 2) + (size_t)c], 0);
+            }
+    retex_image_free(&half);
+    return code;
+}
+
+int compact_make_gain(RetexImage *gain, const CompactLight *light, const CompactKind *kind, const RetexImage *sum,
+                      int term, int scale, int nthreads, RetexError *err)
+{
+    RetexImage borrowed = *sum;
+    GainWork work = {light, kind, &borrowed, gain, term, scale};
+    const int width = (light->set->width + scale - 1) / scale, height = (light->set->height + scale - 1) / scale;
+    int code = retex_image_alloc(gain, width, height, 3, err);
+    if (code)
+        return code;
+    retex_parallel(nthreads, height, gain_row, &work);
+    return fill_holes(gain, err);
+}

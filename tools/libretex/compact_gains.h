@@ -1,0 +1,15 @@
+/* One radiance for all terms of a kind, and which share of it is each one's. Private to libretex. */
+#ifndef RETEX_LIBRETEX_COMPACT_GAINS_H
+#define RETEX_LIBRETEX_COMPACT_GAINS_H
+
+#include "compact_light.h"
+
+/* All light of a kind, further hits on COMPACT_GREY, into an image of the set's size. */
+int compact_sum_light(RetexImage *sum, const CompactLight *light, const CompactKind *kind, int nthreads,
+                      RetexError *err);
+
+/* The gain that makes a term, or the light of all clusters alone (-1), of the sum: RGB at a scale. */
+int compact_make_gain(RetexImage *gain, const CompactLight *light, const CompactKind *kind, const RetexImage *sum,
+                      int term, int scale, int nthreads, RetexError *err);
+
+#endif

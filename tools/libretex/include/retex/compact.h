@@ -1,0 +1,35 @@
+/* Compacting: the same set in far fewer numbers, for storage. */
+#ifndef RETEX_COMPACT_H
+#define RETEX_COMPACT_H
+
+#include <retex/set.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Begin with RETEX_COMPACT_INIT. */
+typedef struct RetexCompactParams {
+    size_t size;
+    double psnr; /* dB, 20 to 120: what pictures of the compact set have at least against the set's own where a size
+                    can be chosen for it, measured as retex_metrics does with textures of many scales; default 60 */
+    int broad;   /* How many times smaller than the picture broad footprints are, 1, 2, 4 or 8, */
+    int later;   /* later ones, */
+    int gain;    /* and gains. 0, the default: as many times as psnr allows. */
+} RetexCompactParams;
+#define RETEX_COMPACT_INIT { sizeof(RetexCompactParams), 60, 0, 0, 0 }
+
+/* *compact is created: the set without what only denoising reads. In layout footprints, for each target and kind of
+ * cluster, sharp and broad, all light is one image, what it would be if further hits met a texture of 0.5 everywhere;
+ * a gain for each of the terms says what share of it is theirs, and a mixture which share is which cluster's. Clusters
+ * that no texture tells apart are merged, footprints of the picture's size only where they are sharp, and one image of
+ * albedo serves all footprints of a kind. Sets of other layouts, and those that are compact already, come out as they
+ * are. Output is the same to the bit for every nthreads. */
+int retex_set_compact(RetexSet **compact, const RetexSet *set,
+                      const RetexCompactParams *params /* NULL = defaults */, int nthreads /* 0 = all cores */,
+                      RetexError *err);
+
+#ifdef __cplusplus
+}
+#endif
+#endif
