@@ -7,6 +7,7 @@
 #include <zlib.h>
 
 #include "manifest.h"
+#include "pack_bands.h"
 
 int retex_set_create(RetexSet **result, int width, int height, RetexError *err)
 {
@@ -36,6 +37,7 @@ void retex_set_close(RetexSet **result)
     free(set->footprints);
     free(set->terms);
     retex_spool_close(&set->spool);
+    retex_pack_close(&set->pack);
     free(set);
     *result = NULL;
 }

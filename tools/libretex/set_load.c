@@ -1,8 +1,10 @@
-/* From a set's spool into memory. */
+/* From a set's spool, or from the pack it was opened from, into memory. */
 #include <stdlib.h>
 
 #include <retex/parallel.h>
 #include <retex/set.h>
+
+#include "pack_bands.h"
 
 typedef struct LoadJob {
     RetexSet *set;
@@ -28,6 +30,8 @@ static void load_part(void *context, int index, int thread)
 
 int retex_set_load(RetexSet *set, int nthreads, RetexError *err)
 {
+    if (set->pack)
+        return retex_pack_load(set, nthreads, err);
     LoadJob job = {set, calloc((size_t)set->nparts + 1, sizeof *job.codes),
                    calloc((size_t)set->nparts + 1, sizeof *job.errors)};
     int code = job.codes && job.errors ? 0 : retex_fail(err, RETEX_ENOMEM, "no memory to load a set");

@@ -107,6 +107,8 @@ typedef struct RetexMixture {
     } shares[RETEX_SHARES_MAX];
 } RetexMixture;
 
+typedef struct RetexPack RetexPack; /* an open pack: see retex_set_open */
+
 typedef struct RetexSet {
     int width, height;
     char layout[16];       /* "footprints", "paper", or "plain": no terms */
@@ -128,7 +130,8 @@ typedef struct RetexSet {
     RetexPart *parts;      /* parts[0] is the beauty */
     int nmixtures;
     RetexMixture mixtures[RETEX_MIXTURES_MAX];
-    RetexSpool *spool;     /* owned; NULL: all parts are in memory */
+    RetexSpool *spool;     /* owned; NULL: no part is in it */
+    RetexPack *pack;       /* owned; of a set opened from a pack, whose parts have sizes, but no pixels; else NULL */
 } RetexSet;
 
 /* The textures filtered at a set's footprints: image i belongs to footprint i and is RGB of the size of its parts, or
@@ -154,7 +157,7 @@ int retex_set_add_part(RetexSet *set, const char *name, const char *letters, Ret
  * such a set; for all else it is loaded. */
 int retex_set_add_spooled(RetexSet *set, const char *name, const char *letters, RetexPixelType type, int image,
                           int *index, RetexError *err);
-/* Bring all parts into memory, and close the spool. */
+/* Bring all parts into memory, and close the spool or the pack. */
 int retex_set_load(RetexSet *set, int nthreads, RetexError *err);
 /* Leave out what no pixel has; empty[i]: part i is 0 everywhere. Footprints go without UV, and with them their parts,
  * their shares in mixtures, and mixtures of none; a mixture of one becomes that footprint. Terms of hits go without
@@ -191,6 +194,10 @@ typedef struct RetexStoreParams {
  * recognised by content. What the file does not hold comes back NULL; either out-parameter may be NULL when it is not
  * wanted (its parts are skipped). A file that holds nothing wanted is RETEX_EFORMAT. */
 int retex_set_read(const char *path, RetexSet **set, RetexSamples **samples, int nthreads, RetexError *err);
+
+/* As retex_set_read, but what the file can give piece by piece is left in it: of a pack all parts have sizes and no
+ * pixels, until retex_set_load. Both out-parameters must be given. */
+int retex_set_open(const char *path, RetexSet **set, RetexSamples **samples, int nthreads, RetexError *err);
 
 /* Write a set (samples NULL), samples alone (set NULL), or both as one stream, under a temporary name renamed when
  * complete, or to "-". CRCs are computed and kept in set->parts. Of a stream's set only what recombination needs is
