@@ -16,8 +16,13 @@ $ test $(stat -c %s l.retex) -lt $(stat -c %s s.exr) && echo smaller
 $ retex-pack -q --unpack s.retex -o lossy.exr; retex-diff -q --all-parts --allow-inf lossy.exr s.exr
 = 1
 $ retex-diff -q lossy.exr s.exr --fail-psnr 40
-$ retex-diff -q --part t0_spread1 lossy.exr s.exr --fail-rel 0.032; retex-diff -q --part depth --allow-inf lossy.exr s.exr
+$ retex-diff -q --part t0_spread1 lossy.exr s.exr --fail-rel 0.05; retex-diff -q --part depth --allow-inf lossy.exr s.exr
 $ retex-pack -q --unpack s.retex -o again.exr; cmp lossy.exr again.exr
+
+# A pack is a zip that other programs open, and its pictures are JPEGs.
+$ python3 -c 'import zipfile; z = zipfile.ZipFile("s.retex"); print(z.testzip(), *z.namelist()[:3]); open("p.jpg", "wb").write(z.read("picture.jpg"))'
+> None manifest.json index picture.jpg
+$ retex-diff -q p.jpg s.exr --fail-psnr 38
 
 # Pipes: in, out, and both.
 $ retex-pack -q s.exr -o - >piped.retex; cmp s.retex piped.retex

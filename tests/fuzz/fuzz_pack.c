@@ -1,8 +1,7 @@
 /* Packs. An input is either a pack as it is, which the zip's own checksums protect well, or a list of entries that a
  * zip is made of here: `E`, then for each entry its name, a line end, its length in 4 bytes, its data. If the letter
- * is `F` the manifest's lengths and checksums are put right before, so that decoders are reached. What is accepted is
+ * is `F` the index's lengths and checksums are put right before, so that decoders are reached. What is accepted is
  * recombined. */
-#include <jansson.h>
 #include <retex/pack.h>
 #include <retex/sample.h>
 #include <stdio.h>
@@ -14,12 +13,14 @@
 
 #include "lib_fuzz.h"
 #include "lib_test.h"
+#include "manifest.h"
 #include "pack_format.h"
+#include "pack_zip.h"
 
 enum { ENTRIES_MAX = 256 };
 
 typedef struct Entry {
-    char name[PACK_FILE_MAX];
+    char name[PACK_NAME_MAX];
     unsigned char *data;
     size_t size;
 } Entry;
@@ -114,40 +115,73 @@ static int read_entries(Entry *entries, const unsigned char *bytes, size_t size)
     return count;
 }
 
-static void put_right(json_t *part, const Entry *entries, int count, const char *ending, const char *bytes_key,
-                      const char *crc_key)
+static Entry *find_entry(Entry *entries, int count, const char *name)
 {
-    char name[PACK_FILE_MAX * 2], crc[9];
-    const char *part_name = json_string_value(json_object_get(part, "name"));
-    snprintf(name, sizeof name, PACK_FOLDER "%.180s%s", part_name ? part_name : "", ending);
     for (int i = 0; i < count; i++)
-        if (strcmp(entries[i].name, name) == 0 && json_object_get(part, bytes_key)) {
-            snprintf(crc, sizeof crc, "%08lx", crc32_z(0, entries[i].data, entries[i].size));
-            json_object_set_new(part, bytes_key, json_integer((json_int_t)entries[i].size));
-            json_object_set_new(part, crc_key, json_string(crc));
+        if (strcmp(entries[i].name, name) == 0)
+            return &entries[i];
+    return NULL;
+}
+
+static void put_number(unsigned char *at, uint32_t value)
+{
+    for (int i = 0; i < 4; i++)
+        at[i] = (unsigned char)(value >> 8 * i);
+}
+
+/* The index's words on chunks that are an entry: the last one gets what is left, all their checksums. */
+static void put_right(unsigned char *index, const Entry *entry, int chunks)
+{
+    size_t begin = 0;
+    for (int k = 0; entry && k < chunks; k++, index += PACK_INDEX_ENTRY) {
+        size_t bytes = index[0] | (size_t)index[1] << 8 | (size_t)index[2] << 16 | (size_t)index[3] << 24;
+        if (k == chunks - 1 || bytes > entry->size - begin)
+            bytes = entry->size - begin;
+        put_number(index, (uint32_t)bytes);
+        put_number(index + 4, (uint32_t)crc32_z(0, entry->data + begin, bytes));
+        begin += bytes;
+    }
+}
+
+static void put_parts_right(unsigned char *index, size_t size, const RetexSet *set, const PackPart *parts,
+                            Entry *entries, int count)
+{
+    char name[PACK_NAME_MAX];
+    size_t at = 0;
+    for (int i = 0; i < set->nparts; i++) {
+        const int jpeg = parts[i].codec == PACK_JPEG ? 1 + parts[i].nbands : 0,
+                  chunks[2] = {jpeg, parts[i].nchunks - jpeg};
+        for (int planes = 0; planes < 2; planes++) {
+            pack_file_name(name, sizeof name, set, i, planes);
+            if (size - at < (size_t)chunks[planes] * PACK_INDEX_ENTRY)
+                return;
+            put_right(index + at, find_entry(entries, count, name), chunks[planes]);
+            at += (size_t)chunks[planes] * PACK_INDEX_ENTRY;
         }
+    }
 }
 
 static void put_all_right(Entry *entries, int count)
 {
-    for (int i = 0; i < count; i++) {
-        if (strcmp(entries[i].name, PACK_MANIFEST) != 0)
-            continue;
-        json_t *root = json_loadb((char *)entries[i].data, entries[i].size, 0, NULL), *part;
-        size_t k;
-        json_array_foreach(json_object_get(json_object_get(root, "pack"), "parts"), k, part)
-        {
-            put_right(part, entries, count, PACK_DATA, "bytes", "crc32");
-            put_right(part, entries, count, PACK_MASK, "mask_bytes", "mask_crc32");
-        }
-        char *json = root ? json_dumps(root, 0) : NULL;
-        json_decref(root);
-        if (json) {
-            free(entries[i].data);
-            entries[i].data = (unsigned char *)json;
-            entries[i].size = strlen(json);
-        }
+    Entry *manifest = find_entry(entries, count, PACK_MANIFEST), *index = find_entry(entries, count, PACK_INDEX);
+    RetexSet *set = NULL;
+    RetexSamples *samples = NULL;
+    RetexSamplePart *names = NULL;
+    if (!manifest || !index)
+        return;
+    char *json = strndup((char *)manifest->data, manifest->size);
+    if (json && retex_manifest_read(json, "fuzz", &set, &samples, &names, NULL) == 0 && set) {
+        PackPart *parts = calloc((size_t)set->nparts + 1, sizeof *parts);
+        if (parts && pack_understand(parts, set, json, NULL) == 0)
+            put_parts_right(index->data, index->size, set, parts, entries, count);
+        for (int i = 0; parts && i < set->nparts; i++)
+            pack_part_free(&parts[i]);
+        free(parts);
     }
+    free(names);
+    free(json);
+    retex_samples_close(&samples);
+    retex_set_close(&set);
 }
 
 /* ---- a zip of plainly stored entries ---- */

@@ -9,7 +9,8 @@
 #include <unistd.h>
 #include <zip.h>
 
-#include "pack_codec.h"
+#include "pack_bands.h"
+#include "pack_plan.h"
 
 /* Pack a set into memory. */
 static unsigned char *pack(const RetexSet *set, const RetexPackParams *params, size_t *bytes)
@@ -110,8 +111,8 @@ static void test_default_is_close_and_smaller(void **state)
             sum[0][j % 3] += (double)before->image.pixels[j];
             sum[1][j % 3] += (double)after->image.pixels[j];
         }
-        for (int c = 0; c < 3; c++) /* and the mean the mean */
-            assert_true(fabs(sum[1][c] / sum[0][c] - 1) < 1e-5);
+        for (int c = 0; c < 3; c++) /* and the mean the mean, nearly */
+            assert_true(fabs(sum[1][c] - sum[0][c]) / (200 * 150) < 1e-4 + 2e-3 * sum[0][c] / (200 * 150));
         RetexMetrics m;
         RetexError err = {0};
         test_must(retex_metrics(&m, &after->image, &before->image, 0, &err), &err);
@@ -122,12 +123,13 @@ static void test_default_is_close_and_smaller(void **state)
         const RetexImage *uv = &set->parts[f->uv].image, *spread = &set->parts[f->spread].image;
         for (size_t j = 0; j < 200 * 150; j++) {
             const float *before = uv->pixels + 3 * j, *after = back->parts[f->uv].image.pixels + 3 * j;
-            for (size_t c = 0; c < 2; c++)
+            for (size_t c = 0; c < 2 && before[2] > 0; c++)
                 assert_true(fabs((double)before[c] - (double)after[c]) <=
-                            fmax((double)spread->pixels[2 * j + c] / 16, 1.0 / 524288));
-            assert_true(before[2] == after[2]);
+                            fmax((double)spread->pixels[2 * j + c] / 15, 1.0 / 524288));
+            assert_true((before[2] > 0) == (after[2] > 0));
+            assert_true(fabs((double)before[2] - (double)after[2]) <= 0.2 * (double)before[2]);
         }
-        assert_true(part_difference(&set->parts[f->spread], &back->parts[f->spread], 1e-9) < 0.032);
+        assert_true(part_difference(&set->parts[f->spread], &back->parts[f->spread], 1e-9) < 0.05);
         assert_true(part_difference(&set->parts[f->albedo], &back->parts[f->albedo], 1) < 0.1);
     }
     int depth = retex_set_find_part(set, "depth");
@@ -137,7 +139,8 @@ static void test_default_is_close_and_smaller(void **state)
     retex_set_close(&set);
 }
 
-/* What only denoising reads is not packed; the caller's set keeps it; what has such a name but is used is packed. */
+/* What only denoising reads is packed without loss only; the caller's set keeps it; what has such a name but is used is
+ * always packed. */
 static void test_denoise_data_is_dropped(void **state)
 {
     (void)state;
@@ -153,13 +156,17 @@ static void test_denoise_data_is_dropped(void **state)
         test_add_denoise_data(set);
         const int all = set->nparts;
         unsigned char *with = pack(set, &params, &data_bytes);
-        assert_int_equal(bytes, data_bytes);
-        assert_memory_equal(with, without, bytes);
         assert_int_equal(set->nparts, all);
         assert_true(retex_denoise_has_data(set));
-        RetexSet *back = unpack(with, bytes);
-        assert_int_equal(back->nparts, nparts);
-        assert_false(retex_denoise_has_data(back));
+        RetexSet *back = unpack(with, data_bytes);
+        if (keep_bits) {
+            assert_int_equal(back->nparts, all);
+        } else {
+            assert_int_equal(bytes, data_bytes);
+            assert_memory_equal(with, without, bytes);
+            assert_int_equal(back->nparts, nparts);
+        }
+        assert_int_equal(retex_denoise_has_data(back), keep_bits);
         assert_string_equal(back->parts[back->terms[2].radiance].name, "guide_light");
         free(with);
         free(without);
@@ -188,19 +195,30 @@ static void test_quality_trades_size(void **state)
     retex_set_close(&set);
 }
 
+static PackPart *plan_of(const RetexSet *set)
+{
+    const PackGrain grain = pack_grain(56);
+    PackPart *packed = calloc((size_t)set->nparts, sizeof *packed);
+    RetexError err = {0};
+    test_must(pack_plan(packed, set, 0, &grain, 1, &err), &err);
+    return packed;
+}
+
 static void test_radiance_that_does_not_suit_jpeg_keeps_its_bits(void **state)
 {
     (void)state;
     const float odd[3] = {-1, INFINITY, NAN};
     for (int i = 0; i < 3; i++) {
         RetexSet *set = test_set(32, 24, 5);
-        RetexPart *part = &set->parts[set->terms[1].radiance];
-        part->image.pixels[7] = odd[i];
-        RetexPacked packed;
-        RetexError err = {0};
-        test_must(retex_pack_encode(&packed, part, RETEX_PACK_LOG, 95, 0, &err), &err);
-        assert_int_equal(packed.codec, RETEX_PACK_PLANES);
-        retex_packed_free(&packed);
+        const int part = set->terms[1].radiance;
+        PackPart *before = plan_of(set);
+        assert_int_equal(before[part].codec, PACK_JPEG);
+        set->parts[part].image.pixels[7] = odd[i];
+        PackPart *after = plan_of(set);
+        assert_int_equal(after[part].codec, PACK_PLANES);
+        assert_int_equal(after[part].maps[1].kind, PACK_MAP_BITS);
+        free(before);
+        free(after);
         retex_set_close(&set);
     }
 }
@@ -209,14 +227,171 @@ static void test_black_parts_cost_nothing(void **state)
 {
     (void)state;
     RetexSet *set = test_set(32, 24, 5);
-    RetexPart *part = &set->parts[set->terms[1].radiance];
-    memset(part->image.pixels, 0, 32 * 24 * 3 * sizeof(float));
-    RetexPacked packed;
-    RetexError err = {0};
-    test_must(retex_pack_encode(&packed, part, RETEX_PACK_LOG, 95, 0, &err), &err);
-    assert_int_equal(packed.codec, RETEX_PACK_ZERO);
-    assert_int_equal(packed.bytes, 0);
+    const int part = set->terms[1].radiance;
+    memset(set->parts[part].image.pixels, 0, 32 * 24 * 3 * sizeof(float));
+    PackPart *packed = plan_of(set);
+    assert_int_equal(packed[part].codec, PACK_ZERO);
+    free(packed);
     retex_set_close(&set);
+}
+
+/* --- the codecs --- */
+
+/* Levels come back within a step and a bit, also far above white, also where the size is no multiple of anything. */
+static void test_jpeg_keeps_levels(void **state)
+{
+    (void)state;
+    const PackCurve curve = {1};
+    const int width = 75, height = 141;
+    for (int channels = 1; channels <= 3; channels += 2)
+        for (int bright = 0; bright < 2; bright++) {
+            const size_t count = (size_t)(width * height * channels);
+            float *values = malloc(count * sizeof *values), *levels = malloc(count * sizeof *levels);
+            float *back = malloc((size_t)(width * 64 * channels) * sizeof *back);
+            for (size_t i = 0; i < count; i++) {
+                const double x = (double)(i / (size_t)channels % (size_t)width) / width;
+                values[i] = (float)((bright ? 40 : 0.9) * (0.5 + 0.5 * sin(9 * x)) * (1 - 0.1 * (double)(i % 3)));
+                levels[i] = (float)pack_curve_level(&curve, (double)values[i]);
+                assert_true(fabs(pack_curve_value(&curve, (double)levels[i]) - (double)values[i]) <
+                            1e-4 * fmax((double)values[i], 1));
+            }
+            PackJpeg jpeg;
+            PackJpegDecoder *decoder;
+            RetexError err = {0};
+            test_must(pack_jpeg_encode(&jpeg, levels, width, height, channels, 1, &err), &err);
+            test_must(pack_jpeg_decoder_create(&decoder, &err), &err);
+            assert_int_equal(jpeg.npieces, 4);
+            size_t at = jpeg.pieces[0];
+            double sum = 0;
+            for (int band = 0; band < 3; band++) {
+                const int rows = band < 2 ? 64 : height - 128;
+                const size_t piece = jpeg.pieces[1 + band];
+                unsigned char *file = malloc(jpeg.pieces[0] + piece);
+                memcpy(file, jpeg.data, jpeg.pieces[0]);
+                memcpy(file + jpeg.pieces[0], jpeg.data + at, piece);
+                at += piece;
+                test_must(pack_jpeg_decode_band(decoder, back, file, jpeg.pieces[0], jpeg.pieces[0] + piece, width,
+                                                rows, channels, &curve, &err),
+                          &err);
+                for (int i = 0; i < width * rows * channels; i++) {
+                    const double off = pack_curve_level(&curve, (double)back[i]) -
+                                       (double)levels[(size_t)band * (size_t)(64 * width * channels) + (size_t)i];
+                    assert_true(fabs(off) < 6);
+                    sum += off * off;
+                }
+                free(file);
+            }
+            assert_true(sqrt(sum / (double)count) < (bright ? 1.0 : 0.6));
+            pack_jpeg_decoder_close(&decoder);
+            pack_jpeg_free(&jpeg);
+            free(values);
+            free(levels);
+            free(back);
+        }
+}
+
+/* Any numbers come back, whatever is missing and whatever their steps, by every width. */
+static void test_planes_keep_numbers(void **state)
+{
+    (void)state;
+    enum { WIDTH = 37, ROWS = 29, ALL = WIDTH * ROWS };
+    uint32_t seed = 1;
+    int32_t numbers[ALL], back[ALL];
+    unsigned char present[ALL], shift[ALL];
+    for (int round = 0; round < 60; round++) {
+        const int bits = round % 3 == 0 ? 8 : round % 3 == 1 ? 16 : 32, smooth = round / 3 % 2;
+        for (int i = 0; i < ALL; i++) {
+            present[i] = test_random(&seed) < 0.7;
+            shift[i] = (unsigned char)(test_random(&seed) * 12);
+            const double wide = ldexp(test_random(&seed), bits == 32 ? 30 : bits);
+            const double value = smooth ? 40 + i % WIDTH + i / WIDTH + 3 * test_random(&seed) : wide;
+            numbers[i] = bits == 8 ? (int32_t)value : (int32_t)(value - ldexp(1, bits == 32 ? 29 : bits - 1));
+        }
+        const int holes = round / 6 % 2, steps = bits == 32 && round / 12 % 2;
+        PackPlane plane = {WIDTH, ROWS, bits, holes ? present : NULL, steps ? shift : NULL, numbers};
+        const size_t room = pack_plane_room(&plane);
+        unsigned char *data = malloc(room), *scratch = malloc(2 * room);
+        const long bytes = pack_plane_encode(data, &plane, scratch, 5);
+        assert_true(bytes > 0);
+        plane.numbers = back;
+        assert_true(pack_plane_decode(&plane, data, (size_t)bytes, scratch));
+        for (int i = 0; i < ALL; i++) {
+            assert_int_equal(back[i], numbers[i]); /* encoding rounds them to their steps, and clears what is missing */
+            assert_true(!holes || present[i] || back[i] == 0);
+        }
+        assert_false(pack_plane_decode(&plane, data, (size_t)bytes - 1, scratch));
+        free(data);
+        free(scratch);
+    }
+}
+
+/* Rows read one by one, in any order, are those of the whole; so are they from an open file. */
+static void test_rows_are_those_of_the_whole(void **state)
+{
+    (void)state;
+    size_t bytes;
+    RetexSet *set = test_set(60, 150, 9), *open = NULL;
+    unsigned char *data = pack(set, NULL, &bytes);
+    RetexSet *whole = unpack(data, bytes);
+    RetexError err = {0};
+    RetexInput *input = NULL;
+    RetexPackScratch *scratch = NULL;
+    test_must(retex_input_borrow(&input, data, bytes, "memory", &err), &err);
+    test_must(retex_pack_open(&open, &input, 1, &err), &err);
+    test_must(retex_pack_scratch_create(&scratch, retex_pack_of(open), &err), &err);
+    const int spans[][2] = {{0, 64}, {64, 128}, {128, 150}, {0, 150}, {63, 65}, {10, 11}, {70, 150}, {5, 5}};
+    for (int i = 0; i < open->nparts; i++) {
+        const RetexImage *im = &whole->parts[i].image;
+        assert_null(open->parts[i].image.pixels);
+        assert_int_equal(open->parts[i].image.height, im->height);
+        const size_t row = (size_t)im->width * (size_t)im->channels;
+        float *rows = malloc(row * (size_t)im->height * sizeof *rows);
+        for (size_t k = 0; k < sizeof spans / sizeof *spans; k++) {
+            const int y0 = spans[k][0], y1 = spans[k][1];
+            if (y1 > im->height)
+                continue;
+            test_must(retex_pack_read_rows(retex_pack_of(open), i, y0, y1, rows, scratch, &err), &err);
+            assert_memory_equal(rows, im->pixels + row * (size_t)y0, row * (size_t)(y1 - y0) * sizeof *rows);
+        }
+        assert_int_equal(retex_pack_read_rows(retex_pack_of(open), i, 0, im->height + 1, rows, scratch, &err),
+                         RETEX_EINVAL);
+        free(rows);
+    }
+    retex_pack_scratch_close(&scratch);
+    test_must(retex_set_load(open, 3, &err), &err);
+    assert_null(open->source);
+    for (int i = 0; i < open->nparts; i++)
+        assert_true(part_difference(&open->parts[i], &whole->parts[i], 1) == 0);
+    retex_set_close(&open);
+    retex_set_close(&whole);
+    retex_set_close(&set);
+    free(data);
+}
+
+/* A pack of version 1, made by the last program that wrote it. */
+static void test_version_1_is_read(void **state)
+{
+    (void)state;
+    RetexSet *set = NULL, *same = test_set(24, 16, 1);
+    RetexSamples *samples = NULL;
+    RetexError err = {0};
+    test_must(retex_set_open("tests/data/pack-v1.retex", &set, &samples, 2, &err), &err);
+    assert_null(samples);
+    assert_null(set->source);
+    assert_int_equal(set->nparts, same->nparts);
+    assert_int_equal(set->nterms, same->nterms);
+    const int depth = retex_set_find_part(set, "depth");
+    assert_true(part_difference(&set->parts[depth], &same->parts[depth], 1) == 0);
+    for (int i = 0; i < set->nterms; i++) {
+        RetexMetrics m;
+        test_must(retex_metrics(&m, &set->parts[set->terms[i].radiance].image,
+                                &same->parts[same->terms[i].radiance].image, 0, &err),
+                  &err);
+        assert_true(m.psnr > 40);
+    }
+    test_must(retex_set_check("tests/data/pack-v1.retex", 1, &err), &err);
+    retex_set_close(&set);
+    retex_set_close(&same);
 }
 
 static void test_threads_do_not_change_bytes(void **state)
@@ -365,23 +540,26 @@ static void refuse_change(const char *add, const char *find, const char *put, co
 static void test_foreign_entries_are_refused(void **state)
 {
     (void)state;
-    refuse_change("../evil", NULL, NULL, "no pack has");
-    refuse_change("/etc/passwd", NULL, NULL, "no pack has");
-    refuse_change("parts/../../x.data", NULL, NULL, "no pack has");
-    refuse_change("parts/x.exe", NULL, NULL, "no pack has");
-    refuse_change("parts/unknown.data", NULL, NULL, "entries the manifest does not know");
+    refuse_change("../evil", NULL, NULL, "does not know");
+    refuse_change("/etc/passwd", NULL, NULL, "does not know");
+    refuse_change("parts/../../x.data", NULL, NULL, "does not know");
+    refuse_change("radiance/unknown.jpg", NULL, NULL, "does not know");
 }
 
 static void test_manifests_that_lie_are_refused(void **state)
 {
     (void)state;
-    refuse_change(NULL, "\"codec\":\"jpeg-log\"", "\"codec\":\"jxl\"", "this version knows");
+    refuse_change(NULL, "\"codec\":\"jpeg\"", "\"codec\":\"webp\"", "this version knows");
     refuse_change(NULL, "\"codec\":\"planes\"", "\"codec\":\"zero\"", "");
-    refuse_change(NULL, "\"version\":1,", "\"version\":9,", "version 9");
-    refuse_change(NULL, "\"scale\":", "\"scale\":-", "not sound");
-    refuse_change(NULL, "\"gain\":[", "\"gain\":[0,", "");
+    refuse_change(NULL, "\"pack\":{\"version\":2", "\"pack\":{\"version\":9", "version 9");
+    refuse_change(NULL, "\"white\":", "\"white\":-", "not sound");
+    refuse_change(NULL, "\"per_octave\":8", "\"per_octave\":0", "not sound");
+    refuse_change(NULL, "\"map\":\"lattice\"", "\"map\":\"trellis\"", "not sound");
+    refuse_change(NULL, "\"present\":\"t0_uv1\"", "\"present\":\"depth\"", "not sound");
+    refuse_change(NULL, "\"sigma\":\"t0_spread1\"", "\"sigma\":\"t0_uv1\"", "not sound");
+    refuse_change(NULL, "\"sigma\":\"t0_spread1\",", "", "not sound");
     refuse_change(NULL, "\"width\":16,\"height\":8,\"crc", "\"width\":60000,\"height\":60000,\"crc", "");
-    refuse_change(NULL, "\"bytes\":", "\"bytes\":9", "");
+    refuse_change(NULL, "\"masked\":true", "\"masked\":false", "");
 }
 
 static void test_other_zips_are_refused(void **state)
@@ -434,6 +612,10 @@ int main(void)
         cmocka_unit_test(test_quality_trades_size),
         cmocka_unit_test(test_radiance_that_does_not_suit_jpeg_keeps_its_bits),
         cmocka_unit_test(test_black_parts_cost_nothing),
+        cmocka_unit_test(test_jpeg_keeps_levels),
+        cmocka_unit_test(test_planes_keep_numbers),
+        cmocka_unit_test(test_rows_are_those_of_the_whole),
+        cmocka_unit_test(test_version_1_is_read),
         cmocka_unit_test(test_threads_do_not_change_bytes),
         cmocka_unit_test(test_every_flipped_byte_is_seen),
         cmocka_unit_test(test_truncated_packs_are_refused),

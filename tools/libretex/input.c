@@ -19,6 +19,7 @@ struct RetexInput {
     int descriptor;      /* -1 once all is in memory */
     int borrowed;        /* 1: standard input, which is not ours to close */
     unsigned char *data; /* NULL while the file is read by position */
+    int data_borrowed;   /* 1: data is not ours to free */
     uint64_t size;
 };
 
@@ -98,6 +99,21 @@ int retex_input_open(RetexInput **result, const char *path, RetexError *err)
     return status;
 }
 
+int retex_input_borrow(RetexInput **result, const void *data, size_t bytes, const char *name, RetexError *err)
+{
+    static unsigned char nothing;
+    RetexInput *input = *result = calloc(1, sizeof *input);
+
+    if (!input)
+        return retex_fail(err, RETEX_ENOMEM, "no memory to read %s", name);
+    input->descriptor = -1;
+    input->data = data ? (unsigned char *)data : &nothing; /* never written to */
+    input->data_borrowed = 1;
+    input->size = bytes;
+    snprintf(input->name, sizeof input->name, "%s", name);
+    return 0;
+}
+
 void retex_input_close(RetexInput **result)
 {
     RetexInput *input = result ? *result : NULL;
@@ -106,7 +122,8 @@ void retex_input_close(RetexInput **result)
         return;
     if (input->descriptor >= 0 && !input->borrowed)
         close(input->descriptor);
-    free(input->data);
+    if (!input->data_borrowed)
+        free(input->data);
     free(input);
     *result = NULL;
 }

@@ -10,6 +10,8 @@ typedef struct RetexInput RetexInput;
 
 /* Open path; "-" is standard input. What cannot be read by position (pipes, terminals) is read into memory whole. */
 int retex_input_open(RetexInput **input, const char *path, RetexError *err);
+/* As if these bytes were a file; they stay the caller's. name: for messages. */
+int retex_input_borrow(RetexInput **input, const void *data, size_t bytes, const char *name, RetexError *err);
 void retex_input_close(RetexInput **input); /* NULL and pointers to NULL are fine */
 
 const char *retex_input_name(const RetexInput *input); /* for messages: the path, or "standard input" */

@@ -9,7 +9,7 @@
 
 #include "exr_io.h"
 #include "input.h"
-#include "pack_format.h"
+#include "pack_bands.h"
 
 struct RetexLayers {
     int nthreads;
@@ -22,17 +22,12 @@ struct RetexLayers {
 /* A pack is unpacked, anything else goes to OpenImageIO. */
 static int open_other(RetexLayers *layers, const char *path, RetexError *err)
 {
-    const void *data;
-    size_t bytes;
     unsigned char begin[4] = {0};
     int64_t got = retex_input_read(layers->input, begin, sizeof begin, 0);
     if (got != sizeof begin || !retex_pack_probe(begin, sizeof begin))
         return retex_image_read(&layers->picture, path, NULL, 0, err);
-    int code = retex_input_load(layers->input, &data, &bytes, err);
-    if (code)
-        return code;
-    code = retex_pack_read(data, bytes, &layers->set, layers->nthreads, err);
-    return retex_pack_name_error(code, path, err);
+    int code = retex_pack_open(&layers->set, &layers->input, layers->nthreads, err);
+    return code ? code : retex_set_load(layers->set, layers->nthreads, err);
 }
 
 int retex_layers_open(RetexLayers **result, const char *path, int nthreads, RetexError *err)

@@ -1,324 +1,466 @@
-/* Writing a pack: what only denoising reads is left out, the other parts are encoded on all threads, the manifest says
- * how, a stored zip holds both. The bytes depend on the set and the parameters only: no dates, no order of threads. */
+/* Writing a pack: parts are planned, their bands encoded on all threads, and laid down in order behind a manifest and
+ * an index. The bytes depend on the set and the parameters only: no dates, no order of threads. */
 #include <retex/pack.h>
 
-#include <jansson.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <zip.h>
 #include <zlib.h>
 
+#include <retex/compact.h>
 #include <retex/parallel.h>
 
 #include "output.h"
-#include "pack_codec.h"
 #include "pack_format.h"
-#include "set_parts.h"
+#include "pack_plan.h"
+#include "pack_zip.h"
 
 /* Encoding one part. */
 typedef struct Item {
     const RetexPart *part;
-    const RetexImage *spread; /* of a footprint's UV part that may be snapped; else NULL */
-    int is_spread;            /* standard deviations, which may be rounded */
-    RetexPackCodec wanted;
-    int quality, code;
-    double mean; /* see retex_pack_encode */
-    RetexPacked packed;
+    PackPart *packed;
+    unsigned char **chunks; /* malloc'ed each, but those of a JPEG, which lie in jpeg.data */
+    PackJpeg jpeg;
+    uint32_t crc; /* of its samples */
+    int code;
     RetexError err;
 } Item;
 
-/* --- which codec for which part --- */
+typedef struct Writing {
+    const RetexSet *set;
+    const PackGrain *grain;
+    PackPart *packed;
+    Item *items;
+    PackJpeg picture; /* of a lossless pack: for viewers only */
+    int *jobs;        /* pairs: part and band */
+    int njobs;
+    int *codes; /* by job */
+} Writing;
 
-static void want(Item *items, int part, RetexPackCodec codec)
+static const int EFFORT = 9; /* of blosc's zstd */
+
+/* dB that compacting keeps more than the whole: its errors and those of coding add up. */
+static const double COMPACTING_MARGIN = 3;
+
+static int no_memory(RetexError *err)
 {
-    if (part >= 0)
-        items[part].wanted = codec;
+    return retex_fail(err, RETEX_ENOMEM, "no memory to pack a set");
 }
 
-/* Light and albedo may be JPEG; a UV may lose what is far below its own spread; all else keeps its bits. */
-static void choose_codecs(Item *items, const RetexSet *set, const RetexPackParams *params)
+/* --- JPEGs --- */
+
+static int is_black(const float *pixel, size_t channels)
 {
-    for (int i = 0; i < set->nparts; i++) {
-        items[i].part = &set->parts[i];
-        items[i].quality = params->quality;
-        items[i].wanted = RETEX_PACK_PLANES;
-    }
-    if (params->lossless)
-        return;
-    double mean = set->nparts > 0 ? retex_pack_mean(&set->parts[0].image) : 0;
-    want(items, set->nparts > 0 ? 0 : -1, RETEX_PACK_LOG);
-    for (int i = 0; i < set->nterms; i++) {
-        want(items, set->terms[i].radiance, RETEX_PACK_LOG);
-        items[set->terms[i].radiance].mean = mean;
-    }
-    for (int i = 0; i < set->ntargets; i++)
-        want(items, set->targets[i].original, RETEX_PACK_SRGB);
-    for (int i = 0; i < set->nfootprints; i++) {
-        const RetexFootprint *f = &set->footprints[i];
-        want(items, f->albedo, RETEX_PACK_SRGB);
-        if (f->uv >= 0 && f->spread >= 0) {
-            items[f->uv].spread = &set->parts[f->spread].image;
-            items[f->spread].is_spread = 1;
+    int black = 1;
+    for (size_t c = 0; c < channels; c++)
+        black = black && pixel[c] == 0;
+    return black;
+}
+
+/* Black pixels come back from the mask, so their levels are free: the mean of the others of their 8 x 8 block costs
+ * least and keeps edges between light and black from ringing. */
+static void fill_black(float *levels, const RetexImage *im)
+{
+    const size_t channels = (size_t)im->channels;
+    for (int by = 0; by < im->height; by += 8)
+        for (int bx = 0; bx < im->width; bx += 8) {
+            float sum[PACK_CHANNELS_MAX] = {0};
+            int lit = 0;
+            for (int pass = 0; pass < 2; pass++)
+                for (int y = by; y < by + 8 && y < im->height; y++)
+                    for (int x = bx; x < bx + 8 && x < im->width; x++) {
+                        const size_t i = retex_image_index(im, x, y);
+                        const int black = is_black(im->pixels + i, channels);
+                        for (size_t c = 0; c < channels; c++)
+                            if (pass == 0 && !black)
+                                sum[c] += levels[i + c];
+                            else if (pass == 1 && black && lit)
+                                levels[i + c] = sum[c] / (float)lit;
+                        lit += pass == 0 && !black;
+                    }
         }
+}
+
+/* Levels of a part. most: what is above is clipped. */
+static float *levels_of(const RetexImage *im, const PackCurve *curve, double most)
+{
+    const size_t count = (size_t)im->width * (size_t)im->height * (size_t)im->channels;
+    float *levels = malloc(count * sizeof *levels);
+    for (size_t i = 0; levels && i < count; i++)
+        levels[i] = (float)fmin(pack_curve_level(curve, (double)im->pixels[i]), most);
+    return levels;
+}
+
+/* A band of the mask as a chunk, from its own bytes. */
+static int encode_mask_band(Item *item, int band, RetexError *err)
+{
+    const RetexImage *im = &item->part->image;
+    PackPart *p = item->packed;
+    const int rows = pack_band_rows(p, band), width = pack_mask_width(p), k = 1 + p->nbands + band;
+    PackPlane plane = {width, rows, 8, NULL, NULL, calloc((size_t)(width * rows), sizeof(int32_t))};
+    const size_t room = pack_plane_room(&plane);
+    unsigned char *scratch = malloc(2 * room);
+    item->chunks[k] = malloc(room);
+    long bytes = -1;
+    if (plane.numbers && scratch && item->chunks[k]) {
+        for (int y = 0; y < rows; y++)
+            for (int x = 0; x < im->width; x++)
+                if (is_black(im->pixels + retex_image_index(im, x, band * PACK_BAND_ROWS + y), (size_t)im->channels))
+                    plane.numbers[y * width + x / 8] |= 1 << (x % 8);
+        bytes = pack_plane_encode(item->chunks[k], &plane, scratch, EFFORT);
     }
+    free(plane.numbers);
+    free(scratch);
+    p->bytes[k] = bytes < 0 ? 0 : (uint32_t)bytes;
+    return bytes < 0 ? no_memory(err) : 0;
 }
 
-/* Round u and v to a power of two below an eighth of their standard deviation: 1/16 of a footprint's width is far below
- * what filtering a texture over it can show, and the bits of noise below cost most of a pack. */
-static void snap_uv(RetexImage *uv, const RetexImage *spread)
+static int has_black(const RetexImage *im)
 {
-    const double finest = ldexp(1, -18); /* 1/64 texel of a 4K texture */
-    for (size_t i = 0; i < (size_t)uv->width * (size_t)uv->height; i++)
-        for (size_t c = 0; c < 2; c++) {
-            double sigma = (double)spread->pixels[(size_t)spread->channels * i + c];
-            double value = (double)uv->pixels[3 * i + c];
-            double step = sigma > 0 && isfinite(sigma) ? fmax(exp2(floor(log2(sigma / 8))), finest) : finest;
-            if (isfinite(value))
-                uv->pixels[3 * i + c] = (float)(rint(value / step) * step);
-        }
-}
-
-/* Round standard deviations to five significant bits: to within 3%. A correlation, the third channel, keeps its bits:
- * near 1 they are the narrower width. */
-static void round_spread(RetexImage *spread)
-{
-    for (size_t i = 0; i < (size_t)spread->channels * (size_t)spread->width * (size_t)spread->height; i++) {
-        int exponent;
-        if (i % (size_t)spread->channels == 2)
-            continue;
-        double fraction = frexp((double)spread->pixels[i], &exponent);
-        if (isfinite(fraction))
-            spread->pixels[i] = (float)ldexp(rint(fraction * 32) / 32, exponent);
-    }
-}
-
-/* What is far below seeing is removed from a footprint's part before it is encoded without loss. *changed gets the
- * copy. */
-static int simplify(RetexPart *part, const Item *item, RetexImage *changed, RetexError *err)
-{
-    RetexImage *im = &part->image;
-    const RetexImage *spread = item->spread;
-    int snap = spread && part->type == RETEX_FLOAT && im->channels == 3 && spread->channels >= 2 &&
-               spread->width == im->width && spread->height == im->height;
-    if (!snap && !item->is_spread)
-        return 0;
-    int code = retex_image_copy(changed, im, err);
-    if (code)
-        return code;
-    if (snap)
-        snap_uv(changed, spread);
-    else
-        round_spread(changed);
-    *im = *changed;
+    for (size_t i = 0; i < (size_t)im->width * (size_t)im->height; i++)
+        if (is_black(im->pixels + i * (size_t)im->channels, (size_t)im->channels))
+            return 1;
     return 0;
 }
 
-static void encode_item(void *context, int index, int thread)
+/* Part 0 is the picture, for viewers: coarser, and white is the most that it shows. */
+static int encode_jpeg(Item *item, const PackGrain *grain, int is_picture, RetexError *err)
 {
+    const RetexImage *im = &item->part->image;
+    PackPart *p = item->packed;
+    p->masked = !is_picture && has_black(im);
+    int code = pack_part_chunks(p, err);
+    item->chunks = calloc((size_t)p->nchunks + 1, sizeof *item->chunks);
+    float *levels = levels_of(im, &p->curve, is_picture ? 255 : INFINITY);
+    if (!code && (!item->chunks || !levels))
+        code = no_memory(err);
+    if (!code && p->masked)
+        fill_black(levels, im);
+    if (!code)
+        code = pack_jpeg_encode(&item->jpeg, levels, im->width, im->height, im->channels,
+                                is_picture ? grain->picture_step : grain->jpeg_step, err);
+    free(levels);
+    unsigned char *at = item->jpeg.data;
+    for (int k = 0; !code && k < 1 + p->nbands; k++) {
+        item->chunks[k] = at;
+        p->bytes[k] = (uint32_t)item->jpeg.pieces[k];
+        at += item->jpeg.pieces[k];
+    }
+    for (int band = 0; !code && p->masked && band < p->nbands; band++)
+        code = encode_mask_band(item, band, err);
+    return code;
+}
+
+/* --- planes --- */
+
+/* Room to encode a band's planes. */
+typedef struct Band {
+    size_t pixels;
+    unsigned char *present, *shift, *scratch;
+    int32_t *numbers, *codes;
+} Band;
+
+static void band_free(Band *band)
+{
+    free(band->present);
+    free(band->shift);
+    free(band->scratch);
+    free(band->numbers);
+    free(band->codes);
+}
+
+static int band_alloc(Band *band, const PackPart *p, int index)
+{
+    const PackPlane plane = {.width = p->width, .rows = pack_band_rows(p, index)};
+    band->pixels = (size_t)plane.width * (size_t)plane.rows;
+    band->present = malloc(band->pixels);
+    band->shift = malloc(band->pixels);
+    band->scratch = malloc(2 * pack_plane_room(&plane));
+    band->numbers = malloc(band->pixels * sizeof *band->numbers);
+    band->codes = malloc(band->pixels * sizeof *band->codes);
+    return band->present && band->shift && band->scratch && band->numbers && band->codes;
+}
+
+/* Numbers of a channel of another part in this band. */
+static void numbers_of(int32_t *numbers, const Writing *w, int part, int channel, int index, size_t pixels)
+{
+    const RetexImage *im = &w->set->parts[part].image;
+    pack_map_numbers(numbers, im->pixels + retex_image_index(im, 0, index * PACK_BAND_ROWS) + channel,
+                     (size_t)im->channels, pixels, &w->packed[part].maps[channel], w->set->parts[part].type);
+}
+
+static void fill_shift(Band *band, const Writing *w, const PackPart *p, int channel, int index)
+{
+    const int per_octave = w->packed[p->sigma].maps[channel].per_octave;
+    numbers_of(band->codes, w, p->sigma, channel, index, band->pixels);
+    for (size_t i = 0; i < band->pixels; i++)
+        band->shift[i] = (unsigned char)pack_lattice_shift(p, band->codes[i], per_octave);
+}
+
+static int encode_band(const Writing *w, int part, int index)
+{
+    Item *item = &w->items[part];
+    PackPart *p = item->packed;
+    Band band = {0};
+    int ok = band_alloc(&band, p, index);
+    if (ok && p->present >= 0) {
+        numbers_of(band.codes, w, p->present, 2, index, band.pixels);
+        for (size_t i = 0; i < band.pixels; i++)
+            band.present[i] = band.codes[i] != 0;
+    }
+    for (int c = 0; ok && c < p->channels; c++) {
+        const PackMap *map = &p->maps[c];
+        const int lattice = map->kind == PACK_MAP_LATTICE, partial = p->present >= 0 && (p->present != part || c != 2);
+        const int bits = pack_map_is_coded(map) ? 8 : map->kind == PACK_MAP_BITS && p->type == RETEX_HALF ? 16 : 32;
+        const int k = index * p->channels + c;
+        if (lattice)
+            fill_shift(&band, w, p, c, index);
+        numbers_of(band.numbers, w, part, c, index, band.pixels);
+        const PackPlane plane = {
+            p->width,    pack_band_rows(p, index), bits, partial ? band.present : NULL, lattice ? band.shift : NULL,
+            band.numbers};
+        unsigned char *data = malloc(pack_plane_room(&plane));
+        const long bytes = data ? pack_plane_encode(data, &plane, band.scratch, EFFORT) : -1;
+        unsigned char *fitted = bytes > 0 ? realloc(data, (size_t)bytes) : NULL;
+        item->chunks[k] = fitted ? fitted : data;
+        p->bytes[k] = bytes > 0 ? (uint32_t)bytes : 0;
+        ok = bytes >= 0;
+    }
+    band_free(&band);
+    return ok;
+}
+
+/* --- all parts --- */
+
+static void encode_whole(void *context, int index, int thread)
+{
+    Writing *w = context;
+    Item *item = &w->items[index];
     (void)thread;
-    Item *item = (Item *)context + index;
-    RetexPart part = *item->part;
-    RetexImage changed = {0};
-    item->code = simplify(&part, item, &changed, &item->err);
-    if (!item->code)
-        item->code = retex_pack_encode(&item->packed, &part, item->wanted, item->quality, item->mean, &item->err);
-    retex_image_free(&changed);
+    item->code = pack_samples_crc(&item->crc, item->part, &item->err);
+    if (!item->code && item->packed->codec == PACK_JPEG)
+        item->code = encode_jpeg(item, w->grain, index == 0, &item->err);
+    if (item->code || item->packed->codec != PACK_PLANES)
+        return;
+    item->code = pack_part_chunks(item->packed, &item->err);
+    item->chunks = calloc((size_t)item->packed->nchunks + 1, sizeof *item->chunks);
+    if (!item->code && !item->chunks)
+        item->code = no_memory(&item->err);
 }
 
-/* --- the manifest --- */
-
-static json_t *hex(uint32_t value)
+static void encode_job(void *context, int index, int thread)
 {
-    char text[16];
-    snprintf(text, sizeof text, "%08x", (unsigned)value);
-    return json_string(text);
+    Writing *w = context;
+    (void)thread;
+    w->codes[index] = encode_band(w, w->jobs[2 * index], w->jobs[2 * index + 1]) ? 0 : RETEX_ENOMEM;
 }
 
-static uint32_t bytes_crc(const unsigned char *data, size_t bytes)
+static int encode_all(Writing *w, int nthreads, RetexError *err)
 {
-    return (uint32_t)crc32_z(crc32(0, NULL, 0), data, bytes);
-}
-
-static json_t *describe_item(const Item *item)
-{
-    const RetexPacked *p = &item->packed;
-    json_t *o = json_pack("{s:s, s:s, s:I, s:o}", "name", item->part->name, "codec", retex_pack_codec_names[p->codec],
-                          "bytes", (json_int_t)p->bytes, "crc32", hex(bytes_crc(p->data, p->bytes)));
-    if (p->mask) {
-        json_object_set_new(o, "mask_bytes", json_integer((json_int_t)p->mask_bytes));
-        json_object_set_new(o, "mask_crc32", hex(bytes_crc(p->mask, p->mask_bytes)));
+    const int count = w->set->nparts;
+    int code = 0, bands = 0;
+    retex_parallel(nthreads, count, encode_whole, w);
+    for (int i = 0; i < count; i++) {
+        if (!code && w->items[i].code)
+            code = retex_fail(err, w->items[i].code, "%s", w->items[i].err.message);
+        bands += w->packed[i].nbands;
     }
-    if (p->codec == RETEX_PACK_LOG) {
-        json_object_set_new(o, "scale", json_real(p->scale));
-        json_object_set_new(o, "max", json_real(p->max));
-    }
-    if (p->codec == RETEX_PACK_LOG || p->codec == RETEX_PACK_SRGB)
-        json_object_set_new(o, "gain", json_pack("[f, f, f]", p->gain[0], p->gain[1], p->gain[2]));
-    return o;
+    w->jobs = malloc(((size_t)bands + 1) * 2 * sizeof *w->jobs);
+    w->codes = calloc((size_t)bands + 1, sizeof *w->codes);
+    if (!code && (!w->jobs || !w->codes))
+        code = no_memory(err);
+    if (code)
+        return code;
+    for (int i = 0; i < count; i++)
+        for (int band = 0; w->packed[i].codec == PACK_PLANES && band < w->packed[i].nbands; band++) {
+            w->jobs[2 * w->njobs] = i;
+            w->jobs[2 * w->njobs++ + 1] = band;
+        }
+    retex_parallel(nthreads, w->njobs, encode_job, w);
+    for (int i = 0; i < w->njobs; i++)
+        if (w->codes[i])
+            return no_memory(err);
+    for (int i = 0; i < count; i++)
+        for (int k = 0; k < w->packed[i].nchunks; k++)
+            w->packed[i].crcs[k] = (uint32_t)crc32_z(crc32(0, NULL, 0), w->items[i].chunks[k], w->packed[i].bytes[k]);
+    return 0;
 }
 
-/* The set's manifest with what the pack adds: how each part is encoded, in the order of its parts. */
-static int write_manifest(char **text, const RetexSet *set, const Item *items, RetexError *err)
+/* A lossless pack's picture for viewers. */
+static int encode_picture(Writing *w, RetexError *err)
 {
-    RetexSet described = *set;
+    const RetexImage *im = &w->set->parts[0].image;
+    const PackCurve curve = {1};
+    if (w->packed[0].codec == PACK_JPEG || im->width > PACK_JPEG_SIDE_MAX || im->height > PACK_JPEG_SIDE_MAX)
+        return 0;
+    const PackGrain grain = pack_grain(40);
+    float *levels = levels_of(im, &curve, 255);
+    if (!levels)
+        return no_memory(err);
+    for (size_t i = 0; i < 3 * (size_t)im->width * (size_t)im->height; i++)
+        levels[i] = levels[i] >= 0 ? levels[i] : 0; /* NaN too */
+    int code = pack_jpeg_encode(&w->picture, levels, im->width, im->height, 3, grain.picture_step, err);
+    free(levels);
+    return code;
+}
+
+/* --- the file --- */
+
+static int write_manifest(char **text, const Writing *w, RetexError *err)
+{
+    RetexSet described = *w->set;
     char *json = NULL;
-    described.parts = malloc((size_t)set->nparts * sizeof *described.parts);
+    described.parts = malloc((size_t)described.nparts * sizeof *described.parts);
     if (!described.parts)
-        return retex_fail(err, RETEX_ENOMEM, "no memory for the pack's manifest");
-    for (int i = 0; i < set->nparts; i++) {
-        described.parts[i] = set->parts[i];
-        described.parts[i].crc = items[i].packed.crc;
+        return no_memory(err);
+    for (int i = 0; i < described.nparts; i++) {
+        described.parts[i] = w->set->parts[i];
+        described.parts[i].crc = w->items[i].crc;
     }
     int code = retex_set_manifest(&described, NULL, &json, err);
     free(described.parts);
-    if (code)
-        return code;
-    json_t *root = json_loads(json, 0, NULL), *parts = json_array();
+    if (!code && !(*text = pack_describe(json, w->set, w->packed)))
+        code = no_memory(err);
     free(json);
-    for (int i = 0; i < set->nparts; i++)
-        json_array_append_new(parts, describe_item(&items[i]));
-    json_object_set_new(root, "pack", json_pack("{s:i, s:o}", "version", PACK_VERSION, "parts", parts));
-    *text = json_dumps(root, JSON_COMPACT | JSON_REAL_PRECISION(17));
-    json_decref(root);
-    return *text ? 0 : retex_fail(err, RETEX_ENOMEM, "no memory for the pack's manifest");
-}
-
-/* --- the zip --- */
-
-static int zip_failed(zip_error_t *error, RetexError *err)
-{
-    int code = zip_error_code_zip(error) == ZIP_ER_MEMORY ? RETEX_ENOMEM : RETEX_EINTERNAL;
-    retex_fail(err, code, "cannot build the pack: %s", zip_error_strerror(error));
-    zip_error_fini(error);
     return code;
 }
 
-/* data is borrowed until the zip is closed. */
-static int add_file(zip_t *zip, const char *name, const void *data, size_t bytes)
+static unsigned char *make_index(const Writing *w, size_t *bytes)
 {
-    zip_source_t *source = zip_source_buffer(zip, data, bytes, 0);
-    zip_int64_t index = source ? zip_file_add(zip, name, source, 0) : -1;
-    if (index < 0) {
-        zip_source_free(source);
-        return -1;
-    }
-    /* 1 January 1980, the first day zip knows: the same set gives the same bytes */
-    return zip_set_file_compression(zip, (zip_uint64_t)index, ZIP_CM_STORE, 0) ||
-           zip_file_set_dostime(zip, (zip_uint64_t)index, 0, 0x21, 0);
+    *bytes = 0;
+    for (int i = 0; i < w->set->nparts; i++)
+        *bytes += (size_t)w->packed[i].nchunks * PACK_INDEX_ENTRY;
+    unsigned char *index = malloc(*bytes + 1), *at = index;
+    for (int i = 0; index && i < w->set->nparts; i++)
+        for (int k = 0; k < w->packed[i].nchunks; k++)
+            for (int b = 0; b < PACK_INDEX_ENTRY; b++)
+                *at++ = (unsigned char)((b < 4 ? w->packed[i].bytes[k] : w->packed[i].crcs[k]) >> 8 * (b % 4) & 255);
+    return index;
 }
 
-static int add_items(zip_t *zip, const Item *items, int count)
+/* Chunks first to first + count as one file of the zip; none where they are empty. */
+static int write_chunks(RetexOutput *output, ZipList *list, const Writing *w, int part, int planes, int first,
+                        int count, uint64_t *written, RetexError *err)
 {
-    char name[PACK_FILE_MAX];
-    for (int i = 0; i < count; i++) {
-        const RetexPacked *p = &items[i].packed;
-        snprintf(name, sizeof name, PACK_FOLDER "%s" PACK_DATA, items[i].part->name);
-        if (p->data && add_file(zip, name, p->data, p->bytes))
-            return -1;
-        snprintf(name, sizeof name, PACK_FOLDER "%s" PACK_MASK, items[i].part->name);
-        if (p->mask && add_file(zip, name, p->mask, p->mask_bytes))
-            return -1;
-    }
-    return 0;
+    const PackPart *p = &w->packed[part];
+    size_t *bytes = calloc((size_t)count + 1, sizeof *bytes), total = 0;
+    char name[PACK_NAME_MAX];
+    int code = bytes ? 0 : no_memory(err);
+    for (int k = 0; !code && k < count; k++)
+        total += bytes[k] = p->bytes[first + k];
+    pack_file_name(name, sizeof name, w->set, part, planes);
+    if (!code && total)
+        code = zip_entry_write(output, list, name, (const void *const *)w->items[part].chunks + first, bytes, count,
+                               written, err);
+    free(bytes);
+    return code;
 }
 
-/* Copy a finished zip into the output. */
-static int copy_source(RetexOutput *output, zip_source_t *source, size_t *total, RetexError *err)
+static int write_entries(RetexOutput *output, ZipList *list, const Writing *w, const char *manifest, uint64_t *written,
+                         RetexError *err)
 {
-    char buffer[65536];
-    zip_int64_t got = zip_source_open(source) == 0 ? 1 : -1;
-    int code = 0;
-    *total = 0;
-    while (got > 0 && !code && (got = zip_source_read(source, buffer, sizeof buffer)) > 0) {
-        code = retex_output_write(output, buffer, (size_t)got, err);
-        *total += (size_t)got;
-    }
-    zip_source_close(source);
-    return got < 0 ? retex_fail(err, RETEX_EINTERNAL, "cannot read back the pack") : code;
+    size_t bytes;
+    const void *text = manifest;
+    unsigned char *index = make_index(w, &bytes);
+    const void *index_bytes = index, *picture = w->picture.data;
+    if (!index)
+        return no_memory(err);
+    const size_t length = strlen(manifest);
+    int code = zip_entry_write(output, list, PACK_MANIFEST, &text, &length, 1, written, err);
+    if (!code)
+        code = zip_entry_write(output, list, PACK_INDEX, &index_bytes, &bytes, 1, written, err);
+    free(index);
+    if (!code && picture)
+        code = zip_entry_write(output, list, PACK_PICTURE, &picture, &w->picture.bytes, 1, written, err);
+    for (int planes = 0; planes < 2; planes++)
+        for (int i = 0; !code && i < w->set->nparts; i++) {
+            const PackPart *p = &w->packed[i];
+            const int jpeg = p->codec == PACK_JPEG ? 1 + p->nbands : 0;
+            if (planes ? p->nchunks > jpeg : jpeg)
+                code = write_chunks(output, list, w, i, planes, planes ? jpeg : 0, planes ? p->nchunks - jpeg : jpeg,
+                                    written, err);
+        }
+    return code ? code : zip_directory_write(output, list, written, err);
 }
 
-static int write_zip(const char *manifest, const Item *items, int count, const char *path, size_t *total,
-                     RetexError *err)
+static int write_file(const Writing *w, const char *path, size_t *bytes, RetexError *err)
 {
-    zip_error_t error;
-    zip_error_init(&error);
-    zip_source_t *source = zip_source_buffer_create(NULL, 0, 0, &error);
-    if (!source)
-        return zip_failed(&error, err);
-    zip_source_keep(source);
-    zip_t *zip = zip_open_from_source(source, ZIP_TRUNCATE, &error);
-    if (!zip) {
-        zip_source_free(source);
-        zip_source_free(source);
-        return zip_failed(&error, err);
-    }
-    if (add_file(zip, PACK_MANIFEST, manifest, strlen(manifest)) || add_items(zip, items, count) || zip_close(zip)) {
-        zip_error_set(&error, zip_error_code_zip(zip_get_error(zip)), 0);
-        zip_discard(zip);
-        zip_source_free(source);
-        return zip_failed(&error, err);
-    }
-    zip_error_fini(&error);
     RetexOutput *output = NULL;
-    int code = retex_output_open(&output, path, err);
+    ZipList list = {0};
+    uint64_t written = 0;
+    char *manifest = NULL;
+    int code = write_manifest(&manifest, w, err);
     if (!code)
-        code = copy_source(output, source, total, err);
-    zip_source_free(source);
+        code = retex_output_open(&output, path, err);
     if (!code)
-        return retex_output_commit(&output, err);
+        code = write_entries(output, &list, w, manifest, &written, err);
+    if (!code)
+        code = retex_output_commit(&output, err);
     retex_output_abandon(&output);
+    zip_list_free(&list);
+    free(manifest);
+    if (!code && bytes)
+        *bytes = (size_t)written;
     return code;
 }
 
-/* Pack all of a set. */
+static void writing_free(Writing *w)
+{
+    for (int i = 0; w->items && w->packed && i < w->set->nparts; i++) {
+        const PackPart *p = &w->packed[i];
+        for (int k = p->codec == PACK_JPEG ? 1 + p->nbands : 0; w->items[i].chunks && k < p->nchunks; k++)
+            free(w->items[i].chunks[k]);
+        free(w->items[i].chunks);
+        pack_jpeg_free(&w->items[i].jpeg);
+        pack_part_free(&w->packed[i]);
+    }
+    pack_jpeg_free(&w->picture);
+    free(w->items);
+    free(w->packed);
+    free(w->jobs);
+    free(w->codes);
+}
+
 static int write_pack(const RetexSet *set, const char *path, const RetexPackParams *params, size_t *bytes,
                       RetexError *err)
 {
-    char *manifest = NULL;
-    size_t total;
-    int code = 0;
-    Item *items = calloc((size_t)set->nparts + 1, sizeof *items);
-    if (!items)
-        return retex_fail(err, RETEX_ENOMEM, "no memory to pack a set");
-    choose_codecs(items, set, params);
-    retex_parallel(params->nthreads, set->nparts, encode_item, items);
-    for (int i = 0; !code && i < set->nparts; i++)
-        if (items[i].code)
-            code = retex_fail_at(err, items[i].code, items[i].err.file, 0, 0, "%s", items[i].err.message);
+    const PackGrain grain = pack_grain(pack_quality_psnr(params->quality));
+    Writing w = {.set = set, .grain = &grain};
+    w.packed = calloc((size_t)set->nparts + 1, sizeof *w.packed);
+    w.items = calloc((size_t)set->nparts + 1, sizeof *w.items);
+    int code = w.packed && w.items ? 0 : no_memory(err);
     if (!code)
-        code = write_manifest(&manifest, set, items, err);
+        code = pack_plan(w.packed, set, params->lossless, &grain, params->nthreads, err);
+    for (int i = 0; !code && i < set->nparts; i++) {
+        w.items[i].part = &set->parts[i];
+        w.items[i].packed = &w.packed[i];
+    }
     if (!code)
-        code = write_zip(manifest, items, set->nparts, path, &total, err);
-    if (!code && bytes)
-        *bytes = total;
-    free(manifest);
-    for (int i = 0; i < set->nparts; i++)
-        retex_packed_free(&items[i].packed);
-    free(items);
+        code = encode_all(&w, params->nthreads, err);
+    if (!code)
+        code = encode_picture(&w, err);
+    if (!code)
+        code = write_file(&w, path, bytes, err);
+    writing_free(&w);
     return code;
 }
 
+/* Everything, or what of the set is needed for pictures that are as good as the quality says. */
 int retex_pack_write(const RetexSet *set, const char *path, const RetexPackParams *params, size_t *bytes,
                      RetexError *err)
 {
     static const RetexPackParams defaults = RETEX_PACK_INIT;
-    SetView view;
+    RetexCompactParams compacting = RETEX_COMPACT_INIT;
+    RetexSet *compact = NULL;
     if (!params)
         params = &defaults;
     if (params->quality < 1 || params->quality > 100)
         return retex_fail(err, RETEX_EINVAL, "quality is 1 to 100, not %d", params->quality);
-    char *kept = malloc((size_t)set->nparts + 1);
-    if (!kept)
-        return retex_fail(err, RETEX_ENOMEM, "no memory to pack a set");
-    for (int i = 0; i < set->nparts; i++)
-        kept[i] = !part_is_denoise_data(set, i);
-    int code = set_view_make(&view, set, kept, err);
-    free(kept);
-    if (code)
-        return code;
-    code = write_pack(&view.set, path, params, bytes, err);
-    set_view_free(&view);
+    compacting.psnr = pack_quality_psnr(params->quality) + COMPACTING_MARGIN;
+    int code = params->lossless ? 0 : retex_set_compact(&compact, set, &compacting, params->nthreads, err);
+    if (!code)
+        code = write_pack(compact ? compact : set, path, params, bytes, err);
+    retex_set_close(&compact);
     return code;
 }

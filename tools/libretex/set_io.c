@@ -13,7 +13,7 @@
 #include "input.h"
 #include "manifest.h"
 #include "output.h"
-#include "pack_format.h"
+#include "pack_bands.h"
 #include "set_parts.h"
 #include "spool_chunks.h"
 
@@ -388,23 +388,18 @@ static int read_exr(Source *source, RetexSet **set, RetexSamples **samples, int 
     return 0;
 }
 
-/* Whether the input is a pack; then *data is all of it. */
-static int load_pack(RetexInput *input, const void **data, size_t *bytes, int *is_pack, RetexError *err)
+static int is_pack(const RetexInput *input)
 {
     unsigned char begin[64];
     const int64_t got = retex_input_read(input, begin, sizeof begin, 0);
 
-    *is_pack = got > 0 && retex_pack_probe(begin, (size_t)got);
-    return *is_pack ? retex_input_load(input, data, bytes, err) : 0;
+    return got > 0 && retex_pack_probe(begin, (size_t)got);
 }
 
 /* Read what is wanted, or with open all but the set's parts. */
 static int read_file(const char *path, RetexSet **set, RetexSamples **samples, int open, int nthreads, RetexError *err)
 {
     Source source = {0};
-    const void *data;
-    size_t bytes;
-    int is_pack;
 
     if (set)
         *set = NULL;
@@ -413,15 +408,16 @@ static int read_file(const char *path, RetexSet **set, RetexSamples **samples, i
     if (!set && !samples)
         return retex_fail(err, RETEX_EINVAL, "nothing is wanted from %s", path);
     int status = retex_input_open(&source.input, path, err);
-    if (!status)
-        status = load_pack(source.input, &data, &bytes, &is_pack, err);
-    if (!status && !is_pack)
+    if (!status && !is_pack(source.input))
         status = read_exr(&source, set, samples, open, nthreads, err);
     else if (!status && !set)
         status = retex_fail(err, RETEX_EFORMAT, "%s holds a set, no samples", retex_input_name(source.input));
     else if (!status)
-        status = retex_pack_name_error(retex_pack_read(data, bytes, set, nthreads, err), retex_input_name(source.input),
-                                       err);
+        status = retex_pack_open(set, &source.input, nthreads, err);
+    if (!status && !open && set && *set && (*set)->source)
+        status = retex_set_load(*set, nthreads, err);
+    if (status && set)
+        retex_set_close(set);
     source_close(&source);
     return status;
 }
@@ -474,17 +470,17 @@ static int check_exr(Source *source, int nthreads, RetexError *err)
 int retex_set_check(const char *path, int nthreads, RetexError *err)
 {
     Source source = {0};
-    const void *data;
-    size_t bytes;
-    int is_pack;
+    RetexSet *set = NULL;
     int status = retex_input_open(&source.input, path, err);
 
-    if (!status)
-        status = load_pack(source.input, &data, &bytes, &is_pack, err);
-    if (!status)
-        status = !is_pack
-                     ? check_exr(&source, nthreads, err)
-                     : retex_pack_name_error(retex_pack_check(data, bytes, err), retex_input_name(source.input), err);
+    if (!status && !is_pack(source.input)) {
+        status = check_exr(&source, nthreads, err);
+    } else if (!status) {
+        status = retex_pack_open(&set, &source.input, nthreads, err);
+        if (!status)
+            status = retex_pack_verify(set, nthreads, err);
+    }
+    retex_set_close(&set);
     source_close(&source);
     return status;
 }

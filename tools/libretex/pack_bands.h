@@ -1,0 +1,35 @@
+/* Packs, band by band: any rows of any part, from several threads at once, without unpacking the rest. */
+#ifndef LIBRETEX_PACK_BANDS_H
+#define LIBRETEX_PACK_BANDS_H
+
+#include <retex/set.h>
+
+#include "input.h"
+
+typedef struct RetexPack RetexPack; /* an open pack: read-only, shared by threads */
+
+/* Open a pack. *set is created; of version 2 its parts have sizes but no pixels, and the pack is its source; version 1 is
+ * read whole. *input belongs to the set from then on, and is NULL. */
+int retex_pack_open(RetexSet **set, RetexInput **input, int nthreads, RetexError *err);
+RetexPack *retex_pack_of(const RetexSet *set); /* that it was opened from, or NULL */
+void retex_pack_close(RetexPack **pack); /* NULL and pointers to NULL are fine */
+
+/* A thread's means of decoding, which keep the band of each part that was met last. */
+typedef struct RetexPackScratch RetexPackScratch;
+int retex_pack_scratch_create(RetexPackScratch **scratch, const RetexPack *pack, RetexError *err);
+void retex_pack_scratch_close(RetexPackScratch **scratch); /* NULL and pointers to NULL are fine */
+
+/* Rows y0 to y1 (not included; of the part's own rows) of a part, interleaved, into out. Bands of RETEX_PACK_ROWS rows
+ * are decoded whole: cheapest are rows from a multiple of it to the next. */
+enum { RETEX_PACK_ROWS = 64 };
+int retex_pack_read_rows(const RetexPack *pack, int part, int y0, int y1, float *out, RetexPackScratch *scratch,
+                         RetexError *err);
+
+/* Bytes that a part takes in the pack, and how it is coded: "jpeg", "planes", … */
+uint64_t retex_pack_part_bytes(const RetexPack *pack, int part);
+const char *retex_pack_part_codec(const RetexPack *pack, int part);
+
+/* Compare all checksums; the set was opened from it. */
+int retex_pack_verify(RetexSet *set, int nthreads, RetexError *err);
+
+#endif

@@ -1,0 +1,333 @@
+/* JPEG files of light, written and read as coefficients. See pack_jpeg.h. */
+#include "pack_jpeg.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <jpeglib.h>
+
+#include "pack_jpeg_kernel.h"
+
+/* --- the curve --- */
+
+/* sRGB up to white; above, levels follow the logarithm, LEVELS_PER_E of them for each factor of e. */
+static const double LEVELS_PER_E = 48;
+
+double pack_curve_level(const PackCurve *curve, double value)
+{
+    const double x = value / curve->white;
+    if (x > 1)
+        return 255 + LEVELS_PER_E * log(x);
+    return 255 * (x <= 0.0031308 ? 12.92 * x : 1.055 * pow(x, 1 / 2.4) - 0.055);
+}
+
+double pack_curve_value(const PackCurve *curve, double level)
+{
+    const double y = level / 255;
+    const double x = y > 1          ? exp((level - 255) / LEVELS_PER_E)
+                     : y <= 0.04045 ? y / 12.92
+                                    : pow((y + 0.055) / 1.055, 2.4);
+    return curve->white * x;
+}
+
+static void fill_table(PackLevelTable *table, const PackCurve *curve)
+{
+    for (int i = 0; i < PACK_LEVEL_ENTRIES + 2; i++)
+        table->value[i] = (float)pack_curve_value(curve, (double)i / PACK_LEVEL_STEPS);
+}
+
+/* --- libjpeg's errors --- */
+
+typedef struct Trouble {
+    struct jpeg_error_mgr manager;
+    jmp_buf out;
+    char message[JMSG_LENGTH_MAX];
+} Trouble;
+
+static void leave(j_common_ptr jpeg)
+{
+    Trouble *trouble = (Trouble *)jpeg->err;
+    jpeg->err->format_message(jpeg, trouble->message);
+    longjmp(trouble->out, 1);
+}
+
+/* A warning is an error here: data is never made up. */
+static void warn(j_common_ptr jpeg, int level)
+{
+    if (level < 0)
+        leave(jpeg);
+}
+
+static void stay_quiet(j_common_ptr jpeg)
+{
+    (void)jpeg;
+}
+
+static struct jpeg_error_mgr *catch_trouble(Trouble *trouble)
+{
+    jpeg_std_error(&trouble->manager);
+    trouble->manager.error_exit = leave;
+    trouble->manager.emit_message = warn;
+    trouble->manager.output_message = stay_quiet;
+    return &trouble->manager;
+}
+
+/* --- encoding --- */
+
+void pack_jpeg_free(PackJpeg *jpeg)
+{
+    free(jpeg->data);
+    free(jpeg->pieces);
+    memset(jpeg, 0, sizeof *jpeg);
+}
+
+/* Steps in natural order. A level's range of more than 255 needs coefficients beyond JPEG's 10 bits: those that an edge
+ * across the whole range would overflow get larger steps. */
+static void choose_steps(unsigned int steps[64], double step, float range)
+{
+    for (int i = 0; i < 64; i++) {
+        const int u = i % 8, v = i / 8;
+        const double across = (double)range / 255, mean = ((double)range - 128) / 127;
+        const double least = i == 0 ? ceil(mean) : u + v <= 2 ? ceil(across) : 1;
+        /* steps between two whole numbers: the smaller one at low frequencies */
+        steps[i] = (unsigned int)fmin(fmax(rint(step + (u + v) / 14.0 - 0.5), fmax(least, 1)), PACK_JPEG_STEP_MAX);
+    }
+}
+
+/* One component's plane of a row of blocks: 8 rows, `blocks` blocks wide, the last pixel repeated; centred on 0. */
+static void gather(float *plane, const float *levels, int width, int height, int channels, int component, int row,
+                   int blocks)
+{
+    for (int y = 0; y < 8; y++) {
+        const int from = 8 * row + y < height ? 8 * row + y : height - 1;
+        const float *pixel = levels + (size_t)from * (size_t)width * (size_t)channels;
+        float *to = plane + (size_t)y * 8 * (size_t)blocks;
+        for (int x = 0; x < 8 * blocks; x++) {
+            const float *p = pixel + (size_t)(x < width ? x : width - 1) * (size_t)channels;
+            if (channels == 1)
+                to[x] = p[0] - 128;
+            else if (component == 0)
+                to[x] = 0.299f * p[0] + 0.587f * p[1] + 0.114f * p[2] - 128;
+            else if (component == 1)
+                to[x] = -0.168735892f * p[0] - 0.331264108f * p[1] + 0.5f * p[2];
+            else
+                to[x] = 0.5f * p[0] - 0.418687589f * p[1] - 0.081312411f * p[2];
+        }
+    }
+}
+
+static void fill_coefficients(struct jpeg_compress_struct *jpeg, jvirt_barray_ptr *arrays, const float *levels,
+                              float *plane, int width, int height, const unsigned int *steps)
+{
+    const int rows = (height + 7) / 8, blocks = (width + 7) / 8;
+    float inverse[64];
+    for (int i = 0; i < 64; i++)
+        inverse[i] = 1 / (float)steps[i];
+    for (int c = 0; c < jpeg->num_components; c++)
+        for (int row = 0; row < rows; row++) {
+            JBLOCKARRAY array = jpeg->mem->access_virt_barray((j_common_ptr)jpeg, arrays[c], (JDIMENSION)row, 1, TRUE);
+            gather(plane, levels, width, height, jpeg->num_components, c, row, blocks);
+            for (int block = 0; block < blocks; block++)
+                pack_block_forward(array[0][block], plane + 8 * block, 8 * blocks, inverse);
+        }
+}
+
+static int take_apart(PackJpeg *jpeg, int bands)
+{
+    const unsigned char *p = jpeg->data;
+    jpeg->pieces = calloc((size_t)bands + 1, sizeof *jpeg->pieces);
+    if (!jpeg->pieces)
+        return 0;
+    size_t at = 2, begin = 0;
+    while (at + 4 <= jpeg->bytes && p[at + 1] != 0xda) /* SOS */
+        at += 2 + (size_t)(p[at + 2] << 8 | p[at + 3]);
+    at += 2 + (size_t)(p[at + 2] << 8 | p[at + 3]);
+    jpeg->pieces[jpeg->npieces++] = at;
+    for (begin = at; at + 1 < jpeg->bytes && jpeg->npieces <= bands; at++)
+        if (p[at] == 0xff && p[at + 1] != 0) {
+            jpeg->pieces[jpeg->npieces++] = at + 2 - begin;
+            begin = at + 2;
+        }
+    return begin == jpeg->bytes && jpeg->npieces == bands + 1;
+}
+
+static void write_file(struct jpeg_compress_struct *jpeg, const float *levels, float *plane, int width, int height,
+                       int channels, const unsigned int *steps)
+{
+    jvirt_barray_ptr arrays[3];
+    const JDIMENSION blocks = (JDIMENSION)(width + 7) / 8, rows = (JDIMENSION)(height + 7) / 8;
+    jpeg->image_width = (JDIMENSION)width;
+    jpeg->image_height = (JDIMENSION)height;
+    jpeg->input_components = channels;
+    jpeg->in_color_space = channels == 3 ? JCS_RGB : JCS_GRAYSCALE;
+    jpeg_set_defaults(jpeg);
+    unsigned int zigzag_free[64];
+    memcpy(zigzag_free, steps, sizeof zigzag_free);
+    jpeg_add_quant_table(jpeg, 0, zigzag_free, 100, TRUE);
+    for (int c = 0; c < channels; c++) {
+        jpeg->comp_info[c].h_samp_factor = jpeg->comp_info[c].v_samp_factor = 1;
+        jpeg->comp_info[c].quant_tbl_no = 0;
+        arrays[c] = jpeg->mem->request_virt_barray((j_common_ptr)jpeg, JPOOL_IMAGE, TRUE, blocks, rows, 1);
+    }
+    jpeg->optimize_coding = TRUE;
+    jpeg->restart_in_rows = PACK_BAND_ROWS / 8;
+    jpeg_write_coefficients(jpeg, arrays);
+    fill_coefficients(jpeg, arrays, levels, plane, width, height, steps);
+    jpeg_finish_compress(jpeg);
+}
+
+int pack_jpeg_encode(PackJpeg *result, const float *levels, int width, int height, int channels, double step,
+                     RetexError *err)
+{
+    struct jpeg_compress_struct jpeg;
+    Trouble trouble;
+    unsigned char *volatile data = NULL;
+    unsigned long bytes = 0;
+    unsigned int steps[64];
+    float range = 0;
+    memset(result, 0, sizeof *result);
+    for (size_t i = 0; i < (size_t)width * (size_t)height * (size_t)channels; i++)
+        range = fmaxf(range, levels[i]);
+    choose_steps(steps, step, range);
+    float *plane = malloc((size_t)((width + 7) / 8) * 64 * sizeof *plane);
+    if (!plane)
+        return retex_fail(err, RETEX_ENOMEM, "no memory to encode a JPEG");
+    jpeg.err = catch_trouble(&trouble);
+    if (setjmp(trouble.out)) {
+        jpeg_destroy_compress(&jpeg);
+        free(plane);
+        free(data);
+        return retex_fail(err, RETEX_EINTERNAL, "cannot encode a JPEG: %s", trouble.message);
+    }
+    jpeg_create_compress(&jpeg);
+    jpeg_mem_dest(&jpeg, (unsigned char **)&data, &bytes);
+    write_file(&jpeg, levels, plane, width, height, channels, steps);
+    jpeg_destroy_compress(&jpeg);
+    free(plane);
+    result->data = data;
+    result->bytes = bytes;
+    if (take_apart(result, (height + PACK_BAND_ROWS - 1) / PACK_BAND_ROWS))
+        return 0;
+    pack_jpeg_free(result);
+    return retex_fail(err, RETEX_EINTERNAL, "cannot take a JPEG apart");
+}
+
+/* --- decoding --- */
+
+struct PackJpegDecoder {
+    struct jpeg_decompress_struct jpeg;
+    Trouble trouble;
+    float *planes; /* three, of 8 rows */
+    size_t room;
+    PackCurve curve; /* of the table */
+    PackLevelTable table;
+};
+
+int pack_jpeg_decoder_create(PackJpegDecoder **result, RetexError *err)
+{
+    PackJpegDecoder *decoder = *result = calloc(1, sizeof *decoder);
+    if (!decoder)
+        return retex_fail(err, RETEX_ENOMEM, "no memory to decode JPEGs");
+    decoder->jpeg.err = catch_trouble(&decoder->trouble);
+    if (setjmp(decoder->trouble.out)) {
+        jpeg_destroy_decompress(&decoder->jpeg);
+        free(decoder);
+        *result = NULL;
+        return retex_fail(err, RETEX_ENOMEM, "no memory to decode JPEGs");
+    }
+    jpeg_create_decompress(&decoder->jpeg);
+    return 0;
+}
+
+void pack_jpeg_decoder_close(PackJpegDecoder **decoder)
+{
+    if (!decoder || !*decoder)
+        return;
+    jpeg_destroy_decompress(&(*decoder)->jpeg);
+    free((*decoder)->planes);
+    free(*decoder);
+    *decoder = NULL;
+}
+
+/* Make the file that of one band: its height, and the end where the next restart was. */
+static int patch(unsigned char *file, size_t header, size_t bytes, int rows)
+{
+    if (header < 4 || bytes < header + 2 || file[bytes - 2] != 0xff)
+        return 0;
+    for (size_t at = 2; at + 9 < header; at += 2 + (size_t)(file[at + 2] << 8 | file[at + 3]))
+        if (file[at] == 0xff && file[at + 1] == 0xc0) { /* SOF0: length, precision, height */
+            file[at + 5] = (unsigned char)(rows >> 8);
+            file[at + 6] = (unsigned char)(rows & 255);
+            file[bytes - 1] = 0xd9; /* EOI */
+            return 1;
+        }
+    return 0;
+}
+
+/* The rows of blocks, component by component, and what they stand for. */
+static void decode_rows(PackJpegDecoder *decoder, jvirt_barray_ptr *arrays, float *values, int width, int rows,
+                        int channels)
+{
+    struct jpeg_decompress_struct *jpeg = &decoder->jpeg;
+    const int blocks = (width + 7) / 8;
+    const size_t stride = 8 * (size_t)blocks;
+    float steps[64];
+    for (int row = 0; row < (rows + 7) / 8; row++) {
+        for (int c = 0; c < channels; c++) {
+            JBLOCKARRAY array = jpeg->mem->access_virt_barray((j_common_ptr)jpeg, arrays[c], (JDIMENSION)row, 1, FALSE);
+            for (int i = 0; i < 64; i++)
+                steps[i] = (float)jpeg->comp_info[c].quant_table->quantval[i];
+            pack_blocks_inverse(decoder->planes + (size_t)c * 8 * stride, (int)stride, array[0][0], blocks, steps);
+        }
+        for (int y = 0; y < 8 && 8 * row + y < rows; y++) {
+            const float *p = decoder->planes + (size_t)y * stride;
+            float *to = values + (size_t)(8 * row + y) * (size_t)width * (size_t)channels;
+            if (channels == 3)
+                pack_colours_from_planes(to, p, p + 8 * stride, p + 16 * stride, width, &decoder->table);
+            else
+                pack_greys_from_plane(to, p, width, &decoder->table);
+        }
+    }
+}
+
+int pack_jpeg_decode_band(PackJpegDecoder *decoder, float *values, unsigned char *file, size_t header, size_t bytes,
+                          int width, int rows, int channels, const PackCurve *curve, RetexError *err)
+{
+    struct jpeg_decompress_struct *jpeg = &decoder->jpeg;
+    const size_t room = (size_t)((width + 7) / 8) * 64 * 3;
+    if (!patch(file, header, bytes, rows))
+        return retex_fail(err, RETEX_EFORMAT, "its JPEG has no proper header");
+    if (room > decoder->room) {
+        float *planes = realloc(decoder->planes, room * sizeof *planes);
+        if (!planes)
+            return retex_fail(err, RETEX_ENOMEM, "no memory to decode JPEGs");
+        decoder->planes = planes;
+        decoder->room = room;
+    }
+    if (decoder->curve.white != curve->white) {
+        decoder->curve = *curve;
+        fill_table(&decoder->table, curve);
+    }
+    if (setjmp(decoder->trouble.out)) {
+        jpeg_abort_decompress(jpeg);
+        return retex_fail(err, RETEX_EFORMAT, "its JPEG cannot be decoded: %s", decoder->trouble.message);
+    }
+    jpeg_mem_src(jpeg, file, bytes);
+    jpeg_read_header(jpeg, TRUE);
+    int ok = jpeg->image_width == (JDIMENSION)width && jpeg->image_height == (JDIMENSION)rows &&
+             jpeg->num_components == channels && !jpeg->progressive_mode && !jpeg->arith_code;
+    for (int c = 0; ok && c < channels; c++)
+        ok = jpeg->comp_info[c].h_samp_factor == 1 && jpeg->comp_info[c].v_samp_factor == 1;
+    if (ok) {
+        jvirt_barray_ptr *arrays = jpeg_read_coefficients(jpeg);
+        for (int c = 0; ok && c < channels; c++)
+            ok = jpeg->comp_info[c].quant_table != NULL;
+        if (ok)
+            decode_rows(decoder, arrays, values, width, rows, channels);
+    }
+    jpeg_abort_decompress(jpeg);
+    return ok ? 0 : retex_fail(err, RETEX_EFORMAT, "its JPEG is not of the part's size");
+}

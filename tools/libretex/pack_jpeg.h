@@ -1,0 +1,51 @@
+/* Light as JPEG, band by band. A picture is one plain JPEG file, 4:4:4 or grey, with a restart interval of a band's
+ * rows, so that each band's piece of it can be decoded alone, behind the file's header.
+ *
+ * The transform is our own, in floating point, at both ends: 8 bits are then what a viewer gets, not what is kept, and
+ * values above white (which a viewer clips) are kept too. Private to libretex; described in retex-pack(5). */
+#ifndef LIBRETEX_PACK_JPEG_H
+#define LIBRETEX_PACK_JPEG_H
+
+#include <stddef.h>
+#include <stdint.h>
+#include <retex/error.h>
+
+enum {
+    PACK_BAND_ROWS = 64,
+    PACK_JPEG_SIDE_MAX = 65500, /* pixels; libjpeg's own limit. A band's 8 rows of 8188 blocks are within 65535 */
+    PACK_JPEG_STEP_MAX = 255
+};
+
+/* Which value a level of 0 to 255 and above stands for: see retex-pack(5). */
+typedef struct PackCurve {
+    double white; /* the value of level 255 */
+} PackCurve;
+
+double pack_curve_level(const PackCurve *curve, double value);
+double pack_curve_value(const PackCurve *curve, double level);
+
+/* A JPEG file taken apart: bytes pieces[0] of header, then those of each band with the marker that ends it. */
+typedef struct PackJpeg {
+    unsigned char *data; /* malloc'ed */
+    size_t bytes;
+    int npieces;
+    size_t *pieces; /* malloc'ed */
+} PackJpeg;
+
+void pack_jpeg_free(PackJpeg *jpeg);
+
+/* Encode levels (channels: 1 or 3, interleaved, width x height) with quantisation steps of `step` levels. */
+int pack_jpeg_encode(PackJpeg *jpeg, const float *levels, int width, int height, int channels, double step,
+                     RetexError *err);
+
+/* A thread's means of decoding. */
+typedef struct PackJpegDecoder PackJpegDecoder;
+int pack_jpeg_decoder_create(PackJpegDecoder **decoder, RetexError *err);
+void pack_jpeg_decoder_close(PackJpegDecoder **decoder); /* NULL and pointers to NULL are fine */
+
+/* Decode one band of rows: file is the header followed by the band's piece. What does not decode without complaint, or
+ * is of another size, is RETEX_EFORMAT. */
+int pack_jpeg_decode_band(PackJpegDecoder *decoder, float *values, unsigned char *file, size_t header, size_t bytes,
+                          int width, int rows, int channels, const PackCurve *curve, RetexError *err);
+
+#endif

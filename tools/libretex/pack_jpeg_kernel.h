@@ -1,0 +1,25 @@
+/* The arithmetic of pack_jpeg.c, on rows of 8 x 8 blocks. */
+#ifndef LIBRETEX_PACK_JPEG_KERNEL_H
+#define LIBRETEX_PACK_JPEG_KERNEL_H
+
+#include <stdint.h>
+
+enum { PACK_LEVEL_ENTRIES = 4096, PACK_LEVEL_STEPS = 4 };
+
+/* Values of levels 0, 1/4, 1/2, …, between which one interpolates; beyond the last one the line goes on. */
+typedef struct PackLevelTable {
+    float value[PACK_LEVEL_ENTRIES + 2];
+} PackLevelTable;
+
+/* 64 samples of a block, rows `stride` floats apart, to coefficients in natural order, quantised. */
+void pack_block_forward(int16_t *coefficients, const float *samples, int stride, const float *inverse_steps);
+
+/* A row of blocks back: 8 rows of samples, `stride` floats apart. */
+void pack_blocks_inverse(float *samples, int stride, const int16_t *coefficients, int blocks, const float *steps);
+
+/* Planes of Y, Cb and Cr (centred on 0) to interleaved values, and of one channel. */
+void pack_colours_from_planes(float *values, const float *y, const float *cb, const float *cr, int count,
+                              const PackLevelTable *table);
+void pack_greys_from_plane(float *values, const float *y, int count, const PackLevelTable *table);
+
+#endif

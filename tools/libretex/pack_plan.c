@@ -1,0 +1,239 @@
+/* Which part is packed how: by who refers to it, and by what its values allow. See pack_plan.h. */
+#include "pack_plan.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include <retex/parallel.h>
+
+double pack_quality_psnr(int quality)
+{
+    return 20 + 0.4 * quality;
+}
+
+PackGrain pack_grain(double psnr)
+{
+    const double error = 255 * pow(10, -psnr / 20); /* levels */
+    return (PackGrain){.jpeg_step = fmax(2.4 * error, 1),
+                       .picture_step = fmax(4 * error, 3),
+                       .sigma_share = psnr >= 50 ? 8 : 4,
+                       .sigma_per_octave = psnr >= 50 ? 8 : 4,
+                       .angle_steps = psnr >= 50 ? 32 : 16};
+}
+
+typedef enum Role { ROLE_NONE, ROLE_EXACT, ROLE_LIGHT, ROLE_MEAN, ROLE_SPREAD, ROLE_WEIGHT } Role;
+
+/* What a part's samples are like. */
+typedef struct Range {
+    int all_zero, positive; /* positive: finite and not negative */
+    float most, most_size;  /* the largest, and the largest magnitude */
+} Range;
+
+typedef struct Planning {
+    double white; /* level 255 of light */
+    PackPart *packed;
+    const RetexSet *set;
+    const PackGrain *grain;
+    Role *roles;
+    int *means; /* of a spread: its part of means */
+    Range (*ranges)[PACK_CHANNELS_MAX];
+} Planning;
+
+/* --- roles --- */
+
+/* A part that two things of different kinds refer to keeps its bits. */
+static void give_role(Planning *plan, int part, Role role)
+{
+    if (part >= 0)
+        plan->roles[part] = plan->roles[part] == ROLE_NONE || plan->roles[part] == role ? role : ROLE_EXACT;
+}
+
+static void give_footprint_roles(Planning *plan, const RetexFootprint *f)
+{
+    const RetexSet *set = plan->set;
+    give_role(plan, f->albedo, ROLE_LIGHT);
+    if (f->uv < 0 || f->spread < 0) {
+        give_role(plan, f->uv, ROLE_EXACT);
+        give_role(plan, f->spread, ROLE_EXACT);
+        return;
+    }
+    const RetexPart *uv = &set->parts[f->uv], *spread = &set->parts[f->spread];
+    const int apart = plan->roles[f->spread] != ROLE_NONE && plan->means[f->spread] != f->uv;
+    const int fit = uv->image.channels == 3 && spread->image.channels >= 2 && spread->image.channels <= 3 &&
+                    uv->image.width == spread->image.width && uv->image.height == spread->image.height && !apart &&
+                    (plan->roles[f->uv] == ROLE_NONE || plan->means[f->spread] == f->uv);
+    give_role(plan, f->uv, fit ? ROLE_MEAN : ROLE_EXACT);
+    give_role(plan, f->spread, fit ? ROLE_SPREAD : ROLE_EXACT);
+    plan->means[f->spread] = f->uv;
+}
+
+static void give_roles(Planning *plan)
+{
+    const RetexSet *set = plan->set;
+    for (int i = 0; i < set->nterms; i++) {
+        give_role(plan, set->terms[i].radiance, ROLE_LIGHT);
+        if (set->terms[i].gain)
+            give_role(plan, set->terms[i].gain, ROLE_WEIGHT);
+    }
+    for (int i = 0; i < set->ntargets; i++)
+        give_role(plan, set->targets[i].original, ROLE_LIGHT);
+    for (int i = 0; i < set->nmixtures; i++)
+        for (int k = 0; k < set->mixtures[i].nshares; k++)
+            give_role(plan, set->mixtures[i].shares[k].weight, ROLE_WEIGHT);
+    for (int i = 0; i < set->nfootprints; i++)
+        give_footprint_roles(plan, &set->footprints[i]);
+    give_role(plan, 0, ROLE_LIGHT);
+}
+
+/* --- what samples are like --- */
+
+static void find_ranges(void *context, int part, int thread)
+{
+    Planning *plan = context;
+    const RetexImage *im = &plan->set->parts[part].image;
+    (void)thread;
+    for (int c = 0; c < im->channels && c < PACK_CHANNELS_MAX; c++) {
+        Range range = {1, 1, 0, 0};
+        for (size_t i = 0; i < (size_t)im->width * (size_t)im->height; i++) {
+            const float v = im->pixels[i * (size_t)im->channels + (size_t)c];
+            range.all_zero = range.all_zero && v == 0 && !signbit(v);
+            range.positive = range.positive && v >= 0 && isfinite(v);
+            range.most = fmaxf(range.most, v);
+            range.most_size = isfinite(v) ? fmaxf(range.most_size, fabsf(v)) : INFINITY;
+        }
+        plan->ranges[part][c] = range;
+    }
+}
+
+static int all_positive(const Planning *plan, int part)
+{
+    int positive = 1;
+    for (int c = 0; c < plan->set->parts[part].image.channels; c++)
+        positive = positive && plan->ranges[part][c].positive;
+    return positive;
+}
+
+/* --- codecs --- */
+
+/* Codes of equal ratios, of which the highest is the largest value. */
+static void map_log(PackMap *map, const Range *range, int per_octave)
+{
+    map->kind = PACK_MAP_LOG;
+    map->per_octave = per_octave;
+    map->first = range->most > 0 ? (double)range->most * exp2(-(double)(PACK_CODES - 2) / per_octave) : 1;
+    pack_map_fill(map);
+}
+
+static void plan_light(Planning *plan, int part)
+{
+    PackPart *p = &plan->packed[part];
+    const int fits =
+        (p->channels == 1 || p->channels == 3) && p->width <= PACK_JPEG_SIDE_MAX && p->height <= PACK_JPEG_SIDE_MAX;
+    if (fits && all_positive(plan, part)) {
+        p->codec = PACK_JPEG;
+        p->curve.white = part ? plan->white : 1; /* viewers take the picture for sRGB */
+    }
+}
+
+/* The value that light's levels call white: 1, unless the picture is far too dark or too bright for that. */
+static double choose_white(const RetexImage *picture)
+{
+    const size_t count = (size_t)picture->width * (size_t)picture->height * (size_t)picture->channels;
+    double sum = 0;
+    for (size_t i = 0; i < count; i++)
+        sum += isfinite(picture->pixels[i]) ? fmax((double)picture->pixels[i], 0) : 0;
+    const double mean = sum / (double)count;
+    return !(mean > 0) || (mean >= 0.02 && mean <= 1) ? 1 : mean > 1 ? mean : 50 * mean;
+}
+
+static void plan_weight(Planning *plan, int part)
+{
+    PackPart *p = &plan->packed[part];
+    if (!all_positive(plan, part))
+        return;
+    for (int c = 0; c < p->channels; c++) {
+        const float most = plan->ranges[part][c].most;
+        p->maps[c].kind = PACK_MAP_LINEAR;
+        p->maps[c].first = most > 0 ? (double)most / (PACK_CODES - 1) : 1;
+        pack_map_fill(&p->maps[c]);
+    }
+}
+
+/* Means on lattices, standard deviations and coverage by their logarithm; where coverage is 0, nothing. */
+static void plan_footprint(Planning *plan, int uv, int spread)
+{
+    PackPart *p = &plan->packed[uv], *s = &plan->packed[spread];
+    const Range *of_uv = plan->ranges[uv], *of_spread = plan->ranges[spread];
+    const float farthest = 1 << (30 - PACK_LATTICE_BITS);
+    if (plan->roles[uv] != ROLE_MEAN || plan->roles[spread] != ROLE_SPREAD || of_uv[0].most_size >= farthest ||
+        of_uv[1].most_size >= farthest || !of_uv[2].positive || !of_spread[0].positive || !of_spread[1].positive ||
+        (s->channels == 3 && isinf(of_spread[2].most_size)))
+        return;
+    p->present = s->present = uv;
+    p->sigma = spread;
+    map_log(&p->maps[2], &of_uv[2], 2);
+    Range both = of_spread[0]; /* one scale for both, as one offset serves both */
+    both.most = fmaxf(of_spread[0].most, of_spread[1].most);
+    for (int c = 0; c < 2; c++) {
+        p->maps[c].kind = PACK_MAP_LATTICE;
+        map_log(&s->maps[c], &both, plan->grain->sigma_per_octave);
+    }
+    if (s->channels == 3) {
+        s->maps[2].kind = PACK_MAP_ANGLE;
+        s->maps[2].per_octave = plan->grain->angle_steps;
+        pack_map_fill(&s->maps[2]);
+    }
+    p->sigma_first = (int)floor((log2(s->maps[0].first / plan->grain->sigma_share) + PACK_LATTICE_BITS) *
+                                plan->grain->sigma_per_octave);
+}
+
+static void plan_parts(Planning *plan)
+{
+    const RetexSet *set = plan->set;
+    for (int i = 0; i < set->nparts; i++) {
+        PackPart *p = &plan->packed[i];
+        int zero = 1;
+        for (int c = 0; c < p->channels; c++)
+            zero = zero && plan->ranges[i][c].all_zero;
+        p->codec = zero ? PACK_ZERO : PACK_PLANES;
+        if (!zero && plan->grain && plan->roles[i] == ROLE_LIGHT)
+            plan_light(plan, i);
+        else if (!zero && plan->grain && plan->roles[i] == ROLE_WEIGHT)
+            plan_weight(plan, i);
+    }
+    for (int i = 0; plan->grain && i < set->nfootprints; i++) {
+        const RetexFootprint *f = &set->footprints[i];
+        if (f->uv >= 0 && f->spread >= 0 && plan->packed[f->uv].codec == PACK_PLANES &&
+            plan->packed[f->spread].codec == PACK_PLANES)
+            plan_footprint(plan, f->uv, f->spread);
+    }
+}
+
+int pack_plan(PackPart *packed, const RetexSet *set, int lossless, const PackGrain *grain, int nthreads,
+              RetexError *err)
+{
+    const size_t count = (size_t)set->nparts;
+    Planning plan = {choose_white(&set->parts[0].image),
+                     packed,
+                     set,
+                     lossless ? NULL : grain,
+                     calloc(count + 1, sizeof *plan.roles),
+                     calloc(count + 1, sizeof *plan.means),
+                     calloc(count + 1, sizeof *plan.ranges)};
+    int code = plan.roles && plan.means && plan.ranges ? 0 : retex_fail(err, RETEX_ENOMEM, "no memory to pack a set");
+    for (int i = 0; !code && i < set->nparts; i++) {
+        pack_part_begin(&packed[i], &set->parts[i]);
+        if (packed[i].channels > PACK_CHANNELS_MAX)
+            code =
+                retex_fail(err, RETEX_EUNSUPPORTED, "part '%s' has too many channels to be packed", set->parts[i].name);
+    }
+    if (!code) {
+        give_roles(&plan);
+        retex_parallel(nthreads, set->nparts, find_ranges, &plan);
+        plan_parts(&plan);
+    }
+    free(plan.roles);
+    free(plan.means);
+    free(plan.ranges);
+    return code;
+}

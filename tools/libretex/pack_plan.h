@@ -1,0 +1,26 @@
+/* How each part of a set is to be packed. */
+#ifndef LIBRETEX_PACK_PLAN_H
+#define LIBRETEX_PACK_PLAN_H
+
+#include "pack_format.h"
+
+/* How fine everything is. */
+typedef struct PackGrain {
+    double jpeg_step;     /* of light, in levels of 255 to white */
+    double picture_step;  /* of the picture, which only viewers see */
+    int sigma_share;      /* UV means are multiples of at most this share of their standard deviation */
+    int sigma_per_octave; /* steps of standard deviations */
+    int angle_steps;      /* of correlations, from 0 to 1 */
+} PackGrain;
+
+/* The grain at which pictures keep this PSNR against the set's own: retex-pack(1) says how well. */
+PackGrain pack_grain(double psnr);
+
+/* The quality of 1 to 100 as PSNR. */
+double pack_quality_psnr(int quality);
+
+/* Plan all parts: packed[set->nparts]. lossless: every part keeps its bits. */
+int pack_plan(PackPart *packed, const RetexSet *set, int lossless, const PackGrain *grain, int nthreads,
+              RetexError *err);
+
+#endif

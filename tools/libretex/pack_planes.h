@@ -1,0 +1,58 @@
+/* Planes: one channel of one band as whole numbers, predicted from their neighbours and compressed, and what the
+ * numbers stand for. Private to libretex; described in retex-pack(5). */
+#ifndef LIBRETEX_PACK_PLANES_H
+#define LIBRETEX_PACK_PLANES_H
+
+#include <stddef.h>
+#include <stdint.h>
+#include <retex/image.h>
+
+/* What a number stands for. */
+typedef enum PackMapKind {
+    PACK_MAP_BITS,    /* the bits of a half or float, in the order of the values they mean */
+    PACK_MAP_LATTICE, /* multiples of 2^-PACK_LATTICE_BITS; of a pixel's, only those that its standard deviation asks */
+    PACK_MAP_LOG,     /* 0: zero; c: first * 2^((c - 1) / per_octave) */
+    PACK_MAP_LINEAR,  /* c * first */
+    PACK_MAP_ANGLE,   /* sin((c - 128) / per_octave * pi / 2): a correlation */
+    PACK_MAPS
+} PackMapKind;
+
+extern const char *const pack_map_names[PACK_MAPS];
+
+enum { PACK_LATTICE_BITS = 18, PACK_LATTICE_SHIFT_MAX = 24, PACK_CODES = 256 };
+
+typedef struct PackMap {
+    PackMapKind kind;
+    double first;
+    int per_octave;
+    float value[PACK_CODES]; /* of each code, for the last three kinds */
+} PackMap;
+
+int pack_map_is_coded(const PackMap *map); /* 1: numbers are codes of a byte */
+void pack_map_fill(PackMap *map);          /* the values, from the other fields */
+/* Numbers of `count` samples, `stride` floats apart, and back. */
+void pack_map_numbers(int32_t *numbers, const float *samples, size_t stride, size_t count, const PackMap *map,
+                      RetexPixelType type);
+void pack_map_samples(float *samples, size_t stride, const int32_t *numbers, size_t count, const PackMap *map,
+                      RetexPixelType type);
+
+/* A plane of numbers: width x rows. */
+typedef struct PackPlane {
+    int width, rows;
+    int bits;                     /* of a number: 8, 16 or 32; sums wrap around there */
+    const unsigned char *present; /* 0: this number does not matter and is not stored; NULL: all matter */
+    const unsigned char *shift;   /* numbers are multiples of 2^shift; NULL: of 1 */
+    int32_t *numbers;
+} PackPlane;
+
+/* Most bytes that a plane's residuals, and its compressed form, may need. */
+size_t pack_plane_room(const PackPlane *plane);
+
+/* Compress into data, of pack_plane_room bytes, with scratch as large; returns the bytes, 0 where every number that
+ * matters is 0, or -1 if compression fails. effort 1..9. */
+long pack_plane_encode(unsigned char *data, const PackPlane *plane, unsigned char *scratch, int effort);
+
+/* And back, into plane->numbers; those that do not matter become 0. 1, or 0 where the data is damaged. */
+int pack_plane_decode(PackPlane *plane, const unsigned char *data, size_t bytes, unsigned char *scratch);
+
+#endif
