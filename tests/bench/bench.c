@@ -73,6 +73,16 @@ void bench_ratio(const char *name, double ratio)
     printf("  %-74s %8.2f\n", name, ratio);
 }
 
+void bench_rate(const char *name, void (*side)(void *), void *context, double amount)
+{
+    double best = 1e30;
+    for (int turn = 0; turn < 7; turn++) {
+        double seconds = measure(side, context, find_calls(side, context));
+        best = seconds < best ? seconds : best;
+    }
+    bench_ratio(name, amount / best);
+}
+
 void bench_section(const char *title)
 {
     printf("\n%-76s %8s  %20s %3s\n", title, "ratio", "quartiles", "of");

@@ -6,6 +6,8 @@
 void bench_pair(const char *name, void (*fast)(void *context), void (*slow)(void *context), void *context);
 /* A line of the table that was not measured by time: a ratio as it is. */
 void bench_ratio(const char *name, double ratio);
+/* Print how many times `amount` is done in a second: what a ratio stands on, on this machine and at this hour. */
+void bench_rate(const char *name, void (*side)(void *context), void *context, double amount);
 void bench_section(const char *title);
 
 extern volatile float bench_sink; /* where results go, so that computing them is not left out */

@@ -27,7 +27,7 @@ static void features_scalar(void *context)
     denoise_features_kernel(k->room->alike, &k->room->features, 3, -2, 1);
 }
 
-static void signal(void *context)
+static void filter_signal(void *context)
 {
     Kernels *k = context;
     denoise_signal_kernel(&k->signal, &k->batch, 0);
@@ -50,9 +50,9 @@ static void bench_denoise_kernels(void)
     }
     bench_section("Denoising: times as fast as the scalar reference");
     bench_pair("features of a tile at one displacement", features, features_scalar, &k);
-    bench_pair("a signal of two images, a batch of displacements", signal, signal_scalar, &k);
+    bench_pair("a signal of two images, a batch of displacements", filter_signal, signal_scalar, &k);
     k.signal.nplanes = 0;
-    bench_pair("a signal of one image", signal, signal_scalar, &k);
+    bench_pair("a signal of one image", filter_signal, signal_scalar, &k);
     free(k.room);
     free(k.sums);
 }

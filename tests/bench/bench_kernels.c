@@ -132,6 +132,75 @@ static void gaussian_reference(void *context)
     bench_sink = (float)((sum[0] + sum[1] + sum[2]) / total);
 }
 
+/* ---- rows of footprints ---- */
+
+enum { SIDE = 64 };
+
+/* A piece of a picture, SIDE by SIDE pixels, with a texture's footprints side by side as on a surface. */
+typedef struct Rows {
+    RetexTexture *texture;
+    RetexTextureFilter shape;
+    float uv[3 * SIDE * SIDE], spread[3 * SIDE * SIDE], rgba[4 * SIDE * SIDE];
+} Rows;
+
+static void rows_at_once(void *context)
+{
+    Rows *r = context;
+    retex_texture_filter(r->texture, r->shape, r->uv, r->spread, 3, SIDE * SIDE, r->rgba);
+    bench_sink = r->rgba[0];
+}
+
+static void rows_one_by_one(void *context)
+{
+    Rows *r = context;
+    for (int i = 0; i < SIDE * SIDE; i++) {
+        double u = (double)r->spread[3 * i], v = (double)r->spread[3 * i + 1];
+        double covariance[3] = {u * u, (double)r->spread[3 * i + 2] * u * v, v * v};
+        (r->shape == RETEX_TEXTURE_DISC ? retex_texture_disc : retex_texture_gaussian)(
+            r->texture, (double)r->uv[3 * i], (double)r->uv[3 * i + 1], covariance, r->rgba + 4 * i);
+    }
+    bench_sink = r->rgba[0];
+}
+
+/* A box pixel filter of width w has the standard deviation w / sqrt(12): that many texels lie between pixels. */
+static void lay_rows(Rows *r, double shorter, double longer, int texels)
+{
+    double covariance[3], pitch = sqrt(12.0);
+    test_turned_covariance(covariance, longer, shorter, 0.5);
+    for (int i = 0; i < SIDE * SIDE; i++) {
+        double s = pitch * longer * (i % SIDE), t = pitch * shorter * (i / SIDE); /* along the ellipse's axes */
+        r->uv[3 * i] = (float)(0.1 + (cos(0.5) * s - sin(0.5) * t) / texels);
+        r->uv[3 * i + 1] = (float)(0.2 + (sin(0.5) * s + cos(0.5) * t) / texels);
+        r->uv[3 * i + 2] = 1;
+        r->spread[3 * i] = (float)(sqrt(covariance[0]) / texels);
+        r->spread[3 * i + 1] = (float)(sqrt(covariance[2]) / texels);
+        r->spread[3 * i + 2] = (float)(covariance[1] / sqrt(covariance[0] * covariance[2]));
+    }
+}
+
+static void bench_rows(void)
+{
+    static const double sizes[][2] = {{0.3, 0.3}, {0.5, 0.5}, {0.7, 0.7}, {1, 1},   {2, 2},
+                                      {4, 4},     {0.5, 1},   {1, 2},     {0.5, 2}, {1, 4}};
+    static Rows rows;
+    RetexImage image = {0};
+    RetexError err = {0};
+    char name[96];
+    test_random_image(&image, 2048, 2048, 3, 1, 0, 1);
+    test_must(retex_texture_create(&rows.texture, &image, NULL, &err), &err);
+    retex_image_free(&image);
+    bench_section("Rows of footprints, times as fast as one by one");
+    for (int shape = 0; shape < 2; shape++)
+        for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++) {
+            rows.shape = (RetexTextureFilter)shape;
+            lay_rows(&rows, sizes[i][0], sizes[i][1], 2048);
+            snprintf(name, sizeof name, "%s of %g x %g texels", shape ? "Gaussian" : "disc", sizes[i][0], sizes[i][1]);
+            bench_pair(name, rows_at_once, rows_one_by_one, &rows);
+            bench_rate("    millions a second, a core", rows_at_once, &rows, SIDE * SIDE * 1e-6);
+        }
+    retex_texture_close(&rows.texture);
+}
+
 void bench_kernels(void)
 {
     static Halves halves;
@@ -176,4 +245,5 @@ void bench_kernels(void)
     }
     retex_texture_close(&filter.texture);
     retex_image_free(&image);
+    bench_rows();
 }

@@ -24,7 +24,7 @@ extern "C" {
 typedef enum RetexWrap { RETEX_WRAP_REPEAT, RETEX_WRAP_MIRROR, RETEX_WRAP_CLAMP, RETEX_WRAP_BLACK } RetexWrap;
 
 /* How repeats lie beside each other. Brick and half-drop need wrap = repeat on both axes and twice the memory: two
- * repeats are kept, 1 GiB for an image of 5792 x 5792 texels, pyramid not counted (a third more). A shift is a whole
+ * repeats are kept, 512 MiB for an image of 5792 x 5792 texels, pyramid not counted (a third more). A shift is a whole
  * number of texels, so that no repeat is softer than another: half of the image's, rounded down. */
 typedef enum RetexRepeat {
     RETEX_REPEAT_STRAIGHT,
@@ -66,6 +66,9 @@ int retex_texture_spec_parse(RetexTextureSpec *spec, const char *opts, const cha
 int retex_texture_spec_needs_scale(const RetexTextureSpec *spec);
 
 typedef struct RetexTexture RetexTexture;
+
+/* In memory a texture has 16-bit integers a channel, scene-linear and premultiplied, where its file has 8- or 16-bit
+ * integers that are sRGB or linear; else floats. With its pyramid that is 11 bytes a texel, or 21. */
 
 /* Load and build the MIP pyramid. RETEX_EIO or RETEX_EFORMAT with the file's name where it cannot; RETEX_EINVAL for a
  * width without uv_scale. Colours beyond 1e30 become 1e30. */
