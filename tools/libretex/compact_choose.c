@@ -14,6 +14,7 @@
 #include "compact_meter.h"
 
 #define STEPS 4              /* of scales: 1, 2, 4, 8 */
+#define NOISE_COUNTS 0.025   /* of a set's own noise, what may be added: 0.1 dB */
 #define NOISE_COUNTS_NOT 0.9 /* share of what is taken for noise that is no loss; all else counts */
 #define GROUPS_MOST 64
 #define KINDS_APART 6 /* more kinds than these, of three or more targets, are chosen for together */
@@ -239,7 +240,7 @@ int compact_choose(CompactScales *scales, const CompactLight *light, const Retex
     if (!code)
         code = measure(&work, scales, err);
     if (!code)
-        code = settle(&work, scales, pow(10, -params->psnr / 10), err);
+        code = settle(&work, scales, fmax(pow(10, -params->psnr / 10), NOISE_COUNTS * work.meter.noise), err);
     compact_light_close(&small);
     compact_meter_close(&work.meter);
     return code;

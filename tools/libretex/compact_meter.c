@@ -9,6 +9,7 @@
 #include <retex/sample.h>
 
 #include "compact_build.h"
+#include "set_parts.h"
 
 #define WAVE_TRIALS (COMPACT_TRIALS - 1)
 #define TILE 64   /* pixels of a tile that count */
@@ -188,6 +189,34 @@ static int make_picture(RetexImage *picture, const RetexSet *set, int trial, int
     return code;
 }
 
+/* Parts of noise on a picture of the originals, those of targets by half, for they are divided so. */
+static int measure_noise(CompactMeter *meter, int nthreads, RetexError *err)
+{
+    const RetexSet *set = meter->set;
+    RetexImage picture = {0}, noise = {0};
+    double sum = 0;
+    int code = retex_combine(&picture, set, NULL, NULL, NULL, nthreads, err);
+    if (!code)
+        code = retex_image_copy(&noise, &picture, err);
+    const size_t count = (size_t)set->width * (size_t)set->height * 3;
+    for (int i = 1; i < set->nparts && !code; i++) {
+        const RetexPart *part = &set->parts[i];
+        const float share = strcmp(part->name, "noise_indep") == 0 ? 1 : 0.5f;
+        if (!part_is_denoise_data(set, i) || strncmp(part->name, "noise_", 6) != 0 || part->image.channels != 3)
+            continue;
+        for (size_t k = 0; k < count; k++)
+            noise.pixels[k] += share * part->image.pixels[k];
+    }
+    for (size_t k = 0; k < count && !code; k++) {
+        const double d = (double)encoded(noise.pixels[k]) - (double)encoded(picture.pixels[k]);
+        sum += d * d;
+    }
+    meter->noise = code ? 0 : sum / (double)count;
+    retex_image_free(&picture);
+    retex_image_free(&noise);
+    return code;
+}
+
 int compact_meter_open(CompactMeter *meter, const RetexSet *set, int nthreads, RetexError *err)
 {
     Mosaic mosaic = {(set->width + TILE - 1) / TILE, (set->height + TILE - 1) / TILE, TILES_MOST};
@@ -197,6 +226,8 @@ int compact_meter_open(CompactMeter *meter, const RetexSet *set, int nthreads, R
     int code = small ? copy_whole(&meter->set, set, err) : make_mosaic(&meter->set, set, &mosaic, err);
     for (int i = 0; i < COMPACT_TRIALS && !code; i++)
         code = make_picture(&meter->pictures[i], meter->set, i, nthreads, err);
+    if (!code)
+        code = measure_noise(meter, nthreads, err);
     if (code)
         compact_meter_close(meter);
     return code;

@@ -11,6 +11,7 @@ typedef struct CompactMeter {
     RetexSet *set;
     int tile; /* pixels of a tile's side, with margins that do not count; 0: the set is whole */
     RetexImage pictures[COMPACT_TRIALS];
+    double noise; /* of the picture, mean square, by what denoising reads; 0 where that is not there */
 } CompactMeter;
 
 int compact_meter_open(CompactMeter *meter, const RetexSet *set, int nthreads, RetexError *err);
