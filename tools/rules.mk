@@ -7,7 +7,7 @@ CPPFLAGS_ALL = -Itools/libretex/include -Itools -D_GNU_SOURCE $(CPPFLAGS)
 CFLAGS_ALL = -std=c11 -fno-math-errno -ffp-contract=off -fvisibility=hidden -fPIC -pthread $(WARNINGS) $(CFLAGS)
 CXXFLAGS_ALL = -std=c++17 -ffp-contract=off -fvisibility=hidden -fPIC -pthread $(CXXWARNINGS) $(CXXFLAGS)
 # Hot loops (*_kernel.c) get the vectoriser; everything runs on any x86-64 or ARM, so never -march here.
-KERNEL_CFLAGS = $(if $(filter %_kernel.c,$<),-fno-math-errno $(if $(filter -O2,$(CFLAGS)),-O3))
+KERNEL_CFLAGS = $(if $(filter %_kernel.c,$<),-fno-math-errno -fno-trapping-math $(if $(filter -O2,$(CFLAGS)),-O3))
 
 LIBRETEX := $(BUILD)/lib/libretex.a
 BRIDGE := $(BUILD)/lib/libretex-oiio.so

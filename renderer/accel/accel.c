@@ -69,6 +69,19 @@ static int lets_through(const Texture *texture)
     return texture && ((texture->finish && finish_transmits(texture->finish)) || !pigment_is_opaque(texture->pigment));
 }
 
+/* Has the primitive one texture, and does that bend what it lets through? */
+static int always_bends(const Primitive *primitive)
+{
+    const Finish *finish = primitive->texture->finish;
+    double ior = finish && finish_transmits(finish) ? finish->retex.ior
+                 : finish && finish->retex.present  ? 1
+                 : primitive->interior              ? primitive->interior->ior
+                                                    : 1;
+    int several = primitive->interior_texture || (primitive->kind == SHAPE_MESH && primitive->mesh->ntextures > 0);
+
+    return !several && ior != 1 && ior > 0;
+}
+
 static unsigned char primitive_flags(const Primitive *primitive)
 {
     unsigned flags = (primitive->no_image ? 0u : RAY_CAMERA) | (primitive->no_shadow ? 0u : RAY_SHADOW) |
@@ -78,19 +91,9 @@ static unsigned char primitive_flags(const Primitive *primitive)
     if (primitive->kind == SHAPE_MESH)
         for (int i = 0; i < primitive->mesh->ntextures; i++)
             through |= lets_through(primitive->mesh->textures[i]);
-    return (unsigned char)(flags | (through ? TRANSPARENT : 0));
-}
-
-/* Has the primitive one texture, and does that bend what it lets through? */
-static int always_bends(const Primitive *primitive)
-{
-    const Finish *finish = primitive->texture->finish;
-    double ior = finish && finish_transmits(finish) ? finish->retex.ior
-                 : primitive->interior              ? primitive->interior->ior
-                                                    : 1;
-    int several = primitive->interior_texture || (primitive->kind == SHAPE_MESH && primitive->mesh->ntextures > 0);
-
-    return !several && ior != 1 && ior > 0;
+    if (!through)
+        return (unsigned char)flags;
+    return (unsigned char)(flags | TRANSPARENT | (always_bends(primitive) ? 0 : STRAIGHT));
 }
 
 static void grow(Accel *accel, Vec3 low, Vec3 high)
@@ -109,10 +112,6 @@ static int survey(Accel *accel, RetexError *err)
         const Primitive *primitive = &scene->primitives[i];
         Vec3 low, high;
         accel->flags[i] = primitive_flags(primitive);
-        if ((accel->flags[i] & TRANSPARENT) && (accel->flags[i] & RAY_SHADOW)) {
-            accel->has_transparent = 1;
-            accel->has_straight |= !always_bends(primitive);
-        }
         if (!shape_bounds(primitive, &low, &high)) {
             accel->planes[accel->nplanes++] = i;
             continue;
@@ -307,11 +306,6 @@ void accel_close(Accel **accel)
     free(a->flags);
     free(a);
     *accel = NULL;
-}
-
-int accel_has_transparent(const Accel *accel, int light_source)
-{
-    return light_source ? accel->has_transparent : accel->has_straight;
 }
 
 int accel_is_transparent(const Accel *accel, int primitive)

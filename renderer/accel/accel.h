@@ -18,14 +18,16 @@ int accel_intersect(const Accel *accel, const Ray *ray, RayKind kind, Hit *hit);
 /* Is anything in between? skip_transparent: 0 = any hit blocks; 1 = primitives whose pigment (of either side, of any
  * face) is not opaque are skipped, and those of the finish that transmits; the caller walks them itself. */
 int accel_occluded(const Accel *accel, const Ray *ray, RayKind kind, int skip_transparent);
-/* The same of up to ACCEL_PACKET rays at once: faster where they run side by side, from one pixel or to one light.
- * Occlusion is a bit for each ray. */
+/* What is on the way to a light: nothing, something that blocks it, or only what may let it through, which the caller
+ * walks itself. Light sources shine through bending glass unbent; other lights do not. */
+typedef enum AccelWay { WAY_FREE, WAY_BLOCKED, WAY_PASSABLE } AccelWay;
+AccelWay accel_way(const Accel *accel, const Ray *ray, int light_source);
+/* The same of up to ACCEL_PACKET rays at once. side_by_side: they are, from one pixel or to one light. */
 #define ACCEL_PACKET 16
-void accel_intersect_packet(const Accel *accel, const Ray *rays, int count, RayKind kind, Hit *hits);
-unsigned accel_occluded_packet(const Accel *accel, const Ray *rays, int count, RayKind kind);
-/* 1 if any primitive could let shadow rays through, of light sources (which shine through bending glass unbent) or of
- * other lights: then occlusion must be walked. Or if this one could. */
-int accel_has_transparent(const Accel *accel, int light_source);
+void accel_intersect_packet(const Accel *accel, const Ray *rays, const RayKind *kinds, int count, int side_by_side,
+                            Hit *hits);
+void accel_way_packet(const Accel *accel, const Ray *rays, const int *light_sources, int count, AccelWay *ways);
+/* 1 if this primitive could let shadow rays through. */
 int accel_is_transparent(const Accel *accel, int primitive);
 /* World bounds of all bounded primitives and the camera. */
 void accel_bounds(const Accel *accel, Vec3 *low, Vec3 *high);

@@ -11,7 +11,9 @@ typedef struct RTCIntersectContext QueryContext;
 #endif
 #include "accel/accel.h"
 
-#define TRANSPARENT 0x80u       /* in flags, beside the RayKinds that see the primitive */
+/* In flags, beside the RayKinds that see the primitive: it could let light through, and that unbent. */
+#define TRANSPARENT 0x80u
+#define STRAIGHT 0x40u
 #define LARGEST_COORDINATE 1e18 /* Embree takes anything beyond about 1.8e18 as no geometry */
 
 typedef struct Triangle {
@@ -32,7 +34,6 @@ struct Accel {
     int ncurved, nplanes;
     unsigned triangle_geometry, curved_geometry;
     unsigned char *flags; /* of each primitive */
-    int has_transparent, has_straight; /* among what throws shadows: of any kind, or that does not bend light */
     double reach; /* the triangles' largest coordinate */
     Vec3 low, high;
     RetexError error; /* Embree's first complaint */

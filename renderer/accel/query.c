@@ -21,6 +21,9 @@ typedef struct QueryRay {
     double rounding; /* a plane whose height over the origin is this small goes through it */
     double t;
     int face;
+    unsigned kind;   /* flag that a primitive must have to be seen */
+    unsigned passes; /* flags of those that are passed */
+    int passed;      /* one was */
 } QueryRay;
 
 typedef enum HitField { HIT_PRIMITIVE = 5, HIT_GEOMETRY, HIT_INSTANCE, HIT_HITS = 12 /* after a ray's */ } HitField;
@@ -29,21 +32,27 @@ typedef enum HitField { HIT_PRIMITIVE = 5, HIT_GEOMETRY, HIT_INSTANCE, HIT_HITS 
 typedef struct Query {
     QueryContext context;
     const Accel *accel;
-    unsigned kind, refused; /* flags a primitive must and must not have */
     QueryRay *rays;
 } Query;
 
-static inline int visible(const Query *query, int primitive)
+static inline int visible(const Accel *accel, const QueryRay *of, int primitive)
 {
-    unsigned flags = query->accel->flags[primitive];
+    return (accel->flags[primitive] & of->kind) != 0;
+}
 
-    return (flags & query->kind) && !(flags & query->refused);
+/* Something on the ray is met: is it passed? */
+static inline int pass(const Accel *accel, QueryRay *of, int primitive)
+{
+    if (!(accel->flags[primitive] & of->passes))
+        return 0;
+    of->passed = 1;
+    return 1;
 }
 
 /* ---- triangles in double ---- */
 
 /* Distance to the triangle's plane; 0 where the ray runs along it or starts on it, or is not to see the triangle. */
-static inline int triangle_distance(const Query *query, const QueryRay *of, const Triangle *triangle, double *t)
+static inline int triangle_distance(const Accel *accel, const QueryRay *of, const Triangle *triangle, double *t)
 {
     const Ray *ray = of->ray;
     Vec3 n = triangle->normal;
@@ -52,7 +61,7 @@ static inline int triangle_distance(const Query *query, const QueryRay *of, cons
     if (fabs(height) <= of->rounding || fall == 0)
         return 0;
     *t = height / fall;
-    return *t > ray->tmin && *t < ray->tmax && visible(query, triangle->primitive);
+    return *t > ray->tmin && *t < ray->tmax && visible(accel, of, triangle->primitive);
 }
 
 /* ---- callbacks ---- */
@@ -76,11 +85,14 @@ void accel_filter_occluder(const struct RTCFilterFunctionNArguments *args)
     const Query *query = (const Query *)args->context;
     double t;
 
-    for (unsigned i = 0; i < args->N; i++)
-        if (args->valid[i] &&
-            !triangle_distance(query, &query->rays[ray_id(args->ray, args->N, i)],
-                               &query->accel->triangles[*hit_field(args->hit, args->N, i, HIT_PRIMITIVE)], &t))
+    for (unsigned i = 0; i < args->N; i++) {
+        if (!args->valid[i])
+            continue;
+        QueryRay *of = &query->rays[ray_id(args->ray, args->N, i)];
+        const Triangle *triangle = &query->accel->triangles[*hit_field(args->hit, args->N, i, HIT_PRIMITIVE)];
+        if (!triangle_distance(query->accel, of, triangle, &t) || pass(query->accel, of, triangle->primitive))
             args->valid[i] = 0;
+    }
 }
 
 static int meet_curved(const Query *query, const QueryRay *of, unsigned index, float tfar, double *t, int *face)
@@ -89,7 +101,7 @@ static int meet_curved(const Query *query, const QueryRay *of, unsigned index, f
     int primitive = accel->curved[index];
     Ray ray = *of->ray;
 
-    if (!visible(query, primitive))
+    if (!visible(accel, of, primitive))
         return 0;
     ray.tmax = ray.tmax < tfar ? ray.tmax : tfar;
     return shape_intersect(&accel->source->primitives[primitive], &ray, t, face);
@@ -114,13 +126,17 @@ void accel_intersect_curved(const struct RTCIntersectFunctionNArguments *args)
 void accel_occlude_curved(const struct RTCOccludedFunctionNArguments *args)
 {
     const Query *query = (const Query *)args->context;
+    const Accel *accel = query->accel;
     double t;
     int face;
 
-    for (unsigned i = 0; i < args->N; i++)
-        if (args->valid[i] && meet_curved(query, &query->rays[ray_id(args->ray, args->N, i)], args->primID,
-                                          *ray_tfar(args->ray, args->N, i), &t, &face))
-            *ray_tfar(args->ray, args->N, i) = -INFINITY;
+    for (unsigned i = 0; i < args->N; i++) {
+        QueryRay *of = &query->rays[ray_id(args->ray, args->N, i)];
+        float *tfar = ray_tfar(args->ray, args->N, i);
+        if (args->valid[i] && meet_curved(query, of, args->primID, *tfar, &t, &face) &&
+            !pass(accel, of, accel->curved[args->primID]))
+            *tfar = -INFINITY;
+    }
 }
 
 /* ---- starting ---- */
@@ -134,24 +150,22 @@ static inline int can_be_traced(const Ray *ray, double origin_size)
            ray->tmin == ray->tmin && ray->tmax == ray->tmax;
 }
 
-static inline void start_query(Query *query, const Accel *accel, RayKind kind, int skip_transparent, QueryRay *rays)
+static inline void start_query(Query *query, const Accel *accel, int side_by_side, QueryRay *rays)
 {
 #if defined(RETEX_EMBREE4)
     rtcInitRayQueryContext(&query->context);
 #else
     rtcInitIntersectContext(&query->context);
-    query->context.flags =
-        kind == RAY_CAMERA ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
+    query->context.flags = side_by_side ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
 #endif
     query->accel = accel;
-    query->kind = (unsigned)kind;
-    query->refused = skip_transparent ? TRANSPARENT : 0;
     query->rays = rays;
 }
 
 /* Embree gets the ray in float, its range widened by what float may be off; the double one decides. Returns 0 where
  * the ray meets nothing for certain. */
-static inline int start_ray(QueryRay *of, const Accel *accel, const Ray *ray, float *tnear, float *tfar)
+static inline int start_ray(QueryRay *of, const Accel *accel, const Ray *ray, RayKind kind, unsigned passes,
+                            float *tnear, float *tfar)
 {
     double size = fabs(ray->origin.x) + fabs(ray->origin.y) + fabs(ray->origin.z);
     double start = ray->tmin > 0 ? ray->tmin - FLOAT_DOUBT * (ray->tmin + size) : 0;
@@ -161,31 +175,36 @@ static inline int start_ray(QueryRay *of, const Accel *accel, const Ray *ray, fl
     of->rounding = 28 * DBL_EPSILON * (accel->reach + size);
     of->t = INFINITY;
     of->face = 0;
+    of->kind = (unsigned)kind;
+    of->passes = passes;
+    of->passed = 0;
     *tnear = start > 0 ? (float)start : 0;
     *tfar = (float)(ray->tmax + FLOAT_DOUBT * (ray->tmax + size));
     return can_be_traced(ray, size);
 }
 
-static inline int start_single(QueryRay *of, struct RTCRay *to, const Accel *accel, const Ray *ray)
+static inline int start_single(QueryRay *of, struct RTCRay *to, const Accel *accel, const Ray *ray, RayKind kind,
+                               unsigned passes)
 {
     to->org_x = (float)ray->origin.x, to->org_y = (float)ray->origin.y, to->org_z = (float)ray->origin.z;
     to->dir_x = (float)ray->direction.x, to->dir_y = (float)ray->direction.y, to->dir_z = (float)ray->direction.z;
     to->time = 0, to->mask = 0xffffffffu, to->id = to->flags = 0;
-    return start_ray(of, accel, ray, &to->tnear, &to->tfar);
+    return start_ray(of, accel, ray, kind, passes, &to->tnear, &to->tfar);
 }
 
-/* The nearest plane before limit; any plane will do where any is set. Returns its primitive or -1. */
-static int nearest_plane(const Query *query, const Ray *of, double *limit, int any)
+/* The nearest plane before limit, of those that are not passed; any plane will do where any is set. Returns its
+ * primitive or -1. */
+static int nearest_plane(const Accel *accel, QueryRay *of, double *limit, int any)
 {
-    const Accel *accel = query->accel;
-    Ray ray = *of;
+    Ray ray = *of->ray;
     int found = -1, face;
     double t;
 
     ray.tmax = fmin(ray.tmax, *limit);
     for (int i = 0; i < accel->nplanes; i++) {
         int primitive = accel->planes[i];
-        if (!visible(query, primitive) || !shape_intersect(&accel->source->primitives[primitive], &ray, &t, &face))
+        if (!visible(accel, of, primitive) ||
+            !shape_intersect(&accel->source->primitives[primitive], &ray, &t, &face) || pass(accel, of, primitive))
             continue;
         found = primitive;
         *limit = ray.tmax = t;
@@ -203,7 +222,7 @@ static void trace(Query *query, struct RTCRayHit *rayhit)
     struct RTCIntersectArguments args;
     rtcInitIntersectArguments(&args);
     args.context = &query->context;
-    args.flags = query->kind == RAY_CAMERA ? RTC_RAY_QUERY_FLAG_COHERENT : RTC_RAY_QUERY_FLAG_INCOHERENT;
+    args.flags = RTC_RAY_QUERY_FLAG_INCOHERENT;
     rtcIntersect1(query->accel->scene, rayhit, &args);
 #else
     rtcIntersect1(query->accel->scene, &query->context, rayhit);
@@ -224,17 +243,16 @@ static void trace_occluded(Query *query, struct RTCRay *ray)
 }
 
 /* What Embree found, as a hit; 0 where the ray does not meet that triangle. */
-static inline int accept(const Query *query, const QueryRay *of, unsigned geometry, unsigned index, float u, float v,
+static inline int accept(const Accel *accel, const QueryRay *of, unsigned geometry, unsigned index, float u, float v,
                          Hit *hit)
 {
-    const Accel *accel = query->accel;
     const Triangle *triangle = &accel->triangles[index];
 
     if (geometry == accel->curved_geometry) {
         hit->t = of->t, hit->primitive = accel->curved[index], hit->face = of->face;
         return 1;
     }
-    if (!triangle_distance(query, of, triangle, &hit->t))
+    if (!triangle_distance(accel, of, triangle, &hit->t))
         return 0;
     hit->primitive = triangle->primitive;
     hit->face = triangle->face;
@@ -251,10 +269,10 @@ static void go_behind(struct RTCRayHit *rayhit, float end)
     rayhit->hit.geomID = RTC_INVALID_GEOMETRY_ID;
 }
 
-static int add_planes(const Query *query, const Ray *ray, Hit *hit)
+static int add_planes(const Accel *accel, QueryRay *of, Hit *hit)
 {
-    double limit = hit->primitive >= 0 ? hit->t : ray->tmax;
-    int plane = query->accel->nplanes ? nearest_plane(query, ray, &limit, 0) : -1;
+    double limit = hit->primitive >= 0 ? hit->t : of->ray->tmax;
+    int plane = accel->nplanes ? nearest_plane(accel, of, &limit, 0) : -1;
 
     if (plane >= 0)
         hit->t = limit, hit->primitive = plane, hit->face = 0;
@@ -269,34 +287,44 @@ int accel_intersect(const Accel *accel, const Ray *ray, RayKind kind, Hit *hit)
     float end;
 
     hit->primitive = -1;
-    start_query(&query, accel, kind, 0, &of);
-    if (!start_single(&of, &rayhit.ray, accel, ray))
+    start_query(&query, accel, 0, &of);
+    if (!start_single(&of, &rayhit.ray, accel, ray, kind, 0))
         return 0;
     end = rayhit.ray.tfar;
     rayhit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     rayhit.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
     for (trace(&query, &rayhit); rayhit.hit.geomID != RTC_INVALID_GEOMETRY_ID; trace(&query, &rayhit)) {
-        if (accept(&query, &of, rayhit.hit.geomID, rayhit.hit.primID, rayhit.hit.u, rayhit.hit.v, hit))
+        if (accept(accel, &of, rayhit.hit.geomID, rayhit.hit.primID, rayhit.hit.u, rayhit.hit.v, hit))
             break;
         go_behind(&rayhit, end);
     }
-    return add_planes(&query, ray, hit);
+    return add_planes(accel, &of, hit);
 }
 
-int accel_occluded(const Accel *accel, const Ray *ray, RayKind kind, int skip_transparent)
+static AccelWay look_along(const Accel *accel, const Ray *ray, RayKind kind, unsigned passes)
 {
     Query query;
     QueryRay of;
     struct RTCRay occluded;
     double limit = ray->tmax;
 
-    start_query(&query, accel, kind, skip_transparent, &of);
-    if (!start_single(&of, &occluded, accel, ray))
-        return 0;
-    if (accel->nplanes && nearest_plane(&query, ray, &limit, 1) >= 0)
-        return 1;
+    start_query(&query, accel, 0, &of);
+    if (!start_single(&of, &occluded, accel, ray, kind, passes))
+        return WAY_FREE;
+    if (accel->nplanes && nearest_plane(accel, &of, &limit, 1) >= 0)
+        return WAY_BLOCKED;
     trace_occluded(&query, &occluded);
-    return occluded.tfar < 0;
+    return occluded.tfar < 0 ? WAY_BLOCKED : of.passed ? WAY_PASSABLE : WAY_FREE;
+}
+
+int accel_occluded(const Accel *accel, const Ray *ray, RayKind kind, int skip_transparent)
+{
+    return look_along(accel, ray, kind, skip_transparent ? TRANSPARENT : 0) == WAY_BLOCKED;
+}
+
+AccelWay accel_way(const Accel *accel, const Ray *ray, int light_source)
+{
+    return look_along(accel, ray, RAY_SHADOW, light_source ? TRANSPARENT : STRAIGHT);
 }
 
 /* ---- packets ---- */
@@ -307,59 +335,75 @@ typedef struct Packet {
     QueryRay of[ACCEL_PACKET];
 } Packet;
 
-static void start_packet(Packet *p, const Accel *accel, const Ray *rays, int count)
+static void start_lane(Packet *p, int i, const Accel *accel, const Ray *ray, RayKind kind, unsigned passes)
 {
     struct RTCRay16 *to = &p->rays.ray;
 
-    for (int i = 0; i < ACCEL_PACKET; i++) {
-        const Ray *ray = &rays[i < count ? i : 0];
-        to->org_x[i] = (float)ray->origin.x, to->org_y[i] = (float)ray->origin.y, to->org_z[i] = (float)ray->origin.z;
-        to->dir_x[i] = (float)ray->direction.x, to->dir_y[i] = (float)ray->direction.y;
-        to->dir_z[i] = (float)ray->direction.z;
-        to->time[i] = 0, to->mask[i] = 0xffffffffu, to->id[i] = (unsigned)i, to->flags[i] = 0;
-        p->valid[i] = start_ray(&p->of[i], accel, ray, &to->tnear[i], &to->tfar[i]) && i < count ? -1 : 0;
+    to->org_x[i] = (float)ray->origin.x, to->org_y[i] = (float)ray->origin.y, to->org_z[i] = (float)ray->origin.z;
+    to->dir_x[i] = (float)ray->direction.x, to->dir_y[i] = (float)ray->direction.y;
+    to->dir_z[i] = (float)ray->direction.z;
+    to->time[i] = 0, to->mask[i] = 0xffffffffu, to->id[i] = (unsigned)i, to->flags[i] = 0;
+    p->valid[i] = start_ray(&p->of[i], accel, ray, kind, passes, &to->tnear[i], &to->tfar[i]) ? -1 : 0;
+}
+
+/* Lanes beyond the count are not looked at, but must be numbers. */
+static void fill_up(Packet *p, int count)
+{
+    struct RTCRay16 *to = &p->rays.ray;
+
+    for (int i = count; i < ACCEL_PACKET; i++) {
+        to->org_x[i] = to->org_y[i] = to->org_z[i] = to->dir_x[i] = to->dir_y[i] = to->dir_z[i] = 1;
+        to->time[i] = to->tnear[i] = to->tfar[i] = 0, to->mask[i] = to->id[i] = to->flags[i] = 0;
+        p->valid[i] = 0;
     }
 }
 
-void accel_intersect_packet(const Accel *accel, const Ray *rays, int count, RayKind kind, Hit *hits)
+void accel_intersect_packet(const Accel *accel, const Ray *rays, const RayKind *kinds, int count, int side_by_side,
+                            Hit *hits)
 {
     Packet p;
     Query query;
 
-    start_query(&query, accel, kind, 0, p.of);
-    start_packet(&p, accel, rays, count);
+    start_query(&query, accel, side_by_side, p.of);
+    for (int i = 0; i < count; i++)
+        start_lane(&p, i, accel, &rays[i], kinds[i], 0);
+    fill_up(&p, count);
     for (int i = 0; i < ACCEL_PACKET; i++)
         p.rays.hit.geomID[i] = p.rays.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
 #if defined(RETEX_EMBREE4)
     struct RTCIntersectArguments args;
     rtcInitIntersectArguments(&args);
     args.context = &query.context;
-    args.flags = RTC_RAY_QUERY_FLAG_COHERENT;
+    args.flags = side_by_side ? RTC_RAY_QUERY_FLAG_COHERENT : RTC_RAY_QUERY_FLAG_INCOHERENT;
     rtcIntersect16(p.valid, accel->scene, &p.rays, &args);
 #else
     rtcIntersect16(p.valid, accel->scene, &query.context, &p.rays);
 #endif
+    for (int i = 0; i < count; i++)
+        if (p.rays.hit.geomID[i] != RTC_INVALID_GEOMETRY_ID && p.rays.hit.geomID[i] != accel->curved_geometry)
+            __builtin_prefetch(&accel->triangles[p.rays.hit.primID[i]]);
     for (int i = 0; i < count; i++) {
         hits[i].primitive = -1;
         if (!p.valid[i])
             continue;
         if (p.rays.hit.geomID[i] != RTC_INVALID_GEOMETRY_ID &&
-            !accept(&query, &p.of[i], p.rays.hit.geomID[i], p.rays.hit.primID[i], p.rays.hit.u[i], p.rays.hit.v[i],
+            !accept(accel, &p.of[i], p.rays.hit.geomID[i], p.rays.hit.primID[i], p.rays.hit.u[i], p.rays.hit.v[i],
                     &hits[i]))
-            accel_intersect(accel, &rays[i], kind, &hits[i]); /* seldom: it takes another look behind that */
+            accel_intersect(accel, &rays[i], kinds[i], &hits[i]); /* seldom: it takes another look behind that */
         else
-            add_planes(&query, &rays[i], &hits[i]);
+            add_planes(accel, &p.of[i], &hits[i]);
     }
 }
 
-unsigned accel_occluded_packet(const Accel *accel, const Ray *rays, int count, RayKind kind)
+void accel_way_packet(const Accel *accel, const Ray *rays, const int *light_sources, int count, AccelWay *ways)
 {
     Packet p;
     Query query;
-    unsigned blocked = 0;
 
-    start_query(&query, accel, kind, 0, p.of);
-    start_packet(&p, accel, rays, count);
+    start_query(&query, accel, 1, p.of);
+    for (int i = 0; i < count; i++)
+        start_lane(&p, i, accel, &rays[i], RAY_SHADOW, light_sources[i] ? TRANSPARENT : STRAIGHT);
+    fill_up(&p, count);
 #if defined(RETEX_EMBREE4)
     struct RTCOccludedArguments args;
     rtcInitOccludedArguments(&args);
@@ -367,14 +411,12 @@ unsigned accel_occluded_packet(const Accel *accel, const Ray *rays, int count, R
     args.flags = RTC_RAY_QUERY_FLAG_COHERENT;
     rtcOccluded16(p.valid, accel->scene, &p.rays.ray, &args);
 #else
-    query.context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
     rtcOccluded16(p.valid, accel->scene, &query.context, &p.rays.ray);
 #endif
     for (int i = 0; i < count; i++) {
         double limit = rays[i].tmax;
         int behind = p.valid[i] &&
-                     (p.rays.ray.tfar[i] < 0 || (accel->nplanes && nearest_plane(&query, &rays[i], &limit, 1) >= 0));
-        blocked |= (unsigned)behind << i;
+                     (p.rays.ray.tfar[i] < 0 || (accel->nplanes && nearest_plane(accel, &p.of[i], &limit, 1) >= 0));
+        ways[i] = behind ? WAY_BLOCKED : p.of[i].passed ? WAY_PASSABLE : WAY_FREE;
     }
-    return blocked;
 }

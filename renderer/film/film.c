@@ -42,7 +42,7 @@ struct FilmPixel {
     PaperPixel *paper;
     FootprintPixel *footprints;
     BandRows *rows; /* that the tile in hand writes to, once it does */
-    double beauty[3];
+    double beauty[3], path[3]; /* path: light of the one in hand */
     int spp;           /* of the tile's pixels */
     int paths;         /* so far */
     SignalTotals half; /* of the first half of the paths */
@@ -164,14 +164,26 @@ void film_pixel_close(FilmPixel **pixel)
 
 /* ---- light ---- */
 
+int film_accepts(FilmPixel *p, Rgb beauty, Rgb outside)
+{
+    int finite = isfinite(beauty.r + beauty.g + beauty.b + outside.r + outside.g + outside.b);
+    p->dropped += !finite;
+    return finite;
+}
+
+void film_add_light(FilmPixel *p, const double light[3])
+{
+    for (int c = 0; c < 3; c++)
+        p->path[c] += light[c];
+    p->light.total += rgb_luminance(rgb((float)light[0], (float)light[1], (float)light[2]));
+}
+
 void film_connect(FilmPixel *p, Rgb beauty, Rgb outside, const Expansion *e, int folded)
 {
     float l = rgb_luminance(beauty);
-    if (!isfinite(beauty.r + beauty.g + beauty.b + outside.r + outside.g + outside.b)) {
-        p->dropped++;
+    if (!film_accepts(p, beauty, outside))
         return;
-    }
-    p->beauty[0] += beauty.r, p->beauty[1] += beauty.g, p->beauty[2] += beauty.b;
+    p->path[0] += beauty.r, p->path[1] += beauty.g, p->path[2] += beauty.b;
     p->light.total += l;
     if (folded)
         p->light.folded += l;
@@ -194,6 +206,8 @@ static void signal_totals(const FilmPixel *p, SignalTotals *totals)
 
 void film_path_end(FilmPixel *p)
 {
+    for (int c = 0; c < 3; c++)
+        p->beauty[c] += p->path[c], p->path[c] = 0;
     if (p->paper)
         paper_path_end(p->paper, &p->range);
     if (p->footprints)

@@ -58,6 +58,8 @@ void film_pixel_close(FilmPixel **pixel);
  * no recorded target hit made, times the light, and expansion holds the hits; folded: hits beyond the order kept
  * their albedo. Samples that are not finite are counted and dropped. */
 void film_connect(FilmPixel *pixel, Rgb beauty, Rgb outside, const Expansion *expansion, int folded);
+int film_accepts(FilmPixel *pixel, Rgb beauty, Rgb outside);       /* 0: they are not finite, and counted */
+void film_add_light(FilmPixel *pixel, const double light[3]);      /* of a path, all together, without a split */
 /* A path ends: hits of targets that connected enter the footprints, each once for every connection behind it. */
 void film_path_end(FilmPixel *pixel);
 /* Before a tile's first pixel, where its pixels have not as many samples as FilmParams say. */

@@ -185,9 +185,12 @@ int denoise_guides_missing(const PixelGuides *p)
 void denoise_guides_look_along(PixelGuides *p, const Ray *rays, int count)
 {
     const FirstHitWindow *w = &p->of->window;
+    RayKind kinds[ACCEL_PACKET] = {RAY_CAMERA};
     Hit hits[ACCEL_PACKET];
     Shading s;
-    accel_intersect_packet(w->accel, rays, count, RAY_CAMERA, hits);
+    for (int i = 0; i < count; i++)
+        kinds[i] = RAY_CAMERA;
+    accel_intersect_packet(w->accel, rays, kinds, count, 1, hits);
     for (int i = 0; i < count; i++) {
         if (hits[i].primitive >= 0)
             shading_at(&s, w->scene, w->variants, 1, &rays[i], &hits[i]);

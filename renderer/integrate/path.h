@@ -12,6 +12,8 @@
 #include "shade/bsdf.h"
 
 #define SHADOW_FACTORS_MAX 16 /* targets a shadow ray may pass */
+#define MEDIA_MAX 4           /* fading interiors that a path may be in at once */
+#define PATHS_MAX 64          /* that are traced side by side */
 
 typedef struct PathContext {
     const Scene *scene;
@@ -21,12 +23,34 @@ typedef struct PathContext {
     int max_depth, orders;
     int most_hits;        /* of all targets together */
     int split;            /* keep target hits apart */
+    int matte;            /* matte surfaces may be looked at a packet at a time, see matte.h */
     int simple;           /* neither split nor several variants nor a trace: a path is its beta alone */
     int nvariants;        /* 1..VARIANTS_MAX: what the same path brings with different textures */
     int white;            /* the first hit is a white diffuse surface instead, that gives no light itself */
     int has_no_shadow;    /* some primitive throws no shadow: what blocks shadow rays and paths is not the same */
     FILE *trace;          /* say what happens, or NULL */
 } PathContext;
+
+/* One factor of a connection: a surface it scatters at or passes. */
+typedef struct Factor {
+    int target; /* -1: none */
+    Split split;
+    Rgb albedo;
+    const Rgb *albedos; /* by variant, or NULL: the same in all */
+    Vec2 uv;
+    int reflects; /* light stays on its side of the surface */
+    int sharp;    /* nothing on the way from the camera scattered widely */
+} Factor;
+
+/* All of a path's throughput: with each variant, and for sets as a polynomial in its target hits. */
+typedef struct Throughput {
+    Rgb beta[VARIANTS_MAX], outside;
+    Expansion expansion;
+    int folded; /* a target hit beyond the last order kept its albedo */
+} Throughput;
+
+/* What happened along a path, for the film; see throughput.c. */
+typedef struct PathEvent PathEvent;
 
 /* One thread's counters and scratch. */
 typedef struct PathWorker {
@@ -37,8 +61,12 @@ typedef struct PathWorker {
     struct PixelGuides *guides; /* get what rays from the camera meet, or NULL */
     RenderVariant own[CONTROL_VARIANTS_MAX]; /* variants, where they have constants by pixel */
     Rgb constants[RETEX_MAX_TARGETS];        /* of the pixel in hand */
+    Throughput whole;     /* of the path in hand */
     Expansion scratch;    /* a path's expansion with a connection's own hits */
+    PathEvent *events;    /* of sets: room for those of all paths that are traced side by side */
+    int nevents;
     PixelKeys keys;
+    uint32_t key;         /* of the sample numbers of the paths in hand */
     long segments, shadow_rays;
     /* Colours of variants at a sampled light and at what a shadow ray passes. */
     Rgb light_albedos[VARIANTS_MAX], shadow_albedos[SHADOW_FACTORS_MAX][VARIANTS_MAX];
@@ -59,6 +87,8 @@ typedef struct Shading {
 Vec2 surface_target_uv(const Surface *surface);
 /* The colours at a surface (shading->surface is filled), the original's and those of variants (NULL = none). */
 void shading_color(Shading *shading, const RenderVariant *variants, int nvariants);
+/* They will be asked for soon. */
+void shading_prefetch(const Surface *surface);
 void shading_at(Shading *shading, const Scene *scene, const RenderVariant *variants, int nvariants, const Ray *ray,
                 const Hit *hit);
 static inline Rgb shading_albedo(const Shading *s, int variant)
@@ -76,9 +106,10 @@ static inline RayKind path_next_kind(RayKind kind, const Bsdf *bsdf, int transmi
     return transmitted && bsdf->refracts ? kind : RAY_BOUNCE;
 }
 
-void path_trace(PathWorker *worker, const Ray *ray, const Sampler *sampler);
-/* Up to ACCEL_PACKET paths of one pixel, one after the other but for what they share: the rays from the camera and to
- * the first lights go together. Not of several variants, and not traced. */
-void path_trace_packet(PathWorker *worker, const Ray *rays, const Sampler *samplers, int count);
+int path_worker_open(PathWorker *worker, RetexError *err); /* the rest is filled in */
+void path_worker_close(PathWorker *worker);
+/* Up to PATHS_MAX paths of one pixel, side by side; what they bring is the same as of one after the other. One only
+ * where there are several variants or what happens is said. */
+void path_trace(PathWorker *worker, const Ray *rays, const Sampler *samplers, int count);
 
 #endif

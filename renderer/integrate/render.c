@@ -127,23 +127,23 @@ static void trace_sample(const Render *r, PathWorker *worker, int x, int y, int 
 {
     Sampler sampler;
     Ray ray = start_sample(r, r->params.seed, x, y, sample, &sampler);
-    path_trace(worker, &ray, &sampler);
+    path_trace(worker, &ray, &sampler, 1);
     if (worker->control)
         control_sample_end(worker->control, sample % r->halves);
 }
 
 static void trace_pixel(const Render *r, PathWorker *worker, int spp, int x, int y)
 {
-    Ray rays[ACCEL_PACKET];
-    Sampler samplers[ACCEL_PACKET];
-    int packets = !worker->control && r->context.nvariants == 1;
-    for (int s = 0; s < spp && !packets; s++)
+    Ray rays[PATHS_MAX];
+    Sampler samplers[PATHS_MAX];
+    int together = !worker->control && r->context.nvariants == 1;
+    for (int s = 0; s < spp && !together; s++)
         trace_sample(r, worker, x, y, s);
-    for (int s = 0; s < spp && packets; s += ACCEL_PACKET) {
-        int count = spp - s < ACCEL_PACKET ? spp - s : ACCEL_PACKET;
+    for (int s = 0; s < spp && together; s += PATHS_MAX) {
+        int count = spp - s < PATHS_MAX ? spp - s : PATHS_MAX;
         for (int i = 0; i < count; i++)
             rays[i] = start_sample(r, r->params.seed, x, y, s + i, &samplers[i]);
-        path_trace_packet(worker, rays, samplers, count);
+        path_trace(worker, rays, samplers, count);
     }
 }
 
@@ -158,7 +158,7 @@ static int tile_samples(const Render *r, int thread, int x0, int y0)
         for (int x = x0; x < x0 + TILE_WIDTH && x < r->w; x++) {
             for (int s = 0; s < ADAPTIVE_PILOT; s++) {
                 Ray ray = start_sample(r, hash_pair(r->params.seed, 3), r->x0 + x, r->y0 + y, s, &sampler);
-                path_trace(adaptive_worker(pilot), &ray, &sampler);
+                path_trace(adaptive_worker(pilot), &ray, &sampler, 1);
                 adaptive_path_end(pilot);
             }
             adaptive_pixel_end(pilot);
@@ -239,6 +239,8 @@ static void close_films(Render *r)
     if (r->pilots)
         for (int k = 0; k < retex_threads(r->params.nthreads); k++)
             adaptive_close(&r->pilots[k]);
+    for (int k = 0; r->workers && k < retex_threads(r->params.nthreads); k++)
+        path_worker_close(&r->workers[k]);
     free(r->pilots);
     free(r->pixels);
     free(r->controls);
@@ -295,18 +297,19 @@ static int open_guide(Render *r, RetexError *err)
     return code;
 }
 
-static void open_worker(Render *r, int k)
+static int open_worker(Render *r, int k, RetexError *err)
 {
     PathWorker *w = &r->workers[k];
     w->context = &r->context;
     w->pixel = r->pixels[k], w->control = r->controls[k];
     w->guides = r->pixel_guides ? &r->pixel_guides[k] : NULL;
     w->variants = r->variants;
-    if (!r->constants)
-        return;
-    memcpy(w->own, r->variants, (size_t)r->context.nvariants * sizeof *w->own);
-    w->own[r->context.nvariants - 1].constants = w->constants;
-    w->variants = w->own;
+    if (r->constants) {
+        memcpy(w->own, r->variants, (size_t)r->context.nvariants * sizeof *w->own);
+        w->own[r->context.nvariants - 1].constants = w->constants;
+        w->variants = w->own;
+    }
+    return path_worker_open(w, err);
 }
 
 /* A single sample does not tell how noisy it is. */
@@ -396,8 +399,9 @@ static int render_film(Render *r, int control, int halves, RetexError *err)
         code = control_film_create(&r->control, r->w, r->h, r->params.spp, r->context.nvariants, halves, err);
     for (int k = 0; k < threads && !code && r->control; k++)
         code = control_pixel_create(&r->controls[k], r->control, err);
-    for (int k = 0; k < threads; k++)
-        open_worker(r, k);
+    for (int k = 0; k < threads && !code; k++)
+        code = open_worker(r, k, err);
+    r->context.matte = r->context.nvariants == 1 && !r->context.white && !r->caustics && !r->context.has_no_shadow;
     r->context.simple = !r->context.split && r->context.nvariants == 1 && !r->control;
     return code ? code : open_pilots(r, threads, err);
 }
@@ -725,7 +729,7 @@ int render_trace(const Scene *scene, const RenderParams *params, int x, int y, i
     if (!code)
         code = render_film(&r, 0, 0, err);
     if (!code) {
-        r.context.trace = out, r.context.simple = 0;
+        r.context.trace = out, r.context.simple = r.context.matte = 0;
         fprintf(out, "pixel %d,%d sample %d of %dx%d\n", x, y, sample, r.width, r.height);
         trace_sample(&r, &r.workers[0], x, y, sample);
     }

@@ -47,6 +47,13 @@ void shading_color(Shading *s, const RenderVariant *variants, int nvariants)
     }
 }
 
+void shading_prefetch(const Surface *surface)
+{
+    const Pigment *pigment = surface->texture->pigment;
+    if (pigment->kind == PIGMENT_IMAGE)
+        pigment_prefetch(pigment, surface->position, pigment->uv_mapping ? surface_uv(surface).uv : (Vec2){0, 0});
+}
+
 void shading_at(Shading *s, const Scene *scene, const RenderVariant *variants, int nvariants, const Ray *ray,
                 const Hit *hit)
 {

@@ -1,59 +1,37 @@
-/* See vertex_samples.h. Eight numbers are one vector: u of four pairs and v of four pairs. */
-#include <string.h>
+/* See vertex_samples.h. Loops over lanes without branches: the compiler makes vectors of them. */
 #include "integrate/vertex_samples.h"
 
 #define INLINE static inline __attribute__((always_inline))
 
-typedef uint32_t Lanes __attribute__((vector_size(4 * VERTEX_NUMBERS)));
-typedef float FloatLanes __attribute__((vector_size(4 * VERTEX_NUMBERS)));
-
-/* sampler.h's, on all lanes. Macros: vectors are not passed to functions where the machine may lack them. */
-#define REVERSE(x)                                                                                                     \
-    do {                                                                                                               \
-        x = (x >> 16) | (x << 16);                                                                                     \
-        x = ((x & 0x00ff00ffu) << 8) | ((x & 0xff00ff00u) >> 8);                                                       \
-        x = ((x & 0x0f0f0f0fu) << 4) | ((x & 0xf0f0f0f0u) >> 4);                                                       \
-        x = ((x & 0x33333333u) << 2) | ((x & 0xccccccccu) >> 2);                                                       \
-        x = ((x & 0x55555555u) << 1) | ((x & 0xaaaaaaaau) >> 1);                                                       \
-    } while (0)
-#define OWEN(x, seed)                                                                                                  \
-    do {                                                                                                               \
-        x ^= x * 0x3d20adeau;                                                                                          \
-        x += seed;                                                                                                     \
-        x *= (seed >> 16) | 1;                                                                                         \
-        x ^= x * 0x05526c56u;                                                                                          \
-        x ^= x * 0x53a22864u;                                                                                          \
-    } while (0)
-
-INLINE void numbers(const VertexKeys *keys, uint32_t reversed, float *out)
+/* sampler_pair, of all lanes. */
+INLINE void pair_lanes(const VertexKeys *keys, int pair, const uint32_t *restrict sample, float *restrict u,
+                       float *restrict v)
 {
-    const Lanes second = {0, 0, 0, 0, ~0u, ~0u, ~0u, ~0u};
-    Lanes shuffle, scramble, x = reversed - (Lanes){0}, sobol;
-    memcpy(&shuffle, keys->shuffle, sizeof shuffle);
-    memcpy(&scramble, keys->scramble, sizeof scramble);
-    OWEN(x, shuffle);
-    REVERSE(x);
-    sobol = x;
-    sobol ^= sobol >> 1 & 0x55555555u;
-    sobol ^= sobol >> 2 & 0x33333333u;
-    sobol ^= sobol >> 4 & 0x0f0f0f0fu;
-    sobol ^= sobol >> 8 & 0x00ff00ffu;
-    sobol ^= sobol >> 16;
-    x = (x & ~second) | (sobol & second);
-    OWEN(x, scramble);
-    REVERSE(x);
-    x >>= 8;
-    FloatLanes u = __builtin_convertvector((__typeof__(x))x, FloatLanes) * 0x1p-24f;
-    memcpy(out, &u, sizeof u);
+    uint32_t shuffle = keys->shuffle[pair], first = keys->scramble[pair][0], second = keys->scramble[pair][1];
+    for (int k = 0; k < VERTEX_LANES; k++) {
+        uint32_t index = reverse_bits(owen_reversed(reverse_bits(sample[k]), shuffle));
+        uint32_t x = reverse_bits(owen_reversed(index, first));
+        uint32_t y = reverse_bits(owen_reversed(sobol_second(index), second));
+        u[k] = (float)(int32_t)(x >> 8) * 0x1p-24f; /* unit_float, by the conversion that all machines have */
+        v[k] = (float)(int32_t)(y >> 8) * 0x1p-24f;
+    }
+}
+
+INLINE void numbers(const VertexKeys *keys, const uint32_t *sample, VertexSamples *samples)
+{
+    pair_lanes(keys, VERTEX_LOBE, sample, samples->lobe, samples->roulette);
+    pair_lanes(keys, VERTEX_DIRECTION, sample, samples->direction_u, samples->direction_v);
+    pair_lanes(keys, VERTEX_LIGHT_CHOICE, sample, samples->light_choice, samples->light_part);
+    pair_lanes(keys, VERTEX_LIGHT_POINT, sample, samples->light_point_u, samples->light_point_v);
 }
 
 static void make_keys(VertexKeys *keys, uint32_t key, unsigned vertex)
 {
     for (unsigned p = 0; p < DIMENSIONS_PER_VERTEX; p++) {
         uint32_t k = hash_pair(key, DIMENSION_PATH + vertex * DIMENSIONS_PER_VERTEX + p);
-        keys->shuffle[p] = keys->shuffle[p + DIMENSIONS_PER_VERTEX] = k;
-        keys->scramble[p] = hash_mix(k ^ 0x68bc21ebu);
-        keys->scramble[p + DIMENSIONS_PER_VERTEX] = hash_mix(k ^ 0x02e5be93u);
+        keys->shuffle[p] = k;
+        keys->scramble[p][0] = hash_mix(k ^ 0x68bc21ebu);
+        keys->scramble[p][1] = hash_mix(k ^ 0x02e5be93u);
     }
 }
 
@@ -69,28 +47,40 @@ static const VertexKeys *vertex_keys(PixelKeys *keys, uint32_t key, unsigned ver
     return own;
 }
 
-void vertex_samples_plain(PixelKeys *keys, const Sampler *sampler, unsigned vertex, VertexSamples *samples)
+void vertex_samples_plain(PixelKeys *keys, uint32_t key, const uint32_t sample[VERTEX_LANES], unsigned vertex,
+                          VertexSamples *samples)
 {
-    numbers(vertex_keys(keys, sampler->key, vertex), reverse_bits(sampler->sample), &samples->lobe);
+    numbers(vertex_keys(keys, key, vertex), sample, samples);
 }
 
 #if defined(__x86_64__)
-__attribute__((target("avx2"))) static void numbers_avx2(const VertexKeys *keys, uint32_t reversed, float *out)
+__attribute__((target("avx2"))) static void numbers_avx2(const VertexKeys *keys, const uint32_t *sample,
+                                                         VertexSamples *samples)
 {
-    numbers(keys, reversed, out);
+    numbers(keys, sample, samples);
 }
 
-void vertex_samples(PixelKeys *keys, const Sampler *sampler, unsigned vertex, VertexSamples *samples)
+__attribute__((target("avx512f,avx512vl,avx512bw,prefer-vector-width=512"))) static void
+numbers_avx512(const VertexKeys *keys, const uint32_t *sample, VertexSamples *samples)
 {
-    const VertexKeys *own = vertex_keys(keys, sampler->key, vertex);
-    if (__builtin_cpu_supports("avx2"))
-        numbers_avx2(own, reverse_bits(sampler->sample), &samples->lobe);
+    numbers(keys, sample, samples);
+}
+
+void vertex_samples(PixelKeys *keys, uint32_t key, const uint32_t sample[VERTEX_LANES], unsigned vertex,
+                    VertexSamples *samples)
+{
+    const VertexKeys *own = vertex_keys(keys, key, vertex);
+    if (__builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512vl"))
+        numbers_avx512(own, sample, samples);
+    else if (__builtin_cpu_supports("avx2"))
+        numbers_avx2(own, sample, samples);
     else
-        numbers(own, reverse_bits(sampler->sample), &samples->lobe);
+        numbers(own, sample, samples);
 }
 #else
-void vertex_samples(PixelKeys *keys, const Sampler *sampler, unsigned vertex, VertexSamples *samples)
+void vertex_samples(PixelKeys *keys, uint32_t key, const uint32_t sample[VERTEX_LANES], unsigned vertex,
+                    VertexSamples *samples)
 {
-    vertex_samples_plain(keys, sampler, vertex, samples);
+    vertex_samples_plain(keys, key, sample, vertex, samples);
 }
 #endif

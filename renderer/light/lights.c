@@ -49,14 +49,6 @@ struct Lights {
     float *beside_sums; /* running sums of their irradiance, nbeside + 1 */
 };
 
-/* What was chosen. */
-typedef struct Pick {
-    const Entry *entry;
-    int face; /* of its mesh light, or -1: not chosen yet */
-    float probability;
-    float u_part; /* what is left of the random number, for the part */
-} Pick;
-
 static int primitive_emits(const Primitive *p)
 {
     return !rgb_is_black(p->texture->finish->emission);
@@ -369,19 +361,19 @@ static float pick_probability(const Lights *lights, const LitPoint *point, int e
     return share * light_tree_probability(lights->tree, point, e->leaf + (is_by_face(e) ? face : 0));
 }
 
-static Pick exact_pick(const Lights *lights, Vec3 position, float u, float u_part)
+static LightPick exact_pick(const Lights *lights, Vec3 position, float u, float u_part)
 {
     if (lights->count == 1)
-        return (Pick){lights->entries, -1, 1, u_part};
+        return (LightPick){0, -1, 1, u_part};
     float shares[EXACT_MAX], sum = 0;
     local_shares(lights, position, shares);
     int k = 0;
     while (k < lights->count - 1 && u >= sum + shares[k])
         sum += shares[k++];
-    return (Pick){&lights->entries[k], -1, shares[k], u_part};
+    return (LightPick){k, -1, shares[k], u_part};
 }
 
-static Pick beside_pick(const Lights *lights, float share, double u, float u_part)
+static LightPick beside_pick(const Lights *lights, float share, double u, float u_part)
 {
     const float *sums = lights->beside_sums;
     int low = 0, high = lights->nbeside;
@@ -392,11 +384,13 @@ static Pick beside_pick(const Lights *lights, float share, double u, float u_par
         else
             high = middle;
     }
-    return (Pick){&lights->entries[lights->beside[low]], -1, share * beside_share(lights, low), u_part};
+    return (LightPick){lights->beside[low], -1, share * beside_share(lights, low), u_part};
 }
 
-static Pick pick(const Lights *lights, const LitPoint *point, float u_pick, float u_part)
+LightPick lights_pick(const Lights *lights, const LitPoint *point, float u_pick, float u_part)
 {
+    if (lights->count == 0)
+        return (LightPick){-1, -1, 1, u_part};
     if (is_exact(lights))
         return exact_pick(lights, point->position, u_pick, u_part);
     /* both numbers make one: the way down to one of very many takes more than the bits of a float */
@@ -406,7 +400,7 @@ static Pick pick(const Lights *lights, const LitPoint *point, float u_pick, floa
         return beside_pick(lights, 1 - share, (u - share) / (1 - share), u_part);
     u /= share;
     const Leaf *leaf = &lights->leaves[light_tree_pick(lights->tree, point, &u, &probability)];
-    return (Pick){&lights->entries[leaf->entry], leaf->face, share * probability, fminf((float)u, 1 - 0x1p-24f)};
+    return (LightPick){leaf->entry, leaf->face, share * probability, fminf((float)u, 1 - 0x1p-24f)};
 }
 
 /* Uniform in the cone in which a sphere is seen from outside. The sample's surface lies where that direction meets
@@ -437,27 +431,47 @@ static int outside_sphere(const Entry *e, Vec3 position)
     return e->sphere && vec_dot(d, d) > e->radius * e->radius * 1.0001;
 }
 
-/* A point of an emitter that is sampled by its area; returns the density there. */
-static double sample_area(const Lights *lights, const Pick *pick, float u1, float u2, Surface *surface)
+/* The picked face of an emitting mesh, and the density of points on it. */
+static const MeshLightFace *picked_face(const Lights *lights, const LightPick *pick, double *density)
 {
-    const Entry *e = pick->entry;
+    const MeshLight *mesh = lights->entries[pick->entry].mesh;
+    const MeshLightFace *f = &mesh->faces[pick->face >= 0 ? pick->face : mesh_light_face(mesh, pick->u_part)];
+    *density = (pick->face >= 0 ? 1 : f->share) * f->inverse_area;
+    return f;
+}
+
+/* A point of an emitter that is sampled by its area; returns the density there. */
+static double sample_area(const Lights *lights, const LightPick *pick, float u1, float u2, Surface *surface)
+{
+    const Entry *e = &lights->entries[pick->entry];
     const Primitive *p = &lights->scene->primitives[e->index];
     double density;
     if (!e->mesh) {
         shape_sample(p, lights->scene, -1, u1, u2, surface, &density);
         return density;
     }
-    int face = pick->face >= 0 ? pick->face : mesh_light_face(e->mesh, pick->u_part);
-    mesh_light_point(e->mesh, face, p, u1, u2, surface);
-    return (pick->face >= 0 ? 1 : e->mesh->faces[face].share) * e->mesh->faces[face].inverse_area;
+    mesh_light_point(picked_face(lights, pick, &density), p, u1, u2, surface);
+    return density;
 }
 
-static int sample_emitter(const Lights *lights, const Pick *pick, Vec3 position, float u1, float u2,
+const MeshLightFace *lights_even_face(const Lights *lights, const LightPick *pick, double *density)
+{
+    if (pick->entry < 0)
+        return NULL;
+    const Entry *e = &lights->entries[pick->entry];
+    if (!e->mesh || lights->scene->primitives[e->index].no_reflection)
+        return NULL;
+    const MeshLightFace *f = picked_face(lights, pick, density);
+    return f->even ? f : NULL;
+}
+
+static int sample_emitter(const Lights *lights, const LightPick *pick, Vec3 position, float u1, float u2,
                           LightSample *sample)
 {
     sample->kind = LIGHT_SAMPLE_EMITTER;
-    if (outside_sphere(pick->entry, position))
-        return sample_sphere_cone(pick->entry, lights->scene, position, u1, u2, sample);
+    const Entry *e = &lights->entries[pick->entry];
+    if (outside_sphere(e, position))
+        return sample_sphere_cone(e, lights->scene, position, u1, u2, sample);
     double pdf_area = sample_area(lights, pick, u1, u2, &sample->surface);
     Vec3 d = vec_sub(sample->surface.position, position);
     sample->distance = vec_length(d);
@@ -472,18 +486,17 @@ static int sample_emitter(const Lights *lights, const Pick *pick, Vec3 position,
     return 1;
 }
 
-int lights_sample(const Lights *lights, const LitPoint *point, float u_pick, float u_part, float u1, float u2,
+int lights_sample(const Lights *lights, const LitPoint *point, const LightPick *pick, float u1, float u2,
                   LightSample *sample)
 {
-    if (lights->count == 0)
+    if (pick->entry < 0)
         return 0;
     Vec3 position = point->position;
-    Pick picked = pick(lights, point, u_pick, u_part);
-    const Entry *e = picked.entry;
-    sample->pick_probability = picked.probability;
+    const Entry *e = &lights->entries[pick->entry];
+    sample->pick_probability = pick->probability;
     sample->shadowless = 0;
     if (e->kind == ENTRY_EMITTER)
-        return sample_emitter(lights, &picked, position, u1, u2, sample);
+        return sample_emitter(lights, pick, position, u1, u2, sample);
     if (e->kind == ENTRY_SKY) {
         sample->kind = LIGHT_SAMPLE_SKY;
         sample->direction = environment_sample(lights->environment, u1, u2, &sample->pdf);
@@ -563,10 +576,10 @@ int lights_emission(const Lights *lights, float u_pick, float u_part, float u1, 
         else
             high = middle;
     }
-    Pick whole = {&lights->entries[low], -1, 1, u_part};
+    LightPick whole = {low, -1, 1, u_part};
     Surface surface;
     double density = sample_area(lights, &whole, u1, u2, &surface);
-    double part = whole.entry->strength / lights->emitter_sums[lights->nemitters];
+    double part = lights->entries[low].strength / lights->emitter_sums[lights->nemitters];
     if (!(density > 0 && part > 0))
         return 0;
     float radiance = rgb_luminance(surface.texture->finish->emission) * NEUTRAL_ALBEDO;

@@ -30,10 +30,22 @@ int lights_create(Lights **lights, const Scene *scene, RetexError *err);
 void lights_close(Lights **lights);
 int lights_count(const Lights *lights);
 
+/* What was chosen. */
+typedef struct LightPick {
+    int entry; /* -1: there is no light */
+    int face;  /* of its mesh light, or -1: not chosen yet */
+    float probability;
+    float u_part; /* what is left of the random number, for the part */
+} LightPick;
+
 /* Sample light for a point: u_pick chooses the light, u_part the part of it (of many lights, both together), u1 and u2
  * the point on it. Returns 0 where no light reaches the point. */
-int lights_sample(const Lights *lights, const LitPoint *point, float u_pick, float u_part, float u1, float u2,
+LightPick lights_pick(const Lights *lights, const LitPoint *point, float u_pick, float u_part);
+int lights_sample(const Lights *lights, const LitPoint *point, const LightPick *pick, float u1, float u2,
                   LightSample *sample);
+/* A picked face of a mesh that shines evenly and is met by paths that bounced, which can do without lights_sample: see
+ * matte.h. *density is that of points on the face. Else NULL. */
+const struct MeshLightFace *lights_even_face(const Lights *lights, const LightPick *pick, double *density);
 /* Density, with the probability of picking that light, with which lights_sample finds a direction that hit an emitter
  * or went to the sky: for multiple importance sampling. */
 float lights_emitter_pdf(const Lights *lights, const LitPoint *from, int primitive, const Surface *surface);

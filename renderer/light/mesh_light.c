@@ -11,6 +11,18 @@ static const Texture *face_texture(const Primitive *p, int face)
     return t < 0 ? p->texture : p->mesh->textures[t];
 }
 
+/* The radiance of one side, where it is the same all over. */
+static int find_shine(const Texture *texture, int target, Rgb *shine)
+{
+    const Rgbft *c = &texture->pigment->color;
+    if (target >= 0 || texture->pigment->kind != PIGMENT_COLOR)
+        return 0;
+    float opacity = at_most(not_negative(1 - not_negative(c->filter) - not_negative(c->transmit)), 1);
+    *shine = rgb_mul(rgb_scale(texture->finish->emission, opacity),
+                     rgb(not_negative(c->r), not_negative(c->g), not_negative(c->b)));
+    return 1;
+}
+
 /* Returns 0 for a face without area. */
 static int fill_face(MeshLightFace *f, const Primitive *p, int face)
 {
@@ -30,6 +42,9 @@ static int fill_face(MeshLightFace *f, const Primitive *p, int face)
                          .face = face,
                          .target = surface.target,
                          .texture = surface.texture};
+    f->even = find_shine(surface.texture, surface.target, &f->shine[0]);
+    surface_turn(&surface, 1);
+    f->even &= find_shine(surface.texture, surface.target, &f->shine[1]);
     return density > 0 && isfinite(density);
 }
 
@@ -128,9 +143,8 @@ int mesh_light_face(const MeshLight *light, float u)
     return low;
 }
 
-void mesh_light_point(const MeshLight *light, int index, const Primitive *p, double u1, double u2, Surface *surface)
+void mesh_light_point(const MeshLightFace *f, const Primitive *p, double u1, double u2, Surface *surface)
 {
-    const MeshLightFace *f = &light->faces[index];
     double root = sqrt(u1), b1 = root * (1 - u2), b2 = root * u2;
     *surface = (Surface){.primitive = p,
                          .face = f->face,

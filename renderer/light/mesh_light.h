@@ -12,6 +12,8 @@ typedef struct MeshLightFace {
     float radiance;      /* luminance of its emission */
     int face, target;    /* of the mesh; of the face's outside */
     const Texture *texture; /* of its outside */
+    int even;            /* nobody's target and of one colour: radiance is shine, of its outside and of its inside */
+    Rgb shine[2];
 } MeshLightFace;
 
 typedef struct MeshLight {
@@ -30,7 +32,6 @@ void mesh_light_close(MeshLight **light);
 int mesh_light_face(const MeshLight *light, float u);
 /* A point of a face, uniform in area: a Surface of backside 0 as from shape_sample, but with the shading normal
  * of a flat face. */
-void mesh_light_point(const MeshLight *light, int index, const Primitive *primitive, double u1, double u2,
-                      Surface *surface);
+void mesh_light_point(const MeshLightFace *face, const Primitive *primitive, double u1, double u2, Surface *surface);
 
 #endif

@@ -4,6 +4,7 @@
 #include "shade/microfacet.h"
 #include "shade/pigment.h"
 
+#define LEAST_COSINE 1e-4 /* between a normal and where it is seen from */
 #define SMOOTH_ALPHA 1e-3f /* below this width a microfacet lobe is a delta */
 
 static float clamp01(double x)
@@ -145,6 +146,11 @@ static int finish_is_lambert(const Finish *f)
            rgb_is_black(f->reflection_min) && rgb_is_black(f->reflection_max);
 }
 
+int finish_is_matte(const Finish *f)
+{
+    return finish_is_lambert(f) && f->diffuse_back <= 0 && f->diffuse > 0;
+}
+
 static void setup_lambert(Bsdf *b, const Finish *f)
 {
     float diffuse = f->diffuse > 0 ? (float)f->diffuse : 0, back = f->diffuse_back > 0 ? (float)f->diffuse_back : 0;
@@ -157,18 +163,20 @@ static void setup_lambert(Bsdf *b, const Finish *f)
         b->p_diffuse = diffuse / sum, b->p_back = back / sum;
 }
 
-/* Normals on the side that the surface is seen from. */
+void bsdf_normals(const Surface *surface, Vec3 wo, Vec3 *normal, Vec3 *geometric)
+{
+    *geometric = surface->backside ? vec_neg(surface->geometric_normal) : surface->geometric_normal;
+    *normal = surface->backside ? vec_neg(surface->shading_normal) : surface->shading_normal;
+    if (vec_dot(wo, *normal) <= LEAST_COSINE) /* the interpolated normal faces away: fall back on the surface's own */
+        *normal = *geometric;
+}
+
 static void set_side(Bsdf *b, const Surface *surface, Vec3 wo)
 {
     b->wo = wo;
-    b->geometric = surface->backside ? vec_neg(surface->geometric_normal) : surface->geometric_normal;
-    b->normal = surface->backside ? vec_neg(surface->shading_normal) : surface->shading_normal;
+    bsdf_normals(surface, wo, &b->normal, &b->geometric);
     b->cos_o = vec_dot(wo, b->normal);
-    if (b->cos_o <= 1e-4) { /* the interpolated normal faces away: fall back on the surface's own */
-        b->normal = b->geometric;
-        b->cos_o = vec_dot(wo, b->normal);
-        b->cos_o = b->cos_o > 1e-4 ? b->cos_o : 1e-4;
-    }
+    b->cos_o = b->cos_o > LEAST_COSINE ? b->cos_o : LEAST_COSINE;
     b->cos_o = b->cos_o < 1 ? b->cos_o : 1;
 }
 

@@ -96,6 +96,16 @@ Rgbft pigment_eval(const Pigment *pigment, Vec3 p, Vec2 uv)
     return pigment_pattern(pigment, transform_inverse_point(&pigment->transform, p));
 }
 
+void pigment_prefetch(const Pigment *pigment, Vec3 p, Vec2 uv)
+{
+    if (pigment->kind != PIGMENT_IMAGE || pigment->image->map_type != MAP_PLANAR)
+        return;
+    if (pigment->uv_mapping)
+        p = vec3(uv.u, uv.v, 0);
+    p = transform_inverse_point(&pigment->transform, p);
+    retex_texture_prefetch(pigment->image->texture, p.x, p.y);
+}
+
 static int same_color(const Rgbft *a, const Rgbft *b)
 {
     return a->r == b->r && a->g == b->g && a->b == b->b && a->filter == b->filter && a->transmit == b->transmit;

@@ -6,6 +6,8 @@
 
 /* World point p; uv is the shape's UV (used with uv_mapping). Thread-safe. */
 Rgbft pigment_eval(const Pigment *pigment, Vec3 p, Vec2 uv);
+/* It will be asked there soon: have a planar image's texels come near. */
+void pigment_prefetch(const Pigment *pigment, Vec3 p, Vec2 uv);
 /* 1 where the pigment has the same colour and opacity everywhere. */
 int pigment_is_constant(const Pigment *pigment);
 /* 1 where the pigment lets nothing through anywhere (no filter, no transmit, no image alpha). */

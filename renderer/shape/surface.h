@@ -39,6 +39,24 @@ typedef struct SurfaceUv {
 } SurfaceUv;
 
 void surface_at(Surface *surface, const Scene *scene, const Ray *ray, const Hit *hit);
+/* It will be asked for soon: have the mesh's face come near, and then its corners. */
+static inline void surface_prefetch_face(const Scene *scene, const Hit *hit)
+{
+    const Primitive *primitive = &scene->primitives[hit->primitive];
+    if (primitive->kind == SHAPE_MESH)
+        __builtin_prefetch(&primitive->mesh->faces[hit->face]);
+}
+static inline void surface_prefetch_corners(const Scene *scene, const Hit *hit)
+{
+    const Primitive *primitive = &scene->primitives[hit->primitive];
+    if (primitive->kind != SHAPE_MESH)
+        return;
+    const MeshFace *face = &primitive->mesh->faces[hit->face];
+    for (int k = 0; k < 3 && mesh_face_has_normals(face); k++)
+        __builtin_prefetch(&primitive->mesh->normals[face->normal[k]]);
+    for (int k = 0; k < 3 && mesh_face_has_uvs(face); k++)
+        __builtin_prefetch(&primitive->mesh->uvs[face->uv[k]]);
+}
 SurfaceUv surface_uv(const Surface *surface); /* apart: most surfaces have one colour */
 /* Of a surface fresh from shape_sample: which side it is seen from, with the texture there. */
 void surface_turn(Surface *surface, int backside);

@@ -329,20 +329,20 @@ static void rays_see_what_they_may(void **state)
     ray.tmax = 5;
     assert_true(accel_occluded(accel, &ray, RAY_SHADOW, 0));
     assert_false(accel_occluded(accel, &ray, RAY_SHADOW, 1));
+    assert_int_equal(accel_way(accel, &ray, 0), WAY_PASSABLE);
     ray.tmax = INFINITY;
     assert_true(accel_occluded(accel, &ray, RAY_SHADOW, 1));
+    assert_int_equal(accel_way(accel, &ray, 0), WAY_BLOCKED);
     ray.origin.z = 9;
     assert_true(accel_intersect(accel, &ray, RAY_CAMERA, &hit) && hit.primitive == 3 && fabs(hit.t - 2) < 1e-15);
     assert_false(accel_intersect(accel, &ray, RAY_BOUNCE, &hit));
     assert_int_equal(hit.primitive, -1);
-    assert_true(accel_has_transparent(accel, 1));
     accel_bounds(accel, &low, &high);
     assert_true(low.x == -1 && high.z == 8 && low.z == 0);
     accel_close(&accel);
     accel_close(&accel);
     accel = create(&scene, p, 0);
     assert_false(accel_intersect(accel, &ray, RAY_CAMERA, &hit));
-    assert_false(accel_has_transparent(accel, 1));
     accel_close(&accel);
 }
 
@@ -408,31 +408,37 @@ static void packets_are_single_rays(void **state)
                       shape(SHAPE_PLANE, transform_translate(vec3(0, -2, 0)))};
     Scene scene;
     Accel *accel;
-    int met = 0;
+    int met = 0, passable = 0;
 
     (void)state;
     p[0].mesh = &mesh;
+    p[0].no_image = p[2].no_reflection = 1;
+    p[1].texture = &clear;
     accel = create(&scene, p, 4);
     for (int n = 0; n < 2000; n++) {
         Ray rays[ACCEL_PACKET];
         Hit hits[ACCEL_PACKET], hit;
-        int count = 1 + n % ACCEL_PACKET;
+        RayKind kinds[ACCEL_PACKET];
+        AccelWay ways[ACCEL_PACKET];
+        int sources[ACCEL_PACKET], count = 1 + n % ACCEL_PACKET;
         for (int i = 0; i < count; i++)
             rays[i] = (Ray){vec_scale(direction(), 4 * uniform()), direction(), 0, i % 3 ? INFINITY : 3 * uniform()};
         if (n % 7 == 0)
             rays[0].direction.x = NAN;
-        accel_intersect_packet(accel, rays, count, RAY_CAMERA, hits);
-        unsigned blocked = accel_occluded_packet(accel, rays, count, RAY_SHADOW);
-        assert_int_equal(blocked >> (count - 1) >> 1, 0);
+        for (int i = 0; i < count; i++)
+            kinds[i] = i % 2 ? RAY_CAMERA : RAY_BOUNCE, sources[i] = i % 3 == 0;
+        accel_intersect_packet(accel, rays, kinds, count, n & 1, hits);
+        accel_way_packet(accel, rays, sources, count, ways);
         for (int i = 0; i < count; i++) {
-            int found = accel_intersect(accel, &rays[i], RAY_CAMERA, &hit);
+            int found = accel_intersect(accel, &rays[i], kinds[i], &hit);
             assert_int_equal(hits[i].primitive, hit.primitive);
-            assert_int_equal(blocked >> i & 1, accel_occluded(accel, &rays[i], RAY_SHADOW, 0));
+            assert_int_equal(ways[i], accel_way(accel, &rays[i], sources[i]));
+            passable += ways[i] == WAY_PASSABLE;
             assert_true(!found || (hits[i].t == hit.t && hits[i].face == hit.face));
             met += found;
         }
     }
-    assert_true(met > 5000);
+    assert_true(met > 5000 && passable > 500);
     accel_close(&accel);
     free_mesh(&mesh);
 }

@@ -180,7 +180,8 @@ static void densities_agree(void **state)
             float u[4], pdf;
             for (int j = 0; j < 4; j++)
                 u[j] = (float)random_unit();
-            if (!lights_sample(lights, &p, u[0], u[1], u[2], u[3], &s) || s.kind == LIGHT_SAMPLE_SOURCE)
+            LightPick pick = lights_pick(lights, &p, u[0], u[1]);
+            if (!lights_sample(lights, &p, &pick, u[2], u[3], &s) || s.kind == LIGHT_SAMPLE_SOURCE)
                 continue;
             found++;
             if (s.kind == LIGHT_SAMPLE_SKY)
@@ -212,7 +213,8 @@ static double mean_irradiance(const char *text, LitPoint p)
         sampler.sample = k;
         sampler_pair(&sampler, 0, &u[0], &u[1]);
         sampler_pair(&sampler, 1, &u[2], &u[3]);
-        if (lights_sample(lights, &p, u[0], u[1], u[2], u[3], &s))
+        LightPick pick = lights_pick(lights, &p, u[0], u[1]);
+        if (lights_sample(lights, &p, &pick, u[2], u[3], &s))
             sum += 2 * fmax(0, vec_dot(s.direction, p.normal)) / (s.pdf * s.pick_probability) / SAMPLES;
     }
     lights_close(&lights);

@@ -60,24 +60,32 @@ static void dimensions_do_not_correlate(void **state)
     assert_true(sum / N < 0.005 && sum / N > -0.005);
 }
 
-/* All of a vertex at once are the pairs one by one, with vectors or without; keys are kept from sample to sample and
- * forgotten with the pixel. */
+/* All numbers of a packet's vertices are the pairs one by one, with vectors or without; keys are kept from packet to
+ * packet and forgotten with the pixel. */
 static void vertices_are_pairs(void **state)
 {
     (void)state;
     PixelKeys keys = {0}, plain_keys = {0};
-    for (uint32_t k = 0; k < 400; k++) {
-        Sampler s = sampler_start(5, k / 40, 3, k);
+    for (uint32_t n = 0; n < 100; n++) {
+        uint32_t sample[VERTEX_LANES], key = sampler_start(5, n / 10, 3, 0).key;
+        for (uint32_t lane = 0; lane < VERTEX_LANES; lane++)
+            sample[lane] = hash_pair(n, lane) >> (n % 32);
         for (unsigned vertex = 0; vertex < VERTEX_KEYS_MAX + 3; vertex++) {
             VertexSamples all, plain;
-            float pair[VERTEX_NUMBERS];
-            vertex_samples(&keys, &s, vertex, &all);
-            vertex_samples_plain(&plain_keys, &s, vertex, &plain);
-            for (uint32_t p = 0; p < DIMENSIONS_PER_VERTEX; p++)
-                sampler_pair(&s, DIMENSION_PATH + vertex * DIMENSIONS_PER_VERTEX + p, &pair[p],
-                             &pair[p + DIMENSIONS_PER_VERTEX]);
-            assert_memory_equal(&all, pair, sizeof pair);
-            assert_memory_equal(&plain, pair, sizeof pair);
+            vertex_samples(&keys, key, sample, vertex, &all);
+            vertex_samples_plain(&plain_keys, key, sample, vertex, &plain);
+            assert_memory_equal(&all, &plain, sizeof all);
+            const float *of[DIMENSIONS_PER_VERTEX][2] = {[VERTEX_LOBE] = {all.lobe, all.roulette},
+                                                         [VERTEX_DIRECTION] = {all.direction_u, all.direction_v},
+                                                         [VERTEX_LIGHT_CHOICE] = {all.light_choice, all.light_part},
+                                                         [VERTEX_LIGHT_POINT] = {all.light_point_u, all.light_point_v}};
+            for (uint32_t i = 0; i < VERTEX_LANES * DIMENSIONS_PER_VERTEX; i++) {
+                uint32_t lane = i % VERTEX_LANES, pair = i / VERTEX_LANES;
+                Sampler s = {key, sample[lane]};
+                float u, v;
+                sampler_pair(&s, DIMENSION_PATH + vertex * DIMENSIONS_PER_VERTEX + pair, &u, &v);
+                assert_true(u == of[pair][0][lane] && v == of[pair][1][lane]);
+            }
         }
     }
 }

@@ -421,6 +421,27 @@ void retex_texture_point(const RetexTexture *texture, double u, double v, float 
     look_up(texture, u, v, 0, rgba);
 }
 
+static int within(double x, int size)
+{
+    return x <= 0 ? 0 : x >= size - 1 ? size - 1 : (int)x;
+}
+
+/* By repeats, whatever the wrap: a wrong guess costs nothing but itself. */
+void retex_texture_prefetch(const RetexTexture *texture, double u, double v)
+{
+    double uv[2];
+    if (!texture->nlevels || !texture_uv(texture, u, v, uv))
+        return;
+    const TextureLevel *image = &texture->levels[0];
+    int column = within((uv[0] - floor(uv[0])) * image->width - 0.5, image->width);
+    int row = within((1 - (uv[1] - floor(uv[1]))) * image->height - 0.5, image->height > 1 ? image->height - 1 : 1);
+    size_t size = 4 * (texture->narrow ? sizeof(uint16_t) : sizeof(float));
+    const char *texel = (const char *)image->texels + ((size_t)row * (size_t)image->width + (size_t)column) * size;
+    __builtin_prefetch(texel);
+    if (image->height > 1)
+        __builtin_prefetch(texel + (size_t)image->width * size);
+}
+
 void retex_texture_nearest(const RetexTexture *texture, double u, double v, float rgba[4])
 {
     look_up(texture, u, v, 1, rgba);

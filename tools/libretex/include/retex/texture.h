@@ -91,6 +91,9 @@ int retex_texture_is_opaque(const RetexTexture *texture);
  * use. */
 void retex_texture_point(const RetexTexture *texture, double u, double v, float rgba[4]);
 
+/* That point will be looked up soon: have the memory it lies in come near, without waiting for it. Thread-safe. */
+void retex_texture_prefetch(const RetexTexture *texture, double u, double v);
+
 /* One point without interpolation: the texel that (u, v) falls in, floor(u * width) from the left, floor((1 - v) *
  * height) from the top, after the same transform and wraps. What a pigment's image_map without `interpolate` uses.
  * Thread-safe. */

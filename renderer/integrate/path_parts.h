@@ -1,0 +1,99 @@
+/* What a path is made of; private to path.c, throughput.c, way.c and vertex.c. */
+#ifndef RENDERER_INTEGRATE_PATH_PARTS_H
+#define RENDERER_INTEGRATE_PATH_PARTS_H
+
+#include "integrate/path.h"
+
+#define STRAIGHT_MAX 128 /* surfaces a path or shadow ray may pass without bending */
+
+/* The fading interiors a ray is in. */
+typedef struct Media {
+    const Interior *interiors[MEDIA_MAX];
+    int count;
+} Media;
+
+/* Light arrives, or the path goes on. */
+typedef struct Path {
+    Rgb beta;      /* throughput: all of it in plain renders, else see throughput.c */
+    Rgb outside;   /* throughput but for targets: where it is black no texture brings light back */
+    float neutral; /* throughput with NEUTRAL_ALBEDO everywhere: for Russian roulette */
+    float pdf;     /* density of the direction, 0 after a delta */
+    LitPoint from; /* where that direction was sampled */
+    int segments, passed; /* so far; passed: surfaces that did not bend the path, which are no segments of their own */
+    int sharp;     /* so far every bounce was specular, or nearly so */
+    RayKind kind;
+    uint32_t sample; /* in its pixel */
+    Media media;
+    double light[3]; /* that arrived, in plain renders */
+    PathEvent *events, **next_event;
+} Path;
+
+/* Light picked for a vertex, before it is known whether anything is in the way. */
+typedef struct LightTry {
+    int found;      /* 0: none that could give any */
+    int looked;     /* way is known */
+    AccelWay way;
+    LightSample light;
+    Ray ray;        /* to the light */
+    int other_side; /* of the surface */
+    float pdf;      /* with which the BSDF would find the direction */
+    Factor factors[2];
+    int nfactors;
+} LightTry;
+
+/* Where a ray met the scene, and what is chosen there. */
+typedef struct Vertex {
+    int met, last; /* last: the path does not go on but where it passes straight */
+    double distance;
+    Shading s;
+    const VertexSamples *numbers; /* of the packet, this one's in a lane of it */
+    int lane;
+    int picked; /* a light was */
+    LightPick pick;
+    LightTry light;
+    const CausticsCell *cell; /* where caustics come from, or NULL: none, or nothing scatters widely */
+} Vertex;
+
+/* ---- throughput.c: what reaches the film ---- */
+
+Factor shading_factor(const Shading *s, Split split);
+void path_start(PathWorker *worker, Path *path, const Ray *ray, const Sampler *sampler);
+void path_scale(PathWorker *worker, Path *path, Rgb by);
+/* A bounce. Returns 0 where no light can come by it. */
+int path_scatter(PathWorker *worker, Path *path, const Factor *factor);
+/* Light reaches the path's end through some more factors. */
+void path_connect(PathWorker *worker, Path *path, Rgb light, const Factor *factors, int nfactors);
+void path_bring(PathWorker *worker, Path *path, Rgb light); /* in plain pictures: all factors are in it */
+void path_end(PathWorker *worker, Path *path);
+
+/* ---- way.c: what is on the way ---- */
+
+Rgb media_fade(const Media *media, double distance, const Surface *met);
+void media_cross(Media *media, const Surface *surface);
+/* Colours of variants for a factor that outlives its shading. */
+const Rgb *keep_albedos(const PathContext *context, Rgb *room, const Shading *s);
+/* What the way to a picked light does to it goes into its radiance and, where targets do it, into factors. Returns how
+ * many of these there are, or -1 where the way is blocked. */
+int way_to_light(PathWorker *worker, const Path *path, const Surface *from, LightTry *light, Factor *factors, int room);
+/* Density with which the path itself finds what a shadow ray found, given that of its direction: 0 where it cannot, for
+ * the ways of the two are not blocked by the same things. -1: nobody should. */
+float path_density(const PathContext *context, const Ray *ray, RayKind kind, const LightSample *light, float pdf);
+
+/* ---- vertex.c: what is chosen at a surface ---- */
+
+LitPoint lit_point(const Shading *s);
+/* Radiance over albedo: what is not there does not shine. */
+Split emitted(const Shading *s);
+const CausticsCell *guide_cell(const PathContext *context, const Shading *s);
+void pick_light(PathWorker *worker, Vertex *vertex);
+/* Choose a direction by the BSDF or the guide: first between deltas and the rest. The sample's weight and density are
+ * the BSDF's own; *pdf gets that of both ways. */
+int sample_direction(const Vertex *vertex, BsdfSample *sample, float *pdf);
+
+static inline float mis_weight(float a, float b)
+{
+    float ratio = b / a; /* the squares of densities may be too large for a float */
+    return 1 / (1 + ratio * ratio);
+}
+
+#endif
