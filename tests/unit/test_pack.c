@@ -241,7 +241,7 @@ static void test_black_parts_cost_nothing(void **state)
 static void test_jpeg_keeps_levels(void **state)
 {
     (void)state;
-    const PackCurve curve = {1};
+    const PackCurve curve = {1, 255};
     const int width = 75, height = 141;
     for (int channels = 1; channels <= 3; channels += 2)
         for (int bright = 0; bright < 2; bright++) {

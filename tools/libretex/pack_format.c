@@ -112,6 +112,7 @@ static json_t *describe_part(const RetexSet *set, int part, const PackPart *pack
     json_t *o = json_pack("{s:s, s:s}", "name", set->parts[part].name, "codec", pack_codec_names[packed->codec]);
     if (packed->codec == PACK_JPEG) {
         json_object_set_new(o, "white", json_real(packed->curve.white));
+        json_object_set_new(o, "levels", json_real(packed->curve.levels));
         json_object_set_new(o, "masked", json_boolean(packed->masked));
     }
     if (packed->codec == PACK_PLANES) {
@@ -210,7 +211,9 @@ static int understand_part(PackPart *packed, const RetexSet *set, const json_t *
     ok = codec != NULL && packed->channels <= PACK_CHANNELS_MAX;
     if (ok && packed->codec == PACK_JPEG) {
         const json_t *masked = json_object_get(o, "masked");
-        ok = get_positive(json_object_get(o, "white"), &packed->curve.white) && json_is_boolean(masked) &&
+        ok = get_positive(json_object_get(o, "white"), &packed->curve.white) &&
+             get_positive(json_object_get(o, "levels"), &packed->curve.levels) && packed->curve.levels >= 255 &&
+             packed->curve.levels <= 510 && json_is_boolean(masked) &&
              (packed->channels == 1 || packed->channels == 3) && packed->width <= PACK_JPEG_SIDE_MAX &&
              packed->height <= PACK_JPEG_SIDE_MAX;
         packed->masked = json_is_true(masked);

@@ -33,6 +33,7 @@ typedef struct PackPart {
     int sigma;                       /* planes of PACK_MAP_LATTICE: the part of their standard deviations; -1 */
     int sigma_first;                 /* code c of one means multiples of 2^((c - 1 + sigma_first) / per_octave) */
     PackCurve curve;                 /* JPEG */
+    double jpeg_step;                /* when writing */
     int masked;                      /* JPEG: 1 = pixels whose bit is set are exactly black */
     int nchunks;
     uint64_t *offsets; /* of chunks in the file, when reading */

@@ -13,21 +13,22 @@
 
 /* --- the curve --- */
 
-/* sRGB up to white; above, levels follow the logarithm, LEVELS_PER_E of them for each factor of e. */
+/* sRGB up to white; above, levels follow the logarithm: LEVELS_PER_E of 255 for each factor of e. */
 static const double LEVELS_PER_E = 48;
 
 double pack_curve_level(const PackCurve *curve, double value)
 {
     const double x = value / curve->white;
-    if (x > 1)
-        return 255 + LEVELS_PER_E * log(x);
-    return 255 * (x <= 0.0031308 ? 12.92 * x : 1.055 * pow(x, 1 / 2.4) - 0.055);
+    const double y = x > 1            ? 1 + LEVELS_PER_E / 255 * log(x)
+                     : x <= 0.0031308 ? 12.92 * x
+                                      : 1.055 * pow(x, 1 / 2.4) - 0.055;
+    return fmin(curve->levels * y, PACK_LEVEL_MAX);
 }
 
 double pack_curve_value(const PackCurve *curve, double level)
 {
-    const double y = level / 255;
-    const double x = y > 1          ? exp((level - 255) / LEVELS_PER_E)
+    const double y = level / curve->levels;
+    const double x = y > 1          ? exp((y - 1) * 255 / LEVELS_PER_E)
                      : y <= 0.04045 ? y / 12.92
                                     : pow((y + 0.055) / 1.055, 2.4);
     return curve->white * x;
@@ -84,16 +85,18 @@ void pack_jpeg_free(PackJpeg *jpeg)
     memset(jpeg, 0, sizeof *jpeg);
 }
 
-/* Steps in natural order. A level's range of more than 255 needs coefficients beyond JPEG's 10 bits: those that an edge
- * across the whole range would overflow get larger steps. */
-static void choose_steps(unsigned int steps[64], double step, float range)
+/* The largest coefficients, by frequency: of luma and of chroma. */
+typedef struct Largest {
+    float size[2][64];
+} Largest;
+
+/* Steps in natural order: as asked for, but such that no quotient has more than JPEG's 10 bits. */
+static void choose_steps(unsigned int steps[64], double step, const float largest[64])
 {
     for (int i = 0; i < 64; i++) {
-        const int u = i % 8, v = i / 8;
-        const double across = (double)range / 255, mean = ((double)range - 128) / 127;
-        const double least = i == 0 ? ceil(mean) : u + v <= 2 ? ceil(across) : 1;
-        /* steps between two whole numbers: the smaller one at low frequencies */
-        steps[i] = (unsigned int)fmin(fmax(rint(step + (u + v) / 14.0 - 0.5), fmax(least, 1)), PACK_JPEG_STEP_MAX);
+        /* between two whole numbers the smaller one is for low frequencies */
+        const double wanted = rint(step + (i % 8 + i / 8) / 14.0 - 0.5), least = ceil((double)largest[i] / 1023);
+        steps[i] = (unsigned int)fmin(fmax(fmax(wanted, least), 1), PACK_JPEG_STEP_MAX);
     }
 }
 
@@ -119,19 +122,32 @@ static void gather(float *plane, const float *levels, int width, int height, int
     }
 }
 
-static void fill_coefficients(struct jpeg_compress_struct *jpeg, jvirt_barray_ptr *arrays, const float *levels,
-                              float *plane, int width, int height, const unsigned int *steps)
+/* What coefficients there will be, before any step is chosen. */
+static void find_largest(Largest *largest, const float *levels, float *plane, int width, int height, int channels)
 {
     const int rows = (height + 7) / 8, blocks = (width + 7) / 8;
-    float inverse[64];
-    for (int i = 0; i < 64; i++)
-        inverse[i] = 1 / (float)steps[i];
+    memset(largest, 0, sizeof *largest);
+    for (int c = 0; c < channels; c++)
+        for (int row = 0; row < rows; row++) {
+            gather(plane, levels, width, height, channels, c, row, blocks);
+            for (int block = 0; block < blocks; block++)
+                pack_block_largest(largest->size[c > 0], plane + 8 * block, 8 * blocks);
+        }
+}
+
+static void fill_coefficients(struct jpeg_compress_struct *jpeg, jvirt_barray_ptr *arrays, const float *levels,
+                              float *plane, int width, int height, unsigned int steps[2][64])
+{
+    const int rows = (height + 7) / 8, blocks = (width + 7) / 8;
+    float inverse[2][64];
+    for (int i = 0; i < 128; i++)
+        inverse[i / 64][i % 64] = 1 / (float)steps[i / 64][i % 64];
     for (int c = 0; c < jpeg->num_components; c++)
         for (int row = 0; row < rows; row++) {
             JBLOCKARRAY array = jpeg->mem->access_virt_barray((j_common_ptr)jpeg, arrays[c], (JDIMENSION)row, 1, TRUE);
             gather(plane, levels, width, height, jpeg->num_components, c, row, blocks);
             for (int block = 0; block < blocks; block++)
-                pack_block_forward(array[0][block], plane + 8 * block, 8 * blocks, inverse);
+                pack_block_forward(array[0][block], plane + 8 * block, 8 * blocks, inverse[c > 0]);
         }
 }
 
@@ -155,7 +171,7 @@ static int take_apart(PackJpeg *jpeg, int bands)
 }
 
 static void write_file(struct jpeg_compress_struct *jpeg, const float *levels, float *plane, int width, int height,
-                       int channels, const unsigned int *steps)
+                       int channels, unsigned int steps[2][64])
 {
     jvirt_barray_ptr arrays[3];
     const JDIMENSION blocks = (JDIMENSION)(width + 7) / 8, rows = (JDIMENSION)(height + 7) / 8;
@@ -164,12 +180,11 @@ static void write_file(struct jpeg_compress_struct *jpeg, const float *levels, f
     jpeg->input_components = channels;
     jpeg->in_color_space = channels == 3 ? JCS_RGB : JCS_GRAYSCALE;
     jpeg_set_defaults(jpeg);
-    unsigned int zigzag_free[64];
-    memcpy(zigzag_free, steps, sizeof zigzag_free);
-    jpeg_add_quant_table(jpeg, 0, zigzag_free, 100, TRUE);
+    for (int table = 0; table < (channels == 3 ? 2 : 1); table++)
+        jpeg_add_quant_table(jpeg, table, steps[table], 100, TRUE);
     for (int c = 0; c < channels; c++) {
         jpeg->comp_info[c].h_samp_factor = jpeg->comp_info[c].v_samp_factor = 1;
-        jpeg->comp_info[c].quant_tbl_no = 0;
+        jpeg->comp_info[c].quant_tbl_no = c > 0;
         arrays[c] = jpeg->mem->request_virt_barray((j_common_ptr)jpeg, JPOOL_IMAGE, TRUE, blocks, rows, 1);
     }
     jpeg->optimize_coding = TRUE;
@@ -186,15 +201,15 @@ int pack_jpeg_encode(PackJpeg *result, const float *levels, int width, int heigh
     Trouble trouble;
     unsigned char *volatile data = NULL;
     unsigned long bytes = 0;
-    unsigned int steps[64];
-    float range = 0;
+    unsigned int steps[2][64];
     memset(result, 0, sizeof *result);
-    for (size_t i = 0; i < (size_t)width * (size_t)height * (size_t)channels; i++)
-        range = fmaxf(range, levels[i]);
-    choose_steps(steps, step, range);
     float *plane = malloc((size_t)((width + 7) / 8) * 64 * sizeof *plane);
     if (!plane)
         return retex_fail(err, RETEX_ENOMEM, "no memory to encode a JPEG");
+    Largest largest;
+    find_largest(&largest, levels, plane, width, height, channels);
+    for (int table = 0; table < 2; table++)
+        choose_steps(steps[table], step, largest.size[table]);
     jpeg.err = catch_trouble(&trouble);
     if (setjmp(trouble.out)) {
         jpeg_destroy_compress(&jpeg);
@@ -307,7 +322,7 @@ int pack_jpeg_decode_band(PackJpegDecoder *decoder, float *values, unsigned char
         decoder->planes = planes;
         decoder->room = room;
     }
-    if (decoder->curve.white != curve->white) {
+    if (decoder->curve.white != curve->white || decoder->curve.levels != curve->levels) {
         decoder->curve = *curve;
         fill_table(&decoder->table, curve);
     }

@@ -16,9 +16,12 @@ enum {
     PACK_JPEG_STEP_MAX = 255
 };
 
-/* Which value a level of 0 to 255 and above stands for: see retex-pack(5). */
+enum { PACK_LEVEL_MAX = 2047 };
+
+/* Which value a level of 0 to PACK_LEVEL_MAX stands for: see retex-pack(5). */
 typedef struct PackCurve {
-    double white; /* the value of level 255 */
+    double white;  /* a value, which is */
+    double levels; /* this level: 255, which viewers show as white, to 510 */
 } PackCurve;
 
 double pack_curve_level(const PackCurve *curve, double value);
@@ -34,7 +37,7 @@ typedef struct PackJpeg {
 
 void pack_jpeg_free(PackJpeg *jpeg);
 
-/* Encode levels (channels: 1 or 3, interleaved, width x height) with quantisation steps of `step` levels. */
+/* Encode levels (channels: 1 or 3, interleaved, width x height) with quantisation steps of `step` levels, 1 or more. */
 int pack_jpeg_encode(PackJpeg *jpeg, const float *levels, int width, int height, int channels, double step,
                      RetexError *err);
 

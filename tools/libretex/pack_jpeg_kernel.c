@@ -66,15 +66,30 @@ static void transpose8(float out[restrict 8][8], float in[restrict 8][8])
  * saves in bits. */
 static const float ROUNDING = 0.44f;
 
-void pack_block_forward(int16_t *coefficients, const float *samples, int stride, const float *inverse_steps)
+/* Both ways: to coefficients in natural order. */
+static void forward(float a[restrict 8][8], const float *samples, int stride)
 {
-    float a[8][8], b[8][8];
+    float b[8][8];
     for (int y = 0; y < 8; y++)
         memcpy(a[y], samples + y * stride, sizeof a[y]);
     forward8(b, a);
     transpose8(a, b);
     forward8(b, a);
     transpose8(a, b);
+}
+
+void pack_block_largest(float *largest, const float *samples, int stride)
+{
+    float a[8][8];
+    forward(a, samples, stride);
+    for (int i = 0; i < 64; i++)
+        largest[i] = fmaxf(largest[i], fabsf(a[i / 8][i % 8]));
+}
+
+void pack_block_forward(int16_t *coefficients, const float *samples, int stride, const float *inverse_steps)
+{
+    float a[8][8];
+    forward(a, samples, stride);
     for (int i = 0; i < 64; i++) {
         const float c = a[i / 8][i % 8] * inverse_steps[i];
         const float size = floorf(fabsf(c) + (i ? ROUNDING : 0.5f));

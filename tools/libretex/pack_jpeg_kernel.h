@@ -4,7 +4,7 @@
 
 #include <stdint.h>
 
-enum { PACK_LEVEL_ENTRIES = 4096, PACK_LEVEL_STEPS = 4 };
+enum { PACK_LEVEL_ENTRIES = 8192, PACK_LEVEL_STEPS = 4 };
 
 /* Values of levels 0, 1/4, 1/2, …, between which one interpolates; beyond the last one the line goes on. */
 typedef struct PackLevelTable {
@@ -13,6 +13,9 @@ typedef struct PackLevelTable {
 
 /* 64 samples of a block, rows `stride` floats apart, to coefficients in natural order, quantised. */
 void pack_block_forward(int16_t *coefficients, const float *samples, int stride, const float *inverse_steps);
+
+/* largest[64] gets the sizes of a block's coefficients where they are larger. */
+void pack_block_largest(float *largest, const float *samples, int stride);
 
 /* A row of blocks back: 8 rows of samples, `stride` floats apart. */
 void pack_blocks_inverse(float *samples, int stride, const int16_t *coefficients, int blocks, const float *steps);

@@ -14,14 +14,24 @@ double pack_quality_psnr(int quality)
 PackGrain pack_grain(double psnr)
 {
     const double error = 255 * pow(10, -psnr / 20); /* levels */
-    return (PackGrain){.jpeg_step = fmax(2.4 * error, 1),
-                       .picture_step = fmax(4 * error, 3),
-                       .sigma_share = psnr >= 50 ? 8 : 4,
-                       .sigma_per_octave = psnr >= 50 ? 8 : 4,
-                       .angle_steps = psnr >= 50 ? 32 : 16};
+    const int fine = psnr >= 50;
+    return (PackGrain){.jpeg_step = 1.8 * error,
+                       .original_step = 3.6 * error,
+                       .picture_step = fmax(14 * error, 5),
+                       .sharp = {fine ? 8 : 4, fine ? 8 : 4, fine ? 32 : 16},
+                       .broad = {4, 4, 8}};
 }
 
-typedef enum Role { ROLE_NONE, ROLE_EXACT, ROLE_LIGHT, ROLE_MEAN, ROLE_SPREAD, ROLE_WEIGHT } Role;
+typedef enum Role {
+    ROLE_NONE,
+    ROLE_EXACT,
+    ROLE_LIGHT,
+    ROLE_ORIGINAL,
+    ROLE_GAIN,
+    ROLE_MEAN,
+    ROLE_SPREAD,
+    ROLE_WEIGHT
+} Role;
 
 /* What a part's samples are like. */
 typedef struct Range {
@@ -73,10 +83,10 @@ static void give_roles(Planning *plan)
     for (int i = 0; i < set->nterms; i++) {
         give_role(plan, set->terms[i].radiance, ROLE_LIGHT);
         if (set->terms[i].gain)
-            give_role(plan, set->terms[i].gain, ROLE_WEIGHT);
+            give_role(plan, set->terms[i].gain, ROLE_GAIN);
     }
     for (int i = 0; i < set->ntargets; i++)
-        give_role(plan, set->targets[i].original, ROLE_LIGHT);
+        give_role(plan, set->targets[i].original, ROLE_ORIGINAL);
     for (int i = 0; i < set->nmixtures; i++)
         for (int k = 0; k < set->mixtures[i].nshares; k++)
             give_role(plan, set->mixtures[i].shares[k].weight, ROLE_WEIGHT);
@@ -124,15 +134,19 @@ static void map_log(PackMap *map, const Range *range, int per_octave)
     pack_map_fill(map);
 }
 
-static void plan_light(Planning *plan, int part)
+/* As JPEG, where that can hold it; `white` as level `levels`, `step` apart. */
+static void plan_light(Planning *plan, int part, double white, double step)
 {
     PackPart *p = &plan->packed[part];
     const int fits =
         (p->channels == 1 || p->channels == 3) && p->width <= PACK_JPEG_SIDE_MAX && p->height <= PACK_JPEG_SIDE_MAX;
-    if (fits && all_positive(plan, part)) {
-        p->codec = PACK_JPEG;
-        p->curve.white = part ? plan->white : 1; /* viewers take the picture for sRGB */
-    }
+    if (!fits || !all_positive(plan, part))
+        return;
+    p->codec = PACK_JPEG;
+    p->curve.white = white;
+    /* steps below 1 there are none: more levels instead, of which viewers show the lower ones */
+    p->curve.levels = rint(255 * fmin(fmax(1 / step, 1), 2));
+    p->jpeg_step = fmax(step, 1);
 }
 
 /* The value that light's levels call white: 1, unless the picture is far too dark or too bright for that. */
@@ -159,8 +173,19 @@ static void plan_weight(Planning *plan, int part)
     }
 }
 
+/* Gains say what share of the light is theirs were the texture of all further hits 0.5: white is all of it. */
+static void plan_gain(Planning *plan, int part)
+{
+    const RetexSet *set = plan->set;
+    int most = 1;
+    for (int i = 0; i < set->nterms; i++)
+        if (set->terms[i].gain == part && set->terms[i].nfactors > most)
+            most = set->terms[i].nfactors;
+    plan_light(plan, part, exp2(most - 1), plan->grain->jpeg_step);
+}
+
 /* Means on lattices, standard deviations and coverage by their logarithm; where coverage is 0, nothing. */
-static void plan_footprint(Planning *plan, int uv, int spread)
+static void plan_footprint(Planning *plan, int uv, int spread, const PackFootprintGrain *grain)
 {
     PackPart *p = &plan->packed[uv], *s = &plan->packed[spread];
     const Range *of_uv = plan->ranges[uv], *of_spread = plan->ranges[spread];
@@ -176,15 +201,14 @@ static void plan_footprint(Planning *plan, int uv, int spread)
     both.most = fmaxf(of_spread[0].most, of_spread[1].most);
     for (int c = 0; c < 2; c++) {
         p->maps[c].kind = PACK_MAP_LATTICE;
-        map_log(&s->maps[c], &both, plan->grain->sigma_per_octave);
+        map_log(&s->maps[c], &both, grain->per_octave);
     }
     if (s->channels == 3) {
         s->maps[2].kind = PACK_MAP_ANGLE;
-        s->maps[2].per_octave = plan->grain->angle_steps;
+        s->maps[2].per_octave = grain->angle_steps;
         pack_map_fill(&s->maps[2]);
     }
-    p->sigma_first = (int)floor((log2(s->maps[0].first / plan->grain->sigma_share) + PACK_LATTICE_BITS) *
-                                plan->grain->sigma_per_octave);
+    p->sigma_first = (int)floor((log2(s->maps[0].first / grain->sigma_share) + PACK_LATTICE_BITS) * grain->per_octave);
 }
 
 static void plan_parts(Planning *plan)
@@ -196,8 +220,14 @@ static void plan_parts(Planning *plan)
         for (int c = 0; c < p->channels; c++)
             zero = zero && plan->ranges[i][c].all_zero;
         p->codec = zero ? PACK_ZERO : PACK_PLANES;
-        if (!zero && plan->grain && plan->roles[i] == ROLE_LIGHT)
-            plan_light(plan, i);
+        if (!zero && plan->grain && i == 0) /* viewers take the picture for sRGB */
+            plan_light(plan, i, 1, plan->grain->picture_step);
+        else if (!zero && plan->grain && plan->roles[i] == ROLE_LIGHT)
+            plan_light(plan, i, plan->white, plan->grain->jpeg_step);
+        else if (!zero && plan->grain && plan->roles[i] == ROLE_ORIGINAL)
+            plan_light(plan, i, 1, plan->grain->original_step);
+        else if (!zero && plan->grain && plan->roles[i] == ROLE_GAIN)
+            plan_gain(plan, i);
         else if (!zero && plan->grain && plan->roles[i] == ROLE_WEIGHT)
             plan_weight(plan, i);
     }
@@ -205,7 +235,9 @@ static void plan_parts(Planning *plan)
         const RetexFootprint *f = &set->footprints[i];
         if (f->uv >= 0 && f->spread >= 0 && plan->packed[f->uv].codec == PACK_PLANES &&
             plan->packed[f->spread].codec == PACK_PLANES)
-            plan_footprint(plan, f->uv, f->spread);
+            plan_footprint(plan, f->uv, f->spread,
+                           f->kind == RETEX_FOOTPRINT_BROAD || f->kind == RETEX_FOOTPRINT_LATER ? &plan->grain->broad
+                                                                                                : &plan->grain->sharp);
     }
 }
 

@@ -4,13 +4,18 @@
 
 #include "pack_format.h"
 
-/* How fine everything is. */
+typedef struct PackFootprintGrain {
+    int sigma_share; /* means are multiples of at most this share of their standard deviation */
+    int per_octave;  /* steps of standard deviations */
+    int angle_steps; /* of correlations, from 0 to 1 */
+} PackFootprintGrain;
+
+/* How fine everything is. Steps are in levels of 255 to white. */
 typedef struct PackGrain {
-    double jpeg_step;     /* of light, in levels of 255 to white */
+    double jpeg_step;     /* of light, gains and albedo */
+    double original_step; /* of original textures */
     double picture_step;  /* of the picture, which only viewers see */
-    int sigma_share;      /* UV means are multiples of at most this share of their standard deviation */
-    int sigma_per_octave; /* steps of standard deviations */
-    int angle_steps;      /* of correlations, from 0 to 1 */
+    PackFootprintGrain sharp, broad;
 } PackGrain;
 
 /* The grain at which pictures keep this PSNR against the set's own: retex-pack(1) says how well. */

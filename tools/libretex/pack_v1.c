@@ -109,7 +109,7 @@ static int decode_jpeg(Item *item, RetexError *err)
     const RetexImage *im = &item->part->image;
     const size_t n = (size_t)im->width * (size_t)im->height;
     const double range = strcmp(item->codec, "jpeg-log") == 0 ? log2(1 + item->max / item->scale) : 0;
-    const PackCurve srgb = {1};
+    const PackCurve srgb = {1, 255};
     int width, height, subsampling, colorspace;
     unsigned char *codes = im->channels == 3 ? malloc(3 * n) : NULL;
     tjhandle jpeg = tjInitDecompress();

@@ -29,7 +29,6 @@ typedef struct Item {
 
 typedef struct Writing {
     const RetexSet *set;
-    const PackGrain *grain;
     PackPart *packed;
     Item *items;
     PackJpeg picture; /* of a lossless pack: for viewers only */
@@ -125,7 +124,7 @@ static int has_black(const RetexImage *im)
 }
 
 /* Part 0 is the picture, for viewers: coarser, and white is the most that it shows. */
-static int encode_jpeg(Item *item, const PackGrain *grain, int is_picture, RetexError *err)
+static int encode_jpeg(Item *item, int is_picture, RetexError *err)
 {
     const RetexImage *im = &item->part->image;
     PackPart *p = item->packed;
@@ -138,8 +137,7 @@ static int encode_jpeg(Item *item, const PackGrain *grain, int is_picture, Retex
     if (!code && p->masked)
         fill_black(levels, im);
     if (!code)
-        code = pack_jpeg_encode(&item->jpeg, levels, im->width, im->height, im->channels,
-                                is_picture ? grain->picture_step : grain->jpeg_step, err);
+        code = pack_jpeg_encode(&item->jpeg, levels, im->width, im->height, im->channels, p->jpeg_step, err);
     free(levels);
     unsigned char *at = item->jpeg.data;
     for (int k = 0; !code && k < 1 + p->nbands; k++) {
@@ -240,7 +238,7 @@ static void encode_whole(void *context, int index, int thread)
     (void)thread;
     item->code = pack_samples_crc(&item->crc, item->part, &item->err);
     if (!item->code && item->packed->codec == PACK_JPEG)
-        item->code = encode_jpeg(item, w->grain, index == 0, &item->err);
+        item->code = encode_jpeg(item, index == 0, &item->err);
     if (item->code || item->packed->codec != PACK_PLANES)
         return;
     item->code = pack_part_chunks(item->packed, &item->err);
@@ -291,7 +289,7 @@ static int encode_all(Writing *w, int nthreads, RetexError *err)
 static int encode_picture(Writing *w, RetexError *err)
 {
     const RetexImage *im = &w->set->parts[0].image;
-    const PackCurve curve = {1};
+    const PackCurve curve = {1, 255};
     if (w->packed[0].codec == PACK_JPEG || im->width > PACK_JPEG_SIDE_MAX || im->height > PACK_JPEG_SIDE_MAX)
         return 0;
     const PackGrain grain = pack_grain(40);
@@ -426,7 +424,7 @@ static int write_pack(const RetexSet *set, const char *path, const RetexPackPara
                       RetexError *err)
 {
     const PackGrain grain = pack_grain(pack_quality_psnr(params->quality));
-    Writing w = {.set = set, .grain = &grain};
+    Writing w = {.set = set};
     w.packed = calloc((size_t)set->nparts + 1, sizeof *w.packed);
     w.items = calloc((size_t)set->nparts + 1, sizeof *w.items);
     int code = w.packed && w.items ? 0 : no_memory(err);

@@ -60,8 +60,8 @@ static ZipEntry *append(ZipList *list, RetexError *err)
 
 static void put(unsigned char **at, uint64_t value, int bytes)
 {
-    for (int i = 0; i < bytes; i++)
-        *(*at)++ = (unsigned char)(value >> (8 * i) & 255);
+    for (int i = 0; i < bytes; i++, value >>= 8)
+        *(*at)++ = (unsigned char)(value & 255);
 }
 
 static uint64_t capped(uint64_t value)
