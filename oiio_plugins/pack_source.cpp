@@ -1,6 +1,8 @@
-// See pack_source.hpp. How a set comes out of its pack is behind `PackSet` and `read_pack` alone.
+// See pack_source.hpp. How a set comes out of its pack is behind `PackSet` and `open_set` alone.
 #include "pack_source.hpp"
 
+#include <algorithm>
+#include <mutex>
 #include <vector>
 
 #include <retex/retex.h>
@@ -18,18 +20,20 @@ const size_t sets_kept = 3, pictures_kept = 8;
 
 // ---- the set ----
 
-// A pack's set. Never changed, so any thread may look.
+// A pack's set: open, for the picture takes its rows from the file as it needs them, and read whole once somebody asks
+// for a part. Neither is changed afterwards, so any thread may look.
 class PackSet
 {
   public:
-    PackSet(const std::string &path, int threads)
+    explicit PackSet(const std::string &path) : path_(path)
     {
         RetexError err{};
-        must(retex_set_read(path.c_str(), &set_, nullptr, threads, &err), err);
+        must(retex_set_open(path.c_str(), &set_, nullptr, 0, &err), err);
     }
     ~PackSet()
     {
         retex_set_close(&set_);
+        retex_set_close(&whole_);
     }
     PackSet(const PackSet &) = delete;
     PackSet &operator=(const PackSet &) = delete;
@@ -38,24 +42,34 @@ class PackSet
     {
         return *set_;
     }
-    const RetexPart &part(int index) const
+    // With its pixels and their checksums, which of a pack that is not lossless are not those of the set that was packed.
+    const RetexSet &whole(int threads)
     {
-        return set_->parts[index];
+        std::call_once(reading_, [&] {
+            RetexError err{};
+            must(retex_set_read(path_.c_str(), &whole_, nullptr, threads, &err), err);
+            must(retex_set_checksum(whole_, threads, &err), err);
+            if (whole_->nparts != set_->nparts)
+                throw Failure("the pack has changed while it was read");
+        });
+        return *whole_;
     }
     // With those textures; without any the one that was rendered, as far as the set holds it.
-    RetexImage picture(const std::vector<RetexTextureSpec> &textures, int threads) const
+    RetexImage picture(const std::vector<RetexTextureSpec> &specs, int threads)
     {
         RetexError err{};
-        RetexSamples *samples = nullptr;
         RetexImage picture{};
-        int code = 0;
-        if (!set_->nterms && textures.empty())
-            code = retex_image_copy(&picture, &set_->parts[0].image, &err);
-        else if (!textures.empty())
-            code = retex_sample(&samples, set_, textures.data(), int(textures.size()), threads, &err);
-        if (!code && !picture.pixels)
-            code = retex_combine(&picture, set_, samples, nullptr, nullptr, threads, &err);
-        retex_samples_close(&samples);
+        RetexTexture *textures[RETEX_MAX_TARGETS];
+        if (!set_->nterms && specs.empty()) {
+            must(retex_image_copy(&picture, &whole(threads).parts[0].image, &err), err);
+            return picture;
+        }
+        int code = retex_textures_load(textures, set_, specs.data(), int(specs.size()), threads, &err);
+        if (!code)
+            code = retex_image_alloc(&picture, set_->width, set_->height, 3, &err);
+        if (!code)
+            code = retex_retexture(set_, nullptr, textures, nullptr, keep_rows, &picture, threads, &err);
+        retex_textures_close(textures);
         if (code)
             retex_image_free(&picture);
         must(code, err);
@@ -63,13 +77,23 @@ class PackSet
     }
 
   private:
-    RetexSet *set_ = nullptr;
+    static int keep_rows(void *picture, int y0, int y1, const float *rows, RetexError *)
+    {
+        const RetexImage *image = static_cast<const RetexImage *>(picture);
+        std::copy(rows, rows + 3 * size_t(image->width) * size_t(y1 - y0),
+                  image->pixels + retex_image_index(image, 0, y0));
+        return 0;
+    }
+
+    const std::string path_;
+    RetexSet *set_ = nullptr, *whole_ = nullptr;
+    std::once_flag reading_;
 };
 
-std::shared_ptr<PackSet> read_pack(const std::string &path, int threads)
+std::shared_ptr<PackSet> open_set(const std::string &path)
 {
     static Cache<PackSet> cache(sets_kept);
-    return cache.get(path, file_stamp(path), [&] { return std::make_shared<PackSet>(path, threads); });
+    return cache.get(path, file_stamp(path), [&] { return std::make_shared<PackSet>(path); });
 }
 
 // ---- textures ----
@@ -149,7 +173,7 @@ class PackSource final : public Source
   public:
     PackSource(const std::string &path, const Arguments &arguments, int threads)
         : textures_(parse_textures(arguments)), threads_(threads), key_(path), stamp_(file_stamp(path)),
-          set_(read_pack(path, threads))
+          set_(open_set(path))
     {
         for (const RetexTextureSpec &texture : textures_) {
             check_texture(set_->description(), texture);
@@ -177,7 +201,7 @@ class PackSource final : public Source
     }
     const RetexPart &part(int index) override
     {
-        return index ? set_->part(index) : picture().part;
+        return index ? set_->whole(threads_).parts[index] : picture().part;
     }
 
   private:
@@ -197,7 +221,7 @@ class PackSource final : public Source
         picture->part.image = RetexImage{};
         picture->part.image = set_->picture(textures_, threads_);
         if (textures_.empty())
-            make_manifest(*picture, set_->description());
+            make_manifest(*picture, set_->whole(threads_));
         return picture;
     }
 

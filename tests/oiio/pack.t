@@ -5,21 +5,21 @@ $ retex-combine -q room.retex -o plain.exr; retex-combine -q room.retex --textur
 
 # Its picture, the parts of its set by name, and what is told of them.
 $ iinfo room.retex
-> room.retex :   48 x   32, 3 channel, float retex (123 subimages)
+> room.retex :   48 x   32, 3 channel, float retex (121 subimages)
 $ iinfo -v -a room.retex | grep -A 12 'subimage  1:' | sort
 >     channel list: indep.R, indep.G, indep.B
->     channel list: spread_Floor_sharp1.R, spread_Floor_sharp1.G, spread_Floor_sharp1.B
->     channel list: uv_Floor_sharp1.R, uv_Floor_sharp1.G, uv_Floor_sharp1.A
+>     channel list: original_Floor.R, original_Floor.G, original_Floor.B
+>     full/display origin: 0, 0
+>     full/display size: 48 x 32
 >     oiio:ColorSpace: "Linear"
 >     oiio:ColorSpace: "Linear"
 >     oiio:subimagename: "indep"
->     oiio:subimagename: "uv_Floor_sharp1"
+>     oiio:subimagename: "original_Floor"
+>     retex:role: "original"
 >     retex:role: "radiance"
->     retex:role: "uv"
 >     retex:target: "Floor"
 >  subimage  1:   48 x   32, 3 channel, half retex
->  subimage  2:   48 x   32, 3 channel, float retex
->  subimage  3:   48 x   32, 3 channel, half retex
+>  subimage  2: 1024 x 1024, 3 channel, half retex
 $ iinfo -v room.retex | grep -v 'retex: \|subimages' | sort
 >     Software: "retex-render 0.1.0"
 >     channel list: R, G, B
@@ -80,15 +80,15 @@ $ oiiotool 'room.retex?Floor' -o no.exr 2>&1 | grep ERROR; iinfo 'room.retex?Flo
 # What is no pack.
 $ head -c 20000 room.retex >cut.retex; cp brick.jpg picture.retex; printf 'not a pack' >junk.retex; printf 'PK\003\004' >short.retex; : >empty.retex; mkdir folder.retex; cp room.retex room.png
 $ for f in cut junk short empty folder none; do iinfo $f.retex; oiiotool $f.retex -o no.exr 2>&1 | grep ERROR; done
-> oiiotool ERROR: read : cut.retex: the pack is damaged or truncated: Not a zip archive
+> oiiotool ERROR: read : cut.retex: the pack is damaged or truncated: its directory is missing
 > oiiotool ERROR: read : junk.retex: no .retex file by what is in it
-> oiiotool ERROR: read : short.retex: the pack is damaged or truncated: Not a zip archive
+> oiiotool ERROR: read : short.retex: the pack is damaged or truncated: its directory is missing
 > oiiotool ERROR: read : empty.retex: no .retex file: it is empty
 > oiiotool ERROR: read : cannot read folder.retex: Is a directory
 > oiiotool ERROR: read : File does not exist: "none.retex"
-! iinfo ERROR: "cut.retex" : cut.retex: the pack is damaged or truncated: Not a zip archive
+! iinfo ERROR: "cut.retex" : cut.retex: the pack is damaged or truncated: its directory is missing
 ! iinfo ERROR: "junk.retex" : junk.retex: no .retex file by what is in it
-! iinfo ERROR: "short.retex" : short.retex: the pack is damaged or truncated: Not a zip archive
+! iinfo ERROR: "short.retex" : short.retex: the pack is damaged or truncated: its directory is missing
 ! iinfo ERROR: "empty.retex" : empty.retex: no .retex file: it is empty
 ! iinfo ERROR: "folder.retex" : cannot read folder.retex: Is a directory
 ! iinfo ERROR: "none.retex" : cannot read none.retex: No such file or directory
