@@ -319,7 +319,8 @@ static void connect_matte(PathWorker *w, Packet *p, int lane, int k)
     Split value = {rgb_grey(lights->value[k]), {0, 0, 0}}, shine = {p->faces[k]->shine[lights->behind[k]], {0, 0, 0}};
     Rgb light = rgb_scale(t->light.radiance, lights->weight[k]);
     if (passed == 0 && w->context->simple) {
-        path_bring(w, path, rgb_mul(rgb_mul(rgb_mul(path->beta, light), split_apply(value, v->s.albedo)), shine.d));
+        path_bring(w, path,
+                   rgb_mul(rgb_mul(rgb_mul(path->beta, light), split_apply(value, shading_albedo(&v->s, 0))), shine.d));
         return;
     }
     factors[0] = shading_factor(&v->s, value);
@@ -339,7 +340,7 @@ static int scatter_matte(PathWorker *w, Packet *p, int lane, int k, Ray *ray)
         return 0;
     path->neutral *= at_most(split_neutral(weight), 1);
     if (w->context->simple) {
-        path->beta = rgb_mul(path->beta, split_apply(weight, s->albedo));
+        path->beta = rgb_mul(path->beta, split_apply(weight, shading_albedo(s, 0)));
         if (rgb_is_black(path->beta))
             return 0;
     } else {
