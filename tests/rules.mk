@@ -107,7 +107,7 @@ POST_PROGRAMS := $(BUILD)/tests/bench/post_floor $(BUILD)/tests/bench/post_measu
 .PHONY: bench-post bench-storage
 bench-post: all $(POST_PROGRAMS)
 	@BUILD=$(BUILD) tests/bench/post/run.sh
-bench-storage: all
+bench-storage: all fidelity-textures
 	@BUILD=$(BUILD) tests/bench/post/storage.sh
 
 # Retextures against rendering again, in all scenes: docs/fidelity.md; then what denoising gains: docs/denoise.md. Takes

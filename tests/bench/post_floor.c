@@ -1,8 +1,8 @@
 /* The least that recombining a set can take: post_floor SET [THREADS]
  *
- * Opens a set or a pack as retex-combine does, reads and decodes every row of the parts that recombination looks at, and
- * keeps nothing: no texture, no arithmetic, no picture. Bands of rows are read side by side by all threads, what is
- * smaller than the picture before the rest, as in combining. Prints how many parts that were, and their bytes as floats.
+ * Opens a set or a pack as retex-combine does, reads and decodes every row of the parts that recombination looks at,
+ * and keeps nothing: no texture, no arithmetic, no picture. Bands of rows are read side by side by all threads, what is
+ * smaller than the picture before the rest, as in combining. Prints how many parts that were and their bytes as floats.
  */
 #include <stdatomic.h>
 #include <stdio.h>

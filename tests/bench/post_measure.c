@@ -1,8 +1,8 @@
 /* One run of a program, or of several in a pipe, timed: post_measure RECORD PROGRAM ARGUMENT... ['|' PROGRAM ...]
  *
- * Writes to the file RECORD, as a JSON object, the wall seconds from before the first is started until the last has ended,
- * and of each process its processor seconds, its peak memory and its exit status. What starts a process counts in the
- * peak that the kernel tells of it, so this is small and does nothing else. */
+ * Writes to the file RECORD, as a JSON object, the wall seconds from before the first is started until the last has
+ * ended, and of each process its processor seconds, its peak memory and its exit status. What starts a process counts
+ * in the peak that the kernel tells of it, so this is small and does nothing else. */
 #include <fcntl.h>
 #include <stdio.h>
 #include <stdlib.h>

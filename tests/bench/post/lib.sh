@@ -30,7 +30,7 @@ texture_options() { # OPTION TARGET...: one a line
 }
 
 # A file that there is, and newer than the program it comes from: FILE PROGRAM
-is_made() { [ -e "$1" ] && [ "$1" -nt "$build/bin/$2" ]; }
+is_made() { [ -n "$(find "$1" -newer "$build/bin/$2" 2>/dev/null)" ]; }
 
 set_name() { echo "$1-$(echo "$5" | tr ' ' '+')-$2-$3-$4"; } # SCENE LAYOUT SIZE SPP TARGETS
 
@@ -53,9 +53,8 @@ denoised_set() { # as above
     retex-denoise -q "$file" -o "$denoised" || return 1
     [ -n "$is_kept" ] || rm "$file"
 }
-# Packs and samples of a set: what is made, of which file, and the program's options.
-packed_set() { # FILE SET OPTION...
-    pack=$1 unpacked=$2
-    shift 2
-    is_made "$pack" retex-pack || retex-pack -q "$unpacked" "$@" -o "$pack"
+# Its pack beside it.
+packed_set() { # SET.exr
+    pack=${1%.exr}.retex
+    is_made "$pack" retex-pack || retex-pack -q "$1" -o "$pack"
 }

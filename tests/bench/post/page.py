@@ -54,7 +54,7 @@ are in [post.csv](post.csv).
 
 A time is that of a whole process, or of all in a pipe, from its start until the file is written, reading the set
 and loading and filtering the textures included. Files were read once before and lie in the system's memory. All rows
-of a table were run in turn, {turns}, every other turn backwards; times are medians, with least and largest in
+of a table were run in turn, {turns}; times are medians, with least and largest in
 brackets, and ratios medians of those of the same turn. Memory is the largest peak of a process; in pipes each has
 its own.
 
@@ -145,9 +145,15 @@ def goals(cases):
     def wall(row):
         return lambda c: median(c.walls(row)) if c.walls(row) else None
 
-    def peak(c):
-        rows = [r for r in ROWS if r.startswith(("pack-", "set-", "cat-", "pipe")) and c.succeeded(r)]
-        return max((max(c.peaks(r)) for r in rows), default=None)
+    def peak(*kinds):
+        return lambda c: max((max(c.peaks(r)) / 1e9 for r in ROWS if r.startswith(kinds) and c.succeeded(r)),
+                             default=None)
+
+    def with_samples(row):
+        def figure(c):
+            walls = [c.walls(r) for r in ("oiio", "samples", row)]
+            return (median(walls[0]) + median(walls[1])) / median(walls[2]) if all(walls) else None
+        return figure
     every = [c for c in cases.values() if c.about["layout"] == "footprints"] or list(cases.values())
     large, small = ([c for c in every if c.about["size"] == size] for size in (LARGE, SMALL))
     tenth = PAPER_SECONDS[LARGE] / 10
@@ -158,12 +164,17 @@ def goals(cases):
               large)
     for row in ("pack-jpg", "pack-exr"):
         worst(f"{ROWS[row]}, {SMALL}: at most 0.3 s", 0.3, "s", wall(row), small)
-    for row, to in (("pack-jpg", "floor-pack"), ("pack-exr", "floor-pack"), ("set-exr", "floor-set")):
-        worst(f"{ROWS[row]}: at most 3 times {ROWS[to]}", 3, "times", lambda c, r=row, t=to: c.ratio(r, t), every)
-    for row in ("pack-exr", "set-exr"):
-        worst(f"{ROWS[row]}: at least 8 times as fast as oiiotool", 8, "times", lambda c, r=row: c.ratio("oiio", r),
-              every, at_most=False)
-    worst(f"one picture, {LARGE}: peak memory below 1.5 GB", 1.5e9, "bytes", peak, large)
+    for chosen, at in (every, "any size"), (large, LARGE):
+        for row, to in (("pack-jpg", "floor-pack"), ("pack-exr", "floor-pack"), ("set-exr", "floor-set")):
+            worst(f"{ROWS[row]}, {at}: at most 3 times {ROWS[to]}", 3, "times",
+                  lambda c, r=row, t=to: c.ratio(r, t), chosen)
+        for row in ("pack-exr", "set-exr"):
+            worst(f"{ROWS[row]}, {at}: at least 8 times as fast as oiiotool", 8, "times",
+                  lambda c, r=row: c.ratio("oiio", r), chosen, at_most=False)
+            worst("the same, where oiiotool takes `retex-sample` too", 8, "times", with_samples(row), chosen,
+                  at_most=False)
+    worst(f"one picture from a file, {LARGE}: peak memory below 1.5 GB", 1.5, "GB", peak("pack-", "set-"), large)
+    worst("the same through a pipe", 1.5, "GB", peak("cat-", "pipe"), large)
     worst("oiiotool computes the same: at least 50 dB", 50, "dB", lambda c: c.agreement.get("oiio"), every,
           at_most=False)
 
@@ -188,10 +199,10 @@ def section(c):
     about = c.about
     print(f"\n## {SCENES[about['scene']]}: {targets(c)}, {about['size']}, layout {about['layout']}\n")
     state = "denoised" if about["run"].get("denoised") else "as rendered, for it could not be denoised"
-    agreement = "".join(f" {text} {c.agreement[name]:.1f} dB." for name, text in
+    agreement = "\n".join(f"{text} {c.agreement[name]:.1f} dB." for name, text in
                         (("oiio", "The picture of oiiotool agrees with that of the set by"),
                          ("pack", "That of the pack does by")) if name in c.agreement)
-    print(f"The set has {about['spp']} samples a pixel, {about['run']['aovs']} AOVs and is {state}.{agreement}\n\n"
+    print(f"The set has {about['spp']} samples a pixel, {about['run']['aovs']} AOVs and is {state}.\n{agreement}\n\n"
           "| what | wall s | processor s | of pack to JPEG | of reading alone | memory MB |\n|---|---|---|---|---|---|")
     for row, name in ROWS.items():
         if row not in c.runs:
@@ -259,7 +270,7 @@ def write_csv(path, cases, stored, size):
 def main(records, table, cores, size, spp):
     cases, stored = read(records)
     turns = max((len(runs) for c in cases.values() for runs in c.runs.values()), default=0)
-    print(INTRODUCTION.format(cores=cores, turns=f"{turns} times" if turns > 1 else "once"), end="")
+    print(INTRODUCTION.format(cores=cores, turns=f"{turns} times, every other turn backwards" if turns > 1 else "once"), end="")
     goals(cases)
     against_paper(cases)
     for case in cases.values():

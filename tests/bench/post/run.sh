@@ -16,7 +16,7 @@
 # footprints; 'footprints paper') choose less, and BENCH_TABLE_SIZE and BENCH_TABLE_SPP what sizes are measured of
 # (1920x1080, or the first of BENCH_SIZES where they are given; `no': nothing).
 set -eu
-bench=bench-post
+bench='bench-post'
 . tests/bench/post/lib.sh
 records=$work/runs
 turns=${BENCH_TURNS:-5} sizes=${BENCH_SIZES:-640x640 1080x1080 2048x2048 4096x3840}
@@ -24,7 +24,6 @@ scenes=${BENCH_SCENES:-living-room artist} edits=${BENCH_EDITS:-one two} layouts
 table_size=${BENCH_TABLE_SIZE:-${BENCH_SIZES:-1920x1080}}
 table_size=${table_size%% *} table_spp=${BENCH_TABLE_SPP:-${BENCH_SPP:-128}}
 rows='pack-jpg pack-exr pack-png pack-tif floor-pack set-jpg set-exr floor-set cat-pack cat-set pipe batch oiio render'
-formats='jpg exr png tif'
 variants=12
 mkdir -p "$work/out"
 : >"$records"
@@ -112,7 +111,7 @@ prepare() { # TARGETS
         rendered_set "$scene" "$layout" "$size" "$spp" "$1"
         measured=$file
     fi
-    packed_set "${measured%.exr}.retex" "$measured"
+    packed_set "$measured"
     retex-info --json "$measured" >"$work/info.json"
     record case "scene=$scene" "edit=$edit" "targets=$1" "layout=$layout" "size=$size" "spp=$spp" \
         "set_bytes=$(stat -c %s "$measured")" "pack_bytes=$(stat -c %s "$pack")" "$work/info.json"
