@@ -27,7 +27,7 @@ class Chain:
         if scale == 1:
             return []
         size = f"{part['width'] * scale}x{part['height'] * scale}"
-        return ["--resize:filter=triangle", size, "--cut", f"{wide}x{high}+0+0"]
+        return ["--fullpixels", "--resize:filter=triangle", size, "--cut", f"{wide}x{high}+0+0"]
 
     def part(self, name, enlarge=True):
         part = self.parts[name]

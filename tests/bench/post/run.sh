@@ -10,11 +10,12 @@
 # nothing: retex-combine from packs, sets and pipes into several formats; beside it, in the same turns, reading alone
 # (post_floor), the same sum by oiiotool, and the scene rendered again.
 #
-# As it stands it takes about five hours the first time and two thereafter, 30 GB of disk and, to denoise the largest
-# sets, as much memory as there is (without it, these are measured as rendered). BENCH_SIZES, BENCH_SPP (else 32, and 8
-# above two million pixels), BENCH_TURNS, BENCH_SCENES='living-room artist', BENCH_EDITS='one two', BENCH_LAYOUTS (else
-# footprints; 'footprints paper') choose less, and BENCH_TABLE_SIZE and BENCH_TABLE_SPP what sizes are measured of
-# (1920x1080, or the first of BENCH_SIZES where they are given; `no': nothing).
+# As it stands it takes about five hours on two cores the first time, half of it rendering and denoising, 20 GB of disk
+# and, to denoise the largest sets, more memory than most machines have: without it these are measured as rendered.
+# BENCH_SIZES, BENCH_SPP (else 32, and 8 from two million pixels on), BENCH_TURNS (5, of large pictures at most 3),
+# BENCH_SCENES='living-room artist', BENCH_EDITS='one two', BENCH_LAYOUTS (else footprints; 'footprints paper') choose
+# less, and BENCH_TABLE_SIZE and BENCH_TABLE_SPP what sizes are measured of (1920x1080, or the first of BENCH_SIZES where
+# they are given, with 128 samples, or BENCH_SPP; `no': nothing).
 set -eu
 bench='bench-post'
 . tests/bench/post/lib.sh
@@ -25,6 +26,10 @@ table_size=${BENCH_TABLE_SIZE:-${BENCH_SIZES:-1920x1080}}
 table_size=${table_size%% *} table_spp=${BENCH_TABLE_SPP:-${BENCH_SPP:-128}}
 rows='pack-jpg pack-exr pack-png pack-tif floor-pack set-jpg set-exr floor-set cat-pack cat-set pipe batch oiio render'
 variants=12
+if ! command -v oiiotool >/dev/null; then
+    echo "$bench: there is no oiiotool (openimageio-tools)" >&2
+    exit 2
+fi
 mkdir -p "$work/out"
 : >"$records"
 
@@ -116,8 +121,8 @@ prepare() { # TARGETS
     record case "scene=$scene" "edit=$edit" "targets=$1" "layout=$layout" "size=$size" "spp=$spp" \
         "set_bytes=$(stat -c %s "$measured")" "pack_bytes=$(stat -c %s "$pack")" "$work/info.json"
 }
-# One case, all its turns. What takes long is run in the first turn only: rendering, and oiiotool where pictures are
-# large.
+# One case, all its turns, of large pictures at most three. What takes long is run in the first turn only: rendering, and
+# oiiotool and the variants where pictures are large.
 measure_case() {
     targets=$(targets_of "$scene" "$edit") spp=$(spp_of "$size") file=$(scene_file "$scene")
     named="$scene $edit $layout $size"
@@ -127,17 +132,18 @@ measure_case() {
     batch_table $targets >"$work/out/batch.csv"
     # shellcheck disable=SC2086
     run samples $targets
-    for turn in $(seq "$turns"); do
+    is_large='' case_turns=$turns
+    [ "$(megapixels "$size")" -lt 4 ] || is_large=1
+    [ -z "$is_large" ] || [ "$turns" -le 3 ] || case_turns=3
+    for turn in $(seq "$case_turns"); do
         order=$rows
         [ $((turn % 2)) = 1 ] || order=$(echo "$rows" | tr ' ' '\n' | tac)
         cat "$measured" "$pack" >/dev/null
         for row in $order; do
-            if [ "$turn" -gt 1 ]; then
-                case $row in
-                render) continue ;;
-                oiio) [ "$(megapixels "$size")" -lt 4 ] || continue ;;
-                esac
-            fi
+            case $turn-$is_large-$row in
+            1-*) ;;
+            *-render | *-1-oiio | *-1-batch) continue ;;
+            esac
             # shellcheck disable=SC2086
             run "$row" $targets
         done
