@@ -9,6 +9,8 @@
 #   make bench        ratios of speed: kernels against references, sets against plain renders
 #   make bench-render speed and error of rendering, against Cycles and against rays of Embree alone
 #   make bench-overhead   what sets cost over plain pictures, as in the paper; BENCH_DOCS=1: docs/overhead.md
+#   make bench-post   how long retextures take and how large sets are, as in the paper; BENCH_DOCS=1: docs/post.md
+#   make bench-storage    size of sets and packs against what they lose; BENCH_DOCS=1: docs/storage.md
 #   make bench-scale  cost a path by triangles, lights, targets and resolution; BENCH_DOCS=1: docs/scale.md
 #   make fidelity     retextures against rendering again: docs/fidelity.md, docs/denoise.md; takes hours
 #   make fidelity-denoise   the second of these alone

@@ -40,6 +40,11 @@ $(BUILD)/tests/bench/bench: $(BENCH_OBJECTS) $(LIBTEST) $(LIBRENDER) $(LIBRETEX)
 	@mkdir -p $(@D)
 	$(SAY)$(LINK) -Wl,-rpath,'$$ORIGIN/../../lib' $^ -o $@ $(RENDER_LIBS) $(LIBRETEX_LIBS) $(TEST_LIBS)
 
+# What make bench-post measures by: each is one file.
+$(BUILD)/tests/bench/post_%: $(BUILD)/obj/tests/bench/post_%.o $(LIBRETEX) | $(BRIDGE)
+	@mkdir -p $(@D)
+	$(SAY)$(LINK) -Wl,-rpath,'$$ORIGIN/../../lib' $^ -o $@ $(LIBRETEX_LIBS)
+
 $(BUILD)/tests/bench/embree_rays: $(BUILD)/obj/tests/bench/embree_rays.o $(LIBTEST) $(LIBRENDER) $(LIBRETEX) | $(BRIDGE)
 	@mkdir -p $(@D)
 	$(SAY)$(LINK) -Wl,-rpath,'$$ORIGIN/../../lib' $^ -o $@ $(RENDER_LIBS) $(LIBRETEX_LIBS) $(TEST_LIBS)
@@ -96,6 +101,14 @@ bench-overhead: all
 	@BUILD=$(BUILD) tests/bench/overhead/run.sh
 bench-scale: all
 	@BUILD=$(BUILD) tests/bench/scale/run.sh
+
+# How long retextures take and how large sets are, as in the paper's tables; and size against loss of packs.
+POST_PROGRAMS := $(BUILD)/tests/bench/post_floor $(BUILD)/tests/bench/post_measure
+.PHONY: bench-post bench-storage
+bench-post: all $(POST_PROGRAMS)
+	@BUILD=$(BUILD) tests/bench/post/run.sh
+bench-storage: all fidelity-textures
+	@BUILD=$(BUILD) tests/bench/post/storage.sh
 
 # Retextures against rendering again, in all scenes: docs/fidelity.md; then what denoising gains: docs/denoise.md. Takes
 # hours; FIDELITY_… and DENOISE_… of the scripts choose less.

@@ -1,0 +1,283 @@
+"""The page of make bench-post: page.py RECORDS OUT.csv CORES TABLE_SIZE TABLE_SPP
+
+Prints what run.sh measured as Markdown, and writes the figures as CSV.
+"""
+import csv
+import json
+import sys
+from statistics import median
+
+from stored import GROUPS
+
+PAPER_SECONDS = {"640x640": 0.719, "1080x1080": 1.373, "2048x2048": 3.603, "4096x3840": 10.88}
+# Megabytes of tables 4 and 5: one object, two objects.
+PAPER_SIZES = {"exr": (66.2, 116), "jpeg": (23.59, 52.6), "control-biased": (47.55, 46.3),
+               "control-unbiased": (97.5, 94.6)}
+EDITS = ["one", "two"]
+SCENES = {"living-room": "scenes/living-room", "artist": "the artist's living room"}
+LARGE, SMALL = "4096x3840", "640x640"
+
+ROWS = {
+    "pack-jpg": "pack to JPEG",
+    "pack-exr": "pack to half EXR",
+    "pack-png": "pack to PNG",
+    "pack-tif": "pack to TIFF",
+    "set-jpg": "set to JPEG",
+    "set-exr": "set to half EXR",
+    "cat-pack": "`cat` pack, pipe, to JPEG",
+    "cat-set": "`cat` set, pipe, to JPEG",
+    "pipe": "pack, `retex-sample`, pipe, `retex-combine` to JPEG",
+    "batch": "pack to 12 variants, JPEG",
+    "floor-pack": "reading the pack alone",
+    "floor-set": "reading the set alone",
+    "oiio": "oiiotool, set and samples to half EXR",
+    "samples": "`retex-sample`, samples for oiiotool",
+    "render": "rendering again, to half EXR",
+}
+STORED = {
+    "exr-rendered": "EXR, zip, as rendered",
+    "exr": "EXR, zip, denoised",
+    "dwaa-rendered": "EXR, DWAA 45, as rendered",
+    "dwaa": "EXR, DWAA 45, denoised",
+    "pack-rendered": "pack, as rendered",
+    "pack": "pack, denoised",
+    "lossless": "pack, `--lossless`, denoised",
+    "control-biased": "Rousselle, biased: its buffers",
+    "control-unbiased": "Rousselle, unbiased: its buffers",
+}
+
+INTRODUCTION = """# How long a retexture takes
+
+From a set on the disk to the written picture, what table 6 of the paper measures, and how large sets are, as in its
+tables 4 and 5. `make bench-post` made this page, on {cores} cores; all figures, with their least and largest values,
+are in [post.csv](post.csv).
+
+A time is that of a whole process, or of all in a pipe, from its start until the file is written, reading the set
+and loading and filtering the textures included. Files were read once before and lie in the system's memory. All rows
+of a table were run in turn, {turns}; times are medians, with least and largest in
+brackets, and ratios medians of those of the same turn. Memory is the largest peak of a process; in pipes each has
+its own.
+
+"Reading alone" opens the same file, reads and decodes every row that recombination looks at on all cores, and does
+nothing with it: faster than that nothing can be that takes all of the file. "oiiotool" is the same sum in one call of
+OpenImageIO's program, which reads the same set and textures that `retex-sample` has already filtered;
+their making, on a line of its own, is not in its time. "Rendering again" is `retex-render --replace` with the samples
+that the set has, which are few: with 128, as in the paper's other tables, it takes so many times as long. That ran
+once, and so did oiiotool and the variants of pictures from four million pixels on, whose other rows ran at most three
+times.
+"""
+
+
+class Case:
+    """All about one set: what it is, and of each row the runs by turn."""
+
+    def __init__(self, about):
+        self.about, self.runs, self.agreement = about, {}, {}
+
+    def succeeded(self, row):
+        return {t: r for t, r in self.runs.get(row, {}).items() if all(p["status"] == 0 for p in r["processes"])}
+
+    def walls(self, row):
+        return [r["wall"] for r in self.succeeded(row).values()]
+
+    def cpu(self, row):
+        return median(sum(p["cpu"] for p in r["processes"]) for r in self.succeeded(row).values())
+
+    def peaks(self, row):
+        """Of each process of the row."""
+        runs = self.succeeded(row).values()
+        return [max(p["peak_memory_bytes"] for p in of) for of in zip(*(r["processes"] for r in runs))]
+
+    def ratio(self, row, to):
+        a, b = self.succeeded(row), self.succeeded(to)
+        turns = a.keys() & b.keys()
+        return median(a[t]["wall"] / b[t]["wall"] for t in turns) if turns else None
+
+    def variants_a_minute(self):
+        return 60 * 12 / median(self.walls("batch")) if self.walls("batch") else None
+
+
+def read(path):
+    cases, stored = {}, {}
+    with open(path, encoding="utf-8") as file:
+        for r in map(json.loads, file):
+            key = tuple(r.get(name) for name in ("scene", "layout", "edit", "size"))
+            if r["kind"] == "case":
+                cases[key] = Case(r)
+            elif r["kind"] == "time":
+                cases[key].runs.setdefault(r["row"], {})[r["turn"]] = r["run"]
+            elif r["kind"] == "agreement":
+                cases[key].agreement[r["what"]] = r["run"]["psnr"]
+            else:
+                of = stored.setdefault((r["scene"], r.get("layout"), r.get("edit")), {})
+                of[r["what"]] = r.get("run") or {"bytes": int(r["bytes"]), "groups": {}}
+    return cases, stored
+
+
+def seconds(values):
+    if not values:
+        return "failed"
+    return f"{median(values):.3f}" + (f" ({min(values):.3f} .. {max(values):.3f})" if len(values) > 1 else "")
+
+
+def times(value, digits=1):
+    return "" if value is None else f"{value:.{digits}f}"
+
+
+def targets(case):
+    return " and ".join(case.about["targets"].split())
+
+
+# ---- sections ----
+
+def goals(cases):
+    """Each goal with its worst case."""
+    def worst(name, limit, unit, figure, chosen, at_most=True):
+        found = [(figure(c), c) for c in chosen]
+        found = [(v, c) for v, c in found if v is not None]
+        if not found:
+            print(f"| {name} | not measured | |")
+            return
+        value, case = (max if at_most else min)(found, key=lambda pair: pair[0])
+        reached = value <= limit if at_most else value >= limit
+        at = f"{SCENES[case.about['scene']]}, {targets(case)}, {case.about['size']}"
+        print(f"| {name} | {value:.3g} {unit}, {at} | {'yes' if reached else 'no'} |")
+
+    def wall(row):
+        return lambda c: median(c.walls(row)) if c.walls(row) else None
+
+    def peak(*kinds):
+        return lambda c: max((max(c.peaks(r)) / 1e9 for r in ROWS if r.startswith(kinds) and c.succeeded(r)),
+                             default=None)
+
+    def with_samples(row):
+        def figure(c):
+            walls = [c.walls(r) for r in ("oiio", "samples", row)]
+            return (median(walls[0]) + median(walls[1])) / median(walls[2]) if all(walls) else None
+        return figure
+    every = [c for c in cases.values() if c.about["layout"] == "footprints"] or list(cases.values())
+    large, small = ([c for c in every if c.about["size"] == size] for size in (LARGE, SMALL))
+    tenth = PAPER_SECONDS[LARGE] / 10
+    print("\n## Goals\n\nThe worst of all scenes and edits, in the default layout where it was measured.\n\n"
+          "| goal | worst | reached |\n|---|---|---|")
+    for row in ("pack-jpg", "pack-exr"):
+        worst(f"{ROWS[row]}, {LARGE}: at most a tenth of the paper's {PAPER_SECONDS[LARGE]} s", tenth, "s", wall(row),
+              large)
+    for row in ("pack-jpg", "pack-exr"):
+        worst(f"{ROWS[row]}, {SMALL}: at most 0.3 s", 0.3, "s", wall(row), small)
+    for chosen, at in (every, "any size"), (large, LARGE):
+        for row, to in (("pack-jpg", "floor-pack"), ("pack-exr", "floor-pack"), ("set-exr", "floor-set")):
+            worst(f"{ROWS[row]}, {at}: at most 3 times {ROWS[to]}", 3, "times",
+                  lambda c, r=row, t=to: c.ratio(r, t), chosen)
+        for row in ("pack-exr", "set-exr"):
+            worst(f"{ROWS[row]}, {at}: at least 8 times as fast as oiiotool", 8, "times",
+                  lambda c, r=row: c.ratio("oiio", r), chosen, at_most=False)
+            worst("the same, where oiiotool takes `retex-sample` too", 8, "times", with_samples(row), chosen,
+                  at_most=False)
+    worst(f"one picture from a file, {LARGE}: peak memory below 1.5 GB", 1.5, "GB", peak("pack-", "set-"), large)
+    worst("the same through a pipe", 1.5, "GB", peak("cat-", "pipe"), large)
+    worst("oiiotool computes the same: at least 50 dB", 50, "dB", lambda c: c.agreement.get("oiio"), every,
+          at_most=False)
+
+
+def against_paper(cases):
+    print("\n## Beside table 6 of the paper\n\nSeconds from set to picture, and how many times faster than the paper's "
+          "\"total processing time\".\n\n| scene | targets | layout | size | pack to JPEG | to half EXR |"
+          " paper | faster, JPEG | EXR | set, MB | pack, MB | variants a minute |\n"
+          "|---|---|---|---|---|---|---|---|---|---|---|---|")
+    for c in cases.values():
+        about = c.about
+        paper = PAPER_SECONDS.get(about["size"])
+        walls = [c.walls(row) for row in ("pack-jpg", "pack-exr")]
+        faster = [times(paper / median(w)) if paper and w else "" for w in walls]
+        sizes = [f"{int(about[name]) / 1e6:.1f}" for name in ("set_bytes", "pack_bytes")]
+        print(f"| {SCENES[about['scene']]} | {targets(c)} | {about['layout']} | {about['size']} |"
+              f" {' | '.join(map(seconds, walls))} | {times(paper, 3)} | {' | '.join(faster)} | {' | '.join(sizes)} |"
+              f" {times(c.variants_a_minute(), 0)} |")
+
+
+def section(c):
+    about = c.about
+    print(f"\n## {SCENES[about['scene']]}: {targets(c)}, {about['size']}, layout {about['layout']}\n")
+    state = "denoised" if about["run"].get("denoised") else "as rendered, for it could not be denoised"
+    agreement = "\n".join(f"{text} {c.agreement[name]:.1f} dB." for name, text in
+                        (("oiio", "The picture of oiiotool agrees with that of the set by"),
+                         ("pack", "That of the pack does by")) if name in c.agreement)
+    print(f"The set has {about['spp']} samples a pixel, {about['run']['aovs']} AOVs and is {state}.\n{agreement}\n\n"
+          "| what | wall s | processor s | of pack to JPEG | of reading alone | memory MB |\n|---|---|---|---|---|---|")
+    for row, name in ROWS.items():
+        if row not in c.runs:
+            continue
+        if not c.succeeded(row):
+            print(f"| {name} | failed | | | | |")
+            continue
+        floor = "floor-set" if row in ("set-jpg", "set-exr", "cat-set", "oiio") else "floor-pack"
+        of = None if row in ("render", "batch", "samples") else c.ratio(row, floor)
+        memory = " + ".join(f"{peak / 1e6:.0f}" for peak in c.peaks(row))
+        print(f"| {name} | {seconds(c.walls(row))} | {c.cpu(row):.2f} | {times(c.ratio(row, 'pack-jpg'), 2)} |"
+              f" {times(of, 2)} | {memory} |")
+
+
+def sizes(stored, size, spp):
+    if not stored:
+        return
+    print(f"\n## Sizes\n\nMegabytes on the disk at {size}, {spp} samples a pixel. The paper's are those of its Living "
+          "Room at\n1920x1080: EXR, and the same with radiance as JPEG. \"DWAA\" is `oiiotool -a --compression dwaa:45` "
+          "of the whole set,\nwhich also coarsens UV: [storage.md](storage.md) measures what such files lose. Rousselle's "
+          "buffers are those of\nthe scene, whatever is changed, and need the scene as well. Below, what of it is for "
+          "what.\n")
+    for (scene, layout, edit), files in stored.items():
+        if not edit:
+            continue
+        files = {**files, **stored.get((scene, None, None), {})}
+        number = EDITS.index(edit)
+        print(f"\n### {SCENES[scene]}: {edit} target{'s' if number else ''}, layout {layout}\n")
+        print("| file | MB | paper | " + " | ".join(GROUPS) + " |\n|---|---|---|" + "---|" * len(GROUPS))
+        for what, name in STORED.items():
+            if what not in files:
+                continue
+            paper = PAPER_SIZES.get({"exr-rendered": "exr", "pack": "jpeg"}.get(what, what if "control" in what else ""))
+            parts = [f"{files[what]['groups'][g] / 1e6:.2f}" if files[what]["groups"] else "" for g in GROUPS]
+            print(f"| {name} | {files[what]['bytes'] / 1e6:.2f} | {paper[number] if paper else ''} |"
+                  f" {' | '.join(parts)} |")
+
+
+CSV = ["kind", "scene", "targets", "layout", "size", "what", "turns", "wall_s", "wall_s_min", "wall_s_max", "cpu_s",
+       "peak_memory_bytes", "file_bytes", "psnr"]
+
+
+def write_csv(path, cases, stored, size):
+    with open(path, "w", encoding="ascii", newline="") as file:
+        out = csv.DictWriter(file, CSV, lineterminator="\n", restval="")
+        out.writeheader()
+        for (scene, layout, _, at), c in cases.items():
+            about = {"scene": scene, "targets": c.about["targets"], "layout": layout, "size": at}
+            for row in c.runs:
+                if walls := c.walls(row):
+                    out.writerow({"kind": "time", **about, "what": row, "turns": len(walls),
+                                  "wall_s": f"{median(walls):.4f}", "wall_s_min": f"{min(walls):.4f}",
+                                  "wall_s_max": f"{max(walls):.4f}", "cpu_s": f"{c.cpu(row):.4f}",
+                                  "peak_memory_bytes": max(c.peaks(row))})
+            out.writerows({"kind": "agreement", **about, "what": name, "psnr": f"{psnr:.2f}"}
+                          for name, psnr in c.agreement.items())
+        for (scene, layout, edit), files in stored.items():
+            for what, of in files.items():
+                about = {"kind": "size", "scene": scene, "targets": edit or "", "layout": layout or "", "size": size}
+                out.writerow({**about, "what": what, "file_bytes": of["bytes"]})
+                out.writerows({**about, "what": f"{what}: {group}", "file_bytes": bytes_}
+                              for group, bytes_ in of["groups"].items())
+
+
+def main(records, table, cores, size, spp):
+    cases, stored = read(records)
+    turns = max((len(runs) for c in cases.values() for runs in c.runs.values()), default=0)
+    print(INTRODUCTION.format(cores=cores, turns=f"{turns} times, every other turn backwards" if turns > 1 else "once"), end="")
+    goals(cases)
+    against_paper(cases)
+    for case in cases.values():
+        section(case)
+    sizes(stored, size, spp)
+    write_csv(table, cases, stored, size)
+
+
+main(*sys.argv[1:])

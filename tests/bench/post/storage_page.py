@@ -1,0 +1,95 @@
+"""The page of make bench-storage: storage_page.py RECORDS OUT.csv SIZE SPP
+
+Prints what storage.sh measured as Markdown, and writes the figures as CSV.
+"""
+import csv
+import json
+import sys
+from statistics import mean
+
+METHODS = {
+    "exr": "EXR, zip: the set itself",
+    "lossless": "pack, `--lossless`",
+    "dwaa": "EXR, DWAA of radiance",
+    "dwaa-all": "EXR, DWAA of everything",
+    "jpeg": "EXR, radiance as plain JPEG",
+}
+COLUMNS = ["scene", "layout", "method", "level", "bytes", "bytes_without_originals", "bits_a_pixel", "psnr",
+           "psnr_worst", "truth_loss", "truth_loss_worst", "textures"]
+
+INTRODUCTION = """# Size of stored sets, and what they lose
+
+A set can be stored without loss or with some. `make bench-storage` made this page from sets of {size} pixels and
+{spp} samples, denoised; the figures are in [storage.csv](storage.csv) too. Every stored form is read again and
+given {textures}, as `make fidelity` lays them on the scenes' targets. PSNR is that of these pictures against those
+of the set as it was before (retex-diff: sRGB-encoded, clipped), in the mean of the textures and the worst; the loss is
+by how much the PSNR against converged pictures is lower than that of the set, where there are any.
+
+Bits a pixel leave out the originals, textures that do not grow with the picture; megabytes are those of the whole
+file, and in brackets scaled to 1920x1080 without originals. In the figure full lines are means, dashed ones the worst
+textures, and upright ones what loses nothing.
+
+- *pack* is `retex-pack`, of the codec and with the `--quality` that are named; the paper's way is that of plain JPEG in
+  layout `paper`.
+- *EXR, DWAA of radiance* takes OpenEXR's lossy DWAA for what is light, with the level that is named, and leaves the
+  rest as it is; *of everything* is what `oiiotool -a --compression dwaa:45` makes of a set, UV included.
+- *EXR, radiance as plain JPEG* stores each image of light as a JPEG, scaled to its largest value and encoded as sRGB,
+  and the rest as the set does.
+
+![](pictures/storage.png)
+"""
+
+
+def read(path):
+    """Of (scene, layout, method, level), the records of its textures."""
+    found = {}
+    with open(path, encoding="ascii") as file:
+        for r in map(json.loads, file):
+            found.setdefault((r["scene"], r["layout"], r["method"], r["level"]), []).append(r)
+    return found
+
+
+def figures(key, records, pixels):
+    stored = records[0]["stored"]
+    without = stored["bytes"] - stored["groups"]["originals"]
+    psnrs = [r["psnr"] for r in records if r["psnr"] is not None]
+    losses = [r["set_truth"] - r["truth"] for r in records if r["truth"] is not None and r["set_truth"] is not None]
+    row = dict(zip(COLUMNS, key), bytes=stored["bytes"], bytes_without_originals=without,
+               bits_a_pixel=f"{8 * without / pixels:.3f}", textures=len(records))
+    if len(psnrs) == len(records):
+        row.update(psnr=f"{mean(psnrs):.2f}", psnr_worst=f"{min(psnrs):.2f}")
+    if losses:
+        row.update(truth_loss=f"{mean(losses):.3f}", truth_loss_worst=f"{max(losses):.3f}")
+    return row
+
+
+def name(row):
+    method = METHODS.get(row["method"]) or f"pack, `--codec {row['method'].partition('-')[2]}`"
+    return f"{method} {row['level']}".rstrip()
+
+
+def section(scene, layout, rows, pixels):
+    print(f"\n## {scene}, layout {layout}\n\n| stored as | MB | bits a pixel | PSNR, dB | worst | loss against truth, dB |"
+          " worst |\n|---|---|---|---|---|---|---|")
+    for row in rows:
+        scaled = row["bytes_without_originals"] * 1920 * 1080 / pixels / 1e6
+        cells = [row.get(c, "") for c in ("bits_a_pixel", "psnr", "psnr_worst", "truth_loss", "truth_loss_worst")]
+        print(f"| {name(row)} | {row['bytes'] / 1e6:.2f} ({scaled:.1f}) | {' | '.join(cells)} |")
+
+
+def main(records, table, size, spp):
+    found = read(records)
+    pixels = int(size.partition("x")[0]) * int(size.partition("x")[2])
+    textures = max((len(r) for r in found.values()), default=0)
+    print(INTRODUCTION.format(size=size, spp=spp, textures=f"{textures} textures" if textures > 1 else "one texture"),
+          end="")
+    rows = [figures(key, of, pixels) for key, of in found.items()]
+    with open(table, "w", encoding="ascii", newline="") as file:
+        out = csv.DictWriter(file, COLUMNS, lineterminator="\n", restval="")
+        out.writeheader()
+        out.writerows(rows)
+    for scene, layout in dict.fromkeys((r["scene"], r["layout"]) for r in rows):
+        section(scene, layout, [r for r in rows if (r["scene"], r["layout"]) == (scene, layout)], pixels)
+
+
+main(*sys.argv[1:])

@@ -1,0 +1,141 @@
+/* The least that recombining a set can take: post_floor SET [THREADS]
+ *
+ * Opens a set or a pack as retex-combine does, reads and decodes every row of the parts that recombination looks at,
+ * and keeps nothing: no texture, no arithmetic, no picture. Bands of rows are read side by side by all threads, what is
+ * smaller than the picture before the rest, as in combining. Prints how many parts that were and their bytes as floats.
+ */
+#include <stdatomic.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include <retex/parallel.h>
+#include <retex/sample.h>
+
+#include "rows.h"
+
+typedef struct Floor {
+    const RetexSet *set;
+    char *wanted; /* by part */
+    int is_small; /* parts smaller than the picture now, or those of its size */
+    atomic_int code;
+    RetexError *errors; /* by thread */
+} Floor;
+
+static void want(const Floor *work, int part)
+{
+    if (part >= 0)
+        work->wanted[part] = 1;
+}
+
+static void want_footprint(const Floor *work, int footprint)
+{
+    const RetexFootprint *f = &work->set->footprints[footprint];
+    want(work, f->uv);
+    want(work, f->spread);
+    want(work, f->albedo);
+}
+
+static void want_mixture(const Floor *work, int mixture)
+{
+    const RetexMixture *m = &work->set->mixtures[mixture];
+    for (int k = 0; k < m->nshares; k++) {
+        want(work, m->shares[k].weight);
+        want_footprint(work, m->shares[k].footprint);
+    }
+}
+
+/* What all terms of the polynomial refer to, with new textures on every target. */
+static void choose(const Floor *work)
+{
+    for (int t = 0; t < work->set->nterms; t++) {
+        const RetexTerm *term = &work->set->terms[t];
+        want(work, term->radiance);
+        want(work, term->gain ? term->gain : -1);
+        for (int k = 0; k < term->nfactors; k++) {
+            if (term->factors[k] >= 0)
+                want_footprint(work, term->factors[k]);
+            else
+                want_mixture(work, RETEX_MIXTURE(term->factors[k]));
+        }
+    }
+}
+
+static int is_chosen(const Floor *work, int part)
+{
+    return work->wanted[part] && (work->set->parts[part].image.height < work->set->height) == work->is_small;
+}
+
+static int read_band(const Floor *work, RowReader *reader, int part, int band, RetexError *err)
+{
+    const int height = work->set->parts[part].image.height, y0 = band * RETEX_BAND_ROWS;
+    int code = RETEX_OK;
+    for (int y = y0; !code && y < y0 + RETEX_BAND_ROWS && y < height; y++) {
+        const float *row;
+        code = row_reader_get(reader, part, y, &row, err);
+    }
+    return code;
+}
+
+static void read_job(void *context, int band, int thread)
+{
+    Floor *work = context;
+    RowReader *reader = NULL;
+    if (work->code)
+        return;
+    int code = row_reader_open(&reader, work->set, &work->errors[thread]);
+    for (int part = 0; !code && part < work->set->nparts; part++)
+        if (is_chosen(work, part))
+            code = read_band(work, reader, part, band, &work->errors[thread]);
+    row_reader_close(&reader);
+    if (code)
+        atomic_store(&work->code, code);
+}
+
+static int read_all(Floor *work, int threads, RetexError *err)
+{
+    const int nbands = (work->set->height + RETEX_BAND_ROWS - 1) / RETEX_BAND_ROWS;
+    for (work->is_small = 1; !work->code && work->is_small >= 0; work->is_small--)
+        retex_parallel(threads, nbands, read_job, work);
+    for (int i = 0; i < threads && work->code; i++)
+        if (work->errors[i].code)
+            *err = work->errors[i];
+    return work->code;
+}
+
+int main(int argc, char **argv)
+{
+    RetexError err = {0};
+    RetexSet *set = NULL;
+    const int threads = retex_threads(argc > 2 ? atoi(argv[2]) : 0);
+    double bytes = 0;
+    int parts = 0;
+
+    if (argc < 2) {
+        fprintf(stderr, "usage: post_floor SET [THREADS]\n");
+        return 2;
+    }
+    int code = retex_set_open(argv[1], &set, NULL, threads, &err);
+    if (!code) {
+        Floor work = {.set = set,
+                      .wanted = calloc((size_t)set->nparts + 1, 1),
+                      .errors = calloc((size_t)threads, sizeof *work.errors)};
+        code = work.wanted && work.errors ? RETEX_OK : retex_fail(&err, RETEX_ENOMEM, "no memory");
+        if (!code)
+            choose(&work);
+        if (!code)
+            code = read_all(&work, threads, &err);
+        for (int i = 0; !code && i < set->nparts; i++)
+            if (work.wanted[i]) {
+                parts++;
+                bytes += sizeof(float) * (double)retex_image_index(&set->parts[i].image, 0, set->parts[i].image.height);
+            }
+        free(work.wanted);
+        free(work.errors);
+    }
+    if (code)
+        fprintf(stderr, "post_floor: %s: %s\n", argv[1], err.message);
+    else
+        printf("%d parts, %.0f bytes\n", parts, bytes);
+    retex_set_close(&set);
+    return code ? 2 : 0;
+}
