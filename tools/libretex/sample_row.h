@@ -6,7 +6,7 @@
 #include <retex/texture.h>
 
 typedef struct FootprintRow {
-    const float *uv, *spread, *albedo; /* as the parts of RetexFootprint have them, interleaved; albedo may be NULL where
+    const float *uv, *spread, *albedo; /* as the parts of RetexFootprint have them; albedo may be NULL where
                                           the texture is opaque */
     int spreads, width;                /* channels of spread; pixels */
 } FootprintRow;
