@@ -42,7 +42,7 @@ class PackSet
     {
         return *set_;
     }
-    // With its pixels and their checksums, which of a pack that is not lossless are not those of the set that was packed.
+    // With its pixels and their checksums, which of a pack with losses are not those of the set that was packed.
     const RetexSet &whole(int threads)
     {
         std::call_once(reading_, [&] {
