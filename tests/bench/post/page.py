@@ -133,10 +133,12 @@ def targets(case):
 def goals(cases):
     """Each goal with its worst case."""
     def worst(name, limit, unit, figure, chosen, at_most=True):
+        if not chosen:
+            return
         found = [(figure(c), c) for c in chosen]
         found = [(v, c) for v, c in found if v is not None]
         if not found:
-            print(f"| {name} | not measured | |")
+            print(f"| {name} | failed | no |")
             return
         value, case = (max if at_most else min)(found, key=lambda pair: pair[0])
         reached = value <= limit if at_most else value >= limit
