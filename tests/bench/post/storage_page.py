@@ -72,8 +72,8 @@ def name(row):
 
 
 def section(scene, layout, rows, pixels):
-    print(f"\n## {scene}, layout {layout}\n\n| stored as | MB | bits a pixel | PSNR, dB | worst | loss against truth, dB |"
-          " worst |\n|---|---|---|---|---|---|---|")
+    print(f"\n## {scene}, layout {layout}\n\n| stored as | MB | bits a pixel | PSNR, dB | worst |"
+          " loss against truth, dB | worst |\n|---|---|---|---|---|---|---|")
     for row in rows:
         scaled = row["bytes_without_originals"] * 1920 * 1080 / pixels / 1e6
         cells = [row.get(c, "") for c in ("bits_a_pixel", "psnr", "psnr_worst", "truth_loss", "truth_loss_worst")]
