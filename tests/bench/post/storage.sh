@@ -10,9 +10,9 @@
 #
 # As it stands it takes about an hour on two cores, a third of it rendering once. BENCH_SIZE (640x480), BENCH_SPP (128),
 # BENCH_SCENES, BENCH_LAYOUTS='footprints paper', BENCH_TEXTURES (some of checker wood grout text saturated constant
-# dark photo), BENCH_QUALITIES, BENCH_LEVELS (of DWAA), BENCH_JPEG_QUALITIES and BENCH_CODECS choose less. BENCH_TRUTH_SPP
-# renders converged pictures of so many samples, once; BENCH_TRUTH is a folder that has some, SCENE-TEXTURE.exr as
-# make fidelity leaves them in $BUILD/fidelity/truth, which are of BENCH_SIZE=128x96.
+# dark photo), BENCH_QUALITIES, BENCH_LEVELS (of DWAA), BENCH_JPEG_QUALITIES and BENCH_CODECS choose less.
+# BENCH_TRUTH_SPP renders converged pictures of so many samples, once; BENCH_TRUTH is a folder that has some,
+# SCENE-TEXTURE.exr as make fidelity leaves them in $BUILD/fidelity/truth, which are of BENCH_SIZE=128x96.
 set -eu
 export LC_ALL=C
 case ${BUILD:-build} in /*) ;; *) BUILD=$PWD/${BUILD:-build} ;; esac
