@@ -5,8 +5,8 @@ the stored form takes, as JSON like that of stored.py.
 
 dwaa-all   every part as DWAA of that level, UV as well
 dwaa       radiance as DWAA, all other parts as they are
-jpeg       radiance as JPEG of that quality, all other parts as they are: what the paper does. Each image is scaled to its
-           largest value, encoded as sRGB and stored without subsampling of colours.
+jpeg       radiance as JPEG of that quality, all other parts as they are: what the paper does. Each image is scaled to
+           its largest value, encoded as sRGB and stored without subsampling of colours.
 """
 import json
 import os

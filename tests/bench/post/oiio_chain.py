@@ -1,9 +1,9 @@
 """Recombination as one call of oiiotool: oiio_chain.py SET.exr SAMPLES.exr OUT.exr
 
 Prints the call, one argument a line: what somebody without retex-combine could do with a set, given the textures
-already filtered at its footprints, as retex-sample writes them. The polynomial that the manifest lists (retex-set(5)) is
-nested by its factors, so that each term takes one multiplication and one addition. Where weights of a mixture differ by
-colour, a colour without any stays black, which is the one thing done less well.
+already filtered at its footprints, as retex-sample writes them. The polynomial that the manifest lists (retex-set(5))
+is nested by its factors, so that each term takes one multiplication and one addition. Where weights of a mixture differ
+by colour, a colour without any stays black, which is the one thing done less well.
 """
 import json
 import subprocess

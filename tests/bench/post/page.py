@@ -11,7 +11,7 @@ from stored import GROUPS
 
 PAPER_SECONDS = {"640x640": 0.719, "1080x1080": 1.373, "2048x2048": 3.603, "4096x3840": 10.88}
 # Megabytes of tables 4 and 5: one object, two objects.
-PAPER_SIZES = {"exr": (66.2, 116), "jpeg": (23.59, 52.6), "control-biased": (47.55, 46.3),
+PAPER_SIZES = {"exr-rendered": (66.2, 116), "pack": (23.59, 52.6), "control-biased": (47.55, 46.3),
                "control-unbiased": (97.5, 94.6)}
 EDITS = ["one", "two"]
 SCENES = {"living-room": "scenes/living-room", "artist": "the artist's living room"}
@@ -65,6 +65,15 @@ their making, on a line of its own, is not in its time. "Rendering again" is `re
 that the set has, which are few: with 128, as in the paper's other tables, it takes so many times as long. That ran
 once, and so did oiiotool and the variants of pictures from four million pixels on, whose other rows ran at most three
 times.
+"""
+
+SIZES = """
+## Sizes
+
+Megabytes on the disk at {size}, {spp} samples a pixel. The paper's are those of its Living Room at 1920x1080: EXR, and
+the same with radiance as JPEG; it has no originals in them. "DWAA" is `oiiotool -a --compression dwaa:45` of the whole
+set, which also coarsens UV: [storage.md](storage.md) measures what such files lose. Rousselle's buffers are those of
+the scene, whatever is changed, and need the scene as well. The columns behind say what of it is for what.
 """
 
 
@@ -133,10 +142,12 @@ def targets(case):
 def goals(cases):
     """Each goal with its worst case."""
     def worst(name, limit, unit, figure, chosen, at_most=True):
+        if not chosen:
+            return
         found = [(figure(c), c) for c in chosen]
         found = [(v, c) for v, c in found if v is not None]
         if not found:
-            print(f"| {name} | not measured | |")
+            print(f"| {name} | failed | no |")
             return
         value, case = (max if at_most else min)(found, key=lambda pair: pair[0])
         reached = value <= limit if at_most else value >= limit
@@ -221,11 +232,7 @@ def section(c):
 def sizes(stored, size, spp):
     if not stored:
         return
-    print(f"\n## Sizes\n\nMegabytes on the disk at {size}, {spp} samples a pixel. The paper's are those of its Living "
-          "Room at\n1920x1080: EXR, and the same with radiance as JPEG. \"DWAA\" is `oiiotool -a --compression dwaa:45` "
-          "of the whole set,\nwhich also coarsens UV: [storage.md](storage.md) measures what such files lose. Rousselle's "
-          "buffers are those of\nthe scene, whatever is changed, and need the scene as well. Below, what of it is for "
-          "what.\n")
+    print(SIZES.format(size=size, spp=spp))
     for (scene, layout, edit), files in stored.items():
         if not edit:
             continue
@@ -236,7 +243,7 @@ def sizes(stored, size, spp):
         for what, name in STORED.items():
             if what not in files:
                 continue
-            paper = PAPER_SIZES.get({"exr-rendered": "exr", "pack": "jpeg"}.get(what, what if "control" in what else ""))
+            paper = PAPER_SIZES.get(what)
             parts = [f"{files[what]['groups'][g] / 1e6:.2f}" if files[what]["groups"] else "" for g in GROUPS]
             print(f"| {name} | {files[what]['bytes'] / 1e6:.2f} | {paper[number] if paper else ''} |"
                   f" {' | '.join(parts)} |")
@@ -271,7 +278,8 @@ def write_csv(path, cases, stored, size):
 def main(records, table, cores, size, spp):
     cases, stored = read(records)
     turns = max((len(runs) for c in cases.values() for runs in c.runs.values()), default=0)
-    print(INTRODUCTION.format(cores=cores, turns=f"{turns} times, every other turn backwards" if turns > 1 else "once"), end="")
+    turns = f"{turns} times, every other turn backwards" if turns > 1 else "once"
+    print(INTRODUCTION.format(cores=cores, turns=turns), end="")
     goals(cases)
     against_paper(cases)
     for case in cases.values():

@@ -4,18 +4,18 @@
 # BENCH_DOCS=1 both go to docs/ too.
 #
 # The living room with a new floor, and with new floor and wall, and an artist's living room, where it is there, with
-# floor, and with floor and painting. Sets of each size are rendered and denoised once and kept in $BUILD/bench/post/sets,
-# so that a second run only measures; a set made by other versions of renderer and filter has to be removed by hand. Then
-# whole processes are measured in turn, every other turn backwards, so that a machine that gets slower or faster favours
-# nothing: retex-combine from packs, sets and pipes into several formats; beside it, in the same turns, reading alone
-# (post_floor), the same sum by oiiotool, and the scene rendered again.
+# floor, and with floor and painting. Sets of each size are rendered and denoised once and kept in
+# $BUILD/bench/post/sets, so that a second run only measures; a set made by other versions of renderer and filter has to
+# be removed by hand. Then whole processes are measured in turn, every other turn backwards, so that a machine that gets
+# slower or faster favours nothing: retex-combine from packs, sets and pipes into several formats; beside it, in the
+# same turns, reading alone (post_floor), the same sum by oiiotool, and the scene rendered again.
 #
 # As it stands it takes about five hours on two cores the first time, half of it rendering and denoising, 20 GB of disk
 # and, to denoise the largest sets, more memory than most machines have: without it these are measured as rendered.
 # BENCH_SIZES, BENCH_SPP (else 32, and 8 from two million pixels on), BENCH_TURNS (5, of large pictures at most 3),
 # BENCH_SCENES='living-room artist', BENCH_EDITS='one two', BENCH_LAYOUTS (else footprints; 'footprints paper') choose
-# less, and BENCH_TABLE_SIZE and BENCH_TABLE_SPP what sizes are measured of (1920x1080, or the first of BENCH_SIZES where
-# they are given, with 128 samples, or BENCH_SPP; `no': nothing).
+# less, and BENCH_TABLE_SIZE and BENCH_TABLE_SPP what sizes are measured of (1920x1080, or the first of BENCH_SIZES
+# where they are given, with 128 samples, or BENCH_SPP; `no': nothing).
 set -eu
 bench='bench-post'
 . tests/bench/post/lib.sh
@@ -35,7 +35,9 @@ mkdir -p "$work/out"
 
 megapixels() { echo "$1" | awk -Fx '{ print int($1 * $2 / 1e6) }'; }
 spp_of() { # SIZE
-    if [ -n "${BENCH_SPP:-}" ]; then echo "$BENCH_SPP"; elif [ "$(megapixels "$1")" -lt 2 ]; then echo 32; else echo 8; fi
+    spp=${BENCH_SPP:-8}
+    [ -n "${BENCH_SPP:-}" ] || [ "$(megapixels "$1")" -ge 2 ] || spp=32
+    echo "$spp"
 }
 targets_of() { # SCENE EDIT
     case $1-$2 in *-one) echo Floor ;; artist-two) echo Floor Painting ;; *) echo Floor Wall ;; esac
@@ -121,8 +123,8 @@ prepare() { # TARGETS
     record case "scene=$scene" "edit=$edit" "targets=$1" "layout=$layout" "size=$size" "spp=$spp" \
         "set_bytes=$(stat -c %s "$measured")" "pack_bytes=$(stat -c %s "$pack")" "$work/info.json"
 }
-# One case, all its turns, of large pictures at most three. What takes long is run in the first turn only: rendering, and
-# oiiotool and the variants where pictures are large.
+# One case, all its turns, of large pictures at most three. What takes long is run in the first turn only: rendering,
+# and oiiotool and the variants where pictures are large.
 measure_case() {
     targets=$(targets_of "$scene" "$edit") spp=$(spp_of "$size") file=$(scene_file "$scene")
     named="$scene $edit $layout $size"

@@ -8,11 +8,11 @@
 # light as a JPEG of its own. Each is given several textures, and its pictures are compared with those of the set that
 # was rendered and, where there are converged pictures, with these.
 #
-# As it stands it takes about an hour on two cores, half of it rendering once. BENCH_SIZE (640x480), BENCH_SPP (128),
-# BENCH_SCENES, BENCH_LAYOUTS='footprints paper', BENCH_TEXTURES (some of checker wood grout text saturated constant dark
-# photo), BENCH_QUALITIES, BENCH_LEVELS (of DWAA), BENCH_JPEG_QUALITIES and BENCH_CODECS choose less. BENCH_TRUTH_SPP
-# renders converged pictures of so many samples, once; BENCH_TRUTH is a folder that has some, SCENE-TEXTURE.exr as
-# make fidelity leaves them in $BUILD/fidelity/truth, which are of BENCH_SIZE=128x96.
+# As it stands it takes about an hour on two cores, a third of it rendering once. BENCH_SIZE (640x480), BENCH_SPP (128),
+# BENCH_SCENES, BENCH_LAYOUTS='footprints paper', BENCH_TEXTURES (some of checker wood grout text saturated constant
+# dark photo), BENCH_QUALITIES, BENCH_LEVELS (of DWAA), BENCH_JPEG_QUALITIES and BENCH_CODECS choose less.
+# BENCH_TRUTH_SPP renders converged pictures of so many samples, once; BENCH_TRUTH is a folder that has some,
+# SCENE-TEXTURE.exr as make fidelity leaves them in $BUILD/fidelity/truth, which are of BENCH_SIZE=128x96.
 set -eu
 export LC_ALL=C
 case ${BUILD:-build} in /*) ;; *) BUILD=$PWD/${BUILD:-build} ;; esac

@@ -29,12 +29,11 @@ Bits a pixel leave out the originals, textures that do not grow with the picture
 file, and in brackets scaled to 1920x1080 without originals. In the figure full lines are means, dashed ones the worst
 textures, and upright ones what loses nothing.
 
-- *pack* is `retex-pack`, of the codec and with the `--quality` that are named; the paper's way is that of plain JPEG in
-  layout `paper`.
+- *pack* is `retex-pack`, with the `--codec` and the `--quality` that are named.
 - *EXR, DWAA of radiance* takes OpenEXR's lossy DWAA for what is light, with the level that is named, and leaves the
   rest as it is; *of everything* is what `oiiotool -a --compression dwaa:45` makes of a set, UV included.
-- *EXR, radiance as plain JPEG* stores each image of light as a JPEG, scaled to its largest value and encoded as sRGB,
-  and the rest as the set does.
+- *EXR, radiance as plain JPEG* stores each image of light as a JPEG of that quality, scaled to its largest value and
+  encoded as sRGB, and the rest as the set does: in layout `paper` that is what the paper does.
 
 ![](pictures/storage.png)
 """
@@ -49,6 +48,10 @@ def read(path):
     return found
 
 
+def decibels(value):
+    return f"{round(value, 3) + 0.0:.3f}"   # no -0.000
+
+
 def figures(key, records, pixels):
     stored = records[0]["stored"]
     without = stored["bytes"] - stored["groups"]["originals"]
@@ -59,7 +62,7 @@ def figures(key, records, pixels):
     if len(psnrs) == len(records):
         row.update(psnr=f"{mean(psnrs):.2f}", psnr_worst=f"{min(psnrs):.2f}")
     if losses:
-        row.update(truth_loss=f"{mean(losses):.3f}", truth_loss_worst=f"{max(losses):.3f}")
+        row.update(truth_loss=decibels(mean(losses)), truth_loss_worst=decibels(max(losses)))
     return row
 
 
@@ -69,8 +72,8 @@ def name(row):
 
 
 def section(scene, layout, rows, pixels):
-    print(f"\n## {scene}, layout {layout}\n\n| stored as | MB | bits a pixel | PSNR, dB | worst | loss against truth, dB |"
-          " worst |\n|---|---|---|---|---|---|---|")
+    print(f"\n## {scene}, layout {layout}\n\n| stored as | MB | bits a pixel | PSNR, dB | worst |"
+          " loss against truth, dB | worst |\n|---|---|---|---|---|---|---|")
     for row in rows:
         scaled = row["bytes_without_originals"] * 1920 * 1080 / pixels / 1e6
         cells = [row.get(c, "") for c in ("bits_a_pixel", "psnr", "psnr_worst", "truth_loss", "truth_loss_worst")]
