@@ -13,6 +13,7 @@
 #include "bridge_load.h"
 #include "exr_io.h"
 #include "input.h"
+#include "jpeg_read.h"
 
 int retex_image_alloc(RetexImage *im, int width, int height, int channels, RetexError *err)
 {
@@ -210,6 +211,10 @@ int retex_image_read_narrow(RetexNarrowImage *dst, const char *path, const char 
     if (status)
         return status;
     const int exr = retex_exr_probe(input);
+    const char *ocio = getenv("OCIO"); /* whether it is of use is for the bridge to say */
+    const int named = colorspace && colorspace[0];
+    if (!exr && (named ? strcasecmp(colorspace, "sRGB") == 0 : !ocio || !ocio[0]))
+        status = retex_jpeg_read_narrow(dst, input, max_pixels, err);
     retex_input_close(&input);
-    return exr ? 0 : retex_bridge_read_narrow(dst, path, colorspace, max_pixels, err);
+    return exr || status || dst->pixels ? status : retex_bridge_read_narrow(dst, path, colorspace, max_pixels, err);
 }
