@@ -24,17 +24,35 @@ static Place find_place(int i, int scale, int size)
     return place;
 }
 
+/* Pixels between the centres of two of the small image's; scale of them, or fewer where the row ends. */
+static float *draw_out(float *restrict out, const float *left, const float *right, int channels, int scale, int count)
+{
+    for (int k = 0; k < count; k++) {
+        const float t = (float)(2 * k + 1) / (float)(2 * scale);
+        for (int c = 0; c < channels; c++)
+            *out++ = left[c] + t * (right[c] - left[c]);
+    }
+    return out;
+}
+
 /* Two of the small image's rows, mixed on the fly, drawn out to the width. */
 static void enlarge_row(const float *restrict upper, const float *restrict lower, float t, int size, int channels,
                         int scale, int width, float *restrict out)
 {
-    for (int x = 0; x < width; x++) {
-        Place at = find_place(x, scale, size);
-        for (int c = 0; c < channels; c++) {
-            int a = at.first * channels + c, b = at.next * channels + c;
-            float left = upper[a] + t * (lower[a] - upper[a]), right = upper[b] + t * (lower[b] - upper[b]);
-            *out++ = left + at.t * (right - left);
-        }
+    float left[RETEX_MAX_CHANNELS], right[RETEX_MAX_CHANNELS];
+    int x = 0;
+    for (int c = 0; c < channels; c++)
+        left[c] = right[c] = upper[c] + t * (lower[c] - upper[c]);
+    for (int i = 0; x < width; i++) { /* to the centre of pixel i, and beyond the last */
+        const int begin = i ? 0 : scale / 2, rest = width - x, most = scale - begin;
+        if (i > 0 && i < size)
+            for (int c = 0; c < channels; c++) {
+                const float *a = upper + i * channels, *b = lower + i * channels;
+                right[c] = a[c] + t * (b[c] - a[c]);
+            }
+        out = draw_out(out, left, right, channels, scale, most < rest ? most : rest);
+        x += most;
+        memcpy(left, right, sizeof *left * (size_t)channels);
     }
 }
 
