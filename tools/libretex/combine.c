@@ -23,7 +23,11 @@ typedef struct CombineWork {
     RetexRowSink *sink;
     void *context;
     atomic_int code;
-    RetexError *errors; /* by thread */
+    struct CombineThread {
+        PolynomialRow row; /* opened when the thread has its first band */
+        float *rows;
+        RetexError err;
+    } * threads;
 } CombineWork;
 
 static void combine_row(const PolynomialRow *row, int width, float *restrict out)
@@ -41,34 +45,29 @@ static void combine_row(const PolynomialRow *row, int width, float *restrict out
     }
 }
 
-static int combine_band(const CombineWork *work, int y0, int y1, RetexError *err)
+static int combine_band(const CombineWork *work, struct CombineThread *own, int y0, int y1, RetexError *err)
 {
     const int width = work->polynomial->set->width;
-    PolynomialRow row;
-    float *rows = malloc(sizeof *rows * 3 * (size_t)width * (size_t)(y1 - y0));
-    int code = polynomial_row_open(&row, work->polynomial, err);
-    if (!code && !rows)
+    int code = own->row.polynomial ? RETEX_OK : polynomial_row_open(&own->row, work->polynomial, err);
+    if (!code && !own->rows && !(own->rows = malloc(sizeof *own->rows * 3 * (size_t)width * (size_t)work->band)))
         code = retex_fail(err, RETEX_ENOMEM, "not enough memory to combine");
     for (int y = y0; !code && y < y1; y++) {
-        code = polynomial_row_make(&row, y, err);
+        code = polynomial_row_make(&own->row, y, err);
         if (!code)
-            combine_row(&row, width, rows + 3 * (size_t)width * (size_t)(y - y0));
+            combine_row(&own->row, width, own->rows + 3 * (size_t)width * (size_t)(y - y0));
     }
-    if (!code)
-        code = work->sink(work->context, y0, y1, rows, err);
-    polynomial_row_close(&row);
-    free(rows);
-    return code;
+    return code ? code : work->sink(work->context, y0, y1, own->rows, err);
 }
 
 static void combine_job(void *context, int index, int thread)
 {
     CombineWork *work = context;
+    struct CombineThread *own = &work->threads[thread];
     /* bands begin at multiples of their height, wherever the region does */
     int first = work->y0 / work->band + index, y0 = first * work->band, y1 = y0 + work->band;
     if (work->code)
         return;
-    int code = combine_band(work, y0 > work->y0 ? y0 : work->y0, y1 < work->y1 ? y1 : work->y1, &work->errors[thread]);
+    int code = combine_band(work, own, y0 > work->y0 ? y0 : work->y0, y1 < work->y1 ? y1 : work->y1, &own->err);
     if (code)
         atomic_store(&work->code, code);
 }
@@ -77,15 +76,18 @@ static int combine(const Polynomial *polynomial, int y0, int y1, RetexRowSink *s
                    RetexError *err)
 {
     const int threads = retex_threads(nthreads);
-    CombineWork work = {polynomial, y0, y1, RETEX_BAND_ROWS, sink, context, 0, calloc((size_t)threads, sizeof *err)};
-    if (!work.errors)
+    CombineWork work = {polynomial, y0, y1, RETEX_BAND_ROWS, sink, context, 0, NULL};
+    if (!(work.threads = calloc((size_t)threads, sizeof *work.threads)))
         return retex_fail(err, RETEX_ENOMEM, "not enough memory to combine");
     if (y1 > y0)
         retex_parallel(threads, (y1 - 1) / work.band - y0 / work.band + 1, combine_job, &work);
-    for (int i = 0; i < threads && work.code; i++)
-        if (work.errors[i].code && err)
-            *err = work.errors[i];
-    free(work.errors);
+    for (int i = 0; i < threads; i++) {
+        if (work.code && work.threads[i].err.code && err)
+            *err = work.threads[i].err;
+        polynomial_row_close(&work.threads[i].row);
+        free(work.threads[i].rows);
+    }
+    free(work.threads);
     return work.code;
 }
 

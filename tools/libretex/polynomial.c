@@ -177,13 +177,15 @@ typedef struct SmallWork {
     RetexImage *image;
     int slot; /* footprint, mixture or gain */
     atomic_int code;
-    RetexError *errors; /* by thread */
+    struct SmallRow *threads;
 } SmallWork;
 
+/* One thread's means. */
 typedef struct SmallRow {
     const Polynomial *polynomial;
     RowReader *reader;
-    float *scratch; /* of one footprint */
+    float *scratch; /* of one footprint, and of weights */
+    RetexError err;
 } SmallRow;
 
 static int small_factor_row(void *context, int footprint, int y, const float **row, RetexError *err)
@@ -214,19 +216,18 @@ static int make_small_row(const SmallWork *work, SmallRow *small, float *weights
 static void make_small_job(void *context, int index, int thread)
 {
     SmallWork *work = context;
-    RetexError *err = &work->errors[thread];
-    SmallRow small = {work->polynomial, NULL, NULL};
+    SmallRow *own = &work->threads[thread];
     const int width = work->image->width, height = work->image->height;
+    int code = RETEX_OK;
     if (work->code)
         return;
-    float *room = malloc(sizeof *room * 6 * (size_t)width);
-    int code = room ? row_reader_open(&small.reader, work->polynomial->set, err)
-                    : retex_fail(err, RETEX_ENOMEM, "not enough memory to combine");
-    small.scratch = room;
+    own->polynomial = work->polynomial;
+    if (!own->reader)
+        code = row_reader_open(&own->reader, work->polynomial->set, &own->err);
+    if (!code && !own->scratch && !(own->scratch = malloc(sizeof *own->scratch * 6 * (size_t)width)))
+        code = retex_fail(&own->err, RETEX_ENOMEM, "not enough memory to combine");
     for (int y = index * ROWS_A_JOB; !code && y < (index + 1) * ROWS_A_JOB && y < height; y++)
-        code = make_small_row(work, &small, room + 3 * (size_t)width, y, err);
-    row_reader_close(&small.reader);
-    free(room);
+        code = make_small_row(work, own, own->scratch + 3 * (size_t)width, y, &own->err);
     if (code)
         atomic_store(&work->code, code);
 }
@@ -239,13 +240,16 @@ static int make_small(const Polynomial *p, int slot, const RetexImage *shape, in
     int code = retex_image_alloc(image, shape->width, shape->height, channels, err);
     if (code)
         return code;
-    if (!(work.errors = calloc((size_t)threads, sizeof *work.errors)))
+    if (!(work.threads = calloc((size_t)threads, sizeof *work.threads)))
         return retex_fail(err, RETEX_ENOMEM, "not enough memory to combine");
     retex_parallel(threads, (image->height + ROWS_A_JOB - 1) / ROWS_A_JOB, make_small_job, &work);
-    for (int i = 0; i < threads && work.code; i++)
-        if (work.errors[i].code && err)
-            *err = work.errors[i];
-    free(work.errors);
+    for (int i = 0; i < threads; i++) {
+        if (work.code && work.threads[i].err.code && err)
+            *err = work.threads[i].err;
+        row_reader_close(&work.threads[i].reader);
+        free(work.threads[i].scratch);
+    }
+    free(work.threads);
     return work.code;
 }
 

@@ -24,14 +24,33 @@ static Place find_place(int i, int scale, int size)
     return place;
 }
 
-/* Pixels between the centres of two of the small image's; scale of them, or fewer where the row ends. */
-static float *draw_out(float *restrict out, const float *left, const float *right, int channels, int scale, int count)
+typedef float Float4 __attribute__((vector_size(16)));
+
+static inline Float4 load4(const float *p)
 {
-    for (int k = 0; k < count; k++) {
-        const float t = (float)(2 * k + 1) / (float)(2 * scale);
+    Float4 v;
+    memcpy(&v, p, sizeof v);
+    return v;
+}
+
+/* Pixels from the centre of one of the small image's to that of the next: scale of them, or fewer where the row ends.
+ * Of three channels, a fourth is written where the next pixel will be, unless the row ends there. */
+static inline float *draw_out(float *restrict out, const float *left, const float *right, int channels, int scale,
+                              int count, const float *end)
+{
+    const float step = 1 / (float)scale;
+    float t = 0.5f * step; /* exact: scale is a power of two */
+    if (channels == 3 && out + 3 * count < end) {
+        const Float4 from = load4(left), by = load4(right) - from;
+        for (int k = 0; k < count; k++, t += step, out += 3) {
+            const Float4 pixel = from + t * by;
+            memcpy(out, &pixel, sizeof pixel);
+        }
+        return out;
+    }
+    for (int k = 0; k < count; k++, t += step)
         for (int c = 0; c < channels; c++)
             *out++ = left[c] + t * (right[c] - left[c]);
-    }
     return out;
 }
 
@@ -39,20 +58,26 @@ static float *draw_out(float *restrict out, const float *left, const float *righ
 static void enlarge_row(const float *restrict upper, const float *restrict lower, float t, int size, int channels,
                         int scale, int width, float *restrict out)
 {
-    float left[RETEX_MAX_CHANNELS], right[RETEX_MAX_CHANNELS];
+    float ends[2][RETEX_MAX_CHANNELS] = {{0}};
+    float *left = ends[0], *right = ends[1];
+    const float *end = out + (size_t)width * (size_t)channels;
     int x = 0;
     for (int c = 0; c < channels; c++)
         left[c] = right[c] = upper[c] + t * (lower[c] - upper[c]);
     for (int i = 0; x < width; i++) { /* to the centre of pixel i, and beyond the last */
-        const int begin = i ? 0 : scale / 2, rest = width - x, most = scale - begin;
+        const int rest = width - x, most = i ? scale : scale / 2;
         if (i > 0 && i < size)
             for (int c = 0; c < channels; c++) {
                 const float *a = upper + i * channels, *b = lower + i * channels;
                 right[c] = a[c] + t * (b[c] - a[c]);
             }
-        out = draw_out(out, left, right, channels, scale, most < rest ? most : rest);
+        else if (i > 0)
+            memcpy(right, left, sizeof *left * (size_t)channels);
+        out = draw_out(out, left, right, channels, scale, most < rest ? most : rest, end);
         x += most;
-        memcpy(left, right, sizeof *left * (size_t)channels);
+        float *reached = right;
+        right = left;
+        left = reached;
     }
 }
 
