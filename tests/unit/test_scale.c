@@ -140,20 +140,37 @@ static RetexImage mixed(const RetexSet *set, const RetexSamples *samples)
     return mix;
 }
 
+/* a times b, of which b is smaller, at the size of a. */
+static RetexImage multiplied(const RetexImage *a, int scale_a, const RetexImage *b, int scale_b)
+{
+    RetexImage product = {0};
+    test_must(retex_image_alloc(&product, a->width, a->height, 3, NULL), NULL);
+    for (int y = 0; y < a->height; y++)
+        for (int x = 0; x < a->width; x++)
+            for (int c = 0; c < 3; c++)
+                product.pixels[retex_image_index(&product, x, y) + (size_t)c] =
+                    (float)(pixel(a, x, y, c) * enlarged(b, scale_b / scale_a, x, y, c));
+    return product;
+}
+
 static void expect_formula(const RetexSet *set, const RetexSamples *samples, const RetexImage *picture)
 {
     RetexImage mix = mixed(set, samples);
     const RetexImage *sharp = factor(set, samples, SHARP), *later = factor(set, samples, LATER);
+    RetexImage gl = multiplied(part(set, "g"), GAIN_SCALE, later, LATER_SCALE);
+    RetexImage ml = multiplied(&mix, BROAD_SCALE, later, LATER_SCALE);
     for (int y = 0; y < HEIGHT; y++)
         for (int x = 0; x < WIDTH; x++)
             for (int c = 0; c < 3; c++) {
-                double s = pixel(sharp, x, y, c), l = enlarged(later, LATER_SCALE, x, y, c);
-                double m = enlarged(&mix, BROAD_SCALE, x, y, c), d = pixel(part(set, "light"), x, y, c);
-                double g = enlarged(part(set, "g"), GAIN_SCALE, x, y, c), h = pixel(part(set, "h"), x, y, c);
-                double want = pixel(part(set, "indep"), x, y, c) + d * (s + g * s * l + h * m + h * m * l);
+                double s = pixel(sharp, x, y, c), d = pixel(part(set, "light"), x, y, c);
+                double m = enlarged(&mix, BROAD_SCALE, x, y, c), h = pixel(part(set, "h"), x, y, c);
+                double want = pixel(part(set, "indep"), x, y, c) + d * (s + s * enlarged(&gl, GAIN_SCALE, x, y, c) +
+                                                                        h * (m + enlarged(&ml, BROAD_SCALE, x, y, c)));
                 assert_float_equal(picture->pixels[retex_image_index(picture, x, y) + (size_t)c], want, 2e-5);
             }
     retex_image_free(&mix);
+    retex_image_free(&gl);
+    retex_image_free(&ml);
 }
 
 static RetexTextureSpec stripes(void)

@@ -37,7 +37,7 @@ static void combine_row(const PolynomialRow *row, int width, float *restrict out
         memset(out + first, 0, numbers * sizeof *out);
         for (int t = 0; t < row->count; t++) {
             const Monomial *m = &row->monomials[t];
-            const float *factors[RETEX_MAX_FACTORS + 1];
+            const float *factors[RETEX_MAX_FACTORS + 2];
             for (int k = 0; k < m->nimages; k++)
                 factors[k] = m->factors[k] + first;
             combine_term_kernel(out + first, m->radiance + first, factors, m->nimages, numbers);
@@ -95,7 +95,7 @@ int retex_retexture(const RetexSet *set, const RetexSamples *samples, RetexTextu
                     const RetexCombineParams *params, RetexRowSink *sink, void *context, int nthreads, RetexError *err)
 {
     Polynomial polynomial;
-    int code = polynomial_open(&polynomial, set, samples, textures, params, nthreads, err);
+    int code = polynomial_open(&polynomial, set, samples, textures, params, 0, nthreads, err);
     if (code)
         return code;
     code = combine(&polynomial, 0, set->height, sink, context, nthreads, err);
@@ -130,7 +130,7 @@ int retex_combine(RetexImage *dst, const RetexSet *set, const RetexSamples *samp
 {
     Region region = {.dst = dst};
     Polynomial polynomial;
-    int code = polynomial_open(&polynomial, set, samples, NULL, params, nthreads, err);
+    int code = polynomial_open(&polynomial, set, samples, NULL, params, 0, nthreads, err);
     if (code)
         return code;
     code = retex_image_prepare(dst, set->width, set->height, 3, roi, &region.roi, err);

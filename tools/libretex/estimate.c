@@ -155,7 +155,7 @@ int retex_estimate_error(RetexImage *dst, const RetexSet *set, const RetexSample
         return retex_fail(err, RETEX_EINVAL, "the set is not in memory");
     int code = retex_samples_check(variances, set, err);
     if (!code)
-        code = polynomial_open(&work.polynomial, set, samples, NULL, params, nthreads, err);
+        code = polynomial_open(&work.polynomial, set, samples, NULL, params, 1, nthreads, err);
     if (code)
         return code;
     code = retex_image_prepare(dst, set->width, set->height, 3, roi, &work.roi, err);

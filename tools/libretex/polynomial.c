@@ -8,6 +8,7 @@
 #include <retex/parallel.h>
 
 #include "enlarge.h"
+#include "polynomial_groups.h"
 #include "sample_row.h"
 
 #define ROWS_A_JOB 64 /* a pack's band */
@@ -15,18 +16,17 @@
 
 /* ---- what a factor is made of ---- */
 
-/* Factors, mixtures and gains in one list. */
-static int slot_of_factor(const RetexSet *set, int factor)
+int slot_of_factor(const RetexSet *set, int factor)
 {
     return factor >= 0 ? factor : set->nfootprints + RETEX_MIXTURE(factor);
 }
 
-static int slot_of_gain(const RetexSet *set, int part)
+int slot_of_gain(const RetexSet *set, int part)
 {
     return set->nfootprints + set->nmixtures + part;
 }
 
-static int slot_count(const RetexSet *set)
+int slot_count(const RetexSet *set)
 {
     return slot_of_gain(set, set->nparts);
 }
@@ -72,12 +72,12 @@ static const RetexImage *mixture_shape(const Polynomial *p, int mixture)
     return shape;
 }
 
-static const RetexImage *factor_shape(const Polynomial *p, int factor)
+const RetexImage *factor_shape(const Polynomial *p, int factor)
 {
     return factor >= 0 ? footprint_shape(p, factor) : mixture_shape(p, RETEX_MIXTURE(factor));
 }
 
-static int is_left_out(const RetexTerm *term, int cross)
+int term_is_left_out(const RetexTerm *term, int cross)
 {
     return (term->kind == RETEX_TERM_CROSS2 && cross < 2) || (term->kind == RETEX_TERM_CROSS3 && cross < 3);
 }
@@ -266,12 +266,13 @@ static int open_factor(Polynomial *p, int factor, int nthreads, RetexError *err)
     return make_small(p, slot_of_factor(p->set, factor), shape, 3, image, nthreads, err);
 }
 
-static int open_gain(Polynomial *p, int part, int nthreads, RetexError *err)
+/* A gain of that scale is read when its rows are needed. */
+static int open_gain(Polynomial *p, int part, int scale, int nthreads, RetexError *err)
 {
     const RetexImage *shape = find_part(p->set, part, 1, 3);
     if (!shape || shape->channels == 2 || !retex_set_scale(p->set, shape))
         return MISSING;
-    if (p->gains[part].pixels || retex_set_scale(p->set, shape) == 1)
+    if (p->gains[part].pixels || retex_set_scale(p->set, shape) == scale || retex_set_scale(p->set, shape) == 1)
         return RETEX_OK;
     return make_small(p, slot_of_gain(p->set, part), shape, shape->channels, &p->gains[part], nthreads, err);
 }
@@ -287,7 +288,7 @@ static int open_term(Polynomial *p, int number, int nthreads, RetexError *err)
     for (int k = 0; k < term->nfactors && !code; k++)
         code = open_factor(p, term->factors[k], nthreads, err);
     if (!code && term->gain)
-        code = open_gain(p, term->gain, nthreads, err);
+        code = open_gain(p, term->gain, p->apart ? 1 : group_scale(p, term), nthreads, err);
     if (code == MISSING)
         code = retex_fail(err, RETEX_EFORMAT, "term %d of the set lacks its radiance or one of its footprints", number);
     return code;
@@ -308,14 +309,15 @@ void polynomial_close(Polynomial *p)
     free_images(&p->footprints, p->set->nfootprints);
     free_images(&p->mixtures, p->set->nmixtures);
     free_images(&p->gains, p->set->nparts);
+    polynomial_groups_close(p);
     *p = (Polynomial){0};
 }
 
 int polynomial_open(Polynomial *p, const RetexSet *set, const RetexSamples *samples, RetexTexture *const *textures,
-                    const RetexCombineParams *params, int nthreads, RetexError *err)
+                    const RetexCombineParams *params, int apart, int nthreads, RetexError *err)
 {
     static const RetexCombineParams defaults = RETEX_COMBINE_INIT;
-    *p = (Polynomial){.set = set, .samples = samples, .textures = textures};
+    *p = (Polynomial){.set = set, .samples = samples, .textures = textures, .apart = apart};
     p->cross = params ? params->cross : defaults.cross;
     if (p->cross != 0 && p->cross != 2 && p->cross != 3)
         return retex_fail(err, RETEX_EINVAL, "cross terms go up to 0, 2 or 3 hits, not %d", p->cross);
@@ -328,8 +330,10 @@ int polynomial_open(Polynomial *p, const RetexSet *set, const RetexSamples *samp
     if (!p->footprints || !p->mixtures || !p->gains)
         code = retex_fail(err, RETEX_ENOMEM, "not enough memory for %d terms", set->nterms);
     for (int i = 0; i < set->nterms && !code; i++)
-        if (!is_left_out(&set->terms[i], p->cross))
+        if (!term_is_left_out(&set->terms[i], p->cross))
             code = open_term(p, i, nthreads, err);
+    if (!code && !apart)
+        code = polynomial_groups_open(p, nthreads, err);
     if (code)
         polynomial_close(p);
     return code;
@@ -346,8 +350,7 @@ static float *scratch_of(PolynomialRow *row, int slot, RetexError *err)
     return row->scratch[slot];
 }
 
-/* A row of one channel as one of three, in place. */
-static void spread_channel(float *row, size_t width)
+void spread_channel(float *row, size_t width)
 {
     for (size_t i = width; i-- > 0;)
         row[3 * i] = row[3 * i + 1] = row[3 * i + 2] = row[i];
@@ -415,39 +418,74 @@ static int gain_row(PolynomialRow *row, int part, int y, const float **made, Ret
     return RETEX_OK;
 }
 
+/* The factors of the picture's size; *black: one of them is 0 all over the row. */
+static int factor_rows(PolynomialRow *row, Monomial *m, const int *factors, int count, int y, int *black,
+                       RetexError *err)
+{
+    int code = RETEX_OK;
+    m->nfactors = m->nimages = count;
+    for (int k = 0; k < count && !code && !*black; k++) {
+        code = full_factor_row(row, m->footprints[k] = factors[k], y, &m->factors[k], err);
+        *black = !m->factors[k];
+    }
+    return code;
+}
+
+static int make_term(PolynomialRow *row, const RetexTerm *term, int y, RetexError *err)
+{
+    Monomial *m = &row->monomials[row->count];
+    int code = row_reader_get(row->reader, term->radiance, y, &m->radiance, err), black = !m->radiance;
+    if (!code)
+        code = factor_rows(row, m, term->factors, term->nfactors, y, &black, err);
+    if (term->gain && !code && !black) {
+        code = gain_row(row, term->gain, y, &m->factors[m->nimages], err);
+        black = !m->factors[m->nimages++];
+    }
+    row->count += !code && !black;
+    return code;
+}
+
+static int make_group(PolynomialRow *row, const struct PolynomialGroup *group, int y, RetexError *err)
+{
+    const Polynomial *p = row->polynomial;
+    Monomial *m = &row->monomials[row->count];
+    int code = row_reader_get(row->reader, group->radiance, y, &m->radiance, err), black = !m->radiance;
+    if (!code)
+        code = factor_rows(row, m, group->factors, group->nfactors, y, &black, err);
+    if (group->gain && !code && !black) {
+        code = gain_row(row, group->gain, y, &m->factors[m->nimages], err);
+        black = !m->factors[m->nimages++];
+    }
+    if (group->scale && !code && !black) {
+        float *scratch = scratch_of(row, slot_count(p->set) + (int)(group - p->groups), err);
+        code = scratch ? RETEX_OK : RETEX_ENOMEM;
+        if (scratch)
+            retex_enlarge_rows(&group->product, group->scale, p->set->width, y, y + 1, scratch);
+        m->factors[m->nimages++] = scratch;
+    }
+    row->count += !code && !black;
+    return code;
+}
+
 int polynomial_row_make(PolynomialRow *row, int y, RetexError *err)
 {
     const Polynomial *p = row->polynomial;
+    int code = RETEX_OK;
     memset(row->made, 0, sizeof *row->made * (size_t)slot_count(p->set));
     row->count = 0;
-    for (int t = 0; t < p->set->nterms; t++) {
-        const RetexTerm *term = &p->set->terms[t];
-        Monomial *m = &row->monomials[row->count];
-        if (is_left_out(term, p->cross))
-            continue;
-        int code = row_reader_get(row->reader, term->radiance, y, &m->radiance, err);
-        int black = !m->radiance;
-        m->nfactors = m->nimages = term->nfactors;
-        for (int k = 0; k < term->nfactors && !code && !black; k++) {
-            code = full_factor_row(row, m->footprints[k] = term->factors[k], y, &m->factors[k], err);
-            black = !m->factors[k];
-        }
-        if (term->gain && !code && !black) {
-            code = gain_row(row, term->gain, y, &m->factors[m->nimages], err);
-            black = !m->factors[m->nimages++];
-        }
-        if (code)
-            return code;
-        row->count += !black;
-    }
-    return RETEX_OK;
+    for (int g = 0; g < p->ngroups && !code; g++)
+        code = make_group(row, &p->groups[g], y, err);
+    for (int t = 0; t < p->set->nterms && !code && p->apart; t++)
+        if (!term_is_left_out(&p->set->terms[t], p->cross))
+            code = make_term(row, &p->set->terms[t], y, err);
+    return code;
 }
 
 void polynomial_row_close(PolynomialRow *row)
 {
     if (!row->polynomial)
         return;
-    for (int i = 0; row->scratch && i < slot_count(row->polynomial->set); i++)
+    for (int i = 0; row->scratch && i < slot_count(row->polynomial->set) + row->polynomial->ngroups; i++)
         free(row->scratch[i]);
     free(row->scratch);
     free(row->made);
@@ -460,7 +498,7 @@ void polynomial_row_close(PolynomialRow *row)
 int polynomial_row_open(PolynomialRow *row, const Polynomial *polynomial, RetexError *err)
 {
     const RetexSet *set = polynomial->set;
-    const size_t slots = (size_t)slot_count(set) + 1;
+    const size_t slots = (size_t)(slot_count(set) + polynomial->ngroups) + 1;
     *row = (PolynomialRow){.polynomial = polynomial};
     int code = row_reader_open(&row->reader, set, err);
     row->monomials = calloc((size_t)set->nterms + 1, sizeof *row->monomials);

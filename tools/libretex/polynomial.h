@@ -10,23 +10,27 @@
 
 typedef struct Polynomial {
     const RetexSet *set;
-    const RetexSamples *samples;    /* or NULL */
+    const RetexSamples *samples;   /* or NULL */
     RetexTexture *const *textures; /* by target; they go before samples. Or NULL */
     int cross;
+    int apart;                                 /* 1: every term is a monomial of its own, with all its factors */
     RetexImage *footprints, *mixtures, *gains; /* those that are smaller, by number; of gains that of the part */
+    struct PolynomialGroup *groups;            /* unless apart: see polynomial_groups.h */
+    int ngroups;
 } Polynomial;
 
 /* The terms that params ask for (NULL = defaults). Borrows set, samples and textures. */
 int polynomial_open(Polynomial *polynomial, const RetexSet *set, const RetexSamples *samples,
-                    RetexTexture *const *textures, const RetexCombineParams *params, int nthreads, RetexError *err);
+                    RetexTexture *const *textures, const RetexCombineParams *params, int apart, int nthreads,
+                    RetexError *err);
 void polynomial_close(Polynomial *polynomial);
 
-/* One term over one row. */
+/* One term over one row, or several that differ in what is smaller than the picture only. */
 typedef struct Monomial {
-    const float *radiance; /* RGB, 3 * width numbers */
-    int nfactors;          /* of the term, */
-    int nimages;           /* and with its gain, which comes last */
-    const float *factors[RETEX_MAX_FACTORS + 1]; /* RGB: samples, or the original albedo */
+    const float *radiance;                       /* RGB, 3 * width numbers */
+    int nfactors;                                /* footprints and mixtures, */
+    int nimages;                                 /* and with what else multiplies radiance, which comes last */
+    const float *factors[RETEX_MAX_FACTORS + 2]; /* RGB: samples, or the original albedo */
     int footprints[RETEX_MAX_FACTORS];           /* or mixtures: as in RetexTerm */
 } Monomial;
 

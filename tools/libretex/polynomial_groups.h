@@ -1,0 +1,37 @@
+/* Terms that share their radiance and the factors of the picture's size, summed where they are small: what of each is
+ * smaller than the picture, its gain and factors, is multiplied at the finest of their sizes, coarser ones enlarged to
+ * it; then the sum needs enlarging once. Private to libretex. */
+#ifndef LIBRETEX_POLYNOMIAL_GROUPS_H
+#define LIBRETEX_POLYNOMIAL_GROUPS_H
+
+#include "polynomial.h"
+
+struct PolynomialGroup {
+    int radiance;                             /* part */
+    int nfactors, factors[RETEX_MAX_FACTORS]; /* of the picture's size, as in RetexTerm */
+    int gain;                                 /* part of the picture's size, or 0 */
+    int scale;                                /* of the product, or 0: there is none */
+    RetexImage product;                       /* RGB */
+    int *terms, nterms;
+};
+
+/* All factors are open. */
+int polynomial_groups_open(Polynomial *polynomial, int nthreads, RetexError *err);
+void polynomial_groups_close(Polynomial *polynomial);
+
+/* The finest scale above 1 of a term's gain and factors, or 0. */
+int group_scale(const Polynomial *polynomial, const RetexTerm *term);
+
+/* ---- of polynomial.c ---- */
+
+/* Factors, mixtures and gains in one list. */
+int slot_of_factor(const RetexSet *set, int factor);
+int slot_of_gain(const RetexSet *set, int part);
+int slot_count(const RetexSet *set);
+int term_is_left_out(const RetexTerm *term, int cross);
+/* The image whose size a factor has; NULL where it is not there. */
+const RetexImage *factor_shape(const Polynomial *polynomial, int factor);
+/* A row of one channel as one of three, in place. */
+void spread_channel(float *row, size_t width);
+
+#endif
