@@ -10,6 +10,7 @@
 #include <zip.h>
 
 #include "pack_bands.h"
+#include "pack_jpeg_kernel.h"
 #include "pack_plan.h"
 
 /* Pack a set into memory. */
@@ -290,6 +291,43 @@ static void test_jpeg_keeps_levels(void **state)
         }
 }
 
+/* Coefficients of all sizes, and blocks that have only their first, by every kernel: the bits of the reference. */
+static void test_jpeg_kernels_agree(void **state)
+{
+    (void)state;
+    enum { BLOCKS = 9, WIDTH = 8 * BLOCKS, MOST = 3 * WIDTH };
+    const PackJpegKernels *kernels[PACK_JPEG_KERNELS_MAX];
+    static int16_t coefficients[64 * BLOCKS];
+    static float steps[64], samples[2][8 * WIDTH], values[2][8 * MOST];
+    static PackLevelTable table;
+    uint32_t seed = 7;
+    for (int i = 0; i < PACK_LEVEL_ENTRIES + 2; i++)
+        table.value[i] = (float)(i * i) / 1000;
+    const int count = pack_jpeg_kernels(kernels);
+    const PackJpegKernels *plain = kernels[count - 1];
+    for (int round = 0; round < 200; round++) {
+        for (int i = 0; i < 64 * BLOCKS; i++)
+            coefficients[i] = (int16_t)(i % 64 && (i / 64 + round) % 2 ? 0 : exp(8 * test_random(&seed)) - 40);
+        for (int i = 0; i < 64; i++)
+            steps[i] = (float)(1 + (int)(40 * test_random(&seed)));
+        plain->inverse(samples[0], WIDTH, coefficients, BLOCKS, steps);
+        const int width = WIDTH - round % 9; /* not only whole vectors */
+        const float *planes = samples[0];
+        plain->colours(values[0], planes, planes + WIDTH, planes + 2 * WIDTH, width, &table);
+        plain->greys(values[0] + MOST, planes, width, &table);
+        for (int k = 0; k < count; k++) {
+            kernels[k]->inverse(samples[1], WIDTH, coefficients, BLOCKS, steps);
+            for (int i = 0; i < 8 * WIDTH; i++)
+                assert_true(samples[1][i] == samples[0][i]); /* zeros may have a sign */
+            memset(values[1], 0, sizeof values[1]);
+            kernels[k]->colours(values[1], planes, planes + WIDTH, planes + 2 * WIDTH, width, &table);
+            kernels[k]->greys(values[1] + MOST, planes, width, &table);
+            assert_memory_equal(values[1], values[0], 3 * (size_t)width * sizeof(float));
+            assert_memory_equal(values[1] + MOST, values[0] + MOST, (size_t)width * sizeof(float));
+        }
+    }
+}
+
 /* Any numbers come back, whatever is missing and whatever their steps, by every width. */
 static void test_planes_keep_numbers(void **state)
 {
@@ -331,6 +369,12 @@ static void test_rows_are_those_of_the_whole(void **state)
     (void)state;
     size_t bytes;
     RetexSet *set = test_set(60, 150, 9), *open = NULL;
+    int black = 0;
+    for (int i = 0; i < set->nparts; i++) { /* a band and some rows more */
+        RetexImage *im = &set->parts[i].image;
+        const size_t rows = im->height == 150 ? 70 : 0;
+        memset(im->pixels, 0, rows * (size_t)im->width * (size_t)im->channels * sizeof *im->pixels);
+    }
     unsigned char *data = pack(set, NULL, &bytes);
     RetexSet *whole = unpack(data, bytes);
     RetexError err = {0};
@@ -353,10 +397,22 @@ static void test_rows_are_those_of_the_whole(void **state)
             test_must(retex_pack_read_rows(retex_pack_of(open), i, y0, y1, rows, scratch, &err), &err);
             assert_memory_equal(rows, im->pixels + row * (size_t)y0, row * (size_t)(y1 - y0) * sizeof *rows);
         }
+        for (int y = 0; y < im->height; y++) { /* one by one: NULL where there is nothing */
+            const float *one, *expected = im->pixels + row * (size_t)y;
+            size_t zeros = 0;
+            test_must(retex_pack_row(retex_pack_of(open), i, y, &one, scratch, &err), &err);
+            while (zeros < row && expected[zeros] == 0 && !signbit(expected[zeros]))
+                zeros++;
+            assert_int_equal(one == NULL, zeros == row);
+            if (one)
+                assert_memory_equal(one, expected, row * sizeof *one);
+            black += !one;
+        }
         assert_int_equal(retex_pack_read_rows(retex_pack_of(open), i, 0, im->height + 1, rows, scratch, &err),
                          RETEX_EINVAL);
         free(rows);
     }
+    assert_true(black >= 64);
     retex_pack_scratch_close(&scratch);
     test_must(retex_set_load(open, 3, &err), &err);
     assert_null(open->source);
@@ -613,6 +669,7 @@ int main(void)
         cmocka_unit_test(test_radiance_that_does_not_suit_jpeg_keeps_its_bits),
         cmocka_unit_test(test_black_parts_cost_nothing),
         cmocka_unit_test(test_jpeg_keeps_levels),
+        cmocka_unit_test(test_jpeg_kernels_agree),
         cmocka_unit_test(test_planes_keep_numbers),
         cmocka_unit_test(test_rows_are_those_of_the_whole),
         cmocka_unit_test(test_version_1_is_read),

@@ -105,7 +105,7 @@ static int read_strip(ExrReader *reader, int part, int row, RetexError *err)
     return RETEX_OK;
 }
 
-static int read_row(void *data, int part, int y, float *row, int *black, RetexError *err)
+static int read_row(void *data, int part, int y, const float **row, RetexError *err)
 {
     ExrReader *reader = data;
     const ExrPlan *plan = &reader->source->plans[part];
@@ -114,10 +114,7 @@ static int read_row(void *data, int part, int y, float *row, int *black, RetexEr
         strip->row == y / plan->chunk_height + 1 ? RETEX_OK : read_strip(reader, part, y / plan->chunk_height, err);
     if (code)
         return code;
-    *black = strip->black;
-    if (!strip->black)
-        memcpy(row, strip->image.pixels + retex_image_index(&strip->image, 0, y % plan->chunk_height),
-               sizeof *row * (size_t)strip->image.width * (size_t)strip->image.channels);
+    *row = strip->black ? NULL : strip->image.pixels + retex_image_index(&strip->image, 0, y % plan->chunk_height);
     return RETEX_OK;
 }
 

@@ -85,6 +85,7 @@ __attribute__((target("avx,f16c"))) static void from_float_f16c(uint16_t *restri
         const __m256 kept = _mm256_blendv_ps(value, clamped, over);
         _mm_storeu_si128((__m128i *)(dst + i), _mm256_cvtps_ph(kept, _MM_FROUND_TO_NEAREST_INT));
     }
+    _mm256_zeroupper(); /* which the compiler leaves out before a last call */
     retex_half_from_float_scalar(dst + i, src + i, count - i);
 }
 

@@ -26,7 +26,8 @@ struct RetexPack {
 };
 
 typedef struct CachedBand {
-    int band; /* -1: none */
+    int band;     /* -1: none */
+    uint64_t lit; /* bit y: row y is not all 0 */
     float *rows;
 } CachedBand;
 
@@ -36,6 +37,7 @@ struct RetexPackScratch {
     unsigned char *chunk; /* as read */
     size_t chunk_room;
     unsigned char *residuals, *present, *shift;
+    int present_part, present_band; /* that `present` is of; -1: none */
     int32_t *numbers;
     size_t pixels; /* of a band, that there is room for */
     int nparts;
@@ -230,11 +232,10 @@ static void reader_close(void *reader)
     retex_pack_scratch_close(&scratch);
 }
 
-static int read_row(void *reader, int part, int y, float *row, int *black, RetexError *err)
+static int read_row(void *reader, int part, int y, const float **row, RetexError *err)
 {
     RetexPackScratch *scratch = reader;
-    int code = retex_pack_read_rows(scratch->pack, part, y, y + 1, row, scratch, err);
-    *black = 0;
+    int code = retex_pack_row(scratch->pack, part, y, row, scratch, err);
     if (code && err && !err->file[0])
         snprintf(err->file, sizeof err->file, "%s", retex_input_name(scratch->pack->input));
     return code;
@@ -291,6 +292,7 @@ int retex_pack_scratch_create(RetexPackScratch **result, const RetexPack *pack, 
     if (s) {
         s->pack = pack;
         s->nparts = pack->nparts;
+        s->present_part = -1;
         s->cached = calloc((size_t)pack->nparts + 1, sizeof *s->cached);
         code = s->cached ? pack_jpeg_decoder_create(&s->jpeg, err) : RETEX_ENOMEM;
     }
@@ -326,6 +328,7 @@ static int reserve(RetexPackScratch *s, const PackPart *p, RetexError *err)
     const size_t pixels = (size_t)p->width * PACK_BAND_ROWS;
     if (pixels <= s->pixels)
         return 0;
+    s->present_part = -1;
     free(s->residuals);
     free(s->present);
     free(s->shift);
@@ -374,14 +377,18 @@ static int decode_numbers(const RetexPack *pack, int part, int band, int channel
     return code;
 }
 
-/* Where a part's numbers matter, into s->present. */
+/* Where a part's numbers matter, into s->present: the same for means and spread, which come one after the other. */
 static int decode_present(const RetexPack *pack, int part, int band, RetexPackScratch *s, RetexError *err)
 {
     const PackPart *p = &pack->parts[part];
+    if (s->present_part == part && s->present_band == band)
+        return 0;
     int code = decode_numbers(pack, part, band, 2, NULL, NULL, s, err);
     const size_t pixels = (size_t)p->width * (size_t)pack_band_rows(p, band);
     for (size_t i = 0; !code && i < pixels; i++)
         s->present[i] = s->numbers[i] != 0;
+    s->present_part = code ? -1 : part;
+    s->present_band = band;
     return code;
 }
 
@@ -420,8 +427,8 @@ static int decode_planes(const RetexPack *pack, int part, int band, float *out, 
     return code;
 }
 
-/* Make pixels black whose bit is set. */
-static int apply_mask(const RetexPack *pack, int part, int band, float *out, RetexPackScratch *s, RetexError *err)
+/* The mask of a band into s->numbers, a byte each; *rest: there are pixels that it leaves. */
+static int decode_mask(const RetexPack *pack, int part, int band, int *rest, RetexPackScratch *s, RetexError *err)
 {
     const PackPart *p = &pack->parts[part];
     const int k = 1 + p->nbands + band, rows = pack_band_rows(p, band), width = pack_mask_width(p);
@@ -429,19 +436,44 @@ static int apply_mask(const RetexPack *pack, int part, int band, float *out, Ret
     int code = read_chunk(pack, part, k, 0, s, err);
     if (!code && !pack_plane_decode(&plane, s->chunk, p->bytes[k], s->residuals))
         code = damaged(err, "the mask cannot be decoded of part", pack->set->parts[part].name);
-    for (int y = 0; !code && y < rows; y++)
-        for (int x = 0; x < p->width; x++)
-            if (s->numbers[y * width + x / 8] >> (x % 8) & 1)
-                memset(out + ((size_t)y * (size_t)p->width + (size_t)x) * (size_t)p->channels, 0,
-                       (size_t)p->channels * sizeof(float));
+    const int last = 255 >> (8 * width - p->width);
+    *rest = 0;
+    for (int i = 0; !code && i < rows * width; i++) {
+        const int all = i % width == width - 1 ? last : 255;
+        *rest = *rest || (s->numbers[i] & all) != all;
+    }
     return code;
+}
+
+/* Make pixels black whose bit is set. */
+static void apply_mask(const PackPart *p, int rows, float *out, const int32_t *mask)
+{
+    const size_t channels = (size_t)p->channels;
+    const int width = pack_mask_width(p);
+    for (int y = 0; y < rows; y++, out += (size_t)p->width * channels, mask += width)
+        for (int x = 0; x < p->width; x += 8) {
+            const int whole = mask[x / 8] == 255 && x + 8 <= p->width;
+            if (whole)
+                memset(out + (size_t)x * channels, 0, 8 * channels * sizeof *out);
+            for (int k = 0; !whole && mask[x / 8] && k < 8 && x + k < p->width; k++)
+                if (mask[x / 8] >> k & 1)
+                    memset(out + (size_t)(x + k) * channels, 0, channels * sizeof *out);
+        }
 }
 
 static int decode_jpeg(const RetexPack *pack, int part, int band, float *out, RetexPackScratch *s, RetexError *err)
 {
     const PackPart *p = &pack->parts[part];
+    const int rows = pack_band_rows(p, band);
     RetexError why = {0};
+    int lit = 1;
     int code = reserve(s, p, err);
+    if (!code && p->masked)
+        code = decode_mask(pack, part, band, &lit, s, err);
+    if (!code && !lit) { /* what the JPEG has here means nothing */
+        memset(out, 0, (size_t)p->width * (size_t)rows * (size_t)p->channels * sizeof *out);
+        return 0;
+    }
     if (!code)
         code = read_chunk(pack, part, 0, 0, s, err);
     if (!code)
@@ -449,10 +481,12 @@ static int decode_jpeg(const RetexPack *pack, int part, int band, float *out, Re
     if (code)
         return code;
     code = pack_jpeg_decode_band(s->jpeg, out, s->chunk, p->bytes[0], (size_t)p->bytes[0] + p->bytes[1 + band],
-                                 p->width, pack_band_rows(p, band), p->channels, &p->curve, &why);
+                                 p->width, rows, p->channels, &p->curve, &why);
     if (code)
         return retex_fail(err, code, "the pack is damaged: part '%s': %s", pack->set->parts[part].name, why.message);
-    return p->masked ? apply_mask(pack, part, band, out, s, err) : 0;
+    if (p->masked)
+        apply_mask(p, rows, out, s->numbers);
+    return 0;
 }
 
 static int decode_band(const RetexPack *pack, int part, int band, float *out, RetexPackScratch *s, RetexError *err)
@@ -466,33 +500,85 @@ static int decode_band(const RetexPack *pack, int part, int band, float *out, Re
     return 0;
 }
 
+/* 1 unless all of it is +0. */
+static int is_lit(const float *values, size_t count)
+{
+    size_t i = 0;
+    for (uint64_t some[8]; i + 16 <= count; i += 16) {
+        memcpy(some, values + i, sizeof some);
+        if (some[0] | some[1] | some[2] | some[3] | some[4] | some[5] | some[6] | some[7])
+            return 1;
+    }
+    for (uint32_t one; i < count; i++) {
+        memcpy(&one, values + i, sizeof one);
+        if (one)
+            return 1;
+    }
+    return 0;
+}
+
+/* Have the band in the cache. */
+static int cache_band(const RetexPack *pack, int part, int band, RetexPackScratch *s, RetexError *err)
+{
+    const PackPart *p = &pack->parts[part];
+    const size_t row = (size_t)p->width * (size_t)p->channels;
+    CachedBand *cached = &s->cached[part];
+    if (cached->band == band)
+        return 0;
+    cached->band = -1;
+    if (!cached->rows && !(cached->rows = malloc(row * PACK_BAND_ROWS * sizeof *cached->rows)))
+        return retex_fail(err, RETEX_ENOMEM, "no memory to read a pack");
+    int code = decode_band(pack, part, band, cached->rows, s, err);
+    if (code)
+        return code;
+    cached->band = band;
+    cached->lit = 0;
+    for (int y = 0; y < pack_band_rows(p, band); y++)
+        cached->lit |= (uint64_t)is_lit(cached->rows + (size_t)y * row, row) << y;
+    return 0;
+}
+
+int retex_pack_row(const RetexPack *pack, int part, int y, const float **row, RetexPackScratch *s, RetexError *err)
+{
+    *row = NULL;
+    if (part < 0 || part >= pack->nparts || y < 0 || y >= pack->parts[part].height)
+        return retex_fail(err, RETEX_EINVAL, "the pack has no such rows");
+    const PackPart *p = &pack->parts[part];
+    const CachedBand *cached = &s->cached[part];
+    const int band = y / PACK_BAND_ROWS, line = y % PACK_BAND_ROWS;
+    if (p->codec == PACK_ZERO)
+        return 0;
+    int code = cache_band(pack, part, band, s, err);
+    if (!code && cached->lit >> line & 1)
+        *row = cached->rows + (size_t)line * (size_t)p->width * (size_t)p->channels;
+    return code;
+}
+
 int retex_pack_read_rows(const RetexPack *pack, int part, int y0, int y1, float *out, RetexPackScratch *s,
                          RetexError *err)
 {
     if (part < 0 || part >= pack->nparts || y0 < 0 || y1 > pack->parts[part].height || y0 > y1)
         return retex_fail(err, RETEX_EINVAL, "the pack has no such rows");
     const PackPart *p = &pack->parts[part];
-    const size_t row = (size_t)p->width * (size_t)p->channels;
-    for (int y = y0; y < y1;) {
-        const int band = y / PACK_BAND_ROWS, begin = band * PACK_BAND_ROWS, end = begin + pack_band_rows(p, band);
-        const int next = end < y1 ? end : y1;
-        CachedBand *cached = &s->cached[part];
-        int code = 0;
-        if (y == begin && next == end && cached->band != band) {
-            code = decode_band(pack, part, band, out, s, err);
-        } else {
-            if (!cached->rows && !(cached->rows = malloc(row * PACK_BAND_ROWS * sizeof *cached->rows)))
-                return retex_fail(err, RETEX_ENOMEM, "no memory to read a pack");
-            if (cached->band != band)
-                code = decode_band(pack, part, band, cached->rows, s, err);
-            cached->band = code ? -1 : band;
-            if (!code)
-                memcpy(out, cached->rows + (size_t)(y - begin) * row, (size_t)(next - y) * row * sizeof *out);
+    const size_t count = (size_t)p->width * (size_t)p->channels;
+    for (int y = y0; y < y1; out += count, y++) {
+        const int band = y / PACK_BAND_ROWS, rows = pack_band_rows(p, band);
+        const float *row;
+        if (y % PACK_BAND_ROWS == 0 && y + rows <= y1 && s->cached[part].band != band) {
+            int code = decode_band(pack, part, band, out, s, err);
+            if (code)
+                return code;
+            out += (size_t)(rows - 1) * count;
+            y += rows - 1;
+            continue;
         }
+        int code = retex_pack_row(pack, part, y, &row, s, err);
         if (code)
             return code;
-        out += (size_t)(next - y) * row;
-        y = next;
+        if (row)
+            memcpy(out, row, count * sizeof *out);
+        else
+            memset(out, 0, count * sizeof *out);
     }
     return 0;
 }

@@ -12,7 +12,7 @@ typedef struct RetexPack RetexPack; /* an open pack: read-only, shared by thread
  * is read whole. *input belongs to the set from then on, and is NULL. */
 int retex_pack_open(RetexSet **set, RetexInput **input, int nthreads, RetexError *err);
 RetexPack *retex_pack_of(const RetexSet *set); /* that it was opened from, or NULL */
-void retex_pack_close(RetexPack **pack); /* NULL and pointers to NULL are fine */
+void retex_pack_close(RetexPack **pack);       /* NULL and pointers to NULL are fine */
 
 /* A thread's means of decoding, which keep the band of each part that was met last. */
 typedef struct RetexPackScratch RetexPackScratch;
@@ -24,6 +24,10 @@ void retex_pack_scratch_close(RetexPackScratch **scratch); /* NULL and pointers 
 enum { RETEX_PACK_ROWS = 64 };
 int retex_pack_read_rows(const RetexPack *pack, int part, int y0, int y1, float *out, RetexPackScratch *scratch,
                          RetexError *err);
+
+/* One row; NULL where all of it is 0. It is the scratch's, and stays until the next call for the same part. */
+int retex_pack_row(const RetexPack *pack, int part, int y, const float **row, RetexPackScratch *scratch,
+                   RetexError *err);
 
 /* Bytes that a part takes in the pack, and how it is coded: "jpeg", "planes", … */
 uint64_t retex_pack_part_bytes(const RetexPack *pack, int part);

@@ -235,6 +235,7 @@ int pack_jpeg_encode(PackJpeg *result, const float *levels, int width, int heigh
 struct PackJpegDecoder {
     struct jpeg_decompress_struct jpeg;
     Trouble trouble;
+    const PackJpegKernels *kernels;
     float *planes; /* three, of 8 rows */
     size_t room;
     PackCurve curve; /* of the table */
@@ -246,6 +247,9 @@ int pack_jpeg_decoder_create(PackJpegDecoder **result, RetexError *err)
     PackJpegDecoder *decoder = *result = calloc(1, sizeof *decoder);
     if (!decoder)
         return retex_fail(err, RETEX_ENOMEM, "no memory to decode JPEGs");
+    const PackJpegKernels *kernels[PACK_JPEG_KERNELS_MAX];
+    pack_jpeg_kernels(kernels);
+    decoder->kernels = kernels[0];
     decoder->jpeg.err = catch_trouble(&decoder->trouble);
     if (setjmp(decoder->trouble.out)) {
         jpeg_destroy_decompress(&decoder->jpeg);
@@ -295,15 +299,16 @@ static void decode_rows(PackJpegDecoder *decoder, jvirt_barray_ptr *arrays, floa
             JBLOCKARRAY array = jpeg->mem->access_virt_barray((j_common_ptr)jpeg, arrays[c], (JDIMENSION)row, 1, FALSE);
             for (int i = 0; i < 64; i++)
                 steps[i] = (float)jpeg->comp_info[c].quant_table->quantval[i];
-            pack_blocks_inverse(decoder->planes + (size_t)c * 8 * stride, (int)stride, array[0][0], blocks, steps);
+            decoder->kernels->inverse(decoder->planes + (size_t)c * 8 * stride, (int)stride, array[0][0], blocks,
+                                      steps);
         }
         for (int y = 0; y < 8 && 8 * row + y < rows; y++) {
             const float *p = decoder->planes + (size_t)y * stride;
             float *to = values + (size_t)(8 * row + y) * (size_t)width * (size_t)channels;
             if (channels == 3)
-                pack_colours_from_planes(to, p, p + 8 * stride, p + 16 * stride, width, &decoder->table);
+                decoder->kernels->colours(to, p, p + 8 * stride, p + 16 * stride, width, &decoder->table);
             else
-                pack_greys_from_plane(to, p, width, &decoder->table);
+                decoder->kernels->greys(to, p, width, &decoder->table);
         }
     }
 }

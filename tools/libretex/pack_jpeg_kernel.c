@@ -97,7 +97,9 @@ void pack_block_forward(int16_t *coefficients, const float *samples, int stride,
     }
 }
 
-void pack_blocks_inverse(float *samples, int stride, const int16_t *coefficients, int blocks, const float *steps)
+/* --- back: the reference --- */
+
+static void inverse_plain(float *samples, int stride, const int16_t *coefficients, int blocks, const float *steps)
 {
     for (int block = 0; block < blocks; block++, coefficients += 64, samples += 8) {
         float a[8][8], b[8][8];
@@ -114,14 +116,14 @@ void pack_blocks_inverse(float *samples, int stride, const int16_t *coefficients
 
 static inline float value_of(float level, const PackLevelTable *table)
 {
-    const float place = fmaxf(level * PACK_LEVEL_STEPS, 0);
+    const float scaled = level * PACK_LEVEL_STEPS, place = scaled > 0 ? scaled : 0;
     const int entry = place < PACK_LEVEL_ENTRIES ? (int)place : PACK_LEVEL_ENTRIES;
     const float low = table->value[entry];
     return low + (table->value[entry + 1] - low) * (place - (float)entry);
 }
 
-void pack_colours_from_planes(float *restrict values, const float *y, const float *cb, const float *cr, int count,
-                              const PackLevelTable *table)
+static void colours_plain(float *restrict values, const float *y, const float *cb, const float *cr, int count,
+                          const PackLevelTable *table)
 {
     for (int i = 0; i < count; i++) {
         const float level = y[i] + 128;
@@ -131,8 +133,156 @@ void pack_colours_from_planes(float *restrict values, const float *y, const floa
     }
 }
 
-void pack_greys_from_plane(float *restrict values, const float *y, int count, const PackLevelTable *table)
+static void greys_plain(float *restrict values, const float *y, int count, const PackLevelTable *table)
 {
     for (int i = 0; i < count; i++)
         values[i] = value_of(y[i] + 128, table);
 }
+
+static const PackJpegKernels plain = {inverse_plain, colours_plain, greys_plain};
+
+/* --- back: eight at a time --- */
+
+#if defined(__x86_64__) && defined(__GNUC__)
+#include <immintrin.h>
+
+#pragma GCC push_options
+#pragma GCC target("avx2")
+
+#define TIMES(constant, vector) _mm256_mul_ps(_mm256_set1_ps(constant), vector)
+#define PLUS _mm256_add_ps
+#define LESS _mm256_sub_ps
+
+/* inverse8, in the same order of operations. */
+static inline __attribute__((always_inline)) void inverse8_avx2(__m256 v[8])
+{
+    const __m256 a = TIMES(C4, PLUS(v[0], v[4])), b = TIMES(C4, LESS(v[0], v[4])),
+                 c = PLUS(TIMES(C2, v[2]), TIMES(C6, v[6])), d = LESS(TIMES(C6, v[2]), TIMES(C2, v[6]));
+    const __m256 e0 = PLUS(a, c), e3 = LESS(a, c), e1 = PLUS(b, d), e2 = LESS(b, d);
+    const __m256 o0 = PLUS(PLUS(PLUS(TIMES(C1, v[1]), TIMES(C3, v[3])), TIMES(C5, v[5])), TIMES(C7, v[7]));
+    const __m256 o1 = LESS(LESS(LESS(TIMES(C3, v[1]), TIMES(C7, v[3])), TIMES(C1, v[5])), TIMES(C5, v[7]));
+    const __m256 o2 = PLUS(PLUS(LESS(TIMES(C5, v[1]), TIMES(C1, v[3])), TIMES(C7, v[5])), TIMES(C3, v[7]));
+    const __m256 o3 = LESS(PLUS(LESS(TIMES(C7, v[1]), TIMES(C5, v[3])), TIMES(C3, v[5])), TIMES(C1, v[7]));
+    v[0] = PLUS(e0, o0);
+    v[7] = LESS(e0, o0);
+    v[1] = PLUS(e1, o1);
+    v[6] = LESS(e1, o1);
+    v[2] = PLUS(e2, o2);
+    v[5] = LESS(e2, o2);
+    v[3] = PLUS(e3, o3);
+    v[4] = LESS(e3, o3);
+}
+
+static inline __attribute__((always_inline)) void transpose8_avx2(__m256 v[8])
+{
+    __m256 pairs[8], fours[8];
+    for (int i = 0; i < 4; i++) {
+        pairs[2 * i] = _mm256_unpacklo_ps(v[2 * i], v[2 * i + 1]);
+        pairs[2 * i + 1] = _mm256_unpackhi_ps(v[2 * i], v[2 * i + 1]);
+    }
+    for (int i = 0; i < 8; i += 4)
+        for (int k = 0; k < 2; k++) {
+            fours[i + 2 * k] = _mm256_shuffle_ps(pairs[i + k], pairs[i + k + 2], 0x44);
+            fours[i + 2 * k + 1] = _mm256_shuffle_ps(pairs[i + k], pairs[i + k + 2], 0xee);
+        }
+    for (int i = 0; i < 4; i++) {
+        v[i] = _mm256_permute2f128_ps(fours[i], fours[i + 4], 0x20);
+        v[i + 4] = _mm256_permute2f128_ps(fours[i], fours[i + 4], 0x31);
+    }
+}
+
+/* 1 if no coefficient but the first is there: such a block is even. */
+static inline int is_even(const int16_t *coefficients)
+{
+    const __m256i *c = (const __m256i *)(const void *)coefficients;
+    const __m256i rest = _mm256_or_si256(_mm256_or_si256(_mm256_loadu_si256(c + 1), _mm256_loadu_si256(c + 2)),
+                                         _mm256_loadu_si256(c + 3));
+    const __m256i first = _mm256_and_si256(_mm256_loadu_si256(c), _mm256_set_epi32(-1, -1, -1, -1, -1, -1, -1, -65536));
+    const __m256i all = _mm256_or_si256(rest, first);
+    return _mm256_testz_si256(all, all);
+}
+
+static void inverse_avx2(float *samples, int stride, const int16_t *coefficients, int blocks, const float *steps)
+{
+    for (int block = 0; block < blocks; block++, coefficients += 64, samples += 8) {
+        __m256 v[8];
+        if (is_even(coefficients)) {
+            v[0] = _mm256_set1_ps(C4 * (C4 * ((float)coefficients[0] * steps[0])));
+            for (int y = 0; y < 8; y++)
+                _mm256_storeu_ps(samples + y * stride, v[0]);
+            continue;
+        }
+        for (int y = 0; y < 8; y++) {
+            const __m128i row = _mm_loadu_si128((const __m128i *)(const void *)(coefficients + 8 * y));
+            v[y] = _mm256_mul_ps(_mm256_cvtepi32_ps(_mm256_cvtepi16_epi32(row)), _mm256_loadu_ps(steps + 8 * y));
+        }
+        inverse8_avx2(v);
+        transpose8_avx2(v);
+        inverse8_avx2(v);
+        transpose8_avx2(v);
+        for (int y = 0; y < 8; y++)
+            _mm256_storeu_ps(samples + y * stride, v[y]);
+    }
+}
+
+/* value_of; an entry and the next one lie side by side and come at once. */
+static inline __attribute__((always_inline)) __m256 values_of(__m256 levels, const PackLevelTable *table)
+{
+    const __m256 place = _mm256_max_ps(TIMES(PACK_LEVEL_STEPS, levels), _mm256_setzero_ps());
+    const __m256i entry = _mm256_cvttps_epi32(_mm256_min_ps(place, _mm256_set1_ps(PACK_LEVEL_ENTRIES)));
+    const __m256i halves = _mm256_permute4x64_epi64(entry, 0xd8); /* 0, 1, 4, 5 and 2, 3, 6, 7 */
+    const long long *from = (const long long *)(const void *)table->value;
+    const __m256 a = _mm256_castsi256_ps(_mm256_i32gather_epi64(from, _mm256_castsi256_si128(halves), 4)),
+                 b = _mm256_castsi256_ps(_mm256_i32gather_epi64(from, _mm256_extracti128_si256(halves, 1), 4));
+    const __m256 low = _mm256_shuffle_ps(a, b, 0x88), high = _mm256_shuffle_ps(a, b, 0xdd);
+    return PLUS(low, _mm256_mul_ps(LESS(high, low), LESS(place, _mm256_cvtepi32_ps(entry))));
+}
+
+static void colours_avx2(float *restrict values, const float *y, const float *cb, const float *cr, int count,
+                         const PackLevelTable *table)
+{
+    const __m256i reds = _mm256_setr_epi32(0, 3, 6, 1, 4, 7, 2, 5), greens = _mm256_setr_epi32(5, 0, 3, 6, 1, 4, 7, 2),
+                  blues = _mm256_setr_epi32(2, 5, 0, 3, 6, 1, 4, 7);
+    int i = 0;
+    for (; i + 8 <= count; i += 8) {
+        const __m256 level = PLUS(_mm256_loadu_ps(y + i), _mm256_set1_ps(128));
+        const __m256 b = _mm256_loadu_ps(cb + i), r = _mm256_loadu_ps(cr + i);
+        const __m256 red = _mm256_permutevar8x32_ps(values_of(PLUS(level, TIMES(1.402f, r)), table), reds);
+        const __m256 green = _mm256_permutevar8x32_ps(
+            values_of(LESS(LESS(level, TIMES(0.344136286f, b)), TIMES(0.714136286f, r)), table), greens);
+        const __m256 blue = _mm256_permutevar8x32_ps(values_of(PLUS(level, TIMES(1.772f, b)), table), blues);
+        float *to = values + 3 * (size_t)i;
+        _mm256_storeu_ps(to, _mm256_blend_ps(_mm256_blend_ps(red, green, 0x92), blue, 0x24));
+        _mm256_storeu_ps(to + 8, _mm256_blend_ps(_mm256_blend_ps(red, green, 0x24), blue, 0x49));
+        _mm256_storeu_ps(to + 16, _mm256_blend_ps(_mm256_blend_ps(red, green, 0x49), blue, 0x92));
+    }
+    _mm256_zeroupper(); /* which the compiler leaves out before a last call */
+    colours_plain(values + 3 * (size_t)i, y + i, cb + i, cr + i, count - i, table);
+}
+
+static void greys_avx2(float *restrict values, const float *y, int count, const PackLevelTable *table)
+{
+    int i = 0;
+    for (; i + 8 <= count; i += 8)
+        _mm256_storeu_ps(values + i, values_of(PLUS(_mm256_loadu_ps(y + i), _mm256_set1_ps(128)), table));
+    _mm256_zeroupper();
+    greys_plain(values + i, y + i, count - i, table);
+}
+#pragma GCC pop_options
+
+int pack_jpeg_kernels(const PackJpegKernels *kernels[PACK_JPEG_KERNELS_MAX])
+{
+    static const PackJpegKernels avx2 = {inverse_avx2, colours_avx2, greys_avx2};
+    int count = 0;
+    if (__builtin_cpu_supports("avx2"))
+        kernels[count++] = &avx2;
+    kernels[count++] = &plain;
+    return count;
+}
+#else
+int pack_jpeg_kernels(const PackJpegKernels *kernels[PACK_JPEG_KERNELS_MAX])
+{
+    kernels[0] = &plain;
+    return 1;
+}
+#endif

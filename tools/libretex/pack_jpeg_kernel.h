@@ -17,12 +17,18 @@ void pack_block_forward(int16_t *coefficients, const float *samples, int stride,
 /* largest[64] gets the sizes of a block's coefficients where they are larger. */
 void pack_block_largest(float *largest, const float *samples, int stride);
 
-/* A row of blocks back: 8 rows of samples, `stride` floats apart. */
-void pack_blocks_inverse(float *samples, int stride, const int16_t *coefficients, int blocks, const float *steps);
+/* The way back, which most of the time goes to. All of them give the same bits. */
+typedef struct PackJpegKernels {
+    /* A row of blocks: 8 rows of samples, `stride` floats apart. */
+    void (*inverse)(float *samples, int stride, const int16_t *coefficients, int blocks, const float *steps);
+    /* Planes of Y, Cb and Cr (centred on 0) to interleaved values, and of one channel. */
+    void (*colours)(float *values, const float *y, const float *cb, const float *cr, int count,
+                    const PackLevelTable *table);
+    void (*greys)(float *values, const float *y, int count, const PackLevelTable *table);
+} PackJpegKernels;
 
-/* Planes of Y, Cb and Cr (centred on 0) to interleaved values, and of one channel. */
-void pack_colours_from_planes(float *values, const float *y, const float *cb, const float *cr, int count,
-                              const PackLevelTable *table);
-void pack_greys_from_plane(float *values, const float *y, int count, const PackLevelTable *table);
+/* Those that this processor can run, the fastest first, the plain reference last; returns how many. */
+enum { PACK_JPEG_KERNELS_MAX = 2 };
+int pack_jpeg_kernels(const PackJpegKernels *kernels[PACK_JPEG_KERNELS_MAX]);
 
 #endif

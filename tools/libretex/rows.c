@@ -8,19 +8,13 @@
 struct RowReader {
     const RetexSet *set;
     void *source; /* its reader, or NULL */
-    float **rows; /* by part: what came last from the source */
 };
 
 int row_reader_open(RowReader **result, const RetexSet *set, RetexError *err)
 {
     RowReader *reader = *result = calloc(1, sizeof *reader);
-    if (reader)
-        reader->rows = calloc((size_t)set->nparts + 1, sizeof *reader->rows);
-    if (!reader || !reader->rows) {
-        free(reader);
-        *result = NULL;
+    if (!reader)
         return retex_fail(err, RETEX_ENOMEM, "no memory to read a set's rows");
-    }
     reader->set = set;
     int code = set->source ? set->source->reader_open(set->source, &reader->source, err) : RETEX_OK;
     if (code)
@@ -35,9 +29,6 @@ void row_reader_close(RowReader **result)
         return;
     if (reader->source)
         reader->set->source->reader_close(reader->source);
-    for (int i = 0; i < reader->set->nparts; i++)
-        free(reader->rows[i]);
-    free(reader->rows);
     free(reader);
     *result = NULL;
 }
@@ -45,17 +36,11 @@ void row_reader_close(RowReader **result)
 int row_reader_get(RowReader *reader, int part, int y, const float **row, RetexError *err)
 {
     const RetexPart *p = &reader->set->parts[part];
-    int black = 0;
     if (p->image.pixels) {
         *row = p->image.pixels + retex_image_index(&p->image, 0, y);
         return RETEX_OK;
     }
     if (!reader->source)
         return retex_fail(err, RETEX_EINVAL, "part %s of the set is not in memory", p->name);
-    const size_t bytes = sizeof(float) * (size_t)p->image.width * (size_t)p->image.channels;
-    if (!reader->rows[part] && !(reader->rows[part] = malloc(bytes)))
-        return retex_fail(err, RETEX_ENOMEM, "no memory to read a set's rows");
-    int code = reader->set->source->read_row(reader->source, part, y, reader->rows[part], &black, err);
-    *row = black ? NULL : reader->rows[part];
-    return code;
+    return reader->set->source->read_row(reader->source, part, y, row, err);
 }

@@ -9,9 +9,9 @@ struct RetexSetSource {
     /* Readers of rows, one a thread. */
     int (*reader_open)(RetexSetSource *source, void **reader, RetexError *err);
     void (*reader_close)(void *reader);
-    /* Row y of the set's part of that number, its channels interleaved; *black: all of it is 0, and row may be left
-     * unfilled. Cheapest from the top, row after row. */
-    int (*read_row)(void *reader, int part, int y, float *row, int *black, RetexError *err);
+    /* Row y of the set's part of that number, its channels interleaved; NULL where all of it is 0. It is the reader's,
+     * and stays until the next call for the same part. Cheapest from the top, row after row. */
+    int (*read_row)(void *reader, int part, int y, const float **row, RetexError *err);
 };
 
 #endif
