@@ -94,6 +94,42 @@ static int near_limit(const RetexTextureSpec *spec, const int limited[2], const 
     return 0;
 }
 
+/* A normal distribution's part between low and high, both in standard deviations from its mean: its mean, and its
+ * variance. Returns how much of it lies there. */
+static float truncate_normal(float low, float high, float *mean, float *variance)
+{
+    const float root = 0.70710678f, density = 0.39894228f;
+    float at_low = low > -8 ? density * expf(-0.5f * low * low) : 0;
+    float at_high = high < 8 ? density * expf(-0.5f * high * high) : 0;
+    float kept = 0.5f * (erff(high * root) - erff(low * root)), inverse = 1 / fmaxf(kept, 1e-6f);
+    *mean = (at_low - at_high) * inverse;
+    *variance = 1 + ((low > -8 ? low * at_low : 0) - (high < 8 ? high * at_high : 0)) * inverse - *mean * *mean;
+    return kept;
+}
+
+/* A footprint that is cut off where the surface ends becomes the Gaussian that has the mean and the covariance of what
+ * is left of it. What would lose nearly all is kept. */
+static void cut_footprint(const RetexTextureSpec *spec, const int limited[2], float uv[2], float spread[2],
+                          float *correlation)
+{
+    for (int axis = 0; axis < 2; axis++) {
+        float sd = spread[axis], mean, variance;
+        if (!limited[axis] || !(sd > 1e-9f))
+            continue;
+        float low = ((float)spec->uv_min[axis] - uv[axis]) / sd, high = ((float)spec->uv_max[axis] - uv[axis]) / sd;
+        if ((low < -3.5f && high > 3.5f) || !(truncate_normal(low, high, &mean, &variance) > 1e-3f))
+            continue;
+        variance = fmaxf(variance, 0);
+        /* The other axis follows as far as it is correlated. */
+        float r = *correlation, other = 1 - r * r * (1 - variance);
+        uv[axis] += sd * mean;
+        uv[!axis] += spread[!axis] * r * mean;
+        spread[axis] = sd * sqrtf(variance);
+        spread[!axis] *= sqrtf(other);
+        *correlation = other > 0 ? r * sqrtf(variance / other) : 0;
+    }
+}
+
 static void filter_one(const RetexTexture *texture, RetexTextureFilter shape, const float *uv, const float *spread,
                        int spreads, float *rgba)
 {
@@ -143,17 +179,16 @@ void texture_filter_batches(TextureBatchKernel *kernel, const RetexTexture *text
                 memset(rgba + 4 * i, 0, 4 * sizeof *rgba);
                 continue;
             }
-            if (any_limit && near_limit(&texture->spec, limited, at, s)) {
-                filter_one(texture, shape, at, s, spreads, rgba + 4 * i);
-                continue;
-            }
             int k = batch.count++;
+            float mean[2] = {at[0], at[1]}, sds[2] = {s[0], s[1]}, correlation = spreads == 3 ? s[2] : 0;
+            if (any_limit && near_limit(&texture->spec, limited, at, s))
+                cut_footprint(&texture->spec, limited, mean, sds, &correlation);
             from[k] = i;
-            batch.u[k] = at[0];
-            batch.v[k] = at[1];
-            batch.su[k] = s[0];
-            batch.sv[k] = s[1];
-            batch.correlation[k] = spreads == 3 ? s[2] : 0;
+            batch.u[k] = mean[0];
+            batch.v[k] = mean[1];
+            batch.su[k] = sds[0];
+            batch.sv[k] = sds[1];
+            batch.correlation[k] = correlation;
         }
         if (!batch.count)
             break;
