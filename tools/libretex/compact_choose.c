@@ -235,7 +235,7 @@ static int measure(Choosing *work, const CompactScales *fine, RetexError *err)
 
 /* ---- choosing ---- */
 
-/* The choices of fewest numbers that keep sums within bounds, from this one on; or, where there are none, *numbers stays
+/* The choices of fewest numbers that keep sums within bounds, from this one on; where there are none, *numbers stays
  * as it is. */
 static void search(Choosing *work, int first, const double sums[COMPACT_TRIALS], const double bounds[COMPACT_TRIALS],
                    double so_far, double *numbers, int best[GROUPS_MOST])
