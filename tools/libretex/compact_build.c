@@ -15,6 +15,8 @@ typedef struct Compaction {
     RetexSet *set; /* the new one */
     const CompactScales *scales;
     int nthreads;
+    CompactCache *cache;                             /* NULL, or where what is made is kept */
+    RetexImage *(*waves)[COMPACT_WAVES];             /* with it */
     int places[COMPACT_KINDS], again[COMPACT_KINDS]; /* of each kind, the factor that stands for it: for its own light,
                                                         and for that which goes on */
     int mixtures[RETEX_MIXTURES_MAX];                /* of the old ones of later footprints, the new factor */
@@ -113,6 +115,94 @@ static int move_image(RetexSet *set, RetexImage *image, const char *letters, Ret
     return code;
 }
 
+/* ---- what trials have in common ---- */
+
+static int step_of(int scale)
+{
+    int step = 0;
+    while (1 << step < scale)
+        step++;
+    return step;
+}
+
+/* A copy of what the cache holds, for a set to own. */
+static int copy_clusters(CompactClusters *to, const CompactClusters *from, RetexError *err)
+{
+    int code = retex_image_copy(&to->albedo, &from->albedo, err);
+    to->count = from->count;
+    for (int k = 0; k < from->count && !code; k++) {
+        code = retex_image_copy(&to->uv[k], &from->uv[k], err);
+        if (!code)
+            code = retex_image_copy(&to->spread[k], &from->spread[k], err);
+        if (!code)
+            code = retex_image_copy(&to->weight[k], &from->weight[k], err);
+        if (!code && from->again[k].pixels)
+            code = retex_image_copy(&to->again[k], &from->again[k], err);
+    }
+    return code;
+}
+
+static int make_clusters(CompactClusters *clusters, const Compaction *work, int number, RetexError *err)
+{
+    const CompactKind *kind = &work->light->kinds[number];
+    const int scale = work->scales->clusters[number], split = work->scales->split[number];
+    CompactClusters *kept = work->cache ? &work->cache->clusters[number][step_of(scale)][split] : clusters;
+    int code = RETEX_OK;
+    *clusters = (CompactClusters){0};
+    if (!kept->albedo.pixels)
+        code = compact_clusters_make(kept, work->light, kind, scale, split, work->nthreads, err);
+    if (!code && work->cache)
+        code = copy_clusters(clusters, kept, err);
+    if (code)
+        compact_clusters_free(clusters);
+    return code;
+}
+
+static int make_sum(RetexImage *sum, const Compaction *work, int number, RetexError *err)
+{
+    RetexImage *kept = work->cache ? &work->cache->sums[number] : sum;
+    int code = RETEX_OK;
+    if (!kept->pixels)
+        code = compact_sum_light(kept, work->light, &work->light->kinds[number], work->nthreads, err);
+    return code || !work->cache ? code : retex_image_copy(sum, kept, err);
+}
+
+/* place: 0 for the clusters alone, 1 for the first of the terms that go on. */
+static int make_gain(RetexImage *gain, const Compaction *work, int number, int radiance, int place, RetexError *err)
+{
+    const CompactKind *kind = &work->light->kinds[number];
+    const int scale = work->scales->gains[number];
+    const RetexImage *sum = &work->set->parts[radiance].image;
+    RetexImage **all = work->cache ? &work->cache->gains[number][step_of(scale)] : NULL;
+    if (all && !*all && !(*all = calloc((size_t)kind->nagain + 1, sizeof **all)))
+        return retex_fail(err, RETEX_ENOMEM, "not enough memory for gains");
+    RetexImage *kept = all ? *all + place : gain;
+    int code = RETEX_OK;
+    if (!kept->pixels)
+        code = compact_make_gain(kept, work->light, kind, sum, place ? kind->again[place - 1] : -1, scale,
+                                 work->nthreads, err);
+    return code || !all ? code : retex_image_copy(gain, kept, err);
+}
+
+void compact_cache_free(CompactCache *cache, const CompactLight *light)
+{
+    for (int i = 0; i < light->nkinds; i++) {
+        for (int j = 0; j < COMPACT_STEPS * 2; j++) {
+            compact_clusters_free(&cache->clusters[i][j / 2][j % 2]);
+            for (int k = 0; k < COMPACT_WAVES * RETEX_SHARES_MAX; k++)
+                retex_image_free(&cache->waves[i][j / 2][j % 2][k / RETEX_SHARES_MAX][k % RETEX_SHARES_MAX]);
+        }
+        for (int step = 0; step < COMPACT_STEPS; step++) {
+            for (int k = 0; cache->gains[i][step] && k <= light->kinds[i].nagain; k++)
+                retex_image_free(&cache->gains[i][step][k]);
+            free(cache->gains[i][step]);
+        }
+        retex_image_free(&cache->sums[i]);
+    }
+}
+
+/* ---- footprints ---- */
+
 /* One cluster as a footprint, which refers to the albedo that all of its kind have. */
 static int add_cluster(Compaction *work, int number, CompactClusters *clusters, int k, int albedo, RetexError *err)
 {
@@ -132,7 +222,12 @@ static int add_cluster(Compaction *work, int number, CompactClusters *clusters, 
     if (!code && clusters->count > 1 && clusters->again[k].pixels)
         code = move_image(work->set, &clusters->again[k], "R", RETEX_HALF, &work->shares[number][k], err,
                           "share_%s_%s%d", target, name, k + 1);
-    return code ? code : retex_set_add_footprint(work->set, &f, &work->footprints[number][k], err);
+    if (!code)
+        code = retex_set_add_footprint(work->set, &f, &work->footprints[number][k], err);
+    for (int i = 0; i < COMPACT_WAVES && !code && work->cache; i++)
+        work->waves[work->footprints[number][k]][i] =
+            &work->cache->waves[number][step_of(work->scales->clusters[number])][work->scales->split[number]][i][k];
+    return code;
 }
 
 /* The factor that stands for a kind, its footprints weighed by these parts. */
@@ -154,8 +249,7 @@ static int add_clusters(Compaction *work, int number, RetexError *err)
 {
     const CompactKind *kind = &work->light->kinds[number];
     CompactClusters clusters;
-    int albedo, code = compact_clusters_make(&clusters, work->light, kind, work->scales->clusters[number],
-                                             work->scales->split[number], work->nthreads, err);
+    int albedo, code = make_clusters(&clusters, work, number, err);
     if (code)
         return code;
     work->counts[number] = clusters.count;
@@ -220,16 +314,16 @@ static int later_factor(const Compaction *work, int factor)
 }
 
 /* The gain's name is that of the radiance it replaces. */
-static int add_gain(Compaction *work, int number, int radiance, int old, RetexTerm *term, RetexError *err)
+static int add_gain(Compaction *work, int number, int radiance, int place, RetexTerm *term, RetexError *err)
 {
     const CompactKind *kind = &work->light->kinds[number];
     const char *target = work->set->targets[kind->target].name, *name = kind_names[kind->kind];
     const RetexSet *set = work->light->set;
+    const int old = place ? kind->again[place - 1] : -1;
     RetexImage gain = {0};
     char whole[RETEX_NAME_MAX];
     snprintf(whole, sizeof whole, "dep_%s_%s_", target, name);
-    int code = compact_make_gain(&gain, work->light, kind, &work->set->parts[radiance].image, old,
-                                 work->scales->gains[number], work->nthreads, err);
+    int code = make_gain(&gain, work, number, radiance, place, err);
     if (code)
         return code;
     if (old < 0) {
@@ -244,8 +338,9 @@ static int add_gain(Compaction *work, int number, int radiance, int old, RetexTe
     return code;
 }
 
-static int add_term(Compaction *work, int number, int radiance, int old, int with_gain, RetexError *err)
+static int add_term(Compaction *work, int number, int radiance, int place, int with_gain, RetexError *err)
 {
+    const int old = place ? work->light->kinds[number].again[place - 1] : -1;
     RetexTerm term = {.kind = RETEX_TERM_DEP, .nfactors = 1};
     if (old >= 0)
         term = work->light->set->terms[old];
@@ -253,7 +348,7 @@ static int add_term(Compaction *work, int number, int radiance, int old, int wit
     term.factors[0] = old < 0 ? work->places[number] : work->again[number];
     for (int k = 1; k < term.nfactors; k++)
         term.factors[k] = later_factor(work, term.factors[k]);
-    int code = with_gain ? add_gain(work, number, radiance, old, &term, err) : RETEX_OK;
+    int code = with_gain ? add_gain(work, number, radiance, place, &term, err) : RETEX_OK;
     return code ? code : retex_set_add_term(work->set, &term, NULL, err);
 }
 
@@ -266,14 +361,14 @@ static int add_terms(Compaction *work, int number, RetexError *err)
         owns += kind->own[k] >= 0;
     if (!owns && !kind->nagain)
         return RETEX_OK;
-    int code = compact_sum_light(&sum, work->light, kind, work->nthreads, err);
+    int code = make_sum(&sum, work, number, err);
     if (!code)
         code = move_image(work->set, &sum, "RGB", RETEX_HALF, &radiance, err, "dep_%s_%s",
                           work->set->targets[kind->target].name, kind_names[kind->kind]);
     if (!code && owns)
-        code = add_term(work, number, radiance, -1, kind->nagain > 0, err);
+        code = add_term(work, number, radiance, 0, kind->nagain > 0, err);
     for (int i = 0; i < kind->nagain && !code; i++)
-        code = add_term(work, number, radiance, kind->again[i], 1, err);
+        code = add_term(work, number, radiance, i + 1, 1, err);
     retex_image_free(&sum);
     return code;
 }
@@ -294,6 +389,32 @@ int compact_build(RetexSet **result, const CompactLight *light, const CompactSca
     for (int i = 0; i < light->nkinds && !code; i++)
         if (light->kinds[i].kind != RETEX_FOOTPRINT_LATER)
             code = add_terms(&work, i, err);
+    if (code)
+        retex_set_close(&work.set);
+    *result = work.set;
+    return code;
+}
+
+int compact_build_kind(RetexSet **result, RetexImage *of[][COMPACT_WAVES], const CompactLight *light, int kind,
+                       const CompactScales *scales, CompactCache *cache, int nthreads, RetexError *err)
+{
+    Compaction work = {.light = light, .scales = scales, .nthreads = nthreads, .cache = cache, .waves = of};
+    const RetexSet *old = light->set;
+    int code = compact_copy_head(&work.set, old, err);
+    for (int t = 0; t < old->ntargets && !code; t++)
+        work.set->targets[t].original = -1;
+    if (!code && kind < 0)
+        code = copy_kept(&work, err);
+    else if (!code) /* the picture, which no recombination reads */
+        code = retex_set_add_part(work.set, old->parts[0].name, old->parts[0].letters, old->parts[0].type, 0, 0, NULL,
+                                  err);
+    for (int i = 0; i < light->nkinds && !code && kind >= 0; i++)
+        if (i == kind || light->kinds[i].kind == RETEX_FOOTPRINT_LATER)
+            code = add_clusters(&work, i, err);
+    if (!code && kind >= 0)
+        code = add_later_mixtures(&work, err);
+    if (!code && kind >= 0)
+        code = add_terms(&work, kind, err);
     if (code)
         retex_set_close(&work.set);
     *result = work.set;

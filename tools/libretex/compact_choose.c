@@ -1,6 +1,6 @@
-/* See compact_choose.h. What a choice costs is measured for one thing at a time, all others being as fine as they can;
- * squares of differences add up well enough. From the coarsest of all, whatever gains most for the numbers it adds
- * is made finer until the sum is within bounds, and so is the set with all choices made.
+/* See compact_choose.h. What a choice costs is measured for one thing at a time, all others being as fine as they can.
+ * Squares of differences add up, roughly: the choices of fewest numbers whose sums are within bounds are made together
+ * and measured, and sums are let grow, or have to shrink, by how they compare with that.
  *
  * Footprints are noisy, those of denoised sets too, and smaller images average that away: a difference from the set
  * that is no loss. Of n, the square of what noise does, a scale of s takes away 1 - 1 / s^2, and hardly more where s is
@@ -9,13 +9,18 @@
 #include "compact_choose.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "compact_meter.h"
 
-#define STEPS 4              /* of scales: 1, 2, 4, 8 */
+#define STEPS COMPACT_STEPS
 #define NOISE_COUNTS 0.025   /* of a set's own noise, what may be added: 0.1 dB */
 #define NOISE_COUNTS_NOT 0.9 /* share of what is taken for noise that is no loss; all else counts */
+#define NOTHING 0.03         /* share of the bound that gains may cost without a closer look at their scale */
+#define LETTING 1.25         /* times what is lost when all is as fine as can be, at least, may be lost */
+#define GROWTH_MOST 4        /* of sums */
+#define MEASURED_MOST 8      /* times */
 #define GROUPS_MOST 64
 #define KINDS_APART 6 /* more kinds than these, of three or more targets, are chosen for together */
 
@@ -26,17 +31,27 @@ typedef enum What { CLUSTERS, GAINS, SPLIT } What;
 typedef struct Choice {
     What what;
     int kinds[COMPACT_KINDS], nkinds;
-    int steps, at;                         /* 0: as fine as can be, to steps - 1 */
+    int steps, at, before;                 /* 0: as fine as can be, to steps - 1; before: when last measured */
     double squares[STEPS][COMPACT_TRIALS]; /* lost */
     double noise[COMPACT_TRIALS];          /* what an infinite scale would take away of it */
     double numbers[STEPS];                 /* stored for each pixel */
 } Choice;
 
+/* A kind's pictures at some scales. */
+typedef struct Shown {
+    int clusters, gains, split, later;
+    RetexImage pictures[COMPACT_TRIALS];
+} Shown;
+
 typedef struct Choosing {
     const CompactLight *light; /* of the meter's set */
     CompactMeter meter;
+    CompactCache *cache;
+    Shown shown[COMPACT_KINDS][2];   /* as fine as can be; and those of the last trial */
+    RetexImage rest[COMPACT_TRIALS]; /* pictures of terms without factors */
     Choice choices[GROUPS_MOST];
     int count, nthreads;
+    double bound;
     double least[COMPACT_TRIALS]; /* lost when all is as fine as can be */
 } Choosing;
 
@@ -110,15 +125,53 @@ static void list_choices(Choosing *work, CompactScales *scales, const RetexCompa
 
 /* ---- trials ---- */
 
-static int try_scales(const Choosing *work, const CompactScales *scales, double squares[COMPACT_TRIALS],
-                      RetexError *err)
+static void free_shown(Shown *shown)
 {
-    RetexSet *compact;
-    int code = compact_build(&compact, work->light, scales, work->nthreads, err);
-    if (!code)
-        code = compact_meter_read(&work->meter, compact, squares, work->nthreads, err);
-    retex_set_close(&compact);
-    return code;
+    for (int t = 0; t < COMPACT_TRIALS; t++)
+        retex_image_free(&shown->pictures[t]);
+}
+
+/* Later footprints of all targets have one scale. */
+static int later_scale(const CompactLight *light, const CompactScales *scales)
+{
+    for (int i = 0; i < light->nkinds; i++)
+        if (light->kinds[i].kind == RETEX_FOOTPRINT_LATER)
+            return scales->clusters[i];
+    return 1;
+}
+
+static int show_kind(Choosing *work, int kind, const CompactScales *scales, const RetexImage **pictures,
+                     RetexError *err)
+{
+    const Shown wanted = {.clusters = scales->clusters[kind],
+                          .gains = scales->gains[kind],
+                          .split = scales->split[kind],
+                          .later = later_scale(work->light, scales)};
+    int place = 0;
+    for (; place < 2 && work->shown[kind][place].pictures[0].pixels; place++) {
+        const Shown *shown = &work->shown[kind][place];
+        *pictures = shown->pictures;
+        if (shown->clusters == wanted.clusters && shown->gains == wanted.gains && shown->split == wanted.split &&
+            shown->later == wanted.later)
+            return RETEX_OK;
+    }
+    Shown *shown = &work->shown[kind][place < 1 ? 0 : 1];
+    free_shown(shown);
+    *shown = wanted;
+    *pictures = shown->pictures;
+    return compact_meter_show(shown->pictures, work->light, kind, scales, work->cache, work->nthreads, err);
+}
+
+static int try_scales(Choosing *work, const CompactScales *scales, double squares[COMPACT_TRIALS], RetexError *err)
+{
+    const RetexImage *parts[COMPACT_KINDS + 1] = {work->rest};
+    int count = 1, code = RETEX_OK;
+    if (!work->rest[0].pixels)
+        code = compact_meter_show(work->rest, work->light, -1, scales, work->cache, work->nthreads, err);
+    for (int i = 0; i < work->light->nkinds && !code; i++)
+        if (work->light->kinds[i].kind != RETEX_FOOTPRINT_LATER)
+            code = show_kind(work, i, scales, &parts[count++], err);
+    return code ? code : compact_meter_read(&work->meter, parts, count, squares, work->nthreads, err);
 }
 
 static double noise_gone(int step)
@@ -126,10 +179,12 @@ static double noise_gone(int step)
     return NOISE_COUNTS_NOT * (1 - 1.0 / (1 << (2 * step)));
 }
 
-/* The rest is loss. */
-static void tell_noise(Choice *choice)
+/* The rest is loss. Of gains of sets as rendered all is: where gains are smooth, noise goes from one term's light to
+ * another's, which may be of a lighter texture. */
+static void tell_noise(Choice *choice, int denoised)
 {
-    for (int t = 0; t < COMPACT_TRIALS && choice->what != SPLIT; t++) {
+    const int averages = choice->what == CLUSTERS || (choice->what == GAINS && denoised);
+    for (int t = 0; t < COMPACT_TRIALS && averages; t++) {
         const double *first = choice->squares[1], *second = choice->squares[2];
         const double noise = (2 * first[t] - second[t]) / (2 * (1 - 1.0 / 4) - (1 - 1.0 / 16));
         choice->noise[t] = fmax(noise, 0);
@@ -138,110 +193,180 @@ static void tell_noise(Choice *choice)
     }
 }
 
+static int measure_step(Choosing *work, Choice *choice, int step, const CompactScales *fine, RetexError *err)
+{
+    CompactScales scales = *fine;
+    apply(&scales, choice, step);
+    int code = try_scales(work, &scales, choice->squares[step], err);
+    for (int t = 0; t < COMPACT_TRIALS; t++)
+        choice->squares[step][t] = fmax(choice->squares[step][t] - work->least[t], 0);
+    return code;
+}
+
+static double worst(const double squares[COMPACT_TRIALS])
+{
+    double most = squares[0];
+    for (int t = 1; t < COMPACT_TRIALS; t++)
+        most = fmax(most, squares[t]);
+    return most;
+}
+
 /* What each step of each choice loses beyond the least. */
 static int measure(Choosing *work, const CompactScales *fine, RetexError *err)
 {
     int code = try_scales(work, fine, work->least, err);
-    for (int i = 0; i < work->count; i++) {
+    for (int i = 0; i < work->count && !code; i++) {
         Choice *choice = &work->choices[i];
-        for (int step = 0; step < choice->steps && !code; step++) {
-            CompactScales scales = *fine;
+        const int last = choice->steps - 1;
+        for (int step = 0; step <= last; step++)
             choice->numbers[step] = numbers_of(work, choice, step);
-            if (!step)
-                continue;
-            apply(&scales, choice, step);
-            code = try_scales(work, &scales, choice->squares[step], err);
-            for (int t = 0; t < COMPACT_TRIALS; t++)
-                choice->squares[step][t] = fmax(choice->squares[step][t] - work->least[t], 0);
-        }
-        tell_noise(choice);
-        choice->at = choice->steps - 1;
+        code = measure_step(work, choice, last, fine, err);
+        const int nothing = choice->what == GAINS && worst(choice->squares[last]) < NOTHING * work->bound;
+        for (int step = 1; step < last && !code; step++)
+            if (nothing)
+                memcpy(choice->squares[step], choice->squares[last], sizeof choice->squares[last]);
+            else
+                code = measure_step(work, choice, step, fine, err);
+        if (!nothing)
+            tell_noise(choice, work->light->set->denoised);
     }
     return code;
 }
 
-/* The trial that loses most, all choices as they are. */
-static int worst_trial(const Choosing *work, double *squares)
+/* ---- choosing ---- */
+
+/* The choices of fewest numbers that keep sums within bounds, from this one on; where there are none, *numbers stays
+ * as it is. */
+static void search(Choosing *work, int first, const double sums[COMPACT_TRIALS], const double bounds[COMPACT_TRIALS],
+                   double so_far, double *numbers, int best[GROUPS_MOST])
 {
-    int worst = 0;
-    for (int t = 0; t < COMPACT_TRIALS; t++) {
-        double sum = work->least[t];
+    if (so_far >= *numbers)
+        return;
+    if (first == work->count) {
+        *numbers = so_far;
         for (int i = 0; i < work->count; i++)
-            sum += work->choices[i].squares[work->choices[i].at][t];
-        if (!t || sum > *squares)
-            *squares = sum, worst = t;
+            best[i] = work->choices[i].at;
+        return;
     }
-    return worst;
+    Choice *choice = &work->choices[first];
+    for (int step = choice->steps - 1; step >= 0; step--) {
+        double with[COMPACT_TRIALS];
+        int within = 1;
+        for (int t = 0; t < COMPACT_TRIALS; t++) {
+            with[t] = sums[t] + choice->squares[step][t];
+            within &= with[t] <= bounds[t];
+        }
+        choice->at = step;
+        if (within)
+            search(work, first + 1, with, bounds, so_far + choice->numbers[step], numbers, best);
+    }
 }
 
-/* One choice finer: where that gains most for a trial. 0: there is none. */
-static int refine(Choosing *work, int trial)
+static double bound_of(const Choosing *work, int trial)
 {
-    Choice *best = NULL;
-    double most = -1;
+    return fmax(work->bound, LETTING * work->least[trial]);
+}
+
+/* Whether these are other choices than those before. *numbers: how many they store; more than so many are not taken. */
+static int search_within(Choosing *work, const double factors[COMPACT_TRIALS], double *numbers)
+{
+    double bounds[COMPACT_TRIALS];
+    int best[GROUPS_MOST], others = 0;
+    for (int i = 0; i < work->count; i++)
+        best[i] = work->choices[i].before;
+    for (int t = 0; t < COMPACT_TRIALS; t++)
+        bounds[t] = fmax(factors[t] * bound_of(work, t), work->least[t]);
+    search(work, 0, work->least, bounds, 0, numbers, best);
     for (int i = 0; i < work->count; i++) {
         Choice *choice = &work->choices[i];
-        for (int to = choice->at - 1; to >= 0; to--) { /* over a step that gains little */
-            const double gained = choice->squares[choice->at][trial] - choice->squares[to][trial];
-            const double rate = gained / (choice->numbers[to] - choice->numbers[choice->at] + 1e-9);
-            if (rate > most)
-                most = rate, best = choice;
-        }
+        others |= best[i] != choice->before;
+        choice->at = choice->before = best[i];
     }
-    if (best)
-        best->at--;
-    return best != NULL;
+    return others;
 }
 
-static void apply_all(const Choosing *work, CompactScales *scales)
+/* Whether the choices lose no more than they may when all are made; factors: of what is lost of each trial, by what
+ * the sums say of it. Together they do not lose less than one of them alone. */
+static int measure_all(Choosing *work, CompactScales *scales, double factors[COMPACT_TRIALS], int *within,
+                       RetexError *err)
 {
+    double lost[COMPACT_TRIALS];
     for (int i = 0; i < work->count; i++)
         apply(scales, &work->choices[i], work->choices[i].at);
+    int code = try_scales(work, scales, lost, err);
+    *within = 1;
+    for (int t = 0; t < COMPACT_TRIALS && !code; t++) {
+        double sum = work->least[t], most = work->least[t];
+        for (int i = 0; i < work->count; i++) {
+            const Choice *choice = &work->choices[i];
+            lost[t] -= noise_gone(choice->at) * choice->noise[t];
+            most = fmax(most, choice->squares[choice->at][t]);
+            sum += choice->squares[choice->at][t];
+        }
+        lost[t] = fmax(lost[t], most);
+        *within &= lost[t] <= bound_of(work, t);
+        factors[t] = lost[t] > 0 ? fmin(sum / lost[t], GROWTH_MOST) : 1;
+    }
+    return code;
 }
 
-/* By what was measured of each; then, where they do not add up so, by all of them together. */
-static int settle(Choosing *work, CompactScales *scales, double bound, RetexError *err)
+static int settle(Choosing *work, CompactScales *scales, RetexError *err)
 {
-    double squares;
-    for (int trial = worst_trial(work, &squares); squares > bound && refine(work, trial);)
-        trial = worst_trial(work, &squares);
-    for (;;) {
-        double lost[COMPACT_TRIALS];
-        int worst = 0;
-        apply_all(work, scales);
-        int code = try_scales(work, scales, lost, err);
-        if (code)
-            return code;
-        for (int t = 0; t < COMPACT_TRIALS; t++) {
-            for (int i = 0; i < work->count; i++)
-                lost[t] -= noise_gone(work->choices[i].at) * work->choices[i].noise[t];
-            worst = lost[t] > lost[worst] ? t : worst;
-        }
-        if (lost[worst] <= bound || !refine(work, worst))
-            return RETEX_OK;
+    CompactScales good = *scales; /* all as fine as can be */
+    double factors[COMPACT_TRIALS], fewest = INFINITY;
+    int code = RETEX_OK;
+    for (int i = 0; i < work->count; i++)
+        work->choices[i].before = -1;
+    for (int t = 0; t < COMPACT_TRIALS; t++)
+        factors[t] = 1;
+    for (int tried = 0; tried < MEASURED_MOST && !code; tried++) {
+        double numbers = fewest;
+        int within;
+        if (!search_within(work, factors, &numbers))
+            break;
+        code = measure_all(work, scales, factors, &within, err);
+        if (!code && within)
+            good = *scales, fewest = numbers;
     }
+    *scales = good;
+    return code;
+}
+
+static void close_choosing(Choosing *work)
+{
+    for (int i = 0; i < 2 * COMPACT_KINDS; i++)
+        free_shown(&work->shown[i / 2][i % 2]);
+    for (int t = 0; t < COMPACT_TRIALS; t++)
+        retex_image_free(&work->rest[t]);
+    if (work->cache)
+        compact_cache_free(work->cache, work->light);
+    free(work->cache);
+    compact_meter_close(&work->meter);
 }
 
 int compact_choose(CompactScales *scales, const CompactLight *light, const RetexCompactParams *params, int nthreads,
                    RetexError *err)
 {
     Choosing work = {.light = light, .nthreads = nthreads};
-    CompactLight small;
+    CompactLight small = {0};
     int understood;
     *scales = (CompactScales){0};
     list_choices(&work, scales, params);
     if (!work.count)
         return RETEX_OK;
-    int code = compact_meter_open(&work.meter, light->set, nthreads, err);
-    if (code)
-        return code;
-    code = compact_light_open(&small, work.meter.set, &understood, err);
+    int code = compact_meter_open(&work.meter, light, nthreads, err);
+    if (!code)
+        code = compact_light_open(&small, work.meter.set, &understood, err);
     work.light = &small;
+    work.bound = fmax(pow(10, -params->psnr / 10), NOISE_COUNTS * work.meter.noise);
+    work.cache = calloc(1, sizeof *work.cache);
+    if (!code && !work.cache)
+        code = retex_fail(err, RETEX_ENOMEM, "not enough memory for trials");
     if (!code)
         code = measure(&work, scales, err);
     if (!code)
-        code = settle(&work, scales, fmax(pow(10, -params->psnr / 10), NOISE_COUNTS * work.meter.noise), err);
+        code = settle(&work, scales, err);
+    close_choosing(&work);
     compact_light_close(&small);
-    compact_meter_close(&work.meter);
     return code;
 }

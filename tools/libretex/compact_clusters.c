@@ -219,8 +219,11 @@ static double part_of(const Cluster *cluster, Part part)
  * where it is nothing, but is never made so by rounding. */
 static void store_weights(RetexImage *images, size_t block, const Pool *pool, Part part, double all)
 {
-    for (int i = 0; i < pool->count && !(all > 0); i++)
-        all += part_of(&pool->of[i], part);
+    double own = 0;
+    for (int i = 0; i < pool->count; i++)
+        own += part_of(&pool->of[i], part);
+    if (!(all > 0))
+        all = own;
     for (int i = 0; i < pool->count; i++) {
         const double share = all > 0 ? part_of(&pool->of[i], part) / all : 0;
         images[i].pixels[block] = share > 0 ? (float)(fmax(rint(share / SHARE_STEP), 1) * SHARE_STEP) : 0;
