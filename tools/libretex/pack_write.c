@@ -38,7 +38,7 @@ typedef struct Writing {
     int *codes; /* by job */
 } Writing;
 
-/* Of blosc's zstd. Lossless planes are mostly noise: there more effort takes fifteen times as long for 3 % less. */
+/* Of blosc's zstd. Lossless planes are mostly noise: there more effort takes thirteen times as long for 3 % less. */
 static const int EFFORT = 9, LOSSLESS_EFFORT = 4;
 
 /* dB that compacting keeps more than the whole: its errors and those of coding add up. */
