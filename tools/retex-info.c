@@ -165,6 +165,19 @@ static void print_samples(const RetexSamples *samples)
             printf("  %-12s %s\n", samples->target_names[i], samples->textures[i]);
 }
 
+/* Of a pack: what its parts take in the file. */
+static void print_packed(const RetexSet *set)
+{
+    uint64_t bytes[RETEX_PACK_GROUPS];
+
+    if (!set || !retex_pack_bytes(bytes, set))
+        return;
+    printf("bytes in the pack\n");
+    for (int i = 0; i < RETEX_PACK_GROUPS; i++)
+        if (bytes[i] > 0)
+            printf("  %-12s %10llu\n", retex_pack_group_names[i], (unsigned long long)bytes[i]);
+}
+
 static void print_text(const RetexSet *set, const RetexSamples *samples, const Sizes *sizes)
 {
     if (set)
@@ -180,6 +193,7 @@ static void print_text(const RetexSet *set, const RetexSamples *samples, const S
     print_bytes("other", sizes->other);
     print_bytes("samples", sizes->samples);
     print_bytes("file", sizes->file);
+    print_packed(set);
 }
 
 /* The manifest with the sizes before its own first key. */
@@ -201,6 +215,13 @@ static int print_json(const Cli *cli, const RetexSet *set, const RetexSamples *s
            "\"other\":%lld,\"samples\":%lld},",
            sizes->radiance_aovs + sizes->uv_aovs + sizes->spread_aovs, sizes->radiance, sizes->uv, sizes->spread,
            sizes->albedo, sizes->originals, sizes->other, sizes->samples);
+    uint64_t bytes[RETEX_PACK_GROUPS];
+    if (set && retex_pack_bytes(bytes, set)) {
+        printf("\"packed_bytes\":");
+        for (int i = 0; i < RETEX_PACK_GROUPS; i++)
+            printf("%c\"%s\":%llu", i ? ',' : '{', retex_pack_group_names[i], (unsigned long long)bytes[i]);
+        printf("},");
+    }
     printf("\"denoise_data\":%s,%s\n", set && retex_denoise_has_data(set) ? "true" : "false", manifest + 1);
     free(manifest);
     return CLI_OK;
@@ -213,7 +234,7 @@ static int print_info(const Cli *cli, const char *path, int json)
     RetexError error = {0};
     int status = CLI_OK;
 
-    if (retex_set_read(path, &set, &samples, cli->threads, &error))
+    if (retex_set_open(path, &set, &samples, cli->threads, &error))
         cli_fail(cli, &error);
     const Sizes sizes = measure(path, set, samples);
     if (json)

@@ -11,6 +11,7 @@ static const CliOption options[] = {
     {"quality", 0, "1..100", "pictures keep 20 + 0.4 N dB; default 90", 0},
     {"lossless", 0, NULL, "keep every bit of every part", 0},
     {"codec", 0, "NAME", "what radiance is stored as: jpeg, the default", 0},
+    {"stats", 0, "FILE.json", "write sizes by group and the loss that pictures show; - is standard output", 0},
     {"unpack", 0, NULL, "read a pack and write a set: SET.exr", 0},
     {0},
 };
@@ -18,7 +19,7 @@ static const CliOption options[] = {
 typedef struct Job {
     RetexPackParams params;
     int unpack, quality_given;
-    const char *input;
+    const char *input, *stats;
 } Job;
 
 static void parse(Cli *cli, Job *job)
@@ -37,6 +38,8 @@ static void parse(Cli *cli, Job *job)
         } else if (strcmp(option->name, "codec") == 0) {
             if (strcmp(cli->value, "jpeg") != 0)
                 cli_die(cli, "--codec: there is no codec '%s'; this version has: jpeg", cli->value);
+        } else if (strcmp(option->name, "stats") == 0) {
+            job->stats = cli->value;
         } else {
             job->unpack = 1;
         }
@@ -47,6 +50,8 @@ static void parse(Cli *cli, Job *job)
         cli_die(cli, "--quality and --lossless exclude each other");
     if (job->unpack && (job->params.lossless || job->quality_given))
         cli_die(cli, "--unpack takes neither --quality nor --lossless");
+    if (job->unpack && job->stats)
+        cli_die(cli, "--stats is of packing");
     job->params.nthreads = cli->threads;
 }
 
@@ -66,6 +71,56 @@ static void report(const Cli *cli, const char *set_path, double set_bytes, const
         cli_info(cli, "set %s: %.0f bytes", set_path, set_bytes);
     if (pack_bytes > 0)
         cli_info(cli, "pack %s: %.0f bytes%s", pack_path, pack_bytes, ratio);
+}
+
+/* The set, still in memory, against the pack as it was written. */
+static int write_stats(const Job *job, const RetexSet *set, const char *pack_path, double pack_bytes, RetexError *err)
+{
+    static const char *const names[RETEX_PACK_LOSSES] = {"original", "white", "waves", "squares"};
+    RetexSet *pack = NULL;
+    double psnr[RETEX_PACK_LOSSES];
+    uint64_t bytes[RETEX_PACK_GROUPS];
+    char text[2048], quality[16] = "null";
+    int code = retex_set_open(pack_path, &pack, NULL, job->params.nthreads, err);
+    if (!code)
+        code = retex_pack_loss(psnr, pack, set, job->params.nthreads, err);
+    if (!code) {
+        double rest = pack_bytes;
+        retex_pack_bytes(bytes, pack);
+        for (int i = 0; i < RETEX_PACK_GROUPS; i++)
+            rest -= (double)bytes[i];
+        bytes[RETEX_PACK_OTHER] += (uint64_t)rest;
+        if (!job->params.lossless)
+            snprintf(quality, sizeof quality, "%d", job->params.quality);
+        int n = snprintf(text, sizeof text,
+                         "{\n  \"codec\": \"%s\",\n  \"quality\": %s,\n  \"set_bytes\": %.0f,\n"
+                         "  \"pack_bytes\": %.0f,\n  \"bytes\": {",
+                         job->params.lossless ? "lossless" : "jpeg", quality, file_size(job->input), pack_bytes);
+        for (int i = 0; i < RETEX_PACK_GROUPS; i++)
+            n += snprintf(text + n, sizeof text - (size_t)n, "%s\"%s\": %llu", i ? ", " : "", retex_pack_group_names[i],
+                          (unsigned long long)bytes[i]);
+        n += snprintf(text + n, sizeof text - (size_t)n, "},\n  \"psnr\": {");
+        for (int i = 0; i < RETEX_PACK_LOSSES; i++)
+            n += snprintf(text + n, sizeof text - (size_t)n, "%s\"%s\": %.2f", i ? ", " : "", names[i], psnr[i]);
+        n += snprintf(text + n, sizeof text - (size_t)n, "}\n}\n");
+        code = retex_file_write(job->stats, text, (size_t)n, err);
+    }
+    retex_set_close(&pack);
+    return code;
+}
+
+/* The pack is read again for its statistics, so it must be a file. */
+static void check_stats(Cli *cli, const Job *job, const char *output)
+{
+    RetexError err = {0};
+    if (!job->stats)
+        return;
+    if (strcmp(output, "-") == 0)
+        cli_die(cli, "--stats reads the pack again: it must be a file, -o FILE.retex");
+    if (strcmp(job->stats, output) == 0)
+        cli_die(cli, "the pack and the --stats cannot both be %s", output);
+    if (strcmp(job->stats, "-") != 0 && retex_set_write_check(job->stats, &err))
+        cli_die(cli, "--stats: %s", err.message);
 }
 
 int main(int argc, char **argv)
@@ -91,6 +146,7 @@ int main(int argc, char **argv)
                 job.unpack ? "%s: what is unpacked is an OpenEXR file, .exr"
                            : "%s: a pack is no OpenEXR file; its name ends in .retex",
                 output);
+    check_stats(&cli, &job, output);
     if (retex_set_write_check(output, &err))
         cli_fail(&cli, &err);
     if (retex_set_read(job.input, &set, NULL, cli.threads, &err))
@@ -102,6 +158,8 @@ int main(int argc, char **argv)
         code = retex_set_write(set, NULL, output, &store, &err);
     } else {
         code = retex_pack_write(set, output, &job.params, &bytes, &err);
+        if (!code && job.stats)
+            code = write_stats(&job, set, output, (double)bytes, &err);
     }
     retex_set_close(&set);
     if (code)

@@ -52,6 +52,25 @@ $ retex-pack --unpack s.retex -o x.exr --lossless
 $ retex-pack -q s.exr --quality 50 -o q50.retex; test $(stat -c %s q50.retex) -lt $(stat -c %s s.retex) && echo smaller
 > smaller
 
+# What was lost, measured: all keys, groups that add up to the file, and more decibels at more quality.
+$ retex-pack -q s.exr -o st.retex --stats st.json; retex-pack -q s.exr -o st.retex --quality 50 --stats - >st50.json
+$ python3 -c 'import json; a, b = json.load(open("st.json")), json.load(open("st50.json")); print(*a); print(*a["bytes"]); print(sum(b["bytes"].values()) == b["pack_bytes"], [a["psnr"][k] > b["psnr"][k] > 30 for k in a["psnr"]])'
+> codec quality set_bytes pack_bytes bytes psnr
+> picture radiance gains uv spread weights albedo originals other
+> True [True, True, True, True]
+$ retex-pack -q --lossless s.exr -o st.retex --stats - | grep -o '"psnr.*'
+> "psnr": {"original": 120.00, "white": 120.00, "waves": 120.00, "squares": 120.00}
+$ retex-info s.retex | grep -A1 'in the pack' | sed 's/[0-9]\+$/N/;s/ \+/ /g'
+> bytes in the pack
+>  picture N
+$ retex-pack -q s.exr -o - --stats st.json
+! retex-pack: error: --stats reads the pack again: it must be a file, -o FILE.retex
+= 2
+$ retex-pack -q s.exr -o y.retex --stats nowhere/st.json; ls y.retex
+! retex-pack: error: --stats: cannot write nowhere/st.json: No such file or directory
+! ls: cannot access 'y.retex': No such file or directory
+= 2
+
 # Input that is no set.
 $ retex-pack none.exr -o x.retex
 ! retex-pack: error: cannot read none.exr: No such file or directory

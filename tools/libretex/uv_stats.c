@@ -71,15 +71,27 @@ double retex_round_to(double value, double step)
     return ldexp(rint(ldexp(value, 1 - exponent)), exponent - 1);
 }
 
+double retex_round_bits(double value, int bits)
+{
+    int exponent;
+    if (value == 0 || !isfinite(value))
+        return value;
+    const double share = frexp(value, &exponent);
+    return ldexp(rint(ldexp(share, bits)), exponent - bits);
+}
+
 #define UV_STEP (1.0 / 32)
+enum { SPREAD_BITS = 7 };      /* within 1/128: less than so few samples know of it */
+enum { CORRELATION_BITS = 6 }; /* of what it lacks to 1 */
 
 void uv_stats_store(const UvStats *stats, float mean[2], float spread[3])
 {
     double su = sqrt(stats->m2[0] / stats->weight), sv = sqrt(stats->m2[2] / stats->weight);
     mean[0] = (float)retex_round_to(stats->mean[0], UV_STEP * su);
     mean[1] = (float)retex_round_to(stats->mean[1], UV_STEP * sv);
-    spread[0] = (float)su, spread[1] = (float)sv;
-    spread[2] = su > 0 && sv > 0 ? (float)(stats->m2[1] / (stats->weight * su * sv)) : 0;
+    spread[0] = (float)retex_round_bits(su, SPREAD_BITS), spread[1] = (float)retex_round_bits(sv, SPREAD_BITS);
+    double correlation = su > 0 && sv > 0 ? stats->m2[1] / (stats->weight * su * sv) : 0;
+    spread[2] = (float)copysign(1 - retex_round_bits(1 - fmin(fabs(correlation), 1), CORRELATION_BITS), correlation);
 }
 
 void uv_stats_load(UvStats *stats, double weight, const float mean[2], const float spread[3])

@@ -29,6 +29,23 @@ int retex_pack_probe(const void *data, size_t bytes);
 /* Compare the checksums inside a pack with its data. */
 int retex_pack_check(const void *data, size_t bytes, RetexError *err);
 
+/* Bytes of a pack's parts by what they are for; a zip's directory, the manifest and the like are not among them.
+ * 1, or 0 where the set is not that of a pack which retex_set_open opened, or its pack is of version 1. */
+typedef enum RetexPackGroup {
+    RETEX_PACK_PICTURE, RETEX_PACK_RADIANCE, RETEX_PACK_GAINS, RETEX_PACK_UV, RETEX_PACK_SPREAD, RETEX_PACK_WEIGHTS,
+    RETEX_PACK_ALBEDO, RETEX_PACK_ORIGINALS, RETEX_PACK_OTHER, RETEX_PACK_GROUPS
+} RetexPackGroup;
+extern const char *const retex_pack_group_names[RETEX_PACK_GROUPS];
+int retex_pack_bytes(uint64_t bytes[RETEX_PACK_GROUPS], const RetexSet *set);
+
+/* PSNR (see metrics.h) of pictures made from a pack against those from the set it was made of: with the original
+ * textures, and with all targets white, of smooth waves, and of a chequerboard. */
+enum {
+    RETEX_PACK_LOSS_ORIGINAL, RETEX_PACK_LOSS_WHITE, RETEX_PACK_LOSS_WAVES, RETEX_PACK_LOSS_SQUARES, RETEX_PACK_LOSSES
+};
+int retex_pack_loss(double psnr[RETEX_PACK_LOSSES], const RetexSet *pack, const RetexSet *set, int nthreads,
+                    RetexError *err);
+
 #ifdef __cplusplus
 }
 #endif

@@ -34,6 +34,8 @@ void uv_stats_load(UvStats *stats, double weight, const float mean[2], const flo
 
 /* To a multiple of the largest power of two that is no more than step; as it is where step is not above 0. */
 double retex_round_to(double value, double step);
+/* To so many significant bits, at least 1; zeros, infinities and what is not a number stay as they are. */
+double retex_round_bits(double value, int bits);
 
 #ifdef __cplusplus
 }
