@@ -8,7 +8,7 @@
 #include "cli.h"
 
 static const CliOption options[] = {
-    {"quality", 0, "1..100", "pictures keep 20 + 0.4 N dB; default 90", 0},
+    {"quality", 0, "1..100", "of what is stored with losses; default 90", 0},
     {"lossless", 0, NULL, "keep every bit of every part", 0},
     {"codec", 0, "NAME", "what radiance is stored as: jpeg, the default", 0},
     {"stats", 0, "FILE.json", "write sizes by group and the loss that pictures show; - is standard output", 0},

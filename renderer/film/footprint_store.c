@@ -7,8 +7,8 @@
 
 #define PARTS_MAX 1490 /* of a set, with room for its beauty, originals, AOVs and what denoising needs */
 #define SHARE_STEP (1.0 / 512)
-enum { COVERAGE_BITS = 8, ALBEDO_BITS = 8 }; /* significant ones: what lies below is noise, which does not compress */
-#define LEAST_SHARE 1e-5f                    /* of further hits: a half holds it */
+enum { COVERAGE_BITS = 8 }; /* significant ones: what lies below is noise, which does not compress */
+#define LEAST_SHARE 1e-5f   /* of further hits: a half holds it */
 /* Coefficients are rounded to this share of what the pixel would be were its targets white: steps no one sees, and
  * small coefficients of few bits, which compress. */
 #define COEFFICIENT_STEP (1.0f / 8192)
@@ -133,12 +133,8 @@ static void store_footprint(const FootprintImages *to, const UvStats *uv, const 
     mean[2] = (float)retex_round_bits((double)coverage, COVERAGE_BITS);
     float light = albedo->light[0] + albedo->light[1] + albedo->light[2];
     float reflected = albedo->reflected[0] + albedo->reflected[1] + albedo->reflected[2];
-    for (int c = 0; c < 3; c++) { /* a channel without light: grey of the others */
-        float mean_albedo = albedo->light[c] > 0 ? albedo->reflected[c] / albedo->light[c]
-                            : light > 0          ? reflected / light
-                                                 : 0;
-        a[c] = (float)retex_round_bits((double)mean_albedo, ALBEDO_BITS);
-    }
+    for (int c = 0; c < 3; c++) /* a channel without light: grey of the others */
+        a[c] = albedo->light[c] > 0 ? albedo->reflected[c] / albedo->light[c] : light > 0 ? reflected / light : 0;
 }
 
 static int compare_clusters(const void *a, const void *b)

@@ -11,8 +11,8 @@
 #define CLUSTERS_MOST 3
 #define NEAR 0.1 /* of a place's width: how far other pixels' may be */
 #define FAR 0.05 /* of its weight, that merging a cluster would lose: it opens another one if there is room */
-#define SHARE_STEP (1.0 / 512)               /* as the film rounds them */
-enum { COVERAGE_BITS = 8, ALBEDO_BITS = 8 }; /* significant ones */
+#define SHARE_STEP (1.0 / 512) /* as the film rounds them */
+enum { COVERAGE_BITS = 8 };    /* significant ones, likewise */
 #define LEAST_SHARE 1e-5f
 
 /* ---- one pixel ---- */
@@ -344,10 +344,9 @@ static void store_pool(const Place *place, const Pixel *p, const Pool *pool, dou
     uv_stats_store(&pool->uv, uv, spreads);
     uv[2] = (float)retex_round_bits(fmin(coverage, 1), COVERAGE_BITS);
     memcpy(spread, spreads, place->spread.channels * sizeof *spread);
-    for (int c = 0; c < 3; c++) {
-        double mean = pool->light[c] > 0 ? pool->reflected[c] / pool->light[c] : pool->albedo[c] / pool->uv.weight;
-        albedo[c] = (float)retex_round_bits(mean, ALBEDO_BITS);
-    }
+    for (int c = 0; c < 3; c++)
+        albedo[c] =
+            (float)(pool->light[c] > 0 ? pool->reflected[c] / pool->light[c] : pool->albedo[c] / pool->uv.weight);
 }
 
 /* So many samples of equal weight would know as much (Kish 1965). */

@@ -9,6 +9,7 @@
 #include "texture_kernel.h"
 
 #define LEAST_ALPHA 1e-20f /* less has no colour that float could tell */
+#define LITTLE 0.03f       /* of a footprint: it hardly matters where it goes */
 
 void texture_gather_block(const RetexTexture *texture, const TextureLevel *level, int x, int y, char *texels)
 {
@@ -107,9 +108,9 @@ static float truncate_normal(float low, float high, float *mean, float *variance
     return kept;
 }
 
-/* A footprint that is cut off where the surface ends becomes the Gaussian that has the mean and the covariance of what
- * is left of it. What would lose nearly all is kept. */
-static void cut_footprint(const RetexTextureSpec *spec, const int limited[2], float uv[2], float spread[2],
+/* A footprint of which little is cut off where the surface ends becomes the Gaussian that has the mean and the
+ * covariance of what is left. Returns 0 for those that lose more: they need to be cut exactly. */
+static int cut_footprint(const RetexTextureSpec *spec, const int limited[2], float uv[2], float spread[2],
                           float *correlation)
 {
     for (int axis = 0; axis < 2; axis++) {
@@ -117,8 +118,10 @@ static void cut_footprint(const RetexTextureSpec *spec, const int limited[2], fl
         if (!limited[axis] || !(sd > 1e-9f))
             continue;
         float low = ((float)spec->uv_min[axis] - uv[axis]) / sd, high = ((float)spec->uv_max[axis] - uv[axis]) / sd;
-        if ((low < -3.5f && high > 3.5f) || !(truncate_normal(low, high, &mean, &variance) > 1e-3f))
+        if (low < -3.5f && high > 3.5f)
             continue;
+        if (!(truncate_normal(low, high, &mean, &variance) > 1 - LITTLE))
+            return 0;
         variance = fmaxf(variance, 0);
         /* The other axis follows as far as it is correlated. */
         float r = *correlation, other = 1 - r * r * (1 - variance);
@@ -128,6 +131,7 @@ static void cut_footprint(const RetexTextureSpec *spec, const int limited[2], fl
         spread[!axis] *= sqrtf(other);
         *correlation = other > 0 ? r * sqrtf(variance / other) : 0;
     }
+    return 1;
 }
 
 static void filter_one(const RetexTexture *texture, RetexTextureFilter shape, const float *uv, const float *spread,
@@ -179,10 +183,13 @@ void texture_filter_batches(TextureBatchKernel *kernel, const RetexTexture *text
                 memset(rgba + 4 * i, 0, 4 * sizeof *rgba);
                 continue;
             }
-            int k = batch.count++;
             float mean[2] = {at[0], at[1]}, sds[2] = {s[0], s[1]}, correlation = spreads == 3 ? s[2] : 0;
-            if (any_limit && near_limit(&texture->spec, limited, at, s))
-                cut_footprint(&texture->spec, limited, mean, sds, &correlation);
+            if (any_limit && near_limit(&texture->spec, limited, at, s) &&
+                !cut_footprint(&texture->spec, limited, mean, sds, &correlation)) {
+                filter_one(texture, shape, at, s, spreads, rgba + 4 * i);
+                continue;
+            }
+            int k = batch.count++;
             from[k] = i;
             batch.u[k] = mean[0];
             batch.v[k] = mean[1];

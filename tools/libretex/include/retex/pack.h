@@ -12,7 +12,7 @@ extern "C" {
 /* Begin with RETEX_PACK_INIT. */
 typedef struct RetexPackParams {
     size_t size;
-    int quality;   /* 1..100: pictures made of the pack have 20 + 0.4 * quality dB against the set's; default 90 */
+    int quality;   /* 1..100, default 90: see retex-pack(1) for what pictures made of the pack lose */
     int lossless;  /* 1: every part is packed and keeps its stored bits; default 0 */
     int nthreads;  /* 0 = all cores */
 } RetexPackParams;
