@@ -99,10 +99,10 @@ static int set_window(Render *r, RetexError *err)
 }
 
 /* Where in the pixel a sample looks: uniform, or by the Gaussian's own density so that every sample weighs the same. */
-static void pixel_offset(const Render *r, const Sampler *sampler, double *dx, double *dy)
+static void pixel_offset(const Render *r, const PairKeys *keys, uint32_t sample, double *dx, double *dy)
 {
     float u, v;
-    sampler_pair(sampler, DIMENSION_PIXEL, &u, &v);
+    pair_of_keys(keys, sample, &u, &v);
     *dx = u, *dy = v;
     if (r->context.white)
         *dx = *dy = 0.5;
@@ -112,21 +112,40 @@ static void pixel_offset(const Render *r, const Sampler *sampler, double *dx, do
     *dx = 0.5 + radius * cos(phi), *dy = 0.5 + radius * sin(phi);
 }
 
-/* Of a sample: its numbers, and the ray from the camera. */
-static Ray start_sample(const Render *r, uint32_t seed, int x, int y, int sample, Sampler *sampler)
+/* What the samples of a pixel begin with, by half: each has points of its own, for those of one would fill each other's
+ * gaps. */
+typedef struct PixelStart {
+    int x, y;
+    Sampler samplers[2]; /* of the first sample */
+    PairKeys offsets[2];
+} PixelStart;
+
+static PixelStart start_pixel(const Render *r, uint32_t seed, int x, int y)
 {
-    int half = sample % r->halves; /* each with points of its own: those of one would fill each other's gaps */
-    double dx, dy;
-    *sampler =
-        sampler_start(half ? hash_pair(seed, 1) : seed, (uint32_t)x, (uint32_t)y, (uint32_t)(sample / r->halves));
-    pixel_offset(r, sampler, &dx, &dy);
-    return camera_ray(&r->scene->camera, r->width, r->height, x + dx, y + dy);
+    PixelStart start = {.x = x, .y = y};
+    for (int half = 0; half < r->halves; half++) {
+        Sampler first = sampler_start(half ? hash_pair(seed, 1) : seed, (uint32_t)x, (uint32_t)y, 0);
+        start.samplers[half] = first;
+        start.offsets[half] = pair_keys(first.key, DIMENSION_PIXEL);
+    }
+    return start;
 }
 
-static void trace_sample(const Render *r, PathWorker *worker, int x, int y, int sample)
+/* Of a sample: its numbers, and the ray from the camera. */
+static Ray start_sample(const Render *r, const PixelStart *start, int sample, Sampler *sampler)
+{
+    int half = r->halves == 2 ? sample & 1 : 0;
+    double dx, dy;
+    *sampler = start->samplers[half];
+    sampler->sample = (uint32_t)sample >> (r->halves == 2);
+    pixel_offset(r, &start->offsets[half], sampler->sample, &dx, &dy);
+    return camera_ray(&r->scene->camera, r->width, r->height, start->x + dx, start->y + dy);
+}
+
+static void trace_sample(const Render *r, PathWorker *worker, const PixelStart *start, int sample)
 {
     Sampler sampler;
-    Ray ray = start_sample(r, r->params.seed, x, y, sample, &sampler);
+    Ray ray = start_sample(r, start, sample, &sampler);
     path_trace(worker, &ray, &sampler, 1);
     if (worker->control)
         control_sample_end(worker->control, sample % r->halves);
@@ -136,13 +155,14 @@ static void trace_pixel(const Render *r, PathWorker *worker, int spp, int x, int
 {
     Ray rays[PATHS_MAX];
     Sampler samplers[PATHS_MAX];
+    const PixelStart start = start_pixel(r, r->params.seed, x, y);
     int together = !worker->control && r->context.nvariants == 1;
     for (int s = 0; s < spp && !together; s++)
-        trace_sample(r, worker, x, y, s);
+        trace_sample(r, worker, &start, s);
     for (int s = 0; s < spp && together; s += PATHS_MAX) {
         int count = spp - s < PATHS_MAX ? spp - s : PATHS_MAX;
         for (int i = 0; i < count; i++)
-            rays[i] = start_sample(r, r->params.seed, x, y, s + i, &samplers[i]);
+            rays[i] = start_sample(r, &start, s + i, &samplers[i]);
         path_trace(worker, rays, samplers, count);
     }
 }
@@ -156,8 +176,9 @@ static int tile_samples(const Render *r, int thread, int x0, int y0)
         return r->params.spp;
     for (int y = y0; y < y0 + TILE_HEIGHT && y < r->h; y++)
         for (int x = x0; x < x0 + TILE_WIDTH && x < r->w; x++) {
+            const PixelStart start = start_pixel(r, hash_pair(r->params.seed, 3), r->x0 + x, r->y0 + y);
             for (int s = 0; s < ADAPTIVE_PILOT; s++) {
-                Ray ray = start_sample(r, hash_pair(r->params.seed, 3), r->x0 + x, r->y0 + y, s, &sampler);
+                Ray ray = start_sample(r, &start, s, &sampler);
                 path_trace(adaptive_worker(pilot), &ray, &sampler, 1);
                 adaptive_path_end(pilot);
             }
@@ -172,10 +193,11 @@ static void end_guides(const Render *r, int thread, int spp, int x, int y)
     PixelGuides *guides = &r->pixel_guides[thread];
     Ray rays[ACCEL_PACKET];
     Sampler unused;
+    const PixelStart start = start_pixel(r, r->params.seed, r->x0 + x, r->y0 + y);
     for (int s = spp, count; (count = denoise_guides_missing(guides)) > 0; s += count) {
         count = count < ACCEL_PACKET ? count : ACCEL_PACKET;
         for (int i = 0; i < count; i++)
-            rays[i] = start_sample(r, r->params.seed, r->x0 + x, r->y0 + y, s + i, &unused);
+            rays[i] = start_sample(r, &start, s + i, &unused);
         denoise_guides_look_along(guides, rays, count);
     }
     denoise_guides_pixel_end(guides, r->pixels[thread], x, y);
@@ -731,7 +753,8 @@ int render_trace(const Scene *scene, const RenderParams *params, int x, int y, i
     if (!code) {
         r.context.trace = out, r.context.simple = r.context.matte = 0;
         fprintf(out, "pixel %d,%d sample %d of %dx%d\n", x, y, sample, r.width, r.height);
-        trace_sample(&r, &r.workers[0], x, y, sample);
+        const PixelStart start = start_pixel(&r, r.params.seed, x, y);
+        trace_sample(&r, &r.workers[0], &start, sample);
     }
     render_close(&r);
     return code;

@@ -75,12 +75,28 @@ static inline Sampler sampler_start(uint32_t seed, uint32_t x, uint32_t y, uint3
     return (Sampler){hash_pair(hash_pair(hash_mix(seed ^ 0x52455458u), x), y), sample};
 }
 
+/* What all samples of a pixel share of a pair. */
+typedef struct PairKeys {
+    uint32_t order, u, v;
+} PairKeys;
+
+static inline PairKeys pair_keys(uint32_t key, uint32_t dimension)
+{
+    key = hash_pair(key, dimension);
+    return (PairKeys){key, hash_mix(key ^ 0x68bc21ebu), hash_mix(key ^ 0x02e5be93u)};
+}
+
+static inline void pair_of_keys(const PairKeys *keys, uint32_t sample, float *u, float *v)
+{
+    uint32_t index = reverse_bits(owen_reversed(reverse_bits(sample), keys->order)); /* shuffled */
+    *u = unit_float(reverse_bits(owen_reversed(index, keys->u)));
+    *v = unit_float(reverse_bits(owen_reversed(sobol_second(index), keys->v)));
+}
+
 static inline void sampler_pair(const Sampler *sampler, uint32_t dimension, float *u, float *v)
 {
-    uint32_t key = hash_pair(sampler->key, dimension);
-    uint32_t index = reverse_bits(owen_reversed(reverse_bits(sampler->sample), key)); /* shuffled */
-    *u = unit_float(reverse_bits(owen_reversed(index, hash_mix(key ^ 0x68bc21ebu))));
-    *v = unit_float(reverse_bits(owen_reversed(sobol_second(index), hash_mix(key ^ 0x02e5be93u))));
+    PairKeys keys = pair_keys(sampler->key, dimension);
+    pair_of_keys(&keys, sampler->sample, u, v);
 }
 
 #endif

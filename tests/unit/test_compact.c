@@ -202,6 +202,31 @@ static void energy_is_kept_in_one_image(void **state)
     retex_set_close(&compact);
 }
 
+/* Where a kind has light its clusters' weights are their shares of it: none above 1, and 1 in all. */
+static void weights_are_shares(void **state)
+{
+    (void)state;
+    RetexSet *set = whole_set(1, 3), *compact = compacted(set, 4, 8, 2);
+    int mixtures = 0;
+    for (int m = 0; m < compact->nmixtures; m++) {
+        const RetexMixture *mixture = &compact->mixtures[m];
+        const RetexImage *first = &compact->parts[mixture->shares[0].weight].image;
+        for (size_t i = 0; i < (size_t)first->width * (size_t)first->height; i++) {
+            float sum = 0;
+            for (int k = 0; k < mixture->nshares; k++) {
+                float weight = compact->parts[mixture->shares[k].weight].image.pixels[i];
+                assert_true(weight >= 0 && weight <= 1);
+                sum += weight;
+            }
+            assert_true(sum == 0 || fabsf(sum - 1) < 0.01f);
+        }
+        mixtures++;
+    }
+    assert_true(mixtures > 0);
+    retex_set_close(&compact);
+    retex_set_close(&set);
+}
+
 static void one_cluster_needs_no_mixture(void **state)
 {
     RetexSet *set = whole_set(1, 1), *compact = compacted(set, 4, 8, 2);
@@ -415,6 +440,7 @@ int main(void)
         cmocka_unit_test(constants_are_exact_where_gains_are_whole),
         cmocka_unit_test(originals_are_exact),
         cmocka_unit_test(energy_is_kept_in_one_image),
+        cmocka_unit_test(weights_are_shares),
         cmocka_unit_test(one_cluster_needs_no_mixture),
         cmocka_unit_test(places_are_not_averaged_across_a_seam),
         cmocka_unit_test(empty_kinds_do_no_harm),
