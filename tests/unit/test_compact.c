@@ -202,27 +202,19 @@ static void energy_is_kept_in_one_image(void **state)
     retex_set_close(&compact);
 }
 
-/* Where a kind has light its clusters' weights are their shares of it: none above 1, and 1 in all. */
+/* A weight is a share of some light: codes that pack it have nothing above 1. */
 static void weights_are_shares(void **state)
 {
     (void)state;
     RetexSet *set = whole_set(1, 3), *compact = compacted(set, 4, 8, 2);
-    int mixtures = 0;
-    for (int m = 0; m < compact->nmixtures; m++) {
-        const RetexMixture *mixture = &compact->mixtures[m];
-        const RetexImage *first = &compact->parts[mixture->shares[0].weight].image;
-        for (size_t i = 0; i < (size_t)first->width * (size_t)first->height; i++) {
-            float sum = 0;
-            for (int k = 0; k < mixture->nshares; k++) {
-                float weight = compact->parts[mixture->shares[k].weight].image.pixels[i];
-                assert_true(weight >= 0 && weight <= 1);
-                sum += weight;
-            }
-            assert_true(sum == 0 || fabsf(sum - 1) < 0.01f);
+    int seen = 0;
+    for (int m = 0; m < compact->nmixtures; m++)
+        for (int k = 0; k < compact->mixtures[m].nshares; k++) {
+            const RetexImage *weight = &compact->parts[compact->mixtures[m].shares[k].weight].image;
+            for (size_t i = 0; i < (size_t)weight->width * (size_t)weight->height; i++, seen++)
+                assert_true(weight->pixels[i] >= 0 && weight->pixels[i] <= 1);
         }
-        mixtures++;
-    }
-    assert_true(mixtures > 0);
+    assert_true(seen > 0);
     retex_set_close(&compact);
     retex_set_close(&set);
 }
