@@ -67,9 +67,9 @@ static int is_chosen(const Floor *work, int part)
 
 static int read_band(const Floor *work, RowReader *reader, int part, int band, RetexError *err)
 {
-    const int height = work->set->parts[part].image.height, y0 = band * RETEX_BAND_ROWS;
+    const int height = work->set->parts[part].image.height, y0 = band * RETEX_PICTURE_BAND;
     int code = RETEX_OK;
-    for (int y = y0; !code && y < y0 + RETEX_BAND_ROWS && y < height; y++) {
+    for (int y = y0; !code && y < y0 + RETEX_PICTURE_BAND && y < height; y++) {
         const float *row;
         code = row_reader_get(reader, part, y, &row, err);
     }
@@ -93,7 +93,7 @@ static void read_job(void *context, int band, int thread)
 
 static int read_all(Floor *work, int threads, RetexError *err)
 {
-    const int nbands = (work->set->height + RETEX_BAND_ROWS - 1) / RETEX_BAND_ROWS;
+    const int nbands = (work->set->height + RETEX_PICTURE_BAND - 1) / RETEX_PICTURE_BAND;
     for (work->is_small = 1; !work->code && work->is_small >= 0; work->is_small--)
         retex_parallel(threads, nbands, read_job, work);
     for (int i = 0; i < threads && work->code; i++)

@@ -76,7 +76,7 @@ static int combine(const Polynomial *polynomial, int y0, int y1, RetexRowSink *s
                    RetexError *err)
 {
     const int threads = retex_threads(nthreads);
-    CombineWork work = {polynomial, y0, y1, RETEX_BAND_ROWS, sink, context, 0, NULL};
+    CombineWork work = {polynomial, y0, y1, RETEX_PICTURE_BAND, sink, context, 0, NULL};
     if (!(work.threads = calloc((size_t)threads, sizeof *work.threads)))
         return retex_fail(err, RETEX_ENOMEM, "not enough memory to combine");
     if (y1 > y0)

@@ -5,14 +5,7 @@
 
 #include <string.h>
 
-typedef float Float4 __attribute__((vector_size(16)));
-
-static inline Float4 load4(const float *p)
-{
-    Float4 v;
-    memcpy(&v, p, sizeof v);
-    return v;
-}
+#include "float4.h"
 
 static inline void add4(float *p, Float4 v)
 {

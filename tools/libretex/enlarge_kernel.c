@@ -5,6 +5,8 @@
 
 #include <retex/set.h>
 
+#include "float4.h"
+
 /* Where pixel i of the large image lies among those of the small one: between first and next, t of the way. */
 typedef struct Place {
     int first, next;
@@ -22,15 +24,6 @@ static Place find_place(int i, int scale, int size)
     if (place.next > size - 1)
         place.next = size - 1;
     return place;
-}
-
-typedef float Float4 __attribute__((vector_size(16)));
-
-static inline Float4 load4(const float *p)
-{
-    Float4 v;
-    memcpy(&v, p, sizeof v);
-    return v;
 }
 
 /* Pixels from the centre of one of the small image's to that of the next: scale of them, or fewer where the row ends.

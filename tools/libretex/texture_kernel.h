@@ -3,22 +3,14 @@
 #ifndef RETEX_TEXTURE_KERNEL_H
 #define RETEX_TEXTURE_KERNEL_H
 
+#include "float4.h"
 #include "texture_pyramid.h"
 
 #include <math.h>
 #include <stdint.h>
 #include <string.h>
 
-typedef float Float4 __attribute__((vector_size(16)));
-
 #define TENT_VARIANCE (1.0 / 6)
-
-static inline Float4 load4(const float *p)
-{
-    Float4 v;
-    memcpy(&v, p, sizeof v);
-    return v;
-}
 
 /* A texel as it is stored, and its size in bytes. */
 static inline Float4 raw_texel(const void *p, int narrow)

@@ -2,6 +2,7 @@
 #ifndef RETEX_SAMPLE_H
 #define RETEX_SAMPLE_H
 
+#include <retex/picture.h>
 #include <retex/set.h>
 #include <retex/texture.h>
 
@@ -37,9 +38,7 @@ int retex_combine(RetexImage *dst, const RetexSet *set, const RetexSamples *samp
                   const RetexCombineParams *params /* NULL = defaults */, const RetexRoi *roi /* NULL = all */,
                   int nthreads /* 0 = all cores */, RetexError *err);
 
-#define RETEX_BAND_ROWS 64
-
-/* Takes rows y0 <= y < y1 of a picture, RGB interleaved; y0 is a multiple of RETEX_BAND_ROWS, y1 the next one or the
+/* Takes rows y0 <= y < y1 of a picture, RGB interleaved; y0 is a multiple of RETEX_PICTURE_BAND, y1 the next one or the
  * picture's height. Called from several threads at once, in any order; returns 0 or a negative RetexCode. */
 typedef int RetexRowSink(void *context, int y0, int y1, const float *rows, RetexError *err);
 
