@@ -4,25 +4,23 @@
 
 void expansion_copy(Expansion *to, const Expansion *from)
 {
-    to->nhits = from->nhits;
-    to->nmonomials = from->nmonomials;
-    memcpy(to->per_target, from->per_target, sizeof to->per_target);
-    for (int k = 0; k < from->nhits; k++) /* few: not worth a call */
+    to->size = from->size;
+    for (int k = 0; k < from->size.nhits; k++) /* few: not worth a call */
         to->hits[k] = from->hits[k];
-    for (int k = 0; k < from->nmonomials; k++)
+    for (int k = 0; k < from->size.nmonomials; k++)
         to->monomials[k] = from->monomials[k];
 }
 
 void expansion_push(Expansion *e, int target, Split factor, Vec2 uv, Rgb albedo, int sharp)
 {
-    int index = e->per_target[target]++, before = e->nmonomials;
+    int index = e->size.per_target[target], before = e->size.nmonomials, after = before;
     HitMask bit = hit_bit(target, index);
     int independent = !rgb_is_black(factor.i), dependent = !rgb_is_black(factor.d);
-    e->hits[e->nhits++] = (TargetHit){target, index, uv, albedo, sharp};
+    e->hits[e->size.nhits] = (TargetHit){target, index, uv, albedo, sharp};
     for (int k = 0; k < before; k++) {
         Monomial *m = &e->monomials[k];
         if (dependent && independent)
-            e->monomials[e->nmonomials++] = (Monomial){m->hits | bit, rgb_mul(m->coefficient, factor.d)};
+            e->monomials[after++] = (Monomial){m->hits | bit, rgb_mul(m->coefficient, factor.d)};
         if (independent) {
             m->coefficient = rgb_mul(m->coefficient, factor.i);
         } else {
@@ -30,4 +28,5 @@ void expansion_push(Expansion *e, int target, Split factor, Vec2 uv, Rgb albedo,
             m->coefficient = rgb_mul(m->coefficient, factor.d);
         }
     }
+    expansion_grow(&e->size, target, factor);
 }

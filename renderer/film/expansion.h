@@ -15,34 +15,39 @@
 typedef struct TargetHit {
     int target, index;
     Vec2 uv;
-    Rgb albedo;         /* the original's, there */
-    int sharp;          /* every bounce between the camera and it was specular, or nearly so */
+    Rgb albedo; /* the original's, there */
+    int sharp;  /* every bounce between the camera and it was specular, or nearly so */
 } TargetHit;
 
 /* A set of hits: bit target * RETEX_MAX_ORDERS + index. */
 typedef uint64_t HitMask;
 
-static inline HitMask hit_bit(int target, int index) { return (HitMask)1 << (target * RETEX_MAX_ORDERS + index); }
+static inline HitMask hit_bit(int target, int index)
+{
+    return (HitMask)1 << (target * RETEX_MAX_ORDERS + index);
+}
 
 typedef struct Monomial {
-    HitMask hits;       /* S */
-    Rgb coefficient;    /* c_S */
+    HitMask hits;    /* S */
+    Rgb coefficient; /* c_S */
 } Monomial;
 
 #define EXPANSION_MONOMIALS_MAX 256 /* eight hits with both parts; of diffuse targets each has one */
 
-typedef struct Expansion {
+typedef struct ExpansionSize {
     int nhits, nmonomials;
-    int per_target[RETEX_MAX_TARGETS]; /* hits of each target so far */
+    unsigned char per_target[RETEX_MAX_TARGETS]; /* hits of each target so far */
+} ExpansionSize;
+
+typedef struct Expansion {
+    ExpansionSize size;
     TargetHit hits[RETEX_MAX_FACTORS];
     Monomial monomials[EXPANSION_MONOMIALS_MAX];
 } Expansion;
 
 static inline void expansion_reset(Expansion *e)
 {
-    e->nhits = 0;
-    e->nmonomials = 1;
-    for (int k = 0; k < RETEX_MAX_TARGETS; k++) e->per_target[k] = 0;
+    e->size = (ExpansionSize){.nmonomials = 1};
     e->monomials[0] = (Monomial){0, {1, 1, 1}};
 }
 
@@ -59,9 +64,19 @@ static inline int expansion_most_hits(int ntargets, int paper)
 }
 
 /* Is there room for one more hit of a target, with so many orders for each and so many hits of all? */
-static inline int expansion_has_room(const Expansion *e, int target, int orders, int most_hits)
+static inline int expansion_has_room(const ExpansionSize *size, int target, int orders, int most_hits)
 {
-    return e->nhits < most_hits && e->per_target[target] < orders && 2 * e->nmonomials <= EXPANSION_MONOMIALS_MAX;
+    return size->nhits < most_hits && size->per_target[target] < orders &&
+           2 * size->nmonomials <= EXPANSION_MONOMIALS_MAX;
+}
+
+/* What it has grown to after another hit. */
+static inline void expansion_grow(ExpansionSize *size, int target, Split factor)
+{
+    size->nhits++;
+    size->per_target[target]++;
+    if (!rgb_is_black(factor.d) && !rgb_is_black(factor.i))
+        size->nmonomials *= 2;
 }
 
 /* Multiply by d a + i of one more hit, which must have room. */

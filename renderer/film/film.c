@@ -41,12 +41,12 @@ struct FilmPixel {
     Film *film;
     PaperPixel *paper;
     FootprintPixel *footprints;
-    BandRows *rows; /* that the tile in hand writes to, once it does */
+    BandRows *rows;            /* that the tile in hand writes to, once it does */
     double beauty[3], path[3]; /* path: light of the one in hand */
-    int spp;           /* of the tile's pixels */
-    int paths;         /* so far */
-    SignalTotals half; /* of the first half of the paths */
-    LightSums light;   /* of the tile so far, as is: */
+    int spp;                   /* of the tile's pixels */
+    int paths;                 /* so far */
+    SignalTotals half;         /* of the first half of the paths */
+    LightSums light;           /* of the tile so far, as is: */
     UvRange range;
     long dropped, samples;
 };
@@ -164,9 +164,9 @@ void film_pixel_close(FilmPixel **pixel)
 
 /* ---- light ---- */
 
-int film_accepts(FilmPixel *p, Rgb beauty, Rgb outside)
+int film_accepts(FilmPixel *p, Rgb light)
 {
-    int finite = isfinite(beauty.r + beauty.g + beauty.b + outside.r + outside.g + outside.b);
+    int finite = isfinite(light.r + light.g + light.b);
     p->dropped += !finite;
     return finite;
 }
@@ -178,19 +178,20 @@ void film_add_light(FilmPixel *p, const double light[3])
     p->light.total += rgb_luminance(rgb((float)light[0], (float)light[1], (float)light[2]));
 }
 
-void film_connect(FilmPixel *p, Rgb beauty, Rgb outside, const Expansion *e, int folded)
+void film_connect(FilmPixel *p, const FilmLight *light, const Expansion *e)
 {
+    Rgb beauty = light->beauty, outside = light->outside;
     float l = rgb_luminance(beauty);
-    if (!film_accepts(p, beauty, outside))
+    if (!film_accepts(p, rgb_add(beauty, outside)))
         return;
     p->path[0] += beauty.r, p->path[1] += beauty.g, p->path[2] += beauty.b;
     p->light.total += l;
-    if (folded)
+    if (light->folded)
         p->light.folded += l;
     if (p->paper && !rgb_is_black(outside))
-        paper_connect(p->paper, e, outside);
+        paper_connect(p->paper, e, outside, light->connections);
     if (p->footprints && !rgb_is_black(outside))
-        footprints_connect(p->footprints, e, outside, folded);
+        footprints_connect(p->footprints, e, outside, light->folded);
 }
 
 /* What each signal got in the pixel so far. */

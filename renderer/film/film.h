@@ -11,19 +11,19 @@
 typedef struct Film Film;
 
 typedef struct FilmParams {
-    int width, height;      /* of the picture that is kept */
-    int spp;                /* samples a pixel; the most, where tiles say how many */
+    int width, height; /* of the picture that is kept */
+    int spp;           /* samples a pixel; the most, where tiles say how many */
     int orders;
     int strict_paper;
-    int split;              /* 0: the beauty only (plain and replaced renders) */
-    int ntiles;             /* of equal rows, BAND_LINES high */
-    int paper;              /* layout: 0 footprints, 1 paper */
-    int clusters;           /* layout footprints: a pixel and target, of both kinds together, 2..FILM_CLUSTERS_MAX */
-    int sharp, broad;       /* at most so many of each kind, 1..clusters */
+    int split;        /* 0: the beauty only (plain and replaced renders) */
+    int ntiles;       /* of equal rows, BAND_LINES high */
+    int paper;        /* layout: 0 footprints, 1 paper */
+    int clusters;     /* layout footprints: a pixel and target, of both kinds together, 2..FILM_CLUSTERS_MAX */
+    int sharp, broad; /* at most so many of each kind, 1..clusters */
     int periodic[RETEX_MAX_TARGETS][2]; /* targets that close in u, v */
-    int noise;              /* also keep how noisy each signal is, see noise.h; needs two samples */
-    RetexSpool *spool;      /* where finished bands go, film_create takes it over; or NULL. The beauty stays too */
-    int spooled;            /* then: images leave memory for the spool */
+    int noise;                          /* also keep how noisy each signal is, see noise.h; needs two samples */
+    RetexSpool *spool; /* where finished bands go, film_create takes it over; or NULL. The beauty stays too */
+    int spooled;       /* then: images leave memory for the spool */
 } FilmParams;
 
 /* Where on the targets light was met. */
@@ -54,20 +54,26 @@ void film_close(Film **film);
 int film_pixel_create(FilmPixel **pixel, Film *film, RetexError *err);
 void film_pixel_close(FilmPixel **pixel);
 
-/* Light that arrived: beauty is its whole contribution. With a split film, outside is the part of the throughput that
- * no recorded target hit made, times the light, and expansion holds the hits; folded: hits beyond the order kept
- * their albedo. Samples that are not finite are counted and dropped. */
-void film_connect(FilmPixel *pixel, Rgb beauty, Rgb outside, const Expansion *expansion, int folded);
-int film_accepts(FilmPixel *pixel, Rgb beauty, Rgb outside);       /* 0: they are not finite, and counted */
-void film_add_light(FilmPixel *pixel, const double light[3]);      /* of a path, all together, without a split */
+/* Light that arrived in a split film, by one or more connections of a path behind the same hits. */
+typedef struct FilmLight {
+    Rgb beauty;      /* its whole contribution */
+    Rgb outside;     /* the light times that part of the throughput that no recorded target hit made */
+    int folded;      /* hits beyond the order kept their albedo */
+    int connections; /* so many */
+} FilmLight;
+
+/* The expansion holds the hits. Light that is not finite is counted and dropped. */
+void film_connect(FilmPixel *pixel, const FilmLight *light, const Expansion *expansion);
+int film_accepts(FilmPixel *pixel, Rgb light);                /* 0: it is not finite, and counted */
+void film_add_light(FilmPixel *pixel, const double light[3]); /* of a path, all together, without a split */
 /* A path ends: hits of targets that connected enter the footprints, each once for every connection behind it. */
 void film_path_end(FilmPixel *pixel);
 /* Before a tile's first pixel, where its pixels have not as many samples as FilmParams say. */
 void film_tile_begin(FilmPixel *pixel, int spp);
 Rgb film_pixel_take(FilmPixel *pixel); /* the sum of light so far instead of film_pixel_end: of a film without split */
-void film_pixel_end(FilmPixel *pixel, int x, int y);   /* store and reset */
-void film_tile_end(FilmPixel *pixel, int tile);        /* the last tile of a band finishes it */
-int film_failed(const Film *film);                     /* a band could not be kept: film_finish says why */
+void film_pixel_end(FilmPixel *pixel, int x, int y); /* store and reset */
+void film_tile_end(FilmPixel *pixel, int tile);      /* the last tile of a band finishes it */
+int film_failed(const Film *film);                   /* a band could not be kept: film_finish says why */
 
 /* Bands that are finished, and kept. */
 int film_bands(const Film *film); /* of all */

@@ -251,7 +251,7 @@ static void flush_run(FootprintPixel *p, const Run *run)
 /* Does a connection meet what the run has? */
 static int goes_on(const Run *run, const Expansion *e, HitMask met, int folded)
 {
-    if (run->met != met || run->folded != folded || run->nhits > e->nhits)
+    if (run->met != met || run->folded != folded || run->nhits > e->size.nhits)
         return 0;
     for (int j = 0; j < run->nhits; j++) {
         const TargetHit *a = &run->hits[j], *b = &e->hits[j];
@@ -297,7 +297,7 @@ static void flush_runs(FootprintPixel *p)
 
 void footprints_connect(FootprintPixel *p, const Expansion *e, Rgb outside, int folded)
 {
-    for (int k = 0; k < e->nmonomials; k++) {
+    for (int k = 0; k < e->size.nmonomials; k++) {
         HitMask hits = e->monomials[k].hits;
         Rgb value = rgb_mul(outside, e->monomials[k].coefficient);
         if (rgb_is_black(value))

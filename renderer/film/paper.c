@@ -130,12 +130,12 @@ static void add_term(PaperPixel *p, TermKey key, Rgb value)
  * original to the bit that arithmetic allows, whatever the texture does inside the pixel. */
 static void add_albedos(PaperPixel *p, const Expansion *e, HitMask hits, Rgb value)
 {
-    for (int j = 0; j < e->nhits; j++) {
+    for (int j = 0; j < e->size.nhits; j++) {
         const TargetHit *hit = &e->hits[j];
         if (!(hits & hit_bit(hit->target, hit->index)))
             continue;
         Rgb light = value;
-        for (int k = 0; k < e->nhits; k++)
+        for (int k = 0; k < e->size.nhits; k++)
             if (k != j && hits & hit_bit(e->hits[k].target, e->hits[k].index))
                 light = rgb_mul(light, e->hits[k].albedo);
         FootprintSums *f = &p->footprints[footprint_number(hit)];
@@ -146,10 +146,10 @@ static void add_albedos(PaperPixel *p, const Expansion *e, HitMask hits, Rgb val
     }
 }
 
-/* Remember that each hit of the expansion has one more connection behind it. */
-static void note_connection(PaperPixel *p, const Expansion *e)
+/* Remember that each hit of the expansion has more connections behind it. */
+static void note_connections(PaperPixel *p, const Expansion *e, int connections)
 {
-    for (int j = 0; j < e->nhits; j++) {
+    for (int j = 0; j < e->size.nhits; j++) {
         const TargetHit *hit = &e->hits[j];
         int k = p->nhits - 1;
         while (k >= 0 && !(p->hits[k].target == hit->target && p->hits[k].index == hit->index &&
@@ -162,22 +162,22 @@ static void note_connection(PaperPixel *p, const Expansion *e)
             p->hits[k] = *hit;
             p->connections[k] = 0;
         }
-        p->connections[k]++;
+        p->connections[k] += connections;
     }
 }
 
-void paper_connect(PaperPixel *p, const Expansion *e, Rgb outside)
+void paper_connect(PaperPixel *p, const Expansion *e, Rgb outside, int connections)
 {
-    for (int k = 0; k < e->nmonomials; k++) {
+    for (int k = 0; k < e->size.nmonomials; k++) {
         Rgb value = rgb_mul(outside, e->monomials[k].coefficient);
-        TermKey key = term_key(e->nhits, e->monomials[k].hits, p->film->params.strict_paper);
+        TermKey key = term_key(e->size.nhits, e->monomials[k].hits, p->film->params.strict_paper);
         if (key == TERM_DROPPED || rgb_is_black(value))
             continue;
         add_term(p, key, value);
         if (e->monomials[k].hits)
             add_albedos(p, e, e->monomials[k].hits, value);
     }
-    note_connection(p, e);
+    note_connections(p, e, connections);
 }
 
 static void footprint_add(FootprintSums *f, const TargetHit *hit, int weight)

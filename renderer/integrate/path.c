@@ -318,9 +318,8 @@ static void connect_matte(PathWorker *w, Packet *p, int lane, int k)
         return;
     Split value = {rgb_grey(lights->value[k]), {0, 0, 0}}, shine = {p->faces[k]->shine[lights->behind[k]], {0, 0, 0}};
     Rgb light = rgb_scale(t->light.radiance, lights->weight[k]);
-    if (passed == 0 && w->context->simple) {
-        path_bring(w, path,
-                   rgb_mul(rgb_mul(rgb_mul(path->beta, light), split_apply(value, shading_albedo(&v->s, 0))), shine.d));
+    if (passed == 0 && path_sees_plain(w->context, &v->s)) {
+        path_bring(w, path, rgb_mul(rgb_mul(light, split_apply(value, shading_albedo(&v->s, 0))), shine.d));
         return;
     }
     factors[0] = shading_factor(&v->s, value);
@@ -339,9 +338,8 @@ static int scatter_matte(PathWorker *w, Packet *p, int lane, int k, Ray *ray)
     if (!bounces->found[k])
         return 0;
     path->neutral *= at_most(split_neutral(weight), 1);
-    if (w->context->simple) {
-        path->beta = rgb_mul(path->beta, split_apply(weight, shading_albedo(s, 0)));
-        if (rgb_is_black(path->beta))
+    if (path_sees_plain(w->context, s)) {
+        if (!path_scale(w, path, split_apply(weight, shading_albedo(s, 0))))
             return 0;
     } else {
         Factor factor = shading_factor(s, weight);

@@ -21,14 +21,14 @@ typedef struct PathContext {
     const Lights *lights;
     const Caustics *caustics; /* or NULL */
     int max_depth, orders;
-    int most_hits;        /* of all targets together */
-    int split;            /* keep target hits apart */
-    int matte;            /* matte surfaces may be looked at a packet at a time, see matte.h */
-    int simple;           /* neither split nor several variants nor a trace: a path is its beta alone */
-    int nvariants;        /* 1..VARIANTS_MAX: what the same path brings with different textures */
-    int white;            /* the first hit is a white diffuse surface instead, that gives no light itself */
-    int has_no_shadow;    /* some primitive throws no shadow: what blocks shadow rays and paths is not the same */
-    FILE *trace;          /* say what happens, or NULL */
+    int most_hits;     /* of all targets together */
+    int split;         /* keep target hits apart */
+    int matte;         /* matte surfaces may be looked at a packet at a time, see matte.h */
+    int compare;       /* variants, or one variant's moments, are asked for: a path has a beta for each */
+    int nvariants;     /* 1..VARIANTS_MAX: what the same path brings with different textures */
+    int white;         /* the first hit is a white diffuse surface instead, that gives no light itself */
+    int has_no_shadow; /* some primitive throws no shadow: what blocks shadow rays and paths is not the same */
+    FILE *trace;       /* say what happens, or NULL */
 } PathContext;
 
 /* One factor of a connection: a surface it scatters at or passes. */
@@ -42,31 +42,25 @@ typedef struct Factor {
     int sharp;    /* nothing on the way from the camera scattered widely */
 } Factor;
 
-/* All of a path's throughput: with each variant, and for sets as a polynomial in its target hits. */
-typedef struct Throughput {
-    Rgb beta[VARIANTS_MAX], outside;
-    Expansion expansion;
-    int folded; /* a target hit beyond the last order kept its albedo */
-} Throughput;
-
-/* What happened along a path, for the film; see throughput.c. */
+/* What a path brings to a set; see throughput.c. */
 typedef struct PathEvent PathEvent;
 
 /* One thread's counters and scratch. */
 typedef struct PathWorker {
     const PathContext *context;
     FilmPixel *pixel;
-    const RenderVariant *variants; /* or NULL: the original */
-    ControlPixel *control; /* gets all variants, or NULL */
-    struct PixelGuides *guides; /* get what rays from the camera meet, or NULL */
+    const RenderVariant *variants;           /* or NULL: the original */
+    ControlPixel *control;                   /* gets all variants, or NULL */
+    struct PixelGuides *guides;              /* get what rays from the camera meet, or NULL */
     RenderVariant own[CONTROL_VARIANTS_MAX]; /* variants, where they have constants by pixel */
     Rgb constants[RETEX_MAX_TARGETS];        /* of the pixel in hand */
-    Throughput whole;     /* of the path in hand */
-    Expansion scratch;    /* a path's expansion with a connection's own hits */
-    PathEvent *events;    /* of sets: room for those of all paths that are traced side by side */
+    Rgb betas[VARIANTS_MAX];                 /* throughput of the path in hand by variant, where they are compared */
+    Expansion expansion;                     /* of the path that is handed over */
+    Expansion scratch;                       /* that with a connection's own hits */
+    PathEvent *events;                       /* of sets: room for those of all paths that are traced side by side */
     int nevents;
     PixelKeys keys;
-    uint32_t key;         /* of the sample numbers of the paths in hand */
+    uint32_t key; /* of the sample numbers of the paths in hand */
     long segments, shadow_rays;
     /* Colours of variants at a sampled light and at what a shadow ray passes. */
     Rgb light_albedos[VARIANTS_MAX], shadow_albedos[SHADOW_FACTORS_MAX][VARIANTS_MAX];
@@ -75,11 +69,11 @@ typedef struct PathWorker {
 /* Everything shading needs at a hit: the surface, its colour and its BSDF. */
 typedef struct Shading {
     Surface surface;
-    Rgb albedo;           /* the original's */
-    int replaced;         /* some variant has another one: by variant */
+    Rgb albedo;   /* the original's */
+    int replaced; /* some variant has another one: by variant */
     Rgb albedos[VARIANTS_MAX];
     float filter, transmit;
-    Vec2 uv;              /* of a target: where a replacement is looked up */
+    Vec2 uv; /* of a target: where a replacement is looked up */
     Bsdf bsdf;
 } Shading;
 

@@ -14,24 +14,27 @@ typedef struct Media {
 
 /* Light arrives, or the path goes on. */
 typedef struct Path {
-    Rgb beta;      /* throughput: all of it in plain renders, else see throughput.c */
-    Rgb outside;   /* throughput but for targets: where it is black no texture brings light back */
-    float neutral; /* throughput with NEUTRAL_ALBEDO everywhere: for Russian roulette */
-    float pdf;     /* density of the direction, 0 after a delta */
-    LitPoint from; /* where that direction was sampled */
+    Rgb beta;             /* throughput */
+    Rgb outside;          /* throughput but for target hits: where it is black no texture brings light back */
+    float neutral;        /* throughput with NEUTRAL_ALBEDO everywhere: for Russian roulette */
+    float pdf;            /* density of the direction, 0 after a delta */
+    LitPoint from;        /* where that direction was sampled */
     int segments, passed; /* so far; passed: surfaces that did not bend the path, which are no segments of their own */
-    int sharp;     /* so far every bounce was specular, or nearly so */
+    int sharp;            /* so far every bounce was specular, or nearly so */
     RayKind kind;
     uint32_t sample; /* in its pixel */
     Media media;
-    double light[3]; /* that arrived, in plain renders */
+    double light[3];    /* that arrived, in plain renders */
+    ExpansionSize hits; /* of targets, in sets */
+    int folded;         /* a target hit beyond the last order kept its albedo */
+    PathEvent *arrived; /* light behind all hits so far and no others, or NULL */
     PathEvent *events, **next_event;
 } Path;
 
 /* Light picked for a vertex, before it is known whether anything is in the way. */
 typedef struct LightTry {
-    int found;      /* 0: none that could give any */
-    int looked;     /* way is known */
+    int found;  /* 0: none that could give any */
+    int looked; /* way is known */
     AccelWay way;
     LightSample light;
     Ray ray;        /* to the light */
@@ -58,13 +61,19 @@ typedef struct Vertex {
 
 Factor shading_factor(const Shading *s, Split split);
 void path_start(PathWorker *worker, Path *path, const Ray *ray, const Sampler *sampler);
-void path_scale(PathWorker *worker, Path *path, Rgb by);
-/* A bounce. Returns 0 where no light can come by it. */
+/* By what no target did. Returns 0 where no light can come by it. */
+int path_scale(PathWorker *worker, Path *path, Rgb by);
+/* A bounce. Returns 0 likewise. */
 int path_scatter(PathWorker *worker, Path *path, const Factor *factor);
 /* Light reaches the path's end through some more factors. */
 void path_connect(PathWorker *worker, Path *path, Rgb light, const Factor *factors, int nfactors);
-void path_bring(PathWorker *worker, Path *path, Rgb light); /* in plain pictures: all factors are in it */
+void path_bring(PathWorker *worker, Path *path, Rgb light); /* through no factor of a target: all are in it */
 void path_end(PathWorker *worker, Path *path);
+/* May a surface's factors go into a scale or light as they are? */
+static inline int path_sees_plain(const PathContext *c, const Shading *s)
+{
+    return !c->split || s->surface.target < 0;
+}
 
 /* ---- way.c: what is on the way ---- */
 

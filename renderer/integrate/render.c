@@ -424,7 +424,7 @@ static int render_film(Render *r, int control, int halves, RetexError *err)
     for (int k = 0; k < threads && !code; k++)
         code = open_worker(r, k, err);
     r->context.matte = r->context.nvariants == 1 && !r->context.white && !r->caustics && !r->context.has_no_shadow;
-    r->context.simple = !r->context.split && r->context.nvariants == 1 && !r->control;
+    r->context.compare = r->context.nvariants > 1 || r->control;
     return code ? code : open_pilots(r, threads, err);
 }
 
@@ -751,7 +751,7 @@ int render_trace(const Scene *scene, const RenderParams *params, int x, int y, i
     if (!code)
         code = render_film(&r, 0, 0, err);
     if (!code) {
-        r.context.trace = out, r.context.simple = r.context.matte = 0;
+        r.context.trace = out, r.context.matte = 0;
         fprintf(out, "pixel %d,%d sample %d of %dx%d\n", x, y, sample, r.width, r.height);
         const PixelStart start = start_pixel(&r, r.params.seed, x, y);
         trace_sample(&r, &r.workers[0], &start, sample);

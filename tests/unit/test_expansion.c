@@ -31,8 +31,8 @@ static void multiplies_out(void **state)
             targets[j] = (int)(at_random(&seed) * 3);
             for (int k = 3; k < RETEX_MAX_TARGETS && seen[targets[j]] == RETEX_MAX_ORDERS; k++)
                 targets[j] = k;
-            if (!expansion_has_room(&e, targets[j], RETEX_MAX_ORDERS, RETEX_MAX_FACTORS)) {
-                assert_true(2 * e.nmonomials > EXPANSION_MONOMIALS_MAX); /* eight with both parts, at least */
+            if (!expansion_has_room(&e.size, targets[j], RETEX_MAX_ORDERS, RETEX_MAX_FACTORS)) {
+                assert_true(2 * e.size.nmonomials > EXPANSION_MONOMIALS_MAX); /* eight with both parts, at least */
                 n = j;
                 break;
             }
@@ -42,7 +42,7 @@ static void multiplies_out(void **state)
             expansion_push(&e, targets[j], (Split){rgb_grey(d), rgb_grey(i)}, (Vec2){0, 0}, rgb_grey(0.5f), 0);
         }
         double sum = 0;
-        for (int k = 0; k < e.nmonomials; k++) {
+        for (int k = 0; k < e.size.nmonomials; k++) {
             double term = e.monomials[k].coefficient.g;
             for (int j = 0; j < n; j++)
                 if (e.monomials[k].hits & hit_bit(targets[j], index[j]))
@@ -50,7 +50,7 @@ static void multiplies_out(void **state)
             sum += term;
         }
         assert_true(fabs(sum - product) < 1e-5 * (1 + product));
-        assert_int_equal(e.nhits, n);
+        assert_int_equal(e.size.nhits, n);
     }
 }
 
