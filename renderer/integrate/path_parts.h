@@ -28,7 +28,8 @@ typedef struct Path {
     ExpansionSize hits; /* of targets, in sets */
     int folded;         /* a target hit beyond the last order kept its albedo */
     PathEvent *arrived; /* light behind all hits so far and no others, or NULL */
-    PathEvent *events, **next_event;
+    PathEvent *beside;  /* light that came last, by one more hit, or NULL */
+    int first, last;    /* of its events, or -1 */
 } Path;
 
 /* Light picked for a vertex, before it is known whether anything is in the way. */
@@ -61,12 +62,29 @@ typedef struct Vertex {
 
 Factor shading_factor(const Shading *s, Split split);
 void path_start(PathWorker *worker, Path *path, const Ray *ray, const Sampler *sampler);
+void path_scale_variants(PathWorker *worker, Rgb by);
+int path_variants_are_spent(const PathWorker *worker); /* nothing is left of the path in any */
+/* Can any light come by it? */
+static inline int path_is_alive(const PathWorker *w, const Path *path)
+{
+    const PathContext *c = w->context;
+    if (c->split)
+        return !rgb_is_black(path->outside);
+    return c->compare ? !path_variants_are_spent(w) : !rgb_is_black(path->beta);
+}
 /* By what no target did. Returns 0 where no light can come by it. */
-int path_scale(PathWorker *worker, Path *path, Rgb by);
+static inline int path_scale(PathWorker *w, Path *path, Rgb by)
+{
+    path->beta = rgb_mul(path->beta, by);
+    path->outside = rgb_mul(path->outside, by);
+    if (w->context->compare)
+        path_scale_variants(w, by);
+    return path_is_alive(w, path);
+}
 /* A bounce. Returns 0 likewise. */
-int path_scatter(PathWorker *worker, Path *path, const Factor *factor);
-/* Light reaches the path's end through some more factors. */
-void path_connect(PathWorker *worker, Path *path, Rgb light, const Factor *factors, int nfactors);
+int path_scatter(PathWorker *worker, Path *path, Factor *factor);
+/* Light reaches the path's end through some more factors. Factors are the callee's to change, here and above. */
+void path_connect(PathWorker *worker, Path *path, Rgb light, Factor *factors, int nfactors);
 void path_bring(PathWorker *worker, Path *path, Rgb light); /* through no factor of a target: all are in it */
 void path_end(PathWorker *worker, Path *path);
 /* May a surface's factors go into a scale or light as they are? */

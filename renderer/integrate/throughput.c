@@ -6,15 +6,24 @@
  * large: so paths that are traced side by side hand all that over when they end. */
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 #include "integrate/path_parts.h"
 
-/* A hit of a target, or light that arrives behind those before it, and behind some that only this light met. */
+/* A hit of a target, or light that arrives behind those before it, and behind some that only this light met. There are
+ * many, so that they should not drive the scene out of the caches: one takes a line of 64 bytes. */
 struct PathEvent {
-    PathEvent *next; /* of the same path */
-    int is_light;
-    int own_hits; /* of light: so many events follow, for these */
-    FilmLight light;
-    Factor hit;
+    int next; /* of the same path, among the worker's; -1: none */
+    char is_light;
+    char own_hits;      /* of light: so many events follow, for these */
+    char target, sharp; /* of a hit, as of its Factor: */
+    union {
+        FilmLight light;
+        struct {
+            Split split;
+            Rgb albedo;
+            Vec2 uv;
+        } hit;
+    };
 };
 
 /* At a vertex: an emitter met, a light picked with all that is on the way to it, a bounce. */
@@ -26,7 +35,7 @@ int path_worker_open(PathWorker *w, RetexError *err)
     if (!c->split)
         return RETEX_OK;
     size_t most = (size_t)PATHS_MAX * VERTEX_EVENTS_MAX * (size_t)(c->max_depth + STRAIGHT_MAX + 1);
-    w->events = malloc(most * sizeof *w->events); /* of which little is ever touched */
+    w->events = aligned_alloc(sizeof *w->events, most * sizeof *w->events); /* of which little is ever touched */
     return w->events ? RETEX_OK : retex_fail(err, RETEX_ENOMEM, "out of memory for paths");
 }
 
@@ -56,11 +65,24 @@ static int is_hit(const Factor *f)
     return f->target >= 0 && (f->reflects || !rgb_is_black(f->split.d));
 }
 
+/* Of a hit that has a single part, the part goes outside, and the hit keeps 1 of it: so hits at the same place are the
+ * same, whichever way light goes on from there. */
+static Rgb take_part(Split *split)
+{
+    Rgb *part = rgb_is_black(split->i) ? &split->d : rgb_is_black(split->d) ? &split->i : NULL;
+    if (!part)
+        return rgb_grey(1);
+    Rgb taken = *part;
+    *part = rgb_grey(1);
+    return taken;
+}
+
 /* Multiply by a factor: as a target hit while there is an order left, else as it is. Returns 1 for a hit. */
-static int take_factor(const PathContext *c, Rgb *outside, ExpansionSize *size, int *folded, const Factor *f)
+static int take_factor(const PathContext *c, Rgb *outside, ExpansionSize *size, int *folded, Factor *f)
 {
     if (is_hit(f) && expansion_has_room(size, f->target, c->orders, c->most_hits)) {
         expansion_grow(size, f->target, f->split);
+        *outside = rgb_mul(*outside, take_part(&f->split));
         return 1;
     }
     *outside = rgb_mul(*outside, split_apply(f->split, f->albedo));
@@ -70,24 +92,51 @@ static int take_factor(const PathContext *c, Rgb *outside, ExpansionSize *size, 
 
 static PathEvent *add_event(PathWorker *w, Path *path)
 {
-    PathEvent *e = &w->events[w->nevents++];
-    e->next = NULL;
-    *path->next_event = e;
-    path->next_event = &e->next;
+    int at = w->nevents++;
+    PathEvent *e = &w->events[at];
+    e->next = -1;
+    if (path->last < 0)
+        path->first = at;
+    else
+        w->events[path->last].next = at;
+    path->last = at;
+    path->beside = NULL;
     return e;
 }
 
-static void add_hit(PathWorker *w, Path *path, const Factor *factor)
+static void add_hit(PathWorker *w, Path *path, const Factor *f)
 {
     PathEvent *e = add_event(w, path);
-    e->is_light = 0, e->hit = *factor;
+    e->is_light = 0, e->target = (char)f->target, e->sharp = (char)f->sharp;
+    e->hit.split = f->split, e->hit.albedo = f->albedo, e->hit.uv = f->uv;
 }
 
 static PathEvent *add_light(PathWorker *w, Path *path, const FilmLight *light, int own_hits)
 {
     PathEvent *e = add_event(w, path);
-    e->is_light = 1, e->own_hits = own_hits, e->light = *light;
+    e->is_light = 1, e->own_hits = (char)own_hits, e->light = *light;
     return e;
+}
+
+static int is_same_hit(const PathEvent *e, const Factor *f)
+{
+    return e->target == f->target && e->hit.uv.u == f->uv.u && e->hit.uv.v == f->uv.v && e->sharp == f->sharp &&
+           !memcmp(&e->hit.split, &f->split, sizeof f->split);
+}
+
+/* The path goes on from a hit. If light came just now by that hit alone, it stands behind the path's own. */
+static void go_on_from(PathWorker *w, Path *path, const Factor *factor)
+{
+    PathEvent *light = path->beside, *hit = &w->events[path->last];
+    if (light && is_same_hit(hit, factor)) {
+        FilmLight sum = light->light;
+        light->is_light = 0, light->target = hit->target, light->sharp = hit->sharp, light->hit = hit->hit;
+        hit->is_light = 1, hit->own_hits = 0, hit->light = sum;
+        path->arrived = hit, path->beside = NULL;
+    } else {
+        add_hit(w, path, factor);
+        path->arrived = NULL;
+    }
 }
 
 static int is_finite(Rgb c)
@@ -108,9 +157,9 @@ static void arrive(PathWorker *w, Path *path, const FilmLight *light)
     sum->connections++;
 }
 
-static void push_hit(Expansion *e, const Factor *hit)
+static void push_hit(Expansion *e, const PathEvent *hit)
 {
-    expansion_push(e, hit->target, hit->split, hit->uv, hit->albedo, hit->sharp);
+    expansion_push(e, hit->target, hit->hit.split, hit->hit.uv, hit->hit.albedo, hit->sharp);
 }
 
 /* All that a path brought goes to the film. */
@@ -118,26 +167,26 @@ static void hand_over(PathWorker *w, const Path *path)
 {
     Expansion *e = &w->expansion;
     expansion_reset(e);
-    for (const PathEvent *event = path->events; event; event = event->next) {
+    for (int at = path->first; at >= 0; at = w->events[at].next) {
+        const PathEvent *event = &w->events[at];
         if (!event->is_light) {
-            push_hit(e, &event->hit);
+            push_hit(e, event);
         } else if (event->own_hits == 0) {
             film_connect(w->pixel, &event->light, e);
         } else {
-            const FilmLight *light = &event->light;
             expansion_copy(&w->scratch, e);
             for (int k = event->own_hits; k > 0; k--) {
-                event = event->next;
-                push_hit(&w->scratch, &event->hit);
+                at = w->events[at].next;
+                push_hit(&w->scratch, &w->events[at]);
             }
-            film_connect(w->pixel, light, &w->scratch);
+            film_connect(w->pixel, &event->light, &w->scratch);
         }
     }
 }
 
 /* ---- variants ---- */
 
-static void scale_variants(PathWorker *w, Rgb by)
+void path_scale_variants(PathWorker *w, Rgb by)
 {
     for (int v = 0; v < w->context->nvariants; v++)
         w->betas[v] = rgb_mul(w->betas[v], by);
@@ -149,11 +198,10 @@ static void multiply(const PathContext *c, Rgb *betas, const Factor *f)
         betas[v] = rgb_mul(betas[v], split_apply(f->split, f->albedos ? f->albedos[v] : f->albedo));
 }
 
-/* Nothing is left of it in any variant. */
-static int is_spent(const PathContext *c, const Rgb *betas)
+int path_variants_are_spent(const PathWorker *w)
 {
-    for (int v = 0; v < c->nvariants; v++)
-        if (!rgb_is_black(betas[v]))
+    for (int v = 0; v < w->context->nvariants; v++)
+        if (!rgb_is_black(w->betas[v]))
             return 0;
     return 1;
 }
@@ -182,40 +230,20 @@ void path_start(PathWorker *w, Path *path, const Ray *ray, const Sampler *sample
     path->sample = sampler->sample;
     path->light[0] = path->light[1] = path->light[2] = 0;
     path->hits = (ExpansionSize){.nmonomials = 1}, path->folded = 0;
-    path->arrived = NULL, path->events = NULL, path->next_event = &path->events;
+    path->arrived = path->beside = NULL, path->first = path->last = -1;
     for (int v = 0; v < c->nvariants && c->compare; v++)
         w->betas[v] = rgb_grey(1);
 }
 
-/* Can any light come by it? */
-static int is_alive(const PathWorker *w, const Path *path)
-{
-    const PathContext *c = w->context;
-    if (c->split)
-        return !rgb_is_black(path->outside);
-    return c->compare ? !is_spent(c, w->betas) : !rgb_is_black(path->beta);
-}
-
-int path_scale(PathWorker *w, Path *path, Rgb by)
-{
-    path->beta = rgb_mul(path->beta, by);
-    path->outside = rgb_mul(path->outside, by);
-    if (w->context->compare)
-        scale_variants(w, by);
-    return is_alive(w, path);
-}
-
-int path_scatter(PathWorker *w, Path *path, const Factor *factor)
+int path_scatter(PathWorker *w, Path *path, Factor *factor)
 {
     const PathContext *c = w->context;
     path->beta = rgb_mul(path->beta, split_apply(factor->split, factor->albedo));
     if (c->compare)
         multiply(c, w->betas, factor);
-    if (c->split && take_factor(c, &path->outside, &path->hits, &path->folded, factor)) {
-        add_hit(w, path, factor);
-        path->arrived = NULL;
-    }
-    return is_alive(w, path);
+    if (c->split && take_factor(c, &path->outside, &path->hits, &path->folded, factor))
+        go_on_from(w, path, factor);
+    return path_is_alive(w, path);
 }
 
 /* As path_connect, of plain pictures. */
@@ -237,7 +265,7 @@ void path_bring(PathWorker *w, Path *path, Rgb light)
 }
 
 /* As path_connect, of sets. */
-static void connect_split(PathWorker *w, Path *path, Rgb beauty, Rgb light, const Factor *factors, int nfactors)
+static void connect_split(PathWorker *w, Path *path, Rgb beauty, Rgb light, Factor *factors, int nfactors)
 {
     const PathContext *c = w->context;
     const Factor *own[SHADOW_FACTORS_MAX + 2];
@@ -253,12 +281,14 @@ static void connect_split(PathWorker *w, Path *path, Rgb beauty, Rgb light, cons
         arrive(w, path, &sum);
         return;
     }
-    add_light(w, path, &sum, count);
+    PathEvent *e = add_light(w, path, &sum, count);
     for (int k = 0; k < count; k++)
         add_hit(w, path, own[k]);
+    if (count == 1)
+        path->beside = e;
 }
 
-void path_connect(PathWorker *w, Path *path, Rgb light, const Factor *factors, int nfactors)
+void path_connect(PathWorker *w, Path *path, Rgb light, Factor *factors, int nfactors)
 {
     const PathContext *c = w->context;
     Rgb beauty = rgb_mul(path->beta, light);
@@ -266,12 +296,12 @@ void path_connect(PathWorker *w, Path *path, Rgb light, const Factor *factors, i
         beauty = rgb_mul(beauty, split_apply(factors[k].split, factors[k].albedo));
     if (c->trace)
         fprintf(c->trace, "  light %.6g %.6g %.6g\n", beauty.r, beauty.g, beauty.b);
+    if (c->compare)
+        connect_variants(w, light, factors, nfactors);
     if (c->split)
         connect_split(w, path, beauty, light, factors, nfactors);
     else
         connect_plain(w, path, beauty);
-    if (c->compare)
-        connect_variants(w, light, factors, nfactors);
 }
 
 void path_end(PathWorker *w, Path *path)
