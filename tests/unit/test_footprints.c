@@ -12,6 +12,8 @@
 #define SHARP 1
 #define BROAD 0
 
+static const double FINEST = 1.0 / (1 << 19); /* half of the finest step of mean UVs */
+
 /* A film of two pixels side by side, of which most tests fill the left one. */
 typedef struct Fixture {
     Scene scene;
@@ -191,8 +193,8 @@ static void two_places_are_two_clusters(void **state)
     finish(&f);
     const float *near = part(&f, "uv_Floor_sharp1"), *far = part(&f, "uv_Floor_sharp2");
     assert_true(near[0] == 0.125f && near[1] == 0.25f && fabsf(near[2] - 0.75f) < 1e-6f);
-    assert_float_equal(far[0], 0.8f, 1e-6);
-    assert_float_equal(far[1], 0.9f, 1e-6);
+    assert_float_equal(far[0], 0.8f, FINEST);
+    assert_float_equal(far[1], 0.9f, FINEST);
     assert_float_equal(far[2], 0.25f, 1e-6);
     expect_rgb(part(&f, "dep_Floor_sharp1"), 0.75f, 1.5f, 2.25f, 1e-3);
     expect_rgb(part(&f, "dep_Floor_sharp2"), 1, 2, 4, 1e-3);
@@ -323,11 +325,11 @@ static void the_nearest_places_merge(void **state)
         finish(&f);
         const float *near = part(&f, "uv_Floor_sharp1"), *far = part(&f, "uv_Floor_sharp2");
         double sd = 0.02 * sqrt(3) / 4; /* of weights 3 and 1 */
-        assert_float_equal(near[0], 0.105, sd / 64 + 1e-6);
+        assert_float_equal(near[0], 0.105, sd / 64 + FINEST);
         assert_float_equal(near[1], 0.5, 1e-6);
         assert_float_equal(near[2], 16.0 / 10 / 4, 0.4 / 256); /* weights 3 and 1 */
         assert_float_equal(part(&f, "spread_Floor_sharp1")[0], sd, sd / 128);
-        assert_float_equal(far[0], 0.9, 1e-6);
+        assert_float_equal(far[0], 0.9, FINEST);
         assert_float_equal(far[2], 0.25, 0);
         expect_rgb(part(&f, "dep_Floor_sharp1"), 1, 1, 1, 1e-3);
         expect_rgb(part(&f, "dep_Floor_sharp2"), 0.25f, 0.25f, 0.25f, 1e-3);
@@ -768,7 +770,7 @@ static void expect_place(const Fixture *f, const char *name, double u, double sd
     char uv[RETEX_NAME_MAX], spread[RETEX_NAME_MAX];
     snprintf(uv, sizeof uv, "uv_%s", name);
     snprintf(spread, sizeof spread, "spread_%s", name);
-    assert_float_equal(part(f, uv)[0], u, sd / 64 + 1e-6 * fmax(fabs(u), 1));
+    assert_float_equal(part(f, uv)[0], u, sd / 64 + FINEST + 1e-6 * fabs(u));
     assert_float_equal(part(f, spread)[0], sd, fmax(sd / 128, 1e-5));
 }
 
@@ -878,7 +880,7 @@ static void far_points_claim_no_clusters(void **state)
                 char name[32];
                 snprintf(name, sizeof name, "uv_Floor_%s%d", sharp ? "sharp" : "broad", k);
                 for (int i = 0; i < 3; i++)
-                    apart += fabs(part(&f, name)[0] - near[i]) < 1e-6;
+                    apart += fabs(part(&f, name)[0] - near[i]) <= FINEST;
             }
             assert_int_equal(apart, sharp ? 0 : 3);
             expect_beauty(&f, 0);

@@ -9,6 +9,8 @@
 #include <unistd.h>
 #include <zip.h>
 
+#include <retex/uv_stats.h>
+
 #include "pack_bands.h"
 #include "pack_jpeg_kernel.h"
 #include "pack_plan.h"
@@ -91,6 +93,52 @@ static void test_lossless_keeps_every_bit(void **state)
     free(again);
     free(data);
     retex_set_close(&back);
+    retex_set_close(&set);
+}
+
+/* Means that are rounded as rendering rounds them are stored as multiples of their steps, which is far smaller; others,
+ * if only one, are not; either way every bit is kept. */
+static void test_rounded_means_are_small(void **state)
+{
+    (void)state;
+    size_t bytes[2];
+    RetexPackParams params = lossless();
+    RetexSet *set = test_set(97, 70, 4);
+    for (int i = 0; i < set->nfootprints; i++) {
+        RetexImage *means = &set->parts[set->footprints[i].uv].image;
+        const RetexImage *sigmas = &set->parts[set->footprints[i].spread].image;
+        for (size_t k = 0; k < (size_t)means->width * (size_t)means->height; k++) {
+            UvStats place = {.weight = 1};
+            float spread[3];
+            for (size_t c = 0; c < 2; c++) {
+                const double sigma = (double)sigmas->pixels[k * (size_t)sigmas->channels + c];
+                place.mean[c] = (double)means->pixels[3 * k + c];
+                place.m2[2 * c] = k % 5 ? sigma * sigma : 0; /* and some of one place */
+            }
+            uv_stats_store(&place, means->pixels + 3 * k, spread);
+            memcpy(sigmas->pixels + k * (size_t)sigmas->channels, spread, 2 * sizeof *spread);
+        }
+    }
+    const int uv = set->footprints[0].uv;
+    float *one = &set->parts[uv].image.pixels[3 * 40];
+    for (int odd = 0; odd < 2; odd++) {
+        PackPart *plan = calloc((size_t)set->nparts, sizeof *plan);
+        test_must(pack_plan(plan, set, 1, NULL, 1, NULL), NULL);
+        assert_int_equal(plan[uv].codec, odd ? PACK_PLANES : PACK_MODEL); /* these end in zeros all the same */
+        assert_int_equal(plan[uv].maps[1].kind, odd ? PACK_MAP_BITS : PACK_MAP_LATTICE);
+        free(plan);
+        unsigned char *data = pack(set, &params, &bytes[odd]);
+        RetexSet *back = unpack(data, bytes[odd]);
+        for (int i = 0; i < set->nparts; i++) {
+            const RetexImage *im = &set->parts[i].image;
+            assert_memory_equal(back->parts[i].image.pixels, im->pixels,
+                                (size_t)im->width * (size_t)im->height * (size_t)im->channels * sizeof(float));
+        }
+        free(data);
+        retex_set_close(&back);
+        *one = nextafterf(*one, 2);
+    }
+    assert_true(bytes[0] + 2000 < bytes[1]);
     retex_set_close(&set);
 }
 
@@ -216,7 +264,7 @@ static void test_radiance_that_does_not_suit_jpeg_keeps_its_bits(void **state)
         assert_int_equal(before[part].codec, PACK_JPEG);
         set->parts[part].image.pixels[7] = odd[i];
         PackPart *after = plan_of(set);
-        assert_int_equal(after[part].codec, PACK_PLANES);
+        assert_int_equal(after[part].codec, PACK_MODEL);
         assert_int_equal(after[part].maps[1].kind, PACK_MAP_BITS);
         free(before);
         free(after);
@@ -663,6 +711,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_lossless_keeps_every_bit),
+        cmocka_unit_test(test_rounded_means_are_small),
         cmocka_unit_test(test_default_is_close_and_smaller),
         cmocka_unit_test(test_denoise_data_is_dropped),
         cmocka_unit_test(test_quality_trades_size),

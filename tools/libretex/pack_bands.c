@@ -12,6 +12,7 @@
 #include "exr_io.h"
 #include "manifest.h"
 #include "pack_format.h"
+#include "pack_model.h"
 #include "pack_v1.h"
 #include "pack_zip.h"
 #include "set_source.h"
@@ -285,6 +286,8 @@ const char *retex_pack_part_codec(const RetexPack *pack, int part)
 
 /* --- decoding a band --- */
 
+static int cache_band(const RetexPack *pack, int part, int band, RetexPackScratch *s, RetexError *err);
+
 int retex_pack_scratch_create(RetexPackScratch **result, const RetexPack *pack, RetexError *err)
 {
     RetexPackScratch *s = *result = calloc(1, sizeof *s);
@@ -427,6 +430,43 @@ static int decode_planes(const RetexPack *pack, int part, int band, float *out, 
     return code;
 }
 
+/* Shifts of means, from the standard deviations of the band, which are decoded for it. */
+static int fill_mean_shifts(const RetexPack *pack, int part, int band, PackModelBand *model, RetexPackScratch *s,
+                            RetexError *err)
+{
+    const PackPart *p = &pack->parts[part], *sigma = &pack->parts[p->sigma];
+    const size_t pixels = (size_t)model->width * (size_t)model->rows;
+    int code = cache_band(pack, p->sigma, band, s, err);
+    for (int c = 0; !code && c < p->channels; c++)
+        for (size_t i = 0; model->shifts[c] && i < pixels; i++)
+            model->shifts[c][i] =
+                (unsigned char)pack_mean_shift(s->cached[p->sigma].rows[i * (size_t)sigma->channels + (size_t)c]);
+    return code;
+}
+
+static int decode_model(const RetexPack *pack, int part, int band, float *out, RetexPackScratch *s, RetexError *err)
+{
+    const PackPart *p = &pack->parts[part];
+    PackModelBand model;
+    int code = pack_model_alloc(&model, p->width, pack_band_rows(p, band), p->channels, p->maps)
+                   ? 0
+                   : retex_fail(err, RETEX_ENOMEM, "no memory to read a pack");
+    if (!code && p->sigma >= 0)
+        code = fill_mean_shifts(pack, part, band, &model, s, err);
+    if (!code)
+        code = read_chunk(pack, part, band, 0, s, err);
+    const int decoded = code ? 1 : pack_model_decode(&model, s->chunk, p->bytes[band]);
+    if (decoded < 0)
+        code = retex_fail(err, RETEX_ENOMEM, "no memory to read a pack");
+    else if (!decoded)
+        code = damaged(err, "planes cannot be decoded of part", pack->set->parts[part].name);
+    for (int c = 0; !code && c < p->channels; c++)
+        pack_map_samples(out + c, (size_t)p->channels, model.numbers[c], (size_t)model.width * (size_t)model.rows,
+                         &p->maps[c], p->type);
+    pack_model_free(&model);
+    return code;
+}
+
 /* The mask of a band into s->numbers, a byte each; *rest: there are pixels that it leaves. */
 static int decode_mask(const RetexPack *pack, int part, int band, int *rest, RetexPackScratch *s, RetexError *err)
 {
@@ -494,6 +534,8 @@ static int decode_band(const RetexPack *pack, int part, int band, float *out, Re
     const PackPart *p = &pack->parts[part];
     if (p->codec == PACK_PLANES)
         return decode_planes(pack, part, band, out, s, err);
+    if (p->codec == PACK_MODEL)
+        return decode_model(pack, part, band, out, s, err);
     if (p->codec == PACK_JPEG)
         return decode_jpeg(pack, part, band, out, s, err);
     memset(out, 0, (size_t)p->width * (size_t)pack_band_rows(p, band) * (size_t)p->channels * sizeof *out);

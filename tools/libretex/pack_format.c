@@ -10,7 +10,7 @@
 
 #include "half.h"
 
-const char *const pack_codec_names[PACK_CODECS] = {"zero", "planes", "jpeg"};
+const char *const pack_codec_names[PACK_CODECS] = {"zero", "planes", "model", "jpeg"};
 
 void pack_part_begin(PackPart *packed, const RetexPart *part)
 {
@@ -27,6 +27,7 @@ int pack_part_chunks(PackPart *packed, RetexError *err)
 {
     packed->nchunks = packed->codec == PACK_ZERO     ? 0
                       : packed->codec == PACK_PLANES ? packed->nbands * packed->channels
+                      : packed->codec == PACK_MODEL  ? packed->nbands
                                                      : 1 + packed->nbands * (1 + packed->masked);
     packed->bytes = calloc((size_t)packed->nchunks + 1, sizeof *packed->bytes);
     packed->crcs = calloc((size_t)packed->nchunks + 1, sizeof *packed->crcs);
@@ -53,6 +54,17 @@ int pack_lattice_shift(const PackPart *packed, int code, int per_octave)
     const int octaves = code - 1 + packed->sigma_first;
     const int shift = code > 0 && octaves > 0 ? octaves / per_octave : 0;
     return shift < PACK_LATTICE_SHIFT_MAX ? shift : PACK_LATTICE_SHIFT_MAX;
+}
+
+int pack_mean_shift(float sigma)
+{
+    int exponent;
+    if (!(sigma > 0) || isinf(sigma))
+        return 0;
+    /* a power of two may have been rounded up to it, and its step be half as large */
+    const int exact = frexp((double)sigma, &exponent) == 0.5;
+    const int shift = exponent - 1 - exact - PACK_MEAN_BITS + PACK_LATTICE_BITS;
+    return shift < 0 ? 0 : shift < PACK_LATTICE_SHIFT_MAX ? shift : PACK_LATTICE_SHIFT_MAX;
 }
 
 int pack_mask_width(const PackPart *packed)
@@ -115,7 +127,7 @@ static json_t *describe_part(const RetexSet *set, int part, const PackPart *pack
         json_object_set_new(o, "levels", json_real(packed->curve.levels));
         json_object_set_new(o, "masked", json_boolean(packed->masked));
     }
-    if (packed->codec == PACK_PLANES) {
+    if (packed->codec == PACK_PLANES || packed->codec == PACK_MODEL) {
         json_t *channels = json_array();
         for (int c = 0; c < packed->channels; c++)
             json_array_append_new(channels, describe_map(&packed->maps[c]));
@@ -124,7 +136,8 @@ static json_t *describe_part(const RetexSet *set, int part, const PackPart *pack
             json_object_set_new(o, "present", json_string(set->parts[packed->present].name));
         if (packed->sigma >= 0) {
             json_object_set_new(o, "sigma", json_string(set->parts[packed->sigma].name));
-            json_object_set_new(o, "sigma_first", json_integer(packed->sigma_first));
+            if (packed->codec == PACK_PLANES)
+                json_object_set_new(o, "sigma_first", json_integer(packed->sigma_first));
         }
     }
     return o;
@@ -205,8 +218,8 @@ static int understand_part(PackPart *packed, const RetexSet *set, const json_t *
     while (codec && c < PACK_CODECS && strcmp(codec, pack_codec_names[c]) != 0)
         c++;
     if (codec && c == PACK_CODECS)
-        return retex_fail(err, RETEX_EUNSUPPORTED, "a part is packed as '%.64s'; this version knows %s, %s and %s",
-                          codec, pack_codec_names[0], pack_codec_names[1], pack_codec_names[2]);
+        return retex_fail(err, RETEX_EUNSUPPORTED, "a part is packed as '%.64s'; this version knows %s, %s, %s and %s",
+                          codec, pack_codec_names[0], pack_codec_names[1], pack_codec_names[2], pack_codec_names[3]);
     packed->codec = codec ? (PackCodec)c : PACK_ZERO;
     ok = codec != NULL && packed->channels <= PACK_CHANNELS_MAX;
     if (ok && packed->codec == PACK_JPEG) {
@@ -218,23 +231,39 @@ static int understand_part(PackPart *packed, const RetexSet *set, const json_t *
              packed->height <= PACK_JPEG_SIDE_MAX;
         packed->masked = json_is_true(masked);
     }
-    if (ok && packed->codec == PACK_PLANES) {
+    if (ok && (packed->codec == PACK_PLANES || packed->codec == PACK_MODEL)) {
         const json_t *channels = json_object_get(o, "channels");
         ok = json_array_size(channels) == (size_t)packed->channels;
         for (int i = 0; ok && i < packed->channels; i++)
             ok = understand_map(&packed->maps[i], json_array_get(channels, (size_t)i));
         packed->present = named_part(o, "present", set, packed, &ok);
         packed->sigma = named_part(o, "sigma", set, packed, &ok);
-        if (packed->sigma >= 0)
+        if (packed->sigma >= 0 && packed->codec == PACK_PLANES)
             ok = ok && get_integer(json_object_get(o, "sigma_first"), -100000, 100000, &packed->sigma_first);
     }
     return ok ? 0 : retex_fail(err, RETEX_EFORMAT, "the pack is damaged: the description of a part is not sound");
+}
+
+/* Means on a lattice need standard deviations, which need nothing. */
+static int modelled_is_sound(const PackPart *packed, const PackPart *all)
+{
+    int ok = packed->present < 0;
+    for (int c = 0; c < packed->channels; c++) {
+        const PackPart *sigma = packed->sigma >= 0 ? &all[packed->sigma] : NULL;
+        ok = ok && (packed->maps[c].kind == PACK_MAP_BITS || packed->maps[c].kind == PACK_MAP_LATTICE);
+        if (packed->maps[c].kind == PACK_MAP_LATTICE)
+            ok = ok && packed->type == RETEX_FLOAT && sigma && sigma->codec == PACK_MODEL && sigma->sigma < 0 &&
+                 c < sigma->channels;
+    }
+    return ok;
 }
 
 /* References lead to parts of the right kind, and never in circles: coverage needs nothing, standard deviations need
  * coverage, means need both. */
 static int references_are_sound(const PackPart *packed, const PackPart *all)
 {
+    if (packed->codec == PACK_MODEL)
+        return modelled_is_sound(packed, all);
     if (packed->codec != PACK_PLANES)
         return 1;
     const PackPart *present = packed->present >= 0 ? &all[packed->present] : NULL;

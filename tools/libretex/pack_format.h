@@ -17,7 +17,8 @@ enum { PACK_CHANNELS_MAX = 8, PACK_INDEX_ENTRY = 8 /* bytes: size and CRC-32 of 
 typedef enum PackCodec {
     PACK_ZERO,   /* every sample is +0: no data */
     PACK_PLANES, /* planes/NAME.blk: band by band one chunk a channel */
-    PACK_JPEG,   /* radiance/NAME.jpg, or picture.jpg: header, then a chunk a band; planes/NAME.blk: its mask's bands */
+    PACK_MODEL,  /* planes/NAME.blk: one chunk a band, without loss */
+    PACK_JPEG,   /* radiance/NAME.jpg: header, then a chunk a band; planes/NAME.blk: its mask's bands */
     PACK_CODECS
 } PackCodec;
 
@@ -30,8 +31,8 @@ typedef struct PackPart {
     RetexPixelType type;
     PackMap maps[PACK_CHANNELS_MAX]; /* planes */
     int present;                     /* planes: the part whose third channel is 0 where this one's mean nothing; -1 */
-    int sigma;                       /* planes of PACK_MAP_LATTICE: the part of their standard deviations; -1 */
-    int sigma_first;                 /* code c of one means multiples of 2^((c - 1 + sigma_first) / per_octave) */
+    int sigma;                       /* with PACK_MAP_LATTICE: the part of their standard deviations; -1 */
+    int sigma_first;                 /* planes: code c: multiples of 2^((c - 1 + sigma_first) / per_octave) */
     PackCurve curve;                 /* JPEG */
     double jpeg_step;                /* when writing */
     int masked;                      /* JPEG: 1 = pixels whose bit is set are exactly black */
@@ -49,6 +50,8 @@ void pack_part_free(PackPart *packed);
 int pack_band_rows(const PackPart *packed, int band); /* 64, or fewer in the last one */
 /* The shift of a lattice where the standard deviation has this code. */
 int pack_lattice_shift(const PackPart *packed, int code, int per_octave);
+/* The shift that the rounding of rendered means leaves, where the standard deviation is this. */
+int pack_mean_shift(float sigma);
 /* Bytes of a mask's row. */
 int pack_mask_width(const PackPart *packed);
 /* The file of a part's chunks in the pack; 0: its JPEG, 1: its planes. */

@@ -3,6 +3,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include <retex/parallel.h>
 
@@ -211,6 +212,63 @@ static void plan_footprint(Planning *plan, int uv, int spread, const PackFootpri
     p->sigma_first = (int)floor((log2(s->maps[0].first / grain->sigma_share) + PACK_LATTICE_BITS) * grain->per_octave);
 }
 
+/* 1: there are no means but those that the rounding of rendered sets leaves, and no -0. */
+static int on_lattice(const Planning *plan, int uv, int spread)
+{
+    const RetexImage *means = &plan->set->parts[uv].image, *sigmas = &plan->set->parts[spread].image;
+    const Range *ranges = plan->ranges[uv];
+    const float farthest = 1 << (30 - PACK_LATTICE_BITS);
+    if (plan->set->parts[uv].type != RETEX_FLOAT || ranges[0].most_size >= farthest || ranges[1].most_size >= farthest)
+        return 0;
+    for (size_t i = 0; i < (size_t)means->width * (size_t)means->height; i++)
+        for (size_t c = 0; c < 2; c++) {
+            const float mean = means->pixels[i * (size_t)means->channels + c];
+            const int shift = pack_mean_shift(sigmas->pixels[i * (size_t)sigmas->channels + c]);
+            const double steps = ldexp((double)mean, PACK_LATTICE_BITS - shift);
+            if (steps != rint(steps) || (mean == 0 && signbit(mean)))
+                return 0;
+        }
+    return 1;
+}
+
+/* 1: most means end in zero bits, as if they had been rounded. */
+static int ends_in_zeros(const RetexImage *means)
+{
+    const size_t count = (size_t)means->width * (size_t)means->height;
+    size_t rounded = 0, all = 0;
+    for (size_t i = 0; i < count; i++) {
+        uint32_t bits;
+        memcpy(&bits, &means->pixels[i * (size_t)means->channels], sizeof bits);
+        all += bits != 0;
+        rounded += bits != 0 && (bits & 15) == 0;
+    }
+    return 2 * rounded > all;
+}
+
+/* Parts that lose nothing are modelled, means as multiples of what they were rounded to. Those that were rounded in
+ * another way, as by earlier versions, are left to planes, which are better at runs of zero bits. */
+static void plan_exact(Planning *plan)
+{
+    const RetexSet *set = plan->set;
+    for (int i = 0; i < set->nparts; i++) {
+        PackPart *p = &plan->packed[i];
+        int exact = p->codec == PACK_PLANES && (plan->roles[i] != ROLE_MEAN || !ends_in_zeros(&set->parts[i].image));
+        for (int c = 0; c < p->channels; c++)
+            exact = exact && p->maps[c].kind == PACK_MAP_BITS;
+        p->codec = exact ? PACK_MODEL : p->codec;
+    }
+    for (int i = 0; i < set->nfootprints; i++) {
+        const int uv = set->footprints[i].uv, spread = set->footprints[i].spread;
+        if (uv < 0 || spread < 0 || plan->roles[uv] != ROLE_MEAN || plan->roles[spread] != ROLE_SPREAD ||
+            plan->packed[uv].codec == PACK_ZERO || plan->packed[uv].present >= 0 || plan->packed[uv].sigma >= 0 ||
+            plan->packed[spread].codec != PACK_MODEL || !on_lattice(plan, uv, spread))
+            continue;
+        plan->packed[uv].codec = PACK_MODEL;
+        plan->packed[uv].sigma = spread;
+        plan->packed[uv].maps[0].kind = plan->packed[uv].maps[1].kind = PACK_MAP_LATTICE;
+    }
+}
+
 static void plan_parts(Planning *plan)
 {
     const RetexSet *set = plan->set;
@@ -263,6 +321,7 @@ int pack_plan(PackPart *packed, const RetexSet *set, int lossless, const PackGra
         give_roles(&plan);
         retex_parallel(nthreads, set->nparts, find_ranges, &plan);
         plan_parts(&plan);
+        plan_exact(&plan);
     }
     free(plan.roles);
     free(plan.means);

@@ -19,7 +19,7 @@ typedef enum PackMapKind {
 
 extern const char *const pack_map_names[PACK_MAPS];
 
-enum { PACK_LATTICE_BITS = 18, PACK_LATTICE_SHIFT_MAX = 24, PACK_CODES = 256 };
+enum { PACK_LATTICE_BITS = 18, PACK_LATTICE_SHIFT_MAX = 24, PACK_MEAN_BITS = 5, PACK_CODES = 256 };
 
 typedef struct PackMap {
     PackMapKind kind;

@@ -13,6 +13,7 @@
 
 #include "output.h"
 #include "pack_format.h"
+#include "pack_model.h"
 #include "pack_plan.h"
 #include "pack_zip.h"
 
@@ -30,7 +31,6 @@ typedef struct Item {
 typedef struct Writing {
     const RetexSet *set;
     PackPart *packed;
-    int effort;
     Item *items;
     PackJpeg picture; /* of a lossless pack: for viewers only */
     int *jobs;        /* pairs: part and band */
@@ -38,8 +38,7 @@ typedef struct Writing {
     int *codes; /* by job */
 } Writing;
 
-/* Of blosc's zstd. Lossless planes are mostly noise: there more effort takes thirteen times as long for 3 % less. */
-static const int EFFORT = 9, LOSSLESS_EFFORT = 4;
+static const int EFFORT = 9; /* of blosc's zstd */
 
 /* dB that compacting keeps more than the whole: its errors and those of coding add up. */
 static const double COMPACTING_MARGIN = 3;
@@ -221,7 +220,7 @@ static int encode_band(const Writing *w, int part, int index)
             p->width,    pack_band_rows(p, index), bits, partial ? band.present : NULL, lattice ? band.shift : NULL,
             band.numbers};
         unsigned char *data = malloc(pack_plane_room(&plane));
-        const long bytes = data ? pack_plane_encode(data, &plane, band.scratch, w->effort) : -1;
+        const long bytes = data ? pack_plane_encode(data, &plane, band.scratch, EFFORT) : -1;
         unsigned char *fitted = bytes > 0 ? realloc(data, (size_t)bytes) : NULL;
         item->chunks[k] = fitted ? fitted : data;
         p->bytes[k] = bytes > 0 ? (uint32_t)bytes : 0;
@@ -229,6 +228,36 @@ static int encode_band(const Writing *w, int part, int index)
     }
     band_free(&band);
     return ok;
+}
+
+/* --- without loss --- */
+
+/* Shifts of means, from their standard deviations. */
+static void fill_mean_shifts(PackModelBand *model, const Writing *w, const PackPart *p, int index)
+{
+    const RetexImage *sigma = &w->set->parts[p->sigma].image;
+    const float *first = sigma->pixels + retex_image_index(sigma, 0, index * PACK_BAND_ROWS);
+    for (int c = 0; c < p->channels; c++)
+        for (size_t i = 0; model->shifts[c] && i < (size_t)model->width * (size_t)model->rows; i++)
+            model->shifts[c][i] = (unsigned char)pack_mean_shift(first[i * (size_t)sigma->channels + (size_t)c]);
+}
+
+static int encode_model_band(const Writing *w, int part, int index)
+{
+    Item *item = &w->items[part];
+    PackPart *p = item->packed;
+    PackModelBand model;
+    long bytes = -1;
+    if (pack_model_alloc(&model, p->width, pack_band_rows(p, index), p->channels, p->maps)) {
+        for (int c = 0; c < p->channels; c++)
+            numbers_of(model.numbers[c], w, part, c, index, (size_t)model.width * (size_t)model.rows);
+        if (p->sigma >= 0)
+            fill_mean_shifts(&model, w, p, index);
+        bytes = pack_model_encode(&item->chunks[index], &model);
+    }
+    pack_model_free(&model);
+    p->bytes[index] = bytes > 0 ? (uint32_t)bytes : 0;
+    return bytes >= 0;
 }
 
 /* --- all parts --- */
@@ -241,7 +270,7 @@ static void encode_whole(void *context, int index, int thread)
     item->code = pack_samples_crc(&item->crc, item->part, &item->err);
     if (!item->code && item->packed->codec == PACK_JPEG)
         item->code = encode_jpeg(item, index == 0, &item->err);
-    if (item->code || item->packed->codec != PACK_PLANES)
+    if (item->code || (item->packed->codec != PACK_PLANES && item->packed->codec != PACK_MODEL))
         return;
     item->code = pack_part_chunks(item->packed, &item->err);
     item->chunks = calloc((size_t)item->packed->nchunks + 1, sizeof *item->chunks);
@@ -253,7 +282,15 @@ static void encode_job(void *context, int index, int thread)
 {
     Writing *w = context;
     (void)thread;
-    w->codes[index] = encode_band(w, w->jobs[2 * index], w->jobs[2 * index + 1]) ? 0 : RETEX_ENOMEM;
+    const int part = w->jobs[2 * index], band = w->jobs[2 * index + 1];
+    const int ok = w->packed[part].codec == PACK_MODEL ? encode_model_band(w, part, band) : encode_band(w, part, band);
+    w->codes[index] = ok ? 0 : RETEX_ENOMEM;
+}
+
+/* As jobs of their own: JPEGs are encoded whole. */
+static int bands_to_encode(const PackPart *packed)
+{
+    return packed->codec == PACK_PLANES || packed->codec == PACK_MODEL ? packed->nbands : 0;
 }
 
 static int encode_all(Writing *w, int nthreads, RetexError *err)
@@ -273,7 +310,7 @@ static int encode_all(Writing *w, int nthreads, RetexError *err)
     if (code)
         return code;
     for (int i = 0; i < count; i++)
-        for (int band = 0; w->packed[i].codec == PACK_PLANES && band < w->packed[i].nbands; band++) {
+        for (int band = 0; band < bands_to_encode(&w->packed[i]); band++) {
             w->jobs[2 * w->njobs] = i;
             w->jobs[2 * w->njobs++ + 1] = band;
         }
@@ -426,7 +463,7 @@ static int write_pack(const RetexSet *set, const char *path, const RetexPackPara
                       RetexError *err)
 {
     const PackGrain grain = pack_grain(pack_quality_psnr(params->quality));
-    Writing w = {.set = set, .effort = params->lossless ? LOSSLESS_EFFORT : EFFORT};
+    Writing w = {.set = set};
     w.packed = calloc((size_t)set->nparts + 1, sizeof *w.packed);
     w.items = calloc((size_t)set->nparts + 1, sizeof *w.items);
     int code = w.packed && w.items ? 0 : no_memory(err);

@@ -99,7 +99,7 @@ int zip_entry_write(RetexOutput *output, ZipList *list, const char *name, const 
     snprintf(entry->name, sizeof entry->name, "%s", name);
     uLong crc = crc32(0, NULL, 0);
     for (int i = 0; i < count; i++) {
-        crc = crc32_z(crc, pieces[i], bytes[i]);
+        crc = bytes[i] ? crc32_z(crc, pieces[i], bytes[i]) : crc; /* of no bytes at NULL it would begin anew */
         entry->bytes += bytes[i];
     }
     entry->crc = (uint32_t)crc;

@@ -87,14 +87,16 @@ double retex_round_bits(double value, int bits)
 }
 
 #define UV_STEP (1.0 / 32)
+#define UV_FINEST (1.0 / (1 << 18)) /* a 64th of a texel of a 4K texture: where all samples met one place */
 enum { SPREAD_BITS = 7 };      /* within 1/128: less than so few samples know of it */
 enum { CORRELATION_BITS = 6 }; /* of what it lacks to 1 */
 
 void uv_stats_store(const UvStats *stats, float mean[2], float spread[3])
 {
     double su = sqrt(stats->m2[0] / stats->weight), sv = sqrt(stats->m2[2] / stats->weight);
-    mean[0] = (float)retex_round_to(stats->mean[0], UV_STEP * su);
-    mean[1] = (float)retex_round_to(stats->mean[1], UV_STEP * sv);
+    /* + 0: no -0 */
+    mean[0] = (float)retex_round_to(stats->mean[0], fmax(UV_STEP * su, UV_FINEST)) + 0.0f;
+    mean[1] = (float)retex_round_to(stats->mean[1], fmax(UV_STEP * sv, UV_FINEST)) + 0.0f;
     spread[0] = (float)retex_round_bits(su, SPREAD_BITS), spread[1] = (float)retex_round_bits(sv, SPREAD_BITS);
     double correlation = su > 0 && sv > 0 ? stats->m2[1] / (stats->weight * su * sv) : 0;
     spread[2] = (float)copysign(1 - retex_round_bits(1 - fmin(fabs(correlation), 1), CORRELATION_BITS), correlation);

@@ -35,6 +35,13 @@ textures, and upright ones what loses nothing.
 - *EXR, radiance as plain JPEG* stores each image of light as a JPEG of that quality, scaled to its largest value and
   encoded as sRGB, and the rest as the set does: in layout `paper` that is what the paper does.
 
+Tried and left out, with the living room at 960x540 and 128 samples, and its light that no texture multiplies: JPEG XL
+(libjxl 0.7, effort 7) takes 380 KB for a PSNR of 54.8 dB, in the levels that JPEGs have here, where JPEG takes 332;
+as rendered, with noise, 586 KB for 49.7, where JPEG takes 530. JPEG is coded for equal errors at all frequencies,
+JPEG XL for eyes. It decodes 12 to 35 million pixels a second on two cores. JPEGs that are recoded as JPEG XL without
+loss are 11 percent smaller, noisy ones 6, and decode no faster. For lossless packs JPEG XL takes as many bytes as
+their model, 0.98 to 1.06 for light and albedo, 0.8 for original textures, and decodes a fourth as fast.
+
 ![](pictures/storage.png)
 """
 

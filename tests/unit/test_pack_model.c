@@ -1,0 +1,153 @@
+/* Bands of numbers, predicted and coded by a model: every number comes back, in as few bytes as it should, and damaged
+ * data does no harm. */
+#include "lib_test.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "pack_model.h"
+
+enum { WIDTH = 61, ROWS = 29, ALL = WIDTH * ROWS };
+
+static PackModelBand make_band(int channels, int with_shifts)
+{
+    PackModelBand band;
+    const PackMap maps[PACK_MODEL_CHANNELS_MAX] = {{.kind = with_shifts ? PACK_MAP_LATTICE : PACK_MAP_BITS},
+                                                   {.kind = with_shifts ? PACK_MAP_LATTICE : PACK_MAP_BITS}};
+    assert_true(pack_model_alloc(&band, WIDTH, ROWS, channels, maps));
+    return band;
+}
+
+/* The numbers after encoding and decoding are the numbers; returns the bytes between. */
+static size_t there_and_back(const PackModelBand *band)
+{
+    PackModelBand back = make_band(band->channels, band->shifts[0] != NULL);
+    unsigned char *data;
+    const long bytes = pack_model_encode(&data, band);
+    assert_true(bytes >= 0);
+    for (int c = 0; c < band->channels; c++)
+        if (band->shifts[c])
+            memcpy(back.shifts[c], band->shifts[c], ALL);
+    assert_int_equal(pack_model_decode(&back, data, (size_t)bytes), 1);
+    for (int c = 0; c < band->channels; c++)
+        assert_memory_equal(back.numbers[c], band->numbers[c], ALL * sizeof *band->numbers[c]);
+    free(data);
+    pack_model_free(&back);
+    return (size_t)bytes;
+}
+
+static void test_any_numbers_come_back(void **state)
+{
+    (void)state;
+    uint32_t seed = 1;
+    for (int round = 0; round < 96; round++) {
+        const int channels = 1 + round % 4, kind = round / 4 % 4, holes = round / 16 % 3, steps = round / 48;
+        PackModelBand band = make_band(channels, steps);
+        for (int c = 0; c < channels; c++)
+            for (int i = 0; i < ALL; i++) {
+                const double noise = test_random(&seed), wide = ldexp(noise - 0.5, 32);
+                const int32_t smooth = 40 + i % WIDTH + (c + 1) * (i / WIDTH) + (int)(9 * noise);
+                int32_t n = kind == 0   ? (int32_t)fmax(wide, INT32_MIN)
+                            : kind == 1 ? smooth
+                                        : 1000 * (smooth / 7) - 9000;
+                if (kind == 3 && c > 0) /* what the channel before says */
+                    n = 3 * band.numbers[c - 1][i] / 4 + 5;
+                if (holes && test_random(&seed) < (holes == 1 ? 0.2 : 0.99))
+                    n = 0;
+                if (band.shifts[c]) {
+                    const int shift = band.shifts[c][i] = (unsigned char)(13 * test_random(&seed));
+                    n = (int32_t)((uint32_t)(n >> shift) << shift);
+                }
+                band.numbers[c][i] = n;
+            }
+        assert_true(there_and_back(&band) > 0);
+        pack_model_free(&band);
+    }
+}
+
+static void test_nothing_takes_no_bytes(void **state)
+{
+    (void)state;
+    PackModelBand band = make_band(3, 0);
+    for (int c = 0; c < 3; c++)
+        memset(band.numbers[c], 0, ALL * sizeof *band.numbers[c]);
+    assert_int_equal(there_and_back(&band), 0);
+    pack_model_free(&band);
+}
+
+/* Extremes, whose differences do not fit into a number. */
+static void test_extremes_come_back(void **state)
+{
+    (void)state;
+    uint32_t seed = 3;
+    const int32_t extremes[] = {INT32_MIN, INT32_MAX, 0, -1, 1, INT32_MIN + 1};
+    PackModelBand band = make_band(2, 0);
+    for (int c = 0; c < 2; c++)
+        for (int i = 0; i < ALL; i++)
+            band.numbers[c][i] = extremes[(int)(6 * test_random(&seed))];
+    there_and_back(&band);
+    pack_model_free(&band);
+}
+
+/* Noise takes its entropy; a channel that follows from the others, or from its neighbours, next to nothing; so do bits
+ * that are always 0. */
+static void test_what_can_be_predicted_is_small(void **state)
+{
+    (void)state;
+    uint32_t seed = 5;
+    PackModelBand band = make_band(1, 0), three = make_band(3, 0);
+    for (int i = 0; i < ALL; i++)
+        band.numbers[0][i] = 5000 + (int)(256 * test_random(&seed));
+    const size_t noise = there_and_back(&band);
+    assert_in_range(noise, ALL, ALL * 112 / 100);
+    for (int i = 0; i < ALL; i++) {
+        three.numbers[0][i] = band.numbers[0][i];
+        three.numbers[1][i] = band.numbers[0][i] + 77;
+        three.numbers[2][i] = 2 * band.numbers[0][i] - 300;
+        band.numbers[0][i] = 7 * (i % WIDTH) - 11 * (i / WIDTH);
+    }
+    assert_true(there_and_back(&three) < noise + 500);
+    assert_true(there_and_back(&band) < 300);
+    for (int i = 0; i < ALL; i++)
+        band.numbers[0][i] = (int32_t)(32 * test_random(&seed)) << 20;
+    assert_true(there_and_back(&band) < ALL * 5 / 8 * 115 / 100);
+    pack_model_free(&band);
+    pack_model_free(&three);
+}
+
+static void test_damaged_data_does_no_harm(void **state)
+{
+    (void)state;
+    uint32_t seed = 7;
+    PackModelBand band = make_band(3, 0);
+    for (int c = 0; c < 3; c++)
+        for (int i = 0; i < ALL; i++)
+            band.numbers[c][i] = (int32_t)(900 * test_random(&seed) * test_random(&seed)) - 60 * c;
+    unsigned char *data;
+    const long bytes = pack_model_encode(&data, &band);
+    assert_true(bytes > 8);
+    for (long cut = 1; cut < bytes; cut += 1 + cut / 8)
+        assert_int_equal(pack_model_decode(&band, data, (size_t)(bytes - cut)), 0);
+    for (int round = 0; round < 200; round++) {
+        const size_t at = (size_t)((double)bytes * test_random(&seed));
+        const unsigned char was = data[at];
+        data[at] = (unsigned char)(256 * test_random(&seed));
+        pack_model_decode(&band, data, (size_t)bytes);
+        data[at] = was;
+    }
+    free(data);
+    pack_model_free(&band);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_any_numbers_come_back),     cmocka_unit_test(test_nothing_takes_no_bytes),
+        cmocka_unit_test(test_extremes_come_back),        cmocka_unit_test(test_what_can_be_predicted_is_small),
+        cmocka_unit_test(test_damaged_data_does_no_harm),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
