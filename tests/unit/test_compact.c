@@ -100,20 +100,20 @@ static RetexSet *compacted(const RetexSet *set, int broad, int later, int gain)
 }
 
 /* The set's picture with constant textures, or the originals. */
-static RetexImage picture(const RetexSet *set, const float *grey)
+static RetexImage picture(const RetexSet *set, const float *constant)
 {
     RetexTextureSpec specs[RETEX_MAX_TARGETS];
     RetexSamples *samples = NULL;
     RetexImage image = {0};
     RetexError err = {0};
-    for (int t = 0; t < set->ntargets && grey; t++) {
+    for (int t = 0; t < set->ntargets && constant; t++) {
         specs[t] = (RetexTextureSpec)RETEX_TEXTURE_SPEC_INIT;
         strcpy(specs[t].target, set->targets[t].name);
         specs[t].constant = 1;
         for (int c = 0; c < 3; c++)
-            specs[t].color[c] = grey[c];
+            specs[t].color[c] = constant[c];
     }
-    if (grey)
+    if (constant)
         test_must(retex_sample(&samples, set, specs, set->ntargets, 1, &err), &err);
     test_must(retex_combine(&image, set, samples, NULL, NULL, 1, &err), &err);
     retex_samples_close(&samples);
@@ -121,9 +121,9 @@ static RetexImage picture(const RetexSet *set, const float *grey)
 }
 
 /* Within a thousandth of the brightest. */
-static void expect_same_picture(const RetexSet *a, const RetexSet *b, const float *grey)
+static void expect_same_picture(const RetexSet *a, const RetexSet *b, const float *constant)
 {
-    RetexImage one = picture(a, grey), other = picture(b, grey);
+    RetexImage one = picture(a, constant), other = picture(b, constant);
     float most = 0;
     for (int i = 0; i < 3 * WIDE * HIGH; i++)
         most = fmaxf(most, one.pixels[i]);
@@ -136,7 +136,9 @@ static void expect_same_picture(const RetexSet *a, const RetexSet *b, const floa
 
 /* ---- tests ---- */
 
-static const float half[] = {0.5f, 0.5f, 0.5f}, bright[] = {0.9f, 0.6f, 0.1f};
+/* What further hits are taken to meet where gains are too small to tell: see retex-set(5). */
+static const float grey[] = {0.6f, 0.6f, 0.6f};
+static const float white[] = {1, 1, 1}, bright[] = {0.9f, 0.6f, 0.1f};
 
 static void grey_is_exact_at_all_scales(void **state)
 {
@@ -144,7 +146,7 @@ static void grey_is_exact_at_all_scales(void **state)
     for (int ntargets = 1; ntargets <= 3; ntargets++)
         for (int scale = 1; scale <= 8; scale *= 2) {
             RetexSet *set = whole_set(ntargets, 3), *compact = compacted(set, scale, scale, scale);
-            expect_same_picture(set, compact, half);
+            expect_same_picture(set, compact, grey);
             retex_set_close(&set);
             retex_set_close(&compact);
         }
@@ -190,7 +192,7 @@ static void energy_is_kept_in_one_image(void **state)
             term->nfactors && term->factors[0] >= 0 ? set->footprints[term->factors[0]].kind : RETEX_FOOTPRINT_HIT;
         const int again = term->nfactors > 1 && term->factors[0] == RETEX_MIXTURE(0); /* of the sharp clusters */
         if (kind == RETEX_FOOTPRINT_SHARP || again)
-            should += sum_of(set, term->radiance) * pow(0.5, term->nfactors - 1);
+            should += sum_of(set, term->radiance) * pow(0.6, term->nfactors - 1);
     }
     const int part = retex_set_find_part(compact, "dep_T0_sharp");
     assert_true(part > 0);
@@ -202,7 +204,7 @@ static void energy_is_kept_in_one_image(void **state)
     retex_set_close(&compact);
 }
 
-/* A broad cluster's weight is its share of the block's light: codes that pack it have nothing above 1. */
+/* A cluster's weight is its share of the block's light: codes that pack it have nothing above 1. */
 static void weights_are_shares(void **state)
 {
     (void)state;
@@ -212,7 +214,7 @@ static void weights_are_shares(void **state)
         for (int k = 0; k < compact->mixtures[m].nshares; k++) {
             const RetexPart *part = &compact->parts[compact->mixtures[m].shares[k].weight];
             const RetexImage *weight = &part->image;
-            if (strncmp(part->name, "weight_", 7) != 0 || !strstr(part->name, "_broad"))
+            if (strncmp(part->name, "weight_", 7) != 0)
                 continue;
             for (size_t i = 0; i < (size_t)weight->width * (size_t)weight->height; i++, seen++)
                 assert_true(weight->pixels[i] >= 0 && weight->pixels[i] <= 1);
@@ -220,6 +222,86 @@ static void weights_are_shares(void **state)
     assert_true(seen > 0);
     retex_set_close(&compact);
     retex_set_close(&set);
+}
+
+/* Of eleven orders six are kept: white is exact, and so is the grey that all light was made for. */
+static void few_orders_tell_of_many(void **state)
+{
+    const float light[] = {0.7f, 0.7f, 0.7f};
+    (void)state;
+    for (int ntargets = 1; ntargets <= 2; ntargets++) {
+        RetexSet *set = whole_set(ntargets, 2);
+        const int later = ntargets > 1 ? RETEX_MIXTURE(set->nmixtures - 1) : RETEX_MIXTURE(2);
+        const int before = set->nterms;
+        uint32_t seed = 3;
+        for (int order = 3; order <= 11; order++)
+            add_term(set, 1 + order, RETEX_MIXTURE(0), later);
+        for (int i = before; i < set->nterms; i++)
+            fill_light(set, set->terms[i].radiance, &seed);
+        RetexSet *compact = compacted(set, 4, 8, 1);
+        int many = 0;
+        for (int i = 0; i < compact->nterms; i++)
+            many += compact->terms[i].nfactors > 3;
+        assert_int_equal(many, 4); /* 3, 5, 8 and 11 */
+        expect_same_picture(set, compact, white);
+        expect_same_picture(set, compact, grey);
+        RetexImage is = picture(compact, light), should = picture(set, light);
+        for (int i = 0; i < 3 * WIDE * HIGH; i++)
+            assert_float_equal(is.pixels[i], should.pixels[i], 0.05f * should.pixels[i] + 1e-6f);
+        retex_image_free(&is);
+        retex_image_free(&should);
+        retex_set_close(&set);
+        retex_set_close(&compact);
+    }
+}
+
+/* A wall seen through a box filter, in four clusters whose shares and places are noisy, and pixels that see it by half:
+ * of the first the quarters of the pixel are kept, without noise. */
+static void even_pixels_are_quarters(void **state)
+{
+    static const char *const weights[] = {"weight_T0_sharp1", "weight_T0_sharp2", "weight_T0_sharp3",
+                                          "weight_T0_sharp4"};
+    const float step = 1.0f / 64;
+    RetexSet *set = start_set(WIDE, HIGH, 1);
+    uint32_t seed = 5;
+    (void)state;
+    strcpy(set->filter, "box");
+    for (int k = 0; k < 4; k++)
+        add_footprint(set, 0, RETEX_FOOTPRINT_SHARP, 1 + k, "RGB");
+    for (int k = 0; k < 4; k++)
+        add_term(set, 1, k, 0);
+    for (int y = 0; y < HIGH; y++)
+        for (int x = 0; x < WIDE; x++)
+            for (int k = 0; k < 4; k++) {
+                const float cut = 0.04f * (float)(test_random(&seed) - 0.5), side = x == 20 ? -0.1f : 0;
+                const float u = (float)x + side + (k < 2 ? -0.25f : 0.25f) + cut,
+                            v = (float)y + (k % 2 ? 0.25f : -0.25f);
+                const float light = 1 + 0.04f * (float)(test_random(&seed) - 0.5);
+                put(set, k, x, y, u * step, v * step, 0.3f);
+                put_spread(set, k, x, y, 0.1443f * step, 0.1443f * step, 0);
+                put_rgb(set, set->footprints[k].albedo, x, y, 0.5f, 0.5f, 0.5f);
+                put_rgb(set, set->terms[1 + k].radiance, x, y, light, light, light);
+            }
+    RetexSet *compact = compacted(set, 4, 8, 1);
+    assert_int_equal(compact->nfootprints, 4);
+    int quarters = 0;
+    for (int k = 0; k < 4; k++) {
+        const RetexFootprint *f = &compact->footprints[k];
+        const int weight = retex_set_find_part(compact, weights[k]);
+        for (int y = 0; y < HIGH; y++)
+            for (int x = 0; x < WIDE; x++) {
+                const float *uv = pixel(compact, f->uv, x, y), *spread = pixel(compact, f->spread, x, y);
+                if (x == 20) /* off the map: as it was */
+                    assert_float_equal(fabsf(uv[0] / step - (float)x + 0.1f), 0.25f, 0.04f);
+                quarters += fabsf(fabsf(uv[0] / step - (float)x) - 0.25f) < 0.012f &&
+                            fabsf(fabsf(uv[1] / step - (float)y) - 0.25f) < 0.012f &&
+                            fabsf(spread[0] / step - 0.25f / sqrtf(3)) < 0.006f &&
+                            *pixel(compact, weight, x, y) == 0.25f;
+            }
+    }
+    assert_true(quarters > 4 * HIGH * WIDE * 9 / 10);
+    retex_set_close(&set);
+    retex_set_close(&compact);
 }
 
 static void one_cluster_needs_no_mixture(void **state)
@@ -436,6 +518,8 @@ int main(void)
         cmocka_unit_test(originals_are_exact),
         cmocka_unit_test(energy_is_kept_in_one_image),
         cmocka_unit_test(weights_are_shares),
+        cmocka_unit_test(few_orders_tell_of_many),
+        cmocka_unit_test(even_pixels_are_quarters),
         cmocka_unit_test(one_cluster_needs_no_mixture),
         cmocka_unit_test(places_are_not_averaged_across_a_seam),
         cmocka_unit_test(empty_kinds_do_no_harm),

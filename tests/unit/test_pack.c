@@ -174,7 +174,7 @@ static void test_default_is_close_and_smaller(void **state)
             const float *before = uv->pixels + 3 * j, *after = back->parts[f->uv].image.pixels + 3 * j;
             for (size_t c = 0; c < 2 && before[2] > 0; c++)
                 assert_true(fabs((double)before[c] - (double)after[c]) <=
-                            fmax((double)spread->pixels[2 * j + c] / 15, 1.0 / 524288));
+                            fmax((double)spread->pixels[2 * j + c] / 7.5, 1.0 / 524288));
             assert_true((before[2] > 0) == (after[2] > 0));
             assert_true(fabs((double)before[2] - (double)after[2]) <= 0.2 * (double)before[2]);
         }

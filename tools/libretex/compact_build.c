@@ -172,15 +172,15 @@ static int make_gain(RetexImage *gain, const Compaction *work, int number, int r
 {
     const CompactKind *kind = &work->light->kinds[number];
     const int scale = work->scales->gains[number];
+    const CompactMixed mixed = work->scales->mixed[number];
     const RetexImage *sum = &work->set->parts[radiance].image;
-    RetexImage **all = work->cache ? &work->cache->gains[number][step_of(scale)] : NULL;
-    if (all && !*all && !(*all = calloc((size_t)kind->nagain + 1, sizeof **all)))
+    RetexImage **all = work->cache ? &work->cache->gains[number][step_of(scale)][mixed] : NULL;
+    if (all && !*all && !(*all = calloc((size_t)kind->ngains[mixed] + 1, sizeof **all)))
         return retex_fail(err, RETEX_ENOMEM, "not enough memory for gains");
     RetexImage *kept = all ? *all + place : gain;
     int code = RETEX_OK;
     if (!kept->pixels)
-        code = compact_make_gain(kept, work->light, kind, sum, place ? kind->again[place - 1] : -1, scale,
-                                 work->nthreads, err);
+        code = compact_make_gain(kept, work->light, kind, sum, place - 1, mixed, scale, work->nthreads, err);
     return code || !all ? code : retex_image_copy(gain, kept, err);
 }
 
@@ -192,10 +192,11 @@ void compact_cache_free(CompactCache *cache, const CompactLight *light)
             for (int k = 0; k < COMPACT_WAVES * RETEX_SHARES_MAX; k++)
                 retex_image_free(&cache->waves[i][j / 2][j % 2][k / RETEX_SHARES_MAX][k % RETEX_SHARES_MAX]);
         }
-        for (int step = 0; step < COMPACT_STEPS; step++) {
-            for (int k = 0; cache->gains[i][step] && k <= light->kinds[i].nagain; k++)
-                retex_image_free(&cache->gains[i][step][k]);
-            free(cache->gains[i][step]);
+        for (int j = 0; j < COMPACT_STEPS * COMPACT_CHOICES; j++) {
+            const int step = j / COMPACT_CHOICES, mixed = j % COMPACT_CHOICES;
+            for (int k = 0; cache->gains[i][step][mixed] && k <= light->kinds[i].ngains[mixed]; k++)
+                retex_image_free(&cache->gains[i][step][mixed][k]);
+            free(cache->gains[i][step][mixed]);
         }
         retex_image_free(&cache->sums[i]);
     }
@@ -313,39 +314,26 @@ static int later_factor(const Compaction *work, int factor)
                       : work->places[find_kind(work->light, old->footprints[factor].target, RETEX_FOOTPRINT_LATER)];
 }
 
-/* The gain's name is that of the radiance it replaces. */
 static int add_gain(Compaction *work, int number, int radiance, int place, RetexTerm *term, RetexError *err)
 {
     const CompactKind *kind = &work->light->kinds[number];
     const char *target = work->set->targets[kind->target].name, *name = kind_names[kind->kind];
-    const RetexSet *set = work->light->set;
-    const int old = place ? kind->again[place - 1] : -1;
     RetexImage gain = {0};
-    char whole[RETEX_NAME_MAX];
-    snprintf(whole, sizeof whole, "dep_%s_%s_", target, name);
     int code = make_gain(&gain, work, number, radiance, place, err);
-    if (code)
-        return code;
-    if (old < 0) {
-        code = move_image(work->set, &gain, "RGB", RETEX_HALF, &term->gain, err, "gain_%s_%s", target, name);
-    } else {
-        const char *part = set->parts[set->terms[old].radiance].name;
-        const size_t common = strncmp(part, whole, strlen(whole)) == 0 ? strlen(whole) : 0;
-        code = move_image(work->set, &gain, "RGB", RETEX_HALF, &term->gain, err, "gain_%s_%s_%s", target, name,
-                          part + common);
-    }
+    if (!code)
+        code = move_image(work->set, &gain, "RGB", RETEX_HALF, &term->gain, err, "gain_%s_%s%s%s", target, name,
+                          place ? "_" : "", place ? kind->gains[work->scales->mixed[number]][place - 1].name : "");
     retex_image_free(&gain);
     return code;
 }
 
 static int add_term(Compaction *work, int number, int radiance, int place, int with_gain, RetexError *err)
 {
-    const int old = place ? work->light->kinds[number].again[place - 1] : -1;
     RetexTerm term = {.kind = RETEX_TERM_DEP, .nfactors = 1};
-    if (old >= 0)
-        term = work->light->set->terms[old];
+    if (place)
+        term = work->light->kinds[number].gains[work->scales->mixed[number]][place - 1].term;
     term.radiance = radiance;
-    term.factors[0] = old < 0 ? work->places[number] : work->again[number];
+    term.factors[0] = place ? work->again[number] : work->places[number];
     for (int k = 1; k < term.nfactors; k++)
         term.factors[k] = later_factor(work, term.factors[k]);
     int code = with_gain ? add_gain(work, number, radiance, place, &term, err) : RETEX_OK;
@@ -367,7 +355,7 @@ static int add_terms(Compaction *work, int number, RetexError *err)
                           work->set->targets[kind->target].name, kind_names[kind->kind]);
     if (!code && owns)
         code = add_term(work, number, radiance, 0, kind->nagain > 0, err);
-    for (int i = 0; i < kind->nagain && !code; i++)
+    for (int i = 0; i < kind->ngains[work->scales->mixed[number]] && !code; i++)
         code = add_term(work, number, radiance, i + 1, 1, err);
     retex_image_free(&sum);
     return code;

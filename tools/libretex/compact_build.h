@@ -12,6 +12,7 @@
 typedef struct CompactScales {
     int clusters[COMPACT_KINDS]; /* footprints and weights; those of later ones must be the same */
     int gains[COMPACT_KINDS];
+    CompactMixed mixed[COMPACT_KINDS];
     int split[COMPACT_KINDS]; /* 1: light that goes on has weights of its own */
 } CompactScales;
 
@@ -25,7 +26,7 @@ typedef struct CompactCache {
     CompactClusters clusters[COMPACT_KINDS][COMPACT_STEPS][2];
     RetexImage waves[COMPACT_KINDS][COMPACT_STEPS][2][COMPACT_WAVES][RETEX_SHARES_MAX];
     RetexImage sums[COMPACT_KINDS];
-    RetexImage *gains[COMPACT_KINDS][COMPACT_STEPS];
+    RetexImage *gains[COMPACT_KINDS][COMPACT_STEPS][COMPACT_CHOICES];
 } CompactCache;
 void compact_cache_free(CompactCache *cache, const CompactLight *light);
 

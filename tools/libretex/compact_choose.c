@@ -24,9 +24,9 @@
 #define GROUPS_MOST 64
 #define KINDS_APART 6 /* more kinds than these, of three or more targets, are chosen for together */
 
-/* One choice: the scale of some kinds' footprints or gains, or whether light that goes on has weights of its own; of
- * sharp ones it always has, for textures show every letter there. */
-typedef enum What { CLUSTERS, GAINS, SPLIT } What;
+/* One choice: the scale of some kinds' footprints or gains, whether light that goes on has weights of its own (of sharp
+ * ones it always has, for textures show every letter there), or whether many further hits are those on any target. */
+typedef enum What { CLUSTERS, GAINS, SPLIT, MIXED } What;
 
 typedef struct Choice {
     What what;
@@ -39,7 +39,7 @@ typedef struct Choice {
 
 /* A kind's pictures at some scales. */
 typedef struct Shown {
-    int clusters, gains, split, later;
+    int clusters, gains, split, mixed, later;
     RetexImage pictures[COMPACT_TRIALS];
 } Shown;
 
@@ -65,8 +65,10 @@ static void apply(CompactScales *scales, const Choice *choice, int step)
             scales->clusters[kind] = 1 << step;
         else if (choice->what == GAINS)
             scales->gains[kind] = 1 << step;
-        else
+        else if (choice->what == SPLIT)
             scales->split[kind] = !step;
+        else
+            scales->mixed[kind] = step ? COMPACT_MIXED : COMPACT_APART;
     }
 }
 
@@ -78,7 +80,9 @@ static double numbers_of(const Choosing *work, const Choice *choice, int step)
         if (choice->what == CLUSTERS)
             numbers += (3 + 7.0 * kind->count) / (1 << (2 * step));
         else if (choice->what == GAINS)
-            numbers += 3.0 * (kind->nagain + 1) / (1 << (2 * step));
+            numbers += 3.0 * (kind->ngains[COMPACT_MIXED] + 1) / (1 << (2 * step));
+        else if (choice->what == MIXED)
+            numbers += step ? 0 : 3.0 / 16 * (kind->ngains[COMPACT_APART] - kind->ngains[COMPACT_MIXED]);
         else if (!step)
             numbers += kind->count / 16.0; /* of a usual size */
     }
@@ -94,7 +98,7 @@ static Choice *find_choice(Choosing *work, What what, const CompactKind *kind)
             return &work->choices[i];
     }
     Choice *choice = &work->choices[work->count++];
-    *choice = (Choice){.what = what, .steps = what == SPLIT ? 2 : STEPS};
+    *choice = (Choice){.what = what, .steps = what == SPLIT || what == MIXED ? 2 : STEPS};
     return choice;
 }
 
@@ -120,6 +124,8 @@ static void list_choices(Choosing *work, CompactScales *scales, const RetexCompa
             add_choice(work, GAINS, i);
         if (kind->nagain && kind->count > 1 && !sharp)
             add_choice(work, SPLIT, i);
+        if (kind->ngains[COMPACT_MIXED] < kind->ngains[COMPACT_APART])
+            add_choice(work, MIXED, i);
     }
 }
 
@@ -146,13 +152,14 @@ static int show_kind(Choosing *work, int kind, const CompactScales *scales, cons
     const Shown wanted = {.clusters = scales->clusters[kind],
                           .gains = scales->gains[kind],
                           .split = scales->split[kind],
+                          .mixed = (int)scales->mixed[kind],
                           .later = later_scale(work->light, scales)};
     int place = 0;
     for (; place < 2 && work->shown[kind][place].pictures[0].pixels; place++) {
         const Shown *shown = &work->shown[kind][place];
         *pictures = shown->pictures;
         if (shown->clusters == wanted.clusters && shown->gains == wanted.gains && shown->split == wanted.split &&
-            shown->later == wanted.later)
+            shown->mixed == wanted.mixed && shown->later == wanted.later)
             return RETEX_OK;
     }
     Shown *shown = &work->shown[kind][place < 1 ? 0 : 1];

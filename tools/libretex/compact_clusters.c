@@ -2,10 +2,13 @@
 #include "compact_clusters.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include <retex/parallel.h>
 #include <retex/uv_stats.h>
+
+#include "compact_even.h"
 
 #define POOL 12                  /* clusters kept apart while a block's are gathered */
 #define SHARE_STEP (1.0 / 512)   /* of weights */
@@ -31,6 +34,7 @@ typedef struct ClustersWork {
     const CompactKind *kind;
     int scale, split;
     unsigned char *lit;
+    UvStats *whole; /* of pixels that see one place evenly, or NULL; weight 0 where they do not */
 } ClustersWork;
 
 static double merging_cost(const Pool *pool, int i, int j)
@@ -88,23 +92,41 @@ static void add_cluster(Pool *pool, const Cluster *cluster)
         merge_cheapest(pool);
 }
 
-/* Whether the two merged have the places and the shape of each of them: by the variances along u and v, and the area.
- * A texel of a large texture's size is nothing. */
+/* Second moments of a place, with those of a texel of a large texture's size, which is nothing. */
+typedef struct Shape {
+    double uu, uv, vv, area;
+} Shape;
+
+static Shape shape_of(const UvStats *place)
+{
+    Shape shape = {place->m2[0] / place->weight + TEXEL, place->m2[1] / place->weight,
+                   place->m2[2] / place->weight + TEXEL, 0};
+    shape.area = sqrt(fmax(shape.uu * shape.vv - shape.uv * shape.uv, 0));
+    return shape;
+}
+
+/* Whether the two have the place and the shape of both merged: by the variances along u and v, and the area. */
+static int are_same(const Shape *each, const Shape *merged)
+{
+    const double more = SAME_VARIANCE;
+    int same = 1;
+    for (int k = 0; k < 2; k++)
+        same &=
+            merged->uu <= more * each[k].uu && merged->vv <= more * each[k].vv && merged->area <= more * each[k].area;
+    return same;
+}
+
+/* Whether the two merged are what they are apart. */
 static int are_one_place(const Pool *pool, int i, int j)
 {
-    const UvStats *each[] = {&pool->of[i].place, &pool->of[j].place};
-    UvStats merged = *each[0];
-    uv_stats_merge(&merged, each[1], pool->periodic);
-    const double uu = merged.m2[0] / merged.weight + TEXEL, uv = merged.m2[1] / merged.weight;
-    const double vv = merged.m2[2] / merged.weight + TEXEL;
-    for (int k = 0; k < 2; k++) {
-        const double w = each[k]->weight, a = each[k]->m2[0] / w + TEXEL, b = each[k]->m2[1] / w;
-        const double c = each[k]->m2[2] / w + TEXEL, more = SAME_VARIANCE;
-        if (uu > more * a || a > more * uu || vv > more * c || c > more * vv ||
-            uu * vv - uv * uv > more * more * (a * c - b * b))
+    const UvStats *const places[] = {&pool->of[i].place, &pool->of[j].place};
+    UvStats both = *places[0];
+    uv_stats_merge(&both, places[1], pool->periodic);
+    const Shape each[] = {shape_of(places[0]), shape_of(places[1])}, merged = shape_of(&both);
+    for (int k = 0; k < 2; k++)
+        if (each[k].uu > SAME_VARIANCE * merged.uu || each[k].vv > SAME_VARIANCE * merged.vv)
             return 0;
-    }
-    return 1;
+    return are_same(each, &merged);
 }
 
 static void merge_places(Pool *pool)
@@ -165,10 +187,25 @@ static void gather_cluster(const ClustersWork *work, int k, size_t pixel, const 
     }
 }
 
+/* Of the later footprints that a pixel has, of all targets: only how they compare counts. */
+static double sum_of_shares(const CompactLight *light, size_t pixel)
+{
+    const RetexSet *set = light->set;
+    double sum = 0;
+    for (int i = 0; i < light->nkinds; i++) {
+        const CompactKind *kind = &light->kinds[i];
+        for (int k = 0; k < kind->count && kind->kind == RETEX_FOOTPRINT_LATER; k++)
+            if (set->parts[set->footprints[kind->footprints[k]].uv].image.pixels[3 * pixel + 2] > 0)
+                sum += kind->share[k] >= 0 ? (double)set->parts[kind->share[k]].image.pixels[pixel] : 1;
+    }
+    return sum;
+}
+
 /* Light of all terms of further hits; of that by share, for later footprints. */
 static double later_light(const ClustersWork *work, size_t pixel, ClusterLight of[RETEX_SHARES_MAX])
 {
     const RetexSet *set = work->light->set;
+    const double sum = sum_of_shares(work->light, pixel);
     double again = 0;
     for (int i = 0; i < set->nterms; i++) {
         const RetexTerm *term = &set->terms[i];
@@ -179,7 +216,8 @@ static double later_light(const ClustersWork *work, size_t pixel, ClusterLight o
     }
     for (int k = 0; k < work->kind->count; k++) {
         const int share = work->kind->share[k];
-        const double weight = again * (share >= 0 ? (double)set->parts[share].image.pixels[pixel] : 1);
+        const double part = share >= 0 ? (double)set->parts[share].image.pixels[pixel] : 1;
+        const double weight = sum > 0 ? again * part / sum : 0;
         of[k] = (ClusterLight){.again = {weight, weight, weight}};
     }
     return again;
@@ -253,6 +291,18 @@ static void store_block(const ClustersWork *work, size_t block, const Pool *pool
                                           : 0);
 }
 
+/* Of a pixel that may see one place evenly: that. One part, or, where the quarters of a pixel can be stored, more. */
+static void store_whole(const ClustersWork *work, size_t block, const Pool *pool)
+{
+    const UvStats *parts[POOL];
+    UvStats *whole = &work->whole[block];
+    for (int i = 0; i < pool->count; i++)
+        parts[i] = &pool->of[i].place;
+    if (!(pool->count == 1 || (pool->count > 1 && work->clusters->count >= 4)) ||
+        !compact_even_sum(whole, parts, pool->count, pool->periodic))
+        *whole = (UvStats){0};
+}
+
 static void blocks_job(void *context, int by, int thread)
 {
     const ClustersWork *work = context;
@@ -270,6 +320,8 @@ static void blocks_job(void *context, int by, int thread)
         merge_places(&pool);
         sort_places(&pool);
         store_block(work, block, &pool, all, &albedo);
+        if (work->whole)
+            store_whole(work, block, &pool);
         work->lit[block] = pool.count > 0;
     }
 }
@@ -345,23 +397,35 @@ int compact_clusters_make(CompactClusters *clusters, const CompactLight *light, 
                           int split, int nthreads, RetexError *err)
 {
     RetexImage lit = {0};
-    ClustersWork work = {clusters, light, kind, scale, split && kind->nagain, NULL};
+    ClustersWork work = {clusters, light, kind, scale, split && kind->nagain, NULL, NULL};
+    const int even = kind->kind == RETEX_FOOTPRINT_SHARP && scale == 1 && strcmp(light->set->filter, "box") == 0;
     *clusters = (CompactClusters){0};
     int code = alloc_images(clusters, &work, err);
     if (!code)
         code = retex_image_alloc(&lit, clusters->albedo.width, clusters->albedo.height, 1, err);
+    if (!code && even) {
+        work.whole = calloc((size_t)clusters->albedo.width * (size_t)clusters->albedo.height, sizeof *work.whole);
+        if (!work.whole)
+            code = retex_fail(err, RETEX_ENOMEM, "not enough memory for footprints");
+    }
     if (code) {
+        retex_image_free(&lit);
         compact_clusters_free(clusters);
         return code;
     }
     work.lit = (unsigned char *)lit.pixels;
     retex_parallel(nthreads, clusters->albedo.height, blocks_job, &work);
+    if (even)
+        code = compact_even_smooth(clusters, work.whole, light->set->targets[kind->target].periodic, nthreads, err);
+    free(work.whole);
     if (scale > 1)
         fill_holes(clusters, work.lit, kind->kind == RETEX_FOOTPRINT_LATER ? (float)SHARE_STEP : 1);
     while (clusters->count > 1 && is_empty(clusters, clusters->count - 1))
         free_cluster(clusters, --clusters->count);
     retex_image_free(&lit);
-    return RETEX_OK;
+    if (code)
+        compact_clusters_free(clusters);
+    return code;
 }
 
 void compact_clusters_free(CompactClusters *clusters)

@@ -10,7 +10,9 @@ typedef struct GainWork {
     const CompactLight *light;
     const CompactKind *kind;
     RetexImage *sum, *gain;
-    int term, scale;
+    int number;
+    CompactMixed mixed;
+    int scale;
 } GainWork;
 
 static void sum_row(void *context, int y, int thread)
@@ -46,7 +48,7 @@ static void term_light(const GainWork *work, size_t pixel, double rgb[3])
 {
     const RetexSet *set = work->light->set;
     rgb[0] = rgb[1] = rgb[2] = 0;
-    if (work->term < 0) {
+    if (work->number < 0) {
         for (int k = 0; k < work->kind->count; k++) {
             const int own = work->kind->own[k];
             if (own < 0 || !(set->parts[set->footprints[work->kind->footprints[k]].uv].image.pixels[3 * pixel + 2] > 0))
@@ -55,8 +57,14 @@ static void term_light(const GainWork *work, size_t pixel, double rgb[3])
                 rgb[c] += (double)set->parts[set->terms[own].radiance].image.pixels[3 * pixel + (size_t)c];
         }
     } else if (compact_shows_again(work->light, work->kind, pixel)) {
-        for (int c = 0; c < 3; c++)
-            rgb[c] = (double)set->parts[set->terms[work->term].radiance].image.pixels[3 * pixel + (size_t)c];
+        for (int i = 0; i < 2 * work->kind->nagain; i++) {
+            const CompactAgain *again = &work->kind->again[i / 2];
+            if (again->in[work->mixed][i % 2].gain != work->number)
+                continue;
+            for (int c = 0; c < 3; c++)
+                rgb[c] += again->in[work->mixed][i % 2].share *
+                          (double)set->parts[set->terms[again->term].radiance].image.pixels[3 * pixel + (size_t)c];
+        }
     }
 }
 
@@ -122,10 +130,10 @@ static int fill_holes(RetexImage *image, RetexError *err)
 }
 
 int compact_make_gain(RetexImage *gain, const CompactLight *light, const CompactKind *kind, const RetexImage *sum,
-                      int term, int scale, int nthreads, RetexError *err)
+                      int number, CompactMixed mixed, int scale, int nthreads, RetexError *err)
 {
     RetexImage borrowed = *sum;
-    GainWork work = {light, kind, &borrowed, gain, term, scale};
+    GainWork work = {light, kind, &borrowed, gain, number, mixed, scale};
     const int width = (light->set->width + scale - 1) / scale, height = (light->set->height + scale - 1) / scale;
     int code = retex_image_alloc(gain, width, height, 3, err);
     if (code)

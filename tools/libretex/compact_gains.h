@@ -8,8 +8,8 @@
 int compact_sum_light(RetexImage *sum, const CompactLight *light, const CompactKind *kind, int nthreads,
                       RetexError *err);
 
-/* The gain that makes a term, or the light of all clusters alone (-1), of the sum: RGB at a scale. */
+/* The gain that makes a term, one of the kind's, or the light of all clusters (-1), of the sum: RGB at a scale. */
 int compact_make_gain(RetexImage *gain, const CompactLight *light, const CompactKind *kind, const RetexImage *sum,
-                      int term, int scale, int nthreads, RetexError *err);
+                      int number, CompactMixed mixed, int scale, int nthreads, RetexError *err);
 
 #endif

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "compact_orders.h"
 #include "signals.h"
 
 static CompactKind *find_kind(CompactLight *light, int target, RetexFootprintKind kind)
@@ -91,7 +92,7 @@ static int sort_term(CompactLight *light, int number)
         if (kind->nagain && term->factors[0] != kind->first)
             return 0;
         kind->first = term->factors[0];
-        kind->again[kind->nagain++] = number;
+        kind->again[kind->nagain++].term = number;
         return 1;
     }
     for (int i = 0; i < kind->count; i++)
@@ -115,11 +116,20 @@ int compact_light_open(CompactLight *light, const RetexSet *set, int *understood
         light->kinds[i].again = light->again + (size_t)i * (size_t)set->nterms;
     for (int i = 0; i < set->nterms && *understood; i++)
         *understood = sort_term(light, i);
-    return RETEX_OK;
+    int code = RETEX_OK;
+    for (int i = 0; i < COMPACT_CHOICES * light->nkinds && *understood && !code; i++)
+        code = compact_orders_make(&light->kinds[i / COMPACT_CHOICES], set, i % COMPACT_CHOICES, err);
+    return code;
 }
 
 void compact_light_close(CompactLight *light)
 {
+    for (int i = 0; i < light->nkinds; i++) {
+        for (int k = 0; k < COMPACT_CHOICES; k++) {
+            free(light->kinds[i].gains[k]);
+            light->kinds[i].gains[k] = NULL;
+        }
+    }
     free(light->again);
     light->again = NULL;
 }
@@ -164,7 +174,7 @@ void compact_cluster_light(const CompactLight *light, const CompactKind *kind, s
     for (int k = 0; k < kind->count; k++)
         all += shares[k] = share_of(light, kind, k, pixel);
     for (int i = 0; i < kind->nagain && all > 0; i++) {
-        const RetexTerm *term = &set->terms[kind->again[i]];
+        const RetexTerm *term = &set->terms[kind->again[i].term];
         const float *radiance = set->parts[term->radiance].image.pixels + 3 * pixel, grey = compact_grey(term);
         for (int c = 0; c < 3; c++)
             again[c] += (double)(grey * radiance[c]);

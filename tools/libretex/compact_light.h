@@ -5,8 +5,26 @@
 #include <retex/set.h>
 
 /* What further hits are taken to meet where terms of several hits are added up. */
-#define COMPACT_GREY 0.5f
+#define COMPACT_GREY 0.6f
 #define COMPACT_KINDS (3 * RETEX_MAX_TARGETS)
+
+/* What makes a term of a kind's radiance in the compact set. */
+typedef struct CompactGain {
+    RetexTerm term; /* its factors, of the old set */
+    char name[RETEX_NAME_MAX];
+} CompactGain;
+
+/* Which of its gains a kind has: of many further hits either each target's, or those on any. */
+typedef enum CompactMixed { COMPACT_APART, COMPACT_MIXED, COMPACT_CHOICES } CompactMixed;
+
+/* An old term that goes on, and how much of its radiance is whose; gain -1 where nothing is. */
+typedef struct CompactAgain {
+    int term;
+    struct {
+        int gain;
+        double share;
+    } in[COMPACT_CHOICES][2];
+} CompactAgain;
 
 /* Footprints of one target and kind, with what says how much light is whose. */
 typedef struct CompactKind {
@@ -18,14 +36,16 @@ typedef struct CompactKind {
     int share[RETEX_SHARES_MAX]; /* the part that weighs it in a mixture, or -1 */
     int first;                   /* the factor that stands for all of them */
     int nagain;                  /* terms that begin with it and go on */
-    int *again;
+    CompactAgain *again;
+    int ngains[COMPACT_CHOICES];
+    CompactGain *gains[COMPACT_CHOICES];
 } CompactKind;
 
 typedef struct CompactLight {
     const RetexSet *set;
     int nkinds;
     CompactKind kinds[COMPACT_KINDS];
-    int *again; /* of all kinds */
+    CompactAgain *again; /* of all kinds */
 } CompactLight;
 
 /* Sort a set's footprints and terms. *understood = 0 where it has others than the renderer makes. */

@@ -9,13 +9,15 @@
 #include <retex/sample.h>
 
 #include "compact_build.h"
+#include "image_noise.h"
 #include "set_parts.h"
 
-#define TILE 64   /* pixels of a tile that count */
-#define MARGIN 16 /* on each side: two pixels of what is smallest */
-#define LENGTHS 3 /* of waves; other trials are of one colour */
-#define FLAT 1    /* variance in waves at which nothing is left of them */
-#define PROBE 8   /* pixels from one that is looked at to the next */
+#define TILE 64           /* pixels of a tile that count */
+#define MARGIN 16         /* on each side: two pixels of what is smallest */
+#define LENGTHS 3         /* of waves; other trials are of one colour */
+#define FLAT 1            /* variance in waves at which nothing is left of them */
+#define DENOISED_NOISE 10 /* times what is fine of what denoising leaves, is all of it, roughly */
+#define PROBE 8           /* pixels from one that is looked at to the next */
 
 /* ---- tiles ---- */
 
@@ -286,12 +288,17 @@ int compact_meter_show(RetexImage pictures[COMPACT_TRIALS], const CompactLight *
     return code;
 }
 
-/* Parts of noise on a picture of the originals, those of targets by half, for they are divided so. */
+/* Parts of noise on a picture of the originals, those of targets by half, for they are divided so. Of denoised sets
+ * they are not there: of what is left, the finest is seen in a picture of flat colours. */
 static int measure_noise(CompactMeter *meter, int nthreads, RetexError *err)
 {
     const RetexSet *set = meter->set;
     RetexImage picture = {0}, noise = {0};
     double sum = 0;
+    if (set->denoised) {
+        meter->noise = pow(DENOISED_NOISE * image_noise(&meter->pictures[LENGTHS], 255) / 255, 2);
+        return RETEX_OK;
+    }
     int code = retex_combine(&picture, set, NULL, NULL, NULL, nthreads, err);
     if (!code)
         code = retex_image_copy(&noise, &picture, err);

@@ -7,6 +7,9 @@
 
 #include <retex/parallel.h>
 
+#include "compact_light.h"
+#include "image_noise.h"
+
 double pack_quality_psnr(int quality)
 {
     return 20 + 0.4 * quality;
@@ -19,14 +22,21 @@ PackGrain pack_grain(double psnr)
     return (PackGrain){.jpeg_step = 1.8 * error,
                        .original_step = 3.6 * error,
                        .picture_step = fmax(14 * error, 5),
-                       .sharp = {fine ? 8 : 4, fine ? 8 : 4, fine ? 32 : 16},
-                       .broad = {4, 4, 8}};
+                       .sharp = {4, fine ? 8 : 4, fine ? 32 : 16},
+                       .broad = {2, 2, 4}};
 }
+
+#define FINE_NOISE 3     /* light's step is at most so many times its noise, */
+#define FINER_MOST 2     /* but this share of the quality's; */
+#define COARSE_NOISE 0.5 /* and at least so many times its noise, */
+#define COARSER_MOST 3   /* but not more than so many times the quality's */
+#define GAIN_STEP 2.5    /* of gains, of which many are added up, in that of their light */
 
 typedef enum Role {
     ROLE_NONE,
     ROLE_EXACT,
     ROLE_LIGHT,
+    ROLE_ALBEDO,
     ROLE_ORIGINAL,
     ROLE_GAIN,
     ROLE_MEAN,
@@ -48,6 +58,7 @@ typedef struct Planning {
     Role *roles;
     int *means; /* of a spread: its part of means */
     Range (*ranges)[PACK_CHANNELS_MAX];
+    double *noise; /* of light, in levels; -1 where there was no memory for it */
 } Planning;
 
 /* --- roles --- */
@@ -62,7 +73,7 @@ static void give_role(Planning *plan, int part, Role role)
 static void give_footprint_roles(Planning *plan, const RetexFootprint *f)
 {
     const RetexSet *set = plan->set;
-    give_role(plan, f->albedo, ROLE_LIGHT);
+    give_role(plan, f->albedo, ROLE_ALBEDO);
     if (f->uv < 0 || f->spread < 0) {
         give_role(plan, f->uv, ROLE_EXACT);
         give_role(plan, f->spread, ROLE_EXACT);
@@ -114,6 +125,25 @@ static void find_ranges(void *context, int part, int thread)
         }
         plan->ranges[part][c] = range;
     }
+}
+
+static void find_noise(void *context, int part, int thread)
+{
+    Planning *plan = context;
+    const RetexImage *im = &plan->set->parts[part].image;
+    const PackCurve curve = {.white = plan->white, .levels = 255};
+    const size_t count = (size_t)im->width * (size_t)im->height * (size_t)im->channels;
+    RetexImage levels = {0};
+    (void)thread;
+    if (plan->roles[part] != ROLE_LIGHT || part == 0)
+        return;
+    plan->noise[part] = -1;
+    if (retex_image_alloc(&levels, im->width, im->height, im->channels, NULL))
+        return;
+    for (size_t i = 0; i < count; i++)
+        levels.pixels[i] = (float)pack_curve_level(&curve, (double)im->pixels[i]);
+    plan->noise[part] = image_noise(&levels, 1);
+    retex_image_free(&levels);
 }
 
 static int all_positive(const Planning *plan, int part)
@@ -169,20 +199,30 @@ static void plan_weight(Planning *plan, int part)
     for (int c = 0; c < p->channels; c++) {
         const float most = plan->ranges[part][c].most;
         p->maps[c].kind = PACK_MAP_LINEAR;
-        p->maps[c].first = most > 0 ? (double)most / (PACK_CODES - 1) : 1;
+        p->maps[c].first = most > 0 ? (double)most / 64 : 1;
         pack_map_fill(&p->maps[c]);
     }
 }
 
-/* Gains say what share of the light is theirs were the texture of all further hits 0.5: white is all of it. */
+/* The step of light: by quality, but finer where there is nearly no noise, which costs little then, and coarser where
+ * there is so much that nothing can be seen of it. */
+static double light_step(const Planning *plan, int part)
+{
+    const double step = plan->grain->jpeg_step, noise = plan->noise[part];
+    if (FINE_NOISE * noise < step)
+        return fmax(FINE_NOISE * noise, step / FINER_MOST);
+    return fmax(step, fmin(COARSE_NOISE * noise, COARSER_MOST * step));
+}
+
+/* Gains say what share of the light is theirs were the texture of all further hits COMPACT_GREY: white is all of it. */
 static void plan_gain(Planning *plan, int part)
 {
     const RetexSet *set = plan->set;
-    int most = 1;
+    int most = 1, radiance = 0;
     for (int i = 0; i < set->nterms; i++)
-        if (set->terms[i].gain == part && set->terms[i].nfactors > most)
-            most = set->terms[i].nfactors;
-    plan_light(plan, part, exp2(most - 1), plan->grain->jpeg_step);
+        if (set->terms[i].gain == part && set->terms[i].nfactors >= most)
+            most = set->terms[i].nfactors, radiance = set->terms[i].radiance;
+    plan_light(plan, part, pow((double)COMPACT_GREY, 1 - most), GAIN_STEP * light_step(plan, radiance));
 }
 
 /* Means on lattices, standard deviations and coverage by their logarithm; where coverage is 0, nothing. */
@@ -281,6 +321,8 @@ static void plan_parts(Planning *plan)
         if (!zero && plan->grain && i == 0) /* viewers take the picture for sRGB */
             plan_light(plan, i, 1, plan->grain->picture_step);
         else if (!zero && plan->grain && plan->roles[i] == ROLE_LIGHT)
+            plan_light(plan, i, plan->white, light_step(plan, i));
+        else if (!zero && plan->grain && plan->roles[i] == ROLE_ALBEDO)
             plan_light(plan, i, plan->white, plan->grain->jpeg_step);
         else if (!zero && plan->grain && plan->roles[i] == ROLE_ORIGINAL)
             plan_light(plan, i, 1, plan->grain->original_step);
@@ -309,8 +351,11 @@ int pack_plan(PackPart *packed, const RetexSet *set, int lossless, const PackGra
                      lossless ? NULL : grain,
                      calloc(count + 1, sizeof *plan.roles),
                      calloc(count + 1, sizeof *plan.means),
-                     calloc(count + 1, sizeof *plan.ranges)};
-    int code = plan.roles && plan.means && plan.ranges ? 0 : retex_fail(err, RETEX_ENOMEM, "no memory to pack a set");
+                     calloc(count + 1, sizeof *plan.ranges),
+                     calloc(count + 1, sizeof *plan.noise)};
+    int code = plan.roles && plan.means && plan.ranges && plan.noise
+                   ? 0
+                   : retex_fail(err, RETEX_ENOMEM, "no memory to pack a set");
     for (int i = 0; !code && i < set->nparts; i++) {
         pack_part_begin(&packed[i], &set->parts[i]);
         if (packed[i].channels > PACK_CHANNELS_MAX)
@@ -320,11 +365,19 @@ int pack_plan(PackPart *packed, const RetexSet *set, int lossless, const PackGra
     if (!code) {
         give_roles(&plan);
         retex_parallel(nthreads, set->nparts, find_ranges, &plan);
+        if (plan.grain)
+            retex_parallel(nthreads, set->nparts, find_noise, &plan);
+        for (int i = 0; i < set->nparts && !code; i++)
+            if (plan.noise[i] < 0)
+                code = retex_fail(err, RETEX_ENOMEM, "no memory to pack a set");
+    }
+    if (!code) {
         plan_parts(&plan);
         plan_exact(&plan);
     }
     free(plan.roles);
     free(plan.means);
     free(plan.ranges);
+    free(plan.noise);
     return code;
 }
