@@ -5,21 +5,18 @@
  * rather than through OpenEXRCore's pipelines lets chunks be compressed on all threads before the file is even open,
  * and every byte of a damaged chunk be accounted for. */
 #include <limits.h>
+#include <stdint.h>
 #include <stdlib.h>
+#include <string.h>
 #include <zlib.h>
 #ifdef __SSE2__
 #include <emmintrin.h>
 #endif
 
+#include "deflate.h"
 #include "exr_zip.h"
 
-/* Radiance has noise in its low bits, where looking for repetitions finds few: coding runs and frequencies only (Z_RLE)
- * packs a rendered set 8% less tightly than level 4 does, at twice its speed, three times on pure noise. Writing counts
- * as part of a render; who wants a small file packs it. */
-static int start_deflating(z_stream *stream)
-{
-    return deflateInit2(stream, 1, Z_DEFLATED, 15, 9, Z_RLE);
-}
+enum { HEAD = 2, TAIL = 4 }; /* of a zlib stream: what it is, and a checksum */
 
 static int need_scratch(RetexZip *zip, size_t bytes)
 {
@@ -96,17 +93,17 @@ static void interleave(unsigned char *restrict raw, const unsigned char *restric
         raw[bytes - 1] = in[bytes / 2];
 }
 
-/* A deflater, or where inflating, an inflater, ready for a new stream. */
-static z_stream *ready(void **slot, int inflating)
+/* An inflater that is ready for a new stream. */
+static z_stream *ready(void **slot)
 {
     z_stream *stream = *slot;
 
     if (stream)
-        return (inflating ? inflateReset(stream) : deflateReset(stream)) == Z_OK ? stream : NULL;
+        return inflateReset(stream) == Z_OK ? stream : NULL;
     stream = calloc(1, sizeof *stream);
     if (!stream)
         return NULL;
-    if ((inflating ? inflateInit(stream) : start_deflating(stream)) != Z_OK) {
+    if (inflateInit(stream) != Z_OK) {
         free(stream);
         return NULL;
     }
@@ -114,24 +111,28 @@ static z_stream *ready(void **slot, int inflating)
     return stream;
 }
 
+/* Radiance has noise in its low bits, where looking for repetitions finds few, and writing counts as part of a render:
+ * who wants a small file packs it. */
 size_t retex_zip_pack(RetexZip *zip, unsigned char *packed, const unsigned char *raw, size_t bytes)
 {
-    z_stream *stream = ready(&zip->deflater, 0);
-
-    if (!stream || bytes < 2 || bytes > INT_MAX || !need_scratch(zip, 2 * bytes))
+    if (bytes <= HEAD + TAIL || bytes > INT_MAX || !need_scratch(zip, 2 * bytes))
         return 0;
     regroup(zip->scratch, raw, bytes);
     difference(zip->scratch + bytes, zip->scratch, bytes);
-    stream->next_in = zip->scratch + bytes;
-    stream->avail_in = (uInt)bytes;
-    stream->next_out = packed;
-    stream->avail_out = (uInt)bytes - 1; /* a chunk as long as its data would be taken for uncompressed */
-    return deflate(stream, Z_FINISH) == Z_STREAM_END ? stream->total_out : 0;
+    /* a chunk as long as its data would be taken for uncompressed */
+    const size_t coded = retex_deflate(packed + HEAD, bytes - 1 - HEAD - TAIL, zip->scratch + bytes, bytes, 1);
+    if (!coded)
+        return 0;
+    const uint32_t sum = (uint32_t)adler32_z(adler32(0, NULL, 0), zip->scratch + bytes, bytes);
+    memcpy(packed, "\x78\x01", HEAD); /* deflate, 32 KB, fastest */
+    for (int k = 0; k < TAIL; k++)
+        packed[HEAD + coded + (size_t)k] = (unsigned char)(sum >> 8 * (TAIL - 1 - k));
+    return HEAD + coded + TAIL;
 }
 
 int retex_zip_unpack(RetexZip *zip, unsigned char *raw, size_t bytes, const unsigned char *packed, size_t packed_bytes)
 {
-    z_stream *stream = ready(&zip->inflater, 1);
+    z_stream *stream = ready(&zip->inflater);
 
     if (!stream || bytes > INT_MAX || packed_bytes > INT_MAX || !need_scratch(zip, bytes))
         return 0;
@@ -148,11 +149,8 @@ int retex_zip_unpack(RetexZip *zip, unsigned char *raw, size_t bytes, const unsi
 
 void retex_zip_free(RetexZip *zip)
 {
-    if (zip->deflater)
-        deflateEnd(zip->deflater);
     if (zip->inflater)
         inflateEnd(zip->inflater);
-    free(zip->deflater);
     free(zip->inflater);
     free(zip->scratch);
     *zip = (RetexZip){0};
