@@ -39,10 +39,7 @@ size_t pack_plane_room(const PackPlane *plane)
 static size_t count_present(const PackPlane *plane)
 {
     const size_t all = (size_t)plane->width * (size_t)plane->rows;
-    size_t count = plane->present ? 0 : all;
-    for (size_t i = 0; plane->present && i < all; i++)
-        count += plane->present[i] != 0;
-    return count;
+    return plane->present ? pack_count_present(plane->present, all) : all;
 }
 
 /* --- encoding --- */

@@ -72,6 +72,11 @@ static inline int32_t in_steps(int32_t number, int shift)
     return shift ? add(number, 1 << (shift - 1)) >> shift : number;
 }
 
+/* How many are not 0. */
+size_t pack_count_present(const unsigned char *present, size_t count);
+/* 1 where numbers are not 0, else 0. */
+void pack_find_present(unsigned char *restrict present, const int32_t *restrict numbers, size_t count);
+
 /* The plane's numbers from the residuals of those that matter, each of so many bytes. The second is the reference. */
 void pack_restore(PackPlane *plane, Predictor predictor, const unsigned char *residuals, int bytes);
 void pack_restore_plainly(PackPlane *plane, Predictor predictor, const unsigned char *residuals, int bytes);

@@ -7,6 +7,25 @@
 #include <emmintrin.h>
 #endif
 
+size_t pack_count_present(const unsigned char *present, size_t count)
+{
+    size_t sum = 0;
+    for (size_t begin = 0; begin < count; begin += 255) { /* sums of bytes that fit into a byte */
+        const size_t n = count - begin < 255 ? count - begin : 255;
+        unsigned char part = 0;
+        for (size_t i = 0; i < n; i++)
+            part = (unsigned char)(part + (present[begin + i] != 0));
+        sum += part;
+    }
+    return sum;
+}
+
+void pack_find_present(unsigned char *restrict present, const int32_t *restrict numbers, size_t count)
+{
+    for (size_t i = 0; i < count; i++)
+        present[i] = numbers[i] != 0;
+}
+
 static inline uint32_t load(const unsigned char *from, int bytes)
 {
     return bytes == 1   ? from[0]
