@@ -77,7 +77,8 @@ size_t pack_count_present(const unsigned char *present, size_t count);
 /* 1 where numbers are not 0, else 0. */
 void pack_find_present(unsigned char *restrict present, const int32_t *restrict numbers, size_t count);
 
-/* The plane's numbers from the residuals of those that matter, each of so many bytes. The second is the reference. */
+/* The plane's numbers from the residuals of those that matter, each of so many bytes; behind the last may be read as
+ * many bytes again, whatever they are. The second is the reference. */
 void pack_restore(PackPlane *plane, Predictor predictor, const unsigned char *residuals, int bytes);
 void pack_restore_plainly(PackPlane *plane, Predictor predictor, const unsigned char *residuals, int bytes);
 

@@ -110,13 +110,11 @@ static inline void spread_present(int32_t *numbers, const unsigned char *present
             spread_all(numbers + i, 8, from, bytes, bits);
             from += 8 * bytes;
         } else {
-            for (size_t k = i; k < i + 8; k++)
-                if (present[k]) {
-                    numbers[k] = wide_number(from, bytes, bits);
-                    from += bytes;
-                } else {
-                    numbers[k] = 0;
-                }
+            for (size_t k = i; k < i + 8; k++) { /* without jumps, which nobody could foretell */
+                const int there = present[k] != 0;
+                numbers[k] = wide_number(from, bytes, bits) & -there;
+                from += there * bytes;
+            }
         }
     }
     for (; i < count; i++) {

@@ -104,17 +104,16 @@ static void choose_kernel(void)
     best_kernel = kernels[0];
 }
 
-static void unassociate(const float in[4], float *out)
+static inline void unassociate(const float in[4], float *out)
 {
-    float alpha = in[3];
+    const float alpha = in[3];
     if (!(alpha > LEAST_ALPHA)) {
         memset(out, 0, 4 * sizeof *out);
         return;
     }
-    float inverse = 1 / alpha;
-    for (int c = 0; c < 3; c++)
-        out[c] = in[c] * inverse;
-    out[3] = alpha < 1 ? alpha : 1;
+    Float4 color = load4(in) * (1 / alpha);
+    color[3] = alpha < 1 ? alpha : 1;
+    memcpy(out, &color, sizeof color);
 }
 
 void texture_filter_batches(TextureBatchKernel *kernel, const RetexTexture *texture, RetexTextureFilter shape,

@@ -325,7 +325,7 @@ INLINE void NAME(weigh_band)(Group *g, int number, Band *band)
 /* ---- sums ---- */
 
 /* A block's weights, footprint by footprint. */
-INLINE void NAME(turn_weights)(const Band *band, int block, float out[LANES][16])
+INLINE void NAME(turn_weights)(const Band *band, int block, float out[LANES][MAX_BLOCKS][16])
 {
     const Lanes *w[4];
     for (int j = 0; j < 4; j++)
@@ -348,10 +348,10 @@ INLINE void NAME(turn_weights)(const Band *band, int block, float out[LANES][16]
     for (int k = 0; k < 4; k++) {
         __m512 p = _mm512_shuffle_f32x4(b[k], b[k + 4], 0x88), q = _mm512_shuffle_f32x4(b[k], b[k + 4], 0xdd);
         __m512 r = _mm512_shuffle_f32x4(b[k + 8], b[k + 12], 0x88), s = _mm512_shuffle_f32x4(b[k + 8], b[k + 12], 0xdd);
-        _mm512_storeu_ps(out[k], _mm512_shuffle_f32x4(p, r, 0x88));
-        _mm512_storeu_ps(out[k + 8], _mm512_shuffle_f32x4(p, r, 0xdd));
-        _mm512_storeu_ps(out[k + 4], _mm512_shuffle_f32x4(q, s, 0x88));
-        _mm512_storeu_ps(out[k + 12], _mm512_shuffle_f32x4(q, s, 0xdd));
+        _mm512_storeu_ps(out[k][block], _mm512_shuffle_f32x4(p, r, 0x88));
+        _mm512_storeu_ps(out[k + 8][block], _mm512_shuffle_f32x4(p, r, 0xdd));
+        _mm512_storeu_ps(out[k + 4][block], _mm512_shuffle_f32x4(q, s, 0x88));
+        _mm512_storeu_ps(out[k + 12][block], _mm512_shuffle_f32x4(q, s, 0xdd));
     }
 #elif LANES == 8
     for (int j = 0; j < 4; j++) {
@@ -362,15 +362,15 @@ INLINE void NAME(turn_weights)(const Band *band, int block, float out[LANES][16]
             (__m256)_mm256_unpacklo_pd((__m256d)a, (__m256d)c), (__m256)_mm256_unpackhi_pd((__m256d)a, (__m256d)c),
             (__m256)_mm256_unpacklo_pd((__m256d)b, (__m256d)d), (__m256)_mm256_unpackhi_pd((__m256d)b, (__m256d)d)};
         for (int k = 0; k < 4; k++) {
-            _mm_storeu_ps(out[k] + 4 * j, _mm256_castps256_ps128(lanes[k]));
-            _mm_storeu_ps(out[k + 4] + 4 * j, _mm256_extractf128_ps(lanes[k], 1));
+            _mm_storeu_ps(out[k][block] + 4 * j, _mm256_castps256_ps128(lanes[k]));
+            _mm_storeu_ps(out[k + 4][block] + 4 * j, _mm256_extractf128_ps(lanes[k], 1));
         }
     }
 #else
     for (int lane = 0; lane < LANES; lane++)
         for (int j = 0; j < 4; j++)
             for (int c = 0; c < 4; c++)
-                out[lane][4 * j + c] = w[j][c][lane];
+                out[lane][block][4 * j + c] = w[j][c][lane];
 #endif
 }
 
@@ -451,7 +451,7 @@ INLINE Mask NAME(find_blocks)(const Group *g, int number, const Band *band, Mask
 
 INLINE void NAME(sum_band)(Group *g, int number, const Band *band, int turned, int narrow)
 {
-    float weights[MAX_BLOCKS][LANES][16], own[MAX_BLOCKS][16];
+    float weights[LANES][MAX_BLOCKS][16];
     int first[LANES], columns[LANES], rows[LANES], levels[LANES];
     Mask x, y, begin = NAME(find_blocks)(g, number, band, &x, &y);
     STORE(first, begin);
@@ -459,12 +459,11 @@ INLINE void NAME(sum_band)(Group *g, int number, const Band *band, int turned, i
     STORE(rows, y);
     STORE(levels, g->level);
     for (int k = 0; k < g->blocks; k++)
-        NAME(turn_weights)(band, k, weights[k]);
+        NAME(turn_weights)(band, k, weights);
     for (int lane = 0; lane < LANES; lane++) {
         const TextureLevel *level = &g->texture->texture->levels[levels[lane]];
         size_t stride = (size_t)(level->width + 2 * level->padding);
-        for (int k = 0; k < g->blocks; k++)
-            memcpy(own[k], weights[k][lane], sizeof own[k]);
+        const float(*own)[16] = (const float(*)[16])weights[lane];
         if (first[lane] >= 0) {
             const char *texels =
                 (const char *)(level->padded ? level->padded : level->texels) + (size_t)first[lane] * (narrow ? 8 : 16);
