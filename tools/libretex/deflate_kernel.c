@@ -14,8 +14,8 @@ enum {
     LONGEST = 14,  /* bits of a code: four of them fit into 64 bits beside the rest of a byte */
     LEAST_RUN = 3, /* of a copy */
     MOST_RUN = 258,
-    SOUGHT = 5, /* equal bytes in a row that are sure to be found where they begin at a multiple of 4, less 1 */
-    MOST_RUNS = BLOCK / SOUGHT + 1,
+    FEW_RUNS = 16, /* bytes for each of so few that shorter ones are not worth looking for */
+    MOST_RUNS = BLOCK / (LEAST_RUN + 1) + 1,
     LENGTH_SYMBOLS = 19, /* of the code that code lengths are written in */
     LENGTH_LONGEST = 7,
     SLACK = 16 /* bytes that may be written beyond the end */
@@ -62,8 +62,16 @@ static inline uint32_t load4(const unsigned char *at)
     return four;
 }
 
+static inline size_t end_of_run(const Block *block, size_t at)
+{
+    size_t end = at + 1;
+    while (end < block->count && block->bytes[end] == block->bytes[at])
+        end++;
+    return end;
+}
+
 /* Every fourth place is tried; a run that is found there is followed to both sides. */
-static void find_runs(Block *block)
+static void find_long_runs(Block *block)
 {
     const unsigned char *p = block->bytes;
     size_t end = 0; /* of the run before */
@@ -74,12 +82,29 @@ static void find_runs(Block *block)
         size_t begin = at;
         while (begin > end + 1 && p[begin - 2] == p[at])
             begin--;
-        for (end = at + 4; end < block->count && p[end] == p[at];)
-            end++;
+        end = end_of_run(block, at + 3);
         block->runs[block->nruns++] = (Run){(uint16_t)begin, (uint16_t)(end - begin)};
-        at = (end - 1) & ~(size_t)3; /* the next is one more than a multiple of 4 */
-        at -= 3;
+        at = ((end - 1) & ~(size_t)3) - 3; /* the next is one more than a multiple of 4 */
     }
+}
+
+static void find_all_runs(Block *block)
+{
+    block->nruns = 0;
+    for (size_t at = 0; at < block->count;) {
+        const size_t end = end_of_run(block, at), same = end - at - 1;
+        if (same >= LEAST_RUN)
+            block->runs[block->nruns++] = (Run){(uint16_t)(at + 1), (uint16_t)same};
+        at = end;
+    }
+}
+
+/* Where long runs are many, short ones will be too. */
+static void find_runs(Block *block)
+{
+    find_long_runs(block);
+    if (block->nruns > block->count / FEW_RUNS)
+        find_all_runs(block);
 }
 
 /* The copies that a run is, and what of it is too short for one. */
