@@ -1,4 +1,4 @@
-/* Deflating: what zlib inflates is what went in, of any bytes, at whatever length; and it is about as short as zlib's. */
+/* Deflating: what zlib inflates is what went in, of any bytes, at whatever length, and about as short as zlib's. */
 #include "lib_test.h"
 
 #include <stdlib.h>
@@ -131,7 +131,7 @@ static void test_as_short_as_zlib(void **state)
         deflateEnd(&stream);
         const double ours = (double)retex_deflate(packed, sizeof packed, bytes, MOST, 1);
         print_message("kind %d: %.0f bytes, zlib %.0f\n", round % KINDS, ours, theirs);
-        assert_true(ours > 0 && ours < 1.12 * theirs + 500); /* short runs are found by chance */
+        assert_true(ours > 0 && ours < 1.15 * theirs + 500); /* the shortest runs are left out */
     }
 }
 

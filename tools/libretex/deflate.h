@@ -9,8 +9,8 @@
 /* Room that is always enough for so many bytes. */
 size_t retex_deflate_room(size_t bytes);
 
-/* Blocks of a raw stream that stand for bytes. The last ends the stream; otherwise an empty block brings what comes next
- * to a whole byte. Returns how many bytes they take, or 0 where they do not fit into room. */
+/* Blocks of a raw stream that stand for bytes. The last ends the stream; otherwise an empty block brings what comes
+ * next to a whole byte. Returns how many bytes they take, or 0 where they do not fit into room. */
 size_t retex_deflate(unsigned char *packed, size_t room, const unsigned char *bytes, size_t count, int is_last);
 
 #endif

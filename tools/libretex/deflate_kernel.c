@@ -1,5 +1,5 @@
-/* See deflate.h. A block is as long as one that is not compressed can be. Its runs are found, its symbols counted, codes
- * made for them; then its size is known, so that nothing needs to be checked while it is written. */
+/* See deflate.h. A block is as long as one that is not compressed can be. Its runs are found, its symbols counted,
+ * codes made for them; then its size is known, so that nothing needs to be checked while it is written. */
 #include "deflate.h"
 
 #include <stdint.h>
@@ -14,7 +14,7 @@ enum {
     LONGEST = 14,  /* bits of a code: four of them fit into 64 bits beside the rest of a byte */
     LEAST_RUN = 3, /* of a copy */
     MOST_RUN = 258,
-    FEW_RUNS = 16, /* bytes for each of so few that shorter ones are not worth looking for */
+    FEW_RUNS = 32, /* bytes for each of them */
     MOST_RUNS = BLOCK / (LEAST_RUN + 1) + 1,
     LENGTH_SYMBOLS = 19, /* of the code that code lengths are written in */
     LENGTH_LONGEST = 7,
@@ -62,49 +62,31 @@ static inline uint32_t load4(const unsigned char *at)
     return four;
 }
 
-static inline size_t end_of_run(const Block *block, size_t at)
-{
-    size_t end = at + 1;
-    while (end < block->count && block->bytes[end] == block->bytes[at])
-        end++;
-    return end;
-}
-
-/* Every fourth place is tried; a run that is found there is followed to both sides. */
-static void find_long_runs(Block *block)
+/* Every step-th place is tried; a run that is found there is followed to both sides. */
+static inline void find_runs_by(Block *block, size_t step)
 {
     const unsigned char *p = block->bytes;
     size_t end = 0; /* of the run before */
     block->nruns = 0;
-    for (size_t at = 1; at + 4 <= block->count; at += 4) {
+    for (size_t at = 1; at + 4 <= block->count; at += step) {
         if (load4(p + at) != load4(p + at - 1))
             continue;
         size_t begin = at;
         while (begin > end + 1 && p[begin - 2] == p[at])
             begin--;
-        end = end_of_run(block, at + 3);
+        for (end = at + 4; end < block->count && p[end] == p[at];)
+            end++;
         block->runs[block->nruns++] = (Run){(uint16_t)begin, (uint16_t)(end - begin)};
-        at = ((end - 1) & ~(size_t)3) - 3; /* the next is one more than a multiple of 4 */
+        at += (end - 1 - at) / step * step;
     }
 }
 
-static void find_all_runs(Block *block)
-{
-    block->nruns = 0;
-    for (size_t at = 0; at < block->count;) {
-        const size_t end = end_of_run(block, at), same = end - at - 1;
-        if (same >= LEAST_RUN)
-            block->runs[block->nruns++] = (Run){(uint16_t)(at + 1), (uint16_t)same};
-        at = end;
-    }
-}
-
-/* Where long runs are many, short ones will be too. */
+/* Long ones first; where there are many, shorter ones are worth a closer look. */
 static void find_runs(Block *block)
 {
-    find_long_runs(block);
+    find_runs_by(block, 4);
     if (block->nruns > block->count / FEW_RUNS)
-        find_all_runs(block);
+        find_runs_by(block, 1);
 }
 
 /* The copies that a run is, and what of it is too short for one. */

@@ -1,5 +1,5 @@
-/* See pack_restore.h. Most planes are of codes that nothing predicts: those only have to be spread over the pixels where
- * they matter. Of the others the prediction is chosen once a plane, and what neighbours a number has by runs. */
+/* See pack_restore.h. Most planes are of codes that nothing predicts: those only have to be spread over the pixels
+ * where they matter. Of the others the prediction is chosen once a plane, and what neighbours a number has by runs. */
 #include "pack_restore.h"
 
 #include <string.h>

@@ -2,8 +2,8 @@
  * and ends at a whole byte, refers to nothing before it, and is an IDAT chunk. The checksum of all is put together from
  * those of the bands.
  *
- * Renders have noise in their low bits, where filters leave little to repeat: coding runs and frequencies only (deflate.h),
- * after the best of all filters, packs them as tightly as level 6 does in a sixth of the time. A drawing that repeats
+ * Renders have noise in their low bits, where filters leave little to repeat: coding runs and frequencies only, after
+ * the best of all filters, packs them as tightly as zlib's level 6 does, in much less time. A drawing that repeats
  * itself is packed less tightly. */
 #include <stdlib.h>
 #include <string.h>

@@ -432,7 +432,8 @@ INLINE void NAME(sum_texels)(float sums[16], const float weights[][16], int bloc
 #endif
 }
 
-/* Where a band's blocks lie in their levels: texels from the first one of the level's padded copy; -1 where some lie outside. */
+/* Where a band's blocks lie in their levels, or the padded copies of these: texels from the first one; -1 where some
+ * lie outside. */
 INLINE Mask NAME(find_blocks)(const Group *g, int number, const Band *band, Mask *x, Mask *y)
 {
     const BatchTexture *t = g->texture;
