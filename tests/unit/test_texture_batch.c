@@ -281,6 +281,10 @@ static void test_cut_alike(void **state)
         }
         test_must(retex_texture_create(&texture, &im, &spec, &err), &err);
         scatter(size[0], size[1], 0.2, size[0], 4, (uint32_t)n);
+        for (int i = 0; i < 3 * COUNT; i++) /* a mean of places on the surface is one too */
+            if (i % 3 < 2)
+                footprints.uv[i] =
+                    (float)(ends[i % 3][0] + (ends[i % 3][1] - ends[i % 3][0]) * ((double)footprints.uv[i] + 0.5) / 2);
         filter_singly(texture, RETEX_TEXTURE_GAUSSIAN, footprints.other);
         for (int k = 0; k < nkernels; k++) {
             double squares = 0, largest = 0;
@@ -293,8 +297,8 @@ static void test_cut_alike(void **state)
             }
             print_message("%d x %d, turned by %g: rms %.5f, at most %.4f\n", size[0], size[1], spec.rotate,
                           sqrt(squares / (4 * COUNT)), largest);
-            assert_true(sqrt(squares / (4 * COUNT)) < 5e-3); /* of white noise, fewest texels worst */
-            assert_true(largest < 0.2); /* where little is left of one */
+            assert_true(sqrt(squares / (4 * COUNT)) < 3e-3); /* of white noise */
+            assert_true(largest < 0.2);                      /* where little is left of one */
         }
         retex_texture_close(&texture);
         retex_image_free(&im);
