@@ -12,6 +12,7 @@
 #include <retex/uv_stats.h>
 
 #include "pack_bands.h"
+#include "pack_restore.h"
 #include "pack_jpeg_kernel.h"
 #include "pack_plan.h"
 
@@ -376,6 +377,37 @@ static void test_jpeg_kernels_agree(void **state)
     }
 }
 
+/* The fast way to restore planes against the plain one, of every predictor, whatever is missing. */
+static void test_planes_restored_alike(void **state)
+{
+    (void)state;
+    enum { WIDTH = 83, ROWS = 17, ALL = WIDTH * ROWS };
+    static int32_t numbers[2][ALL];
+    static unsigned char present[ALL], shift[ALL], residuals[4 * ALL + 4];
+    uint32_t seed = 7;
+    for (int round = 0; round < 3 * 3 * 4 * PREDICTORS * 3; round++) {
+        const int bits = 8 << round % 3, bytes = 1 << round / 3 % 3, holes = round / 9 % 2, steps = round / 18 % 2;
+        const Predictor predictor = (Predictor)(round / 36 % PREDICTORS);
+        const int rare = round / (36 * PREDICTORS); /* how often a run of what matters ends */
+        for (int i = 0; i < ALL; i++) {
+            const int change = i % WIDTH == 0 || test_random(&seed) < (rare == 0 ? 0.5 : rare == 1 ? 0.05 : 0.0);
+            present[i] = change || i == 0 ? test_random(&seed) < 0.6 : present[i - 1];
+            shift[i] = (unsigned char)(test_random(&seed) * 12);
+        }
+        for (size_t i = 0; i < sizeof residuals; i++)
+            residuals[i] = (unsigned char)(test_random(&seed) * 256);
+        for (int k = 0; k < 2; k++) {
+            PackPlane plane = {WIDTH, ROWS, bits, holes ? present : NULL, steps ? shift : NULL, numbers[k]};
+            (k ? pack_restore : pack_restore_plainly)(&plane, predictor, residuals, bytes);
+        }
+        assert_memory_equal(numbers[0], numbers[1], sizeof numbers[0]);
+        size_t count = 0;
+        for (int i = 0; i < ALL; i++)
+            count += present[i];
+        assert_int_equal(pack_count_present(present, ALL), count);
+    }
+}
+
 /* Any numbers come back, whatever is missing and whatever their steps, by every width. */
 static void test_planes_keep_numbers(void **state)
 {
@@ -719,6 +751,7 @@ int main(void)
         cmocka_unit_test(test_black_parts_cost_nothing),
         cmocka_unit_test(test_jpeg_keeps_levels),
         cmocka_unit_test(test_jpeg_kernels_agree),
+        cmocka_unit_test(test_planes_restored_alike),
         cmocka_unit_test(test_planes_keep_numbers),
         cmocka_unit_test(test_rows_are_those_of_the_whole),
         cmocka_unit_test(test_version_1_is_read),

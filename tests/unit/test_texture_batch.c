@@ -46,16 +46,28 @@ static void filter_singly(const RetexTexture *texture, RetexTextureFilter shape,
     }
 }
 
-static RetexTexture *make_texture(RetexImage *im, RetexWrap wrap_u, RetexWrap wrap_v)
+/* The surface, where it has ends: they cut most of the footprints that scatter() spreads more than a little. */
+static const double ends[2][2] = {{-0.2, 0.9}, {0.1, 1.3}};
+
+static RetexTexture *make_cut_texture(RetexImage *im, RetexWrap wrap_u, RetexWrap wrap_v, int cut)
 {
     RetexTextureSpec spec = RETEX_TEXTURE_SPEC_INIT;
     RetexTexture *texture;
     RetexError err = {0};
     spec.wrap[0] = wrap_u;
     spec.wrap[1] = wrap_v;
+    for (int axis = 0; axis < 2 && cut; axis++) {
+        spec.uv_min[axis] = ends[axis][0];
+        spec.uv_max[axis] = ends[axis][1];
+    }
     test_must(retex_texture_create(&texture, im, &spec, &err), &err);
     retex_image_free(im);
     return texture;
+}
+
+static RetexTexture *make_texture(RetexImage *im, RetexWrap wrap_u, RetexWrap wrap_v)
+{
+    return make_cut_texture(im, wrap_u, wrap_v, 0);
 }
 
 /* As if it had been read from a file of integers. */
@@ -81,11 +93,11 @@ static void test_same_bits(void **state)
     static const int sizes[][2] = {{64, 64}, {45, 27}, {300, 7}, {1, 40}, {1, 1}, {512, 256}};
     TextureBatchKernel *kernels[3];
     int nkernels = texture_batch_kernels(kernels);
-    for (int n = 0; n < 6 * 16; n++) {
-        const int *size = sizes[n / 16];
+    for (int n = 0; n < 2 * 6 * 16; n++) {
+        const int *size = sizes[n / 16 % 6], cut = n >= 6 * 16;
         RetexImage im = {0};
         test_random_image(&im, size[0], size[1], 4, (uint32_t)n, 0, 1);
-        RetexTexture *wide = make_texture(&im, (RetexWrap)(n % 4), (RetexWrap)(n / 4 % 4));
+        RetexTexture *wide = make_cut_texture(&im, (RetexWrap)(n % 4), (RetexWrap)(n / 4 % 4), cut);
         RetexTexture *textures[2] = {wide, narrowed(wide)};
         scatter(size[0], size[1], 0.05, 30, 40, (uint32_t)n);
         for (int i = 0; i < 4; i++) {
@@ -247,6 +259,81 @@ static void test_borders_alike(void **state)
     }
 }
 
+/* Gaussians that the surface's ends cut, little or much, on every way; also turned by quarters, and mirrored. */
+static void test_cut_alike(void **state)
+{
+    (void)state;
+    static const int sizes[][2] = {{512, 512}, {91, 37}, {8, 8}};
+    TextureBatchKernel *kernels[3];
+    int nkernels = texture_batch_kernels(kernels);
+    for (int n = 0; n < 3 * 4; n++) {
+        const int *size = sizes[n / 4];
+        RetexTextureSpec spec = RETEX_TEXTURE_SPEC_INIT;
+        RetexError err = {0};
+        RetexImage im = {0};
+        RetexTexture *texture;
+        test_random_image(&im, size[0], size[1], 3, (uint32_t)n, 0.2, 0.8);
+        spec.rotate = 90 * (n % 4);
+        spec.flip[0] = n % 2;
+        for (int axis = 0; axis < 2; axis++) {
+            spec.uv_min[axis] = ends[axis][0];
+            spec.uv_max[axis] = ends[axis][1];
+        }
+        test_must(retex_texture_create(&texture, &im, &spec, &err), &err);
+        scatter(size[0], size[1], 0.2, size[0], 4, (uint32_t)n);
+        for (int i = 0; i < 3 * COUNT; i++) /* a mean of places on the surface is one too */
+            if (i % 3 < 2)
+                footprints.uv[i] =
+                    (float)(ends[i % 3][0] + (ends[i % 3][1] - ends[i % 3][0]) * ((double)footprints.uv[i] + 0.5) / 2);
+        filter_singly(texture, RETEX_TEXTURE_GAUSSIAN, footprints.other);
+        for (int k = 0; k < nkernels; k++) {
+            double squares = 0, largest = 0;
+            texture_filter_batches(kernels[k], texture, RETEX_TEXTURE_GAUSSIAN, footprints.uv, footprints.spread, 3,
+                                   COUNT, footprints.rgba);
+            for (int i = 0; i < 4 * COUNT; i++) {
+                double e = fabs((double)footprints.rgba[i] - (double)footprints.other[i]);
+                squares += e * e;
+                largest = e > largest ? e : largest;
+            }
+            print_message("%d x %d, turned by %g: rms %.5f, at most %.4f\n", size[0], size[1], spec.rotate,
+                          sqrt(squares / (4 * COUNT)), largest);
+            assert_true(sqrt(squares / (4 * COUNT)) < 3e-3); /* of white noise */
+            assert_true(largest < 0.2);                      /* where little is left of one */
+        }
+        retex_texture_close(&texture);
+        retex_image_free(&im);
+    }
+}
+
+/* Small levels have more texels around them than the image has: what find_row and wrap_index say lies there. */
+static void test_small_levels_padded(void **state)
+{
+    (void)state;
+    for (int n = 0; n < 16; n++) {
+        RetexImage im = {0};
+        int padded = 0;
+        test_random_image(&im, 300, 277, 4, (uint32_t)n, 0, 1);
+        RetexTexture *texture = make_texture(&im, (RetexWrap)(n % 4), (RetexWrap)(n / 4 % 4));
+        assert_null(texture->levels[0].padded);
+        for (int l = 0; l < texture->nlevels; l++) {
+            const TextureLevel *level = &texture->levels[l];
+            const int edge = level->padding, width = level->width + 2 * edge;
+            for (int y = -edge; level->padded && y + 4 <= level->height + edge; y += 3)
+                for (int x = -edge; x + 4 <= level->width + edge; x += 3) {
+                    float block[4][16];
+                    texture_gather_block(texture, level, x, y, (char *)block);
+                    for (int j = 0; j < 4; j++) {
+                        size_t at = (size_t)(y + j + edge) * (size_t)width + (size_t)(x + edge);
+                        assert_memory_equal(block[j], (const float *)level->padded + 4 * at, sizeof block[j]);
+                    }
+                }
+            padded += level->padded != NULL;
+        }
+        assert_true(padded >= 6);
+        retex_texture_close(&texture);
+    }
+}
+
 /* ---- a texture that moves ---- */
 
 /* A footprint in steps of a fiftieth of a texel: it goes as smoothly as the reference, and the mean of its colours is
@@ -328,8 +415,10 @@ static void test_odd(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_same_bits),     cmocka_unit_test(test_pictures_alike), cmocka_unit_test(test_edges_alike),
-        cmocka_unit_test(test_borders_alike), cmocka_unit_test(test_steady),         cmocka_unit_test(test_odd),
+        cmocka_unit_test(test_same_bits),   cmocka_unit_test(test_pictures_alike),
+        cmocka_unit_test(test_edges_alike), cmocka_unit_test(test_borders_alike),
+        cmocka_unit_test(test_cut_alike),   cmocka_unit_test(test_small_levels_padded),
+        cmocka_unit_test(test_steady),      cmocka_unit_test(test_odd),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -26,11 +26,16 @@ static Place find_place(int i, int scale, int size)
     return place;
 }
 
+/* Numbers of the small image at a time: its rows are mixed there. */
+enum { NUMBERS = 1024 };
+_Static_assert(NUMBERS >= 4 * RETEX_MAX_CHANNELS, "a few pixels fit");
+
 /* Pixels from the centre of one of the small image's to that of the next: scale of them, or fewer where the row ends.
  * Of three channels, a fourth is written where the next pixel will be, unless the row ends there. */
-static inline float *draw_out(float *restrict out, const float *left, const float *right, int channels, int scale,
-                              int count, const float *end)
+static inline float *draw_out(float *restrict out, const float *left, int channels, int scale, int count,
+                              const float *end)
 {
+    const float *right = left + channels;
     const float step = 1 / (float)scale;
     float t = 0.5f * step; /* exact: scale is a power of two */
     if (channels == 3 && out + 3 * count < end) {
@@ -47,30 +52,42 @@ static inline float *draw_out(float *restrict out, const float *left, const floa
     return out;
 }
 
-/* Two of the small image's rows, mixed on the fly, drawn out to the width. */
-static void enlarge_row(const float *restrict upper, const float *restrict lower, float t, int size, int channels,
-                        int scale, int width, float *restrict out)
+/* Pixels begin <= i < end of the small image, those beyond its ends as the outermost, from two of its rows. */
+static inline void mix_rows(float *restrict out, const float *restrict upper, const float *restrict lower, float t,
+                            int begin, int end, int size, int channels)
 {
-    float ends[2][RETEX_MAX_CHANNELS] = {{0}};
-    float *left = ends[0], *right = ends[1];
+    const size_t pixel = (size_t)channels;
+    const int first = begin < 0 ? 0 : begin, last = end > size ? size : end;
+    float *inside = out + (size_t)(first - begin) * pixel;
+    upper += (size_t)first * pixel;
+    lower += (size_t)first * pixel;
+    const size_t count = (size_t)(last - first) * pixel;
+    for (size_t i = 0; i < count; i++)
+        inside[i] = upper[i] + t * (lower[i] - upper[i]);
+    if (begin < first)
+        memcpy(out, inside, pixel * sizeof *out);
+    if (end > last)
+        memcpy(inside + count, inside + count - pixel, pixel * sizeof *out);
+}
+
+/* Two of the small image's rows, mixed some pixels at a time, drawn out to the width. */
+static inline void enlarge_row(const float *restrict upper, const float *restrict lower, float t, int size,
+                               int channels, int scale, int width, float *restrict out)
+{
+    float mixed[NUMBERS + 1] = {0}; /* one more, for vectors of four */
     const float *end = out + (size_t)width * (size_t)channels;
-    int x = 0;
-    for (int c = 0; c < channels; c++)
-        left[c] = right[c] = upper[c] + t * (lower[c] - upper[c]);
-    for (int i = 0; x < width; i++) { /* to the centre of pixel i, and beyond the last */
-        const int rest = width - x, most = i ? scale : scale / 2;
-        if (i > 0 && i < size)
-            for (int c = 0; c < channels; c++) {
-                const float *a = upper + i * channels, *b = lower + i * channels;
-                right[c] = a[c] + t * (b[c] - a[c]);
-            }
-        else if (i > 0)
-            memcpy(right, left, sizeof *left * (size_t)channels);
-        out = draw_out(out, left, right, channels, scale, most < rest ? most : rest, end);
-        x += most;
-        float *reached = right;
-        right = left;
-        left = reached;
+    const int most = NUMBERS / channels - 1;
+    for (int i = 0, x = 0; x < width; i += most) {
+        const int intervals =
+            size + 1 - i < most ? size + 1 - i : most; /* each up to the centre of pixel i, i + 1, ... */
+        mix_rows(mixed, upper, lower, t, i - 1, i + intervals, size, channels);
+        for (int k = 0; k < intervals && x < width; k++) {
+            const int wanted = i + k ? scale : scale / 2, rest = width - x, count = wanted < rest ? wanted : rest;
+            const float *left = mixed + (size_t)(k * channels);
+            out = count == scale ? draw_out(out, left, channels, scale, scale, end)
+                                 : draw_out(out, left, channels, scale, count, end);
+            x += count;
+        }
     }
 }
 
@@ -83,8 +100,13 @@ void retex_enlarge_rows(const RetexImage *image, int scale, int width, int y0, i
             continue;
         }
         Place at = find_place(y, scale, image->height);
-        enlarge_row(image->pixels + retex_image_index(image, 0, at.first),
-                    image->pixels + retex_image_index(image, 0, at.next), at.t, image->width, image->channels, scale,
-                    width, out);
+        const float *upper = image->pixels + retex_image_index(image, 0, at.first);
+        const float *lower = image->pixels + retex_image_index(image, 0, at.next);
+        if (image->channels == 3 && scale == 2)
+            enlarge_row(upper, lower, at.t, image->width, 3, 2, width, out);
+        else if (image->channels == 3)
+            enlarge_row(upper, lower, at.t, image->width, 3, scale, width, out);
+        else
+            enlarge_row(upper, lower, at.t, image->width, image->channels, scale, width, out);
     }
 }

@@ -80,7 +80,7 @@ void retex_chunk_store(RetexChunkScratch *scratch, const RetexChunkShape *shape,
     int order[RETEX_EXR_LETTERS_MAX];
 
     channel_order(shape->letters, channels, order);
-    for (int c = 0; c < channels; c++)
+    for (int c = 0; c < channels && crc; c++)
         crc[c] = (uint32_t)crc32(0, NULL, 0);
     for (int y = 0; y < shape->lines; y++, pixels += line) {
         if (shape->type == RETEX_HALF)
@@ -91,7 +91,8 @@ void retex_chunk_store(RetexChunkScratch *scratch, const RetexChunkShape *shape,
                 take_plane_half((uint16_t *)(void *)raw, scratch->halves + c, shape->width, channels);
             else
                 take_plane_float(raw, pixels + c, shape->width, channels);
-            crc[c] = (uint32_t)crc32(crc[c], raw, (uInt)plane);
+            if (crc)
+                crc[c] = (uint32_t)crc32(crc[c], raw, (uInt)plane);
         }
     }
 }

@@ -43,6 +43,9 @@ int retex_exr_encode_rows(RetexExrEncoding *encoding, int y0, int y1, const floa
 int retex_exr_write(RetexExrEncoding *encoding, int width, int height, const char *attribute, const char *value,
                     const char *path, RetexError *err);
 void retex_exr_encoding_free(RetexExrEncoding **encoding);
+/* The beginning of a compressed file of one part, up to its table of chunks, which are RETEX_CHUNK_LINES lines each; to
+ * be freed. */
+int retex_exr_header(unsigned char **header, size_t *bytes, const RetexExrPart *part, RetexError *err);
 
 /* An EXR file opened for reading. */
 typedef struct RetexExr RetexExr;

@@ -488,3 +488,54 @@ int retex_exr_write(RetexExrEncoding *encoding, int width, int height, const cha
     free(sink.table);
     return status;
 }
+
+/* ---- the header alone ---- */
+
+/* User data of its write context. */
+typedef struct HeaderSink {
+    RetexExrMessage message; /* first: see exr_error.h */
+    unsigned char *bytes;
+    size_t count;
+} HeaderSink;
+
+static int64_t keep_header(exr_const_context_t context, void *data, const void *buffer, uint64_t bytes, uint64_t offset,
+                           exr_stream_error_func_ptr_t report)
+{
+    HeaderSink *sink = data;
+    (void)context;
+    (void)report;
+    if (offset != sink->count)
+        return -1;
+    unsigned char *more = realloc(sink->bytes, sink->count + (size_t)bytes + 1);
+    if (!more)
+        return -1;
+    sink->bytes = more;
+    memcpy(more + sink->count, buffer, (size_t)bytes);
+    sink->count += (size_t)bytes;
+    return (int64_t)bytes;
+}
+
+int retex_exr_header(unsigned char **header, size_t *bytes, const RetexExrPart *part, RetexError *err)
+{
+    exr_context_initializer_t settings = EXR_DEFAULT_CONTEXT_INITIALIZER;
+    HeaderSink sink = {.message = {PTHREAD_MUTEX_INITIALIZER, ""}};
+    RetexExrEncoding encoding = {.parts = (RetexExrPart *)part, .nparts = 1, .compress = 1};
+    exr_context_t context = NULL;
+
+    settings.error_handler_fn = retex_exr_message;
+    settings.user_data = &sink;
+    settings.write_fn = keep_header;
+    exr_result_t code = exr_start_write(&context, "header", EXR_WRITE_FILE_DIRECTLY, &settings);
+    if (!code)
+        code = write_file(context, &encoding, part->image->width, part->image->height, NULL, NULL, err);
+    *header = sink.bytes;
+    *bytes = sink.count;
+    if (context)
+        exr_finish(&context); /* it lacks its chunks, but the header is here already */
+    if (!code)
+        return 0;
+    free(*header);
+    *header = NULL;
+    return retex_fail(err, RETEX_EINTERNAL, "cannot lay out an EXR file: %s",
+                      sink.message.text[0] ? sink.message.text : exr_get_default_error_message(code));
+}

@@ -6,7 +6,7 @@
 
 /* What one thread needs to work on chunk after chunk. Begin with {0}. */
 typedef struct RetexZip {
-    void *deflater, *inflater;  /* z_stream */
+    void *inflater; /* z_stream */
     unsigned char *scratch;
     size_t scratch_bytes;
 } RetexZip;

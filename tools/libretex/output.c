@@ -220,6 +220,36 @@ int retex_output_write(RetexOutput *output, const void *data, size_t bytes, Rete
     return 0;
 }
 
+int retex_output_is_file(const char *path)
+{
+    RetexOutput *output = strcmp(path, "-") == 0 ? NULL : output_new(path, NULL);
+    int mode;
+    const int is_file = output && !resolve(output, path, &mode, NULL) && !output->direct;
+
+    retex_output_abandon(&output);
+    return is_file;
+}
+
+int retex_output_patch(RetexOutput *output, uint64_t at, const void *data, size_t bytes, RetexError *err)
+{
+    const unsigned char *from = data;
+    const int status = flush(output, err);
+
+    if (status)
+        return status;
+    while (bytes) {
+        const ssize_t written = pwrite(output->descriptor, from, bytes, (off_t)at);
+        if (written < 0 && errno == EINTR)
+            continue;
+        if (written <= 0)
+            return fail_system(output, written < 0 ? errno : EIO, err);
+        from += written;
+        at += (uint64_t)written;
+        bytes -= (size_t)written;
+    }
+    return 0;
+}
+
 /* Give a nameless file its name, in one step where nothing is there yet. Otherwise a hidden one: a link cannot replace
  * the old file, but the rename that follows at once can. */
 static int link_nameless(RetexOutput *output)

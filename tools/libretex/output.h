@@ -19,6 +19,11 @@ int retex_output_check(const char *path, RetexError *err);
 /* Append; buffered. */
 int retex_output_write(RetexOutput *output, const void *data, size_t bytes, RetexError *err);
 
+/* Whether path would be a regular file, of which parts may be written again. */
+int retex_output_is_file(const char *path);
+/* Write again, within what has been written already; of a regular file. */
+int retex_output_patch(RetexOutput *output, uint64_t at, const void *data, size_t bytes, RetexError *err);
+
 /* Flush, close, and put the file in its place. Nulls *output whatever happens; nothing partial is left on failure. */
 int retex_output_commit(RetexOutput **output, RetexError *err);
 

@@ -13,6 +13,7 @@
 #include "manifest.h"
 #include "pack_format.h"
 #include "pack_model.h"
+#include "pack_restore.h"
 #include "pack_v1.h"
 #include "pack_zip.h"
 #include "set_source.h"
@@ -388,8 +389,8 @@ static int decode_present(const RetexPack *pack, int part, int band, RetexPackSc
         return 0;
     int code = decode_numbers(pack, part, band, 2, NULL, NULL, s, err);
     const size_t pixels = (size_t)p->width * (size_t)pack_band_rows(p, band);
-    for (size_t i = 0; !code && i < pixels; i++)
-        s->present[i] = s->numbers[i] != 0;
+    if (!code)
+        pack_find_present(s->present, s->numbers, pixels);
     s->present_part = code ? -1 : part;
     s->present_band = band;
     return code;

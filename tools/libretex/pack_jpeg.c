@@ -271,19 +271,25 @@ void pack_jpeg_decoder_close(PackJpegDecoder **decoder)
     *decoder = NULL;
 }
 
-/* Make the file that of one band: its height, and the end where the next restart was. */
-static int patch(unsigned char *file, size_t header, size_t bytes, int rows)
+/* Make the file that of one band: its height, and the end where the next restart was. Restarts, of which there is none
+ * within a band, are left out, for libjpeg reads what may have some by a slower way. */
+static int patch(unsigned char *file, size_t header, size_t bytes, int width, int rows)
 {
+    const int blocks = (width + 7) / 8 * ((rows + 7) / 8);
+    int sized = 0;
     if (header < 4 || bytes < header + 2 || file[bytes - 2] != 0xff)
         return 0;
-    for (size_t at = 2; at + 9 < header; at += 2 + (size_t)(file[at + 2] << 8 | file[at + 3]))
-        if (file[at] == 0xff && file[at + 1] == 0xc0) { /* SOF0: length, precision, height */
+    for (size_t at = 2; at + 9 < header && file[at] == 0xff; at += 2 + (size_t)(file[at + 2] << 8 | file[at + 3])) {
+        if (file[at + 1] == 0xc0) { /* SOF0: length, precision, height */
             file[at + 5] = (unsigned char)(rows >> 8);
             file[at + 6] = (unsigned char)(rows & 255);
-            file[bytes - 1] = 0xd9; /* EOI */
-            return 1;
+            sized = 1;
+        } else if (file[at + 1] == 0xdd && (file[at + 4] << 8 | file[at + 5]) >= blocks) { /* DRI: length, interval */
+            file[at + 4] = file[at + 5] = 0;
         }
-    return 0;
+    }
+    file[bytes - 1] = 0xd9; /* EOI */
+    return sized;
 }
 
 /* The rows of blocks, component by component, and what they stand for. */
@@ -318,7 +324,7 @@ int pack_jpeg_decode_band(PackJpegDecoder *decoder, float *values, unsigned char
 {
     struct jpeg_decompress_struct *jpeg = &decoder->jpeg;
     const size_t room = (size_t)((width + 7) / 8) * 64 * 3;
-    if (!patch(file, header, bytes, rows))
+    if (!patch(file, header, bytes, width, rows))
         return retex_fail(err, RETEX_EFORMAT, "its JPEG has no proper header");
     if (room > decoder->room) {
         float *planes = realloc(decoder->planes, room * sizeof *planes);

@@ -8,82 +8,16 @@
 
 #include <blosc.h>
 
-/* How a number is predicted where its left, upper and upper left neighbours matter. At an edge of what matters it is by
- * the left one, else the upper one, else the last one that was met in the row. */
-typedef enum Predictor { BY_NOTHING, BY_LEFT, BY_UPPER, BY_GRADIENT, BY_MEDIAN, PREDICTORS } Predictor;
-
-static int32_t add(int32_t a, int32_t b)
-{
-    return (int32_t)((uint32_t)a + (uint32_t)b);
-}
-
-static int32_t subtract(int32_t a, int32_t b)
-{
-    return (int32_t)((uint32_t)a - (uint32_t)b);
-}
-
-/* The gradient, kept between the left and the upper neighbour. */
-static int32_t median(int32_t left, int32_t upper, int32_t corner)
-{
-    const int32_t low = left < upper ? left : upper, high = left < upper ? upper : left;
-    return corner >= high ? low : corner <= low ? high : add(left, subtract(upper, corner));
-}
-
-static inline int32_t predict(Predictor predictor, int32_t left, int32_t upper, int32_t corner)
-{
-    switch (predictor) {
-    case BY_LEFT:
-        return left;
-    case BY_UPPER:
-        return upper;
-    case BY_GRADIENT:
-        return add(left, subtract(upper, corner));
-    case BY_MEDIAN:
-        return median(left, upper, corner);
-    default:
-        return 0;
-    }
-}
+#include "pack_restore.h"
 
 static int32_t wrap_residual(int32_t value, int bits)
 {
     return bits == 8 ? (int8_t)value : bits == 16 ? (int16_t)value : value;
 }
 
-/* Numbers of 8 bits are codes from 0, others have a sign. */
-static int32_t wrap(int32_t value, int bits)
-{
-    return bits == 8 ? (uint8_t)value : bits == 16 ? (int16_t)value : value;
-}
-
 static uint32_t to_unsigned(int32_t residual)
 {
     return ((uint32_t)residual << 1) ^ (uint32_t)(residual >> 31);
-}
-
-static int32_t from_unsigned(uint32_t code)
-{
-    return (int32_t)(code >> 1 ^ (0u - (code & 1)));
-}
-
-/* The prediction of number x of the row at `row`, which has one above it unless it is the first. */
-static inline int32_t predict_at(const PackPlane *plane, Predictor predictor, size_t row, int x, int32_t last)
-{
-    const int32_t *n = plane->numbers + row;
-    const unsigned char *present = plane->present ? plane->present + row : NULL;
-    const ptrdiff_t above = -(ptrdiff_t)plane->width;
-    const int left = x > 0 && (!present || present[x - 1]), upper = row > 0 && (!present || present[above + x]);
-    if (left && upper && (!present || present[above + x - 1]))
-        return predict(predictor, n[x - 1], n[above + x], n[above + x - 1]);
-    if (predictor == BY_NOTHING)
-        return 0;
-    return left ? n[x - 1] : upper ? n[above + x] : last;
-}
-
-/* The multiple of 2^shift nearest to it, in those units. */
-static int32_t in_steps(int32_t number, int shift)
-{
-    return shift ? add(number, 1 << (shift - 1)) >> shift : number;
 }
 
 static uint32_t residual_at(const PackPlane *plane, Predictor predictor, size_t row, int x, int32_t last)
@@ -105,10 +39,7 @@ size_t pack_plane_room(const PackPlane *plane)
 static size_t count_present(const PackPlane *plane)
 {
     const size_t all = (size_t)plane->width * (size_t)plane->rows;
-    size_t count = plane->present ? 0 : all;
-    for (size_t i = 0; plane->present && i < all; i++)
-        count += plane->present[i] != 0;
-    return count;
+    return plane->present ? pack_count_present(plane->present, all) : all;
 }
 
 /* --- encoding --- */
@@ -208,66 +139,6 @@ long pack_plane_encode(unsigned char *data, const PackPlane *plane, unsigned cha
 
 /* --- decoding --- */
 
-static inline uint32_t load(const unsigned char *from, int bytes)
-{
-    return bytes == 1   ? from[0]
-           : bytes == 2 ? from[0] | (uint32_t)from[1] << 8
-                        : from[0] | (uint32_t)from[1] << 8 | (uint32_t)from[2] << 16 | (uint32_t)from[3] << 24;
-}
-
-/* Where numbers are missing or have steps. */
-static void restore_any(PackPlane *plane, Predictor predictor, const unsigned char *from, int bytes)
-{
-    int32_t last = 0;
-    for (int y = 0; y < plane->rows; y++)
-        for (int x = 0; x < plane->width; x++) {
-            const size_t row = (size_t)y * (size_t)plane->width;
-            int32_t *number = &plane->numbers[row + (size_t)x];
-            if (plane->present && !plane->present[row + (size_t)x]) {
-                *number = 0;
-                continue;
-            }
-            const int shift = plane->shift ? plane->shift[row + (size_t)x] : 0;
-            const int32_t guess = in_steps(predict_at(plane, predictor, row, x, last), shift);
-            const int32_t sum = add(guess, from_unsigned(load(from, bytes)));
-            *number = last = wrap((int32_t)((uint32_t)sum << shift), plane->bits);
-            from += bytes;
-        }
-}
-
-/* All numbers of a row but the first, by one predictor: what most of the time goes to. */
-static inline void restore_row(int32_t *n, const int32_t *above, Predictor predictor, const unsigned char *from,
-                               int bytes, int width, int bits)
-{
-    int32_t left = n[0];
-    for (int x = 1; x < width; x++) {
-        const int32_t guess = predict(predictor, left, above[x], above[x - 1]);
-        n[x] = left = wrap(add(guess, from_unsigned(load(from + x * bytes, bytes))), bits);
-    }
-}
-
-/* Where all numbers matter and have steps of 1. */
-static void restore_all(PackPlane *plane, Predictor predictor, const unsigned char *from, int bytes)
-{
-    const int width = plane->width, bits = plane->bits;
-    int32_t last = 0;
-    for (int y = 0; y < plane->rows; y++) {
-        const size_t row = (size_t)y * (size_t)width;
-        int32_t *n = plane->numbers + row;
-        for (int x = 0; x < (y == 0 ? width : 1); x++) {
-            const int32_t guess = predict_at(plane, predictor, row, x, last);
-            n[x] = last = wrap(add(guess, from_unsigned(load(from + x * bytes, bytes))), bits);
-        }
-        if (y > 0 && bytes == 1)
-            restore_row(n, n - width, predictor, from, 1, width, bits);
-        else if (y > 0 && bytes == 2)
-            restore_row(n, n - width, predictor, from, 2, width, bits);
-        else if (y > 0)
-            restore_row(n, n - width, predictor, from, 4, width, bits);
-        from += (size_t)width * (size_t)bytes;
-    }
-}
-
 int pack_plane_decode(PackPlane *plane, const unsigned char *data, size_t bytes, unsigned char *scratch)
 {
     const size_t all = (size_t)plane->width * (size_t)plane->rows;
@@ -283,9 +154,6 @@ int pack_plane_decode(PackPlane *plane, const unsigned char *data, size_t bytes,
         bytes < 1 + BLOSC_MIN_HEADER_LENGTH || blosc_cbuffer_validate(data + 1, bytes - 1, &unpacked) < 0 ||
         unpacked != size || blosc_decompress_ctx(data + 1, scratch, size, 1) != (int)size)
         return 0;
-    if (plane->present || plane->shift)
-        restore_any(plane, predictor, scratch, width);
-    else
-        restore_all(plane, predictor, scratch, width);
+    pack_restore(plane, predictor, scratch, width);
     return 1;
 }

@@ -1,28 +1,40 @@
-/* EXR of halves, scene-linear. The table of where chunks are comes before them, so the file is laid down at the end;
- * what is held until then is compressed, unless it goes to a pipe. */
+/* EXR of halves, scene-linear. The table of where chunks are comes before them: a file gets it in the end, where there
+ * was room for it; to a pipe nothing goes before all is there. */
 #include <stdlib.h>
 #include <string.h>
 
 #include "exr_io.h"
 #include "picture_format.h"
 
+enum { LEADER = 8, ENTRY = 8 }; /* bytes before a chunk: its first line, its size; of a table's entry */
+
 typedef struct ExrMaker {
     RetexImage shape; /* no pixels */
-    RetexExrEncoding *encoding;
+    RetexExrPart part;
+    RetexExrEncoding *encoding; /* for what is no file; or NULL, and: */
+    unsigned char *header;      /* up to the table */
+    size_t header_bytes;
+    uint64_t *chunks; /* bytes of each */
+    int nchunks;
 } ExrMaker;
 
 static int exr_begin(RetexPicture *picture, RetexError *err)
 {
     ExrMaker *maker = calloc(1, sizeof *maker);
-    RetexExrPart part = {.name = "beauty", .type = RETEX_HALF};
 
     if (!maker)
         return retex_fail(err, RETEX_ENOMEM, "no memory to write %s", picture->path);
     picture->maker = maker;
     maker->shape = (RetexImage){picture->width, picture->height, picture->channels, NULL};
-    part.image = &maker->shape;
-    strcpy(part.letters, picture->channels == 1 ? "Y" : picture->channels == 3 ? "RGB" : "RGBA");
-    return retex_exr_encoding_open(&maker->encoding, &part, strcmp(picture->path, "-") != 0, err);
+    maker->part = (RetexExrPart){.name = "beauty", .type = RETEX_HALF, .image = &maker->shape};
+    strcpy(maker->part.letters, picture->channels == 1 ? "Y" : picture->channels == 3 ? "RGB" : "RGBA");
+    if (!retex_output_is_file(picture->path))
+        return retex_exr_encoding_open(&maker->encoding, &maker->part, strcmp(picture->path, "-") != 0, err);
+    maker->nchunks = (picture->height + RETEX_CHUNK_LINES - 1) / RETEX_CHUNK_LINES;
+    maker->chunks = calloc((size_t)maker->nchunks, sizeof *maker->chunks);
+    if (!maker->chunks)
+        return retex_fail(err, RETEX_ENOMEM, "no memory to write %s", picture->path);
+    return retex_exr_header(&maker->header, &maker->header_bytes, &maker->part, err);
 }
 
 /* Colours in an EXR are multiplied by alpha. */
@@ -38,32 +50,114 @@ static float *associate(const float *rows, size_t pixels)
     return associated;
 }
 
+static void put_little(unsigned char *to, uint64_t value, int bytes)
+{
+    for (int i = 0; i < bytes; i++)
+        to[i] = (unsigned char)(value >> 8 * i);
+}
+
+/* Chunks of a band, one after the other. Returns their bytes, or 0 where memory is short. */
+static size_t make_chunks(ExrMaker *maker, unsigned char *to, int y0, int y1, const float *rows)
+{
+    RetexChunkScratch scratch = {.raw = NULL};
+    size_t at = 0;
+
+    for (int y = y0; y < y1; y += RETEX_CHUNK_LINES) {
+        const RetexChunkShape shape = {maker->part.letters, RETEX_HALF, maker->shape.width,
+                                       y1 - y < RETEX_CHUNK_LINES ? y1 - y : RETEX_CHUNK_LINES};
+        if (!retex_chunk_need(&scratch, &shape)) {
+            at = 0;
+            break;
+        }
+        retex_chunk_store(&scratch, &shape, rows + retex_image_index(&maker->shape, 0, y - y0), scratch.raw, NULL);
+        const size_t bytes = retex_chunk_pack(&scratch, scratch.raw, retex_chunk_bytes(&shape), to + at + LEADER);
+        put_little(to + at, (uint64_t)y, 4);
+        put_little(to + at + 4, bytes, 4);
+        maker->chunks[y / RETEX_CHUNK_LINES] = LEADER + bytes;
+        at += LEADER + bytes;
+    }
+    retex_chunk_free(&scratch);
+    return at;
+}
+
+/* The header and room for the table before the first band, and its chunks. */
+static unsigned char *make_piece(ExrMaker *maker, int y0, int y1, const float *rows, size_t *bytes)
+{
+    const RetexChunkShape shape = {maker->part.letters, RETEX_HALF, maker->shape.width, y1 - y0};
+    const size_t before = y0 == 0 ? maker->header_bytes + ENTRY * (size_t)maker->nchunks : 0;
+    const size_t leaders = (size_t)((y1 - y0 + RETEX_CHUNK_LINES - 1) / RETEX_CHUNK_LINES) * LEADER;
+    unsigned char *piece = malloc(before + leaders + retex_chunk_bytes(&shape));
+
+    if (!piece)
+        return NULL;
+    if (before) {
+        memcpy(piece, maker->header, maker->header_bytes);
+        memset(piece + maker->header_bytes, 0, before - maker->header_bytes);
+    }
+    *bytes = make_chunks(maker, piece + before, y0, y1, rows);
+    if (!*bytes) {
+        free(piece);
+        return NULL;
+    }
+    *bytes += before;
+    unsigned char *less = realloc(piece, *bytes);
+    return less ? less : piece;
+}
+
 static int exr_band(RetexPicture *picture, int band, const float *rows, RetexError *err)
 {
     ExrMaker *maker = picture->maker;
     const int y0 = band * RETEX_PICTURE_BAND, lines = retex_picture_band_lines(picture, band);
     float *associated = NULL;
+    unsigned char *piece = NULL;
+    size_t bytes = 0;
+    int status = 0;
 
     if (picture->channels == 4 && !(associated = associate(rows, (size_t)picture->width * (size_t)lines)))
         return retex_fail(err, RETEX_ENOMEM, "no memory to write %s", picture->path);
-    const int status = retex_exr_encode_rows(maker->encoding, y0, y0 + lines, associated ? associated : rows, err);
+    rows = associated ? associated : rows;
+    if (maker->encoding)
+        status = retex_exr_encode_rows(maker->encoding, y0, y0 + lines, rows, err);
+    else if (!(piece = make_piece(maker, y0, y0 + lines, rows, &bytes)))
+        status = retex_fail(err, RETEX_ENOMEM, "no memory to write %s", picture->path);
     free(associated);
-    return status ? status : retex_picture_lay(picture, band, NULL, 0, err);
+    return status ? status : retex_picture_lay(picture, band, piece, bytes, err);
+}
+
+/* Where all chunks are, as their table has it. */
+static int write_table(RetexPicture *picture, const ExrMaker *maker, RetexError *err)
+{
+    const size_t bytes = ENTRY * (size_t)maker->nchunks;
+    unsigned char *table = malloc(bytes);
+    uint64_t at = maker->header_bytes + bytes;
+
+    if (!table)
+        return retex_fail(err, RETEX_ENOMEM, "no memory to write %s", picture->path);
+    for (int i = 0; i < maker->nchunks; at += maker->chunks[i++])
+        put_little(table + ENTRY * (size_t)i, at, ENTRY);
+    const int status = retex_output_patch(picture->output, maker->header_bytes, table, bytes, err);
+    free(table);
+    return status;
 }
 
 static int exr_finish(RetexPicture *picture, RetexError *err)
 {
     ExrMaker *maker = picture->maker;
 
-    return retex_exr_write(maker->encoding, picture->width, picture->height, NULL, NULL, picture->path, err);
+    return maker->encoding
+               ? retex_exr_write(maker->encoding, picture->width, picture->height, NULL, NULL, picture->path, err)
+               : write_table(picture, maker, err);
 }
 
 static void exr_end(RetexPicture *picture)
 {
     ExrMaker *maker = picture->maker;
 
-    if (maker)
-        retex_exr_encoding_free(&maker->encoding);
+    if (!maker)
+        return;
+    retex_exr_encoding_free(&maker->encoding);
+    free(maker->header);
+    free(maker->chunks);
     free(maker);
 }
 

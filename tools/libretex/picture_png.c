@@ -2,19 +2,19 @@
  * and ends at a whole byte, refers to nothing before it, and is an IDAT chunk. The checksum of all is put together from
  * those of the bands.
  *
- * Renders have noise in their low bits, where filters leave little to repeat: coding runs and frequencies only (Z_RLE),
- * after the best of all filters, packs them as tightly as level 6 does in a sixth of the time. A drawing that repeats
+ * Renders have noise in their low bits, where filters leave little to repeat: coding runs and frequencies only, after
+ * the best of all filters, packs them as tightly as zlib's level 6 does, in much less time. A drawing that repeats
  * itself is packed less tightly. */
-#include <limits.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include <zlib.h>
 
+#include "deflate.h"
 #include "picture_format.h"
 #include "png_filter.h"
 
-enum { CHUNK_HEAD = 8, CHUNK_TAIL = 4, ZLIB_HEAD = 2, HEADER_ROOM = 256, FLUSH_ROOM = 64 };
+enum { CHUNK_HEAD = 8, CHUNK_TAIL = 4, ZLIB_HEAD = 2, HEADER_ROOM = 256 };
 
 typedef struct Sum {
     uint32_t adler;
@@ -93,25 +93,14 @@ static int filter_lines(unsigned char *filtered, const RetexPicture *picture, co
 static unsigned char *deflate_lines(const unsigned char *filtered, size_t bytes, int is_last, size_t head, size_t tail,
                                     size_t *packed_bytes)
 {
-    z_stream stream = {.next_in = (unsigned char *)filtered, .avail_in = (uInt)bytes};
-    unsigned char *data = NULL;
+    const size_t room = retex_deflate_room(bytes);
+    unsigned char *data = malloc(head + room + tail);
 
-    if (bytes > INT_MAX || deflateInit2(&stream, 1, Z_DEFLATED, -MAX_WBITS, MAX_MEM_LEVEL, Z_RLE) != Z_OK)
-        return NULL;
-    const size_t room = deflateBound(&stream, bytes) + FLUSH_ROOM;
-    data = malloc(head + room + tail);
-    if (data) {
-        stream.next_out = data + head;
-        stream.avail_out = (uInt)room;
-        const int code = deflate(&stream, is_last ? Z_FINISH : Z_SYNC_FLUSH);
-        if (stream.avail_in || !stream.avail_out || code != (is_last ? Z_STREAM_END : Z_OK)) {
-            free(data);
-            data = NULL;
-        }
-    }
-    *packed_bytes = stream.total_out;
-    deflateEnd(&stream);
-    return data;
+    *packed_bytes = data ? retex_deflate(data + head, room, filtered, bytes, is_last) : 0;
+    if (*packed_bytes)
+        return data;
+    free(data);
+    return NULL;
 }
 
 /* What a band adds to the file: the header before the first, and an IDAT chunk. */

@@ -9,6 +9,7 @@
 
 #include "combine_kernel.h"
 #include "enlarge.h"
+#include "polynomial_factors.h"
 
 #define ROWS_A_JOB 64 /* a pack's band */
 

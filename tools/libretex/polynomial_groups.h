@@ -24,13 +24,7 @@ int group_scale(const Polynomial *polynomial, const RetexTerm *term);
 
 /* ---- of polynomial.c ---- */
 
-/* Factors, mixtures and gains in one list. */
-int slot_of_factor(const RetexSet *set, int factor);
-int slot_of_gain(const RetexSet *set, int part);
-int slot_count(const RetexSet *set);
 int term_is_left_out(const RetexTerm *term, int cross);
-/* The image whose size a factor has; NULL where it is not there. */
-const RetexImage *factor_shape(const Polynomial *polynomial, int factor);
 /* A row of one channel as one of three, in place. */
 void spread_channel(float *row, size_t width);
 

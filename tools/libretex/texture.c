@@ -221,6 +221,7 @@ void retex_texture_close(RetexTexture **texture)
     for (int i = 0; i < TEXTURE_MAX_LEVELS; i++) {
         TextureLevel *level = &(*texture)->levels[i];
         free(level->texels);
+        free(level->padded);
         for (int k = 0; k < 2; k++) {
             free(level->sides[k]);
             free(level->ends[k]);

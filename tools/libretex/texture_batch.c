@@ -9,7 +9,6 @@
 #include "texture_kernel.h"
 
 #define LEAST_ALPHA 1e-20f /* less has no colour that float could tell */
-#define LITTLE 0.03f       /* of a footprint: it hardly matters where it goes */
 
 void texture_gather_block(const RetexTexture *texture, const TextureLevel *level, int x, int y, char *texels)
 {
@@ -41,6 +40,17 @@ static int count_levels(const RetexTexture *texture)
     return count;
 }
 
+/* Gaussians are cut off where the surface ends, discs are not: see RetexTextureSpec. There is such an end along an axis
+ * of the image as far as the texture is not turned against the surface. */
+static BatchLimit find_limit(const RetexTexture *texture, const BatchTexture *t, int axis)
+{
+    const RetexTextureSpec *spec = &texture->spec;
+    const int along = t->matrix[axis][0] == 0;
+    if (!t->gaussian || t->matrix[axis][!along] != 0 || !(spec->uv_min[along] < spec->uv_max[along]))
+        return (BatchLimit){.along = -1};
+    return (BatchLimit){along, (float)spec->uv_min[along], (float)spec->uv_max[along], (float)t->matrix[axis][along]};
+}
+
 static void prepare(BatchTexture *t, const RetexTexture *texture, RetexTextureFilter shape)
 {
     const TextureLevel *image = &texture->levels[0];
@@ -67,71 +77,11 @@ static void prepare(BatchTexture *t, const RetexTexture *texture, RetexTextureFi
             t->spread[axis][i] = alone ? 0 : 1;
             for (int k = 0; k < 2; k++)
                 t->blur[axis][k][i] = (float)level->blur[axis][k];
+            t->padding[i] = (float)level->padding;
         }
+        t->limits[axis] = find_limit(texture, t, axis);
+        t->limited |= t->limits[axis].along >= 0;
     }
-}
-
-/* Gaussians are cut off where the surface ends, discs are not: see RetexTextureSpec. Along which of the surface's axes
- * there is such an end, as far as the texture is not turned against it. */
-static int find_limits(const RetexTexture *texture, RetexTextureFilter shape, int limited[2])
-{
-    const RetexTextureSpec *spec = &texture->spec;
-    limited[0] = limited[1] = 0;
-    for (int axis = 0; axis < 2 && shape == RETEX_TEXTURE_GAUSSIAN; axis++) {
-        int along = texture->matrix[axis][0] == 0;
-        if (texture->matrix[axis][!along] == 0 && spec->uv_min[along] < spec->uv_max[along])
-            limited[along] = 1;
-    }
-    return limited[0] || limited[1];
-}
-
-static int near_limit(const RetexTextureSpec *spec, const int limited[2], const float *uv, const float *spread)
-{
-    for (int axis = 0; axis < 2; axis++) {
-        double reach = 3.5 * (double)spread[axis], at = (double)uv[axis];
-        if (limited[axis] && (at - reach < spec->uv_min[axis] || at + reach > spec->uv_max[axis]))
-            return 1;
-    }
-    return 0;
-}
-
-/* A normal distribution's part between low and high, both in standard deviations from its mean: its mean, and its
- * variance. Returns how much of it lies there. */
-static float truncate_normal(float low, float high, float *mean, float *variance)
-{
-    const float root = 0.70710678f, density = 0.39894228f;
-    float at_low = low > -8 ? density * expf(-0.5f * low * low) : 0;
-    float at_high = high < 8 ? density * expf(-0.5f * high * high) : 0;
-    float kept = 0.5f * (erff(high * root) - erff(low * root)), inverse = 1 / fmaxf(kept, 1e-6f);
-    *mean = (at_low - at_high) * inverse;
-    *variance = 1 + ((low > -8 ? low * at_low : 0) - (high < 8 ? high * at_high : 0)) * inverse - *mean * *mean;
-    return kept;
-}
-
-/* A footprint of which little is cut off where the surface ends becomes the Gaussian that has the mean and the
- * covariance of what is left. Returns 0 for those that lose more: they need to be cut exactly. */
-static int cut_footprint(const RetexTextureSpec *spec, const int limited[2], float uv[2], float spread[2],
-                          float *correlation)
-{
-    for (int axis = 0; axis < 2; axis++) {
-        float sd = spread[axis], mean, variance;
-        if (!limited[axis] || !(sd > 1e-9f))
-            continue;
-        float low = ((float)spec->uv_min[axis] - uv[axis]) / sd, high = ((float)spec->uv_max[axis] - uv[axis]) / sd;
-        if (low < -3.5f && high > 3.5f)
-            continue;
-        if (!(truncate_normal(low, high, &mean, &variance) > 1 - LITTLE))
-            return 0;
-        variance = fmaxf(variance, 0);
-        /* The other axis follows as far as it is correlated. */
-        float r = *correlation, other = 1 - r * r * (1 - variance);
-        uv[axis] += sd * mean;
-        uv[!axis] += spread[!axis] * r * mean;
-        spread[axis] = sd * sqrtf(variance);
-        spread[!axis] *= sqrtf(other);
-        *correlation = other > 0 ? r * sqrtf(variance / other) : 0;
-    }
-    return 1;
 }
 
 static void filter_one(const RetexTexture *texture, RetexTextureFilter shape, const float *uv, const float *spread,
@@ -154,17 +104,16 @@ static void choose_kernel(void)
     best_kernel = kernels[0];
 }
 
-static void unassociate(const float in[4], float *out)
+static inline void unassociate(const float in[4], float *out)
 {
-    float alpha = in[3];
+    const float alpha = in[3];
     if (!(alpha > LEAST_ALPHA)) {
         memset(out, 0, 4 * sizeof *out);
         return;
     }
-    float inverse = 1 / alpha;
-    for (int c = 0; c < 3; c++)
-        out[c] = in[c] * inverse;
-    out[3] = alpha < 1 ? alpha : 1;
+    Float4 color = load4(in) * (1 / alpha);
+    color[3] = alpha < 1 ? alpha : 1;
+    memcpy(out, &color, sizeof color);
 }
 
 void texture_filter_batches(TextureBatchKernel *kernel, const RetexTexture *texture, RetexTextureFilter shape,
@@ -173,7 +122,6 @@ void texture_filter_batches(TextureBatchKernel *kernel, const RetexTexture *text
     BatchTexture prepared;
     Batch batch;
     size_t from[BATCH_SIZE + 1];
-    int limited[2], any_limit = find_limits(texture, shape, limited);
     prepare(&prepared, texture, shape);
     for (size_t i = 0; i < n;) {
         batch.count = 0;
@@ -183,19 +131,13 @@ void texture_filter_batches(TextureBatchKernel *kernel, const RetexTexture *text
                 memset(rgba + 4 * i, 0, 4 * sizeof *rgba);
                 continue;
             }
-            float mean[2] = {at[0], at[1]}, sds[2] = {s[0], s[1]}, correlation = spreads == 3 ? s[2] : 0;
-            if (any_limit && near_limit(&texture->spec, limited, at, s) &&
-                !cut_footprint(&texture->spec, limited, mean, sds, &correlation)) {
-                filter_one(texture, shape, at, s, spreads, rgba + 4 * i);
-                continue;
-            }
             int k = batch.count++;
             from[k] = i;
-            batch.u[k] = mean[0];
-            batch.v[k] = mean[1];
-            batch.su[k] = sds[0];
-            batch.sv[k] = sds[1];
-            batch.correlation[k] = correlation;
+            batch.u[k] = at[0];
+            batch.v[k] = at[1];
+            batch.su[k] = s[0];
+            batch.sv[k] = s[1];
+            batch.correlation[k] = spreads == 3 ? s[2] : 0;
         }
         if (!batch.count)
             break;

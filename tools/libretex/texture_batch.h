@@ -11,6 +11,13 @@
 #define BATCH_LEVELS 16
 #define BATCH_SIZE 256 /* footprints in one call of a kernel */
 
+/* Where the surface, and with it every Gaussian, ends along an axis of the image. */
+typedef struct BatchLimit {
+    int along;       /* the surface's own axis, 0 u or 1 v; -1: no end */
+    float low, high; /* of the surface's UV */
+    float scale;     /* images a unit of UV, y down */
+} BatchLimit;
+
 /* A texture's placement and levels, as the kernels read them. */
 typedef struct BatchTexture {
     const RetexTexture *texture;
@@ -25,6 +32,9 @@ typedef struct BatchTexture {
     float inverse_area[3][BATCH_LEVELS]; /* what divides xx, xy and yy on a level */
     float blur[2][2][BATCH_LEVELS];      /* of axis and term: variance that a level has already */
     float spread[2][BATCH_LEVELS];       /* 0 along an axis of one texel that goes on for ever, else 1 */
+    float padding[BATCH_LEVELS];         /* texels that TextureLevel's origin has around a level */
+    BatchLimit limits[2];                /* of the image along x and y */
+    int limited;                         /* 1: some of them is one */
 } BatchTexture;
 
 /* In: live footprints. Out: premultiplied colours, and which of them the kernel left alone. */

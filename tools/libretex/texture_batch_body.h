@@ -13,6 +13,7 @@
 #define Places NAME(Places)
 #define Group NAME(Group)
 #define Spread NAME(Spread)
+#define Ends NAME(Ends)
 #define Double NAME(Double)
 #define DoubleMask NAME(DoubleMask)
 #define Half NAME(Half)
@@ -37,7 +38,8 @@ typedef int HalfMask __attribute__((vector_size(2 * LANES)));
 /* The smaller variance that a level leaves a disc, in its texels: of round ones, and of very long ones. */
 #define ROUND_LEAST 0.75f
 #define LONG_LEAST 0.3f
-#define BOX_FROM 0.36f /* the smaller variance from which level 0's texels need no interpolation */
+#define BOX_FROM 0.36f     /* the smaller variance from which level 0's texels need no interpolation */
+#define LEAST_KEPT 1e-3f   /* of a cut Gaussian; with less the reference goes on as if there were no end */
 #define LEAST_RADIUS 0.02f /* texels */
 /* A Gaussian ends at 3.25 standard deviations, lowered so that it is 0 there, which leaves it .9267 of its variance. */
 #define GAUSSIAN_REACH 3.25f
@@ -50,9 +52,9 @@ typedef int HalfMask __attribute__((vector_size(2 * LANES)));
 
 /* Rules of Gauss on 0..1, as in texture_disc_kernel.c: inside, after an ellipse's tip, before one, between both. */
 static const float batch_nodes[2][4] = {{0.21132487f, 0.2899492f, 0.17883809f, 0.25f},
-                                         {0.78867513f, 0.82116191f, 0.7100508f, 0.75f}};
+                                        {0.78867513f, 0.82116191f, 0.7100508f, 0.75f}};
 static const float batch_weights[2][4] = {{0.5f, 0.5154537f, 0.42939674f, 0.45344984f},
-                                           {0.5f, 0.42939674f, 0.5154537f, 0.45344984f}};
+                                          {0.5f, 0.42939674f, 0.5154537f, 0.45344984f}};
 #endif
 
 #if LANES == 16 /* which weights the texels of a block's row have; turned: [1] */
@@ -156,7 +158,9 @@ typedef struct Group {
     int turned, fine, bands, blocks, lines, columns;
     Lanes along, across, length, half, slope, lean, reach, first, line, texel; /* the last three: whole numbers */
     Mask level;
-    Lanes total;
+    int cut;               /* 1: the surface ends within some of the windows */
+    Lanes low[2], high[2]; /* its ends, by lines and texels, from the mean */
+    Lanes total, whole;    /* weights: what is left of them, and all */
     float sums[LANES][16]; /* four neighbouring texels' RGBA */
 } Group;
 
@@ -281,6 +285,21 @@ INLINE void NAME(weigh_gaussian)(Group *g, Band *band)
     }
 }
 
+/* Take off what lies beyond the surface's ends. */
+INLINE void NAME(cut_band)(Group *g, Band *band)
+{
+    Lanes across[4 * MAX_BLOCKS];
+    for (int c = 0; c < g->columns; c++)
+        across[c] = NAME(share_within)((float)c - band->middle, g->low[1], g->high[1]);
+    for (int j = 0; j < band->lines; j++) {
+        Lanes along = NAME(share_within)(band->begin + (float)j, g->low[0], g->high[0]);
+        for (int c = 0; c < g->columns; c++) {
+            g->whole += band->weights[j][c];
+            band->weights[j][c] *= along * across[c];
+        }
+    }
+}
+
 INLINE void NAME(weigh_band)(Group *g, int number, Band *band)
 {
     NAME(begin_band)(g, number, band);
@@ -296,6 +315,8 @@ INLINE void NAME(weigh_band)(Group *g, int number, Band *band)
     } else {
         NAME(weigh_boxes)(g, band);
     }
+    if (g->cut)
+        NAME(cut_band)(g, band);
     for (int j = 0; j < band->lines; j++)
         for (int c = 0; c < g->columns; c++)
             g->total += band->weights[j][c];
@@ -304,7 +325,7 @@ INLINE void NAME(weigh_band)(Group *g, int number, Band *band)
 /* ---- sums ---- */
 
 /* A block's weights, footprint by footprint. */
-INLINE void NAME(turn_weights)(const Band *band, int block, float out[LANES][16])
+INLINE void NAME(turn_weights)(const Band *band, int block, float out[LANES][MAX_BLOCKS][16])
 {
     const Lanes *w[4];
     for (int j = 0; j < 4; j++)
@@ -327,10 +348,10 @@ INLINE void NAME(turn_weights)(const Band *band, int block, float out[LANES][16]
     for (int k = 0; k < 4; k++) {
         __m512 p = _mm512_shuffle_f32x4(b[k], b[k + 4], 0x88), q = _mm512_shuffle_f32x4(b[k], b[k + 4], 0xdd);
         __m512 r = _mm512_shuffle_f32x4(b[k + 8], b[k + 12], 0x88), s = _mm512_shuffle_f32x4(b[k + 8], b[k + 12], 0xdd);
-        _mm512_storeu_ps(out[k], _mm512_shuffle_f32x4(p, r, 0x88));
-        _mm512_storeu_ps(out[k + 8], _mm512_shuffle_f32x4(p, r, 0xdd));
-        _mm512_storeu_ps(out[k + 4], _mm512_shuffle_f32x4(q, s, 0x88));
-        _mm512_storeu_ps(out[k + 12], _mm512_shuffle_f32x4(q, s, 0xdd));
+        _mm512_storeu_ps(out[k][block], _mm512_shuffle_f32x4(p, r, 0x88));
+        _mm512_storeu_ps(out[k + 8][block], _mm512_shuffle_f32x4(p, r, 0xdd));
+        _mm512_storeu_ps(out[k + 4][block], _mm512_shuffle_f32x4(q, s, 0x88));
+        _mm512_storeu_ps(out[k + 12][block], _mm512_shuffle_f32x4(q, s, 0xdd));
     }
 #elif LANES == 8
     for (int j = 0; j < 4; j++) {
@@ -341,15 +362,15 @@ INLINE void NAME(turn_weights)(const Band *band, int block, float out[LANES][16]
             (__m256)_mm256_unpacklo_pd((__m256d)a, (__m256d)c), (__m256)_mm256_unpackhi_pd((__m256d)a, (__m256d)c),
             (__m256)_mm256_unpacklo_pd((__m256d)b, (__m256d)d), (__m256)_mm256_unpackhi_pd((__m256d)b, (__m256d)d)};
         for (int k = 0; k < 4; k++) {
-            _mm_storeu_ps(out[k] + 4 * j, _mm256_castps256_ps128(lanes[k]));
-            _mm_storeu_ps(out[k + 4] + 4 * j, _mm256_extractf128_ps(lanes[k], 1));
+            _mm_storeu_ps(out[k][block] + 4 * j, _mm256_castps256_ps128(lanes[k]));
+            _mm_storeu_ps(out[k + 4][block] + 4 * j, _mm256_extractf128_ps(lanes[k], 1));
         }
     }
 #else
     for (int lane = 0; lane < LANES; lane++)
         for (int j = 0; j < 4; j++)
             for (int c = 0; c < 4; c++)
-                out[lane][4 * j + c] = w[j][c][lane];
+                out[lane][block][4 * j + c] = w[j][c][lane];
 #endif
 }
 
@@ -411,24 +432,27 @@ INLINE void NAME(sum_texels)(float sums[16], const float weights[][16], int bloc
 #endif
 }
 
-/* Where a band's blocks lie in their levels: texels from the level's first one; -1 where some lie outside. */
+/* Where a band's blocks lie in their levels, or the padded copies of these: texels from the first one; -1 where some
+ * lie outside. */
 INLINE Mask NAME(find_blocks)(const Group *g, int number, const Band *band, Mask *x, Mask *y)
 {
     const BatchTexture *t = g->texture;
     Mask lines = (Mask)g->line + 4 * number, texels = (Mask)g->texel + band->column;
     *x = g->turned ? lines : texels;
     *y = g->turned ? texels : lines;
-    Mask width = __builtin_convertvector(OF_LEVEL(t->texels[0], g->level), Mask);
-    Mask height = __builtin_convertvector(OF_LEVEL(t->texels[1], g->level), Mask);
+    Mask padding = __builtin_convertvector(OF_LEVEL(t->padding, g->level), Mask);
+    Mask width = __builtin_convertvector(OF_LEVEL(t->texels[0], g->level), Mask) + 2 * padding;
+    Mask height = __builtin_convertvector(OF_LEVEL(t->texels[1], g->level), Mask) + 2 * padding;
     int across = 4 * g->blocks;
-    Mask inside =
-        (*x >= 0) & (*y >= 0) & (*x <= width - (g->turned ? 4 : across)) & (*y <= height - (g->turned ? across : 4));
-    return ((*y * width + *x) & inside) | ~inside;
+    Mask column = *x + padding, row = *y + padding;
+    Mask inside = (column >= 0) & (row >= 0) & (column <= width - (g->turned ? 4 : across)) &
+                  (row <= height - (g->turned ? across : 4));
+    return ((row * width + column) & inside) | ~inside;
 }
 
 INLINE void NAME(sum_band)(Group *g, int number, const Band *band, int turned, int narrow)
 {
-    float weights[MAX_BLOCKS][LANES][16], own[MAX_BLOCKS][16];
+    float weights[LANES][MAX_BLOCKS][16];
     int first[LANES], columns[LANES], rows[LANES], levels[LANES];
     Mask x, y, begin = NAME(find_blocks)(g, number, band, &x, &y);
     STORE(first, begin);
@@ -436,14 +460,14 @@ INLINE void NAME(sum_band)(Group *g, int number, const Band *band, int turned, i
     STORE(rows, y);
     STORE(levels, g->level);
     for (int k = 0; k < g->blocks; k++)
-        NAME(turn_weights)(band, k, weights[k]);
+        NAME(turn_weights)(band, k, weights);
     for (int lane = 0; lane < LANES; lane++) {
         const TextureLevel *level = &g->texture->texture->levels[levels[lane]];
-        size_t stride = (size_t)level->width;
-        for (int k = 0; k < g->blocks; k++)
-            memcpy(own[k], weights[k][lane], sizeof own[k]);
+        size_t stride = (size_t)(level->width + 2 * level->padding);
+        const float(*own)[16] = (const float(*)[16])weights[lane];
         if (first[lane] >= 0) {
-            const char *texels = (const char *)level->texels + (size_t)first[lane] * (narrow ? 8 : 16);
+            const char *texels =
+                (const char *)(level->padded ? level->padded : level->texels) + (size_t)first[lane] * (narrow ? 8 : 16);
             NAME(sum_texels)(g->sums[lane], own, g->blocks, turned, narrow, texels, stride, turned ? 4 * stride : 4);
         } else {
             for (int k = 0; k < g->blocks; k++) {
@@ -467,6 +491,21 @@ INLINE void NAME(sum_blocks)(Group *g, int number, const Band *band)
         NAME(sum_band)(g, number, band, 0, 1);
     else
         NAME(sum_band)(g, number, band, 0, 0);
+}
+
+/* The surface's ends, if there are any within the windows. */
+INLINE int NAME(load_ends)(Group *g)
+{
+    const Places *p = g->places;
+    int cut = 0;
+    for (int lane = 0; lane < LANES && g->texture->limited; lane++)
+        cut |= p->cut[g->index[lane]];
+    for (int k = 0; k < 2 && cut; k++)
+        for (int lane = 0; lane < LANES; lane++) {
+            g->low[k][lane] = p->low[k][g->index[lane]];
+            g->high[k][lane] = p->high[k][g->index[lane]];
+        }
+    return cut;
 }
 
 INLINE void NAME(filter_group)(Group *g, Batch *batch)
@@ -496,7 +535,8 @@ INLINE void NAME(filter_group)(Group *g, Batch *batch)
     g->line = values[8];
     g->texel = values[9];
     g->level = (Mask)values[10];
-    g->total = NAME(all)(0);
+    g->cut = NAME(load_ends)(g);
+    g->total = g->whole = NAME(all)(0);
     memset(g->sums, 0, sizeof g->sums);
     for (int b = 0; b < g->bands; b++) {
         NAME(weigh_band)(g, b, &band);
@@ -508,6 +548,9 @@ INLINE void NAME(filter_group)(Group *g, Batch *batch)
         Float4 sum = ((load4(s) + load4(s + 4)) + (load4(s + 8) + load4(s + 12))) * inverse[lane];
         memcpy(batch->rgba[g->index[lane]], &sum, sizeof sum);
     }
+    for (int lane = 0; lane < LANES && g->cut; lane++)
+        if (!(g->total[lane] > LEAST_KEPT * g->whole[lane]) && (lane == 0 || g->index[lane] != g->index[lane - 1]))
+            batch->left[batch->nleft++] = g->index[lane];
 }
 
 /* Side by side go those of equal keys, for which counting is sorting. */
@@ -534,6 +577,7 @@ static void NAME(filter_batch)(const BatchTexture *texture, Batch *batch)
     for (int i = 0; i < batch->count; i++)
         order[ends[places.key[i]]++] = i;
 
+    batch->nleft = 0;
     for (int key = 0; key < NKEYS; key++) {
         group.turned = key / (2 * MAX_BANDS * MAX_BLOCKS);
         group.fine = key / (MAX_BANDS * MAX_BLOCKS) % 2;
@@ -552,9 +596,8 @@ static void NAME(filter_batch)(const BatchTexture *texture, Batch *batch)
         }
         begin = ends[key];
     }
-    batch->nleft = batch->count - begin;
-    for (int i = 0; i < batch->nleft; i++)
-        batch->left[i] = order[begin + i];
+    while (begin < batch->count)
+        batch->left[batch->nleft++] = order[begin++];
 }
 
 #undef Lanes
@@ -574,6 +617,7 @@ static void NAME(filter_batch)(const BatchTexture *texture, Batch *batch)
 #undef LOAD
 #undef STORE
 #undef Spread
+#undef Ends
 #undef Double
 #undef DoubleMask
 #undef Half

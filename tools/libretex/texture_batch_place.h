@@ -13,6 +13,8 @@ typedef struct Places {
     float lean[BATCH_SIZE], reach[BATCH_SIZE]; /* of the blocks: their slope, how far they go to each side */
     int first[BATCH_SIZE];                     /* line, from the whole part of the mean */
     int lines[BATCH_SIZE], columns[BATCH_SIZE], key[BATCH_SIZE];
+    float low[2][BATCH_SIZE], high[2][BATCH_SIZE]; /* texture_batch_cut.h: ends of the surface, from the mean */
+    int cut[BATCH_SIZE];                           /* -1: the ellipse reaches beyond one of them */
 } Places;
 
 /* u and v where they are far away become 0. */
@@ -115,9 +117,11 @@ INLINE Mask NAME(first_within)(Lanes begin, Lanes end, Mask *count)
     return first;
 }
 
+#include "texture_batch_cut.h"
+
 /* The ellipse in lines, and the blocks that it meets. */
 INLINE void NAME(find_window)(const BatchTexture *t, const Spread *s, Lanes at_x, Lanes at_y, Mask column, Mask row,
-                              Mask fine, Mask far, Places *p, int i)
+                              Mask fine, Mask far, const Ends *ends, Places *p, int i)
 {
     const Lanes least = NAME(all)(LEAST_RADIUS), none = NAME(all)(0);
     float wider = t->gaussian ? GAUSSIAN_REACH / sqrtf(GAUSSIAN_VARIANCE) : 2;
@@ -162,6 +166,8 @@ INLINE void NAME(find_window)(const BatchTexture *t, const Spread *s, Lanes at_x
     STORE(p->lines + i, lines);
     STORE(p->columns + i, columns);
     STORE(p->key + i, key);
+    if (t->limited)
+        NAME(place_ends)(ends, turned, length + edge, width + edge, p, i);
 }
 
 /* All of it, for the footprints from i on. */
@@ -201,7 +207,10 @@ INLINE void NAME(place)(const BatchTexture *t, const Batch *batch, Places *p, in
     STORE(p->yy + i, s.yy);
     STORE(p->at_x + i, at[0]);
     STORE(p->at_y + i, at[1]);
-    NAME(find_window)(t, &s, at[0], at[1], index[0], index[1], fine, far, p, i);
+    Ends ends[2];
+    for (int axis = 0; axis < 2 && t->limited; axis++)
+        ends[axis] = NAME(find_ends)(t, axis, u, v, level);
+    NAME(find_window)(t, &s, at[0], at[1], index[0], index[1], fine, far, ends, p, i);
 }
 
 /* What a black border cuts is not for us. */

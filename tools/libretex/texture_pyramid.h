@@ -16,8 +16,12 @@ typedef struct TextureLevel {
     void *texels; /* 4 floats each, or 4 uint16_t of a narrow texture */
     /* Of a clamped axis: the image's border goes on outside it, filtered along the border only. Outside texels of a
      * level are the border's, not the level's own, which hold averages of what lies inside. NULL otherwise. */
-    void *sides[2];  /* left and right of the image: height texels */
-    void *ends[2];   /* above and below: width texels */
+    void *sides[2]; /* left and right of the image: height texels */
+    void *ends[2];  /* above and below: width texels */
+    /* Of a small level: the same once more with `padding` texels of what lies outside on every side, so that windows
+     * beyond its border are as any other. NULL and 0 of all others. */
+    void *padded;
+    int padding;
     double scale[2]; /* image texels per texel of this level, u and v */
     /* Variance that averaging has added along each axis, in image texels squared, at the relative position p of the
      * axis: blur[0] + blur[1] p (1 - p). Halving an odd number of texels blurs more in the middle than at the ends. */

@@ -7,6 +7,8 @@
 #include <retex/parallel.h>
 
 #define ROWS_A_JOB 16
+#define PADDING 24               /* texels: about the longest window that is met often */
+#define MOST_PADDED (256 * 256L) /* texels of a padded level */
 
 size_t texture_texel_size(int narrow)
 {
@@ -227,6 +229,38 @@ static int add_level(RetexTexture *texture, int nthreads)
     return 0;
 }
 
+/* ---- small levels, padded ---- */
+
+static void pad_row(const RetexTexture *texture, const TextureLevel *level, int y, char *to)
+{
+    const size_t size = texel_size(texture->narrow);
+    const Row row = find_row(texture, level, y, 0);
+    for (int x = -level->padding; x < level->width + level->padding; x++, to += size) {
+        const int at = wrap_index(x, level->width, texture->spec.wrap[0]);
+        const char *texel = NULL;
+        if (row.texels)
+            texel = (unsigned)at < (unsigned)level->width ? row.texels + (size_t)at * size : row.beside[at > 0];
+        if (texel)
+            memcpy(to, texel, size);
+        else
+            memset(to, 0, size);
+    }
+}
+
+static int pad_level(const RetexTexture *texture, TextureLevel *level)
+{
+    const int width = level->width + 2 * PADDING, height = level->height + 2 * PADDING;
+    if ((long)width * height > MOST_PADDED)
+        return 0;
+    if (!(level->padded = new_texels(width, height, texture->narrow)))
+        return -1;
+    level->padding = PADDING;
+    for (int y = 0; y < height; y++)
+        pad_row(texture, level, y - PADDING,
+                (char *)level->padded + (size_t)y * (size_t)width * texel_size(texture->narrow));
+    return 0;
+}
+
 static void fill_tail(RetexTexture *texture)
 {
     int n = (int)(sizeof texture->tail / sizeof texture->tail[0]);
@@ -254,5 +288,7 @@ int texture_grow_pyramid(RetexTexture *texture, TextureTexels *texels, int nthre
             break;
         failed = add_level(texture, nthreads);
     }
+    for (int i = 0; i < texture->nlevels && !failed; i++)
+        failed = pad_level(texture, &texture->levels[i]);
     return failed;
 }
