@@ -15,14 +15,14 @@ size_t retex_deflate_room(size_t bytes)
 
 size_t retex_deflate(unsigned char *packed, size_t room, const unsigned char *bytes, size_t count, int is_last)
 {
-    struct isal_zstream stream;
+    struct isal_zstream stream = {0}; /* its init leaves out what the result depends on */
 
     if (count > UINT32_MAX || room > UINT32_MAX)
         return 0;
     isal_deflate_stateless_init(&stream);
     stream.level = LEVEL;
     stream.level_buf_size = ISAL_DEF_LVL1_DEFAULT;
-    stream.level_buf = calloc(1, stream.level_buf_size); /* else the result is not the same each time */
+    stream.level_buf = malloc(stream.level_buf_size);
     stream.end_of_stream = (uint16_t)is_last;
     stream.flush = is_last ? NO_FLUSH : FULL_FLUSH;
     stream.next_in = (uint8_t *)bytes;
