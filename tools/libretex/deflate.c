@@ -22,7 +22,7 @@ size_t retex_deflate(unsigned char *packed, size_t room, const unsigned char *by
     isal_deflate_stateless_init(&stream);
     stream.level = LEVEL;
     stream.level_buf_size = ISAL_DEF_LVL1_DEFAULT;
-    stream.level_buf = malloc(stream.level_buf_size);
+    stream.level_buf = calloc(1, stream.level_buf_size);
     stream.end_of_stream = (uint16_t)is_last;
     stream.flush = is_last ? NO_FLUSH : FULL_FLUSH;
     stream.next_in = (uint8_t *)bytes;
