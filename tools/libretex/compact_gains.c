@@ -2,9 +2,15 @@
 #include "compact_gains.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include <retex/parallel.h>
+
+typedef struct Source {
+    const float *radiance, *uv; /* uv: of its footprint, or NULL */
+    double share;
+} Source;
 
 typedef struct GainWork {
     const CompactLight *light;
@@ -13,6 +19,8 @@ typedef struct GainWork {
     int number;
     CompactMixed mixed;
     int scale;
+    Source *sources;
+    int count;
 } GainWork;
 
 static void sum_row(void *context, int y, int thread)
@@ -43,28 +51,40 @@ int compact_sum_light(RetexImage *sum, const CompactLight *light, const CompactK
     return code;
 }
 
+/* List whose light a term is: its radiance by share, where the footprint, if any, is there. */
+static int list_sources(GainWork *work, RetexError *err)
+{
+    const RetexSet *set = work->light->set;
+    const CompactKind *kind = work->kind;
+    work->sources = malloc((2 * (size_t)kind->nagain + RETEX_SHARES_MAX) * sizeof *work->sources);
+    if (!work->sources)
+        return retex_fail(err, RETEX_ENOMEM, "not enough memory for %d terms", kind->nagain);
+    for (int k = 0; k < kind->count && work->number < 0; k++)
+        if (kind->own[k] >= 0)
+            work->sources[work->count++] =
+                (Source){set->parts[set->terms[kind->own[k]].radiance].image.pixels,
+                         set->parts[set->footprints[kind->footprints[k]].uv].image.pixels, 1};
+    for (int i = 0; i < 2 * kind->nagain && work->number >= 0; i++) {
+        const CompactAgain *again = &kind->again[i / 2];
+        if (again->in[work->mixed][i % 2].gain == work->number)
+            work->sources[work->count++] = (Source){set->parts[set->terms[again->term].radiance].image.pixels, NULL,
+                                                    again->in[work->mixed][i % 2].share};
+    }
+    return RETEX_OK;
+}
+
 /* A term's light in a pixel, as the set shows it. */
 static void term_light(const GainWork *work, size_t pixel, double rgb[3])
 {
-    const RetexSet *set = work->light->set;
     rgb[0] = rgb[1] = rgb[2] = 0;
-    if (work->number < 0) {
-        for (int k = 0; k < work->kind->count; k++) {
-            const int own = work->kind->own[k];
-            if (own < 0 || !(set->parts[set->footprints[work->kind->footprints[k]].uv].image.pixels[3 * pixel + 2] > 0))
-                continue;
-            for (int c = 0; c < 3; c++)
-                rgb[c] += (double)set->parts[set->terms[own].radiance].image.pixels[3 * pixel + (size_t)c];
-        }
-    } else if (compact_shows_again(work->light, work->kind, pixel)) {
-        for (int i = 0; i < 2 * work->kind->nagain; i++) {
-            const CompactAgain *again = &work->kind->again[i / 2];
-            if (again->in[work->mixed][i % 2].gain != work->number)
-                continue;
-            for (int c = 0; c < 3; c++)
-                rgb[c] += again->in[work->mixed][i % 2].share *
-                          (double)set->parts[set->terms[again->term].radiance].image.pixels[3 * pixel + (size_t)c];
-        }
+    if (work->number >= 0 && !compact_shows_again(work->light, work->kind, pixel))
+        return;
+    for (int i = 0; i < work->count; i++) {
+        const Source *source = &work->sources[i];
+        if (source->uv && !(source->uv[3 * pixel + 2] > 0))
+            continue;
+        for (size_t c = 0; c < 3; c++)
+            rgb[c] += source->share * (double)source->radiance[3 * pixel + c];
     }
 }
 
@@ -133,11 +153,14 @@ int compact_make_gain(RetexImage *gain, const CompactLight *light, const Compact
                       int number, CompactMixed mixed, int scale, int nthreads, RetexError *err)
 {
     RetexImage borrowed = *sum;
-    GainWork work = {light, kind, &borrowed, gain, number, mixed, scale};
+    GainWork work = {light, kind, &borrowed, gain, number, mixed, scale, NULL, 0};
     const int width = (light->set->width + scale - 1) / scale, height = (light->set->height + scale - 1) / scale;
     int code = retex_image_alloc(gain, width, height, 3, err);
+    if (!code)
+        code = list_sources(&work, err);
     if (code)
         return code;
     retex_parallel(nthreads, height, gain_row, &work);
+    free(work.sources);
     return fill_holes(gain, err);
 }
