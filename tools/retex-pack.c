@@ -7,6 +7,8 @@
 
 #include "cli.h"
 
+static const double LARGE_BYTES = 4e8; /* of a set's file */
+
 static const CliOption options[] = {
     {"quality", 0, "1..100", "of what is stored with losses; default 90", 0},
     {"lossless", 0, NULL, "keep every bit of every part", 0},
@@ -60,6 +62,12 @@ static double file_size(const char *path)
 {
     struct stat info;
     return strcmp(path, "-") != 0 && stat(path, &info) == 0 && S_ISREG(info.st_mode) ? (double)info.st_size : 0;
+}
+
+/* A large set does, and is read there a few times over: in memory it takes five times as much. */
+static int stays_in_file(const Job *job)
+{
+    return !job->unpack && !job->params.lossless && file_size(job->input) > LARGE_BYTES;
 }
 
 static void report(const Cli *cli, const char *set_path, double set_bytes, const char *pack_path, double pack_bytes)
@@ -149,9 +157,10 @@ int main(int argc, char **argv)
     check_stats(&cli, &job, output);
     if (retex_set_write_check(output, &err))
         cli_fail(&cli, &err);
-    if (retex_set_read(job.input, &set, NULL, cli.threads, &err))
+    int code = stays_in_file(&job) ? retex_set_open(job.input, &set, NULL, cli.threads, &err)
+                                   : retex_set_read(job.input, &set, NULL, cli.threads, &err);
+    if (code)
         cli_fail(&cli, &err);
-    int code;
     if (job.unpack) {
         RetexStoreParams store = RETEX_STORE_INIT;
         store.nthreads = cli.threads;

@@ -388,6 +388,19 @@ static void sizes_follow_the_loss(void **state)
     }
 }
 
+static void expect_equal(const RetexSet *one, const RetexSet *other)
+{
+    assert_int_equal(one->nparts, other->nparts);
+    for (int i = 0; i < one->nparts; i++) {
+        const RetexImage *a = &one->parts[i].image, *b = &other->parts[i].image;
+        assert_string_equal(one->parts[i].name, other->parts[i].name);
+        assert_int_equal(a->width, b->width);
+        assert_int_equal(a->height, b->height);
+        assert_memory_equal(a->pixels, b->pixels,
+                            sizeof(float) * (size_t)a->width * (size_t)a->height * (size_t)a->channels);
+    }
+}
+
 static void threads_do_not_matter(void **state)
 {
     RetexSet *set = whole_set(2, 3), *one, *many;
@@ -395,16 +408,58 @@ static void threads_do_not_matter(void **state)
     (void)state;
     test_must(retex_set_compact(&one, set, NULL, 1, &err), &err);
     test_must(retex_set_compact(&many, set, NULL, 7, &err), &err);
-    assert_int_equal(one->nparts, many->nparts);
-    for (int i = 0; i < one->nparts; i++) {
-        const RetexImage *a = &one->parts[i].image, *b = &many->parts[i].image;
-        assert_int_equal(a->width, b->width);
-        assert_memory_equal(a->pixels, b->pixels,
-                            sizeof(float) * (size_t)a->width * (size_t)a->height * (size_t)a->channels);
-    }
+    expect_equal(one, many);
     retex_set_close(&set);
     retex_set_close(&one);
     retex_set_close(&many);
+}
+
+/* So many of it, one below the other, with more light in each. */
+static void stack(RetexSet *set, int copies)
+{
+    for (int i = 0; i < set->nparts; i++) {
+        RetexImage *image = &set->parts[i].image, tall = {0};
+        const size_t count = retex_image_index(image, 0, image->height);
+        RetexError err = {0};
+        int radiance = 0;
+        if (image->width != WIDE || image->height != HIGH)
+            continue;
+        for (int k = 0; k < set->nterms; k++)
+            radiance |= set->terms[k].radiance == i;
+        test_must(retex_image_alloc(&tall, WIDE, copies * HIGH, image->channels, &err), &err);
+        for (size_t k = 0; k < (size_t)copies * count; k++)
+            tall.pixels[k] = image->pixels[k % count] * (radiance ? 1 + 0.01f * (float)(k / count) : 1);
+        retex_image_free(image);
+        *image = tall;
+    }
+    set->height = copies * HIGH;
+}
+
+/* In bands of rows, and trials on tiles, for it is large. */
+static void file_and_memory_are_the_same(void **state)
+{
+    RetexSet *set = whole_set(1, 2), *memory, *file, *one, *other;
+    RetexError err = {0};
+    char path[] = "/tmp/test_compact_XXXXXX";
+    (void)state;
+    const int descriptor = mkstemp(path);
+    assert_true(descriptor >= 0);
+    close(descriptor);
+    stack(set, 86);
+    test_must(retex_set_write(set, NULL, path, NULL, &err), &err);
+    test_must(retex_set_read(path, &memory, NULL, 2, &err), &err);
+    test_must(retex_set_open(path, &file, NULL, 2, &err), &err);
+    remove(path);
+    assert_null(file->parts[1].image.pixels);
+    test_must(retex_set_compact(&one, memory, NULL, 2, &err), &err);
+    test_must(retex_set_compact(&other, file, NULL, 2, &err), &err);
+    expect_equal(one, other);
+    assert_null(file->parts[1].image.pixels);
+    retex_set_close(&set);
+    retex_set_close(&memory);
+    retex_set_close(&file);
+    retex_set_close(&one);
+    retex_set_close(&other);
 }
 
 static void expect_copy(const RetexSet *set, const RetexSet *copy)
@@ -525,6 +580,7 @@ int main(void)
         cmocka_unit_test(empty_kinds_do_no_harm),
         cmocka_unit_test(sizes_follow_the_loss),
         cmocka_unit_test(threads_do_not_matter),
+        cmocka_unit_test(file_and_memory_are_the_same),
         cmocka_unit_test(others_come_out_as_they_are),
         cmocka_unit_test(survives_writing),
         cmocka_unit_test(wrong_params_are_refused),

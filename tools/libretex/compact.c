@@ -26,7 +26,7 @@ static int copy_set(RetexSet **result, const RetexSet *set, RetexError *err)
     code = compact_copy_head(result, &view.set, err);
     for (int i = 0; i < view.set.nparts && !code; i++) {
         int index;
-        code = compact_copy_part(*result, &view.set.parts[i], &index, err);
+        code = compact_copy_part(*result, set, view.source[i], &index, err);
     }
     for (int i = 0; i < view.set.nfootprints && !code; i++)
         code = retex_set_add_footprint(*result, &view.set.footprints[i], NULL, err);

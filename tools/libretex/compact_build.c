@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "compact_bands.h"
 #include "compact_clusters.h"
 #include "compact_gains.h"
 #include "set_parts.h"
@@ -15,8 +16,9 @@ typedef struct Compaction {
     RetexSet *set; /* the new one */
     const CompactScales *scales;
     int nthreads;
-    CompactCache *cache;                             /* NULL, or where what is made is kept */
-    RetexImage *(*waves)[COMPACT_WAVES];             /* with it */
+    CompactCache *cache;                             /* where what is made is kept */
+    int trial;                                       /* 1: for other trials too; 0: all is there, and is taken */
+    RetexImage *(*waves)[COMPACT_WAVES];             /* of trials */
     int places[COMPACT_KINDS], again[COMPACT_KINDS]; /* of each kind, the factor that stands for it: for its own light,
                                                         and for that which goes on */
     int mixtures[RETEX_MIXTURES_MAX];                /* of the old ones of later footprints, the new factor */
@@ -29,16 +31,14 @@ static const char *const kind_names[] = {"hit", "sharp", "broad", "later"};
 
 /* ---- what stays as it is ---- */
 
-int compact_copy_part(RetexSet *set, const RetexPart *part, int *index, RetexError *err)
+int compact_copy_part(RetexSet *set, const RetexSet *from, int number, int *index, RetexError *err)
 {
-    if (part->spooled || !part->image.pixels)
+    const RetexPart *part = &from->parts[number];
+    if (part->spooled)
         return retex_fail(err, RETEX_EINVAL, "part %s of the set is not in memory", part->name);
     int code = retex_set_add_part(set, part->name, part->letters, part->type, part->image.width, part->image.height,
                                   index, err);
-    if (!code)
-        memcpy(set->parts[*index].image.pixels, part->image.pixels,
-               (size_t)part->image.width * (size_t)part->image.height * (size_t)part->image.channels * sizeof(float));
-    return code;
+    return code ? code : compact_rows(&set->parts[*index].image, from, number, 0, err);
 }
 
 int compact_copy_head(RetexSet **copy, const RetexSet *set, RetexError *err)
@@ -48,7 +48,7 @@ int compact_copy_head(RetexSet **copy, const RetexSet *set, RetexError *err)
         return code;
     RetexSet empty = *set;
     empty.nparts = empty.nfootprints = empty.nterms = empty.nmixtures = 0;
-    empty.parts = NULL, empty.footprints = NULL, empty.terms = NULL, empty.spool = NULL;
+    empty.parts = NULL, empty.footprints = NULL, empty.terms = NULL, empty.spool = NULL, empty.source = NULL;
     **copy = empty;
     return code;
 }
@@ -78,7 +78,7 @@ static int copy_kept(const Compaction *work, RetexError *err)
         int index = -1;
         if (!is_kept(old, i))
             continue;
-        code = compact_copy_part(set, &old->parts[i], &index, err);
+        code = compact_copy_part(set, old, i, &index, err);
         for (int t = 0; t < old->ntargets; t++)
             if (old->targets[t].original == i)
                 set->targets[t].original = index;
@@ -142,46 +142,70 @@ static int copy_clusters(CompactClusters *to, const CompactClusters *from, Retex
     return code;
 }
 
+static CompactClusters *cached_clusters(const Compaction *work, int number)
+{
+    return &work->cache->clusters[number][step_of(work->scales->clusters[number])][work->scales->split[number]];
+}
+
 static int make_clusters(CompactClusters *clusters, const Compaction *work, int number, RetexError *err)
 {
-    const CompactKind *kind = &work->light->kinds[number];
-    const int scale = work->scales->clusters[number], split = work->scales->split[number];
-    CompactClusters *kept = work->cache ? &work->cache->clusters[number][step_of(scale)][split] : clusters;
+    CompactClusters *kept = cached_clusters(work, number);
     int code = RETEX_OK;
     *clusters = (CompactClusters){0};
+    if (!work->trial) {
+        *clusters = *kept;
+        *kept = (CompactClusters){0};
+        return RETEX_OK;
+    }
     if (!kept->albedo.pixels)
-        code = compact_clusters_make(kept, work->light, kind, scale, split, work->nthreads, err);
-    if (!code && work->cache)
+        code = compact_clusters_make(kept, work->light, &work->light->kinds[number], work->scales->clusters[number],
+                                     work->scales->split[number], work->nthreads, err);
+    if (!code)
         code = copy_clusters(clusters, kept, err);
     if (code)
         compact_clusters_free(clusters);
     return code;
 }
 
+static int take_image(RetexImage *image, const Compaction *work, RetexImage *kept, RetexError *err)
+{
+    if (work->trial)
+        return retex_image_copy(image, kept, err);
+    *image = *kept;
+    *kept = (RetexImage){0};
+    return RETEX_OK;
+}
+
 static int make_sum(RetexImage *sum, const Compaction *work, int number, RetexError *err)
 {
-    RetexImage *kept = work->cache ? &work->cache->sums[number] : sum;
+    RetexImage *kept = &work->cache->sums[number];
     int code = RETEX_OK;
     if (!kept->pixels)
         code = compact_sum_light(kept, work->light, &work->light->kinds[number], work->nthreads, err);
-    return code || !work->cache ? code : retex_image_copy(sum, kept, err);
+    return code ? code : take_image(sum, work, kept, err);
 }
 
-/* place: 0 for the clusters alone, 1 for the first of the terms that go on. */
+/* All gains of a kind: 0 for the clusters alone, then those of the terms that go on. */
+static RetexImage *cached_gains(const Compaction *work, int number, RetexError *err)
+{
+    const CompactMixed mixed = work->scales->mixed[number];
+    RetexImage **all = &work->cache->gains[number][step_of(work->scales->gains[number])][mixed];
+    if (!*all && !(*all = calloc((size_t)work->light->kinds[number].ngains[mixed] + 1, sizeof **all)))
+        retex_fail(err, RETEX_ENOMEM, "not enough memory for gains");
+    return *all;
+}
+
 static int make_gain(RetexImage *gain, const Compaction *work, int number, int radiance, int place, RetexError *err)
 {
-    const CompactKind *kind = &work->light->kinds[number];
-    const int scale = work->scales->gains[number];
-    const CompactMixed mixed = work->scales->mixed[number];
     const RetexImage *sum = &work->set->parts[radiance].image;
-    RetexImage **all = work->cache ? &work->cache->gains[number][step_of(scale)][mixed] : NULL;
-    if (all && !*all && !(*all = calloc((size_t)kind->ngains[mixed] + 1, sizeof **all)))
-        return retex_fail(err, RETEX_ENOMEM, "not enough memory for gains");
-    RetexImage *kept = all ? *all + place : gain;
+    RetexImage *all = cached_gains(work, number, err), *kept = all + place;
     int code = RETEX_OK;
+    if (!all)
+        return RETEX_ENOMEM;
     if (!kept->pixels)
-        code = compact_make_gain(kept, work->light, kind, sum, place - 1, mixed, scale, work->nthreads, err);
-    return code || !all ? code : retex_image_copy(gain, kept, err);
+        code = compact_make_gain(kept, work->light, &work->light->kinds[number], sum, place - 1,
+                                 work->scales->mixed[number], work->scales->gains[number], work->nthreads, err);
+    return code ? code : take_image(gain, work, kept, err);
 }
 
 void compact_cache_free(CompactCache *cache, const CompactLight *light)
@@ -225,7 +249,7 @@ static int add_cluster(Compaction *work, int number, CompactClusters *clusters, 
                           "share_%s_%s%d", target, name, k + 1);
     if (!code)
         code = retex_set_add_footprint(work->set, &f, &work->footprints[number][k], err);
-    for (int i = 0; i < COMPACT_WAVES && !code && work->cache; i++)
+    for (int i = 0; i < COMPACT_WAVES && !code && work->trial; i++)
         work->waves[work->footprints[number][k]][i] =
             &work->cache->waves[number][step_of(work->scales->clusters[number])][work->scales->split[number]][i][k];
     return code;
@@ -340,13 +364,20 @@ static int add_term(Compaction *work, int number, int radiance, int place, int w
     return code ? code : retex_set_add_term(work->set, &term, NULL, err);
 }
 
+static int has_own(const CompactKind *kind)
+{
+    int owns = 0;
+    for (int k = 0; k < kind->count; k++)
+        owns |= kind->own[k] >= 0;
+    return owns;
+}
+
 static int add_terms(Compaction *work, int number, RetexError *err)
 {
     const CompactKind *kind = &work->light->kinds[number];
     RetexImage sum = {0};
-    int radiance, owns = 0;
-    for (int k = 0; k < kind->count; k++)
-        owns += kind->own[k] >= 0;
+    const int owns = has_own(kind);
+    int radiance;
     if (!owns && !kind->nagain)
         return RETEX_OK;
     int code = make_sum(&sum, work, number, err);
@@ -363,11 +394,75 @@ static int add_terms(Compaction *work, int number, RetexError *err)
 
 /* ---- all of it ---- */
 
+/* Room for all that is made of a kind. */
+static int begin_kind(const Compaction *work, int number, RetexError *err)
+{
+    const CompactLight *light = work->light;
+    const CompactKind *kind = &light->kinds[number];
+    int code = compact_clusters_begin(cached_clusters(work, number), light, kind, work->scales->clusters[number],
+                                      work->scales->split[number], err);
+    RetexImage *gains = cached_gains(work, number, err);
+    if (code || !gains || kind->kind == RETEX_FOOTPRINT_LATER)
+        return code ? code : gains ? RETEX_OK : RETEX_ENOMEM;
+    if (has_own(kind) || kind->nagain)
+        code = retex_image_alloc(&work->cache->sums[number], light->set->width, light->set->height, 3, err);
+    for (int i = 0; i <= kind->ngains[work->scales->mixed[number]] && !code && kind->nagain; i++)
+        if (i || has_own(kind))
+            code = compact_gain_begin(&gains[i], light, work->scales->gains[number], err);
+    return code;
+}
+
+static int make_rows(void *context, const CompactLight *light, int first, RetexError *err)
+{
+    const Compaction *work = context;
+    int code = RETEX_OK;
+    for (int i = 0; i < light->nkinds && !code; i++) {
+        const CompactKind *kind = &light->kinds[i];
+        const CompactMixed mixed = work->scales->mixed[i];
+        RetexImage *sum = &work->cache->sums[i], *gains = cached_gains(work, i, err);
+        compact_clusters_rows(cached_clusters(work, i), light, kind, first, work->nthreads);
+        if (sum->pixels)
+            compact_sum_rows(sum, light, kind, first, work->nthreads);
+        for (int k = 0; k <= kind->ngains[mixed] && !code; k++)
+            if (gains[k].pixels)
+                code = compact_gain_rows(&gains[k], light, kind, sum, k - 1, mixed, work->scales->gains[i], first,
+                                         work->nthreads, err);
+    }
+    return code;
+}
+
+static int end_kind(const Compaction *work, int number, RetexError *err)
+{
+    const CompactKind *kind = &work->light->kinds[number];
+    RetexImage *gains = cached_gains(work, number, err);
+    int code = compact_clusters_end(cached_clusters(work, number), work->light, kind, work->nthreads, err);
+    for (int k = 0; k <= kind->ngains[work->scales->mixed[number]] && !code; k++)
+        if (gains[k].pixels)
+            code = compact_gain_end(&gains[k], err);
+    return code;
+}
+
+/* All kinds by bands of rows, for the set may be larger than memory. */
+static int make_kinds(Compaction *work, RetexError *err)
+{
+    const CompactLight *light = work->light;
+    int code = RETEX_OK;
+    for (int i = 0; i < light->nkinds && !code; i++)
+        code = begin_kind(work, i, err);
+    if (!code)
+        code = compact_bands(light, make_rows, work, work->nthreads, err);
+    for (int i = 0; i < light->nkinds && !code; i++)
+        code = end_kind(work, i, err);
+    return code;
+}
+
 int compact_build(RetexSet **result, const CompactLight *light, const CompactScales *scales, int nthreads,
                   RetexError *err)
 {
-    Compaction work = {.light = light, .scales = scales, .nthreads = nthreads};
-    int code = compact_copy_head(&work.set, light->set, err);
+    Compaction work = {.light = light, .scales = scales, .nthreads = nthreads, .cache = calloc(1, sizeof *work.cache)};
+    int code = work.cache ? make_kinds(&work, err) : retex_fail(err, RETEX_ENOMEM, "not enough memory for a set");
+    if (!code)
+        code = compact_copy_head(&work.set, light->set, err);
     if (!code)
         code = copy_kept(&work, err);
     for (int i = 0; i < light->nkinds && !code; i++)
@@ -377,6 +472,9 @@ int compact_build(RetexSet **result, const CompactLight *light, const CompactSca
     for (int i = 0; i < light->nkinds && !code; i++)
         if (light->kinds[i].kind != RETEX_FOOTPRINT_LATER)
             code = add_terms(&work, i, err);
+    if (work.cache)
+        compact_cache_free(work.cache, light);
+    free(work.cache);
     if (code)
         retex_set_close(&work.set);
     *result = work.set;
@@ -386,7 +484,7 @@ int compact_build(RetexSet **result, const CompactLight *light, const CompactSca
 int compact_build_kind(RetexSet **result, RetexImage *of[][COMPACT_WAVES], const CompactLight *light, int kind,
                        const CompactScales *scales, CompactCache *cache, int nthreads, RetexError *err)
 {
-    Compaction work = {.light = light, .scales = scales, .nthreads = nthreads, .cache = cache, .waves = of};
+    Compaction work = {.light = light, .scales = scales, .nthreads = nthreads, .cache = cache, .trial = 1, .waves = of};
     const RetexSet *old = light->set;
     int code = compact_copy_head(&work.set, old, err);
     for (int t = 0; t < old->ntargets && !code; t++)

@@ -37,6 +37,6 @@ int compact_build_kind(RetexSet **result, RetexImage *of[][COMPACT_WAVES], const
 
 /* A new set with all that another says of itself, and no parts. */
 int compact_copy_head(RetexSet **copy, const RetexSet *set, RetexError *err);
-int compact_copy_part(RetexSet *set, const RetexPart *part, int *index, RetexError *err);
+int compact_copy_part(RetexSet *set, const RetexSet *from, int part, int *index, RetexError *err);
 
 #endif

@@ -32,9 +32,7 @@ typedef struct ClustersWork {
     CompactClusters *clusters;
     const CompactLight *light;
     const CompactKind *kind;
-    int scale, split;
-    unsigned char *lit;
-    UvStats *whole; /* of pixels that see one place evenly, or NULL; weight 0 where they do not */
+    int scale, first; /* first: row of blocks */
 } ClustersWork;
 
 static double merging_cost(const Pool *pool, int i, int j)
@@ -279,8 +277,8 @@ static void store_block(const ClustersWork *work, size_t block, const Pool *pool
         uv_stats_store(&pool->of[i].place, uv, clusters->spread[i].pixels + 3 * block);
         uv[2] = 1;
     }
-    store_weights(clusters->weight, block, pool, work->split ? PART_OWN : PART_ALL, all);
-    if (work->split)
+    store_weights(clusters->weight, block, pool, clusters->split ? PART_OWN : PART_ALL, all);
+    if (clusters->split)
         store_weights(clusters->again, block, pool, PART_AGAIN, 0);
     for (int c = 0; c < 3; c++)
         sum += albedo->sum[c], weights += albedo->weight[c];
@@ -295,7 +293,7 @@ static void store_block(const ClustersWork *work, size_t block, const Pool *pool
 static void store_whole(const ClustersWork *work, size_t block, const Pool *pool)
 {
     const UvStats *parts[POOL];
-    UvStats *whole = &work->whole[block];
+    UvStats *whole = &work->clusters->whole[block];
     for (int i = 0; i < pool->count; i++)
         parts[i] = &pool->of[i].place;
     if (!(pool->count == 1 || (pool->count > 1 && work->clusters->count >= 4)) ||
@@ -309,7 +307,7 @@ static void blocks_job(void *context, int by, int thread)
     const int width = work->clusters->albedo.width;
     (void)thread;
     for (int bx = 0; bx < width; bx++) {
-        const size_t block = (size_t)by * (size_t)width + (size_t)bx;
+        const size_t block = (size_t)(work->first + by) * (size_t)width + (size_t)bx;
         Pool pool = {.periodic = work->light->set->targets[work->kind->target].periodic,
                      .sharp = work->kind->kind == RETEX_FOOTPRINT_SHARP};
         Albedo albedo = {0};
@@ -320,9 +318,9 @@ static void blocks_job(void *context, int by, int thread)
         merge_places(&pool);
         sort_places(&pool);
         store_block(work, block, &pool, all, &albedo);
-        if (work->whole)
+        if (work->clusters->whole)
             store_whole(work, block, &pool);
-        work->lit[block] = pool.count > 0;
+        work->clusters->lit[block] = pool.count > 0;
     }
 }
 
@@ -357,12 +355,11 @@ static void fill_holes(CompactClusters *clusters, const unsigned char *lit, floa
 
 /* ---- all of them ---- */
 
-static int alloc_images(CompactClusters *clusters, const ClustersWork *work, RetexError *err)
+static int alloc_images(CompactClusters *clusters, const CompactLight *light, int even, RetexError *err)
 {
-    const int scale = work->scale;
-    const int width = (work->light->set->width + scale - 1) / scale;
-    const int height = (work->light->set->height + scale - 1) / scale;
-    clusters->count = work->kind->count;
+    const int scale = clusters->scale;
+    const int width = (light->set->width + scale - 1) / scale, height = (light->set->height + scale - 1) / scale;
+    const size_t blocks = (size_t)width * (size_t)height;
     int code = retex_image_alloc(&clusters->albedo, width, height, 3, err);
     for (int k = 0; k < clusters->count && !code; k++) {
         code = retex_image_alloc(&clusters->uv[k], width, height, 3, err);
@@ -370,10 +367,22 @@ static int alloc_images(CompactClusters *clusters, const ClustersWork *work, Ret
             code = retex_image_alloc(&clusters->spread[k], width, height, 3, err);
         if (!code)
             code = retex_image_alloc(&clusters->weight[k], width, height, 1, err);
-        if (!code && work->split)
+        if (!code && clusters->split)
             code = retex_image_alloc(&clusters->again[k], width, height, 1, err);
     }
+    clusters->lit = calloc(blocks, sizeof *clusters->lit);
+    clusters->whole = even ? calloc(blocks, sizeof *clusters->whole) : NULL;
+    if (!code && (!clusters->lit || (even && !clusters->whole)))
+        code = retex_fail(err, RETEX_ENOMEM, "not enough memory for footprints");
     return code;
+}
+
+static void free_work(CompactClusters *clusters)
+{
+    free(clusters->lit);
+    free(clusters->whole);
+    clusters->lit = NULL;
+    clusters->whole = NULL;
 }
 
 static void free_cluster(CompactClusters *clusters, int k)
@@ -393,39 +402,50 @@ static int is_empty(const CompactClusters *clusters, int k)
     return 1;
 }
 
-int compact_clusters_make(CompactClusters *clusters, const CompactLight *light, const CompactKind *kind, int scale,
-                          int split, int nthreads, RetexError *err)
+int compact_clusters_begin(CompactClusters *clusters, const CompactLight *light, const CompactKind *kind, int scale,
+                           int split, RetexError *err)
 {
-    RetexImage lit = {0};
-    ClustersWork work = {clusters, light, kind, scale, split && kind->nagain, NULL, NULL};
     const int even = kind->kind == RETEX_FOOTPRINT_SHARP && scale == 1 && strcmp(light->set->filter, "box") == 0;
-    *clusters = (CompactClusters){0};
-    int code = alloc_images(clusters, &work, err);
-    if (!code)
-        code = retex_image_alloc(&lit, clusters->albedo.width, clusters->albedo.height, 1, err);
-    if (!code && even) {
-        work.whole = calloc((size_t)clusters->albedo.width * (size_t)clusters->albedo.height, sizeof *work.whole);
-        if (!work.whole)
-            code = retex_fail(err, RETEX_ENOMEM, "not enough memory for footprints");
-    }
-    if (code) {
-        retex_image_free(&lit);
-        compact_clusters_free(clusters);
-        return code;
-    }
-    work.lit = (unsigned char *)lit.pixels;
-    retex_parallel(nthreads, clusters->albedo.height, blocks_job, &work);
-    if (even)
-        code = compact_even_smooth(clusters, work.whole, light->set->targets[kind->target].periodic, nthreads, err);
-    free(work.whole);
-    if (scale > 1)
-        fill_holes(clusters, work.lit, kind->kind == RETEX_FOOTPRINT_LATER ? (float)SHARE_STEP : 1);
-    while (clusters->count > 1 && is_empty(clusters, clusters->count - 1))
-        free_cluster(clusters, --clusters->count);
-    retex_image_free(&lit);
+    *clusters = (CompactClusters){.count = kind->count, .scale = scale, .split = split && kind->nagain};
+    int code = alloc_images(clusters, light, even, err);
     if (code)
         compact_clusters_free(clusters);
     return code;
+}
+
+void compact_clusters_rows(CompactClusters *clusters, const CompactLight *light, const CompactKind *kind, int first,
+                           int nthreads)
+{
+    const int scale = clusters->scale;
+    ClustersWork work = {clusters, light, kind, scale, first / scale};
+    retex_parallel(nthreads, (light->set->height + scale - 1) / scale, blocks_job, &work);
+}
+
+int compact_clusters_end(CompactClusters *clusters, const CompactLight *light, const CompactKind *kind, int nthreads,
+                         RetexError *err)
+{
+    int code = RETEX_OK;
+    if (clusters->whole)
+        code =
+            compact_even_smooth(clusters, clusters->whole, light->set->targets[kind->target].periodic, nthreads, err);
+    if (clusters->scale > 1)
+        fill_holes(clusters, clusters->lit, kind->kind == RETEX_FOOTPRINT_LATER ? (float)SHARE_STEP : 1);
+    free_work(clusters);
+    while (clusters->count > 1 && is_empty(clusters, clusters->count - 1))
+        free_cluster(clusters, --clusters->count);
+    if (code)
+        compact_clusters_free(clusters);
+    return code;
+}
+
+int compact_clusters_make(CompactClusters *clusters, const CompactLight *light, const CompactKind *kind, int scale,
+                          int split, int nthreads, RetexError *err)
+{
+    int code = compact_clusters_begin(clusters, light, kind, scale, split, err);
+    if (code)
+        return code;
+    compact_clusters_rows(clusters, light, kind, 0, nthreads);
+    return compact_clusters_end(clusters, light, kind, nthreads, err);
 }
 
 void compact_clusters_free(CompactClusters *clusters)
@@ -433,5 +453,6 @@ void compact_clusters_free(CompactClusters *clusters)
     for (int k = 0; k < clusters->count; k++)
         free_cluster(clusters, k);
     retex_image_free(&clusters->albedo);
+    free_work(clusters);
     clusters->count = 0;
 }

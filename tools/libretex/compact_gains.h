@@ -12,4 +12,11 @@ int compact_sum_light(RetexImage *sum, const CompactLight *light, const CompactK
 int compact_make_gain(RetexImage *gain, const CompactLight *light, const CompactKind *kind, const RetexImage *sum,
                       int number, CompactMixed mixed, int scale, int nthreads, RetexError *err);
 
+/* The same by rows of the picture, `first` and as many as light->set has; sums and gains are of the whole. */
+void compact_sum_rows(RetexImage *sum, const CompactLight *light, const CompactKind *kind, int first, int nthreads);
+int compact_gain_begin(RetexImage *gain, const CompactLight *light, int scale, RetexError *err);
+int compact_gain_rows(RetexImage *gain, const CompactLight *light, const CompactKind *kind, const RetexImage *sum,
+                      int number, CompactMixed mixed, int scale, int first, int nthreads, RetexError *err);
+int compact_gain_end(RetexImage *gain, RetexError *err);
+
 #endif

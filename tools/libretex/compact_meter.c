@@ -8,16 +8,17 @@
 #include <retex/parallel.h>
 #include <retex/sample.h>
 
+#include "compact_bands.h"
 #include "compact_build.h"
 #include "image_noise.h"
 #include "set_parts.h"
 
-#define TILE 64           /* pixels of a tile that count */
-#define MARGIN 16         /* on each side: two pixels of what is smallest */
-#define LENGTHS 3         /* of waves; other trials are of one colour */
-#define FLAT 1            /* variance in waves at which nothing is left of them */
-#define DENOISED_NOISE 10 /* times what is fine of what denoising leaves, is all of it, roughly */
-#define PROBE 8           /* pixels from one that is looked at to the next */
+#define TILE COMPACT_BAND_ROWS /* pixels of a tile that count */
+#define MARGIN 16              /* on each side: two pixels of what is smallest */
+#define LENGTHS 3              /* of waves; other trials are of one colour */
+#define FLAT 1                 /* variance in waves at which nothing is left of them */
+#define DENOISED_NOISE 10      /* times what is fine of what denoising leaves, is all of it, roughly */
+#define PROBE 8                /* pixels from one that is looked at to the next */
 
 /* ---- tiles ---- */
 
@@ -27,7 +28,9 @@ typedef struct Tile {
 } Tile;
 
 typedef struct Mosaic {
-    const CompactLight *light;
+    const CompactLight *light; /* of a band */
+    int first, height;         /* its first row; rows of the whole */
+    RetexSet *result;
     int columns, count; /* of the picture's tiles */
     Tile *tiles;
     Tile taken[COMPACT_TILES];
@@ -60,14 +63,14 @@ static double probe_pixels(const CompactLight *light, size_t a, size_t b)
     return sum;
 }
 
-static void find_difficulty(void *context, int number, int thread)
+static void find_difficulty(void *context, int column, int thread)
 {
     const Mosaic *mosaic = context;
     const RetexSet *set = mosaic->light->set;
-    Tile *tile = &mosaic->tiles[number];
+    Tile *tile = &mosaic->tiles[mosaic->first / TILE * mosaic->columns + column];
     (void)thread;
-    *tile = (Tile){number % mosaic->columns * TILE, number / mosaic->columns * TILE, 0};
-    for (int y = tile->y; y < tile->y + TILE && y + 1 < set->height; y += PROBE)
+    *tile = (Tile){column * TILE, mosaic->first, 0};
+    for (int y = 0; y + 1 < set->height; y += PROBE)
         for (int x = tile->x; x < tile->x + TILE && x + 1 < set->width; x += PROBE) {
             const size_t a = (size_t)y * (size_t)set->width + (size_t)x;
             tile->difficulty += probe_pixels(mosaic->light, a, a + (size_t)set->width + 1);
@@ -103,37 +106,53 @@ static void take_tiles(Mosaic *mosaic, double weights[COMPACT_TILES])
     }
 }
 
-static void copy_tile(RetexImage *to, int row, const RetexImage *from, int x, int y)
+static int clamp(int at, int size)
 {
-    const int side = TILE + 2 * MARGIN;
-    for (int j = 0; j < side; j++)
-        for (int i = 0; i < side; i++) {
-            int fx = x + i < 0 ? 0 : x + i, fy = y + j < 0 ? 0 : y + j;
-            fx = fx < from->width ? fx : from->width - 1;
-            fy = fy < from->height ? fy : from->height - 1;
+    return at < 0 ? 0 : at < size ? at : size - 1;
+}
+
+/* What of a tile is in the band. */
+static void copy_tile(RetexImage *to, int row, const RetexImage *from, const Mosaic *mosaic)
+{
+    const int side = TILE + 2 * MARGIN, x = mosaic->taken[row].x - MARGIN, y = mosaic->taken[row].y - MARGIN;
+    for (int j = 0; j < side; j++) {
+        const int fy = clamp(y + j, mosaic->height) - mosaic->first;
+        for (int i = 0; i < side && fy >= 0 && fy < from->height; i++)
             memcpy(to->pixels + retex_image_index(to, i, row * side + j),
-                   from->pixels + retex_image_index(from, fx, fy), (size_t)from->channels * sizeof(float));
-        }
+                   from->pixels + retex_image_index(from, clamp(x + i, from->width), fy),
+                   (size_t)from->channels * sizeof(float));
+    }
+}
+
+static int copy_tiles(void *context, const CompactLight *light, int first, RetexError *err)
+{
+    Mosaic *mosaic = context;
+    (void)err;
+    mosaic->first = first;
+    for (int i = 0; i < light->set->nparts; i++)
+        for (int k = 0; k < COMPACT_TILES && light->set->parts[i].image.pixels; k++)
+            copy_tile(&mosaic->result->parts[i].image, k, &light->set->parts[i].image, mosaic);
+    return RETEX_OK;
 }
 
 /* A set as tall as tiles are many. Originals and what no term needs become black. */
-static int make_mosaic(RetexSet **result, const RetexSet *set, const Mosaic *mosaic, RetexError *err)
+static int make_mosaic(RetexSet **result, const CompactLight *light, Mosaic *mosaic, int nthreads, RetexError *err)
 {
+    const RetexSet *set = light->set;
     const int side = TILE + 2 * MARGIN;
     int code = compact_copy_head(result, set, err);
     if (code)
         return code;
-    RetexSet *tiles = *result;
+    RetexSet *tiles = mosaic->result = *result;
     tiles->width = side, tiles->height = side * COMPACT_TILES;
     for (int i = 0; i < set->nparts && !code; i++) {
         const RetexPart *part = &set->parts[i];
         const int whole = part->image.width == set->width && part->image.height == set->height;
         code =
             retex_set_add_part(tiles, part->name, part->letters, part->type, whole ? 0 : 1, whole ? 0 : 1, NULL, err);
-        for (int k = 0; k < COMPACT_TILES && !code && whole; k++)
-            copy_tile(&tiles->parts[i].image, k, &part->image, mosaic->taken[k].x - MARGIN,
-                      mosaic->taken[k].y - MARGIN);
     }
+    if (!code)
+        code = compact_bands(light, copy_tiles, mosaic, nthreads, err);
     for (int i = 0; i < set->nfootprints && !code; i++)
         code = retex_set_add_footprint(tiles, &set->footprints[i], NULL, err);
     for (int i = 0; i < set->nmixtures && !code; i++)
@@ -147,7 +166,7 @@ static int copy_whole(RetexSet **result, const RetexSet *set, RetexError *err)
 {
     int code = compact_copy_head(result, set, err), index;
     for (int i = 0; i < set->nparts && !code; i++)
-        code = compact_copy_part(*result, &set->parts[i], &index, err);
+        code = compact_copy_part(*result, set, i, &index, err);
     for (int i = 0; i < set->nfootprints && !code; i++)
         code = retex_set_add_footprint(*result, &set->footprints[i], NULL, err);
     for (int i = 0; i < set->nmixtures && !code; i++)
@@ -321,10 +340,25 @@ static int measure_noise(CompactMeter *meter, int nthreads, RetexError *err)
     return code;
 }
 
+typedef struct Probing {
+    Mosaic *mosaic;
+    int nthreads;
+} Probing;
+
+static int probe_band(void *context, const CompactLight *light, int first, RetexError *err)
+{
+    const Probing *probing = context;
+    (void)err;
+    probing->mosaic->light = light, probing->mosaic->first = first;
+    retex_parallel(probing->nthreads, probing->mosaic->columns, find_difficulty, probing->mosaic);
+    return RETEX_OK;
+}
+
 static int take_mosaic(CompactMeter *meter, const CompactLight *light, int nthreads, RetexError *err)
 {
     const RetexSet *set = light->set;
-    Mosaic mosaic = {.light = light, .columns = (set->width + TILE - 1) / TILE};
+    Mosaic mosaic = {.columns = (set->width + TILE - 1) / TILE, .height = set->height};
+    Probing probing = {&mosaic, nthreads};
     mosaic.count = mosaic.columns * ((set->height + TILE - 1) / TILE);
     if (mosaic.count <= 3 * COMPACT_TILES)
         return copy_whole(&meter->set, set, err);
@@ -332,10 +366,13 @@ static int take_mosaic(CompactMeter *meter, const CompactLight *light, int nthre
     mosaic.tiles = malloc((size_t)mosaic.count * sizeof *mosaic.tiles);
     if (!mosaic.tiles)
         return retex_fail(err, RETEX_ENOMEM, "not enough memory for tiles");
-    retex_parallel(nthreads, mosaic.count, find_difficulty, &mosaic);
-    take_tiles(&mosaic, meter->weights);
+    int code = compact_bands(light, probe_band, &probing, nthreads, err);
+    if (!code) {
+        take_tiles(&mosaic, meter->weights);
+        code = make_mosaic(&meter->set, light, &mosaic, nthreads, err);
+    }
     free(mosaic.tiles);
-    return make_mosaic(&meter->set, set, &mosaic, err);
+    return code;
 }
 
 int compact_meter_open(CompactMeter *meter, const CompactLight *light, int nthreads, RetexError *err)

@@ -10,6 +10,8 @@
 
 #include "pack_restore.h"
 
+static const int TRIAL_EFFORT = 1; /* that tells which predictor to take */
+
 static int32_t wrap_residual(int32_t value, int bits)
 {
     return bits == 8 ? (int8_t)value : bits == 16 ? (int16_t)value : value;
@@ -94,47 +96,42 @@ static void store_residuals(unsigned char *to, const PackPlane *plane, Predictor
         }
 }
 
+/* Residuals, compressed; returns the bytes of both, or -1. */
+static long compress_residuals(unsigned char *to, const PackPlane *plane, Predictor predictor, uint32_t largest,
+                               unsigned char *scratch, int effort)
+{
+    const int bytes = largest < 256 ? 1 : largest < 65536 ? 2 : 4;
+    const size_t size = count_present(plane) * (size_t)bytes;
+    store_residuals(scratch, plane, predictor, bytes);
+    to[0] = (unsigned char)(bytes << 4 | predictor);
+    const int got = blosc_compress_ctx(effort, bytes > 1, (size_t)bytes, size, scratch, to + 1,
+                                       pack_plane_room(plane) - 1, BLOSC_ZSTD_COMPNAME, size, 1);
+    return got > 0 ? got + 1 : -1;
+}
+
 long pack_plane_encode(unsigned char *data, const PackPlane *plane, unsigned char *scratch, int effort)
 {
-    const size_t room = pack_plane_room(plane);
-    long best = -1;
     if (!settle(plane))
         return 0;
     double least = 0;
     Predictor chosen = BY_NOTHING;
-    uint32_t largest = 0;
+    uint32_t largest[PREDICTORS];
     for (int p = 0; p < PREDICTORS; p++) {
-        uint32_t most;
-        const double bits = cost(plane, (Predictor)p, &most);
+        const double bits = cost(plane, (Predictor)p, &largest[p]);
         if (p == 0 || bits < least) {
             least = bits;
             chosen = (Predictor)p;
-            largest = most;
         }
     }
     /* prediction makes runs and repetitions into noise: what has them may do better without */
-    const Predictor tries[2] = {chosen, BY_NOTHING};
-    unsigned char *other = scratch + room;
-    for (int i = 0; i < (chosen == BY_NOTHING ? 1 : 2); i++) {
-        uint32_t most = largest;
-        if (i == 1)
-            cost(plane, BY_NOTHING, &most);
-        const int bytes = most < 256 ? 1 : most < 65536 ? 2 : 4;
-        const size_t size = count_present(plane) * (size_t)bytes;
-        unsigned char *to = i ? other : data;
-        store_residuals(scratch, plane, tries[i], bytes);
-        to[0] = (unsigned char)(bytes << 4 | tries[i]);
-        const int got = blosc_compress_ctx(effort, bytes > 1, (size_t)bytes, size, scratch, to + 1, room - 1,
-                                           BLOSC_ZSTD_COMPNAME, size, 1);
-        if (got <= 0)
+    if (chosen != BY_NOTHING) {
+        const long with = compress_residuals(data, plane, chosen, largest[chosen], scratch, TRIAL_EFFORT);
+        const long without = compress_residuals(data, plane, BY_NOTHING, largest[BY_NOTHING], scratch, TRIAL_EFFORT);
+        if (with < 0 || without < 0)
             return -1;
-        if (best < 0 || got + 1 < best) {
-            best = got + 1;
-            if (i)
-                memcpy(data, other, (size_t)best);
-        }
+        chosen = without < with ? BY_NOTHING : chosen;
     }
-    return best;
+    return compress_residuals(data, plane, chosen, largest[chosen], scratch, effort);
 }
 
 /* --- decoding --- */

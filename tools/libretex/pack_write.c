@@ -38,7 +38,7 @@ typedef struct Writing {
     int *codes; /* by job */
 } Writing;
 
-static const int EFFORT = 9; /* of blosc's zstd */
+static const int EFFORT = 8; /* of blosc's zstd */
 
 /* dB that compacting keeps more than the whole: its errors and those of coding add up. */
 static const double COMPACTING_MARGIN = 3;
