@@ -22,7 +22,6 @@ pkg libturbojpeg libturbojpeg0-dev
 pkg libjpeg libjpeg-dev
 pkg blosc libblosc-dev
 pkg jansson libjansson-dev
-pkg libisal libisal-dev
 pkg zlib zlib1g-dev
 file /usr/share/povray-3.7/include/colors.inc povray-includes
 '
@@ -109,10 +108,10 @@ cflags() { "$PKG_CONFIG" --cflags "$@" | sed 's/-I/-isystem /g'; }
 config() {
     embree_name=$(embree)
     echo "# Made by tools/setup.sh; remove it after installing other versions of the libraries."
-    echo "LIBRETEX_CFLAGS := $(cflags OpenEXR jansson libturbojpeg libjpeg blosc libisal zlib)"
-    echo "LIBRETEX_LIBS := $("$PKG_CONFIG" --libs-only-L OpenEXR jansson libturbojpeg libjpeg blosc libisal zlib)" \
+    echo "LIBRETEX_CFLAGS := $(cflags OpenEXR jansson libturbojpeg libjpeg blosc zlib)"
+    echo "LIBRETEX_LIBS := $("$PKG_CONFIG" --libs-only-L OpenEXR jansson libturbojpeg libjpeg blosc zlib)" \
         "$("$PKG_CONFIG" --libs-only-l OpenEXR | tr ' ' '\n' | grep OpenEXRCore)" \
-        "$("$PKG_CONFIG" --libs jansson libturbojpeg libjpeg blosc libisal zlib) -ldl -lm"
+        "$("$PKG_CONFIG" --libs jansson libturbojpeg libjpeg blosc zlib) -ldl -lm"
     echo "BRIDGE_CFLAGS := $(cflags OpenImageIO OpenColorIO OpenEXR)"
     echo "BRIDGE_LIBS := $("$PKG_CONFIG" --libs OpenImageIO OpenColorIO)"
     echo "RENDER_CFLAGS := -DRETEX_$(echo "$embree_name" | tr a-z A-Z)"
