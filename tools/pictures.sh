@@ -42,6 +42,14 @@ for set in living-room-64 living-room-64-denoised; do
         --texture:scale=2 "Wall=$textures/damask.jpg"
 done
 
+# From a denoised set, and from its pack.
+retex-denoise -q "$sets/living-room.exr" -o "$sets/living-room-denoised.exr"
+retex-pack -q "$sets/living-room-denoised.exr" -o "$sets/living-room-denoised.retex"
+for from in exr retex; do
+    retex-combine -q "$sets/living-room-denoised.$from" --quality 97 --texture "Floor=$textures/terrazzo.jpg" \
+        --texture "Wall=$textures/fans.jpg" -o "$out/living-room-from-$from.jpg"
+done
+
 set_of kitchen scenes/kitchen/kitchen.pov 640x480 Floor Wall
 picture kitchen kitchen
 picture kitchen kitchen-terrazzo --texture "Floor=$textures/terrazzo.jpg"

@@ -121,7 +121,7 @@ prepare() { # TARGETS
     packed_set "$measured"
     retex-info --json "$measured" >"$work/info.json"
     record case "scene=$scene" "edit=$edit" "targets=$1" "layout=$layout" "size=$size" "spp=$spp" \
-        "set_bytes=$(stat -c %s "$measured")" "pack_bytes=$(stat -c %s "$pack")" "$work/info.json"
+        "set_bytes=$(stat -L -c %s "$measured")" "pack_bytes=$(stat -c %s "$pack")" "$work/info.json"
 }
 # One case, all its turns, of large pictures at most three. What takes long is run in the first turn only: rendering,
 # and oiiotool and the variants where pictures are large.
@@ -188,7 +188,7 @@ measure_control() {
         file=$sets/$scene-control-$mode-$table_size-$table_spp.exr
         [ -e "$file" ] || retex-render -q --plain --control-data $mode --size "$table_size" --spp "$table_spp" \
             "$(scene_file "$scene")" -o "$file"
-        record stored "scene=$scene" "what=control-$mode" "bytes=$(stat -c %s "$file")"
+        record stored "scene=$scene" "what=control-$mode" "bytes=$(stat -L -c %s "$file")"
     done
 }
 
