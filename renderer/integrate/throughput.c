@@ -144,14 +144,21 @@ static int is_finite(Rgb c)
     return isfinite(c.r + c.g + c.b);
 }
 
+/* Is the sum of two lights as good as both? What is not finite goes to the film by itself, which drops it. */
+static int can_join(const FilmLight *sum, const FilmLight *light)
+{
+    return sum->folded == light->folded &&
+           is_finite(rgb_add(rgb_add(sum->beauty, sum->outside), rgb_add(light->beauty, light->outside)));
+}
+
 /* Light behind the path's hits so far, and no others. */
 static void arrive(PathWorker *w, Path *path, const FilmLight *light)
 {
-    FilmLight *sum = path->arrived ? &path->arrived->light : NULL;
-    if (!sum || sum->folded != light->folded || !is_finite(rgb_add(light->beauty, light->outside))) {
+    if (!path->arrived || !can_join(&path->arrived->light, light)) {
         path->arrived = add_light(w, path, light, 0);
         return;
     }
+    FilmLight *sum = &path->arrived->light;
     sum->beauty = rgb_add(sum->beauty, light->beauty);
     sum->outside = rgb_add(sum->outside, light->outside);
     sum->connections++;

@@ -1,5 +1,5 @@
 /* Deflate (RFC 1951) by zlib, which is told to look for nothing but runs of equal bytes: of noise, filtered lines and
- * differences that makes as little as a search for all repetitions, in a third of the time. Private to libretex. */
+ * differences a search for other repetitions finds few. Private to libretex. */
 #ifndef LIBRETEX_DEFLATE_H
 #define LIBRETEX_DEFLATE_H
 
