@@ -100,17 +100,22 @@ static void print_target(const RetexSet *set, const RetexTarget *target)
                target->original_max[0], target->original_max[1]);
 }
 
-/* Of layout footprints: how many clusters a pixel of the first target has at most. */
+/* Of layout footprints: how many clusters a pixel has at most of a target, whichever has most. */
 static void print_clusters(const RetexSet *set)
 {
-    int sharp = 0, broad = 0;
+    int sharp[RETEX_MAX_TARGETS] = {0}, broad[RETEX_MAX_TARGETS] = {0}, most_sharp = 0, most_broad = 0;
 
     for (int i = 0; i < set->nfootprints; i++) {
-        sharp += set->footprints[i].target == 0 && set->footprints[i].kind == RETEX_FOOTPRINT_SHARP;
-        broad += set->footprints[i].target == 0 && set->footprints[i].kind == RETEX_FOOTPRINT_BROAD;
+        const RetexFootprint *footprint = &set->footprints[i];
+        sharp[footprint->target] += footprint->kind == RETEX_FOOTPRINT_SHARP;
+        broad[footprint->target] += footprint->kind == RETEX_FOOTPRINT_BROAD;
     }
-    if (sharp || broad)
-        printf("clusters       %d sharp, %d broad\n", sharp, broad);
+    for (int i = 0; i < set->ntargets; i++) {
+        most_sharp = sharp[i] > most_sharp ? sharp[i] : most_sharp;
+        most_broad = broad[i] > most_broad ? broad[i] : most_broad;
+    }
+    if (most_sharp || most_broad)
+        printf("clusters       %d sharp, %d broad\n", most_sharp, most_broad);
 }
 
 /* Light whose hits were too many to be kept apart does not follow a new texture. */

@@ -11,6 +11,10 @@ $ retex-render -q --size 16x12 --spp 2 -t floor --layout paper scenes/cornell-bo
 > orders         6
 > AOVs           33: 21 radiance, 6 UV, 6 spread
 
+# Of several targets the one that has most is told of: the wall is seen here, the floor is not.
+$ retex-render -q --size 16x12 --spp 32 -t Floor -t Red --clusters 4+4 --crop 0,5,2,2 scenes/cornell-box/cornell-box.pov -o w.exr; retex-info w.exr | grep '^clusters'
+> clusters       4 sharp, 0 broad
+
 # As many clusters as the samples of a pixel need and K or S+B allow; what no pixel has is left out.
 $ for k in 2 1+1 2+1 3+1 1+3 4 8 12+4 16; do printf '%s: ' $k; retex-render -q --size 16x12 --spp 32 -t floor --orders 1 --clusters $k scenes/cornell-box/cornell-box.pov | retex-info - 2>/dev/null | grep '^clusters\|^AOVs' | tr -s ' \n' ' '; echo; done
 > 2: clusters 2 sharp, 2 broad AOVs 13: 5 radiance, 4 UV, 4 spread

@@ -1,5 +1,6 @@
 /* Pictures through OpenImageIO and OpenColorIO: exact sRGB, alpha, greys, depths, colour spaces, $OCIO, and what is
  * said when a file cannot be read or written. */
+#include "lib_folder.h"
 #include "lib_test.h"
 
 #include <math.h>
@@ -13,32 +14,6 @@
 
 #include "bridge_load.h"
 #include "output.h"
-
-static char folder[64];
-
-static const char *in_folder(const char *name)
-{
-    static char path[4][512];
-    static int next;
-    next = (next + 1) % 4;
-    snprintf(path[next], sizeof path[next], "%s/%s", folder, name);
-    return path[next];
-}
-
-static int make_folder(void **state)
-{
-    (void)state;
-    strcpy(folder, "/tmp/retex-colour-XXXXXX");
-    return mkdtemp(folder) ? 0 : -1;
-}
-
-static int remove_folder(void **state)
-{
-    (void)state;
-    char command[128];
-    snprintf(command, sizeof command, "rm -r '%s'", folder);
-    return system(command);
-}
 
 /* Pictures that we do not write ourselves come from oiiotool. */
 static void oiiotool(const char *arguments, const char *output)
@@ -154,9 +129,9 @@ static void check_wrong_ocio(void)
     RetexError err = {0};
     RetexImage im = {0};
     retex_image_alloc(&im, 2, 2, 3, NULL);
-    must_child(bridge_write(&im, in_folder("x.png"), NULL, &err) == RETEX_EIO, "a wrong $OCIO is EIO");
+    must_child(bridge_write(&im, test_in_folder("x.png"), NULL, &err) == RETEX_EIO, "a wrong $OCIO is EIO");
     must_child(strstr(err.message, "$OCIO is '/nonexistent.ocio'") != NULL, err.message);
-    must_child(access(in_folder("x.png"), F_OK) != 0, "nothing is written");
+    must_child(access(test_in_folder("x.png"), F_OK) != 0, "nothing is written");
     retex_image_free(&im);
 }
 
@@ -182,21 +157,21 @@ static void check_other_ocio(void)
     RetexWriteParams params = RETEX_WRITE_INIT;
     test_random_image(&im, 16, 16, 3, 1, 0, 1);
     /* Its display shows Rec.709 as sRGB, so what comes back is what went in. */
-    must_child(bridge_write(&im, in_folder("o.tif"), NULL, &err) == 0, err.message);
-    must_child(retex_bridge_read(&back, in_folder("o.tif"), NULL, 0, &err) == 0, err.message);
+    must_child(bridge_write(&im, test_in_folder("o.tif"), NULL, &err) == 0, err.message);
+    must_child(retex_bridge_read(&back, test_in_folder("o.tif"), NULL, 0, &err) == 0, err.message);
     for (size_t i = 0; i < 256; i++)
         for (size_t c = 0; c < 3; c++)
             must_child(fabsf(back.pixels[4 * i + c] - im.pixels[3 * i + c]) < 1e-3f, "another configuration's display");
     retex_image_free(&back);
     /* Its own names and ours both mean something. */
-    must_child(retex_bridge_read(&back, in_folder("o.tif"), "non", 0, &err) == 0, err.message);
+    must_child(retex_bridge_read(&back, test_in_folder("o.tif"), "non", 0, &err) == 0, err.message);
     retex_image_free(&back);
-    must_child(retex_bridge_read(&back, in_folder("o.tif"), "ACEScct", 0, &err) == 0, err.message);
+    must_child(retex_bridge_read(&back, test_in_folder("o.tif"), "ACEScct", 0, &err) == 0, err.message);
     retex_image_free(&back);
     params.view = "same";
-    must_child(bridge_write(&im, in_folder("o.png"), &params, &err) == 0, err.message);
+    must_child(bridge_write(&im, test_in_folder("o.png"), &params, &err) == 0, err.message);
     params.view = "Standard";
-    must_child(bridge_write(&im, in_folder("o.png"), &params, &err) == RETEX_ENOTFOUND, "no such view");
+    must_child(bridge_write(&im, test_in_folder("o.png"), &params, &err) == RETEX_ENOTFOUND, "no such view");
     must_child(strstr(err.message, "Show, Same") != NULL, err.message);
     retex_image_free(&im);
 }
@@ -205,11 +180,11 @@ static void test_ocio(void **state)
 {
     (void)state;
     in_child("/nonexistent.ocio", check_wrong_ocio);
-    FILE *file = fopen(in_folder("other.ocio"), "w");
+    FILE *file = fopen(test_in_folder("other.ocio"), "w");
     assert_non_null(file);
     assert_true(fputs(other_config, file) >= 0);
     assert_int_equal(fclose(file), 0);
-    in_child(in_folder("other.ocio"), check_other_ocio);
+    in_child(test_in_folder("other.ocio"), check_other_ocio);
 }
 
 /* All 256 values of a PNG and all 65536 of a TIFF come back as they went in, and mean what IEC 61966-2-1 says. */
@@ -226,14 +201,14 @@ static void test_exact_srgb(void **state)
         for (int i = 0; i < levels; i++)
             for (int c = 0; c < 3; c++)
                 im.pixels[3 * i + c] = (float)srgb_to_linear((c == 1 ? levels - 1 - i : i) / (double)(levels - 1));
-        write_picture(&im, in_folder(files[k].name), NULL);
-        RetexImage back = read_picture(in_folder(files[k].name), NULL);
+        write_picture(&im, test_in_folder(files[k].name), NULL);
+        RetexImage back = read_picture(test_in_folder(files[k].name), NULL);
         for (int i = 0; i < levels; i++)
             for (int c = 0; c < 3; c++)
                 assert_true(back.pixels[4 * i + c] == im.pixels[3 * i + c]);
         assert_true(back.pixels[3] == 1);
         retex_image_free(&back);
-        back = read_picture(in_folder(files[k].name), "raw");
+        back = read_picture(test_in_folder(files[k].name), "raw");
         for (int i = 0; i < levels; i++)
             assert_float_equal(back.pixels[4 * i], i / (double)(levels - 1), 1e-6);
         retex_image_free(&back);
@@ -255,8 +230,8 @@ static void test_alpha(void **state)
         {"a.tga", 0.006, 1}, {"a.bmp", 0.1, 1},  {"a.ppm", 0.006, 0}, {"a.pfm", 1e-6, 0},
     };
     for (size_t k = 0; k < sizeof files / sizeof files[0]; k++) {
-        write_picture(&im, in_folder(files[k].name), NULL);
-        RetexImage back = read_picture(in_folder(files[k].name), NULL);
+        write_picture(&im, test_in_folder(files[k].name), NULL);
+        RetexImage back = read_picture(test_in_folder(files[k].name), NULL);
         for (size_t i = 0; i < 200; i++) {
             float alpha = im.pixels[4 * i + 3];
             assert_float_equal(back.pixels[4 * i + 3], files[k].alpha ? alpha : 1, files[k].tolerance);
@@ -276,8 +251,8 @@ static void test_grey(void **state)
     im.pixels[0] = 0.5f;
     static const char *const names[] = {"g.png", "g.jpg", "g.exr", "g.hdr", "g.tif", "g.pfm"};
     for (size_t k = 0; k < sizeof names / sizeof names[0]; k++) {
-        write_picture(&im, in_folder(names[k]), NULL);
-        back = read_picture(in_folder(names[k]), NULL);
+        write_picture(&im, test_in_folder(names[k]), NULL);
+        back = read_picture(test_in_folder(names[k]), NULL);
         for (int c = 0; c < 3; c++)
             assert_float_equal(back.pixels[c], 0.5, 0.005);
         assert_true(back.pixels[3] == 1);
@@ -286,8 +261,8 @@ static void test_grey(void **state)
     retex_image_free(&im);
     /* grey and alpha */
     oiiotool("--pattern constant:color=0.2,0.5 5x4 2 --chnames Y,A --attrib oiio:UnassociatedAlpha 1 -d uint8",
-             in_folder("ga.png"));
-    back = read_picture(in_folder("ga.png"), NULL);
+             test_in_folder("ga.png"));
+    back = read_picture(test_in_folder("ga.png"), NULL);
     for (int c = 0; c < 3; c++)
         assert_float_equal(back.pixels[c], back.pixels[0], 0);
     assert_true(back.pixels[0] > 0);
@@ -299,25 +274,26 @@ static void test_unusual_files(void **state)
 {
     (void)state;
     RetexImage back;
-    oiiotool("--pattern constant:color=0.25,0.5,2 70x30 3 -d half --compression dwaa", in_folder("dwaa.exr"));
-    back = read_picture(in_folder("dwaa.exr"), NULL);
+    oiiotool("--pattern constant:color=0.25,0.5,2 70x30 3 -d half --compression dwaa", test_in_folder("dwaa.exr"));
+    back = read_picture(test_in_folder("dwaa.exr"), NULL);
     assert_float_equal(back.pixels[2], 2, 0.01);
     retex_image_free(&back);
-    oiiotool("--pattern constant:color=0.25,0.5,1 70x30 3 -d uint8 --tile 16 16", in_folder("tiled.tif"));
-    back = read_picture(in_folder("tiled.tif"), NULL);
+    oiiotool("--pattern constant:color=0.25,0.5,1 70x30 3 -d uint8 --tile 16 16", test_in_folder("tiled.tif"));
+    back = read_picture(test_in_folder("tiled.tif"), NULL);
     assert_float_equal(back.pixels[4 * 2099], srgb_to_linear(64 / 255.0), 1e-6);
     retex_image_free(&back);
     /* many channels: colours are found by name */
     oiiotool("--pattern constant:color=.1,.2,.3,.4,.5,.6,.7 6x6 7 --chnames N.X,N.Y,N.Z,A,B,G,R -d float",
-             in_folder("many.exr"));
-    back = read_picture(in_folder("many.exr"), NULL);
+             test_in_folder("many.exr"));
+    back = read_picture(test_in_folder("many.exr"), NULL);
     const double want[4] = {0.7 / 0.4, 0.6 / 0.4, 0.5 / 0.4, 0.4};
     for (int c = 0; c < 4; c++)
         assert_float_equal(back.pixels[c], want[c], 1e-5);
     retex_image_free(&back);
     /* a data window smaller than what is shown */
-    oiiotool("--pattern constant:color=1,1,1 4x4 3 --origin +2+3 --fullsize 10x8+0+0 -d half", in_folder("window.exr"));
-    back = read_picture(in_folder("window.exr"), NULL);
+    oiiotool("--pattern constant:color=1,1,1 4x4 3 --origin +2+3 --fullsize 10x8+0+0 -d half",
+             test_in_folder("window.exr"));
+    back = read_picture(test_in_folder("window.exr"), NULL);
     assert_int_equal(back.width, 10);
     assert_int_equal(back.height, 8);
     assert_true(back.pixels[retex_image_index(&back, 2, 3)] == 1 && back.pixels[retex_image_index(&back, 1, 3)] == 0);
@@ -339,8 +315,8 @@ static void test_orientation(void **state)
                  "--pattern constant:color=0,0,0 6x4 3 --fill:color=1,0,0 2x2+0+0 --fill:color=0,1,0 2x2+4+0 %s "
                  "--attrib:type=int Orientation %d -d uint8",
                  stored[o - 1], o);
-        oiiotool(arguments, in_folder(name));
-        RetexImage im = read_picture(in_folder(name), NULL);
+        oiiotool(arguments, test_in_folder(name));
+        RetexImage im = read_picture(test_in_folder(name), NULL);
         assert_int_equal(im.width, 6);
         assert_int_equal(im.height, 4);
         assert_true(im.pixels[0] == 1 && im.pixels[1] == 0);
@@ -358,8 +334,8 @@ static void test_colorspaces(void **state)
     RetexImage im = {0};
     test_random_image(&im, 16, 16, 3, 8, 0.01, 0.9);
     for (size_t k = 0; k < sizeof names / sizeof names[0]; k++) {
-        write_picture(&im, in_folder("c.pfm"), names[k]);
-        RetexImage back = read_picture(in_folder("c.pfm"), names[k]);
+        write_picture(&im, test_in_folder("c.pfm"), names[k]);
+        RetexImage back = read_picture(test_in_folder("c.pfm"), names[k]);
         for (size_t i = 0; i < 256; i++)
             for (size_t c = 0; c < 3; c++)
                 assert_float_equal(back.pixels[4 * i + c], im.pixels[3 * i + c], 2e-5);
@@ -369,14 +345,14 @@ static void test_colorspaces(void **state)
      * .0206). */
     for (int i = 0; i < 2; i++)
         memcpy(im.pixels + 3 * i, i ? (float[3]){1, 0, 0} : (float[3]){0.18f, 0.18f, 0.18f}, 12);
-    write_picture(&im, in_folder("c.pfm"), "ACEScg");
-    RetexImage back = read_picture(in_folder("c.pfm"), "raw");
+    write_picture(&im, test_in_folder("c.pfm"), "ACEScg");
+    RetexImage back = read_picture(test_in_folder("c.pfm"), "raw");
     const double want[6] = {0.18, 0.18, 0.18, 0.6131, 0.0702, 0.0206};
     for (int i = 0; i < 6; i++)
         assert_float_equal(back.pixels[4 * (i / 3) + i % 3], want[i], 2e-4);
     retex_image_free(&back);
-    write_picture(&im, in_folder("c.pfm"), "ACEScct"); /* middle grey of ACEScct is .4135884 */
-    back = read_picture(in_folder("c.pfm"), "raw");
+    write_picture(&im, test_in_folder("c.pfm"), "ACEScct"); /* middle grey of ACEScct is .4135884 */
+    back = read_picture(test_in_folder("c.pfm"), "raw");
     assert_float_equal(back.pixels[0], 0.4135884, 1e-4);
     retex_image_free(&back);
     retex_image_free(&im);
@@ -397,45 +373,45 @@ static void test_mistakes(void **state)
         {"x.nope", RETEX_EINVAL, ".nope"},
     };
     for (size_t i = 0; i < sizeof writes / sizeof writes[0]; i++) {
-        assert_int_equal(bridge_write(&im, in_folder(writes[i].path), NULL, &err), writes[i].code);
+        assert_int_equal(bridge_write(&im, test_in_folder(writes[i].path), NULL, &err), writes[i].code);
         assert_non_null(strstr(err.message, writes[i].says));
-        assert_string_equal(err.file, in_folder(writes[i].path));
+        assert_string_equal(err.file, test_in_folder(writes[i].path));
     }
-    assert_int_equal(bridge_write(&two, in_folder("x.png"), NULL, &err), RETEX_EINVAL);
+    assert_int_equal(bridge_write(&two, test_in_folder("x.png"), NULL, &err), RETEX_EINVAL);
     /* a full disk, for each way of writing */
     static const char *const full[] = {"full.png", "full.jpg", "full.tif", "full.hdr", "full.exr", "full.pfm"};
     for (size_t i = 0; i < sizeof full / sizeof full[0]; i++) {
-        assert_int_equal(symlink("/dev/full", in_folder(full[i])), 0);
-        assert_int_equal(bridge_write(&im, in_folder(full[i]), NULL, &err), RETEX_EIO);
+        assert_int_equal(symlink("/dev/full", test_in_folder(full[i])), 0);
+        assert_int_equal(bridge_write(&im, test_in_folder(full[i]), NULL, &err), RETEX_EIO);
         assert_non_null(strstr(err.message, "No space left"));
     }
     params.colorspace = "Bleu";
-    assert_int_equal(bridge_write(&im, in_folder("x.png"), &params, &err), RETEX_ENOTFOUND);
+    assert_int_equal(bridge_write(&im, test_in_folder("x.png"), &params, &err), RETEX_ENOTFOUND);
     assert_non_null(strstr(err.message, "'Bleu'; there are Linear Rec.709, sRGB"));
     params = (RetexWriteParams)RETEX_WRITE_INIT;
     params.display = "Cinema";
-    assert_int_equal(bridge_write(&im, in_folder("x.png"), &params, &err), RETEX_ENOTFOUND);
+    assert_int_equal(bridge_write(&im, test_in_folder("x.png"), &params, &err), RETEX_ENOTFOUND);
     assert_non_null(strstr(err.message, "there are sRGB"));
-    assert_int_equal(access(in_folder("x.png"), F_OK), -1);
+    assert_int_equal(access(test_in_folder("x.png"), F_OK), -1);
 
-    write_picture(&im, in_folder("fine.png"), NULL);
-    assert_int_equal(retex_bridge_read(&back, in_folder("fine.png"), NULL, 5, &err), RETEX_ELIMIT);
-    assert_int_equal(retex_bridge_read(&back, in_folder("fine.png"), "Bleu", 0, &err), RETEX_ENOTFOUND);
-    assert_int_equal(retex_bridge_read(&back, in_folder("none.png"), NULL, 0, &err), RETEX_EIO);
-    assert_int_equal(retex_bridge_read(&back, folder, NULL, 0, &err), RETEX_EIO);
+    write_picture(&im, test_in_folder("fine.png"), NULL);
+    assert_int_equal(retex_bridge_read(&back, test_in_folder("fine.png"), NULL, 5, &err), RETEX_ELIMIT);
+    assert_int_equal(retex_bridge_read(&back, test_in_folder("fine.png"), "Bleu", 0, &err), RETEX_ENOTFOUND);
+    assert_int_equal(retex_bridge_read(&back, test_in_folder("none.png"), NULL, 0, &err), RETEX_EIO);
+    assert_int_equal(retex_bridge_read(&back, test_folder, NULL, 0, &err), RETEX_EIO);
     assert_non_null(strstr(err.message, "folder"));
     static const char *const bad[] = {"empty.png", "text.png", "cut.tif"};
-    write_picture(&im, in_folder(bad[2]), NULL);
-    assert_int_equal(truncate(in_folder(bad[2]), 60), 0);
+    write_picture(&im, test_in_folder(bad[2]), NULL);
+    assert_int_equal(truncate(test_in_folder(bad[2]), 60), 0);
     for (int i = 0; i < 2; i++) {
-        FILE *file = fopen(in_folder(bad[i]), "w");
+        FILE *file = fopen(test_in_folder(bad[i]), "w");
         assert_non_null(file);
         if (i)
             fputs("this is no picture\n", file);
         fclose(file);
     }
     for (int i = 0; i < 3; i++) {
-        assert_int_equal(retex_bridge_read(&back, in_folder(bad[i]), NULL, 0, &err), RETEX_EFORMAT);
+        assert_int_equal(retex_bridge_read(&back, test_in_folder(bad[i]), NULL, 0, &err), RETEX_EFORMAT);
         assert_null(back.pixels);
         assert_true(err.message[0] != '\0');
     }
@@ -454,12 +430,12 @@ static void test_wild_values(void **state)
         im.pixels[6 + i] = -1;
         im.pixels[9 + i] = 1e6f;
     }
-    write_picture(&im, in_folder("wild.png"), NULL);
-    RetexImage back = read_picture(in_folder("wild.png"), NULL);
+    write_picture(&im, test_in_folder("wild.png"), NULL);
+    RetexImage back = read_picture(test_in_folder("wild.png"), NULL);
     assert_true(back.pixels[0] == 0 && back.pixels[4] == 1 && back.pixels[8] == 0 && back.pixels[12] == 1);
     retex_image_free(&back);
-    write_picture(&im, in_folder("wild.exr"), NULL);
-    back = read_picture(in_folder("wild.exr"), NULL);
+    write_picture(&im, test_in_folder("wild.exr"), NULL);
+    back = read_picture(test_in_folder("wild.exr"), NULL);
     assert_true(back.pixels[8] == -1 && back.pixels[12] == 65504);
     retex_image_free(&back);
     retex_image_free(&im);
@@ -473,5 +449,5 @@ int main(void)
         cmocka_unit_test(test_unusual_files), cmocka_unit_test(test_orientation), cmocka_unit_test(test_colorspaces),
         cmocka_unit_test(test_mistakes),      cmocka_unit_test(test_wild_values),
     };
-    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+    return cmocka_run_group_tests(tests, test_make_folder, test_remove_folder);
 }

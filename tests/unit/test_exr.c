@@ -1,4 +1,5 @@
 /* EXR: half conversion over all values, parts there and back, every compression, and files damaged in all ways. */
+#include "lib_folder.h"
 #include "lib_test.h"
 #include <cmocka.h>
 
@@ -13,21 +14,7 @@
 #include "exr_io.h"
 #include "half.h"
 
-static char path[64];
-
-static int make_path(void **state)
-{
-    (void)state;
-    strcpy(path, "/tmp/retex-exr-XXXXXX");
-    const int descriptor = mkstemp(path);
-    return descriptor < 0 ? -1 : close(descriptor);
-}
-
-static int remove_path(void **state)
-{
-    (void)state;
-    return unlink(path);
-}
+static const char *const path = test_own_file;
 
 /* A half's value by its definition. */
 static double half_value(unsigned half)
@@ -456,5 +443,5 @@ int main(void)
         cmocka_unit_test(test_foreign_files_of_every_compression),
         cmocka_unit_test(test_absurd_requests),
     };
-    return cmocka_run_group_tests(tests, make_path, remove_path);
+    return cmocka_run_group_tests(tests, test_make_folder, test_remove_folder);
 }

@@ -1,4 +1,5 @@
 /* Images: memory and regions, EXR files there and back, and what happens when a file cannot be written. */
+#include "lib_folder.h"
 #include "lib_test.h"
 #include <cmocka.h>
 
@@ -14,45 +15,6 @@
 
 #include "exr_io.h"
 #include "output.h"
-
-static char folder[64];
-
-static const char *in_folder(const char *name)
-{
-    static char path[8][512];
-    static int next;
-    next = (next + 1) % 8;
-    snprintf(path[next], sizeof path[next], "%s/%s", folder, name);
-    return path[next];
-}
-
-/* How many files there are, hidden ones too. */
-static int files_left(void)
-{
-    DIR *dir = opendir(folder);
-    int count = 0;
-    for (struct dirent *entry; (entry = readdir(dir));)
-        count += strcmp(entry->d_name, ".") != 0 && strcmp(entry->d_name, "..") != 0;
-    closedir(dir);
-    return count;
-}
-
-static int make_folder(void **state)
-{
-    (void)state;
-    strcpy(folder, "/tmp/retex-image-XXXXXX");
-    return mkdtemp(folder) ? 0 : -1;
-}
-
-static int remove_folder(void **state)
-{
-    (void)state;
-    DIR *dir = opendir(folder);
-    for (struct dirent *entry; (entry = readdir(dir));)
-        unlink(in_folder(entry->d_name));
-    closedir(dir);
-    return rmdir(folder);
-}
 
 static void test_errors_quote_themselves(void **state)
 {
@@ -120,8 +82,8 @@ static void test_exr_there_and_back(void **state)
         if (channels == 4)
             for (int i = 0; i < 53 * 37; i++)
                 im.pixels[4 * i + 3] = 0.5f;
-        test_must(retex_image_write(&im, in_folder("a.exr"), NULL, &err), &err);
-        test_must(retex_image_read(&back, in_folder("a.exr"), NULL, 0, &err), &err);
+        test_must(retex_image_write(&im, test_in_folder("a.exr"), NULL, &err), &err);
+        test_must(retex_image_read(&back, test_in_folder("a.exr"), NULL, 0, &err), &err);
         assert_true(back.width == 53 && back.height == 37 && back.channels == 4);
         for (int i = 0; i < 53 * 37; i++)
             for (int c = 0; c < 4; c++) {
@@ -130,11 +92,11 @@ static void test_exr_there_and_back(void **state)
                 assert_true(near_half(want, back.pixels[4 * i + c]));
             }
         retex_image_free(&back);
-        assert_int_equal(retex_image_read(&back, in_folder("a.exr"), NULL, 53 * 37 - 1, &err), RETEX_ELIMIT);
+        assert_int_equal(retex_image_read(&back, test_in_folder("a.exr"), NULL, 53 * 37 - 1, &err), RETEX_ELIMIT);
         assert_null(back.pixels);
         retex_image_free(&im);
     }
-    assert_int_equal(files_left(), 1);
+    assert_int_equal(test_files_left(), 1);
 }
 
 static void test_exr_through_a_pipe(void **state)
@@ -202,8 +164,8 @@ static void test_output_is_old_or_new(void **state)
     (void)state;
     RetexOutput *output;
     RetexError err = {0};
-    const char *path = in_folder("old");
-    const int before = files_left();
+    const char *path = test_in_folder("old");
+    const int before = test_files_left();
 
     test_must(retex_output_open(&output, path, &err), &err);
     write_text(output, "first");
@@ -220,29 +182,29 @@ static void test_output_is_old_or_new(void **state)
     expect_text(path, "first");
 
     test_must(retex_output_check(path, &err), &err);
-    test_must(retex_output_check(in_folder("new"), &err), &err);
+    test_must(retex_output_check(test_in_folder("new"), &err), &err);
     test_must(retex_output_check("-", &err), &err);
-    assert_int_equal(retex_output_check(folder, &err), RETEX_EIO);
-    assert_int_equal(retex_output_check(in_folder("none/new"), &err), RETEX_EIO);
-    test_must(retex_image_write_check(in_folder("new.png"), NULL, &err), &err);
-    assert_int_equal(retex_image_write_check(in_folder("new.xyz"), NULL, &err), RETEX_EINVAL);
-    assert_int_equal(files_left(), before + 1);
+    assert_int_equal(retex_output_check(test_folder, &err), RETEX_EIO);
+    assert_int_equal(retex_output_check(test_in_folder("none/new"), &err), RETEX_EIO);
+    test_must(retex_image_write_check(test_in_folder("new.png"), NULL, &err), &err);
+    assert_int_equal(retex_image_write_check(test_in_folder("new.xyz"), NULL, &err), RETEX_EINVAL);
+    assert_int_equal(test_files_left(), before + 1);
 
     /* a link is followed, permissions are kept */
     struct stat status;
-    assert_int_equal(symlink("old", in_folder("link")), 0);
-    test_must(retex_output_open(&output, in_folder("link"), &err), &err);
+    assert_int_equal(symlink("old", test_in_folder("link")), 0);
+    test_must(retex_output_open(&output, test_in_folder("link"), &err), &err);
     write_text(output, "second");
     test_must(retex_output_commit(&output, &err), &err);
     expect_text(path, "second");
-    assert_int_equal(lstat(in_folder("link"), &status), 0);
+    assert_int_equal(lstat(test_in_folder("link"), &status), 0);
     assert_true(S_ISLNK(status.st_mode));
     assert_int_equal(stat(path, &status), 0);
     assert_int_equal(status.st_mode & 0777, 0640);
 
-    assert_int_equal(retex_output_open(&output, folder, &err), RETEX_EIO);
+    assert_int_equal(retex_output_open(&output, test_folder, &err), RETEX_EIO);
     assert_null(output);
-    assert_int_equal(files_left(), before + 2);
+    assert_int_equal(test_files_left(), before + 2);
 }
 
 static void test_the_manifest_part_is_an_image(void **state)
@@ -251,8 +213,8 @@ static void test_the_manifest_part_is_an_image(void **state)
     RetexSet *set = test_set(24, 16, 3);
     RetexImage im = {0};
     RetexError err = {0};
-    test_must(retex_set_write(set, NULL, in_folder("set.exr"), NULL, &err), &err);
-    test_must(retex_image_read(&im, in_folder("set.exr"), NULL, 0, &err), &err);
+    test_must(retex_set_write(set, NULL, test_in_folder("set.exr"), NULL, &err), &err);
+    test_must(retex_image_read(&im, test_in_folder("set.exr"), NULL, 0, &err), &err);
     for (int i = 0; i < 24 * 16; i++)
         assert_true(near_half(set->parts[0].image.pixels[3 * i], im.pixels[4 * i]));
     retex_image_free(&im);
@@ -267,5 +229,5 @@ int main(void)
         cmocka_unit_test(test_exr_through_a_pipe),       cmocka_unit_test(test_a_full_device_is_an_error),
         cmocka_unit_test(test_output_is_old_or_new),     cmocka_unit_test(test_the_manifest_part_is_an_image),
     };
-    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+    return cmocka_run_group_tests(tests, test_make_folder, test_remove_folder);
 }

@@ -1,5 +1,6 @@
 /* Terms with mixtures, whose values are known by hand: with new textures on either target, on both, on none; through
  * files, streams and packs; and mixtures that are not whole. */
+#include "lib_folder.h"
 #include "lib_test.h"
 
 #include <limits.h>
@@ -14,21 +15,7 @@
 enum { PIXELS = 3, FLOOR_FIRST = 0, FLOOR_LATER, WALL_FIRST, WALL_LATER };
 enum { LATER = RETEX_MIXTURE(0), FIRST = RETEX_MIXTURE(1) };
 
-static char path[64];
-
-static int make_path(void **state)
-{
-    (void)state;
-    strcpy(path, "/tmp/retex-mixture-XXXXXX");
-    const int descriptor = mkstemp(path);
-    return descriptor < 0 ? -1 : close(descriptor);
-}
-
-static int remove_path(void **state)
-{
-    (void)state;
-    return unlink(path);
-}
+static const char *const path = test_own_file;
 
 /* ---- the set: three pixels side by side ---- */
 
@@ -421,5 +408,5 @@ int main(void)
         cmocka_unit_test(test_error),   cmocka_unit_test(test_file),         cmocka_unit_test(test_stream),
         cmocka_unit_test(test_pack),    cmocka_unit_test(test_not_whole),    cmocka_unit_test(test_additions),
     };
-    return cmocka_run_group_tests(tests, make_path, remove_path);
+    return cmocka_run_group_tests(tests, test_make_folder, test_remove_folder);
 }

@@ -1,5 +1,6 @@
 /* Pictures written band by band: the same file whatever the order of the bands and the threads, the same pixels as from
  * the libraries that make such files in one go, and nothing left behind where it fails. */
+#include "lib_folder.h"
 #include "lib_test.h"
 #include <cmocka.h>
 
@@ -18,42 +19,6 @@
 #include "exr_io.h"
 #include "png_filter.h"
 #include "srgb_codes.h"
-
-static char folder[64];
-
-static const char *in_folder(const char *name)
-{
-    static char path[8][512];
-    static int next;
-    next = (next + 1) % 8;
-    snprintf(path[next], sizeof path[next], "%s/%s", folder, name);
-    return path[next];
-}
-
-static int make_folder(void **state)
-{
-    (void)state;
-    strcpy(folder, "/tmp/retex-picture-XXXXXX");
-    return mkdtemp(folder) ? 0 : -1;
-}
-
-static int remove_folder(void **state)
-{
-    (void)state;
-    char command[128];
-    snprintf(command, sizeof command, "rm -r '%s'", folder);
-    return system(command);
-}
-
-static int files_left(void)
-{
-    DIR *dir = opendir(folder);
-    int count = 0;
-    for (struct dirent *entry; (entry = readdir(dir));)
-        count += strcmp(entry->d_name, ".") != 0 && strcmp(entry->d_name, "..") != 0;
-    closedir(dir);
-    return count;
-}
 
 typedef struct Bytes {
     unsigned char *data;
@@ -186,15 +151,15 @@ static void test_any_order_and_threads(void **state)
                 snprintf(one, sizeof one, "one.%s", endings[k]);
                 snprintf(other, sizeof other, "other.%s", endings[k]);
                 paint(&im, sizes[s][0], sizes[s][1], channels);
-                test_must(retex_image_write(&im, in_folder(one), NULL, &err), &err);
+                test_must(retex_image_write(&im, test_in_folder(one), NULL, &err), &err);
                 /* strides prime to the numbers of bands: 1, 2, 8, 18 */
                 static const int orders[][2] = {{1, 1}, {1, 17}, {2, 5}, {7, 1}, {7, 7}};
                 for (int i = 0; i < 5; i++) {
-                    write_bands(&im, in_folder(other), NULL, orders[i][0], orders[i][1]);
+                    write_bands(&im, test_in_folder(other), NULL, orders[i][0], orders[i][1]);
                     if (strcmp(endings[k], "tif") == 0) /* it says when it was written */
-                        assert_same_pixels(in_folder(one), in_folder(other));
+                        assert_same_pixels(test_in_folder(one), test_in_folder(other));
                     else
-                        assert_same_file(in_folder(one), in_folder(other));
+                        assert_same_file(test_in_folder(one), test_in_folder(other));
                 }
                 retex_image_free(&im);
             }
@@ -223,9 +188,9 @@ static void test_pixels_are_those_of_one_go(void **state)
                 snprintf(ours, sizeof ours, "ours.%s", ways[k].ending);
                 snprintf(theirs, sizeof theirs, "theirs.%s", ways[k].ending);
                 paint(&im, sizes[s][0], sizes[s][1], channels);
-                write_in_one_go(&im, in_folder(theirs), &params);
-                write_bands(&im, in_folder(ours), &params, 2, 1);
-                assert_same_pixels(in_folder(ours), in_folder(theirs));
+                write_in_one_go(&im, test_in_folder(theirs), &params);
+                write_bands(&im, test_in_folder(ours), &params, 2, 1);
+                assert_same_pixels(test_in_folder(ours), test_in_folder(theirs));
                 retex_image_free(&im);
             }
 }
@@ -241,10 +206,10 @@ static void test_exr_is_that_of_sets(void **state)
         paint(&im, sizes[s][0], sizes[s][1], 3);
         RetexExrPart part = {.name = "beauty", .letters = "RGB", .type = RETEX_HALF, .image = &im};
         test_must(retex_exr_encode(&encoding, &part, 1, 1, 1, &err), &err);
-        test_must(retex_exr_write(encoding, im.width, im.height, NULL, NULL, in_folder("set.exr"), &err), &err);
+        test_must(retex_exr_write(encoding, im.width, im.height, NULL, NULL, test_in_folder("set.exr"), &err), &err);
         retex_exr_encoding_free(&encoding);
-        write_bands(&im, in_folder("bands.exr"), NULL, 2, 1);
-        assert_same_file(in_folder("set.exr"), in_folder("bands.exr"));
+        write_bands(&im, test_in_folder("bands.exr"), NULL, 2, 1);
+        assert_same_file(test_in_folder("set.exr"), test_in_folder("bands.exr"));
         retex_image_free(&im);
     }
 }
@@ -283,22 +248,22 @@ static void test_jpeg_is_plain(void **state)
     RetexWriteParams params = RETEX_WRITE_INIT;
     unsigned restart;
     paint(&im, 19, 1000, 3); /* 16 bands: markers 0 to 7 come twice */
-    write_bands(&im, in_folder("p.jpg"), &params, 2, 7);
-    assert_int_equal(decode_strictly(in_folder("p.jpg"), 19, 1000, &restart), 0);
+    write_bands(&im, test_in_folder("p.jpg"), &params, 2, 7);
+    assert_int_equal(decode_strictly(test_in_folder("p.jpg"), 19, 1000, &restart), 0);
     assert_int_equal(restart, 3 * 8);
     params.quality = 50; /* chroma at half the size: MCUs of 16 lines */
-    write_bands(&im, in_folder("p.jpg"), &params, 2, 1);
-    assert_int_equal(decode_strictly(in_folder("p.jpg"), 19, 1000, &restart), 0);
+    write_bands(&im, test_in_folder("p.jpg"), &params, 2, 1);
+    assert_int_equal(decode_strictly(test_in_folder("p.jpg"), 19, 1000, &restart), 0);
     assert_int_equal(restart, 2 * 4);
     retex_image_free(&im);
     paint(&im, 19, 64, 3);
-    write_bands(&im, in_folder("p.jpg"), NULL, 1, 1);
-    assert_int_equal(decode_strictly(in_folder("p.jpg"), 19, 64, &restart), 0);
+    write_bands(&im, test_in_folder("p.jpg"), NULL, 1, 1);
+    assert_int_equal(decode_strictly(test_in_folder("p.jpg"), 19, 64, &restart), 0);
     assert_int_equal(restart, 0);
     retex_image_free(&im);
     paint(&im, 65500, 65, 1); /* the largest there is, with the most MCUs a band */
-    write_bands(&im, in_folder("p.jpg"), NULL, 2, 1);
-    assert_int_equal(decode_strictly(in_folder("p.jpg"), 65500, 65, &restart), 0);
+    write_bands(&im, test_in_folder("p.jpg"), NULL, 2, 1);
+    assert_int_equal(decode_strictly(test_in_folder("p.jpg"), 65500, 65, &restart), 0);
     assert_int_equal(restart, 65504);
     retex_image_free(&im);
 }
@@ -385,10 +350,10 @@ static void test_given_up_or_failed(void **state)
     for (int k = 0; k < 4; k++) {
         RetexPicture *picture;
         RetexError err = {0};
-        const char *path = in_folder(names[k]), *full = in_folder("full");
+        const char *path = test_in_folder(names[k]), *full = test_in_folder("full");
         char other[600];
         test_must(retex_file_write(path, "old", 3, &err), &err);
-        const int before = files_left();
+        const int before = test_files_left();
 
         /* given up, after some bands */
         test_must(retex_picture_open(&picture, path, 50, 200, 3, NULL, &err), &err);
@@ -412,7 +377,7 @@ static void test_given_up_or_failed(void **state)
             assert_null(picture);
         }
         expect_old(path);
-        assert_int_equal(files_left(), before);
+        assert_int_equal(test_files_left(), before);
 
         /* a full disk, and a folder that is not there */
         snprintf(other, sizeof other, "%s%s", full, strrchr(names[k], '.'));
@@ -424,7 +389,7 @@ static void test_given_up_or_failed(void **state)
         assert_int_equal(retex_picture_open(&picture, other, 50, 200, 3, NULL, &err), RETEX_EIO);
         assert_null(picture);
         assert_non_null(strstr(err.message, "No such file or directory"));
-        assert_int_equal(files_left(), before);
+        assert_int_equal(test_files_left(), before);
     }
     retex_image_free(&im);
 }
@@ -440,21 +405,21 @@ static void test_what_cannot_be(void **state)
                                     {1, 1, 2}, {1, 1, 5}, {1, 1, 0}};
     for (int i = 0; i < 7; i++)
         assert_int_equal(
-            retex_picture_open(&picture, in_folder("w.png"), shapes[i][0], shapes[i][1], shapes[i][2], NULL, &err),
+            retex_picture_open(&picture, test_in_folder("w.png"), shapes[i][0], shapes[i][1], shapes[i][2], NULL, &err),
             RETEX_EINVAL);
-    assert_int_equal(retex_picture_open(&picture, in_folder("w.jpg"), 65501, 1, 3, NULL, &err), RETEX_EINVAL);
+    assert_int_equal(retex_picture_open(&picture, test_in_folder("w.jpg"), 65501, 1, 3, NULL, &err), RETEX_EINVAL);
     assert_non_null(strstr(err.message, "a JPEG has at most 65500 x 65500 pixels"));
     params.quality = 0;
-    assert_int_equal(retex_picture_open(&picture, in_folder("w.jpg"), 1, 1, 3, &params, &err), RETEX_EINVAL);
-    assert_int_equal(retex_image_write(&im, in_folder("w.jpg"), NULL, &err), RETEX_EINVAL);
+    assert_int_equal(retex_picture_open(&picture, test_in_folder("w.jpg"), 1, 1, 3, &params, &err), RETEX_EINVAL);
+    assert_int_equal(retex_image_write(&im, test_in_folder("w.jpg"), NULL, &err), RETEX_EINVAL);
     /* found out by whoever waits for the bridge */
     paint(&im, 2, 2, 3);
     params = (RetexWriteParams)RETEX_WRITE_INIT;
     params.view = "Bleu";
-    assert_int_equal(retex_image_write(&im, in_folder("w.png"), &params, &err), RETEX_ENOTFOUND);
+    assert_int_equal(retex_image_write(&im, test_in_folder("w.png"), &params, &err), RETEX_ENOTFOUND);
     assert_non_null(strstr(err.message, "has no view 'Bleu'"));
-    assert_int_equal(retex_image_write(&im, in_folder("w.xyz"), NULL, &err), RETEX_EINVAL);
-    assert_int_equal(access(in_folder("w.png"), F_OK), -1);
+    assert_int_equal(retex_image_write(&im, test_in_folder("w.xyz"), NULL, &err), RETEX_EINVAL);
+    assert_int_equal(access(test_in_folder("w.png"), F_OK), -1);
     retex_image_free(&im);
 }
 
@@ -471,15 +436,15 @@ static void test_no_bridge_is_needed(void **state)
         setenv("RETEX_BRIDGE", "/nowhere/at/all.so", 1);
         unsetenv("OCIO");
         paint(&im, 5, 5, 3);
-        failed |= retex_image_write_check(in_folder("n.png"), NULL, &err);
-        failed |= retex_image_write(&im, in_folder("n.png"), NULL, &err);
-        failed |= retex_image_write(&im, in_folder("n.jpg"), NULL, &err);
-        failed |= retex_image_write(&im, in_folder("n.exr"), NULL, &err);
-        failed |= retex_image_write(&im, in_folder("n.tif"), NULL, &err) != RETEX_EUNSUPPORTED;
+        failed |= retex_image_write_check(test_in_folder("n.png"), NULL, &err);
+        failed |= retex_image_write(&im, test_in_folder("n.png"), NULL, &err);
+        failed |= retex_image_write(&im, test_in_folder("n.jpg"), NULL, &err);
+        failed |= retex_image_write(&im, test_in_folder("n.exr"), NULL, &err);
+        failed |= retex_image_write(&im, test_in_folder("n.tif"), NULL, &err) != RETEX_EUNSUPPORTED;
         params.view = "Raw";
-        failed |= retex_image_write(&im, in_folder("n.png"), &params, &err) != RETEX_EUNSUPPORTED;
+        failed |= retex_image_write(&im, test_in_folder("n.png"), &params, &err) != RETEX_EUNSUPPORTED;
         setenv("OCIO", "/nowhere/config.ocio", 1);
-        failed |= retex_image_write(&im, in_folder("n.jpg"), NULL, &err) != RETEX_EUNSUPPORTED;
+        failed |= retex_image_write(&im, test_in_folder("n.jpg"), NULL, &err) != RETEX_EUNSUPPORTED;
         _exit(failed != 0);
     }
     int status;
@@ -497,5 +462,5 @@ int main(void)
         cmocka_unit_test(test_png_filters_can_be_undone), cmocka_unit_test(test_srgb_codes),
         cmocka_unit_test(test_given_up_or_failed),        cmocka_unit_test(test_what_cannot_be),
     };
-    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+    return cmocka_run_group_tests(tests, test_make_folder, test_remove_folder);
 }

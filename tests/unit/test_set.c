@@ -1,4 +1,5 @@
 /* Sets and samples: there and back through files and pipes, checksums, manifests that lie, files that are damaged. */
+#include "lib_folder.h"
 #include "lib_test.h"
 #include <cmocka.h>
 
@@ -12,21 +13,7 @@
 #include "half.h"
 #include "manifest.h"
 
-static char path[64];
-
-static int make_path(void **state)
-{
-    (void)state;
-    strcpy(path, "/tmp/retex-set-XXXXXX");
-    const int descriptor = mkstemp(path);
-    return descriptor < 0 ? -1 : close(descriptor);
-}
-
-static int remove_path(void **state)
-{
-    (void)state;
-    return unlink(path);
-}
+static const char *const path = test_own_file;
 
 /* Samples for some of a set's footprints: every other one, or those of the first target. */
 static RetexSamples *make_samples(const RetexSet *set, int every)
@@ -795,5 +782,5 @@ int main(void)
         cmocka_unit_test(test_stored_rows),
         cmocka_unit_test(test_what_is_no_set),
     };
-    return cmocka_run_group_tests(tests, make_path, remove_path);
+    return cmocka_run_group_tests(tests, test_make_folder, test_remove_folder);
 }

@@ -1,0 +1,58 @@
+/* See lib_folder.h. */
+#include "lib_folder.h"
+
+#include <dirent.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+char test_folder[32];
+char test_own_file[48];
+
+int test_make_folder(void **state)
+{
+    (void)state;
+    strcpy(test_folder, "/tmp/retex-test-XXXXXX");
+    if (!mkdtemp(test_folder))
+        return -1;
+    snprintf(test_own_file, sizeof test_own_file, "%s/file", test_folder);
+    return 0;
+}
+
+static int is_entry(const struct dirent *entry)
+{
+    return strcmp(entry->d_name, ".") != 0 && strcmp(entry->d_name, "..") != 0;
+}
+
+int test_remove_folder(void **state)
+{
+    (void)state;
+    DIR *dir = opendir(test_folder);
+    if (!dir)
+        return -1;
+    for (struct dirent *entry; (entry = readdir(dir));)
+        if (is_entry(entry))
+            unlink(test_in_folder(entry->d_name));
+    closedir(dir);
+    return rmdir(test_folder);
+}
+
+const char *test_in_folder(const char *name)
+{
+    static char paths[8][512];
+    static int next;
+    next = (next + 1) % 8;
+    snprintf(paths[next], sizeof paths[next], "%s/%s", test_folder, name);
+    return paths[next];
+}
+
+int test_files_left(void)
+{
+    DIR *dir = opendir(test_folder);
+    int count = 0;
+    for (struct dirent *entry; (entry = readdir(dir));)
+        count += is_entry(entry);
+    closedir(dir);
+    return count;
+}
