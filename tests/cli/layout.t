@@ -80,7 +80,7 @@ $ for s in f p; do retex-combine -q $s.exr --texture 'floor=rgb(0.7,0.1,0.2)' -o
 
 # A pack holds either.
 $ for s in f p two; do retex-pack -q --lossless $s.exr -o $s.retex; retex-combine -q $s.retex -o a.exr; retex-combine -q $s.exr -o b.exr; cmp a.exr b.exr; done; retex-info two.retex | grep '^clusters'
-> clusters       2 sharp, 1 broad
+> clusters       2 sharp, 2 broad
 
 $ retex-render --layout cubist scenes/cornell-box/cornell-box.pov -o x.exr
 ! retex-render: error: --layout knows footprints and paper, not `cubist`
