@@ -13,7 +13,4 @@ typedef int CompactBandJob(void *context, const CompactLight *light, int first, 
 /* From the first row to the last, one after the other. */
 int compact_bands(const CompactLight *light, CompactBandJob *job, void *context, int nthreads, RetexError *err);
 
-/* Rows of a part, from wherever the set has them. */
-int compact_rows(RetexImage *image, const RetexSet *set, int part, int first, RetexError *err);
-
 #endif

@@ -9,6 +9,7 @@
 #include "compact_bands.h"
 #include "compact_clusters.h"
 #include "compact_gains.h"
+#include "set_band.h"
 #include "set_parts.h"
 
 typedef struct Compaction {
@@ -34,11 +35,9 @@ static const char *const kind_names[] = {"hit", "sharp", "broad", "later"};
 int compact_copy_part(RetexSet *set, const RetexSet *from, int number, int *index, RetexError *err)
 {
     const RetexPart *part = &from->parts[number];
-    if (part->spooled)
-        return retex_fail(err, RETEX_EINVAL, "part %s of the set is not in memory", part->name);
     int code = retex_set_add_part(set, part->name, part->letters, part->type, part->image.width, part->image.height,
                                   index, err);
-    return code ? code : compact_rows(&set->parts[*index].image, from, number, 0, err);
+    return code ? code : set_part_rows(&set->parts[*index].image, from, number, 0, err);
 }
 
 int compact_copy_head(RetexSet **copy, const RetexSet *set, RetexError *err)

@@ -10,7 +10,7 @@
 #include "rows.h"
 #include "set_source.h"
 
-#define ROWS_A_JOB 64 /* a pack's band */
+#define ROWS_A_JOB 64 /* a pack's band, some of a spool's */
 
 typedef struct LoadJob {
     RetexSet *set;
@@ -46,11 +46,8 @@ static void load_job(void *context, int index, int thread)
 
     if (job->code || !job->wanted[part] || p->image.pixels || y0 >= p->image.height)
         return;
-    if (!p->spooled)
-        code = load_rows(job, part, y0, y0 + ROWS_A_JOB < p->image.height ? y0 + ROWS_A_JOB : p->image.height,
-                         &job->errors[thread]);
-    else if (y0 == 0)
-        code = retex_spool_load(job->set->spool, p->spooled - 1, &job->loaded[part], &job->errors[thread]);
+    code = load_rows(job, part, y0, y0 + ROWS_A_JOB < p->image.height ? y0 + ROWS_A_JOB : p->image.height,
+                     &job->errors[thread]);
     if (code)
         atomic_store(&job->code, code);
 }
@@ -63,7 +60,7 @@ static int prepare(LoadJob *job, RetexError *err)
         const RetexPart *part = &job->set->parts[i];
         const int blocks = (part->image.height + ROWS_A_JOB - 1) / ROWS_A_JOB;
         job->blocks = blocks > job->blocks ? blocks : job->blocks;
-        if (job->wanted[i] && !part->spooled && !part->image.pixels)
+        if (job->wanted[i] && !part->image.pixels)
             code = retex_image_alloc(&job->loaded[i], part->image.width, part->image.height, part->image.channels, err);
     }
     return code;

@@ -437,23 +437,3 @@ int retex_spool_load_band(const RetexSpool *spool, int number, int band, float *
     free(scratch.packed);
     return status;
 }
-
-int retex_spool_load(const RetexSpool *spool, int number, RetexImage *dst, RetexError *err)
-{
-    const SpoolImage *image = spool->images[number];
-    SpoolScratch scratch = {.packed = NULL};
-    int status = retex_image_alloc(dst, spool->width, spool->height, (int)strlen(image->letters), err);
-
-    for (int band = 0; band < spool->nbands && !status; band++) {
-        const RetexChunkShape shape = spool_shape(spool, image, band);
-        const RetexSpoolChunk *chunk = &image->chunks[band];
-        if (chunk->bytes)
-            status = load_band(spool, chunk, &shape, &scratch,
-                               dst->pixels + retex_image_index(dst, 0, band * RETEX_SPOOL_LINES), err);
-    }
-    retex_chunk_free(&scratch.chunk);
-    free(scratch.packed);
-    if (status)
-        retex_image_free(dst);
-    return status;
-}

@@ -153,8 +153,8 @@ void retex_set_close(RetexSet **set); /* NULL and pointers to NULL are fine */
 /* Append; *index (may be NULL) gets its number. The image is allocated zeroed, width 0 = the set's own size. */
 int retex_set_add_part(RetexSet *set, const char *name, const char *letters, RetexPixelType type, int width, int height,
                        int *index, RetexError *err);
-/* Append a part whose pixels are in the set's spool, under the same name, letters and type. Only retex_set_write takes
- * such a set; for all else it is loaded. */
+/* Append a part whose pixels are in the set's spool, under the same name, letters and type. It is read there row by row,
+ * as parts of a set that is open are in their file. */
 int retex_set_add_spooled(RetexSet *set, const char *name, const char *letters, RetexPixelType type, int image,
                           int *index, RetexError *err);
 /* Bring all parts into memory, and close the spool or the source. */

@@ -50,10 +50,7 @@ int retex_spool_copy_band(RetexSpool *spool, const RetexSpool *from, int band, R
 /* Whether no pixel that was put is other than 0. */
 int retex_spool_is_empty(const RetexSpool *spool, int image);
 
-/* The image as it would be read from a file; dst is unallocated. */
-int retex_spool_load(const RetexSpool *spool, int image, RetexImage *dst, RetexError *err);
-
-/* One band of it: its rows, interleaved. */
+/* One band of an image, as it would be read from a file: its rows, interleaved. */
 int retex_spool_load_band(const RetexSpool *spool, int image, int band, float *pixels, RetexError *err);
 
 #ifdef __cplusplus
