@@ -3,15 +3,11 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+
+#include <retex/rounding.h>
 #include "film/footprint_pixel.h"
 
 #define PARTS_MAX 1490 /* of a set, with room for its beauty, originals, AOVs and what denoising needs */
-#define SHARE_STEP (1.0 / 512)
-enum { COVERAGE_BITS = 8 }; /* significant ones: what lies below is noise, which does not compress */
-#define LEAST_SHARE 1e-5f   /* of further hits: a half holds it */
-/* Coefficients are rounded to this share of what the pixel would be were its targets white: steps no one sees, and
- * small coefficients of few bits, which compress. */
-#define COEFFICIENT_STEP (1.0f / 8192)
 
 /* ---- life ---- */
 
@@ -130,7 +126,7 @@ static void store_footprint(const FootprintImages *to, const UvStats *uv, const 
 {
     float *mean = pixel_of(at, to->uv), *spread = pixel_of(at, to->spread), *a = pixel_of(at, to->albedo);
     uv_stats_store(uv, mean, spread);
-    mean[2] = (float)retex_round_bits((double)coverage, COVERAGE_BITS);
+    mean[2] = retex_round_coverage((double)coverage);
     float light = albedo->light[0] + albedo->light[1] + albedo->light[2];
     float reflected = albedo->reflected[0] + albedo->reflected[1] + albedo->reflected[2];
     for (int c = 0; c < 3; c++) /* a channel without light: grey of the others */
@@ -155,14 +151,14 @@ static void add_white(double sum[3], const Clusters *clusters, int coefficients)
 }
 
 /* The largest channel of the pixel as it would be with white textures, in the set's units. */
-static float white_pixel(const FootprintPixel *p)
+static double white_pixel(const FootprintPixel *p)
 {
     double sum[3] = {p->free[0], p->free[1], p->free[2]};
     for (int t = 0; t < p->film->scene->ntargets; t++) {
         add_white(sum, &p->targets[t].sharp, p->film->plan.count);
         add_white(sum, &p->targets[t].broad, p->film->plan.count);
     }
-    return (float)(fmax(sum[0], fmax(sum[1], sum[2])) / p->spp);
+    return fmax(sum[0], fmax(sum[1], sum[2])) / p->spp;
 }
 
 /* So many paths of equal weight would know as much (Kish 1965): few bright ones count for few. */
@@ -182,7 +178,7 @@ static void store_light(int image, const float sum[3], float scale, double step,
 
 static void store_share(int image, float share, const Place *at)
 {
-    *pixel_of(at, image) = fmaxf((float)retex_round_to(share, SHARE_STEP), LEAST_SHARE);
+    *pixel_of(at, image) = retex_round_share((double)share);
 }
 
 /* Clusters into their images, in the order of their place on the texture, so that neighbours agree. */
@@ -240,7 +236,7 @@ void footprints_pixel_end(FootprintPixel *p, BandRows *rows, int spp, int x, int
     const Place at = {rows, x, y};
     FootprintFilm *film = p->film;
     p->spp = spp;
-    double step = COEFFICIENT_STEP * white_pixel(p);
+    double step = retex_coefficient_step(white_pixel(p));
     float scale = 1 / (float)spp, *c0 = pixel_of(&at, film->free);
     for (int c = 0; c < 3; c++)
         c0[c] = (float)(p->free[c] * scale), p->free[c] = 0;

@@ -235,6 +235,15 @@ double denoise_total(const RetexSet *set, const Signal *signal, int x, int y, in
     return sum;
 }
 
+double denoise_half_step(const RetexSet *set, int x, int y)
+{
+    double white[3] = {0, 0, 0};
+    for (int t = 0; t < set->nterms && strcmp(set->layout, "footprints") == 0; t++)
+        for (int c = 0; c < 3; c++)
+            white[c] += pixel(set, set->terms[t].radiance, x, y)[c];
+    return fmax(white[0], fmax(white[1], white[2])) / 16384;
+}
+
 /* ---- calls ---- */
 
 void denoise_all(RetexSet *set, const RetexDenoiseParams *params, int nthreads)

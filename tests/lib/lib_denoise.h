@@ -25,6 +25,9 @@ double denoise_total(const RetexSet *set, const Signal *signal, int x, int y, in
 double denoise_from_silhouette(const RetexSet *set, int x, int y);
 double denoise_from_shadow(const RetexSet *set, int x, int y);
 
+/* What coefficients of a pixel may be rounded by, at most: half a step in layout footprints, else 0. */
+double denoise_half_step(const RetexSet *set, int x, int y);
+
 /* retex_denoise that must succeed; params may be NULL. */
 void denoise_all(RetexSet *set, const RetexDenoiseParams *params, int nthreads);
 /* Every bit of every part, and the names. */

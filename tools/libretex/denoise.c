@@ -1,10 +1,12 @@
 /* Denoising a set; see <retex/denoise.h>. */
 #include <retex/denoise.h>
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include <retex/parallel.h>
+#include <retex/rounding.h>
 #include <retex/sample.h>
 
 #include "denoise_footprints.h"
@@ -176,8 +178,10 @@ static void filter(DenoiseWork *w)
         commit_band(&w->bands[k], d);
 }
 
+/* ---- results ---- */
+
 /* Means of all signals are as they were. */
-static void restore_means(const DenoiseWork *w)
+static void restore_means(const DenoiseWork *w, int y)
 {
     const Denoiser *d = &w->denoiser;
     for (int s = 0; s < d->signals.count; s++) {
@@ -187,26 +191,70 @@ static void restore_means(const DenoiseWork *w)
             scale[c] = sums->after[c] > 0 && sums->before[c] > 0 ? (float)(sums->before[c] / sums->after[c]) : 1;
         for (int k = 0; k < d->signals.of[s].nmembers; k++) {
             RetexImage *im = &d->set->parts[d->signals.of[s].members[k].part].image;
-            for (int y = d->roi.y0; y < d->roi.y1; y++) {
-                float *row = im->pixels + retex_image_index(im, 0, y);
-                for (int x = 3 * d->roi.x0; x < 3 * d->roi.x1; x++)
-                    row[x] *= scale[x % 3];
-            }
+            float *row = im->pixels + retex_image_index(im, 0, y);
+            for (int x = 3 * d->roi.x0; x < 3 * d->roi.x1; x++)
+                row[x] *= scale[x % 3];
         }
     }
 }
 
+/* The step to which a pixel's coefficients are rounded. */
+static double pixel_step(const Denoiser *d, int x, int y)
+{
+    double white[3] = {0, 0, 0};
+    for (int s = 0; s < d->signals.count; s++)
+        for (int k = 0; k < d->signals.of[s].nmembers; k++) {
+            const RetexImage *im = &d->set->parts[d->signals.of[s].members[k].part].image;
+            for (int c = 0; c < 3; c++)
+                white[c] += im->pixels[retex_image_index(im, x, y) + (size_t)c];
+        }
+    return retex_coefficient_step(fmax(white[0], fmax(white[1], white[2])));
+}
+
+/* As the renderer rounds them; light that no texture multiplies stays as it is. */
+static void round_coefficients(const Denoiser *d, int y)
+{
+    for (int x = d->roi.x0; x < d->roi.x1; x++) {
+        const double step = pixel_step(d, x, y);
+        for (int s = 0; s < d->signals.count; s++)
+            for (int k = 0; k < d->signals.of[s].nmembers && d->signals.of[s].target >= 0; k++) {
+                RetexImage *im = &d->set->parts[d->signals.of[s].members[k].part].image;
+                float *value = im->pixels + retex_image_index(im, x, y);
+                for (int c = 0; c < 3; c++)
+                    if (value[c] != 0)
+                        value[c] = (float)retex_round_to(value[c], step);
+            }
+    }
+}
+
 /* Halves as they will be stored, so that it does not matter whether the set was written and read in between. */
-static void round_halves(RetexPart *part)
+static void round_halves(const RetexPart *part, int y)
 {
     const RetexImage *im = &part->image;
-    size_t count = (size_t)im->width * (size_t)im->height * (size_t)im->channels;
+    float *row = im->pixels + retex_image_index(im, 0, y);
+    size_t count = (size_t)im->width * (size_t)im->channels;
     uint16_t halves[256];
     for (size_t i = 0; i < count && part->type == RETEX_HALF; i += 256) {
         size_t n = count - i < 256 ? count - i : 256;
-        retex_half_from_float(halves, im->pixels + i, n);
-        retex_half_to_float(im->pixels + i, halves, n);
+        retex_half_from_float(halves, row + i, n);
+        retex_half_to_float(row + i, halves, n);
     }
+}
+
+/* One row of all that was written, into numbers that are stored. */
+static void finish_job(void *context, int y, int thread)
+{
+    const DenoiseWork *w = context;
+    const Denoiser *d = &w->denoiser;
+    (void)thread;
+    if (y >= d->roi.y0 && y < d->roi.y1) {
+        restore_means(w, y);
+        if (strcmp(d->set->layout, "footprints") == 0)
+            round_coefficients(d, y);
+    }
+    for (int k = 0; k < d->set->nparts; k++)
+        if (w->bands[0].parts[k])
+            round_halves(&d->set->parts[k], y);
 }
 
 static int check_params(const RetexDenoiseParams *p, RetexError *err)
@@ -238,17 +286,15 @@ int retex_denoise(RetexSet *set, const RetexDenoiseParams *params, const RetexRo
         code = open_work(&work, err);
     if (!code) {
         filter(&work);
-        restore_means(&work);
-        for (int k = 0; k < set->nparts; k++)
-            if (work.bands[0].parts[k])
-                round_halves(&set->parts[k]);
+        retex_parallel(work.nthreads, set->height, finish_job, &work);
     }
     close_work(&work);
     if (!code && set->nterms)
         code = retex_combine(&set->parts[0].image, set, NULL, NULL, roi, nthreads, err);
     if (code)
         return code;
-    round_halves(&set->parts[0]);
+    for (int y = 0; y < set->height; y++)
+        round_halves(&set->parts[0], y);
     if (d->params.progress)
         d->params.progress(d->params.progress_context, 1);
     retex_denoise_drop_data(set);

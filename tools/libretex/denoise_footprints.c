@@ -2,6 +2,7 @@
 #include <math.h>
 #include <string.h>
 
+#include <retex/rounding.h>
 #include <retex/uv_stats.h>
 
 #include "denoise_places.h"
@@ -11,9 +12,6 @@
 #define CLUSTERS_MOST 3
 #define NEAR 0.1 /* of a place's width: how far other pixels' may be */
 #define FAR 0.05 /* of its weight, that merging a cluster would lose: it opens another one if there is room */
-#define SHARE_STEP (1.0 / 512) /* as the film rounds them */
-enum { COVERAGE_BITS = 8 };    /* significant ones, likewise */
-#define LEAST_SHARE 1e-5f
 
 /* ---- one pixel ---- */
 
@@ -70,7 +68,7 @@ static void clear_footprint(const Place *place, const Pixel *p)
 static void store_share(const Place *place, const Pixel *p, double share)
 {
     if (place->share.channels == 1)
-        *written(p, &place->share) = share > 0 ? fmaxf((float)retex_round_to(share, SHARE_STEP), LEAST_SHARE) : 0;
+        *written(p, &place->share) = share > 0 ? retex_round_share(share) : 0;
 }
 
 static void store_light(const Place *place, const Pixel *p, const float light[3], double share)
@@ -342,7 +340,7 @@ static void store_pool(const Place *place, const Pixel *p, const Pool *pool, dou
     float *uv = written(p, &place->uv), *spread = written(p, &place->spread), *albedo = written(p, &place->albedo);
     float spreads[3];
     uv_stats_store(&pool->uv, uv, spreads);
-    uv[2] = (float)retex_round_bits(fmin(coverage, 1), COVERAGE_BITS);
+    uv[2] = retex_round_coverage(fmin(coverage, 1));
     memcpy(spread, spreads, place->spread.channels * sizeof *spread);
     for (int c = 0; c < 3; c++)
         albedo[c] =

@@ -1,8 +1,7 @@
 /* Weighted means and covariances of UV, updated without cancellation (Welford; Chan et al. for merging). */
 #include <math.h>
-#include <stdint.h>
-#include <string.h>
 
+#include <retex/rounding.h>
 #include <retex/uv_stats.h>
 
 static double difference(double to, double from, int periodic)
@@ -62,28 +61,6 @@ double uv_stats_variation_gain(const UvStats *a, const UvStats *b, const int per
 {
     double sa = a->m2[0] + a->m2[2], sb = b->m2[0] + b->m2[2], both = sa + sb + uv_stats_ward(a, b, periodic);
     return variation(a->weight + b->weight, both) - variation(a->weight, sa) - variation(b->weight, sb);
-}
-
-/* The largest power of two that is no larger, 0 of what is below all normal numbers. */
-static double power_of_two(double value)
-{
-    uint64_t bits;
-    memcpy(&bits, &value, sizeof bits);
-    bits &= (uint64_t)0x7ff << 52;
-    memcpy(&value, &bits, sizeof value);
-    return value;
-}
-
-double retex_round_to(double value, double step)
-{
-    const double unit = step > 0 ? power_of_two(step) : 0;
-    return unit > 0 && isfinite(unit) ? rint(value / unit) * unit : value;
-}
-
-double retex_round_bits(double value, int bits)
-{
-    const double unit = power_of_two(value), steps = (double)((uint64_t)1 << (bits - 1));
-    return unit > 0 && isfinite(unit) ? rint(value / unit * steps) / steps * unit : value;
 }
 
 #define UV_STEP (1.0 / 32)

@@ -14,6 +14,7 @@
 #include <retex/pack.h>
 #include <retex/parallel.h>
 #include <retex/picture.h>
+#include <retex/rounding.h>
 #include <retex/sample.h>
 #include <retex/set.h>
 #include <retex/spool.h>

@@ -32,11 +32,6 @@ void uv_stats_store(const UvStats *stats, float mean[2], float spread[3]);
 /* And back. */
 void uv_stats_load(UvStats *stats, double weight, const float mean[2], const float spread[3]);
 
-/* To a multiple of the largest power of two that is no more than step; as it is where step is not above 0. */
-double retex_round_to(double value, double step);
-/* To so many significant bits, at least 1; zeros, infinities and what is not a number stay as they are. */
-double retex_round_bits(double value, int bits);
-
 #ifdef __cplusplus
 }
 #endif
