@@ -362,6 +362,20 @@ int cli_ends_with(const char *path, const char *ending)
     return length >= tail && strcasecmp(path + length - tail, ending) == 0;
 }
 
+int cli_open_set(const Cli *cli, RetexSet **set, const char *path, long megabytes, RetexError *err)
+{
+    int code = retex_set_open(path, set, NULL, cli->threads, err);
+    if (!code && retex_set_bytes(*set) <= (uint64_t)megabytes << 20)
+        code = retex_set_load(*set, cli->threads, err);
+    return code;
+}
+
+double cli_file_size(const char *path)
+{
+    struct stat info;
+    return strcmp(path, "-") != 0 && stat(path, &info) == 0 && S_ISREG(info.st_mode) ? (double)info.st_size : 0;
+}
+
 static double seconds_now(void)
 {
     struct timespec t;

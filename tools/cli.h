@@ -2,7 +2,7 @@
 #ifndef RETEX_CLI_H
 #define RETEX_CLI_H
 
-#include <retex/error.h>
+#include <retex/set.h>
 
 enum { CLI_OK = 0, CLI_NO = 1, CLI_FAIL = 2 }; /* done; the answer is 'no' or 'differs'; usage, input or I/O error */
 
@@ -62,6 +62,15 @@ void cli_input(const Cli *cli, const char *path, const char *what);
 
 /* Whether path ends in ending (".exr"), in whatever case. */
 int cli_ends_with(const char *path, const char *ending);
+
+/* Bytes of a file on disk, or 0 where that is not known. */
+double cli_file_size(const char *path);
+
+/* --memory of tools that go through a set some rows after the other: its least, most and default megabytes. */
+enum { CLI_MEMORY_LEAST = 0, CLI_MEMORY_MOST = 1 << 20, CLI_MEMORY_DEFAULT = 2048 };
+
+/* Open a set, and bring it into memory if it takes no more than so many megabytes there. */
+int cli_open_set(const Cli *cli, RetexSet **set, const char *path, long megabytes, RetexError *err);
 
 /* A progress bar on stderr, on a terminal and without -q, with the time so far and the time left; elsewhere with -v a
  * line every half a minute. done is 0..1; label e.g. "render". Call with 1 to finish the line. Rate-limited inside;

@@ -24,7 +24,7 @@ static const CliOption options[] = {
 typedef struct Job {
     const char *set_path, *samples_path, *batch, *error;
     TextureArgs textures;
-    int memory; /* megabytes that --batch may keep of the set */
+    long memory; /* megabytes that --batch may keep of the set */
     RetexWriteParams write;
     RetexCombineParams combine;
     RetexSet *set;         /* open: its rows are read as they are needed */
@@ -55,7 +55,7 @@ static void parse(Cli *cli, Job *job)
         } else if (strcmp(option->name, "error") == 0) {
             job->error = cli->value;
         } else if (strcmp(option->name, "memory") == 0) {
-            job->memory = (int)cli_integer(cli, option, 0, 1 << 20);
+            job->memory = cli_integer(cli, option, CLI_MEMORY_LEAST, CLI_MEMORY_MOST);
         } else {
             job->batch = cli->value;
         }
@@ -351,7 +351,7 @@ static void run_batch(const Cli *cli, Job *job)
 
 int main(int argc, char **argv)
 {
-    static Job job = {.write = RETEX_WRITE_INIT, .combine = RETEX_COMBINE_INIT, .memory = 2048};
+    static Job job = {.write = RETEX_WRITE_INIT, .combine = RETEX_COMBINE_INIT, .memory = CLI_MEMORY_DEFAULT};
     Cli cli = {.tool = "retex-combine",
                .usage = "SET [SAMPLES] [--texture[:opts] NAME=IMAGE ...] -o FILE",
                .about = "Recombine a set, with its own textures or new ones, into a picture.",

@@ -11,11 +11,12 @@
 static const CliOption options[] = {
     {"strength", 0, "F", "how unlike pixels may be and still help each other, 0.1 to 10; default 1", 0},
     {"radius", 0, "N", "of the window in which they are looked for, 1 to 10 pixels; default 5", 0},
+    {"memory", 0, "MB", "keep the set in memory if it takes no more; default 2048", 0},
     {"no-footprints", 0, NULL, "leave UV footprints as they are", 0},
     {0},
 };
 
-static const char *parse(Cli *cli, RetexDenoiseParams *params)
+static const char *parse(Cli *cli, RetexDenoiseParams *params, long *memory)
 {
     const char *input = NULL;
     for (const CliOption *option; (option = cli_next(cli));) {
@@ -27,6 +28,8 @@ static const char *parse(Cli *cli, RetexDenoiseParams *params)
             params->strength = (float)cli_number(cli, option, 0.1, 10);
         } else if (strcmp(option->name, "radius") == 0) {
             params->radius = (int)cli_integer(cli, option, 1, 10);
+        } else if (strcmp(option->name, "memory") == 0) {
+            *memory = cli_integer(cli, option, CLI_MEMORY_LEAST, CLI_MEMORY_MOST);
         } else {
             params->footprints = 0;
         }
@@ -79,18 +82,20 @@ int main(int argc, char **argv)
     RetexDenoiseParams params = RETEX_DENOISE_INIT;
     RetexSet *set = NULL;
     RetexError err = {0};
+    long memory = CLI_MEMORY_DEFAULT;
 
-    const char *input = parse(&cli, &params), *output = cli_output(&cli);
+    const char *input = parse(&cli, &params, &memory), *output = cli_output(&cli);
     cli_input(&cli, input, "a set, as from retex-render");
     check_ending(&cli, output);
     if (retex_set_write_check(output, &err))
         cli_fail(&cli, &err);
     const double began = seconds_now();
-    if (retex_set_read(input, &set, NULL, cli.threads, &err))
+    if (cli_open_set(&cli, &set, input, memory, &err))
         cli_fail(&cli, &err);
     const double read = seconds_now();
     params.progress = progress;
     params.progress_context = &cli;
+    params.near = output;
     if (retex_denoise(set, &params, NULL, cli.threads, &err))
         cli_fail(&cli, &err);
     const double denoised = seconds_now();

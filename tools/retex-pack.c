@@ -1,19 +1,17 @@
 /* retex-pack: a set as one small file, and back. See retex-pack(1). */
 #include <stdio.h>
 #include <string.h>
-#include <sys/stat.h>
 
 #include <retex/pack.h>
 
 #include "cli.h"
-
-static const double LARGE_BYTES = 4e8; /* of a set's file */
 
 static const CliOption options[] = {
     {"quality", 0, "1..100", "of what is stored with losses; default 90", 0},
     {"lossless", 0, NULL, "keep every bit of every part", 0},
     {"codec", 0, "NAME", "what radiance is stored as: jpeg, the default", 0},
     {"stats", 0, "FILE.json", "write sizes by group and the loss that pictures show; - is standard output", 0},
+    {"memory", 0, "MB", "keep the set in memory if it takes no more; default 2048", 0},
     {"unpack", 0, NULL, "read a pack and write a set: SET.exr", 0},
     {0},
 };
@@ -21,6 +19,7 @@ static const CliOption options[] = {
 typedef struct Job {
     RetexPackParams params;
     int unpack, quality_given;
+    long memory; /* megabytes */
     const char *input, *stats;
 } Job;
 
@@ -42,6 +41,8 @@ static void parse(Cli *cli, Job *job)
                 cli_die(cli, "--codec: there is no codec '%s'; this version has: jpeg", cli->value);
         } else if (strcmp(option->name, "stats") == 0) {
             job->stats = cli->value;
+        } else if (strcmp(option->name, "memory") == 0) {
+            job->memory = cli_integer(cli, option, CLI_MEMORY_LEAST, CLI_MEMORY_MOST);
         } else {
             job->unpack = 1;
         }
@@ -55,19 +56,6 @@ static void parse(Cli *cli, Job *job)
     if (job->unpack && job->stats)
         cli_die(cli, "--stats is of packing");
     job->params.nthreads = cli->threads;
-}
-
-/* Bytes of a file on disk, or 0 where that is not known. */
-static double file_size(const char *path)
-{
-    struct stat info;
-    return strcmp(path, "-") != 0 && stat(path, &info) == 0 && S_ISREG(info.st_mode) ? (double)info.st_size : 0;
-}
-
-/* A large set does, and is read there a few times over: in memory it takes five times as much. */
-static int stays_in_file(const Job *job)
-{
-    return !job->unpack && !job->params.lossless && file_size(job->input) > LARGE_BYTES;
 }
 
 static void report(const Cli *cli, const char *set_path, double set_bytes, const char *pack_path, double pack_bytes)
@@ -103,7 +91,7 @@ static int write_stats(const Job *job, const RetexSet *set, const char *pack_pat
         int n = snprintf(text, sizeof text,
                          "{\n  \"codec\": \"%s\",\n  \"quality\": %s,\n  \"set_bytes\": %.0f,\n"
                          "  \"pack_bytes\": %.0f,\n  \"bytes\": {",
-                         job->params.lossless ? "lossless" : "jpeg", quality, file_size(job->input), pack_bytes);
+                         job->params.lossless ? "lossless" : "jpeg", quality, cli_file_size(job->input), pack_bytes);
         for (int i = 0; i < RETEX_PACK_GROUPS; i++)
             n += snprintf(text + n, sizeof text - (size_t)n, "%s\"%s\": %llu", i ? ", " : "", retex_pack_group_names[i],
                           (unsigned long long)bytes[i]);
@@ -141,7 +129,7 @@ int main(int argc, char **argv)
                         "       retex-pack --unpack FILE.retex -o SET.exr",
                .about = "Packs a set into one small file, radiance as JPEG and footprints without visible loss; or "
                         "unpacks one."};
-    Job job = {.params = RETEX_PACK_INIT};
+    Job job = {.params = RETEX_PACK_INIT, .memory = CLI_MEMORY_DEFAULT};
     RetexError err = {0};
     RetexSet *set = NULL;
     size_t bytes = 0;
@@ -157,8 +145,8 @@ int main(int argc, char **argv)
     check_stats(&cli, &job, output);
     if (retex_set_write_check(output, &err))
         cli_fail(&cli, &err);
-    int code = stays_in_file(&job) ? retex_set_open(job.input, &set, NULL, cli.threads, &err)
-                                   : retex_set_read(job.input, &set, NULL, cli.threads, &err);
+    int code = job.unpack || job.params.lossless ? retex_set_read(job.input, &set, NULL, cli.threads, &err)
+                                                 : cli_open_set(&cli, &set, job.input, job.memory, &err);
     if (code)
         cli_fail(&cli, &err);
     if (job.unpack) {
@@ -174,8 +162,8 @@ int main(int argc, char **argv)
     if (code)
         cli_fail(&cli, &err);
     if (job.unpack)
-        report(&cli, output, file_size(output), job.input, file_size(job.input));
+        report(&cli, output, cli_file_size(output), job.input, cli_file_size(job.input));
     else
-        report(&cli, job.input, file_size(job.input), output, (double)bytes);
+        report(&cli, job.input, cli_file_size(job.input), output, (double)bytes);
     return cli_close(&cli, CLI_OK);
 }

@@ -19,6 +19,25 @@ $ retex-denoise -v s.exr -o again.exr 2>&1 | sed 's/[0-9]*\.[0-9]* s/N s/g'
 > retex-denoise: again.exr: 64 x 48, N s
 > retex-denoise: read N s, denoised N s, written N s
 
+# A set that does not stay in memory: the same bits, as EXR and as a pack, from a pack too, and no temporary file stays.
+$ make_set l.exr 40 250 denoise; retex-denoise -q l.exr -o ld.exr; retex-denoise -q --memory 0 l.exr -o lm.exr; cmp ld.exr lm.exr; retex-denoise -q --memory 0 l.exr -o l.exr; cmp ld.exr l.exr
+$ make_set l.exr 40 250 footprints denoise; retex-denoise -q l.exr -o ld.retex; retex-denoise -q --memory 0 l.exr -o lm.retex; cmp ld.retex lm.retex; retex-pack -q --lossless l.exr -o l.retex; retex-denoise -q --memory 0 l.retex -o lm.retex; cmp ld.retex lm.retex; ls -A
+> again.exr
+> d.exr
+> l.exr
+> l.retex
+> ld.exr
+> ld.retex
+> lm.exr
+> lm.retex
+> one.exr
+> s.exr
+$ head -c 20000 l.exr >half.exr; retex-denoise -q --memory 0 half.exr -o x.exr 2>&1 | grep -c '^retex-denoise: error: .*half.exr'; rm half.exr l*
+> 1
+$ retex-denoise s.exr -o x.exr --memory -1
+! retex-denoise: error: --memory: expected a whole number from 0 to 1048576, not '-1'
+= 2
+
 # It retextures like any other set, and its picture is its recombination.
 $ retex-combine -q d.exr --texture 'floor=rgb(0.8,0.1,0.1)' -o red.exr; retex-diff -q d.exr red.exr
 = 1

@@ -418,10 +418,9 @@ static void pool_hit(const Footprints *f, const Group *g, const Pixel *p, const 
     pool_group(&pools, f, g, 1, neighbours, count);
     for (int n = 0; n < count; n++)
         all += neighbours[n].weight > NEGLIGIBLE && neighbours[n].weight < PLACES_FINITE ? neighbours[n].weight : 0;
+    copy_footprints(g, p, p->at); /* its weight in a mixture stays, where it has one */
     if (pools.count)
         store_pool(&g->of[0], p, &pools.of[0], pools.of[0].uv.weight / all);
-    else
-        copy_footprints(g, p, p->at);
 }
 
 void footprints_pool_later(const Footprints *f, const Denoiser *d, int x, int y, const Neighbour *neighbours, int count,

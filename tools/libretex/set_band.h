@@ -6,8 +6,8 @@
 
 typedef struct SetBand SetBand;
 
-/* At most so many rows of `whole`, which stays the caller's. copies: 1 = the rows of parts that are in memory are copied
- * too, so that they may be changed; 0 = they are where they are. */
+/* At most so many rows of `whole`, which stays the caller's. copies: 1 = the rows of parts in memory are copied too, so
+ * that they may be changed; 0 = they are where they are. */
 int set_band_open(SetBand **band, const RetexSet *whole, int most_rows, int copies, RetexError *err);
 void set_band_close(SetBand **band); /* NULL and pointers to NULL are fine */
 

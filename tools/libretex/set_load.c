@@ -110,6 +110,20 @@ int retex_set_load(RetexSet *set, int nthreads, RetexError *err)
     return 0;
 }
 
+static uint64_t part_bytes(const RetexSet *set, int part)
+{
+    return sizeof(float) * retex_image_index(&set->parts[part].image, 0, set->parts[part].image.height);
+}
+
+uint64_t retex_set_bytes(const RetexSet *set)
+{
+    uint64_t bytes = 0;
+
+    for (int i = 0; i < set->nparts; i++)
+        bytes += part_bytes(set, i);
+    return bytes;
+}
+
 static void want(char *wanted, int part)
 {
     if (part >= 0)
@@ -135,6 +149,6 @@ int retex_set_keep(RetexSet *set, uint64_t most_bytes, int nthreads, RetexError 
     }
     for (int i = 0; i < set->nparts; i++)
         if (wanted[i])
-            bytes += sizeof(float) * retex_image_index(&set->parts[i].image, 0, set->parts[i].image.height);
+            bytes += part_bytes(set, i);
     return bytes > most_bytes ? 0 : load(set, wanted, nthreads, err);
 }

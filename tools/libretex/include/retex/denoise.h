@@ -49,10 +49,13 @@ typedef struct RetexDenoiseParams {
     int scalar;          /* 1: plain code instead of the machine's vector unit, the same to the bit; default 0 */
     void (*progress)(void *context, double done); /* 0..1, from the calling thread; NULL = none */
     void *progress_context;
+    const char *near;    /* of a set that is open: path of a file beside which temporary ones, without names, may lie;
+                            NULL, the default: in $TMPDIR or /tmp */
 } RetexDenoiseParams;
-#define RETEX_DENOISE_INIT { sizeof(RetexDenoiseParams), 1, 5, 1, 0, NULL, NULL }
+#define RETEX_DENOISE_INIT { sizeof(RetexDenoiseParams), 1, 5, 1, 0, NULL, NULL, NULL }
 
-/* Filter a set where it lies: terms, with `footprints` also broad footprints and, as far as they are near to each
+/* Filter a set where it lies, or, where it is open (retex_set_open) and roi is NULL, some rows after the other, into a
+ * spool: terms, with `footprints` also broad footprints and, as far as they are near to each
  * other, later ones, and the beauty, which becomes the recombination with the original textures. Means of each signal
  * over roi (NULL = all) stay what they were. Pixels outside roi keep their terms and footprints. What the filter needed
  * is removed from the set, and set->denoised is 1. RETEX_ENOTFOUND where the set has no such parts. The same to the bit

@@ -153,12 +153,14 @@ void retex_set_close(RetexSet **set); /* NULL and pointers to NULL are fine */
 /* Append; *index (may be NULL) gets its number. The image is allocated zeroed, width 0 = the set's own size. */
 int retex_set_add_part(RetexSet *set, const char *name, const char *letters, RetexPixelType type, int width, int height,
                        int *index, RetexError *err);
-/* Append a part whose pixels are in the set's spool, under the same name, letters and type. It is read there row by row,
- * as parts of a set that is open are in their file. */
+/* Append a part whose pixels are in the set's spool, under the same name, letters and type. It is read there row by
+ * row, as parts of a set that is open are in their file. */
 int retex_set_add_spooled(RetexSet *set, const char *name, const char *letters, RetexPixelType type, int image,
                           int *index, RetexError *err);
 /* Bring all parts into memory, and close the spool or the source. */
 int retex_set_load(RetexSet *set, int nthreads, RetexError *err);
+/* Bytes that all parts take in memory. */
+uint64_t retex_set_bytes(const RetexSet *set);
 /* Bring what recombination reads into memory, for several pictures one after the other, if that takes no more than so
  * many bytes; else all stays where it is. */
 int retex_set_keep(RetexSet *set, uint64_t most_bytes, int nthreads, RetexError *err);

@@ -1,0 +1,127 @@
+/* Denoising a set that stays in its file: the same as in memory, and nothing left behind. */
+#include "lib_denoise.h"
+#include "lib_folder.h"
+#include <cmocka.h>
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static void write_noisy(const char *path, const char *layout, int width, int height)
+{
+    RetexSet *set = denoise_set(layout, width, height);
+    RetexError err = {0};
+    denoise_add_noise(set, 7);
+    if (strstr(path, ".retex")) {
+        RetexPackParams params = RETEX_PACK_INIT;
+        params.lossless = 1;
+        test_must(retex_pack_write(set, path, &params, NULL, &err), &err);
+    } else {
+        test_must(retex_set_write(set, NULL, path, NULL, &err), &err);
+    }
+    retex_set_close(&set);
+}
+
+/* Denoised from `from` to `to`, whole in memory or not. */
+static void denoise_file(const char *from, const char *to, int in_memory, int nthreads)
+{
+    RetexDenoiseParams params = RETEX_DENOISE_INIT;
+    RetexError err = {0};
+    RetexSet *set = NULL;
+    params.near = to;
+    test_must(in_memory ? retex_set_read(from, &set, NULL, nthreads, &err)
+                        : retex_set_open(from, &set, NULL, nthreads, &err),
+              &err);
+    test_must(retex_denoise(set, &params, NULL, nthreads, &err), &err);
+    assert_int_equal(!in_memory, set->spool != NULL);
+    assert_null(set->source);
+    assert_int_equal(set->denoised, 1);
+    test_must(retex_set_write(set, NULL, to, NULL, &err), &err);
+    retex_set_close(&set);
+}
+
+static void assert_same_file(const char *a, const char *b)
+{
+    char command[512];
+    snprintf(command, sizeof command, "cmp '%s' '%s'", a, b);
+    assert_int_equal(system(command), 0);
+}
+
+/* Strips of 112 rows: one that is not full, one and a row, several, and with fewer rows than decide on a pixel. */
+static void test_same_as_in_memory(void **state)
+{
+    (void)state;
+    static const int sizes[][2] = {{70, 400}, {33, 113}, {150, 112}, {20, 17}, {1, 1}};
+    static const char *const layouts[] = {"plain", "paper", "footprints"};
+    for (int k = 0; k < 3; k++)
+        for (int n = 0; n < 5; n++) {
+            write_noisy(test_in_folder("noisy.exr"), layouts[k], sizes[n][0], sizes[n][1]);
+            denoise_file(test_in_folder("noisy.exr"), test_in_folder("memory.exr"), 1, 1);
+            denoise_file(test_in_folder("noisy.exr"), test_in_folder("strips.exr"), 0, 1 + n);
+            assert_same_file(test_in_folder("memory.exr"), test_in_folder("strips.exr"));
+        }
+    assert_int_equal(test_files_left(), 3);
+}
+
+static void test_from_a_pack(void **state)
+{
+    (void)state;
+    write_noisy(test_in_folder("noisy.retex"), "footprints", 50, 150);
+    denoise_file(test_in_folder("noisy.retex"), test_in_folder("memory.exr"), 1, 2);
+    denoise_file(test_in_folder("noisy.retex"), test_in_folder("strips.exr"), 0, 2);
+    assert_same_file(test_in_folder("memory.exr"), test_in_folder("strips.exr"));
+}
+
+/* What comes out can be packed, and given textures, without being written before. */
+static void test_what_comes_out_is_a_set(void **state)
+{
+    (void)state;
+    RetexPackParams params = RETEX_PACK_INIT;
+    RetexSet *sets[2] = {NULL, NULL};
+    RetexImage pictures[2] = {{0}, {0}};
+    RetexError err = {0};
+    write_noisy(test_in_folder("noisy.exr"), "footprints", 50, 150);
+    test_must(retex_set_read(test_in_folder("noisy.exr"), &sets[0], NULL, 2, &err), &err);
+    test_must(retex_set_open(test_in_folder("noisy.exr"), &sets[1], NULL, 2, &err), &err);
+    for (int k = 0; k < 2; k++) {
+        char name[32];
+        snprintf(name, sizeof name, "%d.retex", k);
+        test_must(retex_denoise(sets[k], NULL, NULL, 2, &err), &err);
+        test_must(retex_combine(&pictures[k], sets[k], NULL, NULL, NULL, 2, &err), &err);
+        test_must(retex_pack_write(sets[k], test_in_folder(name), &params, NULL, &err), &err);
+    }
+    assert_memory_equal(pictures[0].pixels, pictures[1].pixels, sizeof(float) * 3 * 50 * 150);
+    assert_same_file(test_in_folder("0.retex"), test_in_folder("1.retex"));
+    for (int k = 0; k < 2; k++) {
+        retex_image_free(&pictures[k]);
+        retex_set_close(&sets[k]);
+    }
+}
+
+/* Of a region only: the set is brought into memory, for pixels around it stay what they are. */
+static void test_a_region_of_an_open_set(void **state)
+{
+    (void)state;
+    static const RetexRoi roi = {10, 20, 40, 130, 0, 3};
+    RetexSet *sets[2] = {NULL, NULL};
+    RetexError err = {0};
+    write_noisy(test_in_folder("noisy.exr"), "paper", 50, 150);
+    test_must(retex_set_read(test_in_folder("noisy.exr"), &sets[0], NULL, 2, &err), &err);
+    test_must(retex_set_open(test_in_folder("noisy.exr"), &sets[1], NULL, 2, &err), &err);
+    for (int k = 0; k < 2; k++)
+        test_must(retex_denoise(sets[k], NULL, &roi, 2, &err), &err);
+    denoise_expect_same(sets[0], sets[1]);
+    for (int k = 0; k < 2; k++)
+        retex_set_close(&sets[k]);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_setup_teardown(test_same_as_in_memory, test_make_folder, test_remove_folder),
+        cmocka_unit_test_setup_teardown(test_from_a_pack, test_make_folder, test_remove_folder),
+        cmocka_unit_test_setup_teardown(test_what_comes_out_is_a_set, test_make_folder, test_remove_folder),
+        cmocka_unit_test_setup_teardown(test_a_region_of_an_open_set, test_make_folder, test_remove_folder),
+    };
+    return cmocka_run_group_tests_name("denoise strips", tests, NULL, NULL);
+}
