@@ -96,9 +96,9 @@ static int spool_rows(RetexSpool *spool, const int *images, const RetexSet *rows
 typedef struct Strips {
     const Denoiser *denoiser;
     DenoiseResult result;
-    RetexSet filtered;          /* the set with the spool of what was filtered */
-    RetexSpool *spools[2];      /* filtered, finished */
-    int *images[2];             /* by part, in these */
+    RetexSet filtered;     /* the set with the spool of what was filtered */
+    RetexSpool *spools[2]; /* filtered, finished */
+    int *images[2];        /* by part, in these */
     int nthreads;
 } Strips;
 
@@ -124,8 +124,7 @@ static int filter_strip(Strips *s, SetBand *band, int y, RetexError *err)
         code = denoise_filter(&strip, &s->result, s->nthreads, err);
     if (!code && !s->spools[0])
         code = open_spool(&s->spools[0], s->images[0], s->denoiser, s->result.written, 1, err);
-    return code ? code
-                : spool_rows(s->spools[0], s->images[0], strip.set, y - first, end - y, y, s->nthreads, err);
+    return code ? code : spool_rows(s->spools[0], s->images[0], strip.set, y - first, end - y, y, s->nthreads, err);
 }
 
 static int filter_all(Strips *s, RetexError *err)
