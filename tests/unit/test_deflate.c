@@ -9,11 +9,13 @@
 
 #include "deflate.h"
 
-enum { MOST = 400000, KINDS = 7 };
+enum { MOST = 400000, KINDS = 9 };
+#define GIVE 0.05
 
 static unsigned char bytes[MOST], back[MOST + 1];
 
-/* Noise, nothing, few values in runs, frequencies far apart, runs in noise, runs far apart, smooth lines. */
+/* Noise, nothing, few values in runs, frequencies far apart, runs in noise, runs far apart, smooth lines; in
+ * turns of 70000 nothing and nearly noise; pairs of noise. */
 static void fill(int kind, size_t count, uint32_t *seed)
 {
     unsigned char last = 0;
@@ -39,8 +41,14 @@ static void fill(int kind, size_t count, uint32_t *seed)
         case 5:
             last = u < 1e-3 ? (unsigned char)(256e3 * u) : last;
             break;
-        default:
+        case 6:
             last = (unsigned char)(last + (int)(5 * u) - 2);
+            break;
+        case 7:
+            last = i / 70000 % 2 ? (unsigned char)(240 * u) : 0;
+            break;
+        default:
+            last = i % 2 ? last : (unsigned char)(256 * u);
         }
         bytes[i] = last;
     }
@@ -69,7 +77,7 @@ static void test_comes_back(void **state)
         fill(round % KINDS, count, &seed);
         unsigned char *packed = malloc(room); /* exactly, so that a sanitizer sees what lies beyond */
         assert_non_null(packed);
-        const size_t whole = retex_deflate(packed, room, bytes, count, 1);
+        const size_t whole = retex_deflate(packed, room, bytes, count, round % 2 ? GIVE : 0, 1);
         assert_true(whole > 0 && whole <= room);
         check_inflates(packed, whole, count);
         free(packed);
@@ -87,9 +95,9 @@ static void test_pieces(void **state)
         fill(round % KINDS, count, &seed);
         unsigned char *packed = malloc(room);
         assert_non_null(packed);
-        size_t at = retex_deflate(packed, room, bytes, first, 0);
+        size_t at = retex_deflate(packed, room, bytes, first, GIVE, 0);
         assert_true(at > 0);
-        at += retex_deflate(packed + at, room - at, bytes + first, count - first, 1);
+        at += retex_deflate(packed + at, room - at, bytes + first, count - first, GIVE, 1);
         check_inflates(packed, at, count);
         free(packed);
     }
@@ -106,7 +114,7 @@ static void test_little_room(void **state)
         fill(round % KINDS, count, &seed);
         unsigned char *packed = malloc(room);
         assert_non_null(packed);
-        const size_t whole = retex_deflate(packed, room, bytes, count, 1);
+        const size_t whole = retex_deflate(packed, room, bytes, count, GIVE, 1);
         assert_true(whole <= room);
         if (whole)
             check_inflates(packed, whole, count);
@@ -120,15 +128,34 @@ static void test_little_room(void **state)
 static void test_is_short(void **state)
 {
     (void)state;
-    static const double most[KINDS] = {1.002, 0.01, 0.5, 0.6, 1.002, 0.1, 0.99}; /* of the bytes */
+    static const double most[KINDS] = {1.002, 0.01, 0.5, 0.6, 1.002, 0.1, 0.99, 0.5, 1.002}; /* of the bytes */
     static unsigned char packed[MOST + 4096];
     uint32_t seed = 11;
     for (int round = 0; round < 4 * KINDS; round++) {
         fill(round % KINDS, MOST, &seed);
-        const double share = (double)retex_deflate(packed, sizeof packed, bytes, MOST, 1) / MOST;
+        const double share = (double)retex_deflate(packed, sizeof packed, bytes, MOST, 0, 1) / MOST;
         print_message("kind %d: %.4f\n", round % KINDS, share);
         assert_true(share > 0 && share < most[round % KINDS]);
     }
+}
+
+/* What may be given up for time is not exceeded, and is made use of where it helps: nearly noise is stored. */
+static void test_gives_up_little(void **state)
+{
+    (void)state;
+    static unsigned char packed[MOST + 4096];
+    uint32_t seed = 13;
+    int stored = 0;
+    for (int round = 0; round < 6 * KINDS; round++) {
+        const int kind = round % KINDS;
+        fill(kind, MOST, &seed);
+        const size_t coded = retex_deflate(packed, sizeof packed, bytes, MOST, 0, 1),
+                     quick = retex_deflate(packed, sizeof packed, bytes, MOST, GIVE, 1);
+        check_inflates(packed, quick, MOST);
+        assert_true((double)quick < (1 + GIVE) * (double)coded + 100);
+        stored += kind == 7 && quick > coded;
+    }
+    assert_int_equal(stored, 6);
 }
 
 int main(void)
@@ -138,6 +165,7 @@ int main(void)
         cmocka_unit_test(test_pieces),
         cmocka_unit_test(test_little_room),
         cmocka_unit_test(test_is_short),
+        cmocka_unit_test(test_gives_up_little),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
