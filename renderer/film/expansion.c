@@ -2,31 +2,38 @@
 #include <string.h>
 #include "film/expansion.h"
 
-void expansion_copy(Expansion *to, const Expansion *from)
+void expansion_mark(ExpansionMark *mark, const Expansion *e)
 {
-    to->size = from->size;
-    for (int k = 0; k < from->size.nhits; k++) /* few: not worth a call */
-        to->hits[k] = from->hits[k];
-    for (int k = 0; k < from->size.nmonomials; k++)
-        to->monomials[k] = from->monomials[k];
+    mark->size = e->size;
+    for (int k = 0; k < e->size.nmonomials; k++) /* few: not worth a call */
+        mark->monomials[k] = e->monomials[k];
 }
 
-void expansion_push(Expansion *e, int target, Split factor, Vec2 uv, Rgb albedo, int sharp)
+void expansion_return(Expansion *e, const ExpansionMark *mark)
 {
-    int index = e->size.per_target[target], before = e->size.nmonomials, after = before;
-    HitMask bit = hit_bit(target, index);
-    int independent = !rgb_is_black(factor.i), dependent = !rgb_is_black(factor.d);
-    e->hits[e->size.nhits] = (TargetHit){target, index, uv, albedo, sharp};
+    e->size = mark->size;
+    for (int k = 0; k < mark->size.nmonomials; k++)
+        e->monomials[k] = mark->monomials[k];
+}
+
+void expansion_push(Expansion *e, const TargetHit *hit, const Split *factor)
+{
+    int before = e->size.nmonomials, after = before;
+    unsigned bit = 1u << e->size.nhits;
+    int independent = !rgb_is_black(factor->i), dependent = !rgb_is_black(factor->d);
+    TargetHit *pushed = &e->hits[e->size.nhits];
+    *pushed = *hit;
+    pushed->index = e->size.per_target[hit->target];
     for (int k = 0; k < before; k++) {
         Monomial *m = &e->monomials[k];
         if (dependent && independent)
-            e->monomials[after++] = (Monomial){m->hits | bit, rgb_mul(m->coefficient, factor.d)};
+            e->monomials[after++] = (Monomial){m->hits | bit, rgb_mul(m->coefficient, factor->d)};
         if (independent) {
-            m->coefficient = rgb_mul(m->coefficient, factor.i);
+            m->coefficient = rgb_mul(m->coefficient, factor->i);
         } else {
             m->hits |= bit;
-            m->coefficient = rgb_mul(m->coefficient, factor.d);
+            m->coefficient = rgb_mul(m->coefficient, factor->d);
         }
     }
-    expansion_grow(&e->size, target, factor);
+    expansion_grow(&e->size, hit->target, factor);
 }

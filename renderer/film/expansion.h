@@ -11,15 +11,15 @@
 #include "base/vec.h"
 #include "shade/bsdf.h"
 
-/* A hit of a target: its index among the hits of the same target along the path counts from 0. */
+/* A hit of a target. */
 typedef struct TargetHit {
-    int target, index;
     Vec2 uv;
     Rgb albedo; /* the original's, there */
-    int sharp;  /* every bounce between the camera and it was specular, or nearly so */
+    unsigned char target, sharp; /* sharp: every bounce between the camera and it was specular, or nearly so */
+    unsigned char index;         /* among the hits of the same target along the path, from 0; in expansions */
 } TargetHit;
 
-/* A set of hits: bit target * RETEX_MAX_ORDERS + index. */
+/* A set of hits, by target: bit target * RETEX_MAX_ORDERS + index. */
 typedef uint64_t HitMask;
 
 static inline HitMask hit_bit(int target, int index)
@@ -28,7 +28,7 @@ static inline HitMask hit_bit(int target, int index)
 }
 
 typedef struct Monomial {
-    HitMask hits;    /* S */
+    unsigned hits;   /* S, in the order of the path: bit j is hits[j] of the expansion */
     Rgb coefficient; /* c_S */
 } Monomial;
 
@@ -51,7 +51,14 @@ static inline void expansion_reset(Expansion *e)
     e->monomials[0] = (Monomial){0, {1, 1, 1}};
 }
 
-void expansion_copy(Expansion *to, const Expansion *from); /* only what is in use */
+/* What an expansion is before more hits are pushed, to return to. */
+typedef struct ExpansionMark {
+    ExpansionSize size;
+    Monomial monomials[EXPANSION_MONOMIALS_MAX];
+} ExpansionMark;
+
+void expansion_mark(ExpansionMark *mark, const Expansion *e);
+void expansion_return(Expansion *e, const ExpansionMark *mark);
 
 /* Most hits of all targets together that a path keeps apart. Layout paper has a term for each combination of them:
  * with n hits of T targets there are (T + n)! / (T! n!), so many targets get fewer hits, for a set has room for about
@@ -71,15 +78,15 @@ static inline int expansion_has_room(const ExpansionSize *size, int target, int 
 }
 
 /* What it has grown to after another hit. */
-static inline void expansion_grow(ExpansionSize *size, int target, Split factor)
+static inline void expansion_grow(ExpansionSize *size, int target, const Split *factor)
 {
     size->nhits++;
     size->per_target[target]++;
-    if (!rgb_is_black(factor.d) && !rgb_is_black(factor.i))
+    if (!rgb_is_black(factor->d) && !rgb_is_black(factor->i))
         size->nmonomials *= 2;
 }
 
-/* Multiply by d a + i of one more hit, which must have room. */
-void expansion_push(Expansion *e, int target, Split factor, Vec2 uv, Rgb albedo, int sharp);
+/* Multiply by d a + i of one more hit, which must have room; its index is found here. */
+void expansion_push(Expansion *e, const TargetHit *hit, const Split *factor);
 
 #endif

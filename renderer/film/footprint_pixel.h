@@ -22,18 +22,6 @@ typedef struct Cluster {
     float again;    /* luminance of that which does */
 } Cluster;
 
-/* Light of those of a path's connections that met the same targets at the same places: what becomes of it is the same
- * but for its amount. */
-typedef struct Run {
-    HitMask met;                       /* which of the hits */
-    int nhits;                         /* up to the last of these */
-    TargetHit hits[RETEX_MAX_FACTORS]; /* of the path, as they come */
-    int folded;                        /* as of the connections */
-    Rgb value;
-} Run;
-
-#define RUNS_BITS 4
-
 /* One path's light by the hit that comes first. */
 typedef struct Pending {
     int target;
@@ -79,8 +67,6 @@ struct FootprintPixel {
     int spp; /* of the pixel, when it is finished */
     double free[3];
     TargetClusters *targets;
-    Run runs[1 << RUNS_BITS]; /* by a hash of what they met */
-    unsigned running;         /* bits: runs that have anything */
     Pending pending[PENDING_MAX];
     int npending;
     PendingLater later[PENDING_MAX];

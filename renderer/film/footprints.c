@@ -40,7 +40,7 @@ void footprints_pixel_close(FootprintPixel **pixel)
 /* ---- light ---- */
 
 /* Luminance of a monomial were all its targets white paint. */
-static float white_luminance(HitMask hits, Rgb value)
+static float white_luminance(unsigned hits, Rgb value)
 {
     float luminance = rgb_luminance(value);
     for (; hits; hits &= hits - 1)
@@ -169,31 +169,24 @@ static void add_later(FootprintPixel *p, const TargetHit *hit, int order, double
     add_albedo(&l->albedo, light, hit->albedo);
 }
 
-/* The hits of a monomial beyond its first, as far as the plan keeps them. */
+/* The hits of a monomial beyond its first, as far as the plan keeps them: their numbers in the expansion. */
 typedef struct Kept {
-    const TargetHit *hits[RETEX_MAX_FACTORS];
     int count, coefficient, folded;
+    int hits[RETEX_MAX_FACTORS];
 } Kept;
 
-static int is_met(const Run *run, int hit)
-{
-    return (run->met & hit_bit(run->hits[hit].target, run->hits[hit].index)) != 0;
-}
-
-/* Which of the hits after the first; the albedo of the others goes into value. */
-static void keep_hits(const Plan *plan, const Run *run, int first, Rgb *value, Kept *kept)
+/* Which of the hits after the first, given as bits; the albedo of the others goes into value. */
+static void keep_hits(const Plan *plan, const Expansion *e, unsigned further, Rgb *value, Kept *kept)
 {
     kept->count = kept->coefficient = kept->folded = 0;
-    for (int j = first + 1; j < run->nhits; j++) {
-        const TargetHit *hit = &run->hits[j];
-        if (!is_met(run, j))
-            continue;
-        int next = plan->coefficients[kept->coefficient].next[hit->target];
+    for (; further; further &= further - 1) {
+        int j = __builtin_ctz(further);
+        int next = plan->coefficients[kept->coefficient].next[e->hits[j].target];
         if (next >= 0) {
             kept->coefficient = next;
-            kept->hits[kept->count++] = hit;
+            kept->hits[kept->count++] = j;
         } else {
-            *value = rgb_mul(*value, hit->albedo);
+            *value = rgb_mul(*value, e->hits[j].albedo);
             kept->folded = 1;
         }
     }
@@ -206,104 +199,68 @@ static void add_white_light(LightSums *sums, float white, int folded)
         sums->folded_white += white;
 }
 
-/* A run is over. */
-static void flush_run(FootprintPixel *p, const Run *run)
+static void add_coefficient(Pending *q, int coefficient, Rgb value)
+{
+    float *c = q->c[coefficient];
+    if (q->used >> coefficient & 1)
+        add_rgb(c, value);
+    else
+        c[0] = value.r, c[1] = value.g, c[2] = value.b;
+    q->used |= 1u << coefficient;
+}
+
+/* The further hits that are kept, each with the light that the others leave it. */
+static void add_further(FootprintPixel *p, const Expansion *e, const TargetHit *first, const Kept *kept, double weight,
+                        Rgb value)
+{
+    for (int k = 0; k < kept->count; k++) {
+        Rgb others = rgb_mul(value, weighing_albedo(first));
+        for (int i = 0; i < kept->count; i++)
+            if (i != k)
+                others = rgb_mul(others, weighing_albedo(&e->hits[kept->hits[i]]));
+        add_later(p, &e->hits[kept->hits[k]], kept->hits[k], weight, others);
+    }
+}
+
+/* Light that met these hits, of which there is one at least. */
+static void add_monomial(FootprintPixel *p, const Expansion *e, unsigned hits, Rgb value, int folded)
 {
     Kept kept;
-    Rgb value = run->value;
-    int first = 0;
-    while (!is_met(run, first))
-        first++;
-    const TargetHit *hit = &run->hits[first];
-    keep_hits(&p->film->plan, run, first, &value, &kept);
-    add_white_light(p->light, white_luminance(run->met, run->value), run->folded || kept.folded);
+    int first = __builtin_ctz(hits);
+    const TargetHit *hit = &e->hits[first];
+    float white = white_luminance(hits, value);
+    keep_hits(&p->film->plan, e, hits & (hits - 1), &value, &kept);
+    add_white_light(p->light, white, folded || kept.folded);
     if (rgb_is_black(value))
         return;
     double weight = rgb_luminance(value);
     Rgb light = value;
     for (int k = 0; k < kept.count; k++) {
         weight *= UNKNOWN_ALBEDO;
-        light = rgb_mul(light, weighing_albedo(kept.hits[k]));
+        light = rgb_mul(light, weighing_albedo(&e->hits[kept.hits[k]]));
     }
     Pending *q = find_pending(p, hit, first);
     q->weight += weight;
-    float *c = q->c[kept.coefficient];
-    if (q->used >> kept.coefficient & 1)
-        add_rgb(c, value);
-    else
-        c[0] = value.r, c[1] = value.g, c[2] = value.b;
-    q->used |= 1u << kept.coefficient;
+    add_coefficient(q, kept.coefficient, value);
     if (kept.coefficient)
         q->again += rgb_luminance(light);
     /* a cluster's own light is what its albedo is for; light that goes on to targets tells where there is no other */
     add_albedo(&q->albedo, kept.coefficient ? rgb_scale(light, AGAIN_WEIGHT) : light, hit->albedo);
-    for (int k = 0; k < kept.count; k++) {
-        Rgb others = rgb_mul(value, weighing_albedo(hit));
-        for (int i = 0; i < kept.count; i++)
-            if (i != k)
-                others = rgb_mul(others, weighing_albedo(kept.hits[i]));
-        add_later(p, kept.hits[k], (int)(kept.hits[k] - run->hits), weight, others);
-    }
-    if (kept.folded && !run->folded) /* else all of it counts as folded already */
+    if (kept.count)
+        add_further(p, e, hit, &kept, weight, value);
+    if (kept.folded && !folded) /* else all of it counts as folded already */
         p->light->folded += rgb_luminance(rgb_mul(light, hit->albedo));
-}
-
-/* Does a connection meet what the run has? */
-static int goes_on(const Run *run, const Expansion *e, HitMask met, int folded)
-{
-    if (run->met != met || run->folded != folded || run->nhits > e->size.nhits)
-        return 0;
-    for (int j = 0; j < run->nhits; j++) {
-        const TargetHit *a = &run->hits[j], *b = &e->hits[j];
-        if (is_met(run, j) &&
-            (a->target != b->target || a->index != b->index || a->uv.u != b->uv.u || a->uv.v != b->uv.v))
-            return 0;
-    }
-    return 1;
-}
-
-static void start_run(Run *run, const Expansion *e, HitMask met, Rgb value, int folded)
-{
-    run->met = met, run->folded = folded, run->value = value;
-    run->nhits = 0;
-    for (HitMask left = met; left; run->nhits++) {
-        const TargetHit *hit = &e->hits[run->nhits];
-        run->hits[run->nhits] = *hit;
-        left &= ~hit_bit(hit->target, hit->index);
-    }
-}
-
-static void add_to_run(FootprintPixel *p, const Expansion *e, HitMask met, Rgb value, int folded)
-{
-    unsigned place = (unsigned)(met * 0x9e3779b97f4a7c15u >> (64 - RUNS_BITS));
-    Run *run = &p->runs[place];
-    if (p->running >> place & 1) {
-        if (goes_on(run, e, met, folded)) {
-            run->value = rgb_add(run->value, value);
-            return;
-        }
-        flush_run(p, run);
-    }
-    start_run(run, e, met, value, folded);
-    p->running |= 1u << place;
-}
-
-static void flush_runs(FootprintPixel *p)
-{
-    for (unsigned left = p->running; left; left &= left - 1)
-        flush_run(p, &p->runs[__builtin_ctz(left)]);
-    p->running = 0;
 }
 
 void footprints_connect(FootprintPixel *p, const Expansion *e, Rgb outside, int folded)
 {
     for (int k = 0; k < e->size.nmonomials; k++) {
-        HitMask hits = e->monomials[k].hits;
+        unsigned hits = e->monomials[k].hits;
         Rgb value = rgb_mul(outside, e->monomials[k].coefficient);
         if (rgb_is_black(value))
             continue;
         if (hits) {
-            add_to_run(p, e, hits, value, folded);
+            add_monomial(p, e, hits, value, folded);
         } else {
             p->free[0] += value.r, p->free[1] += value.g, p->free[2] += value.b;
             add_white_light(p->light, rgb_luminance(value), folded);
@@ -420,7 +377,6 @@ static void flush_pending(FootprintPixel *p)
 
 void footprints_path_end(FootprintPixel *p)
 {
-    flush_runs(p);
     flush_pending(p);
     flush_later(p);
 }

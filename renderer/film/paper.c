@@ -128,16 +128,13 @@ static void add_term(PaperPixel *p, TermKey key, Rgb value)
 
 /* The original albedo of each hit of a monomial, weighted by the light it multiplied: so a term of one factor keeps its
  * original to the bit that arithmetic allows, whatever the texture does inside the pixel. */
-static void add_albedos(PaperPixel *p, const Expansion *e, HitMask hits, Rgb value)
+static void add_albedos(PaperPixel *p, const Expansion *e, unsigned hits, Rgb value)
 {
-    for (int j = 0; j < e->size.nhits; j++) {
-        const TargetHit *hit = &e->hits[j];
-        if (!(hits & hit_bit(hit->target, hit->index)))
-            continue;
+    for (unsigned left = hits; left; left &= left - 1) {
+        const TargetHit *hit = &e->hits[__builtin_ctz(left)];
         Rgb light = value;
-        for (int k = 0; k < e->size.nhits; k++)
-            if (k != j && hits & hit_bit(e->hits[k].target, e->hits[k].index))
-                light = rgb_mul(light, e->hits[k].albedo);
+        for (unsigned others = hits & ~(left & -left); others; others &= others - 1)
+            light = rgb_mul(light, e->hits[__builtin_ctz(others)].albedo);
         FootprintSums *f = &p->footprints[footprint_number(hit)];
         f->light[0] += light.r, f->light[1] += light.g, f->light[2] += light.b;
         f->light_albedo[0] += light.r * hit->albedo.r;
@@ -166,11 +163,23 @@ static void note_connections(PaperPixel *p, const Expansion *e, int connections)
     }
 }
 
+/* A monomial's hits by target. */
+static HitMask mask_by_target(const Expansion *e, unsigned hits)
+{
+    HitMask mask = 0;
+    for (; hits; hits &= hits - 1) {
+        const TargetHit *hit = &e->hits[__builtin_ctz(hits)];
+        mask |= hit_bit(hit->target, hit->index);
+    }
+    return mask;
+}
+
 void paper_connect(PaperPixel *p, const Expansion *e, Rgb outside, int connections)
 {
     for (int k = 0; k < e->size.nmonomials; k++) {
         Rgb value = rgb_mul(outside, e->monomials[k].coefficient);
-        TermKey key = term_key(e->size.nhits, e->monomials[k].hits, p->film->params.strict_paper);
+        HitMask met = mask_by_target(e, e->monomials[k].hits);
+        TermKey key = term_key(e->size.nhits, met, p->film->params.strict_paper);
         if (key == TERM_DROPPED || rgb_is_black(value))
             continue;
         add_term(p, key, value);

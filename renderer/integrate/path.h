@@ -56,7 +56,7 @@ typedef struct PathWorker {
     Rgb constants[RETEX_MAX_TARGETS];        /* of the pixel in hand */
     Rgb betas[VARIANTS_MAX];                 /* throughput of the path in hand by variant, where they are compared */
     Expansion expansion;                     /* of the path that is handed over */
-    Expansion scratch;                       /* that with a connection's own hits */
+    ExpansionMark mark;                      /* of it before a connection's own hits */
     PathEvent *events;                       /* of sets: room for those of all paths that are traced side by side */
     int nevents;
     PixelKeys keys;

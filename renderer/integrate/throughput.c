@@ -14,14 +14,12 @@
 struct PathEvent {
     int next; /* of the same path, among the worker's; -1: none */
     char is_light;
-    char own_hits;      /* of light: so many events follow, for these */
-    char target, sharp; /* of a hit, as of its Factor: */
+    char own_hits; /* of light: so many events follow, for these */
     union {
         FilmLight light;
         struct {
+            TargetHit at; /* as of its Factor */
             Split split;
-            Rgb albedo;
-            Vec2 uv;
         } hit;
     };
 };
@@ -77,15 +75,17 @@ static Rgb take_part(Split *split)
     return taken;
 }
 
-/* Multiply by a factor: as a target hit while there is an order left, else as it is. Returns 1 for a hit. */
-static int take_factor(const PathContext *c, Rgb *outside, ExpansionSize *size, int *folded, Factor *f)
+/* Multiply by a factor: as a target hit while there is an order left, else by what it is as a whole. Returns 1 for a
+ * hit. */
+static inline int take_factor(const PathContext *c, Rgb *outside, ExpansionSize *size, int *folded, Factor *f,
+                              Rgb whole)
 {
     if (is_hit(f) && expansion_has_room(size, f->target, c->orders, c->most_hits)) {
-        expansion_grow(size, f->target, f->split);
+        expansion_grow(size, f->target, &f->split);
         *outside = rgb_mul(*outside, take_part(&f->split));
         return 1;
     }
-    *outside = rgb_mul(*outside, split_apply(f->split, f->albedo));
+    *outside = rgb_mul(*outside, whole);
     *folded |= is_textured(f);
     return 0;
 }
@@ -107,8 +107,9 @@ static PathEvent *add_event(PathWorker *w, Path *path)
 static void add_hit(PathWorker *w, Path *path, const Factor *f)
 {
     PathEvent *e = add_event(w, path);
-    e->is_light = 0, e->target = (char)f->target, e->sharp = (char)f->sharp;
-    e->hit.split = f->split, e->hit.albedo = f->albedo, e->hit.uv = f->uv;
+    e->is_light = 0;
+    e->hit.at = (TargetHit){f->uv, f->albedo, (unsigned char)f->target, (unsigned char)f->sharp, 0};
+    e->hit.split = f->split;
 }
 
 static PathEvent *add_light(PathWorker *w, Path *path, const FilmLight *light, int own_hits)
@@ -120,7 +121,8 @@ static PathEvent *add_light(PathWorker *w, Path *path, const FilmLight *light, i
 
 static int is_same_hit(const PathEvent *e, const Factor *f)
 {
-    return e->target == f->target && e->hit.uv.u == f->uv.u && e->hit.uv.v == f->uv.v && e->sharp == f->sharp &&
+    const TargetHit *at = &e->hit.at;
+    return at->target == f->target && at->uv.u == f->uv.u && at->uv.v == f->uv.v && at->sharp == f->sharp &&
            !memcmp(&e->hit.split, &f->split, sizeof f->split);
 }
 
@@ -130,7 +132,7 @@ static void go_on_from(PathWorker *w, Path *path, const Factor *factor)
     PathEvent *light = path->beside, *hit = &w->events[path->last];
     if (light && is_same_hit(hit, factor)) {
         FilmLight sum = light->light;
-        light->is_light = 0, light->target = hit->target, light->sharp = hit->sharp, light->hit = hit->hit;
+        light->is_light = 0, light->hit = hit->hit;
         hit->is_light = 1, hit->own_hits = 0, hit->light = sum;
         path->arrived = hit, path->beside = NULL;
     } else {
@@ -144,29 +146,28 @@ static int is_finite(Rgb c)
     return isfinite(c.r + c.g + c.b);
 }
 
-/* Is the sum of two lights as good as both? What is not finite goes to the film by itself, which drops it. */
-static int can_join(const FilmLight *sum, const FilmLight *light)
+/* Two lights become one, if the sum is as good as both: what is not finite goes to the film by itself, which drops
+ * it. */
+static int join(FilmLight *sum, const FilmLight *light)
 {
-    return sum->folded == light->folded &&
-           is_finite(rgb_add(rgb_add(sum->beauty, sum->outside), rgb_add(light->beauty, light->outside)));
+    Rgb beauty = rgb_add(sum->beauty, light->beauty), outside = rgb_add(sum->outside, light->outside);
+    if (sum->folded != light->folded || !is_finite(rgb_add(beauty, outside)))
+        return 0;
+    sum->beauty = beauty, sum->outside = outside;
+    sum->connections++;
+    return 1;
 }
 
 /* Light behind the path's hits so far, and no others. */
 static void arrive(PathWorker *w, Path *path, const FilmLight *light)
 {
-    if (!path->arrived || !can_join(&path->arrived->light, light)) {
+    if (!path->arrived || !join(&path->arrived->light, light))
         path->arrived = add_light(w, path, light, 0);
-        return;
-    }
-    FilmLight *sum = &path->arrived->light;
-    sum->beauty = rgb_add(sum->beauty, light->beauty);
-    sum->outside = rgb_add(sum->outside, light->outside);
-    sum->connections++;
 }
 
 static void push_hit(Expansion *e, const PathEvent *hit)
 {
-    expansion_push(e, hit->target, hit->hit.split, hit->hit.uv, hit->hit.albedo, hit->sharp);
+    expansion_push(e, &hit->hit.at, &hit->hit.split);
 }
 
 /* All that a path brought goes to the film. */
@@ -181,12 +182,13 @@ static void hand_over(PathWorker *w, const Path *path)
         } else if (event->own_hits == 0) {
             film_connect(w->pixel, &event->light, e);
         } else {
-            expansion_copy(&w->scratch, e);
+            expansion_mark(&w->mark, e);
             for (int k = event->own_hits; k > 0; k--) {
                 at = w->events[at].next;
-                push_hit(&w->scratch, &w->events[at]);
+                push_hit(e, &w->events[at]);
             }
-            film_connect(w->pixel, &event->light, &w->scratch);
+            film_connect(w->pixel, &event->light, e);
+            expansion_return(e, &w->mark);
         }
     }
 }
@@ -245,16 +247,22 @@ void path_start(PathWorker *w, Path *path, const Ray *ray, const Sampler *sample
 int path_scatter(PathWorker *w, Path *path, Factor *factor)
 {
     const PathContext *c = w->context;
-    path->beta = rgb_mul(path->beta, split_apply(factor->split, factor->albedo));
+    Rgb whole = split_apply(factor->split, factor->albedo);
+    path->beta = rgb_mul(path->beta, whole);
     if (c->compare)
         multiply(c, w->betas, factor);
-    if (c->split && take_factor(c, &path->outside, &path->hits, &path->folded, factor))
+    if (c->split && take_factor(c, &path->outside, &path->hits, &path->folded, factor, whole))
         go_on_from(w, path, factor);
     return path_is_alive(w, path);
 }
 
-/* As path_connect, of plain pictures. */
-static void connect_plain(PathWorker *w, Path *path, Rgb beauty)
+static void trace_light(const PathContext *c, Rgb light)
+{
+    fprintf(c->trace, "  light %.6g %.6g %.6g\n", light.r, light.g, light.b);
+}
+
+/* Light of plain pictures. */
+static void add_plain(PathWorker *w, Path *path, Rgb beauty)
 {
     if (film_accepts(w->pixel, beauty))
         path->light[0] += beauty.r, path->light[1] += beauty.g, path->light[2] += beauty.b;
@@ -266,23 +274,39 @@ void path_bring(PathWorker *w, Path *path, Rgb light)
     if (w->context->split)
         arrive(w, path, &(FilmLight){beauty, rgb_mul(path->outside, light), path->folded, 1});
     else
-        connect_plain(w, path, beauty);
+        add_plain(w, path, beauty);
     if (w->context->compare)
         connect_variants(w, light, NULL, 0);
 }
 
+/* As path_connect, of plain pictures. */
+static void connect_plain(PathWorker *w, Path *path, Rgb light, const Factor *factors, int nfactors)
+{
+    Rgb beauty = rgb_mul(path->beta, light);
+    for (int k = 0; k < nfactors; k++)
+        beauty = rgb_mul(beauty, split_apply(factors[k].split, factors[k].albedo));
+    if (w->context->trace)
+        trace_light(w->context, beauty);
+    add_plain(w, path, beauty);
+}
+
 /* As path_connect, of sets. */
-static void connect_split(PathWorker *w, Path *path, Rgb beauty, Rgb light, Factor *factors, int nfactors)
+static void connect_split(PathWorker *w, Path *path, Rgb light, Factor *factors, int nfactors)
 {
     const PathContext *c = w->context;
     const Factor *own[SHADOW_FACTORS_MAX + 2];
-    FilmLight sum = {beauty, rgb_mul(path->outside, light), path->folded, 1};
+    FilmLight sum = {rgb_mul(path->beta, light), rgb_mul(path->outside, light), path->folded, 1};
     ExpansionSize size = path->hits;
     int count = 0;
-    for (int k = 0; k < nfactors; k++)
-        if (take_factor(c, &sum.outside, &size, &sum.folded, &factors[k]))
+    for (int k = 0; k < nfactors; k++) {
+        Rgb whole = split_apply(factors[k].split, factors[k].albedo);
+        sum.beauty = rgb_mul(sum.beauty, whole);
+        if (take_factor(c, &sum.outside, &size, &sum.folded, &factors[k], whole))
             own[count++] = &factors[k];
-    if (rgb_is_black(beauty) && rgb_is_black(sum.outside))
+    }
+    if (c->trace)
+        trace_light(c, sum.beauty);
+    if (rgb_is_black(sum.beauty) && rgb_is_black(sum.outside))
         return;
     if (count == 0) {
         arrive(w, path, &sum);
@@ -298,17 +322,12 @@ static void connect_split(PathWorker *w, Path *path, Rgb beauty, Rgb light, Fact
 void path_connect(PathWorker *w, Path *path, Rgb light, Factor *factors, int nfactors)
 {
     const PathContext *c = w->context;
-    Rgb beauty = rgb_mul(path->beta, light);
-    for (int k = 0; k < nfactors; k++)
-        beauty = rgb_mul(beauty, split_apply(factors[k].split, factors[k].albedo));
-    if (c->trace)
-        fprintf(c->trace, "  light %.6g %.6g %.6g\n", beauty.r, beauty.g, beauty.b);
     if (c->compare)
         connect_variants(w, light, factors, nfactors);
     if (c->split)
-        connect_split(w, path, beauty, light, factors, nfactors);
+        connect_split(w, path, light, factors, nfactors);
     else
-        connect_plain(w, path, beauty);
+        connect_plain(w, path, light, factors, nfactors);
 }
 
 void path_end(PathWorker *w, Path *path)

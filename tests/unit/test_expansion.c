@@ -39,13 +39,14 @@ static void multiplies_out(void **state)
             index[j] = seen[targets[j]]++;
             a[j] = at_random(&seed);
             product *= d * a[j] + i;
-            expansion_push(&e, targets[j], (Split){rgb_grey(d), rgb_grey(i)}, (Vec2){0, 0}, rgb_grey(0.5f), 0);
+            expansion_push(&e, &(TargetHit){.target = (unsigned char)targets[j]}, &(Split){rgb_grey(d), rgb_grey(i)});
+            assert_int_equal(e.hits[j].index, index[j]);
         }
         double sum = 0;
         for (int k = 0; k < e.size.nmonomials; k++) {
             double term = e.monomials[k].coefficient.g;
             for (int j = 0; j < n; j++)
-                if (e.monomials[k].hits & hit_bit(targets[j], index[j]))
+                if (e.monomials[k].hits >> j & 1)
                     term *= a[j];
             sum += term;
         }

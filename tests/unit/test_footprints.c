@@ -47,10 +47,16 @@ static void begin_path(Fixture *f)
     expansion_reset(&f->path);
 }
 
+static void split_hit(Fixture *f, int target, double u, double v, Rgb albedo, int sharp, Split split)
+{
+    const TargetHit hit = {{u, v}, albedo, (unsigned char)target, (unsigned char)sharp, 0};
+    expansion_push(&f->path, &hit, &split);
+}
+
 /* One more hit, all of whose light the albedo multiplies. */
 static void hit(Fixture *f, int target, double u, double v, Rgb albedo, int sharp)
 {
-    expansion_push(&f->path, target, (Split){rgb_grey(1), rgb_grey(0)}, (Vec2){u, v}, albedo, sharp);
+    split_hit(f, target, u, v, albedo, sharp, (Split){rgb_grey(1), rgb_grey(0)});
 }
 
 /* What the path carries with the original albedos. */
@@ -60,7 +66,7 @@ static Rgb path_value(const Expansion *e)
     for (int k = 0; k < e->size.nmonomials; k++) {
         Rgb value = e->monomials[k].coefficient;
         for (int j = 0; j < e->size.nhits; j++)
-            if (e->monomials[k].hits & hit_bit(e->hits[j].target, e->hits[j].index))
+            if (e->monomials[k].hits >> j & 1)
                 value = rgb_mul(value, e->hits[j].albedo);
         sum = rgb_add(sum, value);
     }
@@ -399,8 +405,8 @@ static void monomials_go_their_own_ways(void **state)
     begin(&f, 1, 1, 6, 2, 1);
     open_film(&f);
     begin_path(&f);
-    expansion_push(&f.path, 0, (Split){rgb_grey(0.5f), rgb_grey(0.25f)}, (Vec2){0.25, 0}, rgb_grey(1), SHARP);
-    expansion_push(&f.path, 0, (Split){rgb_grey(0.5f), rgb_grey(0.125f)}, (Vec2){0.75, 0}, rgb_grey(0.5f), BROAD);
+    split_hit(&f, 0, 0.25, 0, rgb_grey(1), SHARP, (Split){rgb_grey(0.5f), rgb_grey(0.25f)});
+    split_hit(&f, 0, 0.75, 0, rgb_grey(0.5f), BROAD, (Split){rgb_grey(0.5f), rgb_grey(0.125f)});
     connect_light(&f, rgb_grey(32));
     film_path_end(f.pixel);
     finish(&f);
@@ -423,7 +429,7 @@ static void one_place_may_be_met_twice(void **state)
     open_film(&f);
     begin_path(&f);
     for (int sharp = SHARP; sharp >= BROAD; sharp--)
-        expansion_push(&f.path, 0, (Split){rgb_grey(0.5f), rgb_grey(0.5f)}, (Vec2){0.25, 0}, rgb_grey(1), sharp);
+        split_hit(&f, 0, 0.25, 0, rgb_grey(1), sharp, (Split){rgb_grey(0.5f), rgb_grey(0.5f)});
     connect_light(&f, rgb_grey(4));
     film_path_end(f.pixel);
     finish(&f);
@@ -501,8 +507,8 @@ static void the_terms_add_up(void **state)
                 Split split = {rgb_grey((float)test_random(&seed)), rgb_grey(0)};
                 if (test_random(&seed) < 0.5)
                     split.i = rgb_grey((float)test_random(&seed));
-                expansion_push(&f.path, t, split, (Vec2){test_random(&seed), test_random(&seed)},
-                               rgb(level, 0.5f * level, 1 - level), test_random(&seed) < 0.5);
+                Vec2 uv = {test_random(&seed), test_random(&seed)};
+                split_hit(&f, t, uv.u, uv.v, rgb(level, 0.5f * level, 1 - level), test_random(&seed) < 0.5, split);
             }
             connect_light(&f, rgb((float)test_random(&seed), (float)test_random(&seed), 1));
             film_path_end(f.pixel);
