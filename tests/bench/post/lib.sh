@@ -43,19 +43,14 @@ rendered_set() { # SCENE LAYOUT SIZE SPP TARGETS
     retex-render -q --layout "$2" --size "$3" --spp "$4" $(for t in $5; do echo "-t $t"; done) "$(scene_file "$1")" \
         -o "$file"
 }
-# Denoised: $sets/NAME-denoised.exr. The one as rendered stays only where it was before. Fails where there is not enough
-# memory.
+# Denoised: $sets/NAME-denoised.exr. The one as rendered stays only where it was before.
 denoised_set() { # as above
     denoised=$sets/$(set_name "$@")-denoised.exr
     [ ! -e "$denoised" ] || return 0
     file=$sets/$(set_name "$@").exr is_kept=
     [ ! -e "$file" ] || is_kept=1
     rendered_set "$@"
-    (
-        # shellcheck disable=SC3045 # every shell that is there has it
-        ulimit -v "$(awk '/^MemAvailable/ { print int(0.9 * $2) }' /proc/meminfo)"
-        exec retex-denoise -q "$file" -o "$denoised"
-    ) || return 1
+    retex-denoise -q "$file" -o "$denoised"
     [ -n "$is_kept" ] || rm "$file"
 }
 # Its pack beside it.

@@ -10,9 +10,8 @@
 # slower or faster favours nothing: retex-combine from packs, sets and pipes into several formats; beside it, in the
 # same turns, reading alone (post_floor), the same sum by oiiotool, and the scene rendered again.
 #
-# As it stands it takes about five hours on two cores the first time, half of it rendering and denoising, 20 GB of disk
-# and, to denoise the largest sets, more memory than most machines have: without it these are measured as rendered.
-# BENCH_SIZES, BENCH_SPP (else 32, and 8 from two million pixels on), BENCH_TURNS (5, of large pictures at most 3),
+# As it stands it takes about five hours on two cores the first time, half of it rendering and denoising, and 20 GB of
+# disk. BENCH_SIZES, BENCH_SPP (else 32, and 8 from two million pixels on), BENCH_TURNS (5, of large pictures at most 3),
 # BENCH_SCENES='living-room artist', BENCH_EDITS='one two', BENCH_LAYOUTS (else footprints; 'footprints paper') choose
 # less, and BENCH_TABLE_SIZE and BENCH_TABLE_SPP what sizes are measured of (1920x1080, or the first of BENCH_SIZES
 # where they are given, with 128 samples, or BENCH_SPP; `no': nothing).
@@ -109,15 +108,10 @@ agreement() { # WHAT A B: how far two pictures differ
     retex-diff --json "$2" "$3" >"$work/run.json" || [ $? = 1 ]
     record agreement "scene=$scene" "edit=$edit" "layout=$layout" "size=$size" "what=$1" "$work/run.json"
 }
-# The set that is measured, denoised unless that failed; its pack; samples of it. In $measured, $pack, $samples.
+# The set that is measured, in $measured; its pack, in $pack.
 prepare() { # TARGETS
-    if denoised_set "$scene" "$layout" "$size" "$spp" "$1"; then
-        measured=$denoised
-    else
-        echo "$bench: $named was not denoised: it is measured as rendered" >&2
-        rendered_set "$scene" "$layout" "$size" "$spp" "$1"
-        measured=$file
-    fi
+    denoised_set "$scene" "$layout" "$size" "$spp" "$1"
+    measured=$denoised
     packed_set "$measured"
     retex-info --json "$measured" >"$work/info.json"
     record case "scene=$scene" "edit=$edit" "targets=$1" "layout=$layout" "size=$size" "spp=$spp" \
