@@ -64,6 +64,18 @@ double uv_stats_variation_gain(const UvStats *a, const UvStats *b, const int per
     return variation(a->weight + b->weight, both) - variation(a->weight, sa) - variation(b->weight, sb);
 }
 
+double uv_stats_point_ward(const UvStats *a, double weight, const double uv[2], const int periodic[2])
+{
+    double u = difference(a->mean[0], uv[0], periodic[0]), v = difference(a->mean[1], uv[1], periodic[1]);
+    return a->weight * weight / (a->weight + weight) * (u * u + v * v);
+}
+
+double uv_stats_point_variation_gain(const UvStats *a, double weight, const double uv[2], const int periodic[2])
+{
+    double squares = a->m2[0] + a->m2[2], both = squares + uv_stats_point_ward(a, weight, uv, periodic);
+    return variation(a->weight + weight, both) - variation(a->weight, squares);
+}
+
 /* The largest power of two that is no larger, 0 of what is below all normal numbers. */
 static double power_of_two(double value)
 {
