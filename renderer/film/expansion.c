@@ -35,5 +35,5 @@ void expansion_push(Expansion *e, const TargetHit *hit, const Split *factor)
             m->coefficient = rgb_mul(m->coefficient, factor->d);
         }
     }
-    expansion_grow(&e->size, hit->target, factor);
+    expansion_grow(&e->size, hit->target, dependent && independent);
 }

@@ -77,12 +77,12 @@ static inline int expansion_has_room(const ExpansionSize *size, int target, int 
            2 * size->nmonomials <= EXPANSION_MONOMIALS_MAX;
 }
 
-/* What it has grown to after another hit. */
-static inline void expansion_grow(ExpansionSize *size, int target, const Split *factor)
+/* What it has grown to after another hit, of d and i or of one of them. */
+static inline void expansion_grow(ExpansionSize *size, int target, int both_parts)
 {
     size->nhits++;
     size->per_target[target]++;
-    if (!rgb_is_black(factor->d) && !rgb_is_black(factor->i))
+    if (both_parts)
         size->nmonomials *= 2;
 }
 

@@ -1,4 +1,5 @@
-/* What a pixel gathers while its paths are traced: filled in footprints.c, stored by footprint_store.c. */
+/* What a pixel gathers while its paths are traced: filled in footprints.c and footprint_clusters.c, stored by
+ * footprint_store.c. */
 #ifndef RENDERER_FILM_FOOTPRINT_PIXEL_H
 #define RENDERER_FILM_FOOTPRINT_PIXEL_H
 
@@ -27,9 +28,9 @@ typedef struct Pending {
     int target;
     int sharp;
     Vec2 position;
-    double weight;
-    AlbedoSums albedo;
-    float again;   /* as of clusters */
+    Rgb albedo;    /* the original's, there */
+    Rgb again;     /* light that meets targets again, with their original albedo */
+    double weight; /* of the place, when the path has ended */
     unsigned used; /* bits: coefficients that are not 0; the others are not set */
     Coefficients c;
 } Pending;
@@ -38,13 +39,14 @@ typedef struct Pending {
 typedef struct PendingLater {
     int target;
     double uv[2], weight;
-    AlbedoSums albedo;
+    Rgb light, albedo; /* that reaches it, with the original albedo of the path's other hits; its own */
 } PendingLater;
 
 /* Clusters of one kind, and the light of all of them that meets targets again: [0] stays empty. */
 typedef struct Clusters {
     int count;
     unsigned used; /* bits: coefficients of `again` that are not 0 */
+    double apart;  /* no two of them merge for less; -inf: not known */
     Cluster of[FILM_CLUSTERS_MAX];
     Coefficients again;
 } Clusters;
@@ -60,7 +62,12 @@ typedef struct Later {
 typedef struct TargetClusters {
     Clusters sharp, broad;
     Later later[LATER_COUNT];
+    double later_apart; /* as of clusters */
 } TargetClusters;
+
+/* Of a path: its light by first hit, of some weight, and its further hits. */
+void clusters_add(TargetClusters *target, const Pending *pending, const FilmParams *params);
+void clusters_add_later(TargetClusters *target, const PendingLater *pending, const int periodic[2]);
 
 struct FootprintPixel {
     FootprintFilm *film;

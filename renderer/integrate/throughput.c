@@ -64,15 +64,15 @@ static int is_hit(const Factor *f)
 }
 
 /* Of a hit that has a single part, the part goes outside, and the hit keeps 1 of it: so hits at the same place are the
- * same, whichever way light goes on from there. */
-static Rgb take_part(Split *split)
+ * same, whichever way light goes on from there. Returns 1 where it has both. */
+static int take_part(Split *split, Rgb *outside)
 {
     Rgb *part = rgb_is_black(split->i) ? &split->d : rgb_is_black(split->d) ? &split->i : NULL;
     if (!part)
-        return rgb_grey(1);
-    Rgb taken = *part;
+        return 1;
+    *outside = rgb_mul(*outside, *part);
     *part = rgb_grey(1);
-    return taken;
+    return 0;
 }
 
 /* Multiply by a factor: as a target hit while there is an order left, else by what it is as a whole. Returns 1 for a
@@ -81,8 +81,7 @@ static inline int take_factor(const PathContext *c, Rgb *outside, ExpansionSize 
                               Rgb whole)
 {
     if (is_hit(f) && expansion_has_room(size, f->target, c->orders, c->most_hits)) {
-        expansion_grow(size, f->target, &f->split);
-        *outside = rgb_mul(*outside, take_part(&f->split));
+        expansion_grow(size, f->target, take_part(&f->split, outside));
         return 1;
     }
     *outside = rgb_mul(*outside, whole);

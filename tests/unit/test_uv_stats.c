@@ -194,6 +194,24 @@ static void the_cost_is_what_merging_adds(void **state)
     assert_true(fabs(uv_stats_ward(&low, &high, open_axes) - 0.5 * 0.98 * 0.98) < 1e-12);
 }
 
+/* A single point costs what it costs as a cluster, to the bit. */
+static void a_point_costs_what_its_cluster_does(void **state)
+{
+    (void)state;
+    Point points[20];
+    for (uint32_t seed = 1; seed <= 40; seed++) {
+        const int *periodic = seed % 2 ? closed_axes : open_axes;
+        make_points(points, 20, 0.95, 0.2, 0.02 * seed, seed);
+        for (int n = 1; n < 20; n++) {
+            UvStats a = add_all(points, n, periodic);
+            const UvStats one = {points[n].weight, {points[n].uv[0], points[n].uv[1]}, {0, 0, 0}};
+            assert_true(uv_stats_point_ward(&a, one.weight, one.mean, periodic) == uv_stats_ward(&a, &one, periodic));
+            assert_true(uv_stats_point_variation_gain(&a, one.weight, one.mean, periodic) ==
+                        uv_stats_variation_gain(&a, &one, periodic));
+        }
+    }
+}
+
 /* A cluster of the given variance in all, half of it along each axis. */
 static UvStats blob(double weight, double u, double v, double variance)
 {
@@ -274,6 +292,7 @@ int main(void)
         cmocka_unit_test(a_cloud_may_lie_across_a_seam),
         cmocka_unit_test(the_end_of_a_period_is_its_beginning),
         cmocka_unit_test(the_cost_is_what_merging_adds),
+        cmocka_unit_test(a_point_costs_what_its_cluster_does),
         cmocka_unit_test(variation_never_falls),
         cmocka_unit_test(small_clusters_merge_by_ward),
         cmocka_unit_test(wide_clusters_cost_nothing_but_to_tight_ones),

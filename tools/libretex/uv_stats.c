@@ -63,6 +63,18 @@ double uv_stats_variation_gain(const UvStats *a, const UvStats *b, const int per
     return variation(a->weight + b->weight, both) - variation(a->weight, sa) - variation(b->weight, sb);
 }
 
+double uv_stats_point_ward(const UvStats *a, double weight, const double uv[2], const int periodic[2])
+{
+    double u = difference(a->mean[0], uv[0], periodic[0]), v = difference(a->mean[1], uv[1], periodic[1]);
+    return a->weight * weight / (a->weight + weight) * (u * u + v * v);
+}
+
+double uv_stats_point_variation_gain(const UvStats *a, double weight, const double uv[2], const int periodic[2])
+{
+    double squares = a->m2[0] + a->m2[2], both = squares + uv_stats_point_ward(a, weight, uv, periodic);
+    return variation(a->weight + weight, both) - variation(a->weight, squares);
+}
+
 #define UV_STEP (1.0 / 32)
 #define UV_FINEST (1.0 / (1 << 18)) /* a 64th of a texel of a 4K texture: where all samples met one place */
 enum { SPREAD_BITS = 7 };      /* within 1/128: less than so few samples know of it */

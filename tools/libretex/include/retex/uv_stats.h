@@ -26,6 +26,10 @@ double uv_stats_ward(const UvStats *a, const UvStats *b, const int periodic[2]);
 double uv_stats_variation_gain(const UvStats *a, const UvStats *b, const int periodic[2]);
 #define UV_FEATURE 0.5 /* of UV, in which most textures have changed all they do */
 
+/* The same where one of the two is a single point, to the bit. */
+double uv_stats_point_ward(const UvStats *stats, double weight, const double uv[2], const int periodic[2]);
+double uv_stats_point_variation_gain(const UvStats *stats, double weight, const double uv[2], const int periodic[2]);
+
 /* As footprints hold it: mean u and v, rounded to a 32nd of their standard deviation at most; spread: these deviations,
  * and the correlation. */
 void uv_stats_store(const UvStats *stats, float mean[2], float spread[3]);

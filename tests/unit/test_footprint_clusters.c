@@ -1,0 +1,173 @@
+/* The clusters of a pixel against the plain way to find them: what every pair costs, for every place anew. */
+#include "lib_test.h"
+
+#include <math.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "film/footprint_pixel.h"
+
+#define PLACES 400
+
+static double merge_cost(const UvStats *a, const UvStats *b, int sharp, const int periodic[2])
+{
+    return sharp ? uv_stats_ward(a, b, periodic) / (UV_FEATURE * UV_FEATURE) : uv_stats_variation_gain(a, b, periodic);
+}
+
+/* Places of clusters, as of one kind. */
+typedef struct Places {
+    int count;
+    UvStats of[FILM_CLUSTERS_MAX];
+} Places;
+
+typedef struct Best {
+    Places *places;
+    int a, b; /* b = -1: with the new one */
+    double cost;
+} Best;
+
+static void find_pair(Best *best, Places *places, int sharp, const int periodic[2])
+{
+    for (int i = 0; i < places->count; i++)
+        for (int k = i + 1; k < places->count; k++) {
+            double cost = merge_cost(&places->of[i], &places->of[k], sharp, periodic);
+            if (cost < best->cost)
+                *best = (Best){places, i, k, cost};
+        }
+}
+
+static void start_place(UvStats *place, const Pending *q, const int periodic[2])
+{
+    const double uv[2] = {q->position.u, q->position.v};
+    *place = (UvStats){.weight = 0};
+    uv_stats_add(place, q->weight, uv, periodic);
+}
+
+static void squeeze_place(Places *own, Places *other, int own_is_full, const Pending *q, const int periodic[2])
+{
+    const UvStats one = {q->weight, {q->position.u, q->position.v}, {0, 0, 0}};
+    Best best = {.cost = INFINITY};
+    for (int i = 0; i < own->count; i++) {
+        double cost = merge_cost(&own->of[i], &one, q->sharp, periodic);
+        if (cost < best.cost)
+            best = (Best){own, i, -1, cost};
+    }
+    find_pair(&best, own, q->sharp, periodic);
+    if (!own_is_full)
+        find_pair(&best, other, !q->sharp, periodic);
+    if (best.b < 0) {
+        uv_stats_add(&own->of[best.a], q->weight, one.mean, periodic);
+        return;
+    }
+    uv_stats_merge(&best.places->of[best.a], &best.places->of[best.b], periodic);
+    if (best.places == own) {
+        start_place(&own->of[best.b], q, periodic);
+        return;
+    }
+    best.places->of[best.b] = best.places->of[best.places->count - 1];
+    best.places->count--;
+    start_place(&own->of[own->count++], q, periodic);
+}
+
+static void add_place(Places kinds[2], const Pending *q, const FilmParams *params)
+{
+    Places *own = &kinds[!q->sharp], *other = &kinds[q->sharp];
+    int room = q->sharp ? params->sharp : params->broad;
+    const int *periodic = params->periodic[q->target];
+    if (own->count < room && own->count + other->count < params->clusters)
+        start_place(&own->of[own->count++], q, periodic);
+    else
+        squeeze_place(own, other, own->count == room, q, periodic);
+}
+
+static void add_later(UvStats later[LATER_COUNT], const PendingLater *l, const int periodic[2])
+{
+    const UvStats one = {l->weight, {l->uv[0], l->uv[1]}, {0, 0, 0}};
+    double gain[LATER_COUNT];
+    for (int k = 0; k < LATER_COUNT; k++) {
+        if (later[k].weight == 0) {
+            later[k] = one;
+            return;
+        }
+        gain[k] = uv_stats_variation_gain(&later[k], &one, periodic);
+        if (gain[k] <= 0) {
+            uv_stats_merge(&later[k], &one, periodic);
+            return;
+        }
+    }
+    double both = uv_stats_variation_gain(&later[0], &later[1], periodic);
+    if (both < gain[0] && both < gain[1]) {
+        uv_stats_merge(&later[0], &later[1], periodic);
+        later[1] = one;
+    } else {
+        uv_stats_merge(&later[gain[1] < gain[0]], &one, periodic);
+    }
+}
+
+/* Some places near others, some far away, some met twice; weights of all sizes. */
+static Vec2 any_place(uint32_t *seed, Vec2 last)
+{
+    double spread = test_random(seed) < 0.7 ? 0.02 : 3;
+    if (test_random(seed) < 0.05)
+        return last;
+    double u = floor(4 * test_random(seed)) / 4;
+    return (Vec2){u + spread * (test_random(seed) - 0.5), 0.3 + spread * (test_random(seed) - 0.5)};
+}
+
+static void expect_same(const Clusters *clusters, const Places *places)
+{
+    assert_int_equal(clusters->count, places->count);
+    for (int k = 0; k < places->count; k++)
+        assert_memory_equal(&clusters->of[k].uv, &places->of[k], sizeof places->of[k]);
+}
+
+static void clusters_are_those_of_all_pairs(void **state)
+{
+    (void)state;
+    for (uint32_t round = 0; round < 120; round++) {
+        TargetClusters target = {.later_apart = 0};
+        Places kinds[2] = {{.count = 0}, {.count = 0}};
+        FilmParams params = {.sharp = 1 + (int)round % 4, .broad = 1 + (int)round % 3};
+        uint32_t seed = round + 1;
+        Vec2 last = {0, 0};
+        params.clusters = params.sharp + params.broad - (int)(round % 2);
+        params.clusters = params.clusters < 2 ? 2 : params.clusters;
+        params.periodic[0][0] = round % 5 == 4, params.periodic[0][1] = round % 10 == 4;
+        for (int n = 0; n < PLACES; n++) {
+            Pending q = {.position = last = any_place(&seed, last)};
+            q.sharp = test_random(&seed) < 0.4, q.weight = 1e-3 + pow(test_random(&seed), 8) * 50;
+            clusters_add(&target, &q, &params);
+            add_place(kinds, &q, &params);
+            expect_same(&target.sharp, &kinds[0]);
+            expect_same(&target.broad, &kinds[1]);
+        }
+    }
+}
+
+static void further_hits_are_pooled_alike(void **state)
+{
+    (void)state;
+    for (uint32_t round = 0; round < 60; round++) {
+        const int periodic[2] = {round % 4 == 3, round % 8 == 3};
+        TargetClusters target = {.later_apart = 0};
+        UvStats later[LATER_COUNT] = {{.weight = 0}, {.weight = 0}};
+        uint32_t seed = round + 1;
+        Vec2 last = {0, 0};
+        for (int n = 0; n < PLACES; n++) {
+            last = any_place(&seed, last);
+            const PendingLater l = {.uv = {last.u, last.v}, .weight = 1e-3 + pow(test_random(&seed), 8) * 50};
+            clusters_add_later(&target, &l, periodic);
+            add_later(later, &l, periodic);
+            for (int k = 0; k < LATER_COUNT; k++)
+                assert_memory_equal(&target.later[k].uv, &later[k], sizeof later[k]);
+        }
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(clusters_are_those_of_all_pairs),
+                                       cmocka_unit_test(further_hits_are_pooled_alike)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,175 @@
+/* What paths bring to the film of a set, hit by hit and light by light. */
+#include "lib_test.h"
+
+#include <math.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "integrate/path_parts.h"
+
+/* A film of one pixel and one path, whose target is called Floor. */
+typedef struct Fixture {
+    Scene scene;
+    FilmParams params;
+    PathContext context;
+    PathWorker worker;
+    Film *film;
+    FilmPixel *pixel;
+    RetexSet *set;
+    Path path;
+} Fixture;
+
+static void begin(Fixture *f, int paper)
+{
+    RetexError err = {0};
+    const Ray ray = {{0, 0, 0}, {0, 0, 1}, 0, INFINITY};
+    const Sampler sampler = {0};
+    memset(f, 0, sizeof *f);
+    f->scene.ntargets = 1;
+    strcpy(f->scene.targets[0].name, "Floor");
+    f->params = (FilmParams){.width = 1, .height = 1, .spp = 1, .orders = 6, .split = 1, .ntiles = 1, .paper = paper};
+    f->params.clusters = 2, f->params.sharp = f->params.broad = 1;
+    f->context = (PathContext){.scene = &f->scene, .max_depth = 16, .orders = 6, .split = 1, .nvariants = 1};
+    f->context.most_hits = expansion_most_hits(1, paper);
+    test_must(film_create(&f->film, &f->scene, &f->params, &err), &err);
+    test_must(film_pixel_create(&f->pixel, f->film, &err), &err);
+    f->worker.context = &f->context, f->worker.pixel = f->pixel;
+    test_must(path_worker_open(&f->worker, &err), &err);
+    path_start(&f->worker, &f->path, &ray, &sampler);
+}
+
+static void finish(Fixture *f)
+{
+    RetexError err = {0};
+    path_end(&f->worker, &f->path);
+    path_worker_close(&f->worker);
+    film_pixel_end(f->pixel, 0, 0);
+    film_tile_end(f->pixel, 0);
+    film_pixel_close(&f->pixel);
+    test_must(retex_set_create(&f->set, 1, 1, &err), &err);
+    test_must(retex_set_add_part(f->set, "beauty", "RGB", RETEX_FLOAT, 0, 0, NULL, &err), &err);
+    test_must(film_finish(f->film, f->set, &err), &err);
+}
+
+static void end(Fixture *f)
+{
+    film_close(&f->film);
+    retex_set_close(&f->set);
+}
+
+/* The floor, which reflects d times its albedo of 1/2. */
+static Factor floor_factor(float d, double u)
+{
+    return (Factor){0, {rgb_grey(d), rgb_grey(0)}, rgb_grey(0.5f), NULL, {u, 0.25}, 1, 0};
+}
+
+static void bounce(Fixture *f, double u)
+{
+    Factor factor = floor_factor(1, u);
+    assert_true(path_scatter(&f->worker, &f->path, &factor));
+}
+
+static void bring(Fixture *f, float light)
+{
+    path_bring(&f->worker, &f->path, rgb_grey(light));
+}
+
+/* Light by one more hit. */
+static void connect_by_floor(Fixture *f, float light, double u)
+{
+    Factor factor = floor_factor(1, u);
+    path_connect(&f->worker, &f->path, rgb_grey(light), &factor, 1);
+}
+
+static float red(const Fixture *f, const char *name)
+{
+    int k = retex_set_find_part(f->set, name);
+    if (k < 0)
+        fail_msg("there is no part %s", name);
+    return f->set->parts[k].image.pixels[0];
+}
+
+static void light_behind_the_same_hits_is_one(void **state)
+{
+    (void)state;
+    Fixture f;
+    begin(&f, 0);
+    bring(&f, 0.25f);
+    bounce(&f, 0.5);
+    bring(&f, 1), bring(&f, 2);
+    finish(&f);
+    assert_float_equal(red(&f, "beauty"), 0.25 + 0.5 * 3, 1e-6);
+    assert_float_equal(red(&f, "indep"), 0.25, 1e-3);
+    assert_float_equal(red(&f, "dep_Floor_broad1"), 3, 1e-3);
+    assert_int_equal(film_dropped(f.film), 0);
+    end(&f);
+}
+
+/* Light that comes before, between and after what is finite, behind the same hits; none of it takes that along. */
+static void what_is_not_finite_is_dropped_alone(void **state)
+{
+    (void)state;
+    const float bad[] = {INFINITY, -INFINITY, NAN};
+    for (int round = 0; round < 24; round++) {
+        Fixture f;
+        float not_finite = bad[round % 3];
+        int when = round / 3 % 4; /* of the path's four lights the one that is not finite comes before */
+        begin(&f, round >= 12);
+        for (int k = 0; k < 4; k++) {
+            if (k == 2)
+                bounce(&f, 0.5);
+            if (k == when)
+                bring(&f, not_finite);
+            bring(&f, k < 2 ? 0.25f : 1);
+        }
+        finish(&f);
+        assert_float_equal(red(&f, "beauty"), 2 * 0.25 + 2 * 0.5, 1e-6);
+        if (round < 12) {
+            assert_float_equal(red(&f, "indep"), 0.5, 1e-3);
+            assert_float_equal(red(&f, "dep_Floor_broad1"), 2, 1e-3);
+        }
+        assert_int_equal(film_dropped(f.film), 1);
+        end(&f);
+    }
+}
+
+/* Two lights of which each is finite, and their sum is not: both stay. */
+static void a_sum_that_overflows_is_not_made(void **state)
+{
+    (void)state;
+    Fixture f;
+    begin(&f, 0);
+    bring(&f, 4e37f), bring(&f, 4e37f);
+    finish(&f);
+    assert_int_equal(film_dropped(f.film), 0);
+    end(&f);
+}
+
+/* Light by one more hit, from where the path goes on: likewise. */
+static void what_comes_by_a_hit_of_its_own_is_dropped_alone(void **state)
+{
+    (void)state;
+    for (int bad_first = 0; bad_first < 2; bad_first++) {
+        Fixture f;
+        begin(&f, 0);
+        connect_by_floor(&f, bad_first ? INFINITY : 1, 0.5);
+        bounce(&f, 0.5);
+        bring(&f, bad_first ? 1 : INFINITY);
+        bring(&f, 2);
+        finish(&f);
+        assert_float_equal(red(&f, "beauty"), 0.5 * 3, 1e-6);
+        assert_float_equal(red(&f, "dep_Floor_broad1"), 3, 2e-3);
+        assert_int_equal(film_dropped(f.film), 1);
+        end(&f);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(light_behind_the_same_hits_is_one),
+                                       cmocka_unit_test(what_is_not_finite_is_dropped_alone),
+                                       cmocka_unit_test(a_sum_that_overflows_is_not_made),
+                                       cmocka_unit_test(what_comes_by_a_hit_of_its_own_is_dropped_alone)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
