@@ -14,6 +14,7 @@
 #define SHARE_STEP (1.0 / 512)   /* of weights */
 #define LEAST_SHARE (1.0 / 1024) /* of a block's light, of clusters that are kept */
 #define SAME_VARIANCE 1.25       /* ratio of variances that no texture tells apart */
+#define UNKNOWN_SAMPLES 1024     /* of a pixel, where the set does not say */
 #define TEXEL (1.0 / (1 << 26))  /* variance of UV, of a texel of 8192 */
 
 typedef struct Cluster {
@@ -24,6 +25,7 @@ typedef struct Cluster {
 typedef struct Pool {
     const int *periodic;
     int sharp, count;
+    double weight, squares; /* of all light that was gathered; its squares by the samples it came with */
     Cluster of[POOL + 1];
     double cost[POOL + 1][POOL + 1]; /* of merging i with j < i */
 } Pool;
@@ -179,6 +181,8 @@ static void gather_cluster(const ClustersWork *work, int k, size_t pixel, const 
         return;
     uv_stats_load(&cluster.place, weight, uv, set->parts[f->spread].image.pixels + 3 * pixel);
     add_cluster(pool, &cluster);
+    pool->weight += weight;
+    pool->squares += weight * weight / ((double)uv[2] * (set->spp > 0 ? set->spp : UNKNOWN_SAMPLES));
     for (int c = 0; c < 3; c++) {
         albedo->sum[c] += rgb[c] * (double)met[c];
         albedo->weight[c] += rgb[c];
@@ -289,16 +293,20 @@ static void store_block(const ClustersWork *work, size_t block, const Pool *pool
                                           : 0);
 }
 
-/* Of a pixel that may see one place evenly: that. One part, or, where the quarters of a pixel can be stored, more. */
+/* All that a pixel sees, as one place, where there is room to store the quarters of a pixel if it has several parts. */
 static void store_whole(const ClustersWork *work, size_t block, const Pool *pool)
 {
-    const UvStats *parts[POOL];
-    UvStats *whole = &work->clusters->whole[block];
-    for (int i = 0; i < pool->count; i++)
-        parts[i] = &pool->of[i].place;
-    if (!(pool->count == 1 || (pool->count > 1 && work->clusters->count >= 4)) ||
-        !compact_even_sum(whole, parts, pool->count, pool->periodic))
-        *whole = (UvStats){0};
+    EvenPlace *whole = &work->clusters->whole[block];
+    if (pool->count == 0 || (pool->count > 1 && work->clusters->count < 4))
+        return;
+    UvStats sum = pool->of[0].place;
+    for (int i = 1; i < pool->count; i++)
+        uv_stats_merge(&sum, &pool->of[i].place, pool->periodic);
+    for (int k = 0; k < 2; k++)
+        whole->mean[k] = sum.mean[k];
+    for (int k = 0; k < 3; k++)
+        whole->variances[k] = (float)(sum.m2[k] / sum.weight);
+    whole->samples = (float)(pool->weight * pool->weight / pool->squares);
 }
 
 static void blocks_job(void *context, int by, int thread)
