@@ -256,8 +256,8 @@ static void few_orders_tell_of_many(void **state)
 }
 
 /* A wall seen through a box filter, each pixel in four clusters, whose places and light are off by so many pixels and
- * shares, as so many samples of equal light tell; at x = 20 all are off by a tenth of a pixel. Returns how many clusters
- * are the quarters of their pixel once compact. */
+ * shares, as so many samples of equal light tell; at x = 20 all are off by a tenth of a pixel. Returns how many
+ * clusters are the quarters of their pixel once compact. */
 static int quarters_of_wall(float noise, int samples, int *off)
 {
     static const char *const weights[] = {"weight_T0_sharp1", "weight_T0_sharp2", "weight_T0_sharp3",
@@ -294,8 +294,8 @@ static int quarters_of_wall(float noise, int samples, int *off)
             for (int x = 0; x < WIDE; x++) {
                 const float *uv = pixel(compact, f->uv, x, y), *spread = pixel(compact, f->spread, x, y);
                 *off += x == 20 && fabsf(fabsf(uv[0] / step - (float)x + 0.1f) - 0.25f) < 0.04f;
-                quarters += fabsf(fabsf(uv[0] / step - (float)x) - 0.25f) < 0.012f + noise / 16 &&
-                            fabsf(fabsf(uv[1] / step - (float)y) - 0.25f) < 0.012f + noise / 16 &&
+                quarters += fabsf(fabsf(uv[0] / step - (float)x) - 0.25f) < 0.012f + noise / 10 &&
+                            fabsf(fabsf(uv[1] / step - (float)y) - 0.25f) < 0.012f + noise / 10 &&
                             fabsf(spread[0] / step - 0.25f / sqrtf(3)) < 0.006f + noise / 32 &&
                             *pixel(compact, weight, x, y) == 0.25f;
             }

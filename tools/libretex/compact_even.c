@@ -1,8 +1,7 @@
 /* See compact_even.h. A pixel that sees a surface through nothing but air has the UV of a parallelogram, known by the
- * means of the pixels around it. Its clusters are some partition of its samples, of which few bright ones may count for
- * all others: noise, which costs more than all else that sharp footprints store, and which denoising of light leaves
- * there. The quarters of the parallelogram are what more samples would come to, vary smoothly, and cost next to nothing.
- * A pixel sees no more than that where it lies as near to its neighbours' map as so few samples let expect: of n, the
+ * means of the pixels around it. Its clusters are some partition of its samples, of which few bright ones may count
+ * for all others: noise, which costs more than all else that sharp footprints store, and which denoising of light leaves
+ * there. The quarters of the parallelogram are what more samples come to, vary smoothly, and cost next to nothing. A pixel sees no more than that where it lies as near to its neighbours' map as so few samples let expect: of n, the
  * mean's variance is an n-th of the parallelogram's. */
 #include "compact_even.h"
 
@@ -13,6 +12,8 @@
 
 #define TEXEL (1.0 / (1 << 26))  /* variance of UV, of a texel of 8192 */
 #define OFF_TIMES 3              /* deviations that a mean may be off its map's, */
+#define OFF_MEDIAN 0.55          /* of what independent samples are off a map that was fitted to them too, by what they are
+                                    off the true one, squared */
 #define OFF_LEAST 0.02           /* pixels, and so far always */
 #define VARIANCE_TIMES 3         /* deviations of a variance's ratio to its map's, in roots of samples, */
 #define VARIANCE_LEAST 0.4       /* and so far always */
@@ -44,7 +45,9 @@ typedef struct EvenWork {
     EvenMap *maps;
     const int *periodic;
     int width, height;
-    int pass;
+    int pass;       /* -1: only offs are found */
+    double scatter; /* of means about their maps, squared, by that of independent samples */
+    float *offs;
 } EvenWork;
 
 /* Of an axis, squared, from a pixel to the next. */
@@ -70,10 +73,16 @@ static double off_map(const EvenWork *work, const Map *map, const EvenPlace *cen
     return off;
 }
 
-/* Pixels, squared, that a mean may be off: of a parallelogram both variances are a twelfth of its sides' squares. */
-static double off_most(const EvenPlace *place)
+/* Pixels, squared, that a mean is off by chance: of a parallelogram both variances are a twelfth of its sides' squares;
+ * samples that were spread well come nearer than independent ones. */
+static double off_expected(const EvenWork *work, const EvenPlace *place)
 {
-    return OFF_TIMES * OFF_TIMES * 2 / (12 * (double)place->samples) + OFF_LEAST * OFF_LEAST;
+    return work->scatter * 2 / (12 * (double)place->samples);
+}
+
+static double off_most(const EvenWork *work, const EvenPlace *place)
+{
+    return OFF_TIMES * OFF_TIMES * off_expected(work, place) + OFF_LEAST * OFF_LEAST;
 }
 
 /* Gaussian elimination; 0 where there is no one solution. */
@@ -146,7 +155,7 @@ static int fit_map(Map *map, const EvenWork *work, int x, int y, const Map *last
             if (!(each->samples > 0))
                 continue;
             const double off = off_map(work, last, center, each, terms, window.d[window.count]);
-            if (last && off > (work->pass ? NEAR_MAP : times * off_most(each)))
+            if (last && off > (work->pass > 0 ? NEAR_MAP : times * off_most(work, each)))
                 continue;
             window.dx[window.count] = dx;
             window.dy[window.count++] = dy;
@@ -164,7 +173,7 @@ static double off_middle(const Map *map)
 }
 
 /* Whether a pixel's own mean and variances may be the map's. */
-static int suits(const Map *map, const EvenPlace *own)
+static int suits(const EvenWork *work, const Map *map, const EvenPlace *own)
 {
     const double few = VARIANCE_TIMES / sqrt((double)own->samples);
     double variances[3];
@@ -178,7 +187,7 @@ static int suits(const Map *map, const EvenPlace *own)
             return 0;
     }
     const double difference = (double)own->variances[1] - variances[1];
-    return off_middle(map) <= off_most(own) &&
+    return off_middle(map) <= off_most(work, own) &&
            fabs(difference) <=
                fmax(few, CORRELATION_LEAST) * sqrt((variances[0] + TEXEL) * (variances[2] + TEXEL));
 }
@@ -218,7 +227,7 @@ static void keep_map(EvenMap *to, const EvenWork *work, size_t pixel, const Map 
     }
 }
 
-/* The first pass tells which pixels are even; others know that, and smooth what noise the one before left. */
+/* Pass 0 tells which pixels are even; later ones know that, and smooth what noise the one before left. */
 static void fit_row(void *context, int y, int thread)
 {
     const EvenWork *work = context;
@@ -228,17 +237,22 @@ static void fit_row(void *context, int y, int thread)
         Map rough, better, map;
         if (!(work->whole[pixel].samples > 0))
             continue;
+        if (work->pass < 0) {
+            if (fit_map(&rough, work, x, y, NULL, 0))
+                work->offs[pixel] = (float)(off_middle(&rough) / off_expected(work, &work->whole[pixel]));
+            continue;
+        }
         if (work->pass > 0) {
             const EvenMap *before = &work->maps[pixel];
             const Map last = {{{0, (double)before->right[0], (double)before->down[0]},
                                {0, (double)before->right[1], (double)before->down[1]}}};
-            if (fit_map(&map, work, x, y, &last, 0))
+            if (fit_map(&map, work, x, y, &last, 0) && off_middle(&map) <= off_expected(work, &work->whole[pixel]))
                 keep_map(&work->maps[pixel], work, pixel, &map);
             continue;
         }
         /* an edge draws the first map to it */
         if (fit_map(&rough, work, x, y, NULL, 0) && fit_map(&better, work, x, y, &rough, ROUGH) &&
-            fit_map(&map, work, x, y, &better, 1) && suits(&map, &work->whole[pixel]) && are_inside(work, pixel, &map))
+            fit_map(&map, work, x, y, &better, 1) && suits(work, &map, &work->whole[pixel]) && are_inside(work, pixel, &map))
             keep_map(&work->maps[pixel], work, pixel, &map);
     }
 }
@@ -304,14 +318,44 @@ static void store_row(void *context, int y, int thread)
     }
 }
 
+static int compare_floats(const void *a, const void *b)
+{
+    const float one = *(const float *)a, other = *(const float *)b;
+    return (one > other) - (one < other);
+}
+
+/* Means are off by chance, which is alike everywhere, and by edges of light, of which there are few: so the median. */
+static int find_scatter(EvenWork *work, int nthreads, RetexError *err)
+{
+    const size_t all = (size_t)work->width * (size_t)work->height;
+    size_t count = 0;
+    work->scatter = 1, work->pass = -1;
+    work->offs = calloc(all, sizeof *work->offs);
+    if (!work->offs)
+        return retex_fail(err, RETEX_ENOMEM, "not enough memory for footprints");
+    retex_parallel(nthreads, work->height, fit_row, work);
+    for (size_t i = 0; i < all; i++)
+        if (work->offs[i] > 0)
+            work->offs[count++] = work->offs[i];
+    qsort(work->offs, count, sizeof *work->offs, compare_floats);
+    if (count)
+        work->scatter = fmin((double)work->offs[count / 2] / OFF_MEDIAN, 1);
+    free(work->offs);
+    return RETEX_OK;
+}
+
 int compact_even_smooth(CompactClusters *clusters, EvenPlace *whole, const int periodic[2], int nthreads,
                         RetexError *err)
 {
-    EvenWork work = {clusters, whole, NULL, periodic, clusters->albedo.width, clusters->albedo.height, 0};
+    EvenWork work = {.clusters = clusters, .whole = whole, .periodic = periodic};
+    work.width = clusters->albedo.width, work.height = clusters->albedo.height;
+    int code = find_scatter(&work, nthreads, err);
+    if (code)
+        return code;
     work.maps = calloc((size_t)work.width * (size_t)work.height, sizeof *work.maps);
     if (!work.maps)
         return retex_fail(err, RETEX_ENOMEM, "not enough memory for footprints");
-    for (; work.pass < PASSES; work.pass++) {
+    for (work.pass = 0; work.pass < PASSES; work.pass++) {
         retex_parallel(nthreads, work.height, fit_row, &work);
         retex_parallel(nthreads, work.height, renew_row, &work);
     }
