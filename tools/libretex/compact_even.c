@@ -1,8 +1,9 @@
 /* See compact_even.h. A pixel that sees a surface through nothing but air has the UV of a parallelogram, known by the
  * means of the pixels around it. Its clusters are some partition of its samples, of which few bright ones may count
- * for all others: noise, which costs more than all else that sharp footprints store, and which denoising of light leaves
- * there. The quarters of the parallelogram are what more samples come to, vary smoothly, and cost next to nothing. A pixel sees no more than that where it lies as near to its neighbours' map as so few samples let expect: of n, the
- * mean's variance is an n-th of the parallelogram's. */
+ * for all others: noise, which costs more than all else that sharp footprints store, and which denoising of light
+ * leaves there. The quarters of the parallelogram are what more samples come to, vary smoothly, and cost next to
+ * nothing. A pixel sees no more than that where it lies as near to its neighbours' map as so few samples let expect:
+ * of n, the mean's variance is an n-th of the parallelogram's. */
 #include "compact_even.h"
 
 #include <math.h>
@@ -12,8 +13,8 @@
 
 #define TEXEL (1.0 / (1 << 26))  /* variance of UV, of a texel of 8192 */
 #define OFF_TIMES 3              /* deviations that a mean may be off its map's, */
-#define OFF_MEDIAN 0.55          /* of what independent samples are off a map that was fitted to them too, by what they are
-                                    off the true one, squared */
+#define OFF_MEDIAN 0.55          /* of what independent samples are off a map that was fitted to them too, squared, by
+                                    what they are off the true one */
 #define OFF_LEAST 0.02           /* pixels, and so far always */
 #define VARIANCE_TIMES 3         /* deviations of a variance's ratio to its map's, in roots of samples, */
 #define VARIANCE_LEAST 0.4       /* and so far always */
@@ -46,6 +47,7 @@ typedef struct EvenWork {
     const int *periodic;
     int width, height;
     int pass;       /* -1: only offs are found */
+    double noise;   /* of that, what may be taken away */
     double scatter; /* of means about their maps, squared, by that of independent samples */
     float *offs;
 } EvenWork;
@@ -82,7 +84,7 @@ static double off_expected(const EvenWork *work, const EvenPlace *place)
 
 static double off_most(const EvenWork *work, const EvenPlace *place)
 {
-    return OFF_TIMES * OFF_TIMES * off_expected(work, place) + OFF_LEAST * OFF_LEAST;
+    return work->noise * work->noise * (OFF_TIMES * OFF_TIMES * off_expected(work, place) + OFF_LEAST * OFF_LEAST);
 }
 
 /* Gaussian elimination; 0 where there is no one solution. */
@@ -227,6 +229,26 @@ static void keep_map(EvenMap *to, const EvenWork *work, size_t pixel, const Map 
     }
 }
 
+/* Whether a pixel is even, by its map; an edge draws the first one to it. */
+static int is_even(Map *map, const EvenWork *work, int x, int y)
+{
+    const size_t pixel = (size_t)y * (size_t)work->width + (size_t)x;
+    Map rough, better;
+    return fit_map(&rough, work, x, y, NULL, 0) && fit_map(&better, work, x, y, &rough, ROUGH) &&
+           fit_map(map, work, x, y, &better, 1) && suits(work, map, &work->whole[pixel]) &&
+           are_inside(work, pixel, map);
+}
+
+/* Where it is, the map again, of what its neighbours have come to, unless that takes away more than noise. */
+static int is_smoothed(Map *map, const EvenWork *work, int x, int y)
+{
+    const size_t pixel = (size_t)y * (size_t)work->width + (size_t)x;
+    const EvenMap *before = &work->maps[pixel];
+    const Map last = {{{0, (double)before->right[0], (double)before->down[0]},
+                       {0, (double)before->right[1], (double)before->down[1]}}};
+    return fit_map(map, work, x, y, &last, 0) && off_middle(map) <= off_expected(work, &work->whole[pixel]);
+}
+
 /* Pass 0 tells which pixels are even; later ones know that, and smooth what noise the one before left. */
 static void fit_row(void *context, int y, int thread)
 {
@@ -234,25 +256,13 @@ static void fit_row(void *context, int y, int thread)
     (void)thread;
     for (int x = 0; x < work->width; x++) {
         const size_t pixel = (size_t)y * (size_t)work->width + (size_t)x;
-        Map rough, better, map;
-        if (!(work->whole[pixel].samples > 0))
+        const EvenPlace *own = &work->whole[pixel];
+        Map map;
+        if (!(own->samples > 0))
             continue;
-        if (work->pass < 0) {
-            if (fit_map(&rough, work, x, y, NULL, 0))
-                work->offs[pixel] = (float)(off_middle(&rough) / off_expected(work, &work->whole[pixel]));
-            continue;
-        }
-        if (work->pass > 0) {
-            const EvenMap *before = &work->maps[pixel];
-            const Map last = {{{0, (double)before->right[0], (double)before->down[0]},
-                               {0, (double)before->right[1], (double)before->down[1]}}};
-            if (fit_map(&map, work, x, y, &last, 0) && off_middle(&map) <= off_expected(work, &work->whole[pixel]))
-                keep_map(&work->maps[pixel], work, pixel, &map);
-            continue;
-        }
-        /* an edge draws the first map to it */
-        if (fit_map(&rough, work, x, y, NULL, 0) && fit_map(&better, work, x, y, &rough, ROUGH) &&
-            fit_map(&map, work, x, y, &better, 1) && suits(work, &map, &work->whole[pixel]) && are_inside(work, pixel, &map))
+        if (work->pass < 0 && fit_map(&map, work, x, y, NULL, 0))
+            work->offs[pixel] = (float)(off_middle(&map) / off_expected(work, own));
+        else if (work->pass >= 0 && (work->pass ? is_smoothed(&map, work, x, y) : is_even(&map, work, x, y)))
             keep_map(&work->maps[pixel], work, pixel, &map);
     }
 }
@@ -344,10 +354,10 @@ static int find_scatter(EvenWork *work, int nthreads, RetexError *err)
     return RETEX_OK;
 }
 
-int compact_even_smooth(CompactClusters *clusters, EvenPlace *whole, const int periodic[2], int nthreads,
-                        RetexError *err)
+int compact_even_smooth(CompactClusters *clusters, EvenPlace *whole, const int periodic[2], double noise,
+                        int nthreads, RetexError *err)
 {
-    EvenWork work = {.clusters = clusters, .whole = whole, .periodic = periodic};
+    EvenWork work = {.clusters = clusters, .whole = whole, .periodic = periodic, .noise = noise};
     work.width = clusters->albedo.width, work.height = clusters->albedo.height;
     int code = find_scatter(&work, nthreads, err);
     if (code)

@@ -14,8 +14,9 @@ typedef struct EvenPlace {
 } EvenPlace;
 
 /* Where pixels and those around them see a surface evenly, as whole[] tells: clusters become those of the surface's
- * map, one or the four quarters of the pixel, without noise. The filter is a box. whole[] is used up. */
-int compact_even_smooth(CompactClusters *clusters, EvenPlace *whole, const int periodic[2], int nthreads,
-                        RetexError *err);
+ * map, one or the four quarters of the pixel, without noise. The filter is a box. noise: above 0, to 1,
+ * of what chance lets expect, how far they may be off. whole[] is used up. */
+int compact_even_smooth(CompactClusters *clusters, EvenPlace *whole, const int periodic[2], double noise,
+                        int nthreads, RetexError *err);
 
 #endif
