@@ -37,7 +37,7 @@ typedef struct Map {
 typedef struct EvenMap {
     double mean[2];
     float right[2], down[2];
-    int even;
+    int parts; /* 0: the pixel is not even; 1; or 4, the quarters */
 } EvenMap;
 
 typedef struct EvenWork {
@@ -220,13 +220,27 @@ static int are_inside(const EvenWork *work, size_t pixel, const Map *map)
 
 static void keep_map(EvenMap *to, const EvenWork *work, size_t pixel, const Map *map)
 {
-    to->even = 1;
     for (int a = 0; a < 2; a++) {
         to->mean[a] = work->whole[pixel].mean[a] + map->of[a][MIDDLE];
         to->mean[a] -= work->periodic[a] ? floor(to->mean[a]) : 0;
         to->right[a] = (float)map->of[a][RIGHT];
         to->down[a] = (float)map->of[a][DOWN];
     }
+}
+
+/* How many parts even pixels have: where most pixels around have several clusters, if there is room for it, quarters. */
+static int parts_around(const EvenWork *work, int x, int y)
+{
+    const CompactClusters *clusters = work->clusters;
+    int several = 0;
+    for (int j = y - REACH; j <= y + REACH && clusters->count >= 4; j++)
+        for (int i = x - REACH; i <= x + REACH; i++) {
+            const int there = i >= 0 && j >= 0 && i < work->width && j < work->height;
+            const size_t at = there ? (size_t)j * (size_t)work->width + (size_t)i : 0;
+            if (there && work->whole[at].samples > 0)
+                several += clusters->uv[1].pixels[3 * at + 2] > 0 ? 1 : -1;
+        }
+    return several > 0 ? 4 : 1;
 }
 
 /* Whether a pixel is even, by its map; an edge draws the first one to it. */
@@ -264,6 +278,10 @@ static void fit_row(void *context, int y, int thread)
             work->offs[pixel] = (float)(off_middle(&map) / off_expected(work, own));
         else if (work->pass >= 0 && (work->pass ? is_smoothed(&map, work, x, y) : is_even(&map, work, x, y)))
             keep_map(&work->maps[pixel], work, pixel, &map);
+        else
+            continue;
+        if (work->pass == 0)
+            work->maps[pixel].parts = parts_around(work, x, y);
     }
 }
 
@@ -274,7 +292,7 @@ static void renew_row(void *context, int y, int thread)
     (void)thread;
     for (size_t i = (size_t)y * (size_t)work->width; i < (size_t)(y + 1) * (size_t)work->width; i++) {
         EvenPlace *place = &work->whole[i];
-        place->samples = work->maps[i].even ? place->samples : 0;
+        place->samples = work->maps[i].parts ? place->samples : 0;
         place->mean[0] = work->maps[i].mean[0];
         place->mean[1] = work->maps[i].mean[1];
     }
@@ -285,7 +303,7 @@ static void store_even(const EvenWork *work, size_t pixel)
 {
     const EvenMap *map = &work->maps[pixel];
     CompactClusters *clusters = work->clusters;
-    const int count = clusters->count >= 4 ? 4 : 1;
+    const int count = map->parts;
     const double share = count == 4 ? 0.25 : 1, part = share / 12;
     const double right[2] = {(double)map->right[0], (double)map->right[1]};
     const double down[2] = {(double)map->down[0], (double)map->down[1]};
@@ -323,7 +341,7 @@ static void store_row(void *context, int y, int thread)
     (void)thread;
     for (int x = 0; x < work->width; x++) {
         const size_t pixel = (size_t)y * (size_t)work->width + (size_t)x;
-        if (work->maps[pixel].even)
+        if (work->maps[pixel].parts)
             store_even(work, pixel);
     }
 }
