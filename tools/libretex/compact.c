@@ -54,6 +54,8 @@ static int check_params(const RetexCompactParams *params, RetexError *err)
         code = check_scale(params->gain, "gains", err);
     if (!code && !(params->psnr >= 20 && params->psnr <= 120))
         code = retex_fail(err, RETEX_EINVAL, "a compact set keeps 20 to 120 dB, not %g", params->psnr);
+    if (!code && !(params->noise >= 0 && params->noise <= 1))
+        code = retex_fail(err, RETEX_EINVAL, "what may be taken away of noise is 0 to 1, not %g", params->noise);
     return code;
 }
 
@@ -68,7 +70,7 @@ int retex_set_compact(RetexSet **compact, const RetexSet *set, const RetexCompac
     *compact = NULL;
     int code = check_params(&chosen, err);
     if (!code && strcmp(set->layout, "footprints") == 0)
-        code = compact_light_open(&light, set, &understood, err);
+        code = compact_light_open(&light, set, chosen.noise, &understood, err);
     if (!code && understood) {
         code = compact_choose(&scales, &light, &chosen, nthreads, err);
         if (!code)

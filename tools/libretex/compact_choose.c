@@ -16,9 +16,9 @@
 
 #define STEPS COMPACT_STEPS
 #define NOISE_COUNTS 0.025   /* of a set's own noise, what may be added: 0.1 dB */
-#define NOISE_COUNTS_NOT 0.9 /* share of what is taken for noise that is no loss; all else counts */
+#define NOISE_COUNTS_NOT 0.9 /* share of what is taken for noise that is no loss where all may go; the rest counts */
 #define NOTHING 0.03         /* share of the bound that gains may cost without a closer look at their scale */
-#define LETTING 1.25         /* times what is lost when all is as fine as can be, at least, may be lost */
+#define LETTING 0.25         /* times what is lost when all is as fine as can be may always be lost on top */
 #define GROWTH_MOST 4        /* of sums */
 #define MEASURED_MOST 8      /* times */
 #define GROUPS_MOST 64
@@ -181,22 +181,23 @@ static int try_scales(Choosing *work, const CompactScales *scales, double square
     return code ? code : compact_meter_read(&work->meter, parts, count, squares, work->nthreads, err);
 }
 
-static double noise_gone(int step)
+static double noise_gone(const Choosing *work, int step)
 {
-    return NOISE_COUNTS_NOT * (1 - 1.0 / (1 << (2 * step)));
+    return work->light->noise * NOISE_COUNTS_NOT * (1 - 1.0 / (1 << (2 * step)));
 }
 
 /* The rest is loss. Of gains of sets as rendered all is: where gains are smooth, noise goes from one term's light to
  * another's, which may be of a lighter texture. */
-static void tell_noise(Choice *choice, int denoised)
+static void tell_noise(const Choosing *work, Choice *choice)
 {
+    const int denoised = work->light->set->denoised;
     const int averages = choice->what == CLUSTERS || (choice->what == GAINS && denoised);
     for (int t = 0; t < COMPACT_TRIALS && averages; t++) {
         const double *first = choice->squares[1], *second = choice->squares[2];
         const double noise = (2 * first[t] - second[t]) / (2 * (1 - 1.0 / 4) - (1 - 1.0 / 16));
         choice->noise[t] = fmax(noise, 0);
         for (int step = 1; step < choice->steps; step++)
-            choice->squares[step][t] = fmax(choice->squares[step][t] - noise_gone(step) * choice->noise[t], 0);
+            choice->squares[step][t] = fmax(choice->squares[step][t] - noise_gone(work, step) * choice->noise[t], 0);
     }
 }
 
@@ -235,7 +236,7 @@ static int measure(Choosing *work, const CompactScales *fine, RetexError *err)
             else
                 code = measure_step(work, choice, step, fine, err);
         if (!nothing)
-            tell_noise(choice, work->light->set->denoised);
+            tell_noise(work, choice);
     }
     return code;
 }
@@ -271,7 +272,7 @@ static void search(Choosing *work, int first, const double sums[COMPACT_TRIALS],
 
 static double bound_of(const Choosing *work, int trial)
 {
-    return fmax(work->bound, LETTING * work->least[trial]);
+    return fmax(work->bound, (1 + LETTING * work->light->noise) * work->least[trial]);
 }
 
 /* Whether these are other choices than those before. *numbers: how many they store; more than so many are not taken. */
@@ -306,7 +307,7 @@ static int measure_all(Choosing *work, CompactScales *scales, double factors[COM
         double sum = work->least[t], most = work->least[t];
         for (int i = 0; i < work->count; i++) {
             const Choice *choice = &work->choices[i];
-            lost[t] -= noise_gone(choice->at) * choice->noise[t];
+            lost[t] -= noise_gone(work, choice->at) * choice->noise[t];
             most = fmax(most, choice->squares[choice->at][t]);
             sum += choice->squares[choice->at][t];
         }
@@ -363,9 +364,9 @@ int compact_choose(CompactScales *scales, const CompactLight *light, const Retex
         return RETEX_OK;
     int code = compact_meter_open(&work.meter, light, nthreads, err);
     if (!code)
-        code = compact_light_open(&small, work.meter.set, &understood, err);
+        code = compact_light_open(&small, work.meter.set, params->noise, &understood, err);
     work.light = &small;
-    work.bound = fmax(pow(10, -params->psnr / 10), NOISE_COUNTS * work.meter.noise);
+    work.bound = fmax(pow(10, -params->psnr / 10), params->noise * NOISE_COUNTS * work.meter.noise);
     work.cache = calloc(1, sizeof *work.cache);
     if (!code && !work.cache)
         code = retex_fail(err, RETEX_ENOMEM, "not enough memory for trials");

@@ -13,7 +13,9 @@
 #define POOL 12                  /* clusters kept apart while a block's are gathered */
 #define SHARE_STEP (1.0 / 512)   /* of weights */
 #define LEAST_SHARE (1.0 / 1024) /* of a block's light, of clusters that are kept */
-#define SAME_VARIANCE 1.25       /* ratio of variances that no texture tells apart */
+#define EVEN_NOISE 0.3           /* of noise that may be taken away, what makes pixels even */
+#define MORE_VARIANCE 0.25       /* of a place, that no texture tells apart */
+#define UNKNOWN_SAMPLES 1024     /* of a pixel, where the set does not say */
 #define TEXEL (1.0 / (1 << 26))  /* variance of UV, of a texel of 8192 */
 
 typedef struct Cluster {
@@ -24,6 +26,8 @@ typedef struct Cluster {
 typedef struct Pool {
     const int *periodic;
     int sharp, count;
+    double noise; /* CompactLight's */
+    double weight, squares; /* of all light that was gathered; its squares by the samples it came with */
     Cluster of[POOL + 1];
     double cost[POOL + 1][POOL + 1]; /* of merging i with j < i */
 } Pool;
@@ -103,10 +107,10 @@ static Shape shape_of(const UvStats *place)
     return shape;
 }
 
-/* Whether the two have the place and the shape of both merged: by the variances along u and v, and the area. */
-static int are_same(const Shape *each, const Shape *merged)
+/* Whether the two have the place and the shape of both merged: by the variances along u and v, and the area,
+ * which may be so many times as large. */
+static int are_same(const Shape *each, const Shape *merged, double more)
 {
-    const double more = SAME_VARIANCE;
     int same = 1;
     for (int k = 0; k < 2; k++)
         same &=
@@ -117,14 +121,15 @@ static int are_same(const Shape *each, const Shape *merged)
 /* Whether the two merged are what they are apart. */
 static int are_one_place(const Pool *pool, int i, int j)
 {
+    const double more = 1 + pool->noise * MORE_VARIANCE;
     const UvStats *const places[] = {&pool->of[i].place, &pool->of[j].place};
     UvStats both = *places[0];
     uv_stats_merge(&both, places[1], pool->periodic);
     const Shape each[] = {shape_of(places[0]), shape_of(places[1])}, merged = shape_of(&both);
     for (int k = 0; k < 2; k++)
-        if (each[k].uu > SAME_VARIANCE * merged.uu || each[k].vv > SAME_VARIANCE * merged.vv)
+        if (each[k].uu > more * merged.uu || each[k].vv > more * merged.vv)
             return 0;
-    return are_same(each, &merged);
+    return are_same(each, &merged, more);
 }
 
 static void merge_places(Pool *pool)
@@ -144,7 +149,7 @@ static void drop_faint(Pool *pool)
     for (int i = 0; i < pool->count; i++)
         all += pool->of[i].place.weight;
     for (int i = pool->count - 1; i >= 0; i--)
-        if (pool->of[i].place.weight < LEAST_SHARE * all)
+        if (pool->of[i].place.weight < pool->noise * LEAST_SHARE * all)
             remove_cluster(pool, i);
 }
 
@@ -179,6 +184,8 @@ static void gather_cluster(const ClustersWork *work, int k, size_t pixel, const 
         return;
     uv_stats_load(&cluster.place, weight, uv, set->parts[f->spread].image.pixels + 3 * pixel);
     add_cluster(pool, &cluster);
+    pool->weight += weight;
+    pool->squares += weight * weight / ((double)uv[2] * (set->spp > 0 ? set->spp : UNKNOWN_SAMPLES));
     for (int c = 0; c < 3; c++) {
         albedo->sum[c] += rgb[c] * (double)met[c];
         albedo->weight[c] += rgb[c];
@@ -289,16 +296,20 @@ static void store_block(const ClustersWork *work, size_t block, const Pool *pool
                                           : 0);
 }
 
-/* Of a pixel that may see one place evenly: that. One part, or, where the quarters of a pixel can be stored, more. */
+/* All that a pixel sees, as one place, where there is room to store the quarters of a pixel if it has several parts. */
 static void store_whole(const ClustersWork *work, size_t block, const Pool *pool)
 {
-    const UvStats *parts[POOL];
-    UvStats *whole = &work->clusters->whole[block];
-    for (int i = 0; i < pool->count; i++)
-        parts[i] = &pool->of[i].place;
-    if (!(pool->count == 1 || (pool->count > 1 && work->clusters->count >= 4)) ||
-        !compact_even_sum(whole, parts, pool->count, pool->periodic))
-        *whole = (UvStats){0};
+    EvenPlace *whole = &work->clusters->whole[block];
+    if (pool->count == 0 || (pool->count > 1 && work->clusters->count < 4))
+        return;
+    UvStats sum = pool->of[0].place;
+    for (int i = 1; i < pool->count; i++)
+        uv_stats_merge(&sum, &pool->of[i].place, pool->periodic);
+    for (int k = 0; k < 2; k++)
+        whole->mean[k] = sum.mean[k];
+    for (int k = 0; k < 3; k++)
+        whole->variances[k] = (float)(sum.m2[k] / sum.weight);
+    whole->samples = (float)(pool->weight * pool->weight / pool->squares);
 }
 
 static void blocks_job(void *context, int by, int thread)
@@ -309,7 +320,8 @@ static void blocks_job(void *context, int by, int thread)
     for (int bx = 0; bx < width; bx++) {
         const size_t block = (size_t)(work->first + by) * (size_t)width + (size_t)bx;
         Pool pool = {.periodic = work->light->set->targets[work->kind->target].periodic,
-                     .sharp = work->kind->kind == RETEX_FOOTPRINT_SHARP};
+                     .sharp = work->kind->kind == RETEX_FOOTPRINT_SHARP,
+                     .noise = work->light->noise};
         Albedo albedo = {0};
         const double all = gather_block(work, bx, by, &pool, &albedo);
         drop_faint(&pool);
@@ -405,7 +417,8 @@ static int is_empty(const CompactClusters *clusters, int k)
 int compact_clusters_begin(CompactClusters *clusters, const CompactLight *light, const CompactKind *kind, int scale,
                            int split, RetexError *err)
 {
-    const int even = kind->kind == RETEX_FOOTPRINT_SHARP && scale == 1 && strcmp(light->set->filter, "box") == 0;
+    const int even = kind->kind == RETEX_FOOTPRINT_SHARP && scale == 1 && light->noise >= EVEN_NOISE &&
+                     strcmp(light->set->filter, "box") == 0;
     *clusters = (CompactClusters){.count = kind->count, .scale = scale, .split = split && kind->nagain};
     int code = alloc_images(clusters, light, even, err);
     if (code)
@@ -426,8 +439,8 @@ int compact_clusters_end(CompactClusters *clusters, const CompactLight *light, c
 {
     int code = RETEX_OK;
     if (clusters->whole)
-        code =
-            compact_even_smooth(clusters, clusters->whole, light->set->targets[kind->target].periodic, nthreads, err);
+        code = compact_even_smooth(clusters, clusters->whole, light->set->targets[kind->target].periodic,
+                                   light->noise, nthreads, err);
     if (clusters->scale > 1)
         fill_holes(clusters, clusters->lit, kind->kind == RETEX_FOOTPRINT_LATER ? (float)SHARE_STEP : 1);
     free_work(clusters);

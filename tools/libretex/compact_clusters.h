@@ -14,8 +14,8 @@ typedef struct CompactClusters {
     RetexImage again[RETEX_SHARES_MAX];  /* in light that goes on; unallocated where not wanted */
     RetexImage albedo;                   /* of all of them */
     int scale, split;
-    unsigned char *lit; /* while they are made: blocks that have any; */
-    UvStats *whole;     /* pixels that see one place evenly, weight 0 where they do not; or NULL */
+    unsigned char *lit;      /* while they are made: blocks that have any; */
+    struct EvenPlace *whole; /* what pixels see, where that may be a surface evenly (compact_even.h); or NULL */
 } CompactClusters;
 
 /* Merge the clusters of each block into no more than the kind has in a pixel, by the light they weigh. Blocks without

@@ -103,9 +103,9 @@ static int sort_term(CompactLight *light, int number)
     return 0;
 }
 
-int compact_light_open(CompactLight *light, const RetexSet *set, int *understood, RetexError *err)
+int compact_light_open(CompactLight *light, const RetexSet *set, double noise, int *understood, RetexError *err)
 {
-    *light = (CompactLight){.set = set};
+    *light = (CompactLight){.set = set, .noise = noise};
     *understood = sort_footprints(light) && light->nkinds > 0 && sort_shares(light);
     if (!*understood)
         return RETEX_OK;

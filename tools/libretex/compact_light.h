@@ -43,13 +43,14 @@ typedef struct CompactKind {
 
 typedef struct CompactLight {
     const RetexSet *set;
+    double noise; /* RetexCompactParams' */
     int nkinds;
     CompactKind kinds[COMPACT_KINDS];
     CompactAgain *again; /* of all kinds */
 } CompactLight;
 
 /* Sort a set's footprints and terms. *understood = 0 where it has others than the renderer makes. */
-int compact_light_open(CompactLight *light, const RetexSet *set, int *understood, RetexError *err);
+int compact_light_open(CompactLight *light, const RetexSet *set, double noise, int *understood, RetexError *err);
 void compact_light_close(CompactLight *light);
 
 /* A term's light where all hits but the first meet COMPACT_GREY: what its radiance is times this. */

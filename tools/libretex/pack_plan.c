@@ -10,6 +10,12 @@
 #include "compact_light.h"
 #include "image_noise.h"
 
+#define FINE_NOISE 3     /* light's step is at most so many times its noise, */
+#define FINER_MOST 2     /* but this share of the quality's; */
+#define COARSE_NOISE 0.5 /* and at least so many times its noise, */
+#define COARSER_MOST 3   /* but not more than so many times the quality's */
+#define GAIN_STEP 2.5    /* of gains, of which many are added up, in that of their light */
+
 double pack_quality_psnr(int quality)
 {
     return 20 + 0.4 * quality;
@@ -18,19 +24,15 @@ double pack_quality_psnr(int quality)
 PackGrain pack_grain(double psnr)
 {
     const double error = 255 * pow(10, -psnr / 20); /* levels */
-    const int fine = psnr >= 50;
+    const int fine = psnr >= 50, times = psnr > 58 ? 4 : psnr > 56 ? 2 : 1; /* above the default */
     return (PackGrain){.jpeg_step = 1.8 * error,
                        .original_step = 3.6 * error,
                        .picture_step = fmax(14 * error, 5),
-                       .sharp = {4, fine ? 8 : 4, fine ? 32 : 16},
-                       .broad = {2, 2, 4}};
+                       .sharp = {4 * times, fine ? 8 : 4, fine ? 32 : 16},
+                       .broad = {2 * times, times > 1 ? 8 : 2, times > 1 ? 32 : 4},
+                       .weight_steps = times > 2 ? 255 : 64 * times,
+                       .coarser_most = times > 1 ? 1 : COARSER_MOST};
 }
-
-#define FINE_NOISE 3     /* light's step is at most so many times its noise, */
-#define FINER_MOST 2     /* but this share of the quality's; */
-#define COARSE_NOISE 0.5 /* and at least so many times its noise, */
-#define COARSER_MOST 3   /* but not more than so many times the quality's */
-#define GAIN_STEP 2.5    /* of gains, of which many are added up, in that of their light */
 
 typedef enum Role {
     ROLE_NONE,
@@ -199,7 +201,7 @@ static void plan_weight(Planning *plan, int part)
     for (int c = 0; c < p->channels; c++) {
         const float most = plan->ranges[part][c].most;
         p->maps[c].kind = PACK_MAP_LINEAR;
-        p->maps[c].first = most > 0 ? (double)most / 64 : 1;
+        p->maps[c].first = most > 0 ? (double)most / plan->grain->weight_steps : 1;
         pack_map_fill(&p->maps[c]);
     }
 }
@@ -211,7 +213,7 @@ static double light_step(const Planning *plan, int part)
     const double step = plan->grain->jpeg_step, noise = plan->noise[part];
     if (FINE_NOISE * noise < step)
         return fmax(FINE_NOISE * noise, step / FINER_MOST);
-    return fmax(step, fmin(COARSE_NOISE * noise, COARSER_MOST * step));
+    return fmax(step, fmin(COARSE_NOISE * noise, plan->grain->coarser_most * step));
 }
 
 /* Gains say what share of the light is theirs were the texture of all further hits COMPACT_GREY: white is all of it. */

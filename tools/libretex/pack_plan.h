@@ -16,6 +16,8 @@ typedef struct PackGrain {
     double original_step; /* of original textures */
     double picture_step;  /* of the picture, which only viewers see */
     PackFootprintGrain sharp, broad;
+    int weight_steps;    /* to the largest weight */
+    double coarser_most; /* times jpeg_step, of light so noisy that nothing is seen of it */
 } PackGrain;
 
 /* The grain at which pictures keep this PSNR against the set's own: retex-pack(1) says how well. */

@@ -495,6 +495,7 @@ int retex_pack_write(const RetexSet *set, const char *path, const RetexPackParam
     if (params->quality < 1 || params->quality > 100)
         return retex_fail(err, RETEX_EINVAL, "quality is 1 to 100, not %d", params->quality);
     compacting.psnr = pack_quality_psnr(params->quality) + COMPACTING_MARGIN;
+    compacting.noise = pow(fmin((100 - params->quality) / 10.0, 1), 2);
     int code = params->lossless ? 0 : retex_set_compact(&compact, set, &compacting, params->nthreads, err);
     if (!code)
         code = write_pack(compact ? compact : set, path, params, bytes, err);

@@ -317,7 +317,8 @@ static int parse_directory(ZipList *list, const Directory *directory, const unsi
         code = damaged(err, "its directory is not sound");
     if (code)
         return code;
-    qsort(list->entries, (size_t)list->count, sizeof *list->entries, by_offset);
+    if (list->count)
+        qsort(list->entries, (size_t)list->count, sizeof *list->entries, by_offset);
     for (int i = 1; i < list->count; i++) {
         const ZipEntry *before = &list->entries[i - 1], *entry = &list->entries[i];
         if (entry->offset - before->offset < before->bytes + LOCAL_BYTES + strlen(entry->name))

@@ -17,8 +17,10 @@ typedef struct RetexCompactParams {
     int broad;   /* How many times smaller than the picture broad footprints are, 1, 2, 4 or 8, */
     int later;   /* later ones, */
     int gain;    /* and gains. 0, the default: as many times as psnr allows. */
+    double noise; /* 0 to 1: how freely noise of the set is taken away, by which pictures of the compact set differ from
+                     the set's more than by psnr, but not from the truth; default 1 */
 } RetexCompactParams;
-#define RETEX_COMPACT_INIT { sizeof(RetexCompactParams), 55, 0, 0, 0 }
+#define RETEX_COMPACT_INIT { sizeof(RetexCompactParams), 55, 0, 0, 0, 1 }
 
 /* *compact is created: the set without what only denoising reads. In layout footprints, for each target and kind of
  * cluster, sharp and broad, all light is one image, what it would be if further hits met a texture of 0.6 everywhere;
