@@ -14,6 +14,7 @@
 #define FINER_MOST 2     /* but this share of the quality's; */
 #define COARSE_NOISE 0.5 /* and at least so many times its noise, */
 #define COARSER_MOST 3   /* but not more than so many times the quality's */
+#define BRIGHTER_MOST 4  /* times white that of light may be */
 #define GAIN_STEP 2.5    /* of gains, of which many are added up, in that of their light */
 
 double pack_quality_psnr(int quality)
@@ -53,7 +54,8 @@ typedef struct Range {
 } Range;
 
 typedef struct Planning {
-    double white; /* level 255 of light */
+    double white;   /* level 255 of light that no texture multiplies, at least, */
+    double *whites; /* and of each part of light */
     PackPart *packed;
     const RetexSet *set;
     const PackGrain *grain;
@@ -129,17 +131,40 @@ static void find_ranges(void *context, int part, int thread)
     }
 }
 
+/* Light that textures darken may be brighter than white and yet not be clipped: the value that little of it exceeds,
+ * for above white steps are twice as coarse. */
+static double white_of(const Planning *plan, int part)
+{
+    const RetexSet *set = plan->set;
+    const RetexImage *im = &set->parts[part].image;
+    double count = 0, sum = 0, squares = 0;
+    int darkened = part > 0;
+    for (int i = 0; i < set->nterms; i++)
+        darkened = darkened && (set->terms[i].radiance != part || set->terms[i].nfactors > 0);
+    for (size_t i = 0; darkened && i < (size_t)im->width * (size_t)im->height * (size_t)im->channels; i++) {
+        const double v = (double)im->pixels[i];
+        if (!(v > 0) || !isfinite(v))
+            continue;
+        count++, sum += v, squares += v * v;
+    }
+    const double mean = count > 0 ? sum / count : 0;
+    const double deviation = count > 0 ? sqrt(fmax(squares / count - mean * mean, 0)) : 0;
+    return fmin(fmax(mean + 2 * deviation, plan->white), BRIGHTER_MOST * plan->white);
+}
+
 static void find_noise(void *context, int part, int thread)
 {
     Planning *plan = context;
     const RetexImage *im = &plan->set->parts[part].image;
-    const PackCurve curve = {.white = plan->white, .levels = 255};
     const size_t count = (size_t)im->width * (size_t)im->height * (size_t)im->channels;
     RetexImage levels = {0};
     (void)thread;
+    plan->whites[part] = plan->white;
     if (plan->roles[part] != ROLE_LIGHT || part == 0)
         return;
+    plan->whites[part] = white_of(plan, part);
     plan->noise[part] = -1;
+    const PackCurve curve = {.white = plan->whites[part], .levels = 255};
     if (retex_image_alloc(&levels, im->width, im->height, im->channels, NULL))
         return;
     for (size_t i = 0; i < count; i++)
@@ -210,7 +235,8 @@ static void plan_weight(Planning *plan, int part)
  * there is so much that nothing can be seen of it. */
 static double light_step(const Planning *plan, int part)
 {
-    const double step = plan->grain->jpeg_step, noise = plan->noise[part];
+    const double step = plan->grain->jpeg_step / pow(plan->whites[part] / plan->white, 1 / 2.4); /* as sRGB has them */
+    const double noise = plan->noise[part];
     if (FINE_NOISE * noise < step)
         return fmax(FINE_NOISE * noise, step / FINER_MOST);
     return fmax(step, fmin(COARSE_NOISE * noise, plan->grain->coarser_most * step));
@@ -323,7 +349,7 @@ static void plan_parts(Planning *plan)
         if (!zero && plan->grain && i == 0) /* viewers take the picture for sRGB */
             plan_light(plan, i, 1, plan->grain->picture_step);
         else if (!zero && plan->grain && plan->roles[i] == ROLE_LIGHT)
-            plan_light(plan, i, plan->white, light_step(plan, i));
+            plan_light(plan, i, plan->whites[i], light_step(plan, i));
         else if (!zero && plan->grain && plan->roles[i] == ROLE_ALBEDO)
             plan_light(plan, i, plan->white, plan->grain->jpeg_step);
         else if (!zero && plan->grain && plan->roles[i] == ROLE_ORIGINAL)
@@ -348,6 +374,7 @@ int pack_plan(PackPart *packed, const RetexSet *set, int lossless, const PackGra
 {
     const size_t count = (size_t)set->nparts;
     Planning plan = {choose_white(&set->parts[0].image),
+                     calloc(count + 1, sizeof *plan.whites),
                      packed,
                      set,
                      lossless ? NULL : grain,
@@ -355,7 +382,7 @@ int pack_plan(PackPart *packed, const RetexSet *set, int lossless, const PackGra
                      calloc(count + 1, sizeof *plan.means),
                      calloc(count + 1, sizeof *plan.ranges),
                      calloc(count + 1, sizeof *plan.noise)};
-    int code = plan.roles && plan.means && plan.ranges && plan.noise
+    int code = plan.roles && plan.means && plan.ranges && plan.noise && plan.whites
                    ? 0
                    : retex_fail(err, RETEX_ENOMEM, "no memory to pack a set");
     for (int i = 0; !code && i < set->nparts; i++) {
@@ -381,5 +408,6 @@ int pack_plan(PackPart *packed, const RetexSet *set, int lossless, const PackGra
     free(plan.means);
     free(plan.ranges);
     free(plan.noise);
+    free(plan.whites);
     return code;
 }
