@@ -319,7 +319,7 @@ static void few_samples_are_even_too(void **state)
 {
     int off;
     (void)state;
-    assert_true(quarters_of_wall(0.4f, 6, &off) > 4 * HIGH * WIDE * 9 / 10);
+    assert_true(quarters_of_wall(0.4f, 20, &off) > 4 * HIGH * WIDE * 8 / 10);
     assert_true(quarters_of_wall(0.4f, 4096, &off) < 4 * HIGH * WIDE / 2);
 }
 

@@ -21,6 +21,7 @@
 #define CORRELATION_LEAST 0.3    /* likewise of covariances, by the variances' mean */
 #define INSIDE 0.75              /* pixels from the middle to a cluster, at most, on both sides */
 #define ROUGH 9                  /* times what a mean may be off, squared, about a first map */
+#define QUARTERED 16             /* samples of a pixel that is stored as quarters, at least */
 #define NEAR_MAP 0.02            /* pixels, squared, that smoothed means are off their neighbours' maps, at most */
 enum { REACH = 2, SIDE = 2 * REACH + 1, FITTED_LEAST = 12, PASSES = 3 /* in which maps are fitted */ };
 
@@ -228,7 +229,8 @@ static void keep_map(EvenMap *to, const EvenWork *work, size_t pixel, const Map 
     }
 }
 
-/* How many parts even pixels have: where most pixels around have several clusters, if there is room for it, quarters. */
+/* How many parts even pixels have: where most pixels around have several clusters, and samples enough to show how
+ * little one part differs from them, quarters, if there is room for these. */
 static int parts_around(const EvenWork *work, int x, int y)
 {
     const CompactClusters *clusters = work->clusters;
@@ -238,7 +240,7 @@ static int parts_around(const EvenWork *work, int x, int y)
             const int there = i >= 0 && j >= 0 && i < work->width && j < work->height;
             const size_t at = there ? (size_t)j * (size_t)work->width + (size_t)i : 0;
             if (there && work->whole[at].samples > 0)
-                several += clusters->uv[1].pixels[3 * at + 2] > 0 ? 1 : -1;
+                several += clusters->uv[1].pixels[3 * at + 2] > 0 && work->whole[at].samples >= QUARTERED ? 1 : -1;
         }
     return several > 0 ? 4 : 1;
 }
