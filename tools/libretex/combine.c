@@ -12,6 +12,7 @@
 #include <retex/parallel.h>
 
 #include "combine_kernel.h"
+#include "combine_rows.h"
 #include "polynomial.h"
 
 #define SPAN_PIXELS 512 /* its sum and one span of each image fit the first two caches */
@@ -99,6 +100,40 @@ int retex_retexture(const RetexSet *set, const RetexSamples *samples, RetexTextu
     if (code)
         return code;
     code = combine(&polynomial, 0, set->height, sink, context, nthreads, err);
+    polynomial_close(&polynomial);
+    return code;
+}
+
+/* ---- with the originals, some rows ---- */
+
+static int open_original(Polynomial *polynomial, const RetexSet *set, RetexError *err)
+{
+    const RetexCombineParams all = {sizeof all, 3};
+    return polynomial_open(polynomial, set, NULL, NULL, &all, 0, 1, err);
+}
+
+int combine_check(const RetexSet *set)
+{
+    Polynomial polynomial;
+    int code = open_original(&polynomial, set, NULL);
+    polynomial_close(&polynomial);
+    return code;
+}
+
+int combine_original_rows(float *out, const RetexSet *set, int y0, int y1, RetexError *err)
+{
+    const size_t length = 3 * (size_t)set->width;
+    Polynomial polynomial;
+    PolynomialRow row = {0};
+    int code = open_original(&polynomial, set, err);
+    if (!code)
+        code = polynomial_row_open(&row, &polynomial, err);
+    for (int y = y0; !code && y < y1; y++) {
+        code = polynomial_row_make(&row, y, err);
+        if (!code)
+            combine_row(&row, set->width, out + length * (size_t)(y - y0));
+    }
+    polynomial_row_close(&row);
     polynomial_close(&polynomial);
     return code;
 }

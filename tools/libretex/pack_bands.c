@@ -11,6 +11,7 @@
 
 #include "exr_io.h"
 #include "manifest.h"
+#include "pack_combine.h"
 #include "pack_format.h"
 #include "pack_model.h"
 #include "pack_restore.h"
@@ -461,6 +462,8 @@ static int decode_model(const RetexPack *pack, int part, int band, float *out, R
         code = retex_fail(err, RETEX_ENOMEM, "no memory to read a pack");
     else if (!decoded)
         code = damaged(err, "planes cannot be decoded of part", pack->set->parts[part].name);
+    if (!code && p->codec == PACK_COMBINED)
+        code = pack_combine_add(&model, pack->set, band * PACK_BAND_ROWS, err);
     for (int c = 0; !code && c < p->channels; c++)
         pack_map_samples(out + c, (size_t)p->channels, model.numbers[c], (size_t)model.width * (size_t)model.rows,
                          &p->maps[c], p->type);
@@ -535,7 +538,7 @@ static int decode_band(const RetexPack *pack, int part, int band, float *out, Re
     const PackPart *p = &pack->parts[part];
     if (p->codec == PACK_PLANES)
         return decode_planes(pack, part, band, out, s, err);
-    if (p->codec == PACK_MODEL)
+    if (pack_is_modelled(p))
         return decode_model(pack, part, band, out, s, err);
     if (p->codec == PACK_JPEG)
         return decode_jpeg(pack, part, band, out, s, err);

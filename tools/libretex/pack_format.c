@@ -9,8 +9,9 @@
 #include <zlib.h>
 
 #include "half.h"
+#include "pack_combine.h"
 
-const char *const pack_codec_names[PACK_CODECS] = {"zero", "planes", "model", "jpeg"};
+const char *const pack_codec_names[PACK_CODECS] = {"zero", "planes", "model", "combined", "jpeg"};
 
 void pack_part_begin(PackPart *packed, const RetexPart *part)
 {
@@ -27,7 +28,7 @@ int pack_part_chunks(PackPart *packed, RetexError *err)
 {
     packed->nchunks = packed->codec == PACK_ZERO     ? 0
                       : packed->codec == PACK_PLANES ? packed->nbands * packed->channels
-                      : packed->codec == PACK_MODEL  ? packed->nbands
+                      : pack_is_modelled(packed)     ? packed->nbands
                                                      : 1 + packed->nbands * (1 + packed->masked);
     packed->bytes = calloc((size_t)packed->nchunks + 1, sizeof *packed->bytes);
     packed->crcs = calloc((size_t)packed->nchunks + 1, sizeof *packed->crcs);
@@ -41,6 +42,11 @@ void pack_part_free(PackPart *packed)
     free(packed->crcs);
     packed->offsets = NULL;
     packed->bytes = packed->crcs = NULL;
+}
+
+int pack_is_modelled(const PackPart *packed)
+{
+    return packed->codec == PACK_MODEL || packed->codec == PACK_COMBINED;
 }
 
 int pack_band_rows(const PackPart *packed, int band)
@@ -218,8 +224,9 @@ static int understand_part(PackPart *packed, const RetexSet *set, const json_t *
     while (codec && c < PACK_CODECS && strcmp(codec, pack_codec_names[c]) != 0)
         c++;
     if (codec && c == PACK_CODECS)
-        return retex_fail(err, RETEX_EUNSUPPORTED, "a part is packed as '%.64s'; this version knows %s, %s, %s and %s",
-                          codec, pack_codec_names[0], pack_codec_names[1], pack_codec_names[2], pack_codec_names[3]);
+        return retex_fail(
+            err, RETEX_EUNSUPPORTED, "a part is packed as '%.64s'; this version knows %s, %s, %s, %s and %s", codec,
+            pack_codec_names[0], pack_codec_names[1], pack_codec_names[2], pack_codec_names[3], pack_codec_names[4]);
     packed->codec = codec ? (PackCodec)c : PACK_ZERO;
     ok = codec != NULL && packed->channels <= PACK_CHANNELS_MAX;
     if (ok && packed->codec == PACK_JPEG) {
@@ -296,7 +303,8 @@ int pack_understand(PackPart *packed, const RetexSet *set, const char *manifest,
             code = understand_part(&packed[i], set, o, err);
     }
     for (int i = 0; !code && i < set->nparts; i++)
-        if (!references_are_sound(&packed[i], packed))
+        if (packed[i].codec == PACK_COMBINED ? i > 0 || !pack_combine_fits(set)
+                                             : !references_are_sound(&packed[i], packed))
             code = retex_fail(err, RETEX_EFORMAT, "the pack is damaged: the description of a part is not sound");
     for (int i = 0; !code && i < set->nparts; i++)
         code = pack_part_chunks(&packed[i], err);

@@ -18,6 +18,7 @@ typedef enum PackCodec {
     PACK_ZERO,   /* every sample is +0: no data */
     PACK_PLANES, /* planes/NAME.blk: band by band one chunk a channel */
     PACK_MODEL,  /* planes/NAME.blk: one chunk a band, without loss */
+    PACK_COMBINED, /* part 0, as PACK_MODEL: what differs from the recombination of the set's terms */
     PACK_JPEG,   /* radiance/NAME.jpg: header, then a chunk a band; planes/NAME.blk: its mask's bands */
     PACK_CODECS
 } PackCodec;
@@ -54,6 +55,8 @@ int pack_lattice_shift(const PackPart *packed, int code, int per_octave);
 int pack_mean_shift(float sigma);
 /* Bytes of a mask's row. */
 int pack_mask_width(const PackPart *packed);
+/* 1: its chunks are bands that a model codes without loss. */
+int pack_is_modelled(const PackPart *packed);
 /* The file of a part's chunks in the pack; 0: its JPEG, 1: its planes. */
 void pack_file_name(char *name, size_t room, const RetexSet *set, int part, int planes);
 

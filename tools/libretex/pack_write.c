@@ -12,6 +12,7 @@
 #include <retex/parallel.h>
 
 #include "output.h"
+#include "pack_combine.h"
 #include "pack_format.h"
 #include "pack_model.h"
 #include "pack_plan.h"
@@ -32,13 +33,15 @@ typedef struct Writing {
     const RetexSet *set;
     PackPart *packed;
     Item *items;
+    int nitems;       /* one for each part, and one more where part 0 is tried in two ways: without the terms */
     PackJpeg picture; /* of a lossless pack: for viewers only */
     int *jobs;        /* pairs: part and band */
     int njobs;
     int *codes; /* by job */
 } Writing;
 
-static const int EFFORT = 8; /* of blosc's zstd */
+static const int EFFORT = 8;              /* of blosc's zstd */
+static const uint32_t NEVER = UINT32_MAX; /* bytes of a piece that cannot be stored so */
 
 /* dB that compacting keeps more than the whole: its errors and those of coding add up. */
 static const double COMPACTING_MARGIN = 3;
@@ -184,9 +187,9 @@ static int band_alloc(Band *band, const PackPart *p, int index)
 /* Numbers of a channel of another part in this band. */
 static void numbers_of(int32_t *numbers, const Writing *w, int part, int channel, int index, size_t pixels)
 {
-    const RetexImage *im = &w->set->parts[part].image;
+    const RetexImage *im = &w->items[part].part->image;
     pack_map_numbers(numbers, im->pixels + retex_image_index(im, 0, index * PACK_BAND_ROWS) + channel,
-                     (size_t)im->channels, pixels, &w->packed[part].maps[channel], w->set->parts[part].type);
+                     (size_t)im->channels, pixels, &w->packed[part].maps[channel], w->items[part].part->type);
 }
 
 static void fill_shift(Band *band, const Writing *w, const PackPart *p, int channel, int index)
@@ -247,20 +250,64 @@ static int encode_model_band(const Writing *w, int part, int index)
     Item *item = &w->items[part];
     PackPart *p = item->packed;
     PackModelBand model;
+    int finite = 1;
     long bytes = -1;
     if (pack_model_alloc(&model, p->width, pack_band_rows(p, index), p->channels, p->maps)) {
         for (int c = 0; c < p->channels; c++)
             numbers_of(model.numbers[c], w, part, c, index, (size_t)model.width * (size_t)model.rows);
         if (p->sigma >= 0)
             fill_mean_shifts(&model, w, p, index);
-        bytes = pack_model_encode(&item->chunks[index], &model);
+        int code = p->codec == PACK_COMBINED
+                       ? pack_combine_subtract(&model, w->set, index * PACK_BAND_ROWS, &finite, NULL)
+                       : 0;
+        bytes = code ? -1 : pack_model_encode(&item->chunks[index], &model);
     }
     pack_model_free(&model);
-    p->bytes[index] = bytes > 0 ? (uint32_t)bytes : 0;
+    p->bytes[index] = !finite ? NEVER : bytes > 0 ? (uint32_t)bytes : 0;
     return bytes >= 0;
 }
 
+/* The picture's numbers less those that the terms give are tried besides the picture alone. */
+static void plan_combined(Writing *w, int nthreads)
+{
+    PackPart *picture = &w->packed[0];
+    if (picture->codec != PACK_MODEL || !pack_combine_fits(w->set) || !pack_combine_is_stored(w->set, nthreads))
+        return;
+    w->packed[w->set->nparts] = *picture;
+    w->nitems = w->set->nparts + 1;
+    picture->codec = PACK_COMBINED;
+}
+
+static uint64_t bytes_of(const PackPart *packed)
+{
+    uint64_t bytes = 0;
+    for (int k = 0; k < packed->nchunks; k++)
+        bytes += packed->bytes[k];
+    return bytes;
+}
+
+/* Part 0 is what is smaller. What readers make of a term that is black all over a row is not told where the sum is not
+ * finite, so then it stays alone. */
+static void choose_picture(Writing *w)
+{
+    Item *items[2] = {&w->items[0], &w->items[w->set->nparts]};
+    if (w->nitems == w->set->nparts || bytes_of(items[0]->packed) < bytes_of(items[1]->packed))
+        return;
+    const PackPart packed = *items[0]->packed;
+    unsigned char **chunks = items[0]->chunks;
+    *items[0]->packed = *items[1]->packed;
+    items[0]->chunks = items[1]->chunks;
+    *items[1]->packed = packed;
+    items[1]->chunks = chunks;
+}
+
 /* --- all parts --- */
+
+/* As jobs of their own: JPEGs are encoded whole. */
+static int bands_to_encode(const PackPart *packed)
+{
+    return packed->codec == PACK_PLANES || pack_is_modelled(packed) ? packed->nbands : 0;
+}
 
 static void encode_whole(void *context, int index, int thread)
 {
@@ -270,7 +317,7 @@ static void encode_whole(void *context, int index, int thread)
     item->code = pack_samples_crc(&item->crc, item->part, &item->err);
     if (!item->code && item->packed->codec == PACK_JPEG)
         item->code = encode_jpeg(item, index == 0, &item->err);
-    if (item->code || (item->packed->codec != PACK_PLANES && item->packed->codec != PACK_MODEL))
+    if (item->code || !bands_to_encode(item->packed))
         return;
     item->code = pack_part_chunks(item->packed, &item->err);
     item->chunks = calloc((size_t)item->packed->nchunks + 1, sizeof *item->chunks);
@@ -283,19 +330,13 @@ static void encode_job(void *context, int index, int thread)
     Writing *w = context;
     (void)thread;
     const int part = w->jobs[2 * index], band = w->jobs[2 * index + 1];
-    const int ok = w->packed[part].codec == PACK_MODEL ? encode_model_band(w, part, band) : encode_band(w, part, band);
+    const int ok = pack_is_modelled(&w->packed[part]) ? encode_model_band(w, part, band) : encode_band(w, part, band);
     w->codes[index] = ok ? 0 : RETEX_ENOMEM;
-}
-
-/* As jobs of their own: JPEGs are encoded whole. */
-static int bands_to_encode(const PackPart *packed)
-{
-    return packed->codec == PACK_PLANES || packed->codec == PACK_MODEL ? packed->nbands : 0;
 }
 
 static int encode_all(Writing *w, int nthreads, RetexError *err)
 {
-    const int count = w->set->nparts;
+    const int count = w->nitems;
     int code = 0, bands = 0;
     retex_parallel(nthreads, count, encode_whole, w);
     for (int i = 0; i < count; i++) {
@@ -318,7 +359,8 @@ static int encode_all(Writing *w, int nthreads, RetexError *err)
     for (int i = 0; i < w->njobs; i++)
         if (w->codes[i])
             return no_memory(err);
-    for (int i = 0; i < count; i++)
+    choose_picture(w);
+    for (int i = 0; i < w->set->nparts; i++)
         for (int k = 0; k < w->packed[i].nchunks; k++)
             w->packed[i].crcs[k] = (uint32_t)crc32_z(crc32(0, NULL, 0), w->items[i].chunks[k], w->packed[i].bytes[k]);
     return 0;
@@ -444,7 +486,7 @@ static int write_file(const Writing *w, const char *path, size_t *bytes, RetexEr
 
 static void writing_free(Writing *w)
 {
-    for (int i = 0; w->items && w->packed && i < w->set->nparts; i++) {
+    for (int i = 0; w->items && w->packed && i < w->nitems; i++) {
         const PackPart *p = &w->packed[i];
         for (int k = p->codec == PACK_JPEG ? 1 + p->nbands : 0; w->items[i].chunks && k < p->nchunks; k++)
             free(w->items[i].chunks[k]);
@@ -463,14 +505,16 @@ static int write_pack(const RetexSet *set, const char *path, const RetexPackPara
                       RetexError *err)
 {
     const PackGrain grain = pack_grain(pack_quality_psnr(params->quality));
-    Writing w = {.set = set};
+    Writing w = {.set = set, .nitems = set->nparts};
     w.packed = calloc((size_t)set->nparts + 1, sizeof *w.packed);
     w.items = calloc((size_t)set->nparts + 1, sizeof *w.items);
     int code = w.packed && w.items ? 0 : no_memory(err);
     if (!code)
         code = pack_plan(w.packed, set, params->lossless, &grain, params->nthreads, err);
-    for (int i = 0; !code && i < set->nparts; i++) {
-        w.items[i].part = &set->parts[i];
+    if (!code && params->lossless)
+        plan_combined(&w, params->nthreads);
+    for (int i = 0; !code && i < w.nitems; i++) {
+        w.items[i].part = &set->parts[i % set->nparts];
         w.items[i].packed = &w.packed[i];
     }
     if (!code)

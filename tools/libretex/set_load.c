@@ -99,8 +99,13 @@ int retex_set_load(RetexSet *set, int nthreads, RetexError *err)
 {
     char wanted[RETEX_SET_PARTS_MAX];
 
+    /* the picture last: a pack may make it from the other parts, which then need not be decoded twice */
     memset(wanted, 1, sizeof wanted);
+    wanted[0] = 0;
     int code = load(set, wanted, nthreads, err);
+    wanted[0] = 1;
+    if (!code)
+        code = load(set, wanted, nthreads, err);
     if (code)
         return code;
     retex_spool_close(&set->spool);

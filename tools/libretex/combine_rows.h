@@ -1,0 +1,14 @@
+/* Rows of the picture that a set's terms give with its original textures. Private to libretex. */
+#ifndef LIBRETEX_COMBINE_ROWS_H
+#define LIBRETEX_COMBINE_ROWS_H
+
+#include <retex/set.h>
+
+/* 0 where the set has what its terms need, as far as that can be told without its samples. */
+int combine_check(const RetexSet *set);
+
+/* Rows y0 <= y < y1, RGB interleaved, with all terms: what retex_combine makes without samples. In this thread alone,
+ * as packs do it, whose bands are spread over threads. */
+int combine_original_rows(float *out, const RetexSet *set, int y0, int y1, RetexError *err);
+
+#endif
