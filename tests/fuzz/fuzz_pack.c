@@ -89,6 +89,8 @@ static void begin(void)
     give(odd, 1, 98);
     test_make_footprints(odd);
     give(odd, 0, 98);
+    test_must(retex_combine(&odd->parts[0].image, odd, NULL, NULL, NULL, 1, NULL), NULL);
+    give(odd, 1, 98); /* its picture is what its terms give */
     retex_set_close(&set);
     retex_set_close(&odd);
 }
