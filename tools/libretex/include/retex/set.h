@@ -203,7 +203,7 @@ int retex_set_read(const char *path, RetexSet **set, RetexSamples **samples, int
 
 /* As retex_set_read, but the set's parts stay in the file until retex_retexture or retex_combine takes them row by row,
  * or retex_set_load all of them; whatever else looks at pixels needs them loaded. The file must stay as it is until the
- * set is closed, and so must parts that retex_set_keep brought into memory, for a pack may make its picture from them. A
+ * set is closed, and so must parts that retex_set_keep brought into memory: a pack may make its picture from them. A
  * pipe is read whole, into memory. */
 int retex_set_open(const char *path, RetexSet **set, RetexSamples **samples, int nthreads, RetexError *err);
 
