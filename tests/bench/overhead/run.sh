@@ -7,8 +7,8 @@
 # what the method of Rousselle and others needs, twice. A turn begins and ends with the plain picture, and every other
 # turn goes backwards, so that a machine that gets slower or faster favours nothing. Overheads are of the same turn.
 #
-# As it stands it takes about three hours a scene on two cores. BENCH_TURNS, BENCH_SIZE, BENCH_SPP, BENCH_MEMORY_SIZE
-# and BENCH_SCENES='living-room artist' choose less.
+# As it stands it takes about three hours a scene on two cores. BENCH_TURNS, BENCH_SIZE, BENCH_SPP, BENCH_MEMORY_SIZE,
+# BENCH_SCENES='living-room artist' and BENCH_ROWS (some of the rows below, without `plain') choose less.
 set -eu
 export LC_ALL=C
 build=${BUILD:-build} here=tests/bench/overhead
@@ -59,8 +59,8 @@ run() { # PART SCENE TURN SIZE SPP ROW TARGET...
         retex-render "$@" --size "$wide" --spp "$samples" -o "$work/$row.exr" "$(file "$scene")"
 }
 
-forwards='plain footprints paper footprints-bare paper-bare initial-biased again-biased initial-unbiased again-unbiased
-    again plain'
+forwards="plain ${BENCH_ROWS:-footprints paper footprints-bare paper-bare initial-biased again-biased initial-unbiased
+    again-unbiased again} plain"
 backwards=$(for row in $forwards; do echo "$row"; done | tac)
 for scene in $scenes; do
     if [ ! -e "$(file "$scene")" ]; then

@@ -35,7 +35,8 @@ run in turn, {turns}, each turn with the plain picture first and last; times are
 time in brackets, and an overhead is the median of those over the mean plain picture of the same turn, the paper's
 "baseline path tracer". Wall time is what one waits, processor time what all cores spend. How far the plain pictures
 of one turn differ, which stands in the CSV, is the measurement's own error.
-
+"""
+RIVALS = """
 "Rousselle" is the method that the paper compares with, as `retex-render` has it: a first render with
 `--plain --control-data biased` or `unbiased`, and for each change of texture a re-render with
 `--replace ... --control`, in `--control-mode biased` or `halves`. A set needs no re-render. "Plain re-render" is
@@ -113,12 +114,15 @@ def main(records, table, cores, size, spp, memory_size):
     found = read(records)
     turns = max(len({r["turn"] for r in runs}) for runs in found.values())
     print(INTRODUCTION.format(cores=cores, size=size, spp=spp, turns=f"{turns} times" if turns > 1 else "once"), end="")
+    if any(key[3].startswith(("initial", "again")) for key in found):
+        print(RIVALS, end="")
     with open(table, "w", encoding="ascii", newline="") as file:
         out = csv.writer(file, lineterminator="\n")
         out.writerow(CSV)
         for scene, edit in dict.fromkeys(key[1:3] for key in found if key[0] == "time"):
             plain = found["time", scene, edit, "plain"]
-            rows = {name: Row(found["time", scene, edit, name], plain) for name in ROWS}
+            rows = {name: Row(found["time", scene, edit, name], plain) for name in ROWS
+                    if ("time", scene, edit, name) in found}
             section(scene, edit, rows)
             out.writerows(["time", scene, edit, name, *row.csv()] for name, row in rows.items())
         for key, runs in found.items():
