@@ -208,6 +208,8 @@ static int flush(RetexOutput *output, RetexError *err)
 
 int retex_output_write(RetexOutput *output, const void *data, size_t bytes, RetexError *err)
 {
+    if (!bytes) /* of nothing, data may be NULL */
+        return 0;
     if (output->buffered + bytes > BUFFER_BYTES) {
         const int status = flush(output, err);
         if (status)
