@@ -1,5 +1,7 @@
 /* See originals.h. */
 #include <stdio.h>
+#include <string.h>
+#include <retex/parallel.h>
 #include "integrate/originals.h"
 #include "shade/pigment.h"
 
@@ -58,22 +60,34 @@ static void fill_texel(float rgba[4], const ImageMap *image, const RetexImage *d
         retex_texture_gaussian(image->texture, u, v, covariance, rgba);
 }
 
-/* Each texel is the image's, or the pigment at its centre. */
-static int fill_original(RetexImage *dst, const Pigment *pigment, int axis, const RetexTarget *target, RetexError *err)
+typedef struct Copy {
+    RetexImage *dst;
+    const ImageMap *image;
+} Copy;
+
+static void copy_row(void *context, int y, int thread)
 {
-    if (pigment->kind != PIGMENT_IMAGE) {
-        int width = dst->width, height = dst->height;
-        retex_image_free(dst);
-        return pigment_bake(dst, pigment, axis, target->original_min, target->original_max, width, height, err);
+    const Copy *copy = context;
+    float *p = copy->dst->pixels + retex_image_index(copy->dst, 0, y);
+    (void)thread;
+    for (int x = 0; x < copy->dst->width; x++, p += 3) {
+        float rgba[4];
+        fill_texel(rgba, copy->image, copy->dst, x, y);
+        memcpy(p, rgba, 3 * sizeof *p);
     }
-    for (int y = 0; y < dst->height; y++)
-        for (int x = 0; x < dst->width; x++) {
-            float rgba[4], *p = dst->pixels + retex_image_index(dst, x, y);
-            fill_texel(rgba, pigment->image, dst, x, y);
-            for (int c = 0; c < 3; c++)
-                p[c] = rgba[c];
-        }
-    return RETEX_OK;
+}
+
+/* Each texel is the image's, or the pigment at its centre. */
+static int fill_original(RetexImage *dst, const Pigment *pigment, int axis, const RetexTarget *target, int nthreads,
+                         RetexError *err)
+{
+    if (pigment->kind == PIGMENT_IMAGE) {
+        retex_parallel(nthreads, dst->height, copy_row, &(Copy){dst, pigment->image});
+        return RETEX_OK;
+    }
+    int width = dst->width, height = dst->height;
+    retex_image_free(dst);
+    return pigment_bake(dst, pigment, axis, target->original_min, target->original_max, width, height, nthreads, err);
 }
 
 /* The axis along which a plane or a box is flattest: how its planar UV looks at it. */
@@ -87,7 +101,7 @@ static int dominant_axis(const Primitive *p)
     return x > y && x > z ? 0 : y >= z ? 1 : 2;
 }
 
-static int add_original(RetexSet *set, const Scene *scene, int t, RetexError *err)
+static int add_original(RetexSet *set, const Scene *scene, int t, int nthreads, RetexError *err)
 {
     const Primitive *p = first_primitive(scene, t);
     if (!p)
@@ -107,13 +121,13 @@ static int add_original(RetexSet *set, const Scene *scene, int t, RetexError *er
     if (code)
         return code;
     target->original = part;
-    return fill_original(&set->parts[part].image, pigment, dominant_axis(p), target, err);
+    return fill_original(&set->parts[part].image, pigment, dominant_axis(p), target, nthreads, err);
 }
 
-int originals_add(RetexSet *set, const Scene *scene, RetexError *err)
+int originals_add(RetexSet *set, const Scene *scene, int nthreads, RetexError *err)
 {
     for (int t = 0; t < scene->ntargets; t++) {
-        int code = add_original(set, scene, t, err);
+        int code = add_original(set, scene, t, nthreads, err);
         if (code)
             return code;
     }

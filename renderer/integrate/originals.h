@@ -8,7 +8,8 @@
 #define ORIGINAL_SIZE 1024
 
 /* Add a part `original_NAME` for each target of the scene: its image map over (0,0)-(1,1), or any other pigment baked
- * over the UV that was met. A target of several pigments shows the first. */
-int originals_add(RetexSet *set, const Scene *scene, RetexError *err);
+ * over the UV that was met. A target of several pigments shows the first.
+ * nthreads: as of retex_parallel. */
+int originals_add(RetexSet *set, const Scene *scene, int nthreads, RetexError *err);
 
 #endif

@@ -544,7 +544,7 @@ static int render_into(RetexSet *set, Render *r, RenderStats *stats, double star
     for (int t = 0; t < set->ntargets && !code; t++)
         memcpy(set->targets[t].uv_scale, scales[t], sizeof scales[t]);
     if (!code && r->context.split)
-        code = originals_add(set, r->scene, err);
+        code = originals_add(set, r->scene, r->params.nthreads, err);
     if (!code)
         code = first_hit_aovs(set, &window, r->params.aovs, err);
     if (!code && r->pixel_guides)

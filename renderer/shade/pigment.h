@@ -16,9 +16,9 @@ int pigment_is_opaque(const Pigment *pigment);
 Vec2 pigment_image_uv(const ImageMap *image, Vec3 pattern_point);
 /* Bake the pigment's colour over the UV rectangle low..high (through target_uv's inverse this is exact for uv_mapping
  * and image maps; other pigments are baked on the plane through 0 of their pattern space that the dominant-axis rule
- * gives for axis 0..2). dst: RGB, unallocated, width x height. */
+ * gives for axis 0..2). dst: RGB, unallocated, width x height. nthreads: as of retex_parallel. */
 int pigment_bake(RetexImage *dst, const Pigment *pigment, int axis, const double low[2], const double high[2],
-                 int width, int height, RetexError *err);
+                 int width, int height, int nthreads, RetexError *err);
 
 /* The UV a replacement texture is looked up at, for a surface that is a target. The rule (retex-scene(5)), after the
  * texture's own transforms: with uv_mapping, the shape's UV taken through the pigment's transform; else an image_map's

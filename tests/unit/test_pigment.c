@@ -211,7 +211,7 @@ static void bakes(void **state)
     for (int k = 0; k < 4; k++) {
         int axis = k < 3 ? k : 2;
         p.kind = k < 3 ? PIGMENT_CHECKER : PIGMENT_IMAGE;
-        assert_int_equal(pigment_bake(&baked, &p, axis, low, high, 40, 20, NULL), 0);
+        assert_int_equal(pigment_bake(&baked, &p, axis, low, high, 40, 20, 1, NULL), 0);
         for (int y = 0; y < 20; y++)
             for (int x = 0; x < 40; x++) {
                 double u = -1 + 0.1 * (x + 0.5), v = 2.5 - 0.1 * (y + 0.5);
@@ -223,7 +223,7 @@ static void bakes(void **state)
             }
         retex_image_free(&baked);
     }
-    assert_int_equal(pigment_bake(&baked, &p, 3, low, high, 4, 4, NULL), RETEX_EINVAL);
+    assert_int_equal(pigment_bake(&baked, &p, 3, low, high, 4, 4, 1, NULL), RETEX_EINVAL);
     retex_texture_close(&map.texture);
 }
 

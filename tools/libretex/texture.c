@@ -389,7 +389,6 @@ static void unassociate(float rgba[4])
         rgba[3] = 1; /* sums of weights round */
 }
 
-/* nearest: at the centre of the texel, where the bilinear look-up gives the texel itself. */
 static void point_at(const RetexTexture *texture, const double uv[2], int nearest, float rgba[4])
 {
     double x = uv[0] * texture->levels[0].width, y = (1 - uv[1]) * texture->levels[0].height;
@@ -398,11 +397,10 @@ static void point_at(const RetexTexture *texture, const double uv[2], int neares
             memset(rgba, 0, 4 * sizeof(float));
             return;
         }
-    if (nearest) {
-        x = floor(x) + 0.5;
-        y = floor(y) + 0.5;
-    }
-    texture_point_kernel(texture, x, y, rgba);
+    if (nearest)
+        texture_nearest_kernel(texture, x, y, rgba);
+    else
+        texture_point_kernel(texture, x, y, rgba);
     unassociate(rgba);
 }
 

@@ -339,6 +339,12 @@ void texture_gaussian_kernel(const RetexTexture *texture, const TextureFootprint
     memcpy(rgba, &sum, sizeof sum);
 }
 
+/* A black axis ends sharply: what lies within half a texel of its border is the border's texel. */
+static RetexWrap wrap_of_points(const RetexTexture *texture, int axis)
+{
+    return texture->spec.wrap[axis] == RETEX_WRAP_BLACK ? RETEX_WRAP_CLAMP : texture->spec.wrap[axis];
+}
+
 void texture_point_kernel(const RetexTexture *texture, double x, double y, float rgba[4])
 {
     const TextureLevel *image = &texture->levels[0];
@@ -346,9 +352,7 @@ void texture_point_kernel(const RetexTexture *texture, double x, double y, float
     y = first_period(y, image->height, texture->spec.wrap[1]) - 0.5;
     int x0 = whole_below(x), y0 = whole_below(y);
     float tx = (float)(x - x0), ty = (float)(y - y0);
-    /* A black axis ends sharply: what lies within half a texel of its border is the border's texel. */
-    RetexWrap wrap_x = texture->spec.wrap[0] == RETEX_WRAP_BLACK ? RETEX_WRAP_CLAMP : texture->spec.wrap[0];
-    RetexWrap wrap_y = texture->spec.wrap[1] == RETEX_WRAP_BLACK ? RETEX_WRAP_CLAMP : texture->spec.wrap[1];
+    RetexWrap wrap_x = wrap_of_points(texture, 0), wrap_y = wrap_of_points(texture, 1);
     Float4 lines[2];
     size_t size = texel_size(texture->narrow);
     int columns[2];
@@ -362,4 +366,17 @@ void texture_point_kernel(const RetexTexture *texture, double x, double y, float
     }
     Float4 sum = (lines[0] * (1 - ty) + lines[1] * ty) * texel_unit(texture->narrow);
     memcpy(rgba, &sum, sizeof sum);
+}
+
+void texture_nearest_kernel(const RetexTexture *texture, double x, double y, float rgba[4])
+{
+    const TextureLevel *image = &texture->levels[0];
+    int column = whole_below(first_period(x, image->width, texture->spec.wrap[0]));
+    int line = whole_below(first_period(y, image->height, texture->spec.wrap[1]));
+    column = clamp_index(wrap_index(column, image->width, wrap_of_points(texture, 0)), image->width);
+    line = clamp_index(wrap_index(line, image->height, wrap_of_points(texture, 1)), image->height);
+    size_t texel = (size_t)line * (size_t)image->width + (size_t)column;
+    Float4 value = raw_texel((const char *)image->texels + texel * texel_size(texture->narrow), texture->narrow) *
+                   texel_unit(texture->narrow);
+    memcpy(rgba, &value, sizeof value);
 }

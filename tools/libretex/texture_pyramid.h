@@ -63,9 +63,10 @@ typedef struct TextureFootprint {
     double low[2], high[2]; /* how far the surface reaches from there along x and y; -inf, inf: as far as you like */
 } TextureFootprint;
 
-/* Premultiplied results. The first is the bilinear look-up; the others need a covariance that is finite and positive
- * semidefinite. */
+/* Premultiplied results. The first is the bilinear look-up, the second the texel that the place lies in; the others
+ * need a covariance that is finite and positive semidefinite. */
 void texture_point_kernel(const RetexTexture *texture, double x, double y, float rgba[4]);
+void texture_nearest_kernel(const RetexTexture *texture, double x, double y, float rgba[4]);
 void texture_gaussian_kernel(const RetexTexture *texture, const TextureFootprint *footprint, float rgba[4]);
 void texture_disc_kernel(const RetexTexture *texture, const TextureFootprint *footprint, float rgba[4]);
 
