@@ -233,7 +233,7 @@ static void paint_light(RetexImage *im, int kind, int width, int height)
     }
 }
 
-/* OpenImageIO reads the very halves; little more bytes than a set's take, which gives up nothing. */
+/* OpenImageIO reads the very halves; as many bytes as a set's take, but for other bands. */
 static void test_exr_of_any_light(void **state)
 {
     (void)state;

@@ -15,6 +15,7 @@
 #include "exr_zip_kernel.h"
 
 enum { HEAD = 2, TAIL = 4 }; /* of a zlib stream: what it is, and a checksum */
+#define GIVE 0.05            /* of the size, for half of the time that compressing takes */
 
 static int need_scratch(RetexZip *zip, size_t bytes)
 {
@@ -53,8 +54,7 @@ size_t retex_zip_pack(RetexZip *zip, unsigned char *packed, const unsigned char 
     exr_zip_regroup(zip->scratch, raw, bytes);
     exr_zip_difference(zip->scratch + bytes, zip->scratch, bytes);
     /* a chunk as long as its data would be taken for uncompressed */
-    const size_t coded = retex_deflate(packed + HEAD, bytes - 1 - HEAD - TAIL, zip->scratch + bytes, bytes,
-                                       zip->give, 1);
+    const size_t coded = retex_deflate(packed + HEAD, bytes - 1 - HEAD - TAIL, zip->scratch + bytes, bytes, GIVE, 1);
     if (!coded)
         return 0;
     const uint32_t sum = (uint32_t)adler32_z(adler32(0, NULL, 0), zip->scratch + bytes, bytes);

@@ -9,7 +9,6 @@ typedef struct RetexZip {
     void *inflater; /* z_stream */
     unsigned char *scratch;
     size_t scratch_bytes;
-    double give; /* as of retex_deflate */
 } RetexZip;
 
 /* Compress bytes into packed, which has room for as many. Returns the packed size, or 0 where compression gains nothing

@@ -7,7 +7,6 @@
 #include "picture_format.h"
 
 enum { LEADER = 8, ENTRY = 8 }; /* bytes before a chunk: its first line, its size; of a table's entry */
-#define GIVE 0.05                  /* of a picture's size, for half of the time that compressing takes */
 
 typedef struct ExrMaker {
     RetexImage shape; /* no pixels */
@@ -60,7 +59,7 @@ static void put_little(unsigned char *to, uint64_t value, int bytes)
 /* Chunks of a band, one after the other. Returns their bytes, or 0 where memory is short. */
 static size_t make_chunks(ExrMaker *maker, unsigned char *to, int y0, int y1, const float *rows)
 {
-    RetexChunkScratch scratch = {.zip = {.give = GIVE}};
+    RetexChunkScratch scratch = {.raw = NULL};
     size_t at = 0;
 
     for (int y = y0; y < y1; y += RETEX_CHUNK_LINES) {
