@@ -5,8 +5,10 @@
 #include "film/footprint_pixel.h"
 
 #define LEAST_ALBEDO 1e-3f /* of other hits, where originals are averaged: a black one may be the one that is edited */
-/* White paint. */
-#define WHITE_ALBEDO 0.8f
+/* What so many hits of white paint, of albedo 0.8, leave of light. */
+static const float white_left[RETEX_MAX_FACTORS + 1] = {
+    1,          0.8f,        0.64f,        0.512f,       0.4096f,       0.32768f,     0.262144f,
+    0.2097152f, 0.16777216f, 0.134217728f, 0.107374182f, 0.0858993459f, 0.0687194767f};
 
 /* ---- life ---- */
 
@@ -35,15 +37,6 @@ void footprints_pixel_close(FootprintPixel **pixel)
 }
 
 /* ---- light ---- */
-
-/* Luminance of a monomial were all its targets white paint. */
-static float white_luminance(unsigned hits, Rgb value)
-{
-    float luminance = rgb_luminance(value);
-    for (; hits; hits &= hits - 1)
-        luminance *= WHITE_ALBEDO;
-    return luminance;
-}
 
 static void add_rgb(float sum[3], Rgb c)
 {
@@ -119,21 +112,25 @@ static void add_later(FootprintPixel *p, const TargetHit *hit, int order, double
     l->light = rgb_add(l->light, light);
 }
 
-/* The hits of a monomial beyond its first, as far as the plan keeps them: their numbers in the expansion. */
+/* The hits of a monomial beyond its first, as far as the plan keeps them: their numbers in the expansion, and with what
+ * albedo they weigh other hits. */
 typedef struct Kept {
-    int count, coefficient, folded;
+    int count, coefficient, folded, met; /* met: all of them */
     int hits[RETEX_MAX_FACTORS];
+    Rgb albedos[RETEX_MAX_FACTORS];
 } Kept;
 
 /* Which of the hits after the first, given as bits; the albedo of the others goes into value. */
 static void keep_hits(const Plan *plan, const Expansion *e, unsigned further, Rgb *value, Kept *kept)
 {
-    kept->count = kept->coefficient = kept->folded = 0;
+    kept->count = kept->coefficient = kept->folded = kept->met = 0;
     for (; further; further &= further - 1) {
         int j = __builtin_ctz(further);
         int next = plan->coefficients[kept->coefficient].next[e->hits[j].target];
+        kept->met++;
         if (next >= 0) {
             kept->coefficient = next;
+            kept->albedos[kept->count] = weighing_albedo(&e->hits[j]);
             kept->hits[kept->count++] = j;
         } else {
             *value = rgb_mul(*value, e->hits[j].albedo);
@@ -159,16 +156,13 @@ static void add_coefficient(Pending *q, int coefficient, Rgb value)
     q->used |= 1u << coefficient;
 }
 
-/* The further hits that are kept, each with the light that the others leave it. */
-static void add_further(FootprintPixel *p, const Expansion *e, const TargetHit *first, const Kept *kept, double weight,
-                        Rgb value)
+/* The further hits that are kept, each with the light that the others leave it: all_met is what all hits leave. */
+static void add_further(FootprintPixel *p, const Expansion *e, const Kept *kept, double weight, Rgb all_met)
 {
     for (int k = 0; k < kept->count; k++) {
-        Rgb others = rgb_mul(value, weighing_albedo(first));
-        for (int i = 0; i < kept->count; i++)
-            if (i != k)
-                others = rgb_mul(others, weighing_albedo(&e->hits[kept->hits[i]]));
-        add_later(p, &e->hits[kept->hits[k]], kept->hits[k], weight, others);
+        Rgb own = kept->albedos[k];
+        add_later(p, &e->hits[kept->hits[k]], kept->hits[k], weight,
+                  rgb(all_met.r / own.r, all_met.g / own.g, all_met.b / own.b));
     }
 }
 
@@ -177,20 +171,20 @@ static void add_with_further(FootprintPixel *p, const Expansion *e, int first, u
 {
     Kept kept;
     const TargetHit *hit = &e->hits[first];
-    float white = WHITE_ALBEDO * white_luminance(further, value);
+    float luminance = rgb_luminance(value);
     keep_hits(&p->film->plan, e, further, &value, &kept);
-    add_white_light(p->light, white, folded || kept.folded);
+    add_white_light(p->light, white_left[kept.met + 1] * luminance, folded || kept.folded);
     if (rgb_is_black(value))
         return;
     Rgb light = value;
     for (int k = 0; k < kept.count; k++)
-        light = rgb_mul(light, weighing_albedo(&e->hits[kept.hits[k]]));
+        light = rgb_mul(light, kept.albedos[k]);
     Pending *q = find_pending(p, hit, first);
     add_coefficient(q, kept.coefficient, value);
     if (kept.count) {
         double weight = p->film->plan.coefficients[kept.coefficient].weight * rgb_luminance(value);
         q->again = rgb_add(q->again, light);
-        add_further(p, e, hit, &kept, weight, value);
+        add_further(p, e, &kept, weight, rgb_mul(light, weighing_albedo(hit)));
     }
     if (kept.folded && !folded) /* else all of it counts as folded already */
         p->light->folded += rgb_luminance(rgb_mul(light, hit->albedo));
@@ -211,7 +205,7 @@ void footprints_connect(FootprintPixel *p, const Expansion *e, Rgb outside, int 
                 continue;
             }
             add_coefficient(find_pending(p, &e->hits[first], first), 0, value);
-            add_white_light(p->light, WHITE_ALBEDO * rgb_luminance(value), folded);
+            add_white_light(p->light, white_left[1] * rgb_luminance(value), folded);
         } else {
             p->free[0] += value.r, p->free[1] += value.g, p->free[2] += value.b;
             add_white_light(p->light, rgb_luminance(value), folded);
