@@ -1,4 +1,4 @@
-"""The page of make bench-post: page.py RECORDS OUT.csv CORES TABLE_SIZE TABLE_SPP
+"""The page of make bench-post: page.py RECORDS OUT.csv CORES TABLE_SIZE TABLE_SPP CONTROL_SPP
 
 Prints what run.sh measured as Markdown, and writes the figures as CSV.
 """
@@ -73,7 +73,7 @@ SIZES = """
 Megabytes on the disk at {size}, {spp} samples a pixel. The paper's are those of its Living Room at 1920x1080: EXR, and
 the same with radiance as JPEG; it has no originals in them. "DWAA" is `oiiotool -a --compression dwaa:45` of the whole
 set, which also coarsens UV: [storage.md](storage.md) measures what such files lose. Rousselle's buffers are those of
-the scene, whatever is changed, and need the scene as well. The columns behind say what of it is for what.
+the scene, whatever is changed, and need the scene as well{control}. The columns behind say what of it is for what.
 """
 
 
@@ -228,10 +228,11 @@ def section(c):
               f" {times(of, 2)} | {memory} |")
 
 
-def sizes(stored, size, spp):
+def sizes(stored, size, spp, control_spp):
     if not stored:
         return
-    print(SIZES.format(size=size, spp=spp))
+    control = "" if control_spp == spp else f"; here they have {control_spp} samples"
+    print(SIZES.format(size=size, spp=spp, control=control))
     for (scene, layout, edit), files in stored.items():
         if not edit:
             continue
@@ -274,7 +275,7 @@ def write_csv(path, cases, stored, size):
                               for group, bytes_ in of["groups"].items())
 
 
-def main(records, table, cores, size, spp):
+def main(records, table, cores, size, spp, control_spp):
     cases, stored = read(records)
     turns = max((len(runs) for c in cases.values() for runs in c.runs.values()), default=0)
     turns = f"{turns} times, every other turn backwards" if turns > 1 else "once"
@@ -283,7 +284,7 @@ def main(records, table, cores, size, spp):
     against_paper(cases)
     for case in cases.values():
         section(case)
-    sizes(stored, size, spp)
+    sizes(stored, size, spp, control_spp)
     write_csv(table, cases, stored, size)
 
 

@@ -14,7 +14,8 @@
 # disk. BENCH_SIZES, BENCH_SPP (else 32, and 8 from two million pixels on), BENCH_TURNS (5, of large pictures at most 3),
 # BENCH_SCENES='living-room artist', BENCH_EDITS='one two', BENCH_LAYOUTS (else footprints; 'footprints paper') choose
 # less, and BENCH_TABLE_SIZE and BENCH_TABLE_SPP what sizes are measured of (1920x1080, or the first of BENCH_SIZES
-# where they are given, with 128 samples, or BENCH_SPP; `no': nothing).
+# where they are given, with 128 samples, or BENCH_SPP; `no': nothing), and BENCH_CONTROL_SPP with how many samples
+# Rousselle's buffers are. With BENCH_RENDER=no what there is no set of is left out.
 set -eu
 bench='bench-post'
 . tests/bench/post/lib.sh
@@ -23,6 +24,7 @@ turns=${BENCH_TURNS:-5} sizes=${BENCH_SIZES:-640x640 1080x1080 2048x2048 4096x38
 scenes=${BENCH_SCENES:-living-room artist} edits=${BENCH_EDITS:-one two} layouts=${BENCH_LAYOUTS:-footprints}
 table_size=${BENCH_TABLE_SIZE:-${BENCH_SIZES:-1920x1080}}
 table_size=${table_size%% *} table_spp=${BENCH_TABLE_SPP:-${BENCH_SPP:-128}}
+control_spp=${BENCH_CONTROL_SPP:-$table_spp}
 rows='pack-jpg pack-exr pack-png pack-tif floor-pack set-jpg set-exr floor-set cat-pack cat-set pipe batch oiio render'
 variants=12
 if ! command -v oiiotool >/dev/null; then
@@ -108,6 +110,9 @@ agreement() { # WHAT A B: how far two pictures differ
     retex-diff --json "$2" "$3" >"$work/run.json" || [ $? = 1 ]
     record agreement "scene=$scene" "edit=$edit" "layout=$layout" "size=$size" "what=$1" "$work/run.json"
 }
+is_wanted() { # SIZE SPP TARGETS [SUFFIX]: there is a set, or it may be rendered
+    [ "${BENCH_RENDER:-}" != no ] || [ -e "$sets/$(set_name "$scene" "$layout" "$1" "$2" "$3")${4:-}.exr" ]
+}
 # The set that is measured, in $measured; its pack, in $pack.
 prepare() { # TARGETS
     denoised_set "$scene" "$layout" "$size" "$spp" "$1"
@@ -122,6 +127,7 @@ prepare() { # TARGETS
 measure_case() {
     targets=$(targets_of "$scene" "$edit") spp=$(spp_of "$size") file=$(scene_file "$scene")
     named="$scene $edit $layout $size"
+    is_wanted "$size" "$spp" "$targets" -denoised || return 0
     prepare "$targets"
     file=$(scene_file "$scene") samples=$work/out/samples.exr turn=1
     # shellcheck disable=SC2086
@@ -164,6 +170,7 @@ stored_as() { # WHAT FILE SET COMMAND...: of a file that is made for it
 }
 measure_sizes() {
     targets=$(targets_of "$scene" "$edit")
+    is_wanted "$table_size" "$table_spp" "$targets" || return 0
     echo "$scene $edit $layout: sizes" >&2
     rendered_set "$scene" "$layout" "$table_size" "$table_spp" "$targets"
     denoised_set "$scene" "$layout" "$table_size" "$table_spp" "$targets"
@@ -179,8 +186,8 @@ measure_sizes() {
 }
 measure_control() {
     for mode in biased unbiased; do
-        file=$sets/$scene-control-$mode-$table_size-$table_spp.exr
-        [ -e "$file" ] || retex-render -q --plain --control-data $mode --size "$table_size" --spp "$table_spp" \
+        file=$sets/$scene-control-$mode-$table_size-$control_spp.exr
+        [ -e "$file" ] || retex-render -q --plain --control-data $mode --size "$table_size" --spp "$control_spp" \
             "$(scene_file "$scene")" -o "$file"
         record stored "scene=$scene" "what=control-$mode" "bytes=$(stat -L -c %s "$file")"
     done
@@ -197,7 +204,8 @@ for scene in $scenes; do
     [ "$table_size" = no ] || measure_control
 done
 rm -rf "$work/out" "$work"/*.json
-"$python" $here/page.py "$records" "$out/post.csv" "$(nproc)" "$table_size" "$table_spp" | tee "$out/post.md"
+"$python" $here/page.py "$records" "$out/post.csv" "$(nproc)" "$table_size" "$table_spp" "$control_spp" |
+    tee "$out/post.md"
 if [ "${BENCH_DOCS:-}" = 1 ]; then
     cp "$out/post.md" "$out/post.csv" docs/
 fi
