@@ -33,7 +33,6 @@ typedef struct Render {
     ControlPixel **controls;       /* by thread */
     const RenderVariant *variants; /* or NULL: the original */
     const RetexImage *constants;   /* or NULL: by target, of the last variant */
-    int halves;                    /* of the samples: 2 are independent of each other */
     DenoiseGuides guides;
     PixelGuides *pixel_guides; /* by thread, or NULL: no guides */
     char *had;                 /* by band: taken over from another render */
@@ -123,7 +122,7 @@ typedef struct PixelStart {
 static PixelStart start_pixel(const Render *r, uint32_t seed, int x, int y)
 {
     PixelStart start = {.x = x, .y = y};
-    for (int half = 0; half < r->halves; half++) {
+    for (int half = 0; half < r->context.halves; half++) {
         Sampler first = sampler_start(half ? hash_pair(seed, 1) : seed, (uint32_t)x, (uint32_t)y, 0);
         start.samplers[half] = first;
         start.offsets[half] = pair_keys(first.key, DIMENSION_PIXEL);
@@ -134,21 +133,12 @@ static PixelStart start_pixel(const Render *r, uint32_t seed, int x, int y)
 /* Of a sample: its numbers, and the ray from the camera. */
 static Ray start_sample(const Render *r, const PixelStart *start, int sample, Sampler *sampler)
 {
-    int half = r->halves == 2 ? sample & 1 : 0;
+    int half = r->context.halves == 2 ? sample & 1 : 0;
     double dx, dy;
     *sampler = start->samplers[half];
-    sampler->sample = (uint32_t)sample >> (r->halves == 2);
+    sampler->sample = (uint32_t)sample >> (r->context.halves == 2);
     pixel_offset(r, &start->offsets[half], sampler->sample, &dx, &dy);
     return camera_ray(&r->scene->camera, r->width, r->height, start->x + dx, start->y + dy);
-}
-
-static void trace_sample(const Render *r, PathWorker *worker, const PixelStart *start, int sample)
-{
-    Sampler sampler;
-    Ray ray = start_sample(r, start, sample, &sampler);
-    path_trace(worker, &ray, &sampler, 1);
-    if (worker->control)
-        control_sample_end(worker->control, sample % r->halves);
 }
 
 static void trace_pixel(const Render *r, PathWorker *worker, int spp, int x, int y)
@@ -156,10 +146,7 @@ static void trace_pixel(const Render *r, PathWorker *worker, int spp, int x, int
     Ray rays[PATHS_MAX];
     Sampler samplers[PATHS_MAX];
     const PixelStart start = start_pixel(r, r->params.seed, x, y);
-    int together = !worker->control && r->context.nvariants == 1;
-    for (int s = 0; s < spp && !together; s++)
-        trace_sample(r, worker, &start, s);
-    for (int s = 0; s < spp && together; s += PATHS_MAX) {
+    for (int s = 0; s < spp; s += PATHS_MAX) {
         int count = spp - s < PATHS_MAX ? spp - s : PATHS_MAX;
         for (int i = 0; i < count; i++)
             rays[i] = start_sample(r, &start, s + i, &samplers[i]);
@@ -284,7 +271,7 @@ static void render_close(Render *r)
 /* What any use of the scene needs: the window, the ray structure and the lights. */
 static int render_open(Render *r, const Scene *scene, const RenderParams *params, RetexError *err)
 {
-    *r = (Render){.scene = scene, .halves = 1};
+    *r = (Render){.scene = scene};
     memcpy(&r->params, params, params->size < sizeof r->params ? params->size : sizeof r->params);
     int code = check_params(&r->params, err);
     if (!code)
@@ -301,7 +288,8 @@ static int render_open(Render *r, const Scene *scene, const RenderParams *params
                                .orders = r->params.orders,
                                .most_hits = expansion_most_hits(scene->ntargets, r->params.paper),
                                .split = split,
-                               .nvariants = 1};
+                               .nvariants = 1,
+                               .halves = 1};
     r->variants = r->params.nvariants > 0 ? r->params.variants : NULL;
     for (int k = 0; k < scene->nprimitives; k++)
         r->context.has_no_shadow |= scene->primitives[k].no_shadow;
@@ -424,7 +412,6 @@ static int render_film(Render *r, int control, int halves, RetexError *err)
     for (int k = 0; k < threads && !code; k++)
         code = open_worker(r, k, err);
     r->context.matte = r->context.nvariants == 1 && !r->context.white && !r->caustics && !r->context.has_no_shadow;
-    r->context.compare = r->context.nvariants > 1 || r->control;
     return code ? code : open_pilots(r, threads, err);
 }
 
@@ -466,7 +453,7 @@ typedef struct HalfSamples {
 static HalfSamples half_samples(const Render *r)
 {
     int spp = r->params.spp;
-    return r->halves == 2 ? (HalfSamples){{(spp + 1) / 2, spp / 2}} : (HalfSamples){{spp, 0}};
+    return r->context.halves == 2 ? (HalfSamples){{(spp + 1) / 2, spp / 2}} : (HalfSamples){{spp, 0}};
 }
 
 /* Trace all paths. */
@@ -497,12 +484,11 @@ static int add_irradiance(RetexSet *set, const Render *r, RetexError *err)
                    .h = r->h,
                    .tiles_x = r->tiles_x,
                    .tiles_y = r->tiles_y,
-                   .context = r->context,
-                   .halves = 1};
+                   .context = r->context};
     RetexSet *found = NULL;
     RenderStats ignored = {0};
     int part;
-    pass.context.white = 1, pass.context.split = 0;
+    pass.context.white = 1, pass.context.split = 0, pass.context.halves = 1;
     pass.params.seed = hash_pair(r->params.seed, 2), pass.params.progress = NULL;
     pass.params.denoise_data = 0, pass.params.noise = 0;
     forget_files(&pass.params);
@@ -527,8 +513,8 @@ static int add_irradiance(RetexSet *set, const Render *r, RetexError *err)
 static int render_into(RetexSet *set, Render *r, RenderStats *stats, double started, RetexError *err)
 {
     int data = r->params.control_data;
-    r->halves = data == 2 ? 2 : 1;
-    int code = render_film(r, data > 0, r->halves, err);
+    r->context.halves = data == 2 ? 2 : 1;
+    int code = render_film(r, data > 0, r->context.halves, err);
     if (code)
         return code;
     render_paths(r, stats, started);
@@ -553,7 +539,7 @@ static int render_into(RetexSet *set, Render *r, RenderStats *stats, double star
         code = add_irradiance(set, r, err);
     if (!code && data) {
         ControlMoments *moments[2] = {control_film_moments(r->control, 0), control_film_moments(r->control, 1)};
-        code = control_data_add(set, moments, half_samples(r).samples, r->halves, err);
+        code = control_data_add(set, moments, half_samples(r).samples, r->context.halves, err);
     }
     film_give_spool(r->film, set);
     stats->render_seconds = seconds() - started - stats->build_seconds;
@@ -672,15 +658,15 @@ static int find_constants(Render *r, const RetexSet *set, RetexImage *constants,
 static int trace_control(Render *r, RetexImage *picture, const RetexSet *set, const RetexImage *combined,
                          ControlMode mode, double *distance, RenderStats *stats, double started, RetexError *err)
 {
-    r->halves = mode == CONTROL_HALVES ? 2 : 1;
-    int code = render_film(r, 1, r->halves, err);
+    r->context.halves = mode == CONTROL_HALVES ? 2 : 1;
+    int code = render_film(r, 1, r->context.halves, err);
     if (code)
         return code;
     render_paths(r, stats, started);
     ControlMoments *moments[2] = {control_film_moments(r->control, 0), control_film_moments(r->control, 1)};
     HalfSamples half = half_samples(r);
     if (distance)
-        *distance = control_distance(moments, half.samples, r->halves, set);
+        *distance = control_distance(moments, half.samples, r->context.halves, set);
     return control_variate(picture, moments, half.samples, set, combined, mode, err);
 }
 
@@ -754,7 +740,9 @@ int render_trace(const Scene *scene, const RenderParams *params, int x, int y, i
         r.context.trace = out, r.context.matte = 0;
         fprintf(out, "pixel %d,%d sample %d of %dx%d\n", x, y, sample, r.width, r.height);
         const PixelStart start = start_pixel(&r, r.params.seed, x, y);
-        trace_sample(&r, &r.workers[0], &start, sample);
+        Sampler sampler;
+        Ray ray = start_sample(&r, &start, sample, &sampler);
+        path_trace(&r.workers[0], &ray, &sampler, 1);
     }
     render_close(&r);
     return code;
