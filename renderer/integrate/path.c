@@ -319,7 +319,10 @@ static void connect_matte(PathWorker *w, Packet *p, int lane, int k)
     Split value = {rgb_grey(lights->value[k]), {0, 0, 0}}, shine = {p->faces[k]->shine[lights->behind[k]], {0, 0, 0}};
     Rgb light = rgb_scale(t->light.radiance, lights->weight[k]);
     if (passed == 0 && path_sees_plain(w->context, &v->s)) {
-        path_bring(w, path, rgb_mul(rgb_mul(light, split_apply(value, shading_albedo(&v->s, 0))), shine.d));
+        Rgb by_variant[VARIANTS_MAX];
+        for (int i = 0; i < w->context->nvariants; i++)
+            by_variant[i] = rgb_mul(rgb_mul(light, split_apply(value, shading_albedo(&v->s, i))), shine.d);
+        path_bring(w, path, by_variant);
         return;
     }
     factors[0] = shading_factor(&v->s, value);
@@ -338,7 +341,7 @@ static int scatter_matte(PathWorker *w, Packet *p, int lane, int k, Ray *ray)
     if (!bounces->found[k])
         return 0;
     path->neutral *= at_most(split_neutral(weight), 1);
-    if (path_sees_plain(w->context, s)) {
+    if (path_sees_plain(w->context, s) && !s->replaced) {
         if (!path_scale(w, path, split_apply(weight, shading_albedo(s, 0))))
             return 0;
     } else {

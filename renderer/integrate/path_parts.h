@@ -89,7 +89,8 @@ static inline int path_scale(PathWorker *w, Path *path, Rgb by)
 int path_scatter(PathWorker *worker, Path *path, Factor *factor);
 /* Light reaches the path's end through some more factors. Factors are the callee's to change, here and above. */
 void path_connect(PathWorker *worker, Path *path, Rgb light, Factor *factors, int nfactors);
-void path_bring(PathWorker *worker, Path *path, Rgb light); /* through no factor of a target: all are in it */
+/* By variant, through no factor of a target: all are in it. */
+void path_bring(PathWorker *worker, Path *path, const Rgb *lights);
 void path_end(PathWorker *worker, Path *path);
 /* May a surface's factors go into a scale or light as they are? */
 static inline int path_sees_plain(const PathContext *c, const Shading *s)

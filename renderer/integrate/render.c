@@ -411,7 +411,7 @@ static int render_film(Render *r, int control, int halves, RetexError *err)
         code = control_pixel_create(&r->controls[k], r->control, err);
     for (int k = 0; k < threads && !code; k++)
         code = open_worker(r, k, err);
-    r->context.matte = r->context.nvariants == 1 && !r->context.white && !r->caustics && !r->context.has_no_shadow;
+    r->context.matte = !r->context.white && !r->caustics && !r->context.has_no_shadow;
     return code ? code : open_pilots(r, threads, err);
 }
 

@@ -212,25 +212,18 @@ static void multiply_others(const PathContext *c, Rgb *betas, const Factor *f)
         betas[v] = rgb_mul(betas[v], split_apply(f->split, f->albedos ? f->albedos[v] : f->albedo));
 }
 
-/* For the control film. Of the first variant all that arrived is known already, of the others the light and the factors
- * it comes through. */
-static void log_light(PathWorker *w, Path *path, Rgb first, Rgb light, const Factor *factors, int nfactors)
+/* Room for the light that just arrived, by variant, for the control film. */
+static Rgb *add_to_log(PathWorker *w, Path *path)
 {
-    const PathContext *c = w->context;
     ControlLog *log = &w->log;
     int at = log->count++;
-    Rgb *lights = log->lights + (size_t)at * (size_t)c->nvariants;
     log->next[at] = -1;
     if (path->last_light < 0)
         path->first_light = at;
     else
         log->next[path->last_light] = at;
     path->last_light = at;
-    lights[0] = first;
-    for (int v = 1; v < c->nvariants; v++)
-        lights[v] = rgb_mul(path->betas[v], light);
-    for (int k = 0; k < nfactors; k++)
-        multiply_others(c, lights, &factors[k]);
+    return log->lights + (size_t)at * (size_t)w->context->nvariants;
 }
 
 static void hand_over_log(PathWorker *w, const Path *path)
@@ -282,15 +275,19 @@ static void add_plain(PathWorker *w, Path *path, Rgb beauty)
         path->light[0] += beauty.r, path->light[1] += beauty.g, path->light[2] += beauty.b;
 }
 
-void path_bring(PathWorker *w, Path *path, Rgb light)
+void path_bring(PathWorker *w, Path *path, const Rgb *lights)
 {
-    Rgb beauty = rgb_mul(path->beta, light);
+    Rgb beauty = rgb_mul(path->beta, lights[0]);
     if (w->context->split)
-        arrive(w, path, &(FilmLight){beauty, rgb_mul(path->outside, light), path->folded, 1});
+        arrive(w, path, &(FilmLight){beauty, rgb_mul(path->outside, lights[0]), path->folded, 1});
     else
         add_plain(w, path, beauty);
-    if (w->control)
-        log_light(w, path, beauty, light, NULL, 0);
+    if (!w->control)
+        return;
+    Rgb *arrived = add_to_log(w, path);
+    arrived[0] = beauty;
+    for (int v = 1; v < w->context->nvariants; v++)
+        arrived[v] = rgb_mul(path->betas[v], lights[v]);
 }
 
 /* As path_connect, of plain pictures. Returns what arrives. */
@@ -339,8 +336,14 @@ void path_connect(PathWorker *w, Path *path, Rgb light, Factor *factors, int nfa
 {
     Rgb beauty = w->context->split ? connect_split(w, path, light, factors, nfactors)
                                    : connect_plain(w, path, light, factors, nfactors);
-    if (w->control)
-        log_light(w, path, beauty, light, factors, nfactors);
+    if (!w->control)
+        return;
+    Rgb *arrived = add_to_log(w, path);
+    arrived[0] = beauty;
+    for (int v = 1; v < w->context->nvariants; v++)
+        arrived[v] = rgb_mul(path->betas[v], light);
+    for (int k = 0; k < nfactors; k++)
+        multiply_others(w->context, arrived, &factors[k]);
 }
 
 void path_end(PathWorker *w, Path *path)
