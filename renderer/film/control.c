@@ -14,8 +14,8 @@ struct ControlFilm {
 struct ControlPixel {
     ControlFilm *film;
     double picture[VARIANTS_MAX][3];
-    /* of the sample in hand, then by half */
-    double sample[CONTROL_VARIANTS_MAX][3];
+    double sample[VARIANTS_MAX][3]; /* the one in hand */
+    /* by half */
     double sum[2][CONTROL_VARIANTS_MAX][3], product[2][CONTROL_PAIRS_MAX][3];
     int samples[2];
     long dropped;
@@ -85,27 +85,29 @@ void control_connect(ControlPixel *p, const Rgb *light)
             p->dropped += v > 0;
             continue;
         }
-        p->picture[v][0] += l.r, p->picture[v][1] += l.g, p->picture[v][2] += l.b;
-        if (film->nhalves)
-            p->sample[v][0] += l.r, p->sample[v][1] += l.g, p->sample[v][2] += l.b;
+        p->sample[v][0] += l.r, p->sample[v][1] += l.g, p->sample[v][2] += l.b;
     }
+}
+
+/* Pictures take all that a sample brought as one, as the film does: so they have the same bits. */
+static void end_sample(ControlPixel *p)
+{
+    for (int v = 0; v < p->film->nvariants; v++)
+        for (int c = 0; c < 3; c++)
+            p->picture[v][c] += p->sample[v][c], p->sample[v][c] = 0;
 }
 
 void control_sample_end(ControlPixel *p, int half)
 {
-    int n = p->film->nvariants;
-    if (!p->film->nhalves)
-        return;
+    int n = p->film->nhalves ? p->film->nvariants : 0;
     p->samples[half]++;
-    for (int c = 0; c < 3; c++) {
+    for (int c = 0; c < 3; c++)
         for (int b = 0; b < n; b++) {
             p->sum[half][b][c] += p->sample[b][c];
             for (int a = 0; a <= b; a++)
                 p->product[half][control_pair(a, b)][c] += p->sample[a][c] * p->sample[b][c];
         }
-        for (int v = 0; v < n; v++)
-            p->sample[v][c] = 0;
-    }
+    end_sample(p);
 }
 
 static void store_moments(ControlPixel *p, int half, size_t at)
@@ -129,6 +131,7 @@ void control_pixel_end(ControlPixel *p, int x, int y)
 {
     ControlFilm *film = p->film;
     size_t at = retex_image_index(&film->pictures[0], x, y);
+    end_sample(p);
     for (int v = 0; v < film->nvariants; v++)
         for (size_t c = 0; c < 3; c++)
             film->pictures[v].pixels[at + c] = (float)(p->picture[v][c] / film->spp);

@@ -23,7 +23,7 @@ int adaptive_create(Adaptive **out, const PathContext *context, const RenderVari
     if (!a)
         return retex_fail(err, RETEX_ENOMEM, "out of memory for adaptive sampling");
     a->context = *context;
-    a->context.split = a->context.compare = 0, a->context.nvariants = 1;
+    a->context.split = 0, a->context.nvariants = a->context.halves = 1;
     int code = film_create(&a->film, context->scene, &film, err);
     if (!code)
         code = film_pixel_create(&a->pixel, a->film, err);

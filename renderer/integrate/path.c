@@ -158,7 +158,7 @@ typedef struct Packet {
     Ray *rays; /* that they came along */
     int count;
     Vertex vertices[ACCEL_PACKET];
-    VertexSamples numbers;
+    VertexSamples numbers[2]; /* by half of the samples */
     int matte[ACCEL_PACKET]; /* lane of the matte ones, or -1 */
     MattePacket mattes;
     MatteLights lights;
@@ -172,8 +172,8 @@ typedef struct Packet {
 static int add_matte(PathWorker *w, Packet *p, int lane)
 {
     const PathContext *c = w->context;
-    const VertexSamples *u = &p->numbers;
     Vertex *v = &p->vertices[lane];
+    const VertexSamples *u = v->numbers;
     const Shading *s = &v->s;
     const Finish *finish = s->surface.texture->finish;
     MattePacket *m = &p->mattes;
@@ -213,7 +213,7 @@ static void fill_vertex(PathWorker *w, Packet *p, int lane, const Hit *hit)
     const Ray *ray = &p->rays[lane];
     Vertex *v = &p->vertices[lane];
     v->distance = hit->t, v->last = path->segments >= c->max_depth;
-    v->numbers = &p->numbers, v->lane = lane;
+    v->numbers = &p->numbers[path->half], v->lane = lane;
     v->light.found = v->picked = 0;
     shading_color(&v->s, w->variants, c->nvariants);
     if (add_matte(w, p, lane))
@@ -319,7 +319,10 @@ static void connect_matte(PathWorker *w, Packet *p, int lane, int k)
     Split value = {rgb_grey(lights->value[k]), {0, 0, 0}}, shine = {p->faces[k]->shine[lights->behind[k]], {0, 0, 0}};
     Rgb light = rgb_scale(t->light.radiance, lights->weight[k]);
     if (passed == 0 && path_sees_plain(w->context, &v->s)) {
-        path_bring(w, path, rgb_mul(rgb_mul(light, split_apply(value, shading_albedo(&v->s, 0))), shine.d));
+        Rgb by_variant[VARIANTS_MAX];
+        for (int i = 0; i < w->context->nvariants; i++)
+            by_variant[i] = rgb_mul(rgb_mul(light, split_apply(value, shading_albedo(&v->s, i))), shine.d);
+        path_bring(w, path, by_variant);
         return;
     }
     factors[0] = shading_factor(&v->s, value);
@@ -338,7 +341,7 @@ static int scatter_matte(PathWorker *w, Packet *p, int lane, int k, Ray *ray)
     if (!bounces->found[k])
         return 0;
     path->neutral *= at_most(split_neutral(weight), 1);
-    if (path_sees_plain(w->context, s)) {
+    if (path_sees_plain(w->context, s) && !s->replaced) {
         if (!path_scale(w, path, split_apply(weight, shading_albedo(s, 0))))
             return 0;
     } else {
@@ -352,7 +355,7 @@ static int scatter_matte(PathWorker *w, Packet *p, int lane, int k, Ray *ray)
     ray->origin = matte_get(&bounces->origin, k);
     ray->direction = matte_get(&bounces->direction, k);
     ray->tmin = 0;
-    return bounce(w, path, bounces->pdf[k], bounces->pdf[k] > SHARP_PDF, p->numbers.roulette[lane]);
+    return bounce(w, path, bounces->pdf[k], bounces->pdf[k] > SHARP_PDF, p->vertices[lane].numbers->roulette[lane]);
 }
 
 /* Step by step for all, so that what one step has to wait for from memory is on its way while others are at work. */
@@ -384,7 +387,8 @@ static void meet(PathWorker *w, Packet *p, int step)
     else
         for (int i = 0; i < p->count; i++)
             accel_intersect(accel, &p->rays[i], kinds[i], &hits[i]);
-    vertex_samples(&w->keys, w->key, samples, (unsigned)step, &p->numbers);
+    for (int half = 0; half < w->context->halves; half++)
+        vertex_samples(&w->keys[half], w->key[half], samples, (unsigned)step, &p->numbers[half]);
     find_surfaces(w->context->scene, p, hits);
     p->mattes.count = 0;
     for (int i = 0; i < p->count; i++)
@@ -428,12 +432,14 @@ void path_trace(PathWorker *w, const Ray *rays, const Sampler *samplers, int cou
 {
     Wave wave;
     wave.count = count;
-    w->nevents = 0;
-    w->key = samplers[0].key;
+    w->nevents = w->log.count = 0;
     for (int i = 0; i < count; i++) {
-        wave.live[i] = &wave.paths[i];
+        Path *path = wave.live[i] = &wave.paths[i];
         wave.rays[i] = rays[i];
-        path_start(w, &wave.paths[i], &rays[i], &samplers[i]);
+        path->half = w->context->halves == 2 ? i & 1 : 0;
+        path->betas = w->betas[i];
+        w->key[path->half] = samplers[i].key;
+        path_start(w, path, &rays[i], &samplers[i]);
     }
     for (int step = 0; wave.count > 0; step++) {
         int alive = wave.count;

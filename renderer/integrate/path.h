@@ -24,8 +24,8 @@ typedef struct PathContext {
     int most_hits;     /* of all targets together */
     int split;         /* keep target hits apart */
     int matte;         /* matte surfaces may be looked at a packet at a time, see matte.h */
-    int compare;       /* variants, or one variant's moments, are asked for: a path has a beta for each */
-    int nvariants;     /* 1..VARIANTS_MAX: what the same path brings with different textures */
+    int nvariants;     /* 1..VARIANTS_MAX: what the same path brings with different textures; 1 where split */
+    int halves;        /* of a pixel's samples, which take turns: 1, or 2 with numbers of their own */
     int white;         /* the first hit is a white diffuse surface instead, that gives no light itself */
     int has_no_shadow; /* some primitive throws no shadow: what blocks shadow rays and paths is not the same */
     FILE *trace;       /* say what happens, or NULL */
@@ -45,6 +45,13 @@ typedef struct Factor {
 /* What a path brings to a set; see throughput.c. */
 typedef struct PathEvent PathEvent;
 
+/* Light that reached the ends of paths, in the order it came: what a control film gets when they end. */
+typedef struct ControlLog {
+    Rgb *lights; /* of so many variants each */
+    int *next;   /* of the same path; -1: none */
+    int count;
+} ControlLog;
+
 /* One thread's counters and scratch. */
 typedef struct PathWorker {
     const PathContext *context;
@@ -54,16 +61,18 @@ typedef struct PathWorker {
     struct PixelGuides *guides;              /* get what rays from the camera meet, or NULL */
     RenderVariant own[CONTROL_VARIANTS_MAX]; /* variants, where they have constants by pixel */
     Rgb constants[RETEX_MAX_TARGETS];        /* of the pixel in hand */
-    Rgb betas[VARIANTS_MAX];                 /* throughput of the path in hand by variant, where they are compared */
     Expansion expansion;                     /* of the path that is handed over */
     ExpansionMark mark;                      /* of it before a connection's own hits */
     PathEvent *events;                       /* of sets: room for those of all paths that are traced side by side */
     int nevents;
-    PixelKeys keys;
-    uint32_t key; /* of the sample numbers of the paths in hand */
+    ControlLog log; /* where there is a control film: likewise */
+    PixelKeys keys[2];
+    uint32_t key[2]; /* of the sample numbers of the paths in hand, by half of the samples */
     long segments, shadow_rays;
-    /* Colours of variants at a sampled light and at what a shadow ray passes. */
-    Rgb light_albedos[VARIANTS_MAX], shadow_albedos[SHADOW_FACTORS_MAX][VARIANTS_MAX];
+    /* By variant: colours at the lights sampled for a packet and at what a shadow ray passes; throughputs of all paths
+     * that are traced side by side. */
+    Rgb light_albedos[ACCEL_PACKET][VARIANTS_MAX], shadow_albedos[SHADOW_FACTORS_MAX][VARIANTS_MAX];
+    Rgb betas[PATHS_MAX][VARIANTS_MAX];
 } PathWorker;
 
 /* Everything shading needs at a hit: the surface, its colour and its BSDF. */
@@ -102,8 +111,8 @@ static inline RayKind path_next_kind(RayKind kind, const Bsdf *bsdf, int transmi
 
 int path_worker_open(PathWorker *worker, RetexError *err); /* the rest is filled in */
 void path_worker_close(PathWorker *worker);
-/* Up to PATHS_MAX paths of one pixel, side by side; what they bring is the same as of one after the other. One only
- * where there are several variants or what happens is said. */
+/* Up to PATHS_MAX paths of one pixel, side by side; what they bring is the same as of one after the other. The first is
+ * of the first half of the samples. One only where what happens is said. */
 void path_trace(PathWorker *worker, const Ray *rays, const Sampler *samplers, int count);
 
 #endif

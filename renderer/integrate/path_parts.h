@@ -15,6 +15,7 @@ typedef struct Media {
 /* Light arrives, or the path goes on. */
 typedef struct Path {
     Rgb beta;             /* throughput */
+    Rgb *betas;           /* by variant, from the second on: the first one's is beta */
     Rgb outside;          /* throughput but for target hits: where it is black no texture brings light back */
     float neutral;        /* throughput with NEUTRAL_ALBEDO everywhere: for Russian roulette */
     float pdf;            /* density of the direction, 0 after a delta */
@@ -22,7 +23,8 @@ typedef struct Path {
     int segments, passed; /* so far; passed: surfaces that did not bend the path, which are no segments of their own */
     int sharp;            /* so far every bounce was specular, or nearly so */
     RayKind kind;
-    uint32_t sample; /* in its pixel */
+    uint32_t sample; /* in its half of the pixel's */
+    int half;
     Media media;
     double light[3];    /* that arrived, in plain renders */
     ExpansionSize hits; /* of targets, in sets */
@@ -30,6 +32,7 @@ typedef struct Path {
     PathEvent *arrived; /* light behind all hits so far and no others, or NULL */
     PathEvent *beside;  /* light that came last, by one more hit, or NULL */
     int first, last;    /* of its events, or -1 */
+    int first_light, last_light; /* likewise, in the worker's log */
 } Path;
 
 /* Light picked for a vertex, before it is known whether anything is in the way. */
@@ -62,30 +65,32 @@ typedef struct Vertex {
 
 Factor shading_factor(const Shading *s, Split split);
 void path_start(PathWorker *worker, Path *path, const Ray *ray, const Sampler *sampler);
-void path_scale_variants(PathWorker *worker, Rgb by);
-int path_variants_are_spent(const PathWorker *worker); /* nothing is left of the path in any */
 /* Can any light come by it? */
 static inline int path_is_alive(const PathWorker *w, const Path *path)
 {
     const PathContext *c = w->context;
     if (c->split)
         return !rgb_is_black(path->outside);
-    return c->compare ? !path_variants_are_spent(w) : !rgb_is_black(path->beta);
+    int alive = !rgb_is_black(path->beta);
+    for (int v = 1; v < c->nvariants && !alive; v++)
+        alive = !rgb_is_black(path->betas[v]);
+    return alive;
 }
 /* By what no target did. Returns 0 where no light can come by it. */
 static inline int path_scale(PathWorker *w, Path *path, Rgb by)
 {
     path->beta = rgb_mul(path->beta, by);
     path->outside = rgb_mul(path->outside, by);
-    if (w->context->compare)
-        path_scale_variants(w, by);
+    for (int v = 1; v < w->context->nvariants; v++)
+        path->betas[v] = rgb_mul(path->betas[v], by);
     return path_is_alive(w, path);
 }
 /* A bounce. Returns 0 likewise. */
 int path_scatter(PathWorker *worker, Path *path, Factor *factor);
 /* Light reaches the path's end through some more factors. Factors are the callee's to change, here and above. */
 void path_connect(PathWorker *worker, Path *path, Rgb light, Factor *factors, int nfactors);
-void path_bring(PathWorker *worker, Path *path, Rgb light); /* through no factor of a target: all are in it */
+/* By variant, through no factor of a target: all are in it. */
+void path_bring(PathWorker *worker, Path *path, const Rgb *lights);
 void path_end(PathWorker *worker, Path *path);
 /* May a surface's factors go into a scale or light as they are? */
 static inline int path_sees_plain(const PathContext *c, const Shading *s)

@@ -1,51 +1,14 @@
-/* The picture: tiles over threads, paths over samples, everything into a set. */
-#include <stdatomic.h>
+/* A render from beginning to end: what it needs, and everything into a set. */
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
 #include <retex/parallel.h>
-#include "integrate/adaptive.h"
-#include "integrate/camera.h"
-#include "integrate/control_constants.h"
-#include "integrate/denoise_guides.h"
-#include "integrate/first_hit.h"
-#include "integrate/path.h"
 #include "integrate/originals.h"
 #include "integrate/pieces.h"
+#include "integrate/render_parts.h"
 #include "integrate/uv_scale.h"
 
-#define TILE_WIDTH 32
-#define TILE_HEIGHT BAND_LINES
-
-/* All of one render. */
-typedef struct Render {
-    const Scene *scene;
-    RenderParams params;
-    int width, height; /* of the whole picture */
-    int x0, y0, w, h;  /* the part that is rendered */
-    int tiles_x, tiles_y;
-    Accel *accel;
-    Lights *lights;
-    Caustics *caustics; /* or NULL */
-    Film *film;
-    FilmPixel **pixels;            /* by thread */
-    ControlFilm *control;          /* of several variants, or NULL */
-    ControlPixel **controls;       /* by thread */
-    const RenderVariant *variants; /* or NULL: the original */
-    const RetexImage *constants;   /* or NULL: by target, of the last variant */
-    int halves;                    /* of the samples: 2 are independent of each other */
-    DenoiseGuides guides;
-    PixelGuides *pixel_guides; /* by thread, or NULL: no guides */
-    char *had;                 /* by band: taken over from another render */
-    int wanted;                /* tiles, of all that are to be rendered */
-    PathContext context;
-    PathWorker *workers; /* by thread */
-    Adaptive **pilots;   /* by thread, or NULL: all tiles get as many samples */
-    atomic_int done;
-    atomic_long paths;
-} Render;
-
-static double seconds(void)
+double render_clock(void)
 {
     struct timespec t;
     clock_gettime(CLOCK_MONOTONIC, &t);
@@ -73,8 +36,7 @@ static int check_params(const RenderParams *p, RetexError *err)
     return RETEX_OK;
 }
 
-/* Of a render beside the one that files are for. */
-static void forget_files(RenderParams *p)
+void render_forget_files(RenderParams *p)
 {
     p->spooled = p->resume = p->nshards = p->nmerged = 0;
     p->journal = NULL;
@@ -98,159 +60,7 @@ static int set_window(Render *r, RetexError *err)
     return RETEX_OK;
 }
 
-/* Where in the pixel a sample looks: uniform, or by the Gaussian's own density so that every sample weighs the same. */
-static void pixel_offset(const Render *r, const PairKeys *keys, uint32_t sample, double *dx, double *dy)
-{
-    float u, v;
-    pair_of_keys(keys, sample, &u, &v);
-    *dx = u, *dy = v;
-    if (r->context.white)
-        *dx = *dy = 0.5;
-    if (!r->params.gaussian || r->context.white)
-        return;
-    double radius = 0.5 * sqrt(-2 * log(1 - u)), phi = 2 * PI * v;
-    *dx = 0.5 + radius * cos(phi), *dy = 0.5 + radius * sin(phi);
-}
-
-/* What the samples of a pixel begin with, by half: each has points of its own, for those of one would fill each other's
- * gaps. */
-typedef struct PixelStart {
-    int x, y;
-    Sampler samplers[2]; /* of the first sample */
-    PairKeys offsets[2];
-} PixelStart;
-
-static PixelStart start_pixel(const Render *r, uint32_t seed, int x, int y)
-{
-    PixelStart start = {.x = x, .y = y};
-    for (int half = 0; half < r->halves; half++) {
-        Sampler first = sampler_start(half ? hash_pair(seed, 1) : seed, (uint32_t)x, (uint32_t)y, 0);
-        start.samplers[half] = first;
-        start.offsets[half] = pair_keys(first.key, DIMENSION_PIXEL);
-    }
-    return start;
-}
-
-/* Of a sample: its numbers, and the ray from the camera. */
-static Ray start_sample(const Render *r, const PixelStart *start, int sample, Sampler *sampler)
-{
-    int half = r->halves == 2 ? sample & 1 : 0;
-    double dx, dy;
-    *sampler = start->samplers[half];
-    sampler->sample = (uint32_t)sample >> (r->halves == 2);
-    pixel_offset(r, &start->offsets[half], sampler->sample, &dx, &dy);
-    return camera_ray(&r->scene->camera, r->width, r->height, start->x + dx, start->y + dy);
-}
-
-static void trace_sample(const Render *r, PathWorker *worker, const PixelStart *start, int sample)
-{
-    Sampler sampler;
-    Ray ray = start_sample(r, start, sample, &sampler);
-    path_trace(worker, &ray, &sampler, 1);
-    if (worker->control)
-        control_sample_end(worker->control, sample % r->halves);
-}
-
-static void trace_pixel(const Render *r, PathWorker *worker, int spp, int x, int y)
-{
-    Ray rays[PATHS_MAX];
-    Sampler samplers[PATHS_MAX];
-    const PixelStart start = start_pixel(r, r->params.seed, x, y);
-    int together = !worker->control && r->context.nvariants == 1;
-    for (int s = 0; s < spp && !together; s++)
-        trace_sample(r, worker, &start, s);
-    for (int s = 0; s < spp && together; s += PATHS_MAX) {
-        int count = spp - s < PATHS_MAX ? spp - s : PATHS_MAX;
-        for (int i = 0; i < count; i++)
-            rays[i] = start_sample(r, &start, s + i, &samplers[i]);
-        path_trace(worker, rays, samplers, count);
-    }
-}
-
-/* Samples a pixel of a tile. */
-static int tile_samples(const Render *r, int thread, int x0, int y0)
-{
-    Sampler sampler;
-    Adaptive *pilot = r->pilots ? r->pilots[thread] : NULL;
-    if (!pilot)
-        return r->params.spp;
-    for (int y = y0; y < y0 + TILE_HEIGHT && y < r->h; y++)
-        for (int x = x0; x < x0 + TILE_WIDTH && x < r->w; x++) {
-            const PixelStart start = start_pixel(r, hash_pair(r->params.seed, 3), r->x0 + x, r->y0 + y);
-            for (int s = 0; s < ADAPTIVE_PILOT; s++) {
-                Ray ray = start_sample(r, &start, s, &sampler);
-                path_trace(adaptive_worker(pilot), &ray, &sampler, 1);
-                adaptive_path_end(pilot);
-            }
-            adaptive_pixel_end(pilot);
-        }
-    return adaptive_tile_samples(pilot, r->params.noise, r->params.spp);
-}
-
-/* Guides look on where further samples would, if there were fewer than they want. */
-static void end_guides(const Render *r, int thread, int spp, int x, int y)
-{
-    PixelGuides *guides = &r->pixel_guides[thread];
-    Ray rays[ACCEL_PACKET];
-    Sampler unused;
-    const PixelStart start = start_pixel(r, r->params.seed, r->x0 + x, r->y0 + y);
-    for (int s = spp, count; (count = denoise_guides_missing(guides)) > 0; s += count) {
-        count = count < ACCEL_PACKET ? count : ACCEL_PACKET;
-        for (int i = 0; i < count; i++)
-            rays[i] = start_sample(r, &start, s + i, &unused);
-        denoise_guides_look_along(guides, rays, count);
-    }
-    denoise_guides_pixel_end(guides, r->pixels[thread], x, y);
-}
-
-static void render_pixel(Render *r, int thread, int spp, int x, int y)
-{
-    FilmPixel *pixel = r->pixels[thread];
-    PathWorker *worker = &r->workers[thread];
-    for (int t = 0; r->constants && t < r->scene->ntargets; t++) {
-        const float *p = r->constants[t].pixels + retex_image_index(&r->constants[t], x, y);
-        worker->constants[t] = rgb(p[0], p[1], p[2]);
-    }
-    trace_pixel(r, worker, spp, r->x0 + x, r->y0 + y);
-    film_pixel_end(pixel, x, y);
-    if (r->control)
-        control_pixel_end(r->controls[thread], x, y);
-    if (r->pixel_guides)
-        end_guides(r, thread, spp, x, y);
-}
-
-static int is_stopped(const Render *r)
-{
-    return r->params.stop && *r->params.stop;
-}
-
-/* Whether a band is to be rendered: of this shard, and not done by another render. */
-static int is_wanted(const Render *r, int band)
-{
-    return (!r->params.nshards || band % r->params.nshards == r->params.shard - 1) && !r->had[band];
-}
-
-static void render_tile(void *context, int tile, int thread)
-{
-    Render *r = context;
-    int x0 = tile % r->tiles_x * TILE_WIDTH, y0 = tile / r->tiles_x * TILE_HEIGHT;
-    if (film_failed(r->film) || is_stopped(r) || !is_wanted(r, tile / r->tiles_x))
-        return;
-    int spp = tile_samples(r, thread, x0, y0);
-    film_tile_begin(r->pixels[thread], spp);
-    for (int y = y0; y < y0 + TILE_HEIGHT && y < r->h; y++)
-        for (int x = x0; x < x0 + TILE_WIDTH && x < r->w; x++)
-            render_pixel(r, thread, spp, x, y);
-    film_tile_end(r->pixels[thread], tile);
-    int across = r->w - x0 < TILE_WIDTH ? r->w - x0 : TILE_WIDTH,
-        down = r->h - y0 < TILE_HEIGHT ? r->h - y0 : TILE_HEIGHT;
-    atomic_fetch_add(&r->paths, (long)across * down * (spp + (r->pilots ? ADAPTIVE_PILOT : 0)));
-    int done = atomic_fetch_add(&r->done, 1) + 1;
-    if (thread == 0 && r->params.progress)
-        r->params.progress(r->params.progress_context, (double)done / r->wanted);
-}
-
-static void close_films(Render *r)
+void render_close_films(Render *r)
 {
     if (r->pixels)
         for (int k = 0; k < retex_threads(r->params.nthreads); k++)
@@ -273,18 +83,17 @@ static void close_films(Render *r)
     control_film_close(&r->control);
 }
 
-static void render_close(Render *r)
+void render_close(Render *r)
 {
-    close_films(r);
+    render_close_films(r);
     caustics_close(&r->caustics);
     lights_close(&r->lights);
     accel_close(&r->accel);
 }
 
-/* What any use of the scene needs: the window, the ray structure and the lights. */
-static int render_open(Render *r, const Scene *scene, const RenderParams *params, RetexError *err)
+int render_open(Render *r, const Scene *scene, const RenderParams *params, RetexError *err)
 {
-    *r = (Render){.scene = scene, .halves = 1};
+    *r = (Render){.scene = scene};
     memcpy(&r->params, params, params->size < sizeof r->params ? params->size : sizeof r->params);
     int code = check_params(&r->params, err);
     if (!code)
@@ -301,15 +110,15 @@ static int render_open(Render *r, const Scene *scene, const RenderParams *params
                                .orders = r->params.orders,
                                .most_hits = expansion_most_hits(scene->ntargets, r->params.paper),
                                .split = split,
-                               .nvariants = 1};
+                               .nvariants = 1,
+                               .halves = 1};
     r->variants = r->params.nvariants > 0 ? r->params.variants : NULL;
     for (int k = 0; k < scene->nprimitives; k++)
         r->context.has_no_shadow |= scene->primitives[k].no_shadow;
     return code;
 }
 
-/* For whatever traces paths: a guide to caustics where there may be some, the same for any part of the picture. */
-static int open_guide(Render *r, RetexError *err)
+int render_open_guide(Render *r, RetexError *err)
 {
     if (!r->params.caustics_guide)
         return RETEX_OK;
@@ -340,7 +149,7 @@ static int keeps_denoise_data(const RenderParams *p)
     return p->denoise_data && p->spp > 1;
 }
 
-static FirstHitWindow first_hit_window(const Render *r)
+FirstHitWindow render_window(const Render *r)
 {
     return (FirstHitWindow){r->scene, r->accel, r->width, r->height,          r->x0,
                             r->y0,    r->w,     r->h,     r->params.nthreads, r->variants};
@@ -358,7 +167,7 @@ static int take_over(Render *r, RetexSpool *spool, RetexError *err)
     for (int band = 0; band < r->tiles_y; band++)
         r->had[band] = (char)film_band_is_done(r->film, band);
     for (int band = 0; band < r->tiles_y; band++)
-        r->wanted += is_wanted(r, band) ? r->tiles_x : 0;
+        r->wanted += render_is_wanted(r, band) ? r->tiles_x : 0;
     return code;
 }
 
@@ -376,7 +185,7 @@ static int open_pilots(Render *r, int threads, RetexError *err)
 
 static int open_guides(Render *r, int threads, RetexError *err)
 {
-    FirstHitWindow window = first_hit_window(r);
+    FirstHitWindow window = render_window(r);
     if (!(r->pixel_guides = calloc((size_t)threads, sizeof *r->pixel_guides)))
         return retex_fail(err, RETEX_ENOMEM, "out of memory for %d threads", threads);
     for (int k = 0; k < threads; k++)
@@ -384,8 +193,7 @@ static int open_guides(Render *r, int threads, RetexError *err)
     return denoise_guides_create(&r->guides, r->film, &window, r->context.split, err);
 }
 
-/* control: a film of all variants too, with moments of so many halves. */
-static int render_film(Render *r, int control, int halves, RetexError *err)
+int render_open_film(Render *r, int control, int halves, RetexError *err)
 {
     int threads = retex_threads(r->params.nthreads);
     FilmParams film = {.width = r->w,
@@ -423,8 +231,7 @@ static int render_film(Render *r, int control, int halves, RetexError *err)
         code = control_pixel_create(&r->controls[k], r->control, err);
     for (int k = 0; k < threads && !code; k++)
         code = open_worker(r, k, err);
-    r->context.matte = r->context.nvariants == 1 && !r->context.white && !r->caustics && !r->context.has_no_shadow;
-    r->context.compare = r->context.nvariants > 1 || r->control;
+    r->context.matte = !r->context.white && !r->caustics && !r->context.has_no_shadow;
     return code ? code : open_pilots(r, threads, err);
 }
 
@@ -445,45 +252,6 @@ static int start_set(RetexSet **set, const Render *r, RetexError *err)
     return RETEX_OK;
 }
 
-static void fill_stats(RenderStats *stats, const Render *r)
-{
-    stats->paths = atomic_load(&r->paths);
-    for (int k = 0; k < retex_threads(r->params.nthreads); k++)
-        stats->segments += r->workers[k].segments, stats->shadow_rays += r->workers[k].shadow_rays;
-    stats->dropped = film_dropped(r->film) + (r->control ? control_film_dropped(r->control) : 0);
-    stats->lights = lights_count(r->lights);
-    stats->primitives = r->scene->nprimitives;
-    for (int k = 0; k < r->scene->nprimitives; k++)
-        if (r->scene->primitives[k].kind == SHAPE_MESH)
-            stats->triangles += r->scene->primitives[k].mesh->nfaces;
-}
-
-typedef struct HalfSamples {
-    int samples[2];
-} HalfSamples;
-
-/* How many samples fall to each half. */
-static HalfSamples half_samples(const Render *r)
-{
-    int spp = r->params.spp;
-    return r->halves == 2 ? (HalfSamples){{(spp + 1) / 2, spp / 2}} : (HalfSamples){{spp, 0}};
-}
-
-/* Trace all paths. */
-static void render_paths(Render *r, RenderStats *stats, double started)
-{
-    stats->build_seconds = seconds() - started;
-    retex_parallel(r->params.nthreads, r->tiles_x * r->tiles_y, render_tile, r);
-    if (r->params.progress && !is_stopped(r))
-        r->params.progress(r->params.progress_context, 1);
-    for (int k = 0; k < retex_threads(r->params.nthreads); k++) {
-        film_pixel_close(&r->pixels[k]);
-        control_pixel_close(&r->controls[k]);
-    }
-    stats->render_seconds = seconds() - started - stats->build_seconds;
-    fill_stats(stats, r);
-}
-
 /* A part `irradiance`: a pass of its own, with other samples, over the points that the pixels' centres see. */
 static int add_irradiance(RetexSet *set, const Render *r, RetexError *err)
 {
@@ -497,19 +265,18 @@ static int add_irradiance(RetexSet *set, const Render *r, RetexError *err)
                    .h = r->h,
                    .tiles_x = r->tiles_x,
                    .tiles_y = r->tiles_y,
-                   .context = r->context,
-                   .halves = 1};
+                   .context = r->context};
     RetexSet *found = NULL;
     RenderStats ignored = {0};
     int part;
-    pass.context.white = 1, pass.context.split = 0;
+    pass.context.white = 1, pass.context.split = 0, pass.context.halves = 1;
     pass.params.seed = hash_pair(r->params.seed, 2), pass.params.progress = NULL;
     pass.params.denoise_data = 0, pass.params.noise = 0;
-    forget_files(&pass.params);
+    render_forget_files(&pass.params);
     pass.lights = r->lights;
     int code = start_set(&found, &pass, err);
     if (!code)
-        code = render_film(&pass, 0, 0, err);
+        code = render_open_film(&pass, 0, 0, err);
     if (!code) {
         render_paths(&pass, &ignored, 0);
         code = film_finish(pass.film, found, err);
@@ -518,7 +285,7 @@ static int add_irradiance(RetexSet *set, const Render *r, RetexError *err)
         code = retex_set_add_part(set, "irradiance", "RGB", RETEX_FLOAT, 0, 0, &part, err);
     for (size_t i = 0; i < (size_t)r->w * (size_t)r->h * 3 && !code; i++)
         set->parts[part].image.pixels[i] = (float)PI * found->parts[0].image.pixels[i];
-    close_films(&pass);
+    render_close_films(&pass);
     retex_set_close(&found);
     return code;
 }
@@ -527,15 +294,15 @@ static int add_irradiance(RetexSet *set, const Render *r, RetexError *err)
 static int render_into(RetexSet *set, Render *r, RenderStats *stats, double started, RetexError *err)
 {
     int data = r->params.control_data;
-    r->halves = data == 2 ? 2 : 1;
-    int code = render_film(r, data > 0, r->halves, err);
+    r->context.halves = data == 2 ? 2 : 1;
+    int code = render_open_film(r, data > 0, r->context.halves, err);
     if (code)
         return code;
     render_paths(r, stats, started);
-    if (is_stopped(r) && film_bands_done(r->film) < film_bands(r->film))
+    if (render_is_stopped(r) && film_bands_done(r->film) < film_bands(r->film))
         return pieces_keep(r->film, &r->params, err);
     code = film_finish(r->film, set, err);
-    FirstHitWindow window = first_hit_window(r);
+    FirstHitWindow window = render_window(r);
     if (!code && r->context.split)
         code = first_hit_targets(set, &window, err);
     double scales[RETEX_MAX_TARGETS][2];
@@ -553,10 +320,10 @@ static int render_into(RetexSet *set, Render *r, RenderStats *stats, double star
         code = add_irradiance(set, r, err);
     if (!code && data) {
         ControlMoments *moments[2] = {control_film_moments(r->control, 0), control_film_moments(r->control, 1)};
-        code = control_data_add(set, moments, half_samples(r).samples, r->halves, err);
+        code = control_data_add(set, moments, render_half_samples(r).samples, r->context.halves, err);
     }
     film_give_spool(r->film, set);
-    stats->render_seconds = seconds() - started - stats->build_seconds;
+    stats->render_seconds = render_clock() - started - stats->build_seconds;
     return code;
 }
 
@@ -568,11 +335,11 @@ int render_scene(RetexSet **set, const Scene *scene, const RenderParams *params,
         stats = &ignored;
     *stats = (RenderStats){0};
     *set = NULL;
-    double started = seconds();
+    double started = render_clock();
     Render r;
     int code = render_open(&r, scene, params ? params : &defaults, err);
     if (!code)
-        code = open_guide(&r, err);
+        code = render_open_guide(&r, err);
     if (!code)
         code = start_set(set, &r, err);
     if (!code)
@@ -586,134 +353,21 @@ int render_scene(RetexSet **set, const Scene *scene, const RenderParams *params,
 int render_shard(const Scene *scene, const RenderParams *params, RenderStats *stats, RetexError *err)
 {
     *stats = (RenderStats){0};
-    double started = seconds();
+    double started = render_clock();
     Render r;
     int code = render_open(&r, scene, params, err);
     if (!code)
-        code = open_guide(&r, err);
+        code = render_open_guide(&r, err);
     if (!code)
-        code = render_film(&r, 0, 0, err);
+        code = render_open_film(&r, 0, 0, err);
     if (!code) {
         render_paths(&r, stats, started);
         code = film_failed(r.film) ? film_finish(r.film, NULL, err) : RETEX_OK;
     }
-    if (!code && is_stopped(&r) && r.done < r.wanted)
+    if (!code && render_is_stopped(&r) && r.done < r.wanted)
         code = pieces_keep(r.film, &r.params, err);
     if (!code)
         code = film_keep(r.film, r.params.key, r.params.output, 1, err);
-    render_close(&r);
-    return code;
-}
-
-int render_variants(RetexImage *pictures, const Scene *scene, const RenderParams *params, RenderStats *stats,
-                    RetexError *err)
-{
-    RenderStats ignored;
-    if (!stats)
-        stats = &ignored;
-    *stats = (RenderStats){0};
-    double started = seconds();
-    RenderParams plain = *params;
-    Render r;
-    plain.plain = 1, plain.denoise_data = 0;
-    forget_files(&plain);
-    int code = render_open(&r, scene, &plain, err);
-    if (!code && r.params.nvariants < 1)
-        code = retex_fail(err, RETEX_EINVAL, "no variants to render");
-    r.context.nvariants = r.params.nvariants;
-    if (!code)
-        code = open_guide(&r, err);
-    if (!code)
-        code = render_film(&r, 1, 0, err);
-    if (!code)
-        render_paths(&r, stats, started);
-    for (int v = 0; v < r.params.nvariants && !code; v++) {
-        pictures[v] = *control_film_picture(r.control, v);
-        *control_film_picture(r.control, v) = (RetexImage){0};
-    }
-    render_close(&r);
-    return code;
-}
-
-/* One line where the set is of another picture. */
-static int check_control(const Render *r, const RetexSet *set, RetexError *err)
-{
-    const char *slash = strrchr(r->scene->path, '/'), *scene = slash ? slash + 1 : r->scene->path;
-    if (set->width != r->w || set->height != r->h)
-        return retex_fail(err, RETEX_EINVAL, "the set is %dx%d, this picture %dx%d", set->width, set->height, r->w,
-                          r->h);
-    if (strncmp(set->scene, scene, sizeof set->scene - 1))
-        return retex_fail(err, RETEX_EINVAL, "the set is of %s, this is %s", set->scene, scene);
-    if (strcmp(set->filter, r->params.gaussian ? "gaussian" : "box"))
-        return retex_fail(err, RETEX_EINVAL, "the set has the pixel filter %s, this picture another", set->filter);
-    if (set->max_depth != r->params.max_depth)
-        return retex_fail(err, RETEX_EINVAL, "the set has paths of up to %d segments, this picture of up to %d",
-                          set->max_depth, r->params.max_depth);
-    for (int t = 0; set->ntargets && t < r->scene->ntargets; t++)
-        if (retex_set_find_target(set, r->scene->targets[t].name) < 0)
-            return retex_fail(err, RETEX_EINVAL, "the set has no target `%s`", r->scene->targets[t].name);
-    if (set->seed == r->params.seed)
-        return retex_fail(err, RETEX_EINVAL, "the set has seed %u too: its noise must not be that of the new samples",
-                          (unsigned)set->seed);
-    return RETEX_OK;
-}
-
-/* The constants by pixel, and what the set is with them. */
-static int find_constants(Render *r, const RetexSet *set, RetexImage *constants, RetexImage *combined, RetexError *err)
-{
-    FirstHitWindow window = first_hit_window(r);
-    int code = control_constants(constants, &window, set, err);
-    if (!code)
-        code = control_constants_combine(combined, set, r->scene, constants, r->params.nthreads, err);
-    r->constants = constants;
-    return code;
-}
-
-static int trace_control(Render *r, RetexImage *picture, const RetexSet *set, const RetexImage *combined,
-                         ControlMode mode, double *distance, RenderStats *stats, double started, RetexError *err)
-{
-    r->halves = mode == CONTROL_HALVES ? 2 : 1;
-    int code = render_film(r, 1, r->halves, err);
-    if (code)
-        return code;
-    render_paths(r, stats, started);
-    ControlMoments *moments[2] = {control_film_moments(r->control, 0), control_film_moments(r->control, 1)};
-    HalfSamples half = half_samples(r);
-    if (distance)
-        *distance = control_distance(moments, half.samples, r->halves, set);
-    return control_variate(picture, moments, half.samples, set, combined, mode, err);
-}
-
-int render_control(RetexImage *picture, const Scene *scene, const RenderParams *params, const RetexSet *set,
-                   ControlMode mode, double *distance, RenderStats *stats, RetexError *err)
-{
-    RenderStats ignored;
-    if (!stats)
-        stats = &ignored;
-    *stats = (RenderStats){0};
-    double started = seconds();
-    RenderParams plain = *params;
-    RenderVariant variants[CONTROL_VARIANTS_MAX] = {{{NULL}, NULL}};
-    RetexImage constants[RETEX_MAX_TARGETS] = {{0}}, combined = {0};
-    Render r;
-    if (params->nvariants > 0)
-        variants[0] = params->variants[0];
-    plain.plain = 1, plain.variants = variants, plain.nvariants = 2, plain.denoise_data = 0;
-    forget_files(&plain);
-    int code = render_open(&r, scene, &plain, err);
-    if (!code)
-        code = check_control(&r, set, err);
-    int two = !code && mode == CONTROL_UNBIASED && control_constants_fit(scene, set);
-    r.context.nvariants = 2 + two;
-    if (!code)
-        code = open_guide(&r, err);
-    if (two && !code)
-        code = find_constants(&r, set, constants, &combined, err);
-    if (!code)
-        code = trace_control(&r, picture, set, two ? &combined : NULL, mode, distance, stats, started, err);
-    for (int t = 0; t < RETEX_MAX_TARGETS; t++)
-        retex_image_free(&constants[t]);
-    retex_image_free(&combined);
     render_close(&r);
     return code;
 }
@@ -722,7 +376,7 @@ int render_ident_shares(const Scene *scene, const RenderParams *params, double *
 {
     Render r;
     int code = render_open(&r, scene, params, err);
-    FirstHitWindow window = first_hit_window(&r);
+    FirstHitWindow window = render_window(&r);
     if (!code)
         code = first_hit_idents(&window, shares, err);
     render_close(&r);
@@ -747,14 +401,13 @@ int render_trace(const Scene *scene, const RenderParams *params, int x, int y, i
         code = retex_fail(err, RETEX_EINVAL, "pixel %d,%d does not lie inside the picture of %dx%d", x, y, r.width,
                           r.height);
     if (!code)
-        code = open_guide(&r, err);
+        code = render_open_guide(&r, err);
     if (!code)
-        code = render_film(&r, 0, 0, err);
+        code = render_open_film(&r, 0, 0, err);
     if (!code) {
         r.context.trace = out, r.context.matte = 0;
         fprintf(out, "pixel %d,%d sample %d of %dx%d\n", x, y, sample, r.width, r.height);
-        const PixelStart start = start_pixel(&r, r.params.seed, x, y);
-        trace_sample(&r, &r.workers[0], &start, sample);
+        render_sample(&r, x, y, sample);
     }
     render_close(&r);
     return code;

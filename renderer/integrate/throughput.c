@@ -1,9 +1,9 @@
-/* What paths bring to the film.
+/* What paths bring to the film, and to a control film beside it.
  *
- * `beta` is the whole throughput; of several variants of the textures the worker has it by variant, for no choice along
- * a path looks at a texture. Sets keep target hits apart: `outside` is the throughput without them, and the hits are
- * written down with the light that arrives behind them. The film wants one path after the other, and polynomials are
- * large: so paths that are traced side by side hand all that over when they end. */
+ * `beta` is the whole throughput; of several variants of the textures each has its own, for no choice along a path
+ * looks at a texture. Sets keep target hits apart: `outside` is the throughput without them, and the hits are written
+ * down with the light that arrives behind them. Films want one path after the other, and polynomials are large: so
+ * paths that are traced side by side hand all that over when they end. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -26,21 +26,32 @@ struct PathEvent {
 
 /* At a vertex: an emitter met, a light picked with all that is on the way to it, a bounce. */
 #define VERTEX_EVENTS_MAX (2 + 1 + 2 + SHADOW_FACTORS_MAX + 1)
+#define VERTEX_LIGHTS_MAX 2
 
+/* Room for the most that may be, of which little is ever touched. */
 int path_worker_open(PathWorker *w, RetexError *err)
 {
     const PathContext *c = w->context;
-    if (!c->split)
-        return RETEX_OK;
-    size_t most = (size_t)PATHS_MAX * VERTEX_EVENTS_MAX * (size_t)(c->max_depth + STRAIGHT_MAX + 1);
-    w->events = aligned_alloc(sizeof *w->events, most * sizeof *w->events); /* of which little is ever touched */
-    return w->events ? RETEX_OK : retex_fail(err, RETEX_ENOMEM, "out of memory for paths");
+    size_t vertices = (size_t)PATHS_MAX * (size_t)(c->max_depth + STRAIGHT_MAX + 1);
+    size_t lights = vertices * VERTEX_LIGHTS_MAX;
+    if (c->split)
+        w->events = aligned_alloc(sizeof *w->events, vertices * VERTEX_EVENTS_MAX * sizeof *w->events);
+    if (w->control) {
+        w->log.lights = malloc(lights * (size_t)c->nvariants * sizeof *w->log.lights);
+        w->log.next = malloc(lights * sizeof *w->log.next);
+    }
+    if ((c->split && !w->events) || (w->control && (!w->log.lights || !w->log.next)))
+        return retex_fail(err, RETEX_ENOMEM, "out of memory for paths");
+    return RETEX_OK;
 }
 
 void path_worker_close(PathWorker *w)
 {
     free(w->events);
+    free(w->log.lights);
+    free(w->log.next);
     w->events = NULL;
+    w->log = (ControlLog){NULL, NULL, 0};
 }
 
 Factor shading_factor(const Shading *s, Split split)
@@ -194,36 +205,33 @@ static void hand_over(PathWorker *w, const Path *path)
 
 /* ---- variants ---- */
 
-void path_scale_variants(PathWorker *w, Rgb by)
+/* Those after the first. */
+static void multiply_others(const PathContext *c, Rgb *betas, const Factor *f)
 {
-    for (int v = 0; v < w->context->nvariants; v++)
-        w->betas[v] = rgb_mul(w->betas[v], by);
-}
-
-static void multiply(const PathContext *c, Rgb *betas, const Factor *f)
-{
-    for (int v = 0; v < c->nvariants; v++)
+    for (int v = 1; v < c->nvariants; v++)
         betas[v] = rgb_mul(betas[v], split_apply(f->split, f->albedos ? f->albedos[v] : f->albedo));
 }
 
-int path_variants_are_spent(const PathWorker *w)
+/* Room for the light that just arrived, by variant, for the control film. */
+static Rgb *add_to_log(PathWorker *w, Path *path)
 {
-    for (int v = 0; v < w->context->nvariants; v++)
-        if (!rgb_is_black(w->betas[v]))
-            return 0;
-    return 1;
+    ControlLog *log = &w->log;
+    int at = log->count++;
+    log->next[at] = -1;
+    if (path->last_light < 0)
+        path->first_light = at;
+    else
+        log->next[path->last_light] = at;
+    path->last_light = at;
+    return log->lights + (size_t)at * (size_t)w->context->nvariants;
 }
 
-static void connect_variants(PathWorker *w, Rgb light, const Factor *factors, int nfactors)
+static void hand_over_log(PathWorker *w, const Path *path)
 {
-    const PathContext *c = w->context;
-    Rgb betas[VARIANTS_MAX];
-    for (int v = 0; v < c->nvariants; v++)
-        betas[v] = rgb_mul(w->betas[v], light);
-    for (int k = 0; k < nfactors; k++)
-        multiply(c, betas, &factors[k]);
-    if (w->control)
-        control_connect(w->control, betas);
+    const ControlLog *log = &w->log;
+    for (int at = path->first_light; at >= 0; at = log->next[at])
+        control_connect(w->control, log->lights + (size_t)at * (size_t)w->context->nvariants);
+    control_sample_end(w->control, path->half);
 }
 
 /* ---- a path's life ---- */
@@ -239,8 +247,9 @@ void path_start(PathWorker *w, Path *path, const Ray *ray, const Sampler *sample
     path->light[0] = path->light[1] = path->light[2] = 0;
     path->hits = (ExpansionSize){.nmonomials = 1}, path->folded = 0;
     path->arrived = path->beside = NULL, path->first = path->last = -1;
-    for (int v = 0; v < c->nvariants && c->compare; v++)
-        w->betas[v] = rgb_grey(1);
+    path->first_light = path->last_light = -1;
+    for (int v = 1; v < c->nvariants; v++)
+        path->betas[v] = rgb_grey(1);
 }
 
 int path_scatter(PathWorker *w, Path *path, Factor *factor)
@@ -248,8 +257,7 @@ int path_scatter(PathWorker *w, Path *path, Factor *factor)
     const PathContext *c = w->context;
     Rgb whole = split_apply(factor->split, factor->albedo);
     path->beta = rgb_mul(path->beta, whole);
-    if (c->compare)
-        multiply(c, w->betas, factor);
+    multiply_others(c, path->betas, factor);
     if (c->split && take_factor(c, &path->outside, &path->hits, &path->folded, factor, whole))
         go_on_from(w, path, factor);
     return path_is_alive(w, path);
@@ -267,19 +275,23 @@ static void add_plain(PathWorker *w, Path *path, Rgb beauty)
         path->light[0] += beauty.r, path->light[1] += beauty.g, path->light[2] += beauty.b;
 }
 
-void path_bring(PathWorker *w, Path *path, Rgb light)
+void path_bring(PathWorker *w, Path *path, const Rgb *lights)
 {
-    Rgb beauty = rgb_mul(path->beta, light);
+    Rgb beauty = rgb_mul(path->beta, lights[0]);
     if (w->context->split)
-        arrive(w, path, &(FilmLight){beauty, rgb_mul(path->outside, light), path->folded, 1});
+        arrive(w, path, &(FilmLight){beauty, rgb_mul(path->outside, lights[0]), path->folded, 1});
     else
         add_plain(w, path, beauty);
-    if (w->context->compare)
-        connect_variants(w, light, NULL, 0);
+    if (!w->control)
+        return;
+    Rgb *arrived = add_to_log(w, path);
+    arrived[0] = beauty;
+    for (int v = 1; v < w->context->nvariants; v++)
+        arrived[v] = rgb_mul(path->betas[v], lights[v]);
 }
 
-/* As path_connect, of plain pictures. */
-static void connect_plain(PathWorker *w, Path *path, Rgb light, const Factor *factors, int nfactors)
+/* As path_connect, of plain pictures. Returns what arrives. */
+static Rgb connect_plain(PathWorker *w, Path *path, Rgb light, const Factor *factors, int nfactors)
 {
     Rgb beauty = rgb_mul(path->beta, light);
     for (int k = 0; k < nfactors; k++)
@@ -287,10 +299,11 @@ static void connect_plain(PathWorker *w, Path *path, Rgb light, const Factor *fa
     if (w->context->trace)
         trace_light(w->context, beauty);
     add_plain(w, path, beauty);
+    return beauty;
 }
 
 /* As path_connect, of sets. */
-static void connect_split(PathWorker *w, Path *path, Rgb light, Factor *factors, int nfactors)
+static Rgb connect_split(PathWorker *w, Path *path, Rgb light, Factor *factors, int nfactors)
 {
     const PathContext *c = w->context;
     const Factor *own[SHADOW_FACTORS_MAX + 2];
@@ -306,27 +319,31 @@ static void connect_split(PathWorker *w, Path *path, Rgb light, Factor *factors,
     if (c->trace)
         trace_light(c, sum.beauty);
     if (rgb_is_black(sum.beauty) && rgb_is_black(sum.outside))
-        return;
+        return sum.beauty;
     if (count == 0) {
         arrive(w, path, &sum);
-        return;
+        return sum.beauty;
     }
     PathEvent *e = add_light(w, path, &sum, count);
     for (int k = 0; k < count; k++)
         add_hit(w, path, own[k]);
     if (count == 1)
         path->beside = e;
+    return sum.beauty;
 }
 
 void path_connect(PathWorker *w, Path *path, Rgb light, Factor *factors, int nfactors)
 {
-    const PathContext *c = w->context;
-    if (c->compare)
-        connect_variants(w, light, factors, nfactors);
-    if (c->split)
-        connect_split(w, path, light, factors, nfactors);
-    else
-        connect_plain(w, path, light, factors, nfactors);
+    Rgb beauty = w->context->split ? connect_split(w, path, light, factors, nfactors)
+                                   : connect_plain(w, path, light, factors, nfactors);
+    if (!w->control)
+        return;
+    Rgb *arrived = add_to_log(w, path);
+    arrived[0] = beauty;
+    for (int v = 1; v < w->context->nvariants; v++)
+        arrived[v] = rgb_mul(path->betas[v], light);
+    for (int k = 0; k < nfactors; k++)
+        multiply_others(w->context, arrived, &factors[k]);
 }
 
 void path_end(PathWorker *w, Path *path)
@@ -336,4 +353,6 @@ void path_end(PathWorker *w, Path *path)
     else
         film_add_light(w->pixel, path->light);
     film_path_end(w->pixel);
+    if (w->control)
+        hand_over_log(w, path);
 }

@@ -8,7 +8,7 @@ Split emitted(const Shading *s)
 }
 
 /* Radiance a sampled light sends, and the factor of its pigment where it is a shape. Returns the number of factors. */
-static int light_factors(PathWorker *w, LightSample *light, Factor *factors)
+static int light_factors(PathWorker *w, int lane, LightSample *light, Factor *factors)
 {
     const PathContext *c = w->context;
     if (light->kind != LIGHT_SAMPLE_EMITTER)
@@ -18,7 +18,7 @@ static int light_factors(PathWorker *w, LightSample *light, Factor *factors)
     shading_color(&s, w->variants, c->nvariants);
     light->radiance = rgb_grey(1);
     factors[0] = shading_factor(&s, emitted(&s));
-    factors[0].albedos = keep_albedos(c, w->light_albedos, &s);
+    factors[0].albedos = keep_albedos(c, w->light_albedos[lane], &s);
     return 1;
 }
 
@@ -116,7 +116,7 @@ void pick_light(PathWorker *w, Vertex *v)
     t->found = 1;
     t->looked = 0;
     t->factors[0] = shading_factor(s, f);
-    t->nfactors = 1 + light_factors(w, light, t->factors + 1);
+    t->nfactors = 1 + light_factors(w, k, light, t->factors + 1);
     t->other_side = vec_dot(light->direction, s->bsdf.geometric) < 0;
     t->ray = (Ray){accel_offset(s->surface.position, s->surface.geometric_normal, light->direction), light->direction,
                    0, INFINITY};

@@ -8,6 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <retex/sample.h>
+#include "integrate/path.h"
 #include "integrate/render.h"
 
 typedef struct Stage {
@@ -395,6 +396,62 @@ static void variants_share_paths(void **state)
     stage_close(&s);
 }
 
+enum { BEYOND_A_WAVE = PATHS_MAX + 7 }; /* samples: some paths go side by side, the rest after them */
+
+/* Control variates need each sample by itself: its light is what a picture of one more sample has more. */
+static void moments_are_of_single_paths(void **state)
+{
+    (void)state;
+    Stage s;
+    target_stage(&s);
+    double last[16 * 12] = {0}, squares[16 * 12] = {0};
+    for (int spp = 1; spp <= BEYOND_A_WAVE; spp++) {
+        RetexSet *set = stage_render(&s, spp, 1, 2);
+        for (int k = 0; k < 16 * 12; k++) {
+            double sum = (double)spp * pixel(set, k % 16, k / 16)[0], light = sum - last[k];
+            squares[k] += light * light;
+            last[k] = sum;
+        }
+        retex_set_close(&set);
+    }
+    for (int plain = 0; plain < 2; plain++) {
+        RenderParams p = RENDER_PARAMS_INIT;
+        RetexSet *with, *without = stage_render(&s, BEYOND_A_WAVE, plain, 1);
+        p.spp = BEYOND_A_WAVE, p.plain = plain, p.control_data = 1, p.nthreads = 2;
+        assert_int_equal(render_scene(&with, s.scene, &p, NULL, NULL), 0);
+        assert_memory_equal(pixel(with, 0, 0), pixel(without, 0, 0), 16 * 12 * 3 * sizeof(float));
+        for (int k = 0; k < 16 * 12; k++) {
+            double n = BEYOND_A_WAVE, wanted = (squares[k] - last[k] * last[k] / n) / (n * (n - 1));
+            expect(part_at(with, "variance", k % 16, k / 16), wanted, 1e-7 + 1e-3 * wanted, "variance of the mean");
+        }
+        retex_set_close(&with);
+        retex_set_close(&without);
+    }
+    stage_close(&s);
+}
+
+/* Samples of two halves take turns; each half is what a render has of so many samples with the half's seed. */
+static void halves_are_renders_of_their_own(void **state)
+{
+    (void)state;
+    Stage s;
+    target_stage(&s);
+    RenderParams p = RENDER_PARAMS_INIT;
+    RetexSet *both, *alone;
+    p.spp = 2 * BEYOND_A_WAVE + 1, p.control_data = 2, p.nthreads = 2;
+    assert_int_equal(render_scene(&both, s.scene, &p, NULL, NULL), 0);
+    p.control_data = 0, p.plain = 1;
+    for (int half = 0; half < 2; half++) {
+        const RetexImage *found = &both->parts[retex_set_find_part(both, half ? "beauty_b" : "beauty_a")].image;
+        p.spp = BEYOND_A_WAVE + !half, p.seed = half ? hash_pair(0, 1) : 0;
+        assert_int_equal(render_scene(&alone, s.scene, &p, NULL, NULL), 0);
+        assert_memory_equal(found->pixels, pixel(alone, 0, 0), 16 * 12 * 3 * sizeof(float));
+        retex_set_close(&alone);
+    }
+    retex_set_close(&both);
+    stage_close(&s);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -402,6 +459,7 @@ int main(void)
         cmocka_unit_test(sphere_emitter_irradiance),     cmocka_unit_test(slab_reflects_by_fresnel),
         cmocka_unit_test(bits_do_not_depend_on_threads), cmocka_unit_test(paper_recombines),
         cmocka_unit_test(footprints_recombine),          cmocka_unit_test(the_inside_is_another_surface),
-        cmocka_unit_test(irradiance_knows_no_material),  cmocka_unit_test(variants_share_paths)};
+        cmocka_unit_test(irradiance_knows_no_material),  cmocka_unit_test(variants_share_paths),
+        cmocka_unit_test(moments_are_of_single_paths),   cmocka_unit_test(halves_are_renders_of_their_own)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

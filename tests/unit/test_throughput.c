@@ -72,7 +72,7 @@ static void bounce(Fixture *f, double u)
 
 static void bring(Fixture *f, float light)
 {
-    path_bring(&f->worker, &f->path, rgb_grey(light));
+    path_bring(&f->worker, &f->path, &(Rgb){light, light, light});
 }
 
 /* Light by one more hit. */
