@@ -191,6 +191,29 @@ static void test_pictures_alike(void **state)
     }
 }
 
+/* Needles are widened, and those of the reference skip texels along their length: by less than it does, the mean of a
+ * texture differs from place to place. */
+static void test_needles_alike(void **state)
+{
+    (void)state;
+    static const double longest[] = {16, 64, 300}, least[] = {58, 53, 48}; /* standard deviations; dB */
+    RetexTextureSpec spec = RETEX_TEXTURE_SPEC_INIT;
+    RetexTexture *texture;
+    RetexError err = {0};
+    strcpy(spec.image, "scenes/textures/walnut-herringbone.jpg");
+    test_must(retex_texture_load(&texture, &spec, 0, &err), &err);
+    for (int i = 0; i < 3; i++) {
+        scatter(1024, 1024, 0.2, 1, longest[i], 7);
+        Difference d = compare(texture, RETEX_TEXTURE_GAUSSIAN);
+        print_message("up to %g times as long as wide: %.1f dB, bias %+.6f %+.6f %+.6f\n", longest[i], d.psnr, d.bias[0],
+                      d.bias[1], d.bias[2]);
+        assert_true(d.psnr >= least[i]);
+        for (int c = 0; c < 3; c++)
+            assert_true(fabs(d.bias[c]) < 3e-4);
+    }
+    retex_texture_close(&texture);
+}
+
 /* Dark grey and nearly white, from a function of x and y in texels, each texel the average of 4 x 4 points. */
 static RetexTexture *draw(int size, int (*white)(double x, double y))
 {
@@ -416,6 +439,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_same_bits),   cmocka_unit_test(test_pictures_alike),
+        cmocka_unit_test(test_needles_alike),
         cmocka_unit_test(test_edges_alike), cmocka_unit_test(test_borders_alike),
         cmocka_unit_test(test_cut_alike),   cmocka_unit_test(test_small_levels_padded),
         cmocka_unit_test(test_steady),      cmocka_unit_test(test_odd),

@@ -9,7 +9,7 @@
 #include "texture_pyramid.h"
 
 #define BATCH_LEVELS 16
-#define BATCH_SIZE 256 /* footprints in one call of a kernel */
+#define BATCH_SIZE 1024 /* footprints in one call of a kernel */
 
 /* Where the surface, and with it every Gaussian, ends along an axis of the image. */
 typedef struct BatchLimit {

@@ -3,7 +3,7 @@
  *
  * The road of a footprint: where its mean lies in the image (place_means), which level of the pyramid it is summed on
  * (choose_levels), the ellipse over that level's texels and the blocks of 4 x 4 texels that it meets (find_windows).
- * Footprints of equally many blocks are then weighed together (weigh_*) and each sums its texels (sum_block).
+ * Footprints of about as many blocks are then weighed together (weigh_*) and each sums its texels (sum_blocks).
  *
  * Lines are rows of texels, or columns where the ellipse lies flat; a band is four lines. Where an ellipse leans, its
  * bands' blocks go along with it. */
@@ -28,7 +28,7 @@ typedef int HalfMask __attribute__((vector_size(2 * LANES)));
 
 #ifndef TEXTURE_BATCH_CONSTANTS
 #define TEXTURE_BATCH_CONSTANTS
-#define MAX_BANDS 16
+#define MAX_BANDS 36
 #define MAX_BLOCKS 4 /* across, in a band */
 #define MAX_COLUMNS (4 * MAX_BLOCKS + 2)
 #define NKEYS (4 * MAX_BANDS * MAX_BLOCKS)
@@ -39,6 +39,7 @@ typedef int HalfMask __attribute__((vector_size(2 * LANES)));
 #define ROUND_LEAST 0.75f
 #define LONG_LEAST 0.3f
 #define BOX_FROM 0.36f     /* the smaller variance from which level 0's texels need no interpolation */
+#define MAX_RATIO 16.0f    /* of a Gaussian's standard deviations: it fits into so many bands on its level */
 #define LEAST_KEPT 1e-3f   /* of a cut Gaussian; with less the reference goes on as if there were no end */
 #define LEAST_RADIUS 0.02f /* texels */
 /* A Gaussian ends at 3.25 standard deviations, lowered so that it is 0 there, which leaves it .9267 of its variance. */
@@ -149,10 +150,11 @@ INLINE Mask NAME(whole_below)(Lanes x)
 
 /* ---- weights ---- */
 
-/* Footprints side by side, of equally many blocks. */
+/* Footprints side by side, of about as many blocks. */
 typedef struct Group {
     const BatchTexture *texture;
     const Places *places;
+    int count;        /* lanes that have one of their own; those behind do the last one's again */
     int index[LANES]; /* in the batch */
     int contiguous;   /* 1: one after the other */
     int turned, fine, bands, blocks, lines, columns;
@@ -261,11 +263,11 @@ INLINE void NAME(weigh_boxes)(Group *g, Band *band)
     }
 }
 
-/* exp(-x) for 0 <= x <= 5.3, as the eighth power of a polynomial. */
+/* exp(-x) within 4e-5 for 0 <= x <= 5.28125, as the eighth power of a polynomial fitted to be so; less than
+ * GAUSSIAN_EDGE at the end. */
 INLINE Lanes NAME(exp_minus)(Lanes x)
 {
-    Lanes y = x * -0.125f;
-    Lanes p = 1 + y * (1 + y * (0.5f + y * (0.16666667f + y * (0.041666667f + y * 0.0083333333f))));
+    Lanes p = 0.99999528f + x * (-0.12493123f + x * (0.0076847804f + x * -0.00025969859f));
     p *= p;
     p *= p;
     return p * p;
@@ -273,13 +275,16 @@ INLINE Lanes NAME(exp_minus)(Lanes x)
 
 INLINE void NAME(weigh_gaussian)(Group *g, Band *band)
 {
-    Lanes down = GAUSSIAN_REACH / g->length, over = GAUSSIAN_REACH / g->half;
+    const float reach = GAUSSIAN_REACH * 0.70710678f; /* so that squares are exponents */
+    Lanes down = reach / g->length, over = reach / g->half, columns[4 * MAX_BLOCKS];
     const Lanes most = NAME(all)(0.5f * GAUSSIAN_REACH * GAUSSIAN_REACH);
+    for (int c = 0; c < g->columns; c++)
+        columns[c] = (float)c * over;
     for (int j = 0; j < band->lines; j++) {
         Lanes y = band->begin + (float)j, v = y * down, middle = (band->middle + g->slope * y) * over;
         Lanes square = v * v;
         for (int c = 0; c < g->columns; c++) {
-            Lanes u = (float)c * over - middle, q = MIN((u * u + square) * 0.5f, most);
+            Lanes u = columns[c] - middle, q = MIN(u * u + square, most);
             band->weights[j][c] = MAX(NAME(exp_minus)(q) - GAUSSIAN_EDGE, NAME(all)(0));
         }
     }
@@ -322,176 +327,7 @@ INLINE void NAME(weigh_band)(Group *g, int number, Band *band)
             g->total += band->weights[j][c];
 }
 
-/* ---- sums ---- */
-
-/* A block's weights, footprint by footprint. */
-INLINE void NAME(turn_weights)(const Band *band, int block, float out[LANES][MAX_BLOCKS][16])
-{
-    const Lanes *w[4];
-    for (int j = 0; j < 4; j++)
-        w[j] = &band->weights[j][4 * block];
-#if LANES == 16
-    __m512 a[16], b[16];
-    for (int i = 0; i < 16; i += 4) {
-        const __m512 *r = (const __m512 *)w[i / 4];
-        a[i] = _mm512_unpacklo_ps(r[0], r[1]);
-        a[i + 1] = _mm512_unpackhi_ps(r[0], r[1]);
-        a[i + 2] = _mm512_unpacklo_ps(r[2], r[3]);
-        a[i + 3] = _mm512_unpackhi_ps(r[2], r[3]);
-    }
-    for (int i = 0; i < 16; i += 4) { /* b[i + k]: columns of line i / 4, of lanes k, k + 4, k + 8, k + 12 */
-        b[i] = (__m512)_mm512_unpacklo_pd((__m512d)a[i], (__m512d)a[i + 2]);
-        b[i + 1] = (__m512)_mm512_unpackhi_pd((__m512d)a[i], (__m512d)a[i + 2]);
-        b[i + 2] = (__m512)_mm512_unpacklo_pd((__m512d)a[i + 1], (__m512d)a[i + 3]);
-        b[i + 3] = (__m512)_mm512_unpackhi_pd((__m512d)a[i + 1], (__m512d)a[i + 3]);
-    }
-    for (int k = 0; k < 4; k++) {
-        __m512 p = _mm512_shuffle_f32x4(b[k], b[k + 4], 0x88), q = _mm512_shuffle_f32x4(b[k], b[k + 4], 0xdd);
-        __m512 r = _mm512_shuffle_f32x4(b[k + 8], b[k + 12], 0x88), s = _mm512_shuffle_f32x4(b[k + 8], b[k + 12], 0xdd);
-        _mm512_storeu_ps(out[k][block], _mm512_shuffle_f32x4(p, r, 0x88));
-        _mm512_storeu_ps(out[k + 8][block], _mm512_shuffle_f32x4(p, r, 0xdd));
-        _mm512_storeu_ps(out[k + 4][block], _mm512_shuffle_f32x4(q, s, 0x88));
-        _mm512_storeu_ps(out[k + 12][block], _mm512_shuffle_f32x4(q, s, 0xdd));
-    }
-#elif LANES == 8
-    for (int j = 0; j < 4; j++) {
-        const __m256 *r = (const __m256 *)w[j];
-        __m256 a = _mm256_unpacklo_ps(r[0], r[1]), b = _mm256_unpackhi_ps(r[0], r[1]);
-        __m256 c = _mm256_unpacklo_ps(r[2], r[3]), d = _mm256_unpackhi_ps(r[2], r[3]);
-        __m256 lanes[4] = {
-            (__m256)_mm256_unpacklo_pd((__m256d)a, (__m256d)c), (__m256)_mm256_unpackhi_pd((__m256d)a, (__m256d)c),
-            (__m256)_mm256_unpacklo_pd((__m256d)b, (__m256d)d), (__m256)_mm256_unpackhi_pd((__m256d)b, (__m256d)d)};
-        for (int k = 0; k < 4; k++) {
-            _mm_storeu_ps(out[k][block] + 4 * j, _mm256_castps256_ps128(lanes[k]));
-            _mm_storeu_ps(out[k + 4][block] + 4 * j, _mm256_extractf128_ps(lanes[k], 1));
-        }
-    }
-#else
-    for (int lane = 0; lane < LANES; lane++)
-        for (int j = 0; j < 4; j++)
-            for (int c = 0; c < 4; c++)
-                out[lane][block][4 * j + c] = w[j][c][lane];
-#endif
-}
-
-/* Add a band's texels to four sums, one for every fourth column. Weights come by lines, which may be columns. The
- * blocks lie `step` texels apart. */
-INLINE void NAME(sum_texels)(float sums[16], const float weights[][16], int blocks, int turned, int narrow,
-                             const char *texels, size_t stride, size_t step)
-{
-    size_t size = narrow ? 4 * sizeof(uint16_t) : 4 * sizeof(float);
-#if LANES == 16
-    const __m512i *rows = (const __m512i *)batch_rows[turned];
-    __m512 sum = _mm512_loadu_ps(sums);
-    for (int k = 0; k < blocks; k++) {
-        __m512 w = _mm512_loadu_ps(weights[k]);
-        const char *from = texels + (size_t)k * step * size;
-        for (int r = 0; r < 4; r++, from += stride * size) {
-            __m512 t = narrow ? _mm512_cvtepi32_ps(_mm512_cvtepu16_epi32(_mm256_loadu_si256((const __m256i *)from)))
-                              : _mm512_loadu_ps((const float *)(const void *)from);
-            sum = _mm512_add_ps(sum, _mm512_mul_ps(t, _mm512_permutexvar_ps(_mm512_loadu_si512(rows + r), w)));
-        }
-    }
-    _mm512_storeu_ps(sums, sum);
-#elif LANES == 8
-    int row = turned ? 1 : 4, column = turned ? 4 : 1;
-    __m256 low = _mm256_loadu_ps(sums), high = _mm256_loadu_ps(sums + 8);
-    for (int k = 0; k < blocks; k++) {
-        const char *from = texels + (size_t)k * step * size;
-        const float *w = weights[k];
-        for (int r = 0; r < 4; r++, from += stride * size, w += row) {
-            __m256 a, b;
-            if (narrow) {
-                __m128i c = _mm_loadu_si128((const __m128i *)from), d = _mm_loadu_si128((const __m128i *)from + 1);
-                a = _mm256_cvtepi32_ps(_mm256_cvtepu16_epi32(c));
-                b = _mm256_cvtepi32_ps(_mm256_cvtepu16_epi32(d));
-            } else {
-                a = _mm256_loadu_ps((const float *)(const void *)from);
-                b = _mm256_loadu_ps((const float *)(const void *)from + 8);
-            }
-            __m256 first = _mm256_insertf128_ps(_mm256_broadcast_ss(w), _mm_broadcast_ss(w + column), 1);
-            __m256 second =
-                _mm256_insertf128_ps(_mm256_broadcast_ss(w + 2 * column), _mm_broadcast_ss(w + 3 * column), 1);
-            low = _mm256_add_ps(low, _mm256_mul_ps(a, first));
-            high = _mm256_add_ps(high, _mm256_mul_ps(b, second));
-        }
-    }
-    _mm256_storeu_ps(sums, low);
-    _mm256_storeu_ps(sums + 8, high);
-#else
-    int row = turned ? 1 : 4, column = turned ? 4 : 1;
-    Float4 sum[4];
-    memcpy(sum, sums, sizeof sum);
-    for (int k = 0; k < blocks; k++) {
-        const char *from = texels + (size_t)k * step * size;
-        for (int r = 0; r < 4; r++, from += stride * size)
-            for (int c = 0; c < 4; c++)
-                sum[c] += raw_texel(from + (size_t)c * size, narrow) * weights[k][row * r + column * c];
-    }
-    memcpy(sums, sum, sizeof sum);
-#endif
-}
-
-/* Where a band's blocks lie in their levels, or the padded copies of these: texels from the first one; -1 where some
- * lie outside. */
-INLINE Mask NAME(find_blocks)(const Group *g, int number, const Band *band, Mask *x, Mask *y)
-{
-    const BatchTexture *t = g->texture;
-    Mask lines = (Mask)g->line + 4 * number, texels = (Mask)g->texel + band->column;
-    *x = g->turned ? lines : texels;
-    *y = g->turned ? texels : lines;
-    Mask padding = __builtin_convertvector(OF_LEVEL(t->padding, g->level), Mask);
-    Mask width = __builtin_convertvector(OF_LEVEL(t->texels[0], g->level), Mask) + 2 * padding;
-    Mask height = __builtin_convertvector(OF_LEVEL(t->texels[1], g->level), Mask) + 2 * padding;
-    int across = 4 * g->blocks;
-    Mask column = *x + padding, row = *y + padding;
-    Mask inside = (column >= 0) & (row >= 0) & (column <= width - (g->turned ? 4 : across)) &
-                  (row <= height - (g->turned ? across : 4));
-    return ((row * width + column) & inside) | ~inside;
-}
-
-INLINE void NAME(sum_band)(Group *g, int number, const Band *band, int turned, int narrow)
-{
-    float weights[LANES][MAX_BLOCKS][16];
-    int first[LANES], columns[LANES], rows[LANES], levels[LANES];
-    Mask x, y, begin = NAME(find_blocks)(g, number, band, &x, &y);
-    STORE(first, begin);
-    STORE(columns, x);
-    STORE(rows, y);
-    STORE(levels, g->level);
-    for (int k = 0; k < g->blocks; k++)
-        NAME(turn_weights)(band, k, weights);
-    for (int lane = 0; lane < LANES; lane++) {
-        const TextureLevel *level = &g->texture->texture->levels[levels[lane]];
-        size_t stride = (size_t)(level->width + 2 * level->padding);
-        const float(*own)[16] = (const float(*)[16])weights[lane];
-        if (first[lane] >= 0) {
-            const char *texels =
-                (const char *)(level->padded ? level->padded : level->texels) + (size_t)first[lane] * (narrow ? 8 : 16);
-            NAME(sum_texels)(g->sums[lane], own, g->blocks, turned, narrow, texels, stride, turned ? 4 * stride : 4);
-        } else {
-            for (int k = 0; k < g->blocks; k++) {
-                char around[16 * 4 * sizeof(float)];
-                texture_gather_block(g->texture->texture, level, columns[lane] + (turned ? 0 : 4 * k),
-                                     rows[lane] + (turned ? 4 * k : 0), around);
-                NAME(sum_texels)(g->sums[lane], own + k, 1, turned, narrow, around, 4, 0);
-            }
-        }
-    }
-}
-
-INLINE void NAME(sum_blocks)(Group *g, int number, const Band *band)
-{
-    int narrow = g->texture->texture->narrow;
-    if (g->turned && narrow)
-        NAME(sum_band)(g, number, band, 1, 1);
-    else if (g->turned)
-        NAME(sum_band)(g, number, band, 1, 0);
-    else if (narrow)
-        NAME(sum_band)(g, number, band, 0, 1);
-    else
-        NAME(sum_band)(g, number, band, 0, 0);
-}
+#include "texture_batch_sum.h"
 
 /* The surface's ends, if there are any within the windows. */
 INLINE int NAME(load_ends)(Group *g)
@@ -543,17 +379,69 @@ INLINE void NAME(filter_group)(Group *g, Batch *batch)
         NAME(sum_blocks)(g, b, &band);
     }
     Lanes inverse = 1 / (g->total * (g->texture->texture->narrow ? NARROW_ONE : 1));
-    for (int lane = 0; lane < LANES; lane++) {
+    for (int lane = 0; lane < g->count; lane++) {
         const float *s = g->sums[lane];
         Float4 sum = ((load4(s) + load4(s + 4)) + (load4(s + 8) + load4(s + 12))) * inverse[lane];
         memcpy(batch->rgba[g->index[lane]], &sum, sizeof sum);
     }
-    for (int lane = 0; lane < LANES && g->cut; lane++)
-        if (!(g->total[lane] > LEAST_KEPT * g->whole[lane]) && (lane == 0 || g->index[lane] != g->index[lane - 1]))
+    for (int lane = 0; lane < g->count && g->cut; lane++)
+        if (!(g->total[lane] > LEAST_KEPT * g->whole[lane]))
             batch->left[batch->nleft++] = g->index[lane];
 }
 
-/* Side by side go those of equal keys, for which counting is sorting. */
+/* How many of the batch's footprints have keys below. Makes `order` that of their keys, ends[k] that of key k in it:
+ * counting is sorting. */
+INLINE int NAME(sort)(const Batch *batch, const Places *places, int *order, int *ends)
+{
+    int sum = 0;
+    memset(ends, 0, sizeof *ends * (NKEYS + 1));
+    for (int i = 0; i < batch->count; i++)
+        ends[places->key[i]]++;
+    for (int k = 0; k <= NKEYS; k++) {
+        int count = ends[k];
+        ends[k] = sum;
+        sum += count;
+    }
+    for (int i = 0; i < batch->count; i++)
+        order[ends[places->key[i]]++] = i;
+    return ends[NKEYS - 1];
+}
+
+/* Full vectors of footprints from place `begin` of the order on. Side by side go those of one key; what room they leave
+ * takes those of the keys after it, where that saves a group more than it makes this one larger. */
+INLINE void NAME(form_group)(Group *g, const int *order, const int *ends, int begin)
+{
+    const int key = g->places->key[order[begin]], kinds = MAX_BANDS * MAX_BLOCKS;
+    g->turned = key / (2 * kinds);
+    g->fine = key / kinds % 2;
+    g->bands = key / MAX_BLOCKS % MAX_BANDS + 1;
+    g->blocks = key % MAX_BLOCKS + 1;
+    g->count = ends[key] - begin < LANES ? ends[key] - begin : LANES;
+    for (int next = key + 1; g->count < LANES && next % kinds; next++) {
+        int bands = next / MAX_BLOCKS % MAX_BANDS + 1, blocks = next % MAX_BLOCKS + 1, own = bands * blocks;
+        int waiting = ends[next] - ends[next - 1], room = LANES - g->count, taken = waiting < room ? waiting : room;
+        if (!waiting)
+            continue;
+        bands = bands > g->bands ? bands : g->bands;
+        blocks = blocks > g->blocks ? blocks : g->blocks;
+        if ((waiting - taken + LANES - 1) / LANES == (waiting + LANES - 1) / LANES ||
+            bands * blocks >= g->bands * g->blocks + own)
+            break;
+        g->bands = bands;
+        g->blocks = blocks;
+        g->count += taken;
+    }
+    g->lines = g->columns = 1;
+    for (int lane = 0; lane < LANES; lane++) {
+        int i = order[begin + (lane < g->count ? lane : g->count - 1)];
+        g->index[lane] = i;
+        g->lines = g->places->lines[i] > g->lines ? g->places->lines[i] : g->lines;
+        g->columns = g->places->columns[i] > g->columns ? g->places->columns[i] : g->columns;
+    }
+    /* of one key, whose footprints lie in their own order */
+    g->contiguous = begin + LANES <= ends[key] && g->index[LANES - 1] == g->index[0] + LANES - 1;
+}
+
 static void NAME(filter_batch)(const BatchTexture *texture, Batch *batch)
 {
     Places places;
@@ -566,35 +454,11 @@ static void NAME(filter_batch)(const BatchTexture *texture, Batch *batch)
         NAME(place)(texture, batch, &places, i);
     NAME(leave_borders)(texture, batch->count, &places);
 
-    memset(ends, 0, sizeof ends);
-    for (int i = 0; i < batch->count; i++)
-        ends[places.key[i]]++;
-    for (int k = 0, sum = 0; k <= NKEYS; k++) {
-        int count = ends[k];
-        ends[k] = sum;
-        sum += count;
-    }
-    for (int i = 0; i < batch->count; i++)
-        order[ends[places.key[i]]++] = i;
-
+    const int end = NAME(sort)(batch, &places, order, ends);
     batch->nleft = 0;
-    for (int key = 0; key < NKEYS; key++) {
-        group.turned = key / (2 * MAX_BANDS * MAX_BLOCKS);
-        group.fine = key / (MAX_BANDS * MAX_BLOCKS) % 2;
-        group.bands = key / MAX_BLOCKS % MAX_BANDS + 1;
-        group.blocks = key % MAX_BLOCKS + 1;
-        for (; begin < ends[key]; begin += LANES) {
-            group.lines = group.columns = 1;
-            for (int lane = 0; lane < LANES; lane++) { /* what is missing at the end does the last one again */
-                int i = order[begin + lane < ends[key] ? begin + lane : ends[key] - 1];
-                group.index[lane] = i;
-                group.lines = places.lines[i] > group.lines ? places.lines[i] : group.lines;
-                group.columns = places.columns[i] > group.columns ? places.columns[i] : group.columns;
-            }
-            group.contiguous = begin + LANES <= ends[key] && group.index[LANES - 1] == group.index[0] + LANES - 1;
-            NAME(filter_group)(&group, batch);
-        }
-        begin = ends[key];
+    for (; begin < end; begin += group.count) {
+        NAME(form_group)(&group, order, ends, begin);
+        NAME(filter_group)(&group, batch);
     }
     while (begin < batch->count)
         batch->left[batch->nleft++] = order[begin++];

@@ -66,6 +66,17 @@ INLINE Spread NAME(find_spread)(const BatchTexture *t, Lanes su, Lanes sv, Lanes
                     c * c * uu + 2 * c * d * uv + d * d * vv};
 }
 
+/* A Gaussian longer than MAX_RATIO times its width is widened, all around: a needle lies on a level on which it meets
+ * far more texels than others do, and the few paths that it stands for hardly tell how thin it is. */
+INLINE void NAME(widen)(Spread *s)
+{
+    Lanes sum = s->xx + s->yy, difference = s->xx - s->yy;
+    Lanes root = MIN(SQRT(difference * difference + 4 * s->xy * s->xy), sum);
+    Lanes lacks = MAX((sum + root) * (0.5f / (MAX_RATIO * MAX_RATIO)) - 0.5f * (sum - root), NAME(all)(0));
+    s->xx += lacks;
+    s->yy += lacks;
+}
+
 /* By the smaller variance: halving texels divides it by four. *fine: texels are interpolated. */
 INLINE Mask NAME(choose_level)(const BatchTexture *t, const Spread *s, Mask *fine)
 {
@@ -191,6 +202,8 @@ INLINE void NAME(place)(const BatchTexture *t, const Batch *batch, Places *p, in
     v = SELECT(far, none, v);
     s = (Spread){SELECT(far, none, s.xx), SELECT(far, none, s.xy), SELECT(far, none, s.yy)};
 
+    if (t->gaussian)
+        NAME(widen)(&s);
     Double mean[2][2];
     Mask level = NAME(choose_level)(t, &s, &fine);
     for (int axis = 0; axis < 2; axis++) {
