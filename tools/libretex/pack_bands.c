@@ -412,23 +412,113 @@ static int decode_shift(const RetexPack *pack, int part, int band, int c, RetexP
     return code;
 }
 
-static int decode_planes(const RetexPack *pack, int part, int band, float *out, RetexPackScratch *s, RetexError *err)
+/* 1 unless all of it is +0. */
+static int is_lit(const float *values, size_t count)
+{
+    size_t i = 0;
+    for (uint64_t some[8]; i + 16 <= count; i += 16) {
+        memcpy(some, values + i, sizeof some);
+        if (some[0] | some[1] | some[2] | some[3] | some[4] | some[5] | some[6] | some[7])
+            return 1;
+    }
+    for (uint32_t one; i < count; i++) {
+        memcpy(&one, values + i, sizeof one);
+        if (one)
+            return 1;
+    }
+    return 0;
+}
+
+/* The rows of a band that are not all 0: bit y of row y. */
+static uint64_t find_lit(const PackPart *p, int band, const float *rows)
+{
+    const size_t row = (size_t)p->width * (size_t)p->channels;
+    uint64_t lit = 0;
+    for (int y = 0; y < pack_band_rows(p, band); y++)
+        lit |= (uint64_t)is_lit(rows + (size_t)y * row, row) << y;
+    return lit;
+}
+
+static uint64_t all_rows(const PackPart *p, int band)
+{
+    return ~(uint64_t)0 >> (64 - pack_band_rows(p, band));
+}
+
+/* The pixels of a row outside of which nothing matters; none: both 0. */
+typedef struct Extent {
+    int begin, end;
+} Extent;
+
+static Extent find_extent(const unsigned char *present, int width)
+{
+    const unsigned char *first = memchr(present, 1, (size_t)width),
+                        *last = first ? memrchr(present, 1, (size_t)width) : NULL;
+    return first ? (Extent){(int)(first - present), (int)(last - present) + 1} : (Extent){0, 0};
+}
+
+/* Numbers of channel c to samples, where only what is present matters and others are 0. Rows that stay 0 as a whole
+ * are left alone. */
+static void map_present(const PackPart *p, int band, int c, float *out, uint64_t lit, const RetexPackScratch *s)
+{
+    const size_t channels = (size_t)p->channels, width = (size_t)p->width;
+    const int32_t none = 0;
+    float nothing;
+    pack_map_samples(&nothing, 1, &none, 1, &p->maps[c], p->type);
+    for (int y = 0; y < pack_band_rows(p, band); y++) {
+        const size_t row = width * (size_t)y;
+        const Extent extent = find_extent(s->present + row, p->width);
+        float *to = out + row * channels + (size_t)c;
+        if (!(lit >> y & 1))
+            continue;
+        for (size_t x = 0; x < (size_t)extent.begin; x++)
+            to[x * channels] = nothing;
+        for (size_t x = (size_t)extent.end; x < width; x++)
+            to[x * channels] = nothing;
+        const size_t begin = (size_t)extent.begin;
+        pack_map_samples(to + begin * channels, channels, s->numbers + row + begin, (size_t)(extent.end - extent.begin),
+                         &p->maps[c], p->type);
+    }
+}
+
+/* The rows that something matters in, or that have a value where nothing does. */
+static uint64_t find_present_rows(const PackPart *p, int band, const RetexPackScratch *s)
+{
+    const int32_t none = 0;
+    uint64_t lit = 0;
+    for (int c = 0; c < p->channels; c++) {
+        float nothing;
+        pack_map_samples(&nothing, 1, &none, 1, &p->maps[c], p->type);
+        if (is_lit(&nothing, 1))
+            return all_rows(p, band);
+    }
+    for (int y = 0; y < pack_band_rows(p, band); y++)
+        lit |= (uint64_t)(memchr(s->present + (size_t)y * (size_t)p->width, 1, (size_t)p->width) != NULL) << y;
+    return lit;
+}
+
+static int decode_planes(const RetexPack *pack, int part, int band, float *out, uint64_t *lit, RetexPackScratch *s,
+                         RetexError *err)
 {
     const PackPart *p = &pack->parts[part];
     const size_t pixels = (size_t)p->width * (size_t)pack_band_rows(p, band);
     int code = reserve(s, p, err);
     if (!code && p->present >= 0)
         code = decode_present(pack, p->present, band, s, err);
-    for (int c = 0; !code && c < p->channels; c++) {
+    *lit = code || p->present < 0 ? all_rows(p, band) : find_present_rows(p, band, s);
+    for (int c = 0; !code && *lit && c < p->channels; c++) {
         const int lattice = p->maps[c].kind == PACK_MAP_LATTICE;
         const int partial = p->present >= 0 && (p->present != part || c != 2);
         if (lattice)
             code = decode_shift(pack, part, band, c, s, err);
         if (!code)
             code = decode_numbers(pack, part, band, c, partial ? s->present : NULL, lattice ? s->shift : NULL, s, err);
-        if (!code)
+        if (!code && p->present >= 0)
+            map_present(p, band, c, out, *lit, s);
+        else if (!code)
             pack_map_samples(out + c, (size_t)p->channels, s->numbers, pixels, &p->maps[c], p->type);
     }
+    if (!code && p->present < 0)
+        *lit = find_lit(p, band, out);
     return code;
 }
 
@@ -439,10 +529,13 @@ static int fill_mean_shifts(const RetexPack *pack, int part, int band, PackModel
     const PackPart *p = &pack->parts[part], *sigma = &pack->parts[p->sigma];
     const size_t pixels = (size_t)model->width * (size_t)model->rows;
     int code = cache_band(pack, p->sigma, band, s, err);
+    const CachedBand *cached = &s->cached[p->sigma];
     for (int c = 0; !code && c < p->channels; c++)
-        for (size_t i = 0; model->shifts[c] && i < pixels; i++)
-            model->shifts[c][i] =
-                (unsigned char)pack_mean_shift(s->cached[p->sigma].rows[i * (size_t)sigma->channels + (size_t)c]);
+        for (size_t i = 0; model->shifts[c] && i < pixels; i++) {
+            const int is_black = !(cached->lit >> i / (size_t)model->width & 1);
+            const float deviation = is_black ? 0 : cached->rows[i * (size_t)sigma->channels + (size_t)c];
+            model->shifts[c][i] = (unsigned char)pack_mean_shift(deviation);
+        }
     return code;
 }
 
@@ -505,19 +598,19 @@ static void apply_mask(const PackPart *p, int rows, float *out, const int32_t *m
         }
 }
 
-static int decode_jpeg(const RetexPack *pack, int part, int band, float *out, RetexPackScratch *s, RetexError *err)
+static int decode_jpeg(const RetexPack *pack, int part, int band, float *out, uint64_t *lit, RetexPackScratch *s,
+                       RetexError *err)
 {
     const PackPart *p = &pack->parts[part];
     const int rows = pack_band_rows(p, band);
     RetexError why = {0};
-    int lit = 1;
+    int rest = 1;
     int code = reserve(s, p, err);
+    *lit = 0;
     if (!code && p->masked)
-        code = decode_mask(pack, part, band, &lit, s, err);
-    if (!code && !lit) { /* what the JPEG has here means nothing */
-        memset(out, 0, (size_t)p->width * (size_t)rows * (size_t)p->channels * sizeof *out);
+        code = decode_mask(pack, part, band, &rest, s, err);
+    if (!code && !rest) /* what the JPEG has here means nothing */
         return 0;
-    }
     if (!code)
         code = read_chunk(pack, part, 0, 0, s, err);
     if (!code)
@@ -530,37 +623,26 @@ static int decode_jpeg(const RetexPack *pack, int part, int band, float *out, Re
         return retex_fail(err, code, "the pack is damaged: part '%s': %s", pack->set->parts[part].name, why.message);
     if (p->masked)
         apply_mask(p, rows, out, s->numbers);
+    *lit = find_lit(p, band, out);
     return 0;
 }
 
-static int decode_band(const RetexPack *pack, int part, int band, float *out, RetexPackScratch *s, RetexError *err)
+/* Rows without a bit in *lit are 0, and perhaps not written. */
+static int decode_band(const RetexPack *pack, int part, int band, float *out, uint64_t *lit, RetexPackScratch *s,
+                       RetexError *err)
 {
     const PackPart *p = &pack->parts[part];
+    int code = 0;
+    *lit = 0;
     if (p->codec == PACK_PLANES)
-        return decode_planes(pack, part, band, out, s, err);
-    if (pack_is_modelled(p))
-        return decode_model(pack, part, band, out, s, err);
+        return decode_planes(pack, part, band, out, lit, s, err);
     if (p->codec == PACK_JPEG)
-        return decode_jpeg(pack, part, band, out, s, err);
-    memset(out, 0, (size_t)p->width * (size_t)pack_band_rows(p, band) * (size_t)p->channels * sizeof *out);
-    return 0;
-}
-
-/* 1 unless all of it is +0. */
-static int is_lit(const float *values, size_t count)
-{
-    size_t i = 0;
-    for (uint64_t some[8]; i + 16 <= count; i += 16) {
-        memcpy(some, values + i, sizeof some);
-        if (some[0] | some[1] | some[2] | some[3] | some[4] | some[5] | some[6] | some[7])
-            return 1;
+        return decode_jpeg(pack, part, band, out, lit, s, err);
+    if (pack_is_modelled(p)) {
+        code = decode_model(pack, part, band, out, s, err);
+        *lit = code ? 0 : find_lit(p, band, out);
     }
-    for (uint32_t one; i < count; i++) {
-        memcpy(&one, values + i, sizeof one);
-        if (one)
-            return 1;
-    }
-    return 0;
+    return code;
 }
 
 /* Have the band in the cache. */
@@ -574,14 +656,9 @@ static int cache_band(const RetexPack *pack, int part, int band, RetexPackScratc
     cached->band = -1;
     if (!cached->rows && !(cached->rows = malloc(row * PACK_BAND_ROWS * sizeof *cached->rows)))
         return retex_fail(err, RETEX_ENOMEM, "no memory to read a pack");
-    int code = decode_band(pack, part, band, cached->rows, s, err);
-    if (code)
-        return code;
-    cached->band = band;
-    cached->lit = 0;
-    for (int y = 0; y < pack_band_rows(p, band); y++)
-        cached->lit |= (uint64_t)is_lit(cached->rows + (size_t)y * row, row) << y;
-    return 0;
+    int code = decode_band(pack, part, band, cached->rows, &cached->lit, s, err);
+    cached->band = code ? -1 : band;
+    return code;
 }
 
 int retex_pack_row(const RetexPack *pack, int part, int y, const float **row, RetexPackScratch *s, RetexError *err)
@@ -611,9 +688,13 @@ int retex_pack_read_rows(const RetexPack *pack, int part, int y0, int y1, float 
         const int band = y / PACK_BAND_ROWS, rows = pack_band_rows(p, band);
         const float *row;
         if (y % PACK_BAND_ROWS == 0 && y + rows <= y1 && s->cached[part].band != band) {
-            int code = decode_band(pack, part, band, out, s, err);
+            uint64_t lit;
+            int code = decode_band(pack, part, band, out, &lit, s, err);
             if (code)
                 return code;
+            for (int k = 0; k < rows; k++)
+                if (!(lit >> k & 1))
+                    memset(out + (size_t)k * count, 0, count * sizeof *out);
             out += (size_t)(rows - 1) * count;
             y += rows - 1;
             continue;
