@@ -7,7 +7,7 @@
 #include "cli.h"
 
 static const CliOption options[] = {
-    {"quality", 0, "1..100", "of what is stored with losses; default 90", 0},
+    {"quality", 0, "1..100", "of pictures made from the pack, at least; default 90", 0},
     {"lossless", 0, NULL, "keep every bit of every part", 0},
     {"codec", 0, "NAME", "what radiance is stored as: jpeg, the default", 0},
     {"stats", 0, "FILE.json", "write sizes by group and the loss that pictures show; - is standard output", 0},
@@ -75,6 +75,7 @@ static int write_stats(const Job *job, const RetexSet *set, const char *pack_pat
     static const char *const names[RETEX_PACK_LOSSES] = {"original", "white", "waves", "squares"};
     RetexSet *pack = NULL;
     double psnr[RETEX_PACK_LOSSES];
+    RetexPackKept kept;
     uint64_t bytes[RETEX_PACK_GROUPS];
     char text[2048], quality[16] = "null";
     int code = retex_set_open(pack_path, &pack, NULL, job->params.nthreads, err);
@@ -98,7 +99,11 @@ static int write_stats(const Job *job, const RetexSet *set, const char *pack_pat
         n += snprintf(text + n, sizeof text - (size_t)n, "},\n  \"psnr\": {");
         for (int i = 0; i < RETEX_PACK_LOSSES; i++)
             n += snprintf(text + n, sizeof text - (size_t)n, "%s\"%s\": %.2f", i ? ", " : "", names[i], psnr[i]);
-        n += snprintf(text + n, sizeof text - (size_t)n, "}\n}\n");
+        n += snprintf(text + n, sizeof text - (size_t)n, "}");
+        if (retex_pack_kept(&kept, pack))
+            n += snprintf(text + n, sizeof text - (size_t)n, ",\n  \"promised\": %.2f,\n  \"measured\": %.2f",
+                          kept.promised, kept.measured);
+        n += snprintf(text + n, sizeof text - (size_t)n, "\n}\n");
         code = retex_file_write(job->stats, text, (size_t)n, err);
     }
     retex_set_close(&pack);

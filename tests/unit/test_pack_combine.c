@@ -233,7 +233,7 @@ static void test_unsound_descriptions_are_refused(void **state)
         if (i == 4)
             set->parts[set->footprints[0].albedo].image.width = 20;
         test_must(retex_set_manifest(set, NULL, &manifest, &err), &err);
-        char *text = pack_describe(manifest, set, packed);
+        char *text = pack_describe(manifest, set, packed, NULL);
         assert_int_equal(pack_understand(read, set, text, &err), i ? RETEX_EFORMAT : RETEX_OK);
         if (i)
             assert_non_null(strstr(err.message, "not sound"));

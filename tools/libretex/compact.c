@@ -10,8 +10,7 @@
 #include "compact_choose.h"
 #include "set_parts.h"
 
-/* Everything but what only denoising reads. */
-static int copy_set(RetexSet **result, const RetexSet *set, RetexError *err)
+int compact_copy_set(RetexSet **result, const RetexSet *set, RetexError *err)
 {
     SetView view;
     char *kept = malloc((size_t)set->nparts + 1);
@@ -76,7 +75,7 @@ int retex_set_compact(RetexSet **compact, const RetexSet *set, const RetexCompac
         if (!code)
             code = compact_build(compact, &light, &scales, nthreads, err);
     } else if (!code) {
-        code = copy_set(compact, set, err);
+        code = compact_copy_set(compact, set, err);
     }
     compact_light_close(&light);
     if (code)

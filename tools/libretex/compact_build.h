@@ -35,6 +35,8 @@ void compact_cache_free(CompactCache *cache, const CompactLight *light);
 int compact_build_kind(RetexSet **result, RetexImage *of[][COMPACT_WAVES], const CompactLight *light, int kind,
                        const CompactScales *scales, CompactCache *cache, int nthreads, RetexError *err);
 
+/* Everything but what only denoising reads. */
+int compact_copy_set(RetexSet **copy, const RetexSet *set, RetexError *err);
 /* A new set with all that another says of itself, and no parts. */
 int compact_copy_head(RetexSet **copy, const RetexSet *set, RetexError *err);
 int compact_copy_part(RetexSet *set, const RetexSet *from, int part, int *index, RetexError *err);

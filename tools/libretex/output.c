@@ -29,6 +29,9 @@ struct RetexOutput {
     int descriptor;
     int direct;   /* 1: no temporary file, straight to a device, pipe or standard output */
     int borrowed; /* 1: standard output, which is not ours to close */
+    FILE *memory; /* instead of a descriptor, or NULL; with where it lies */
+    char *data;
+    size_t bytes;
     size_t buffered;
     unsigned char *buffer;
 };
@@ -166,6 +169,19 @@ int retex_output_open(RetexOutput **result, const char *path, RetexError *err)
     return status;
 }
 
+int retex_output_open_memory(RetexOutput **result, RetexError *err)
+{
+    RetexOutput *output = *result = output_new("memory", err);
+
+    if (!output)
+        return RETEX_ENOMEM;
+    output->memory = open_memstream(&output->data, &output->bytes);
+    if (output->memory)
+        return 0;
+    retex_output_abandon(result);
+    return retex_fail(err, RETEX_ENOMEM, "no memory to write into");
+}
+
 int retex_output_check(const char *path, RetexError *err)
 {
     RetexOutput *output = NULL;
@@ -185,6 +201,8 @@ int retex_output_check(const char *path, RetexError *err)
 
 static int write_all(RetexOutput *output, const unsigned char *data, size_t bytes, RetexError *err)
 {
+    if (output->memory)
+        return fwrite(data, 1, bytes, output->memory) == bytes ? 0 : fail_system(output, ENOMEM, err);
     while (bytes) {
         /* below the 2 GiB that one call takes at most */
         const ssize_t written = write(output->descriptor, data, bytes < (1u << 30) ? bytes : (1u << 30));
@@ -307,6 +325,22 @@ int retex_output_commit(RetexOutput **output, RetexError *err)
     return status;
 }
 
+int retex_output_take(RetexOutput **result, void **data, size_t *bytes, RetexError *err)
+{
+    RetexOutput *output = *result;
+    int status = flush(output, err);
+
+    if (fclose(output->memory) != 0 && !status)
+        status = fail_system(output, ENOMEM, err);
+    output->memory = NULL; /* data is what it became by closing */
+    *data = status ? NULL : output->data;
+    *bytes = status ? 0 : output->bytes;
+    if (!status)
+        output->data = NULL;
+    retex_output_abandon(result);
+    return status;
+}
+
 void retex_output_abandon(RetexOutput **result)
 {
     RetexOutput *output = result ? *result : NULL;
@@ -317,6 +351,9 @@ void retex_output_abandon(RetexOutput **result)
         close(output->descriptor);
     if (output->temporary[0])
         unlink(output->temporary);
+    if (output->memory)
+        fclose(output->memory);
+    free(output->data);
     free(output->buffer);
     free(output);
     *result = NULL;

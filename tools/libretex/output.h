@@ -13,6 +13,11 @@ typedef struct RetexOutput RetexOutput;
  * stays whole, and a process that is killed leaves nothing behind where the file system can do without a name. */
 int retex_output_open(RetexOutput **output, const char *path, RetexError *err);
 
+/* Begin writing into memory. */
+int retex_output_open_memory(RetexOutput **output, RetexError *err);
+/* What has been written so, malloc'ed, the caller's to free. Nulls *output. */
+int retex_output_take(RetexOutput **output, void **data, size_t *bytes, RetexError *err);
+
 /* Whether path could be opened so, as far as one can tell without making anything: for before long work. */
 int retex_output_check(const char *path, RetexError *err);
 

@@ -26,6 +26,8 @@ struct RetexPack {
     PackPart *parts;
     const RetexSet *set; /* that owns it */
     int nparts;
+    int says_kept;
+    RetexPackKept kept;
 };
 
 typedef struct CachedBand {
@@ -209,8 +211,18 @@ static int open_pack(RetexPack *pack, RetexSet **set, int nthreads, RetexError *
         code = pack_v1_read(*set, pack->input, &pack->entries, (char *)manifest, nthreads, err);
     else if (!code)
         code = open_version_2(pack, *set, (char *)manifest, err);
+    pack->says_kept = !code && pack_kept_of(&pack->kept, (char *)manifest);
     free(manifest);
     return code ? code : version;
+}
+
+int retex_pack_kept(RetexPackKept *kept, const RetexSet *set)
+{
+    const RetexPack *pack = retex_pack_of(set);
+    if (!pack || !pack->says_kept)
+        return 0;
+    *kept = pack->kept;
+    return 1;
 }
 
 /* --- as the source of a set's parts --- */

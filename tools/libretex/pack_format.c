@@ -149,12 +149,18 @@ static json_t *describe_part(const RetexSet *set, int part, const PackPart *pack
     return o;
 }
 
-char *pack_describe(const char *manifest, const RetexSet *set, const PackPart *packed)
+char *pack_describe(const char *manifest, const RetexSet *set, const PackPart *packed, const RetexPackKept *kept)
 {
     json_t *root = json_loads(manifest, 0, NULL), *parts = json_array();
     for (int i = 0; i < set->nparts; i++)
         json_array_append_new(parts, describe_part(set, i, &packed[i]));
-    json_object_set_new(root, "pack", json_pack("{s:i, s:o}", "version", PACK_VERSION, "parts", parts));
+    json_t *pack = json_pack("{s:i, s:o}", "version", PACK_VERSION, "parts", parts);
+    if (kept) {
+        json_object_set_new(pack, "quality", json_integer(kept->quality));
+        json_object_set_new(pack, "promised", json_real(kept->promised));
+        json_object_set_new(pack, "measured", json_real(kept->measured));
+    }
+    json_object_set_new(root, "pack", pack);
     char *text = json_dumps(root, JSON_COMPACT | JSON_REAL_PRECISION(17));
     json_decref(root);
     return text;
@@ -184,6 +190,17 @@ static int get_integer(const json_t *value, int least, int most, int *out)
     const json_int_t v = json_integer_value(value);
     *out = json_is_integer(value) && v >= least && v <= most ? (int)v : 0;
     return json_is_integer(value) && v >= least && v <= most;
+}
+
+int pack_kept_of(RetexPackKept *kept, const char *manifest)
+{
+    json_t *root = json_loads(manifest, 0, NULL);
+    const json_t *pack = json_object_get(root, "pack");
+    const int sound = get_integer(json_object_get(pack, "quality"), 1, 100, &kept->quality) &&
+                      get_positive(json_object_get(pack, "promised"), &kept->promised) &&
+                      get_positive(json_object_get(pack, "measured"), &kept->measured);
+    json_decref(root);
+    return sound;
 }
 
 static int understand_map(PackMap *map, const json_t *o)

@@ -2,7 +2,7 @@
 #ifndef LIBRETEX_PACK_FORMAT_H
 #define LIBRETEX_PACK_FORMAT_H
 
-#include <retex/set.h>
+#include <retex/pack.h>
 
 #include "pack_jpeg.h"
 #include "pack_planes.h"
@@ -63,9 +63,11 @@ void pack_file_name(char *name, size_t room, const RetexSet *set, int part, int 
 /* CRC-32 of a part's samples as they are stored: see RetexPart. */
 int pack_samples_crc(uint32_t *crc, const RetexPart *part, RetexError *err);
 
-/* The key "pack" of the manifest's text, and back; packed[set->nparts]. */
-char *pack_describe(const char *manifest, const RetexSet *set, const PackPart *packed);
+/* The key "pack" of the manifest's text, and back; packed[set->nparts]. kept: what is said of the loss, or NULL. */
+char *pack_describe(const char *manifest, const RetexSet *set, const PackPart *packed, const RetexPackKept *kept);
 int pack_understand(PackPart *packed, const RetexSet *set, const char *manifest, RetexError *err);
+/* What it says of the loss; 1, or 0 where it says nothing, or nothing sound. */
+int pack_kept_of(RetexPackKept *kept, const char *manifest);
 /* The manifest's version of the format, or 0. */
 int pack_version_of(const char *manifest);
 

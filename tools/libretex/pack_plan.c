@@ -17,7 +17,7 @@
 #define BRIGHTER_MOST 4  /* times white that of light may be */
 #define GAIN_STEP 2.5    /* of gains, of which many are added up, in that of their light */
 
-double pack_quality_psnr(int quality)
+double pack_quality_psnr(double quality)
 {
     return 20 + 0.4 * quality;
 }
@@ -369,15 +369,14 @@ static void plan_parts(Planning *plan)
     }
 }
 
-int pack_plan(PackPart *packed, const RetexSet *set, int lossless, const PackGrain *grain, int nthreads,
-              RetexError *err)
+int pack_plan(PackPart *packed, const RetexSet *set, const PackGrain *grain, int nthreads, RetexError *err)
 {
     const size_t count = (size_t)set->nparts;
     Planning plan = {choose_white(&set->parts[0].image),
                      calloc(count + 1, sizeof *plan.whites),
                      packed,
                      set,
-                     lossless ? NULL : grain,
+                     grain,
                      calloc(count + 1, sizeof *plan.roles),
                      calloc(count + 1, sizeof *plan.means),
                      calloc(count + 1, sizeof *plan.ranges),

@@ -20,14 +20,13 @@ typedef struct PackGrain {
     double coarser_most; /* times jpeg_step, of light so noisy that nothing is seen of it */
 } PackGrain;
 
-/* The grain at which pictures keep this PSNR against the set's own: retex-pack(1) says how well. */
+/* The grain whose errors have about this PSNR; pictures lose otherwise, see pack_loss.h. */
 PackGrain pack_grain(double psnr);
 
-/* The quality of 1 to 100 as PSNR. */
-double pack_quality_psnr(int quality);
+/* The quality of 1 to 100, or beyond, as PSNR that is aimed at. */
+double pack_quality_psnr(double quality);
 
-/* Plan all parts: packed[set->nparts]. lossless: every part keeps its bits. */
-int pack_plan(PackPart *packed, const RetexSet *set, int lossless, const PackGrain *grain, int nthreads,
-              RetexError *err);
+/* Plan all parts: packed[set->nparts]. grain: NULL = every part keeps its bits. */
+int pack_plan(PackPart *packed, const RetexSet *set, const PackGrain *grain, int nthreads, RetexError *err);
 
 #endif

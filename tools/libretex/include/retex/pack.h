@@ -12,14 +12,15 @@ extern "C" {
 /* Begin with RETEX_PACK_INIT. */
 typedef struct RetexPackParams {
     size_t size;
-    int quality;   /* 1..100, default 90: see retex-pack(1) for what pictures made of the pack lose */
+    int quality;   /* 1..100, default 90: what pictures made of the pack lose at most, see retex-pack(1) */
     int lossless;  /* 1: every part is packed and keeps its stored bits; default 0 */
     int nthreads;  /* 0 = all cores */
 } RetexPackParams;
 #define RETEX_PACK_INIT { sizeof(RetexPackParams), 90, 0, 0 }
 
 /* Write set as a pack; "-" is standard output. Unless lossless it is compacted (see compact.h), and is without what
- * only denoising reads (see denoise.h). *bytes (may be NULL) gets the pack's size. */
+ * only denoising reads (see denoise.h); then pictures are made of it and of the set, and where they differ more than
+ * the quality promises it is packed anew, finer. *bytes (may be NULL) gets the pack's size. */
 int retex_pack_write(const RetexSet *set, const char *path, const RetexPackParams *params /* NULL = defaults */,
                      size_t *bytes, RetexError *err);
 /* Read a pack from memory (the whole file). retex_set_read calls it when it finds a pack. */
@@ -38,8 +39,17 @@ typedef enum RetexPackGroup {
 extern const char *const retex_pack_group_names[RETEX_PACK_GROUPS];
 int retex_pack_bytes(uint64_t bytes[RETEX_PACK_GROUPS], const RetexSet *set);
 
-/* PSNR (see metrics.h) of pictures made from a pack against those from the set it was made of: with the original
- * textures, and with all targets white, of smooth waves, and of a chequerboard. */
+/* What a pack with losses says of them: quality, and of the worst picture of those of retex_pack_loss, when it was
+ * packed, the PSNR that was promised and what it was. */
+typedef struct RetexPackKept {
+    int quality;
+    double promised, measured; /* dB */
+} RetexPackKept;
+/* 1, or 0 where the set is not that of such a pack which retex_set_open opened, or it does not say. */
+int retex_pack_kept(RetexPackKept *kept, const RetexSet *set);
+
+/* PSNR (see metrics.h), to 16 bits, of pictures made from a pack against those from the set it was made of: with the
+ * original textures, and with all targets white, of smooth waves, and of a black and white chequerboard. */
 enum {
     RETEX_PACK_LOSS_ORIGINAL, RETEX_PACK_LOSS_WHITE, RETEX_PACK_LOSS_WAVES, RETEX_PACK_LOSS_SQUARES, RETEX_PACK_LOSSES
 };

@@ -1,0 +1,231 @@
+/* The quality bounds what pictures made from a pack lose, with textures that were tried and, within a slack, others. */
+#include "lib_footprints.h"
+#include <cmocka.h>
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <unistd.h>
+
+#include "pack_loss.h"
+
+enum { WIDE = 72, HIGH = 66, PATTERNS = 3 };
+
+static const double SLACK = 2; /* dB that textures which were not tried may lose more: retex-pack(1) */
+
+static const int qualities[] = {30, 60, 90, 100};
+enum { QUALITIES = sizeof qualities / sizeof *qualities };
+
+/* ---- the formula ---- */
+
+static void promises_rise_with_quality(void **state)
+{
+    static const double noises[] = {0, 1e-4, 1e-2};
+    (void)state;
+    for (int i = 0; i < 3; i++)
+        for (int quality = 2; quality <= 100; quality++)
+            assert_true(pack_promise(quality, noises[i]) > pack_promise(quality - 1, noises[i]));
+    assert_float_equal(pack_promise(50, 0), 30, 1e-9);
+    assert_float_equal(pack_promise(90, 0), 34, 1e-9);
+    assert_float_equal(pack_promise(100, 0.1), 50, 1e-9);
+    assert_float_equal(pack_promise(90, 0.01), 30, 1e-9); /* a tenth of the noise */
+}
+
+/* ---- sets ---- */
+
+/* Clusters, light that goes on, and footprints that are all over the texture, as no surface has them, of which
+ * compacting keeps little: or, smooth, those of a wall. */
+static RetexSet *make_set(int smooth)
+{
+    RetexSet *set = start_set(WIDE, HIGH, 1);
+    uint32_t seed = 3;
+    for (int k = 0; k < 6; k++)
+        add_footprint(set, 0, k < 4 ? RETEX_FOOTPRINT_BROAD : RETEX_FOOTPRINT_LATER, 1 + k, "RGB");
+    for (int k = 0; k < 4; k++)
+        add_term(set, 1, k, 0);
+    const int first = add_mixture(set, 0, 4, "R"), later = add_mixture(set, 4, 2, "R");
+    add_term(set, 2, first, later);
+    for (int y = 0; y < HIGH; y++)
+        for (int x = 0; x < WIDE; x++) {
+            for (int f = 0; f < set->nfootprints; f++) {
+                const float u = smooth ? 0.8f * (float)x / WIDE : (float)test_random(&seed);
+                const float v = smooth ? 0.8f * (float)y / HIGH : (float)test_random(&seed);
+                put(set, f, x, y, u, v, 0.2f);
+                put_spread(set, f, x, y, 0.01f, 0.01f, 0);
+                put_rgb(set, set->footprints[f].albedo, x, y, 0.5f, 0.4f, 0.3f);
+                *pixel(set, share_part(set, f), x, y) = smooth ? 0.25f : (float)(0.1 + test_random(&seed));
+            }
+            for (int t = 0; t < set->nterms; t++) {
+                const float light = smooth ? 0.1f + 0.1f * (float)x / WIDE : (float)(0.3 * test_random(&seed));
+                put_rgb(set, set->terms[t].radiance, x, y, light, light, light);
+            }
+        }
+    return set;
+}
+
+/* ---- pictures with textures that packing does not try ---- */
+
+static void paint(RetexImage *image, int pattern)
+{
+    uint32_t seed = 11;
+    test_random_image(image, 32, 32, 3, seed, 0, 1);
+    for (int i = 0; i < 32 * 32; i++)
+        for (int c = 0; c < 3 && pattern; c++)
+            image->pixels[3 * i + c] = pattern == 1 ? (c == 0 ? 0.9f : 0.05f) : (float)((i % 32 + i / 32) / 4 % 2);
+}
+
+static int take_rows(void *context, int y0, int y1, const float *rows, RetexError *err)
+{
+    RetexImage *image = context;
+    (void)err;
+    for (size_t i = 0; i < 3 * (size_t)(y1 - y0) * WIDE; i++)
+        image->pixels[retex_image_index(image, 0, y0) + i] = rows[i];
+    return 0;
+}
+
+static double untried(const RetexSet *pack, const RetexSet *set, int pattern)
+{
+    const RetexSet *sets[] = {pack, set};
+    RetexImage texels, images[2] = {{0}};
+    RetexTexture *textures[RETEX_MAX_TARGETS] = {NULL};
+    RetexMetrics metrics;
+    RetexError err = {0};
+    paint(&texels, pattern);
+    test_must(retex_texture_create(&textures[0], &texels, NULL, &err), &err);
+    for (int i = 0; i < 2; i++) {
+        test_must(retex_image_alloc(&images[i], WIDE, HIGH, 3, &err), &err);
+        test_must(retex_retexture(sets[i], NULL, textures, NULL, take_rows, &images[i], 1, &err), &err);
+    }
+    test_must(retex_metrics(&metrics, &images[0], &images[1], 1, &err), &err);
+    retex_texture_close(&textures[0]);
+    retex_image_free(&texels);
+    for (int i = 0; i < 2; i++)
+        retex_image_free(&images[i]);
+    return metrics.psnr;
+}
+
+/* ---- packs ---- */
+
+/* A pack of it, open; and how many bytes it has. */
+static RetexSet *packed(const RetexSet *set, int quality, int nthreads, size_t *bytes)
+{
+    char path[] = "/tmp/test_promise_XXXXXX";
+    RetexPackParams params = RETEX_PACK_INIT;
+    RetexError err = {0};
+    RetexSet *pack;
+    const int file = mkstemp(path);
+    assert_true(file >= 0);
+    close(file);
+    params.quality = quality;
+    params.nthreads = nthreads;
+    test_must(retex_pack_write(set, path, &params, bytes, &err), &err);
+    test_must(retex_set_open(path, &pack, NULL, 1, &err), &err);
+    unlink(path);
+    return pack;
+}
+
+static void promises_are_kept(void **state)
+{
+    (void)state;
+    for (int smooth = 0; smooth < 2; smooth++) {
+        RetexSet *set = make_set(smooth);
+        for (int i = 0; i < QUALITIES; i++) {
+            double psnr[RETEX_PACK_LOSSES];
+            RetexPackKept kept;
+            RetexError err = {0};
+            RetexSet *pack = packed(set, qualities[i], 2, NULL);
+            assert_true(retex_pack_kept(&kept, pack));
+            assert_int_equal(kept.quality, qualities[i]);
+            assert_float_equal(kept.promised, pack_promise(qualities[i], 0), 1e-9);
+            assert_true(kept.measured >= kept.promised);
+            test_must(retex_pack_loss(psnr, pack, set, 1, &err), &err);
+            assert_float_equal(fmin(fmin(psnr[0], psnr[1]), psnr[RETEX_PACK_LOSS_SQUARES]), kept.measured, 1e-9);
+            for (int k = 0; k < PATTERNS; k++)
+                assert_true(untried(pack, set, k) >= kept.promised - SLACK);
+            retex_set_close(&pack);
+        }
+        retex_set_close(&set);
+    }
+}
+
+/* What 100 promises needs every bit of some sets; others are packed far smaller, and all the more at 30. */
+static void bits_are_kept_where_nothing_else_does(void **state)
+{
+    size_t bytes[2][2];
+    (void)state;
+    for (int smooth = 0; smooth < 2; smooth++) {
+        RetexSet *set = make_set(smooth);
+        for (int i = 0; i < 2; i++) {
+            RetexPackKept kept;
+            RetexSet *pack = packed(set, i ? 100 : 30, 1, &bytes[smooth][i]);
+            assert_true(retex_pack_kept(&kept, pack));
+            assert_true(kept.measured < 60 || (smooth && i && kept.measured == 120));
+            retex_set_close(&pack);
+        }
+        assert_true(bytes[smooth][0] < bytes[smooth][1]);
+        retex_set_close(&set);
+    }
+}
+
+/* Noise that a set tells of lets more of it go; what denoising has used up does not. */
+static void noise_lowers_the_promise(void **state)
+{
+    double promised[3];
+    (void)state;
+    for (int i = 0; i < 3; i++) {
+        RetexSet *set = make_set(1);
+        RetexPackKept kept;
+        RetexError err = {0};
+        int noise;
+        if (i > 0)
+            test_must(retex_set_add_part(set, "noise_indep", "RGB", RETEX_HALF, 0, 0, &noise, &err), &err);
+        for (int k = 0; i > 0 && k < 3 * WIDE * HIGH; k++)
+            set->parts[noise].image.pixels[k] = k / 3 % 2 ? 0.15f : -0.15f;
+        set->denoised = i == 2;
+        RetexSet *pack = packed(set, 90, 1, NULL);
+        assert_true(retex_pack_kept(&kept, pack));
+        promised[i] = kept.promised;
+        retex_set_close(&pack);
+        retex_set_close(&set);
+    }
+    assert_float_equal(promised[0], 34, 1e-9);
+    assert_true(promised[1] < 33);
+    assert_float_equal(promised[2], 34, 1e-9);
+}
+
+static void others_promise_nothing(void **state)
+{
+    RetexSet *set = make_set(1);
+    RetexPackKept kept;
+    (void)state;
+    assert_false(retex_pack_kept(&kept, set));
+    retex_set_close(&set);
+}
+
+static void threads_do_not_matter(void **state)
+{
+    RetexSet *set = make_set(0);
+    RetexPackKept one, many;
+    size_t bytes[2];
+    (void)state;
+    RetexSet *pack = packed(set, 100, 1, &bytes[0]), *other = packed(set, 100, 7, &bytes[1]);
+    assert_true(retex_pack_kept(&one, pack) && retex_pack_kept(&many, other));
+    assert_int_equal(bytes[0], bytes[1]);
+    assert_true(one.measured == many.measured);
+    retex_set_close(&pack);
+    retex_set_close(&other);
+    retex_set_close(&set);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(promises_rise_with_quality),
+        cmocka_unit_test(promises_are_kept),
+        cmocka_unit_test(bits_are_kept_where_nothing_else_does),
+        cmocka_unit_test(noise_lowers_the_promise),
+        cmocka_unit_test(others_promise_nothing),
+        cmocka_unit_test(threads_do_not_matter),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
