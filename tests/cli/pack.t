@@ -64,7 +64,7 @@ $ for q in 70 90 95 100; do retex-pack -q g.exr -o g.retex --quality $q --stats 
 $ python3 -c 'import json; p = [json.load(open(f"g{q}.json"))["psnr"] for q in (70, 90, 95, 100)]; print([all(a[k] + 0.3 < b[k] for k in a) for a, b in zip(p, p[1:])], min(p[2].values()) > 40, min(p[3].values()) > 50)'
 > [True, True, True] True True
 # No quality loses more than it promises, nor much more with textures that packing does not try.
-$ ln -s "$SCENES" scenes; retex-render -q --size 64x48 --spp 16 -t Floor -t Wall scenes/living-room/living-room.pov -o r.exr; retex-denoise -q r.exr -o rd.exr; retex-denoise -q g.exr -o gd.exr
+$ ln -s "$SCENES" scenes; retex-render -q --size 64x48 --spp 32 -t Floor -t Wall scenes/living-room/living-room.pov -o r.exr; retex-denoise -q r.exr -o rd.exr; retex-denoise -q g.exr -o gd.exr
 $ for s in r rd g gd; do for q in 30 60 90 100; do retex-pack -q $s.exr -o p.retex --quality $q --stats $s$q.json; for t in walnut-herringbone terrazzo; do retex-combine -q $s.exr --texture Floor=scenes/textures/$t.jpg -o a.exr; retex-combine -q p.retex --texture Floor=scenes/textures/$t.jpg -o b.exr; retex-diff -q a.exr b.exr --fail-psnr $(python3 -c "import json; print(json.load(open('$s$q.json'))['promised'] - 2)") || echo $s $q $t; done; done; done; rm scenes
 $ python3 -c 'import json; p = {s: [json.load(open(f"{s}{q}.json")) for q in (30, 60, 90, 100)] for s in ("r", "rd", "g", "gd")}; print([j["promised"] for j in p["rd"]], p["r"][2]["promised"] < 34); print([[j["promised"] <= j["measured"] == min(j["psnr"][k] for k in ("original", "white", "squares")) for j in p[s]] for s in p])'
 > [28.0, 31.0, 34.0, 50.0] True

@@ -63,6 +63,7 @@ int retex_pack_bytes(uint64_t bytes[RETEX_PACK_GROUPS], const RetexSet *set)
 
 /* For each picture its textures: none, white, smooth waves, and a chequerboard, which has the hardest edges. */
 enum { SIDE = 256, WAVES = 4, SQUARES = 16 };
+enum { ENOUGH_SAMPLES = 32 }; /* a pixel: of fewer less is promised */
 
 static const double CODE_MOST = 65535;
 static const double PSNR_MOST = 120;
@@ -252,9 +253,10 @@ double pack_worst(const double psnr[RETEX_PACK_LOSSES])
 
 /* --- the promise --- */
 
-double pack_promise(int quality, double noise)
+double pack_promise(int quality, int spp, double noise)
 {
-    const double psnr = 25 + 0.1 * quality + 1.5 * fmax(quality - 90, 0);
+    const double few = spp > 0 ? fmax(10 * log10((double)ENOUGH_SAMPLES / spp), 0) : 0;
+    const double psnr = 25 + 0.1 * quality + 1.5 * fmax(quality - 90, 0) - few * fmin((100 - quality) / 10.0, 1);
     return psnr_of(fmax(pow(10, -psnr / 10), (100 - quality) / 100.0 * noise));
 }
 

@@ -30,7 +30,8 @@ int pack_judge_read(double psnr[RETEX_PACK_LOSSES], const PackJudge *judge, cons
                     RetexError *err);
 double pack_worst(const double psnr[RETEX_PACK_LOSSES]);
 
-/* Decibels that the worst of these pictures has at least, at a quality of 1 to 100; noise: PackJudge's. */
-double pack_promise(int quality, double noise);
+/* Decibels that the worst of these pictures has at least, at a quality of 1 to 100; spp: samples a pixel, of which few
+ * leave noise in footprints, denoised or not, that packing takes away; noise: PackJudge's. */
+double pack_promise(int quality, int spp, double noise);
 
 #endif

@@ -244,7 +244,7 @@ int retex_pack_write(const RetexSet *set, const char *path, const RetexPackParam
     RetexPackKept kept = {.quality = params->quality};
     const int judged = !params->lossless && can_be_judged(set), nthreads = params->nthreads;
     int code = judged ? pack_judge_open(&judge, set, PACK_PROMISED_PICTURES, nthreads, err) : 0;
-    kept.promised = pack_promise(params->quality, judge.noise);
+    kept.promised = pack_promise(params->quality, set->spp, judge.noise);
     if (!code && params->lossless)
         code = pack_encode(&attempt.encoded, set, NULL, nthreads, err);
     else if (!code && judged)
