@@ -73,7 +73,8 @@ SIZES = """
 Megabytes on the disk at {size}, {spp} samples a pixel. The paper's are those of its Living Room at 1920x1080: EXR, and
 the same with radiance as JPEG; it has no originals in them. "DWAA" is `oiiotool -a --compression dwaa:45` of the whole
 set, which also coarsens UV: [storage.md](storage.md) measures what such files lose. Rousselle's buffers are those of
-the scene, whatever is changed, and need the scene as well{control}. The columns behind say what of it is for what.
+the scene, whatever is changed, and need the scene as well{control}.
+The columns behind say what of it is for what.
 """
 
 
