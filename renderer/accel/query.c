@@ -335,27 +335,36 @@ typedef struct Packet {
     QueryRay of[ACCEL_PACKET];
 } Packet;
 
+/* Embree does not look at lanes that are not valid where it has packets as wide; where it has narrower ones it looks at
+ * all with a range, whatever it is told. */
+static void blank_lane(Packet *p, int i)
+{
+    struct RTCRay16 *to = &p->rays.ray;
+
+    to->org_x[i] = to->org_y[i] = to->org_z[i] = to->dir_x[i] = to->dir_y[i] = to->dir_z[i] = 1;
+    to->time[i] = to->tnear[i] = 0, to->tfar[i] = -1, to->mask[i] = to->id[i] = to->flags[i] = 0;
+    p->valid[i] = 0;
+}
+
 static void start_lane(Packet *p, int i, const Accel *accel, const Ray *ray, RayKind kind, unsigned passes)
 {
     struct RTCRay16 *to = &p->rays.ray;
 
+    if (!start_ray(&p->of[i], accel, ray, kind, passes, &to->tnear[i], &to->tfar[i])) {
+        blank_lane(p, i);
+        return;
+    }
     to->org_x[i] = (float)ray->origin.x, to->org_y[i] = (float)ray->origin.y, to->org_z[i] = (float)ray->origin.z;
     to->dir_x[i] = (float)ray->direction.x, to->dir_y[i] = (float)ray->direction.y;
     to->dir_z[i] = (float)ray->direction.z;
     to->time[i] = 0, to->mask[i] = 0xffffffffu, to->id[i] = (unsigned)i, to->flags[i] = 0;
-    p->valid[i] = start_ray(&p->of[i], accel, ray, kind, passes, &to->tnear[i], &to->tfar[i]) ? -1 : 0;
+    p->valid[i] = -1;
 }
 
-/* Lanes beyond the count are not looked at, but must be numbers. */
 static void fill_up(Packet *p, int count)
 {
-    struct RTCRay16 *to = &p->rays.ray;
-
-    for (int i = count; i < ACCEL_PACKET; i++) {
-        to->org_x[i] = to->org_y[i] = to->org_z[i] = to->dir_x[i] = to->dir_y[i] = to->dir_z[i] = 1;
-        to->time[i] = to->tnear[i] = to->tfar[i] = 0, to->mask[i] = to->id[i] = to->flags[i] = 0;
-        p->valid[i] = 0;
-    }
+    for (int i = count; i < ACCEL_PACKET; i++)
+        blank_lane(p, i);
 }
 
 void accel_intersect_packet(const Accel *accel, const Ray *rays, const RayKind *kinds, int count, int side_by_side,

@@ -2,7 +2,9 @@
  * Russian roulette on a throughput that knows no texture.
  *
  * The paths of a pixel go side by side, a segment at a time, in packets of those that are still on their way: rays, the
- * numbers of their vertices and what is chosen at plain surfaces are worked out for a packet at once. */
+ * numbers of their vertices and what is chosen at plain surfaces are worked out for a packet at once. All rays of a
+ * segment are traced before anything is done where they met the scene: tracing and shading together are more code than
+ * a processor's first cache holds. */
 #include <string.h>
 #include "integrate/denoise_guides.h"
 #include "integrate/matte.h"
@@ -12,11 +14,12 @@
 #define PACKET_LEAST 4   /* rays that are traced together; fewer go one by one */
 #define SHARP_PDF 25     /* per steradian: a bounce into a lobe no wider than about 7 degrees keeps things sharp */
 
-/* Paths that are still on their way, and the rays they go on with. */
+/* Paths that are still on their way, the rays they go on with and what these meet. */
 typedef struct Wave {
     Path paths[PATHS_MAX];
     Path *live[PATHS_MAX];
     Ray rays[PATHS_MAX];
+    Hit hits[PATHS_MAX];
     int count;
 } Wave;
 
@@ -306,7 +309,7 @@ static void connect_matte(PathWorker *w, Packet *p, int lane, int k)
     const MatteLights *lights = &p->lights;
     Path *path = p->paths[lane];
     Vertex *v = &p->vertices[lane];
-    LightTry *t = &v->light;
+    LightTry try, *t = &try;
     if (!lights->found[k])
         return;
     t->ray = matte_light_ray(lights, k);
@@ -374,19 +377,27 @@ static void find_surfaces(const Scene *scene, Packet *p, const Hit *hits)
         }
 }
 
-static void meet(PathWorker *w, Packet *p, int step)
+static void trace_rays(PathWorker *w, Wave *wave, int step)
 {
     const Accel *accel = w->context->accel;
-    RayKind kinds[ACCEL_PACKET];
-    Hit hits[ACCEL_PACKET];
+    for (int first = 0; first < wave->count; first += ACCEL_PACKET) {
+        int count = wave->count - first < ACCEL_PACKET ? wave->count - first : ACCEL_PACKET;
+        RayKind kinds[ACCEL_PACKET];
+        for (int i = 0; i < count; i++)
+            kinds[i] = wave->live[first + i]->kind;
+        if (count >= PACKET_LEAST)
+            accel_intersect_packet(accel, wave->rays + first, kinds, count, step == 0, wave->hits + first);
+        else
+            for (int i = 0; i < count; i++)
+                accel_intersect(accel, &wave->rays[first + i], kinds[i], &wave->hits[first + i]);
+    }
+}
+
+static void meet(PathWorker *w, Packet *p, const Hit *hits, int step)
+{
     uint32_t samples[VERTEX_LANES] = {0};
     for (int i = 0; i < p->count; i++)
-        kinds[i] = p->paths[i]->kind, samples[i] = p->paths[i]->sample;
-    if (p->count >= PACKET_LEAST)
-        accel_intersect_packet(accel, p->rays, kinds, p->count, step == 0, hits);
-    else
-        for (int i = 0; i < p->count; i++)
-            accel_intersect(accel, &p->rays[i], kinds[i], &hits[i]);
+        samples[i] = p->paths[i]->sample;
     for (int half = 0; half < w->context->halves; half++)
         vertex_samples(&w->keys[half], w->key[half], samples, (unsigned)step, &p->numbers[half]);
     find_surfaces(w->context->scene, p, hits);
@@ -400,7 +411,7 @@ static void advance(PathWorker *w, Wave *wave, int first, int count, int step)
 {
     Packet p;
     p.paths = wave->live + first, p.rays = wave->rays + first, p.count = count;
-    meet(w, &p, step);
+    meet(w, &p, wave->hits + first, step);
     memset(p.looked, 0, sizeof p.looked);
     if (p.mattes.count > 0) {
         matte_lights(&p.lights, &p.mattes);
@@ -443,6 +454,7 @@ void path_trace(PathWorker *w, const Ray *rays, const Sampler *samplers, int cou
     }
     for (int step = 0; wave.count > 0; step++) {
         int alive = wave.count;
+        trace_rays(w, &wave, step);
         wave.count = 0;
         for (int first = 0; first < alive; first += ACCEL_PACKET)
             advance(w, &wave, first, alive - first < ACCEL_PACKET ? alive - first : ACCEL_PACKET, step);

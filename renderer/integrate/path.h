@@ -13,7 +13,7 @@
 
 #define SHADOW_FACTORS_MAX 16 /* targets a shadow ray may pass */
 #define MEDIA_MAX 4           /* fading interiors that a path may be in at once */
-#define PATHS_MAX 64          /* that are traced side by side */
+#define PATHS_MAX 128         /* that are traced side by side */
 
 typedef struct PathContext {
     const Scene *scene;
