@@ -1,0 +1,24 @@
+/* An open pack, inside: its entries and where its chunks are. Private to pack_open.c and pack_bands.c. */
+#ifndef LIBRETEX_PACK_OPEN_H
+#define LIBRETEX_PACK_OPEN_H
+
+#include "pack_bands.h"
+#include "pack_format.h"
+#include "pack_zip.h"
+#include "set_source.h"
+
+struct RetexPack {
+    RetexSetSource methods; /* first */
+    RetexInput *input;
+    ZipList entries;
+    PackPart *parts;
+    const RetexSet *set; /* that owns it */
+    int nparts;
+    int says_kept;
+    RetexPackKept kept;
+};
+
+int pack_damaged(RetexError *err, const char *what, const char *name);
+const RetexPack *pack_decoded_by(const RetexPackScratch *scratch);
+
+#endif
