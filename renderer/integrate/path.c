@@ -377,11 +377,17 @@ static void find_surfaces(const Scene *scene, Packet *p, const Hit *hits)
         }
 }
 
+/* Of those from `first` on, as many as go in one packet. */
+static int packet_size(int alive, int first)
+{
+    return alive - first < ACCEL_PACKET ? alive - first : ACCEL_PACKET;
+}
+
 static void trace_rays(PathWorker *w, Wave *wave, int step)
 {
     const Accel *accel = w->context->accel;
     for (int first = 0; first < wave->count; first += ACCEL_PACKET) {
-        int count = wave->count - first < ACCEL_PACKET ? wave->count - first : ACCEL_PACKET;
+        int count = packet_size(wave->count, first);
         RayKind kinds[ACCEL_PACKET];
         for (int i = 0; i < count; i++)
             kinds[i] = wave->live[first + i]->kind;
@@ -457,7 +463,7 @@ void path_trace(PathWorker *w, const Ray *rays, const Sampler *samplers, int cou
         trace_rays(w, &wave, step);
         wave.count = 0;
         for (int first = 0; first < alive; first += ACCEL_PACKET)
-            advance(w, &wave, first, alive - first < ACCEL_PACKET ? alive - first : ACCEL_PACKET, step);
+            advance(w, &wave, first, packet_size(alive, first), step);
     }
     for (int i = 0; i < count; i++)
         path_end(w, &wave.paths[i]);
