@@ -5,6 +5,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/vec.h"
+
 typedef float Float4 __attribute__((vector_size(16)));
 
 static inline Float4 splat(float x) { return (Float4){x, x, x, x}; }
@@ -14,6 +16,9 @@ static inline Float4 load(const float *p)
     memcpy(&v, p, sizeof v);
     return v;
 }
+/* A colour, and 0. */
+static inline Float4 colour4(Rgb c) { return (Float4){c.r, c.g, c.b, 0}; }
+static inline float luminance4(Float4 c) { return rgb_luminance(rgb(c[0], c[1], c[2])); }
 static inline Float4 root(Float4 v) { return (Float4){sqrtf(v[0]), sqrtf(v[1]), sqrtf(v[2]), sqrtf(v[3])}; }
 
 #endif

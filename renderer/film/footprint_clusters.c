@@ -12,16 +12,14 @@
 #define ROUNDING 1e-9      /* of bounds */
 #define AGAIN_WEIGHT 1e-3f /* in a cluster's albedo, of light that goes on to targets */
 
-static AlbedoSums albedo_sums(Rgb light, Rgb albedo)
+static void add_albedo(AlbedoSums *sums, Float4 light, Float4 albedo)
 {
-    Rgb reflected = rgb_mul(light, albedo);
-    return (AlbedoSums){{light.r, light.g, light.b}, {reflected.r, reflected.g, reflected.b}};
+    sums->light += light, sums->reflected += light * albedo;
 }
 
 static void merge_albedo(AlbedoSums *into, const AlbedoSums *from)
 {
-    for (int c = 0; c < 3; c++)
-        into->light[c] += from->light[c], into->reflected[c] += from->reflected[c];
+    into->light += from->light, into->reflected += from->reflected;
 }
 
 /* The bound on what pairs cost, after so much was spent on joining one. */
@@ -43,7 +41,7 @@ void clusters_add_later(TargetClusters *target, const PendingLater *l, const int
 {
     const Later one = {.uv = {l->weight, {l->uv[0], l->uv[1]}, {0, 0, 0}},
                        .squares = l->weight * l->weight,
-                       .albedo = albedo_sums(l->light, l->albedo)};
+                       .albedo = {l->light, l->light * l->albedo}};
     Later *later = target->later;
     double gain[LATER_COUNT];
     for (int k = 0; k < LATER_COUNT; k++) {
@@ -78,8 +76,7 @@ static void merge_cluster(Cluster *into, const Cluster *from, const int periodic
     uv_stats_merge(&into->uv, &from->uv, periodic);
     merge_albedo(&into->albedo, &from->albedo);
     into->squares += from->squares;
-    for (int c = 0; c < 3; c++)
-        into->c[c] += from->c[c];
+    into->c += from->c;
     into->again += from->again;
 }
 
@@ -87,13 +84,12 @@ static void add_pending(Cluster *into, const Pending *q, const int periodic[2])
 {
     const double uv[2] = {q->position.u, q->position.v};
     /* a cluster's own light is what its albedo is for; light that goes on to targets tells where there is no other */
-    Rgb own = q->used & 1 ? rgb(q->c[0][0], q->c[0][1], q->c[0][2]) : rgb_grey(0);
-    const AlbedoSums albedo = albedo_sums(rgb_add(own, rgb_scale(q->again, AGAIN_WEIGHT)), q->albedo);
+    Float4 own = q->used & 1 ? q->c[0] : splat(0);
     uv_stats_add(&into->uv, q->weight, uv, periodic);
-    merge_albedo(&into->albedo, &albedo);
+    add_albedo(&into->albedo, own + q->again * splat(AGAIN_WEIGHT), q->albedo);
     into->squares += q->weight * q->weight;
-    into->c[0] += own.r, into->c[1] += own.g, into->c[2] += own.b;
-    into->again += rgb_luminance(q->again);
+    into->c += own;
+    into->again += q->again;
 }
 
 static void start_cluster(Cluster *cluster, const Pending *q, const int periodic[2])
@@ -179,9 +175,10 @@ void clusters_add(TargetClusters *target, const Pending *q, const FilmParams *pa
     int room = q->sharp ? params->sharp : params->broad;
     const int *periodic = params->periodic[q->target];
     own->used |= q->used & ~1u;
-    for (int i = 1; q->used >> i; i++)
-        for (int c = 0; c < 3 && q->used >> i & 1; c++)
-            own->again[i][c] += q->c[i][c];
+    for (unsigned left = q->used & ~1u; left; left &= left - 1) {
+        int i = __builtin_ctz(left);
+        own->again[i] += q->c[i];
+    }
     if (own->count < room && own->count + other->count < params->clusters) {
         start_cluster(&own->of[own->count++], q, periodic);
         own->apart = -INFINITY;

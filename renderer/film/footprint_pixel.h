@@ -4,42 +4,44 @@
 #define RENDERER_FILM_FOOTPRINT_PIXEL_H
 
 #include <retex/uv_stats.h>
+#include "base/float4.h"
 #include "film/footprint_images.h"
 
 #define PENDING_MAX 64
 
-typedef float Coefficients[PLAN_COEFFICIENTS_MAX][3];
+/* Colours are red, green, blue and nothing. */
+typedef Float4 Coefficients[PLAN_COEFFICIENTS_MAX];
 
 /* Original albedo of a footprint, weighted by the light it multiplies. */
 typedef struct AlbedoSums {
-    float light[3], reflected[3];
+    Float4 light, reflected;
 } AlbedoSums;
 
 typedef struct Cluster {
     UvStats uv;
-    AlbedoSums albedo;
     double squares; /* of the paths' weights */
-    float c[3];     /* light that meets the target here, and no other after it */
-    float again;    /* luminance of that which does */
+    AlbedoSums albedo;
+    Float4 c;     /* light that meets the target here, and no other after it */
+    Float4 again; /* that which does */
 } Cluster;
 
-/* One path's light by the hit that comes first. */
+/* A hit of one path, and the light that met it before other hits. */
 typedef struct Pending {
     int target;
     int sharp;
     Vec2 position;
-    Rgb albedo;    /* the original's, there */
-    Rgb again;     /* light that meets targets again, with their original albedo */
+    Float4 albedo; /* the original's, there */
+    Float4 again;  /* light that meets targets again, with their original albedo */
     double weight; /* of the place, when the path has ended */
     unsigned used; /* bits: coefficients that are not 0; the others are not set */
     Coefficients c;
 } Pending;
 
-/* One path's light by a further hit. */
+/* The same after other hits. */
 typedef struct PendingLater {
     int target;
     double uv[2], weight;
-    Rgb light, albedo; /* that reaches it, with the original albedo of the path's other hits; its own */
+    Float4 light, albedo; /* that reaches it, with the original albedo of the path's other hits; its own */
 } PendingLater;
 
 /* Clusters of one kind, and the light of all of them that meets targets again: [0] stays empty. */
@@ -69,17 +71,22 @@ typedef struct TargetClusters {
 void clusters_add(TargetClusters *target, const Pending *pending, const FilmParams *params);
 void clusters_add_later(TargetClusters *target, const PendingLater *pending, const int periodic[2]);
 
+/* A hit of the path in hand. What is weighted has each further hit as an albedo of 1/2. */
+typedef struct PathHit {
+    Float4 weighing; /* its albedo, as it weighs other hits */
+    Float4 weighted, later_weighted; /* light that met it first, or after others */
+    Float4 met; /* light that met it after others, behind all hits, this one too, with their original albedo */
+    Pending first;
+} PathHit;
+
 struct FootprintPixel {
     FootprintFilm *film;
     int spp; /* of the pixel, when it is finished */
     double free[3];
     TargetClusters *targets;
-    Pending pending[PENDING_MAX];
-    int npending;
-    PendingLater later[PENDING_MAX];
-    int nlater;
-    /* The last entry for a path's hit of each order, counted from 1; 0: none. */
-    unsigned char pending_of[RETEX_MAX_FACTORS], later_of[RETEX_MAX_FACTORS];
+    PathHit hits[PENDING_MAX]; /* of the path in hand */
+    int nhits;
+    PathHit *last[RETEX_MAX_FACTORS]; /* by how many hits came before it; NULL: none */
     LightSums *light; /* of what arrives */
     UvRange *range;   /* of what was met */
 };

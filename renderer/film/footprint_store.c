@@ -167,13 +167,13 @@ static double effective_samples(const Cluster *cluster)
     return cluster->uv.weight * cluster->uv.weight / cluster->squares;
 }
 
-static void store_light(int image, const float sum[3], float scale, double step, const Place *at)
+static void store_light(int image, Float4 sum, float scale, double step, const Place *at)
 {
     if (sum[0] == 0 && sum[1] == 0 && sum[2] == 0)
         return; /* memory that is never touched is never taken */
     float *to = pixel_of(at, image);
     for (int c = 0; c < 3; c++)
-        to[c] = (float)retex_round_to(sum[c] * scale, step);
+        to[c] = (float)retex_round_to((double)(sum[c] * scale), step);
 }
 
 static void store_share(int image, float share, const Place *at)
@@ -188,7 +188,7 @@ static void store_clusters(FootprintPixel *p, const KindImages *images, Clusters
     float scale = 1 / (float)p->spp;
     float again = 0;
     for (int k = 0; k < clusters->count; k++)
-        again += clusters->of[k].again;
+        again += luminance4(clusters->of[k].again);
     qsort(clusters->of, (size_t)clusters->count, sizeof *clusters->of, compare_clusters);
     for (int k = 0; k < clusters->count; k++) {
         const Cluster *cluster = &clusters->of[k];
@@ -196,7 +196,7 @@ static void store_clusters(FootprintPixel *p, const KindImages *images, Clusters
         store_footprint(&images->of[k], &cluster->uv, &cluster->albedo, coverage, at);
         store_light(images->of[k].light, cluster->c, scale, step, at);
         if (again > 0)
-            store_share(images->of[k].share, cluster->again / again, at);
+            store_share(images->of[k].share, luminance4(cluster->again) / again, at);
     }
     for (int i = 1; i < p->film->plan.count; i++)
         store_light(images->again[i], clusters->again[i], scale, step, at);

@@ -38,215 +38,173 @@ void footprints_pixel_close(FootprintPixel **pixel)
 
 /* ---- light ---- */
 
-static void add_rgb(float sum[3], Rgb c)
-{
-    sum[0] += c.r, sum[1] += c.g, sum[2] += c.b;
-}
-
 /* Another hit's albedo, as it weighs a hit's own: a black one must not make the hit's own unknown, for it may be the
  * black one that is edited. */
-static Rgb weighing_albedo(const TargetHit *hit)
+static Float4 weighing_albedo(Rgb a)
 {
-    Rgb a = hit->albedo;
-    return rgb(a.r > LEAST_ALBEDO ? a.r : LEAST_ALBEDO, a.g > LEAST_ALBEDO ? a.g : LEAST_ALBEDO,
-               a.b > LEAST_ALBEDO ? a.b : LEAST_ALBEDO);
+    return (Float4){a.r > LEAST_ALBEDO ? a.r : LEAST_ALBEDO, a.g > LEAST_ALBEDO ? a.g : LEAST_ALBEDO,
+                    a.b > LEAST_ALBEDO ? a.b : LEAST_ALBEDO, 1};
 }
 
-static void flush_pending(FootprintPixel *p);
-static void flush_later(FootprintPixel *p);
+static void flush_hits(FootprintPixel *p);
 
-/* The path's entry for a hit, the order-th of the path; a hit met again, as the path goes on from where it connected,
- * is the same. */
-static Pending *find_pending(FootprintPixel *p, const TargetHit *hit, int order)
+static int is_at(const Pending *q, const TargetHit *hit)
 {
-    int last = p->pending_of[order];
-    if (last) {
-        Pending *q = &p->pending[last - 1];
-        if (q->target == hit->target && q->position.u == hit->uv.u && q->position.v == hit->uv.v)
-            return q;
-    }
-    if (p->npending == PENDING_MAX)
-        flush_pending(p);
-    Pending *q = &p->pending[p->npending++];
-    p->pending_of[order] = (unsigned char)p->npending;
-    q->target = hit->target, q->sharp = hit->sharp, q->position = hit->uv;
-    q->albedo = hit->albedo, q->again = rgb_grey(0);
-    q->used = 0;
-    return q;
+    return q->target == hit->target && q->position.u == hit->uv.u && q->position.v == hit->uv.v;
 }
 
-/* Likewise for a further hit. */
-static PendingLater *find_later(FootprintPixel *p, const TargetHit *hit, int order)
+static PathHit *start_hit(FootprintPixel *p, const TargetHit *hit)
 {
-    int last = p->later_of[order];
-    if (last) {
-        PendingLater *l = &p->later[last - 1];
-        if (l->target == hit->target && l->uv[0] == hit->uv.u && l->uv[1] == hit->uv.v)
-            return l;
-    }
-    if (p->nlater == PENDING_MAX)
-        flush_later(p);
-    PendingLater *l = &p->later[p->nlater++];
-    p->later_of[order] = (unsigned char)p->nlater;
-    *l = (PendingLater){hit->target, {hit->uv.u, hit->uv.v}, 0, rgb_grey(0), hit->albedo};
-    return l;
+    PathHit *h = &p->hits[p->nhits++];
+    h->weighing = weighing_albedo(hit->albedo);
+    h->weighted = h->later_weighted = h->met = splat(0);
+    h->first.target = hit->target, h->first.sharp = hit->sharp, h->first.position = hit->uv;
+    h->first.albedo = colour4(hit->albedo), h->first.again = splat(0);
+    h->first.used = 0;
+    return h;
 }
 
-static void flush_later(FootprintPixel *p)
+/* The path's hits up to where light arrives; one that was met before, as the path goes on from where it connected, is
+ * the same. */
+static void find_hits(FootprintPixel *p, const Expansion *e)
 {
-    for (int k = 0; k < p->nlater; k++) {
-        const PendingLater *l = &p->later[k];
-        clusters_add_later(&p->targets[l->target], l, p->film->params.periodic[l->target]);
-        uv_range_add(p->range, l->target, l->uv);
-    }
-    memset(p->later_of, 0, sizeof p->later_of);
-    p->nlater = 0;
+    if (p->nhits + e->size.nhits > PENDING_MAX)
+        flush_hits(p);
+    for (int j = 0; j < e->size.nhits; j++)
+        if (!p->last[j] || !is_at(&p->last[j]->first, &e->hits[j]))
+            p->last[j] = start_hit(p, &e->hits[j]);
 }
 
-static void add_later(FootprintPixel *p, const TargetHit *hit, int order, double weight, Rgb light)
-{
-    if (!(weight > 0))
-        return;
-    PendingLater *l = find_later(p, hit, order);
-    l->weight += weight;
-    l->light = rgb_add(l->light, light);
-}
-
-/* The hits of a monomial beyond its first, as far as the plan keeps them: their numbers in the expansion, and with what
- * albedo they weigh other hits. */
+/* The hits of a monomial beyond its first, as far as the plan keeps them. */
 typedef struct Kept {
-    int count, coefficient, folded, met; /* met: all of them */
-    int hits[RETEX_MAX_FACTORS];
-    Rgb albedos[RETEX_MAX_FACTORS];
+    unsigned hits; /* bits */
+    int coefficient, folded;
+    Float4 albedo; /* of all that are kept, as it weighs other hits */
 } Kept;
 
 /* Which of the hits after the first, given as bits; the albedo of the others goes into value. */
-static void keep_hits(const Plan *plan, const Expansion *e, unsigned further, Rgb *value, Kept *kept)
+static inline void keep_hits(const FootprintPixel *p, const Expansion *e, unsigned further, Float4 *value, Kept *kept)
 {
-    kept->count = kept->coefficient = kept->folded = kept->met = 0;
+    const Plan *plan = &p->film->plan;
+    *kept = (Kept){.albedo = splat(1)};
     for (; further; further &= further - 1) {
         int j = __builtin_ctz(further);
         int next = plan->coefficients[kept->coefficient].next[e->hits[j].target];
-        kept->met++;
         if (next >= 0) {
             kept->coefficient = next;
-            kept->albedos[kept->count] = weighing_albedo(&e->hits[j]);
-            kept->hits[kept->count++] = j;
+            kept->albedo *= p->last[j]->weighing;
+            kept->hits |= 1u << j;
         } else {
-            *value = rgb_mul(*value, e->hits[j].albedo);
+            *value *= p->last[j]->first.albedo;
             kept->folded = 1;
         }
     }
 }
 
-static void add_white_light(LightSums *sums, float white, int folded)
+static inline void add_coefficient(Pending *q, int coefficient, Float4 value)
 {
-    sums->total_white += white;
-    if (folded)
-        sums->folded_white += white;
-}
-
-static void add_coefficient(Pending *q, int coefficient, Rgb value)
-{
-    float *c = q->c[coefficient];
-    if (q->used >> coefficient & 1)
-        add_rgb(c, value);
-    else
-        c[0] = value.r, c[1] = value.g, c[2] = value.b;
+    q->c[coefficient] = q->used >> coefficient & 1 ? q->c[coefficient] + value : value;
     q->used |= 1u << coefficient;
 }
 
-/* The further hits that are kept, each with the light that the others leave it: all_met is what all hits leave. */
-static void add_further(FootprintPixel *p, const Expansion *e, const Kept *kept, double weight, Rgb all_met)
-{
-    for (int k = 0; k < kept->count; k++) {
-        Rgb own = kept->albedos[k];
-        add_later(p, &e->hits[kept->hits[k]], kept->hits[k], weight,
-                  rgb(all_met.r / own.r, all_met.g / own.g, all_met.b / own.b));
-    }
-}
+/* Of the light that a connection brings. */
+typedef struct Arrived {
+    Float4 white, white_folded; /* as it would be with white targets; of it, what has folded hits */
+    Float4 folded;              /* as it is, of that */
+} Arrived;
 
 /* Light that met more hits than the first, given as bits. */
-static void add_with_further(FootprintPixel *p, const Expansion *e, int first, unsigned further, Rgb value, int folded)
+static inline void add_with_further(FootprintPixel *p, const Expansion *e, PathHit *first, unsigned further,
+                                    Float4 value, Arrived *sums)
 {
     Kept kept;
-    const TargetHit *hit = &e->hits[first];
-    float luminance = rgb_luminance(value);
-    keep_hits(&p->film->plan, e, further, &value, &kept);
-    add_white_light(p->light, white_left[kept.met + 1] * luminance, folded || kept.folded);
-    if (rgb_is_black(value))
-        return;
-    Rgb light = value;
-    for (int k = 0; k < kept.count; k++)
-        light = rgb_mul(light, kept.albedos[k]);
-    Pending *q = find_pending(p, hit, first);
-    add_coefficient(q, kept.coefficient, value);
-    if (kept.count) {
-        double weight = p->film->plan.coefficients[kept.coefficient].weight * rgb_luminance(value);
-        q->again = rgb_add(q->again, light);
-        add_further(p, e, &kept, weight, rgb_mul(light, weighing_albedo(hit)));
+    Float4 white = value * splat(white_left[1 + __builtin_popcount(further)]);
+    keep_hits(p, e, further, &value, &kept);
+    Float4 light = value * kept.albedo;
+    Float4 weighted = value * splat((float)p->film->plan.coefficients[kept.coefficient].weight);
+    add_coefficient(&first->first, kept.coefficient, value);
+    first->weighted += weighted;
+    if (kept.hits)
+        first->first.again += light;
+    for (unsigned left = kept.hits; left; left &= left - 1) {
+        PathHit *later = p->last[__builtin_ctz(left)];
+        later->later_weighted += weighted;
+        later->met += light * first->weighing;
     }
-    if (kept.folded && !folded) /* else all of it counts as folded already */
-        p->light->folded += rgb_luminance(rgb_mul(light, hit->albedo));
+    sums->white += white;
+    if (kept.folded) {
+        sums->white_folded += white;
+        sums->folded += light * first->first.albedo;
+    }
 }
 
 void footprints_connect(FootprintPixel *p, const Expansion *e, Rgb outside, int folded)
 {
+    Float4 light = colour4(outside);
+    Arrived sums = {splat(0), splat(0), splat(0)};
+    find_hits(p, e);
     for (int k = 0; k < e->size.nmonomials; k++) {
-        unsigned hits = e->monomials[k].hits;
-        Rgb value = rgb_mul(outside, e->monomials[k].coefficient);
-        if (rgb_is_black(value))
-            continue;
-        if (hits) {
-            int first = __builtin_ctz(hits);
-            unsigned further = hits & (hits - 1);
-            if (further) {
-                add_with_further(p, e, first, further, value, folded);
-                continue;
-            }
-            add_coefficient(find_pending(p, &e->hits[first], first), 0, value);
-            add_white_light(p->light, white_left[1] * rgb_luminance(value), folded);
+        unsigned hits = e->monomials[k].hits, further = hits & (hits - 1);
+        Float4 value = light * colour4(e->monomials[k].coefficient);
+        if (further) {
+            add_with_further(p, e, p->last[__builtin_ctz(hits)], further, value, &sums);
+        } else if (hits) {
+            PathHit *first = p->last[__builtin_ctz(hits)];
+            add_coefficient(&first->first, 0, value);
+            first->weighted += value;
+            sums.white += value * splat(white_left[1]);
         } else {
-            p->free[0] += value.r, p->free[1] += value.g, p->free[2] += value.b;
-            add_white_light(p->light, rgb_luminance(value), folded);
+            p->free[0] += value[0], p->free[1] += value[1], p->free[2] += value[2];
+            sums.white += value;
         }
     }
+    p->light->total_white += luminance4(sums.white);
+    p->light->folded_white += luminance4(folded ? sums.white : sums.white_folded);
+    if (!folded) /* else all of it counts as folded already */
+        p->light->folded += luminance4(sums.folded);
 }
 
 /* ---- a path ends ---- */
 
-/* Luminance of all light by a hit, each further one as an albedo of 1/2. */
-static double pending_weight(const Pending *q, const Plan *plan)
+static void flush_first(FootprintPixel *p, PathHit *hit)
 {
-    double weight = 0;
-    for (unsigned left = q->used; left; left &= left - 1) {
-        int i = __builtin_ctz(left);
-        weight += plan->coefficients[i].weight * rgb_luminance(rgb(q->c[i][0], q->c[i][1], q->c[i][2]));
-    }
-    return weight;
+    Pending *q = &hit->first;
+    const double uv[2] = {q->position.u, q->position.v};
+    q->weight = luminance4(hit->weighted);
+    if (!(q->weight > 0))
+        return;
+    uv_range_add(p->range, q->target, uv);
+    clusters_add(&p->targets[q->target], q, &p->film->params);
 }
 
-static void flush_pending(FootprintPixel *p)
+static void flush_later(FootprintPixel *p, const PathHit *hit)
 {
-    for (int k = 0; k < p->npending; k++) {
-        Pending *q = &p->pending[k];
-        const double uv[2] = {q->position.u, q->position.v};
-        q->weight = pending_weight(q, &p->film->plan);
-        if (!(q->weight > 0))
-            continue;
-        uv_range_add(p->range, q->target, uv);
-        clusters_add(&p->targets[q->target], q, &p->film->params);
+    const Pending *q = &hit->first;
+    const PendingLater later = {.target = q->target,
+                                .uv = {q->position.u, q->position.v},
+                                .weight = luminance4(hit->later_weighted),
+                                .light = hit->met / hit->weighing,
+                                .albedo = q->albedo};
+    if (!(later.weight > 0))
+        return;
+    uv_range_add(p->range, q->target, later.uv);
+    clusters_add_later(&p->targets[q->target], &later, p->film->params.periodic[q->target]);
+}
+
+static void flush_hits(FootprintPixel *p)
+{
+    for (int k = 0; k < p->nhits; k++) {
+        flush_first(p, &p->hits[k]);
+        flush_later(p, &p->hits[k]);
     }
-    memset(p->pending_of, 0, sizeof p->pending_of);
-    p->npending = 0;
+    memset(p->last, 0, sizeof p->last);
+    p->nhits = 0;
 }
 
 void footprints_path_end(FootprintPixel *p)
 {
-    if (p->npending)
-        flush_pending(p);
-    if (p->nlater)
-        flush_later(p);
+    if (p->nhits)
+        flush_hits(p);
 }
 
 static void signal_total(double total[3], const Clusters *clusters, const Plan *plan)
@@ -254,7 +212,7 @@ static void signal_total(double total[3], const Clusters *clusters, const Plan *
     total[0] = total[1] = total[2] = 0;
     for (int k = 0; k < clusters->count; k++)
         for (int c = 0; c < 3; c++)
-            total[c] += clusters->of[k].c[c];
+            total[c] += (double)clusters->of[k].c[c];
     for (int i = 1; clusters->used >> i; i++)
         for (int c = 0; c < 3 && clusters->used >> i & 1; c++)
             total[c] += plan->coefficients[i].weight * clusters->again[i][c];
