@@ -21,18 +21,19 @@ void expansion_push(Expansion *e, const TargetHit *hit, const Split *factor)
     int before = e->size.nmonomials, after = before;
     unsigned bit = 1u << e->size.nhits;
     int independent = !rgb_is_black(factor->i), dependent = !rgb_is_black(factor->d);
+    Float4 d = colour4(factor->d), i = colour4(factor->i);
     TargetHit *pushed = &e->hits[e->size.nhits];
     *pushed = *hit;
     pushed->index = e->size.per_target[hit->target];
     for (int k = 0; k < before; k++) {
         Monomial *m = &e->monomials[k];
         if (dependent && independent)
-            e->monomials[after++] = (Monomial){m->hits | bit, rgb_mul(m->coefficient, factor->d)};
+            e->monomials[after++] = (Monomial){m->coefficient * d, m->hits | bit};
         if (independent) {
-            m->coefficient = rgb_mul(m->coefficient, factor->i);
+            m->coefficient *= i;
         } else {
             m->hits |= bit;
-            m->coefficient = rgb_mul(m->coefficient, factor->d);
+            m->coefficient *= d;
         }
     }
     expansion_grow(&e->size, hit->target, dependent && independent);

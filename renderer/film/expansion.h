@@ -8,7 +8,7 @@
 
 #include <stdint.h>
 #include <retex/set.h>
-#include "base/vec.h"
+#include "base/float4.h"
 #include "shade/bsdf.h"
 
 /* A hit of a target. */
@@ -28,8 +28,8 @@ static inline HitMask hit_bit(int target, int index)
 }
 
 typedef struct Monomial {
-    unsigned hits;   /* S, in the order of the path: bit j is hits[j] of the expansion */
-    Rgb coefficient; /* c_S */
+    Float4 coefficient; /* c_S, a colour */
+    unsigned hits;      /* S, in the order of the path: bit j is hits[j] of the expansion */
 } Monomial;
 
 #define EXPANSION_MONOMIALS_MAX 256 /* eight hits with both parts; of diffuse targets each has one */
@@ -48,7 +48,7 @@ typedef struct Expansion {
 static inline void expansion_reset(Expansion *e)
 {
     e->size = (ExpansionSize){.nmonomials = 1};
-    e->monomials[0] = (Monomial){0, {1, 1, 1}};
+    e->monomials[0] = (Monomial){colour4(rgb_grey(1)), 0};
 }
 
 /* What an expansion is before more hits are pushed, to return to. */

@@ -42,7 +42,7 @@ struct FilmPixel {
     PaperPixel *paper;
     FootprintPixel *footprints;
     BandRows *rows;            /* that the tile in hand writes to, once it does */
-    double beauty[3], path[3]; /* path: light of the one in hand */
+    double beauty[3];
     int spp;                   /* of the tile's pixels */
     int paths;                 /* so far */
     SignalTotals half;         /* of the first half of the paths */
@@ -174,24 +174,23 @@ int film_accepts(FilmPixel *p, Rgb light)
 void film_add_light(FilmPixel *p, const double light[3])
 {
     for (int c = 0; c < 3; c++)
-        p->path[c] += light[c];
+        p->beauty[c] += light[c];
     p->light.total += rgb_luminance(rgb((float)light[0], (float)light[1], (float)light[2]));
+}
+
+void film_add_folded(FilmPixel *p, Rgb light)
+{
+    p->light.folded += rgb_luminance(light);
 }
 
 void film_connect(FilmPixel *p, const FilmLight *light, const Expansion *e)
 {
-    Rgb beauty = light->beauty, outside = light->outside;
-    float l = rgb_luminance(beauty);
-    if (!film_accepts(p, rgb_add(beauty, outside)))
+    if (rgb_is_black(light->outside))
         return;
-    p->path[0] += beauty.r, p->path[1] += beauty.g, p->path[2] += beauty.b;
-    p->light.total += l;
-    if (light->folded)
-        p->light.folded += l;
-    if (p->paper && !rgb_is_black(outside))
-        paper_connect(p->paper, e, outside, light->connections);
-    if (p->footprints && !rgb_is_black(outside))
-        footprints_connect(p->footprints, e, outside, light->folded);
+    if (p->paper)
+        paper_connect(p->paper, e, light->outside, light->connections);
+    if (p->footprints)
+        footprints_connect(p->footprints, e, light->outside, light->folded);
 }
 
 /* What each signal got in the pixel so far. */
@@ -207,8 +206,6 @@ static void signal_totals(const FilmPixel *p, SignalTotals *totals)
 
 void film_path_end(FilmPixel *p)
 {
-    for (int c = 0; c < 3; c++)
-        p->beauty[c] += p->path[c], p->path[c] = 0;
     if (p->paper)
         paper_path_end(p->paper, &p->range);
     if (p->footprints)

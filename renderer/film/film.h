@@ -56,16 +56,16 @@ void film_pixel_close(FilmPixel **pixel);
 
 /* Light that arrived in a split film, by one or more connections of a path behind the same hits. */
 typedef struct FilmLight {
-    Rgb beauty;      /* its whole contribution */
     Rgb outside;     /* the light times that part of the throughput that no recorded target hit made */
     int folded;      /* hits beyond the order kept their albedo */
     int connections; /* so many */
 } FilmLight;
 
-/* The expansion holds the hits. Light that is not finite is counted and dropped. */
-void film_connect(FilmPixel *pixel, const FilmLight *light, const Expansion *expansion);
 int film_accepts(FilmPixel *pixel, Rgb light);                /* 0: it is not finite, and counted */
-void film_add_light(FilmPixel *pixel, const double light[3]); /* of a path, all together, without a split */
+void film_add_light(FilmPixel *pixel, const double light[3]); /* of a path, all together */
+void film_add_folded(FilmPixel *pixel, Rgb light);            /* of that, what met hits that are folded */
+/* The expansion holds the hits. */
+void film_connect(FilmPixel *pixel, const FilmLight *light, const Expansion *expansion);
 /* A path ends: hits of targets that connected enter the footprints, each once for every connection behind it. */
 void film_path_end(FilmPixel *pixel);
 /* Before a tile's first pixel, where its pixels have not as many samples as FilmParams say. */

@@ -145,7 +145,7 @@ void footprints_connect(FootprintPixel *p, const Expansion *e, Rgb outside, int 
     find_hits(p, e);
     for (int k = 0; k < e->size.nmonomials; k++) {
         unsigned hits = e->monomials[k].hits, further = hits & (hits - 1);
-        Float4 value = light * colour4(e->monomials[k].coefficient);
+        Float4 value = light * e->monomials[k].coefficient;
         if (further) {
             add_with_further(p, e, p->last[__builtin_ctz(hits)], further, value, &sums);
         } else if (hits) {

@@ -177,7 +177,7 @@ static HitMask mask_by_target(const Expansion *e, unsigned hits)
 void paper_connect(PaperPixel *p, const Expansion *e, Rgb outside, int connections)
 {
     for (int k = 0; k < e->size.nmonomials; k++) {
-        Rgb value = rgb_mul(outside, e->monomials[k].coefficient);
+        Rgb value = rgb_mul(outside, rgb_of4(e->monomials[k].coefficient));
         HitMask met = mask_by_target(e, e->monomials[k].hits);
         TermKey key = term_key(e->size.nhits, met, p->film->params.strict_paper);
         if (key == TERM_DROPPED || rgb_is_black(value))

@@ -26,7 +26,7 @@ typedef struct Path {
     uint32_t sample; /* in its half of the pixel's */
     int half;
     Media media;
-    double light[3];    /* that arrived, in plain renders */
+    double light[3];    /* that arrived */
     ExpansionSize hits; /* of targets, in sets */
     int folded;         /* a target hit beyond the last order kept its albedo */
     PathEvent *arrived; /* light behind all hits so far and no others, or NULL */

@@ -151,19 +151,12 @@ static void go_on_from(PathWorker *w, Path *path, const Factor *factor)
     }
 }
 
-static int is_finite(Rgb c)
-{
-    return isfinite(c.r + c.g + c.b);
-}
-
-/* Two lights become one, if the sum is as good as both: what is not finite goes to the film by itself, which drops
- * it. */
+/* Two lights become one. */
 static int join(FilmLight *sum, const FilmLight *light)
 {
-    Rgb beauty = rgb_add(sum->beauty, light->beauty), outside = rgb_add(sum->outside, light->outside);
-    if (sum->folded != light->folded || !is_finite(rgb_add(beauty, outside)))
+    if (sum->folded != light->folded)
         return 0;
-    sum->beauty = beauty, sum->outside = outside;
+    sum->outside = rgb_add(sum->outside, light->outside);
     sum->connections++;
     return 1;
 }
@@ -268,20 +261,23 @@ static void trace_light(const PathContext *c, Rgb light)
     fprintf(c->trace, "  light %.6g %.6g %.6g\n", light.r, light.g, light.b);
 }
 
-/* Light of plain pictures. */
-static void add_plain(PathWorker *w, Path *path, Rgb beauty)
+/* Light reaches the picture, unless it is not finite. Returns 0 where it has no use for sets either. */
+static int add_beauty(PathWorker *w, Path *path, Rgb beauty, Rgb outside, int folded)
 {
-    if (film_accepts(w->pixel, beauty))
-        path->light[0] += beauty.r, path->light[1] += beauty.g, path->light[2] += beauty.b;
+    if (!film_accepts(w->pixel, rgb_add(beauty, outside)))
+        return 0;
+    path->light[0] += beauty.r, path->light[1] += beauty.g, path->light[2] += beauty.b;
+    if (folded)
+        film_add_folded(w->pixel, beauty);
+    return !rgb_is_black(outside);
 }
 
 void path_bring(PathWorker *w, Path *path, const Rgb *lights)
 {
-    Rgb beauty = rgb_mul(path->beta, lights[0]);
-    if (w->context->split)
-        arrive(w, path, &(FilmLight){beauty, rgb_mul(path->outside, lights[0]), path->folded, 1});
-    else
-        add_plain(w, path, beauty);
+    int split = w->context->split;
+    Rgb beauty = rgb_mul(path->beta, lights[0]), outside = split ? rgb_mul(path->outside, lights[0]) : beauty;
+    if (add_beauty(w, path, beauty, outside, path->folded) && split)
+        arrive(w, path, &(FilmLight){outside, path->folded, 1});
     if (!w->control)
         return;
     Rgb *arrived = add_to_log(w, path);
@@ -298,7 +294,7 @@ static Rgb connect_plain(PathWorker *w, Path *path, Rgb light, const Factor *fac
         beauty = rgb_mul(beauty, split_apply(factors[k].split, factors[k].albedo));
     if (w->context->trace)
         trace_light(w->context, beauty);
-    add_plain(w, path, beauty);
+    add_beauty(w, path, beauty, beauty, 0);
     return beauty;
 }
 
@@ -307,29 +303,30 @@ static Rgb connect_split(PathWorker *w, Path *path, Rgb light, Factor *factors, 
 {
     const PathContext *c = w->context;
     const Factor *own[SHADOW_FACTORS_MAX + 2];
-    FilmLight sum = {rgb_mul(path->beta, light), rgb_mul(path->outside, light), path->folded, 1};
+    Rgb beauty = rgb_mul(path->beta, light);
+    FilmLight sum = {rgb_mul(path->outside, light), path->folded, 1};
     ExpansionSize size = path->hits;
     int count = 0;
     for (int k = 0; k < nfactors; k++) {
         Rgb whole = split_apply(factors[k].split, factors[k].albedo);
-        sum.beauty = rgb_mul(sum.beauty, whole);
+        beauty = rgb_mul(beauty, whole);
         if (take_factor(c, &sum.outside, &size, &sum.folded, &factors[k], whole))
             own[count++] = &factors[k];
     }
     if (c->trace)
-        trace_light(c, sum.beauty);
-    if (rgb_is_black(sum.beauty) && rgb_is_black(sum.outside))
-        return sum.beauty;
+        trace_light(c, beauty);
+    if (!add_beauty(w, path, beauty, sum.outside, sum.folded))
+        return beauty;
     if (count == 0) {
         arrive(w, path, &sum);
-        return sum.beauty;
+        return beauty;
     }
     PathEvent *e = add_light(w, path, &sum, count);
     for (int k = 0; k < count; k++)
         add_hit(w, path, own[k]);
     if (count == 1)
         path->beside = e;
-    return sum.beauty;
+    return beauty;
 }
 
 void path_connect(PathWorker *w, Path *path, Rgb light, Factor *factors, int nfactors)
@@ -348,10 +345,9 @@ void path_connect(PathWorker *w, Path *path, Rgb light, Factor *factors, int nfa
 
 void path_end(PathWorker *w, Path *path)
 {
+    film_add_light(w->pixel, path->light);
     if (w->context->split)
         hand_over(w, path);
-    else
-        film_add_light(w->pixel, path->light);
     film_path_end(w->pixel);
     if (w->control)
         hand_over_log(w, path);

@@ -44,7 +44,7 @@ static void multiplies_out(void **state)
         }
         double sum = 0;
         for (int k = 0; k < e.size.nmonomials; k++) {
-            double term = e.monomials[k].coefficient.g;
+            double term = (double)e.monomials[k].coefficient[1];
             for (int j = 0; j < n; j++)
                 if (e.monomials[k].hits >> j & 1)
                     term *= a[j];

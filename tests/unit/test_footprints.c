@@ -64,7 +64,7 @@ static Rgb path_value(const Expansion *e)
 {
     Rgb sum = {0, 0, 0};
     for (int k = 0; k < e->size.nmonomials; k++) {
-        Rgb value = e->monomials[k].coefficient;
+        Rgb value = rgb_of4(e->monomials[k].coefficient);
         for (int j = 0; j < e->size.nhits; j++)
             if (e->monomials[k].hits >> j & 1)
                 value = rgb_mul(value, e->hits[j].albedo);
@@ -73,10 +73,21 @@ static Rgb path_value(const Expansion *e)
     return sum;
 }
 
+static void bring_light(Fixture *f, Rgb beauty, Rgb outside, int folded)
+{
+    const double sum[3] = {(double)beauty.r, (double)beauty.g, (double)beauty.b};
+    if (!film_accepts(f->pixel, rgb_add(beauty, outside)))
+        return;
+    film_add_light(f->pixel, sum);
+    if (folded)
+        film_add_folded(f->pixel, beauty);
+    film_connect(f->pixel, &(FilmLight){outside, folded, 1}, &f->path);
+}
+
 static void connect_light(Fixture *f, Rgb light)
 {
     Rgb beauty = rgb_mul(light, path_value(&f->path));
-    film_connect(f->pixel, &(FilmLight){beauty, light, 0, 1}, &f->path);
+    bring_light(f, beauty, light, 0);
     f->light = rgb_add(f->light, beauty);
 }
 
@@ -584,10 +595,10 @@ static void surplus_hits_fold(void **state)
     one_hit(&f, 0.25, 0.5, rgb_grey(0.5f), SHARP, rgb_grey(4));
     begin_path(&f); /* of which the path itself knows that a hit was too many: all of its light counts, once */
     hit(&f, 0, 0.25, 0.5, rgb_grey(0.5f), SHARP);
-    film_connect(f.pixel, &(FilmLight){rgb_grey(1), rgb_grey(2), 1, 1}, &f.path);
+    bring_light(&f, rgb_grey(1), rgb_grey(2), 1);
     hit(&f, 0, 0.5, 0.5, rgb_grey(0.5f), BROAD);
     hit(&f, 0, 0.5, 0.5, rgb_grey(0.5f), BROAD);
-    film_connect(f.pixel, &(FilmLight){rgb_grey(1), rgb_grey(8), 1, 1}, &f.path);
+    bring_light(&f, rgb_grey(1), rgb_grey(8), 1);
     film_path_end(f.pixel);
     finish(&f);
     expect_rgb(part(&f, "dep_Floor_sharp_a1"), 2, 3, 4, 1e-3);
@@ -735,7 +746,7 @@ static void folded_light_is_counted_as_white(void **state)
     begin_path(&f); /* or the path itself knows */
     for (int k = 0; k < 2; k++)
         hit(&f, 0, 0.25, 0.5, rgb_grey(0.5f), k ? BROAD : SHARP);
-    film_connect(f.pixel, &(FilmLight){rgb_grey(1.25f), rgb_grey(5), 1, 1}, &f.path);
+    bring_light(&f, rgb_grey(1.25f), rgb_grey(5), 1);
     film_path_end(f.pixel);
     finish(&f);
     double hidden = 10 * 0.8 * 0.8 * 0.8, known = 5 * 0.8 * 0.8;
@@ -963,8 +974,8 @@ static void light_that_is_no_number_is_dropped(void **state)
     open_film(&f);
     begin_path(&f);
     hit(&f, 0, 0.5, 0.5, rgb_grey(1), SHARP);
-    film_connect(f.pixel, &(FilmLight){rgb(NAN, 1, 1), rgb_grey(1), 0, 1}, &f.path);
-    film_connect(f.pixel, &(FilmLight){rgb_grey(1), rgb(1, INFINITY, 1), 0, 1}, &f.path);
+    bring_light(&f, rgb(NAN, 1, 1), rgb_grey(1), 0);
+    bring_light(&f, rgb_grey(1), rgb(1, INFINITY, 1), 0);
     connect_light(&f, rgb_grey(1));
     film_path_end(f.pixel);
     finish(&f);

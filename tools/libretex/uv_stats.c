@@ -4,12 +4,6 @@
 #include <retex/rounding.h>
 #include <retex/uv_stats.h>
 
-static double difference(double to, double from, int periodic)
-{
-    double d = to - from;
-    return periodic ? d - rint(d) : d;
-}
-
 /* Into [0,1): what is below 0 by less than a double can tell from 1 is 0. */
 static double wrapped(double x, int periodic)
 {
@@ -23,7 +17,7 @@ void uv_stats_add(UvStats *stats, double weight, const double uv[2], const int p
     stats->weight += weight;
     share = weight / stats->weight;
     for (int k = 0; k < 2; k++) {
-        d[k] = difference(uv[k], stats->mean[k], periodic[k]);
+        d[k] = uv_stats_difference(uv[k], stats->mean[k], periodic[k]);
         stats->mean[k] = wrapped(stats->mean[k] + share * d[k], periodic[k]);
     }
     double rest = weight * (1 - share);
@@ -36,7 +30,7 @@ void uv_stats_merge(UvStats *into, const UvStats *from, const int periodic[2])
 {
     double total = into->weight + from->weight, share = from->weight / total, d[2];
     for (int k = 0; k < 2; k++) {
-        d[k] = difference(from->mean[k], into->mean[k], periodic[k]);
+        d[k] = uv_stats_difference(from->mean[k], into->mean[k], periodic[k]);
         into->mean[k] = wrapped(into->mean[k] + share * d[k], periodic[k]);
     }
     double between = into->weight * share;
@@ -48,31 +42,13 @@ void uv_stats_merge(UvStats *into, const UvStats *from, const int periodic[2])
 
 double uv_stats_ward(const UvStats *a, const UvStats *b, const int periodic[2])
 {
-    double u = difference(a->mean[0], b->mean[0], periodic[0]), v = difference(a->mean[1], b->mean[1], periodic[1]);
-    return a->weight * b->weight / (a->weight + b->weight) * (u * u + v * v);
-}
-
-static double variation(double weight, double squares)
-{
-    return weight * squares / (squares + weight * UV_FEATURE * UV_FEATURE);
+    return uv_stats_point_ward(a, b->weight, b->mean, periodic);
 }
 
 double uv_stats_variation_gain(const UvStats *a, const UvStats *b, const int periodic[2])
 {
     double sa = a->m2[0] + a->m2[2], sb = b->m2[0] + b->m2[2], both = sa + sb + uv_stats_ward(a, b, periodic);
-    return variation(a->weight + b->weight, both) - variation(a->weight, sa) - variation(b->weight, sb);
-}
-
-double uv_stats_point_ward(const UvStats *a, double weight, const double uv[2], const int periodic[2])
-{
-    double u = difference(a->mean[0], uv[0], periodic[0]), v = difference(a->mean[1], uv[1], periodic[1]);
-    return a->weight * weight / (a->weight + weight) * (u * u + v * v);
-}
-
-double uv_stats_point_variation_gain(const UvStats *a, double weight, const double uv[2], const int periodic[2])
-{
-    double squares = a->m2[0] + a->m2[2], both = squares + uv_stats_point_ward(a, weight, uv, periodic);
-    return variation(a->weight + weight, both) - variation(a->weight, squares);
+    return uv_stats_variation(a->weight + b->weight, both) - uv_stats_variation(a->weight, sa) - uv_stats_variation(b->weight, sb);
 }
 
 #define UV_STEP (1.0 / 32)

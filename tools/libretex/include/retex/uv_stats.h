@@ -2,6 +2,8 @@
 #ifndef RETEX_UV_STATS_H
 #define RETEX_UV_STATS_H
 
+#include <math.h>
+
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -26,9 +28,32 @@ double uv_stats_ward(const UvStats *a, const UvStats *b, const int periodic[2]);
 double uv_stats_variation_gain(const UvStats *a, const UvStats *b, const int periodic[2]);
 #define UV_FEATURE 0.5 /* of UV, in which most textures have changed all they do */
 
-/* The same where one of the two is a single point, to the bit. */
-double uv_stats_point_ward(const UvStats *stats, double weight, const double uv[2], const int periodic[2]);
-double uv_stats_point_variation_gain(const UvStats *stats, double weight, const double uv[2], const int periodic[2]);
+/* What an unknown texture varies within a cluster of so much weight, whose squared deviations have this sum. */
+static inline double uv_stats_variation(double weight, double squares)
+{
+    return weight * squares / (squares + weight * UV_FEATURE * UV_FEATURE);
+}
+
+static inline double uv_stats_difference(double to, double from, int periodic)
+{
+    double d = to - from;
+    return periodic ? d - rint(d) : d;
+}
+
+/* As uv_stats_ward and uv_stats_variation_gain where one of the two is a single point, to the bit. */
+static inline double uv_stats_point_ward(const UvStats *a, double weight, const double uv[2], const int periodic[2])
+{
+    double u = uv_stats_difference(a->mean[0], uv[0], periodic[0]);
+    double v = uv_stats_difference(a->mean[1], uv[1], periodic[1]);
+    return a->weight * weight / (a->weight + weight) * (u * u + v * v);
+}
+
+static inline double uv_stats_point_variation_gain(const UvStats *a, double weight, const double uv[2],
+                                                   const int periodic[2])
+{
+    double squares = a->m2[0] + a->m2[2], both = squares + uv_stats_point_ward(a, weight, uv, periodic);
+    return uv_stats_variation(a->weight + weight, both) - uv_stats_variation(a->weight, squares);
+}
 
 /* As footprints hold it: mean u and v, rounded to a 32nd of their standard deviation at most; spread: these deviations,
  * and the correlation. */
