@@ -60,6 +60,7 @@ static inline Rgb rgb_mul(Rgb a, Rgb b) { return rgb(a.r * b.r, a.g * b.g, a.b *
 static inline Rgb rgb_scale(Rgb a, float s) { return rgb(a.r * s, a.g * s, a.b * s); }
 static inline Rgb rgb_lerp(Rgb a, Rgb b, float t) { return rgb_add(rgb_scale(a, 1 - t), rgb_scale(b, t)); }
 static inline int rgb_is_black(Rgb a) { return a.r == 0 && a.g == 0 && a.b == 0; }
+static inline int rgb_is_finite(Rgb a) { return isfinite(a.r + a.g + a.b); }
 static inline float rgb_max(Rgb a) { return fmaxf(a.r, fmaxf(a.g, a.b)); }
 /* Rec.709 luminance. */
 static inline float rgb_luminance(Rgb a) { return 0.2126f * a.r + 0.7152f * a.g + 0.0722f * a.b; }

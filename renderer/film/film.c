@@ -164,11 +164,9 @@ void film_pixel_close(FilmPixel **pixel)
 
 /* ---- light ---- */
 
-int film_accepts(FilmPixel *p, Rgb light)
+void film_drop(FilmPixel *p)
 {
-    int finite = isfinite(light.r + light.g + light.b);
-    p->dropped += !finite;
-    return finite;
+    p->dropped++;
 }
 
 void film_add_light(FilmPixel *p, const double light[3])

@@ -61,7 +61,7 @@ typedef struct FilmLight {
     int connections; /* so many */
 } FilmLight;
 
-int film_accepts(FilmPixel *pixel, Rgb light);                /* 0: it is not finite, and counted */
+void film_drop(FilmPixel *pixel); /* count light that is not finite, and is left out */
 void film_add_light(FilmPixel *pixel, const double light[3]); /* of a path, all together */
 void film_add_folded(FilmPixel *pixel, Rgb light);            /* of that, what met hits that are folded */
 /* The expansion holds the hits. */

@@ -262,10 +262,12 @@ static void trace_light(const PathContext *c, Rgb light)
 }
 
 /* Light reaches the picture, unless it is not finite. Returns 0 where it has no use for sets either. */
-static int add_beauty(PathWorker *w, Path *path, Rgb beauty, Rgb outside, int folded)
+static inline int add_beauty(PathWorker *w, Path *path, Rgb beauty, Rgb outside, int folded)
 {
-    if (!film_accepts(w->pixel, rgb_add(beauty, outside)))
+    if (!rgb_is_finite(rgb_add(beauty, outside))) {
+        film_drop(w->pixel);
         return 0;
+    }
     path->light[0] += beauty.r, path->light[1] += beauty.g, path->light[2] += beauty.b;
     if (folded)
         film_add_folded(w->pixel, beauty);

@@ -76,8 +76,10 @@ static Rgb path_value(const Expansion *e)
 static void bring_light(Fixture *f, Rgb beauty, Rgb outside, int folded)
 {
     const double sum[3] = {(double)beauty.r, (double)beauty.g, (double)beauty.b};
-    if (!film_accepts(f->pixel, rgb_add(beauty, outside)))
+    if (!rgb_is_finite(rgb_add(beauty, outside))) {
+        film_drop(f->pixel);
         return;
+    }
     film_add_light(f->pixel, sum);
     if (folded)
         film_add_folded(f->pixel, beauty);
