@@ -73,7 +73,7 @@ void clusters_add_later(TargetClusters *target, const PendingLater *pending, con
 
 /* A hit of the path in hand. What is weighted has each further hit as an albedo of 1/2. */
 typedef struct PathHit {
-    Float4 weighing; /* its albedo, as it weighs other hits */
+    Float4 weighing;                 /* its albedo, as it weighs other hits */
     Float4 weighted, later_weighted; /* light that met it first, or after others */
     Float4 met; /* light that met it after others, behind all hits, this one too, with their original albedo */
     Pending first;
@@ -87,8 +87,8 @@ struct FootprintPixel {
     PathHit hits[PENDING_MAX]; /* of the path in hand */
     int nhits;
     PathHit *last[RETEX_MAX_FACTORS]; /* by how many hits came before it; NULL: none */
-    LightSums *light; /* of what arrives */
-    UvRange *range;   /* of what was met */
+    LightSums *light;                 /* of what arrives */
+    UvRange *range;                   /* of what was met */
 };
 
 #endif

@@ -166,36 +166,30 @@ void footprints_connect(FootprintPixel *p, const Expansion *e, Rgb outside, int 
 
 /* ---- a path ends ---- */
 
-static void flush_first(FootprintPixel *p, PathHit *hit)
-{
-    Pending *q = &hit->first;
-    const double uv[2] = {q->position.u, q->position.v};
-    q->weight = luminance4(hit->weighted);
-    if (!(q->weight > 0))
-        return;
-    uv_range_add(p->range, q->target, uv);
-    clusters_add(&p->targets[q->target], q, &p->film->params);
-}
-
-static void flush_later(FootprintPixel *p, const PathHit *hit)
+static void flush_later(FootprintPixel *p, const PathHit *hit, double weight)
 {
     const Pending *q = &hit->first;
     const PendingLater later = {.target = q->target,
                                 .uv = {q->position.u, q->position.v},
-                                .weight = luminance4(hit->later_weighted),
+                                .weight = weight,
                                 .light = hit->met / hit->weighing,
                                 .albedo = q->albedo};
-    if (!(later.weight > 0))
-        return;
-    uv_range_add(p->range, q->target, later.uv);
     clusters_add_later(&p->targets[q->target], &later, p->film->params.periodic[q->target]);
 }
 
 static void flush_hits(FootprintPixel *p)
 {
     for (int k = 0; k < p->nhits; k++) {
-        flush_first(p, &p->hits[k]);
-        flush_later(p, &p->hits[k]);
+        PathHit *hit = &p->hits[k];
+        Pending *q = &hit->first;
+        const double uv[2] = {q->position.u, q->position.v}, later = luminance4(hit->later_weighted);
+        q->weight = luminance4(hit->weighted);
+        if (q->weight > 0 || later > 0)
+            uv_range_add(p->range, q->target, uv);
+        if (q->weight > 0)
+            clusters_add(&p->targets[q->target], q, &p->film->params);
+        if (later > 0)
+            flush_later(p, hit, later);
     }
     memset(p->last, 0, sizeof p->last);
     p->nhits = 0;

@@ -48,13 +48,14 @@ double uv_stats_ward(const UvStats *a, const UvStats *b, const int periodic[2])
 double uv_stats_variation_gain(const UvStats *a, const UvStats *b, const int periodic[2])
 {
     double sa = a->m2[0] + a->m2[2], sb = b->m2[0] + b->m2[2], both = sa + sb + uv_stats_ward(a, b, periodic);
-    return uv_stats_variation(a->weight + b->weight, both) - uv_stats_variation(a->weight, sa) - uv_stats_variation(b->weight, sb);
+    return uv_stats_variation(a->weight + b->weight, both) - uv_stats_variation(a->weight, sa) -
+           uv_stats_variation(b->weight, sb);
 }
 
 #define UV_STEP (1.0 / 32)
 #define UV_FINEST (1.0 / (1 << 18)) /* a 64th of a texel of a 4K texture: where all samples met one place */
-enum { SPREAD_BITS = 7 };      /* within 1/128: less than so few samples know of it */
-enum { CORRELATION_BITS = 6 }; /* of what it lacks to 1 */
+enum { SPREAD_BITS = 7 };           /* within 1/128: less than so few samples know of it */
+enum { CORRELATION_BITS = 6 };      /* of what it lacks to 1 */
 
 void uv_stats_store(const UvStats *stats, float mean[2], float spread[3])
 {
