@@ -14,8 +14,8 @@ RetexTextureFilter footprint_filter(const RetexSet *set, const RetexFootprint *f
 
 static const float zeros[3 * RETEX_MAX_SIZE];
 
-int footprint_row_read(FootprintRow *row, RowReader *reader, const RetexSet *set, const RetexFootprint *footprint, int y,
-                       int with_albedo, RetexError *err)
+int footprint_row_read(FootprintRow *row, RowReader *reader, const RetexSet *set, const RetexFootprint *footprint,
+                       int y, int with_albedo, RetexError *err)
 {
     const RetexImage *uv = &set->parts[footprint->uv].image, *spread = &set->parts[footprint->spread].image;
     *row = (FootprintRow){.spreads = spread->channels, .width = uv->width};

@@ -18,8 +18,8 @@ typedef struct FootprintRow {
 RetexTextureFilter footprint_filter(const RetexSet *set, const RetexFootprint *footprint);
 
 /* Row y of a footprint, of which uv is NULL where no pixel has it; with_albedo: 1 = that is wanted too. */
-int footprint_row_read(FootprintRow *row, RowReader *reader, const RetexSet *set, const RetexFootprint *footprint, int y,
-                       int with_albedo, RetexError *err);
+int footprint_row_read(FootprintRow *row, RowReader *reader, const RetexSet *set, const RetexFootprint *footprint,
+                       int y, int with_albedo, RetexError *err);
 
 /* The texture at each pixel's footprint, the original albedo showing through where it is transparent: rgb, interleaved;
  * black where there is no footprint. */

@@ -16,8 +16,8 @@ extern "C" {
 int retex_sample(RetexSamples **samples, const RetexSet *set, const RetexTextureSpec *specs, int nspecs, int nthreads,
                  RetexError *err);
 
-/* As retex_sample, of a set that may be open, with little of either in memory: images as large as the picture go band by
- * band into a spool near the file that they are for, "-" being standard output. */
+/* As retex_sample, of a set that may be open, with little of either in memory: images as large as the picture go band
+ * by band into a spool near the file that they are for, "-" being standard output. */
 int retex_sample_spooled(RetexSamples **samples, const RetexSet *set, const RetexTextureSpec *specs, int nspecs,
                          const char *near, int nthreads, RetexError *err);
 
