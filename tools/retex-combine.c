@@ -142,7 +142,7 @@ static void load(const Cli *cli, Job *job)
     if (!job->samples_path)
         return;
     cli_input(cli, job->samples_path, "samples, as from retex-sample");
-    if (retex_set_read(job->samples_path, NULL, &job->samples, cli->threads, &err))
+    if (retex_set_open(job->samples_path, NULL, &job->samples, cli->threads, &err))
         cli_fail(cli, &err);
     if (!job->samples)
         cli_die(cli, "%s holds no samples", job->samples_path);
@@ -329,6 +329,8 @@ static void run_batch(const Cli *cli, Job *job)
     int count, pictures = 0;
     double first = texture_args_now(), began = first;
     if (retex_set_keep(job->set, (uint64_t)job->memory << 20, cli->threads, &err))
+        cli_fail(cli, &err);
+    if (job->samples && retex_samples_load(job->samples, cli->threads, &err))
         cli_fail(cli, &err);
     while (texture_table_row(&table, cli, &output, specs, &count)) {
         check_output(cli, job, output);

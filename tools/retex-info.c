@@ -69,7 +69,7 @@ static Sizes measure(const char *path, const RetexSet *set, const RetexSamples *
     if (set)
         measure_set(set, &sizes);
     for (int i = 0; samples && i < samples->nimages; i++)
-        if (samples->images[i].pixels)
+        if (retex_samples_have(samples, i))
             sizes.samples += (long long)samples->width * samples->height * 3 * 4;
     return sizes;
 }
@@ -162,7 +162,7 @@ static void print_samples(const RetexSamples *samples)
     int count = 0;
 
     for (int i = 0; i < samples->nimages; i++)
-        count += samples->images[i].pixels != NULL;
+        count += retex_samples_have(samples, i);
     printf("samples of     %d footprints out of %d, %d x %d pixels\n", count, samples->nimages, samples->width,
            samples->height);
     for (int i = 0; i < samples->ntargets; i++)

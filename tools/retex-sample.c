@@ -58,12 +58,12 @@ int main(int argc, char **argv)
     if (retex_set_write_check(output, &err))
         cli_fail(&cli, &err);
     double began = texture_args_now();
-    if (retex_set_read(input, &set, &earlier, cli.threads, &err))
+    if (retex_set_open(input, &set, &earlier, cli.threads, &err))
         cli_fail(&cli, &err);
     if (!set)
         cli_die(&cli, "%s holds samples but no set", input);
     double read = texture_args_now();
-    if (retex_sample(&samples, set, textures.specs, textures.count, cli.threads, &err))
+    if (retex_sample_spooled(&samples, set, textures.specs, textures.count, output, cli.threads, &err))
         cli_fail(&cli, &err);
     if (earlier) { /* a stream that has been through here before: other targets' samples go on with it */
         if (retex_samples_merge(earlier, samples, &err))

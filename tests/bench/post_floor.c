@@ -82,7 +82,7 @@ static void read_job(void *context, int band, int thread)
     RowReader *reader = NULL;
     if (work->code)
         return;
-    int code = row_reader_open(&reader, work->set, &work->errors[thread]);
+    int code = row_reader_open(&reader, work->set, NULL, &work->errors[thread]);
     for (int part = 0; !code && part < work->set->nparts; part++)
         if (is_chosen(work, part))
             code = read_band(work, reader, part, band, &work->errors[thread]);

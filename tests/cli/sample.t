@@ -112,3 +112,22 @@ $ retex-sample -q two.exr --texture floor=brick.jpg -o brick.jpg
 $ ls x.*
 ! ls: cannot access 'x.*': No such file or directory
 = 2
+
+# Little of a set and its samples is in memory, whatever their size: here 94 megabytes of samples, and 240 that
+# go through a pipe; the first 64 of these are kept there.
+$ make_set big.exr 1024 1280; set -- --threads 2 --texture floor=brick.jpg --texture 'Wall=rgb(1,.5,.2)'; make_peak file retex-sample -q big.exr "$@" -o big-samples.exr; make_peak both retex-combine -q --threads 2 big.exr big-samples.exr -o both.exr; make_peak in retex-sample -q big.exr "$@" | make_peak out retex-combine -q --threads 2 - -o pipe.exr; cmp both.exr pipe.exr; for f in file both in out; do awk '{ print ($1 < 100 ? "little" : $1) }' $f; done
+> little
+> little
+> little
+> little
+
+# A temporary file that can hold no more is said, and nothing is left behind.
+$ mkdir full; sh -c 'trap "" XFSZ; ulimit -f 8; retex-sample -q big.exr --texture floor=brick.jpg -o full/x.exr'; echo $?; ls -A full
+> 2
+! retex-sample: error: cannot write a temporary file in full: File too large
+$ sh -c 'trap "" XFSZ; ulimit -f 8; TMPDIR=full retex-sample -q big.exr --texture floor=brick.jpg -o - | wc -c'; ls -A full
+> 0
+! retex-sample: error: cannot write a temporary file in full: File too large
+$ retex-sample -q big.exr --texture floor=brick.jpg 2>err | sh -c 'trap "" XFSZ; ulimit -f 8; TMPDIR=full retex-combine -q - -o full/x.jpg'; echo $?; ls -A full
+> 2
+! retex-combine: error: cannot write a temporary file in full: File too large

@@ -108,6 +108,31 @@ static void denoise(RetexSet *set)
     retex_image_free(&picture);
 }
 
+/* The file stays open: samples join those that it has, and all goes on, as down a pipe. */
+static void use_open(void)
+{
+    RetexTextureSpec spec = RETEX_TEXTURE_SPEC_INIT;
+    RetexImage picture = {0};
+    RetexSet *set;
+    RetexSamples *samples = NULL, *more = NULL;
+    if (retex_set_open(path, &set, &samples, 1, NULL))
+        return;
+    if (set && samples)
+        retex_combine(&picture, set, samples, NULL, NULL, 1, NULL);
+    spec.constant = 1;
+    if (set && set->ntargets)
+        memcpy(spec.target, set->targets[0].name, sizeof spec.target);
+    if (set && retex_sample_spooled(&more, set, &spec, 1, "-", 1, NULL) == 0)
+        if (!samples || retex_samples_merge(samples, more, NULL) == 0)
+            retex_set_write(set, samples ? samples : more, "/dev/null", NULL, NULL);
+    if (samples)
+        retex_samples_load(samples, 1, NULL);
+    retex_samples_close(&samples);
+    retex_samples_close(&more);
+    retex_set_close(&set);
+    retex_image_free(&picture);
+}
+
 static void use_layers(void)
 {
     RetexLayers *layers;
@@ -137,6 +162,7 @@ static int run(const unsigned char *bytes, size_t size)
         use_set(set, samples);
     if (set)
         denoise(set);
+    use_open();
     use_layers();
     retex_set_close(&set);
     retex_set_close(&piped);

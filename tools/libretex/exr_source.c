@@ -12,7 +12,7 @@ typedef struct ExrSource {
     RetexExr *exr;
     RetexExrRequest *requests;
     ExrPlan *plans; /* by part */
-    int count;
+    int count, holders;
 } ExrSource;
 
 /* Some rows of one part. */
@@ -31,6 +31,8 @@ typedef struct ExrReader {
 static void source_close(RetexSetSource *methods)
 {
     ExrSource *source = (ExrSource *)(void *)methods;
+    if (--source->holders)
+        return;
     for (int i = 0; source->plans && i < source->count; i++)
         exr_plan_close(&source->plans[i]);
     free(source->plans);
@@ -130,7 +132,7 @@ int exr_source_open(RetexSetSource **result, RetexInput *input, RetexExr *exr, R
         retex_input_close(&input);
         return retex_fail(err, RETEX_ENOMEM, "no memory to read a set");
     }
-    *source = (ExrSource){methods, input, exr, requests, calloc((size_t)count + 1, sizeof *source->plans), count};
+    *source = (ExrSource){methods, input, exr, requests, calloc((size_t)count + 1, sizeof *source->plans), count, 1};
     int code = source->plans ? RETEX_OK : retex_fail(err, RETEX_ENOMEM, "no memory to read a set");
     for (int i = 0; !code && i < count; i++) {
         requests[i].image = NULL; /* rows go elsewhere */
@@ -141,4 +143,11 @@ int exr_source_open(RetexSetSource **result, RetexInput *input, RetexExr *exr, R
     else
         *result = &source->methods;
     return code;
+}
+
+RetexSetSource *exr_source_share(RetexSetSource *methods)
+{
+    ExrSource *source = (ExrSource *)(void *)methods;
+    source->holders++;
+    return methods;
 }

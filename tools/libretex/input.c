@@ -1,6 +1,6 @@
-/* Input files: regular ones are read by position as needed, everything else is spooled into memory first, because an
- * EXR cannot be read from front to back only. A mapping would save a copy but turns a file that shrinks under us into a
- * crash. */
+/* Input files: regular ones are read by position as needed, everything else is spooled first, into memory or, where it
+ * is large, into a temporary file, because an EXR cannot be read from front to back only. A mapping would save a copy
+ * but turns a file that shrinks under us into a crash. */
 #include <errno.h>
 #include <fcntl.h>
 #include <stdio.h>
@@ -10,9 +10,12 @@
 #include <unistd.h>
 
 #include "input.h"
+#include "temporary.h"
 
-/* Spools and packs beyond this are refused rather than swapped. */
-static const uint64_t MEMORY_LIMIT = (uint64_t)16 << 30;
+enum { SPOOL_BEGIN = 1 << 20, SPOOL_MEMORY = 64 << 20 }; /* what of a pipe is in memory: first, and at most */
+
+/* Spools and packs beyond this are refused. */
+static const uint64_t SIZE_LIMIT = (uint64_t)16 << 30;
 
 struct RetexInput {
     char name[512];
@@ -28,37 +31,90 @@ static int fail_read(const RetexInput *input, int code, RetexError *err)
     return retex_fail(err, RETEX_EIO, "cannot read %s: %s", input->name, strerror(code));
 }
 
-static int grow(RetexInput *input, size_t *room, RetexError *err)
+/* More than nothing of what a pipe gives; *got is 0 at its end. */
+static int read_some(const RetexInput *input, unsigned char *to, size_t room, size_t *got, RetexError *err)
 {
-    const size_t larger = *room ? *room * 2 : (size_t)1 << 20;
-    unsigned char *data = larger <= MEMORY_LIMIT ? realloc(input->data, larger) : NULL;
+    ssize_t count;
 
-    if (!data)
-        return retex_fail(err, RETEX_ENOMEM, "%s is too large to be kept in memory", input->name);
-    input->data = data;
-    *room = larger;
+    do
+        count = read(input->descriptor, to, room);
+    while (count < 0 && errno == EINTR);
+    *got = count > 0 ? (size_t)count : 0;
+    return count < 0 ? fail_read(input, errno, err) : 0;
+}
+
+/* As much of a pipe as may be in memory; *ended: that is all. */
+static int spool_in_memory(RetexInput *input, int *ended, RetexError *err)
+{
+    size_t room = 0, got;
+
+    for (*ended = 0; input->size < SPOOL_MEMORY; input->size += got) {
+        if (input->size == room) {
+            room = room ? room * 2 : SPOOL_BEGIN;
+            unsigned char *data = realloc(input->data, room);
+            if (!data)
+                return retex_fail(err, RETEX_ENOMEM, "no memory to read %s", input->name);
+            input->data = data;
+        }
+        const int status = read_some(input, input->data + input->size, room - input->size, &got, err);
+        if (status || got == 0) {
+            *ended = 1;
+            return status;
+        }
+    }
     return 0;
+}
+
+/* Append to the temporary file. */
+static int keep(RetexInput *input, int file, TemporaryName shown, size_t bytes, RetexError *err)
+{
+    for (size_t done = 0; done < bytes;) {
+        const ssize_t written = pwrite(file, input->data + done, bytes - done, (off_t)(input->size + done));
+        if (written < 0 && errno == EINTR)
+            continue;
+        if (written <= 0)
+            return retex_fail(err, RETEX_EIO, "cannot write %s: %s", shown, strerror(written < 0 ? errno : EIO));
+        done += (size_t)written;
+    }
+    input->size += bytes;
+    return 0;
+}
+
+/* What is in memory, and all that follows. */
+static int spool_in_file(RetexInput *input, int file, TemporaryName shown, RetexError *err)
+{
+    size_t got = (size_t)input->size;
+    int status;
+
+    input->size = 0;
+    do {
+        status = keep(input, file, shown, got, err);
+        if (!status)
+            status = read_some(input, input->data, SPOOL_BEGIN, &got, err);
+        if (!status && input->size + got > SIZE_LIMIT)
+            status = retex_fail(err, RETEX_ELIMIT, "%s gives more than %d GiB", input->name, (int)(SIZE_LIMIT >> 30));
+    } while (!status && got);
+    free(input->data);
+    input->data = NULL;
+    return status;
 }
 
 static int spool(RetexInput *input, RetexError *err)
 {
-    size_t room = 0;
+    TemporaryName shown;
+    int ended, status = spool_in_memory(input, &ended, err);
 
-    for (;;) {
-        if (input->size == room) {
-            const int status = grow(input, &room, err);
-            if (status)
-                return status;
-        }
-        const ssize_t got = read(input->descriptor, input->data + input->size, room - input->size);
-        if (got < 0 && errno == EINTR)
-            continue;
-        if (got < 0)
-            return fail_read(input, errno, err);
-        if (got == 0)
-            return 0;
-        input->size += (size_t)got;
-    }
+    if (status || ended)
+        return status;
+    const int file = temporary_open(NULL, shown);
+    if (file < 0)
+        return retex_fail(err, RETEX_EIO, "cannot write %s: %s", shown, strerror(errno));
+    status = spool_in_file(input, file, shown, err);
+    if (!input->borrowed)
+        close(input->descriptor);
+    input->descriptor = file;
+    input->borrowed = 0;
+    return status;
 }
 
 static int open_descriptor(RetexInput *input, const char *path, RetexError *err)
@@ -166,7 +222,7 @@ int64_t retex_input_read(const RetexInput *input, void *buffer, size_t bytes, ui
 int retex_input_load(RetexInput *input, const void **data, size_t *bytes, RetexError *err)
 {
     if (!input->data) {
-        unsigned char *whole = input->size <= MEMORY_LIMIT ? malloc(input->size ? (size_t)input->size : 1) : NULL;
+        unsigned char *whole = input->size <= SIZE_LIMIT ? malloc(input->size ? (size_t)input->size : 1) : NULL;
         if (!whole)
             return retex_fail(err, RETEX_ENOMEM, "%s is too large to be kept in memory", input->name);
         const int64_t got = retex_input_read(input, whole, (size_t)input->size, 0);

@@ -8,7 +8,8 @@
 
 typedef struct RetexInput RetexInput;
 
-/* Open path; "-" is standard input. What cannot be read by position (pipes, terminals) is read into memory whole. */
+/* Open path; "-" is standard input. What cannot be read by position (pipes, terminals) is read whole, into
+ * memory or, beyond 64 MiB, into a temporary file in $TMPDIR or /tmp. */
 int retex_input_open(RetexInput **input, const char *path, RetexError *err);
 /* As if these bytes were a file; they stay the caller's. name: for messages. */
 int retex_input_borrow(RetexInput **input, const void *data, size_t bytes, const char *name, RetexError *err);

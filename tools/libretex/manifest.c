@@ -40,7 +40,8 @@ int retex_samples_are_sound(const RetexSamples *samples, RetexError *err)
         if (samples->footprint_target[i] < 0 || samples->footprint_target[i] >= samples->ntargets)
             return retex_fail(err, RETEX_EINVAL, "sample image %d is for target %d of %d", i,
                               samples->footprint_target[i], samples->ntargets);
-        if (image->pixels && (image->width > samples->width || image->height > samples->height || image->channels != 3))
+        if (retex_samples_have(samples, i) &&
+            (image->width > samples->width || image->height > samples->height || image->channels != 3))
             return retex_fail(err, RETEX_EINVAL, "sample image %d has the wrong size", i);
     }
     return 0;
@@ -60,7 +61,7 @@ void retex_sample_part_names(const RetexSamples *samples, const RetexSet *set, R
         char target[RETEX_NAME_MAX], *name = parts[i].name;
         parts[i].crc = 0;
         name[0] = 0;
-        if (!samples->images[i].pixels)
+        if (!retex_samples_have(samples, i))
             continue;
         /* a target may be called anything, a part not */
         snprintf(target, sizeof target, "%s", samples->target_names[samples->footprint_target[i]]);

@@ -107,7 +107,7 @@ static int add_noise(float *rows, const RetexSet *set, int y0, int y1, RetexErro
 {
     const size_t length = 3 * (size_t)set->width;
     RowReader *reader;
-    int code = row_reader_open(&reader, set, err);
+    int code = row_reader_open(&reader, set, NULL, err);
     for (int i = 1; i < set->nparts; i++) {
         const RetexPart *part = &set->parts[i];
         const float share = strcmp(part->name, "noise_indep") == 0 ? 1 : 0.5f;

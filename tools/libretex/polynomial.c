@@ -268,7 +268,7 @@ int polynomial_row_open(PolynomialRow *row, const Polynomial *polynomial, RetexE
     const RetexSet *set = polynomial->set;
     const size_t slots = (size_t)(slot_count(set) + polynomial->ngroups) + 1;
     *row = (PolynomialRow){.polynomial = polynomial};
-    int code = row_reader_open(&row->reader, set, err);
+    int code = row_reader_open(&row->reader, set, polynomial->samples, err);
     row->monomials = calloc((size_t)set->nterms + 1, sizeof *row->monomials);
     row->made = calloc(slots, sizeof *row->made);
     row->scratch = calloc(slots, sizeof *row->scratch);

@@ -41,7 +41,7 @@ static const RetexImage *footprint_shape(const Polynomial *p, int footprint)
     const RetexFootprint *f = &set->footprints[footprint];
     if (p->textures && p->textures[f->target])
         return find_part(set, f->uv, 3, 3);
-    if (p->samples && p->samples->images[footprint].pixels)
+    if (p->samples && retex_samples_have(p->samples, footprint))
         return &p->samples->images[footprint];
     return find_part(set, f->albedo, 3, 3);
 }
@@ -71,34 +71,21 @@ const RetexImage *factor_shape(const Polynomial *p, int factor)
 
 /* ---- rows at a footprint's own size ---- */
 
-static const float zeros[3 * RETEX_MAX_SIZE];
-
 int make_footprint_row(const Polynomial *p, RowReader *reader, int footprint, int y, float *scratch, const float **row,
                        RetexError *err)
 {
     const RetexSet *set = p->set;
     const RetexFootprint *f = &set->footprints[footprint];
     const RetexTexture *texture = p->textures ? p->textures[f->target] : NULL;
-    if (!texture && p->samples && p->samples->images[footprint].pixels) {
-        const RetexImage *image = &p->samples->images[footprint];
-        *row = image->pixels + retex_image_index(image, 0, y);
-        return RETEX_OK;
-    }
+    if (!texture && p->samples && retex_samples_have(p->samples, footprint))
+        return row_reader_sample(reader, footprint, y, row, err);
     if (!texture)
         return row_reader_get(reader, f->albedo, y, row, err);
-    FootprintRow from = {.spreads = set->parts[f->spread].image.channels, .width = set->parts[f->uv].image.width};
-    int code = row_reader_get(reader, f->uv, y, &from.uv, err);
+    FootprintRow from;
+    int code = footprint_row_read(&from, reader, set, f, y, !retex_texture_is_opaque(texture), err);
     *row = NULL;
     if (code || !from.uv)
         return code;
-    code = row_reader_get(reader, f->spread, y, &from.spread, err);
-    if (!code && !retex_texture_is_opaque(texture)) {
-        code = row_reader_get(reader, f->albedo, y, &from.albedo, err);
-        from.albedo = from.albedo ? from.albedo : zeros;
-    }
-    if (code)
-        return code;
-    from.spread = from.spread ? from.spread : zeros;
     sample_row(texture, footprint_filter(set, f), &from, scratch);
     *row = scratch;
     return RETEX_OK;

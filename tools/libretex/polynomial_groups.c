@@ -141,7 +141,7 @@ static int open_thread(const ProductWork *work, ProductThread *own)
     const RetexSet *set = work->polynomial->set;
     if (own->reader)
         return RETEX_OK;
-    int code = row_reader_open(&own->reader, set, &own->err);
+    int code = row_reader_open(&own->reader, set, work->polynomial->samples, &own->err);
     own->rows = calloc((size_t)slot_count(set) + 1, sizeof *own->rows);
     return code || own->rows ? code : retex_fail(&own->err, RETEX_ENOMEM, "not enough memory to combine");
 }

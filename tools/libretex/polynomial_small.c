@@ -83,7 +83,7 @@ static int open_thread(const SmallWork *work, SmallThread *own)
     own->weights = malloc(sizeof *own->weights * 3 * (size_t)work->width);
     if (!own->scratch || !own->rows || !own->made || !own->weights)
         return retex_fail(&own->err, RETEX_ENOMEM, "not enough memory to combine");
-    return row_reader_open(&own->reader, set, &own->err);
+    return row_reader_open(&own->reader, set, work->polynomial->samples, &own->err);
 }
 
 static void close_thread(const SmallWork *work, SmallThread *own)

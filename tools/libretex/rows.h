@@ -1,4 +1,4 @@
-/* Rows of a set's parts, wherever these are kept. Private to libretex. */
+/* Rows of a set's parts and of its samples, wherever these are kept. Private to libretex. */
 #ifndef LIBRETEX_ROWS_H
 #define LIBRETEX_ROWS_H
 
@@ -6,11 +6,14 @@
 
 typedef struct RowReader RowReader; /* one a thread */
 
-int row_reader_open(RowReader **reader, const RetexSet *set, RetexError *err);
+/* Either may be NULL. */
+int row_reader_open(RowReader **reader, const RetexSet *set, const RetexSamples *samples, RetexError *err);
 void row_reader_close(RowReader **reader);
 
 /* Row y of a part, its channels interleaved; NULL in *row where all of it is 0. It stays as it is until the next call
  * for the same part. */
 int row_reader_get(RowReader *reader, int part, int y, const float **row, RetexError *err);
+/* The same of the samples' image of a footprint. */
+int row_reader_sample(RowReader *reader, int footprint, int y, const float **row, RetexError *err);
 
 #endif

@@ -12,6 +12,25 @@ RetexTextureFilter footprint_filter(const RetexSet *set, const RetexFootprint *f
     return even ? RETEX_TEXTURE_DISC : RETEX_TEXTURE_GAUSSIAN;
 }
 
+static const float zeros[3 * RETEX_MAX_SIZE];
+
+int footprint_row_read(FootprintRow *row, RowReader *reader, const RetexSet *set, const RetexFootprint *footprint,
+                       int y, int with_albedo, RetexError *err)
+{
+    const RetexImage *uv = &set->parts[footprint->uv].image, *spread = &set->parts[footprint->spread].image;
+    *row = (FootprintRow){.spreads = spread->channels, .width = uv->width};
+    int code = row_reader_get(reader, footprint->uv, y, &row->uv, err);
+    if (code || !row->uv)
+        return code;
+    code = row_reader_get(reader, footprint->spread, y, &row->spread, err);
+    row->spread = row->spread ? row->spread : zeros;
+    if (!code && with_albedo) {
+        code = row_reader_get(reader, footprint->albedo, y, &row->albedo, err);
+        row->albedo = row->albedo ? row->albedo : zeros;
+    }
+    return code;
+}
+
 /* Part of a row's footprints, filtered. */
 static void filter_span(const RetexTexture *texture, RetexTextureFilter filter, const FootprintRow *row, int from,
                         int count, float *restrict rgba)

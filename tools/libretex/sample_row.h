@@ -5,6 +5,8 @@
 #include <retex/set.h>
 #include <retex/texture.h>
 
+#include "rows.h"
+
 typedef struct FootprintRow {
     const float *uv, *spread, *albedo; /* as the parts of RetexFootprint have them; albedo may be NULL where
                                           the texture is opaque */
@@ -14,6 +16,10 @@ typedef struct FootprintRow {
 /* How a footprint's distribution of UV is taken: what is seen sharply through a box pixel filter fills its ellipse
  * evenly, all else is a Gaussian. */
 RetexTextureFilter footprint_filter(const RetexSet *set, const RetexFootprint *footprint);
+
+/* Row y of a footprint, of which uv is NULL where no pixel has it; with_albedo: 1 = that is wanted too. */
+int footprint_row_read(FootprintRow *row, RowReader *reader, const RetexSet *set, const RetexFootprint *footprint,
+                       int y, int with_albedo, RetexError *err);
 
 /* The texture at each pixel's footprint, the original albedo showing through where it is transparent: rgb, interleaved;
  * black where there is no footprint. */

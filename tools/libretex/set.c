@@ -296,8 +296,16 @@ void retex_samples_close(RetexSamples **result)
     for (int i = 0; samples->images && i < samples->nimages; i++)
         retex_image_free(&samples->images[i]);
     free(samples->images);
+    retex_spool_close(&samples->spool);
+    if (samples->source)
+        samples->source->close(samples->source);
     free(samples);
     *result = NULL;
+}
+
+int retex_samples_have(const RetexSamples *samples, int footprint)
+{
+    return samples->images[footprint].pixels || samples->spooled[footprint] || samples->stored[footprint];
 }
 
 void retex_set_identify(RetexSet *set)
@@ -335,7 +343,7 @@ int retex_samples_check(const RetexSamples *samples, const RetexSet *set, RetexE
             return retex_fail(err, RETEX_EINVAL, "sample image %d belongs to another footprint than the set's", i);
         const RetexImage *uv = set->footprints[i].uv >= 0 ? &set->parts[set->footprints[i].uv].image : NULL;
         const int fits = uv ? image->width == uv->width && image->height == uv->height : retex_set_scale(set, image);
-        if (image->pixels && (image->channels != 3 || !fits))
+        if (retex_samples_have(samples, i) && (image->channels != 3 || !fits))
             return retex_fail(err, RETEX_EINVAL, "sample image %d has the wrong size", i);
     }
     return 0;

@@ -23,7 +23,7 @@ int set_part_rows(RetexImage *image, const RetexSet *set, int part, int first, R
 {
     const size_t length = (size_t)image->width * (size_t)image->channels;
     RowReader *reader;
-    int code = row_reader_open(&reader, set, err);
+    int code = row_reader_open(&reader, set, NULL, err);
     for (int y = 0; y < image->height && !code; y++) {
         const float *row;
         float *to = image->pixels + (size_t)y * length;

@@ -15,6 +15,7 @@
 #include "output.h"
 #include "pack_bands.h"
 #include "set_parts.h"
+#include "set_stage.h"
 #include "spool_chunks.h"
 
 static const char MANIFEST_ATTRIBUTE[] = "retex";
@@ -39,7 +40,7 @@ static void choose_parts(const RetexSet *set, const RetexSamples *samples, char 
             kept[set->mixtures[i].shares[k].weight] = 1;
     for (int i = 0; i < set->nfootprints; i++) {
         const int parts[3] = {set->footprints[i].albedo, set->footprints[i].uv, set->footprints[i].spread};
-        for (int k = 0; k < 3 && !samples->images[i].pixels; k++)
+        for (int k = 0; k < 3 && !retex_samples_have(samples, i); k++)
             if (parts[k] >= 0)
                 kept[parts[k]] = 1;
     }
@@ -67,7 +68,7 @@ static int check_set(const RetexSet *set, RetexError *err)
         return retex_fail(err, RETEX_EINVAL, "the set's first part is no RGB picture of %d x %d pixels", set->width,
                           set->height);
     for (int i = 0; i < set->nparts; i++)
-        if (set->parts[i].spooled ? !set->spool : !set->parts[i].image.pixels)
+        if (set->parts[i].spooled ? !set->spool : !set->parts[i].image.pixels && !set->source)
             return retex_fail(err, RETEX_EINVAL, "part %s has no pixels", set->parts[i].name);
     int sound = set->ntargets >= 0 && set->ntargets <= RETEX_MAX_TARGETS && set->nfootprints >= 0 &&
                 set->nfootprints <= RETEX_SET_FOOTPRINTS_MAX && set->nterms >= 0 && set->nterms <= RETEX_SET_TERMS_MAX;
@@ -86,57 +87,86 @@ static int check_set(const RetexSet *set, RetexError *err)
     return sound ? 0 : retex_fail(err, RETEX_EINVAL, "the set refers to parts it does not have");
 }
 
-static void add_exr_part(RetexExrPart *part, const char *name, const char *letters, RetexPixelType type,
-                         const RetexImage *image)
+/* A file on its way. */
+typedef struct Writing {
+    const RetexSet *whole; /* or NULL */
+    SetView view;          /* of it */
+    const RetexSamples *samples;
+    RetexSamplePart *names;
+    RetexImage blank;    /* a pixel for a file that would otherwise be empty */
+    RetexExrPart *parts; /* those of the view, then those of samples */
+    int count;
+    SetStage stage;
+    const char *path;
+    int compress, nthreads, width, height;
+} Writing;
+
+static RetexExrPart *add_exr_part(Writing *w, const char *name, const char *letters, RetexPixelType type,
+                                  const RetexImage *image)
 {
+    RetexExrPart *part = &w->parts[w->count++];
+
     snprintf(part->name, sizeof part->name, "%s", name);
     snprintf(part->letters, sizeof part->letters, "%s", letters);
     part->type = type;
     part->image = image;
+    return part;
 }
 
-/* Encode the parts, keep the checksums where the manifest finds them, write all. blank: a pixel for a file that would
- * otherwise be empty. */
-static int write_parts(RetexSet *set, const RetexSamples *samples, RetexSamplePart *names, const RetexImage *blank,
-                       const char *path, const RetexStoreParams *params, RetexError *err)
+static int stage_part(Writing *w, RetexExrPart *exr, int part, int footprint, RetexError *err)
 {
-    const int most = (set ? set->nparts : 0) + (samples ? samples->nimages : 0) + 1;
-    const int compress = params->compress && strcmp(path, "-") != 0;
-    RetexExrPart *parts = calloc((size_t)most, sizeof *parts);
+    return set_stage_add(&w->stage, exr, part, footprint, w->width, w->height, w->path, w->compress, err);
+}
+
+/* Say of all parts where their pixels are, after bringing what is in another file to where it can be had. */
+static int list_parts(Writing *w, RetexError *err)
+{
+    int status = 0;
+
+    for (int i = 0; i < w->view.set.nparts && !status; i++) {
+        const RetexPart *part = &w->view.set.parts[i];
+        RetexExrPart *exr = add_exr_part(w, part->name, part->letters, part->type, &part->image);
+        if (part->spooled)
+            exr->spool = w->whole->spool, exr->spooled = part->spooled - 1;
+        else if (!part->image.pixels)
+            status = stage_part(w, exr, w->view.source[i], -1, err);
+    }
+    for (int i = 0; w->samples && i < w->samples->nimages && !status; i++) {
+        const RetexSamples *samples = w->samples;
+        if (!w->names[i].name[0])
+            continue;
+        RetexExrPart *exr = add_exr_part(w, w->names[i].name, "RGB", RETEX_FLOAT, &samples->images[i]);
+        if (samples->spooled[i])
+            exr->spool = samples->spool, exr->spooled = samples->spooled[i] - 1;
+        else if (!samples->images[i].pixels)
+            status = stage_part(w, exr, -1, i, err);
+    }
+    if (w->count == 0)
+        add_exr_part(w, "nothing", "RGB", RETEX_HALF, &w->blank);
+    return status ? status : set_stage_fill(&w->stage, w->whole, w->samples, w->nthreads, err);
+}
+
+/* Encode the parts, keep the checksums where the manifest finds them, write all. */
+static int write_parts(Writing *w, RetexError *err)
+{
+    RetexSet *set = w->whole ? &w->view.set : NULL;
     RetexExrEncoding *encoding = NULL;
     char *json = NULL;
-    int count = 0;
+    int status = retex_exr_encode(&encoding, w->parts, w->count, w->compress, w->nthreads, err);
 
-    if (!parts)
-        return retex_fail(err, RETEX_ENOMEM, "no memory to write %s", path);
-    for (int i = 0; set && i < set->nparts; i++) {
-        const RetexPart *part = &set->parts[i];
-        if (part->spooled)
-            parts[count].spool = set->spool, parts[count].spooled = part->spooled - 1;
-        add_exr_part(&parts[count++], part->name, part->letters, part->type, &part->image);
-    }
-    for (int i = 0; samples && i < samples->nimages; i++)
-        if (names[i].name[0])
-            add_exr_part(&parts[count++], names[i].name, "RGB", RETEX_FLOAT, &samples->images[i]);
-    if (count == 0)
-        add_exr_part(&parts[count++], "nothing", "RGB", RETEX_HALF, blank);
-
-    int status = retex_exr_encode(&encoding, parts, count, compress, params->nthreads, err);
     if (!status) {
         int next = 0;
-        for (int i = 0; set && i < set->nparts; i++)
-            set->parts[i].crc = parts[next++].crc;
-        for (int i = 0; samples && i < samples->nimages; i++)
-            if (names[i].name[0])
-                names[i].crc = parts[next++].crc;
-        status = retex_manifest_write(set, samples, names, &json, err);
+        for (int i = 0; i < w->view.set.nparts; i++)
+            set->parts[i].crc = w->parts[next++].crc;
+        for (int i = 0; w->samples && i < w->samples->nimages; i++)
+            if (w->names[i].name[0])
+                w->names[i].crc = w->parts[next++].crc;
+        status = retex_manifest_write(set, w->samples, w->names, &json, err);
     }
     if (!status)
-        status = retex_exr_write(encoding, set ? set->width : samples->width, set ? set->height : samples->height,
-                                 MANIFEST_ATTRIBUTE, json, path, err);
+        status = retex_exr_write(encoding, w->width, w->height, MANIFEST_ATTRIBUTE, json, w->path, err);
     retex_exr_encoding_free(&encoding);
     free(json);
-    free(parts);
     return status;
 }
 
@@ -155,41 +185,60 @@ static int check_written(const RetexSet *set, const RetexSamples *samples, Retex
     return status;
 }
 
+static int open_writing(Writing *w, RetexError *err)
+{
+    const int nsamples = w->samples ? w->samples->nimages : 0;
+    char kept[RETEX_SET_PARTS_MAX];
+    int status = 0;
+
+    if (w->whole) {
+        choose_parts(w->whole, w->samples, kept);
+        status = set_view_make(&w->view, w->whole, kept, err);
+    }
+    if (status)
+        return status;
+    const int most = w->view.set.nparts + nsamples + 1;
+    w->parts = calloc((size_t)most, sizeof *w->parts);
+    w->names = calloc((size_t)nsamples + 1, sizeof *w->names);
+    if (!w->parts || !w->names)
+        return retex_fail(err, RETEX_ENOMEM, "no memory to write %s", w->path);
+    if (w->samples)
+        retex_sample_part_names(w->samples, w->whole, w->names);
+    status = retex_image_alloc(&w->blank, 1, 1, 3, err);
+    return status ? status : set_stage_open(&w->stage, most, err);
+}
+
+static void close_writing(Writing *w)
+{
+    set_stage_close(&w->stage);
+    retex_image_free(&w->blank);
+    free(w->names);
+    free(w->parts);
+    set_view_free(&w->view);
+}
+
 int retex_set_write(RetexSet *set, const RetexSamples *samples, const char *path, const RetexStoreParams *params,
                     RetexError *err)
 {
     static const RetexStoreParams defaults = RETEX_STORE_INIT;
-    RetexSamplePart *names = NULL;
-    RetexImage blank = {0};
-    SetView view;
-    char kept[RETEX_SET_PARTS_MAX];
-
     int status = check_written(set, samples, err);
+
     if (status)
         return status;
-    if (set) {
-        choose_parts(set, samples, kept);
-        status = set_view_make(&view, set, kept, err);
-        if (status)
-            return status;
-    }
-    if (samples) {
-        names = calloc((size_t)samples->nimages + 1, sizeof *names);
-        if (!names)
-            status = retex_fail(err, RETEX_ENOMEM, "no memory to write %s", path);
-        else
-            retex_sample_part_names(samples, set, names);
-    }
+    if (!params)
+        params = &defaults;
+    Writing w = {.whole = set, .samples = samples, .path = path, .nthreads = params->nthreads};
+    w.compress = params->compress && strcmp(path, "-") != 0;
+    w.width = set ? set->width : samples->width;
+    w.height = set ? set->height : samples->height;
+    status = open_writing(&w, err);
     if (!status)
-        status = retex_image_alloc(&blank, 1, 1, 3, err);
+        status = list_parts(&w, err);
     if (!status)
-        status = write_parts(set ? &view.set : NULL, samples, names, &blank, path, params ? params : &defaults, err);
-    for (int i = 0; set && i < view.set.nparts && !status; i++)
-        set->parts[view.source[i]].crc = view.set.parts[i].crc;
-    retex_image_free(&blank);
-    free(names);
-    if (set)
-        set_view_free(&view);
+        status = write_parts(&w, err);
+    for (int i = 0; i < w.view.set.nparts && !status; i++)
+        set->parts[w.view.source[i]].crc = w.view.set.parts[i].crc;
+    close_writing(&w);
     return status;
 }
 
@@ -338,13 +387,25 @@ static int read_pixels(Source *source, int nthreads, RetexError *err)
     return status ? status : retex_exr_read(source->exr, source->requests, source->nrequests, nthreads, err);
 }
 
-/* The set's parts stay where they are. */
-static int keep_open(Source *source, RetexError *err)
+static int request_samples_stored(Source *source, RetexError *err)
 {
-    memset(source->requests, 0, sizeof *source->requests * (size_t)source->nrequests); /* those of samples */
-    source->nrequests = 0;
-    source->stored_bytes = 0;
-    int status = request_set(source, err);
+    RetexSamples *samples = source->samples;
+    const int first = source->nrequests;
+    const int status = request_samples(source, err);
+
+    for (int i = 0, next = first; i < samples->nimages && !status; i++)
+        samples->stored[i] = source->names[i].name[0] ? ++next : 0;
+    return status;
+}
+
+/* The set's parts stay where they are, and the samples that are wanted. */
+static int keep_open(Source *source, int with_samples, RetexError *err)
+{
+    RetexSetSource *opened;
+    int status = source->set ? request_set(source, err) : 0;
+
+    if (!status && with_samples)
+        status = request_samples_stored(source, err);
     if (!status)
         status = check_stored(source, err);
     if (status)
@@ -355,7 +416,24 @@ static int keep_open(Source *source, RetexError *err)
     source->requests = NULL;
     source->input = NULL;
     source->exr = NULL;
-    return exr_source_open(&source->set->source, input, exr, requests, source->nrequests, err);
+    status = exr_source_open(&opened, input, exr, requests, source->nrequests, err);
+    if (status)
+        return status;
+    if (source->set)
+        source->set->source = opened;
+    if (with_samples)
+        source->samples->source = source->set ? exr_source_share(opened) : opened;
+    return 0;
+}
+
+/* Read what is wanted whole. */
+static int read_whole(Source *source, int with_set, int with_samples, int nthreads, RetexError *err)
+{
+    int status = with_samples ? request_samples(source, err) : 0;
+
+    if (!status && with_set)
+        status = request_set(source, err);
+    return status ? status : read_pixels(source, nthreads, err);
 }
 
 static int read_exr(Source *source, RetexSet **set, RetexSamples **samples, int open, int nthreads, RetexError *err)
@@ -364,17 +442,11 @@ static int read_exr(Source *source, RetexSet **set, RetexSamples **samples, int 
 
     if (status)
         return status;
-    if (!(set && source->set) && !(samples && source->samples))
+    const int with_set = set && source->set, with_samples = samples && source->samples;
+    if (!with_set && !with_samples)
         return retex_fail(err, RETEX_EFORMAT, "%s holds %s, no %s", retex_input_name(source->input),
                           source->set ? "a set" : "samples", source->set ? "samples" : "set");
-    if (samples && source->samples)
-        status = request_samples(source, err);
-    if (!status && !open && set && source->set)
-        status = request_set(source, err);
-    if (!status)
-        status = read_pixels(source, nthreads, err);
-    if (!status && open && source->set)
-        status = keep_open(source, err);
+    status = open ? keep_open(source, with_samples, err) : read_whole(source, with_set, with_samples, nthreads, err);
     if (status)
         return status;
     if (set) {

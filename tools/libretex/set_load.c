@@ -1,97 +1,48 @@
-/* From a set's spool or source into memory. */
-#include <stdatomic.h>
+/* From the spool or the source of a set, or of samples, into memory. */
 #include <stdlib.h>
 #include <string.h>
 
-#include <retex/parallel.h>
-#include <retex/set.h>
-
+#include "gather.h"
 #include "manifest.h"
-#include "rows.h"
 #include "set_source.h"
 
-#define ROWS_A_JOB 64 /* a pack's band, some of a spool's */
-
-typedef struct LoadJob {
-    RetexSet *set;
-    const char *wanted; /* by part */
-    RetexImage *loaded; /* by part */
-    int blocks;         /* a part, at most */
-    atomic_int code;
-    RetexError *errors; /* by thread */
-} LoadJob;
-
-static int load_rows(LoadJob *job, int part, int y0, int y1, RetexError *err)
+/* Give the images of a list their pixels; on failure none. */
+static int fill(const Gathered *images, int count, const RetexSet *set, const RetexSamples *samples, int nthreads,
+                RetexError *err)
 {
-    RetexImage *image = &job->loaded[part];
-    RowReader *reader;
-    int code = row_reader_open(&reader, job->set, err);
-    for (int y = y0; !code && y < y1; y++) {
-        const float *row;
-        code = row_reader_get(reader, part, y, &row, err);
-        if (!code && row)
-            memcpy(image->pixels + retex_image_index(image, 0, y), row,
-                   sizeof *row * (size_t)image->width * (size_t)image->channels);
+    int code = RETEX_OK;
+
+    for (int i = 0; !code && i < count; i++) {
+        const RetexImage shape = *images[i].image;
+        code = retex_image_alloc(images[i].image, shape.width, shape.height, shape.channels, err);
     }
-    row_reader_close(&reader);
-    return code;
-}
-
-static void load_job(void *context, int index, int thread)
-{
-    LoadJob *job = context;
-    const int part = index / job->blocks, y0 = index % job->blocks * ROWS_A_JOB;
-    const RetexPart *p = &job->set->parts[part];
-    int code = 0;
-
-    if (job->code || !job->wanted[part] || p->image.pixels || y0 >= p->image.height)
-        return;
-    code = load_rows(job, part, y0, y0 + ROWS_A_JOB < p->image.height ? y0 + ROWS_A_JOB : p->image.height,
-                     &job->errors[thread]);
-    if (code)
-        atomic_store(&job->code, code);
-}
-
-static int prepare(LoadJob *job, RetexError *err)
-{
-    int code = job->loaded && job->errors ? 0 : retex_fail(err, RETEX_ENOMEM, "no memory to load a set");
-
-    for (int i = 0; !code && i < job->set->nparts; i++) {
-        const RetexPart *part = &job->set->parts[i];
-        const int blocks = (part->image.height + ROWS_A_JOB - 1) / ROWS_A_JOB;
-        job->blocks = blocks > job->blocks ? blocks : job->blocks;
-        if (job->wanted[i] && !part->image.pixels)
-            code = retex_image_alloc(&job->loaded[i], part->image.width, part->image.height, part->image.channels, err);
-    }
+    if (!code)
+        code = gather(images, count, set, samples, NULL, nthreads, err);
+    for (int i = 0; code && i < count; i++)
+        retex_image_free(images[i].image);
     return code;
 }
 
 static int load(RetexSet *set, const char *wanted, int nthreads, RetexError *err)
 {
-    const int threads = retex_threads(nthreads);
-    LoadJob job = {.set = set,
-                   .wanted = wanted,
-                   .loaded = calloc((size_t)set->nparts + 1, sizeof *job.loaded),
-                   .blocks = 1,
-                   .errors = calloc((size_t)threads, sizeof *job.errors)};
-    int code = prepare(&job, err);
+    RetexImage *loaded = calloc((size_t)set->nparts + 1, sizeof *loaded);
+    Gathered *images = calloc((size_t)set->nparts + 1, sizeof *images);
+    int count = 0, code = loaded && images ? 0 : retex_fail(err, RETEX_ENOMEM, "no memory to load a set");
 
-    if (!code && (set->spool || set->source))
-        retex_parallel(threads, set->nparts * job.blocks, load_job, &job);
-    for (int i = 0; !code && job.code && i < threads; i++)
-        if (job.errors[i].code) {
-            code = job.errors[i].code;
-            if (err)
-                *err = job.errors[i];
+    for (int i = 0; !code && i < set->nparts; i++)
+        if (wanted[i] && !set->parts[i].image.pixels) {
+            loaded[i] = set->parts[i].image;
+            images[count++] = (Gathered){.part = i, .footprint = -1, .image = &loaded[i]};
         }
-    for (int i = 0; job.loaded && i < set->nparts; i++) {
-        if (code)
-            retex_image_free(&job.loaded[i]);
-        else if (wanted[i] && !set->parts[i].image.pixels)
-            set->parts[i].image = job.loaded[i], set->parts[i].spooled = 0;
+    if (!code)
+        code = fill(images, count, set, NULL, nthreads, err);
+    for (int i = 0; !code && i < count; i++) {
+        RetexPart *part = &set->parts[images[i].part];
+        part->image = *images[i].image;
+        part->spooled = 0;
     }
-    free(job.loaded);
-    free(job.errors);
+    free(loaded);
+    free(images);
     return code;
 }
 
@@ -112,6 +63,34 @@ int retex_set_load(RetexSet *set, int nthreads, RetexError *err)
     if (set->source)
         set->source->close(set->source);
     set->source = NULL;
+    return 0;
+}
+
+int retex_samples_load(RetexSamples *samples, int nthreads, RetexError *err)
+{
+    RetexImage *loaded = calloc((size_t)samples->nimages + 1, sizeof *loaded);
+    Gathered *images = calloc((size_t)samples->nimages + 1, sizeof *images);
+    int count = 0, code = loaded && images ? 0 : retex_fail(err, RETEX_ENOMEM, "no memory to load samples");
+
+    for (int i = 0; !code && i < samples->nimages; i++)
+        if (retex_samples_have(samples, i) && !samples->images[i].pixels) {
+            loaded[i] = samples->images[i];
+            images[count++] = (Gathered){.part = -1, .footprint = i, .image = &loaded[i]};
+        }
+    if (!code)
+        code = fill(images, count, NULL, samples, nthreads, err);
+    for (int i = 0; !code && i < count; i++)
+        samples->images[images[i].footprint] = *images[i].image;
+    free(loaded);
+    free(images);
+    if (code)
+        return code;
+    memset(samples->spooled, 0, sizeof samples->spooled);
+    memset(samples->stored, 0, sizeof samples->stored);
+    retex_spool_close(&samples->spool);
+    if (samples->source)
+        samples->source->close(samples->source);
+    samples->source = NULL;
     return 0;
 }
 

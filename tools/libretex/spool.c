@@ -7,7 +7,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 #include <unistd.h>
 #include <zlib.h>
 
@@ -27,58 +26,6 @@ static int fail_system(const RetexSpool *spool, int code, RetexError *err)
 }
 
 /* --- the file ------------------------------------------------------------------------------------------------ */
-
-/* Without a name where the file system can do that, else with one that is taken away at once. */
-static int open_in(RetexSpool *spool, const char *folder)
-{
-    char name[PATH_MAX + 16];
-
-    snprintf(spool->shown, sizeof spool->shown, "a temporary file in %s", folder);
-#ifdef O_TMPFILE
-    spool->descriptor = open(folder, O_TMPFILE | O_RDWR | O_CLOEXEC, 0666);
-    if (spool->descriptor >= 0)
-        return 1;
-#endif
-    snprintf(name, sizeof name, "%s/.retex-XXXXXX", folder);
-    spool->descriptor = mkostemp(name, O_CLOEXEC);
-    if (spool->descriptor < 0)
-        return 0;
-    unlink(name);
-    return 1;
-}
-
-/* The folder of a file to be, or "" where it is none: standard output, a device, a pipe. */
-static void folder_of(const char *near, char folder[PATH_MAX])
-{
-    struct stat status;
-    char path[PATH_MAX];
-
-    folder[0] = 0;
-    if (!near || strcmp(near, "-") == 0 || strlen(near) >= PATH_MAX ||
-        (stat(near, &status) == 0 && !S_ISREG(status.st_mode)) || strncmp(near, "/dev/", 5) == 0 ||
-        strncmp(near, "/proc/", 6) == 0)
-        return;
-    snprintf(path, sizeof path, "%s", near);
-    if (stat(near, &status) == 0 && !realpath(near, path)) /* a link's file is in a folder of its own */
-        return;
-    char *slash = strrchr(path, '/');
-    if (slash)
-        slash[slash == path] = 0;
-    snprintf(folder, PATH_MAX, "%s", slash ? path : ".");
-}
-
-static int open_file(RetexSpool *spool, const char *near, RetexError *err)
-{
-    char folder[PATH_MAX];
-    const char *temporary = getenv("TMPDIR");
-
-    folder_of(near, folder);
-    if (folder[0] && open_in(spool, folder))
-        return 0;
-    if (temporary && temporary[0] && open_in(spool, temporary))
-        return 0;
-    return open_in(spool, "/tmp") ? 0 : fail_system(spool, errno, err);
-}
 
 static RetexSpool *spool_new(int width, int height, uint64_t key)
 {
@@ -105,9 +52,8 @@ int retex_spool_create(RetexSpool **result, int width, int height, uint64_t key,
 
     if (!spool)
         return retex_fail(err, RETEX_ENOMEM, "no memory for a spool");
-    int status = open_file(spool, near, err);
-    if (!status)
-        status = spool_begin(spool, err);
+    spool->descriptor = temporary_open(near, spool->shown);
+    const int status = spool->descriptor < 0 ? fail_system(spool, errno, err) : spool_begin(spool, err);
     if (status)
         retex_spool_close(result);
     return status;
@@ -127,6 +73,11 @@ int retex_spool_open(RetexSpool **result, int width, int height, uint64_t key, c
     if (status)
         retex_spool_close(result);
     return status;
+}
+
+void retex_spool_set_plain(RetexSpool *spool)
+{
+    spool->plain = 1;
 }
 
 void retex_spool_close(RetexSpool **result)
@@ -305,8 +256,10 @@ static int put_chunk(RetexSpool *spool, int number, int band, size_t bytes, int 
 
     memcpy(record.crc, chunk->crc, sizeof record.crc);
     if (!all_zero(scratch->chunk.raw, bytes))
-        record.bytes = (uint32_t)retex_chunk_pack(&scratch->chunk, scratch->chunk.raw, bytes, scratch->packed);
-    return spool_append_chunk(spool, &record, scratch->packed, err);
+        record.bytes =
+            spool->plain ? (uint32_t)bytes
+                         : (uint32_t)retex_chunk_pack(&scratch->chunk, scratch->chunk.raw, bytes, scratch->packed);
+    return spool_append_chunk(spool, &record, spool->plain ? scratch->chunk.raw : scratch->packed, err);
 }
 
 int retex_spool_put(RetexSpool *spool, int number, int band, const float *pixels, RetexError *err)

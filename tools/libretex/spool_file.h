@@ -4,13 +4,13 @@
 #ifndef RETEX_LIBRETEX_SPOOL_FILE_H
 #define RETEX_LIBRETEX_SPOOL_FILE_H
 
-#include <limits.h>
 #include <pthread.h>
 #include <stdatomic.h>
 #include <retex/band_stats.h>
 
 #include "manifest.h"
 #include "spool_chunks.h"
+#include "temporary.h"
 
 typedef struct SpoolImage {
     char letters[8], name[RETEX_NAME_MAX];
@@ -23,7 +23,8 @@ struct RetexSpool {
     int width, height, nbands;
     uint64_t key;
     int descriptor;
-    char shown[PATH_MAX + 32]; /* what the file is, for messages */
+    int plain;           /* 1: bands are not compressed */
+    TemporaryName shown; /* what the file is, for messages */
     RetexBandStats *stats;     /* by band, */
     char *committed;           /* where this is 1 */
     pthread_mutex_t lock;

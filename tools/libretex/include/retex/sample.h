@@ -16,6 +16,11 @@ extern "C" {
 int retex_sample(RetexSamples **samples, const RetexSet *set, const RetexTextureSpec *specs, int nspecs, int nthreads,
                  RetexError *err);
 
+/* As retex_sample, of a set that may be open, with little of either in memory: images as large as the picture go band
+ * by band into a spool near the file that they are for, "-" being standard output. */
+int retex_sample_spooled(RetexSamples **samples, const RetexSet *set, const RetexTextureSpec *specs, int nspecs,
+                         const char *near, int nthreads, RetexError *err);
+
 /* As retex_sample, and *variances (may be NULL: not wanted) gets how far the textures scatter within each footprint,
  * per channel, colour squared: what retex_estimate_error makes of it. */
 int retex_sample_with_variances(RetexSamples **samples, RetexSamples **variances, const RetexSet *set,

@@ -135,7 +135,8 @@ typedef struct RetexSet {
 } RetexSet;
 
 /* The textures filtered at a set's footprints: image i belongs to footprint i and is RGB of the size of its parts, or
- * unallocated where that footprint's target keeps its original. */
+ * all 0 where that footprint's target keeps its original. One of a size but without pixels is in the samples' spool or
+ * in the file that they come from. */
 typedef struct RetexSamples {
     int width, height;
     int nimages;
@@ -146,6 +147,10 @@ typedef struct RetexSamples {
     int ntargets;
     int footprint_target[512]; /* target and hit of footprint i, for the same check and for part names */
     int footprint_hit[512];
+    int spooled[512];      /* 0, or 1 + the image's number in the spool */
+    int stored[512];       /* 0, or 1 + its number in the source */
+    RetexSpool *spool;     /* owned, or NULL; as is */
+    RetexSetSource *source;
 } RetexSamples;
 
 int retex_set_create(RetexSet **set, int width, int height, RetexError *err);
@@ -185,6 +190,10 @@ int retex_set_footprint_scale(const RetexSet *set, int footprint);
 int retex_set_find_target(const RetexSet *set, const char *name);
 
 void retex_samples_close(RetexSamples **samples);
+/* Whether they have an image for that footprint, wherever it is. */
+int retex_samples_have(const RetexSamples *samples, int footprint);
+/* Bring all images into memory, and close the spool and the source. */
+int retex_samples_load(RetexSamples *samples, int nthreads, RetexError *err);
 /* Check that samples were made for this set (size, targets, footprints). */
 int retex_samples_check(const RetexSamples *samples, const RetexSet *set, RetexError *err);
 
@@ -201,15 +210,17 @@ typedef struct RetexStoreParams {
  * wanted (its parts are skipped). A file that holds nothing wanted is RETEX_EFORMAT. */
 int retex_set_read(const char *path, RetexSet **set, RetexSamples **samples, int nthreads, RetexError *err);
 
-/* As retex_set_read, but the set's parts stay in the file until retex_retexture or retex_combine takes them row by row,
- * or retex_set_load all of them; whatever else looks at pixels needs them loaded. The file must stay as it is until the
- * set is closed, and so must parts that retex_set_keep brought into memory: a pack may make its picture from them. A
- * pipe is read whole, into memory. */
+/* As retex_set_read, but the set's parts and the samples stay in the file until they are taken from there row by row,
+ * by retex_retexture, retex_combine, retex_sample_spooled or retex_set_write, or all at once by retex_set_load and
+ * retex_samples_load; whatever else looks at pixels needs them loaded. The file must stay as it is until both are
+ * closed, and so must parts that retex_set_keep brought into memory: a pack may make its picture from them. Of a pipe
+ * that gives more than 64 MiB all is in a temporary file, in $TMPDIR or /tmp. */
 int retex_set_open(const char *path, RetexSet **set, RetexSamples **samples, int nthreads, RetexError *err);
 
 /* Write a set (samples NULL), samples alone (set NULL), or both as one stream, under a temporary name renamed when
  * complete, or to "-". CRCs are computed and kept in set->parts. Of a stream's set only what recombination needs is
- * written when samples are given: beauty, terms, and the footprints that have no sample. */
+ * written when samples are given: beauty, terms, and the footprints that have no sample. What is in an open file yet
+ * goes through a temporary one near path. */
 int retex_set_write(RetexSet *set, const RetexSamples *samples, const char *path,
                     const RetexStoreParams *params /* NULL = defaults */, RetexError *err);
 

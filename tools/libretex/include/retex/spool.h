@@ -26,6 +26,8 @@ int retex_spool_create(RetexSpool **spool, int width, int height, uint64_t key, 
  * other images or in use. With make = 0 nothing is changed, and only reading is possible. */
 int retex_spool_open(RetexSpool **spool, int width, int height, uint64_t key, const char *path, int make,
                      RetexError *err);
+/* Bands that are put from now on are not compressed, for a file that is not: faster, and larger. */
+void retex_spool_set_plain(RetexSpool *spool);
 void retex_spool_close(RetexSpool **spool); /* NULL and pointers to NULL are fine */
 
 /* Give a spool without a name this one, so that it stays. A file of that name is replaced where replace is 1, else it

@@ -1,0 +1,218 @@
+/* Samples of sets that stay in their files: kept out of memory, and the same files as from memory. */
+#include "lib_folder.h"
+#include "lib_test.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#define WIDTH 37
+#define HEIGHT 141 /* jobs of 64 rows, bands of 16, and some left over */
+
+/* One footprint, the last, is half as large as the picture. */
+static RetexSet *make_set(void)
+{
+    static const char *const names[] = {"small_uv", "small_spread", "small_albedo"};
+    static const char *const letters[] = {"RGA", "RG", "RGB"};
+    RetexSet *set = test_set(WIDTH, HEIGHT, 3);
+    RetexFootprint f = set->footprints[set->nfootprints - 1];
+    RetexError err = {0};
+    int *const parts[] = {&f.uv, &f.spread, &f.albedo};
+    uint32_t seed = 7;
+    for (int k = 0; k < 3; k++) {
+        test_must(retex_set_add_part(set, names[k], letters[k], RETEX_FLOAT, (WIDTH + 1) / 2, (HEIGHT + 1) / 2,
+                                     parts[k], &err),
+                  &err);
+        RetexImage *im = &set->parts[*parts[k]].image;
+        for (size_t i = 0; i < retex_image_index(im, 0, im->height); i++)
+            im->pixels[i] = (float)test_random(&seed);
+    }
+    f.hit++;
+    test_must(retex_set_add_footprint(set, &f, NULL, &err), &err);
+    RetexTerm term = {RETEX_TERM_DEP, set->terms[0].radiance, 0, 1, {set->nfootprints - 1}};
+    test_must(retex_set_add_term(set, &term, NULL, &err), &err);
+    return set;
+}
+
+static RetexTextureSpec make_spec(const char *target)
+{
+    RetexTextureSpec spec = RETEX_TEXTURE_SPEC_INIT;
+    RetexImage im = {0};
+    RetexError err = {0};
+    strcpy(spec.target, target);
+    snprintf(spec.image, sizeof spec.image, "%s", test_in_folder("glass.exr"));
+    test_random_image(&im, 16, 16, 4, 9, 0, 1); /* transparent: original albedo is wanted */
+    test_must(retex_image_write(&im, spec.image, NULL, &err), &err);
+    retex_image_free(&im);
+    return spec;
+}
+
+static void expect_same_file(const char *a, const char *b)
+{
+    FILE *files[2] = {fopen(a, "rb"), fopen(b, "rb")};
+    int c;
+    assert_true(files[0] && files[1]);
+    do {
+        c = getc(files[0]);
+        assert_int_equal(c, getc(files[1]));
+    } while (c != EOF);
+    fclose(files[0]);
+    fclose(files[1]);
+}
+
+static int is_large(const RetexImage *image)
+{
+    return image->width == WIDTH;
+}
+
+/* Whether no image of the picture's size is there. */
+static int is_out_of_memory(const RetexSet *set, const RetexSamples *samples)
+{
+    int count = 0;
+    for (int i = 0; set && i < set->nparts; i++)
+        count += is_large(&set->parts[i].image) && set->parts[i].image.pixels;
+    for (int i = 0; samples && i < samples->nimages; i++)
+        count += is_large(&samples->images[i]) && samples->images[i].pixels;
+    return !count;
+}
+
+static void write_to(RetexSet *set, const RetexSamples *samples, const char *path, int compress)
+{
+    RetexStoreParams store = RETEX_STORE_INIT;
+    RetexError err = {0};
+    store.compress = compress;
+    test_must(retex_set_write(set, samples, path, &store, &err), &err);
+}
+
+/* Files of samples and of streams, whichever way the spool keeps its bands. */
+static void files_are_those_from_memory(void **state)
+{
+    (void)state;
+    RetexSet *set = make_set(), *open;
+    RetexTextureSpec spec = make_spec("Floor");
+    RetexSamples *samples, *spooled;
+    RetexError err = {0};
+    write_to(set, NULL, test_in_folder("set.exr"), 1);
+    retex_set_close(&set);
+    test_must(retex_set_read(test_in_folder("set.exr"), &set, NULL, 2, &err), &err);
+    test_must(retex_sample(&samples, set, &spec, 1, 2, &err), &err);
+    for (int round = 0; round < 4; round++) {
+        const int compress = round & 1, plain = round >> 1;
+        test_must(retex_set_open(test_in_folder("set.exr"), &open, NULL, 2, &err), &err);
+        test_must(retex_sample_spooled(&spooled, open, &spec, 1, plain ? "-" : test_own_file, 1 + plain, &err), &err);
+        assert_true(is_out_of_memory(open, spooled));
+        write_to(NULL, samples, test_in_folder("a.exr"), compress);
+        write_to(NULL, spooled, test_in_folder("b.exr"), compress);
+        if (!plain || !compress) /* a spool that is not compressed is not for a file that is */
+            expect_same_file(test_in_folder("a.exr"), test_in_folder("b.exr"));
+        write_to(set, samples, test_in_folder("a.exr"), compress);
+        write_to(open, spooled, test_in_folder("b.exr"), compress);
+        if (!plain || !compress)
+            expect_same_file(test_in_folder("a.exr"), test_in_folder("b.exr"));
+        assert_true(is_out_of_memory(open, spooled));
+        test_must(retex_samples_load(spooled, 2, &err), &err);
+        for (int i = 0; i < samples->nimages; i++) {
+            const RetexImage *a = &samples->images[i], *b = &spooled->images[i];
+            assert_int_equal(retex_samples_have(samples, i), retex_samples_have(spooled, i));
+            if (a->pixels)
+                assert_memory_equal(a->pixels, b->pixels, sizeof(float) * retex_image_index(a, 0, a->height));
+        }
+        retex_samples_close(&spooled);
+        retex_set_close(&open);
+    }
+    retex_samples_close(&samples);
+    retex_set_close(&set);
+}
+
+static void open_stream(RetexSet **set, RetexSamples **samples, const char *path)
+{
+    RetexError err = {0};
+    test_must(retex_set_open(path, set, samples, 2, &err), &err);
+    for (int i = 0; i < (*samples)->nimages; i++)
+        assert_null((*samples)->images[i].pixels);
+}
+
+/* A stream stays in its file: pictures, and streams with one more target, are those of one in memory. */
+static void streams_stay_in_their_files(void **state)
+{
+    (void)state;
+    RetexSet *set = make_set(), *open;
+    RetexTextureSpec floor = make_spec("Floor"), wall = make_spec("Wall");
+    RetexSamples *samples, *more, *stored;
+    RetexImage picture = {0}, other = {0};
+    RetexError err = {0};
+    test_must(retex_sample(&samples, set, &floor, 1, 2, &err), &err);
+    write_to(set, samples, test_in_folder("stream.exr"), 0);
+    retex_samples_close(&samples);
+    retex_set_close(&set);
+
+    test_must(retex_set_read(test_in_folder("stream.exr"), &set, &samples, 2, &err), &err);
+    open_stream(&open, &stored, test_in_folder("stream.exr"));
+    test_must(retex_combine(&picture, set, samples, NULL, NULL, 2, &err), &err);
+    test_must(retex_combine(&other, open, stored, NULL, NULL, 2, &err), &err);
+    assert_memory_equal(picture.pixels, other.pixels, sizeof(float) * 3 * WIDTH * HEIGHT);
+
+    test_must(retex_sample(&more, set, &wall, 1, 2, &err), &err);
+    test_must(retex_samples_merge(samples, more, &err), &err);
+    write_to(set, samples, test_in_folder("a.exr"), 0);
+    retex_samples_close(&more);
+    test_must(retex_sample_spooled(&more, open, &wall, 1, "-", 2, &err), &err);
+    test_must(retex_samples_merge(stored, more, &err), &err);
+    retex_samples_close(&more);
+    write_to(open, stored, test_in_folder("b.exr"), 0);
+    expect_same_file(test_in_folder("a.exr"), test_in_folder("b.exr"));
+
+    /* a second spool has no place beside the first: its images are loaded */
+    test_must(retex_sample_spooled(&more, open, &wall, 1, "-", 2, &err), &err);
+    test_must(retex_samples_merge(stored, more, &err), &err);
+    retex_samples_close(&more);
+    write_to(open, stored, test_in_folder("b.exr"), 0);
+    expect_same_file(test_in_folder("a.exr"), test_in_folder("b.exr"));
+
+    retex_set_close(&open); /* the file is held by the samples too */
+    test_must(retex_samples_load(stored, 2, &err), &err);
+    assert_true(!stored->spool && !stored->source);
+    retex_image_free(&picture);
+    retex_image_free(&other);
+    retex_samples_close(&samples);
+    retex_samples_close(&stored);
+    retex_set_close(&set);
+}
+
+/* Samples without the set. */
+static void samples_alone_stay_in_their_file(void **state)
+{
+    (void)state;
+    RetexSet *set = make_set();
+    RetexTextureSpec spec = make_spec("Floor");
+    RetexSamples *samples, *stored;
+    RetexImage picture = {0}, other = {0};
+    RetexError err = {0};
+    test_must(retex_sample(&samples, set, &spec, 1, 2, &err), &err);
+    write_to(NULL, samples, test_in_folder("a.exr"), 1);
+    test_must(retex_set_open(test_in_folder("a.exr"), NULL, &stored, 2, &err), &err);
+    assert_true(is_out_of_memory(NULL, stored));
+    test_must(retex_combine(&picture, set, samples, NULL, NULL, 2, &err), &err);
+    test_must(retex_combine(&other, set, stored, NULL, NULL, 2, &err), &err);
+    assert_memory_equal(picture.pixels, other.pixels, sizeof(float) * 3 * WIDTH * HEIGHT);
+    write_to(NULL, stored, test_in_folder("b.exr"), 1);
+    expect_same_file(test_in_folder("a.exr"), test_in_folder("b.exr"));
+    retex_image_free(&picture);
+    retex_image_free(&other);
+    retex_samples_close(&samples);
+    retex_samples_close(&stored);
+    retex_set_close(&set);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(files_are_those_from_memory),
+        cmocka_unit_test(streams_stay_in_their_files),
+        cmocka_unit_test(samples_alone_stay_in_their_file),
+    };
+    cmocka_set_message_output(CM_OUTPUT_TAP);
+    return cmocka_run_group_tests(tests, test_make_folder, test_remove_folder);
+}
