@@ -255,22 +255,26 @@ static void few_orders_tell_of_many(void **state)
     }
 }
 
-/* A wall seen through a box filter, each pixel in four clusters, whose places and light are off by so many pixels and
- * shares, as so many samples of equal light tell; at x = 20 all are off by a tenth of a pixel. Returns how many
- * clusters are the quarters of their pixel once compact. */
-static int quarters_of_wall(float noise, int samples, int *off)
+/* Seen through a box filter, four sharp clusters a pixel. */
+static RetexSet *start_sharp_set(void)
 {
-    static const char *const weights[] = {"weight_T0_sharp1", "weight_T0_sharp2", "weight_T0_sharp3",
-                                          "weight_T0_sharp4"};
-    const float step = 1.0f / 64;
     RetexSet *set = start_set(WIDE, HIGH, 1);
-    uint32_t seed = 5;
     strcpy(set->filter, "box");
     set->spp = 1024;
     for (int k = 0; k < 4; k++)
         add_footprint(set, 0, RETEX_FOOTPRINT_SHARP, 1 + k, "RGB");
     for (int k = 0; k < 4; k++)
         add_term(set, 1, k, 0);
+    return set;
+}
+
+/* A wall, each pixel in quarters whose places and light are off by so many pixels and shares, as so many samples of
+ * equal light tell; at x = 20 all are off by a tenth of a pixel. */
+static RetexSet *set_of_wall(float noise, int samples)
+{
+    const float step = 1.0f / 64;
+    RetexSet *set = start_sharp_set();
+    uint32_t seed = 5;
     for (int y = 0; y < HIGH; y++)
         for (int x = 0; x < WIDE; x++)
             for (int k = 0; k < 4; k++) {
@@ -283,6 +287,16 @@ static int quarters_of_wall(float noise, int samples, int *off)
                 put_rgb(set, set->footprints[k].albedo, x, y, 0.5f, 0.5f, 0.5f);
                 put_rgb(set, set->terms[1 + k].radiance, x, y, light, light, light);
             }
+    return set;
+}
+
+/* How many clusters of a wall are the quarters of their pixel once compact, and of those at x = 20. */
+static int quarters_of_wall(float noise, int samples, int *off)
+{
+    static const char *const weights[] = {"weight_T0_sharp1", "weight_T0_sharp2", "weight_T0_sharp3",
+                                          "weight_T0_sharp4"};
+    const float step = 1.0f / 64;
+    RetexSet *set = set_of_wall(noise, samples);
     RetexSet *compact = compacted(set, 4, 8, 1);
     assert_int_equal(compact->nfootprints, 4);
     int quarters = 0;
@@ -321,6 +335,51 @@ static void few_samples_are_even_too(void **state)
     (void)state;
     assert_true(quarters_of_wall(0.4f, 20, &off) > 4 * HIGH * WIDE * 8 / 10);
     assert_true(quarters_of_wall(0.4f, 4096, &off) < 4 * HIGH * WIDE / 2);
+}
+
+/* Ground to a horizon two pixels above the picture, in quarters with a twentieth of noise. */
+static RetexSet *set_of_ground(void)
+{
+    RetexSet *set = start_sharp_set();
+    uint32_t seed = 5;
+    for (int y = 0; y < HIGH; y++)
+        for (int x = 0; x < WIDE; x++)
+            for (int k = 0; k < 4; k++) {
+                const float cut = 0.1f * (float)(test_random(&seed) - 0.5);
+                const float below = (float)y + 2.5f + (k % 2 ? 0.25f : -0.25f) + cut;
+                const float aside = (float)(x - WIDE / 2) + (k < 2 ? -0.25f : 0.25f);
+                const float right = 0.1443f / below, down_u = 0.1443f * aside / (below * below),
+                            down_v = 2.886f / (below * below), su = sqrtf(right * right + down_u * down_u);
+                put(set, k, x, y, aside / below, -20 / below, 0.25f);
+                put_spread(set, k, x, y, su, down_v, -down_u / su);
+                put_rgb(set, set->footprints[k].albedo, x, y, 0.5f, 0.5f, 0.5f);
+                put_rgb(set, set->terms[1 + k].radiance, x, y, 1, 1, 1);
+            }
+    return set;
+}
+
+/* Near the horizon pixels are as large as perspective has them, not as quadratics would. */
+static void even_pixels_run_to_a_horizon(void **state)
+{
+    enum { FIRST = 4, ROWS = 5 };
+    RetexSet *set = set_of_ground(), *compact = compacted(set, 4, 8, 1);
+    int right = 0;
+    (void)state;
+    assert_int_equal(compact->nfootprints, 4);
+    for (int y = FIRST; y < FIRST + ROWS; y++)
+        for (int x = 0; x < WIDE; x++) {
+            const float below = (float)y + 2.5f, step = 20 / (below * below);
+            float least = INFINITY, most = -INFINITY;
+            for (int k = 0; k < 4; k++) {
+                const float v = pixel(compact, compact->footprints[k].uv, x, y)[1];
+                least = fminf(least, v);
+                most = fmaxf(most, v);
+            }
+            right += fabsf(2 * (most - least) - step) < 0.025f * step;
+        }
+    assert_true(right > ROWS * WIDE * 3 / 4);
+    retex_set_close(&set);
+    retex_set_close(&compact);
 }
 
 static void one_cluster_needs_no_mixture(void **state)
@@ -596,6 +655,7 @@ int main(void)
         cmocka_unit_test(few_orders_tell_of_many),
         cmocka_unit_test(even_pixels_are_quarters),
         cmocka_unit_test(few_samples_are_even_too),
+        cmocka_unit_test(even_pixels_run_to_a_horizon),
         cmocka_unit_test(one_cluster_needs_no_mixture),
         cmocka_unit_test(places_are_not_averaged_across_a_seam),
         cmocka_unit_test(empty_kinds_do_no_harm),

@@ -3,7 +3,11 @@
  * for all others: noise, which costs more than all else that sharp footprints store, and which denoising of light
  * leaves there. The quarters of the parallelogram are what more samples come to, vary smoothly, and cost next to
  * nothing. A pixel sees no more than that where it lies as near to its neighbours' map as so few samples let expect:
- * of n, the mean's variance is an n-th of the parallelogram's. */
+ * of n, the mean's variance is an n-th of the parallelogram's.
+ *
+ * Towards a horizon UV run to infinity, which quadratics do not: five pixels below it they make steps a seventh too
+ * long. What a plane has in perspective are linear functions over a common one, the depth; so where the bends of both
+ * axes tell of one depth, maps are quadratics over that. */
 #include "compact_even.h"
 
 #include <math.h>
@@ -21,23 +25,27 @@
 #define CORRELATION_LEAST 0.3    /* likewise of covariances, by the variances' mean */
 #define INSIDE 0.75              /* pixels from the middle to a cluster, at most, on both sides */
 #define ROUGH 9                  /* times what a mean may be off, squared, about a first map */
+#define DEPTH_LEAST 0.04         /* from a pixel to the next one; less makes steps wrong by half a hundredth */
+#define DEPTH_MOST 0.4           /* then a fifth is left at a corner of those that are fitted */
+#define DEPTH_BEND 0.25          /* of depth, squared, that may bend other than by it */
 #define QUARTERED 16             /* samples of a pixel that is stored as quarters, at least */
 #define NEAR_MAP 0.02            /* pixels, squared, that smoothed means are off their neighbours' maps, at most */
 enum { REACH = 2, SIDE = 2 * REACH + 1, FITTED_LEAST = 12, PASSES = 3 /* in which maps are fitted */ };
 
 /* ---- the map ---- */
 
-/* UV about a pixel, from its own mean: of each axis the value in the middle, how much it changes from a pixel to the
- * next one right and down, and what bends it: squares and the product. */
-enum { MIDDLE, RIGHT, DOWN, TERMS = 6 };
+/* UV about a pixel, from its own mean, times depth: of each axis the value in the middle, how much it changes from a
+ * pixel to the next one right and down, and what bends it: squares and the product. */
+enum { MIDDLE, RIGHT, DOWN, RIGHT_RIGHT, RIGHT_DOWN, DOWN_DOWN, TERMS };
 typedef struct Map {
     double of[2][TERMS];
+    double depth[2]; /* is 1 in the middle, and changes so much to the next pixel right and down */
 } Map;
 
 /* What is kept of a map. */
 typedef struct EvenMap {
     double mean[2];
-    float right[2], down[2];
+    float right[2], down[2], depth[2];
     int parts; /* 0: the pixel is not even; 1; or 4, the quarters */
 } EvenMap;
 
@@ -59,7 +67,7 @@ static double step_of(const Map *map, int axis)
     return map->of[axis][RIGHT] * map->of[axis][RIGHT] + map->of[axis][DOWN] * map->of[axis][DOWN];
 }
 
-/* How far a pixel's UV are from the map of another, and by how many pixels, squared. */
+/* How far a pixel's UV are from the map's middle, times depth, and by how many pixels they are off it, squared. */
 static double off_map(const EvenWork *work, const Map *map, const EvenPlace *center, const EvenPlace *each,
                       const double terms[TERMS], double d[2])
 {
@@ -70,6 +78,7 @@ static double off_map(const EvenWork *work, const Map *map, const EvenPlace *cen
         d[a] -= work->periodic[a] ? rint(d[a]) : 0;
         for (int k = 0; k < TERMS && map; k++)
             at += map->of[a][k] * terms[k];
+        d[a] *= map ? 1 + map->depth[0] * terms[RIGHT] + map->depth[1] * terms[DOWN] : 1;
         if (map)
             off += (d[a] - at) * (d[a] - at) / (step_of(map, a) + TEXEL);
     }
@@ -142,8 +151,56 @@ static int fit_window(Map *map, const Window *window)
     return 1;
 }
 
-/* The map about a pixel; means are left out that are farther from the last one, if any, than `times` what they may be,
- * or, of the passes that smooth, than NEAR_MAP. */
+/* The same map, to its quadratics, over another depth. */
+static void change_depth(Map *map, const double depth[2])
+{
+    const double right = depth[0] - map->depth[0], down = depth[1] - map->depth[1];
+    for (int a = 0; a < 2; a++) {
+        double *of = map->of[a];
+        of[RIGHT_RIGHT] += right * of[RIGHT];
+        of[RIGHT_DOWN] += right * of[DOWN] + down * of[RIGHT];
+        of[DOWN_DOWN] += down * of[DOWN];
+        of[RIGHT] += right * of[MIDDLE];
+        of[DOWN] += down * of[MIDDLE];
+        map->depth[a] = depth[a];
+    }
+}
+
+/* In pixels, squared. */
+static double bend_of(const Map *map)
+{
+    double bend = 0;
+    for (int a = 0; a < 2; a++)
+        for (int k = RIGHT_RIGHT; k < TERMS; k++)
+            bend += map->of[a][k] * map->of[a][k] / (step_of(map, a) + TEXEL);
+    return bend;
+}
+
+/* The depth that leaves least bend, where it is much and leaves little of it; else none. */
+static void find_depth(Map *map)
+{
+    double both = TEXEL, mixed = 0, bend[2] = {0}, depth[2];
+    for (int a = 0; a < 2; a++) {
+        const double *of = map->of[a], step = step_of(map, a) + TEXEL;
+        both += step_of(map, a) / step;
+        mixed += of[RIGHT] * of[DOWN] / step;
+        bend[0] += (of[RIGHT] * of[RIGHT_RIGHT] + of[DOWN] * of[RIGHT_DOWN]) / step;
+        bend[1] += (of[RIGHT] * of[RIGHT_DOWN] + of[DOWN] * of[DOWN_DOWN]) / step;
+    }
+    for (int i = 0; i < 2; i++)
+        depth[i] = map->depth[i] - (both * bend[i] - mixed * bend[1 - i]) / (both * both - mixed * mixed);
+    const double size = depth[0] * depth[0] + depth[1] * depth[1];
+    Map over = *map;
+    change_depth(&over, depth);
+    if (size < DEPTH_LEAST * DEPTH_LEAST || fabs(depth[0]) + fabs(depth[1]) > DEPTH_MOST ||
+        bend_of(&over) > DEPTH_BEND * size)
+        change_depth(map, (const double[2]){0});
+    else
+        *map = over;
+}
+
+/* The map about a pixel, over the depth that the last one has, if any; means are left out that are farther from that
+ * than `times` what they may be, or, of the passes that smooth, than NEAR_MAP. */
 static int fit_map(Map *map, const EvenWork *work, int x, int y, const Map *last, double times)
 {
     const EvenPlace *center = &work->whole[y * work->width + x];
@@ -163,7 +220,12 @@ static int fit_map(Map *map, const EvenWork *work, int x, int y, const Map *last
             window.dx[window.count] = dx;
             window.dy[window.count++] = dy;
         }
-    return fit_window(map, &window);
+    if (!fit_window(map, &window))
+        return 0;
+    for (int i = 0; i < 2; i++)
+        map->depth[i] = last ? last->depth[i] : 0;
+    find_depth(map);
+    return 1;
 }
 
 /* How many pixels a pixel's own mean is off its map's, squared. */
@@ -224,8 +286,9 @@ static void keep_map(EvenMap *to, const EvenWork *work, size_t pixel, const Map 
     for (int a = 0; a < 2; a++) {
         to->mean[a] = work->whole[pixel].mean[a] + map->of[a][MIDDLE];
         to->mean[a] -= work->periodic[a] ? floor(to->mean[a]) : 0;
-        to->right[a] = (float)map->of[a][RIGHT];
-        to->down[a] = (float)map->of[a][DOWN];
+        to->right[a] = (float)(map->of[a][RIGHT] - map->depth[0] * map->of[a][MIDDLE]);
+        to->down[a] = (float)(map->of[a][DOWN] - map->depth[1] * map->of[a][MIDDLE]);
+        to->depth[a] = (float)map->depth[a];
     }
 }
 
@@ -261,7 +324,8 @@ static int is_smoothed(Map *map, const EvenWork *work, int x, int y)
     const size_t pixel = (size_t)y * (size_t)work->width + (size_t)x;
     const EvenMap *before = &work->maps[pixel];
     const Map last = {{{0, (double)before->right[0], (double)before->down[0]},
-                       {0, (double)before->right[1], (double)before->down[1]}}};
+                       {0, (double)before->right[1], (double)before->down[1]}},
+                      {(double)before->depth[0], (double)before->depth[1]}};
     return fit_map(map, work, x, y, &last, 0) && off_middle(map) <= off_expected(work, &work->whole[pixel]);
 }
 
