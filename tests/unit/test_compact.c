@@ -466,6 +466,38 @@ static void sizes_follow_the_loss(void **state)
     }
 }
 
+/* The scale of broad footprints, of so little light from the squares of a chequerboard, on a wall that has so much
+ * noise. */
+static int scale_on_wall(float noise, float light)
+{
+    RetexSet *set = set_of_wall(noise, 1024), *compact;
+    RetexError err = {0};
+    const int broad = add_footprint(set, 0, RETEX_FOOTPRINT_BROAD, 5, "RGB"), part = add_term(set, 1, broad, 0);
+    for (int y = 0; y < HIGH; y++)
+        for (int x = 0; x < WIDE; x++) {
+            put(set, broad, x, y, (x / 5 + y / 5) % 2 ? 0.3f : 0.31f, 0.4f, 1);
+            put_spread(set, broad, x, y, 0.004f, 0.004f, 0);
+            put_rgb(set, set->footprints[broad].albedo, x, y, 0.5f, 0.5f, 0.5f);
+            put_rgb(set, part, x, y, light, light, light);
+        }
+    test_must(retex_set_compact(&compact, set, NULL, 2, &err), &err);
+    const int uv = retex_set_find_part(compact, "uv_T0_broad1");
+    assert_true(uv > 0);
+    const int scale = retex_set_scale(compact, &compact->parts[uv].image);
+    retex_set_close(&set);
+    retex_set_close(&compact);
+    return scale;
+}
+
+/* What is lost already, if about as much as may be, takes nothing from what sizes may lose. */
+static void sizes_may_lose_on_top(void **state)
+{
+    (void)state;
+    assert_int_equal(scale_on_wall(0.005f, 0.022f), 8);
+    assert_int_equal(scale_on_wall(0.038f, 0.022f), 8);
+    assert_int_equal(scale_on_wall(0.038f, 0.08f), 1);
+}
+
 static void expect_equal(const RetexSet *one, const RetexSet *other)
 {
     assert_int_equal(one->nparts, other->nparts);
@@ -660,6 +692,7 @@ int main(void)
         cmocka_unit_test(places_are_not_averaged_across_a_seam),
         cmocka_unit_test(empty_kinds_do_no_harm),
         cmocka_unit_test(sizes_follow_the_loss),
+        cmocka_unit_test(sizes_may_lose_on_top),
         cmocka_unit_test(threads_do_not_matter),
         cmocka_unit_test(file_and_memory_are_the_same),
         cmocka_unit_test(others_come_out_as_they_are),

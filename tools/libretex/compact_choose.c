@@ -18,7 +18,7 @@
 #define NOISE_COUNTS 0.025   /* of a set's own noise, what may be added: 0.1 dB */
 #define NOISE_COUNTS_NOT 0.9 /* share of what is taken for noise that is no loss where all may go; the rest counts */
 #define NOTHING 0.03         /* share of the bound that gains may cost without a closer look at their scale */
-#define LETTING 0.25         /* times what is lost when all is as fine as can be may always be lost on top */
+#define LETTING 0.25         /* times what is lost when all is as fine as can be may be lost on top, or the bound */
 #define GROWTH_MOST 4        /* of sums */
 #define MEASURED_MOST 8      /* times */
 #define GROUPS_MOST 64
@@ -270,9 +270,10 @@ static void search(Choosing *work, int first, const double sums[COMPACT_TRIALS],
     }
 }
 
+/* The bound is for what choices lose: were the least counted in, the nearer it came to it the less they might. */
 static double bound_of(const Choosing *work, int trial)
 {
-    return fmax(work->bound, (1 + LETTING * work->light->noise) * work->least[trial]);
+    return work->least[trial] + fmax(work->bound, LETTING * work->light->noise * work->least[trial]);
 }
 
 /* Whether these are other choices than those before. *numbers: how many they store; more than so many are not taken. */
