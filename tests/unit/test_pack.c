@@ -274,6 +274,37 @@ static void test_radiance_that_does_not_suit_jpeg_keeps_its_bits(void **state)
     }
 }
 
+/* Light with so much noise, that goes on once: how many levels a step of its gain is, in those of the light. */
+static double gain_step_with(double noise, int denoised)
+{
+    RetexSet *set = test_set(32, 24, 5);
+    RetexTerm *term = &set->terms[1];
+    RetexError err = {0};
+    uint32_t seed = 3;
+    set->denoised = denoised;
+    test_must(retex_set_add_part(set, "gain", "RGB", RETEX_FLOAT, 0, 0, &term->gain, &err), &err);
+    RetexImage *light = &set->parts[term->radiance].image, *gain = &set->parts[term->gain].image;
+    for (int i = 0; i < 32 * 24 * 3; i++) {
+        light->pixels[i] = (float)(0.5 + noise * (test_random(&seed) - 0.5));
+        gain->pixels[i] = 0.5f;
+    }
+    PackPart *packed = plan_of(set);
+    const PackPart *of_light = &packed[term->radiance], *of_gain = &packed[term->gain];
+    const double ratio =
+        of_gain->jpeg_step / of_gain->curve.levels * of_light->curve.levels / of_light->jpeg_step;
+    free(packed);
+    retex_set_close(&set);
+    return ratio;
+}
+
+static void test_gains_are_finer_where_there_is_little_noise(void **state)
+{
+    (void)state;
+    assert_true(gain_step_with(0.016, 0) < 1.7);
+    assert_true(gain_step_with(0.256, 0) > 2.4);
+    assert_true(gain_step_with(0.016, 1) > 2.4);
+}
+
 static void test_black_parts_cost_nothing(void **state)
 {
     (void)state;
@@ -749,6 +780,7 @@ int main(void)
         cmocka_unit_test(test_denoise_data_is_dropped),
         cmocka_unit_test(test_quality_trades_size),
         cmocka_unit_test(test_radiance_that_does_not_suit_jpeg_keeps_its_bits),
+        cmocka_unit_test(test_gains_are_finer_where_there_is_little_noise),
         cmocka_unit_test(test_black_parts_cost_nothing),
         cmocka_unit_test(test_jpeg_keeps_levels),
         cmocka_unit_test(test_jpeg_kernels_agree),

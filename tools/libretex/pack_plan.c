@@ -15,7 +15,9 @@
 #define COARSE_NOISE 0.5 /* and at least so many times its noise, */
 #define COARSER_MOST 3   /* but not more than so many times the quality's */
 #define BRIGHTER_MOST 4  /* times white that of light may be */
-#define GAIN_STEP 2.5    /* of gains, of which many are added up, in that of their light */
+#define GAIN_STEP 2.5    /* of gains, of which many are added up, in that of their light, */
+#define GAIN_FINER 1.5   /* or, where what was rendered has little noise, so many of these at least, */
+#define GAIN_NOISE 0.8   /* and so many times the noise: a twentieth of it, squared, comes to it */
 
 double pack_quality_psnr(double quality)
 {
@@ -242,6 +244,13 @@ static double light_step(const Planning *plan, int part)
     return fmax(step, fmin(COARSE_NOISE * noise, plan->grain->coarser_most * step));
 }
 
+/* Denoised light has no noise to compare with. */
+static double gain_step(const Planning *plan, int radiance)
+{
+    const double step = light_step(plan, radiance), finer = fmax(GAIN_FINER * step, GAIN_NOISE * plan->noise[radiance]);
+    return plan->set->denoised ? GAIN_STEP * step : fmin(GAIN_STEP * step, finer);
+}
+
 /* Gains say what share of the light is theirs were the texture of all further hits COMPACT_GREY: white is all of it. */
 static void plan_gain(Planning *plan, int part)
 {
@@ -250,7 +259,7 @@ static void plan_gain(Planning *plan, int part)
     for (int i = 0; i < set->nterms; i++)
         if (set->terms[i].gain == part && set->terms[i].nfactors >= most)
             most = set->terms[i].nfactors, radiance = set->terms[i].radiance;
-    plan_light(plan, part, pow((double)COMPACT_GREY, 1 - most), GAIN_STEP * light_step(plan, radiance));
+    plan_light(plan, part, pow((double)COMPACT_GREY, 1 - most), gain_step(plan, radiance));
 }
 
 /* Means on lattices, standard deviations and coverage by their logarithm; where coverage is 0, nothing. */
