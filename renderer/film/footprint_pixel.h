@@ -7,7 +7,7 @@
 #include "base/float4.h"
 #include "film/footprint_images.h"
 
-#define PENDING_MAX 64
+#define PATH_HITS_MAX 64
 
 /* Colours are red, green, blue and nothing. */
 typedef Float4 Coefficients[PLAN_COEFFICIENTS_MAX];
@@ -84,7 +84,7 @@ struct FootprintPixel {
     int spp; /* of the pixel, when it is finished */
     double free[3];
     TargetClusters *targets;
-    PathHit hits[PENDING_MAX]; /* of the path in hand */
+    PathHit hits[PATH_HITS_MAX]; /* of the path in hand */
     int nhits;
     PathHit *last[RETEX_MAX_FACTORS]; /* by how many hits came before it; NULL: none */
     LightSums *light;                 /* of what arrives */

@@ -68,7 +68,7 @@ static PathHit *start_hit(FootprintPixel *p, const TargetHit *hit)
  * the same. */
 static void find_hits(FootprintPixel *p, const Expansion *e)
 {
-    if (p->nhits + e->size.nhits > PENDING_MAX)
+    if (p->nhits + e->size.nhits > PATH_HITS_MAX)
         flush_hits(p);
     for (int j = 0; j < e->size.nhits; j++)
         if (!p->last[j] || !is_at(&p->last[j]->first, &e->hits[j]))
