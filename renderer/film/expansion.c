@@ -16,12 +16,11 @@ void expansion_return(Expansion *e, const ExpansionMark *mark)
         e->monomials[k] = mark->monomials[k];
 }
 
-void expansion_push(Expansion *e, const TargetHit *hit, const Split *factor)
+void expansion_push(Expansion *e, const TargetHit *hit, Float4 d, Float4 i)
 {
     int before = e->size.nmonomials, after = before;
     unsigned bit = 1u << e->size.nhits;
-    int independent = !rgb_is_black(factor->i), dependent = !rgb_is_black(factor->d);
-    Float4 d = colour4(factor->d), i = colour4(factor->i);
+    int dependent = !is_black4(d), independent = !is_black4(i);
     TargetHit *pushed = &e->hits[e->size.nhits];
     *pushed = *hit;
     pushed->index = e->size.per_target[hit->target];

@@ -87,6 +87,6 @@ static inline void expansion_grow(ExpansionSize *size, int target, int both_part
 }
 
 /* Multiply by d a + i of one more hit, which must have room; its index is found here. */
-void expansion_push(Expansion *e, const TargetHit *hit, const Split *factor);
+void expansion_push(Expansion *e, const TargetHit *hit, Float4 d, Float4 i);
 
 #endif

@@ -41,12 +41,12 @@ struct FilmPixel {
     Film *film;
     PaperPixel *paper;
     FootprintPixel *footprints;
-    BandRows *rows;            /* that the tile in hand writes to, once it does */
+    BandRows *rows; /* that the tile in hand writes to, once it does */
     double beauty[3];
-    int spp;                   /* of the tile's pixels */
-    int paths;                 /* so far */
-    SignalTotals half;         /* of the first half of the paths */
-    LightSums light;           /* of the tile so far, as is: */
+    int spp;           /* of the tile's pixels */
+    int paths;         /* so far */
+    SignalTotals half; /* of the first half of the paths */
+    LightSums light;   /* of the tile so far, as is: */
     UvRange range;
     long dropped, samples;
 };
@@ -176,19 +176,11 @@ void film_add_light(FilmPixel *p, const double light[3])
     p->light.total += rgb_luminance(rgb((float)light[0], (float)light[1], (float)light[2]));
 }
 
-void film_add_folded(FilmPixel *p, Rgb light)
+void film_add_folded(FilmPixel *p, Rgb light, Rgb white)
 {
     p->light.folded += rgb_luminance(light);
-}
-
-void film_connect(FilmPixel *p, const FilmLight *light, const Expansion *e)
-{
-    if (rgb_is_black(light->outside))
-        return;
-    if (p->paper)
-        paper_connect(p->paper, e, light->outside, light->connections);
     if (p->footprints)
-        footprints_connect(p->footprints, e, light->outside, light->folded);
+        p->light.folded_white += rgb_luminance(white);
 }
 
 /* What each signal got in the pixel so far. */
@@ -202,12 +194,12 @@ static void signal_totals(const FilmPixel *p, SignalTotals *totals)
         memcpy(totals->of[0], p->beauty, sizeof p->beauty);
 }
 
-void film_path_end(FilmPixel *p)
+void film_path_end(FilmPixel *p, const PathHits *hits)
 {
     if (p->paper)
-        paper_path_end(p->paper, &p->range);
+        paper_path_end(p->paper, hits, &p->range);
     if (p->footprints)
-        footprints_path_end(p->footprints);
+        footprints_path_end(p->footprints, hits);
     if (++p->paths == p->spp / 2 && p->film->noise.count)
         signal_totals(p, &p->half);
 }

@@ -3,7 +3,7 @@
 #define RENDERER_FILM_FILM_H
 
 #include "film/bands.h"
-#include "film/expansion.h"
+#include "film/path_hits.h"
 #include "scene/scene.h"
 
 #define FILM_CLUSTERS_MAX 16
@@ -54,20 +54,13 @@ void film_close(Film **film);
 int film_pixel_create(FilmPixel **pixel, Film *film, RetexError *err);
 void film_pixel_close(FilmPixel **pixel);
 
-/* Light that arrived in a split film, by one or more connections of a path behind the same hits. */
-typedef struct FilmLight {
-    Rgb outside;     /* the light times that part of the throughput that no recorded target hit made */
-    int folded;      /* hits beyond the order kept their albedo */
-    int connections; /* so many */
-} FilmLight;
-
-void film_drop(FilmPixel *pixel); /* count light that is not finite, and is left out */
+void film_drop(FilmPixel *pixel);                             /* count light that is not finite, and is left out */
 void film_add_light(FilmPixel *pixel, const double light[3]); /* of a path, all together */
-void film_add_folded(FilmPixel *pixel, Rgb light);            /* of that, what met hits that are folded */
-/* The expansion holds the hits. */
-void film_connect(FilmPixel *pixel, const FilmLight *light, const Expansion *expansion);
-/* A path ends: hits of targets that connected enter the footprints, each once for every connection behind it. */
-void film_path_end(FilmPixel *pixel);
+/* Of that, what met hits that are folded; and what it would be with white targets. */
+void film_add_folded(FilmPixel *pixel, Rgb light, Rgb white);
+/* A path ends, with what it met of the targets, where light is split: behind one another no more hits of a target than
+ * there are orders, and of all of them no more than expansion_most_hits. */
+void film_path_end(FilmPixel *pixel, const PathHits *hits);
 /* Before a tile's first pixel, where its pixels have not as many samples as FilmParams say. */
 void film_tile_begin(FilmPixel *pixel, int spp);
 Rgb film_pixel_take(FilmPixel *pixel); /* the sum of light so far instead of film_pixel_end: of a film without split */

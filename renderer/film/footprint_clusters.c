@@ -82,14 +82,13 @@ static void merge_cluster(Cluster *into, const Cluster *from, const int periodic
 
 static void add_pending(Cluster *into, const Pending *q, const int periodic[2])
 {
-    const double uv[2] = {q->position.u, q->position.v};
+    const HitLight *l = q->light;
+    uv_stats_add(&into->uv, q->weight, q->uv, periodic);
     /* a cluster's own light is what its albedo is for; light that goes on to targets tells where there is no other */
-    Float4 own = q->used & 1 ? q->c[0] : splat(0);
-    uv_stats_add(&into->uv, q->weight, uv, periodic);
-    add_albedo(&into->albedo, own + q->again * splat(AGAIN_WEIGHT), q->albedo);
+    add_albedo(&into->albedo, l->c[0] + l->original * splat(AGAIN_WEIGHT), q->albedo);
     into->squares += q->weight * q->weight;
-    into->c += own;
-    into->again += q->again;
+    into->c += l->c[0];
+    into->again += l->original;
 }
 
 static void start_cluster(Cluster *cluster, const Pending *q, const int periodic[2])
@@ -113,9 +112,8 @@ static double merge_cost(const UvStats *a, const UvStats *b, int sharp, const in
 /* What it costs a cluster to take a place in. */
 static double join_cost(const UvStats *a, const Pending *q, const int periodic[2])
 {
-    const double uv[2] = {q->position.u, q->position.v};
-    return q->sharp ? uv_stats_point_ward(a, q->weight, uv, periodic) / (UV_FEATURE * UV_FEATURE)
-                    : uv_stats_point_variation_gain(a, q->weight, uv, periodic);
+    return q->sharp ? uv_stats_point_ward(a, q->weight, q->uv, periodic) / (UV_FEATURE * UV_FEATURE)
+                    : uv_stats_point_variation_gain(a, q->weight, q->uv, periodic);
 }
 
 /* Look among the clusters for a pair that is cheaper than the best so far. */
@@ -174,10 +172,10 @@ void clusters_add(TargetClusters *target, const Pending *q, const FilmParams *pa
     Clusters *own = q->sharp ? &target->sharp : &target->broad, *other = q->sharp ? &target->broad : &target->sharp;
     int room = q->sharp ? params->sharp : params->broad;
     const int *periodic = params->periodic[q->target];
-    own->used |= q->used & ~1u;
-    for (unsigned left = q->used & ~1u; left; left &= left - 1) {
+    own->used |= q->light->used;
+    for (unsigned left = q->light->used; left; left &= left - 1) {
         int i = __builtin_ctz(left);
-        own->again[i] += q->c[i];
+        own->again[i] += q->light->c[i];
     }
     if (own->count < room && own->count + other->count < params->clusters) {
         start_cluster(&own->of[own->count++], q, periodic);

@@ -7,8 +7,6 @@
 #include "base/float4.h"
 #include "film/footprint_images.h"
 
-#define PATH_HITS_MAX 64
-
 /* Colours are red, green, blue and nothing. */
 typedef Float4 Coefficients[PLAN_COEFFICIENTS_MAX];
 
@@ -25,16 +23,21 @@ typedef struct Cluster {
     Float4 again; /* that which does */
 } Cluster;
 
-/* A hit of one path, and the light that met it before other hits. */
+/* Light as a polynomial in the textures of further hits, by the coefficients of the plan; and what those but the first
+ * come to, with each further hit's original albedo, with 1/2 and with white paint. */
+typedef struct HitLight {
+    Coefficients c; /* [0], and those in use; the others are not set */
+    Float4 original, half, white;
+    unsigned used; /* bits, of those after the first */
+} HitLight;
+
+/* A place of one path, and the light that met it before other hits. */
 typedef struct Pending {
-    int target;
-    int sharp;
-    Vec2 position;
+    int target, sharp;
+    double uv[2];
+    double weight;
     Float4 albedo; /* the original's, there */
-    Float4 again;  /* light that meets targets again, with their original albedo */
-    double weight; /* of the place, when the path has ended */
-    unsigned used; /* bits: coefficients that are not 0; the others are not set */
-    Coefficients c;
+    const HitLight *light;
 } Pending;
 
 /* The same after other hits. */
@@ -71,24 +74,24 @@ typedef struct TargetClusters {
 void clusters_add(TargetClusters *target, const Pending *pending, const FilmParams *params);
 void clusters_add_later(TargetClusters *target, const PendingLater *pending, const int periodic[2]);
 
-/* A hit of the path in hand. What is weighted has each further hit as an albedo of 1/2. */
-typedef struct PathHit {
-    Float4 weighing;                 /* its albedo, as it weighs other hits */
-    Float4 weighted, later_weighted; /* light that met it first, or after others */
-    Float4 met; /* light that met it after others, behind all hits, this one too, with their original albedo */
-    Pending first;
-} PathHit;
+/* A hit of the path in hand; see path_hits.h. */
+typedef struct Node {
+    HitLight dependent,
+        independent; /* that came by it, from further hits too: what its texture multiplies, and the rest */
+    Float4 albedo;   /* of the original, as it weighs other hits */
+    /* What the hits before it do to light that comes from it: none of their textures; all, with the original albedos;
+     * all, with 1/2. */
+    Float4 none, original, half;
+} Node;
 
 struct FootprintPixel {
     FootprintFilm *film;
     int spp; /* of the pixel, when it is finished */
     double free[3];
     TargetClusters *targets;
-    PathHit hits[PATH_HITS_MAX]; /* of the path in hand */
-    int nhits;
-    PathHit *last[RETEX_MAX_FACTORS]; /* by how many hits came before it; NULL: none */
-    LightSums *light;                 /* of what arrives */
-    UvRange *range;                   /* of what was met */
+    Node nodes[PATH_HITS_MAX];
+    LightSums *light; /* of what arrives */
+    UvRange *range;   /* of what was met */
 };
 
 #endif

@@ -5,10 +5,6 @@
 #include "film/footprint_pixel.h"
 
 #define LEAST_ALBEDO 1e-3f /* of other hits, where originals are averaged: a black one may be the one that is edited */
-/* What so many hits of white paint, of albedo 0.8, leave of light. */
-static const float white_left[RETEX_MAX_FACTORS + 1] = {
-    1,          0.8f,        0.64f,        0.512f,       0.4096f,       0.32768f,     0.262144f,
-    0.2097152f, 0.16777216f, 0.134217728f, 0.107374182f, 0.0858993459f, 0.0687194767f};
 
 /* ---- life ---- */
 
@@ -46,159 +42,144 @@ static Float4 weighing_albedo(Rgb a)
                     a.b > LEAST_ALBEDO ? a.b : LEAST_ALBEDO, 1};
 }
 
-static void flush_hits(FootprintPixel *p);
-
-static int is_at(const Pending *q, const TargetHit *hit)
+static inline void add_coefficient(HitLight *sum, int k, Float4 value)
 {
-    return q->target == hit->target && q->position.u == hit->uv.u && q->position.v == hit->uv.v;
+    sum->c[k] = sum->used >> k & 1 ? sum->c[k] + value : value;
+    sum->used |= 1u << k;
 }
 
-static PathHit *start_hit(FootprintPixel *p, const TargetHit *hit)
+/* Light of which a hit makes so much. */
+static inline void add_times(HitLight *sum, const HitLight *light, Float4 by)
 {
-    PathHit *h = &p->hits[p->nhits++];
-    h->weighing = weighing_albedo(hit->albedo);
-    h->weighted = h->later_weighted = h->met = splat(0);
-    h->first.target = hit->target, h->first.sharp = hit->sharp, h->first.position = hit->uv;
-    h->first.albedo = colour4(hit->albedo), h->first.again = splat(0);
-    h->first.used = 0;
-    return h;
-}
-
-/* The path's hits up to where light arrives; one that was met before, as the path goes on from where it connected, is
- * the same. */
-static void find_hits(FootprintPixel *p, const Expansion *e)
-{
-    if (p->nhits + e->size.nhits > PATH_HITS_MAX)
-        flush_hits(p);
-    for (int j = 0; j < e->size.nhits; j++)
-        if (!p->last[j] || !is_at(&p->last[j]->first, &e->hits[j]))
-            p->last[j] = start_hit(p, &e->hits[j]);
-}
-
-/* The hits of a monomial beyond its first, as far as the plan keeps them. */
-typedef struct Kept {
-    unsigned hits; /* bits */
-    int coefficient, folded;
-    Float4 albedo; /* of all that are kept, as it weighs other hits */
-} Kept;
-
-/* Which of the hits after the first, given as bits; the albedo of the others goes into value. */
-static inline void keep_hits(const FootprintPixel *p, const Expansion *e, unsigned further, Float4 *value, Kept *kept)
-{
-    const Plan *plan = &p->film->plan;
-    *kept = (Kept){.albedo = splat(1)};
-    for (; further; further &= further - 1) {
-        int j = __builtin_ctz(further);
-        int next = plan->coefficients[kept->coefficient].next[e->hits[j].target];
-        if (next >= 0) {
-            kept->coefficient = next;
-            kept->albedo *= p->last[j]->weighing;
-            kept->hits |= 1u << j;
-        } else {
-            *value *= p->last[j]->first.albedo;
-            kept->folded = 1;
-        }
+    sum->c[0] += light->c[0] * by;
+    sum->original += light->original * by;
+    sum->half += light->half * by;
+    sum->white += light->white * by;
+    for (unsigned left = light->used; left; left &= left - 1) {
+        int k = __builtin_ctz(left);
+        add_coefficient(sum, k, light->c[k] * by);
     }
 }
 
-static inline void add_coefficient(Pending *q, int coefficient, Float4 value)
+/* The same times the texture of one more hit. */
+static inline void add_textured(HitLight *sum, const HitLight *light, const Plan *plan, int target, Float4 albedo)
 {
-    q->c[coefficient] = q->used >> coefficient & 1 ? q->c[coefficient] + value : value;
-    q->used |= 1u << coefficient;
-}
-
-/* Of the light that a connection brings. */
-typedef struct Arrived {
-    Float4 white, white_folded; /* as it would be with white targets; of it, what has folded hits */
-    Float4 folded;              /* as it is, of that */
-} Arrived;
-
-/* Light that met more hits than the first, given as bits. */
-static inline void add_with_further(FootprintPixel *p, const Expansion *e, PathHit *first, unsigned further,
-                                    Float4 value, Arrived *sums)
-{
-    Kept kept;
-    Float4 white = value * splat(white_left[1 + __builtin_popcount(further)]);
-    keep_hits(p, e, further, &value, &kept);
-    Float4 light = value * kept.albedo;
-    Float4 weighted = value * splat((float)p->film->plan.coefficients[kept.coefficient].weight);
-    add_coefficient(&first->first, kept.coefficient, value);
-    first->weighted += weighted;
-    if (kept.hits)
-        first->first.again += light;
-    for (unsigned left = kept.hits; left; left &= left - 1) {
-        PathHit *later = p->last[__builtin_ctz(left)];
-        later->later_weighted += weighted;
-        later->met += light * first->weighing;
-    }
-    sums->white += white;
-    if (kept.folded) {
-        sums->white_folded += white;
-        sums->folded += light * first->first.albedo;
+    sum->original += (light->c[0] + light->original) * albedo;
+    sum->half += (light->c[0] + light->half) * splat(0.5f);
+    sum->white += (light->c[0] + light->white) * splat(WHITE_ALBEDO);
+    add_coefficient(sum, plan->coefficients[0].next[target], light->c[0]);
+    for (unsigned left = light->used; left; left &= left - 1) {
+        int k = __builtin_ctz(left);
+        add_coefficient(sum, plan->coefficients[k].next[target], light->c[k]);
     }
 }
 
-void footprints_connect(FootprintPixel *p, const Expansion *e, Rgb outside, int folded)
+static inline void start_light(HitLight *light, Float4 value)
 {
-    Float4 light = colour4(outside);
-    Arrived sums = {splat(0), splat(0), splat(0)};
-    find_hits(p, e);
-    for (int k = 0; k < e->size.nmonomials; k++) {
-        unsigned hits = e->monomials[k].hits, further = hits & (hits - 1);
-        Float4 value = light * e->monomials[k].coefficient;
-        if (further) {
-            add_with_further(p, e, p->last[__builtin_ctz(hits)], further, value, &sums);
-        } else if (hits) {
-            PathHit *first = p->last[__builtin_ctz(hits)];
-            add_coefficient(&first->first, 0, value);
-            first->weighted += value;
-            sums.white += value * splat(white_left[1]);
-        } else {
-            p->free[0] += value[0], p->free[1] += value[1], p->free[2] += value[2];
-            sums.white += value;
-        }
-    }
-    p->light->total_white += luminance4(sums.white);
-    p->light->folded_white += luminance4(folded ? sums.white : sums.white_folded);
-    if (!folded) /* else all of it counts as folded already */
-        p->light->folded += luminance4(sums.folded);
+    light->c[0] = value;
+    light->original = light->half = light->white = splat(0);
+    light->used = 0;
 }
 
-/* ---- a path ends ---- */
-
-static void flush_later(FootprintPixel *p, const PathHit *hit, double weight)
+/* What the hits before this one do to light that comes from it, as sums over all of their subsets. */
+static inline void start_node(Node *node, const PathHit *hit, const Node *before)
 {
-    const Pending *q = &hit->first;
-    const PendingLater later = {.target = q->target,
-                                .uv = {q->position.u, q->position.v},
+    start_light(&node->dependent, hit->dependent);
+    start_light(&node->independent, hit->independent);
+    if (!before) {
+        node->none = node->original = node->half = splat(1);
+        return;
+    }
+    node->none = before->none * hit->way_i;
+    node->original = before->original * (hit->way_i + hit->way_d * before->albedo);
+    node->half = before->half * (hit->way_i + hit->way_d * splat(0.5f));
+}
+
+/* Light that met this hit after others of its path. */
+static int add_later(FootprintPixel *p, const PathHit *hit, const Node *node)
+{
+    const HitLight *light = &node->dependent;
+    const double weight = luminance4((node->half - node->none) * (light->c[0] + light->half));
+    if (!(weight > 0))
+        return 0;
+    const PendingLater later = {.target = hit->at.target,
+                                .uv = {hit->at.uv.u, hit->at.uv.v},
                                 .weight = weight,
-                                .light = hit->met / hit->weighing,
-                                .albedo = q->albedo};
-    clusters_add_later(&p->targets[q->target], &later, p->film->params.periodic[q->target]);
+                                .light = (node->original - node->none) * (light->c[0] + light->original),
+                                .albedo = colour4(hit->at.albedo)};
+    clusters_add_later(&p->targets[later.target], &later, p->film->params.periodic[later.target]);
+    return 1;
 }
 
-static void flush_hits(FootprintPixel *p)
+/* Light that met this hit first of all. */
+static int add_first(FootprintPixel *p, const PathHit *hit, HitLight *light)
 {
-    for (int k = 0; k < p->nhits; k++) {
-        PathHit *hit = &p->hits[k];
-        Pending *q = &hit->first;
-        const double uv[2] = {q->position.u, q->position.v}, later = luminance4(hit->later_weighted);
-        q->weight = luminance4(hit->weighted);
-        if (q->weight > 0 || later > 0)
-            uv_range_add(p->range, q->target, uv);
-        if (q->weight > 0)
-            clusters_add(&p->targets[q->target], q, &p->film->params);
-        if (later > 0)
-            flush_later(p, hit, later);
+    const double weight = luminance4(light->c[0] + light->half);
+    if (!(weight > 0))
+        return 0;
+    const Pending first = {.target = hit->at.target,
+                           .sharp = hit->at.sharp,
+                           .uv = {hit->at.uv.u, hit->at.uv.v},
+                           .weight = weight,
+                           .light = light,
+                           .albedo = colour4(hit->at.albedo)};
+    clusters_add(&p->targets[first.target], &first, &p->film->params);
+    return 1;
+}
+
+static void scale_light(HitLight *light, Float4 by)
+{
+    light->c[0] *= by, light->original *= by, light->half *= by;
+    for (unsigned left = light->used; left; left &= left - 1)
+        light->c[__builtin_ctz(left)] *= by;
+}
+
+/* Light of a hit goes to the hit before it, when all of those behind it did so. */
+static void gather_node(FootprintPixel *p, const PathHit *hit, Node *node, Node *before)
+{
+    add_textured(&node->independent, &node->dependent, &p->film->plan, hit->at.target, node->albedo);
+    add_times(&before->dependent, &node->independent, hit->way_d);
+    if (!is_black4(hit->way_i))
+        add_times(&before->independent, &node->independent, hit->way_i);
+}
+
+static void finish_node(FootprintPixel *p, const PathHit *hit, Node *node)
+{
+    const double uv[2] = {hit->at.uv.u, hit->at.uv.v};
+    int was_met = 0;
+    if (hit->before) {
+        was_met = add_later(p, hit, node);
+        scale_light(&node->dependent, node->none);
     }
-    memset(p->last, 0, sizeof p->last);
-    p->nhits = 0;
+    was_met |= add_first(p, hit, &node->dependent);
+    if (was_met)
+        uv_range_add(p->range, hit->at.target, uv);
 }
 
-void footprints_path_end(FootprintPixel *p)
+void footprints_path_end(FootprintPixel *p, const PathHits *path)
 {
-    if (p->nhits)
-        flush_hits(p);
+    const PathHit *hits[PATH_HITS_MAX];
+    Float4 free = path->free, white = path->free;
+    for (const PathHit *hit = path->last; hit; hit = hit->earlier)
+        hits[hit->number] = hit;
+    for (int k = 0; k < path->count; k++) {
+        const PathHit *before = hits[k]->before;
+        p->nodes[k].albedo = weighing_albedo(hits[k]->at.albedo);
+        start_node(&p->nodes[k], hits[k], before ? &p->nodes[before->number] : NULL);
+    }
+    for (int k = path->count - 1; k >= 0; k--)
+        if (hits[k]->before)
+            gather_node(p, hits[k], &p->nodes[k], &p->nodes[hits[k]->before->number]);
+    for (int k = 0; k < path->count; k++) {
+        const HitLight *d = &p->nodes[k].dependent, *i = &p->nodes[k].independent;
+        if (!hits[k]->before) {
+            free += i->c[0];
+            white += i->c[0] + i->white + (d->c[0] + d->white) * splat(WHITE_ALBEDO);
+        }
+        finish_node(p, hits[k], &p->nodes[k]);
+    }
+    p->free[0] += free[0], p->free[1] += free[1], p->free[2] += free[2];
+    p->light->total_white += luminance4(white);
 }
 
 static void signal_total(double total[3], const Clusters *clusters, const Plan *plan)

@@ -21,9 +21,7 @@ int footprints_pixel_create(FootprintPixel **pixel, FootprintFilm *film, LightSu
                             RetexError *err);
 void footprints_pixel_close(FootprintPixel **pixel);
 
-/* folded: all of it counts as folded. */
-void footprints_connect(FootprintPixel *pixel, const Expansion *expansion, Rgb outside, int folded);
-void footprints_path_end(FootprintPixel *pixel);
+void footprints_path_end(FootprintPixel *pixel, const PathHits *hits);
 /* Between paths: sharp and broad clusters with the light that goes on to targets, each further hit as albedo 1/2. */
 void footprints_totals(const FootprintPixel *pixel, SignalTotals *totals);
 void footprints_pixel_end(FootprintPixel *pixel, BandRows *rows, int spp, int x, int y);

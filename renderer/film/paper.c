@@ -32,9 +32,11 @@ struct PaperPixel {
     float (*sums)[3]; /* by term */
     int *touched, ntouched;
     FootprintSums footprints[RETEX_MAX_TARGETS * RETEX_MAX_ORDERS];
-    /* of the path in hand: every hit that connected, with how often */
-    TargetHit hits[64];
-    int connections[64], nhits;
+    /* of the path in hand: */
+    Expansion expansion;
+    ExpansionMark mark;            /* of it before a hit that light came by */
+    TargetHit hits[PATH_HITS_MAX]; /* all hits that connected, with how often */
+    int connections[PATH_HITS_MAX], nhits;
 };
 
 static int footprints_count(const PaperFilm *film)
@@ -153,8 +155,6 @@ static void note_connections(PaperPixel *p, const Expansion *e, int connections)
                            p->hits[k].uv.u == hit->uv.u && p->hits[k].uv.v == hit->uv.v))
             k--;
         if (k < 0) {
-            if (p->nhits == 64)
-                continue;
             k = p->nhits++;
             p->hits[k] = *hit;
             p->connections[k] = 0;
@@ -174,8 +174,10 @@ static HitMask mask_by_target(const Expansion *e, unsigned hits)
     return mask;
 }
 
-void paper_connect(PaperPixel *p, const Expansion *e, Rgb outside, int connections)
+/* Light of so many connections behind the expansion's hits. */
+static void connect(PaperPixel *p, Rgb outside, int connections)
 {
+    const Expansion *e = &p->expansion;
     for (int k = 0; k < e->size.nmonomials; k++) {
         Rgb value = rgb_mul(outside, rgb_of4(e->monomials[k].coefficient));
         HitMask met = mask_by_target(e, e->monomials[k].hits);
@@ -187,6 +189,40 @@ void paper_connect(PaperPixel *p, const Expansion *e, Rgb outside, int connectio
             add_albedos(p, e, e->monomials[k].hits, value);
     }
     note_connections(p, e, connections);
+}
+
+/* Make the expansion that of the hits before one. */
+static void expand_before(Expansion *e, const PathHit *hit)
+{
+    expansion_reset(e);
+    if (!hit->before)
+        return;
+    expand_before(e, hit->before);
+    expansion_push(e, &hit->before->at, hit->way_d, hit->way_i);
+}
+
+static void add_path(PaperPixel *p, const PathHits *path)
+{
+    Expansion *e = &p->expansion;
+    const PathHit *hits[PATH_HITS_MAX], *previous = NULL;
+    for (const PathHit *hit = path->last; hit; hit = hit->earlier)
+        hits[hit->number] = hit;
+    expansion_reset(e);
+    if (path->free_connections)
+        connect(p, rgb_of4(path->free), path->free_connections);
+    for (int k = 0; k < path->count; previous = hits[k++]) {
+        const PathHit *hit = hits[k];
+        if (hit->before && hit->before == previous)
+            expansion_push(e, &previous->at, hit->way_d, hit->way_i);
+        else
+            expand_before(e, hit);
+        if (!hit->connections)
+            continue;
+        expansion_mark(&p->mark, e);
+        expansion_push(e, &hit->at, hit->dependent, hit->independent);
+        connect(p, rgb_grey(1), hit->connections);
+        expansion_return(e, &p->mark);
+    }
 }
 
 static void footprint_add(FootprintSums *f, const TargetHit *hit, int weight)
@@ -203,9 +239,10 @@ static void footprint_add(FootprintSums *f, const TargetHit *hit, int weight)
     f->albedo[2] += hit->albedo.b * (float)weight;
 }
 
-void paper_path_end(PaperPixel *p, UvRange *range)
+void paper_path_end(PaperPixel *p, const PathHits *path, UvRange *range)
 {
     HitMask seen = 0;
+    add_path(p, path);
     for (int k = 0; k < p->nhits; k++) {
         const TargetHit *hit = &p->hits[k];
         FootprintSums *f = &p->footprints[footprint_number(hit)];

@@ -15,9 +15,7 @@ void paper_close(PaperFilm **film);
 int paper_pixel_create(PaperPixel **pixel, PaperFilm *film, RetexError *err);
 void paper_pixel_close(PaperPixel **pixel);
 
-/* Light of so many connections behind the same hits. */
-void paper_connect(PaperPixel *pixel, const Expansion *expansion, Rgb outside, int connections);
-void paper_path_end(PaperPixel *pixel, UvRange *range);
+void paper_path_end(PaperPixel *pixel, const PathHits *hits, UvRange *range);
 /* Terms by the target of their first factor, each further factor as albedo 1/2. */
 void paper_totals(const PaperPixel *pixel, SignalTotals *totals);
 void paper_pixel_end(PaperPixel *pixel, BandRows *rows, int spp, int x, int y);

@@ -449,7 +449,7 @@ void path_trace(PathWorker *w, const Ray *rays, const Sampler *samplers, int cou
 {
     Wave wave;
     wave.count = count;
-    w->nevents = w->log.count = 0;
+    w->nhits = w->log.count = 0;
     for (int i = 0; i < count; i++) {
         Path *path = wave.live[i] = &wave.paths[i];
         wave.rays[i] = rays[i];

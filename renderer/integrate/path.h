@@ -42,9 +42,6 @@ typedef struct Factor {
     int sharp;    /* nothing on the way from the camera scattered widely */
 } Factor;
 
-/* What a path brings to a set; see throughput.c. */
-typedef struct PathEvent PathEvent;
-
 /* Light that reached the ends of paths, in the order it came: what a control film gets when they end. */
 typedef struct ControlLog {
     Rgb *lights; /* of so many variants each */
@@ -61,10 +58,8 @@ typedef struct PathWorker {
     struct PixelGuides *guides;              /* get what rays from the camera meet, or NULL */
     RenderVariant own[CONTROL_VARIANTS_MAX]; /* variants, where they have constants by pixel */
     Rgb constants[RETEX_MAX_TARGETS];        /* of the pixel in hand */
-    Expansion expansion;                     /* of the path that is handed over */
-    ExpansionMark mark;                      /* of it before a connection's own hits */
-    PathEvent *events;                       /* of sets: room for those of all paths that are traced side by side */
-    int nevents;
+    PathHit *hits;                           /* of sets: those of all paths that are traced side by side */
+    int nhits;
     ControlLog log; /* where there is a control film: likewise */
     PixelKeys keys[2];
     uint32_t key[2]; /* of the sample numbers of the paths in hand, by half of the samples */

@@ -26,13 +26,15 @@ typedef struct Path {
     uint32_t sample; /* in its half of the pixel's */
     int half;
     Media media;
-    double light[3];    /* that arrived */
-    ExpansionSize hits; /* of targets, in sets */
+    double light[3];             /* that arrived */
+    int first_light, last_light; /* in the worker's log, or -1 */
+    /* In sets: */
+    ExpansionSize size; /* of the hits that it came by */
     int folded;         /* a target hit beyond the last order kept its albedo */
-    PathEvent *arrived; /* light behind all hits so far and no others, or NULL */
-    PathEvent *beside;  /* light that came last, by one more hit, or NULL */
-    int first, last;    /* of its events, or -1 */
-    int first_light, last_light; /* likewise, in the worker's log */
+    PathHits hits;      /* and those that only light came by */
+    PathHit *from_hit;  /* the last that it came by, or NULL, */
+    Split from_split;   /* and what that does to it */
+    PathHit *here;      /* the hit where the path is, once light came by it; or NULL */
 } Path;
 
 /* Light picked for a vertex, before it is known whether anything is in the way. */
@@ -86,9 +88,9 @@ static inline int path_scale(PathWorker *w, Path *path, Rgb by)
     return path_is_alive(w, path);
 }
 /* A bounce. Returns 0 likewise. */
-int path_scatter(PathWorker *worker, Path *path, Factor *factor);
-/* Light reaches the path's end through some more factors. Factors are the callee's to change, here and above. */
-void path_connect(PathWorker *worker, Path *path, Rgb light, Factor *factors, int nfactors);
+int path_scatter(PathWorker *worker, Path *path, const Factor *factor);
+/* Light reaches the path's end through some more factors. */
+void path_connect(PathWorker *worker, Path *path, Rgb light, const Factor *factors, int nfactors);
 /* By variant, through no factor of a target: all are in it. */
 void path_bring(PathWorker *worker, Path *path, const Rgb *lights);
 void path_end(PathWorker *worker, Path *path);

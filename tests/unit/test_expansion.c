@@ -39,7 +39,7 @@ static void multiplies_out(void **state)
             index[j] = seen[targets[j]]++;
             a[j] = at_random(&seed);
             product *= d * a[j] + i;
-            expansion_push(&e, &(TargetHit){.target = (unsigned char)targets[j]}, &(Split){rgb_grey(d), rgb_grey(i)});
+            expansion_push(&e, &(TargetHit){.target = (unsigned char)targets[j]}, splat(d), splat(i));
             assert_int_equal(e.hits[j].index, index[j]);
         }
         double sum = 0;

@@ -39,14 +39,13 @@ static void find_pair(Best *best, Places *places, int sharp, const int periodic[
 
 static void start_place(UvStats *place, const Pending *q, const int periodic[2])
 {
-    const double uv[2] = {q->position.u, q->position.v};
     *place = (UvStats){.weight = 0};
-    uv_stats_add(place, q->weight, uv, periodic);
+    uv_stats_add(place, q->weight, q->uv, periodic);
 }
 
 static void squeeze_place(Places *own, Places *other, int own_is_full, const Pending *q, const int periodic[2])
 {
-    const UvStats one = {q->weight, {q->position.u, q->position.v}, {0, 0, 0}};
+    const UvStats one = {q->weight, {q->uv[0], q->uv[1]}, {0, 0, 0}};
     Best best = {.cost = INFINITY};
     for (int i = 0; i < own->count; i++) {
         double cost = merge_cost(&own->of[i], &one, q->sharp, periodic);
@@ -135,7 +134,9 @@ static void clusters_are_those_of_all_pairs(void **state)
         params.clusters = params.clusters < 2 ? 2 : params.clusters;
         params.periodic[0][0] = round % 5 == 4, params.periodic[0][1] = round % 10 == 4;
         for (int n = 0; n < PLACES; n++) {
-            Pending q = {.position = last = any_place(&seed, last)};
+            last = any_place(&seed, last);
+            const HitLight dark = {.used = 0};
+            Pending q = {.uv = {last.u, last.v}, .light = &dark};
             q.sharp = test_random(&seed) < 0.4, q.weight = 1e-3 + pow(test_random(&seed), 8) * 50;
             clusters_add(&target, &q, &params);
             add_place(kinds, &q, &params);

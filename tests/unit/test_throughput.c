@@ -20,7 +20,7 @@ typedef struct Fixture {
     Path path;
 } Fixture;
 
-static void begin(Fixture *f, int paper)
+static void begin_orders(Fixture *f, int paper, int orders)
 {
     RetexError err = {0};
     const Ray ray = {{0, 0, 0}, {0, 0, 1}, 0, INFINITY};
@@ -28,15 +28,21 @@ static void begin(Fixture *f, int paper)
     memset(f, 0, sizeof *f);
     f->scene.ntargets = 1;
     strcpy(f->scene.targets[0].name, "Floor");
-    f->params = (FilmParams){.width = 1, .height = 1, .spp = 1, .orders = 6, .split = 1, .ntiles = 1, .paper = paper};
+    f->params =
+        (FilmParams){.width = 1, .height = 1, .spp = 1, .orders = orders, .split = 1, .ntiles = 1, .paper = paper};
     f->params.clusters = 2, f->params.sharp = f->params.broad = 1;
-    f->context = (PathContext){.scene = &f->scene, .max_depth = 16, .orders = 6, .split = 1, .nvariants = 1};
+    f->context = (PathContext){.scene = &f->scene, .max_depth = 16, .orders = orders, .split = 1, .nvariants = 1};
     f->context.most_hits = expansion_most_hits(1, paper);
     test_must(film_create(&f->film, &f->scene, &f->params, &err), &err);
     test_must(film_pixel_create(&f->pixel, f->film, &err), &err);
     f->worker.context = &f->context, f->worker.pixel = f->pixel;
     test_must(path_worker_open(&f->worker, &err), &err);
     path_start(&f->worker, &f->path, &ray, &sampler);
+}
+
+static void begin(Fixture *f, int paper)
+{
+    begin_orders(f, paper, 6);
 }
 
 static void finish(Fixture *f)
@@ -165,11 +171,57 @@ static void what_comes_by_a_hit_of_its_own_is_dropped_alone(void **state)
     }
 }
 
+/* Hits beyond the last order keep their own colour, and how much light that is is counted. */
+static void surplus_hits_fold(void **state)
+{
+    (void)state;
+    for (int paper = 0; paper < 2; paper++) {
+        Fixture f;
+        begin_orders(&f, paper, 2);
+        bounce(&f, 0.25), bounce(&f, 0.5);
+        bring(&f, 4);                   /* through 1/2 twice */
+        connect_by_floor(&f, 16, 0.75); /* a third time */
+        bounce(&f, 0.75);
+        bring(&f, 24); /* likewise */
+        finish(&f);
+        assert_float_equal(red(&f, "beauty"), 1 + 2 + 3, 1e-5);
+        if (!paper) {
+            assert_float_equal(red(&f, "dep_Floor_broad_a1"), 4 + 8 + 12, 0.02);
+            assert_float_equal(f.set->folded_white, (8.0 + 12) / (4 + 8 + 12), 1e-5);
+        }
+        assert_float_equal(f.set->folded, 5.0 / 6, 1e-5);
+        end(&f);
+    }
+}
+
+/* Light from a lamp behind a curtain: the floor and the curtain, both targets, and the path goes on without the latter.
+ * Hits of one path that are more than there is room for fold likewise. */
+static void light_passes_targets(void **state)
+{
+    (void)state;
+    for (int paper = 0; paper < 2; paper++) {
+        Fixture f;
+        begin(&f, paper);
+        for (int k = 0; k < 2 * PATH_HITS_MAX; k++)
+            connect_by_floor(&f, 1, k / 1024.0);
+        Factor factors[] = {floor_factor(1, 0.25), floor_factor(1, 0.75)};
+        path_connect(&f.worker, &f.path, rgb_grey(4), factors, 2);
+        bounce(&f, 0.25);
+        bring(&f, 2);
+        finish(&f);
+        assert_float_equal(red(&f, "beauty"), PATH_HITS_MAX + 1 + 1, 1e-3);
+        assert_float_equal(f.set->folded, (0.5 * PATH_HITS_MAX + 2) / (PATH_HITS_MAX + 2), 1e-5);
+        end(&f);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(light_behind_the_same_hits_is_one),
                                        cmocka_unit_test(what_is_not_finite_is_dropped_alone),
                                        cmocka_unit_test(a_sum_that_overflows_is_not_made),
-                                       cmocka_unit_test(what_comes_by_a_hit_of_its_own_is_dropped_alone)};
+                                       cmocka_unit_test(what_comes_by_a_hit_of_its_own_is_dropped_alone),
+                                       cmocka_unit_test(surplus_hits_fold),
+                                       cmocka_unit_test(light_passes_targets)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
