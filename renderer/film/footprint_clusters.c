@@ -33,6 +33,7 @@ static double less_apart(double apart, double spent, const int periodic[2])
 static void merge_later(Later *into, const Later *from, const int periodic[2])
 {
     uv_stats_merge(&into->uv, &from->uv, periodic);
+    into->varies = uv_stats_variation(&into->uv);
     into->squares += from->squares;
     merge_albedo(&into->albedo, &from->albedo);
 }
@@ -50,7 +51,7 @@ void clusters_add_later(TargetClusters *target, const PendingLater *l, const int
             target->later_apart = -INFINITY;
             return;
         }
-        gain[k] = uv_stats_point_variation_gain(&later[k].uv, l->weight, l->uv, periodic);
+        gain[k] = uv_stats_merged_variation(&later[k].uv, l->weight, l->uv, 0, periodic) - later[k].varies;
         if (gain[k] <= 0) {
             merge_later(&later[k], &one, periodic);
             return;
@@ -74,6 +75,7 @@ void clusters_add_later(TargetClusters *target, const PendingLater *l, const int
 static void merge_cluster(Cluster *into, const Cluster *from, const int periodic[2])
 {
     uv_stats_merge(&into->uv, &from->uv, periodic);
+    into->varies = uv_stats_variation(&into->uv);
     merge_albedo(&into->albedo, &from->albedo);
     into->squares += from->squares;
     into->c += from->c;
@@ -84,6 +86,7 @@ static void add_pending(Cluster *into, const Pending *q, const int periodic[2])
 {
     const HitLight *l = q->light;
     uv_stats_add(&into->uv, q->weight, q->uv, periodic);
+    into->varies = uv_stats_variation(&into->uv);
     /* a cluster's own light is what its albedo is for; light that goes on to targets tells where there is no other */
     add_albedo(&into->albedo, l->c[0] + l->original * splat(AGAIN_WEIGHT), q->albedo);
     into->squares += q->weight * q->weight;
@@ -104,16 +107,19 @@ typedef struct Pair {
     double cost;
 } Pair;
 
-static double merge_cost(const UvStats *a, const UvStats *b, int sharp, const int periodic[2])
+static double merge_cost(const Cluster *a, const Cluster *b, int sharp, const int periodic[2])
 {
-    return sharp ? uv_stats_ward(a, b, periodic) / (UV_FEATURE * UV_FEATURE) : uv_stats_variation_gain(a, b, periodic);
+    if (sharp)
+        return uv_stats_ward(&a->uv, &b->uv, periodic) / (UV_FEATURE * UV_FEATURE);
+    double squares = b->uv.m2[0] + b->uv.m2[2];
+    return uv_stats_merged_variation(&a->uv, b->uv.weight, b->uv.mean, squares, periodic) - a->varies - b->varies;
 }
 
 /* What it costs a cluster to take a place in. */
-static double join_cost(const UvStats *a, const Pending *q, const int periodic[2])
+static double join_cost(const Cluster *a, const Pending *q, const int periodic[2])
 {
-    return q->sharp ? uv_stats_point_ward(a, q->weight, q->uv, periodic) / (UV_FEATURE * UV_FEATURE)
-                    : uv_stats_point_variation_gain(a, q->weight, q->uv, periodic);
+    return q->sharp ? uv_stats_point_ward(&a->uv, q->weight, q->uv, periodic) / (UV_FEATURE * UV_FEATURE)
+                    : uv_stats_merged_variation(&a->uv, q->weight, q->uv, 0, periodic) - a->varies;
 }
 
 /* Look among the clusters for a pair that is cheaper than the best so far. */
@@ -122,7 +128,7 @@ static void find_pair(Pair *best, Clusters *clusters, int sharp, const int perio
     clusters->apart = INFINITY;
     for (int i = 0; i < clusters->count; i++)
         for (int k = i + 1; k < clusters->count; k++) {
-            double cost = merge_cost(&clusters->of[i].uv, &clusters->of[k].uv, sharp, periodic);
+            double cost = merge_cost(&clusters->of[i], &clusters->of[k], sharp, periodic);
             if (cost < best->cost)
                 *best = (Pair){clusters, i, k, cost};
             if (cost < clusters->apart)
@@ -135,7 +141,7 @@ static Pair find_cheapest(Clusters *own, Clusters *other, int own_is_full, const
 {
     Pair best = own->count ? (Pair){own, 0, -1, INFINITY} : (Pair){other, 0, 1, INFINITY};
     for (int i = 0; i < own->count; i++) {
-        double cost = join_cost(&own->of[i].uv, q, periodic);
+        double cost = join_cost(&own->of[i], q, periodic);
         if (cost < best.cost)
             best = (Pair){own, i, -1, cost};
     }

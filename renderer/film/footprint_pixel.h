@@ -17,6 +17,7 @@ typedef struct AlbedoSums {
 
 typedef struct Cluster {
     UvStats uv;
+    double varies;  /* uv_stats_variation */
     double squares; /* of the paths' weights */
     AlbedoSums albedo;
     Float4 c;     /* light that meets the target here, and no other after it */
@@ -59,6 +60,7 @@ typedef struct Clusters {
 /* Further hits of a target. */
 typedef struct Later {
     UvStats uv;     /* weight 0: none */
+    double varies;  /* uv_stats_variation */
     double squares; /* of the paths' weights */
     AlbedoSums albedo;
 } Later;

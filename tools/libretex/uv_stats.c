@@ -47,9 +47,8 @@ double uv_stats_ward(const UvStats *a, const UvStats *b, const int periodic[2])
 
 double uv_stats_variation_gain(const UvStats *a, const UvStats *b, const int periodic[2])
 {
-    double sa = a->m2[0] + a->m2[2], sb = b->m2[0] + b->m2[2], both = sa + sb + uv_stats_ward(a, b, periodic);
-    return uv_stats_variation(a->weight + b->weight, both) - uv_stats_variation(a->weight, sa) -
-           uv_stats_variation(b->weight, sb);
+    return uv_stats_merged_variation(a, b->weight, b->mean, b->m2[0] + b->m2[2], periodic) - uv_stats_variation(a) -
+           uv_stats_variation(b);
 }
 
 #define UV_STEP (1.0 / 32)

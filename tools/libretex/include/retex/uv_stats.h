@@ -28,10 +28,11 @@ double uv_stats_ward(const UvStats *a, const UvStats *b, const int periodic[2]);
 double uv_stats_variation_gain(const UvStats *a, const UvStats *b, const int periodic[2]);
 #define UV_FEATURE 0.5 /* of UV, in which most textures have changed all they do */
 
-/* What an unknown texture varies within a cluster of so much weight, whose squared deviations have this sum. */
-static inline double uv_stats_variation(double weight, double squares)
+/* What an unknown texture varies within a cluster. */
+static inline double uv_stats_variation(const UvStats *a)
 {
-    return weight * squares / (squares + weight * UV_FEATURE * UV_FEATURE);
+    double squares = a->m2[0] + a->m2[2];
+    return a->weight * squares / (squares + a->weight * UV_FEATURE * UV_FEATURE);
 }
 
 static inline double uv_stats_difference(double to, double from, int periodic)
@@ -40,19 +41,28 @@ static inline double uv_stats_difference(double to, double from, int periodic)
     return periodic ? d - rint(d) : d;
 }
 
-/* As uv_stats_ward and uv_stats_variation_gain where one of the two is a single point, to the bit. */
-static inline double uv_stats_point_ward(const UvStats *a, double weight, const double uv[2], const int periodic[2])
+/* The square of how far it is from one's mean to a point. */
+static inline double uv_stats_distance2(const UvStats *a, const double uv[2], const int periodic[2])
 {
     double u = uv_stats_difference(a->mean[0], uv[0], periodic[0]);
     double v = uv_stats_difference(a->mean[1], uv[1], periodic[1]);
-    return a->weight * weight / (a->weight + weight) * (u * u + v * v);
+    return u * u + v * v;
 }
 
-static inline double uv_stats_point_variation_gain(const UvStats *a, double weight, const double uv[2],
-                                                   const int periodic[2])
+/* As uv_stats_ward where one of the two is a single point, to the bit. */
+static inline double uv_stats_point_ward(const UvStats *a, double weight, const double uv[2], const int periodic[2])
 {
-    double squares = a->m2[0] + a->m2[2], both = squares + uv_stats_point_ward(a, weight, uv, periodic);
-    return uv_stats_variation(a->weight + weight, both) - uv_stats_variation(a->weight, squares);
+    return a->weight * weight / (a->weight + weight) * uv_stats_distance2(a, uv, periodic);
+}
+
+/* What an unknown texture would vary within both, merged: one with squared deviations of this sum, and a point or a
+ * cluster of another. In one division. */
+static inline double uv_stats_merged_variation(const UvStats *a, double weight, const double uv[2], double squares,
+                                               const int periodic[2])
+{
+    double sum = a->weight + weight, all = a->m2[0] + a->m2[2] + squares;
+    double both = sum * all + a->weight * weight * uv_stats_distance2(a, uv, periodic);
+    return sum * both / (both + sum * sum * (UV_FEATURE * UV_FEATURE));
 }
 
 /* As footprints hold it: mean u and v, rounded to a 32nd of their standard deviation at most; spread: these deviations,
