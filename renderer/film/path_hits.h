@@ -33,22 +33,23 @@ typedef struct PathHits {
     int free_connections; /* of so many */
 } PathHits;
 
-/* One more hit, in the room for it; `way` is what the hit before it does. */
-static inline PathHit *path_hits_add(PathHits *hits, PathHit *room, const TargetHit *at, PathHit *before,
-                                     const Split *way)
+/* One more hit, in the room for it; way_d and way_i are of the hit before it. */
+static inline PathHit *path_hits_add(PathHits *hits, PathHit *room, const TargetHit *at, PathHit *before, Float4 way_d,
+                                     Float4 way_i)
 {
-    *room = (PathHit){.at = *at, .before = before, .earlier = hits->last, .number = hits->count++};
-    if (before)
-        room->way_d = colour4(way->d), room->way_i = colour4(way->i);
+    room->dependent = room->independent = splat(0);
+    room->way_d = way_d, room->way_i = way_i;
+    room->at = *at;
+    room->before = before, room->earlier = hits->last;
+    room->number = hits->count++, room->connections = 0;
     return hits->last = room;
 }
 
-/* Light that comes by a hit, and by no other of the path's. */
-static inline void path_hit_shine(PathHit *hit, const Split *split, Rgb light)
+/* Light that comes by a hit, which makes d a + i of it, and by no other hit before. */
+static inline void path_hit_shine(PathHit *hit, Float4 d, Float4 i, Float4 light)
 {
-    Float4 l = colour4(light);
-    hit->dependent += colour4(split->d) * l;
-    hit->independent += colour4(split->i) * l;
+    hit->dependent += d * light;
+    hit->independent += i * light;
     hit->connections++;
 }
 

@@ -315,23 +315,22 @@ static void connect_matte(PathWorker *w, Packet *p, int lane, int k)
     t->ray = matte_light_ray(lights, k);
     t->light.kind = LIGHT_SAMPLE_EMITTER, t->light.shadowless = 0, t->light.radiance = rgb_grey(1);
     t->other_side = 0, t->looked = p->looked[k], t->way = p->ways[k];
-    Factor factors[SHADOW_FACTORS_MAX + 2];
-    int passed = way_to_light(w, path, &v->s.surface, t, factors + 2, SHADOW_FACTORS_MAX);
+    Factor factors[SHADOW_FACTORS_MAX + 1];
+    int passed = way_to_light(w, path, &v->s.surface, t, factors + 1, SHADOW_FACTORS_MAX);
     if (passed < 0)
         return;
-    Split value = {rgb_grey(lights->value[k]), {0, 0, 0}}, shine = {p->faces[k]->shine[lights->behind[k]], {0, 0, 0}};
-    Rgb light = rgb_scale(t->light.radiance, lights->weight[k]);
+    Split value = {rgb_grey(lights->value[k]), {0, 0, 0}};
+    Rgb light = rgb_mul(rgb_scale(t->light.radiance, lights->weight[k]), p->faces[k]->shine[lights->behind[k]]);
     if (passed == 0 && path_sees_plain(w->context, &v->s)) {
         Rgb by_variant[VARIANTS_MAX];
         for (int i = 0; i < w->context->nvariants; i++)
-            by_variant[i] = rgb_mul(rgb_mul(light, split_apply(value, shading_albedo(&v->s, i))), shine.d);
+            by_variant[i] = rgb_mul(light, split_apply(value, shading_albedo(&v->s, i)));
         path_bring(w, path, by_variant);
         return;
     }
     factors[0] = shading_factor(&v->s, value);
     factors[0].sharp = path->sharp;
-    factors[1] = (Factor){.target = -1, .split = shine, .albedo = rgb_grey(1)};
-    path_connect(w, path, light, factors, 2 + passed);
+    path_connect(w, path, light, factors, 1 + passed);
 }
 
 /* As scatter, of a matte surface. */

@@ -29,12 +29,12 @@ typedef struct Path {
     double light[3];             /* that arrived */
     int first_light, last_light; /* in the worker's log, or -1 */
     /* In sets: */
-    ExpansionSize size; /* of the hits that it came by */
-    int folded;         /* a target hit beyond the last order kept its albedo */
-    PathHits hits;      /* and those that only light came by */
-    PathHit *from_hit;  /* the last that it came by, or NULL, */
-    Split from_split;   /* and what that does to it */
-    PathHit *here;      /* the hit where the path is, once light came by it; or NULL */
+    ExpansionSize size;    /* of the hits that it came by */
+    int folded;            /* a target hit beyond the last order kept its albedo */
+    PathHits hits;         /* and those that only light came by */
+    PathHit *from_hit;     /* the last that it came by, or NULL, */
+    Float4 from_d, from_i; /* and what that does to it */
+    PathHit *here;         /* the hit where the path is, once light came by it; or NULL */
 } Path;
 
 /* Light picked for a vertex, before it is known whether anything is in the way. */

@@ -59,14 +59,16 @@ static int is_hit(const Factor *f)
 
 /* Of a hit that the path goes on from and that has a single part, the part goes outside, and 1 of it is left: where
  * outside is black, no texture brings light back. */
-static Split take_part(Split split, Rgb *outside)
+static inline void take_part(Path *path, const Split *split)
 {
-    Rgb *part = rgb_is_black(split.i) ? &split.d : rgb_is_black(split.d) ? &split.i : NULL;
-    if (part) {
-        *outside = rgb_mul(*outside, *part);
-        *part = rgb_grey(1);
+    path->from_d = colour4(split->d), path->from_i = colour4(split->i);
+    if (rgb_is_black(split->i)) {
+        path->outside = rgb_mul(path->outside, split->d);
+        path->from_d = splat(1);
+    } else if (rgb_is_black(split->d)) {
+        path->outside = rgb_mul(path->outside, split->i);
+        path->from_i = splat(1);
     }
-    return split;
 }
 
 /* Multiply by a factor: as a target hit while there is an order left, which goes into size, else by what it is as a
@@ -85,46 +87,39 @@ static inline int take_factor(const PathContext *c, const Path *path, Rgb *outsi
     return 0;
 }
 
-static PathHit *add_hit(PathWorker *w, Path *path, const Factor *f, PathHit *before, const Split *way)
+static inline PathHit *add_hit(PathWorker *w, Path *path, const Factor *f, PathHit *before, Float4 way_d, Float4 way_i)
 {
     const TargetHit at = {f->uv, f->albedo, (unsigned char)f->target, (unsigned char)f->sharp, 0};
-    return path_hits_add(&path->hits, &w->hits[w->nhits++], &at, before, way);
+    return path_hits_add(&path->hits, &w->hits[w->nhits++], &at, before, way_d, way_i);
 }
 
 /* The hit of a factor right behind those that the path came by: light that was picked at a surface, and the path that
  * goes on from there, share one. */
-static PathHit *next_hit(PathWorker *w, Path *path, const Factor *f)
+static inline PathHit *next_hit(PathWorker *w, Path *path, const Factor *f)
 {
     const PathHit *here = path->here;
     if (!here || here->at.target != f->target || here->at.uv.u != f->uv.u || here->at.uv.v != f->uv.v ||
         here->at.sharp != f->sharp)
-        path->here = add_hit(w, path, f, path->from_hit, &path->from_split);
+        path->here = add_hit(w, path, f, path->from_hit, path->from_d, path->from_i);
     return path->here;
 }
 
-/* Of light, what met hits that are folded. */
-static void count_folded(PathWorker *w, Rgb beauty, const PathHit *last, const Split *split, Rgb outside)
-{
-    Float4 light = colour4(outside);
-    Float4 white = last ? path_white(last, light * colour4(split->d), light * colour4(split->i)) : light;
-    film_add_folded(w->pixel, beauty, rgb_of4(white));
-}
-
 /* Light behind the path's hits so far, and some more; folded: what it is, where it met hits that are, or NULL. */
-static void arrive(PathWorker *w, Path *path, const Factor *const *more, int count, Rgb outside, const Rgb *folded)
+static inline void arrive(PathWorker *w, Path *path, const Factor *const *more, int count, Rgb outside,
+                          const Rgb *folded)
 {
     PathHit *last = path->from_hit;
-    const Split *split = &path->from_split;
+    Float4 d = path->from_d, i = path->from_i, light = colour4(outside);
     for (int k = 0; k < count; k++) {
-        last = k == 0 ? next_hit(w, path, more[0]) : add_hit(w, path, more[k], last, split);
-        split = &more[k]->split;
+        last = k == 0 ? next_hit(w, path, more[0]) : add_hit(w, path, more[k], last, d, i);
+        d = colour4(more[k]->split.d), i = colour4(more[k]->split.i);
     }
     if (last)
-        path_hit_shine(last, split, outside);
+        path_hit_shine(last, d, i, light);
     else
-        path->hits.free += colour4(outside), path->hits.free_connections++;
+        path->hits.free += light, path->hits.free_connections++;
     if (folded)
-        count_folded(w, *folded, last, split, outside);
+        film_add_folded(w->pixel, *folded, rgb_of4(last ? path_white(last, d * light, i * light) : light));
 }
 
 /* ---- variants ---- */
@@ -184,7 +179,7 @@ int path_scatter(PathWorker *w, Path *path, const Factor *factor)
     multiply_others(c, path->betas, factor);
     if (c->split && take_factor(c, path, &path->outside, &path->size, &path->folded, factor, whole)) {
         path->from_hit = next_hit(w, path, factor);
-        path->from_split = take_part(factor->split, &path->outside);
+        take_part(path, &factor->split);
     }
     path->here = NULL;
     return path_is_alive(w, path);

@@ -59,7 +59,7 @@ static void end_path(Fixture *f)
 static void split_hit(Fixture *f, int target, double u, double v, Rgb albedo, int sharp, Split split)
 {
     const TargetHit hit = {{u, v}, albedo, (unsigned char)target, (unsigned char)sharp, 0};
-    path_hits_add(&f->hits, &f->room[f->hits.count], &hit, f->hits.last, &f->split);
+    path_hits_add(&f->hits, &f->room[f->hits.count], &hit, f->hits.last, colour4(f->split.d), colour4(f->split.i));
     f->split = split;
     f->value = rgb_mul(f->value, split_apply(split, albedo));
 }
@@ -77,7 +77,7 @@ static void connect_light(Fixture *f, Rgb light)
     const double sum[3] = {(double)beauty.r, (double)beauty.g, (double)beauty.b};
     film_add_light(f->pixel, sum);
     if (f->hits.last)
-        path_hit_shine(f->hits.last, &f->split, light);
+        path_hit_shine(f->hits.last, colour4(f->split.d), colour4(f->split.i), colour4(light));
     else
         f->hits.free += colour4(light), f->hits.free_connections++;
     f->light = rgb_add(f->light, beauty);
@@ -720,7 +720,7 @@ static void hits_are_a_tree(void **state)
 {
     (void)state;
     Fixture f;
-    const Split both = {rgb_grey(0.5f), rgb_grey(0.25f)}, diffuse = {rgb_grey(1), rgb_grey(0)};
+    const Split both = {rgb_grey(0.5f), rgb_grey(0.25f)};
     begin(&f, 2, 1, 6, 2, 1);
     open_film(&f);
     begin_path(&f);
@@ -728,11 +728,10 @@ static void hits_are_a_tree(void **state)
     PathHit *floor = f.hits.last;
     f.split = both; /* of the light picked there, through the wall */
     hit(&f, 1, 0.5, 0.5, rgb_grey(0.5f), BROAD);
-    path_hit_shine(f.hits.last, &diffuse, rgb_grey(16));
-    f.split = diffuse; /* the path goes on to the wall elsewhere */
-    const TargetHit wall = {{0.75, 0.5}, rgb_grey(0.5f), 1, BROAD, 0};
-    PathHit *last = path_hits_add(&f.hits, &f.room[2], &wall, floor, &f.split);
-    path_hit_shine(last, &diffuse, rgb_grey(4));
+    path_hit_shine(f.hits.last, splat(1), splat(0), splat(16));
+    const TargetHit wall = {{0.75, 0.5}, rgb_grey(0.5f), 1, BROAD, 0}; /* to which the path goes on elsewhere */
+    PathHit *last = path_hits_add(&f.hits, &f.room[2], &wall, floor, splat(1), splat(0));
+    path_hit_shine(last, splat(1), splat(0), splat(4));
     const double beauty = 16 * 0.5 * (0.5 * 0.5 + 0.25) + 4 * 0.5 * 0.5;
     film_add_light(f.pixel, (double[3]){beauty, beauty, beauty});
     end_path(&f);
