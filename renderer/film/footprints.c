@@ -178,7 +178,8 @@ void footprints_path_end(FootprintPixel *p, const PathHits *path)
         }
         finish_node(p, hits[k], &p->nodes[k]);
     }
-    p->free[0] += free[0], p->free[1] += free[1], p->free[2] += free[2];
+    for (int c = 0; c < 3; c++)
+        p->free[c] += (double)free[c];
     p->light->total_white += luminance4(white);
 }
 

@@ -93,6 +93,16 @@ static int bounce(PathWorker *w, Path *path, float pdf, int is_sharp, float roul
     return 1;
 }
 
+/* What a surface makes of the light that comes by the path from here on. Returns 0 where none can come. */
+static inline int leave(PathWorker *w, Path *path, const Shading *s, Split weight, int reflects)
+{
+    if (path_sees_plain(w->context, s) && !s->replaced)
+        return path_scale(w, path, split_apply(weight, shading_albedo(s, 0)));
+    Factor factor = shading_factor(s, weight);
+    factor.reflects = reflects, factor.sharp = path->sharp;
+    return path_scatter(w, path, &factor);
+}
+
 /* Choose where the path goes on. Returns 0 where it ends. */
 static int scatter(PathWorker *w, Path *path, const Vertex *v, Ray *ray)
 {
@@ -107,10 +117,7 @@ static int scatter(PathWorker *w, Path *path, const Vertex *v, Ray *ray)
         float guided = next.pdf / pdf;
         next.weight = (Split){rgb_scale(next.weight.d, guided), rgb_scale(next.weight.i, guided)};
     }
-    Factor factor = shading_factor(s, next.weight);
-    factor.reflects = !next.transmitted;
-    factor.sharp = path->sharp;
-    if (!path_scatter(w, path, &factor))
+    if (!leave(w, path, s, next.weight, !next.transmitted))
         return 0;
     if (w->context->trace)
         fprintf(w->context->trace, "  goes on along %.5f %.5f %.5f pdf %.6g d %.5g i %.5g\n", next.wi.x, next.wi.y,
@@ -162,7 +169,7 @@ typedef struct Packet {
     int count;
     Vertex vertices[ACCEL_PACKET];
     VertexSamples numbers[2]; /* by half of the samples */
-    int matte[ACCEL_PACKET]; /* lane of the matte ones, or -1 */
+    int matte[ACCEL_PACKET];  /* lane of the matte ones, or -1 */
     MattePacket mattes;
     MatteLights lights;
     MatteBounces bounces;
@@ -343,15 +350,8 @@ static int scatter_matte(PathWorker *w, Packet *p, int lane, int k, Ray *ray)
     if (!bounces->found[k])
         return 0;
     path->neutral *= at_most(split_neutral(weight), 1);
-    if (path_sees_plain(w->context, s) && !s->replaced) {
-        if (!path_scale(w, path, split_apply(weight, shading_albedo(s, 0))))
-            return 0;
-    } else {
-        Factor factor = shading_factor(s, weight);
-        factor.reflects = 1, factor.sharp = path->sharp;
-        if (!path_scatter(w, path, &factor))
-            return 0;
-    }
+    if (!leave(w, path, s, weight, 1))
+        return 0;
     path->kind = RAY_BOUNCE;
     path->from = (LitPoint){s->surface.position, matte_get(&p->mattes.normal, k)};
     ray->origin = matte_get(&bounces->origin, k);
