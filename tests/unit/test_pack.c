@@ -290,8 +290,7 @@ static double gain_step_with(double noise, int denoised)
     }
     PackPart *packed = plan_of(set);
     const PackPart *of_light = &packed[term->radiance], *of_gain = &packed[term->gain];
-    const double ratio =
-        of_gain->jpeg_step / of_gain->curve.levels * of_light->curve.levels / of_light->jpeg_step;
+    const double ratio = of_gain->jpeg_step / of_gain->curve.levels * of_light->curve.levels / of_light->jpeg_step;
     free(packed);
     retex_set_close(&set);
     return ratio;
@@ -302,7 +301,8 @@ static void test_gains_are_finer_where_there_is_little_noise(void **state)
     (void)state;
     assert_true(gain_step_with(0.016, 0) < 1.7);
     assert_true(gain_step_with(0.256, 0) > 2.4);
-    assert_true(gain_step_with(0.016, 1) > 2.4);
+    assert_true(gain_step_with(0.016, 1) > 2.4); /* fine noise is the least of what denoising leaves */
+    assert_true(gain_step_with(0, 1) < 1.7);
 }
 
 static void test_black_parts_cost_nothing(void **state)
@@ -380,7 +380,7 @@ static void test_jpeg_kernels_agree(void **state)
     const PackJpegKernels *kernels[PACK_JPEG_KERNELS_MAX];
     static int16_t coefficients[64 * BLOCKS];
     static float steps[64], samples[2][8 * WIDTH], values[2][8 * MOST];
-    static PackLevelTable table;
+    static PackLevelTable table = {.scale = 3.7f};
     uint32_t seed = 7;
     for (int i = 0; i < PACK_LEVEL_ENTRIES + 2; i++)
         table.value[i] = (float)(i * i) / 1000;

@@ -155,6 +155,36 @@ static void promises_are_kept(void **state)
     }
 }
 
+/* Denoised light of tiles that differ, without any noise: pictures have so many dB against those of the set. */
+static double psnr_of_tiles(int quality)
+{
+    RetexSet *set = make_set(1);
+    double psnr[RETEX_PACK_LOSSES];
+    RetexError err = {0};
+    uint32_t seed = 5;
+    set->denoised = 1;
+    for (int t = 0; t < set->nterms; t++)
+        for (int y = 0; y < HIGH; y += 11)
+            for (int x = 0; x < WIDE; x += 9) {
+                const float light = (float)(0.05 + 0.1 * test_random(&seed)), red = (float)test_random(&seed);
+                for (int k = 0; k < 99; k++)
+                    put_rgb(set, set->terms[t].radiance, x + k % 9, y + k / 9, light * red, light, light * (1 - red));
+            }
+    RetexSet *pack = packed(set, quality, 1, NULL);
+    test_must(retex_pack_loss(psnr, pack, set, 1, &err), &err);
+    retex_set_close(&pack);
+    retex_set_close(&set);
+    return psnr[RETEX_PACK_LOSS_WHITE];
+}
+
+/* Its steps are finer than those of a JPEG's 255 levels, or of twice as many. */
+static void clean_light_stays_clean(void **state)
+{
+    (void)state;
+    assert_true(psnr_of_tiles(90) > 67);
+    assert_true(psnr_of_tiles(100) > 69);
+}
+
 /* What 100 promises needs every bit of some sets; others are packed far smaller, and all the more at 30. */
 static void bits_are_kept_where_nothing_else_does(void **state)
 {
@@ -227,11 +257,9 @@ static void threads_do_not_matter(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(promises_rise_with_quality),
-        cmocka_unit_test(promises_are_kept),
-        cmocka_unit_test(bits_are_kept_where_nothing_else_does),
-        cmocka_unit_test(noise_lowers_the_promise),
-        cmocka_unit_test(others_promise_nothing),
+        cmocka_unit_test(promises_rise_with_quality), cmocka_unit_test(promises_are_kept),
+        cmocka_unit_test(clean_light_stays_clean),    cmocka_unit_test(bits_are_kept_where_nothing_else_does),
+        cmocka_unit_test(noise_lowers_the_promise),   cmocka_unit_test(others_promise_nothing),
         cmocka_unit_test(threads_do_not_matter),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -17,7 +17,6 @@
 #define MARGIN 16              /* on each side: two pixels of what is smallest */
 #define LENGTHS 3              /* of waves; other trials are of one colour */
 #define FLAT 1                 /* variance in waves at which nothing is left of them */
-#define DENOISED_NOISE 10      /* times what is fine of what denoising leaves, is all of it, roughly */
 #define PROBE 8                /* pixels from one that is looked at to the next */
 
 /* ---- tiles ---- */

@@ -8,4 +8,7 @@
  * finer than a few pixels it does not see. */
 double image_noise(const RetexImage *image, double levels);
 
+/* So many times what it finds in denoised images is all that denoising leaves, roughly. */
+#define DENOISED_NOISE 10
+
 #endif

@@ -250,7 +250,7 @@ static int understand_part(PackPart *packed, const RetexSet *set, const json_t *
         const json_t *masked = json_object_get(o, "masked");
         ok = get_positive(json_object_get(o, "white"), &packed->curve.white) &&
              get_positive(json_object_get(o, "levels"), &packed->curve.levels) && packed->curve.levels >= 255 &&
-             packed->curve.levels <= 510 && json_is_boolean(masked) &&
+             packed->curve.levels <= PACK_LEVELS_MOST && json_is_boolean(masked) &&
              (packed->channels == 1 || packed->channels == 3) && packed->width <= PACK_JPEG_SIDE_MAX &&
              packed->height <= PACK_JPEG_SIDE_MAX;
         packed->masked = json_is_true(masked);

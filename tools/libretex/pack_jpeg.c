@@ -15,6 +15,7 @@
 
 /* sRGB up to white; above, levels follow the logarithm: LEVELS_PER_E of 255 for each factor of e. */
 static const double LEVELS_PER_E = 48;
+static const double ENTRIES_TO_WHITE = (double)PACK_LEVEL_ENTRIES / PACK_WHITES_MOST;
 
 double pack_curve_level(const PackCurve *curve, double value)
 {
@@ -22,7 +23,7 @@ double pack_curve_level(const PackCurve *curve, double value)
     const double y = x > 1            ? 1 + LEVELS_PER_E / 255 * log(x)
                      : x <= 0.0031308 ? 12.92 * x
                                       : 1.055 * pow(x, 1 / 2.4) - 0.055;
-    return fmin(curve->levels * y, PACK_LEVEL_MAX);
+    return curve->levels * fmin(y, PACK_WHITES_MOST);
 }
 
 double pack_curve_value(const PackCurve *curve, double level)
@@ -36,8 +37,9 @@ double pack_curve_value(const PackCurve *curve, double level)
 
 static void fill_table(PackLevelTable *table, const PackCurve *curve)
 {
+    table->scale = (float)(ENTRIES_TO_WHITE / curve->levels);
     for (int i = 0; i < PACK_LEVEL_ENTRIES + 2; i++)
-        table->value[i] = (float)pack_curve_value(curve, (double)i / PACK_LEVEL_STEPS);
+        table->value[i] = (float)pack_curve_value(curve, curve->levels * i / ENTRIES_TO_WHITE);
 }
 
 /* --- libjpeg's errors --- */

@@ -16,12 +16,15 @@ enum {
     PACK_JPEG_STEP_MAX = 255
 };
 
-enum { PACK_LEVEL_MAX = 2047 };
+enum {
+    PACK_LEVELS_MOST = 8 * 255, /* to white */
+    PACK_WHITES_MOST = 8        /* times white's is the highest level */
+};
 
-/* Which value a level of 0 to PACK_LEVEL_MAX stands for: see retex-pack(5). */
+/* Which value a level stands for: see retex-pack(5). */
 typedef struct PackCurve {
     double white;  /* a value, which is */
-    double levels; /* this level: 255, which viewers show as white, to 510 */
+    double levels; /* this level: 255, which viewers show as white, to PACK_LEVELS_MOST */
 } PackCurve;
 
 double pack_curve_level(const PackCurve *curve, double value);

@@ -116,7 +116,7 @@ static void inverse_plain(float *samples, int stride, const int16_t *coefficient
 
 static inline float value_of(float level, const PackLevelTable *table)
 {
-    const float scaled = level * PACK_LEVEL_STEPS, place = scaled > 0 ? scaled : 0;
+    const float scaled = level * table->scale, place = scaled > 0 ? scaled : 0;
     const int entry = place < PACK_LEVEL_ENTRIES ? (int)place : PACK_LEVEL_ENTRIES;
     const float low = table->value[entry];
     return low + (table->value[entry + 1] - low) * (place - (float)entry);
@@ -228,7 +228,7 @@ static void inverse_avx2(float *samples, int stride, const int16_t *coefficients
 /* value_of; an entry and the next one lie side by side and come at once. */
 static inline __attribute__((always_inline)) __m256 values_of(__m256 levels, const PackLevelTable *table)
 {
-    const __m256 place = _mm256_max_ps(TIMES(PACK_LEVEL_STEPS, levels), _mm256_setzero_ps());
+    const __m256 place = _mm256_max_ps(TIMES(table->scale, levels), _mm256_setzero_ps());
     const __m256i entry = _mm256_cvttps_epi32(_mm256_min_ps(place, _mm256_set1_ps(PACK_LEVEL_ENTRIES)));
     const __m256i halves = _mm256_permute4x64_epi64(entry, 0xd8); /* 0, 1, 4, 5 and 2, 3, 6, 7 */
     const long long *from = (const long long *)(const void *)table->value;

@@ -4,10 +4,11 @@
 
 #include <stdint.h>
 
-enum { PACK_LEVEL_ENTRIES = 8192, PACK_LEVEL_STEPS = 4 };
+enum { PACK_LEVEL_ENTRIES = 8192 };
 
-/* Values of levels 0, 1/4, 1/2, …, between which one interpolates; beyond the last one the line goes on. */
+/* Values of levels, between which one interpolates; beyond the last one the line goes on. */
 typedef struct PackLevelTable {
+    float scale; /* entries a level */
     float value[PACK_LEVEL_ENTRIES + 2];
 } PackLevelTable;
 

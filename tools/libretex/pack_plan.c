@@ -11,12 +11,12 @@
 #include "image_noise.h"
 
 #define FINE_NOISE 3     /* light's step is at most so many times its noise, */
-#define FINER_MOST 2     /* but this share of the quality's; */
+#define FINER_MOST 4     /* but this share of the quality's; */
 #define COARSE_NOISE 0.5 /* and at least so many times its noise, */
 #define COARSER_MOST 3   /* but not more than so many times the quality's */
 #define BRIGHTER_MOST 4  /* times white that of light may be */
 #define GAIN_STEP 2.5    /* of gains, of which many are added up, in that of their light, */
-#define GAIN_FINER 1.5   /* or, where what was rendered has little noise, so many of these at least, */
+#define GAIN_FINER 1.5   /* or, where there is little noise, so many of these at least, */
 #define GAIN_NOISE 0.8   /* and so many times the noise: a twentieth of it, squared, comes to it */
 
 double pack_quality_psnr(double quality)
@@ -26,7 +26,7 @@ double pack_quality_psnr(double quality)
 
 PackGrain pack_grain(double psnr)
 {
-    const double error = 255 * pow(10, -psnr / 20); /* levels */
+    const double error = 255 * pow(10, -psnr / 20);                         /* levels */
     const int fine = psnr >= 50, times = psnr > 58 ? 4 : psnr > 56 ? 2 : 1; /* above the default */
     return (PackGrain){.jpeg_step = 1.8 * error,
                        .original_step = 3.6 * error,
@@ -34,7 +34,8 @@ PackGrain pack_grain(double psnr)
                        .sharp = {4 * times, fine ? 8 : 4, fine ? 32 : 16},
                        .broad = {2 * times, times > 1 ? 8 : 2, times > 1 ? 32 : 4},
                        .weight_steps = times > 2 ? 255 : 64 * times,
-                       .coarser_most = times > 1 ? 1 : COARSER_MOST};
+                       .coarser_most = times > 1 ? 1 : COARSER_MOST,
+                       .gain_noise = times > 2 ? 0 : GAIN_NOISE};
 }
 
 typedef enum Role {
@@ -205,7 +206,7 @@ static void plan_light(Planning *plan, int part, double white, double step)
     p->codec = PACK_JPEG;
     p->curve.white = white;
     /* steps below 1 there are none: more levels instead, of which viewers show the lower ones */
-    p->curve.levels = rint(255 * fmin(fmax(1 / step, 1), 2));
+    p->curve.levels = rint(fmin(fmax(255 / step, 255), PACK_LEVELS_MOST));
     p->jpeg_step = fmax(step, 1);
 }
 
@@ -244,11 +245,11 @@ static double light_step(const Planning *plan, int part)
     return fmax(step, fmin(COARSE_NOISE * noise, plan->grain->coarser_most * step));
 }
 
-/* Denoised light has no noise to compare with. */
 static double gain_step(const Planning *plan, int radiance)
 {
-    const double step = light_step(plan, radiance), finer = fmax(GAIN_FINER * step, GAIN_NOISE * plan->noise[radiance]);
-    return plan->set->denoised ? GAIN_STEP * step : fmin(GAIN_STEP * step, finer);
+    const double step = light_step(plan, radiance);
+    const double noise = plan->noise[radiance] * (plan->set->denoised ? DENOISED_NOISE : 1);
+    return fmin(GAIN_STEP * step, fmax(GAIN_FINER * step, plan->grain->gain_noise * noise));
 }
 
 /* Gains say what share of the light is theirs were the texture of all further hits COMPACT_GREY: white is all of it. */

@@ -18,6 +18,7 @@ typedef struct PackGrain {
     PackFootprintGrain sharp, broad;
     int weight_steps;    /* to the largest weight */
     double coarser_most; /* times jpeg_step, of light so noisy that nothing is seen of it */
+    double gain_noise;   /* steps of gains may be so many times the noise of their light */
 } PackGrain;
 
 /* The grain whose errors have about this PSNR; pictures lose otherwise, see pack_loss.h. */

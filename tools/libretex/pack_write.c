@@ -17,8 +17,9 @@
 #include "pack_loss.h"
 #include "pack_zip.h"
 
-/* dB that compacting keeps more than the whole: its errors and those of coding add up. */
-static const double COMPACTING_MARGIN = 3;
+/* dB that compacting keeps more than the whole: its errors and those of coding add up. From quality 95 to 100 it rises
+ * to so many times as much, for what is coded is then finer where there is no noise. */
+static const double COMPACTING_MARGIN = 3, COMPACTING_MARGIN_GROWS = 3;
 
 /* Qualities that are aimed at where one was not kept. From 90 on less and less noise is taken away, and beyond 110
  * nothing gets finer but by keeping all bits. */
@@ -153,12 +154,18 @@ static void attempt_free(Attempt *attempt)
     *attempt = (Attempt){0};
 }
 
+static double compacting_margin(double aim)
+{
+    const double finest = fmax(fmin((aim - 95) / 5, 1), 0);
+    return COMPACTING_MARGIN * (1 + (COMPACTING_MARGIN_GROWS - 1) * finest);
+}
+
 static int attempt_make(Attempt *attempt, const RetexSet *set, double aim, int nthreads, RetexError *err)
 {
     const int exact = isinf(aim);
     const PackGrain grain = pack_grain(exact ? 0 : pack_quality_psnr(aim));
     RetexCompactParams compacting = RETEX_COMPACT_INIT;
-    compacting.psnr = exact ? 0 : pack_quality_psnr(aim) + COMPACTING_MARGIN;
+    compacting.psnr = exact ? 0 : pack_quality_psnr(aim) + compacting_margin(aim);
     compacting.noise = pow(fmax(fmin((100 - aim) / 10, 1), 0), 2);
     int code = exact ? compact_copy_set(&attempt->compact, set, err)
                      : retex_set_compact(&attempt->compact, set, &compacting, nthreads, err);
