@@ -2,13 +2,11 @@
  * the means of all, rows from there and from the file are finished into another. */
 #include "denoise_strips.h"
 
-#include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include <retex/parallel.h>
-
 #include "denoise_filter.h"
+#include "jobs.h"
 #include "set_band.h"
 #include "set_parts.h"
 #include "set_source.h"
@@ -26,8 +24,6 @@ typedef struct Spooling {
     const int *images; /* by part: its number in the spool, or -1 */
     int from, count;   /* which of the rows */
     int band;          /* of the spool, that begins with these */
-    atomic_int code;
-    RetexError *errors; /* by part */
 } Spooling;
 
 static int is_whole(const RetexSet *set, int part)
@@ -60,19 +56,18 @@ static int open_spool(RetexSpool **spool, int *images, const Denoiser *d, const 
     return code;
 }
 
-static void spool_part(void *context, int part, int thread)
+static int spool_part(void *context, int part, int thread, RetexError *err)
 {
-    Spooling *s = context;
+    const Spooling *s = context;
     const RetexImage *im = &s->rows->parts[part].image;
-    int code = s->code;
+    int code = RETEX_OK;
     (void)thread;
     if (s->images[part] < 0)
-        return;
+        return RETEX_OK;
     for (int y = 0; y < s->count && !code; y += RETEX_SPOOL_LINES)
         code = retex_spool_put(s->spool, s->images[part], s->band + y / RETEX_SPOOL_LINES,
-                               im->pixels + retex_image_index(im, 0, s->from + y), &s->errors[part]);
-    if (code)
-        s->code = code;
+                               im->pixels + retex_image_index(im, 0, s->from + y), err);
+    return code;
 }
 
 /* `count` rows from `from` on, of which the first is the picture's row y. */
@@ -81,15 +76,7 @@ static int spool_rows(RetexSpool *spool, const int *images, const RetexSet *rows
 {
     Spooling spooling = {.spool = spool, .rows = rows, .images = images, .from = from, .count = count};
     spooling.band = y / RETEX_SPOOL_LINES;
-    spooling.errors = calloc((size_t)rows->nparts + 1, sizeof *spooling.errors);
-    if (!spooling.errors)
-        return retex_fail(err, RETEX_ENOMEM, "not enough memory to denoise");
-    retex_parallel(retex_threads(nthreads), rows->nparts, spool_part, &spooling);
-    for (int k = 0; k < rows->nparts && err && spooling.code; k++)
-        if (spooling.errors[k].code)
-            *err = spooling.errors[k];
-    free(spooling.errors);
-    return spooling.code;
+    return jobs_run(nthreads, rows->nparts, spool_part, &spooling, err);
 }
 
 /* What the two passes share. */

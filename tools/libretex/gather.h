@@ -1,8 +1,9 @@
-/* Images of a set and of samples, brought together from wherever they are. Private to libretex. */
+/* Images of a set and of samples, brought together from wherever they are, or made of it on the way. Private to
+ * libretex. */
 #ifndef LIBRETEX_GATHER_H
 #define LIBRETEX_GATHER_H
 
-#include <retex/set.h>
+#include "rows.h"
 
 typedef struct Gathered {
     int part, footprint; /* of the set, or -1; of the samples, or -1 */
@@ -13,5 +14,13 @@ typedef struct Gathered {
 /* Of these images every row. set, samples and spool may be NULL where none of them needs it. */
 int gather(const Gathered *images, int count, const RetexSet *set, const RetexSamples *samples, RetexSpool *spool,
            int nthreads, RetexError *err);
+
+/* Makes rows y0 <= y < y1 of an image, into `to`, which is black; of what a reader has that is this call's alone. */
+typedef int GatherRows(void *context, RowReader *reader, const Gathered *image, int y0, int y1, float *to,
+                       RetexError *err);
+
+/* The same of rows that are made, in bands on all cores. */
+int gather_made(const Gathered *images, int count, GatherRows *make, void *context, const RetexSet *set,
+                const RetexSamples *samples, RetexSpool *spool, int nthreads, RetexError *err);
 
 #endif

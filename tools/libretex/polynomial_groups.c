@@ -1,7 +1,6 @@
 /* See polynomial_groups.h. */
 #include "polynomial_groups.h"
 
-#include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -9,6 +8,7 @@
 
 #include "combine_kernel.h"
 #include "enlarge.h"
+#include "jobs.h"
 #include "polynomial_factors.h"
 
 #define ROWS_A_JOB 64 /* a pack's band */
@@ -71,13 +71,11 @@ static int add_term(Polynomial *p, int number, RetexError *err)
 typedef struct ProductThread {
     RowReader *reader;
     float **rows; /* by slot, of the group's size */
-    RetexError err;
 } ProductThread;
 
 typedef struct ProductWork {
     const Polynomial *polynomial;
     struct PolynomialGroup *group;
-    atomic_int code;
     ProductThread *threads;
 } ProductWork;
 
@@ -136,65 +134,60 @@ static int add_product(const ProductWork *work, ProductThread *own, const RetexT
     return code;
 }
 
-static int open_thread(const ProductWork *work, ProductThread *own)
+static int open_thread(const ProductWork *work, ProductThread *own, RetexError *err)
 {
     const RetexSet *set = work->polynomial->set;
     if (own->reader)
         return RETEX_OK;
-    int code = row_reader_open(&own->reader, set, work->polynomial->samples, &own->err);
+    int code = row_reader_open(&own->reader, set, work->polynomial->samples, err);
     own->rows = calloc((size_t)slot_count(set) + 1, sizeof *own->rows);
-    return code || own->rows ? code : retex_fail(&own->err, RETEX_ENOMEM, "not enough memory to combine");
+    return code || own->rows ? code : retex_fail(err, RETEX_ENOMEM, "not enough memory to combine");
 }
 
-static void product_job(void *context, int index, int thread)
+static int product_job(void *context, int index, int thread, RetexError *err)
 {
-    ProductWork *work = context;
+    const ProductWork *work = context;
     ProductThread *own = &work->threads[thread];
     RetexImage *product = &work->group->product;
     const RetexSet *set = work->polynomial->set;
-    if (work->code)
-        return;
-    int code = open_thread(work, own);
+    int code = open_thread(work, own, err);
     float *ones = malloc(sizeof *ones * 3 * (size_t)product->width);
     char *made = malloc((size_t)slot_count(set) + 1);
     if (!code && (!ones || !made))
-        code = retex_fail(&own->err, RETEX_ENOMEM, "not enough memory to combine");
+        code = retex_fail(err, RETEX_ENOMEM, "not enough memory to combine");
     for (size_t i = 0; !code && i < 3 * (size_t)product->width; i++)
         ones[i] = 1;
     for (int y = index * ROWS_A_JOB; !code && y < (index + 1) * ROWS_A_JOB && y < product->height; y++) {
         memset(made, 0, (size_t)slot_count(set) + 1);
         for (int k = 0; k < work->group->nterms && !code; k++)
             code = add_product(work, own, &set->terms[work->group->terms[k]], y, made, ones,
-                               product->pixels + retex_image_index(product, 0, y), &own->err);
+                               product->pixels + retex_image_index(product, 0, y), err);
     }
     free(ones);
     free(made);
-    if (code)
-        atomic_store(&work->code, code);
+    return code;
 }
 
 static int make_product(const Polynomial *p, struct PolynomialGroup *group, int nthreads, RetexError *err)
 {
     const int threads = retex_threads(nthreads), scale = group->scale;
-    ProductWork work = {p, group, 0, NULL};
+    ProductWork work = {p, group, NULL};
     int code = retex_image_alloc(&group->product, (p->set->width + scale - 1) / scale,
                                  (p->set->height + scale - 1) / scale, 3, err);
     if (code)
         return code;
     if (!(work.threads = calloc((size_t)threads, sizeof *work.threads)))
         return retex_fail(err, RETEX_ENOMEM, "not enough memory to combine");
-    retex_parallel(threads, (group->product.height + ROWS_A_JOB - 1) / ROWS_A_JOB, product_job, &work);
+    code = jobs_run(threads, (group->product.height + ROWS_A_JOB - 1) / ROWS_A_JOB, product_job, &work, err);
     for (int i = 0; i < threads; i++) {
         ProductThread *own = &work.threads[i];
-        if (work.code && own->err.code && err)
-            *err = own->err;
         row_reader_close(&own->reader);
         for (int k = 0; own->rows && k < slot_count(p->set); k++)
             free(own->rows[k]);
         free(own->rows);
     }
     free(work.threads);
-    return work.code;
+    return code;
 }
 
 /* ---- all of them ---- */

@@ -2,12 +2,12 @@
  * mixtures have is looked up once, and its parts are read once. */
 #include "polynomial_small.h"
 
-#include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include <retex/parallel.h>
 
+#include "jobs.h"
 #include "polynomial_factors.h"
 
 #define ROWS_A_JOB 64 /* a pack's band */
@@ -16,7 +16,6 @@ typedef struct SmallWork {
     const Polynomial *polynomial;
     const int *slots; /* of the images to be made */
     int nslots, width, height;
-    atomic_int code;
     struct SmallThread *threads;
 } SmallWork;
 
@@ -27,7 +26,6 @@ typedef struct SmallThread {
     float **scratch, *weights; /* scratch by footprint, made when it is needed */
     const float **rows;        /* by footprint; NULL: black */
     char *made;                /* by footprint: it is in rows */
-    RetexError err;
 } SmallThread;
 
 static RetexImage *image_of_slot(const Polynomial *p, int slot)
@@ -70,7 +68,7 @@ static int make_row(SmallThread *own, int slot, int y, RetexError *err)
     return code;
 }
 
-static int open_thread(const SmallWork *work, SmallThread *own)
+static int open_thread(const SmallWork *work, SmallThread *own, RetexError *err)
 {
     const RetexSet *set = work->polynomial->set;
     const size_t count = (size_t)set->nfootprints + 1;
@@ -82,8 +80,8 @@ static int open_thread(const SmallWork *work, SmallThread *own)
     own->made = calloc(count, 1);
     own->weights = malloc(sizeof *own->weights * 3 * (size_t)work->width);
     if (!own->scratch || !own->rows || !own->made || !own->weights)
-        return retex_fail(&own->err, RETEX_ENOMEM, "not enough memory to combine");
-    return row_reader_open(&own->reader, set, work->polynomial->samples, &own->err);
+        return retex_fail(err, RETEX_ENOMEM, "not enough memory to combine");
+    return row_reader_open(&own->reader, set, work->polynomial->samples, err);
 }
 
 static void close_thread(const SmallWork *work, SmallThread *own)
@@ -97,20 +95,17 @@ static void close_thread(const SmallWork *work, SmallThread *own)
     row_reader_close(&own->reader);
 }
 
-static void make_job(void *context, int index, int thread)
+static int make_job(void *context, int index, int thread, RetexError *err)
 {
-    SmallWork *work = context;
+    const SmallWork *work = context;
     SmallThread *own = &work->threads[thread];
-    if (work->code)
-        return;
-    int code = open_thread(work, own);
+    int code = open_thread(work, own, err);
     for (int y = index * ROWS_A_JOB; !code && y < (index + 1) * ROWS_A_JOB && y < work->height; y++) {
         memset(own->made, 0, (size_t)work->polynomial->set->nfootprints);
         for (int i = 0; i < work->nslots && !code; i++)
-            code = make_row(own, work->slots[i], y, &own->err);
+            code = make_row(own, work->slots[i], y, err);
     }
-    if (code)
-        atomic_store(&work->code, code);
+    return code;
 }
 
 static int make_all(SmallWork *work, int nthreads, RetexError *err)
@@ -118,14 +113,11 @@ static int make_all(SmallWork *work, int nthreads, RetexError *err)
     const int threads = retex_threads(nthreads);
     if (!(work->threads = calloc((size_t)threads, sizeof *work->threads)))
         return retex_fail(err, RETEX_ENOMEM, "not enough memory to combine");
-    retex_parallel(threads, (work->height + ROWS_A_JOB - 1) / ROWS_A_JOB, make_job, work);
-    for (int i = 0; i < threads; i++) {
-        if (work->code && work->threads[i].err.code && err)
-            *err = work->threads[i].err;
+    int code = jobs_run(threads, (work->height + ROWS_A_JOB - 1) / ROWS_A_JOB, make_job, work, err);
+    for (int i = 0; i < threads; i++)
         close_thread(work, &work->threads[i]);
-    }
     free(work->threads);
-    return work->code;
+    return code;
 }
 
 int small_images_make(Polynomial *p, int nthreads, RetexError *err)

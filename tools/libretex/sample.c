@@ -4,16 +4,12 @@
  * then turns and stretches it exactly. Where the texture is transparent the original albedo of the footprint shows. */
 #include <retex/sample.h>
 
-#include <stdatomic.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include <retex/parallel.h>
-
+#include "gather.h"
 #include "sample_row.h"
-
-#define ROWS_A_JOB 64 /* a pack's band, some of a spool's */
 
 typedef struct SampleWork {
     const RetexSet *set;
@@ -21,86 +17,38 @@ typedef struct SampleWork {
     int nspecs;
     RetexSamples *samples, *variances;                                      /* variances: NULL = not wanted */
     RetexTexture *textures[RETEX_MAX_TARGETS], *squares[RETEX_MAX_TARGETS]; /* by target */
-    int *edited;                                                            /* footprints of edited targets */
-    int nedited, blocks;
-    atomic_int code;
-    RetexError *errors; /* by thread */
+    Gathered *edited;                                                       /* footprints of edited targets */
+    int nedited;
 } SampleWork;
 
-/* Rows y0 <= y < y1 of a footprint; out and variances, or NULL, have them from y0 on. */
-static int sample_rows(const SampleWork *work, RowReader *reader, int footprint, int y0, int y1, float *out,
-                       float *variances, RetexError *err)
+/* Rows y0 <= y < y1 of a footprint, and how they scatter if that is wanted; both are black before. */
+static int sample_rows(void *context, RowReader *reader, const Gathered *edited, int y0, int y1, float *to,
+                       RetexError *err)
 {
-    const RetexFootprint *f = &work->set->footprints[footprint];
+    const SampleWork *work = context;
+    const RetexFootprint *f = &work->set->footprints[edited->footprint];
     const RetexTexture *texture = work->textures[f->target];
     const RetexTextureFilter filter = footprint_filter(work->set, f);
-    const size_t length = 3 * (size_t)work->samples->images[footprint].width;
-    for (int y = y0; y < y1; y++) {
-        const size_t at = length * (size_t)(y - y0);
+    int code = RETEX_OK;
+    for (int y = y0; y < y1 && !code; y++, to += 3 * (size_t)edited->image->width) {
         FootprintRow from;
-        int code = footprint_row_read(&from, reader, work->set, f, y, !retex_texture_is_opaque(texture), err);
-        if (code)
-            return code;
-        if (from.uv)
-            sample_row(texture, filter, &from, out + at);
-        else
-            memset(out + at, 0, length * sizeof *out);
-        if (variances && from.uv)
-            variance_row(texture, work->squares[f->target], filter, &from, variances + at);
+        code = footprint_row_read(&from, reader, work->set, f, y, !retex_texture_is_opaque(texture), err);
+        if (code || !from.uv)
+            continue;
+        sample_row(texture, filter, &from, to);
+        if (work->variances) {
+            const RetexImage *image = &work->variances->images[edited->footprint];
+            variance_row(texture, work->squares[f->target], filter, &from,
+                         image->pixels + retex_image_index(image, 0, y));
+        }
     }
-    return RETEX_OK;
-}
-
-/* The same into the samples' spool. */
-static int spool_rows(const SampleWork *work, RowReader *reader, int footprint, int y0, int y1, RetexError *err)
-{
-    const RetexSamples *samples = work->samples;
-    float *band = malloc(sizeof *band * 3 * (size_t)samples->width * RETEX_SPOOL_LINES);
-    int code = band ? RETEX_OK : retex_fail(err, RETEX_ENOMEM, "not enough memory for samples");
-    for (int y = y0; y < y1 && !code; y += RETEX_SPOOL_LINES) {
-        const int end = y + RETEX_SPOOL_LINES < y1 ? y + RETEX_SPOOL_LINES : y1;
-        code = sample_rows(work, reader, footprint, y, end, band, NULL, err);
-        if (!code)
-            code = retex_spool_put(samples->spool, samples->spooled[footprint] - 1, y / RETEX_SPOOL_LINES, band, err);
-    }
-    free(band);
     return code;
-}
-
-static void sample_job(void *context, int index, int thread)
-{
-    SampleWork *work = context;
-    RetexError *err = &work->errors[thread];
-    RowReader *reader;
-    const int footprint = work->edited[index / work->blocks], y0 = index % work->blocks * ROWS_A_JOB;
-    const RetexImage *image = &work->samples->images[footprint];
-    const int y1 = y0 + ROWS_A_JOB < image->height ? y0 + ROWS_A_JOB : image->height;
-    const size_t first = retex_image_index(image, 0, y0);
-    if (work->code || y0 >= y1)
-        return;
-    int code = row_reader_open(&reader, work->set, NULL, err);
-    if (!code && work->samples->spooled[footprint])
-        code = spool_rows(work, reader, footprint, y0, y1, err);
-    else if (!code)
-        code = sample_rows(work, reader, footprint, y0, y1, image->pixels + first,
-                           work->variances ? work->variances->images[footprint].pixels + first : NULL, err);
-    row_reader_close(&reader);
-    if (code)
-        atomic_store(&work->code, code);
 }
 
 static int sample_all(SampleWork *work, int nthreads, RetexError *err)
 {
-    const int threads = retex_threads(nthreads);
-    if (!(work->errors = calloc((size_t)threads, sizeof *work->errors)))
-        return retex_fail(err, RETEX_ENOMEM, "not enough memory for samples");
-    work->blocks = (work->set->height + ROWS_A_JOB - 1) / ROWS_A_JOB;
-    retex_parallel(threads, work->blocks * work->nedited, sample_job, work);
-    for (int i = 0; i < threads && work->code && err; i++)
-        if (work->errors[i].code)
-            *err = work->errors[i];
-    free(work->errors);
-    return work->code;
+    return gather_made(work->edited, work->nedited, sample_rows, work, work->set, NULL, work->samples->spool, nthreads,
+                       err);
 }
 
 static void describe_texture(char *text, size_t size, const RetexTextureSpec *spec)
@@ -146,12 +94,12 @@ static int alloc_images(const SampleWork *work, RetexSamples *samples, RetexErro
 {
     int code = RETEX_OK;
     for (int i = 0; i < work->nedited && !code; i++)
-        code = alloc_image(work, samples, work->edited[i], err);
+        code = alloc_image(work, samples, work->edited[i].footprint, err);
     return code;
 }
 
 /* A spool with what is as large as the picture; what is smaller is kept in memory. */
-static int spool_images(const SampleWork *work, const char *near, RetexError *err)
+static int spool_images(SampleWork *work, const char *near, RetexError *err)
 {
     const RetexSet *set = work->set;
     RetexSamples *samples = work->samples;
@@ -159,16 +107,15 @@ static int spool_images(const SampleWork *work, const char *near, RetexError *er
     if (!code && strcmp(near, "-") == 0)
         retex_spool_set_plain(samples->spool);
     for (int i = 0; i < work->nedited && !code; i++) {
-        const int footprint = work->edited[i];
+        const int footprint = work->edited[i].footprint;
         char name[RETEX_NAME_MAX];
-        int number;
         if (retex_set_footprint_scale(set, footprint) != 1) {
             code = alloc_image(work, samples, footprint, err);
             continue;
         }
         snprintf(name, sizeof name, "sample_%d", footprint);
-        code = retex_spool_add(samples->spool, name, "RGB", RETEX_FLOAT, &number, err);
-        samples->spooled[footprint] = code ? 0 : 1 + number;
+        code = retex_spool_add(samples->spool, name, "RGB", RETEX_FLOAT, &work->edited[i].spooled, err);
+        samples->spooled[footprint] = code ? 0 : 1 + work->edited[i].spooled;
         samples->images[footprint] = (RetexImage){.width = set->width, .height = set->height, .channels = 3};
     }
     return code;
@@ -186,14 +133,14 @@ static int list_edited(SampleWork *work, RetexError *err)
         return retex_fail(err, RETEX_ENOMEM, "not enough memory for samples");
     for (int i = 0; i < work->set->nfootprints; i++)
         if (work->textures[work->set->footprints[i].target])
-            work->edited[work->nedited++] = i;
+            work->edited[work->nedited++] = (Gathered){.part = -1, .footprint = i, .image = &work->samples->images[i]};
     return RETEX_OK;
 }
 
 static int check_loaded(const SampleWork *work, RetexError *err)
 {
     for (int i = 0; i < work->nedited; i++)
-        if (!is_loaded(work->set, &work->set->footprints[work->edited[i]]))
+        if (!is_loaded(work->set, &work->set->footprints[work->edited[i].footprint]))
             return retex_fail(err, RETEX_EINVAL, "the set is not in memory");
     return RETEX_OK;
 }
@@ -202,8 +149,8 @@ static int open_work(SampleWork *work, int nthreads, RetexError *err)
 {
     int code = retex_textures_load(work->textures, work->set, work->specs, work->nspecs, nthreads, err);
     if (!code)
-        code = list_edited(work, err);
-    return code ? code : create_samples(work, &work->samples, err);
+        code = create_samples(work, &work->samples, err);
+    return code ? code : list_edited(work, err);
 }
 
 static void close_work(SampleWork *work)

@@ -4,8 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include <retex/parallel.h>
-
+#include "jobs.h"
 #include "rows.h"
 
 struct SetBand {
@@ -14,8 +13,6 @@ struct SetBand {
     RetexSet set;      /* with parts of its own, that have pixels of others */
     RetexImage *rooms; /* by part, of most_rows, for those whose rows are not where they are; allocated when needed */
     int most_rows;
-    int *codes; /* by part */
-    RetexError *errors;
     int first;
 };
 
@@ -46,10 +43,8 @@ int set_band_open(SetBand **result, const RetexSet *whole, int most_rows, int co
         band->set.spool = NULL, band->set.source = NULL;
         band->set.parts = calloc(count, sizeof *band->set.parts);
         band->rooms = calloc(count, sizeof *band->rooms);
-        band->codes = calloc(count, sizeof *band->codes);
-        band->errors = calloc(count, sizeof *band->errors);
     }
-    if (!band || !band->set.parts || !band->rooms || !band->codes || !band->errors) {
+    if (!band || !band->set.parts || !band->rooms) {
         set_band_close(result);
         return retex_fail(err, RETEX_ENOMEM, "not enough memory for rows of a set");
     }
@@ -69,34 +64,30 @@ void set_band_close(SetBand **result)
         retex_image_free(&band->rooms[i]);
     free(band->set.parts);
     free(band->rooms);
-    free(band->codes);
-    free(band->errors);
     free(band);
     *result = NULL;
 }
 
-static void take_part(void *context, int part, int thread)
+static int take_part(void *context, int part, int thread, RetexError *err)
 {
     SetBand *band = context;
     const RetexImage *whole = &band->whole->parts[part].image;
     RetexImage *image = &band->set.parts[part].image, *room = &band->rooms[part];
     (void)thread;
     *image = (RetexImage){0};
-    band->codes[part] = RETEX_OK;
     if (whole->width != band->whole->width || whole->height != band->whole->height)
-        return;
+        return RETEX_OK;
     *image = *whole;
     image->height = band->set.height;
     if (whole->pixels && !band->copies) {
         image->pixels = whole->pixels + retex_image_index(whole, 0, band->first);
-        return;
+        return RETEX_OK;
     }
+    int code = RETEX_OK;
     if (!room->pixels)
-        band->codes[part] =
-            retex_image_alloc(room, whole->width, band->most_rows, whole->channels, &band->errors[part]);
+        code = retex_image_alloc(room, whole->width, band->most_rows, whole->channels, err);
     image->pixels = room->pixels;
-    if (!band->codes[part])
-        band->codes[part] = set_part_rows(image, band->whole, part, band->first, &band->errors[part]);
+    return code ? code : set_part_rows(image, band->whole, part, band->first, err);
 }
 
 int set_band_take(RetexSet **rows, SetBand *band, int first, int count, int nthreads, RetexError *err)
@@ -104,9 +95,5 @@ int set_band_take(RetexSet **rows, SetBand *band, int first, int count, int nthr
     *rows = &band->set;
     band->first = first;
     band->set.height = count;
-    retex_parallel(nthreads, band->whole->nparts, take_part, band);
-    for (int i = 0; i < band->whole->nparts; i++)
-        if (band->codes[i])
-            return retex_fail(err, band->codes[i], "%s", band->errors[i].message);
-    return RETEX_OK;
+    return jobs_run(nthreads, band->whole->nparts, take_part, band, err);
 }
