@@ -6,44 +6,53 @@
 #include "manifest.h"
 #include "set_source.h"
 
-/* Give the images of a list their pixels; on failure none. */
-static int fill(const Gathered *images, int count, const RetexSet *set, const RetexSamples *samples, int nthreads,
+/* Give images of a set, or of samples, their pixels: those of wanted that have none; on failure none gets any. */
+static int load(RetexImage *const *wanted, int count, const RetexSet *set, const RetexSamples *samples, int nthreads,
                 RetexError *err)
 {
-    int code = RETEX_OK;
+    RetexImage *loaded = calloc((size_t)count + 1, sizeof *loaded);
+    Gathered *images = calloc((size_t)count + 1, sizeof *images);
+    int missing = 0, code = loaded && images ? 0 : retex_fail(err, RETEX_ENOMEM, "no memory to load a set");
 
     for (int i = 0; !code && i < count; i++) {
-        const RetexImage shape = *images[i].image;
-        code = retex_image_alloc(images[i].image, shape.width, shape.height, shape.channels, err);
+        const RetexImage *shape = wanted[i];
+        if (!shape || shape->pixels)
+            continue;
+        images[missing++] = (Gathered){.part = set ? i : -1, .footprint = set ? -1 : i, .image = &loaded[i]};
+        code = retex_image_alloc(&loaded[i], shape->width, shape->height, shape->channels, err);
     }
     if (!code)
-        code = gather(images, count, set, samples, NULL, nthreads, err);
-    for (int i = 0; code && i < count; i++)
-        retex_image_free(images[i].image);
-    return code;
-}
-
-static int load(RetexSet *set, const char *wanted, int nthreads, RetexError *err)
-{
-    RetexImage *loaded = calloc((size_t)set->nparts + 1, sizeof *loaded);
-    Gathered *images = calloc((size_t)set->nparts + 1, sizeof *images);
-    int count = 0, code = loaded && images ? 0 : retex_fail(err, RETEX_ENOMEM, "no memory to load a set");
-
-    for (int i = 0; !code && i < set->nparts; i++)
-        if (wanted[i] && !set->parts[i].image.pixels) {
-            loaded[i] = set->parts[i].image;
-            images[count++] = (Gathered){.part = i, .footprint = -1, .image = &loaded[i]};
-        }
-    if (!code)
-        code = fill(images, count, set, NULL, nthreads, err);
-    for (int i = 0; !code && i < count; i++) {
-        RetexPart *part = &set->parts[images[i].part];
-        part->image = *images[i].image;
-        part->spooled = 0;
-    }
+        code = gather(images, missing, set, samples, NULL, nthreads, err);
+    for (int i = 0; loaded && i < count; i++)
+        if (code)
+            retex_image_free(&loaded[i]);
+        else if (loaded[i].pixels)
+            *wanted[i] = loaded[i];
     free(loaded);
     free(images);
     return code;
+}
+
+static int load_parts(RetexSet *set, const char *wanted, int nthreads, RetexError *err)
+{
+    RetexImage *images[RETEX_SET_PARTS_MAX];
+
+    for (int i = 0; i < set->nparts; i++)
+        images[i] = wanted[i] ? &set->parts[i].image : NULL;
+    const int code = load(images, set->nparts, set, NULL, nthreads, err);
+    for (int i = 0; !code && i < set->nparts; i++)
+        if (wanted[i])
+            set->parts[i].spooled = 0;
+    return code;
+}
+
+/* What nothing is read from any more. */
+static void close_stores(RetexSpool **spool, RetexSetSource **source)
+{
+    retex_spool_close(spool);
+    if (*source)
+        (*source)->close(*source);
+    *source = NULL;
 }
 
 int retex_set_load(RetexSet *set, int nthreads, RetexError *err)
@@ -53,44 +62,27 @@ int retex_set_load(RetexSet *set, int nthreads, RetexError *err)
     /* the picture last: a pack may make it from the other parts, which then need not be decoded twice */
     memset(wanted, 1, sizeof wanted);
     wanted[0] = 0;
-    int code = load(set, wanted, nthreads, err);
+    int code = load_parts(set, wanted, nthreads, err);
     wanted[0] = 1;
     if (!code)
-        code = load(set, wanted, nthreads, err);
-    if (code)
-        return code;
-    retex_spool_close(&set->spool);
-    if (set->source)
-        set->source->close(set->source);
-    set->source = NULL;
-    return 0;
+        code = load_parts(set, wanted, nthreads, err);
+    if (!code)
+        close_stores(&set->spool, &set->source);
+    return code;
 }
 
 int retex_samples_load(RetexSamples *samples, int nthreads, RetexError *err)
 {
-    RetexImage *loaded = calloc((size_t)samples->nimages + 1, sizeof *loaded);
-    Gathered *images = calloc((size_t)samples->nimages + 1, sizeof *images);
-    int count = 0, code = loaded && images ? 0 : retex_fail(err, RETEX_ENOMEM, "no memory to load samples");
+    RetexImage *images[RETEX_SET_FOOTPRINTS_MAX];
 
-    for (int i = 0; !code && i < samples->nimages; i++)
-        if (retex_samples_have(samples, i) && !samples->images[i].pixels) {
-            loaded[i] = samples->images[i];
-            images[count++] = (Gathered){.part = -1, .footprint = i, .image = &loaded[i]};
-        }
-    if (!code)
-        code = fill(images, count, NULL, samples, nthreads, err);
-    for (int i = 0; !code && i < count; i++)
-        samples->images[images[i].footprint] = *images[i].image;
-    free(loaded);
-    free(images);
+    for (int i = 0; i < samples->nimages; i++)
+        images[i] = retex_samples_have(samples, i) ? &samples->images[i] : NULL;
+    const int code = load(images, samples->nimages, NULL, samples, nthreads, err);
     if (code)
         return code;
     memset(samples->spooled, 0, sizeof samples->spooled);
     memset(samples->stored, 0, sizeof samples->stored);
-    retex_spool_close(&samples->spool);
-    if (samples->source)
-        samples->source->close(samples->source);
-    samples->source = NULL;
+    close_stores(&samples->spool, &samples->source);
     return 0;
 }
 
@@ -134,5 +126,5 @@ int retex_set_keep(RetexSet *set, uint64_t most_bytes, int nthreads, RetexError 
     for (int i = 0; i < set->nparts; i++)
         if (wanted[i])
             bytes += part_bytes(set, i);
-    return bytes > most_bytes ? 0 : load(set, wanted, nthreads, err);
+    return bytes > most_bytes ? 0 : load_parts(set, wanted, nthreads, err);
 }
