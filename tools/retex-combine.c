@@ -17,7 +17,7 @@ static const CliOption options[] = {
     {"cross", 0, "0|2|3", "use cross terms of paths with up to so many hits; default 3", 0},
     {"error", 0, "FILE.exr", "write the error to be expected against rendering again, per pixel", 0},
     {"batch", 0, "FILE.csv", "one picture a row: its name, then one texture a target", 0},
-    {"memory", 0, "MB", "of a batch: keep the set in memory if it takes no more; default 2048", 0},
+    {"memory", 0, "MB", "of a batch: keep set and samples in memory if they take no more; default 2048", 0},
     {0},
 };
 
@@ -178,36 +178,47 @@ static const char *describe(const Job *job, const Row *row, char *text, size_t s
     return used ? text : "original textures";
 }
 
-/* Write the error to be expected; text says it in numbers. */
-static int make_error(const Cli *cli, Job *job, const Row *row, char *text, size_t size, RetexError *err)
-{
-    RetexImage error = {0};
-    RetexSamples *samples = NULL, *variances = NULL;
-    double squares = 0;
-    int code = retex_set_load(job->set, cli->threads, err);
-    if (!code)
-        code = retex_sample_with_variances(&samples, &variances, job->set, row->specs, row->count, cli->threads, err);
-    if (!code && job->samples)
-        code = retex_samples_merge(job->samples, samples, err);
-    if (!code)
-        code = retex_estimate_error(&error, job->set, job->samples ? job->samples : samples, variances, &job->combine,
-                                    NULL, cli->threads, err);
-    size_t count = 3 * (size_t)error.width * (size_t)error.height;
-    for (size_t i = 0; !code && i < count; i++)
-        squares += (double)error.pixels[i] * error.pixels[i];
-    if (!code)
-        snprintf(text, size, ", expected error %.3g rms", sqrt(squares / (double)count));
-    if (!code)
-        code = retex_image_write(&error, job->error, NULL, err);
-    retex_image_free(&error);
-    retex_samples_close(&samples);
-    retex_samples_close(&variances);
-    return code;
-}
-
 static int write_rows(void *picture, int y0, int y1, const float *rows, RetexError *err)
 {
     return retex_picture_rows(picture, y0, y1, rows, err);
+}
+
+/* The error to be expected, on its way. */
+typedef struct ErrorPicture {
+    RetexPicture *picture;
+    double *squares; /* by band: their sum */
+    size_t width;
+} ErrorPicture;
+
+static int write_error_rows(void *context, int y0, int y1, const float *rows, RetexError *err)
+{
+    ErrorPicture *error = context;
+    const size_t count = 3 * error->width * (size_t)(y1 - y0);
+    double *sum = &error->squares[y0 / RETEX_PICTURE_BAND];
+    for (size_t i = 0; i < count; i++)
+        *sum += (double)rows[i] * rows[i];
+    return retex_picture_rows(error->picture, y0, y1, rows, err);
+}
+
+/* Write the error to be expected, while it is made; text says it in numbers. */
+static int make_error(const Cli *cli, Job *job, const Row *row, char *text, size_t size, RetexError *err)
+{
+    const int width = job->set->width, height = job->set->height;
+    const int bands = (height + RETEX_PICTURE_BAND - 1) / RETEX_PICTURE_BAND;
+    ErrorPicture error = {NULL, calloc((size_t)bands, sizeof *error.squares), (size_t)width};
+    double squares = 0;
+    int code = error.squares ? RETEX_OK : retex_fail(err, RETEX_ENOMEM, "not enough memory to estimate the error");
+    if (!code)
+        code = retex_picture_open(&error.picture, job->error, width, height, 3, NULL, err);
+    if (!code)
+        code = retex_estimate_error(job->set, job->samples, row->textures, &job->combine, write_error_rows, &error,
+                                    cli->threads, err);
+    int closed = retex_picture_close(&error.picture, !code, code ? NULL : err);
+    for (int i = 0; i < bands && error.squares; i++)
+        squares += error.squares[i];
+    free(error.squares);
+    snprintf(text, size, ", expected error %.3g rms", sqrt(squares / (3.0 * width * height)));
+    return code ? code : closed;
 }
 
 /* One picture, written while it is made. The error to be expected comes first, and goes again where the picture cannot
@@ -328,9 +339,7 @@ static void run_batch(const Cli *cli, Job *job)
     Kept kept = {.count = 0};
     int count, pictures = 0;
     double first = texture_args_now(), began = first;
-    if (retex_set_keep(job->set, (uint64_t)job->memory << 20, cli->threads, &err))
-        cli_fail(cli, &err);
-    if (job->samples && retex_samples_load(job->samples, cli->threads, &err))
+    if (retex_set_keep(job->set, job->samples, (uint64_t)job->memory << 20, cli->threads, &err))
         cli_fail(cli, &err);
     while (texture_table_row(&table, cli, &output, specs, &count)) {
         check_output(cli, job, output);

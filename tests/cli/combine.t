@@ -68,6 +68,10 @@ $ echo old >old.exr; head -c 30000 s.exr >cut.exr; retex-combine -q cut.exr -o o
 # The same bits whatever the number of threads.
 $ for n in 1 2 7; do retex-combine -q s.exr --threads $n --texture:scale=3:rotate=20 wall=brick.jpg -o $n.exr; done; cmp 1.exr 2.exr; cmp 1.exr 7.exr
 
+# A batch keeps no more of a set and its samples than --memory says, here 94 megabytes of samples.
+$ make_set big.exr 1024 1280; retex-sample -q big.exr --texture floor=brick.jpg --texture 'Wall=rgb(1,.5,.2)' -o big-samples.exr; printf 'output\nrow1.png\nrow2.png\n' >big.csv; make_peak batch retex-combine -q --threads 2 --memory 64 big.exr big-samples.exr --batch big.csv; awk '{ print ($1 < 64 ? "little" : $1) }' batch; cp row1.png few.png; retex-combine -q big.exr big-samples.exr --batch big.csv; cmp row1.png row2.png; cmp few.png row1.png; rm big* row?.png few.png
+> little
+
 # The picture must not replace what it is made of; the name is looked at before the work.
 $ retex-combine -q s.exr --texture floor=brick.jpg -o brick.jpg
 ! retex-combine: error: the output brick.jpg would replace the input

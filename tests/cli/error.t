@@ -11,6 +11,10 @@ $ retex-combine s.exr --texture 'floor=rgb(0.9,0,0)' --texture 'wall=rgb(0,1,0.5
 # The same bits whatever the number of threads, and through a pipe.
 $ for n in 1 2 7; do retex-combine -q s.exr --threads $n --texture:scale=3:rotate=20 wall=brick.jpg --error $n.exr -o 0.png; done; cmp 1.exr 2.exr; cmp 1.exr 7.exr
 $ retex-combine -q - --texture:scale=3:rotate=20 wall=brick.jpg --error pipe.exr <s.exr >p.exr; cmp 1.exr pipe.exr
+# Little of a set and its samples is in memory here too: of 94 megabytes of samples and as much of the set.
+$ make_set big.exr 1024 1280; retex-sample -q big.exr --texture 'Wall=rgb(1,.5,.2)' -o wall.exr; make_peak alone retex-combine -q --threads 2 big.exr --texture floor=brick.jpg --error e.exr -o y.png; make_peak both retex-combine -q --threads 2 big.exr wall.exr --texture floor=brick.jpg --error f.exr -o z.png; for f in alone both; do awk '{ print ($1 < 100 ? "little" : $1) }' $f; done; rm big.exr wall.exr
+> little
+> little
 $ rm ?.exr ?.png pipe.exr; make_set s.exr 48 32
 
 $ printf 'output,floor\nx.png,brick.jpg\n' >batch.csv; retex-combine -q s.exr --batch batch.csv --error x.exr

@@ -1,5 +1,6 @@
 /* Terms with mixtures, whose values are known by hand: with new textures on either target, on both, on none; through
  * files, streams and packs; and mixtures that are not whole. */
+#include "lib_error.h"
 #include "lib_folder.h"
 #include "lib_test.h"
 
@@ -138,18 +139,25 @@ static const Retexture retextures[] = {
 };
 enum { RETEXTURES = sizeof retextures / sizeof retextures[0] };
 
-static RetexSamples *make_samples(const RetexSet *set, const Retexture *r, RetexSamples **variances)
+static int make_specs(RetexTextureSpec specs[2], const Retexture *r)
 {
-    RetexTextureSpec specs[2] = {RETEX_TEXTURE_SPEC_INIT, RETEX_TEXTURE_SPEC_INIT};
-    RetexSamples *samples = NULL;
     RetexError err = {0};
     int count = 0;
     if (r->white_floor)
         test_must(retex_texture_spec_parse(&specs[count++], "", "Floor=rgb(1,1,1)", &err), &err);
     if (r->white_wall)
         test_must(retex_texture_spec_parse(&specs[count++], "", "Wall=rgb(1,1,1)", &err), &err);
+    return count;
+}
+
+static RetexSamples *make_samples(const RetexSet *set, const Retexture *r)
+{
+    RetexTextureSpec specs[2] = {RETEX_TEXTURE_SPEC_INIT, RETEX_TEXTURE_SPEC_INIT};
+    RetexSamples *samples = NULL;
+    RetexError err = {0};
+    const int count = make_specs(specs, r);
     if (count)
-        test_must(retex_sample_with_variances(&samples, variances, set, specs, count, 1, &err), &err);
+        test_must(retex_sample(&samples, set, specs, count, 1, &err), &err);
     return samples;
 }
 
@@ -172,7 +180,7 @@ static void test_by_hand(void **state)
     (void)state;
     RetexSet *set = make_set();
     for (int k = 0; k < RETEXTURES; k++) {
-        RetexSamples *samples = make_samples(set, &retextures[k], NULL);
+        RetexSamples *samples = make_samples(set, &retextures[k]);
         expect_picture(set, samples, &retextures[k]);
         retex_samples_close(&samples);
     }
@@ -226,20 +234,16 @@ static void test_most_shares(void **state)
 }
 
 /* Constant colours have no error, whatever is mixed. */
-static void test_error(void **state)
+static void test_no_error(void **state)
 {
     (void)state;
     RetexSet *set = make_set();
     for (int k = 1; k < RETEXTURES; k++) {
-        RetexImage error = {0};
-        RetexError err = {0};
-        RetexSamples *variances, *samples = make_samples(set, &retextures[k], &variances);
-        test_must(retex_estimate_error(&error, set, samples, variances, NULL, NULL, 1, &err), &err);
+        RetexTextureSpec specs[2] = {RETEX_TEXTURE_SPEC_INIT, RETEX_TEXTURE_SPEC_INIT};
+        RetexImage error = test_error(set, NULL, specs, make_specs(specs, &retextures[k]), 1);
         for (size_t i = 0; i < 3 * PIXELS; i++)
             assert_true(error.pixels[i] == 0);
         retex_image_free(&error);
-        retex_samples_close(&samples);
-        retex_samples_close(&variances);
     }
     retex_set_close(&set);
 }
@@ -255,7 +259,7 @@ static void test_file(void **state)
     test_must(retex_set_check(path, 1, &err), &err);
     test_must(retex_set_read(path, &back, NULL, 1, &err), &err);
     for (int k = 0; k < RETEXTURES; k++) {
-        RetexSamples *samples = make_samples(back, &retextures[k], NULL);
+        RetexSamples *samples = make_samples(back, &retextures[k]);
         expect_picture(back, samples, &retextures[k]);
         retex_samples_close(&samples);
     }
@@ -269,7 +273,7 @@ static void test_stream(void **state)
     (void)state;
     RetexSet *set = make_set();
     for (int k = 1; k < RETEXTURES; k++) {
-        RetexSamples *samples = make_samples(set, &retextures[k], NULL), *samples_back;
+        RetexSamples *samples = make_samples(set, &retextures[k]), *samples_back;
         RetexSet *back;
         RetexError err = {0};
         test_must(retex_set_write(set, samples, path, NULL, &err), &err);
@@ -313,7 +317,7 @@ static void test_pack(void **state)
             assert_memory_equal(back->terms[i].factors, set->terms[i].factors, sizeof set->terms[i].factors);
         }
         for (int k = 0; k < RETEXTURES && params.lossless; k++) {
-            RetexSamples *samples = make_samples(back, &retextures[k], NULL);
+            RetexSamples *samples = make_samples(back, &retextures[k]);
             expect_picture(back, samples, &retextures[k]);
             retex_samples_close(&samples);
         }
@@ -405,7 +409,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_by_hand), cmocka_unit_test(test_most_factors), cmocka_unit_test(test_most_shares),
-        cmocka_unit_test(test_error),   cmocka_unit_test(test_file),         cmocka_unit_test(test_stream),
+        cmocka_unit_test(test_no_error),   cmocka_unit_test(test_file),         cmocka_unit_test(test_stream),
         cmocka_unit_test(test_pack),    cmocka_unit_test(test_not_whole),    cmocka_unit_test(test_additions),
     };
     return cmocka_run_group_tests(tests, test_make_folder, test_remove_folder);

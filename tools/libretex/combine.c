@@ -2,34 +2,16 @@
  *
  * What a term means - no hit, dependent, independent, cross - is the set's business; here it is a polynomial. A
  * factor is the new texture's sample at its footprint or, where the target keeps its original, the footprint's mean
- * original albedo, which is exact for it. Bands of rows are made side by side; nothing of the picture's size is. */
+ * original albedo, which is exact for it. */
 #include <retex/sample.h>
 
-#include <stdatomic.h>
-#include <stdlib.h>
 #include <string.h>
-
-#include <retex/parallel.h>
 
 #include "combine_kernel.h"
 #include "combine_rows.h"
-#include "polynomial.h"
+#include "polynomial_bands.h"
 
 #define SPAN_PIXELS 512 /* its sum and one span of each image fit the first two caches */
-
-typedef struct CombineWork {
-    const Polynomial *polynomial;
-    int y0, y1; /* of the picture */
-    int band;   /* rows a job */
-    RetexRowSink *sink;
-    void *context;
-    atomic_int code;
-    struct CombineThread {
-        PolynomialRow row; /* opened when the thread has its first band */
-        float *rows;
-        RetexError err;
-    } * threads;
-} CombineWork;
 
 static void combine_row(const PolynomialRow *row, int width, float *restrict out)
 {
@@ -46,50 +28,23 @@ static void combine_row(const PolynomialRow *row, int width, float *restrict out
     }
 }
 
-static int combine_band(const CombineWork *work, struct CombineThread *own, int y0, int y1, RetexError *err)
+static int combine_band(const void *context, PolynomialRow *row, int y0, int y1, float *rgb, RetexError *err)
 {
-    const int width = work->polynomial->set->width;
-    int code = own->row.polynomial ? RETEX_OK : polynomial_row_open(&own->row, work->polynomial, err);
-    if (!code && !own->rows && !(own->rows = malloc(sizeof *own->rows * 3 * (size_t)width * (size_t)work->band)))
-        code = retex_fail(err, RETEX_ENOMEM, "not enough memory to combine");
-    for (int y = y0; !code && y < y1; y++) {
-        code = polynomial_row_make(&own->row, y, err);
+    const int width = row->polynomial->set->width;
+    int code = RETEX_OK;
+    (void)context;
+    for (int y = y0; !code && y < y1; y++, rgb += 3 * (size_t)width) {
+        code = polynomial_row_make(row, y, err);
         if (!code)
-            combine_row(&own->row, width, own->rows + 3 * (size_t)width * (size_t)(y - y0));
+            combine_row(row, width, rgb);
     }
-    return code ? code : work->sink(work->context, y0, y1, own->rows, err);
-}
-
-static void combine_job(void *context, int index, int thread)
-{
-    CombineWork *work = context;
-    struct CombineThread *own = &work->threads[thread];
-    /* bands begin at multiples of their height, wherever the region does */
-    int first = work->y0 / work->band + index, y0 = first * work->band, y1 = y0 + work->band;
-    if (work->code)
-        return;
-    int code = combine_band(work, own, y0 > work->y0 ? y0 : work->y0, y1 < work->y1 ? y1 : work->y1, &own->err);
-    if (code)
-        atomic_store(&work->code, code);
+    return code;
 }
 
 static int combine(const Polynomial *polynomial, int y0, int y1, RetexRowSink *sink, void *context, int nthreads,
                    RetexError *err)
 {
-    const int threads = retex_threads(nthreads);
-    CombineWork work = {polynomial, y0, y1, RETEX_PICTURE_BAND, sink, context, 0, NULL};
-    if (!(work.threads = calloc((size_t)threads, sizeof *work.threads)))
-        return retex_fail(err, RETEX_ENOMEM, "not enough memory to combine");
-    if (y1 > y0)
-        retex_parallel(threads, (y1 - 1) / work.band - y0 / work.band + 1, combine_job, &work);
-    for (int i = 0; i < threads; i++) {
-        if (work.code && work.threads[i].err.code && err)
-            *err = work.threads[i].err;
-        polynomial_row_close(&work.threads[i].row);
-        free(work.threads[i].rows);
-    }
-    free(work.threads);
-    return work.code;
+    return polynomial_bands(polynomial, y0, y1, combine_band, NULL, sink, context, nthreads, err);
 }
 
 int retex_retexture(const RetexSet *set, const RetexSamples *samples, RetexTexture *const textures[RETEX_MAX_TARGETS],
@@ -122,17 +77,13 @@ int combine_check(const RetexSet *set)
 
 int combine_original_rows(float *out, const RetexSet *set, int y0, int y1, RetexError *err)
 {
-    const size_t length = 3 * (size_t)set->width;
     Polynomial polynomial;
     PolynomialRow row = {0};
     int code = open_original(&polynomial, set, err);
     if (!code)
         code = polynomial_row_open(&row, &polynomial, err);
-    for (int y = y0; !code && y < y1; y++) {
-        code = polynomial_row_make(&row, y, err);
-        if (!code)
-            combine_row(&row, set->width, out + length * (size_t)(y - y0));
-    }
+    if (!code)
+        code = combine_band(NULL, &row, y0, y1, out, err);
     polynomial_row_close(&row);
     polynomial_close(&polynomial);
     return code;

@@ -15,13 +15,13 @@ typedef struct SampleWork {
     const RetexSet *set;
     const RetexTextureSpec *specs;
     int nspecs;
-    RetexSamples *samples, *variances;                                      /* variances: NULL = not wanted */
-    RetexTexture *textures[RETEX_MAX_TARGETS], *squares[RETEX_MAX_TARGETS]; /* by target */
-    Gathered *edited;                                                       /* footprints of edited targets */
+    RetexSamples *samples;
+    RetexTexture *textures[RETEX_MAX_TARGETS]; /* by target */
+    Gathered *edited;                          /* footprints of edited targets */
     int nedited;
 } SampleWork;
 
-/* Rows y0 <= y < y1 of a footprint, and how they scatter if that is wanted; both are black before. */
+/* Rows y0 <= y < y1 of a footprint. */
 static int sample_rows(void *context, RowReader *reader, const Gathered *edited, int y0, int y1, float *to,
                        RetexError *err)
 {
@@ -33,14 +33,8 @@ static int sample_rows(void *context, RowReader *reader, const Gathered *edited,
     for (int y = y0; y < y1 && !code; y++, to += 3 * (size_t)edited->image->width) {
         FootprintRow from;
         code = footprint_row_read(&from, reader, work->set, f, y, !retex_texture_is_opaque(texture), err);
-        if (code || !from.uv)
-            continue;
-        sample_row(texture, filter, &from, to);
-        if (work->variances) {
-            const RetexImage *image = &work->variances->images[edited->footprint];
-            variance_row(texture, work->squares[f->target], filter, &from,
-                         image->pixels + retex_image_index(image, 0, y));
-        }
+        if (!code && from.uv)
+            sample_row(texture, filter, &from, to);
     }
     return code;
 }
@@ -59,10 +53,10 @@ static void describe_texture(char *text, size_t size, const RetexTextureSpec *sp
         snprintf(text, size, "%.*s", (int)size - 1, spec->image);
 }
 
-static int create_samples(const SampleWork *work, RetexSamples **out, RetexError *err)
+static int create_samples(SampleWork *work, RetexError *err)
 {
     const RetexSet *set = work->set;
-    RetexSamples *samples = *out = calloc(1, sizeof *samples);
+    RetexSamples *samples = work->samples = calloc(1, sizeof *samples);
     if (samples)
         samples->images = calloc((size_t)set->nfootprints + 1, sizeof *samples->images);
     if (!samples || !samples->images)
@@ -84,17 +78,17 @@ static int create_samples(const SampleWork *work, RetexSamples **out, RetexError
     return RETEX_OK;
 }
 
-static int alloc_image(const SampleWork *work, RetexSamples *samples, int footprint, RetexError *err)
+static int alloc_image(const SampleWork *work, int footprint, RetexError *err)
 {
     const RetexImage *uv = &work->set->parts[work->set->footprints[footprint].uv].image;
-    return retex_image_alloc(&samples->images[footprint], uv->width, uv->height, 3, err);
+    return retex_image_alloc(&work->samples->images[footprint], uv->width, uv->height, 3, err);
 }
 
-static int alloc_images(const SampleWork *work, RetexSamples *samples, RetexError *err)
+static int alloc_images(const SampleWork *work, RetexError *err)
 {
     int code = RETEX_OK;
     for (int i = 0; i < work->nedited && !code; i++)
-        code = alloc_image(work, samples, work->edited[i].footprint, err);
+        code = alloc_image(work, work->edited[i].footprint, err);
     return code;
 }
 
@@ -110,7 +104,7 @@ static int spool_images(SampleWork *work, const char *near, RetexError *err)
         const int footprint = work->edited[i].footprint;
         char name[RETEX_NAME_MAX];
         if (retex_set_footprint_scale(set, footprint) != 1) {
-            code = alloc_image(work, samples, footprint, err);
+            code = alloc_image(work, footprint, err);
             continue;
         }
         snprintf(name, sizeof name, "sample_%d", footprint);
@@ -149,50 +143,31 @@ static int open_work(SampleWork *work, int nthreads, RetexError *err)
 {
     int code = retex_textures_load(work->textures, work->set, work->specs, work->nspecs, nthreads, err);
     if (!code)
-        code = create_samples(work, &work->samples, err);
+        code = create_samples(work, err);
     return code ? code : list_edited(work, err);
 }
 
-static void close_work(SampleWork *work)
+/* Give the samples away, unless something failed. */
+static int close_work(SampleWork *work, RetexSamples **samples, int code)
 {
+    if (code)
+        retex_samples_close(&work->samples);
+    *samples = work->samples;
     retex_textures_close(work->textures);
-    retex_textures_close(work->squares);
     free(work->edited);
-}
-
-int retex_sample_with_variances(RetexSamples **samples, RetexSamples **variances, const RetexSet *set,
-                                const RetexTextureSpec *specs, int nspecs, int nthreads, RetexError *err)
-{
-    SampleWork work = {.set = set, .specs = specs, .nspecs = nspecs};
-    int code = open_work(&work, nthreads, err);
-    for (int i = 0; i < set->ntargets && !code && variances; i++)
-        if (work.textures[i])
-            code = retex_texture_square(&work.squares[i], work.textures[i], err);
-    if (!code)
-        code = check_loaded(&work, err);
-    if (!code)
-        code = alloc_images(&work, work.samples, err);
-    if (!code && variances)
-        code = create_samples(&work, &work.variances, err);
-    if (!code && variances)
-        code = alloc_images(&work, work.variances, err);
-    if (!code)
-        code = sample_all(&work, nthreads, err);
-    if (code) {
-        retex_samples_close(&work.samples);
-        retex_samples_close(&work.variances);
-    }
-    *samples = work.samples;
-    if (variances)
-        *variances = work.variances;
-    close_work(&work);
     return code;
 }
 
 int retex_sample(RetexSamples **samples, const RetexSet *set, const RetexTextureSpec *specs, int nspecs, int nthreads,
                  RetexError *err)
 {
-    return retex_sample_with_variances(samples, NULL, set, specs, nspecs, nthreads, err);
+    SampleWork work = {.set = set, .specs = specs, .nspecs = nspecs};
+    int code = open_work(&work, nthreads, err);
+    if (!code)
+        code = check_loaded(&work, err);
+    if (!code)
+        code = alloc_images(&work, err);
+    return close_work(&work, samples, code ? code : sample_all(&work, nthreads, err));
 }
 
 int retex_sample_spooled(RetexSamples **samples, const RetexSet *set, const RetexTextureSpec *specs, int nspecs,
@@ -202,13 +177,7 @@ int retex_sample_spooled(RetexSamples **samples, const RetexSet *set, const Rete
     int code = open_work(&work, nthreads, err);
     if (!code)
         code = spool_images(&work, near, err);
-    if (!code)
-        code = sample_all(&work, nthreads, err);
-    if (code)
-        retex_samples_close(&work.samples);
-    *samples = work.samples;
-    close_work(&work);
-    return code;
+    return close_work(&work, samples, code ? code : sample_all(&work, nthreads, err));
 }
 
 /* ---- more of them ---- */

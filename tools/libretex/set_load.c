@@ -86,9 +86,9 @@ int retex_samples_load(RetexSamples *samples, int nthreads, RetexError *err)
     return 0;
 }
 
-static uint64_t part_bytes(const RetexSet *set, int part)
+static uint64_t image_bytes(const RetexImage *image)
 {
-    return sizeof(float) * retex_image_index(&set->parts[part].image, 0, set->parts[part].image.height);
+    return sizeof(float) * retex_image_index(image, 0, image->height);
 }
 
 uint64_t retex_set_bytes(const RetexSet *set)
@@ -96,7 +96,7 @@ uint64_t retex_set_bytes(const RetexSet *set)
     uint64_t bytes = 0;
 
     for (int i = 0; i < set->nparts; i++)
-        bytes += part_bytes(set, i);
+        bytes += image_bytes(&set->parts[i].image);
     return bytes;
 }
 
@@ -106,11 +106,12 @@ static void want(char *wanted, int part)
         wanted[part] = 1;
 }
 
-int retex_set_keep(RetexSet *set, uint64_t most_bytes, int nthreads, RetexError *err)
+/* Bytes of the parts that recombination reads, which wanted tells. */
+static uint64_t list_read_parts(const RetexSet *set, char wanted[RETEX_SET_PARTS_MAX])
 {
-    char wanted[RETEX_SET_PARTS_MAX] = {0};
     uint64_t bytes = 0;
 
+    memset(wanted, 0, RETEX_SET_PARTS_MAX);
     for (int i = 0; i < set->nterms; i++) {
         want(wanted, set->terms[i].radiance);
         want(wanted, set->terms[i].gain ? set->terms[i].gain : -1);
@@ -125,6 +126,19 @@ int retex_set_keep(RetexSet *set, uint64_t most_bytes, int nthreads, RetexError 
     }
     for (int i = 0; i < set->nparts; i++)
         if (wanted[i])
-            bytes += part_bytes(set, i);
-    return bytes > most_bytes ? 0 : load_parts(set, wanted, nthreads, err);
+            bytes += image_bytes(&set->parts[i].image);
+    return bytes;
+}
+
+int retex_set_keep(RetexSet *set, RetexSamples *samples, uint64_t most_bytes, int nthreads, RetexError *err)
+{
+    char wanted[RETEX_SET_PARTS_MAX];
+    const uint64_t of_set = list_read_parts(set, wanted);
+    const uint64_t left = of_set > most_bytes ? most_bytes : most_bytes - of_set;
+    uint64_t of_samples = 0;
+    int code = of_set > most_bytes ? 0 : load_parts(set, wanted, nthreads, err);
+
+    for (int i = 0; samples && i < samples->nimages; i++)
+        of_samples += image_bytes(&samples->images[i]);
+    return code || !samples || of_samples > left ? code : retex_samples_load(samples, nthreads, err);
 }

@@ -21,11 +21,6 @@ int retex_sample(RetexSamples **samples, const RetexSet *set, const RetexTexture
 int retex_sample_spooled(RetexSamples **samples, const RetexSet *set, const RetexTextureSpec *specs, int nspecs,
                          const char *near, int nthreads, RetexError *err);
 
-/* As retex_sample, and *variances (may be NULL: not wanted) gets how far the textures scatter within each footprint,
- * per channel, colour squared: what retex_estimate_error makes of it. */
-int retex_sample_with_variances(RetexSamples **samples, RetexSamples **variances, const RetexSet *set,
-                                const RetexTextureSpec *specs, int nspecs, int nthreads, RetexError *err);
-
 /* Put the images of `more` into samples, where they replace those of the same footprints; both must be of the same set.
  * They are moved: more keeps none of them and is still the caller's to close. On failure both are as they were. */
 int retex_samples_merge(RetexSamples *samples, RetexSamples *more, RetexError *err);
@@ -59,13 +54,14 @@ int retex_retexture(const RetexSet *set, const RetexSamples *samples, RetexTextu
                     const RetexCombineParams *params /* NULL = defaults */, RetexRowSink *sink, void *context,
                     int nthreads /* 0 = all cores */, RetexError *err);
 
-/* dst (RGB, the set's size) = the standard deviation, per pixel and scene-linear, of the difference to be expected
- * between this retexture and rendering again at the set's samples: from how the textures scatter inside the footprints,
- * how much light multiplies them there, and the energy that was folded. samples and variances are those of one call of
- * retex_sample_with_variances. */
-int retex_estimate_error(RetexImage *dst, const RetexSet *set, const RetexSamples *samples,
-                         const RetexSamples *variances, const RetexCombineParams *params /* NULL = defaults */,
-                         const RetexRoi *roi /* NULL = all */, int nthreads /* 0 = all cores */, RetexError *err);
+/* The error to be expected of what retex_retexture makes of the same, as rows of a picture: the standard deviation, per
+ * channel and scene-linear, of the difference to rendering again with these textures at the set's samples. It comes of
+ * how the textures scatter inside the footprints, how much light multiplies them there, and the energy that was folded;
+ * targets without a texture are taken to have none. */
+int retex_estimate_error(const RetexSet *set, const RetexSamples *samples /* or NULL */,
+                         RetexTexture *const textures[RETEX_MAX_TARGETS],
+                         const RetexCombineParams *params /* NULL = defaults */, RetexRowSink *sink, void *context,
+                         int nthreads /* 0 = all cores */, RetexError *err);
 
 #ifdef __cplusplus
 }

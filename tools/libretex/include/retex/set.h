@@ -166,9 +166,11 @@ int retex_set_add_spooled(RetexSet *set, const char *name, const char *letters, 
 int retex_set_load(RetexSet *set, int nthreads, RetexError *err);
 /* Bytes that all parts take in memory. */
 uint64_t retex_set_bytes(const RetexSet *set);
-/* Bring what recombination reads into memory, for several pictures one after the other, if that takes no more than so
- * many bytes; else all stays where it is. */
-int retex_set_keep(RetexSet *set, uint64_t most_bytes, int nthreads, RetexError *err);
+/* Bring what recombination reads into memory, for several pictures one after the other: what it reads of the set, if
+ * that takes no more than so many bytes, and the samples, if what is left then is enough; else they stay where they
+ * are. */
+int retex_set_keep(RetexSet *set, RetexSamples *samples /* or NULL */, uint64_t most_bytes, int nthreads,
+                   RetexError *err);
 /* Leave out what no pixel has; empty[i]: part i is 0 everywhere. Footprints go without UV, and with them their parts,
  * their shares in mixtures, and mixtures of none; a mixture of one becomes that footprint. Terms of hits go without
  * radiance or gain, and noise of signals that have no term. Parts that something else refers to stay. What remains
@@ -211,10 +213,10 @@ typedef struct RetexStoreParams {
 int retex_set_read(const char *path, RetexSet **set, RetexSamples **samples, int nthreads, RetexError *err);
 
 /* As retex_set_read, but the set's parts and the samples stay in the file until they are taken from there row by row,
- * by retex_retexture, retex_combine, retex_sample_spooled or retex_set_write, or all at once by retex_set_load and
- * retex_samples_load; whatever else looks at pixels needs them loaded. The file must stay as it is until both are
- * closed, and so must parts that retex_set_keep brought into memory: a pack may make its picture from them. Of a pipe
- * that gives more than 64 MiB all is in a temporary file, in $TMPDIR or /tmp. */
+ * by retex_retexture, retex_combine, retex_estimate_error, retex_sample_spooled or retex_set_write, or all at once by
+ * retex_set_load and retex_samples_load; whatever else looks at pixels needs them loaded. The file must stay as it is
+ * until both are closed, and so must parts that retex_set_keep brought into memory: a pack may make its picture from
+ * them. Of a pipe that gives more than 64 MiB all is in a temporary file, in $TMPDIR or /tmp. */
 int retex_set_open(const char *path, RetexSet **set, RetexSamples **samples, int nthreads, RetexError *err);
 
 /* Write a set (samples NULL), samples alone (set NULL), or both as one stream, under a temporary name renamed when

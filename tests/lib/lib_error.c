@@ -1,0 +1,59 @@
+/* See lib_error.h. */
+#include "lib_error.h"
+
+#include <string.h>
+
+#include "lib_test.h"
+#include "sample_row.h"
+
+static int keep_rows(void *context, int y0, int y1, const float *rows, RetexError *err)
+{
+    RetexImage *image = context;
+    const size_t first = retex_image_index(image, 0, y0);
+    (void)err;
+    memcpy(image->pixels + first, rows, sizeof *rows * (retex_image_index(image, 0, y1) - first));
+    return RETEX_OK;
+}
+
+RetexImage test_error(const RetexSet *set, const RetexSamples *samples, const RetexTextureSpec *specs, int nspecs,
+                      int nthreads)
+{
+    RetexTexture *textures[RETEX_MAX_TARGETS];
+    RetexImage error = {0};
+    RetexError err = {0};
+    test_must(retex_textures_load(textures, set, specs, nspecs, nthreads, &err), &err);
+    test_must(retex_image_alloc(&error, set->width, set->height, 3, &err), &err);
+    test_must(retex_estimate_error(set, samples, textures, NULL, keep_rows, &error, nthreads, &err), &err);
+    retex_textures_close(textures);
+    return error;
+}
+
+RetexSamples *test_variances(const RetexSet *set, const RetexTextureSpec *specs, int nspecs)
+{
+    RetexTexture *textures[RETEX_MAX_TARGETS], *squares[RETEX_MAX_TARGETS] = {0};
+    RetexSamples *variances;
+    RowReader *reader;
+    RetexError err = {0};
+    test_must(retex_sample(&variances, set, specs, nspecs, 1, &err), &err);
+    test_must(retex_textures_load(textures, set, specs, nspecs, 1, &err), &err);
+    test_must(row_reader_open(&reader, set, NULL, &err), &err);
+    for (int i = 0; i < set->nfootprints; i++) {
+        const RetexFootprint *f = &set->footprints[i];
+        const int t = f->target;
+        RetexImage *image = &variances->images[i];
+        if (!textures[t])
+            continue;
+        if (!squares[t])
+            test_must(retex_texture_square(&squares[t], textures[t], &err), &err);
+        for (int y = 0; y < image->height; y++) {
+            FootprintRow row;
+            test_must(footprint_row_read(&row, reader, set, f, y, 0, &err), &err);
+            variance_row(textures[t], squares[t], footprint_filter(set, f), &row,
+                         image->pixels + retex_image_index(image, 0, y));
+        }
+    }
+    row_reader_close(&reader);
+    retex_textures_close(textures);
+    retex_textures_close(squares);
+    return variances;
+}
