@@ -1,0 +1,22 @@
+/* Scenes from text: what the language makes of them, or the error that they end in. */
+#ifndef LIB_SCENE_TEXT_H
+#define LIB_SCENE_TEXT_H
+
+#include "lib_test.h"
+#include "scene/scene.h"
+#include "sdl/sdl.h"
+
+extern char messages[8192]; /* about the last scene that was parsed, one a line */
+
+int parse_with(Scene **scene, const char *text, SdlOptions *options, RetexError *err);
+Scene *parse(const char *text);
+void expect_error(const char *text, const char *part);
+void assert_near(double a, double b);
+void assert_vec(Vec3 a, double x, double y, double z);
+void assert_color(Rgbft c, double r, double g, double b);
+const Primitive *only(const Scene *scene);
+Rgbft color_at(const Primitive *p, double x, double y, double z);
+
+#define V37 "#version 3.7; global_settings{assumed_gamma 1} "
+
+#endif

@@ -1,0 +1,138 @@
+/* See lib_sets.h. */
+#include "lib_sets.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+
+#include <cmocka.h>
+
+#include "half.h"
+
+RetexSamples *make_samples(const RetexSet *set, int every)
+{
+    RetexSamples *samples = calloc(1, sizeof *samples);
+    samples->width = set->width;
+    samples->height = set->height;
+    samples->ntargets = set->ntargets;
+    samples->nimages = set->nfootprints;
+    samples->images = calloc((size_t)set->nfootprints + 1, sizeof *samples->images);
+    for (int i = 0; i < set->ntargets; i++) {
+        snprintf(samples->target_names[i], sizeof samples->target_names[i], "%s", set->targets[i].name);
+        snprintf(samples->textures[i], sizeof samples->textures[i],
+                 "b\xfc"
+                 "hne %d.jpg",
+                 i);
+    }
+    for (int i = 0; i < set->nfootprints; i++) {
+        samples->footprint_target[i] = set->footprints[i].target;
+        samples->footprint_hit[i] = set->footprints[i].hit;
+        if (every && i % every == 0)
+            test_random_image(&samples->images[i], set->width, set->height, 3, (uint32_t)i + 50, 0, 1);
+    }
+    return samples;
+}
+
+static void expect_equal_pixels(const RetexImage *want, const RetexImage *got, RetexPixelType type)
+{
+    assert_true(want->width == got->width && want->height == got->height && want->channels == got->channels);
+    const size_t count = retex_image_index(want, 0, want->height);
+    for (size_t i = 0; i < count; i++) {
+        float value = want->pixels[i];
+        if (type == RETEX_HALF) {
+            uint16_t half;
+            retex_half_from_float(&half, &value, 1);
+            retex_half_to_float(&value, &half, 1);
+        }
+        assert_true(value == got->pixels[i]);
+    }
+}
+
+void expect_equal_part(const RetexSet *a, int part_a, const RetexSet *b, int part_b)
+{
+    assert_true((part_a < 0) == (part_b < 0));
+    if (part_a < 0)
+        return;
+    assert_string_equal(a->parts[part_a].name, b->parts[part_b].name);
+    assert_string_equal(a->parts[part_a].letters, b->parts[part_b].letters);
+    assert_int_equal(a->parts[part_a].type, b->parts[part_b].type);
+    assert_int_equal(a->parts[part_a].crc, b->parts[part_b].crc);
+    expect_equal_pixels(&a->parts[part_a].image, &b->parts[part_b].image, a->parts[part_a].type);
+}
+
+void expect_equal_terms(const RetexSet *a, const RetexSet *b)
+{
+    assert_int_equal(a->nterms, b->nterms);
+    for (int i = 0; i < a->nterms; i++) {
+        assert_int_equal(a->terms[i].kind, b->terms[i].kind);
+        assert_int_equal(a->terms[i].nfactors, b->terms[i].nfactors);
+        for (int f = 0; f < a->terms[i].nfactors; f++)
+            assert_int_equal(a->terms[i].factors[f], b->terms[i].factors[f]);
+        expect_equal_part(a, a->terms[i].radiance, b, b->terms[i].radiance);
+    }
+}
+
+void expect_equal_mixtures(const RetexSet *a, const RetexSet *b)
+{
+    assert_int_equal(a->nmixtures, b->nmixtures);
+    for (int i = 0; i < a->nmixtures; i++) {
+        const RetexMixture *ma = &a->mixtures[i], *mb = &b->mixtures[i];
+        assert_int_equal(ma->nshares, mb->nshares);
+        for (int k = 0; k < ma->nshares; k++) {
+            assert_int_equal(ma->shares[k].footprint, mb->shares[k].footprint);
+            expect_equal_part(a, ma->shares[k].weight, b, mb->shares[k].weight);
+        }
+    }
+}
+
+void expect_equal_sets(const RetexSet *a, const RetexSet *b)
+{
+    assert_true(a->width == b->width && a->height == b->height && a->orders == b->orders && a->spp == b->spp);
+    assert_true(a->max_depth == b->max_depth && a->seed == b->seed && a->strict_paper == b->strict_paper);
+    assert_int_equal(a->id, b->id);
+    assert_true(a->folded == b->folded && a->folded_white == b->folded_white);
+    assert_string_equal(a->layout, b->layout);
+    assert_string_equal(a->filter, b->filter);
+    assert_string_equal(a->scene, b->scene);
+    assert_string_equal(a->generator, b->generator);
+    assert_int_equal(a->ntargets, b->ntargets);
+    for (int i = 0; i < a->ntargets; i++) {
+        RetexTarget ta = a->targets[i], tb = b->targets[i];
+        assert_string_equal(ta.name, tb.name);
+        assert_string_equal(ta.idents, tb.idents);
+        expect_equal_part(a, ta.original, b, tb.original);
+        assert_memory_equal(ta.periodic, tb.periodic, sizeof ta.periodic);
+        assert_memory_equal(ta.uv_min, tb.uv_min, sizeof ta.uv_min);
+        assert_memory_equal(ta.uv_max, tb.uv_max, sizeof ta.uv_max);
+        assert_memory_equal(ta.original_min, tb.original_min, sizeof ta.original_min);
+        assert_memory_equal(ta.original_max, tb.original_max, sizeof ta.original_max);
+        assert_memory_equal(ta.mean_albedo, tb.mean_albedo, sizeof ta.mean_albedo);
+        assert_memory_equal(ta.uv_scale, tb.uv_scale, sizeof ta.uv_scale);
+        assert_true(ta.share == tb.share);
+    }
+    assert_int_equal(a->nparts, b->nparts);
+    for (int i = 0; i < a->nparts; i++)
+        expect_equal_part(a, i, b, i);
+    assert_int_equal(a->nfootprints, b->nfootprints);
+    for (int i = 0; i < a->nfootprints; i++)
+        assert_memory_equal(&a->footprints[i], &b->footprints[i], sizeof a->footprints[i]);
+    expect_equal_mixtures(a, b);
+    expect_equal_terms(a, b);
+}
+
+void expect_equal_samples(const RetexSamples *a, const RetexSamples *b)
+{
+    assert_true(a->width == b->width && a->height == b->height);
+    assert_int_equal(a->nimages, b->nimages);
+    assert_int_equal(a->ntargets, b->ntargets);
+    for (int i = 0; i < a->ntargets; i++) {
+        assert_string_equal(a->target_names[i], b->target_names[i]);
+        assert_string_equal(b->textures[i], i ? "b?hne 1.jpg" : "b?hne 0.jpg"); /* JSON is UTF-8 */
+    }
+    for (int i = 0; i < a->nimages; i++) {
+        assert_int_equal(a->footprint_target[i], b->footprint_target[i]);
+        assert_int_equal(a->footprint_hit[i], b->footprint_hit[i]);
+        assert_true(!a->images[i].pixels == !b->images[i].pixels);
+        if (a->images[i].pixels)
+            expect_equal_pixels(&a->images[i], &b->images[i], RETEX_FLOAT);
+    }
+}

@@ -1,0 +1,329 @@
+/* Layout footprints, through the film: light that meets targets again, and what is folded. */
+#include "lib_film.h"
+
+#include <math.h>
+
+#include <cmocka.h>
+
+static void further_hits_come_later(void **state)
+{
+    (void)state;
+    Fixture f;
+    begin_film(&f, 1, 2, 6, 2, 1);
+    create_film(&f);
+    begin_path(&f);
+    hit(&f, 0, 0.25, 0.25, rgb_grey(0.5f), SHARP);
+    hit(&f, 0, 0.75, 0.5, rgb_grey(0.5f), BROAD);
+    connect_light(&f, rgb_grey(4));
+    hit(&f, 0, 0.25, 0, rgb_grey(0.5f), BROAD);
+    connect_light(&f, rgb_grey(8));
+    end_path(&f);
+    finish_film(&f);
+    assert_absent(&f, "dep_Floor_sharp1");
+    expect_rgb(part(&f, "dep_Floor_sharp_a1"), 2, 2, 2, 1e-3);
+    expect_rgb(part(&f, "dep_Floor_sharp_a2"), 4, 4, 4, 1e-3);
+    assert_absent(&f, "dep_Floor_sharp_a3");
+    const float *first = part(&f, "uv_Floor_sharp1"), *later = part(&f, "uv_Floor_later1");
+    assert_true(first[0] == 0.25f && first[1] == 0.25f && first[2] == 0.5f); /* one path, however often it connects */
+    assert_absent(&f, "uv_Floor_broad1");
+    assert_absent(&f, "uv_Floor_sharp2");
+    assert_true(later[0] == 0.75f && later[1] == 0.5f);
+    expect_rgb(part(&f, "uv_Floor_later2"), 0.25f, 0, 0.5f, 1e-6);        /* one connection of two paths */
+    assert_float_equal(part(&f, "share_Floor_later1")[0], 2.0 / 3, 2e-3); /* of the light: 1 + 1 of 3 */
+    expect_rgb(part(&f, "albedo_Floor_later1"), 0.5f, 0.5f, 0.5f, 1e-6);
+    assert_true(f.set->folded == 0);
+    expect_beauty(&f, 0);
+    end_film(&f);
+}
+
+/* A monomial goes by its own first hit, which need not be its path's. */
+static void monomials_go_their_own_ways(void **state)
+{
+    (void)state;
+    Fixture f;
+    begin_film(&f, 1, 1, 6, 2, 1);
+    create_film(&f);
+    begin_path(&f);
+    split_hit(&f, 0, 0.25, 0, rgb_grey(1), SHARP, (Split){rgb_grey(0.5f), rgb_grey(0.25f)});
+    split_hit(&f, 0, 0.75, 0, rgb_grey(0.5f), BROAD, (Split){rgb_grey(0.5f), rgb_grey(0.125f)});
+    connect_light(&f, rgb_grey(32));
+    end_path(&f);
+    finish_film(&f);
+    expect_rgb(part(&f, "indep"), 1, 1, 1, 1e-6);
+    expect_rgb(part(&f, "dep_Floor_sharp1"), 2, 2, 2, 2e-3);
+    expect_rgb(part(&f, "dep_Floor_broad1"), 4, 4, 4, 2e-3);
+    expect_rgb(part(&f, "dep_Floor_sharp_a1"), 8, 8, 8, 2e-3);
+    assert_true(part(&f, "uv_Floor_sharp1")[0] == 0.25f && part(&f, "uv_Floor_broad1")[0] == 0.75f);
+    assert_true(part(&f, "uv_Floor_later1")[0] == 0.75f);
+    expect_beauty(&f, 0);
+    end_film(&f);
+}
+
+/* Clusters of varying albedo, several hits of targets that each have one colour, light that meets none: it all adds up
+ * to the picture. */
+static void the_terms_add_up(void **state)
+{
+    (void)state;
+    for (uint32_t round = 1; round <= 12; round++) {
+        enum { SPP = 300 };
+        Fixture f;
+        uint32_t seed = round;
+        int targets = 1 + (int)round % 3, hits = round < 7 ? 1 : 4;
+        begin_film(&f, targets, SPP, 6, 1 + (int)round % 4, 1 + (int)round % 2);
+        create_film(&f);
+        for (int k = 0; k < SPP; k++) {
+            begin_path(&f);
+            for (int n = (int)(test_random(&seed) * (hits + 1)); n > 0; n--) {
+                int t = (int)(test_random(&seed) * targets);
+                float level = hits == 1 ? (float)test_random(&seed) : 0.3f + 0.2f * (float)t;
+                Split split = {rgb_grey((float)test_random(&seed)), rgb_grey(0)};
+                if (test_random(&seed) < 0.5)
+                    split.i = rgb_grey((float)test_random(&seed));
+                Vec2 uv = {test_random(&seed), test_random(&seed)};
+                split_hit(&f, t, uv.u, uv.v, rgb(level, 0.5f * level, 1 - level), test_random(&seed) < 0.5, split);
+            }
+            connect_light(&f, rgb((float)test_random(&seed), (float)test_random(&seed), 1));
+            end_path(&f);
+        }
+        Rgb light = f.light;
+        finish_film(&f);
+        expect_rgb(f.set->parts[0].image.pixels, light.r / SPP, light.g / SPP, light.b / SPP, 1e-4);
+        assert_true(expect_beauty(&f, 0) > 0.1);
+        assert_true(f.set->folded == 0);
+        end_film(&f);
+    }
+}
+
+/* Places that are black in the original are found all the same, and may become bright. */
+static void black_albedo_has_footprints(void **state)
+{
+    (void)state;
+    Fixture f;
+    begin_film(&f, 1, 2, 6, 3, 1);
+    create_film(&f);
+    one_hit(&f, 0.25, 0.75, rgb_grey(0), SHARP, rgb(1, 2, 4));
+    begin_path(&f);
+    hit(&f, 0, 0.5, 0.75, rgb_grey(0), BROAD);
+    hit(&f, 0, 0.125, 0.5, rgb_grey(0), BROAD);
+    connect_light(&f, rgb_grey(2));
+    end_path(&f);
+    finish_film(&f);
+    const float *sharp = part(&f, "uv_Floor_sharp1"), *later = part(&f, "uv_Floor_later1");
+    assert_true(sharp[0] == 0.25f && sharp[1] == 0.75f && sharp[2] == 0.5f);
+    assert_true(part(&f, "uv_Floor_broad1")[0] == 0.5f && part(&f, "uv_Floor_broad1")[2] == 0.5f);
+    assert_true(later[0] == 0.125f && later[1] == 0.5f && later[2] == 0.5f);
+    expect_rgb(part(&f, "dep_Floor_sharp1"), 0.5f, 1, 2, 1e-3);
+    expect_rgb(part(&f, "dep_Floor_broad_a1"), 1, 1, 1, 1e-3);
+    static const char *const albedos[] = {"albedo_Floor_sharp1", "albedo_Floor_broad1", "albedo_Floor_later1"};
+    for (size_t k = 0; k < 3; k++)
+        expect_rgb(part(&f, albedos[k]), 0, 0, 0, 0);
+    expect_rgb(f.set->parts[0].image.pixels, 0, 0, 0, 0);
+    expect_beauty(&f, 0);
+    end_film(&f);
+}
+
+static void targets_follow_each_other(void **state)
+{
+    (void)state;
+    Fixture f;
+    begin_film(&f, 2, 2, 6, 2, 1);
+    create_film(&f);
+    begin_path(&f);
+    hit(&f, 0, 0.25, 0.5, rgb_grey(0.5f), SHARP);
+    hit(&f, 1, 0.125, 0.5, rgb_grey(0.25f), BROAD);
+    connect_light(&f, rgb_grey(2));
+    hit(&f, 0, 0.75, 0.5, rgb_grey(0.5f), BROAD);
+    connect_light(&f, rgb_grey(4));
+    end_path(&f);
+    begin_path(&f);
+    hit(&f, 1, 0.375, 0.5, rgb_grey(0.25f), SHARP);
+    connect_light(&f, rgb_grey(6));
+    for (int k = 0; k < 5; k++)
+        hit(&f, 1, 0.125, 0.5, rgb_grey(0.25f), BROAD);
+    connect_light(&f, rgb_grey(4096)); /* five hits later are too many to be kept in combinations */
+    end_path(&f);
+    finish_film(&f);
+    expect_rgb(part(&f, "dep_Floor_sharp_b1"), 1, 1, 1, 0.3);
+    expect_rgb(part(&f, "dep_Floor_sharp_a1b1"), 2, 2, 2, 0.3);
+    assert_absent(&f, "dep_Floor_sharp_m5");
+    expect_rgb(part(&f, "dep_Wall_sharp1"), 3, 3, 3, 0.3);
+    assert_int_equal(retex_set_find_part(f.set, "dep_Wall_sharp_b5"), -1);
+    assert_absent(&f, "dep_Wall_sharp_b4");
+    expect_rgb(part(&f, "dep_Wall_sharp_m5"), 2048, 2048, 2048, 0.3);
+    const RetexTerm *term = NULL;
+    for (int t = 0; t < f.set->nterms; t++)
+        if (f.set->terms[t].radiance == retex_set_find_part(f.set, "dep_Floor_sharp_a1b1"))
+            term = &f.set->terms[t];
+    assert_non_null(term);
+    assert_int_equal(term->nfactors, 3);
+    assert_ptr_equal(&f.set->footprints[term->factors[0]], footprint(&f, "uv_Floor_sharp1"));
+    assert_ptr_equal(&f.set->footprints[term->factors[1]], footprint(&f, "uv_Floor_later1"));
+    assert_ptr_equal(&f.set->footprints[term->factors[2]], footprint(&f, "uv_Wall_later1"));
+    assert_true(part(&f, "uv_Floor_later1")[0] == 0.75f && part(&f, "uv_Wall_later1")[0] == 0.125f);
+    assert_true(part(&f, "uv_Wall_sharp1")[0] == 0.375f);
+    assert_true(f.set->targets[1].uv_max[0] == 0.375);
+    assert_true(f.set->folded == 0 && f.set->folded_white == 0);
+    expect_beauty(&f, 0);
+    end_film(&f);
+}
+
+/* Shares tell how much light each place has of what is mixed; they add up to 1. */
+static void shares_add_up(void **state)
+{
+    (void)state;
+    Fixture f;
+    begin_film(&f, 2, 2, 6, 2, 1);
+    create_film(&f);
+    for (int n = 0; n < 2; n++) {
+        begin_path(&f);
+        hit(&f, 1, 0.25 + 0.5 * n, 0.5, rgb_grey(0.5f), SHARP);
+        connect_light(&f, rgb_grey(2));
+        for (int k = 0; k < 5 + n; k++)
+            hit(&f, k == 0 ? 0 : 1, k < 2 ? 0.5 : 0.125, 0.5, rgb_grey(0.5f), BROAD);
+        connect_light(&f, rgb_grey(n ? 192 : 32)); /* which is 3 and 1 without the first hit, for albedos of 0.5 */
+        end_path(&f);
+    }
+    finish_film(&f);
+    assert_int_equal(f.set->nmixtures, 3); /* the wall's sharp clusters, its further hits, and those of both targets */
+    double all = 0;
+    static const char *const shares[] = {"share_Floor_later1", "share_Wall_later1", "share_Wall_later2"};
+    for (size_t k = 0; k < 3; k++)
+        all += part(&f, shares[k])[0];
+    assert_float_equal(all, 1, 4e-3);
+    assert_float_equal(part(&f, "share_Floor_later1")[0], (1.0 + 3) / (5 * 1 + 6 * 3), 2e-3);
+    assert_float_equal(part(&f, "share_Wall_sharp1")[0], 0.25, 2e-3);
+    assert_float_equal(part(&f, "share_Wall_sharp2")[0], 0.75, 2e-3);
+    assert_true(part(&f, "share_Wall_sharp1")[1] == 0);
+    expect_rgb(part(&f, "dep_Wall_sharp_m5"), 16, 16, 16, 0.2);
+    expect_rgb(part(&f, "dep_Wall_sharp_m6"), 96, 96, 96, 0.2);
+    for (int t = 0; t < f.set->nterms; t++) {
+        const RetexTerm *term = &f.set->terms[t];
+        if (term->radiance != retex_set_find_part(f.set, "dep_Wall_sharp_m6"))
+            continue;
+        assert_int_equal(term->nfactors, 7);
+        assert_int_equal(f.set->mixtures[RETEX_MIXTURE(term->factors[0])].nshares, 2);
+        assert_int_equal(f.set->mixtures[RETEX_MIXTURE(term->factors[1])].nshares, 3);
+    }
+    expect_beauty(&f, 0);
+    end_film(&f);
+}
+
+/* What one target's albedo is does not depend on another that is black: that one may be edited. */
+static void a_black_target_hides_no_other(void **state)
+{
+    (void)state;
+    Fixture f;
+    begin_film(&f, 2, 2, 6, 1, 1);
+    create_film(&f);
+    begin_path(&f);
+    hit(&f, 0, 0.25, 0.5, rgb_grey(0), SHARP);
+    hit(&f, 1, 0.75, 0.5, rgb_grey(0.5f), BROAD);
+    connect_light(&f, rgb_grey(8));
+    end_path(&f);
+    begin_path(&f);
+    hit(&f, 1, 0.25, 0.5, rgb(0.5f, 0.25f, 1), SHARP);
+    hit(&f, 0, 0.75, 0.5, rgb_grey(0), BROAD);
+    hit(&f, 0, 0.75, 0.5, rgb_grey(0), BROAD);
+    connect_light(&f, rgb_grey(2));
+    end_path(&f);
+    finish_film(&f);
+    expect_rgb(f.set->parts[0].image.pixels, 0, 0, 0, 0);
+    expect_rgb(part(&f, "dep_Floor_sharp_b1"), 4, 4, 4, 1e-3);
+    expect_rgb(part(&f, "albedo_Wall_later1"), 0.5f, 0.5f, 0.5f, 1e-6);
+    expect_rgb(part(&f, "dep_Wall_sharp_a2"), 1, 1, 1, 1e-3);
+    expect_rgb(part(&f, "albedo_Wall_sharp1"), 0.5f, 0.25f, 1, 1e-6);
+    expect_rgb(part(&f, "albedo_Floor_sharp1"), 0, 0, 0, 0);
+    expect_rgb(part(&f, "albedo_Floor_later1"), 0, 0, 0, 0);
+    expect_beauty(&f, 0);
+    end_film(&f);
+}
+
+/* How much light is folded, as it is and with white targets: what the original's black hides counts there too. */
+static void folded_light_is_counted_as_white(void **state)
+{
+    (void)state;
+    Fixture f;
+    begin_film(&f, 1, 4, 2, 2, 1);
+    create_film(&f);
+    one_hit(&f, 0.75, 0.5, rgb_grey(0), SHARP, rgb_grey(10));
+    film_add_folded(f.pixel, rgb_grey(0), rgb_grey(10 * 0.8f));
+    one_hit(&f, 0.25, 0.5, rgb_grey(0.5f), SHARP, rgb_grey(4));
+    begin_path(&f);
+    connect_light(&f, rgb_grey(2));
+    end_path(&f);
+    begin_path(&f);
+    for (int k = 0; k < 2; k++)
+        hit(&f, 0, 0.25, 0.5, rgb_grey(0.5f), k ? BROAD : SHARP);
+    connect_light(&f, rgb_grey(5));
+    film_add_folded(f.pixel, rgb_grey(1.25f), rgb_grey(5 * 0.8f * 0.8f));
+    end_path(&f);
+    finish_film(&f);
+    double hidden = 10 * 0.8, known = 5 * 0.8 * 0.8;
+    assert_float_equal(f.set->folded_white, (hidden + known) / (hidden + known + 4 * 0.8 + 2), 1e-6);
+    assert_float_equal(f.set->folded, 1.25 / (1.25 + 2 + 2), 1e-6);
+    expect_beauty(&f, 0);
+    end_film(&f);
+}
+
+/* A shadow ray may pass targets behind a hit that the path goes on from elsewhere: hits are a tree. */
+static void hits_are_a_tree(void **state)
+{
+    (void)state;
+    Fixture f;
+    const Split both = {rgb_grey(0.5f), rgb_grey(0.25f)};
+    begin_film(&f, 2, 1, 6, 2, 1);
+    create_film(&f);
+    begin_path(&f);
+    hit(&f, 0, 0.25, 0.5, rgb_grey(0.5f), SHARP);
+    PathHit *floor = f.hits.last;
+    f.split = both; /* of the light picked there, through the wall */
+    hit(&f, 1, 0.5, 0.5, rgb_grey(0.5f), BROAD);
+    path_hit_shine(f.hits.last, splat(1), splat(0), splat(16));
+    const TargetHit wall = {{0.75, 0.5}, rgb_grey(0.5f), 1, BROAD, 0}; /* to which the path goes on elsewhere */
+    PathHit *last = path_hits_add(&f.hits, &f.room[2], &wall, floor, splat(1), splat(0));
+    path_hit_shine(last, splat(1), splat(0), splat(4));
+    const double beauty = 16 * 0.5 * (0.5 * 0.5 + 0.25) + 4 * 0.5 * 0.5;
+    film_add_light(f.pixel, (double[3]){beauty, beauty, beauty});
+    end_path(&f);
+    finish_film(&f);
+    expect_rgb(part(&f, "dep_Floor_sharp_b1"), 8 + 4, 12, 12, 1e-2);
+    expect_rgb(part(&f, "dep_Wall_broad1"), 4, 4, 4, 1e-2);
+    assert_absent(&f, "dep_Floor_sharp1");
+    assert_true(part(&f, "uv_Wall_broad1")[0] == 0.5f);
+    assert_true(part(&f, "uv_Wall_later1")[0] == 0.5f && part(&f, "uv_Wall_later2")[0] == 0.75f);
+    assert_float_equal(part(&f, "share_Wall_later1")[0], 2.0 / 3, 2e-3); /* 4 and 2 through the floor's 1/2 */
+    expect_beauty(&f, 0);
+    end_film(&f);
+}
+
+static void a_plain_film_keeps_the_beauty(void **state)
+{
+    (void)state;
+    Fixture f;
+    begin_film(&f, 1, 2, 6, 3, 1);
+    f.params.split = 0;
+    create_film(&f);
+    one_hit(&f, 0.5, 0.5, rgb_grey(0.5f), SHARP, rgb(4, 8, 12));
+    finish_film(&f);
+    expect_rgb(f.set->parts[0].image.pixels, 1, 2, 3, 0);
+    assert_true(f.set->nparts == 1 && f.set->ntargets == 0 && f.set->nterms == 0);
+    assert_int_equal(film_floats(&f.params, 1), 3);
+    end_film(&f);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(further_hits_come_later),
+        cmocka_unit_test(monomials_go_their_own_ways),
+        cmocka_unit_test(the_terms_add_up),
+        cmocka_unit_test(black_albedo_has_footprints),
+        cmocka_unit_test(hits_are_a_tree),
+        cmocka_unit_test(targets_follow_each_other),
+        cmocka_unit_test(shares_add_up),
+        cmocka_unit_test(a_black_target_hides_no_other),
+        cmocka_unit_test(folded_light_is_counted_as_white),
+        cmocka_unit_test(a_plain_film_keeps_the_beauty),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

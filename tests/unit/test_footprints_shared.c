@@ -1,0 +1,193 @@
+/* Layout footprints, through the film: clusters that sharp and broad places share. */
+#include "lib_film.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+/* What nothing sharp needs, broad light has; and the other way about. */
+static void either_kind_may_have_all(void **state)
+{
+    (void)state;
+    static const double places[4] = {0.1, 0.12, 0.5, 0.9};
+    for (int sharp = 0; sharp < 2; sharp++) {
+        Fixture f;
+        begin_shared(&f, 1, 8, 6, 4);
+        create_film(&f);
+        for (int k = 0; k < 8; k++)
+            one_hit(&f, places[k % 4], 0.5, rgb_grey(0.5f), sharp, rgb_grey(1));
+        finish_film(&f);
+        assert_int_equal(count_clusters(&f, "sharp"), sharp ? 4 : 0);
+        assert_int_equal(count_clusters(&f, "broad"), sharp ? 0 : 4);
+        for (int k = 0; k < 4; k++) {
+            char name[32];
+            snprintf(name, sizeof name, "Floor_%s%d", sharp ? "sharp" : "broad", k + 1);
+            expect_place(&f, name, places[k], 0);
+        }
+        expect_beauty(&f, 0);
+        end_film(&f);
+    }
+}
+
+/* Where one of the other kind comes last, or came first, the cheapest pair makes room for it. */
+static void kinds_make_room_for_each_other(void **state)
+{
+    (void)state;
+    static const double places[4] = {0.1, 0.12, 0.5, 0.9};
+    for (int round = 0; round < 10; round++) {
+        int sharp = round % 2, at = round / 2; /* when the odd one comes */
+        Fixture f;
+        begin_shared(&f, 1, 5, 6, 4);
+        create_film(&f);
+        for (int k = 0; k < 5; k++)
+            if (k == at)
+                one_hit(&f, 0.11, 0.5, rgb_grey(0.5f), !sharp, rgb_grey(1));
+            else
+                one_hit(&f, places[k - (k > at)], 0.5, rgb_grey(0.25f), sharp, rgb_grey(1));
+        finish_film(&f);
+        assert_int_equal(count_clusters(&f, "sharp"), sharp ? 3 : 1);
+        assert_int_equal(count_clusters(&f, "broad"), sharp ? 1 : 3);
+        expect_place(&f, sharp ? "Floor_sharp1" : "Floor_broad1", 0.11, 0.01);
+        expect_place(&f, sharp ? "Floor_sharp2" : "Floor_broad2", 0.5, 0);
+        expect_place(&f, sharp ? "Floor_sharp3" : "Floor_broad3", 0.9, 0);
+        expect_place(&f, sharp ? "Floor_broad1" : "Floor_sharp1", 0.11, 0);
+        expect_rgb(part(&f, sharp ? "dep_Floor_sharp1" : "dep_Floor_broad1"), 0.4f, 0.4f, 0.4f, 1e-3);
+        expect_rgb(part(&f, sharp ? "dep_Floor_broad1" : "dep_Floor_sharp1"), 0.2f, 0.2f, 0.2f, 1e-3);
+        expect_beauty(&f, 0);
+        end_film(&f);
+    }
+}
+
+/* Of many places in any order: as many clusters as there may be, and of each kind some where there was light of it. */
+static void no_more_than_there_may_be(void **state)
+{
+    (void)state;
+    static const int allowed[][3] = {{4, 4, 4}, {2, 2, 2}, {16, 16, 16}, {3, 2, 1}, {4, 1, 3}, {16, 12, 4}, {2, 1, 1}};
+    enum { PATHS = 200 };
+    for (uint32_t round = 0; round < 4 * sizeof allowed / sizeof allowed[0]; round++) {
+        const int *most = allowed[round / 4];
+        uint32_t seed = round + 1;
+        Fixture f;
+        begin_film(&f, 1, PATHS, 6, most[1], most[2]);
+        f.params.clusters = most[0];
+        create_film(&f);
+        for (int k = 0; k < PATHS; k++) {
+            int sharp = round % 4 == 0   ? k % 2
+                        : round % 4 == 1 ? k < PATHS / 2
+                        : round % 4 == 2 ? k >= PATHS / 2
+                                         : k == 77;
+            one_hit(&f, test_random(&seed), 100 * pow(test_random(&seed), 8), rgb_grey(0.5f), sharp,
+                    rgb_grey((float)test_random(&seed)));
+        }
+        finish_film(&f);
+        int sharp = count_clusters(&f, "sharp"), broad = count_clusters(&f, "broad");
+        assert_in_range(sharp, 1, most[1]);
+        assert_in_range(broad, 1, most[2]);
+        assert_int_equal(sharp + broad, round % 4 == 3 && most[1] < most[0] ? 1 + most[2] : most[0]);
+        assert_true(expect_beauty(&f, 0) > 0.1);
+        end_film(&f);
+    }
+}
+
+/* A little broad light from far off, as on a plane to the horizon, leaves the near places their clusters; sharp light
+ * is merged by the squares of distances. */
+static void far_points_claim_no_clusters(void **state)
+{
+    (void)state;
+    static const double near[3] = {0.1, 0.6, 1.2}, far[3] = {100, -2000, 50000};
+    for (int first = 0; first < 2; first++)
+        for (int sharp = 0; sharp < 2; sharp++) {
+            Fixture f;
+            begin_shared(&f, 1, 6, 6, 4);
+            create_film(&f);
+            for (int k = 0; k < 6; k++)
+                if ((k < 3) == first)
+                    one_hit(&f, far[k % 3], 0.5, rgb_grey(0.5f), sharp, rgb_grey(1));
+                else
+                    one_hit(&f, near[k % 3], 0.5, rgb_grey(0.5f), sharp, rgb_grey(10));
+            finish_film(&f);
+            int apart = 0; /* near places that are as they were */
+            for (int k = 1; k <= 4; k++) {
+                char name[32];
+                snprintf(name, sizeof name, "uv_Floor_%s%d", sharp ? "sharp" : "broad", k);
+                for (int i = 0; i < 3; i++)
+                    apart += fabs(part(&f, name)[0] - near[i]) <= FINEST;
+            }
+            assert_int_equal(apart, sharp ? 0 : 3);
+            expect_beauty(&f, 0);
+            end_film(&f);
+        }
+}
+
+/* A path whose first hit is always the same, and whose further one is there. */
+static void later_hit(Fixture *f, double u, float light)
+{
+    begin_path(f);
+    hit(f, 0, 0.5, 0.5, rgb_grey(0.5f), SHARP);
+    hit(f, 0, u, 0.5, rgb_grey(0.5f), BROAD);
+    connect_light(f, rgb_grey(light));
+    end_path(f);
+}
+
+/* Further hits are pooled into two places; what is far off alone does not draw the other there. */
+static void further_hits_have_two_places(void **state)
+{
+    (void)state;
+    static const struct {
+        int count;
+        double u[4];
+        float light[4];
+        double mean[2], sd[2], share;
+    } cases[] = {
+        {2, {0.25, 0.75}, {1, 3}, {0.25, 0.75}, {0, 0}, 0.25},
+        {3, {0.25, 9, 0.375}, {1, 1, 1}, {0.3125, 9}, {0.0625, 0}, 2.0 / 3},
+        {3, {9, 0.25, 0.375}, {2, 1, 1}, {9, 0.3125}, {0, 0.0625}, 0.5},
+        {3, {0.25, 0.375, 1000}, {1, 1, 2}, {0.3125, 1000}, {0.0625, 0}, 0.5},
+    };
+    for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++) {
+        Fixture f;
+        begin_film(&f, 1, cases[k].count, 6, 2, 1);
+        create_film(&f);
+        for (int i = 0; i < cases[k].count; i++)
+            later_hit(&f, cases[k].u[i], cases[k].light[i]);
+        finish_film(&f);
+        expect_place(&f, "Floor_later1", cases[k].mean[0], cases[k].sd[0]);
+        expect_place(&f, "Floor_later2", cases[k].mean[1], cases[k].sd[1]);
+        assert_float_equal(part(&f, "share_Floor_later1")[0], cases[k].share, 2e-3);
+        expect_beauty(&f, 0);
+        end_film(&f);
+    }
+}
+
+/* Before anything is rendered, and by what the set may need at most. */
+static void too_many_parts_are_refused(void **state)
+{
+    (void)state;
+    static const struct {
+        int ntargets, clusters, sharp, broad, code;
+    } cases[] = {
+        {1, 16, 16, 16, RETEX_OK}, {4, 16, 16, 16, RETEX_OK}, {8, 4, 4, 4, RETEX_OK},
+        {8, 8, 8, 8, RETEX_OK},    {8, 16, 12, 4, RETEX_OK},  {8, 16, 16, 16, RETEX_ELIMIT},
+    };
+    for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++) {
+        Fixture f;
+        RetexError err = {0};
+        begin_film(&f, cases[k].ntargets, 1, 6, cases[k].sharp, cases[k].broad);
+        f.params.clusters = cases[k].clusters;
+        assert_int_equal(film_create(&f.film, &f.scene, &f.params, &err), cases[k].code);
+        assert_true(!cases[k].code || strstr(err.message, "more than 1490"));
+        end_film(&f);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(either_kind_may_have_all),     cmocka_unit_test(kinds_make_room_for_each_other),
+        cmocka_unit_test(no_more_than_there_may_be),    cmocka_unit_test(far_points_claim_no_clusters),
+        cmocka_unit_test(further_hits_have_two_places), cmocka_unit_test(too_many_parts_are_refused),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

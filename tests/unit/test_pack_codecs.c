@@ -1,0 +1,180 @@
+/* How packs keep numbers: JPEG of levels, planes. */
+#include "lib_test.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "pack_bands.h"
+#include "pack_jpeg_kernel.h"
+#include "pack_plan.h"
+#include "pack_restore.h"
+
+/* Levels come back within a step and a bit, also far above white, also where the size is no multiple of anything. */
+static void test_jpeg_keeps_levels(void **state)
+{
+    (void)state;
+    const PackCurve curve = {1, 255};
+    const int width = 75, height = 141;
+    for (int channels = 1; channels <= 3; channels += 2)
+        for (int bright = 0; bright < 2; bright++) {
+            const size_t count = (size_t)(width * height * channels);
+            float *values = malloc(count * sizeof *values), *levels = malloc(count * sizeof *levels);
+            float *back = malloc((size_t)(width * 64 * channels) * sizeof *back);
+            for (size_t i = 0; i < count; i++) {
+                const double x = (double)(i / (size_t)channels % (size_t)width) / width;
+                values[i] = (float)((bright ? 40 : 0.9) * (0.5 + 0.5 * sin(9 * x)) * (1 - 0.1 * (double)(i % 3)));
+                levels[i] = (float)pack_curve_level(&curve, (double)values[i]);
+                assert_true(fabs(pack_curve_value(&curve, (double)levels[i]) - (double)values[i]) <
+                            1e-4 * fmax((double)values[i], 1));
+            }
+            PackJpeg jpeg;
+            PackJpegDecoder *decoder;
+            RetexError err = {0};
+            test_must(pack_jpeg_encode(&jpeg, levels, width, height, channels, 1, &err), &err);
+            test_must(pack_jpeg_decoder_create(&decoder, &err), &err);
+            assert_int_equal(jpeg.npieces, 4);
+            size_t at = jpeg.pieces[0];
+            double sum = 0;
+            for (int band = 0; band < 3; band++) {
+                const int rows = band < 2 ? 64 : height - 128;
+                const size_t piece = jpeg.pieces[1 + band];
+                unsigned char *file = malloc(jpeg.pieces[0] + piece);
+                memcpy(file, jpeg.data, jpeg.pieces[0]);
+                memcpy(file + jpeg.pieces[0], jpeg.data + at, piece);
+                at += piece;
+                test_must(pack_jpeg_decode_band(decoder, back, file, jpeg.pieces[0], jpeg.pieces[0] + piece, width,
+                                                rows, channels, &curve, &err),
+                          &err);
+                for (int i = 0; i < width * rows * channels; i++) {
+                    const double off = pack_curve_level(&curve, (double)back[i]) -
+                                       (double)levels[(size_t)band * (size_t)(64 * width * channels) + (size_t)i];
+                    assert_true(fabs(off) < 6);
+                    sum += off * off;
+                }
+                free(file);
+            }
+            assert_true(sqrt(sum / (double)count) < (bright ? 1.0 : 0.6));
+            pack_jpeg_decoder_close(&decoder);
+            pack_jpeg_free(&jpeg);
+            free(values);
+            free(levels);
+            free(back);
+        }
+}
+
+/* Coefficients of all sizes, and blocks that have only their first, by every kernel: the bits of the reference. */
+static void test_jpeg_kernels_agree(void **state)
+{
+    (void)state;
+    enum { BLOCKS = 9, WIDTH = 8 * BLOCKS, MOST = 3 * WIDTH };
+    const PackJpegKernels *kernels[PACK_JPEG_KERNELS_MAX];
+    static int16_t coefficients[64 * BLOCKS];
+    static float steps[64], samples[2][8 * WIDTH], values[2][8 * MOST];
+    static PackLevelTable table = {.scale = 3.7f};
+    uint32_t seed = 7;
+    for (int i = 0; i < PACK_LEVEL_ENTRIES + 2; i++)
+        table.value[i] = (float)(i * i) / 1000;
+    const int count = pack_jpeg_kernels(kernels);
+    const PackJpegKernels *plain = kernels[count - 1];
+    for (int round = 0; round < 200; round++) {
+        for (int i = 0; i < 64 * BLOCKS; i++)
+            coefficients[i] = (int16_t)(i % 64 && (i / 64 + round) % 2 ? 0 : exp(8 * test_random(&seed)) - 40);
+        for (int i = 0; i < 64; i++)
+            steps[i] = (float)(1 + (int)(40 * test_random(&seed)));
+        plain->inverse(samples[0], WIDTH, coefficients, BLOCKS, steps);
+        const int width = WIDTH - round % 9; /* not only whole vectors */
+        const float *planes = samples[0];
+        plain->colours(values[0], planes, planes + WIDTH, planes + 2 * WIDTH, width, &table);
+        plain->greys(values[0] + MOST, planes, width, &table);
+        for (int k = 0; k < count; k++) {
+            kernels[k]->inverse(samples[1], WIDTH, coefficients, BLOCKS, steps);
+            for (int i = 0; i < 8 * WIDTH; i++)
+                assert_true(samples[1][i] == samples[0][i]); /* zeros may have a sign */
+            memset(values[1], 0, sizeof values[1]);
+            kernels[k]->colours(values[1], planes, planes + WIDTH, planes + 2 * WIDTH, width, &table);
+            kernels[k]->greys(values[1] + MOST, planes, width, &table);
+            assert_memory_equal(values[1], values[0], 3 * (size_t)width * sizeof(float));
+            assert_memory_equal(values[1] + MOST, values[0] + MOST, (size_t)width * sizeof(float));
+        }
+    }
+}
+
+/* The fast way to restore planes against the plain one, of every predictor, whatever is missing. */
+static void test_planes_restored_alike(void **state)
+{
+    (void)state;
+    enum { WIDTH = 83, ROWS = 17, ALL = WIDTH * ROWS };
+    static int32_t numbers[2][ALL];
+    static unsigned char present[ALL], shift[ALL], residuals[4 * ALL + 4];
+    uint32_t seed = 7;
+    for (int round = 0; round < 3 * 3 * 4 * PREDICTORS * 3; round++) {
+        const int bits = 8 << round % 3, bytes = 1 << round / 3 % 3, holes = round / 9 % 2, steps = round / 18 % 2;
+        const Predictor predictor = (Predictor)(round / 36 % PREDICTORS);
+        const int rare = round / (36 * PREDICTORS); /* how often a run of what matters ends */
+        for (int i = 0; i < ALL; i++) {
+            const int change = i % WIDTH == 0 || test_random(&seed) < (rare == 0 ? 0.5 : rare == 1 ? 0.05 : 0.0);
+            present[i] = change || i == 0 ? test_random(&seed) < 0.6 : present[i - 1];
+            shift[i] = (unsigned char)(test_random(&seed) * 12);
+        }
+        for (size_t i = 0; i < sizeof residuals; i++)
+            residuals[i] = (unsigned char)(test_random(&seed) * 256);
+        for (int k = 0; k < 2; k++) {
+            PackPlane plane = {WIDTH, ROWS, bits, holes ? present : NULL, steps ? shift : NULL, numbers[k]};
+            (k ? pack_restore : pack_restore_plainly)(&plane, predictor, residuals, bytes);
+        }
+        assert_memory_equal(numbers[0], numbers[1], sizeof numbers[0]);
+        size_t count = 0;
+        for (int i = 0; i < ALL; i++)
+            count += present[i];
+        assert_int_equal(pack_count_present(present, ALL), count);
+    }
+}
+
+/* Any numbers come back, whatever is missing and whatever their steps, by every width. */
+static void test_planes_keep_numbers(void **state)
+{
+    (void)state;
+    enum { WIDTH = 37, ROWS = 29, ALL = WIDTH * ROWS };
+    uint32_t seed = 1;
+    int32_t numbers[ALL], back[ALL];
+    unsigned char present[ALL], shift[ALL];
+    for (int round = 0; round < 60; round++) {
+        const int bits = round % 3 == 0 ? 8 : round % 3 == 1 ? 16 : 32, smooth = round / 3 % 2;
+        for (int i = 0; i < ALL; i++) {
+            present[i] = test_random(&seed) < 0.7;
+            shift[i] = (unsigned char)(test_random(&seed) * 12);
+            const double wide = ldexp(test_random(&seed), bits == 32 ? 30 : bits);
+            const double value = smooth ? 40 + i % WIDTH + i / WIDTH + 3 * test_random(&seed) : wide;
+            numbers[i] = bits == 8 ? (int32_t)value : (int32_t)(value - ldexp(1, bits == 32 ? 29 : bits - 1));
+        }
+        const int holes = round / 6 % 2, steps = bits == 32 && round / 12 % 2;
+        PackPlane plane = {WIDTH, ROWS, bits, holes ? present : NULL, steps ? shift : NULL, numbers};
+        const size_t room = pack_plane_room(&plane);
+        unsigned char *data = malloc(room), *scratch = malloc(2 * room);
+        const long bytes = pack_plane_encode(data, &plane, scratch, 5);
+        assert_true(bytes > 0);
+        plane.numbers = back;
+        assert_true(pack_plane_decode(&plane, data, (size_t)bytes, scratch));
+        for (int i = 0; i < ALL; i++) {
+            assert_int_equal(back[i], numbers[i]); /* encoding rounds them to their steps, and clears what is missing */
+            assert_true(!holes || present[i] || back[i] == 0);
+        }
+        assert_false(pack_plane_decode(&plane, data, (size_t)bytes - 1, scratch));
+        free(data);
+        free(scratch);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_jpeg_keeps_levels),
+        cmocka_unit_test(test_jpeg_kernels_agree),
+        cmocka_unit_test(test_planes_restored_alike),
+        cmocka_unit_test(test_planes_keep_numbers),
+    };
+    return cmocka_run_group_tests_name("pack codecs", tests, NULL, NULL);
+}

@@ -1,0 +1,177 @@
+/* Packs that are not whole, or lie, are refused. */
+#include "lib_pack.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+#include <zip.h>
+
+#include <cmocka.h>
+
+/* Reading gives an error with a message and no set. */
+static void assert_refused(const void *data, size_t bytes)
+{
+    RetexSet *set = NULL;
+    RetexError err = {0};
+    int code = retex_pack_read(data, bytes, &set, 1, &err);
+    assert_true(code < 0 && err.code == code && err.message[0]);
+    assert_null(set);
+    assert_true(retex_pack_check(data, bytes, NULL) < 0);
+}
+
+static int sets_equal(const RetexSet *a, const RetexSet *b)
+{
+    int equal = a->nparts == b->nparts && a->nterms == b->nterms && a->nfootprints == b->nfootprints &&
+                a->ntargets == b->ntargets && strcmp(a->scene, b->scene) == 0;
+    for (int i = 0; equal && i < a->nparts; i++) {
+        const RetexImage *x = &a->parts[i].image, *y = &b->parts[i].image;
+        equal = x->width == y->width && x->height == y->height && x->channels == y->channels &&
+                memcmp(x->pixels, y->pixels, (size_t)x->width * (size_t)x->height * (size_t)x->channels * 4) == 0;
+    }
+    return equal;
+}
+
+static void test_every_flipped_byte_is_seen(void **state)
+{
+    (void)state;
+    size_t bytes, unseen = 0;
+    RetexSet *set = test_set(16, 8, 7);
+    unsigned char *data = pack(set, NULL, &bytes);
+    RetexSet *whole = unpack(data, bytes);
+    for (size_t i = 0; i < bytes; i += i < 2048 ? 1 : 7) {
+        RetexSet *back = NULL;
+        unsigned char kept = data[i];
+        data[i] ^= (unsigned char)(1 + i % 255);
+        RetexError err = {0};
+        int code = retex_pack_read(data, bytes, &back, 1, &err);
+        if (code == 0) { /* a date or an attribute of the zip: then the set is the same to the bit */
+            assert_true(sets_equal(whole, back));
+            unseen++;
+        } else {
+            assert_true(code < 0 && err.message[0]);
+            assert_null(back);
+        }
+        retex_set_close(&back);
+        data[i] = kept;
+    }
+    assert_true(unseen < bytes / 70);
+    retex_set_close(&whole);
+    free(data);
+    retex_set_close(&set);
+}
+
+static void test_truncated_packs_are_refused(void **state)
+{
+    (void)state;
+    size_t bytes;
+    RetexSet *set = test_set(16, 8, 7);
+    unsigned char *data = pack(set, NULL, &bytes);
+    for (size_t cut = 0; cut < bytes; cut += cut < 64 || cut + 64 > bytes ? 1 : 97)
+        assert_refused(data, cut);
+    free(data);
+    retex_set_close(&set);
+}
+
+/* A pack with one change: an entry added, or the manifest edited by replacing `find` by `put`. */
+static unsigned char *changed_pack(const unsigned char *data, size_t bytes, const char *add, const char *find,
+                                   const char *put, size_t *out_bytes)
+{
+    char path[] = "/tmp/test_pack_XXXXXX";
+    int fd = mkstemp(path);
+    assert_true(fd >= 0 && write(fd, data, bytes) == (ssize_t)bytes);
+    close(fd);
+    zip_t *zip = zip_open(path, 0, NULL);
+    assert_non_null(zip);
+    char *edited = NULL;
+    if (add)
+        assert_true(zip_file_add(zip, add, zip_source_buffer(zip, "abc", 3, 0), 0) >= 0);
+    if (find) {
+        zip_stat_t stat;
+        assert_int_equal(zip_stat(zip, "manifest.json", 0, &stat), 0);
+        char *text = calloc(stat.size + 1, 1);
+        zip_file_t *file = zip_fopen(zip, "manifest.json", 0);
+        assert_int_equal(zip_fread(file, text, stat.size), stat.size);
+        zip_fclose(file);
+        char *at = strstr(text, find);
+        assert_non_null(at);
+        edited = malloc(stat.size + strlen(put) + 1);
+        sprintf(edited, "%.*s%s%s", (int)(at - text), text, put, at + strlen(find));
+        zip_int64_t index = zip_name_locate(zip, "manifest.json", 0);
+        assert_int_equal(
+            zip_file_replace(zip, (zip_uint64_t)index, zip_source_buffer(zip, edited, strlen(edited), 0), 0), 0);
+        zip_set_file_compression(zip, (zip_uint64_t)index, ZIP_CM_STORE, 0);
+        free(text);
+    }
+    assert_int_equal(zip_close(zip), 0);
+    free(edited);
+    FILE *result = fopen(path, "rb");
+    fseek(result, 0, SEEK_END);
+    *out_bytes = (size_t)ftell(result);
+    rewind(result);
+    unsigned char *out = malloc(*out_bytes);
+    assert_int_equal(fread(out, 1, *out_bytes, result), *out_bytes);
+    fclose(result);
+    unlink(path);
+    return out;
+}
+
+static void refuse_change(const char *add, const char *find, const char *put, const char *message)
+{
+    size_t bytes, changed_bytes;
+    RetexSet *set = test_set(16, 8, 7), *back = NULL;
+    RetexError err = {0};
+    unsigned char *data = pack(set, NULL, &bytes);
+    unsigned char *changed = changed_pack(data, bytes, add, find, put, &changed_bytes);
+    assert_refused(changed, changed_bytes);
+    retex_pack_read(changed, changed_bytes, &back, 1, &err);
+    assert_non_null(strstr(err.message, message));
+    free(changed);
+    free(data);
+    retex_set_close(&set);
+}
+
+static void test_foreign_entries_are_refused(void **state)
+{
+    (void)state;
+    refuse_change("../evil", NULL, NULL, "does not know");
+    refuse_change("/etc/passwd", NULL, NULL, "does not know");
+    refuse_change("parts/../../x.data", NULL, NULL, "does not know");
+    refuse_change("radiance/unknown.jpg", NULL, NULL, "does not know");
+}
+
+static void test_manifests_that_lie_are_refused(void **state)
+{
+    (void)state;
+    refuse_change(NULL, "\"codec\":\"jpeg\"", "\"codec\":\"webp\"", "this version knows");
+    refuse_change(NULL, "\"codec\":\"planes\"", "\"codec\":\"zero\"", "");
+    refuse_change(NULL, "\"pack\":{\"version\":2", "\"pack\":{\"version\":9", "version 9");
+    refuse_change(NULL, "\"white\":", "\"white\":-", "not sound");
+    refuse_change(NULL, "\"per_octave\":8", "\"per_octave\":0", "not sound");
+    refuse_change(NULL, "\"map\":\"lattice\"", "\"map\":\"trellis\"", "not sound");
+    refuse_change(NULL, "\"present\":\"t0_uv1\"", "\"present\":\"depth\"", "not sound");
+    refuse_change(NULL, "\"sigma\":\"t0_spread1\"", "\"sigma\":\"t0_uv1\"", "not sound");
+    refuse_change(NULL, "\"sigma\":\"t0_spread1\",", "", "not sound");
+    refuse_change(NULL, "\"width\":16,\"height\":8,\"crc", "\"width\":60000,\"height\":60000,\"crc", "");
+    refuse_change(NULL, "\"masked\":true", "\"masked\":false", "");
+}
+
+static void test_other_zips_are_refused(void **state)
+{
+    (void)state;
+    assert_refused("PK\5\6\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0", 22); /* an empty zip */
+    assert_refused("", 0);
+    assert_true(retex_pack_probe("PK\3\4", 4));
+    assert_false(retex_pack_probe("PK\3", 3));
+    assert_false(retex_pack_probe("\x76\x2f\x31\x01", 4));
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_every_flipped_byte_is_seen),  cmocka_unit_test(test_truncated_packs_are_refused),
+        cmocka_unit_test(test_foreign_entries_are_refused), cmocka_unit_test(test_manifests_that_lie_are_refused),
+        cmocka_unit_test(test_other_zips_are_refused),
+    };
+    return cmocka_run_group_tests_name("pack damage", tests, NULL, NULL);
+}

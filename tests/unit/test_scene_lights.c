@@ -1,0 +1,188 @@
+/* The scene side of the language: camera, lights, sky and targets. */
+#include "lib_scene_text.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "shade/pigment.h"
+
+/* ---- camera, lights, sky ---- */
+
+static void test_camera(void **state)
+{
+    (void)state;
+    /* look_at is applied last wherever it stands; angle is horizontal. */
+    expect_error(V37 "camera{location <1e300*1e300,0,0> look_at 0}", "not finite");
+    Scene *scene = parse(V37 "camera{look_at <0,0,4> angle 90 right 2*x up y location <0,0,-1>}");
+    assert_vec(scene->camera.location, 0, 0, -1);
+    assert_vec(scene->camera.direction, 0, 0, 1);
+    assert_vec(scene->camera.right, 2, 0, 0);
+    assert_int_equal(scene->width, 640);
+    assert_int_equal(scene->height, 320);
+    scene_close(&scene);
+    scene = parse(V37 "camera{right -16/9*x location <5,0,0> look_at 0 translate y}"); /* mirrored */
+    assert_vec(scene->camera.location, 5, 1, 0);
+    assert_vec(scene->camera.direction, -1, 0, 0);
+    assert_vec(scene->camera.right, 0, 0, -16.0 / 9);
+    assert_int_equal(scene->height, 360);
+    scene_close(&scene);
+    scene = parse(V37 "sphere{0,1}");
+    assert_near(scene->camera.right.x, 1.33);
+    assert_int_equal(scene->height, 480);
+    scene_close(&scene);
+    scene = parse(V37 "camera{orthographic location -10*z look_at 0 angle 90}");
+    assert_int_equal(scene->camera.kind, CAMERA_ORTHOGRAPHIC);
+    assert_near(vec_length(scene->camera.right), 20);
+    scene_close(&scene);
+    scene = parse(V37 "camera{fisheye angle 200 location -z look_at 0}");
+    assert_int_equal(scene->camera.kind, CAMERA_PERSPECTIVE);
+    assert_non_null(strstr(messages, "fisheye"));
+    scene_close(&scene);
+    expect_error(V37 "camera{location 0 look_at 0}", "same point");
+}
+
+static void test_lights(void **state)
+{
+    (void)state;
+    Scene *scene = parse(
+        V37 "#declare Bulb = sphere{0,.1 pigment{rgb 1}}"
+            "#declare L = light_source{<0,5,0> rgb <1,.5,.25> spotlight radius 20 falloff 25 tightness 3 point_at 0"
+            "  area_light x,z,4,5 jitter adaptive 1 fade_distance 2 fade_power 2 looks_like{Bulb}}"
+            "light_source{L rotate 90*z} light_source{0, 2 shadowless parallel point_at y}");
+    assert_int_equal(scene->nlights, 2);
+    const Light *light = &scene->lights[0];
+    assert_int_equal(light->kind, LIGHT_SPOT);
+    assert_vec(light->location, -5, 0, 0);
+    assert_vec(light->axis1, 0, 1, 0);
+    assert_int_equal(light->size2, 5);
+    assert_near(light->color.b, 0.25);
+    assert_near(light->fade_power, 2);
+    assert_true(scene->lights[1].shadowless);
+    assert_int_equal(scene->lights[1].kind, LIGHT_PARALLEL);
+    const Primitive *bulb = only(scene);
+    assert_true(bulb->no_shadow);
+    assert_vec(transform_point(&bulb->transform, vec3(0, 0, 0)), -5, 0, 0);
+    scene_close(&scene);
+}
+
+static void test_light_kinds_written_twice(void **state)
+{
+    (void)state;
+    const struct {
+        const char *words;
+        LightKind kind;
+    } cases[] = {{"cylinder parallel", LIGHT_CYLINDER},
+                 {"parallel cylinder", LIGHT_CYLINDER},
+                 {"spotlight parallel", LIGHT_PARALLEL},
+                 {"parallel spotlight", LIGHT_PARALLEL}};
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+        char text[128];
+        snprintf(text, sizeof text, V37 "light_source{<0,5,0> 1 %s point_at 0}", cases[k].words);
+        Scene *scene = parse(text);
+        assert_int_equal(scene->lights[0].kind, cases[k].kind);
+        scene_close(&scene);
+    }
+}
+
+static void test_names_of_insides(void **state)
+{
+    (void)state;
+    /* a texture that is used inside only can be a target too */
+    Scene *scene =
+        parse(V37 "#declare Lining = texture{pigment{rgb 1}} sphere{0,1 pigment{rgb 0} interior_texture{Lining}}");
+    const char *specs[] = {"Lining"};
+    assert_int_equal(scene_resolve_targets(scene, specs, 1, NULL), 0);
+    assert_int_equal(scene->primitives[0].interior_target, 0);
+    assert_int_equal(scene->primitives[0].target, -1);
+    scene_close(&scene);
+}
+
+static void test_sky(void **state)
+{
+    (void)state;
+    Scene *scene = parse(V37 "sky_sphere{pigment{gradient y color_map{[0 rgb 1][1 rgb <0,0,1>]}} pigment{rgbt 1}"
+                             " rotate 90*z emission .5}");
+    assert_int_equal(scene->sky->npigments, 2);
+    assert_near(scene->sky->emission.r, 0.5);
+    assert_color(pigment_eval(scene->sky->pigments[0], vec3(-0.5, 0, 0), (Vec2){0, 0}), 0.5, 0.5, 1);
+    scene_close(&scene);
+}
+
+/* ---- targets ---- */
+
+static const char target_text[] =
+    V37 "#declare Oak = pigment{rgb <.5,.3,.1>} #declare Floor = texture{pigment{Oak} finish{specular .2}}"
+        "#declare Wall = material{texture{pigment{rgb 1}}} #declare WALL = texture{pigment{rgb .5}}"
+        "#declare Unused = texture{pigment{rgb 0}} #declare Chair = union{box{0,1} box{1,2} texture{Floor}}"
+        "plane{y,0 texture{Floor}} plane{x,0 material{Wall}} object{Chair} plane{z,0 texture{WALL}}"
+        "mesh2{vertex_vectors{3,0,x,y} texture_list{2,texture{Floor},texture{WALL}} face_indices{1,<0,1,2>,1}}";
+
+static void test_targets(void **state)
+{
+    (void)state;
+    Scene *scene = parse(target_text);
+    RetexError err = {0};
+    assert_int_equal(scene->nidents, 5); /* Floor Oak Wall Chair WALL, not Unused */
+    assert_string_equal(scene->idents[0], "Floor");
+    assert_string_equal(scene->idents[1], "Oak");
+    const char *chair_first[] = {"Chair", "floor"};
+    assert_int_equal(scene_resolve_targets(scene, chair_first, 2, &err), 0);
+    assert_string_equal(scene->targets[1].name, "floor");
+    assert_string_equal(scene->targets[1].idents, "Floor");
+    assert_int_equal(scene->primitives[0].target, 1);
+    assert_int_equal(scene->primitives[1].target, -1);
+    assert_int_equal(scene->primitives[2].target, 0); /* a chair first, though its texture is Floor */
+    assert_int_equal(scene->primitives[5].target, -1);
+    assert_int_equal(scene->primitives[5].face_targets[0], 1);
+    assert_int_equal(scene->primitives[5].face_targets[1], -1);
+    const char *both[] = {"room=Wall,WALL,oak"};
+    assert_int_equal(scene_resolve_targets(scene, both, 1, &err), 0);
+    assert_string_equal(scene->targets[0].idents, "Wall,WALL,Oak");
+    assert_int_equal(scene->primitives[1].target, 0);
+    assert_int_equal(scene->primitives[0].target, 0);
+    scene_close(&scene);
+}
+
+static void test_target_errors(void **state)
+{
+    (void)state;
+    Scene *scene = parse(target_text);
+    struct {
+        const char *specs[2];
+        int n, code;
+        const char *part;
+    } cases[] = {
+        {{"flor"}, 1, RETEX_ENOTFOUND, "similar: Floor"},
+        {{"wall"}, 1, RETEX_ENOTFOUND, "could be `Wall` or `WALL`"},
+        {{"Unused"}, 1, RETEX_ENOTFOUND, "no texture"},
+        {{"a=Floor", "a=Wall"}, 2, RETEX_EINVAL, "twice"},
+        {{"=Floor"}, 1, RETEX_EINVAL, "name"},
+        {{"a="}, 1, RETEX_EINVAL, "identifier"},
+        {{"a=Floor,,Wall"}, 1, RETEX_EINVAL, "identifier"},
+        {{"a.b=Floor"}, 1, RETEX_EINVAL, "letters"},
+        {{"xyzzy"}, 1, RETEX_ENOTFOUND, "there are: Floor"},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        RetexError err = {0};
+        assert_int_equal(scene_resolve_targets(scene, cases[i].specs, cases[i].n, &err), cases[i].code);
+        if (!strstr(err.message, cases[i].part))
+            fail_msg("`%s` is not in `%s`", cases[i].part, err.message);
+    }
+    scene_close(&scene);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_camera),
+        cmocka_unit_test(test_lights),
+        cmocka_unit_test(test_light_kinds_written_twice),
+        cmocka_unit_test(test_names_of_insides),
+        cmocka_unit_test(test_sky),
+        cmocka_unit_test(test_targets),
+        cmocka_unit_test(test_target_errors),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,171 @@
+/* The scene side of the language: meshes and polygons, and what cannot be cut. */
+#include "lib_scene_text.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+/* ---- meshes ---- */
+
+static const char mesh2_text[] =
+    V37 "mesh2{ vertex_vectors{4, <0,0,0>,<1,0,0>,<1,1,0>,<0,1,0>} normal_vectors{1,<0,0,1>}"
+        " uv_vectors{4 <0,0>,<1,0>,<1,1>,<0,1>}"
+        " texture_list{2, texture{pigment{rgb <1,0,0>}} texture{pigment{rgb <0,1,0>}}}"
+        " face_indices{2, <0,1,2>,0, <0,2,3>,1} normal_indices{2,<0,0,0>,<0,0,0>} translate 5*x }";
+
+static void test_mesh2(void **state)
+{
+    (void)state;
+    Scene *scene = parse(mesh2_text);
+    const Primitive *p = only(scene);
+    const Mesh *mesh = p->mesh;
+    assert_int_equal(mesh->nvertices, 4);
+    assert_int_equal(mesh->nfaces, 2);
+    assert_int_equal(mesh->faces[1].texture, 1);
+    assert_int_equal(mesh->faces[1].normal[2], 0);
+    assert_int_equal(mesh->faces[1].uv[2], 3); /* by the vertices' indices */
+    assert_color(mesh->textures[1]->pigment->color, 0, 1, 0);
+    assert_vec(transform_point(&p->transform, mesh->vertices[1]), 6, 0, 0);
+    scene_close(&scene);
+}
+
+static void test_mesh2_errors(void **state)
+{
+    (void)state;
+    expect_error(V37 "mesh2{vertex_vectors{3,0,x,y} face_indices{1,<0,1,3>}}", "vertex 3");
+    expect_error(V37 "mesh2{vertex_vectors{3,0,x,y} face_indices{1,<0,-1,2>}}", "vertex -1");
+    expect_error(V37 "mesh2{vertex_vectors{4,<0,0,0>,<1,0,0>,<0,1,0>} face_indices{1,<0,1,2>}}", "only 3 are there");
+    expect_error(V37 "mesh2{vertex_vectors{2,<0,0,0>,<1,0,0>,<0,1,0>} face_indices{1,<0,1,1>}}", "more than");
+    expect_error(V37 "mesh2{vertex_vectors{1e12,0,x,y}}", "number of elements");
+    expect_error(V37 "mesh2{vertex_vectors{-1,0}}", "number of elements");
+    expect_error(V37 "mesh2{vertex_vectors{3,0,x,y} texture_list{1,texture{}} face_indices{1,<0,1,2>,1}}", "texture 1");
+    expect_error(V37 "mesh2{vertex_vectors{3,0,x,y} uv_vectors{1,<0,0>} face_indices{1,<0,1,2>}"
+                     " uv_indices{1,<0,0,1>}}",
+                 "UV 1");
+    expect_error(V37 "mesh2{face_indices{0}}", "vertex_vectors");
+}
+
+static void test_mesh(void **state)
+{
+    (void)state;
+    Scene *scene = parse(
+        V37 "#declare A = texture{pigment{rgb 1}} #declare B = texture{pigment{rgb <1,0,0>}}"
+            "mesh{ triangle{0,x,y texture{A}} smooth_triangle{0,z,x,z,y,z uv_vectors <0,0>,<1,0>,<0,1> texture{B}}"
+            " triangle{0,x,z texture{A}} triangle{0,z,y} inside_vector y pigment{rgb <0,0,1>} }");
+    const Mesh *mesh = only(scene)->mesh;
+    assert_int_equal(mesh->nfaces, 4);
+    assert_int_equal(mesh->ntextures, 2);
+    assert_int_equal(mesh->faces[2].texture, mesh->faces[0].texture);
+    assert_int_equal(mesh->faces[3].texture, -1);
+    assert_int_equal(mesh->faces[0].normal[0], -1);
+    assert_true(mesh->faces[1].normal[2] >= 0 && mesh->faces[1].uv[2] >= 0);
+    assert_true(mesh->closed_inside);
+    scene_close(&scene);
+}
+
+static void test_loose_triangles(void **state)
+{
+    (void)state;
+    Scene *scene = parse(V37 "#declare Net = union{ triangle{0,x,y} triangle{x,y,z translate z}"
+                             "  smooth_triangle{0,z,x,z,y,z} pigment{rgb 1} }"
+                             "object{Net translate 3*x} sphere{0,1} triangle{0,x,y no_shadow} triangle{0,x,z}");
+    assert_int_equal(scene->nprimitives, 4);
+    const Mesh *mesh = scene->primitives[0].mesh;
+    assert_int_equal(mesh->nfaces, 3);
+    assert_vec(mesh->vertices[3], 4, 0, 1);
+    assert_int_equal(mesh->faces[0].normal[0], -1);
+    assert_vec(mesh->normals[mesh->faces[2].normal[1]], 0, 0, 1);
+    assert_string_equal(scene->primitives[0].idents->name, "Net");
+    scene_close(&scene);
+}
+
+static double mesh_area(const Scene *scene)
+{
+    double area = 0;
+    const Mesh *mesh = only(scene)->mesh;
+    for (int i = 0; i < mesh->nfaces; i++) {
+        const int *v = mesh->faces[i].vertex;
+        area += 0.5 * vec_length(vec_cross(vec_sub(mesh->vertices[v[1]], mesh->vertices[v[0]]),
+                                           vec_sub(mesh->vertices[v[2]], mesh->vertices[v[0]])));
+    }
+    return area;
+}
+
+static void test_polygons(void **state)
+{
+    (void)state;
+    struct {
+        const char *text;
+        double area;
+    } cases[] = {
+        {"polygon{5,<0,0>,<2,0>,<2,1>,<0,1>,<0,0>}", 2},
+        {"polygon{4,<0,0>,<2,0>,<2,1>,<0,1>}", 2},                                       /* not closed */
+        {"polygon{10,<0,0>,<4,0>,<4,4>,<0,4>,<0,0>,<1,1>,<1,2>,<2,2>,<2,1>,<1,1>}", 15}, /* a hole */
+        {"polygon{7,<0,0>,<3,0>,<3,3>,<2,3>,<2,1>,<0,1>,<0,0>}", 5},                     /* an L */
+        {"polygon{5,<0,0>,<2,2>,<2,0>,<0,2>,<0,0>}", 2},                                 /* a bow tie */
+        /* Two squares that overlap: even-odd leaves the common part out. */
+        {"polygon{10,<0,0>,<2,0>,<2,2>,<0,2>,<0,0>,<1,1>,<3,1>,<3,3>,<1,3>,<1,1>}", 6},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        char text[512];
+        snprintf(text, sizeof text, "%s%s", V37, cases[i].text);
+        /* In a plane that leans: areas must not change. */
+        char *brace = strrchr(text, '}');
+        snprintf(brace, sizeof text - (size_t)(brace - text), " rotate <20,30,40>}");
+        Scene *scene = parse(text);
+        assert_near(mesh_area(scene), cases[i].area);
+        scene_close(&scene);
+    }
+    expect_error(V37 "polygon{2,0,x}", "points");
+    Scene *scene = parse(V37 "polygon{4,0,x,2*x,0}");
+    assert_int_equal(scene->nprimitives, 0);
+    scene_close(&scene);
+}
+
+/* A five-pointed star drawn in one stroke: even-odd leaves its middle empty. */
+static void test_star(void **state)
+{
+    (void)state;
+    char text[1024] = V37 "polygon{6";
+    for (int i = 0; i <= 5; i++) {
+        double a = 2 * PI * (2 * i % 5) / 5;
+        snprintf(text + strlen(text), sizeof text - strlen(text), ",<%.17g,%.17g>", cos(a), sin(a));
+    }
+    strcat(text, "}");
+    Scene *scene = parse(text);
+    double r = cos(2 * PI / 5) / cos(PI / 5), pentagon = 2.5 * r * r * sin(2 * PI / 5);
+    assert_near(mesh_area(scene), 10 * 0.5 * r * sin(PI / 5) - pentagon);
+    scene_close(&scene);
+}
+
+/* ---- groups we cannot cut ---- */
+
+static void test_csg(void **state)
+{
+    (void)state;
+    Scene *scene = parse(V37 "difference{box{-1,1} sphere{0,1.2} pigment{rgb 1}} "
+                             "intersection{plane{y,0} sphere{0,1} box{0,1}} merge{sphere{0,1} sphere{x,1}}");
+    assert_int_equal(scene->nprimitives, 4);
+    assert_int_equal(scene->primitives[0].kind, SHAPE_BOX);
+    assert_int_equal(scene->primitives[1].kind, SHAPE_SPHERE);
+    assert_non_null(strstr(messages, "`difference` is not supported yet"));
+    assert_non_null(strstr(messages, "`intersection` is not supported yet"));
+    scene_close(&scene);
+    scene = parse(V37 "blob{threshold .5 sphere{0,1,1} texture{pigment{rgb 1}}} sphere{0,1}");
+    assert_int_equal(scene->nprimitives, 1);
+    assert_non_null(strstr(messages, "`blob` is not supported yet"));
+    scene_close(&scene);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_mesh2),    cmocka_unit_test(test_mesh2_errors),
+        cmocka_unit_test(test_mesh),     cmocka_unit_test(test_loose_triangles),
+        cmocka_unit_test(test_polygons), cmocka_unit_test(test_star),
+        cmocka_unit_test(test_csg),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

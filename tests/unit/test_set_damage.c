@@ -1,0 +1,359 @@
+/* Sets and samples: checksums, manifests that lie, files that are damaged. */
+#include "lib_folder.h"
+#include "lib_sets.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include <cmocka.h>
+
+#include "exr_io.h"
+#include "half.h"
+#include "manifest.h"
+
+static const char *const path = test_own_file;
+
+static int read_manifest(const char *json, char *message)
+{
+    RetexSet *set;
+    RetexSamples *samples;
+    RetexSamplePart *parts;
+    RetexError err = {0};
+    const int status = retex_manifest_read(json, "x.exr", &set, &samples, &parts, &err);
+    strcpy(message, err.message);
+    retex_set_close(&set);
+    retex_samples_close(&samples);
+    free(parts);
+    return status;
+}
+
+/* json with the first `from` behind `after` replaced; freed by the caller. */
+static char *edited(const char *json, const char *after, const char *from, const char *to)
+{
+    char *copy = malloc(strlen(json) + strlen(to) + 1);
+    const char *start = strstr(json, after);
+    assert_non_null(start);
+    start = strstr(start, from);
+    assert_non_null(start);
+    memcpy(copy, json, (size_t)(start - json));
+    sprintf(copy + (start - json), "%s%s", to, start + strlen(from));
+    return copy;
+}
+
+/* In a manifest the first `from` behind `after` becomes `to`: how reading it ends, and part of the message. */
+typedef struct ManifestCase {
+    const char *after, *from, *to;
+    int code;
+    const char *says;
+} ManifestCase;
+
+static void check_manifests(const char *json, const ManifestCase *cases, size_t count)
+{
+    char message[1024];
+    assert_int_equal(read_manifest(json, message), 0);
+    for (size_t i = 0; i < count; i++) {
+        char *copy = edited(json, cases[i].after, cases[i].from, cases[i].to);
+        const int status = read_manifest(copy, message);
+        if (status != cases[i].code || !strstr(message, cases[i].says))
+            fail_msg("case %zu: %d \"%s\"", i, status, message);
+        free(copy);
+    }
+}
+
+/* Characters replaced at random: it may be anything, but no crash. */
+static void turn_inside_out(char *json)
+{
+    char message[1024];
+    const size_t length = strlen(json);
+    uint32_t seed = 1;
+    for (int i = 0; i < 3000; i++) {
+        const size_t place = (size_t)(test_random(&seed) * (double)length);
+        const char old = json[place];
+        json[place] = i % 3 == 0 ? 0 : (char)(32 + test_random(&seed) * 90);
+        read_manifest(json, message);
+        json[place] = old;
+    }
+}
+
+static void test_manifests_that_lie(void **state)
+{
+    (void)state;
+    static const ManifestCase cases[] = {
+        {"", "{\"retex\":1", "{\"retex\":3", RETEX_EUNSUPPORTED, "version 3"},
+        {"", "{\"retex\":1", "{\"retex\":\"1\"", RETEX_EFORMAT, "no version"},
+        {"", "{\"retex\":1", "{\"retex\":1,\"later\":[{}]", 0, ""},
+        {"", "{\"retex\":1", "[\"retex\":1", RETEX_EFORMAT, "no JSON"},
+        {"", "\"set\"", "\"sett\"", RETEX_EFORMAT, "unknown kind"},
+        {"", "\"width\":", "\"width\":7", RETEX_EFORMAT, "another size"},
+        {"", "\"width\":", "\"width\":-", RETEX_EFORMAT, "\"width\""},
+        {"", "\"height\":", "\"height\":99999", RETEX_EFORMAT, "\"height\""},
+        {"", "\"layout\":\"", "\"layout\":\"0123456789abcdef", RETEX_EFORMAT, "\"layout\""},
+        {"", "\"orders\":", "\"orders\":-", RETEX_EFORMAT, "\"orders\""},
+        {"", "\"seed\":", "\"seed\":99999999999", RETEX_EFORMAT, "\"seed\""},
+        {"", "\"folded\":", "\"folded\":null,\"x\":", RETEX_EFORMAT, "\"folded\""},
+        {"", "\"folded_white\":", "\"folded_white\":\"0\",\"x\":", RETEX_EFORMAT, "\"folded_white\""},
+        {"", "\"folded_white\":", "\"x\":", 0, ""},
+        {"\"targets\"", "\"periodic\":[", "\"periodic\":[7,", RETEX_EFORMAT, "\"periodic\""},
+        {"\"targets\"", "\"uv_scale\":[", "\"uv_scale\":[1,", RETEX_EFORMAT, "\"uv_scale\""},
+        {"\"targets\"", "\"uv_scale\":[", "\"uv_scale\":[1],\"x\":[", RETEX_EFORMAT, "\"uv_scale\""},
+        {"\"targets\"", "\"uv_scale\":[", "\"uv_scale\":[1,\"2\"],\"x\":[", RETEX_EFORMAT, "\"uv_scale\""},
+        {"\"targets\"", "\"uv_scale\":[", "\"uv_scale\":7,\"x\":[", RETEX_EFORMAT, "\"uv_scale\""},
+        {"\"targets\"", "\"uv_scale\":[", "\"x\":[", 0, ""},
+        {"\"footprints\"", "\"target\":", "\"target\":5", RETEX_EFORMAT, "\"target\""},
+        {"\"footprints\"", "\"hit\":", "\"hit\":-", RETEX_EFORMAT, "\"hit\""},
+        {"\"footprints\"", "\"uv\":\"", "\"uv\":\"no", RETEX_EFORMAT, "\"uv\""},
+        {"\"footprints\"", "\"uv\":\"", "\"uv\":null,\"x\":\"", 0, ""},
+        {"\"footprints\"", "\"kind\":\"hit", "\"kind\":\"hitt", RETEX_EFORMAT, "unknown kind \"hitt\""},
+        {"\"footprints\"", "\"kind\":\"hit", "\"kind\":\"dep", RETEX_EFORMAT, "unknown kind \"dep\""},
+        {"\"footprints\"", "\"kind\":\"hit", "\"kind\":\"", RETEX_EFORMAT, "unknown kind \"\""},
+        {"\"footprints\"", "\"kind\":\"", "\"kind\":\"0123456789abcdef", RETEX_EFORMAT, "\"kind\""},
+        {"\"footprints\"", "\"kind\":\"", "\"kind\":1,\"x\":\"", RETEX_EFORMAT, "\"kind\""},
+        {"\"footprints\"", "\"kind\":\"hit", "\"kind\":\"sharp", 0, ""},
+        {"\"footprints\"", "\"kind\":\"hit", "\"kind\":\"broad", 0, ""},
+        {"\"footprints\"", "\"kind\":\"hit", "\"kind\":\"later", 0, ""},
+        {"\"footprints\"", "\"kind\":\"", "\"x\":\"", 0, ""},
+        {"\"parts\"", "\"letters\":\"RG\"", "\"letters\":\"RGB\"", 0, ""}, /* spread with the correlation */
+        {"\"parts\"", "\"letters\":\"RG\"", "\"letters\":\"RGBA\"", RETEX_EFORMAT, "4 channels instead of 2"},
+        {"\"parts\"", "\"letters\":\"RG\"", "\"letters\":\"R\"", RETEX_EFORMAT, "1 channels instead of 2"},
+        {"\"terms\"", "\"kind\":\"", "\"kind\":\"x", RETEX_EFORMAT, "unknown kind"},
+        {"\"terms\"", "\"radiance\":\"", "\"radiance\":null,\"x\":\"", RETEX_EFORMAT, "\"radiance\""},
+        {"\"terms\"", "\"factors\":[", "\"factors\":[600", RETEX_EFORMAT, "factor"},
+        {"\"terms\"", "\"factors\":[", "\"factors\":[-1", RETEX_EFORMAT, "no footprint and no mixture"},
+        {"\"terms\"", "\"factors\":[0", "\"factors\":[0.5", RETEX_EFORMAT, "no footprint and no mixture"},
+        {"\"terms\"", "\"factors\":[0", "\"factors\":[null", RETEX_EFORMAT, "no footprint and no mixture"},
+        {"\"terms\"", "\"factors\":[0", "\"factors\":[0,0,0,0,0,0,0,0,0,0,0,0", 0, ""},
+        {"\"terms\"", "\"factors\":[0", "\"factors\":[0,0,0,0,0,0,0,0,0,0,0,0,0", RETEX_EFORMAT, "at most 12"},
+        {"", "\"mixtures\":[]", "\"x\":[]", 0, ""}, /* may be left out */
+        {"", "\"mixtures\":[]", "\"mixtures\":{}", RETEX_EFORMAT, "no list \"mixtures\""},
+        {"", "\"mixtures\":[]", "\"mixtures\":null", RETEX_EFORMAT, "no list \"mixtures\""},
+        {"\"parts\"", "\"name\":\"", "\"name\":\"a b", RETEX_EFORMAT, "named"},
+        {"\"parts\"", "\"letters\":\"", "\"letters\":\"a", RETEX_EFORMAT, "channels"},
+        {"\"parts\"", "\"type\":\"", "\"type\":\"x", RETEX_EFORMAT, "type"},
+        {"\"parts\"", "\"crc32\":\"", "\"crc32\":\"0", RETEX_EFORMAT, "checksum"},
+        {"\"parts\"", "\"parts\":[", "\"parts\":[],\"x\":[", RETEX_EFORMAT, "no parts"},
+    };
+    RetexSet *set = test_set(16, 16, 1);
+    char *json;
+    RetexError err = {0};
+    test_must(retex_set_manifest(set, NULL, &json, &err), &err);
+    check_manifests(json, cases, sizeof cases / sizeof cases[0]);
+    turn_inside_out(json);
+    free(json);
+    set->folded = __builtin_nan("");
+    assert_int_equal(retex_set_manifest(set, NULL, &json, &err), RETEX_EINVAL);
+    retex_set_close(&set);
+}
+
+static void test_mixtures_that_lie(void **state)
+{
+    (void)state;
+    static const ManifestCase cases[] = {
+        {"", "\"mixtures\":", "\"x\":", RETEX_EFORMAT, "no footprint and no mixture"},
+        {"", "\"mixtures\":[", "\"mixtures\":[],\"x\":[", RETEX_EFORMAT, "no footprint and no mixture"},
+        {"", "\"mixtures\":[", "\"mixtures\":[7,", RETEX_EFORMAT, "a mixture that is no list of at most 16"},
+        {"", "\"mixtures\":[", "\"mixtures\":[{},", RETEX_EFORMAT, "a mixture that is no list of at most 16"},
+        {"", "\"mixtures\":[", "\"mixtures\":[[],", RETEX_EINVAL, "1 to 16 shares, not 0"},
+        {"", "\"mixtures\":[[", "\"mixtures\":[[7,", RETEX_EFORMAT, "\"footprint\""},
+        {"", "\"mixtures\":[[", "\"mixtures\":[[1,2,3,4,5,6,7,8,9,10,11,12,13,14,15,", RETEX_EFORMAT,
+         "a mixture that is no list of at most 16"},
+        {"", "\"mixtures\":[",
+         "\"mixtures\":[0,1,2,3,4,5,6,7,8,9,0,1,2,3,4,5,6,7,8,9,0,1,2,3,4,5,6,7,8,9,0,1,2,3,4,5,6,7,8,9,",
+         RETEX_EFORMAT, "no list \"mixtures\" of at most 41"},
+        {"\"mixtures\"", "\"footprint\":2", "\"footprint\":5", 0, ""},
+        {"\"mixtures\"", "\"footprint\":2", "\"footprint\":6", RETEX_EFORMAT, "\"footprint\" from 0 to 5"},
+        {"\"mixtures\"", "\"footprint\":2", "\"footprint\":-1", RETEX_EFORMAT, "\"footprint\""},
+        {"\"mixtures\"", "\"footprint\":2", "\"footprint\":2.5", RETEX_EFORMAT, "\"footprint\""},
+        {"\"mixtures\"", "\"footprint\":2", "\"x\":2", RETEX_EFORMAT, "\"footprint\""},
+        {"\"mixtures\"", "\"share-0\"", "\"depth\"", 0, ""},
+        {"\"mixtures\"", "\"share-0\"", "\"beauty\"", 0, ""}, /* colour by colour */
+        {"\"mixtures\"", "\"share-2\"", "\"depth\"", 0, ""},
+        {"\"mixtures\"", "\"share-0\"", "\"two\"", RETEX_EFORMAT, "2 channels instead of 1"},
+        {"\"mixtures\"", "\"share-2\"", "\"two\"", RETEX_EFORMAT, "2 channels instead of 1"},
+        {"\"mixtures\"", "\"share-0\"", "\"small\"", RETEX_EFORMAT, "\"weight\" a part that is neither"},
+        {"\"mixtures\"", "\"share-2\"", "\"small-rgb\"", RETEX_EFORMAT, "\"weight\" a part that is neither"},
+        {"\"mixtures\"", "\"share-0\"", "\"share-9\"", RETEX_EFORMAT, "\"weight\""},
+        {"\"mixtures\"", "\"share-0\"", "null", RETEX_EFORMAT, "\"weight\""},
+        {"\"mixtures\"", "\"weight\"", "\"x\"", RETEX_EFORMAT, "\"weight\""},
+        {"\"terms\"", "-1", "-2", 0, ""},
+        {"\"terms\"", "-1", "-3", RETEX_EFORMAT, "no footprint and no mixture"},
+        {"\"terms\"", "-1", "-2147483648", RETEX_EFORMAT, "no footprint and no mixture"},
+        {"\"terms\"", "-1", "-4294967297", RETEX_EFORMAT, "no footprint and no mixture"},
+        {"\"terms\"", "-1", "-1.0", RETEX_EFORMAT, "no footprint and no mixture"},
+    };
+    RetexSet *set = test_set(16, 16, 1);
+    char *json;
+    RetexError err = {0};
+    test_make_footprints(set);
+    test_must(retex_set_add_part(set, "small", "R", RETEX_HALF, 3, 2, NULL, &err), &err);
+    test_must(retex_set_add_part(set, "small-rgb", "RGB", RETEX_HALF, 3, 2, NULL, &err), &err);
+    test_must(retex_set_add_part(set, "two", "RG", RETEX_HALF, 0, 0, NULL, &err), &err);
+    test_must(retex_set_manifest(set, NULL, &json, &err), &err);
+    check_manifests(json, cases, sizeof cases / sizeof cases[0]);
+    turn_inside_out(json);
+    free(json);
+    retex_set_close(&set);
+}
+
+/* Nor is one written. */
+static void test_mixtures_that_are_wrong(void **state)
+{
+    (void)state;
+    static const int nshares[] = {-1, 0, RETEX_SHARES_MAX + 1}, nmixtures[] = {-1, RETEX_MIXTURES_MAX + 1};
+    RetexSet *set = test_set(16, 16, 1);
+    RetexError err = {0};
+    test_make_footprints(set);
+    RetexMixture *mixture = &set->mixtures[1];
+    const RetexMixture kept = *mixture;
+    const int weights[] = {-1, set->nparts}, footprints[] = {-1, set->nfootprints};
+    for (int k = 0; k < 2; k++) {
+        mixture->shares[2].weight = weights[k];
+        assert_int_equal(retex_set_write(set, NULL, path, NULL, &err), RETEX_EINVAL);
+        *mixture = kept;
+        mixture->shares[2].footprint = footprints[k];
+        assert_int_equal(retex_set_write(set, NULL, path, NULL, &err), RETEX_EINVAL);
+        *mixture = kept;
+        set->nmixtures = nmixtures[k];
+        assert_int_equal(retex_set_write(set, NULL, path, NULL, &err), RETEX_EINVAL);
+        set->nmixtures = 2;
+    }
+    for (int k = 0; k < 3; k++) {
+        mixture->nshares = nshares[k];
+        assert_int_equal(retex_set_write(set, NULL, path, NULL, &err), RETEX_EINVAL);
+    }
+    *mixture = kept;
+    test_must(retex_set_write(set, NULL, path, NULL, &err), &err);
+    set->terms[1].nfactors = RETEX_MAX_FACTORS + 1;
+    assert_int_equal(retex_set_write(set, NULL, path, NULL, &err), RETEX_EINVAL);
+    retex_set_close(&set);
+}
+
+static unsigned char *load(size_t *bytes)
+{
+    FILE *file = fopen(path, "rb");
+    assert_non_null(file);
+    fseek(file, 0, SEEK_END);
+    *bytes = (size_t)ftell(file);
+    rewind(file);
+    unsigned char *data = malloc(*bytes);
+    assert_int_equal(fread(data, 1, *bytes, file), *bytes);
+    fclose(file);
+    return data;
+}
+
+static void store(const unsigned char *data, size_t bytes)
+{
+    unlink(path); /* file systems flush a file that is truncated and written again */
+    FILE *file = fopen(path, "wb");
+    assert_non_null(file);
+    assert_int_equal(fwrite(data, 1, bytes, file), bytes);
+    assert_int_equal(fclose(file), 0);
+}
+
+/* The pixels fill the second half of a file, and their checksums find every bit that is flipped in them; what they do
+ * not find, in the heading of a chunk, has changed none. */
+static void assert_pixels_survive(const RetexSet *whole)
+{
+    RetexSet *set = NULL;
+    RetexError err = {0};
+    test_must(retex_set_read(path, &set, NULL, 1, &err), &err);
+    assert_int_equal(set->nparts, whole->nparts);
+    for (int i = 0; i < set->nparts; i++) {
+        const RetexImage *a = &set->parts[i].image, *b = &whole->parts[i].image;
+        assert_int_equal(a->width, b->width);
+        assert_int_equal(a->height, b->height);
+        assert_int_equal(a->channels, b->channels);
+        assert_memory_equal(a->pixels, b->pixels,
+                            sizeof *a->pixels * (size_t)a->width * (size_t)a->height * (size_t)a->channels);
+    }
+    retex_set_close(&set);
+}
+
+static int read_anything(RetexError *err)
+{
+    RetexSet *set;
+    RetexSamples *samples;
+    const int status = retex_set_read(path, &set, &samples, 2, err);
+    if (status) {
+        assert_null(set);
+        assert_null(samples);
+        assert_true(err->message[0] != 0);
+    }
+    retex_set_close(&set);
+    retex_samples_close(&samples);
+    return status;
+}
+
+static void test_damaged_files(void **state)
+{
+    (void)state;
+    for (int compress = 0; compress < 2; compress++) {
+        RetexSet *set = test_set(20, 20, 6);
+        RetexStoreParams params = RETEX_STORE_INIT;
+        RetexError err = {0};
+        uint32_t seed = 11;
+        size_t bytes;
+        params.compress = compress;
+        test_must(retex_set_write(set, NULL, path, &params, &err), &err);
+        unsigned char *data = load(&bytes);
+        for (size_t length = 0; length < bytes; length += 1 + length / 40) {
+            store(data, length);
+            assert_int_equal(read_anything(&err), RETEX_EFORMAT);
+            assert_int_equal(retex_set_check(path, 1, &err), RETEX_EFORMAT);
+        }
+        RetexSet *whole = NULL;
+        store(data, bytes);
+        test_must(retex_set_read(path, &whole, NULL, 1, &err), &err);
+        int unnoticed = 0;
+        for (int i = 0; i < 1200; i++) {
+            const size_t range = i % 2 ? bytes : 8000;
+            const size_t place = (size_t)(test_random(&seed) * (double)range) % bytes;
+            const unsigned char old = data[place];
+            data[place] ^= (unsigned char)(1 << i % 8);
+            store(data, bytes);
+            unnoticed += read_anything(&err) == 0;
+            if (retex_set_check(path, 1, &err) == 0 && place > bytes / 2)
+                assert_pixels_survive(whole);
+            data[place] = old;
+        }
+        retex_set_close(&whole);
+        assert_true(unnoticed < 1200);
+        free(data);
+        retex_set_close(&set);
+    }
+}
+
+static void test_what_is_no_set(void **state)
+{
+    (void)state;
+    RetexImage image = {0};
+    RetexError err = {0};
+    char exr[80];
+    store((const unsigned char *)"hello", 5);
+    assert_int_equal(read_anything(&err), RETEX_EFORMAT);
+    store((const unsigned char *)"", 0);
+    assert_int_equal(read_anything(&err), RETEX_EFORMAT);
+    snprintf(exr, sizeof exr, "%s.exr", path);
+    test_random_image(&image, 8, 8, 3, 1, 0, 1);
+    test_must(retex_image_write(&image, exr, NULL, &err), &err);
+    RetexSet *set;
+    assert_int_equal(retex_set_read(exr, &set, NULL, 0, &err), RETEX_EFORMAT);
+    assert_non_null(strstr(err.message, "is not a set (no `retex` attribute)"));
+    unlink(exr);
+    assert_int_equal(retex_set_read("/nowhere.exr", &set, NULL, 0, &err), RETEX_EIO);
+    assert_int_equal(retex_set_read("/tmp", &set, NULL, 0, &err), RETEX_EIO);
+    assert_int_equal(retex_set_read(path, NULL, NULL, 0, &err), RETEX_EINVAL);
+    assert_int_equal(retex_set_write(NULL, NULL, path, NULL, &err), RETEX_EINVAL);
+    retex_image_free(&image);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_manifests_that_lie),      cmocka_unit_test(test_mixtures_that_lie),
+        cmocka_unit_test(test_mixtures_that_are_wrong), cmocka_unit_test(test_damaged_files),
+        cmocka_unit_test(test_what_is_no_set),
+    };
+    return cmocka_run_group_tests(tests, test_make_folder, test_remove_folder);
+}
