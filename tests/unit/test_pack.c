@@ -264,8 +264,6 @@ static void test_black_parts_cost_nothing(void **state)
     retex_set_close(&set);
 }
 
-/* --- the codecs --- */
-
 /* Rows read one by one, in any order, are those of the whole; so are they from an open file. */
 static void test_rows_are_those_of_the_whole(void **state)
 {
@@ -286,34 +284,27 @@ static void test_rows_are_those_of_the_whole(void **state)
     test_must(retex_input_borrow(&input, data, bytes, "memory", &err), &err);
     test_must(retex_pack_open(&open, &input, 1, &err), &err);
     test_must(retex_pack_scratch_create(&scratch, retex_pack_of(open), &err), &err);
-    const int spans[][2] = {{0, 64}, {64, 128}, {128, 150}, {0, 150}, {63, 65}, {10, 11}, {70, 150}, {5, 5}};
+    const int spans[][2] = {{64, 128}, {0, 64}, {63, 65}, {10, 11}, {128, 150}, {0, 150}};
     for (int i = 0; i < open->nparts; i++) {
         const RetexImage *im = &whole->parts[i].image;
         assert_null(open->parts[i].image.pixels);
         assert_int_equal(open->parts[i].image.height, im->height);
         const size_t row = (size_t)im->width * (size_t)im->channels;
-        float *rows = malloc(row * (size_t)im->height * sizeof *rows);
-        for (size_t k = 0; k < sizeof spans / sizeof *spans; k++) {
-            const int y0 = spans[k][0], y1 = spans[k][1];
-            if (y1 > im->height)
-                continue;
-            test_must(retex_pack_read_rows(retex_pack_of(open), i, y0, y1, rows, scratch, &err), &err);
-            assert_memory_equal(rows, im->pixels + row * (size_t)y0, row * (size_t)(y1 - y0) * sizeof *rows);
-        }
-        for (int y = 0; y < im->height; y++) { /* one by one: NULL where there is nothing */
-            const float *one, *expected = im->pixels + row * (size_t)y;
-            size_t zeros = 0;
-            test_must(retex_pack_row(retex_pack_of(open), i, y, &one, scratch, &err), &err);
-            while (zeros < row && expected[zeros] == 0 && !signbit(expected[zeros]))
-                zeros++;
-            assert_int_equal(one == NULL, zeros == row);
-            if (one)
-                assert_memory_equal(one, expected, row * sizeof *one);
-            black += !one;
-        }
-        assert_int_equal(retex_pack_read_rows(retex_pack_of(open), i, 0, im->height + 1, rows, scratch, &err),
-                         RETEX_EINVAL);
-        free(rows);
+        for (size_t k = 0; k < sizeof spans / sizeof *spans; k++)
+            for (int y = spans[k][0]; y < spans[k][1] && y < im->height; y++) { /* NULL where there is nothing */
+                const float *one, *expected = im->pixels + row * (size_t)y;
+                size_t zeros = 0;
+                test_must(retex_pack_row(scratch, i, y, &one, &err), &err);
+                while (zeros < row && expected[zeros] == 0 && !signbit(expected[zeros]))
+                    zeros++;
+                assert_int_equal(one == NULL, zeros == row);
+                if (one)
+                    assert_memory_equal(one, expected, row * sizeof *one);
+                black += !one;
+            }
+        const float *none;
+        assert_int_equal(retex_pack_row(scratch, i, im->height, &none, &err), RETEX_EINVAL);
+        assert_int_equal(retex_pack_row(scratch, i, -1, &none, &err), RETEX_EINVAL);
     }
     assert_true(black >= 64);
     retex_pack_scratch_close(&scratch);

@@ -11,6 +11,8 @@ enum {
     RETEX_SAMPLE_NAME_MAX = 192     /* bytes of a sample part's name, with the final NUL */
 };
 
+#define RETEX_MANIFEST_ATTRIBUTE "retex" /* of an EXR file's first part: where it is */
+
 int retex_name_is_valid(const char *name);        /* of a part: 1..127 letters, digits, '_', '-' */
 int retex_letters_are_valid(const char *letters); /* 1..7 different capital letters */
 

@@ -29,7 +29,7 @@ struct RetexPackScratch {
     CachedBand *cached;
 };
 
-static int cache_band(const RetexPack *pack, int part, int band, RetexPackScratch *s, RetexError *err);
+static int cache_band(int part, int band, RetexPackScratch *s, RetexError *err);
 
 int retex_pack_scratch_create(RetexPackScratch **result, const RetexPack *pack, RetexError *err)
 {
@@ -94,9 +94,9 @@ static int reserve(RetexPackScratch *s, const PackPart *p, RetexError *err)
 }
 
 /* Chunk k of a part, behind `before` bytes that are there, its checksum compared. */
-static int read_chunk(const RetexPack *pack, int part, int k, size_t before, RetexPackScratch *s, RetexError *err)
+static int read_chunk(int part, int k, size_t before, RetexPackScratch *s, RetexError *err)
 {
-    const PackPart *p = &pack->parts[part];
+    const PackPart *p = &s->pack->parts[part];
     const size_t bytes = p->bytes[k];
     if (before + bytes > s->chunk_room) {
         unsigned char *chunk = realloc(s->chunk, before + bytes + 4096);
@@ -105,36 +105,36 @@ static int read_chunk(const RetexPack *pack, int part, int k, size_t before, Ret
         s->chunk = chunk;
         s->chunk_room = before + bytes + 4096;
     }
-    if (bytes && (retex_input_read(pack->input, s->chunk + before, bytes, p->offsets[k]) != (int64_t)bytes ||
+    if (bytes && (retex_input_read(s->pack->input, s->chunk + before, bytes, p->offsets[k]) != (int64_t)bytes ||
                   (uint32_t)crc32_z(crc32(0, NULL, 0), s->chunk + before, bytes) != p->crcs[k]))
-        return pack_damaged(err, "the checksum is wrong of part", pack->set->parts[part].name);
+        return pack_damaged(err, "the checksum is wrong of part", s->pack->set->parts[part].name);
     return 0;
 }
 
 /* The numbers of one channel of a band; present and shift may be NULL. */
-static int decode_numbers(const RetexPack *pack, int part, int band, int channel, const unsigned char *present,
-                          const unsigned char *shift, RetexPackScratch *s, RetexError *err)
+static int decode_numbers(int part, int band, int channel, const unsigned char *present, const unsigned char *shift,
+                          RetexPackScratch *s, RetexError *err)
 {
-    const PackPart *p = &pack->parts[part];
+    const PackPart *p = &s->pack->parts[part];
     const int k = band * p->channels + channel;
     const PackMapKind kind = p->maps[channel].kind;
     const int bits = pack_map_is_coded(&p->maps[channel])             ? 8
                      : kind == PACK_MAP_BITS && p->type == RETEX_HALF ? 16
                                                                       : 32;
     PackPlane plane = {p->width, pack_band_rows(p, band), bits, present, shift, s->numbers};
-    int code = read_chunk(pack, part, k, 0, s, err);
+    int code = read_chunk(part, k, 0, s, err);
     if (!code && !pack_plane_decode(&plane, s->chunk, p->bytes[k], s->residuals))
-        code = pack_damaged(err, "planes cannot be decoded of part", pack->set->parts[part].name);
+        code = pack_damaged(err, "planes cannot be decoded of part", s->pack->set->parts[part].name);
     return code;
 }
 
 /* Where a part's numbers matter, into s->present: the same for means and spread, which come one after the other. */
-static int decode_present(const RetexPack *pack, int part, int band, RetexPackScratch *s, RetexError *err)
+static int decode_present(int part, int band, RetexPackScratch *s, RetexError *err)
 {
-    const PackPart *p = &pack->parts[part];
+    const PackPart *p = &s->pack->parts[part];
     if (s->present_part == part && s->present_band == band)
         return 0;
-    int code = decode_numbers(pack, part, band, 2, NULL, NULL, s, err);
+    int code = decode_numbers(part, band, 2, NULL, NULL, s, err);
     const size_t pixels = (size_t)p->width * (size_t)pack_band_rows(p, band);
     if (!code)
         pack_find_present(s->present, s->numbers, pixels);
@@ -144,14 +144,14 @@ static int decode_present(const RetexPack *pack, int part, int band, RetexPackSc
 }
 
 /* What multiples the means of channel c are, into s->shift. */
-static int decode_shift(const RetexPack *pack, int part, int band, int c, RetexPackScratch *s, RetexError *err)
+static int decode_shift(int part, int band, int c, RetexPackScratch *s, RetexError *err)
 {
-    const PackPart *p = &pack->parts[part];
-    const int per_octave = pack->parts[p->sigma].maps[c].per_octave;
+    const PackPart *p = &s->pack->parts[part];
+    const int per_octave = s->pack->parts[p->sigma].maps[c].per_octave;
     unsigned char shift[PACK_CODES];
     for (int i = 0; i < PACK_CODES; i++)
         shift[i] = (unsigned char)pack_lattice_shift(p, i, per_octave);
-    int code = decode_numbers(pack, p->sigma, band, c, s->present, NULL, s, err);
+    int code = decode_numbers(p->sigma, band, c, s->present, NULL, s, err);
     const size_t pixels = (size_t)p->width * (size_t)pack_band_rows(p, band);
     for (size_t i = 0; !code && i < pixels; i++)
         s->shift[i] = shift[s->numbers[i] & (PACK_CODES - 1)];
@@ -242,22 +242,21 @@ static uint64_t find_present_rows(const PackPart *p, int band, const RetexPackSc
     return lit;
 }
 
-static int decode_planes(const RetexPack *pack, int part, int band, float *out, uint64_t *lit, RetexPackScratch *s,
-                         RetexError *err)
+static int decode_planes(int part, int band, float *out, uint64_t *lit, RetexPackScratch *s, RetexError *err)
 {
-    const PackPart *p = &pack->parts[part];
+    const PackPart *p = &s->pack->parts[part];
     const size_t pixels = (size_t)p->width * (size_t)pack_band_rows(p, band);
     int code = reserve(s, p, err);
     if (!code && p->present >= 0)
-        code = decode_present(pack, p->present, band, s, err);
+        code = decode_present(p->present, band, s, err);
     *lit = code || p->present < 0 ? all_rows(p, band) : find_present_rows(p, band, s);
     for (int c = 0; !code && *lit && c < p->channels; c++) {
         const int lattice = p->maps[c].kind == PACK_MAP_LATTICE;
         const int partial = p->present >= 0 && (p->present != part || c != 2);
         if (lattice)
-            code = decode_shift(pack, part, band, c, s, err);
+            code = decode_shift(part, band, c, s, err);
         if (!code)
-            code = decode_numbers(pack, part, band, c, partial ? s->present : NULL, lattice ? s->shift : NULL, s, err);
+            code = decode_numbers(part, band, c, partial ? s->present : NULL, lattice ? s->shift : NULL, s, err);
         if (!code && p->present >= 0)
             map_present(p, band, c, out, *lit, s);
         else if (!code)
@@ -269,12 +268,11 @@ static int decode_planes(const RetexPack *pack, int part, int band, float *out, 
 }
 
 /* Shifts of means, from the standard deviations of the band, which are decoded for it. */
-static int fill_mean_shifts(const RetexPack *pack, int part, int band, PackModelBand *model, RetexPackScratch *s,
-                            RetexError *err)
+static int fill_mean_shifts(int part, int band, PackModelBand *model, RetexPackScratch *s, RetexError *err)
 {
-    const PackPart *p = &pack->parts[part], *sigma = &pack->parts[p->sigma];
+    const PackPart *p = &s->pack->parts[part], *sigma = &s->pack->parts[p->sigma];
     const size_t pixels = (size_t)model->width * (size_t)model->rows;
-    int code = cache_band(pack, p->sigma, band, s, err);
+    int code = cache_band(p->sigma, band, s, err);
     const CachedBand *cached = &s->cached[p->sigma];
     for (int c = 0; !code && c < p->channels; c++)
         for (size_t i = 0; model->shifts[c] && i < pixels; i++) {
@@ -285,24 +283,24 @@ static int fill_mean_shifts(const RetexPack *pack, int part, int band, PackModel
     return code;
 }
 
-static int decode_model(const RetexPack *pack, int part, int band, float *out, RetexPackScratch *s, RetexError *err)
+static int decode_model(int part, int band, float *out, RetexPackScratch *s, RetexError *err)
 {
-    const PackPart *p = &pack->parts[part];
+    const PackPart *p = &s->pack->parts[part];
     PackModelBand model;
     int code = pack_model_alloc(&model, p->width, pack_band_rows(p, band), p->channels, p->maps)
                    ? 0
                    : retex_fail(err, RETEX_ENOMEM, "no memory to read a pack");
     if (!code && p->sigma >= 0)
-        code = fill_mean_shifts(pack, part, band, &model, s, err);
+        code = fill_mean_shifts(part, band, &model, s, err);
     if (!code)
-        code = read_chunk(pack, part, band, 0, s, err);
+        code = read_chunk(part, band, 0, s, err);
     const int decoded = code ? 1 : pack_model_decode(&model, s->chunk, p->bytes[band]);
     if (decoded < 0)
         code = retex_fail(err, RETEX_ENOMEM, "no memory to read a pack");
     else if (!decoded)
-        code = pack_damaged(err, "planes cannot be decoded of part", pack->set->parts[part].name);
+        code = pack_damaged(err, "planes cannot be decoded of part", s->pack->set->parts[part].name);
     if (!code && p->codec == PACK_COMBINED)
-        code = pack_combine_add(&model, pack->set, band * PACK_BAND_ROWS, err);
+        code = pack_combine_add(&model, s->pack->set, band * PACK_BAND_ROWS, err);
     for (int c = 0; !code && c < p->channels; c++)
         pack_map_samples(out + c, (size_t)p->channels, model.numbers[c], (size_t)model.width * (size_t)model.rows,
                          &p->maps[c], p->type);
@@ -311,14 +309,14 @@ static int decode_model(const RetexPack *pack, int part, int band, float *out, R
 }
 
 /* The mask of a band into s->numbers, a byte each; *rest: there are pixels that it leaves. */
-static int decode_mask(const RetexPack *pack, int part, int band, int *rest, RetexPackScratch *s, RetexError *err)
+static int decode_mask(int part, int band, int *rest, RetexPackScratch *s, RetexError *err)
 {
-    const PackPart *p = &pack->parts[part];
+    const PackPart *p = &s->pack->parts[part];
     const int k = 1 + p->nbands + band, rows = pack_band_rows(p, band), width = pack_mask_width(p);
     PackPlane plane = {width, rows, 8, NULL, NULL, s->numbers};
-    int code = read_chunk(pack, part, k, 0, s, err);
+    int code = read_chunk(part, k, 0, s, err);
     if (!code && !pack_plane_decode(&plane, s->chunk, p->bytes[k], s->residuals))
-        code = pack_damaged(err, "the mask cannot be decoded of part", pack->set->parts[part].name);
+        code = pack_damaged(err, "the mask cannot be decoded of part", s->pack->set->parts[part].name);
     const int last = 255 >> (8 * width - p->width);
     *rest = 0;
     for (int i = 0; !code && i < rows * width; i++) {
@@ -344,29 +342,28 @@ static void apply_mask(const PackPart *p, int rows, float *out, const int32_t *m
         }
 }
 
-static int decode_jpeg(const RetexPack *pack, int part, int band, float *out, uint64_t *lit, RetexPackScratch *s,
-                       RetexError *err)
+static int decode_jpeg(int part, int band, float *out, uint64_t *lit, RetexPackScratch *s, RetexError *err)
 {
-    const PackPart *p = &pack->parts[part];
+    const PackPart *p = &s->pack->parts[part];
     const int rows = pack_band_rows(p, band);
     RetexError why = {0};
     int rest = 1;
     int code = reserve(s, p, err);
     *lit = 0;
     if (!code && p->masked)
-        code = decode_mask(pack, part, band, &rest, s, err);
+        code = decode_mask(part, band, &rest, s, err);
     if (!code && !rest) /* what the JPEG has here means nothing */
         return 0;
     if (!code)
-        code = read_chunk(pack, part, 0, 0, s, err);
+        code = read_chunk(part, 0, 0, s, err);
     if (!code)
-        code = read_chunk(pack, part, 1 + band, p->bytes[0], s, err);
+        code = read_chunk(part, 1 + band, p->bytes[0], s, err);
     if (code)
         return code;
     code = pack_jpeg_decode_band(s->jpeg, out, s->chunk, p->bytes[0], (size_t)p->bytes[0] + p->bytes[1 + band],
                                  p->width, rows, p->channels, &p->curve, &why);
     if (code)
-        return retex_fail(err, code, "the pack is damaged: part '%s': %s", pack->set->parts[part].name, why.message);
+        return retex_fail(err, code, "the pack is damaged: part '%s': %s", s->pack->set->parts[part].name, why.message);
     if (p->masked)
         apply_mask(p, rows, out, s->numbers);
     *lit = find_lit(p, band, out);
@@ -374,27 +371,26 @@ static int decode_jpeg(const RetexPack *pack, int part, int band, float *out, ui
 }
 
 /* Rows without a bit in *lit are 0, and perhaps not written. */
-static int decode_band(const RetexPack *pack, int part, int band, float *out, uint64_t *lit, RetexPackScratch *s,
-                       RetexError *err)
+static int decode_band(int part, int band, float *out, uint64_t *lit, RetexPackScratch *s, RetexError *err)
 {
-    const PackPart *p = &pack->parts[part];
+    const PackPart *p = &s->pack->parts[part];
     int code = 0;
     *lit = 0;
     if (p->codec == PACK_PLANES)
-        return decode_planes(pack, part, band, out, lit, s, err);
+        return decode_planes(part, band, out, lit, s, err);
     if (p->codec == PACK_JPEG)
-        return decode_jpeg(pack, part, band, out, lit, s, err);
+        return decode_jpeg(part, band, out, lit, s, err);
     if (pack_is_modelled(p)) {
-        code = decode_model(pack, part, band, out, s, err);
+        code = decode_model(part, band, out, s, err);
         *lit = code ? 0 : find_lit(p, band, out);
     }
     return code;
 }
 
 /* Have the band in the cache. */
-static int cache_band(const RetexPack *pack, int part, int band, RetexPackScratch *s, RetexError *err)
+static int cache_band(int part, int band, RetexPackScratch *s, RetexError *err)
 {
-    const PackPart *p = &pack->parts[part];
+    const PackPart *p = &s->pack->parts[part];
     const size_t row = (size_t)p->width * (size_t)p->channels;
     CachedBand *cached = &s->cached[part];
     if (cached->band == band)
@@ -402,56 +398,23 @@ static int cache_band(const RetexPack *pack, int part, int band, RetexPackScratc
     cached->band = -1;
     if (!cached->rows && !(cached->rows = malloc(row * PACK_BAND_ROWS * sizeof *cached->rows)))
         return retex_fail(err, RETEX_ENOMEM, "no memory to read a pack");
-    int code = decode_band(pack, part, band, cached->rows, &cached->lit, s, err);
+    int code = decode_band(part, band, cached->rows, &cached->lit, s, err);
     cached->band = code ? -1 : band;
     return code;
 }
 
-int retex_pack_row(const RetexPack *pack, int part, int y, const float **row, RetexPackScratch *s, RetexError *err)
+int retex_pack_row(RetexPackScratch *s, int part, int y, const float **row, RetexError *err)
 {
     *row = NULL;
-    if (part < 0 || part >= pack->nparts || y < 0 || y >= pack->parts[part].height)
+    if (part < 0 || part >= s->pack->nparts || y < 0 || y >= s->pack->parts[part].height)
         return retex_fail(err, RETEX_EINVAL, "the pack has no such rows");
-    const PackPart *p = &pack->parts[part];
+    const PackPart *p = &s->pack->parts[part];
     const CachedBand *cached = &s->cached[part];
     const int band = y / PACK_BAND_ROWS, line = y % PACK_BAND_ROWS;
     if (p->codec == PACK_ZERO)
         return 0;
-    int code = cache_band(pack, part, band, s, err);
+    int code = cache_band(part, band, s, err);
     if (!code && cached->lit >> line & 1)
         *row = cached->rows + (size_t)line * (size_t)p->width * (size_t)p->channels;
     return code;
-}
-
-int retex_pack_read_rows(const RetexPack *pack, int part, int y0, int y1, float *out, RetexPackScratch *s,
-                         RetexError *err)
-{
-    if (part < 0 || part >= pack->nparts || y0 < 0 || y1 > pack->parts[part].height || y0 > y1)
-        return retex_fail(err, RETEX_EINVAL, "the pack has no such rows");
-    const PackPart *p = &pack->parts[part];
-    const size_t count = (size_t)p->width * (size_t)p->channels;
-    for (int y = y0; y < y1; out += count, y++) {
-        const int band = y / PACK_BAND_ROWS, rows = pack_band_rows(p, band);
-        const float *row;
-        if (y % PACK_BAND_ROWS == 0 && y + rows <= y1 && s->cached[part].band != band) {
-            uint64_t lit;
-            int code = decode_band(pack, part, band, out, &lit, s, err);
-            if (code)
-                return code;
-            for (int k = 0; k < rows; k++)
-                if (!(lit >> k & 1))
-                    memset(out + (size_t)k * count, 0, count * sizeof *out);
-            out += (size_t)(rows - 1) * count;
-            y += rows - 1;
-            continue;
-        }
-        int code = retex_pack_row(pack, part, y, &row, s, err);
-        if (code)
-            return code;
-        if (row)
-            memcpy(out, row, count * sizeof *out);
-        else
-            memset(out, 0, count * sizeof *out);
-    }
-    return 0;
 }

@@ -19,15 +19,9 @@ typedef struct RetexPackScratch RetexPackScratch;
 int retex_pack_scratch_create(RetexPackScratch **scratch, const RetexPack *pack, RetexError *err);
 void retex_pack_scratch_close(RetexPackScratch **scratch); /* NULL and pointers to NULL are fine */
 
-/* Rows y0 to y1 (not included; of the part's own rows) of a part, interleaved, into out. Bands of RETEX_PACK_ROWS rows
- * are decoded whole: cheapest are rows from a multiple of it to the next. */
-enum { RETEX_PACK_ROWS = 64 };
-int retex_pack_read_rows(const RetexPack *pack, int part, int y0, int y1, float *out, RetexPackScratch *scratch,
-                         RetexError *err);
-
-/* One row; NULL where all of it is 0. It is the scratch's, and stays until the next call for the same part. */
-int retex_pack_row(const RetexPack *pack, int part, int y, const float **row, RetexPackScratch *scratch,
-                   RetexError *err);
+/* A part's row y of its own rows, interleaved; NULL where all of it is 0. It is the scratch's, and stays until the next
+ * call for the same part. Bands of 64 rows are decoded whole: cheapest is one row after the other. */
+int retex_pack_row(RetexPackScratch *scratch, int part, int y, const float **row, RetexError *err);
 
 /* Bytes that a part takes in the pack, and how it is coded: "jpeg", "planes", … */
 uint64_t retex_pack_part_bytes(const RetexPack *pack, int part);

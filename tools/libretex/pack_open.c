@@ -214,7 +214,7 @@ static int read_row(void *reader, int part, int y, const float **row, RetexError
 {
     RetexPackScratch *scratch = reader;
     const RetexPack *pack = pack_decoded_by(scratch);
-    int code = retex_pack_row(pack, part, y, row, scratch, err);
+    int code = retex_pack_row(scratch, part, y, row, err);
     if (code && err && !err->file[0])
         snprintf(err->file, sizeof err->file, "%s", retex_input_name(pack->input));
     return code;
