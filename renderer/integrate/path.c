@@ -98,9 +98,7 @@ static inline int leave(PathWorker *w, Path *path, const Shading *s, Split weigh
 {
     if (path_sees_plain(w->context, s) && !s->replaced)
         return path_scale(w, path, split_apply(weight, shading_albedo(s, 0)));
-    Factor factor = shading_factor(s, weight);
-    factor.reflects = reflects, factor.sharp = path->sharp;
-    return path_scatter(w, path, &factor);
+    return path_scatter(w, path, s, colour4(weight.d), colour4(weight.i), reflects);
 }
 
 /* Choose where the path goes on. Returns 0 where it ends. */

@@ -87,8 +87,8 @@ static inline int path_scale(PathWorker *w, Path *path, Rgb by)
         path->betas[v] = rgb_mul(path->betas[v], by);
     return path_is_alive(w, path);
 }
-/* A bounce. Returns 0 likewise. */
-int path_scatter(PathWorker *worker, Path *path, const Factor *factor);
+/* A bounce, of which the surface makes d times its colour, and i. Returns 0 likewise. */
+int path_scatter(PathWorker *worker, Path *path, const Shading *s, Float4 d, Float4 i, int reflects);
 /* Light reaches the path's end through some more factors. */
 void path_connect(PathWorker *worker, Path *path, Rgb light, const Factor *factors, int nfactors);
 /* By variant, through no factor of a target: all are in it. */

@@ -59,14 +59,14 @@ static int is_hit(const Factor *f)
 
 /* Of a hit that the path goes on from and that has a single part, the part goes outside, and 1 of it is left: where
  * outside is black, no texture brings light back. */
-static inline void take_part(Path *path, const Split *split)
+static inline void take_part(Path *path, Float4 d, Float4 i)
 {
-    path->from_d = colour4(split->d), path->from_i = colour4(split->i);
-    if (rgb_is_black(split->i)) {
-        path->outside = rgb_mul(path->outside, split->d);
+    path->from_d = d, path->from_i = i;
+    if (is_black4(i)) {
+        path->outside = rgb_mul(path->outside, rgb_of4(d));
         path->from_d = splat(1);
-    } else if (rgb_is_black(split->d)) {
-        path->outside = rgb_mul(path->outside, split->i);
+    } else if (is_black4(d)) {
+        path->outside = rgb_mul(path->outside, rgb_of4(i));
         path->from_i = splat(1);
     }
 }
@@ -125,7 +125,7 @@ static inline void arrive(PathWorker *w, Path *path, const Factor *const *more, 
 /* ---- variants ---- */
 
 /* Those after the first. */
-static void multiply_others(const PathContext *c, Rgb *betas, const Factor *f)
+static inline void multiply_others(const PathContext *c, Rgb *betas, const Factor *f)
 {
     for (int v = 1; v < c->nvariants; v++)
         betas[v] = rgb_mul(betas[v], split_apply(f->split, f->albedos ? f->albedos[v] : f->albedo));
@@ -171,15 +171,17 @@ void path_start(PathWorker *w, Path *path, const Ray *ray, const Sampler *sample
         path->betas[v] = rgb_grey(1);
 }
 
-int path_scatter(PathWorker *w, Path *path, const Factor *factor)
+int path_scatter(PathWorker *w, Path *path, const Shading *s, Float4 d, Float4 i, int reflects)
 {
     const PathContext *c = w->context;
-    Rgb whole = split_apply(factor->split, factor->albedo);
+    Factor factor = shading_factor(s, (Split){rgb_of4(d), rgb_of4(i)});
+    factor.reflects = reflects, factor.sharp = path->sharp;
+    Rgb whole = split_apply(factor.split, factor.albedo);
     path->beta = rgb_mul(path->beta, whole);
-    multiply_others(c, path->betas, factor);
-    if (c->split && take_factor(c, path, &path->outside, &path->size, &path->folded, factor, whole)) {
-        path->from_hit = next_hit(w, path, factor);
-        take_part(path, &factor->split);
+    multiply_others(c, path->betas, &factor);
+    if (c->split && take_factor(c, path, &path->outside, &path->size, &path->folded, &factor, whole)) {
+        path->from_hit = next_hit(w, path, &factor);
+        take_part(path, d, i);
     }
     path->here = NULL;
     return path_is_alive(w, path);

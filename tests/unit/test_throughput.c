@@ -38,6 +38,7 @@ static void begin_orders(Fixture *f, int paper, int orders)
     f->worker.context = &f->context, f->worker.pixel = f->pixel;
     test_must(path_worker_open(&f->worker, &err), &err);
     path_start(&f->worker, &f->path, &ray, &sampler);
+    f->path.sharp = 0;
 }
 
 static void begin(Fixture *f, int paper)
@@ -72,8 +73,8 @@ static Factor floor_factor(float d, double u)
 
 static void bounce(Fixture *f, double u)
 {
-    Factor factor = floor_factor(1, u);
-    assert_true(path_scatter(&f->worker, &f->path, &factor));
+    const Shading floor = {.surface = {.target = 0}, .albedo = rgb_grey(0.5f), .uv = {u, 0.25}};
+    assert_true(path_scatter(&f->worker, &f->path, &floor, splat(1), splat(0), 1));
 }
 
 static void bring(Fixture *f, float light)
