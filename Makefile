@@ -9,7 +9,6 @@
 #   make bench        ratios of speed: kernels against references, sets against plain renders
 #   make bench-render speed and error of rendering, against Cycles and against rays of Embree alone
 #   make bench-overhead   what sets cost over plain pictures, as in the paper; BENCH_DOCS=1: docs/overhead.md
-#   make bench-overhead-pairs   the same side by side, where the machine's speed moves: docs/overhead-pairs.md
 #   make bench-post   how long retextures take and how large sets are, as in the paper; BENCH_DOCS=1: docs/post.md
 #   make bench-storage    size of sets and packs against what they lose; BENCH_DOCS=1: docs/storage.md
 #   make bench-scale  cost a path by triangles, lights, targets and resolution; BENCH_DOCS=1: docs/scale.md

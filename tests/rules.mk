@@ -96,11 +96,9 @@ bench-render: all $(BUILD)/tests/bench/embree_rays
 	@BUILD=$(BUILD) tests/bench/render/run.sh
 
 # What sets cost over plain pictures, and how costs grow; BENCH_DOCS=1 puts the pages into docs/.
-.PHONY: bench-overhead bench-overhead-pairs bench-scale
+.PHONY: bench-overhead bench-scale
 bench-overhead: all
 	@BUILD=$(BUILD) tests/bench/overhead/run.sh
-bench-overhead-pairs: all
-	@BUILD=$(BUILD) $(or $(PYTHON),/usr/bin/python3) tests/bench/overhead/side_by_side.py
 bench-scale: all
 	@BUILD=$(BUILD) tests/bench/scale/run.sh
 

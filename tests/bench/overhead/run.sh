@@ -3,11 +3,12 @@
 # is also $BUILD/bench/overhead.md, with the figures in overhead.csv; with BENCH_DOCS=1 both go to docs/ too.
 #
 # In the living room the floor, the wall and both are changed, and in an artist's living room, where it is there, floor,
-# painting and both. For each, whole processes that write to the disk are measured in turn: the plain picture, sets, and
-# what the method of Rousselle and others needs, twice. A turn begins and ends with the plain picture, and every other
-# turn goes backwards, so that a machine that gets slower or faster favours nothing. Overheads are of the same turn.
+# painting and both. For each, whole processes that write to the disk are measured: the plain picture, sets, and what
+# the method of Rousselle and others needs, twice. All renders of one edit are under way at once and go on by turns, a
+# tenth of a second each, so that a machine that gets slower or faster favours none; the plain picture is there twice,
+# which tells how well that goes.
 #
-# As it stands it takes about three hours a scene on two cores. BENCH_TURNS, BENCH_SIZE, BENCH_SPP, BENCH_MEMORY_SIZE,
+# As it stands it takes about three hours a scene on two cores. BENCH_ROUNDS, BENCH_SIZE, BENCH_SPP, BENCH_MEMORY_SIZE,
 # BENCH_SCENES='living-room artist' and BENCH_ROWS (some of the rows below, without `plain') choose less.
 set -eu
 export LC_ALL=C
@@ -15,7 +16,7 @@ build=${BUILD:-build} here=tests/bench/overhead
 case $build in /*) ;; *) build=$PWD/$build ;; esac
 PATH=$build/bin:$PATH
 work=$build/bench/overhead records=$build/bench/overhead/runs
-turns=${BENCH_TURNS:-5} size=${BENCH_SIZE:-640x360} spp=${BENCH_SPP:-128} memory_size=${BENCH_MEMORY_SIZE:-1920x1080}
+rounds=${BENCH_ROUNDS:-5} size=${BENCH_SIZE:-640x360} spp=${BENCH_SPP:-128} memory_size=${BENCH_MEMORY_SIZE:-1920x1080}
 scenes=${BENCH_SCENES:-living-room artist}
 python=${PYTHON:-/usr/bin/python3}
 artist=${RETEX_SHARED:-../shared}/scenes/living-room-bitterli/scene.pov
@@ -44,24 +45,33 @@ options() { # ROW TARGET...: of retex-render, one a line
 texture() { # TARGET
     case $1 in Floor) echo walnut-herringbone.jpg ;; Wall) echo damask.jpg ;; *) echo fans.jpg ;; esac
 }
-run() { # PART SCENE TURN SIZE SPP ROW TARGET...
-    part=$1 scene=$2 turn=$3 wide=$4 samples=$5 row=$6
+# One word a line, for no option has blanks in it unless a folder does.
+render() { # NUMBER SCENE SIZE SPP ROW TARGET...
+    number=$1 scene=$2 wide=$3 samples=$4 row=$5
+    shift 5
+    printf '%s\n' -- "row=$row" retex-render
+    options "$row" "$@"
+    printf '%s\n' --size "$wide" --spp "$samples" -o "$work/out-$number.exr" "$(file "$scene")"
+}
+measure() { # PART SCENE ROUND SIZE SPP 'ROW...' TARGET...
+    part=$1 scene=$2 round=$3 wide=$4 samples=$5 rows=$6
     shift 6
     edit=$(echo "$*" | tr ' ' '+')
-    given=$(options "$row" "$@")
-    # No option has blanks in it unless a folder does.
+    number=0
+    given=$(for row in $rows; do
+        number=$((number + 1))
+        render $number "$scene" "$wide" "$samples" "$row" "$@"
+    done)
     IFS='
 '
     # shellcheck disable=SC2086
     set -- $given
     unset IFS
-    "$python" $here/measure.py "$records" "part=$part" "scene=$scene" "edit=$edit" "row=$row" "turn=$turn" -- \
-        retex-render "$@" --size "$wide" --spp "$samples" -o "$work/$row.exr" "$(file "$scene")"
+    "$python" $here/measure.py "$records" "part=$part" "scene=$scene" "edit=$edit" "round=$round" "$@"
 }
 
-forwards="plain ${BENCH_ROWS:-footprints paper footprints-bare paper-bare initial-biased again-biased initial-unbiased
+rows="plain ${BENCH_ROWS:-footprints paper footprints-bare paper-bare initial-biased again-biased initial-unbiased
     again-unbiased again} plain"
-backwards=$(for row in $forwards; do echo "$row"; done | tac)
 for scene in $scenes; do
     if [ ! -e "$(file "$scene")" ]; then
         echo "bench-overhead: no $(file "$scene"): $scene is left out" >&2
@@ -69,23 +79,24 @@ for scene in $scenes; do
     fi
     other=Wall
     [ "$scene" != artist ] || other=Painting
-    for turn in $(seq "$turns"); do
-        rows=$forwards
-        # The pictures that control is by are those of the turn before, which are the same.
-        [ $((turn % 2)) = 1 ] || rows=$backwards
+    for control in biased unbiased; do
+        case $rows in
+        *again-$control*) retex-render -q --plain --control-data $control --size "$size" --spp "$spp" \
+            -o "$work/initial-$control.exr" "$(file "$scene")" ;;
+        esac
+    done
+    for round in $(seq "$rounds"); do
         for targets in Floor $other "Floor $other"; do
-            for row in $rows; do
-                # shellcheck disable=SC2086
-                run time "$scene" "$turn" "$size" "$spp" "$row" $targets
-            done
+            # shellcheck disable=SC2086
+            measure time "$scene" "$round" "$size" "$spp" "$rows" $targets
         done
     done
 done
 # Two samples are the fewest that denoising data are of.
-run memory living-room 1 "$memory_size" 2 plain Floor
+measure memory living-room 1 "$memory_size" 2 plain Floor
 for row in footprints paper; do
-    run memory living-room 1 "$memory_size" 2 $row Floor
-    run memory living-room 1 "$memory_size" 2 $row Floor Wall
+    measure memory living-room 1 "$memory_size" 2 $row Floor
+    measure memory living-room 1 "$memory_size" 2 $row Floor Wall
 done
 rm -f "$work"/*.exr
 "$python" $here/table.py "$records" "$build/bench/overhead.csv" "$(nproc)" "$size" "$spp" "$memory_size" |

@@ -31,10 +31,11 @@ values, are in [overhead.csv](overhead.csv).
 
 Pictures are {size} with {spp} samples a pixel. A figure is that of a whole process, from reading the scene to
 the written OpenEXR file; sets have the denoising data that users get, unless said otherwise. All rows of a table were
-run in turn, {turns}, each turn with the plain picture first and last; times are medians, with least and largest wall
-time in brackets, and an overhead is the median of those over the mean plain picture of the same turn, the paper's
-"baseline path tracer". Wall time is what one waits, processor time what all cores spend. How far the plain pictures
-of one turn differ, which stands in the CSV, is the measurement's own error.
+under way at once and went on by turns, a tenth of a second each: so the machine's speed, which moves, is the same for
+all, where runs one after the other may differ by a fifth. Times are medians of all rounds, without what a process
+waited for its turn, with least and largest overhead in brackets; an overhead is the median of those over the mean plain
+picture of the same round, the paper's "baseline path tracer". Wall time is what one waits, processor time what all
+cores spend. The plain picture is there twice: what it has as overhead is the measurement's own error.
 """
 RIVALS = """
 "Rousselle" is the method that the paper compares with, as `retex-render` has it: a first render with
@@ -45,7 +46,7 @@ RIVALS = """
 
 
 def read(path):
-    """Of (part, scene, edit, row), the runs by turn."""
+    """Of (part, scene, edit, row), the runs of all rounds."""
     found = {}
     with open(path, encoding="ascii") as file:
         for record in map(json.loads, file):
@@ -56,10 +57,10 @@ def read(path):
 
 class Row:
     def __init__(self, runs, plain):
-        def base(turn, clock):
-            return mean(p[clock] for p in plain if p["turn"] == turn)
+        def base(number, clock):
+            return mean(p[clock] for p in plain if p["round"] == number)
         self.runs = runs
-        self.over = {clock: [100 * (r[clock] / base(r["turn"], clock) - 1) for r in runs] for clock in ("wall", "cpu")}
+        self.over = {clock: [100 * (r[clock] / base(r["round"], clock) - 1) for r in runs] for clock in ("wall", "cpu")}
 
     def values(self, name):
         return [r[name] for r in self.runs]
@@ -70,24 +71,30 @@ class Row:
     def csv(self):
         figures = [f(self.values(clock)) for clock in ("wall", "cpu") for f in (median, min, max)]
         figures += [f(self.over[clock]) for clock in ("wall", "cpu") for f in (median, min, max)]
-        return [len(set(self.values("turn")))] + [f"{v:.3f}" for v in figures + [self.speed()]] + \
+        return [len(set(self.values("round")))] + [f"{v:.3f}" for v in figures + [self.speed()]] + \
             [max(self.values("peak_memory_bytes")), self.runs[0]["bytes"]]
 
 
-CSV = ["part", "scene", "targets", "row", "turns"] + \
+CSV = ["part", "scene", "targets", "row", "rounds"] + \
     [f"{what}{end}" for what in ("wall_s", "cpu_s", "over_wall_percent", "over_cpu_percent")
      for end in ("", "_min", "_max")] + ["mpaths_per_s", "peak_memory_bytes", "file_bytes"]
 
 
+def percent(name, row, clock):
+    over = row.over[clock]
+    spread = f"({min(over):+.1f} .. {max(over):+.1f})"
+    return spread if name == "plain" else f"{median(over):+.1f} % {spread}"
+
+
 def section(scene, edit, rows):
     print(f"\n## {SCENES[scene]}: {' and '.join(edit.split('+'))}\n")
+    rounds = len(set(rows["plain"].values("round")))
+    print(f"{rounds} rounds.\n" if rounds > 1 else "One round.\n")
     print("| render | wall s | processor s | over plain, wall | processor | Mpaths/s | memory MB | file MB |\n"
           "|---|---|---|---|---|---|---|---|")
     for name, row in rows.items():
-        wall = row.values("wall")
-        over = [f"{median(row.over[clock]):+.1f} %" if name != "plain" else "" for clock in ("wall", "cpu")]
-        print(f"| {ROWS[name]} | {median(wall):.2f} ({min(wall):.2f} .. {max(wall):.2f}) |"
-              f" {median(row.values('cpu')):.2f} | {' | '.join(over)} | {row.speed():.3f} |"
+        print(f"| {ROWS[name]} | {median(row.values('wall')):.2f} | {median(row.values('cpu')):.2f} |"
+              f" {percent(name, row, 'wall')} | {percent(name, row, 'cpu')} | {row.speed():.3f} |"
               f" {max(row.values('peak_memory_bytes')) / 1e6:.0f} | {row.runs[0]['bytes'] / 1e6:.1f} |")
 
 
@@ -112,8 +119,7 @@ def memory(found, size):
 
 def main(records, table, cores, size, spp, memory_size):
     found = read(records)
-    turns = max(len({r["turn"] for r in runs}) for runs in found.values())
-    print(INTRODUCTION.format(cores=cores, size=size, spp=spp, turns=f"{turns} times" if turns > 1 else "once"), end="")
+    print(INTRODUCTION.format(cores=cores, size=size, spp=spp), end="")
     if any(key[3].startswith(("initial", "again")) for key in found):
         print(RIVALS, end="")
     with open(table, "w", encoding="ascii", newline="") as file:

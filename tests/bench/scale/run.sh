@@ -39,9 +39,12 @@ run() { # SERIES AT RENDER TURN SCENE OPTION...
     # shellcheck disable=SC2086
     "$python" tests/bench/overhead/measure.py "$records" $key -- retex-render "$@" -o "$work/out.exr" "$file"
 }
-both() { # SERIES AT TURN SCENE SIZE SPP: plain and as a set of one target
-    run "$1" "$2" plain "$3" "$4" --plain --size "$5" --spp "$6"
-    run "$1" "$2" set "$3" "$4" -t Back --size "$5" --spp "$6"
+both() { # SERIES AT TURN SCENE SIZE SPP: plain and as a set of one target, by turns
+    set -- "series=$1 at=$2 turn=$3" "$4" "--size $5 --spp $6"
+    # shellcheck disable=SC2086
+    "$python" tests/bench/overhead/measure.py "$records" $1 \
+        -- render=plain retex-render --plain $3 -o "$work/plain.exr" "$2" \
+        -- render=set retex-render -t Back $3 -o "$work/out.exr" "$2"
 }
 targets() { # TURN
     file=$(scene triangles 100000)
