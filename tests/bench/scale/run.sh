@@ -82,7 +82,7 @@ done
 [ "$large" = no ] || run large "$large" set 1 scenes/living-room/living-room.pov -t Floor --clusters 8 --size "$large" \
     --spp 4 || echo "bench-scale: the large set was not rendered" >&2
 
-rm -f "$work/out.exr" "$work"/*.pov
+rm -f "$work"/*.exr "$work"/*.pov
 "$python" $here/page.py "$records" "$out/scale.csv" "$(nproc)" "$size" "$spp" "$sizes_spp" | tee "$out/scale.md"
 if "$python" -c 'import matplotlib' 2>/dev/null; then
     "$python" $here/plot.py "$out/scale.csv" "$out/scale.png"
