@@ -1,6 +1,8 @@
 /* See lib_folder.h. */
 #include "lib_folder.h"
+#include "lib_test.h"
 
+#include <cmocka.h>
 #include <dirent.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -55,4 +57,17 @@ int test_files_left(void)
         count += is_entry(entry);
     closedir(dir);
     return count;
+}
+
+unsigned char *test_read_file(const char *path, size_t *bytes)
+{
+    FILE *file = fopen(path, "rb");
+    assert_non_null(file);
+    fseek(file, 0, SEEK_END);
+    *bytes = (size_t)ftell(file);
+    rewind(file);
+    unsigned char *data = malloc(*bytes);
+    assert_int_equal(fread(data, 1, *bytes, file), *bytes);
+    fclose(file);
+    return data;
 }

@@ -203,19 +203,6 @@ static void test_parts_there_and_back(void **state)
         retex_image_free(&images[i]);
 }
 
-static unsigned char *load(size_t *bytes)
-{
-    FILE *file = fopen(path, "rb");
-    assert_non_null(file);
-    fseek(file, 0, SEEK_END);
-    *bytes = (size_t)ftell(file);
-    rewind(file);
-    unsigned char *data = malloc(*bytes);
-    assert_int_equal(fread(data, 1, *bytes, file), *bytes);
-    fclose(file);
-    return data;
-}
-
 static void test_files_are_equal_for_every_thread_count(void **state)
 {
     (void)state;
@@ -224,10 +211,10 @@ static void test_files_are_equal_for_every_thread_count(void **state)
     size_t bytes, again;
     make_parts(parts, images);
     write_parts(parts, PARTS, 1, 1);
-    unsigned char *reference = load(&bytes);
+    unsigned char *reference = test_read_file(path, &bytes);
     for (int threads = 2; threads < 8; threads += 5) {
         write_parts(parts, PARTS, 1, threads);
-        unsigned char *data = load(&again);
+        unsigned char *data = test_read_file(path, &again);
         assert_int_equal(again, bytes);
         assert_memory_equal(data, reference, bytes);
         free(data);
@@ -294,7 +281,7 @@ static void test_damaged_files(void **state)
         size_t bytes;
         /* the first part alone, so that every byte is asked for */
         write_parts(parts, 1, compress, 1);
-        unsigned char *data = load(&bytes);
+        unsigned char *data = test_read_file(path, &bytes);
         assert_int_equal(read_anything(), 0);
         for (size_t length = 0; length < bytes; length += length < 700 ? 1 : 331) {
             store(data, length);
@@ -311,7 +298,7 @@ static void test_damaged_files(void **state)
         }
         free(data);
         write_parts(parts, PARTS, compress, 1);
-        data = load(&bytes);
+        data = test_read_file(path, &bytes);
         for (int i = 0; i < 500; i++) {
             const size_t place = (size_t)(test_random(&seed) * 2500) % bytes;
             const unsigned char old = data[place];
@@ -399,7 +386,7 @@ static void test_foreign_files_of_every_compression(void **state)
             }
             retex_image_free(&image);
             size_t bytes;
-            unsigned char *data = load(&bytes);
+            unsigned char *data = test_read_file(path, &bytes);
             for (int i = 0; i < 150; i++) {
                 const size_t place = (size_t)(test_random(&seed) * (double)bytes);
                 const unsigned char old = data[place];

@@ -1,4 +1,5 @@
 /* Packs that are not whole, or lie, are refused. */
+#include "lib_folder.h"
 #include "lib_pack.h"
 
 #include <stdio.h>
@@ -105,13 +106,7 @@ static unsigned char *changed_pack(const unsigned char *data, size_t bytes, cons
     }
     assert_int_equal(zip_close(zip), 0);
     free(edited);
-    FILE *result = fopen(path, "rb");
-    fseek(result, 0, SEEK_END);
-    *out_bytes = (size_t)ftell(result);
-    rewind(result);
-    unsigned char *out = malloc(*out_bytes);
-    assert_int_equal(fread(out, 1, *out_bytes, result), *out_bytes);
-    fclose(result);
+    unsigned char *out = test_read_file(path, out_bytes);
     unlink(path);
     return out;
 }

@@ -229,19 +229,6 @@ static void test_mixtures_that_are_wrong(void **state)
     retex_set_close(&set);
 }
 
-static unsigned char *load(size_t *bytes)
-{
-    FILE *file = fopen(path, "rb");
-    assert_non_null(file);
-    fseek(file, 0, SEEK_END);
-    *bytes = (size_t)ftell(file);
-    rewind(file);
-    unsigned char *data = malloc(*bytes);
-    assert_int_equal(fread(data, 1, *bytes, file), *bytes);
-    fclose(file);
-    return data;
-}
-
 static void store(const unsigned char *data, size_t bytes)
 {
     unlink(path); /* file systems flush a file that is truncated and written again */
@@ -296,7 +283,7 @@ static void test_damaged_files(void **state)
         size_t bytes;
         params.compress = compress;
         test_must(retex_set_write(set, NULL, path, &params, &err), &err);
-        unsigned char *data = load(&bytes);
+        unsigned char *data = test_read_file(path, &bytes);
         for (size_t length = 0; length < bytes; length += 1 + length / 40) {
             store(data, length);
             assert_int_equal(read_anything(&err), RETEX_EFORMAT);

@@ -1,4 +1,5 @@
 /* The spool: bands in any order, and a set that is written from it is the same file as from memory. */
+#include "lib_folder.h"
 #include "lib_test.h"
 #include <cmocka.h>
 
@@ -79,23 +80,10 @@ static void spool_parts(RetexSet *set)
     free(numbers);
 }
 
-static void *read_file(const char *name, size_t *bytes)
-{
-    FILE *file = fopen(name, "rb");
-    assert_non_null(file);
-    fseek(file, 0, SEEK_END);
-    *bytes = (size_t)ftell(file);
-    rewind(file);
-    void *data = malloc(*bytes);
-    assert_int_equal(fread(data, 1, *bytes, file), *bytes);
-    fclose(file);
-    return data;
-}
-
 static void expect_same_file(void)
 {
     size_t a, b;
-    void *x = read_file(path, &a), *y = read_file(other, &b);
+    unsigned char *x = test_read_file(path, &a), *y = test_read_file(other, &b);
     assert_int_equal(a, b);
     assert_memory_equal(x, y, a);
     free(x);
