@@ -8,7 +8,7 @@ set -eu
 
 # kind  what it is known by   the Debian package it comes from
 # Of packs: libjpeg-dev reads and writes the coefficients of JPEGs, libblosc-dev compresses their planes; libturbojpeg
-# and jansson read version 1 and every manifest.
+# and jansson read version 1 and every manifest. libisal-dev deflates and inflates.
 needs_build='
 command gcc build-essential
 command g++ build-essential
@@ -23,6 +23,7 @@ pkg libjpeg libjpeg-dev
 pkg blosc libblosc-dev
 pkg jansson libjansson-dev
 pkg zlib zlib1g-dev
+pkg libisal libisal-dev
 file /usr/share/povray-3.7/include/colors.inc povray-includes
 '
 needs_test='
@@ -108,10 +109,10 @@ cflags() { "$PKG_CONFIG" --cflags "$@" | sed 's/-I/-isystem /g'; }
 config() {
     embree_name=$(embree)
     echo "# Made by tools/setup.sh; remove it after installing other versions of the libraries."
-    echo "LIBRETEX_CFLAGS := $(cflags OpenEXR jansson libturbojpeg libjpeg blosc zlib)"
-    echo "LIBRETEX_LIBS := $("$PKG_CONFIG" --libs-only-L OpenEXR jansson libturbojpeg libjpeg blosc zlib)" \
+    echo "LIBRETEX_CFLAGS := $(cflags OpenEXR jansson libturbojpeg libjpeg blosc zlib libisal)"
+    echo "LIBRETEX_LIBS := $("$PKG_CONFIG" --libs-only-L OpenEXR jansson libturbojpeg libjpeg blosc zlib libisal)" \
         "$("$PKG_CONFIG" --libs-only-l OpenEXR | tr ' ' '\n' | grep OpenEXRCore)" \
-        "$("$PKG_CONFIG" --libs jansson libturbojpeg libjpeg blosc zlib) -ldl -lm"
+        "$("$PKG_CONFIG" --libs jansson libturbojpeg libjpeg blosc zlib libisal) -ldl -lm"
     echo "BRIDGE_CFLAGS := $(cflags OpenImageIO OpenColorIO OpenEXR)"
     echo "BRIDGE_LIBS := $("$PKG_CONFIG" --libs OpenImageIO OpenColorIO)"
     echo "RENDER_CFLAGS := -DRETEX_$(echo "$embree_name" | tr a-z A-Z)"

@@ -1,4 +1,5 @@
-/* Deflating: what zlib inflates is what went in, of any bytes, at whatever length and in pieces. */
+/* Deflating: what zlib inflates is what went in, of any bytes, at whatever length and in pieces; inflating: what zlib
+ * deflated; and the same checksums. */
 #include "lib_test.h"
 
 #include <stdlib.h>
@@ -7,10 +8,10 @@
 
 #include <cmocka.h>
 
+#include "checksum.h"
 #include "deflate.h"
 
 enum { MOST = 400000, KINDS = 9 };
-#define GIVE 0.05
 
 static unsigned char bytes[MOST], back[MOST + 1];
 
@@ -77,7 +78,7 @@ static void test_comes_back(void **state)
         fill(round % KINDS, count, &seed);
         unsigned char *packed = malloc(room); /* exactly, so that a sanitizer sees what lies beyond */
         assert_non_null(packed);
-        const size_t whole = retex_deflate(packed, room, bytes, count, round % 2 ? GIVE : 0, 1);
+        const size_t whole = retex_deflate(packed, room, bytes, count, 1);
         assert_true(whole > 0 && whole <= room);
         check_inflates(packed, whole, count);
         free(packed);
@@ -95,11 +96,37 @@ static void test_pieces(void **state)
         fill(round % KINDS, count, &seed);
         unsigned char *packed = malloc(room);
         assert_non_null(packed);
-        size_t at = retex_deflate(packed, room, bytes, first, GIVE, 0);
+        size_t at = retex_deflate(packed, room, bytes, first, 0);
         assert_true(at > 0);
-        at += retex_deflate(packed + at, room - at, bytes + first, count - first, GIVE, 1);
+        at += retex_deflate(packed + at, room - at, bytes + first, count - first, 1);
         check_inflates(packed, at, count);
         free(packed);
+    }
+}
+
+/* The same bytes give the same stream wherever they lie, whatever was deflated before. */
+static void test_same_again(void **state)
+{
+    (void)state;
+    static unsigned char moved[MOST + 64];
+    uint32_t seed = 7;
+    for (int round = 0; round < 4000; round++) {
+        const size_t count = (size_t)((round % 50 ? 3000 : MOST) * test_random(&seed));
+        const size_t room = retex_deflate_room(count), step = (size_t)(60 * test_random(&seed)) + 1;
+        unsigned char *first = malloc(room), *again = malloc(room), *hole = malloc(round % 7 * 30000 + 1);
+        assert_true(first && again && hole);
+        fill(round % KINDS, count, &seed);
+        for (size_t i = step; i < count; i++) /* repetitions, not quite whole */
+            if (round % 2 && test_random(&seed) < 0.9)
+                bytes[i] = bytes[i - step];
+        const size_t packed_bytes = retex_deflate(first, room, bytes, count, 1);
+        memcpy(moved + round % 64, bytes, count);
+        retex_deflate(again, room, back, (size_t)(5000 * test_random(&seed)), 1);
+        free(hole);
+        assert_int_equal(retex_deflate(again, room, moved + round % 64, count, 1), packed_bytes);
+        assert_memory_equal(first, again, packed_bytes);
+        free(first);
+        free(again);
     }
 }
 
@@ -114,7 +141,7 @@ static void test_little_room(void **state)
         fill(round % KINDS, count, &seed);
         unsigned char *packed = malloc(room);
         assert_non_null(packed);
-        const size_t whole = retex_deflate(packed, room, bytes, count, GIVE, 1);
+        const size_t whole = retex_deflate(packed, room, bytes, count, 1);
         assert_true(whole <= room);
         if (whole)
             check_inflates(packed, whole, count);
@@ -133,39 +160,61 @@ static void test_is_short(void **state)
     uint32_t seed = 11;
     for (int round = 0; round < 4 * KINDS; round++) {
         fill(round % KINDS, MOST, &seed);
-        const double share = (double)retex_deflate(packed, sizeof packed, bytes, MOST, 0, 1) / MOST;
+        const double share = (double)retex_deflate(packed, sizeof packed, bytes, MOST, 1) / MOST;
         print_message("kind %d: %.4f\n", round % KINDS, share);
         assert_true(share > 0 && share < most[round % KINDS]);
     }
 }
 
-/* What may be given up for time is not exceeded, and is made use of where it helps: nearly noise is stored. */
-static void test_gives_up_little(void **state)
+/* What zlib deflates comes back; cut off, of another length or with a bit changed that matters it is refused. */
+static void test_inflates(void **state)
 {
     (void)state;
-    static unsigned char packed[MOST + 4096];
     uint32_t seed = 13;
-    int stored = 0;
-    for (int round = 0; round < 6 * KINDS; round++) {
-        const int kind = round % KINDS;
-        fill(kind, MOST, &seed);
-        const size_t coded = retex_deflate(packed, sizeof packed, bytes, MOST, 0, 1),
-                     quick = retex_deflate(packed, sizeof packed, bytes, MOST, GIVE, 1);
-        check_inflates(packed, quick, MOST);
-        assert_true((double)quick < (1 + GIVE) * (double)coded + 100);
-        stored += kind == 7 && quick > coded;
+    for (int round = 0; round < 300; round++) {
+        const size_t count = (size_t)(20000 * test_random(&seed)) + 1;
+        uLongf packed_bytes = compressBound(count);
+        unsigned char *packed = malloc(packed_bytes), *out = malloc(count + 1);
+        assert_non_null(packed);
+        assert_non_null(out);
+        fill(round % KINDS, count, &seed);
+        assert_int_equal(compress2(packed, &packed_bytes, bytes, count, round % 10), Z_OK);
+        assert_true(retex_inflate(out, count, packed, packed_bytes));
+        assert_memory_equal(out, bytes, count);
+        assert_false(retex_inflate(out, count - 1, packed, packed_bytes));
+        assert_false(retex_inflate(out, count + 1, packed, packed_bytes));
+        assert_false(retex_inflate(out, count, packed, (size_t)((double)packed_bytes * test_random(&seed))));
+        packed[(size_t)((double)packed_bytes * test_random(&seed))] ^= (unsigned char)(1 << round % 8);
+        assert_true(!retex_inflate(out, count, packed, packed_bytes) || memcmp(out, bytes, count) == 0);
+        free(packed);
+        free(out);
     }
-    assert_int_equal(stored, 6);
+}
+
+static void test_checksums(void **state)
+{
+    (void)state;
+    uint32_t seed = 17;
+    uint32_t crc = CRC32_OF_NONE, adler = ADLER32_OF_NONE;
+    uLong zlib_crc = crc32(0, NULL, 0), zlib_adler = adler32(0, NULL, 0);
+    for (int round = 0; round < 300; round++) {
+        const size_t count = (size_t)((round % 50 ? 300 : MOST) * test_random(&seed));
+        fill(round % KINDS, count, &seed);
+        crc = retex_crc32(crc, bytes, count), adler = retex_adler32(adler, bytes, count);
+        zlib_crc = crc32_z(zlib_crc, bytes, count), zlib_adler = adler32_z(zlib_adler, bytes, count);
+        assert_int_equal(crc, zlib_crc);
+        assert_int_equal(adler, zlib_adler);
+    }
+    assert_int_equal(retex_crc32(crc, NULL, 0), crc);
+    assert_int_equal(retex_adler32(adler, NULL, 0), adler);
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_comes_back),
-        cmocka_unit_test(test_pieces),
-        cmocka_unit_test(test_little_room),
-        cmocka_unit_test(test_is_short),
-        cmocka_unit_test(test_gives_up_little),
+        cmocka_unit_test(test_comes_back),  cmocka_unit_test(test_pieces),   cmocka_unit_test(test_same_again),
+        cmocka_unit_test(test_little_room), cmocka_unit_test(test_is_short), cmocka_unit_test(test_inflates),
+        cmocka_unit_test(test_checksums),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,8 +1,8 @@
 /* See exr_chunk.h. */
 #include <stdlib.h>
 #include <string.h>
-#include <zlib.h>
 
+#include "checksum.h"
 #include "exr_chunk.h"
 #include "half.h"
 
@@ -81,7 +81,7 @@ void retex_chunk_store(RetexChunkScratch *scratch, const RetexChunkShape *shape,
 
     channel_order(shape->letters, channels, order);
     for (int c = 0; c < channels && crc; c++)
-        crc[c] = (uint32_t)crc32(0, NULL, 0);
+        crc[c] = CRC32_OF_NONE;
     for (int y = 0; y < shape->lines; y++, pixels += line) {
         if (shape->type == RETEX_HALF)
             retex_half_from_float(scratch->halves, pixels, line);
@@ -92,7 +92,7 @@ void retex_chunk_store(RetexChunkScratch *scratch, const RetexChunkShape *shape,
             else
                 take_plane_float(raw, pixels + c, shape->width, channels);
             if (crc)
-                crc[c] = (uint32_t)crc32(crc[c], raw, (uInt)plane);
+                crc[c] = retex_crc32(crc[c], raw, plane);
         }
     }
 }

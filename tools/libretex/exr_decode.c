@@ -5,8 +5,8 @@
 
 #include <stdlib.h>
 #include <string.h>
-#include <zlib.h>
 
+#include "checksum.h"
 #include "half.h"
 
 int exr_fail(RetexExr *exr, exr_result_t code, RetexError *err)
@@ -126,7 +126,7 @@ static void deliver(const ExrPlan *plan, RetexImage *image, const unsigned char 
             const size_t plane = (size_t)width * exr_channel_bytes(&plan->channels[c]);
             const int slot = plan->slot[c];
             if (slot >= 0 && plan->request->with_crc)
-                crc[slot] = (uint32_t)crc32(crc[slot], samples, (uInt)plane);
+                crc[slot] = retex_crc32(crc[slot], samples, plane);
             if (slot >= 0 && image) {
                 float *restrict out = image->pixels + retex_image_index(image, x, y + line) + slot;
                 const size_t stride = (size_t)image->channels;

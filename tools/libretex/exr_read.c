@@ -11,6 +11,7 @@
 
 #include <retex/parallel.h>
 
+#include "checksum.h"
 #include "exr_decode.h"
 
 enum { JOB_LINES = 16 }; /* one line chunks are read that many at a time */
@@ -229,7 +230,7 @@ static void run_job(void *context, int index, int thread)
     Job *job = &work->jobs[index];
 
     for (int c = 0; c < RETEX_EXR_LETTERS_MAX; c++)
-        job->crc[c] = (uint32_t)crc32(0, NULL, 0);
+        job->crc[c] = CRC32_OF_NONE;
     for (int row = job->first; row < job->first + job->count; row++)
         for (int column = 0; column < job->plan->across; column++) {
             if (atomic_load_explicit(&work->code, memory_order_relaxed))
@@ -274,7 +275,7 @@ static void combine_crcs(const Job *jobs, int njobs)
 {
     for (int first = 0, end; first < njobs; first = end) {
         const ExrPlan *plan = jobs[first].plan;
-        uint32_t crc = (uint32_t)crc32(0, NULL, 0);
+        uint32_t crc = CRC32_OF_NONE;
         for (end = first; end < njobs && jobs[end].plan == plan; end++)
             continue;
         for (int slot = 0; slot < RETEX_EXR_LETTERS_MAX && plan->request->with_crc; slot++)

@@ -11,6 +11,7 @@
 
 #include <retex/parallel.h>
 
+#include "checksum.h"
 #include "exr_chunk.h"
 #include "exr_error.h"
 #include "exr_io.h"
@@ -80,7 +81,7 @@ static int encode_zero_band(Band *band, const RetexChunkShape *shape, int compre
         return 0;
     memset(scratch->raw, 0, band->bytes);
     for (int c = 0; c < channels; c++)
-        band->crc[c] = c ? band->crc[0] : (uint32_t)crc32_z(crc32(0, NULL, 0), scratch->raw, retex_chunk_plane(shape));
+        band->crc[c] = c ? band->crc[0] : retex_crc32(CRC32_OF_NONE, scratch->raw, retex_chunk_plane(shape));
     if (!compress)
         return 1;
     band->data = malloc(band->bytes);
@@ -120,7 +121,7 @@ static void encode_job(void *context, int index, int thread)
 static uint32_t part_crc(const RetexExrEncoding *encoding, int part, const Band *first)
 {
     const RetexExrPart *of = &encoding->parts[part];
-    uint32_t crc = (uint32_t)crc32(0, NULL, 0);
+    uint32_t crc = CRC32_OF_NONE;
 
     for (int c = 0; c < of->image->channels; c++)
         for (const Band *band = first; band < encoding->bands + encoding->nbands && band->part == part; band++) {

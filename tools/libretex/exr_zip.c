@@ -8,14 +8,13 @@
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
-#include <zlib.h>
 
+#include "checksum.h"
 #include "deflate.h"
 #include "exr_zip.h"
 #include "exr_zip_kernel.h"
 
 enum { HEAD = 2, TAIL = 4 }; /* of a zlib stream: what it is, and a checksum */
-#define GIVE 0.05            /* of the size, for half of the time that compressing takes */
 
 static int need_scratch(RetexZip *zip, size_t bytes)
 {
@@ -27,26 +26,6 @@ static int need_scratch(RetexZip *zip, size_t bytes)
     return zip->scratch != NULL;
 }
 
-/* An inflater that is ready for a new stream. */
-static z_stream *ready(void **slot)
-{
-    z_stream *stream = *slot;
-
-    if (stream)
-        return inflateReset(stream) == Z_OK ? stream : NULL;
-    stream = calloc(1, sizeof *stream);
-    if (!stream)
-        return NULL;
-    if (inflateInit(stream) != Z_OK) {
-        free(stream);
-        return NULL;
-    }
-    *slot = stream;
-    return stream;
-}
-
-/* Radiance has noise in its low bits, where looking for repetitions finds few, and writing counts as part of a render:
- * who wants a small file packs it. */
 size_t retex_zip_pack(RetexZip *zip, unsigned char *packed, const unsigned char *raw, size_t bytes)
 {
     if (bytes <= HEAD + TAIL || bytes > INT_MAX || !need_scratch(zip, 2 * bytes))
@@ -54,10 +33,10 @@ size_t retex_zip_pack(RetexZip *zip, unsigned char *packed, const unsigned char 
     exr_zip_regroup(zip->scratch, raw, bytes);
     exr_zip_difference(zip->scratch + bytes, zip->scratch, bytes);
     /* a chunk as long as its data would be taken for uncompressed */
-    const size_t coded = retex_deflate(packed + HEAD, bytes - 1 - HEAD - TAIL, zip->scratch + bytes, bytes, GIVE, 1);
+    const size_t coded = retex_deflate(packed + HEAD, bytes - 1 - HEAD - TAIL, zip->scratch + bytes, bytes, 1);
     if (!coded)
         return 0;
-    const uint32_t sum = (uint32_t)adler32_z(adler32(0, NULL, 0), zip->scratch + bytes, bytes);
+    const uint32_t sum = retex_adler32(ADLER32_OF_NONE, zip->scratch + bytes, bytes);
     memcpy(packed, "\x78\x01", HEAD); /* deflate, 32 KB, fastest */
     for (int k = 0; k < TAIL; k++)
         packed[HEAD + coded + (size_t)k] = (unsigned char)(sum >> 8 * (TAIL - 1 - k));
@@ -66,15 +45,7 @@ size_t retex_zip_pack(RetexZip *zip, unsigned char *packed, const unsigned char 
 
 int retex_zip_unpack(RetexZip *zip, unsigned char *raw, size_t bytes, const unsigned char *packed, size_t packed_bytes)
 {
-    z_stream *stream = ready(&zip->inflater);
-
-    if (!stream || bytes > INT_MAX || packed_bytes > INT_MAX || !need_scratch(zip, bytes))
-        return 0;
-    stream->next_in = (unsigned char *)packed;
-    stream->avail_in = (uInt)packed_bytes;
-    stream->next_out = zip->scratch;
-    stream->avail_out = (uInt)bytes;
-    if (inflate(stream, Z_FINISH) != Z_STREAM_END || stream->total_out != bytes)
+    if (!need_scratch(zip, bytes) || !retex_inflate(zip->scratch, bytes, packed, packed_bytes))
         return 0;
     exr_zip_accumulate(zip->scratch, bytes);
     exr_zip_interleave(raw, zip->scratch, bytes);
@@ -83,9 +54,6 @@ int retex_zip_unpack(RetexZip *zip, unsigned char *raw, size_t bytes, const unsi
 
 void retex_zip_free(RetexZip *zip)
 {
-    if (zip->inflater)
-        inflateEnd(zip->inflater);
-    free(zip->inflater);
     free(zip->scratch);
     *zip = (RetexZip){0};
 }

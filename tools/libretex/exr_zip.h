@@ -6,7 +6,6 @@
 
 /* What one thread needs to work on chunk after chunk. Begin with {0}. */
 typedef struct RetexZip {
-    void *inflater; /* z_stream */
     unsigned char *scratch;
     size_t scratch_bytes;
 } RetexZip;

@@ -4,8 +4,8 @@
 
 #include <stdlib.h>
 #include <string.h>
-#include <zlib.h>
 
+#include "checksum.h"
 #include "pack_combine.h"
 #include "pack_model.h"
 #include "pack_restore.h"
@@ -106,7 +106,7 @@ static int read_chunk(int part, int k, size_t before, RetexPackScratch *s, Retex
         s->chunk_room = before + bytes + 4096;
     }
     if (bytes && (retex_input_read(s->pack->input, s->chunk + before, bytes, p->offsets[k]) != (int64_t)bytes ||
-                  (uint32_t)crc32_z(crc32(0, NULL, 0), s->chunk + before, bytes) != p->crcs[k]))
+                  retex_crc32(CRC32_OF_NONE, s->chunk + before, bytes) != p->crcs[k]))
         return pack_damaged(err, "the checksum is wrong of part", s->pack->set->parts[part].name);
     return 0;
 }

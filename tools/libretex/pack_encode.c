@@ -4,10 +4,10 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <zlib.h>
 
 #include <retex/parallel.h>
 
+#include "checksum.h"
 #include "pack_combine.h"
 #include "pack_model.h"
 
@@ -330,7 +330,7 @@ static int encode_all(PackEncoded *w, int nthreads, RetexError *err)
     choose_picture(w);
     for (int i = 0; i < w->set->nparts; i++)
         for (int k = 0; k < w->packed[i].nchunks; k++)
-            w->packed[i].crcs[k] = (uint32_t)crc32_z(crc32(0, NULL, 0), w->items[i].chunks[k], w->packed[i].bytes[k]);
+            w->packed[i].crcs[k] = retex_crc32(CRC32_OF_NONE, w->items[i].chunks[k], w->packed[i].bytes[k]);
     return 0;
 }
 

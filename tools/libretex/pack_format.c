@@ -6,8 +6,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <zlib.h>
 
+#include "checksum.h"
 #include "half.h"
 #include "pack_combine.h"
 
@@ -91,7 +91,7 @@ int pack_samples_crc(uint32_t *crc, const RetexPart *part, RetexError *err)
     const size_t n = (size_t)part->image.width * (size_t)part->image.height, channels = (size_t)part->image.channels;
     float *plane = malloc(n * sizeof *plane);
     uint16_t *halves = malloc(n * sizeof *halves);
-    uLong sum = crc32(0, NULL, 0);
+    uint32_t sum = CRC32_OF_NONE;
     if (!plane || !halves) {
         free(plane);
         free(halves);
@@ -102,14 +102,14 @@ int pack_samples_crc(uint32_t *crc, const RetexPart *part, RetexError *err)
             plane[i] = part->image.pixels[i * channels + c];
         if (part->type == RETEX_HALF) {
             retex_half_from_float(halves, plane, n);
-            sum = crc32_z(sum, (const unsigned char *)halves, n * sizeof *halves);
+            sum = retex_crc32(sum, halves, n * sizeof *halves);
         } else {
-            sum = crc32_z(sum, (const unsigned char *)plane, n * sizeof *plane);
+            sum = retex_crc32(sum, plane, n * sizeof *plane);
         }
     }
     free(plane);
     free(halves);
-    *crc = (uint32_t)sum;
+    *crc = sum;
     return 0;
 }
 

@@ -6,8 +6,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <zlib.h>
 
+#include "checksum.h"
 #include "exr_io.h"
 #include "manifest.h"
 #include "pack_v1.h"
@@ -47,7 +47,7 @@ static int read_entry(const RetexPack *pack, const char *name, uint64_t most, un
     *bytes = (size_t)entry->bytes;
     (*data)[*bytes] = 0;
     if (retex_input_read(pack->input, *data, *bytes, entry->offset) == (int64_t)*bytes &&
-        (uint32_t)crc32_z(crc32(0, NULL, 0), *data, *bytes) == entry->crc)
+        retex_crc32(CRC32_OF_NONE, *data, *bytes) == entry->crc)
         return 0;
     free(*data);
     *data = NULL;

@@ -4,7 +4,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <zlib.h>
+
+#include "checksum.h"
 
 enum {
     LOCAL_BYTES = 30,
@@ -97,12 +98,11 @@ int zip_entry_write(RetexOutput *output, ZipList *list, const char *name, const 
     if (!entry)
         return RETEX_ENOMEM;
     snprintf(entry->name, sizeof entry->name, "%s", name);
-    uLong crc = crc32(0, NULL, 0);
+    entry->crc = CRC32_OF_NONE;
     for (int i = 0; i < count; i++) {
-        crc = bytes[i] ? crc32_z(crc, pieces[i], bytes[i]) : crc; /* of no bytes at NULL it would begin anew */
+        entry->crc = retex_crc32(entry->crc, pieces[i], bytes[i]);
         entry->bytes += bytes[i];
     }
-    entry->crc = (uint32_t)crc;
     const int wide = entry->bytes >= MOST_32;
     put(&at, LOCAL_MARK, 4);
     put_common(&at, entry, wide ? 20 : 0);

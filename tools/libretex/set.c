@@ -4,8 +4,8 @@
 #include <strings.h>
 
 #include <retex/set.h>
-#include <zlib.h>
 
+#include "checksum.h"
 #include "manifest.h"
 #include "set_source.h"
 
@@ -313,10 +313,10 @@ void retex_set_identify(RetexSet *set)
     const RetexImage *beauty = &set->parts[0].image;
     const size_t rows = (size_t)beauty->height;
     const size_t bytes = (size_t)beauty->width * (size_t)beauty->channels * sizeof(float);
-    uLong id = crc32(0, NULL, 0);
+    uint32_t id = CRC32_OF_NONE;
     for (size_t y = 0; y < rows; y++)
-        id = crc32(id, (const Bytef *)beauty->pixels + y * bytes, (uInt)bytes);
-    set->id = id ? (uint32_t)id : 1;
+        id = retex_crc32(id, (const unsigned char *)beauty->pixels + y * bytes, bytes);
+    set->id = id ? id : 1;
 }
 
 int retex_samples_check(const RetexSamples *samples, const RetexSet *set, RetexError *err)

@@ -1,11 +1,11 @@
 /* What a set's parts are once they are stored: for hosts that write files themselves. */
 #include <stdlib.h>
 #include <string.h>
-#include <zlib.h>
 
 #include <retex/parallel.h>
 #include <retex/set.h>
 
+#include "checksum.h"
 #include "half.h"
 
 void retex_part_stored_row(const RetexPart *part, int y, void *samples)
@@ -49,7 +49,7 @@ static void checksum_part(void *context, int index, int thread)
     const size_t bytes = part->type == RETEX_HALF ? 2 : 4, width = (size_t)part->image.width,
                  channels = (size_t)part->image.channels;
     unsigned char *row = malloc(width * channels * bytes), *plane = malloc(width * bytes);
-    uLong crc = crc32(0, NULL, 0);
+    uint32_t crc = CRC32_OF_NONE;
 
     (void)thread;
     job->failed[index] = !row || !plane;
@@ -58,9 +58,9 @@ static void checksum_part(void *context, int index, int thread)
             retex_part_stored_row(part, y, row);
             for (size_t x = 0; x < width; x++)
                 put_sample(plane + x * bytes, row, x * channels + c, bytes);
-            crc = crc32_z(crc, plane, width * bytes);
+            crc = retex_crc32(crc, plane, width * bytes);
         }
-    part->crc = (uint32_t)crc;
+    part->crc = crc;
     free(row);
     free(plane);
 }

@@ -7,7 +7,8 @@
 #include <string.h>
 #include <sys/file.h>
 #include <unistd.h>
-#include <zlib.h>
+
+#include "checksum.h"
 
 static const char MAGIC[8] = "retex\n\032\001";
 
@@ -89,7 +90,7 @@ int spool_begin(RetexSpool *spool, RetexError *err)
 
 static uint32_t crc_of(const void *data, size_t bytes)
 {
-    return (uint32_t)crc32_z(crc32(0, NULL, 0), data, bytes);
+    return retex_crc32(CRC32_OF_NONE, data, bytes);
 }
 
 int spool_append(RetexSpool *spool, SpoolRecord *record, const void *bytes, uint64_t *offset, RetexError *err)

@@ -5,8 +5,9 @@
 #
 # Sets of our four scenes in both layouts, rendered and denoised once and kept in $BUILD/bench/storage-SIZE, are stored
 # as packs of all codecs and several qualities, as EXR with lossless and with DWAA compression, and with each image of
-# light as a JPEG of its own. Each is given several textures, and its pictures are compared with those of the set that
-# was rendered and, where there are converged pictures, with these.
+# light as a JPEG of its own; and as they were rendered, with their noise, as packs of the default quality. Each is given
+# several textures, and its pictures are compared with those of the set that was stored and, where there are converged
+# pictures, with these.
 #
 # As it stands it takes about an hour on two cores, a third of it rendering once. BENCH_SIZE (640x480), BENCH_SPP (128),
 # BENCH_SCENES, BENCH_LAYOUTS='footprints paper', BENCH_TEXTURES (some of checker wood grout text saturated constant
@@ -55,12 +56,12 @@ record() { # METHOD LEVEL: the pictures beginning with stored-, and the sizes in
         made=$(picture stored- "$look") real=$truth/$scene-$look.exr unpacked=$(picture set- "$look")
         against='null' of_set='null'
         if [ -e "$real" ]; then against=$(psnr "$real" "$made") of_set=$(psnr "$real" "$unpacked"); fi
-        printf '{"scene": "%s", "layout": "%s", "method": "%s", "level": "%s", "texture": "%s", ' \
-            "$scene" "$layout" "$1" "$2" "$look"
+        printf '{"scene": "%s", "layout": "%s", "set": "%s", "method": "%s", "level": "%s", "texture": "%s", ' \
+            "$scene" "$layout" "$kind" "$1" "$2" "$look"
         printf '"psnr": %s, "truth": %s, "set_truth": %s, "stored": %s}\n' "$(psnr "$unpacked" "$made")" "$against" \
             "$of_set" "$(cat "$work/sizes.json")"
     done >>"$records"
-    echo "$scene $layout $1 $2" >&2
+    echo "$scene $layout $kind $1 $2" >&2
 }
 packed() { # METHOD LEVEL OPTION...: of retex-pack
     method=$1 level=$2
@@ -75,18 +76,22 @@ coded() { # METHOD LEVEL: of other programs
     retextures "$work/stored.exr" stored-
     record "$1" "$2"
 }
-measure() { # of $scene and $layout
-    set=$work/sets/$scene-$set_spp-$layout-denoised.exr
-    if [ ! -e "$set" ]; then
-        echo "bench-storage: rendering $scene, $layout" >&2
-        make_set "$scene" "$set_spp" "$layout"
-        retex-denoise -q "$work/sets/$scene-$set_spp-$layout.exr" -o "$set"
-        rm "$work/sets/$scene-$set_spp-$layout.exr"
-    fi
+as_it_is() { # the set itself
     retextures "$set" set-
     retextures "$set" stored-
     "$python" $post/stored.py "$set" "$set" >"$work/sizes.json"
     record exr ''
+}
+measure_rendered() { # of $scene and $layout
+    kind=rendered set=$work/sets/$scene-$set_spp-$layout.exr
+    make_set "$scene" "$set_spp" "$layout"
+    as_it_is
+    for codec in $codecs; do packed "pack-$codec" 90 --codec "$codec"; done
+}
+measure_denoised() {
+    kind=denoised set=$work/sets/$scene-$set_spp-$layout-denoised.exr
+    [ -e "$set" ] || retex-denoise -q "$work/sets/$scene-$set_spp-$layout.exr" -o "$set"
+    as_it_is
     packed lossless '' --lossless
     for codec in $codecs; do
         for quality in $qualities; do packed "pack-$codec" "$quality" --codec "$codec" --quality "$quality"; done
@@ -99,7 +104,11 @@ measure() { # of $scene and $layout
 for scene in $scenes; do
     # shellcheck disable=SC2086
     [ -z "${BENCH_TRUTH_SPP:-}" ] || rendered "$scene" "$work/truth" '' "$BENCH_TRUTH_SPP" 1000 $looks
-    for layout in $layouts; do measure; done
+    for layout in $layouts; do
+        echo "bench-storage: rendering $scene, $layout" >&2
+        measure_rendered
+        measure_denoised
+    done
 done
 rm -rf "$work/retextured" "$work"/stored.* "$work"/*.json "$work"/batch*.csv
 "$python" $post/storage_page.py "$records" "$out/storage.csv" "$size" "$set_spp" | tee "$out/storage.md"

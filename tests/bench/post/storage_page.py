@@ -14,16 +14,18 @@ METHODS = {
     "dwaa-all": "EXR, DWAA of everything",
     "jpeg": "EXR, radiance as plain JPEG",
 }
-COLUMNS = ["scene", "layout", "method", "level", "bytes", "bytes_without_originals", "bits_a_pixel", "psnr",
-           "psnr_worst", "truth_loss", "truth_loss_worst", "textures"]
+COLUMNS = ["scene", "layout", "set", "method", "level", "bytes", "bytes_without_originals", "bits_a_pixel", "psnr",
+           "psnr_worst", "truth_loss", "truth_loss_worst", "noise_worst", "textures"]
 
 INTRODUCTION = """# Size of stored sets, and what they lose
 
 A set can be stored without loss or with some. `make bench-storage` made this page from sets of {size} pixels and
-{spp} samples, denoised; the figures are in [storage.csv](storage.csv) too. Every stored form is read again and
-given {textures}, as `make fidelity` lays them on the scenes' targets. PSNR is that of these pictures against those
+{spp} samples, denoised unless said otherwise; the figures are in [storage.csv](storage.csv) too. Every stored form is
+read again and given {textures}, as `make fidelity` lays them on the scenes' targets. PSNR is that of these pictures against those
 of the set as it was before (retex-diff: sRGB-encoded, clipped), in the mean of the textures and the worst; the loss is
-by how much the PSNR against converged pictures is lower than that of the set, where there are any.
+by how much the PSNR against converged pictures is lower than that of the set, where there are any. Of sets as they were
+rendered, with their noise, "of the noise" is the mean square by which their pictures differ from those of the set, as a
+share of that by which these differ from the converged ones: the worst of the textures.
 
 Bits a pixel leave out the originals, textures that do not grow with the picture; megabytes are those of the whole
 file, and in brackets scaled to 1920x1080 without originals. In the figure full lines are means, dashed ones the worst
@@ -47,16 +49,21 @@ their model, 0.98 to 1.06 for light and albedo, 0.8 for original textures, and d
 
 
 def read(path):
-    """Of (scene, layout, method, level), the records of its textures."""
+    """Of (scene, layout, set, method, level), the records of its textures."""
     found = {}
     with open(path, encoding="ascii") as file:
         for r in map(json.loads, file):
-            found.setdefault((r["scene"], r["layout"], r["method"], r["level"]), []).append(r)
+            found.setdefault((r["scene"], r["layout"], r["set"], r["method"], r["level"]), []).append(r)
     return found
 
 
 def decibels(value):
     return f"{round(value, 3) + 0.0:.3f}"   # no -0.000
+
+
+def noise_share(record):
+    """What storing adds, in mean square, as a share of what the set was off by."""
+    return 10 ** ((record["set_truth"] - record["psnr"]) / 10)
 
 
 def figures(key, records, pixels):
@@ -69,7 +76,8 @@ def figures(key, records, pixels):
     if len(psnrs) == len(records):
         row.update(psnr=f"{mean(psnrs):.2f}", psnr_worst=f"{min(psnrs):.2f}")
     if losses:
-        row.update(truth_loss=decibels(mean(losses)), truth_loss_worst=decibels(max(losses)))
+        row.update(truth_loss=decibels(mean(losses)), truth_loss_worst=decibels(max(losses)),
+                   noise_worst=f"{max(noise_share(r) for r in records if r['set_truth'] is not None):.4f}")
     return row
 
 
@@ -78,13 +86,26 @@ def name(row):
     return f"{method} {row['level']}".rstrip()
 
 
+def megabytes(row, pixels):
+    scaled = row["bytes_without_originals"] * 1920 * 1080 / pixels / 1e6
+    return f"{row['bytes'] / 1e6:.2f} ({scaled:.1f})"
+
+
 def section(scene, layout, rows, pixels):
     print(f"\n## {scene}, layout {layout}\n\n| stored as | MB | bits a pixel | PSNR, dB | worst |"
           " loss against truth, dB | worst |\n|---|---|---|---|---|---|---|")
     for row in rows:
-        scaled = row["bytes_without_originals"] * 1920 * 1080 / pixels / 1e6
         cells = [row.get(c, "") for c in ("bits_a_pixel", "psnr", "psnr_worst", "truth_loss", "truth_loss_worst")]
-        print(f"| {name(row)} | {row['bytes'] / 1e6:.2f} ({scaled:.1f}) | {' | '.join(cells)} |")
+        print(f"| {name(row)} | {megabytes(row, pixels)} | {' | '.join(cells)} |")
+
+
+def rendered(rows, pixels):
+    print("\n## Sets as rendered\n\n| scene | layout | stored as | MB | bits a pixel | PSNR, dB | worst |"
+          " loss against truth, dB | worst | of the noise |\n|---|---|---|---|---|---|---|---|---|---|")
+    for row in rows:
+        cells = [row.get(c, "") for c in ("bits_a_pixel", "psnr", "psnr_worst", "truth_loss", "truth_loss_worst",
+                                          "noise_worst")]
+        print(f"| {row['scene']} | {row['layout']} | {name(row)} | {megabytes(row, pixels)} | {' | '.join(cells)} |")
 
 
 def main(records, table, size, spp):
@@ -98,8 +119,10 @@ def main(records, table, size, spp):
         out = csv.DictWriter(file, COLUMNS, lineterminator="\n", restval="")
         out.writeheader()
         out.writerows(rows)
-    for scene, layout in dict.fromkeys((r["scene"], r["layout"]) for r in rows):
-        section(scene, layout, [r for r in rows if (r["scene"], r["layout"]) == (scene, layout)], pixels)
+    denoised = [r for r in rows if r["set"] == "denoised"]
+    for scene, layout in dict.fromkeys((r["scene"], r["layout"]) for r in denoised):
+        section(scene, layout, [r for r in denoised if (r["scene"], r["layout"]) == (scene, layout)], pixels)
+    rendered([r for r in rows if r["set"] == "rendered"], pixels)
 
 
 main(*sys.argv[1:])

@@ -48,7 +48,7 @@ def panel(axes, rows, scene, layout):
 
 def main(table, out):
     with open(table, encoding="ascii", newline="") as file:
-        rows = list(csv.DictReader(file))
+        rows = [r for r in csv.DictReader(file) if r["set"] == "denoised"]
     scenes, layouts = (list(dict.fromkeys(r[c] for r in rows)) for c in ("scene", "layout"))
     high = 3.2 * len(scenes) + LEGEND
     figure, axes = plt.subplots(len(scenes), len(layouts), figsize=(5.2 * len(layouts), high), dpi=110,

@@ -1,0 +1,15 @@
+/* See checksum.h. */
+#include "checksum.h"
+
+#include <isa-l/crc.h>
+#include <isa-l/igzip_lib.h>
+
+uint32_t retex_crc32(uint32_t so_far, const void *bytes, size_t count)
+{
+    return count ? crc32_gzip_refl(so_far, bytes, count) : so_far;
+}
+
+uint32_t retex_adler32(uint32_t so_far, const void *bytes, size_t count)
+{
+    return count ? isal_adler32(so_far, bytes, count) : so_far;
+}
