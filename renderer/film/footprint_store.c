@@ -140,13 +140,13 @@ static int compare_clusters(const void *a, const void *b)
     return p < q ? -1 : p > q;
 }
 
-static void add_white(double sum[3], const Clusters *clusters, int coefficients)
+static void add_white(double sum[3], const Clusters *clusters)
 {
     for (int c = 0; c < 3; c++) {
         for (int k = 0; k < clusters->count; k++)
             sum[c] += clusters->of[k].c[c];
-        for (int i = 1; i < coefficients; i++)
-            sum[c] += clusters->again[i][c];
+        for (unsigned left = clusters->used; left; left &= left - 1)
+            sum[c] += clusters->again[__builtin_ctz(left)][c];
     }
 }
 
@@ -155,8 +155,8 @@ static double white_pixel(const FootprintPixel *p)
 {
     double sum[3] = {p->free[0], p->free[1], p->free[2]};
     for (int t = 0; t < p->film->scene->ntargets; t++) {
-        add_white(sum, &p->targets[t].sharp, p->film->plan.count);
-        add_white(sum, &p->targets[t].broad, p->film->plan.count);
+        add_white(sum, &p->targets[t].sharp);
+        add_white(sum, &p->targets[t].broad);
     }
     return fmax(sum[0], fmax(sum[1], sum[2])) / p->spp;
 }
@@ -167,13 +167,13 @@ static double effective_samples(const Cluster *cluster)
     return cluster->uv.weight * cluster->uv.weight / cluster->squares;
 }
 
-static void store_light(int image, Float4 sum, float scale, double step, const Place *at)
+static void store_light(int image, Float4 sum, float scale, double unit, const Place *at)
 {
     if (sum[0] == 0 && sum[1] == 0 && sum[2] == 0)
         return; /* memory that is never touched is never taken */
     float *to = pixel_of(at, image);
     for (int c = 0; c < 3; c++)
-        to[c] = (float)retex_round_to((double)(sum[c] * scale), step);
+        to[c] = (float)retex_round_by((double)(sum[c] * scale), unit);
 }
 
 static void store_share(int image, float share, const Place *at)
@@ -182,7 +182,7 @@ static void store_share(int image, float share, const Place *at)
 }
 
 /* Clusters into their images, in the order of their place on the texture, so that neighbours agree. */
-static void store_clusters(FootprintPixel *p, const KindImages *images, Clusters *clusters, double step,
+static void store_clusters(FootprintPixel *p, const KindImages *images, Clusters *clusters, double unit,
                            const Place *at)
 {
     float scale = 1 / (float)p->spp;
@@ -194,15 +194,17 @@ static void store_clusters(FootprintPixel *p, const KindImages *images, Clusters
         const Cluster *cluster = &clusters->of[k];
         float coverage = (float)effective_samples(cluster) * scale;
         store_footprint(&images->of[k], &cluster->uv, &cluster->albedo, coverage, at);
-        store_light(images->of[k].light, cluster->c, scale, step, at);
+        store_light(images->of[k].light, cluster->c, scale, unit, at);
         if (again > 0)
             store_share(images->of[k].share, luminance4(cluster->again) / again, at);
     }
-    for (int i = 1; i < p->film->plan.count; i++)
-        store_light(images->again[i], clusters->again[i], scale, step, at);
+    for (unsigned left = clusters->used; left; left &= left - 1) {
+        int i = __builtin_ctz(left);
+        store_light(images->again[i], clusters->again[i], scale, unit, at);
+        clusters->again[i] = splat(0);
+    }
     clusters->count = 0;
     clusters->used = 0;
-    memset(clusters->again, 0, sizeof clusters->again[0] * (size_t)p->film->plan.count);
 }
 
 static double light_sum(const AlbedoSums *albedo)
@@ -236,13 +238,13 @@ void footprints_pixel_end(FootprintPixel *p, BandRows *rows, int spp, int x, int
     const Place at = {rows, x, y};
     FootprintFilm *film = p->film;
     p->spp = spp;
-    double step = retex_coefficient_step(white_pixel(p));
+    double unit = retex_coefficient_unit(white_pixel(p));
     float scale = 1 / (float)spp, *c0 = pixel_of(&at, film->free);
     for (int c = 0; c < 3; c++)
         c0[c] = (float)(p->free[c] * scale), p->free[c] = 0;
     for (int t = 0; t < film->scene->ntargets; t++) {
-        store_clusters(p, &film->targets[t].kinds[0], &p->targets[t].sharp, step, &at);
-        store_clusters(p, &film->targets[t].kinds[1], &p->targets[t].broad, step, &at);
+        store_clusters(p, &film->targets[t].kinds[0], &p->targets[t].sharp, unit, &at);
+        store_clusters(p, &film->targets[t].kinds[1], &p->targets[t].broad, unit, &at);
     }
     store_later(p, &at);
 }

@@ -48,31 +48,27 @@ static void original_size(const Pigment *pigment, int *width, int *height)
         *height = 1;
 }
 
-/* The image's texel, or where there are fewer, the image averaged over the area of one. */
-static void fill_texel(float rgba[4], const ImageMap *image, const RetexImage *dst, int x, int y)
-{
-    double u = (x + 0.5) / dst->width, v = 1 - (y + 0.5) / dst->height;
-    double sigma_u = 0.3 / dst->width, sigma_v = 0.3 / dst->height,
-           covariance[3] = {sigma_u * sigma_u, 0, sigma_v * sigma_v};
-    if (dst->width == image->width && dst->height == image->height)
-        retex_texture_nearest(image->texture, u, v, rgba);
-    else
-        retex_texture_gaussian(image->texture, u, v, covariance, rgba);
-}
-
 typedef struct Copy {
     RetexImage *dst;
     const ImageMap *image;
 } Copy;
 
+/* The image's row, or where there are fewer texels, each the image averaged over its area. */
 static void copy_row(void *context, int y, int thread)
 {
     const Copy *copy = context;
-    float *p = copy->dst->pixels + retex_image_index(copy->dst, 0, y);
+    const RetexImage *dst = copy->dst;
+    const RetexTexture *texture = copy->image->texture;
+    float *p = dst->pixels + retex_image_index(dst, 0, y), rgba[4];
+    const double v = 1 - (y + 0.5) / dst->height, sigma_u = 0.3 / dst->width, sigma_v = 0.3 / dst->height,
+                 covariance[3] = {sigma_u * sigma_u, 0, sigma_v * sigma_v};
     (void)thread;
-    for (int x = 0; x < copy->dst->width; x++, p += 3) {
-        float rgba[4];
-        fill_texel(rgba, copy->image, copy->dst, x, y);
+    if (dst->width == copy->image->width && dst->height == copy->image->height) {
+        retex_texture_row(texture, y, p);
+        return;
+    }
+    for (int x = 0; x < dst->width; x++, p += 3) {
+        retex_texture_gaussian(texture, (x + 0.5) / dst->width, v, covariance, rgba);
         memcpy(p, rgba, 3 * sizeof *p);
     }
 }

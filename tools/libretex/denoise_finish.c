@@ -27,8 +27,8 @@ static void restore_means(const Denoiser *d, const DenoiseResult *result, int y)
     }
 }
 
-/* The step to which a pixel's coefficients are rounded. */
-static double pixel_step(const Denoiser *d, int x, int y)
+/* The unit to which a pixel's coefficients are rounded. */
+static double pixel_unit(const Denoiser *d, int x, int y)
 {
     double white[3] = {0, 0, 0};
     for (int s = 0; s < d->signals.count; s++)
@@ -37,21 +37,21 @@ static double pixel_step(const Denoiser *d, int x, int y)
             for (int c = 0; c < 3; c++)
                 white[c] += im->pixels[retex_image_index(im, x, y) + (size_t)c];
         }
-    return retex_coefficient_step(fmax(white[0], fmax(white[1], white[2])));
+    return retex_coefficient_unit(fmax(white[0], fmax(white[1], white[2])));
 }
 
 /* As the renderer rounds them; light that no texture multiplies stays as it is. */
 static void round_coefficients(const Denoiser *d, int y)
 {
     for (int x = d->roi.x0; x < d->roi.x1; x++) {
-        const double step = pixel_step(d, x, y);
+        const double unit = pixel_unit(d, x, y);
         for (int s = 0; s < d->signals.count; s++)
             for (int k = 0; k < d->signals.of[s].nmembers && d->signals.of[s].target >= 0; k++) {
                 RetexImage *im = &d->set->parts[d->signals.of[s].members[k].part].image;
                 float *value = im->pixels + retex_image_index(im, x, y);
                 for (int c = 0; c < 3; c++)
                     if (value[c] != 0)
-                        value[c] = (float)retex_round_to(value[c], step);
+                        value[c] = (float)retex_round_by(value[c], unit);
             }
     }
 }

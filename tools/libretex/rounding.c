@@ -1,4 +1,5 @@
 /* See <retex/rounding.h>. */
+#include <float.h>
 #include <math.h>
 #include <stdint.h>
 #include <string.h>
@@ -20,21 +21,20 @@ static double power_of_two(double value)
     return value;
 }
 
-double retex_round_to(double value, double step)
+double retex_round_unit(double step)
 {
     const double unit = step > 0 ? power_of_two(step) : 0;
-    return unit > 0 && isfinite(unit) ? rint(value / unit) * unit : value;
+    return unit <= FLT_MAX ? unit : 0;
 }
 
 double retex_round_bits(double value, int bits)
 {
-    const double unit = power_of_two(value), steps = (double)((uint64_t)1 << (bits - 1));
-    return unit > 0 && isfinite(unit) ? rint(value / unit * steps) / steps * unit : value;
+    return retex_round_by(value, retex_round_unit(fabs(value)) / (double)((uint64_t)1 << (bits - 1)));
 }
 
-double retex_coefficient_step(double white)
+double retex_coefficient_unit(double white)
 {
-    return COEFFICIENT_STEP * (float)white; /* sums that miss a power of two by their last bits make it */
+    return retex_round_unit(COEFFICIENT_STEP * (float)white); /* sums that miss a power of two by their last bits make it */
 }
 
 float retex_round_share(double share)

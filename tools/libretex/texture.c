@@ -446,6 +446,11 @@ void retex_texture_nearest(const RetexTexture *texture, double u, double v, floa
     look_up(texture, u, v, 1, rgba);
 }
 
+void retex_texture_row(const RetexTexture *texture, int y, float *rgb)
+{
+    texture_row_kernel(texture, y, rgb);
+}
+
 typedef void Filter(const RetexTexture *texture, const TextureFootprint *footprint, float rgba[4]);
 
 /* How far from (u, v) the surface reaches, along those axes of the texture that lie along one of its own. */

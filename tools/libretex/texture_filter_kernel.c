@@ -380,3 +380,14 @@ void texture_nearest_kernel(const RetexTexture *texture, double x, double y, flo
                    texel_unit(texture->narrow);
     memcpy(rgba, &value, sizeof value);
 }
+
+void texture_row_kernel(const RetexTexture *texture, int y, float *rgb)
+{
+    const TextureLevel *image = &texture->levels[0];
+    const size_t size = texel_size(texture->narrow);
+    const char *texel = (const char *)image->texels + (size_t)y * (size_t)image->width * size;
+    for (int x = 0; x < image->width; x++, texel += size, rgb += 3) {
+        Float4 value = raw_texel(texel, texture->narrow) * texel_unit(texture->narrow);
+        memcpy(rgb, &value, 3 * sizeof *rgb);
+    }
+}

@@ -67,6 +67,7 @@ typedef struct TextureFootprint {
  * need a covariance that is finite and positive semidefinite. */
 void texture_point_kernel(const RetexTexture *texture, double x, double y, float rgba[4]);
 void texture_nearest_kernel(const RetexTexture *texture, double x, double y, float rgba[4]);
+void texture_row_kernel(const RetexTexture *texture, int y, float *rgb);
 void texture_gaussian_kernel(const RetexTexture *texture, const TextureFootprint *footprint, float rgba[4]);
 void texture_disc_kernel(const RetexTexture *texture, const TextureFootprint *footprint, float rgba[4]);
 

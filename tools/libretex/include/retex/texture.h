@@ -99,6 +99,10 @@ void retex_texture_prefetch(const RetexTexture *texture, double u, double v);
  * Thread-safe. */
 void retex_texture_nearest(const RetexTexture *texture, double u, double v, float rgba[4]);
 
+/* Row y of the image itself, from the top, without transform or wraps: red, green and blue of each texel, multiplied by
+ * alpha. Of a texture that has an image. Thread-safe. */
+void retex_texture_row(const RetexTexture *texture, int y, float *rgb);
+
 /* The texture averaged over a Gaussian of mean (u, v) and covariance {uu, uv, vv} in surface UV (before the spec's
  * transform, which is applied to both exactly). With zero covariance equals retex_texture_point. Colours are averaged
  * with alpha as their weight; rgba, unassociated. Thread-safe. */
