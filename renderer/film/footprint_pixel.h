@@ -25,10 +25,10 @@ typedef struct Cluster {
 } Cluster;
 
 /* Light as a polynomial in the textures of further hits, by the coefficients of the plan; and what those but the first
- * come to, with each further hit's original albedo, with 1/2 and with white paint. */
+ * come to, with each further hit's original albedo and with 1/2. */
 typedef struct HitLight {
     Coefficients c; /* [0], and those in use; the others are not set */
-    Float4 original, half, white;
+    Float4 original, half;
     unsigned used; /* bits, of those after the first */
 } HitLight;
 
@@ -80,6 +80,7 @@ void clusters_add_later(TargetClusters *target, const PendingLater *pending, con
 typedef struct Node {
     HitLight dependent,
         independent; /* that came by it, from further hits too: what its texture multiplies, and the rest */
+    Float4 white;    /* all of that, were the targets of white paint */
     Float4 albedo;   /* of the original, as it weighs other hits */
     /* What the hits before it do to light that comes from it: none of their textures; all, with the original albedos;
      * all, with 1/2. */

@@ -54,7 +54,6 @@ static inline void add_times(HitLight *sum, const HitLight *light, Float4 by)
     sum->c[0] += light->c[0] * by;
     sum->original += light->original * by;
     sum->half += light->half * by;
-    sum->white += light->white * by;
     for (unsigned left = light->used; left; left &= left - 1) {
         int k = __builtin_ctz(left);
         add_coefficient(sum, k, light->c[k] * by);
@@ -66,7 +65,6 @@ static inline void add_textured(HitLight *sum, const HitLight *light, const Plan
 {
     sum->original += (light->c[0] + light->original) * albedo;
     sum->half += (light->c[0] + light->half) * splat(0.5f);
-    sum->white += (light->c[0] + light->white) * splat(WHITE_ALBEDO);
     add_coefficient(sum, plan->coefficients[0].next[target], light->c[0]);
     for (unsigned left = light->used; left; left &= left - 1) {
         int k = __builtin_ctz(left);
@@ -77,7 +75,7 @@ static inline void add_textured(HitLight *sum, const HitLight *light, const Plan
 static inline void start_light(HitLight *light, Float4 value)
 {
     light->c[0] = value;
-    light->original = light->half = light->white = splat(0);
+    light->original = light->half = splat(0);
     light->used = 0;
 }
 
@@ -86,6 +84,7 @@ static inline void start_node(Node *node, const PathHit *hit, const Node *before
 {
     start_light(&node->dependent, hit->dependent);
     start_light(&node->independent, hit->independent);
+    node->white = path_hit_white(hit->dependent, hit->independent);
     if (!before) {
         node->none = node->original = node->half = splat(1);
         return;
@@ -141,11 +140,17 @@ static void gather_node(FootprintPixel *p, const PathHit *hit, Node *node, Node 
     add_times(&before->dependent, &node->independent, hit->way_d);
     if (!is_black4(hit->way_i))
         add_times(&before->independent, &node->independent, hit->way_i);
+    before->white += node->white * path_hit_white(hit->way_d, hit->way_i);
+}
+
+static void note_range(FootprintPixel *p, const PathHit *hit)
+{
+    const double uv[2] = {hit->at.uv.u, hit->at.uv.v};
+    uv_range_add(p->range, hit->at.target, uv);
 }
 
 static void finish_node(FootprintPixel *p, const PathHit *hit, Node *node)
 {
-    const double uv[2] = {hit->at.uv.u, hit->at.uv.v};
     int was_met = 0;
     if (hit->before) {
         was_met = add_later(p, hit, node);
@@ -153,13 +158,23 @@ static void finish_node(FootprintPixel *p, const PathHit *hit, Node *node)
     }
     was_met |= add_first(p, hit, &node->dependent);
     if (was_met)
-        uv_range_add(p->range, hit->at.target, uv);
+        note_range(p, hit);
 }
 
-void footprints_path_end(FootprintPixel *p, const PathHits *path)
+/* As end_several, of a path's only hit, as most have. */
+static void end_single(FootprintPixel *p, const PathHit *hit, Float4 *free, Float4 *white)
+{
+    HitLight light;
+    start_light(&light, hit->dependent);
+    *free += hit->independent;
+    *white += path_hit_white(hit->dependent, hit->independent);
+    if (add_first(p, hit, &light))
+        note_range(p, hit);
+}
+
+static void end_several(FootprintPixel *p, const PathHits *path, Float4 *free, Float4 *white)
 {
     const PathHit *hits[PATH_HITS_MAX];
-    Float4 free = path->free, white = path->free;
     for (const PathHit *hit = path->last; hit; hit = hit->earlier)
         hits[hit->number] = hit;
     for (int k = 0; k < path->count; k++) {
@@ -171,13 +186,19 @@ void footprints_path_end(FootprintPixel *p, const PathHits *path)
         if (hits[k]->before)
             gather_node(p, hits[k], &p->nodes[k], &p->nodes[hits[k]->before->number]);
     for (int k = 0; k < path->count; k++) {
-        const HitLight *d = &p->nodes[k].dependent, *i = &p->nodes[k].independent;
-        if (!hits[k]->before) {
-            free += i->c[0];
-            white += i->c[0] + i->white + (d->c[0] + d->white) * splat(WHITE_ALBEDO);
-        }
+        if (!hits[k]->before)
+            *free += p->nodes[k].independent.c[0], *white += p->nodes[k].white;
         finish_node(p, hits[k], &p->nodes[k]);
     }
+}
+
+void footprints_path_end(FootprintPixel *p, const PathHits *path)
+{
+    Float4 free = path->free, white = path->free;
+    if (path->count == 1)
+        end_single(p, path->last, &free, &white);
+    else if (path->count)
+        end_several(p, path, &free, &white);
     for (int c = 0; c < 3; c++)
         p->free[c] += (double)free[c];
     p->light->total_white += luminance4(white);

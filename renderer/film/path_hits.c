@@ -3,8 +3,8 @@
 
 Float4 path_white(const PathHit *hit, Float4 dependent, Float4 independent)
 {
-    Float4 light = independent + splat(WHITE_ALBEDO) * dependent;
+    Float4 light = path_hit_white(dependent, independent);
     for (; hit && hit->before; hit = hit->before)
-        light *= hit->way_i + splat(WHITE_ALBEDO) * hit->way_d;
+        light *= path_hit_white(hit->way_d, hit->way_i);
     return light;
 }

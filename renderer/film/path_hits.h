@@ -53,6 +53,12 @@ static inline void path_hit_shine(PathHit *hit, Float4 d, Float4 i, Float4 light
     hit->connections++;
 }
 
+/* What d a + i is, or D a + I, where the target is white. */
+static inline Float4 path_hit_white(Float4 d, Float4 i)
+{
+    return i + splat(WHITE_ALBEDO) * d;
+}
+
 /* Light that comes by a hit, D and I, or to the camera where there is none: what it would be with white targets. */
 Float4 path_white(const PathHit *hit, Float4 dependent, Float4 independent);
 
