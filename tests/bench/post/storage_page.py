@@ -15,7 +15,7 @@ METHODS = {
     "jpeg": "EXR, radiance as plain JPEG",
 }
 COLUMNS = ["scene", "layout", "set", "method", "level", "bytes", "bytes_without_originals", "bits_a_pixel", "psnr",
-           "psnr_worst", "truth_loss", "truth_loss_worst", "noise_worst", "textures"]
+           "psnr_worst", "truth_loss", "truth_loss_worst", "noise_added", "noise_moved", "textures"]
 
 INTRODUCTION = """# Size of stored sets, and what they lose
 
@@ -24,8 +24,9 @@ A set can be stored without loss or with some. `make bench-storage` made this pa
 read again and given {textures}, as `make fidelity` lays them on the scenes' targets. PSNR is that of these pictures against those
 of the set as it was before (retex-diff: sRGB-encoded, clipped), in the mean of the textures and the worst; the loss is
 by how much the PSNR against converged pictures is lower than that of the set, where there are any. Of sets as they were
-rendered, with their noise, "of the noise" is the mean square by which their pictures differ from those of the set, as a
-share of that by which these differ from the converged ones: the worst of the textures.
+rendered, shares of the noise, the mean square by which the set's pictures are off the converged ones, are given for the
+worst of the textures: "adds" is by how much more the pack's pictures are off, "moves" by how much they differ from the
+set's. A pack that takes noise away moves and adds less than nothing.
 
 Bits a pixel leave out the originals, textures that do not grow with the picture; megabytes are those of the whole
 file, and in brackets scaled to 1920x1080 without originals. In the figure full lines are means, dashed ones the worst
@@ -61,8 +62,8 @@ def decibels(value):
     return f"{round(value, 3) + 0.0:.3f}"   # no -0.000
 
 
-def noise_share(record):
-    """What storing adds, in mean square, as a share of what the set was off by."""
+def noise_moved(record):
+    """By how much storing changes a picture, in mean square, as a share of what the set was off by."""
     return 10 ** ((record["set_truth"] - record["psnr"]) / 10)
 
 
@@ -77,7 +78,8 @@ def figures(key, records, pixels):
         row.update(psnr=f"{mean(psnrs):.2f}", psnr_worst=f"{min(psnrs):.2f}")
     if losses:
         row.update(truth_loss=decibels(mean(losses)), truth_loss_worst=decibels(max(losses)),
-                   noise_worst=f"{max(noise_share(r) for r in records if r['set_truth'] is not None):.4f}")
+                   noise_added=f"{10 ** (max(losses) / 10) - 1:.4f}",
+                   noise_moved=f"{max(noise_moved(r) for r in records if r['set_truth'] is not None):.4f}")
     return row
 
 
@@ -101,10 +103,11 @@ def section(scene, layout, rows, pixels):
 
 def rendered(rows, pixels):
     print("\n## Sets as rendered\n\n| scene | layout | stored as | MB | bits a pixel | PSNR, dB | worst |"
-          " loss against truth, dB | worst | of the noise |\n|---|---|---|---|---|---|---|---|---|---|")
+          " loss against truth, dB | worst | adds, of the noise | moves |\n|---|---|---|---|---|---|---|---|---|---|---|")
     for row in rows:
         cells = [row.get(c, "") for c in ("bits_a_pixel", "psnr", "psnr_worst", "truth_loss", "truth_loss_worst",
-                                          "noise_worst")]
+                                          "noise_added",
+                                          "noise_moved")]
         print(f"| {row['scene']} | {row['layout']} | {name(row)} | {megabytes(row, pixels)} | {' | '.join(cells)} |")
 
 
