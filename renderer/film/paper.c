@@ -218,10 +218,13 @@ static void add_path(PaperPixel *p, const PathHits *path)
             expand_before(e, hit);
         if (!hit->connections)
             continue;
-        expansion_mark(&p->mark, e);
+        const int is_last = k + 1 == path->count;
+        if (!is_last)
+            expansion_mark(&p->mark, e);
         expansion_push(e, &hit->at, hit->dependent, hit->independent);
         connect(p, rgb_grey(1), hit->connections);
-        expansion_return(e, &p->mark);
+        if (!is_last)
+            expansion_return(e, &p->mark);
     }
 }
 

@@ -188,7 +188,7 @@ static int add_matte(PathWorker *w, Packet *p, int lane)
     int k = m->count;
     double density;
     Vec3 normal, geometric;
-    if (!c->matte || v->last || s->filter + s->transmit > 0 || !finish_is_matte(finish))
+    if (!c->matte || v->last || s->filter + s->transmit > 0 || !finish->matte)
         return 0;
     bsdf_normals(&s->surface, vec_neg(p->rays[lane].direction), &normal, &geometric);
     LitPoint point = {s->surface.position, normal};
@@ -223,7 +223,7 @@ static void fill_vertex(PathWorker *w, Packet *p, int lane, const Hit *hit)
     v->distance = hit->t, v->last = path->segments >= c->max_depth;
     v->numbers = &p->numbers[path->half], v->lane = lane;
     v->light.found = v->picked = 0;
-    shading_color(&v->s, w->variants, c->nvariants);
+    shading_color(&v->s, v->has_uv ? &v->uv : NULL, w->variants, c->nvariants);
     if (add_matte(w, p, lane))
         return;
     bsdf_setup(&v->s.bsdf, &v->s.surface, vec_neg(ray->direction), v->s.filter, v->s.transmit);
@@ -369,8 +369,9 @@ static void find_surfaces(const Scene *scene, Packet *p, const Hit *hits)
             surface_prefetch_corners(scene, &hits[i]);
     for (int i = 0; i < p->count; i++)
         if (hits[i].primitive >= 0) {
-            surface_at(&p->vertices[i].s.surface, scene, &p->rays[i], &hits[i]);
-            shading_prefetch(&p->vertices[i].s.surface);
+            Vertex *v = &p->vertices[i];
+            surface_at(&v->s.surface, scene, &p->rays[i], &hits[i]);
+            v->has_uv = shading_prefetch(&v->s.surface, &v->uv);
         }
 }
 

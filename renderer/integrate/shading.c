@@ -23,13 +23,13 @@ Vec2 surface_target_uv(const Surface *surface)
     return target_uv_of(surface, &of);
 }
 
-void shading_color(Shading *s, const RenderVariant *variants, int nvariants)
+void shading_color(Shading *s, const SurfaceUv *uv, const RenderVariant *variants, int nvariants)
 {
     const Surface *surface = &s->surface;
     const Pigment *pigment = surface->texture->pigment;
     SurfaceUv of = {.has_natural = 0};
     if (pigment->uv_mapping || surface->target >= 0)
-        of = surface_uv(surface);
+        of = uv ? *uv : surface_uv(surface);
     Rgbft c = pigment_eval(pigment, surface->position, of.uv);
     s->albedo = rgb(not_negative(c.r), not_negative(c.g), not_negative(c.b));
     s->filter = not_negative(c.filter), s->transmit = not_negative(c.transmit);
@@ -47,18 +47,22 @@ void shading_color(Shading *s, const RenderVariant *variants, int nvariants)
     }
 }
 
-void shading_prefetch(const Surface *surface)
+int shading_prefetch(const Surface *surface, SurfaceUv *uv)
 {
     const Pigment *pigment = surface->texture->pigment;
-    if (pigment->kind == PIGMENT_IMAGE)
-        pigment_prefetch(pigment, surface->position, pigment->uv_mapping ? surface_uv(surface).uv : (Vec2){0, 0});
+    if (pigment->kind != PIGMENT_IMAGE)
+        return 0;
+    if (pigment->uv_mapping)
+        *uv = surface_uv(surface);
+    pigment_prefetch(pigment, surface->position, pigment->uv_mapping ? uv->uv : (Vec2){0, 0});
+    return pigment->uv_mapping;
 }
 
 void shading_at(Shading *s, const Scene *scene, const RenderVariant *variants, int nvariants, const Ray *ray,
                 const Hit *hit)
 {
     surface_at(&s->surface, scene, ray, hit);
-    shading_color(s, variants, nvariants);
+    shading_color(s, NULL, variants, nvariants);
     bsdf_setup(&s->bsdf, &s->surface, vec_neg(ray->direction), s->filter, s->transmit);
 }
 

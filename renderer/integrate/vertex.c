@@ -15,7 +15,7 @@ static int light_factors(PathWorker *w, int lane, LightSample *light, Factor *fa
         return 0;
     Shading s;
     s.surface = light->surface;
-    shading_color(&s, w->variants, c->nvariants);
+    shading_color(&s, NULL, w->variants, c->nvariants);
     light->radiance = rgb_grey(1);
     factors[0] = shading_factor(&s, emitted(&s));
     factors[0].albedos = keep_albedos(c, w->light_albedos[lane], &s);

@@ -85,7 +85,7 @@ const Rgb *keep_albedos(const PathContext *c, Rgb *room, const Shading *s)
 static void shading_straight(Shading *s, const PathWorker *w, const Ray *ray, Surface *surface)
 {
     s->surface = *surface;
-    shading_color(s, w->variants, w->context->nvariants);
+    shading_color(s, NULL, w->variants, w->context->nvariants);
     if (surface->backside) {
         s->surface.backside = 0;
         s->surface.geometric_normal = vec_neg(surface->geometric_normal);

@@ -95,7 +95,19 @@ typedef struct Finish {
         double specular_tint; /* t, scalar, 0..1; default 1 (F0 as it is) */
         double transmission; /* 0..1: share of the base that is a (rough) dielectric and lets light through */
     } retex;
+    int matte;               /* finish_is_matte; set where a scene is settled, 0 is slower only */
 } Finish;
+
+/* Most surfaces: nothing but Lambert's law, on either side; or on the side that is seen. */
+static inline int finish_is_lambert(const Finish *f)
+{
+    return !f->retex.present && f->specular <= 0 && f->phong <= 0 && f->brilliance == 1 &&
+           rgb_is_black(f->reflection_min) && rgb_is_black(f->reflection_max);
+}
+static inline int finish_is_matte(const Finish *f)
+{
+    return finish_is_lambert(f) && f->diffuse_back <= 0 && f->diffuse > 0;
+}
 
 typedef struct Interior {
     double ior;              /* default 1 */

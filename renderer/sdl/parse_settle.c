@@ -189,6 +189,13 @@ static void visit_settle(Sdl *sdl, const Texture **texture, void *context)
     *texture = &shown->texture;
 }
 
+/* What paths ask of them at every hit. */
+static void settle_finishes(Sdl *sdl)
+{
+    for (SideFinish *f = side_of(sdl)->finishes; f; f = f->next)
+        f->finish.matte = finish_is_matte(&f->finish);
+}
+
 /* ---- emitters ---- */
 
 /* `ambient` is no light here, but a surface with ambient >= 1 and nothing diffuse is a way to write a lamp. */
@@ -305,6 +312,7 @@ void side_settle(Sdl *sdl)
     load_images(sdl);
     each_texture(sdl, visit_settle, NULL);
     decode_colors(sdl);
+    settle_finishes(sdl);
     tell_emitters(sdl);
     list_all_names(sdl);
 }

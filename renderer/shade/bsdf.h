@@ -75,8 +75,6 @@ static inline int bsdf_only_reflects(const Bsdf *b)
 float fresnel_dielectric(float cos_i, float eta);
 /* 1 where the extension lets light through, whatever the pigment says. */
 int finish_transmits(const Finish *finish);
-/* Nothing but Lambert's law, on the side that is seen. */
-int finish_is_matte(const Finish *finish);
 /* Normals on the side that a surface is seen from along wo: for shading, and the shape's own. */
 void bsdf_normals(const Surface *surface, Vec3 wo, Vec3 *normal, Vec3 *geometric);
 /* POV-Ray's `metallic`: the tint by the pigment wears off towards grazing angles. */

@@ -139,18 +139,6 @@ static void setup_choice(Bsdf *b)
     b->p_mirror = w[3] / sum, b->p_passing = w[4] / sum;
 }
 
-/* Most surfaces: nothing but diffuse, on either side. */
-static int finish_is_lambert(const Finish *f)
-{
-    return !f->retex.present && f->specular <= 0 && f->phong <= 0 && f->brilliance == 1 &&
-           rgb_is_black(f->reflection_min) && rgb_is_black(f->reflection_max);
-}
-
-int finish_is_matte(const Finish *f)
-{
-    return finish_is_lambert(f) && f->diffuse_back <= 0 && f->diffuse > 0;
-}
-
 static void setup_lambert(Bsdf *b, const Finish *f)
 {
     float diffuse = f->diffuse > 0 ? (float)f->diffuse : 0, back = f->diffuse_back > 0 ? (float)f->diffuse_back : 0;

@@ -62,6 +62,8 @@ static Primitive *stage_add(Stage *s, ShapeKind kind, Transform transform, float
 
 static RetexSet *stage_render(Stage *s, int spp, int plain, int threads)
 {
+    for (int k = 0; k < s->scene->nprimitives; k++)
+        s->finishes[k].matte = finish_is_matte(&s->finishes[k]);
     RenderParams p = RENDER_PARAMS_INIT;
     RetexError err = {0};
     RetexSet *set = NULL;

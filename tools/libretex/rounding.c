@@ -34,7 +34,8 @@ double retex_round_bits(double value, int bits)
 
 double retex_coefficient_unit(double white)
 {
-    return retex_round_unit(COEFFICIENT_STEP * (float)white); /* sums that miss a power of two by their last bits make it */
+    /* sums that miss a power of two by their last bits make it */
+    return retex_round_unit(COEFFICIENT_STEP * (float)white);
 }
 
 float retex_round_share(double share)
