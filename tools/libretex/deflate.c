@@ -1,7 +1,7 @@
 /* See deflate.h. */
 #include "deflate.h"
 
-#include <limits.h>
+#include <stdint.h>
 #include <stdlib.h>
 
 #include <isa-l/igzip_lib.h>

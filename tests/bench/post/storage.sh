@@ -86,7 +86,7 @@ measure_rendered() { # of $scene and $layout
     kind=rendered set=$work/sets/$scene-$set_spp-$layout.exr
     make_set "$scene" "$set_spp" "$layout"
     as_it_is
-    for codec in $codecs; do packed "pack-$codec" 90 --codec "$codec"; done
+    for codec in $codecs; do packed "pack-$codec" 90 --codec "$codec" --quality 90; done
 }
 measure_denoised() {
     kind=denoised set=$work/sets/$scene-$set_spp-$layout-denoised.exr

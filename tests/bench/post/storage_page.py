@@ -21,12 +21,12 @@ INTRODUCTION = """# Size of stored sets, and what they lose
 
 A set can be stored without loss or with some. `make bench-storage` made this page from sets of {size} pixels and
 {spp} samples, denoised unless said otherwise; the figures are in [storage.csv](storage.csv) too. Every stored form is
-read again and given {textures}, as `make fidelity` lays them on the scenes' targets. PSNR is that of these pictures against those
-of the set as it was before (retex-diff: sRGB-encoded, clipped), in the mean of the textures and the worst; the loss is
-by how much the PSNR against converged pictures is lower than that of the set, where there are any. Of sets as they were
-rendered, shares of the noise, the mean square by which the set's pictures are off the converged ones, are given for the
-worst of the textures: "adds" is by how much more the pack's pictures are off, "moves" by how much they differ from the
-set's. A pack that takes noise away moves and adds less than nothing.
+read again and given {textures}, as `make fidelity` lays them on the scenes' targets. PSNR is that of these pictures
+against those of the set as it was before (retex-diff: sRGB-encoded, clipped), in the mean of the textures and the worst;
+the loss is by how much the PSNR against converged pictures is lower than that of the set, where there are any. Of sets
+as they were rendered, shares of the noise, the mean square by which the set's pictures are off the converged ones, are
+given for the worst of the textures: "adds" is by how much more the pack's pictures are off, "moves" by how much they
+differ from the set's. Where a pack takes noise away it moves, and what it adds is below 0.
 
 Bits a pixel leave out the originals, textures that do not grow with the picture; megabytes are those of the whole
 file, and in brackets scaled to 1920x1080 without originals. In the figure full lines are means, dashed ones the worst
@@ -71,7 +71,8 @@ def figures(key, records, pixels):
     stored = records[0]["stored"]
     without = stored["bytes"] - stored["groups"]["originals"]
     psnrs = [r["psnr"] for r in records if r["psnr"] is not None]
-    losses = [r["set_truth"] - r["truth"] for r in records if r["truth"] is not None and r["set_truth"] is not None]
+    against = [r for r in records if None not in (r["truth"], r["set_truth"], r["psnr"])]
+    losses = [r["set_truth"] - r["truth"] for r in against]
     row = dict(zip(COLUMNS, key), bytes=stored["bytes"], bytes_without_originals=without,
                bits_a_pixel=f"{8 * without / pixels:.3f}", textures=len(records))
     if len(psnrs) == len(records):
@@ -79,7 +80,7 @@ def figures(key, records, pixels):
     if losses:
         row.update(truth_loss=decibels(mean(losses)), truth_loss_worst=decibels(max(losses)),
                    noise_added=f"{10 ** (max(losses) / 10) - 1:.4f}",
-                   noise_moved=f"{max(noise_moved(r) for r in records if r['set_truth'] is not None):.4f}")
+                   noise_moved=f"{max(map(noise_moved, against)):.4f}")
     return row
 
 
@@ -106,8 +107,7 @@ def rendered(rows, pixels):
           " loss against truth, dB | worst | adds, of the noise | moves |\n|---|---|---|---|---|---|---|---|---|---|---|")
     for row in rows:
         cells = [row.get(c, "") for c in ("bits_a_pixel", "psnr", "psnr_worst", "truth_loss", "truth_loss_worst",
-                                          "noise_added",
-                                          "noise_moved")]
+                                          "noise_added", "noise_moved")]
         print(f"| {row['scene']} | {row['layout']} | {name(row)} | {megabytes(row, pixels)} | {' | '.join(cells)} |")
 
 
