@@ -22,7 +22,8 @@ struct RetexPackScratch {
     unsigned char *chunk; /* as read */
     size_t chunk_room;
     unsigned char *residuals, *present, *shift;
-    int present_part, present_band; /* that `present` is of; -1: none */
+    PackRuns runs;                  /* of `present` */
+    int present_part, present_band; /* that it is of; -1: none */
     int32_t *numbers;
     size_t pixels; /* of a band, that there is room for */
     int nparts;
@@ -62,6 +63,7 @@ void retex_pack_scratch_close(RetexPackScratch **result)
     free(s->chunk);
     free(s->residuals);
     free(s->present);
+    free(s->runs.run);
     free(s->shift);
     free(s->numbers);
     free(s);
@@ -82,14 +84,16 @@ static int reserve(RetexPackScratch *s, const PackPart *p, RetexError *err)
     s->present_part = -1;
     free(s->residuals);
     free(s->present);
+    free(s->runs.run);
     free(s->shift);
     free(s->numbers);
     const PackPlane plane = {.width = p->width, .rows = PACK_BAND_ROWS};
     s->residuals = malloc(pack_plane_room(&plane));
     s->present = malloc(pixels);
+    s->runs.run = malloc(pack_runs_room(p->width, PACK_BAND_ROWS) * sizeof *s->runs.run);
     s->shift = malloc(pixels);
     s->numbers = malloc(pixels * sizeof *s->numbers);
-    s->pixels = s->residuals && s->present && s->shift && s->numbers ? pixels : 0;
+    s->pixels = s->residuals && s->present && s->runs.run && s->shift && s->numbers ? pixels : 0;
     return s->pixels ? 0 : retex_fail(err, RETEX_ENOMEM, "no memory to read a pack");
 }
 
@@ -121,7 +125,7 @@ static int decode_numbers(int part, int band, int channel, const unsigned char *
     const int bits = pack_map_is_coded(&p->maps[channel])             ? 8
                      : kind == PACK_MAP_BITS && p->type == RETEX_HALF ? 16
                                                                       : 32;
-    PackPlane plane = {p->width, pack_band_rows(p, band), bits, present, shift, s->numbers};
+    PackPlane plane = {p->width, pack_band_rows(p, band), bits, present, shift, s->numbers, &s->runs};
     int code = read_chunk(part, k, 0, s, err);
     if (!code && !pack_plane_decode(&plane, s->chunk, p->bytes[k], s->residuals))
         code = pack_damaged(err, "planes cannot be decoded of part", s->pack->set->parts[part].name);
@@ -135,9 +139,11 @@ static int decode_present(int part, int band, RetexPackScratch *s, RetexError *e
     if (s->present_part == part && s->present_band == band)
         return 0;
     int code = decode_numbers(part, band, 2, NULL, NULL, s, err);
-    const size_t pixels = (size_t)p->width * (size_t)pack_band_rows(p, band);
-    if (!code)
-        pack_find_present(s->present, s->numbers, pixels);
+    const int rows = pack_band_rows(p, band);
+    if (!code) {
+        pack_find_present(s->present, s->numbers, (size_t)p->width * (size_t)rows);
+        pack_find_runs(&s->runs, s->present, p->width, rows);
+    }
     s->present_part = code ? -1 : part;
     s->present_band = band;
     return code;
@@ -152,23 +158,27 @@ static int decode_shift(int part, int band, int c, RetexPackScratch *s, RetexErr
     for (int i = 0; i < PACK_CODES; i++)
         shift[i] = (unsigned char)pack_lattice_shift(p, i, per_octave);
     int code = decode_numbers(p->sigma, band, c, s->present, NULL, s, err);
-    const size_t pixels = (size_t)p->width * (size_t)pack_band_rows(p, band);
-    for (size_t i = 0; !code && i < pixels; i++)
-        s->shift[i] = shift[s->numbers[i] & (PACK_CODES - 1)];
+    for (int y = 0; !code && y < pack_band_rows(p, band); y++)
+        for (int k = s->runs.first[y]; k < s->runs.first[y + 1]; k++) {
+            const size_t row = (size_t)y * (size_t)p->width;
+            for (size_t i = row + (size_t)s->runs.run[k].begin; i < row + (size_t)s->runs.run[k].end; i++)
+                s->shift[i] = shift[s->numbers[i] & (PACK_CODES - 1)];
+        }
     return code;
 }
 
-/* 1 unless all of it is +0. */
-static int is_lit(const float *values, size_t count)
+/* 1 unless all of so many numbers of 32 bits, or floats, are 0, floats +0. */
+static int is_any(const void *numbers, size_t count)
 {
+    const char *at = numbers;
     size_t i = 0;
     for (uint64_t some[8]; i + 16 <= count; i += 16) {
-        memcpy(some, values + i, sizeof some);
+        memcpy(some, at + 4 * i, sizeof some);
         if (some[0] | some[1] | some[2] | some[3] | some[4] | some[5] | some[6] | some[7])
             return 1;
     }
     for (uint32_t one; i < count; i++) {
-        memcpy(&one, values + i, sizeof one);
+        memcpy(&one, at + 4 * i, sizeof one);
         if (one)
             return 1;
     }
@@ -181,76 +191,71 @@ static uint64_t find_lit(const PackPart *p, int band, const float *rows)
     const size_t row = (size_t)p->width * (size_t)p->channels;
     uint64_t lit = 0;
     for (int y = 0; y < pack_band_rows(p, band); y++)
-        lit |= (uint64_t)is_lit(rows + (size_t)y * row, row) << y;
+        lit |= (uint64_t)is_any(rows + (size_t)y * row, row) << y;
     return lit;
 }
 
-static uint64_t all_rows(const PackPart *p, int band)
+/* The rows that something matters in. What does not matter of them becomes 0; other rows are left alone. */
+static uint64_t clear_around(const PackPart *p, int band, float *out, const PackRuns *runs)
 {
-    return ~(uint64_t)0 >> (64 - pack_band_rows(p, band));
+    const size_t channels = (size_t)p->channels, width = (size_t)p->width;
+    uint64_t lit = 0;
+    for (int y = 0; y < pack_band_rows(p, band); y++, out += width * channels) {
+        size_t end = 0;
+        if (runs->first[y] == runs->first[y + 1])
+            continue;
+        lit |= (uint64_t)1 << y;
+        for (int k = runs->first[y]; k < runs->first[y + 1]; k++) {
+            memset(out + end * channels, 0, ((size_t)runs->run[k].begin - end) * channels * sizeof *out);
+            end = (size_t)runs->run[k].end;
+        }
+        memset(out + end * channels, 0, (width - end) * channels * sizeof *out);
+    }
+    return lit;
 }
 
-/* The pixels of a row outside of which nothing matters; none: both 0. */
-typedef struct Extent {
-    int begin, end;
-} Extent;
-
-static Extent find_extent(const unsigned char *present, int width)
-{
-    const unsigned char *first = memchr(present, 1, (size_t)width),
-                        *last = first ? memrchr(present, 1, (size_t)width) : NULL;
-    return first ? (Extent){(int)(first - present), (int)(last - present) + 1} : (Extent){0, 0};
-}
-
-/* Numbers of channel c to samples, where only what is present matters and others are 0. Rows that stay 0 as a whole
- * are left alone. */
-static void map_present(const PackPart *p, int band, int c, float *out, uint64_t lit, const RetexPackScratch *s)
+/* Numbers of channel c, all of which matter, to samples. Rows of which all are 0 so far, in all channels, have no bit in
+ * *lit and are left alone. */
+static void map_all(const PackPart *p, int band, int c, float *out, uint64_t *lit, const int32_t *numbers)
 {
     const size_t channels = (size_t)p->channels, width = (size_t)p->width;
     const int32_t none = 0;
-    float nothing;
-    pack_map_samples(&nothing, 1, &none, 1, &p->maps[c], p->type);
-    for (int y = 0; y < pack_band_rows(p, band); y++) {
-        const size_t row = width * (size_t)y;
-        const Extent extent = find_extent(s->present + row, p->width);
-        float *to = out + row * channels + (size_t)c;
-        if (!(lit >> y & 1))
+    float of_none;
+    pack_map_samples(&of_none, 1, &none, 1, &p->maps[c], p->type);
+    const int none_is_lit = is_any(&of_none, 1);
+    for (int y = 0; y < pack_band_rows(p, band); y++, out += width * channels, numbers += width) {
+        const uint64_t row = (uint64_t)1 << y;
+        if (!(*lit & row) && !none_is_lit && !is_any(numbers, width))
             continue;
-        for (size_t x = 0; x < (size_t)extent.begin; x++)
-            to[x * channels] = nothing;
-        for (size_t x = (size_t)extent.end; x < width; x++)
-            to[x * channels] = nothing;
-        const size_t begin = (size_t)extent.begin;
-        pack_map_samples(to + begin * channels, channels, s->numbers + row + begin, (size_t)(extent.end - extent.begin),
-                         &p->maps[c], p->type);
+        if (!(*lit & row) && c > 0)
+            memset(out, 0, width * channels * sizeof *out);
+        *lit |= row;
+        pack_map_samples(out + c, channels, numbers, width, &p->maps[c], p->type);
     }
 }
 
-/* The rows that something matters in, or that have a value where nothing does. */
-static uint64_t find_present_rows(const PackPart *p, int band, const RetexPackScratch *s)
+/* Numbers of channel c to samples, where they matter. */
+static void map_present(const PackPart *p, int band, int c, float *out, const RetexPackScratch *s)
 {
-    const int32_t none = 0;
-    uint64_t lit = 0;
-    for (int c = 0; c < p->channels; c++) {
-        float nothing;
-        pack_map_samples(&nothing, 1, &none, 1, &p->maps[c], p->type);
-        if (is_lit(&nothing, 1))
-            return all_rows(p, band);
-    }
-    for (int y = 0; y < pack_band_rows(p, band); y++)
-        lit |= (uint64_t)(memchr(s->present + (size_t)y * (size_t)p->width, 1, (size_t)p->width) != NULL) << y;
-    return lit;
+    const size_t channels = (size_t)p->channels, width = (size_t)p->width;
+    for (size_t y = 0; y < (size_t)pack_band_rows(p, band); y++)
+        for (int k = s->runs.first[y]; k < s->runs.first[y + 1]; k++) {
+            const PackRun run = s->runs.run[k];
+            const size_t at = y * width + (size_t)run.begin;
+            pack_map_samples(out + at * channels + (size_t)c, channels, s->numbers + at, (size_t)(run.end - run.begin),
+                             &p->maps[c], p->type);
+        }
 }
 
 static int decode_planes(int part, int band, float *out, uint64_t *lit, RetexPackScratch *s, RetexError *err)
 {
     const PackPart *p = &s->pack->parts[part];
-    const size_t pixels = (size_t)p->width * (size_t)pack_band_rows(p, band);
     int code = reserve(s, p, err);
     if (!code && p->present >= 0)
         code = decode_present(p->present, band, s, err);
-    *lit = code || p->present < 0 ? all_rows(p, band) : find_present_rows(p, band, s);
-    for (int c = 0; !code && *lit && c < p->channels; c++) {
+    if (!code && p->present >= 0)
+        *lit = clear_around(p, band, out, &s->runs);
+    for (int c = 0; !code && (*lit || p->present < 0) && c < p->channels; c++) {
         const int lattice = p->maps[c].kind == PACK_MAP_LATTICE;
         const int partial = p->present >= 0 && (p->present != part || c != 2);
         if (lattice)
@@ -258,12 +263,10 @@ static int decode_planes(int part, int band, float *out, uint64_t *lit, RetexPac
         if (!code)
             code = decode_numbers(part, band, c, partial ? s->present : NULL, lattice ? s->shift : NULL, s, err);
         if (!code && p->present >= 0)
-            map_present(p, band, c, out, *lit, s);
+            map_present(p, band, c, out, s);
         else if (!code)
-            pack_map_samples(out + c, (size_t)p->channels, s->numbers, pixels, &p->maps[c], p->type);
+            map_all(p, band, c, out, lit, s->numbers);
     }
-    if (!code && p->present < 0)
-        *lit = find_lit(p, band, out);
     return code;
 }
 
@@ -313,7 +316,7 @@ static int decode_mask(int part, int band, int *rest, RetexPackScratch *s, Retex
 {
     const PackPart *p = &s->pack->parts[part];
     const int k = 1 + p->nbands + band, rows = pack_band_rows(p, band), width = pack_mask_width(p);
-    PackPlane plane = {width, rows, 8, NULL, NULL, s->numbers};
+    PackPlane plane = {.width = width, .rows = rows, .bits = 8, .numbers = s->numbers};
     int code = read_chunk(part, k, 0, s, err);
     if (!code && !pack_plane_decode(&plane, s->chunk, p->bytes[k], s->residuals))
         code = pack_damaged(err, "the mask cannot be decoded of part", s->pack->set->parts[part].name);

@@ -69,7 +69,8 @@ static int encode_mask_band(PackItem *item, int band, RetexError *err)
     const RetexImage *im = &item->part->image;
     PackPart *p = item->packed;
     const int rows = pack_band_rows(p, band), width = pack_mask_width(p), k = 1 + p->nbands + band;
-    PackPlane plane = {width, rows, 8, NULL, NULL, calloc((size_t)(width * rows), sizeof(int32_t))};
+    PackPlane plane = {
+        .width = width, .rows = rows, .bits = 8, .numbers = calloc((size_t)(width * rows), sizeof(int32_t))};
     const size_t room = pack_plane_room(&plane);
     unsigned char *scratch = malloc(2 * room);
     item->chunks[k] = malloc(room);
@@ -187,9 +188,12 @@ static int encode_band(const PackEncoded *w, int part, int index)
         if (lattice)
             fill_shift(&band, w, p, c, index);
         numbers_of(band.numbers, w, part, c, index, band.pixels);
-        const PackPlane plane = {
-            p->width,    pack_band_rows(p, index), bits, partial ? band.present : NULL, lattice ? band.shift : NULL,
-            band.numbers};
+        const PackPlane plane = {.width = p->width,
+                                 .rows = pack_band_rows(p, index),
+                                 .bits = bits,
+                                 .present = partial ? band.present : NULL,
+                                 .shift = lattice ? band.shift : NULL,
+                                 .numbers = band.numbers};
         unsigned char *data = malloc(pack_plane_room(&plane));
         const long bytes = data ? pack_plane_encode(data, &plane, band.scratch, EFFORT) : -1;
         unsigned char *fitted = bytes > 0 ? realloc(data, (size_t)bytes) : NULL;

@@ -2,6 +2,7 @@
 #include "pack_jpeg.h"
 
 #include <math.h>
+#include <pthread.h>
 #include <setjmp.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -35,11 +36,20 @@ double pack_curve_value(const PackCurve *curve, double level)
     return curve->white * x;
 }
 
-static void fill_table(PackLevelTable *table, const PackCurve *curve)
+static float shares[PACK_LEVEL_ENTRIES + 2]; /* every curve's, once fill_shares has run */
+
+static void fill_shares(void)
 {
-    table->scale = (float)(ENTRIES_TO_WHITE / curve->levels);
+    const PackCurve unit = {1, ENTRIES_TO_WHITE};
     for (int i = 0; i < PACK_LEVEL_ENTRIES + 2; i++)
-        table->value[i] = (float)pack_curve_value(curve, curve->levels * i / ENTRIES_TO_WHITE);
+        shares[i] = (float)pack_curve_value(&unit, i);
+}
+
+static PackLevels levels_of(const PackCurve *curve)
+{
+    static pthread_once_t once = PTHREAD_ONCE_INIT;
+    pthread_once(&once, fill_shares);
+    return (PackLevels){(float)(ENTRIES_TO_WHITE / curve->levels), (float)curve->white, shares};
 }
 
 /* --- libjpeg's errors --- */
@@ -240,8 +250,6 @@ struct PackJpegDecoder {
     const PackJpegKernels *kernels;
     float *planes; /* three, of 8 rows */
     size_t room;
-    PackCurve curve; /* of the table */
-    PackLevelTable table;
 };
 
 int pack_jpeg_decoder_create(PackJpegDecoder **result, RetexError *err)
@@ -296,11 +304,12 @@ static int patch(unsigned char *file, size_t header, size_t bytes, int width, in
 
 /* The rows of blocks, component by component, and what they stand for. */
 static void decode_rows(PackJpegDecoder *decoder, jvirt_barray_ptr *arrays, float *values, int width, int rows,
-                        int channels)
+                        int channels, const PackCurve *curve)
 {
     struct jpeg_decompress_struct *jpeg = &decoder->jpeg;
     const int blocks = (width + 7) / 8;
     const size_t stride = 8 * (size_t)blocks;
+    const PackLevels levels = levels_of(curve);
     float steps[64];
     for (int row = 0; row < (rows + 7) / 8; row++) {
         for (int c = 0; c < channels; c++) {
@@ -314,9 +323,9 @@ static void decode_rows(PackJpegDecoder *decoder, jvirt_barray_ptr *arrays, floa
             const float *p = decoder->planes + (size_t)y * stride;
             float *to = values + (size_t)(8 * row + y) * (size_t)width * (size_t)channels;
             if (channels == 3)
-                decoder->kernels->colours(to, p, p + 8 * stride, p + 16 * stride, width, &decoder->table);
+                decoder->kernels->colours(to, p, p + 8 * stride, p + 16 * stride, width, &levels);
             else
-                decoder->kernels->greys(to, p, width, &decoder->table);
+                decoder->kernels->greys(to, p, width, &levels);
         }
     }
 }
@@ -335,10 +344,6 @@ int pack_jpeg_decode_band(PackJpegDecoder *decoder, float *values, unsigned char
         decoder->planes = planes;
         decoder->room = room;
     }
-    if (decoder->curve.white != curve->white || decoder->curve.levels != curve->levels) {
-        decoder->curve = *curve;
-        fill_table(&decoder->table, curve);
-    }
     if (setjmp(decoder->trouble.out)) {
         jpeg_abort_decompress(jpeg);
         return retex_fail(err, RETEX_EFORMAT, "its JPEG cannot be decoded: %s", decoder->trouble.message);
@@ -354,7 +359,7 @@ int pack_jpeg_decode_band(PackJpegDecoder *decoder, float *values, unsigned char
         for (int c = 0; ok && c < channels; c++)
             ok = jpeg->comp_info[c].quant_table != NULL;
         if (ok)
-            decode_rows(decoder, arrays, values, width, rows, channels);
+            decode_rows(decoder, arrays, values, width, rows, channels, curve);
     }
     jpeg_abort_decompress(jpeg);
     return ok ? 0 : retex_fail(err, RETEX_EFORMAT, "its JPEG is not of the part's size");

@@ -114,29 +114,29 @@ static void inverse_plain(float *samples, int stride, const int16_t *coefficient
     }
 }
 
-static inline float value_of(float level, const PackLevelTable *table)
+static inline float value_of(float level, const PackLevels *levels)
 {
-    const float scaled = level * table->scale, place = scaled > 0 ? scaled : 0;
+    const float scaled = level * levels->scale, place = scaled > 0 ? scaled : 0;
     const int entry = place < PACK_LEVEL_ENTRIES ? (int)place : PACK_LEVEL_ENTRIES;
-    const float low = table->value[entry];
-    return low + (table->value[entry + 1] - low) * (place - (float)entry);
+    const float low = levels->share[entry];
+    return (low + (levels->share[entry + 1] - low) * (place - (float)entry)) * levels->white;
 }
 
 static void colours_plain(float *restrict values, const float *y, const float *cb, const float *cr, int count,
-                          const PackLevelTable *table)
+                          const PackLevels *levels)
 {
     for (int i = 0; i < count; i++) {
         const float level = y[i] + 128;
-        values[3 * i] = value_of(level + 1.402f * cr[i], table);
-        values[3 * i + 1] = value_of(level - 0.344136286f * cb[i] - 0.714136286f * cr[i], table);
-        values[3 * i + 2] = value_of(level + 1.772f * cb[i], table);
+        values[3 * i] = value_of(level + 1.402f * cr[i], levels);
+        values[3 * i + 1] = value_of(level - 0.344136286f * cb[i] - 0.714136286f * cr[i], levels);
+        values[3 * i + 2] = value_of(level + 1.772f * cb[i], levels);
     }
 }
 
-static void greys_plain(float *restrict values, const float *y, int count, const PackLevelTable *table)
+static void greys_plain(float *restrict values, const float *y, int count, const PackLevels *levels)
 {
     for (int i = 0; i < count; i++)
-        values[i] = value_of(y[i] + 128, table);
+        values[i] = value_of(y[i] + 128, levels);
 }
 
 static const PackJpegKernels plain = {inverse_plain, colours_plain, greys_plain};
@@ -226,20 +226,21 @@ static void inverse_avx2(float *samples, int stride, const int16_t *coefficients
 }
 
 /* value_of; an entry and the next one lie side by side and come at once. */
-static inline __attribute__((always_inline)) __m256 values_of(__m256 levels, const PackLevelTable *table)
+static inline __attribute__((always_inline)) __m256 values_of(__m256 level, const PackLevels *levels)
 {
-    const __m256 place = _mm256_max_ps(TIMES(table->scale, levels), _mm256_setzero_ps());
+    const __m256 place = _mm256_max_ps(TIMES(levels->scale, level), _mm256_setzero_ps());
     const __m256i entry = _mm256_cvttps_epi32(_mm256_min_ps(place, _mm256_set1_ps(PACK_LEVEL_ENTRIES)));
     const __m256i halves = _mm256_permute4x64_epi64(entry, 0xd8); /* 0, 1, 4, 5 and 2, 3, 6, 7 */
-    const long long *from = (const long long *)(const void *)table->value;
+    const long long *from = (const long long *)(const void *)levels->share;
     const __m256 a = _mm256_castsi256_ps(_mm256_i32gather_epi64(from, _mm256_castsi256_si128(halves), 4)),
                  b = _mm256_castsi256_ps(_mm256_i32gather_epi64(from, _mm256_extracti128_si256(halves, 1), 4));
     const __m256 low = _mm256_shuffle_ps(a, b, 0x88), high = _mm256_shuffle_ps(a, b, 0xdd);
-    return PLUS(low, _mm256_mul_ps(LESS(high, low), LESS(place, _mm256_cvtepi32_ps(entry))));
+    const __m256 share = PLUS(low, _mm256_mul_ps(LESS(high, low), LESS(place, _mm256_cvtepi32_ps(entry))));
+    return TIMES(levels->white, share);
 }
 
 static void colours_avx2(float *restrict values, const float *y, const float *cb, const float *cr, int count,
-                         const PackLevelTable *table)
+                         const PackLevels *levels)
 {
     const __m256i reds = _mm256_setr_epi32(0, 3, 6, 1, 4, 7, 2, 5), greens = _mm256_setr_epi32(5, 0, 3, 6, 1, 4, 7, 2),
                   blues = _mm256_setr_epi32(2, 5, 0, 3, 6, 1, 4, 7);
@@ -247,26 +248,26 @@ static void colours_avx2(float *restrict values, const float *y, const float *cb
     for (; i + 8 <= count; i += 8) {
         const __m256 level = PLUS(_mm256_loadu_ps(y + i), _mm256_set1_ps(128));
         const __m256 b = _mm256_loadu_ps(cb + i), r = _mm256_loadu_ps(cr + i);
-        const __m256 red = _mm256_permutevar8x32_ps(values_of(PLUS(level, TIMES(1.402f, r)), table), reds);
+        const __m256 red = _mm256_permutevar8x32_ps(values_of(PLUS(level, TIMES(1.402f, r)), levels), reds);
         const __m256 green = _mm256_permutevar8x32_ps(
-            values_of(LESS(LESS(level, TIMES(0.344136286f, b)), TIMES(0.714136286f, r)), table), greens);
-        const __m256 blue = _mm256_permutevar8x32_ps(values_of(PLUS(level, TIMES(1.772f, b)), table), blues);
+            values_of(LESS(LESS(level, TIMES(0.344136286f, b)), TIMES(0.714136286f, r)), levels), greens);
+        const __m256 blue = _mm256_permutevar8x32_ps(values_of(PLUS(level, TIMES(1.772f, b)), levels), blues);
         float *to = values + 3 * (size_t)i;
         _mm256_storeu_ps(to, _mm256_blend_ps(_mm256_blend_ps(red, green, 0x92), blue, 0x24));
         _mm256_storeu_ps(to + 8, _mm256_blend_ps(_mm256_blend_ps(red, green, 0x24), blue, 0x49));
         _mm256_storeu_ps(to + 16, _mm256_blend_ps(_mm256_blend_ps(red, green, 0x49), blue, 0x92));
     }
     _mm256_zeroupper(); /* which the compiler leaves out before a last call */
-    colours_plain(values + 3 * (size_t)i, y + i, cb + i, cr + i, count - i, table);
+    colours_plain(values + 3 * (size_t)i, y + i, cb + i, cr + i, count - i, levels);
 }
 
-static void greys_avx2(float *restrict values, const float *y, int count, const PackLevelTable *table)
+static void greys_avx2(float *restrict values, const float *y, int count, const PackLevels *levels)
 {
     int i = 0;
     for (; i + 8 <= count; i += 8)
-        _mm256_storeu_ps(values + i, values_of(PLUS(_mm256_loadu_ps(y + i), _mm256_set1_ps(128)), table));
+        _mm256_storeu_ps(values + i, values_of(PLUS(_mm256_loadu_ps(y + i), _mm256_set1_ps(128)), levels));
     _mm256_zeroupper();
-    greys_plain(values + i, y + i, count - i, table);
+    greys_plain(values + i, y + i, count - i, levels);
 }
 #pragma GCC pop_options
 

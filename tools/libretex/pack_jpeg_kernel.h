@@ -6,11 +6,12 @@
 
 enum { PACK_LEVEL_ENTRIES = 8192 };
 
-/* Values of levels, between which one interpolates; beyond the last one the line goes on. */
-typedef struct PackLevelTable {
-    float scale; /* entries a level */
-    float value[PACK_LEVEL_ENTRIES + 2];
-} PackLevelTable;
+/* Which values levels stand for: entries, between which one interpolates; beyond the last one the line goes on. */
+typedef struct PackLevels {
+    float scale;        /* entries a level */
+    float white;        /* times the entry is the value */
+    const float *share; /* of white: [PACK_LEVEL_ENTRIES + 2] */
+} PackLevels;
 
 /* 64 samples of a block, rows `stride` floats apart, to coefficients in natural order, quantised. */
 void pack_block_forward(int16_t *coefficients, const float *samples, int stride, const float *inverse_steps);
@@ -24,8 +25,8 @@ typedef struct PackJpegKernels {
     void (*inverse)(float *samples, int stride, const int16_t *coefficients, int blocks, const float *steps);
     /* Planes of Y, Cb and Cr (centred on 0) to interleaved values, and of one channel. */
     void (*colours)(float *values, const float *y, const float *cb, const float *cr, int count,
-                    const PackLevelTable *table);
-    void (*greys)(float *values, const float *y, int count, const PackLevelTable *table);
+                    const PackLevels *levels);
+    void (*greys)(float *values, const float *y, int count, const PackLevels *levels);
 } PackJpegKernels;
 
 /* Those that this processor can run, the fastest first, the plain reference last; returns how many. */

@@ -38,12 +38,6 @@ size_t pack_plane_room(const PackPlane *plane)
     return (size_t)plane->width * (size_t)plane->rows * sizeof(int32_t) + BLOSC_MAX_OVERHEAD + 64;
 }
 
-static size_t count_present(const PackPlane *plane)
-{
-    const size_t all = (size_t)plane->width * (size_t)plane->rows;
-    return plane->present ? pack_count_present(plane->present, all) : all;
-}
-
 /* --- encoding --- */
 
 /* Numbers as they will come back: multiples of their steps, 0 where they do not matter. 1 if one that matters is not 0.
@@ -81,8 +75,10 @@ static double cost(const PackPlane *plane, Predictor predictor, uint32_t *larges
     return bits;
 }
 
-static void store_residuals(unsigned char *to, const PackPlane *plane, Predictor predictor, int bytes)
+/* Returns how many bytes they are. */
+static size_t store_residuals(unsigned char *to, const PackPlane *plane, Predictor predictor, int bytes)
 {
+    const unsigned char *const begin = to;
     int32_t last = 0;
     for (int y = 0; y < plane->rows; y++)
         for (int x = 0; x < plane->width; x++) {
@@ -94,6 +90,7 @@ static void store_residuals(unsigned char *to, const PackPlane *plane, Predictor
             for (int k = 0; k < bytes; k++)
                 *to++ = (unsigned char)(residual >> 8 * k);
         }
+    return (size_t)(to - begin);
 }
 
 /* Residuals, compressed; returns the bytes of both, or -1. */
@@ -101,8 +98,7 @@ static long compress_residuals(unsigned char *to, const PackPlane *plane, Predic
                                unsigned char *scratch, int effort)
 {
     const int bytes = largest < 256 ? 1 : largest < 65536 ? 2 : 4;
-    const size_t size = count_present(plane) * (size_t)bytes;
-    store_residuals(scratch, plane, predictor, bytes);
+    const size_t size = store_residuals(scratch, plane, predictor, bytes);
     to[0] = (unsigned char)(bytes << 4 | predictor);
     const int got = blosc_compress_ctx(effort, bytes > 1, (size_t)bytes, size, scratch, to + 1,
                                        pack_plane_room(plane) - 1, BLOSC_ZSTD_COMPNAME, size, 1);
@@ -136,16 +132,29 @@ long pack_plane_encode(unsigned char *data, const PackPlane *plane, unsigned cha
 
 /* --- decoding --- */
 
+/* What matters becomes 0. */
+static void clear(const PackPlane *plane)
+{
+    const size_t width = (size_t)plane->width;
+    if (!plane->present)
+        memset(plane->numbers, 0, width * (size_t)plane->rows * sizeof *plane->numbers);
+    for (size_t y = 0; plane->present && y < (size_t)plane->rows; y++)
+        for (int k = plane->runs->first[y]; k < plane->runs->first[y + 1]; k++) {
+            const PackRun run = plane->runs->run[k];
+            memset(plane->numbers + y * width + run.begin, 0, (size_t)(run.end - run.begin) * sizeof *plane->numbers);
+        }
+}
+
 int pack_plane_decode(PackPlane *plane, const unsigned char *data, size_t bytes, unsigned char *scratch)
 {
-    const size_t all = (size_t)plane->width * (size_t)plane->rows;
     if (bytes == 0) {
-        memset(plane->numbers, 0, all * sizeof *plane->numbers);
+        clear(plane);
         return 1;
     }
+    const size_t pixels = plane->present ? plane->runs->pixels : (size_t)plane->width * (size_t)plane->rows;
     const int width = data[0] >> 4;
     const Predictor predictor = (Predictor)(data[0] & 15);
-    const size_t size = count_present(plane) * (size_t)width;
+    const size_t size = pixels * (size_t)width;
     size_t unpacked;
     if ((width != 1 && width != 2 && width != 4) || predictor >= PREDICTORS || size == 0 ||
         bytes < 1 + BLOSC_MIN_HEADER_LENGTH || blosc_cbuffer_validate(data + 1, bytes - 1, &unpacked) < 0 ||

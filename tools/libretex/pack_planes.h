@@ -7,6 +7,8 @@
 #include <stdint.h>
 #include <retex/image.h>
 
+#include "pack_jpeg.h"
+
 /* What a number stands for. */
 typedef enum PackMapKind {
     PACK_MAP_BITS,    /* the bits of a half or float, in the order of the values they mean */
@@ -36,13 +38,32 @@ void pack_map_numbers(int32_t *numbers, const float *samples, size_t stride, siz
 void pack_map_samples(float *samples, size_t stride, const int32_t *numbers, size_t count, const PackMap *map,
                       RetexPixelType type);
 
-/* A plane of numbers: width x rows. */
+/* Pixels of a row side by side that matter. */
+typedef struct PackRun {
+    int begin, end;
+} PackRun;
+
+/* All of a plane, row by row. */
+typedef struct PackRuns {
+    size_t pixels;                 /* that matter */
+    int first[PACK_BAND_ROWS + 1]; /* row y has run[first[y]] to run[first[y + 1] - 1] */
+    PackRun *run;
+} PackRuns;
+
+/* Most runs that there can be. */
+static inline size_t pack_runs_room(int width, int rows)
+{
+    return (size_t)(width / 2 + 1) * (size_t)rows;
+}
+
+/* A plane of numbers: width x rows, of which there are at most PACK_BAND_ROWS. */
 typedef struct PackPlane {
     int width, rows;
     int bits;                     /* of a number: 8, 16 or 32; sums wrap around there */
     const unsigned char *present; /* 0: this number does not matter and is not stored; NULL: all matter */
     const unsigned char *shift;   /* numbers are multiples of 2^shift; NULL: of 1 */
     int32_t *numbers;
+    const PackRuns *runs; /* of what is present, which decoding needs */
 } PackPlane;
 
 /* Most bytes that a plane's residuals, and its compressed form, may need. */
@@ -52,7 +73,7 @@ size_t pack_plane_room(const PackPlane *plane);
  * matters is 0, or -1 if compression fails. effort 1..9. */
 long pack_plane_encode(unsigned char *data, const PackPlane *plane, unsigned char *scratch, int effort);
 
-/* And back, into plane->numbers; those that do not matter become 0. 1, or 0 where the data is damaged. */
+/* And back, into plane->numbers; those that do not matter are left alone. 1, or 0 where the data is damaged. */
 int pack_plane_decode(PackPlane *plane, const unsigned char *data, size_t bytes, unsigned char *scratch);
 
 #endif

@@ -1,5 +1,5 @@
 /* See pack_restore.h. Most planes are of codes that nothing predicts: those only have to be spread over the pixels
- * where they matter. Of the others the prediction is chosen once a plane, and what neighbours a number has by runs. */
+ * where they matter, run by run. Of the others the prediction is chosen once a plane. */
 #include "pack_restore.h"
 
 #include <string.h>
@@ -7,23 +7,29 @@
 #include <emmintrin.h>
 #endif
 
-size_t pack_count_present(const unsigned char *present, size_t count)
-{
-    size_t sum = 0;
-    for (size_t begin = 0; begin < count; begin += 255) { /* sums of bytes that fit into a byte */
-        const size_t n = count - begin < 255 ? count - begin : 255;
-        unsigned char part = 0;
-        for (size_t i = 0; i < n; i++)
-            part = (unsigned char)(part + (present[begin + i] != 0));
-        sum += part;
-    }
-    return sum;
-}
-
 void pack_find_present(unsigned char *restrict present, const int32_t *restrict numbers, size_t count)
 {
     for (size_t i = 0; i < count; i++)
         present[i] = numbers[i] != 0;
+}
+
+void pack_find_runs(PackRuns *runs, const unsigned char *present, int width, int rows)
+{
+    int count = 0;
+    runs->pixels = 0;
+    runs->first[0] = 0;
+    for (int y = 0; y < rows; y++, present += width) {
+        for (int end = 0; end < width;) {
+            const unsigned char *begin = memchr(present + end, 1, (size_t)(width - end));
+            if (!begin)
+                break;
+            const unsigned char *after = memchr(begin, 0, (size_t)(width - (begin - present)));
+            end = after ? (int)(after - present) : width;
+            runs->run[count++] = (PackRun){(int)(begin - present), end};
+            runs->pixels += (size_t)(end - runs->run[count - 1].begin);
+        }
+        runs->first[y + 1] = count;
+    }
 }
 
 static inline uint32_t load(const unsigned char *from, int bytes)
@@ -40,10 +46,8 @@ void pack_restore_plainly(PackPlane *plane, Predictor predictor, const unsigned 
         for (int x = 0; x < plane->width; x++) {
             const size_t row = (size_t)y * (size_t)plane->width;
             int32_t *number = &plane->numbers[row + (size_t)x];
-            if (plane->present && !plane->present[row + (size_t)x]) {
-                *number = 0;
+            if (plane->present && !plane->present[row + (size_t)x])
                 continue;
-            }
             const int shift = plane->shift ? plane->shift[row + (size_t)x] : 0;
             const int32_t guess = in_steps(predict_at(plane, predictor, row, x, last), shift);
             const int32_t sum = add(guess, from_unsigned(load(from, bytes)));
@@ -97,110 +101,83 @@ static inline void spread_all(int32_t *numbers, size_t count, const unsigned cha
         numbers[i] = wide_number(from + i * (size_t)bytes, bytes, bits);
 }
 
-/* Eight at a time, of which often all or none matter. */
-static inline void spread_present(int32_t *numbers, const unsigned char *present, size_t count,
-                                  const unsigned char *from, int bytes, int bits)
+/* By runs where not all matter. */
+static inline void spread(PackPlane *plane, const unsigned char *from, int bytes, int bits)
 {
-    static const unsigned char all[8] = {1, 1, 1, 1, 1, 1, 1, 1}, none[8];
-    size_t i = 0;
-    for (; i + 8 <= count; i += 8) {
-        if (memcmp(present + i, none, 8) == 0) {
-            memset(numbers + i, 0, 8 * sizeof *numbers);
-        } else if (memcmp(present + i, all, 8) == 0) {
-            spread_all(numbers + i, 8, from, bytes, bits);
-            from += 8 * bytes;
-        } else {
-            for (size_t k = i; k < i + 8; k++) { /* without jumps, which nobody could foretell */
-                const int there = present[k] != 0;
-                numbers[k] = wide_number(from, bytes, bits) & -there;
-                from += there * bytes;
-            }
+    const size_t width = (size_t)plane->width;
+    if (!plane->present)
+        spread_all(plane->numbers, width * (size_t)plane->rows, from, bytes, bits);
+    for (size_t y = 0; plane->present && y < (size_t)plane->rows; y++)
+        for (int k = plane->runs->first[y]; k < plane->runs->first[y + 1]; k++) {
+            const PackRun run = plane->runs->run[k];
+            const size_t count = (size_t)(run.end - run.begin);
+            spread_all(plane->numbers + y * width + run.begin, count, from, bytes, bits);
+            from += count * (size_t)bytes;
         }
-    }
-    for (; i < count; i++) {
-        numbers[i] = present[i] ? wide_number(from, bytes, bits) : 0;
-        from += present[i] ? bytes : 0;
-    }
 }
 
-static inline void spread(PackPlane *plane, const unsigned char *from, int bytes)
+/* ---- predicted, where they matter ---- */
+
+/* How one number becomes the next: with shift, in steps. */
+static inline int32_t step(int32_t guess, int shift, const unsigned char *from, int bytes, int bits)
 {
-    const size_t count = (size_t)plane->width * (size_t)plane->rows;
-    if (plane->present && plane->bits == 8)
-        spread_present(plane->numbers, plane->present, count, from, bytes, 8);
-    else if (plane->present)
-        spread_present(plane->numbers, plane->present, count, from, bytes, plane->bits);
-    else if (plane->bits == 8)
-        spread_all(plane->numbers, count, from, bytes, 8);
-    else
-        spread_all(plane->numbers, count, from, bytes, plane->bits);
+    guess = add(guess, (1 << shift) >> 1) >> shift;
+    return wrap((int32_t)((uint32_t)add(guess, from_unsigned(load(from, bytes))) << shift), bits);
 }
 
-/* ---- numbers of steps, where they matter ---- */
-
-/* A row of 32 bits; above: the row above and what of it matters, or NULL. Returns the end of its residuals. */
-static inline const unsigned char *restore_steps_row(int32_t *n, const unsigned char *present,
-                                                     const unsigned char *shift, const int32_t *above,
-                                                     const unsigned char *above_present, int width, Predictor predictor,
-                                                     const unsigned char *from, int bytes, int32_t *last)
+/* A run of a row; above: the row above and what of it matters, or NULL. Returns the end of its residuals. */
+static inline const unsigned char *restore_run(int32_t *n, PackRun run, const unsigned char *shift,
+                                               const int32_t *above, const unsigned char *above_present,
+                                               Predictor predictor, const unsigned char *from, int bytes, int bits,
+                                               int32_t *last)
 {
-    int32_t left = *last;
-    int has_left = 0;
-    for (int x = 0; x < width; x++) {
-        if (!present[x]) {
-            n[x] = 0;
-            has_left = 0;
-            continue;
-        }
+    int x = run.begin, has_corner = above && above_present[x];
+    int32_t guess = predictor == BY_NOTHING ? 0 : has_corner ? above[x] : *last;
+    int32_t left = n[x] = step(guess, shift ? shift[x] : 0, from, bytes, bits);
+    for (x++, from += bytes; x < run.end; x++, from += bytes) {
         const int has_upper = above && above_present[x];
-        int32_t guess = left; /* or the last one met */
-        if (has_left && has_upper && above_present[x - 1])
+        guess = predictor == BY_NOTHING ? 0 : left;
+        if (has_upper && has_corner)
             guess = predict(predictor, left, above[x], above[x - 1]);
-        else if (predictor == BY_NOTHING)
-            guess = 0;
-        else if (!has_left && has_upper)
-            guess = above[x];
-        const int s = shift[x];
-        guess = add(guess, (1 << s) >> 1) >> s;
-        left = (int32_t)((uint32_t)add(guess, from_unsigned(load(from, bytes))) << s);
-        n[x] = left;
-        has_left = 1;
-        from += bytes;
+        n[x] = left = step(guess, shift ? shift[x] : 0, from, bytes, bits);
+        has_corner = has_upper;
     }
     *last = left;
     return from;
 }
 
-static inline void restore_steps_by(PackPlane *plane, Predictor predictor, const unsigned char *from, int bytes)
+static inline void restore_runs_by(PackPlane *plane, Predictor predictor, const unsigned char *shift,
+                                   const unsigned char *from, int bytes, int bits)
 {
-    const int width = plane->width;
+    const size_t width = (size_t)plane->width;
     int32_t last = 0;
-    for (int y = 0; y < plane->rows; y++) {
-        const size_t row = (size_t)y * (size_t)width;
-        const unsigned char *present = plane->present + row;
-        int32_t *n = plane->numbers + row;
-        from = restore_steps_row(n, present, plane->shift + row, y ? n - width : NULL, y ? present - width : NULL,
-                                 width, predictor, from, bytes, &last);
+    for (size_t y = 0; y < (size_t)plane->rows; y++) {
+        const unsigned char *present = plane->present + y * width;
+        int32_t *n = plane->numbers + y * width;
+        for (int k = plane->runs->first[y]; k < plane->runs->first[y + 1]; k++)
+            from = restore_run(n, plane->runs->run[k], shift ? shift + y * width : NULL, y ? n - width : NULL,
+                               y ? present - width : NULL, predictor, from, bytes, bits, &last);
     }
 }
 
-static inline void restore_steps(PackPlane *plane, Predictor predictor, const unsigned char *from, int bytes)
+static inline void restore_runs(PackPlane *plane, Predictor predictor, const unsigned char *shift,
+                                const unsigned char *from, int bytes, int bits)
 {
     switch (predictor) { /* so that the compiler sees each alone */
     case BY_LEFT:
-        restore_steps_by(plane, BY_LEFT, from, bytes);
+        restore_runs_by(plane, BY_LEFT, shift, from, bytes, bits);
         break;
     case BY_UPPER:
-        restore_steps_by(plane, BY_UPPER, from, bytes);
+        restore_runs_by(plane, BY_UPPER, shift, from, bytes, bits);
         break;
     case BY_GRADIENT:
-        restore_steps_by(plane, BY_GRADIENT, from, bytes);
+        restore_runs_by(plane, BY_GRADIENT, shift, from, bytes, bits);
         break;
     case BY_MEDIAN:
-        restore_steps_by(plane, BY_MEDIAN, from, bytes);
+        restore_runs_by(plane, BY_MEDIAN, shift, from, bytes, bits);
         break;
     default:
-        restore_steps_by(plane, BY_NOTHING, from, bytes);
+        restore_runs_by(plane, BY_NOTHING, shift, from, bytes, bits);
     }
 }
 
@@ -241,15 +218,20 @@ static void restore_all(PackPlane *plane, Predictor predictor, const unsigned ch
 
 void pack_restore(PackPlane *plane, Predictor predictor, const unsigned char *residuals, int bytes)
 {
-    if (predictor == BY_NOTHING && !plane->shift && bytes == 1)
-        spread(plane, residuals, 1);
+    const int bits = plane->bits;
+    if (predictor == BY_NOTHING && !plane->shift && bytes == 1 && bits == 8)
+        spread(plane, residuals, 1, 8);
     else if (predictor == BY_NOTHING && !plane->shift)
-        spread(plane, residuals, bytes);
-    else if (plane->present && plane->shift && plane->bits == 32 && bytes == 4)
-        restore_steps(plane, predictor, residuals, 4);
-    else if (plane->present && plane->shift && plane->bits == 32)
-        restore_steps(plane, predictor, residuals, bytes);
-    else if (plane->present || plane->shift)
+        spread(plane, residuals, bytes, bits);
+    else if (plane->present && plane->shift && bits == 32 && bytes == 4)
+        restore_runs(plane, predictor, plane->shift, residuals, 4, 32);
+    else if (plane->present && plane->shift)
+        restore_runs(plane, predictor, plane->shift, residuals, bytes, bits);
+    else if (plane->present && bits == 8 && bytes == 1)
+        restore_runs(plane, predictor, NULL, residuals, 1, 8);
+    else if (plane->present)
+        restore_runs(plane, predictor, NULL, residuals, bytes, bits);
+    else if (plane->shift)
         pack_restore_plainly(plane, predictor, residuals, bytes);
     else
         restore_all(plane, predictor, residuals, bytes);

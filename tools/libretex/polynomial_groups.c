@@ -158,10 +158,12 @@ static int product_job(void *context, int index, int thread, RetexError *err)
     for (size_t i = 0; !code && i < 3 * (size_t)product->width; i++)
         ones[i] = 1;
     for (int y = index * ROWS_A_JOB; !code && y < (index + 1) * ROWS_A_JOB && y < product->height; y++) {
+        float *sum = product->pixels + retex_image_index(product, 0, y);
         memset(made, 0, (size_t)slot_count(set) + 1);
+        /* it is 0 already, but a fresh page that is read before it is written costs twice, and other threads too */
+        memset(sum, 0, sizeof *sum * 3 * (size_t)product->width);
         for (int k = 0; k < work->group->nterms && !code; k++)
-            code = add_product(work, own, &set->terms[work->group->terms[k]], y, made, ones,
-                               product->pixels + retex_image_index(product, 0, y), err);
+            code = add_product(work, own, &set->terms[work->group->terms[k]], y, made, ones, sum, err);
     }
     free(ones);
     free(made);

@@ -7,7 +7,7 @@
 #include <retex/parallel.h>
 
 #define ROWS_A_JOB 16
-#define PADDING 24               /* texels: about the longest window that is met often */
+#define PADDING 56               /* texels: about half of the longest window */
 #define MOST_PADDED (256 * 256L) /* texels of a padded level */
 
 size_t texture_texel_size(int narrow)
