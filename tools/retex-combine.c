@@ -1,4 +1,8 @@
 /* retex-combine: recombine a set, with its own textures or new ones, into a picture. See retex-combine(1). */
+#include <limits.h>
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -360,6 +364,15 @@ static void run_batch(const Cli *cli, Job *job)
     cli_info(cli, "%d picture%s, %.2f s", pictures, pictures == 1 ? "" : "s", texture_args_now() - first);
 }
 
+/* Bands come and go by the hundred: memory given back to the system would be asked for, and cleared, again. */
+static void keep_memory(void)
+{
+#ifdef __GLIBC__
+    mallopt(M_TRIM_THRESHOLD, INT_MAX);
+    mallopt(M_MMAP_THRESHOLD, 32 << 20); /* the most there may be */
+#endif
+}
+
 int main(int argc, char **argv)
 {
     static Job job = {.write = RETEX_WRITE_INIT, .combine = RETEX_COMBINE_INIT, .memory = CLI_MEMORY_DEFAULT};
@@ -371,6 +384,7 @@ int main(int argc, char **argv)
                .argv = argv,
                .next = 1};
     double began = texture_args_now();
+    keep_memory();
     parse(&cli, &job);
     const char *output = job.batch ? NULL : cli_output(&cli);
     RetexError err = {0};

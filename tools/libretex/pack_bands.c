@@ -10,15 +10,20 @@
 #include "pack_model.h"
 #include "pack_restore.h"
 
+/* Of a JPEG its coefficients are kept, which are half as many bytes, and one row of blocks at a time, which is likelier
+ * to be in the processor's cache when it is asked for. */
 typedef struct CachedBand {
     int band;     /* -1: none */
-    uint64_t lit; /* bit y: row y is not all 0 */
-    float *rows;
+    uint64_t lit; /* bit y: row y is not all 0; of a JPEG, of those that have been asked for */
+    float *rows;  /* of a JPEG, PACK_BLOCK_ROWS of them */
+    PackJpegDecoder *jpeg;
+    int blocks;          /* which row of them is there; -1: none */
+    unsigned char *mask; /* of the band, or NULL */
+    int is_black;        /* by its mask */
 } CachedBand;
 
 struct RetexPackScratch {
     const RetexPack *pack;
-    PackJpegDecoder *jpeg;
     unsigned char *chunk; /* as read */
     size_t chunk_room;
     unsigned char *residuals, *present, *shift;
@@ -41,7 +46,7 @@ int retex_pack_scratch_create(RetexPackScratch **result, const RetexPack *pack, 
         s->nparts = pack->nparts;
         s->present_part = -1;
         s->cached = calloc((size_t)pack->nparts + 1, sizeof *s->cached);
-        code = s->cached ? pack_jpeg_decoder_create(&s->jpeg, err) : RETEX_ENOMEM;
+        code = s->cached ? 0 : RETEX_ENOMEM;
     }
     for (int i = 0; !code && i < s->nparts; i++)
         s->cached[i].band = -1;
@@ -56,9 +61,11 @@ void retex_pack_scratch_close(RetexPackScratch **result)
     RetexPackScratch *s = result ? *result : NULL;
     if (!s)
         return;
-    pack_jpeg_decoder_close(&s->jpeg);
-    for (int i = 0; s->cached && i < s->nparts; i++)
+    for (int i = 0; s->cached && i < s->nparts; i++) {
         free(s->cached[i].rows);
+        free(s->cached[i].mask);
+        pack_jpeg_decoder_close(&s->cached[i].jpeg);
+    }
     free(s->cached);
     free(s->chunk);
     free(s->residuals);
@@ -214,8 +221,8 @@ static uint64_t clear_around(const PackPart *p, int band, float *out, const Pack
     return lit;
 }
 
-/* Numbers of channel c, all of which matter, to samples. Rows of which all are 0 so far, in all channels, have no bit in
- * *lit and are left alone. */
+/* Numbers of channel c, all of which matter, to samples. Rows of which all are 0 so far, in all channels, have no bit
+ * in *lit and are left alone. */
 static void map_all(const PackPart *p, int band, int c, float *out, uint64_t *lit, const int32_t *numbers)
 {
     const size_t channels = (size_t)p->channels, width = (size_t)p->width;
@@ -311,67 +318,98 @@ static int decode_model(int part, int band, float *out, RetexPackScratch *s, Ret
     return code;
 }
 
-/* The mask of a band into s->numbers, a byte each; *rest: there are pixels that it leaves. */
-static int decode_mask(int part, int band, int *rest, RetexPackScratch *s, RetexError *err)
+/* ---- JPEGs ---- */
+
+/* Have the mask of a band, bits of bytes, and know whether it leaves any pixel. */
+static int decode_mask(int part, int band, CachedBand *cached, RetexPackScratch *s, RetexError *err)
 {
     const PackPart *p = &s->pack->parts[part];
     const int k = 1 + p->nbands + band, rows = pack_band_rows(p, band), width = pack_mask_width(p);
     PackPlane plane = {.width = width, .rows = rows, .bits = 8, .numbers = s->numbers};
-    int code = read_chunk(part, k, 0, s, err);
+    int code = cached->mask || (cached->mask = malloc((size_t)width * PACK_BAND_ROWS))
+                   ? read_chunk(part, k, 0, s, err)
+                   : retex_fail(err, RETEX_ENOMEM, "no memory to read a pack");
     if (!code && !pack_plane_decode(&plane, s->chunk, p->bytes[k], s->residuals))
         code = pack_damaged(err, "the mask cannot be decoded of part", s->pack->set->parts[part].name);
     const int last = 255 >> (8 * width - p->width);
-    *rest = 0;
+    cached->is_black = 1;
     for (int i = 0; !code && i < rows * width; i++) {
         const int all = i % width == width - 1 ? last : 255;
-        *rest = *rest || (s->numbers[i] & all) != all;
+        cached->mask[i] = (unsigned char)s->numbers[i];
+        cached->is_black = cached->is_black && (s->numbers[i] & all) == all;
     }
     return code;
 }
 
-/* Make pixels black whose bit is set. */
-static void apply_mask(const PackPart *p, int rows, float *out, const int32_t *mask)
+/* Make pixels of a row black whose bit is set. */
+static void apply_mask(const PackPart *p, float *out, const unsigned char *mask)
 {
     const size_t channels = (size_t)p->channels;
-    const int width = pack_mask_width(p);
-    for (int y = 0; y < rows; y++, out += (size_t)p->width * channels, mask += width)
-        for (int x = 0; x < p->width; x += 8) {
-            const int whole = mask[x / 8] == 255 && x + 8 <= p->width;
-            if (whole)
-                memset(out + (size_t)x * channels, 0, 8 * channels * sizeof *out);
-            for (int k = 0; !whole && mask[x / 8] && k < 8 && x + k < p->width; k++)
-                if (mask[x / 8] >> k & 1)
-                    memset(out + (size_t)(x + k) * channels, 0, channels * sizeof *out);
-        }
+    for (int x = 0; x < p->width; x += 8) {
+        const int whole = mask[x / 8] == 255 && x + 8 <= p->width;
+        if (whole)
+            memset(out + (size_t)x * channels, 0, 8 * channels * sizeof *out);
+        for (int k = 0; !whole && mask[x / 8] && k < 8 && x + k < p->width; k++)
+            if (mask[x / 8] >> k & 1)
+                memset(out + (size_t)(x + k) * channels, 0, channels * sizeof *out);
+    }
 }
 
-static int decode_jpeg(int part, int band, float *out, uint64_t *lit, RetexPackScratch *s, RetexError *err)
+static int jpeg_damaged(RetexError *err, int code, const RetexError *why, const RetexPackScratch *s, int part)
+{
+    return retex_fail(err, code, "the pack is damaged: part '%s': %s", s->pack->set->parts[part].name, why->message);
+}
+
+/* Have the coefficients of a band. */
+static int open_jpeg(int part, int band, CachedBand *cached, RetexPackScratch *s, RetexError *err)
 {
     const PackPart *p = &s->pack->parts[part];
-    const int rows = pack_band_rows(p, band);
     RetexError why = {0};
-    int rest = 1;
     int code = reserve(s, p, err);
-    *lit = 0;
+    cached->blocks = -1;
+    cached->lit = 0;
+    cached->is_black = 0;
+    if (!code && !cached->jpeg)
+        code = pack_jpeg_decoder_create(&cached->jpeg, err);
     if (!code && p->masked)
-        code = decode_mask(part, band, &rest, s, err);
-    if (!code && !rest) /* what the JPEG has here means nothing */
-        return 0;
-    if (!code)
-        code = read_chunk(part, 0, 0, s, err);
+        code = decode_mask(part, band, cached, s, err);
+    if (code || cached->is_black) /* what the JPEG has here means nothing */
+        return code;
+    code = read_chunk(part, 0, 0, s, err);
     if (!code)
         code = read_chunk(part, 1 + band, p->bytes[0], s, err);
     if (code)
         return code;
-    code = pack_jpeg_decode_band(s->jpeg, out, s->chunk, p->bytes[0], (size_t)p->bytes[0] + p->bytes[1 + band],
-                                 p->width, rows, p->channels, &p->curve, &why);
+    code = pack_jpeg_open_band(cached->jpeg, s->chunk, p->bytes[0], (size_t)p->bytes[0] + p->bytes[1 + band], p->width,
+                               pack_band_rows(p, band), p->channels, &p->curve, &why);
+    return code ? jpeg_damaged(err, code, &why, s, part) : 0;
+}
+
+/* Have the row of blocks that a row of the band is in. */
+static int decode_blocks(int part, int line, CachedBand *cached, const RetexPackScratch *s, RetexError *err)
+{
+    const PackPart *p = &s->pack->parts[part];
+    const int blocks = line / PACK_BLOCK_ROWS, first = blocks * PACK_BLOCK_ROWS;
+    const size_t row = (size_t)p->width * (size_t)p->channels;
+    RetexError why = {0};
+    if (cached->blocks == blocks || cached->is_black)
+        return 0;
+    cached->blocks = -1;
+    int code = pack_jpeg_decode_blocks(cached->jpeg, blocks, cached->rows, &why);
     if (code)
-        return retex_fail(err, code, "the pack is damaged: part '%s': %s", s->pack->set->parts[part].name, why.message);
-    if (p->masked)
-        apply_mask(p, rows, out, s->numbers);
-    *lit = find_lit(p, band, out);
+        return jpeg_damaged(err, code, &why, s, part);
+    cached->blocks = blocks;
+    cached->lit = 0;
+    for (int y = 0; y < PACK_BLOCK_ROWS && first + y < pack_band_rows(p, cached->band); y++) {
+        float *values = cached->rows + (size_t)y * row;
+        if (p->masked)
+            apply_mask(p, values, cached->mask + (size_t)(first + y) * (size_t)pack_mask_width(p));
+        cached->lit |= (uint64_t)is_any(values, row) << (first + y);
+    }
     return 0;
 }
+
+/* ---- any part ---- */
 
 /* Rows without a bit in *lit are 0, and perhaps not written. */
 static int decode_band(int part, int band, float *out, uint64_t *lit, RetexPackScratch *s, RetexError *err)
@@ -381,8 +419,6 @@ static int decode_band(int part, int band, float *out, uint64_t *lit, RetexPackS
     *lit = 0;
     if (p->codec == PACK_PLANES)
         return decode_planes(part, band, out, lit, s, err);
-    if (p->codec == PACK_JPEG)
-        return decode_jpeg(part, band, out, lit, s, err);
     if (pack_is_modelled(p)) {
         code = decode_model(part, band, out, s, err);
         *lit = code ? 0 : find_lit(p, band, out);
@@ -396,12 +432,14 @@ static int cache_band(int part, int band, RetexPackScratch *s, RetexError *err)
     const PackPart *p = &s->pack->parts[part];
     const size_t row = (size_t)p->width * (size_t)p->channels;
     CachedBand *cached = &s->cached[part];
+    const int is_jpeg = p->codec == PACK_JPEG, rows = is_jpeg ? PACK_BLOCK_ROWS : PACK_BAND_ROWS;
     if (cached->band == band)
         return 0;
     cached->band = -1;
-    if (!cached->rows && !(cached->rows = malloc(row * PACK_BAND_ROWS * sizeof *cached->rows)))
+    if (!cached->rows && !(cached->rows = malloc(row * (size_t)rows * sizeof *cached->rows)))
         return retex_fail(err, RETEX_ENOMEM, "no memory to read a pack");
-    int code = decode_band(part, band, cached->rows, &cached->lit, s, err);
+    int code = is_jpeg ? open_jpeg(part, band, cached, s, err)
+                       : decode_band(part, band, cached->rows, &cached->lit, s, err);
     cached->band = code ? -1 : band;
     return code;
 }
@@ -412,12 +450,15 @@ int retex_pack_row(RetexPackScratch *s, int part, int y, const float **row, Rete
     if (part < 0 || part >= s->pack->nparts || y < 0 || y >= s->pack->parts[part].height)
         return retex_fail(err, RETEX_EINVAL, "the pack has no such rows");
     const PackPart *p = &s->pack->parts[part];
-    const CachedBand *cached = &s->cached[part];
+    CachedBand *cached = &s->cached[part];
     const int band = y / PACK_BAND_ROWS, line = y % PACK_BAND_ROWS;
+    const int kept = p->codec == PACK_JPEG ? line % PACK_BLOCK_ROWS : line;
     if (p->codec == PACK_ZERO)
         return 0;
     int code = cache_band(part, band, s, err);
+    if (!code && p->codec == PACK_JPEG)
+        code = decode_blocks(part, line, cached, s, err);
     if (!code && cached->lit >> line & 1)
-        *row = cached->rows + (size_t)line * (size_t)p->width * (size_t)p->channels;
+        *row = cached->rows + (size_t)kept * (size_t)p->width * (size_t)p->channels;
     return code;
 }

@@ -248,6 +248,9 @@ struct PackJpegDecoder {
     struct jpeg_decompress_struct jpeg;
     Trouble trouble;
     const PackJpegKernels *kernels;
+    jvirt_barray_ptr *arrays; /* coefficients of the open band, or NULL */
+    int width, rows, channels;
+    PackLevels levels;
     float *planes; /* three, of 8 rows */
     size_t room;
 };
@@ -302,50 +305,38 @@ static int patch(unsigned char *file, size_t header, size_t bytes, int width, in
     return sized;
 }
 
-/* The rows of blocks, component by component, and what they stand for. */
-static void decode_rows(PackJpegDecoder *decoder, jvirt_barray_ptr *arrays, float *values, int width, int rows,
-                        int channels, const PackCurve *curve)
+static void close_band(PackJpegDecoder *decoder)
 {
-    struct jpeg_decompress_struct *jpeg = &decoder->jpeg;
-    const int blocks = (width + 7) / 8;
-    const size_t stride = 8 * (size_t)blocks;
-    const PackLevels levels = levels_of(curve);
-    float steps[64];
-    for (int row = 0; row < (rows + 7) / 8; row++) {
-        for (int c = 0; c < channels; c++) {
-            JBLOCKARRAY array = jpeg->mem->access_virt_barray((j_common_ptr)jpeg, arrays[c], (JDIMENSION)row, 1, FALSE);
-            for (int i = 0; i < 64; i++)
-                steps[i] = (float)jpeg->comp_info[c].quant_table->quantval[i];
-            decoder->kernels->inverse(decoder->planes + (size_t)c * 8 * stride, (int)stride, array[0][0], blocks,
-                                      steps);
-        }
-        for (int y = 0; y < 8 && 8 * row + y < rows; y++) {
-            const float *p = decoder->planes + (size_t)y * stride;
-            float *to = values + (size_t)(8 * row + y) * (size_t)width * (size_t)channels;
-            if (channels == 3)
-                decoder->kernels->colours(to, p, p + 8 * stride, p + 16 * stride, width, &levels);
-            else
-                decoder->kernels->greys(to, p, width, &levels);
-        }
-    }
+    jpeg_abort_decompress(&decoder->jpeg);
+    decoder->arrays = NULL;
 }
 
-int pack_jpeg_decode_band(PackJpegDecoder *decoder, float *values, unsigned char *file, size_t header, size_t bytes,
-                          int width, int rows, int channels, const PackCurve *curve, RetexError *err)
+static int reserve(PackJpegDecoder *decoder, int width)
+{
+    const size_t room = (size_t)((width + 7) / 8) * 64 * 3;
+    float *planes = room > decoder->room ? realloc(decoder->planes, room * sizeof *planes) : decoder->planes;
+    if (!planes)
+        return 0;
+    decoder->planes = planes;
+    decoder->room = room > decoder->room ? room : decoder->room;
+    return 1;
+}
+
+int pack_jpeg_open_band(PackJpegDecoder *decoder, unsigned char *file, size_t header, size_t bytes, int width, int rows,
+                        int channels, const PackCurve *curve, RetexError *err)
 {
     struct jpeg_decompress_struct *jpeg = &decoder->jpeg;
-    const size_t room = (size_t)((width + 7) / 8) * 64 * 3;
+    close_band(decoder);
     if (!patch(file, header, bytes, width, rows))
         return retex_fail(err, RETEX_EFORMAT, "its JPEG has no proper header");
-    if (room > decoder->room) {
-        float *planes = realloc(decoder->planes, room * sizeof *planes);
-        if (!planes)
-            return retex_fail(err, RETEX_ENOMEM, "no memory to decode JPEGs");
-        decoder->planes = planes;
-        decoder->room = room;
-    }
+    if (!reserve(decoder, width))
+        return retex_fail(err, RETEX_ENOMEM, "no memory to decode JPEGs");
+    decoder->width = width;
+    decoder->rows = rows;
+    decoder->channels = channels;
+    decoder->levels = levels_of(curve);
     if (setjmp(decoder->trouble.out)) {
-        jpeg_abort_decompress(jpeg);
+        close_band(decoder);
         return retex_fail(err, RETEX_EFORMAT, "its JPEG cannot be decoded: %s", decoder->trouble.message);
     }
     jpeg_mem_src(jpeg, file, bytes);
@@ -354,13 +345,41 @@ int pack_jpeg_decode_band(PackJpegDecoder *decoder, float *values, unsigned char
              jpeg->num_components == channels && !jpeg->progressive_mode && !jpeg->arith_code;
     for (int c = 0; ok && c < channels; c++)
         ok = jpeg->comp_info[c].h_samp_factor == 1 && jpeg->comp_info[c].v_samp_factor == 1;
-    if (ok) {
-        jvirt_barray_ptr *arrays = jpeg_read_coefficients(jpeg);
-        for (int c = 0; ok && c < channels; c++)
-            ok = jpeg->comp_info[c].quant_table != NULL;
-        if (ok)
-            decode_rows(decoder, arrays, values, width, rows, channels, curve);
+    decoder->arrays = ok ? jpeg_read_coefficients(jpeg) : NULL;
+    for (int c = 0; ok && c < channels; c++)
+        ok = jpeg->comp_info[c].quant_table != NULL;
+    if (ok)
+        return 0;
+    close_band(decoder);
+    return retex_fail(err, RETEX_EFORMAT, "its JPEG is not of the part's size");
+}
+
+int pack_jpeg_decode_blocks(PackJpegDecoder *decoder, int row, float *values, RetexError *err)
+{
+    struct jpeg_decompress_struct *jpeg = &decoder->jpeg;
+    const int width = decoder->width, channels = decoder->channels, blocks = (width + 7) / 8;
+    const size_t stride = 8 * (size_t)blocks;
+    float steps[64];
+    if (!decoder->arrays || row < 0 || 8 * row >= decoder->rows)
+        return retex_fail(err, RETEX_EINTERNAL, "no such blocks of a JPEG");
+    if (setjmp(decoder->trouble.out)) {
+        close_band(decoder);
+        return retex_fail(err, RETEX_EFORMAT, "its JPEG cannot be decoded: %s", decoder->trouble.message);
     }
-    jpeg_abort_decompress(jpeg);
-    return ok ? 0 : retex_fail(err, RETEX_EFORMAT, "its JPEG is not of the part's size");
+    for (int c = 0; c < channels; c++) {
+        JBLOCKARRAY array =
+            jpeg->mem->access_virt_barray((j_common_ptr)jpeg, decoder->arrays[c], (JDIMENSION)row, 1, FALSE);
+        for (int i = 0; i < 64; i++)
+            steps[i] = (float)jpeg->comp_info[c].quant_table->quantval[i];
+        decoder->kernels->inverse(decoder->planes + (size_t)c * 8 * stride, (int)stride, array[0][0], blocks, steps);
+    }
+    for (int y = 0; y < 8 && 8 * row + y < decoder->rows; y++) {
+        const float *p = decoder->planes + (size_t)y * stride;
+        float *to = values + (size_t)y * (size_t)width * (size_t)channels;
+        if (channels == 3)
+            decoder->kernels->colours(to, p, p + 8 * stride, p + 16 * stride, width, &decoder->levels);
+        else
+            decoder->kernels->greys(to, p, width, &decoder->levels);
+    }
+    return 0;
 }

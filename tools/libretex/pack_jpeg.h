@@ -12,6 +12,7 @@
 
 enum {
     PACK_BAND_ROWS = 64,
+    PACK_BLOCK_ROWS = 8, /* of a JPEG's blocks */
     PACK_JPEG_SIDE_MAX = 65500, /* pixels; libjpeg's own limit. A band's 8 rows of 8188 blocks are within 65535 */
     PACK_JPEG_STEP_MAX = 255
 };
@@ -44,14 +45,17 @@ void pack_jpeg_free(PackJpeg *jpeg);
 int pack_jpeg_encode(PackJpeg *jpeg, const float *levels, int width, int height, int channels, double step,
                      RetexError *err);
 
-/* A thread's means of decoding. */
+/* A thread's means of decoding one JPEG. */
 typedef struct PackJpegDecoder PackJpegDecoder;
 int pack_jpeg_decoder_create(PackJpegDecoder **decoder, RetexError *err);
 void pack_jpeg_decoder_close(PackJpegDecoder **decoder); /* NULL and pointers to NULL are fine */
 
-/* Decode one band of rows: file is the header followed by the band's piece. What does not decode without complaint, or
- * is of another size, is RETEX_EFORMAT. */
-int pack_jpeg_decode_band(PackJpegDecoder *decoder, float *values, unsigned char *file, size_t header, size_t bytes,
-                          int width, int rows, int channels, const PackCurve *curve, RetexError *err);
+/* Take one band of rows, which is the open one then: file is the header followed by the band's piece, and not needed
+ * any more afterwards. What does not decode without complaint, or is of another size, is RETEX_EFORMAT. */
+int pack_jpeg_open_band(PackJpegDecoder *decoder, unsigned char *file, size_t header, size_t bytes, int width, int rows,
+                        int channels, const PackCurve *curve, RetexError *err);
+
+/* The values of one row of blocks of the open band: 8 rows of pixels, or those that are left. */
+int pack_jpeg_decode_blocks(PackJpegDecoder *decoder, int row, float *values, RetexError *err);
 
 #endif
