@@ -379,6 +379,11 @@ static void test_srgb_codes(void **state)
             assert_int_equal(codes_8[i], retex_srgb_code(values[i], 8));
             assert_int_equal(codes_16[i], retex_srgb_code(values[i], 16));
         }
+        for (int i = 0; i + 7 <= COUNT; i += 7) { /* too few for vectors */
+            uint8_t few[7];
+            retex_srgb_codes_8(few, values + i, 7);
+            assert_memory_equal(few, codes_8 + i, 7);
+        }
     }
     assert_int_equal(retex_linear_code(NAN, 8), 0);
     assert_int_equal(retex_linear_code(2, 16), 65535);

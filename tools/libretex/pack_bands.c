@@ -332,12 +332,15 @@ static int decode_mask(int part, int band, CachedBand *cached, RetexPackScratch 
     if (!code && !pack_plane_decode(&plane, s->chunk, p->bytes[k], s->residuals))
         code = pack_damaged(err, "the mask cannot be decoded of part", s->pack->set->parts[part].name);
     const int last = 255 >> (8 * width - p->width);
-    cached->is_black = 1;
-    for (int i = 0; !code && i < rows * width; i++) {
-        const int all = i % width == width - 1 ? last : 255;
-        cached->mask[i] = (unsigned char)s->numbers[i];
-        cached->is_black = cached->is_black && (s->numbers[i] & all) == all;
+    int every = 255; /* bits that all pixels have */
+    for (int y = 0; !code && y < rows; y++) {
+        const int32_t *row = s->numbers + (size_t)y * (size_t)width;
+        for (int x = 0; x < width; x++) {
+            cached->mask[y * width + x] = (unsigned char)row[x];
+            every &= row[x] | (x == width - 1 ? ~last : 0);
+        }
     }
+    cached->is_black = every == 255;
     return code;
 }
 
