@@ -9,10 +9,10 @@
 #include "film/paper_terms.h"
 
 typedef struct FootprintSums {
-    int samples;                     /* paths that brought a connection */
-    double count, mean[2], m2[2];    /* Welford's running mean and sum of squared deviations of u and v */
-    float light[3], light_albedo[3]; /* what the albedo there multiplied, without it and with it */
-    float albedo[3];                 /* unweighted, for footprints that gave no light */
+    int samples;                  /* paths that brought a connection */
+    double count, mean[2], m2[2]; /* Welford's running mean and sum of squared deviations of u and v */
+    Float4 light, light_albedo;   /* what the albedo there multiplied, without it and with it */
+    Float4 albedo;                /* unweighted, for footprints that gave no light */
 } FootprintSums;
 
 struct PaperFilm {
@@ -29,7 +29,7 @@ struct PaperFilm {
 struct PaperPixel {
     PaperFilm *film;
     TermCache cache;
-    float (*sums)[3]; /* by term */
+    Float4 *sums; /* by term */
     int *touched, ntouched;
     FootprintSums footprints[RETEX_MAX_TARGETS * RETEX_MAX_ORDERS];
     /* of the path in hand: */
@@ -115,33 +115,30 @@ void paper_pixel_close(PaperPixel **pixel)
     *pixel = NULL;
 }
 
-static void add_term(PaperPixel *p, TermKey key, Rgb value)
+static void add_term(PaperPixel *p, TermKey key, Float4 value)
 {
     int term = terms_find(&p->film->terms, &p->cache, key);
     if (term < 0) { /* no room for one more: paper_finish says so */
         p->film->lost = 1;
         return;
     }
-    float *sum = p->sums[term];
-    if (sum[0] == 0 && sum[1] == 0 && sum[2] == 0)
+    if (is_black4(p->sums[term]))
         p->touched[p->ntouched++] = term;
-    sum[0] += value.r, sum[1] += value.g, sum[2] += value.b;
+    p->sums[term] += value;
 }
 
 /* The original albedo of each hit of a monomial, weighted by the light it multiplied: so a term of one factor keeps its
  * original to the bit that arithmetic allows, whatever the texture does inside the pixel. */
-static void add_albedos(PaperPixel *p, const Expansion *e, unsigned hits, Rgb value)
+static void add_albedos(PaperPixel *p, const Expansion *e, unsigned hits, Float4 value)
 {
     for (unsigned left = hits; left; left &= left - 1) {
         const TargetHit *hit = &e->hits[__builtin_ctz(left)];
-        Rgb light = value;
+        Float4 light = value;
         for (unsigned others = hits & ~(left & -left); others; others &= others - 1)
-            light = rgb_mul(light, e->hits[__builtin_ctz(others)].albedo);
+            light *= colour4(e->hits[__builtin_ctz(others)].albedo);
         FootprintSums *f = &p->footprints[footprint_number(hit)];
-        f->light[0] += light.r, f->light[1] += light.g, f->light[2] += light.b;
-        f->light_albedo[0] += light.r * hit->albedo.r;
-        f->light_albedo[1] += light.g * hit->albedo.g;
-        f->light_albedo[2] += light.b * hit->albedo.b;
+        f->light += light;
+        f->light_albedo += light * colour4(hit->albedo);
     }
 }
 
@@ -175,18 +172,19 @@ static HitMask mask_by_target(const Expansion *e, unsigned hits)
 }
 
 /* Light of so many connections behind the expansion's hits. */
-static void connect(PaperPixel *p, Rgb outside, int connections)
+static void connect(PaperPixel *p, int connections)
 {
     const Expansion *e = &p->expansion;
     for (int k = 0; k < e->size.nmonomials; k++) {
-        Rgb value = rgb_mul(outside, rgb_of4(e->monomials[k].coefficient));
-        HitMask met = mask_by_target(e, e->monomials[k].hits);
-        TermKey key = term_key(e->size.nhits, met, p->film->params.strict_paper);
-        if (key == TERM_DROPPED || rgb_is_black(value))
+        const Monomial *m = &e->monomials[k];
+        if (is_black4(m->coefficient))
             continue;
-        add_term(p, key, value);
-        if (e->monomials[k].hits)
-            add_albedos(p, e, e->monomials[k].hits, value);
+        TermKey key = term_key(e->size.nhits, mask_by_target(e, m->hits), p->film->params.strict_paper);
+        if (key == TERM_DROPPED)
+            continue;
+        add_term(p, key, m->coefficient);
+        if (m->hits)
+            add_albedos(p, e, m->hits, m->coefficient);
     }
     note_connections(p, e, connections);
 }
@@ -207,9 +205,9 @@ static void add_path(PaperPixel *p, const PathHits *path)
     const PathHit *hits[PATH_HITS_MAX], *previous = NULL;
     for (const PathHit *hit = path->last; hit; hit = hit->earlier)
         hits[hit->number] = hit;
+    if (path->free_connections && !is_black4(path->free))
+        add_term(p, term_key(0, 0, 0), path->free);
     expansion_reset(e);
-    if (path->free_connections)
-        connect(p, rgb_of4(path->free), path->free_connections);
     for (int k = 0; k < path->count; previous = hits[k++]) {
         const PathHit *hit = hits[k];
         if (hit->before && hit->before == previous)
@@ -222,7 +220,7 @@ static void add_path(PaperPixel *p, const PathHits *path)
         if (!is_last)
             expansion_mark(&p->mark, e);
         expansion_push(e, &hit->at, hit->dependent, hit->independent);
-        connect(p, rgb_grey(1), hit->connections);
+        connect(p, hit->connections);
         if (!is_last)
             expansion_return(e, &p->mark);
     }
@@ -230,16 +228,15 @@ static void add_path(PaperPixel *p, const PathHits *path)
 
 static void footprint_add(FootprintSums *f, const TargetHit *hit, int weight)
 {
-    double before = f->count, uv[2] = {hit->uv.u, hit->uv.v};
+    const double before = f->count, uv[2] = {hit->uv.u, hit->uv.v};
     f->count += weight;
+    const double share = weight / f->count;
     for (int k = 0; k < 2; k++) {
         double delta = uv[k] - f->mean[k];
-        f->mean[k] += delta * weight / f->count;
-        f->m2[k] += delta * delta * weight * before / f->count;
+        f->mean[k] += delta * share;
+        f->m2[k] += delta * delta * before * share;
     }
-    f->albedo[0] += hit->albedo.r * (float)weight;
-    f->albedo[1] += hit->albedo.g * (float)weight;
-    f->albedo[2] += hit->albedo.b * (float)weight;
+    f->albedo += colour4(hit->albedo) * splat((float)weight);
 }
 
 void paper_path_end(PaperPixel *p, const PathHits *path, UvRange *range)
@@ -278,9 +275,9 @@ void paper_totals(const PaperPixel *p, SignalTotals *totals)
 {
     memset(totals->of, 0, sizeof totals->of[0] * (size_t)(1 + p->film->scene->ntargets));
     for (int k = 0; k < p->ntouched; k++) {
-        const float *sum = p->sums[p->touched[k]];
+        const Float4 sum = p->sums[p->touched[k]];
         int nfactors, target = terms_place(&p->film->terms, p->touched[k], &nfactors);
-        double weight = nfactors ? ldexp(1, 1 - nfactors) : 1;
+        double weight = nfactors ? 2.0 / (double)(1u << nfactors) : 1;
         for (int c = 0; c < 3; c++)
             totals->of[1 + target][c] += weight * sum[c];
     }
@@ -291,9 +288,11 @@ void paper_pixel_end(PaperPixel *p, BandRows *rows, int spp, int x, int y)
     PaperFilm *film = p->film;
     float scale = 1 / (float)spp;
     for (int k = 0; k < p->ntouched; k++) {
-        float *sum = p->sums[p->touched[k]], *pixel = bands_pixel(rows, film->terms.images[p->touched[k]], x, y);
+        Float4 *sum = &p->sums[p->touched[k]];
+        float *pixel = bands_pixel(rows, film->terms.images[p->touched[k]], x, y);
         for (int c = 0; c < 3; c++)
-            pixel[c] = sum[c] * scale, sum[c] = 0;
+            pixel[c] = (*sum)[c] * scale;
+        *sum = splat(0);
     }
     p->ntouched = 0;
     for (int k = 0; k < footprints_count(film); k++)

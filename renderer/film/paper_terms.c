@@ -7,9 +7,13 @@
 #define KEY(kind, rest) ((TermKey)(kind) << 56 | (rest))
 #define REST(key) ((key) & (((TermKey)1 << 56) - 1))
 
+/* They are few, and not every processor of a kind can count them. */
 static int count_bits(HitMask m)
 {
-    return __builtin_popcountll(m);
+    int count = 0;
+    for (; m; m &= m - 1)
+        count++;
+    return count;
 }
 static HitMask target_bits(HitMask m, int target)
 {
