@@ -32,7 +32,8 @@ static void hit_emitter(PathWorker *w, Path *path, const Hit *hit, const Shading
     if (path->pdf > 0)
         weight =
             mis_weight(path->pdf, lights_emitter_pdf(w->context->lights, &path->from, hit->primitive, &s->surface));
-    Factor factor = shading_factor(s, emitted(s));
+    const Split light = emitted(s);
+    Factor factor = shading_factor(s, colour4(light.d), colour4(light.i));
     factor.sharp = path->sharp;
     path_connect(w, path, rgb_grey(weight), &factor, 1);
 }
@@ -333,7 +334,7 @@ static void connect_matte(PathWorker *w, Packet *p, int lane, int k)
         path_bring(w, path, by_variant);
         return;
     }
-    factors[0] = shading_factor(&v->s, value);
+    factors[0] = shading_factor(&v->s, colour4(value.d), colour4(value.i));
     factors[0].sharp = path->sharp;
     path_connect(w, path, light, factors, 1 + passed);
 }

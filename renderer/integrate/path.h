@@ -3,6 +3,7 @@
 #define RENDERER_INTEGRATE_PATH_H
 
 #include "accel/accel.h"
+#include "base/float4.h"
 #include "film/control.h"
 #include "film/film.h"
 #include "integrate/caustics.h"
@@ -33,14 +34,18 @@ typedef struct PathContext {
 
 /* One factor of a connection: a surface it scatters at or passes. */
 typedef struct Factor {
-    int target; /* -1: none */
-    Split split;
-    Rgb albedo;
+    int target;          /* -1: none */
+    Float4 d, i, albedo; /* it is d albedo + i */
     const Rgb *albedos; /* by variant, or NULL: the same in all */
     Vec2 uv;
     int reflects; /* light stays on its side of the surface */
     int sharp;    /* nothing on the way from the camera scattered widely */
 } Factor;
+
+static inline Float4 factor_whole(const Factor *f)
+{
+    return f->d * f->albedo + f->i;
+}
 
 /* Light that reached the ends of paths, in the order it came: what a control film gets when they end. */
 typedef struct ControlLog {

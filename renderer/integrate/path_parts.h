@@ -14,9 +14,9 @@ typedef struct Media {
 
 /* Light arrives, or the path goes on. */
 typedef struct Path {
-    Rgb beta;             /* throughput */
+    Float4 beta;          /* throughput */
     Rgb *betas;           /* by variant, from the second on: the first one's is beta */
-    Rgb outside;          /* throughput but for target hits: where it is black no texture brings light back */
+    Float4 outside;       /* throughput but for target hits: where it is black no texture brings light back */
     float neutral;        /* throughput with NEUTRAL_ALBEDO everywhere: for Russian roulette */
     float pdf;            /* density of the direction, 0 after a delta */
     LitPoint from;        /* where that direction was sampled */
@@ -67,15 +67,16 @@ typedef struct Vertex {
 
 /* ---- throughput.c: what reaches the film ---- */
 
-Factor shading_factor(const Shading *s, Split split);
+/* d times the colour at a surface, and i. */
+Factor shading_factor(const Shading *s, Float4 d, Float4 i);
 void path_start(PathWorker *worker, Path *path, const Ray *ray, const Sampler *sampler);
 /* Can any light come by it? */
 static inline int path_is_alive(const PathWorker *w, const Path *path)
 {
     const PathContext *c = w->context;
     if (c->split)
-        return !rgb_is_black(path->outside);
-    int alive = !rgb_is_black(path->beta);
+        return !is_black4(path->outside);
+    int alive = !is_black4(path->beta);
     for (int v = 1; v < c->nvariants && !alive; v++)
         alive = !rgb_is_black(path->betas[v]);
     return alive;
@@ -83,8 +84,8 @@ static inline int path_is_alive(const PathWorker *w, const Path *path)
 /* By what no target did. Returns 0 where no light can come by it. */
 static inline int path_scale(PathWorker *w, Path *path, Rgb by)
 {
-    path->beta = rgb_mul(path->beta, by);
-    path->outside = rgb_mul(path->outside, by);
+    path->beta *= colour4(by);
+    path->outside *= colour4(by);
     for (int v = 1; v < w->context->nvariants; v++)
         path->betas[v] = rgb_mul(path->betas[v], by);
     return path_is_alive(w, path);

@@ -37,9 +37,10 @@ void path_worker_close(PathWorker *w)
     w->log = (ControlLog){NULL, NULL, 0};
 }
 
-Factor shading_factor(const Shading *s, Split split)
+Factor shading_factor(const Shading *s, Float4 d, Float4 i)
 {
-    return (Factor){s->surface.target, split, shading_albedo(s, 0), s->replaced ? s->albedos : NULL, s->uv, 0, 0};
+    return (Factor){
+        s->surface.target, d, i, colour4(shading_albedo(s, 0)), s->replaced ? s->albedos : NULL, s->uv, 0, 0};
 }
 
 /* ---- target hits ---- */
@@ -47,14 +48,14 @@ Factor shading_factor(const Shading *s, Split split)
 /* Does the target's texture matter to this factor? */
 static int is_textured(const Factor *f)
 {
-    return f->target >= 0 && !rgb_is_black(f->split.d);
+    return f->target >= 0 && !is_black4(f->d);
 }
 
 /* A reflection counts as a hit of its target even where the texture does not matter, so that what is seen in a polished
  * floor stays apart from what is seen on it. What merely passes a target does not count. */
 static int is_hit(const Factor *f)
 {
-    return f->target >= 0 && (f->reflects || !rgb_is_black(f->split.d));
+    return f->target >= 0 && (f->reflects || !is_black4(f->d));
 }
 
 /* Of a hit that the path goes on from and that has a single part, the part goes outside, and 1 of it is left: where
@@ -63,33 +64,33 @@ static inline void take_part(Path *path, Float4 d, Float4 i)
 {
     path->from_d = d, path->from_i = i;
     if (is_black4(i)) {
-        path->outside = rgb_mul(path->outside, rgb_of4(d));
+        path->outside *= d;
         path->from_d = splat(1);
     } else if (is_black4(d)) {
-        path->outside = rgb_mul(path->outside, rgb_of4(i));
+        path->outside *= i;
         path->from_i = splat(1);
     }
 }
 
 /* Multiply by a factor: as a target hit while there is an order left, which goes into size, else by what it is as a
  * whole. Returns 1 for a hit. */
-static inline int take_factor(const PathContext *c, const Path *path, Rgb *outside, ExpansionSize *size, int *folded,
-                              const Factor *f, Rgb whole)
+static inline int take_factor(const PathContext *c, const Path *path, Float4 *outside, ExpansionSize *size, int *folded,
+                              const Factor *f, Float4 whole)
 {
     int more = size->nhits - path->size.nhits;
     if (is_hit(f) && path->hits.count + more < PATH_HITS_MAX &&
         expansion_has_room(size, f->target, c->orders, c->most_hits)) {
-        expansion_grow(size, f->target, !rgb_is_black(f->split.d) && !rgb_is_black(f->split.i));
+        expansion_grow(size, f->target, !is_black4(f->d) && !is_black4(f->i));
         return 1;
     }
-    *outside = rgb_mul(*outside, whole);
+    *outside *= whole;
     *folded |= is_textured(f);
     return 0;
 }
 
 static inline PathHit *add_hit(PathWorker *w, Path *path, const Factor *f, PathHit *before, Float4 way_d, Float4 way_i)
 {
-    const TargetHit at = {f->uv, f->albedo, (unsigned char)f->target, (unsigned char)f->sharp, 0};
+    const TargetHit at = {f->uv, rgb_of4(f->albedo), (unsigned char)f->target, (unsigned char)f->sharp, 0};
     return path_hits_add(&path->hits, &w->hits[w->nhits++], &at, before, way_d, way_i);
 }
 
@@ -105,21 +106,21 @@ static inline PathHit *next_hit(PathWorker *w, Path *path, const Factor *f)
 }
 
 /* Light behind the path's hits so far, and some more; folded: what it is, where it met hits that are, or NULL. */
-static inline void arrive(PathWorker *w, Path *path, const Factor *const *more, int count, Rgb outside,
-                          const Rgb *folded)
+static inline void arrive(PathWorker *w, Path *path, const Factor *const *more, int count, Float4 light,
+                          const Float4 *folded)
 {
     PathHit *last = path->from_hit;
-    Float4 d = path->from_d, i = path->from_i, light = colour4(outside);
+    Float4 d = path->from_d, i = path->from_i;
     for (int k = 0; k < count; k++) {
         last = k == 0 ? next_hit(w, path, more[0]) : add_hit(w, path, more[k], last, d, i);
-        d = colour4(more[k]->split.d), i = colour4(more[k]->split.i);
+        d = more[k]->d, i = more[k]->i;
     }
     if (last)
         path_hit_shine(last, d, i, light);
     else
         path->hits.free += light, path->hits.free_connections++;
     if (folded)
-        film_add_folded(w->pixel, *folded, rgb_of4(last ? path_white(last, d * light, i * light) : light));
+        film_add_folded(w->pixel, rgb_of4(*folded), rgb_of4(last ? path_white(last, d * light, i * light) : light));
 }
 
 /* ---- variants ---- */
@@ -128,7 +129,7 @@ static inline void arrive(PathWorker *w, Path *path, const Factor *const *more, 
 static inline void multiply_others(const PathContext *c, Rgb *betas, const Factor *f)
 {
     for (int v = 1; v < c->nvariants; v++)
-        betas[v] = rgb_mul(betas[v], split_apply(f->split, f->albedos ? f->albedos[v] : f->albedo));
+        betas[v] = rgb_of4(colour4(betas[v]) * (f->d * (f->albedos ? colour4(f->albedos[v]) : f->albedo) + f->i));
 }
 
 /* Room for the light that just arrived, by variant, for the control film. */
@@ -158,7 +159,7 @@ static void hand_over_log(PathWorker *w, const Path *path)
 void path_start(PathWorker *w, Path *path, const Ray *ray, const Sampler *sampler)
 {
     const PathContext *c = w->context;
-    path->beta = path->outside = rgb_grey(1);
+    path->beta = path->outside = colour4(rgb_grey(1));
     path->neutral = 1, path->pdf = 0, path->from = (LitPoint){ray->origin, {0, 0, 0}};
     path->segments = 1, path->passed = 0, path->sharp = 1;
     path->media.count = 0, path->kind = RAY_CAMERA;
@@ -174,10 +175,10 @@ void path_start(PathWorker *w, Path *path, const Ray *ray, const Sampler *sample
 int path_scatter(PathWorker *w, Path *path, const Shading *s, Float4 d, Float4 i, int reflects)
 {
     const PathContext *c = w->context;
-    Factor factor = shading_factor(s, (Split){rgb_of4(d), rgb_of4(i)});
+    Factor factor = shading_factor(s, d, i);
     factor.reflects = reflects, factor.sharp = path->sharp;
-    Rgb whole = split_apply(factor.split, factor.albedo);
-    path->beta = rgb_mul(path->beta, whole);
+    const Float4 whole = factor_whole(&factor);
+    path->beta *= whole;
     multiply_others(c, path->betas, &factor);
     if (c->split && take_factor(c, path, &path->outside, &path->size, &path->folded, &factor, whole)) {
         path->from_hit = next_hit(w, path, &factor);
@@ -187,42 +188,44 @@ int path_scatter(PathWorker *w, Path *path, const Shading *s, Float4 d, Float4 i
     return path_is_alive(w, path);
 }
 
-static void trace_light(const PathContext *c, Rgb light)
+static void trace_light(const PathContext *c, Float4 light)
 {
-    fprintf(c->trace, "  light %.6g %.6g %.6g\n", light.r, light.g, light.b);
+    fprintf(c->trace, "  light %.6g %.6g %.6g\n", light[0], light[1], light[2]);
 }
 
 /* Light reaches the picture, unless it is not finite. Returns 0 where it has no use for sets either. */
-static inline int add_beauty(PathWorker *w, Path *path, Rgb beauty, Rgb outside)
+static inline int add_beauty(PathWorker *w, Path *path, Float4 beauty, Float4 outside)
 {
-    if (!rgb_is_finite(rgb_add(beauty, outside))) {
+    if (!rgb_is_finite(rgb_of4(beauty + outside))) {
         film_drop(w->pixel);
         return 0;
     }
-    path->light[0] += beauty.r, path->light[1] += beauty.g, path->light[2] += beauty.b;
-    return !rgb_is_black(outside);
+    for (int c = 0; c < 3; c++)
+        path->light[c] += (double)beauty[c];
+    return !is_black4(outside);
 }
 
 void path_bring(PathWorker *w, Path *path, const Rgb *lights)
 {
     int split = w->context->split;
-    Rgb beauty = rgb_mul(path->beta, lights[0]), outside = split ? rgb_mul(path->outside, lights[0]) : beauty;
+    const Float4 light = colour4(lights[0]), beauty = path->beta * light;
+    const Float4 outside = split ? path->outside * light : beauty;
     if (add_beauty(w, path, beauty, outside) && split)
         arrive(w, path, NULL, 0, outside, path->folded ? &beauty : NULL);
     if (!w->control)
         return;
     Rgb *arrived = add_to_log(w, path);
-    arrived[0] = beauty;
+    arrived[0] = rgb_of4(beauty);
     for (int v = 1; v < w->context->nvariants; v++)
         arrived[v] = rgb_mul(path->betas[v], lights[v]);
 }
 
 /* As path_connect, of plain pictures. Returns what arrives. */
-static Rgb connect_plain(PathWorker *w, Path *path, Rgb light, const Factor *factors, int nfactors)
+static inline Float4 connect_plain(PathWorker *w, Path *path, Float4 light, const Factor *factors, int nfactors)
 {
-    Rgb beauty = rgb_mul(path->beta, light);
+    Float4 beauty = path->beta * light;
     for (int k = 0; k < nfactors; k++)
-        beauty = rgb_mul(beauty, split_apply(factors[k].split, factors[k].albedo));
+        beauty *= factor_whole(&factors[k]);
     if (w->context->trace)
         trace_light(w->context, beauty);
     add_beauty(w, path, beauty, beauty);
@@ -230,16 +233,16 @@ static Rgb connect_plain(PathWorker *w, Path *path, Rgb light, const Factor *fac
 }
 
 /* As path_connect, of sets. */
-static Rgb connect_split(PathWorker *w, Path *path, Rgb light, const Factor *factors, int nfactors)
+static inline Float4 connect_split(PathWorker *w, Path *path, Float4 light, const Factor *factors, int nfactors)
 {
     const PathContext *c = w->context;
     const Factor *own[SHADOW_FACTORS_MAX + 2];
-    Rgb beauty = rgb_mul(path->beta, light), outside = rgb_mul(path->outside, light);
+    Float4 beauty = path->beta * light, outside = path->outside * light;
     ExpansionSize size = path->size;
     int count = 0, folded = path->folded;
     for (int k = 0; k < nfactors; k++) {
-        Rgb whole = split_apply(factors[k].split, factors[k].albedo);
-        beauty = rgb_mul(beauty, whole);
+        const Float4 whole = factor_whole(&factors[k]);
+        beauty *= whole;
         if (take_factor(c, path, &outside, &size, &folded, &factors[k], whole))
             own[count++] = &factors[k];
     }
@@ -252,12 +255,12 @@ static Rgb connect_split(PathWorker *w, Path *path, Rgb light, const Factor *fac
 
 void path_connect(PathWorker *w, Path *path, Rgb light, const Factor *factors, int nfactors)
 {
-    Rgb beauty = w->context->split ? connect_split(w, path, light, factors, nfactors)
-                                   : connect_plain(w, path, light, factors, nfactors);
+    const Float4 beauty = w->context->split ? connect_split(w, path, colour4(light), factors, nfactors)
+                                            : connect_plain(w, path, colour4(light), factors, nfactors);
     if (!w->control)
         return;
     Rgb *arrived = add_to_log(w, path);
-    arrived[0] = beauty;
+    arrived[0] = rgb_of4(beauty);
     for (int v = 1; v < w->context->nvariants; v++)
         arrived[v] = rgb_mul(path->betas[v], light);
     for (int k = 0; k < nfactors; k++)

@@ -17,7 +17,8 @@ static int light_factors(PathWorker *w, int lane, LightSample *light, Factor *fa
     s.surface = light->surface;
     shading_color(&s, NULL, w->variants, c->nvariants);
     light->radiance = rgb_grey(1);
-    factors[0] = shading_factor(&s, emitted(&s));
+    const Split shines = emitted(&s);
+    factors[0] = shading_factor(&s, colour4(shines.d), colour4(shines.i));
     factors[0].albedos = keep_albedos(c, w->light_albedos[lane], &s);
     return 1;
 }
@@ -115,7 +116,7 @@ void pick_light(PathWorker *w, Vertex *v)
         t->pdf = guided_density(v, light->direction, t->pdf);
     t->found = 1;
     t->looked = 0;
-    t->factors[0] = shading_factor(s, f);
+    t->factors[0] = shading_factor(s, colour4(f.d), colour4(f.i));
     t->nfactors = 1 + light_factors(w, k, light, t->factors + 1);
     t->other_side = vec_dot(light->direction, s->bsdf.geometric) < 0;
     t->ray = (Ray){accel_offset(s->surface.position, s->surface.geometric_normal, light->direction), light->direction,

@@ -67,7 +67,7 @@ static int shadow_factor(const Shading *s, int light_source, Factor *factor)
     }
     if (rgb_is_black(passing.d) && rgb_is_black(passing.i))
         return 0;
-    *factor = shading_factor(s, passing);
+    *factor = shading_factor(s, colour4(passing.d), colour4(passing.i));
     return 1;
 }
 
@@ -115,8 +115,8 @@ static int walk(PathWorker *w, Ray ray, int light_source, Media *media, Rgb *lig
         shading_straight(&s, w, &ray, &surface);
         if (!shadow_factor(&s, light_source, &factor))
             return -1;
-        if (factor.target < 0 || rgb_is_black(factor.split.d)) {
-            *light = rgb_mul(*light, split_apply(factor.split, factor.albedo));
+        if (factor.target < 0 || is_black4(factor.d)) {
+            *light = rgb_mul(*light, rgb_of4(factor_whole(&factor)));
         } else {
             if (n == room)
                 return -1;
