@@ -146,7 +146,7 @@ typedef struct Rows {
 static void rows_at_once(void *context)
 {
     Rows *r = context;
-    retex_texture_filter(r->texture, r->shape, r->uv, r->spread, 3, SIDE * SIDE, r->rgba);
+    retex_texture_filter(r->texture, r->shape, r->uv, r->spread, 3, SIDE * SIDE, r->rgba, 4);
     bench_sink = r->rgba[0];
 }
 

@@ -141,7 +141,7 @@ static void test_samples(void **state)
             const float *uv = set->parts[set->footprints[f].uv].image.pixels + 3 * i;
             const float *sd = set->parts[set->footprints[f].spread].image.pixels + 2 * i;
             float want[4] = {0, 0, 0, 1};
-            retex_texture_filter(texture, RETEX_TEXTURE_GAUSSIAN, uv, sd, 2, 1, want);
+            retex_texture_filter(texture, RETEX_TEXTURE_GAUSSIAN, uv, sd, 2, 1, want, 4);
             empty += !(uv[2] > 0);
             for (int c = 0; c < 3; c++)
                 assert_float_equal(samples->images[f].pixels[3 * i + (size_t)c], want[c], 1e-6);

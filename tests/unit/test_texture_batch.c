@@ -103,16 +103,18 @@ static void test_same_bits(void **state)
         for (int i = 0; i < 4; i++) {
             const RetexTexture *texture = textures[i / 2];
             RetexTextureFilter shape = i % 2 ? RETEX_TEXTURE_GAUSSIAN : RETEX_TEXTURE_DISC;
-            retex_texture_filter(texture, shape, footprints.uv, footprints.spread, 3, COUNT, footprints.rgba);
+            retex_texture_filter(texture, shape, footprints.uv, footprints.spread, 3, COUNT, footprints.rgba, 4);
             for (int k = 0; k < nkernels; k++) {
                 texture_filter_batches(kernels[k], texture, shape, footprints.uv, footprints.spread, 3, COUNT,
-                                       footprints.other);
+                                       footprints.other, 4);
                 assert_memory_equal(footprints.rgba, footprints.other, sizeof footprints.rgba);
             }
             for (size_t f = 0; f < COUNT; f += 37) { /* alone, as in a row */
-                float alone[4];
-                retex_texture_filter(texture, shape, footprints.uv + 3 * f, footprints.spread + 3 * f, 3, 1, alone);
+                float alone[4], colors[3];
+                retex_texture_filter(texture, shape, footprints.uv + 3 * f, footprints.spread + 3 * f, 3, 1, alone, 4);
                 assert_memory_equal(footprints.rgba + 4 * f, alone, sizeof alone);
+                retex_texture_filter(texture, shape, footprints.uv + 3 * f, footprints.spread + 3 * f, 3, 1, colors, 3);
+                assert_memory_equal(footprints.rgba + 4 * f, colors, sizeof colors);
             }
         }
         retex_texture_close(&textures[0]);
@@ -137,7 +139,7 @@ static Difference compare(const RetexTexture *texture, RetexTextureFilter shape)
     Difference d = {0, {0, 0, 0}};
     double squares = 0;
     int count = 0;
-    retex_texture_filter(texture, shape, footprints.uv, footprints.spread, 3, COUNT, footprints.rgba);
+    retex_texture_filter(texture, shape, footprints.uv, footprints.spread, 3, COUNT, footprints.rgba, 4);
     filter_singly(texture, shape, footprints.other);
     for (int i = 0; i < COUNT; i++) {
         const float *is = footprints.rgba + 4 * i, *should = footprints.other + 4 * i;
@@ -311,7 +313,7 @@ static void test_cut_alike(void **state)
         for (int k = 0; k < nkernels; k++) {
             double squares = 0, largest = 0;
             texture_filter_batches(kernels[k], texture, RETEX_TEXTURE_GAUSSIAN, footprints.uv, footprints.spread, 3,
-                                   COUNT, footprints.rgba);
+                                   COUNT, footprints.rgba, 4);
             for (int i = 0; i < 4 * COUNT; i++) {
                 double e = fabs((double)footprints.rgba[i] - (double)footprints.other[i]);
                 squares += e * e;
@@ -378,7 +380,7 @@ static void test_steady(void **state)
             footprints.spread[3 * i + 2] = (float)(cov[1] / sqrt(cov[0] * cov[2]));
         }
         RetexTextureFilter shape = n % 2 ? RETEX_TEXTURE_GAUSSIAN : RETEX_TEXTURE_DISC;
-        retex_texture_filter(texture, shape, footprints.uv, footprints.spread, 3, COUNT, footprints.rgba);
+        retex_texture_filter(texture, shape, footprints.uv, footprints.spread, 3, COUNT, footprints.rgba, 4);
         filter_singly(texture, shape, footprints.other);
         double sums[2] = {0, 0}, squares[2] = {0, 0}, jumps[2] = {0, 0};
         for (int i = 0; i < COUNT; i++)
@@ -421,8 +423,11 @@ static void test_odd(void **state)
     for (int shape = 0; shape < 2; shape++)
         for (int k = 0; k < 2; k++) {
             retex_texture_filter(k ? constant : texture, (RetexTextureFilter)shape, footprints.uv, footprints.spread, 3,
-                                 COUNT, footprints.rgba);
+                                 COUNT, footprints.rgba, 4);
+            retex_texture_filter(k ? constant : texture, (RetexTextureFilter)shape, footprints.uv, footprints.spread, 3,
+                                 COUNT, footprints.other, 3);
             for (int i = 0; i < COUNT; i++) {
+                assert_memory_equal(footprints.other + 3 * i, footprints.rgba + 4 * i, 3 * sizeof(float));
                 const float *p = footprints.rgba + 4 * i, seen = footprints.uv[3 * i + 2] > 0 ? 1 : 0;
                 for (int c = 0; c < 4; c++)
                     assert_true(p[c] >= 0 && p[c] <= seen * (k ? 7 : 1.0001f));

@@ -36,22 +36,22 @@ static void filter_span(const RetexTexture *texture, RetexTextureFilter filter, 
                         int count, float *restrict rgba)
 {
     retex_texture_filter(texture, filter, row->uv + 3 * (size_t)from, row->spread + (size_t)row->spreads * (size_t)from,
-                         row->spreads, (size_t)count, rgba);
+                         row->spreads, (size_t)count, rgba, 4);
 }
 
 void sample_row(const RetexTexture *texture, RetexTextureFilter filter, const FootprintRow *row, float *restrict rgb)
 {
     float rgba[4 * SPAN_PIXELS];
+    if (!row->albedo) {
+        retex_texture_filter(texture, filter, row->uv, row->spread, row->spreads, (size_t)row->width, rgb, 3);
+        return;
+    }
     for (int from = 0; from < row->width; from += SPAN_PIXELS) {
         int count = row->width - from < SPAN_PIXELS ? row->width - from : SPAN_PIXELS;
         filter_span(texture, filter, row, from, count, rgba);
         for (int x = 0; x < count; x++, rgb += 3) {
             size_t at = 3 * (size_t)(from + x);
             const float *color = rgba + 4 * x;
-            if (!row->albedo) {
-                memcpy(rgb, color, 3 * sizeof *rgb);
-                continue;
-            }
             int covered = row->uv[at + 2] > 0;
             for (int c = 0; c < 3; c++)
                 rgb[c] = covered ? color[c] * color[3] + (1 - color[3]) * row->albedo[at + (size_t)c] : 0;

@@ -104,33 +104,34 @@ static void choose_kernel(void)
     best_kernel = kernels[0];
 }
 
-static inline void unassociate(const float in[4], float *out)
+/* 0 without alpha, as out is already. */
+static inline void unassociate(const float in[4], float *out, int channels)
 {
     const float alpha = in[3];
-    if (!(alpha > LEAST_ALPHA)) {
-        memset(out, 0, 4 * sizeof *out);
+    if (!(alpha > LEAST_ALPHA))
         return;
-    }
     Float4 color = load4(in) * (1 / alpha);
     color[3] = alpha < 1 ? alpha : 1;
-    memcpy(out, &color, sizeof color);
+    if (channels == 4)
+        memcpy(out, &color, sizeof color);
+    else
+        memcpy(out, &color, 3 * sizeof *out);
 }
 
 void texture_filter_batches(TextureBatchKernel *kernel, const RetexTexture *texture, RetexTextureFilter shape,
-                            const float *uv, const float *spread, int spreads, size_t n, float *rgba)
+                            const float *uv, const float *spread, int spreads, size_t n, float *colors, int channels)
 {
     BatchTexture prepared;
     Batch batch;
     size_t from[BATCH_SIZE + 1];
     prepare(&prepared, texture, shape);
+    memset(colors, 0, n * (size_t)channels * sizeof *colors);
     for (size_t i = 0; i < n;) {
         batch.count = 0;
         for (; i < n && batch.count < BATCH_SIZE; i++) {
             const float *at = uv + 3 * i, *s = spread + (size_t)spreads * i;
-            if (!(at[2] > 0)) {
-                memset(rgba + 4 * i, 0, 4 * sizeof *rgba);
+            if (!(at[2] > 0))
                 continue;
-            }
             int k = batch.count++;
             from[k] = i;
             batch.u[k] = at[0];
@@ -143,28 +144,30 @@ void texture_filter_batches(TextureBatchKernel *kernel, const RetexTexture *text
             break;
         kernel(&prepared, &batch);
         for (int k = 0; k < batch.count; k++)
-            unassociate(batch.rgba[k], rgba + 4 * from[k]);
+            unassociate(batch.rgba[k], colors + (size_t)channels * from[k], channels);
         for (int k = 0; k < batch.nleft; k++) {
             size_t at = from[batch.left[k]];
-            filter_one(texture, shape, uv + 3 * at, spread + (size_t)spreads * at, spreads, rgba + 4 * at);
+            float rgba[4];
+            filter_one(texture, shape, uv + 3 * at, spread + (size_t)spreads * at, spreads, rgba);
+            memcpy(colors + (size_t)channels * at, rgba, (size_t)channels * sizeof *colors);
         }
     }
 }
 
 void retex_texture_filter(const RetexTexture *texture, RetexTextureFilter shape, const float *uv, const float *spread,
-                          int spreads, size_t n, float *rgba)
+                          int spreads, size_t n, float *colors, int channels)
 {
     static pthread_once_t once = PTHREAD_ONCE_INIT;
     pthread_once(&once, choose_kernel);
     if (texture->nlevels) {
-        texture_filter_batches(best_kernel, texture, shape, uv, spread, spreads, n, rgba);
+        texture_filter_batches(best_kernel, texture, shape, uv, spread, spreads, n, colors, channels);
         return;
     }
     for (size_t i = 0; i < n; i++) {
         const float color[4] = {texture->spec.color[0], texture->spec.color[1], texture->spec.color[2], 1};
         if (uv[3 * i + 2] > 0)
-            memcpy(rgba + 4 * i, color, sizeof color);
+            memcpy(colors + (size_t)channels * i, color, (size_t)channels * sizeof *colors);
         else
-            memset(rgba + 4 * i, 0, sizeof color);
+            memset(colors + (size_t)channels * i, 0, (size_t)channels * sizeof *colors);
     }
 }

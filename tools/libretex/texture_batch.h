@@ -52,7 +52,7 @@ int texture_batch_kernels(TextureBatchKernel *kernels[3]);
 
 /* retex_texture_filter, by one of them; not for constants. */
 void texture_filter_batches(TextureBatchKernel *kernel, const RetexTexture *texture, RetexTextureFilter shape,
-                            const float *uv, const float *spread, int spreads, size_t n, float *rgba);
+                            const float *uv, const float *spread, int spreads, size_t n, float *colors, int channels);
 
 /* The 4 x 4 texels from column x and row y on, as they are stored, where some lie beyond the level's borders. */
 void texture_gather_block(const RetexTexture *texture, const TextureLevel *level, int x, int y, char *texels);

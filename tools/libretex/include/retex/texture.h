@@ -120,12 +120,12 @@ typedef enum RetexTextureFilter { RETEX_TEXTURE_DISC, RETEX_TEXTURE_GAUSSIAN } R
 
 /* n footprints as sets hold them, filtered as retex_texture_disc or retex_texture_gaussian would, some ten times as
  * fast. Colours differ from theirs by no more than can be seen; they do not depend on what is filtered beside them, nor
- * on the machine. Where coverage is not above 0 the result is 0, 0, 0, 0 and costs next to nothing. Thread-safe. */
+ * on the machine. Where coverage is not above 0 the result is 0 and costs next to nothing. Thread-safe. */
 void retex_texture_filter(const RetexTexture *texture, RetexTextureFilter shape,
                           const float *uv /* n x 3: u, v, coverage */,
                           const float *spread /* n x spreads: standard deviations along u and v, their correlation */,
                           int spreads /* 2: the correlation is 0; 3 */, size_t n,
-                          float *rgba /* n x 4, unassociated alpha */);
+                          float *colors /* n x channels */, int channels /* 4: unassociated alpha; 3: without it */);
 
 #ifdef __cplusplus
 }
