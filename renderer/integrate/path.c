@@ -224,7 +224,7 @@ static void fill_vertex(PathWorker *w, Packet *p, int lane, const Hit *hit)
     v->distance = hit->t, v->last = path->segments >= c->max_depth;
     v->numbers = &p->numbers[path->half], v->lane = lane;
     v->light.found = v->picked = 0;
-    shading_color(&v->s, v->has_uv ? &v->uv : NULL, w->variants, c->nvariants);
+    shading_color(&v->s, &v->place, w->variants, c->nvariants);
     if (add_matte(w, p, lane))
         return;
     bsdf_setup(&v->s.bsdf, &v->s.surface, vec_neg(ray->direction), v->s.filter, v->s.transmit);
@@ -372,7 +372,7 @@ static void find_surfaces(const Scene *scene, Packet *p, const Hit *hits)
         if (hits[i].primitive >= 0) {
             Vertex *v = &p->vertices[i];
             surface_at(&v->s.surface, scene, &p->rays[i], &hits[i]);
-            v->has_uv = shading_prefetch(&v->s.surface, &v->uv);
+            v->place = shading_prefetch(&v->s.surface);
         }
 }
 

@@ -88,11 +88,17 @@ typedef struct Shading {
 
 /* Where a replacement texture is looked up on a surface, were it a target. */
 Vec2 surface_target_uv(const Surface *surface);
-/* The colours at a surface (shading->surface is filled), the original's and those of variants (NULL = none). uv: what
- * surface_uv says, or NULL. */
-void shading_color(Shading *shading, const SurfaceUv *uv, const RenderVariant *variants, int nvariants);
-/* They will be asked for soon. Returns 1 where it had to find uv for that. */
-int shading_prefetch(const Surface *surface, SurfaceUv *uv);
+/* Where an image is looked up on a surface: a point of its pattern space, if it is known already. */
+typedef struct ImagePlace {
+    int is_known;
+    Vec3 point;
+} ImagePlace;
+
+/* The colours at a surface (shading->surface is filled), the original's and those of variants (NULL = none). place: what
+ * shading_prefetch found, or NULL. */
+void shading_color(Shading *shading, const ImagePlace *place, const RenderVariant *variants, int nvariants);
+/* They will be asked for soon. */
+ImagePlace shading_prefetch(const Surface *surface);
 void shading_at(Shading *shading, const Scene *scene, const RenderVariant *variants, int nvariants, const Ray *ray,
                 const Hit *hit);
 static inline Rgb shading_albedo(const Shading *s, int variant)

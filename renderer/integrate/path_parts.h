@@ -55,8 +55,7 @@ typedef struct Vertex {
     int met, last; /* last: the path does not go on but where it passes straight */
     double distance;
     Shading s;
-    int has_uv; /* known already */
-    SurfaceUv uv;
+    ImagePlace place;
     const VertexSamples *numbers; /* of the packet, this one's in a lane of it */
     int lane;
     int picked; /* a light was */

@@ -23,20 +23,35 @@ Vec2 surface_target_uv(const Surface *surface)
     return target_uv_of(surface, &of);
 }
 
-void shading_color(Shading *s, const SurfaceUv *uv, const RenderVariant *variants, int nvariants)
+static Vec3 image_point(const Surface *surface, const Pigment *pigment)
 {
-    const Surface *surface = &s->surface;
+    return pigment_point(pigment, surface->position, pigment->uv_mapping ? surface_uv(surface).uv : (Vec2){0, 0});
+}
+
+/* The colour of a surface, and, of a target, where a replacement is looked up. */
+static Rgbft color_at(const Surface *surface, const ImagePlace *place, Vec2 *target)
+{
     const Pigment *pigment = surface->texture->pigment;
     SurfaceUv of = {.has_natural = 0};
+    if (pigment->kind == PIGMENT_IMAGE)
+        return pigment_eval_image(pigment, place && place->is_known ? place->point : image_point(surface, pigment),
+                                  target);
     if (pigment->uv_mapping || surface->target >= 0)
-        of = uv ? *uv : surface_uv(surface);
-    Rgbft c = pigment_eval(pigment, surface->position, of.uv);
+        of = surface_uv(surface);
+    if (surface->target >= 0)
+        *target = target_uv_of(surface, &of);
+    return pigment_eval(pigment, surface->position, of.uv);
+}
+
+void shading_color(Shading *s, const ImagePlace *place, const RenderVariant *variants, int nvariants)
+{
+    const Surface *surface = &s->surface;
+    const Rgbft c = color_at(surface, place, &s->uv);
     s->albedo = rgb(not_negative(c.r), not_negative(c.g), not_negative(c.b));
     s->filter = not_negative(c.filter), s->transmit = not_negative(c.transmit);
     s->replaced = 0;
     if (surface->target < 0)
         return;
-    s->uv = target_uv_of(surface, &of);
     for (int v = 0; variants && v < nvariants; v++)
         s->replaced |= variants[v].constants || variants[v].textures[surface->target];
     for (int v = 0; s->replaced && v < nvariants; v++) {
@@ -47,15 +62,15 @@ void shading_color(Shading *s, const SurfaceUv *uv, const RenderVariant *variant
     }
 }
 
-int shading_prefetch(const Surface *surface, SurfaceUv *uv)
+ImagePlace shading_prefetch(const Surface *surface)
 {
     const Pigment *pigment = surface->texture->pigment;
-    if (pigment->kind != PIGMENT_IMAGE)
-        return 0;
-    if (pigment->uv_mapping)
-        *uv = surface_uv(surface);
-    pigment_prefetch(pigment, surface->position, pigment->uv_mapping ? uv->uv : (Vec2){0, 0});
-    return pigment->uv_mapping;
+    ImagePlace place = {.is_known = pigment->kind == PIGMENT_IMAGE};
+    if (!place.is_known)
+        return place;
+    place.point = image_point(surface, pigment);
+    pigment_prefetch_image(pigment, place.point);
+    return place;
 }
 
 void shading_at(Shading *s, const Scene *scene, const RenderVariant *variants, int nvariants, const Ray *ray,

@@ -87,23 +87,29 @@ Rgbft pigment_pattern(const Pigment *pigment, Vec3 p)
     return pigment->color;
 }
 
+Vec3 pigment_point(const Pigment *pigment, Vec3 p, Vec2 uv)
+{
+    return transform_inverse_point(&pigment->transform, pigment->uv_mapping ? vec3(uv.u, uv.v, 0) : p);
+}
+
 Rgbft pigment_eval(const Pigment *pigment, Vec3 p, Vec2 uv)
 {
     if (pigment->kind == PIGMENT_COLOR)
         return pigment->color;
-    if (pigment->uv_mapping)
-        p = vec3(uv.u, uv.v, 0);
-    return pigment_pattern(pigment, transform_inverse_point(&pigment->transform, p));
+    return pigment_pattern(pigment, pigment_point(pigment, p, uv));
 }
 
-void pigment_prefetch(const Pigment *pigment, Vec3 p, Vec2 uv)
+Rgbft pigment_eval_image(const Pigment *pigment, Vec3 p, Vec2 *target)
 {
-    if (pigment->kind != PIGMENT_IMAGE || pigment->image->map_type != MAP_PLANAR)
-        return;
-    if (pigment->uv_mapping)
-        p = vec3(uv.u, uv.v, 0);
-    p = transform_inverse_point(&pigment->transform, p);
-    retex_texture_prefetch(pigment->image->texture, p.x, p.y);
+    const Vec2 at = pigment_image_uv(pigment->image, p);
+    *target = pigment->uv_mapping ? (Vec2){p.x, p.y} : at;
+    return image_lookup(pigment->image, at);
+}
+
+void pigment_prefetch_image(const Pigment *pigment, Vec3 p)
+{
+    if (pigment->image->map_type == MAP_PLANAR)
+        retex_texture_prefetch(pigment->image->texture, p.x, p.y);
 }
 
 static int same_color(const Rgbft *a, const Rgbft *b)

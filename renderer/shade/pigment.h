@@ -6,8 +6,12 @@
 
 /* World point p; uv is the shape's UV (used with uv_mapping). Thread-safe. */
 Rgbft pigment_eval(const Pigment *pigment, Vec3 p, Vec2 uv);
+/* The same point in pattern space. */
+Vec3 pigment_point(const Pigment *pigment, Vec3 p, Vec2 uv);
+/* Of an image, at a point of pattern space: its colour, and what target_uv gives. */
+Rgbft pigment_eval_image(const Pigment *pigment, Vec3 pattern_point, Vec2 *target);
 /* It will be asked there soon: have a planar image's texels come near. */
-void pigment_prefetch(const Pigment *pigment, Vec3 p, Vec2 uv);
+void pigment_prefetch_image(const Pigment *pigment, Vec3 pattern_point);
 /* 1 where the pigment has the same colour and opacity everywhere. */
 int pigment_is_constant(const Pigment *pigment);
 /* 1 where the pigment lets nothing through anywhere (no filter, no transmit, no image alpha). */

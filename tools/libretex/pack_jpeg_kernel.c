@@ -271,10 +271,97 @@ static void greys_avx2(float *restrict values, const float *y, int count, const 
 }
 #pragma GCC pop_options
 
+/* --- back: sixteen at a time --- */
+
+#pragma GCC push_options
+#pragma GCC target("avx512f,avx512dq,prefer-vector-width=512")
+
+#undef TIMES
+#undef PLUS
+#undef LESS
+#define TIMES(constant, vector) _mm512_mul_ps(_mm512_set1_ps(constant), vector)
+#define PLUS _mm512_add_ps
+#define LESS _mm512_sub_ps
+
+/* inverse8 of two blocks side by side, in the same order of operations. */
+static inline __attribute__((always_inline)) void inverse8_avx512(__m512 v[8])
+{
+    const __m512 a = TIMES(C4, PLUS(v[0], v[4])), b = TIMES(C4, LESS(v[0], v[4])),
+                 c = PLUS(TIMES(C2, v[2]), TIMES(C6, v[6])), d = LESS(TIMES(C6, v[2]), TIMES(C2, v[6]));
+    const __m512 e0 = PLUS(a, c), e3 = LESS(a, c), e1 = PLUS(b, d), e2 = LESS(b, d);
+    const __m512 o0 = PLUS(PLUS(PLUS(TIMES(C1, v[1]), TIMES(C3, v[3])), TIMES(C5, v[5])), TIMES(C7, v[7]));
+    const __m512 o1 = LESS(LESS(LESS(TIMES(C3, v[1]), TIMES(C7, v[3])), TIMES(C1, v[5])), TIMES(C5, v[7]));
+    const __m512 o2 = PLUS(PLUS(LESS(TIMES(C5, v[1]), TIMES(C1, v[3])), TIMES(C7, v[5])), TIMES(C3, v[7]));
+    const __m512 o3 = LESS(PLUS(LESS(TIMES(C7, v[1]), TIMES(C5, v[3])), TIMES(C3, v[5])), TIMES(C1, v[7]));
+    v[0] = PLUS(e0, o0);
+    v[7] = LESS(e0, o0);
+    v[1] = PLUS(e1, o1);
+    v[6] = LESS(e1, o1);
+    v[2] = PLUS(e2, o2);
+    v[5] = LESS(e2, o2);
+    v[3] = PLUS(e3, o3);
+    v[4] = LESS(e3, o3);
+}
+
+/* Each half by itself. */
+static inline __attribute__((always_inline)) void transpose8_avx512(__m512 v[8])
+{
+    const __m512i low = _mm512_setr_epi64(0, 1, 8, 9, 4, 5, 12, 13), high = _mm512_setr_epi64(2, 3, 10, 11, 6, 7, 14, 15);
+    __m512 pairs[8], fours[8];
+    for (int i = 0; i < 4; i++) {
+        pairs[2 * i] = _mm512_unpacklo_ps(v[2 * i], v[2 * i + 1]);
+        pairs[2 * i + 1] = _mm512_unpackhi_ps(v[2 * i], v[2 * i + 1]);
+    }
+    for (int i = 0; i < 8; i += 4)
+        for (int k = 0; k < 2; k++) {
+            fours[i + 2 * k] = _mm512_shuffle_ps(pairs[i + k], pairs[i + k + 2], 0x44);
+            fours[i + 2 * k + 1] = _mm512_shuffle_ps(pairs[i + k], pairs[i + k + 2], 0xee);
+        }
+    for (int i = 0; i < 4; i++) {
+        const __m512d a = _mm512_castps_pd(fours[i]), b = _mm512_castps_pd(fours[i + 4]);
+        v[i] = _mm512_castpd_ps(_mm512_permutex2var_pd(a, low, b));
+        v[i + 4] = _mm512_castpd_ps(_mm512_permutex2var_pd(a, high, b));
+    }
+}
+
+static void inverse_avx512(float *samples, int stride, const int16_t *coefficients, int blocks, const float *steps)
+{
+    int block = 0;
+    for (; block + 2 <= blocks; block += 2, coefficients += 128, samples += 16) {
+        __m512 v[8];
+        if (is_even(coefficients) && is_even(coefficients + 64)) {
+            const __m256 a = _mm256_set1_ps(C4 * (C4 * ((float)coefficients[0] * steps[0]))),
+                         b = _mm256_set1_ps(C4 * (C4 * ((float)coefficients[64] * steps[0])));
+            for (int y = 0; y < 8; y++)
+                _mm512_storeu_ps(samples + y * stride, _mm512_insertf32x8(_mm512_castps256_ps512(a), b, 1));
+            continue;
+        }
+        for (int y = 0; y < 8; y++) {
+            const __m128i a = _mm_loadu_si128((const __m128i *)(const void *)(coefficients + 8 * y)),
+                          b = _mm_loadu_si128((const __m128i *)(const void *)(coefficients + 64 + 8 * y));
+            const __m256i row = _mm256_inserti128_si256(_mm256_castsi128_si256(a), b, 1);
+            v[y] = _mm512_mul_ps(_mm512_cvtepi32_ps(_mm512_cvtepi16_epi32(row)),
+                                 _mm512_broadcast_f32x8(_mm256_loadu_ps(steps + 8 * y)));
+        }
+        inverse8_avx512(v);
+        transpose8_avx512(v);
+        inverse8_avx512(v);
+        transpose8_avx512(v);
+        for (int y = 0; y < 8; y++)
+            _mm512_storeu_ps(samples + y * stride, v[y]);
+    }
+    _mm256_zeroupper();
+    inverse_avx2(samples, stride, coefficients, blocks - block, steps);
+}
+#pragma GCC pop_options
+
 int pack_jpeg_kernels(const PackJpegKernels *kernels[PACK_JPEG_KERNELS_MAX])
 {
-    static const PackJpegKernels avx2 = {inverse_avx2, colours_avx2, greys_avx2};
+    static const PackJpegKernels avx512 = {inverse_avx512, colours_avx2, greys_avx2},
+                                 avx2 = {inverse_avx2, colours_avx2, greys_avx2};
     int count = 0;
+    if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq"))
+        kernels[count++] = &avx512;
     if (__builtin_cpu_supports("avx2"))
         kernels[count++] = &avx2;
     kernels[count++] = &plain;

@@ -30,7 +30,7 @@ typedef struct PackJpegKernels {
 } PackJpegKernels;
 
 /* Those that this processor can run, the fastest first, the plain reference last; returns how many. */
-enum { PACK_JPEG_KERNELS_MAX = 2 };
+enum { PACK_JPEG_KERNELS_MAX = 3 };
 int pack_jpeg_kernels(const PackJpegKernels *kernels[PACK_JPEG_KERNELS_MAX]);
 
 #endif
