@@ -136,6 +136,37 @@ static void test_default_is_close_and_smaller(void **state)
     retex_set_close(&set);
 }
 
+/* Where a footprint covers nothing, all that tells of it is 0, its correlation too, whose code 0 is none. */
+static void test_nothing_is_zero(void **state)
+{
+    (void)state;
+    size_t bytes;
+    RetexSet *set = test_set(75, 70, 3);
+    test_make_footprints(set);
+    unsigned char *data = pack(set, NULL, &bytes);
+    RetexSet *back = unpack(data, bytes);
+    size_t uncovered = 0, correlated = 0;
+    for (int i = 0; i < back->nfootprints; i++) {
+        const RetexFootprint *f = &back->footprints[i];
+        const RetexImage *uv = &back->parts[f->uv].image, *spread = &back->parts[f->spread].image;
+        const size_t channels = (size_t)spread->channels;
+        for (size_t j = 0; j < 75 * 70; j++) {
+            const float *to = spread->pixels + channels * j;
+            const int covered = uv->pixels[3 * j + 2] > 0;
+            uncovered += !covered && channels == 3;
+            correlated += covered && channels == 3 && to[2] != 0;
+            for (size_t c = 0; c < channels; c++)
+                assert_true(covered || to[c] == 0);
+            for (size_t c = 0; c < 2; c++)
+                assert_true(covered || uv->pixels[3 * j + c] == 0);
+        }
+    }
+    assert_true(uncovered > 0 && correlated > 0);
+    free(data);
+    retex_set_close(&back);
+    retex_set_close(&set);
+}
+
 /* What only denoising reads is packed without loss only; the caller's set keeps it; what has such a name but is used is
  * always packed. */
 static void test_denoise_data_is_dropped(void **state)
@@ -400,6 +431,7 @@ int main(void)
         cmocka_unit_test(test_lossless_keeps_every_bit),
         cmocka_unit_test(test_rounded_means_are_small),
         cmocka_unit_test(test_default_is_close_and_smaller),
+        cmocka_unit_test(test_nothing_is_zero),
         cmocka_unit_test(test_denoise_data_is_dropped),
         cmocka_unit_test(test_quality_trades_size),
         cmocka_unit_test(test_radiance_that_does_not_suit_jpeg_keeps_its_bits),
