@@ -96,10 +96,13 @@ static void test_pieces(void **state)
         fill(round % KINDS, count, &seed);
         unsigned char *packed = malloc(room);
         assert_non_null(packed);
-        size_t at = retex_deflate(packed, room, bytes, first, 0);
-        assert_true(at > 0);
-        at += retex_deflate(packed + at, room - at, bytes + first, count - first, 1);
-        check_inflates(packed, at, count);
+        for (int stored = 0; stored < 4; stored++) { /* one of the pieces, or both */
+            size_t at = (stored & 1 ? retex_deflate_stored : retex_deflate)(packed, room, bytes, first, 0);
+            assert_true(at > 0);
+            at += (stored & 2 ? retex_deflate_stored : retex_deflate)(packed + at, room - at, bytes + first,
+                                                                      count - first, 1);
+            check_inflates(packed, at, count);
+        }
         free(packed);
     }
 }
@@ -146,6 +149,8 @@ static void test_little_room(void **state)
         if (whole)
             check_inflates(packed, whole, count);
         refused += !whole;
+        const size_t stored = retex_deflate_stored(packed, room, bytes, count, 1);
+        assert_int_equal(stored, count + 5 <= room ? count + 5 : 0);
         free(packed);
     }
     assert_in_range(refused, 50, 450);

@@ -3,6 +3,7 @@
 
 #include <stdint.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include <isa-l/igzip_lib.h>
 
@@ -38,6 +39,24 @@ size_t retex_deflate(unsigned char *packed, size_t room, const unsigned char *by
         packed_bytes = stream->total_out;
     free(deflater);
     return packed_bytes;
+}
+
+size_t retex_deflate_stored(unsigned char *packed, size_t room, const unsigned char *bytes, size_t count, int is_last)
+{
+    enum { BLOCK = 65535, HEAD = 5 };
+    const size_t blocks = count ? (count + BLOCK - 1) / BLOCK : 1;
+
+    if (count > room || blocks * HEAD > room - count)
+        return 0;
+    for (size_t block = 0; block < blocks; block++) {
+        const size_t left = count - block * BLOCK, length = left < BLOCK ? left : BLOCK;
+        packed[0] = is_last && block + 1 == blocks;
+        packed[1] = (unsigned char)length, packed[2] = (unsigned char)(length >> 8);
+        packed[3] = (unsigned char)~length, packed[4] = (unsigned char)(~length >> 8);
+        memcpy(packed + HEAD, bytes, length);
+        packed += HEAD + length, bytes += length;
+    }
+    return count + blocks * HEAD;
 }
 
 int retex_inflate(unsigned char *bytes, size_t count, const unsigned char *packed, size_t packed_bytes)

@@ -12,6 +12,9 @@ size_t retex_deflate_room(size_t bytes);
  * takes, or 0 where it does not fit into room or memory is short. */
 size_t retex_deflate(unsigned char *packed, size_t room, const unsigned char *bytes, size_t count, int is_last);
 
+/* The same without looking for anything: a little larger than the bytes are. */
+size_t retex_deflate_stored(unsigned char *packed, size_t room, const unsigned char *bytes, size_t count, int is_last);
+
 /* A zlib stream (RFC 1950: head, raw stream, Adler-32) back into exactly count bytes. Returns 1, or 0 where it is
  * damaged, stands for less or more, or memory is short. */
 int retex_inflate(unsigned char *bytes, size_t count, const unsigned char *packed, size_t packed_bytes);

@@ -5,6 +5,7 @@
  * rather than through OpenEXRCore's pipelines lets chunks be compressed on all threads before the file is even open,
  * and every byte of a damaged chunk be accounted for. */
 #include <limits.h>
+#include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
@@ -26,6 +27,36 @@ static int need_scratch(RetexZip *zip, size_t bytes)
     return zip->scratch != NULL;
 }
 
+/* Bytes of so many bits each, by how often they come, are stored as they are: to deflate them takes half of the time of
+ * a picture's, and saves a sixteenth at most. The low bytes of light have 7.7 and more. */
+static const double NOISE_BITS = 7.5;
+
+static int is_noise(const unsigned char *bytes, size_t count)
+{
+    enum { STEP = 512, RUN = 64, LEAST = 1 << 13 }; /* one run of each step is looked at */
+    unsigned long counts[256] = {0}, all = 0;
+    double sum = 0;
+    if (count < LEAST)
+        return 0;
+    for (size_t begin = 0; begin + RUN <= count; begin += STEP, all += RUN)
+        for (size_t i = begin; i < begin + RUN; i++)
+            counts[bytes[i]]++;
+    for (int i = 0; i < 256; i++)
+        sum += counts[i] ? (double)counts[i] * log2((double)counts[i]) : 0;
+    return log2((double)all) - sum / (double)all > NOISE_BITS;
+}
+
+/* The raw stream of a chunk: its low bytes, then its high ones. */
+static size_t deflate_chunk(unsigned char *packed, size_t room, const unsigned char *bytes, size_t count)
+{
+    const size_t low = (count + 1) / 2;
+    if (!is_noise(bytes, low))
+        return retex_deflate(packed, room, bytes, count, 1);
+    const size_t stored = retex_deflate_stored(packed, room, bytes, low, 0);
+    const size_t coded = stored ? retex_deflate(packed + stored, room - stored, bytes + low, count - low, 1) : 0;
+    return coded ? stored + coded : 0;
+}
+
 size_t retex_zip_pack(RetexZip *zip, unsigned char *packed, const unsigned char *raw, size_t bytes)
 {
     if (bytes <= HEAD + TAIL || bytes > INT_MAX || !need_scratch(zip, 2 * bytes))
@@ -33,7 +64,7 @@ size_t retex_zip_pack(RetexZip *zip, unsigned char *packed, const unsigned char 
     exr_zip_regroup(zip->scratch, raw, bytes);
     exr_zip_difference(zip->scratch + bytes, zip->scratch, bytes);
     /* a chunk as long as its data would be taken for uncompressed */
-    const size_t coded = retex_deflate(packed + HEAD, bytes - 1 - HEAD - TAIL, zip->scratch + bytes, bytes, 1);
+    const size_t coded = deflate_chunk(packed + HEAD, bytes - 1 - HEAD - TAIL, zip->scratch + bytes, bytes);
     if (!coded)
         return 0;
     const uint32_t sum = retex_adler32(ADLER32_OF_NONE, zip->scratch + bytes, bytes);
