@@ -94,8 +94,8 @@ typedef struct ImagePlace {
     Vec3 point;
 } ImagePlace;
 
-/* The colours at a surface (shading->surface is filled), the original's and those of variants (NULL = none). place: what
- * shading_prefetch found, or NULL. */
+/* The colours at a surface (shading->surface is filled), the original's and those of variants (NULL = none). place:
+ * what shading_prefetch found, or NULL. */
 void shading_color(Shading *shading, const ImagePlace *place, const RenderVariant *variants, int nvariants);
 /* They will be asked for soon. */
 ImagePlace shading_prefetch(const Surface *surface);

@@ -306,7 +306,8 @@ static inline __attribute__((always_inline)) void inverse8_avx512(__m512 v[8])
 /* Each half by itself. */
 static inline __attribute__((always_inline)) void transpose8_avx512(__m512 v[8])
 {
-    const __m512i low = _mm512_setr_epi64(0, 1, 8, 9, 4, 5, 12, 13), high = _mm512_setr_epi64(2, 3, 10, 11, 6, 7, 14, 15);
+    const __m512i low = _mm512_setr_epi64(0, 1, 8, 9, 4, 5, 12, 13),
+                  high = _mm512_setr_epi64(2, 3, 10, 11, 6, 7, 14, 15);
     __m512 pairs[8], fours[8];
     for (int i = 0; i < 4; i++) {
         pairs[2 * i] = _mm512_unpacklo_ps(v[2 * i], v[2 * i + 1]);
