@@ -149,29 +149,22 @@ static const PackJpegKernels plain = {inverse_plain, colours_plain, greys_plain}
 #pragma GCC push_options
 #pragma GCC target("avx2")
 
-#define TIMES(constant, vector) _mm256_mul_ps(_mm256_set1_ps(constant), vector)
-#define PLUS _mm256_add_ps
-#define LESS _mm256_sub_ps
+/* inverse8 of vectors, in the same order of operations. */
+#define DEFINE_INVERSE8(name, Vector)                                                                                  \
+    static inline __attribute__((always_inline)) void name(Vector v[8])                                                \
+    {                                                                                                                  \
+        const Vector a = C4 * (v[0] + v[4]), b = C4 * (v[0] - v[4]), c = C2 * v[2] + C6 * v[6],                        \
+                     d = C6 * v[2] - C2 * v[6];                                                                        \
+        const Vector e0 = a + c, e3 = a - c, e1 = b + d, e2 = b - d;                                                   \
+        const Vector o0 = C1 * v[1] + C3 * v[3] + C5 * v[5] + C7 * v[7],                                               \
+                     o1 = C3 * v[1] - C7 * v[3] - C1 * v[5] - C5 * v[7],                                               \
+                     o2 = C5 * v[1] - C1 * v[3] + C7 * v[5] + C3 * v[7],                                               \
+                     o3 = C7 * v[1] - C5 * v[3] + C3 * v[5] - C1 * v[7];                                               \
+        v[0] = e0 + o0, v[7] = e0 - o0, v[1] = e1 + o1, v[6] = e1 - o1;                                                \
+        v[2] = e2 + o2, v[5] = e2 - o2, v[3] = e3 + o3, v[4] = e3 - o3;                                                \
+    }
 
-/* inverse8, in the same order of operations. */
-static inline __attribute__((always_inline)) void inverse8_avx2(__m256 v[8])
-{
-    const __m256 a = TIMES(C4, PLUS(v[0], v[4])), b = TIMES(C4, LESS(v[0], v[4])),
-                 c = PLUS(TIMES(C2, v[2]), TIMES(C6, v[6])), d = LESS(TIMES(C6, v[2]), TIMES(C2, v[6]));
-    const __m256 e0 = PLUS(a, c), e3 = LESS(a, c), e1 = PLUS(b, d), e2 = LESS(b, d);
-    const __m256 o0 = PLUS(PLUS(PLUS(TIMES(C1, v[1]), TIMES(C3, v[3])), TIMES(C5, v[5])), TIMES(C7, v[7]));
-    const __m256 o1 = LESS(LESS(LESS(TIMES(C3, v[1]), TIMES(C7, v[3])), TIMES(C1, v[5])), TIMES(C5, v[7]));
-    const __m256 o2 = PLUS(PLUS(LESS(TIMES(C5, v[1]), TIMES(C1, v[3])), TIMES(C7, v[5])), TIMES(C3, v[7]));
-    const __m256 o3 = LESS(PLUS(LESS(TIMES(C7, v[1]), TIMES(C5, v[3])), TIMES(C3, v[5])), TIMES(C1, v[7]));
-    v[0] = PLUS(e0, o0);
-    v[7] = LESS(e0, o0);
-    v[1] = PLUS(e1, o1);
-    v[6] = LESS(e1, o1);
-    v[2] = PLUS(e2, o2);
-    v[5] = LESS(e2, o2);
-    v[3] = PLUS(e3, o3);
-    v[4] = LESS(e3, o3);
-}
+DEFINE_INVERSE8(inverse8_avx2, __m256)
 
 static inline __attribute__((always_inline)) void transpose8_avx2(__m256 v[8])
 {
@@ -228,15 +221,14 @@ static void inverse_avx2(float *samples, int stride, const int16_t *coefficients
 /* value_of; an entry and the next one lie side by side and come at once. */
 static inline __attribute__((always_inline)) __m256 values_of(__m256 level, const PackLevels *levels)
 {
-    const __m256 place = _mm256_max_ps(TIMES(levels->scale, level), _mm256_setzero_ps());
+    const __m256 place = _mm256_max_ps(levels->scale * level, _mm256_setzero_ps());
     const __m256i entry = _mm256_cvttps_epi32(_mm256_min_ps(place, _mm256_set1_ps(PACK_LEVEL_ENTRIES)));
     const __m256i halves = _mm256_permute4x64_epi64(entry, 0xd8); /* 0, 1, 4, 5 and 2, 3, 6, 7 */
     const long long *from = (const long long *)(const void *)levels->share;
     const __m256 a = _mm256_castsi256_ps(_mm256_i32gather_epi64(from, _mm256_castsi256_si128(halves), 4)),
                  b = _mm256_castsi256_ps(_mm256_i32gather_epi64(from, _mm256_extracti128_si256(halves, 1), 4));
     const __m256 low = _mm256_shuffle_ps(a, b, 0x88), high = _mm256_shuffle_ps(a, b, 0xdd);
-    const __m256 share = PLUS(low, _mm256_mul_ps(LESS(high, low), LESS(place, _mm256_cvtepi32_ps(entry))));
-    return TIMES(levels->white, share);
+    return (low + (high - low) * (place - _mm256_cvtepi32_ps(entry))) * levels->white;
 }
 
 static void colours_avx2(float *restrict values, const float *y, const float *cb, const float *cr, int count,
@@ -246,12 +238,12 @@ static void colours_avx2(float *restrict values, const float *y, const float *cb
                   blues = _mm256_setr_epi32(2, 5, 0, 3, 6, 1, 4, 7);
     int i = 0;
     for (; i + 8 <= count; i += 8) {
-        const __m256 level = PLUS(_mm256_loadu_ps(y + i), _mm256_set1_ps(128));
+        const __m256 level = _mm256_loadu_ps(y + i) + 128;
         const __m256 b = _mm256_loadu_ps(cb + i), r = _mm256_loadu_ps(cr + i);
-        const __m256 red = _mm256_permutevar8x32_ps(values_of(PLUS(level, TIMES(1.402f, r)), levels), reds);
-        const __m256 green = _mm256_permutevar8x32_ps(
-            values_of(LESS(LESS(level, TIMES(0.344136286f, b)), TIMES(0.714136286f, r)), levels), greens);
-        const __m256 blue = _mm256_permutevar8x32_ps(values_of(PLUS(level, TIMES(1.772f, b)), levels), blues);
+        const __m256 red = _mm256_permutevar8x32_ps(values_of(level + 1.402f * r, levels), reds);
+        const __m256 green =
+            _mm256_permutevar8x32_ps(values_of(level - 0.344136286f * b - 0.714136286f * r, levels), greens);
+        const __m256 blue = _mm256_permutevar8x32_ps(values_of(level + 1.772f * b, levels), blues);
         float *to = values + 3 * (size_t)i;
         _mm256_storeu_ps(to, _mm256_blend_ps(_mm256_blend_ps(red, green, 0x92), blue, 0x24));
         _mm256_storeu_ps(to + 8, _mm256_blend_ps(_mm256_blend_ps(red, green, 0x24), blue, 0x49));
@@ -265,7 +257,7 @@ static void greys_avx2(float *restrict values, const float *y, int count, const 
 {
     int i = 0;
     for (; i + 8 <= count; i += 8)
-        _mm256_storeu_ps(values + i, values_of(PLUS(_mm256_loadu_ps(y + i), _mm256_set1_ps(128)), levels));
+        _mm256_storeu_ps(values + i, values_of(_mm256_loadu_ps(y + i) + 128, levels));
     _mm256_zeroupper();
     greys_plain(values + i, y + i, count - i, levels);
 }
@@ -276,32 +268,8 @@ static void greys_avx2(float *restrict values, const float *y, int count, const 
 #pragma GCC push_options
 #pragma GCC target("avx512f,avx512dq,prefer-vector-width=512")
 
-#undef TIMES
-#undef PLUS
-#undef LESS
-#define TIMES(constant, vector) _mm512_mul_ps(_mm512_set1_ps(constant), vector)
-#define PLUS _mm512_add_ps
-#define LESS _mm512_sub_ps
-
-/* inverse8 of two blocks side by side, in the same order of operations. */
-static inline __attribute__((always_inline)) void inverse8_avx512(__m512 v[8])
-{
-    const __m512 a = TIMES(C4, PLUS(v[0], v[4])), b = TIMES(C4, LESS(v[0], v[4])),
-                 c = PLUS(TIMES(C2, v[2]), TIMES(C6, v[6])), d = LESS(TIMES(C6, v[2]), TIMES(C2, v[6]));
-    const __m512 e0 = PLUS(a, c), e3 = LESS(a, c), e1 = PLUS(b, d), e2 = LESS(b, d);
-    const __m512 o0 = PLUS(PLUS(PLUS(TIMES(C1, v[1]), TIMES(C3, v[3])), TIMES(C5, v[5])), TIMES(C7, v[7]));
-    const __m512 o1 = LESS(LESS(LESS(TIMES(C3, v[1]), TIMES(C7, v[3])), TIMES(C1, v[5])), TIMES(C5, v[7]));
-    const __m512 o2 = PLUS(PLUS(LESS(TIMES(C5, v[1]), TIMES(C1, v[3])), TIMES(C7, v[5])), TIMES(C3, v[7]));
-    const __m512 o3 = LESS(PLUS(LESS(TIMES(C7, v[1]), TIMES(C5, v[3])), TIMES(C3, v[5])), TIMES(C1, v[7]));
-    v[0] = PLUS(e0, o0);
-    v[7] = LESS(e0, o0);
-    v[1] = PLUS(e1, o1);
-    v[6] = LESS(e1, o1);
-    v[2] = PLUS(e2, o2);
-    v[5] = LESS(e2, o2);
-    v[3] = PLUS(e3, o3);
-    v[4] = LESS(e3, o3);
-}
+/* Of two blocks side by side. */
+DEFINE_INVERSE8(inverse8_avx512, __m512)
 
 /* Each half by itself. */
 static inline __attribute__((always_inline)) void transpose8_avx512(__m512 v[8])
