@@ -15,7 +15,7 @@ KEEP=$(cd "$KEEP" && pwd)
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 mkdir "$work/textures"
-cp scenes/*/*.inc "$work"
+for include in scenes/*/*.inc; do cp "$include" "$work"; done # of two that have one name the last
 for texture in scenes/*/textures/*.jpg; do
     "$BUILD/tests/bin/make_picture" "$work/textures/${texture##*/}" size=6x5 || exit 2
 done
