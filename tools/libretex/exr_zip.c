@@ -27,8 +27,8 @@ static int need_scratch(RetexZip *zip, size_t bytes)
     return zip->scratch != NULL;
 }
 
-/* Bytes of so many bits each, by how often they come, are stored as they are: to deflate them takes half of the time of
- * a picture's, and saves a sixteenth at most. The low bytes of light have 7.7 and more. */
+/* Bytes of more bits each than that, by how often they come, are stored as they are: to deflate them would save a
+ * sixteenth of them at most. The low bytes of light that is no whole number of anything are so. */
 static const double NOISE_BITS = 7.5;
 
 static int is_noise(const unsigned char *bytes, size_t count)
