@@ -112,13 +112,15 @@ static void test_planes_restored_alike(void **state)
     (void)state;
     enum { WIDTH = 83, ROWS = 17, ALL = WIDTH * ROWS };
     static int32_t numbers[2][ALL];
-    static unsigned char present[ALL], shift[ALL], residuals[4 * ALL + 4];
+    static unsigned char present[ALL], shift[ALL], residuals[4 * ALL + 4], codes[ALL];
     static PackRun run[(WIDTH / 2 + 1) * ROWS];
     PackRuns runs = {.run = run};
     uint32_t seed = 7;
     assert_int_equal(pack_runs_room(WIDTH, ROWS), sizeof run / sizeof *run);
     for (int round = 0; round < 3 * 3 * 4 * PREDICTORS * 3; round++) {
         const int bits = 8 << round % 3, bytes = 1 << round / 3 % 3, holes = round / 9 % 2, steps = round / 18 % 2;
+        if (bits == 8 && (bytes > 1 || steps)) /* there is no such plane */
+            continue;
         const Predictor predictor = (Predictor)(round / 36 % PREDICTORS);
         const int rare = round / (36 * PREDICTORS); /* how often a run of what matters ends */
         for (int i = 0; i < ALL; i++) {
@@ -130,10 +132,17 @@ static void test_planes_restored_alike(void **state)
             residuals[i] = (unsigned char)(test_random(&seed) * 256);
         pack_find_runs(&runs, present, WIDTH, ROWS);
         for (int k = 0; k < 2; k++) {
-            PackPlane plane = {WIDTH, ROWS, bits, holes ? present : NULL, steps ? shift : NULL, numbers[k], &runs};
+            PackPlane plane = {WIDTH,      ROWS,  bits, holes ? present : NULL, steps ? shift : NULL,
+                               numbers[k], &runs, codes};
             memset(numbers[k], 0x5a, sizeof numbers[k]); /* what does not matter stays */
+            memset(codes, 0x5a, sizeof codes);
             (k ? pack_restore : pack_restore_plainly)(&plane, predictor, residuals, bytes);
         }
+        for (int i = 0; i < ALL && bits == 8; i++)
+            if (holes && !present[i])
+                assert_int_equal(codes[i], 0x5a);
+            else
+                numbers[1][i] = codes[i];
         assert_memory_equal(numbers[0], numbers[1], sizeof numbers[0]);
         size_t count = 0;
         for (int i = 0; i < ALL; i++) {
@@ -151,7 +160,7 @@ static void test_planes_keep_numbers(void **state)
     enum { WIDTH = 37, ROWS = 29, ALL = WIDTH * ROWS };
     uint32_t seed = 1;
     int32_t numbers[ALL], back[ALL];
-    unsigned char present[ALL], shift[ALL];
+    unsigned char present[ALL], shift[ALL], codes[ALL];
     PackRun run[(WIDTH / 2 + 1) * ROWS];
     PackRuns runs = {.run = run};
     for (int round = 0; round < 60; round++) {
@@ -165,13 +174,16 @@ static void test_planes_keep_numbers(void **state)
         }
         const int holes = round / 6 % 2, steps = bits == 32 && round / 12 % 2;
         pack_find_runs(&runs, present, WIDTH, ROWS);
-        PackPlane plane = {WIDTH, ROWS, bits, holes ? present : NULL, steps ? shift : NULL, numbers, &runs};
+        PackPlane plane = {WIDTH, ROWS, bits, holes ? present : NULL, steps ? shift : NULL, numbers, &runs, NULL};
         const size_t room = pack_plane_room(&plane);
         unsigned char *data = malloc(room), *scratch = malloc(2 * room);
         const long bytes = pack_plane_encode(data, &plane, scratch, 5);
         assert_true(bytes > 0);
         plane.numbers = back;
+        plane.codes = codes;
         assert_true(pack_plane_decode(&plane, data, (size_t)bytes, scratch));
+        for (int i = 0; i < ALL && bits == 8; i++)
+            back[i] = codes[i];
         for (int i = 0; i < ALL; i++) /* encoding rounds them to their steps, and clears what is missing */
             assert_int_equal(holes && !present[i] ? 0 : back[i], numbers[i]);
         assert_false(pack_plane_decode(&plane, data, (size_t)bytes - 1, scratch));

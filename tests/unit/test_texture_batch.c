@@ -197,7 +197,7 @@ static void test_pictures_alike(void **state)
 static void test_needles_alike(void **state)
 {
     (void)state;
-    static const double longest[] = {16, 64, 300}, least[] = {58, 53, 48}; /* standard deviations; dB */
+    static const double longest[] = {16, 64, 300}, least[] = {58, 49, 47}; /* standard deviations; dB */
     RetexTextureSpec spec = RETEX_TEXTURE_SPEC_INIT;
     RetexTexture *texture;
     RetexError err = {0};
@@ -321,7 +321,7 @@ static void test_cut_alike(void **state)
             }
             print_message("%d x %d, turned by %g: rms %.5f, at most %.4f\n", size[0], size[1], spec.rotate,
                           sqrt(squares / (4 * COUNT)), largest);
-            assert_true(sqrt(squares / (4 * COUNT)) < 3e-3); /* of white noise */
+            assert_true(sqrt(squares / (4 * COUNT)) < 4e-3); /* of white noise */
             assert_true(largest < 0.2);                      /* where little is left of one */
         }
         retex_texture_close(&texture);

@@ -22,6 +22,15 @@ typedef struct CachedBand {
     int is_black;        /* by its mask */
 } CachedBand;
 
+/* A plane of codes, which the next part to be decoded often needs too: coverage and standard deviations. */
+typedef struct CachedCodes {
+    int part, band, channel; /* part -1: none */
+    int present_part;        /* that says what of them is there; -1: all is */
+    unsigned char *codes;
+} CachedCodes;
+
+enum { CACHED_CODES = 3 }; /* by channel */
+
 struct RetexPackScratch {
     const RetexPack *pack;
     unsigned char *chunk; /* as read */
@@ -30,6 +39,7 @@ struct RetexPackScratch {
     PackRuns runs;                  /* of `present` */
     int present_part, present_band; /* that it is of; -1: none */
     int32_t *numbers;
+    CachedCodes codes[CACHED_CODES];
     size_t pixels; /* of a band, that there is room for */
     int nparts;
     CachedBand *cached;
@@ -73,6 +83,8 @@ void retex_pack_scratch_close(RetexPackScratch **result)
     free(s->runs.run);
     free(s->shift);
     free(s->numbers);
+    for (int i = 0; i < CACHED_CODES; i++)
+        free(s->codes[i].codes);
     free(s);
     *result = NULL;
 }
@@ -95,12 +107,18 @@ static int reserve(RetexPackScratch *s, const PackPart *p, RetexError *err)
     free(s->shift);
     free(s->numbers);
     const PackPlane plane = {.width = p->width, .rows = PACK_BAND_ROWS};
+    int code = 0;
+    for (int i = 0; i < CACHED_CODES; i++) {
+        free(s->codes[i].codes);
+        s->codes[i] = (CachedCodes){.part = -1, .codes = malloc(pixels)};
+        code = s->codes[i].codes ? code : RETEX_ENOMEM;
+    }
     s->residuals = malloc(pack_plane_room(&plane));
     s->present = malloc(pixels);
     s->runs.run = malloc(pack_runs_room(p->width, PACK_BAND_ROWS) * sizeof *s->runs.run);
     s->shift = malloc(pixels);
     s->numbers = malloc(pixels * sizeof *s->numbers);
-    s->pixels = s->residuals && s->present && s->runs.run && s->shift && s->numbers ? pixels : 0;
+    s->pixels = !code && s->residuals && s->present && s->runs.run && s->shift && s->numbers ? pixels : 0;
     return s->pixels ? 0 : retex_fail(err, RETEX_ENOMEM, "no memory to read a pack");
 }
 
@@ -122,20 +140,54 @@ static int read_chunk(int part, int k, size_t before, RetexPackScratch *s, Retex
     return 0;
 }
 
-/* The numbers of one channel of a band; present and shift may be NULL. */
-static int decode_numbers(int part, int band, int channel, const unsigned char *present, const unsigned char *shift,
-                          RetexPackScratch *s, RetexError *err)
+/* A channel of a band, by the plane's bits into its numbers or codes. */
+static int decode_plane(int part, int band, int channel, const PackPlane *plane, RetexPackScratch *s, RetexError *err)
 {
     const PackPart *p = &s->pack->parts[part];
     const int k = band * p->channels + channel;
-    const PackMapKind kind = p->maps[channel].kind;
-    const int bits = pack_map_is_coded(&p->maps[channel])             ? 8
-                     : kind == PACK_MAP_BITS && p->type == RETEX_HALF ? 16
-                                                                      : 32;
-    PackPlane plane = {p->width, pack_band_rows(p, band), bits, present, shift, s->numbers, &s->runs};
     int code = read_chunk(part, k, 0, s, err);
-    if (!code && !pack_plane_decode(&plane, s->chunk, p->bytes[k], s->residuals))
+    if (!code && !pack_plane_decode(plane, s->chunk, p->bytes[k], s->residuals))
         code = pack_damaged(err, "planes cannot be decoded of part", s->pack->set->parts[part].name);
+    return code;
+}
+
+/* Of a channel that is not coded, where s->present says or, if not `partial`, everywhere; shift may be NULL. */
+static int decode_numbers(int part, int band, int channel, int partial, const unsigned char *shift, RetexPackScratch *s,
+                          RetexError *err)
+{
+    const PackPart *p = &s->pack->parts[part];
+    const int bits = p->maps[channel].kind == PACK_MAP_BITS && p->type == RETEX_HALF ? 16 : 32;
+    const PackPlane plane = {.width = p->width,
+                             .rows = pack_band_rows(p, band),
+                             .bits = bits,
+                             .present = partial ? s->present : NULL,
+                             .shift = shift,
+                             .numbers = s->numbers,
+                             .runs = &s->runs};
+    return decode_plane(part, band, channel, &plane, s, err);
+}
+
+/* Of a channel that is coded. */
+static int decode_codes(int part, int band, int channel, int partial, const unsigned char **codes, RetexPackScratch *s,
+                        RetexError *err)
+{
+    const PackPart *p = &s->pack->parts[part];
+    CachedCodes *cached = &s->codes[channel % CACHED_CODES];
+    const CachedCodes wanted = {part, band, channel, partial ? s->present_part : -1, cached->codes};
+    const PackPlane plane = {.width = p->width,
+                             .rows = pack_band_rows(p, band),
+                             .bits = 8,
+                             .present = partial ? s->present : NULL,
+                             .runs = &s->runs,
+                             .codes = cached->codes};
+    *codes = cached->codes;
+    if (cached->part == part && cached->band == band && cached->channel == channel &&
+        cached->present_part == wanted.present_part)
+        return 0;
+    cached->part = -1;
+    int code = decode_plane(part, band, channel, &plane, s, err);
+    if (!code)
+        *cached = wanted;
     return code;
 }
 
@@ -143,12 +195,13 @@ static int decode_numbers(int part, int band, int channel, const unsigned char *
 static int decode_present(int part, int band, RetexPackScratch *s, RetexError *err)
 {
     const PackPart *p = &s->pack->parts[part];
+    const unsigned char *codes;
     if (s->present_part == part && s->present_band == band)
         return 0;
-    int code = decode_numbers(part, band, 2, NULL, NULL, s, err);
+    int code = decode_codes(part, band, 2, 0, &codes, s, err);
     const int rows = pack_band_rows(p, band);
     if (!code) {
-        pack_find_present(s->present, s->numbers, (size_t)p->width * (size_t)rows);
+        pack_find_present(s->present, codes, (size_t)p->width * (size_t)rows);
         pack_find_runs(&s->runs, s->present, p->width, rows);
     }
     s->present_part = code ? -1 : part;
@@ -162,33 +215,32 @@ static int decode_shift(int part, int band, int c, RetexPackScratch *s, RetexErr
     const PackPart *p = &s->pack->parts[part];
     const int per_octave = s->pack->parts[p->sigma].maps[c].per_octave;
     unsigned char shift[PACK_CODES];
+    const unsigned char *codes;
     for (int i = 0; i < PACK_CODES; i++)
         shift[i] = (unsigned char)pack_lattice_shift(p, i, per_octave);
-    int code = decode_numbers(p->sigma, band, c, s->present, NULL, s, err);
+    int code = decode_codes(p->sigma, band, c, 1, &codes, s, err);
     for (int y = 0; !code && y < pack_band_rows(p, band); y++)
         for (int k = s->runs.first[y]; k < s->runs.first[y + 1]; k++) {
             const size_t row = (size_t)y * (size_t)p->width;
             for (size_t i = row + (size_t)s->runs.run[k].begin; i < row + (size_t)s->runs.run[k].end; i++)
-                s->shift[i] = shift[s->numbers[i] & (PACK_CODES - 1)];
+                s->shift[i] = shift[codes[i]];
         }
     return code;
 }
 
-/* 1 unless all of so many numbers of 32 bits, or floats, are 0, floats +0. */
-static int is_any(const void *numbers, size_t count)
+/* 1 unless all of so many bytes are 0. */
+static int is_any(const void *data, size_t bytes)
 {
-    const char *at = numbers;
+    const unsigned char *at = data;
     size_t i = 0;
-    for (uint64_t some[8]; i + 16 <= count; i += 16) {
-        memcpy(some, at + 4 * i, sizeof some);
+    for (uint64_t some[8]; i + 64 <= bytes; i += 64) {
+        memcpy(some, at + i, sizeof some);
         if (some[0] | some[1] | some[2] | some[3] | some[4] | some[5] | some[6] | some[7])
             return 1;
     }
-    for (uint32_t one; i < count; i++) {
-        memcpy(&one, at + 4 * i, sizeof one);
-        if (one)
+    for (; i < bytes; i++)
+        if (at[i])
             return 1;
-    }
     return 0;
 }
 
@@ -198,7 +250,7 @@ static uint64_t find_lit(const PackPart *p, int band, const float *rows)
     const size_t row = (size_t)p->width * (size_t)p->channels;
     uint64_t lit = 0;
     for (int y = 0; y < pack_band_rows(p, band); y++)
-        lit |= (uint64_t)is_any(rows + (size_t)y * row, row) << y;
+        lit |= (uint64_t)is_any(rows + (size_t)y * row, row * sizeof *rows) << y;
     return lit;
 }
 
@@ -221,36 +273,47 @@ static uint64_t clear_around(const PackPart *p, int band, float *out, const Pack
     return lit;
 }
 
-/* Numbers of channel c, all of which matter, to samples. Rows of which all are 0 so far, in all channels, have no bit
- * in *lit and are left alone. */
-static void map_all(const PackPart *p, int band, int c, float *out, uint64_t *lit, const int32_t *numbers)
+/* Some numbers of channel c, or codes if it is coded, from the at-th on, to samples. */
+static void map_some(const PackPart *p, int c, float *out, const unsigned char *codes, const int32_t *numbers,
+                     size_t at, size_t count)
+{
+    const size_t channels = (size_t)p->channels;
+    if (codes)
+        pack_map_codes(out + at * channels + (size_t)c, channels, codes + at, count, &p->maps[c]);
+    else
+        pack_map_samples(out + at * channels + (size_t)c, channels, numbers + at, count, &p->maps[c], p->type);
+}
+
+/* All of them. Rows of which all are 0 so far, in all channels, have no bit in *lit and are left alone. */
+static void map_all(const PackPart *p, int band, int c, float *out, uint64_t *lit, const unsigned char *codes,
+                    const int32_t *numbers)
 {
     const size_t channels = (size_t)p->channels, width = (size_t)p->width;
     const int32_t none = 0;
     float of_none;
     pack_map_samples(&of_none, 1, &none, 1, &p->maps[c], p->type);
-    const int none_is_lit = is_any(&of_none, 1);
-    for (int y = 0; y < pack_band_rows(p, band); y++, out += width * channels, numbers += width) {
+    const int none_is_lit = is_any(&of_none, sizeof of_none);
+    for (int y = 0; y < pack_band_rows(p, band); y++) {
         const uint64_t row = (uint64_t)1 << y;
-        if (!(*lit & row) && !none_is_lit && !is_any(numbers, width))
+        const size_t at = (size_t)y * width;
+        if (!none_is_lit && !(codes ? is_any(codes + at, width) : is_any(numbers + at, width * sizeof *numbers)))
             continue;
-        if (!(*lit & row) && c > 0)
-            memset(out, 0, width * channels * sizeof *out);
+        if (!(*lit & row) && channels > 1)
+            memset(out + at * channels, 0, width * channels * sizeof *out);
         *lit |= row;
-        pack_map_samples(out + c, channels, numbers, width, &p->maps[c], p->type);
+        map_some(p, c, out, codes, numbers, at, width);
     }
 }
 
-/* Numbers of channel c to samples, where they matter. */
-static void map_present(const PackPart *p, int band, int c, float *out, const RetexPackScratch *s)
+/* Those that matter. */
+static void map_present(const PackPart *p, int band, int c, float *out, const PackRuns *runs,
+                        const unsigned char *codes, const int32_t *numbers)
 {
-    const size_t channels = (size_t)p->channels, width = (size_t)p->width;
-    for (size_t y = 0; y < (size_t)pack_band_rows(p, band); y++)
-        for (int k = s->runs.first[y]; k < s->runs.first[y + 1]; k++) {
-            const PackRun run = s->runs.run[k];
-            const size_t at = y * width + (size_t)run.begin;
-            pack_map_samples(out + at * channels + (size_t)c, channels, s->numbers + at, (size_t)(run.end - run.begin),
-                             &p->maps[c], p->type);
+    for (int y = 0; y < pack_band_rows(p, band); y++)
+        for (int k = runs->first[y]; k < runs->first[y + 1]; k++) {
+            const PackRun run = runs->run[k];
+            map_some(p, c, out, codes, numbers, (size_t)y * (size_t)p->width + (size_t)run.begin,
+                     (size_t)(run.end - run.begin));
         }
 }
 
@@ -265,14 +328,17 @@ static int decode_planes(int part, int band, float *out, uint64_t *lit, RetexPac
     for (int c = 0; !code && (*lit || p->present < 0) && c < p->channels; c++) {
         const int lattice = p->maps[c].kind == PACK_MAP_LATTICE;
         const int partial = p->present >= 0 && (p->present != part || c != 2);
+        const unsigned char *codes = NULL;
         if (lattice)
             code = decode_shift(part, band, c, s, err);
-        if (!code)
-            code = decode_numbers(part, band, c, partial ? s->present : NULL, lattice ? s->shift : NULL, s, err);
-        if (!code && p->present >= 0)
-            map_present(p, band, c, out, s);
+        if (!code && pack_map_is_coded(&p->maps[c]))
+            code = decode_codes(part, band, c, partial, &codes, s, err);
         else if (!code)
-            map_all(p, band, c, out, lit, s->numbers);
+            code = decode_numbers(part, band, c, partial, lattice ? s->shift : NULL, s, err);
+        if (!code && p->present >= 0)
+            map_present(p, band, c, out, &s->runs, codes, s->numbers);
+        else if (!code)
+            map_all(p, band, c, out, lit, codes, s->numbers);
     }
     return code;
 }
@@ -325,21 +391,17 @@ static int decode_mask(int part, int band, CachedBand *cached, RetexPackScratch 
 {
     const PackPart *p = &s->pack->parts[part];
     const int k = 1 + p->nbands + band, rows = pack_band_rows(p, band), width = pack_mask_width(p);
-    PackPlane plane = {.width = width, .rows = rows, .bits = 8, .numbers = s->numbers};
     int code = cached->mask || (cached->mask = malloc((size_t)width * PACK_BAND_ROWS))
                    ? read_chunk(part, k, 0, s, err)
                    : retex_fail(err, RETEX_ENOMEM, "no memory to read a pack");
+    const PackPlane plane = {.width = width, .rows = rows, .bits = 8, .codes = cached->mask};
     if (!code && !pack_plane_decode(&plane, s->chunk, p->bytes[k], s->residuals))
         code = pack_damaged(err, "the mask cannot be decoded of part", s->pack->set->parts[part].name);
     const int last = 255 >> (8 * width - p->width);
     int every = 255; /* bits that all pixels have */
-    for (int y = 0; !code && y < rows; y++) {
-        const int32_t *row = s->numbers + (size_t)y * (size_t)width;
-        for (int x = 0; x < width; x++) {
-            cached->mask[y * width + x] = (unsigned char)row[x];
-            every &= row[x] | (x == width - 1 ? ~last : 0);
-        }
-    }
+    for (int y = 0; !code && y < rows; y++)
+        for (int x = 0; x < width; x++)
+            every &= cached->mask[y * width + x] | (x == width - 1 ? ~last : 0);
     cached->is_black = every == 255;
     return code;
 }
@@ -407,7 +469,7 @@ static int decode_blocks(int part, int line, CachedBand *cached, const RetexPack
         float *values = cached->rows + (size_t)y * row;
         if (p->masked)
             apply_mask(p, values, cached->mask + (size_t)(first + y) * (size_t)pack_mask_width(p));
-        cached->lit |= (uint64_t)is_any(values, row) << (first + y);
+        cached->lit |= (uint64_t)is_any(values, row * sizeof *values) << (first + y);
     }
     return 0;
 }
@@ -441,8 +503,8 @@ static int cache_band(int part, int band, RetexPackScratch *s, RetexError *err)
     cached->band = -1;
     if (!cached->rows && !(cached->rows = malloc(row * (size_t)rows * sizeof *cached->rows)))
         return retex_fail(err, RETEX_ENOMEM, "no memory to read a pack");
-    int code = is_jpeg ? open_jpeg(part, band, cached, s, err)
-                       : decode_band(part, band, cached->rows, &cached->lit, s, err);
+    int code =
+        is_jpeg ? open_jpeg(part, band, cached, s, err) : decode_band(part, band, cached->rows, &cached->lit, s, err);
     cached->band = code ? -1 : band;
     return code;
 }

@@ -101,3 +101,9 @@ void pack_map_samples(float *samples, size_t stride, const int32_t *numbers, siz
         }
     }
 }
+
+void pack_map_codes(float *samples, size_t stride, const unsigned char *codes, size_t count, const PackMap *map)
+{
+    for (size_t i = 0; i < count; i++)
+        samples[i * stride] = map->value[codes[i]];
+}

@@ -135,17 +135,18 @@ long pack_plane_encode(unsigned char *data, const PackPlane *plane, unsigned cha
 /* What matters becomes 0. */
 static void clear(const PackPlane *plane)
 {
-    const size_t width = (size_t)plane->width;
+    const size_t width = (size_t)plane->width, size = plane->bits == 8 ? 1 : sizeof *plane->numbers;
+    char *const to = plane->bits == 8 ? (char *)plane->codes : (char *)plane->numbers;
     if (!plane->present)
-        memset(plane->numbers, 0, width * (size_t)plane->rows * sizeof *plane->numbers);
+        memset(to, 0, width * (size_t)plane->rows * size);
     for (size_t y = 0; plane->present && y < (size_t)plane->rows; y++)
         for (int k = plane->runs->first[y]; k < plane->runs->first[y + 1]; k++) {
             const PackRun run = plane->runs->run[k];
-            memset(plane->numbers + y * width + run.begin, 0, (size_t)(run.end - run.begin) * sizeof *plane->numbers);
+            memset(to + (y * width + (size_t)run.begin) * size, 0, (size_t)(run.end - run.begin) * size);
         }
 }
 
-int pack_plane_decode(PackPlane *plane, const unsigned char *data, size_t bytes, unsigned char *scratch)
+int pack_plane_decode(const PackPlane *plane, const unsigned char *data, size_t bytes, unsigned char *scratch)
 {
     if (bytes == 0) {
         clear(plane);
@@ -156,7 +157,7 @@ int pack_plane_decode(PackPlane *plane, const unsigned char *data, size_t bytes,
     const Predictor predictor = (Predictor)(data[0] & 15);
     const size_t size = pixels * (size_t)width;
     size_t unpacked;
-    if ((width != 1 && width != 2 && width != 4) || predictor >= PREDICTORS || size == 0 ||
+    if ((width != 1 && width != 2 && width != 4) || 8 * width > plane->bits || predictor >= PREDICTORS || size == 0 ||
         bytes < 1 + BLOSC_MIN_HEADER_LENGTH || blosc_cbuffer_validate(data + 1, bytes - 1, &unpacked) < 0 ||
         unpacked != size || blosc_decompress_ctx(data + 1, scratch, size, 1) != (int)size)
         return 0;

@@ -37,6 +37,8 @@ void pack_map_numbers(int32_t *numbers, const float *samples, size_t stride, siz
                       RetexPixelType type);
 void pack_map_samples(float *samples, size_t stride, const int32_t *numbers, size_t count, const PackMap *map,
                       RetexPixelType type);
+/* Back, of codes of a byte. */
+void pack_map_codes(float *samples, size_t stride, const unsigned char *codes, size_t count, const PackMap *map);
 
 /* Pixels of a row side by side that matter. */
 typedef struct PackRun {
@@ -64,6 +66,7 @@ typedef struct PackPlane {
     const unsigned char *shift;   /* numbers are multiples of 2^shift; NULL: of 1 */
     int32_t *numbers;
     const PackRuns *runs; /* of what is present, which decoding needs */
+    unsigned char *codes; /* where decoding puts numbers of 8 bits */
 } PackPlane;
 
 /* Most bytes that a plane's residuals, and its compressed form, may need. */
@@ -73,7 +76,8 @@ size_t pack_plane_room(const PackPlane *plane);
  * matters is 0, or -1 if compression fails. effort 1..9. */
 long pack_plane_encode(unsigned char *data, const PackPlane *plane, unsigned char *scratch, int effort);
 
-/* And back, into plane->numbers; those that do not matter are left alone. 1, or 0 where the data is damaged. */
-int pack_plane_decode(PackPlane *plane, const unsigned char *data, size_t bytes, unsigned char *scratch);
+/* And back, into plane->numbers, or plane->codes; those that do not matter are left alone. 1, or 0 where the data is
+ * damaged. */
+int pack_plane_decode(const PackPlane *plane, const unsigned char *data, size_t bytes, unsigned char *scratch);
 
 #endif

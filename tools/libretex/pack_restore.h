@@ -72,15 +72,15 @@ static inline int32_t in_steps(int32_t number, int shift)
     return shift ? add(number, 1 << (shift - 1)) >> shift : number;
 }
 
-/* 1 where numbers are not 0, else 0. */
-void pack_find_present(unsigned char *restrict present, const int32_t *restrict numbers, size_t count);
+/* 1 where codes are not 0, else 0. */
+void pack_find_present(unsigned char *restrict present, const unsigned char *restrict codes, size_t count);
 /* Runs of what is present; runs->run has room for pack_runs_room. */
 void pack_find_runs(PackRuns *runs, const unsigned char *present, int width, int rows);
 
-/* The plane's numbers from the residuals of those that matter, each of so many bytes; behind the last may be read as
- * many bytes again, whatever they are. Numbers that do not matter are left alone. The second is the reference, which
- * needs no runs. */
-void pack_restore(PackPlane *plane, Predictor predictor, const unsigned char *residuals, int bytes);
-void pack_restore_plainly(PackPlane *plane, Predictor predictor, const unsigned char *residuals, int bytes);
+/* The plane's numbers, or codes, from the residuals of those that matter, each of so many bytes, codes' of one. Those
+ * that do not matter are left alone. The second is the reference, which needs no runs, and puts codes too into
+ * numbers. */
+void pack_restore(const PackPlane *plane, Predictor predictor, const unsigned char *residuals, int bytes);
+void pack_restore_plainly(const PackPlane *plane, Predictor predictor, const unsigned char *residuals, int bytes);
 
 #endif

@@ -7,10 +7,18 @@
 #include <emmintrin.h>
 #endif
 
-void pack_find_present(unsigned char *restrict present, const int32_t *restrict numbers, size_t count)
+typedef unsigned char Bytes16 __attribute__((vector_size(16)));
+
+void pack_find_present(unsigned char *restrict present, const unsigned char *restrict codes, size_t count)
 {
-    for (size_t i = 0; i < count; i++)
-        present[i] = numbers[i] != 0;
+    size_t i = 0;
+    for (Bytes16 some; i + 16 <= count; i += 16) {
+        memcpy(&some, codes + i, sizeof some);
+        some = (Bytes16)(some != 0) & 1;
+        memcpy(present + i, &some, sizeof some);
+    }
+    for (; i < count; i++)
+        present[i] = codes[i] != 0;
 }
 
 void pack_find_runs(PackRuns *runs, const unsigned char *present, int width, int rows)
@@ -39,7 +47,7 @@ static inline uint32_t load(const unsigned char *from, int bytes)
                         : from[0] | (uint32_t)from[1] << 8 | (uint32_t)from[2] << 16 | (uint32_t)from[3] << 24;
 }
 
-void pack_restore_plainly(PackPlane *plane, Predictor predictor, const unsigned char *from, int bytes)
+void pack_restore_plainly(const PackPlane *plane, Predictor predictor, const unsigned char *from, int bytes)
 {
     int32_t last = 0;
     for (int y = 0; y < plane->rows; y++)
@@ -56,183 +64,90 @@ void pack_restore_plainly(PackPlane *plane, Predictor predictor, const unsigned 
         }
 }
 
+#define NUMBER int32_t
+#define NAME(x) x##_wide
+#include "pack_restore_body.h"
+#undef NUMBER
+#undef NAME
+
+#define NUMBER unsigned char
+#define NAME(x) x##_codes
+#include "pack_restore_body.h"
+#undef NUMBER
+#undef NAME
+
 /* ---- nothing predicts them ---- */
 
-/* A byte's number: of codes from 0, or with a sign. */
-static inline int32_t number_of_byte(unsigned char residual, int bits)
-{
-    const int32_t number = from_unsigned(residual);
-    return bits == 8 ? (uint8_t)number : number;
-}
-
-/* Numbers of 8 residuals of a byte. */
-static inline void widen8(int32_t *numbers, const unsigned char *from, int bits)
-{
-#ifdef __SSE2__
-    const __m128i zero = _mm_setzero_si128(), one = _mm_set1_epi16(1);
-    const __m128i code = _mm_unpacklo_epi8(_mm_loadl_epi64((const __m128i *)(const void *)from), zero);
-    const __m128i sign = _mm_sub_epi16(zero, _mm_and_si128(code, one));
-    __m128i number = _mm_xor_si128(_mm_srli_epi16(code, 1), sign), high;
-    if (bits == 8) {
-        number = _mm_and_si128(number, _mm_set1_epi16(255));
-        high = zero;
-    } else {
-        high = _mm_srai_epi16(number, 15);
-    }
-    _mm_storeu_si128((__m128i *)(void *)numbers, _mm_unpacklo_epi16(number, high));
-    _mm_storeu_si128((__m128i *)(void *)(numbers + 4), _mm_unpackhi_epi16(number, high));
-#else
-    for (int i = 0; i < 8; i++)
-        numbers[i] = number_of_byte(from[i], bits);
-#endif
-}
-
-static inline int32_t wide_number(const unsigned char *from, int bytes, int bits)
-{
-    return bytes == 1 ? number_of_byte(*from, bits) : wrap(from_unsigned(load(from, bytes)), bits);
-}
-
-static inline void spread_all(int32_t *numbers, size_t count, const unsigned char *from, int bytes, int bits)
+static inline void spread_wide(int32_t *numbers, size_t count, const unsigned char *from, int bytes, int bits)
 {
     size_t i = 0;
-    for (; bytes == 1 && i + 8 <= count; i += 8)
-        widen8(numbers + i, from + i, bits);
+#ifdef __SSE2__
+    for (; bytes == 1 && i + 8 <= count; i += 8) {
+        const __m128i zero = _mm_setzero_si128(), one = _mm_set1_epi16(1);
+        const __m128i code = _mm_unpacklo_epi8(_mm_loadl_epi64((const __m128i *)(const void *)(from + i)), zero);
+        const __m128i sign = _mm_sub_epi16(zero, _mm_and_si128(code, one));
+        const __m128i number = _mm_xor_si128(_mm_srli_epi16(code, 1), sign), high = _mm_srai_epi16(number, 15);
+        _mm_storeu_si128((__m128i *)(void *)(numbers + i), _mm_unpacklo_epi16(number, high));
+        _mm_storeu_si128((__m128i *)(void *)(numbers + i + 4), _mm_unpackhi_epi16(number, high));
+    }
+#endif
     for (; i < count; i++)
-        numbers[i] = wide_number(from + i * (size_t)bytes, bytes, bits);
+        numbers[i] = wrap(from_unsigned(load(from + i * (size_t)bytes, bytes)), bits);
 }
 
-/* By runs where not all matter. */
-static inline void spread(PackPlane *plane, const unsigned char *from, int bytes, int bits)
+static inline void spread_codes(unsigned char *codes, size_t count, const unsigned char *from)
+{
+    size_t i = 0;
+    for (Bytes16 some; i + 16 <= count; i += 16) {
+        memcpy(&some, from + i, sizeof some);
+        some = some >> 1 ^ -(some & 1);
+        memcpy(codes + i, &some, sizeof some);
+    }
+    for (; i < count; i++)
+        codes[i] = (unsigned char)from_unsigned(from[i]);
+}
+
+/* Of all that matters, the one or the other. */
+static void spread(const PackPlane *plane, const unsigned char *from, int bytes)
 {
     const size_t width = (size_t)plane->width;
-    if (!plane->present)
-        spread_all(plane->numbers, width * (size_t)plane->rows, from, bytes, bits);
-    for (size_t y = 0; plane->present && y < (size_t)plane->rows; y++)
-        for (int k = plane->runs->first[y]; k < plane->runs->first[y + 1]; k++) {
-            const PackRun run = plane->runs->run[k];
-            const size_t count = (size_t)(run.end - run.begin);
-            spread_all(plane->numbers + y * width + run.begin, count, from, bytes, bits);
+    const PackRun whole = {0, plane->width};
+    for (size_t y = 0; y < (size_t)plane->rows; y++) {
+        const int first = plane->present ? plane->runs->first[y] : 0;
+        const int end = plane->present ? plane->runs->first[y + 1] : 1;
+        for (int k = first; k < end; k++) {
+            const PackRun run = plane->present ? plane->runs->run[k] : whole;
+            const size_t at = y * width + (size_t)run.begin, count = (size_t)(run.end - run.begin);
+            if (plane->bits == 8)
+                spread_codes(plane->codes + at, count, from);
+            else
+                spread_wide(plane->numbers + at, count, from, bytes, plane->bits);
             from += count * (size_t)bytes;
         }
-}
-
-/* ---- predicted, where they matter ---- */
-
-/* How one number becomes the next: with shift, in steps. */
-static inline int32_t step(int32_t guess, int shift, const unsigned char *from, int bytes, int bits)
-{
-    guess = add(guess, (1 << shift) >> 1) >> shift;
-    return wrap((int32_t)((uint32_t)add(guess, from_unsigned(load(from, bytes))) << shift), bits);
-}
-
-/* A run of a row; above: the row above and what of it matters, or NULL. Returns the end of its residuals. */
-static inline const unsigned char *restore_run(int32_t *n, PackRun run, const unsigned char *shift,
-                                               const int32_t *above, const unsigned char *above_present,
-                                               Predictor predictor, const unsigned char *from, int bytes, int bits,
-                                               int32_t *last)
-{
-    int x = run.begin, has_corner = above && above_present[x];
-    int32_t guess = predictor == BY_NOTHING ? 0 : has_corner ? above[x] : *last;
-    int32_t left = n[x] = step(guess, shift ? shift[x] : 0, from, bytes, bits);
-    for (x++, from += bytes; x < run.end; x++, from += bytes) {
-        const int has_upper = above && above_present[x];
-        guess = predictor == BY_NOTHING ? 0 : left;
-        if (has_upper && has_corner)
-            guess = predict(predictor, left, above[x], above[x - 1]);
-        n[x] = left = step(guess, shift ? shift[x] : 0, from, bytes, bits);
-        has_corner = has_upper;
-    }
-    *last = left;
-    return from;
-}
-
-static inline void restore_runs_by(PackPlane *plane, Predictor predictor, const unsigned char *shift,
-                                   const unsigned char *from, int bytes, int bits)
-{
-    const size_t width = (size_t)plane->width;
-    int32_t last = 0;
-    for (size_t y = 0; y < (size_t)plane->rows; y++) {
-        const unsigned char *present = plane->present + y * width;
-        int32_t *n = plane->numbers + y * width;
-        for (int k = plane->runs->first[y]; k < plane->runs->first[y + 1]; k++)
-            from = restore_run(n, plane->runs->run[k], shift ? shift + y * width : NULL, y ? n - width : NULL,
-                               y ? present - width : NULL, predictor, from, bytes, bits, &last);
     }
 }
 
-static inline void restore_runs(PackPlane *plane, Predictor predictor, const unsigned char *shift,
-                                const unsigned char *from, int bytes, int bits)
-{
-    switch (predictor) { /* so that the compiler sees each alone */
-    case BY_LEFT:
-        restore_runs_by(plane, BY_LEFT, shift, from, bytes, bits);
-        break;
-    case BY_UPPER:
-        restore_runs_by(plane, BY_UPPER, shift, from, bytes, bits);
-        break;
-    case BY_GRADIENT:
-        restore_runs_by(plane, BY_GRADIENT, shift, from, bytes, bits);
-        break;
-    case BY_MEDIAN:
-        restore_runs_by(plane, BY_MEDIAN, shift, from, bytes, bits);
-        break;
-    default:
-        restore_runs_by(plane, BY_NOTHING, shift, from, bytes, bits);
-    }
-}
+/* ---- any plane ---- */
 
-/* ---- all numbers, of steps of 1 ---- */
-
-/* All numbers of a row but the first, by one predictor: what most of the time goes to. */
-static inline void restore_row(int32_t *n, const int32_t *above, Predictor predictor, const unsigned char *from,
-                               int bytes, int width, int bits)
-{
-    int32_t left = n[0];
-    for (int x = 1; x < width; x++) {
-        const int32_t guess = predict(predictor, left, above[x], above[x - 1]);
-        n[x] = left = wrap(add(guess, from_unsigned(load(from + x * bytes, bytes))), bits);
-    }
-}
-
-/* Where all numbers matter and have steps of 1. */
-static void restore_all(PackPlane *plane, Predictor predictor, const unsigned char *from, int bytes)
-{
-    const int width = plane->width, bits = plane->bits;
-    int32_t last = 0;
-    for (int y = 0; y < plane->rows; y++) {
-        const size_t row = (size_t)y * (size_t)width;
-        int32_t *n = plane->numbers + row;
-        for (int x = 0; x < (y == 0 ? width : 1); x++) {
-            const int32_t guess = predict_at(plane, predictor, row, x, last);
-            n[x] = last = wrap(add(guess, from_unsigned(load(from + x * bytes, bytes))), bits);
-        }
-        if (y > 0 && bytes == 1)
-            restore_row(n, n - width, predictor, from, 1, width, bits);
-        else if (y > 0 && bytes == 2)
-            restore_row(n, n - width, predictor, from, 2, width, bits);
-        else if (y > 0)
-            restore_row(n, n - width, predictor, from, 4, width, bits);
-        from += (size_t)width * (size_t)bytes;
-    }
-}
-
-void pack_restore(PackPlane *plane, Predictor predictor, const unsigned char *residuals, int bytes)
+void pack_restore(const PackPlane *plane, Predictor predictor, const unsigned char *residuals, int bytes)
 {
     const int bits = plane->bits;
-    if (predictor == BY_NOTHING && !plane->shift && bytes == 1 && bits == 8)
-        spread(plane, residuals, 1, 8);
-    else if (predictor == BY_NOTHING && !plane->shift)
-        spread(plane, residuals, bytes, bits);
+    if (predictor == BY_NOTHING && !plane->shift)
+        spread(plane, residuals, bytes);
+    else if (bits == 8 && plane->present)
+        restore_runs_codes(plane, plane->codes, predictor, NULL, residuals, 1, 8);
+    else if (bits == 8)
+        restore_all_codes(plane, plane->codes, predictor, residuals, 1, 8);
     else if (plane->present && plane->shift && bits == 32 && bytes == 4)
-        restore_runs(plane, predictor, plane->shift, residuals, 4, 32);
-    else if (plane->present && plane->shift)
-        restore_runs(plane, predictor, plane->shift, residuals, bytes, bits);
-    else if (plane->present && bits == 8 && bytes == 1)
-        restore_runs(plane, predictor, NULL, residuals, 1, 8);
+        restore_runs_wide(plane, plane->numbers, predictor, plane->shift, residuals, 4, 32);
     else if (plane->present)
-        restore_runs(plane, predictor, NULL, residuals, bytes, bits);
+        restore_runs_wide(plane, plane->numbers, predictor, plane->shift, residuals, bytes, bits);
     else if (plane->shift)
         pack_restore_plainly(plane, predictor, residuals, bytes);
+    else if (bytes == 1)
+        restore_all_wide(plane, plane->numbers, predictor, residuals, 1, bits);
+    else if (bytes == 2)
+        restore_all_wide(plane, plane->numbers, predictor, residuals, 2, bits);
     else
-        restore_all(plane, predictor, residuals, bytes);
+        restore_all_wide(plane, plane->numbers, predictor, residuals, 4, bits);
 }

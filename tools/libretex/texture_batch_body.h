@@ -39,7 +39,7 @@ typedef int HalfMask __attribute__((vector_size(2 * LANES)));
 #define ROUND_LEAST 0.75f
 #define LONG_LEAST 0.3f
 #define BOX_FROM 0.36f     /* the smaller variance from which level 0's texels need no interpolation */
-#define MAX_RATIO 16.0f    /* of a Gaussian's standard deviations: it fits into so many bands on its level */
+#define MAX_RATIO 8.0f     /* of a Gaussian's standard deviations */
 #define LEAST_KEPT 1e-3f   /* of a cut Gaussian; with less the reference goes on as if there were no end */
 #define LEAST_RADIUS 0.02f /* texels */
 /* A Gaussian ends at 3.25 standard deviations, lowered so that it is 0 there, which leaves it .9267 of its variance. */
@@ -181,8 +181,8 @@ INLINE void NAME(begin_band)(const Group *g, int number, Band *band)
     band->lines = g->lines - 4 * number < 4 ? g->lines - 4 * number : 4;
     band->column = NAME(whole_below)(g->across + g->lean * (band->begin + 1.5f) - g->reach) + 1;
     band->middle = g->across - NAME(to_float)(band->column);
-    for (int j = 0; j < 4; j++)
-        for (int c = 0; c < 4 * g->blocks; c++)
+    for (int j = 0; j < 4; j++) /* the others are weighed */
+        for (int c = j < band->lines ? g->columns : 0; c < 4 * g->blocks; c++)
             band->weights[j][c] = NAME(all)(0);
 }
 
@@ -209,15 +209,15 @@ INLINE void NAME(find_chords)(const Group *g, const Band *band, Lanes low, Lanes
     }
 }
 
-/* Texels are interpolated: their tents' double integral, differenced twice. */
-INLINE void NAME(weigh_fine)(Group *g, Band *band, Lanes length, Lanes half, Lanes scale)
+/* Texels are interpolated: their tents' double integral, differenced twice. To the weights that are there, or to none.
+ */
+INLINE void NAME(weigh_fine)(Group *g, Band *band, Lanes length, Lanes half, Lanes scale, int is_added)
 {
-    Lanes lines[5][MAX_COLUMNS];
+    Lanes lines[5][MAX_COLUMNS]; /* the last is of no meaning */
     Chord chords[NODES];
     Lanes inverse = 1 / length;
-    for (int j = 0; j < 5; j++)
-        for (int c = 0; c < g->columns + 2; c++)
-            lines[j][c] = NAME(all)(0);
+    for (int c = 0; c <= g->columns; c++)
+        lines[4][c] = NAME(all)(0);
     for (int i = 0; i <= band->lines; i++) {
         Lanes here[NODES], next[NODES];
         NAME(find_chords)
@@ -236,13 +236,15 @@ INLINE void NAME(weigh_fine)(Group *g, Band *band, Lanes length, Lanes half, Lan
                 more += next[k] * area;
             }
             before[c] += sum;
-            after[c] += more;
+            after[c] = more;
         }
+        after[g->columns + 1] = NAME(all)(0);
     }
     for (int j = 0; j < band->lines; j++)
         for (int c = 0; c < g->columns; c++) {
             Lanes w = (lines[j][c] - lines[j][c + 1]) - (lines[j][c + 1] - lines[j][c + 2]);
-            band->weights[j][c] += MAX(w, NAME(all)(0));
+            w = MAX(w, NAME(all)(0));
+            band->weights[j][c] = is_added ? band->weights[j][c] + w : w;
         }
 }
 
@@ -311,12 +313,12 @@ INLINE void NAME(weigh_band)(Group *g, int number, Band *band)
     if (g->texture->gaussian && g->fine) {
         /* both discs weigh the same: each chord counts by its own ellipse's area */
         float in = INNER_DISC / OUTER_DISC;
-        NAME(weigh_fine)(g, band, g->length * in, g->half * in, NAME(all)(1 / (in * in)));
-        NAME(weigh_fine)(g, band, g->length, g->half, NAME(all)(1));
+        NAME(weigh_fine)(g, band, g->length * in, g->half * in, NAME(all)(1 / (in * in)), 0);
+        NAME(weigh_fine)(g, band, g->length, g->half, NAME(all)(1), 1);
     } else if (g->texture->gaussian) {
         NAME(weigh_gaussian)(g, band);
     } else if (g->fine) {
-        NAME(weigh_fine)(g, band, g->length, g->half, NAME(all)(1));
+        NAME(weigh_fine)(g, band, g->length, g->half, NAME(all)(1), 0);
     } else {
         NAME(weigh_boxes)(g, band);
     }
