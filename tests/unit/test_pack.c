@@ -295,7 +295,23 @@ static void test_black_parts_cost_nothing(void **state)
     retex_set_close(&set);
 }
 
-/* Rows read one by one, in any order, are those of the whole; so are they from an open file. */
+/* A row is NULL where there is nothing; returns whether it is. */
+static int expect_row(RetexPackScratch *scratch, int part, int y, const RetexImage *whole)
+{
+    const size_t row = (size_t)whole->width * (size_t)whole->channels;
+    const float *one, *expected = whole->pixels + row * (size_t)y;
+    size_t zeros = 0;
+    RetexError err = {0};
+    test_must(retex_pack_row(scratch, part, y, &one, &err), &err);
+    while (zeros < row && expected[zeros] == 0 && !signbit(expected[zeros]))
+        zeros++;
+    assert_int_equal(one == NULL, zeros == row);
+    if (one)
+        assert_memory_equal(one, expected, row * sizeof *one);
+    return !one;
+}
+
+/* Rows read one by one, in any order, also of parts and bands, are those of the whole; so are those of an open file. */
 static void test_rows_are_those_of_the_whole(void **state)
 {
     (void)state;
@@ -306,6 +322,16 @@ static void test_rows_are_those_of_the_whole(void **state)
         RetexImage *im = &set->parts[i].image;
         const size_t rows = im->height == 150 ? 70 : 0;
         memset(im->pixels, 0, rows * (size_t)im->width * (size_t)im->channels * sizeof *im->pixels);
+    }
+    for (int i = 0; i < set->nfootprints; i++) { /* bands that differ in coverage and in spread */
+        const RetexImage *uv = &set->parts[set->footprints[i].uv].image;
+        const RetexImage *spread = &set->parts[set->footprints[i].spread].image;
+        for (int k = 0; k < uv->width * uv->height; k++) {
+            const float scale = 1.0f / (float)(1 + k / uv->width / 8);
+            uv->pixels[3 * k + 2] *= scale;
+            for (int c = 0; c < 2; c++)
+                spread->pixels[spread->channels * k + c] *= scale;
+        }
     }
     unsigned char *data = pack(set, NULL, &bytes);
     RetexSet *whole = unpack(data, bytes);
@@ -320,24 +346,20 @@ static void test_rows_are_those_of_the_whole(void **state)
         const RetexImage *im = &whole->parts[i].image;
         assert_null(open->parts[i].image.pixels);
         assert_int_equal(open->parts[i].image.height, im->height);
-        const size_t row = (size_t)im->width * (size_t)im->channels;
         for (size_t k = 0; k < sizeof spans / sizeof *spans; k++)
-            for (int y = spans[k][0]; y < spans[k][1] && y < im->height; y++) { /* NULL where there is nothing */
-                const float *one, *expected = im->pixels + row * (size_t)y;
-                size_t zeros = 0;
-                test_must(retex_pack_row(scratch, i, y, &one, &err), &err);
-                while (zeros < row && expected[zeros] == 0 && !signbit(expected[zeros]))
-                    zeros++;
-                assert_int_equal(one == NULL, zeros == row);
-                if (one)
-                    assert_memory_equal(one, expected, row * sizeof *one);
-                black += !one;
-            }
+            for (int y = spans[k][0]; y < spans[k][1] && y < im->height; y++)
+                black += expect_row(scratch, i, y, im);
         const float *none;
         assert_int_equal(retex_pack_row(scratch, i, im->height, &none, &err), RETEX_EINVAL);
         assert_int_equal(retex_pack_row(scratch, i, -1, &none, &err), RETEX_EINVAL);
     }
     assert_true(black >= 64);
+    uint32_t seed = 3;
+    for (int k = 0; k < 3000; k++) {
+        const int i = (int)(test_random(&seed) * open->nparts);
+        const RetexImage *im = &whole->parts[i].image;
+        expect_row(scratch, i, (int)(test_random(&seed) * im->height), im);
+    }
     retex_pack_scratch_close(&scratch);
     test_must(retex_set_load(open, 3, &err), &err);
     assert_null(open->source);

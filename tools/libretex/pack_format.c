@@ -291,7 +291,8 @@ static int references_are_sound(const PackPart *packed, const PackPart *all)
     if (packed->codec != PACK_PLANES)
         return 1;
     const PackPart *present = packed->present >= 0 ? &all[packed->present] : NULL;
-    if (present && (present->codec != PACK_PLANES || present->channels != 3 || !pack_map_is_coded(&present->maps[2])))
+    if (present && (present->codec != PACK_PLANES || present->channels != 3 || !pack_map_is_coded(&present->maps[2]) ||
+                    (present->present >= 0 && &all[present->present] != present)))
         return 0;
     for (int c = 0; c < packed->channels; c++)
         if (packed->maps[c].kind == PACK_MAP_LATTICE) {

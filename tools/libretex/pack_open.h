@@ -1,4 +1,4 @@
-/* An open pack, inside: its entries and where its chunks are. Private to pack_open.c and pack_bands.c. */
+/* An open pack, inside: its entries and where its chunks are. Private to what opens and decodes packs. */
 #ifndef LIBRETEX_PACK_OPEN_H
 #define LIBRETEX_PACK_OPEN_H
 
