@@ -20,10 +20,15 @@ static void combine_row(const PolynomialRow *row, int width, float *restrict out
         memset(out + first, 0, numbers * sizeof *out);
         for (int t = 0; t < row->count; t++) {
             const Monomial *m = &row->monomials[t];
+            const RowSpan span = span_within(m->span, (RowSpan){x, width - x < SPAN_PIXELS ? width : x + SPAN_PIXELS});
             const float *factors[RETEX_MAX_FACTORS + 2];
+            if (span_is_empty(span))
+                continue;
+            const size_t begin = 3 * (size_t)span.begin;
             for (int k = 0; k < m->nimages; k++)
-                factors[k] = m->factors[k] + first;
-            combine_term_kernel(out + first, m->radiance + first, factors, m->nimages, numbers);
+                factors[k] = m->factors[k] + begin;
+            combine_term_kernel(out + begin, m->radiance + begin, factors, m->nimages,
+                                3 * (size_t)(span.end - span.begin));
         }
     }
 }

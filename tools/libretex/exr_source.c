@@ -107,7 +107,7 @@ static int read_strip(ExrReader *reader, int part, int row, RetexError *err)
     return RETEX_OK;
 }
 
-static int read_row(void *data, int part, int y, const float **row, RetexError *err)
+static int read_row(void *data, int part, int y, const float **row, RowSpan *span, RetexError *err)
 {
     ExrReader *reader = data;
     const ExrPlan *plan = &reader->source->plans[part];
@@ -117,6 +117,7 @@ static int read_row(void *data, int part, int y, const float **row, RetexError *
     if (code)
         return code;
     *row = strip->black ? NULL : strip->image.pixels + retex_image_index(&strip->image, 0, y % plan->chunk_height);
+    *span = (RowSpan){0, strip->image.width};
     return RETEX_OK;
 }
 

@@ -142,8 +142,28 @@ int plane_band_decode(int part, int band, uint64_t *lit, RetexPackScratch *s, Re
 
 /* ---- rows ---- */
 
+/* Where a row of a channel, all of which matters, is not 0. */
+static RowSpan find_span(const PackPart *p, int c, const void *numbers, int line)
+{
+    const int width = p->width;
+    const int32_t none = 0;
+    float of_none;
+    int begin = 0, end = width;
+    pack_map_samples(&of_none, 1, &none, 1, &p->maps[c], p->type);
+    if (pack_is_any(&of_none, sizeof of_none))
+        return (RowSpan){0, width};
+    enum { STEP = 64 };
+    const size_t size = pack_map_is_coded(&p->maps[c]) ? 1 : sizeof none;
+    const char *row = (const char *)numbers + (size_t)line * (size_t)width * size;
+    while (begin + STEP <= end && !pack_is_any(row + (size_t)begin * size, STEP * size))
+        begin += STEP;
+    while (end - STEP >= begin && !pack_is_any(row + (size_t)(end - STEP) * size, STEP * size))
+        end -= STEP;
+    return (RowSpan){begin, end};
+}
+
 /* A run of a row to samples, in all channels. */
-static void map_run(const PackPart *p, const PlaneBand *own, int line, PackRun run, float *row)
+static void map_run(const PackPart *p, const PlaneBand *own, int line, RowSpan run, float *row)
 {
     const size_t channels = (size_t)p->channels, count = (size_t)(run.end - run.begin);
     const size_t at = (size_t)line * (size_t)p->width + (size_t)run.begin;
@@ -155,30 +175,44 @@ static void map_run(const PackPart *p, const PlaneBand *own, int line, PackRun r
             pack_map_samples(out, channels, (const int32_t *)own->numbers[c] + at, count, &p->maps[c], p->type);
 }
 
-int plane_band_row(int part, int band, int line, float *row, RetexPackScratch *s, RetexError *err)
+/* What is of the row that was there becomes 0. */
+static void clear_row(const PackPart *p, const PlaneBand *own, float *row)
+{
+    const size_t channels = (size_t)p->channels;
+    const RowSpan old = own->line < 0 ? (RowSpan){0, p->width} : own->span;
+    if (!span_is_empty(old))
+        memset(row + (size_t)old.begin * channels, 0, (size_t)(old.end - old.begin) * channels * sizeof *row);
+}
+
+int plane_band_row(int part, int band, int line, float *row, RowSpan *span, RetexPackScratch *s, RetexError *err)
 {
     const PackPart *p = &s->pack->parts[part];
     PlaneBand *own = &s->cached[part].planes;
-    const size_t channels = (size_t)p->channels;
     int code = 0;
+    *span = own->span;
     if (own->line == line)
         return 0;
     for (int c = 0; !code && c < p->channels; c++) /* for other parts they may have moved on */
         code = have_numbers(part, band, c, s, err);
     if (!code && p->present >= 0)
         code = have_runs(p->present, band, s, err);
-    if (!code && p->present < 0) {
-        map_run(p, own, line, (PackRun){0, p->width}, row);
-    } else if (!code) {
+    if (code)
+        return code;
+    clear_row(p, own, row);
+    *span = (RowSpan){0, 0};
+    if (p->present < 0) {
+        for (int c = 0; c < p->channels; c++)
+            *span = span_around(*span, find_span(p, c, own->numbers[c], line));
+        map_run(p, own, line, *span, row);
+    } else {
         const PackRuns *runs = &s->cached[p->present].planes.runs;
-        if (own->line < 0)
-            memset(row, 0, (size_t)p->width * channels * sizeof *row);
-        for (int k = own->line < 0 ? 0 : runs->first[own->line]; own->line >= 0 && k < runs->first[own->line + 1]; k++)
-            memset(row + (size_t)runs->run[k].begin * channels, 0,
-                   (size_t)(runs->run[k].end - runs->run[k].begin) * channels * sizeof *row);
-        for (int k = runs->first[line]; k < runs->first[line + 1]; k++)
-            map_run(p, own, line, runs->run[k], row);
+        for (int k = runs->first[line]; k < runs->first[line + 1]; k++) {
+            const RowSpan run = {runs->run[k].begin, runs->run[k].end};
+            map_run(p, own, line, run, row);
+            *span = span_around(*span, run);
+        }
     }
-    own->line = code ? -1 : line;
-    return code;
+    own->line = line;
+    own->span = *span;
+    return 0;
 }

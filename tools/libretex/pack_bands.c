@@ -274,7 +274,7 @@ static int cache_band(int part, int band, RetexPackScratch *s, RetexError *err)
     return code;
 }
 
-int retex_pack_row(RetexPackScratch *s, int part, int y, const float **row, RetexError *err)
+int retex_pack_row(RetexPackScratch *s, int part, int y, const float **row, RowSpan *span, RetexError *err)
 {
     *row = NULL;
     if (part < 0 || part >= s->pack->nparts || y < 0 || y >= s->pack->parts[part].height)
@@ -282,6 +282,7 @@ int retex_pack_row(RetexPackScratch *s, int part, int y, const float **row, Rete
     const PackPart *p = &s->pack->parts[part];
     CachedBand *cached = &s->cached[part];
     const int band = y / PACK_BAND_ROWS, line = y % PACK_BAND_ROWS;
+    *span = (RowSpan){0, p->width};
     if (p->codec == PACK_ZERO)
         return 0;
     int code = cache_band(part, band, s, err);
@@ -290,7 +291,7 @@ int retex_pack_row(RetexPackScratch *s, int part, int y, const float **row, Rete
     if (code || !(cached->lit >> line & 1))
         return code;
     if (p->codec == PACK_PLANES)
-        code = plane_band_row(part, band, line, cached->rows, s, err);
+        code = plane_band_row(part, band, line, cached->rows, span, s, err);
     if (!code)
         *row = cached->rows + (size_t)(line % kept_rows(p)) * (size_t)p->width * (size_t)p->channels;
     return code;

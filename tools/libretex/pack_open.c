@@ -210,11 +210,11 @@ static void reader_close(void *reader)
     retex_pack_scratch_close(&scratch);
 }
 
-static int read_row(void *reader, int part, int y, const float **row, RetexError *err)
+static int read_row(void *reader, int part, int y, const float **row, RowSpan *span, RetexError *err)
 {
     RetexPackScratch *scratch = reader;
     const RetexPack *pack = pack_decoded_by(scratch);
-    int code = retex_pack_row(scratch, part, y, row, err);
+    int code = retex_pack_row(scratch, part, y, row, span, err);
     if (code && err && !err->file[0])
         snprintf(err->file, sizeof err->file, "%s", retex_input_name(pack->input));
     return code;

@@ -111,11 +111,12 @@ int polynomial_open(Polynomial *p, const RetexSet *set, const RetexSamples *samp
 
 static const float black_row[1]; /* stands for one that is 0 all over */
 
-static float *scratch_of(PolynomialRow *row, int slot, RetexError *err)
+static float *room_of(PolynomialRow *row, int slot, RetexError *err)
 {
-    if (!row->scratch[slot] && !(row->scratch[slot] = malloc(sizeof(float) * 3 * (size_t)row->polynomial->set->width)))
+    RowRoom *room = &row->rooms[slot];
+    if (!room->values && !(room->values = calloc(3 * (size_t)row->polynomial->set->width, sizeof *room->values)))
         retex_fail(err, RETEX_ENOMEM, "not enough memory to combine");
-    return row->scratch[slot];
+    return room->values;
 }
 
 void spread_channel(float *row, size_t width)
@@ -131,19 +132,23 @@ static int make_slot(PolynomialRow *row, int factor, int y, RetexError *err)
     const Polynomial *p = row->polynomial;
     const int slot = slot_of_factor(p->set, factor), width = p->set->width;
     const RetexImage *small = factor >= 0 ? &p->footprints[factor] : &p->mixtures[RETEX_MIXTURE(factor)];
-    float *scratch = scratch_of(row, slot, err);
-    if (!scratch)
+    float *values = room_of(row, slot, err);
+    int code = RETEX_OK;
+    if (!values)
         return RETEX_ENOMEM;
-    row->made[slot] = scratch;
+    row->made[slot] = values;
+    row->spans[slot] = (RowSpan){0, width};
     if (small->pixels) {
-        retex_enlarge_rows(small, retex_set_scale(p->set, small), width, y, y + 1, scratch);
-        return RETEX_OK;
+        retex_enlarge_rows(small, retex_set_scale(p->set, small), width, y, y + 1, values);
+    } else if (factor < 0) {
+        code = make_mixture_row(p, row->reader, RETEX_MIXTURE(factor), y, full_factor_row, row, row->weights,
+                                &row->rooms[slot], err);
+        row->spans[slot] = row->rooms[slot].filled;
+    } else {
+        code =
+            make_footprint_row(p, row->reader, factor, y, &row->rooms[slot], &row->made[slot], &row->spans[slot], err);
     }
-    if (factor < 0)
-        return make_mixture_row(p, row->reader, RETEX_MIXTURE(factor), y, full_factor_row, row, row->weights, scratch,
-                                err);
-    int code = make_footprint_row(p, row->reader, factor, y, scratch, &row->made[slot], err);
-    if (!code && !row->made[slot])
+    if (!code && (!row->made[slot] || span_is_empty(row->spans[slot])))
         row->made[slot] = black_row;
     return code;
 }
@@ -163,24 +168,24 @@ static int gain_row(PolynomialRow *row, int part, int y, const float **made, Ret
     const RetexImage *image = &p->set->parts[part].image;
     const int slot = slot_of_gain(p->set, part), width = p->set->width;
     if (!row->made[slot]) {
-        float *scratch = scratch_of(row, slot, err);
-        if (!scratch)
+        float *values = room_of(row, slot, err);
+        if (!values)
             return RETEX_ENOMEM;
-        row->made[slot] = scratch;
+        row->made[slot] = values;
         if (p->gains[part].pixels) {
-            retex_enlarge_rows(&p->gains[part], retex_set_scale(p->set, image), width, y, y + 1, scratch);
+            retex_enlarge_rows(&p->gains[part], retex_set_scale(p->set, image), width, y, y + 1, values);
         } else {
             const float *own;
             int code = row_reader_get(row->reader, part, y, &own, err);
             if (code)
                 return code;
             if (own)
-                memcpy(scratch, own, sizeof *own * (size_t)width * (size_t)image->channels);
+                memcpy(values, own, sizeof *own * (size_t)width * (size_t)image->channels);
             else
                 row->made[slot] = black_row;
         }
-        if (image->channels == 1 && row->made[slot] == scratch)
-            spread_channel(scratch, (size_t)width);
+        if (image->channels == 1 && row->made[slot] == values)
+            spread_channel(values, (size_t)width);
     }
     *made = row->made[slot] == black_row ? NULL : row->made[slot];
     return RETEX_OK;
@@ -192,9 +197,11 @@ static int factor_rows(PolynomialRow *row, Monomial *m, const int *factors, int 
 {
     int code = RETEX_OK;
     m->nfactors = m->nimages = count;
+    m->span = (RowSpan){0, row->polynomial->set->width};
     for (int k = 0; k < count && !code && !*black; k++) {
         code = full_factor_row(row, m->footprints[k] = factors[k], y, &m->factors[k], err);
-        *black = !m->factors[k];
+        m->span = span_within(m->span, row->spans[slot_of_factor(row->polynomial->set, factors[k])]);
+        *black = !m->factors[k] || span_is_empty(m->span);
     }
     return code;
 }
@@ -225,11 +232,11 @@ static int make_group(PolynomialRow *row, const struct PolynomialGroup *group, i
         black = !m->factors[m->nimages++];
     }
     if (group->scale && !code && !black) {
-        float *scratch = scratch_of(row, slot_count(p->set) + (int)(group - p->groups), err);
-        code = scratch ? RETEX_OK : RETEX_ENOMEM;
-        if (scratch)
-            retex_enlarge_rows(&group->product, group->scale, p->set->width, y, y + 1, scratch);
-        m->factors[m->nimages++] = scratch;
+        float *values = room_of(row, slot_count(p->set) + (int)(group - p->groups), err);
+        code = values ? RETEX_OK : RETEX_ENOMEM;
+        if (values)
+            retex_enlarge_rows(&group->product, group->scale, p->set->width, y, y + 1, values);
+        m->factors[m->nimages++] = values;
     }
     row->count += !code && !black;
     return code;
@@ -253,9 +260,10 @@ void polynomial_row_close(PolynomialRow *row)
 {
     if (!row->polynomial)
         return;
-    for (int i = 0; row->scratch && i < slot_count(row->polynomial->set) + row->polynomial->ngroups; i++)
-        free(row->scratch[i]);
-    free(row->scratch);
+    for (int i = 0; row->rooms && i < slot_count(row->polynomial->set) + row->polynomial->ngroups; i++)
+        free(row->rooms[i].values);
+    free(row->rooms);
+    free(row->spans);
     free(row->made);
     free(row->weights);
     free(row->monomials);
@@ -271,9 +279,10 @@ int polynomial_row_open(PolynomialRow *row, const Polynomial *polynomial, RetexE
     int code = row_reader_open(&row->reader, set, polynomial->samples, err);
     row->monomials = calloc((size_t)set->nterms + 1, sizeof *row->monomials);
     row->made = calloc(slots, sizeof *row->made);
-    row->scratch = calloc(slots, sizeof *row->scratch);
+    row->spans = calloc(slots, sizeof *row->spans);
+    row->rooms = calloc(slots, sizeof *row->rooms);
     row->weights = malloc(sizeof *row->weights * 3 * (size_t)set->width);
-    if (!code && (!row->monomials || !row->made || !row->scratch || !row->weights))
+    if (!code && (!row->monomials || !row->made || !row->spans || !row->rooms || !row->weights))
         code = retex_fail(err, RETEX_ENOMEM, "not enough memory to combine");
     if (code)
         polynomial_row_close(row);

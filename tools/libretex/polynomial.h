@@ -25,8 +25,15 @@ int polynomial_open(Polynomial *polynomial, const RetexSet *set, const RetexSamp
                     RetexError *err);
 void polynomial_close(Polynomial *polynomial);
 
+/* Room for a row of colours, which is 0 but for the span that was filled last. */
+typedef struct RowRoom {
+    float *values;
+    RowSpan filled;
+} RowRoom;
+
 /* One term over one row, or several that differ in what is smaller than the picture only. */
 typedef struct Monomial {
+    RowSpan span;                                /* beside which one of the factors is 0 */
     const float *radiance;                       /* RGB, 3 * width numbers */
     int nfactors;                                /* footprints and mixtures, */
     int nimages;                                 /* and with what else multiplies radiance, which comes last */
@@ -40,7 +47,8 @@ typedef struct PolynomialRow {
     Monomial *monomials; /* those that are not black all over the row */
     int count;
     const float **made; /* rows of footprints, mixtures and gains, as soon as they are made; see polynomial.c */
-    float **scratch;    /* where they are made, if they have to be */
+    RowSpan *spans;     /* beside which they are 0 */
+    RowRoom *rooms;     /* where they are made, if they have to be */
     float *weights;
 } PolynomialRow;
 

@@ -71,23 +71,37 @@ const RetexImage *factor_shape(const Polynomial *p, int factor)
 
 /* ---- rows at a footprint's own size ---- */
 
-int make_footprint_row(const Polynomial *p, RowReader *reader, int footprint, int y, float *scratch, const float **row,
-                       RetexError *err)
+/* Make a room 0 beside a span, of which what was there stays. */
+static void refill(RowRoom *room, RowSpan span)
+{
+    const RowSpan old = room->filled;
+    if (!span_is_empty(old))
+        memset(room->values + 3 * (size_t)old.begin, 0, 3 * (size_t)(old.end - old.begin) * sizeof *room->values);
+    room->filled = span;
+}
+
+int make_footprint_row(const Polynomial *p, RowReader *reader, int footprint, int y, RowRoom *room, const float **row,
+                       RowSpan *span, RetexError *err)
 {
     const RetexSet *set = p->set;
     const RetexFootprint *f = &set->footprints[footprint];
     const RetexTexture *texture = p->textures ? p->textures[f->target] : NULL;
-    if (!texture && p->samples && retex_samples_have(p->samples, footprint))
+    if (!texture && p->samples && retex_samples_have(p->samples, footprint)) {
+        *span = (RowSpan){0, p->samples->images[footprint].width};
         return row_reader_sample(reader, footprint, y, row, err);
+    }
     if (!texture)
-        return row_reader_get(reader, f->albedo, y, row, err);
+        return row_reader_get_span(reader, f->albedo, y, row, span, err);
     FootprintRow from;
     int code = footprint_row_read(&from, reader, set, f, y, !retex_texture_is_opaque(texture), err);
     *row = NULL;
-    if (code || !from.uv)
+    if (code || !from.uv || span_is_empty(from.span))
         return code;
-    sample_row(texture, footprint_filter(set, f), &from, scratch);
-    *row = scratch;
+    refill(room, from.span);
+    const FootprintRow within = footprint_row_part(&from, from.span);
+    sample_row(texture, footprint_filter(set, f), &within, room->values + 3 * (size_t)from.span.begin);
+    *row = room->values;
+    *span = from.span;
     return RETEX_OK;
 }
 
@@ -101,27 +115,44 @@ static int has_single_weights(const RetexSet *set, const RetexMixture *m)
 }
 
 int make_mixture_row(const Polynomial *p, RowReader *reader, int mixture, int y, FactorRow *factor_row, void *context,
-                     float *weights, float *sum, RetexError *err)
+                     float *weights, RowRoom *sum, RetexError *err)
 {
     const RetexMixture *m = &p->set->mixtures[mixture];
-    const int width = p->set->parts[m->shares[0].weight].image.width, single = has_single_weights(p->set, m);
-    memset(sum, 0, sizeof *sum * 3 * (size_t)width);
-    memset(weights, 0, sizeof *weights * (single ? 1 : 3) * (size_t)width);
+    const int single = has_single_weights(p->set, m), numbers = single ? 1 : 3;
+    const float *weight, *factor;
+    RowSpan spans[RETEX_SHARES_MAX], all = {0, 0};
+    int code = RETEX_OK;
+    for (int k = 0; k < m->nshares && !code; k++) {
+        code = row_reader_get_span(reader, m->shares[k].weight, y, &weight, &spans[k], err);
+        spans[k] = code || !weight ? (RowSpan){0, 0} : spans[k];
+        all = span_around(all, spans[k]);
+    }
+    refill(sum, all);
+    if (code || span_is_empty(all))
+        return code;
+    const size_t first = (size_t)all.begin;
+    memset(weights + (size_t)numbers * first, 0, sizeof *weights * (size_t)(numbers * (all.end - all.begin)));
     for (int k = 0; k < m->nshares; k++) {
-        const float *weight, *factor;
-        int code = row_reader_get(reader, m->shares[k].weight, y, &weight, err);
-        if (!code && weight)
+        if (span_is_empty(spans[k]))
+            continue;
+        code = row_reader_get(reader, m->shares[k].weight, y, &weight, err);
+        if (!code)
             code = factor_row(context, m->shares[k].footprint, y, &factor, err);
         if (code)
             return code;
-        if (weight && single)
-            mixture_add(sum, weights, weight, factor, width);
-        else if (weight)
-            mixture_add_colors(sum, weights, weight, p->set->parts[m->shares[k].weight].image.channels, factor, width);
+        const int channels = p->set->parts[m->shares[k].weight].image.channels;
+        const size_t at = (size_t)spans[k].begin;
+        const int count = spans[k].end - spans[k].begin;
+        factor = factor ? factor + 3 * at : NULL;
+        if (single)
+            mixture_add(sum->values + 3 * at, weights + at, weight + at, factor, count);
+        else
+            mixture_add_colors(sum->values + 3 * at, weights + 3 * at, weight + (size_t)channels * at, channels, factor,
+                               count);
     }
     if (single)
-        mixture_divide(sum, weights, width);
+        mixture_divide(sum->values + 3 * first, weights + first, all.end - all.begin);
     else
-        mixture_divide_colors(sum, weights, width);
+        mixture_divide_colors(sum->values + 3 * first, weights + 3 * first, all.end - all.begin);
     return RETEX_OK;
 }

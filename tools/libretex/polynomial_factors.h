@@ -15,15 +15,16 @@ const RetexImage *find_part(const RetexSet *set, int part, int least, int most);
 /* The image whose size a factor has; NULL where it is not there. */
 const RetexImage *factor_shape(const Polynomial *polynomial, int factor);
 
-/* A footprint's samples, or its original albedo, in scratch or wherever they are; NULL in *row where all is black. */
-int make_footprint_row(const Polynomial *polynomial, RowReader *reader, int footprint, int y, float *scratch,
-                       const float **row, RetexError *err);
+/* A footprint's samples, or its original albedo, in the room or wherever they are, and beside what span they are 0;
+ * NULL in *row where all is black. */
+int make_footprint_row(const Polynomial *polynomial, RowReader *reader, int footprint, int y, RowRoom *room,
+                       const float **row, RowSpan *span, RetexError *err);
 
 /* One factor of a mixture: its row, or NULL where it is black. */
 typedef int FactorRow(void *context, int footprint, int y, const float **row, RetexError *err);
 
 /* A mixture's row into sum; weights is scratch of as many numbers. */
 int make_mixture_row(const Polynomial *polynomial, RowReader *reader, int mixture, int y, FactorRow *factor_row,
-                     void *context, float *weights, float *sum, RetexError *err);
+                     void *context, float *weights, RowRoom *sum, RetexError *err);
 
 #endif

@@ -23,9 +23,10 @@ typedef struct SmallWork {
 typedef struct SmallThread {
     const SmallWork *work;
     RowReader *reader;
-    float **scratch, *weights; /* scratch by footprint, made when it is needed */
-    const float **rows;        /* by footprint; NULL: black */
-    char *made;                /* by footprint: it is in rows */
+    RowRoom *rooms;     /* by footprint, made when they are needed */
+    const float **rows; /* by footprint; NULL: black */
+    char *made;         /* by footprint: it is in rows */
+    float *weights;
 } SmallThread;
 
 static RetexImage *image_of_slot(const Polynomial *p, int slot)
@@ -42,10 +43,11 @@ static int footprint_row(void *context, int footprint, int y, const float **row,
     const SmallWork *work = own->work;
     int code = RETEX_OK;
     if (!own->made[footprint]) {
-        float **scratch = &own->scratch[footprint];
-        if (!*scratch && !(*scratch = malloc(sizeof **scratch * 3 * (size_t)work->width)))
+        RowRoom *room = &own->rooms[footprint];
+        RowSpan span;
+        if (!room->values && !(room->values = calloc(3 * (size_t)work->width, sizeof *room->values)))
             return retex_fail(err, RETEX_ENOMEM, "not enough memory to combine");
-        code = make_footprint_row(work->polynomial, own->reader, footprint, y, *scratch, &own->rows[footprint], err);
+        code = make_footprint_row(work->polynomial, own->reader, footprint, y, room, &own->rows[footprint], &span, err);
         own->made[footprint] = !code;
     }
     *row = own->rows[footprint];
@@ -58,8 +60,10 @@ static int make_row(SmallThread *own, int slot, int y, RetexError *err)
     const RetexSet *set = p->set;
     RetexImage *image = image_of_slot(p, slot);
     float *out = image->pixels + retex_image_index(image, 0, y);
+    RowRoom sum = {.values = out}; /* still 0 */
     if (slot >= set->nfootprints && slot < slot_of_gain(set, 0))
-        return make_mixture_row(p, own->reader, slot - set->nfootprints, y, footprint_row, own, own->weights, out, err);
+        return make_mixture_row(p, own->reader, slot - set->nfootprints, y, footprint_row, own, own->weights, &sum,
+                                err);
     const float *row;
     int code = slot < set->nfootprints ? footprint_row(own, slot, y, &row, err)
                                        : row_reader_get(own->reader, slot - slot_of_gain(set, 0), y, &row, err);
@@ -75,20 +79,20 @@ static int open_thread(const SmallWork *work, SmallThread *own, RetexError *err)
     if (own->work)
         return RETEX_OK;
     own->work = work;
-    own->scratch = calloc(count, sizeof *own->scratch);
+    own->rooms = calloc(count, sizeof *own->rooms);
     own->rows = calloc(count, sizeof *own->rows);
     own->made = calloc(count, 1);
     own->weights = malloc(sizeof *own->weights * 3 * (size_t)work->width);
-    if (!own->scratch || !own->rows || !own->made || !own->weights)
+    if (!own->rooms || !own->rows || !own->made || !own->weights)
         return retex_fail(err, RETEX_ENOMEM, "not enough memory to combine");
     return row_reader_open(&own->reader, set, work->polynomial->samples, err);
 }
 
 static void close_thread(const SmallWork *work, SmallThread *own)
 {
-    for (int i = 0; own->scratch && i < work->polynomial->set->nfootprints; i++)
-        free(own->scratch[i]);
-    free(own->scratch);
+    for (int i = 0; own->rooms && i < work->polynomial->set->nfootprints; i++)
+        free(own->rooms[i].values);
+    free(own->rooms);
     free(own->rows);
     free(own->made);
     free(own->weights);

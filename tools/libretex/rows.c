@@ -85,10 +85,11 @@ static int spooled_row(const float **row, Store *store, int index, int image, co
     return code;
 }
 
-int row_reader_get(RowReader *reader, int part, int y, const float **row, RetexError *err)
+int row_reader_get_span(RowReader *reader, int part, int y, const float **row, RowSpan *span, RetexError *err)
 {
     const RetexPart *p = &reader->set->parts[part];
     Store *store = &reader->of_set;
+    *span = (RowSpan){0, p->image.width};
     if (p->image.pixels) {
         *row = p->image.pixels + retex_image_index(&p->image, 0, y);
         return RETEX_OK;
@@ -97,7 +98,13 @@ int row_reader_get(RowReader *reader, int part, int y, const float **row, RetexE
         return spooled_row(row, store, part, p->spooled - 1, &p->image, y, err);
     if (!store->reader)
         return retex_fail(err, RETEX_EINVAL, "part %s of the set is not in memory", p->name);
-    return store->source->read_row(store->reader, part, y, row, err);
+    return store->source->read_row(store->reader, part, y, row, span, err);
+}
+
+int row_reader_get(RowReader *reader, int part, int y, const float **row, RetexError *err)
+{
+    RowSpan span;
+    return row_reader_get_span(reader, part, y, row, &span, err);
 }
 
 int row_reader_sample(RowReader *reader, int footprint, int y, const float **row, RetexError *err)
@@ -111,5 +118,6 @@ int row_reader_sample(RowReader *reader, int footprint, int y, const float **row
     }
     if (samples->spooled[footprint])
         return spooled_row(row, store, footprint, samples->spooled[footprint] - 1, image, y, err);
-    return store->source->read_row(store->reader, samples->stored[footprint] - 1, y, row, err);
+    RowSpan span;
+    return store->source->read_row(store->reader, samples->stored[footprint] - 1, y, row, &span, err);
 }

@@ -19,7 +19,7 @@ int footprint_row_read(FootprintRow *row, RowReader *reader, const RetexSet *set
 {
     const RetexImage *uv = &set->parts[footprint->uv].image, *spread = &set->parts[footprint->spread].image;
     *row = (FootprintRow){.spreads = spread->channels, .width = uv->width};
-    int code = row_reader_get(reader, footprint->uv, y, &row->uv, err);
+    int code = row_reader_get_span(reader, footprint->uv, y, &row->uv, &row->span, err);
     if (code || !row->uv)
         return code;
     code = row_reader_get(reader, footprint->spread, y, &row->spread, err);
@@ -29,6 +29,17 @@ int footprint_row_read(FootprintRow *row, RowReader *reader, const RetexSet *set
         row->albedo = row->albedo ? row->albedo : zeros;
     }
     return code;
+}
+
+FootprintRow footprint_row_part(const FootprintRow *row, RowSpan span)
+{
+    const size_t begin = (size_t)span.begin;
+    return (FootprintRow){.uv = row->uv + 3 * begin,
+                          .spread = row->spread + (size_t)row->spreads * begin,
+                          .albedo = row->albedo ? row->albedo + 3 * begin : NULL,
+                          .spreads = row->spreads,
+                          .width = span.end - span.begin,
+                          .span = {0, span.end - span.begin}};
 }
 
 /* Part of a row's footprints, filtered. */
