@@ -207,7 +207,7 @@ int plane_band_row(int part, int band, int line, float *row, RowSpan *span, Rete
     } else {
         const PackRuns *runs = &s->cached[p->present].planes.runs;
         for (int k = runs->first[line]; k < runs->first[line + 1]; k++) {
-            const RowSpan run = {runs->run[k].begin, runs->run[k].end};
+            const RowSpan run = runs->run[k];
             map_run(p, own, line, run, row);
             *span = span_around(*span, run);
         }

@@ -8,6 +8,7 @@
 #include <retex/image.h>
 
 #include "pack_jpeg.h"
+#include "row_span.h"
 
 /* What a number stands for. */
 typedef enum PackMapKind {
@@ -40,16 +41,11 @@ void pack_map_samples(float *samples, size_t stride, const int32_t *numbers, siz
 /* Back, of codes of a byte. */
 void pack_map_codes(float *samples, size_t stride, const unsigned char *codes, size_t count, const PackMap *map);
 
-/* Pixels of a row side by side that matter. */
-typedef struct PackRun {
-    int begin, end;
-} PackRun;
-
-/* All of a plane, row by row. */
+/* Numbers side by side that matter: all of a plane's, row by row. */
 typedef struct PackRuns {
     size_t pixels;                 /* that matter */
     int first[PACK_BAND_ROWS + 1]; /* row y has run[first[y]] to run[first[y + 1] - 1] */
-    PackRun *run;
+    RowSpan *run;
 } PackRuns;
 
 /* Most runs that there can be. */

@@ -94,8 +94,9 @@ command_of() { # ROW TARGET...: of the case's files, one argument a line
     esac
     [ "$row" != pipe ] || printf '%s\n' '|' retex-combine -q - -o "$made.jpg"
 }
-run() { # ROW TARGET...: one measurement of the case at hand
+run() { # ROW TARGET...: one measurement of the case at hand, which writes a new file: ext4 takes longer to replace one
     echo "$named $1, turn $turn" >&2
+    rm -f "$work/out/$1".*
     given=$(command_of "$@")
     # No argument has a line feed in it.
     IFS='
