@@ -80,7 +80,7 @@ command_of() { # ROW TARGET...: of the case's files, one argument a line
     cat-pack) printf '%s\n' cat "$pack" '|' retex-combine -q - -o "$made.jpg" ;;
     cat-set) printf '%s\n' cat "$measured" '|' retex-combine -q - -o "$made.jpg" ;;
     pipe) printf '%s\n' retex-sample -q "$pack" -o - ;;
-    batch) printf '%s\n' retex-combine -q "$pack" --batch "$work/out/batch.csv" ;;
+    batch) printf '%s\n' retex-combine -q "$pack" --batch "$work/out/variants.csv" ;;
     floor-pack) printf '%s\n' "$build/tests/bench/post_floor" "$pack" ;;
     floor-set) printf '%s\n' "$build/tests/bench/post_floor" "$measured" ;;
     oiio) "$python" $here/oiio_chain.py "$measured" "$samples" "$made.exr" ;;
@@ -132,7 +132,7 @@ measure_case() {
     prepare "$targets"
     file=$(scene_file "$scene") samples=$work/out/samples.exr turn=1
     # shellcheck disable=SC2086
-    batch_table $targets >"$work/out/batch.csv"
+    batch_table $targets >"$work/out/variants.csv"
     # shellcheck disable=SC2086
     run samples $targets
     is_large='' case_turns=$turns
