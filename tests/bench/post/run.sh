@@ -13,7 +13,8 @@
 # As it stands it takes about five hours on two cores the first time, half of it rendering and denoising, and 20 GB of
 # disk. BENCH_SIZES, BENCH_SPP (else 32, and 8 from two million pixels on), BENCH_TURNS (5, of large pictures at most 3),
 # BENCH_SCENES='living-room artist', BENCH_EDITS='one two', BENCH_LAYOUTS (else footprints; 'footprints paper') choose
-# less, and BENCH_TABLE_SIZE and BENCH_TABLE_SPP what sizes are measured of (1920x1080, or the first of BENCH_SIZES
+# less, BENCH_ROWS='pack-jpg floor-pack' and so on few of the rows below, as often as BENCH_TURNS says, and
+# BENCH_TABLE_SIZE and BENCH_TABLE_SPP what sizes are measured of (1920x1080, or the first of BENCH_SIZES
 # where they are given, with 128 samples, or BENCH_SPP; `no': nothing), and BENCH_CONTROL_SPP with how many samples
 # Rousselle's buffers are. With BENCH_RENDER=no what there is no set of is left out.
 set -eu
@@ -25,7 +26,8 @@ scenes=${BENCH_SCENES:-living-room artist} edits=${BENCH_EDITS:-one two} layouts
 table_size=${BENCH_TABLE_SIZE:-${BENCH_SIZES:-1920x1080}}
 table_size=${table_size%% *} table_spp=${BENCH_TABLE_SPP:-${BENCH_SPP:-128}}
 control_spp=${BENCH_CONTROL_SPP:-$table_spp}
-rows='pack-jpg pack-exr pack-png pack-tif floor-pack set-jpg set-exr floor-set cat-pack cat-set pipe batch oiio render'
+all_rows='pack-jpg pack-exr pack-png pack-tif floor-pack set-jpg set-exr floor-set cat-pack cat-set pipe batch oiio render'
+rows=${BENCH_ROWS:-$all_rows}
 variants=12
 if ! command -v oiiotool >/dev/null; then
     echo "$bench: there is no oiiotool (openimageio-tools)" >&2
@@ -133,11 +135,13 @@ measure_case() {
     file=$(scene_file "$scene") samples=$work/out/samples.exr turn=1
     # shellcheck disable=SC2086
     batch_table $targets >"$work/out/variants.csv"
+    case " $rows " in
     # shellcheck disable=SC2086
-    run samples $targets
+    *' oiio '*) run samples $targets ;;
+    esac
     is_large='' case_turns=$turns
     [ "$(megapixels "$size")" -lt 4 ] || is_large=1
-    [ -z "$is_large" ] || [ "$turns" -le 3 ] || case_turns=3
+    [ -z "$is_large" ] || [ "$turns" -le 3 ] || [ -n "${BENCH_ROWS:-}" ] || case_turns=3
     for turn in $(seq "$case_turns"); do
         order=$rows
         [ $((turn % 2)) = 1 ] || order=$(echo "$rows" | tr ' ' '\n' | tac)
@@ -152,7 +156,7 @@ measure_case() {
         done
     done
     [ ! -e "$work/out/oiio.exr" ] || agreement oiio "$work/out/oiio.exr" "$work/out/set-exr.exr"
-    agreement pack "$work/out/pack-exr.exr" "$work/out/set-exr.exr"
+    [ ! -e "$work/out/set-exr.exr" ] || agreement pack "$work/out/pack-exr.exr" "$work/out/set-exr.exr"
     rm -f "$work"/out/*
 }
 
