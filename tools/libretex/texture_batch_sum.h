@@ -123,7 +123,7 @@ INLINE Mask NAME(find_blocks)(const Group *g, int number, const Band *band, Mask
     Mask column = *x + padding, row = *y + padding;
     Mask inside = (column >= 0) & (row >= 0) & (column <= width - (g->turned ? 4 : across)) &
                   (row <= height - (g->turned ? across : 4));
-    return ((row * width + column) & inside) | ~inside;
+    return ((row & inside) * width + (column & inside)) | ~inside; /* far ones would overflow */
 }
 
 INLINE void NAME(sum_band)(Group *g, int number, const Band *band, int turned, int narrow)
