@@ -237,6 +237,57 @@ static void test_missing_parts(void **state)
     }
 }
 
+/* ---- few paths ---- */
+
+/* Leave light at one pixel of so many, and none at others. */
+static void thin_out(RetexSet *set, int one_of, uint32_t seed)
+{
+    Signals signals = denoise_signals(set);
+    for (int s = 0; s < signals.count; s++)
+        for (int i = 0; i < set->width * set->height; i++) {
+            const int kept = (int)(test_random(&seed) * one_of) == 0;
+            for (int k = -1; k < signals.of[s].nmembers && !kept; k++) {
+                const int part = k < 0 ? signals.of[s].noise : signals.of[s].members[k].part;
+                memset(set->parts[part].image.pixels + (size_t)3 * (size_t)i, 0, 3 * sizeof(float));
+            }
+        }
+    signals_close(&signals);
+}
+
+/* A signal's light in the whole picture. */
+static double signal_light(const RetexSet *set, const Signal *signal, int channel)
+{
+    double sum = 0;
+    for (int y = 0; y < set->height; y++)
+        for (int x = 0; x < set->width; x++)
+            sum += denoise_total(set, signal, x, y, channel);
+    return sum;
+}
+
+/* Where the weights that members' proportions are made with meet no light, and other candidates do, it is not lost. */
+static void test_rare_light_is_kept(void **state)
+{
+    (void)state;
+    for (int one_of = 30; one_of <= 300; one_of *= 10)
+        for (int k = 1; k < 3; k++) {
+            RetexSet *before = noisy_set(layouts[k], 150, 130), *set = noisy_set(layouts[k], 150, 130);
+            thin_out(before, one_of, 3);
+            thin_out(set, one_of, 3);
+            Signals signals = denoise_signals(before);
+            denoise_all(set, NULL, 2);
+            denoise_expect_finite(set);
+            for (int s = 0; s < signals.count; s++)
+                for (int c = 0; c < 3; c++) {
+                    const double a = signal_light(before, &signals.of[s], c), b = signal_light(set, &signals.of[s], c);
+                    if (!(fabs(a - b) < 2e-3 * a))
+                        fail_msg("%s, one of %d: signal %d had %g, has %g", layouts[k], one_of, s, a, b);
+                }
+            signals_close(&signals);
+            retex_set_close(&before);
+            retex_set_close(&set);
+        }
+}
+
 /* ---- odd sets ---- */
 
 /* Values that are no numbers, one in seven of those in parts whose name begins so. */
@@ -300,6 +351,7 @@ int main(void)
         cmocka_unit_test(test_parameters),
         cmocka_unit_test(test_shorter_params),
         cmocka_unit_test(test_missing_parts),
+        cmocka_unit_test(test_rare_light_is_kept),
         cmocka_unit_test(test_what_is_no_number),
         cmocka_unit_test(test_sizes),
     };

@@ -365,29 +365,35 @@ typedef struct TilePixel {
     size_t p, i; /* in planes, in sums */
 } TilePixel;
 
-/* The filtered total, in place of what the first candidate's weights made of it: members keep their proportions of
- * these. Returns by what sums are to be multiplied. */
-static float filtered_scale(const SignalRoom *r, const Denoiser *d, const Signal *signal, const TilePixel *at, int c,
-                            SignalSums *sums)
+/* The filtered total of one channel. */
+static float filtered_total(const SignalRoom *r, const TilePixel *at, int c)
 {
-    float m = r->modulation[c][at->p], total = 0, members = 0;
-    int image = r->nclusters > 0;
+    float total = 0;
     for (int k = 0; k < CHOICES; k++)
         total +=
             r->chosen[k][at->i] * (choice_value(r, k, 0, c, at->p, at->i) + choice_value(r, k, 1, c, at->p, at->i));
-    total = fmaxf(0, 0.5f * m * total);
-    sums->before[c] += 0.5f * m * (r->half[0][c][at->p] + r->half[1][c][at->p]), sums->after[c] += total;
-    if (r->nplanes == 3) { /* which were not filtered: the signal is but one image */
-        int member = r->nclusters ? 0 : signal->nmembers - 1;
-        r->sums[c][at->i] = total / signal->members[member].weight;
-        return 1;
-    }
-    if (r->nclusters)
-        members = r->sums[c][at->i];
+    return fmaxf(0, 0.5f * r->modulation[c][at->p] * total);
+}
+
+/* What the first candidate's weights made of it. */
+static float total_of_members(const SignalRoom *r, const Denoiser *d, const Signal *signal, const TilePixel *at, int c)
+{
+    float members = r->nclusters ? r->sums[c][at->i] : 0;
+    int image = r->nclusters > 0;
     for (int k = 0; k < signal->nmembers; k++)
         if (signal_cluster(d->set, &signal->members[k]) < 0)
             members += signal->members[k].weight * r->sums[3 * image++ + c][at->i];
-    return members > 0 ? total / members : 0;
+    return members;
+}
+
+/* What an image has of the filtered total: members keep their proportions of what the first candidate's weights made
+ * of them. Where that is nothing, as of a single image, which is not filtered, the first one has all. */
+static float image_value(const SignalRoom *r, const TilePixel *at, int image, int c, float total, float members,
+                         float weight)
+{
+    if (members > 0) /* sums may be so small that only their quotient is a number */
+        return total * (r->sums[3 * image + c][at->i] / members);
+    return image ? 0 : total / weight;
 }
 
 /* How many steps to each side neighbours are, within the window. */
@@ -413,24 +419,27 @@ static int find_neighbours(Neighbour *out, const Denoiser *d, const float *weigh
 static void finish_signal(const SignalRoom *r, const Denoiser *d, const Signal *signal, const TilePixel *at, Band *band,
                           SignalSums *sums)
 {
-    float scale[3], light[3];
+    float total[3], members[3], light[3];
     int image = r->nclusters > 0;
-    for (int c = 0; c < 3; c++)
-        scale[c] = filtered_scale(r, d, signal, at, c, sums);
+    for (int c = 0; c < 3; c++) {
+        total[c] = filtered_total(r, at, c);
+        members[c] = total_of_members(r, d, signal, at, c);
+        sums->before[c] += 0.5f * r->modulation[c][at->p] * (r->half[0][c][at->p] + r->half[1][c][at->p]);
+        sums->after[c] += total[c];
+        light[c] = image ? image_value(r, at, 0, c, total[c], members[c], 1) : 0;
+    }
     for (int k = 0; k < signal->nmembers; k++) {
         const SignalMember *m = &signal->members[k];
         if (signal_cluster(d->set, m) >= 0)
             continue;
         float *to = band->parts[m->part] + 3 * ((size_t)(at->y - band->first) * (size_t)d->set->width + (size_t)at->x);
         for (int c = 0; c < 3; c++)
-            to[c] = scale[c] * r->sums[3 * image + c][at->i];
+            to[c] = image_value(r, at, image, c, total[c], members[c], m->weight);
         image++;
     }
     if (r->nclusters) {
         Neighbour neighbours[NEIGHBOURS_MAX];
         int count = find_neighbours(neighbours, d, r->neighbours, at);
-        for (int c = 0; c < 3; c++)
-            light[c] = scale[c] * r->sums[c][at->i];
         footprints_share_light(d->footprints, d, signal, at->x, at->y, neighbours, count, light, band);
     }
 }
