@@ -13,6 +13,9 @@ PAPER_SECONDS = {"640x640": 0.719, "1080x1080": 1.373, "2048x2048": 3.603, "4096
 # Megabytes of tables 4 and 5: one object, two objects.
 PAPER_SIZES = {"exr-rendered": (66.2, 116), "pack": (23.59, 52.6), "control-biased": (47.55, 46.3),
                "control-unbiased": (97.5, 94.6)}
+# Megabytes, of one target and of two, and shares of the EXR set.
+MOST_MEGABYTES = {"pack": (10, 16), "pack-rendered": (23.6, 52.6)}
+MOST_OF_EXR = {"lossless": 0.6, "lossless-rendered": 0.6}
 EDITS = ["one", "two"]
 SCENES = {"living-room": "scenes/living-room", "artist": "the artist's living room"}
 LARGE, SMALL = "4096x3840", "640x640"
@@ -41,6 +44,7 @@ STORED = {
     "dwaa": "EXR, DWAA 45, denoised",
     "pack-rendered": "pack, as rendered",
     "pack": "pack, denoised",
+    "lossless-rendered": "pack, `--lossless`, as rendered",
     "lossless": "pack, `--lossless`, denoised",
     "control-biased": "Rousselle, biased: its buffers",
     "control-unbiased": "Rousselle, unbiased: its buffers",
@@ -192,6 +196,32 @@ def goals(cases):
           at_most=False)
 
 
+def of_exr(files, what):
+    """Share of the EXR set that it is made of, None of buffers."""
+    exr = files.get("exr-rendered" if what.endswith("-rendered") else "exr")
+    return None if not exr or what.startswith("control") else files[what]["bytes"] / exr["bytes"]
+
+
+def size_goals(stored):
+    """More lines of the same table: sizes of the default layout where it was measured."""
+    stored = [(key, files) for key, files in stored.items() if key[2]]
+    chosen = [(key, files) for key, files in stored if key[1] == "footprints"] or stored
+    for what, limits in MOST_MEGABYTES.items():
+        for edit, most in zip(EDITS, limits):
+            size_goal(f"{STORED[what]}, {edit} target{'s' if edit == 'two' else ''}: at most {most} MB", most, "MB",
+                      {key: files[what]["bytes"] / 1e6 for key, files in chosen if key[2] == edit and what in files})
+    for what, most in MOST_OF_EXR.items():
+        size_goal(f"{STORED[what]}: at most {100 * most:.0f} % of the EXR set", 100 * most, "%",
+                  {key: 100 * of_exr(files, what) for key, files in chosen if what in files})
+
+
+def size_goal(name, most, unit, found):
+    if found:
+        (scene, _, edit), value = max(found.items(), key=lambda pair: pair[1])
+        at = f"{SCENES[scene]}, {edit} target{'s' if edit == 'two' else ''}"
+        print(f"| {name} | {value:.3g} {unit}, {at} | {'yes' if value <= most else 'no'} |")
+
+
 def against_paper(cases):
     print("\n## Beside table 6 of the paper\n\nSeconds from set to picture, and how many times faster than the paper's "
           "\"total processing time\".\n\n| scene | targets | layout | size | pack to JPEG | to half EXR |"
@@ -240,14 +270,16 @@ def sizes(stored, size, spp, control_spp):
         files = {**files, **stored.get((scene, None, None), {})}
         number = EDITS.index(edit)
         print(f"\n### {SCENES[scene]}: {edit} target{'s' if number else ''}, layout {layout}\n")
-        print("| file | MB | paper | " + " | ".join(GROUPS) + " |\n|---|---|---|" + "---|" * len(GROUPS))
+        print("| file | MB | paper | of EXR, zip | " + " | ".join(GROUPS) + " |\n|---|---|---|---|" +
+              "---|" * len(GROUPS))
         for what, name in STORED.items():
             if what not in files:
                 continue
             paper = PAPER_SIZES.get(what)
             parts = [f"{files[what]['groups'][g] / 1e6:.2f}" if files[what]["groups"] else "" for g in GROUPS]
+            share = of_exr(files, what)
             print(f"| {name} | {files[what]['bytes'] / 1e6:.2f} | {paper[number] if paper else ''} |"
-                  f" {' | '.join(parts)} |")
+                  f" {f'{100 * share:.1f} %' if share else ''} | {' | '.join(parts)} |")
 
 
 CSV = ["kind", "scene", "targets", "layout", "size", "what", "turns", "wall_s", "wall_s_min", "wall_s_max", "cpu_s",
@@ -282,6 +314,7 @@ def main(records, table, cores, size, spp, control_spp):
     turns = f"{turns} times, every other turn backwards" if turns > 1 else "once"
     print(INTRODUCTION.format(cores=cores, turns=turns), end="")
     goals(cases)
+    size_goals(stored)
     against_paper(cases)
     for case in cases.values():
         section(case)

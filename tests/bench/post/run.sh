@@ -187,6 +187,7 @@ measure_sizes() {
     stored_as dwaa "$made.exr" "$denoised" oiiotool -a "$denoised" --compression dwaa:45 -o "$made.exr"
     stored_as pack-rendered "$made.retex" "$made.retex" retex-pack -q "$file" -o "$made.retex"
     stored_as pack "$made.retex" "$made.retex" retex-pack -q "$denoised" -o "$made.retex"
+    stored_as lossless-rendered "$made.retex" "$made.retex" retex-pack -q --lossless "$file" -o "$made.retex"
     stored_as lossless "$made.retex" "$made.retex" retex-pack -q --lossless "$denoised" -o "$made.retex"
 }
 measure_control() {
