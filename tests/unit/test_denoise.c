@@ -4,6 +4,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 static const char *const layouts[] = {"plain", "paper", "footprints"};
@@ -288,6 +289,36 @@ static void test_rare_light_is_kept(void **state)
         }
 }
 
+/* Scale light, and its noise, pixel by pixel: by up to e^span less, and seldom by more than 1. */
+static void scale_light(RetexSet *set, double span, uint32_t seed)
+{
+    const size_t pixels = (size_t)set->width * (size_t)set->height;
+    float *scales = malloc(pixels * sizeof *scales);
+    assert_non_null(scales);
+    for (size_t i = 0; i < pixels; i++)
+        scales[i] = (float)exp((test_random(&seed) - 0.9) * span);
+    for (int part = 0; part < set->nparts; part++)
+        for (size_t i = 0; i < 3 * pixels; i++)
+            if (strncmp(set->parts[part].name, "term", 4) == 0 || strncmp(set->parts[part].name, "noise_", 6) == 0)
+                set->parts[part].image.pixels[i] *= scales[i / 3];
+    free(scales);
+}
+
+/* Sums of light that is next to nothing lie near the least number there is, beside totals that do not. */
+static void test_light_of_all_sizes(void **state)
+{
+    (void)state;
+    for (int k = 1; k < 3; k++)
+        for (uint32_t seed = 1; seed <= 4; seed++) {
+            RetexSet *set = noisy_set(layouts[k], 100, 90);
+            thin_out(set, 20, seed);
+            scale_light(set, 60, seed);
+            denoise_all(set, NULL, 2);
+            denoise_expect_finite(set);
+            retex_set_close(&set);
+        }
+}
+
 /* ---- odd sets ---- */
 
 /* Values that are no numbers, one in seven of those in parts whose name begins so. */
@@ -352,6 +383,7 @@ int main(void)
         cmocka_unit_test(test_shorter_params),
         cmocka_unit_test(test_missing_parts),
         cmocka_unit_test(test_rare_light_is_kept),
+        cmocka_unit_test(test_light_of_all_sizes),
         cmocka_unit_test(test_what_is_no_number),
         cmocka_unit_test(test_sizes),
     };
