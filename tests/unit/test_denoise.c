@@ -309,10 +309,10 @@ static void test_light_of_all_sizes(void **state)
 {
     (void)state;
     for (int k = 1; k < 3; k++)
-        for (uint32_t seed = 1; seed <= 4; seed++) {
-            RetexSet *set = noisy_set(layouts[k], 100, 90);
-            thin_out(set, 20, seed);
-            scale_light(set, 60, seed);
+        for (uint32_t seed = 1; seed <= 8; seed++) {
+            RetexSet *set = noisy_set(layouts[k], 80, 75);
+            thin_out(set, 10, seed);
+            scale_light(set, 70, seed);
             denoise_all(set, NULL, 2);
             denoise_expect_finite(set);
             retex_set_close(&set);
