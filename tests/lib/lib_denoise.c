@@ -235,6 +235,15 @@ double denoise_total(const RetexSet *set, const Signal *signal, int x, int y, in
     return sum;
 }
 
+double denoise_mean(const RetexSet *set, const Signal *signal, int channel)
+{
+    double sum = 0;
+    for (int y = 0; y < set->height; y++)
+        for (int x = 0; x < set->width; x++)
+            sum += denoise_total(set, signal, x, y, channel);
+    return sum / (set->width * set->height);
+}
+
 double denoise_half_step(const RetexSet *set, int x, int y)
 {
     double white[3] = {0, 0, 0};

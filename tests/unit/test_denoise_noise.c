@@ -133,20 +133,11 @@ static void test_no_noise(void **state)
         }
 }
 
-static double signal_mean(const RetexSet *set, const Signal *signal, int c)
-{
-    double sum = 0;
-    for (int y = 0; y < set->height; y++)
-        for (int x = 0; x < set->width; x++)
-            sum += denoise_total(set, signal, x, y, c);
-    return sum / (set->width * set->height);
-}
-
 static void expect_means(const RetexSet *set, const Signals *signals, double before[8][3])
 {
     for (int s = 0; s < signals->count; s++)
         for (int c = 0; c < 3; c++) {
-            double after = signal_mean(set, &signals->of[s], c);
+            double after = denoise_mean(set, &signals->of[s], c);
             if (!(fabs(after - before[s][c]) <= 1e-4 * before[s][c]))
                 fail_msg("the mean of %d, %d was %g and is %g", s, c, before[s][c], after);
         }
@@ -156,7 +147,7 @@ static void find_means(const RetexSet *set, const Signals *signals, double means
 {
     for (int s = 0; s < signals->count; s++)
         for (int c = 0; c < 3; c++)
-            means[s][c] = signal_mean(set, &signals->of[s], c);
+            means[s][c] = denoise_mean(set, &signals->of[s], c);
 }
 
 static void test_means(void **state)
