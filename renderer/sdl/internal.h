@@ -10,6 +10,7 @@
 #include <setjmp.h>
 #include <stdint.h>
 #include <stddef.h>
+#include <retex/access.h>
 #include "sdl/parser.h"
 
 enum {
@@ -208,8 +209,8 @@ struct Sdl {
     char *pending; /* #debug text not yet ended by a newline */
     size_t npending, pending_capacity;
     const char **folders; /* where sdl_find_file looks */
-    const char **roots;   /* the same, resolved: reads stay under them */
     int nfolders;
+    RetexAccess access;   /* the same, resolved: reads stay under them */
     double clock, frame_number, initial_frame, final_frame, initial_clock, final_clock;
 };
 

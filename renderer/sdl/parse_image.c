@@ -114,9 +114,7 @@ void side_image_map(Sdl *sdl, SidePigment *pigment)
     image->file = sdl_peek(sdl)->file;
     image->line = sdl_peek(sdl)->line;
     const char *name = sdl_string(sdl);
-    image->map.path = sdl_find_file(sdl, name);
-    if (!image->map.path)
-        sdl_error(sdl, "cannot find the image `%s`", name);
+    image->map.path = sdl_need_file(sdl, "image", name);
     while (!sdl_accept(sdl, "}"))
         if (!image_option(sdl, pigment, image))
             sdl_expected(sdl, "an option of image_map or }");

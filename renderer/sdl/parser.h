@@ -88,6 +88,8 @@ const IdentList *sdl_ident_join(Sdl *sdl, const IdentList *a, const IdentList *b
 /* Find a file as #include and image_map do: the current folder, the scene's folder, the include paths, the system's.
  * Returns a path in the arena or NULL. Reads stay under those folders. */
 const char *sdl_find_file(Sdl *sdl, const char *name);
+/* The same; fails with where it was looked for, or why it may not be read. what: "file", "image". */
+const char *sdl_need_file(Sdl *sdl, const char *what, const char *name);
 
 /* ---- what the scene side gives ---- */
 

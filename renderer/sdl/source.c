@@ -29,13 +29,14 @@ static const char *join(Sdl *sdl, const char *folder, const char *name)
     return path;
 }
 
-static void add_folder(Sdl *sdl, const char *folder)
+static void add_folder(Sdl *sdl, const char **roots, const char *folder)
 {
     char resolved[PATH_MAX];
     if (!realpath(*folder ? folder : ".", resolved))
         return;
     sdl->folders[sdl->nfolders] = folder;
-    sdl->roots[sdl->nfolders++] = arena_string(sdl->arena, resolved, strlen(resolved));
+    roots[sdl->nfolders++] = arena_string(sdl->arena, resolved, strlen(resolved));
+    sdl->access.nroots = sdl->nfolders;
 }
 
 void folders_begin(Sdl *sdl, const char *scene_path)
@@ -43,45 +44,56 @@ void folders_begin(Sdl *sdl, const char *scene_path)
     size_t nsystem = sizeof system_folders / sizeof *system_folders;
     size_t count = nsystem + 2 + (size_t)sdl->options.ninclude_paths;
     sdl->folders = sdl_alloc(sdl, count * sizeof *sdl->folders);
-    sdl->roots = sdl_alloc(sdl, count * sizeof *sdl->roots);
+    const char **roots = sdl_alloc(sdl, count * sizeof *roots);
+    sdl->access = (RetexAccess)RETEX_ACCESS_INIT;
+    sdl->access.roots = roots;
     const char *slash = strrchr(scene_path, '/');
-    add_folder(sdl, "");
+    add_folder(sdl, roots, "");
     if (slash)
-        add_folder(sdl, arena_string(sdl->arena, scene_path, (size_t)(slash - scene_path + 1)));
+        add_folder(sdl, roots, arena_string(sdl->arena, scene_path, (size_t)(slash - scene_path + 1)));
     for (int i = 0; i < sdl->options.ninclude_paths; i++)
-        add_folder(sdl, sdl->options.include_paths[i]);
+        add_folder(sdl, roots, sdl->options.include_paths[i]);
     for (size_t i = 0; i < nsystem; i++)
-        add_folder(sdl, system_folders[i]);
+        add_folder(sdl, roots, system_folders[i]);
 }
 
-/* A regular file under one of the folders, symbolic links and `..` resolved. */
-static int may_read(Sdl *sdl, const char *path)
+/* Where a file may be read, or NULL; *answer: why not, the most telling of what the folders have. */
+static const char *find_file(Sdl *sdl, const char *name, RetexAccessAnswer *answer)
 {
-    char resolved[PATH_MAX];
-    struct stat info;
-    if (!realpath(path, resolved) || stat(resolved, &info) != 0 || !S_ISREG(info.st_mode))
-        return 0;
-    for (int i = 0; i < sdl->nfolders; i++) {
-        size_t length = strlen(sdl->roots[i]);
-        if (strncmp(resolved, sdl->roots[i], length) == 0 &&
-            (resolved[length] == '/' || (length && sdl->roots[i][length - 1] == '/')))
-            return 1;
+    *answer = RETEX_ACCESS_ABSENT;
+    if (!*name || strlen(name) >= PATH_MAX / 2)
+        return NULL;
+    for (int i = 0; i < (*name == '/' ? 1 : sdl->nfolders); i++) {
+        const char *folder = *name == '/' ? "" : sdl->folders[i];
+        RetexAccessAnswer found = retex_access_ask(&sdl->access, folder, name);
+        if (found == RETEX_ACCESS_ALLOWED)
+            return join(sdl, folder, name);
+        if (*answer == RETEX_ACCESS_ABSENT)
+            *answer = found;
     }
-    return 0;
+    return NULL;
 }
 
 const char *sdl_find_file(Sdl *sdl, const char *name)
 {
-    if (!*name || strlen(name) >= PATH_MAX / 2)
-        return NULL;
-    if (*name == '/')
-        return may_read(sdl, name) ? join(sdl, "", name) : NULL;
-    for (int i = 0; i < sdl->nfolders; i++) {
-        const char *path = join(sdl, sdl->folders[i], name);
-        if (may_read(sdl, path))
-            return path;
-    }
-    return NULL;
+    RetexAccessAnswer answer;
+    return find_file(sdl, name, &answer);
+}
+
+const char *sdl_need_file(Sdl *sdl, const char *what, const char *name)
+{
+    RetexAccessAnswer answer;
+    const char *path = find_file(sdl, name, &answer);
+    if (path)
+        return path;
+    if (answer == RETEX_ACCESS_OUTSIDE)
+        sdl_error(sdl,
+                  "the %s `%s` is outside the folders that may be read: the current one, the scene's, those of -I, "
+                  "POV-Ray's; name its folder with -I",
+                  what, name);
+    if (answer == RETEX_ACCESS_IRREGULAR)
+        sdl_error(sdl, "the %s `%s` is no file, but a folder, a device or a pipe", what, name);
+    sdl_error(sdl, "cannot find the %s `%s` in the scene's folder or the include path", what, name);
 }
 
 MemoryFile *memory_file_find(Sdl *sdl, const char *name)
@@ -189,9 +201,7 @@ Source *source_open(Sdl *sdl, const char *name)
     MemoryFile *memory = memory_file_find(sdl, name);
     if (memory)
         return source_from_text(sdl, memory->name, memory->bytes ? memory->bytes : "", memory->size);
-    const char *path = sdl_find_file(sdl, name);
-    if (!path)
-        sdl_fail(sdl, RETEX_EPARSE, "cannot find the file `%s` in the scene's folder or the include path", name);
+    const char *path = sdl_need_file(sdl, "file", name);
     for (Source *source = sdl->sources; source; source = source->next)
         if (source->on_disk && source->count <= SMALL_SOURCE && strcmp(source->name, path) == 0)
             return source;

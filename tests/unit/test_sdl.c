@@ -254,7 +254,8 @@ static void test_errors(void **state)
     check_error(V "#include \"nowhere.inc\"", RETEX_EPARSE, 2, 10,
                 "cannot find the file `nowhere.inc` in the scene's folder or the include path");
     check_error(V "#include \"/etc/passwd\"", RETEX_EPARSE, 2, 10,
-                "cannot find the file `/etc/passwd` in the scene's folder or the include path");
+                "the file `/etc/passwd` is outside the folders that may be read: the current one, the scene's, those "
+                "of -I, POV-Ray's; name its folder with -I");
     check_error(V "#break", RETEX_EPARSE, 2, 1, "#break outside of a loop, #switch or #macro");
 }
 

@@ -24,7 +24,8 @@ typedef enum RetexCode {
     RETEX_EPARSE = -7,       /* a scene, option or table with an error in its text */
     RETEX_ELIMIT = -8,       /* a budget (steps, depth, length) is used up */
     RETEX_EINTERNAL = -9,    /* a broken promise of the library itself */
-    RETEX_ESTOPPED = -10     /* the caller asked for it */
+    RETEX_ESTOPPED = -10,    /* the caller asked for it */
+    RETEX_EACCESS = -11      /* a file that may not be read: see access.h */
 } RetexCode;
 
 /* Filled on failure only; untouched on success. file is "" and line and column are 0 where there is none; lines and

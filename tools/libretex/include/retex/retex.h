@@ -4,6 +4,7 @@
 
 #define RETEX_VERSION "0.1.0"
 
+#include <retex/access.h>
 #include <retex/band_stats.h>
 #include <retex/compact.h>
 #include <retex/denoise.h>

@@ -1,0 +1,162 @@
+/* See access.h. A path is resolved first and judged as text; then it is opened from the root on, folder by folder and
+ * following no link: what came in between, a link in place of a folder, is an error and not another file. */
+#include <errno.h>
+#include <fcntl.h>
+#include <limits.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <retex/access.h>
+
+int retex_access_safe_wanted(void)
+{
+    const char *said = getenv("RETEX_SAFE");
+
+    return said && said[0] && strcmp(said, "0") != 0;
+}
+
+static int lies_inside(const RetexAccess *access, const char *resolved)
+{
+    if (!access || !access->roots)
+        return 1;
+    for (int i = 0; i < access->nroots; i++) {
+        const size_t length = strlen(access->roots[i]);
+        const int slash = length && access->roots[i][length - 1] == '/'; /* the root of the file system */
+        if (strncmp(resolved, access->roots[i], length) == 0 &&
+            (slash || resolved[length] == '/' || resolved[length] == '\0'))
+            return 1;
+    }
+    return 0;
+}
+
+/* Every folder on the way, for a safe access: once inside it must stay there, and what lies outside is not told from
+ * what is not there. done: so much of path is one of the roots. */
+static RetexAccessAnswer follow(const RetexAccess *access, const char *path, size_t done)
+{
+    char begin[PATH_MAX], resolved[PATH_MAX];
+    struct stat info;
+    int inside = done > 0;
+
+    if (strlen(path) >= sizeof begin)
+        return RETEX_ACCESS_ABSENT;
+    while (path[done += strspn(path + done, "/")]) {
+        const size_t length = strcspn(path + done, "/");
+        if (!inside && length == 2 && memcmp(path + done, "..", 2) == 0)
+            return RETEX_ACCESS_OUTSIDE;
+        done += length;
+        memcpy(begin, path, done);
+        begin[done] = '\0';
+        if (!realpath(begin, resolved))
+            return !inside || (lstat(begin, &info) == 0 && S_ISLNK(info.st_mode)) ? RETEX_ACCESS_OUTSIDE
+                                                                                  : RETEX_ACCESS_ABSENT;
+        const int now = lies_inside(access, resolved);
+        if (inside && !now)
+            return RETEX_ACCESS_OUTSIDE;
+        inside = now;
+    }
+    return inside ? RETEX_ACCESS_ALLOWED : RETEX_ACCESS_OUTSIDE;
+}
+
+RetexAccessAnswer retex_access_ask(const RetexAccess *access, const char *folder, const char *name)
+{
+    char path[PATH_MAX], resolved[PATH_MAX];
+    const size_t before = name[0] == '/' ? 0 : strlen(folder);
+    const int slash = before && folder[before - 1] != '/';
+    struct stat info;
+
+    if (before + (size_t)slash + strlen(name) + 2 > sizeof path)
+        return RETEX_ACCESS_ABSENT;
+    memcpy(path, folder, before);
+    memcpy(path + before, "/", (size_t)slash);
+    strcpy(path + before + slash, name);
+    if (access && access->safe && access->roots) {
+        char from_here[PATH_MAX + 2] = "./"; /* so that some of it is the folder's */
+        const int here = !before && name[0] != '/';
+        strcat(from_here, path);
+        const RetexAccessAnswer answer = follow(access, here ? from_here : path, here ? 2 : before + (size_t)slash);
+        if (answer != RETEX_ACCESS_ALLOWED)
+            return answer;
+    }
+    if (!realpath(path, resolved) || stat(resolved, &info) != 0)
+        return RETEX_ACCESS_ABSENT;
+    if (!lies_inside(access, resolved))
+        return RETEX_ACCESS_OUTSIDE;
+    return S_ISREG(info.st_mode) ? RETEX_ACCESS_ALLOWED : RETEX_ACCESS_IRREGULAR;
+}
+
+/* -1 with errno, as open(2). */
+static int open_resolved(const char *resolved)
+{
+    char name[NAME_MAX + 1];
+    int folder = open("/", O_PATH | O_DIRECTORY | O_CLOEXEC);
+
+    for (const char *at = resolved + 1; folder >= 0;) {
+        const size_t length = strcspn(at, "/");
+        const int is_last = !at[length];
+        if (length > NAME_MAX) {
+            close(folder);
+            errno = ENAMETOOLONG;
+            return -1;
+        }
+        memcpy(name, at, length);
+        name[length] = '\0';
+        /* a pipe without a writer is not waited for, and no terminal becomes ours, before we know what it is */
+        const int next =
+            openat(folder, length ? name : ".",
+                   O_NOFOLLOW | O_CLOEXEC | (is_last ? O_RDONLY | O_NONBLOCK | O_NOCTTY : O_PATH | O_DIRECTORY));
+        const int why = errno;
+        close(folder);
+        errno = why;
+        if (is_last)
+            return next;
+        folder = next;
+        at += length + 1;
+    }
+    return -1;
+}
+
+static int fail_open(const char *path, int why, RetexError *err)
+{
+    return retex_fail(err, RETEX_EIO, "cannot read %s: %s", path, strerror(why));
+}
+
+static int refuse(const char *path, RetexError *err)
+{
+    return retex_fail(err, RETEX_EACCESS, "%s is a folder, a device or a pipe: only files are read (--safe)", path);
+}
+
+static int open_safely(const RetexAccess *access, const char *path, RetexError *err)
+{
+    char resolved[PATH_MAX];
+    struct stat info;
+
+    if (!realpath(path, resolved) || stat(resolved, &info) != 0)
+        return fail_open(path, errno, err);
+    if (!lies_inside(access, resolved))
+        return retex_fail(err, RETEX_EACCESS, "%s is outside the folders that may be read (--safe)", path);
+    if (!S_ISREG(info.st_mode)) /* opening alone may do something to a device */
+        return refuse(path, err);
+    const int file = open_resolved(resolved);
+    if (file < 0 || fstat(file, &info) != 0) {
+        const int why = errno;
+        if (file >= 0)
+            close(file);
+        return fail_open(path, why, err);
+    }
+    if (S_ISREG(info.st_mode))
+        return file;
+    close(file);
+    return refuse(path, err);
+}
+
+int retex_access_open(const RetexAccess *access, const char *path, int *descriptor, RetexError *err)
+{
+    if (access && access->safe) {
+        *descriptor = open_safely(access, path, err);
+        return *descriptor < 0 ? *descriptor : RETEX_OK;
+    }
+    *descriptor = open(path, O_RDONLY | O_CLOEXEC);
+    return *descriptor < 0 ? fail_open(path, errno, err) : RETEX_OK;
+}
