@@ -263,10 +263,12 @@ static int check(const Cli *cli, const char *path)
         cli_error(cli, &error);
         return CLI_NO;
     }
-    if (code)
+    if (code < 0)
         cli_fail(cli, &error);
     if (!cli->quiet)
-        printf("%s: ok\n", strcmp(path, "-") == 0 ? "standard input" : path);
+        printf("%s: ok%s\n", strcmp(path, "-") == 0 ? "standard input" : path,
+               code == RETEX_CHECKED_IN_PART ? ", but for the manifest, which has no checksum: it is of an old version"
+                                             : "");
     return CLI_OK;
 }
 

@@ -172,6 +172,10 @@ static void put_all_right(Entry *entries, int count)
     if (!manifest || !index)
         return;
     char *json = strndup((char *)manifest->data, manifest->size);
+    if (json) {
+        retex_manifest_seal(json);
+        memcpy(manifest->data, json, strlen(json));
+    }
     if (json && retex_manifest_read(json, "fuzz", &set, &samples, &names, NULL) == 0 && set) {
         PackPart *parts = calloc((size_t)set->nparts + 1, sizeof *parts);
         if (parts && pack_understand(parts, set, json, NULL) == 0)

@@ -10,6 +10,8 @@
 
 #include <cmocka.h>
 
+#include "manifest.h"
+
 /* Reading gives an error with a message and no set. */
 static void assert_refused(const void *data, size_t bytes)
 {
@@ -98,6 +100,7 @@ static unsigned char *changed_pack(const unsigned char *data, size_t bytes, cons
         assert_non_null(at);
         edited = malloc(stat.size + strlen(put) + 1);
         sprintf(edited, "%.*s%s%s", (int)(at - text), text, put, at + strlen(find));
+        retex_manifest_seal(edited);
         zip_int64_t index = zip_name_locate(zip, "manifest.json", 0);
         assert_int_equal(
             zip_file_replace(zip, (zip_uint64_t)index, zip_source_buffer(zip, edited, strlen(edited), 0), 0), 0);

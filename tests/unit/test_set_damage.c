@@ -55,6 +55,7 @@ static void check_manifests(const char *json, const ManifestCase *cases, size_t 
     assert_int_equal(read_manifest(json, message), 0);
     for (size_t i = 0; i < count; i++) {
         char *copy = edited(json, cases[i].after, cases[i].from, cases[i].to);
+        retex_manifest_seal(copy);
         const int status = read_manifest(copy, message);
         if (status != cases[i].code || !strstr(message, cases[i].says))
             fail_msg("case %zu: %d \"%s\"", i, status, message);
@@ -62,10 +63,73 @@ static void check_manifests(const char *json, const ManifestCase *cases, size_t 
     }
 }
 
-/* Characters replaced at random: it may be anything, but no crash. */
-static void turn_inside_out(char *json)
+/* One without a checksum of itself, as versions before 3 were; to be freed. */
+static char *of_version(const char *json, int version)
 {
-    char message[1024];
+    char *copy = malloc(strlen(json) + 1);
+    sprintf(copy, "{\"retex\":%d%s", version, strstr(json, ",\"kind\""));
+    return copy;
+}
+
+/* Any bit of it, digits of the checksum and of the version too, and any end that is missing. */
+static void test_damage_to_a_manifest_is_seen(void **state)
+{
+    (void)state;
+    RetexSet *set = test_set(16, 16, 1);
+    RetexError err = {0};
+    char *json, message[1024];
+    test_make_footprints(set);
+    test_must(retex_set_manifest(set, NULL, &json, &err), &err);
+    assert_int_equal(read_manifest(json, message), 0);
+    for (size_t at = 0; json[at]; at++) {
+        const char kept = json[at];
+        for (int bit = 0; bit < 8; bit++) {
+            json[at] = (char)(kept ^ 1 << bit);
+            assert_int_equal(read_manifest(json, message), RETEX_EFORMAT);
+        }
+        for (int digit = 0; digit < 10; digit++) {
+            json[at] = (char)('0' + digit);
+            assert_true(json[at] == kept || read_manifest(json, message) == RETEX_EFORMAT);
+        }
+        json[at] = 0;
+        assert_int_equal(read_manifest(json, message), RETEX_EFORMAT);
+        json[at] = kept;
+    }
+    assert_int_equal(read_manifest(json, message), 0);
+    free(json);
+    retex_set_close(&set);
+}
+
+static void test_old_manifests_are_read(void **state)
+{
+    (void)state;
+    RetexSet *set = test_set(16, 16, 1), *read;
+    RetexSamples *samples;
+    RetexSamplePart *parts;
+    RetexError err = {0};
+    char *json, message[1024];
+    test_must(retex_set_manifest(set, NULL, &json, &err), &err);
+    for (int version = 1; version <= RETEX_SET_VERSION; version++) {
+        char *old = of_version(json, version);
+        test_must(retex_manifest_read(version == 3 ? json : old, "x.exr", &read, &samples, &parts, &err), &err);
+        assert_int_equal(read->version, version);
+        assert_int_equal(read->nparts, set->nparts);
+        retex_set_close(&read);
+        free(parts);
+        free(old);
+    }
+    char *without = of_version(json, RETEX_SET_VERSION);
+    assert_int_equal(read_manifest(without, message), RETEX_EFORMAT);
+    free(without);
+    free(json);
+    retex_set_close(&set);
+}
+
+/* Characters replaced at random: it may be anything, but no crash. It is of a version without checksum, so that
+ * it is parsed. */
+static void turn_inside_out(const char *sealed)
+{
+    char message[1024], *json = of_version(sealed, 2);
     const size_t length = strlen(json);
     uint32_t seed = 1;
     for (int i = 0; i < 3000; i++) {
@@ -75,16 +139,22 @@ static void turn_inside_out(char *json)
         read_manifest(json, message);
         json[place] = old;
     }
+    free(json);
 }
 
 static void test_manifests_that_lie(void **state)
 {
     (void)state;
     static const ManifestCase cases[] = {
-        {"", "{\"retex\":1", "{\"retex\":3", RETEX_EUNSUPPORTED, "version 3"},
-        {"", "{\"retex\":1", "{\"retex\":\"1\"", RETEX_EFORMAT, "no version"},
-        {"", "{\"retex\":1", "{\"retex\":1,\"later\":[{}]", 0, ""},
-        {"", "{\"retex\":1", "[\"retex\":1", RETEX_EFORMAT, "no JSON"},
+        {"", "{\"retex\":3", "{\"retex\":4", RETEX_EUNSUPPORTED, "version 4"},
+        {"", "{\"retex\":3", "{\"retex\":\"3\"", RETEX_EFORMAT, "no version"},
+        {"", "{\"retex\":3", "{\"retex\":0", RETEX_EFORMAT, "no version"},
+        {"", "{\"retex\":3", "{\"retex\":3,\"later\":[{}]", RETEX_EFORMAT, "its checksum is missing"},
+        {"", "{\"retex\":3", "{ \"retex\":3", RETEX_EFORMAT, "its checksum is missing"},
+        {"", "{\"retex\":3", "{ \"retex\":2", RETEX_EFORMAT, "its checksum is missing"},
+        {"", "\"crc32\"", "\"crc33\"", RETEX_EFORMAT, "its checksum is missing"},
+        {"", "\"kind\"", "\"later\":[{}],\"kind\"", 0, ""},
+        {"", "{\"retex\":3", "[\"retex\":3", RETEX_EFORMAT, "no JSON"},
         {"", "\"set\"", "\"sett\"", RETEX_EFORMAT, "unknown kind"},
         {"", "\"width\":", "\"width\":7", RETEX_EFORMAT, "another size"},
         {"", "\"width\":", "\"width\":-", RETEX_EFORMAT, "\"width\""},
@@ -338,8 +408,12 @@ static void test_what_is_no_set(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_manifests_that_lie),      cmocka_unit_test(test_mixtures_that_lie),
-        cmocka_unit_test(test_mixtures_that_are_wrong), cmocka_unit_test(test_damaged_files),
+        cmocka_unit_test(test_damage_to_a_manifest_is_seen),
+        cmocka_unit_test(test_old_manifests_are_read),
+        cmocka_unit_test(test_manifests_that_lie),
+        cmocka_unit_test(test_mixtures_that_lie),
+        cmocka_unit_test(test_mixtures_that_are_wrong),
+        cmocka_unit_test(test_damaged_files),
         cmocka_unit_test(test_what_is_no_set),
     };
     return cmocka_run_group_tests(tests, test_make_folder, test_remove_folder);

@@ -172,20 +172,6 @@ static json_t *identity(uint32_t id)
     return json_string(hex);
 }
 
-/* Version 1 knew neither gains nor AOVs smaller than the picture. */
-static int version_of(const RetexSet *set)
-{
-    int version = 1;
-
-    for (int i = 0; set && i < set->nfootprints; i++)
-        if (retex_set_footprint_scale(set, i) != 1)
-            version = RETEX_SET_VERSION;
-    for (int i = 0; set && i < set->nterms; i++)
-        if (set->terms[i].gain)
-            version = RETEX_SET_VERSION;
-    return version;
-}
-
 static void write_set(json_t *root, const RetexSet *set, int *finite)
 {
     json_t *targets = json_array(), *footprints = json_array(), *terms = json_array(), *parts = json_array();
@@ -244,7 +230,7 @@ int retex_manifest_write(const RetexSet *set, const RetexSamples *samples, const
                          char **json, RetexError *err)
 {
     int finite = 1;
-    json_t *root = json_pack("{s:i, s:s, s:i, s:i}", "retex", version_of(set), "kind",
+    json_t *root = json_pack("{s:i, s:s, s:s, s:i, s:i}", "retex", RETEX_SET_VERSION, "crc32", "00000000", "kind",
                              !samples ? "set"
                              : !set   ? "samples"
                                       : "stream",
@@ -262,6 +248,7 @@ int retex_manifest_write(const RetexSet *set, const RetexSamples *samples, const
         return retex_fail(err, RETEX_EINVAL, "the set's description has a number that is infinite or NaN");
     if (!dumped)
         return retex_fail(err, RETEX_ENOMEM, "no memory for the manifest");
+    retex_manifest_seal(dumped);
     *json = dumped;
     return 0;
 }

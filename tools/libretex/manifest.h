@@ -32,6 +32,14 @@ void retex_sample_part_names(const RetexSamples *samples, const RetexSet *set, R
 int retex_manifest_write(const RetexSet *set, const RetexSamples *samples, const RetexSamplePart *sample_parts,
                          char **json, RetexError *err);
 
+/* The manifest's checksum of itself. Its text begins {"retex":VERSION,"crc32":"DIGITS", and the eight hexadecimal
+ * digits are the CRC-32 of all of it with 0s in their place. */
+enum { RETEX_MANIFEST_FIRST_WITH_SUM = 3 }; /* version */
+typedef enum RetexManifestSum { RETEX_MANIFEST_PLAIN, RETEX_MANIFEST_RIGHT, RETEX_MANIFEST_WRONG } RetexManifestSum;
+
+RetexManifestSum retex_manifest_sum(const char *json); /* PLAIN: there is none */
+void retex_manifest_seal(char *json);                  /* fill it in, where there is a place for it */
+
 /* From JSON. *set and *samples are created, without pixels: parts know their size in image.width, height and channels,
  * and so do those images of *samples that sample_parts (allocated here, free with free()) names. What the manifest does
  * not describe comes back NULL. name: the file, for messages. */

@@ -442,7 +442,7 @@ static void read_samples(Reading *reading, const json_t *json, int width, int he
 }
 
 /* The version comes before everything else: of a later one nothing else may be taken for granted. */
-static void check_version(Reading *reading, const json_t *root)
+static void check_version(Reading *reading, const json_t *root, RetexManifestSum sum)
 {
     const json_t *version = json_object_get(root, "retex");
     const json_int_t number = json_integer_value(version);
@@ -452,14 +452,16 @@ static void check_version(Reading *reading, const json_t *root)
     else if (number > RETEX_SET_VERSION)
         bad(reading, RETEX_EUNSUPPORTED, "is of version %lld; this program knows versions up to %d", (long long)number,
             RETEX_SET_VERSION);
+    else if (sum == RETEX_MANIFEST_PLAIN && (number >= RETEX_MANIFEST_FIRST_WITH_SUM || json_object_get(root, "crc32")))
+        bad(reading, RETEX_EFORMAT, "is damaged: its checksum is missing");
 }
 
-static void read_root(Reading *reading, const json_t *root, RetexSet **set, RetexSamples **samples,
-                      RetexSamplePart **sample_parts)
+static void read_root(Reading *reading, const json_t *root, RetexManifestSum sum, RetexSet **set,
+                      RetexSamples **samples, RetexSamplePart **sample_parts)
 {
     char kind[16] = "";
 
-    check_version(reading, root);
+    check_version(reading, root, sum);
     if (reading->status)
         return;
     get_text(reading, root, "kind", kind, sizeof kind);
@@ -474,25 +476,32 @@ static void read_root(Reading *reading, const json_t *root, RetexSet **set, Rete
         read_set(reading, root, width, height, set);
     if (!reading->status && has_samples)
         read_samples(reading, json_object_get(root, "samples"), width, height, samples, sample_parts);
+    if (*set)
+        (*set)->version = (int)json_integer_value(json_object_get(root, "retex"));
+    if (*samples)
+        (*samples)->version = (int)json_integer_value(json_object_get(root, "retex"));
 }
 
 int retex_manifest_read(const char *json, const char *name, RetexSet **set, RetexSamples **samples,
                         RetexSamplePart **sample_parts, RetexError *err)
 {
     Reading reading = {name, err, 0};
+    const RetexManifestSum sum = retex_manifest_sum(json);
     json_error_t where;
-    json_t *root = json_loads(json, JSON_REJECT_DUPLICATES, &where);
 
     *set = NULL;
     *samples = NULL;
     *sample_parts = NULL;
+    if (sum == RETEX_MANIFEST_WRONG)
+        return retex_fail(err, RETEX_EFORMAT, "%s: the manifest is damaged: its checksum is wrong", name);
+    json_t *root = json_loads(json, JSON_REJECT_DUPLICATES, &where);
     if (!root)
         return retex_fail(err, RETEX_EFORMAT, "%s is not a set (its `retex` attribute is no JSON: %s)", name,
                           where.text);
     if (!json_is_object(root))
         bad(&reading, RETEX_EFORMAT, "is no JSON object");
     else
-        read_root(&reading, root, set, samples, sample_parts);
+        read_root(&reading, root, sum, set, samples, sample_parts);
     json_decref(root);
     if (reading.status) {
         retex_set_close(set);

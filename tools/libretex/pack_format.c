@@ -9,6 +9,7 @@
 
 #include "checksum.h"
 #include "half.h"
+#include "manifest.h"
 #include "pack_combine.h"
 
 const char *const pack_codec_names[PACK_CODECS] = {"zero", "planes", "model", "combined", "jpeg"};
@@ -163,6 +164,8 @@ char *pack_describe(const char *manifest, const RetexSet *set, const PackPart *p
     json_object_set_new(root, "pack", pack);
     char *text = json_dumps(root, JSON_COMPACT | JSON_REAL_PRECISION(17));
     json_decref(root);
+    if (text)
+        retex_manifest_seal(text);
     return text;
 }
 

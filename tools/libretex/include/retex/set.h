@@ -22,7 +22,7 @@
 extern "C" {
 #endif
 
-#define RETEX_SET_VERSION 2   /* of the manifest: the newest that is read, and written where 1 would not do */
+#define RETEX_SET_VERSION 3   /* of the manifest: what is written, and the newest that is read */
 #define RETEX_MAX_TARGETS 8
 #define RETEX_MAX_ORDERS 6    /* hits of one target that a path keeps apart */
 #define RETEX_MAX_FACTORS 12  /* hits of all targets together */
@@ -132,6 +132,8 @@ typedef struct RetexSet {
     RetexMixture mixtures[RETEX_MIXTURES_MAX];
     RetexSpool *spool;     /* owned; where spooled parts are, or NULL */
     RetexSetSource *source; /* owned; where all other parts without pixels are, or NULL: see retex_set_open */
+    int version;           /* of the manifest that it was read from, 0 where from none: below 3 that has no checksum of
+                              its own, and damage to it may go unseen */
 } RetexSet;
 
 /* The textures filtered at a set's footprints: image i belongs to footprint i and is RGB of the size of its parts, or
@@ -151,6 +153,7 @@ typedef struct RetexSamples {
     int stored[512];       /* 0, or 1 + its number in the source */
     RetexSpool *spool;     /* owned, or NULL; as is */
     RetexSetSource *source;
+    int version;           /* as of a set */
 } RetexSamples;
 
 int retex_set_create(RetexSet **set, int width, int height, RetexError *err);
@@ -238,7 +241,10 @@ void retex_part_stored_row(const RetexPart *part, int y, void *samples);
  * by other means. */
 int retex_set_checksum(RetexSet *set, int nthreads /* 0 = all cores */, RetexError *err);
 
-/* Compare every part's stored CRC with its data: 0, or RETEX_EFORMAT naming the first damaged part. */
+/* Compare every part's stored CRC with its data, and the manifest's own with its text: 0, or RETEX_EFORMAT naming the
+ * first damaged part, or RETEX_CHECKED_IN_PART where all that has a checksum is right, but the manifest, of an old
+ * version, has none. */
+enum { RETEX_CHECKED_IN_PART = 1 };
 int retex_set_check(const char *path, int nthreads, RetexError *err);
 
 /* The manifest as JSON text; the caller frees it with free(). */
