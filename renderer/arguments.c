@@ -305,8 +305,6 @@ void parse_arguments(Arguments *a)
         cli_die(cli, "--control goes with --replace: what is new in the picture?");
     if (a->control && (a->render.aovs || a->render.control_data))
         cli_die(cli, "--control makes a picture only: no --aov or --control-data");
-    if (a->control && cli->output)
-        texture_args_check_output(cli, a->control, cli->output);
     check_denoise(a);
     check_noise(a);
     check_pieces(a);

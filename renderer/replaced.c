@@ -56,11 +56,6 @@ void read_rows(Arguments *a, VariantRows *rows)
         if (!texture_table_row(&a->table, a->cli, &rows->outputs[k], rows->specs[k], &rows->nspecs[k]))
             return;
         rows->lines[k] = a->table.row_line;
-        texture_args_check_output(a->cli, a->scene, rows->outputs[k]);
-        texture_args_check_output(a->cli, a->variants, rows->outputs[k]);
-        for (int j = 0; j < rows->nspecs[k]; j++)
-            if (!rows->specs[k][j].constant)
-                texture_args_check_output(a->cli, rows->specs[k][j].image, rows->outputs[k]);
         if (retex_image_write_check(rows->outputs[k], NULL, &err))
             texture_table_fail_picture(&a->table, a->cli, &err);
     }

@@ -48,16 +48,36 @@ static void list_targets(Arguments *a, const Scene *scene)
     free(list);
 }
 
-/* Before the work: whether the statistics have a place that is not the set's. */
-static void check_stats(const Arguments *a, const char *output)
+/* All files of the command, but for those that the scene names. */
+static void announce_files(Arguments *a, const char *output)
+{
+    char path[4096];
+    cli_reads(a->cli, "the scene", a->scene);
+    cli_reads(a->cli, "the table", a->variants);
+    cli_reads(a->cli, "the set of --control", a->control);
+    for (int k = 0; k < a->nmerged; k++)
+        cli_reads(a->cli, "the file of --merge", a->merged[k]);
+    texture_args_reads(a->cli, a->replacements, a->nreplacements);
+    cli_writes(a->cli, a->list || a->tracing ? "the answer" : "the output", a->list || a->tracing ? "-" : output);
+    cli_writes(a->cli, "--stats", a->stats);
+    for (int k = 0; a->aov_dir && guides_path(path, sizeof path, a->aov_dir, k); k++)
+        cli_writes(a->cli, "the file of --aov-dir", path);
+    if (a->variants)
+        texture_table_announce(&a->table, a->cli);
+}
+
+static void announce_files_of_scene(const Arguments *a, const Scene *scene)
+{
+    for (const SceneFile *file = scene->files; file; file = file->next)
+        cli_reads(a->cli, strcmp(file->path, a->scene) ? "a file that the scene reads" : "the scene", file->path);
+}
+
+/* Before the work: whether the statistics can be written. */
+static void check_stats(const Arguments *a)
 {
     RetexError err;
     if (!a->stats)
         return;
-    if (!strcmp(a->stats, "-") && !strcmp(output, "-"))
-        cli_die(a->cli, "the set and the --stats cannot both go to standard output");
-    if (strcmp(a->stats, "-") && !strcmp(a->stats, output))
-        cli_die(a->cli, "the set and the --stats cannot both be %s", output);
     if (strcmp(a->stats, "-") && retex_set_write_check(a->stats, &err))
         cli_die(a->cli, "--stats: %s", err.message);
 }
@@ -108,7 +128,10 @@ static void name_journal(Arguments *a, const char *output)
         cli_die(a->cli, "the output's name is too long");
     r->journal = a->journal, r->output = output;
     r->merged = a->merged, r->nmerged = a->nmerged;
-    if (!r->resume && access(a->journal, F_OK) == 0)
+    int there = access(a->journal, F_OK) == 0;
+    if (r->resume || !there)
+        cli_writes(a->cli, "the file of finished rows", a->journal);
+    if (!r->resume && there)
         cli_warn(a->cli, "%s is left as it is: --resume would go on from it", a->journal);
 }
 
@@ -156,11 +179,7 @@ static int render(Arguments *a, const Scene *scene, RetexSet **set, RenderStats 
 static void check_output(const Arguments *a, const char *output)
 {
     RetexError err;
-    struct stat scene, old;
     OutputKind kind = output_kind(a, output);
-    if (strcmp(output, "-") && !stat(a->scene, &scene) && !stat(output, &old) && S_ISREG(old.st_mode) &&
-        scene.st_dev == old.st_dev && scene.st_ino == old.st_ino)
-        cli_die(a->cli, "the output %s would replace the scene", output);
     if (kind == OUTPUT_PICTURE && !a->render.nshards ? retex_image_write_check(output, NULL, &err)
                                                      : retex_set_write_check(output, &err))
         cli_fail(a->cli, &err);
@@ -246,11 +265,13 @@ int main(int argc, char **argv)
     parse_arguments(&a);
     int needless = a.list || a.tracing || a.variants || (a.aov_dir && !cli.output && isatty(STDOUT_FILENO));
     const char *output = needless ? NULL : cli_output(&cli);
+    announce_files(&a, output);
+    name_journal(&a, output);
     VariantRows *rows = a.variants ? calloc(1, sizeof *rows) : NULL;
     if (rows)
         read_rows(&a, rows);
     if (output)
-        check_output(&a, output), check_stats(&a, output);
+        check_output(&a, output), check_stats(&a);
     if (a.aov_dir && guides_check(a.aov_dir, &err))
         cli_die(&cli, "--aov-dir: %s", err.message);
     if (a.control)
@@ -259,10 +280,10 @@ int main(int argc, char **argv)
     int keeps = output && a.ntargets && !a.render.plain && (a.render.nshards || output_kind(&a, output) == OUTPUT_SET);
     a.render.denoise_data = a.denoise || (keeps && !a.no_denoise_data);
     a.render.spooled = keeps && !a.denoise;
-    name_journal(&a, output);
     double started = seconds();
     if (job_open_scene(&scene, a.scene, &a.sdl, a.targets, a.ntargets, &err))
         cli_fail(&cli, &err);
+    announce_files_of_scene(&a, scene);
     check_targets(&a, scene);
     if (!a.list && job_check_memory(scene, &a.render, &err))
         cli_fail(&cli, &err);

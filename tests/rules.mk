@@ -23,7 +23,7 @@ $(BUILD)/obj/tests/%.o: tests/%.c $(BUILD)/config.mk | $(BUILD)/test.mk
 	$(SAY)$(CC) $(CPPFLAGS_ALL) -Itests/lib -Itools/libretex -Irenderer $(LIBRETEX_CFLAGS) $(RENDER_CFLAGS) \
 	    $(CFLAGS_ALL) -MMD -MP -c $< -o $@
 
-$(BUILD)/tests/unit/%: $(BUILD)/obj/tests/unit/%.o $(LIBTEST) $(BUILD)/obj/tools/cli.o $(LIBRENDER) $(LIBRETEX) | $(BRIDGE)
+$(BUILD)/tests/unit/%: $(BUILD)/obj/tests/unit/%.o $(LIBTEST) $(TOOL_OBJECTS) $(LIBRENDER) $(LIBRETEX) | $(BRIDGE)
 	@mkdir -p $(@D)
 	$(SAY)$(LINK) -Wl,-rpath,'$$ORIGIN/../../lib' $^ -o $@ -lcmocka $(RENDER_LIBS) $(LIBRETEX_LIBS) $(TEST_LIBS)
 

@@ -60,6 +60,17 @@ const char *cli_output(const Cli *cli);
  * was expected. */
 void cli_input(const Cli *cli, const char *path, const char *what);
 
+/* ---- cli_files.c: no output replaces an input, or another output ----
+ *
+ * Every file that a command reads or writes is announced before anything is written, in any order, with what it is in
+ * messages ("the scene", "--stats"). An output that is also an input or another output is refused: by device and inode,
+ * links followed; what is not there yet by its folder and name. Files read more than once are fine, as are devices and
+ * pipes, but standard input and output ("-") can each be announced once only. path NULL: no file. */
+void cli_reads(const Cli *cli, const char *what, const char *path);  /* exits with CLI_FAIL where it is refused */
+void cli_writes(const Cli *cli, const char *what, const char *path);
+int cli_add_input(const char *what, const char *path, RetexError *err); /* the same, for those who add to the message */
+int cli_add_output(const char *what, const char *path, RetexError *err);
+
 /* Whether path ends in ending (".exr"), in whatever case. */
 int cli_ends_with(const char *path, const char *ending);
 

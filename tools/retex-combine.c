@@ -66,11 +66,6 @@ static void parse(Cli *cli, Job *job)
     }
     if (!job->set_path)
         cli_die(cli, "no set given; - is standard input");
-    if (job->samples_path && strcmp(job->set_path, "-") == 0 && strcmp(job->samples_path, "-") == 0)
-        cli_die(cli, "the set and the samples cannot both be standard input");
-    if (job->batch && strcmp(job->batch, "-") == 0 &&
-        (strcmp(job->set_path, "-") == 0 || (job->samples_path && strcmp(job->samples_path, "-") == 0)))
-        cli_die(cli, "the set or the samples and the table cannot both be standard input");
     if (job->batch && cli->output)
         cli_die(cli, "--batch names its outputs itself: no -o");
     if (job->error && job->batch)
@@ -81,57 +76,15 @@ static void parse(Cli *cli, Job *job)
         cli_die(cli, "--colorspace excludes --display and --view");
 }
 
-/* The picture must not replace what it is made of. */
-static void check_output(const Cli *cli, const Job *job, const char *output)
+/* What is known of the files before any is opened; a table has more. */
+static void announce_files(const Cli *cli, const Job *job, const char *output)
 {
-    texture_args_check_output(cli, job->set_path, output);
-    if (job->samples_path)
-        texture_args_check_output(cli, job->samples_path, output);
-    texture_args_check_outputs(cli, &job->textures, output);
-}
-
-/* The folder that a file is or would be in. */
-static int stat_folder(const char *path, struct stat *folder)
-{
-    char name[4096];
-    const char *slash = strrchr(path, '/');
-    int length = slash == path ? 1 : slash ? (int)(slash - path) : 0;
-    if (!length)
-        return stat(".", folder);
-    return snprintf(name, sizeof name, "%.*s", length, path) < (int)sizeof name ? stat(name, folder) : -1;
-}
-
-static const char *base_name(const char *path)
-{
-    const char *slash = strrchr(path, '/');
-    return slash ? slash + 1 : path;
-}
-
-/* Whether two outputs, which need not be there yet, are one file. */
-static int is_same_output(const char *a, const char *b)
-{
-    struct stat x, y;
-    if (strcmp(a, b) == 0)
-        return 1;
-    if (strcmp(a, "-") == 0 || strcmp(b, "-") == 0)
-        return 0;
-    int there = stat(a, &x) == 0, also_there = stat(b, &y) == 0;
-    if (there != also_there)
-        return 0;
-    if (!there && (strcmp(base_name(a), base_name(b)) != 0 || stat_folder(a, &x) || stat_folder(b, &y)))
-        return 0;
-    return x.st_dev == y.st_dev && x.st_ino == y.st_ino;
-}
-
-/* The error's file must replace nothing either, the picture included. */
-static void check_error_output(const Cli *cli, const Job *job, const char *output)
-{
-    RetexError err = {0};
-    check_output(cli, job, job->error);
-    if (is_same_output(job->error, output))
-        cli_die(cli, "the picture and --error are the same file");
-    if (retex_image_write_check(job->error, NULL, &err))
-        cli_fail(cli, &err);
+    cli_reads(cli, "the set", job->set_path);
+    cli_reads(cli, "the samples", job->samples_path);
+    cli_reads(cli, "the table", job->batch);
+    texture_args_reads(cli, job->textures.specs, job->textures.count);
+    cli_writes(cli, "the output", output);
+    cli_writes(cli, "--error", job->error);
 }
 
 /* The set, and the samples that came with it or have a file of their own. */
@@ -336,6 +289,7 @@ static void run_batch(const Cli *cli, Job *job)
 {
     TextureTable table;
     texture_table_open(&table, cli, job->batch);
+    texture_table_announce(&table, cli);
     find_columns(cli, &table, job->set);
     const char *output;
     RetexError err = {0};
@@ -346,12 +300,8 @@ static void run_batch(const Cli *cli, Job *job)
     if (retex_set_keep(job->set, job->samples, (uint64_t)job->memory << 20, cli->threads, &err))
         cli_fail(cli, &err);
     while (texture_table_row(&table, cli, &output, specs, &count)) {
-        check_output(cli, job, output);
         if (retex_image_write_check(output, &job->write, &err))
             texture_table_fail_picture(&table, cli, &err);
-        for (int i = 0; i < count; i++)
-            if (!specs[i].constant)
-                texture_args_check_output(cli, specs[i].image, output);
         count = complete_row(job, specs, count);
         const Row row = {kept.specs, count, kept.textures};
         if (load_row(cli, job, &kept, specs, count, &err) || make_picture(cli, job, &row, output, began, &err))
@@ -388,12 +338,12 @@ int main(int argc, char **argv)
     parse(&cli, &job);
     const char *output = job.batch ? NULL : cli_output(&cli);
     RetexError err = {0};
+    announce_files(&cli, &job, output);
     if (output) {
-        check_output(&cli, &job, output);
         if (retex_image_write_check(output, &job.write, &err))
             cli_fail(&cli, &err);
-        if (job.error)
-            check_error_output(&cli, &job, output);
+        if (job.error && retex_image_write_check(job.error, NULL, &err))
+            cli_fail(&cli, &err);
         if ((job.write.display || job.write.view) && (strcmp(output, "-") == 0 || cli_ends_with(output, ".exr")))
             cli_warn(&cli, "an OpenEXR file stays scene-linear: --display and --view do nothing; --colorspace would");
     }

@@ -86,6 +86,8 @@ int main(int argc, char **argv)
 
     const char *input = parse(&cli, &params, &memory), *output = cli_output(&cli);
     cli_input(&cli, input, "a set, as from retex-render");
+    cli_reads(&cli, "the set", input);
+    cli_writes(&cli, "the output", output);
     check_ending(&cli, output);
     if (retex_set_write_check(output, &err))
         cli_fail(&cli, &err);

@@ -162,8 +162,11 @@ int main(int argc, char **argv)
     int json = 0;
 
     parse(&cli, &params, &json, names);
-    for (int i = 0; i < 2; i++)
+    for (int i = 0; i < 2; i++) {
         cli_input(&cli, names[i], "an OpenEXR file");
+        cli_reads(&cli, i ? "B" : "A", names[i]);
+    }
+    cli_writes(&cli, "the answer", "-");
     if (retex_diff(&diff, names[0], names[1], &params, &err))
         cli_fail(&cli, &err);
     int differs = diff->differs;

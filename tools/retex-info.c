@@ -303,5 +303,7 @@ int main(int argc, char **argv)
     if (json && checking)
         cli_die(&cli, "--json and --check exclude each other");
     cli_input(&cli, path, "a set, as from retex-render");
+    cli_reads(&cli, "the set", path);
+    cli_writes(&cli, "the answer", "-");
     return cli_close(&cli, checking ? check(&cli, path) : print_info(&cli, path, json));
 }

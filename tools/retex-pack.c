@@ -118,8 +118,6 @@ static void check_stats(Cli *cli, const Job *job, const char *output)
         return;
     if (strcmp(output, "-") == 0)
         cli_die(cli, "--stats reads the pack again: it must be a file, -o FILE.retex");
-    if (strcmp(job->stats, output) == 0)
-        cli_die(cli, "the pack and the --stats cannot both be %s", output);
     if (strcmp(job->stats, "-") != 0 && retex_set_write_check(job->stats, &err))
         cli_die(cli, "--stats: %s", err.message);
 }
@@ -147,6 +145,9 @@ int main(int argc, char **argv)
                 job.unpack ? "%s: what is unpacked is an OpenEXR file, .exr"
                            : "%s: a pack is no OpenEXR file; its name ends in .retex",
                 output);
+    cli_reads(&cli, job.unpack ? "the pack" : "the set", job.input);
+    cli_writes(&cli, "the output", output);
+    cli_writes(&cli, "--stats", job.stats);
     check_stats(&cli, &job, output);
     if (retex_set_write_check(output, &err))
         cli_fail(&cli, &err);

@@ -52,8 +52,9 @@ int main(int argc, char **argv)
     RetexError err = {0};
 
     cli_input(&cli, input, "a set, as from retex-render");
-    texture_args_check_output(&cli, input, output);
-    texture_args_check_outputs(&cli, &textures, output);
+    cli_reads(&cli, "the set", input);
+    texture_args_reads(&cli, textures.specs, textures.count);
+    cli_writes(&cli, "the output", output);
     check_ending(&cli, output);
     if (retex_set_write_check(output, &err))
         cli_fail(&cli, &err);

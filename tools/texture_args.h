@@ -4,7 +4,6 @@
 
 #include <stdio.h>
 #include <string.h>
-#include <sys/stat.h>
 #include <time.h>
 
 #include <retex/retex.h>
@@ -34,20 +33,27 @@ static inline void texture_args_add(const Cli *cli, TextureArgs *args)
     args->count++;
 }
 
-/* Writing over the set would leave nothing to retexture; over a texture, neither. */
-static inline void texture_args_check_output(const Cli *cli, const char *input, const char *output)
+/* The file of a texture, if it has one; of a pack or scene with a query, `room.retex?Floor=oak.jpg`, that file too. */
+static inline int texture_args_add_input(const RetexTextureSpec *spec, RetexError *err)
 {
-    struct stat in, out;
-    if (strcmp(input, "-") != 0 && strcmp(output, "-") != 0 && stat(input, &in) == 0 && stat(output, &out) == 0 &&
-        S_ISREG(in.st_mode) && in.st_dev == out.st_dev && in.st_ino == out.st_ino)
-        cli_die(cli, "the output %s would replace the input", output);
+    char file[sizeof spec->image];
+    const char *query = strchr(spec->image, '?');
+    if (spec->constant)
+        return RETEX_OK;
+    int code = cli_add_input("the texture", spec->image, err);
+    if (!code && query) {
+        snprintf(file, sizeof file, "%.*s", (int)(query - spec->image), spec->image);
+        code = cli_add_input("the texture", file, err);
+    }
+    return code;
 }
 
-static inline void texture_args_check_outputs(const Cli *cli, const TextureArgs *args, const char *output)
+static inline void texture_args_reads(const Cli *cli, const RetexTextureSpec *specs, int count)
 {
-    for (int i = 0; i < args->count; i++)
-        if (!args->specs[i].constant)
-            texture_args_check_output(cli, args->specs[i].image, output);
+    RetexError err = {0};
+    for (int i = 0; i < count; i++)
+        if (texture_args_add_input(&specs[i], &err))
+            cli_fail(cli, &err);
 }
 
 /* "Floor <- oak.png, Wall <- rgb(1,1,1)", or "original textures". */

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "texture_args.h"
 #include "texture_table.h"
 
 _Noreturn void texture_table_fail(const TextureTable *table, const Cli *cli, int code, const char *message)
@@ -13,7 +14,7 @@ _Noreturn void texture_table_fail(const TextureTable *table, const Cli *cli, int
     cli_fail(cli, &err);
 }
 
-static char *read_text(const Cli *cli, const char *path)
+static char *read_text(const Cli *cli, const char *path, size_t *bytes)
 {
     cli_input(cli, path, "a table");
     FILE *file = strcmp(path, "-") == 0 ? stdin : fopen(path, "rb");
@@ -36,6 +37,7 @@ static char *read_text(const Cli *cli, const char *path)
     text[used] = '\0';
     if (strlen(text) != used)
         cli_die(cli, "%s: not a table: it holds NUL bytes", path);
+    *bytes = used + 1;
     return text;
 }
 
@@ -108,10 +110,11 @@ static void parse_cell(const Cli *cli, const TextureTable *table, RetexTextureSp
         texture_table_fail(table, cli, err.code, err.message);
 }
 
-void texture_table_open(TextureTable *table, const Cli *cli, const char *path)
+/* To the first picture. */
+static void read_columns(TextureTable *table, const Cli *cli)
 {
-    *table = (TextureTable){.name = strcmp(path, "-") ? path : "standard input", .line = 1, .row_line = 1};
-    table->text = read_text(cli, path);
+    memcpy(table->text, table->original, table->bytes);
+    table->line = table->row_line = 1;
     table->at = table->text + (strncmp(table->text, "\xef\xbb\xbf", 3) == 0 ? 3 : 0); /* a byte order mark */
     if (!next_row(cli, table) || strcmp(table->cells[0], "output") != 0) {
         table->row_line = 1;
@@ -120,6 +123,34 @@ void texture_table_open(TextureTable *table, const Cli *cli, const char *path)
     table->ncolumns = table->ncells - 1;
     for (int i = 0; i < table->ncolumns; i++)
         table->columns[i] = table->cells[1 + i];
+}
+
+void texture_table_open(TextureTable *table, const Cli *cli, const char *path)
+{
+    *table = (TextureTable){.name = strcmp(path, "-") ? path : "standard input", .line = 1, .row_line = 1};
+    table->original = read_text(cli, path, &table->bytes);
+    table->text = malloc(table->bytes);
+    if (!table->text)
+        cli_die(cli, "not enough memory for %s", path);
+    read_columns(table, cli);
+}
+
+void texture_table_announce(TextureTable *table, const Cli *cli)
+{
+    RetexTextureSpec specs[RETEX_MAX_TARGETS];
+    RetexError err = {0};
+    const char *output;
+    char what[64];
+    int count;
+    while (texture_table_row(table, cli, &output, specs, &count)) {
+        snprintf(what, sizeof what, "the output of the table's line %d", table->row_line);
+        int code = cli_add_output(what, output, &err);
+        for (int i = 0; i < count && !code; i++)
+            code = texture_args_add_input(&specs[i], &err);
+        if (code)
+            texture_table_fail_picture(table, cli, &err);
+    }
+    read_columns(table, cli);
 }
 
 int texture_table_row(TextureTable *table, const Cli *cli, const char **output,
@@ -151,5 +182,6 @@ void texture_table_fail_picture(const TextureTable *table, const Cli *cli, const
 void texture_table_close(TextureTable *table)
 {
     free(table->text);
-    table->text = NULL;
+    free(table->original);
+    table->text = table->original = NULL;
 }

@@ -12,6 +12,8 @@
 typedef struct TextureTable {
     const char *name;
     char *text, *at;
+    char *original; /* the text as it was read: cells are taken off `text` in place */
+    size_t bytes;
     int line;     /* of `at` */
     int row_line; /* where the record last read begins */
     char *cells[1 + RETEX_MAX_TARGETS];
@@ -25,6 +27,9 @@ void texture_table_open(TextureTable *table, const Cli *cli, const char *path);
 /* The next picture, of which nothing is written or loaded yet; 0 at the end. Texts stay until the table is closed. */
 int texture_table_row(TextureTable *table, const Cli *cli, const char **output,
                       RetexTextureSpec specs[RETEX_MAX_TARGETS], int *nspecs);
+/* All rows, before the first picture is made: their outputs and textures are announced (cli_reads and cli_writes), then
+ * the table is at its first picture again. The columns are as they are written then. */
+void texture_table_announce(TextureTable *table, const Cli *cli);
 /* The row last read is wrong. */
 _Noreturn void texture_table_fail(const TextureTable *table, const Cli *cli, int code, const char *message);
 /* An error of its picture: the table's line, then the file it was in. */

@@ -84,6 +84,16 @@ static const struct {
     {"object", "raw", NULL, 1},
 };
 
+enum { GUIDES = sizeof guide_table / sizeof *guide_table };
+
+int guides_path(char *path, size_t size, const char *folder, int k)
+{
+    if (k >= 2 * GUIDES)
+        return 0;
+    snprintf(path, size, "%s/%s.%s", folder, guide_table[k / 2].name, k % 2 ? "png" : "exr");
+    return 1;
+}
+
 /* Far apart for numbers that are next to each other; never dark. */
 static int color_numbers(RetexImage *dst, const RetexImage *src, RetexError *err)
 {
@@ -105,14 +115,14 @@ static int write_guide(const RetexSet *set, const char *folder, int k, RetexErro
     char path[4096];
     RetexImage shown = {0};
     RetexWriteParams params = RETEX_WRITE_INIT;
-    snprintf(path, sizeof path, "%s/%s.exr", folder, guide_table[k].name);
+    guides_path(path, sizeof path, folder, 2 * k);
     int code = retex_image_write(image, path, NULL, err);
     if (!code)
         code = guide_table[k].colored ? color_numbers(&shown, image, err) : retex_image_copy(&shown, image, err);
     if (!code && guide_table[k].encode)
         guide_table[k].encode(&shown);
     params.colorspace = guide_table[k].colorspace;
-    snprintf(path, sizeof path, "%s/%s.png", folder, guide_table[k].name);
+    guides_path(path, sizeof path, folder, 2 * k + 1);
     if (!code)
         code = retex_image_write(&shown, path, &params, err);
     retex_image_free(&shown);
@@ -122,7 +132,7 @@ static int write_guide(const RetexSet *set, const char *folder, int k, RetexErro
 int guides_write(const RetexSet *set, const char *folder, RetexError *err)
 {
     int code = RETEX_OK;
-    for (int k = 0; k < (int)(sizeof guide_table / sizeof *guide_table) && !code; k++)
+    for (int k = 0; k < GUIDES && !code; k++)
         code = write_guide(set, folder, k, err);
     return code;
 }

@@ -210,9 +210,15 @@ typedef struct Target {
     char idents[512];        /* matched identifiers, comma-separated */
 } Target;
 
+typedef struct SceneFile {
+    const char *path;
+    const struct SceneFile *next;
+} SceneFile;
+
 typedef struct Scene {
     Arena *arena;
     char path[1024];
+    const SceneFile *files;  /* all that were read from the disk: the scene's own, included ones, images */
     uint64_t digest;         /* of all files that it was read from, see base/digest.h */
     int width, height;       /* the size its author had in mind, from the camera's right and up: 640 wide */
     Camera camera;

@@ -134,6 +134,7 @@ static void load_image(Sdl *sdl, SideImage *image, int *room)
     add_image(sdl, image, room); /* before there is anything to free */
     RetexImage pixels = {0};
     RetexError err = {0};
+    sdl_add_file(sdl, map->path);
     if (retex_image_read(&pixels, map->path, colorspace_of(sdl, image), 0, &err) == 0) {
         map->has_alpha = has_alpha(&pixels);
         map->width = pixels.width;

@@ -90,6 +90,7 @@ const IdentList *sdl_ident_join(Sdl *sdl, const IdentList *a, const IdentList *b
 const char *sdl_find_file(Sdl *sdl, const char *name);
 /* The same; fails with where it was looked for, or why it may not be read. what: "file", "image". */
 const char *sdl_need_file(Sdl *sdl, const char *what, const char *name);
+void sdl_add_file(Sdl *sdl, const char *path); /* to what the scene was read from, before it is read */
 
 /* ---- what the scene side gives ---- */
 

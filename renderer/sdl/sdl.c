@@ -42,6 +42,18 @@ void *sdl_alloc(Sdl *sdl, size_t bytes)
     return memory;
 }
 
+void sdl_add_file(Sdl *sdl, const char *path)
+{
+    for (const SceneFile *file = sdl->scene->files; file; file = file->next)
+        if (strcmp(file->path, path) == 0)
+            return;
+    SceneFile *added = sdl_alloc(sdl, sizeof *added);
+    char *copy = sdl_alloc(sdl, strlen(path) + 1);
+    strcpy(copy, path);
+    *added = (SceneFile){copy, sdl->scene->files};
+    sdl->scene->files = added;
+}
+
 void sdl_step(Sdl *sdl, long count)
 {
     sdl->steps += count;

@@ -180,6 +180,7 @@ static Source *tokenize(Sdl *sdl, const char *path, const char *bytes, size_t si
 static Source *load(Sdl *sdl, const char *path)
 {
     size_t size;
+    sdl_add_file(sdl, path);
     char *bytes = read_all(sdl, path, &size);
     Scene *scene = sdl_scene(sdl);
     scene->digest = digest_bytes(scene->digest, bytes, size);

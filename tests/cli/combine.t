@@ -74,10 +74,10 @@ $ make_set big.exr 1024 1280; retex-sample -q big.exr --texture floor=brick.jpg 
 
 # The picture must not replace what it is made of; the name is looked at before the work.
 $ retex-combine -q s.exr --texture floor=brick.jpg -o brick.jpg
-! retex-combine: error: the output brick.jpg would replace the input
+! retex-combine: error: brick.jpg: the output would replace the texture
 = 2
 $ printf 'output,floor\nbrick.jpg,brick.jpg\n' | retex-combine -q s.exr --batch -
-! retex-combine: error: the output brick.jpg would replace the input
+! retex-combine: error: standard input:2: brick.jpg: the output of the table's line 2 would replace the texture
 = 2
 $ retex-combine -q s.exr -o noending
 ! retex-combine: error: noending: cannot tell the picture's format: the name has no ending, such as .png or .exr
@@ -89,7 +89,7 @@ $ retex-combine -q s.exr a.exr --batch - - </dev/null
 ! retex-combine: error: one set and its samples are enough; what is '-'?
 = 2
 $ retex-combine -q s.exr - --batch - </dev/null
-! retex-combine: error: the set or the samples and the table cannot both be standard input
+! retex-combine: error: the samples and the table cannot both be standard input
 = 2
 $ retex-combine -q s.exr --view Raw -o y.exr
 ! retex-combine: warning: an OpenEXR file stays scene-linear: --display and --view do nothing; --colorspace would

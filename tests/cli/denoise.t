@@ -20,7 +20,7 @@ $ retex-denoise -v s.exr -o again.exr 2>&1 | sed 's/[0-9]*\.[0-9]* s/N s/g'
 > retex-denoise: read N s, denoised N s, written N s
 
 # A set that does not stay in memory: the same bits, as EXR and as a pack, from a pack too, and no temporary file stays.
-$ make_set l.exr 40 250 denoise; retex-denoise -q l.exr -o ld.exr; retex-denoise -q --memory 0 l.exr -o lm.exr; cmp ld.exr lm.exr; retex-denoise -q --memory 0 l.exr -o l.exr; cmp ld.exr l.exr
+$ make_set l.exr 40 250 denoise; retex-denoise -q l.exr -o ld.exr; retex-denoise -q --memory 0 l.exr -o lm.exr; cmp ld.exr lm.exr
 $ make_set l.exr 40 250 footprints denoise; retex-denoise -q l.exr -o ld.retex; retex-denoise -q --memory 0 l.exr -o lm.retex; cmp ld.retex lm.retex; retex-pack -q --lossless l.exr -o l.retex; retex-denoise -q --memory 0 l.retex -o lm.retex; cmp ld.retex lm.retex; ls -A
 > again.exr
 > d.exr
@@ -107,9 +107,6 @@ $ retex-denoise s.retex -o x.exr 2>err; echo $?; sed 's/part [a-zA-Z_]*:/part NA
 > 2
 > retex-denoise: error: the set lacks the part NAME: it was rendered or packed without what denoising needs, or is denoised already
 $ retex-pack -q --lossless s.exr -o l.retex; retex-pack -q --unpack l.retex -o unpacked.exr; retex-denoise -q unpacked.exr -o x.exr; cmp x.exr d.exr; rm x.exr
-
-# Input and output the same file; a link is followed.
-$ cp s.exr same.exr; retex-denoise -q same.exr -o same.exr; cmp same.exr d.exr; cp s.exr same.exr; ln -s same.exr link.exr; retex-denoise -q link.exr -o link.exr; cmp same.exr d.exr; test -L link.exr
 
 # Sets without what is needed: rendered or packed without it, denoised already, on their way to retex-combine.
 $ retex-denoise d.exr -o x.exr 2>err; echo $?; sed 's/part [a-zA-Z_]*:/part NAME:/' err

@@ -126,7 +126,7 @@ $ echo text >text.exr; retex-diff -q a.exr text.exr 2>err; echo $?; grep -c 'ret
 > 1
 $ retex-diff - a.exr <b.exr -q
 $ retex-diff - -
-! retex-diff: error: only one of the two files can be standard input
+! retex-diff: error: A and B cannot both be standard input
 = 2
 $ retex-diff a.exr b.exr --fail-psnr nan
 ! retex-diff: error: --fail-psnr: expected a number from 0 to 120, not 'nan'

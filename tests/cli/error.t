@@ -27,27 +27,27 @@ $ retex-sample -q s.exr --texture floor=brick.jpg -o a.exr; retex-combine -q s.e
 ! retex-combine: error: --error needs the textures: name them with --texture
 = 2
 $ retex-combine -q s.exr --texture floor=brick.jpg --error x.exr -o x.exr
-! retex-combine: error: the picture and --error are the same file
+! retex-combine: error: x.exr: the output and --error are the same file
 = 2
 $ retex-combine -q s.exr --texture floor=brick.jpg --error ./x.exr -o x.exr
-! retex-combine: error: the picture and --error are the same file
+! retex-combine: error: ./x.exr: the output and --error are the same file
 = 2
 $ mkdir folder; retex-combine -q s.exr --texture floor=brick.jpg --error folder/../x.exr -o "$PWD/x.exr"
-! retex-combine: error: the picture and --error are the same file
+! retex-combine: error: folder/../x.exr: the output and --error are the same file
 = 2
 $ cp s.exr old.exr; ln old.exr hard.exr; ln -s old.exr soft.exr; for f in hard soft ./old; do retex-combine -q s.exr --texture floor=brick.jpg --error $f.exr -o old.exr; done; cmp s.exr old.exr
-! retex-combine: error: the picture and --error are the same file
-! retex-combine: error: the picture and --error are the same file
-! retex-combine: error: the picture and --error are the same file
+! retex-combine: error: hard.exr: the output and --error are the same file
+! retex-combine: error: soft.exr: the output and --error are the same file
+! retex-combine: error: ./old.exr: the output and --error are the same file
 $ retex-combine -q s.exr --texture floor=brick.jpg --error folder/x.exr -o ./y.exr; retex-combine -q s.exr --texture floor=brick.jpg --error folder/y.exr -o y.exr; cmp folder/x.exr folder/y.exr; rm -r folder ?.exr; make_set s.exr 48 32
 $ retex-combine -q s.exr --texture floor=brick.jpg --error - >/dev/null
-! retex-combine: error: the picture and --error are the same file
+! retex-combine: error: the output and --error cannot both be standard output
 = 2
 $ retex-combine -q s.exr --texture floor=brick.jpg --error brick.jpg -o x.png
-! retex-combine: error: the output brick.jpg would replace the input
+! retex-combine: error: brick.jpg: --error would replace the texture
 = 2
 $ retex-combine -q s.exr --texture floor=brick.jpg --error s.exr -o x.png
-! retex-combine: error: the output s.exr would replace the input
+! retex-combine: error: s.exr: --error would replace the set
 = 2
 $ retex-combine -q s.exr --texture floor=brick.jpg --error nowhere/x.exr -o x.png
 ! retex-combine: error: cannot write nowhere/x.exr: No such file or directory

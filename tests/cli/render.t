@@ -74,7 +74,7 @@ $ printf 'camera { location -5*z }\n#declare Ball = texture { pigment { rgb 1 } 
 ! retex-render: error: cannot write nowhere/x.png: No such file or directory
 ! retex-render: error: x.xyz: no picture format has the ending .xyz; try .png, .jpg, .tif, .exr or .hdr
 ! retex-render: error: noending: cannot tell the picture's format: the name has no ending, such as .png or .exr
-! retex-render: error: the output ball.pov would replace the scene
+! retex-render: error: ball.pov: the output would replace the scene
 ! retex-render: error: --stats: cannot write nowhere/x.json: No such file or directory
 = 2
 $ OCIO=nowhere timeout 5 retex-render --size 2000x2000 --spp 4096 ball.pov -o x.png 2>err; echo $?; grep -c "error: x.png: \$OCIO is 'nowhere'" err
@@ -88,7 +88,7 @@ $ retex-render --size 60000x60000 -t ball ball.pov -o x.exr 2>err; echo $?; grep
 $ retex-render -q --size 8x6 --spp 1 ball.pov -o y.exr --stats -  | grep paths
 >   "paths": 48,
 $ retex-render -q --size 8x6 --spp 1 ball.pov -o - --stats -
-! retex-render: error: the set and the --stats cannot both go to standard output
+! retex-render: error: the output and --stats cannot both be standard output
 = 2
 $ retex-render -q --size 8x6 --spp 1 ball.pov -o y.exr --stats /dev/full
 ! retex-render: error: --stats: cannot write /dev/full: No space left on device
@@ -142,7 +142,7 @@ $ retex-render -q --size 8x6 --spp 2 -t ball ball.pov -o y.exr; retex-render -q 
 ! retex-render: error: --control goes with --replace: what is new in the picture?
 ! retex-render: error: --control y.exr: the set has seed 0 too: its noise must not be that of the new samples
 ! retex-render: error: --control-mode knows unbiased, halves and biased, not `magic`
-! retex-render: error: the output y.exr would replace the input
+! retex-render: error: y.exr: the output would replace the set of --control
 = 2
 $ retex-render -q --size 8x6 --spp 2 --plain --control-data unbiased ball.pov -o y.exr; retex-info --check y.exr; retex-render -q --size 8x6 --spp 2 --control y.exr --replace 'ball=rgb(1,0,0)' ball.pov -o y.png
 > y.exr: ok
@@ -161,7 +161,7 @@ $ { echo output,floor; for k in $(seq 17); do echo "v$k.exr,\"rgb(0.$k,0.5,0)\""
 # Likewise where the lights are meshes, with more samples than go side by side.
 $ printf 'output,Floor\nv1.exr,scenes/textures/brick.jpg\nv2.exr,\n' >mesh.csv; for s in living-room glass-caustics; do set -- --size 32x24 --spp 70 scenes/$s/$s.pov; retex-render -q --variants mesh.csv "$@"; retex-render -q --replace Floor=scenes/textures/brick.jpg "$@" -o w1.exr; retex-render -q --plain "$@" -o w2.exr; for k in 1 2; do cmp v$k.exr w$k.exr; done; done; rm mesh.csv v1.exr v2.exr w1.exr w2.exr
 $ printf 'output,floor\nscenes/cornell-box/cornell-box.pov,\n' | retex-render -q --variants - scenes/cornell-box/cornell-box.pov; printf 'output,floor\nx.png,none.jpg\n' | retex-render -q --variants - --size 8x6 scenes/cornell-box/cornell-box.pov; printf 'output,floor\nx.nothing,\n' | retex-render -q --variants - scenes/cornell-box/cornell-box.pov; printf 'output,nope\n' | retex-render -q --variants - scenes/cornell-box/cornell-box.pov; printf 'output,nope\n' | retex-render -q -t floor --variants - scenes/cornell-box/cornell-box.pov; printf 'output,floor\n' | retex-render -q --variants - scenes/cornell-box/cornell-box.pov -o x.exr
-! retex-render: error: the output scenes/cornell-box/cornell-box.pov would replace the input
+! retex-render: error: standard input:2: scenes/cornell-box/cornell-box.pov: the output of the table's line 2 would replace the scene
 ! retex-render: error: standard input:2: cannot read none.jpg: No such file or directory
 ! retex-render: error: standard input:2: x.nothing: no picture format has the ending .nothing; try .png, .jpg, .tif, .exr or .hdr
 ! retex-render: error: no texture, pigment, material or object `nope` in the scene; there are: Floor, White, Red, Green

@@ -107,7 +107,7 @@ $ retex-sample -q two.exr --texture floor=brick.jpg -o x.png
 ! retex-sample: error: x.png: samples are an OpenEXR file, .exr; pictures are made by retex-combine
 = 2
 $ retex-sample -q two.exr --texture floor=brick.jpg -o brick.jpg
-! retex-sample: error: the output brick.jpg would replace the input
+! retex-sample: error: brick.jpg: the output would replace the texture
 = 2
 $ ls x.*
 ! ls: cannot access 'x.*': No such file or directory

@@ -1,0 +1,216 @@
+/* The files of a command, and whether one that it writes is one that it reads, or another that it writes: see cli.h. */
+#include "cli.h"
+
+#include <limits.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <retex/retex.h>
+
+/* What a path leads to. A file that is not there yet is known by the folder where it would be. */
+typedef struct Place {
+    dev_t device;
+    ino_t inode;
+    char name[PATH_MAX]; /* below that folder; "" of a file that is there */
+} Place;
+
+typedef struct File {
+    dev_t device;
+    ino_t inode;
+    char *name, *path, *what;
+    int written;
+} File;
+
+static struct {
+    File *slots; /* a hash table with open addressing; free where path is NULL */
+    size_t count, size;
+    char *standard[2]; /* what standard input and output are, once they are something */
+} files;
+
+enum { LINKS_MAX = 40 };
+
+/* Where a link that leads to nothing leads. */
+static void follow_links(char path[PATH_MAX])
+{
+    char target[PATH_MAX], joined[2 * PATH_MAX];
+    for (int links = 0; links < LINKS_MAX; links++) {
+        ssize_t length = readlink(path, target, sizeof target - 1);
+        if (length <= 0)
+            return;
+        target[length] = '\0';
+        const char *slash = target[0] == '/' ? NULL : strrchr(path, '/');
+        int used = snprintf(joined, sizeof joined, "%.*s%s", slash ? (int)(slash + 1 - path) : 0, path, target);
+        if (used >= PATH_MAX)
+            return;
+        memcpy(path, joined, (size_t)used + 1);
+    }
+}
+
+/* Append the components of text to name, without empty ones and `.`. */
+static void append_components(char name[PATH_MAX], const char *text)
+{
+    for (size_t used = strlen(name), length; *text; text += length) {
+        text += strspn(text, "/");
+        length = strcspn(text, "/");
+        if (!length || (length == 1 && *text == '.') || used + length + 2 > PATH_MAX)
+            continue;
+        name[used++] = '/';
+        memcpy(name + used, text, length);
+        name[used += length] = '\0';
+    }
+}
+
+/* The deepest folder of path that is there, and what is below it. */
+static int find_missing(Place *place, const char *text)
+{
+    char path[PATH_MAX];
+    struct stat info;
+    strcpy(path, text);
+    follow_links(path);
+    for (size_t end = strlen(path);;) {
+        while (end > 0 && path[end - 1] == '/')
+            end--;
+        while (end > 0 && path[end - 1] != '/')
+            end--;
+        char folder[PATH_MAX];
+        snprintf(folder, sizeof folder, "%.*s", (int)end, path);
+        if (stat(end ? folder : ".", &info) == 0) {
+            append_components(place->name, path + end);
+            place->device = info.st_dev;
+            place->inode = info.st_ino;
+            return place->name[0] != '\0';
+        }
+        if (!end)
+            return 0;
+    }
+}
+
+/* 0: a device, a pipe, a folder, or no path that could be opened: nothing that can be overwritten. */
+static int find_place(Place *place, const char *path, int written)
+{
+    struct stat info;
+    place->name[0] = '\0';
+    int standard = strcmp(path, "-") == 0;
+    if (!path[0] || strlen(path) >= PATH_MAX)
+        return 0;
+    if (standard ? fstat(written ? STDOUT_FILENO : STDIN_FILENO, &info) : stat(path, &info))
+        return !standard && find_missing(place, path);
+    place->device = info.st_dev;
+    place->inode = info.st_ino;
+    return S_ISREG(info.st_mode);
+}
+
+static uint64_t hash_place(const Place *place)
+{
+    uint64_t hash = (uint64_t)place->inode * 0x9e3779b97f4a7c15u ^ (uint64_t)place->device;
+    for (const char *c = place->name; *c; c++)
+        hash = (hash ^ (unsigned char)*c) * 0x100000001b3u;
+    return hash ^ hash >> 32;
+}
+
+/* The slot of that place, or the free one where it would be. */
+static File *find_slot(const Place *place)
+{
+    for (size_t k = hash_place(place) & (files.size - 1);; k = (k + 1) & (files.size - 1)) {
+        File *file = &files.slots[k];
+        if (!file->path || (file->inode == place->inode && file->device == place->device &&
+                            strcmp(file->name, place->name) == 0))
+            return file;
+    }
+}
+
+static int grow(void)
+{
+    if (2 * (files.count + 1) <= files.size)
+        return 1;
+    File *old = files.slots, *more = calloc(files.size ? 2 * files.size : 64, sizeof *more);
+    size_t count = files.size;
+    if (!more)
+        return 0;
+    files.slots = more;
+    files.size = count ? 2 * count : 64;
+    for (size_t k = 0; k < count; k++)
+        if (old[k].path) {
+            Place place = {old[k].device, old[k].inode, ""};
+            strcpy(place.name, old[k].name);
+            *find_slot(&place) = old[k];
+        }
+    free(old);
+    return 1;
+}
+
+static int out_of_memory(RetexError *err)
+{
+    return retex_fail(err, RETEX_ENOMEM, "not enough memory for the list of files");
+}
+
+/* Standard input and output are there once, whatever they are. */
+static int add_standard(const char *what, int written, RetexError *err)
+{
+    char **user = &files.standard[written];
+    if (*user)
+        return retex_fail(err, RETEX_EINVAL, "%s and %s cannot both be standard %s", *user, what,
+                          written ? "output" : "input");
+    *user = strdup(what);
+    return *user ? RETEX_OK : out_of_memory(err);
+}
+
+static const char *shown(const char *path, int written)
+{
+    return strcmp(path, "-") ? path : written ? "standard output" : "standard input";
+}
+
+static int conflict(const File *old, const char *what, const char *path, int written, RetexError *err)
+{
+    if (old->written && written)
+        return retex_fail(err, RETEX_EINVAL, "%s: %s and %s are the same file", shown(path, 1), old->what, what);
+    const char *output = shown(written ? path : old->path, 1), *input = shown(written ? old->path : path, 0);
+    int same = strcmp(output, input) == 0;
+    return retex_fail(err, RETEX_EINVAL, "%s: %s would replace %s%s%s", output, written ? what : old->what,
+                      written ? old->what : what, same ? "" : ", ", same ? "" : input);
+}
+
+static int add_file(const char *what, const char *path, int written, RetexError *err)
+{
+    Place place;
+    int code = path && strcmp(path, "-") == 0 ? add_standard(what, written, err) : RETEX_OK;
+    if (code || !path || !find_place(&place, path, written))
+        return code;
+    if (!grow())
+        return out_of_memory(err);
+    File *file = find_slot(&place);
+    if (file->path)
+        return written || file->written ? conflict(file, what, path, written, err) : RETEX_OK;
+    *file = (File){place.device, place.inode, strdup(place.name), strdup(path), strdup(what), written};
+    files.count++;
+    return file->name && file->path && file->what ? RETEX_OK : out_of_memory(err);
+}
+
+int cli_add_input(const char *what, const char *path, RetexError *err)
+{
+    return add_file(what, path, 0, err);
+}
+
+int cli_add_output(const char *what, const char *path, RetexError *err)
+{
+    int code = add_file("the OpenColorIO configuration", getenv("OCIO"), 0, err); /* of any picture */
+    return code ? code : add_file(what, path, 1, err);
+}
+
+void cli_reads(const Cli *cli, const char *what, const char *path)
+{
+    RetexError err = {0};
+    if (cli_add_input(what, path, &err))
+        cli_fail(cli, &err);
+}
+
+void cli_writes(const Cli *cli, const char *what, const char *path)
+{
+    RetexError err = {0};
+    if (cli_add_output(what, path, &err))
+        cli_fail(cli, &err);
+}
