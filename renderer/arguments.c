@@ -205,8 +205,10 @@ static void parse_option(Arguments *a, const CliOption *o)
 static void scene_message(void *context, int level, const char *text)
 {
     const Cli *cli = context;
-    if (level > 0 || cli->verbose)
-        cli_info(cli, "%s", text);
+    if (level > 0) /* a warning, -q or not; the text says so */
+        cli_message(cli, text);
+    else
+        cli_detail(cli, "%s", text);
 }
 
 static void progress(void *context, double done)

@@ -284,6 +284,8 @@ int main(int argc, char **argv)
     if (job_open_scene(&scene, a.scene, &a.sdl, a.targets, a.ntargets, &err))
         cli_fail(&cli, &err);
     announce_files_of_scene(&a, scene);
+    if (!a.list)
+        job_warn_dark(scene, &a.sdl);
     check_targets(&a, scene);
     if (!a.list && job_check_memory(scene, &a.render, &err))
         cli_fail(&cli, &err);

@@ -289,6 +289,11 @@ void cli_warn(const Cli *cli, const char *fmt, ...)
     va_end(args);
 }
 
+void cli_message(const Cli *cli, const char *text)
+{
+    message(cli, "", text);
+}
+
 void cli_info(const Cli *cli, const char *fmt, ...)
 {
     if (cli->quiet)

@@ -49,6 +49,7 @@ void cli_error(const Cli *cli, const RetexError *err);
 void cli_warn(const Cli *cli, const char *fmt, ...) RETEX_PRINTF(2, 3);
 void cli_info(const Cli *cli, const char *fmt, ...) RETEX_PRINTF(2, 3);   /* unless -q */
 void cli_detail(const Cli *cli, const char *fmt, ...) RETEX_PRINTF(2, 3); /* with -v */
+void cli_message(const Cli *cli, const char *text);                       /* as it is, -q or not */
 _Noreturn void cli_die(const Cli *cli, const char *fmt, ...) RETEX_PRINTF(2, 3);    /* usage error: exit 2 */
 _Noreturn void cli_fail(const Cli *cli, const RetexError *err);                     /* cli_error and exit 2 */
 

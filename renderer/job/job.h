@@ -26,6 +26,9 @@ int job_open_scene(Scene **scene, const char *path, const SdlOptions *sdl, const
  * mistake. */
 int job_target_is_empty(const Scene *scene, int t);
 
+/* A warning, through the message of sdl, where nothing in the scene gives light. */
+void job_warn_dark(const Scene *scene, const SdlOptions *sdl);
+
 /* RETEX_ENOMEM where the images of a render take more memory than the machine has. */
 int job_check_memory(const Scene *scene, const RenderParams *render, RetexError *err);
 

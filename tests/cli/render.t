@@ -69,7 +69,7 @@ $ echo old >old.exr; retex-render bad.pov -o old.exr 2>/dev/null; cat old.exr; l
 > scenes
 
 # What can be seen to fail is seen before the rendering, which at this size would take minutes.
-$ printf 'camera { location -5*z }\n#declare Ball = texture { pigment { rgb 1 } }\nsphere { 0, 1 texture { Ball } }\n' >ball.pov; rm -f err; set -- --size 2000x2000 --spp 4096 ball.pov; timeout 5 retex-render "$@" -o nowhere/x.exr; timeout 5 retex-render "$@" -o nowhere/x.png; timeout 5 retex-render "$@" -o x.xyz; timeout 5 retex-render "$@" -o noending; timeout 5 retex-render "$@" -o ball.pov; timeout 5 retex-render "$@" -o x.exr --stats nowhere/x.json
+$ printf 'camera { location -5*z }\n#declare Ball = texture { pigment { rgb 1 } }\nsphere { 0, 1 texture { Ball } } light_source { -9*z rgb 1 }\n' >ball.pov; rm -f err; set -- --size 2000x2000 --spp 4096 ball.pov; timeout 5 retex-render "$@" -o nowhere/x.exr; timeout 5 retex-render "$@" -o nowhere/x.png; timeout 5 retex-render "$@" -o x.xyz; timeout 5 retex-render "$@" -o noending; timeout 5 retex-render "$@" -o ball.pov; timeout 5 retex-render "$@" -o x.exr --stats nowhere/x.json
 ! retex-render: error: cannot write nowhere/x.exr: No such file or directory
 ! retex-render: error: cannot write nowhere/x.png: No such file or directory
 ! retex-render: error: x.xyz: no picture format has the ending .xyz; try .png, .jpg, .tif, .exr or .hdr

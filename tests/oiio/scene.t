@@ -79,3 +79,5 @@ $ for f in bad empty zero nothing none self; do iinfo $f.pov; oiiotool $f.pov -o
 # What is strange in a scene is told.
 $ printf 'camera { location -3*z }\nlight_source { -9*z rgb 1 }\nsphere { 0, 1 pigment { rgb 1 } }\n#warning "mind"\n' >c.pov; iinfo -v 'c.pov?spp=1&size=8x6' | grep warnings
 >     retex:warnings: "c.pov:4: warning: mind"
+$ printf 'camera { location -3*z }\nsphere { 0, 1 pigment { rgb 1 } finish { ambient 0 } }\n' >dark.pov; iinfo -v 'dark.pov?spp=1&size=8x6' | grep warnings
+>     retex:warnings: "dark.pov: warning: no light source, nothing that shines and no sky: the picture will be black"

@@ -1,0 +1,68 @@
+/* Whether a scene has anything that gives light. A picture that is black by mistake takes as long as a good one. */
+#include <stdio.h>
+#include "job/job.h"
+#include "light/lights.h"
+
+static int texture_is(const Texture *texture, int (*has)(const Finish *))
+{
+    return texture && has(texture->finish);
+}
+
+static int emits(const Finish *finish)
+{
+    return !rgb_is_black(finish->emission);
+}
+
+static int is_ambient(const Finish *finish)
+{
+    return !rgb_is_black(finish->ambient);
+}
+
+/* Whether a surface of the scene, inner sides and faces of meshes included, has it. */
+static int any_surface(const Scene *scene, int (*has)(const Finish *))
+{
+    for (int k = 0; k < scene->nprimitives; k++) {
+        const Primitive *p = &scene->primitives[k];
+        if (texture_is(p->texture, has) || texture_is(p->interior_texture, has))
+            return 1;
+        for (int f = 0; p->kind == SHAPE_MESH && f < p->mesh->ntextures; f++)
+            if (texture_is(p->mesh->textures[f], has))
+                return 1;
+    }
+    return 0;
+}
+
+static int any_light_source(const Scene *scene)
+{
+    for (int k = 0; k < scene->nlights; k++)
+        if (!rgb_is_black(scene->lights[k].color))
+            return 1;
+    return 0;
+}
+
+/* The sky's own table tells: pigments may be black here and there. */
+static int any_sky(const Scene *scene)
+{
+    Environment *environment = NULL;
+    int found = environment_create(&environment, scene, NULL) != RETEX_OK || environment;
+    environment_close(&environment);
+    return found;
+}
+
+void job_warn_dark(const Scene *scene, const SdlOptions *sdl)
+{
+    char text[sizeof scene->path + 256];
+    const char *why = NULL, *advice = "";
+    int source = any_light_source(scene);
+    if (!scene->nprimitives)
+        why = "no object and no sky";
+    else if (!source && !any_surface(scene, emits))
+        why = scene->nlights ? "its light sources are black, nothing shines and there is no sky"
+                             : "no light source, nothing that shines and no sky";
+    if (!why || !sdl->message || any_sky(scene))
+        return;
+    if (scene->nprimitives && !sdl->ambient && !rgb_is_black(scene->ambient_light) && any_surface(scene, is_ambient))
+        advice = "; `ambient` gives light with --ambient only";
+    snprintf(text, sizeof text, "%s: warning: %s: the picture will be black%s", scene->path, why, advice);
+    sdl->message(sdl->message_context, 1, text);
+}
