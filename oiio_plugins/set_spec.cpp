@@ -84,6 +84,12 @@ OIIO::ImageSpec part_spec(const RetexSet &set, int index)
         spec.attribute("retex:target", set.targets[role.target].name);
     if (spec.nchannels == 3)
         spec.attribute("oiio:ColorSpace", "Linear");
+    // As in the set's own file.
+    static const float rec709[8] = {0.64f, 0.33f, 0.3f, 0.6f, 0.15f, 0.06f, 0.3127f, 0.329f};
+    bool color = retex_set_part_is_color(&set, index);
+    spec.attribute("colorInteropID", color ? "lin_rec709_scene" : "data");
+    if (color)
+        spec.attribute("chromaticities", OIIO::TypeDesc(OIIO::TypeDesc::FLOAT, 8), rec709);
     return spec;
 }
 

@@ -115,8 +115,9 @@ static int write_guide(const RetexSet *set, const char *folder, int k, RetexErro
     char path[4096];
     RetexImage shown = {0};
     RetexWriteParams params = RETEX_WRITE_INIT;
+    params.is_data = guide_table[k].colorspace && !strcmp(guide_table[k].colorspace, "raw");
     guides_path(path, sizeof path, folder, 2 * k);
-    int code = retex_image_write(image, path, NULL, err);
+    int code = retex_image_write(image, path, &params, err);
     if (!code)
         code = guide_table[k].colored ? color_numbers(&shown, image, err) : retex_image_copy(&shown, image, err);
     if (!code && guide_table[k].encode)

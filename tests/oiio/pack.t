@@ -6,9 +6,13 @@ $ retex-combine -q room.retex -o plain.exr; retex-combine -q room.retex --textur
 # Its picture, the parts of its set by name, and what is told of them.
 $ iinfo room.retex
 > room.retex :   48 x   32, 3 channel, float retex (98 subimages)
-$ iinfo -v -a room.retex | grep -A 12 'subimage  1:' | sort
+$ iinfo -v -a room.retex | grep -A 16 'subimage  1:' | sort
 >     channel list: indep.R, indep.G, indep.B
 >     channel list: original_Floor.R, original_Floor.G, original_Floor.B
+>     chromaticities: 0.64, 0.33, 0.3, 0.6, 0.15, 0.06, 0.3127, 0.329
+>     chromaticities: 0.64, 0.33, 0.3, 0.6, 0.15, 0.06, 0.3127, 0.329
+>     colorInteropID: "lin_rec709_scene"
+>     colorInteropID: "lin_rec709_scene"
 >     full/display origin: 0, 0
 >     full/display size: 48 x 32
 >     oiio:ColorSpace: "Linear"
@@ -23,6 +27,8 @@ $ iinfo -v -a room.retex | grep -A 12 'subimage  1:' | sort
 $ iinfo -v room.retex | grep -v 'retex: \|subimages' | sort
 >     Software: "retex-render 0.1.0"
 >     channel list: R, G, B
+>     chromaticities: 0.64, 0.33, 0.3, 0.6, 0.15, 0.06, 0.3127, 0.329
+>     colorInteropID: "lin_rec709_scene"
 >     oiio:ColorSpace: "Linear"
 >     oiio:subimagename: "beauty"
 >     retex:layout: "footprints"

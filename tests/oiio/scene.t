@@ -5,6 +5,8 @@ $ cp -r "$SCENES/cornell-box/." .; mv cornell-box.pov box.pov; cp "$SCENES/textu
 # A picture alone is known before it is rendered.
 $ iinfo -v 'box.pov?spp=2&width=32&seed=7' | sort
 >     channel list: R, G, B
+>     chromaticities: 0.64, 0.33, 0.3, 0.6, 0.15, 0.06, 0.3127, 0.329
+>     colorInteropID: "lin_rec709_scene"
 >     oiio:ColorSpace: "Linear"
 >     oiio:subimagename: "beauty"
 >     retex:layout: "plain"

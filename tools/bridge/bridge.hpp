@@ -37,6 +37,8 @@ Transform transform_to_display(const std::string &display, const std::string &vi
 // Whether that is plain sRGB of our own configuration; and the same of a colour space.
 bool display_is_srgb(const std::string &display, const std::string &view);
 bool colorspace_is_srgb(const std::string &colorspace);
+// What can be told of a colour space's colours, into the fields of stored that are about them.
+void describe_colorspace(const std::string &colorspace, RetexBridgeStored &stored);
 // From values encoded with a plain power law (PNG's gAMA) to scene-linear.
 Transform transform_from_gamma(float gamma);
 // From sRGB of that many levels (256 or 65536), each level exact; for floats that are level / (levels - 1).

@@ -4,6 +4,7 @@
 #include "bridge.hpp"
 
 #include <cmath>
+#include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <memory>
@@ -95,8 +96,8 @@ bool is_name(const char *a, const char *b)
 // What a configuration calls scene-linear Rec.709; its scene_linear role where it has no such space.
 std::string linear_name(const OCIO::ConstConfigRcPtr &config)
 {
-    for (const char *name : {"Linear Rec.709 (sRGB)", "Linear Rec.709", "lin_rec709", "lin_rec709_srgb", "lin_srgb",
-                             "Utility - Linear - Rec.709", "Utility - Linear - sRGB"})
+    for (const char *name : {"lin_rec709_scene", "Linear Rec.709 (sRGB)", "Linear Rec.709", "lin_rec709",
+                             "lin_rec709_srgb", "lin_srgb", "Utility - Linear - Rec.709", "Utility - Linear - sRGB"})
         if (config->getColorSpace(name))
             return name;
     return OCIO::ROLE_SCENE_LINEAR;
@@ -144,6 +145,60 @@ Transform between(const OCIO::ConstConfigRcPtr &config, const std::string &name,
     }
     return from_processor(inward ? config->getProcessor(name.c_str(), linear.c_str())
                                  : config->getProcessor(linear.c_str(), name.c_str()));
+}
+
+// Whether the configuration says where its colours lie against Rec.709; else its scene-linear space is taken for that.
+bool knows_rec709(const OCIO::ConstConfigRcPtr &config)
+{
+    return config == configurations().own || linear_name(config) != OCIO::ROLE_SCENE_LINEAR ||
+           config->hasRole("aces_interchange");
+}
+
+// Interop IDs of the Color Interop Forum and, with "ocio:", of OpenColorIO's configurations.
+const char *const interop_ids[] = {
+    "lin_rec709_scene",       "lin_ap1_scene",         "lin_ap0_scene",     "lin_p3d65_scene",  "lin_rec2020_scene",
+    "lin_adobergb_scene",     "lin_ciexyzd65_scene",   "srgb_rec709_scene", "g22_rec709_scene", "g18_rec709_scene",
+    "g24_rec709_scene",       "srgb_ap1_scene",        "g22_ap1_scene",     "srgb_p3d65_scene", "g22_adobergb_scene",
+    "ocio:acescct_ap1_scene", "ocio:acescc_ap1_scene",
+};
+
+// The ID that is the name of the space or one of its aliases.
+std::string find_interop(const OCIO::ConstConfigRcPtr &config, const std::string &name)
+{
+    OCIO::ConstColorSpaceRcPtr space = config->getColorSpace(name.c_str());
+    if (space->isData())
+        return "data";
+    for (const char *id : interop_ids) {
+        OCIO::ConstColorSpaceRcPtr called = config->getColorSpace(id);
+        if (called && std::strcmp(called->getName(), space->getName()) == 0)
+            return id;
+    }
+    return "";
+}
+
+// The matrix that a transform is, if it is one: looked at where a curve or a table would show.
+bool find_matrix(const Transform &transform, double matrix[3][3])
+{
+    const int sizes = 4;
+    const float size[sizes] = {1, 0.01f, 0.3f, 8};
+    std::vector<float> pixels((1 + 4 * sizes) * 4, 0.0f);
+    for (int k = 0; k < 4 * sizes; k++) // three axes and grey
+        for (int c = 0; c < 3; c++)
+            pixels[4 * (1 + k) + c] = k % 4 == 3 || k % 4 == c ? size[k / 4] : 0;
+    if (transform)
+        transform(pixels.data(), long(pixels.size() / 4));
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++)
+            matrix[i][j] = pixels[4 * (1 + j) + i];
+    for (int k = -1; k < 4 * sizes; k++)
+        for (int i = 0; i < 3; i++) {
+            double expected = 0, scale = k < 0 ? 0 : size[k / 4];
+            for (int j = 0; j < 3 && k >= 0; j++)
+                expected += k % 4 == 3 || k % 4 == j ? matrix[i][j] * scale : 0;
+            if (!(std::fabs(pixels[4 * (1 + k) + i] - expected) <= 1e-4 * scale + 1e-7))
+                return false;
+        }
+    return true;
 }
 
 std::string list_displays(const OCIO::ConstConfigRcPtr &config)
@@ -235,6 +290,16 @@ Transform transform_to_display(const std::string &display, const std::string &vi
         };
     }
     return from_processor(config->getProcessor(step));
+}
+
+void describe_colorspace(const std::string &colorspace, RetexBridgeStored &stored)
+{
+    OCIO::ConstConfigRcPtr config = config_with(colorspace);
+    if (!knows_rec709(config))
+        return;
+    std::snprintf(stored.interop, sizeof stored.interop, "%s", find_interop(config, colorspace).c_str());
+    stored.is_linear =
+        std::strcmp(stored.interop, "data") != 0 && find_matrix(transform_to(colorspace), stored.from_rec709);
 }
 
 bool colorspace_is_srgb(const std::string &colorspace)

@@ -41,7 +41,8 @@ active_views: [Standard, Raw]
 colorspaces:
   - !<ColorSpace>
     name: Linear Rec.709
-    aliases: [linear, lin_rec709, lin_srgb, lin_rec709_srgb, "Linear Rec.709 (sRGB)", "Utility - Linear - sRGB"]
+    aliases: [linear, lin_rec709_scene, lin_rec709, lin_srgb, lin_rec709_srgb,
+      "Linear Rec.709 (sRGB)", "Utility - Linear - sRGB"]
     family: scene-linear
     bitdepth: 32f
     description: Scene-linear, Rec.709 primaries, D65 white
@@ -52,7 +53,8 @@ colorspaces:
 
   - !<ColorSpace>
     name: sRGB
-    aliases: [srgb, srgb_tx, srgb_texture, "sRGB - Texture", "Utility - sRGB - Texture", "sRGB Encoded Rec.709 (sRGB)"]
+    aliases: [srgb, srgb_rec709_scene, srgb_tx, srgb_texture,
+      "sRGB - Texture", "Utility - sRGB - Texture", "sRGB Encoded Rec.709 (sRGB)"]
     family: display
     bitdepth: 8ui
     description: IEC 61966-2-1, the piecewise curve
@@ -74,7 +76,7 @@ colorspaces:
 
   - !<ColorSpace>
     name: ACES2065-1
-    aliases: [aces2065_1, lin_ap0, "ACES - ACES2065-1"]
+    aliases: [aces2065_1, lin_ap0_scene, lin_ap0, "ACES - ACES2065-1"]
     family: ACES
     bitdepth: 32f
     description: Scene-linear, ACES AP0 primaries
@@ -89,7 +91,7 @@ colorspaces:
 
   - !<ColorSpace>
     name: ACEScg
-    aliases: [acescg, lin_ap1, "ACES - ACEScg"]
+    aliases: [acescg, lin_ap1_scene, lin_ap1, "ACES - ACEScg"]
     family: ACES
     bitdepth: 32f
     description: Scene-linear, ACES AP1 primaries
@@ -101,7 +103,7 @@ colorspaces:
 
   - !<ColorSpace>
     name: ACEScct
-    aliases: [acescct, "ACES - ACEScct"]
+    aliases: [acescct, "ocio:acescct_ap1_scene", "ACES - ACEScct"]
     family: ACES
     bitdepth: 32f
     description: Logarithmic with a toe, ACES AP1 primaries

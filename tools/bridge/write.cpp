@@ -260,11 +260,13 @@ std::unique_ptr<RetexBridgePlan> make_plan(const char *path, int width, int heig
 
 RetexBridgeStored describe_stored(const RetexBridgePlan &plan, const RetexWriteParams &params)
 {
-    RetexBridgeStored stored;
+    RetexBridgeStored stored{};
     stored.channels = plan.stored;
     stored.bits = plan.depth == Depth::Eight ? 8 : plan.depth == Depth::Sixteen ? 16 : 32;
     stored.is_srgb = encodes_srgb(params, plan.depth) && plan.stored <= plan.channels && !plan.multiply_codes &&
                      !(plan.multiply_light && plan.stored == 4);
+    if (plan.depth == Depth::Half && plan.names_colorspace)
+        describe_colorspace(params.colorspace, stored);
     return stored;
 }
 

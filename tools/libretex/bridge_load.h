@@ -43,6 +43,10 @@ typedef struct RetexBridgeStored {
     int channels; /* fewer than the picture has where the format knows no alpha */
     int bits;     /* a sample: 8, 16, or 32 for floats */
     int is_srgb;  /* colours are shown as plain sRGB, alpha apart or lost: whoever knows the curve may store them */
+    /* Of params->colorspace, as far as the configuration tells: */
+    char interop[64];          /* the interop ID that the space has as its name or an alias, "data", or "" */
+    int is_linear;             /* 1: a linear space, and this leads to it from scene-linear Rec.709: */
+    double from_rec709[3][3];
 } RetexBridgeStored;
 
 int retex_bridge_plan(RetexBridgePlan **plan, RetexBridgeStored *stored, const char *path, int width, int height,
@@ -71,7 +75,7 @@ typedef struct RetexBridgeHost {
     void (*free)(void *block);
 } RetexBridgeHost;
 
-#define RETEX_BRIDGE_ABI 3
+#define RETEX_BRIDGE_ABI 4
 typedef int RetexBridgeAbi(void);
 typedef int RetexBridgeRead(const RetexBridgeHost *host, RetexImage *dst, const char *path, const char *colorspace,
                             long max_pixels, RetexError *err);

@@ -9,6 +9,7 @@
 #include <retex/image.h>
 #include <retex/set.h>
 
+#include "color_tag.h"
 #include "exr_chunk.h"
 #include "input.h"
 
@@ -26,6 +27,7 @@ typedef struct RetexExrPart {
     const RetexSpool *spool;       /* where the pixels are if image has none, */
     int spooled;                   /* under this number */
     uint32_t crc;                  /* filled by retex_exr_encode: see RetexPart */
+    const RetexColorTag *color;    /* what its header says of its colours, or NULL; borrowed as image is */
 } RetexExrPart;
 
 /* All chunks of a file, converted and compressed, in memory or still in a spool: checksums are known before the header
@@ -65,6 +67,8 @@ int retex_exr_has_channel(const RetexExr *exr, int part, const char *channel);
 int retex_exr_channel_type(const RetexExr *exr, int part, const char *channel, RetexPixelType *type); /* 0: another */
 /* Value of a string attribute, owned by exr; NULL where there is none. */
 const char *retex_exr_attribute(const RetexExr *exr, int part, const char *name);
+/* What the part's header says of its colours; all 0 where that is nothing. */
+void retex_exr_color_tag(const RetexExr *exr, int part, RetexColorTag *tag);
 
 /* Channels of one part to be read into an image that has the part's size. Channel i of the image gets channels[i];
  * "" leaves it as it is. */

@@ -210,6 +210,31 @@ const char *retex_exr_attribute(const RetexExr *exr, int part, const char *name)
     return text;
 }
 
+void retex_exr_color_tag(const RetexExr *exr, int part, RetexColorTag *tag)
+{
+    const exr_attribute_t *attribute;
+    exr_attr_chromaticities_t c;
+    int32_t is_aces = 0;
+
+    *tag = (RetexColorTag){.interop = ""};
+    if (!exr_get_attribute_by_name(exr->context, part, "acesImageContainerFlag", &attribute) &&
+        attribute->type == EXR_ATTR_INT && !exr_attr_get_int(exr->context, part, "acesImageContainerFlag", &is_aces) &&
+        is_aces == 1) {
+        *tag = *retex_color_tag_find("lin_ap0_scene");
+        return;
+    }
+    const char *interop = retex_exr_attribute(exr, part, "colorInteropID");
+    if (interop && strlen(interop) < sizeof tag->interop)
+        strcpy(tag->interop, interop);
+    if (!exr_get_attribute_by_name(exr->context, part, "chromaticities", &attribute) &&
+        attribute->type == EXR_ATTR_CHROMATICITIES &&
+        !exr_attr_get_chromaticities(exr->context, part, "chromaticities", &c)) {
+        const float values[8] = {c.red_x, c.red_y, c.green_x, c.green_y, c.blue_x, c.blue_y, c.white_x, c.white_y};
+        memcpy(tag->chromaticities, values, sizeof values);
+        tag->has_chromaticities = 1;
+    }
+}
+
 /* Some rows of chunks of one request. */
 typedef struct Job {
     ExrPlan *plan;

@@ -355,6 +355,19 @@ static int plan_table(Sink *sink, const RetexExrEncoding *encoding, RetexError *
     return 0;
 }
 
+static exr_result_t declare_color(exr_context_t context, int part, const RetexColorTag *tag)
+{
+    const float *c = tag->chromaticities;
+    const exr_attr_chromaticities_t chromaticities = {c[0], c[1], c[2], c[3], c[4], c[5], c[6], c[7]};
+    exr_result_t code = EXR_ERR_SUCCESS;
+
+    if (tag->has_chromaticities)
+        code = exr_attr_set_chromaticities(context, part, "chromaticities", &chromaticities);
+    if (!code && tag->interop[0])
+        code = exr_attr_set_string(context, part, "colorInteropID", tag->interop);
+    return code;
+}
+
 static exr_result_t declare_part(exr_context_t context, const RetexExrEncoding *encoding, int index,
                                  const exr_attr_box2i_t *display)
 {
@@ -378,6 +391,8 @@ static exr_result_t declare_part(exr_context_t context, const RetexExrEncoding *
         code = exr_add_channel(context, number, channel, part->type == RETEX_HALF ? EXR_PIXEL_HALF : EXR_PIXEL_FLOAT,
                                EXR_PERCEPTUALLY_LOGARITHMIC, 1, 1);
     }
+    if (!code && part->color)
+        code = declare_color(context, number, part->color);
     return code;
 }
 

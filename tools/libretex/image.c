@@ -142,6 +142,45 @@ static int check_pixels(int width, int height, long max_pixels, const char *name
     return 0;
 }
 
+/* What is done with an EXR's colours, by what it says of them. */
+typedef struct ExrColors {
+    const char *colorspace; /* "" = they are linear, and where converted this leads to Rec.709: */
+    int converted;
+    double matrix[3][3];
+    RetexColorTag tag;
+} ExrColors;
+
+/* The interop ID goes before the chromaticities, which stand where it is not known. A file that says nothing is
+ * scene-linear Rec.709, and data are left alone. */
+static void choose_colors(ExrColors *colors, const RetexExr *exr, int is_unknown)
+{
+    const RetexColorTag *tag = &colors->tag;
+
+    *colors = (ExrColors){.colorspace = ""};
+    retex_exr_color_tag(exr, 0, &colors->tag);
+    const RetexColorTag *known = retex_color_tag_find(tag->interop);
+    const int named = !is_unknown && tag->interop[0] && strcmp(tag->interop, "unknown") != 0;
+    if (known)
+        colors->converted = retex_color_tag_to_rec709(known->chromaticities, colors->matrix) == 1;
+    else if (named && strcmp(tag->interop, "data") != 0)
+        colors->colorspace = tag->interop;
+    else if (!named && tag->has_chromaticities)
+        colors->converted = retex_color_tag_to_rec709(tag->chromaticities, colors->matrix) == 1;
+}
+
+static void convert_colors(RetexImage *image, const ExrColors *colors)
+{
+    const size_t count = (size_t)image->width * (size_t)image->height;
+    const double(*m)[3] = colors->matrix;
+
+    for (size_t i = 0; i < count && colors->converted; i++) {
+        float *p = image->pixels + 4 * i;
+        const double r = p[0], g = p[1], b = p[2];
+        for (int c = 0; c < 3; c++)
+            p[c] = (float)(m[c][0] * r + m[c][1] * g + m[c][2] * b);
+    }
+}
+
 /* Read an open EXR. RETEX_EUNSUPPORTED: whole and sound, but not for this reader. */
 static int read_exr(RetexImage *dst, RetexExr *exr, const char *name, long max_pixels, RetexError *err)
 {
@@ -173,6 +212,39 @@ static int read_exr(RetexImage *dst, RetexExr *exr, const char *name, long max_p
     return 0;
 }
 
+/* An EXR of linear colours here, if it can be; else by the bridge. */
+static int read_in_space(RetexImage *dst, RetexExr *exr, const RetexInput *input, const char *path,
+                         const char *colorspace, long max_pixels, RetexError *err)
+{
+    const int standard_input = strcmp(path, "-") == 0;
+    int status = RETEX_EUNSUPPORTED;
+
+    if (retex_names_linear(colorspace))
+        status = read_exr(dst, exr, retex_input_name(input), max_pixels, err);
+    else if (standard_input)
+        retex_fail(err, status, "standard input is read as scene-linear only, not %s", colorspace);
+    if (status == RETEX_EUNSUPPORTED && !standard_input)
+        status = retex_bridge_read(dst, path, colorspace, max_pixels, err);
+    return status;
+}
+
+/* An EXR in the space that it says itself, as far as that is known. */
+static int read_tagged(RetexImage *dst, RetexExr *exr, const RetexInput *input, const char *path, long max_pixels,
+                       RetexError *err)
+{
+    ExrColors colors;
+
+    choose_colors(&colors, exr, 0);
+    int status = read_in_space(dst, exr, input, path, colors.colorspace, max_pixels, err);
+    if (status == RETEX_ENOTFOUND && colors.colorspace[0]) {
+        choose_colors(&colors, exr, 1);
+        status = read_in_space(dst, exr, input, path, colors.colorspace, max_pixels, err);
+    }
+    if (!status)
+        convert_colors(dst, &colors);
+    return status;
+}
+
 int retex_image_read(RetexImage *dst, const char *path, const char *colorspace, long max_pixels, RetexError *err)
 {
     const int standard_input = strcmp(path, "-") == 0;
@@ -189,14 +261,11 @@ int retex_image_read(RetexImage *dst, const char *path, const char *colorspace, 
         return retex_bridge_read(dst, path, colorspace, max_pixels, err);
     }
     status = retex_exr_open(&exr, input, err);
-    if (!status && !retex_names_linear(colorspace))
-        status = retex_fail(err, RETEX_EUNSUPPORTED, "standard input is read as scene-linear only, not %s", colorspace);
     if (!status)
-        status = read_exr(dst, exr, retex_input_name(input), max_pixels, err);
+        status = colorspace && colorspace[0] ? read_in_space(dst, exr, input, path, colorspace, max_pixels, err)
+                                             : read_tagged(dst, exr, input, path, max_pixels, err);
     retex_exr_close(&exr);
     retex_input_close(&input);
-    if (status == RETEX_EUNSUPPORTED && !standard_input)
-        status = retex_bridge_read(dst, path, colorspace, max_pixels, err);
     return status;
 }
 

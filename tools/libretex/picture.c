@@ -18,10 +18,16 @@ static const char *ending_of(const char *path)
     return dot ? dot + 1 : "";
 }
 
+/* Whether it is an EXR, and one that needs no OpenColorIO. */
 static int is_exr(const char *path, const RetexWriteParams *params)
 {
-    return retex_names_linear(params->colorspace) &&
-           (strcmp(path, "-") == 0 || strcasecmp(ending_of(path), "exr") == 0 || strncmp(path, "/dev/", 5) == 0);
+    return strcasecmp(ending_of(path), "exr") == 0 ||
+           (retex_names_linear(params->colorspace) && (strcmp(path, "-") == 0 || strncmp(path, "/dev/", 5) == 0));
+}
+
+static int is_linear_exr(const char *path, const RetexWriteParams *params)
+{
+    return is_exr(path, params) && (params->is_data || retex_names_linear(params->colorspace));
 }
 
 /* The format of that ending, where it is one that is made here. */
@@ -60,16 +66,23 @@ static int check_params(const char *path, const RetexWriteParams *params, RetexE
     return 0;
 }
 
-static const RetexWriteParams default_params = RETEX_WRITE_INIT;
-
-int retex_image_write_check(const char *path, const RetexWriteParams *params, RetexError *err)
+/* What was given, and the defaults for what an older caller's struct has not. */
+static RetexWriteParams complete(const RetexWriteParams *given)
 {
-    if (!params)
-        params = &default_params;
+    RetexWriteParams params = RETEX_WRITE_INIT;
+
+    if (given)
+        memcpy(&params, given, given->size < sizeof params ? given->size : sizeof params);
+    return params;
+}
+
+int retex_image_write_check(const char *path, const RetexWriteParams *given, RetexError *err)
+{
+    const RetexWriteParams complete_params = complete(given), *params = &complete_params;
     int status = check_params(path, params, err);
     if (!status)
         status = retex_output_check(path, err);
-    if (status || is_exr(path, params) || (own_format(path) && has_own_colors(params)))
+    if (status || is_linear_exr(path, params) || (own_format(path) && has_own_colors(params)))
         return status;
     return retex_bridge_check(path, params, err);
 }
@@ -146,10 +159,10 @@ static void begin_loading(RetexPicture *picture)
 }
 
 int retex_picture_open(RetexPicture **result, const char *path, int width, int height, int channels,
-                       const RetexWriteParams *params, RetexError *err)
+                       const RetexWriteParams *given, RetexError *err)
 {
-    if (!params)
-        params = &default_params;
+    const RetexWriteParams complete_params = complete(given), *params = &complete_params;
+
     *result = NULL;
     int status = check_params(path, params, err);
     if (!status && (channels < 1 || channels > 4 || channels == 2))
@@ -165,7 +178,7 @@ int retex_picture_open(RetexPicture **result, const char *path, int width, int h
         return retex_fail(err, RETEX_ENOMEM, "no memory to write %s", path);
     const RetexPictureFormat *own = is_exr(path, params) ? &retex_picture_exr : own_format(path);
     picture->format = own ? own : &retex_picture_stored;
-    if (picture->format == &retex_picture_stored || (own != &retex_picture_exr && !has_own_colors(params)))
+    if (own == &retex_picture_exr ? !is_linear_exr(path, params) : !own || !has_own_colors(params))
         begin_loading(picture);
     status = picture->format->begin(picture, err);
     if (status)

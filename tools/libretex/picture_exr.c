@@ -1,5 +1,6 @@
-/* EXR of halves, scene-linear. The table of where chunks are comes before them: a file gets it in the end, where there
- * was room for it; to a pipe nothing goes before all is there. */
+/* EXR of halves, scene-linear unless a colour space is named, for which there is the bridge. The table of where chunks
+ * are comes before them: a file gets it in the end, where there was room for it; to a pipe nothing goes before all is
+ * there. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -11,8 +12,9 @@ enum { LEADER = 8, ENTRY = 8 }; /* bytes before a chunk: its first line, its siz
 typedef struct ExrMaker {
     RetexImage shape; /* no pixels */
     RetexExrPart part;
+    RetexColorTag color;        /* of part; known when the first band is made */
     RetexExrEncoding *encoding; /* for what is no file; or NULL, and: */
-    unsigned char *header;      /* up to the table */
+    unsigned char *header;      /* up to the table; made with the first band */
     size_t header_bytes;
     uint64_t *chunks; /* bytes of each */
     int nchunks;
@@ -28,26 +30,60 @@ static int exr_begin(RetexPicture *picture, RetexError *err)
     maker->shape = (RetexImage){picture->width, picture->height, picture->channels, NULL};
     maker->part = (RetexExrPart){.name = "beauty", .type = RETEX_HALF, .image = &maker->shape};
     strcpy(maker->part.letters, picture->channels == 1 ? "Y" : picture->channels == 3 ? "RGB" : "RGBA");
+    maker->color = picture->params.is_data ? retex_color_tag_data : retex_color_tag_rec709;
+    maker->part.color = &maker->color;
     if (!retex_output_is_file(picture->path))
         return retex_exr_encoding_open(&maker->encoding, &maker->part, strcmp(picture->path, "-") != 0, err);
     maker->nchunks = (picture->height + RETEX_CHUNK_LINES - 1) / RETEX_CHUNK_LINES;
     maker->chunks = calloc((size_t)maker->nchunks, sizeof *maker->chunks);
-    if (!maker->chunks)
-        return retex_fail(err, RETEX_ENOMEM, "no memory to write %s", picture->path);
-    return retex_exr_header(&maker->header, &maker->header_bytes, &maker->part, err);
+    return maker->chunks ? 0 : retex_fail(err, RETEX_ENOMEM, "no memory to write %s", picture->path);
 }
 
-/* Colours in an EXR are multiplied by alpha. */
-static float *associate(const float *rows, size_t pixels)
+/* What is known of the colours that the bridge makes. A name of the space goes before what its matrix is like. */
+static void tag_colors(RetexColorTag *tag, const RetexBridgeStored *stored)
 {
-    float *associated = malloc(pixels * 4 * sizeof *associated);
+    const RetexColorTag *known = retex_color_tag_find(stored->interop);
 
-    for (size_t i = 0; associated && i < pixels; i++) {
+    if (!known && !stored->interop[0] && stored->is_linear)
+        known = retex_color_tag_of_matrix(stored->from_rec709);
+    *tag = known ? *known : (RetexColorTag){.interop = ""};
+    if (!known)
+        strcpy(tag->interop, stored->interop);
+}
+
+/* With the first band, for a plan is waited for there. */
+static int make_header(RetexPicture *picture, RetexError *err)
+{
+    ExrMaker *maker = picture->maker;
+
+    if (picture->bridged)
+        tag_colors(&maker->color, &picture->stored);
+    return maker->encoding ? 0 : retex_exr_header(&maker->header, &maker->header_bytes, &maker->part, err);
+}
+
+static void associate(float *associated, const float *rows, size_t pixels)
+{
+    for (size_t i = 0; i < pixels; i++) {
         for (size_t c = 0; c < 3; c++)
             associated[4 * i + c] = rows[4 * i + c] * rows[4 * i + 3];
         associated[4 * i + 3] = rows[4 * i + 3];
     }
-    return associated;
+}
+
+/* Pixels as the file has them, where these are others: in the space asked for, and multiplied by alpha. */
+static int convert(const RetexPicture *picture, float **converted, const float *rows, int lines, RetexError *err)
+{
+    const size_t pixels = (size_t)picture->width * (size_t)lines;
+
+    if (picture->channels != 4 && !picture->bridged)
+        return 0;
+    *converted = malloc(pixels * (size_t)picture->channels * sizeof **converted);
+    if (!*converted)
+        return retex_fail(err, RETEX_ENOMEM, "no memory to write %s", picture->path);
+    if (picture->bridged)
+        return retex_bridge_convert(picture->plan, rows, (long)pixels, *converted, err);
+    associate(*converted, rows, pixels);
+    return 0;
 }
 
 static void put_little(unsigned char *to, uint64_t value, int bytes)
@@ -108,19 +144,25 @@ static int exr_band(RetexPicture *picture, int band, const float *rows, RetexErr
 {
     ExrMaker *maker = picture->maker;
     const int y0 = band * RETEX_PICTURE_BAND, lines = retex_picture_band_lines(picture, band);
-    float *associated = NULL;
+    float *converted = NULL;
     unsigned char *piece = NULL;
     size_t bytes = 0;
-    int status = 0;
 
-    if (picture->channels == 4 && !(associated = associate(rows, (size_t)picture->width * (size_t)lines)))
-        return retex_fail(err, RETEX_ENOMEM, "no memory to write %s", picture->path);
-    rows = associated ? associated : rows;
+    int status = picture->bridged ? retex_picture_plan(picture, err) : 0;
+    if (!status && band == 0)
+        status = make_header(picture, err);
+    if (!status)
+        status = convert(picture, &converted, rows, lines, err);
+    if (status) {
+        free(converted);
+        return status;
+    }
+    rows = converted ? converted : rows;
     if (maker->encoding)
         status = retex_exr_encode_rows(maker->encoding, y0, y0 + lines, rows, err);
     else if (!(piece = make_piece(maker, y0, y0 + lines, rows, &bytes)))
         status = retex_fail(err, RETEX_ENOMEM, "no memory to write %s", picture->path);
-    free(associated);
+    free(converted);
     return status ? status : retex_picture_lay(picture, band, piece, bytes, err);
 }
 

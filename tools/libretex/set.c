@@ -272,6 +272,22 @@ int retex_set_footprint_scale(const RetexSet *set, int footprint)
     return scale ? scale : 1;
 }
 
+int retex_set_part_is_color(const RetexSet *set, int part)
+{
+    static const char *const pictures[] = {"albedo", "irradiance"}; /* of those that stand beside a set's own parts */
+    int found = part == 0;
+
+    for (int i = 0; i < set->nterms && !found; i++)
+        found = set->terms[i].radiance == part;
+    for (int i = 0; i < set->nfootprints && !found; i++)
+        found = set->footprints[i].albedo == part;
+    for (int i = 0; i < set->ntargets && !found; i++)
+        found = set->targets[i].original == part;
+    for (size_t i = 0; i < sizeof pictures / sizeof *pictures && !found; i++)
+        found = strcmp(set->parts[part].name, pictures[i]) == 0;
+    return found;
+}
+
 int retex_set_find_target(const RetexSet *set, const char *name)
 {
     int found = -1, count = 0;

@@ -111,6 +111,7 @@ static int list_parts(Writing *w, RetexError *err)
     for (int i = 0; i < w->view.set.nparts && !status; i++) {
         const RetexPart *part = &w->view.set.parts[i];
         RetexExrPart *exr = add_exr_part(w, part->name, part->letters, part->type, &part->image);
+        exr->color = retex_set_part_is_color(&w->view.set, i) ? &retex_color_tag_rec709 : &retex_color_tag_data;
         if (part->spooled)
             exr->spool = w->whole->spool, exr->spooled = part->spooled - 1;
         else if (!part->image.pixels)
@@ -121,6 +122,7 @@ static int list_parts(Writing *w, RetexError *err)
         if (!w->names[i].name[0])
             continue;
         RetexExrPart *exr = add_exr_part(w, w->names[i].name, "RGB", RETEX_FLOAT, &samples->images[i]);
+        exr->color = &retex_color_tag_rec709;
         if (samples->spooled[i])
             exr->spool = samples->spool, exr->spooled = samples->spooled[i] - 1;
         else if (!samples->images[i].pixels)

@@ -45,7 +45,8 @@ int retex_image_prepare(RetexImage *dst, int width, int height, int channels, co
 /* Read the colours of any file that OpenImageIO reads, or an EXR through OpenEXRCore without loading OpenImageIO.
  * path "-" is standard input (EXR only). The result has 4 channels R,G,B,A, scene-linear Rec.709, alpha unassociated
  * (1 where the file has none; grey is spread over R,G,B). colorspace: NULL = 8- and 16-bit integers are sRGB, floats
- * scene-linear; otherwise a name known to the OCIO config. Only the first subimage is read.
+ * scene-linear, an EXR what its header says (acesImageContainerFlag, colorInteropID, chromaticities, in this order);
+ * otherwise a name known to the OCIO config. Only the first subimage is read.
  * Files of more than max_pixels pixels (0 = no limit) are refused with RETEX_ELIMIT. */
 int retex_image_read(RetexImage *dst, const char *path, const char *colorspace, long max_pixels, RetexError *err);
 
@@ -56,12 +57,15 @@ typedef struct RetexWriteParams {
     const char *view;       /* OCIO view; NULL = the display's default */
     const char *colorspace; /* write in this colour space instead of through display and view; NULL = none */
     int quality;            /* of JPEG, 1..100; default 95 */
+    int is_data;            /* 1: numbers that are no colours, which an EXR stores as they are and says so; other
+                               formats go by what is above. Default 0 */
 } RetexWriteParams;
-#define RETEX_WRITE_INIT { sizeof(RetexWriteParams), NULL, NULL, NULL, 95 }
+#define RETEX_WRITE_INIT { sizeof(RetexWriteParams), NULL, NULL, NULL, 95, 0 }
 
 /* Write a picture of 1 (grey), 3 (RGB) or 4 (RGBA) channels; the format follows the name's ending, "-" is EXR to
  * standard output. EXR (half) and other float formats stay scene-linear unless colorspace says otherwise; 8- and 16-bit
- * formats go through the display transform. Written under a temporary name and renamed when complete. */
+ * formats go through the display transform. An EXR names its colours where they are known, by chromaticities where they
+ * are linear, and by the interop ID. Written under a temporary name and renamed when complete. */
 int retex_image_write(const RetexImage *src, const char *path, const RetexWriteParams *params /* NULL = defaults */,
                       RetexError *err);
 

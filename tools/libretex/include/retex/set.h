@@ -191,6 +191,8 @@ int retex_set_find_part(const RetexSet *set, const char *name);     /* index or 
 int retex_set_scale(const RetexSet *set, const RetexImage *image);
 /* The scale of a footprint: that of its parts that are there, which have one; 1 where none is. 0: they differ. */
 int retex_set_footprint_scale(const RetexSet *set, int footprint);
+/* 1: it holds colours, scene-linear Rec.709: the picture, radiance, albedos and originals. 0: other numbers. */
+int retex_set_part_is_color(const RetexSet *set, int part);
 /* Exactly, else ignoring case where that is unique; or -1. */
 int retex_set_find_target(const RetexSet *set, const char *name);
 

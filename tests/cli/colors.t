@@ -1,0 +1,38 @@
+# Colours of EXR pictures are named in their headers wherever one is written, and followed where one is read.
+$ skip-without iinfo openimageio-tools
+$ make_set s.exr 48 32; cp "$SCENES/textures/brick.jpg" .; retex-combine -q s.exr --texture Floor=brick.jpg -o linear.exr; iinfo -v linear.exr | sed -n "s/^ *\(colorInteropID\|chromaticities\): /\1 /p"
+> chromaticities 0.64, 0.33, 0.3, 0.6, 0.15, 0.06, 0.3127, 0.329
+> colorInteropID "lin_rec709_scene"
+$ for space in ACEScg ACES2065-1 sRGB ACEScct Rec709 raw; do retex-combine -q s.exr --texture Floor=brick.jpg --colorspace $space -o $space.exr; echo $space; iinfo -v $space.exr | sed -n 's/^ *\(colorInteropID\|chromaticities\): /\1 /p'; done
+> ACEScg
+> chromaticities 0.713, 0.293, 0.165, 0.83, 0.128, 0.044, 0.32168, 0.33767
+> colorInteropID "lin_ap1_scene"
+> ACES2065-1
+> chromaticities 0.7347, 0.2653, 0, 1, 0.0001, -0.077, 0.32168, 0.33767
+> colorInteropID "lin_ap0_scene"
+> sRGB
+> colorInteropID "srgb_rec709_scene"
+> ACEScct
+> colorInteropID "ocio:acescct_ap1_scene"
+> Rec709
+> raw
+> colorInteropID "data"
+$ printf 'output,Floor\nbatch.exr,brick.jpg\n' >b.csv; retex-combine -q s.exr --batch b.csv --colorspace ACEScg; cmp batch.exr ACEScg.exr
+$ retex-combine -q s.exr >stream.exr; retex-render -q --plain --size 32x24 --spp 1 "$SCENES/cornell-box/cornell-box.pov" -o plain.exr; for f in s stream plain; do iinfo -v $f.exr | sed -n "s/^ *colorInteropID: /$f /p"; done
+> s "lin_rec709_scene"
+> stream "lin_rec709_scene"
+> plain "lin_rec709_scene"
+$ retex-render -q --size 32x24 --spp 1 --aov albedo,normal,uv --aov-dir aov "$SCENES/cornell-box/cornell-box.pov" -o a.exr; for f in beauty albedo normal uv; do iinfo -v aov/$f.exr | sed -n "s/^ *colorInteropID: /$f /p"; done; iinfo -v -a a.exr | sed -n 's/^ *\(colorInteropID\|oiio:subimagename\): //p' | paste - - | sort
+> beauty "lin_rec709_scene"
+> albedo "lin_rec709_scene"
+> normal "data"
+> uv "data"
+> "data"	"normal"
+> "data"	"uv"
+> "lin_rec709_scene"	"albedo"
+> "lin_rec709_scene"	"beauty"
+
+# The same picture, whatever it was written in.
+$ for f in ACEScg ACES2065-1 sRGB ACEScct; do retex-combine -q s.exr --texture Floor=$f.exr -o $f-on.exr; done; retex-combine -q s.exr --texture Floor=linear.exr -o on.exr; for f in ACEScg ACES2065-1 sRGB ACEScct; do retex-diff -q on.exr $f-on.exr --fail-psnr 90 || echo $f; done
+$ retex-combine -q s.exr --texture:colorspace=linear Floor=ACEScg.exr -o x.exr; retex-diff -q on.exr x.exr --fail-psnr 80
+= 1
