@@ -6,12 +6,13 @@
 #include "integrate/first_hit.h"
 #include "integrate/path.h"
 
+/* Channels are named so that Blender takes them as they are: of R, G, A it would show R, 0, A. */
 static const struct {
     unsigned bit;
     const char *name, *letters;
 } aov_table[] = {
     {AOV_DEPTH, "depth", "R"},         {AOV_ALBEDO, "albedo", "RGB"},   {AOV_NORMAL, "normal", "RGB"},
-    {AOV_POSITION, "position", "RGB"}, {AOV_UV, "uv", "RGA"},           {AOV_OBJECT, "object", "R"},
+    {AOV_POSITION, "position", "RGB"}, {AOV_UV, "uv", "UVA"},           {AOV_OBJECT, "object", "R"},
     {AOV_ROUGHNESS, "roughness", "R"}, {AOV_METALLIC, "metallic", "R"},
 };
 enum { AOV_COUNT = sizeof aov_table / sizeof *aov_table };

@@ -1,4 +1,5 @@
-# Colours of EXR pictures are named in their headers wherever one is written, and followed where one is read.
+# Colours of EXR pictures are named in their headers wherever one is written, and followed where one is read; and
+# channels have names that other programs know.
 $ skip-without iinfo openimageio-tools
 $ make_set s.exr 48 32; cp "$SCENES/textures/brick.jpg" .; retex-combine -q s.exr --texture Floor=brick.jpg -o linear.exr; iinfo -v linear.exr | sed -n "s/^ *\(colorInteropID\|chromaticities\): /\1 /p"
 > chromaticities 0.64, 0.33, 0.3, 0.6, 0.15, 0.06, 0.3127, 0.329
@@ -36,3 +37,19 @@ $ retex-render -q --size 32x24 --spp 1 --aov albedo,normal,uv --aov-dir aov "$SC
 $ for f in ACEScg ACES2065-1 sRGB ACEScct; do retex-combine -q s.exr --texture Floor=$f.exr -o $f-on.exr; done; retex-combine -q s.exr --texture Floor=linear.exr -o on.exr; for f in ACEScg ACES2065-1 sRGB ACEScct; do retex-diff -q on.exr $f-on.exr --fail-psnr 90 || echo $f; done
 $ retex-combine -q s.exr --texture:colorspace=linear Floor=ACEScg.exr -o x.exr; retex-diff -q on.exr x.exr --fail-psnr 80
 = 1
+
+# UV for other programs: U, V and A, on the way through packs too.
+$ retex-render -q --size 32x24 --spp 2 -t Floor --aov uv,depth,normal "$SCENES/cornell-box/cornell-box.pov" -o a.exr; retex-pack -q --lossless a.exr -o a.retex; retex-pack -q --unpack a.retex -o b.exr; retex-denoise -q a.exr -o d.exr; for f in a b d; do iinfo -v -a $f.exr | grep 'channel list: \(uv\|depth\|normal\)\.'; done
+>     channel list: depth.R
+>     channel list: normal.R, normal.G, normal.B
+>     channel list: uv.A, uv.U, uv.V
+>     channel list: depth.R
+>     channel list: normal.R, normal.G, normal.B
+>     channel list: uv.A, uv.U, uv.V
+>     channel list: depth.R
+>     channel list: normal.R, normal.G, normal.B
+>     channel list: uv.A, uv.U, uv.V
+$ for f in b d; do retex-diff -q --part uv a.exr $f.exr || echo $f; done; retex-diff -q --part uv a.retex a.exr; retex-combine -q a.retex --texture Floor=brick.jpg -o x.exr
+$ oiiotool a.exr --subimage uv --ch uv.U,uv.V,uv.A --printstats | sed -n 's/ *Stats \(Min\|Max\)/\1/p'
+> Min: -0.996351 -0.853927 1.000000 (float)
+> Max: 0.996351 1.992549 1.000000 (float)
