@@ -32,3 +32,37 @@ $ sed 's/{"retex":3,"crc32"/{"retex":3,"crc33"/' s.exr | retex-info --check -
 # Sets of before, whose manifest has no checksum, are read, and --check says so.
 $ sed 's/{"retex":3,"crc32"/{"retex":2,"older"/' s.exr >old.exr; retex-info --check old.exr; for s in s old; do retex-combine -q $s.exr --texture 'Floor=rgb(1,0.5,0.2)' -o $s.png; done; cmp s.png old.png; retex-info -q --check old.exr
 > old.exr: ok, but for the manifest, which has no checksum: it is of an old version
+
+# Samples that are stored as they are, in a set as pipes have it: two bytes of them, seen by those who read all and those
+# who read row by row; the message names the part. So in a set of before, and in a stream.
+$ retex-pack -q --lossless s.exr -o s.retex; retex-pack -q --unpack s.retex -o - >p.exr; retex-info --check p.exr; retex-combine -q p.exr --texture 'Floor=rgb(1,0.5,0.2)' -o p.png; cmp s.png p.png
+> p.exr: ok
+$ at=$(($(wc -c <p.exr) - 90000)); cp p.exr d.exr; printf 'XY' | dd of=d.exr bs=1 seek=$at conv=notrunc 2>/dev/null; sed -e 's/{"retex":3,"crc32"/{"retex":2,"older"/' -e 's/"bands":/"older":/g' d.exr >dold.exr; cmp d.exr dold.exr | wc -l; for d in d dold; do retex-info --check $d.exr; echo $?; retex-denoise -q $d.exr -o x.exr; echo $?; retex-denoise -q --memory 1 $d.exr -o x.exr; echo $?; retex-pack -q --lossless $d.exr -o x.retex; echo $?; done; ls x.*
+> 1
+> 1
+> 2
+> 2
+> 2
+> 1
+> 2
+> 2
+> 2
+! retex-info: error: d.exr: the checksum of part guide_seen_normal is wrong
+! retex-denoise: error: d.exr: the checksum of part guide_seen_normal is wrong
+! retex-denoise: error: d.exr: the checksum of part guide_seen_normal is wrong
+! retex-pack: error: d.exr: the checksum of part guide_seen_normal is wrong
+! retex-info: error: dold.exr: the checksum of part guide_seen_normal is wrong
+! retex-denoise: error: dold.exr: the checksum of part guide_seen_normal is wrong
+! retex-denoise: error: dold.exr: the checksum of part guide_seen_normal is wrong
+! retex-pack: error: dold.exr: the checksum of part guide_seen_normal is wrong
+! ls: cannot access 'x.*': No such file or directory
+= 2
+$ retex-sample -q p.exr --texture 'Floor=rgb(1,0.5,0.2)' >t.exr; at=$(($(wc -c <t.exr) - 20000)); cp t.exr d.exr; printf 'XY' | dd of=d.exr bs=1 seek=$at conv=notrunc 2>/dev/null; for t in t d; do retex-combine -q - -o $t.png <$t.exr; echo $?; done; cmp s.png t.png; ls d.png; retex-info --check - <d.exr
+> 0
+> 2
+! retex-combine: error: standard input: the checksum of part sample_Floor_3 is wrong
+! ls: cannot access 'd.png': No such file or directory
+! retex-info: error: standard input: the checksum of part sample_Floor_3 is wrong
+= 1
+$ cp s.png d.png; retex-combine -q d.exr -o d.png; cmp s.png d.png
+! retex-combine: error: d.exr: the checksum of part sample_Floor_3 is wrong

@@ -176,7 +176,7 @@ static void put_all_right(Entry *entries, int count)
         retex_manifest_seal(json);
         memcpy(manifest->data, json, strlen(json));
     }
-    if (json && retex_manifest_read(json, "fuzz", &set, &samples, &names, NULL) == 0 && set) {
+    if (json && retex_manifest_read(json, "fuzz", &set, &samples, &names, NULL, NULL) == 0 && set) {
         PackPart *parts = calloc((size_t)set->nparts + 1, sizeof *parts);
         if (parts && pack_understand(parts, set, json, NULL) == 0)
             put_parts_right(index->data, index->size, set, parts, entries, count);

@@ -21,7 +21,7 @@ static int read_manifest(const char *json, char *message)
     RetexSamples *samples;
     RetexSamplePart *parts;
     RetexError err = {0};
-    const int status = retex_manifest_read(json, "x.exr", &set, &samples, &parts, &err);
+    const int status = retex_manifest_read(json, "x.exr", &set, &samples, &parts, NULL, &err);
     strcpy(message, err.message);
     retex_set_close(&set);
     retex_samples_close(&samples);
@@ -111,7 +111,7 @@ static void test_old_manifests_are_read(void **state)
     test_must(retex_set_manifest(set, NULL, &json, &err), &err);
     for (int version = 1; version <= RETEX_SET_VERSION; version++) {
         char *old = of_version(json, version);
-        test_must(retex_manifest_read(version == 3 ? json : old, "x.exr", &read, &samples, &parts, &err), &err);
+        test_must(retex_manifest_read(version == 3 ? json : old, "x.exr", &read, &samples, &parts, NULL, &err), &err);
         assert_int_equal(read->version, version);
         assert_int_equal(read->nparts, set->nparts);
         retex_set_close(&read);

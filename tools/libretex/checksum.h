@@ -9,6 +9,8 @@
 #define CRC32_OF_NONE 0
 #define ADLER32_OF_NONE 1
 uint32_t retex_crc32(uint32_t so_far, const void *bytes, size_t count);
+/* Of the bytes of both, of which the second are so many. */
+uint32_t retex_crc32_join(uint32_t first, uint32_t second, size_t second_bytes);
 uint32_t retex_adler32(uint32_t so_far, const void *bytes, size_t count);
 
 #endif

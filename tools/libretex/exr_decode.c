@@ -117,18 +117,19 @@ static void plane_to_float(float *row, const unsigned char *plane, uint16_t type
     }
 }
 
-/* Give a chunk's samples to the image, at x, y of it, and to the checksums. */
-static void deliver(const ExrPlan *plan, RetexImage *image, const unsigned char *samples, int x, int y, int width,
-                    int height, float *row, uint32_t *crc)
+/* Give a chunk's samples to the image, whose first row is row top of the part, and to the checksums. */
+static void deliver(const ExrPlan *plan, RetexImage *image, int top, const unsigned char *samples, int x, int y,
+                    int width, int height, float *row, const ExrSums *sums)
 {
     for (int line = 0; line < height; line++) {
+        uint32_t *crc = sums ? sums->crc[(y + line - sums->top) / sums->lines] : NULL;
         for (int c = 0; c < plan->nchannels; c++) {
             const size_t plane = (size_t)width * exr_channel_bytes(&plan->channels[c]);
             const int slot = plan->slot[c];
-            if (slot >= 0 && plan->request->with_crc)
+            if (slot >= 0 && crc)
                 crc[slot] = retex_crc32(crc[slot], samples, plane);
             if (slot >= 0 && image) {
-                float *restrict out = image->pixels + retex_image_index(image, x, y + line) + slot;
+                float *restrict out = image->pixels + retex_image_index(image, x, y + line - top) + slot;
                 const size_t stride = (size_t)image->channels;
                 plane_to_float(row, samples, (uint16_t)plan->channels[c].pixel_type, width);
                 for (int i = 0; i < width; i++)
@@ -140,7 +141,7 @@ static void deliver(const ExrPlan *plan, RetexImage *image, const unsigned char 
 }
 
 exr_result_t exr_chunk_read(RetexExr *exr, const ExrPlan *plan, int column, int row, RetexImage *image, int top,
-                            uint32_t *crc, ExrScratch *scratch)
+                            const ExrSums *sums, ExrScratch *scratch)
 {
     const int x = column * plan->chunk_width, y = row * plan->chunk_height;
     const int width = plan->width - x < plan->chunk_width ? plan->width - x : plan->chunk_width;
@@ -160,8 +161,26 @@ exr_result_t exr_chunk_read(RetexExr *exr, const ExrPlan *plan, int column, int 
     if (!code && !need((void **)&scratch->row, &scratch->row_count, (size_t)width, sizeof(float)))
         code = EXR_ERR_OUT_OF_MEMORY;
     if (!code)
-        deliver(plan, image, samples, x, y - top, width, height, scratch->row, crc);
+        deliver(plan, image, top, samples, x, y, width, height, scratch->row, sums);
     return code;
+}
+
+uint32_t exr_sums_plane(const ExrPlan *plan, const ExrSums *sums, int slot, int y0, int y1, size_t *bytes)
+{
+    size_t line = 0, total = 0;
+    uint32_t crc = CRC32_OF_NONE;
+
+    for (int c = 0; c < plan->nchannels; c++)
+        if (plan->slot[c] == slot)
+            line = (size_t)plan->width * exr_channel_bytes(&plan->channels[c]);
+    for (int y = y0; y < y1; y += sums->lines) {
+        const size_t count = line * (size_t)(y1 - y < sums->lines ? y1 - y : sums->lines);
+        crc = retex_crc32_join(crc, sums->crc[(y - sums->top) / sums->lines][slot], count);
+        total += count;
+    }
+    if (bytes)
+        *bytes = total;
+    return crc;
 }
 
 void exr_scratch_free(ExrScratch *scratch)
@@ -226,8 +245,8 @@ int exr_plan_open(RetexExr *exr, ExrPlan *plan, RetexExrRequest *request, RetexE
         plan->chunk_width = plan->width;
         plan->chunk_height = lines;
     } else {
-        if (request->with_crc || exr_get_tile_sizes(exr->context, request->part, 0, 0, &tile_width, &tile_height) ||
-            tile_width < 1 || tile_height < 1)
+        if (exr_get_tile_sizes(exr->context, request->part, 0, 0, &tile_width, &tile_height) || tile_width < 1 ||
+            tile_height < 1)
             return exr_fail(exr, EXR_ERR_FILE_BAD_HEADER, err);
         plan->chunk_width = tile_width;
         plan->chunk_height = tile_height;

@@ -40,6 +40,9 @@ int retex_exr_encode(RetexExrEncoding **encoding, RetexExrPart *parts, int npart
  * of whole chunks, each once. Their checksum is not known. */
 int retex_exr_encoding_open(RetexExrEncoding **encoding, const RetexExrPart *part, int compress, RetexError *err);
 int retex_exr_encode_rows(RetexExrEncoding *encoding, int y0, int y1, const float *rows, RetexError *err);
+/* Of what was encoded whole: one checksum for each RETEX_CHUNK_LINES lines of a part, of their samples as the part's is
+ * of all, for the caller to free; NULL where memory is short. */
+uint32_t *retex_exr_band_crcs(const RetexExrEncoding *encoding, int part);
 /* Write to path ("-" = standard output) front to back; attribute (a string of part 0) may be NULL. Consumes encoding:
  * chunks are freed as they are written. width, height: the display window. */
 int retex_exr_write(RetexExrEncoding *encoding, int width, int height, const char *attribute, const char *value,
@@ -76,8 +79,10 @@ typedef struct RetexExrRequest {
     int part;
     RetexImage *image;
     char channels[RETEX_EXR_LETTERS_MAX][RETEX_EXR_NAME_MAX];
-    int with_crc;      /* 1: also compute crc (see RetexPart) over the channels asked for; scan lines only */
+    int with_crc;      /* 1: also compute crc (see RetexPart) over the channels asked for */
     uint32_t crc;
+    uint32_t expected;     /* what crc should be; for the caller, and for exr_source.c, which also looks at */
+    const uint32_t *bands; /* borrowed: as of retex_exr_band_crcs; NULL: not known */
     int damaged;       /* 1: this is the part that made the reading fail */
 } RetexExrRequest;
 

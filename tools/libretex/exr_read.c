@@ -7,7 +7,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <zlib.h>
 
 #include <retex/parallel.h>
 
@@ -249,19 +248,14 @@ typedef struct DecodeWork {
     atomic_int code;     /* the first failure, exr_result_t */
 } DecodeWork;
 
-static void run_job(void *context, int index, int thread)
+static void read_chunks(DecodeWork *work, Job *job, const ExrSums *sums, int thread)
 {
-    DecodeWork *work = context;
-    Job *job = &work->jobs[index];
-
-    for (int c = 0; c < RETEX_EXR_LETTERS_MAX; c++)
-        job->crc[c] = CRC32_OF_NONE;
     for (int row = job->first; row < job->first + job->count; row++)
         for (int column = 0; column < job->plan->across; column++) {
             if (atomic_load_explicit(&work->code, memory_order_relaxed))
                 return; /* some other job has failed: the result is lost anyway */
             const exr_result_t code = exr_chunk_read(work->exr, job->plan, column, row, job->plan->request->image, 0,
-                                                     job->crc, &work->scratch[thread]);
+                                                     sums, &work->scratch[thread]);
             if (code) {
                 int none = 0;
                 if (atomic_compare_exchange_strong(&work->code, &none, code))
@@ -269,6 +263,29 @@ static void run_job(void *context, int index, int thread)
                 return;
             }
         }
+}
+
+static void run_job(void *context, int index, int thread)
+{
+    DecodeWork *work = context;
+    Job *job = &work->jobs[index];
+    const ExrPlan *plan = job->plan;
+    const int top = job->first * plan->chunk_height, most = job->count * plan->chunk_height;
+    const int lines = plan->height - top < most ? plan->height - top : most;
+    ExrSums sums = {NULL, top, plan->across > 1 ? 1 : lines};
+
+    if (!plan->request->with_crc) {
+        read_chunks(work, job, NULL, thread);
+        return;
+    }
+    sums.crc = calloc((size_t)(lines / sums.lines), sizeof *sums.crc);
+    if (sums.crc)
+        read_chunks(work, job, &sums, thread);
+    else
+        atomic_store(&work->code, EXR_ERR_OUT_OF_MEMORY);
+    for (int slot = 0; sums.crc && slot < RETEX_EXR_LETTERS_MAX; slot++)
+        job->crc[slot] = exr_sums_plane(plan, &sums, slot, top, top + lines, NULL);
+    free(sums.crc);
 }
 
 /* Rows of chunks that make one job. */
@@ -311,8 +328,7 @@ static void combine_crcs(const Job *jobs, int njobs)
                     const int y = jobs[j].first * plan->chunk_height, rest = plan->height - y;
                     const int lines = jobs[j].count * plan->chunk_height;
                     const size_t bytes = (size_t)plan->width * exr_channel_bytes(&plan->channels[c]);
-                    crc = (uint32_t)crc32_combine(crc, jobs[j].crc[slot],
-                                                  (z_off_t)(bytes * (size_t)(lines < rest ? lines : rest)));
+                    crc = retex_crc32_join(crc, jobs[j].crc[slot], bytes * (size_t)(lines < rest ? lines : rest));
                 }
             }
         plan->request->crc = crc;

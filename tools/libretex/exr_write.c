@@ -7,7 +7,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <zlib.h>
 
 #include <retex/parallel.h>
 
@@ -126,9 +125,27 @@ static uint32_t part_crc(const RetexExrEncoding *encoding, int part, const Band 
     for (int c = 0; c < of->image->channels; c++)
         for (const Band *band = first; band < encoding->bands + encoding->nbands && band->part == part; band++) {
             const RetexChunkShape shape = band_shape(of, band);
-            crc = (uint32_t)crc32_combine(crc, band->crc[c], (z_off_t)retex_chunk_plane(&shape));
+            crc = retex_crc32_join(crc, band->crc[c], retex_chunk_plane(&shape));
         }
     return crc;
+}
+
+uint32_t *retex_exr_band_crcs(const RetexExrEncoding *encoding, int part)
+{
+    const RetexExrPart *of = &encoding->parts[part];
+    const int lines = RETEX_CHUNK_LINES, count = (of->image->height + lines - 1) / lines;
+    const Band *band = encoding->bands;
+    uint32_t *crcs = calloc((size_t)count, sizeof *crcs);
+
+    while (band->part != part)
+        band++;
+    for (int i = 0; crcs && i < count; i++, band++) {
+        const RetexChunkShape shape = band_shape(of, band);
+        crcs[i] = CRC32_OF_NONE;
+        for (int c = 0; c < of->image->channels; c++)
+            crcs[i] = retex_crc32_join(crcs[i], band->crc[c], retex_chunk_plane(&shape));
+    }
+    return crcs;
 }
 
 /* Where rows come later images have no pixels yet. */

@@ -153,15 +153,37 @@ static json_t *write_mixture(const RetexSet *set, const RetexMixture *mixture)
     return shares;
 }
 
+/* The sums of bands as one row of digits. */
+static json_t *write_bands(const uint32_t *bands, int height)
+{
+    const size_t count = ((size_t)height + RETEX_SPOOL_LINES - 1) / RETEX_SPOOL_LINES;
+    char *digits = malloc(8 * count + 1);
+
+    for (size_t i = 0; digits && i < count; i++)
+        snprintf(digits + 8 * i, 9, "%08x", (unsigned)bands[i]);
+    json_t *json = digits ? json_string(digits) : NULL;
+    free(digits);
+    return json;
+}
+
+/* bands: its sums, or NULL. */
 static json_t *write_part(const char *name, const char *letters, RetexPixelType type, const RetexImage *image,
-                          uint32_t crc)
+                          uint32_t crc, const uint32_t *bands)
 {
     char hex[16];
 
     snprintf(hex, sizeof hex, "%08x", (unsigned)crc);
-    return json_pack("{s:s, s:s, s:s, s:i, s:i, s:s}", "name", name, "letters", letters, "type",
-                     type == RETEX_HALF ? "half" : "float", "width", image->width, "height", image->height, "crc32",
-                     hex);
+    json_t *json =
+        json_pack("{s:s, s:s, s:s, s:i, s:i, s:s}", "name", name, "letters", letters, "type",
+                  type == RETEX_HALF ? "half" : "float", "width", image->width, "height", image->height, "crc32", hex);
+    if (bands)
+        json_object_set_new(json, "bands", write_bands(bands, image->height));
+    return json;
+}
+
+static const uint32_t *bands_of(const RetexBandSums *sums, int index)
+{
+    return sums && index < sums->count ? sums->of[index] : NULL;
 }
 
 static json_t *identity(uint32_t id)
@@ -172,7 +194,7 @@ static json_t *identity(uint32_t id)
     return json_string(hex);
 }
 
-static void write_set(json_t *root, const RetexSet *set, int *finite)
+static void write_set(json_t *root, const RetexSet *set, const RetexBandSums *sums, int *finite)
 {
     json_t *targets = json_array(), *footprints = json_array(), *terms = json_array(), *parts = json_array();
 
@@ -184,7 +206,8 @@ static void write_set(json_t *root, const RetexSet *set, int *finite)
         json_array_append_new(terms, write_term(set, &set->terms[i]));
     for (int i = 0; i < set->nparts; i++) {
         const RetexPart *part = &set->parts[i];
-        json_array_append_new(parts, write_part(part->name, part->letters, part->type, &part->image, part->crc));
+        json_array_append_new(
+            parts, write_part(part->name, part->letters, part->type, &part->image, part->crc, bands_of(sums, i)));
     }
     json_t *mixtures = json_array();
     for (int i = 0; i < set->nmixtures; i++)
@@ -209,7 +232,9 @@ static void write_set(json_t *root, const RetexSet *set, int *finite)
     json_object_set_new(root, "parts", parts);
 }
 
-static json_t *write_samples(const RetexSamples *samples, const RetexSamplePart *parts)
+/* first: where the samples begin in sums. */
+static json_t *write_samples(const RetexSamples *samples, const RetexSamplePart *parts, const RetexBandSums *sums,
+                             int first)
 {
     json_t *targets = json_array(), *images = json_array();
 
@@ -217,9 +242,9 @@ static json_t *write_samples(const RetexSamples *samples, const RetexSamplePart 
         json_array_append_new(targets, json_pack("{s:o, s:o}", "name", text(samples->target_names[i]), "texture",
                                                  text(samples->textures[i])));
     for (int i = 0; i < samples->nimages; i++) {
-        json_t *part = parts[i].name[0]
-                           ? write_part(parts[i].name, "RGB", RETEX_FLOAT, &samples->images[i], parts[i].crc)
-                           : json_null();
+        json_t *part = parts[i].name[0] ? write_part(parts[i].name, "RGB", RETEX_FLOAT, &samples->images[i],
+                                                     parts[i].crc, bands_of(sums, first + i))
+                                        : json_null();
         json_array_append_new(images, json_pack("{s:i, s:i, s:o}", "target", samples->footprint_target[i], "hit",
                                                 samples->footprint_hit[i], "part", part));
     }
@@ -227,7 +252,7 @@ static json_t *write_samples(const RetexSamples *samples, const RetexSamplePart 
 }
 
 int retex_manifest_write(const RetexSet *set, const RetexSamples *samples, const RetexSamplePart *sample_parts,
-                         char **json, RetexError *err)
+                         const RetexBandSums *sums, char **json, RetexError *err)
 {
     int finite = 1;
     json_t *root = json_pack("{s:i, s:s, s:s, s:i, s:i}", "retex", RETEX_SET_VERSION, "crc32", "00000000", "kind",
@@ -238,9 +263,9 @@ int retex_manifest_write(const RetexSet *set, const RetexSamples *samples, const
 
     *json = NULL;
     if (root && set)
-        write_set(root, set, &finite);
+        write_set(root, set, sums, &finite);
     if (root && samples)
-        json_object_set_new(root, "samples", write_samples(samples, sample_parts));
+        json_object_set_new(root, "samples", write_samples(samples, sample_parts, sums, set ? set->nparts : 0));
     const size_t style = JSON_COMPACT | JSON_PRESERVE_ORDER | JSON_REAL_PRECISION(17);
     char *dumped = root && finite ? json_dumps(root, style) : NULL;
     json_decref(root);
@@ -269,7 +294,7 @@ int retex_set_manifest(const RetexSet *set, const RetexSamples *samples, char **
             return retex_fail(err, RETEX_ENOMEM, "no memory for the manifest");
         retex_sample_part_names(samples, set, parts);
     }
-    const int status = retex_manifest_write(set, samples, parts, json, err);
+    const int status = retex_manifest_write(set, samples, parts, NULL, json, err);
     free(parts);
     return status;
 }

@@ -28,9 +28,18 @@ typedef struct RetexSamplePart {
 /* Names of the samples' parts, unique among themselves and the set's (which may be NULL). parts has nimages places. */
 void retex_sample_part_names(const RetexSamples *samples, const RetexSet *set, RetexSamplePart *parts);
 
-/* As retex_set_manifest, with the sample parts' names and checksums. */
+/* What the manifest says of bands of RETEX_SPOOL_LINES rows: of each the CRC-32 of its samples, as the part's is of
+ * all. Of the set's parts, then of the samples' images; NULL where it is not known. */
+typedef struct RetexBandSums {
+    int count;
+    uint32_t **of;
+} RetexBandSums;
+
+void retex_band_sums_free(RetexBandSums *sums);
+
+/* As retex_set_manifest, with the sample parts' names and checksums, and those of bands (or NULL). */
 int retex_manifest_write(const RetexSet *set, const RetexSamples *samples, const RetexSamplePart *sample_parts,
-                         char **json, RetexError *err);
+                         const RetexBandSums *sums, char **json, RetexError *err);
 
 /* The manifest's checksum of itself. Its text begins {"retex":VERSION,"crc32":"DIGITS", and the eight hexadecimal
  * digits are the CRC-32 of all of it with 0s in their place. */
@@ -42,8 +51,8 @@ void retex_manifest_seal(char *json);                  /* fill it in, where ther
 
 /* From JSON. *set and *samples are created, without pixels: parts know their size in image.width, height and channels,
  * and so do those images of *samples that sample_parts (allocated here, free with free()) names. What the manifest does
- * not describe comes back NULL. name: the file, for messages. */
+ * not describe comes back NULL. name: the file, for messages. sums (or NULL) is to be freed. */
 int retex_manifest_read(const char *json, const char *name, RetexSet **set, RetexSamples **samples,
-                        RetexSamplePart **sample_parts, RetexError *err);
+                        RetexSamplePart **sample_parts, RetexBandSums *sums, RetexError *err);
 
 #endif

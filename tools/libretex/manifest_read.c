@@ -15,6 +15,7 @@ typedef struct Reading {
     const char *name; /* of the file */
     RetexError *err;
     int status;
+    RetexBandSums *sums; /* or NULL */
 } Reading;
 
 static void bad(Reading *reading, int code, const char *fmt, ...) RETEX_PRINTF(3, 4);
@@ -135,6 +136,42 @@ static void check_scale(Reading *reading, const RetexSet *set, int part, const c
             "has in \"%s\" a part that is neither of the set's size nor 2, 4 or 8 times smaller", key);
 }
 
+/* Eight hexadecimal digits for each band. */
+static uint32_t *parse_bands(Reading *reading, const json_t *json, int height)
+{
+    const size_t count = ((size_t)height + RETEX_SPOOL_LINES - 1) / RETEX_SPOOL_LINES;
+    const char *digits = json_string_value(json);
+    uint32_t *bands = NULL;
+
+    if (!digits || strlen(digits) != 8 * count || strspn(digits, "0123456789abcdef") != 8 * count)
+        bad(reading, RETEX_EFORMAT, "has no proper checksums of a part's \"bands\"");
+    else if (!(bands = calloc(count, sizeof *bands)))
+        bad(reading, RETEX_ENOMEM, "does not fit in memory");
+    for (size_t i = 0; bands && i < count; i++) {
+        char hex[9] = "";
+        memcpy(hex, digits + 8 * i, 8);
+        bands[i] = (uint32_t)strtoul(hex, NULL, 16);
+    }
+    return bands;
+}
+
+/* Of the next part or sample image; part: what is said of it, or null. */
+static void read_bands(Reading *reading, const json_t *part, int height)
+{
+    const json_t *json = json_object_get(part, "bands");
+
+    if (reading->sums && !reading->status)
+        reading->sums->of[reading->sums->count++] = json ? parse_bands(reading, json, height) : NULL;
+}
+
+void retex_band_sums_free(RetexBandSums *sums)
+{
+    for (int i = 0; i < sums->count; i++)
+        free(sums->of[i]);
+    free(sums->of);
+    *sums = (RetexBandSums){0};
+}
+
 static void read_part(Reading *reading, const json_t *json, RetexPart *part, char *name, size_t name_room)
 {
     char type[8] = "", hex[16] = "", *end = hex;
@@ -169,6 +206,7 @@ static void read_parts(Reading *reading, const json_t *root, RetexSet *set)
     for (size_t i = 0; i < count && !reading->status; i++) {
         RetexPart *part = &set->parts[i];
         read_part(reading, json_array_get(array, i), part, part->name, sizeof part->name);
+        read_bands(reading, json_array_get(array, i), part->image.height);
         if (reading->status)
             return;
         if (!retex_name_is_valid(part->name))
@@ -396,9 +434,12 @@ static void read_sample_image(Reading *reading, const json_t *json, RetexSamples
 
     samples->footprint_target[index] = get_integer(reading, json, "target", 0, samples->ntargets - 1);
     samples->footprint_hit[index] = get_integer(reading, json, "hit", 1, 1 << 20);
+    if (json_is_null(json_part))
+        read_bands(reading, json_part, 0);
     if (json_is_null(json_part) || reading->status)
         return;
     read_part(reading, json_part, &part, parts[index].name, sizeof parts[index].name);
+    read_bands(reading, json_part, part.image.height);
     if (!reading->status && (part.image.channels != 3 || part.type != RETEX_FLOAT ||
                              part.image.width > samples->width || part.image.height > samples->height))
         bad(reading, RETEX_EFORMAT, "has a sample image of the wrong shape");
@@ -483,15 +524,20 @@ static void read_root(Reading *reading, const json_t *root, RetexManifestSum sum
 }
 
 int retex_manifest_read(const char *json, const char *name, RetexSet **set, RetexSamples **samples,
-                        RetexSamplePart **sample_parts, RetexError *err)
+                        RetexSamplePart **sample_parts, RetexBandSums *sums, RetexError *err)
 {
-    Reading reading = {name, err, 0};
+    Reading reading = {name, err, 0, sums};
     const RetexManifestSum sum = retex_manifest_sum(json);
     json_error_t where;
 
     *set = NULL;
     *samples = NULL;
     *sample_parts = NULL;
+    if (sums)
+        *sums = (RetexBandSums){
+            0, calloc((size_t)RETEX_SET_PARTS_MAX + (size_t)RETEX_SET_FOOTPRINTS_MAX, sizeof *sums->of)};
+    if (sums && !sums->of)
+        return retex_fail(err, RETEX_ENOMEM, "no memory to read %s", name);
     if (sum == RETEX_MANIFEST_WRONG)
         return retex_fail(err, RETEX_EFORMAT, "%s: the manifest is damaged: its checksum is wrong", name);
     json_t *root = json_loads(json, JSON_REJECT_DUPLICATES, &where);

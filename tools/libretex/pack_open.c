@@ -133,7 +133,7 @@ static int read_set(RetexSet **set, const char *manifest, RetexError *err)
 {
     RetexSamples *samples = NULL;
     RetexSamplePart *names = NULL;
-    int code = retex_manifest_read(manifest, "the pack", set, &samples, &names, err);
+    int code = retex_manifest_read(manifest, "the pack", set, &samples, &names, NULL, err);
     free(names);
     retex_samples_close(&samples);
     if (!code && !*set)

@@ -23,6 +23,7 @@ typedef struct Source {
     RetexSet *set; /* described, without pixels; NULL where the file has none */
     RetexSamples *samples;
     RetexSamplePart *names; /* of samples */
+    RetexBandSums sums;
     RetexExrRequest *requests;
     int nrequests;
     uint64_t memory_bytes, stored_bytes; /* of what is requested */
@@ -34,6 +35,7 @@ static void source_close(Source *source)
     retex_input_close(&source->input);
     retex_set_close(&source->set);
     retex_samples_close(&source->samples);
+    retex_band_sums_free(&source->sums);
     free(source->names);
     free(source->requests);
 }
@@ -59,7 +61,7 @@ static int source_describe(Source *source, RetexError *err)
     const char *json = retex_exr_attribute(source->exr, 0, RETEX_MANIFEST_ATTRIBUTE);
     if (!json)
         return retex_fail(err, RETEX_EFORMAT, "%s is not a set (no `%s` attribute)", name, RETEX_MANIFEST_ATTRIBUTE);
-    status = retex_manifest_read(json, name, &source->set, &source->samples, &source->names, err);
+    status = retex_manifest_read(json, name, &source->set, &source->samples, &source->names, &source->sums, err);
     if (status)
         return status;
     const size_t most =
@@ -68,9 +70,10 @@ static int source_describe(Source *source, RetexError *err)
     return source->requests ? 0 : retex_fail(err, RETEX_ENOMEM, "no memory to read %s", name);
 }
 
-/* Ask for a part of the manifest: what the file has under that name must be what the manifest says. */
-static int request_part(Source *source, const char *name, const char *letters, RetexPixelType type, RetexImage *image,
-                        RetexError *err)
+/* Ask for a part of the manifest: what the file has under that name must be what the manifest says. index: among those
+ * that the sums of bands are of. */
+static int request_part(Source *source, const char *name, const char *letters, RetexPixelType type, uint32_t crc,
+                        int index, RetexImage *image, RetexError *err)
 {
     const char *file = retex_input_name(source->input);
     const int part = retex_exr_find_part(source->exr, name);
@@ -96,6 +99,9 @@ static int request_part(Source *source, const char *name, const char *letters, R
     }
     request->part = part;
     request->image = image;
+    request->with_crc = 1;
+    request->expected = crc;
+    request->bands = source->sums.of[index];
     source->nrequests++;
     const uint64_t count = (uint64_t)width * (uint64_t)height * strlen(letters);
     source->memory_bytes += count * sizeof(float);
@@ -109,18 +115,20 @@ static int request_set(Source *source, RetexError *err)
 
     for (int i = 0; i < source->set->nparts && !status; i++) {
         RetexPart *part = &source->set->parts[i];
-        status = request_part(source, part->name, part->letters, part->type, &part->image, err);
+        status = request_part(source, part->name, part->letters, part->type, part->crc, i, &part->image, err);
     }
     return status;
 }
 
 static int request_samples(Source *source, RetexError *err)
 {
+    const int first = source->set ? source->set->nparts : 0;
     int status = 0;
 
     for (int i = 0; i < source->samples->nimages && !status; i++)
         if (source->names[i].name[0])
-            status = request_part(source, source->names[i].name, "RGB", RETEX_FLOAT, &source->samples->images[i], err);
+            status = request_part(source, source->names[i].name, "RGB", RETEX_FLOAT, source->names[i].crc, first + i,
+                                  &source->samples->images[i], err);
     return status;
 }
 
@@ -141,6 +149,20 @@ static int check_memory(const Source *source, RetexError *err)
     return check_stored(source, err);
 }
 
+/* Read what is requested, and compare its checksums. */
+static int read_requests(Source *source, int nthreads, RetexError *err)
+{
+    const int status = retex_exr_read(source->exr, source->requests, source->nrequests, nthreads, err);
+
+    for (int i = 0; i < source->nrequests && !status; i++) {
+        const RetexExrRequest *request = &source->requests[i];
+        if (request->crc != request->expected)
+            return retex_fail(err, RETEX_EFORMAT, "%s: the checksum of part %s is wrong",
+                              retex_input_name(source->input), retex_exr_part_name(source->exr, request->part));
+    }
+    return status;
+}
+
 /* Give the requested images their pixels. */
 static int read_pixels(Source *source, int nthreads, RetexError *err)
 {
@@ -151,7 +173,7 @@ static int read_pixels(Source *source, int nthreads, RetexError *err)
         const RetexImage shape = *image;
         status = retex_image_alloc(image, shape.width, shape.height, shape.channels, err);
     }
-    return status ? status : retex_exr_read(source->exr, source->requests, source->nrequests, nthreads, err);
+    return status ? status : read_requests(source, nthreads, err);
 }
 
 static int request_samples_stored(Source *source, RetexError *err)
@@ -166,7 +188,7 @@ static int request_samples_stored(Source *source, RetexError *err)
 }
 
 /* The set's parts stay where they are, and the samples that are wanted. */
-static int keep_open(Source *source, int with_samples, RetexError *err)
+static int keep_open(Source *source, int with_samples, int nthreads, RetexError *err)
 {
     RetexSetSource *opened;
     int status = source->set ? request_set(source, err) : 0;
@@ -177,13 +199,13 @@ static int keep_open(Source *source, int with_samples, RetexError *err)
         status = check_stored(source, err);
     if (status)
         return status;
-    RetexExrRequest *requests = source->requests;
-    RetexInput *input = source->input;
-    RetexExr *exr = source->exr;
+    const ExrSourceParts parts = {source->exr,       source->input, source->requests,
+                                  source->nrequests, source->sums,  nthreads};
     source->requests = NULL;
     source->input = NULL;
     source->exr = NULL;
-    status = exr_source_open(&opened, input, exr, requests, source->nrequests, err);
+    source->sums = (RetexBandSums){0};
+    status = exr_source_open(&opened, &parts, err);
     if (status)
         return status;
     if (source->set)
@@ -213,7 +235,8 @@ static int read_exr(Source *source, RetexSet **set, RetexSamples **samples, int 
     if (!with_set && !with_samples)
         return retex_fail(err, RETEX_EFORMAT, "%s holds %s, no %s", retex_input_name(source->input),
                           source->set ? "a set" : "samples", source->set ? "samples" : "set");
-    status = open ? keep_open(source, with_samples, err) : read_whole(source, with_set, with_samples, nthreads, err);
+    status = open ? keep_open(source, with_samples, nthreads, err)
+                  : read_whole(source, with_set, with_samples, nthreads, err);
     if (status)
         return status;
     if (set) {
@@ -271,21 +294,6 @@ int retex_set_open(const char *path, RetexSet **set, RetexSamples **samples, int
     return read_file(path, set, samples, 1, nthreads, err);
 }
 
-static int compare_crcs(const Source *source, RetexError *err)
-{
-    const char *file = retex_input_name(source->input);
-    int next = 0;
-
-    for (int i = 0; source->set && i < source->set->nparts; i++)
-        if (source->requests[next++].crc != source->set->parts[i].crc)
-            return retex_fail(err, RETEX_EFORMAT, "%s: the checksum of part %s is wrong", file,
-                              source->set->parts[i].name);
-    for (int i = 0; source->samples && i < source->samples->nimages; i++)
-        if (source->names[i].name[0] && source->requests[next++].crc != source->names[i].crc)
-            return retex_fail(err, RETEX_EFORMAT, "%s: the checksum of part %s is wrong", file, source->names[i].name);
-    return 0;
-}
-
 static int check_exr(Source *source, int nthreads, RetexError *err)
 {
     int status = source_describe(source, err);
@@ -298,13 +306,9 @@ static int check_exr(Source *source, int nthreads, RetexError *err)
         status = check_memory(source, err);
     if (status)
         return status;
-    for (int i = 0; i < source->nrequests; i++) {
+    for (int i = 0; i < source->nrequests; i++)
         source->requests[i].image = NULL; /* the checksum is all that is wanted */
-        source->requests[i].with_crc = 1;
-    }
-    status = retex_exr_read(source->exr, source->requests, source->nrequests, nthreads, err);
-    if (!status)
-        status = compare_crcs(source, err);
+    status = read_requests(source, nthreads, err);
     const int version = source->set ? source->set->version : source->samples->version;
     return status || version >= RETEX_MANIFEST_FIRST_WITH_SUM ? status : RETEX_CHECKED_IN_PART;
 }

@@ -78,6 +78,7 @@ typedef struct Writing {
     SetView view;          /* of it */
     const RetexSamples *samples;
     RetexSamplePart *names;
+    RetexBandSums sums;
     RetexImage blank;    /* a pixel for a file that would otherwise be empty */
     RetexExrPart *parts; /* those of the view, then those of samples */
     int count;
@@ -133,7 +134,39 @@ static int list_parts(Writing *w, RetexError *err)
     return status ? status : set_stage_fill(&w->stage, w->whole, w->samples, w->nthreads, err);
 }
 
-/* Encode the parts, keep the checksums where the manifest finds them, write all. */
+static int keep_band_sums(Writing *w, const RetexExrEncoding *encoding, int part, RetexError *err)
+{
+    uint32_t *crcs = retex_exr_band_crcs(encoding, part);
+
+    w->sums.of[w->sums.count++] = crcs;
+    return crcs ? 0 : retex_fail(err, RETEX_ENOMEM, "no memory to write %s", w->path);
+}
+
+/* Keep the checksums where the manifest finds them. */
+static int keep_sums(Writing *w, const RetexExrEncoding *encoding, RetexError *err)
+{
+    int next = 0, status = 0;
+
+    w->sums.of =
+        calloc((size_t)w->view.set.nparts + (size_t)(w->samples ? w->samples->nimages : 0) + 1, sizeof *w->sums.of);
+    if (!w->sums.of)
+        return retex_fail(err, RETEX_ENOMEM, "no memory to write %s", w->path);
+    for (int i = 0; i < w->view.set.nparts && !status; i++, next++) {
+        w->view.set.parts[i].crc = w->parts[next].crc;
+        status = keep_band_sums(w, encoding, next, err);
+    }
+    for (int i = 0; w->samples && i < w->samples->nimages && !status; i++) {
+        if (!w->names[i].name[0]) {
+            w->sums.of[w->sums.count++] = NULL;
+            continue;
+        }
+        w->names[i].crc = w->parts[next].crc;
+        status = keep_band_sums(w, encoding, next++, err);
+    }
+    return status;
+}
+
+/* Encode the parts, write all. */
 static int write_parts(Writing *w, RetexError *err)
 {
     RetexSet *set = w->whole ? &w->view.set : NULL;
@@ -141,15 +174,10 @@ static int write_parts(Writing *w, RetexError *err)
     char *json = NULL;
     int status = retex_exr_encode(&encoding, w->parts, w->count, w->compress, w->nthreads, err);
 
-    if (!status) {
-        int next = 0;
-        for (int i = 0; i < w->view.set.nparts; i++)
-            set->parts[i].crc = w->parts[next++].crc;
-        for (int i = 0; w->samples && i < w->samples->nimages; i++)
-            if (w->names[i].name[0])
-                w->names[i].crc = w->parts[next++].crc;
-        status = retex_manifest_write(set, w->samples, w->names, &json, err);
-    }
+    if (!status)
+        status = keep_sums(w, encoding, err);
+    if (!status)
+        status = retex_manifest_write(set, w->samples, w->names, &w->sums, &json, err);
     if (!status)
         status = retex_exr_write(encoding, w->width, w->height, RETEX_MANIFEST_ATTRIBUTE, json, w->path, err);
     retex_exr_encoding_free(&encoding);
@@ -199,6 +227,7 @@ static void close_writing(Writing *w)
 {
     set_stage_close(&w->stage);
     retex_image_free(&w->blank);
+    retex_band_sums_free(&w->sums);
     free(w->names);
     free(w->parts);
     set_view_free(&w->view);

@@ -214,12 +214,14 @@ typedef struct RetexStoreParams {
 
 /* Read a set, samples, or the stream of both that retex-sample writes to a pipe; from a file or "-". *.retex packs are
  * recognised by content. What the file does not hold comes back NULL; either out-parameter may be NULL when it is not
- * wanted (its parts are skipped). A file that holds nothing wanted is RETEX_EFORMAT. */
+ * wanted (its parts are skipped). A file that holds nothing wanted is RETEX_EFORMAT, and so is one where a checksum of
+ * what is read is wrong. */
 int retex_set_read(const char *path, RetexSet **set, RetexSamples **samples, int nthreads, RetexError *err);
 
 /* As retex_set_read, but the set's parts and the samples stay in the file until they are taken from there row by row,
  * by retex_retexture, retex_combine, retex_estimate_error, retex_sample_spooled or retex_set_write, or all at once by
- * retex_set_load and retex_samples_load; whatever else looks at pixels needs them loaded. The file must stay as it is
+ * retex_set_load and retex_samples_load; whatever else looks at pixels needs them loaded. Checksums are compared when
+ * rows are taken, so that all of these may return RETEX_EFORMAT. The file must stay as it is
  * until both are closed, and so must parts that retex_set_keep brought into memory: a pack may make its picture from
  * them. Of a pipe that gives more than 64 MiB all is in a temporary file, in $TMPDIR or /tmp. */
 int retex_set_open(const char *path, RetexSet **set, RetexSamples **samples, int nthreads, RetexError *err);

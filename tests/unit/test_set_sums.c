@@ -1,0 +1,118 @@
+/* Damage that nothing but a checksum sees: whoever reads a set, samples or a stream refuses it, whole or row by row. */
+#include "lib_damage.h"
+#include "lib_folder.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include <cmocka.h>
+
+static int begin(void **state)
+{
+    const int code = test_make_folder(state);
+    if (!code)
+        damage_begin(test_folder);
+    return code;
+}
+
+static int end(void **state)
+{
+    damage_end();
+    return test_remove_folder(state);
+}
+
+static void store(const char *path, const unsigned char *data, size_t bytes)
+{
+    FILE *file = fopen(path, "wb");
+    assert_non_null(file);
+    assert_int_equal(fwrite(data, 1, bytes, file), bytes);
+    assert_int_equal(fclose(file), 0);
+}
+
+/* Streams have not what denoising needs. */
+static int can_go(DamageFile kind, DamageRoad road)
+{
+    return kind != FILE_STREAM || (road != ROAD_DENOISE && road != ROAD_STRIPS && road != ROAD_PACK);
+}
+
+/* Flip bits here and there in what holds the samples, which is the second half of a file at least, and go a road: it is
+ * refused, and the message names a part, or what comes of it is the same to the bit. How many were refused of FLIPS. */
+enum { FLIPS = 16 };
+static int flip_samples(const char *path, DamageRoad road, uint32_t seed)
+{
+    uint32_t good = 0, sum = 0;
+    RetexError err = {0};
+    size_t bytes;
+    int refused = 0;
+    unsigned char *data = test_read_file(path, &bytes);
+    test_must(damage_go(road, path, &good, &err), &err);
+    for (int i = 0; i < FLIPS; i++) {
+        const size_t at = bytes / 2 + (size_t)(test_random(&seed) * (double)(bytes / 2));
+        data[at] ^= (unsigned char)(1 << i % 8);
+        store(path, data, bytes);
+        data[at] ^= (unsigned char)(1 << i % 8);
+        const int code = damage_go(road, path, &sum, &err);
+        if (code)
+            assert_true(code == RETEX_EFORMAT && strstr(err.message, "part"));
+        else if (sum != good)
+            fail_msg("road %s: byte %zu, bit %d", damage_road_names[road], at, i % 8);
+        refused += code != 0;
+    }
+    store(path, data, bytes);
+    free(data);
+    assert_int_equal(test_files_left(), 2); /* the set and the texture */
+    return refused;
+}
+
+/* Of the two layouts, and of files that an older version has left, where each part is compared as a whole. */
+static void flip_everywhere(DamageFile kind)
+{
+    static const char *const layouts[] = {"footprints", "paper"};
+    for (int k = 0; k < 4; k++) {
+        RetexSet *set = damage_set(layouts[k % 2], 3);
+        damage_write(set, kind, test_own_file);
+        if (k >= 2)
+            damage_make_old(test_own_file);
+        for (DamageRoad road = 0; road < ROADS; road++) {
+            if (!can_go(kind, road))
+                continue;
+            const int refused = flip_samples(test_own_file, road, 7 + (uint32_t)road);
+            /* who reads all of the file sees all there is, but for bits that deflate does not use */
+            if (kind != FILE_SET &&
+                (road == ROAD_READ || road == ROAD_WRITE || road == ROAD_PACK || road == ROAD_DENOISE))
+                assert_int_equal(refused, FLIPS);
+            assert_true(refused > 0);
+        }
+        retex_set_close(&set);
+    }
+}
+
+static void test_compressed_sets(void **state)
+{
+    (void)state;
+    flip_everywhere(FILE_SET);
+}
+
+static void test_sets_as_they_are(void **state)
+{
+    (void)state;
+    flip_everywhere(FILE_PLAIN);
+}
+
+static void test_streams(void **state)
+{
+    (void)state;
+    flip_everywhere(FILE_STREAM);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_compressed_sets),
+        cmocka_unit_test(test_sets_as_they_are),
+        cmocka_unit_test(test_streams),
+    };
+    return cmocka_run_group_tests(tests, begin, end);
+}
