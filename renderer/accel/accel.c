@@ -27,8 +27,10 @@ static void bound_curved(const struct RTCBoundsFunctionArguments *args)
     double pad;
 
     shape_bounds(primitive, &low, &high);
-    /* Room for Embree's rounding, in coordinates and in extent: flat shapes have none. */
-    pad = 2e-6 * (largest(low) + largest(high));
+    /* Room for Embree's rounding, in coordinates and in extent: flat shapes have none. And for that of rays that start
+     * elsewhere in the scene, as far as it does not make the bounds larger to speak of. */
+    pad = 2e-6 * (largest(low) + largest(high)) +
+          fmin(1e-6 * fmax(largest(accel->low), largest(accel->high)), 0.01 * largest(vec_sub(high, low)));
     bounds->lower_x = (float)(low.x - pad);
     bounds->lower_y = (float)(low.y - pad);
     bounds->lower_z = (float)(low.z - pad);

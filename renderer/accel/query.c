@@ -1,32 +1,41 @@
 /* Ray queries through Embree.
  *
  * Embree works in float; this renderer asks for double positions and for rays that never meet the surface they leave.
- * So Embree only proposes. A triangle it finds is checked in double against its plane: one that lies outside the ray's
- * own double range, or on whose plane the ray starts (within the rounding error of the plane's equation, however large
- * the triangle), is passed, and the ray goes on behind it. That happens rarely, for rays start off the surface they
- * leave by more than float's rounding (accel_offset). Occlusion, which stops at any triangle, asks a filter function
- * instead. Curved shapes are user geometry and double throughout. Boxes and meshes are one triangle geometry in world
- * space. Visibility by kind of ray is decided in the same places: Embree may be built without masks.
+ * So Embree only proposes, and what it proposes is measured in double. Curved shapes are user geometry and double
+ * throughout: the nearest is kept beside Embree's ray. The triangle that Embree ends with is measured against its plane,
+ * and against the nearest curved shape. Where it lies outside the ray's own double range, or the ray starts on its plane
+ * (within the rounding error of the plane's equation, however large the triangle), or the ray is not to see it, or where
+ * Embree was so wrong about its distance that it may have passed over something nearer, the ray looks more closely: at
+ * everything that Embree comes to along the whole of it, in double. That happens rarely, for rays start off the surface
+ * they leave by more than float's rounding (accel_offset). To ask a filter function about every triangle of every ray
+ * would make packets slower by a fifth. Occlusion, which stops at any triangle, asks one always.
  *
- * Rays come one by one or in packets, which pay where they run side by side. */
+ * Distances that Embree is told, of a ray's ends and of a curved shape, are rounded outward by more than float may be
+ * off, so that it passes over nothing that is nearer in double. What is left to float: whether a ray meets a triangle at
+ * all; on which side of the ray's start it is, and which of two triangles is nearer, where the height of one over the
+ * other is within float's rounding of their coordinates.
+ *
+ * Boxes and meshes are one triangle geometry in world space. Visibility by kind of ray is decided in the same places:
+ * Embree may be built without masks. Rays come one by one or in packets, which pay where they run side by side. */
 #include <float.h>
 #include <string.h>
 #include "accel/embree.h"
 
 #define FLOAT_DOUBT 1e-3 /* share by which a distance in float may be off, along grazing triangles too */
+#define FLOAT_TRUST 1e-6 /* and by which it is seldom */
 
-/* A ray in double, and the nearest curved shape on it so far. */
+/* A ray in double, and what it has met so far. */
 typedef struct QueryRay {
-    const Ray *ray;
+    Ray ray;         /* ends just behind the nearest, so that what is as near is found too */
+    Hit *hit;        /* the nearest so far; NULL where any will do */
+    double size;     /* of the origin's coordinates */
     double rounding; /* a plane whose height over the origin is this small goes through it */
-    double t;
-    int face;
     unsigned kind;   /* flag that a primitive must have to be seen */
     unsigned passes; /* flags of those that are passed */
     int passed;      /* one was */
 } QueryRay;
 
-typedef enum HitField { HIT_PRIMITIVE = 5, HIT_GEOMETRY, HIT_INSTANCE, HIT_HITS = 12 /* after a ray's */ } HitField;
+typedef enum HitField { HIT_U = 3, HIT_V, HIT_PRIMITIVE, HIT_GEOMETRY, HIT_INSTANCE, HIT_HITS = 12 } HitField;
 
 /* Embree hands the context to every callback: ours carries the rays in double, by the rays' ids. */
 typedef struct Query {
@@ -49,19 +58,65 @@ static inline int pass(const Accel *accel, QueryRay *of, int primitive)
     return 1;
 }
 
-/* ---- triangles in double ---- */
+/* ---- in double ---- */
 
-/* Distance to the triangle's plane; 0 where the ray runs along it or starts on it, or is not to see the triangle. */
-static inline int triangle_distance(const Accel *accel, const QueryRay *of, const Triangle *triangle, double *t)
+/* Distance to the triangle's plane, if before end; 0 where the ray runs along it or starts on it. */
+static inline int triangle_distance(const QueryRay *of, const Triangle *triangle, double end, double *t)
 {
-    const Ray *ray = of->ray;
+    const Ray *ray = &of->ray;
     Vec3 n = triangle->normal;
-    double height = triangle->offset - vec_dot(n, ray->origin), fall = vec_dot(n, ray->direction);
+    double height = triangle->offset - vec_dot(n, ray->origin), fall = vec_dot(n, ray->direction), distance;
 
     if (fabs(height) <= of->rounding || fall == 0)
         return 0;
-    *t = height / fall;
-    return *t > ray->tmin && *t < ray->tmax && visible(accel, of, triangle->primitive);
+    distance = height / fall;
+    if (!(distance > ray->tmin && distance < end))
+        return 0;
+    *t = distance;
+    return 1;
+}
+
+/* Something on the ray becomes the nearest if it is; of two that are as near the first in the scene, so that the answer
+ * does not depend on the order in which they are found. */
+static inline int take(QueryRay *of, double t, int primitive, int face)
+{
+    Hit *hit = of->hit;
+
+    if (hit->primitive >= 0 && (t > hit->t || (t == hit->t && (primitive > hit->primitive ||
+                                                               (primitive == hit->primitive && face >= hit->face)))))
+        return 0;
+    hit->t = t, hit->primitive = primitive, hit->face = face;
+    of->ray.tmax = t * (1 + DBL_EPSILON);
+    return 1;
+}
+
+/* Its barycentrics are in float, which is enough to interpolate; Embree keeps them inside. */
+static inline void take_triangle(QueryRay *of, const Triangle *triangle, double t, float b1, float b2)
+{
+    if (!take(of, t, triangle->primitive, triangle->face))
+        return;
+    of->hit->normal = triangle->normal;
+    of->hit->b1 = b1, of->hit->b2 = b2;
+}
+
+/* Does the ray meet a curved shape or a plane? */
+static inline int meet_shape(const Accel *accel, const QueryRay *of, int primitive, double *t, int *face)
+{
+    return visible(accel, of, primitive) && shape_intersect(&accel->source->primitives[primitive], &of->ray, t, face);
+}
+
+static inline int take_shape(const Accel *accel, QueryRay *of, int primitive)
+{
+    double t;
+    int face;
+
+    return meet_shape(accel, of, primitive, &t, &face) && take(of, t, primitive, face);
+}
+
+/* A distance for Embree, which is to look at all that may be as near. */
+static inline float outward(const QueryRay *of, double t)
+{
+    return (float)(t + FLOAT_DOUBT * (t + of->size));
 }
 
 /* ---- callbacks ---- */
@@ -79,7 +134,12 @@ static inline unsigned *hit_field(const void *hits, unsigned n, unsigned i, HitF
 {
     return (unsigned *)hits + ((unsigned)field * n + i);
 }
+static inline float hit_number(const void *hits, unsigned n, unsigned i, HitField field)
+{
+    return ((const float *)hits)[(unsigned)field * n + i];
+}
 
+/* A ray that is traced closely keeps the nearest and goes on to all others. */
 void accel_filter_occluder(const struct RTCFilterFunctionNArguments *args)
 {
     const Query *query = (const Query *)args->context;
@@ -90,33 +150,33 @@ void accel_filter_occluder(const struct RTCFilterFunctionNArguments *args)
             continue;
         QueryRay *of = &query->rays[ray_id(args->ray, args->N, i)];
         const Triangle *triangle = &query->accel->triangles[*hit_field(args->hit, args->N, i, HIT_PRIMITIVE)];
-        if (!triangle_distance(query->accel, of, triangle, &t) || pass(query->accel, of, triangle->primitive))
+        if (!triangle_distance(of, triangle, of->ray.tmax, &t) || !visible(query->accel, of, triangle->primitive)) {
             args->valid[i] = 0;
+        } else if (of->hit) {
+            take_triangle(of, triangle, t, hit_number(args->hit, args->N, i, HIT_U),
+                          hit_number(args->hit, args->N, i, HIT_V));
+            args->valid[i] = 0;
+        } else if (pass(query->accel, of, triangle->primitive)) {
+            args->valid[i] = 0;
+        }
     }
-}
-
-static int meet_curved(const Query *query, const QueryRay *of, unsigned index, float tfar, double *t, int *face)
-{
-    const Accel *accel = query->accel;
-    int primitive = accel->curved[index];
-    Ray ray = *of->ray;
-
-    if (!visible(accel, of, primitive))
-        return 0;
-    ray.tmax = ray.tmax < tfar ? ray.tmax : tfar;
-    return shape_intersect(&accel->source->primitives[primitive], &ray, t, face);
 }
 
 void accel_intersect_curved(const struct RTCIntersectFunctionNArguments *args)
 {
-    Query *query = (Query *)args->context;
+    const Query *query = (const Query *)args->context;
     const void *rays = args->rayhit, *hits = (const unsigned *)rays + HIT_HITS * args->N;
+    int primitive = query->accel->curved[args->primID];
 
     for (unsigned i = 0; i < args->N; i++) {
         QueryRay *of = &query->rays[ray_id(rays, args->N, i)];
-        if (!args->valid[i] || !meet_curved(query, of, args->primID, *ray_tfar(rays, args->N, i), &of->t, &of->face))
+        if (!args->valid[i] || !take_shape(query->accel, of, primitive))
             continue;
-        *ray_tfar(rays, args->N, i) = (float)of->t;
+        /* A triangle that float has at this distance stays Embree's hit: which is nearer is seen at the end. */
+        float end = outward(of, of->hit->t);
+        if (!(end < *ray_tfar(rays, args->N, i)))
+            continue;
+        *ray_tfar(rays, args->N, i) = end;
         *hit_field(hits, args->N, i, HIT_GEOMETRY) = query->accel->curved_geometry;
         *hit_field(hits, args->N, i, HIT_PRIMITIVE) = args->primID;
         *hit_field(hits, args->N, i, HIT_INSTANCE) = RTC_INVALID_GEOMETRY_ID;
@@ -126,16 +186,17 @@ void accel_intersect_curved(const struct RTCIntersectFunctionNArguments *args)
 void accel_occlude_curved(const struct RTCOccludedFunctionNArguments *args)
 {
     const Query *query = (const Query *)args->context;
-    const Accel *accel = query->accel;
+    int primitive = query->accel->curved[args->primID], face;
     double t;
-    int face;
 
     for (unsigned i = 0; i < args->N; i++) {
         QueryRay *of = &query->rays[ray_id(args->ray, args->N, i)];
-        float *tfar = ray_tfar(args->ray, args->N, i);
-        if (args->valid[i] && meet_curved(query, of, args->primID, *tfar, &t, &face) &&
-            !pass(accel, of, accel->curved[args->primID]))
-            *tfar = -INFINITY;
+        if (!args->valid[i])
+            continue;
+        if (of->hit)
+            take_shape(query->accel, of, primitive);
+        else if (meet_shape(query->accel, of, primitive, &t, &face) && !pass(query->accel, of, primitive))
+            *ray_tfar(args->ray, args->N, i) = -INFINITY;
     }
 }
 
@@ -164,54 +225,52 @@ static inline void start_query(Query *query, const Accel *accel, int side_by_sid
 
 /* Embree gets the ray in float, its range widened by what float may be off; the double one decides. Returns 0 where
  * the ray meets nothing for certain. */
-static inline int start_ray(QueryRay *of, const Accel *accel, const Ray *ray, RayKind kind, unsigned passes,
+static inline int start_ray(QueryRay *of, const Accel *accel, const Ray *ray, RayKind kind, unsigned passes, Hit *hit,
                             float *tnear, float *tfar)
 {
     double size = fabs(ray->origin.x) + fabs(ray->origin.y) + fabs(ray->origin.z);
     double start = ray->tmin > 0 ? ray->tmin - FLOAT_DOUBT * (ray->tmin + size) : 0;
 
-    of->ray = ray;
+    of->ray = *ray;
+    of->size = size;
     /* Every coordinate that goes into the height is at most the sum of both; the normal's are 1.8 together. */
     of->rounding = 28 * DBL_EPSILON * (accel->reach + size);
-    of->t = INFINITY;
-    of->face = 0;
+    of->hit = hit;
+    if (hit)
+        hit->primitive = -1;
     of->kind = (unsigned)kind;
     of->passes = passes;
     of->passed = 0;
     *tnear = start > 0 ? (float)start : 0;
-    *tfar = (float)(ray->tmax + FLOAT_DOUBT * (ray->tmax + size));
+    *tfar = outward(of, ray->tmax);
     return can_be_traced(ray, size);
 }
 
 static inline int start_single(QueryRay *of, struct RTCRay *to, const Accel *accel, const Ray *ray, RayKind kind,
-                               unsigned passes)
+                               unsigned passes, Hit *hit)
 {
     to->org_x = (float)ray->origin.x, to->org_y = (float)ray->origin.y, to->org_z = (float)ray->origin.z;
     to->dir_x = (float)ray->direction.x, to->dir_y = (float)ray->direction.y, to->dir_z = (float)ray->direction.z;
     to->time = 0, to->mask = 0xffffffffu, to->id = to->flags = 0;
-    return start_ray(of, accel, ray, kind, passes, &to->tnear, &to->tfar);
+    return start_ray(of, accel, ray, kind, passes, hit, &to->tnear, &to->tfar);
 }
 
-/* The nearest plane before limit, of those that are not passed; any plane will do where any is set. Returns its
- * primitive or -1. */
-static int nearest_plane(const Accel *accel, QueryRay *of, double *limit, int any)
+/* Is there a plane on the way, of those that are not passed? */
+static int plane_blocks(const Accel *accel, QueryRay *of)
 {
-    Ray ray = *of->ray;
-    int found = -1, face;
     double t;
+    int face;
 
-    ray.tmax = fmin(ray.tmax, *limit);
-    for (int i = 0; i < accel->nplanes; i++) {
-        int primitive = accel->planes[i];
-        if (!visible(accel, of, primitive) ||
-            !shape_intersect(&accel->source->primitives[primitive], &ray, &t, &face) || pass(accel, of, primitive))
-            continue;
-        found = primitive;
-        *limit = ray.tmax = t;
-        if (any)
-            break;
-    }
-    return found;
+    for (int i = 0; i < accel->nplanes; i++)
+        if (meet_shape(accel, of, accel->planes[i], &t, &face) && !pass(accel, of, accel->planes[i]))
+            return 1;
+    return 0;
+}
+
+static inline void take_planes(const Accel *accel, QueryRay *of)
+{
+    for (int i = 0; i < accel->nplanes; i++)
+        take_shape(accel, of, accel->planes[i]);
 }
 
 /* ---- single rays ---- */
@@ -242,40 +301,38 @@ static void trace_occluded(Query *query, struct RTCRay *ray)
 #endif
 }
 
-/* What Embree found, as a hit; 0 where the ray does not meet that triangle. */
-static inline int accept(const Accel *accel, const QueryRay *of, unsigned geometry, unsigned index, float u, float v,
-                         Hit *hit)
+/* Embree's hit, if it is a triangle, becomes the nearest unless a curved shape is. 0: the ray takes a closer look. */
+static inline int accept(const Accel *accel, QueryRay *of, const Ray *ray, unsigned geometry, unsigned index,
+                         float tfar, float u, float v)
 {
-    const Triangle *triangle = &accel->triangles[index];
+    double t, trust;
 
-    if (geometry == accel->curved_geometry) {
-        hit->t = of->t, hit->primitive = accel->curved[index], hit->face = of->face;
+    if (geometry == RTC_INVALID_GEOMETRY_ID || geometry == accel->curved_geometry)
         return 1;
-    }
-    if (!triangle_distance(accel, of, triangle, &hit->t))
+    const Triangle *triangle = &accel->triangles[index];
+    if (!triangle_distance(of, triangle, ray->tmax, &t) || !visible(accel, of, triangle->primitive))
         return 0;
-    hit->primitive = triangle->primitive;
-    hit->face = triangle->face;
-    hit->normal = triangle->normal;
-    hit->b1 = u, hit->b2 = v; /* in float, which is enough to interpolate; Embree keeps them inside */
+    trust = FLOAT_TRUST * (t + of->size);
+    /* Off by more, or so near the start that Embree may have looked no farther, or a curved shape is as near: then so
+     * may be other triangles. */
+    if (fabs(t - tfar) > trust || t < trust || (of->hit->primitive >= 0 && fabs(t - of->hit->t) <= trust))
+        return 0;
+    take_triangle(of, triangle, t, u, v);
     return 1;
 }
 
-/* Let the ray look for what is further away than what it found. */
-static void go_behind(struct RTCRayHit *rayhit, float end)
+/* The nearest of all triangles and curved shapes that Embree comes to from one end of the ray to the other. */
+static int look_closely(const Accel *accel, const Ray *ray, RayKind kind, Hit *hit)
 {
-    rayhit->ray.tnear = nextafterf(rayhit->ray.tfar, INFINITY);
-    rayhit->ray.tfar = end;
-    rayhit->hit.geomID = RTC_INVALID_GEOMETRY_ID;
-}
+    Query query;
+    QueryRay of;
+    struct RTCRay along;
 
-static int add_planes(const Accel *accel, QueryRay *of, Hit *hit)
-{
-    double limit = hit->primitive >= 0 ? hit->t : of->ray->tmax;
-    int plane = accel->nplanes ? nearest_plane(accel, of, &limit, 0) : -1;
-
-    if (plane >= 0)
-        hit->t = limit, hit->primitive = plane, hit->face = 0;
+    start_query(&query, accel, 0, &of);
+    if (start_single(&of, &along, accel, ray, kind, 0, hit)) {
+        trace_occluded(&query, &along);
+        take_planes(accel, &of);
+    }
     return hit->primitive >= 0;
 }
 
@@ -284,21 +341,17 @@ int accel_intersect(const Accel *accel, const Ray *ray, RayKind kind, Hit *hit)
     Query query;
     QueryRay of;
     struct RTCRayHit rayhit;
-    float end;
 
-    hit->primitive = -1;
     start_query(&query, accel, 0, &of);
-    if (!start_single(&of, &rayhit.ray, accel, ray, kind, 0))
+    if (!start_single(&of, &rayhit.ray, accel, ray, kind, 0, hit))
         return 0;
-    end = rayhit.ray.tfar;
     rayhit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     rayhit.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-    for (trace(&query, &rayhit); rayhit.hit.geomID != RTC_INVALID_GEOMETRY_ID; trace(&query, &rayhit)) {
-        if (accept(accel, &of, rayhit.hit.geomID, rayhit.hit.primID, rayhit.hit.u, rayhit.hit.v, hit))
-            break;
-        go_behind(&rayhit, end);
-    }
-    return add_planes(accel, &of, hit);
+    trace(&query, &rayhit);
+    if (!accept(accel, &of, ray, rayhit.hit.geomID, rayhit.hit.primID, rayhit.ray.tfar, rayhit.hit.u, rayhit.hit.v))
+        return look_closely(accel, ray, kind, hit);
+    take_planes(accel, &of);
+    return hit->primitive >= 0;
 }
 
 static AccelWay look_along(const Accel *accel, const Ray *ray, RayKind kind, unsigned passes)
@@ -306,12 +359,11 @@ static AccelWay look_along(const Accel *accel, const Ray *ray, RayKind kind, uns
     Query query;
     QueryRay of;
     struct RTCRay occluded;
-    double limit = ray->tmax;
 
     start_query(&query, accel, 0, &of);
-    if (!start_single(&of, &occluded, accel, ray, kind, passes))
+    if (!start_single(&of, &occluded, accel, ray, kind, passes, NULL))
         return WAY_FREE;
-    if (accel->nplanes && nearest_plane(accel, &of, &limit, 1) >= 0)
+    if (plane_blocks(accel, &of))
         return WAY_BLOCKED;
     trace_occluded(&query, &occluded);
     return occluded.tfar < 0 ? WAY_BLOCKED : of.passed ? WAY_PASSABLE : WAY_FREE;
@@ -346,11 +398,11 @@ static void blank_lane(Packet *p, int i)
     p->valid[i] = 0;
 }
 
-static void start_lane(Packet *p, int i, const Accel *accel, const Ray *ray, RayKind kind, unsigned passes)
+static void start_lane(Packet *p, int i, const Accel *accel, const Ray *ray, RayKind kind, unsigned passes, Hit *hit)
 {
     struct RTCRay16 *to = &p->rays.ray;
 
-    if (!start_ray(&p->of[i], accel, ray, kind, passes, &to->tnear[i], &to->tfar[i])) {
+    if (!start_ray(&p->of[i], accel, ray, kind, passes, hit, &to->tnear[i], &to->tfar[i])) {
         blank_lane(p, i);
         return;
     }
@@ -375,7 +427,7 @@ void accel_intersect_packet(const Accel *accel, const Ray *rays, const RayKind *
 
     start_query(&query, accel, side_by_side, p.of);
     for (int i = 0; i < count; i++)
-        start_lane(&p, i, accel, &rays[i], kinds[i], 0);
+        start_lane(&p, i, accel, &rays[i], kinds[i], 0, &hits[i]);
     fill_up(&p, count);
     for (int i = 0; i < ACCEL_PACKET; i++)
         p.rays.hit.geomID[i] = p.rays.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
@@ -392,15 +444,13 @@ void accel_intersect_packet(const Accel *accel, const Ray *rays, const RayKind *
         if (p.rays.hit.geomID[i] != RTC_INVALID_GEOMETRY_ID && p.rays.hit.geomID[i] != accel->curved_geometry)
             __builtin_prefetch(&accel->triangles[p.rays.hit.primID[i]]);
     for (int i = 0; i < count; i++) {
-        hits[i].primitive = -1;
         if (!p.valid[i])
             continue;
-        if (p.rays.hit.geomID[i] != RTC_INVALID_GEOMETRY_ID &&
-            !accept(accel, &p.of[i], p.rays.hit.geomID[i], p.rays.hit.primID[i], p.rays.hit.u[i], p.rays.hit.v[i],
-                    &hits[i]))
-            accel_intersect(accel, &rays[i], kinds[i], &hits[i]); /* seldom: it takes another look behind that */
+        if (accept(accel, &p.of[i], &rays[i], p.rays.hit.geomID[i], p.rays.hit.primID[i], p.rays.ray.tfar[i],
+                   p.rays.hit.u[i], p.rays.hit.v[i]))
+            take_planes(accel, &p.of[i]);
         else
-            add_planes(accel, &p.of[i], &hits[i]);
+            look_closely(accel, &rays[i], kinds[i], &hits[i]);
     }
 }
 
@@ -411,7 +461,7 @@ void accel_way_packet(const Accel *accel, const Ray *rays, const int *light_sour
 
     start_query(&query, accel, 1, p.of);
     for (int i = 0; i < count; i++)
-        start_lane(&p, i, accel, &rays[i], RAY_SHADOW, light_sources[i] ? TRANSPARENT : STRAIGHT);
+        start_lane(&p, i, accel, &rays[i], RAY_SHADOW, light_sources[i] ? TRANSPARENT : STRAIGHT, NULL);
     fill_up(&p, count);
 #if defined(RETEX_EMBREE4)
     struct RTCOccludedArguments args;
@@ -423,9 +473,7 @@ void accel_way_packet(const Accel *accel, const Ray *rays, const int *light_sour
     rtcOccluded16(p.valid, accel->scene, &query.context, &p.rays.ray);
 #endif
     for (int i = 0; i < count; i++) {
-        double limit = rays[i].tmax;
-        int behind = p.valid[i] &&
-                     (p.rays.ray.tfar[i] < 0 || (accel->nplanes && nearest_plane(accel, &p.of[i], &limit, 1) >= 0));
-        ways[i] = behind ? WAY_BLOCKED : p.of[i].passed ? WAY_PASSABLE : WAY_FREE;
+        int blocked = p.valid[i] && (p.rays.ray.tfar[i] < 0 || plane_blocks(accel, &p.of[i]));
+        ways[i] = blocked ? WAY_BLOCKED : p.of[i].passed ? WAY_PASSABLE : WAY_FREE;
     }
 }

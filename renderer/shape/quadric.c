@@ -18,6 +18,15 @@ static int in_range(const ShapeRay *ray, double t)
     return t > ray->tmin && t < ray->tmax;
 }
 
+/* It is the hit, if it is in range. */
+static int accept(const ShapeRay *ray, double candidate, double *t)
+{
+    if (!in_range(ray, candidate))
+        return 0;
+    *t = candidate;
+    return 1;
+}
+
 /* The roots of a t^2 + 2 b t + c, ascending; without cancellation. on_surface: c is 0 but for rounding, and the root
  * there is left out. Returns how many. */
 static int quadratic(double a, double b, double c, int on_surface, double roots[2])
@@ -54,19 +63,14 @@ int sphere_hit(const ShapeRay *ray, double *t)
     Vec3 closest = vec_mad(o, d, nearest);
 
     if (fabs(c) <= ray->slack * (2 + oo)) {
-        *t = 2 * nearest;
-        return in_range(ray, *t);
+        return accept(ray, 2 * nearest, t);
     }
     /* From the point of closest approach: exact however far away the ray begins. */
     half = (1 - vec_dot(closest, closest)) / dd;
     if (!(half >= 0))
         return 0;
     half = sqrt(half);
-    *t = nearest - half;
-    if (in_range(ray, *t))
-        return 1;
-    *t = nearest + half;
-    return in_range(ray, *t);
+    return accept(ray, nearest - half, t) || accept(ray, nearest + half, t);
 }
 
 void sphere_point(Vec3 p, ShapePoint *out)
@@ -90,8 +94,7 @@ int plane_hit(const ShapeRay *ray, double *t)
 {
     if (fabs(ray->origin.y) <= ray->slack || ray->direction.y == 0)
         return 0;
-    *t = -ray->origin.y / ray->direction.y;
-    return in_range(ray, *t);
+    return accept(ray, -ray->origin.y / ray->direction.y, t);
 }
 
 void plane_point(Vec3 p, ShapePoint *out)
@@ -105,16 +108,16 @@ void plane_point(Vec3 p, ShapePoint *out)
 /* A ring in the plane z = height. */
 static int ring_hit(const ShapeRay *ray, double height, double outer, double inner, double *t)
 {
-    double offset = height - ray->origin.z, x, y, rr;
+    double offset = height - ray->origin.z, candidate, x, y, rr;
 
     if (fabs(offset) <= ray->slack || ray->direction.z == 0)
         return 0;
-    *t = offset / ray->direction.z;
-    x = ray->origin.x + *t * ray->direction.x;
-    y = ray->origin.y + *t * ray->direction.y;
+    candidate = offset / ray->direction.z;
+    x = ray->origin.x + candidate * ray->direction.x;
+    y = ray->origin.y + candidate * ray->direction.y;
     rr = x * x + y * y;
     /* The rim belongs to both the cap and the side: no crack between them. */
-    return in_range(ray, *t) && rr <= outer * outer * (1 + 4 * DBL_EPSILON) && rr >= inner * inner;
+    return rr <= outer * outer * (1 + 4 * DBL_EPSILON) && rr >= inner * inner && accept(ray, candidate, t);
 }
 
 int disc_hit(const Primitive *primitive, const ShapeRay *ray, double *t)
@@ -164,10 +167,8 @@ static int side_hit(const Primitive *primitive, const ShapeRay *ray, double *t)
     count = quadratic(a, b, c, on_surface, roots);
     for (int i = 0; i < count; i++) {
         double z = o.z + roots[i] * d.z;
-        if (z >= 0 && z <= 1 && in_range(ray, roots[i] + shift)) {
-            *t = roots[i] + shift;
+        if (z >= 0 && z <= 1 && accept(ray, roots[i] + shift, t))
             return 1;
-        }
     }
     return 0;
 }
@@ -182,14 +183,12 @@ int cone_hit(const Primitive *primitive, const ShapeRay *ray, double *t, int *fa
         *face = 0;
         rest.tmax = *t;
     }
-    for (int cap = 0; cap < 2 && !primitive->open; cap++) {
-        double cap_t;
-        if (ring_hit(&rest, cap, cap ? primitive->r1 : primitive->r0, 0, &cap_t)) {
+    for (int cap = 0; cap < 2 && !primitive->open; cap++)
+        if (ring_hit(&rest, cap, cap ? primitive->r1 : primitive->r0, 0, t)) {
             found = 1;
-            *t = rest.tmax = cap_t;
             *face = 1 + cap;
+            rest.tmax = *t;
         }
-    }
     return found;
 }
 

@@ -34,6 +34,7 @@ typedef struct ShapeUv {
     int has_natural;
 } ShapeUv;
 
+/* The nearest t in (tmin, tmax): 1 and *t, and *face where there is one; else 0, and both are left as they were. */
 int sphere_hit(const ShapeRay *ray, double *t);
 int plane_hit(const ShapeRay *ray, double *t);
 int disc_hit(const Primitive *primitive, const ShapeRay *ray, double *t);

@@ -24,24 +24,30 @@ static ShapeRay to_shape(const Primitive *primitive, const Ray *ray)
 int shape_intersect(const Primitive *primitive, const Ray *ray, double *t, int *face)
 {
     ShapeRay local = to_shape(primitive, ray);
+    int found = 0;
 
-    *face = 0;
     switch (primitive->kind) {
     case SHAPE_SPHERE:
-        return sphere_hit(&local, t);
+        found = sphere_hit(&local, t);
+        break;
     case SHAPE_PLANE:
-        return plane_hit(&local, t);
+        found = plane_hit(&local, t);
+        break;
     case SHAPE_CONE:
         return cone_hit(primitive, &local, t, face);
     case SHAPE_TORUS:
-        return torus_hit(primitive, &local, t);
+        found = torus_hit(primitive, &local, t);
+        break;
     case SHAPE_DISC:
-        return disc_hit(primitive, &local, t);
+        found = disc_hit(primitive, &local, t);
+        break;
     case SHAPE_BOX:
     case SHAPE_MESH:
         break;
     }
-    return 0;
+    if (found)
+        *face = 0;
+    return found;
 }
 
 /* ---- bounds ---- */

@@ -61,7 +61,9 @@ SurfaceUv surface_uv(const Surface *surface); /* apart: most surfaces have one c
 /* Of a surface fresh from shape_sample: which side it is seen from, with the texture there. */
 void surface_turn(Surface *surface, int backside);
 
-/* Intersect one analytic primitive (not a mesh or box): the nearest t in (tmin, tmax). 1 if found; face as in Hit. */
+/* Intersect one analytic primitive (not a mesh or box): the nearest t in (tmin, tmax). 1 if found, with face as in
+ * Hit; else 0, and *t and *face are left as they were: they may be those of a nearer hit. Whatever looks for hits here
+ * and in accel/ keeps to that. */
 int shape_intersect(const Primitive *primitive, const Ray *ray, double *t, int *face);
 /* World-space bounding box; planes have none (returns 0). */
 int shape_bounds(const Primitive *primitive, Vec3 *low, Vec3 *high);

@@ -109,17 +109,28 @@ static int clip(double major, double minor, Vec3 o, Vec3 d, double *low, double 
     return *low < *high;
 }
 
-/* Where the ray begins (at tmin) on the surface, rounding must not decide the sign of the equation there: the direction
- * does. Returns 0 where it begins elsewhere, else 1 leaving the tube, -1 entering it. */
-static int start_side(double major, double minor, const ShapeRay *ray)
+/* Where the ray begins (at tmin) on the circle about the ring's point at that distance from the axis: 0 elsewhere, 1
+ * leaving it, -1 entering it. */
+static int circle_side(double ring, double minor, const ShapeRay *ray)
 {
     Vec3 o = vec_mad(ray->origin, ray->direction, ray->tmin), d = ray->direction;
-    double rho = hypot(o.x, o.z), f = (rho - major) * (rho - major) + o.y * o.y - minor * minor;
-    double bound = 4 * ray->slack * (fabs(rho - major) + fabs(o.y) + minor);
+    double rho = hypot(o.x, o.z), f = (rho - ring) * (rho - ring) + o.y * o.y - minor * minor;
+    /* Of the origin, of the way from there, and of the equation's own terms. */
+    double slack = ray->slack + 8 * DBL_EPSILON * (ray->tmin * vec_length(d) + fabs(ring) + minor);
 
-    if (!(fabs(f) <= bound))
+    if (!(fabs(f) <= 4 * slack * (fabs(rho - ring) + fabs(o.y) + minor)))
         return 0;
-    return (rho - major) * (rho > 0 ? (o.x * d.x + o.z * d.z) / rho : 0) + o.y * d.y >= 0 ? 1 : -1;
+    return (rho - ring) * (rho > 0 ? (o.x * d.x + o.z * d.z) / rho : 0) + o.y * d.y >= 0 ? 1 : -1;
+}
+
+/* Where the ray begins (at tmin) on the surface, rounding must not decide the sign of the equation there: the direction
+ * does. Returns 0 where it begins elsewhere, else the sign. */
+static int start_side(double major, double minor, const ShapeRay *ray)
+{
+    int side = circle_side(major, minor, ray);
+
+    /* The inner skin of a torus that overlaps itself: the equation is positive within it. */
+    return side == 0 && minor > major ? -circle_side(-major, minor, ray) : side;
 }
 
 int torus_hit(const Primitive *primitive, const ShapeRay *ray, double *t)
@@ -151,9 +162,11 @@ int torus_hit(const Primitive *primitive, const ShapeRay *ray, double *t)
         if ((previous > 0) != (next > 0)) {
             double s = bracketed(value, slope, &q, ends[i - 1], ends[i], next > 0);
             s = polish(major, minor, o, d, s);
-            *t = (s + shift) / length;
-            if (*t > ray->tmin && *t < ray->tmax)
+            double found = (s + shift) / length;
+            if (found > ray->tmin && found < ray->tmax) {
+                *t = found;
                 return 1;
+            }
         }
         previous = next;
     }

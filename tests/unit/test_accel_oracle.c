@@ -1,0 +1,681 @@
+/* Ray queries against a plain loop over everything in the scene, in double: random scenes of all shapes, one inside the
+ * other and through each other, sheared and stretched, of a thousandth of a unit to a thousand units, near the origin
+ * and far from it.
+ *
+ * What Embree decides in float is left open here too, and only that: whether a ray meets a triangle within EDGE of its
+ * rim; whether one within START of the ray's start lies before or behind it; and which of two triangles comes first where
+ * their heights over each other are within HEIGHT. All are shares of the coordinates involved. Where a curved shape or a
+ * plane is one of the two, only doubles may decide, to EXACT.
+ *
+ * RETEX_ORACLE_SECONDS=N goes on with other scenes for so long, RETEX_ORACLE_SEED=N begins with that one. A failure
+ * names the seed of its scene. */
+#include <float.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <time.h>
+#include "lib_test.h"
+#include <cmocka.h>
+#include "accel/accel.h"
+
+#define EDGE 2e-6
+#define START 4e-7
+#define HEIGHT 2e-6
+#define EXACT 1e-11
+
+enum { SCENES = 250, BATCHES = 10, SHAPES_MOST = 24, CANDIDATES_MOST = 512, SOUP = 12, TRIES = 20 };
+
+/* ---- random numbers ---- */
+
+static uint32_t state;
+
+static double between(double low, double high)
+{
+    return low + (high - low) * test_random(&state);
+}
+static int below(int count)
+{
+    return (int)(test_random(&state) * count);
+}
+static int chance(double share)
+{
+    return test_random(&state) < share;
+}
+static double magnitude(double low, double high) /* uniform in its logarithm */
+{
+    return low * pow(high / low, test_random(&state));
+}
+static Vec3 direction(void)
+{
+    double z = between(-1, 1), angle = between(0, 2 * PI), rho = sqrt(1 - z * z);
+
+    return vec3(rho * cos(angle), rho * sin(angle), z);
+}
+
+/* ---- scenes ---- */
+
+/* What lets light through, and which primitives that makes passable: to any light, to one that is not bent. */
+static const Pigment grey = {.kind = PIGMENT_COLOR, .color = {0.5f, 0.5f, 0.5f, 0, 0}};
+static const Pigment glass = {.kind = PIGMENT_COLOR, .color = {1, 1, 1, 0.9f, 0}};
+static const Texture solid = {.pigment = &grey}, clear = {.pigment = &glass};
+static const Interior bending = {.ior = 1.5};
+static const struct Material {
+    const Texture *texture, *inside;
+    const Interior *interior;
+    int transparent, straight;
+} materials[] = {{&solid, NULL, NULL, 0, 0},
+                 {&solid, NULL, &bending, 0, 0},
+                 {&clear, NULL, NULL, 1, 1},
+                 {&clear, NULL, &bending, 1, 0},
+                 {&solid, &clear, &bending, 1, 1}};
+
+typedef struct World {
+    uint32_t seed;
+    Scene scene;
+    Primitive shapes[SHAPES_MOST];
+    const struct Material *of[SHAPES_MOST];
+    Accel *accel;
+    Vec3 centre;
+    double size;  /* half of what the shapes fill, about centre */
+    double far;   /* where rays start at the farthest: as many sizes from the centre */
+    double reach; /* largest coordinate of a triangle */
+} World;
+
+static Vec3 soup_vertices[3 * SOUP], tent_vertices[5] = {{-1, 0, -1}, {1, 0, -1}, {1, 0, 1}, {-1, 0, 1}, {0, 1.5, 0}};
+static MeshFace soup_faces[SOUP], tent_faces[6];
+static Mesh soup = {.nvertices = 3 * SOUP, .nfaces = SOUP, .vertices = soup_vertices, .faces = soup_faces};
+static Mesh tent = {.nvertices = 5, .nfaces = 6, .vertices = tent_vertices, .faces = tent_faces};
+
+static MeshFace face_of(int a, int b, int c)
+{
+    return (MeshFace){{a, b, c}, {-1, -1, -1}, {-1, -1, -1}, -1};
+}
+
+static void make_meshes(void)
+{
+    const int corners[6][3] = {{0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}, {0, 2, 1}, {0, 3, 2}};
+
+    for (int i = 0; i < 6; i++)
+        tent_faces[i] = face_of(corners[i][0], corners[i][1], corners[i][2]);
+    for (int i = 0; i < 3 * SOUP; i++)
+        soup_vertices[i] = vec_scale(direction(), between(0.2, 1.2));
+    for (int i = 0; i < SOUP; i++)
+        soup_faces[i] = face_of(3 * i, 3 * i + 1, 3 * i + 2);
+}
+
+/* Of about this size: even or not, sheared or not, turned, with its middle there. */
+static Transform random_transform(double size, Vec3 at)
+{
+    Transform t = transform_scale(vec3(size, size, size));
+
+    if (chance(0.6))
+        t = transform_scale(vec3(size * magnitude(0.1, 2), -size * magnitude(0.1, 2), size * magnitude(0.1, 2)));
+    if (chance(0.8))
+        t = transform_then(t, transform_rotate(vec_scale(direction(), 180)));
+    if (chance(0.3)) {
+        double shear[12] = {1, between(-1, 1), 0, between(-1, 1), 1, 0, between(-1, 1), between(-1, 1), 1, 0, 0, 0};
+        Transform sheared;
+        if (transform_matrix(shear, &sheared))
+            t = transform_then(t, sheared);
+    }
+    return transform_then(t, transform_translate(at));
+}
+
+static void random_form(Primitive *p)
+{
+    p->r0 = p->r1 = 0;
+    if (p->kind == SHAPE_CONE) {
+        p->r0 = chance(0.2) ? 0 : between(0.1, 1.5);
+        p->r1 = chance(0.3) ? p->r0 : chance(0.2) ? 0 : between(0.1, 1.5);
+        p->r0 = p->r0 + p->r1 > 0 ? p->r0 : 1;
+        p->open = chance(0.4);
+    } else if (p->kind == SHAPE_TORUS) {
+        p->r0 = between(0.2, 1);
+        p->r1 = chance(0.2) ? p->r0 * between(1, 1.5) : p->r0 * magnitude(0.02, 1);
+    } else if (p->kind == SHAPE_DISC) {
+        p->r0 = between(0.3, 1.5);
+        p->r1 = chance(0.5) ? 0 : between(0, p->r0);
+    } else if (p->kind == SHAPE_MESH) {
+        p->mesh = chance(0.5) ? &soup : &tent;
+    }
+}
+
+/* Anywhere, or as the one before, or round the same middle: nested, or through each other. */
+static Primitive random_shape(const World *w, int index)
+{
+    Primitive p = {.kind = (ShapeKind)(index < 7 ? index : below(7)), .target = -1};
+    const Primitive *before = index > 0 ? &w->shapes[below(index)] : NULL;
+    double size = w->size * magnitude(0.05, 1);
+
+    if (before && chance(0.35)) {
+        double factor = chance(0.2) ? 1 : chance(0.3) ? 1 + magnitude(1e-9, 1e-2) : between(0.4, 1.1);
+        p.transform = transform_then(transform_scale(vec3(factor, factor, factor)), before->transform);
+        if (chance(0.5))
+            p.kind = before->kind;
+    } else {
+        p.transform = random_transform(size, vec_mad(w->centre, direction(), w->size * between(0, 1)));
+    }
+    random_form(&p);
+    if (before && p.kind == before->kind)
+        p.r0 = before->r0, p.r1 = before->r1, p.mesh = before->mesh, p.open = before->open;
+    p.no_image = chance(0.12), p.no_shadow = chance(0.12), p.no_reflection = chance(0.12);
+    return p;
+}
+
+static const int *corners_of(const Primitive *p, int face)
+{
+    return p->kind == SHAPE_BOX ? box_triangles[face] : p->mesh->faces[face].vertex;
+}
+static int triangles_of(const Primitive *p)
+{
+    return p->kind == SHAPE_BOX ? 12 : p->kind == SHAPE_MESH ? p->mesh->nfaces : 0;
+}
+static Vec3 corner_at(const Primitive *p, int index)
+{
+    return transform_point(&p->transform, p->kind == SHAPE_BOX ? box_corner(index) : p->mesh->vertices[index]);
+}
+
+static double size_of(Vec3 p)
+{
+    return fmax(fabs(p.x), fmax(fabs(p.y), fabs(p.z)));
+}
+
+static void make_world(World *w, uint32_t seed)
+{
+    RetexError err = {0};
+    double far;
+
+    state = w->seed = seed;
+    make_meshes();
+    w->size = magnitude(1e-3, 1e3);
+    far = chance(0.5) ? 0 : magnitude(0.1, 30);
+    w->centre = vec_scale(direction(), w->size * far);
+    w->scene = (Scene){.primitives = w->shapes, .nprimitives = 1 + below(SHAPES_MOST)};
+    w->far = magnitude(2, 100);
+    w->scene.camera.location =
+        vec_mad(w->centre, vec3(1, 1, 1), w->far * w->size); /* surfaces and it are where rays start */
+    w->reach = 0;
+    for (int i = 0; i < w->scene.nprimitives; i++) {
+        Primitive *p = &w->shapes[i];
+        *p = random_shape(w, i);
+        w->of[i] = &materials[below(5)];
+        p->texture = w->of[i]->texture, p->interior_texture = w->of[i]->inside, p->interior = w->of[i]->interior;
+        for (int k = 0; k < triangles_of(p); k++)
+            for (int c = 0; c < 3; c++)
+                w->reach = fmax(w->reach, size_of(corner_at(p, corners_of(p, k)[c])));
+    }
+    if (accel_create(&w->accel, &w->scene, 1, &err) < 0)
+        fail_msg("%s", err.message);
+}
+
+/* ---- the plain loop ---- */
+
+/* Something that the ray meets, or may meet. */
+typedef struct Candidate {
+    double t, slack; /* slack: how far off the distance may be */
+    double fall;     /* cosine of a triangle's normal; 0 for other shapes */
+    int primitive, face, sure;
+} Candidate;
+
+typedef struct Met {
+    Candidate list[CANDIDATES_MOST];
+    int count;
+} Met;
+
+static int visible(const Primitive *p, RayKind kind)
+{
+    return (!p->no_image && (kind & RAY_CAMERA)) || (!p->no_shadow && (kind & RAY_SHADOW)) ||
+           (!p->no_reflection && (kind & RAY_BOUNCE));
+}
+
+static void add(Met *met, const Ray *ray, Candidate c)
+{
+    if (!(c.t + c.slack > ray->tmin && c.t - c.slack < ray->tmax))
+        return;
+    c.sure = c.sure && c.t - c.slack > ray->tmin && c.t + c.slack < ray->tmax;
+    assert_true(met->count < CANDIDATES_MOST);
+    met->list[met->count++] = c;
+}
+
+/* Distance of a point to the line through a and b, on its plane; positive on the inner side. */
+static double inside_edge(Vec3 a, Vec3 b, Vec3 normal, Vec3 p)
+{
+    Vec3 along = vec_normalize(vec_sub(b, a));
+
+    return vec_dot(vec_cross(normal, along), vec_sub(p, a));
+}
+
+static void meet_triangle(const World *w, const Ray *ray, int index, int k, Met *met)
+{
+    const Primitive *p = &w->shapes[index];
+    const int *corners = corners_of(p, k);
+    Vec3 a = corner_at(p, corners[0]), b = corner_at(p, corners[1]), c = corner_at(p, corners[2]);
+    Vec3 n = vec_normalize(vec_cross(vec_sub(b, a), vec_sub(c, a))), at;
+    double height = vec_dot(n, vec_sub(a, ray->origin)), fall = vec_dot(n, ray->direction), t = height / fall;
+    double sizes = w->reach + size_of(ray->origin), within, doubt;
+
+    if (fabs(fall) < 1e-9)
+        return;
+    at = vec_mad(ray->origin, ray->direction, t);
+    within = fmin(inside_edge(a, b, n, at), fmin(inside_edge(b, c, n, at), inside_edge(c, a, n, at)));
+    doubt = EDGE * sizes / fabs(fall);
+    if (!(within > -doubt))
+        return;
+    add(met, ray,
+        (Candidate){t, 1e-14 * sizes / fabs(fall), fabs(fall), index, p->kind == SHAPE_BOX ? k / 2 : k,
+                    within > doubt && fabs(fall) > 2e-3 && fabs(height) > START * sizes});
+}
+
+static void meet_all(const World *w, const Ray *ray, RayKind kind, Met *met)
+{
+    met->count = 0;
+    for (int i = 0; i < w->scene.nprimitives; i++) {
+        const Primitive *p = &w->shapes[i];
+        double t;
+        int face;
+        if (!visible(p, kind))
+            continue;
+        for (int k = 0; k < triangles_of(p); k++)
+            meet_triangle(w, ray, i, k, met);
+        if (triangles_of(p) == 0 && shape_intersect(p, ray, &t, &face))
+            add(met, ray, (Candidate){t, 0, 0, i, face, 1});
+    }
+}
+
+/* ---- judging ---- */
+
+static void complain(const World *w, const Ray *ray, RayKind kind, const Met *met, const char *what, const Hit *hit)
+{
+    const Candidate *nearest = NULL;
+
+    for (int i = 0; i < met->count; i++)
+        if (met->list[i].sure && (!nearest || met->list[i].t < nearest->t))
+            nearest = &met->list[i];
+    print_message("# kind %d, range %g to %g, origin %.17g %.17g %.17g, direction %.17g %.17g %.17g\n", kind, ray->tmin,
+                  ray->tmax, ray->origin.x, ray->origin.y, ray->origin.z, ray->direction.x, ray->direction.y,
+                  ray->direction.z);
+    if (hit && hit->primitive >= 0)
+        print_message("# met: %d (kind %d) face %d at %.17g\n", hit->primitive, w->shapes[hit->primitive].kind,
+                      hit->face, hit->t);
+    if (nearest)
+        print_message("# is there: %d (kind %d) face %d at %.17g, cosine %g\n", nearest->primitive,
+                      w->shapes[nearest->primitive].kind, nearest->face, nearest->t, nearest->fall);
+    fail_msg("%s; RETEX_ORACLE_SEED=%u, size %g, %d shapes", what, (unsigned)w->seed, w->size, w->scene.nprimitives);
+}
+
+/* How much farther away b may be and still be taken for the nearer one. */
+static double open_to_float(const World *w, const Ray *ray, const Candidate *a, const Candidate *b)
+{
+    double sizes = w->reach + size_of(ray->origin), exact = EXACT * (a->t + size_of(ray->origin));
+
+    if (a->fall == 0 || b->fall == 0)
+        return exact + a->slack + b->slack;
+    return exact + HEIGHT * sizes / fmin(a->fall, b->fall);
+}
+
+static int judge(const World *w, const Ray *ray, RayKind kind, const Met *met, int found, const Hit *hit)
+{
+    const Candidate *taken = NULL;
+    int sure = 0;
+
+    if (found != (hit->primitive >= 0))
+        complain(w, ray, kind, met, "what is returned and the hit differ", hit);
+    for (int i = 0; found && i < met->count; i++) {
+        const Candidate *c = &met->list[i];
+        if (c->primitive == hit->primitive && c->face == hit->face &&
+            fabs(c->t - hit->t) <= EXACT * (c->t + size_of(ray->origin)) + 2 * c->slack)
+            taken = c;
+    }
+    if (found && !taken)
+        complain(w, ray, kind, met, "this is not on the ray", hit);
+    for (int i = 0; i < met->count; i++) {
+        const Candidate *c = &met->list[i];
+        if (!c->sure)
+            continue;
+        sure = 1;
+        if (!found)
+            complain(w, ray, kind, met, "nothing is found", hit);
+        if (c->t + open_to_float(w, ray, c, taken) < hit->t)
+            complain(w, ray, kind, met, "something is nearer", hit);
+    }
+    return sure;
+}
+
+/* passes: 0 none, 1 what is transparent, 2 what lets light through unbent. */
+static int passed(const World *w, int primitive, int passes)
+{
+    return (passes == 1 && w->of[primitive]->transparent) || (passes == 2 && w->of[primitive]->straight);
+}
+
+static void judge_way(const World *w, const Ray *ray, RayKind kind, const Met *met, int passes, AccelWay way)
+{
+    int blocked[2] = {0, 0}, passable[2] = {0, 0}; /* perhaps, surely */
+
+    for (int i = 0; i < met->count; i++) {
+        const Candidate *c = &met->list[i];
+        int *list = passed(w, c->primitive, passes) ? passable : blocked;
+        list[0] = 1;
+        list[1] |= c->sure;
+    }
+    if (way == WAY_BLOCKED ? !blocked[0] : blocked[1])
+        complain(w, ray, kind, met, way == WAY_BLOCKED ? "nothing blocks the way" : "the way is blocked", NULL);
+    if (way != WAY_BLOCKED && (way == WAY_PASSABLE ? !passable[0] : passable[1]))
+        complain(w, ray, kind, met, "what may let light through is not told", NULL);
+}
+
+/* ---- rays ---- */
+
+static RayKind random_kind(void)
+{
+    const RayKind kinds[] = {RAY_CAMERA, RAY_BOUNCE, RAY_SHADOW, (RayKind)(RAY_CAMERA | RAY_BOUNCE)};
+
+    return kinds[below(4)];
+}
+
+/* Just within the side of a sphere's bounds. */
+static Ray skimming_ray(const World *w, const Primitive *sphere)
+{
+    int axis = below(3);
+    const double *row = sphere->transform.m[axis];
+    Vec3 out = {axis == 0, axis == 1, axis == 2}, radius = {row[0], row[1], row[2]};
+    Vec3 at = transform_point(&sphere->transform, vec_normalize(radius));
+    Ray ray = {{0, 0, 0}, vec_normalize(vec_cross(out, direction())), 0, INFINITY};
+
+    at = vec_mad(at, out, -vec_length(radius) * magnitude(1e-7, 1e-2));
+    ray.origin = vec_mad(at, ray.direction, -w->size * magnitude(1, 0.5 * w->far));
+    return ray;
+}
+
+static Ray random_ray(const World *w)
+{
+    const Primitive *aim = &w->shapes[below(w->scene.nprimitives)];
+    Vec3 inside = transform_point(&aim->transform, vec_scale(direction(), between(0, 1)));
+    Ray ray = {vec_mad(w->centre, direction(), w->size * (chance(0.1) ? w->far : between(0, 2))), direction(), 0,
+               INFINITY};
+
+    if (aim->kind == SHAPE_SPHERE && chance(0.3))
+        return skimming_ray(w, aim);
+    if (chance(0.1)) {
+        int axis = below(3);
+        ray.direction = vec3(axis == 0, axis == 1, axis == 2);
+        ray.origin = vec_mad(inside, ray.direction, -w->size * between(0, 2));
+    } else if (chance(0.7)) {
+        ray.direction = vec_normalize(vec_sub(inside, ray.origin));
+    }
+    if (chance(0.2))
+        ray.tmax = w->size * between(0, 3);
+    if (chance(0.1))
+        ray.tmin = w->size * between(0, 1);
+    return ray;
+}
+
+/* On from where a ray has met something: off its surface, or along the same ray, or up to there and no farther. */
+static Ray next_ray(const World *w, const Ray *ray, const Hit *hit)
+{
+    Ray next = *ray;
+    Surface s;
+
+    if (hit->primitive < 0)
+        return random_ray(w);
+    if (chance(0.2)) {
+        next.tmin = hit->t, next.tmax = INFINITY;
+    } else if (chance(0.2)) {
+        next.tmax = hit->t * (1 + (chance(0.5) ? 1e-9 : -1e-9));
+    } else if (chance(0.2)) {
+        next.tmin = hit->t * (1 - 1e-9);
+    } else {
+        surface_at(&s, &w->scene, ray, hit);
+        next = random_ray(w);
+        next.tmin = 0;
+        next.origin = accel_offset(s.position, s.geometric_normal, next.direction);
+    }
+    return next;
+}
+
+/* One ray alone, all ways. Returns 1 where something is met for sure. */
+static int check_ray(const World *w, const Ray *ray, RayKind kind, Hit *hit)
+{
+    Met met;
+    int found;
+
+    meet_all(w, ray, kind, &met);
+    *hit = (Hit){.t = -1, .primitive = 77, .face = 77};
+    found = accel_intersect(w->accel, ray, kind, hit);
+    judge_way(w, ray, kind, &met, 0, accel_occluded(w->accel, ray, kind, 0) ? WAY_BLOCKED : WAY_FREE);
+    return judge(w, ray, kind, &met, found, hit);
+}
+
+static void check_ways(const World *w, const Ray *ray, AccelWay packet, int source)
+{
+    Met met;
+    int occluded = accel_occluded(w->accel, ray, RAY_SHADOW, 1);
+
+    meet_all(w, ray, RAY_SHADOW, &met);
+    judge_way(w, ray, RAY_SHADOW, &met, source ? 1 : 2, packet);
+    judge_way(w, ray, RAY_SHADOW, &met, source ? 1 : 2, accel_way(w->accel, ray, source));
+    if (occluded != (accel_way(w->accel, ray, 1) == WAY_BLOCKED))
+        complain(w, ray, RAY_SHADOW, &met, "accel_occluded and accel_way differ", NULL);
+}
+
+/* A packet of any number of rays. Returns how many met something for sure. */
+static int check_packet(const World *w, Ray rays[ACCEL_PACKET], Hit hits[ACCEL_PACKET], int count)
+{
+    RayKind kinds[ACCEL_PACKET];
+    Hit of_packet[ACCEL_PACKET];
+    AccelWay ways[ACCEL_PACKET];
+    int sources[ACCEL_PACKET], sure = 0;
+
+    for (int i = 0; i < count; i++)
+        kinds[i] = random_kind(), sources[i] = chance(0.5);
+    accel_intersect_packet(w->accel, rays, kinds, count, chance(0.5), of_packet);
+    accel_way_packet(w->accel, rays, sources, count, ways);
+    for (int i = 0; i < count; i++) {
+        Met met;
+        meet_all(w, &rays[i], kinds[i], &met);
+        judge(w, &rays[i], kinds[i], &met, of_packet[i].primitive >= 0, &of_packet[i]);
+        sure += check_ray(w, &rays[i], kinds[i], &hits[i]);
+        check_ways(w, &rays[i], ways[i], sources[i]);
+    }
+    return sure;
+}
+
+static void check_world(uint32_t seed, long *rays, long *sure)
+{
+    static World w;
+    Ray list[ACCEL_PACKET];
+    Hit hits[ACCEL_PACKET];
+
+    make_world(&w, seed);
+    for (int batch = 0; batch < BATCHES; batch++) {
+        int count = 1 + below(ACCEL_PACKET);
+        for (int i = 0; i < ACCEL_PACKET; i++)
+            list[i] = random_ray(&w);
+        for (int step = 0; step < 3; step++) {
+            *sure += check_packet(&w, list, hits, count);
+            *rays += count;
+            for (int i = 0; i < count; i++)
+                list[i] = next_ray(&w, &list[i], &hits[i]);
+        }
+    }
+    accel_close(&w.accel);
+}
+
+static double seconds(void)
+{
+    struct timespec now;
+
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+/* When a test that goes on for a share of the time is to end. */
+static double end_after(double share)
+{
+    const char *limit = getenv("RETEX_ORACLE_SECONDS");
+
+    return seconds() + (limit ? share * atof(limit) : 0);
+}
+
+static uint32_t first_seed(void)
+{
+    const char *first = getenv("RETEX_ORACLE_SEED");
+
+    return first ? (uint32_t)strtoul(first, NULL, 10) : 1;
+}
+
+static void queries_are_a_plain_loop(void **unused)
+{
+    /* What ten million rays have found beside: a triangle and a curved shape as near as the next double, and a ray that
+     * starts in the edge where they touch. */
+    const uint32_t found_before[] = {43164, 703555};
+    double end = end_after(0.8);
+    long rays = 0, sure = 0;
+
+    (void)unused;
+    for (int n = 0; n < 2; n++)
+        check_world(found_before[n], &rays, &sure);
+    for (int n = 0; n < SCENES || seconds() < end; n++)
+        check_world(first_seed() + (uint32_t)n, &rays, &sure);
+    print_message("# %ld rays, %ld met something for sure\n", rays, sure);
+    assert_true(sure > rays / 3);
+}
+
+/* ---- the loop's own shapes ---- */
+
+/* 0 on the surface, and of another sign on its other side; in canonical space. */
+static double equation(const Primitive *p, Vec3 q)
+{
+    double sum = vec_dot(q, q) + p->r0 * p->r0 - p->r1 * p->r1, radius = p->r0 + (p->r1 - p->r0) * q.z;
+
+    switch (p->kind) {
+    case SHAPE_SPHERE:
+        return vec_dot(q, q) - 1;
+    case SHAPE_CONE:
+        if (p->open) /* both nappes: what of them is there is asked of the crossing */
+            return q.x * q.x + q.y * q.y - radius * radius;
+        return fmax(hypot(q.x, q.y) - radius, fmax(-q.z, q.z - 1));
+    case SHAPE_TORUS:
+        return sum * sum - 4 * p->r0 * p->r0 * (q.x * q.x + q.z * q.z);
+    case SHAPE_DISC:
+        return q.z;
+    default:
+        return q.y;
+    }
+}
+
+/* How far within the edges of a shape that has some a point of its surface is. */
+static double within_edges(const Primitive *p, Vec3 q)
+{
+    double rho = hypot(q.x, q.y);
+
+    if (p->kind == SHAPE_CONE && p->open)
+        return fmin(q.z, 1 - q.z);
+    return p->kind == SHAPE_DISC ? fmin(p->r0 - rho, p->r1 > 0 ? rho - p->r1 : INFINITY) : 1;
+}
+
+/* The solution of m x = v, by Cramer's rule: not by the inverse that the renderer goes by. */
+static Vec3 solve(const Transform *t, Vec3 v)
+{
+    Vec3 a = {t->m[0][0], t->m[1][0], t->m[2][0]}, b = {t->m[0][1], t->m[1][1], t->m[2][1]},
+         c = {t->m[0][2], t->m[1][2], t->m[2][2]}, bc = vec_cross(b, c);
+    double d = vec_dot(a, bc);
+
+    return vec3(vec_dot(v, bc) / d, vec_dot(vec_cross(c, a), v) / d, vec_dot(vec_cross(a, b), v) / d);
+}
+
+/* Is there a crossing of the surface that is past doubt between low and high, by steps along the ray? */
+static int crosses(const Primitive *p, Vec3 o, Vec3 d, double low, double high, double doubt, double *at)
+{
+    const int steps = 1500;
+    double before = 0, from = low;
+
+    for (int i = 0; i <= steps; i++) {
+        double t = low + (high - low) * i / steps, now = equation(p, vec_mad(o, d, t)), a = from, b = t;
+        if (fabs(now) < doubt)
+            continue;
+        if (before != 0 && (before > 0) != (now > 0)) {
+            for (int k = 0; k < 60; k++)
+                *((equation(p, vec_mad(o, d, 0.5 * (a + b))) > 0) == (now > 0) ? &b : &a) = 0.5 * (a + b);
+            if (within_edges(p, vec_mad(o, d, a)) > 1e-6) {
+                *at = a;
+                return 1;
+            }
+        }
+        before = now, from = t;
+    }
+    return 0;
+}
+
+static uint32_t case_seed;
+
+static void complain_of(const Primitive *p, const char *what, double first, double second)
+{
+    fail_msg("kind %d, r0 %g, r1 %g, open %d: %s: %.17g, %.17g; RETEX_ORACLE_SEED=%u", p->kind, p->r0, p->r1, p->open,
+             what, first, second, (unsigned)case_seed);
+}
+
+/* What shape_intersect finds is on the surface, and nothing comes before it; nothing is where it finds nothing. Returns
+ * its answer, and where that is. */
+static int check_shape(const Primitive *p, const Ray *ray, double *where)
+{
+    Vec3 o = solve(&p->transform, vec_sub(ray->origin, transform_point(&p->transform, vec3(0, 0, 0))));
+    Vec3 d = solve(&p->transform, ray->direction);
+    double length = vec_length(d), middle = -vec_dot(o, d) / (length * length), half, at, t = -1;
+    double doubt = 1e-8 + 1e-11 * (vec_length(o) + size_of(ray->origin) * length);
+    double low, high;
+    int face = 77, found = shape_intersect(p, ray, &t, &face);
+
+    if (!found)
+        assert_true(t == -1 && face == 77);
+    else if (fabs(equation(p, vec_mad(o, d, t))) > doubt * 10)
+        complain_of(p, "off the surface", ray->tmin, t);
+    else if (within_edges(p, vec_mad(o, d, t)) < -1e-6)
+        complain_of(p, "beyond the edge", ray->tmin, t);
+    half = (p->kind == SHAPE_PLANE ? 1e3 * (1 + vec_length(o)) : 3.5) / length; /* all others are within 3.5 */
+    low = fmax(ray->tmin, middle - half);
+    high = fmin(found ? t : ray->tmax, middle + half);
+    /* The end is the hit itself: the last step before it has the sign of this side. */
+    if (low < high && crosses(p, o, d, low, low + (high - low) * (found ? 1 - 1e-6 : 1), doubt * 10, &at))
+        complain_of(p, found ? "there is a nearer one" : "there is one", t, at);
+    /* Going on from a hit does not find it again. */
+    if (found && ray->tmin > 0 && (t - ray->tmin) * length < 1e-10)
+        complain_of(p, "found again", ray->tmin, t);
+    *where = t;
+    return found;
+}
+
+static void curved_shapes_are_their_equations(void **unused)
+{
+    const ShapeKind kinds[] = {SHAPE_SPHERE, SHAPE_PLANE, SHAPE_CONE, SHAPE_TORUS, SHAPE_DISC, SHAPE_CONE, SHAPE_TORUS};
+    static World w;
+    double end = end_after(0.2);
+    int met[7] = {0};
+
+    (void)unused;
+    for (int i = 0; i < 1000 || seconds() < end; i++) {
+        state = case_seed = first_seed() + (uint32_t)i;
+        int row = (int)(case_seed % 7);
+        Primitive p = {.kind = kinds[row], .target = -1};
+        w.size = magnitude(1e-3, 1e3), w.far = 20;
+        w.centre = vec_scale(direction(), w.size * (chance(0.5) ? 0 : magnitude(0.1, 30)));
+        p.transform = random_transform(w.size * magnitude(0.1, 1), w.centre);
+        random_form(&p);
+        w.shapes[0] = p;
+        w.scene = (Scene){.primitives = w.shapes, .nprimitives = 1};
+        for (int k = 0; k < TRIES; k++) {
+            Ray ray = random_ray(&w);
+            for (int n = 0; n < 5 && check_shape(&p, &ray, &ray.tmin); n++)
+                met[row]++;
+        }
+    }
+    for (int i = 0; i < 7; i++)
+        assert_true(met[i] > 500);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(curved_shapes_are_their_equations),
+        cmocka_unit_test(queries_are_a_plain_loop),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
