@@ -5,6 +5,7 @@
 #include <string.h>
 #include <strings.h>
 #include "retex-render.h"
+#include "watchdog.h"
 
 enum {
     OPT_TARGET,
@@ -324,5 +325,6 @@ void parse_arguments(Arguments *a)
     a->sdl.declares = a->declares, a->sdl.ndeclares = a->ndeclares;
     a->sdl.message = scene_message, a->sdl.message_context = cli;
     a->render.nthreads = cli->threads;
+    a->render.budget = watchdog_budget();
     a->render.progress = progress, a->render.progress_context = cli;
 }

@@ -1,5 +1,4 @@
 /* retex-render: from a scene file to a set, a plain picture, or a picture with replaced textures. */
-#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -10,6 +9,7 @@
 #include <jansson.h>
 #include <retex/denoise.h>
 #include "retex-render.h"
+#include "watchdog.h"
 #include "integrate/guides.h"
 
 static double seconds(void)
@@ -135,38 +135,15 @@ static void name_journal(Arguments *a, const char *output)
         cli_warn(a->cli, "%s is left as it is: --resume would go on from it", a->journal);
 }
 
-static volatile sig_atomic_t stop;
-
-static void on_signal(int number)
-{
-    (void)number;
-    stop = 1;
-}
-
-/* The first Ctrl-C lets finished rows be kept, where there is a place for them; the second one ends at once. */
-static void catch_signals(Arguments *a, void (*handler)(int))
-{
-    static const int signals[] = {SIGINT, SIGTERM};
-    struct sigaction action = {.sa_handler = handler, .sa_flags = (int)SA_RESETHAND}, old;
-    if (!a->render.journal)
-        return;
-    a->render.stop = &stop;
-    for (int k = 0; k < 2; k++)
-        if (!sigaction(signals[k], NULL, &old) && old.sa_handler != SIG_IGN) /* as in the background of a script */
-            sigaction(signals[k], &action, NULL);
-}
-
 /* Render, or only some rows of it: then there is no set. */
 static int render(Arguments *a, const Scene *scene, RetexSet **set, RenderStats *stats, RetexError *err)
 {
     if (a->render.journal)
         a->render.key = render_fingerprint(a, scene);
-    catch_signals(a, on_signal);
+    watchdog_let_keep(a->render.journal != NULL);
     int code = a->render.nshards ? render_shard(scene, &a->render, stats, err)
                                  : render_scene(set, scene, &a->render, stats, err);
-    catch_signals(a, SIG_DFL);
-    if (code == RETEX_ESTOPPED && isatty(STDERR_FILENO))
-        fputc('\n', stderr); /* after the progress bar */
+    watchdog_let_keep(0);
     if (!code && a->render.nshards) {
         cli_info(a->cli, "shard %d of %d: %.2f s", a->render.shard, a->render.nshards, stats->render_seconds);
         if (a->render.resume)

@@ -1,5 +1,6 @@
 /* The command line all tools share: see cli.h. Options first (walk, lookup, --help), then values, messages, output. */
 #include "cli.h"
+#include "watchdog.h"
 
 #include <ctype.h>
 #include <errno.h>
@@ -30,8 +31,9 @@ static const CliOption common_options[] = {
 };
 
 /* Before the first option: the standard descriptors are open, so that no file of ours becomes one of them (a closed one
- * is opened the wrong way round, so that using it still fails); and a closed pipe is an error like a full disk. */
-static void prepare_process(void)
+ * is opened the wrong way round, so that using it still fails); a closed pipe and a file that grows beyond its limit
+ * are errors like a full disk; and the signals that end a tool are the watchdog's. */
+static void prepare_process(const Cli *cli)
 {
     static int prepared;
     if (prepared)
@@ -41,6 +43,8 @@ static void prepare_process(void)
         if (fcntl(fd, F_GETFD) == -1 && errno == EBADF && open("/dev/null", fd == 0 ? O_WRONLY : O_RDONLY) != fd)
             _exit(CLI_FAIL);
     signal(SIGPIPE, SIG_IGN);
+    signal(SIGXFSZ, SIG_IGN);
+    watchdog_prepare(cli->tool);
 }
 
 /* --- --help --- */
@@ -194,7 +198,7 @@ static int common_option(Cli *cli, const CliOption *option)
 
 const CliOption *cli_next(Cli *cli)
 {
-    prepare_process();
+    prepare_process(cli);
     if (cli->next == 0)
         cli->next = 1;
     for (;;) {
@@ -203,6 +207,7 @@ const CliOption *cli_next(Cli *cli)
         if (cli->group) {
             option = short_option(cli);
         } else if (cli->next >= cli->argc) {
+            watchdog_start();
             return NULL;
         } else {
             const char *word = cli->argv[cli->next++];
@@ -254,6 +259,7 @@ double cli_number(const Cli *cli, const CliOption *option, double low, double hi
  * write over the terminal. */
 static void message(const Cli *cli, const char *kind, const char *text)
 {
+    watchdog_go_on();
     fprintf(stderr, "%s: %s", cli->tool, kind);
     for (const char *c = text; *c; c++)
         fputc((unsigned char)*c < 32 || *c == 127 ? '?' : *c, stderr);
@@ -317,6 +323,7 @@ void cli_detail(const Cli *cli, const char *fmt, ...)
 void cli_die(const Cli *cli, const char *fmt, ...)
 {
     va_list args;
+    watchdog_fail("");
     va_start(args, fmt);
     vmessage(cli, "error: ", fmt, args);
     va_end(args);
@@ -325,6 +332,7 @@ void cli_die(const Cli *cli, const char *fmt, ...)
 
 void cli_fail(const Cli *cli, const RetexError *err)
 {
+    watchdog_fail(err->message);
     cli_error(cli, err);
     exit(CLI_FAIL);
 }
@@ -446,6 +454,7 @@ void cli_progress(const Cli *cli, const char *label, double done)
     else
         progress_line(label, done, elapsed);
     fflush(stderr);
+    watchdog_note_bar(terminal && done < 1);
 }
 
 int cli_close(const Cli *cli, int status)
@@ -454,7 +463,9 @@ int cli_close(const Cli *cli, int status)
     errno = 0;
     if (fclose(stdout) != 0)
         failed = 1;
-    if (!failed)
+    if (!failed) {
+        watchdog_done();
         return status;
+    }
     cli_die(cli, "standard output: %s", errno ? strerror(errno) : "write error");
 }

@@ -11,6 +11,7 @@
 
 #include "texture_args.h"
 #include "texture_table.h"
+#include "watchdog.h"
 
 static const CliOption options[] = {
     {"texture", 0, "NAME=IMAGE", "put IMAGE, a file or rgb(r,g,b), on target NAME; opts as for retex-sample", 1},
@@ -189,6 +190,7 @@ static int make_picture(const Cli *cli, Job *job, const Row *row, const char *ou
     int code = job->error ? make_error(cli, job, row, expected, sizeof expected, err) : RETEX_OK;
     if (code)
         return code;
+    watchdog_remove(is_new ? job->error : NULL);
     code = retex_picture_open(&picture, output, job->set->width, job->set->height, 3, &job->write, err);
     if (!code)
         code = retex_retexture(job->set, job->samples, row->textures, &job->combine, write_rows, picture, cli->threads,
@@ -197,6 +199,7 @@ static int make_picture(const Cli *cli, Job *job, const Row *row, const char *ou
     code = code ? code : closed;
     if (code && is_new)
         unlink(job->error);
+    watchdog_remove(NULL);
     if (code)
         return code;
     cli_info(cli, "%s: %s, %d x %d%s, %.2f s", strcmp(output, "-") ? output : "standard output",

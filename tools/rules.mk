@@ -34,7 +34,7 @@ $(BRIDGE): $(patsubst %.cpp,$(BUILD)/obj/%.o,$(wildcard tools/bridge/*.cpp))
 
 # A tool is tools/retex-NAME.c, the shared command line and the library. The bridge is found beside it at run time.
 LINK = $(CC) $(CFLAGS_ALL) $(LDFLAGS) -Wl,-rpath,'$$ORIGIN/../lib' -Wl,--disable-new-dtags
-TOOL_OBJECTS := $(BUILD)/obj/tools/cli.o $(BUILD)/obj/tools/cli_files.o $(BUILD)/obj/tools/texture_table.o
+TOOL_OBJECTS := $(patsubst %,$(BUILD)/obj/tools/%.o,cli cli_files watchdog texture_table)
 $(BUILD)/bin/retex-%: $(BUILD)/obj/tools/retex-%.o $(TOOL_OBJECTS) $(LIBRETEX) | $(BRIDGE)
 	@mkdir -p $(@D)
 	$(SAY)$(LINK) $^ -o $@ $(LIBRETEX_LIBS)

@@ -47,10 +47,11 @@ int pieces_keep(Film *film, const RenderParams *p, RetexError *err)
 {
     int done = film_bands_done(film);
     RetexError why;
+    retex_budget_hold(p->budget);
     if (p->resume && !done)
         unlink(p->journal);
     if (!p->journal || !done)
-        return retex_fail(err, RETEX_ESTOPPED, "stopped");
+        return retex_budget_check(p->budget, err);
     if (!p->resume && film_keep(film, p->key, p->journal, 0, &why))
         return retex_fail(err, RETEX_ESTOPPED, "stopped; what was finished is lost: %s", why.message);
     return retex_fail(err, RETEX_ESTOPPED, "stopped; %d of %d bands are finished and in %s: %s", done, film_bands(film),

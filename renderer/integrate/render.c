@@ -277,10 +277,10 @@ static int add_irradiance(RetexSet *set, const Render *r, RetexError *err)
     int code = start_set(&found, &pass, err);
     if (!code)
         code = render_open_film(&pass, 0, 0, err);
-    if (!code) {
-        render_paths(&pass, &ignored, 0);
+    if (!code)
+        code = render_paths(&pass, &ignored, 0, err);
+    if (!code)
         code = film_finish(pass.film, found, err);
-    }
     if (!code)
         code = retex_set_add_part(set, "irradiance", "RGB", RETEX_FLOAT, 0, 0, &part, err);
     for (size_t i = 0; i < (size_t)r->w * (size_t)r->h * 3 && !code; i++)
@@ -298,8 +298,7 @@ static int render_into(RetexSet *set, Render *r, RenderStats *stats, double star
     int code = render_open_film(r, data > 0, r->context.halves, err);
     if (code)
         return code;
-    render_paths(r, stats, started);
-    if (render_is_stopped(r) && film_bands_done(r->film) < film_bands(r->film))
+    if (render_paths(r, stats, started, err))
         return pieces_keep(r->film, &r->params, err);
     code = film_finish(r->film, set, err);
     FirstHitWindow window = render_window(r);
@@ -361,11 +360,11 @@ int render_shard(const Scene *scene, const RenderParams *params, RenderStats *st
     if (!code)
         code = render_open_film(&r, 0, 0, err);
     if (!code) {
-        render_paths(&r, stats, started);
+        int stopped = render_paths(&r, stats, started, err);
         code = film_failed(r.film) ? film_finish(r.film, NULL, err) : RETEX_OK;
+        if (!code && stopped)
+            code = pieces_keep(r.film, &r.params, err);
     }
-    if (!code && render_is_stopped(&r) && r.done < r.wanted)
-        code = pieces_keep(r.film, &r.params, err);
     if (!code)
         code = film_keep(r.film, r.params.key, r.params.output, 1, err);
     render_close(&r);

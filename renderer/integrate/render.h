@@ -2,9 +2,9 @@
 #ifndef RENDERER_INTEGRATE_RENDER_H
 #define RENDERER_INTEGRATE_RENDER_H
 
-#include <signal.h>
 #include <stdint.h>
 #include <stdio.h>
+#include <retex/budget.h>
 #include "integrate/control_variate.h"
 #include "scene/scene.h"
 
@@ -66,7 +66,7 @@ typedef struct RenderParams {
     int shard, nshards;      /* render every nshards-th band only, from number shard - 1; 0, 0 (default) = all */
     const char *const *merged; /* files that render_shard left: their bands, which must be all, are taken over */
     int nmerged;
-    const volatile sig_atomic_t *stop; /* not 0: take no more tiles, and fail with RETEX_ESTOPPED; NULL = never */
+    RetexBudget *budget;     /* where it says stop, nothing more is traced and the render fails; NULL = never */
     int caustics_guide;      /* 1: photons show paths where caustics come from, see caustics.h; default 0: by chance */
 } RenderParams;
 #define RENDER_PARAMS_INIT \

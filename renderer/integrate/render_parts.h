@@ -57,7 +57,8 @@ FirstHitWindow render_window(const Render *render);
 
 /* ---- render_tiles.c: paths over pixels ---- */
 
-void render_paths(Render *render, RenderStats *stats, double started); /* trace all, and count; started: by the clock */
+/* Trace all, and count; started: by the clock. Fails where the render is stopped and tiles are missing. */
+int render_paths(Render *render, RenderStats *stats, double started, RetexError *err);
 void render_sample(Render *render, int x, int y, int sample);          /* one alone, to be told what happens */
 HalfSamples render_half_samples(const Render *render);                 /* how many samples fall to each half */
 int render_is_stopped(const Render *render);

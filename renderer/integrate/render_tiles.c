@@ -47,12 +47,13 @@ static Ray start_sample(const Render *r, const PixelStart *start, int sample, Sa
     return camera_ray(&r->scene->camera, r->width, r->height, start->x + dx, start->y + dy);
 }
 
+/* Up to the end, or to where the render is stopped. */
 static void trace_pixel(const Render *r, PathWorker *worker, int spp, int x, int y)
 {
     Ray rays[PATHS_MAX];
     Sampler samplers[PATHS_MAX];
     const PixelStart start = start_pixel(r, r->params.seed, x, y);
-    for (int s = 0; s < spp; s += PATHS_MAX) {
+    for (int s = 0; s < spp && !render_is_stopped(r); s += PATHS_MAX) {
         int count = spp - s < PATHS_MAX ? spp - s : PATHS_MAX;
         for (int i = 0; i < count; i++)
             rays[i] = start_sample(r, &start, s + i, &samplers[i]);
@@ -68,7 +69,7 @@ static int tile_samples(const Render *r, int thread, int x0, int y0)
     if (!pilot)
         return r->params.spp;
     for (int y = y0; y < y0 + TILE_HEIGHT && y < r->h; y++)
-        for (int x = x0; x < x0 + TILE_WIDTH && x < r->w; x++) {
+        for (int x = x0; x < x0 + TILE_WIDTH && x < r->w && !render_is_stopped(r); x++) {
             const PixelStart start = start_pixel(r, hash_pair(r->params.seed, 3), r->x0 + x, r->y0 + y);
             for (int s = 0; s < ADAPTIVE_PILOT; s++) {
                 Ray ray = start_sample(r, &start, s, &sampler);
@@ -105,6 +106,8 @@ static void render_pixel(Render *r, int thread, int spp, int x, int y)
         worker->constants[t] = rgb(p[0], p[1], p[2]);
     }
     trace_pixel(r, worker, spp, r->x0 + x, r->y0 + y);
+    if (render_is_stopped(r))
+        return;
     film_pixel_end(pixel, x, y);
     if (r->control)
         control_pixel_end(r->controls[thread], x, y);
@@ -114,7 +117,7 @@ static void render_pixel(Render *r, int thread, int spp, int x, int y)
 
 int render_is_stopped(const Render *r)
 {
-    return r->params.stop && *r->params.stop;
+    return retex_budget_is_stopped(r->params.budget);
 }
 
 int render_is_wanted(const Render *r, int band)
@@ -133,6 +136,8 @@ static void render_tile(void *context, int tile, int thread)
     for (int y = y0; y < y0 + TILE_HEIGHT && y < r->h; y++)
         for (int x = x0; x < x0 + TILE_WIDTH && x < r->w; x++)
             render_pixel(r, thread, spp, x, y);
+    if (render_is_stopped(r)) /* then pixels of the tile may lack samples */
+        return;
     film_tile_end(r->pixels[thread], tile);
     int across = r->w - x0 < TILE_WIDTH ? r->w - x0 : TILE_WIDTH,
         down = r->h - y0 < TILE_HEIGHT ? r->h - y0 : TILE_HEIGHT;
@@ -169,7 +174,7 @@ HalfSamples render_half_samples(const Render *r)
     return r->context.halves == 2 ? (HalfSamples){{(spp + 1) / 2, spp / 2}} : (HalfSamples){{spp, 0}};
 }
 
-void render_paths(Render *r, RenderStats *stats, double started)
+int render_paths(Render *r, RenderStats *stats, double started, RetexError *err)
 {
     stats->build_seconds = render_clock() - started;
     retex_parallel(r->params.nthreads, r->tiles_x * r->tiles_y, render_tile, r);
@@ -181,4 +186,5 @@ void render_paths(Render *r, RenderStats *stats, double started)
     }
     stats->render_seconds = render_clock() - started - stats->build_seconds;
     fill_stats(stats, r);
+    return r->done < r->wanted ? retex_budget_check(r->params.budget, err) : RETEX_OK;
 }

@@ -24,7 +24,7 @@ int render_variants(RetexImage *pictures, const Scene *scene, const RenderParams
     if (!code)
         code = render_open_film(&r, 1, 0, err);
     if (!code)
-        render_paths(&r, stats, started);
+        code = render_paths(&r, stats, started, err);
     for (int v = 0; v < r.params.nvariants && !code; v++) {
         pictures[v] = *control_film_picture(r.control, v);
         *control_film_picture(r.control, v) = (RetexImage){0};
@@ -74,7 +74,9 @@ static int trace_control(Render *r, RetexImage *picture, const RetexSet *set, co
     int code = render_open_film(r, 1, r->context.halves, err);
     if (code)
         return code;
-    render_paths(r, stats, started);
+    code = render_paths(r, stats, started, err);
+    if (code)
+        return code;
     ControlMoments *moments[2] = {control_film_moments(r->control, 0), control_film_moments(r->control, 1)};
     HalfSamples half = render_half_samples(r);
     if (distance)

@@ -21,23 +21,23 @@ $ for m in --plain "--replace floor=rgb(0.1,0.2,0.3)" --denoise; do for e in exr
 
 # Ctrl-C, with --resume and without: the first one keeps finished rows and says how to go on.
 $ echo 'exec retex-render -q --threads 1 --size 16x4096 --spp 8 -t floor cornell-box/cornell-box.pov "$@"' >long; chmod +x long; ./long -o long.exr; echo 'signal=$1; shift; env --default-signal=INT ./long "$@" & until [ "$(cut -d" " -f14 /proc/$!/stat)" -ge 70 ]; do sleep 0.02; done; kill -$signal $!; wait $!' >stop; chmod +x stop
-$ for o in --resume ''; do for s in INT TERM; do ./stop $s $o -o i.exr 2>err; echo $?; sed 's/[0-9]* of 256/N of 256/' err; ls i.exr; ./long --resume -o i.exr; cmp i.exr long.exr; rm i.exr; done; done; ls i.*
-> 2
-> retex-render: error: stopped; N of 256 bands are finished and in i.exr.partial: the same command with --resume goes on
-> 2
-> retex-render: error: stopped; N of 256 bands are finished and in i.exr.partial: the same command with --resume goes on
-> 2
-> retex-render: error: stopped; N of 256 bands are finished and in i.exr.partial: the same command with --resume goes on
-> 2
-> retex-render: error: stopped; N of 256 bands are finished and in i.exr.partial: the same command with --resume goes on
+$ for o in --resume ''; do for s in INT TERM; do ./stop $s $o -o i.exr 2>err; echo $?; sed '/^Terminated/d; s/[0-9]* of 256/N of 256/' err; ls i.exr; ./long --resume -o i.exr; cmp i.exr long.exr; rm i.exr; done; done; ls i.*
+> 130
+> retex-render: error: ended by SIGINT; N of 256 bands are finished and in i.exr.partial: the same command with --resume goes on
+> 143
+> retex-render: error: ended by SIGTERM; N of 256 bands are finished and in i.exr.partial: the same command with --resume goes on
+> 130
+> retex-render: error: ended by SIGINT; N of 256 bands are finished and in i.exr.partial: the same command with --resume goes on
+> 143
+> retex-render: error: ended by SIGTERM; N of 256 bands are finished and in i.exr.partial: the same command with --resume goes on
 ! ls: cannot access 'i.exr': No such file or directory
 ! ls: cannot access 'i.exr': No such file or directory
 ! ls: cannot access 'i.exr': No such file or directory
 ! ls: cannot access 'i.exr': No such file or directory
 ! ls: cannot access 'i.*': No such file or directory
 = 2
-$ set -- --plain --spp 24; ./stop INT "$@" -o i.png 2>err; sed 's/[0-9]* of 256/N of 256/' err; ./long --plain --spp 1 -o i.png 2>&1; ./long "$@" -o ref.png; ./long "$@" --resume -o i.png; cmp i.png ref.png; ls *.partial
-> retex-render: error: stopped; N of 256 bands are finished and in i.png.partial: the same command with --resume goes on
+$ set -- --plain --spp 24; ./stop INT "$@" -o i.png 2>err; sed '/^Terminated/d; s/[0-9]* of 256/N of 256/' err; ./long --plain --spp 1 -o i.png 2>&1; ./long "$@" -o ref.png; ./long "$@" --resume -o i.png; cmp i.png ref.png; ls *.partial
+> retex-render: error: ended by SIGINT; N of 256 bands are finished and in i.png.partial: the same command with --resume goes on
 > retex-render: warning: i.png.partial is left as it is: --resume would go on from it
 ! ls: cannot access '*.partial': No such file or directory
 = 2

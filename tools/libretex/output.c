@@ -18,6 +18,7 @@
 #include <retex/image.h>
 
 #include "output.h"
+#include "unfinished.h"
 
 enum { BUFFER_BYTES = 1 << 18, NAME_ATTEMPTS = 100 };
 
@@ -26,6 +27,7 @@ struct RetexOutput {
     char path[PATH_MAX];                 /* what will be replaced; symbolic links resolved */
     char folder[PATH_MAX];               /* of path, with the final '/', or "" for the current one */
     char temporary[PATH_MAX + NAME_MAX]; /* hidden name, or "" while the file has none */
+    Unfinished unfinished;               /* where temporary is listed while it is a file's name */
     int descriptor;
     int direct;   /* 1: no temporary file, straight to a device, pipe or standard output */
     int borrowed; /* 1: standard output, which is not ours to close */
@@ -58,15 +60,19 @@ static int open_hidden(RetexOutput *output)
 {
     for (int attempt = 0; attempt < NAME_ATTEMPTS; attempt++) {
         hidden_name(output);
+        unfinished_lock();
         output->descriptor = open(output->temporary, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-        if (output->descriptor >= 0)
+        const int code = output->descriptor >= 0 ? 0 : errno;
+        if (!code)
+            unfinished_add(&output->unfinished, output->temporary);
+        unfinished_unlock();
+        if (!code)
             return 0;
-        if (errno != EEXIST)
-            break;
+        output->temporary[0] = 0;
+        if (code != EEXIST)
+            return code;
     }
-    const int code = errno;
-    output->temporary[0] = 0;
-    return code;
+    return EEXIST;
 }
 
 static int open_nameless(RetexOutput *output)
@@ -286,6 +292,8 @@ static int link_nameless(RetexOutput *output)
     }
     if (code)
         output->temporary[0] = 0;
+    else
+        unfinished_add(&output->unfinished, output->temporary);
     return code;
 }
 
@@ -298,23 +306,34 @@ static int close_checked(RetexOutput *output, RetexError *err)
     return other < 0 || (close(other) != 0 && errno != EINTR) ? fail_system(output, errno, err) : 0;
 }
 
+/* All is written: let it be at its path. */
+static int put_in_place(RetexOutput *output)
+{
+    int code = 0;
+
+    unfinished_lock();
+    if (!output->temporary[0])
+        code = link_nameless(output);
+    if (!code && output->temporary[0] && rename(output->temporary, output->path) != 0)
+        code = errno;
+    if (!code) {
+        unfinished_drop(&output->unfinished);
+        output->temporary[0] = 0;
+    }
+    unfinished_unlock();
+    return code;
+}
+
 static int finish(RetexOutput *output, RetexError *err)
 {
     int status = flush(output, err);
 
     if (!status && !output->borrowed)
         status = close_checked(output, err);
-    if (status)
+    if (status || output->direct)
         return status;
-    if (!output->direct && !output->temporary[0]) {
-        const int code = link_nameless(output);
-        if (code)
-            return fail_system(output, code, err);
-    }
-    if (!output->direct && output->temporary[0] && rename(output->temporary, output->path) != 0)
-        return fail_system(output, errno, err);
-    output->temporary[0] = 0;
-    return 0;
+    const int code = put_in_place(output);
+    return code ? fail_system(output, code, err) : 0;
 }
 
 int retex_output_commit(RetexOutput **output, RetexError *err)
@@ -349,8 +368,12 @@ void retex_output_abandon(RetexOutput **result)
         return;
     if (output->descriptor >= 0 && !output->borrowed)
         close(output->descriptor);
-    if (output->temporary[0])
+    if (output->temporary[0]) {
+        unfinished_lock();
         unlink(output->temporary);
+        unfinished_drop(&output->unfinished);
+        unfinished_unlock();
+    }
     if (output->memory)
         fclose(output->memory);
     free(output->data);

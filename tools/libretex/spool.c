@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #include "spool_file.h"
+#include "unfinished.h"
 
 /* What one thread works with; kept for the next. */
 typedef struct SpoolScratch {
@@ -111,13 +112,31 @@ static int link_to(const RetexSpool *spool, const char *path)
     return linkat(AT_FDCWD, descriptor, AT_FDCWD, path, AT_SYMLINK_FOLLOW) == 0 ? 0 : errno;
 }
 
-static int copy_to(const RetexSpool *spool, const char *path)
+/* Under the lock of names; hidden, where there is one, is what path becomes a name of. */
+static int rename_hidden(const char *hidden, const char *path)
+{
+    const int code = hidden && rename(hidden, path) != 0 ? errno : 0;
+
+    if (code)
+        unlink(hidden);
+    return code;
+}
+
+static int link_in_place(const RetexSpool *spool, const char *path, const char *hidden)
+{
+    unfinished_lock();
+    int code = link_to(spool, hidden ? hidden : path);
+    if (!code)
+        code = rename_hidden(hidden, path);
+    unfinished_unlock();
+    return code;
+}
+
+static int copy_bytes(const RetexSpool *spool, int copy)
 {
     unsigned char buffer[65536];
-    int code = 0, copy = open(path, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    int code = 0;
 
-    if (copy < 0)
-        return errno;
     for (uint64_t done = 0; done < spool->end && !code;) {
         const ssize_t got = pread(spool->descriptor, buffer, sizeof buffer, (off_t)done);
         if (got <= 0)
@@ -126,30 +145,41 @@ static int copy_to(const RetexSpool *spool, const char *path)
             code = spool_write_at(copy, buffer, (size_t)got, done);
         done += got > 0 ? (uint64_t)got : 0;
     }
-    if (close(copy) != 0 && !code)
-        code = errno;
+    return close(copy) != 0 && !code ? errno : code;
+}
+
+static int copy_in_place(const RetexSpool *spool, const char *path, const char *hidden)
+{
+    const char *name = hidden ? hidden : path;
+    Unfinished unfinished;
+
+    unfinished_lock();
+    const int copy = open(name, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    int code = copy < 0 ? errno : 0;
+    if (!code)
+        unfinished_add(&unfinished, name);
+    unfinished_unlock();
     if (code)
-        unlink(path);
+        return code;
+    code = copy_bytes(spool, copy);
+    unfinished_lock();
+    if (code)
+        unlink(name);
+    else
+        code = rename_hidden(hidden, path);
+    unfinished_drop(&unfinished);
+    unfinished_unlock();
     return code;
 }
 
 int retex_spool_keep(RetexSpool *spool, const char *path, int replace, RetexError *err)
 {
     char hidden[PATH_MAX];
-    const char *name = path;
-    int code;
 
-    if (replace) {
-        snprintf(hidden, sizeof hidden, "%s.tmp%08x", path, (unsigned)getpid());
-        name = hidden;
-    }
-    code = link_to(spool, name);
+    snprintf(hidden, sizeof hidden, "%s.tmp%08x", path, (unsigned)getpid());
+    int code = link_in_place(spool, path, replace ? hidden : NULL);
     if (code && code != EEXIST)
-        code = copy_to(spool, name);
-    if (!code && replace && rename(hidden, path) != 0) {
-        code = errno;
-        unlink(hidden);
-    }
+        code = copy_in_place(spool, path, replace ? hidden : NULL);
     return code ? retex_fail(err, RETEX_EIO, "cannot write %s: %s", path, strerror(code)) : 0;
 }
 
@@ -255,9 +285,9 @@ static int put_chunk(RetexSpool *spool, int number, int band, size_t bytes, int 
 
     memcpy(record.crc, chunk->crc, sizeof record.crc);
     if (!all_zero(scratch->chunk.raw, bytes))
-        record.bytes =
-            spool->plain ? (uint32_t)bytes
-                         : (uint32_t)retex_chunk_pack(&scratch->chunk, scratch->chunk.raw, bytes, scratch->packed);
+        record.bytes = spool->plain
+                           ? (uint32_t)bytes
+                           : (uint32_t)retex_chunk_pack(&scratch->chunk, scratch->chunk.raw, bytes, scratch->packed);
     return spool_append_chunk(spool, &record, spool->plain ? scratch->chunk.raw : scratch->packed, err);
 }
 

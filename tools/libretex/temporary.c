@@ -1,5 +1,6 @@
 /* See temporary.h. */
 #include "temporary.h"
+#include "unfinished.h"
 
 #include <fcntl.h>
 #include <stdio.h>
@@ -20,9 +21,11 @@ static int open_in(const char *folder, TemporaryName shown)
         return unnamed;
 #endif
     snprintf(name, sizeof name, "%s/.retex-XXXXXX", folder);
+    unfinished_lock();
     const int descriptor = mkostemp(name, O_CLOEXEC);
     if (descriptor >= 0)
         unlink(name);
+    unfinished_unlock();
     return descriptor;
 }
 

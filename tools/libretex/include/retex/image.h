@@ -76,6 +76,10 @@ int retex_image_write_check(const char *path, const RetexWriteParams *params /* 
 /* Write a file of any kind as all outputs here are: under a temporary name, renamed when complete; or to "-". */
 int retex_file_write(const char *path, const void *data, size_t bytes, RetexError *err);
 
+/* Before a process ends in the middle of its work, from any thread: remove what outputs that are not whole have of
+ * temporary names. No output can be finished afterwards. */
+void retex_unfinished_remove(void);
+
 #ifdef __cplusplus
 }
 #endif

@@ -1,0 +1,116 @@
+# Signals that end a tool: one line, nothing left behind, and the signal again, so that a shell sees 128 + its number.
+# `end SIGNAL COMMAND…` sends it once the tool runs, and kills what has not ended after five seconds: 137.
+$ printf '%s\n' 'signal=$1; shift; exec 4<never' 'env --default-signal=INT "$@" <&4 & tool=$!' 'for i in $(seq 500); do [ "$(ls /proc/$tool/task | wc -l)" -lt 2 ] || break; sleep 0.02; done' 'sleep ${AFTER:-0.1}; kill -$signal $tool; [ -z "${AGAIN-}" ] || { sleep 0.1; kill -$AGAIN $tool; }' 'sh -c "sleep 5; kill -KILL $tool" 2>/dev/null & late=$!' 'wait $tool 2>/dev/null; echo $?' 'kill $late 2>/dev/null' >end; cp -r "$SCENES/cornell-box" .; make_set set.exr 16 16; mkfifo never; mkdir out; chmod +x end
+
+# Each tool, while it waits for its input or traces.
+$ (sleep 60 >never & echo $! >writer); for s in INT TERM HUP; do for t in "retex-info -" "retex-diff - set.exr" "retex-pack - -o out/a.retex" "retex-denoise - -o out/a.exr" "retex-sample - --texture floor=rgb(1,0,0) -o out/a.exr" "retex-combine - -o out/a.png" "retex-combine set.exr --batch -" "retex-render --spp 1000000 --size 16x16 -t floor -o out/a.exr cornell-box/cornell-box.pov"; do ./end $s $t; done; done; ls -A out
+> 130
+> 130
+> 130
+> 130
+> 130
+> 130
+> 130
+> 130
+> 143
+> 143
+> 143
+> 143
+> 143
+> 143
+> 143
+> 143
+> 129
+> 129
+> 129
+> 129
+> 129
+> 129
+> 129
+> 129
+! retex-info: error: ended by SIGINT
+! retex-diff: error: ended by SIGINT
+! retex-pack: error: ended by SIGINT
+! retex-denoise: error: ended by SIGINT
+! retex-sample: error: ended by SIGINT
+! retex-combine: error: ended by SIGINT
+! retex-combine: error: ended by SIGINT
+! retex-render: error: ended by SIGINT
+! retex-info: error: ended by SIGTERM
+! retex-diff: error: ended by SIGTERM
+! retex-pack: error: ended by SIGTERM
+! retex-denoise: error: ended by SIGTERM
+! retex-sample: error: ended by SIGTERM
+! retex-combine: error: ended by SIGTERM
+! retex-combine: error: ended by SIGTERM
+! retex-render: error: ended by SIGTERM
+! retex-info: error: ended by SIGHUP
+! retex-diff: error: ended by SIGHUP
+! retex-pack: error: ended by SIGHUP
+! retex-denoise: error: ended by SIGHUP
+! retex-sample: error: ended by SIGHUP
+! retex-combine: error: ended by SIGHUP
+! retex-combine: error: ended by SIGHUP
+! retex-render: error: ended by SIGHUP
+
+# Where it is at work: reading a scene, one pixel of which takes minutes, with rows to keep and without, filtering.
+$ echo '#while(1) #end' >endless.pov; AFTER=0.5 ./end TERM retex-render endless.pov -o out/a.exr
+> 143
+! retex-render: error: ended by SIGTERM
+$ for o in "" --resume "--plain --noise 0.0001" "--aov irradiance" --caustics-guide; do AFTER=0.5 ./end TERM retex-render -q --spp 1000000 -t floor $o cornell-box/cornell-box.pov -o out/a.exr; done; ls -A out
+> 143
+> 143
+> 143
+> 143
+> 143
+! retex-render: error: ended by SIGTERM
+! retex-render: error: ended by SIGTERM
+! retex-render: error: ended by SIGTERM
+! retex-render: error: ended by SIGTERM
+! retex-render: error: ended by SIGTERM
+$ retex-render -q --spp 2 --size 480x360 -t floor cornell-box/cornell-box.pov -o noisy.exr; make_set big.exr 1600 1600; for t in "retex-denoise --threads 1 --radius 10 noisy.exr -o out/a.exr" "retex-pack noisy.exr -o out/a.retex" "retex-pack --lossless big.exr -o out/a.retex" "retex-sample big.exr --texture Wall=big.exr -o out/a.exr" "retex-diff big.exr big.exr --all-parts"; do ./end TERM $t; done; ls -A out; rm big.exr
+> 143
+> 143
+> 143
+> 143
+> 143
+! retex-denoise: error: ended by SIGTERM
+! retex-pack: error: ended by SIGTERM
+! retex-pack: error: ended by SIGTERM
+! retex-sample: error: ended by SIGTERM
+! retex-diff: error: ended by SIGTERM
+
+# Ignored signals stay ignored.
+$ AGAIN=TERM ./end HUP sh -c 'trap "" HUP; exec retex-render -q --spp 1000000 -o out/a.exr cornell-box/cornell-box.pov'
+> 143
+! retex-render: error: ended by SIGTERM
+
+# A file that would grow beyond the limit is a full disk: no signal ends the tool, nothing is left, the old file is whole.
+$ cp set.exr out/old.exr; make_set wide.exr 64 64; retex-pack -q --lossless wide.exr -o wide.retex; (ulimit -f 8; for t in "retex-render -q --spp 1 --size 64x64 -t floor cornell-box/cornell-box.pov -o out/old.exr" "retex-render -q --spp 1 --size 64x64 -t floor --resume cornell-box/cornell-box.pov -o out/new.exr" "retex-render -q --spp 1 --size 64x64 --plain cornell-box/cornell-box.pov -o out/new.tif" "retex-sample wide.exr --texture floor=rgb(1,0,0) -o out/old.exr" "retex-combine wide.exr -o out/new.exr" "retex-combine wide.exr -o out/new.pfm" "retex-denoise noisy.exr -o out/new.exr" "retex-pack --lossless wide.exr -o out/new.retex" "retex-pack --unpack wide.retex -o out/new.exr"; do $t; echo $?; done 2>&1) | sed 's/in [^:]*:/in DIR:/; s/tif: cannot write.*/tif: cannot write/'; cmp set.exr out/old.exr; ls -A out
+> retex-render: error: cannot write a temporary file in DIR: File too large
+> 2
+> retex-render: error: cannot write out/new.exr.partial: File too large
+> 2
+> retex-render: error: out/new.tif: cannot write
+> 2
+> retex-sample: error: cannot write a temporary file in DIR: File too large
+> 2
+> retex-combine: error: cannot write out/new.exr: File too large
+> 2
+> retex-combine: error: out/new.pfm: cannot make a file in DIR: File too large
+> 2
+> retex-denoise: error: cannot write out/new.exr: File too large
+> 2
+> retex-pack: error: cannot write out/new.retex: File too large
+> 2
+> retex-pack: error: cannot write out/new.exr: File too large
+> 2
+> new.exr.partial
+> old.exr
+$ for t in "retex-info set.exr" "retex-diff set.exr set.exr"; do (ulimit -f 0; $t 3>&1 >out/text 2>&3; echo $?) | cat; done
+> retex-info: error: standard output: File too large
+> 2
+> retex-diff: error: standard output: File too large
+> 2
+
+$ kill $(cat writer)

@@ -1,0 +1,231 @@
+/* See watchdog.h. Signals are blocked in all threads and taken by one, so nothing here runs in a signal handler. */
+#include "watchdog.h"
+
+#include <errno.h>
+#include <pthread.h>
+#include <signal.h>
+#include <stdatomic.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+#include <unistd.h>
+
+#include <retex/image.h>
+
+enum {
+    STACK_BYTES = 256 << 10,
+    IDLE_MILLISECONDS = 500,
+    KEEP_MILLISECONDS = 900, /* for stopped work to say that it keeps something */
+    EXIT_STATUS = 2
+};
+
+enum { THE_WORK = 1, THE_DOG }; /* who ends the tool */
+
+static struct {
+    const char *tool;
+    RetexBudget *budget;
+    sigset_t signals; /* that end the tool */
+    atomic_int started;
+    atomic_int may_keep, bar_is_open;
+    atomic_int number; /* the signal that came first, or 0 */
+    atomic_int ending; /* who has taken it on to end the tool, or 0 */
+    _Atomic(const char *) remove;
+} dog;
+
+static const int numbers[] = {SIGINT, SIGTERM, SIGHUP};
+
+static const char *signal_name(int number)
+{
+    return number == SIGINT ? "SIGINT" : number == SIGTERM ? "SIGTERM" : "SIGHUP";
+}
+
+void watchdog_prepare(const char *tool)
+{
+    sigset_t blocked;
+
+    dog.tool = tool;
+    sigemptyset(&dog.signals);
+    pthread_sigmask(SIG_BLOCK, NULL, &blocked);
+    for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++) {
+        struct sigaction now;
+        if (sigaction(numbers[i], NULL, &now) == 0 && now.sa_handler == SIG_DFL && !sigismember(&blocked, numbers[i]))
+            sigaddset(&dog.signals, numbers[i]);
+    }
+    pthread_sigmask(SIG_BLOCK, &dog.signals, NULL);
+    if (retex_budget_create(&dog.budget, NULL) != 0)
+        _exit(EXIT_STATUS);
+}
+
+RetexBudget *watchdog_budget(void)
+{
+    return dog.budget;
+}
+
+/* ---- the end ---- */
+
+static _Noreturn void raise_again(int number)
+{
+    sigset_t one;
+
+    signal(number, SIG_DFL);
+    sigemptyset(&one);
+    sigaddset(&one, number);
+    pthread_sigmask(SIG_UNBLOCK, &one, NULL);
+    raise(number);
+    _exit(128 + number);
+}
+
+static _Noreturn void wait_for_the_end(void)
+{
+    for (;;)
+        pause();
+}
+
+/* One write, past stdio, whose locks may be anybody's. */
+static void say(const char *text)
+{
+    char line[2048];
+    int n =
+        snprintf(line, sizeof line - 1, "%s%s: error: %s", atomic_load(&dog.bar_is_open) ? "\n" : "", dog.tool, text);
+
+    n = n < (int)sizeof line - 1 ? n : (int)sizeof line - 2;
+    line[n++] = '\n';
+    (void)!write(STDERR_FILENO, line, (size_t)n);
+}
+
+/* Once; who comes second waits. `kept`: what there is to say of what was kept, with what stands before it, or "". */
+static _Noreturn void end_tool(const char *kept)
+{
+    const int number = atomic_load(&dog.number);
+    char text[1536];
+
+    retex_unfinished_remove();
+    const char *other = atomic_load(&dog.remove);
+    if (other)
+        unlink(other);
+    snprintf(text, sizeof text, "ended by %s%s", signal_name(number), kept);
+    say(text);
+    if (number)
+        raise_again(number);
+    _exit(EXIT_STATUS);
+}
+
+/* Whether it is `who` that ends the tool: the one who asks first. */
+static int take_on(int who)
+{
+    int nobody = 0;
+
+    return atomic_compare_exchange_strong(&dog.ending, &nobody, who) || nobody == who;
+}
+
+/* What the library says of work that was stopped begins so. */
+static const char *what_was_kept(const char *why)
+{
+    static const char begin[] = "stopped";
+    return strncmp(why, begin, sizeof begin - 1) == 0 ? why + sizeof begin - 1 : "";
+}
+
+static int is_stopped(void)
+{
+    return dog.budget && retex_budget_is_stopped(dog.budget);
+}
+
+void watchdog_fail(const char *why)
+{
+    if (!take_on(THE_WORK))
+        wait_for_the_end();
+    if (is_stopped())
+        end_tool(what_was_kept(why));
+}
+
+void watchdog_done(void)
+{
+    watchdog_fail("");
+}
+
+void watchdog_go_on(void)
+{
+    if (atomic_load(&dog.ending) == THE_DOG)
+        wait_for_the_end();
+}
+
+void watchdog_let_keep(int on)
+{
+    atomic_store(&dog.may_keep, on);
+}
+
+void watchdog_note_bar(int open)
+{
+    atomic_store(&dog.bar_is_open, open);
+}
+
+void watchdog_remove(const char *path)
+{
+    atomic_store(&dog.remove, path);
+}
+
+/* ---- the thread ---- */
+
+static int take_signal(int milliseconds)
+{
+    const struct timespec most = {milliseconds / 1000, milliseconds % 1000 * 1000000L};
+    const int number = sigtimedwait(&dog.signals, NULL, &most);
+
+    return number > 0 ? number : 0;
+}
+
+static long long milliseconds_now(void)
+{
+    struct timespec t;
+
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return t.tv_sec * 1000LL + t.tv_nsec / 1000000;
+}
+
+/* The work has been told to stop, and may come to its end by itself. */
+static void wait_for_work(void)
+{
+    const long long until = milliseconds_now() + KEEP_MILLISECONDS;
+
+    while (retex_budget_is_held(dog.budget) || milliseconds_now() < until) {
+        const int number = take_signal(20);
+        if (number)
+            raise_again(number);
+    }
+}
+
+static void *watch(void *unused)
+{
+    (void)unused;
+    for (;;) {
+        const int number = take_signal(IDLE_MILLISECONDS);
+        if (!number)
+            continue;
+        if (atomic_load(&dog.number) || atomic_load(&dog.ending))
+            raise_again(number);
+        atomic_store(&dog.number, number);
+        if (atomic_load(&dog.may_keep)) {
+            retex_budget_stop(dog.budget);
+            wait_for_work();
+        }
+        if (take_on(THE_DOG))
+            end_tool("");
+    }
+    return NULL;
+}
+
+void watchdog_start(void)
+{
+    pthread_t thread;
+    pthread_attr_t attributes;
+
+    if (atomic_exchange(&dog.started, 1))
+        return;
+    pthread_attr_init(&attributes);
+    pthread_attr_setstacksize(&attributes, STACK_BYTES);
+    pthread_attr_setdetachstate(&attributes, PTHREAD_CREATE_DETACHED);
+    if (pthread_create(&thread, &attributes, watch, NULL) != 0) /* then signals do as they always did */
+        pthread_sigmask(SIG_UNBLOCK, &dog.signals, NULL);
+    pthread_attr_destroy(&attributes);
+}
