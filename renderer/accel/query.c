@@ -2,18 +2,18 @@
  *
  * Embree works in float; this renderer asks for double positions and for rays that never meet the surface they leave.
  * So Embree only proposes, and what it proposes is measured in double. Curved shapes are user geometry and double
- * throughout: the nearest is kept beside Embree's ray. The triangle that Embree ends with is measured against its plane,
- * and against the nearest curved shape. Where it lies outside the ray's own double range, or the ray starts on its plane
- * (within the rounding error of the plane's equation, however large the triangle), or the ray is not to see it, or where
- * Embree was so wrong about its distance that it may have passed over something nearer, the ray looks more closely: at
- * everything that Embree comes to along the whole of it, in double. That happens rarely, for rays start off the surface
- * they leave by more than float's rounding (accel_offset). To ask a filter function about every triangle of every ray
- * would make packets slower by a fifth. Occlusion, which stops at any triangle, asks one always.
+ * throughout: the nearest is kept beside Embree's ray. The triangle that Embree ends with is measured against its
+ * plane, and against the nearest curved shape. Where it lies outside the ray's own double range, or the ray starts on
+ * its plane (within the rounding error of the plane's equation, however large the triangle), or the ray is not to see
+ * it, or where Embree was so wrong about its distance that it may have passed over something nearer, the ray looks
+ * more closely: at everything that Embree comes to along the whole of it, in double. That happens rarely, for rays
+ * start off the surface they leave by more than float's rounding (accel_offset). To ask a filter function about every
+ * triangle of every ray would make packets slower by a fifth. Occlusion, which stops at any triangle, asks one always.
  *
  * Distances that Embree is told, of a ray's ends and of a curved shape, are rounded outward by more than float may be
- * off, so that it passes over nothing that is nearer in double. What is left to float: whether a ray meets a triangle at
- * all; on which side of the ray's start it is, and which of two triangles is nearer, where the height of one over the
- * other is within float's rounding of their coordinates.
+ * off, so that it passes over nothing that is nearer in double. What is left to float: whether a ray meets a triangle
+ * at all; on which side of the ray's start it is, and which of two triangles is nearer, where the height of one over
+ * the other is within float's rounding of their coordinates.
  *
  * Boxes and meshes are one triangle geometry in world space. Visibility by kind of ray is decided in the same places:
  * Embree may be built without masks. Rays come one by one or in packets, which pay where they run side by side. */
