@@ -9,6 +9,7 @@
 
 #include "cache.hpp"
 #include "failure.hpp"
+#include "own_folder.hpp"
 
 namespace plugins
 {
@@ -116,11 +117,15 @@ void check_texture(const RetexSet &set, const RetexTextureSpec &texture)
 }
 
 // Options of a target come behind the target itself: that is the order of the alphabet.
-std::vector<RetexTextureSpec> parse_textures(const Arguments &arguments)
+std::vector<RetexTextureSpec> parse_textures(const Arguments &arguments, const OwnFolder &own)
 {
     std::vector<RetexTextureSpec> textures;
     for (const auto &argument : arguments) {
         const std::string &name = argument.first;
+        if (name == "safe" && argument.second != "0" && argument.second != "1")
+            throw Failure("safe: expected 0 or 1, not '" + argument.second + "'");
+        if (name == "safe")
+            continue;
         size_t dot = name.find('.');
         if (dot != std::string::npos && !arguments.count(name.substr(0, dot)))
             throw Failure(name + ": " + name.substr(0, dot) + " has no texture; expected " + name.substr(0, dot) +
@@ -137,6 +142,11 @@ std::vector<RetexTextureSpec> parse_textures(const Arguments &arguments)
         RetexTextureSpec texture;
         RetexError err{};
         must(retex_texture_spec_parse(&texture, options.c_str(), (name + "=" + argument.second).c_str(), &err), err);
+        std::string image = texture.constant ? "" : own.find(texture.image);
+        if (image.size() >= sizeof texture.image)
+            throw Failure(std::string(texture.image) + ": the name is too long");
+        std::copy_n(image.c_str(), image.size() + 1, texture.image);
+        texture.access = own.access();
         textures.push_back(texture);
     }
     return textures;
@@ -172,14 +182,16 @@ class PackSource final : public Source
 {
   public:
     PackSource(const std::string &path, const Arguments &arguments, int threads)
-        : textures_(parse_textures(arguments)), threads_(threads), key_(path), stamp_(file_stamp(path)),
-          set_(open_set(path))
+        : own_(path, wants_safe(arguments)), textures_(parse_textures(arguments, own_)), threads_(threads),
+          key_((own_.access()->safe ? "safe:" : "") + path), stamp_(file_stamp(path)), set_(open_set(path))
     {
         for (const RetexTextureSpec &texture : textures_) {
             check_texture(set_->description(), texture);
             stamp_ += texture.constant ? "" : " " + file_stamp(texture.image);
         }
         for (const auto &argument : arguments) {
+            if (argument.first == "safe")
+                continue;
             key_ += "&" + argument.first + "=" + argument.second;
             shown_ += (shown_.empty() ? "" : "&") + argument.first + "=" + argument.second;
         }
@@ -225,6 +237,7 @@ class PackSource final : public Source
         return picture;
     }
 
+    const OwnFolder own_;
     const std::vector<RetexTextureSpec> textures_;
     const int threads_;
     std::string key_, stamp_, shown_;

@@ -6,6 +6,7 @@
 #include <OpenImageIO/strutil.h>
 
 #include "failure.hpp"
+#include "own_folder.hpp"
 
 namespace plugins
 {
@@ -14,7 +15,7 @@ namespace
 
 const char *const known = "targets, spp, noise, size, width, height, crop, seed, max_depth, filter, layout, clusters, "
                           "orders, strict_paper, plain, aov, denoise, no_denoise_data, caustics_guide, include, "
-                          "declare.NAME, ambient, strict and threads";
+                          "declare.NAME, ambient, strict, safe and threads";
 
 int whole(const std::string &name, const std::string &value, int low, int high)
 {
@@ -59,6 +60,8 @@ void set_option(SceneOptions &options, const std::string &name, const std::strin
         options.height = whole(name, value, 1, RETEX_MAX_SIZE);
     } else if (name == "threads") {
         options.render.nthreads = whole(name, value, 0, 256);
+    } else if (name == "safe") {
+        whole(name, value, 0, 1); // wants_safe does the rest
     } else if (name == "denoise") {
         options.denoise = whole(name, value, 0, 1);
     } else if (name == "no-denoise-data") {
@@ -83,7 +86,7 @@ void check(const SceneOptions &options, const Arguments &arguments)
 
 } // namespace
 
-SceneOptions parse_scene_options(const Arguments &arguments, int threads)
+SceneOptions parse_scene_options(const std::string &path, const Arguments &arguments, int threads)
 {
     static const std::string declare = "declare.";
     SceneOptions options;
@@ -102,6 +105,10 @@ SceneOptions parse_scene_options(const Arguments &arguments, int threads)
         set_option(options, name, argument.second);
     }
     check(options, arguments);
+    options.sdl.safe = wants_safe(arguments);
+    OwnFolder own(path, options.sdl.safe);
+    for (std::string &folder : options.includes)
+        folder = own.find(folder, true);
     bool keeps = !options.targets.empty() && !options.render.plain;
     options.render.denoise_data = options.denoise || (keeps && !options.no_denoise_data);
     return options;

@@ -23,8 +23,9 @@ struct SceneOptions {
 };
 
 // Options of retex-render without their dashes, where `_` is as good as `-`; targets=NAME[=IDENT+IDENT],NAME,
-// include=FOLDER,FOLDER and declare.NAME=VALUE. threads: where the name does not say. Throws Failure.
-SceneOptions parse_scene_options(const Arguments &arguments, int threads);
+// include=FOLDER,FOLDER and declare.NAME=VALUE. path: of the scene. threads: where the name does not say. Throws
+// Failure.
+SceneOptions parse_scene_options(const std::string &path, const Arguments &arguments, int threads);
 
 } // namespace plugins
 #endif

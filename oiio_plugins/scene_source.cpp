@@ -9,6 +9,7 @@
 
 #include "cache.hpp"
 #include "failure.hpp"
+#include "own_folder.hpp"
 #include "scene_options.hpp"
 
 namespace plugins
@@ -89,7 +90,7 @@ class SceneJob
 {
   public:
     SceneJob(const std::string &path, const Arguments &arguments, int threads)
-        : options_(parse_scene_options(arguments, threads)), scene_(nullptr, close_scene)
+        : options_(parse_scene_options(path, arguments, threads)), scene_(nullptr, close_scene)
     {
         RetexError err{};
         scene_ = parse_scene(path, options_, &warnings_);
@@ -231,7 +232,7 @@ std::shared_ptr<Source> open_scene(const std::string &path, const Arguments &arg
 {
     static Cache<SceneJob> cache(scenes_kept);
     NotNested guard;
-    std::string key = path;
+    std::string key = (wants_safe(arguments) ? "safe:" : "") + path;
     for (const auto &argument : arguments)
         if (argument.first != "threads") // the picture is the same
             key += "&" + argument.first + "=" + argument.second;

@@ -5,10 +5,13 @@
 #include <cstdio>
 #include <cstring>
 
+#include <unistd.h>
+
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/strutil.h>
 
 #include "failure.hpp"
+#include "own_folder.hpp"
 
 namespace plugins
 {
@@ -70,7 +73,7 @@ class SetInput final : public OIIO::ImageInput
     }
     bool valid_file(const std::string &name) const override
     {
-        return guarded([&] { check_content(split(name).path); }).empty();
+        return guarded([&] { check_content(split(name)); }).empty();
     }
     bool open(const std::string &name, OIIO::ImageSpec &spec) override
     {
@@ -138,32 +141,39 @@ class SetInput final : public OIIO::ImageInput
     std::shared_ptr<Source> open_source(const Name &name) const
     {
         if (name.arguments.empty()) {
-            check_content(name.path);
+            check_content(name);
             return format_.open(name.path, name.arguments, host_threads());
         }
-        read_begin(name.path);
+        read_begin(name);
         try {
-            check_content(name.path);
+            check_content(name);
             return format_.open(name.path, name.arguments, host_threads());
         } catch (const std::exception &e) {
             return std::make_shared<Unreadable>(e.what());
         }
     }
-    static std::string read_begin(const std::string &path)
+    static std::string read_begin(const Name &name)
     {
         char begin[64];
-        std::unique_ptr<FILE, int (*)(FILE *)> file(std::fopen(path.c_str(), "rb"), std::fclose);
+        RetexError err{};
+        RetexAccess access = RETEX_ACCESS_INIT;
+        int descriptor = -1;
+        access.safe = wants_safe(name.arguments);
+        must(retex_access_open(&access, name.path.c_str(), &descriptor, &err), err);
+        std::unique_ptr<FILE, int (*)(FILE *)> file(fdopen(descriptor, "rb"), std::fclose);
+        if (!file)
+            ::close(descriptor);
         size_t got = file ? std::fread(begin, 1, sizeof begin, file.get()) : 0;
         if (!file || std::ferror(file.get()))
-            throw Failure("cannot read " + path + ": " + std::strerror(errno));
+            throw Failure("cannot read " + name.path + ": " + std::strerror(errno));
         return std::string(begin, got);
     }
     // OpenImageIO offers any file that nothing else can read.
-    void check_content(const std::string &path) const
+    void check_content(const Name &name) const
     {
-        std::string begin = read_begin(path);
+        std::string begin = read_begin(name);
         if (!format_.probe(begin.data(), begin.size()))
-            throw Failure(path + ": no ." + format_.name + " file" +
+            throw Failure(name.path + ": no ." + format_.name + " file" +
                           (begin.empty() ? ": it is empty" : " by what is in it"));
     }
     // As many as the host lets OpenImageIO use; 0 = all cores.

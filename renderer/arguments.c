@@ -113,8 +113,10 @@ static void parse_replace(Arguments *a)
     RetexError err;
     if (a->nreplacements == RETEX_MAX_TARGETS)
         cli_die(a->cli, "more than %d of --replace", RETEX_MAX_TARGETS);
-    if (retex_texture_spec_parse(&a->replacements[a->nreplacements++], a->cli->modifiers, a->cli->value, &err))
+    RetexTextureSpec *spec = &a->replacements[a->nreplacements++];
+    if (retex_texture_spec_parse(spec, a->cli->modifiers, a->cli->value, &err))
         cli_die(a->cli, "--replace: %s", err.message);
+    spec->access = &a->cli->access;
 }
 
 /* Which of some names the value is. */
@@ -324,6 +326,7 @@ void parse_arguments(Arguments *a)
     a->sdl.include_paths = a->includes, a->sdl.ninclude_paths = a->nincludes;
     a->sdl.declares = a->declares, a->sdl.ndeclares = a->ndeclares;
     a->sdl.message = scene_message, a->sdl.message_context = cli;
+    a->sdl.safe = cli->access.safe;
     a->render.nthreads = cli->threads;
     a->render.budget = watchdog_budget();
     a->render.progress = progress, a->render.progress_context = cli;

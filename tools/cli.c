@@ -23,6 +23,8 @@ const CliOption cli_positional = {"", 0, NULL, NULL, 0};
 static const CliOption common_options[] = {
     {"output", 'o', "FILE", "write to FILE; - is standard output", 0},
     {"threads", 0, "N", "use N threads; 0, the default, is all cores", 0},
+    {"safe", 0, NULL, "read no devices and few kinds of pictures; a scene only reads its own folder; also RETEX_SAFE=1",
+     0},
     {"quiet", 'q', NULL, "print nothing but warnings and errors", 0},
     {"verbose", 'v', NULL, "print more", 0},
     {"help", 0, NULL, "print this and exit", 0},
@@ -184,6 +186,8 @@ static int common_option(Cli *cli, const CliOption *option)
         cli->output = cli->value;
     } else if (strcmp(option->name, "threads") == 0) {
         cli->threads = (int)cli_integer(cli, option, 0, 256);
+    } else if (strcmp(option->name, "safe") == 0) {
+        cli->access.safe = 1;
     } else if (strcmp(option->name, "quiet") == 0) {
         cli->quiet = 1;
     } else if (strcmp(option->name, "verbose") == 0) {
@@ -201,6 +205,10 @@ const CliOption *cli_next(Cli *cli)
     prepare_process(cli);
     if (cli->next == 0)
         cli->next = 1;
+    if (cli->access.size == 0) {
+        cli->access = (RetexAccess)RETEX_ACCESS_INIT;
+        cli->access.safe = retex_access_safe_wanted();
+    }
     for (;;) {
         const CliOption *option;
         cli->modifiers = "";
@@ -367,6 +375,12 @@ void cli_input(const Cli *cli, const char *path, const char *what)
 {
     if (strcmp(path, "-") == 0 && isatty(STDIN_FILENO))
         cli_die(cli, "standard input is a terminal; expected %s", what);
+    RetexError err = {0};
+    int file = -1;
+    if (cli->access.safe && strcmp(path, "-") != 0 && retex_access_open(&cli->access, path, &file, &err))
+        cli_fail(cli, &err);
+    if (file >= 0)
+        close(file);
 }
 
 int cli_ends_with(const char *path, const char *ending)

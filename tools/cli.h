@@ -2,6 +2,7 @@
 #ifndef RETEX_CLI_H
 #define RETEX_CLI_H
 
+#include <retex/access.h>
 #include <retex/set.h>
 
 enum { CLI_OK = 0, CLI_NO = 1, CLI_FAIL = 2 }; /* done; the answer is 'no' or 'differs'; usage, input or I/O error */
@@ -15,8 +16,9 @@ typedef struct CliOption {
     int modifiers;         /* 1: `--name:modifiers` is allowed (texture, replace) */
 } CliOption;
 
-/* Walks argv. Common options (-o/--output, --threads, -q, -v, --help, --version) are known to every tool: they are
- * listed in --help, --help and --version are answered here (stdout, exit 0), the rest is kept in the fields below. */
+/* Walks argv. Common options (-o/--output, --threads, --safe, -q, -v, --help, --version) are known to every tool: they
+ * are listed in --help, --help and --version are answered here (stdout, exit 0), the rest is kept in the fields
+ * below. */
 typedef struct Cli {
     const char *tool;        /* "retex-sample": begins every message */
     const char *usage;       /* "SET --texture[:opts] NAME=IMAGE … [-o SAMPLES]" */
@@ -29,6 +31,7 @@ typedef struct Cli {
     const char *output;      /* -o, or NULL */
     int threads;             /* --threads, 0 = all cores */
     int quiet, verbose;      /* -q, -v */
+    RetexAccess access;      /* of files whose names the user said: its `safe` is --safe, or $RETEX_SAFE's */
     const char *value;       /* argument of the option last returned */
     const char *modifiers;   /* what stood behind `--name:`, or "" */
     const char *group;       /* of a cluster -qv: what is left of it */
@@ -57,8 +60,8 @@ _Noreturn void cli_fail(const Cli *cli, const RetexError *err);                 
  * never written to a terminal, `-o -` and /dev/tty included). */
 const char *cli_output(const Cli *cli);
 
-/* A file to read: an error where it is "-" and standard input a terminal, at which nobody types a set. `what` is what
- * was expected. */
+/* A file to read: an error where it is "-" and standard input a terminal, at which nobody types a set, and with --safe
+ * where it is neither "-" nor a regular file. `what` is what was expected. */
 void cli_input(const Cli *cli, const char *path, const char *what);
 
 /* ---- cli_files.c: no output replaces an input, or another output ----

@@ -167,6 +167,7 @@ int main(int argc, char **argv)
         cli_reads(&cli, i ? "B" : "A", names[i]);
     }
     cli_writes(&cli, "the answer", "-");
+    params.access = &cli.access;
     if (retex_diff(&diff, names[0], names[1], &params, &err))
         cli_fail(&cli, &err);
     int differs = diff->differs;

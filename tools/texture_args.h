@@ -30,6 +30,7 @@ static inline void texture_args_add(const Cli *cli, TextureArgs *args)
         cli_die(cli, "more than %d textures", RETEX_MAX_TARGETS);
     if (retex_texture_spec_parse(&args->specs[args->count], cli->modifiers, cli->value, &err))
         cli_fail(cli, &err);
+    args->specs[args->count].access = &cli->access;
     args->count++;
 }
 

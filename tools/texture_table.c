@@ -108,6 +108,7 @@ static void parse_cell(const Cli *cli, const TextureTable *table, RetexTextureSp
         texture_table_fail(table, cli, RETEX_EPARSE, "the image's name is too long");
     if (retex_texture_spec_parse(spec, opts, argument, &err))
         texture_table_fail(table, cli, err.code, err.message);
+    spec->access = &cli->access;
 }
 
 /* To the first picture. */

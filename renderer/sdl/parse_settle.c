@@ -135,17 +135,19 @@ static void load_image(Sdl *sdl, SideImage *image, int *room)
     RetexImage pixels = {0};
     RetexError err = {0};
     sdl_add_file(sdl, map->path);
-    if (retex_image_read(&pixels, map->path, colorspace_of(sdl, image), 0, &err) == 0) {
+    const RetexReadParams params = {sizeof params, colorspace_of(sdl, image), 0, sdl_access(sdl)};
+    if (retex_image_read_with(&pixels, map->path, &params, &err) == 0) {
         map->has_alpha = has_alpha(&pixels);
         map->width = pixels.width;
         map->height = pixels.height;
-        scene->digest = digest_bytes(scene->digest, pixels.pixels,
-                                     retex_image_index(&pixels, 0, pixels.height) * sizeof(float));
+        scene->digest =
+            digest_bytes(scene->digest, pixels.pixels, retex_image_index(&pixels, 0, pixels.height) * sizeof(float));
         retex_texture_create(&map->texture, &pixels, NULL, &err);
         retex_image_free(&pixels);
     }
     if (!map->texture)
-        sdl_error(sdl, "%s:%d: image_map: %s", image->file, image->line, err.message);
+        sdl_error(sdl, "%s:%d: image_map: %s%s%s", image->file, image->line, err.file, err.file[0] ? ": " : "",
+                  err.message);
 }
 
 static void load_of_texture(Sdl *sdl, const Texture *texture, int *room)

@@ -48,6 +48,7 @@ typedef struct Token {
 Arena *sdl_arena(Sdl *sdl);
 Scene *sdl_scene(Sdl *sdl);
 const SdlOptions *sdl_options(Sdl *sdl);
+const RetexAccess *sdl_access(Sdl *sdl); /* what files may be read */
 double sdl_version(Sdl *sdl); /* 3.62 until #version says otherwise */
 void sdl_step(Sdl *sdl, long count); /* counts against the budget; an error beyond it */
 void *sdl_alloc(Sdl *sdl, size_t bytes); /* zeroed; an error at the limit, never NULL */

@@ -21,6 +21,10 @@ const SdlOptions *sdl_options(Sdl *sdl)
 {
     return &sdl->options;
 }
+const RetexAccess *sdl_access(Sdl *sdl)
+{
+    return &sdl->access;
+}
 double sdl_version(Sdl *sdl)
 {
     return sdl->version;

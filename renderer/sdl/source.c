@@ -46,9 +46,11 @@ void folders_begin(Sdl *sdl, const char *scene_path)
     sdl->folders = sdl_alloc(sdl, count * sizeof *sdl->folders);
     const char **roots = sdl_alloc(sdl, count * sizeof *roots);
     sdl->access = (RetexAccess)RETEX_ACCESS_INIT;
+    sdl->access.safe = sdl->options.safe;
     sdl->access.roots = roots;
     const char *slash = strrchr(scene_path, '/');
-    add_folder(sdl, roots, "");
+    if (!sdl->options.safe || !slash)
+        add_folder(sdl, roots, "");
     if (slash)
         add_folder(sdl, roots, arena_string(sdl->arena, scene_path, (size_t)(slash - scene_path + 1)));
     for (int i = 0; i < sdl->options.ninclude_paths; i++)
@@ -86,6 +88,10 @@ const char *sdl_need_file(Sdl *sdl, const char *what, const char *name)
     const char *path = find_file(sdl, name, &answer);
     if (path)
         return path;
+    if (answer == RETEX_ACCESS_OUTSIDE && sdl->access.safe)
+        sdl_error(sdl,
+                  "the %s `%s` is outside the folders that may be read (--safe): the scene's, those of -I, POV-Ray's",
+                  what, name);
     if (answer == RETEX_ACCESS_OUTSIDE)
         sdl_error(sdl,
                   "the %s `%s` is outside the folders that may be read: the current one, the scene's, those of -I, "
@@ -136,9 +142,15 @@ void memory_file_write(Sdl *sdl, MemoryFile *file, const void *bytes, size_t siz
 /* The whole file in memory of its own; a scene's limit on memory holds for it too. */
 static char *read_all(Sdl *sdl, const char *path, size_t *size)
 {
-    FILE *file = fopen(path, "rb");
-    if (!file)
-        sdl_fail(sdl, RETEX_EIO, "cannot open `%s`: %s", path, strerror(errno));
+    RetexError why = {0};
+    int descriptor, code = retex_access_open(&sdl->access, path, &descriptor, &why);
+    if (code)
+        sdl_fail(sdl, code, "%s", why.message);
+    FILE *file = fdopen(descriptor, "rb");
+    if (!file) {
+        close(descriptor);
+        sdl_fail(sdl, RETEX_ENOMEM, "cannot read `%s`", path);
+    }
     struct stat info;
     char *bytes = NULL;
     if (fstat(fileno(file), &info) == 0 && S_ISDIR(info.st_mode)) {

@@ -9,7 +9,7 @@ $ retex-render
 ! retex-render: error: which scene? (try --help)
 = 2
 $ retex-render none.pov -o x.exr
-! retex-render: error: none.pov: cannot open `none.pov`: No such file or directory
+! retex-render: error: none.pov: cannot read none.pov: No such file or directory
 = 2
 $ printf 'sphere { 0, 1\n  pigment { rgb 1 }\n  nonsense\n}\n' >bad.pov; retex-render bad.pov -o x.exr
 ! retex-render: error: bad.pov:3:3: expected an object modifier or }, found `nonsense`, which is not declared

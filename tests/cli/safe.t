@@ -27,3 +27,137 @@ $ cd a/b; for n in up beside link include fopen; do retex-render -q --plain --sp
 > link 0
 > include 0
 > fopen 0
+
+# --safe: not the current folder, unless the scene lies there, and nothing that leaves the folders on its way. What is
+# there outside is not told.
+$ mkdir here; cp a/up.png a/up.inc here; cd here; for n in in up beside link passwd nowhere pipe folder include fopen; do retex-render --safe -q --plain --spp 1 --size 8x8 ../a/b/$n.pov -o x.exr; echo $n $?; done
+> in 0
+> up 2
+> beside 2
+> link 2
+> passwd 2
+> nowhere 2
+> pipe 2
+> folder 2
+> include 2
+> fopen 2
+! retex-render: error: ../a/b/up.pov:1:39: the image `../up.png` is outside the folders that may be read (--safe): the scene's, those of -I, POV-Ray's
+! retex-render: error: ../a/b/beside.pov:1:39: the image `../bc/beside.png` is outside the folders that may be read (--safe): the scene's, those of -I, POV-Ray's
+! retex-render: error: ../a/b/link.pov:1:39: the image `link.png` is outside the folders that may be read (--safe): the scene's, those of -I, POV-Ray's
+! retex-render: error: ../a/b/passwd.pov:1:39: the image `/etc/passwd` is outside the folders that may be read (--safe): the scene's, those of -I, POV-Ray's
+! retex-render: error: ../a/b/nowhere.pov:1:39: cannot find the image `nowhere.png` in the scene's folder or the include path
+! retex-render: error: ../a/b/pipe.pov:1:39: the image `pipe` is no file, but a folder, a device or a pipe
+! retex-render: error: ../a/b/folder.pov:1:39: the image `folder` is no file, but a folder, a device or a pipe
+! retex-render: error: ../a/b/include.pov:1:10: the file `../up.inc` is outside the folders that may be read (--safe): the scene's, those of -I, POV-Ray's
+! retex-render: error: ../a/b/fopen.pov:1:22: the file `../up.inc` is outside the folders that may be read (--safe): the scene's, those of -I, POV-Ray's
+$ scene() { printf '%s\nbackground { rgb 1 }\n' "$2" >"a/b/$1.pov"; }; scene exists '#debug str(file_exists("in.png") + 10*file_exists("../up.png") + 100*file_exists("/etc/passwd") + 1000*file_exists("colors.inc"), 0, 0)'; scene current '#include "up.inc"'; for i in ../b/in.png ../../nowhere.png /nowhere dangling/x.png "$PWD/a/b/in.png" "$PWD/a/bc/beside.png"; do ln -sf ../../nowhere a/b/dangling; scene "i$((k=k+1))" "box { -1, 1 pigment { image_map { png \"$i\" } } }"; done
+$ retex-render -v --safe --plain --spp 1 --size 8x8 a/b/exists.pov -o x.exr 2>&1 | head -1; retex-render -v --plain --spp 1 --size 8x8 -I a a/b/exists.pov -o x.exr 2>&1 | head -1
+> retex-render: 1001
+> retex-render: 1011
+$ cd here; retex-render -q --plain --spp 1 --size 8x8 ../a/b/current.pov -o x.exr; retex-render --safe -q --plain --spp 1 --size 8x8 ../a/b/current.pov -o x.exr
+! retex-render: error: ../a/b/current.pov:1:10: cannot find the file `up.inc` in the scene's folder or the include path
+= 2
+$ for n in 1 2 3 4 5 6; do retex-render --safe -q --plain --spp 1 --size 8x8 a/b/i$n.pov -o x.exr 2>&1 | sed "s|$PWD|HERE|"; done
+> retex-render: error: a/b/i1.pov:1:39: the image `../b/in.png` is outside the folders that may be read (--safe): the scene's, those of -I, POV-Ray's
+> retex-render: error: a/b/i2.pov:1:39: the image `../../nowhere.png` is outside the folders that may be read (--safe): the scene's, those of -I, POV-Ray's
+> retex-render: error: a/b/i3.pov:1:39: the image `/nowhere` is outside the folders that may be read (--safe): the scene's, those of -I, POV-Ray's
+> retex-render: error: a/b/i4.pov:1:39: the image `dangling/x.png` is outside the folders that may be read (--safe): the scene's, those of -I, POV-Ray's
+> retex-render: error: a/b/i6.pov:1:39: the image `HERE/a/bc/beside.png` is outside the folders that may be read (--safe): the scene's, those of -I, POV-Ray's
+$ for n in up beside link include fopen; do retex-render --safe -q --plain --spp 1 --size 8x8 -I a a/b/$n.pov -o x.exr; echo $n $?; done
+> up 0
+> beside 0
+> link 0
+> include 0
+> fopen 0
+# The scene itself: no pipe, and no link that leads out.
+$ mkfifo pipe.pov; ln -s ../up.inc a/b/away.pov; for s in pipe.pov a/b/away.pov /dev/zero; do retex-render --safe -q --plain $s -o x.exr; done
+! retex-render: error: pipe.pov: pipe.pov is a folder, a device or a pipe: only files are read (--safe)
+! retex-render: error: a/b/away.pov: a/b/away.pov is outside the folders that may be read (--safe)
+! retex-render: error: /dev/zero: /dev/zero is a folder, a device or a pipe: only files are read (--safe)
+= 2
+# The environment asks for it too, and no option takes it back.
+$ for safe in '' 0 1 yes; do RETEX_SAFE=$safe retex-render -q --plain --spp 1 --size 8x8 a/b/i1.pov -o x.exr 2>/dev/null; echo "'$safe' $?"; done
+> '' 0
+> '0' 0
+> '1' 2
+> 'yes' 2
+# What a scene writes stays in memory.
+$ printf '#fopen F "written.inc" write\n#write(F, "#declare Radius = 1;")\n#fclose F\n#include "written.inc"\nsphere { 0, Radius }\nbackground { rgb 1 }\n' >a/b/write.pov; retex-render --safe -q --plain --spp 1 --size 8x8 a/b/write.pov -o x.exr; ls a/b/written.inc written.inc 2>/dev/null
+= 2
+
+# Pictures: those of the list, known by what is in them, are read as ever.
+$ make_set s.exr 24 16; make_picture t.exr size=16x16; retex-combine -q s.exr -o t.png; for e in jpg tif tga bmp gif hdr exr; do retex-combine -q s.exr -o t.$e; done
+$ for e in png jpg tif tga bmp gif hdr exr; do cp t.$e t.$e.txt; for f in t.$e t.$e.txt; do retex-combine -q s.exr --texture floor=$f -o any.exr; retex-combine --safe -q s.exr --texture floor=$f -o safe.exr && cmp any.exr safe.exr && echo "$f same"; done; done
+> t.png same
+> t.png.txt same
+> t.jpg same
+> t.jpg.txt same
+> t.tif same
+> t.tif.txt same
+> t.tga same
+> t.tga.txt same
+> t.bmp same
+> t.bmp.txt same
+> t.gif same
+> t.gif.txt same
+> t.hdr same
+> t.hdr.txt same
+> t.exr same
+> t.exr.txt same
+$ for o in colorspace=linear colorspace=ACEScg colorspace=sRGB; do for e in png jpg exr hdr tif; do retex-combine -q s.exr --texture:$o floor=t.$e -o any.exr; retex-combine --safe -q s.exr --texture:$o floor=t.$e -o safe.exr; cmp any.exr safe.exr; done; done; for e in png jpg exr hdr tga; do retex-diff --safe -q t.$e t.$e || echo $e; done
+# All else is not, whatever it is called.
+$ retex-combine -q s.exr -o t.ppm; retex-combine -q s.exr -o t.dpx; retex-combine -q s.exr -o t.sgi; cp t.ppm ppm.png; cp t.dpx dpx.tga; echo text >text.png; : >empty.png; cp t.png png.tga; printf 'BM but no picture, as the size of its header says' >bm.bmp; for f in t.ppm ppm.png t.dpx dpx.tga t.sgi text.png empty.png bm.bmp s.exr png.tga; do retex-combine --safe -q s.exr --texture floor=$f -o x.exr; echo $f $?; done
+> t.ppm 2
+> ppm.png 2
+> t.dpx 2
+> dpx.tga 2
+> t.sgi 2
+> text.png 2
+> empty.png 2
+> bm.bmp 2
+> s.exr 0
+> png.tga 0
+! retex-combine: error: t.ppm: no PNG, JPEG, OpenEXR, TIFF, TGA, BMP, GIF or Radiance HDR by what is in it: others are not read (--safe)
+! retex-combine: error: ppm.png: no PNG, JPEG, OpenEXR, TIFF, TGA, BMP, GIF or Radiance HDR by what is in it: others are not read (--safe)
+! retex-combine: error: t.dpx: no PNG, JPEG, OpenEXR, TIFF, TGA, BMP, GIF or Radiance HDR by what is in it: others are not read (--safe)
+! retex-combine: error: dpx.tga: no PNG, JPEG, OpenEXR, TIFF, TGA, BMP, GIF or Radiance HDR by what is in it: others are not read (--safe)
+! retex-combine: error: t.sgi: no PNG, JPEG, OpenEXR, TIFF, TGA, BMP, GIF or Radiance HDR by what is in it: others are not read (--safe)
+! retex-combine: error: text.png: no PNG, JPEG, OpenEXR, TIFF, TGA, BMP, GIF or Radiance HDR by what is in it: others are not read (--safe)
+! retex-combine: error: empty.png: no PNG, JPEG, OpenEXR, TIFF, TGA, BMP, GIF or Radiance HDR by what is in it: others are not read (--safe)
+! retex-combine: error: bm.bmp: no PNG, JPEG, OpenEXR, TIFF, TGA, BMP, GIF or Radiance HDR by what is in it: others are not read (--safe)
+# A TGA without a footer needs its name, and a header that fits the file.
+$ head -c $(($(wc -c <t.tga) - 26)) t.tga >bare.tga; cp bare.tga bare.dat; head -c 400 bare.tga >cut.tga; head -c 5000 /dev/zero >zero.tga; for f in bare.tga bare.dat cut.tga zero.tga; do retex-combine --safe -q s.exr --texture floor=$f -o x.exr; echo $f $?; done
+> bare.tga 0
+> bare.dat 2
+> cut.tga 2
+> zero.tga 2
+! retex-combine: error: bare.dat: no PNG, JPEG, OpenEXR, TIFF, TGA, BMP, GIF or Radiance HDR by what is in it: others are not read (--safe)
+! retex-combine: error: cut.tga: no PNG, JPEG, OpenEXR, TIFF, TGA, BMP, GIF or Radiance HDR by what is in it: others are not read (--safe)
+! retex-combine: error: zero.tga: no PNG, JPEG, OpenEXR, TIFF, TGA, BMP, GIF or Radiance HDR by what is in it: others are not read (--safe)
+# No devices, no pipes; standard input as a stream is one all the same.
+$ for f in pipe.pov /dev/zero /dev/stdin a /proc/self/environ; do retex-combine --safe -q s.exr --texture floor=$f -o x.exr; retex-combine --safe -q $f -o x.exr; done
+! retex-combine: error: pipe.pov is a folder, a device or a pipe: only files are read (--safe)
+! retex-combine: error: pipe.pov is a folder, a device or a pipe: only files are read (--safe)
+! retex-combine: error: /dev/zero is a folder, a device or a pipe: only files are read (--safe)
+! retex-combine: error: /dev/zero is a folder, a device or a pipe: only files are read (--safe)
+! retex-combine: error: /dev/stdin is a folder, a device or a pipe: only files are read (--safe)
+! retex-combine: error: /dev/stdin is a folder, a device or a pipe: only files are read (--safe)
+! retex-combine: error: a is a folder, a device or a pipe: only files are read (--safe)
+! retex-combine: error: a is a folder, a device or a pipe: only files are read (--safe)
+! retex-combine: error: /proc/self/environ: no PNG, JPEG, OpenEXR, TIFF, TGA, BMP, GIF or Radiance HDR by what is in it: others are not read (--safe)
+! retex-combine: error: /proc/self/environ is not a set: it is empty
+= 2
+$ printf 'output,floor\nb.png,t.ppm\n' >b.csv; retex-combine --safe -q s.exr --batch b.csv; retex-combine --safe -q s.exr --batch pipe.pov; for o in '--replace Floor=t.ppm -o x.png' '--variants b.csv'; do retex-render --safe -q --spp 1 --size 8x8 $o "$SCENES/cornell-box/cornell-box.pov"; done
+! retex-combine: error: b.csv:2: t.ppm: no PNG, JPEG, OpenEXR, TIFF, TGA, BMP, GIF or Radiance HDR by what is in it: others are not read (--safe)
+! retex-combine: error: pipe.pov is a folder, a device or a pipe: only files are read (--safe)
+! retex-render: error: t.ppm: no PNG, JPEG, OpenEXR, TIFF, TGA, BMP, GIF or Radiance HDR by what is in it: others are not read (--safe)
+! retex-render: error: b.csv:2: t.ppm: no PNG, JPEG, OpenEXR, TIFF, TGA, BMP, GIF or Radiance HDR by what is in it: others are not read (--safe)
+= 2
+$ retex-sample --safe -q s.exr --texture floor=t.png | retex-combine --safe -q - -o x.exr; retex-pack --safe -q --lossless - -o x.retex <s.exr; for t in 'denoise -o x.exr' 'pack -o x.retex' 'sample --texture Floor=t.png -o x.exr' info; do retex-$t --safe -q pipe.pov; done; retex-diff --safe t.ppm t.ppm; retex-diff --safe pipe.pov t.png
+! retex-denoise: error: pipe.pov is a folder, a device or a pipe: only files are read (--safe)
+! retex-pack: error: pipe.pov is a folder, a device or a pipe: only files are read (--safe)
+! retex-sample: error: pipe.pov is a folder, a device or a pipe: only files are read (--safe)
+! retex-info: error: pipe.pov is a folder, a device or a pipe: only files are read (--safe)
+! retex-diff: error: t.ppm: no PNG, JPEG, OpenEXR, TIFF, TGA, BMP, GIF or Radiance HDR by what is in it: others are not read (--safe)
+! retex-diff: error: pipe.pov is a folder, a device or a pipe: only files are read (--safe)
+= 2

@@ -43,7 +43,7 @@ $ iinfo -a 'box.pov?spp=1&size=16x12&aov=depth,normal'
 
 # What is wrong with options.
 $ for o in sppp=2 spp=many spp=0 width=0 size=3 'size=8x8&width=8' targets=Nope targets=Floor,, crop=0,0,900,900 plain=2 aov=smell clusters=99 'layout=paper&clusters=3' 'denoise=1&spp=1' 'denoise=1&no_denoise_data=1' threads=x declare.A=1/3 threads=999; do oiiotool "box.pov?$o" -o no.exr 2>&1 | grep ERROR; done
-> oiiotool ERROR: read : "box.pov?sppp=2": there is no option 'sppp'; there are targets, spp, noise, size, width, height, crop, seed, max_depth, filter, layout, clusters, orders, strict_paper, plain, aov, denoise, no_denoise_data, caustics_guide, include, declare.NAME, ambient, strict and threads
+> oiiotool ERROR: read : "box.pov?sppp=2": there is no option 'sppp'; there are targets, spp, noise, size, width, height, crop, seed, max_depth, filter, layout, clusters, orders, strict_paper, plain, aov, denoise, no_denoise_data, caustics_guide, include, declare.NAME, ambient, strict, safe and threads
 > oiiotool ERROR: read : "box.pov?spp=many": spp: expected a whole number from 1 to 1048576, not 'many'
 > oiiotool ERROR: read : "box.pov?spp=0": spp: expected a whole number from 1 to 1048576, not '0'
 > oiiotool ERROR: read : "box.pov?width=0": width: expected a whole number from 1 to 65536, not '0'
@@ -70,13 +70,13 @@ $ for f in bad empty zero nothing none self; do iinfo $f.pov; oiiotool $f.pov -o
 > oiiotool ERROR: read : zero.pov: no .pov file by what is in it
 > oiiotool ERROR: read : nothing.pov: there is nothing in the scene: no object, no light, no sky
 > oiiotool ERROR: read : File does not exist: "none.pov"
-> oiiotool ERROR: read : self.pov:3:1: self.pov:2: image_map: cannot read: a scene cannot be a texture of a scene
+> oiiotool ERROR: read : self.pov:3:1: self.pov:2: image_map: self.pov: cannot read: a scene cannot be a texture of a scene
 ! iinfo ERROR: "bad.pov" : bad.pov:2:3: expected an object modifier or }, found `nonsense`, which is not declared
 ! iinfo ERROR: "empty.pov" : empty.pov: no .pov file: it is empty
 ! iinfo ERROR: "zero.pov" : zero.pov: no .pov file by what is in it
 ! iinfo ERROR: "nothing.pov" : nothing.pov: there is nothing in the scene: no object, no light, no sky
 ! iinfo ERROR: "none.pov" : cannot read none.pov: No such file or directory
-! iinfo ERROR: "self.pov" : self.pov:3:1: self.pov:2: image_map: cannot read: a scene cannot be a texture of a scene
+! iinfo ERROR: "self.pov" : self.pov:3:1: self.pov:2: image_map: self.pov: cannot read: a scene cannot be a texture of a scene
 
 # What is strange in a scene is told.
 $ printf 'camera { location -3*z }\nlight_source { -9*z rgb 1 }\nsphere { 0, 1 pigment { rgb 1 } }\n#warning "mind"\n' >c.pov; iinfo -v 'c.pov?spp=1&size=8x6' | grep warnings

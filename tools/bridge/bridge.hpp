@@ -2,7 +2,9 @@
 #ifndef RETEX_BRIDGE_HPP
 #define RETEX_BRIDGE_HPP
 
+#include <cstdio>
 #include <functional>
+#include <memory>
 #include <stdexcept>
 #include <string>
 
@@ -23,7 +25,10 @@ struct Failure : std::runtime_error {
 int guarded(const char *path, RetexError *err, const std::function<void()> &body);
 
 // Fail where a JPEG or PNG file is cut off, or a checksum of a PNG is wrong.
-void check_whole(const char *path);
+void check_whole(const RetexBridgeFile &file);
+
+// The file to read, from its beginning. Throws Failure.
+std::unique_ptr<FILE, int (*)(FILE *)> open_file(const RetexBridgeFile &file);
 
 // Works on pixels R,G,B,A in place, from any thread; empty = leave as they are.
 using Transform = std::function<void(float *rgba, long pixels)>;

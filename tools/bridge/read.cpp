@@ -11,6 +11,7 @@
 #include <new>
 #include <vector>
 
+#include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 #include <OpenImageIO/parallel.h>
 #include <strings.h>
@@ -147,10 +148,10 @@ Channels find_channels(const OIIO::ImageSpec &spec)
     return found;
 }
 
-void check_file(const char *path)
+void check_file(const RetexBridgeFile &file)
 {
     struct stat status;
-    if (stat(path, &status) != 0)
+    if ((file.format ? fstat(file.descriptor, &status) : stat(file.path, &status)) != 0)
         throw Failure(RETEX_EIO, std::string("cannot read: ") + std::strerror(errno));
     if (S_ISDIR(status.st_mode))
         throw Failure(RETEX_EIO, "cannot read: it is a folder");
@@ -307,37 +308,70 @@ void fit_window(const RetexBridgeHost *host, OwnedImage &picture, const OIIO::Im
     picture.swap(shown);
 }
 
-// A file that holds a picture of a size that can be read.
-std::unique_ptr<OIIO::ImageInput> open_picture(const char *path, long max_pixels)
+// A file that holds a picture of a size that can be read. With a format its decoder alone sees the file, as it is open,
+// and no name.
+class OpenPicture
 {
-    check_file(path);
-    check_whole(path);
-    OIIO::ImageSpec wish;
-    wish.attribute("oiio:UnassociatedAlpha", 1); // no needless multiplying and dividing of 8-bit values
-    auto in = OIIO::ImageInput::open(path, &wish);
-    if (!in)
-        fail_read(OIIO::geterror());
-    const OIIO::ImageSpec &spec = in->spec();
-    check_size(spec.width, spec.height, max_pixels);
-    if (spec.deep)
-        throw Failure(RETEX_EUNSUPPORTED, "a deep picture, which cannot be used here");
-    if (spec.depth > 1)
-        throw Failure(RETEX_EUNSUPPORTED, "a volume, not a picture");
-    return in;
-}
+  public:
+    explicit OpenPicture(const RetexBridgeFile &file)
+    {
+        check_file(file);
+        check_whole(file);
+        OIIO::ImageSpec wish;
+        wish.attribute("oiio:UnassociatedAlpha", 1); // no needless multiplying and dividing of 8-bit values
+        if (file.format)
+            open_as(file, wish);
+        else
+            in_ = OIIO::ImageInput::open(file.path, &wish);
+        if (!in_)
+            fail_read(OIIO::geterror());
+        const OIIO::ImageSpec &spec = in_->spec();
+        check_size(spec.width, spec.height, file.max_pixels);
+        if (spec.deep)
+            throw Failure(RETEX_EUNSUPPORTED, "a deep picture, which cannot be used here");
+        if (spec.depth > 1)
+            throw Failure(RETEX_EUNSUPPORTED, "a volume, not a picture");
+    }
+    OIIO::ImageInput *operator->() const
+    {
+        return in_.get();
+    }
+    OIIO::ImageInput &operator*() const
+    {
+        return *in_;
+    }
 
-RetexImage read_picture(const RetexBridgeHost *host, const char *path, const char *colorspace, long max_pixels)
+  private:
+    void open_as(const RetexBridgeFile &file, const OIIO::ImageSpec &wish)
+    {
+        in_ = OIIO::ImageInput::create(file.format);
+        if (!in_ || !in_->supports("ioproxy"))
+            throw Failure(RETEX_EUNSUPPORTED,
+                          std::string("OpenImageIO cannot read ") + file.format + " from open files");
+        stream_ = open_file(file);
+        proxy_ = std::make_unique<OIIO::Filesystem::IOFile>(stream_.get(), OIIO::Filesystem::IOProxy::Read);
+        OIIO::ImageSpec spec;
+        if (!in_->set_ioproxy(proxy_.get()) || !in_->open(file.path, spec, wish))
+            fail_read(in_->geterror());
+    }
+
+    std::unique_ptr<FILE, int (*)(FILE *)> stream_{nullptr, std::fclose};
+    std::unique_ptr<OIIO::Filesystem::IOFile> proxy_;
+    std::unique_ptr<OIIO::ImageInput> in_; // last: goes first
+};
+
+RetexImage read_picture(const RetexBridgeHost *host, const RetexBridgeFile &file)
 {
-    auto in = open_picture(path, max_pixels);
+    OpenPicture in(file);
     OIIO::ImageSpec spec = in->spec();
     std::string format = in->format_name();
     bool windowed = format == "openexr" && spec.full_width > 0 && spec.full_height > 0 &&
                     (spec.x != spec.full_x || spec.y != spec.full_y || spec.width != spec.full_width ||
                      spec.height != spec.full_height);
     if (windowed)
-        check_size(spec.full_width, spec.full_height, max_pixels);
+        check_size(spec.full_width, spec.full_height, file.max_pixels);
 
-    Transform decode = decoding(spec, format.c_str(), colorspace);
+    Transform decode = decoding(spec, format.c_str(), file.colorspace);
     Channels channels = find_channels(spec);
     OwnedImage picture(host, spec.width, spec.height);
     read_channels(*in, spec, channels, picture.image);
@@ -429,9 +463,10 @@ void read_levels(OIIO::ImageInput &in, const OIIO::ImageSpec &spec, const Channe
     }
 }
 
-RetexNarrowImage read_narrow(const RetexBridgeHost *host, const char *path, const char *colorspace, long max_pixels)
+RetexNarrowImage read_narrow(const RetexBridgeHost *host, const RetexBridgeFile &file)
 {
-    auto in = open_picture(path, max_pixels);
+    OpenPicture in(file);
+    const char *colorspace = file.colorspace;
     OIIO::ImageSpec spec = in->spec();
     Channels channels = find_channels(spec);
     bool wide = spec.format == OIIO::TypeDesc::UINT16, colours = true;
@@ -478,14 +513,13 @@ int retex_oiio_abi(void)
     return RETEX_BRIDGE_ABI;
 }
 
-int retex_oiio_read(const RetexBridgeHost *host, RetexImage *dst, const char *path, const char *colorspace,
-                    long max_pixels, RetexError *err)
+int retex_oiio_read(const RetexBridgeHost *host, RetexImage *dst, const RetexBridgeFile *file, RetexError *err)
 {
-    return bridge::guarded(path, err, [&] { *dst = bridge::read_picture(host, path, colorspace, max_pixels); });
+    return bridge::guarded(file->path, err, [&] { *dst = bridge::read_picture(host, *file); });
 }
 
-int retex_oiio_read_narrow(const RetexBridgeHost *host, RetexNarrowImage *dst, const char *path, const char *colorspace,
-                           long max_pixels, RetexError *err)
+int retex_oiio_read_narrow(const RetexBridgeHost *host, RetexNarrowImage *dst, const RetexBridgeFile *file,
+                           RetexError *err)
 {
-    return bridge::guarded(path, err, [&] { *dst = bridge::read_narrow(host, path, colorspace, max_pixels); });
+    return bridge::guarded(file->path, err, [&] { *dst = bridge::read_narrow(host, *file); });
 }

@@ -8,6 +8,9 @@
 #include <cstring>
 #include <memory>
 
+#include <fcntl.h>
+#include <unistd.h>
+
 namespace bridge
 {
 namespace
@@ -17,10 +20,8 @@ namespace
 class Reader
 {
   public:
-    explicit Reader(const char *path) : file_(std::fopen(path, "rb"), std::fclose)
+    explicit Reader(const RetexBridgeFile &file) : file_(open_file(file))
     {
-        if (!file_)
-            throw Failure(RETEX_EIO, std::string("cannot read: ") + std::strerror(errno));
     }
     int byte()
     {
@@ -131,9 +132,27 @@ void check_png(Reader &in)
 
 } // namespace
 
-void check_whole(const char *path)
+std::unique_ptr<FILE, int (*)(FILE *)> open_file(const RetexBridgeFile &file)
 {
-    Reader in(path);
+    const int copy = file.format ? fcntl(file.descriptor, F_DUPFD_CLOEXEC, 3) : -1;
+    std::unique_ptr<FILE, int (*)(FILE *)> stream(!file.format ? std::fopen(file.path, "rb")
+                                                  : copy < 0   ? nullptr
+                                                               : fdopen(copy, "rb"),
+                                                  std::fclose);
+    if (!stream) {
+        const int why = errno;
+        if (copy >= 0)
+            close(copy);
+        throw Failure(RETEX_EIO, std::string("cannot read: ") + std::strerror(why));
+    }
+    if (file.format)
+        std::rewind(stream.get()); // the place is common to all copies
+    return stream;
+}
+
+void check_whole(const RetexBridgeFile &file)
+{
+    Reader in(file);
     if (in.number(2) == 0xffd8)
         return check_jpeg(in);
     in.rewind();

@@ -107,17 +107,16 @@ int retex_names_linear(const char *colorspace)
 
 static const RetexBridgeHost host = {retex_image_alloc, retex_image_free, malloc, free};
 
-int retex_bridge_read(RetexImage *dst, const char *path, const char *colorspace, long max_pixels, RetexError *err)
+int retex_bridge_read(RetexImage *dst, const RetexBridgeFile *file, RetexError *err)
 {
-    int code = bridge_ready(path, err);
-    return code ? code : bridge.read(&host, dst, path, colorspace, max_pixels, err);
+    int code = bridge_ready(file->path, err);
+    return code ? code : bridge.read(&host, dst, file, err);
 }
 
-int retex_bridge_read_narrow(RetexNarrowImage *dst, const char *path, const char *colorspace, long max_pixels,
-                             RetexError *err)
+int retex_bridge_read_narrow(RetexNarrowImage *dst, const RetexBridgeFile *file, RetexError *err)
 {
-    int code = bridge_ready(path, err);
-    return code ? code : bridge.read_narrow(&host, dst, path, colorspace, max_pixels, err);
+    int code = bridge_ready(file->path, err);
+    return code ? code : bridge.read_narrow(&host, dst, file, err);
 }
 
 int retex_bridge_plan(RetexBridgePlan **plan, RetexBridgeStored *stored, const char *path, int width, int height,

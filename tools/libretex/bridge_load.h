@@ -14,9 +14,18 @@ extern "C" {
 /* Whether a colour space, by its name or by none, is what we compute in: then OpenColorIO is not needed for an EXR. */
 int retex_names_linear(const char *colorspace);
 
+/* What is to be read. */
+typedef struct RetexBridgeFile {
+    const char *path;
+    const char *format;     /* OpenImageIO's name of the one decoder that may see it, or NULL: any one */
+    int descriptor;         /* with a format: the file, in place of path, which then is for messages only */
+    const char *colorspace; /* or NULL */
+    long max_pixels;        /* 0 = no limit */
+} RetexBridgeFile;
+
 /* Read any file OpenImageIO knows as R,G,B,A, scene-linear Rec.709, unassociated alpha; as retex_image_read, of
  * which it is the general case. dst is unallocated. */
-int retex_bridge_read(RetexImage *dst, const char *path, const char *colorspace, long max_pixels, RetexError *err);
+int retex_bridge_read(RetexImage *dst, const RetexBridgeFile *file, RetexError *err);
 
 /* An image of 16-bit integers, 65535 for 1: R,G,B,A, scene-linear Rec.709, premultiplied, rows from the top. The
  * pixels are freed with free(). */
@@ -27,12 +36,10 @@ typedef struct RetexNarrowImage {
 
 /* The same picture without floats, for files of 8- and 16-bit integers whose channels are decoded one by one. Others
  * are left alone: dst->pixels stays NULL. */
-int retex_bridge_read_narrow(RetexNarrowImage *dst, const char *path, const char *colorspace, long max_pixels,
-                             RetexError *err);
+int retex_bridge_read_narrow(RetexNarrowImage *dst, const RetexBridgeFile *file, RetexError *err);
 
-/* In image.c: the same for any path that retex_image_read takes. */
-int retex_image_read_narrow(RetexNarrowImage *dst, const char *path, const char *colorspace, long max_pixels,
-                            RetexError *err);
+/* In image.c: the same for any path that retex_image_read_with takes. */
+int retex_image_read_narrow(RetexNarrowImage *dst, const char *path, const RetexReadParams *params, RetexError *err);
 
 /* How a picture of that size goes into a file of the format that path's ending names, in the colours that params name.
  * Neither is needed afterwards. */
@@ -75,12 +82,11 @@ typedef struct RetexBridgeHost {
     void (*free)(void *block);
 } RetexBridgeHost;
 
-#define RETEX_BRIDGE_ABI 4
+#define RETEX_BRIDGE_ABI 5
 typedef int RetexBridgeAbi(void);
-typedef int RetexBridgeRead(const RetexBridgeHost *host, RetexImage *dst, const char *path, const char *colorspace,
-                            long max_pixels, RetexError *err);
-typedef int RetexBridgeReadNarrow(const RetexBridgeHost *host, RetexNarrowImage *dst, const char *path,
-                                  const char *colorspace, long max_pixels, RetexError *err);
+typedef int RetexBridgeRead(const RetexBridgeHost *host, RetexImage *dst, const RetexBridgeFile *file, RetexError *err);
+typedef int RetexBridgeReadNarrow(const RetexBridgeHost *host, RetexNarrowImage *dst, const RetexBridgeFile *file,
+                                  RetexError *err);
 typedef int RetexBridgeMakePlan(RetexBridgePlan **plan, RetexBridgeStored *stored, const char *path, int width,
                                 int height, int channels, const RetexWriteParams *params, RetexError *err);
 typedef void RetexBridgeFreePlan(RetexBridgePlan **plan);

@@ -12,6 +12,7 @@
 
 #include "bridge_load.h"
 #include "exr_io.h"
+#include "image_format.h"
 #include "input.h"
 #include "jpeg_read.h"
 
@@ -212,33 +213,61 @@ static int read_exr(RetexImage *dst, RetexExr *exr, const char *name, long max_p
     return 0;
 }
 
-/* An EXR of linear colours here, if it can be; else by the bridge. */
-static int read_in_space(RetexImage *dst, RetexExr *exr, const RetexInput *input, const char *path,
-                         const char *colorspace, long max_pixels, RetexError *err)
+static RetexReadParams understand(const RetexReadParams *given)
 {
-    const int standard_input = strcmp(path, "-") == 0;
+    RetexReadParams params = RETEX_READ_INIT;
+
+    if (given)
+        memcpy(&params, given, given->size < sizeof params ? given->size : sizeof params);
+    params.size = sizeof params;
+    return params;
+}
+
+/* What the bridge is to do with an open file: with any decoder, or, for safe access, with that of its content. */
+static int choose_decoder(RetexBridgeFile *file, const RetexInput *input, const char *path,
+                          const RetexReadParams *params, RetexError *err)
+{
+    *file = (RetexBridgeFile){path, NULL, -1, params->colorspace, params->max_pixels};
+    if (!params->access || !params->access->safe || strcmp(path, "-") == 0)
+        return 0;
+    file->format = image_format(input);
+    file->descriptor = retex_input_descriptor(input);
+    if (!file->format)
+        return retex_fail_at(err, RETEX_EFORMAT, path, 0, 0,
+                             "no " IMAGE_FORMATS " by what is in it: others are not read (--safe)");
+    return 0;
+}
+
+/* An EXR of linear colours here, if it can be; else by the bridge. */
+static int read_in_space(RetexImage *dst, RetexExr *exr, const RetexInput *input, const RetexBridgeFile *file,
+                         RetexError *err)
+{
+    const int standard_input = strcmp(file->path, "-") == 0;
     int status = RETEX_EUNSUPPORTED;
 
-    if (retex_names_linear(colorspace))
-        status = read_exr(dst, exr, retex_input_name(input), max_pixels, err);
+    if (retex_names_linear(file->colorspace))
+        status = read_exr(dst, exr, retex_input_name(input), file->max_pixels, err);
     else if (standard_input)
-        retex_fail(err, status, "standard input is read as scene-linear only, not %s", colorspace);
+        retex_fail(err, status, "standard input is read as scene-linear only, not %s", file->colorspace);
     if (status == RETEX_EUNSUPPORTED && !standard_input)
-        status = retex_bridge_read(dst, path, colorspace, max_pixels, err);
+        status = retex_bridge_read(dst, file, err);
     return status;
 }
 
 /* An EXR in the space that it says itself, as far as that is known. */
-static int read_tagged(RetexImage *dst, RetexExr *exr, const RetexInput *input, const char *path, long max_pixels,
+static int read_tagged(RetexImage *dst, RetexExr *exr, const RetexInput *input, const RetexBridgeFile *file,
                        RetexError *err)
 {
+    RetexBridgeFile tagged = *file;
     ExrColors colors;
 
     choose_colors(&colors, exr, 0);
-    int status = read_in_space(dst, exr, input, path, colors.colorspace, max_pixels, err);
+    tagged.colorspace = colors.colorspace;
+    int status = read_in_space(dst, exr, input, &tagged, err);
     if (status == RETEX_ENOTFOUND && colors.colorspace[0]) {
         choose_colors(&colors, exr, 1);
-        status = read_in_space(dst, exr, input, path, colors.colorspace, max_pixels, err);
+        tagged.colorspace = colors.colorspace;
+        status = read_in_space(dst, exr, input, &tagged, err);
     }
     if (!status)
         convert_colors(dst, &colors);
@@ -247,43 +276,64 @@ static int read_tagged(RetexImage *dst, RetexExr *exr, const RetexInput *input, 
 
 int retex_image_read(RetexImage *dst, const char *path, const char *colorspace, long max_pixels, RetexError *err)
 {
-    const int standard_input = strcmp(path, "-") == 0;
-    RetexInput *input = NULL;
+    const RetexReadParams params = {sizeof params, colorspace, max_pixels, NULL};
+
+    return retex_image_read_with(dst, path, &params, err);
+}
+
+static int read_open(RetexImage *dst, RetexInput *input, const char *path, const RetexReadParams *params,
+                     RetexError *err)
+{
+    const int standard_input = strcmp(path, "-") == 0, linear = retex_names_linear(params->colorspace);
+    RetexBridgeFile file;
     RetexExr *exr = NULL;
+    int status = choose_decoder(&file, input, path, params, err);
+
+    if (status)
+        return status;
+    if (!standard_input && (!retex_exr_probe(input) || !linear))
+        return retex_bridge_read(dst, &file, err);
+    status = retex_exr_open(&exr, input, err);
+    if (!status)
+        status = params->colorspace && params->colorspace[0] ? read_in_space(dst, exr, input, &file, err)
+                                                             : read_tagged(dst, exr, input, &file, err);
+    retex_exr_close(&exr);
+    return status;
+}
+
+int retex_image_read_with(RetexImage *dst, const char *path, const RetexReadParams *given, RetexError *err)
+{
+    const RetexReadParams params = understand(given);
+    RetexInput *input = NULL;
 
     if (dst->pixels)
         return retex_fail(err, RETEX_EINVAL, "the destination is allocated already");
-    int status = retex_input_open(&input, path, err);
-    if (status)
-        return status;
-    if (!standard_input && (!retex_exr_probe(input) || !retex_names_linear(colorspace))) {
-        retex_input_close(&input);
-        return retex_bridge_read(dst, path, colorspace, max_pixels, err);
-    }
-    status = retex_exr_open(&exr, input, err);
+    int status = retex_input_open_allowed(&input, path, params.access, err);
     if (!status)
-        status = colorspace && colorspace[0] ? read_in_space(dst, exr, input, path, colorspace, max_pixels, err)
-                                             : read_tagged(dst, exr, input, path, max_pixels, err);
-    retex_exr_close(&exr);
+        status = read_open(dst, input, path, &params, err);
     retex_input_close(&input);
     return status;
 }
 
-int retex_image_read_narrow(RetexNarrowImage *dst, const char *path, const char *colorspace, long max_pixels,
-                            RetexError *err)
+int retex_image_read_narrow(RetexNarrowImage *dst, const char *path, const RetexReadParams *given, RetexError *err)
 {
+    const RetexReadParams params = understand(given);
+    RetexBridgeFile file;
     RetexInput *input = NULL;
 
     if (strcmp(path, "-") == 0)
         return 0;
-    int status = retex_input_open(&input, path, err);
-    if (status)
-        return status;
-    const int exr = retex_exr_probe(input);
-    const char *ocio = getenv("OCIO"); /* whether it is of use is for the bridge to say */
-    const int named = colorspace && colorspace[0];
-    if (!exr && (named ? strcasecmp(colorspace, "sRGB") == 0 : !ocio || !ocio[0]))
-        status = retex_jpeg_read_narrow(dst, input, max_pixels, err);
+    int status = retex_input_open_allowed(&input, path, params.access, err);
+    if (!status)
+        status = choose_decoder(&file, input, path, &params, err);
+    if (!status && !retex_exr_probe(input)) {
+        const char *ocio = getenv("OCIO"); /* whether it is of use is for the bridge to say */
+        const int named = params.colorspace && params.colorspace[0];
+        if (named ? strcasecmp(params.colorspace, "sRGB") == 0 : !ocio || !ocio[0])
+            status = retex_jpeg_read_narrow(dst, input, params.max_pixels, err);
+        if (!status && !dst->pixels)
+            status = retex_bridge_read_narrow(dst, &file, err);
+    }
     retex_input_close(&input);
-    return exr || status || dst->pixels ? status : retex_bridge_read_narrow(dst, path, colorspace, max_pixels, err);
+    return status;
 }

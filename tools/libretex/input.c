@@ -117,7 +117,7 @@ static int spool(RetexInput *input, RetexError *err)
     return status;
 }
 
-static int open_descriptor(RetexInput *input, const char *path, RetexError *err)
+static int open_descriptor(RetexInput *input, const char *path, const RetexAccess *access, RetexError *err)
 {
     struct stat status;
 
@@ -125,9 +125,11 @@ static int open_descriptor(RetexInput *input, const char *path, RetexError *err)
         input->descriptor = STDIN_FILENO;
         input->borrowed = 1;
     } else {
-        input->descriptor = open(path, O_RDONLY | O_CLOEXEC);
+        const int code = retex_access_open(access, path, &input->descriptor, err);
+        if (code)
+            return code;
     }
-    if (input->descriptor < 0 || fstat(input->descriptor, &status) != 0)
+    if (fstat(input->descriptor, &status) != 0)
         return fail_read(input, errno, err);
     if (S_ISDIR(status.st_mode))
         return fail_read(input, EISDIR, err);
@@ -141,6 +143,11 @@ static int open_descriptor(RetexInput *input, const char *path, RetexError *err)
 
 int retex_input_open(RetexInput **result, const char *path, RetexError *err)
 {
+    return retex_input_open_allowed(result, path, NULL, err);
+}
+
+int retex_input_open_allowed(RetexInput **result, const char *path, const RetexAccess *access, RetexError *err)
+{
     RetexInput *input = calloc(1, sizeof *input);
 
     *result = NULL;
@@ -148,7 +155,7 @@ int retex_input_open(RetexInput **result, const char *path, RetexError *err)
         return retex_fail(err, RETEX_ENOMEM, "no memory to read %s", path);
     input->descriptor = -1;
     snprintf(input->name, sizeof input->name, "%s", strcmp(path, "-") == 0 ? "standard input" : path);
-    const int status = open_descriptor(input, path, err);
+    const int status = open_descriptor(input, path, access, err);
     if (status)
         retex_input_close(&input);
     *result = input;
@@ -192,6 +199,11 @@ const char *retex_input_name(const RetexInput *input)
 uint64_t retex_input_size(const RetexInput *input)
 {
     return input->size;
+}
+
+int retex_input_descriptor(const RetexInput *input)
+{
+    return input->descriptor;
 }
 
 int64_t retex_input_read(const RetexInput *input, void *buffer, size_t bytes, uint64_t offset)

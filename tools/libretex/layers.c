@@ -20,17 +20,17 @@ struct RetexLayers {
 };
 
 /* A pack is unpacked, anything else goes to OpenImageIO. */
-static int open_other(RetexLayers *layers, const char *path, RetexError *err)
+static int open_other(RetexLayers *layers, const char *path, const RetexReadParams *params, RetexError *err)
 {
     unsigned char begin[4] = {0};
     int64_t got = retex_input_read(layers->input, begin, sizeof begin, 0);
     if (got != sizeof begin || !retex_pack_probe(begin, sizeof begin))
-        return retex_image_read(&layers->picture, path, NULL, 0, err);
+        return retex_image_read_with(&layers->picture, path, params, err);
     int code = retex_pack_open(&layers->set, &layers->input, layers->nthreads, err);
     return code ? code : retex_set_load(layers->set, layers->nthreads, err);
 }
 
-int retex_layers_open(RetexLayers **result, const char *path, int nthreads, RetexError *err)
+int retex_layers_open(RetexLayers **result, const char *path, const RetexAccess *access, int nthreads, RetexError *err)
 {
     const char *reason;
     *result = NULL;
@@ -38,15 +38,16 @@ int retex_layers_open(RetexLayers **result, const char *path, int nthreads, Rete
     if (!layers)
         return retex_fail(err, RETEX_ENOMEM, "no memory to read %s", path);
     layers->nthreads = nthreads;
-    int code = retex_input_open(&layers->input, path, err);
+    const RetexReadParams params = {sizeof params, NULL, 0, access};
+    int code = retex_input_open_allowed(&layers->input, path, access, err);
     if (!code && retex_exr_probe(layers->input))
         code = retex_exr_open(&layers->exr, layers->input, err);
     else if (!code)
-        code = open_other(layers, path, err);
+        code = open_other(layers, path, &params, err);
     if (!code && layers->exr && !retex_exr_part_readable(layers->exr, 0, &reason)) {
         /* beyond our own reader: what OpenImageIO makes of it */
         retex_exr_close(&layers->exr);
-        code = retex_image_read(&layers->picture, path, NULL, 0, err);
+        code = retex_image_read_with(&layers->picture, path, &params, err);
     }
     if (code)
         retex_layers_close(&layers);

@@ -238,13 +238,16 @@ int retex_texture_load(RetexTexture **out, const RetexTextureSpec *spec, int nth
     RetexTexture *texture = new_texture(spec, spec->constant, &why);
     int code = why.code;
     if (texture && !spec->constant) {
-        const char *colorspace = spec->colorspace[0] ? spec->colorspace : NULL;
+        const RetexTextureSpec *own = &texture->spec;
+        const RetexReadParams params = {sizeof params, own->colorspace[0] ? own->colorspace : NULL, MAX_TEXTURE_PIXELS,
+                                        own->access};
         RetexNarrowImage narrow = {0};
         RetexImage image = {0};
-        code = retex_image_read_narrow(&narrow, spec->image, colorspace, MAX_TEXTURE_PIXELS, &why);
+        code = retex_image_read_narrow(&narrow, own->image, &params, &why);
         TextureTexels texels = {narrow.width, narrow.height, 1, narrow.pixels};
         if (!code && !narrow.pixels)
-            code = retex_image_read(&image, spec->image, colorspace, MAX_TEXTURE_PIXELS, &why);
+            code = retex_image_read_with(&image, own->image, &params, &why);
+        texture->spec.access = NULL; /* is the caller's */
         if (!code)
             code = narrow.pixels ? take_texels(texture, &texels, nthreads, &why)
                                  : take_pixels(texture, &image, nthreads, &why);

@@ -1,9 +1,10 @@
 /* Which files may be read where somebody else says which: a scene, or a name that a stranger asks for.
  *
  * A file lies in a folder when its path does once links and `..` are resolved. Safe access, for scenes and names of
- * strangers, is narrower: regular files only; of pictures only PNG, JPEG, OpenEXR, TIFF, TGA, BMP, GIF and Radiance HDR,
- * known by their content (TGA has no mark: by its name and a plausible header, or by its footer), each read by its own
- * decoder and no other; and what is read is the very file that was looked at, whatever its name stands for since. */
+ * strangers, is narrower: regular files only; of pictures only PNG, JPEG, OpenEXR, TIFF, TGA, BMP, GIF and Radiance
+ * HDR, known by their content (TGA has no mark: by its name and a plausible header, or by its footer), each read by its
+ * own decoder and no other; and what is read is the very file that was looked at, whatever its name stands for
+ * since. */
 #ifndef RETEX_ACCESS_H
 #define RETEX_ACCESS_H
 

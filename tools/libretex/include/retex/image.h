@@ -4,6 +4,7 @@
 #define RETEX_IMAGE_H
 
 #include <stddef.h>
+#include <retex/access.h>
 #include <retex/error.h>
 
 #ifdef __cplusplus
@@ -49,6 +50,18 @@ int retex_image_prepare(RetexImage *dst, int width, int height, int channels, co
  * otherwise a name known to the OCIO config. Only the first subimage is read.
  * Files of more than max_pixels pixels (0 = no limit) are refused with RETEX_ELIMIT. */
 int retex_image_read(RetexImage *dst, const char *path, const char *colorspace, long max_pixels, RetexError *err);
+
+/* The same, and which files may be read. Begin with RETEX_READ_INIT. */
+typedef struct RetexReadParams {
+    size_t size;               /* of this struct */
+    const char *colorspace;    /* default NULL */
+    long max_pixels;           /* default 0 */
+    const RetexAccess *access; /* borrowed; default NULL = any file */
+} RetexReadParams;
+#define RETEX_READ_INIT { sizeof(RetexReadParams), NULL, 0, NULL }
+
+int retex_image_read_with(RetexImage *dst, const char *path, const RetexReadParams *params /* NULL = defaults */,
+                          RetexError *err);
 
 /* How a picture leaves. Begin with RETEX_WRITE_INIT. */
 typedef struct RetexWriteParams {

@@ -54,10 +54,12 @@ typedef struct RetexTextureSpec {
     double uv_min[2], uv_max[2]; /* the part of the surface that exists, along u and v: Gaussian footprints are cut off
                               there, as far as the texture is not turned against it. Filled in by the caller; the
                               default, min = max, is no limit */
+    const RetexAccess *access; /* which files may be read; filled in by the caller, borrowed while the texture is
+                              loaded. Default NULL = any */
 } RetexTextureSpec;
 #define RETEX_TEXTURE_SPEC_INIT \
     { sizeof(RetexTextureSpec), "", "", 0, {0, 0, 0}, {1, 1}, 0, {0, 0}, {RETEX_WRAP_REPEAT, RETEX_WRAP_REPEAT}, \
-      "", {0, 0}, RETEX_REPEAT_STRAIGHT, {0, 0}, {0, 0}, {0, 0}, {0, 0} }
+      "", {0, 0}, RETEX_REPEAT_STRAIGHT, {0, 0}, {0, 0}, {0, 0}, {0, 0}, NULL }
 
 /* opts: what follows `--texture:` ("scale=2,2:rotate=30", or "" or NULL); arg: "NAME=IMAGE" or "NAME=rgb(r,g,b)". */
 int retex_texture_spec_parse(RetexTextureSpec *spec, const char *opts, const char *arg, RetexError *err);

@@ -1,0 +1,46 @@
+# What a name may read with RETEX_SAFE=1, or safe=1 in itself: the folder of the pack or the scene, and pictures of the
+# list.
+$ skip-without oiiotool openimageio-tools
+$ mkdir in in/sub; make_set in/s.exr 24 16; retex-pack -q in/s.exr -o in/room.retex; make_picture in/t.png size=8x8; cp in/t.png in/sub; cp in/t.png up.png; ln -s ../up.png in/link.png; oiiotool up.png -o in/t.ppm; mkfifo in/pipe.png in/pipe.retex in/pipe.pov
+$ for t in up.png ../up.png link.png /etc/passwd /nowhere nowhere.png t.ppm pipe.png sub in/t.png; do RETEX_SAFE=1 oiiotool "in/room.retex?Floor=$t" -o x.exr 2>&1 | grep ERROR; done
+> oiiotool ERROR: read : "in/room.retex?Floor=up.png": cannot read up.png: No such file or directory
+> oiiotool ERROR: read : "in/room.retex?Floor=../up.png": ../up.png is outside the folder of the file that is read, the only one that may be (--safe)
+> oiiotool ERROR: read : "in/room.retex?Floor=link.png": link.png is outside the folder of the file that is read, the only one that may be (--safe)
+> oiiotool ERROR: read : "in/room.retex?Floor=/etc/passwd": /etc/passwd is outside the folder of the file that is read, the only one that may be (--safe)
+> oiiotool ERROR: read : "in/room.retex?Floor=/nowhere": /nowhere is outside the folder of the file that is read, the only one that may be (--safe)
+> oiiotool ERROR: read : "in/room.retex?Floor=nowhere.png": cannot read nowhere.png: No such file or directory
+> oiiotool ERROR: read : "in/room.retex?Floor=t.ppm": in/t.ppm: no PNG, JPEG, OpenEXR, TIFF, TGA, BMP, GIF or Radiance HDR by what is in it: others are not read (--safe)
+> oiiotool ERROR: read : "in/room.retex?Floor=pipe.png": pipe.png is a folder, a device or a pipe: only files are read (--safe)
+> oiiotool ERROR: read : "in/room.retex?Floor=sub": sub is a folder, a device or a pipe: only files are read (--safe)
+> oiiotool ERROR: read : "in/room.retex?Floor=in/t.png": cannot read in/t.png: No such file or directory
+
+# Names are taken from the pack's folder, and give what retex-combine makes of the same file.
+$ retex-combine -q in/room.retex --texture Floor=in/t.png -o y.exr; for n in 'Floor=t.png&safe=1' 'safe=1&Floor=sub/t.png' "Floor=$PWD/in/t.png&safe=1"; do oiiotool "in/room.retex?$n" -d half -o x.exr && retex-diff -q x.exr y.exr || echo "$n"; done
+# Only who runs the program turns it off.
+$ for s in 0 1 2; do oiiotool "in/room.retex?Floor=up.png&safe=$s" -o x.exr 2>&1 | grep ERROR; RETEX_SAFE=1 oiiotool "in/room.retex?Floor=up.png&safe=$s" -o x.exr 2>&1 | grep ERROR; done
+> oiiotool ERROR: read : "in/room.retex?Floor=up.png&safe=0": cannot read up.png: No such file or directory
+> oiiotool ERROR: read : "in/room.retex?Floor=up.png&safe=1": cannot read up.png: No such file or directory
+> oiiotool ERROR: read : "in/room.retex?Floor=up.png&safe=1": cannot read up.png: No such file or directory
+> oiiotool ERROR: read : "in/room.retex?Floor=up.png&safe=2": cannot read up.png: No such file or directory
+> oiiotool ERROR: read : "in/room.retex?Floor=up.png&safe=2": cannot read up.png: No such file or directory
+
+# Scenes.
+$ printf 'box { -1, 1 pigment { image_map { png "../up.png" } } }\nbackground { rgb 1 }\n' >in/up.pov; printf '#include "i.inc"\nbackground { rgb 1 }\n' >in/inc.pov; echo 'box { -1, 1 }' >in/sub/i.inc; cp in/sub/i.inc .
+$ for n in 'up.pov?spp=1' 'up.pov?spp=1&safe=0' 'up.pov?spp=1&include=..' 'inc.pov?spp=1' 'inc.pov?spp=1&include=.' 'inc.pov?spp=1&include=/' 'inc.pov?spp=1&include=nowhere' 'inc.pov?spp=1&include=sub'; do RETEX_SAFE=1 oiiotool "in/$n&size=8x8" -o x.exr 2>&1 | grep ERROR; done
+> oiiotool ERROR: read : "in/up.pov?spp=1&size=8x8": in/up.pov:1:39: the image `../up.png` is outside the folders that may be read (--safe): the scene's, those of -I, POV-Ray's
+> oiiotool ERROR: read : "in/up.pov?spp=1&safe=0&size=8x8": in/up.pov:1:39: the image `../up.png` is outside the folders that may be read (--safe): the scene's, those of -I, POV-Ray's
+> oiiotool ERROR: read : "in/up.pov?spp=1&include=..&size=8x8": .. is outside the folder of the file that is read, the only one that may be (--safe)
+> oiiotool ERROR: read : "in/inc.pov?spp=1&size=8x8": in/inc.pov:1:10: cannot find the file `i.inc` in the scene's folder or the include path
+> oiiotool ERROR: read : "in/inc.pov?spp=1&include=.&size=8x8": in/inc.pov:1:10: cannot find the file `i.inc` in the scene's folder or the include path
+> oiiotool ERROR: read : "in/inc.pov?spp=1&include=/&size=8x8": / is outside the folder of the file that is read, the only one that may be (--safe)
+> oiiotool ERROR: read : "in/inc.pov?spp=1&include=nowhere&size=8x8": cannot read nowhere: No such file or directory
+= 1
+$ for n in 'up.pov?safe=1' 'up.pov?safe=2' 'inc.pov?safe=0'; do oiiotool "in/$n&spp=1&size=8x8" -o x.exr 2>&1 | grep ERROR; done
+> oiiotool ERROR: read : "in/up.pov?safe=1&spp=1&size=8x8": in/up.pov:1:39: the image `../up.png` is outside the folders that may be read (--safe): the scene's, those of -I, POV-Ray's
+> oiiotool ERROR: read : "in/up.pov?safe=2&spp=1&size=8x8": safe: expected a whole number from 0 to 1, not '2'
+= 1
+# A pipe is not waited for. (Without options in the name OpenImageIO goes on to its own decoders, which do wait.)
+$ for f in 'pipe.pov?spp=1' 'pipe.retex?Floor=t.png'; do RETEX_SAFE=1 timeout 20 iinfo "in/$f"; done
+! iinfo ERROR: "in/pipe.pov?spp=1" : in/pipe.pov is a folder, a device or a pipe: only files are read (--safe)
+! iinfo ERROR: "in/pipe.retex?Floor=t.png" : in/pipe.retex is a folder, a device or a pipe: only files are read (--safe)
+= 1

@@ -1,0 +1,13 @@
+/* What kind of picture a file is, by what is in it: for safe access, where that chooses the decoder. */
+#ifndef RETEX_LIBRETEX_IMAGE_FORMAT_H
+#define RETEX_LIBRETEX_IMAGE_FORMAT_H
+
+#include "input.h"
+
+#define IMAGE_FORMATS "PNG, JPEG, OpenEXR, TIFF, TGA, BMP, GIF or Radiance HDR"
+
+/* OpenImageIO's name of the format, or NULL where it is none of these. The name of the input is looked at for TGA
+ * alone. */
+const char *image_format(const RetexInput *input);
+
+#endif
