@@ -38,8 +38,9 @@ int pieces_merge(RetexSpool *spool, const RenderParams *p, int width, int height
     for (int band = 0; band < bands && p->nmerged; band++)
         missing += !retex_spool_committed(spool, band);
     if (!code && missing)
-        code = retex_fail(err, RETEX_EINVAL, "--merge: %d of %d bands are in none of the files: a shard is missing",
-                          missing, bands);
+        code = retex_fail(err, RETEX_EINVAL,
+                          "--merge: %d of %d bands are in none of the files: a shard is missing or damaged", missing,
+                          bands);
     return code;
 }
 

@@ -51,7 +51,14 @@ $ for k in 1 2 3; do ./render --shard $k/3 -o s$k; done; ./render --merge s2 --m
 > s2
 > s3
 $ rm m.exr; ./render --merge s2 --merge s3 -o m.exr
-! retex-render: error: --merge: 3 of 8 bands are in none of the files: a shard is missing
+! retex-render: error: --merge: 3 of 8 bands are in none of the files: a shard is missing or damaged
+= 2
+$ for n in 50 200 9000 30000; do (head -c $n s2; printf x; tail -c +$((n + 2)) s2) >bad; ./render --merge s1 --merge bad --merge s3 -o m.exr 2>err; echo "$? $(sed 's/[0-9] of/N of/' err)"; done; ls m.exr
+> 2 retex-render: error: --merge: N of 8 bands are in none of the files: a shard is missing or damaged
+> 2 retex-render: error: --merge: N of 8 bands are in none of the files: a shard is missing or damaged
+> 2 retex-render: error: --merge: N of 8 bands are in none of the files: a shard is missing or damaged
+> 2 retex-render: error: --merge: N of 8 bands are in none of the files: a shard is missing or damaged
+! ls: cannot access 'm.exr': No such file or directory
 = 2
 $ ./render --merge s2 --merge s1 --merge s2 --merge s3 -o m.exr
 ! retex-render: error: s2 has rows that another file of --merge has too

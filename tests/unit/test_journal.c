@@ -9,6 +9,8 @@
 
 #include <retex/band_stats.h>
 
+#include "spool_file.h"
+
 #define WIDTH 5
 #define HEIGHT 40
 #define BANDS 3
@@ -153,6 +155,21 @@ static void write_copy(const unsigned char *bytes, size_t size)
     fclose(file);
 }
 
+static void one_of_an_older_version_is_refused(void **state)
+{
+    (void)state;
+    RetexError err;
+    RetexSpool *spool = NULL;
+    size_t size;
+    make_journal();
+    unsigned char *bytes = read_journal(&size);
+    bytes[7]--;
+    write_copy(bytes, size);
+    assert_int_equal(retex_spool_open(&spool, WIDTH, HEIGHT, KEY, copy, 1, &err), RETEX_EFORMAT);
+    assert_non_null(strstr(err.message, "another kind of machine or version"));
+    free(bytes);
+}
+
 static void a_journal_may_end_anywhere(void **state)
 {
     (void)state;
@@ -195,6 +212,103 @@ static void damage_costs_bands_at_most(void **state)
             assert_true(at < 64); /* the header */
         retex_spool_close(&spool);
     }
+    free(bytes);
+}
+
+/* Where the records of a journal begin, and at last where it ends. */
+static int find_records(const unsigned char *bytes, size_t size, size_t *begins)
+{
+    size_t at = 32; /* the header */
+    int count = 0;
+    while (at + sizeof(SpoolRecord) <= size) {
+        SpoolRecord record;
+        memcpy(&record, bytes + at, sizeof record);
+        begins[count++] = at;
+        at += sizeof record + record.bytes;
+    }
+    assert_int_equal(at, size);
+    begins[count] = at;
+    return count;
+}
+
+static void check_copy(void)
+{
+    RetexError err;
+    RetexSpool *spool = NULL;
+    test_must(retex_spool_open(&spool, WIDTH, HEIGHT, KEY, copy, 1, &err), &err);
+    check_bands(spool);
+    retex_spool_close(&spool);
+}
+
+/* Whole records, each with its right checksum: without one of them a band would be black where it was not. */
+static void no_record_is_missing_or_comes_twice(void **state)
+{
+    (void)state;
+    size_t size, begins[32];
+    make_journal();
+    unsigned char *bytes = read_journal(&size), *other = malloc(2 * size);
+    const int count = find_records(bytes, size, begins);
+    assert_in_range(count, 8, 30);
+    for (int i = 0; i < count; i++) {
+        const size_t begin = begins[i], end = begins[i + 1];
+        memcpy(other, bytes, begin);
+        memcpy(other + begin, bytes + end, size - end);
+        write_copy(other, size - (end - begin));
+        check_copy();
+        memcpy(other, bytes, end);
+        memcpy(other + end, bytes + begin, size - begin);
+        write_copy(other, size + end - begin);
+        check_copy();
+        for (int k = i + 1; k < count; k++) { /* and the one of another place */
+            memcpy(other, bytes, begin);
+            memcpy(other + begin, bytes + begins[k], size - begins[k]);
+            write_copy(other, begin + size - begins[k]);
+            check_copy();
+        }
+    }
+    free(bytes);
+    free(other);
+}
+
+/* The file changes after its checksums were compared: what is read back, or copied, is compared again. */
+static void damage_after_opening_is_seen(void **state)
+{
+    (void)state;
+    RetexError err;
+    RetexSpool *spool = NULL, *to = NULL;
+    float pixels[16 * WIDTH * 3];
+    size_t size;
+    int refused = 0;
+    make_journal();
+    unsigned char *bytes = read_journal(&size);
+    write_copy(bytes, size);
+    test_must(retex_spool_open(&spool, WIDTH, HEIGHT, KEY, copy, 0, &err), &err);
+    FILE *file = fopen(copy, "r+b");
+    assert_non_null(file);
+    setbuf(file, NULL);
+    for (size_t at = 0; at < size; at++) {
+        assert_true(fseek(file, (long)at, SEEK_SET) == 0 && fputc(bytes[at] ^ 1 << at % 8, file) != EOF);
+        test_must(retex_spool_create(&to, WIDTH, HEIGHT, KEY, NULL, &err), &err);
+        add_images(to);
+        for (int band = 0; band < 2; band++) {
+            int code = retex_spool_copy_band(to, spool, band, &err);
+            refused += code != 0;
+            assert_true(code == 0 || code == RETEX_EFORMAT);
+            for (int image = 0; image < 2; image++) {
+                code = retex_spool_load_band(spool, image, band, pixels, &err);
+                refused += code != 0;
+                assert_true(code == 0 || (code == RETEX_EFORMAT && strstr(err.message, "a checksum is wrong")));
+                for (int i = 0; i < 16 * WIDTH * 3 && !code; i++)
+                    assert_true(pixels[i] == value_of(image, band, i));
+            }
+        }
+        check_bands(to);
+        retex_spool_close(&to);
+        assert_true(fseek(file, (long)at, SEEK_SET) == 0 && fputc(bytes[at], file) != EOF);
+    }
+    assert_true(refused > 0);
+    fclose(file);
+    retex_spool_close(&spool);
     free(bytes);
 }
 
@@ -242,8 +356,11 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(what_was_committed_is_there, make_path, remove_path),
         cmocka_unit_test_setup_teardown(another_render_is_refused, make_path, remove_path),
+        cmocka_unit_test_setup_teardown(one_of_an_older_version_is_refused, make_path, remove_path),
         cmocka_unit_test_setup_teardown(a_journal_may_end_anywhere, make_path, remove_path),
         cmocka_unit_test_setup_teardown(damage_costs_bands_at_most, make_path, remove_path),
+        cmocka_unit_test_setup_teardown(no_record_is_missing_or_comes_twice, make_path, remove_path),
+        cmocka_unit_test_setup_teardown(damage_after_opening_is_seen, make_path, remove_path),
         cmocka_unit_test_setup_teardown(a_nameless_spool_gets_a_name, make_path, remove_path),
         cmocka_unit_test_setup_teardown(bands_are_copied, make_path, remove_path),
     };

@@ -11,6 +11,8 @@
 
 #include <retex/parallel.h>
 
+#include "spool_file.h"
+
 #define WIDTH 37
 #define HEIGHT 41 /* two bands and a half */
 #define BANDS 3
@@ -184,11 +186,48 @@ static void a_spool_needs_no_folder_of_the_output(void **state)
     retex_spool_close(&spool);
 }
 
+static void flip(const RetexSpool *spool, uint64_t at)
+{
+    unsigned char byte;
+    assert_int_equal(pread(spool->descriptor, &byte, 1, (off_t)at), 1);
+    byte ^= 1 << at % 8;
+    assert_int_equal(pwrite(spool->descriptor, &byte, 1, (off_t)at), 1);
+}
+
+/* A bit of what waits in the temporary file: no file is made of it, and no memory. */
+static void what_is_damaged_is_not_read_back(void **state)
+{
+    (void)state;
+    RetexError err = {0};
+    for (int plain = 0; plain < 2; plain++) {
+        RetexStoreParams store = RETEX_STORE_INIT;
+        RetexSet *set = test_set(WIDTH, HEIGHT, 7);
+        store.compress = !plain;
+        spool_parts(set);
+        for (int image = 0; image < set->spool->nimages; image++) {
+            const RetexSpoolChunk *chunk = retex_spool_chunk(set->spool, image, image % BANDS);
+            const uint64_t at = chunk->offset + (uint64_t)(image * 37) % (chunk->bytes ? chunk->bytes : 1);
+            if (!chunk->bytes)
+                continue;
+            flip(set->spool, at);
+            assert_int_equal(retex_set_write(set, NULL, path, &store, &err), RETEX_EFORMAT);
+            assert_non_null(strstr(err.message, "is damaged: a checksum is wrong"));
+            assert_int_equal(access(path, F_OK), -1);
+            assert_int_equal(retex_set_load(set, 1, &err), RETEX_EFORMAT);
+            flip(set->spool, at);
+        }
+        test_must(retex_set_write(set, NULL, path, &store, &err), &err);
+        unlink(path);
+        retex_set_close(&set);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(a_spooled_set_is_written_as_one_in_memory, make_folder, remove_folder),
         cmocka_unit_test_setup_teardown(a_loaded_set_is_what_a_file_gives, make_folder, remove_folder),
+        cmocka_unit_test_setup_teardown(what_is_damaged_is_not_read_back, make_folder, remove_folder),
         cmocka_unit_test(what_is_empty_is_known),
         cmocka_unit_test(a_spool_needs_no_folder_of_the_output),
     };

@@ -9,6 +9,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "checksum.h"
 #include "spool_file.h"
 #include "unfinished.h"
 
@@ -23,6 +24,11 @@ typedef struct SpoolScratch {
 static int fail_system(const RetexSpool *spool, int code, RetexError *err)
 {
     return retex_fail(err, RETEX_EIO, "cannot write %s: %s", spool->shown, strerror(code));
+}
+
+static int fail_damaged(const RetexSpool *spool, RetexError *err)
+{
+    return retex_fail(err, RETEX_EFORMAT, "%s is damaged: a checksum is wrong", spool->shown);
 }
 
 /* --- the file ------------------------------------------------------------------------------------------------ */
@@ -385,7 +391,7 @@ int retex_spool_read(const RetexSpool *spool, const RetexSpoolChunk *chunk, unsi
                               got < 0 ? strerror(errno) : "it has become shorter");
         done += (size_t)got;
     }
-    return 0;
+    return retex_crc32(CRC32_OF_NONE, packed, chunk->bytes) == chunk->bytes_crc ? 0 : fail_damaged(spool, err);
 }
 
 static int load_band(const RetexSpool *spool, const RetexSpoolChunk *chunk, const RetexChunkShape *shape,
@@ -399,7 +405,7 @@ static int load_band(const RetexSpool *spool, const RetexSpoolChunk *chunk, cons
     if (status)
         return status;
     if (!retex_chunk_unpack(&scratch->chunk, scratch->packed, chunk->bytes, scratch->chunk.raw, bytes))
-        return retex_fail(err, RETEX_EFORMAT, "%s is damaged", spool->shown);
+        return fail_damaged(spool, err);
     retex_chunk_fetch(&scratch->chunk, shape, scratch->chunk.raw, pixels);
     return 0;
 }

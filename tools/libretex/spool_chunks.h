@@ -11,10 +11,11 @@ typedef struct RetexSpoolChunk {
     uint32_t bytes; /* 0: all samples are stored as 0 */
     uint32_t lit;   /* 1: a pixel was not 0 */
     uint32_t crc[RETEX_EXR_LETTERS_MAX]; /* of planes, where bytes is not 0 */
+    uint32_t bytes_crc;                  /* of the bytes */
 } RetexSpoolChunk;
 
 const RetexSpoolChunk *retex_spool_chunk(const RetexSpool *spool, int image, int band);
-/* Its bytes, as retex_chunk_pack left them. */
+/* Its bytes, as retex_chunk_pack left them; RETEX_EFORMAT where they are no longer. */
 int retex_spool_read(const RetexSpool *spool, const RetexSpoolChunk *chunk, unsigned char *packed, RetexError *err);
 
 /* 1 if a file begins like a journal. */

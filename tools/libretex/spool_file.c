@@ -10,7 +10,7 @@
 
 #include "checksum.h"
 
-static const char MAGIC[8] = "retex\n\032\001";
+static const char MAGIC[8] = "retex\n\032\002"; /* the last one is the version */
 
 typedef struct Header {
     char magic[8];
@@ -21,7 +21,7 @@ typedef struct Header {
 
 int retex_spool_probe(const void *begin, size_t bytes)
 {
-    return bytes >= sizeof MAGIC && memcmp(begin, MAGIC, sizeof MAGIC) == 0;
+    return bytes >= sizeof MAGIC && memcmp(begin, MAGIC, sizeof MAGIC - 1) == 0;
 }
 
 SpoolImage *spool_image_new(const RetexSpool *spool, const char *name, const char *letters, RetexPixelType type)
@@ -42,6 +42,17 @@ RetexChunkShape spool_shape(const RetexSpool *spool, const SpoolImage *image, in
 
     return (RetexChunkShape){image->letters, image->type, spool->width,
                              left < RETEX_SPOOL_LINES ? left : RETEX_SPOOL_LINES};
+}
+
+static uint32_t crc_of(const void *data, size_t bytes)
+{
+    return retex_crc32(CRC32_OF_NONE, data, bytes);
+}
+
+/* It goes on from the record before, so that none can be missing or come twice. */
+static uint32_t record_crc(const SpoolRecord *record, uint32_t last)
+{
+    return retex_crc32(last, record, offsetof(SpoolRecord, record_crc));
 }
 
 /* --- writing --- */
@@ -85,18 +96,14 @@ int spool_begin(RetexSpool *spool, RetexError *err)
     const Header header = header_of(spool);
 
     spool->end = sizeof header;
+    spool->last_crc = crc_of(&header, sizeof header);
     return fail_write(spool, spool_write_at(spool->descriptor, &header, sizeof header, 0), err);
-}
-
-static uint32_t crc_of(const void *data, size_t bytes)
-{
-    return retex_crc32(CRC32_OF_NONE, data, bytes);
 }
 
 int spool_append(RetexSpool *spool, SpoolRecord *record, const void *bytes, uint64_t *offset, RetexError *err)
 {
     record->bytes_crc = crc_of(bytes, record->bytes);
-    record->record_crc = crc_of(record, offsetof(SpoolRecord, record_crc));
+    record->record_crc = record_crc(record, spool->last_crc);
     int code = spool_write_at(spool->descriptor, record, sizeof *record, spool->end);
     if (!code)
         code = spool_write_at(spool->descriptor, bytes, record->bytes, spool->end + sizeof *record);
@@ -105,6 +112,7 @@ int spool_append(RetexSpool *spool, SpoolRecord *record, const void *bytes, uint
     if (offset)
         *offset = spool->end + sizeof *record;
     spool->end += sizeof *record + record->bytes;
+    spool->last_crc = record->record_crc;
     return 0;
 }
 
@@ -130,6 +138,7 @@ static void note_chunk(RetexSpool *spool, const SpoolRecord *record, uint64_t of
     chunk->offset = offset;
     chunk->bytes = record->bytes;
     chunk->lit = record->lit;
+    chunk->bytes_crc = record->bytes_crc;
     memcpy(chunk->crc, record->crc, sizeof chunk->crc);
 }
 
@@ -215,17 +224,20 @@ static int take_record(RetexSpool *spool, const SpoolRecord *record, const void 
     }
 }
 
-/* Read records up to the first that is not whole; *images: how many there are at the last commit. */
-static uint64_t read_records(RetexSpool *spool, int *images)
+/* Read records up to the first that is not whole: where the last commit ends, from which the spool goes on; *images: how
+ * many there are then. */
+static void read_records(RetexSpool *spool, const Header *header, int *images)
 {
-    uint64_t at = sizeof(Header), committed = at;
+    uint32_t last = crc_of(header, sizeof *header);
+    uint64_t at = sizeof *header;
     unsigned char *bytes = NULL;
     size_t room = 0;
     SpoolRecord record;
 
     *images = 0;
-    while (read_at(spool->descriptor, &record, sizeof record, at) &&
-           crc_of(&record, offsetof(SpoolRecord, record_crc)) == record.record_crc) {
+    spool->end = at;
+    spool->last_crc = last;
+    while (read_at(spool->descriptor, &record, sizeof record, at) && record_crc(&record, last) == record.record_crc) {
         if (room < record.bytes || !bytes) {
             free(bytes);
             room = (size_t)record.bytes + 1;
@@ -235,13 +247,14 @@ static uint64_t read_records(RetexSpool *spool, int *images)
             crc_of(bytes, record.bytes) != record.bytes_crc || !take_record(spool, &record, bytes, at + sizeof record))
             break;
         at += sizeof record + record.bytes;
+        last = record.record_crc;
         if (record.kind == SPOOL_COMMIT) {
-            committed = at;
+            spool->end = at;
+            spool->last_crc = last;
             *images = spool->nimages;
         }
     }
     free(bytes);
-    return committed;
 }
 
 /* Forget what is not of a committed band. */
@@ -265,7 +278,8 @@ static int check_header(const RetexSpool *spool, const Header *header, RetexErro
 
     if (!retex_spool_probe(header, sizeof *header))
         return retex_fail(err, RETEX_EFORMAT, "%s is no unfinished render", spool->shown);
-    if (header->order != own.order || header->stats_bytes != own.stats_bytes)
+    if (memcmp(header->magic, own.magic, sizeof own.magic) != 0 || header->order != own.order ||
+        header->stats_bytes != own.stats_bytes)
         return retex_fail(err, RETEX_EFORMAT, "%s is of another kind of machine or version", spool->shown);
     if (memcmp(header, &own, sizeof own) != 0)
         return retex_fail(err, RETEX_EINVAL, "%s is of another render: other options, another scene or version",
@@ -298,7 +312,7 @@ int spool_recover(RetexSpool *spool, int make, RetexError *err)
     status = check_header(spool, &header, err);
     if (status)
         return status;
-    spool->end = read_records(spool, &images);
+    read_records(spool, &header, &images);
     drop_the_rest(spool, images);
     if (make && ftruncate(spool->descriptor, (off_t)spool->end) != 0)
         return fail_write(spool, errno, err);

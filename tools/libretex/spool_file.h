@@ -29,6 +29,7 @@ struct RetexSpool {
     char *committed;           /* where this is 1 */
     pthread_mutex_t lock;
     uint64_t end;                 /* under lock, as is: */
+    uint32_t last_crc;            /* of the last record, or of the header */
     struct SpoolScratch *scratch; /* that no thread uses */
     int nimages;
     SpoolImage *images[RETEX_SET_PARTS_MAX];
@@ -43,7 +44,7 @@ enum {
 typedef struct SpoolRecord {
     uint32_t kind, image, band, bytes, lit;
     uint32_t crc[RETEX_EXR_LETTERS_MAX];
-    uint32_t bytes_crc, record_crc; /* of the bytes that follow, and of all before it */
+    uint32_t bytes_crc, record_crc; /* of the bytes that follow; of all before it, and the last record's */
 } SpoolRecord;
 
 typedef struct SpoolDescription {

@@ -3,7 +3,7 @@
  * nothing.
  *
  * With a name it is a journal: whole up to the last band that was committed, whenever the process ends, so that another
- * one can go on from there. */
+ * one can go on from there. Everything in it has a checksum; bands behind the first damaged place count as not there. */
 #ifndef RETEX_SPOOL_H
 #define RETEX_SPOOL_H
 
@@ -52,7 +52,8 @@ int retex_spool_copy_band(RetexSpool *spool, const RetexSpool *from, int band, R
 /* Whether no pixel that was put is other than 0. */
 int retex_spool_is_empty(const RetexSpool *spool, int image);
 
-/* One band of an image, as it would be read from a file: its rows, interleaved. */
+/* One band of an image, as it would be read from a file: its rows, interleaved. Here, where bands are copied and where
+ * a set is written from a spool, RETEX_EFORMAT says that the file no longer has what was put into it. */
 int retex_spool_load_band(const RetexSpool *spool, int image, int band, float *pixels, RetexError *err);
 
 #ifdef __cplusplus
