@@ -122,6 +122,7 @@ int bands_add(Bands *bands, const char *name, const char *letters, RetexPixelTyp
 
 /* ---- a band that is worked on ---- */
 
+/* Memory to work on a band in; the lock is held. */
 static BandRows *rows_create(Bands *bands)
 {
     BandRows *rows = calloc(1, sizeof *rows);
@@ -135,22 +136,24 @@ static BandRows *rows_create(Bands *bands)
     return NULL;
 }
 
+/* Of a band that nobody works on yet; the lock is held. Others read what is set here without it. */
+static BandRows *open_rows(Bands *bands, int band)
+{
+    int left = bands->height - band * BAND_LINES;
+    BandRows *rows = bands->free;
+    if (rows)
+        bands->free = rows->next;
+    else
+        rows = rows_create(bands);
+    if (rows)
+        rows->band = band, rows->lines = left < BAND_LINES ? left : BAND_LINES;
+    return bands->open[band] = rows;
+}
+
 BandRows *bands_open(Bands *bands, int band)
 {
     pthread_mutex_lock(&bands->lock);
-    BandRows *rows = bands->open[band];
-    if (!rows) {
-        rows = bands->free;
-        if (rows)
-            bands->free = rows->next;
-        else
-            rows = rows_create(bands);
-    }
-    if (rows) {
-        int left = bands->height - band * BAND_LINES;
-        rows->band = band, rows->lines = left < BAND_LINES ? left : BAND_LINES;
-        bands->open[band] = rows;
-    }
+    BandRows *rows = bands->open[band] ? bands->open[band] : open_rows(bands, band);
     pthread_mutex_unlock(&bands->lock);
     return rows;
 }
