@@ -224,8 +224,8 @@ static int take_record(RetexSpool *spool, const SpoolRecord *record, const void 
     }
 }
 
-/* Read records up to the first that is not whole: where the last commit ends, from which the spool goes on; *images: how
- * many there are then. */
+/* Read records up to the first that is not whole. The spool goes on from the end of the last commit; *images: how many
+ * there are then. */
 static void read_records(RetexSpool *spool, const Header *header, int *images)
 {
     uint32_t last = crc_of(header, sizeof *header);
