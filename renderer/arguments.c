@@ -122,14 +122,15 @@ static void parse_replace(Arguments *a)
 /* Which of some names the value is. */
 static int choose(const Cli *cli, const CliOption *o, int count, const char *const *names)
 {
-    char known[128] = "";
+    char known[128] = "", meant[RETEX_MEANT_SIZE];
     for (int k = 0; k < count; k++) {
         if (!strcmp(cli->value, names[k]))
             return k;
         size_t used = strlen(known);
         snprintf(known + used, sizeof known - used, "%s%s", k ? (k + 1 < count ? ", " : " and ") : "", names[k]);
     }
-    cli_die(cli, "--%s knows %s, not `%s`", o->name, known, cli->value);
+    cli_die(cli, "--%s knows %s, not `%s`%s", o->name, known, cli->value,
+            retex_meant(retex_nearest_of(cli->value, names, count), meant));
 }
 
 static void parse_option(Arguments *a, const CliOption *o)
@@ -269,6 +270,16 @@ static void check_pieces(const Arguments *a)
         cli_die(a->cli, "--shard leaves rows only: --aov, --aov-dir and --stats go with --merge");
 }
 
+/* Whichever of the two is no scene by its name may lack an option. */
+static _Noreturn void surplus_scene(const Arguments *a)
+{
+    char forgotten[1024] = "";
+    const char *word = cli_ends_with(a->cli->value, ".pov") ? a->scene : a->cli->value;
+    if (!cli_ends_with(word, ".pov"))
+        cli_forgotten(a->cli, word, forgotten, sizeof forgotten);
+    cli_die(a->cli, "one scene at a time: `%s` and `%s`%s", a->scene, a->cli->value, forgotten);
+}
+
 void parse_arguments(Arguments *a)
 {
     Cli *cli = a->cli;
@@ -282,7 +293,7 @@ void parse_arguments(Arguments *a)
         if (o != &cli_positional)
             parse_option(a, o);
         else if (a->scene)
-            cli_die(cli, "one scene at a time: `%s` and `%s`", a->scene, cli->value);
+            surplus_scene(a);
         else
             a->scene = cli->value;
     }

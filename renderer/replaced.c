@@ -17,6 +17,17 @@ static int find_target(const Scene *scene, const char *name)
     return count == 1 ? found : -1;
 }
 
+static _Noreturn void fail_target(const Arguments *a, const Scene *scene, const char *option, const char *name)
+{
+    char meant[RETEX_MEANT_SIZE];
+    RetexNearest nearest = {name, NULL, 0};
+    for (int k = 0; k < scene->ntargets; k++)
+        retex_nearest_try(&nearest, scene->targets[k].name);
+    if (nearest.best)
+        cli_die(a->cli, "--%s: `%s` is no target%s", option, name, retex_meant(nearest.best, meant));
+    cli_die(a->cli, "--%s: `%s` is no target: name it with -t", option, name);
+}
+
 /* Load a texture for target t; one that is asked for by its width needs the scale of the target's UV. */
 static int load_texture(Arguments *a, const Scene *scene, int t, RetexTextureSpec *spec, RetexTexture **texture,
                         RetexError *err)
@@ -36,7 +47,7 @@ void replace_textures(Arguments *a, const Scene *scene, RetexTexture **loaded)
     for (int k = 0; k < a->nreplacements; k++) {
         int t = find_target(scene, a->replacements[k].target);
         if (t < 0)
-            cli_die(a->cli, "--replace: `%s` is no target: name it with -t", a->replacements[k].target);
+            fail_target(a, scene, "replace", a->replacements[k].target);
         if (a->replaced.textures[t])
             cli_die(a->cli, "--replace: `%s` is replaced twice", a->replacements[k].target);
         if (load_texture(a, scene, t, &a->replacements[k], &loaded[k], &err))
@@ -108,7 +119,7 @@ void check_columns(Arguments *a, const Scene *scene)
     for (int k = 0; k < a->table.ncolumns; k++) {
         int t = find_target(scene, a->table.columns[k]);
         if (t < 0)
-            cli_die(a->cli, "--variants: `%s` is no target: name it with -t", a->table.columns[k]);
+            fail_target(a, scene, "variants", a->table.columns[k]);
         if (taken[t]++)
             cli_die(a->cli, "--variants: target `%s` has two columns", a->table.columns[k]);
     }

@@ -27,10 +27,16 @@ static const CliOption common_options[] = {
      0},
     {"quiet", 'q', NULL, "print nothing but warnings and errors", 0},
     {"verbose", 'v', NULL, "print more", 0},
-    {"help", 0, NULL, "print this and exit", 0},
-    {"version", 0, NULL, "print the version and exit", 0},
+    {"help", 'h', NULL, "print this and exit", 0},
+    {"version", 'V', NULL, "print the version and exit", 0},
     {0},
 };
+
+/* The common options of this tool: the first one is -o. */
+static const CliOption *common_of(const Cli *cli)
+{
+    return common_options + (cli->no_output != 0);
+}
 
 /* Before the first option: the standard descriptors are open, so that no file of ours becomes one of them (a closed one
  * is opened the wrong way round, so that using it still fails); a closed pipe and a file that grows beyond its limit
@@ -100,7 +106,7 @@ static _Noreturn void print_help(const Cli *cli)
         print_options(cli->options);
         putchar('\n');
     }
-    print_options(common_options);
+    print_options(common_of(cli));
     exit(cli_close(cli, CLI_OK));
 }
 
@@ -115,7 +121,7 @@ static _Noreturn void print_version(const Cli *cli)
 /* The option of that name (length bytes) or, with name NULL, of that letter; the tool's own come first. */
 static const CliOption *find_option(const Cli *cli, const char *name, size_t length, char letter)
 {
-    const CliOption *tables[] = {cli->options, common_options};
+    const CliOption *tables[] = {cli->options, common_of(cli)};
     for (int t = 0; t < 2; t++)
         for (const CliOption *o = tables[t]; o && o->name; o++) {
             if (name && strlen(o->name) == length && memcmp(o->name, name, length) == 0)
@@ -124,6 +130,34 @@ static const CliOption *find_option(const Cli *cli, const char *name, size_t len
                 return o;
         }
     return NULL;
+}
+
+static const CliOption *nearest_option(const Cli *cli, const char *name)
+{
+    const CliOption *tables[] = {cli->options, common_of(cli)};
+    RetexNearest nearest = {name, NULL, 0};
+    for (int t = 0; t < 2; t++)
+        for (const CliOption *o = tables[t]; o && o->name; o++)
+            retex_nearest_try(&nearest, o->name);
+    return nearest.best ? find_option(cli, nearest.best, strlen(nearest.best), 0) : NULL;
+}
+
+/* text is what stands behind the dashes. Long names may have been written with one dash, letters in the other case. */
+static _Noreturn void unknown_option(const Cli *cli, const char *dashes, const char *text, int length)
+{
+    char name[RETEX_NEAREST_MAX + 1];
+    snprintf(name, sizeof name, "%.*s", (int)strcspn(text, "=:"), text);
+    int letter = name[0] && !name[1] ? isupper((unsigned char)name[0]) ? tolower((unsigned char)name[0])
+                                                                       : toupper((unsigned char)name[0])
+                                     : 0;
+    const CliOption *option = letter ? find_option(cli, NULL, 0, (char)letter) : nearest_option(cli, name);
+    if (cli->no_output && (strcmp(name, "output") == 0 || (dashes[1] == 0 && name[0] == 'o')))
+        cli_die(cli, "the answer goes to standard output: no -o");
+    if (option && letter)
+        cli_die(cli, "unknown option %s%.*s; is -%c meant?", dashes, length, text, letter);
+    if (option)
+        cli_die(cli, "unknown option %s%.*s; is --%s meant?", dashes, length, text, option->name);
+    cli_die(cli, "unknown option %s%.*s; try --help", dashes, length, text);
 }
 
 /* The option's argument: `attached` if there is one, else the next word. */
@@ -148,7 +182,7 @@ static const CliOption *long_option(Cli *cli, const char *text)
     size_t length = strcspn(text, "=:");
     const CliOption *option = find_option(cli, text, length, 0);
     if (!option)
-        cli_die(cli, "unknown option --%.*s; try --help", (int)length, text);
+        unknown_option(cli, "--", text, (int)length);
     const char *attached = NULL;
     if (text[length] == ':') {
         if (!option->modifiers)
@@ -167,7 +201,7 @@ static const CliOption *short_option(Cli *cli)
     char letter = *cli->group++;
     const CliOption *option = find_option(cli, NULL, 0, letter);
     if (!option)
-        cli_die(cli, "unknown option -%c; try --help", letter);
+        unknown_option(cli, "-", cli->group - 1, 1);
     const char *rest = *cli->group ? cli->group : NULL;
     if (option->argument || !rest)
         cli->group = NULL;
@@ -259,6 +293,41 @@ double cli_number(const Cli *cli, const CliOption *option, double low, double hi
         value > high)
         cli_die(cli, "--%s: expected a number from %g to %g, not '%s'", option->name, low, high, cli->value);
     return value;
+}
+
+/* --- what may have been forgotten --- */
+
+/* Whether -o was given, or still will be. */
+static int has_output(const Cli *cli)
+{
+    for (int i = cli->next; i < cli->argc; i++)
+        if (strncmp(cli->argv[i], "-o", 2) == 0 || strncmp(cli->argv[i], "--output", 8) == 0)
+            return 1;
+    return cli->output || cli->no_output;
+}
+
+const char *cli_forgotten(const Cli *cli, const char *word, char *text, size_t size)
+{
+    const char *textures[] = {"texture", "replace"};
+    text[0] = '\0';
+    for (int k = 0; k < 2 && strchr(word, '='); k++)
+        if (find_option(cli, textures[k], strlen(textures[k]), 0))
+            snprintf(text, size, "; is --%s %s meant?", textures[k], word);
+    if (strcmp(word, "-") == 0)
+        return text;
+    if (!text[0] && !strpbrk(word, "./") && find_option(cli, NULL, 0, 't'))
+        snprintf(text, size, "; is -t %s meant?", word);
+    if (!text[0] && !has_output(cli))
+        snprintf(text, size, "; is -o %s meant?", word);
+    return text;
+}
+
+void cli_surplus(const Cli *cli, const char *problem)
+{
+    char forgotten[1024];
+    if (*cli_forgotten(cli, cli->value, forgotten, sizeof forgotten))
+        cli_die(cli, "%s%s", problem, forgotten);
+    cli_die(cli, "%s; what is '%s'?", problem, cli->value);
 }
 
 /* --- messages --- */

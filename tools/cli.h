@@ -16,14 +16,15 @@ typedef struct CliOption {
     int modifiers;         /* 1: `--name:modifiers` is allowed (texture, replace) */
 } CliOption;
 
-/* Walks argv. Common options (-o/--output, --threads, --safe, -q, -v, --help, --version) are known to every tool: they
- * are listed in --help, --help and --version are answered here (stdout, exit 0), the rest is kept in the fields
+/* Walks argv. Common options (-o/--output, --threads, --safe, -q, -v, -h/--help, -V/--version) are known to every tool:
+ * they are listed in --help, --help and --version are answered here (stdout, exit 0), the rest is kept in the fields
  * below. */
 typedef struct Cli {
     const char *tool;        /* "retex-sample": begins every message */
     const char *usage;       /* "SET --texture[:opts] NAME=IMAGE … [-o SAMPLES]" */
     const char *about;       /* one sentence, for --help */
     const CliOption *options;
+    int no_output;           /* 1: the answer goes to standard output, -o is refused */
     int argc;
     char **argv;
     int next;                /* next argument to look at; starts at 1 */
@@ -55,6 +56,12 @@ void cli_detail(const Cli *cli, const char *fmt, ...) RETEX_PRINTF(2, 3); /* wit
 void cli_message(const Cli *cli, const char *text);                       /* as it is, -q or not */
 _Noreturn void cli_die(const Cli *cli, const char *fmt, ...) RETEX_PRINTF(2, 3);    /* usage error: exit 2 */
 _Noreturn void cli_fail(const Cli *cli, const RetexError *err);                     /* cli_error and exit 2 */
+
+/* A second positional argument, or a third, where there is room for fewer. problem: "one set is enough". Says which
+ * option may have been forgotten before it. */
+_Noreturn void cli_surplus(const Cli *cli, const char *problem);
+/* That option, as in "; is -o x.png meant?", or "". */
+const char *cli_forgotten(const Cli *cli, const char *word, char *text, size_t size);
 
 /* The output file: -o if given; else "-" when standard output is not a terminal; else an error that says so (pixels are
  * never written to a terminal, `-o -` and /dev/tty included). */

@@ -117,8 +117,8 @@ static File *find_slot(const Place *place)
 {
     for (size_t k = hash_place(place) & (files.size - 1);; k = (k + 1) & (files.size - 1)) {
         File *file = &files.slots[k];
-        if (!file->path || (file->inode == place->inode && file->device == place->device &&
-                            strcmp(file->name, place->name) == 0))
+        if (!file->path ||
+            (file->inode == place->inode && file->device == place->device && strcmp(file->name, place->name) == 0))
             return file;
     }
 }

@@ -1,4 +1,5 @@
 /* retex-combine: recombine a set, with its own textures or new ones, into a picture. See retex-combine(1). */
+#include <errno.h>
 #include <limits.h>
 #ifdef __GLIBC__
 #include <malloc.h>
@@ -41,7 +42,7 @@ static void parse(Cli *cli, Job *job)
     for (const CliOption *option; (option = cli_next(cli));) {
         if (option == &cli_positional) {
             if (job->samples_path)
-                cli_die(cli, "one set and its samples are enough; what is '%s'?", cli->value);
+                cli_surplus(cli, "one set and its samples are enough");
             *(job->set_path ? &job->samples_path : &job->set_path) = cli->value;
         } else if (strcmp(option->name, "texture") == 0) {
             texture_args_add(cli, &job->textures);
@@ -88,6 +89,25 @@ static void announce_files(const Cli *cli, const Job *job, const char *output)
     cli_writes(cli, "--error", job->error);
 }
 
+/* What stands where samples would may lack its -o or --texture. */
+static void fail_samples(const Cli *cli, const Job *job, const RetexError *err)
+{
+    char forgotten[1024] = "";
+    if (!job->batch && strcmp(job->samples_path, job->set_path) != 0)
+        cli_forgotten(cli, job->samples_path, forgotten, sizeof forgotten);
+    cli_die(cli, "%s%s", err->message, forgotten);
+}
+
+static void check_samples_path(const Cli *cli, const Job *job)
+{
+    RetexError err = {0};
+    struct stat info;
+    if (job->samples_path && strcmp(job->samples_path, "-") != 0 && stat(job->samples_path, &info) != 0) {
+        retex_fail(&err, RETEX_EIO, "cannot read %s: %s", job->samples_path, strerror(errno));
+        fail_samples(cli, job, &err);
+    }
+}
+
 /* The set, and the samples that came with it or have a file of their own. */
 static void load(const Cli *cli, Job *job)
 {
@@ -101,9 +121,11 @@ static void load(const Cli *cli, Job *job)
         return;
     cli_input(cli, job->samples_path, "samples, as from retex-sample");
     if (retex_set_open(job->samples_path, NULL, &job->samples, cli->threads, &err))
-        cli_fail(cli, &err);
-    if (!job->samples)
-        cli_die(cli, "%s holds no samples", job->samples_path);
+        fail_samples(cli, job, &err);
+    if (!job->samples) {
+        retex_fail(&err, RETEX_EINVAL, "%s holds no samples", job->samples_path);
+        fail_samples(cli, job, &err);
+    }
     if (retex_samples_check(job->samples, job->set, &err))
         cli_fail(cli, &err);
 }
@@ -339,6 +361,7 @@ int main(int argc, char **argv)
     double began = texture_args_now();
     keep_memory();
     parse(&cli, &job);
+    check_samples_path(&cli, &job);
     const char *output = job.batch ? NULL : cli_output(&cli);
     RetexError err = {0};
     announce_files(&cli, &job, output);

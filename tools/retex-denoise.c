@@ -22,7 +22,7 @@ static const char *parse(Cli *cli, RetexDenoiseParams *params, long *memory)
     for (const CliOption *option; (option = cli_next(cli));) {
         if (option == &cli_positional) {
             if (input)
-                cli_die(cli, "one set is enough; what is '%s'?", cli->value);
+                cli_surplus(cli, "one set is enough");
             input = cli->value;
         } else if (strcmp(option->name, "strength") == 0) {
             params->strength = (float)cli_number(cli, option, 0.1, 10);

@@ -54,8 +54,6 @@ static void parse(Cli *cli, RetexDiffParams *params, int *json, const char *name
         cli_die(cli, "two files are needed; try --help");
     if (params->part && params->all_parts)
         cli_die(cli, "--part and --all-parts exclude each other");
-    if (cli->output)
-        cli_die(cli, "the answer goes to standard output: no -o");
     params->nthreads = cli->threads;
 }
 
@@ -151,6 +149,7 @@ int main(int argc, char **argv)
     Cli cli = {.tool = "retex-diff",
                .usage = "[options] A B",
                .options = options,
+               .no_output = 1,
                .argc = argc,
                .argv = argv,
                .about = "Compares picture A with the reference B: exit 0 when they are the same or within the limits "

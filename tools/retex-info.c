@@ -278,6 +278,7 @@ int main(int argc, char **argv)
                .usage = "SET [--json] [--check]",
                .about = "Describe a set, samples or a pack.",
                .options = options,
+               .no_output = 1,
                .argc = argc,
                .argv = argv,
                .next = 1};
@@ -298,8 +299,6 @@ int main(int argc, char **argv)
     }
     if (!path)
         cli_die(&cli, "no set given");
-    if (cli.output)
-        cli_die(&cli, "there is no output file; the answer goes to standard output");
     if (json && checking)
         cli_die(&cli, "--json and --check exclude each other");
     cli_input(&cli, path, "a set, as from retex-render");

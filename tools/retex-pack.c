@@ -29,7 +29,7 @@ static void parse(Cli *cli, Job *job)
     while ((option = cli_next(cli))) {
         if (option == &cli_positional) {
             if (job->input)
-                cli_die(cli, "more than one input: '%s'", cli->value);
+                cli_surplus(cli, "one input is enough");
             job->input = cli->value;
         } else if (strcmp(option->name, "quality") == 0) {
             job->params.quality = (int)cli_integer(cli, option, 1, 100);

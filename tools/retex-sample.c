@@ -16,7 +16,7 @@ static const char *parse(Cli *cli, TextureArgs *textures)
         if (option != &cli_positional)
             texture_args_add(cli, textures);
         else if (set)
-            cli_die(cli, "one set is enough; what is '%s'?", cli->value);
+            cli_surplus(cli, "one set is enough");
         else
             set = cli->value;
     }

@@ -6,6 +6,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <retex/nearest.h>
 #include "film/film.h"
 #include "job/job.h"
 
@@ -93,8 +94,10 @@ static int set_crop(const Option *o)
 /* Which of two names the value is. */
 static int set_choice(const Option *o, const char *first, const char *second, int *field)
 {
+    char meant[RETEX_MEANT_SIZE];
     if (strcmp(o->value, first) && strcmp(o->value, second))
-        return retex_fail(o->err, RETEX_EPARSE, "%s knows %s and %s, not `%s`", o->name, first, second, o->value);
+        return retex_fail(o->err, RETEX_EPARSE, "%s knows %s and %s, not `%s`%s", o->name, first, second, o->value,
+                          retex_meant(retex_nearest_of(o->value, (const char *const[]){first, second}, 2), meant));
     *field = !strcmp(o->value, second);
     return RETEX_OK;
 }
@@ -129,11 +132,14 @@ static int add_aovs(const Option *o)
         int k = 0;
         while (k < COUNT && (strlen(names[k]) != length || strncmp(names[k], name, length)))
             k++;
-        if (k == COUNT)
+        if (k == COUNT) {
+            char word[RETEX_NEAREST_MAX + 1], meant[RETEX_MEANT_SIZE];
+            snprintf(word, sizeof word, "%.*s", (int)length, name);
             return retex_fail(
                 o->err, RETEX_EPARSE,
-                "%s knows beauty,depth,albedo,normal,position,uv,object,roughness,metallic,irradiance, not `%.*s`",
-                o->name, (int)length, name);
+                "%s knows beauty,depth,albedo,normal,position,uv,object,roughness,metallic,irradiance, not `%.*s`%s",
+                o->name, (int)length, name, retex_meant(retex_nearest_of(word, names, COUNT), meant));
+        }
         if (k < COUNT - 1)
             bits |= 1u << k;
         name += length;

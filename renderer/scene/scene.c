@@ -2,6 +2,7 @@
 #include <ctype.h>
 #include <stdio.h>
 #include <string.h>
+#include <retex/nearest.h>
 #include "scene/scene.h"
 
 /* ---- finding an identifier ---- */
@@ -12,28 +13,6 @@ static int lower_equal(const char *a, const char *b)
         if (tolower((unsigned char)*a) != tolower((unsigned char)*b))
             return 0;
     return *a == *b;
-}
-
-/* Levenshtein distance without regard to case, of words up to 64 long; longer ones are far. */
-static int distance(const char *a, const char *b)
-{
-    size_t n = strlen(a), m = strlen(b);
-    int row[65];
-    if (n > 64 || m > 64)
-        return 64;
-    for (size_t j = 0; j <= m; j++)
-        row[j] = (int)j;
-    for (size_t i = 1; i <= n; i++) {
-        int diagonal = row[0];
-        row[0] = (int)i;
-        for (size_t j = 1; j <= m; j++) {
-            int change = diagonal + (tolower((unsigned char)a[i - 1]) != tolower((unsigned char)b[j - 1]));
-            int other = (row[j] < row[j - 1] ? row[j] : row[j - 1]) + 1;
-            diagonal = row[j];
-            row[j] = change < other ? change : other;
-        }
-    }
-    return row[m];
 }
 
 static int contains(const char *text, const char *part)
@@ -51,11 +30,8 @@ static int contains(const char *text, const char *part)
 
 static int near(const char *name, const char *wanted)
 {
-    size_t length = strlen(wanted);
-    return distance(name, wanted) <= (length < 5   ? 1
-                                      : length < 9 ? 2
-                                                   : 3) ||
-           contains(name, wanted) || (strlen(name) > 2 && contains(wanted, name));
+    return retex_word_distance(name, wanted) <= retex_word_tolerance(wanted) || contains(name, wanted) ||
+           (strlen(name) > 2 && contains(wanted, name));
 }
 
 static void append(char *text, size_t size, const char *part)

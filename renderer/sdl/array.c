@@ -1,4 +1,5 @@
 /* Arrays: of any values, up to five dimensions, one block of memory each. */
+#include <stdio.h>
 #include <string.h>
 #include "sdl/internal.h"
 
@@ -64,6 +65,20 @@ void array_declare(Sdl *sdl, Value *value)
         initialise(sdl, array, 0, &offset);
 }
 
+/* Scenes of animations take an element by the number of the frame, which is 0 where nobody says which is meant. reads:
+ * what the index itself was made of. */
+static _Noreturn void fail_index(Sdl *sdl, double index, int count, unsigned reads)
+{
+    char advice[128] = "";
+    unsigned from = reads ? reads : index < 0 ? sdl->frame_reads : 0;
+    const char *name = from & READ_FRAME_NUMBER ? "frame_number" : from ? "clock" : NULL;
+    double value = from & READ_FRAME_NUMBER ? sdl->frame_number : sdl->clock;
+    if (name)
+        snprintf(advice, sizeof advice, "; `%s` is %g: -D %s=%d sets it", name, value, name,
+                 value > 0 && !(from & READ_FRAME_NUMBER) ? 0 : 1);
+    sdl_error(sdl, "index %g is outside of an array of %d elements%s", index, count, advice);
+}
+
 /* The element may have no value yet: it is assigned to or asked about. */
 Value *array_element(Sdl *sdl, Value *value)
 {
@@ -72,11 +87,15 @@ Value *array_element(Sdl *sdl, Value *value)
         size_t offset = 0;
         for (int d = 0; d < array->dimensions; d++) {
             sdl_expect(sdl, "[");
+            unsigned before = sdl->frame_reads;
+            sdl->frame_reads = 0;
             double index = expression_parameter(sdl);
+            unsigned reads = sdl->frame_reads;
+            sdl->frame_reads |= before;
             sdl_expect(sdl, "]");
             int i = index > -1 && index < 2e9 ? (int)(index + 1e-8) : -1;
             if (i < 0 || i >= array->size[d])
-                sdl_error(sdl, "index %g is outside of an array of %d elements", index, array->size[d]);
+                fail_index(sdl, index, array->size[d], reads);
             offset = offset * (size_t)array->size[d] + (size_t)i;
         }
         value = &array->items[offset];

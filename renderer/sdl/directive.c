@@ -359,8 +359,7 @@ void directive_run(Sdl *sdl, const Raw *raw)
         file_write(sdl);
         break;
     case DIR_NONE:
-    case DIR_UNKNOWN:
-        sdl_error(sdl, "no such directive");
+        break;
     }
     sdl->directive_depth--;
 }

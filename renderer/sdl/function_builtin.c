@@ -253,12 +253,14 @@ Num builtin_constant(Sdl *sdl, int id)
     case ID_TRUE:
         return num_float(1);
     case ID_CLOCK:
+        sdl->frame_reads |= READ_CLOCK;
         return num_float(sdl->clock);
     case ID_IMAGE_WIDTH:
         return num_float(sdl->options.width ? sdl->options.width : 640);
     case ID_IMAGE_HEIGHT:
         return num_float(sdl->options.height ? sdl->options.height : 480);
     case ID_FRAME_NUMBER:
+        sdl->frame_reads |= READ_FRAME_NUMBER;
         return num_float(sdl->frame_number);
     case ID_INITIAL_FRAME:
         return num_float(sdl->initial_frame);

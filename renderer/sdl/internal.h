@@ -73,8 +73,7 @@ typedef enum Directive {
     DIR_FOPEN,
     DIR_FCLOSE,
     DIR_READ,
-    DIR_WRITE,
-    DIR_UNKNOWN
+    DIR_WRITE
 } Directive;
 
 /* A token as written. A directive's link: of an opener, #elseif, #else, #case and #range the next branch or the #end
@@ -175,6 +174,9 @@ typedef struct Num {
 
 typedef struct Function Function;
 
+/* What a value may depend on that is 0 unless -D says otherwise. */
+typedef enum FrameRead { READ_FRAME_NUMBER = 1, READ_CLOCK = 2 } FrameRead;
+
 struct Sdl {
     Arena *arena;
     Scene *scene;
@@ -198,6 +200,11 @@ struct Sdl {
     Loop loops[MAX_LOOPS];
     int nloops;
     int expression_depth, directive_depth, block_depth;
+    struct {
+        const char *file;
+        int line;
+    } blocks[MAX_BLOCK_DEPTH]; /* where each open `{` stands */
+    unsigned frame_reads;      /* bits of FrameRead: of what names the frame of an animation, which was looked at */
     long steps;
 
     Symbol *unused, **unused_tail;
@@ -222,11 +229,12 @@ void sdl_debug_text(Sdl *sdl, const char *text);
 /* words.c */
 Word *word_intern(Sdl *sdl, const char *text, size_t length);
 void words_begin(Sdl *sdl);
-const char *word_nearest(Sdl *sdl, const char *name); /* a declared name much like it, or NULL */
+const char *word_nearest(Sdl *sdl, const char *name); /* a declared name or keyword much like it, or NULL */
+const char *directive_nearest(const char *name);      /* the same of directives */
 
 /* lexer.c */
 Source *source_from_text(Sdl *sdl, const char *name, const char *text, size_t length);
-const char *raw_problem(const Raw *raw); /* what is wrong with a RAW_BAD */
+_Noreturn void raw_fail(Sdl *sdl, const Raw *raw); /* tell what is wrong with a RAW_BAD */
 
 /* source.c */
 Source *source_open(Sdl *sdl, const char *name);

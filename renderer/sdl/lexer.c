@@ -8,7 +8,14 @@
 #include <string.h>
 #include "sdl/internal.h"
 
-enum { BAD_CHARACTER = 'c', BAD_STRING = 's', BAD_COMMENT = '*', BAD_NESTING = 'n', BAD_LONG = 'l' };
+enum {
+    BAD_CHARACTER = 'c',
+    BAD_STRING = 's',
+    BAD_COMMENT = '*',
+    BAD_NESTING = 'n',
+    BAD_LONG = 'l',
+    BAD_DIRECTIVE = 'd' /* its name is in as.word */
+};
 
 typedef struct Open {
     uint32_t start, last; /* the opener, and the branch that waits for its link */
@@ -26,7 +33,7 @@ typedef struct Lexer {
     int nopen, open_capacity;
 } Lexer;
 
-const char *raw_problem(const Raw *raw)
+static const char *problem(const Raw *raw)
 {
     switch (raw->punct) {
     case BAD_STRING:
@@ -40,6 +47,16 @@ const char *raw_problem(const Raw *raw)
     default:
         return "a character that has no meaning here";
     }
+}
+
+void raw_fail(Sdl *sdl, const Raw *raw)
+{
+    if (raw->punct != BAD_DIRECTIVE)
+        sdl_error(sdl, "%s", problem(raw));
+    const char *nearest = directive_nearest(raw->as.word->text);
+    if (nearest)
+        sdl_error(sdl, "there is no directive `#%.60s`; is `#%s` meant?", raw->as.word->text, nearest);
+    sdl_error(sdl, "there is no directive `#%.60s`", raw->as.word->text);
 }
 
 static int is_letter(unsigned char c)
@@ -291,7 +308,7 @@ static void add_directive(Lexer *lexer, const Word *name, const char *start)
 {
     Raw *raw = add(lexer, RAW_DIRECTIVE, start);
     memset(&raw->as, 0, sizeof raw->as);
-    raw->as.directive.id = name->directive ? name->directive : DIR_UNKNOWN;
+    raw->as.directive.id = name->directive;
     link_directive(lexer, lexer->source->count - 1);
 }
 
@@ -304,11 +321,13 @@ static void directive(Lexer *lexer)
     if (lexer->at >= lexer->end || !is_letter((unsigned char)*lexer->at))
         return;
     Word *name = word(lexer);
-    if (!name->directive && name->reserved) {
-        add(lexer, RAW_WORD, start)->as.word = name;
+    if (name->directive) {
+        add_directive(lexer, name, start);
         return;
     }
-    add_directive(lexer, name, start);
+    Raw *raw = add(lexer, name->reserved ? RAW_WORD : RAW_BAD, start);
+    raw->punct = name->reserved ? 0 : BAD_DIRECTIVE;
+    raw->as.word = name;
 }
 
 /* The words that were directives before they got their `#`. */

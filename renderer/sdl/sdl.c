@@ -97,11 +97,31 @@ void sdl_error(Sdl *sdl, const char *fmt, ...)
     fail(sdl, RETEX_EPARSE, text);
 }
 
+/* Where a `}` is missing, the line of its `{` says more than the place where that shows. A name that nothing has is
+ * another mistake. */
+static void describe_open_block(Sdl *sdl, const char *expected, char *out, size_t size)
+{
+    const Token *token = &sdl->token;
+    int closes = strchr(expected, '}') || strstr(expected, "the end of the");
+    *out = 0;
+    if (token->kind == TOKEN_WORD && !word_intern(sdl, token->text, strlen(token->text))->reserved)
+        return;
+    if (!sdl->block_depth || (token->kind != TOKEN_END && !closes))
+        return;
+    const char *file = sdl->blocks[sdl->block_depth - 1].file;
+    int line = sdl->blocks[sdl->block_depth - 1].line, here = strcmp(file, file_name(sdl)) == 0;
+    if (!here)
+        snprintf(out, size, "; the `{` of %.200s:%d is not closed", file, line);
+    else if (token->kind == TOKEN_END || line != token->line)
+        snprintf(out, size, "; the `{` of line %d is not closed", line);
+}
+
 void sdl_expected(Sdl *sdl, const char *what)
 {
-    char found[256];
+    char found[256], open[256];
     stream_describe(sdl, sdl_peek(sdl), found, sizeof found);
-    sdl_error(sdl, "expected %s, found %s", what, found);
+    describe_open_block(sdl, what, open, sizeof open);
+    sdl_error(sdl, "expected %s, found %s%s", what, found, open);
 }
 
 /* ---- messages ---- */

@@ -156,7 +156,7 @@ static int fill(Sdl *sdl, int stop, int any)
             break;
         case RAW_BAD:
             stream_locate(sdl, raw);
-            sdl_error(sdl, "%s", raw_problem(raw));
+            raw_fail(sdl, raw);
         }
     }
     return 1;
@@ -187,8 +187,12 @@ const Token *sdl_next(Sdl *sdl)
     if (!sdl->have)
         fill(sdl, -1, 0);
     if (sdl->token.kind == TOKEN_PUNCT) {
-        if (sdl->token.punct == '{' && ++sdl->block_depth > MAX_BLOCK_DEPTH)
-            sdl_fail(sdl, RETEX_ELIMIT, "blocks nested more than %d deep", MAX_BLOCK_DEPTH);
+        if (sdl->token.punct == '{') {
+            if (sdl->block_depth == MAX_BLOCK_DEPTH)
+                sdl_fail(sdl, RETEX_ELIMIT, "blocks nested more than %d deep", MAX_BLOCK_DEPTH);
+            sdl->blocks[sdl->block_depth].file = sdl->token.file;
+            sdl->blocks[sdl->block_depth++].line = sdl->token.line;
+        }
         if (sdl->token.punct == '}' && sdl->block_depth > 0)
             sdl->block_depth--;
     }
@@ -248,11 +252,10 @@ void sdl_optional_comma(Sdl *sdl)
 void sdl_skip_block(Sdl *sdl)
 {
     sdl_expect(sdl, "{");
-    int line = sdl->token.line;
     for (int depth = 1; depth;) {
         const Token *token = sdl_next(sdl);
         if (token->kind == TOKEN_END)
-            sdl_error(sdl, "expected `}` for the `{` of line %d, found the end of the file", line);
+            sdl_expected(sdl, "`}`");
         if (token->kind == TOKEN_PUNCT)
             depth += (token->punct == '{') - (token->punct == '}');
     }
@@ -262,7 +265,7 @@ const Raw *sdl_raw_peek(Sdl *sdl)
 {
     if (sdl->cursor->kind == RAW_BAD) {
         stream_locate(sdl, sdl->cursor);
-        sdl_error(sdl, "%s", raw_problem(sdl->cursor));
+        raw_fail(sdl, sdl->cursor);
     }
     return sdl->cursor;
 }

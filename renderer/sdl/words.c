@@ -2,6 +2,7 @@
  * its innermost symbol without a search. Also the table of reserved words. */
 #include <stdlib.h>
 #include <string.h>
+#include <retex/nearest.h>
 #include "sdl/internal.h"
 
 /* Reserved words of POV-Ray 3.7 that are not in the table of built-in functions. They cannot be declared; whether
@@ -114,43 +115,20 @@ void words_begin(Sdl *sdl)
         word_intern(sdl, directives[i].name, strlen(directives[i].name))->directive = (uint8_t)directives[i].directive;
 }
 
-/* Edits (insert, delete, replace) between two short names, letters of either case counted as half different. */
-static int distance(const char *a, const char *b)
-{
-    int row[48];
-    int na = (int)strlen(a), nb = (int)strlen(b);
-    if (na > 40 || nb > 40)
-        return 1000;
-    for (int j = 0; j <= nb; j++)
-        row[j] = 2 * j;
-    for (int i = 1; i <= na; i++) {
-        int diagonal = row[0];
-        row[0] = 2 * i;
-        for (int j = 1; j <= nb; j++) {
-            int same_letter = (a[i - 1] | 32) == (b[j - 1] | 32);
-            int replace = diagonal + (a[i - 1] == b[j - 1] ? 0 : same_letter ? 1 : 2);
-            diagonal = row[j];
-            int best = row[j] + 2 < row[j - 1] + 2 ? row[j] + 2 : row[j - 1] + 2;
-            row[j] = replace < best ? replace : best;
-        }
-    }
-    return row[nb];
-}
-
 const char *word_nearest(Sdl *sdl, const char *name)
 {
-    const Word *best = NULL;
-    int best_distance = 2 * (int)(strlen(name) / 3) + 2;
+    RetexNearest nearest = {name, NULL, 0};
     for (uint32_t i = 0; i < sdl->nbuckets; i++)
-        for (const Word *word = sdl->buckets[i]; word; word = word->next) {
-            if (!word->symbol)
-                continue;
-            int d = distance(name, word->text);
-            /* Of two equally near the first in the alphabet, so that the message does not depend on the hash. */
-            if (d < best_distance || (best && d == best_distance && strcmp(word->text, best->text) < 0)) {
-                best = word;
-                best_distance = d;
-            }
-        }
-    return best ? best->text : NULL;
+        for (const Word *word = sdl->buckets[i]; word; word = word->next)
+            if (word->symbol || word->reserved)
+                retex_nearest_try(&nearest, word->text);
+    return nearest.best;
+}
+
+const char *directive_nearest(const char *name)
+{
+    RetexNearest nearest = {name, NULL, 0};
+    for (size_t i = 0; i < sizeof directives / sizeof *directives; i++)
+        retex_nearest_try(&nearest, directives[i].name);
+    return nearest.best;
 }

@@ -59,7 +59,7 @@ $ retex-diff --part:x=1 a b
 ! retex-diff: error: --part takes no modifiers (':x=1')
 = 2
 $ retex-diff -Q a b
-! retex-diff: error: unknown option -Q; try --help
+! retex-diff: error: unknown option -Q; is -q meant?
 = 2
 
 # Control characters of a file's name do not reach the terminal.

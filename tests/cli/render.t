@@ -15,7 +15,7 @@ $ printf 'sphere { 0, 1\n  pigment { rgb 1 }\n  nonsense\n}\n' >bad.pov; retex-r
 ! retex-render: error: bad.pov:3:3: expected an object modifier or }, found `nonsense`, which is not declared
 = 2
 $ printf 'camera { location -z }\nbox { 0, 1\n' >open.pov; retex-render open.pov -o x.exr
-! retex-render: error: open.pov:3:1: expected an object modifier or }, found the end of the file
+! retex-render: error: open.pov:3:1: expected an object modifier or }, found the end of the file; the `{` of line 2 is not closed
 = 2
 $ printf '#declare A = 1;\n#include "missing.inc"\n' >include.pov; retex-render include.pov -o x.exr
 ! retex-render: error: include.pov:2:10: cannot find the file `missing.inc` in the scene's folder or the include path

@@ -248,7 +248,7 @@ static void test_errors(void **state)
     check_error(V "#if (1) #debug \"x\"", RETEX_EPARSE, 2, 1, "a directive without its #end");
     check_error(V "\n #end", RETEX_EPARSE, 3, 2, "a directive without the one it belongs to");
     check_error(V "#error \"stop here\\n\"", RETEX_EPARSE, 2, 8, "stop here");
-    check_error(V "#delcare A = 1;", RETEX_EPARSE, 2, 1, "no such directive");
+    check_error(V "#delcare A = 1;", RETEX_EPARSE, 2, 1, "there is no directive `#delcare`; is `#declare` meant?");
     check_error(V "#debug \"unended", RETEX_EPARSE, 2, 8, "a string without its closing quote");
     check_error(V "/* unended", RETEX_EPARSE, 2, 1, "a comment /* without its end */");
     check_error(V "#include \"nowhere.inc\"", RETEX_EPARSE, 2, 10,

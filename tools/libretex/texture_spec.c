@@ -1,5 +1,6 @@
 /* What the user says about a texture, `--texture:scale=2,2:rotate=30 floor=oak.jpg`, becomes a RetexTextureSpec. Every
  * mistake gets one message that names the option and says what would be right. */
+#include <retex/nearest.h>
 #include <retex/texture.h>
 
 #include <ctype.h>
@@ -9,6 +10,14 @@
 #include <strings.h>
 
 #define OPTION_NAMES "scale, rotate, offset, flip, wrap, repeat, width, colorspace"
+
+static int unknown_option(const char *name, RetexError *err)
+{
+    static const char *const names[] = {"scale", "rotate", "offset", "flip", "wrap", "repeat", "width", "colorspace"};
+    char meant[RETEX_MEANT_SIZE];
+    return retex_fail(err, RETEX_EPARSE, "no texture option is called '%s'; there are " OPTION_NAMES "%s", name,
+                      retex_meant(retex_nearest_of(name, names, sizeof names / sizeof *names), meant));
+}
 
 /* A finite number from text on; *end is behind it. 0 where there is none. */
 static int parse_number(const char *text, const char **end, double *value)
@@ -144,7 +153,7 @@ static int parse_option(RetexTextureSpec *spec, const char *name, const char *va
                               value);
         strcpy(spec->colorspace, value);
     } else {
-        return retex_fail(err, RETEX_EPARSE, "no texture option is called '%s'; there are %s", name, OPTION_NAMES);
+        return unknown_option(name, err);
     }
     return RETEX_OK;
 }

@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include <retex/nearest.h>
 #include <retex/parallel.h>
 
 #include "manifest.h"
@@ -21,13 +22,17 @@ typedef struct Loading {
 
 static int unknown_target(const RetexSet *set, const char *name, RetexError *err)
 {
-    char names[sizeof err->message] = "";
+    char names[sizeof err->message] = "", meant[RETEX_MEANT_SIZE];
+    RetexNearest nearest = {name, NULL, 0};
     size_t used = 0;
+    for (int i = 0; i < set->ntargets; i++)
+        retex_nearest_try(&nearest, set->targets[i].name);
     for (int i = 0; i < set->ntargets && used < sizeof names; i++)
         used += (size_t)snprintf(names + used, sizeof names - used, "%s%s", i ? ", " : "", set->targets[i].name);
     if (!set->ntargets)
         return retex_fail(err, RETEX_ENOTFOUND, "no target is called '%s': the set has no targets", name);
-    return retex_fail(err, RETEX_ENOTFOUND, "no target is called '%s'; the set has %.800s", name, names);
+    return retex_fail(err, RETEX_ENOTFOUND, "no target is called '%s'; the set has %.700s%s", name, names,
+                      retex_meant(nearest.best, meant));
 }
 
 static int find_targets(Loading *loading, RetexError *err)

@@ -13,6 +13,7 @@
 #include <retex/error.h>
 #include <retex/image.h>
 #include <retex/metrics.h>
+#include <retex/nearest.h>
 #include <retex/pack.h>
 #include <retex/parallel.h>
 #include <retex/picture.h>

@@ -1,0 +1,163 @@
+# Messages that name what was probably meant: words much like others, a brace that is missing, an option that was
+# forgotten.
+$ for c in 'combine --txture a=b s.exr' 'combine --qual 3' 'combine --Texture a=b' 'render -spp 3' 'render --lis-targets' 'render --sedd 3' 'info --josn' 'diff --fail-psrn 3' 'denoise --no-footprnts' 'pack --loseless' 'sample --thread 3' 'render -Q' 'combine -O x' 'render --zzzzzz' 'render --s' 'render -z'; do retex-$c; done
+! retex-combine: error: unknown option --txture; is --texture meant?
+! retex-combine: error: unknown option --qual; is --quality meant?
+! retex-combine: error: unknown option --Texture; is --texture meant?
+! retex-render: error: unknown option -s; is --spp meant?
+! retex-render: error: unknown option --lis-targets; is --list-targets meant?
+! retex-render: error: unknown option --sedd; is --seed meant?
+! retex-info: error: unknown option --josn; is --json meant?
+! retex-diff: error: unknown option --fail-psrn; is --fail-psnr meant?
+! retex-denoise: error: unknown option --no-footprnts; is --no-footprints meant?
+! retex-pack: error: unknown option --loseless; is --lossless meant?
+! retex-sample: error: unknown option --thread; is --threads meant?
+! retex-render: error: unknown option -Q; is -q meant?
+! retex-combine: error: unknown option -O; is -o meant?
+! retex-render: error: unknown option --zzzzzz; try --help
+! retex-render: error: unknown option --s; try --help
+! retex-render: error: unknown option -z; try --help
+= 2
+$ for t in diff pack sample combine denoise info render; do retex-$t --help >long; retex-$t -h | cmp - long; retex-$t -V; done
+> retex-diff 0.1.0
+> retex-pack 0.1.0
+> retex-sample 0.1.0
+> retex-combine 0.1.0
+> retex-denoise 0.1.0
+> retex-info 0.1.0
+> retex-render 0.1.0
+$ retex-info -o x s.exr; retex-diff --output=x a b
+! retex-info: error: the answer goes to standard output: no -o
+! retex-diff: error: the answer goes to standard output: no -o
+= 2
+
+# Targets, layouts, AOVs and options of textures.
+$ make_set s.exr 48 32; cp "$SCENES/textures/brick.jpg" t.jpg; printf 'camera { location -4*z }\nlight_source { -9*z rgb 1 }\n#declare Floor = texture { pigment { rgb 1 } }\n#declare White = pigment { rgb 1 }\nplane { y, -1 texture { Floor } }\nsphere { 0, 1 pigment { White } }\n' >box.pov; for x in 'flor=t.jpg' 'Wal=t.jpg' 'Sofa=t.jpg'; do retex-combine s.exr --texture $x -o x.png; retex-sample s.exr --texture $x -o x.exr; done
+! retex-combine: error: no target is called 'flor'; the set has Floor, Wall; is Floor meant?
+! retex-sample: error: no target is called 'flor'; the set has Floor, Wall; is Floor meant?
+! retex-combine: error: no target is called 'Wal'; the set has Floor, Wall; is Wall meant?
+! retex-sample: error: no target is called 'Wal'; the set has Floor, Wall; is Wall meant?
+! retex-combine: error: no target is called 'Sofa'; the set has Floor, Wall
+! retex-sample: error: no target is called 'Sofa'; the set has Floor, Wall
+= 2
+$ for x in scal=2 rotat=30 warp=mirror colourspace=sRGB zzz=1; do retex-combine s.exr --texture:$x floor=t.jpg -o x.png; done
+! retex-combine: error: no texture option is called 'scal'; there are scale, rotate, offset, flip, wrap, repeat, width, colorspace; is scale meant?
+! retex-combine: error: no texture option is called 'rotat'; there are scale, rotate, offset, flip, wrap, repeat, width, colorspace; is rotate meant?
+! retex-combine: error: no texture option is called 'warp'; there are scale, rotate, offset, flip, wrap, repeat, width, colorspace; is wrap meant?
+! retex-combine: error: no texture option is called 'colourspace'; there are scale, rotate, offset, flip, wrap, repeat, width, colorspace; is colorspace meant?
+! retex-combine: error: no texture option is called 'zzz'; there are scale, rotate, offset, flip, wrap, repeat, width, colorspace
+= 2
+$ for x in '--layout footprnts' '--layout papre' '--layout cubist' '--filter bx' '--aov dpeth' '--aov depth,nromal' '--aov smell' '--control-mode unbaised' '-t flor' '-t Wihte' '-t sofa' '-t Floor --replace flor=t.jpg'; do retex-render --size 8x6 $x box.pov -o x.exr; done; printf 'output,flor\nx.png,t.jpg\n' | retex-render -t Floor --variants - box.pov
+! retex-render: error: --layout knows footprints and paper, not `footprnts`; is footprints meant?
+! retex-render: error: --layout knows footprints and paper, not `papre`; is paper meant?
+! retex-render: error: --layout knows footprints and paper, not `cubist`
+! retex-render: error: --filter knows box and gaussian, not `bx`
+! retex-render: error: --aov knows beauty,depth,albedo,normal,position,uv,object,roughness,metallic,irradiance, not `dpeth`; is depth meant?
+! retex-render: error: --aov knows beauty,depth,albedo,normal,position,uv,object,roughness,metallic,irradiance, not `nromal`; is normal meant?
+! retex-render: error: --aov knows beauty,depth,albedo,normal,position,uv,object,roughness,metallic,irradiance, not `smell`
+! retex-render: error: --control-mode knows unbiased, halves and biased, not `unbaised`; is unbiased meant?
+! retex-render: error: no texture, pigment, material or object `flor` in the scene; similar: Floor
+! retex-render: error: no texture, pigment, material or object `Wihte` in the scene; similar: White
+! retex-render: error: no texture, pigment, material or object `sofa` in the scene; there are: Floor, White
+! retex-render: error: --replace: `flor` is no target; is Floor meant?
+! retex-render: error: --variants: `flor` is no target; is Floor meant?
+= 2
+$ ls x.*
+! ls: cannot access 'x.*': No such file or directory
+= 2
+
+# An option that was forgotten: nothing is written.
+$ for c in 'combine s.exr x.png' 'combine s.exr x.exr' 'combine s.exr t.jpg' 'combine s.exr s.exr' 'combine s.exr floor=t.jpg -o x.png' 'combine s.exr none.exr -o x.png' 'combine s.exr a.exr x.png' 'denoise s.exr x.exr' 'denoise s.exr y.exr -o x.exr' 'denoise s.exr y.exr --output=x.exr' 'sample s.exr --texture floor=t.jpg x.exr' 'sample s.exr floor=t.jpg' 'pack s.exr x.retex' 'render box.pov x.exr' 'render Floor box.pov' 'render box.pov box.pov' 'render box.pov floor=t.jpg -o x.png'; do retex-$c >out || wc -c <out; done; ls x.*
+> 0
+> 0
+> 0
+> 0
+> 0
+> 0
+> 0
+> 0
+> 0
+> 0
+> 0
+> 0
+> 0
+> 0
+> 0
+> 0
+> 0
+! retex-combine: error: cannot read x.png: No such file or directory; is -o x.png meant?
+! retex-combine: error: cannot read x.exr: No such file or directory; is -o x.exr meant?
+! retex-combine: error: t.jpg is not a set: neither an OpenEXR file nor a pack; is -o t.jpg meant?
+! retex-combine: error: s.exr holds a set, no samples
+! retex-combine: error: cannot read floor=t.jpg: No such file or directory; is --texture floor=t.jpg meant?
+! retex-combine: error: cannot read none.exr: No such file or directory
+! retex-combine: error: one set and its samples are enough; is -o x.png meant?
+! retex-denoise: error: one set is enough; is -o x.exr meant?
+! retex-denoise: error: one set is enough; what is 'y.exr'?
+! retex-denoise: error: one set is enough; what is 'y.exr'?
+! retex-sample: error: one set is enough; is -o x.exr meant?
+! retex-sample: error: one set is enough; is --texture floor=t.jpg meant?
+! retex-pack: error: one input is enough; is -o x.retex meant?
+! retex-render: error: one scene at a time: `box.pov` and `x.exr`; is -o x.exr meant?
+! retex-render: error: one scene at a time: `Floor` and `box.pov`; is -t Floor meant?
+! retex-render: error: one scene at a time: `box.pov` and `box.pov`
+! retex-render: error: one scene at a time: `box.pov` and `floor=t.jpg`; is --replace floor=t.jpg meant?
+! ls: cannot access 'x.*': No such file or directory
+= 2
+
+# Names in scenes: declared ones, keywords and directives.
+$ echo 'printf "#version 3.7; global_settings { assumed_gamma 1 }\ncamera { location -4*z look_at 0 }\nlight_source { -9*z rgb 1 }\n#declare Oak = texture { pigment { rgb 1 } }\n#declare Table = box { 0, 1 }\n#declare Crimson = rgb 1;\n#declare Shiny = finish { phong 1 }\n#macro Chair(A) sphere { 0, A } #end\n$1\n" >m.pov; exec retex-render -q --size 8x6 --spp 1 m.pov -o m.exr' >try
+$ for x in 'sphere { 0, 1 texture { Oka } }' 'sphere { 0, 1 texture { oak } }' 'object { Tabel }' 'sphere { 0, 1 pigment { color Crimsn } }' 'sphere { 0, 1 finish { Shinny } }' 'Chiar(1)' '#declare B = Crimsno * 2;' '#declare D = Tabl' 'spheer { 0, 1 }' 'sphere { 0, 1 pigmnet { rgb 1 } }' 'sphere { 0, 1 pigment { colour rgbb 1 } }' 'sphere { 0, 1 pigment { chcker } }' 'sphere { 0, 1 transltae x }' 'sphere { 0, sni(1) }' 'camera { locaton 1 }' 'global_settings { max_trace_levl 5 }' '#dclare A = 1;' '#warnin "x"' '#zzzzzzz 1' 'Zzzzzzz'; do sh try "$x"; done
+! retex-render: error: m.pov:9:25: expected a colour, a pattern, a transform or the end of the pigment, found `Oka`, which is not declared; is `Oak` meant?
+! retex-render: error: m.pov:9:25: expected a colour, a pattern, a transform or the end of the pigment, found `oak`, which is not declared; is `Oak` meant?
+! retex-render: error: m.pov:9:10: expected an object, found `Tabel`, which is not declared; is `Table` meant?
+! retex-render: error: m.pov:9:31: expected a color, found `Crimsn`, which is not declared; is `Crimson` meant?
+! retex-render: error: m.pov:9:24: expected a finish keyword or }, found `Shinny`, which is not declared; is `Shiny` meant?
+! retex-render: error: m.pov:9:1: expected an object, a light, a camera or a directive, found `Chiar`, which is not declared; is `Chair` meant?
+! retex-render: error: m.pov:9:14: expected a value, found `Crimsno`, which is not declared; is `Crimson` meant?
+! retex-render: error: m.pov:9:14: expected a value, found `Tabl`, which is not declared; is `Table` meant?
+! retex-render: error: m.pov:9:1: expected an object, a light, a camera or a directive, found `spheer`, which is not declared; is `sphere` meant?
+! retex-render: error: m.pov:9:15: expected an object modifier or }, found `pigmnet`, which is not declared; is `pigment` meant?
+! retex-render: error: m.pov:9:32: expected a color, found `rgbb`, which is not declared; is `rgb` meant?
+! retex-render: error: m.pov:9:25: expected a colour, a pattern, a transform or the end of the pigment, found `chcker`, which is not declared; is `checker` meant?
+! retex-render: error: m.pov:9:15: expected an object modifier or }, found `transltae`, which is not declared; is `translate` meant?
+! retex-render: error: m.pov:9:13: expected a number, found `sni`, which is not declared; is `sin` meant?
+! retex-render: error: m.pov:9:10: expected a camera modifier or }, found `locaton`, which is not declared; is `location` meant?
+! retex-render: error: m.pov:9:19: expected a global setting or }, found `max_trace_levl`, which is not declared; is `max_trace_level` meant?
+! retex-render: error: m.pov:9:1: there is no directive `#dclare`; is `#declare` meant?
+! retex-render: error: m.pov:9:1: there is no directive `#warnin`; is `#warning` meant?
+! retex-render: error: m.pov:9:1: there is no directive `#zzzzzzz`
+! retex-render: error: m.pov:9:1: expected an object, a light, a camera or a directive, found `Zzzzzzz`, which is not declared
+= 2
+
+# A brace that is missing: where its opening one stands.
+$ for x in 'union { sphere { 0, 1 }' 'union {\n sphere { 0, 1 pigment { rgb 1 }\n box { 0, 1 }\n}' 'union {\n sphere { 0, 1 pigment { rgb 1 \n}\n box { 0, 1 }\n}' 'media {\n a { b c \n' '#declare A = texture {\n pigment { rgb 1\n#declare B = 1;\nsphere { 0, 1 }' '#declare F = function(x) {\n x + 1 \n sphere { 0, 1 }' '#declare A = array[2] {\n 1, 2\n sphere { 0, 1 }' 'mesh {\n triangle { x, y, z }\n sphere { 0, 1 }' 'sphere { 0, 1 texture { Oak }' 'sphere { 0, 1 box }' '#macro M() sphere { 0, 1\n#end\nM()\nbox { 0, 1 }'; do sh try "$x"; done
+! retex-render: error: m.pov:10:1: expected an object modifier or }, found the end of the file; the `{` of line 9 is not closed
+! retex-render: error: m.pov:11:2: expected an object modifier or }, found `box`; the `{` of line 10 is not closed
+! retex-render: error: m.pov:12:2: expected an object modifier or }, found `box`; the `{` of line 10 is not closed
+! retex-render: m.pov:9: warning: `media` is not supported yet: the air is clear
+! retex-render: error: m.pov:12:1: expected `}`, found the end of the file; the `{` of line 10 is not closed
+! retex-render: error: m.pov:12:1: expected a colour, a pattern, a transform or the end of the pigment, found `sphere`; the `{` of line 10 is not closed
+! retex-render: error: m.pov:11:2: expected `}`, found `sphere`; the `{` of line 9 is not closed
+! retex-render: error: m.pov:11:2: expected `}`, found `sphere`; the `{` of line 9 is not closed
+! retex-render: error: m.pov:11:2: expected an object modifier or }, found `sphere`; the `{` of line 9 is not closed
+! retex-render: error: m.pov:10:1: expected an object modifier or }, found the end of the file; the `{` of line 9 is not closed
+! retex-render: error: m.pov:9:15: expected an object modifier or }, found `box`
+! retex-render: error: m.pov:12:1: expected an object modifier or }, found `box`; the `{` of line 9 is not closed
+= 2
+$ printf 'sphere { 0, 1\n  pigment { rgb 1 }\n' >open.inc; sh try '#include "open.inc"\nbox { 0, 1 }'
+! retex-render: error: m.pov:10:1: expected an object modifier or }, found `box`; the `{` of open.inc:1 is not closed
+= 2
+
+# An element that the frame of an animation chooses.
+$ d='#declare A = array[3] { 1, 2, 3 }'; for x in 'sphere { 0, A[frame_number-1] }' 'sphere { 0, A[clock-1] }' 'sphere { 0, A[frame_number+clock-1] }' '#declare N = frame_number - 1; sphere { 0, A[N] }' 'sphere { 0, A[3] }' 'sphere { 0, A[-1] }' '#if (clock = 0) #end sphere { 0, A[3] }' '#if (clock = 0) #end sphere { 0, A[-1] }'; do sh try "$d$x"; done; printf 'light_source { -9*z rgb 1 }#declare A = array[3] { 1, 2, 3 } sphere { 0, A[frame_number-1] }' >m.pov; for n in 1 9; do retex-render -q --size 8x6 --spp 1 -D frame_number=$n m.pov -o m.exr; done
+! retex-render: error: m.pov:9:62: index -1 is outside of an array of 3 elements; `frame_number` is 0: -D frame_number=1 sets it
+! retex-render: error: m.pov:9:55: index -1 is outside of an array of 3 elements; `clock` is 0: -D clock=1 sets it
+! retex-render: error: m.pov:9:68: index -1 is outside of an array of 3 elements; `frame_number` is 0: -D frame_number=1 sets it
+! retex-render: error: m.pov:9:80: index -1 is outside of an array of 3 elements; `frame_number` is 0: -D frame_number=1 sets it
+! retex-render: error: m.pov:9:49: index 3 is outside of an array of 3 elements
+! retex-render: error: m.pov:9:50: index -1 is outside of an array of 3 elements
+! retex-render: error: m.pov:9:70: index 3 is outside of an array of 3 elements
+! retex-render: error: m.pov:9:71: index -1 is outside of an array of 3 elements; `clock` is 0: -D clock=1 sets it
+! retex-render: error: m.pov:1:90: index 8 is outside of an array of 3 elements; `frame_number` is 9: -D frame_number=1 sets it
+= 2
