@@ -215,6 +215,7 @@ struct Sdl {
     int nreported, reported_capacity;
     char *pending; /* #debug text not yet ended by a newline */
     size_t npending, pending_capacity;
+    size_t said; /* bytes of messages, counted for safe access alone */
     const char **folders; /* where sdl_find_file looks */
     int nfolders;
     RetexAccess access;   /* the same, resolved: reads stay under them */

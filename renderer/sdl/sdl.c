@@ -126,10 +126,17 @@ void sdl_expected(Sdl *sdl, const char *what)
 
 /* ---- messages ---- */
 
+/* So much a stranger's scene may say: a loop of #warning would fill whatever keeps the messages. */
+enum { SAFE_MESSAGES = 64 << 10 };
+
 void sdl_message(Sdl *sdl, int level, const char *text)
 {
-    if (sdl->options.message)
-        sdl->options.message(sdl->options.message_context, level, text);
+    if (!sdl->options.message || sdl->said > SAFE_MESSAGES)
+        return;
+    sdl->said += sdl->options.safe ? strlen(text) + 1 : 0;
+    if (sdl->said > SAFE_MESSAGES)
+        text = "warning: the scene says more, which is left out (--safe)", level = 1;
+    sdl->options.message(sdl->options.message_context, level, text);
 }
 
 static void flush_debug(Sdl *sdl)

@@ -84,6 +84,14 @@ $ for safe in '' 0 1 yes; do RETEX_SAFE=$safe retex-render -q --plain --spp 1 --
 # What a scene writes stays in memory.
 $ printf '#fopen F "written.inc" write\n#write(F, "#declare Radius = 1;")\n#fclose F\n#include "written.inc"\nsphere { 0, Radius }\nbackground { rgb 1 }\n' >a/b/write.pov; retex-render --safe -q --plain --spp 1 --size 8x8 a/b/write.pov -o x.exr; ls a/b/written.inc written.inc 2>/dev/null
 = 2
+# What it says does not fill the log of a service: 64 KiB, and a line that there was more.
+$ printf 'background { rgb 1 }\nbox { -1, 1 }\n#for (I, 1, 10000)\n#warning "%s"\n#debug "abc\\n"\n#end\n' "$(printf '%0100d' 0)" >a/b/loud.pov; for o in '--safe' '--safe -v' ''; do retex-render $o --plain --spp 1 --size 8x8 a/b/loud.pov -o x.exr 2>&1 | grep -v 8x8 >log; wc -c <log; tail -1 log; done
+> 70631
+> retex-render: warning: the scene says more, which is left out (--safe)
+> 79703
+> retex-render: warning: the scene says more, which is left out (--safe)
+> 1400000
+> retex-render: a/b/loud.pov:4: warning: 0000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000
 
 # Pictures: those of the list, known by what is in them, are read as ever.
 $ make_set s.exr 24 16; make_picture t.exr size=16x16; retex-combine -q s.exr -o t.png; for e in jpg tif tga bmp gif hdr exr; do retex-combine -q s.exr -o t.$e; done
