@@ -14,8 +14,9 @@ int retex_word_distance(const char *a, const char *b);
 /* The largest distance at which a word is still taken for a slip of this one: the longer it is, the more. */
 int retex_word_tolerance(const char *word);
 
-/* Begin with {word, NULL, 0}; then try all candidates. best is that of least distance within the tolerance, or one that begins
- * with the word, of which at least three letters are there; the first in the alphabet of several; NULL where none is. */
+/* Begin with {word, NULL, 0}; then try all candidates. best is that of least distance within the tolerance, or one
+ * that begins with the word, of which at least three letters are there; the first in the alphabet of several; NULL where
+ * none is. */
 typedef struct RetexNearest {
     const char *word, *best; /* borrowed */
     int distance;            /* of best */
