@@ -3,20 +3,25 @@
  *     footprints  layout footprints instead of paper
  *     plain       no terms, no targets: the beauty, and the other parts as AOVs
  *     denoise     with what denoising reads
- *     nan         NaN and infinities in the noise */
+ *     PART=VALUE  that value, such as nan or -inf, in the last channel of a part at 5,3 */
 #include <ctype.h>
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "lib_test.h"
 
-static void spoil_noise(RetexSet *set)
+static void spoil(RetexSet *set, char *word)
 {
-    for (int i = 0; i < set->nparts; i++)
-        for (int k = 0; k < 9 && strncmp(set->parts[i].name, "noise_", 6) == 0; k++)
-            set->parts[i].image.pixels[k] = k % 3 ? NAN : k % 2 ? INFINITY : -INFINITY;
+    char *value = strchr(word, '=');
+    *value++ = '\0';
+    const int part = retex_set_find_part(set, word);
+    if (part < 0) {
+        fprintf(stderr, "make_set: the set has no part '%s'\n", word);
+        exit(2);
+    }
+    RetexImage *image = &set->parts[part].image;
+    image->pixels[retex_image_index(image, 6, 3) - 1] = strtof(value, NULL);
 }
 
 int main(int argc, char **argv)
@@ -24,7 +29,7 @@ int main(int argc, char **argv)
     RetexError err = {0};
     int numbers[3] = {48, 32, 1}, next = 2;
     if (argc < 2) {
-        fprintf(stderr, "usage: make_set FILE.exr [WIDTH HEIGHT [SEED]] [footprints] [plain] [denoise] [nan]\n");
+        fprintf(stderr, "usage: make_set FILE.exr [WIDTH HEIGHT [SEED]] [footprints] [plain] [denoise] [PART=VALUE]\n");
         return 2;
     }
     for (int n = 0; n < 3 && next < argc && isdigit((unsigned char)argv[next][0]); n++)
@@ -38,8 +43,8 @@ int main(int argc, char **argv)
             set->nterms = set->nmixtures = set->nfootprints = set->ntargets = 0;
         } else if (strcmp(argv[next], "denoise") == 0) {
             test_add_denoise_data(set);
-        } else if (strcmp(argv[next], "nan") == 0) {
-            spoil_noise(set);
+        } else if (strchr(argv[next], '=')) {
+            spoil(set, argv[next]);
         } else {
             fprintf(stderr, "make_set: what is '%s'?\n", argv[next]);
             return 2;

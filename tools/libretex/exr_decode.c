@@ -19,6 +19,14 @@ int exr_fail(RetexExr *exr, exr_result_t code, RetexError *err)
                       exr->message.text[0] ? exr->message.text : exr_get_default_error_message(code));
 }
 
+int exr_fail_number(const RetexExr *exr, int part, const ExrOddNumber *odd, RetexError *err)
+{
+    const char *channel = retex_exr_channel_name(exr, part, odd->channel), *dot = strrchr(channel, '.');
+
+    return retex_numbers_fail(err, retex_input_name(exr->input), retex_exr_part_name(exr, part),
+                              dot ? dot + 1 : channel, odd->x, odd->y, odd->value);
+}
+
 void exr_data_window(const RetexExr *exr, int part, exr_attr_box2i_t *window)
 {
     if (exr_get_data_window(exr->context, part, window) != EXR_ERR_SUCCESS)
@@ -117,15 +125,39 @@ static void plane_to_float(float *row, const unsigned char *plane, uint16_t type
     }
 }
 
-/* Give a chunk's samples to the image, whose first row is row top of the part, and to the checksums. */
-static void deliver(const ExrPlan *plan, RetexImage *image, int top, const unsigned char *samples, int x, int y,
-                    int width, int height, float *row, const ExrSums *sums)
+/* Whether all of a line's samples may be in the part; else *odd gets the first that may not, but not its line. */
+static int are_allowed(const ExrPlan *plan, int channel, const unsigned char *samples, int width, ExrOddNumber *odd)
 {
+    const exr_pixel_type_t stored = plan->channels[channel].pixel_type;
+    const RetexPixelType type = stored == EXR_PIXEL_HALF ? RETEX_HALF : RETEX_FLOAT;
+
+    if (plan->request->allowed == RETEX_ANY_NUMBERS || stored == EXR_PIXEL_UINT)
+        return 1;
+    const size_t first = retex_numbers_find(samples, type, (size_t)width, plan->request->allowed);
+    if (first == (size_t)width)
+        return 1;
+    *odd = (ExrOddNumber){.x = (int)first, .channel = channel};
+    plane_to_float(&odd->value, samples + first * exr_channel_bytes(&plan->channels[channel]), (uint16_t)stored, 1);
+    return 0;
+}
+
+/* Give a chunk's samples to the image, whose first row is row top of the part, and to the checksums. 0: one of them may
+ * not be there. */
+static int deliver(const ExrPlan *plan, RetexImage *image, int top, const unsigned char *samples, int x, int y,
+                   int width, int height, ExrScratch *scratch, const ExrSums *sums)
+{
+    float *row = scratch->row;
+
     for (int line = 0; line < height; line++) {
         uint32_t *crc = sums ? sums->crc[(y + line - sums->top) / sums->lines] : NULL;
         for (int c = 0; c < plan->nchannels; c++) {
             const size_t plane = (size_t)width * exr_channel_bytes(&plan->channels[c]);
             const int slot = plan->slot[c];
+            if (slot >= 0 && !are_allowed(plan, c, samples, width, &scratch->odd)) {
+                scratch->odd.x += x;
+                scratch->odd.y = y + line;
+                return 0;
+            }
             if (slot >= 0 && crc)
                 crc[slot] = retex_crc32(crc[slot], samples, plane);
             if (slot >= 0 && image) {
@@ -138,6 +170,7 @@ static void deliver(const ExrPlan *plan, RetexImage *image, int top, const unsig
             samples += plane;
         }
     }
+    return 1;
 }
 
 exr_result_t exr_chunk_read(RetexExr *exr, const ExrPlan *plan, int column, int row, RetexImage *image, int top,
@@ -160,8 +193,8 @@ exr_result_t exr_chunk_read(RetexExr *exr, const ExrPlan *plan, int column, int 
         code = chunk_samples(exr, plan, &chunk, scratch, &samples);
     if (!code && !need((void **)&scratch->row, &scratch->row_count, (size_t)width, sizeof(float)))
         code = EXR_ERR_OUT_OF_MEMORY;
-    if (!code)
-        deliver(plan, image, top, samples, x, y, width, height, scratch->row, sums);
+    if (!code && !deliver(plan, image, top, samples, x, y, width, height, scratch, sums))
+        code = EXR_ODD_NUMBER;
     return code;
 }
 

@@ -34,16 +34,25 @@ typedef struct ExrSums {
     int top, lines;
 } ExrSums;
 
+/* What exr_chunk_read says of a value that is not allowed; Core has no code for it. */
+#define EXR_ODD_NUMBER ((exr_result_t)1000)
+typedef struct ExrOddNumber {
+    int x, y, channel; /* in the part, and among its channels */
+    float value;
+} ExrOddNumber;
+
 /* Of one thread. */
 typedef struct ExrScratch {
     RetexZip zip;
     unsigned char *packed, *raw;
     float *row;
     size_t packed_bytes, raw_bytes, row_count;
+    ExrOddNumber odd;
 } ExrScratch;
 
 void exr_data_window(const RetexExr *exr, int part, exr_attr_box2i_t *window); /* empty where there is none */
 int exr_fail(RetexExr *exr, exr_result_t code, RetexError *err);
+int exr_fail_number(const RetexExr *exr, int part, const ExrOddNumber *odd, RetexError *err);
 
 /* Find out how to meet a request, which plan borrows. */
 int exr_plan_open(RetexExr *exr, ExrPlan *plan, RetexExrRequest *request, RetexError *err);

@@ -12,6 +12,7 @@
 #include "color_tag.h"
 #include "exr_chunk.h"
 #include "input.h"
+#include "numbers.h"
 
 enum {
     RETEX_EXR_PARTS_MAX = 2048,
@@ -83,6 +84,7 @@ typedef struct RetexExrRequest {
     uint32_t crc;
     uint32_t expected;     /* what crc should be; for the caller, and for exr_source.c, which also looks at */
     const uint32_t *bands; /* borrowed: as of retex_exr_band_crcs; NULL: not known */
+    RetexNumbers allowed; /* other values make the reading fail; default: any */
     int damaged;       /* 1: this is the part that made the reading fail */
 } RetexExrRequest;
 

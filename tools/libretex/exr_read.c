@@ -246,6 +246,7 @@ typedef struct DecodeWork {
     Job *jobs;
     ExrScratch *scratch; /* one a thread */
     atomic_int code;     /* the first failure, exr_result_t */
+    ExrOddNumber odd;    /* of it, where it is that */
 } DecodeWork;
 
 static void read_chunks(DecodeWork *work, Job *job, const ExrSums *sums, int thread)
@@ -258,8 +259,10 @@ static void read_chunks(DecodeWork *work, Job *job, const ExrSums *sums, int thr
                                                      sums, &work->scratch[thread]);
             if (code) {
                 int none = 0;
-                if (atomic_compare_exchange_strong(&work->code, &none, code))
+                if (atomic_compare_exchange_strong(&work->code, &none, code)) {
                     job->plan->request->damaged = 1;
+                    work->odd = work->scratch[thread].odd;
+                }
                 return;
             }
         }
@@ -336,13 +339,17 @@ static void combine_crcs(const Job *jobs, int njobs)
 }
 
 /* The failure of a chunk, with the name of its part. */
-static int fail_chunk(RetexExr *exr, const ExrPlan *plans, int nplans, exr_result_t code, RetexError *err)
+static int fail_chunk(RetexExr *exr, const ExrPlan *plans, int nplans, exr_result_t code, const ExrOddNumber *odd,
+                      RetexError *err)
 {
     const char *name = NULL;
 
     for (int i = 0; i < nplans; i++)
-        if (plans[i].request->damaged)
+        if (plans[i].request->damaged) {
+            if (code == EXR_ODD_NUMBER)
+                return exr_fail_number(exr, plans[i].request->part, odd, err);
             exr_get_name(exr->context, plans[i].request->part, &name);
+        }
     if (code != EXR_ERR_OUT_OF_MEMORY && name)
         return retex_fail(err, RETEX_EFORMAT, "%s: part %s is damaged or truncated: %s", retex_input_name(exr->input),
                           name, exr->message.text[0] ? exr->message.text : exr_get_default_error_message(code));
@@ -351,7 +358,7 @@ static int fail_chunk(RetexExr *exr, const ExrPlan *plans, int nplans, exr_resul
 
 static int run_jobs(RetexExr *exr, ExrPlan *plans, int nplans, int nthreads, RetexError *err)
 {
-    DecodeWork work = {exr, NULL, NULL, 0};
+    DecodeWork work = {.exr = exr};
     int njobs = 0;
 
     nthreads = retex_threads(nthreads);
@@ -368,7 +375,7 @@ static int run_jobs(RetexExr *exr, ExrPlan *plans, int nplans, int nthreads, Ret
         exr_scratch_free(&work.scratch[i]);
     free(work.scratch);
     free(work.jobs);
-    return code ? fail_chunk(exr, plans, nplans, code, err) : 0;
+    return code ? fail_chunk(exr, plans, nplans, code, &work.odd, err) : 0;
 }
 
 int retex_exr_read(RetexExr *exr, RetexExrRequest *requests, int nrequests, int nthreads, RetexError *err)

@@ -179,8 +179,11 @@ static int is_lit(const RetexImage *image, int y)
     return 0;
 }
 
-static int fail_chunk(const ExrSource *source, const ExrPlan *plan, exr_result_t result, RetexError *err)
+static int fail_chunk(const ExrReader *reader, const ExrPlan *plan, exr_result_t result, RetexError *err)
 {
+    const ExrSource *source = reader->source;
+    if (result == EXR_ODD_NUMBER)
+        return exr_fail_number(source->parts.exr, plan->request->part, &reader->scratch.odd, err);
     return result == EXR_ERR_OUT_OF_MEMORY ? exr_fail(source->parts.exr, result, err)
                                            : retex_fail(err, RETEX_EFORMAT, "%s: part %s is damaged or truncated",
                                                         retex_input_name(source->parts.input),
@@ -209,7 +212,7 @@ static int read_strip(ExrReader *reader, int part, int number, RetexError *err)
                 exr_chunk_read(source->parts.exr, plan, column, y / plan->chunk_height, &strip->image, y0,
                                bands ? &strip->sums : NULL, &reader->scratch);
             if (result)
-                return fail_chunk(source, plan, result, err);
+                return fail_chunk(reader, plan, result, err);
         }
     if (bands)
         code = check_bands(source, part, &strip->sums, y0, y1, err);

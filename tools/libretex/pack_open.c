@@ -10,6 +10,7 @@
 #include "checksum.h"
 #include "exr_io.h"
 #include "manifest.h"
+#include "numbers.h"
 #include "pack_v1.h"
 
 int pack_damaged(RetexError *err, const char *what, const char *name)
@@ -215,6 +216,8 @@ static int read_row(void *reader, int part, int y, const float **row, RowSpan *s
     RetexPackScratch *scratch = reader;
     const RetexPack *pack = pack_decoded_by(scratch);
     int code = retex_pack_row(scratch, part, y, row, span, err);
+    if (!code && *row)
+        code = retex_numbers_check_row(&pack->set->parts[part], *row, span->begin, span->end, y, err);
     if (code && err && !err->file[0])
         snprintf(err->file, sizeof err->file, "%s", retex_input_name(pack->input));
     return code;

@@ -241,6 +241,8 @@ static int read_items(Item *items, RetexSet *set, const RetexInput *input, const
     for (int i = 0; !code && i < set->nparts; i++)
         if (items[i].code)
             code = retex_fail(err, items[i].code, "%s", items[i].err.message);
+    for (int i = 0; !code && i < set->nparts; i++)
+        code = retex_numbers_check_part(&set->parts[i], err);
     return code;
 }
 

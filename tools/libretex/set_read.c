@@ -102,6 +102,7 @@ static int request_part(Source *source, const char *name, const char *letters, R
     request->with_crc = 1;
     request->expected = crc;
     request->bands = source->sums.of[index];
+    request->allowed = retex_numbers_of_part(name);
     source->nrequests++;
     const uint64_t count = (uint64_t)width * (uint64_t)height * strlen(letters);
     source->memory_bytes += count * sizeof(float);

@@ -215,7 +215,7 @@ typedef struct RetexStoreParams {
 /* Read a set, samples, or the stream of both that retex-sample writes to a pipe; from a file or "-". *.retex packs are
  * recognised by content. What the file does not hold comes back NULL; either out-parameter may be NULL when it is not
  * wanted (its parts are skipped). A file that holds nothing wanted is RETEX_EFORMAT, and so is one where a checksum of
- * what is read is wrong. */
+ * what is read is wrong, or a value is not finite; the part "depth" alone may be infinite. */
 int retex_set_read(const char *path, RetexSet **set, RetexSamples **samples, int nthreads, RetexError *err);
 
 /* As retex_set_read, but the set's parts and the samples stay in the file until they are taken from there row by row,
