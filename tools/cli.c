@@ -332,6 +332,14 @@ void cli_surplus(const Cli *cli, const char *problem)
 
 /* --- messages --- */
 
+char *cli_plain(char *text)
+{
+    for (char *c = text; *c; c++)
+        if ((unsigned char)*c < 32 || *c == 127)
+            *c = '?';
+    return text;
+}
+
 /* One line to stderr. What users' files are called and hold appears in messages: control characters would let them
  * write over the terminal. */
 static void message(const Cli *cli, const char *kind, const char *text)

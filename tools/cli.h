@@ -63,6 +63,10 @@ _Noreturn void cli_surplus(const Cli *cli, const char *problem);
 /* That option, as in "; is -o x.png meant?", or "". */
 const char *cli_forgotten(const Cli *cli, const char *word, char *text, size_t size);
 
+/* Text out of somebody's file, to be printed: its control characters, which a terminal would obey, become '?', in
+ * place. */
+char *cli_plain(char *text);
+
 /* The output file: -o if given; else "-" when standard output is not a terminal; else an error that says so (pixels are
  * never written to a terminal, `-o -` and /dev/tty included). */
 const char *cli_output(const Cli *cli);

@@ -130,9 +130,10 @@ static void print_json(const RetexDiff *diff, int all_parts)
 }
 
 /* One line a part: figures, and why it differs. */
-static void print_line(const RetexDiffPart *part, int name)
+static void print_line(RetexDiffPart *part, int name)
 {
     const RetexMetrics *m = &part->metrics;
+    cli_plain(part->name), cli_plain(part->worst_channel), cli_plain(part->reason);
     if (name)
         printf("%s: ", part->name);
     if (part->compared && part->has_color)
@@ -175,7 +176,7 @@ int main(int argc, char **argv)
     for (int i = 0; !json && !cli.quiet && i < diff->nparts; i++)
         print_line(&diff->parts[i], params.all_parts);
     if (!json && !cli.quiet && differs && (!diff->nparts || params.all_parts))
-        printf("%s\n", diff->reason);
+        printf("%s\n", cli_plain(diff->reason));
     retex_diff_close(&diff);
     return cli_close(&cli, differs ? CLI_NO : CLI_OK);
 }

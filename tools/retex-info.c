@@ -232,6 +232,17 @@ static int print_json(const Cli *cli, const RetexSet *set, const RetexSamples *s
     return CLI_OK;
 }
 
+/* What strangers' files are called in is shown on terminals. */
+static void make_plain(RetexSet *set, RetexSamples *samples)
+{
+    for (int i = 0; set && i < set->ntargets; i++)
+        cli_plain(set->targets[i].name), cli_plain(set->targets[i].idents);
+    if (set)
+        cli_plain(set->scene), cli_plain(set->generator), cli_plain(set->filter);
+    for (int i = 0; samples && i < samples->ntargets; i++)
+        cli_plain(samples->target_names[i]), cli_plain(samples->textures[i]);
+}
+
 static int print_info(const Cli *cli, const char *path, int json)
 {
     RetexSet *set = NULL;
@@ -242,10 +253,12 @@ static int print_info(const Cli *cli, const char *path, int json)
     if (retex_set_open(path, &set, &samples, cli->threads, &error))
         cli_fail(cli, &error);
     const Sizes sizes = measure(path, set, samples);
-    if (json)
+    if (json) {
         status = print_json(cli, set, samples, &sizes);
-    else
+    } else {
+        make_plain(set, samples);
         print_text(set, samples, &sizes);
+    }
     if (set)
         warn_folded(cli, set);
     retex_set_close(&set);

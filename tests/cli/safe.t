@@ -84,6 +84,10 @@ $ for safe in '' 0 1 yes; do RETEX_SAFE=$safe retex-render -q --plain --spp 1 --
 # What a scene writes stays in memory.
 $ printf '#fopen F "written.inc" write\n#write(F, "#declare Radius = 1;")\n#fclose F\n#include "written.inc"\nsphere { 0, Radius }\nbackground { rgb 1 }\n' >a/b/write.pov; retex-render --safe -q --plain --spp 1 --size 8x8 a/b/write.pov -o x.exr; ls a/b/written.inc written.inc 2>/dev/null
 = 2
+# No colour space is a file.
+$ retex-render --safe -q --plain --spp 1 --size 8x8 --replace:colorspace=/etc/passwd Floor=a/up.png "$SCENES/cornell-box/cornell-box.pov" -o x.exr
+! retex-render: error: a/up.png: no colour space is called '/etc/passwd'; there are Linear Rec.709, sRGB, Rec709, ACES2065-1, ACEScg, ACEScct, raw
+= 2
 # What it says does not fill the log of a service: 64 KiB, and a line that there was more.
 $ printf 'background { rgb 1 }\nbox { -1, 1 }\n#for (I, 1, 10000)\n#warning "%s"\n#debug "abc\\n"\n#end\n' "$(printf '%0100d' 0)" >a/b/loud.pov; for o in '--safe' '--safe -v' ''; do retex-render $o --plain --spp 1 --size 8x8 a/b/loud.pov -o x.exr 2>&1 | grep -v 8x8 >log; wc -c <log; tail -1 log; done
 > 70631
@@ -169,3 +173,7 @@ $ retex-sample --safe -q s.exr --texture floor=t.png | retex-combine --safe -q -
 ! retex-diff: error: t.ppm: no PNG, JPEG, OpenEXR, TIFF, TGA, BMP, GIF or Radiance HDR by what is in it: others are not read (--safe)
 ! retex-diff: error: pipe.pov is a folder, a device or a pipe: only files are read (--safe)
 = 2
+
+# What a stranger's set or picture holds does not reach the terminal as it is.
+$ n="$(printf 'a\033[2J.pov')"; printf 'box { -1, 1 }\nbackground { rgb 1 }\n' >"$n"; retex-render -q --spp 1 --size 8x8 --aov depth "$n" -o n.exr; retex-info n.exr | grep scene | cat -v
+> scene          a?[2J.pov

@@ -44,3 +44,9 @@ $ for f in 'pipe.pov?spp=1' 'pipe.retex?Floor=t.png'; do RETEX_SAFE=1 timeout 20
 ! iinfo ERROR: "in/pipe.pov?spp=1" : in/pipe.pov is a folder, a device or a pipe: only files are read (--safe)
 ! iinfo ERROR: "in/pipe.retex?Floor=t.png" : in/pipe.retex is a folder, a device or a pipe: only files are read (--safe)
 = 1
+
+# What a picture's parts are called does not reach the terminal as it is.
+$ oiiotool in/t.png --attrib oiio:subimagename "$(printf 'a\033[2J')" in/t.png --attrib oiio:subimagename b --siappend -d half -o names.exr; retex-diff --all-parts names.exr names.exr | cat -v; retex-diff --all-parts names.exr in/t.png | cat -v
+> a?[2J: psnr 120.00 relmse 0 mae 0 flip 0 (p99 0) max 0 rel 0 at 0,0 B
+> b: psnr 120.00 relmse 0 mae 0 flip 0 (p99 0) max 0 rel 0 at 0,0 B
+> part 'a?[2J' is missing in the second
