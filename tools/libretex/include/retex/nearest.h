@@ -15,8 +15,8 @@ int retex_word_distance(const char *a, const char *b);
 int retex_word_tolerance(const char *word);
 
 /* Begin with {word, NULL, 0}; then try all candidates. best is that of least distance within the tolerance, or one
- * that begins with the word, of which at least three letters are there; the first in the alphabet of several; NULL where
- * none is. */
+ * that begins with the word, of which at least three letters are there; the first in the alphabet of several; NULL
+ * where none is. */
 typedef struct RetexNearest {
     const char *word, *best; /* borrowed */
     int distance;            /* of best */
