@@ -249,8 +249,6 @@ int main(int argc, char **argv)
         read_rows(&a, rows);
     if (output)
         check_output(&a, output), check_stats(&a);
-    if (a.aov_dir && guides_check(a.aov_dir, &err))
-        cli_die(&cli, "--aov-dir: %s", err.message);
     if (a.control)
         read_control(&a);
     /* a set keeps it for later, but packs leave it out, and a picture without targets can only be filtered here */
@@ -261,6 +259,8 @@ int main(int argc, char **argv)
     if (job_open_scene(&scene, a.scene, &a.sdl, a.targets, a.ntargets, &err))
         cli_fail(&cli, &err);
     announce_files_of_scene(&a, scene);
+    if (a.aov_dir && guides_check(a.aov_dir, &err))
+        cli_die(&cli, "--aov-dir: %s", err.message);
     if (!a.list)
         job_warn_dark(scene, &a.sdl);
     check_targets(&a, scene);

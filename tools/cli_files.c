@@ -89,12 +89,23 @@ static int find_missing(Place *place, const char *text)
     }
 }
 
+/* Standard input or output, whichever way it is written. */
+static int is_standard(const char *path, int written)
+{
+    static const char *const names[2][3] = {{"/dev/stdin", "/dev/fd/0", "/proc/self/fd/0"},
+                                            {"/dev/stdout", "/dev/fd/1", "/proc/self/fd/1"}};
+    for (int k = 0; k < 3; k++)
+        if (strcmp(path, names[written][k]) == 0)
+            return 1;
+    return strcmp(path, "-") == 0;
+}
+
 /* 0: a device, a pipe, a folder, or no path that could be opened: nothing that can be overwritten. */
 static int find_place(Place *place, const char *path, int written)
 {
     struct stat info;
     place->name[0] = '\0';
-    int standard = strcmp(path, "-") == 0;
+    int standard = is_standard(path, written);
     if (!path[0] || strlen(path) >= PATH_MAX)
         return 0;
     if (standard ? fstat(written ? STDOUT_FILENO : STDIN_FILENO, &info) : stat(path, &info))
@@ -177,7 +188,7 @@ static int conflict(const File *old, const char *what, const char *path, int wri
 static int add_file(const char *what, const char *path, int written, RetexError *err)
 {
     Place place;
-    int code = path && strcmp(path, "-") == 0 ? add_standard(what, written, err) : RETEX_OK;
+    int code = path && is_standard(path, written) ? add_standard(what, written, err) : RETEX_OK;
     if (code || !path || !find_place(&place, path, written))
         return code;
     if (!grow())

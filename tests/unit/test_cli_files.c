@@ -95,6 +95,9 @@ static void test_standard_streams(void **state)
     assert_int_equal(refused("-", 0, "-", 0), 1);
     assert_int_equal(refused("-", 1, "-", 1), 1);
     assert_int_equal(refused("-", 0, "-", 1), 0);
+    assert_int_equal(refused("/dev/stdin", 0, "-", 0), 1);
+    assert_int_equal(refused("-", 1, "/dev/stdout", 1), 1);
+    assert_int_equal(refused("/dev/stdin", 0, "/proc/self/fd/1", 1), 0);
     assert_int_equal(refused(NULL, 0, NULL, 1), 0);
 }
 
