@@ -2,10 +2,12 @@
  *
  * EXR goes through OpenEXRCore, which starts in 2 ms; every other format, and what Core cannot decode, through the
  * bridge, which loads OpenImageIO. */
+#include <errno.h>
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/mman.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <retex/image.h>
@@ -311,6 +313,66 @@ int retex_image_read_with(RetexImage *dst, const char *path, const RetexReadPara
     int status = retex_input_open_allowed(&input, path, params.access, err);
     if (!status)
         status = read_open(dst, input, path, &params, err);
+    retex_input_close(&input);
+    return status;
+}
+
+/* Whether the bridge reads a file, by its beginning: no picture is read that has more than one pixel. */
+static int bridge_check(RetexBridgeFile file, RetexError *err)
+{
+    RetexImage image = {0};
+    RetexError error = {0};
+
+    file.max_pixels = 1;
+    const int status = retex_bridge_read(&image, &file, &error);
+    retex_image_free(&image);
+    if (status && status != RETEX_ELIMIT && err)
+        *err = error;
+    return status == RETEX_ELIMIT ? 0 : status;
+}
+
+/* 0 where the header of an EXR is one that can be read, here or by the bridge. */
+static int check_exr(RetexInput *input, const RetexBridgeFile *file, RetexError *err)
+{
+    RetexExr *exr = NULL;
+    RetexExrRequest request = {.part = 0};
+    const char *reason;
+    int grey, status = retex_exr_open(&exr, input, err);
+    const int own = !status && retex_exr_part_readable(exr, 0, &reason) && choose_channels(exr, &request, &grey);
+
+    retex_exr_close(&exr);
+    return own || status ? status : bridge_check(*file, err);
+}
+
+static int check_open(RetexInput *input, const char *path, const RetexReadParams *params, RetexError *err)
+{
+    RetexBridgeFile file;
+    unsigned char begin[3];
+    const int status = choose_decoder(&file, input, path, params, err);
+
+    if (status)
+        return status;
+    if (retex_exr_probe(input))
+        return check_exr(input, &file, err);
+    const int jpeg =
+        retex_input_read(input, begin, sizeof begin, 0) == sizeof begin && memcmp(begin, "\xff\xd8\xff", 3) == 0;
+    return jpeg ? 0 : bridge_check(file, err);
+}
+
+int retex_image_read_check(const char *path, const RetexReadParams *given, RetexError *err)
+{
+    const RetexReadParams params = understand(given);
+    const int safe = params.access && params.access->safe;
+    RetexInput *input = NULL;
+    struct stat info;
+
+    if (strcmp(path, "-") == 0)
+        return 0;
+    if (!safe && stat(path, &info) == 0 && !S_ISREG(info.st_mode) && !S_ISDIR(info.st_mode))
+        return access(path, R_OK) == 0 ? 0 : retex_fail(err, RETEX_EIO, "cannot read %s: %s", path, strerror(errno));
+    int status = retex_input_open_allowed(&input, path, params.access, err);
+    if (!status)
+        status = check_open(input, path, &params, err);
     retex_input_close(&input);
     return status;
 }

@@ -76,15 +76,22 @@ static RetexWriteParams complete(const RetexWriteParams *given)
     return params;
 }
 
+int retex_image_format_check(const char *path, const RetexWriteParams *given, RetexError *err)
+{
+    const RetexWriteParams params = complete(given);
+    const int status = check_params(path, &params, err);
+    if (status || is_linear_exr(path, &params) || (own_format(path) && has_own_colors(&params)))
+        return status;
+    return retex_bridge_check(path, &params, err);
+}
+
 int retex_image_write_check(const char *path, const RetexWriteParams *given, RetexError *err)
 {
-    const RetexWriteParams complete_params = complete(given), *params = &complete_params;
-    int status = check_params(path, params, err);
+    const RetexWriteParams params = complete(given);
+    int status = check_params(path, &params, err);
     if (!status)
         status = retex_output_check(path, err);
-    if (status || is_linear_exr(path, params) || (own_format(path) && has_own_colors(params)))
-        return status;
-    return retex_bridge_check(path, params, err);
+    return status ? status : retex_image_format_check(path, given, err);
 }
 
 /* --- beginning --- */

@@ -62,6 +62,10 @@ typedef struct RetexReadParams {
 
 int retex_image_read_with(RetexImage *dst, const char *path, const RetexReadParams *params /* NULL = defaults */,
                           RetexError *err);
+/* Whether retex_image_read_with could read it, as far as the file's beginning tells: it is there, may be read, and is a
+ * picture. Colour spaces are not looked at, of what is no regular file nothing is read, nor of "-". For before long
+ * work. */
+int retex_image_read_check(const char *path, const RetexReadParams *params /* NULL = defaults */, RetexError *err);
 
 /* How a picture leaves. Begin with RETEX_WRITE_INIT. */
 typedef struct RetexWriteParams {
@@ -85,6 +89,9 @@ int retex_image_write(const RetexImage *src, const char *path, const RetexWriteP
 /* Whether retex_image_write could write there, as far as one can tell without doing it: a format of that ending, a
  * folder that takes files, a known display, view or colour space. For before the work that makes the picture. */
 int retex_image_write_check(const char *path, const RetexWriteParams *params /* NULL = defaults */, RetexError *err);
+
+/* The same without looking at the folder, which need not be there yet. */
+int retex_image_format_check(const char *path, const RetexWriteParams *params /* NULL = defaults */, RetexError *err);
 
 /* Write a file of any kind as all outputs here are: under a temporary name, renamed when complete; or to "-". */
 int retex_file_write(const char *path, const void *data, size_t bytes, RetexError *err);
