@@ -40,7 +40,8 @@ enum {
     OPT_SHARD,
     OPT_MERGE,
     OPT_STATS,
-    OPT_TRACE
+    OPT_TRACE,
+    OPT_PROGRESS
 };
 
 static const CliOption options[] = {
@@ -91,6 +92,8 @@ static const CliOption options[] = {
     [OPT_MERGE] = {"merge", 0, "FILE", "put together what all shards of this render left; repeatable", 0},
     [OPT_STATS] = {"stats", 0, "FILE.json", "write times, rays, paths and memory; - is standard output", 0},
     [OPT_TRACE] = {"trace-pixel", 0, "X,Y,S", "print the path of sample S of a pixel, step by step, and stop", 0},
+    [OPT_PROGRESS] = CLI_PROGRESS_OPTION,
+    BATCH_OPTIONS,
     {0},
 };
 
@@ -139,6 +142,8 @@ static void parse_option(Arguments *a, const CliOption *o)
     RenderParams *r = &a->render;
     RetexError err;
     int size[2];
+    if (batch_option(&a->batch, cli, o))
+        return;
     switch (o - options) {
     case OPT_TARGET:
         push(cli, a->targets, &a->ntargets, o->name);
@@ -197,6 +202,9 @@ static void parse_option(Arguments *a, const CliOption *o)
     case OPT_TRACE:
         numbers(cli, o, ',', 3, a->trace);
         a->tracing = 1;
+        break;
+    case OPT_PROGRESS:
+        cli_take_progress(cli);
         break;
     default:
         a->seeded |= o == &options[OPT_SEED];
@@ -304,12 +312,14 @@ void parse_arguments(Arguments *a)
     if (!a->render.sharp)
         a->render.sharp = defaults.sharp;
     if (a->variants)
-        texture_table_open(&a->table, cli, a->variants);
+        batch_open(&a->batch, cli, a->variants);
+    else
+        batch_check_options(&a->batch, cli, "variants");
     if ((a->nreplacements || a->variants) && !a->ntargets) { /* replacing names the targets */
         for (int k = 0; k < a->nreplacements; k++)
             a->targets[a->ntargets++] = a->replacements[k].target;
-        for (int k = 0; k < a->table.ncolumns; k++)
-            add_target(a, a->table.columns[k]);
+        for (int k = 0; k < a->batch.table.ncolumns; k++)
+            add_target(a, a->batch.table.columns[k]);
     }
     if (a->nreplacements || a->variants)
         a->render.plain = 1;

@@ -17,15 +17,13 @@ static int find_target(const Scene *scene, const char *name)
     return count == 1 ? found : -1;
 }
 
-static _Noreturn void fail_target(const Arguments *a, const Scene *scene, const char *option, const char *name)
+/* Of a name that is no target: what was probably meant, or what would help. */
+static const char *target_meant(const Scene *scene, const char *name, char meant[RETEX_MEANT_SIZE])
 {
-    char meant[RETEX_MEANT_SIZE];
     RetexNearest nearest = {name, NULL, 0};
     for (int k = 0; k < scene->ntargets; k++)
         retex_nearest_try(&nearest, scene->targets[k].name);
-    if (nearest.best)
-        cli_die(a->cli, "--%s: `%s` is no target%s", option, name, retex_meant(nearest.best, meant));
-    cli_die(a->cli, "--%s: `%s` is no target: name it with -t", option, name);
+    return nearest.best ? retex_meant(nearest.best, meant) : "; name it with -t";
 }
 
 /* Load a texture for target t; one that is asked for by its width needs the scale of the target's UV. */
@@ -44,10 +42,12 @@ static int load_texture(Arguments *a, const Scene *scene, int t, RetexTextureSpe
 void replace_textures(Arguments *a, const Scene *scene, RetexTexture **loaded)
 {
     RetexError err;
+    char meant[RETEX_MEANT_SIZE];
     for (int k = 0; k < a->nreplacements; k++) {
-        int t = find_target(scene, a->replacements[k].target);
+        const char *name = a->replacements[k].target;
+        int t = find_target(scene, name);
         if (t < 0)
-            fail_target(a, scene, "replace", a->replacements[k].target);
+            cli_die(a->cli, "--replace: `%s` is no target%s", name, target_meant(scene, name, meant));
         if (a->replaced.textures[t])
             cli_die(a->cli, "--replace: `%s` is replaced twice", a->replacements[k].target);
         if (load_texture(a, scene, t, &a->replacements[k], &loaded[k], &err))
@@ -59,70 +59,154 @@ void replace_textures(Arguments *a, const Scene *scene, RetexTexture **loaded)
 
 /* ---- --variants ---- */
 
-void read_rows(Arguments *a, VariantRows *rows)
+/* The pictures of one traversal. */
+typedef struct Variants {
+    int count;
+    int rows[VARIANTS_MAX]; /* of the table */
+    RetexTexture *loaded[VARIANTS_MAX][RETEX_MAX_TARGETS];
+    RenderVariant variants[VARIANTS_MAX];
+    RetexImage pictures[VARIANTS_MAX];
+} Variants;
+
+static void close_variant(Variants *v, int k)
 {
-    RetexError err;
-    rows->count = 0;
-    for (int k; (k = rows->count) < VARIANTS_MAX; rows->count++) {
-        if (!texture_table_row(&a->table, a->cli, &rows->outputs[k], rows->specs[k], &rows->nspecs[k]))
-            return;
-        rows->lines[k] = a->table.row_line;
-        if (retex_image_write_check(rows->outputs[k], NULL, &err))
-            texture_table_fail_picture(&a->table, a->cli, &err);
-    }
+    retex_textures_close(v->loaded[k]);
+    retex_image_free(&v->pictures[k]);
 }
 
-static void render_rows(Arguments *a, const Scene *scene, VariantRows *rows)
+/* What a row puts on its targets, and what --replace does where it says nothing. */
+static int load_variant(Arguments *a, const Scene *scene, Variants *v, int row, RetexError *err)
 {
-    RenderVariant variants[VARIANTS_MAX];
-    RetexTexture *loaded[VARIANTS_MAX][RETEX_MAX_TARGETS] = {{NULL}};
-    RetexImage pictures[VARIANTS_MAX] = {{0}};
+    RetexTextureSpec specs[RETEX_MAX_TARGETS];
+    const int k = v->count, count = texture_table_textures(&a->batch.table, row, specs);
+    int code = RETEX_OK;
+    v->rows[k] = row;
+    v->variants[k] = a->replaced;
+    for (int i = 0; i < count && !code; i++) {
+        int t = find_target(scene, specs[i].target);
+        code = load_texture(a, scene, t, &specs[i], &v->loaded[k][t], err);
+        v->variants[k].textures[t] = v->loaded[k][t];
+    }
+    if (code)
+        close_variant(v, k);
+    else
+        v->count++;
+    return code;
+}
+
+static int write_variant(Arguments *a, Variants *v, int k, RetexError *err)
+{
+    char path[PATH_MAX];
+    int code = batch_output(&a->batch, v->rows[k], path, err);
+    return code ? code : retex_image_write(&v->pictures[k], path, NULL, err);
+}
+
+/* Render and write what is loaded; began: since then it took. 0: the batch ends here. */
+static int render_loaded(Arguments *a, const Scene *scene, Variants *v, double began)
+{
     RenderStats stats;
-    RetexError err;
-    for (int k = 0; k < rows->count; k++) {
-        variants[k] = a->replaced;
-        a->table.row_line = rows->lines[k];
-        for (int j = 0; j < rows->nspecs[k]; j++) {
-            int t = find_target(scene, rows->specs[k][j].target);
-            if (load_texture(a, scene, t, &rows->specs[k][j], &loaded[k][j], &err))
-                texture_table_fail_picture(&a->table, a->cli, &err);
-            variants[k].textures[t] = loaded[k][j];
-        }
+    RetexError err = {0};
+    int go_on = 1;
+    a->render.variants = v->variants, a->render.nvariants = v->count;
+    const int failed = render_variants(v->pictures, scene, &a->render, &stats, &err);
+    const double share = (texture_args_now() - began) / v->count;
+    for (int k = 0; k < v->count && go_on; k++) {
+        const double wrote = texture_args_now();
+        const int unwritten = failed ? failed : write_variant(a, v, k, &err);
+        go_on = batch_done(&a->batch, v->rows[k], share + texture_args_now() - wrote, unwritten ? &err : NULL);
+        retex_image_free(&v->pictures[k]);
     }
-    a->render.variants = variants, a->render.nvariants = rows->count;
-    if (render_variants(pictures, scene, &a->render, &stats, &err))
-        cli_fail(a->cli, &err);
-    for (int k = 0; k < rows->count; k++) {
-        a->table.row_line = rows->lines[k];
-        if (retex_image_write(&pictures[k], rows->outputs[k], NULL, &err))
-            texture_table_fail_picture(&a->table, a->cli, &err);
-        retex_image_free(&pictures[k]);
-        for (int j = 0; j < rows->nspecs[k]; j++)
-            retex_texture_close(&loaded[k][j]);
-    }
-    cli_info(a->cli, "%d picture%s, %d samples: %.2f s", rows->count, rows->count == 1 ? "" : "s", a->render.spp,
-             stats.render_seconds);
+    if (failed)
+        return go_on;
+    if (!a->cli->json_progress)
+        cli_info(a->cli, "%d picture%s, %d samples: %.2f s", v->count, v->count == 1 ? "" : "s", a->render.spp,
+                 stats.render_seconds);
     if (stats.dropped)
         cli_warn(a->cli, "%ld contributions were not finite and left out", stats.dropped);
+    return go_on;
 }
 
-void render_table(Arguments *a, const Scene *scene, VariantRows *rows)
+static void render_table(Arguments *a, const Scene *scene, Variants *v)
 {
-    for (; rows->count > 0; read_rows(a, rows))
-        render_rows(a, scene, rows);
-    texture_table_close(&a->table);
-}
-
-void check_columns(Arguments *a, const Scene *scene)
-{
-    int taken[RETEX_MAX_TARGETS] = {0};
-    for (int k = 0; k < a->table.ncolumns; k++) {
-        int t = find_target(scene, a->table.columns[k]);
-        if (t < 0)
-            fail_target(a, scene, "variants", a->table.columns[k]);
-        if (taken[t]++)
-            cli_die(a->cli, "--variants: target `%s` has two columns", a->table.columns[k]);
+    int go_on = 1;
+    for (int row = 0; row < a->batch.table.nrows && go_on;) {
+        const double began = texture_args_now();
+        *v = (Variants){.count = 0};
+        for (; row < a->batch.table.nrows && v->count < VARIANTS_MAX && go_on; row++) {
+            RetexError err = {0};
+            if (load_variant(a, scene, v, row, &err))
+                go_on = batch_done(&a->batch, row, 0, &err);
+        }
+        if (v->count && go_on)
+            go_on = render_loaded(a, scene, v, began);
+        for (int k = 0; k < v->count; k++)
+            close_variant(v, k);
     }
+}
+
+static int describe_row(void *context, const RetexTextureSpec *specs, int count,
+                        BatchTexture textures[RETEX_MAX_TARGETS])
+{
+    const Arguments *a = context;
+    for (int i = 0; i < count; i++) {
+        textures[i].target = specs[i].target;
+        texture_args_name(&specs[i], textures[i].texture, sizeof textures[i].texture);
+    }
+    for (int k = 0; k < a->nreplacements; k++) {
+        int i = 0;
+        while (i < count && strcasecmp(textures[i].target, a->replacements[k].target) != 0)
+            i++;
+        if (i < count)
+            continue;
+        textures[count].target = a->replacements[k].target;
+        texture_args_name(&a->replacements[k], textures[count].texture, sizeof textures[count].texture);
+        count++;
+    }
+    return count;
+}
+
+void check_table(Arguments *a)
+{
+    a->batch.tool = (BatchTool){a, NULL, describe_row};
+    batch_check(&a->batch, NULL);
+    batch_refuse_mistakes(&a->batch);
+}
+
+static void check_columns(Arguments *a, const Scene *scene)
+{
+    TextureTable *table = &a->batch.table;
+    int taken[RETEX_MAX_TARGETS] = {0};
+    char meant[RETEX_MEANT_SIZE], known[RETEX_MAX_TARGETS * (RETEX_NAME_MAX + 2)] = "";
+    for (int t = 0; t < scene->ntargets; t++)
+        snprintf(known + strlen(known), sizeof known - strlen(known), "%s%s", t ? ", " : "", scene->targets[t].name);
+    for (int k = 0; k < table->ncolumns; k++) {
+        const char *name = table->columns[k];
+        int t = find_target(scene, name);
+        if (t < 0)
+            texture_table_mistake(table, 1, "`%s` is no target, there are: %s%s", name, known,
+                                  target_meant(scene, name, meant));
+        else if (taken[t]++)
+            texture_table_mistake(table, 1, "target `%s` has two columns", name);
+    }
+    batch_refuse_mistakes(&a->batch);
+}
+
+int make_variants(Arguments *a, const Scene *scene)
+{
+    RetexError err = {0};
+    check_columns(a, scene);
+    if (a->batch.dry_run) {
+        batch_print(&a->batch);
+        return batch_finish(&a->batch, NULL);
+    }
+    Variants *v = calloc(1, sizeof *v);
+    if (!v) {
+        retex_fail(&err, RETEX_ENOMEM, "out of memory");
+        return batch_finish(&a->batch, &err);
+    }
+    render_table(a, scene, v);
+    free(v);
+    return batch_finish(&a->batch, NULL);
 }
 
 /* ---- --control ---- */

@@ -62,14 +62,13 @@ static void announce_files(Arguments *a, const char *output)
     cli_writes(a->cli, "--stats", a->stats);
     for (int k = 0; a->aov_dir && guides_path(path, sizeof path, a->aov_dir, k); k++)
         cli_writes(a->cli, "the file of --aov-dir", path);
-    if (a->variants)
-        texture_table_announce(&a->table, a->cli);
 }
 
-static void announce_files_of_scene(const Arguments *a, const Scene *scene)
+static void announce_files_of_scene(Arguments *a, const Scene *scene)
 {
     for (const SceneFile *file = scene->files; file; file = file->next)
         cli_reads(a->cli, strcmp(file->path, a->scene) ? "a file that the scene reads" : "the scene", file->path);
+    a->batch.inputs_known = 1;
 }
 
 /* Before the work: whether the statistics can be written. */
@@ -225,6 +224,14 @@ static void check_targets(const Arguments *a, const Scene *scene)
                      t ? ": those it names belong to targets named before it" : "");
 }
 
+/* A batch says so in its report, too. */
+static _Noreturn void fail(Arguments *a, const RetexError *err)
+{
+    if (!a->variants)
+        cli_fail(a->cli, err);
+    exit(cli_close(a->cli, batch_finish(&a->batch, err)));
+}
+
 int main(int argc, char **argv)
 {
     Cli cli = {.tool = "retex-render",
@@ -234,7 +241,7 @@ int main(int argc, char **argv)
                .next = 1,
                .about = "Render a POV-Ray-style scene once and keep what retexturing needs: a set."};
     Arguments a = {.cli = &cli};
-    RetexError err;
+    RetexError err = {0};
     Scene *scene = NULL;
     RetexSet *set = NULL;
     RetexTexture *loaded[RETEX_MAX_TARGETS] = {0};
@@ -244,9 +251,8 @@ int main(int argc, char **argv)
     const char *output = needless ? NULL : cli_output(&cli);
     announce_files(&a, output);
     name_journal(&a, output);
-    VariantRows *rows = a.variants ? calloc(1, sizeof *rows) : NULL;
-    if (rows)
-        read_rows(&a, rows);
+    if (a.variants)
+        check_table(&a);
     if (output)
         check_output(&a, output), check_stats(&a);
     if (a.control)
@@ -257,7 +263,7 @@ int main(int argc, char **argv)
     a.render.spooled = keeps && !a.denoise;
     double started = seconds();
     if (job_open_scene(&scene, a.scene, &a.sdl, a.targets, a.ntargets, &err))
-        cli_fail(&cli, &err);
+        fail(&a, &err);
     announce_files_of_scene(&a, scene);
     if (a.aov_dir && guides_check(a.aov_dir, &err))
         cli_die(&cli, "--aov-dir: %s", err.message);
@@ -265,15 +271,14 @@ int main(int argc, char **argv)
         job_warn_dark(scene, &a.sdl);
     check_targets(&a, scene);
     if (!a.list && job_check_memory(scene, &a.render, &err))
-        cli_fail(&cli, &err);
+        fail(&a, &err);
     replace_textures(&a, scene, loaded);
-    check_columns(&a, scene);
     double parse_seconds = seconds() - started;
-    int failed = 0;
+    int failed = 0, status = CLI_OK;
     if (a.list)
         list_targets(&a, scene);
-    else if (rows)
-        render_table(&a, scene, rows);
+    else if (a.variants)
+        status = make_variants(&a, scene);
     else if (a.control)
         render_controlled(&a, scene, output);
     else if (a.tracing)
@@ -295,10 +300,9 @@ int main(int argc, char **argv)
         if (a.stats)
             write_stats(&a, &stats, set, parse_seconds);
     }
-    free(rows);
     retex_set_close(&set);
     scene_close(&scene);
     for (int k = 0; k < a.nreplacements; k++)
         retex_texture_close(&loaded[k]);
-    return cli_close(&cli, CLI_OK);
+    return cli_close(&cli, status);
 }

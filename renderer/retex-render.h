@@ -6,7 +6,7 @@
 #include <retex/retex.h>
 #include "cli.h"
 #include "texture_args.h"
-#include "texture_table.h"
+#include "batch.h"
 #include "job/job.h"
 
 #define LIST_MAX 64
@@ -18,7 +18,7 @@ typedef struct Arguments {
     const char *scene, *stats, *variants, *control, *aov_dir;
     ControlMode control_mode;
     int seeded;
-    TextureTable table;
+    Batch batch; /* of --variants */
     const char *targets[LIST_MAX], *includes[LIST_MAX], *declares[LIST_MAX];
     int ntargets, nincludes, ndeclares, nreplacements, list, trace[3], tracing;
     RetexTextureSpec replacements[RETEX_MAX_TARGETS];
@@ -40,20 +40,10 @@ void parse_arguments(Arguments *arguments);
 
 /* ---- replaced.c: --replace, --variants and --control ---- */
 
-/* The pictures of one traversal. */
-typedef struct VariantRows {
-    int count, lines[VARIANTS_MAX];
-    const char *outputs[VARIANTS_MAX];
-    RetexTextureSpec specs[VARIANTS_MAX][RETEX_MAX_TARGETS];
-    int nspecs[VARIANTS_MAX];
-} VariantRows;
-
-/* Up to VARIANTS_MAX more rows of the table, with their outputs looked at. */
-void read_rows(Arguments *arguments, VariantRows *rows);
-/* Every column is a target, and no two are the same. */
-void check_columns(Arguments *arguments, const Scene *scene);
-/* All rows of the table, so many at a time. The first lot is read before the scene is. */
-void render_table(Arguments *arguments, const Scene *scene, VariantRows *rows);
+/* Check the table of --variants, before the scene is read. */
+void check_table(Arguments *arguments);
+/* Make its pictures, or with --dry-run say what they would be; returns the exit status. */
+int make_variants(Arguments *arguments, const Scene *scene);
 /* The set of --control. Its targets are those of the render, unless some are named: then it tells the most. */
 void read_control(Arguments *arguments);
 /* A picture from new samples and that set. */

@@ -358,17 +358,22 @@ static void vmessage(const Cli *cli, const char *kind, const char *fmt, va_list 
     message(cli, kind, text);
 }
 
+void cli_error_text(const RetexError *err, char *text, size_t size)
+{
+    if (err->file[0] && err->line > 0 && err->column > 0)
+        snprintf(text, size, "%s:%d:%d: %s", err->file, err->line, err->column, err->message);
+    else if (err->file[0] && err->line > 0)
+        snprintf(text, size, "%s:%d: %s", err->file, err->line, err->message);
+    else if (err->file[0])
+        snprintf(text, size, "%s: %s", err->file, err->message);
+    else
+        snprintf(text, size, "%s", err->message);
+}
+
 void cli_error(const Cli *cli, const RetexError *err)
 {
     char text[sizeof err->file + sizeof err->message + 32];
-    if (err->file[0] && err->line > 0 && err->column > 0)
-        snprintf(text, sizeof text, "%s:%d:%d: %s", err->file, err->line, err->column, err->message);
-    else if (err->file[0] && err->line > 0)
-        snprintf(text, sizeof text, "%s:%d: %s", err->file, err->line, err->message);
-    else if (err->file[0])
-        snprintf(text, sizeof text, "%s: %s", err->file, err->message);
-    else
-        snprintf(text, sizeof text, "%s", err->message);
+    cli_error_text(err, text, sizeof text);
     message(cli, "error: ", text);
 }
 
@@ -524,11 +529,18 @@ static void progress_bar(const char *label, double done, double elapsed)
         fprintf(stderr, "\r%s [%s] %3.0f%%\033[K", label, bar, 100 * done);
 }
 
+void cli_take_progress(Cli *cli)
+{
+    if (strcmp(cli->value, "json") != 0)
+        cli_die(cli, "--progress: expected json, not '%s'", cli->value);
+    cli->json_progress = 1;
+}
+
 void cli_progress(const Cli *cli, const char *label, double done)
 {
     static double started = -1, drawn;
-    int terminal = isatty(STDERR_FILENO);
-    if (cli->quiet || (!terminal && !cli->verbose))
+    const int json = cli->json_progress, terminal = !json && isatty(STDERR_FILENO);
+    if (!json && (cli->quiet || (!terminal && !cli->verbose)))
         return;
     double now = seconds_now();
     if (started < 0)
@@ -537,10 +549,12 @@ void cli_progress(const Cli *cli, const char *label, double done)
     double elapsed = now - started;
     if (done >= 1)
         started = -1; /* what comes next is another one */
-    if (now - drawn < (terminal ? 0.1 : 30) && !(done >= 1 && terminal))
+    if (now - drawn < (terminal ? 0.1 : json ? 1 : 30) && !(done >= 1 && (terminal || json)))
         return;
     drawn = now;
-    if (terminal)
+    if (json)
+        fprintf(stderr, "{\"stage\": \"%s\", \"fraction\": %.4f, \"seconds\": %.2f}\n", label, done, elapsed);
+    else if (terminal)
         progress_bar(label, done, elapsed);
     else
         progress_line(label, done, elapsed);

@@ -33,6 +33,7 @@ typedef struct Cli {
     int threads;             /* --threads, 0 = all cores */
     int quiet, verbose;      /* -q, -v */
     RetexAccess access;      /* of files whose names the user said: its `safe` is --safe, or $RETEX_SAFE's */
+    int json_progress;       /* --progress json: in place of a bar, and of messages that all is well */
     const char *value;       /* argument of the option last returned */
     const char *modifiers;   /* what stood behind `--name:`, or "" */
     const char *group;       /* of a cluster -qv: what is left of it */
@@ -50,6 +51,7 @@ double cli_number(const Cli *cli, const CliOption *option, double low, double hi
 
 /* `retex-NAME: error: …`, with file, line and column where the error has them. */
 void cli_error(const Cli *cli, const RetexError *err);
+void cli_error_text(const RetexError *err, char *text, size_t size); /* what follows `error: ` */
 void cli_warn(const Cli *cli, const char *fmt, ...) RETEX_PRINTF(2, 3);
 void cli_info(const Cli *cli, const char *fmt, ...) RETEX_PRINTF(2, 3);   /* unless -q */
 void cli_detail(const Cli *cli, const char *fmt, ...) RETEX_PRINTF(2, 3); /* with -v */
@@ -98,8 +100,13 @@ enum { CLI_MEMORY_LEAST = 0, CLI_MEMORY_MOST = 1 << 20, CLI_MEMORY_DEFAULT = 204
 /* Open a set, and bring it into memory if it takes no more than so many megabytes there. */
 int cli_open_set(const Cli *cli, RetexSet **set, const char *path, long megabytes, RetexError *err);
 
+/* --progress, of the tools that have it: a row of their options, and what to do when it comes. */
+#define CLI_PROGRESS_OPTION {"progress", 0, "json", "tell what is done, as a line of JSON each on standard error", 0}
+void cli_take_progress(Cli *cli);
+
 /* A progress bar on stderr, on a terminal and without -q, with the time so far and the time left; elsewhere with -v a
- * line every half a minute. done is 0..1; label e.g. "render". Call with 1 to finish the line. Rate-limited inside;
+ * line every half a minute. With --progress json, wherever that goes, an object a second: {"stage": label, "fraction":
+ * done, "seconds": …}. done is 0..1; label e.g. "render". Call with 1 to finish the line. Rate-limited inside;
  * safe to call often from one thread. */
 void cli_progress(const Cli *cli, const char *label, double done);
 

@@ -10,8 +10,9 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "batch.h"
+#include "json_text.h"
 #include "texture_args.h"
-#include "texture_table.h"
 #include "watchdog.h"
 
 static const CliOption options[] = {
@@ -24,11 +25,14 @@ static const CliOption options[] = {
     {"error", 0, "FILE.exr", "write the error to be expected against rendering again, per pixel", 0},
     {"batch", 0, "FILE.csv", "one picture a row: its name, then one texture a target", 0},
     {"memory", 0, "MB", "of a batch: keep set and samples in memory if they take no more; default 2048", 0},
+    BATCH_OPTIONS,
+    CLI_PROGRESS_OPTION,
     {0},
 };
 
 typedef struct Job {
-    const char *set_path, *samples_path, *batch, *error;
+    const char *set_path, *samples_path, *table, *error;
+    Batch batch;
     TextureArgs textures;
     long memory; /* megabytes that --batch may keep of the set */
     RetexWriteParams write;
@@ -62,15 +66,19 @@ static void parse(Cli *cli, Job *job)
             job->error = cli->value;
         } else if (strcmp(option->name, "memory") == 0) {
             job->memory = cli_integer(cli, option, CLI_MEMORY_LEAST, CLI_MEMORY_MOST);
-        } else {
-            job->batch = cli->value;
+        } else if (strcmp(option->name, "batch") == 0) {
+            job->table = cli->value;
+        } else if (!batch_option(&job->batch, cli, option)) {
+            cli_take_progress(cli);
         }
     }
     if (!job->set_path)
         cli_die(cli, "no set given; - is standard input");
-    if (job->batch && cli->output)
+    if (!job->table)
+        batch_check_options(&job->batch, cli, "batch");
+    if (job->table && cli->output)
         cli_die(cli, "--batch names its outputs itself: no -o");
-    if (job->error && job->batch)
+    if (job->error && job->table)
         cli_die(cli, "--error is of one picture: no --batch");
     if (job->error && !job->textures.count)
         cli_die(cli, "--error needs the textures: name them with --texture");
@@ -83,7 +91,7 @@ static void announce_files(const Cli *cli, const Job *job, const char *output)
 {
     cli_reads(cli, "the set", job->set_path);
     cli_reads(cli, "the samples", job->samples_path);
-    cli_reads(cli, "the table", job->batch);
+    cli_reads(cli, "the table", job->table);
     texture_args_reads(cli, job->textures.specs, job->textures.count);
     cli_writes(cli, "the output", output);
     cli_writes(cli, "--error", job->error);
@@ -93,7 +101,7 @@ static void announce_files(const Cli *cli, const Job *job, const char *output)
 static void fail_samples(const Cli *cli, const Job *job, const RetexError *err)
 {
     char forgotten[1024] = "";
-    if (!job->batch && strcmp(job->samples_path, job->set_path) != 0)
+    if (!job->table && strcmp(job->samples_path, job->set_path) != 0)
         cli_forgotten(cli, job->samples_path, forgotten, sizeof forgotten);
     cli_die(cli, "%s%s", err->message, forgotten);
 }
@@ -137,24 +145,36 @@ typedef struct Row {
     RetexTexture *const *textures; /* by target */
 } Row;
 
-static const char *describe(const Job *job, const Row *row, char *text, size_t size)
+static int describe_targets(const Job *job, const RetexTextureSpec *specs, int count,
+                            BatchTexture textures[RETEX_MAX_TARGETS])
 {
-    size_t used = 0;
-    for (int t = 0; t < job->set->ntargets && used < size; t++) {
+    int found = 0;
+    for (int t = 0; t < job->set->ntargets; t++) {
         const RetexTextureSpec *spec = NULL;
         const char *sampled = job->samples ? job->samples->textures[t] : "";
-        for (int i = 0; i < row->count; i++)
-            if (retex_set_find_target(job->set, row->specs[i].target) == t)
-                spec = &row->specs[i];
+        for (int i = 0; i < count; i++)
+            if (retex_set_find_target(job->set, specs[i].target) == t)
+                spec = &specs[i];
         if (!spec && !sampled[0])
             continue;
-        used += (size_t)snprintf(text + used, size - used, "%s%s <- ", used ? ", " : "", job->set->targets[t].name);
-        if (used < size && spec && spec->constant)
-            used += (size_t)snprintf(text + used, size - used, "rgb(%g,%g,%g)", (double)spec->color[0],
-                                     (double)spec->color[1], (double)spec->color[2]);
-        else if (used < size)
-            used += (size_t)snprintf(text + used, size - used, "%s", spec ? spec->image : sampled);
+        BatchTexture *texture = &textures[found++];
+        texture->target = job->set->targets[t].name;
+        if (spec)
+            texture_args_name(spec, texture->texture, sizeof texture->texture);
+        else
+            snprintf(texture->texture, sizeof texture->texture, "%s", sampled);
     }
+    return found;
+}
+
+static const char *describe(const Job *job, const Row *row, char *text, size_t size)
+{
+    BatchTexture textures[RETEX_MAX_TARGETS];
+    const int count = describe_targets(job, row->specs, row->count, textures);
+    size_t used = 0;
+    for (int i = 0; i < count && used < size; i++)
+        used += (size_t)snprintf(text + used, size - used, "%s%s <- %s", i ? ", " : "", textures[i].target,
+                                 textures[i].texture);
     return used ? text : "original textures";
 }
 
@@ -224,9 +244,10 @@ static int make_picture(const Cli *cli, Job *job, const Row *row, const char *ou
     watchdog_remove(NULL);
     if (code)
         return code;
-    cli_info(cli, "%s: %s, %d x %d%s, %.2f s", strcmp(output, "-") ? output : "standard output",
-             describe(job, row, text, sizeof text), job->set->width, job->set->height, expected,
-             texture_args_now() - began);
+    if (!cli->json_progress)
+        cli_info(cli, "%s: %s, %d x %d%s, %.2f s", strcmp(output, "-") ? output : "standard output",
+                 describe(job, row, text, sizeof text), job->set->width, job->set->height, expected,
+                 texture_args_now() - began);
     return RETEX_OK;
 }
 
@@ -238,6 +259,12 @@ static int make_one(const Cli *cli, Job *job, const char *output, double began, 
     if (!code) {
         cli_detail(cli, "ready after %.2f s", texture_args_now() - began);
         code = make_picture(cli, job, &row, output, began, err);
+    }
+    if (!code && cli->json_progress) {
+        fprintf(stderr, "{\"output\": ");
+        json_text(stderr, output);
+        fprintf(stderr, ", \"status\": \"made\", \"seconds\": %.4f, \"done\": 1, \"total\": 1}\n",
+                texture_args_now() - began);
     }
     retex_textures_close(textures);
     return code;
@@ -290,53 +317,103 @@ static int load_row(const Cli *cli, const Job *job, Kept *kept, const RetexTextu
     for (int t = 0; t < RETEX_MAX_TARGETS; t++)
         if (loaded[t])
             next.textures[t] = loaded[t];
+    if (code) { /* nothing is kept of a row that lacks a texture */
+        retex_textures_close(next.textures);
+        next.count = 0;
+    }
     *kept = next;
     return code;
 }
 
-/* The set's own names for the table's columns. */
-static void find_columns(const Cli *cli, TextureTable *table, const RetexSet *set)
+/* The set's own names for the table's columns; 0 where some are wrong. */
+static int find_columns(TextureTable *table, const RetexSet *set)
 {
+    RetexTexture *textures[RETEX_MAX_TARGETS];
     int taken[RETEX_MAX_TARGETS] = {0};
+    const int before = table->nmistakes;
     for (int i = 0; i < table->ncolumns; i++) {
+        RetexError err = {0};
+        RetexTextureSpec unknown = RETEX_TEXTURE_SPEC_INIT;
         int t = retex_set_find_target(set, table->columns[i]);
-        if (t < 0 || taken[t]++) {
-            char message[512];
-            snprintf(message, sizeof message,
-                     t < 0 ? "the set has no target '%.200s'" : "target '%.200s' has two columns", table->columns[i]);
-            texture_table_fail(table, cli, t < 0 ? RETEX_ENOTFOUND : RETEX_EPARSE, message);
+        if (t >= 0) {
+            if (taken[t]++)
+                texture_table_mistake(table, 1, "target '%s' has two columns", table->columns[i]);
+            table->columns[i] = set->targets[t].name;
+            continue;
         }
-        table->columns[i] = set->targets[t].name;
+        snprintf(unknown.target, sizeof unknown.target, "%s", table->columns[i]);
+        retex_textures_load(textures, set, &unknown, 1, 1, &err); /* which says what there is */
+        texture_table_mistake(table, 1, "%s", err.message);
     }
+    return table->nmistakes == before;
 }
 
-static void run_batch(const Cli *cli, Job *job)
+/* Whether the set has what these targets need: tried with colours, which load nothing. */
+static int check_row(void *context, const RetexTextureSpec *specs, int count, RetexError *err)
 {
-    TextureTable table;
-    texture_table_open(&table, cli, job->batch);
-    texture_table_announce(&table, cli);
-    find_columns(cli, &table, job->set);
-    const char *output;
-    RetexError err = {0};
+    const RetexSet *set = ((const Job *)context)->set;
+    RetexTexture *textures[RETEX_MAX_TARGETS];
+    RetexTextureSpec colors[RETEX_MAX_TARGETS];
+    for (int i = 0; i < count; i++) {
+        const int t = retex_set_find_target(set, specs[i].target);
+        if (t >= 0 && retex_texture_spec_needs_scale(&specs[i]) && !(set->targets[t].uv_scale[0] > 0))
+            return retex_fail(
+                err, RETEX_EINVAL,
+                "the size of target %s is not known: width= cannot be used on it, only scale=", set->targets[t].name);
+        colors[i] = specs[i];
+        colors[i].constant = 1;
+    }
+    int code = retex_textures_load(textures, set, colors, count, 1, err);
+    retex_textures_close(textures);
+    return code;
+}
+
+static int describe_row(void *context, const RetexTextureSpec *specs, int count,
+                        BatchTexture textures[RETEX_MAX_TARGETS])
+{
+    const Job *job = context;
+    RetexTextureSpec all[RETEX_MAX_TARGETS];
+    memcpy(all, specs, (size_t)count * sizeof *all);
+    return describe_targets(job, all, complete_row(job, all, count), textures);
+}
+
+static int make_row(const Cli *cli, Job *job, int number, Kept *kept, RetexError *err)
+{
     RetexTextureSpec specs[RETEX_MAX_TARGETS];
+    char path[PATH_MAX];
+    const double began = texture_args_now();
+    const int count = complete_row(job, specs, texture_table_textures(&job->batch.table, number, specs));
+    const Row row = {kept->specs, count, kept->textures};
+    int code = load_row(cli, job, kept, specs, count, err);
+    if (!code)
+        code = batch_output(&job->batch, number, path, err);
+    return code ? code : make_picture(cli, job, &row, path, began, err);
+}
+
+static int run_batch(const Cli *cli, Job *job)
+{
+    Batch *batch = &job->batch;
+    RetexError err = {0};
     Kept kept = {.count = 0};
-    int count, pictures = 0;
-    double first = texture_args_now(), began = first;
+    batch_open(batch, cli, job->table);
+    batch->tool = (BatchTool){job, find_columns(&batch->table, job->set) ? check_row : NULL, describe_row};
+    batch->inputs_known = 1;
+    batch_check(batch, &job->write);
+    batch_refuse_mistakes(batch);
+    if (batch->dry_run) {
+        batch_print(batch);
+        return batch_finish(batch, NULL);
+    }
     if (retex_set_keep(job->set, job->samples, (uint64_t)job->memory << 20, cli->threads, &err))
-        cli_fail(cli, &err);
-    while (texture_table_row(&table, cli, &output, specs, &count)) {
-        if (retex_image_write_check(output, &job->write, &err))
-            texture_table_fail_picture(&table, cli, &err);
-        count = complete_row(job, specs, count);
-        const Row row = {kept.specs, count, kept.textures};
-        if (load_row(cli, job, &kept, specs, count, &err) || make_picture(cli, job, &row, output, began, &err))
-            texture_table_fail_picture(&table, cli, &err);
-        pictures++;
-        began = texture_args_now();
+        return batch_finish(batch, &err);
+    for (int number = 0; number < batch->table.nrows; number++) {
+        const double began = texture_args_now();
+        int failed = make_row(cli, job, number, &kept, &err);
+        if (!batch_done(batch, number, texture_args_now() - began, failed ? &err : NULL))
+            break;
     }
     retex_textures_close(kept.textures);
-    texture_table_close(&table);
-    cli_info(cli, "%d picture%s, %.2f s", pictures, pictures == 1 ? "" : "s", texture_args_now() - first);
+    return batch_finish(batch, NULL);
 }
 
 /* Bands come and go by the hundred: memory given back to the system would be asked for, and cleared, again. */
@@ -362,7 +439,8 @@ int main(int argc, char **argv)
     keep_memory();
     parse(&cli, &job);
     check_samples_path(&cli, &job);
-    const char *output = job.batch ? NULL : cli_output(&cli);
+    const char *output = job.table ? NULL : cli_output(&cli);
+    int status = CLI_OK;
     RetexError err = {0};
     announce_files(&cli, &job, output);
     if (output) {
@@ -374,11 +452,11 @@ int main(int argc, char **argv)
             cli_warn(&cli, "an OpenEXR file stays scene-linear: --display and --view do nothing; --colorspace would");
     }
     load(&cli, &job);
-    if (job.batch)
-        run_batch(&cli, &job);
+    if (job.table)
+        status = run_batch(&cli, &job);
     else if (make_one(&cli, &job, output, began, &err))
         cli_fail(&cli, &err);
     retex_samples_close(&job.samples);
     retex_set_close(&job.set);
-    return cli_close(&cli, CLI_OK);
+    return cli_close(&cli, status);
 }

@@ -57,6 +57,15 @@ static inline void texture_args_reads(const Cli *cli, const RetexTextureSpec *sp
             cli_fail(cli, &err);
 }
 
+/* What a texture is, for people to read: its file's name, or its colour. */
+static inline void texture_args_name(const RetexTextureSpec *spec, char *text, size_t size)
+{
+    if (spec->constant)
+        snprintf(text, size, "rgb(%g,%g,%g)", (double)spec->color[0], (double)spec->color[1], (double)spec->color[2]);
+    else
+        snprintf(text, size, "%s", spec->image);
+}
+
 /* "Floor <- oak.png, Wall <- rgb(1,1,1)", or "original textures". */
 static inline const char *texture_args_describe(const RetexSamples *samples, char *text, size_t size)
 {

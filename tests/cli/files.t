@@ -32,12 +32,14 @@ $ printf 'output,F\nx.png,u.jpg\nu.jpg,t.jpg\n' >v1; printf 'output,F\nx.png,u.j
 ! retex-render: error: v4:3: room.pov: the output of the table's line 3 would replace the scene
 ! retex-render: error: v5:4: later.png: the output of the table's line 3 and the output of the table's line 4 are the same file
 ! retex-render: error: v6.png:3: v6.png: the output of the table's line 3 would replace the table
-! retex-render: error: v7:3: x.png: the output of the table's line 2 would replace the texture
+! retex-render: error: v7:2: x.png: the output of the table's line 2 would replace the texture
+! retex-render: error: v7:3: cannot read x.png: No such file or directory
 $ for k in 1 2 6.png 7; do sed s/,F/,floor/\;s/v6/w6/ v$k >w$k; done; md5sum * 2>/dev/null >../sums; for k in 1 2 6.png 7; do sh try "\$c s.exr --batch w$k"; done; sh try '$c s.exr --batch - <w6.png' "printf 'output\ns.exr\n' | \$c s.exr --batch -" "printf 'output\na.exr\n' | \$c s.exr a.exr --batch -"
 ! retex-combine: error: w1:3: u.jpg: the output of the table's line 3 would replace the texture
 ! retex-combine: error: w2:4: sub/../x.png: the output of the table's line 2 and the output of the table's line 4 are the same file
 ! retex-combine: error: w6.png:3: w6.png: the output of the table's line 3 would replace the table
-! retex-combine: error: w7:3: x.png: the output of the table's line 2 would replace the texture
+! retex-combine: error: w7:2: x.png: the output of the table's line 2 would replace the texture
+! retex-combine: error: w7:3: cannot read x.png: No such file or directory
 ! retex-combine: error: standard input:3: w6.png: the output of the table's line 3 would replace the table, standard input
 ! retex-combine: error: standard input:2: s.exr: the output of the table's line 2 would replace the set
 ! retex-combine: error: standard input:2: a.exr: the output of the table's line 2 would replace the samples

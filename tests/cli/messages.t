@@ -60,7 +60,7 @@ $ for x in '--layout footprnts' '--layout papre' '--layout cubist' '--filter bx'
 ! retex-render: error: no texture, pigment, material or object `Wihte` in the scene; similar: White
 ! retex-render: error: no texture, pigment, material or object `sofa` in the scene; there are: Floor, White
 ! retex-render: error: --replace: `flor` is no target; is Floor meant?
-! retex-render: error: --variants: `flor` is no target; is Floor meant?
+! retex-render: error: standard input:1: `flor` is no target, there are: Floor; is Floor meant?
 = 2
 $ ls x.*
 ! ls: cannot access 'x.*': No such file or directory

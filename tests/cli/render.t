@@ -165,7 +165,7 @@ $ printf 'output,floor\nscenes/cornell-box/cornell-box.pov,\n' | retex-render -q
 ! retex-render: error: standard input:2: cannot read none.jpg: No such file or directory
 ! retex-render: error: standard input:2: x.nothing: no picture format has the ending .nothing; try .png, .jpg, .tif, .exr or .hdr
 ! retex-render: error: no texture, pigment, material or object `nope` in the scene; there are: Floor, White, Red, Green
-! retex-render: error: --variants: `nope` is no target: name it with -t
+! retex-render: error: standard input:1: `nope` is no target, there are: floor; name it with -t
 ! retex-render: error: --variants names its outputs itself: no -o
 = 2
 

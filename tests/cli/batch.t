@@ -1,0 +1,300 @@
+# Tables of pictures, retex-combine --batch and retex-render --variants: all is checked first, then made row by row.
+$ make_set s.exr 48 32; cp "$SCENES/textures/brick.jpg" .; ln -s "$SCENES" scenes; echo 'sed "s/\"seconds\": [0-9.]*/\"seconds\": S/g"' >../times; echo 'timeout 20 sh -c "exec 3>../pipe; $1; cat brick.jpg >&3"' >../race; ls -A >../before; echo 'ls -A | diff ../before -' >../new
+
+# Every mistake of a table is told, in its order, and nothing is made.
+$ printf '%s\n' output,Floor,Sofa 'gone/a.png,brick.jpg,none.jpg' '-,x.png,' 'a.png,brick.jpg,,more' '"b.png"x,' 'a.png,:foo=1 brick.jpg' ',brick.jpg' 'b.png,brick.jpg' './b.png,brick.jpg' 'brick.jpg,"rgb(1,1,1)"' x.xyz 'c.png,:colorspace=Nowhere brick.jpg' 'd.png,../before' 'e.png,scenes' '"f.png,brick.jpg' >../t; retex-combine s.exr --batch ../t; echo $?; sh ../new
+> 2
+! retex-combine: error: ../t:1: no target is called 'Sofa'; the set has Floor, Wall
+! retex-combine: error: ../t:2: cannot read none.jpg: No such file or directory
+! retex-combine: error: ../t:2: the folder of gone/a.png is not there; --mkdir makes it
+! retex-combine: error: ../t:3: a table cannot write to standard output
+! retex-combine: error: ../t:4: more cells than the first row has
+! retex-combine: error: ../t:5: something follows a closing quote
+! retex-combine: error: ../t:6: no texture option is called 'foo'; there are scale, rotate, offset, flip, wrap, repeat, width, colorspace
+! retex-combine: error: ../t:7: no output in the first cell
+! retex-combine: error: ../t:9: ./b.png: the output of the table's line 8 and the output of the table's line 9 are the same file
+! retex-combine: error: ../t:10: brick.jpg: the output of the table's line 10 would replace the texture
+! retex-combine: error: ../t:11: x.xyz: no picture format has the ending .xyz; try .png, .jpg, .tif, .exr or .hdr
+! retex-combine: error: ../t:12: brick.jpg: no colour space is called 'Nowhere'; there are Linear Rec.709, sRGB, Rec709, ACES2065-1, ACEScg, ACEScct, raw
+! retex-combine: error: ../t:13: ../before: cannot read: OpenImageIO could not find a format reader for "../before". Is it a file format that OpenImageIO doesn't know about?
+! retex-combine: error: ../t:14: cannot read scenes: Is a directory
+! retex-combine: error: ../t:15: a quoted cell has no closing quote
+
+# Twenty of them; the others are counted. An image that is named often is told of once.
+$ { echo output,floor; for k in $(seq 30); do echo "gone/$k.png,none.jpg"; done; } >../t; retex-combine s.exr --batch ../t; sh ../new
+! retex-combine: error: ../t:2: cannot read none.jpg: No such file or directory
+! retex-combine: error: ../t:2: the folder of gone/1.png is not there; --mkdir makes it
+! retex-combine: error: ../t:3: the folder of gone/2.png is not there; --mkdir makes it
+! retex-combine: error: ../t:4: the folder of gone/3.png is not there; --mkdir makes it
+! retex-combine: error: ../t:5: the folder of gone/4.png is not there; --mkdir makes it
+! retex-combine: error: ../t:6: the folder of gone/5.png is not there; --mkdir makes it
+! retex-combine: error: ../t:7: the folder of gone/6.png is not there; --mkdir makes it
+! retex-combine: error: ../t:8: the folder of gone/7.png is not there; --mkdir makes it
+! retex-combine: error: ../t:9: the folder of gone/8.png is not there; --mkdir makes it
+! retex-combine: error: ../t:10: the folder of gone/9.png is not there; --mkdir makes it
+! retex-combine: error: ../t:11: the folder of gone/10.png is not there; --mkdir makes it
+! retex-combine: error: ../t:12: the folder of gone/11.png is not there; --mkdir makes it
+! retex-combine: error: ../t:13: the folder of gone/12.png is not there; --mkdir makes it
+! retex-combine: error: ../t:14: the folder of gone/13.png is not there; --mkdir makes it
+! retex-combine: error: ../t:15: the folder of gone/14.png is not there; --mkdir makes it
+! retex-combine: error: ../t:16: the folder of gone/15.png is not there; --mkdir makes it
+! retex-combine: error: ../t:17: the folder of gone/16.png is not there; --mkdir makes it
+! retex-combine: error: ../t:18: the folder of gone/17.png is not there; --mkdir makes it
+! retex-combine: error: ../t:19: the folder of gone/18.png is not there; --mkdir makes it
+! retex-combine: error: ../t:20: the folder of gone/19.png is not there; --mkdir makes it
+! retex-combine: error: ../t: 11 more mistakes
+$ printf 'output,floor,Floor\na.png,none.jpg\nb.png,none.jpg\n' >../t; retex-combine s.exr --batch ../t
+! retex-combine: error: ../t:1: target 'Floor' has two columns
+! retex-combine: error: ../t:2: cannot read none.jpg: No such file or directory
+= 2
+$ printf 'out,floor\n' >../t; retex-combine s.exr --batch ../t; printf 'output,"floor\n' >../t; retex-combine s.exr --batch ../t; tr '\0' a </dev/zero | head -c 70000000 >../t; retex-combine s.exr --batch ../t; retex-combine s.exr --batch /dev/zero; rm ../t
+! retex-combine: error: ../t:1: the first row must name the columns: output, then targets
+! retex-combine: error: ../t:1: a quoted cell has no closing quote
+! retex-combine: error: ../t: more than the 64 MB that a table may have
+! retex-combine: error: /dev/zero: more than the 64 MB that a table may have
+
+# An image whose beginning is no picture, of each reader; what is behind it is seen when the picture is made.
+$ echo text >x.jpg; echo text >x.exr; : >x.png; head -c 9 brick.jpg >cut.jpg; head -c 2000 s.exr >cut.exr; { echo output,floor; for f in x.jpg x.exr x.png cut.jpg cut.exr; do echo "$f.png,$f"; done; } >../t; retex-combine s.exr --batch ../t 2>&1 | cut -c 1-60; rm x.* cut.*
+> retex-combine: error: ../t:2: x.jpg: cannot read: "x.jpg" is
+> retex-combine: error: ../t:3: x.exr: cannot read: "x.exr" is
+> retex-combine: error: ../t:4: x.png: cannot read: the file i
+> retex-combine: error: ../t:6: cut.exr is damaged or truncate
+
+# Targets that the set has not what is needed of.
+$ retex-sample -q s.exr --texture floor=brick.jpg | retex-combine -q - --batch ../t2 2>&1 | cut -c 1-60; printf 'output,wall,floor\nw.png,,\nf.png,,brick.jpg\n' >../t; retex-sample -q s.exr --texture floor=brick.jpg | retex-combine -q - --batch ../t 2>&1 | cut -c 1-80; sh ../new
+> retex-combine: error: ../t2: cannot read: No such file or di
+> retex-combine: error: ../t:3: nothing can be put on target Floor: the set does n
+
+# What would be made.
+$ printf '%s\n' output,Floor,wall 'out/new/a.png,brick.jpg,:scale=2 brick.jpg' '"b,1.png","rgb(.5,1,1)"' c.jpg >../t; retex-combine s.exr --batch ../t --mkdir --dry-run --texture 'wall=rgb(1,0,0)'; sh ../new
+> out/new/a.png: Floor <- brick.jpg, Wall <- brick.jpg
+> b,1.png: Floor <- rgb(0.5,1,1), Wall <- rgb(1,0,0)
+> c.jpg: Wall <- rgb(1,0,0)
+$ retex-combine s.exr --batch ../t --mkdir --dry-run -q; retex-combine s.exr --batch ../t --dry-run; retex-combine s.exr --batch ../t --mkdir --dry-run --report - | head -1; sh ../new
+! retex-combine: error: ../t:2: the folder of out/new/a.png is not there; --mkdir makes it
+! retex-combine: error: --dry-run and --report cannot both be standard output
+
+# Made, with folders where they are missing, and told as JSON. The report has the rest.
+$ retex-combine s.exr --batch ../t --mkdir --texture 'wall=rgb(1,0,0)' --progress json --report ../report 2>../log; sh ../times <../log; sh ../times <../report; sh ../new; retex-combine -q s.exr --texture floor=brick.jpg --texture:scale=2 wall=brick.jpg -o ../one.png; cmp out/new/a.png ../one.png; rm -r out b,1.png c.jpg
+> {"row": 1, "line": 2, "output": "out/new/a.png", "status": "made", "seconds": S, "done": 1, "total": 3}
+> {"row": 2, "line": 3, "output": "b,1.png", "status": "made", "seconds": S, "done": 2, "total": 3}
+> {"row": 3, "line": 4, "output": "c.jpg", "status": "made", "seconds": S, "done": 3, "total": 3}
+> {"total": 3, "made": 3, "failed": 0, "seconds": S}
+> {
+>   "tool": "retex-combine", "version": "0.1.0", "table": "../t",
+>   "status": "made", "total": 3, "made": 3, "failed": 0, "seconds": S,
+>   "mistakes": [],
+>   "rows": [
+>     {"row": 1, "line": 2, "output": "out/new/a.png", "status": "made", "seconds": S, "textures": {"Floor": "brick.jpg", "Wall": "brick.jpg"}},
+>     {"row": 2, "line": 3, "output": "b,1.png", "status": "made", "seconds": S, "textures": {"Floor": "rgb(0.5,1,1)", "Wall": "rgb(1,0,0)"}},
+>     {"row": 3, "line": 4, "output": "c.jpg", "status": "made", "seconds": S, "textures": {"Wall": "rgb(1,0,0)"}}
+>   ]
+> }
+> 0a1
+> > b,1.png
+> 1a3,4
+> > c.jpg
+> > out
+$ retex-combine -q s.exr --texture floor=brick.jpg -o ../one.png --progress json 2>&1 | sh ../times; retex-combine -q s.exr -o ../one.png --progress xml
+> {"output": "../one.png", "status": "made", "seconds": S, "done": 1, "total": 1}
+! retex-combine: error: --progress: expected json, not 'xml'
+= 2
+
+# The report of a table with mistakes, and of one that was only looked at.
+$ printf 'output,floor\na.png,none.jpg\nb.png,brick.jpg\n' >../t; retex-combine s.exr --batch ../t --report ../report; sh ../times <../report; printf 'output,floor\nb.png,brick.jpg\n' >../t; retex-combine -q s.exr --batch ../t --report ../report --dry-run; sh ../times <../report; sh ../new
+> {
+>   "tool": "retex-combine", "version": "0.1.0", "table": "../t",
+>   "status": "failed", "total": 2, "made": 0, "failed": 0, "seconds": S,
+>   "mistakes": [
+>     {"line": 2, "error": "cannot read none.jpg: No such file or directory"}
+>   ],
+>   "rows": [
+>     {"row": 1, "line": 2, "output": "a.png", "status": "not made", "seconds": S},
+>     {"row": 2, "line": 3, "output": "b.png", "status": "not made", "seconds": S}
+>   ]
+> }
+> {
+>   "tool": "retex-combine", "version": "0.1.0", "table": "../t",
+>   "status": "checked", "total": 1, "made": 0, "failed": 0, "seconds": S,
+>   "mistakes": [],
+>   "rows": [
+>     {"row": 1, "line": 2, "output": "b.png", "status": "checked", "seconds": S, "textures": {"Floor": "brick.jpg"}}
+>   ]
+> }
+! retex-combine: error: ../t:2: cannot read none.jpg: No such file or directory
+
+# It is an output as others are.
+$ printf 'output,floor\nb.png,brick.jpg\n' >../t; for f in s.exr brick.jpg b.png ../t gone/r /dev/full; do retex-combine -q s.exr --batch ../t --report $f; echo $?; rm -f b.png; done; sh ../new
+> 2
+> 2
+> 2
+> 2
+> 2
+> 2
+! retex-combine: error: s.exr: --report would replace the set
+! retex-combine: error: brick.jpg: --report would replace the texture
+! retex-combine: error: b.png: the output of the table's line 2 and --report are the same file
+! retex-combine: error: ../t: --report would replace the table
+! retex-combine: error: --report: cannot write gone/r: No such file or directory
+! retex-combine: error: --report: cannot write /dev/full: No space left on device
+$ retex-combine -q s.exr --batch ../t --dry-run --report -
+! retex-combine: error: --dry-run and --report cannot both be standard output
+= 2
+
+# Names that are no UTF-8, and of control characters.
+$ printf 'output,floor\n"a\301\200\303\251\377\n""b.png","rgb(1,0,0)"\n' >../t; retex-combine -q s.exr --batch ../t --report ../report; grep -a output ../report | cut -d , -f 3; rm a*
+>  "output": "a\ufffd\ufffdé\ufffd\u000a\"b.png"
+
+# Pictures that fail when they are made: the first ends the batch, unless --keep-going. A row that comes after one whose
+# second texture could not be loaded has its first.
+$ head -c 20000 brick.jpg >../cut.jpg; printf '%s\n' output,floor,wall a.png,brick.jpg b.png,brick.jpg,../cut.jpg c.png,brick.jpg /dev/full,brick.jpg d.png,,brick.jpg >../t; retex-combine s.exr --batch ../t --report ../report 2>&1 | sed 's/[0-9.]* s$/S/'; sh ../times <../report | sed 1,4d; sh ../new; rm a.png
+> retex-combine: a.png: Floor <- brick.jpg, 48 x 32, S
+> retex-combine: error: ../t:3: ../cut.jpg: cannot read: the file is truncated
+>   "rows": [
+>     {"row": 1, "line": 2, "output": "a.png", "status": "made", "seconds": S, "textures": {"Floor": "brick.jpg"}},
+>     {"row": 2, "line": 3, "output": "b.png", "status": "failed", "seconds": S, "error": "../cut.jpg: cannot read: the file is truncated", "textures": {"Floor": "brick.jpg", "Wall": "../cut.jpg"}},
+>     {"row": 3, "line": 4, "output": "c.png", "status": "not made", "seconds": S, "textures": {"Floor": "brick.jpg"}},
+>     {"row": 4, "line": 5, "output": "/dev/full", "status": "not made", "seconds": S, "textures": {"Floor": "brick.jpg"}},
+>     {"row": 5, "line": 6, "output": "d.png", "status": "not made", "seconds": S, "textures": {"Wall": "brick.jpg"}}
+>   ]
+> }
+> 0a1
+> > a.png
+$ for n in 1 2; do retex-combine s.exr --batch ../t --keep-going --threads $n --progress json 2>../log; echo $?; done; sh ../times <../log; sh ../new; retex-combine -q s.exr --texture floor=brick.jpg -o ../one.png; cmp c.png ../one.png; cmp a.png ../one.png; rm ?.png
+> 2
+> 2
+> {"row": 1, "line": 2, "output": "a.png", "status": "made", "seconds": S, "done": 1, "total": 5}
+> retex-combine: error: ../t:3: ../cut.jpg: cannot read: the file is truncated
+> {"row": 2, "line": 3, "output": "b.png", "status": "failed", "seconds": S, "error": "../cut.jpg: cannot read: the file is truncated", "done": 2, "total": 5}
+> {"row": 3, "line": 4, "output": "c.png", "status": "made", "seconds": S, "done": 3, "total": 5}
+> retex-combine: error: ../t:5: cannot write /dev/full: No space left on device
+> {"row": 4, "line": 5, "output": "/dev/full", "status": "failed", "seconds": S, "error": "cannot write /dev/full: No space left on device", "done": 4, "total": 5}
+> {"row": 5, "line": 6, "output": "d.png", "status": "made", "seconds": S, "done": 5, "total": 5}
+> retex-combine: error: 2 of 5 pictures failed
+> {"total": 5, "made": 3, "failed": 2, "seconds": S}
+> 0a1
+> > a.png
+> 1a3,4
+> > c.png
+> > d.png
+
+# Files that go while the batch runs, which waits for the first image to be written.
+$ mkfifo ../pipe; cp brick.jpg ../soon.jpg; mkdir out ../outside; printf '%s\n' output,floor a.png,../pipe b.png,../soon.jpg out/c.png,brick.jpg d.png,brick.jpg >../t; timeout 20 retex-combine -q s.exr --batch ../t --keep-going & sh ../race 'rm -r ../soon.jpg out'; wait $!; echo $?; sh ../new; rm ?.png
+> 2
+> 0a1
+> > a.png
+> 1a3
+> > d.png
+! retex-combine: error: ../t:3: cannot read ../soon.jpg: No such file or directory
+! retex-combine: error: ../t:4: cannot write out/c.png: No such file or directory
+! retex-combine: error: 2 of 4 pictures failed
+
+# Pictures stay below --batch-root, whatever they are called; they are named from there.
+$ mkdir -p root/there rootx; ln -s ../../outside root/link; ln -s ../../outside/x.png root/x.png; ln -s nowhere.png root/dangling.png; touch ../outside/x.png; printf '%s\n' output,floor ../d.png ../rootx/e.png link/f.png x.png "$PWD/h.png" link/new/i.png there/../../j.png gone/../k.png >../t; retex-combine s.exr --batch ../t --batch-root root --mkdir 2>&1 | sed "s,$PWD,PWD,"; printf '%s\n' output,floor a.png ./there/../b.png new/c.png "$PWD/root/g.png" ../root/k.png dangling.png >../t; retex-combine -q s.exr --batch ../t --batch-root root/ --mkdir; find root | sort | tr '\n' ' '; ls rootx; rm -r root rootx
+> retex-combine: error: ../t:2: ../d.png is not below root, as --batch-root wants it
+> retex-combine: error: ../t:3: ../rootx/e.png is not below root, as --batch-root wants it
+> retex-combine: error: ../t:4: link/f.png is not below root, as --batch-root wants it
+> retex-combine: error: ../t:5: x.png is not below root, as --batch-root wants it
+> retex-combine: error: ../t:6: PWD/h.png is not below root, as --batch-root wants it
+> retex-combine: error: ../t:7: link/new/i.png is not below root, as --batch-root wants it
+> retex-combine: error: ../t:8: there/../../j.png is not below root, as --batch-root wants it
+> retex-combine: error: ../t:9: cannot write gone/../k.png: '..' in a folder that is not there
+> root root/a.png root/b.png root/dangling.png root/g.png root/k.png root/link root/new root/new/c.png root/there root/x.png
+$ printf 'output\na.png\n' >../t; retex-combine -q s.exr --batch ../t --batch-root root; retex-combine -q s.exr --batch ../t --batch-root s.exr --mkdir; retex-combine -q s.exr --batch ../t --batch-root root/of/batch --mkdir --dry-run; retex-combine -q s.exr --batch ../t --batch-root root/of/batch --mkdir; find root | sort; rm -r root
+> root
+> root/of
+> root/of/batch
+> root/of/batch/a.png
+! retex-combine: error: --batch-root root: no such folder
+! retex-combine: error: --batch-root s.exr: no such folder
+# So do they where a folder becomes a link while the batch runs.
+$ mkdir -p root/sub; printf '%s\n' output,floor a.png,../pipe sub/b.png,brick.jpg new/c.png,brick.jpg d.png,brick.jpg >../t; timeout 20 retex-combine -q s.exr --batch ../t --keep-going --batch-root root --mkdir & sh ../race 'mv root/sub root/old; ln -s ../../outside root/sub; ln -s ../../outside root/new'; wait $!; echo $?; find root | sort | tr '\n' ' '; ls ../outside; rm -r root; sh ../new
+> 2
+> root root/a.png root/d.png root/new root/old root/sub x.png
+! retex-combine: error: ../t:3: sub/b.png is not below root, as --batch-root wants it
+! retex-combine: error: ../t:4: new/c.png is not below root, as --batch-root wants it
+! retex-combine: error: 2 of 4 pictures failed
+
+# The same bits at any number of threads and whatever is kept in memory.
+$ printf '%s\n' output,floor,wall a.exr,brick.jpg b.exr,:scale=2:rotate=30\ brick.jpg,brick.jpg c.exr,,brick.jpg >../t; retex-combine -q s.exr --batch ../t; for o in '--threads 1 --memory 0' '--threads 2 --memory 0' '--threads 2'; do retex-combine -q s.exr --batch ../t $o --batch-root out --mkdir; for f in a b c; do cmp $f.exr out/$f.exr; done; rm -r out; done; rm [abc].exr; sh ../new
+
+# A large table is checked at once, in little memory.
+$ { echo output,floor,wall; for k in $(seq 5000); do echo "$k.png,:rotate=$k brick.jpg,\"rgb(0,0,1)\""; done; } >../t; make_peak ../peak timeout 10 retex-combine s.exr --batch ../t --dry-run | wc -l; awk '{ print ($1 < 64 ? "little" : $1) }' ../peak; sed -i '$s/5000/1/' ../t; retex-combine s.exr --batch ../t
+> 5000
+> little
+! retex-combine: error: ../t:5001: 1.png: the output of the table's line 2 and the output of the table's line 5001 are the same file
+= 2
+
+# These options are of a table.
+$ for o in --dry-run --keep-going --mkdir '--batch-root .' '--report r.json'; do retex-combine -q s.exr -o x.png $o; retex-render scenes/cornell-box/cornell-box.pov -o x.exr $o; done; sh ../new
+! retex-combine: error: --dry-run is of a table of pictures: it needs --batch
+! retex-render: error: --dry-run is of a table of pictures: it needs --variants
+! retex-combine: error: --keep-going is of a table of pictures: it needs --batch
+! retex-render: error: --keep-going is of a table of pictures: it needs --variants
+! retex-combine: error: --mkdir is of a table of pictures: it needs --batch
+! retex-render: error: --mkdir is of a table of pictures: it needs --variants
+! retex-combine: error: --batch-root is of a table of pictures: it needs --batch
+! retex-render: error: --batch-root is of a table of pictures: it needs --variants
+! retex-combine: error: --report is of a table of pictures: it needs --batch
+! retex-render: error: --report is of a table of pictures: it needs --variants
+
+# retex-render --variants: its table is checked before the scene is read, its targets then.
+$ printf '%s\n' output,floor a/1.exr,none.jpg 2.exr,brick.jpg 2.exr '3.exr,rgb(1)' >../t; retex-render --size 8x6 --spp 1 --variants ../t none.pov; printf '%s\n' output,sofa,floor,Floor 1.exr >../t; retex-render -t floor --size 8x6 --spp 1 --variants ../t scenes/cornell-box/cornell-box.pov; sh ../new
+! retex-render: error: ../t:2: cannot read none.jpg: No such file or directory
+! retex-render: error: ../t:2: the folder of a/1.exr is not there; --mkdir makes it
+! retex-render: error: ../t:4: 2.exr: the output of the table's line 3 and the output of the table's line 4 are the same file
+! retex-render: error: ../t:5: colour 'rgb(1)': expected rgb(r,g,b) with three numbers
+! retex-render: error: ../t:1: `sofa` is no target, there are: floor; name it with -t
+! retex-render: error: ../t:1: target `Floor` has two columns
+$ { echo output,floor; for k in $(seq 17); do echo "out/$k.exr,\"rgb(0.$k,0.5,0)\""; done; echo 18.exr,../cut.jpg; echo /dev/full,; echo 19.exr; } >../t; retex-render --size 8x6 --spp 1 --variants ../t --mkdir --dry-run --replace white=brick.jpg scenes/cornell-box/cornell-box.pov | tail -4; sh ../new
+> out/17.exr: floor <- rgb(0.17,0.5,0), white <- brick.jpg
+> 18.exr: floor <- ../cut.jpg, white <- brick.jpg
+> /dev/full: white <- brick.jpg
+> 19.exr: white <- brick.jpg
+$ retex-render --size 8x6 --spp 1 --variants ../t --mkdir --progress json scenes/cornell-box/cornell-box.pov 2>&1 | grep -v stage | tail -3 | sh ../times; sh ../new; rm -r out; retex-render -q --size 8x6 --spp 1 --variants ../t --mkdir --keep-going --report ../report --threads 1 scenes/cornell-box/cornell-box.pov; tail -5 ../report | sh ../times; ls out | wc -l; sh ../new; retex-render -q --size 8x6 --spp 1 --plain scenes/cornell-box/cornell-box.pov -o plain.exr; cmp plain.exr 19.exr; rm -r out plain.exr 19.exr
+> retex-render: error: ../t:19: ../cut.jpg: cannot read: the file is truncated
+> {"row": 18, "line": 19, "output": "18.exr", "status": "failed", "seconds": S, "error": "../cut.jpg: cannot read: the file is truncated", "done": 17, "total": 20}
+> {"total": 20, "made": 16, "failed": 1, "seconds": S}
+> 1a2
+> > out
+>     {"row": 18, "line": 19, "output": "18.exr", "status": "failed", "seconds": S, "error": "../cut.jpg: cannot read: the file is truncated", "textures": {"floor": "../cut.jpg"}},
+>     {"row": 19, "line": 20, "output": "/dev/full", "status": "failed", "seconds": S, "error": "cannot write /dev/full: No space left on device", "textures": {}},
+>     {"row": 20, "line": 21, "output": "19.exr", "status": "made", "seconds": S, "textures": {}}
+>   ]
+> }
+> 17
+> 0a1
+> > 19.exr
+> 1a3
+> > out
+! retex-render: error: ../t:19: ../cut.jpg: cannot read: the file is truncated
+! retex-render: error: ../t:20: cannot write /dev/full: No space left on device
+! retex-render: error: 2 of 20 pictures failed
+$ printf 'output,floor\n1.exr\n' >../t; echo '#include "none.inc"' >wrong.pov; echo 'A' >part.inc; for r in report work/wrong.pov work/part.inc; do retex-render -q --size 8x6 --spp 1 --variants ../t --report ../$r wrong.pov; done; sh ../times <../report; cat wrong.pov part.inc; rm wrong.pov part.inc; retex-render -q --size 8x6 --spp 1 --variants ../t --report ../report --replace floor=none.jpg scenes/cornell-box/cornell-box.pov; sh ../times <../report | grep -v row
+> {
+>   "tool": "retex-render", "version": "0.1.0", "table": "../t",
+>   "status": "failed", "total": 1, "made": 0, "failed": 0, "seconds": S, "error": "wrong.pov:1:10: cannot find the file `none.inc` in the scene's folder or the include path",
+>   "mistakes": [],
+>   "rows": [
+>     {"row": 1, "line": 2, "output": "1.exr", "status": "not made", "seconds": S, "textures": {}}
+>   ]
+> }
+> #include "none.inc"
+> A
+> {
+>   "tool": "retex-render", "version": "0.1.0", "table": "../t",
+>   "status": "failed", "total": 1, "made": 0, "failed": 0, "seconds": S, "error": "the batch was not begun",
+>   "mistakes": [],
+>   ]
+> }
+! retex-render: error: wrong.pov:1:10: cannot find the file `none.inc` in the scene's folder or the include path
+! retex-render: error: ../work/wrong.pov: --report would replace the scene, wrong.pov
+! retex-render: error: wrong.pov:1:10: cannot find the file `none.inc` in the scene's folder or the include path
+! retex-render: error: cannot read none.jpg: No such file or directory
+$ printf '%s\n' output,floor sub/1.exr ../2.exr >../t; retex-render -q --size 8x6 --spp 1 --variants ../t --batch-root out --mkdir scenes/cornell-box/cornell-box.pov; sed -i 3d ../t;  retex-render -q --size 8x6 --spp 1 --variants ../t --batch-root out --mkdir scenes/cornell-box/cornell-box.pov; find out
+> out
+> out/sub
+> out/sub/1.exr
+! retex-render: error: ../t:3: cannot write ../2.exr: '..' in a folder that is not there
+$ retex-render -q --size 64x48 --spp 64 --progress json -t floor scenes/cornell-box/cornell-box.pov -o x.exr 2>&1 | tail -1 | sed 's/[0-9.]*}/S}/'
+> {"stage": "render", "fraction": 1.0000, "seconds": S}

@@ -1,0 +1,181 @@
+/* See batch.h: options, and the life of a batch. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "batch.h"
+#include "output_folder.h"
+#include "texture_args.h"
+
+/* ---- options ---- */
+
+int batch_option(Batch *batch, const Cli *cli, const CliOption *option)
+{
+    if (strcmp(option->name, "dry-run") == 0)
+        batch->dry_run = 1;
+    else if (strcmp(option->name, "keep-going") == 0)
+        batch->keep_going = 1;
+    else if (strcmp(option->name, "mkdir") == 0)
+        batch->make_folders = 1;
+    else if (strcmp(option->name, "batch-root") == 0)
+        batch->root = cli->value;
+    else if (strcmp(option->name, "report") == 0)
+        batch->report = cli->value;
+    else
+        return 0;
+    return 1;
+}
+
+void batch_check_options(const Batch *batch, const Cli *cli, const char *option)
+{
+    const char *given = batch->dry_run        ? "dry-run"
+                        : batch->keep_going   ? "keep-going"
+                        : batch->make_folders ? "mkdir"
+                        : batch->root         ? "batch-root"
+                        : batch->report       ? "report"
+                                              : NULL;
+    if (given)
+        cli_die(cli, "--%s is of a table of pictures: it needs --%s", given, option);
+}
+
+/* ---- life ---- */
+
+/* Where there is an error of the report alone, it is the last that is told. */
+static int write_report(Batch *batch)
+{
+    RetexError err = {0};
+    if (!batch->report_due)
+        return CLI_OK;
+    batch->report_due = 0;
+    if (!batch->inputs_known && !batch_report_is_free(batch->report))
+        return CLI_OK;
+    if (!batch_report_write(batch, &err))
+        return CLI_OK;
+    RetexError told = {0};
+    retex_fail(&told, err.code, "--report: %s", err.message);
+    cli_error(batch->cli, &told);
+    return CLI_FAIL;
+}
+
+/* The batch of this process, of which there is one. */
+static Batch *running;
+
+/* A mistake elsewhere ended the program, which has been told. */
+static void write_last_report(void)
+{
+    if (!running || !running->report_due)
+        return;
+    if (!running->error)
+        running->error = strdup("the batch was not begun");
+    write_report(running);
+}
+
+void batch_open(Batch *batch, const Cli *cli, const char *path)
+{
+    running = batch;
+    atexit(write_last_report);
+    batch->cli = cli;
+    batch->began = texture_args_now();
+    texture_table_open(&batch->table, cli, path);
+    batch->rows = calloc((size_t)batch->table.nrows + 1, sizeof *batch->rows);
+    if (!batch->rows)
+        cli_die(cli, "not enough memory for the table");
+}
+
+static void close_batch(Batch *batch)
+{
+    for (int row = 0; row < batch->table.nrows; row++)
+        free(batch->rows[row].error);
+    free(batch->rows);
+    free(batch->error);
+    texture_table_close(&batch->table);
+    batch->rows = NULL;
+    batch->error = NULL;
+    running = NULL;
+}
+
+void batch_refuse_mistakes(Batch *batch)
+{
+    if (!batch->table.nmistakes)
+        return;
+    texture_table_tell(&batch->table, batch->cli);
+    write_report(batch);
+    close_batch(batch);
+    exit(cli_close(batch->cli, CLI_FAIL));
+}
+
+void batch_print(const Batch *batch)
+{
+    RetexTextureSpec specs[RETEX_MAX_TARGETS];
+    BatchTexture textures[RETEX_MAX_TARGETS];
+    for (int row = 0; row < batch->table.nrows && !batch->cli->quiet; row++) {
+        int count = texture_table_textures(&batch->table, row, specs);
+        count = batch->tool.describe(batch->tool.context, specs, count, textures);
+        printf("%s: ", texture_table_output(&batch->table, row));
+        for (int i = 0; i < count; i++)
+            printf("%s%s <- %s", i ? ", " : "", textures[i].target, textures[i].texture);
+        puts(count ? "" : "original textures");
+    }
+}
+
+/* ---- row by row ---- */
+
+int batch_output(const Batch *batch, int row, char path[PATH_MAX], RetexError *err)
+{
+    const char *output = texture_table_output(&batch->table, row);
+    char real[PATH_MAX];
+    int missing, code = batch_path(batch, row, path, err);
+    if (code || !(batch->make_folders || batch->root))
+        return code;
+    code = output_resolve(real, &missing, path, output, err);
+    if (!code)
+        code = batch_check_root(batch, real, output, err);
+    if (code || !(missing || batch->root))
+        return code;
+    if (batch->make_folders)
+        code = output_make_folders(real, err);
+    if (!code)
+        code = output_resolve(path, &missing, real, output, err); /* what it leads to now: no link is followed later */
+    return code ? code : batch_check_root(batch, path, output, err);
+}
+
+int batch_done(Batch *batch, int row, double seconds, const RetexError *err)
+{
+    BatchRow *r = &batch->rows[row];
+    RetexError told = {0};
+    r->seconds = seconds;
+    r->status = err ? BATCH_FAILED : BATCH_MADE;
+    *(err ? &batch->failed : &batch->made) += 1;
+    if (err) {
+        char message[sizeof err->file + sizeof err->message + 32];
+        cli_error_text(err, message, sizeof message);
+        r->error = strdup(message);
+        retex_fail_at(&told, err->code, batch->table.name, batch->table.rows[row].line, 0, "%s", message);
+        cli_error(batch->cli, &told);
+    }
+    if (batch->cli->json_progress)
+        batch_report_row(batch, row);
+    return !err || batch->keep_going;
+}
+
+int batch_finish(Batch *batch, const RetexError *err)
+{
+    const int total = batch->table.nrows;
+    RetexError told = {0};
+    if (err) {
+        char message[sizeof err->file + sizeof err->message + 32];
+        cli_error_text(err, message, sizeof message);
+        batch->error = strdup(message);
+        cli_error(batch->cli, err);
+    } else if (batch->failed && batch->keep_going) {
+        retex_fail(&told, RETEX_EIO, "%d of %d picture%s failed", batch->failed, total, total == 1 ? "" : "s");
+        cli_error(batch->cli, &told);
+    } else if (!batch->failed && !batch->dry_run && !batch->cli->json_progress) {
+        cli_info(batch->cli, "%d picture%s, %.2f s", total, total == 1 ? "" : "s", texture_args_now() - batch->began);
+    }
+    if (batch->cli->json_progress)
+        batch_report_end(batch);
+    int status = write_report(batch) || err || batch->failed ? CLI_FAIL : CLI_OK;
+    close_batch(batch);
+    return status;
+}

@@ -1,0 +1,204 @@
+/* A table is checked whole before the first picture: its images, each once, then its outputs. That costs some system
+ * calls a row. See batch.h. */
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <retex/retex.h>
+
+#include "batch.h"
+#include "output_folder.h"
+#include "texture_args.h"
+
+enum { COLORSPACES_MAX = 32 }; /* that are tried; a wrong one beyond them is found when its picture is made */
+
+/* What is wrong with a row. */
+static void note(TextureTable *table, int row, const RetexError *err)
+{
+    char message[sizeof err->file + sizeof err->message + 32];
+    cli_error_text(err, message, sizeof message);
+    texture_table_mistake(table, table->rows[row].line, "%s", message);
+}
+
+/* ---- images ---- */
+
+typedef struct Image {
+    const char *name;
+    int row, column;
+} Image;
+
+static int compare_images(const void *a, const void *b)
+{
+    const Image *x = a, *y = b;
+    int order = strcmp(x->name, y->name);
+    return order ? order : x->row != y->row ? x->row - y->row : x->column - y->column;
+}
+
+/* All that the table names, by name, and then as they come. */
+static Image *list_images(const Batch *batch, size_t *count)
+{
+    const TextureTable *table = &batch->table;
+    Image *images = malloc((size_t)table->nrows * (size_t)table->ncolumns * sizeof *images + 1);
+    if (!images)
+        cli_die(batch->cli, "not enough memory for the table");
+    RetexTextureSpec spec;
+    *count = 0;
+    for (int row = 0; row < table->nrows; row++)
+        for (int column = 0; column < table->ncolumns; column++) {
+            Image image = {NULL, row, column};
+            if (!texture_table_texture(table, row, column, &spec, &image.name) && !spec.constant)
+                images[(*count)++] = image;
+        }
+    qsort(images, *count, sizeof *images, compare_images);
+    return images;
+}
+
+/* Colour spaces that images were read with. */
+typedef struct Colorspaces {
+    char names[COLORSPACES_MAX][sizeof((RetexTextureSpec *)0)->colorspace];
+    int count;
+} Colorspaces;
+
+/* A colour space that no image before had is tried on this one, which is read for it. */
+static int check_colorspace(Colorspaces *known, RetexTextureSpec spec, int nthreads, RetexError *err)
+{
+    RetexTexture *texture = NULL;
+    if (!spec.colorspace[0] || known->count == COLORSPACES_MAX)
+        return RETEX_OK;
+    for (int i = 0; i < known->count; i++)
+        if (strcmp(known->names[i], spec.colorspace) == 0)
+            return RETEX_OK;
+    strcpy(known->names[known->count++], spec.colorspace);
+    spec.width[0] = spec.width[1] = 0; /* what they are measured by is not known here */
+    int code = retex_texture_load(&texture, &spec, nthreads, err);
+    retex_texture_close(&texture);
+    return code;
+}
+
+static void check_images(Batch *batch)
+{
+    TextureTable *table = &batch->table;
+    size_t count;
+    Image *images = list_images(batch, &count);
+    Colorspaces known = {.count = 0};
+    RetexTextureSpec spec;
+    const char *read = NULL; /* the image before, if it can be */
+    const RetexReadParams read_params = {sizeof read_params, NULL, 0, table->access};
+    for (size_t i = 0; i < count; i++) {
+        RetexError err = {0};
+        const char *name = images[i].name;
+        const int same = i > 0 && strcmp(images[i - 1].name, name) == 0;
+        texture_table_texture(table, images[i].row, images[i].column, &spec, &name);
+        int code = same ? RETEX_OK : texture_args_add_input(&spec, &err);
+        if (!code && !same)
+            code = retex_image_read_check(name, &read_params, &err);
+        if (!same)
+            read = code ? NULL : name;
+        if (!code && read)
+            code = check_colorspace(&known, spec, batch->cli->threads, &err);
+        if (code)
+            note(table, images[i].row, &err);
+    }
+    free(images);
+}
+
+/* ---- outputs ---- */
+
+int batch_path(const Batch *batch, int row, char path[PATH_MAX], RetexError *err)
+{
+    const char *output = texture_table_output(&batch->table, row);
+    const int below = batch->root_path[0] && output[0] != '/';
+    if (snprintf(path, PATH_MAX, "%s%s%s", below ? batch->root_path : "", below ? "/" : "", output) >= PATH_MAX)
+        return retex_fail(err, RETEX_EIO, "cannot write %s: %s", output, strerror(ENAMETOOLONG));
+    return RETEX_OK;
+}
+
+int batch_check_root(const Batch *batch, const char *real, const char *output, RetexError *err)
+{
+    if (batch->root_path[0] && !output_is_below(real, batch->root_path))
+        return retex_fail(err, RETEX_EINVAL, "%s is not below %s, as --batch-root wants it", output, batch->root);
+    return RETEX_OK;
+}
+
+/* The folders of a path that are missing can be made. */
+static int check_folder(const Batch *batch, const char *real, int missing, const char *output, RetexError *err)
+{
+    char folder[PATH_MAX];
+    if (!batch->make_folders)
+        return retex_fail(err, RETEX_EIO, "the folder of %s is not there; --mkdir makes it", output);
+    strcpy(folder, real);
+    for (int cut = 0; cut <= missing; cut++)
+        *strrchr(folder, '/') = '\0';
+    if (access(folder[0] ? folder : "/", W_OK | X_OK) != 0)
+        return retex_fail(err, RETEX_EIO, "cannot make the folder of %s: %s", output, strerror(errno));
+    return RETEX_OK;
+}
+
+static int check_output(const Batch *batch, int row, const RetexWriteParams *params, RetexError *err)
+{
+    const char *output = texture_table_output(&batch->table, row);
+    char path[PATH_MAX], real[PATH_MAX], what[64];
+    int missing, code = batch_path(batch, row, path, err);
+    if (!code)
+        code = output_resolve(real, &missing, path, output, err);
+    if (!code)
+        code = batch_check_root(batch, real, output, err);
+    snprintf(what, sizeof what, "the output of the table's line %d", batch->table.rows[row].line);
+    if (!code)
+        code = cli_add_output(what, path, err);
+    if (!code && missing)
+        code = check_folder(batch, real, missing, output, err);
+    if (!code)
+        code = missing ? retex_image_format_check(path, params, err) : retex_image_write_check(path, params, err);
+    return code;
+}
+
+static void check_rows(Batch *batch, const RetexWriteParams *params)
+{
+    TextureTable *table = &batch->table;
+    RetexTextureSpec specs[RETEX_MAX_TARGETS];
+    for (int row = 0; row < table->nrows; row++) {
+        RetexError err = {0};
+        int code = check_output(batch, row, params, &err);
+        if (!code && batch->tool.check)
+            code = batch->tool.check(batch->tool.context, specs, texture_table_textures(table, row, specs), &err);
+        if (code)
+            note(table, row, &err);
+    }
+}
+
+/* ---- all of it ---- */
+
+/* The folder that pictures must be below; --mkdir makes that one too. */
+static void find_root(Batch *batch)
+{
+    RetexError err = {0};
+    struct stat info;
+    int missing;
+    char root[PATH_MAX];
+    size_t length = (size_t)snprintf(root, sizeof root, "%s", batch->root);
+    while (length > 1 && length < sizeof root && root[length - 1] == '/')
+        root[--length] = '\0';
+    if (output_resolve(batch->root_path, &missing, root, batch->root, &err))
+        cli_die(batch->cli, "--batch-root: %s", err.message);
+    if (stat(batch->root_path, &info) == 0 ? !S_ISDIR(info.st_mode) : !batch->make_folders)
+        cli_die(batch->cli, "--batch-root %s: no such folder", batch->root);
+}
+
+void batch_check(Batch *batch, const RetexWriteParams *params)
+{
+    RetexError err = {0};
+    if (batch->root)
+        find_root(batch);
+    check_images(batch);
+    check_rows(batch, params);
+    if (batch->dry_run)
+        cli_writes(batch->cli, "--dry-run", "-");
+    cli_writes(batch->cli, "--report", batch->report); /* last: where it is one of the files above there is none */
+    if (batch->report && retex_set_write_check(batch->report, &err))
+        cli_die(batch->cli, "--report: %s", err.message);
+    batch->report_due = batch->report != NULL;
+}

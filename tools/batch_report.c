@@ -1,0 +1,156 @@
+/* What became of a batch, for programs: lines of JSON while it runs, and the report. See batch.h. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include <retex/retex.h>
+
+#include "batch.h"
+#include "json_text.h"
+#include "texture_args.h"
+
+static const char *status_name(const Batch *batch, const BatchRow *row)
+{
+    return row->status == BATCH_MADE     ? "made"
+           : row->status == BATCH_FAILED ? "failed"
+           : batch->dry_run              ? "checked"
+                                         : "not made";
+}
+
+/* The keys that tell of one row, without braces. */
+static void print_row(FILE *file, const Batch *batch, int row)
+{
+    const BatchRow *r = &batch->rows[row];
+    fprintf(file, "\"row\": %d, \"line\": %d, \"output\": ", row + 1, batch->table.rows[row].line);
+    json_text(file, texture_table_output(&batch->table, row));
+    fprintf(file, ", \"status\": \"%s\", \"seconds\": %.4f", status_name(batch, r), r->seconds);
+    if (r->error) {
+        fprintf(file, ", \"error\": ");
+        json_text(file, r->error);
+    }
+}
+
+/* Print what was collected as one piece, so that lines of other programs do not come between. */
+static void print_line(FILE *file, char **text)
+{
+    if (fclose(file) == 0)
+        fputs(*text, stderr);
+    free(*text);
+}
+
+void batch_report_row(const Batch *batch, int row)
+{
+    char *text = NULL;
+    size_t bytes;
+    FILE *file = open_memstream(&text, &bytes);
+    if (!file)
+        return;
+    fprintf(file, "{");
+    print_row(file, batch, row);
+    fprintf(file, ", \"done\": %d, \"total\": %d}\n", batch->made + batch->failed, batch->table.nrows);
+    print_line(file, &text);
+}
+
+/* The keys that tell of the whole batch. */
+static void print_totals(FILE *file, const Batch *batch)
+{
+    fprintf(file, "\"total\": %d, \"made\": %d, \"failed\": %d, \"seconds\": %.4f", batch->table.nrows, batch->made,
+            batch->failed, texture_args_now() - batch->began);
+    if (batch->error) {
+        fprintf(file, ", \"error\": ");
+        json_text(file, batch->error);
+    }
+}
+
+void batch_report_end(const Batch *batch)
+{
+    char *text = NULL;
+    size_t bytes;
+    FILE *file = open_memstream(&text, &bytes);
+    if (!file)
+        return;
+    fprintf(file, "{");
+    print_totals(file, batch);
+    fprintf(file, "}\n");
+    print_line(file, &text);
+}
+
+/* ---- the report ---- */
+
+#define REPORT_BEGIN "{\n  \"tool\": \"retex-"
+
+int batch_report_is_free(const char *path)
+{
+    char begin[sizeof REPORT_BEGIN] = "";
+    FILE *file = strcmp(path, "-") ? fopen(path, "rb") : NULL;
+    if (!file)
+        return !strcmp(path, "-") || access(path, F_OK) != 0;
+    size_t got = fread(begin, 1, sizeof begin - 1, file);
+    fclose(file);
+    return got == sizeof begin - 1 && strcmp(begin, REPORT_BEGIN) == 0;
+}
+
+static void print_textures(FILE *file, const Batch *batch, int row)
+{
+    RetexTextureSpec specs[RETEX_MAX_TARGETS];
+    BatchTexture textures[RETEX_MAX_TARGETS];
+    int count = texture_table_textures(&batch->table, row, specs);
+    count = batch->tool.describe(batch->tool.context, specs, count, textures);
+    fprintf(file, ", \"textures\": {");
+    for (int i = 0; i < count; i++) {
+        fprintf(file, i ? ", " : "");
+        json_text(file, textures[i].target);
+        fprintf(file, ": ");
+        json_text(file, textures[i].texture);
+    }
+    fprintf(file, "}");
+}
+
+static void print_mistakes(FILE *file, const TextureTable *table)
+{
+    const int count = table->nmistakes < TABLE_MISTAKES_MAX ? table->nmistakes : TABLE_MISTAKES_MAX;
+    fprintf(file, "  \"mistakes\": [");
+    for (int i = 0; i < count; i++) {
+        fprintf(file, "%s\n    {\"line\": %d, \"error\": ", i ? "," : "", table->mistakes[i].line);
+        json_text(file, table->mistakes[i].message ? table->mistakes[i].message : "");
+        fprintf(file, "}");
+    }
+    fprintf(file, "%s],\n", count ? "\n  " : "");
+}
+
+static void print_report(FILE *file, const Batch *batch)
+{
+    const TextureTable *table = &batch->table;
+    const int wrong = table->nmistakes || batch->error || batch->failed;
+    fprintf(file, REPORT_BEGIN "%s\", \"version\": \"%s\", \"table\": ", batch->cli->tool + strlen("retex-"),
+            RETEX_VERSION);
+    json_text(file, table->name);
+    fprintf(file, ",\n  \"status\": \"%s\", ", wrong ? "failed" : batch->dry_run ? "checked" : "made");
+    print_totals(file, batch);
+    fprintf(file, ",\n");
+    print_mistakes(file, table);
+    fprintf(file, "  \"rows\": [");
+    for (int row = 0; row < table->nrows; row++) {
+        fprintf(file, "%s\n    {", row ? "," : "");
+        print_row(file, batch, row);
+        if (!table->nmistakes) /* else targets may be wrong */
+            print_textures(file, batch, row);
+        fprintf(file, "}");
+    }
+    fprintf(file, "%s]\n}\n", table->nrows ? "\n  " : "");
+}
+
+int batch_report_write(const Batch *batch, RetexError *err)
+{
+    char *text = NULL;
+    size_t bytes = 0;
+    FILE *file = open_memstream(&text, &bytes);
+    if (file)
+        print_report(file, batch);
+    int failed = !file || ferror(file), closed = file ? fclose(file) : 0;
+    int code = failed || closed ? retex_fail(err, RETEX_ENOMEM, "not enough memory for the report")
+                                : retex_file_write(batch->report, text, bytes, err);
+    free(text);
+    return code;
+}
