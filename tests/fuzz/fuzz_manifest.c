@@ -43,7 +43,8 @@ static int read_and_write(const char *json, char **again)
     *again = NULL;
     int code = retex_manifest_read(json, "fuzz", &set, &samples, &parts, NULL, NULL);
     if (!code)
-        fuzz_must(retex_manifest_write(set, samples, parts, NULL, again, NULL) == 0, "an accepted manifest can be written");
+        fuzz_must(retex_manifest_write(set, samples, parts, NULL, again, NULL) == 0,
+                  "an accepted manifest can be written");
     free(parts);
     retex_samples_close(&samples);
     retex_set_close(&set);

@@ -61,10 +61,11 @@ void exr_plan_close(ExrPlan *plan);
 size_t exr_channel_bytes(const exr_attr_chlist_entry_t *channel);
 
 /* Read a chunk, by its place among the part's, into the image (NULL: nowhere), whose first row is row top of the part,
- * and into sums (or NULL), which chunks of a row must be given from the left. Thread-safe, each with its own scratch. */
+ * and into sums (or NULL), to which chunks of a row must come from the left. Thread-safe, each with its own scratch. */
 exr_result_t exr_chunk_read(RetexExr *exr, const ExrPlan *plan, int column, int row, RetexImage *image, int top,
                             const ExrSums *sums, ExrScratch *scratch);
-/* The checksum of lines y0 to y1 of one channel of the request, put together; *bytes (may be NULL): how many they are. */
+/* The checksum of lines y0 to y1 of one channel of the request, put together; *bytes (may be NULL): how many they
+ * are. */
 uint32_t exr_sums_plane(const ExrPlan *plan, const ExrSums *sums, int slot, int y0, int y1, size_t *bytes);
 void exr_scratch_free(ExrScratch *scratch);
 

@@ -1,5 +1,5 @@
-/* See exr_source.h. A reader keeps the last strip of each part, decoded: as many whole rows of chunks as are whole bands
- * that have a checksum. */
+/* See exr_source.h. A reader keeps the last strip of each part, decoded: as many rows of chunks as are whole bands that
+ * have a checksum. */
 #include "exr_source.h"
 
 #include <pthread.h>

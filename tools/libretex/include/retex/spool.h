@@ -3,7 +3,8 @@
  * nothing.
  *
  * With a name it is a journal: whole up to the last band that was committed, whenever the process ends, so that another
- * one can go on from there. Everything in it has a checksum; bands behind the first damaged place count as not there. */
+ * one can go on from there. Everything in it has a checksum; bands behind the first damaged place count as not there.
+ */
 #ifndef RETEX_SPOOL_H
 #define RETEX_SPOOL_H
 
