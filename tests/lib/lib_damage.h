@@ -37,4 +37,25 @@ void damage_make_old(const char *path);
 /* Go one. 0, and *sum tells what came of it; or what refused it. What it writes is gone when it returns. */
 int damage_go(DamageRoad road, const char *path, uint32_t *sum, RetexError *err);
 
+/* What may happen to a file on a disk or on its way. */
+typedef enum DamageKind {
+    DAMAGE_BIT,   /* one is the other */
+    DAMAGE_BYTE,  /* one is another */
+    DAMAGE_NUMBER, /* four bytes are a number at the edge of something, or a float that is none */
+    DAMAGE_CUT,   /* its end is missing */
+    DAMAGE_LOST,  /* a run is missing in between */
+    DAMAGE_TWICE, /* a run is there once more, and all behind it moves */
+    DAMAGE_ZEROS, /* a run is 0 */
+    DAMAGE_SWAP,  /* two runs have changed places */
+    DAMAGE_MOVED, /* a run has been written over another one */
+    DAMAGE_TAIL,  /* the last run is one byte again and again */
+    DAMAGE_KINDS
+} DamageKind;
+extern const char *const damage_kind_names[DAMAGE_KINDS];
+enum { DAMAGE_ROOM = 64 }; /* what it may be longer by */
+
+/* Damage a file's bytes, which have room for DAMAGE_ROOM more: its size then. In a quarter of all cases near the
+ * beginning, where headers are. */
+size_t damage_change(unsigned char *bytes, size_t size, DamageKind kind, uint32_t *seed);
+
 #endif

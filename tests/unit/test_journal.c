@@ -1,5 +1,5 @@
 /* Journals: what was committed is there when a spool is opened again, however its file ends or is damaged. */
-#include "lib_test.h"
+#include "lib_damage.h"
 #include <cmocka.h>
 
 #include <stdio.h>
@@ -312,6 +312,37 @@ static void damage_after_opening_is_seen(void **state)
     free(bytes);
 }
 
+/* Whatever happens to a journal, the render that goes on from it ends as one that was not disturbed. */
+static void renders_go_on_from_what_is_whole(void **state)
+{
+    (void)state;
+    RetexError err;
+    size_t size;
+    int refused = 0, lost = 0;
+    make_journal();
+    unsigned char *bytes = read_journal(&size), *other = malloc(size + DAMAGE_ROOM);
+    for (int i = 0; i < 100 * DAMAGE_KINDS; i++) {
+        uint32_t seed = 77u + (uint32_t)i * 7919u;
+        RetexSpool *spool = NULL;
+        memcpy(other, bytes, size);
+        write_copy(other, damage_change(other, size, (DamageKind)(i % DAMAGE_KINDS), &seed));
+        const int code = retex_spool_open(&spool, WIDTH, HEIGHT, KEY, copy, 1, &err);
+        refused += code != 0;
+        if (code)
+            continue;
+        add_images(spool);
+        lost += check_bands(spool) < 2;
+        for (int band = 0; band < BANDS; band++)
+            if (!retex_spool_committed(spool, band))
+                put_band(spool, band, 1);
+        assert_int_equal(check_bands(spool), BANDS);
+        retex_spool_close(&spool);
+    }
+    assert_true(refused > 0 && lost > 0);
+    free(bytes);
+    free(other);
+}
+
 static void a_nameless_spool_gets_a_name(void **state)
 {
     (void)state;
@@ -361,6 +392,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(damage_costs_bands_at_most, make_path, remove_path),
         cmocka_unit_test_setup_teardown(no_record_is_missing_or_comes_twice, make_path, remove_path),
         cmocka_unit_test_setup_teardown(damage_after_opening_is_seen, make_path, remove_path),
+        cmocka_unit_test_setup_teardown(renders_go_on_from_what_is_whole, make_path, remove_path),
         cmocka_unit_test_setup_teardown(a_nameless_spool_gets_a_name, make_path, remove_path),
         cmocka_unit_test_setup_teardown(bands_are_copied, make_path, remove_path),
     };
