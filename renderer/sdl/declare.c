@@ -157,7 +157,10 @@ void declare_run(Sdl *sdl, int local)
     Place place = left_side(sdl);
     if (!sdl_raw_accept(sdl, '='))
         sdl_expected(sdl, "`=`");
+    int outer = place.word->declaring;
+    place.word->declaring = place.line;
     Value value = right_side(sdl, &needs_semicolon);
+    place.word->declaring = outer;
     scene_side_name(sdl, &value, place.word->text, place.line);
     /* The macros that made the value end before its semicolon. */
     stream_finish_macros(sdl, frame);

@@ -40,6 +40,7 @@ typedef struct Word {
     const Builtin *builtin; /* constant, function or component of the expression language, or NULL */
     Symbol *symbol;         /* the innermost visible symbol of that name, or NULL */
     struct Word *next;      /* in its hash bucket */
+    int declaring;          /* the line of its declaration, while that is read */
 } Word;
 
 typedef enum RawKind { RAW_END, RAW_NUMBER, RAW_STRING, RAW_WORD, RAW_PUNCT, RAW_DIRECTIVE, RAW_BAD } RawKind;

@@ -336,7 +336,9 @@ void stream_describe(Sdl *sdl, const Token *token, char *out, size_t size)
             break;
         }
         nearest = word_nearest(sdl, token->text);
-        if (nearest)
+        if (word->declaring) /* most likely a brace is missing */
+            snprintf(out, size, "`%.60s`, whose declaration of line %d has not ended", token->text, word->declaring);
+        else if (nearest)
             snprintf(out, size, "`%.60s`, which is not declared; is `%.60s` meant?", token->text, nearest);
         else
             snprintf(out, size, "`%.60s`, which is not declared", token->text);

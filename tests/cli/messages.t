@@ -145,6 +145,11 @@ $ for x in 'union { sphere { 0, 1 }' 'union {\n sphere { 0, 1 pigment { rgb 1 }\
 ! retex-render: error: m.pov:9:15: expected an object modifier or }, found `box`
 ! retex-render: error: m.pov:12:1: expected an object modifier or }, found `box`; the `{` of line 9 is not closed
 = 2
+$ for x in '#declare Sofa = union {\n box { 0, 1 }\n\nobject { Sofa }' '#declare Chairs = union {\n box { 0, 1 }\n#declare Other = sphere { 0, 1 }\nobject { Other }\nobject { Chairs translate x }' '#declare N = N + 1;'; do sh try "$x"; done
+! retex-render: error: m.pov:12:10: expected an object, found `Sofa`, whose declaration of line 9 has not ended
+! retex-render: error: m.pov:13:10: expected an object, found `Chairs`, whose declaration of line 9 has not ended
+! retex-render: error: m.pov:9:14: expected a value, found `N`, whose declaration of line 9 has not ended
+= 2
 $ printf 'sphere { 0, 1\n  pigment { rgb 1 }\n' >open.inc; sh try '#include "open.inc"\nbox { 0, 1 }'
 ! retex-render: error: m.pov:10:1: expected an object modifier or }, found `box`; the `{` of open.inc:1 is not closed
 = 2
