@@ -62,6 +62,10 @@ $ for x in '--layout footprnts' '--layout papre' '--layout cubist' '--filter bx'
 ! retex-render: error: --replace: `flor` is no target; is Floor meant?
 ! retex-render: error: standard input:1: `flor` is no target, there are: Floor; is Floor meant?
 = 2
+$ retex-diff s.exr s.exr --part beuaty; retex-diff s.exr s.exr --part zzzzzzz
+! retex-diff: error: neither file has a part 'beuaty'; is beauty meant?
+! retex-diff: error: neither file has a part 'zzzzzzz'
+= 2
 $ ls x.*
 ! ls: cannot access 'x.*': No such file or directory
 = 2

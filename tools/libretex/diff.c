@@ -1,6 +1,7 @@
 /* Comparing two files: parts by name, channels by name, then values. See retex/diff.h. What cannot be compared, because
  * a size, a part or a channel is not there twice, differs. */
 #include <retex/diff.h>
+#include <retex/nearest.h>
 
 #include <math.h>
 #include <stdio.h>
@@ -203,13 +204,24 @@ static int compare_all(RetexDiff *diff, RetexLayers *a, RetexLayers *b, const Re
     return code;
 }
 
+static int fail_part(const RetexLayers *a, const RetexLayers *b, const char *part, RetexError *err)
+{
+    RetexNearest nearest = {part, NULL, 0};
+    char meant[RETEX_MEANT_SIZE];
+    for (int i = 0; i < retex_layers_count(a); i++)
+        retex_nearest_try(&nearest, retex_layers_name(a, i));
+    for (int i = 0; i < retex_layers_count(b); i++)
+        retex_nearest_try(&nearest, retex_layers_name(b, i));
+    return retex_fail(err, RETEX_ENOTFOUND, "neither file has a part '%s'%s", part, retex_meant(nearest.best, meant));
+}
+
 /* The one part that was asked for. */
 static int compare_one(RetexDiff *diff, RetexLayers *a, RetexLayers *b, const RetexDiffParams *params, RetexError *err)
 {
     int ia = params->part ? retex_layers_find(a, params->part) : 0;
     int ib = params->part ? retex_layers_find(b, params->part) : 0;
     if (ia < 0 && ib < 0)
-        return retex_fail(err, RETEX_ENOTFOUND, "neither file has a part '%s'", params->part);
+        return fail_part(a, b, params->part, err);
     if (ia < 0 || ib < 0) {
         diff->differs = 1;
         REASON(diff, "part '%s' is missing in the %s", params->part, ia < 0 ? "first" : "second");
