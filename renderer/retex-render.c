@@ -55,8 +55,10 @@ static void announce_files(Arguments *a, const char *output)
     cli_reads(a->cli, "the scene", a->scene);
     cli_reads(a->cli, "the table", a->variants);
     cli_reads(a->cli, "the set of --control", a->control);
-    for (int k = 0; k < a->nmerged; k++)
+    for (int k = 0; k < a->nmerged; k++) {
+        cli_input(a->cli, a->merged[k], "finished rows, as of --shard");
         cli_reads(a->cli, "the file of --merge", a->merged[k]);
+    }
     texture_args_reads(a->cli, a->replacements, a->nreplacements);
     cli_writes(a->cli, a->list || a->tracing ? "the answer" : "the output", a->list || a->tracing ? "-" : output);
     cli_writes(a->cli, "--stats", a->stats);

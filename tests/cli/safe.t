@@ -173,6 +173,10 @@ $ retex-sample --safe -q s.exr --texture floor=t.png | retex-combine --safe -q -
 ! retex-diff: error: t.ppm: no PNG, JPEG, OpenEXR, TIFF, TGA, BMP, GIF or Radiance HDR by what is in it: others are not read (--safe)
 ! retex-diff: error: pipe.pov is a folder, a device or a pipe: only files are read (--safe)
 = 2
+$ retex-render --safe -q --spp 1 --size 8x8 -t Floor --merge pipe.pov "$SCENES/cornell-box/cornell-box.pov" -o m.exr; retex-render --safe -q --spp 1 --size 8x8 --control pipe.pov --replace Floor=t.png "$SCENES/cornell-box/cornell-box.pov" -o m.exr
+! retex-render: error: pipe.pov is a folder, a device or a pipe: only files are read (--safe)
+! retex-render: error: pipe.pov is a folder, a device or a pipe: only files are read (--safe)
+= 2
 
 # What a stranger's set or picture holds does not reach the terminal as it is.
 $ n="$(printf 'a\033[2J.pov')"; printf 'box { -1, 1 }\nbackground { rgb 1 }\n' >"$n"; retex-render -q --spp 1 --size 8x8 --aov depth "$n" -o n.exr; retex-info n.exr | grep scene | cat -v
