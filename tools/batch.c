@@ -1,11 +1,14 @@
 /* See batch.h: options, and the life of a batch. */
+#include <pthread.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 
 #include "batch.h"
 #include "output_folder.h"
 #include "texture_args.h"
+#include "watchdog.h"
 
 /* ---- options ---- */
 
@@ -40,25 +43,32 @@ void batch_check_options(const Batch *batch, const Cli *cli, const char *option)
 
 /* ---- life ---- */
 
+/* The batch of this process, of which there is one, and what a report tells of it: a signal has one written in another
+ * thread. */
+static Batch *running;
+static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
+
+/* The report, once; under lock. */
+static int save_report(Batch *batch, RetexError *err)
+{
+    const int due = batch->report_due && (batch->inputs_known || batch_report_is_free(batch->report));
+    batch->report_due = 0;
+    return due ? batch_report_write(batch, err) : RETEX_OK;
+}
+
 /* Where there is an error of the report alone, it is the last that is told. */
 static int write_report(Batch *batch)
 {
-    RetexError err = {0};
-    if (!batch->report_due)
+    RetexError err = {0}, told = {0};
+    pthread_mutex_lock(&lock);
+    int code = save_report(batch, &err);
+    pthread_mutex_unlock(&lock);
+    if (!code)
         return CLI_OK;
-    batch->report_due = 0;
-    if (!batch->inputs_known && !batch_report_is_free(batch->report))
-        return CLI_OK;
-    if (!batch_report_write(batch, &err))
-        return CLI_OK;
-    RetexError told = {0};
-    retex_fail(&told, err.code, "--report: %s", err.message);
+    retex_fail(&told, code, "--report: %s", err.message);
     cli_error(batch->cli, &told);
     return CLI_FAIL;
 }
-
-/* The batch of this process, of which there is one. */
-static Batch *running;
 
 /* A mistake elsewhere ended the program, which has been told. */
 static void write_last_report(void)
@@ -70,10 +80,30 @@ static void write_last_report(void)
     write_report(running);
 }
 
+/* A signal or a limit ends it. A lock that cannot be had in half a second is held by who waits for a disk. */
+static void write_report_at_end(const char *why)
+{
+    struct timespec until;
+    RetexError err = {0};
+    clock_gettime(CLOCK_REALTIME, &until);
+    until.tv_nsec += 500000000;
+    until.tv_sec += until.tv_nsec / 1000000000;
+    until.tv_nsec %= 1000000000;
+    if (pthread_mutex_timedlock(&lock, &until) != 0)
+        return;
+    if (running) {
+        free(running->error);
+        running->error = strdup(why);
+        save_report(running, &err);
+    }
+    pthread_mutex_unlock(&lock);
+}
+
 void batch_open(Batch *batch, const Cli *cli, const char *path)
 {
     running = batch;
     atexit(write_last_report);
+    watchdog_at_end(write_report_at_end);
     batch->cli = cli;
     batch->began = texture_args_now();
     texture_table_open(&batch->table, cli, path);
@@ -84,6 +114,7 @@ void batch_open(Batch *batch, const Cli *cli, const char *path)
 
 static void close_batch(Batch *batch)
 {
+    pthread_mutex_lock(&lock);
     for (int row = 0; row < batch->table.nrows; row++)
         free(batch->rows[row].error);
     free(batch->rows);
@@ -92,6 +123,7 @@ static void close_batch(Batch *batch)
     batch->rows = NULL;
     batch->error = NULL;
     running = NULL;
+    pthread_mutex_unlock(&lock);
 }
 
 void batch_refuse_mistakes(Batch *batch)
@@ -139,20 +171,27 @@ int batch_output(const Batch *batch, int row, char path[PATH_MAX], RetexError *e
     return code ? code : batch_check_root(batch, path, output, err);
 }
 
+/* Keep what became of a row. */
+static void note_row(Batch *batch, BatchRow *row, double seconds, const char *error)
+{
+    pthread_mutex_lock(&lock);
+    row->seconds = seconds;
+    row->status = error ? BATCH_FAILED : BATCH_MADE;
+    row->error = error ? strdup(error) : NULL;
+    *(error ? &batch->failed : &batch->made) += 1;
+    pthread_mutex_unlock(&lock);
+}
+
 int batch_done(Batch *batch, int row, double seconds, const RetexError *err)
 {
-    BatchRow *r = &batch->rows[row];
     RetexError told = {0};
-    r->seconds = seconds;
-    r->status = err ? BATCH_FAILED : BATCH_MADE;
-    *(err ? &batch->failed : &batch->made) += 1;
+    char message[sizeof err->file + sizeof err->message + 32];
     if (err) {
-        char message[sizeof err->file + sizeof err->message + 32];
         cli_error_text(err, message, sizeof message);
-        r->error = strdup(message);
         retex_fail_at(&told, err->code, batch->table.name, batch->table.rows[row].line, 0, "%s", message);
         cli_error(batch->cli, &told);
     }
+    note_row(batch, &batch->rows[row], seconds, err ? message : NULL);
     if (batch->cli->json_progress)
         batch_report_row(batch, row);
     return !err || batch->keep_going;
@@ -165,7 +204,9 @@ int batch_finish(Batch *batch, const RetexError *err)
     if (err) {
         char message[sizeof err->file + sizeof err->message + 32];
         cli_error_text(err, message, sizeof message);
+        pthread_mutex_lock(&lock);
         batch->error = strdup(message);
+        pthread_mutex_unlock(&lock);
         cli_error(batch->cli, err);
     } else if (batch->failed && batch->keep_going) {
         retex_fail(&told, RETEX_EIO, "%d of %d picture%s failed", batch->failed, total, total == 1 ? "" : "s");

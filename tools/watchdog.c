@@ -31,6 +31,7 @@ static struct {
     atomic_int number; /* the signal that came first, or 0 */
     atomic_int ending; /* who has taken it on to end the tool, or 0 */
     _Atomic(const char *) remove;
+    _Atomic(WatchdogLast *) last;
 } dog;
 
 static const int numbers[] = {SIGINT, SIGTERM, SIGHUP};
@@ -100,11 +101,14 @@ static _Noreturn void end_tool(const char *kept)
     const int number = atomic_load(&dog.number);
     char text[1536];
 
-    retex_unfinished_remove();
+    snprintf(text, sizeof text, "ended by %s%s", signal_name(number), kept);
+    WatchdogLast *last = atomic_load(&dog.last);
+    if (last)
+        last(text);
+    retex_unfinished_remove(); /* after which no file gets a name */
     const char *other = atomic_load(&dog.remove);
     if (other)
         unlink(other);
-    snprintf(text, sizeof text, "ended by %s%s", signal_name(number), kept);
     say(text);
     if (number)
         raise_again(number);
@@ -163,6 +167,11 @@ void watchdog_note_bar(int open)
 void watchdog_remove(const char *path)
 {
     atomic_store(&dog.remove, path);
+}
+
+void watchdog_at_end(WatchdogLast *last)
+{
+    atomic_store(&dog.last, last);
 }
 
 /* ---- the thread ---- */

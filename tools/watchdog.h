@@ -31,4 +31,8 @@ void watchdog_note_bar(int open);
 /* A file to be removed too should the tool be ended: what belongs to an output that is not there yet. NULL = none. */
 void watchdog_remove(const char *path);
 
+/* What is to be done before the tool is ended: in any thread, while the others run. why: "ended by SIGTERM". */
+typedef void WatchdogLast(const char *why);
+void watchdog_at_end(WatchdogLast *last /* NULL = nothing */);
+
 #endif

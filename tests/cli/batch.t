@@ -215,6 +215,20 @@ $ mkdir -p root/sub; printf '%s\n' output,floor a.png,../pipe sub/b.png,brick.jp
 ! retex-combine: error: ../t:4: new/c.png is not below root, as --batch-root wants it
 ! retex-combine: error: 2 of 4 pictures failed
 
+# A signal ends a batch, while it waits for its second row's image; the report has what was done until then.
+$ printf '%s\n' output,floor a.png,brick.jpg b.png,../pipe >../t; retex-combine -q s.exr --batch ../t --report ../report --keep-going & tool=$!; sh -c "sleep 20; kill -KILL $tool" 2>/dev/null & late=$!; for k in $(seq 100); do [ -e a.png ] && break; sleep .1; done; sleep .3; kill $tool; wait $tool 2>/dev/null; echo $?; kill $late 2>/dev/null; sh ../times <../report; rm a.png; sh ../new
+> 143
+> {
+>   "tool": "retex-combine", "version": "0.1.0", "table": "../t",
+>   "status": "failed", "total": 2, "made": 1, "failed": 0, "seconds": S, "error": "ended by SIGTERM",
+>   "mistakes": [],
+>   "rows": [
+>     {"row": 1, "line": 2, "output": "a.png", "status": "made", "seconds": S, "textures": {"Floor": "brick.jpg"}},
+>     {"row": 2, "line": 3, "output": "b.png", "status": "not made", "seconds": S, "textures": {"Floor": "../pipe"}}
+>   ]
+> }
+! retex-combine: error: ended by SIGTERM
+
 # The same bits at any number of threads and whatever is kept in memory.
 $ printf '%s\n' output,floor,wall a.exr,brick.jpg b.exr,:scale=2:rotate=30\ brick.jpg,brick.jpg c.exr,,brick.jpg >../t; retex-combine -q s.exr --batch ../t; for o in '--threads 1 --memory 0' '--threads 2 --memory 0' '--threads 2'; do retex-combine -q s.exr --batch ../t $o --batch-root out --mkdir; for f in a b c; do cmp $f.exr out/$f.exr; done; rm -r out; done; rm [abc].exr; sh ../new
 
