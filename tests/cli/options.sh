@@ -43,11 +43,9 @@ for page in "$pages"/retex-*.1; do
     done | sort -u | comm -23 - "$work/$tool.help" | sed "s/.*/the synopsis of $tool.1 has &, which there is not/"
 
     while read -r option; do
-        value=
-        ! grep -q "^  .*$option\(, --[a-z-]*\|\[:opts\]\)* [A-Z0-9]" "$work/text" || value=1
-        # shellcheck disable=SC2086 # no word where there is no value
-        "$tool" "$option" $value 2>&1 >/dev/null </dev/null | grep -e 'unknown option' -e 'no -o' -e 'an argument' -e 'takes no' |
-            sed "s/^/$tool --help lists $option, but: /"
+        "$tool" "$option" >"$work/out" 2>&1 </dev/null
+        ! grep -q 'needs an argument' "$work/out" || "$tool" "$option" 1 >"$work/out" 2>&1 </dev/null
+        grep -e 'unknown option' -e 'no -o' -e 'takes no' "$work/out" | sed "s/^/$tool --help lists $option, but: /"
     done <"$work/$tool.help"
 done
 

@@ -34,7 +34,7 @@ $ retex-pack
 ! retex-pack: error: no set given; try --help
 = 2
 $ retex-pack s.exr t.exr -o x.retex
-! retex-pack: error: more than one input: 't.exr'
+! retex-pack: error: one input is enough; what is 't.exr'?
 = 2
 $ retex-pack s.exr -o x.retex --codec jxl
 ! retex-pack: error: --codec: there is no codec 'jxl'; this version has: jpeg
