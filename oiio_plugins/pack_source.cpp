@@ -2,6 +2,7 @@
 #include "pack_source.hpp"
 
 #include <algorithm>
+#include <cstdio>
 #include <mutex>
 #include <vector>
 
@@ -116,6 +117,12 @@ void check_texture(const RetexSet &set, const RetexTextureSpec &texture)
         throw Failure(std::string("cannot read ") + texture.image + ": No such file or directory");
 }
 
+// OpenImageIO knows errors only, and what is said here is none: a texture is read while it is sampled.
+void print_warning(void *, const char *text)
+{
+    std::fprintf(stderr, "retex: warning: %s\n", text);
+}
+
 // Options of a target come behind the target itself: that is the order of the alphabet.
 std::vector<RetexTextureSpec> parse_textures(const Arguments &arguments, const OwnFolder &own)
 {
@@ -147,6 +154,7 @@ std::vector<RetexTextureSpec> parse_textures(const Arguments &arguments, const O
             throw Failure(std::string(texture.image) + ": the name is too long");
         std::copy_n(image.c_str(), image.size() + 1, texture.image);
         texture.access = own.access();
+        texture.warn = print_warning;
         textures.push_back(texture);
     }
     return textures;

@@ -120,6 +120,8 @@ static void parse_replace(Arguments *a)
     if (retex_texture_spec_parse(spec, a->cli->modifiers, a->cli->value, &err))
         cli_die(a->cli, "--replace: %s", err.message);
     spec->access = &a->cli->access;
+    spec->warn = cli_warn_text;
+    spec->warn_context = a->cli;
 }
 
 /* Which of some names the value is. */

@@ -73,6 +73,7 @@ static int check_colorspace(Colorspaces *known, RetexTextureSpec spec, int nthre
             return RETEX_OK;
     strcpy(known->names[known->count++], spec.colorspace);
     spec.width[0] = spec.width[1] = 0; /* what they are measured by is not known here */
+    spec.warn = NULL;                  /* it is loaded again for its picture */
     int code = retex_texture_load(&texture, &spec, nthreads, err);
     retex_texture_close(&texture);
     return code;

@@ -385,6 +385,11 @@ void cli_warn(const Cli *cli, const char *fmt, ...)
     va_end(args);
 }
 
+void cli_warn_text(void *cli, const char *text)
+{
+    cli_warn(cli, "%s", text);
+}
+
 void cli_message(const Cli *cli, const char *text)
 {
     message(cli, "", text);

@@ -53,6 +53,8 @@ double cli_number(const Cli *cli, const CliOption *option, double low, double hi
 void cli_error(const Cli *cli, const RetexError *err);
 void cli_error_text(const RetexError *err, char *text, size_t size); /* what follows `error: ` */
 void cli_warn(const Cli *cli, const char *fmt, ...) RETEX_PRINTF(2, 3);
+/* The same as a function that a library calls; cli is a Cli. */
+void cli_warn_text(void *cli, const char *text);
 void cli_info(const Cli *cli, const char *fmt, ...) RETEX_PRINTF(2, 3);   /* unless -q */
 void cli_detail(const Cli *cli, const char *fmt, ...) RETEX_PRINTF(2, 3); /* with -v */
 void cli_message(const Cli *cli, const char *text);                       /* as it is, -q or not */

@@ -362,6 +362,7 @@ static int check_row(void *context, const RetexTextureSpec *specs, int count, Re
                 "the size of target %s is not known: width= cannot be used on it, only scale=", set->targets[t].name);
         colors[i] = specs[i];
         colors[i].constant = 1;
+        colors[i].warn = NULL; /* it is loaded again for the picture */
     }
     int code = retex_textures_load(textures, set, colors, count, 1, err);
     retex_textures_close(textures);

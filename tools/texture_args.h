@@ -31,6 +31,8 @@ static inline void texture_args_add(const Cli *cli, TextureArgs *args)
     if (retex_texture_spec_parse(&args->specs[args->count], cli->modifiers, cli->value, &err))
         cli_fail(cli, &err);
     args->specs[args->count].access = &cli->access;
+    args->specs[args->count].warn = cli_warn_text;
+    args->specs[args->count].warn_context = (void *)cli;
     args->count++;
 }
 

@@ -242,7 +242,7 @@ static void read_rows(Reader *reader)
 
 void texture_table_open(TextureTable *table, const Cli *cli, const char *path)
 {
-    *table = (TextureTable){.name = strcmp(path, "-") ? path : "standard input", .access = &cli->access};
+    *table = (TextureTable){.name = strcmp(path, "-") ? path : "standard input", .access = &cli->access, .cli = cli};
     table->text = read_text(cli, path);
     Reader reader = {.cli = cli, .table = table, .at = table->text, .line = 1};
     reader.at += strncmp(table->text, "\xef\xbb\xbf", 3) == 0 ? 3 : 0; /* a byte order mark */
@@ -264,6 +264,8 @@ int texture_table_texture(const TextureTable *table, int row, int column, RetexT
     *image = find_image(cell);
     int code = parse_cell(spec, table->columns[column], cell, NULL); /* which was right before */
     spec->access = table->access;
+    spec->warn = cli_warn_text;
+    spec->warn_context = (void *)table->cli;
     return code;
 }
 

@@ -27,6 +27,7 @@ typedef struct TableMistake {
 typedef struct TextureTable {
     const char *name;          /* for messages */
     const RetexAccess *access; /* which images may be read */
+    const Cli *cli;            /* who is told what is odd about textures */
     char *text;
     char **cells;
     TableRow *rows;

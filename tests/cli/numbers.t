@@ -36,3 +36,26 @@ $ make_set nan.exr 48 32 footprints denoise noise_indep=nan; retex-denoise -q na
 = 2
 $ make_set nan.exr 48 32 t0_dep1=nan; retex-diff nan.exr s.exr --part t0_dep1 --fail-psnr 1 | sed 's/.*: //'
 > 1 samples are NaN or infinite
+
+# Textures: texels that are no colour are mended, and mentioned; an albedo that is none too.
+$ skip-without oiiotool openimageio-tools
+$ cp "$SCENES/cornell-box/cornell-box.pov" box.pov; cp -r "$SCENES/cornell-box/textures" .; retex-render -q --size 32x24 --spp 2 -t Floor box.pov -o t.exr; oiiotool --pattern constant:color=5,4,3 16x16 3 -d float -o five.exr; oiiotool --pattern constant:color=3e38,3e38,3e38 16x16 3 -d float -o big.exr; oiiotool --pattern constant:color=.5,.5,.5 16x16 3 --fill:color=-1,.5,.5 2x2+3+4 -d float -o minus.exr; make_picture nan.exr nan
+$ for texture in five.exr big.exr minus.exr nan.exr 'rgb(255,128,0)'; do retex-combine -q t.exr --texture "Floor=$texture" -o o.exr; retex-diff -q o.exr o.exr || echo not finite; done
+! retex-combine: warning: five.exr: 256 texels of 256 brighter than white, up to 5, the first at 0,0: a surface gives back no more light than it gets; perhaps the file holds light, not albedo, or is exposed too brightly
+! retex-combine: warning: big.exr: 256 texels beyond 65504, the first at 0,0: taken as that
+! retex-combine: warning: minus.exr: 4 texels with negative colours, the first at 3,4: kept, for colours of wide gamuts have them
+! retex-combine: warning: nan.exr: 1 texel not finite, the first at 32,20: taken as black
+! retex-combine: warning: Floor=rgb(255,128,0): a surface of a colour above 1 gives back more light than it gets; if numbers from 0 to 255 are meant, it is rgb(1,0.216,0)
+$ retex-sample -q t.exr --texture Floor=big.exr -o o.exr; retex-combine -q t.exr o.exr -o p.exr; retex-diff -q p.exr p.exr
+! retex-sample: warning: big.exr: 256 texels beyond 65504, the first at 0,0: taken as that
+$ printf 'output,Floor\na.png,five.exr\nb.png,five.exr\nc.png,"rgb(2,2,2)"\n' >b.csv; retex-combine -q t.exr --batch b.csv
+! retex-combine: warning: five.exr: 256 texels of 256 brighter than white, up to 5, the first at 0,0: a surface gives back no more light than it gets; perhaps the file holds light, not albedo, or is exposed too brightly
+! retex-combine: warning: Floor=rgb(2,2,2): a surface of a colour above 1 gives back more light than it gets
+$ retex-render -q --plain --size 16x12 --spp 1 --replace Floor=nan.exr box.pov -o p.exr; retex-diff -q p.exr p.exr
+! retex-render: warning: nan.exr: 1 texel not finite, the first at 32,20: taken as black
+$ printf 'output,Floor\na.exr,five.exr\n' >b.csv; retex-render -q --size 16x12 --spp 1 -t Floor --variants b.csv box.pov
+! retex-render: warning: five.exr: 256 texels of 256 brighter than white, up to 5, the first at 0,0: a surface gives back no more light than it gets; perhaps the file holds light, not albedo, or is exposed too brightly
+$ for space in sRGB ACEScg; do retex-combine -q t.exr --texture:colorspace=$space Floor=textures/encaustic-tiles.jpg -o o.exr; done
+! retex-combine: warning: textures/encaustic-tiles.jpg: 181364 texels with negative colours, the first at 1,1: kept, for colours of wide gamuts have them
+$ retex-combine -q t.exr --texture Floor=big.exr --error e.exr -o o.exr; retex-diff -q e.exr e.exr; oiiotool five.exr --mulc 0.19 -o one.exr; retex-combine -q t.exr --texture Floor=one.exr -o o.exr
+! retex-combine: warning: big.exr: 256 texels beyond 65504, the first at 0,0: taken as that

@@ -66,6 +66,8 @@ $ maketx room.retex -o x.tx && oiiotool 'room.retex?Floor=brick.jpg' -otex y.tx 
 > y.tx :   48 x   32, 3 channel, float tiff (+mipmap)
 $ retex-combine -q room.retex --texture Wall=room.retex -o x.exr && oiiotool 'room.retex?Wall=room.retex' -d half -o y.exr && retex-diff x.exr y.exr >/dev/null && echo same
 > same
+! retex-combine: warning: room.retex: 20 texels of 1536 brighter than white, up to 20.1, the first at 18,1: a surface gives back no more light than it gets; perhaps the file holds light, not albedo, or is exposed too brightly
+! retex: warning: room.retex: 20 texels of 1536 brighter than white, up to 20.1, the first at 18,1: a surface gives back no more light than it gets; perhaps the file holds light, not albedo, or is exposed too brightly
 
 # What is wrong with options.
 $ for o in Flor=brick.jpg Floor=none.jpg Floor=- Floor.scale=2 'Floor=brick.jpg&Floor.scal=2' 'Floor=brick.jpg&Floor.scale=0' 'Floor=brick.jpg&floor=brick.jpg' 'Floor=rgb(1,2)' 'Floor=brick.jpg&Floor.wrap=a:b'; do oiiotool "room.retex?$o" -o no.exr 2>&1 | grep ERROR; done
@@ -102,3 +104,8 @@ $ iinfo picture.retex room.png
 > picture.retex : 1024 x 1024, 3 channel, uint8 jpeg
 ! iinfo ERROR: "room.png" : Not a PNG file
 = 1
+
+# What is odd about a texture goes to standard error: it is no error.
+$ oiiotool 'room.retex?Floor=rgb(255,128,0)' -d half -o x.exr && echo done
+> done
+! retex: warning: Floor=rgb(255,128,0): a surface of a colour above 1 gives back more light than it gets; if numbers from 0 to 255 are meant, it is rgb(1,0.216,0)

@@ -3,7 +3,6 @@
 #include "lib_test.h"
 #include <cmocka.h>
 
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -127,8 +126,8 @@ static void test_rendered_pictures_take_less(void **state)
     }
 }
 
-/* A picture that has nothing to do with its terms, terms whose sum is not finite, and halves that are not rounded yet,
- * so that readers would sum up others. */
+/* A picture that has nothing to do with its terms, and halves that are not rounded yet, so that readers would sum up
+ * others. */
 static void test_other_pictures_stay_alone(void **state)
 {
     (void)state;
@@ -136,19 +135,11 @@ static void test_other_pictures_stay_alone(void **state)
     check_round_trip(set, "model");
     retex_set_close(&set);
 
-    set = make_set(32, 70, 1, RETEX_FLOAT, 0);
-    set->parts[set->terms[1].radiance].image.pixels[2000] = INFINITY;
-    write_lossless(set, 1, NULL); /* it could not be read whole */
-    RetexSet *back = open_pack();
-    assert_string_equal(retex_pack_part_codec(retex_pack_of(back), 0), "model");
-    retex_set_close(&back);
-    retex_set_close(&set);
-
     set = make_set(32, 70, 0, RETEX_FLOAT, 0);
     float *light = &set->parts[set->terms[0].radiance].image.pixels[30];
     *light = nextafterf(*light, 2);
     write_lossless(set, 1, NULL);
-    back = open_pack();
+    RetexSet *back = open_pack();
     assert_string_equal(retex_pack_part_codec(retex_pack_of(back), 0), "model");
     retex_set_close(&back);
     retex_set_close(&set);

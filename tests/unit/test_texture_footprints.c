@@ -27,7 +27,9 @@ static RetexTexture *random_texture(int width, int height, uint32_t seed, int wr
 
 /* ---- the kernel's covariance ---- */
 
-/* Pictures of x, y, x^2 and of xy, y^2, in texels from the middle, y up. */
+/* Pictures of x, y, x^2 and of xy, y^2, in texels from the middle, y up; the squares divided, since colours end at
+ * 65504. */
+#define DIVISOR 8
 typedef struct Moments {
     int width, height;
     RetexTexture *first, *second;
@@ -46,9 +48,9 @@ static void make_moments(Moments *m, int width, int height)
             float *q = second.pixels + retex_image_index(&second, column, row);
             p[0] = (float)x;
             p[1] = (float)y;
-            p[2] = (float)(x * x);
-            q[0] = (float)(x * y);
-            q[1] = (float)(y * y);
+            p[2] = (float)(x * x / DIVISOR);
+            q[0] = (float)(x * y / DIVISOR);
+            q[1] = (float)(y * y / DIVISOR);
         }
     m->width = width;
     m->height = height;
@@ -97,8 +99,9 @@ static void measure(const Moments *m, int disc, double x, double y, double longe
     filter(m->first, 0.5 + x / w, 0.5 + y / h, uv, p);
     filter(m->second, 0.5 + x / w, 0.5 + y / h, uv, q);
     double mx = (double)p[0], my = (double)p[1];
-    double xx = (double)p[2] - mx * mx - tent_variance(x + 0.5 * w - 0.5, cov[0], disc);
-    double xy = (double)q[0] - mx * my, yy = (double)q[1] - my * my - tent_variance(y + 0.5 * h - 0.5, cov[2], disc);
+    double xx = DIVISOR * (double)p[2] - mx * mx - tent_variance(x + 0.5 * w - 0.5, cov[0], disc);
+    double xy = DIVISOR * (double)q[0] - mx * my,
+           yy = DIVISOR * (double)q[1] - my * my - tent_variance(y + 0.5 * h - 0.5, cov[2], disc);
     for (int axis = 0; axis < 2; axis++) {
         double c = cos(angle + axis * M_PI / 2), s = sin(angle + axis * M_PI / 2), sd = axis ? shorter : longer;
         double e = (c * c * xx + 2 * c * s * xy + s * s * yy) / (sd * sd) - 1, off = (c * (mx - x) + s * (my - y)) / sd;

@@ -5,10 +5,13 @@
  * original albedo, which is exact for it. */
 #include <retex/sample.h>
 
+#include <float.h>
+#include <math.h>
 #include <string.h>
 
 #include "combine_kernel.h"
 #include "combine_rows.h"
+#include "numbers.h"
 #include "polynomial_bands.h"
 
 #define SPAN_PIXELS 512 /* its sum and one span of each image fit the first two caches */
@@ -33,6 +36,28 @@ static void combine_row(const PolynomialRow *row, int width, float *restrict out
     }
 }
 
+/* A product of many large colours goes beyond what a float holds, and infinities of both signs make NaN: such numbers
+ * of the row once more, in doubles, limited to the largest float. */
+static void limit_row(const PolynomialRow *row, size_t count, float *restrict out)
+{
+    for (size_t i = 0; i < count; i++) {
+        double sum = 0;
+        if (isfinite(out[i]))
+            continue;
+        for (int t = 0; t < row->count; t++) {
+            const Monomial *m = &row->monomials[t];
+            const int pixel = (int)(i / 3), inside = pixel >= m->span.begin && pixel < m->span.end;
+            double product = inside ? m->radiance[i] : 0;
+            for (int k = 0; inside && k < m->nimages && product != 0; k++) {
+                const float factor = m->factors[k][i]; /* NaN: 0 times infinity, on the way to the picture's size */
+                product = isnan(factor) ? 0 : fmin(fmax(product * factor, -1e200), 1e200);
+            }
+            sum += product;
+        }
+        out[i] = (float)fmin(fmax(sum, -FLT_MAX), FLT_MAX);
+    }
+}
+
 static int combine_band(const void *context, PolynomialRow *row, int y0, int y1, float *rgb, RetexError *err)
 {
     const int width = row->polynomial->set->width;
@@ -42,6 +67,8 @@ static int combine_band(const void *context, PolynomialRow *row, int y0, int y1,
         code = polynomial_row_make(row, y, err);
         if (!code)
             combine_row(row, width, rgb);
+        if (!code && retex_floats_are_odd(rgb, 3 * (size_t)width))
+            limit_row(row, 3 * (size_t)width, rgb);
     }
     return code;
 }

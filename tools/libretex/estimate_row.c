@@ -1,6 +1,7 @@
 /* See estimate_row.h. Colours are interleaved: n numbers are a third as many pixels. */
 #include "estimate_row.h"
 
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
@@ -141,6 +142,6 @@ int estimate_row(const PolynomialRow *row, int y, const float *const *variances,
         if (variances[f])
             code = add_footprint(row, &set->footprints[f], y, n, variances[f], derivatives + (size_t)f * n, sum, err);
     for (size_t i = 0; i < n; i++)
-        out[i] = sqrtf(sum[i]);
+        out[i] = sum[i] <= FLT_MAX ? sqrtf(sum[i]) : FLT_MAX; /* derivatives by large colours, and NaN of such */
     return code;
 }

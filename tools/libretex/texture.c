@@ -15,15 +15,9 @@
 #include <retex/parallel.h>
 
 #define MAX_TEXTURE_PIXELS (1L << 28) /* 16384 x 16384: 4 GiB of floats */
-#define LARGEST_COLOR 1e30f           /* so that sums of weighted texels stay finite */
 #define LEAST_ALPHA 1e-20f            /* less has no colour that float could tell */
 /* A footprint of a thousand textures is the average, whatever its size; larger numbers only lose digits. */
 #define MAX_FOOTPRINT 1000.0
-
-static float limit_color(float value)
-{
-    return value > LARGEST_COLOR ? LARGEST_COLOR : value < -LARGEST_COLOR ? -LARGEST_COLOR : value;
-}
 
 static int no_memory(const RetexTexture *texture, int width, int height, RetexError *err)
 {
@@ -135,26 +129,48 @@ static int take_texels(RetexTexture *texture, TextureTexels *texels, int nthread
     return RETEX_OK;
 }
 
+typedef struct MendWork {
+    const RetexImage *image;
+    TextureValues *values; /* by row */
+} MendWork;
+
+/* One bad texel must not spoil all coarser levels. */
 static void premultiply_job(void *context, int index, int thread)
 {
-    const RetexImage *image = context;
+    const MendWork *work = context;
+    const int width = work->image->width;
     (void)thread;
-    float *p = image->pixels + (size_t)index * (size_t)image->width * 4;
-    for (int x = 0; x < image->width; x++, p += 4) {
-        float alpha = isfinite(p[3]) ? p[3] < 0 ? 0 : p[3] > 1 ? 1 : p[3] : 0;
+    float *p = work->image->pixels + (size_t)index * (size_t)width * 4;
+    texture_values_mend(p, width, index, &work->values[index]);
+    for (int x = 0; x < width; x++, p += 4) {
+        float alpha = p[3] < 0 ? 0 : p[3] > 1 ? 1 : p[3];
         for (int c = 0; c < 3; c++)
-            p[c] = isfinite(p[c]) ? limit_color(p[c]) * alpha : 0; /* one bad texel must not spoil all coarser levels */
+            p[c] *= alpha;
         p[3] = alpha;
     }
+}
+
+static int premultiply(RetexTexture *texture, const RetexImage *pixels, int nthreads, RetexError *err)
+{
+    MendWork work = {pixels, calloc((size_t)pixels->height, sizeof *work.values)};
+    if (!work.values)
+        return no_memory(texture, pixels->width, pixels->height, err);
+    retex_parallel(nthreads, pixels->height, premultiply_job, &work);
+    for (int y = 0; y < pixels->height; y++)
+        texture_values_join(&texture->values, &work.values[y]);
+    free(work.values);
+    return RETEX_OK;
 }
 
 /* The pixels (RGBA) become the texture's. */
 static int take_pixels(RetexTexture *texture, RetexImage *pixels, int nthreads, RetexError *err)
 {
     TextureTexels texels = {pixels->width, pixels->height, 0, pixels->pixels};
-    retex_parallel(nthreads, pixels->height, premultiply_job, pixels);
+    int code = premultiply(texture, pixels, nthreads, err);
+    if (code)
+        return code;
     *pixels = (RetexImage){0};
-    int code = take_texels(texture, &texels, nthreads, err);
+    code = take_texels(texture, &texels, nthreads, err);
     free(texels.texels);
     return code;
 }
@@ -206,6 +222,8 @@ static RetexTexture *new_texture(const RetexTextureSpec *given, int constant, Re
         return NULL;
     }
     spec.constant = constant;
+    if (constant)
+        texture_values_mend_color(spec.color, &texture->values);
     for (int axis = 0; axis < 2; axis++)
         if (spec.repeat == RETEX_REPEAT_MIRROR && spec.wrap[axis] == RETEX_WRAP_REPEAT)
             spec.wrap[axis] = RETEX_WRAP_MIRROR;
@@ -231,6 +249,24 @@ void retex_texture_close(RetexTexture **texture)
     *texture = NULL;
 }
 
+void texture_tell(const RetexTexture *texture, const RetexTextureSpec *spec)
+{
+    int width, height;
+    retex_texture_size(texture, &width, &height);
+    texture_values_tell(&texture->values, spec, (long)width * height);
+}
+
+/* What it was made by may be gone soon. */
+static void hand_over(RetexTexture **out, RetexTexture *texture, const float color[3])
+{
+    RetexTextureSpec told = texture->spec;
+    memcpy(told.color, color, sizeof told.color); /* as it was given */
+    texture_tell(texture, &told);
+    texture->spec.access = NULL;
+    texture->spec.warn = NULL;
+    *out = texture;
+}
+
 int retex_texture_load(RetexTexture **out, const RetexTextureSpec *spec, int nthreads, RetexError *err)
 {
     RetexError why = {0};
@@ -247,7 +283,6 @@ int retex_texture_load(RetexTexture **out, const RetexTextureSpec *spec, int nth
         TextureTexels texels = {narrow.width, narrow.height, 1, narrow.pixels};
         if (!code && !narrow.pixels)
             code = retex_image_read_with(&image, own->image, &params, &why);
-        texture->spec.access = NULL; /* is the caller's */
         if (!code)
             code = narrow.pixels ? take_texels(texture, &texels, nthreads, &why)
                                  : take_pixels(texture, &image, nthreads, &why);
@@ -260,7 +295,7 @@ int retex_texture_load(RetexTexture **out, const RetexTextureSpec *spec, int nth
             *err = why;
         return code;
     }
-    *out = texture;
+    hand_over(out, texture, spec->color);
     return RETEX_OK;
 }
 
@@ -291,7 +326,7 @@ int retex_texture_create(RetexTexture **out, const RetexImage *image, const Rete
             *err = why;
         return code;
     }
-    *out = texture;
+    hand_over(out, texture, texture->spec.color);
     return RETEX_OK;
 }
 
@@ -306,7 +341,7 @@ int retex_texture_square(RetexTexture **out, const RetexTexture *texture, RetexE
     memcpy(square->matrix, texture->matrix, sizeof square->matrix);
     memcpy(square->offset, texture->offset, sizeof square->offset);
     for (int c = 0; c < 3; c++)
-        square->spec.color[c] = limit_color(texture->spec.color[c] * texture->spec.color[c]);
+        square->spec.color[c] = texture->spec.color[c] * texture->spec.color[c];
     int code = RETEX_OK;
     if (texture->nlevels) {
         const TextureLevel *from = &texture->levels[0];
@@ -318,7 +353,7 @@ int retex_texture_square(RetexTexture **out, const RetexTexture *texture, RetexE
             float p[4], *to = (float *)texels.texels + 4 * i;
             texture_read_texel(from->texels, i, texture->narrow, p);
             for (int c = 0; c < 3; c++)
-                to[c] = p[3] > 0 ? limit_color(p[c] / p[3] * (p[c] / p[3])) * p[3] : 0;
+                to[c] = p[3] > 0 ? p[c] / p[3] * (p[c] / p[3]) * p[3] : 0;
             to[3] = p[3];
         }
         if (!code && texture_grow_pyramid(square, &texels, 0))

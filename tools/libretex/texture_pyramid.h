@@ -2,7 +2,7 @@
 #ifndef RETEX_TEXTURE_PYRAMID_H
 #define RETEX_TEXTURE_PYRAMID_H
 
-#include <retex/texture.h>
+#include "texture_values.h"
 
 #define TEXTURE_MAX_LEVELS 18 /* of 131072 texels a side, two repeats of 65536: 131072, 65536, ... 1 */
 #define NARROW_ONE 65535.0f
@@ -36,6 +36,7 @@ struct RetexTexture {
     double offset[2];
     int nlevels; /* 0 = constant */
     int opaque;  /* 1: alpha is 1 wherever the texture is looked up */
+    TextureValues values; /* what was odd about the file's */
     int narrow;  /* 1: texels are 16-bit integers, NARROW_ONE standing for 1; else floats */
     TextureLevel levels[TEXTURE_MAX_LEVELS];
     char corners[4][16]; /* texels of the image: top left, top right, bottom left, bottom right */
@@ -49,6 +50,9 @@ typedef struct TextureTexels {
     int width, height, narrow;
     void *texels;
 } TextureTexels;
+
+/* Tell spec->warn what there is to be said of the texture, which was loaded by that spec or a copy of it. */
+void texture_tell(const RetexTexture *texture, const RetexTextureSpec *spec);
 
 size_t texture_texel_size(int narrow);           /* bytes */
 int texture_texels_alloc(TextureTexels *texels); /* by its other members; not 0: out of memory */

@@ -8,6 +8,7 @@
 #include <retex/parallel.h>
 
 #include "manifest.h"
+#include "texture_pyramid.h"
 
 typedef struct Loading {
     RetexTexture **textures; /* by target */
@@ -91,6 +92,7 @@ static void load_job(void *context, int index, int thread)
     (void)thread;
     int target = loading->target[index];
     RetexTextureSpec spec = loading->specs[index];
+    spec.warn = NULL; /* afterwards, in order */
     const RetexTarget *t = &loading->set->targets[target];
     memcpy(spec.uv_scale, t->uv_scale, sizeof spec.uv_scale);
     for (int axis = 0; axis < 2; axis++)
@@ -113,6 +115,8 @@ static int load_textures(Loading *loading, int nthreads, RetexError *err)
                 *err = loading->errors[i];
             return loading->errors[i].code;
         }
+    for (int i = 0; i < loading->nspecs; i++)
+        texture_tell(loading->textures[loading->target[i]], &loading->specs[i]);
     return RETEX_OK;
 }
 

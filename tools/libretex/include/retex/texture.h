@@ -33,6 +33,9 @@ typedef enum RetexRepeat {
     RETEX_REPEAT_MIRROR     /* book-matched: every second repeat mirrored, as by wrap = mirror */
 } RetexRepeat;
 
+/* Told a line of text, without file or line of the caller's. */
+typedef void RetexWarn(void *context, const char *text);
+
 /* What the user said: --texture:scale=2,2:rotate=30:wrap=mirror NAME=IMAGE. Begin with RETEX_TEXTURE_SPEC_INIT. */
 typedef struct RetexTextureSpec {
     size_t size;
@@ -56,10 +59,14 @@ typedef struct RetexTextureSpec {
                               default, min = max, is no limit */
     const RetexAccess *access; /* which files may be read; filled in by the caller, borrowed while the texture is
                               loaded. Default NULL = any */
+    RetexWarn *warn;       /* told, in the calling thread, what is odd about the colours, see retex_texture_load; filled
+                              in by the caller. Default NULL = nobody */
+    void *warn_context;    /* handed to it; default NULL */
+    int is_light;          /* 1: it stands for light, which may be brighter than white; default 0: for albedo */
 } RetexTextureSpec;
 #define RETEX_TEXTURE_SPEC_INIT \
     { sizeof(RetexTextureSpec), "", "", 0, {0, 0, 0}, {1, 1}, 0, {0, 0}, {RETEX_WRAP_REPEAT, RETEX_WRAP_REPEAT}, \
-      "", {0, 0}, RETEX_REPEAT_STRAIGHT, {0, 0}, {0, 0}, {0, 0}, {0, 0}, NULL }
+      "", {0, 0}, RETEX_REPEAT_STRAIGHT, {0, 0}, {0, 0}, {0, 0}, {0, 0}, NULL, NULL, NULL, 0 }
 
 /* opts: what follows `--texture:` ("scale=2,2:rotate=30", or "" or NULL); arg: "NAME=IMAGE" or "NAME=rgb(r,g,b)". */
 int retex_texture_spec_parse(RetexTextureSpec *spec, const char *opts, const char *arg, RetexError *err);
@@ -73,7 +80,12 @@ typedef struct RetexTexture RetexTexture;
  * integers that are sRGB or linear; else floats. With its pyramid that is 11 bytes a texel, or 21. */
 
 /* Load and build the MIP pyramid. RETEX_EIO or RETEX_EFORMAT with the file's name where it cannot; RETEX_EINVAL for a
- * width without uv_scale. Colours beyond 1e30 become 1e30. */
+ * width without uv_scale.
+ *
+ * Texels that are not finite become black, and transparent where it is alpha; colours beyond 65504, the largest half,
+ * become that, so that no result overflows; negative ones stay, for colours of wide gamuts have them. spec->warn is
+ * told how many there are and where the first is, and of an albedo that is brighter than white: of an image by its
+ * luminance or a channel above 3, of a constant by any channel. */
 int retex_texture_load(RetexTexture **texture, const RetexTextureSpec *spec, int nthreads, RetexError *err);
 /* A texture from pixels in memory (1, 3 or 4 channels, scene-linear, unassociated alpha; row 0 is the top). Copies. */
 int retex_texture_create(RetexTexture **texture, const RetexImage *image,
