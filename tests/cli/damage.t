@@ -66,3 +66,13 @@ $ retex-sample -q p.exr --texture 'Floor=rgb(1,0.5,0.2)' >t.exr; at=$(($(wc -c <
 = 1
 $ cp s.png d.png; retex-combine -q d.exr -o d.png; cmp s.png d.png
 ! retex-combine: error: d.exr: the checksum of part sample_Floor_3 is wrong
+
+# Samples in a file of their own, and the set that they are of.
+$ retex-sample -q s.exr --texture 'Floor=rgb(1,0.5,0.2)' -o t.exr; retex-combine -q s.exr t.exr -o t.png; cmp s.png t.png; at=$(($(wc -c <t.exr) * 3 / 4)); cp t.exr d.exr; printf 'XY' | dd of=d.exr bs=1 seek=$at conv=notrunc 2>/dev/null; retex-combine -q s.exr d.exr -o u.png 2>err; echo $?; cut -d: -f1-4 err; ls u.png
+> 2
+> retex-combine: error: d.exr: part sample_Floor_2 is damaged or truncated
+! ls: cannot access 'u.png': No such file or directory
+= 2
+$ sed 's/"sample_Floor_1"/"sample_Floor_2"/' t.exr >d.exr; retex-combine -q s.exr d.exr -o u.png
+! retex-combine: error: d.exr: the manifest is damaged: its checksum is wrong
+= 2

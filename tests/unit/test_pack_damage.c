@@ -1,5 +1,6 @@
 /* Packs that are not whole, or lie, are refused. */
 #include "lib_folder.h"
+#include "lib_folder.h"
 #include "lib_pack.h"
 
 #include <stdio.h>
@@ -35,14 +36,12 @@ static int sets_equal(const RetexSet *a, const RetexSet *b)
     return equal;
 }
 
-static void test_every_flipped_byte_is_seen(void **state)
+/* Of a pack: all bytes of its beginning, then one of step. */
+static void flip_every_byte(unsigned char *data, size_t bytes, size_t step)
 {
-    (void)state;
-    size_t bytes, unseen = 0;
-    RetexSet *set = test_set(16, 8, 7);
-    unsigned char *data = pack(set, NULL, &bytes);
+    size_t unseen = 0;
     RetexSet *whole = unpack(data, bytes);
-    for (size_t i = 0; i < bytes; i += i < 2048 ? 1 : 7) {
+    for (size_t i = 0; i < bytes; i += i < 2048 ? 1 : step) {
         RetexSet *back = NULL;
         unsigned char kept = data[i];
         data[i] ^= (unsigned char)(1 + i % 255);
@@ -60,8 +59,29 @@ static void test_every_flipped_byte_is_seen(void **state)
     }
     assert_true(unseen < bytes / 70);
     retex_set_close(&whole);
+}
+
+static void test_every_flipped_byte_is_seen(void **state)
+{
+    (void)state;
+    for (int exact = 0; exact < 2; exact++) {
+        const RetexPackParams params = lossless();
+        size_t bytes;
+        RetexSet *set = test_set(16, 8, 7);
+        unsigned char *data = pack(set, exact ? &params : NULL, &bytes);
+        flip_every_byte(data, bytes, 7);
+        free(data);
+        retex_set_close(&set);
+    }
+}
+
+static void test_every_flipped_byte_of_version_1_is_seen(void **state)
+{
+    (void)state;
+    size_t bytes;
+    unsigned char *data = test_read_file("tests/data/pack-v1.retex", &bytes);
+    flip_every_byte(data, bytes, 211);
     free(data);
-    retex_set_close(&set);
 }
 
 static void test_truncated_packs_are_refused(void **state)
@@ -167,8 +187,11 @@ static void test_other_zips_are_refused(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_every_flipped_byte_is_seen),  cmocka_unit_test(test_truncated_packs_are_refused),
-        cmocka_unit_test(test_foreign_entries_are_refused), cmocka_unit_test(test_manifests_that_lie_are_refused),
+        cmocka_unit_test(test_every_flipped_byte_is_seen),
+        cmocka_unit_test(test_every_flipped_byte_of_version_1_is_seen),
+        cmocka_unit_test(test_truncated_packs_are_refused),
+        cmocka_unit_test(test_foreign_entries_are_refused),
+        cmocka_unit_test(test_manifests_that_lie_are_refused),
         cmocka_unit_test(test_other_zips_are_refused),
     };
     return cmocka_run_group_tests_name("pack damage", tests, NULL, NULL);

@@ -107,12 +107,43 @@ static void test_streams(void **state)
     flip_everywhere(FILE_STREAM);
 }
 
+/* With several threads, who find out together whether a part without sums of bands is whole; also where it is not. */
+static void test_threads(void **state)
+{
+    (void)state;
+    RetexImage pictures[2] = {{0}, {0}};
+    RetexSet *set = damage_set("footprints", 3);
+    RetexError err = {0};
+    size_t bytes;
+    damage_write(set, FILE_PLAIN, test_own_file);
+    damage_make_old(test_own_file);
+    unsigned char *data = test_read_file(test_own_file, &bytes);
+    retex_set_close(&set);
+    for (int damaged = 0; damaged < 2; damaged++)
+        for (int k = 0; k < 2; k++) {
+            const int nthreads = 1 + 3 * k;
+            test_must(retex_set_open(test_own_file, &set, NULL, nthreads, &err), &err);
+            const int code = retex_combine(&pictures[k], set, NULL, NULL, NULL, nthreads, &err);
+            retex_set_close(&set);
+            assert_int_equal(code, damaged ? RETEX_EFORMAT : RETEX_OK);
+            if (k == 1)
+                memset(data + bytes / 3, 7, bytes / 3);
+            store(test_own_file, data, bytes);
+        }
+    assert_memory_equal(pictures[0].pixels, pictures[1].pixels,
+                        sizeof(float) * retex_image_index(&pictures[0], 0, pictures[0].height));
+    for (int k = 0; k < 2; k++)
+        retex_image_free(&pictures[k]);
+    free(data);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_compressed_sets),
         cmocka_unit_test(test_sets_as_they_are),
         cmocka_unit_test(test_streams),
+        cmocka_unit_test(test_threads),
     };
     return cmocka_run_group_tests(tests, begin, end);
 }
