@@ -67,7 +67,7 @@ $ retex-denoise s.exr -o x.exr --radius 2.5
 ! retex-denoise: error: --radius: expected a whole number from 1 to 10, not '2.5'
 = 2
 $ retex-denoise s.exr -o x.exr --footprints
-! retex-denoise: error: unknown option --footprints; try --help
+! retex-denoise: error: unknown option --footprints; is --no-footprints meant?
 = 2
 $ retex-denoise
 ! retex-denoise: error: no set given; - is standard input
