@@ -290,6 +290,8 @@ static int accept_named(Sdl *sdl, SidePigment *pigment)
 static void pigment_item(Sdl *sdl, SidePigment *pigment, const SideTexture **first, int textures)
 {
     Transform by;
+    const char *file = sdl_peek(sdl)->file;
+    const int line = sdl_peek(sdl)->line;
     if (accept_named(sdl, pigment))
         return;
     if (side_accept_transform(sdl, &by)) {
@@ -300,13 +302,15 @@ static void pigment_item(Sdl *sdl, SidePigment *pigment, const SideTexture **fir
         pigment->pigment.uv_mapping = sdl_optional_bool(sdl, 1);
         return;
     }
-    if (accept_map(sdl, pigment, first) || side_accept_pattern(sdl, pigment, first, textures) ||
-        side_accept_pattern_modifier(sdl, pigment))
+    const int mapped = accept_map(sdl, pigment, first) || side_accept_pattern(sdl, pigment, first, textures);
+    if (mapped)
+        pigment->file = file, pigment->line = line;
+    if (mapped || side_accept_pattern_modifier(sdl, pigment))
         return;
     if (sdl_accept(sdl, "quick_color") || sdl_accept(sdl, "quick_colour"))
         sdl_color(sdl); /* of previews only */
     else if (sdl_is_color_start(sdl) || sdl_is_expression_start(sdl))
-        set_color(pigment, sdl_color(sdl));
+        set_color(pigment, sdl_color(sdl)), pigment->file = file, pigment->line = line;
     else
         sdl_expected(sdl, "a colour, a pattern, a transform or the end of the pigment");
 }

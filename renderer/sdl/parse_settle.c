@@ -46,6 +46,11 @@ static Rgbft decode_rgbft(Space s, double g, Rgbft c)
     return (Rgbft){decode(s, g, c.r), decode(s, g, c.g), decode(s, g, c.b), c.filter, c.transmit};
 }
 
+Rgb side_decode_color(Sdl *sdl, Rgb color)
+{
+    return decode_rgb(working_space(sdl), side_of(sdl)->assumed_gamma, color);
+}
+
 static void decode_colors(Sdl *sdl)
 {
     Side *side = side_of(sdl);
@@ -116,7 +121,20 @@ static void add_image(Sdl *sdl, SideImage *image, int *room)
     scene->images[scene->nimages++] = &image->map;
 }
 
-static void load_image(Sdl *sdl, SideImage *image, int *room)
+/* What is odd about the image's colours. */
+typedef struct ImageWarning {
+    Sdl *sdl;
+    const SideImage *image;
+} ImageWarning;
+
+static void warn_of_image(void *context, const char *text)
+{
+    const ImageWarning *warning = context;
+    const SideImage *image = warning->image;
+    sdl_warn_at(warning->sdl, image->file, image->line, "image_map: %s: %s", image->map.path, text);
+}
+
+static void load_image(Sdl *sdl, SideImage *image, int is_light, int *room)
 {
     Scene *scene = sdl_scene(sdl);
     ImageMap *map = &image->map;
@@ -142,7 +160,12 @@ static void load_image(Sdl *sdl, SideImage *image, int *room)
         map->height = pixels.height;
         scene->digest =
             digest_bytes(scene->digest, pixels.pixels, retex_image_index(&pixels, 0, pixels.height) * sizeof(float));
-        retex_texture_create(&map->texture, &pixels, NULL, &err);
+        ImageWarning warning = {sdl, image};
+        RetexTextureSpec spec = RETEX_TEXTURE_SPEC_INIT;
+        spec.warn = warn_of_image;
+        spec.warn_context = &warning;
+        spec.is_light = is_light;
+        retex_texture_create(&map->texture, &pixels, &spec, &err);
         retex_image_free(&pixels);
     }
     if (!map->texture)
@@ -154,7 +177,7 @@ static void load_of_texture(Sdl *sdl, const Texture *texture, int *room)
 {
     for (const SideTexture *t = (const SideTexture *)texture; t; t = t->below)
         if (t->texture.pigment->kind == PIGMENT_IMAGE)
-            load_image(sdl, (SideImage *)t->texture.pigment->image, room);
+            load_image(sdl, (SideImage *)t->texture.pigment->image, side_finish_shines(t->texture.finish), room);
 }
 
 /* ---- every texture in use ---- */
@@ -190,6 +213,12 @@ static void visit_settle(Sdl *sdl, const Texture **texture, void *context)
         shown->texture.idents = sdl_ident_join(sdl, shown->texture.pigment->idents, shown->texture.idents);
     }
     *texture = &shown->texture;
+}
+
+static void visit_albedo(Sdl *sdl, const Texture **texture, void *context)
+{
+    (void)context;
+    side_check_albedo(sdl, *texture);
 }
 
 /* What paths ask of them at every hit. */
@@ -303,7 +332,7 @@ static void load_images(Sdl *sdl)
     each_texture(sdl, visit_load, &room);
     for (int i = 0; scene->sky && i < scene->sky->npigments; i++)
         if (scene->sky->pigments[i]->kind == PIGMENT_IMAGE)
-            load_image(sdl, (SideImage *)scene->sky->pigments[i]->image, &room);
+            load_image(sdl, (SideImage *)scene->sky->pigments[i]->image, 1, &room);
 }
 
 void side_settle(Sdl *sdl)
@@ -314,6 +343,7 @@ void side_settle(Sdl *sdl)
     side_gather_triangles(sdl);
     load_images(sdl);
     each_texture(sdl, visit_settle, NULL);
+    each_texture(sdl, visit_albedo, NULL);
     decode_colors(sdl);
     settle_finishes(sdl);
     tell_emitters(sdl);

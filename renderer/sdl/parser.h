@@ -59,6 +59,7 @@ _Noreturn void sdl_expected(Sdl *sdl, const char *what); /* "expected WHAT, foun
  * error. */
 void sdl_unsupported(Sdl *sdl, const char *name, const char *instead);
 void sdl_warn(Sdl *sdl, const char *fmt, ...) RETEX_PRINTF(2, 3);
+void sdl_warn_at(Sdl *sdl, const char *file, int line, const char *fmt, ...) RETEX_PRINTF(4, 5);
 
 const Token *sdl_peek(Sdl *sdl);          /* the next token, directives done, macros expanded */
 const Token *sdl_next(Sdl *sdl);          /* take it; valid until the next call */

@@ -129,6 +129,8 @@ typedef struct SidePigment {
     Pigment pigment;         /* first: a Pigment* in the Scene is one of these */
     Averaged averaged;       /* then kind is a colour */
     int disturbed;           /* has turbulence or a warp */
+    const char *file;        /* where its colour is written, for messages; line 0: nowhere */
+    int line, told;          /* told: that it is no albedo */
     Gaps gaps;
     struct SidePigment *next; /* all there are */
 } SidePigment;
@@ -340,5 +342,10 @@ const SideSky *side_sky_sphere(Sdl *sdl);
 void side_place(Sdl *sdl, const Object *object);
 void side_gather_triangles(Sdl *sdl);
 void side_settle(Sdl *sdl); /* everything that waits for the end of the scene */
+Rgb side_decode_color(Sdl *sdl, Rgb color); /* from the working space */
+
+/* parse_albedo.c */
+int side_finish_shines(const Finish *finish); /* 1: its pigment stands for light */
+void side_check_albedo(Sdl *sdl, const Texture *texture);
 
 #endif

@@ -168,16 +168,29 @@ void sdl_debug_text(Sdl *sdl, const char *text)
     }
 }
 
+static void warn(Sdl *sdl, const char *file, int line, const char *fmt, va_list args)
+{
+    char text[1024], message[2200];
+    vsnprintf(text, sizeof text, fmt, args);
+    snprintf(message, sizeof message, "%s:%d: warning: %s", file, line, text);
+    flush_debug(sdl);
+    sdl_message(sdl, 1, message);
+}
+
 void sdl_warn(Sdl *sdl, const char *fmt, ...)
 {
-    char text[1024], line[2200];
     va_list args;
     va_start(args, fmt);
-    vsnprintf(text, sizeof text, fmt, args);
+    warn(sdl, file_name(sdl), sdl->token.line, fmt, args);
     va_end(args);
-    snprintf(line, sizeof line, "%s:%d: warning: %s", file_name(sdl), sdl->token.line, text);
-    flush_debug(sdl);
-    sdl_message(sdl, 1, line);
+}
+
+void sdl_warn_at(Sdl *sdl, const char *file, int line, const char *fmt, ...)
+{
+    va_list args;
+    va_start(args, fmt);
+    warn(sdl, file, line, fmt, args);
+    va_end(args);
 }
 
 void sdl_unsupported(Sdl *sdl, const char *name, const char *instead)

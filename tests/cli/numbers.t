@@ -59,3 +59,9 @@ $ for space in sRGB ACEScg; do retex-combine -q t.exr --texture:colorspace=$spac
 ! retex-combine: warning: textures/encaustic-tiles.jpg: 181364 texels with negative colours, the first at 1,1: kept, for colours of wide gamuts have them
 $ retex-combine -q t.exr --texture Floor=big.exr --error e.exr -o o.exr; retex-diff -q e.exr e.exr; oiiotool five.exr --mulc 0.19 -o one.exr; retex-combine -q t.exr --texture Floor=one.exr -o o.exr
 ! retex-combine: warning: big.exr: 256 texels beyond 65504, the first at 0,0: taken as that
+
+# Images and pigments of scenes.
+$ printf '#version 3.7; global_settings { assumed_gamma 1 }\ncamera { location -5*z look_at 0 }\nlight_source { -9*z rgb 1 }\nsphere { 0, 1 pigment { rgb <255,128,0> } }\nsphere { x, 1 pigment { image_map { exr "five.exr" } } }\nsphere { y, 1 pigment { image_map { exr "five.exr" } } finish { emission 1 } }\nsphere { -y, 1 pigment { rgb 9 } finish { emission 1 } }\nsky_sphere { pigment { image_map { exr "nan.exr" map_type 1 } } }\n' >s.pov; retex-render -q --plain --size 16x12 --spp 1 s.pov -o p.exr; retex-diff -q p.exr p.exr
+! retex-render: s.pov:5: warning: image_map: five.exr: 256 texels of 256 brighter than white, up to 5, the first at 0,0: a surface gives back no more light than it gets; perhaps the file holds light, not albedo, or is exposed too brightly
+! retex-render: s.pov:8: warning: image_map: nan.exr: 1 texel not finite, the first at 32,20: taken as black
+! retex-render: s.pov:4: warning: a surface of rgb <255,128,0> gives back more light than it gets: colours go from 0 to 1, not to 255
