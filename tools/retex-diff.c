@@ -6,6 +6,7 @@
 #include <retex/diff.h>
 
 #include "cli.h"
+#include "json_text.h"
 
 static const CliOption options[] = {
     {"json", 0, NULL, "print the figures as JSON", 0},
@@ -57,20 +58,6 @@ static void parse(Cli *cli, RetexDiffParams *params, int *json, const char *name
     params->nthreads = cli->threads;
 }
 
-static void print_json_string(const char *text)
-{
-    putchar('"');
-    for (const unsigned char *c = (const unsigned char *)text; *c; c++) {
-        if (*c == '"' || *c == '\\')
-            printf("\\%c", *c);
-        else if (*c < 32)
-            printf("\\u%04x", *c);
-        else
-            putchar(*c);
-    }
-    putchar('"');
-}
-
 /* A figure, or null where the part has no colours. */
 static void print_json_figure(const char *name, double value, int defined)
 {
@@ -86,7 +73,7 @@ static void print_json_part(const RetexDiffPart *part)
     const RetexMetrics *m = &part->metrics;
     int color = part->compared && part->has_color;
     printf("\"part\": ");
-    print_json_string(part->name);
+    json_text(stdout, part->name);
     printf(", \"width\": %d, \"height\": %d, \"channels\": %d, ", part->width, part->height, part->channels);
     print_json_figure("psnr", m->psnr, color);
     print_json_figure("relmse", m->relmse, color);
@@ -98,13 +85,13 @@ static void print_json_part(const RetexDiffPart *part)
     printf("\"nonfinite\": %ld, ", m->nonfinite);
     if (part->compared) {
         printf("\"worst\": {\"x\": %d, \"y\": %d, \"channel\": ", m->worst.x, m->worst.y);
-        print_json_string(part->worst_channel);
+        json_text(stdout, part->worst_channel);
         printf("}, ");
     } else {
         printf("\"worst\": null, ");
     }
     printf("\"reason\": ");
-    print_json_string(part->reason);
+    json_text(stdout, part->reason);
 }
 
 /* The first part's figures at the top; with --all-parts all of them in a list too. */
@@ -125,7 +112,7 @@ static void print_json(const RetexDiff *diff, int all_parts)
         printf("]");
     }
     printf(", \"why\": ");
-    print_json_string(diff->reason);
+    json_text(stdout, diff->reason);
     printf("}\n");
 }
 

@@ -107,6 +107,9 @@ $ retex-diff --json a.exr b.exr
 $ retex-diff --json wide.exr a.exr
 > {"differs": true, "part": "picture", "width": 65, "height": 40, "channels": 3, "psnr": null, "relmse": null, "mae": null, "flip_mean": null, "flip_p99": null, "max_abs": null, "max_rel": null, "nonfinite": 0, "worst": null, "reason": "sizes differ: 65 x 40 and 64 x 40", "why": "sizes differ: 65 x 40 and 64 x 40"}
 = 1
+# A name that is no UTF-8 does not spoil the JSON.
+$ sed -z '0,/^R$/s//\xff/' a.exr >odd.exr; retex-diff --json odd.exr a.exr | grep -o '.why.*'
+> "why": "channel \ufffd is missing in the second"}
 
 # Errors are not differences.
 $ retex-diff a.exr
