@@ -140,12 +140,14 @@ void batch_print(const Batch *batch)
 {
     RetexTextureSpec specs[RETEX_MAX_TARGETS];
     BatchTexture textures[RETEX_MAX_TARGETS];
+    char output[PATH_MAX];
     for (int row = 0; row < batch->table.nrows && !batch->cli->quiet; row++) {
         int count = texture_table_textures(&batch->table, row, specs);
         count = batch->tool.describe(batch->tool.context, specs, count, textures);
-        printf("%s: ", texture_table_output(&batch->table, row));
+        snprintf(output, sizeof output, "%s", texture_table_output(&batch->table, row));
+        printf("%s: ", cli_plain(output));
         for (int i = 0; i < count; i++)
-            printf("%s%s <- %s", i ? ", " : "", textures[i].target, textures[i].texture);
+            printf("%s%s <- %s", i ? ", " : "", textures[i].target, cli_plain(textures[i].texture));
         puts(count ? "" : "original textures");
     }
 }
@@ -167,7 +169,7 @@ int batch_output(const Batch *batch, int row, char path[PATH_MAX], RetexError *e
     if (batch->make_folders)
         code = output_make_folders(real, err);
     if (!code)
-        code = output_resolve(path, &missing, real, output, err); /* what it leads to now: no link is followed later */
+        code = output_resolve(path, &missing, real, output, err); /* what it leads to now */
     return code ? code : batch_check_root(batch, path, output, err);
 }
 

@@ -74,6 +74,12 @@ $ retex-combine s.exr --batch ../t --mkdir --dry-run -q; retex-combine s.exr --b
 ! retex-combine: error: ../t:2: the folder of out/new/a.png is not there; --mkdir makes it
 ! retex-combine: error: --dry-run and --report cannot both be standard output
 
+# Line ends of other systems, a byte order mark, line ends in cells; control characters do not reach the terminal.
+$ b='\357\273\277output,"floor"\r\n\r\n"a\n\033[1m.png","rgb(1,0,0)"\r\n'; printf "$b\"b\n.nope\"" >../odd; retex-combine s.exr --batch ../odd; printf "$b\"b\n\"\".png\",brick.jpg" >../odd; retex-combine s.exr --batch ../odd --dry-run
+> a??[1m.png: Floor <- rgb(1,0,0)
+> b?".png: Floor <- brick.jpg
+! retex-combine: error: ../odd:5: b?.nope: no picture format has the ending .nope; try .png, .jpg, .tif, .exr or .hdr
+
 # Made, with folders where they are missing, and told as JSON. The report has the rest.
 $ retex-combine s.exr --batch ../t --mkdir --texture 'wall=rgb(1,0,0)' --progress json --report ../report 2>../log; sh ../times <../log; sh ../times <../report; sh ../new; retex-combine -q s.exr --texture floor=brick.jpg --texture:scale=2 wall=brick.jpg -o ../one.png; cmp out/new/a.png ../one.png; rm -r out b,1.png c.jpg
 > {"row": 1, "line": 2, "output": "out/new/a.png", "status": "made", "seconds": S, "done": 1, "total": 3}
