@@ -1,6 +1,6 @@
 # retex: one make, not recursive. Every directory with sources has a rules.mk that adds to the lists below.
 #   make              the tools, the library and the bridge, into build/
-#   make demo         set up, build, render the living room and retexture it, into build/demo/
+#   make demo         set up, build, render the living room, denoise and retexture it, into build/demo/
 #   make check        set up, build, run the tests; check-unit, check-cli, … run one suite
 #   make check-all    also those that take long or need heavy programs
 #   make check-update CASE=golden/NAME   make a golden reference anew, printing before and after

@@ -1,6 +1,6 @@
 #!/bin/sh
-# make demo: renders the living room once, then puts two other floors and two other walls into it through the three-stage
-# shell pipe. demo.sh BUILD writes the pictures to BUILD/demo/.
+# make demo: renders the living room once, takes the noise out of the set, then puts other floors and walls into it
+# through the shell pipe. demo.sh BUILD writes the pictures to BUILD/demo/; DEMO_SPP and DEMO_SIZE are for the impatient.
 set -eu
 here=$(pwd)
 case $1 in /*) build=$1 ;; *) build=$here/$1 ;; esac
@@ -20,11 +20,12 @@ retexture() { # NAME=FILE, the set on standard input
 picture() { echo "${1%.jpg}.png" | tr 'A-Z=' 'a-z-'; }
 
 first=Floor=walnut-herringbone.jpg
-say "Rendering the living room with a new floor; the set is kept on the way:"
-say "    retex-render living-room.pov -t Floor -t Wall -o - | tee living-room.exr |"
+say "Rendering the living room, and taking the noise out, with a new floor; the set is kept on the way:"
+say "    retex-render living-room.pov -t Floor -t Wall -o - | retex-denoise - -o - | tee living-room.exr |"
 say "        retex-sample - --texture $first -o - | retex-combine - -o $(picture $first)"
 start=$(seconds)
-retex-render -t Floor -t Wall --spp "${DEMO_SPP:-64}" "$scene" -o - | tee "$demo/living-room.exr" | retexture $first
+retex-render -t Floor -t Wall --spp "${DEMO_SPP:-64}" ${DEMO_SIZE:+--size "$DEMO_SIZE"} "$scene" -o - |
+    retex-denoise -q - -o - | tee "$demo/living-room.exr" | retexture $first
 say "    $(since "$start")"
 
 say "Other floors and walls, from the set that was kept, without rendering:"
@@ -40,3 +41,6 @@ retex-combine -q "$demo/living-room.exr" --texture "Floor=$textures/walnut-herri
     --texture "Wall=$textures/damask.jpg" -o "$demo/floor-and-wall.png"
 say "The pictures are in:"
 ls "$demo"/*.png
+from=${build#"$here"/}
+say "Your own photograph on the floor, 1.5 metres wide:"
+say "    $from/bin/retex-combine $from/demo/living-room.exr --texture:width=1.5 Floor=PHOTOGRAPH.jpg -o mine.png"
