@@ -160,6 +160,14 @@ static _Noreturn void unknown_option(const Cli *cli, const char *dashes, const c
     cli_die(cli, "unknown option %s%.*s; try --help", dashes, length, text);
 }
 
+/* An option where another one's argument should be: that was forgotten. ./--name is a file. */
+static void check_value(const Cli *cli, const CliOption *option)
+{
+    const char *name = cli->value + 2;
+    if (strncmp(cli->value, "--", 2) == 0 && find_option(cli, name, strcspn(name, "=:"), 0))
+        cli_die(cli, "--%s needs an argument, %s, before %s", option->name, option->argument, cli->value);
+}
+
 /* The option's argument: `attached` if there is one, else the next word. */
 static void take_value(Cli *cli, const CliOption *option, const char *attached)
 {
@@ -172,7 +180,7 @@ static void take_value(Cli *cli, const CliOption *option, const char *attached)
     if (attached)
         cli->value = attached;
     else if (cli->next < cli->argc)
-        cli->value = cli->argv[cli->next++];
+        cli->value = cli->argv[cli->next++], check_value(cli, option);
     else
         cli_die(cli, "--%s needs an argument: %s", option->name, option->argument);
 }

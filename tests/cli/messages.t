@@ -109,6 +109,20 @@ $ for c in 'combine s.exr x.png' 'combine s.exr x.exr' 'combine s.exr t.jpg' 'co
 ! ls: cannot access 'x.*': No such file or directory
 = 2
 
+$ for c in 'denoise s.exr -o --radius 3' 'render box.pov -o --plain' 'render box.pov --stats --size 8x6' 'combine s.exr -o --texture:scale=2 floor=t.jpg' 'combine s.exr -o'; do retex-$c >out || wc -c <out; done; ls -- --*
+> 0
+> 0
+> 0
+> 0
+> 0
+! retex-denoise: error: --output needs an argument, FILE, before --radius
+! retex-render: error: --output needs an argument, FILE, before --plain
+! retex-render: error: --stats needs an argument, FILE.json, before --size
+! retex-combine: error: --output needs an argument, FILE, before --texture:scale=2
+! retex-combine: error: --output needs an argument: FILE
+! ls: cannot access '--*': No such file or directory
+= 2
+
 # Names in scenes: declared ones, keywords and directives.
 $ echo 'printf "#version 3.7; global_settings { assumed_gamma 1 }\ncamera { location -4*z look_at 0 }\nlight_source { -9*z rgb 1 }\n#declare Oak = texture { pigment { rgb 1 } }\n#declare Table = box { 0, 1 }\n#declare Crimson = rgb 1;\n#declare Shiny = finish { phong 1 }\n#macro Chair(A) sphere { 0, A } #end\n$1\n" >m.pov; exec retex-render -q --size 8x6 --spp 1 m.pov -o m.exr' >try
 $ for x in 'sphere { 0, 1 texture { Oka } }' 'sphere { 0, 1 texture { oak } }' 'object { Tabel }' 'sphere { 0, 1 pigment { color Crimsn } }' 'sphere { 0, 1 finish { Shinny } }' 'Chiar(1)' '#declare B = Crimsno * 2;' '#declare D = Tabl' 'spheer { 0, 1 }' 'sphere { 0, 1 pigmnet { rgb 1 } }' 'sphere { 0, 1 pigment { colour rgbb 1 } }' 'sphere { 0, 1 pigment { chcker } }' 'sphere { 0, 1 transltae x }' 'sphere { 0, sni(1) }' 'camera { locaton 1 }' 'global_settings { max_trace_levl 5 }' '#dclare A = 1;' '#warnin "x"' '#zzzzzzz 1' 'Zzzzzzz'; do sh try "$x"; done
