@@ -63,8 +63,11 @@ static void mend_texel(float *p, int x, int y, TextureValues *values)
 void texture_values_mend(float *rgba, int width, int y, TextureValues *values)
 {
     *values = (TextureValues){.brightest = 0};
+    if (texture_values_are_plain(rgba, 4 * (size_t)width))
+        return;
     for (int x = 0; x < width; x++)
-        mend_texel(rgba + 4 * (size_t)x, x, y, values);
+        if (!texture_values_are_plain(rgba + 4 * (size_t)x, 4))
+            mend_texel(rgba + 4 * (size_t)x, x, y, values);
 }
 
 void texture_values_join(TextureValues *values, const TextureValues *row)

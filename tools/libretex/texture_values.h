@@ -27,6 +27,9 @@ void texture_values_join(TextureValues *values, const TextureValues *row);
 /* A constant: as a single texel. */
 void texture_values_mend_color(float color[3], TextureValues *values);
 
+/* In texture_values_kernel.c: 1 where all are from 0 to 1. */
+int texture_values_are_plain(const float *values, size_t count);
+
 /* Say what there is to be said of the texture that spec describes, line by line; texels: how many it has. */
 void texture_values_tell(const TextureValues *values, const RetexTextureSpec *spec, long texels);
 
