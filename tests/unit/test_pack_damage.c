@@ -36,12 +36,12 @@ static int sets_equal(const RetexSet *a, const RetexSet *b)
     return equal;
 }
 
-/* Of a pack: all bytes of its beginning, then one of step. */
-static void flip_every_byte(unsigned char *data, size_t bytes, size_t step)
+/* Of a pack: all bytes up to a place, then one of step. */
+static void flip_bytes(unsigned char *data, size_t bytes, size_t all, size_t step)
 {
     size_t unseen = 0;
     RetexSet *whole = unpack(data, bytes);
-    for (size_t i = 0; i < bytes; i += i < 2048 ? 1 : step) {
+    for (size_t i = 0; i < bytes; i += i < all ? 1 : step) {
         RetexSet *back = NULL;
         unsigned char kept = data[i];
         data[i] ^= (unsigned char)(1 + i % 255);
@@ -69,7 +69,7 @@ static void test_every_flipped_byte_is_seen(void **state)
         size_t bytes;
         RetexSet *set = test_set(16, 8, 7);
         unsigned char *data = pack(set, exact ? &params : NULL, &bytes);
-        flip_every_byte(data, bytes, 7);
+        flip_bytes(data, bytes, exact ? 64 : 2048, exact ? 31 : 7);
         free(data);
         retex_set_close(&set);
     }
@@ -80,7 +80,7 @@ static void test_every_flipped_byte_of_version_1_is_seen(void **state)
     (void)state;
     size_t bytes;
     unsigned char *data = test_read_file("tests/data/pack-v1.retex", &bytes);
-    flip_every_byte(data, bytes, 211);
+    flip_bytes(data, bytes, 64, 101);
     free(data);
 }
 
