@@ -54,8 +54,10 @@ void watchdog_prepare(const char *tool)
             sigaddset(&dog.signals, numbers[i]);
     }
     pthread_sigmask(SIG_BLOCK, &dog.signals, NULL);
-    if (retex_budget_create(&dog.budget, NULL) != 0)
-        _exit(EXIT_STATUS);
+    if (retex_budget_create(&dog.budget, NULL) != 0) {
+        fprintf(stderr, "%s: error: out of memory\n", tool);
+        exit(EXIT_STATUS);
+    }
 }
 
 RetexBudget *watchdog_budget(void)

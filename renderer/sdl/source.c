@@ -148,8 +148,9 @@ static char *read_all(Sdl *sdl, const char *path, size_t *size)
         sdl_fail(sdl, code, "%s", why.message);
     FILE *file = fdopen(descriptor, "rb");
     if (!file) {
+        const int reason = errno;
         close(descriptor);
-        sdl_fail(sdl, RETEX_ENOMEM, "cannot read `%s`", path);
+        sdl_fail(sdl, RETEX_EIO, "cannot read `%s`: %s", path, strerror(reason));
     }
     struct stat info;
     char *bytes = NULL;
@@ -163,14 +164,16 @@ static char *read_all(Sdl *sdl, const char *path, size_t *size)
     if (!too_big)
         bytes = malloc((size_t)info.st_size + 1);
     *size = bytes ? fread(bytes, 1, (size_t)info.st_size, file) : 0;
-    int failed = ferror(file);
+    int failed = ferror(file) ? errno : 0;
     fclose(file);
     if (bytes && !failed)
         return bytes;
     free(bytes);
     if (too_big)
         sdl_fail(sdl, RETEX_ELIMIT, "`%s` is larger than the memory allowed", path);
-    sdl_fail(sdl, failed ? RETEX_EIO : RETEX_ENOMEM, "cannot read `%s`", path);
+    if (failed)
+        sdl_fail(sdl, RETEX_EIO, "cannot read `%s`: %s", path, strerror(failed));
+    sdl_fail(sdl, RETEX_ENOMEM, "no memory to read `%s`", path);
 }
 
 /* The bytes must be freed when the text is too much for the arena: an error while reading it comes here first and then

@@ -78,11 +78,18 @@ static void test_comes_back(void **state)
         fill(round % KINDS, count, &seed);
         unsigned char *packed = malloc(room); /* exactly, so that a sanitizer sees what lies beyond */
         assert_non_null(packed);
-        const size_t whole = retex_deflate(packed, room, bytes, count, 1);
+        const size_t whole = retex_deflate(NULL, packed, room, bytes, count, 1);
         assert_true(whole > 0 && whole <= room);
         check_inflates(packed, whole, count);
         free(packed);
     }
+}
+
+static size_t deflate_piece(int stored, unsigned char *to, size_t room, const unsigned char *from, size_t count,
+                            int is_last)
+{
+    return stored ? retex_deflate_stored(to, room, from, count, is_last)
+                  : retex_deflate(NULL, to, room, from, count, is_last);
 }
 
 /* Two pieces of one stream; the first ends at a whole byte. */
@@ -97,10 +104,9 @@ static void test_pieces(void **state)
         unsigned char *packed = malloc(room);
         assert_non_null(packed);
         for (int stored = 0; stored < 4; stored++) { /* one of the pieces, or both */
-            size_t at = (stored & 1 ? retex_deflate_stored : retex_deflate)(packed, room, bytes, first, 0);
+            size_t at = deflate_piece(stored & 1, packed, room, bytes, first, 0);
             assert_true(at > 0);
-            at += (stored & 2 ? retex_deflate_stored : retex_deflate)(packed + at, room - at, bytes + first,
-                                                                      count - first, 1);
+            at += deflate_piece(stored & 2, packed + at, room - at, bytes + first, count - first, 1);
             check_inflates(packed, at, count);
         }
         free(packed);
@@ -122,11 +128,11 @@ static void test_same_again(void **state)
         for (size_t i = step; i < count; i++) /* repetitions, not quite whole */
             if (round % 2 && test_random(&seed) < 0.9)
                 bytes[i] = bytes[i - step];
-        const size_t packed_bytes = retex_deflate(first, room, bytes, count, 1);
+        const size_t packed_bytes = retex_deflate(NULL, first, room, bytes, count, 1);
         memcpy(moved + round % 64, bytes, count);
-        retex_deflate(again, room, back, (size_t)(5000 * test_random(&seed)), 1);
+        retex_deflate(NULL, again, room, back, (size_t)(5000 * test_random(&seed)), 1);
         free(hole);
-        assert_int_equal(retex_deflate(again, room, moved + round % 64, count, 1), packed_bytes);
+        assert_int_equal(retex_deflate(NULL, again, room, moved + round % 64, count, 1), packed_bytes);
         assert_memory_equal(first, again, packed_bytes);
         free(first);
         free(again);
@@ -144,7 +150,7 @@ static void test_little_room(void **state)
         fill(round % KINDS, count, &seed);
         unsigned char *packed = malloc(room);
         assert_non_null(packed);
-        const size_t whole = retex_deflate(packed, room, bytes, count, 1);
+        const size_t whole = retex_deflate(NULL, packed, room, bytes, count, 1);
         assert_true(whole <= room);
         if (whole)
             check_inflates(packed, whole, count);
@@ -165,7 +171,7 @@ static void test_is_short(void **state)
     uint32_t seed = 11;
     for (int round = 0; round < 4 * KINDS; round++) {
         fill(round % KINDS, MOST, &seed);
-        const double share = (double)retex_deflate(packed, sizeof packed, bytes, MOST, 1) / MOST;
+        const double share = (double)retex_deflate(NULL, packed, sizeof packed, bytes, MOST, 1) / MOST;
         print_message("kind %d: %.4f\n", round % KINDS, share);
         assert_true(share > 0 && share < most[round % KINDS]);
     }
@@ -184,13 +190,13 @@ static void test_inflates(void **state)
         assert_non_null(out);
         fill(round % KINDS, count, &seed);
         assert_int_equal(compress2(packed, &packed_bytes, bytes, count, round % 10), Z_OK);
-        assert_true(retex_inflate(out, count, packed, packed_bytes));
+        assert_true(retex_inflate(NULL, out, count, packed, packed_bytes));
         assert_memory_equal(out, bytes, count);
-        assert_false(retex_inflate(out, count - 1, packed, packed_bytes));
-        assert_false(retex_inflate(out, count + 1, packed, packed_bytes));
-        assert_false(retex_inflate(out, count, packed, (size_t)((double)packed_bytes * test_random(&seed))));
+        assert_false(retex_inflate(NULL, out, count - 1, packed, packed_bytes));
+        assert_false(retex_inflate(NULL, out, count + 1, packed, packed_bytes));
+        assert_false(retex_inflate(NULL, out, count, packed, (size_t)((double)packed_bytes * test_random(&seed))));
         packed[(size_t)((double)packed_bytes * test_random(&seed))] ^= (unsigned char)(1 << round % 8);
-        assert_true(!retex_inflate(out, count, packed, packed_bytes) || memcmp(out, bytes, count) == 0);
+        assert_true(!retex_inflate(NULL, out, count, packed, packed_bytes) || memcmp(out, bytes, count) == 0);
         free(packed);
         free(out);
     }

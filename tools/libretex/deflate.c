@@ -16,18 +16,24 @@ typedef struct Deflater {
     unsigned char level[LEVEL_BYTES];
 } Deflater;
 
+size_t retex_deflate_work(void)
+{
+    return sizeof(Deflater) > sizeof(struct inflate_state) ? sizeof(Deflater) : sizeof(struct inflate_state);
+}
+
 size_t retex_deflate_room(size_t bytes)
 {
     return bytes + bytes / 64 + 512; /* more than stored blocks of 65535 bytes take */
 }
 
-size_t retex_deflate(unsigned char *packed, size_t room, const unsigned char *bytes, size_t count, int is_last)
+size_t retex_deflate(void *work, unsigned char *packed, size_t room, const unsigned char *bytes, size_t count,
+                     int is_last)
 {
-    Deflater *deflater = count > UINT32_MAX || room > UINT32_MAX ? NULL : malloc(sizeof *deflater);
+    Deflater *deflater = work ? work : malloc(sizeof *deflater);
     size_t packed_bytes = 0;
 
-    if (!deflater)
-        return 0;
+    if (!deflater || count > UINT32_MAX || room > UINT32_MAX)
+        goto done;
     struct isal_zstream *stream = &deflater->stream;
     isal_deflate_stateless_init(stream);
     stream->hist_bits = 0; /* all of 32 KB is looked at; isal_deflate_stateless_init leaves what was there */
@@ -37,7 +43,9 @@ size_t retex_deflate(unsigned char *packed, size_t room, const unsigned char *by
     stream->next_out = packed, stream->avail_out = (uint32_t)room;
     if (isal_deflate_stateless(stream) == COMP_OK && stream->avail_in == 0)
         packed_bytes = stream->total_out;
-    free(deflater);
+done:
+    if (!work)
+        free(deflater);
     return packed_bytes;
 }
 
@@ -59,17 +67,20 @@ size_t retex_deflate_stored(unsigned char *packed, size_t room, const unsigned c
     return count + blocks * HEAD;
 }
 
-int retex_inflate(unsigned char *bytes, size_t count, const unsigned char *packed, size_t packed_bytes)
+int retex_inflate(void *work, unsigned char *bytes, size_t count, const unsigned char *packed, size_t packed_bytes)
 {
-    struct inflate_state *state = count > UINT32_MAX || packed_bytes > UINT32_MAX ? NULL : malloc(sizeof *state);
+    struct inflate_state *state = work ? work : malloc(sizeof *state);
+    int ok = 0;
 
-    if (!state)
-        return 0;
+    if (!state || count > UINT32_MAX || packed_bytes > UINT32_MAX)
+        goto done;
     isal_inflate_init(state);
     state->crc_flag = ISAL_ZLIB;
     state->next_in = (uint8_t *)packed, state->avail_in = (uint32_t)packed_bytes;
     state->next_out = bytes, state->avail_out = (uint32_t)count;
-    const int ok = isal_inflate_stateless(state) == ISAL_DECOMP_OK && state->total_out == count;
-    free(state);
+    ok = isal_inflate_stateless(state) == ISAL_DECOMP_OK && state->total_out == count;
+done:
+    if (!work)
+        free(state);
     return ok;
 }

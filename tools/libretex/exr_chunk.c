@@ -37,7 +37,8 @@ int retex_chunk_need(RetexChunkScratch *scratch, const RetexChunkShape *shape)
     const size_t line = (size_t)shape->width * strlen(shape->letters);
 
     return need((void **)&scratch->raw, &scratch->raw_bytes, retex_chunk_bytes(shape), 1) &&
-           need((void **)&scratch->halves, &scratch->halves_count, line, 2);
+           need((void **)&scratch->halves, &scratch->halves_count, line, 2) &&
+           retex_zip_need(&scratch->zip, retex_chunk_bytes(shape));
 }
 
 void retex_chunk_free(RetexChunkScratch *scratch)

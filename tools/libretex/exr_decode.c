@@ -15,8 +15,9 @@ int exr_fail(RetexExr *exr, exr_result_t code, RetexError *err)
 
     if (code == EXR_ERR_OUT_OF_MEMORY)
         return retex_fail(err, RETEX_ENOMEM, "no memory to read %s", name);
-    return retex_fail(err, RETEX_EFORMAT, "%s is damaged or truncated: %s", name,
-                      exr->message.text[0] ? exr->message.text : exr_get_default_error_message(code));
+    const int status = retex_fail(err, RETEX_EFORMAT, "%s is damaged or truncated: %s", name,
+                                  exr->message.text[0] ? exr->message.text : exr_get_default_error_message(code));
+    return retex_input_check(exr->input, status, err);
 }
 
 int exr_fail_number(const RetexExr *exr, int part, const ExrOddNumber *odd, RetexError *err)
@@ -102,7 +103,7 @@ static exr_result_t chunk_samples(RetexExr *exr, const ExrPlan *plan, const exr_
         return EXR_ERR_SUCCESS;
     if (!zipped)
         return EXR_ERR_CORRUPT_CHUNK;
-    if (!need((void **)&scratch->raw, &scratch->raw_bytes, bytes, 1))
+    if (!need((void **)&scratch->raw, &scratch->raw_bytes, bytes, 1) || !retex_zip_need(&scratch->zip, bytes))
         return EXR_ERR_OUT_OF_MEMORY;
     *samples = scratch->raw;
     return retex_zip_unpack(&scratch->zip, scratch->raw, bytes, scratch->packed, (size_t)chunk->packed_size)

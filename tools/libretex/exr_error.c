@@ -17,6 +17,20 @@ void retex_exr_message(exr_const_context_t context, exr_result_t code, const cha
     pthread_mutex_unlock(&message->lock);
 }
 
+void retex_exr_no_message(exr_const_context_t context, exr_result_t code, const char *text)
+{
+    (void)context;
+    (void)code;
+    (void)text;
+}
+
+int retex_exr_fail_write(exr_result_t code, const char *path, RetexError *err)
+{
+    if (code == EXR_ERR_OUT_OF_MEMORY)
+        return retex_fail(err, RETEX_ENOMEM, "no memory to write %s", path);
+    return retex_fail(err, RETEX_EINTERNAL, "cannot write %s: %s", path, exr_get_default_error_message(code));
+}
+
 void *retex_exr_alloc(size_t bytes)
 {
     return bytes <= (size_t)1 << 30 ? calloc(1, bytes ? bytes : 1) : NULL;

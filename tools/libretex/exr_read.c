@@ -49,7 +49,8 @@ int retex_exr_open(RetexExr **result, RetexInput *input, RetexError *err)
 
     *result = NULL;
     if (!retex_exr_probe(input))
-        return retex_fail(err, RETEX_EFORMAT, "%s is not an OpenEXR file", retex_input_name(input));
+        return retex_input_check(
+            input, retex_fail(err, RETEX_EFORMAT, "%s is not an OpenEXR file", retex_input_name(input)), err);
     exr = calloc(1, sizeof *exr);
     if (!exr)
         return retex_fail(err, RETEX_ENOMEM, "no memory to read %s", retex_input_name(input));
@@ -351,8 +352,11 @@ static int fail_chunk(RetexExr *exr, const ExrPlan *plans, int nplans, exr_resul
             exr_get_name(exr->context, plans[i].request->part, &name);
         }
     if (code != EXR_ERR_OUT_OF_MEMORY && name)
-        return retex_fail(err, RETEX_EFORMAT, "%s: part %s is damaged or truncated: %s", retex_input_name(exr->input),
-                          name, exr->message.text[0] ? exr->message.text : exr_get_default_error_message(code));
+        return retex_input_check(
+            exr->input,
+            retex_fail(err, RETEX_EFORMAT, "%s: part %s is damaged or truncated: %s", retex_input_name(exr->input),
+                       name, exr->message.text[0] ? exr->message.text : exr_get_default_error_message(code)),
+            err);
     return exr_fail(exr, code, err);
 }
 

@@ -184,10 +184,12 @@ static int fail_chunk(const ExrReader *reader, const ExrPlan *plan, exr_result_t
     const ExrSource *source = reader->source;
     if (result == EXR_ODD_NUMBER)
         return exr_fail_number(source->parts.exr, plan->request->part, &reader->scratch.odd, err);
-    return result == EXR_ERR_OUT_OF_MEMORY ? exr_fail(source->parts.exr, result, err)
-                                           : retex_fail(err, RETEX_EFORMAT, "%s: part %s is damaged or truncated",
-                                                        retex_input_name(source->parts.input),
-                                                        retex_exr_part_name(source->parts.exr, plan->request->part));
+    if (result == EXR_ERR_OUT_OF_MEMORY)
+        return exr_fail(source->parts.exr, result, err);
+    const int status =
+        retex_fail(err, RETEX_EFORMAT, "%s: part %s is damaged or truncated", retex_input_name(source->parts.input),
+                   retex_exr_part_name(source->parts.exr, plan->request->part));
+    return retex_input_check(source->parts.input, status, err);
 }
 
 static int read_strip(ExrReader *reader, int part, int number, RetexError *err)

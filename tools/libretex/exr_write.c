@@ -292,7 +292,6 @@ void retex_exr_encoding_free(RetexExrEncoding **result)
 
 /* User data of the write context. */
 typedef struct Sink {
-    RetexExrMessage message; /* first: see exr_error.h */
     RetexOutput *output;
     RetexError error;  /* of output, which knows more than Core does */
     uint64_t position; /* bytes sent so far */
@@ -487,12 +486,12 @@ int retex_exr_write(RetexExrEncoding *encoding, int width, int height, const cha
                     const char *path, RetexError *err)
 {
     exr_context_initializer_t settings = EXR_DEFAULT_CONTEXT_INITIALIZER;
-    Sink sink = {.message = {PTHREAD_MUTEX_INITIALIZER, ""}};
+    Sink sink = {.output = NULL};
     exr_context_t context = NULL;
     exr_result_t code;
     int status;
 
-    settings.error_handler_fn = retex_exr_message;
+    settings.error_handler_fn = retex_exr_no_message;
     settings.user_data = &sink;
     settings.write_fn = sink_write;
     status = plan_table(&sink, encoding, err);
@@ -512,8 +511,7 @@ int retex_exr_write(RetexExrEncoding *encoding, int width, int height, const cha
     if (sink.error.code)
         status = retex_fail(err, sink.error.code, "%s", sink.error.message);
     else if (code)
-        status = retex_fail(err, RETEX_EINTERNAL, "cannot write %s: %s", path,
-                            sink.message.text[0] ? sink.message.text : exr_get_default_error_message(code));
+        status = retex_exr_fail_write(code, path, err);
     if (status)
         retex_output_abandon(&sink.output);
     else
@@ -526,9 +524,9 @@ int retex_exr_write(RetexExrEncoding *encoding, int width, int height, const cha
 
 /* User data of its write context. */
 typedef struct HeaderSink {
-    RetexExrMessage message; /* first: see exr_error.h */
     unsigned char *bytes;
     size_t count;
+    int starved; /* memory was short */
 } HeaderSink;
 
 static int64_t keep_header(exr_const_context_t context, void *data, const void *buffer, uint64_t bytes, uint64_t offset,
@@ -540,8 +538,10 @@ static int64_t keep_header(exr_const_context_t context, void *data, const void *
     if (offset != sink->count)
         return -1;
     unsigned char *more = realloc(sink->bytes, sink->count + (size_t)bytes + 1);
-    if (!more)
+    if (!more) {
+        sink->starved = 1;
         return -1;
+    }
     sink->bytes = more;
     memcpy(more + sink->count, buffer, (size_t)bytes);
     sink->count += (size_t)bytes;
@@ -551,11 +551,11 @@ static int64_t keep_header(exr_const_context_t context, void *data, const void *
 int retex_exr_header(unsigned char **header, size_t *bytes, const RetexExrPart *part, RetexError *err)
 {
     exr_context_initializer_t settings = EXR_DEFAULT_CONTEXT_INITIALIZER;
-    HeaderSink sink = {.message = {PTHREAD_MUTEX_INITIALIZER, ""}};
+    HeaderSink sink = {.bytes = NULL};
     RetexExrEncoding encoding = {.parts = (RetexExrPart *)part, .nparts = 1, .compress = 1};
     exr_context_t context = NULL;
 
-    settings.error_handler_fn = retex_exr_message;
+    settings.error_handler_fn = retex_exr_no_message;
     settings.user_data = &sink;
     settings.write_fn = keep_header;
     exr_result_t code = exr_start_write(&context, "header", EXR_WRITE_FILE_DIRECTLY, &settings);
@@ -569,6 +569,5 @@ int retex_exr_header(unsigned char **header, size_t *bytes, const RetexExrPart *
         return 0;
     free(*header);
     *header = NULL;
-    return retex_fail(err, RETEX_EINTERNAL, "cannot lay out an EXR file: %s",
-                      sink.message.text[0] ? sink.message.text : exr_get_default_error_message(code));
+    return retex_exr_fail_write(sink.starved ? EXR_ERR_OUT_OF_MEMORY : code, "an EXR file's header", err);
 }

@@ -17,13 +17,15 @@
 
 enum { HEAD = 2, TAIL = 4 }; /* of a zlib stream: what it is, and a checksum */
 
-static int need_scratch(RetexZip *zip, size_t bytes)
+int retex_zip_need(RetexZip *zip, size_t bytes)
 {
-    if (zip->scratch_bytes >= bytes)
+    if (!zip->work && !(zip->work = malloc(retex_deflate_work())))
+        return 0;
+    if (zip->scratch_bytes >= 2 * bytes)
         return 1;
     free(zip->scratch);
-    zip->scratch = malloc(bytes);
-    zip->scratch_bytes = zip->scratch ? bytes : 0;
+    zip->scratch = malloc(2 * bytes);
+    zip->scratch_bytes = zip->scratch ? 2 * bytes : 0;
     return zip->scratch != NULL;
 }
 
@@ -47,24 +49,24 @@ static int is_noise(const unsigned char *bytes, size_t count)
 }
 
 /* The raw stream of a chunk: its low bytes, then its high ones. */
-static size_t deflate_chunk(unsigned char *packed, size_t room, const unsigned char *bytes, size_t count)
+static size_t deflate_chunk(void *work, unsigned char *packed, size_t room, const unsigned char *bytes, size_t count)
 {
     const size_t low = (count + 1) / 2;
     if (!is_noise(bytes, low))
-        return retex_deflate(packed, room, bytes, count, 1);
+        return retex_deflate(work, packed, room, bytes, count, 1);
     const size_t stored = retex_deflate_stored(packed, room, bytes, low, 0);
-    const size_t coded = stored ? retex_deflate(packed + stored, room - stored, bytes + low, count - low, 1) : 0;
+    const size_t coded = stored ? retex_deflate(work, packed + stored, room - stored, bytes + low, count - low, 1) : 0;
     return coded ? stored + coded : 0;
 }
 
 size_t retex_zip_pack(RetexZip *zip, unsigned char *packed, const unsigned char *raw, size_t bytes)
 {
-    if (bytes <= HEAD + TAIL || bytes > INT_MAX || !need_scratch(zip, 2 * bytes))
+    if (bytes <= HEAD + TAIL || bytes > INT_MAX)
         return 0;
     exr_zip_regroup(zip->scratch, raw, bytes);
     exr_zip_difference(zip->scratch + bytes, zip->scratch, bytes);
     /* a chunk as long as its data would be taken for uncompressed */
-    const size_t coded = deflate_chunk(packed + HEAD, bytes - 1 - HEAD - TAIL, zip->scratch + bytes, bytes);
+    const size_t coded = deflate_chunk(zip->work, packed + HEAD, bytes - 1 - HEAD - TAIL, zip->scratch + bytes, bytes);
     if (!coded)
         return 0;
     const uint32_t sum = retex_adler32(ADLER32_OF_NONE, zip->scratch + bytes, bytes);
@@ -76,7 +78,7 @@ size_t retex_zip_pack(RetexZip *zip, unsigned char *packed, const unsigned char 
 
 int retex_zip_unpack(RetexZip *zip, unsigned char *raw, size_t bytes, const unsigned char *packed, size_t packed_bytes)
 {
-    if (!need_scratch(zip, bytes) || !retex_inflate(zip->scratch, bytes, packed, packed_bytes))
+    if (!retex_inflate(zip->work, zip->scratch, bytes, packed, packed_bytes))
         return 0;
     exr_zip_accumulate(zip->scratch, bytes);
     exr_zip_interleave(raw, zip->scratch, bytes);
@@ -86,5 +88,6 @@ int retex_zip_unpack(RetexZip *zip, unsigned char *raw, size_t bytes, const unsi
 void retex_zip_free(RetexZip *zip)
 {
     free(zip->scratch);
+    free(zip->work);
     *zip = (RetexZip){0};
 }

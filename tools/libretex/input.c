@@ -3,6 +3,7 @@
  * but turns a file that shrinks under us into a crash. */
 #include <errno.h>
 #include <fcntl.h>
+#include <stdatomic.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -24,6 +25,7 @@ struct RetexInput {
     unsigned char *data; /* NULL while the file is read by position */
     int data_borrowed;   /* 1: data is not ours to free */
     uint64_t size;
+    atomic_int failed; /* errno of a read that failed */
 };
 
 static int fail_read(const RetexInput *input, int code, RetexError *err)
@@ -222,13 +224,22 @@ int64_t retex_input_read(const RetexInput *input, void *buffer, size_t bytes, ui
             pread(input->descriptor, (unsigned char *)buffer + done, bytes - done, (off_t)(offset + done));
         if (got < 0 && errno == EINTR)
             continue;
-        if (got < 0)
+        if (got < 0) {
+            atomic_store(&((RetexInput *)input)->failed, errno); /* not of the content: const all the same */
             return -1;
+        }
         if (got == 0)
             break; /* the file has shrunk since */
         done += (size_t)got;
     }
     return (int64_t)done;
+}
+
+int retex_input_check(const RetexInput *input, int status, RetexError *err)
+{
+    const int failed = input ? atomic_load(&input->failed) : 0;
+
+    return failed && (status == RETEX_OK || status == RETEX_EFORMAT) ? fail_read(input, failed, err) : status;
 }
 
 int retex_input_load(RetexInput *input, const void **data, size_t *bytes, RetexError *err)

@@ -25,6 +25,10 @@ int retex_input_descriptor(const RetexInput *input);   /* of the file, the input
 /* Copy up to bytes from offset; how many there were, fewer only at the end, or -1 with errno set. Thread-safe. */
 int64_t retex_input_read(const RetexInput *input, void *buffer, size_t bytes, uint64_t offset);
 
+/* What has been found out about the content, RETEX_OK or RETEX_EFORMAT with its message, holds only if nothing of it
+ * could not be read: else RETEX_EIO, and that message. Any other status stays. */
+int retex_input_check(const RetexInput *input, int status, RetexError *err);
+
 /* The whole input in memory, owned by input. */
 int retex_input_load(RetexInput *input, const void **data, size_t *bytes, RetexError *err);
 

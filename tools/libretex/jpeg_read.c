@@ -141,7 +141,7 @@ int retex_jpeg_read_narrow(RetexNarrowImage *dst, RetexInput *input, long max_pi
 
     *dst = (RetexNarrowImage){0};
     if (retex_input_read(input, begin, sizeof begin, 0) != sizeof begin || memcmp(begin, "\xff\xd8\xff", 3) != 0)
-        return 0;
+        return retex_input_check(input, RETEX_OK, err);
     const int code = retex_input_load(input, &data, &bytes, err);
     if (code)
         return code;

@@ -24,9 +24,12 @@ static int open_other(RetexLayers *layers, const char *path, const RetexReadPara
 {
     unsigned char begin[4] = {0};
     int64_t got = retex_input_read(layers->input, begin, sizeof begin, 0);
+    int code = retex_input_check(layers->input, RETEX_OK, err);
+    if (code)
+        return code;
     if (got != sizeof begin || !retex_pack_probe(begin, sizeof begin))
         return retex_image_read_with(&layers->picture, path, params, err);
-    int code = retex_pack_open(&layers->set, &layers->input, layers->nthreads, err);
+    code = retex_pack_open(&layers->set, &layers->input, layers->nthreads, err);
     return code ? code : retex_set_load(layers->set, layers->nthreads, err);
 }
 

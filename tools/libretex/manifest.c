@@ -6,6 +6,7 @@
 #include <string.h>
 #include <jansson.h>
 
+#include "json_write.h"
 #include "manifest.h"
 #include "manifest_kinds.h"
 
@@ -135,11 +136,11 @@ static json_t *write_term(const RetexSet *set, const RetexTerm *term)
     json_t *factors = json_array();
 
     for (int i = 0; i < term->nfactors; i++)
-        json_array_append_new(factors, json_integer(term->factors[i]));
+        retex_json_add(&factors, json_integer(term->factors[i]));
     json_t *json = json_pack("{s:s, s:o, s:o}", "kind", retex_term_kinds[term->kind], "radiance",
                              part_name(set, term->radiance), "factors", factors);
     if (term->gain)
-        json_object_set_new(json, "gain", part_name(set, term->gain));
+        retex_json_put(&json, "gain", part_name(set, term->gain));
     return json;
 }
 
@@ -148,8 +149,8 @@ static json_t *write_mixture(const RetexSet *set, const RetexMixture *mixture)
     json_t *shares = json_array();
 
     for (int i = 0; i < mixture->nshares; i++)
-        json_array_append_new(shares, json_pack("{s:i, s:o}", "footprint", mixture->shares[i].footprint, "weight",
-                                                part_name(set, mixture->shares[i].weight)));
+        retex_json_add(&shares, json_pack("{s:i, s:o}", "footprint", mixture->shares[i].footprint, "weight",
+                                          part_name(set, mixture->shares[i].weight)));
     return shares;
 }
 
@@ -177,7 +178,7 @@ static json_t *write_part(const char *name, const char *letters, RetexPixelType 
         json_pack("{s:s, s:s, s:s, s:i, s:i, s:s}", "name", name, "letters", letters, "type",
                   type == RETEX_HALF ? "half" : "float", "width", image->width, "height", image->height, "crc32", hex);
     if (bands)
-        json_object_set_new(json, "bands", write_bands(bands, image->height));
+        retex_json_put(&json, "bands", write_bands(bands, image->height));
     return json;
 }
 
@@ -194,42 +195,42 @@ static json_t *identity(uint32_t id)
     return json_string(hex);
 }
 
-static void write_set(json_t *root, const RetexSet *set, const RetexBandSums *sums, int *finite)
+static void write_set(json_t **root, const RetexSet *set, const RetexBandSums *sums, int *finite)
 {
     json_t *targets = json_array(), *footprints = json_array(), *terms = json_array(), *parts = json_array();
 
     for (int i = 0; i < set->ntargets; i++)
-        json_array_append_new(targets, write_target(set, &set->targets[i], finite));
+        retex_json_add(&targets, write_target(set, &set->targets[i], finite));
     for (int i = 0; i < set->nfootprints; i++)
-        json_array_append_new(footprints, write_footprint(set, &set->footprints[i]));
+        retex_json_add(&footprints, write_footprint(set, &set->footprints[i]));
     for (int i = 0; i < set->nterms; i++)
-        json_array_append_new(terms, write_term(set, &set->terms[i]));
+        retex_json_add(&terms, write_term(set, &set->terms[i]));
     for (int i = 0; i < set->nparts; i++) {
         const RetexPart *part = &set->parts[i];
-        json_array_append_new(
-            parts, write_part(part->name, part->letters, part->type, &part->image, part->crc, bands_of(sums, i)));
+        retex_json_add(&parts,
+                       write_part(part->name, part->letters, part->type, &part->image, part->crc, bands_of(sums, i)));
     }
     json_t *mixtures = json_array();
     for (int i = 0; i < set->nmixtures; i++)
-        json_array_append_new(mixtures, write_mixture(set, &set->mixtures[i]));
-    json_object_set_new(root, "layout", text(set->layout));
-    json_object_set_new(root, "filter", text(set->filter));
-    json_object_set_new(root, "scene", text(set->scene));
-    json_object_set_new(root, "generator", text(set->generator));
-    json_object_set_new(root, "orders", json_integer(set->orders));
-    json_object_set_new(root, "spp", json_integer(set->spp));
-    json_object_set_new(root, "max_depth", json_integer(set->max_depth));
-    json_object_set_new(root, "seed", json_integer(set->seed));
-    json_object_set_new(root, "id", identity(set->id));
-    json_object_set_new(root, "folded", real(set->folded, finite));
-    json_object_set_new(root, "folded_white", real(set->folded_white, finite));
-    json_object_set_new(root, "denoised", json_boolean(set->denoised));
-    json_object_set_new(root, "strict_paper", json_boolean(set->strict_paper));
-    json_object_set_new(root, "targets", targets);
-    json_object_set_new(root, "footprints", footprints);
-    json_object_set_new(root, "mixtures", mixtures);
-    json_object_set_new(root, "terms", terms);
-    json_object_set_new(root, "parts", parts);
+        retex_json_add(&mixtures, write_mixture(set, &set->mixtures[i]));
+    retex_json_put(root, "layout", text(set->layout));
+    retex_json_put(root, "filter", text(set->filter));
+    retex_json_put(root, "scene", text(set->scene));
+    retex_json_put(root, "generator", text(set->generator));
+    retex_json_put(root, "orders", json_integer(set->orders));
+    retex_json_put(root, "spp", json_integer(set->spp));
+    retex_json_put(root, "max_depth", json_integer(set->max_depth));
+    retex_json_put(root, "seed", json_integer(set->seed));
+    retex_json_put(root, "id", identity(set->id));
+    retex_json_put(root, "folded", real(set->folded, finite));
+    retex_json_put(root, "folded_white", real(set->folded_white, finite));
+    retex_json_put(root, "denoised", json_boolean(set->denoised));
+    retex_json_put(root, "strict_paper", json_boolean(set->strict_paper));
+    retex_json_put(root, "targets", targets);
+    retex_json_put(root, "footprints", footprints);
+    retex_json_put(root, "mixtures", mixtures);
+    retex_json_put(root, "terms", terms);
+    retex_json_put(root, "parts", parts);
 }
 
 /* first: where the samples begin in sums. */
@@ -239,14 +240,14 @@ static json_t *write_samples(const RetexSamples *samples, const RetexSamplePart 
     json_t *targets = json_array(), *images = json_array();
 
     for (int i = 0; i < samples->ntargets; i++)
-        json_array_append_new(targets, json_pack("{s:o, s:o}", "name", text(samples->target_names[i]), "texture",
-                                                 text(samples->textures[i])));
+        retex_json_add(&targets, json_pack("{s:o, s:o}", "name", text(samples->target_names[i]), "texture",
+                                           text(samples->textures[i])));
     for (int i = 0; i < samples->nimages; i++) {
         json_t *part = parts[i].name[0] ? write_part(parts[i].name, "RGB", RETEX_FLOAT, &samples->images[i],
                                                      parts[i].crc, bands_of(sums, first + i))
                                         : json_null();
-        json_array_append_new(images, json_pack("{s:i, s:i, s:o}", "target", samples->footprint_target[i], "hit",
-                                                samples->footprint_hit[i], "part", part));
+        retex_json_add(&images, json_pack("{s:i, s:i, s:o}", "target", samples->footprint_target[i], "hit",
+                                          samples->footprint_hit[i], "part", part));
     }
     return json_pack("{s:o, s:o, s:o}", "set_id", identity(samples->set_id), "targets", targets, "images", images);
 }
@@ -263,9 +264,9 @@ int retex_manifest_write(const RetexSet *set, const RetexSamples *samples, const
 
     *json = NULL;
     if (root && set)
-        write_set(root, set, sums, &finite);
+        write_set(&root, set, sums, &finite);
     if (root && samples)
-        json_object_set_new(root, "samples", write_samples(samples, sample_parts, sums, set ? set->nparts : 0));
+        retex_json_put(&root, "samples", write_samples(samples, sample_parts, sums, set ? set->nparts : 0));
     const size_t style = JSON_COMPACT | JSON_PRESERVE_ORDER | JSON_REAL_PRECISION(17);
     char *dumped = root && finite ? json_dumps(root, style) : NULL;
     json_decref(root);

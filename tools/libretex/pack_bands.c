@@ -82,7 +82,8 @@ int pack_read_chunk(int part, int k, size_t before, RetexPackScratch *s, RetexEr
     }
     if (bytes && (retex_input_read(s->pack->input, s->chunk + before, bytes, p->offsets[k]) != (int64_t)bytes ||
                   retex_crc32(CRC32_OF_NONE, s->chunk + before, bytes) != p->crcs[k]))
-        return pack_damaged(err, "the checksum is wrong of part", s->pack->set->parts[part].name);
+        return retex_input_check(
+            s->pack->input, pack_damaged(err, "the checksum is wrong of part", s->pack->set->parts[part].name), err);
     return 0;
 }
 

@@ -9,6 +9,7 @@
 
 #include "checksum.h"
 #include "half.h"
+#include "json_write.h"
 #include "manifest.h"
 #include "pack_combine.h"
 
@@ -120,9 +121,9 @@ static json_t *describe_map(const PackMap *map)
 {
     json_t *o = json_pack("{s:s}", "map", pack_map_names[map->kind]);
     if (map->kind == PACK_MAP_LOG || map->kind == PACK_MAP_LINEAR)
-        json_object_set_new(o, "first", json_real(map->first));
+        retex_json_put(&o, "first", json_real(map->first));
     if (map->kind == PACK_MAP_LOG || map->kind == PACK_MAP_ANGLE)
-        json_object_set_new(o, map->kind == PACK_MAP_LOG ? "per_octave" : "steps", json_integer(map->per_octave));
+        retex_json_put(&o, map->kind == PACK_MAP_LOG ? "per_octave" : "steps", json_integer(map->per_octave));
     return o;
 }
 
@@ -130,21 +131,21 @@ static json_t *describe_part(const RetexSet *set, int part, const PackPart *pack
 {
     json_t *o = json_pack("{s:s, s:s}", "name", set->parts[part].name, "codec", pack_codec_names[packed->codec]);
     if (packed->codec == PACK_JPEG) {
-        json_object_set_new(o, "white", json_real(packed->curve.white));
-        json_object_set_new(o, "levels", json_real(packed->curve.levels));
-        json_object_set_new(o, "masked", json_boolean(packed->masked));
+        retex_json_put(&o, "white", json_real(packed->curve.white));
+        retex_json_put(&o, "levels", json_real(packed->curve.levels));
+        retex_json_put(&o, "masked", json_boolean(packed->masked));
     }
     if (packed->codec == PACK_PLANES || packed->codec == PACK_MODEL) {
         json_t *channels = json_array();
         for (int c = 0; c < packed->channels; c++)
-            json_array_append_new(channels, describe_map(&packed->maps[c]));
-        json_object_set_new(o, "channels", channels);
+            retex_json_add(&channels, describe_map(&packed->maps[c]));
+        retex_json_put(&o, "channels", channels);
         if (packed->present >= 0)
-            json_object_set_new(o, "present", json_string(set->parts[packed->present].name));
+            retex_json_put(&o, "present", json_string(set->parts[packed->present].name));
         if (packed->sigma >= 0) {
-            json_object_set_new(o, "sigma", json_string(set->parts[packed->sigma].name));
+            retex_json_put(&o, "sigma", json_string(set->parts[packed->sigma].name));
             if (packed->codec == PACK_PLANES)
-                json_object_set_new(o, "sigma_first", json_integer(packed->sigma_first));
+                retex_json_put(&o, "sigma_first", json_integer(packed->sigma_first));
         }
     }
     return o;
@@ -154,14 +155,14 @@ char *pack_describe(const char *manifest, const RetexSet *set, const PackPart *p
 {
     json_t *root = json_loads(manifest, 0, NULL), *parts = json_array();
     for (int i = 0; i < set->nparts; i++)
-        json_array_append_new(parts, describe_part(set, i, &packed[i]));
+        retex_json_add(&parts, describe_part(set, i, &packed[i]));
     json_t *pack = json_pack("{s:i, s:o}", "version", PACK_VERSION, "parts", parts);
     if (kept) {
-        json_object_set_new(pack, "quality", json_integer(kept->quality));
-        json_object_set_new(pack, "promised", json_real(kept->promised));
-        json_object_set_new(pack, "measured", json_real(kept->measured));
+        retex_json_put(&pack, "quality", json_integer(kept->quality));
+        retex_json_put(&pack, "promised", json_real(kept->promised));
+        retex_json_put(&pack, "measured", json_real(kept->measured));
     }
-    json_object_set_new(root, "pack", pack);
+    retex_json_put(&root, "pack", pack);
     char *text = json_dumps(root, JSON_COMPACT | JSON_REAL_PRECISION(17));
     json_decref(root);
     if (text)

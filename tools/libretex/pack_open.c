@@ -52,7 +52,7 @@ static int read_entry(const RetexPack *pack, const char *name, uint64_t most, un
         return 0;
     free(*data);
     *data = NULL;
-    return pack_damaged(err, "the checksum is wrong of", name);
+    return retex_input_check(pack->input, pack_damaged(err, "the checksum is wrong of", name), err);
 }
 
 static uint32_t little(const unsigned char *at)
@@ -238,7 +238,7 @@ int retex_pack_open(RetexSet **set, RetexInput **input, int nthreads, RetexError
         return retex_fail(err, RETEX_ENOMEM, "no memory to read a pack");
     pack->input = *input;
     *input = NULL;
-    const int version = open_pack(pack, set, nthreads, err);
+    const int version = retex_input_check(pack->input, open_pack(pack, set, nthreads, err), err);
     if (version == PACK_VERSION) {
         pack->methods = pack_methods;
         (*set)->source = &pack->methods;

@@ -185,7 +185,8 @@ static int load_file(unsigned char **data, size_t *bytes, const Item *item, cons
     if (retex_input_read(input, *data, *bytes, entry->offset) == (int64_t)*bytes &&
         (uint32_t)crc32_z(crc32(0, NULL, 0), *data, *bytes) == entry->crc)
         return 0;
-    return retex_fail(err, RETEX_EFORMAT, "the pack is damaged: the checksum is wrong of '%s'", name);
+    const int code = retex_fail(err, RETEX_EFORMAT, "the pack is damaged: the checksum is wrong of '%s'", name);
+    return retex_input_check(input, code, err);
 }
 
 /* A part of this size cannot be in fewer bytes. */

@@ -96,7 +96,7 @@ static unsigned char *deflate_lines(const unsigned char *filtered, size_t bytes,
     const size_t room = retex_deflate_room(bytes);
     unsigned char *data = malloc(head + room + tail);
 
-    *packed_bytes = data ? retex_deflate(data + head, room, filtered, bytes, is_last) : 0;
+    *packed_bytes = data ? retex_deflate(NULL, data + head, room, filtered, bytes, is_last) : 0;
     if (*packed_bytes)
         return data;
     free(data);

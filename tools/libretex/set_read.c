@@ -53,8 +53,10 @@ static int source_describe(Source *source, RetexError *err)
     if (got > 0 && retex_spool_probe(begin, (size_t)got))
         return retex_fail(err, RETEX_EFORMAT, "%s is not a set yet, but rows of one: %s", name,
                           "retex-render goes on from them with --resume or --merge");
-    if (!retex_exr_probe(source->input))
-        return retex_fail(err, RETEX_EFORMAT, "%s is not a set: neither an OpenEXR file nor a pack", name);
+    if (!retex_exr_probe(source->input)) {
+        status = retex_fail(err, RETEX_EFORMAT, "%s is not a set: neither an OpenEXR file nor a pack", name);
+        return retex_input_check(source->input, status, err);
+    }
     status = retex_exr_open(&source->exr, source->input, err);
     if (status)
         return status;
