@@ -6,6 +6,7 @@ FUZZ_OBJECTS := $(patsubst %.c,$(BUILD)/obj/%.o,$(wildcard tests/fuzz/lib_*.c))
 BENCH_OBJECTS := $(patsubst %.c,$(BUILD)/obj/%.o,$(wildcard tests/bench/bench*.c))
 # Tests take packs apart with a zip library that is not ours.
 TEST_LIBS = -lzip
+FAULTS := $(BUILD)/tests/faults/shim.so $(BUILD)/tests/faults/faults
 TEST_PROGRAMS := $(patsubst tests/lib/%.c,$(BUILD)/tests/bin/%,$(wildcard tests/lib/make_*.c))
 
 $(BUILD)/test.mk: tools/setup.sh
@@ -40,6 +41,14 @@ $(BUILD)/tests/bench/bench: $(BENCH_OBJECTS) $(LIBTEST) $(LIBRENDER) $(LIBRETEX)
 	@mkdir -p $(@D)
 	$(SAY)$(LINK) -Wl,-rpath,'$$ORIGIN/../../lib' $^ -o $@ $(RENDER_LIBS) $(LIBRETEX_LIBS) $(TEST_LIBS)
 
+# Stands before the C library, so it knows it well; and its driver.
+$(BUILD)/tests/faults/shim.so: tests/faults/shim.c
+	@mkdir -p $(@D)
+	$(SAY)$(CC) -std=gnu11 -O2 -g $(WARNINGS) -Wno-missing-prototypes -shared -fPIC $< -o $@ -ldl
+$(BUILD)/tests/faults/faults: tests/faults/faults.c
+	@mkdir -p $(@D)
+	$(SAY)$(CC) -std=gnu11 -O2 -g $(WARNINGS) $< -o $@
+
 # What make bench-post measures by: each is one file.
 $(BUILD)/tests/bench/post_%: $(BUILD)/obj/tests/bench/post_%.o $(LIBRETEX) | $(BRIDGE)
 	@mkdir -p $(@D)
@@ -49,18 +58,21 @@ $(BUILD)/tests/bench/embree_rays: $(BUILD)/obj/tests/bench/embree_rays.o $(LIBTE
 	@mkdir -p $(@D)
 	$(SAY)$(LINK) -Wl,-rpath,'$$ORIGIN/../../lib' $^ -o $@ $(RENDER_LIBS) $(LIBRETEX_LIBS) $(TEST_LIBS)
 
-.PHONY: unit-tests check check-all check-unit check-cli check-oiio check-golden check-man check-fidelity check-long check-update \
+.PHONY: unit-tests check check-all check-faults check-unit check-cli check-oiio check-golden check-man check-fidelity check-long check-update \
 	asan tsan bench fuzz fuzz-programs sanitized-fuzz
 unit-tests: $(UNIT_TESTS:%=$(BUILD)/tests/unit/%)
-tests: $(TEST_PROGRAMS) unit-tests all
+tests: $(TEST_PROGRAMS) $(FAULTS) unit-tests all
 
 # Suites are run by tests/lib/check.sh, which adds up what they report.
-SUITES ?= lint unit cli oiio man golden fidelity
+SUITES ?= lint unit cli oiio man golden faults fidelity
 RUN_CHECK = BUILD=$(BUILD) JOBS=$(JOBS) tests/lib/check.sh
 check: tests
 	@$(RUN_CHECK) $(SUITES)
 check-all: tests sanitized-fuzz
-	@$(RUN_CHECK) $(SUITES) long
+	@RETEX_FAULTS=all $(RUN_CHECK) $(SUITES) long
+# Every call that can fail does, in turn.
+check-faults: tests
+	@RETEX_FAULTS=all $(RUN_CHECK) faults
 check-unit check-cli check-man check-golden check-fidelity: tests
 	@$(RUN_CHECK) $(@:check-%=%)
 check-long: tests sanitized-fuzz

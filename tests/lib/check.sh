@@ -32,6 +32,7 @@ jobs_of() {
     fidelity | long) for t in tests/"$1"/*.sh; do
             [ ! -e "$t" ] || { t=${t##*/}; echo "$1/${t%.sh} sh tests/$1/$t"; }
         done ;;
+    faults) echo "faults/calls sh tests/faults/faults.sh" ;;
     lint) echo "lint/house sh tests/lib/lint.sh --tap" ;;
     esac
 }
