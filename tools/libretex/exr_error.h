@@ -7,8 +7,8 @@
 #include <openexr.h>
 #include <retex/error.h>
 
-/* The first message of a file that is read; several threads may report. First member of the context's user data, so that
- * the callback finds it. */
+/* The first message of a file that is read; several threads may report. First member of the context's user data, so
+ * that the callback finds it. */
 typedef struct RetexExrMessage {
     pthread_mutex_t lock;
     char text[256];
@@ -16,8 +16,8 @@ typedef struct RetexExrMessage {
 
 void retex_exr_message(exr_const_context_t context, exr_result_t code, const char *text);
 
-/* For a file that is written: there Core holds its lock while it reports, and would wait for itself if the callback asked
- * for the user data. The code says enough. */
+/* For a file that is written: there Core holds its lock while it reports, and would wait for itself if the callback
+ * asked for the user data. The code says enough. */
 void retex_exr_no_message(exr_const_context_t context, exr_result_t code, const char *text);
 /* The failure of a file that is written. */
 int retex_exr_fail_write(exr_result_t code, const char *path, RetexError *err);

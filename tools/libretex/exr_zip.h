@@ -14,8 +14,8 @@ typedef struct RetexZip {
 /* Before chunks of up to so many bytes: all the memory that it takes. 0 where that is short. */
 int retex_zip_need(RetexZip *zip, size_t bytes);
 
-/* Compress bytes into packed, which has room for as many. Returns the packed size, or 0 where compression gains nothing:
- * then the chunk is to be stored as it is. */
+/* Compress bytes into packed, which has room for as many. Returns the packed size, or 0 where compression gains
+ * nothing: then the chunk is to be stored as it is. */
 size_t retex_zip_pack(RetexZip *zip, unsigned char *packed, const unsigned char *raw, size_t bytes);
 
 /* Undo it. Returns 1, or 0 where packed is damaged or does not hold exactly bytes. */

@@ -1,5 +1,5 @@
-/* Building JSON: where jansson's own calls would drop what there was no memory for, all of it becomes NULL here, as with
- * json_pack, and json_dumps of NULL is NULL. Private to libretex. */
+/* Building JSON: where jansson's own calls would drop what there was no memory for, all of it becomes NULL here, as
+ * with json_pack, and json_dumps of NULL is NULL. Private to libretex. */
 #ifndef RETEX_LIBRETEX_JSON_WRITE_H
 #define RETEX_LIBRETEX_JSON_WRITE_H
 
