@@ -2,6 +2,7 @@
  * is accepted is checked, recombined, retextured and denoised. Of half of them checksums are put right before, else
  * little would be accepted. */
 #include <fcntl.h>
+#include <math.h>
 #include <retex/denoise.h>
 #include <retex/sample.h>
 #include <stdio.h>
@@ -148,38 +149,45 @@ static int drop_rows(void *context, int y0, int y1, const float *rows, RetexErro
     return 0;
 }
 
+/* What is accepted gives a picture of numbers. */
+static void combine(const RetexSet *set, const RetexSamples *samples)
+{
+    RetexImage picture = {0};
+    if (retex_combine(&picture, set, samples, NULL, NULL, 1, NULL) == 0)
+        for (size_t i = 0; i < retex_image_index(&picture, 0, picture.height); i++)
+            fuzz_must(isfinite(picture.pixels[i]), "a picture is finite");
+    retex_image_free(&picture);
+}
+
 static void use_set(const RetexSet *set, const RetexSamples *samples)
 {
     RetexTextureSpec spec = RETEX_TEXTURE_SPEC_INIT;
-    RetexImage picture = {0};
     RetexTexture *textures[RETEX_MAX_TARGETS];
     RetexSamples *own = NULL;
-    retex_combine(&picture, set, NULL, NULL, NULL, 1, NULL);
+    combine(set, NULL);
     if (samples && retex_samples_check(samples, set, NULL) == 0)
-        retex_combine(&picture, set, samples, NULL, NULL, 1, NULL);
+        combine(set, samples);
     if (set->ntargets) {
         spec.constant = 1;
+        spec.color[0] = 0.5f, spec.color[1] = 1e9f;
         memcpy(spec.target, set->targets[0].name, sizeof spec.target);
         if (retex_sample(&own, set, &spec, 1, 1, NULL) == 0)
-            retex_combine(&picture, set, own, NULL, NULL, 1, NULL);
+            combine(set, own);
         if (retex_textures_load(textures, set, &spec, 1, 1, NULL) == 0)
             retex_estimate_error(set, NULL, textures, NULL, drop_rows, NULL, 1, NULL);
         retex_textures_close(textures);
     }
     retex_samples_close(&own);
-    retex_image_free(&picture);
 }
 
 /* Denoising changes a set: the last thing done to it. */
 static void denoise(RetexSet *set)
 {
     RetexDenoiseParams params = RETEX_DENOISE_INIT;
-    RetexImage picture = {0};
     params.radius = 2;
     if (set->width > 64 || set->height > 64 || retex_denoise(set, &params, NULL, 1, NULL))
         return;
-    retex_combine(&picture, set, NULL, NULL, NULL, 1, NULL);
-    retex_image_free(&picture);
+    combine(set, NULL);
 }
 
 /* The file stays open: samples join those that it has, and all goes on, as down a pipe. */
