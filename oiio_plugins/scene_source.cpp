@@ -100,7 +100,7 @@ class SceneJob
             if (job_target_is_empty(scene_.get(), t))
                 keep_warning(&warnings_, 1,
                              (std::string("target `") + scene_->targets[t].name + "` has no surface").c_str());
-        must(job_check_memory(scene_.get(), &options_.render, &err), err);
+        must(job_check_size(scene_.get(), &options_.render, &err), err);
         describe();
     }
     ~SceneJob()

@@ -1,11 +1,11 @@
 /* The command line of retex-render: its options, and what they exclude. */
 #include <ctype.h>
+#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
 #include "retex-render.h"
-#include "watchdog.h"
 
 enum {
     OPT_TARGET,
@@ -41,6 +41,7 @@ enum {
     OPT_MERGE,
     OPT_STATS,
     OPT_TRACE,
+    OPT_STEPS,
     OPT_PROGRESS
 };
 
@@ -92,6 +93,8 @@ static const CliOption options[] = {
     [OPT_MERGE] = {"merge", 0, "FILE", "put together what all shards of this render left; repeatable", 0},
     [OPT_STATS] = {"stats", 0, "FILE.json", "write times, rays, paths and memory; - is standard output", 0},
     [OPT_TRACE] = {"trace-pixel", 0, "X,Y,S", "print the path of sample S of a pixel, step by step, and stop", 0},
+    [OPT_STEPS] = {"max-steps", 0, "N",
+                   "let reading the scene take no more than N steps; default 200000000; also RETEX_MAX_STEPS", 0},
     [OPT_PROGRESS] = CLI_PROGRESS_OPTION,
     BATCH_OPTIONS,
     {0},
@@ -122,6 +125,7 @@ static void parse_replace(Arguments *a)
     spec->access = &a->cli->access;
     spec->warn = cli_warn_text;
     spec->warn_context = a->cli;
+    spec->budget = a->cli->budget;
 }
 
 /* Which of some names the value is. */
@@ -200,6 +204,9 @@ static void parse_option(Arguments *a, const CliOption *o)
         break;
     case OPT_STATS:
         a->stats = cli->value;
+        break;
+    case OPT_STEPS:
+        cli_limit(cli, o);
         break;
     case OPT_TRACE:
         numbers(cli, o, ',', 3, a->trace);
@@ -351,6 +358,8 @@ void parse_arguments(Arguments *a)
     a->sdl.message = scene_message, a->sdl.message_context = cli;
     a->sdl.safe = cli->access.safe;
     a->render.nthreads = cli->threads;
-    a->render.budget = watchdog_budget();
+    a->render.budget = a->sdl.budget = cli->budget;
+    a->sdl.max_steps = cli->limits.steps;
+    a->sdl.max_memory = SIZE_MAX; /* the budget's limit is all there is */
     a->render.progress = progress, a->render.progress_context = cli;
 }

@@ -272,7 +272,7 @@ int main(int argc, char **argv)
     if (!a.list)
         job_warn_dark(scene, &a.sdl);
     check_targets(&a, scene);
-    if (!a.list && job_check_memory(scene, &a.render, &err))
+    if (!a.list && job_check_size(scene, &a.render, &err))
         fail(&a, &err);
     replace_textures(&a, scene, loaded);
     double parse_seconds = seconds() - started;

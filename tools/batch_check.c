@@ -87,7 +87,8 @@ static void check_images(Batch *batch)
     Colorspaces known = {.count = 0};
     RetexTextureSpec spec;
     const char *read = NULL; /* the image before, if it can be */
-    const RetexReadParams read_params = {sizeof read_params, NULL, 0, table->access};
+    const RetexReadParams read_params = {
+        .size = sizeof read_params, .access = table->access, .budget = table->cli->budget, .pixel_bytes = 16};
     for (size_t i = 0; i < count; i++) {
         RetexError err = {0};
         const char *name = images[i].name;

@@ -25,6 +25,12 @@ static const CliOption common_options[] = {
     {"threads", 0, "N", "use N threads; 0, the default, is all cores", 0},
     {"safe", 0, NULL, "read no devices and few kinds of pictures; a scene only reads its own folder; also RETEX_SAFE=1",
      0},
+    {"max-memory", 0, "SIZE",
+     "use no more than SIZE, such as 4G or 512M, or of so many MB; default three quarters of what there is; also "
+     "RETEX_MAX_MEMORY",
+     0},
+    {"max-time", 0, "SECONDS", "end after so long; also RETEX_MAX_TIME", 0},
+    {"max-pixels", 0, "N", "take no picture of more pixels; default 268435456; also RETEX_MAX_PIXELS", 0},
     {"quiet", 'q', NULL, "print nothing but warnings and errors", 0},
     {"verbose", 'v', NULL, "print more", 0},
     {"help", 'h', NULL, "print this and exit", 0},
@@ -230,6 +236,8 @@ static int common_option(Cli *cli, const CliOption *option)
         cli->threads = (int)cli_integer(cli, option, 0, 256);
     } else if (strcmp(option->name, "safe") == 0) {
         cli->access.safe = 1;
+    } else if (strncmp(option->name, "max-", 4) == 0) {
+        cli_limit(cli, option);
     } else if (strcmp(option->name, "quiet") == 0) {
         cli->quiet = 1;
     } else if (strcmp(option->name, "verbose") == 0) {
@@ -251,12 +259,20 @@ const CliOption *cli_next(Cli *cli)
         cli->access = (RetexAccess)RETEX_ACCESS_INIT;
         cli->access.safe = retex_access_safe_wanted();
     }
+    if (cli->limits.size == 0) {
+        RetexError err;
+        cli->limits = (RetexLimits)RETEX_LIMITS_INIT;
+        cli->budget = watchdog_budget();
+        if (retex_limits_environment(&cli->limits, &err))
+            cli_fail(cli, &err);
+    }
     for (;;) {
         const CliOption *option;
         cli->modifiers = "";
         if (cli->group) {
             option = short_option(cli);
         } else if (cli->next >= cli->argc) {
+            retex_budget_set_limits(cli->budget, &cli->limits);
             watchdog_start();
             return NULL;
         } else {
@@ -336,6 +352,21 @@ void cli_surplus(const Cli *cli, const char *problem)
     if (*cli_forgotten(cli, cli->value, forgotten, sizeof forgotten))
         cli_die(cli, "%s%s", problem, forgotten);
     cli_die(cli, "%s; what is '%s'?", problem, cli->value);
+}
+
+void cli_limit(Cli *cli, const CliOption *option)
+{
+    RetexError err;
+    if (retex_limits_set(&cli->limits, option->name, cli->value, &err))
+        cli_die(cli, "--%s", err.message);
+}
+
+long cli_megabytes(const Cli *cli, const CliOption *option)
+{
+    uint64_t bytes;
+    if (!retex_size_parse(cli->value, &bytes) || bytes > (uint64_t)1 << 40)
+        cli_die(cli, "--%s: expected a size such as 512M, 2G or a number of MB, not '%s'", option->name, cli->value);
+    return (long)(bytes >> 20);
 }
 
 /* --- messages --- */
@@ -484,10 +515,25 @@ int cli_ends_with(const char *path, const char *ending)
     return length >= tail && strcasecmp(path + length - tail, ending) == 0;
 }
 
+uint64_t cli_memory(const Cli *cli, long megabytes)
+{
+    const uint64_t bytes = (uint64_t)megabytes << 20, half = retex_budget_memory(cli->budget) / 2;
+    return half && half < bytes ? half : bytes;
+}
+
+void cli_check_pixels(const Cli *cli, const RetexSet *set, const char *path)
+{
+    if (set && (int64_t)set->width * set->height > cli->limits.pixels)
+        cli_die(cli, "%s is too large: %d x %d pixels, more than the %ld of --max-pixels",
+                strcmp(path, "-") == 0 ? "standard input" : path, set->width, set->height, cli->limits.pixels);
+}
+
 int cli_open_set(const Cli *cli, RetexSet **set, const char *path, long megabytes, RetexError *err)
 {
     int code = retex_set_open(path, set, NULL, cli->threads, err);
-    if (!code && retex_set_bytes(*set) <= (uint64_t)megabytes << 20)
+    if (!code)
+        cli_check_pixels(cli, *set, path);
+    if (!code && retex_set_bytes(*set) <= cli_memory(cli, megabytes))
         code = retex_set_load(*set, cli->threads, err);
     return code;
 }

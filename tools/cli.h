@@ -3,6 +3,7 @@
 #define RETEX_CLI_H
 
 #include <retex/access.h>
+#include <retex/budget.h>
 #include <retex/set.h>
 
 enum { CLI_OK = 0, CLI_NO = 1, CLI_FAIL = 2 }; /* done; the answer is 'no' or 'differs'; usage, input or I/O error */
@@ -32,6 +33,9 @@ typedef struct Cli {
     const char *output;      /* -o, or NULL */
     int threads;             /* --threads, 0 = all cores */
     int quiet, verbose;      /* -q, -v */
+    RetexLimits limits;      /* --max-memory, --max-time, --max-pixels and, of retex-render, --max-steps; else as the
+                                environment says */
+    RetexBudget *budget;     /* of these: for the params of long work */
     RetexAccess access;      /* of files whose names the user said: its `safe` is --safe, or $RETEX_SAFE's */
     int json_progress;       /* --progress json: in place of a bar, and of messages that all is well */
     const char *value;       /* argument of the option last returned */
@@ -48,6 +52,8 @@ extern const CliOption cli_positional;
 /* Values: print one line naming the option and what was expected, and exit with CLI_FAIL, where the text is wrong. */
 long cli_integer(const Cli *cli, const CliOption *option, long low, long high);
 double cli_number(const Cli *cli, const CliOption *option, double low, double high);
+/* Of cli->limits. */
+void cli_limit(Cli *cli, const CliOption *option);
 
 /* `retex-NAME: error: …`, with file, line and column where the error has them. */
 void cli_error(const Cli *cli, const RetexError *err);
@@ -96,8 +102,14 @@ int cli_ends_with(const char *path, const char *ending);
 /* Bytes of a file on disk, or 0 where that is not known. */
 double cli_file_size(const char *path);
 
-/* --memory of tools that go through a set some rows after the other: its least, most and default megabytes. */
-enum { CLI_MEMORY_LEAST = 0, CLI_MEMORY_MOST = 1 << 20, CLI_MEMORY_DEFAULT = 2048 };
+/* --memory of tools that go through a set some rows after the other, in megabytes: how much of --max-memory a set that
+ * is kept may take. */
+enum { CLI_MEMORY_DEFAULT = 2048 };
+long cli_megabytes(const Cli *cli, const CliOption *option);
+/* That in bytes, half of --max-memory at the most: what is made of a set takes room too. */
+uint64_t cli_memory(const Cli *cli, long megabytes);
+/* One line and exit where a set's picture is larger than --max-pixels. */
+void cli_check_pixels(const Cli *cli, const RetexSet *set, const char *path);
 
 /* Open a set, and bring it into memory if it takes no more than so many megabytes there. */
 int cli_open_set(const Cli *cli, RetexSet **set, const char *path, long megabytes, RetexError *err);

@@ -24,7 +24,7 @@ static const CliOption options[] = {
     {"cross", 0, "0|2|3", "use cross terms of paths with up to so many hits; default 3", 0},
     {"error", 0, "FILE.exr", "write the error to be expected against rendering again, per pixel", 0},
     {"batch", 0, "FILE.csv", "one picture a row: its name, then one texture a target", 0},
-    {"memory", 0, "MB", "of a batch: keep set and samples in memory if they take no more; default 2048", 0},
+    {"memory", 0, "SIZE", "of a batch: keep set and samples in memory if they take no more; default 2048", 0},
     BATCH_OPTIONS,
     CLI_PROGRESS_OPTION,
     {0},
@@ -65,7 +65,7 @@ static void parse(Cli *cli, Job *job)
         } else if (strcmp(option->name, "error") == 0) {
             job->error = cli->value;
         } else if (strcmp(option->name, "memory") == 0) {
-            job->memory = cli_integer(cli, option, CLI_MEMORY_LEAST, CLI_MEMORY_MOST);
+            job->memory = cli_megabytes(cli, option);
         } else if (strcmp(option->name, "batch") == 0) {
             job->table = cli->value;
         } else if (!batch_option(&job->batch, cli, option)) {
@@ -125,6 +125,7 @@ static void load(const Cli *cli, Job *job)
         cli_fail(cli, &err);
     if (!job->set)
         cli_die(cli, "%s holds samples but no set", job->set_path);
+    cli_check_pixels(cli, job->set, job->set_path);
     if (!job->samples_path)
         return;
     cli_input(cli, job->samples_path, "samples, as from retex-sample");
@@ -405,7 +406,7 @@ static int run_batch(const Cli *cli, Job *job)
         batch_print(batch);
         return batch_finish(batch, NULL);
     }
-    if (retex_set_keep(job->set, job->samples, (uint64_t)job->memory << 20, cli->threads, &err))
+    if (retex_set_keep(job->set, job->samples, cli_memory(cli, job->memory), cli->threads, &err))
         return batch_finish(batch, &err);
     for (int number = 0; number < batch->table.nrows; number++) {
         const double began = texture_args_now();

@@ -11,7 +11,7 @@
 static const CliOption options[] = {
     {"strength", 0, "F", "how unlike pixels may be and still help each other, 0.1 to 10; default 1", 0},
     {"radius", 0, "N", "of the window in which they are looked for, 1 to 10 pixels; default 5", 0},
-    {"memory", 0, "MB", "keep the set in memory if it takes no more; default 2048", 0},
+    {"memory", 0, "SIZE", "keep the set in memory if it takes no more; default 2048", 0},
     {"no-footprints", 0, NULL, "leave UV footprints as they are", 0},
     {0},
 };
@@ -29,7 +29,7 @@ static const char *parse(Cli *cli, RetexDenoiseParams *params, long *memory)
         } else if (strcmp(option->name, "radius") == 0) {
             params->radius = (int)cli_integer(cli, option, 1, 10);
         } else if (strcmp(option->name, "memory") == 0) {
-            *memory = cli_integer(cli, option, CLI_MEMORY_LEAST, CLI_MEMORY_MOST);
+            *memory = cli_megabytes(cli, option);
         } else {
             params->footprints = 0;
         }

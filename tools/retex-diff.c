@@ -155,6 +155,7 @@ int main(int argc, char **argv)
     }
     cli_writes(&cli, "the answer", "-");
     params.access = &cli.access;
+    params.budget = cli.budget;
     if (retex_diff(&diff, names[0], names[1], &params, &err))
         cli_fail(&cli, &err);
     int differs = diff->differs;

@@ -252,6 +252,7 @@ static int print_info(const Cli *cli, const char *path, int json)
 
     if (retex_set_open(path, &set, &samples, cli->threads, &error))
         cli_fail(cli, &error);
+    cli_check_pixels(cli, set, path);
     const Sizes sizes = measure(path, set, samples);
     if (json) {
         status = print_json(cli, set, samples, &sizes);

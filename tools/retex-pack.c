@@ -11,7 +11,7 @@ static const CliOption options[] = {
     {"lossless", 0, NULL, "keep every bit of every part", 0},
     {"codec", 0, "NAME", "what radiance is stored as: jpeg, the default", 0},
     {"stats", 0, "FILE.json", "write sizes by group and the loss that pictures show; - is standard output", 0},
-    {"memory", 0, "MB", "keep the set in memory if it takes no more; default 2048", 0},
+    {"memory", 0, "SIZE", "keep the set in memory if it takes no more; default 2048", 0},
     {"unpack", 0, NULL, "read a pack and write a set: SET.exr", 0},
     {0},
 };
@@ -42,7 +42,7 @@ static void parse(Cli *cli, Job *job)
         } else if (strcmp(option->name, "stats") == 0) {
             job->stats = cli->value;
         } else if (strcmp(option->name, "memory") == 0) {
-            job->memory = cli_integer(cli, option, CLI_MEMORY_LEAST, CLI_MEMORY_MOST);
+            job->memory = cli_megabytes(cli, option);
         } else {
             job->unpack = 1;
         }
@@ -155,6 +155,7 @@ int main(int argc, char **argv)
                                                  : cli_open_set(&cli, &set, job.input, job.memory, &err);
     if (code)
         cli_fail(&cli, &err);
+    cli_check_pixels(&cli, set, job.input);
     if (job.unpack) {
         RetexStoreParams store = RETEX_STORE_INIT;
         store.nthreads = cli.threads;

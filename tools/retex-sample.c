@@ -61,6 +61,7 @@ int main(int argc, char **argv)
     double began = texture_args_now();
     if (retex_set_open(input, &set, &earlier, cli.threads, &err))
         cli_fail(&cli, &err);
+    cli_check_pixels(&cli, set, input);
     if (!set)
         cli_die(&cli, "%s holds samples but no set", input);
     double read = texture_args_now();

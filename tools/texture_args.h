@@ -33,6 +33,7 @@ static inline void texture_args_add(const Cli *cli, TextureArgs *args)
     args->specs[args->count].access = &cli->access;
     args->specs[args->count].warn = cli_warn_text;
     args->specs[args->count].warn_context = (void *)cli;
+    args->specs[args->count].budget = cli->budget;
     args->count++;
 }
 

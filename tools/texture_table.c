@@ -264,6 +264,7 @@ int texture_table_texture(const TextureTable *table, int row, int column, RetexT
     *image = find_image(cell);
     int code = parse_cell(spec, table->columns[column], cell, NULL); /* which was right before */
     spec->access = table->access;
+    spec->budget = table->cli->budget;
     spec->warn = cli_warn_text;
     spec->warn_context = (void *)table->cli;
     return code;

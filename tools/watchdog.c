@@ -1,7 +1,8 @@
 /* See watchdog.h. Signals are blocked in all threads and taken by one, so nothing here runs in a signal handler. */
 #include "watchdog.h"
 
-#include <errno.h>
+#include <fcntl.h>
+#include <math.h>
 #include <pthread.h>
 #include <signal.h>
 #include <stdatomic.h>
@@ -16,6 +17,7 @@
 enum {
     STACK_BYTES = 256 << 10,
     IDLE_MILLISECONDS = 500,
+    LEAST_MILLISECONDS = 5,
     KEEP_MILLISECONDS = 900, /* for stopped work to say that it keeps something */
     EXIT_STATUS = 2
 };
@@ -28,8 +30,10 @@ static struct {
     sigset_t signals; /* that end the tool */
     atomic_int started;
     atomic_int may_keep, bar_is_open;
-    atomic_int number; /* the signal that came first, or 0 */
-    atomic_int ending; /* who has taken it on to end the tool, or 0 */
+    atomic_int number;    /* the signal that came first, or 0 */
+    atomic_int too_large; /* more memory than allowed is in use */
+    int status_file;      /* /proc/self/statm, or below 0 */
+    atomic_int ending;    /* who has taken it on to end the tool, or 0 */
     _Atomic(const char *) remove;
     _Atomic(WatchdogLast *) last;
 } dog;
@@ -54,6 +58,7 @@ void watchdog_prepare(const char *tool)
             sigaddset(&dog.signals, numbers[i]);
     }
     pthread_sigmask(SIG_BLOCK, &dog.signals, NULL);
+    dog.status_file = open("/proc/self/statm", O_RDONLY | O_CLOEXEC);
     if (retex_budget_create(&dog.budget, NULL) != 0) {
         fprintf(stderr, "%s: error: out of memory\n", tool);
         exit(EXIT_STATUS);
@@ -103,7 +108,13 @@ static _Noreturn void end_tool(const char *kept)
     const int number = atomic_load(&dog.number);
     char text[1536];
 
-    snprintf(text, sizeof text, "ended by %s%s", signal_name(number), kept);
+    if (number)
+        snprintf(text, sizeof text, "ended by %s%s", signal_name(number), kept);
+    else if (atomic_load(&dog.too_large))
+        snprintf(text, sizeof text, "out of memory: this takes more than the %.0f MB of --max-memory",
+                 (double)retex_budget_memory(dog.budget) / (1 << 20));
+    else
+        snprintf(text, sizeof text, "not done within the %g s of --max-time%s", retex_budget_seconds(dog.budget), kept);
     WatchdogLast *last = atomic_load(&dog.last);
     if (last)
         last(text);
@@ -186,6 +197,30 @@ static int take_signal(int milliseconds)
     return number > 0 ? number : 0;
 }
 
+/* What of the process is in memory. */
+static uint64_t bytes_in_use(void)
+{
+    char text[128] = "";
+    unsigned long long pages = 0;
+
+    if (dog.status_file < 0 || pread(dog.status_file, text, sizeof text - 1, 0) <= 0 ||
+        sscanf(text, "%*u %llu", &pages) != 1)
+        return 0;
+    return (uint64_t)pages * (uint64_t)sysconf(_SC_PAGESIZE);
+}
+
+/* Until a limit may be reached: memory is cleared by a few bytes a nanosecond at the most. */
+static int milliseconds_to_wait(uint64_t in_use)
+{
+    const uint64_t most = retex_budget_memory(dog.budget);
+    double milliseconds = IDLE_MILLISECONDS;
+
+    if (most)
+        milliseconds = fmin(milliseconds, in_use < most ? (double)(most - in_use) / 4e6 : 0);
+    milliseconds = fmin(milliseconds, 1e3 * retex_budget_seconds_left(dog.budget));
+    return milliseconds < LEAST_MILLISECONDS ? LEAST_MILLISECONDS : (int)milliseconds;
+}
+
 static long long milliseconds_now(void)
 {
     struct timespec t;
@@ -210,13 +245,17 @@ static void *watch(void *unused)
 {
     (void)unused;
     for (;;) {
-        const int number = take_signal(IDLE_MILLISECONDS);
-        if (!number)
-            continue;
-        if (atomic_load(&dog.number) || atomic_load(&dog.ending))
+        const uint64_t in_use = bytes_in_use(), most = retex_budget_memory(dog.budget);
+        const int number = take_signal(milliseconds_to_wait(in_use));
+        if (number && (atomic_load(&dog.number) || atomic_load(&dog.ending)))
             raise_again(number);
-        atomic_store(&dog.number, number);
-        if (atomic_load(&dog.may_keep)) {
+        if (number)
+            atomic_store(&dog.number, number);
+        else if (most && in_use > most)
+            atomic_store(&dog.too_large, 1);
+        else if (retex_budget_seconds_left(dog.budget) > 0)
+            continue;
+        if (atomic_load(&dog.may_keep) && !atomic_load(&dog.too_large)) {
             retex_budget_stop(dog.budget);
             wait_for_work();
         }

@@ -227,6 +227,40 @@ static void add_curved_geometry(Accel *accel)
     rtcReleaseGeometry(geometry);
 }
 
+/* Embree is about to take memory, or has given some back. It asks from its threads; a refusal ends the build. */
+static bool charge_embree(void *context, ssize_t bytes, bool after)
+{
+    Accel *accel = context;
+
+    (void)after;
+    if (bytes <= 0) {
+        retex_budget_give(accel->budget, (uint64_t)-bytes);
+        return true;
+    }
+    if (!retex_budget_take(accel->budget, (uint64_t)bytes, "", NULL))
+        return true;
+    atomic_store(&accel->refused, 1);
+    return false;
+}
+
+static bool go_on(void *context, double done)
+{
+    const Accel *accel = context;
+
+    (void)done;
+    return !retex_budget_is_stopped(accel->budget);
+}
+
+/* What Embree complained of comes of the budget, if that is used up. */
+static int why_not_built(Accel *accel, RetexError *err)
+{
+    int status = retex_budget_check(accel->budget, err);
+
+    if (!status && atomic_load(&accel->refused))
+        status = retex_budget_take(accel->budget, UINT64_MAX, "the scene's geometry", err);
+    return status ? status : retex_fail(err, accel->error.code, "%s", accel->error.message);
+}
+
 static int build(Accel *accel, int nthreads, RetexError *err)
 {
     char config[64];
@@ -237,6 +271,8 @@ static int build(Accel *accel, int nthreads, RetexError *err)
     if (!accel->device)
         return retex_fail(err, code_of(rtcGetDeviceError(NULL)), "Embree does not start");
     rtcSetDeviceErrorFunction(accel->device, complain, accel);
+    if (accel->budget)
+        rtcSetDeviceMemoryMonitorFunction(accel->device, charge_embree, accel);
     if (!rtcGetDeviceProperty(accel->device, RTC_DEVICE_PROPERTY_FILTER_FUNCTION_SUPPORTED))
         return retex_fail(err, RETEX_EUNSUPPORTED, "this Embree is built without filter functions");
     accel->scene = rtcNewScene(accel->device);
@@ -251,11 +287,36 @@ static int build(Accel *accel, int nthreads, RetexError *err)
     }
     if (accel->ncurved > 0)
         add_curved_geometry(accel);
+    if (accel->budget)
+        rtcSetSceneProgressMonitorFunction(accel->scene, go_on, accel);
     rtcCommitScene(accel->scene);
-    return accel->error.code ? retex_fail(err, accel->error.code, "%s", accel->error.message) : 0;
+    return accel->error.code ? why_not_built(accel, err) : 0;
+}
+
+static int make_room(Accel *accel, RetexError *err)
+{
+    const size_t vertices = (accel->nvertices + 1) * sizeof(Vec3),
+                 corners = (accel->ntriangles + 1) * sizeof(*accel->corners),
+                 triangles = (accel->ntriangles + 1) * sizeof(Triangle), all = vertices + corners + triangles;
+    int status = retex_budget_take(accel->budget, all, "the scene's geometry", err);
+
+    if (status < 0)
+        return status;
+    accel->charged = all;
+    accel->vertices = malloc(vertices);
+    accel->corners = malloc(corners);
+    accel->triangles = malloc(triangles);
+    if (!accel->vertices || !accel->corners || !accel->triangles || accel->nvertices > UINT32_MAX)
+        return retex_fail(err, RETEX_ENOMEM, "no memory for %zu triangles", accel->ntriangles);
+    return 0;
 }
 
 int accel_create(Accel **out, const Scene *scene, int nthreads, RetexError *err)
+{
+    return accel_create_within(out, scene, nthreads, NULL, err);
+}
+
+int accel_create_within(Accel **out, const Scene *scene, int nthreads, RetexBudget *budget, RetexError *err)
 {
     size_t count = (size_t)scene->nprimitives + 1;
     Accel *accel = calloc(1, sizeof(*accel));
@@ -265,6 +326,7 @@ int accel_create(Accel **out, const Scene *scene, int nthreads, RetexError *err)
     if (!accel)
         return retex_fail(err, RETEX_ENOMEM, "no memory for the scene's geometry");
     accel->source = scene;
+    accel->budget = budget;
     accel->flags = calloc(count, 1);
     accel->curved = calloc(count, sizeof(int));
     accel->planes = calloc(count, sizeof(int));
@@ -272,13 +334,8 @@ int accel_create(Accel **out, const Scene *scene, int nthreads, RetexError *err)
         status = retex_fail(err, RETEX_ENOMEM, "no memory for the scene's geometry");
     if (status == 0)
         status = survey(accel, err);
-    if (status == 0) {
-        accel->vertices = malloc((accel->nvertices + 1) * sizeof(Vec3));
-        accel->corners = malloc((accel->ntriangles + 1) * sizeof(*accel->corners));
-        accel->triangles = malloc((accel->ntriangles + 1) * sizeof(Triangle));
-        if (!accel->vertices || !accel->corners || !accel->triangles || accel->nvertices > UINT32_MAX)
-            status = retex_fail(err, RETEX_ENOMEM, "no memory for %zu triangles", accel->ntriangles);
-    }
+    if (status == 0)
+        status = make_room(accel, err);
     if (status == 0)
         status = collect_triangles(accel, err);
     if (status == 0)
@@ -306,6 +363,7 @@ void accel_close(Accel **accel)
     free(a->curved);
     free(a->planes);
     free(a->flags);
+    retex_budget_give(a->budget, a->charged);
     free(a);
     *accel = NULL;
 }

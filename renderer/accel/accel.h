@@ -3,6 +3,7 @@
 #ifndef RENDERER_ACCEL_ACCEL_H
 #define RENDERER_ACCEL_ACCEL_H
 
+#include <retex/budget.h>
 #include "shape/surface.h"
 
 typedef struct Accel Accel;
@@ -12,6 +13,8 @@ typedef struct Accel Accel;
 typedef enum RayKind { RAY_CAMERA = 1, RAY_SHADOW = 2, RAY_BOUNCE = 4 } RayKind;
 
 int accel_create(Accel **accel, const Scene *scene, int nthreads, RetexError *err);
+/* The same, its memory charged to a budget, which may stop it too; NULL = none. */
+int accel_create_within(Accel **accel, const Scene *scene, int nthreads, RetexBudget *budget, RetexError *err);
 void accel_close(Accel **accel);
 /* Nearest hit in (tmin, tmax). Returns 1 and fills hit, else 0 and hit->primitive = -1. */
 int accel_intersect(const Accel *accel, const Ray *ray, RayKind kind, Hit *hit);

@@ -9,6 +9,7 @@ typedef struct RTCRayQueryContext QueryContext;
 #include <embree3/rtcore.h>
 typedef struct RTCIntersectContext QueryContext;
 #endif
+#include <stdatomic.h>
 #include "accel/accel.h"
 
 /* In flags, beside the RayKinds that see the primitive: it could let light through, and that unbent. */
@@ -37,6 +38,9 @@ struct Accel {
     double reach; /* the triangles' largest coordinate */
     Vec3 low, high;
     RetexError error; /* Embree's first complaint */
+    RetexBudget *budget;
+    uint64_t charged;   /* to the budget, of what is not Embree's */
+    atomic_int refused; /* Embree wanted more than the budget has */
 };
 
 /* query.c: what Embree calls back. */

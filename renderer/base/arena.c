@@ -16,12 +16,13 @@ typedef struct Block {
 struct Arena {
     Block *blocks; /* the first one is being filled */
     size_t limit, used, next_size;
+    RetexBudget *budget;
 };
 
 /* The header takes whole alignment units, so that what follows is aligned. */
 #define HEADER ((sizeof(Block) + ALIGNMENT - 1) / ALIGNMENT * ALIGNMENT)
 
-Arena *arena_create(size_t limit)
+Arena *arena_create(size_t limit, RetexBudget *budget)
 {
     Arena *arena = calloc(1, sizeof(*arena));
 
@@ -29,6 +30,7 @@ Arena *arena_create(size_t limit)
         return NULL;
     arena->limit = limit ? limit : SIZE_MAX;
     arena->next_size = FIRST_BLOCK;
+    arena->budget = budget;
     return arena;
 }
 
@@ -38,6 +40,7 @@ void arena_close(Arena **arena)
         return;
     for (Block *block = (*arena)->blocks, *next; block; block = next) {
         next = block->next;
+        retex_budget_give((*arena)->budget, HEADER + block->size);
         free(block);
     }
     free(*arena);
@@ -50,10 +53,13 @@ static Block *add_block(Arena *arena, size_t bytes)
 {
     int own = bytes > arena->next_size / 4;
     size_t size = own ? bytes : arena->next_size;
-    Block *block = calloc(1, HEADER + size);
-
-    if (!block)
+    if (retex_budget_take(arena->budget, HEADER + size, "", NULL))
         return NULL;
+    Block *block = calloc(1, HEADER + size);
+    if (!block) {
+        retex_budget_give(arena->budget, HEADER + size);
+        return NULL;
+    }
     block->size = size;
     if (own && arena->blocks) {
         block->next = arena->blocks->next;

@@ -3,10 +3,13 @@
 #define RENDERER_BASE_ARENA_H
 
 #include <stddef.h>
+#include <retex/budget.h>
 
 typedef struct Arena Arena;
 
-Arena *arena_create(size_t limit); /* bytes it may hold in all, 0 = no limit; NULL without memory */
+/* limit: bytes it may hold in all, 0 = no limit; budget: what its blocks are charged to, or NULL. NULL without
+ * memory. */
+Arena *arena_create(size_t limit, RetexBudget *budget);
 void arena_close(Arena **arena);
 void *arena_alloc(Arena *arena, size_t bytes);                    /* zeroed, 16-aligned; NULL at the limit */
 char *arena_string(Arena *arena, const char *text, size_t length); /* with a final NUL */

@@ -99,7 +99,7 @@ int render_open(Render *r, const Scene *scene, const RenderParams *params, Retex
     if (!code)
         code = set_window(r, err);
     if (!code)
-        code = accel_create(&r->accel, scene, r->params.nthreads, err);
+        code = accel_create_within(&r->accel, scene, r->params.nthreads, r->params.budget, err);
     if (!code)
         code = lights_create(&r->lights, scene, err);
     int split = !r->params.plain && scene->ntargets > 0;

@@ -1,5 +1,4 @@
 /* See job.h. */
-#include <unistd.h>
 #include "film/film.h"
 #include "job/job.h"
 
@@ -36,7 +35,7 @@ int job_open_scene(Scene **scene, const char *path, const SdlOptions *sdl, const
     return code;
 }
 
-int job_check_memory(const Scene *scene, const RenderParams *r, RetexError *err)
+int job_check_size(const Scene *scene, const RenderParams *r, RetexError *err)
 {
     double width = r->crop[2] ? r->crop[2] : r->width ? r->width : scene->width;
     double height = r->crop[3] ? r->crop[3] : r->height ? r->height : scene->height;
@@ -49,13 +48,18 @@ int job_check_memory(const Scene *scene, const RenderParams *r, RetexError *err)
                        .broad = r->broad,
                        .spp = r->spp,
                        .noise = r->denoise_data};
-    double guides = r->denoise_data && !r->spooled ? 19 + scene->ntargets : 0,
-           memory = (double)sysconf(_SC_PHYS_PAGES) * (double)sysconf(_SC_PAGESIZE);
+    const uint64_t left = retex_budget_left(r->budget);
+    double guides = r->denoise_data && !r->spooled ? 19 + scene->ntargets : 0;
+    double memory = (double)(left == UINT64_MAX ? retex_machine_memory() : left);
+    const long pixels = retex_budget_pixels(r->budget);
+    if (pixels > 0 && width * height > (double)pixels)
+        return retex_fail(err, RETEX_ELIMIT, "%.0fx%.0f pixels are more than the %ld of --max-pixels", width, height,
+                          pixels);
     double bytes = film_bytes(&film, scene->ntargets, r->spooled) +
                    width * height * sizeof(float) * (guides + 19 * (r->aovs != 0));
     if (memory > 0 && bytes > memory)
         return retex_fail(err, RETEX_ENOMEM,
-                          "%.0fx%.0f pixels need %.1f GB of memory, this machine has %.1f: render parts with --crop",
-                          width, height, bytes / 1e9, memory / 1e9);
+                          "%.0fx%.0f pixels need %.1f GB of memory, there are %.1f: render parts with --crop%s", width,
+                          height, bytes / 1e9, memory / 1e9, left == UINT64_MAX ? "" : ", or raise --max-memory");
     return RETEX_OK;
 }

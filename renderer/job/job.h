@@ -29,7 +29,8 @@ int job_target_is_empty(const Scene *scene, int t);
 /* A warning, through the message of sdl, where nothing in the scene gives light. */
 void job_warn_dark(const Scene *scene, const SdlOptions *sdl);
 
-/* RETEX_ENOMEM where the images of a render take more memory than the machine has. */
-int job_check_memory(const Scene *scene, const RenderParams *render, RetexError *err);
+/* RETEX_ENOMEM where the images of a render take more memory than its budget has left, or than the machine has;
+ * RETEX_ELIMIT where it has more pixels than the budget allows. */
+int job_check_size(const Scene *scene, const RenderParams *render, RetexError *err);
 
 #endif

@@ -109,6 +109,7 @@ static void copy_items(Sdl *sdl, Value *value, int depth)
         sdl_fail(sdl, RETEX_ELIMIT, "arrays nested more than 32 deep");
     const Array *array = value->data;
     Array *copy = sdl_alloc(sdl, sizeof *copy);
+    sdl_step(sdl, (long)(array->count / 8));
     *copy = *array;
     copy->items = sdl_alloc(sdl, array->count * sizeof *copy->items);
     memcpy(copy->items, array->items, array->count * sizeof *copy->items);

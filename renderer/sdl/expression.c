@@ -477,6 +477,7 @@ const char *sdl_string(Sdl *sdl)
     sdl_next(sdl);
     enter(sdl);
     const char *result = builtin_string(sdl, builtin);
+    sdl_step(sdl, (long)(strlen(result) / 256));
     sdl->expression_depth--;
     return result;
 }

@@ -105,6 +105,7 @@ struct Source {
     Raw *tokens;
     uint32_t count;
     int on_disk, keep, users;
+    uint64_t charged; /* bytes of the budget */
     Source *previous, *next;
 };
 
@@ -206,7 +207,7 @@ struct Sdl {
         int line;
     } blocks[MAX_BLOCK_DEPTH]; /* where each open `{` stands */
     unsigned frame_reads;      /* bits of FrameRead: of what names the frame of an animation, which was looked at */
-    long steps;
+    long steps, next_look; /* taken so far; where limits are looked at next */
 
     Symbol *unused, **unused_tail;
     int nunused;
@@ -225,6 +226,7 @@ struct Sdl {
 
 /* sdl.c */
 _Noreturn void sdl_fail(Sdl *sdl, int code, const char *fmt, ...) RETEX_PRINTF(3, 4);
+_Noreturn void sdl_fail_memory(Sdl *sdl); /* there is no more that the scene may have */
 void sdl_message(Sdl *sdl, int level, const char *text);
 void sdl_debug_text(Sdl *sdl, const char *text);
 

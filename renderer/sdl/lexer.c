@@ -73,8 +73,11 @@ static Raw *add(Lexer *lexer, RawKind kind, const char *at)
     Source *source = lexer->source;
     if (source->count == lexer->capacity) {
         uint32_t capacity = lexer->capacity ? lexer->capacity * 2 : 32;
-        if (capacity > lexer->sdl->options.max_memory / sizeof(Raw))
-            sdl_fail(lexer->sdl, RETEX_ELIMIT, "the scene needs more memory than it may have");
+        const uint64_t more = (uint64_t)(capacity - lexer->capacity) * sizeof(Raw);
+        if (capacity > lexer->sdl->options.max_memory / sizeof(Raw) ||
+            retex_budget_take(lexer->sdl->options.budget, more, "", NULL))
+            sdl_fail_memory(lexer->sdl);
+        source->charged += more;
         Raw *tokens = capacity > lexer->capacity ? realloc(source->tokens, capacity * sizeof *tokens) : NULL;
         if (!tokens)
             sdl_fail(lexer->sdl, RETEX_ENOMEM, "out of memory");
@@ -357,6 +360,7 @@ static void punctuation(Lexer *lexer, char c)
 
 Source *source_from_text(Sdl *sdl, const char *name, const char *text, size_t length)
 {
+    sdl_step(sdl, (long)(length / 16)); /* a comment is read too, again and again in a loop */
     Source *source = calloc(1, sizeof *source);
     if (!source)
         sdl_fail(sdl, RETEX_ENOMEM, "out of memory");

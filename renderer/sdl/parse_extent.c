@@ -11,9 +11,10 @@ static void widen(Vec3 *low, Vec3 *high, Vec3 p)
     *high = vec3(fmax(high->x, p.x), fmax(high->y, p.y), fmax(high->z, p.z));
 }
 
-static void extent(const Object *object, const Transform *outer, Vec3 *low, Vec3 *high)
+static void extent(Sdl *sdl, const Object *object, const Transform *outer, Vec3 *low, Vec3 *high)
 {
     Transform to_world = transform_then(object->transform, *outer);
+    sdl_step(sdl, 1);
     if (object->kind == OBJECT_SHAPE) {
         Primitive p = {.kind = object->shape,
                        .r0 = object->r0,
@@ -27,18 +28,17 @@ static void extent(const Object *object, const Transform *outer, Vec3 *low, Vec3
         widen(low, high, b);
     } else if (object->kind == OBJECT_GROUP)
         for (const ObjectList *list = object->children; list; list = list->next)
-            extent(list->object, &to_world, low, high);
+            extent(sdl, list->object, &to_world, low, high);
 }
 
 int scene_side_extent(Sdl *sdl, const Value *value, Vec3 *low, Vec3 *high)
 {
-    (void)sdl;
     if (value->kind != VALUE_OBJECT && value->kind != VALUE_LIGHT)
         return 0;
     const Transform none = transform_identity();
     *low = vec3(INFINITY, INFINITY, INFINITY);
     *high = vec3(-INFINITY, -INFINITY, -INFINITY);
-    extent(value->data, &none, low, high);
+    extent(sdl, value->data, &none, low, high);
     if (!(low->x <= high->x))
         *low = *high = vec3(0, 0, 0); /* nothing there, or nothing that is supported */
     return 1;

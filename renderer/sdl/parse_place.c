@@ -198,6 +198,7 @@ static void place_look(Sdl *sdl, const Object *object, const Around *here)
 static void place(Sdl *sdl, const Object *object, const Around *around)
 {
     Around here = *around;
+    sdl_step(sdl, 1);
     gaps_report(sdl, &object->gaps);
     if (object->kind == OBJECT_EMPTY)
         return;

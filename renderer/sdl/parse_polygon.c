@@ -8,6 +8,7 @@
 #include "sdl/scene_side.h"
 
 #define MAX_POINTS 20000
+#define EDGES_A_STEP 16 /* that are looked at in the time of a step */
 
 typedef struct Edge {
     Vec2 low, high;
@@ -106,6 +107,7 @@ static double *heights(Sdl *sdl, const Edge *edges, int n, int *count)
     double *all = NULL, v;
     *count = 0;
     for (int i = 0; i < n; i++) {
+        sdl_step(sdl, 1 + i / EDGES_A_STEP);
         for (int end = 0; end < 2; end++) {
             all = side_grow(sdl, all, *count, &room, sizeof *all);
             all[(*count)++] = end ? edges[i].high.v : edges[i].low.v;
@@ -125,6 +127,7 @@ static void slab(Sdl *sdl, Triangles *out, const Edge *edges, int n, Crossing *c
 {
     int count = 0;
     double middle = low + (high - low) * 0.5;
+    sdl_step(sdl, 1 + n / EDGES_A_STEP);
     for (int i = 0; i < n; i++)
         if (edges[i].low.v <= low && edges[i].high.v >= high)
             crossings[count++] =

@@ -6,6 +6,7 @@
  * is taken as sRGB. Pigments, lights, sky, background, emission, ambient and reflection are decoded; factors such as
  * diffuse are not, for the sum of several lights has no equal in another space. */
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include "base/digest.h"
@@ -121,6 +122,8 @@ static void add_image(Sdl *sdl, SideImage *image, int *room)
     scene->images[scene->nimages++] = &image->map;
 }
 
+enum { IMAGE_PEAK_BYTES = 16 + 22 }; /* a pixel: as it is read, and the texture of it */
+
 /* What is odd about the image's colours. */
 typedef struct ImageWarning {
     Sdl *sdl;
@@ -153,7 +156,16 @@ static void load_image(Sdl *sdl, SideImage *image, int is_light, int *room)
     RetexImage pixels = {0};
     RetexError err = {0};
     sdl_add_file(sdl, map->path);
-    const RetexReadParams params = {sizeof params, colorspace_of(sdl, image), 0, sdl_access(sdl)};
+    const SdlOptions *options = sdl_options(sdl);
+    RetexTextureSpec spec = RETEX_TEXTURE_SPEC_INIT;
+    spec.budget = options->budget;
+    snprintf(spec.image, sizeof spec.image, "%s", map->path);
+    const RetexReadParams params = {.size = sizeof params,
+                                    .colorspace = colorspace_of(sdl, image),
+                                    .access = sdl_access(sdl),
+                                    .budget = options->budget,
+                                    .pixel_bytes = IMAGE_PEAK_BYTES};
+    sdl_step(sdl, 1);
     if (retex_image_read_with(&pixels, map->path, &params, &err) == 0) {
         map->has_alpha = has_alpha(&pixels);
         map->width = pixels.width;
@@ -161,7 +173,6 @@ static void load_image(Sdl *sdl, SideImage *image, int is_light, int *room)
         scene->digest =
             digest_bytes(scene->digest, pixels.pixels, retex_image_index(&pixels, 0, pixels.height) * sizeof(float));
         ImageWarning warning = {sdl, image};
-        RetexTextureSpec spec = RETEX_TEXTURE_SPEC_INIT;
         spec.warn = warn_of_image;
         spec.warn_context = &warning;
         spec.is_light = is_light;

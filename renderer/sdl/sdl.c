@@ -42,8 +42,15 @@ void *sdl_alloc(Sdl *sdl, size_t bytes)
 {
     void *memory = arena_alloc(sdl->arena, bytes);
     if (!memory)
-        sdl_fail(sdl, RETEX_ELIMIT, "the scene needs more memory than it may have");
+        sdl_fail_memory(sdl);
     return memory;
+}
+
+void sdl_fail_memory(Sdl *sdl)
+{
+    const size_t own = sdl->options.max_memory;
+    const uint64_t all = retex_budget_memory(sdl->options.budget), most = all && all < own ? all : own;
+    sdl_fail(sdl, RETEX_ELIMIT, "the scene takes more than the %.0f MB of --max-memory", (double)most / (1 << 20));
 }
 
 void sdl_add_file(Sdl *sdl, const char *path)
@@ -60,10 +67,19 @@ void sdl_add_file(Sdl *sdl, const char *path)
 
 void sdl_step(Sdl *sdl, long count)
 {
+    enum { STEPS_A_LOOK = 4096 }; /* well below a millisecond */
+    RetexError why;
     sdl->steps += count;
+    if (sdl->steps <= sdl->next_look)
+        return;
     if (sdl->steps > sdl->options.max_steps)
-        sdl_fail(sdl, RETEX_ELIMIT, "the scene takes more than %ld steps to read; is a loop endless?",
+        sdl_fail(sdl, RETEX_ELIMIT, "the scene takes more than the %ld steps of --max-steps; is a loop endless?",
                  sdl->options.max_steps);
+    const int code = retex_budget_check(sdl->options.budget, &why);
+    if (code)
+        sdl_fail(sdl, code, "%s", why.message);
+    const long left = sdl->options.max_steps - sdl->steps;
+    sdl->next_look = sdl->steps + (left < STEPS_A_LOOK ? left : STEPS_A_LOOK);
 }
 
 static const char *file_name(const Sdl *sdl)
@@ -320,7 +336,7 @@ int sdl_parse_file(Scene **scene, const char *path, const SdlOptions *options, R
         return retex_fail(err, RETEX_ENOMEM, "out of memory");
     sdl->err = err;
     set_options(sdl, options);
-    sdl->arena = arena_create(sdl->options.max_memory);
+    sdl->arena = arena_create(sdl->options.max_memory, sdl->options.budget);
     sdl->scene = sdl->arena ? arena_alloc(sdl->arena, sizeof *sdl->scene) : NULL;
     if (!sdl->scene) {
         arena_close(&sdl->arena);

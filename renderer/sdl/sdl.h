@@ -2,6 +2,7 @@
 #ifndef RENDERER_SDL_SDL_H
 #define RENDERER_SDL_SDL_H
 
+#include <retex/budget.h>
 #include "scene/scene.h"
 
 /* Begin with SDL_OPTIONS_INIT. */
@@ -19,11 +20,13 @@ typedef struct SdlOptions {
      * NULL = silent. */
     void (*message)(void *context, int level /* 0 debug, 1 warning */, const char *text);
     void *message_context;
+    RetexBudget *budget;              /* memory is charged to it until the scene is closed, and it may stop the reading;
+                                         NULL = neither */
     int width, height;                /* image_width and image_height of the language; 0 = the scene's own size */
     int safe;                         /* 1: a stranger's scene: files by safe access (retex/access.h), and not in the
                                          current folder */
 } SdlOptions;
-#define SDL_OPTIONS_INIT { sizeof(SdlOptions), 0, 0, 0, 0, 0, 0, 200000000, (size_t)8 << 30, 0, 0, 0, 0, 0 }
+#define SDL_OPTIONS_INIT { sizeof(SdlOptions), 0, 0, 0, 0, 0, 0, 200000000, (size_t)8 << 30, 0, 0, 0, 0, 0, 0 }
 
 /* Parse a scene file. On failure *scene is NULL and err has file, line, column and what was expected. */
 int sdl_parse_file(Scene **scene, const char *path, const SdlOptions *options /* NULL = defaults */, RetexError *err);

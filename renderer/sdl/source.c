@@ -158,9 +158,10 @@ static char *read_all(Sdl *sdl, const char *path, size_t *size)
         fclose(file);
         sdl_fail(sdl, RETEX_EIO, "cannot read `%s`: %s", path, strerror(EISDIR));
     }
+    const uint64_t left = retex_budget_left(sdl->options.budget);
     int too_big = fstat(fileno(file), &info) != 0 || info.st_size < 0 ||
                   (sdl->options.max_memory && (uint64_t)info.st_size > sdl->options.max_memory) ||
-                  info.st_size > (off_t)1 << 31;
+                  (uint64_t)info.st_size > left || info.st_size > (off_t)1 << 31;
     if (!too_big)
         bytes = malloc((size_t)info.st_size + 1);
     *size = bytes ? fread(bytes, 1, (size_t)info.st_size, file) : 0;
@@ -170,7 +171,7 @@ static char *read_all(Sdl *sdl, const char *path, size_t *size)
         return bytes;
     free(bytes);
     if (too_big)
-        sdl_fail(sdl, RETEX_ELIMIT, "`%s` is larger than the memory allowed", path);
+        sdl_fail(sdl, RETEX_ELIMIT, "`%s` is larger than the memory allowed (--max-memory)", path);
     if (failed)
         sdl_fail(sdl, RETEX_EIO, "cannot read `%s`: %s", path, strerror(failed));
     sdl_fail(sdl, RETEX_ENOMEM, "no memory to read `%s`", path);
@@ -224,6 +225,13 @@ Source *source_open(Sdl *sdl, const char *name)
     return load(sdl, path);
 }
 
+static void source_free(Sdl *sdl, Source *source)
+{
+    retex_budget_give(sdl->options.budget, source->charged);
+    free(source->tokens);
+    free(source);
+}
+
 void source_release(Sdl *sdl, Source *source)
 {
     if (--source->users > 0 || source->keep || (source->on_disk && source->count <= SMALL_SOURCE))
@@ -234,16 +242,14 @@ void source_release(Sdl *sdl, Source *source)
         sdl->sources = source->next;
     if (source->next)
         source->next->previous = source->previous;
-    free(source->tokens);
-    free(source);
+    source_free(sdl, source);
 }
 
 void sources_close(Sdl *sdl)
 {
     for (Source *source = sdl->sources, *next; source; source = next) {
         next = source->next;
-        free(source->tokens);
-        free(source);
+        source_free(sdl, source);
     }
     sdl->sources = NULL;
 }

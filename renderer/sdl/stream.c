@@ -121,7 +121,7 @@ static int fill(Sdl *sdl, int stop, int any)
         if (any && sdl->nframes <= stop)
             return 0;
         const Raw *raw = sdl->cursor++;
-        if (++sdl->steps > sdl->options.max_steps)
+        if (++sdl->steps > sdl->next_look)
             sdl_step(sdl, 0);
         switch ((RawKind)raw->kind) {
         case RAW_NUMBER:

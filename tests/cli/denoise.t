@@ -35,7 +35,7 @@ $ make_set l.exr 40 250 footprints denoise; retex-denoise -q l.exr -o ld.retex; 
 $ head -c 20000 l.exr >half.exr; retex-denoise -q --memory 0 half.exr -o x.exr 2>&1 | grep -c '^retex-denoise: error: .*half.exr'; rm half.exr l*
 > 1
 $ retex-denoise s.exr -o x.exr --memory -1
-! retex-denoise: error: --memory: expected a whole number from 0 to 1048576, not '-1'
+! retex-denoise: error: --memory: expected a size such as 512M, 2G or a number of MB, not '-1'
 = 2
 
 # It retextures like any other set, and its picture is its recombination.

@@ -80,7 +80,7 @@ $ printf 'camera { location -5*z }\n#declare Ball = texture { pigment { rgb 1 } 
 $ OCIO=nowhere timeout 5 retex-render --size 2000x2000 --spp 4096 ball.pov -o x.png 2>err; echo $?; grep -c "error: x.png: \$OCIO is 'nowhere'" err
 > 2
 > 1
-$ retex-render --size 60000x60000 -t ball ball.pov -o x.exr 2>err; echo $?; grep -c 'error: 60000x60000 pixels need .* GB of memory, this machine has .*: render parts with --crop' err
+$ retex-render --max-pixels 4000000000 --size 60000x60000 -t ball ball.pov -o x.exr 2>err; echo $?; grep -c 'error: 60000x60000 pixels need .* GB of memory, there are .*: render parts with --crop' err
 > 2
 > 1
 

@@ -27,7 +27,7 @@ typedef struct Stage {
 static void stage_open(Stage *s)
 {
     memset(s, 0, sizeof *s);
-    Arena *arena = arena_create(0);
+    Arena *arena = arena_create(0, NULL);
     s->scene = arena_alloc(arena, sizeof *s->scene);
     s->scene->arena = arena;
     s->scene->width = 16, s->scene->height = 12;

@@ -68,7 +68,7 @@ static void inverses_and_normals(void **state)
 
 static void arena_keeps_its_limit(void **state)
 {
-    Arena *arena = arena_create(1 << 20);
+    Arena *arena = arena_create(1 << 20, NULL);
     char *text;
 
     (void)state;

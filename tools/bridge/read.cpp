@@ -159,7 +159,7 @@ void check_file(const RetexBridgeFile &file)
         throw Failure(RETEX_EFORMAT, "cannot read: the file is empty");
 }
 
-void check_size(long width, long height, long max_pixels)
+void check_size(long width, long height, const RetexBridgeFile &file)
 {
     if (width < 1 || height < 1)
         throw Failure(RETEX_EFORMAT, "the picture has no pixels");
@@ -167,9 +167,8 @@ void check_size(long width, long height, long max_pixels)
     if (width > RETEX_MAX_SIZE || height > RETEX_MAX_SIZE)
         throw Failure(RETEX_ELIMIT, "the picture is too large: " + size + " pixels, at most " +
                                         std::to_string(RETEX_MAX_SIZE) + " a side");
-    if (max_pixels > 0 && width * height > max_pixels)
-        throw Failure(RETEX_ELIMIT, "the picture is too large: " + size + " pixels, more than the " +
-                                        std::to_string(max_pixels) + " allowed here");
+    if (file.max_pixels > 0 && width * height > file.max_pixels)
+        throw Failure(RETEX_ELIMIT, "the picture is too large: " + size + " pixels, more than " + file.limit);
 }
 
 // The first line says what is wrong; what libraries add to it is where in them.
@@ -326,7 +325,7 @@ class OpenPicture
         if (!in_)
             fail_read(OIIO::geterror());
         const OIIO::ImageSpec &spec = in_->spec();
-        check_size(spec.width, spec.height, file.max_pixels);
+        check_size(spec.width, spec.height, file);
         if (spec.deep)
             throw Failure(RETEX_EUNSUPPORTED, "a deep picture, which cannot be used here");
         if (spec.depth > 1)
@@ -369,7 +368,7 @@ RetexImage read_picture(const RetexBridgeHost *host, const RetexBridgeFile &file
                     (spec.x != spec.full_x || spec.y != spec.full_y || spec.width != spec.full_width ||
                      spec.height != spec.full_height);
     if (windowed)
-        check_size(spec.full_width, spec.full_height, file.max_pixels);
+        check_size(spec.full_width, spec.full_height, file);
 
     Transform decode = decoding(spec, format.c_str(), file.colorspace);
     Channels channels = find_channels(spec);

@@ -21,6 +21,7 @@ typedef struct RetexBridgeFile {
     int descriptor;         /* with a format: the file, in place of path, which then is for messages only */
     const char *colorspace; /* or NULL */
     long max_pixels;        /* 0 = no limit */
+    char limit[64];         /* that in words */
 } RetexBridgeFile;
 
 /* Read any file OpenImageIO knows as R,G,B,A, scene-linear Rec.709, unassociated alpha; as retex_image_read, of
@@ -82,7 +83,7 @@ typedef struct RetexBridgeHost {
     void (*free)(void *block);
 } RetexBridgeHost;
 
-#define RETEX_BRIDGE_ABI 5
+#define RETEX_BRIDGE_ABI 6
 typedef int RetexBridgeAbi(void);
 typedef int RetexBridgeRead(const RetexBridgeHost *host, RetexImage *dst, const RetexBridgeFile *file, RetexError *err);
 typedef int RetexBridgeReadNarrow(const RetexBridgeHost *host, RetexNarrowImage *dst, const RetexBridgeFile *file,

@@ -240,10 +240,10 @@ int retex_diff(RetexDiff **result, const char *a, const char *b, const RetexDiff
     if (strcmp(a, "-") == 0 && strcmp(b, "-") == 0)
         return retex_fail(err, RETEX_EINVAL, "only one of the two files can be standard input");
     RetexDiff *diff = calloc(1, sizeof *diff);
-    int code = diff ? retex_layers_open(&la, a, params->access, params->nthreads, err)
+    int code = diff ? retex_layers_open(&la, a, params->access, params->budget, params->nthreads, err)
                     : retex_fail(err, RETEX_ENOMEM, "no memory");
     if (!code)
-        code = retex_layers_open(&lb, b, params->access, params->nthreads, err);
+        code = retex_layers_open(&lb, b, params->access, params->budget, params->nthreads, err);
     if (!code) {
         diff->parts = calloc((size_t)retex_layers_count(la), sizeof *diff->parts);
         code = !diff->parts        ? retex_fail(err, RETEX_ENOMEM, "no memory to compare %s", a)

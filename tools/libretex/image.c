@@ -4,6 +4,7 @@
  * bridge, which loads OpenImageIO. */
 #include <errno.h>
 #include <stdint.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/mman.h>
@@ -137,12 +138,27 @@ static void finish_pixels(RetexImage *image, int grey, int has_alpha)
     }
 }
 
-static int check_pixels(int width, int height, long max_pixels, const char *name, RetexError *err)
+static int check_pixels(int width, int height, const RetexBridgeFile *file, const char *name, RetexError *err)
 {
-    if (max_pixels > 0 && (int64_t)width * height > max_pixels)
-        return retex_fail(err, RETEX_ELIMIT, "%s has %d x %d pixels, more than the limit of %ld", name, width, height,
-                          max_pixels);
+    if (file->max_pixels > 0 && (int64_t)width * height > file->max_pixels)
+        return retex_fail(err, RETEX_ELIMIT, "%s is too large: %d x %d pixels, more than %s", name, width, height,
+                          file->limit);
     return 0;
+}
+
+/* The smaller of two limits, and in words which one that is. */
+static void set_limit(RetexBridgeFile *file, const RetexReadParams *params)
+{
+    const uint64_t left = retex_budget_left(params->budget), room = left / (params->pixel_bytes | !params->pixel_bytes);
+
+    const long all = retex_budget_pixels(params->budget), own = params->max_pixels;
+
+    file->max_pixels = own > 0 && all > 0 ? (own < all ? own : all) : own > 0 ? own : all;
+    snprintf(file->limit, sizeof file->limit, "the %ld of --max-pixels", file->max_pixels);
+    if (left != UINT64_MAX && (file->max_pixels <= 0 || room < (uint64_t)file->max_pixels)) {
+        file->max_pixels = room ? (long)room : 1;
+        snprintf(file->limit, sizeof file->limit, "--max-memory has room for");
+    }
 }
 
 /* What is done with an EXR's colours, by what it says of them. */
@@ -185,7 +201,7 @@ static void convert_colors(RetexImage *image, const ExrColors *colors)
 }
 
 /* Read an open EXR. RETEX_EUNSUPPORTED: whole and sound, but not for this reader. */
-static int read_exr(RetexImage *dst, RetexExr *exr, const char *name, long max_pixels, RetexError *err)
+static int read_exr(RetexImage *dst, RetexExr *exr, const char *name, const RetexBridgeFile *file, RetexError *err)
 {
     RetexExrRequest request = {.part = 0};
     RetexImage image = {0};
@@ -197,7 +213,7 @@ static int read_exr(RetexImage *dst, RetexExr *exr, const char *name, long max_p
     if (!choose_channels(exr, &request, &grey))
         return retex_fail(err, RETEX_EUNSUPPORTED, "%s has no channels R, G, B or Y", name);
     retex_exr_part_size(exr, 0, &width, &height);
-    int status = check_pixels(width, height, max_pixels, name, err);
+    int status = check_pixels(width, height, file, name, err);
     if (!status && (uint64_t)width * (uint64_t)height * 16 > RETEX_EXR_MEMORY_MAX)
         status = retex_fail(err, RETEX_ELIMIT, "%s is too large: %d x %d pixels", name, width, height);
     if (!status)
@@ -229,7 +245,8 @@ static RetexReadParams understand(const RetexReadParams *given)
 static int choose_decoder(RetexBridgeFile *file, const RetexInput *input, const char *path,
                           const RetexReadParams *params, RetexError *err)
 {
-    *file = (RetexBridgeFile){path, NULL, -1, params->colorspace, params->max_pixels};
+    *file = (RetexBridgeFile){.path = path, .descriptor = -1, .colorspace = params->colorspace};
+    set_limit(file, params);
     if (!params->access || !params->access->safe || strcmp(path, "-") == 0)
         return 0;
     file->format = image_format(input);
@@ -248,7 +265,7 @@ static int read_in_space(RetexImage *dst, RetexExr *exr, const RetexInput *input
     int status = RETEX_EUNSUPPORTED;
 
     if (retex_names_linear(file->colorspace))
-        status = read_exr(dst, exr, retex_input_name(input), file->max_pixels, err);
+        status = read_exr(dst, exr, retex_input_name(input), file, err);
     else if (standard_input)
         retex_fail(err, status, "standard input is read as scene-linear only, not %s", file->colorspace);
     if (status == RETEX_EUNSUPPORTED && !standard_input)
@@ -278,7 +295,8 @@ static int read_tagged(RetexImage *dst, RetexExr *exr, const RetexInput *input, 
 
 int retex_image_read(RetexImage *dst, const char *path, const char *colorspace, long max_pixels, RetexError *err)
 {
-    const RetexReadParams params = {sizeof params, colorspace, max_pixels, NULL};
+    const RetexReadParams params = {
+        .size = sizeof params, .colorspace = colorspace, .max_pixels = max_pixels, .pixel_bytes = 16};
 
     return retex_image_read_with(dst, path, &params, err);
 }
@@ -392,7 +410,7 @@ int retex_image_read_narrow(RetexNarrowImage *dst, const char *path, const Retex
         const char *ocio = getenv("OCIO"); /* whether it is of use is for the bridge to say */
         const int named = params.colorspace && params.colorspace[0];
         if (named ? strcasecmp(params.colorspace, "sRGB") == 0 : !ocio || !ocio[0])
-            status = retex_jpeg_read_narrow(dst, input, params.max_pixels, err);
+            status = retex_jpeg_read_narrow(dst, input, file.max_pixels, err);
         if (!status && !dst->pixels)
             status = retex_bridge_read_narrow(dst, &file, err);
     }

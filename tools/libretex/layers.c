@@ -33,7 +33,8 @@ static int open_other(RetexLayers *layers, const char *path, const RetexReadPara
     return code ? code : retex_set_load(layers->set, layers->nthreads, err);
 }
 
-int retex_layers_open(RetexLayers **result, const char *path, const RetexAccess *access, int nthreads, RetexError *err)
+int retex_layers_open(RetexLayers **result, const char *path, const RetexAccess *access, const RetexBudget *budget,
+                      int nthreads, RetexError *err)
 {
     const char *reason;
     *result = NULL;
@@ -41,7 +42,7 @@ int retex_layers_open(RetexLayers **result, const char *path, const RetexAccess 
     if (!layers)
         return retex_fail(err, RETEX_ENOMEM, "no memory to read %s", path);
     layers->nthreads = nthreads;
-    const RetexReadParams params = {sizeof params, NULL, 0, access};
+    const RetexReadParams params = {.size = sizeof params, .access = access, .budget = budget, .pixel_bytes = 16};
     int code = retex_input_open_allowed(&layers->input, path, access, err);
     if (!code && retex_exr_probe(layers->input))
         code = retex_exr_open(&layers->exr, layers->input, err);

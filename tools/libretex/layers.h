@@ -13,7 +13,8 @@ typedef struct RetexLayer {
 } RetexLayer;
 
 /* Open an EXR (its parts are the layers), a pack (likewise), or another picture (one layer R,G,B,A). */
-int retex_layers_open(RetexLayers **layers, const char *path, const RetexAccess *access, int nthreads, RetexError *err);
+int retex_layers_open(RetexLayers **layers, const char *path, const RetexAccess *access, const RetexBudget *budget,
+                      int nthreads, RetexError *err);
 void retex_layers_close(RetexLayers **layers);
 int retex_layers_count(const RetexLayers *layers);
 const char *retex_layers_name(const RetexLayers *layers, int index); /* "" where it has none */

@@ -116,10 +116,29 @@ int retex_texture_is_opaque(const RetexTexture *texture)
     return texture->nlevels == 0 || texture->opaque;
 }
 
+static int has_two_repeats(const RetexTextureSpec *spec)
+{
+    return spec->repeat == RETEX_REPEAT_HALF_DROP || spec->repeat == RETEX_REPEAT_BRICK;
+}
+
+/* Of the texels and their pyramid. */
+static int charge(RetexTexture *texture, const TextureTexels *texels, RetexError *err)
+{
+    uint64_t bytes = texture_texel_size(texels->narrow) * (uint64_t)texels->width * (uint64_t)texels->height;
+    bytes += bytes / 3;
+    bytes *= has_two_repeats(&texture->spec) ? 2 : 1;
+    int code = retex_budget_take(texture->spec.budget, bytes, texture->spec.image, err);
+    if (!code)
+        texture->charged = bytes;
+    return code;
+}
+
 /* The texels, premultiplied, become the texture's. */
 static int take_texels(RetexTexture *texture, TextureTexels *texels, int nthreads, RetexError *err)
 {
-    int width = texels->width, height = texels->height, code = compose_repeats(texture, texels, err);
+    int width = texels->width, height = texels->height, code = charge(texture, texels, err);
+    if (!code)
+        code = compose_repeats(texture, texels, err);
     if (code)
         return code;
     finish_map(texture, width, height);
@@ -245,6 +264,7 @@ void retex_texture_close(RetexTexture **texture)
             free(level->ends[k]);
         }
     }
+    retex_budget_give((*texture)->spec.budget, (*texture)->charged);
     free(*texture);
     *texture = NULL;
 }
@@ -267,6 +287,19 @@ static void hand_over(RetexTexture **out, RetexTexture *texture, const float col
     *out = texture;
 }
 
+/* Decoding keeps, beside the texture's own, a picture of 16-bit integers, and of others the floats of the file. */
+static RetexReadParams read_params(const RetexTextureSpec *spec)
+{
+    enum { PEAK_BYTES = 24 };
+    RetexReadParams params = RETEX_READ_INIT;
+    params.colorspace = spec->colorspace[0] ? spec->colorspace : NULL;
+    params.max_pixels = retex_budget_pixels(spec->budget) ? 0 : MAX_TEXTURE_PIXELS;
+    params.access = spec->access;
+    params.budget = spec->budget;
+    params.pixel_bytes = has_two_repeats(spec) ? 2 * PEAK_BYTES : PEAK_BYTES;
+    return params;
+}
+
 int retex_texture_load(RetexTexture **out, const RetexTextureSpec *spec, int nthreads, RetexError *err)
 {
     RetexError why = {0};
@@ -275,8 +308,7 @@ int retex_texture_load(RetexTexture **out, const RetexTextureSpec *spec, int nth
     int code = why.code;
     if (texture && !spec->constant) {
         const RetexTextureSpec *own = &texture->spec;
-        const RetexReadParams params = {sizeof params, own->colorspace[0] ? own->colorspace : NULL, MAX_TEXTURE_PIXELS,
-                                        own->access};
+        const RetexReadParams params = read_params(own);
         RetexNarrowImage narrow = {0};
         RetexImage image = {0};
         code = retex_image_read_narrow(&narrow, own->image, &params, &why);

@@ -2,6 +2,8 @@
 #ifndef RETEX_TEXTURE_PYRAMID_H
 #define RETEX_TEXTURE_PYRAMID_H
 
+#include <stdint.h>
+
 #include "texture_values.h"
 
 #define TEXTURE_MAX_LEVELS 18 /* of 131072 texels a side, two repeats of 65536: 131072, 65536, ... 1 */
@@ -30,6 +32,7 @@ typedef struct TextureLevel {
 
 struct RetexTexture {
     RetexTextureSpec spec; /* with wrap = mirror for repeat = mirror */
+    uint64_t charged;      /* bytes of the spec's budget */
     int repeats[2];        /* that the image holds along u and v: 2 where every second one is shifted */
     /* uv' = matrix uv + offset, from the surface's UV to that of the image with all its repeats: all of the spec. */
     double matrix[2][2];

@@ -20,8 +20,9 @@ typedef struct RetexDiffParams {
     double fail_relmse, fail_flip, fail_abs, fail_rel; /* when relmse, flip_mean, max_abs, max_rel is above */
     int nthreads;      /* 0 = all cores */
     const RetexAccess *access; /* which files may be read; sets and packs are, as pictures go; NULL = any */
+    const RetexBudget *budget; /* what pictures may take; NULL = what there is */
 } RetexDiffParams;
-#define RETEX_DIFF_INIT { sizeof(RetexDiffParams), NULL, 0, 0, -1, -1, -1, -1, -1, 0, NULL }
+#define RETEX_DIFF_INIT { sizeof(RetexDiffParams), NULL, 0, 0, -1, -1, -1, -1, -1, 0, NULL, NULL }
 
 typedef struct RetexDiffPart {
     char name[192];          /* "" where the file's part has none */

@@ -5,6 +5,7 @@
 
 #include <stddef.h>
 #include <retex/access.h>
+#include <retex/budget.h>
 #include <retex/error.h>
 
 #ifdef __cplusplus
@@ -57,8 +58,11 @@ typedef struct RetexReadParams {
     const char *colorspace;    /* default NULL */
     long max_pixels;           /* default 0 */
     const RetexAccess *access; /* borrowed; default NULL = any file */
+    const RetexBudget *budget; /* borrowed: a picture of more pixels, or for which it has not enough memory left, is
+                                  refused before it is decoded. Default NULL = none is */
+    unsigned pixel_bytes;      /* what the caller will need a pixel, at the peak; default 16, the pixels alone */
 } RetexReadParams;
-#define RETEX_READ_INIT { sizeof(RetexReadParams), NULL, 0, NULL }
+#define RETEX_READ_INIT { sizeof(RetexReadParams), NULL, 0, NULL, NULL, 16 }
 
 int retex_image_read_with(RetexImage *dst, const char *path, const RetexReadParams *params /* NULL = defaults */,
                           RetexError *err);

@@ -63,10 +63,12 @@ typedef struct RetexTextureSpec {
                               in by the caller. Default NULL = nobody */
     void *warn_context;    /* handed to it; default NULL */
     int is_light;          /* 1: it stands for light, which may be brighter than white; default 0: for albedo */
+    RetexBudget *budget;   /* what the texture's memory is charged to until it is closed, and which says how many pixels
+                              its image may have (otherwise 2^28); filled in by the caller. Default NULL = none */
 } RetexTextureSpec;
 #define RETEX_TEXTURE_SPEC_INIT \
     { sizeof(RetexTextureSpec), "", "", 0, {0, 0, 0}, {1, 1}, 0, {0, 0}, {RETEX_WRAP_REPEAT, RETEX_WRAP_REPEAT}, \
-      "", {0, 0}, RETEX_REPEAT_STRAIGHT, {0, 0}, {0, 0}, {0, 0}, {0, 0}, NULL, NULL, NULL, 0 }
+      "", {0, 0}, RETEX_REPEAT_STRAIGHT, {0, 0}, {0, 0}, {0, 0}, {0, 0}, NULL, NULL, NULL, 0, NULL }
 
 /* opts: what follows `--texture:` ("scale=2,2:rotate=30", or "" or NULL); arg: "NAME=IMAGE" or "NAME=rgb(r,g,b)". */
 int retex_texture_spec_parse(RetexTextureSpec *spec, const char *opts, const char *arg, RetexError *err);

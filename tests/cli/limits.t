@@ -1,0 +1,102 @@
+# Limits: what a scene, a picture or a set may take. What ends at one says which option raises it.
+$ cp "$TESTS/../data/white-6000.png" big.png; cp -r "$SCENES/cornell-box" .; make_set set.exr 64 48; echo 'sphere{0,1} light_source{-9*z rgb 1} camera{location -3*z look_at 0}' >ball.pov
+
+# Steps, of walks over a scene too.
+$ echo '#while(1) #end' >endless.pov; retex-render --max-steps 100000 endless.pov -o x.exr
+! retex-render: error: endless.pov:1:9: the scene takes more than the 100000 steps of --max-steps; is a loop endless?
+= 2
+$ printf '%s\n' '#declare O=union{#for(I,1,1000) sphere{I*x,.4} #end}' '#for(I,1,1000) #declare P=min_extent(O); #declare P=max_extent(O); #end' >extent.pov; retex-render --max-steps 200000 extent.pov -o x.exr
+! retex-render: error: extent.pov:2:64: the scene takes more than the 200000 steps of --max-steps; is a loop endless?
+= 2
+$ { echo '#declare O=union{}'; for k in $(seq 24); do echo '#declare O=union{object{O} object{O}}'; done; echo 'object{O}'; } >nothing.pov; retex-render --max-steps 1000000 nothing.pov -o x.exr
+! retex-render: error: nothing.pov:26:9: the scene takes more than the 1000000 steps of --max-steps; is a loop endless?
+= 2
+$ (head -c 4000000 /dev/zero | tr '\0' ' '; echo '// nothing') >blank.inc; echo '#while(1) #include "blank.inc" #end' >include.pov; retex-render --max-steps 1000000 include.pov -o x.exr
+! retex-render: error: include.pov:1:9: the scene takes more than the 1000000 steps of --max-steps; is a loop endless?
+= 2
+$ awk 'BEGIN { print "polygon { 4001"; for (i = 0; i < 4000; i++) print "<" (i * 7919) % 4001 "," (i * i * 31) % 4001 ">,"; print "<0,0> }" }' >polygon.pov; retex-render --max-steps 1000000 polygon.pov -o x.exr
+! retex-render: error: polygon.pov:4002:7: the scene takes more than the 1000000 steps of --max-steps; is a loop endless?
+= 2
+$ RETEX_MAX_STEPS=1000 retex-render endless.pov -o x.exr; RETEX_MAX_STEPS=x retex-render endless.pov -o x.exr; RETEX_MAX_STEPS=10 retex-render -q --max-steps 100000 --size 8x6 --spp 1 ball.pov -o x.exr && rm x.exr
+! retex-render: error: endless.pov:1:9: the scene takes more than the 1000 steps of --max-steps; is a loop endless?
+! retex-render: error: RETEX_MAX_STEPS: expected a whole number from 1, not 'x'
+
+# Memory: of the scene, of what is built of it, of images before they are decoded, of the film.
+$ { echo '#declare O=sphere{0,.1}'; echo '#for(I,1,22) #declare O=union{object{O translate x*pow(2,I)} object{O translate -x*pow(2,I)}} #end'; echo 'object{O}'; } >parts.pov; make_peak peak retex-render --max-memory 300M parts.pov -o x.exr; awk '{ print ($1 < 400 ? "little" : $1) }' peak
+> little
+! retex-render: error: parts.pov:3:9: the scene takes more than the 300 MB of --max-memory
+$ echo '#declare A=array[300000000]' >array.pov; retex-render --max-memory 1G array.pov -o x.exr
+! retex-render: error: array.pov:1:27: the scene takes more than the 1024 MB of --max-memory
+= 2
+$ printf '%s\n' '#for(I,0,N-1) sphere{I*x,1 pigment{image_map{png "big.png"}}} #end' >image.pov; make_peak peak retex-render --max-memory 500M -D N=1 image.pov -o x.exr; awk '{ print ($1 < 200 ? "little" : $1) }' peak
+> little
+! retex-render: error: image.pov:2:1: image.pov:1: image_map: big.png: the picture is too large: 6000 x 6000 pixels, more than --max-memory has room for
+$ for t in "retex-sample set.exr -o x.exr" "retex-combine set.exr -o x.png"; do make_peak peak $t --max-memory 300M --texture floor=big.png; awk '{ print ($1 < 200 ? "little" : $1) }' peak; done; retex-render --max-memory 300M --replace floor=big.png cornell-box/cornell-box.pov -o x.exr
+> little
+> little
+! retex-sample: error: big.png: the picture is too large: 6000 x 6000 pixels, more than --max-memory has room for
+! retex-combine: error: big.png: the picture is too large: 6000 x 6000 pixels, more than --max-memory has room for
+! retex-render: error: big.png: the picture is too large: 6000 x 6000 pixels, more than --max-memory has room for
+= 2
+$ retex-render -q --max-memory 2G --size 8x6 --spp 1 --replace floor=big.png cornell-box/cornell-box.pov -o x.exr && rm x.exr
+$ retex-render --max-memory 100M --max-pixels 1000000000 --size 20000x20000 --plain --spp 1 ball.pov -o x.exr 2>err; sed 's/[0-9.]* GB/N GB/; s/are [0-9.]*:/are N:/' err
+> retex-render: error: 20000x20000 pixels need N GB of memory, there are N: render parts with --crop, or raise --max-memory
+$ make_set large.exr 1500 1500 footprints denoise; for t in "retex-denoise large.exr -o x.exr" "retex-pack --lossless large.exr -o x.retex" "retex-diff large.exr large.exr"; do make_peak peak $t --max-memory 60M; awk '{ print ($1 < 160 ? "little" : $1) }' peak; done; rm large.exr
+> little
+> little
+> little
+! retex-denoise: error: out of memory: this takes more than the 60 MB of --max-memory
+! retex-pack: error: out of memory: this takes more than the 60 MB of --max-memory
+! retex-diff: error: out of memory: this takes more than the 60 MB of --max-memory
+
+# Pixels.
+$ retex-render --max-pixels 1000 --size 100x100 ball.pov -o x.exr; retex-render -q --max-pixels 1000 --size 100x100 --crop 0,0,10,10 --spp 1 ball.pov -o x.exr && rm x.exr
+! retex-render: error: 100x100 pixels are more than the 1000 of --max-pixels
+$ retex-combine --max-pixels 5000 set.exr --texture floor=big.png -o x.png; retex-render --max-pixels 5000 --size 8x6 image.pov -D N=1 -o x.exr; retex-diff --max-pixels 5000 big.png big.png
+! retex-combine: error: big.png: the picture is too large: 6000 x 6000 pixels, more than the 5000 of --max-pixels
+! retex-render: error: image.pov:2:1: image.pov:1: image_map: big.png: the picture is too large: 6000 x 6000 pixels, more than the 5000 of --max-pixels
+! retex-diff: error: big.png: the picture is too large: 6000 x 6000 pixels, more than the 5000 of --max-pixels
+= 2
+$ for t in "retex-info set.exr" "retex-combine set.exr -o x.png" "retex-sample set.exr --texture floor=rgb(1,0,0) -o x.exr" "retex-denoise set.exr -o x.exr" "retex-pack set.exr -o x.retex"; do $t --max-pixels 3071; done
+! retex-info: error: set.exr is too large: 64 x 48 pixels, more than the 3071 of --max-pixels
+! retex-combine: error: set.exr is too large: 64 x 48 pixels, more than the 3071 of --max-pixels
+! retex-sample: error: set.exr is too large: 64 x 48 pixels, more than the 3071 of --max-pixels
+! retex-denoise: error: set.exr is too large: 64 x 48 pixels, more than the 3071 of --max-pixels
+! retex-pack: error: set.exr is too large: 64 x 48 pixels, more than the 3071 of --max-pixels
+= 2
+
+# Time: reading, building, rendering, and what comes after. Finished rows are kept.
+$ retex-render --max-time 0.5 --max-steps 1000000000000 endless.pov -o x.exr
+! retex-render: error: not done within the 0.5 s of --max-time
+= 2
+$ retex-render -q --max-time 1 --spp 1000000 cornell-box/cornell-box.pov -o x.exr
+! retex-render: error: not done within the 1 s of --max-time
+= 2
+$ echo 'exec retex-render -q --threads 1 --size 16x4096 -t floor cornell-box/cornell-box.pov "$@"' >long; chmod +x long; ./long --spp 8 -o long.exr
+$ for o in --resume ''; do for t in 1 2 4 8 16 32; do ./long $o --spp 512 --max-time $t -o i.exr 2>err; ! grep -q bands err || break; done; sed 's/[0-9]* of 256/N of 256/; s/[0-9]* s of/T s of/' err; rm i.exr.partial; done
+> retex-render: error: not done within the T s of --max-time; N of 256 bands are finished and in i.exr.partial: the same command with --resume goes on
+> retex-render: error: not done within the T s of --max-time; N of 256 bands are finished and in i.exr.partial: the same command with --resume goes on
+$ until ./long --resume --spp 8 --max-time 2 -o i.exr 2>/dev/null; do :; done; cmp i.exr long.exr; rm i.exr; ls i.*
+! ls: cannot access 'i.*': No such file or directory
+= 2
+
+$ make_set large.exr 1500 1500 footprints denoise; for t in "retex-denoise --radius 10 large.exr -o x.exr" "retex-pack large.exr -o x.retex"; do $t --max-time 0.3; done; rm large.exr; sleep 5 | retex-combine - -o x.png --max-time 0.3
+! retex-denoise: error: not done within the 0.3 s of --max-time
+! retex-pack: error: not done within the 0.3 s of --max-time
+! retex-combine: error: not done within the 0.3 s of --max-time
+= 2
+
+# What is no limit.
+$ for o in "--max-memory 0" "--max-memory much" "--max-memory 1GB" "--max-time 0" "--max-time -1" "--max-pixels 0" "--max-pixels 1e6" "--max-steps 1.5"; do retex-render $o ball.pov -o x.exr; done
+! retex-render: error: --max-memory: expected a size such as 512M, 4G or a number of MB, not '0'
+! retex-render: error: --max-memory: expected a size such as 512M, 4G or a number of MB, not 'much'
+! retex-render: error: --max-memory: expected a size such as 512M, 4G or a number of MB, not '1GB'
+! retex-render: error: --max-time: expected a number of seconds, not '0'
+! retex-render: error: --max-time: expected a number of seconds, not '-1'
+! retex-render: error: --max-pixels: expected a whole number from 1, not '0'
+! retex-render: error: --max-pixels: expected a whole number from 1, not '1e6'
+! retex-render: error: --max-steps: expected a whole number from 1, not '1.5'
+= 2
+$ ls x.*
+! ls: cannot access 'x.*': No such file or directory
+= 2

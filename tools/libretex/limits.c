@@ -1,0 +1,104 @@
+/* What a user allows, from text: see retex/budget.h. */
+#include <ctype.h>
+#include <errno.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <retex/budget.h>
+
+static const char *const names[] = {"max-memory", "max-time", "max-pixels", "max-steps"};
+
+int retex_size_parse(const char *text, uint64_t *bytes)
+{
+    char *end;
+    const double number = isdigit((unsigned char)text[0]) ? strtod(text, &end) : -1;
+    int shift = 20;
+
+    if (number < 0)
+        return 0;
+    if (*end && strchr("kKmMgGtT", *end))
+        shift = *end == 'k' || *end == 'K'   ? 10
+                : *end == 'm' || *end == 'M' ? 20
+                : *end == 'g' || *end == 'G' ? 30
+                                             : 40;
+    end += *end != 0 && strchr("kKmMgGtT", *end);
+    const double size = ldexp(number, shift);
+    if (*end || !(size < 1e18))
+        return 0;
+    *bytes = (uint64_t)size;
+    return 1;
+}
+
+static int parse_seconds(const char *text, double *seconds)
+{
+    char *end;
+    const double number = isdigit((unsigned char)text[0]) || text[0] == '.' ? strtod(text, &end) : -1;
+
+    if (!(number > 0 && number < 1e9) || *end)
+        return 0;
+    *seconds = number;
+    return 1;
+}
+
+static int parse_count(const char *text, long *count)
+{
+    char *end;
+
+    errno = 0;
+    const long number = isdigit((unsigned char)text[0]) ? strtol(text, &end, 10) : 0;
+    if (number < 1 || errno || *end)
+        return 0;
+    *count = number;
+    return 1;
+}
+
+int retex_limits_set(RetexLimits *limits, const char *name, const char *value, RetexError *err)
+{
+    uint64_t bytes = 0;
+
+    if (strcmp(name, "max-memory") == 0) {
+        if (!retex_size_parse(value, &bytes) || bytes == 0)
+            return retex_fail(err, RETEX_EPARSE, "%s: expected a size such as 512M, 4G or a number of MB, not '%s'",
+                              name, value);
+        limits->memory = bytes;
+        return 0;
+    }
+    if (strcmp(name, "max-time") == 0)
+        return parse_seconds(value, &limits->seconds)
+                   ? 0
+                   : retex_fail(err, RETEX_EPARSE, "%s: expected a number of seconds, not '%s'", name, value);
+    long *count = strcmp(name, "max-pixels") == 0  ? &limits->pixels
+                  : strcmp(name, "max-steps") == 0 ? &limits->steps
+                                                   : NULL;
+    if (!count)
+        return retex_fail(err, RETEX_ENOTFOUND, "there is no limit '%s'", name);
+    return parse_count(value, count)
+               ? 0
+               : retex_fail(err, RETEX_EPARSE, "%s: expected a whole number from 1, not '%s'", name, value);
+}
+
+int retex_limits_environment(RetexLimits *limits, RetexError *err)
+{
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+        char variable[32] = "RETEX_";
+        RetexError why;
+        for (size_t k = 0; k <= strlen(names[i]); k++)
+            variable[6 + k] = (char)(names[i][k] == '-' ? '_' : toupper((unsigned char)names[i][k]));
+        const char *value = getenv(variable);
+        if (!value || !value[0])
+            continue;
+        const int code = retex_limits_set(limits, names[i], value, &why);
+        if (code)
+            return retex_fail(err, code, "%s:%s", variable, strchr(why.message, ':') + 1);
+    }
+    return 0;
+}
+
+void retex_budget_set_limits(RetexBudget *budget, const RetexLimits *limits)
+{
+    retex_budget_set_memory(budget, limits->memory ? limits->memory : retex_machine_memory() / 4 * 3);
+    retex_budget_set_pixels(budget, limits->pixels);
+    retex_budget_set_seconds(budget, limits->seconds);
+}
