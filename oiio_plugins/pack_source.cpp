@@ -8,6 +8,7 @@
 
 #include <retex/retex.h>
 
+#include "budget.hpp"
 #include "cache.hpp"
 #include "failure.hpp"
 #include "own_folder.hpp"
@@ -31,6 +32,12 @@ class PackSet
     {
         RetexError err{};
         must(retex_set_open(path.c_str(), &set_, nullptr, 0, &err), err);
+        try {
+            Budget().check_size(set_->width, set_->height);
+        } catch (...) {
+            retex_set_close(&set_);
+            throw;
+        }
     }
     ~PackSet()
     {
@@ -57,8 +64,11 @@ class PackSet
         return *whole_;
     }
     // With those textures; without any the one that was rendered, as far as the set holds it.
-    RetexImage picture(const std::vector<RetexTextureSpec> &specs, int threads)
+    RetexImage picture(std::vector<RetexTextureSpec> specs, int threads)
     {
+        Budget budget;
+        for (RetexTextureSpec &spec : specs)
+            spec.budget = budget.begin();
         RetexError err{};
         RetexImage picture{};
         RetexTexture *textures[RETEX_MAX_TARGETS];

@@ -3,7 +3,7 @@
 PLUGINS := $(patsubst oiio_plugins/%_imageio.cpp,$(BUILD)/plugins/%.imageio.so,$(wildcard oiio_plugins/*_imageio.cpp))
 PLUGIN_FOLDER := lib/retex/plugins
 PLUGIN_OBJECTS := $(BUILD)/obj/oiio_plugins/failure.o $(BUILD)/obj/oiio_plugins/set_input.o \
-	$(BUILD)/obj/oiio_plugins/own_folder.o $(BUILD)/obj/oiio_plugins/set_spec.o
+	$(BUILD)/obj/oiio_plugins/own_folder.o $(BUILD)/obj/oiio_plugins/budget.o $(BUILD)/obj/oiio_plugins/set_spec.o
 LINK_PLUGIN = $(CXX) -shared $(CXXFLAGS_ALL) $(LDFLAGS) -Wl,--version-script=oiio_plugins/exports.map -Wl,--as-needed \
 	-Wl,-rpath,'$$ORIGIN/../lib:$$ORIGIN/../..' -Wl,--enable-new-dtags
 

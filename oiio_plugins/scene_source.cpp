@@ -7,6 +7,7 @@
 
 #include <retex/denoise.h>
 
+#include "budget.hpp"
 #include "cache.hpp"
 #include "failure.hpp"
 #include "own_folder.hpp"
@@ -93,6 +94,8 @@ class SceneJob
         : options_(parse_scene_options(path, arguments, threads)), scene_(nullptr, close_scene)
     {
         RetexError err{};
+        options_.render.budget = options_.sdl.budget = budget_.begin();
+        options_.sdl.max_steps = budget_.steps();
         scene_ = parse_scene(path, options_, &warnings_);
         if (options_.width || options_.height)
             settle_size(path);
@@ -173,6 +176,7 @@ class SceneJob
     {
         RetexError err{};
         RetexSet *rendered = nullptr;
+        budget_.begin();
         must(render_scene(&rendered, scene_.get(), &options_.render, nullptr, &err), err);
         std::unique_ptr<RetexSet, void (*)(RetexSet *)> owned(rendered, [](RetexSet *set) { retex_set_close(&set); });
         renders++;
@@ -186,6 +190,7 @@ class SceneJob
         scene_.reset(); // all that is wanted of it is rendered
     }
 
+    Budget budget_; // before all that is charged to it
     SceneOptions options_;
     ScenePointer scene_;
     std::string warnings_, manifest_;

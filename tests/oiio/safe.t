@@ -50,3 +50,15 @@ $ oiiotool in/t.png --attrib oiio:subimagename "$(printf 'a\033[2J')" in/t.png -
 > a?[2J: psnr 120.00 relmse 0 mae 0 flip 0 (p99 0) max 0 rel 0 at 0,0 B
 > b: psnr 120.00 relmse 0 mae 0 flip 0 (p99 0) max 0 rel 0 at 0,0 B
 > part 'a?[2J' is missing in the second
+
+# Limits of the environment.
+$ make_picture in/big.png size=400x400; echo '#while (1) #declare A = 1; #end' >in/endless.pov; printf 'box { -1, 1 }\nbackground { rgb 1 }\n' >in/box.pov
+$ for n in 'room.retex?Floor=in/big.png' 'box.pov?size=200x150' 'room.retex?Floor=in/t.png'; do RETEX_MAX_PIXELS=20000 oiiotool "in/$n" -o x.exr 2>&1 | grep ERROR; done; RETEX_MAX_PIXELS=100 oiiotool 'in/room.retex?Floor=t.png' -o x.exr 2>&1 | grep ERROR; RETEX_MAX_STEPS=1000 oiiotool 'in/endless.pov?spp=1' -o x.exr 2>&1 | grep ERROR; RETEX_MAX_TIME=0.5 oiiotool 'in/box.pov?spp=1000000&size=400x300' -o x.exr 2>&1 | grep ERROR; RETEX_MAX_MEMORY=50M oiiotool 'in/box.pov?spp=1&size=4000x3000' -o x.exr 2>&1 | grep ERROR; RETEX_MAX_MEMORY=1M oiiotool 'in/room.retex?Floor=in/big.png' -o x.exr 2>&1 | grep ERROR; RETEX_MAX_PIXELS=lots oiiotool 'in/room.retex?Floor=t.png' -o x.exr 2>&1 | grep ERROR
+> oiiotool ERROR: read : "in/room.retex?Floor=in/big.png": in/big.png: the picture is too large: 400 x 400 pixels, more than the 20000 of --max-pixels
+> oiiotool ERROR: read : "in/box.pov?size=200x150": 200x150 pixels are more than the 20000 of --max-pixels
+> oiiotool ERROR: read : "in/room.retex?Floor=t.png": the picture is too large: 24 x 16 pixels, more than the 100 of --max-pixels
+> oiiotool ERROR: read : "in/endless.pov?spp=1": in/endless.pov:1:10: the scene takes more than the 1000 steps of --max-steps; is a loop endless?
+> oiiotool ERROR: read : "in/box.pov?spp=1000000&size=400x300": this takes longer than the 0.5 s of --max-time
+> oiiotool ERROR: read : "in/box.pov?spp=1&size=4000x3000": 4000x3000 pixels need 0.1 GB of memory, there are 0.1: render parts with --crop, or raise --max-memory
+> oiiotool ERROR: read : "in/room.retex?Floor=in/big.png": in/big.png: the picture is too large: 400 x 400 pixels, more than --max-memory has room for
+> oiiotool ERROR: read : "in/room.retex?Floor=t.png": RETEX_MAX_PIXELS: expected a whole number from 1, not 'lots'

@@ -1,0 +1,34 @@
+// What reading one name may take: RETEX_MAX_MEMORY, RETEX_MAX_TIME, RETEX_MAX_PIXELS and RETEX_MAX_STEPS of the
+// environment, with the defaults of the tools.
+#ifndef OIIO_PLUGINS_BUDGET_HPP
+#define OIIO_PLUGINS_BUDGET_HPP
+
+#include <retex/budget.h>
+
+namespace plugins
+{
+
+class Budget
+{
+  public:
+    Budget(); // throws Failure where the environment has no proper number
+    ~Budget();
+    Budget(const Budget &) = delete;
+    Budget &operator=(const Budget &) = delete;
+
+    // The time begins: for each piece of work, since a host may wait in between for as long as it likes.
+    RetexBudget *begin() const;
+    long steps() const
+    {
+        return limits_.steps;
+    }
+    // Throws Failure where a picture has too many pixels.
+    void check_size(int width, int height) const;
+
+  private:
+    RetexLimits limits_ = RETEX_LIMITS_INIT;
+    RetexBudget *budget_ = nullptr;
+};
+
+} // namespace plugins
+#endif
