@@ -151,17 +151,18 @@ $ retex-combine -q s.exr --batch ../t --dry-run --report -
 $ printf 'output,floor\n"a\301\200\303\251\377\n""b.png","rgb(1,0,0)"\n' >../t; retex-combine -q s.exr --batch ../t --report ../report; grep -a output ../report | cut -d , -f 3; rm a*
 >  "output": "a\ufffd\ufffdé\ufffd\u000a\"b.png"
 
-# Pictures that fail when they are made: the first ends the batch, unless --keep-going. A row that comes after one whose
-# second texture could not be loaded has its first.
-$ head -c 20000 brick.jpg >../cut.jpg; printf '%s\n' output,floor,wall a.png,brick.jpg b.png,brick.jpg,../cut.jpg c.png,brick.jpg /dev/full,brick.jpg d.png,,brick.jpg >../t; retex-combine s.exr --batch ../t --report ../report 2>&1 | sed 's/[0-9.]* s$/S/'; sh ../times <../report | sed 1,4d; sh ../new; rm a.png
+# Pictures that fail when they are made: the first ends the batch, unless --keep-going. A texture that could not be loaded
+# is not taken for the next row's, one beside it is.
+$ head -c 20000 brick.jpg >../cut.jpg; printf '%s\n' output,floor,wall a.png,brick.jpg b.png,brick.jpg,../cut.jpg again.png,,../cut.jpg c.png,brick.jpg /dev/full,brick.jpg d.png,,brick.jpg >../t; retex-combine s.exr --batch ../t --report ../report 2>&1 | sed 's/[0-9.]* s$/S/'; sh ../times <../report | sed 1,4d; sh ../new; rm a.png
 > retex-combine: a.png: Floor <- brick.jpg, 48 x 32, S
 > retex-combine: error: ../t:3: ../cut.jpg: cannot read: the file is truncated
 >   "rows": [
 >     {"row": 1, "line": 2, "output": "a.png", "status": "made", "seconds": S, "textures": {"Floor": "brick.jpg"}},
 >     {"row": 2, "line": 3, "output": "b.png", "status": "failed", "seconds": S, "error": "../cut.jpg: cannot read: the file is truncated", "textures": {"Floor": "brick.jpg", "Wall": "../cut.jpg"}},
->     {"row": 3, "line": 4, "output": "c.png", "status": "not made", "seconds": S, "textures": {"Floor": "brick.jpg"}},
->     {"row": 4, "line": 5, "output": "/dev/full", "status": "not made", "seconds": S, "textures": {"Floor": "brick.jpg"}},
->     {"row": 5, "line": 6, "output": "d.png", "status": "not made", "seconds": S, "textures": {"Wall": "brick.jpg"}}
+>     {"row": 3, "line": 4, "output": "again.png", "status": "not made", "seconds": S, "textures": {"Wall": "../cut.jpg"}},
+>     {"row": 4, "line": 5, "output": "c.png", "status": "not made", "seconds": S, "textures": {"Floor": "brick.jpg"}},
+>     {"row": 5, "line": 6, "output": "/dev/full", "status": "not made", "seconds": S, "textures": {"Floor": "brick.jpg"}},
+>     {"row": 6, "line": 7, "output": "d.png", "status": "not made", "seconds": S, "textures": {"Wall": "brick.jpg"}}
 >   ]
 > }
 > 0a1
@@ -169,15 +170,17 @@ $ head -c 20000 brick.jpg >../cut.jpg; printf '%s\n' output,floor,wall a.png,bri
 $ for n in 1 2; do retex-combine s.exr --batch ../t --keep-going --threads $n --progress json 2>../log; echo $?; done; sh ../times <../log; sh ../new; retex-combine -q s.exr --texture floor=brick.jpg -o ../one.png; cmp c.png ../one.png; cmp a.png ../one.png; rm ?.png
 > 2
 > 2
-> {"row": 1, "line": 2, "output": "a.png", "status": "made", "seconds": S, "done": 1, "total": 5}
+> {"row": 1, "line": 2, "output": "a.png", "status": "made", "seconds": S, "done": 1, "total": 6}
 > retex-combine: error: ../t:3: ../cut.jpg: cannot read: the file is truncated
-> {"row": 2, "line": 3, "output": "b.png", "status": "failed", "seconds": S, "error": "../cut.jpg: cannot read: the file is truncated", "done": 2, "total": 5}
-> {"row": 3, "line": 4, "output": "c.png", "status": "made", "seconds": S, "done": 3, "total": 5}
-> retex-combine: error: ../t:5: cannot write /dev/full: No space left on device
-> {"row": 4, "line": 5, "output": "/dev/full", "status": "failed", "seconds": S, "error": "cannot write /dev/full: No space left on device", "done": 4, "total": 5}
-> {"row": 5, "line": 6, "output": "d.png", "status": "made", "seconds": S, "done": 5, "total": 5}
-> retex-combine: error: 2 of 5 pictures failed
-> {"total": 5, "made": 3, "failed": 2, "seconds": S}
+> {"row": 2, "line": 3, "output": "b.png", "status": "failed", "seconds": S, "error": "../cut.jpg: cannot read: the file is truncated", "done": 2, "total": 6}
+> retex-combine: error: ../t:4: ../cut.jpg: cannot read: the file is truncated
+> {"row": 3, "line": 4, "output": "again.png", "status": "failed", "seconds": S, "error": "../cut.jpg: cannot read: the file is truncated", "done": 3, "total": 6}
+> {"row": 4, "line": 5, "output": "c.png", "status": "made", "seconds": S, "done": 4, "total": 6}
+> retex-combine: error: ../t:6: cannot write /dev/full: No space left on device
+> {"row": 5, "line": 6, "output": "/dev/full", "status": "failed", "seconds": S, "error": "cannot write /dev/full: No space left on device", "done": 5, "total": 6}
+> {"row": 6, "line": 7, "output": "d.png", "status": "made", "seconds": S, "done": 6, "total": 6}
+> retex-combine: error: 3 of 6 pictures failed
+> {"total": 6, "made": 3, "failed": 3, "seconds": S}
 > 0a1
 > > a.png
 > 1a3,4
@@ -214,12 +217,13 @@ $ printf 'output\na.png\n' >../t; retex-combine -q s.exr --batch ../t --batch-ro
 ! retex-combine: error: --batch-root root: no such folder
 ! retex-combine: error: --batch-root s.exr: no such folder
 # So do they where a folder becomes a link while the batch runs.
-$ mkdir -p root/sub; printf '%s\n' output,floor a.png,../pipe sub/b.png,brick.jpg new/c.png,brick.jpg d.png,brick.jpg >../t; timeout 20 retex-combine -q s.exr --batch ../t --keep-going --batch-root root --mkdir & sh ../race 'mv root/sub root/old; ln -s ../../outside root/sub; ln -s ../../outside root/new'; wait $!; echo $?; find root | sort | tr '\n' ' '; ls ../outside; rm -r root; sh ../new
+$ mkdir -p root/sub; printf '%s\n' output,floor a.png,../pipe sub/b.png,brick.jpg new/c.png,brick.jpg sub/deep/e.png,brick.jpg d.png,brick.jpg >../t; timeout 20 retex-combine -q s.exr --batch ../t --keep-going --batch-root root --mkdir & sh ../race 'mv root/sub root/old; ln -s ../../outside root/sub; ln -s ../../outside root/new'; wait $!; echo $?; find root | sort | tr '\n' ' '; ls ../outside; rm -r root; sh ../new
 > 2
 > root root/a.png root/d.png root/new root/old root/sub x.png
 ! retex-combine: error: ../t:3: sub/b.png is not below root, as --batch-root wants it
 ! retex-combine: error: ../t:4: new/c.png is not below root, as --batch-root wants it
-! retex-combine: error: 2 of 4 pictures failed
+! retex-combine: error: ../t:5: sub/deep/e.png is not below root, as --batch-root wants it
+! retex-combine: error: 3 of 5 pictures failed
 
 # A signal ends a batch, while it waits for its second row's image; the report has what was done until then.
 $ printf '%s\n' output,floor a.png,brick.jpg b.png,../pipe >../t; retex-combine -q s.exr --batch ../t --report ../report --keep-going & tool=$!; sh -c "sleep 20; kill -KILL $tool" 2>/dev/null & late=$!; for k in $(seq 100); do [ -e a.png ] && break; sleep .1; done; sleep .3; kill $tool; wait $tool 2>/dev/null; echo $?; kill $late 2>/dev/null; sh ../times <../report; rm a.png; sh ../new
