@@ -86,6 +86,27 @@ $ make_set large.exr 1500 1500 footprints denoise; for t in "retex-denoise --rad
 ! retex-combine: error: not done within the 0.3 s of --max-time
 = 2
 
+# What gives bytes without end is not read to its end: devices, and pipes of what is no picture and no set.
+$ for f in /dev/zero /dev/urandom /dev/full; do timeout 20 retex-combine set.exr --texture floor=$f -o x.png; timeout 20 retex-combine $f -o x.png; timeout 20 retex-diff $f set.exr; done
+! retex-combine: error: cannot read /dev/zero: it is a device
+! retex-combine: error: cannot read /dev/zero: it is a device
+! retex-diff: error: cannot read /dev/zero: it is a device
+! retex-combine: error: cannot read /dev/urandom: it is a device
+! retex-combine: error: cannot read /dev/urandom: it is a device
+! retex-diff: error: cannot read /dev/urandom: it is a device
+! retex-combine: error: cannot read /dev/full: it is a device
+! retex-combine: error: cannot read /dev/full: it is a device
+! retex-diff: error: cannot read /dev/full: it is a device
+= 2
+$ yes | timeout 20 retex-info -; timeout 20 retex-combine - -o x.png </dev/zero; yes '#' | timeout 20 retex-combine set.exr --batch -; timeout 20 retex-render /dev/zero -o x.exr; retex-info - </dev/null; retex-info - <set.exr | head -1; cat set.exr | retex-info - | head -1
+> layout         paper
+> layout         paper
+! retex-info: error: standard input is not a set: neither an OpenEXR file nor a pack
+! retex-combine: error: cannot read standard input: it is a device
+! retex-combine: error: -: more than the 64 MB that a table may have
+! retex-render: error: /dev/zero: there is nothing in the scene: no object, no light, no sky
+! retex-info: error: standard input is not a set: it is empty
+
 # What is no limit.
 $ for o in "--max-memory 0" "--max-memory much" "--max-memory 1GB" "--max-time 0" "--max-time -1" "--max-pixels 0" "--max-pixels 1e6" "--max-steps 1.5"; do retex-render $o ball.pov -o x.exr; done
 ! retex-render: error: --max-memory: expected a size such as 512M, 4G or a number of MB, not '0'

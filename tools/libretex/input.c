@@ -8,6 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <sys/sysmacros.h>
 #include <unistd.h>
 
 #include "input.h"
@@ -45,12 +46,33 @@ static int read_some(const RetexInput *input, unsigned char *to, size_t room, si
     return count < 0 ? fail_read(input, errno, err) : 0;
 }
 
+/* Whether anything that is read here begins so: OpenEXR, JPEG, a zip, an unfinished render. Of what does not, no more
+ * is read: it may have no end. */
+static int begins_well(const RetexInput *input)
+{
+    static const struct {
+        const char *bytes;
+        size_t count;
+    } beginnings[] = {{"\x76\x2f\x31\x01", 4}, {"\xff\xd8\xff", 3}, {"PK", 2}, {"retex\n", 6}};
+
+    for (size_t i = 0; i < sizeof beginnings / sizeof *beginnings; i++) {
+        const size_t count = input->size < beginnings[i].count ? (size_t)input->size : beginnings[i].count;
+        if (memcmp(input->data, beginnings[i].bytes, count) == 0)
+            return 1;
+    }
+    return 0;
+}
+
 /* As much of a pipe as may be in memory; *ended: that is all. */
 static int spool_in_memory(RetexInput *input, int *ended, RetexError *err)
 {
     size_t room = 0, got;
 
     for (*ended = 0; input->size < SPOOL_MEMORY; input->size += got) {
+        if (input->size && !begins_well(input)) {
+            *ended = 1;
+            return 0;
+        }
         if (input->size == room) {
             room = room ? room * 2 : SPOOL_BEGIN;
             unsigned char *data = realloc(input->data, room);
@@ -135,6 +157,10 @@ static int open_descriptor(RetexInput *input, const char *path, const RetexAcces
         return fail_read(input, errno, err);
     if (S_ISDIR(status.st_mode))
         return fail_read(input, EISDIR, err);
+    /* what gives bytes without end, or waits for them; /dev/null is an empty file */
+    if (S_ISBLK(status.st_mode) ||
+        (S_ISCHR(status.st_mode) && status.st_rdev != makedev(1, 3) && !isatty(input->descriptor)))
+        return retex_fail(err, RETEX_EIO, "cannot read %s: it is a device", input->name);
     /* standard input may be a file that someone has read the beginning of: then only the rest is meant */
     if (S_ISREG(status.st_mode) && lseek(input->descriptor, 0, SEEK_CUR) == 0) {
         input->size = (uint64_t)status.st_size;
