@@ -1,5 +1,5 @@
-/* Pigments that are no albedo: a surface of such a colour would give back more light than it gets. What shines may be as
- * bright as it likes. Each is warned of once, where its colour is written. */
+/* Pigments that are no albedo: a surface of such a colour would give back more light than it gets. What shines may be
+ * as bright as it likes. Each is warned of once, where its colour is written. */
 #include <string.h>
 #include "sdl/scene_side.h"
 

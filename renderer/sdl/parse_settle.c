@@ -134,7 +134,7 @@ static void warn_of_image(void *context, const char *text)
 {
     const ImageWarning *warning = context;
     const SideImage *image = warning->image;
-    sdl_warn_at(warning->sdl, image->file, image->line, "image_map: %s: %s", image->map.path, text);
+    sdl_warn_at(warning->sdl, image->file, image->line, "image_map: %s", text); /* which begins with the path */
 }
 
 static void load_image(Sdl *sdl, SideImage *image, int is_light, int *room)

@@ -14,7 +14,8 @@ size_t retex_deflate_work(void);
 /* A piece of a raw stream that stands for bytes, at a level that takes little time: of noise a longer search finds no
  * more. The last piece ends the stream; otherwise what comes next begins at a whole byte. Returns how many bytes it
  * takes, or 0 where it does not fit into room or memory is short. */
-size_t retex_deflate(void *work, unsigned char *packed, size_t room, const unsigned char *bytes, size_t count, int is_last);
+size_t retex_deflate(void *work, unsigned char *packed, size_t room, const unsigned char *bytes, size_t count,
+                     int is_last);
 
 /* The same without looking for anything: a little larger than the bytes are. */
 size_t retex_deflate_stored(unsigned char *packed, size_t room, const unsigned char *bytes, size_t count, int is_last);
