@@ -180,8 +180,11 @@ class SceneJob
         must(render_scene(&rendered, scene_.get(), &options_.render, nullptr, &err), err);
         std::unique_ptr<RetexSet, void (*)(RetexSet *)> owned(rendered, [](RetexSet *set) { retex_set_close(&set); });
         renders++;
-        if (options_.denoise)
-            must(retex_denoise(rendered, nullptr, nullptr, options_.render.nthreads, &err), err);
+        if (options_.denoise) {
+            RetexDenoiseParams params = RETEX_DENOISE_INIT;
+            params.budget = budget_.begin();
+            must(retex_denoise(rendered, &params, nullptr, options_.render.nthreads, &err), err);
+        }
         if (!is_picture()) {
             must(retex_set_checksum(rendered, options_.render.nthreads, &err), err);
             manifest_ = manifest_of(*rendered);

@@ -179,6 +179,7 @@ static void denoise(Arguments *a, RetexSet *set)
     RetexError err;
     RetexDenoiseParams params = RETEX_DENOISE_INIT;
     params.progress = denoise_progress, params.progress_context = a->cli;
+    params.budget = a->cli->budget;
     if (retex_denoise(set, &params, NULL, a->cli->threads, &err))
         cli_fail(a->cli, &err);
 }

@@ -98,6 +98,7 @@ int main(int argc, char **argv)
     params.progress = progress;
     params.progress_context = &cli;
     params.near = output;
+    params.budget = cli.budget;
     if (retex_denoise(set, &params, NULL, cli.threads, &err))
         cli_fail(&cli, &err);
     const double denoised = seconds_now();

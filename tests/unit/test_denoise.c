@@ -42,6 +42,27 @@ static void test_threads_and_vectors(void **state)
     retex_set_close(&first);
 }
 
+/* A budget that is stopped, or whose time is over, ends it, of sets in memory. */
+static void test_budget_ends_it(void **state)
+{
+    (void)state;
+    RetexError err = {0};
+    RetexDenoiseParams params = RETEX_DENOISE_INIT;
+    for (int late = 0; late < 2; late++) {
+        RetexSet *set = noisy_set("footprints", 60, 40);
+        RetexBudget *budget = NULL;
+        assert_int_equal(retex_budget_create(&budget, &err), 0);
+        params.budget = budget;
+        if (late)
+            retex_budget_set_seconds(budget, 1e-9);
+        else
+            retex_budget_stop(budget);
+        assert_int_equal(retex_denoise(set, &params, NULL, 2, &err), late ? RETEX_ELIMIT : RETEX_ESTOPPED);
+        retex_budget_close(&budget);
+        retex_set_close(&set);
+    }
+}
+
 /* What lies in the region was filtered, with what lies around it; around it nothing changed. */
 static void test_region(void **state)
 {
@@ -364,6 +385,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_threads_and_vectors),
+        cmocka_unit_test(test_budget_ends_it),
         cmocka_unit_test(test_region),
         cmocka_unit_test(test_data_is_gone),
         cmocka_unit_test(test_beauty_is_the_recombination),

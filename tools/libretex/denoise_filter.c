@@ -22,6 +22,8 @@ static void denoise_job(void *context, int index, int thread)
 {
     Filter *w = context;
     const Denoiser *d = w->denoiser;
+    if (retex_budget_is_stopped(d->params.budget))
+        return;
     tile_denoise(d, w->rooms[thread], d->roi.x0 + index * DENOISE_STEP, w->band,
                  w->sums + (size_t)index * (size_t)d->signals.count);
 }
@@ -112,7 +114,7 @@ static void close_filter(Filter *w)
     denoise_footprints_close(&w->denoiser->footprints);
 }
 
-static void run(Filter *w)
+static int run(Filter *w, RetexError *err)
 {
     const Denoiser *d = w->denoiser;
     int number = 0;
@@ -122,6 +124,9 @@ static void run(Filter *w)
         w->band->rows = d->roi.y1 - y < DENOISE_STEP ? d->roi.y1 - y : DENOISE_STEP;
         memset(w->sums, 0, sizeof *w->sums * (size_t)w->tiles_x * (size_t)d->signals.count);
         retex_parallel(w->nthreads, w->tiles_x, denoise_job, w);
+        const int code = retex_budget_check(d->params.budget, err);
+        if (code)
+            return code;
         add_sums(w);
         commit_band(&w->bands[(number + 1) % 2], d); /* nothing reads the band before any more */
         w->bands[(number + 1) % 2].rows = 0;
@@ -130,6 +135,7 @@ static void run(Filter *w)
     }
     for (int k = 0; k < 2; k++)
         commit_band(&w->bands[k], d);
+    return RETEX_OK;
 }
 
 int denoise_filter(Denoiser *denoiser, DenoiseResult *result, int nthreads, RetexError *err)
@@ -137,7 +143,7 @@ int denoise_filter(Denoiser *denoiser, DenoiseResult *result, int nthreads, Rete
     Filter filter = {.denoiser = denoiser, .result = result, .nthreads = retex_threads(nthreads)};
     int code = open_filter(&filter, err);
     if (!code)
-        run(&filter);
+        code = run(&filter, err);
     close_filter(&filter);
     return code;
 }

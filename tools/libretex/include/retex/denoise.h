@@ -33,6 +33,7 @@
 #ifndef RETEX_DENOISE_H
 #define RETEX_DENOISE_H
 
+#include <retex/budget.h>
 #include <retex/set.h>
 
 #ifdef __cplusplus
@@ -51,8 +52,9 @@ typedef struct RetexDenoiseParams {
     void *progress_context;
     const char *near;    /* of a set that is open: path of a file beside which temporary ones, without names, may lie;
                             NULL, the default: in $TMPDIR or /tmp */
+    const RetexBudget *budget; /* may stop it; NULL, the default = nothing does */
 } RetexDenoiseParams;
-#define RETEX_DENOISE_INIT { sizeof(RetexDenoiseParams), 1, 5, 1, 0, NULL, NULL, NULL }
+#define RETEX_DENOISE_INIT { sizeof(RetexDenoiseParams), 1, 5, 1, 0, NULL, NULL, NULL, NULL }
 
 /* Filter a set where it lies, or, where it is open (retex_set_open) and roi is NULL, some rows after the other, into a
  * spool: terms, with `footprints` also broad footprints and, as far as they are near to each other, later ones, and the
