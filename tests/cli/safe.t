@@ -146,6 +146,13 @@ $ head -c $(($(wc -c <t.tga) - 26)) t.tga >bare.tga; cp bare.tga bare.dat; head 
 ! retex-combine: error: bare.dat: no PNG, JPEG, OpenEXR, TIFF, TGA, BMP, GIF or Radiance HDR by what is in it: others are not read (--safe)
 ! retex-combine: error: cut.tga: no PNG, JPEG, OpenEXR, TIFF, TGA, BMP, GIF or Radiance HDR by what is in it: others are not read (--safe)
 ! retex-combine: error: zero.tga: no PNG, JPEG, OpenEXR, TIFF, TGA, BMP, GIF or Radiance HDR by what is in it: others are not read (--safe)
+# Of a GIF and a BMP the size is looked at before a decoder makes room for it.
+$ printf 'GIF89a\030\171\030\171\200\0\0\0\0\0\377\377\377,\0\0\0\0\1\0\1\0\0\2\2\104\1\0;' >wide.gif; { printf 'BM\66\0\0\0\0\0\0\0\66\4\0\0\50\0\0\0\60\165\0\0\60\165\0\0\1\0\10\0'; head -c 1048 /dev/zero; } >wide.bmp; for o in '--max-memory 200M' '--max-pixels 1000000'; do for f in wide.gif wide.bmp; do retex-combine --safe $o -q s.exr --texture floor=$f -o x.exr; done; done
+! retex-combine: error: wide.gif: the picture is too large: 961000000 pixels, more than --max-memory has room for
+! retex-combine: error: wide.bmp: the picture is too large: 900000000 pixels, more than --max-memory has room for
+! retex-combine: error: wide.gif: the picture is too large: 961000000 pixels, more than the 1000000 of --max-pixels
+! retex-combine: error: wide.bmp: the picture is too large: 900000000 pixels, more than the 1000000 of --max-pixels
+= 2
 # No devices, no pipes; standard input as a stream is one all the same.
 $ for f in pipe.pov /dev/zero /dev/stdin a /proc/self/environ; do retex-combine --safe -q s.exr --texture floor=$f -o x.exr; retex-combine --safe -q $f -o x.exr; done
 ! retex-combine: error: pipe.pov is a folder, a device or a pipe: only files are read (--safe)

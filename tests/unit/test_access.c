@@ -260,6 +260,29 @@ static void test_formats(void **state)
     }
 }
 
+static void test_header_pixels(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *format;
+        unsigned char bytes[32];
+        uint64_t pixels;
+    } cases[] = {
+        {"gif", "GIF89a\x10\x27\x20\x4e", 10000 * 20000},
+        {"bmp", "BM\0\0\0\0\0\0\0\0\x36\0\0\0\x28\0\0\0\x03\0\0\0\x05\0\0\0", 15},
+        {"bmp", "BM\0\0\0\0\0\0\0\0\x36\0\0\0\x28\0\0\0\x03\0\0\0\xfb\xff\xff\xff", 15},
+        {"bmp", "BM\0\0\0\0\0\0\0\0\x1a\0\0\0\x0c\0\0\0\x03\0\x05", 15},
+        {"png", "\x89PNG\r\n\x1a\n", 0},
+        {NULL, "GIF89a\x10\x27\x20\x4e", 0},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        RetexInput *input = NULL;
+        assert_int_equal(retex_input_borrow(&input, cases[i].bytes, sizeof cases[i].bytes, "a", NULL), 0);
+        assert_int_equal(image_header_pixels(input, cases[i].format), cases[i].pixels);
+        retex_input_close(&input);
+    }
+}
+
 static void test_environment(void **state)
 {
     (void)state;
@@ -280,9 +303,10 @@ static void test_environment(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_answers), cmocka_unit_test(test_absolute_names),
-        cmocka_unit_test(test_open),    cmocka_unit_test(test_what_is_read_was_checked),
-        cmocka_unit_test(test_formats), cmocka_unit_test(test_environment),
+        cmocka_unit_test(test_answers),     cmocka_unit_test(test_absolute_names),
+        cmocka_unit_test(test_open),        cmocka_unit_test(test_what_is_read_was_checked),
+        cmocka_unit_test(test_formats),     cmocka_unit_test(test_header_pixels),
+        cmocka_unit_test(test_environment),
     };
     return cmocka_run_group_tests(tests, make_tree, remove_tree);
 }

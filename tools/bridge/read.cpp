@@ -33,6 +33,9 @@ int guarded(const char *path, RetexError *err, const std::function<void()> &body
     } catch (const std::bad_alloc &) {
         code = RETEX_ENOMEM;
         std::snprintf(message, sizeof message, "not enough memory");
+    } catch (const std::length_error &) { // a decoder's array, of more than there can be
+        code = RETEX_ENOMEM;
+        std::snprintf(message, sizeof message, "not enough memory");
     } catch (const std::exception &e) {
         code = RETEX_EFORMAT;
         std::snprintf(message, sizeof message, "%s", e.what());

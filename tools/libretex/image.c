@@ -247,9 +247,16 @@ static int choose_decoder(RetexBridgeFile *file, const RetexInput *input, const 
 {
     *file = (RetexBridgeFile){.path = path, .descriptor = -1, .colorspace = params->colorspace};
     set_limit(file, params);
-    if (!params->access || !params->access->safe || strcmp(path, "-") == 0)
+    if (strcmp(path, "-") == 0)
         return 0;
-    file->format = image_format(input);
+    const char *format = image_format(input);
+    const uint64_t pixels = image_header_pixels(input, format);
+    if (file->max_pixels > 0 && pixels > (uint64_t)file->max_pixels)
+        return retex_fail_at(err, RETEX_ELIMIT, path, 0, 0, "the picture is too large: %.0f pixels, more than %s",
+                             (double)pixels, file->limit);
+    if (!params->access || !params->access->safe)
+        return 0;
+    file->format = format;
     file->descriptor = retex_input_descriptor(input);
     if (!file->format)
         return retex_fail_at(err, RETEX_EFORMAT, path, 0, 0,

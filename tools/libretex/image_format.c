@@ -93,3 +93,18 @@ const char *image_format(const RetexInput *input)
         return "bmp";
     return is_tga(input, begin) ? "targa" : NULL;
 }
+
+uint64_t image_header_pixels(const RetexInput *input, const char *format)
+{
+    unsigned char begin[BEGIN] = {0};
+
+    retex_input_read(input, begin, sizeof begin, 0);
+    if (format && strcmp(format, "gif") == 0)
+        return (uint64_t)get16(begin + 6) * get16(begin + 8);
+    if (!format || strcmp(format, "bmp") != 0)
+        return 0;
+    if (get32(begin + 14) == 12)
+        return (uint64_t)get16(begin + 18) * get16(begin + 20);
+    const int32_t height = (int32_t)get32(begin + 22); /* below 0: rows from the top */
+    return (uint64_t)get32(begin + 18) * (uint64_t)(height < 0 ? -(int64_t)height : height);
+}

@@ -10,4 +10,8 @@
  * alone. */
 const char *image_format(const RetexInput *input);
 
+/* Pixels of a GIF or BMP, by its header: OpenImageIO makes room for all of them before it tells how many they are.
+ * 0 of other formats. */
+uint64_t image_header_pixels(const RetexInput *input, const char *format /* or NULL */);
+
 #endif
