@@ -12,6 +12,7 @@
 #include <cstring>
 #include <functional>
 #include <memory>
+#include <mutex>
 #include <thread>
 #include <vector>
 
@@ -135,18 +136,42 @@ class NamedSpool
     {
         const char *folder = std::getenv("TMPDIR");
         path = std::string(folder && *folder ? folder : "/tmp") + "/retex-XXXXXX." + end;
+        std::lock_guard<std::mutex> lock(mutex());
         int fd = mkstemps(&path[0], int(end.size()) + 1);
         if (fd < 0)
             throw Failure(RETEX_EIO, std::string("cannot make a temporary file: ") + std::strerror(errno));
         ::close(fd);
+        all().push_back(this);
     }
     ~NamedSpool()
     {
+        std::lock_guard<std::mutex> lock(mutex());
         unlink(path.c_str());
+        all().erase(std::find(all().begin(), all().end(), this));
+    }
+    // Of all there are; the process is about to end.
+    static void remove_all()
+    {
+        std::unique_lock<std::mutex> lock(mutex(), std::try_to_lock);
+        for (const NamedSpool *one : all())
+            unlink(one->path.c_str());
+        lock.release(); // kept, so that no other is made
     }
     NamedSpool(const NamedSpool &) = delete;
     NamedSpool &operator=(const NamedSpool &) = delete;
     std::string path;
+
+  private:
+    static std::mutex &mutex()
+    {
+        static std::mutex one;
+        return one;
+    }
+    static std::vector<const NamedSpool *> &all()
+    {
+        static std::vector<const NamedSpool *> list;
+        return list;
+    }
 };
 
 void copy_file(const std::string &path, Spool &spool)
@@ -374,6 +399,7 @@ RETEX_EXPORTED RetexBridgeFreePlan retex_oiio_plan_free;
 RETEX_EXPORTED RetexBridgeConvert retex_oiio_convert;
 RETEX_EXPORTED RetexBridgeWrite retex_oiio_write;
 RETEX_EXPORTED RetexBridgeCheck retex_oiio_check;
+RETEX_EXPORTED RetexBridgeRemove retex_oiio_remove;
 
 static const RetexWriteParams default_params = RETEX_WRITE_INIT;
 
@@ -426,4 +452,9 @@ int retex_oiio_write(const RetexBridgePlan *plan, const void *samples, RetexBrid
 int retex_oiio_check(const char *path, const RetexWriteParams *params, RetexError *err)
 {
     return bridge::guarded(path, err, [&] { bridge::check_picture(path, params ? *params : default_params); });
+}
+
+void retex_oiio_remove(void)
+{
+    bridge::NamedSpool::remove_all();
 }

@@ -1,5 +1,6 @@
 /* Finds and loads libretex-oiio.so, once a process, when the first picture needs it. */
 #include "bridge_load.h"
+#include "unfinished.h"
 
 #include <dlfcn.h>
 #include <limits.h>
@@ -21,6 +22,7 @@ static struct {
     RetexBridgeConvert *convert;
     RetexBridgeWrite *write;
     RetexBridgeCheck *check;
+    RetexBridgeRemove *remove;
     char message[512]; /* why it could not be loaded; "" = it is */
 } bridge = {.once = PTHREAD_ONCE_INIT};
 
@@ -83,11 +85,14 @@ static void load_bridge(void)
     *(void **)&bridge.convert = dlsym(library, "retex_oiio_convert");
     *(void **)&bridge.write = dlsym(library, "retex_oiio_write");
     *(void **)&bridge.check = dlsym(library, "retex_oiio_check");
+    *(void **)&bridge.remove = dlsym(library, "retex_oiio_remove");
     if (!abi || !bridge.read || !bridge.read_narrow || !bridge.plan || !bridge.plan_free || !bridge.convert ||
-        !bridge.write || !bridge.check || abi() != RETEX_BRIDGE_ABI)
+        !bridge.write || !bridge.check || !bridge.remove || abi() != RETEX_BRIDGE_ABI)
         keep_message(BRIDGE_NAME " is of another version");
-    else
+    else {
         bridge.message[0] = '\0';
+        unfinished_also(bridge.remove);
+    }
 }
 
 static int bridge_ready(const char *path, RetexError *err)

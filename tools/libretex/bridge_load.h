@@ -83,7 +83,7 @@ typedef struct RetexBridgeHost {
     void (*free)(void *block);
 } RetexBridgeHost;
 
-#define RETEX_BRIDGE_ABI 6
+#define RETEX_BRIDGE_ABI 7
 typedef int RetexBridgeAbi(void);
 typedef int RetexBridgeRead(const RetexBridgeHost *host, RetexImage *dst, const RetexBridgeFile *file, RetexError *err);
 typedef int RetexBridgeReadNarrow(const RetexBridgeHost *host, RetexNarrowImage *dst, const RetexBridgeFile *file,
@@ -95,6 +95,8 @@ typedef int RetexBridgeConvert(const RetexBridgePlan *plan, const float *rows, l
                                RetexError *err);
 typedef int RetexBridgeWrite(const RetexBridgePlan *plan, const void *samples, RetexBridgeSink *sink, void *context,
                              RetexError *err);
+/* Before the process ends: temporary files that have a name. */
+typedef void RetexBridgeRemove(void);
 typedef int RetexBridgeCheck(const char *path, const RetexWriteParams *params, RetexError *err);
 
 #ifdef __cplusplus

@@ -2,6 +2,7 @@
 #include "unfinished.h"
 
 #include <pthread.h>
+#include <stdatomic.h>
 #include <stddef.h>
 #include <time.h>
 #include <unistd.h>
@@ -10,6 +11,12 @@
 
 static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
 static Unfinished *files; /* under lock */
+static _Atomic(void (*)(void)) also;
+
+void unfinished_also(void (*remove)(void))
+{
+    atomic_store(&also, remove);
+}
 
 void unfinished_lock(void)
 {
@@ -41,7 +48,10 @@ void unfinished_drop(Unfinished *file)
 void retex_unfinished_remove(void)
 {
     struct timespec until;
+    void (*others)(void) = atomic_load(&also);
 
+    if (others)
+        others();
     clock_gettime(CLOCK_REALTIME, &until);
     until.tv_nsec += 500000000;
     until.tv_sec += until.tv_nsec / 1000000000;

@@ -16,4 +16,7 @@ void unfinished_unlock(void);
 void unfinished_add(Unfinished *file, const char *path);
 void unfinished_drop(Unfinished *file); /* one that is not there is fine */
 
+/* Who removes what a library of its own keeps a list of; called by retex_unfinished_remove too. NULL = nobody. */
+void unfinished_also(void (*remove)(void));
+
 #endif
