@@ -54,11 +54,12 @@ $ printf 'out,floor\n' >../t; retex-combine s.exr --batch ../t; printf 'output,"
 ! retex-combine: error: /dev/zero: more than the 64 MB that a table may have
 
 # An image whose beginning is no picture, of each reader; what is behind it is seen when the picture is made.
-$ echo text >x.jpg; echo text >x.exr; : >x.png; head -c 9 brick.jpg >cut.jpg; head -c 2000 s.exr >cut.exr; { echo output,floor; for f in x.jpg x.exr x.png cut.jpg cut.exr; do echo "$f.png,$f"; done; } >../t; retex-combine s.exr --batch ../t 2>&1 | cut -c 1-60; rm x.* cut.*
+$ echo text >x.jpg; echo text >x.exr; : >x.png; head -c 9 brick.jpg >cut.jpg; head -c 2000 s.exr >cut.exr; { echo output,floor; for f in x.jpg x.exr x.png cut.jpg cut.exr /dev/zero; do echo "${f##*/}.png,$f"; done; } >../t; retex-combine s.exr --batch ../t 2>&1 | cut -c 1-60; rm x.* cut.*
 > retex-combine: error: ../t:2: x.jpg: cannot read: "x.jpg" is
 > retex-combine: error: ../t:3: x.exr: cannot read: "x.exr" is
 > retex-combine: error: ../t:4: x.png: cannot read: the file i
 > retex-combine: error: ../t:6: cut.exr is damaged or truncate
+> retex-combine: error: ../t:7: cannot read /dev/zero: it is a
 
 # Targets that the set has not what is needed of.
 $ retex-sample -q s.exr --texture floor=brick.jpg | retex-combine -q - --batch ../t2 2>&1 | cut -c 1-60; printf 'output,wall,floor\nw.png,,\nf.png,,brick.jpg\n' >../t; retex-sample -q s.exr --texture floor=brick.jpg | retex-combine -q - --batch ../t 2>&1 | cut -c 1-80; sh ../new

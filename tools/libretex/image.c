@@ -393,7 +393,7 @@ int retex_image_read_check(const char *path, const RetexReadParams *given, Retex
 
     if (strcmp(path, "-") == 0)
         return 0;
-    if (!safe && stat(path, &info) == 0 && !S_ISREG(info.st_mode) && !S_ISDIR(info.st_mode))
+    if (!safe && stat(path, &info) == 0 && S_ISFIFO(info.st_mode))
         return access(path, R_OK) == 0 ? 0 : retex_fail(err, RETEX_EIO, "cannot read %s: %s", path, strerror(errno));
     int status = retex_input_open_allowed(&input, path, params.access, err);
     if (!status)

@@ -67,8 +67,7 @@ typedef struct RetexReadParams {
 int retex_image_read_with(RetexImage *dst, const char *path, const RetexReadParams *params /* NULL = defaults */,
                           RetexError *err);
 /* Whether retex_image_read_with could read it, as far as the file's beginning tells: it is there, may be read, and is a
- * picture. Colour spaces are not looked at, of what is no regular file nothing is read, nor of "-". For before long
- * work. */
+ * picture. Colour spaces are not looked at, of pipes and "-" nothing is read. For before long work. */
 int retex_image_read_check(const char *path, const RetexReadParams *params /* NULL = defaults */, RetexError *err);
 
 /* How a picture leaves. Begin with RETEX_WRITE_INIT. */
