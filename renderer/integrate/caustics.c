@@ -58,6 +58,7 @@ typedef struct Maker {
     const Scene *scene;
     const Accel *accel;
     const Lights *lights;
+    const RetexBudget *budget; /* may stop it, or NULL */
     Caster *casters;
     double *caster_sums;
     int ncasters, nphotons;
@@ -214,7 +215,7 @@ static void trace_batch(void *context, int index, int thread)
     uint32_t first = (uint32_t)index * BATCH;
     int count = 0;
     (void)thread;
-    for (uint32_t k = 0; k < BATCH; k++)
+    for (uint32_t k = 0; k < BATCH && !retex_budget_is_stopped(m->budget); k++)
         count += trace_photon(m, first + k, &landings[count]);
     m->counts[index] = count;
 }
@@ -504,13 +505,13 @@ static int trace_photons(Maker *m, long paths, int nthreads, int *found, RetexEr
         return retex_fail(err, RETEX_ENOMEM, "out of memory for photons");
     *found = trace_batches(m, batches, nthreads);
     m->nphotons = batches * BATCH;
-    return RETEX_OK;
+    return retex_budget_check(m->budget, err);
 }
 
 int caustics_create(Caustics **caustics, const Scene *scene, const Accel *accel, const Lights *lights, long paths,
-                    int nthreads, RetexError *err)
+                    int nthreads, const RetexBudget *budget, RetexError *err)
 {
-    Maker m = {.scene = scene, .accel = accel, .lights = lights};
+    Maker m = {.scene = scene, .accel = accel, .lights = lights, .budget = budget};
     int found = 0, code = find_casters(&m, err);
     *caustics = NULL;
     if (!code && m.ncasters > 0 && lights_emit(lights))

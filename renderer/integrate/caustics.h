@@ -29,9 +29,9 @@ typedef struct CausticsCell {
 } CausticsCell;
 
 /* paths: how many the picture will take; photons take a small share of their time. *caustics is NULL where there is
- * nothing to guide to. The same for every nthreads. */
+ * nothing to guide to, or the budget (NULL = none) stops it. The same for every nthreads. */
 int caustics_create(Caustics **caustics, const Scene *scene, const Accel *accel, const Lights *lights, long paths,
-                    int nthreads, RetexError *err);
+                    int nthreads, const RetexBudget *budget, RetexError *err);
 void caustics_close(Caustics **caustics);
 /* The cell of a place, or NULL where no photons came down. */
 const CausticsCell *caustics_find(const Caustics *caustics, Vec3 position);

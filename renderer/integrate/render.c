@@ -123,7 +123,7 @@ int render_open_guide(Render *r, RetexError *err)
     if (!r->params.caustics_guide)
         return RETEX_OK;
     int code = caustics_create(&r->caustics, r->scene, r->accel, r->lights, (long)r->width * r->height * r->params.spp,
-                               r->params.nthreads, err);
+                               r->params.nthreads, r->params.budget, err);
     r->context.caustics = r->caustics;
     return code;
 }

@@ -26,10 +26,31 @@ static Caustics *make_guide(const Scene *scene, int nthreads)
     Lights *lights;
     assert_int_equal(accel_create(&accel, scene, nthreads, NULL), 0);
     assert_int_equal(lights_create(&lights, scene, NULL), 0);
-    assert_int_equal(caustics_create(&caustics, scene, accel, lights, 1 << 20, nthreads, NULL), 0);
+    assert_int_equal(caustics_create(&caustics, scene, accel, lights, 1 << 20, nthreads, NULL, NULL), 0);
     lights_close(&lights);
     accel_close(&accel);
     return caustics;
+}
+
+/* A budget that is stopped ends the tracing of photons. */
+static void budget_ends_it(void **state)
+{
+    (void)state;
+    Scene *scene = test_scene(LENS);
+    Caustics *caustics;
+    Accel *accel;
+    Lights *lights;
+    RetexBudget *budget;
+    assert_int_equal(retex_budget_create(&budget, NULL), 0);
+    retex_budget_stop(budget);
+    assert_int_equal(accel_create(&accel, scene, 1, NULL), 0);
+    assert_int_equal(lights_create(&lights, scene, NULL), 0);
+    assert_int_equal(caustics_create(&caustics, scene, accel, lights, 1L << 40, 2, budget, NULL), RETEX_ESTOPPED);
+    assert_null(caustics);
+    lights_close(&lights);
+    accel_close(&accel);
+    scene_close(&scene);
+    retex_budget_close(&budget);
 }
 
 /* Points on the floor below the ball that have a cell; returns how many. */
@@ -166,6 +187,7 @@ int main(void)
         cmocka_unit_test(density_is_that_of_samples),
         cmocka_unit_test(same_for_any_threads),
         cmocka_unit_test(nothing_without_glass),
+        cmocka_unit_test(budget_ends_it),
         cmocka_unit_test(mean_stays),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
