@@ -12,6 +12,7 @@
 #define _GNU_SOURCE
 #include <dlfcn.h>
 #include <errno.h>
+#include <execinfo.h>
 #include <fcntl.h>
 #include <link.h>
 #include <pthread.h>
@@ -27,7 +28,7 @@
 
 enum { MEMORY, READ, WRITE, OPEN, RENAME, THREAD, MAP, KINDS };
 enum { OWN, LIBRARY, OWNERS };
-enum { RANGES = 16, EARLY = 1 << 16 };
+enum { RANGES = 16, EARLY = 1 << 16, FRAMES = 24 };
 
 static const char *const kind_names[KINDS] = {"memory", "read", "write", "open", "rename", "thread", "map"};
 static const int kind_errors[KINDS] = {ENOMEM, EIO, ENOSPC, EMFILE, EIO, EAGAIN, ENOMEM};
@@ -106,20 +107,40 @@ static void tell(const char *format, ...)
     syscall(SYS_close, file);
 }
 
+/* Whose call it is, but for the C and the C++ library, which pass on what others ask for. */
+static void tell_fired(const char *function)
+{
+    void *frames[FRAMES];
+    int count = backtrace(frames, FRAMES);
+
+    for (int i = 1; i < count; i++) {
+        Dl_info info = {0};
+        if (!dladdr(frames[i], &info) || !info.dli_fname)
+            continue;
+        const char *slash = strrchr(info.dli_fname, '/'), *module = slash ? slash + 1 : info.dli_fname;
+        if (strstr(module, "shim.so") || strstr(module, "libstdc++") || strncmp(module, "libc.so", 7) == 0)
+            continue;
+        tell("fired %s %s+0x%lx%s\n", function, module, (unsigned long)((char *)frames[i] - (char *)info.dli_fbase),
+             opening ? " dlopen" : "");
+        return;
+    }
+    tell("fired %s ?+0x0%s\n", function, opening ? " dlopen" : "");
+}
+
 /* Is this call to fail? Sets errno then. */
 static int fails(int kind, const char *function, uintptr_t caller)
 {
-    if (!started)
+    static _Thread_local int telling; /* which takes memory, too */
+
+    if (!started || telling)
         return 0;
     int owner = owner_of(caller);
     long number = atomic_fetch_add(&counts[kind][owner], 1) + 1;
     if (kind != chosen_kind || owner != chosen_owner || number != chosen)
         return 0;
-    Dl_info info = {0};
-    dladdr((void *)caller, &info);
-    const char *module = info.dli_fname ? info.dli_fname : "?", *slash = strrchr(module, '/');
-    tell("fired %s %s+0x%lx%s\n", function, slash ? slash + 1 : module,
-         (unsigned long)(caller - (uintptr_t)info.dli_fbase), opening ? " dlopen" : "");
+    telling = 1;
+    tell_fired(function);
+    telling = 0;
     errno = kind_errors[kind];
     return 1;
 }

@@ -99,12 +99,12 @@ static int open_original(Polynomial *polynomial, const RetexSet *set, RetexError
     return polynomial_open(polynomial, set, NULL, NULL, &all, 0, 1, err);
 }
 
-int combine_check(const RetexSet *set)
+int combine_check(const RetexSet *set, RetexError *err)
 {
     Polynomial polynomial;
-    int code = open_original(&polynomial, set, NULL);
+    int code = open_original(&polynomial, set, err);
     polynomial_close(&polynomial);
-    return code;
+    return code == RETEX_ENOMEM ? code : code == RETEX_OK;
 }
 
 int combine_original_rows(float *out, const RetexSet *set, int y0, int y1, RetexError *err)

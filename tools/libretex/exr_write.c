@@ -201,8 +201,10 @@ static int encode_bands(RetexExrEncoding *encoding, int nthreads, RetexError *er
     work.failed = calloc((size_t)encoding->nbands, sizeof *work.failed);
     if (work.scratch && work.failed)
         retex_parallel(nthreads, encoding->nbands, encode_job, &work);
-    for (int i = 0; i < encoding->nbands; i++)
-        failed |= !work.failed || work.failed[i];
+    else
+        failed = 1;
+    for (int i = 0; !failed && i < encoding->nbands; i++)
+        failed = work.failed[i];
     for (int i = 0; work.scratch && i < nthreads; i++)
         retex_chunk_free(&work.scratch[i]);
     free(work.scratch);

@@ -35,7 +35,7 @@ static int mark_needed(char *needed, const RetexSet *set)
     return ok;
 }
 
-int pack_combine_fits(const RetexSet *set)
+int pack_combine_fits(const RetexSet *set, RetexError *err)
 {
     char needed[RETEX_SET_PARTS_MAX];
     const RetexPart *picture = &set->parts[0];
@@ -44,7 +44,7 @@ int pack_combine_fits(const RetexSet *set)
         if (i == 0 || needed[i])
             ok = !(i == 0 && needed[i]) && set->parts[i].image.width == set->width &&
                  set->parts[i].image.height == set->height;
-    return ok && !combine_check(set);
+    return ok ? combine_check(set, err) : 0;
 }
 
 typedef struct Rounding {

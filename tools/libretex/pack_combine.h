@@ -7,9 +7,9 @@
 
 #include "pack_model.h"
 
-/* 1: part 0 is a picture, and all that its terms need is there, of its size and not part 0 itself. Looks at
- * what the set says of its parts, not at their samples. */
-int pack_combine_fits(const RetexSet *set);
+/* 1: part 0 is a picture, and all that its terms need is there, of its size and not part 0 itself; else 0; or
+ * RETEX_ENOMEM. Looks at what the set says of its parts, not at their samples. */
+int pack_combine_fits(const RetexSet *set, RetexError *err);
 
 /* 1: the halves among what terms need, all of it in memory, are what will be read back: they have been rounded. */
 int pack_combine_is_stored(const RetexSet *set, int nthreads);

@@ -240,14 +240,16 @@ static int encode_model_band(const PackEncoded *w, int part, int index)
 }
 
 /* The picture's numbers less those that the terms give are tried besides the picture alone. */
-static void plan_combined(PackEncoded *w, int nthreads)
+static int plan_combined(PackEncoded *w, int nthreads, RetexError *err)
 {
     PackPart *picture = &w->packed[0];
-    if (picture->codec != PACK_MODEL || !pack_combine_fits(w->set) || !pack_combine_is_stored(w->set, nthreads))
-        return;
+    const int fits = picture->codec == PACK_MODEL ? pack_combine_fits(w->set, err) : 0;
+    if (fits < 0 || !fits || !pack_combine_is_stored(w->set, nthreads))
+        return fits < 0 ? fits : 0;
     w->packed[w->set->nparts] = *picture;
     w->nitems = w->set->nparts + 1;
     picture->codec = PACK_COMBINED;
+    return 0;
 }
 
 static uint64_t bytes_of(const PackPart *packed)
@@ -382,7 +384,7 @@ int pack_encode(PackEncoded *w, const RetexSet *set, const PackGrain *grain, int
     if (!code)
         code = pack_plan(w->packed, set, grain, nthreads, err);
     if (!code && !grain)
-        plan_combined(w, nthreads);
+        code = plan_combined(w, nthreads, err);
     for (int i = 0; !code && i < w->nitems; i++) {
         w->items[i].part = &set->parts[i % set->nparts];
         w->items[i].packed = &w->packed[i];

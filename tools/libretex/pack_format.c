@@ -308,6 +308,16 @@ static int references_are_sound(const PackPart *packed, const PackPart *all)
     return 1;
 }
 
+static int part_is_sound(int part, const RetexSet *set, const PackPart *packed, RetexError *err)
+{
+    int sound = packed[part].codec != PACK_COMBINED ? references_are_sound(&packed[part], packed)
+                : part > 0                          ? 0
+                                                    : pack_combine_fits(set, err);
+    if (sound == 0)
+        return retex_fail(err, RETEX_EFORMAT, "the pack is damaged: the description of a part is not sound");
+    return sound < 0 ? sound : 0;
+}
+
 int pack_understand(PackPart *packed, const RetexSet *set, const char *manifest, RetexError *err)
 {
     json_t *root = json_loads(manifest, 0, NULL);
@@ -325,9 +335,7 @@ int pack_understand(PackPart *packed, const RetexSet *set, const char *manifest,
             code = understand_part(&packed[i], set, o, err);
     }
     for (int i = 0; !code && i < set->nparts; i++)
-        if (packed[i].codec == PACK_COMBINED ? i > 0 || !pack_combine_fits(set)
-                                             : !references_are_sound(&packed[i], packed))
-            code = retex_fail(err, RETEX_EFORMAT, "the pack is damaged: the description of a part is not sound");
+        code = part_is_sound(i, set, packed, err);
     for (int i = 0; !code && i < set->nparts; i++)
         code = pack_part_chunks(&packed[i], err);
     json_decref(root);

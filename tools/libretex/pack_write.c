@@ -225,12 +225,12 @@ static int keep_promise(Attempt *attempt, RetexPackKept *kept, const RetexSet *s
     }
 }
 
-/* Pictures can be made of the set with other textures. Sets that have no terms, or not what they need, are packed
- * without a promise. */
-static int can_be_judged(const RetexSet *set)
+/* 1: pictures can be made of the set with other textures. Sets that have no terms, or not what they need, are packed
+ * without a promise. Or RETEX_ENOMEM. */
+static int can_be_judged(const RetexSet *set, RetexError *err)
 {
-    int sound = set->nterms > 0 && combine_check(set) == 0;
-    for (int t = 0; t < set->ntargets && sound; t++) {
+    int sound = set->nterms > 0 ? combine_check(set, err) : 0;
+    for (int t = 0; t < set->ntargets && sound > 0; t++) {
         sound = 0;
         for (int i = 0; i < set->nfootprints; i++)
             sound |= set->footprints[i].target == t;
@@ -249,7 +249,9 @@ int retex_pack_write(const RetexSet *set, const char *path, const RetexPackParam
     if (params->quality < 1 || params->quality > 100)
         return retex_fail(err, RETEX_EINVAL, "quality is 1 to 100, not %d", params->quality);
     RetexPackKept kept = {.quality = params->quality};
-    const int judged = !params->lossless && can_be_judged(set), nthreads = params->nthreads;
+    const int judged = params->lossless ? 0 : can_be_judged(set, err), nthreads = params->nthreads;
+    if (judged < 0)
+        return judged;
     int code = judged ? pack_judge_open(&judge, set, PACK_PROMISED_PICTURES, nthreads, err) : 0;
     kept.promised = pack_promise(params->quality, set->spp, judge.noise);
     if (!code && params->lossless)
