@@ -161,9 +161,10 @@ static int parse_option(RetexTextureSpec *spec, const char *name, const char *va
 static int parse_options(RetexTextureSpec *spec, const char *opts, RetexError *err)
 {
     int code = RETEX_OK;
-    char *text = strdup(opts);
-    if (!text)
-        return retex_fail(err, RETEX_ENOMEM, "not enough memory");
+    char text[4096]; /* what was parsed once is parsed again later: that must not fail for want of memory */
+    if (strlen(opts) >= sizeof text)
+        return retex_fail(err, RETEX_EPARSE, "texture options of more than %zu characters", sizeof text - 1);
+    strcpy(text, opts);
     for (char *at = text, *next; at && !code; at = next) {
         next = strchr(at, ':');
         if (next)
@@ -179,7 +180,6 @@ static int parse_options(RetexTextureSpec *spec, const char *opts, RetexError *e
         *equals = '\0';
         code = parse_option(spec, at, equals + 1, err);
     }
-    free(text);
     int shifted = spec->repeat == RETEX_REPEAT_BRICK || spec->repeat == RETEX_REPEAT_HALF_DROP;
     if (!code && shifted && (spec->wrap[0] != RETEX_WRAP_REPEAT || spec->wrap[1] != RETEX_WRAP_REPEAT))
         code = retex_fail(err, RETEX_EPARSE, "texture options: repeat=%s needs wrap=repeat, the default, on both axes",
