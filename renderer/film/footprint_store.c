@@ -11,7 +11,11 @@
 
 /* ---- life ---- */
 
-static const char *const kind_names[] = {"sharp", "broad", "later"};
+/* kind: 0 sharp, 1 broad, 2 interreflections. */
+static const char *kind_name(int kind)
+{
+    return retex_footprint_kind_name(RETEX_FOOTPRINT_SHARP + kind);
+}
 
 /* One image of a footprint: uv_Floor_sharp1 and so on. */
 static int add_image(FootprintFilm *film, const char *what, int t, int kind, int k, int *image, RetexError *err)
@@ -28,7 +32,7 @@ static int add_image(FootprintFilm *film, const char *what, int t, int kind, int
     int i = 0;
     while (strcmp(table[i].what, what))
         i++;
-    snprintf(name, sizeof name, "%s_%.90s_%s%d", what, film->scene->targets[t].name, kind_names[kind], k + 1);
+    snprintf(name, sizeof name, "%s_%.90s_%s%d", what, film->scene->targets[t].name, kind_name(kind), k + 1);
     return bands_add(film->bands, name, table[i].letters, table[i].type, image, err);
 }
 
@@ -51,7 +55,7 @@ static int add_footprint(FootprintFilm *film, FootprintImages *f, int t, int kin
  * dep_Floor_sharp_m5: then five of any. */
 static void again_name(const Scene *scene, int t, int kind, const PlanCoefficient *c, char name[RETEX_NAME_MAX])
 {
-    int used = snprintf(name, RETEX_NAME_MAX, "dep_%.80s_%s_", scene->targets[t].name, kind_names[kind]);
+    int used = snprintf(name, RETEX_NAME_MAX, "dep_%.80s_%s_", scene->targets[t].name, kind_name(kind));
     if (c->mixed)
         snprintf(name + used, (size_t)(RETEX_NAME_MAX - used), "m%d", c->mixed);
     for (int later = 0; later < scene->ntargets; later++)

@@ -69,7 +69,7 @@ static int finish_later(FootprintFilm *film, RetexSet *set, int t, RetexMixture 
     int code = RETEX_OK;
     for (int k = 0; k < most_later(film) && !code; k++) {
         const FootprintImages *images = &film->targets[t].later[k];
-        RetexFootprint f = {.target = t, .kind = RETEX_FOOTPRINT_LATER};
+        RetexFootprint f = {.target = t, .kind = RETEX_FOOTPRINT_INTERREFLECTION};
         int index, weight;
         f.hit = 1 + film->params.sharp + film->params.broad + k;
         code = finish_footprint(film, set, images, &f, &index, err);

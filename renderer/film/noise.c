@@ -11,14 +11,13 @@ int noise_count(const FilmParams *params, int ntargets)
 
 static void signal_name(const Scene *scene, const FilmParams *params, int signal, char name[RETEX_NAME_MAX])
 {
-    static const char *const kinds[] = {"sharp", "broad"};
     if (signal == 0)
         snprintf(name, RETEX_NAME_MAX, "noise_%s", params->split ? "indep" : "beauty");
     else if (params->paper)
         snprintf(name, RETEX_NAME_MAX, "noise_%.90s_hit", scene->targets[signal - 1].name);
     else
         snprintf(name, RETEX_NAME_MAX, "noise_%.90s_%s", scene->targets[(signal - 1) / 2].name,
-                 kinds[(signal - 1) % 2]);
+                 retex_footprint_kind_name(RETEX_FOOTPRINT_SHARP + (signal - 1) % 2));
 }
 
 int noise_create(NoiseImages *images, const FilmParams *params, const Scene *scene, Bands *bands, RetexError *err)

@@ -31,19 +31,19 @@ $ retex-info --json f.exr | grep -o '"hit":[0-9]*,"kind":"[a-z]*"'
 > "hit":2,"kind":"sharp"
 > "hit":5,"kind":"broad"
 > "hit":6,"kind":"broad"
-> "hit":9,"kind":"later"
-> "hit":10,"kind":"later"
+> "hit":9,"kind":"interreflection"
+> "hit":10,"kind":"interreflection"
 
 # Kinds, by footprint; with several targets each has its own.
 $ retex-info --json f.exr | grep -o '"kind":"\(sharp\|broad\|later\|hit\)"' | sort | uniq -c
 >       2 "kind":"broad"
->       2 "kind":"later"
+>       2 "kind":"interreflection"
 >       2 "kind":"sharp"
 $ retex-info --json p.exr | grep -o '"kind":"\(sharp\|broad\|later\|hit\)"' | sort | uniq -c
 >       6 "kind":"hit"
 $ retex-render -q --size 16x12 --spp 2 -t floor -t white scenes/cornell-box/cornell-box.pov -o two.exr; retex-info --json two.exr | grep -o '"kind":"\(sharp\|broad\|later\|hit\)"' | sort | uniq -c; retex-info --check two.exr
 >       3 "kind":"broad"
->       4 "kind":"later"
+>       4 "kind":"interreflection"
 >       4 "kind":"sharp"
 > two.exr: ok
 $ retex-info --json two.exr | grep -o '"name":"dep_floor_sharp[^"]*"' | head -n 4
@@ -54,14 +54,14 @@ $ retex-info --json two.exr | grep -o '"name":"dep_floor_sharp[^"]*"' | head -n 
 $ retex-info --json two.exr | grep -o '"name":"\(dep_floor_sharp_[^"]*m[^"]*\|share_[^"]*\)"'
 > "name":"share_floor_sharp1"
 > "name":"share_floor_sharp2"
-> "name":"share_floor_later1"
-> "name":"share_floor_later2"
+> "name":"share_floor_interreflection1"
+> "name":"share_floor_interreflection2"
 > "name":"share_white_sharp1"
 > "name":"share_white_sharp2"
 > "name":"share_white_broad1"
 > "name":"share_white_broad2"
-> "name":"share_white_later1"
-> "name":"share_white_later2"
+> "name":"share_white_interreflection1"
+> "name":"share_white_interreflection2"
 > "name":"dep_floor_sharp_m5"
 > "name":"dep_floor_sharp_m6"
 > "name":"dep_floor_sharp_m7"

@@ -55,7 +55,7 @@ RetexSet *whole_set(int ntargets, int count)
         }
         const int start = set->nfootprints;
         for (int k = 0; k < 2; k++)
-            add_footprint(set, t, RETEX_FOOTPRINT_LATER, 1 + 2 * count + k, "RGB");
+            add_footprint(set, t, RETEX_FOOTPRINT_INTERREFLECTION, 1 + 2 * count + k, "RGB");
         later[t] = add_mixture(set, start, 2, "R");
         for (int k = 0; k < 2; k++)
             any.shares[any.nshares++] = set->mixtures[RETEX_MIXTURE(later[t])].shares[k];

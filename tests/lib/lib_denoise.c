@@ -127,7 +127,7 @@ static void fill_footprints_layout(RetexSet *set)
         }
     }
     for (int k = 0; k < 2; k++)
-        add_footprint(set, 0, RETEX_FOOTPRINT_LATER, 3 + k, "RGB");
+        add_footprint(set, 0, RETEX_FOOTPRINT_INTERREFLECTION, 3 + k, "RGB");
     mixtures[0] = add_mixture(set, first[0], 2, "R");
     mixtures[1] = add_mixture(set, first[1], 2, "R");
     mixtures[2] = add_mixture(set, 4, 2, "R");

@@ -83,7 +83,7 @@ RetexSet *again_set(RetexFootprintKind kind, int count)
 {
     RetexSet *set = cluster_set(kind, count);
     for (int k = 0; k < 2; k++)
-        add_footprint(set, 0, RETEX_FOOTPRINT_LATER, 1 + count + k, "RGB");
+        add_footprint(set, 0, RETEX_FOOTPRINT_INTERREFLECTION, 1 + count + k, "RGB");
     int first = count > 1 ? add_mixture(set, 0, count, "R") : 0;
     int later = add_mixture(set, count, 2, "R");
     add_term(set, 3, first, later);

@@ -219,7 +219,6 @@ void test_make_footprints(RetexSet *set)
 /* The name of a term's signal: see <retex/denoise.h>. */
 static void name_signal(const RetexSet *set, const RetexTerm *term, char *name, size_t size)
 {
-    static const char *const kinds[] = {"hit", "sharp", "broad", "later"};
     if (term->nfactors == 0) {
         snprintf(name, size, "noise_indep");
         return;
@@ -227,7 +226,7 @@ static void name_signal(const RetexSet *set, const RetexTerm *term, char *name, 
     const int factor = term->factors[0];
     const RetexFootprint *first =
         &set->footprints[factor < 0 ? set->mixtures[RETEX_MIXTURE(factor)].shares[0].footprint : factor];
-    snprintf(name, size, "noise_%s_%s", set->targets[first->target].name, kinds[first->kind]);
+    snprintf(name, size, "noise_%s_%s", set->targets[first->target].name, retex_footprint_kind_name(first->kind));
 }
 
 static void add_random_part(RetexSet *set, const char *name, const char *letters, RetexPixelType type, double low,

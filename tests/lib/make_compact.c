@@ -15,7 +15,7 @@ static int take(RetexCompactParams *params, const char *word)
         params->psnr = value;
     else if (strcmp(name, "broad") == 0)
         params->broad = (int)value;
-    else if (strcmp(name, "later") == 0)
+    else if (strcmp(name, "interreflection") == 0)
         params->later = (int)value;
     else if (strcmp(name, "gain") == 0)
         params->gain = (int)value;

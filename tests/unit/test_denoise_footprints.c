@@ -307,7 +307,7 @@ static void test_later(void **state)
     for (int t = 0; t < 2; t++)
         add_footprint(set, t, RETEX_FOOTPRINT_SHARP, 1, "RGB");
     for (int k = 2; k < 5; k++)
-        add_footprint(set, k == 4, RETEX_FOOTPRINT_LATER, 2 + k % 2, "RGB");
+        add_footprint(set, k == 4, RETEX_FOOTPRINT_INTERREFLECTION, 2 + k % 2, "RGB");
     add_term(set, 1, 0, 0);
     add_term(set, 2, 1, add_mixture(set, 2, 3, "R"));
     /* luminance 2 and 4 of light that goes on, halved: 1 * 1 and 0.5 * 2 */

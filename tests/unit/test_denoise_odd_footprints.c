@@ -82,7 +82,7 @@ static RetexSet *random_set(int width, int height)
         }
     first = set->nfootprints;
     for (int k = 0; k < 4; k++)
-        add_footprint(set, k / 2, RETEX_FOOTPRINT_LATER, 7 + k % 2, "RGB");
+        add_footprint(set, k / 2, RETEX_FOOTPRINT_INTERREFLECTION, 7 + k % 2, "RGB");
     later = add_mixture(set, first, 4, "R");
     for (int t = 0; t < 2; t++)
         for (int kind = 0; kind < 2; kind++)

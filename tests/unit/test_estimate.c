@@ -172,7 +172,7 @@ static void the_formula_holds_on_a_pixel(void **state)
     static const float a[2] = {0.4f, 0.2f}, var[2] = {0.04f, 0.01f};
     RetexSet *set = small_set(16);
     int sharp = add_footprint(set, RETEX_FOOTPRINT_SHARP, 0.5f, 0),
-        later = add_footprint(set, RETEX_FOOTPRINT_LATER, 0.25f, 0);
+        later = add_footprint(set, RETEX_FOOTPRINT_INTERREFLECTION, 0.25f, 0);
     add_term(set, 0.5f, NONE, 0, 0);
     add_term(set, 2, sharp, 0, 0);
     add_term(set, 3, sharp, later, 1);
@@ -180,7 +180,7 @@ static void the_formula_holds_on_a_pixel(void **state)
     set->folded = 0.1;
     double value = 0.5 + 2 * 0.4 + 3 * 0.4 * 0.2 + 5 * 0.4 * 0.2 * 0.2;
     double by_sharp = 2 + 3 * 0.2 + 5 * 0.2 * 0.2, by_later = 3 * 0.4 + 2 * 5 * 0.4 * 0.2;
-    double k0 = agreement(RETEX_FOOTPRINT_SHARP), k1 = agreement(RETEX_FOOTPRINT_LATER);
+    double k0 = agreement(RETEX_FOOTPRINT_SHARP), k1 = agreement(RETEX_FOOTPRINT_INTERREFLECTION);
     double want = sqrt(by_sharp * by_sharp * 0.04 * (k0 * k0 + 0.3 / 8) +
                        by_later * by_later * 0.01 * (k1 * k1 + 1.0 / 4) + 0.1 * value * 0.1 * value);
     float rgb[3];
@@ -195,7 +195,7 @@ static void agreements_are_shares(void **state)
 {
     (void)state;
     static const RetexFootprintKind kinds[] = {RETEX_FOOTPRINT_HIT, RETEX_FOOTPRINT_SHARP, RETEX_FOOTPRINT_BROAD,
-                                               RETEX_FOOTPRINT_LATER};
+                                               RETEX_FOOTPRINT_INTERREFLECTION};
     for (size_t k = 0; k < sizeof kinds / sizeof kinds[0]; k++)
         assert_true(agreement(kinds[k]) > 0 && agreement(kinds[k]) < 1);
 }
@@ -249,7 +249,7 @@ static void a_mixture_scatters_with_its_footprints(void **state)
     int sharp = add_footprint(set, RETEX_FOOTPRINT_SHARP, 0.5f, 0);
     int later[2];
     for (int k = 0; k < 2; k++)
-        later[k] = add_footprint(set, RETEX_FOOTPRINT_LATER, 0.25f, 0);
+        later[k] = add_footprint(set, RETEX_FOOTPRINT_INTERREFLECTION, 0.25f, 0);
     /* m = 1/4 later1 + 3/4 later2; n = 1/2 sharp + 1/2 later2 in red, all later2 in green */
     int m = add_mixture(set, share(set, later[0], "R", 0.5f, 0, 0), share(set, later[1], "R", 1.5f, 0, 0));
     int n = add_mixture(set, share(set, sharp, "RGB", 2, 0, 1), share(set, later[1], "RGB", 2, 3, 1));
@@ -259,7 +259,8 @@ static void a_mixture_scatters_with_its_footprints(void **state)
     const double mean = 0.25 * 0.2 + 0.75 * 0.8, of[3] = {0.04, 0.01, 0.09};
     double squares[3], sums[2] = {0, 0};
     for (int f = 0; f < 3; f++) {
-        double k = agreement(f ? RETEX_FOOTPRINT_LATER : RETEX_FOOTPRINT_SHARP), chance = f ? 1.0 / 4 : 0.3 / 8;
+        double k = agreement(f ? RETEX_FOOTPRINT_INTERREFLECTION : RETEX_FOOTPRINT_SHARP),
+               chance = f ? 1.0 / 4 : 0.3 / 8;
         squares[f] = of[f] * (k * k + chance);
     }
     for (int green = 0; green < 2; green++) {
@@ -282,7 +283,8 @@ static void a_mixture_of_nothing_scatters_nothing(void **state)
     (void)state;
     static const float a[2] = {0.4f, 0.2f}, var[2] = {0.04f, 0.01f};
     RetexSet *set = small_set(16);
-    int one = add_footprint(set, RETEX_FOOTPRINT_LATER, 0.5f, 0), two = add_footprint(set, RETEX_FOOTPRINT_LATER, 1, 0);
+    int one = add_footprint(set, RETEX_FOOTPRINT_INTERREFLECTION, 0.5f, 0),
+        two = add_footprint(set, RETEX_FOOTPRINT_INTERREFLECTION, 1, 0);
     add_term(set, 3, add_mixture(set, share(set, one, "R", 0, 0, 0), share(set, two, "RGB", 0, 0, 0)), 0, 0);
     float rgb[3];
     estimate(rgb, set, a, var);

@@ -51,7 +51,7 @@ static void what_is_not_needed_is_left_out(void **state)
         assert_int_equal(retex_set_find_part(f.set, name), -1);
     }
     assert_int_equal(retex_set_find_part(f.set, "dep_Floor_sharp_a1"), -1);
-    assert_absent(&f, "uv_Floor_later1");
+    assert_absent(&f, "uv_Floor_interreflection1");
     /* the other pixel has no light, and nothing of this one */
     assert_true(part(&f, "uv_Floor_sharp1")[2] == 1 && part(&f, "uv_Floor_sharp1")[3 + 2] == 0);
     expect_rgb(part(&f, "dep_Floor_sharp1") + 3, 0, 0, 0, 0);
@@ -248,9 +248,9 @@ static void pixels_do_not_mix(void **state)
     for (int x = 0; x < 2; x++) {
         float at = 0.5f * (float)x;
         expect_rgb(part(&f, "uv_Floor_sharp1") + 3 * x, 0.25f + at, 0.5f, 1, 0);
-        expect_rgb(part(&f, "uv_Floor_later1") + 3 * x, 0.125f + at, 0.5f, 1, 0);
+        expect_rgb(part(&f, "uv_Floor_interreflection1") + 3 * x, 0.125f + at, 0.5f, 1, 0);
         expect_rgb(part(&f, "albedo_Floor_sharp1") + 3 * x, 0.25f + at, 0.25f + at, 0.25f + at, 1e-6);
-        expect_rgb(part(&f, "albedo_Floor_later1") + 3 * x, 0.125f + at, 0.125f + at, 0.125f + at, 1e-6);
+        expect_rgb(part(&f, "albedo_Floor_interreflection1") + 3 * x, 0.125f + at, 0.125f + at, 0.125f + at, 1e-6);
         expect_beauty(&f, (size_t)x);
     }
     end_film(&f);

@@ -23,14 +23,14 @@ static void further_hits_come_later(void **state)
     expect_rgb(part(&f, "dep_Floor_sharp_a1"), 2, 2, 2, 1e-3);
     expect_rgb(part(&f, "dep_Floor_sharp_a2"), 4, 4, 4, 1e-3);
     assert_absent(&f, "dep_Floor_sharp_a3");
-    const float *first = part(&f, "uv_Floor_sharp1"), *later = part(&f, "uv_Floor_later1");
+    const float *first = part(&f, "uv_Floor_sharp1"), *later = part(&f, "uv_Floor_interreflection1");
     assert_true(first[0] == 0.25f && first[1] == 0.25f && first[2] == 0.5f); /* one path, however often it connects */
     assert_absent(&f, "uv_Floor_broad1");
     assert_absent(&f, "uv_Floor_sharp2");
     assert_true(later[0] == 0.75f && later[1] == 0.5f);
-    expect_rgb(part(&f, "uv_Floor_later2"), 0.25f, 0, 0.5f, 1e-6);        /* one connection of two paths */
-    assert_float_equal(part(&f, "share_Floor_later1")[0], 2.0 / 3, 2e-3); /* of the light: 1 + 1 of 3 */
-    expect_rgb(part(&f, "albedo_Floor_later1"), 0.5f, 0.5f, 0.5f, 1e-6);
+    expect_rgb(part(&f, "uv_Floor_interreflection2"), 0.25f, 0, 0.5f, 1e-6);        /* one connection of two paths */
+    assert_float_equal(part(&f, "share_Floor_interreflection1")[0], 2.0 / 3, 2e-3); /* of the light: 1 + 1 of 3 */
+    expect_rgb(part(&f, "albedo_Floor_interreflection1"), 0.5f, 0.5f, 0.5f, 1e-6);
     assert_true(f.set->folded == 0);
     expect_beauty(&f, 0);
     end_film(&f);
@@ -54,7 +54,7 @@ static void monomials_go_their_own_ways(void **state)
     expect_rgb(part(&f, "dep_Floor_broad1"), 4, 4, 4, 2e-3);
     expect_rgb(part(&f, "dep_Floor_sharp_a1"), 8, 8, 8, 2e-3);
     assert_true(part(&f, "uv_Floor_sharp1")[0] == 0.25f && part(&f, "uv_Floor_broad1")[0] == 0.75f);
-    assert_true(part(&f, "uv_Floor_later1")[0] == 0.75f);
+    assert_true(part(&f, "uv_Floor_interreflection1")[0] == 0.75f);
     expect_beauty(&f, 0);
     end_film(&f);
 }
@@ -108,13 +108,14 @@ static void black_albedo_has_footprints(void **state)
     connect_light(&f, rgb_grey(2));
     end_path(&f);
     finish_film(&f);
-    const float *sharp = part(&f, "uv_Floor_sharp1"), *later = part(&f, "uv_Floor_later1");
+    const float *sharp = part(&f, "uv_Floor_sharp1"), *later = part(&f, "uv_Floor_interreflection1");
     assert_true(sharp[0] == 0.25f && sharp[1] == 0.75f && sharp[2] == 0.5f);
     assert_true(part(&f, "uv_Floor_broad1")[0] == 0.5f && part(&f, "uv_Floor_broad1")[2] == 0.5f);
     assert_true(later[0] == 0.125f && later[1] == 0.5f && later[2] == 0.5f);
     expect_rgb(part(&f, "dep_Floor_sharp1"), 0.5f, 1, 2, 1e-3);
     expect_rgb(part(&f, "dep_Floor_broad_a1"), 1, 1, 1, 1e-3);
-    static const char *const albedos[] = {"albedo_Floor_sharp1", "albedo_Floor_broad1", "albedo_Floor_later1"};
+    static const char *const albedos[] = {"albedo_Floor_sharp1", "albedo_Floor_broad1",
+                                          "albedo_Floor_interreflection1"};
     for (size_t k = 0; k < 3; k++)
         expect_rgb(part(&f, albedos[k]), 0, 0, 0, 0);
     expect_rgb(f.set->parts[0].image.pixels, 0, 0, 0, 0);
@@ -157,9 +158,9 @@ static void targets_follow_each_other(void **state)
     assert_non_null(term);
     assert_int_equal(term->nfactors, 3);
     assert_ptr_equal(&f.set->footprints[term->factors[0]], footprint(&f, "uv_Floor_sharp1"));
-    assert_ptr_equal(&f.set->footprints[term->factors[1]], footprint(&f, "uv_Floor_later1"));
-    assert_ptr_equal(&f.set->footprints[term->factors[2]], footprint(&f, "uv_Wall_later1"));
-    assert_true(part(&f, "uv_Floor_later1")[0] == 0.75f && part(&f, "uv_Wall_later1")[0] == 0.125f);
+    assert_ptr_equal(&f.set->footprints[term->factors[1]], footprint(&f, "uv_Floor_interreflection1"));
+    assert_ptr_equal(&f.set->footprints[term->factors[2]], footprint(&f, "uv_Wall_interreflection1"));
+    assert_true(part(&f, "uv_Floor_interreflection1")[0] == 0.75f && part(&f, "uv_Wall_interreflection1")[0] == 0.125f);
     assert_true(part(&f, "uv_Wall_sharp1")[0] == 0.375f);
     assert_true(f.set->targets[1].uv_max[0] == 0.375);
     assert_true(f.set->folded == 0 && f.set->folded_white == 0);
@@ -186,11 +187,12 @@ static void shares_add_up(void **state)
     finish_film(&f);
     assert_int_equal(f.set->nmixtures, 3); /* the wall's sharp clusters, its further hits, and those of both targets */
     double all = 0;
-    static const char *const shares[] = {"share_Floor_later1", "share_Wall_later1", "share_Wall_later2"};
+    static const char *const shares[] = {"share_Floor_interreflection1", "share_Wall_interreflection1",
+                                         "share_Wall_interreflection2"};
     for (size_t k = 0; k < 3; k++)
         all += part(&f, shares[k])[0];
     assert_float_equal(all, 1, 4e-3);
-    assert_float_equal(part(&f, "share_Floor_later1")[0], (1.0 + 3) / (5 * 1 + 6 * 3), 2e-3);
+    assert_float_equal(part(&f, "share_Floor_interreflection1")[0], (1.0 + 3) / (5 * 1 + 6 * 3), 2e-3);
     assert_float_equal(part(&f, "share_Wall_sharp1")[0], 0.25, 2e-3);
     assert_float_equal(part(&f, "share_Wall_sharp2")[0], 0.75, 2e-3);
     assert_true(part(&f, "share_Wall_sharp1")[1] == 0);
@@ -229,11 +231,11 @@ static void a_black_target_hides_no_other(void **state)
     finish_film(&f);
     expect_rgb(f.set->parts[0].image.pixels, 0, 0, 0, 0);
     expect_rgb(part(&f, "dep_Floor_sharp_b1"), 4, 4, 4, 1e-3);
-    expect_rgb(part(&f, "albedo_Wall_later1"), 0.5f, 0.5f, 0.5f, 1e-6);
+    expect_rgb(part(&f, "albedo_Wall_interreflection1"), 0.5f, 0.5f, 0.5f, 1e-6);
     expect_rgb(part(&f, "dep_Wall_sharp_a2"), 1, 1, 1, 1e-3);
     expect_rgb(part(&f, "albedo_Wall_sharp1"), 0.5f, 0.25f, 1, 1e-6);
     expect_rgb(part(&f, "albedo_Floor_sharp1"), 0, 0, 0, 0);
-    expect_rgb(part(&f, "albedo_Floor_later1"), 0, 0, 0, 0);
+    expect_rgb(part(&f, "albedo_Floor_interreflection1"), 0, 0, 0, 0);
     expect_beauty(&f, 0);
     end_film(&f);
 }
@@ -290,8 +292,8 @@ static void hits_are_a_tree(void **state)
     expect_rgb(part(&f, "dep_Wall_broad1"), 4, 4, 4, 1e-2);
     assert_absent(&f, "dep_Floor_sharp1");
     assert_true(part(&f, "uv_Wall_broad1")[0] == 0.5f);
-    assert_true(part(&f, "uv_Wall_later1")[0] == 0.5f && part(&f, "uv_Wall_later2")[0] == 0.75f);
-    assert_float_equal(part(&f, "share_Wall_later1")[0], 2.0 / 3, 2e-3); /* 4 and 2 through the floor's 1/2 */
+    assert_true(part(&f, "uv_Wall_interreflection1")[0] == 0.5f && part(&f, "uv_Wall_interreflection2")[0] == 0.75f);
+    assert_float_equal(part(&f, "share_Wall_interreflection1")[0], 2.0 / 3, 2e-3); /* 4 and 2 through the floor's 1/2 */
     expect_beauty(&f, 0);
     end_film(&f);
 }

@@ -153,9 +153,9 @@ static void further_hits_have_two_places(void **state)
         for (int i = 0; i < cases[k].count; i++)
             later_hit(&f, cases[k].u[i], cases[k].light[i]);
         finish_film(&f);
-        expect_place(&f, "Floor_later1", cases[k].mean[0], cases[k].sd[0]);
-        expect_place(&f, "Floor_later2", cases[k].mean[1], cases[k].sd[1]);
-        assert_float_equal(part(&f, "share_Floor_later1")[0], cases[k].share, 2e-3);
+        expect_place(&f, "Floor_interreflection1", cases[k].mean[0], cases[k].sd[0]);
+        expect_place(&f, "Floor_interreflection2", cases[k].mean[1], cases[k].sd[1]);
+        assert_float_equal(part(&f, "share_Floor_interreflection1")[0], cases[k].share, 2e-3);
         expect_beauty(&f, 0);
         end_film(&f);
     }

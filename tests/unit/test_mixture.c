@@ -102,9 +102,9 @@ static RetexSet *make_set(void)
     set->targets[0].original = set->targets[1].original = -1;
     add_part(set, "beauty", "RGB", RETEX_HALF);
     add_footprint(set, 0, 1, RETEX_FOOTPRINT_SHARP, 0.5f);
-    add_footprint(set, 0, 2, RETEX_FOOTPRINT_LATER, 0.5f);
+    add_footprint(set, 0, 2, RETEX_FOOTPRINT_INTERREFLECTION, 0.5f);
     add_footprint(set, 1, 1, RETEX_FOOTPRINT_SHARP, 0.25f);
-    add_footprint(set, 1, 2, RETEX_FOOTPRINT_LATER, 0.25f);
+    add_footprint(set, 1, 2, RETEX_FOOTPRINT_INTERREFLECTION, 0.25f);
     add_mixture(set, "R", FLOOR_LATER, floor_later, WALL_LATER, wall_later);
     add_mixture(set, "RGB", FLOOR_FIRST, floor_first, WALL_FIRST, wall_first);
     add_term(set, 1, 0, 0, 0, 0);
@@ -408,9 +408,9 @@ static void test_additions(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_by_hand), cmocka_unit_test(test_most_factors), cmocka_unit_test(test_most_shares),
-        cmocka_unit_test(test_no_error),   cmocka_unit_test(test_file),         cmocka_unit_test(test_stream),
-        cmocka_unit_test(test_pack),    cmocka_unit_test(test_not_whole),    cmocka_unit_test(test_additions),
+        cmocka_unit_test(test_by_hand),  cmocka_unit_test(test_most_factors), cmocka_unit_test(test_most_shares),
+        cmocka_unit_test(test_no_error), cmocka_unit_test(test_file),         cmocka_unit_test(test_stream),
+        cmocka_unit_test(test_pack),     cmocka_unit_test(test_not_whole),    cmocka_unit_test(test_additions),
     };
     return cmocka_run_group_tests(tests, test_make_folder, test_remove_folder);
 }

@@ -46,7 +46,7 @@ static RetexSet *make_set(int smooth)
     RetexSet *set = start_set(WIDE, HIGH, 1);
     uint32_t seed = 3;
     for (int k = 0; k < 6; k++)
-        add_footprint(set, 0, k < 4 ? RETEX_FOOTPRINT_BROAD : RETEX_FOOTPRINT_LATER, 1 + k, "RGB");
+        add_footprint(set, 0, k < 4 ? RETEX_FOOTPRINT_BROAD : RETEX_FOOTPRINT_INTERREFLECTION, 1 + k, "RGB");
     for (int k = 0; k < 4; k++)
         add_term(set, 1, k, 0);
     const int first = add_mixture(set, 0, 4, "R"), later = add_mixture(set, 4, 2, "R");

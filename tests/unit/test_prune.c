@@ -33,7 +33,7 @@ static void add_footprint(Fixture *f, const char *name, RetexFootprintKind kind,
     snprintf(part, sizeof part, "albedo_%s", name);
     footprint.albedo = add_part(f, part, "RGB");
     test_must(retex_set_add_footprint(f->set, &footprint, &index, &err), &err);
-    if (kind != RETEX_FOOTPRINT_LATER) {
+    if (kind != RETEX_FOOTPRINT_INTERREFLECTION) {
         RetexTerm term = {.kind = RETEX_TERM_DEP, .nfactors = 1, .factors = {index}};
         snprintf(part, sizeof part, "dep_%s", name);
         term.radiance = add_part(f, part, "RGB");
@@ -60,8 +60,8 @@ static void begin(Fixture *f)
     test_must(retex_set_add_mixture(f->set, &sharp, NULL, &err), &err);
     add_footprint(f, "broad1", RETEX_FOOTPRINT_BROAD, 3, &broad);
     test_must(retex_set_add_mixture(f->set, &broad, NULL, &err), &err);
-    add_footprint(f, "later1", RETEX_FOOTPRINT_LATER, 4, &later);
-    add_footprint(f, "later2", RETEX_FOOTPRINT_LATER, 5, &later);
+    add_footprint(f, "interreflection1", RETEX_FOOTPRINT_INTERREFLECTION, 4, &later);
+    add_footprint(f, "interreflection2", RETEX_FOOTPRINT_INTERREFLECTION, 5, &later);
     test_must(retex_set_add_mixture(f->set, &later, NULL, &err), &err);
     term = (RetexTerm){
         .kind = RETEX_TERM_DEP, .nfactors = 3, .factors = {RETEX_MIXTURE(0), RETEX_MIXTURE(2), RETEX_MIXTURE(2)}};
@@ -88,7 +88,7 @@ static int has(const Fixture *f, const char *name)
 /* Every reference is to the part of the name that it should have. */
 static void expect_names(const Fixture *f)
 {
-    static const char *const names[] = {"", "sharp1", "sharp2", "broad1", "later1", "later2"};
+    static const char *const names[] = {"", "sharp1", "sharp2", "broad1", "interreflection1", "interreflection2"};
     for (int i = 0; i < f->set->nfootprints; i++) {
         const RetexFootprint *footprint = &f->set->footprints[i];
         const char *name = names[footprint->hit];
@@ -131,7 +131,7 @@ static void footprints_take_along_what_hangs_on_them(void **state)
     begin(&f);
     make_empty(&f, "uv_sharp2");
     make_empty(&f, "uv_broad1");
-    make_empty(&f, "uv_later1");
+    make_empty(&f, "uv_interreflection1");
     make_empty(&f, "dep_sharp2");
     make_empty(&f, "indep"); /* light without hits stays */
     make_empty(&f, "spread_sharp1");
@@ -146,7 +146,7 @@ static void footprints_take_along_what_hangs_on_them(void **state)
     assert_string_equal(f.set->parts[again->radiance].name, "dep_sharp_a2");
     assert_true(has(&f, "indep") && has(&f, "spread_sharp1") && has(&f, "depth"));
     assert_true(has(&f, "noise_indep") && has(&f, "noise_T_sharp") && !has(&f, "noise_T_broad"));
-    assert_true(!has(&f, "albedo_sharp2") && !has(&f, "share_sharp1") && !has(&f, "share_later1"));
+    assert_true(!has(&f, "albedo_sharp2") && !has(&f, "share_sharp1") && !has(&f, "share_interreflection1"));
     expect_names(&f);
     retex_set_close(&f.set);
 }
@@ -169,7 +169,8 @@ static void terms_go_without_light(void **state)
 static void a_target_that_no_pixel_has_leaves_nothing(void **state)
 {
     (void)state;
-    static const char *const gone[] = {"uv_sharp1", "uv_sharp2", "uv_broad1", "uv_later1", "uv_later2"};
+    static const char *const gone[] = {"uv_sharp1", "uv_sharp2", "uv_broad1", "uv_interreflection1",
+                                       "uv_interreflection2"};
     Fixture f;
     begin(&f);
     for (int k = 0; k < 5; k++)

@@ -40,7 +40,8 @@ static int add_part(RetexSet *set, const char *name, int kind, const char *lette
 /* One pixel that has a footprint of each kind close to u = 0, on a target that reaches from 0 to 1. */
 static RetexSet *make_border(const char *filter, int closed)
 {
-    static const RetexFootprintKind kinds[] = {RETEX_FOOTPRINT_SHARP, RETEX_FOOTPRINT_BROAD, RETEX_FOOTPRINT_LATER};
+    static const RetexFootprintKind kinds[] = {RETEX_FOOTPRINT_SHARP, RETEX_FOOTPRINT_BROAD,
+                                               RETEX_FOOTPRINT_INTERREFLECTION};
     RetexSet *set;
     RetexError err = {0};
     test_must(retex_set_create(&set, 1, 1, &err), &err);

@@ -73,7 +73,7 @@ static RetexSet *make_set(void)
     add_footprint(set, "sharp", RETEX_FOOTPRINT_SHARP, SHARP_SCALE, &seed);
     add_footprint(set, "broad1", RETEX_FOOTPRINT_BROAD, BROAD_SCALE, &seed);
     add_footprint(set, "broad2", RETEX_FOOTPRINT_BROAD, BROAD_SCALE, &seed);
-    add_footprint(set, "later", RETEX_FOOTPRINT_LATER, LATER_SCALE, &seed);
+    add_footprint(set, "interreflection", RETEX_FOOTPRINT_INTERREFLECTION, LATER_SCALE, &seed);
     RetexMixture mixture = {2,
                             {{BROAD1, add_part(set, "weight1", "R", BROAD_SCALE, &seed)},
                              {BROAD2, add_part(set, "weight2", "R", BROAD_SCALE, &seed)}}};

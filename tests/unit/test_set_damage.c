@@ -178,11 +178,11 @@ static void test_manifests_that_lie(void **state)
         {"\"footprints\"", "\"kind\":\"hit", "\"kind\":\"hitt", RETEX_EFORMAT, "unknown kind \"hitt\""},
         {"\"footprints\"", "\"kind\":\"hit", "\"kind\":\"dep", RETEX_EFORMAT, "unknown kind \"dep\""},
         {"\"footprints\"", "\"kind\":\"hit", "\"kind\":\"", RETEX_EFORMAT, "unknown kind \"\""},
-        {"\"footprints\"", "\"kind\":\"", "\"kind\":\"0123456789abcdef", RETEX_EFORMAT, "\"kind\""},
+        {"\"footprints\"", "\"kind\":\"", "\"kind\":\"0123456789abcdef0123456789abcdef", RETEX_EFORMAT, "\"kind\""},
         {"\"footprints\"", "\"kind\":\"", "\"kind\":1,\"x\":\"", RETEX_EFORMAT, "\"kind\""},
         {"\"footprints\"", "\"kind\":\"hit", "\"kind\":\"sharp", 0, ""},
         {"\"footprints\"", "\"kind\":\"hit", "\"kind\":\"broad", 0, ""},
-        {"\"footprints\"", "\"kind\":\"hit", "\"kind\":\"later", 0, ""},
+        {"\"footprints\"", "\"kind\":\"hit", "\"kind\":\"interreflection", 0, ""},
         {"\"footprints\"", "\"kind\":\"", "\"x\":\"", 0, ""},
         {"\"parts\"", "\"letters\":\"RG\"", "\"letters\":\"RGB\"", 0, ""}, /* spread with the correlation */
         {"\"parts\"", "\"letters\":\"RG\"", "\"letters\":\"RGBA\"", RETEX_EFORMAT, "4 channels instead of 2"},

@@ -98,7 +98,8 @@ static RetexSet *footprints_set(void)
     RetexError err = {0};
     test_make_footprints(set);
     for (int i = 0; i < set->nfootprints; i++) {
-        static const RetexFootprintKind kinds[] = {RETEX_FOOTPRINT_SHARP, RETEX_FOOTPRINT_BROAD, RETEX_FOOTPRINT_LATER};
+        static const RetexFootprintKind kinds[] = {RETEX_FOOTPRINT_SHARP, RETEX_FOOTPRINT_BROAD,
+                                                   RETEX_FOOTPRINT_INTERREFLECTION};
         set->footprints[i].kind = kinds[i % 3];
     }
     /* one more term, whose only hit is of a mixture: that counts as its first share's footprint, here 2 and 0 */
@@ -136,8 +137,8 @@ static void test_signals_of_footprints(void **state)
          .nmembers = 1,
          .members = {{"t0_cross2", 1}}},
         {.target = 0,
-         .kind = RETEX_FOOTPRINT_LATER,
-         .noise = "noise_Floor_later",
+         .kind = RETEX_FOOTPRINT_INTERREFLECTION,
+         .noise = "noise_Floor_interreflection",
          .cover = "guide_cover_Floor",
          .nmembers = 1,
          .members = {{"t0_cross3", 0.5f}}},
@@ -154,8 +155,8 @@ static void test_signals_of_footprints(void **state)
          .nmembers = 1,
          .members = {{"t1_cross2", 1}}},
         {.target = 1,
-         .kind = RETEX_FOOTPRINT_LATER,
-         .noise = "noise_Wall_later",
+         .kind = RETEX_FOOTPRINT_INTERREFLECTION,
+         .noise = "noise_Wall_interreflection",
          .cover = "guide_cover_Wall",
          .nmembers = 1,
          .members = {{"t1_cross3", 1.0f / 2048}}},

@@ -28,8 +28,6 @@ typedef struct Compaction {
     int counts[COMPACT_KINDS]; /* of each kind's new footprints and their weights */
 } Compaction;
 
-static const char *const kind_names[] = {"hit", "sharp", "broad", "later"};
-
 /* ---- what stays as it is ---- */
 
 int compact_copy_part(RetexSet *set, const RetexSet *from, int number, int *index, RetexError *err)
@@ -231,7 +229,7 @@ void compact_cache_free(CompactCache *cache, const CompactLight *light)
 static int add_cluster(Compaction *work, int number, CompactClusters *clusters, int k, int albedo, RetexError *err)
 {
     const CompactKind *kind = &work->light->kinds[number];
-    const char *target = work->set->targets[kind->target].name, *name = kind_names[kind->kind];
+    const char *target = work->set->targets[kind->target].name, *name = retex_footprint_kind_name(kind->kind);
     RetexFootprint f = {.target = kind->target, .kind = kind->kind, .albedo = albedo};
     f.hit = work->light->set->footprints[kind->footprints[k]].hit;
     int code =
@@ -239,7 +237,7 @@ static int add_cluster(Compaction *work, int number, CompactClusters *clusters, 
     if (!code)
         code = move_image(work->set, &clusters->spread[k], "RGB", RETEX_HALF, &f.spread, err, "spread_%s_%s%d", target,
                           name, k + 1);
-    if (!code && (clusters->count > 1 || kind->kind == RETEX_FOOTPRINT_LATER))
+    if (!code && (clusters->count > 1 || kind->kind == RETEX_FOOTPRINT_INTERREFLECTION))
         code = move_image(work->set, &clusters->weight[k], "R", RETEX_HALF, &work->weights[number][k], err,
                           "weight_%s_%s%d", target, name, k + 1);
     work->shares[number][k] = -1;
@@ -278,7 +276,7 @@ static int add_clusters(Compaction *work, int number, RetexError *err)
         return code;
     work->counts[number] = clusters.count;
     code = move_image(work->set, &clusters.albedo, "RGB", RETEX_HALF, &albedo, err, "albedo_%s_%s",
-                      work->set->targets[kind->target].name, kind_names[kind->kind]);
+                      work->set->targets[kind->target].name, retex_footprint_kind_name(kind->kind));
     for (int k = 0; k < clusters.count && !code; k++)
         code = add_cluster(work, number, &clusters, k, albedo, err);
     compact_clusters_free(&clusters);
@@ -308,14 +306,14 @@ static int add_later_mixtures(Compaction *work, RetexError *err)
     for (int m = 0; m < old->nmixtures && !code; m++) {
         RetexMixture mixture = {0};
         int index = 0, targets[RETEX_MAX_TARGETS] = {0}, count = 0, one = 0;
-        if (old->footprints[old->mixtures[m].shares[0].footprint].kind != RETEX_FOOTPRINT_LATER)
+        if (old->footprints[old->mixtures[m].shares[0].footprint].kind != RETEX_FOOTPRINT_INTERREFLECTION)
             continue;
         for (int k = 0; k < old->mixtures[m].nshares; k++)
             targets[old->footprints[old->mixtures[m].shares[k].footprint].target] = 1;
         for (int t = 0; t < old->ntargets; t++) {
             if (!targets[t])
                 continue;
-            one = find_kind(work->light, t, RETEX_FOOTPRINT_LATER);
+            one = find_kind(work->light, t, RETEX_FOOTPRINT_INTERREFLECTION);
             count++;
             for (int k = 0; k < work->counts[one]; k++)
                 mixture.shares[mixture.nshares++] =
@@ -333,14 +331,15 @@ static int add_later_mixtures(Compaction *work, RetexError *err)
 static int later_factor(const Compaction *work, int factor)
 {
     const RetexSet *old = work->light->set;
-    return factor < 0 ? work->mixtures[RETEX_MIXTURE(factor)]
-                      : work->places[find_kind(work->light, old->footprints[factor].target, RETEX_FOOTPRINT_LATER)];
+    return factor < 0
+               ? work->mixtures[RETEX_MIXTURE(factor)]
+               : work->places[find_kind(work->light, old->footprints[factor].target, RETEX_FOOTPRINT_INTERREFLECTION)];
 }
 
 static int add_gain(Compaction *work, int number, int radiance, int place, RetexTerm *term, RetexError *err)
 {
     const CompactKind *kind = &work->light->kinds[number];
-    const char *target = work->set->targets[kind->target].name, *name = kind_names[kind->kind];
+    const char *target = work->set->targets[kind->target].name, *name = retex_footprint_kind_name(kind->kind);
     RetexImage gain = {0};
     int code = make_gain(&gain, work, number, radiance, place, err);
     if (!code)
@@ -382,7 +381,7 @@ static int add_terms(Compaction *work, int number, RetexError *err)
     int code = make_sum(&sum, work, number, err);
     if (!code)
         code = move_image(work->set, &sum, "RGB", RETEX_HALF, &radiance, err, "dep_%s_%s",
-                          work->set->targets[kind->target].name, kind_names[kind->kind]);
+                          work->set->targets[kind->target].name, retex_footprint_kind_name(kind->kind));
     if (!code && owns)
         code = add_term(work, number, radiance, 0, kind->nagain > 0, err);
     for (int i = 0; i < kind->ngains[work->scales->mixed[number]] && !code; i++)
@@ -401,7 +400,7 @@ static int begin_kind(const Compaction *work, int number, RetexError *err)
     int code = compact_clusters_begin(cached_clusters(work, number), light, kind, work->scales->clusters[number],
                                       work->scales->split[number], err);
     RetexImage *gains = cached_gains(work, number, err);
-    if (code || !gains || kind->kind == RETEX_FOOTPRINT_LATER)
+    if (code || !gains || kind->kind == RETEX_FOOTPRINT_INTERREFLECTION)
         return code ? code : gains ? RETEX_OK : RETEX_ENOMEM;
     if (has_own(kind) || kind->nagain)
         code = retex_image_alloc(&work->cache->sums[number], light->set->width, light->set->height, 3, err);
@@ -469,7 +468,7 @@ int compact_build(RetexSet **result, const CompactLight *light, const CompactSca
     if (!code)
         code = add_later_mixtures(&work, err);
     for (int i = 0; i < light->nkinds && !code; i++)
-        if (light->kinds[i].kind != RETEX_FOOTPRINT_LATER)
+        if (light->kinds[i].kind != RETEX_FOOTPRINT_INTERREFLECTION)
             code = add_terms(&work, i, err);
     if (work.cache)
         compact_cache_free(work.cache, light);
@@ -494,7 +493,7 @@ int compact_build_kind(RetexSet **result, RetexImage *of[][COMPACT_WAVES], const
         code = retex_set_add_part(work.set, old->parts[0].name, old->parts[0].letters, old->parts[0].type, 0, 0, NULL,
                                   err);
     for (int i = 0; i < light->nkinds && !code && kind >= 0; i++)
-        if (i == kind || light->kinds[i].kind == RETEX_FOOTPRINT_LATER)
+        if (i == kind || light->kinds[i].kind == RETEX_FOOTPRINT_INTERREFLECTION)
             code = add_clusters(&work, i, err);
     if (!code && kind >= 0)
         code = add_later_mixtures(&work, err);

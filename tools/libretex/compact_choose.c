@@ -93,7 +93,7 @@ static Choice *find_choice(Choosing *work, What what, const CompactKind *kind)
 {
     for (int i = 0; i < work->count; i++) {
         const CompactKind *first = &work->light->kinds[work->choices[i].kinds[0]];
-        const int together = kind->kind == RETEX_FOOTPRINT_LATER || work->light->nkinds > KINDS_APART;
+        const int together = kind->kind == RETEX_FOOTPRINT_INTERREFLECTION || work->light->nkinds > KINDS_APART;
         if (work->choices[i].what == what && first->kind == kind->kind && together)
             return &work->choices[i];
     }
@@ -113,7 +113,7 @@ static void list_choices(Choosing *work, CompactScales *scales, const RetexCompa
 {
     for (int i = 0; i < work->light->nkinds; i++) {
         const CompactKind *kind = &work->light->kinds[i];
-        const int sharp = kind->kind == RETEX_FOOTPRINT_SHARP, later = kind->kind == RETEX_FOOTPRINT_LATER;
+        const int sharp = kind->kind == RETEX_FOOTPRINT_SHARP, later = kind->kind == RETEX_FOOTPRINT_INTERREFLECTION;
         const int wanted = sharp ? 1 : later ? params->later : params->broad;
         scales->clusters[i] = wanted ? wanted : 1;
         scales->gains[i] = params->gain ? params->gain : 1;
@@ -141,7 +141,7 @@ static void free_shown(Shown *shown)
 static int later_scale(const CompactLight *light, const CompactScales *scales)
 {
     for (int i = 0; i < light->nkinds; i++)
-        if (light->kinds[i].kind == RETEX_FOOTPRINT_LATER)
+        if (light->kinds[i].kind == RETEX_FOOTPRINT_INTERREFLECTION)
             return scales->clusters[i];
     return 1;
 }
@@ -176,7 +176,7 @@ static int try_scales(Choosing *work, const CompactScales *scales, double square
     if (!work->rest[0].pixels)
         code = compact_meter_show(work->rest, work->light, -1, scales, work->cache, work->nthreads, err);
     for (int i = 0; i < work->light->nkinds && !code; i++)
-        if (work->light->kinds[i].kind != RETEX_FOOTPRINT_LATER)
+        if (work->light->kinds[i].kind != RETEX_FOOTPRINT_INTERREFLECTION)
             code = show_kind(work, i, scales, &parts[count++], err);
     return code ? code : compact_meter_read(&work->meter, parts, count, squares, work->nthreads, err);
 }

@@ -26,7 +26,7 @@ typedef struct Cluster {
 typedef struct Pool {
     const int *periodic;
     int sharp, count;
-    double noise; /* CompactLight's */
+    double noise;           /* CompactLight's */
     double weight, squares; /* of all light that was gathered; its squares by the samples it came with */
     Cluster of[POOL + 1];
     double cost[POOL + 1][POOL + 1]; /* of merging i with j < i */
@@ -199,7 +199,7 @@ static double sum_of_shares(const CompactLight *light, size_t pixel)
     double sum = 0;
     for (int i = 0; i < light->nkinds; i++) {
         const CompactKind *kind = &light->kinds[i];
-        for (int k = 0; k < kind->count && kind->kind == RETEX_FOOTPRINT_LATER; k++)
+        for (int k = 0; k < kind->count && kind->kind == RETEX_FOOTPRINT_INTERREFLECTION; k++)
             if (set->parts[set->footprints[kind->footprints[k]].uv].image.pixels[3 * pixel + 2] > 0)
                 sum += kind->share[k] >= 0 ? (double)set->parts[kind->share[k]].image.pixels[pixel] : 1;
     }
@@ -238,7 +238,7 @@ static double gather_block(const ClustersWork *work, int bx, int by, Pool *pool,
     for (int y = by * work->scale; y < (by + 1) * work->scale && y < set->height; y++)
         for (int x = bx * work->scale; x < (bx + 1) * work->scale && x < set->width; x++) {
             const size_t pixel = (size_t)y * (size_t)set->width + (size_t)x;
-            if (work->kind->kind == RETEX_FOOTPRINT_LATER)
+            if (work->kind->kind == RETEX_FOOTPRINT_INTERREFLECTION)
                 all += later_light(work, pixel, light);
             else
                 compact_cluster_light(work->light, work->kind, pixel, light);
@@ -439,10 +439,10 @@ int compact_clusters_end(CompactClusters *clusters, const CompactLight *light, c
 {
     int code = RETEX_OK;
     if (clusters->whole)
-        code = compact_even_smooth(clusters, clusters->whole, light->set->targets[kind->target].periodic,
-                                   light->noise, nthreads, err);
+        code = compact_even_smooth(clusters, clusters->whole, light->set->targets[kind->target].periodic, light->noise,
+                                   nthreads, err);
     if (clusters->scale > 1)
-        fill_holes(clusters, clusters->lit, kind->kind == RETEX_FOOTPRINT_LATER ? (float)SHARE_STEP : 1);
+        fill_holes(clusters, clusters->lit, kind->kind == RETEX_FOOTPRINT_INTERREFLECTION ? (float)SHARE_STEP : 1);
     free_work(clusters);
     while (clusters->count > 1 && is_empty(clusters, clusters->count - 1))
         free_cluster(clusters, --clusters->count);

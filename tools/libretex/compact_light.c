@@ -55,7 +55,7 @@ static int sort_shares(CompactLight *light)
             const RetexFootprint *f = &set->footprints[mixture->shares[k].footprint];
             const int weight = mixture->shares[k].weight;
             CompactKind *kind = find_kind(light, f->target, f->kind);
-            if (f->kind != first->kind || (f->kind != RETEX_FOOTPRINT_LATER && f->target != first->target) ||
+            if (f->kind != first->kind || (f->kind != RETEX_FOOTPRINT_INTERREFLECTION && f->target != first->target) ||
                 set->parts[weight].image.channels != 1)
                 return 0;
             for (int i = 0; i < kind->count; i++) {
@@ -81,12 +81,12 @@ static int sort_term(CompactLight *light, int number)
         return 1;
     for (int k = 1; k < term->nfactors; k++) {
         factor_place(light->set, term->factors[k], &target, &what);
-        if (what != RETEX_FOOTPRINT_LATER)
+        if (what != RETEX_FOOTPRINT_INTERREFLECTION)
             return 0;
     }
     factor_place(light->set, term->factors[0], &target, &what);
     CompactKind *kind = find_kind(light, target, what);
-    if (!kind || what == RETEX_FOOTPRINT_LATER)
+    if (!kind || what == RETEX_FOOTPRINT_INTERREFLECTION)
         return 0;
     if (term->nfactors > 1) {
         if (kind->nagain && term->factors[0] != kind->first)

@@ -43,7 +43,7 @@ static double probe_pixels(const CompactLight *light, size_t a, size_t b)
     for (int i = 0; i < light->nkinds; i++) {
         const CompactKind *kind = &light->kinds[i];
         ClusterLight of[RETEX_SHARES_MAX];
-        if (kind->kind == RETEX_FOOTPRINT_LATER)
+        if (kind->kind == RETEX_FOOTPRINT_INTERREFLECTION)
             continue;
         compact_cluster_light(light, kind, a, of);
         for (int k = 0; k < kind->count; k++) {

@@ -211,7 +211,7 @@ static float read_share(const Group *g, const Place *place, size_t i)
 {
     const float *share = place->share.pixels + i * place->share.channels;
     if (!place->share.pixels) /* no mixture has it: it stands alone */
-        return g->kind == RETEX_FOOTPRINT_LATER || g->count == 1;
+        return g->kind == RETEX_FOOTPRINT_INTERREFLECTION || g->count == 1;
     return place->share.channels == 1 ? share[0] : (share[0] + share[1] + share[2]) / 3;
 }
 

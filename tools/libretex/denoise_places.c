@@ -118,10 +118,10 @@ static void find_later(Footprints *f, const RetexSet *set, const float *again)
     int movable = 1;
     for (int t = 0; t < set->ntargets; t++) {
         Group *g = &f->later[f->nlater];
-        *g = start_group(f, set, t, RETEX_FOOTPRINT_LATER);
+        *g = start_group(f, set, t, RETEX_FOOTPRINT_INTERREFLECTION);
         g->again = again;
         for (int k = 0; k < set->nfootprints; k++)
-            if (set->footprints[k].target == t && set->footprints[k].kind == RETEX_FOOTPRINT_LATER)
+            if (set->footprints[k].target == t && set->footprints[k].kind == RETEX_FOOTPRINT_INTERREFLECTION)
                 add_place(f, set, g, k, -1);
         movable &= g->movable && g->count <= GROUP_MAX;
         f->nlater += g->count > 0;

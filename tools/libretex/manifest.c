@@ -8,7 +8,6 @@
 
 #include "json_write.h"
 #include "manifest.h"
-#include "manifest_kinds.h"
 
 int retex_name_is_valid(const char *name)
 {
@@ -127,7 +126,7 @@ static json_t *write_target(const RetexSet *set, const RetexTarget *target, int 
 static json_t *write_footprint(const RetexSet *set, const RetexFootprint *footprint)
 {
     return json_pack("{s:i, s:i, s:s, s:o, s:o, s:o}", "target", footprint->target, "hit", footprint->hit, "kind",
-                     retex_footprint_kinds[footprint->kind], "uv", part_name(set, footprint->uv), "spread",
+                     retex_footprint_kind_name(footprint->kind), "uv", part_name(set, footprint->uv), "spread",
                      part_name(set, footprint->spread), "albedo", part_name(set, footprint->albedo));
 }
 
@@ -137,7 +136,7 @@ static json_t *write_term(const RetexSet *set, const RetexTerm *term)
 
     for (int i = 0; i < term->nfactors; i++)
         retex_json_add(&factors, json_integer(term->factors[i]));
-    json_t *json = json_pack("{s:s, s:o, s:o}", "kind", retex_term_kinds[term->kind], "radiance",
+    json_t *json = json_pack("{s:s, s:o, s:o}", "kind", retex_term_kind_name(term->kind), "radiance",
                              part_name(set, term->radiance), "factors", factors);
     if (term->gain)
         retex_json_put(&json, "gain", part_name(set, term->gain));

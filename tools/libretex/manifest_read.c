@@ -8,7 +8,6 @@
 #include <jansson.h>
 
 #include "manifest.h"
-#include "manifest_kinds.h"
 
 /* Where messages go. Only the first failure is kept, so readers may go on to the end of a group of fields. */
 typedef struct Reading {
@@ -263,15 +262,15 @@ static void read_targets(Reading *reading, const json_t *root, RetexSet *set)
 }
 
 /* Number of the object's "kind" among names; the first where it has none. */
-static int get_kind(Reading *reading, const json_t *json, const char *const *names, int count)
+static int get_kind(Reading *reading, const json_t *json, const char *(*name_of)(int kind), int count)
 {
-    char kind[16] = "";
+    char kind[32] = "";
     int number = 0;
 
     if (!json_object_get(json, "kind"))
         return 0;
     get_text(reading, json, "kind", kind, sizeof kind);
-    while (number < count && strcmp(kind, names[number]) != 0)
+    while (number < count && strcmp(kind, name_of(number)) != 0)
         number++;
     if (number == count)
         bad(reading, RETEX_EFORMAT, "has something of unknown kind \"%s\"", kind);
@@ -293,7 +292,7 @@ static void read_footprints(Reading *reading, const json_t *root, RetexSet *set)
         };
         if (reading->status)
             return;
-        footprint.kind = (RetexFootprintKind)get_kind(reading, json, retex_footprint_kinds, RETEX_FOOTPRINT_KINDS);
+        footprint.kind = (RetexFootprintKind)get_kind(reading, json, retex_footprint_kind_name, RETEX_FOOTPRINT_KINDS);
         check_scale(reading, set, footprint.uv, "uv");
         check_scale(reading, set, footprint.spread, "spread");
         check_scale(reading, set, footprint.albedo, "albedo");
@@ -320,7 +319,7 @@ static void read_terms(Reading *reading, const json_t *root, RetexSet *set)
         }
         if (!json_object_get(json, "kind"))
             bad(reading, RETEX_EFORMAT, "has a term without a \"kind\"");
-        term.kind = (RetexTermKind)get_kind(reading, json, retex_term_kinds, RETEX_TERM_KINDS);
+        term.kind = (RetexTermKind)get_kind(reading, json, retex_term_kind_name, RETEX_TERM_KINDS);
         for (int f = 0; f < term.nfactors; f++) {
             const json_t *value = json_array_get(factors, (size_t)f);
             const json_int_t factor = json_integer_value(value);
@@ -500,7 +499,7 @@ static void check_version(Reading *reading, const json_t *root, RetexManifestSum
 static void read_root(Reading *reading, const json_t *root, RetexManifestSum sum, RetexSet **set,
                       RetexSamples **samples, RetexSamplePart **sample_parts)
 {
-    char kind[16] = "";
+    char kind[32] = "";
 
     check_version(reading, root, sum);
     if (reading->status)

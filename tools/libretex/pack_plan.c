@@ -374,8 +374,9 @@ static void plan_parts(Planning *plan)
         if (f->uv >= 0 && f->spread >= 0 && plan->packed[f->uv].codec == PACK_PLANES &&
             plan->packed[f->spread].codec == PACK_PLANES)
             plan_footprint(plan, f->uv, f->spread,
-                           f->kind == RETEX_FOOTPRINT_BROAD || f->kind == RETEX_FOOTPRINT_LATER ? &plan->grain->broad
-                                                                                                : &plan->grain->sharp);
+                           f->kind == RETEX_FOOTPRINT_BROAD || f->kind == RETEX_FOOTPRINT_INTERREFLECTION
+                               ? &plan->grain->broad
+                               : &plan->grain->sharp);
     }
 }
 

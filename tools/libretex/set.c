@@ -161,6 +161,20 @@ static int check_part(const RetexSet *set, int part, size_t channels, int option
     return 0;
 }
 
+const char *retex_footprint_kind_name(int kind)
+{
+    static const char *const names[RETEX_FOOTPRINT_KINDS] = {"hit", "sharp", "broad", "interreflection"};
+
+    return names[kind];
+}
+
+const char *retex_term_kind_name(int kind)
+{
+    static const char *const names[RETEX_TERM_KINDS] = {"full", "indep", "dep", "cross2", "cross3"};
+
+    return names[kind];
+}
+
 int retex_set_add_footprint(RetexSet *set, const RetexFootprint *footprint, int *index, RetexError *err)
 {
     int status = 0;
@@ -169,7 +183,7 @@ int retex_set_add_footprint(RetexSet *set, const RetexFootprint *footprint, int 
         return retex_fail(err, RETEX_EINVAL, "the footprint lies on target %d of %d", footprint->target, set->ntargets);
     if (footprint->hit < 1)
         return retex_fail(err, RETEX_EINVAL, "hits count from 1, not %d", footprint->hit);
-    if (footprint->kind < RETEX_FOOTPRINT_HIT || footprint->kind > RETEX_FOOTPRINT_LATER)
+    if (footprint->kind < RETEX_FOOTPRINT_HIT || footprint->kind > RETEX_FOOTPRINT_INTERREFLECTION)
         return retex_fail(err, RETEX_EINVAL, "the footprint is of no known kind (%d)", (int)footprint->kind);
     const int correlated =
         footprint->spread >= 0 && footprint->spread < set->nparts && strlen(set->parts[footprint->spread].letters) == 3;

@@ -70,7 +70,8 @@ static void prune_mixtures(Pruning *p)
         prune_shares(p, mixture);
         for (int k = 0; k < mixture->nshares; k++)
             p->kept[mixture->shares[k].weight] |=
-                mixture->nshares > 1 || set->footprints[mixture->shares[k].footprint].kind == RETEX_FOOTPRINT_LATER;
+                mixture->nshares > 1 ||
+                set->footprints[mixture->shares[k].footprint].kind == RETEX_FOOTPRINT_INTERREFLECTION;
         p->mixtures[m] = mixture->nshares == 0   ? GONE
                          : mixture->nshares == 1 ? mixture->shares[0].footprint
                                                  : RETEX_MIXTURE(count);

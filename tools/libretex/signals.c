@@ -25,11 +25,10 @@ int signal_cluster(const RetexSet *set, const SignalMember *member)
 
 static void noise_name(const RetexSet *set, int target, RetexFootprintKind kind, char name[RETEX_NAME_MAX])
 {
-    static const char *const kinds[] = {"hit", "sharp", "broad", "later"};
     if (target < 0)
         snprintf(name, RETEX_NAME_MAX, "noise_%s", set->nterms ? "indep" : "beauty");
     else
-        snprintf(name, RETEX_NAME_MAX, "noise_%.90s_%s", set->targets[target].name, kinds[kind]);
+        snprintf(name, RETEX_NAME_MAX, "noise_%.90s_%s", set->targets[target].name, retex_footprint_kind_name(kind));
 }
 
 /* Where the light of a term meets a target first: target -1 where it does not. */

@@ -62,8 +62,9 @@ typedef enum RetexFootprintKind {
     RETEX_FOOTPRINT_HIT,   /* layout paper: the j-th hit of the target along the path */
     RETEX_FOOTPRINT_SHARP, /* layout footprints: met first, seen directly, in mirrors or through glass */
     RETEX_FOOTPRINT_BROAD, /* met first, by light scattered widely before */
-    RETEX_FOOTPRINT_LATER  /* hits after the first one, pooled into two */
+    RETEX_FOOTPRINT_INTERREFLECTION  /* hits after the first one, pooled into two */
 } RetexFootprintKind;
+enum { RETEX_FOOTPRINT_KINDS = RETEX_FOOTPRINT_INTERREFLECTION + 1 };
 
 typedef struct RetexFootprint {
     int target;              /* index of the target it lies on */
@@ -83,6 +84,7 @@ typedef enum RetexTermKind {
     RETEX_TERM_CROSS2, /* cross terms of paths with two hits, supplement 4.3 */
     RETEX_TERM_CROSS3  /* cross terms of paths with three hits */
 } RetexTermKind;
+enum { RETEX_TERM_KINDS = RETEX_TERM_CROSS3 + 1 };
 
 typedef struct RetexTerm {
     RetexTermKind kind;
@@ -181,6 +183,10 @@ int retex_set_keep(RetexSet *set, RetexSamples *samples /* or NULL */, uint64_t 
 void retex_set_prune(RetexSet *set, const char *empty);
 /* Remove a part that no term, footprint, mixture or target names; those behind it move up, and references follow. */
 void retex_set_remove_part(RetexSet *set, int part);
+/* Of a RetexFootprintKind, "hit", "sharp", "broad" or "interreflection", and of a RetexTermKind, "full" and so on: in
+ * the manifest, the former also in names of parts. */
+const char *retex_footprint_kind_name(int kind);
+const char *retex_term_kind_name(int kind);
 int retex_set_add_footprint(RetexSet *set, const RetexFootprint *footprint, int *index, RetexError *err);
 int retex_set_add_mixture(RetexSet *set, const RetexMixture *mixture, int *index, RetexError *err);
 int retex_set_add_term(RetexSet *set, const RetexTerm *term, int *index, RetexError *err);
