@@ -9,7 +9,7 @@ $(BUILD)/obj/renderer/%.o: renderer/%.c $(BUILD)/config.mk
 
 $(BUILD)/lib/librender.a: $(RENDERER_SOURCES:%.c=$(BUILD)/obj/%.o)
 	@mkdir -p $(@D)
-	$(SAY)rm -f $@ && $(AR) rcs $@ $^
+	$(SAY)rm -f $@ && $(AR) qcs $@ $^
 
 $(BUILD)/bin/retex-render: $(patsubst %.c,$(BUILD)/obj/%.o,$(wildcard renderer/*.c)) $(TOOL_OBJECTS) $(LIBRENDER) $(LIBRETEX) | $(BRIDGE)
 	@mkdir -p $(@D)

@@ -16,7 +16,7 @@ $(BUILD)/test.mk: tools/setup.sh
 
 $(LIBTEST): $(patsubst %.c,$(BUILD)/obj/%.o,$(wildcard tests/lib/lib_*.c))
 	@mkdir -p $(@D)
-	$(SAY)rm -f $@ && $(AR) rcs $@ $^
+	$(SAY)rm -f $@ && $(AR) qcs $@ $^
 
 # Unit tests may look inside: they see the libraries' private headers.
 $(BUILD)/obj/tests/%.o: tests/%.c $(BUILD)/config.mk | $(BUILD)/test.mk

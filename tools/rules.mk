@@ -1,5 +1,5 @@
 # The library, the bridge to OpenImageIO and OpenColorIO, and the tools.
-LIBRETEX_SOURCES += $(wildcard tools/libretex/*.c)
+LIBRETEX_SOURCES += $(wildcard tools/libretex/*/*.c)
 TOOLS += $(patsubst tools/%.c,%,$(wildcard tools/retex-*.c))
 
 # Only libretex sees the headers of the libraries it stands on, only the bridge those of OpenImageIO and OpenColorIO.
@@ -14,7 +14,7 @@ BRIDGE := $(BUILD)/lib/libretex-oiio.so
 
 $(BUILD)/obj/tools/libretex/%.o: tools/libretex/%.c $(BUILD)/config.mk
 	@mkdir -p $(@D)
-	$(SAY)$(CC) $(CPPFLAGS_ALL) $(LIBRETEX_CFLAGS) $(CFLAGS_ALL) $(KERNEL_CFLAGS) -MMD -MP -c $< -o $@
+	$(SAY)$(CC) $(CPPFLAGS_ALL) -Itools/libretex $(LIBRETEX_CFLAGS) $(CFLAGS_ALL) $(KERNEL_CFLAGS) -MMD -MP -c $< -o $@
 
 $(BUILD)/obj/tools/%.o: tools/%.c $(BUILD)/config.mk
 	@mkdir -p $(@D)
@@ -22,7 +22,7 @@ $(BUILD)/obj/tools/%.o: tools/%.c $(BUILD)/config.mk
 
 $(LIBRETEX): $(LIBRETEX_SOURCES:%.c=$(BUILD)/obj/%.o)
 	@mkdir -p $(@D)
-	$(SAY)rm -f $@ && $(AR) rcs $@ $^
+	$(SAY)rm -f $@ && $(AR) qcs $@ $^
 
 $(BUILD)/obj/tools/bridge/%.o: tools/bridge/%.cpp $(BUILD)/config.mk
 	@mkdir -p $(@D)

@@ -8,7 +8,7 @@
 
 #include <stdint.h>
 #include <retex/set.h>
-#include "base/float4.h"
+#include "base/color4.h"
 #include "shade/bsdf.h"
 
 /* A hit of a target. */

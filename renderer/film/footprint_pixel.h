@@ -4,7 +4,7 @@
 #define RENDERER_FILM_FOOTPRINT_PIXEL_H
 
 #include <retex/uv_stats.h>
-#include "base/float4.h"
+#include "base/color4.h"
 #include "film/footprint_images.h"
 
 /* Colours are red, green, blue and nothing. */

@@ -9,7 +9,7 @@
 #ifndef RENDERER_FILM_PATH_HITS_H
 #define RENDERER_FILM_PATH_HITS_H
 
-#include "base/float4.h"
+#include "base/color4.h"
 #include "film/expansion.h"
 
 #define PATH_HITS_MAX 64  /* of one path, those of its shadow rays too */

@@ -1,6 +1,6 @@
 /* Lobes of a cell of the guide to caustics: drawing a direction and its density. */
 #include <string.h>
-#include "base/float4.h"
+#include "base/color4.h"
 #include "integrate/caustics.h"
 
 /* Weights of four lobes at a place. */

@@ -3,7 +3,7 @@
 #define RENDERER_INTEGRATE_PATH_H
 
 #include "accel/accel.h"
-#include "base/float4.h"
+#include "base/color4.h"
 #include "film/control.h"
 #include "film/film.h"
 #include "integrate/caustics.h"

@@ -1,6 +1,6 @@
 /* Going down the light tree. */
 #include <string.h>
-#include "base/float4.h"
+#include "base/color4.h"
 #include "light/light_tree_nodes.h"
 
 #define WIDTH LIGHT_TREE_WIDTH

@@ -5,8 +5,8 @@
 #include <stdlib.h>
 
 #include "bench.h"
-#include "combine_kernel.h"
-#include "half.h"
+#include "retexture/combine_kernel.h"
+#include "base/half.h"
 #include "lib_test.h"
 
 /* ---- half ---- */

@@ -11,7 +11,7 @@
 #include <retex/parallel.h>
 #include <retex/sample.h>
 
-#include "rows.h"
+#include "set/rows.h"
 
 typedef struct Floor {
     const RetexSet *set;

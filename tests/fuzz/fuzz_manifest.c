@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "lib_test.h"
-#include "manifest.h"
+#include "set/manifest.h"
 #include "lib_fuzz.h"
 
 static void give(const RetexSet *set, const RetexSamples *samples)

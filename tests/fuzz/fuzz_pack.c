@@ -13,9 +13,9 @@
 
 #include "lib_fuzz.h"
 #include "lib_test.h"
-#include "manifest.h"
-#include "pack_format.h"
-#include "pack_zip.h"
+#include "set/manifest.h"
+#include "pack/format.h"
+#include "pack/zip.h"
 
 enum { ENTRIES_MAX = 256 };
 

@@ -11,11 +11,11 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
-#include "exr_io.h"
-#include "layers.h"
+#include "exr/io.h"
+#include "files/layers.h"
 #include "lib_fuzz.h"
 #include "lib_test.h"
-#include "manifest.h"
+#include "set/manifest.h"
 
 static int file; /* in memory, known by name */
 static char path[64];

@@ -7,7 +7,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "checksum.h"
+#include "io/checksum.h"
 
 const char *const damage_road_names[ROADS] = {"rows",  "read", "estimate", "sample", "stream",
                                               "write", "pack", "strips",   "denoise"};

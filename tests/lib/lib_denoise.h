@@ -4,7 +4,7 @@
 #define LIB_DENOISE_H
 
 #include "lib_test.h"
-#include "signals.h"
+#include "set/signals.h"
 
 /* Layout plain, paper (21 terms, two targets of three hits each, the second seen nowhere) or footprints (two clusters
  * of either kind, light that meets the target again, shares in it), with what denoising reads; without noise, the

@@ -2,7 +2,7 @@
 #ifndef LIB_DENOISE_KERNEL_H
 #define LIB_DENOISE_KERNEL_H
 
-#include "denoise_kernel.h"
+#include "denoise/denoise_kernel.h"
 #include "lib_test.h"
 
 enum { PLANES = 9, GROUPS = 4, IMAGES = 6 };

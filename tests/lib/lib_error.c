@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "lib_test.h"
-#include "sample_row.h"
+#include "retexture/sample_row.h"
 
 static int keep_rows(void *context, int y0, int y1, const float *rows, RetexError *err)
 {

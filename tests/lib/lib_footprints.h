@@ -2,7 +2,7 @@
 #ifndef LIB_FOOTPRINTS_H
 #define LIB_FOOTPRINTS_H
 
-#include "denoise_footprints.h"
+#include "denoise/footprints.h"
 #include "lib_test.h"
 
 enum { WIDTH = 8, HEIGHT = 4 };

@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "half.h"
+#include "base/half.h"
 
 /* Add a part of the set's size; returns its index. */
 static int add_part(RetexSet *set, const char *name, const char *letters, RetexPixelType type)

@@ -6,7 +6,7 @@
 
 #include <cmocka.h>
 
-#include "half.h"
+#include "base/half.h"
 
 RetexSamples *make_samples(const RetexSet *set, int every)
 {

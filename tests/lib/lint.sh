@@ -1,6 +1,7 @@
 #!/bin/sh
 # Rules of the house that a script can check: make lint.
 #   - arrows between directories: libretex <- renderer <- oiio_plugins; tools -> libretex
+#   - order of the rooms of tools/libretex
 #   - each public header compiles alone, as C11 and as C++17
 #   - man pages without complaints of mandoc
 #   - no line over 120 bytes, no tab, no trailing blank in sources
@@ -26,16 +27,44 @@ forbid tools "renderer/|embree|$renderer_headers" "libretex and the tools must n
 forbid tools/libretex 'cli\.h' "the library must not know the command line"
 forbid tools/libretex 'OpenImageIO|OpenColorIO' "only the bridge may include OpenImageIO or OpenColorIO"
 forbid renderer 'OpenImageIO|OpenColorIO|ImfHeader|openexr|turbojpeg|zip\.h' "the renderer knows libretex only"
-forbid renderer 'libretex/|bridge|exr_io|half\.h|manifest\.h|pack_|input\.h|output\.h' \
+forbid renderer 'libretex/|bridge|(io|exr|picture|texture|set|retexture|denoise|metrics|compact|pack|files)/' \
     "the renderer uses libretex's public headers only"
 forbid renderer 'oiio_plugins|set_input|(pack|scene)_source|scene_options' "the renderer must not know the plugins"
 forbid tools 'oiio_plugins|set_input|(pack|scene)_source|scene_options' "libretex and the tools must not know the plugins"
-forbid oiio_plugins 'cli\.h|texture_args|texture_table|libretex/|exr_io|half\.h|manifest\.h|pack_(codec|format)|input\.h' \
+forbid oiio_plugins \
+    'cli\.h|texture_args|texture_table|libretex/|(io|exr|picture|set|retexture|denoise|metrics|compact|pack|files)/' \
     "the plugins use libretex's public headers only"
 for file in renderer/*/*.[ch]; do
     [ -e "$file" ] || continue
     ! grep -qE '#include *"cli\.h"' "$file" || complain "$file: only mains may include cli.h"
 done
+
+# Rooms, lowest first: each may use those before it, and none of its own rank. Looked for in includes and, where there are
+# objects, in the symbols they need.
+rooms() { # directory rank:room…
+    directory=$1; shift
+    objects=${BUILD:-build}/obj/$directory
+    { grep -rE '^#include "' "$directory" --include='*.[ch]' | sed -nE \
+          "s|^$directory/([^:]*)/[^/:]*:#include \"(.*)/[^/]*\"|\1 \2 \1 includes \2|p"
+      [ ! -d "$objects" ] || find "$objects" -name '*.o' | while read -r object; do
+          source=${object#"${BUILD:-build}/obj/"}
+          [ ! -e "${source%.o}.c" ] || nm -A "$object"
+      done | awk -v prefix="$objects/" '
+          { file = substr($1, length(prefix) + 1); sub(/:.*/, "", file); room = file; sub("/[^/]*$", "", room) }
+          $(NF - 1) ~ /^[TDBRV]$/ { of[$NF] = room }
+          $(NF - 1) == "U" { from[++n] = room; file_of[n] = file; symbol[n] = $NF }
+          END { for (i = 1; i <= n; i++) if (symbol[i] in of)
+                    print from[i], of[symbol[i]], file_of[i], "needs", symbol[i], "of", of[symbol[i]] }'
+    } | awk -v order="$*" '
+        BEGIN { n = split(order, list); for (i = 1; i <= n; i++) { split(list[i], pair, ":"); rank[pair[2]] = pair[1] } }
+        $1 == $2 || !($2 in rank) { next }
+        !($1 in rank) { print "no room " $1; next }
+        rank[$2] >= rank[$1] { $1 = $2 = ""; print }' | sort -u
+}
+back=$(rooms tools/libretex 1:base 2:io 3:exr 4:picture 5:texture 6:set 7:retexture 8:denoise 8:metrics 8:compact 9:pack \
+    10:files)
+[ -z "$back" ] || complain "rooms of tools/libretex, from one that stands later:
+$back"
 
 probe=$(mktemp -d)
 trap 'rm -rf "$probe"' EXIT

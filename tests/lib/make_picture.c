@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "exr_io.h"
+#include "exr/io.h"
 #include "lib_test.h"
 
 typedef struct Wishes {

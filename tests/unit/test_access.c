@@ -16,7 +16,7 @@
 
 #include <retex/access.h>
 
-#include "image_format.h"
+#include "picture/image_format.h"
 
 static void write_text(const char *path, const char *text)
 {

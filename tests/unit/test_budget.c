@@ -15,9 +15,9 @@
 #include <retex/image.h>
 
 #include "accel/accel.h"
-#include "machine.h"
+#include "base/machine.h"
 #include "sdl/sdl.h"
-#include "unfinished.h"
+#include "io/unfinished.h"
 
 static void test_stop(void **state)
 {

@@ -11,7 +11,7 @@
 
 #include <cmocka.h>
 
-#include "exr_io.h"
+#include "exr/io.h"
 
 /* From AP1 to Rec.709, as ACES publishes it, Bradford's adaptation included. */
 static const double ap1_to_rec709[3][3] = {{1.7050509926, -.6217921206, -.0832588720},

@@ -12,8 +12,8 @@
 
 #include <cmocka.h>
 
-#include "bridge_load.h"
-#include "output.h"
+#include "picture/bridge_load.h"
+#include "io/output.h"
 
 /* Pictures that we do not write ourselves come from oiiotool. */
 static void oiiotool(const char *arguments, const char *output)

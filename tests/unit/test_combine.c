@@ -10,7 +10,7 @@
 
 #include <cmocka.h>
 
-#include "combine_kernel.h"
+#include "retexture/combine_kernel.h"
 
 static RetexTextureSpec constant_spec(const char *target, float r, float g, float b)
 {

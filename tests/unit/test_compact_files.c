@@ -9,7 +9,7 @@
 
 #include <cmocka.h>
 
-#include "set_parts.h"
+#include "set/parts.h"
 
 static void expect_equal(const RetexSet *one, const RetexSet *other)
 {

@@ -8,8 +8,8 @@
 
 #include <cmocka.h>
 
-#include "checksum.h"
-#include "deflate.h"
+#include "io/checksum.h"
+#include "io/deflate.h"
 
 enum { MOST = 400000, KINDS = 9 };
 

@@ -15,7 +15,7 @@
 #include "film/film.h"
 #include "integrate/render.h"
 #include "sdl/sdl.h"
-#include "signals.h"
+#include "set/signals.h"
 
 static Scene *read_scene(const char *text, const char *declare, const char *const *targets, int ntargets)
 {

@@ -11,7 +11,7 @@
 
 #include <cmocka.h>
 
-#include "estimate_row.h"
+#include "retexture/estimate_row.h"
 
 static char path[64];
 

@@ -11,8 +11,8 @@
 #include <openexr.h>
 #include <zlib.h>
 
-#include "exr_io.h"
-#include "half.h"
+#include "exr/io.h"
+#include "base/half.h"
 
 static const char *const path = test_own_file;
 

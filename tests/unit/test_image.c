@@ -13,8 +13,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "exr_io.h"
-#include "output.h"
+#include "exr/io.h"
+#include "io/output.h"
 
 static void test_errors_quote_themselves(void **state)
 {

@@ -5,7 +5,7 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "image_noise.h"
+#include "compact/image_noise.h"
 
 enum { SIDE = 200, LEVELS = 255 };
 

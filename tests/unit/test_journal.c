@@ -9,7 +9,7 @@
 
 #include <retex/band_stats.h>
 
-#include "spool_file.h"
+#include "exr/spool_file.h"
 
 #define WIDTH 5
 #define HEIGHT 40

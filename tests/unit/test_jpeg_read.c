@@ -12,7 +12,7 @@
 
 #include <retex/retex.h>
 
-#include "jpeg_read.h"
+#include "picture/jpeg_read.h"
 #include "lib_test.h"
 
 #define FILE_NAME "jpeg_read.jpg"

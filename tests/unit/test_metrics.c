@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "flip.h"
+#include "metrics/flip.h"
 
 static RetexMetrics compare(const RetexImage *a, const RetexImage *b)
 {

@@ -5,7 +5,7 @@
 
 #include <cmocka.h>
 
-#include "mixture_kernel.h"
+#include "retexture/mixture_kernel.h"
 
 enum { MOST = 61, SHARES = 3 };
 

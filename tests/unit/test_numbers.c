@@ -10,10 +10,10 @@
 
 #include <cmocka.h>
 
-#include "half.h"
-#include "numbers.h"
-#include "pack_bands.h"
-#include "rows.h"
+#include "base/half.h"
+#include "base/numbers.h"
+#include "pack/bands.h"
+#include "set/rows.h"
 
 /* ---- the kernels ---- */
 

@@ -9,8 +9,8 @@
 
 #include <retex/uv_stats.h>
 
-#include "pack_bands.h"
-#include "pack_plan.h"
+#include "pack/bands.h"
+#include "pack/plan.h"
 
 static void test_lossless_keeps_every_bit(void **state)
 {

@@ -7,10 +7,10 @@
 
 #include <cmocka.h>
 
-#include "pack_bands.h"
-#include "pack_jpeg_kernel.h"
-#include "pack_plan.h"
-#include "pack_restore.h"
+#include "pack/bands.h"
+#include "pack/jpeg_kernel.h"
+#include "pack/plan.h"
+#include "pack/restore.h"
 
 /* Levels come back within a step and a bit, also far above white, also where the size is no multiple of anything. */
 static void test_jpeg_keeps_levels(void **state)

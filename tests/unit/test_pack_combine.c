@@ -7,10 +7,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "half.h"
+#include "base/half.h"
 #include "lib_folder.h"
-#include "pack_bands.h"
-#include "pack_format.h"
+#include "pack/bands.h"
+#include "pack/format.h"
 
 static void write_lossless(const RetexSet *set, int nthreads, size_t *bytes)
 {

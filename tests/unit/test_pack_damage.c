@@ -11,7 +11,7 @@
 
 #include <cmocka.h>
 
-#include "manifest.h"
+#include "set/manifest.h"
 
 /* Reading gives an error with a message and no set. */
 static void assert_refused(const void *data, size_t bytes)

@@ -8,7 +8,7 @@
 
 #include <cmocka.h>
 
-#include "pack_model.h"
+#include "pack/model.h"
 
 enum { WIDTH = 61, ROWS = 29, ALL = WIDTH * ROWS };
 

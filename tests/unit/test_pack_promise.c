@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <unistd.h>
 
-#include "pack_loss.h"
+#include "pack/loss.h"
 
 enum { WIDE = 72, HIGH = 66, PATTERNS = 3 };
 

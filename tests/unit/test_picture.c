@@ -15,11 +15,11 @@
 
 #include <jpeglib.h>
 
-#include "bridge_load.h"
-#include "exr_io.h"
-#include "half.h"
-#include "png_filter.h"
-#include "srgb_codes.h"
+#include "picture/bridge_load.h"
+#include "exr/io.h"
+#include "base/half.h"
+#include "picture/png_filter.h"
+#include "picture/srgb_codes.h"
 
 typedef struct Bytes {
     unsigned char *data;

@@ -8,7 +8,7 @@
 
 #include <cmocka.h>
 
-#include "half.h"
+#include "base/half.h"
 
 static const char *const path = test_own_file;
 

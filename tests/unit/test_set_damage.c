@@ -9,9 +9,9 @@
 
 #include <cmocka.h>
 
-#include "exr_io.h"
-#include "half.h"
-#include "manifest.h"
+#include "exr/io.h"
+#include "base/half.h"
+#include "set/manifest.h"
 
 static const char *const path = test_own_file;
 

@@ -8,8 +8,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "set_parts.h"
-#include "signals.h"
+#include "set/parts.h"
+#include "set/signals.h"
 
 /* One signal as it should be: its parts, and its terms with their weights, named by their radiance. */
 typedef struct Expected {

@@ -11,7 +11,7 @@
 
 #include <retex/parallel.h>
 
-#include "spool_file.h"
+#include "exr/spool_file.h"
 
 #define WIDTH 37
 #define HEIGHT 41 /* two bands and a half */

@@ -1,7 +1,7 @@
 /* Rows of footprints: the kernels of all machines give the same bits, and what they give looks like the filters that do
  * one footprint at a time. */
 #include "lib_test.h"
-#include "texture_batch.h"
+#include "texture/batch.h"
 
 #include <math.h>
 #include <stdlib.h>

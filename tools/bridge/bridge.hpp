@@ -8,7 +8,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "../libretex/bridge_load.h"
+#include "../libretex/picture/bridge_load.h"
 
 namespace bridge
 {

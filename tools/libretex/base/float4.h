@@ -1,0 +1,16 @@
+/* Four floats side by side, in what registers the machine has: for kernels. Private to libretex. */
+#ifndef RETEX_BASE_FLOAT4_H
+#define RETEX_BASE_FLOAT4_H
+
+#include <string.h>
+
+typedef float Float4 __attribute__((vector_size(16)));
+
+static inline Float4 load4(const float *p)
+{
+    Float4 v;
+    memcpy(&v, p, sizeof v);
+    return v;
+}
+
+#endif

@@ -1,0 +1,73 @@
+/* See numbers.h. */
+#include "base/numbers.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/half.h"
+
+RetexNumbers retex_numbers_of_part(const char *name)
+{
+    return strcmp(name, "depth") == 0 ? RETEX_NO_NAN : RETEX_FINITE;
+}
+
+static float sample_at(const void *samples, RetexPixelType type, size_t i)
+{
+    uint16_t half;
+    float value;
+
+    if (type == RETEX_FLOAT) {
+        memcpy(&value, (const unsigned char *)samples + 4 * i, sizeof value);
+        return value;
+    }
+    memcpy(&half, (const unsigned char *)samples + 2 * i, sizeof half);
+    retex_half_to_float_scalar(&value, &half, 1);
+    return value;
+}
+
+size_t retex_numbers_find(const void *samples, RetexPixelType type, size_t count, RetexNumbers allowed)
+{
+    if (allowed == RETEX_ANY_NUMBERS ||
+        !(type == RETEX_FLOAT ? retex_floats_are_odd(samples, count) : retex_halves_are_odd(samples, count)))
+        return count;
+    for (size_t i = 0; i < count; i++) {
+        const float value = sample_at(samples, type, i);
+        if (isnan(value) || (allowed == RETEX_FINITE && !isfinite(value)))
+            return i;
+    }
+    return count;
+}
+
+int retex_numbers_fail(RetexError *err, const char *file, const char *part, const char *channel, int x, int y,
+                       float value)
+{
+    return retex_fail(err, RETEX_EFORMAT, "%s%spart %s holds %s at %d,%d in channel %s: such values are refused",
+                      file ? file : "", file ? ": " : "", part,
+                      isnan(value) ? "NaN"
+                      : value < 0  ? "-infinity"
+                                   : "infinity",
+                      x, y, channel);
+}
+
+int retex_numbers_check_row(const RetexPart *part, const float *row, int x0, int x1, int y, RetexError *err)
+{
+    const size_t channels = strlen(part->letters), first = (size_t)x0 * channels;
+    const size_t count = x1 > x0 ? (size_t)(x1 - x0) * channels : 0;
+    const size_t found = retex_numbers_find(row + first, RETEX_FLOAT, count, retex_numbers_of_part(part->name));
+
+    if (found == count)
+        return 0;
+    const size_t at = first + found;
+    const char channel[2] = {part->letters[at % channels], 0};
+    return retex_numbers_fail(err, NULL, part->name, channel, (int)(at / channels), y, row[at]);
+}
+
+int retex_numbers_check_part(const RetexPart *part, RetexError *err)
+{
+    const RetexImage *image = &part->image;
+    int code = 0;
+
+    for (int y = 0; y < image->height && !code; y++)
+        code = retex_numbers_check_row(part, image->pixels + retex_image_index(image, 0, y), 0, image->width, y, err);
+    return code;
+}

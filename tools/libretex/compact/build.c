@@ -1,0 +1,506 @@
+/* See build.h. */
+#include "compact/build.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "compact/bands.h"
+#include "compact/clusters.h"
+#include "compact/gains.h"
+#include "set/band.h"
+#include "set/parts.h"
+
+typedef struct Compaction {
+    const CompactLight *light;
+    RetexSet *set; /* the new one */
+    const CompactScales *scales;
+    int nthreads;
+    CompactCache *cache;                             /* where what is made is kept */
+    int trial;                                       /* 1: for other trials too; 0: all is there, and is taken */
+    RetexImage *(*waves)[COMPACT_WAVES];             /* of trials */
+    int places[COMPACT_KINDS], again[COMPACT_KINDS]; /* of each kind, the factor that stands for it: for its own light,
+                                                        and for that which goes on */
+    int mixtures[RETEX_MIXTURES_MAX];                /* of the old ones of later footprints, the new factor */
+    int footprints[COMPACT_KINDS][RETEX_SHARES_MAX];
+    int weights[COMPACT_KINDS][RETEX_SHARES_MAX], shares[COMPACT_KINDS][RETEX_SHARES_MAX]; /* parts, again */
+    int counts[COMPACT_KINDS]; /* of each kind's new footprints and their weights */
+} Compaction;
+
+/* ---- what stays as it is ---- */
+
+int compact_copy_part(RetexSet *set, const RetexSet *from, int number, int *index, RetexError *err)
+{
+    const RetexPart *part = &from->parts[number];
+    int code = retex_set_add_part(set, part->name, part->letters, part->type, part->image.width, part->image.height,
+                                  index, err);
+    return code ? code : set_part_rows(&set->parts[*index].image, from, number, 0, err);
+}
+
+int compact_copy_head(RetexSet **copy, const RetexSet *set, RetexError *err)
+{
+    int code = retex_set_create(copy, set->width, set->height, err);
+    if (code)
+        return code;
+    RetexSet empty = *set;
+    empty.nparts = empty.nfootprints = empty.nterms = empty.nmixtures = 0;
+    empty.parts = NULL, empty.footprints = NULL, empty.terms = NULL, empty.spool = NULL, empty.source = NULL;
+    **copy = empty;
+    return code;
+}
+
+/* Parts that neither terms nor footprints nor mixtures use stay; so do those of terms without factors. */
+static int is_kept(const RetexSet *set, int part)
+{
+    if (part_is_denoise_data(set, part))
+        return 0;
+    if (!part_is_used(set, part))
+        return 1;
+    for (int i = 0; i < set->nterms; i++)
+        if (set->terms[i].radiance == part && !set->terms[i].nfactors)
+            return 1;
+    for (int t = 0; t < set->ntargets; t++)
+        if (set->targets[t].original == part)
+            return 1;
+    return part == 0;
+}
+
+static int copy_kept(const Compaction *work, RetexError *err)
+{
+    const RetexSet *old = work->light->set;
+    RetexSet *set = work->set;
+    int code = RETEX_OK;
+    for (int i = 0; i < old->nparts && !code; i++) {
+        int index = -1;
+        if (!is_kept(old, i))
+            continue;
+        code = compact_copy_part(set, old, i, &index, err);
+        for (int t = 0; t < old->ntargets; t++)
+            if (old->targets[t].original == i)
+                set->targets[t].original = index;
+        for (int k = 0; k < old->nterms && !code; k++) {
+            RetexTerm term = old->terms[k];
+            if (term.nfactors || term.radiance != i)
+                continue;
+            term.radiance = index;
+            code = retex_set_add_term(set, &term, NULL, err);
+        }
+    }
+    return code;
+}
+
+/* ---- what is made anew ---- */
+
+/* Move an image into the set as a part. */
+static int move_image(RetexSet *set, RetexImage *image, const char *letters, RetexPixelType type, int *index,
+                      RetexError *err, const char *format, ...) RETEX_PRINTF(7, 8);
+static int move_image(RetexSet *set, RetexImage *image, const char *letters, RetexPixelType type, int *index,
+                      RetexError *err, const char *format, ...)
+{
+    char name[2 * RETEX_NAME_MAX];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(name, sizeof name, format, arguments);
+    va_end(arguments);
+    int code = retex_set_add_part(set, name, letters, type, image->width, image->height, index, err);
+    if (code)
+        return code;
+    retex_image_free(&set->parts[*index].image);
+    set->parts[*index].image = *image;
+    *image = (RetexImage){0};
+    return code;
+}
+
+/* ---- what trials have in common ---- */
+
+static int step_of(int scale)
+{
+    int step = 0;
+    while (1 << step < scale)
+        step++;
+    return step;
+}
+
+/* A copy of what the cache holds, for a set to own. */
+static int copy_clusters(CompactClusters *to, const CompactClusters *from, RetexError *err)
+{
+    int code = retex_image_copy(&to->albedo, &from->albedo, err);
+    to->count = from->count;
+    for (int k = 0; k < from->count && !code; k++) {
+        code = retex_image_copy(&to->uv[k], &from->uv[k], err);
+        if (!code)
+            code = retex_image_copy(&to->spread[k], &from->spread[k], err);
+        if (!code)
+            code = retex_image_copy(&to->weight[k], &from->weight[k], err);
+        if (!code && from->again[k].pixels)
+            code = retex_image_copy(&to->again[k], &from->again[k], err);
+    }
+    return code;
+}
+
+static CompactClusters *cached_clusters(const Compaction *work, int number)
+{
+    return &work->cache->clusters[number][step_of(work->scales->clusters[number])][work->scales->split[number]];
+}
+
+static int make_clusters(CompactClusters *clusters, const Compaction *work, int number, RetexError *err)
+{
+    CompactClusters *kept = cached_clusters(work, number);
+    int code = RETEX_OK;
+    *clusters = (CompactClusters){0};
+    if (!work->trial) {
+        *clusters = *kept;
+        *kept = (CompactClusters){0};
+        return RETEX_OK;
+    }
+    if (!kept->albedo.pixels)
+        code = compact_clusters_make(kept, work->light, &work->light->kinds[number], work->scales->clusters[number],
+                                     work->scales->split[number], work->nthreads, err);
+    if (!code)
+        code = copy_clusters(clusters, kept, err);
+    if (code)
+        compact_clusters_free(clusters);
+    return code;
+}
+
+static int take_image(RetexImage *image, const Compaction *work, RetexImage *kept, RetexError *err)
+{
+    if (work->trial)
+        return retex_image_copy(image, kept, err);
+    *image = *kept;
+    *kept = (RetexImage){0};
+    return RETEX_OK;
+}
+
+static int make_sum(RetexImage *sum, const Compaction *work, int number, RetexError *err)
+{
+    RetexImage *kept = &work->cache->sums[number];
+    int code = RETEX_OK;
+    if (!kept->pixels)
+        code = compact_sum_light(kept, work->light, &work->light->kinds[number], work->nthreads, err);
+    return code ? code : take_image(sum, work, kept, err);
+}
+
+/* All gains of a kind: 0 for the clusters alone, then those of the terms that go on. */
+static RetexImage *cached_gains(const Compaction *work, int number, RetexError *err)
+{
+    const CompactMixed mixed = work->scales->mixed[number];
+    RetexImage **all = &work->cache->gains[number][step_of(work->scales->gains[number])][mixed];
+    if (!*all && !(*all = calloc((size_t)work->light->kinds[number].ngains[mixed] + 1, sizeof **all)))
+        retex_fail(err, RETEX_ENOMEM, "not enough memory for gains");
+    return *all;
+}
+
+static int make_gain(RetexImage *gain, const Compaction *work, int number, int radiance, int place, RetexError *err)
+{
+    const RetexImage *sum = &work->set->parts[radiance].image;
+    RetexImage *all = cached_gains(work, number, err), *kept = all + place;
+    int code = RETEX_OK;
+    if (!all)
+        return RETEX_ENOMEM;
+    if (!kept->pixels)
+        code = compact_make_gain(kept, work->light, &work->light->kinds[number], sum, place - 1,
+                                 work->scales->mixed[number], work->scales->gains[number], work->nthreads, err);
+    return code ? code : take_image(gain, work, kept, err);
+}
+
+void compact_cache_free(CompactCache *cache, const CompactLight *light)
+{
+    for (int i = 0; i < light->nkinds; i++) {
+        for (int j = 0; j < COMPACT_STEPS * 2; j++) {
+            compact_clusters_free(&cache->clusters[i][j / 2][j % 2]);
+            for (int k = 0; k < COMPACT_WAVES * RETEX_SHARES_MAX; k++)
+                retex_image_free(&cache->waves[i][j / 2][j % 2][k / RETEX_SHARES_MAX][k % RETEX_SHARES_MAX]);
+        }
+        for (int j = 0; j < COMPACT_STEPS * COMPACT_CHOICES; j++) {
+            const int step = j / COMPACT_CHOICES, mixed = j % COMPACT_CHOICES;
+            for (int k = 0; cache->gains[i][step][mixed] && k <= light->kinds[i].ngains[mixed]; k++)
+                retex_image_free(&cache->gains[i][step][mixed][k]);
+            free(cache->gains[i][step][mixed]);
+        }
+        retex_image_free(&cache->sums[i]);
+    }
+}
+
+/* ---- footprints ---- */
+
+/* One cluster as a footprint, which refers to the albedo that all of its kind have. */
+static int add_cluster(Compaction *work, int number, CompactClusters *clusters, int k, int albedo, RetexError *err)
+{
+    const CompactKind *kind = &work->light->kinds[number];
+    const char *target = work->set->targets[kind->target].name, *name = retex_footprint_kind_name(kind->kind);
+    RetexFootprint f = {.target = kind->target, .kind = kind->kind, .albedo = albedo};
+    f.hit = work->light->set->footprints[kind->footprints[k]].hit;
+    int code =
+        move_image(work->set, &clusters->uv[k], "RGA", RETEX_FLOAT, &f.uv, err, "uv_%s_%s%d", target, name, k + 1);
+    if (!code)
+        code = move_image(work->set, &clusters->spread[k], "RGB", RETEX_HALF, &f.spread, err, "spread_%s_%s%d", target,
+                          name, k + 1);
+    if (!code && (clusters->count > 1 || kind->kind == RETEX_FOOTPRINT_INTERREFLECTION))
+        code = move_image(work->set, &clusters->weight[k], "R", RETEX_HALF, &work->weights[number][k], err,
+                          "weight_%s_%s%d", target, name, k + 1);
+    work->shares[number][k] = -1;
+    if (!code && clusters->count > 1 && clusters->again[k].pixels)
+        code = move_image(work->set, &clusters->again[k], "R", RETEX_HALF, &work->shares[number][k], err,
+                          "share_%s_%s%d", target, name, k + 1);
+    if (!code)
+        code = retex_set_add_footprint(work->set, &f, &work->footprints[number][k], err);
+    for (int i = 0; i < COMPACT_WAVES && !code && work->trial; i++)
+        work->waves[work->footprints[number][k]][i] =
+            &work->cache->waves[number][step_of(work->scales->clusters[number])][work->scales->split[number]][i][k];
+    return code;
+}
+
+/* The factor that stands for a kind, its footprints weighed by these parts. */
+static int add_mixture(Compaction *work, int number, const int *weights, int *place, RetexError *err)
+{
+    RetexMixture mixture = {.nshares = work->counts[number]};
+    int index = 0;
+    *place = work->footprints[number][0];
+    if (mixture.nshares == 1)
+        return RETEX_OK;
+    for (int k = 0; k < mixture.nshares; k++)
+        mixture.shares[k] = (struct RetexShare){work->footprints[number][k], weights[k]};
+    int code = retex_set_add_mixture(work->set, &mixture, &index, err);
+    *place = RETEX_MIXTURE(index);
+    return code;
+}
+
+static int add_clusters(Compaction *work, int number, RetexError *err)
+{
+    const CompactKind *kind = &work->light->kinds[number];
+    CompactClusters clusters;
+    int albedo, code = make_clusters(&clusters, work, number, err);
+    if (code)
+        return code;
+    work->counts[number] = clusters.count;
+    code = move_image(work->set, &clusters.albedo, "RGB", RETEX_HALF, &albedo, err, "albedo_%s_%s",
+                      work->set->targets[kind->target].name, retex_footprint_kind_name(kind->kind));
+    for (int k = 0; k < clusters.count && !code; k++)
+        code = add_cluster(work, number, &clusters, k, albedo, err);
+    compact_clusters_free(&clusters);
+    if (!code)
+        code = add_mixture(work, number, work->weights[number], &work->places[number], err);
+    work->again[number] = work->places[number];
+    if (!code && work->counts[number] > 1 && work->shares[number][0] >= 0)
+        code = add_mixture(work, number, work->shares[number], &work->again[number], err);
+    return code;
+}
+
+/* ---- terms ---- */
+
+static int find_kind(const CompactLight *light, int target, RetexFootprintKind kind)
+{
+    for (int i = 0; i < light->nkinds; i++)
+        if (light->kinds[i].target == target && light->kinds[i].kind == kind)
+            return i;
+    return -1;
+}
+
+/* Mixtures of later footprints: of one target, or of several. */
+static int add_later_mixtures(Compaction *work, RetexError *err)
+{
+    const RetexSet *old = work->light->set;
+    int code = RETEX_OK;
+    for (int m = 0; m < old->nmixtures && !code; m++) {
+        RetexMixture mixture = {0};
+        int index = 0, targets[RETEX_MAX_TARGETS] = {0}, count = 0, one = 0;
+        if (old->footprints[old->mixtures[m].shares[0].footprint].kind != RETEX_FOOTPRINT_INTERREFLECTION)
+            continue;
+        for (int k = 0; k < old->mixtures[m].nshares; k++)
+            targets[old->footprints[old->mixtures[m].shares[k].footprint].target] = 1;
+        for (int t = 0; t < old->ntargets; t++) {
+            if (!targets[t])
+                continue;
+            one = find_kind(work->light, t, RETEX_FOOTPRINT_INTERREFLECTION);
+            count++;
+            for (int k = 0; k < work->counts[one]; k++)
+                mixture.shares[mixture.nshares++] =
+                    (struct RetexShare){work->footprints[one][k], work->weights[one][k]};
+        }
+        work->mixtures[m] = work->places[one];
+        if (count == 1)
+            continue;
+        code = retex_set_add_mixture(work->set, &mixture, &index, err);
+        work->mixtures[m] = RETEX_MIXTURE(index);
+    }
+    return code;
+}
+
+static int later_factor(const Compaction *work, int factor)
+{
+    const RetexSet *old = work->light->set;
+    return factor < 0
+               ? work->mixtures[RETEX_MIXTURE(factor)]
+               : work->places[find_kind(work->light, old->footprints[factor].target, RETEX_FOOTPRINT_INTERREFLECTION)];
+}
+
+static int add_gain(Compaction *work, int number, int radiance, int place, RetexTerm *term, RetexError *err)
+{
+    const CompactKind *kind = &work->light->kinds[number];
+    const char *target = work->set->targets[kind->target].name, *name = retex_footprint_kind_name(kind->kind);
+    RetexImage gain = {0};
+    int code = make_gain(&gain, work, number, radiance, place, err);
+    if (!code)
+        code = move_image(work->set, &gain, "RGB", RETEX_HALF, &term->gain, err, "gain_%s_%s%s%s", target, name,
+                          place ? "_" : "", place ? kind->gains[work->scales->mixed[number]][place - 1].name : "");
+    retex_image_free(&gain);
+    return code;
+}
+
+static int add_term(Compaction *work, int number, int radiance, int place, int with_gain, RetexError *err)
+{
+    RetexTerm term = {.kind = RETEX_TERM_DEP, .nfactors = 1};
+    if (place)
+        term = work->light->kinds[number].gains[work->scales->mixed[number]][place - 1].term;
+    term.radiance = radiance;
+    term.factors[0] = place ? work->again[number] : work->places[number];
+    for (int k = 1; k < term.nfactors; k++)
+        term.factors[k] = later_factor(work, term.factors[k]);
+    int code = with_gain ? add_gain(work, number, radiance, place, &term, err) : RETEX_OK;
+    return code ? code : retex_set_add_term(work->set, &term, NULL, err);
+}
+
+static int has_own(const CompactKind *kind)
+{
+    int owns = 0;
+    for (int k = 0; k < kind->count; k++)
+        owns |= kind->own[k] >= 0;
+    return owns;
+}
+
+static int add_terms(Compaction *work, int number, RetexError *err)
+{
+    const CompactKind *kind = &work->light->kinds[number];
+    RetexImage sum = {0};
+    const int owns = has_own(kind);
+    int radiance;
+    if (!owns && !kind->nagain)
+        return RETEX_OK;
+    int code = make_sum(&sum, work, number, err);
+    if (!code)
+        code = move_image(work->set, &sum, "RGB", RETEX_HALF, &radiance, err, "dep_%s_%s",
+                          work->set->targets[kind->target].name, retex_footprint_kind_name(kind->kind));
+    if (!code && owns)
+        code = add_term(work, number, radiance, 0, kind->nagain > 0, err);
+    for (int i = 0; i < kind->ngains[work->scales->mixed[number]] && !code; i++)
+        code = add_term(work, number, radiance, i + 1, 1, err);
+    retex_image_free(&sum);
+    return code;
+}
+
+/* ---- all of it ---- */
+
+/* Room for all that is made of a kind. */
+static int begin_kind(const Compaction *work, int number, RetexError *err)
+{
+    const CompactLight *light = work->light;
+    const CompactKind *kind = &light->kinds[number];
+    int code = compact_clusters_begin(cached_clusters(work, number), light, kind, work->scales->clusters[number],
+                                      work->scales->split[number], err);
+    RetexImage *gains = cached_gains(work, number, err);
+    if (code || !gains || kind->kind == RETEX_FOOTPRINT_INTERREFLECTION)
+        return code ? code : gains ? RETEX_OK : RETEX_ENOMEM;
+    if (has_own(kind) || kind->nagain)
+        code = retex_image_alloc(&work->cache->sums[number], light->set->width, light->set->height, 3, err);
+    for (int i = 0; i <= kind->ngains[work->scales->mixed[number]] && !code && kind->nagain; i++)
+        if (i || has_own(kind))
+            code = compact_gain_begin(&gains[i], light, work->scales->gains[number], err);
+    return code;
+}
+
+static int make_rows(void *context, const CompactLight *light, int first, RetexError *err)
+{
+    const Compaction *work = context;
+    int code = RETEX_OK;
+    for (int i = 0; i < light->nkinds && !code; i++) {
+        const CompactKind *kind = &light->kinds[i];
+        const CompactMixed mixed = work->scales->mixed[i];
+        RetexImage *sum = &work->cache->sums[i], *gains = cached_gains(work, i, err);
+        compact_clusters_rows(cached_clusters(work, i), light, kind, first, work->nthreads);
+        if (sum->pixels)
+            compact_sum_rows(sum, light, kind, first, work->nthreads);
+        for (int k = 0; k <= kind->ngains[mixed] && !code; k++)
+            if (gains[k].pixels)
+                code = compact_gain_rows(&gains[k], light, kind, sum, k - 1, mixed, work->scales->gains[i], first,
+                                         work->nthreads, err);
+    }
+    return code;
+}
+
+static int end_kind(const Compaction *work, int number, RetexError *err)
+{
+    const CompactKind *kind = &work->light->kinds[number];
+    RetexImage *gains = cached_gains(work, number, err);
+    int code = compact_clusters_end(cached_clusters(work, number), work->light, kind, work->nthreads, err);
+    for (int k = 0; k <= kind->ngains[work->scales->mixed[number]] && !code; k++)
+        if (gains[k].pixels)
+            code = compact_gain_end(&gains[k], err);
+    return code;
+}
+
+/* All kinds by bands of rows, for the set may be larger than memory. */
+static int make_kinds(Compaction *work, RetexError *err)
+{
+    const CompactLight *light = work->light;
+    int code = RETEX_OK;
+    for (int i = 0; i < light->nkinds && !code; i++)
+        code = begin_kind(work, i, err);
+    if (!code)
+        code = compact_bands(light, make_rows, work, work->nthreads, err);
+    for (int i = 0; i < light->nkinds && !code; i++)
+        code = end_kind(work, i, err);
+    return code;
+}
+
+int compact_build(RetexSet **result, const CompactLight *light, const CompactScales *scales, int nthreads,
+                  RetexError *err)
+{
+    Compaction work = {.light = light, .scales = scales, .nthreads = nthreads, .cache = calloc(1, sizeof *work.cache)};
+    int code = work.cache ? make_kinds(&work, err) : retex_fail(err, RETEX_ENOMEM, "not enough memory for a set");
+    if (!code)
+        code = compact_copy_head(&work.set, light->set, err);
+    if (!code)
+        code = copy_kept(&work, err);
+    for (int i = 0; i < light->nkinds && !code; i++)
+        code = add_clusters(&work, i, err);
+    if (!code)
+        code = add_later_mixtures(&work, err);
+    for (int i = 0; i < light->nkinds && !code; i++)
+        if (light->kinds[i].kind != RETEX_FOOTPRINT_INTERREFLECTION)
+            code = add_terms(&work, i, err);
+    if (work.cache)
+        compact_cache_free(work.cache, light);
+    free(work.cache);
+    if (code)
+        retex_set_close(&work.set);
+    *result = work.set;
+    return code;
+}
+
+int compact_build_kind(RetexSet **result, RetexImage *of[][COMPACT_WAVES], const CompactLight *light, int kind,
+                       const CompactScales *scales, CompactCache *cache, int nthreads, RetexError *err)
+{
+    Compaction work = {.light = light, .scales = scales, .nthreads = nthreads, .cache = cache, .trial = 1, .waves = of};
+    const RetexSet *old = light->set;
+    int code = compact_copy_head(&work.set, old, err);
+    for (int t = 0; t < old->ntargets && !code; t++)
+        work.set->targets[t].original = -1;
+    if (!code && kind < 0)
+        code = copy_kept(&work, err);
+    else if (!code) /* the picture, which no recombination reads */
+        code = retex_set_add_part(work.set, old->parts[0].name, old->parts[0].letters, old->parts[0].type, 0, 0, NULL,
+                                  err);
+    for (int i = 0; i < light->nkinds && !code && kind >= 0; i++)
+        if (i == kind || light->kinds[i].kind == RETEX_FOOTPRINT_INTERREFLECTION)
+            code = add_clusters(&work, i, err);
+    if (!code && kind >= 0)
+        code = add_later_mixtures(&work, err);
+    if (!code && kind >= 0)
+        code = add_terms(&work, kind, err);
+    if (code)
+        retex_set_close(&work.set);
+    *result = work.set;
+    return code;
+}

@@ -1,0 +1,381 @@
+/* See choose.h. What a choice costs is measured for one thing at a time, all others being as fine as they can.
+ * Squares of differences add up, roughly: the choices of fewest numbers whose sums are within bounds are made together
+ * and measured, and sums are let grow, or have to shrink, by how they compare with that.
+ *
+ * Footprints are noisy, those of denoised sets too, and smaller images average that away: a difference from the set
+ * that is no loss. Of n, the square of what noise does, a scale of s takes away 1 - 1 / s^2, and hardly more where s is
+ * large; what is lost of edges and shades at least doubles from each scale to the next. So the first two tell noise
+ * from loss. */
+#include "compact/choose.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "compact/meter.h"
+
+#define STEPS COMPACT_STEPS
+#define NOISE_COUNTS 0.025   /* of a set's own noise, what may be added: 0.1 dB */
+#define NOISE_COUNTS_NOT 0.9 /* share of what is taken for noise that is no loss where all may go; the rest counts */
+#define NOTHING 0.03         /* share of the bound that gains may cost without a closer look at their scale */
+#define LETTING 0.25         /* times what is lost when all is as fine as can be may be lost on top, or the bound */
+#define GROWTH_MOST 4        /* of sums */
+#define MEASURED_MOST 8      /* times */
+#define GROUPS_MOST 64
+#define KINDS_APART 6 /* more kinds than these, of three or more targets, are chosen for together */
+
+/* One choice: the scale of some kinds' footprints or gains, whether light that goes on has weights of its own (of sharp
+ * ones it always has, for textures show every letter there), or whether many further hits are those on any target. */
+typedef enum What { CLUSTERS, GAINS, SPLIT, MIXED } What;
+
+typedef struct Choice {
+    What what;
+    int kinds[COMPACT_KINDS], nkinds;
+    int steps, at, before;                 /* 0: as fine as can be, to steps - 1; before: when last measured */
+    double squares[STEPS][COMPACT_TRIALS]; /* lost */
+    double noise[COMPACT_TRIALS];          /* what an infinite scale would take away of it */
+    double numbers[STEPS];                 /* stored for each pixel */
+} Choice;
+
+/* A kind's pictures at some scales. */
+typedef struct Shown {
+    int clusters, gains, split, mixed, later;
+    RetexImage pictures[COMPACT_TRIALS];
+} Shown;
+
+typedef struct Choosing {
+    const CompactLight *light; /* of the meter's set */
+    CompactMeter meter;
+    CompactCache *cache;
+    Shown shown[COMPACT_KINDS][2];   /* as fine as can be; and those of the last trial */
+    RetexImage rest[COMPACT_TRIALS]; /* pictures of terms without factors */
+    Choice choices[GROUPS_MOST];
+    int count, nthreads;
+    double bound;
+    double least[COMPACT_TRIALS]; /* lost when all is as fine as can be */
+} Choosing;
+
+/* ---- choices ---- */
+
+static void apply(CompactScales *scales, const Choice *choice, int step)
+{
+    for (int i = 0; i < choice->nkinds; i++) {
+        const int kind = choice->kinds[i];
+        if (choice->what == CLUSTERS)
+            scales->clusters[kind] = 1 << step;
+        else if (choice->what == GAINS)
+            scales->gains[kind] = 1 << step;
+        else if (choice->what == SPLIT)
+            scales->split[kind] = !step;
+        else
+            scales->mixed[kind] = step ? COMPACT_MIXED : COMPACT_APART;
+    }
+}
+
+static double numbers_of(const Choosing *work, const Choice *choice, int step)
+{
+    double numbers = 0;
+    for (int i = 0; i < choice->nkinds; i++) {
+        const CompactKind *kind = &work->light->kinds[choice->kinds[i]];
+        if (choice->what == CLUSTERS)
+            numbers += (3 + 7.0 * kind->count) / (1 << (2 * step));
+        else if (choice->what == GAINS)
+            numbers += 3.0 * (kind->ngains[COMPACT_MIXED] + 1) / (1 << (2 * step));
+        else if (choice->what == MIXED)
+            numbers += step ? 0 : 3.0 / 16 * (kind->ngains[COMPACT_APART] - kind->ngains[COMPACT_MIXED]);
+        else if (!step)
+            numbers += kind->count / 16.0; /* of a usual size */
+    }
+    return numbers;
+}
+
+static Choice *find_choice(Choosing *work, What what, const CompactKind *kind)
+{
+    for (int i = 0; i < work->count; i++) {
+        const CompactKind *first = &work->light->kinds[work->choices[i].kinds[0]];
+        const int together = kind->kind == RETEX_FOOTPRINT_INTERREFLECTION || work->light->nkinds > KINDS_APART;
+        if (work->choices[i].what == what && first->kind == kind->kind && together)
+            return &work->choices[i];
+    }
+    Choice *choice = &work->choices[work->count++];
+    *choice = (Choice){.what = what, .steps = what == SPLIT || what == MIXED ? 2 : STEPS};
+    return choice;
+}
+
+static void add_choice(Choosing *work, What what, int kind)
+{
+    Choice *choice = find_choice(work, what, &work->light->kinds[kind]);
+    choice->kinds[choice->nkinds++] = kind;
+}
+
+/* Fixed ones are put into scales. */
+static void list_choices(Choosing *work, CompactScales *scales, const RetexCompactParams *params)
+{
+    for (int i = 0; i < work->light->nkinds; i++) {
+        const CompactKind *kind = &work->light->kinds[i];
+        const int sharp = kind->kind == RETEX_FOOTPRINT_SHARP, later = kind->kind == RETEX_FOOTPRINT_INTERREFLECTION;
+        const int wanted = sharp ? 1 : later ? params->later : params->broad;
+        scales->clusters[i] = wanted ? wanted : 1;
+        scales->gains[i] = params->gain ? params->gain : 1;
+        scales->split[i] = 1;
+        if (!wanted)
+            add_choice(work, CLUSTERS, i);
+        if (kind->nagain && !params->gain)
+            add_choice(work, GAINS, i);
+        if (kind->nagain && kind->count > 1 && !sharp)
+            add_choice(work, SPLIT, i);
+        if (kind->ngains[COMPACT_MIXED] < kind->ngains[COMPACT_APART])
+            add_choice(work, MIXED, i);
+    }
+}
+
+/* ---- trials ---- */
+
+static void free_shown(Shown *shown)
+{
+    for (int t = 0; t < COMPACT_TRIALS; t++)
+        retex_image_free(&shown->pictures[t]);
+}
+
+/* Later footprints of all targets have one scale. */
+static int later_scale(const CompactLight *light, const CompactScales *scales)
+{
+    for (int i = 0; i < light->nkinds; i++)
+        if (light->kinds[i].kind == RETEX_FOOTPRINT_INTERREFLECTION)
+            return scales->clusters[i];
+    return 1;
+}
+
+static int show_kind(Choosing *work, int kind, const CompactScales *scales, const RetexImage **pictures,
+                     RetexError *err)
+{
+    const Shown wanted = {.clusters = scales->clusters[kind],
+                          .gains = scales->gains[kind],
+                          .split = scales->split[kind],
+                          .mixed = (int)scales->mixed[kind],
+                          .later = later_scale(work->light, scales)};
+    int place = 0;
+    for (; place < 2 && work->shown[kind][place].pictures[0].pixels; place++) {
+        const Shown *shown = &work->shown[kind][place];
+        *pictures = shown->pictures;
+        if (shown->clusters == wanted.clusters && shown->gains == wanted.gains && shown->split == wanted.split &&
+            shown->mixed == wanted.mixed && shown->later == wanted.later)
+            return RETEX_OK;
+    }
+    Shown *shown = &work->shown[kind][place < 1 ? 0 : 1];
+    free_shown(shown);
+    *shown = wanted;
+    *pictures = shown->pictures;
+    return compact_meter_show(shown->pictures, work->light, kind, scales, work->cache, work->nthreads, err);
+}
+
+static int try_scales(Choosing *work, const CompactScales *scales, double squares[COMPACT_TRIALS], RetexError *err)
+{
+    const RetexImage *parts[COMPACT_KINDS + 1] = {work->rest};
+    int count = 1, code = RETEX_OK;
+    if (!work->rest[0].pixels)
+        code = compact_meter_show(work->rest, work->light, -1, scales, work->cache, work->nthreads, err);
+    for (int i = 0; i < work->light->nkinds && !code; i++)
+        if (work->light->kinds[i].kind != RETEX_FOOTPRINT_INTERREFLECTION)
+            code = show_kind(work, i, scales, &parts[count++], err);
+    return code ? code : compact_meter_read(&work->meter, parts, count, squares, work->nthreads, err);
+}
+
+static double noise_gone(const Choosing *work, int step)
+{
+    return work->light->noise * NOISE_COUNTS_NOT * (1 - 1.0 / (1 << (2 * step)));
+}
+
+/* The rest is loss. Of gains of sets as rendered all is: where gains are smooth, noise goes from one term's light to
+ * another's, which may be of a lighter texture. */
+static void tell_noise(const Choosing *work, Choice *choice)
+{
+    const int denoised = work->light->set->denoised;
+    const int averages = choice->what == CLUSTERS || (choice->what == GAINS && denoised);
+    for (int t = 0; t < COMPACT_TRIALS && averages; t++) {
+        const double *first = choice->squares[1], *second = choice->squares[2];
+        const double noise = (2 * first[t] - second[t]) / (2 * (1 - 1.0 / 4) - (1 - 1.0 / 16));
+        choice->noise[t] = fmax(noise, 0);
+        for (int step = 1; step < choice->steps; step++)
+            choice->squares[step][t] = fmax(choice->squares[step][t] - noise_gone(work, step) * choice->noise[t], 0);
+    }
+}
+
+static int measure_step(Choosing *work, Choice *choice, int step, const CompactScales *fine, RetexError *err)
+{
+    CompactScales scales = *fine;
+    apply(&scales, choice, step);
+    int code = try_scales(work, &scales, choice->squares[step], err);
+    for (int t = 0; t < COMPACT_TRIALS; t++)
+        choice->squares[step][t] = fmax(choice->squares[step][t] - work->least[t], 0);
+    return code;
+}
+
+static double worst(const double squares[COMPACT_TRIALS])
+{
+    double most = squares[0];
+    for (int t = 1; t < COMPACT_TRIALS; t++)
+        most = fmax(most, squares[t]);
+    return most;
+}
+
+/* What each step of each choice loses beyond the least. */
+static int measure(Choosing *work, const CompactScales *fine, RetexError *err)
+{
+    int code = try_scales(work, fine, work->least, err);
+    for (int i = 0; i < work->count && !code; i++) {
+        Choice *choice = &work->choices[i];
+        const int last = choice->steps - 1;
+        for (int step = 0; step <= last; step++)
+            choice->numbers[step] = numbers_of(work, choice, step);
+        code = measure_step(work, choice, last, fine, err);
+        const int nothing = choice->what == GAINS && worst(choice->squares[last]) < NOTHING * work->bound;
+        for (int step = 1; step < last && !code; step++)
+            if (nothing)
+                memcpy(choice->squares[step], choice->squares[last], sizeof choice->squares[last]);
+            else
+                code = measure_step(work, choice, step, fine, err);
+        if (!nothing)
+            tell_noise(work, choice);
+    }
+    return code;
+}
+
+/* ---- choosing ---- */
+
+/* The choices of fewest numbers that keep sums within bounds, from this one on; where there are none, *numbers stays
+ * as it is. */
+static void search(Choosing *work, int first, const double sums[COMPACT_TRIALS], const double bounds[COMPACT_TRIALS],
+                   double so_far, double *numbers, int best[GROUPS_MOST])
+{
+    if (so_far >= *numbers)
+        return;
+    if (first == work->count) {
+        *numbers = so_far;
+        for (int i = 0; i < work->count; i++)
+            best[i] = work->choices[i].at;
+        return;
+    }
+    Choice *choice = &work->choices[first];
+    for (int step = choice->steps - 1; step >= 0; step--) {
+        double with[COMPACT_TRIALS];
+        int within = 1;
+        for (int t = 0; t < COMPACT_TRIALS; t++) {
+            with[t] = sums[t] + choice->squares[step][t];
+            within &= with[t] <= bounds[t];
+        }
+        choice->at = step;
+        if (within)
+            search(work, first + 1, with, bounds, so_far + choice->numbers[step], numbers, best);
+    }
+}
+
+/* The bound is for what choices lose: were the least counted in, the nearer it came to it the less they might. */
+static double bound_of(const Choosing *work, int trial)
+{
+    return work->least[trial] + fmax(work->bound, LETTING * work->light->noise * work->least[trial]);
+}
+
+/* Whether these are other choices than those before. *numbers: how many they store; more than so many are not taken. */
+static int search_within(Choosing *work, const double factors[COMPACT_TRIALS], double *numbers)
+{
+    double bounds[COMPACT_TRIALS];
+    int best[GROUPS_MOST], others = 0;
+    for (int i = 0; i < work->count; i++)
+        best[i] = work->choices[i].before;
+    for (int t = 0; t < COMPACT_TRIALS; t++)
+        bounds[t] = fmax(factors[t] * bound_of(work, t), work->least[t]);
+    search(work, 0, work->least, bounds, 0, numbers, best);
+    for (int i = 0; i < work->count; i++) {
+        Choice *choice = &work->choices[i];
+        others |= best[i] != choice->before;
+        choice->at = choice->before = best[i];
+    }
+    return others;
+}
+
+/* Whether the choices lose no more than they may when all are made; factors: of what is lost of each trial, by what
+ * the sums say of it. Together they do not lose less than one of them alone. */
+static int measure_all(Choosing *work, CompactScales *scales, double factors[COMPACT_TRIALS], int *within,
+                       RetexError *err)
+{
+    double lost[COMPACT_TRIALS];
+    for (int i = 0; i < work->count; i++)
+        apply(scales, &work->choices[i], work->choices[i].at);
+    int code = try_scales(work, scales, lost, err);
+    *within = 1;
+    for (int t = 0; t < COMPACT_TRIALS && !code; t++) {
+        double sum = work->least[t], most = work->least[t];
+        for (int i = 0; i < work->count; i++) {
+            const Choice *choice = &work->choices[i];
+            lost[t] -= noise_gone(work, choice->at) * choice->noise[t];
+            most = fmax(most, choice->squares[choice->at][t]);
+            sum += choice->squares[choice->at][t];
+        }
+        lost[t] = fmax(lost[t], most);
+        *within &= lost[t] <= bound_of(work, t);
+        factors[t] = lost[t] > 0 ? fmin(sum / lost[t], GROWTH_MOST) : 1;
+    }
+    return code;
+}
+
+static int settle(Choosing *work, CompactScales *scales, RetexError *err)
+{
+    CompactScales good = *scales; /* all as fine as can be */
+    double factors[COMPACT_TRIALS], fewest = INFINITY;
+    int code = RETEX_OK;
+    for (int i = 0; i < work->count; i++)
+        work->choices[i].before = -1;
+    for (int t = 0; t < COMPACT_TRIALS; t++)
+        factors[t] = 1;
+    for (int tried = 0; tried < MEASURED_MOST && !code; tried++) {
+        double numbers = fewest;
+        int within;
+        if (!search_within(work, factors, &numbers))
+            break;
+        code = measure_all(work, scales, factors, &within, err);
+        if (!code && within)
+            good = *scales, fewest = numbers;
+    }
+    *scales = good;
+    return code;
+}
+
+static void close_choosing(Choosing *work)
+{
+    for (int i = 0; i < 2 * COMPACT_KINDS; i++)
+        free_shown(&work->shown[i / 2][i % 2]);
+    for (int t = 0; t < COMPACT_TRIALS; t++)
+        retex_image_free(&work->rest[t]);
+    if (work->cache)
+        compact_cache_free(work->cache, work->light);
+    free(work->cache);
+    compact_meter_close(&work->meter);
+}
+
+int compact_choose(CompactScales *scales, const CompactLight *light, const RetexCompactParams *params, int nthreads,
+                   RetexError *err)
+{
+    Choosing work = {.light = light, .nthreads = nthreads};
+    CompactLight small = {0};
+    int understood;
+    *scales = (CompactScales){0};
+    list_choices(&work, scales, params);
+    if (!work.count)
+        return RETEX_OK;
+    int code = compact_meter_open(&work.meter, light, nthreads, err);
+    if (!code)
+        code = compact_light_open(&small, work.meter.set, params->noise, &understood, err);
+    work.light = &small;
+    work.bound = fmax(pow(10, -params->psnr / 10), params->noise * NOISE_COUNTS * work.meter.noise);
+    work.cache = calloc(1, sizeof *work.cache);
+    if (!code && !work.cache)
+        code = retex_fail(err, RETEX_ENOMEM, "not enough memory for trials");
+    if (!code)
+        code = measure(&work, scales, err);
+    if (!code)
+        code = settle(&work, scales, err);
+    close_choosing(&work);
+    compact_light_close(&small);
+    return code;
+}

@@ -1,0 +1,471 @@
+/* See clusters.h. */
+#include "compact/clusters.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <retex/parallel.h>
+#include <retex/uv_stats.h>
+
+#include "compact/even.h"
+
+#define POOL 12                  /* clusters kept apart while a block's are gathered */
+#define SHARE_STEP (1.0 / 512)   /* of weights */
+#define LEAST_SHARE (1.0 / 1024) /* of a block's light, of clusters that are kept */
+#define EVEN_NOISE 0.3           /* of noise that may be taken away, what makes pixels even */
+#define MORE_VARIANCE 0.25       /* of a place, that no texture tells apart */
+#define UNKNOWN_SAMPLES 1024     /* of a pixel, where the set does not say */
+#define TEXEL (1.0 / (1 << 26))  /* variance of UV, of a texel of 8192 */
+
+typedef struct Cluster {
+    UvStats place;
+    ClusterLight light;
+} Cluster;
+
+typedef struct Pool {
+    const int *periodic;
+    int sharp, count;
+    double noise;           /* CompactLight's */
+    double weight, squares; /* of all light that was gathered; its squares by the samples it came with */
+    Cluster of[POOL + 1];
+    double cost[POOL + 1][POOL + 1]; /* of merging i with j < i */
+} Pool;
+
+typedef struct ClustersWork {
+    CompactClusters *clusters;
+    const CompactLight *light;
+    const CompactKind *kind;
+    int scale, first; /* first: row of blocks */
+} ClustersWork;
+
+static double merging_cost(const Pool *pool, int i, int j)
+{
+    return pool->sharp ? uv_stats_ward(&pool->of[i].place, &pool->of[j].place, pool->periodic)
+                       : uv_stats_variation_gain(&pool->of[i].place, &pool->of[j].place, pool->periodic);
+}
+
+static void find_costs(Pool *pool, int i)
+{
+    for (int j = 0; j < pool->count; j++)
+        if (j != i)
+            pool->cost[j < i ? i : j][j < i ? j : i] = merging_cost(pool, i, j);
+}
+
+/* Cluster j's place is taken by the last one. */
+static void remove_cluster(Pool *pool, int j)
+{
+    const int last = --pool->count;
+    if (j == last)
+        return;
+    pool->of[j] = pool->of[last];
+    for (int k = 0; k < last; k++)
+        if (k != j)
+            pool->cost[k < j ? j : k][k < j ? k : j] = pool->cost[last][k];
+}
+
+static void merge_pair(Pool *pool, int i, int j)
+{
+    Cluster *into = &pool->of[i];
+    uv_stats_merge(&into->place, &pool->of[j].place, pool->periodic);
+    for (int c = 0; c < 3; c++) {
+        into->light.own[c] += pool->of[j].light.own[c];
+        into->light.again[c] += pool->of[j].light.again[c];
+    }
+    remove_cluster(pool, j);
+    find_costs(pool, i);
+}
+
+static void merge_cheapest(Pool *pool)
+{
+    int first = 1, second = 0;
+    for (int i = 1; i < pool->count; i++)
+        for (int j = 0; j < i; j++)
+            if (pool->cost[i][j] < pool->cost[first][second])
+                first = i, second = j;
+    merge_pair(pool, second, first);
+}
+
+static void add_cluster(Pool *pool, const Cluster *cluster)
+{
+    pool->of[pool->count++] = *cluster;
+    find_costs(pool, pool->count - 1);
+    if (pool->count > POOL)
+        merge_cheapest(pool);
+}
+
+/* Second moments of a place, with those of a texel of a large texture's size, which is nothing. */
+typedef struct Shape {
+    double uu, uv, vv, area;
+} Shape;
+
+static Shape shape_of(const UvStats *place)
+{
+    Shape shape = {place->m2[0] / place->weight + TEXEL, place->m2[1] / place->weight,
+                   place->m2[2] / place->weight + TEXEL, 0};
+    shape.area = sqrt(fmax(shape.uu * shape.vv - shape.uv * shape.uv, 0));
+    return shape;
+}
+
+/* Whether the two have the place and the shape of both merged: by the variances along u and v, and the area,
+ * which may be so many times as large. */
+static int are_same(const Shape *each, const Shape *merged, double more)
+{
+    int same = 1;
+    for (int k = 0; k < 2; k++)
+        same &=
+            merged->uu <= more * each[k].uu && merged->vv <= more * each[k].vv && merged->area <= more * each[k].area;
+    return same;
+}
+
+/* Whether the two merged are what they are apart. */
+static int are_one_place(const Pool *pool, int i, int j)
+{
+    const double more = 1 + pool->noise * MORE_VARIANCE;
+    const UvStats *const places[] = {&pool->of[i].place, &pool->of[j].place};
+    UvStats both = *places[0];
+    uv_stats_merge(&both, places[1], pool->periodic);
+    const Shape each[] = {shape_of(places[0]), shape_of(places[1])}, merged = shape_of(&both);
+    for (int k = 0; k < 2; k++)
+        if (each[k].uu > more * merged.uu || each[k].vv > more * merged.vv)
+            return 0;
+    return are_same(each, &merged, more);
+}
+
+static void merge_places(Pool *pool)
+{
+    for (int i = 1; i < pool->count; i++)
+        for (int j = 0; j < i; j++)
+            if (are_one_place(pool, i, j)) {
+                merge_pair(pool, j, i);
+                i = 0;
+                break;
+            }
+}
+
+static void drop_faint(Pool *pool)
+{
+    double all = 0;
+    for (int i = 0; i < pool->count; i++)
+        all += pool->of[i].place.weight;
+    for (int i = pool->count - 1; i >= 0; i--)
+        if (pool->of[i].place.weight < pool->noise * LEAST_SHARE * all)
+            remove_cluster(pool, i);
+}
+
+static void sort_places(Pool *pool)
+{
+    for (int i = 1; i < pool->count; i++)
+        for (int j = i; j > 0; j--) {
+            Cluster *a = &pool->of[j - 1], *b = &pool->of[j], swapped = *a;
+            if (a->place.mean[0] + a->place.mean[1] <= b->place.mean[0] + b->place.mean[1])
+                break;
+            *a = *b, *b = swapped;
+        }
+}
+
+/* ---- blocks ---- */
+
+typedef struct Albedo {
+    double sum[3], weight[3];
+} Albedo;
+
+static void gather_cluster(const ClustersWork *work, int k, size_t pixel, const ClusterLight *light, Pool *pool,
+                           Albedo *albedo)
+{
+    const RetexSet *set = work->light->set;
+    const RetexFootprint *f = &set->footprints[work->kind->footprints[k]];
+    const float *uv = set->parts[f->uv].image.pixels + 3 * pixel, *met = set->parts[f->albedo].image.pixels + 3 * pixel;
+    const double rgb[] = {light->own[0] + light->again[0], light->own[1] + light->again[1],
+                          light->own[2] + light->again[2]};
+    const double weight = compact_luminance(rgb);
+    Cluster cluster = {.light = *light};
+    if (!(uv[2] > 0) || !(weight > 0) || !isfinite(weight))
+        return;
+    uv_stats_load(&cluster.place, weight, uv, set->parts[f->spread].image.pixels + 3 * pixel);
+    add_cluster(pool, &cluster);
+    pool->weight += weight;
+    pool->squares += weight * weight / ((double)uv[2] * (set->spp > 0 ? set->spp : UNKNOWN_SAMPLES));
+    for (int c = 0; c < 3; c++) {
+        albedo->sum[c] += rgb[c] * (double)met[c];
+        albedo->weight[c] += rgb[c];
+    }
+}
+
+/* Of the later footprints that a pixel has, of all targets: only how they compare counts. */
+static double sum_of_shares(const CompactLight *light, size_t pixel)
+{
+    const RetexSet *set = light->set;
+    double sum = 0;
+    for (int i = 0; i < light->nkinds; i++) {
+        const CompactKind *kind = &light->kinds[i];
+        for (int k = 0; k < kind->count && kind->kind == RETEX_FOOTPRINT_INTERREFLECTION; k++)
+            if (set->parts[set->footprints[kind->footprints[k]].uv].image.pixels[3 * pixel + 2] > 0)
+                sum += kind->share[k] >= 0 ? (double)set->parts[kind->share[k]].image.pixels[pixel] : 1;
+    }
+    return sum;
+}
+
+/* Light of all terms of further hits; of that by share, for later footprints. */
+static double later_light(const ClustersWork *work, size_t pixel, ClusterLight of[RETEX_SHARES_MAX])
+{
+    const RetexSet *set = work->light->set;
+    const double sum = sum_of_shares(work->light, pixel);
+    double again = 0;
+    for (int i = 0; i < set->nterms; i++) {
+        const RetexTerm *term = &set->terms[i];
+        if (term->nfactors < 2)
+            continue;
+        const float *rgb = set->parts[term->radiance].image.pixels + 3 * pixel, grey = compact_grey(term);
+        again += compact_luminance((const double[3]){grey * rgb[0], grey * rgb[1], grey * rgb[2]});
+    }
+    for (int k = 0; k < work->kind->count; k++) {
+        const int share = work->kind->share[k];
+        const double part = share >= 0 ? (double)set->parts[share].image.pixels[pixel] : 1;
+        const double weight = sum > 0 ? again * part / sum : 0;
+        of[k] = (ClusterLight){.again = {weight, weight, weight}};
+    }
+    return again;
+}
+
+/* All clusters of a block. Returns the light that they are shares of: for later footprints, which are weighed across
+ * targets, that of all; else 0, for their own sum. */
+static double gather_block(const ClustersWork *work, int bx, int by, Pool *pool, Albedo *albedo)
+{
+    const RetexSet *set = work->light->set;
+    ClusterLight light[RETEX_SHARES_MAX];
+    double all = 0;
+    for (int y = by * work->scale; y < (by + 1) * work->scale && y < set->height; y++)
+        for (int x = bx * work->scale; x < (bx + 1) * work->scale && x < set->width; x++) {
+            const size_t pixel = (size_t)y * (size_t)set->width + (size_t)x;
+            if (work->kind->kind == RETEX_FOOTPRINT_INTERREFLECTION)
+                all += later_light(work, pixel, light);
+            else
+                compact_cluster_light(work->light, work->kind, pixel, light);
+            for (int k = 0; k < work->kind->count; k++)
+                gather_cluster(work, k, pixel, &light[k], pool, albedo);
+        }
+    return all;
+}
+
+/* Which light a weight is a share of. */
+typedef enum Part { PART_ALL, PART_OWN, PART_AGAIN } Part;
+
+static double part_of(const Cluster *cluster, Part part)
+{
+    return part == PART_OWN     ? compact_luminance(cluster->light.own)
+           : part == PART_AGAIN ? compact_luminance(cluster->light.again)
+                                : cluster->place.weight;
+}
+
+/* Shares of all, 0 for that of the clusters; but where they have none of this light, of what they have. A share is 0
+ * where it is nothing, but is never made so by rounding. */
+static void store_weights(RetexImage *images, size_t block, const Pool *pool, Part part, double all)
+{
+    double own = 0;
+    for (int i = 0; i < pool->count; i++)
+        own += part_of(&pool->of[i], part);
+    if (!(all > 0))
+        all = own;
+    for (int i = 0; i < pool->count; i++) {
+        const double share = all > 0 ? part_of(&pool->of[i], part) / all : 0;
+        images[i].pixels[block] = share > 0 ? (float)(fmax(rint(share / SHARE_STEP), 1) * SHARE_STEP) : 0;
+    }
+    if (!(all > 0) && part != PART_ALL)
+        store_weights(images, block, pool, PART_ALL, 0);
+}
+
+static void store_block(const ClustersWork *work, size_t block, const Pool *pool, double all, const Albedo *albedo)
+{
+    CompactClusters *clusters = work->clusters;
+    double sum = 0, weights = 0;
+    for (int i = 0; i < pool->count; i++) {
+        float *uv = clusters->uv[i].pixels + 3 * block;
+        uv_stats_store(&pool->of[i].place, uv, clusters->spread[i].pixels + 3 * block);
+        uv[2] = 1;
+    }
+    store_weights(clusters->weight, block, pool, clusters->split ? PART_OWN : PART_ALL, all);
+    if (clusters->split)
+        store_weights(clusters->again, block, pool, PART_AGAIN, 0);
+    for (int c = 0; c < 3; c++)
+        sum += albedo->sum[c], weights += albedo->weight[c];
+    for (int c = 0; c < 3; c++)
+        clusters->albedo.pixels[3 * block + (size_t)c] =
+            (float)(albedo->weight[c] > 0 ? albedo->sum[c] / albedo->weight[c]
+                    : weights > 0         ? sum / weights
+                                          : 0);
+}
+
+/* All that a pixel sees, as one place, where there is room to store the quarters of a pixel if it has several parts. */
+static void store_whole(const ClustersWork *work, size_t block, const Pool *pool)
+{
+    EvenPlace *whole = &work->clusters->whole[block];
+    if (pool->count == 0 || (pool->count > 1 && work->clusters->count < 4))
+        return;
+    UvStats sum = pool->of[0].place;
+    for (int i = 1; i < pool->count; i++)
+        uv_stats_merge(&sum, &pool->of[i].place, pool->periodic);
+    for (int k = 0; k < 2; k++)
+        whole->mean[k] = sum.mean[k];
+    for (int k = 0; k < 3; k++)
+        whole->variances[k] = (float)(sum.m2[k] / sum.weight);
+    whole->samples = (float)(pool->weight * pool->weight / pool->squares);
+}
+
+static void blocks_job(void *context, int by, int thread)
+{
+    const ClustersWork *work = context;
+    const int width = work->clusters->albedo.width;
+    (void)thread;
+    for (int bx = 0; bx < width; bx++) {
+        const size_t block = (size_t)(work->first + by) * (size_t)width + (size_t)bx;
+        Pool pool = {.periodic = work->light->set->targets[work->kind->target].periodic,
+                     .sharp = work->kind->kind == RETEX_FOOTPRINT_SHARP,
+                     .noise = work->light->noise};
+        Albedo albedo = {0};
+        const double all = gather_block(work, bx, by, &pool, &albedo);
+        drop_faint(&pool);
+        while (pool.count > work->kind->count)
+            merge_cheapest(&pool);
+        merge_places(&pool);
+        sort_places(&pool);
+        store_block(work, block, &pool, all, &albedo);
+        if (work->clusters->whole)
+            store_whole(work, block, &pool);
+        work->clusters->lit[block] = pool.count > 0;
+    }
+}
+
+/* Of later footprints other targets' may be there, to which this one must add next to nothing. */
+static void copy_block(CompactClusters *clusters, size_t to, size_t from, float weight)
+{
+    for (int k = 0; k < clusters->count; k++) {
+        memcpy(clusters->uv[k].pixels + 3 * to, clusters->uv[k].pixels + 3 * from, 3 * sizeof(float));
+        memcpy(clusters->spread[k].pixels + 3 * to, clusters->spread[k].pixels + 3 * from, 3 * sizeof(float));
+        clusters->weight[k].pixels[to] = weight * clusters->weight[k].pixels[from];
+        if (clusters->again[k].pixels)
+            clusters->again[k].pixels[to] = clusters->again[k].pixels[from];
+    }
+    memcpy(clusters->albedo.pixels + 3 * to, clusters->albedo.pixels + 3 * from, 3 * sizeof(float));
+}
+
+/* Those beside, then those above and below, then across corners. */
+static void fill_holes(CompactClusters *clusters, const unsigned char *lit, float weight)
+{
+    static const int beside[8][2] = {{-1, 0}, {1, 0}, {0, -1}, {0, 1}, {-1, -1}, {1, -1}, {-1, 1}, {1, 1}};
+    const int width = clusters->albedo.width, height = clusters->albedo.height;
+    for (int y = 0; y < height; y++)
+        for (int x = 0; x < width; x++)
+            for (int k = 0; k < 8 && !lit[y * width + x]; k++) {
+                const int nx = x + beside[k][0], ny = y + beside[k][1];
+                if (nx < 0 || ny < 0 || nx >= width || ny >= height || !lit[ny * width + nx])
+                    continue;
+                copy_block(clusters, (size_t)(y * width + x), (size_t)(ny * width + nx), weight);
+                break;
+            }
+}
+
+/* ---- all of them ---- */
+
+static int alloc_images(CompactClusters *clusters, const CompactLight *light, int even, RetexError *err)
+{
+    const int scale = clusters->scale;
+    const int width = (light->set->width + scale - 1) / scale, height = (light->set->height + scale - 1) / scale;
+    const size_t blocks = (size_t)width * (size_t)height;
+    int code = retex_image_alloc(&clusters->albedo, width, height, 3, err);
+    for (int k = 0; k < clusters->count && !code; k++) {
+        code = retex_image_alloc(&clusters->uv[k], width, height, 3, err);
+        if (!code)
+            code = retex_image_alloc(&clusters->spread[k], width, height, 3, err);
+        if (!code)
+            code = retex_image_alloc(&clusters->weight[k], width, height, 1, err);
+        if (!code && clusters->split)
+            code = retex_image_alloc(&clusters->again[k], width, height, 1, err);
+    }
+    clusters->lit = calloc(blocks, sizeof *clusters->lit);
+    clusters->whole = even ? calloc(blocks, sizeof *clusters->whole) : NULL;
+    if (!code && (!clusters->lit || (even && !clusters->whole)))
+        code = retex_fail(err, RETEX_ENOMEM, "not enough memory for footprints");
+    return code;
+}
+
+static void free_work(CompactClusters *clusters)
+{
+    free(clusters->lit);
+    free(clusters->whole);
+    clusters->lit = NULL;
+    clusters->whole = NULL;
+}
+
+static void free_cluster(CompactClusters *clusters, int k)
+{
+    retex_image_free(&clusters->uv[k]);
+    retex_image_free(&clusters->spread[k]);
+    retex_image_free(&clusters->weight[k]);
+    retex_image_free(&clusters->again[k]);
+}
+
+static int is_empty(const CompactClusters *clusters, int k)
+{
+    const size_t blocks = (size_t)clusters->uv[k].width * (size_t)clusters->uv[k].height;
+    for (size_t i = 0; i < blocks; i++)
+        if (clusters->uv[k].pixels[3 * i + 2] > 0)
+            return 0;
+    return 1;
+}
+
+int compact_clusters_begin(CompactClusters *clusters, const CompactLight *light, const CompactKind *kind, int scale,
+                           int split, RetexError *err)
+{
+    const int even = kind->kind == RETEX_FOOTPRINT_SHARP && scale == 1 && light->noise >= EVEN_NOISE &&
+                     strcmp(light->set->filter, "box") == 0;
+    *clusters = (CompactClusters){.count = kind->count, .scale = scale, .split = split && kind->nagain};
+    int code = alloc_images(clusters, light, even, err);
+    if (code)
+        compact_clusters_free(clusters);
+    return code;
+}
+
+void compact_clusters_rows(CompactClusters *clusters, const CompactLight *light, const CompactKind *kind, int first,
+                           int nthreads)
+{
+    const int scale = clusters->scale;
+    ClustersWork work = {clusters, light, kind, scale, first / scale};
+    retex_parallel(nthreads, (light->set->height + scale - 1) / scale, blocks_job, &work);
+}
+
+int compact_clusters_end(CompactClusters *clusters, const CompactLight *light, const CompactKind *kind, int nthreads,
+                         RetexError *err)
+{
+    int code = RETEX_OK;
+    if (clusters->whole)
+        code = compact_even_smooth(clusters, clusters->whole, light->set->targets[kind->target].periodic, light->noise,
+                                   nthreads, err);
+    if (clusters->scale > 1)
+        fill_holes(clusters, clusters->lit, kind->kind == RETEX_FOOTPRINT_INTERREFLECTION ? (float)SHARE_STEP : 1);
+    free_work(clusters);
+    while (clusters->count > 1 && is_empty(clusters, clusters->count - 1))
+        free_cluster(clusters, --clusters->count);
+    if (code)
+        compact_clusters_free(clusters);
+    return code;
+}
+
+int compact_clusters_make(CompactClusters *clusters, const CompactLight *light, const CompactKind *kind, int scale,
+                          int split, int nthreads, RetexError *err)
+{
+    int code = compact_clusters_begin(clusters, light, kind, scale, split, err);
+    if (code)
+        return code;
+    compact_clusters_rows(clusters, light, kind, 0, nthreads);
+    return compact_clusters_end(clusters, light, kind, nthreads, err);
+}
+
+void compact_clusters_free(CompactClusters *clusters)
+{
+    for (int k = 0; k < clusters->count; k++)
+        free_cluster(clusters, k);
+    retex_image_free(&clusters->albedo);
+    free_work(clusters);
+    clusters->count = 0;
+}

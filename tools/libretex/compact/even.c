@@ -1,0 +1,459 @@
+/* See even.h. A pixel that sees a surface through nothing but air has the UV of a parallelogram, known by the
+ * means of the pixels around it. Its clusters are some partition of its samples, of which few bright ones may count
+ * for all others: noise, which costs more than all else that sharp footprints store, and which denoising of light
+ * leaves there. The quarters of the parallelogram are what more samples come to, vary smoothly, and cost next to
+ * nothing. A pixel sees no more than that where it lies as near to its neighbours' map as so few samples let expect:
+ * of n, the mean's variance is an n-th of the parallelogram's.
+ *
+ * Towards a horizon UV run to infinity, which quadratics do not: five pixels below it they make steps a seventh too
+ * long. What a plane has in perspective are linear functions over a common one, the depth; so where the bends of both
+ * axes tell of one depth, maps are quadratics over that. */
+#include "compact/even.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include <retex/parallel.h>
+
+#define TEXEL (1.0 / (1 << 26))  /* variance of UV, of a texel of 8192 */
+#define OFF_TIMES 3              /* deviations that a mean may be off its map's, */
+#define OFF_MEDIAN 0.55          /* of what independent samples are off a map that was fitted to them too, squared, by
+                                    what they are off the true one */
+#define OFF_LEAST 0.02           /* pixels, and so far always */
+#define VARIANCE_TIMES 3         /* deviations of a variance's ratio to its map's, in roots of samples, */
+#define VARIANCE_LEAST 0.4       /* and so far always */
+#define CORRELATION_LEAST 0.3    /* likewise of covariances, by the variances' mean */
+#define INSIDE 0.75              /* pixels from the middle to a cluster, at most, on both sides */
+#define ROUGH 9                  /* times what a mean may be off, squared, about a first map */
+#define DEPTH_LEAST 0.04         /* from a pixel to the next one; less makes steps wrong by half a hundredth */
+#define DEPTH_MOST 0.4           /* then a fifth is left at a corner of those that are fitted */
+#define DEPTH_BEND 0.25          /* of depth, squared, that may bend other than by it */
+#define QUARTERED 16             /* samples of a pixel that is stored as quarters, at least */
+#define NEAR_MAP 0.02            /* pixels, squared, that smoothed means are off their neighbours' maps, at most */
+enum { REACH = 2, SIDE = 2 * REACH + 1, FITTED_LEAST = 12, PASSES = 3 /* in which maps are fitted */ };
+
+/* ---- the map ---- */
+
+/* UV about a pixel, from its own mean, times depth: of each axis the value in the middle, how much it changes from a
+ * pixel to the next one right and down, and what bends it: squares and the product. */
+enum { MIDDLE, RIGHT, DOWN, RIGHT_RIGHT, RIGHT_DOWN, DOWN_DOWN, TERMS };
+typedef struct Map {
+    double of[2][TERMS];
+    double depth[2]; /* is 1 in the middle, and changes so much to the next pixel right and down */
+} Map;
+
+/* What is kept of a map. */
+typedef struct EvenMap {
+    double mean[2];
+    float right[2], down[2], depth[2];
+    int parts; /* 0: the pixel is not even; 1; or 4, the quarters */
+} EvenMap;
+
+typedef struct EvenWork {
+    CompactClusters *clusters;
+    EvenPlace *whole;
+    EvenMap *maps;
+    const int *periodic;
+    int width, height;
+    int pass;       /* -1: only offs are found */
+    double noise;   /* of that, what may be taken away */
+    double scatter; /* of means about their maps, squared, by that of independent samples */
+    float *offs;
+} EvenWork;
+
+/* Of an axis, squared, from a pixel to the next. */
+static double step_of(const Map *map, int axis)
+{
+    return map->of[axis][RIGHT] * map->of[axis][RIGHT] + map->of[axis][DOWN] * map->of[axis][DOWN];
+}
+
+/* How far a pixel's UV are from the map's middle, times depth, and by how many pixels they are off it, squared. */
+static double off_map(const EvenWork *work, const Map *map, const EvenPlace *center, const EvenPlace *each,
+                      const double terms[TERMS], double d[2])
+{
+    double off = 0;
+    for (int a = 0; a < 2; a++) {
+        double at = 0;
+        d[a] = each->mean[a] - center->mean[a];
+        d[a] -= work->periodic[a] ? rint(d[a]) : 0;
+        for (int k = 0; k < TERMS && map; k++)
+            at += map->of[a][k] * terms[k];
+        d[a] *= map ? 1 + map->depth[0] * terms[RIGHT] + map->depth[1] * terms[DOWN] : 1;
+        if (map)
+            off += (d[a] - at) * (d[a] - at) / (step_of(map, a) + TEXEL);
+    }
+    return off;
+}
+
+/* Pixels, squared, that a mean is off by chance: of a parallelogram both variances are a twelfth of its sides' squares;
+ * samples that were spread well come nearer than independent ones. */
+static double off_expected(const EvenWork *work, const EvenPlace *place)
+{
+    return work->scatter * 2 / (12 * (double)place->samples);
+}
+
+static double off_most(const EvenWork *work, const EvenPlace *place)
+{
+    return work->noise * work->noise * (OFF_TIMES * OFF_TIMES * off_expected(work, place) + OFF_LEAST * OFF_LEAST);
+}
+
+/* Gaussian elimination; 0 where there is no one solution. */
+static int solve(double rows[TERMS][TERMS + 2])
+{
+    for (int i = 0; i < TERMS; i++) {
+        int pivot = i;
+        for (int j = i + 1; j < TERMS; j++)
+            if (fabs(rows[j][i]) > fabs(rows[pivot][i]))
+                pivot = j;
+        if (!(fabs(rows[pivot][i]) > 0.5))
+            return 0;
+        for (int k = 0; k < TERMS + 2; k++) {
+            const double swapped = rows[i][k];
+            rows[i][k] = rows[pivot][k];
+            rows[pivot][k] = swapped;
+        }
+        for (int j = 0; j < TERMS; j++) {
+            const double times = j == i ? 0 : rows[j][i] / rows[i][i];
+            for (int k = i; k < TERMS + 2; k++)
+                rows[j][k] -= times * rows[i][k];
+        }
+    }
+    return 1;
+}
+
+/* Means around a pixel, from its own, that are fitted. */
+typedef struct Window {
+    double dx[SIDE * SIDE], dy[SIDE * SIDE], d[SIDE * SIDE][2];
+    int count;
+} Window;
+
+/* Least squares; where all are there, by what that comes to. */
+static int fit_window(Map *map, const Window *window)
+{
+    double rows[TERMS][TERMS + 2] = {{0}};
+    const int whole = window->count == SIDE * SIDE;
+    for (int i = 0; i < window->count; i++) {
+        const double dx = window->dx[i], dy = window->dy[i], terms[TERMS] = {1, dx, dy, dx * dx, dx * dy, dy * dy};
+        const double weights[TERMS] = {(27 - 5 * (terms[3] + terms[5])) / 175, dx / 50,      dy / 50,
+                                       (terms[3] - 2) / 70,                    terms[4] / 100, (terms[5] - 2) / 70};
+        for (int k = 0; k < TERMS; k++) {
+            for (int l = 0; l < TERMS && !whole; l++)
+                rows[k][l] += terms[k] * terms[l];
+            for (int a = 0; a < 2; a++)
+                rows[k][TERMS + a] += (whole ? weights[k] : terms[k]) * window->d[i][a];
+        }
+    }
+    if (!whole && (window->count < FITTED_LEAST || !solve(rows)))
+        return 0;
+    for (int k = 0; k < TERMS; k++)
+        for (int a = 0; a < 2; a++)
+            map->of[a][k] = rows[k][TERMS + a] / (whole ? 1 : rows[k][k]);
+    return 1;
+}
+
+/* The same map, to its quadratics, over another depth. */
+static void change_depth(Map *map, const double depth[2])
+{
+    const double right = depth[0] - map->depth[0], down = depth[1] - map->depth[1];
+    for (int a = 0; a < 2; a++) {
+        double *of = map->of[a];
+        of[RIGHT_RIGHT] += right * of[RIGHT];
+        of[RIGHT_DOWN] += right * of[DOWN] + down * of[RIGHT];
+        of[DOWN_DOWN] += down * of[DOWN];
+        of[RIGHT] += right * of[MIDDLE];
+        of[DOWN] += down * of[MIDDLE];
+        map->depth[a] = depth[a];
+    }
+}
+
+/* In pixels, squared. */
+static double bend_of(const Map *map)
+{
+    double bend = 0;
+    for (int a = 0; a < 2; a++)
+        for (int k = RIGHT_RIGHT; k < TERMS; k++)
+            bend += map->of[a][k] * map->of[a][k] / (step_of(map, a) + TEXEL);
+    return bend;
+}
+
+/* The depth that leaves least bend, where it is much and leaves little of it; else none. */
+static void find_depth(Map *map)
+{
+    double both = TEXEL, mixed = 0, bend[2] = {0}, depth[2];
+    for (int a = 0; a < 2; a++) {
+        const double *of = map->of[a], step = step_of(map, a) + TEXEL;
+        both += step_of(map, a) / step;
+        mixed += of[RIGHT] * of[DOWN] / step;
+        bend[0] += (of[RIGHT] * of[RIGHT_RIGHT] + of[DOWN] * of[RIGHT_DOWN]) / step;
+        bend[1] += (of[RIGHT] * of[RIGHT_DOWN] + of[DOWN] * of[DOWN_DOWN]) / step;
+    }
+    for (int i = 0; i < 2; i++)
+        depth[i] = map->depth[i] - (both * bend[i] - mixed * bend[1 - i]) / (both * both - mixed * mixed);
+    const double size = depth[0] * depth[0] + depth[1] * depth[1];
+    Map over = *map;
+    change_depth(&over, depth);
+    if (size < DEPTH_LEAST * DEPTH_LEAST || fabs(depth[0]) + fabs(depth[1]) > DEPTH_MOST ||
+        bend_of(&over) > DEPTH_BEND * size)
+        change_depth(map, (const double[2]){0});
+    else
+        *map = over;
+}
+
+/* The map about a pixel, over the depth that the last one has, if any; means are left out that are farther from that
+ * than `times` what they may be, or, of the passes that smooth, than NEAR_MAP. */
+static int fit_map(Map *map, const EvenWork *work, int x, int y, const Map *last, double times)
+{
+    const EvenPlace *center = &work->whole[y * work->width + x];
+    Window window;
+    window.count = 0;
+    for (int j = y - REACH; j <= y + REACH; j++)
+        for (int i = x - REACH; i <= x + REACH; i++) {
+            if (i < 0 || j < 0 || i >= work->width || j >= work->height)
+                continue;
+            const EvenPlace *each = &work->whole[j * work->width + i];
+            const double dx = i - x, dy = j - y, terms[TERMS] = {1, dx, dy, dx * dx, dx * dy, dy * dy};
+            if (!(each->samples > 0))
+                continue;
+            const double off = off_map(work, last, center, each, terms, window.d[window.count]);
+            if (last && off > (work->pass > 0 ? NEAR_MAP : times * off_most(work, each)))
+                continue;
+            window.dx[window.count] = dx;
+            window.dy[window.count++] = dy;
+        }
+    if (!fit_window(map, &window))
+        return 0;
+    for (int i = 0; i < 2; i++)
+        map->depth[i] = last ? last->depth[i] : 0;
+    find_depth(map);
+    return 1;
+}
+
+/* How many pixels a pixel's own mean is off its map's, squared. */
+static double off_middle(const Map *map)
+{
+    double off = 0;
+    for (int a = 0; a < 2; a++)
+        off += map->of[a][MIDDLE] * map->of[a][MIDDLE] / (step_of(map, a) + TEXEL);
+    return off;
+}
+
+/* Whether a pixel's own mean and variances may be the map's. */
+static int suits(const EvenWork *work, const Map *map, const EvenPlace *own)
+{
+    const double few = VARIANCE_TIMES / sqrt((double)own->samples);
+    double variances[3];
+    for (int k = 0; k < 3; k++) {
+        const int a = k / 2, b = (k + 1) / 2;
+        variances[k] = (map->of[a][RIGHT] * map->of[b][RIGHT] + map->of[a][DOWN] * map->of[b][DOWN]) / 12;
+    }
+    for (int k = 0; k < 3; k += 2) {
+        const double should = variances[k] + TEXEL, is = (double)own->variances[k] + TEXEL;
+        if (fabs(is - should) > fmax(few, VARIANCE_LEAST) * should)
+            return 0;
+    }
+    const double difference = (double)own->variances[1] - variances[1];
+    return off_middle(map) <= off_most(work, own) &&
+           fabs(difference) <=
+               fmax(few, CORRELATION_LEAST) * sqrt((variances[0] + TEXEL) * (variances[2] + TEXEL));
+}
+
+/* Whether all clusters of a pixel lie in it. */
+static int are_inside(const EvenWork *work, size_t pixel, const Map *map)
+{
+    const EvenPlace *own = &work->whole[pixel];
+    const double a = map->of[0][RIGHT], b = map->of[0][DOWN], c = map->of[1][RIGHT], d = map->of[1][DOWN];
+    const double area = a * d - b * c;
+    for (int k = 0; k < work->clusters->count; k++) {
+        const float *uv = work->clusters->uv[k].pixels + 3 * pixel;
+        double to[2];
+        if (!(uv[2] > 0))
+            continue;
+        for (int axis = 0; axis < 2; axis++) {
+            to[axis] = (double)uv[axis] - own->mean[axis];
+            to[axis] -= (work->periodic[axis] ? rint(to[axis]) : 0) + map->of[axis][MIDDLE];
+        }
+        if (fabs(d * to[0] - b * to[1]) > INSIDE * fabs(area) + sqrt(TEXEL) * (fabs(b) + fabs(d)) ||
+            fabs(a * to[1] - c * to[0]) > INSIDE * fabs(area) + sqrt(TEXEL) * (fabs(a) + fabs(c)))
+            return 0;
+    }
+    return 1;
+}
+
+/* ---- the picture ---- */
+
+static void keep_map(EvenMap *to, const EvenWork *work, size_t pixel, const Map *map)
+{
+    for (int a = 0; a < 2; a++) {
+        to->mean[a] = work->whole[pixel].mean[a] + map->of[a][MIDDLE];
+        to->mean[a] -= work->periodic[a] ? floor(to->mean[a]) : 0;
+        to->right[a] = (float)(map->of[a][RIGHT] - map->depth[0] * map->of[a][MIDDLE]);
+        to->down[a] = (float)(map->of[a][DOWN] - map->depth[1] * map->of[a][MIDDLE]);
+        to->depth[a] = (float)map->depth[a];
+    }
+}
+
+/* How many parts even pixels have: where most pixels around have several clusters, and samples enough to show how
+ * little one part differs from them, quarters, if there is room for these. */
+static int parts_around(const EvenWork *work, int x, int y)
+{
+    const CompactClusters *clusters = work->clusters;
+    int several = 0;
+    for (int j = y - REACH; j <= y + REACH && clusters->count >= 4; j++)
+        for (int i = x - REACH; i <= x + REACH; i++) {
+            const int there = i >= 0 && j >= 0 && i < work->width && j < work->height;
+            const size_t at = there ? (size_t)j * (size_t)work->width + (size_t)i : 0;
+            if (there && work->whole[at].samples > 0)
+                several += clusters->uv[1].pixels[3 * at + 2] > 0 && work->whole[at].samples >= QUARTERED ? 1 : -1;
+        }
+    return several > 0 ? 4 : 1;
+}
+
+/* Whether a pixel is even, by its map; an edge draws the first one to it. */
+static int is_even(Map *map, const EvenWork *work, int x, int y)
+{
+    const size_t pixel = (size_t)y * (size_t)work->width + (size_t)x;
+    Map rough, better;
+    return fit_map(&rough, work, x, y, NULL, 0) && fit_map(&better, work, x, y, &rough, ROUGH) &&
+           fit_map(map, work, x, y, &better, 1) && suits(work, map, &work->whole[pixel]) &&
+           are_inside(work, pixel, map);
+}
+
+/* Where it is, the map again, of what its neighbours have come to, unless that takes away more than noise. */
+static int is_smoothed(Map *map, const EvenWork *work, int x, int y)
+{
+    const size_t pixel = (size_t)y * (size_t)work->width + (size_t)x;
+    const EvenMap *before = &work->maps[pixel];
+    const Map last = {{{0, (double)before->right[0], (double)before->down[0]},
+                       {0, (double)before->right[1], (double)before->down[1]}},
+                      {(double)before->depth[0], (double)before->depth[1]}};
+    return fit_map(map, work, x, y, &last, 0) && off_middle(map) <= off_expected(work, &work->whole[pixel]);
+}
+
+/* Pass 0 tells which pixels are even; later ones know that, and smooth what noise the one before left. */
+static void fit_row(void *context, int y, int thread)
+{
+    const EvenWork *work = context;
+    (void)thread;
+    for (int x = 0; x < work->width; x++) {
+        const size_t pixel = (size_t)y * (size_t)work->width + (size_t)x;
+        const EvenPlace *own = &work->whole[pixel];
+        Map map;
+        if (!(own->samples > 0))
+            continue;
+        if (work->pass < 0 && fit_map(&map, work, x, y, NULL, 0))
+            work->offs[pixel] = (float)(off_middle(&map) / off_expected(work, own));
+        else if (work->pass >= 0 && (work->pass ? is_smoothed(&map, work, x, y) : is_even(&map, work, x, y)))
+            keep_map(&work->maps[pixel], work, pixel, &map);
+        else
+            continue;
+        if (work->pass == 0)
+            work->maps[pixel].parts = parts_around(work, x, y);
+    }
+}
+
+/* The next pass begins with the means that the last one made. */
+static void renew_row(void *context, int y, int thread)
+{
+    const EvenWork *work = context;
+    (void)thread;
+    for (size_t i = (size_t)y * (size_t)work->width; i < (size_t)(y + 1) * (size_t)work->width; i++) {
+        EvenPlace *place = &work->whole[i];
+        place->samples = work->maps[i].parts ? place->samples : 0;
+        place->mean[0] = work->maps[i].mean[0];
+        place->mean[1] = work->maps[i].mean[1];
+    }
+}
+
+/* The whole pixel, or its quarters, in the order of u + v. */
+static void store_even(const EvenWork *work, size_t pixel)
+{
+    const EvenMap *map = &work->maps[pixel];
+    CompactClusters *clusters = work->clusters;
+    const int count = map->parts;
+    const double share = count == 4 ? 0.25 : 1, part = share / 12;
+    const double right[2] = {(double)map->right[0], (double)map->right[1]};
+    const double down[2] = {(double)map->down[0], (double)map->down[1]};
+    const double a = right[0] + right[1], b = down[0] + down[1];
+    const double first = a < 0 ? -1 : 1, second = b < 0 ? -1 : 1;
+    for (int k = 0; k < clusters->count; k++) {
+        const int goes_right = k == 3 || k == (fabs(a) < fabs(b) ? 1 : 2), goes_down = k == 3 || (!goes_right && k > 0);
+        UvStats place = {.weight = 1};
+        for (int axis = 0; axis < 2; axis++) {
+            const double side = count == 4 ? first * (goes_right ? 0.25 : -0.25) * right[axis] +
+                                                 second * (goes_down ? 0.25 : -0.25) * down[axis]
+                                           : 0;
+            place.mean[axis] = map->mean[axis] + side;
+            place.mean[axis] -= work->periodic[axis] ? floor(place.mean[axis]) : 0;
+            place.m2[2 * axis] = part * (right[axis] * right[axis] + down[axis] * down[axis]);
+        }
+        place.m2[1] = part * (right[0] * right[1] + down[0] * down[1]);
+        float *uv = clusters->uv[k].pixels + 3 * pixel, *spread = clusters->spread[k].pixels + 3 * pixel;
+        if (k < count) {
+            uv_stats_store(&place, uv, spread);
+            uv[2] = 1;
+        } else {
+            for (int i = 0; i < 3; i++)
+                uv[i] = spread[i] = 0;
+        }
+        clusters->weight[k].pixels[pixel] = k < count ? (float)share : 0;
+        if (clusters->again[k].pixels)
+            clusters->again[k].pixels[pixel] = k < count ? (float)share : 0;
+    }
+}
+
+static void store_row(void *context, int y, int thread)
+{
+    const EvenWork *work = context;
+    (void)thread;
+    for (int x = 0; x < work->width; x++) {
+        const size_t pixel = (size_t)y * (size_t)work->width + (size_t)x;
+        if (work->maps[pixel].parts)
+            store_even(work, pixel);
+    }
+}
+
+static int compare_floats(const void *a, const void *b)
+{
+    const float one = *(const float *)a, other = *(const float *)b;
+    return (one > other) - (one < other);
+}
+
+/* Means are off by chance, which is alike everywhere, and by edges of light, of which there are few: so the median. */
+static int find_scatter(EvenWork *work, int nthreads, RetexError *err)
+{
+    const size_t all = (size_t)work->width * (size_t)work->height;
+    size_t count = 0;
+    work->scatter = 1, work->pass = -1;
+    work->offs = calloc(all, sizeof *work->offs);
+    if (!work->offs)
+        return retex_fail(err, RETEX_ENOMEM, "not enough memory for footprints");
+    retex_parallel(nthreads, work->height, fit_row, work);
+    for (size_t i = 0; i < all; i++)
+        if (work->offs[i] > 0)
+            work->offs[count++] = work->offs[i];
+    qsort(work->offs, count, sizeof *work->offs, compare_floats);
+    if (count)
+        work->scatter = fmin((double)work->offs[count / 2] / OFF_MEDIAN, 1);
+    free(work->offs);
+    return RETEX_OK;
+}
+
+int compact_even_smooth(CompactClusters *clusters, EvenPlace *whole, const int periodic[2], double noise,
+                        int nthreads, RetexError *err)
+{
+    EvenWork work = {.clusters = clusters, .whole = whole, .periodic = periodic, .noise = noise};
+    work.width = clusters->albedo.width, work.height = clusters->albedo.height;
+    int code = find_scatter(&work, nthreads, err);
+    if (code)
+        return code;
+    work.maps = calloc((size_t)work.width * (size_t)work.height, sizeof *work.maps);
+    if (!work.maps)
+        return retex_fail(err, RETEX_ENOMEM, "not enough memory for footprints");
+    for (work.pass = 0; work.pass < PASSES; work.pass++) {
+        retex_parallel(nthreads, work.height, fit_row, &work);
+        retex_parallel(nthreads, work.height, renew_row, &work);
+    }
+    retex_parallel(nthreads, work.height, store_row, &work);
+    free(work.maps);
+    return RETEX_OK;
+}

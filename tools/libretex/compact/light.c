@@ -1,0 +1,190 @@
+/* See light.h. */
+#include "compact/light.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "compact/orders.h"
+#include "set/signals.h"
+
+static CompactKind *find_kind(CompactLight *light, int target, RetexFootprintKind kind)
+{
+    for (int i = 0; i < light->nkinds; i++)
+        if (light->kinds[i].target == target && light->kinds[i].kind == kind)
+            return &light->kinds[i];
+    return NULL;
+}
+
+static int is_whole(const RetexSet *set, const RetexFootprint *f)
+{
+    return f->uv >= 0 && f->spread >= 0 && f->albedo >= 0 && strlen(set->parts[f->spread].letters) == 3 &&
+           set->parts[f->uv].image.width == set->width && set->parts[f->uv].image.height == set->height &&
+           set->parts[f->spread].image.width == set->width && set->parts[f->spread].image.height == set->height &&
+           set->parts[f->albedo].image.width == set->width && set->parts[f->albedo].image.height == set->height;
+}
+
+static int sort_footprints(CompactLight *light)
+{
+    const RetexSet *set = light->set;
+    for (int i = 0; i < set->nfootprints; i++) {
+        const RetexFootprint *f = &set->footprints[i];
+        CompactKind *kind = find_kind(light, f->target, f->kind);
+        if (f->kind == RETEX_FOOTPRINT_HIT || !is_whole(set, f))
+            return 0;
+        if (!kind) {
+            kind = &light->kinds[light->nkinds++];
+            *kind = (CompactKind){.target = f->target, .kind = f->kind};
+        }
+        if (kind->count == RETEX_SHARES_MAX)
+            return 0;
+        kind->footprints[kind->count] = i;
+        kind->own[kind->count] = kind->share[kind->count] = -1;
+        kind->count++;
+    }
+    return 1;
+}
+
+/* A mixture's weights; its footprints are of one kind, but those of later hits may be of all targets. */
+static int sort_shares(CompactLight *light)
+{
+    const RetexSet *set = light->set;
+    for (int m = 0; m < set->nmixtures; m++) {
+        const RetexMixture *mixture = &set->mixtures[m];
+        const RetexFootprint *first = &set->footprints[mixture->shares[0].footprint];
+        for (int k = 0; k < mixture->nshares; k++) {
+            const RetexFootprint *f = &set->footprints[mixture->shares[k].footprint];
+            const int weight = mixture->shares[k].weight;
+            CompactKind *kind = find_kind(light, f->target, f->kind);
+            if (f->kind != first->kind || (f->kind != RETEX_FOOTPRINT_INTERREFLECTION && f->target != first->target) ||
+                set->parts[weight].image.channels != 1)
+                return 0;
+            for (int i = 0; i < kind->count; i++) {
+                if (kind->footprints[i] != mixture->shares[k].footprint)
+                    continue;
+                if (kind->share[i] >= 0 && kind->share[i] != weight)
+                    return 0;
+                kind->share[i] = weight;
+            }
+        }
+    }
+    return 1;
+}
+
+static int sort_term(CompactLight *light, int number)
+{
+    const RetexTerm *term = &light->set->terms[number];
+    int target;
+    RetexFootprintKind what;
+    if (term->gain)
+        return 0;
+    if (!term->nfactors)
+        return 1;
+    for (int k = 1; k < term->nfactors; k++) {
+        factor_place(light->set, term->factors[k], &target, &what);
+        if (what != RETEX_FOOTPRINT_INTERREFLECTION)
+            return 0;
+    }
+    factor_place(light->set, term->factors[0], &target, &what);
+    CompactKind *kind = find_kind(light, target, what);
+    if (!kind || what == RETEX_FOOTPRINT_INTERREFLECTION)
+        return 0;
+    if (term->nfactors > 1) {
+        if (kind->nagain && term->factors[0] != kind->first)
+            return 0;
+        kind->first = term->factors[0];
+        kind->again[kind->nagain++].term = number;
+        return 1;
+    }
+    for (int i = 0; i < kind->count; i++)
+        if (kind->footprints[i] == term->factors[0] && kind->own[i] < 0) {
+            kind->own[i] = number;
+            return 1;
+        }
+    return 0;
+}
+
+int compact_light_open(CompactLight *light, const RetexSet *set, double noise, int *understood, RetexError *err)
+{
+    *light = (CompactLight){.set = set, .noise = noise};
+    *understood = sort_footprints(light) && light->nkinds > 0 && sort_shares(light);
+    if (!*understood)
+        return RETEX_OK;
+    light->again = calloc((size_t)light->nkinds * (size_t)set->nterms + 1, sizeof *light->again);
+    if (!light->again)
+        return retex_fail(err, RETEX_ENOMEM, "not enough memory for %d terms", set->nterms);
+    for (int i = 0; i < light->nkinds; i++)
+        light->kinds[i].again = light->again + (size_t)i * (size_t)set->nterms;
+    for (int i = 0; i < set->nterms && *understood; i++)
+        *understood = sort_term(light, i);
+    int code = RETEX_OK;
+    for (int i = 0; i < COMPACT_CHOICES * light->nkinds && *understood && !code; i++)
+        code = compact_orders_make(&light->kinds[i / COMPACT_CHOICES], set, i % COMPACT_CHOICES, err);
+    return code;
+}
+
+void compact_light_close(CompactLight *light)
+{
+    for (int i = 0; i < light->nkinds; i++) {
+        for (int k = 0; k < COMPACT_CHOICES; k++) {
+            free(light->kinds[i].gains[k]);
+            light->kinds[i].gains[k] = NULL;
+        }
+    }
+    free(light->again);
+    light->again = NULL;
+}
+
+float compact_grey(const RetexTerm *term)
+{
+    float grey = 1;
+    for (int k = 1; k < term->nfactors; k++)
+        grey *= COMPACT_GREY;
+    return grey;
+}
+
+static int is_covered(const RetexSet *set, int footprint, size_t pixel)
+{
+    return set->parts[set->footprints[footprint].uv].image.pixels[3 * pixel + 2] > 0;
+}
+
+/* Light that goes on begins on footprints by their shares; on one alone, where it is. */
+static double share_of(const CompactLight *light, const CompactKind *kind, int k, size_t pixel)
+{
+    const int footprint = kind->footprints[k];
+    if (!kind->nagain || !is_covered(light->set, footprint, pixel))
+        return 0;
+    if (kind->first >= 0)
+        return kind->first == footprint;
+    return kind->share[k] >= 0 ? (double)light->set->parts[kind->share[k]].image.pixels[pixel] : 0;
+}
+
+int compact_shows_again(const CompactLight *light, const CompactKind *kind, size_t pixel)
+{
+    for (int k = 0; k < kind->count; k++)
+        if (share_of(light, kind, k, pixel) > 0)
+            return 1;
+    return 0;
+}
+
+void compact_cluster_light(const CompactLight *light, const CompactKind *kind, size_t pixel,
+                           ClusterLight of[RETEX_SHARES_MAX])
+{
+    const RetexSet *set = light->set;
+    double again[3] = {0}, shares[RETEX_SHARES_MAX], all = 0;
+    for (int k = 0; k < kind->count; k++)
+        all += shares[k] = share_of(light, kind, k, pixel);
+    for (int i = 0; i < kind->nagain && all > 0; i++) {
+        const RetexTerm *term = &set->terms[kind->again[i].term];
+        const float *radiance = set->parts[term->radiance].image.pixels + 3 * pixel, grey = compact_grey(term);
+        for (int c = 0; c < 3; c++)
+            again[c] += (double)(grey * radiance[c]);
+    }
+    for (int k = 0; k < kind->count; k++) {
+        const int shown = kind->own[k] >= 0 && is_covered(set, kind->footprints[k], pixel);
+        const float *own = shown ? set->parts[set->terms[kind->own[k]].radiance].image.pixels + 3 * pixel : NULL;
+        for (int c = 0; c < 3; c++) {
+            of[k].own[c] = own ? (double)own[c] : 0;
+            of[k].again[c] = all > 0 ? again[c] * shares[k] / all : 0;
+        }
+    }
+}

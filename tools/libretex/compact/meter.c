@@ -1,0 +1,455 @@
+/* See meter.h. The textures are plane waves in each colour, whose mean over a Gaussian footprint is known. */
+#include "compact/meter.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <retex/parallel.h>
+#include <retex/sample.h>
+
+#include "compact/bands.h"
+#include "compact/build.h"
+#include "compact/image_noise.h"
+#include "set/parts.h"
+
+#define TILE COMPACT_BAND_ROWS /* pixels of a tile that count */
+#define MARGIN 16              /* on each side: two pixels of what is smallest */
+#define LENGTHS 3              /* of waves; other trials are of one colour */
+#define FLAT 1                 /* variance in waves at which nothing is left of them */
+#define PROBE 8                /* pixels from one that is looked at to the next */
+
+/* ---- tiles ---- */
+
+typedef struct Tile {
+    int x, y; /* first pixel that counts */
+    double difficulty;
+} Tile;
+
+typedef struct Mosaic {
+    const CompactLight *light; /* of a band */
+    int first, height;         /* its first row; rows of the whole */
+    RetexSet *result;
+    int columns, count; /* of the picture's tiles */
+    Tile *tiles;
+    Tile taken[COMPACT_TILES];
+} Mosaic;
+
+/* How much light a pixel has of clusters that a texture tells from the same ones of another pixel. */
+static double probe_pixels(const CompactLight *light, size_t a, size_t b)
+{
+    const RetexSet *set = light->set;
+    double sum = 0;
+    for (int i = 0; i < light->nkinds; i++) {
+        const CompactKind *kind = &light->kinds[i];
+        ClusterLight of[RETEX_SHARES_MAX];
+        if (kind->kind == RETEX_FOOTPRINT_INTERREFLECTION)
+            continue;
+        compact_cluster_light(light, kind, a, of);
+        for (int k = 0; k < kind->count; k++) {
+            const RetexFootprint *f = &set->footprints[kind->footprints[k]];
+            const float *uv = set->parts[f->uv].image.pixels, *spread = set->parts[f->spread].image.pixels;
+            const double weight = compact_luminance(of[k].own) + compact_luminance(of[k].again);
+            double far = 0;
+            for (int axis = 0; axis < 2 && weight > 0; axis++) {
+                const size_t ia = 3 * a + (size_t)axis, ib = 3 * b + (size_t)axis;
+                const double d = (double)uv[ia] - (double)uv[ib], s = (double)spread[ia] + (double)spread[ib];
+                far += d * d / (d * d + s * s + 1e-12);
+            }
+            sum += weight > 0 && isfinite(weight) ? weight * far : 0;
+        }
+    }
+    return sum;
+}
+
+static void find_difficulty(void *context, int column, int thread)
+{
+    const Mosaic *mosaic = context;
+    const RetexSet *set = mosaic->light->set;
+    Tile *tile = &mosaic->tiles[mosaic->first / TILE * mosaic->columns + column];
+    (void)thread;
+    *tile = (Tile){column * TILE, mosaic->first, 0};
+    for (int y = 0; y + 1 < set->height; y += PROBE)
+        for (int x = tile->x; x < tile->x + TILE && x + 1 < set->width; x += PROBE) {
+            const size_t a = (size_t)y * (size_t)set->width + (size_t)x;
+            tile->difficulty += probe_pixels(mosaic->light, a, a + (size_t)set->width + 1);
+        }
+}
+
+static int compare_tiles(const void *a, const void *b)
+{
+    const Tile *one = a, *other = b;
+    if (one->difficulty != other->difficulty)
+        return one->difficulty < other->difficulty ? -1 : 1;
+    const int below = (one->y > other->y) - (one->y < other->y);
+    return below ? below : (one->x > other->x) - (one->x < other->x);
+}
+
+/* Sorted by how difficult they are, tiles fall into groups of the same sum of it, but half of it evenly: the middle one
+ * of each is taken for the group. */
+static void take_tiles(Mosaic *mosaic, double weights[COMPACT_TILES])
+{
+    double all = 0, sum = 0;
+    int first = 0;
+    qsort(mosaic->tiles, (size_t)mosaic->count, sizeof *mosaic->tiles, compare_tiles);
+    for (int i = 0; i < mosaic->count; i++)
+        all += mosaic->tiles[i].difficulty;
+    for (int i = 0, k = 0; i < mosaic->count && k < COMPACT_TILES; i++) {
+        const int left = mosaic->count - 1 - i, groups = COMPACT_TILES - 1 - k; /* after this */
+        sum += 0.5 / mosaic->count + (all > 0 ? 0.5 * mosaic->tiles[i].difficulty / all : 0.5 / mosaic->count);
+        if (left > groups && (k == COMPACT_TILES - 1 || sum < (k + 1.0) / COMPACT_TILES))
+            continue;
+        mosaic->taken[k] = mosaic->tiles[(first + i) / 2];
+        weights[k++] = i + 1 - first;
+        first = i + 1;
+    }
+}
+
+static int clamp(int at, int size)
+{
+    return at < 0 ? 0 : at < size ? at : size - 1;
+}
+
+/* What of a tile is in the band. */
+static void copy_tile(RetexImage *to, int row, const RetexImage *from, const Mosaic *mosaic)
+{
+    const int side = TILE + 2 * MARGIN, x = mosaic->taken[row].x - MARGIN, y = mosaic->taken[row].y - MARGIN;
+    for (int j = 0; j < side; j++) {
+        const int fy = clamp(y + j, mosaic->height) - mosaic->first;
+        for (int i = 0; i < side && fy >= 0 && fy < from->height; i++)
+            memcpy(to->pixels + retex_image_index(to, i, row * side + j),
+                   from->pixels + retex_image_index(from, clamp(x + i, from->width), fy),
+                   (size_t)from->channels * sizeof(float));
+    }
+}
+
+static int copy_tiles(void *context, const CompactLight *light, int first, RetexError *err)
+{
+    Mosaic *mosaic = context;
+    (void)err;
+    mosaic->first = first;
+    for (int i = 0; i < light->set->nparts; i++)
+        for (int k = 0; k < COMPACT_TILES && light->set->parts[i].image.pixels; k++)
+            copy_tile(&mosaic->result->parts[i].image, k, &light->set->parts[i].image, mosaic);
+    return RETEX_OK;
+}
+
+/* A set as tall as tiles are many. Originals and what no term needs become black. */
+static int make_mosaic(RetexSet **result, const CompactLight *light, Mosaic *mosaic, int nthreads, RetexError *err)
+{
+    const RetexSet *set = light->set;
+    const int side = TILE + 2 * MARGIN;
+    int code = compact_copy_head(result, set, err);
+    if (code)
+        return code;
+    RetexSet *tiles = mosaic->result = *result;
+    tiles->width = side, tiles->height = side * COMPACT_TILES;
+    for (int i = 0; i < set->nparts && !code; i++) {
+        const RetexPart *part = &set->parts[i];
+        const int whole = part->image.width == set->width && part->image.height == set->height;
+        code =
+            retex_set_add_part(tiles, part->name, part->letters, part->type, whole ? 0 : 1, whole ? 0 : 1, NULL, err);
+    }
+    if (!code)
+        code = compact_bands(light, copy_tiles, mosaic, nthreads, err);
+    for (int i = 0; i < set->nfootprints && !code; i++)
+        code = retex_set_add_footprint(tiles, &set->footprints[i], NULL, err);
+    for (int i = 0; i < set->nmixtures && !code; i++)
+        code = retex_set_add_mixture(tiles, &set->mixtures[i], NULL, err);
+    for (int i = 0; i < set->nterms && !code; i++)
+        code = retex_set_add_term(tiles, &set->terms[i], NULL, err);
+    return code;
+}
+
+static int copy_whole(RetexSet **result, const RetexSet *set, RetexError *err)
+{
+    int code = compact_copy_head(result, set, err), index;
+    for (int i = 0; i < set->nparts && !code; i++)
+        code = compact_copy_part(*result, set, i, &index, err);
+    for (int i = 0; i < set->nfootprints && !code; i++)
+        code = retex_set_add_footprint(*result, &set->footprints[i], NULL, err);
+    for (int i = 0; i < set->nmixtures && !code; i++)
+        code = retex_set_add_mixture(*result, &set->mixtures[i], NULL, err);
+    for (int i = 0; i < set->nterms && !code; i++)
+        code = retex_set_add_term(*result, &set->terms[i], NULL, err);
+    return code;
+}
+
+/* ---- textures ---- */
+
+/* One colour of a texture: 1/2 + 1/2 cos 2 pi (u fu + v fv + phase). */
+typedef struct Wave {
+    double frequency[2], phase;
+} Wave;
+
+/* Waves of a trial, about four times as many a unit of UV as in the one before it; other ones for each colour and
+ * target, and whole ones where a target closes. Behind them colours far from COMPACT_GREY, which gains are exact for:
+ * light and dark ones by turns, and in the other trial the other way round. */
+static Wave make_wave(const RetexTarget *target, int number, int trial, int color)
+{
+    const double turn = 2.4 * (number + 3 * trial + 7 * color), many = 0.4 * pow(4, trial) * (1 + 0.4 * color);
+    Wave wave = {{many * cos(turn), many * sin(turn)}, 0.3 * color + 0.17 * number};
+    if (trial >= LENGTHS)
+        return (Wave){{0, 0}, (number + trial + (color == 1)) % 2 ? 0.43 : 0.07};
+    for (int axis = 0; axis < 2; axis++)
+        if (target->periodic[axis])
+            wave.frequency[axis] = rint(wave.frequency[axis]);
+    return wave;
+}
+
+typedef struct WaveWork {
+    const RetexImage *uv, *spread;
+    RetexImage *image;
+    Wave waves[3];
+} WaveWork;
+
+static void wave_row(void *context, int y, int thread)
+{
+    const WaveWork *work = context;
+    const size_t width = (size_t)work->image->width, first = 3 * width * (size_t)y;
+    (void)thread;
+    for (size_t i = first; i < first + 3 * width; i += 3) {
+        const float *uv = work->uv->pixels + i, *spread = work->spread->pixels + i;
+        float *out = work->image->pixels + i;
+        for (int c = 0; c < 3 && uv[2] > 0; c++) {
+            const double *f = work->waves[c].frequency;
+            const double a = f[0] * (double)spread[0], b = f[1] * (double)spread[1];
+            const double variance = a * a + b * b + 2 * (double)spread[2] * a * b;
+            const double angle = f[0] * (double)uv[0] + f[1] * (double)uv[1] + work->waves[c].phase;
+            out[c] = 0.5f;
+            if (variance < FLAT)
+                out[c] += (float)(0.5 * cos(2 * M_PI * angle) * exp(-2 * M_PI * M_PI * variance));
+        }
+    }
+}
+
+/* One texture of waves at one footprint. */
+static int make_waves(RetexImage *image, const RetexSet *set, int footprint, int trial, int nthreads, RetexError *err)
+{
+    const RetexFootprint *f = &set->footprints[footprint];
+    WaveWork work = {&set->parts[f->uv].image, &set->parts[f->spread].image, image, {{{0}, 0}}};
+    int code = retex_image_alloc(image, work.uv->width, work.uv->height, 3, err);
+    if (code)
+        return code;
+    for (int c = 0; c < 3; c++)
+        work.waves[c] = make_wave(&set->targets[f->target], f->target, trial, c);
+    retex_parallel(nthreads, work.uv->height, wave_row, &work);
+    return RETEX_OK;
+}
+
+/* Samples whose images are to be filled in. */
+static int start_samples(RetexSamples **result, const RetexSet *set, RetexError *err)
+{
+    RetexSamples *samples = *result = calloc(1, sizeof *samples);
+    if (samples)
+        samples->images = calloc((size_t)set->nfootprints + 1, sizeof *samples->images);
+    if (!samples || !samples->images)
+        return retex_fail(err, RETEX_ENOMEM, "not enough memory for samples");
+    samples->width = set->width, samples->height = set->height;
+    samples->ntargets = set->ntargets, samples->nimages = set->nfootprints;
+    for (int t = 0; t < set->ntargets; t++)
+        memcpy(samples->target_names[t], set->targets[t].name, sizeof samples->target_names[t]);
+    for (int i = 0; i < set->nfootprints; i++) {
+        samples->footprint_target[i] = set->footprints[i].target;
+        samples->footprint_hit[i] = set->footprints[i].hit;
+    }
+    return RETEX_OK;
+}
+
+/* ---- pictures ---- */
+
+static float encoded(float x)
+{
+    if (!(x > 0))
+        return 0;
+    return x >= 1 ? 1 : x <= 0.0031308f ? 12.92f * x : 1.055f * powf(x, 1 / 2.4f) - 0.055f;
+}
+
+static void encode_row(void *context, int y, int thread)
+{
+    RetexImage *image = context;
+    float *row = image->pixels + retex_image_index(image, 0, y);
+    (void)thread;
+    for (int i = 0; i < 3 * image->width; i++)
+        row[i] = encoded(row[i]);
+}
+
+/* One trial's picture, linear. waves: by footprint, in a cache, made where they are not there yet; or NULL. */
+static int make_picture(RetexImage *picture, const RetexSet *set, RetexImage *waves[][COMPACT_WAVES], int trial,
+                        int nthreads, RetexError *err)
+{
+    RetexSamples *samples = NULL;
+    int code = trial < COMPACT_WAVES ? start_samples(&samples, set, err) : RETEX_OK;
+    for (int i = 0; trial < COMPACT_WAVES && i < set->nfootprints && !code; i++) {
+        RetexImage *image = waves ? waves[i][trial] : &samples->images[i];
+        if (!image->pixels)
+            code = make_waves(image, set, i, trial, nthreads, err);
+        samples->images[i] = *image;
+    }
+    if (!code)
+        code = retex_combine(picture, set, samples, NULL, NULL, nthreads, err);
+    if (samples && samples->images && waves) /* they stay the cache's */
+        memset(samples->images, 0, (size_t)set->nfootprints * sizeof *samples->images);
+    retex_samples_close(&samples);
+    return code;
+}
+
+int compact_meter_show(RetexImage pictures[COMPACT_TRIALS], const CompactLight *light, int kind,
+                       const CompactScales *scales, CompactCache *cache, int nthreads, RetexError *err)
+{
+    RetexSet *set;
+    RetexImage *waves[COMPACT_KINDS * RETEX_SHARES_MAX][COMPACT_WAVES];
+    int code = compact_build_kind(&set, waves, light, kind, scales, cache, nthreads, err);
+    for (int i = 0; i < COMPACT_TRIALS && !code; i++)
+        code = make_picture(&pictures[i], set, waves, i, nthreads, err);
+    retex_set_close(&set);
+    return code;
+}
+
+/* Parts of noise on a picture of the originals, those of targets by half, for they are divided so. Of denoised sets
+ * they are not there: of what is left, the finest is seen in a picture of flat colours. */
+static int measure_noise(CompactMeter *meter, int nthreads, RetexError *err)
+{
+    const RetexSet *set = meter->set;
+    RetexImage picture = {0}, noise = {0};
+    double sum = 0;
+    if (set->denoised) {
+        meter->noise = pow(DENOISED_NOISE * image_noise(&meter->pictures[LENGTHS], 255) / 255, 2);
+        return RETEX_OK;
+    }
+    int code = retex_combine(&picture, set, NULL, NULL, NULL, nthreads, err);
+    if (!code)
+        code = retex_image_copy(&noise, &picture, err);
+    const size_t count = (size_t)set->width * (size_t)set->height * 3;
+    for (int i = 1; i < set->nparts && !code; i++) {
+        const RetexPart *part = &set->parts[i];
+        const float share = strcmp(part->name, "noise_indep") == 0 ? 1 : 0.5f;
+        if (!part_is_denoise_data(set, i) || strncmp(part->name, "noise_", 6) != 0 || part->image.channels != 3)
+            continue;
+        for (size_t k = 0; k < count; k++)
+            noise.pixels[k] += share * part->image.pixels[k];
+    }
+    for (size_t k = 0; k < count && !code; k++) {
+        const double d = (double)encoded(noise.pixels[k]) - (double)encoded(picture.pixels[k]);
+        sum += d * d;
+    }
+    meter->noise = code ? 0 : sum / (double)count;
+    retex_image_free(&picture);
+    retex_image_free(&noise);
+    return code;
+}
+
+typedef struct Probing {
+    Mosaic *mosaic;
+    int nthreads;
+} Probing;
+
+static int probe_band(void *context, const CompactLight *light, int first, RetexError *err)
+{
+    const Probing *probing = context;
+    (void)err;
+    probing->mosaic->light = light, probing->mosaic->first = first;
+    retex_parallel(probing->nthreads, probing->mosaic->columns, find_difficulty, probing->mosaic);
+    return RETEX_OK;
+}
+
+static int take_mosaic(CompactMeter *meter, const CompactLight *light, int nthreads, RetexError *err)
+{
+    const RetexSet *set = light->set;
+    Mosaic mosaic = {.columns = (set->width + TILE - 1) / TILE, .height = set->height};
+    Probing probing = {&mosaic, nthreads};
+    mosaic.count = mosaic.columns * ((set->height + TILE - 1) / TILE);
+    if (mosaic.count <= 3 * COMPACT_TILES)
+        return copy_whole(&meter->set, set, err);
+    meter->tile = TILE + 2 * MARGIN;
+    mosaic.tiles = malloc((size_t)mosaic.count * sizeof *mosaic.tiles);
+    if (!mosaic.tiles)
+        return retex_fail(err, RETEX_ENOMEM, "not enough memory for tiles");
+    int code = compact_bands(light, probe_band, &probing, nthreads, err);
+    if (!code) {
+        take_tiles(&mosaic, meter->weights);
+        code = make_mosaic(&meter->set, light, &mosaic, nthreads, err);
+    }
+    free(mosaic.tiles);
+    return code;
+}
+
+int compact_meter_open(CompactMeter *meter, const CompactLight *light, int nthreads, RetexError *err)
+{
+    *meter = (CompactMeter){0};
+    int code = take_mosaic(meter, light, nthreads, err);
+    for (int i = 0; i < COMPACT_TRIALS && !code; i++) {
+        RetexImage *picture = &meter->pictures[i];
+        code = make_picture(picture, meter->set, NULL, i, nthreads, err);
+        if (!code)
+            retex_parallel(nthreads, picture->height, encode_row, picture);
+    }
+    if (!code)
+        code = measure_noise(meter, nthreads, err);
+    if (code)
+        compact_meter_close(meter);
+    return code;
+}
+
+void compact_meter_close(CompactMeter *meter)
+{
+    for (int i = 0; i < COMPACT_TRIALS; i++)
+        retex_image_free(&meter->pictures[i]);
+    retex_set_close(&meter->set);
+}
+
+/* ---- reading ---- */
+
+typedef struct ReadWork {
+    const CompactMeter *meter;
+    const RetexImage *const *parts; /* each the first of so many trials */
+    int count, trial;
+    double *rows; /* sums of squares */
+} ReadWork;
+
+/* What a row of the mosaic counts, 0 in a margin. */
+static double row_weight(const CompactMeter *meter, int y)
+{
+    const int row = meter->tile ? y % meter->tile : 0;
+    if (!meter->tile)
+        return 1;
+    return row >= MARGIN && row < meter->tile - MARGIN ? meter->weights[y / meter->tile] : 0;
+}
+
+static void read_row(void *context, int y, int thread)
+{
+    const ReadWork *work = context;
+    const RetexImage *should = &work->meter->pictures[work->trial];
+    const int margin = work->meter->tile ? MARGIN : 0;
+    double sum = 0;
+    (void)thread;
+    for (int x = margin; x < should->width - margin && row_weight(work->meter, y) > 0; x++)
+        for (size_t c = retex_image_index(should, x, y), end = c + 3; c < end; c++) {
+            float light = 0;
+            for (int i = 0; i < work->count; i++)
+                light += work->parts[i][work->trial].pixels[c];
+            const double d = (double)encoded(light) - (double)should->pixels[c];
+            sum += d * d;
+        }
+    work->rows[y] = sum;
+}
+
+int compact_meter_read(const CompactMeter *meter, const RetexImage *const parts[], int count,
+                       double squares[COMPACT_TRIALS], int nthreads, RetexError *err)
+{
+    const int width = meter->set->width - (meter->tile ? 2 * MARGIN : 0), height = meter->set->height;
+    ReadWork work = {meter, parts, count, 0, calloc((size_t)height, sizeof(double))};
+    if (!work.rows)
+        return retex_fail(err, RETEX_ENOMEM, "not enough memory for sums");
+    for (work.trial = 0; work.trial < COMPACT_TRIALS; work.trial++) {
+        double sum = 0, weights = 0;
+        retex_parallel(nthreads, height, read_row, &work);
+        for (int y = 0; y < height; y++) {
+            sum += row_weight(meter, y) * work.rows[y];
+            weights += row_weight(meter, y);
+        }
+        squares[work.trial] = sum / (weights * 3 * width);
+    }
+    free(work.rows);
+    return RETEX_OK;
+}

@@ -1,0 +1,10 @@
+/* Fewer orders: terms of many further hits told by others. Private to libretex. */
+#ifndef RETEX_COMPACT_ORDERS_H
+#define RETEX_COMPACT_ORDERS_H
+
+#include "compact/light.h"
+
+/* Give a kind its gains: which there are, and what each term is in them. */
+int compact_orders_make(CompactKind *kind, const RetexSet *set, CompactMixed mixed, RetexError *err);
+
+#endif

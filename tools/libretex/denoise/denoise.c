@@ -1,0 +1,95 @@
+/* Denoising a set; see <retex/denoise.h>. */
+#include <retex/denoise.h>
+
+#include <string.h>
+
+#include "denoise/filter.h"
+#include "denoise/strips.h"
+#include "set/parts.h"
+
+static int find_guides(int parts[GUIDE_COUNT], const RetexSet *set, RetexError *err)
+{
+    static const struct {
+        const char *name;
+        int channels;
+    } table[GUIDE_COUNT] = {
+        [GUIDE_SEEN_NORMAL] = {"guide_seen_normal", 3}, [GUIDE_SEEN_POSITION] = {"guide_seen_position", 3},
+        [GUIDE_SEEN_ALBEDO] = {"guide_seen_albedo", 3}, [GUIDE_SEEN_MATERIAL] = {"guide_seen_material", 3},
+        [GUIDE_NORMAL] = {"guide_normal", 3},           [GUIDE_POSITION] = {"guide_position", 3},
+        [GUIDE_SPECULAR] = {"guide_specular", 1},
+    };
+    for (int k = 0; k < GUIDE_COUNT; k++)
+        if ((parts[k] = signals_find_part(set, table[k].name, table[k].channels, err)) < 0)
+            return parts[k];
+    return RETEX_OK;
+}
+
+int retex_denoise_has_data(const RetexSet *set)
+{
+    Signals signals;
+    int guides[GUIDE_COUNT];
+    if (find_guides(guides, set, NULL) || signals_open(&signals, set, NULL))
+        return 0;
+    signals_close(&signals);
+    return 1;
+}
+
+void retex_denoise_drop_data(RetexSet *set)
+{
+    for (int k = set->nparts - 1; k > 0; k--)
+        if (part_is_denoise_data(set, k))
+            retex_set_remove_part(set, k);
+}
+
+static int check_params(const RetexDenoiseParams *p, RetexError *err)
+{
+    if (!(p->strength >= 0.1f && p->strength <= 10))
+        return retex_fail(err, RETEX_EINVAL, "the strength of denoising must be 0.1 to 10, not %g", p->strength);
+    if (p->radius < 1 || p->radius > DENOISE_RADIUS_MAX)
+        return retex_fail(err, RETEX_EINVAL, "the radius of denoising must be 1 to %d, not %d", DENOISE_RADIUS_MAX,
+                          p->radius);
+    return RETEX_OK;
+}
+
+/* The region of a set in memory. */
+static int denoise_in_memory(Denoiser *d, const RetexRoi *roi, int nthreads, RetexError *err)
+{
+    RetexSet *set = d->set;
+    DenoiseResult result = {NULL, NULL};
+    int code = retex_set_load(set, nthreads, err);
+    if (!code)
+        code = retex_image_prepare(&set->parts[0].image, set->width, set->height, 3, roi, &d->roi, err);
+    if (!code)
+        code = denoise_result_open(&result, d, err);
+    if (!code)
+        code = denoise_filter(d, &result, nthreads, err);
+    if (!code)
+        code = denoise_finish(d, &result, nthreads, err);
+    denoise_result_close(&result);
+    return code;
+}
+
+int retex_denoise(RetexSet *set, const RetexDenoiseParams *params, const RetexRoi *roi, int nthreads, RetexError *err)
+{
+    Denoiser d = {.set = set, .params = RETEX_DENOISE_INIT};
+    if (params)
+        memcpy(&d.params, params, params->size < sizeof d.params ? params->size : sizeof d.params);
+    int code = check_params(&d.params, err);
+    if (!code && set->spp < 2)
+        code = retex_fail(err, RETEX_EINVAL, "less than two samples a pixel do not tell noise from picture");
+    if (!code)
+        code = find_guides(d.guides, set, err);
+    if (!code)
+        code = signals_open(&d.signals, set, err);
+    if (!code)
+        code = !roi && denoise_strips_can(set) ? denoise_strips(&d, nthreads, err)
+                                               : denoise_in_memory(&d, roi, nthreads, err);
+    signals_close(&d.signals);
+    if (code)
+        return code;
+    if (d.params.progress)
+        d.params.progress(d.params.progress_context, 1);
+    retex_denoise_drop_data(set);
+    set->denoised = 1;
+    return RETEX_OK;
+}

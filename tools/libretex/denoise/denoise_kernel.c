@@ -1,0 +1,275 @@
+/* See denoise_kernel.h. Each loop is written once and compiled for AVX-512, for AVX2, for what every machine of the
+ * kind has, and without any vector unit: elementwise arithmetic, so that all give the same bits. */
+#include "denoise/denoise_kernel.h"
+
+#include <string.h>
+
+enum { WIDE = DENOISE_TILE + 2 * DENOISE_PATCH, BOX = 2 * DENOISE_PATCH + 1 };
+
+#define INLINE static inline __attribute__((always_inline))
+
+/* The candidates. Color: factor of squared differences in color; which features count; near: how fast pixels count
+ * less the farther away they are, per squared pixel. The second is for where features change from pixel to pixel, the
+ * third for where they tell nothing, the fourth for even light. */
+static const struct {
+    float color, near;
+    enum { STRICT, LOOSE, NONE } features;
+} ways[DENOISE_CANDIDATES] = {{1, 0.05f, STRICT}, {0.2f, 0.1f, LOOSE}, {1, 0.1f, NONE}, {0.05f, 0.1f, STRICT}};
+
+/* Near exp(-x) for x >= 0, and 0 from 8 on. */
+INLINE float falloff(float x)
+{
+    float y = 1 - x * 0.125f;
+    y = y > 0 ? y : 0;
+    y *= y, y *= y;
+    return y * y;
+}
+
+/* ---- features ---- */
+
+INLINE void group_distance(float *restrict strict, float *restrict loose, const DenoiseFeatures *f,
+                           const DenoiseGroup *g, size_t p, ptrdiff_t o, float per_pixel)
+{
+    float distance[DENOISE_TILE] = {0};
+    if (g->normal[0]) {
+        const float *restrict x = f->planes[g->first] + p, *restrict y = f->planes[g->first + 1] + p,
+                              *restrict z = f->planes[g->first + 2] + p;
+        const float *restrict nx = g->normal[0] + p, *restrict ny = g->normal[1] + p, *restrict nz = g->normal[2] + p;
+        for (int i = 0; i < DENOISE_TILE; i++) {
+            float along = nx[i] * (x[i + o] - x[i]) + ny[i] * (y[i + o] - y[i]) + nz[i] * (z[i + o] - z[i]);
+            distance[i] = along * along * per_pixel;
+        }
+    } else {
+        for (int k = 0; k < g->count; k++) {
+            const float *restrict a = f->planes[g->first + k] + p;
+            for (int i = 0; i < DENOISE_TILE; i++) {
+                float d = a[i + o] - a[i];
+                distance[i] += d * d;
+            }
+        }
+    }
+    const float *restrict scale = g->strict + p, *restrict looser = g->loose + p;
+    for (int i = 0; i < DENOISE_TILE; i++) {
+        float d = distance[i] * scale[i], e = distance[i] * looser[i];
+        strict[i] = d > strict[i] ? d : strict[i];
+        loose[i] = e > loose[i] ? e : loose[i];
+    }
+}
+
+INLINE void features_body(DenoiseAlike *restrict alike, const DenoiseFeatures *f, int dx, int dy)
+{
+    ptrdiff_t o = (ptrdiff_t)dy * DENOISE_PITCH + dx;
+    float per_pixel = 1 / (float)(dx * dx + dy * dy + !(dx | dy));
+    for (int y = 0; y < DENOISE_TILE; y++) {
+        size_t p = denoise_at(0, y), at = (size_t)y * DENOISE_TILE;
+        float strict[DENOISE_TILE] = {0}, loose[DENOISE_TILE] = {0};
+        const float *restrict valid = f->valid + p;
+        for (int g = 0; g < f->ngroups; g++)
+            group_distance(strict, loose, f, &f->groups[g], p, o, per_pixel);
+        for (int i = 0; i < DENOISE_TILE; i++) {
+            alike->valid[at + (size_t)i] = valid[i + o];
+            alike->strict[at + (size_t)i] = valid[i + o] * falloff(strict[i]);
+            alike->loose[at + (size_t)i] = valid[i + o] * falloff(loose[i]);
+        }
+    }
+}
+
+/* ---- colors ---- */
+
+/* Differences of one row of both halves, in units of their noise, and which count. */
+INLINE void difference_row(const DenoiseSignal *s, size_t p, ptrdiff_t o, float *restrict first, float *restrict second,
+                           float *restrict counts)
+{
+    const float *restrict kind = s->kind + p;
+    for (int i = 0; i < WIDE; i++)
+        first[i] = second[i] = 0;
+    for (int c = 0; c < 3; c++) {
+        const float *restrict a = s->half[0][c] + p, *restrict b = s->half[1][c] + p, *restrict v = s->variance[c] + p;
+        for (int i = 0; i < WIDE; i++) {
+            float vp = v[i], vq = v[i + o], least = vp < vq ? vp : vq;
+            float scale = 1 / (s->epsilon + s->strength * (vp + vq)), expected = vp + least;
+            float da = a[i] - a[i + o], db = b[i] - b[i + o];
+            first[i] += (da * da - expected) * scale;
+            second[i] += (db * db - expected) * scale;
+        }
+    }
+    for (int i = 0; i < WIDE; i++) {
+        float both = kind[i] * kind[i + o];
+        both = both > 0 ? both : 0;
+        first[i] *= both, second[i] *= both;
+        counts[i] = both;
+    }
+}
+
+INLINE void box_row(float *restrict out, const float *restrict in)
+{
+    for (int i = 0; i < DENOISE_TILE; i++)
+        out[i] = in[i] + in[i + 1] + in[i + 2] + in[i + 3] + in[i + 4] + in[i + 5] + in[i + 6];
+}
+
+INLINE void box_column(float *restrict out, const float *restrict rows)
+{
+    for (int i = 0; i < DENOISE_TILE; i++) {
+        float sum = rows[i];
+        for (int k = 1; k < BOX; k++)
+            sum += rows[i + k * DENOISE_TILE];
+        out[i] = sum;
+    }
+}
+
+/* From sums over patches to means; of pixels of different kinds nothing is alike. */
+INLINE void distance_row(float *restrict distance, const float *restrict counts, const float *restrict kind,
+                         ptrdiff_t o)
+{
+    for (int i = 0; i < DENOISE_TILE; i++) {
+        float n = counts[i] > 1 ? counts[i] : 1, d = distance[i] / (3 * n);
+        d = d > 0 ? d : 0;
+        distance[i] = kind[i] * kind[i + o] > 0 ? d : 1e9f;
+    }
+}
+
+INLINE void weight_row(float *restrict weight, const float *restrict distance, const float *restrict alike, float color,
+                       float near)
+{
+    for (int i = 0; i < DENOISE_TILE; i++) {
+        float a = falloff(distance[i] * color), b = alike[i] * near;
+        weight[i] = a < b ? a : b;
+    }
+}
+
+/* One row of weights at each displacement of a batch; what a batch has not weighs nothing. */
+typedef float Weights[DENOISE_BATCH][DENOISE_TILE];
+
+/* Add one row of what pixels from each q on give to a half's sums. All displacements go in one pass, for the sums would
+ * otherwise be read and written for each. */
+INLINE void add_half(const DenoiseSignal *s, const DenoiseSums *to, int half, const size_t q[DENOISE_BATCH], size_t at,
+                     float w[restrict DENOISE_BATCH][DENOISE_TILE])
+{
+    const float *restrict a = s->half[half][0], *restrict b = s->half[half][1], *restrict c = s->half[half][2],
+                          *restrict m = s->modulation;
+    float *restrict x = to->sum[half][0] + at, *restrict y = to->sum[half][1] + at, *restrict z = to->sum[half][2] + at,
+                    *restrict norm = to->norm[half] + at;
+    for (size_t i = 0; i < DENOISE_TILE; i++) {
+        float xs = x[i], ys = y[i], zs = z[i], ns = norm[i];
+        for (int n = 0; n < DENOISE_BATCH; n++) {
+            float v = w[n][i] * m[q[n] + i];
+            xs += v * a[q[n] + i], ys += v * b[q[n] + i], zs += v * c[q[n] + i], ns += v;
+        }
+        x[i] = xs, y[i] = ys, z[i] = zs, norm[i] = ns;
+    }
+}
+
+INLINE void add_planes(const DenoiseSignal *s, const DenoiseBatch *batch, const size_t q[DENOISE_BATCH], size_t at,
+                       Weights w[restrict 2])
+{
+    Weights mean;
+    for (int n = 0; n < DENOISE_BATCH; n++)
+        for (int i = 0; i < DENOISE_TILE; i++)
+            mean[n][i] = 0.5f * (w[0][n][i] + w[1][n][i]);
+    for (int k = 0; k < s->nplanes; k++) {
+        const float *restrict value = s->planes[k];
+        float *restrict sum = s->sums[k] + at;
+        for (size_t i = 0; i < DENOISE_TILE; i++) {
+            float all = sum[i];
+            for (int n = 0; n < DENOISE_BATCH; n++)
+                all += mean[n][i] * value[q[n] + i];
+            sum[i] = all;
+        }
+    }
+    for (int n = 0; n < DENOISE_BATCH; n++)
+        if (batch->weights[n])
+            memcpy(batch->weights[n] + at, mean[n], sizeof mean[n]);
+}
+
+/* Distances of all pixels to those at one displacement, by half. */
+INLINE void find_distances(const DenoiseSignal *s, ptrdiff_t o, float *restrict distances)
+{
+    float *boxed[3] = {s->scratch, s->scratch + WIDE * DENOISE_TILE, s->scratch + 2 * WIDE * DENOISE_TILE};
+    for (int y = 0; y < WIDE; y++) {
+        float row[3][WIDE];
+        difference_row(s, denoise_at(-DENOISE_PATCH, y - DENOISE_PATCH), o, row[0], row[1], row[2]);
+        for (int k = 0; k < 3; k++)
+            box_row(boxed[k] + y * DENOISE_TILE, row[k]);
+    }
+    for (int y = 0; y < DENOISE_TILE; y++) {
+        float counts[DENOISE_TILE];
+        size_t at = (size_t)y * DENOISE_TILE;
+        box_column(counts, boxed[2] + at);
+        for (int h = 0; h < 2; h++) {
+            float *distance = distances + (size_t)h * DENOISE_PIXELS + at;
+            box_column(distance, boxed[h] + at);
+            distance_row(distance, counts, s->kind + denoise_at(0, y), o);
+        }
+    }
+}
+
+INLINE void signal_body(const DenoiseSignal *s, const DenoiseBatch *batch)
+{
+    float *distances = s->scratch + 3 * WIDE * DENOISE_TILE;
+    float near[DENOISE_CANDIDATES][DENOISE_BATCH];
+    for (int n = 0; n < batch->count; n++) {
+        int dx = batch->dx + n;
+        for (int k = 0; k < DENOISE_CANDIDATES; k++)
+            near[k][n] = falloff(ways[k].near * (float)(dx * dx + batch->dy * batch->dy));
+        find_distances(s, (ptrdiff_t)batch->dy * DENOISE_PITCH + dx, distances + (size_t)n * 2 * DENOISE_PIXELS);
+    }
+    for (int y = 0; y < DENOISE_TILE; y++) {
+        Weights w[2] = {{{0}}};
+        size_t at = (size_t)y * DENOISE_TILE, q[DENOISE_BATCH];
+        for (int n = 0; n < DENOISE_BATCH; n++)
+            q[n] = denoise_at(n < batch->count ? batch->dx + n : 0, n < batch->count ? y + batch->dy : y);
+        for (int k = 0; k < DENOISE_CANDIDATES; k++) {
+            for (int n = 0; n < batch->count; n++) {
+                const DenoiseAlike *alike = batch->alike[n];
+                const float *features = ways[k].features == STRICT  ? alike->strict
+                                        : ways[k].features == LOOSE ? alike->loose
+                                                                    : alike->valid;
+                for (int h = 0; h < 2; h++)
+                    weight_row(w[h][n], distances + (size_t)(2 * n + h) * DENOISE_PIXELS + at, features + at,
+                               ways[k].color, near[k][n]);
+            }
+            add_half(s, &s->candidates[k], 0, q, at, w[1]); /* each by the other's weights */
+            add_half(s, &s->candidates[k], 1, q, at, w[0]);
+            if (k == 0)
+                add_planes(s, batch, q, at, w);
+        }
+    }
+}
+
+/* ---- variants ---- */
+
+#define VARIANTS(attributes, suffix)                                                                                   \
+    attributes static void features_##suffix(DenoiseAlike *alike, const DenoiseFeatures *f, int dx, int dy)            \
+    {                                                                                                                  \
+        features_body(alike, f, dx, dy);                                                                               \
+    }                                                                                                                  \
+    attributes static void signal_##suffix(const DenoiseSignal *s, const DenoiseBatch *batch)                          \
+    {                                                                                                                  \
+        signal_body(s, batch);                                                                                         \
+    }
+
+VARIANTS(, baseline)
+VARIANTS(__attribute__((optimize("no-tree-vectorize,no-tree-slp-vectorize"))), scalar)
+#if defined(__x86_64__) && defined(__GNUC__)
+VARIANTS(__attribute__((target("avx2"))), avx2)
+VARIANTS(__attribute__((target("avx512f,avx512vl,avx512bw,avx512dq,prefer-vector-width=512"))), avx512)
+#define HAS_AVX2 __builtin_cpu_supports("avx2")
+#define HAS_AVX512                                                                                                     \
+    (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512bw") &&  \
+     __builtin_cpu_supports("avx512dq"))
+/* The widest of a function's variants that the machine has. */
+#define CHOOSE(function, scalar)                                                                                       \
+    ((scalar) ? function##_scalar : HAS_AVX512 ? function##_avx512 : HAS_AVX2 ? function##_avx2 : function##_baseline)
+#else
+#define CHOOSE(function, scalar) ((scalar) ? function##_scalar : function##_baseline)
+#endif
+
+void denoise_features_kernel(DenoiseAlike *alike, const DenoiseFeatures *features, int dx, int dy, int scalar)
+{
+    CHOOSE(features, scalar)(alike, features, dx, dy);
+}
+
+void denoise_signal_kernel(const DenoiseSignal *signal, const DenoiseBatch *batch, int scalar)
+{
+    CHOOSE(signal, scalar)(signal, batch);
+}

@@ -1,0 +1,135 @@
+/* See features.h. How unlike features must be to count follows their own change from pixel to pixel, as in
+ * Rousselle et al. 2013. */
+#include "denoise/features.h"
+
+#include <math.h>
+#include <string.h>
+
+#define STRENGTH 0.6f      /* k_f of Rousselle et al. 2013 */
+#define SLOPE 0.3f         /* how far from the tangent plane, per distance, surfaces count as one */
+#define LEAST_NORMAL 4e-3f /* squared differences that do not matter */
+#define LEAST_ALBEDO 2e-3f
+#define LEAST_SHARE 4e-3f
+#define LEAST_DISTANCE 1e-20f
+
+/* Planes of guides, by channel, then those of covers. */
+enum {
+    SEEN_NORMAL = 0,
+    SEEN_POSITION = 3,
+    SEEN_ALBEDO = 6,
+    SEEN_MATERIAL = 9,
+    NORMAL = 12,
+    POSITION = 15,
+    SPECULAR = 18,
+    COVERS = 19
+};
+
+static int clamp(int x, int size)
+{
+    return x < 0 ? 0 : x < size ? x : size - 1;
+}
+
+void plane_gather(float *restrict plane, const RetexSet *set, int part, int channel, int x0, int y0)
+{
+    const RetexImage *im = &set->parts[part].image;
+    for (int y = -DENOISE_HALO; y < DENOISE_TILE + DENOISE_HALO; y++) {
+        const float *row = im->pixels + retex_image_index(im, 0, clamp(y0 + y, im->height)) + channel;
+        float *restrict to = plane + denoise_at(-DENOISE_HALO, y);
+        for (int x = 0; x < DENOISE_PITCH; x++) {
+            float v = row[(size_t)clamp(x0 + x - DENOISE_HALO, im->width) * (size_t)im->channels];
+            to[x] = fabsf(v) < 1e30f ? v : 0;
+        }
+    }
+}
+
+/* Add the squared change from pixel to pixel along both axes: to strict the lesser of both sides, so that edges are no
+ * slopes, to loose the greater. */
+static void add_gradient(float *restrict strict, float *restrict loose, const float *restrict f)
+{
+    for (int y = 1; y < DENOISE_ROWS - 1; y++)
+        for (int x = 1; x < DENOISE_PITCH - 1; x++) {
+            size_t i = (size_t)y * DENOISE_PITCH + (size_t)x;
+            float l = f[i] - f[i - 1], r = f[i + 1] - f[i], u = f[i] - f[i - DENOISE_PITCH],
+                  d = f[i + DENOISE_PITCH] - f[i];
+            l *= l, r *= r, u *= u, d *= d;
+            strict[i] += (l < r ? l : r) + (u < d ? u : d);
+            loose[i] += (l > r ? l : r) + (u > d ? u : d);
+        }
+}
+
+typedef struct Gathering {
+    DenoiseFeatures *features;
+    float *planes, *scales;
+} Gathering;
+
+static DenoiseGroup *add_group(Gathering *g, int first, int count, float factor, float least)
+{
+    DenoiseFeatures *f = g->features;
+    float *strict = g->scales + (size_t)(2 * f->ngroups) * DENOISE_PLANE, *loose = strict + DENOISE_PLANE;
+    memset(strict, 0, sizeof *strict * 2 * DENOISE_PLANE);
+    for (int k = 0; k < count; k++)
+        add_gradient(strict, loose, g->planes + (size_t)(first + k) * DENOISE_PLANE);
+    for (int i = 0; i < DENOISE_PLANE; i++) {
+        strict[i] = 1 / (factor * fmaxf(least, strict[i]));
+        loose[i] = 1 / (factor * fmaxf(least, loose[i]));
+    }
+    f->groups[f->ngroups] = (DenoiseGroup){.first = first, .count = count, .strict = strict, .loose = loose};
+    return &f->groups[f->ngroups++];
+}
+
+static void add_feature(Gathering *g, int first, int count, float least)
+{
+    add_group(g, first, count, STRENGTH * STRENGTH, least);
+}
+
+/* Positions are alike where they lie in one plane. */
+static void add_position(Gathering *g, int first, int normal)
+{
+    DenoiseGroup *group = add_group(g, first, 3, SLOPE * SLOPE * 0.5f, LEAST_DISTANCE);
+    for (int k = 0; k < 3; k++)
+        group->normal[k] = g->planes + (size_t)(normal + k) * DENOISE_PLANE;
+}
+
+static int is_zero(const float *plane)
+{
+    for (int i = 0; i < DENOISE_PLANE; i++)
+        if (plane[i] != 0)
+            return 0;
+    return 1;
+}
+
+static int gather_planes(float *planes, const Denoiser *d, int x0, int y0)
+{
+    int n = 0;
+    for (int k = 0; k < GUIDE_COUNT; k++)
+        for (int c = 0; c < d->set->parts[d->guides[k]].image.channels; c++)
+            plane_gather(planes + (size_t)n++ * DENOISE_PLANE, d->set, d->guides[k], c, x0, y0);
+    for (int t = 0; t < d->set->ntargets; t++)
+        if (d->signals.covers[t] >= 0)
+            plane_gather(planes + (size_t)n++ * DENOISE_PLANE, d->set, d->signals.covers[t], 0, x0, y0);
+    return n;
+}
+
+void features_gather(DenoiseFeatures *f, float *room, const Denoiser *d, int x0, int y0)
+{
+    Gathering g = {f, room, room + (size_t)DENOISE_FEATURES_MAX * DENOISE_PLANE};
+    float *valid = g.scales + (size_t)(2 * DENOISE_GROUPS_MAX) * DENOISE_PLANE;
+    int n = gather_planes(g.planes, d, x0, y0);
+    *f = (DenoiseFeatures){.valid = valid};
+    for (int k = 0; k < n; k++)
+        f->planes[k] = g.planes + (size_t)k * DENOISE_PLANE;
+    add_feature(&g, SEEN_NORMAL, 3, LEAST_NORMAL);
+    add_position(&g, SEEN_POSITION, SEEN_NORMAL);
+    add_feature(&g, SEEN_ALBEDO, 3, LEAST_ALBEDO);
+    add_feature(&g, SEEN_MATERIAL, 3, LEAST_SHARE);
+    if (!is_zero(f->planes[SPECULAR])) { /* else the first hit is what is seen */
+        add_feature(&g, NORMAL, 3, LEAST_NORMAL);
+        add_position(&g, POSITION, NORMAL);
+        add_feature(&g, SPECULAR, 1, LEAST_SHARE);
+    }
+    for (int k = COVERS; k < n; k++)
+        add_feature(&g, k, 1, LEAST_SHARE);
+    for (int y = -DENOISE_HALO; y < DENOISE_TILE + DENOISE_HALO; y++)
+        for (int x = -DENOISE_HALO; x < DENOISE_PITCH - DENOISE_HALO; x++)
+            valid[denoise_at(x, y)] = x0 + x >= 0 && x0 + x < d->set->width && y0 + y >= 0 && y0 + y < d->set->height;
+}

@@ -1,0 +1,162 @@
+/* See filter.h. */
+#include "denoise/filter.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include <retex/parallel.h>
+
+#include "denoise/footprints.h"
+
+/* A tile's results lie in a band until no other tile reads what was there. */
+typedef struct Filter {
+    Denoiser *denoiser;
+    DenoiseResult *result;
+    TileRoom **rooms; /* by thread */
+    int nthreads, tiles_x;
+    Band bands[2], *band;
+    SignalSums *sums; /* by tile of the band, then signal: added up in order */
+} Filter;
+
+static void denoise_job(void *context, int index, int thread)
+{
+    Filter *w = context;
+    const Denoiser *d = w->denoiser;
+    if (retex_budget_is_stopped(d->params.budget))
+        return;
+    tile_denoise(d, w->rooms[thread], d->roi.x0 + index * DENOISE_STEP, w->band,
+                 w->sums + (size_t)index * (size_t)d->signals.count);
+}
+
+static void close_band(Band *band, int nparts)
+{
+    for (int k = 0; band->parts && k < nparts; k++)
+        free(band->parts[k]);
+    free(band->parts);
+    band->parts = NULL;
+}
+
+static int open_band(Band *band, const Denoiser *d, const unsigned char *written, RetexError *err)
+{
+    const RetexSet *set = d->set;
+    band->rows = 0;
+    band->parts = calloc((size_t)set->nparts, sizeof *band->parts);
+    for (int k = 0; band->parts && k < set->nparts; k++) {
+        size_t floats = (size_t)DENOISE_STEP * (size_t)set->width * (size_t)set->parts[k].image.channels;
+        if (written[k] && !(band->parts[k] = malloc(floats * sizeof(float))))
+            return retex_fail(err, RETEX_ENOMEM, "not enough memory to denoise");
+    }
+    return band->parts ? RETEX_OK : retex_fail(err, RETEX_ENOMEM, "not enough memory to denoise");
+}
+
+static int open_bands(Filter *w, RetexError *err)
+{
+    const Denoiser *d = w->denoiser;
+    unsigned char *written = w->result->written;
+    int code = RETEX_OK;
+    for (int s = 0; s < d->signals.count; s++)
+        for (int k = 0; k < d->signals.of[s].nmembers; k++)
+            written[d->signals.of[s].members[k].part] = 1;
+    footprints_mark_written(d->footprints, d, written);
+    for (int k = 0; k < 2 && !code; k++)
+        code = open_band(&w->bands[k], d, written, err);
+    return code;
+}
+
+/* Into the set. */
+static void commit_band(const Band *band, const Denoiser *d)
+{
+    for (int part = 0; part < d->set->nparts; part++) {
+        RetexImage *im = &d->set->parts[part].image;
+        size_t channels = (size_t)im->channels, row = (size_t)(d->roi.x1 - d->roi.x0) * channels;
+        for (int y = 0; band->parts[part] && y < band->rows; y++)
+            memcpy(im->pixels + retex_image_index(im, d->roi.x0, band->first + y),
+                   band->parts[part] + ((size_t)y * (size_t)im->width + (size_t)d->roi.x0) * channels,
+                   row * sizeof(float));
+    }
+}
+
+static void add_sums(Filter *w)
+{
+    int count = w->denoiser->signals.count;
+    for (int k = 0; k < w->tiles_x * count; k++)
+        for (int c = 0; c < 3; c++) {
+            w->result->sums[k % count].before[c] += w->sums[k].before[c];
+            w->result->sums[k % count].after[c] += w->sums[k].after[c];
+        }
+}
+
+static int open_filter(Filter *w, RetexError *err)
+{
+    Denoiser *d = w->denoiser;
+    size_t count = (size_t)d->signals.count;
+    int code = RETEX_OK;
+    w->tiles_x = (d->roi.x1 - d->roi.x0 + DENOISE_STEP - 1) / DENOISE_STEP;
+    w->rooms = calloc((size_t)w->nthreads, sizeof *w->rooms);
+    w->sums = calloc((size_t)w->tiles_x * count + 1, sizeof *w->sums);
+    if (!w->rooms || !w->sums)
+        code = retex_fail(err, RETEX_ENOMEM, "not enough memory to denoise");
+    for (int k = 0; k < w->nthreads && k < w->tiles_x && !code; k++)
+        code = tile_room_create(&w->rooms[k], d, err);
+    if (!code)
+        code = denoise_footprints_open(&d->footprints, d, err);
+    return code ? code : open_bands(w, err);
+}
+
+static void close_filter(Filter *w)
+{
+    for (int k = 0; w->rooms && k < w->nthreads; k++)
+        tile_room_close(&w->rooms[k]);
+    for (int k = 0; k < 2; k++)
+        close_band(&w->bands[k], w->denoiser->set->nparts);
+    free(w->rooms);
+    free(w->sums);
+    denoise_footprints_close(&w->denoiser->footprints);
+}
+
+static int run(Filter *w, RetexError *err)
+{
+    const Denoiser *d = w->denoiser;
+    int number = 0;
+    for (int y = d->roi.y0; y < d->roi.y1; y += DENOISE_STEP, number++) {
+        w->band = &w->bands[number % 2];
+        w->band->first = y;
+        w->band->rows = d->roi.y1 - y < DENOISE_STEP ? d->roi.y1 - y : DENOISE_STEP;
+        memset(w->sums, 0, sizeof *w->sums * (size_t)w->tiles_x * (size_t)d->signals.count);
+        retex_parallel(w->nthreads, w->tiles_x, denoise_job, w);
+        const int code = retex_budget_check(d->params.budget, err);
+        if (code)
+            return code;
+        add_sums(w);
+        commit_band(&w->bands[(number + 1) % 2], d); /* nothing reads the band before any more */
+        w->bands[(number + 1) % 2].rows = 0;
+        if (d->params.progress)
+            d->params.progress(d->params.progress_context, (double)(y - d->roi.y0) / (d->roi.y1 - d->roi.y0));
+    }
+    for (int k = 0; k < 2; k++)
+        commit_band(&w->bands[k], d);
+    return RETEX_OK;
+}
+
+int denoise_filter(Denoiser *denoiser, DenoiseResult *result, int nthreads, RetexError *err)
+{
+    Filter filter = {.denoiser = denoiser, .result = result, .nthreads = retex_threads(nthreads)};
+    int code = open_filter(&filter, err);
+    if (!code)
+        code = run(&filter, err);
+    close_filter(&filter);
+    return code;
+}
+
+int denoise_result_open(DenoiseResult *result, const Denoiser *denoiser, RetexError *err)
+{
+    result->sums = calloc((size_t)denoiser->signals.count + 1, sizeof *result->sums);
+    result->written = calloc((size_t)denoiser->set->nparts + 1, sizeof *result->written);
+    return result->sums && result->written ? RETEX_OK : retex_fail(err, RETEX_ENOMEM, "not enough memory to denoise");
+}
+
+void denoise_result_close(DenoiseResult *result)
+{
+    free(result->sums);
+    free(result->written);
+}

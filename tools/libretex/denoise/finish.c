@@ -1,0 +1,104 @@
+/* What denoise_filter leaves, made into what a set holds; see filter.h. */
+#include "denoise/filter.h"
+
+#include <math.h>
+#include <string.h>
+
+#include <retex/parallel.h>
+#include <retex/rounding.h>
+#include <retex/sample.h>
+
+#include "base/half.h"
+
+/* Means of all signals are as they were. */
+static void restore_means(const Denoiser *d, const DenoiseResult *result, int y)
+{
+    for (int s = 0; s < d->signals.count; s++) {
+        const SignalSums *sums = &result->sums[s];
+        float scale[3];
+        for (int c = 0; c < 3; c++)
+            scale[c] = sums->after[c] > 0 && sums->before[c] > 0 ? (float)(sums->before[c] / sums->after[c]) : 1;
+        for (int k = 0; k < d->signals.of[s].nmembers; k++) {
+            RetexImage *im = &d->set->parts[d->signals.of[s].members[k].part].image;
+            float *row = im->pixels + retex_image_index(im, 0, y);
+            for (int x = 3 * d->roi.x0; x < 3 * d->roi.x1; x++)
+                row[x] *= scale[x % 3];
+        }
+    }
+}
+
+/* The unit to which a pixel's coefficients are rounded. */
+static double pixel_unit(const Denoiser *d, int x, int y)
+{
+    double white[3] = {0, 0, 0};
+    for (int s = 0; s < d->signals.count; s++)
+        for (int k = 0; k < d->signals.of[s].nmembers; k++) {
+            const RetexImage *im = &d->set->parts[d->signals.of[s].members[k].part].image;
+            for (int c = 0; c < 3; c++)
+                white[c] += im->pixels[retex_image_index(im, x, y) + (size_t)c];
+        }
+    return retex_coefficient_unit(fmax(white[0], fmax(white[1], white[2])));
+}
+
+/* As the renderer rounds them; light that no texture multiplies stays as it is. */
+static void round_coefficients(const Denoiser *d, int y)
+{
+    for (int x = d->roi.x0; x < d->roi.x1; x++) {
+        const double unit = pixel_unit(d, x, y);
+        for (int s = 0; s < d->signals.count; s++)
+            for (int k = 0; k < d->signals.of[s].nmembers && d->signals.of[s].target >= 0; k++) {
+                RetexImage *im = &d->set->parts[d->signals.of[s].members[k].part].image;
+                float *value = im->pixels + retex_image_index(im, x, y);
+                for (int c = 0; c < 3; c++)
+                    if (value[c] != 0)
+                        value[c] = (float)retex_round_by(value[c], unit);
+            }
+    }
+}
+
+/* Halves as they will be stored, so that it does not matter whether the set was written and read in between. */
+static void round_halves(const RetexPart *part, int y)
+{
+    const RetexImage *im = &part->image;
+    float *row = im->pixels + retex_image_index(im, 0, y);
+    size_t count = (size_t)im->width * (size_t)im->channels;
+    uint16_t halves[256];
+    for (size_t i = 0; i < count && part->type == RETEX_HALF; i += 256) {
+        size_t n = count - i < 256 ? count - i : 256;
+        retex_half_from_float(halves, row + i, n);
+        retex_half_to_float(row + i, halves, n);
+    }
+}
+
+typedef struct Finish {
+    const Denoiser *denoiser;
+    const DenoiseResult *result;
+} Finish;
+
+static void finish_row(void *context, int y, int thread)
+{
+    const Finish *f = context;
+    const Denoiser *d = f->denoiser;
+    (void)thread;
+    if (y >= d->roi.y0 && y < d->roi.y1) {
+        restore_means(d, f->result, y);
+        if (strcmp(d->set->layout, "footprints") == 0)
+            round_coefficients(d, y);
+    }
+    for (int k = 0; k < d->set->nparts; k++)
+        if (f->result->written[k])
+            round_halves(&d->set->parts[k], y);
+}
+
+int denoise_finish(const Denoiser *d, const DenoiseResult *result, int nthreads, RetexError *err)
+{
+    Finish finish = {d, result};
+    RetexSet *set = d->set;
+    int code = RETEX_OK;
+    retex_parallel(retex_threads(nthreads), set->height, finish_row, &finish);
+    if (set->nterms)
+        code = retex_combine(&set->parts[0].image, set, NULL, NULL, &d->roi, nthreads, err);
+    for (int y = 0; y < set->height && !code; y++)
+        round_halves(&set->parts[0], y);
+    return code;
+}

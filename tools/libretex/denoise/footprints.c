@@ -1,0 +1,436 @@
+/* See footprints.h. */
+#include <math.h>
+#include <string.h>
+
+#include <retex/rounding.h>
+#include <retex/uv_stats.h>
+
+#include "denoise/places.h"
+
+#define NEGLIGIBLE 1e-2f /* neighbours that count for less are left out */
+#define CLUSTERS_LEAST 2 /* of broad light that a pixel may have, whatever it had */
+#define CLUSTERS_MOST 3
+#define NEAR 0.1 /* of a place's width: how far other pixels' may be */
+#define FAR 0.05 /* of its weight, that merging a cluster would lose: it opens another one if there is room */
+
+/* ---- one pixel ---- */
+
+/* The pixel that is written, and its number in the set's images. */
+typedef struct Pixel {
+    const Band *band;
+    size_t at, place; /* in the set, in the band */
+} Pixel;
+
+static Pixel pixel_at(const Footprints *f, const Band *band, int x, int y)
+{
+    return (Pixel){band, (size_t)y * f->width + (size_t)x, (size_t)(y - band->first) * f->width + (size_t)x};
+}
+
+static float *written(const Pixel *p, const Image *image)
+{
+    return p->band->parts[image->part] + p->place * image->channels;
+}
+
+static void copy_pixel(const Pixel *p, const Image *image, size_t from)
+{
+    memcpy(written(p, image), image->pixels + from * image->channels, image->channels * sizeof(float));
+}
+
+static void clear_pixel(const Pixel *p, const Image *image)
+{
+    memset(written(p, image), 0, image->channels * sizeof(float));
+}
+
+/* Footprints of another pixel, or what they were. */
+static void copy_footprints(const Group *g, const Pixel *p, size_t from)
+{
+    for (int k = 0; k < g->count; k++) {
+        const Place *place = &g->of[k];
+        copy_pixel(p, &place->uv, from);
+        copy_pixel(p, &place->spread, from);
+        copy_pixel(p, &place->albedo, from);
+        if (place->share.channels == 1)
+            copy_pixel(p, &place->share, from);
+    }
+}
+
+static void clear_footprint(const Place *place, const Pixel *p)
+{
+    clear_pixel(p, &place->uv);
+    clear_pixel(p, &place->spread);
+    clear_pixel(p, &place->albedo);
+    if (place->light.pixels)
+        clear_pixel(p, &place->light);
+    if (place->share.channels == 1)
+        clear_pixel(p, &place->share);
+}
+
+static void store_share(const Place *place, const Pixel *p, double share)
+{
+    if (place->share.channels == 1)
+        *written(p, &place->share) = share > 0 ? retex_round_share(share) : 0;
+}
+
+static void store_light(const Place *place, const Pixel *p, const float light[3], double share)
+{
+    float *to = written(p, &place->light);
+    for (int c = 0; c < 3; c++)
+        to[c] = (float)share * light[c];
+}
+
+/* ---- clusters that stay ---- */
+
+static float cluster_light(const Place *place, size_t i)
+{
+    float l = place->light.pixels ? places_luminance(place->light.pixels + 3 * i) : 0;
+    return l > 0 && l < PLACES_FINITE ? l : 0;
+}
+
+static float cluster_cover(const Place *place, size_t i)
+{
+    const float *uv = place->light.pixels && place->uv.pixels ? place->uv.pixels + 3 * i : NULL;
+    return uv && uv[2] > 0 && fabsf(uv[0]) + fabsf(uv[1]) + uv[2] < PLACES_FINITE ? uv[2] : 0;
+}
+
+static double sum_over(const Group *g, size_t i, float (*value)(const Place *, size_t))
+{
+    double sum = 0;
+    for (int k = 0; k < g->nlit; k++)
+        sum += value(&g->of[k], i);
+    return sum;
+}
+
+/* The neighbour that counts most of those that have clusters; else the pixel itself. */
+static size_t find_lender(const Footprints *f, const Group *g, const Neighbour *neighbours, int count, size_t self)
+{
+    float best = 0;
+    for (int n = 0; n < count; n++) {
+        size_t i = (size_t)neighbours[n].y * f->width + (size_t)neighbours[n].x;
+        if (neighbours[n].weight > best && sum_over(g, i, cluster_cover) > 0)
+            best = neighbours[n].weight, self = i;
+    }
+    return self;
+}
+
+/* Light that meets targets again may come to where none did: no cluster has a share in it, which would lose it. */
+static void mend_shares(const Group *g, const Pixel *p, size_t from, float (*value)(const Place *, size_t), double all)
+{
+    for (int k = 0; k < g->count; k++)
+        if (g->of[k].share.channels != 1 || g->of[k].share.pixels[from] != 0)
+            return;
+    for (int k = 0; k < g->nlit; k++)
+        if (cluster_cover(&g->of[k], from) > 0)
+            store_share(&g->of[k], p, value(&g->of[k], from) / all);
+}
+
+/* How much of the pixel a cluster is, if it has light. */
+static float lit_cover(const Place *place, size_t i)
+{
+    return cluster_light(place, i) > 0 ? cluster_cover(place, i) : 0;
+}
+
+/* How far the light of clusters is to be believed, 0..1, where it differs from how much of the pixel they are: how
+ * bright they happened to be is chance in part. So many effective samples tell a sum to one in their root; what is left
+ * of the squared difference without that is real (James and Stein 1961). */
+static double light_belief(const Footprints *f, const Group *g, size_t from)
+{
+    double cover = sum_over(g, from, lit_cover), light = sum_over(g, from, cluster_light), chance = 0, differs = 0;
+    if (g->kind != RETEX_FOOTPRINT_SHARP || !(cover > 0))
+        return 1;
+    for (int k = 0; k < g->nlit; k++) {
+        double of_light = cluster_light(&g->of[k], from) / light, of_cover = lit_cover(&g->of[k], from);
+        if (!(of_cover > 0))
+            continue;
+        chance += of_light * of_light / (of_cover * f->spp);
+        differs += (of_light - of_cover / cover) * (of_light - of_cover / cover);
+    }
+    return differs > chance ? 1 - chance / differs : 0;
+}
+
+/* What a cluster has of the light: colour by colour, by its own light as far as that is to be believed, else by how
+ * much of the pixel it is. */
+static void share_cluster(const Group *g, int k, const Pixel *p, size_t from, double belief, const float light[3])
+{
+    double cover = sum_over(g, from, lit_cover), by_cover = cover > 0 ? lit_cover(&g->of[k], from) / cover : 0,
+           by_light = cluster_light(&g->of[k], from) / sum_over(g, from, cluster_light);
+    float *to = written(p, &g->of[k].light);
+    for (int c = 0; c < 3; c++) {
+        double sum = 0, own = 0;
+        for (int j = 0; j < g->nlit; j++) {
+            double l = cluster_light(&g->of[j], from) > 0 ? fmaxf(0, g->of[j].light.pixels[3 * from + (size_t)c]) : 0;
+            sum += l, own += j == k ? l : 0;
+        }
+        double share = sum > 0 ? own / sum : by_light;
+        to[c] = (float)(belief * share + (1 - belief) * by_cover) * light[c];
+    }
+}
+
+static void keep_clusters(const Footprints *f, const Group *g, const Pixel *p, const Neighbour *neighbours, int count,
+                          const float light[3])
+{
+    size_t from = p->at;
+    double all = sum_over(g, from, cluster_light);
+    if (!(all > 0) && g->movable && (light[0] > 0 || light[1] > 0 || light[2] > 0) &&
+        !(sum_over(g, from, cluster_cover) > 0)) {
+        from = find_lender(f, g, neighbours, count, from);
+        all = sum_over(g, from, cluster_light);
+    }
+    float (*value)(const Place *, size_t) = all > 0 ? cluster_light : cluster_cover;
+    if (!(all > 0))
+        all = sum_over(g, from, value);
+    double belief = value == cluster_light ? light_belief(f, g, from) : 0;
+    for (int k = 0; k < g->nlit; k++)
+        if (g->of[k].light.pixels && value == cluster_light)
+            share_cluster(g, k, p, from, belief, light);
+        else if (g->of[k].light.pixels)
+            store_light(&g->of[k], p, light, all > 0 ? value(&g->of[k], from) / all : 0);
+    if (!g->movable)
+        return;
+    copy_footprints(g, p, from);
+    if (all > 0)
+        mend_shares(g, p, from, value, all);
+}
+
+/* ---- pooling ---- */
+
+/* Clusters of several pixels as one. */
+typedef struct Pool {
+    UvStats uv;
+    double squares;                           /* of weights over coverage */
+    double luminance, shared;                 /* of own light, and of that which meets targets again */
+    double light[3], reflected[3], albedo[3]; /* the last by the statistics' weight */
+} Pool;
+
+typedef struct Pools {
+    int count, room;
+    int near; /* only what is near to what the pixel itself has */
+    Pool of[CLUSTERS_MOST];
+} Pools;
+
+static float read_share(const Group *g, const Place *place, size_t i)
+{
+    const float *share = place->share.pixels + i * place->share.channels;
+    if (!place->share.pixels) /* no mixture has it: it stands alone */
+        return g->kind == RETEX_FOOTPRINT_INTERREFLECTION || g->count == 1;
+    return place->share.channels == 1 ? share[0] : (share[0] + share[1] + share[2]) / 3;
+}
+
+/* Whether the footprint is there, and counts. */
+static int load_pool(Pool *pool, const Group *g, const Place *place, size_t i, float weight)
+{
+    static const float dark[3];
+    const float *uv = place->uv.pixels + 3 * i, *spread = place->spread.pixels + i * place->spread.channels;
+    const float *albedo = place->albedo.pixels + 3 * i,
+                *light = place->light.pixels ? place->light.pixels + 3 * i : dark;
+    const float spreads[3] = {spread[0], spread[1], place->spread.channels == 3 ? spread[2] : 0};
+    if (!(uv[2] > 0))
+        return 0;
+    float own = places_luminance(light),
+          shared = g->again && g->again[i] > 0 ? g->again[i] * read_share(g, place, i) : 0;
+    float all = g->kind == RETEX_FOOTPRINT_HIT ? uv[2] : own + shared;
+    float size = fabsf(uv[0]) + fabsf(uv[1]) + uv[2] + fabsf(spreads[0]) + fabsf(spreads[1]) + fabsf(spreads[2]) +
+                 fabsf(albedo[0]) + fabsf(albedo[1]) + fabsf(albedo[2]) + fabsf(light[0]) + fabsf(light[1]) +
+                 fabsf(light[2]);
+    if (!(size < PLACES_FINITE) || !(own >= 0) || !(shared >= 0) || !(all > 0) || !(all < PLACES_FINITE))
+        return 0;
+    const float w = weight * all;
+    if (!(w > 0))
+        return 0;
+    uv_stats_load(&pool->uv, w, uv, spreads);
+    pool->squares = (double)w * w / uv[2];
+    pool->luminance = weight * own, pool->shared = weight * shared;
+    for (int c = 0; c < 3; c++) {
+        pool->light[c] = light[c] > 0 ? weight * light[c] : 0;
+        pool->reflected[c] = pool->light[c] * albedo[c];
+        pool->albedo[c] = w * albedo[c];
+    }
+    return 1;
+}
+
+static void merge_pool(Pool *into, const Pool *from, const int periodic[2])
+{
+    uv_stats_merge(&into->uv, &from->uv, periodic);
+    into->squares += from->squares;
+    into->luminance += from->luminance, into->shared += from->shared;
+    for (int c = 0; c < 3; c++) {
+        into->light[c] += from->light[c];
+        into->reflected[c] += from->reflected[c];
+        into->albedo[c] += from->albedo[c];
+    }
+}
+
+/* Whether the places are farther apart than the first is wide. */
+static int is_far(const UvStats *a, const UvStats *b, const int periodic[2])
+{
+    double squared = uv_stats_ward(a, b, periodic) * (a->weight + b->weight) / (a->weight * b->weight);
+    return squared > NEAR * NEAR * (a->m2[0] + a->m2[2]) / a->weight;
+}
+
+/* To where that loses least; `open`: or to a place of its own, if there is room. */
+static void add_pool(Pools *pools, const Pool *one, const int periodic[2], int open)
+{
+    int best = -1;
+    double least = INFINITY;
+    for (int k = 0; k < pools->count && (pools->room > 1 || best < 0); k++) {
+        double gain = uv_stats_variation_gain(&pools->of[k].uv, &one->uv, periodic);
+        if (gain < least || best < 0)
+            least = gain, best = k;
+    }
+    if (best >= 0 && !open && pools->near && is_far(&pools->of[best].uv, &one->uv, periodic))
+        return;
+    if (best < 0 || (pools->count < pools->room && (open || least > FAR * one->uv.weight)))
+        pools->of[pools->count++] = *one;
+    else
+        merge_pool(&pools->of[best], one, periodic);
+}
+
+/* Those of the pixel itself come first, the heaviest foremost. */
+static void pool_own(Pools *pools, const Group *g, int most, const Neighbour *self, size_t i)
+{
+    Pool own[GROUP_MAX];
+    int order[GROUP_MAX], count = 0;
+    for (int k = 0; k < g->count; k++) {
+        if (!load_pool(&own[count], g, &g->of[k], i, self->weight))
+            continue;
+        int at = count++;
+        for (; at > 0 && own[order[at - 1]].uv.weight < own[count - 1].uv.weight; at--)
+            order[at] = order[at - 1];
+        order[at] = count - 1;
+    }
+    pools->room = count < CLUSTERS_LEAST ? CLUSTERS_LEAST : count < CLUSTERS_MOST ? count : CLUSTERS_MOST;
+    pools->room = pools->room < most ? pools->room : most;
+    for (int k = 0; k < count; k++)
+        add_pool(pools, &own[order[k]], g->periodic, 1);
+}
+
+static int compare_pools(const Pool *a, const Pool *b)
+{
+    double p = a->uv.mean[0] + a->uv.mean[1], q = b->uv.mean[0] + b->uv.mean[1];
+    return p < q ? -1 : p > q;
+}
+
+/* All that the neighbours have of a group, into at most so many, in the order of their place on the texture. */
+static void pool_group(Pools *pools, const Footprints *f, const Group *g, int most, const Neighbour *neighbours,
+                       int count)
+{
+    *pools = (Pools){.room = most, .near = g->kind != RETEX_FOOTPRINT_BROAD};
+    for (int n = 0; n < count; n++) {
+        size_t i = (size_t)neighbours[n].y * f->width + (size_t)neighbours[n].x;
+        if (!(neighbours[n].weight > NEGLIGIBLE && neighbours[n].weight < PLACES_FINITE))
+            continue;
+        if (n == 0) {
+            pool_own(pools, g, most, &neighbours[0], i);
+            continue;
+        }
+        for (int k = 0; k < g->count; k++) {
+            Pool one;
+            if (load_pool(&one, g, &g->of[k], i, neighbours[n].weight))
+                add_pool(pools, &one, g->periodic, 0);
+        }
+    }
+    for (int k = 1; k < pools->count; k++)
+        for (int i = k; i > 0 && compare_pools(&pools->of[i], &pools->of[i - 1]) < 0; i--) {
+            Pool swap = pools->of[i];
+            pools->of[i] = pools->of[i - 1], pools->of[i - 1] = swap;
+        }
+}
+
+static void store_pool(const Place *place, const Pixel *p, const Pool *pool, double coverage)
+{
+    float *uv = written(p, &place->uv), *spread = written(p, &place->spread), *albedo = written(p, &place->albedo);
+    float spreads[3];
+    uv_stats_store(&pool->uv, uv, spreads);
+    uv[2] = retex_round_coverage(fmin(coverage, 1));
+    memcpy(spread, spreads, place->spread.channels * sizeof *spread);
+    for (int c = 0; c < 3; c++)
+        albedo[c] =
+            (float)(pool->light[c] > 0 ? pool->reflected[c] / pool->light[c] : pool->albedo[c] / pool->uv.weight);
+}
+
+/* So many samples of equal weight would know as much (Kish 1965). */
+static double effective_coverage(const Pool *pool)
+{
+    return pool->uv.weight * pool->uv.weight / pool->squares;
+}
+
+static int pool_clusters(const Footprints *f, const Group *g, const Pixel *p, const Neighbour *neighbours, int count,
+                         const float light[3])
+{
+    Pools pools;
+    double lit = 0, shared = 0, weight = 0;
+    pool_group(&pools, f, g, g->nlit < CLUSTERS_MOST ? g->nlit : CLUSTERS_MOST, neighbours, count);
+    for (int k = 0; k < pools.count; k++)
+        lit += pools.of[k].luminance, shared += pools.of[k].shared, weight += pools.of[k].uv.weight;
+    for (int k = 0; k < g->count && pools.count; k++) {
+        const Pool *pool = &pools.of[k];
+        if (k >= pools.count) {
+            clear_footprint(&g->of[k], p);
+            continue;
+        }
+        store_pool(&g->of[k], p, pool, effective_coverage(pool));
+        store_light(&g->of[k], p, light, lit > 0 ? pool->luminance / lit : pool->uv.weight / weight);
+        /* without shares, light that comes from other pixels and meets targets again would be lost */
+        store_share(&g->of[k], p, shared > 0 ? pool->shared / shared : pool->uv.weight / weight);
+    }
+    return pools.count;
+}
+
+void footprints_share_light(const Footprints *f, const Denoiser *d, const Signal *signal, int x, int y,
+                            const Neighbour *neighbours, int count, const float light[3], Band *band)
+{
+    const Group *g = &f->signals[signal - d->signals.of];
+    const Pixel p = pixel_at(f, band, x, y);
+    int pooled = g->kind == RETEX_FOOTPRINT_BROAD && g->movable && d->params.footprints && g->nlit;
+    if (!pooled || !pool_clusters(f, g, &p, neighbours, count, light))
+        keep_clusters(f, g, &p, neighbours, count, light);
+}
+
+static void pool_later(const Footprints *f, const Pixel *p, const Neighbour *neighbours, int count)
+{
+    Pools pools[RETEX_MAX_TARGETS];
+    double shared = 0;
+    for (int t = 0; t < f->nlater; t++) {
+        const Group *g = &f->later[t];
+        pool_group(&pools[t], f, g, g->count < CLUSTERS_MOST ? g->count : CLUSTERS_MOST, neighbours, count);
+        for (int k = 0; k < pools[t].count; k++)
+            shared += pools[t].of[k].shared;
+    }
+    for (int t = 0; t < f->nlater; t++) {
+        const Group *g = &f->later[t];
+        if (!(shared > 0))
+            copy_footprints(g, p, p->at);
+        for (int k = 0; k < g->count && shared > 0; k++) {
+            const Pool *pool = &pools[t].of[k];
+            if (k >= pools[t].count) {
+                clear_footprint(&g->of[k], p);
+                continue;
+            }
+            store_pool(&g->of[k], p, pool, effective_coverage(pool));
+            store_share(&g->of[k], p, pool->shared / shared);
+        }
+    }
+}
+
+static void pool_hit(const Footprints *f, const Group *g, const Pixel *p, const Neighbour *neighbours, int count)
+{
+    Pools pools;
+    double all = 0;
+    pool_group(&pools, f, g, 1, neighbours, count);
+    for (int n = 0; n < count; n++)
+        all += neighbours[n].weight > NEGLIGIBLE && neighbours[n].weight < PLACES_FINITE ? neighbours[n].weight : 0;
+    copy_footprints(g, p, p->at); /* its weight in a mixture stays, where it has one */
+    if (pools.count)
+        store_pool(&g->of[0], p, &pools.of[0], pools.of[0].uv.weight / all);
+}
+
+void footprints_pool_later(const Footprints *f, const Denoiser *d, int x, int y, const Neighbour *neighbours, int count,
+                           Band *band)
+{
+    const Pixel p = pixel_at(f, band, x, y);
+    if (!d->params.footprints)
+        return;
+    if (f->nlater)
+        pool_later(f, &p, neighbours, count);
+    for (int k = 0; k < f->nhits; k++)
+        pool_hit(f, &f->hits[k], &p, neighbours, count);
+}

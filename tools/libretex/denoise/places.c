@@ -1,0 +1,259 @@
+/* See places.h. */
+#include "denoise/places.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+static int is_part(const RetexSet *set, int part)
+{
+    return part >= 0 && part < set->nparts;
+}
+
+static Image find_image(const RetexSet *set, int part, int least, int most)
+{
+    if (is_part(set, part)) {
+        const RetexImage *im = &set->parts[part].image;
+        if (im->pixels && im->width == set->width && im->height == set->height && im->channels >= least &&
+            im->channels <= most)
+            return (Image){im->pixels, (size_t)im->channels, part};
+    }
+    return (Image){.part = -1};
+}
+
+/* The part of a footprint's weight in mixtures, or -1. Where it has several, these count as used by others. */
+static int find_share(const RetexSet *set, int footprint, int *uses)
+{
+    int found = -1;
+    for (int m = 0; m < set->nmixtures; m++)
+        for (int k = 0; k < set->mixtures[m].nshares; k++) {
+            int weight = set->mixtures[m].shares[k].weight;
+            if (set->mixtures[m].shares[k].footprint != footprint || !is_part(set, weight))
+                continue;
+            if (uses && (found < 0 || found != weight))
+                uses[weight] += 1 + (found >= 0);
+            if (uses && found >= 0 && found != weight)
+                uses[found]++;
+            found = found < 0 ? weight : found;
+        }
+    return found;
+}
+
+static void count_uses(int *uses, const RetexSet *set)
+{
+    for (int k = 0; k < set->ntargets; k++)
+        if (is_part(set, set->targets[k].original))
+            uses[set->targets[k].original]++;
+    for (int k = 0; k < set->nterms; k++)
+        if (is_part(set, set->terms[k].radiance))
+            uses[set->terms[k].radiance]++;
+    for (int k = 0; k < set->nfootprints; k++) {
+        const int parts[] = {set->footprints[k].uv, set->footprints[k].spread, set->footprints[k].albedo};
+        for (int i = 0; i < 3; i++)
+            if (is_part(set, parts[i]))
+                uses[parts[i]]++;
+        find_share(set, k, uses);
+    }
+}
+
+static int is_own(const int *uses, const Image *image)
+{
+    return image->part < 0 || uses[image->part] == 1;
+}
+
+/* One more place of a group: light -1 = none. */
+static void add_place(Footprints *f, const RetexSet *set, Group *g, int footprint, int light)
+{
+    const RetexFootprint *from = &set->footprints[footprint];
+    Place *place = &g->of[g->count++];
+    *place = (Place){.uv = find_image(set, from->uv, 3, 3),
+                     .spread = find_image(set, from->spread, 2, 3),
+                     .albedo = find_image(set, from->albedo, 3, 3),
+                     .light = find_image(set, light, 3, 3),
+                     .share = find_image(set, find_share(set, footprint, NULL), 1, 3)};
+    f->nplaces++;
+    g->nlit += light >= 0;
+    int whole =
+        place->uv.pixels && place->spread.pixels && place->albedo.pixels && !(light >= 0 && !place->light.pixels);
+    g->movable &= whole && is_own(f->uses, &place->uv) && is_own(f->uses, &place->spread) &&
+                  is_own(f->uses, &place->albedo) && is_own(f->uses, &place->light) && is_own(f->uses, &place->share);
+}
+
+static Group start_group(const Footprints *f, const RetexSet *set, int target, RetexFootprintKind kind)
+{
+    Group g = {.kind = kind, .of = f->places + f->nplaces, .movable = 1};
+    if (target >= 0)
+        memcpy(g.periodic, set->targets[target].periodic, sizeof g.periodic);
+    return g;
+}
+
+static int has_cluster(const RetexSet *set, const Signal *signal, int footprint)
+{
+    int count = 0;
+    for (int k = 0; k < signal->nmembers; k++)
+        count += signal_cluster(set, &signal->members[k]) == footprint;
+    return count;
+}
+
+/* A signal's clusters; last those whose light all goes on. */
+static void find_clusters(Footprints *f, const RetexSet *set, const Signal *signal, Group *g)
+{
+    *g = start_group(f, set, signal->target, signal->kind);
+    for (int k = 0; k < signal->nmembers; k++) {
+        int footprint = signal_cluster(set, &signal->members[k]);
+        if (footprint < 0)
+            continue;
+        add_place(f, set, g, footprint, signal->members[k].part);
+        g->movable &= has_cluster(set, signal, footprint) == 1;
+    }
+    for (int k = 0; k < set->nfootprints && g->count; k++)
+        if (set->footprints[k].target == signal->target && set->footprints[k].kind == signal->kind &&
+            !has_cluster(set, signal, k))
+            add_place(f, set, g, k, -1);
+    g->movable &= g->count <= GROUP_MAX && (g->kind == RETEX_FOOTPRINT_SHARP || g->kind == RETEX_FOOTPRINT_BROAD);
+}
+
+/* Later footprints share their light over all targets: all are pooled, or none. */
+static void find_later(Footprints *f, const RetexSet *set, const float *again)
+{
+    int movable = 1;
+    for (int t = 0; t < set->ntargets; t++) {
+        Group *g = &f->later[f->nlater];
+        *g = start_group(f, set, t, RETEX_FOOTPRINT_INTERREFLECTION);
+        g->again = again;
+        for (int k = 0; k < set->nfootprints; k++)
+            if (set->footprints[k].target == t && set->footprints[k].kind == RETEX_FOOTPRINT_INTERREFLECTION)
+                add_place(f, set, g, k, -1);
+        movable &= g->movable && g->count <= GROUP_MAX;
+        f->nlater += g->count > 0;
+    }
+    f->nlater = movable ? f->nlater : 0;
+}
+
+static void find_hits(Footprints *f, const RetexSet *set)
+{
+    for (int k = 0; k < set->nfootprints; k++) {
+        if (set->footprints[k].kind != RETEX_FOOTPRINT_HIT || set->footprints[k].hit < 2)
+            continue;
+        Group *g = &f->hits[f->nhits];
+        *g = start_group(f, set, set->footprints[k].target, RETEX_FOOTPRINT_HIT);
+        add_place(f, set, g, k, -1);
+        f->nhits += g->movable;
+    }
+}
+
+/* Luminance of a signal's light that meets targets again, as the film weighs it: NULL where there is none. */
+static int find_again(float **again, const RetexSet *set, const Signal *signal, size_t pixels, RetexError *err)
+{
+    for (int k = 0; k < signal->nmembers; k++) {
+        const SignalMember *m = &signal->members[k];
+        Image light = find_image(set, m->part, 3, 3);
+        if (signal->target < 0 || m->term < 0 || set->terms[m->term].nfactors < 2 || !light.pixels)
+            continue;
+        if (!*again && !(*again = calloc(pixels, sizeof **again)))
+            return retex_fail(err, RETEX_ENOMEM, "not enough memory to denoise footprints");
+        for (size_t i = 0; i < pixels; i++) {
+            float more = m->weight * places_luminance(light.pixels + 3 * i);
+            (*again)[i] += more > 0 && more < PLACES_FINITE ? more : 0;
+        }
+    }
+    return RETEX_OK;
+}
+
+static int find_all_again(Footprints *f, const Denoiser *d, RetexError *err)
+{
+    float **all = &f->again[f->nsignals];
+    int code = RETEX_OK;
+    for (int s = 0; s < f->nsignals && !code; s++) {
+        if (d->signals.of[s].kind == RETEX_FOOTPRINT_HIT)
+            continue;
+        code = find_again(&f->again[s], d->set, &d->signals.of[s], f->pixels, err);
+        if (!f->again[s] || code)
+            continue;
+        if (!*all && !(*all = calloc(f->pixels, sizeof **all)))
+            return retex_fail(err, RETEX_ENOMEM, "not enough memory to denoise footprints");
+        for (size_t i = 0; i < f->pixels; i++)
+            (*all)[i] += f->again[s][i];
+    }
+    return code;
+}
+
+int denoise_footprints_open(Footprints **out, const Denoiser *d, RetexError *err)
+{
+    const RetexSet *set = d->set;
+    size_t footprints = (size_t)set->nfootprints, signals = (size_t)d->signals.count;
+    Footprints *f = *out = calloc(1, sizeof *f);
+    int code = RETEX_OK;
+    if (f) {
+        f->width = (size_t)set->width, f->pixels = f->width * (size_t)set->height, f->nsignals = d->signals.count,
+        f->spp = set->spp;
+        f->uses = calloc((size_t)set->nparts + 1, sizeof *f->uses);
+        f->signals = calloc(signals + 1, sizeof *f->signals);
+        f->later = calloc(RETEX_MAX_TARGETS + 1, sizeof *f->later);
+        f->hits = calloc(footprints + 1, sizeof *f->hits);
+        f->again = calloc(signals + 1, sizeof *f->again);
+        f->places = calloc(2 * footprints + (size_t)set->nterms + 1, sizeof *f->places);
+    }
+    if (!f || !f->uses || !f->signals || !f->later || !f->hits || !f->again || !f->places)
+        code = retex_fail(err, RETEX_ENOMEM, "not enough memory to denoise footprints");
+    if (!code)
+        code = find_all_again(f, d, err);
+    if (code) {
+        denoise_footprints_close(out);
+        return code;
+    }
+    count_uses(f->uses, set);
+    for (int s = 0; s < f->nsignals; s++) {
+        find_clusters(f, set, &d->signals.of[s], &f->signals[s]);
+        f->signals[s].again = f->again[s];
+    }
+    find_later(f, set, f->again[f->nsignals]);
+    find_hits(f, set);
+    return RETEX_OK;
+}
+
+void denoise_footprints_close(Footprints **out)
+{
+    Footprints *f = *out;
+    if (!f)
+        return;
+    for (int s = 0; f->again && s <= f->nsignals; s++)
+        free(f->again[s]);
+    free(f->uses);
+    free(f->signals);
+    free(f->later);
+    free(f->hits);
+    free(f->again);
+    free(f->places);
+    free(f);
+    *out = NULL;
+}
+
+static void mark(const Image *image, unsigned char *written)
+{
+    if (image->part >= 0)
+        written[image->part] = 1;
+}
+
+static void mark_group(const Group *g, unsigned char *written)
+{
+    for (int k = 0; k < g->count; k++) {
+        mark(&g->of[k].light, written);
+        if (!g->movable)
+            continue;
+        mark(&g->of[k].uv, written);
+        mark(&g->of[k].spread, written);
+        mark(&g->of[k].albedo, written);
+        if (g->of[k].share.channels == 1)
+            mark(&g->of[k].share, written);
+    }
+}
+
+void footprints_mark_written(const Footprints *f, const Denoiser *d, unsigned char *written)
+{
+    for (int s = 0; s < f->nsignals; s++)
+        mark_group(&f->signals[s], written);
+    for (int k = 0; k < f->nlater && d->params.footprints; k++)
+        mark_group(&f->later[k], written);
+    for (int k = 0; k < f->nhits && d->params.footprints; k++)
+        mark_group(&f->hits[k], written);
+}

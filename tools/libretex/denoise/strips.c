@@ -1,0 +1,238 @@
+/* See strips.h. Twice through the set: strips are filtered into a spool, and, when it is known what that did to
+ * the means of all, rows from there and from the file are finished into another. */
+#include "denoise/strips.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "denoise/filter.h"
+#include "base/jobs.h"
+#include "set/band.h"
+#include "set/parts.h"
+#include "set/source.h"
+
+enum { STRIP = 2 * DENOISE_STEP, FINISHED = 4 * RETEX_SPOOL_LINES };
+
+_Static_assert(STRIP % RETEX_SPOOL_LINES == 0, "strips are whole bands of the spool");
+
+static const double FILTERED = 0.9; /* of the work */
+
+/* Rows on their way into a spool. */
+typedef struct Spooling {
+    RetexSpool *spool;
+    const RetexSet *rows;
+    const int *images; /* by part: its number in the spool, or -1 */
+    int from, count;   /* which of the rows */
+    int band;          /* of the spool, that begins with these */
+} Spooling;
+
+static int is_whole(const RetexSet *set, int part)
+{
+    return set->parts[part].image.width == set->width && set->parts[part].image.height == set->height;
+}
+
+static int is_light(const Denoiser *d, int part)
+{
+    for (int s = 0; s < d->signals.count; s++)
+        for (int k = 0; k < d->signals.of[s].nmembers; k++)
+            if (d->signals.of[s].members[k].part == part)
+                return 1;
+    return 0;
+}
+
+/* A spool with an image for each part that is wanted. Light that is yet to be scaled is not rounded: as_floats. */
+static int open_spool(RetexSpool **spool, int *images, const Denoiser *d, const unsigned char *wanted, int as_floats,
+                      RetexError *err)
+{
+    const RetexSet *set = d->set;
+    int code = retex_spool_create(spool, set->width, set->height, set->id, d->params.near, err);
+    for (int k = 0; k < set->nparts; k++) {
+        const RetexPart *part = &set->parts[k];
+        images[k] = -1;
+        if (!code && wanted[k])
+            code = retex_spool_add(*spool, part->name, part->letters,
+                                   as_floats && is_light(d, k) ? RETEX_FLOAT : part->type, &images[k], err);
+    }
+    return code;
+}
+
+static int spool_part(void *context, int part, int thread, RetexError *err)
+{
+    const Spooling *s = context;
+    const RetexImage *im = &s->rows->parts[part].image;
+    int code = RETEX_OK;
+    (void)thread;
+    if (s->images[part] < 0)
+        return RETEX_OK;
+    for (int y = 0; y < s->count && !code; y += RETEX_SPOOL_LINES)
+        code = retex_spool_put(s->spool, s->images[part], s->band + y / RETEX_SPOOL_LINES,
+                               im->pixels + retex_image_index(im, 0, s->from + y), err);
+    return code;
+}
+
+/* `count` rows from `from` on, of which the first is the picture's row y. */
+static int spool_rows(RetexSpool *spool, const int *images, const RetexSet *rows, int from, int count, int y,
+                      int nthreads, RetexError *err)
+{
+    Spooling spooling = {.spool = spool, .rows = rows, .images = images, .from = from, .count = count};
+    spooling.band = y / RETEX_SPOOL_LINES;
+    return jobs_run(nthreads, rows->nparts, spool_part, &spooling, err);
+}
+
+/* What the two passes share. */
+typedef struct Strips {
+    const Denoiser *denoiser;
+    DenoiseResult result;
+    RetexSet filtered;     /* the set with the spool of what was filtered */
+    RetexSpool *spools[2]; /* filtered, finished */
+    int *images[2];        /* by part, in these */
+    int nthreads;
+} Strips;
+
+static void show_progress(const Strips *s, double done)
+{
+    const RetexDenoiseParams *params = &s->denoiser->params;
+    if (params->progress)
+        params->progress(params->progress_context, done);
+}
+
+/* One strip, with what lies around it. */
+static int filter_strip(Strips *s, SetBand *band, int y, RetexError *err)
+{
+    const RetexSet *set = s->denoiser->set;
+    const int end = y + STRIP < set->height ? y + STRIP : set->height;
+    const int first = y > DENOISE_REACH ? y - DENOISE_REACH : 0;
+    const int last = end + DENOISE_REACH < set->height ? end + DENOISE_REACH : set->height;
+    Denoiser strip = *s->denoiser;
+    int code = set_band_take(&strip.set, band, first, last - first, s->nthreads, err);
+    strip.roi = (RetexRoi){0, y - first, set->width, end - first, 0, 3};
+    strip.params.progress = NULL;
+    if (!code)
+        code = denoise_filter(&strip, &s->result, s->nthreads, err);
+    if (!code && !s->spools[0])
+        code = open_spool(&s->spools[0], s->images[0], s->denoiser, s->result.written, 1, err);
+    return code ? code : spool_rows(s->spools[0], s->images[0], strip.set, y - first, end - y, y, s->nthreads, err);
+}
+
+static int filter_all(Strips *s, RetexError *err)
+{
+    const RetexSet *set = s->denoiser->set;
+    SetBand *band;
+    int code = set_band_open(&band, set, STRIP + 2 * DENOISE_REACH, 1, err);
+    for (int y = 0; y < set->height && !code; y += STRIP) {
+        show_progress(s, FILTERED * y / set->height);
+        code = filter_strip(s, band, y, err);
+    }
+    set_band_close(&band);
+    return code;
+}
+
+/* The set as it is after filtering: parts from its source but for those that were written, and without what filtering
+ * needed. */
+static int open_filtered(Strips *s, RetexError *err)
+{
+    const RetexSet *set = s->denoiser->set;
+    s->filtered = *set;
+    s->filtered.spool = s->spools[0];
+    s->filtered.parts = malloc(sizeof *set->parts * (size_t)set->nparts);
+    if (!s->filtered.parts)
+        return retex_fail(err, RETEX_ENOMEM, "not enough memory to denoise");
+    memcpy(s->filtered.parts, set->parts, sizeof *set->parts * (size_t)set->nparts);
+    for (int k = 0; k < set->nparts; k++)
+        if (part_is_denoise_data(set, k))
+            s->filtered.parts[k].image = (RetexImage){0};
+        else if (s->images[0][k] >= 0)
+            s->filtered.parts[k].image.pixels = NULL, s->filtered.parts[k].spooled = 1 + s->images[0][k];
+    return RETEX_OK;
+}
+
+static int finish_rows(Strips *s, SetBand *band, int y, RetexError *err)
+{
+    const RetexSet *set = s->denoiser->set;
+    const int count = set->height - y < FINISHED ? set->height - y : FINISHED;
+    Denoiser rows = *s->denoiser;
+    int code = set_band_take(&rows.set, band, y, count, s->nthreads, err);
+    rows.roi = (RetexRoi){0, 0, set->width, count, 0, 3};
+    if (!code)
+        code = denoise_finish(&rows, &s->result, s->nthreads, err);
+    return code ? code : spool_rows(s->spools[1], s->images[1], rows.set, 0, count, y, s->nthreads, err);
+}
+
+static int finish_all(Strips *s, RetexError *err)
+{
+    const RetexSet *set = s->denoiser->set;
+    unsigned char *wanted = calloc((size_t)set->nparts + 1, 1);
+    SetBand *band = NULL;
+    int code = wanted ? open_filtered(s, err) : retex_fail(err, RETEX_ENOMEM, "not enough memory to denoise");
+    for (int k = 0; k < set->nparts && !code; k++)
+        wanted[k] = is_whole(set, k) && !part_is_denoise_data(set, k);
+    if (!code)
+        code = open_spool(&s->spools[1], s->images[1], s->denoiser, wanted, 0, err);
+    if (!code)
+        code = set_band_open(&band, &s->filtered, FINISHED, 1, err);
+    for (int y = 0; y < set->height && !code; y += FINISHED) {
+        show_progress(s, FILTERED + (1 - FILTERED) * y / set->height);
+        code = finish_rows(s, band, y, err);
+    }
+    set_band_close(&band);
+    free(wanted);
+    return code;
+}
+
+/* The set has what was finished, and in memory what is of another size: its source is done with. */
+static int take_over(Strips *s, RetexError *err)
+{
+    RetexSet *set = s->denoiser->set;
+    for (int k = 0; k < set->nparts; k++) {
+        RetexImage image = {0}, *to = &set->parts[k].image;
+        if (s->images[1][k] >= 0 || to->pixels || part_is_denoise_data(set, k))
+            continue;
+        int code = retex_image_alloc(&image, to->width, to->height, to->channels, err);
+        if (!code)
+            code = set_part_rows(&image, set, k, 0, err);
+        if (code) {
+            retex_image_free(&image);
+            return code;
+        }
+        *to = image;
+    }
+    for (int k = 0; k < set->nparts; k++)
+        if (s->images[1][k] >= 0) {
+            free(set->parts[k].image.pixels);
+            set->parts[k].image.pixels = NULL;
+            set->parts[k].spooled = 1 + s->images[1][k];
+        }
+    set->source->close(set->source);
+    set->source = NULL;
+    set->spool = s->spools[1];
+    s->spools[1] = NULL;
+    return RETEX_OK;
+}
+
+int denoise_strips_can(const RetexSet *set)
+{
+    return set->source && !set->spool;
+}
+
+int denoise_strips(const Denoiser *denoiser, int nthreads, RetexError *err)
+{
+    Strips s = {.denoiser = denoiser, .nthreads = nthreads};
+    int code = denoise_result_open(&s.result, denoiser, err);
+    for (int k = 0; k < 2; k++)
+        s.images[k] = malloc(sizeof *s.images[k] * ((size_t)denoiser->set->nparts + 1));
+    if (!code && (!s.images[0] || !s.images[1]))
+        code = retex_fail(err, RETEX_ENOMEM, "not enough memory to denoise");
+    if (!code)
+        code = filter_all(&s, err);
+    if (!code)
+        code = finish_all(&s, err);
+    if (!code)
+        code = take_over(&s, err);
+    for (int k = 0; k < 2; k++) {
+        retex_spool_close(&s.spools[k]);
+        free(s.images[k]);
+    }
+    free(s.filtered.parts);
+    denoise_result_close(&s.result);
+    return code;
+}

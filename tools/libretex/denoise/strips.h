@@ -1,0 +1,13 @@
+/* Denoising a set that stays in its file, some rows after the other. Private to libretex. */
+#ifndef RETEX_DENOISE_STRIPS_H
+#define RETEX_DENOISE_STRIPS_H
+
+#include "denoise/tile.h"
+
+/* Whether a set can be: it is open, and no part of it is in a spool. */
+int denoise_strips_can(const RetexSet *set);
+
+/* All of denoiser->set, which then has a spool instead of its source. The same to the bit as in memory. */
+int denoise_strips(const Denoiser *denoiser, int nthreads, RetexError *err);
+
+#endif

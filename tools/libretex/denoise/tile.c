@@ -1,0 +1,514 @@
+/* See tile.h. The weights are those of Rousselle et al. 2012, limited by features as in Rousselle et al. 2013;
+ * there are several candidates, and each half of the samples tells how good the other's are. */
+#include "denoise/tile.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "denoise/features.h"
+#include "denoise/footprints.h"
+
+#define STRENGTH 0.45f    /* of params.strength 1, in standard deviations: k of Rousselle et al. 2012 */
+#define LEAST_COVER 0.02f /* of a target: less is not told from none */
+#define LEAST_MODULATION 0.2f
+#define TARGET_BRIGHTNESS 0.3f /* of light that a target's texture does not multiply: mirrors more, dull ones less */
+#define LEAST_DIFFERENCE 1e-6f /* squared, of the mean: what no one sees */
+#define ERROR_RADIUS 2         /* of the patch by which a candidate is chosen */
+#define CHOICE_RADIUS 2        /* choices change over so many pixels */
+#define SPIKE 40               /* times the variance around, the squared difference of halves: it chooses for itself */
+#define NEIGHBOUR_STEP 3       /* footprints are pooled from a grid of pixels of this step, */
+#define NEIGHBOUR_REACH 2      /* so many steps to each side */
+#define NEIGHBOURS_MAX ((2 * NEIGHBOUR_REACH + 1) * (2 * NEIGHBOUR_REACH + 1))
+#define LEAST_WEIGHT 0.02f /* of a neighbour that is pooled */
+
+_Static_assert(ERROR_RADIUS + CHOICE_RADIUS <= DENOISE_MARGIN, "what is chosen must not depend on tiles");
+
+/* The pixel as it is, and the candidates. */
+enum { CHOICES = DENOISE_CANDIDATES + 1 };
+
+/* What a tile holds of one signal. */
+typedef struct SignalRoom {
+    int nclusters, nplanes;
+    float *half[2][3], *variance[3], *kind, *modulation[3], *mean_modulation; /* planes */
+    float **planes, **sums; /* channel by channel: all clusters together where there are any, then other members */
+    DenoiseSums candidates[DENOISE_CANDIDATES];
+    float *chosen[CHOICES]; /* how much of each, by pixel */
+    float *neighbours;      /* of signals with clusters: weights by neighbour, then pixel */
+} SignalRoom;
+
+struct TileRoom {
+    float *memory;
+    float *features; /* FEATURES_ROOM planes */
+    float *spare;    /* a plane */
+    float *scratch, *errors[CHOICES], *neighbours;
+    DenoiseAlike *alike; /* DENOISE_BATCH */
+    SignalRoom *signals;
+    float **pointers;
+};
+
+/* ---- room ---- */
+
+/* Memory is laid out twice: first from NULL, to see how much it takes. */
+typedef struct Layout {
+    float *memory;
+    size_t used;
+    float **pointers;
+    size_t npointers;
+} Layout;
+
+static float *take(Layout *l, size_t floats)
+{
+    float *p = l->memory ? l->memory + l->used : NULL;
+    l->used += (floats + 15) / 16 * 16;
+    return p;
+}
+
+static void lay_out_signal(SignalRoom *r, Layout *l, const RetexSet *set, const Signal *signal)
+{
+    r->nclusters = 0;
+    for (int k = 0; k < signal->nmembers; k++)
+        r->nclusters += signal_cluster(set, &signal->members[k]) >= 0;
+    r->nplanes = 3 * (signal->nmembers - r->nclusters + (r->nclusters > 0));
+    r->kind = take(l, DENOISE_PLANE), r->mean_modulation = take(l, DENOISE_PLANE);
+    for (int c = 0; c < 3; c++) {
+        r->variance[c] = take(l, DENOISE_PLANE), r->modulation[c] = take(l, DENOISE_PLANE);
+        r->half[0][c] = take(l, DENOISE_PLANE), r->half[1][c] = take(l, DENOISE_PLANE);
+    }
+    for (int k = 0; k < DENOISE_CANDIDATES; k++)
+        for (int h = 0; h < 2; h++) {
+            r->candidates[k].norm[h] = take(l, DENOISE_PIXELS);
+            for (int c = 0; c < 3; c++)
+                r->candidates[k].sum[h][c] = take(l, DENOISE_PIXELS);
+        }
+    for (int k = 0; k < CHOICES; k++)
+        r->chosen[k] = take(l, DENOISE_PIXELS);
+    r->neighbours = r->nclusters ? take(l, (size_t)NEIGHBOURS_MAX * DENOISE_PIXELS) : NULL;
+    r->planes = l->pointers + l->npointers, r->sums = r->planes + r->nplanes;
+    l->npointers += 2 * (size_t)r->nplanes;
+    for (int k = 0; k < r->nplanes; k++) {
+        float *plane = take(l, DENOISE_PLANE), *sum = take(l, DENOISE_PIXELS);
+        if (l->memory)
+            r->planes[k] = plane, r->sums[k] = sum;
+    }
+}
+
+static void lay_out(TileRoom *room, Layout *l, const Denoiser *d)
+{
+    l->used = l->npointers = 0;
+    room->features = take(l, (size_t)FEATURES_ROOM * DENOISE_PLANE);
+    room->spare = take(l, DENOISE_PLANE);
+    room->scratch = take(l, DENOISE_SCRATCH);
+    room->neighbours = take(l, (size_t)NEIGHBOURS_MAX * DENOISE_PIXELS);
+    for (int k = 0; k < CHOICES; k++)
+        room->errors[k] = take(l, DENOISE_PIXELS);
+    room->alike = (DenoiseAlike *)take(l, DENOISE_BATCH * sizeof(DenoiseAlike) / sizeof(float));
+    for (int s = 0; s < d->signals.count; s++)
+        lay_out_signal(&room->signals[s], l, d->set, &d->signals.of[s]);
+}
+
+int tile_room_create(TileRoom **out, const Denoiser *d, RetexError *err)
+{
+    TileRoom *room = *out = calloc(1, sizeof *room);
+    size_t members = 0;
+    Layout layout = {NULL, 0, NULL, 0};
+    for (int s = 0; s < d->signals.count; s++)
+        members += (size_t)d->signals.of[s].nmembers + 1;
+    if (room) {
+        room->signals = calloc((size_t)d->signals.count + 1, sizeof *room->signals);
+        layout.pointers = room->pointers = calloc(6 * members + 1, sizeof *room->pointers);
+    }
+    if (room && room->signals && room->pointers) {
+        lay_out(room, &layout, d);
+        layout.memory = room->memory = calloc(layout.used, sizeof(float));
+    }
+    if (!room || !room->memory) {
+        tile_room_close(out);
+        return retex_fail(err, RETEX_ENOMEM, "not enough memory to denoise a tile");
+    }
+    lay_out(room, &layout, d);
+    return RETEX_OK;
+}
+
+void tile_room_close(TileRoom **out)
+{
+    TileRoom *room = *out;
+    if (!room)
+        return;
+    free(room->memory);
+    free(room->signals);
+    free(room->pointers);
+    free(room);
+    *out = NULL;
+}
+
+/* ---- signals ---- */
+
+/* Mean over 5x5 pixels of a plane, through spare. */
+static void smooth(float *restrict plane, float *restrict spare)
+{
+    for (int i = 2; i < DENOISE_PLANE - 2; i++)
+        spare[i] = 0.2f * (plane[i - 2] + plane[i - 1] + plane[i] + plane[i + 1] + plane[i + 2]);
+    for (int i = 2 * DENOISE_PITCH + 2; i < DENOISE_PLANE - 2 * DENOISE_PITCH - 2; i++)
+        plane[i] = 0.2f * (spare[i - 2 * DENOISE_PITCH] + spare[i - DENOISE_PITCH] + spare[i] +
+                           spare[i + DENOISE_PITCH] + spare[i + 2 * DENOISE_PITCH]);
+}
+
+/* Images to filter; their total goes to the first half's planes. */
+static void gather_members(SignalRoom *r, TileRoom *room, const Denoiser *d, const Signal *signal, int x0, int y0)
+{
+    int image = r->nclusters > 0;
+    for (int k = 0; k < r->nplanes; k++)
+        memset(r->planes[k], 0, sizeof(float) * DENOISE_PLANE);
+    for (int c = 0; c < 3; c++)
+        memset(r->half[0][c], 0, sizeof(float) * DENOISE_PLANE);
+    for (int k = 0; k < signal->nmembers; k++) {
+        const SignalMember *m = &signal->members[k];
+        int to = signal_cluster(d->set, m) >= 0 ? 0 : image++;
+        for (int c = 0; c < 3; c++) {
+            float *restrict plane = r->planes[3 * to + c], *restrict total = r->half[0][c];
+            plane_gather(room->spare, d->set, m->part, c, x0, y0);
+            for (int i = 0; i < DENOISE_PLANE; i++)
+                plane[i] += room->spare[i], total[i] += m->weight * room->spare[i];
+        }
+    }
+}
+
+/* The colour of what is seen; of targets, which guides have as white, how bright they may be in light that their
+ * texture does not multiply. */
+static void find_seen_modulation(SignalRoom *r, TileRoom *room, const Denoiser *d, int x0, int y0)
+{
+    for (int c = 0; c < 3; c++)
+        plane_gather(r->modulation[c], d->set, d->guides[GUIDE_SEEN_ALBEDO], c, x0, y0);
+    for (int t = 0; t < d->set->ntargets; t++) {
+        if (d->signals.covers[t] < 0)
+            continue;
+        plane_gather(room->spare, d->set, d->signals.covers[t], 0, x0, y0);
+        for (int c = 0; c < 3; c++)
+            for (int i = 0; i < DENOISE_PLANE; i++)
+                r->modulation[c][i] -= (1 - TARGET_BRIGHTNESS) * room->spare[i];
+    }
+}
+
+/* What the light is multiplied by at the pixel, as far as guides know: it is taken out before pixels are compared.
+ * Light that comes straight from a target goes with how much of it the pixel sees; other light with the colour of what
+ * is seen. Not by less than LEAST_MODULATION: near nothing, guides of few places are far off. */
+static void find_modulation(SignalRoom *r, TileRoom *room, const Denoiser *d, const Signal *signal, int x0, int y0)
+{
+    int sharp = signal->kind == RETEX_FOOTPRINT_SHARP && signal->target >= 0,
+        any = signal->kind == RETEX_FOOTPRINT_HIT && signal->target >= 0;
+    for (int i = 0; i < DENOISE_PLANE; i++)
+        r->kind[i] = 1;
+    if (sharp)
+        plane_gather(room->spare, d->set, signal->cover, 0, x0, y0);
+    for (int i = 0; i < DENOISE_PLANE && (sharp || any); i++) {
+        int covered = sharp && room->spare[i] > LEAST_COVER;
+        for (int c = 0; c < 3; c++)
+            r->modulation[c][i] = covered ? room->spare[i] : 1;
+        r->kind[i] = sharp && !covered ? -1 : 1;
+    }
+    if (!sharp && !any)
+        find_seen_modulation(r, room, d, x0, y0);
+    for (int i = 0; i < DENOISE_PLANE; i++) {
+        for (int c = 0; c < 3; c++)
+            r->modulation[c][i] = fmaxf(r->modulation[c][i], LEAST_MODULATION);
+        r->mean_modulation[i] = (r->modulation[0][i] + r->modulation[1][i] + r->modulation[2][i]) / 3;
+    }
+}
+
+/* From the total and its noise to both halves and the variance of these. */
+static void split_halves(SignalRoom *r, TileRoom *room, const Denoiser *d, const Signal *signal, int x0, int y0)
+{
+    float first = 2 * (float)(d->set->spp - d->set->spp / 2) / (float)d->set->spp, second = 2 - first;
+    for (int c = 0; c < 3; c++) {
+        float *restrict a = r->half[0][c], *restrict b = r->half[1][c], *restrict v = r->variance[c];
+        const float *restrict m = r->modulation[c];
+        plane_gather(room->spare, d->set, signal->noise, c, x0, y0);
+        for (int i = 0; i < DENOISE_PLANE; i++) {
+            float total = a[i] / m[i], noise = room->spare[i] / m[i];
+            a[i] = total + first * noise, b[i] = total - second * noise;
+            v[i] = 2 * noise * noise;
+        }
+        smooth(v, room->spare);
+    }
+}
+
+static DenoiseSignal start_signal(SignalRoom *r, TileRoom *room, const Denoiser *d)
+{
+    DenoiseSignal s = {.kind = r->kind,
+                       .modulation = r->mean_modulation,
+                       .strength = STRENGTH * STRENGTH * d->params.strength * d->params.strength,
+                       .nplanes = r->nplanes > 3 ? r->nplanes : 0,
+                       .planes = (const float *const *)r->planes,
+                       .sums = r->sums,
+                       .scratch = room->scratch};
+    double level = 0;
+    for (int c = 0; c < 3; c++) {
+        s.variance[c] = r->variance[c];
+        s.half[0][c] = r->half[0][c], s.half[1][c] = r->half[1][c];
+        for (int i = 0; i < DENOISE_PLANE; i++)
+            level += fabsf(r->half[0][c][i]);
+    }
+    level /= 3 * DENOISE_PLANE;
+    s.epsilon = fmaxf(1e-20f, LEAST_DIFFERENCE * (float)(level * level));
+    memcpy(s.candidates, r->candidates, sizeof s.candidates);
+    for (int k = 0; k < DENOISE_CANDIDATES; k++)
+        for (int h = 0; h < 2; h++) {
+            memset(r->candidates[k].norm[h], 0, sizeof(float) * DENOISE_PIXELS);
+            for (int c = 0; c < 3; c++)
+                memset(r->candidates[k].sum[h][c], 0, sizeof(float) * DENOISE_PIXELS);
+        }
+    for (int k = 0; k < r->nplanes; k++)
+        memset(r->sums[k], 0, sizeof(float) * DENOISE_PIXELS);
+    return s;
+}
+
+/* ---- choosing ---- */
+
+/* Mean over so many pixels to each side, within the tile. */
+static void box(float *restrict image, float *restrict spare, int radius)
+{
+    for (int y = 0; y < DENOISE_TILE; y++)
+        for (int x = 0; x < DENOISE_TILE; x++) {
+            int x0 = x < radius ? 0 : x - radius, x1 = x + radius < DENOISE_TILE ? x + radius : DENOISE_TILE - 1;
+            float sum = 0;
+            for (int k = x0; k <= x1; k++)
+                sum += image[y * DENOISE_TILE + k];
+            spare[y * DENOISE_TILE + x] = sum / (float)(x1 - x0 + 1);
+        }
+    for (int y = 0; y < DENOISE_TILE; y++) {
+        int y0 = y < radius ? 0 : y - radius, y1 = y + radius < DENOISE_TILE ? y + radius : DENOISE_TILE - 1;
+        for (int x = 0; x < DENOISE_TILE; x++) {
+            float sum = 0;
+            for (int k = y0; k <= y1; k++)
+                sum += spare[k * DENOISE_TILE + x];
+            image[y * DENOISE_TILE + x] = sum / (float)(y1 - y0 + 1);
+        }
+    }
+}
+
+/* A choice's value of one half and channel. */
+static float choice_value(const SignalRoom *r, int choice, int half, int c, size_t p, size_t i)
+{
+    const DenoiseSums *s = &r->candidates[choice ? choice - 1 : 0];
+    return choice ? s->sum[half][c][i] / s->norm[half][i] : r->half[half][c][p];
+}
+
+/* How far each choice is from the other half, squared and in units of noise, around each pixel. */
+static void find_errors(const SignalRoom *r, TileRoom *room, float epsilon)
+{
+    for (int k = 0; k < CHOICES; k++) {
+        for (int y = 0; y < DENOISE_TILE; y++)
+            for (int x = 0; x < DENOISE_TILE; x++) {
+                size_t i = (size_t)y * DENOISE_TILE + (size_t)x, p = denoise_at(x, y);
+                float error = 0;
+                for (int c = 0; c < 3; c++) {
+                    float a = choice_value(r, k, 0, c, p, i) - r->half[1][c][p],
+                          b = choice_value(r, k, 1, c, p, i) - r->half[0][c][p];
+                    error += (a * a + b * b) / (epsilon + r->variance[c][p]);
+                }
+                room->errors[k][i] = error;
+            }
+        box(room->errors[k], room->spare, ERROR_RADIUS);
+    }
+}
+
+/* Which choice is nearest to the truth. A half differs from the other by the variance of both, V each: its squared
+ * difference is 4V where nothing is filtered, counted twice; a candidate's is twice its own error and V. */
+static int best_choice(const TileRoom *room, size_t i)
+{
+    float variance = 0.25f * room->errors[0][i], least = variance;
+    int best = 0;
+    for (int k = 1; k < CHOICES; k++) {
+        float error = 0.5f * room->errors[k][i] - variance;
+        if (error < least)
+            least = error, best = k;
+    }
+    return best;
+}
+
+/* One path of much light, in one half: other pixels are better off without it, and choose to stay as they are. */
+static int is_spike(const SignalRoom *r, size_t p)
+{
+    float squared = 0, variance = 0;
+    for (int c = 0; c < 3; c++) {
+        float d = r->half[0][c][p] - r->half[1][c][p];
+        squared += d * d, variance += r->variance[c][p];
+    }
+    return squared > SPIKE * variance;
+}
+
+static void choose(SignalRoom *r, TileRoom *room, float epsilon)
+{
+    unsigned char best[DENOISE_PIXELS];
+    find_errors(r, room, epsilon);
+    for (size_t i = 0; i < DENOISE_PIXELS; i++) {
+        best[i] = (unsigned char)best_choice(room, i);
+        for (int k = 0; k < CHOICES; k++)
+            r->chosen[k][i] = k == best[i];
+    }
+    for (int k = 0; k < CHOICES; k++)
+        box(r->chosen[k], room->spare, CHOICE_RADIUS);
+    for (int y = 0; y < DENOISE_TILE; y++)
+        for (int x = 0; x < DENOISE_TILE; x++) {
+            size_t i = (size_t)y * DENOISE_TILE + (size_t)x;
+            for (int k = 0; k < CHOICES && is_spike(r, denoise_at(x, y)); k++)
+                r->chosen[k][i] = k == best[i];
+        }
+}
+
+/* ---- results ---- */
+
+/* A pixel of the tile. */
+typedef struct TilePixel {
+    int x, y;    /* in the picture */
+    size_t p, i; /* in planes, in sums */
+} TilePixel;
+
+/* The filtered total of one channel. */
+static float filtered_total(const SignalRoom *r, const TilePixel *at, int c)
+{
+    float total = 0;
+    for (int k = 0; k < CHOICES; k++)
+        total +=
+            r->chosen[k][at->i] * (choice_value(r, k, 0, c, at->p, at->i) + choice_value(r, k, 1, c, at->p, at->i));
+    return fmaxf(0, 0.5f * r->modulation[c][at->p] * total);
+}
+
+/* What the first candidate's weights made of it. */
+static float total_of_members(const SignalRoom *r, const Denoiser *d, const Signal *signal, const TilePixel *at, int c)
+{
+    float members = r->nclusters ? r->sums[c][at->i] : 0;
+    int image = r->nclusters > 0;
+    for (int k = 0; k < signal->nmembers; k++)
+        if (signal_cluster(d->set, &signal->members[k]) < 0)
+            members += signal->members[k].weight * r->sums[3 * image++ + c][at->i];
+    return members;
+}
+
+/* What an image has of the filtered total: members keep their proportions of what the first candidate's weights made
+ * of them. Where that is nothing, as of a single image, which is not filtered, the first one has all. */
+static float image_value(const SignalRoom *r, const TilePixel *at, int image, int c, float total, float members,
+                         float weight)
+{
+    if (members > 0) /* sums may be so small that only their quotient is a number */
+        return total * (r->sums[3 * image + c][at->i] / members);
+    return image ? 0 : total / weight;
+}
+
+/* How many steps to each side neighbours are, within the window. */
+static int neighbour_reach(const Denoiser *d)
+{
+    int reach = d->params.radius / NEIGHBOUR_STEP;
+    return reach > NEIGHBOUR_REACH ? NEIGHBOUR_REACH : reach;
+}
+
+static int find_neighbours(Neighbour *out, const Denoiser *d, const float *weights, const TilePixel *at)
+{
+    int count = 1, number = 0, reach = neighbour_reach(d);
+    out[0] = (Neighbour){at->x, at->y, 1};
+    for (int dy = -reach; dy <= reach; dy++)
+        for (int dx = -reach; dx <= reach; dx++, number++) {
+            float weight = weights[(size_t)number * DENOISE_PIXELS + at->i];
+            if ((dx || dy) && weight > LEAST_WEIGHT)
+                out[count++] = (Neighbour){at->x + NEIGHBOUR_STEP * dx, at->y + NEIGHBOUR_STEP * dy, weight};
+        }
+    return count;
+}
+
+static void finish_signal(const SignalRoom *r, const Denoiser *d, const Signal *signal, const TilePixel *at, Band *band,
+                          SignalSums *sums)
+{
+    float total[3], members[3], light[3];
+    int image = r->nclusters > 0;
+    for (int c = 0; c < 3; c++) {
+        total[c] = filtered_total(r, at, c);
+        members[c] = total_of_members(r, d, signal, at, c);
+        sums->before[c] += 0.5f * r->modulation[c][at->p] * (r->half[0][c][at->p] + r->half[1][c][at->p]);
+        sums->after[c] += total[c];
+        light[c] = image ? image_value(r, at, 0, c, total[c], members[c], 1) : 0;
+    }
+    for (int k = 0; k < signal->nmembers; k++) {
+        const SignalMember *m = &signal->members[k];
+        if (signal_cluster(d->set, m) >= 0)
+            continue;
+        float *to = band->parts[m->part] + 3 * ((size_t)(at->y - band->first) * (size_t)d->set->width + (size_t)at->x);
+        for (int c = 0; c < 3; c++)
+            to[c] = image_value(r, at, image, c, total[c], members[c], m->weight);
+        image++;
+    }
+    if (r->nclusters) {
+        Neighbour neighbours[NEIGHBOURS_MAX];
+        int count = find_neighbours(neighbours, d, r->neighbours, at);
+        footprints_share_light(d->footprints, d, signal, at->x, at->y, neighbours, count, light, band);
+    }
+}
+
+static void finish_pixel(const Denoiser *d, TileRoom *room, const TilePixel *at, Band *band, SignalSums *sums)
+{
+    for (int s = 0; s < d->signals.count; s++)
+        finish_signal(&room->signals[s], d, &d->signals.of[s], at, band, &sums[s]);
+    if (d->params.footprints && d->set->nfootprints) {
+        Neighbour neighbours[NEIGHBOURS_MAX];
+        int count = find_neighbours(neighbours, d, room->neighbours, at);
+        footprints_pool_later(d->footprints, d, at->x, at->y, neighbours, count, band);
+    }
+}
+
+/* Number of the neighbour at a displacement, or -1. */
+static int neighbour_number(const Denoiser *d, int dx, int dy)
+{
+    int reach = neighbour_reach(d);
+    if (dx % NEIGHBOUR_STEP || dy % NEIGHBOUR_STEP || abs(dx) > reach * NEIGHBOUR_STEP ||
+        abs(dy) > reach * NEIGHBOUR_STEP)
+        return -1;
+    return (dy / NEIGHBOUR_STEP + reach) * (2 * reach + 1) + dx / NEIGHBOUR_STEP + reach;
+}
+
+static void search_window(const Denoiser *d, TileRoom *room, const DenoiseFeatures *features,
+                          const DenoiseSignal *signals)
+{
+    int radius = d->params.radius;
+    for (int dy = -radius; dy <= radius; dy++)
+        for (int dx = -radius; dx <= radius; dx += DENOISE_BATCH) {
+            DenoiseBatch batch = {.dx = dx, .dy = dy};
+            int numbers[DENOISE_BATCH];
+            for (; batch.count < DENOISE_BATCH && dx + batch.count <= radius; batch.count++) {
+                int n = batch.count, number = numbers[n] = neighbour_number(d, dx + n, dy);
+                denoise_features_kernel(room->alike + n, features, dx + n, dy, d->params.scalar);
+                batch.alike[n] = room->alike + n;
+                if (number >= 0)
+                    memcpy(room->neighbours + (size_t)number * DENOISE_PIXELS, room->alike[n].strict,
+                           sizeof room->alike->strict);
+            }
+            for (int s = 0; s < d->signals.count; s++) {
+                float *kept = room->signals[s].neighbours;
+                for (int n = 0; n < batch.count; n++)
+                    batch.weights[n] = kept && numbers[n] >= 0 ? kept + (size_t)numbers[n] * DENOISE_PIXELS : NULL;
+                denoise_signal_kernel(&signals[s], &batch, d->params.scalar);
+            }
+        }
+}
+
+void tile_denoise(const Denoiser *d, TileRoom *room, int left, Band *band, SignalSums *sums)
+{
+    int x0 = left - DENOISE_MARGIN, y0 = band->first - DENOISE_MARGIN;
+    DenoiseFeatures features;
+    DenoiseSignal signals[1 + 2 * RETEX_MAX_TARGETS];
+    features_gather(&features, room->features, d, x0, y0);
+    for (int s = 0; s < d->signals.count; s++) {
+        SignalRoom *r = &room->signals[s];
+        gather_members(r, room, d, &d->signals.of[s], x0, y0);
+        find_modulation(r, room, d, &d->signals.of[s], x0, y0);
+        split_halves(r, room, d, &d->signals.of[s], x0, y0);
+        signals[s] = start_signal(r, room, d);
+    }
+    search_window(d, room, &features, signals);
+    for (int s = 0; s < d->signals.count; s++)
+        choose(&room->signals[s], room, signals[s].epsilon);
+    for (int y = band->first; y < band->first + band->rows; y++)
+        for (int x = left; x < left + DENOISE_STEP && x < d->roi.x1; x++) {
+            TilePixel at = {x, y, denoise_at(x - x0, y - y0), (size_t)(y - y0) * DENOISE_TILE + (size_t)(x - x0)};
+            finish_pixel(d, room, &at, band, sums);
+        }
+}

@@ -1,0 +1,51 @@
+/* Denoising one tile: what is prepared for the kernels, and what their sums become. Private to libretex. */
+#ifndef RETEX_DENOISE_TILE_H
+#define RETEX_DENOISE_TILE_H
+
+#include <retex/denoise.h>
+#include "denoise/denoise_kernel.h"
+#include "set/signals.h"
+
+/* The guides of a set, in the order in which features take them. */
+enum {
+    GUIDE_SEEN_NORMAL,
+    GUIDE_SEEN_POSITION,
+    GUIDE_SEEN_ALBEDO,
+    GUIDE_SEEN_MATERIAL,
+    GUIDE_NORMAL,
+    GUIDE_POSITION,
+    GUIDE_SPECULAR,
+    GUIDE_COUNT
+};
+
+/* Rows of results, by part of the set: NULL where a part stays as it is. */
+typedef struct Band {
+    int first, rows;
+    float **parts;
+} Band;
+
+/* All of one call. */
+typedef struct Denoiser {
+    RetexSet *set;
+    RetexDenoiseParams params;
+    RetexRoi roi;
+    int guides[GUIDE_COUNT]; /* parts */
+    Signals signals;
+    struct Footprints *footprints;
+} Denoiser;
+
+/* Sums over pixels of a signal's totals, before and after. */
+typedef struct SignalSums {
+    double before[3], after[3];
+} SignalSums;
+
+/* One thread's room. */
+typedef struct TileRoom TileRoom;
+int tile_room_create(TileRoom **room, const Denoiser *denoiser, RetexError *err);
+void tile_room_close(TileRoom **room);
+
+/* Filter the DENOISE_STEP pixels a side from (x0, band->first) on, as far as they are of the band and the region, into
+ * band; sums has an entry for each signal. */
+void tile_denoise(const Denoiser *denoiser, TileRoom *room, int x0, Band *band, SignalSums *sums);
+
+#endif

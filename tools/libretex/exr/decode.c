@@ -1,0 +1,297 @@
+/* See decode.h. Uncompressed and ZIP chunks, all that sets are made of, are decoded here, the other compressions by
+ * OpenEXRCore. Nothing in a file is believed: sizes are checked against what the header promises, and a chunk must fill
+ * its place exactly. */
+#include "exr/decode.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "io/checksum.h"
+#include "base/half.h"
+
+int exr_fail(RetexExr *exr, exr_result_t code, RetexError *err)
+{
+    const char *name = retex_input_name(exr->input);
+
+    if (code == EXR_ERR_OUT_OF_MEMORY)
+        return retex_fail(err, RETEX_ENOMEM, "no memory to read %s", name);
+    const int status = retex_fail(err, RETEX_EFORMAT, "%s is damaged or truncated: %s", name,
+                                  exr->message.text[0] ? exr->message.text : exr_get_default_error_message(code));
+    return retex_input_check(exr->input, status, err);
+}
+
+int exr_fail_number(const RetexExr *exr, int part, const ExrOddNumber *odd, RetexError *err)
+{
+    const char *channel = retex_exr_channel_name(exr, part, odd->channel), *dot = strrchr(channel, '.');
+
+    return retex_numbers_fail(err, retex_input_name(exr->input), retex_exr_part_name(exr, part),
+                              dot ? dot + 1 : channel, odd->x, odd->y, odd->value);
+}
+
+void exr_data_window(const RetexExr *exr, int part, exr_attr_box2i_t *window)
+{
+    if (exr_get_data_window(exr->context, part, window) != EXR_ERR_SUCCESS)
+        *window = (exr_attr_box2i_t){.min = {.x = 0, .y = 0}, .max = {.x = -1, .y = -1}};
+}
+
+size_t exr_channel_bytes(const exr_attr_chlist_entry_t *channel)
+{
+    return channel->pixel_type == EXR_PIXEL_HALF ? 2 : 4;
+}
+
+static int need(void **memory, size_t *have, size_t want, size_t unit)
+{
+    if (*have >= want)
+        return 1;
+    free(*memory);
+    *memory = malloc(want * unit);
+    *have = *memory ? want : 0;
+    return *memory != NULL;
+}
+
+/* Let Core decode a chunk whose compression is not one of ours. */
+static exr_result_t decode_with_core(RetexExr *exr, int part, const exr_chunk_info_t *chunk, unsigned char *raw,
+                                     size_t bytes)
+{
+    exr_decode_pipeline_t pipeline = EXR_DECODE_PIPELINE_INITIALIZER;
+    exr_result_t code = exr_decoding_initialize(exr->context, part, chunk, &pipeline);
+
+    if (code)
+        return code;
+    /* Core chooses its routines by where channels are to go; they go nowhere, the bytes before that are wanted */
+    for (int c = 0; c < pipeline.channel_count; c++) {
+        exr_coding_channel_info_t *channel = &pipeline.channels[c];
+        channel->decode_to_ptr = raw;
+        channel->user_pixel_stride = channel->user_bytes_per_element;
+        channel->user_line_stride = channel->user_bytes_per_element * channel->width;
+    }
+    code = exr_decoding_choose_default_routines(exr->context, part, &pipeline);
+    pipeline.unpack_and_convert_fn = NULL;
+    if (!code)
+        code = exr_decoding_run(exr->context, part, &pipeline);
+    if (!code && !pipeline.unpacked_buffer)
+        code = EXR_ERR_CORRUPT_CHUNK;
+    if (!code)
+        memcpy(raw, pipeline.unpacked_buffer, bytes);
+    exr_decoding_destroy(exr->context, &pipeline);
+    return code;
+}
+
+/* Read one chunk and undo its compression: *bytes_of are its samples, lines of planes. */
+static exr_result_t chunk_samples(RetexExr *exr, const ExrPlan *plan, const exr_chunk_info_t *chunk,
+                                  ExrScratch *scratch, const unsigned char **samples)
+{
+    const int part = plan->request->part;
+    const size_t bytes = (size_t)chunk->width * (size_t)chunk->height * plan->pixel_bytes;
+    const int zipped = plan->compression == EXR_COMPRESSION_ZIP || plan->compression == EXR_COMPRESSION_ZIPS;
+
+    if (chunk->packed_size == 0 || chunk->packed_size > bytes || chunk->unpacked_size != bytes)
+        return EXR_ERR_CORRUPT_CHUNK;
+    if (plan->compression != EXR_COMPRESSION_NONE && !zipped) {
+        if (!need((void **)&scratch->raw, &scratch->raw_bytes, bytes, 1))
+            return EXR_ERR_OUT_OF_MEMORY;
+        *samples = scratch->raw;
+        return decode_with_core(exr, part, chunk, scratch->raw, bytes);
+    }
+    if (!need((void **)&scratch->packed, &scratch->packed_bytes, (size_t)chunk->packed_size, 1))
+        return EXR_ERR_OUT_OF_MEMORY;
+    const exr_result_t code = exr_read_chunk(exr->context, part, chunk, scratch->packed);
+    if (code)
+        return code;
+    *samples = scratch->packed;
+    if (chunk->packed_size == bytes)
+        return EXR_ERR_SUCCESS;
+    if (!zipped)
+        return EXR_ERR_CORRUPT_CHUNK;
+    if (!need((void **)&scratch->raw, &scratch->raw_bytes, bytes, 1) || !retex_zip_need(&scratch->zip, bytes))
+        return EXR_ERR_OUT_OF_MEMORY;
+    *samples = scratch->raw;
+    return retex_zip_unpack(&scratch->zip, scratch->raw, bytes, scratch->packed, (size_t)chunk->packed_size)
+               ? EXR_ERR_SUCCESS
+               : EXR_ERR_CORRUPT_CHUNK;
+}
+
+static void plane_to_float(float *row, const unsigned char *plane, uint16_t type, int width)
+{
+    if (type == EXR_PIXEL_HALF) {
+        retex_half_to_float(row, (const uint16_t *)(const void *)plane, (size_t)width);
+    } else if (type == EXR_PIXEL_FLOAT) {
+        memcpy(row, plane, (size_t)width * 4);
+    } else {
+        for (int x = 0; x < width; x++) {
+            uint32_t value;
+            memcpy(&value, plane + (size_t)x * 4, 4);
+            row[x] = (float)value;
+        }
+    }
+}
+
+/* Whether all of a line's samples may be in the part; else *odd gets the first that may not, but not its line. */
+static int are_allowed(const ExrPlan *plan, int channel, const unsigned char *samples, int width, ExrOddNumber *odd)
+{
+    const exr_pixel_type_t stored = plan->channels[channel].pixel_type;
+    const RetexPixelType type = stored == EXR_PIXEL_HALF ? RETEX_HALF : RETEX_FLOAT;
+
+    if (plan->request->allowed == RETEX_ANY_NUMBERS || stored == EXR_PIXEL_UINT)
+        return 1;
+    const size_t first = retex_numbers_find(samples, type, (size_t)width, plan->request->allowed);
+    if (first == (size_t)width)
+        return 1;
+    *odd = (ExrOddNumber){.x = (int)first, .channel = channel};
+    plane_to_float(&odd->value, samples + first * exr_channel_bytes(&plan->channels[channel]), (uint16_t)stored, 1);
+    return 0;
+}
+
+/* Give a chunk's samples to the image, whose first row is row top of the part, and to the checksums. 0: one of them may
+ * not be there. */
+static int deliver(const ExrPlan *plan, RetexImage *image, int top, const unsigned char *samples, int x, int y,
+                   int width, int height, ExrScratch *scratch, const ExrSums *sums)
+{
+    float *row = scratch->row;
+
+    for (int line = 0; line < height; line++) {
+        uint32_t *crc = sums ? sums->crc[(y + line - sums->top) / sums->lines] : NULL;
+        for (int c = 0; c < plan->nchannels; c++) {
+            const size_t plane = (size_t)width * exr_channel_bytes(&plan->channels[c]);
+            const int slot = plan->slot[c];
+            if (slot >= 0 && !are_allowed(plan, c, samples, width, &scratch->odd)) {
+                scratch->odd.x += x;
+                scratch->odd.y = y + line;
+                return 0;
+            }
+            if (slot >= 0 && crc)
+                crc[slot] = retex_crc32(crc[slot], samples, plane);
+            if (slot >= 0 && image) {
+                float *restrict out = image->pixels + retex_image_index(image, x, y + line - top) + slot;
+                const size_t stride = (size_t)image->channels;
+                plane_to_float(row, samples, (uint16_t)plan->channels[c].pixel_type, width);
+                for (int i = 0; i < width; i++)
+                    out[(size_t)i * stride] = row[i];
+            }
+            samples += plane;
+        }
+    }
+    return 1;
+}
+
+exr_result_t exr_chunk_read(RetexExr *exr, const ExrPlan *plan, int column, int row, RetexImage *image, int top,
+                            const ExrSums *sums, ExrScratch *scratch)
+{
+    const int x = column * plan->chunk_width, y = row * plan->chunk_height;
+    const int width = plan->width - x < plan->chunk_width ? plan->width - x : plan->chunk_width;
+    const int height = plan->height - y < plan->chunk_height ? plan->height - y : plan->chunk_height;
+    const unsigned char *samples;
+    exr_chunk_info_t chunk;
+    exr_result_t code;
+
+    if (plan->storage == EXR_STORAGE_SCANLINE)
+        code = exr_read_scanline_chunk_info(exr->context, plan->request->part, plan->top + y, &chunk);
+    else
+        code = exr_read_tile_chunk_info(exr->context, plan->request->part, column, row, 0, 0, &chunk);
+    if (!code && (chunk.width != width || chunk.height != height))
+        code = EXR_ERR_BAD_CHUNK_LEADER;
+    if (!code)
+        code = chunk_samples(exr, plan, &chunk, scratch, &samples);
+    if (!code && !need((void **)&scratch->row, &scratch->row_count, (size_t)width, sizeof(float)))
+        code = EXR_ERR_OUT_OF_MEMORY;
+    if (!code && !deliver(plan, image, top, samples, x, y, width, height, scratch, sums))
+        code = EXR_ODD_NUMBER;
+    return code;
+}
+
+uint32_t exr_sums_plane(const ExrPlan *plan, const ExrSums *sums, int slot, int y0, int y1, size_t *bytes)
+{
+    size_t line = 0, total = 0;
+    uint32_t crc = CRC32_OF_NONE;
+
+    for (int c = 0; c < plan->nchannels; c++)
+        if (plan->slot[c] == slot)
+            line = (size_t)plan->width * exr_channel_bytes(&plan->channels[c]);
+    for (int y = y0; y < y1; y += sums->lines) {
+        const size_t count = line * (size_t)(y1 - y < sums->lines ? y1 - y : sums->lines);
+        crc = retex_crc32_join(crc, sums->crc[(y - sums->top) / sums->lines][slot], count);
+        total += count;
+    }
+    if (bytes)
+        *bytes = total;
+    return crc;
+}
+
+void exr_scratch_free(ExrScratch *scratch)
+{
+    retex_zip_free(&scratch->zip);
+    free(scratch->packed);
+    free(scratch->raw);
+    free(scratch->row);
+    *scratch = (ExrScratch){0};
+}
+
+static int plan_channels(RetexExr *exr, ExrPlan *plan, RetexError *err)
+{
+    const RetexExrRequest *request = plan->request;
+    const exr_attr_chlist_t *channels;
+    int wanted = 0, found = 0;
+
+    exr_get_channels(exr->context, request->part, &channels);
+    plan->nchannels = channels->num_channels;
+    plan->channels = channels->entries;
+    plan->slot = calloc((size_t)(plan->nchannels ? plan->nchannels : 1), sizeof *plan->slot);
+    if (!plan->slot)
+        return exr_fail(exr, EXR_ERR_OUT_OF_MEMORY, err);
+    for (int slot = 0; slot < RETEX_EXR_LETTERS_MAX; slot++)
+        wanted += request->channels[slot][0] != 0;
+    for (int c = 0; c < plan->nchannels; c++) {
+        plan->slot[c] = -1;
+        plan->pixel_bytes += exr_channel_bytes(&channels->entries[c]);
+        for (int slot = 0; slot < RETEX_EXR_LETTERS_MAX; slot++)
+            if (request->channels[slot][0] && strcmp(channels->entries[c].name.str, request->channels[slot]) == 0) {
+                plan->slot[c] = slot;
+                found++;
+            }
+    }
+    if (found != wanted)
+        return retex_fail(err, RETEX_EFORMAT, "%s: part %d lacks a channel it should have",
+                          retex_input_name(exr->input), request->part);
+    return 0;
+}
+
+int exr_plan_open(RetexExr *exr, ExrPlan *plan, RetexExrRequest *request, RetexError *err)
+{
+    const char *reason;
+    exr_attr_box2i_t window;
+    int32_t lines = 0, tile_width = 0, tile_height = 0;
+
+    plan->request = request;
+    if (!retex_exr_part_readable(exr, request->part, &reason))
+        return retex_fail(err, RETEX_EUNSUPPORTED, "%s: part %d cannot be read: %s", retex_input_name(exr->input),
+                          request->part, reason);
+    exr_get_storage(exr->context, request->part, &plan->storage);
+    exr_get_compression(exr->context, request->part, &plan->compression);
+    exr_data_window(exr, request->part, &window);
+    plan->left = window.min.x;
+    plan->top = window.min.y;
+    retex_exr_part_size(exr, request->part, &plan->width, &plan->height);
+    if (request->image && (request->image->width != plan->width || request->image->height != plan->height))
+        return retex_fail(err, RETEX_EINTERNAL, "the image for part %d has the wrong size", request->part);
+    if (plan->storage == EXR_STORAGE_SCANLINE) {
+        if (exr_get_scanlines_per_chunk(exr->context, request->part, &lines) || lines < 1)
+            return exr_fail(exr, EXR_ERR_FILE_BAD_HEADER, err);
+        plan->chunk_width = plan->width;
+        plan->chunk_height = lines;
+    } else {
+        if (exr_get_tile_sizes(exr->context, request->part, 0, 0, &tile_width, &tile_height) || tile_width < 1 ||
+            tile_height < 1)
+            return exr_fail(exr, EXR_ERR_FILE_BAD_HEADER, err);
+        plan->chunk_width = tile_width;
+        plan->chunk_height = tile_height;
+    }
+    plan->across = (plan->width + plan->chunk_width - 1) / plan->chunk_width;
+    plan->down = (plan->height + plan->chunk_height - 1) / plan->chunk_height;
+    return plan_channels(exr, plan, err);
+}
+
+void exr_plan_close(ExrPlan *plan)
+{
+    free(plan->slot);
+    *plan = (ExrPlan){0};
+}

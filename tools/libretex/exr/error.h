@@ -1,0 +1,29 @@
+/* What OpenEXRCore says, caught per file and kept until the call that met it fails. */
+#ifndef RETEX_EXR_ERROR_H
+#define RETEX_EXR_ERROR_H
+
+#include <pthread.h>
+#include <stdlib.h>
+#include <openexr.h>
+#include <retex/error.h>
+
+/* The first message of a file that is read; several threads may report. First member of the context's user data, so
+ * that the callback finds it. */
+typedef struct RetexExrMessage {
+    pthread_mutex_t lock;
+    char text[256];
+} RetexExrMessage;
+
+void retex_exr_message(exr_const_context_t context, exr_result_t code, const char *text);
+
+/* For a file that is written: there Core holds its lock while it reports, and would wait for itself if the callback
+ * asked for the user data. The code says enough. */
+void retex_exr_no_message(exr_const_context_t context, exr_result_t code, const char *text);
+/* The failure of a file that is written. */
+int retex_exr_fail_write(exr_result_t code, const char *path, RetexError *err);
+
+/* OpenEXRCore's memory: zeroed, so that a damaged chunk never shows what was there before, and limited, so that a
+ * damaged size is refused rather than tried. */
+void *retex_exr_alloc(size_t bytes);
+
+#endif

@@ -1,0 +1,403 @@
+/* Reading flat EXR parts, by channel name, on all threads.
+ *
+ * OpenEXRCore parses headers and finds chunks; decode.c decodes them. The first thing that is wrong ends the
+ * reading. */
+#include <errno.h>
+#include <stdatomic.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <retex/parallel.h>
+
+#include "io/checksum.h"
+#include "exr/decode.h"
+
+enum { JOB_LINES = 16 }; /* one line chunks are read that many at a time */
+
+static int64_t core_read(exr_const_context_t context, void *data, void *buffer, uint64_t bytes, uint64_t offset,
+                         exr_stream_error_func_ptr_t report)
+{
+    const RetexExr *exr = data;
+
+    (void)context;
+    (void)report;
+    return retex_input_read(exr->input, buffer, (size_t)bytes, offset);
+}
+
+static int64_t core_size(exr_const_context_t context, void *data)
+{
+    const RetexExr *exr = data;
+
+    (void)context;
+    return (int64_t)retex_input_size(exr->input);
+}
+
+int retex_exr_probe(const RetexInput *input)
+{
+    static const unsigned char magic[4] = {0x76, 0x2f, 0x31, 0x01};
+    unsigned char begin[4];
+
+    return retex_input_read(input, begin, sizeof begin, 0) == sizeof begin && memcmp(begin, magic, sizeof magic) == 0;
+}
+
+int retex_exr_open(RetexExr **result, RetexInput *input, RetexError *err)
+{
+    exr_context_initializer_t settings = EXR_DEFAULT_CONTEXT_INITIALIZER;
+    RetexExr *exr;
+    int status = 0;
+
+    *result = NULL;
+    if (!retex_exr_probe(input))
+        return retex_input_check(
+            input, retex_fail(err, RETEX_EFORMAT, "%s is not an OpenEXR file", retex_input_name(input)), err);
+    exr = calloc(1, sizeof *exr);
+    if (!exr)
+        return retex_fail(err, RETEX_ENOMEM, "no memory to read %s", retex_input_name(input));
+    pthread_mutex_init(&exr->message.lock, NULL);
+    exr->input = input;
+    settings.error_handler_fn = retex_exr_message;
+    settings.alloc_fn = retex_exr_alloc;
+    settings.free_fn = free;
+    settings.user_data = exr;
+    settings.read_fn = core_read;
+    settings.size_fn = core_size;
+    settings.max_image_width = settings.max_image_height = RETEX_MAX_SIZE;
+    settings.max_tile_width = settings.max_tile_height = RETEX_MAX_SIZE;
+    /* a set with chunks missing is no set; guessing where they might be helps nobody */
+    settings.flags = EXR_CONTEXT_FLAG_DISABLE_CHUNK_RECONSTRUCTION;
+    exr_result_t code = exr_start_read(&exr->context, retex_input_name(input), &settings);
+    if (!code)
+        code = exr_get_count(exr->context, &exr->nparts);
+    if (code)
+        status = exr_fail(exr, code, err);
+    else if (exr->nparts < 1 || exr->nparts > RETEX_EXR_PARTS_MAX)
+        status = retex_fail(err, RETEX_EFORMAT, "%s has %d parts, more than %d", retex_input_name(input), exr->nparts,
+                            RETEX_EXR_PARTS_MAX);
+    if (status)
+        retex_exr_close(&exr);
+    *result = exr;
+    return status;
+}
+
+void retex_exr_close(RetexExr **result)
+{
+    RetexExr *exr = result ? *result : NULL;
+
+    if (!exr)
+        return;
+    if (exr->context)
+        exr_finish(&exr->context);
+    pthread_mutex_destroy(&exr->message.lock);
+    free(exr);
+    *result = NULL;
+}
+
+int retex_exr_part_count(const RetexExr *exr)
+{
+    return exr->nparts;
+}
+
+int retex_exr_find_part(const RetexExr *exr, const char *name)
+{
+    for (int i = 0; i < exr->nparts; i++) {
+        const char *found = NULL;
+        if (exr_get_name(exr->context, i, &found) == EXR_ERR_SUCCESS && found && strcmp(found, name) == 0)
+            return i;
+    }
+    return -1;
+}
+
+const char *retex_exr_part_name(const RetexExr *exr, int part)
+{
+    const char *name = NULL;
+
+    return exr_get_name(exr->context, part, &name) == EXR_ERR_SUCCESS && name ? name : "";
+}
+
+int retex_exr_channel_count(const RetexExr *exr, int part)
+{
+    const exr_attr_chlist_t *channels;
+
+    return exr_get_channels(exr->context, part, &channels) ? 0 : channels->num_channels;
+}
+
+const char *retex_exr_channel_name(const RetexExr *exr, int part, int channel)
+{
+    const exr_attr_chlist_t *channels;
+
+    if (exr_get_channels(exr->context, part, &channels) || channel < 0 || channel >= channels->num_channels)
+        return "";
+    return channels->entries[channel].name.str;
+}
+
+void retex_exr_part_size(const RetexExr *exr, int part, int *width, int *height)
+{
+    exr_attr_box2i_t window;
+
+    exr_data_window(exr, part, &window);
+    const int64_t w = (int64_t)window.max.x - window.min.x + 1, h = (int64_t)window.max.y - window.min.y + 1;
+    *width = w > 0 && w <= RETEX_MAX_SIZE ? (int)w : 0;
+    *height = h > 0 && h <= RETEX_MAX_SIZE ? (int)h : 0;
+}
+
+int retex_exr_part_readable(const RetexExr *exr, int part, const char **reason)
+{
+    exr_storage_t storage;
+    exr_compression_t compression;
+    const exr_attr_chlist_t *channels;
+    int width, height;
+
+    *reason = "its header is incomplete";
+    if (exr_get_storage(exr->context, part, &storage) || exr_get_compression(exr->context, part, &compression) ||
+        exr_get_channels(exr->context, part, &channels))
+        return 0;
+    *reason = "deep parts are not read";
+    if (storage != EXR_STORAGE_SCANLINE && storage != EXR_STORAGE_TILED)
+        return 0;
+    *reason = "its compression is not known";
+    if (compression == EXR_COMPRESSION_DWAA || compression == EXR_COMPRESSION_DWAB ||
+        compression >= EXR_COMPRESSION_LAST_TYPE)
+        return 0;
+    *reason = "its size is out of bounds";
+    retex_exr_part_size(exr, part, &width, &height);
+    if (!width || !height)
+        return 0;
+    *reason = "subsampled channels are not read";
+    for (int i = 0; i < channels->num_channels; i++)
+        if (channels->entries[i].x_sampling != 1 || channels->entries[i].y_sampling != 1)
+            return 0;
+    *reason = NULL;
+    return 1;
+}
+
+static const exr_attr_chlist_entry_t *find_channel(const RetexExr *exr, int part, const char *name)
+{
+    const exr_attr_chlist_t *channels;
+
+    if (exr_get_channels(exr->context, part, &channels))
+        return NULL;
+    for (int i = 0; i < channels->num_channels; i++)
+        if (strcmp(channels->entries[i].name.str, name) == 0)
+            return &channels->entries[i];
+    return NULL;
+}
+
+int retex_exr_has_channel(const RetexExr *exr, int part, const char *channel)
+{
+    return find_channel(exr, part, channel) != NULL;
+}
+
+int retex_exr_channel_type(const RetexExr *exr, int part, const char *channel, RetexPixelType *type)
+{
+    const exr_attr_chlist_entry_t *entry = find_channel(exr, part, channel);
+
+    if (!entry || (entry->pixel_type != EXR_PIXEL_HALF && entry->pixel_type != EXR_PIXEL_FLOAT))
+        return 0;
+    *type = entry->pixel_type == EXR_PIXEL_HALF ? RETEX_HALF : RETEX_FLOAT;
+    return 1;
+}
+
+const char *retex_exr_attribute(const RetexExr *exr, int part, const char *name)
+{
+    const exr_attribute_t *attribute;
+    const char *text = NULL;
+    int32_t length;
+
+    if (exr_get_attribute_by_name(exr->context, part, name, &attribute) || attribute->type != EXR_ATTR_STRING ||
+        exr_attr_get_string(exr->context, part, name, &length, &text))
+        return NULL;
+    return text;
+}
+
+void retex_exr_color_tag(const RetexExr *exr, int part, RetexColorTag *tag)
+{
+    const exr_attribute_t *attribute;
+    exr_attr_chromaticities_t c;
+    int32_t is_aces = 0;
+
+    *tag = (RetexColorTag){.interop = ""};
+    if (!exr_get_attribute_by_name(exr->context, part, "acesImageContainerFlag", &attribute) &&
+        attribute->type == EXR_ATTR_INT && !exr_attr_get_int(exr->context, part, "acesImageContainerFlag", &is_aces) &&
+        is_aces == 1) {
+        *tag = *retex_color_tag_find("lin_ap0_scene");
+        return;
+    }
+    const char *interop = retex_exr_attribute(exr, part, "colorInteropID");
+    if (interop && strlen(interop) < sizeof tag->interop)
+        strcpy(tag->interop, interop);
+    if (!exr_get_attribute_by_name(exr->context, part, "chromaticities", &attribute) &&
+        attribute->type == EXR_ATTR_CHROMATICITIES &&
+        !exr_attr_get_chromaticities(exr->context, part, "chromaticities", &c)) {
+        const float values[8] = {c.red_x, c.red_y, c.green_x, c.green_y, c.blue_x, c.blue_y, c.white_x, c.white_y};
+        memcpy(tag->chromaticities, values, sizeof values);
+        tag->has_chromaticities = 1;
+    }
+}
+
+/* Some rows of chunks of one request. */
+typedef struct Job {
+    ExrPlan *plan;
+    int first, count;
+    uint32_t crc[RETEX_EXR_LETTERS_MAX];
+} Job;
+
+typedef struct DecodeWork {
+    RetexExr *exr;
+    Job *jobs;
+    ExrScratch *scratch; /* one a thread */
+    atomic_int code;     /* the first failure, exr_result_t */
+    ExrOddNumber odd;    /* of it, where it is that */
+} DecodeWork;
+
+static void read_chunks(DecodeWork *work, Job *job, const ExrSums *sums, int thread)
+{
+    for (int row = job->first; row < job->first + job->count; row++)
+        for (int column = 0; column < job->plan->across; column++) {
+            if (atomic_load_explicit(&work->code, memory_order_relaxed))
+                return; /* some other job has failed: the result is lost anyway */
+            const exr_result_t code = exr_chunk_read(work->exr, job->plan, column, row, job->plan->request->image, 0,
+                                                     sums, &work->scratch[thread]);
+            if (code) {
+                int none = 0;
+                if (atomic_compare_exchange_strong(&work->code, &none, code)) {
+                    job->plan->request->damaged = 1;
+                    work->odd = work->scratch[thread].odd;
+                }
+                return;
+            }
+        }
+}
+
+static void run_job(void *context, int index, int thread)
+{
+    DecodeWork *work = context;
+    Job *job = &work->jobs[index];
+    const ExrPlan *plan = job->plan;
+    const int top = job->first * plan->chunk_height, most = job->count * plan->chunk_height;
+    const int lines = plan->height - top < most ? plan->height - top : most;
+    ExrSums sums = {NULL, top, plan->across > 1 ? 1 : lines};
+
+    if (!plan->request->with_crc) {
+        read_chunks(work, job, NULL, thread);
+        return;
+    }
+    sums.crc = calloc((size_t)(lines / sums.lines), sizeof *sums.crc);
+    if (sums.crc)
+        read_chunks(work, job, &sums, thread);
+    else
+        atomic_store(&work->code, EXR_ERR_OUT_OF_MEMORY);
+    for (int slot = 0; sums.crc && slot < RETEX_EXR_LETTERS_MAX; slot++)
+        job->crc[slot] = exr_sums_plane(plan, &sums, slot, top, top + lines, NULL);
+    free(sums.crc);
+}
+
+/* Rows of chunks that make one job. */
+static int job_rows(const ExrPlan *plan)
+{
+    return plan->chunk_height >= JOB_LINES ? 1 : JOB_LINES / plan->chunk_height;
+}
+
+static Job *make_jobs(ExrPlan *plans, int nplans, int *count)
+{
+    size_t total = 0, next = 0;
+
+    for (int i = 0; i < nplans; i++)
+        total += (size_t)((plans[i].down + job_rows(&plans[i]) - 1) / job_rows(&plans[i]));
+    Job *jobs = calloc(total, sizeof *jobs);
+    for (int i = 0; jobs && i < nplans; i++)
+        for (int row = 0; row < plans[i].down; row += job_rows(&plans[i])) {
+            Job *job = &jobs[next++];
+            job->plan = &plans[i];
+            job->first = row;
+            job->count = plans[i].down - row < job_rows(&plans[i]) ? plans[i].down - row : job_rows(&plans[i]);
+        }
+    *count = (int)total;
+    return jobs;
+}
+
+/* Put the jobs' checksums together: planes one after another, each from the top. */
+static void combine_crcs(const Job *jobs, int njobs)
+{
+    for (int first = 0, end; first < njobs; first = end) {
+        const ExrPlan *plan = jobs[first].plan;
+        uint32_t crc = CRC32_OF_NONE;
+        for (end = first; end < njobs && jobs[end].plan == plan; end++)
+            continue;
+        for (int slot = 0; slot < RETEX_EXR_LETTERS_MAX && plan->request->with_crc; slot++)
+            for (int c = 0; c < plan->nchannels; c++) {
+                if (plan->slot[c] != slot)
+                    continue;
+                for (int j = first; j < end; j++) {
+                    const int y = jobs[j].first * plan->chunk_height, rest = plan->height - y;
+                    const int lines = jobs[j].count * plan->chunk_height;
+                    const size_t bytes = (size_t)plan->width * exr_channel_bytes(&plan->channels[c]);
+                    crc = retex_crc32_join(crc, jobs[j].crc[slot], bytes * (size_t)(lines < rest ? lines : rest));
+                }
+            }
+        plan->request->crc = crc;
+    }
+}
+
+/* The failure of a chunk, with the name of its part. */
+static int fail_chunk(RetexExr *exr, const ExrPlan *plans, int nplans, exr_result_t code, const ExrOddNumber *odd,
+                      RetexError *err)
+{
+    const char *name = NULL;
+
+    for (int i = 0; i < nplans; i++)
+        if (plans[i].request->damaged) {
+            if (code == EXR_ODD_NUMBER)
+                return exr_fail_number(exr, plans[i].request->part, odd, err);
+            exr_get_name(exr->context, plans[i].request->part, &name);
+        }
+    if (code != EXR_ERR_OUT_OF_MEMORY && name)
+        return retex_input_check(
+            exr->input,
+            retex_fail(err, RETEX_EFORMAT, "%s: part %s is damaged or truncated: %s", retex_input_name(exr->input),
+                       name, exr->message.text[0] ? exr->message.text : exr_get_default_error_message(code)),
+            err);
+    return exr_fail(exr, code, err);
+}
+
+static int run_jobs(RetexExr *exr, ExrPlan *plans, int nplans, int nthreads, RetexError *err)
+{
+    DecodeWork work = {.exr = exr};
+    int njobs = 0;
+
+    nthreads = retex_threads(nthreads);
+    work.jobs = make_jobs(plans, nplans, &njobs);
+    work.scratch = calloc((size_t)nthreads, sizeof *work.scratch);
+    if (!work.jobs || !work.scratch)
+        atomic_store(&work.code, EXR_ERR_OUT_OF_MEMORY);
+    else
+        retex_parallel(nthreads, njobs, run_job, &work);
+    const exr_result_t code = atomic_load(&work.code);
+    if (!code)
+        combine_crcs(work.jobs, njobs);
+    for (int i = 0; work.scratch && i < nthreads; i++)
+        exr_scratch_free(&work.scratch[i]);
+    free(work.scratch);
+    free(work.jobs);
+    return code ? fail_chunk(exr, plans, nplans, code, &work.odd, err) : 0;
+}
+
+int retex_exr_read(RetexExr *exr, RetexExrRequest *requests, int nrequests, int nthreads, RetexError *err)
+{
+    ExrPlan *plans;
+    int status = 0;
+
+    if (nrequests == 0)
+        return 0;
+    plans = calloc((size_t)nrequests, sizeof *plans);
+    if (!plans)
+        return exr_fail(exr, EXR_ERR_OUT_OF_MEMORY, err);
+    for (int i = 0; i < nrequests && !status; i++)
+        status = exr_plan_open(exr, &plans[i], &requests[i], err);
+    if (!status)
+        status = run_jobs(exr, plans, nrequests, nthreads, err);
+    for (int i = 0; i < nrequests; i++)
+        exr_plan_close(&plans[i]);
+    free(plans);
+    return status;
+}

@@ -1,0 +1,93 @@
+/* OpenEXR's ZIP compression of one chunk.
+ *
+ * The bytes at even positions go first, those at odd positions after them, so that the high bytes of halves lie side by
+ * side; each byte becomes its difference from the one before, plus 128; the result is a zlib stream. Doing it here
+ * rather than through OpenEXRCore's pipelines lets chunks be compressed on all threads before the file is even open,
+ * and every byte of a damaged chunk be accounted for. */
+#include <limits.h>
+#include <math.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "io/checksum.h"
+#include "io/deflate.h"
+#include "exr/zip.h"
+#include "exr/zip_kernel.h"
+
+enum { HEAD = 2, TAIL = 4 }; /* of a zlib stream: what it is, and a checksum */
+
+int retex_zip_need(RetexZip *zip, size_t bytes)
+{
+    if (!zip->work && !(zip->work = malloc(retex_deflate_work())))
+        return 0;
+    if (zip->scratch_bytes >= 2 * bytes)
+        return 1;
+    free(zip->scratch);
+    zip->scratch = malloc(2 * bytes);
+    zip->scratch_bytes = zip->scratch ? 2 * bytes : 0;
+    return zip->scratch != NULL;
+}
+
+/* Bytes of more bits each than that, by how often they come, are stored as they are: to deflate them would save a
+ * sixteenth of them at most. The low bytes of light that is no whole number of anything are so. */
+static const double NOISE_BITS = 7.5;
+
+static int is_noise(const unsigned char *bytes, size_t count)
+{
+    enum { STEP = 512, RUN = 64, LEAST = 1 << 13 }; /* one run of each step is looked at */
+    unsigned long counts[256] = {0}, all = 0;
+    double sum = 0;
+    if (count < LEAST)
+        return 0;
+    for (size_t begin = 0; begin + RUN <= count; begin += STEP, all += RUN)
+        for (size_t i = begin; i < begin + RUN; i++)
+            counts[bytes[i]]++;
+    for (int i = 0; i < 256; i++)
+        sum += counts[i] ? (double)counts[i] * log2((double)counts[i]) : 0;
+    return log2((double)all) - sum / (double)all > NOISE_BITS;
+}
+
+/* The raw stream of a chunk: its low bytes, then its high ones. */
+static size_t deflate_chunk(void *work, unsigned char *packed, size_t room, const unsigned char *bytes, size_t count)
+{
+    const size_t low = (count + 1) / 2;
+    if (!is_noise(bytes, low))
+        return retex_deflate(work, packed, room, bytes, count, 1);
+    const size_t stored = retex_deflate_stored(packed, room, bytes, low, 0);
+    const size_t coded = stored ? retex_deflate(work, packed + stored, room - stored, bytes + low, count - low, 1) : 0;
+    return coded ? stored + coded : 0;
+}
+
+size_t retex_zip_pack(RetexZip *zip, unsigned char *packed, const unsigned char *raw, size_t bytes)
+{
+    if (bytes <= HEAD + TAIL || bytes > INT_MAX)
+        return 0;
+    exr_zip_regroup(zip->scratch, raw, bytes);
+    exr_zip_difference(zip->scratch + bytes, zip->scratch, bytes);
+    /* a chunk as long as its data would be taken for uncompressed */
+    const size_t coded = deflate_chunk(zip->work, packed + HEAD, bytes - 1 - HEAD - TAIL, zip->scratch + bytes, bytes);
+    if (!coded)
+        return 0;
+    const uint32_t sum = retex_adler32(ADLER32_OF_NONE, zip->scratch + bytes, bytes);
+    memcpy(packed, "\x78\x01", HEAD); /* deflate, 32 KB, fastest */
+    for (int k = 0; k < TAIL; k++)
+        packed[HEAD + coded + (size_t)k] = (unsigned char)(sum >> 8 * (TAIL - 1 - k));
+    return HEAD + coded + TAIL;
+}
+
+int retex_zip_unpack(RetexZip *zip, unsigned char *raw, size_t bytes, const unsigned char *packed, size_t packed_bytes)
+{
+    if (!retex_inflate(zip->work, zip->scratch, bytes, packed, packed_bytes))
+        return 0;
+    exr_zip_accumulate(zip->scratch, bytes);
+    exr_zip_interleave(raw, zip->scratch, bytes);
+    return 1;
+}
+
+void retex_zip_free(RetexZip *zip)
+{
+    free(zip->scratch);
+    free(zip->work);
+    *zip = (RetexZip){0};
+}

@@ -1,0 +1,69 @@
+/* What a set's path leads to: an EXR file, or a pack. */
+#include <retex/pack.h>
+#include <retex/set.h>
+
+#include "io/input.h"
+#include "pack/bands.h"
+#include "set/read.h"
+
+static int is_pack(const RetexInput *input)
+{
+    unsigned char begin[64];
+    const int64_t got = retex_input_read(input, begin, sizeof begin, 0);
+
+    return got > 0 && retex_pack_probe(begin, (size_t)got);
+}
+
+/* Read what is wanted, or with open all but the set's parts. */
+static int read_file(const char *path, RetexSet **set, RetexSamples **samples, int open, int nthreads, RetexError *err)
+{
+    RetexInput *input = NULL;
+
+    if (set)
+        *set = NULL;
+    if (samples)
+        *samples = NULL;
+    if (!set && !samples)
+        return retex_fail(err, RETEX_EINVAL, "nothing is wanted from %s", path);
+    int status = retex_input_open(&input, path, err);
+    if (!status && !is_pack(input))
+        status = set_read_exr(&input, set, samples, open, nthreads, err);
+    else if (!status && !set)
+        status = retex_fail(err, RETEX_EFORMAT, "%s holds a set, no samples", retex_input_name(input));
+    else if (!status)
+        status = retex_pack_open(set, &input, nthreads, err);
+    if (!status && !open && set && *set && (*set)->source)
+        status = retex_set_load(*set, nthreads, err);
+    if (status && set)
+        retex_set_close(set);
+    retex_input_close(&input);
+    return status;
+}
+
+int retex_set_read(const char *path, RetexSet **set, RetexSamples **samples, int nthreads, RetexError *err)
+{
+    return read_file(path, set, samples, 0, nthreads, err);
+}
+
+int retex_set_open(const char *path, RetexSet **set, RetexSamples **samples, int nthreads, RetexError *err)
+{
+    return read_file(path, set, samples, 1, nthreads, err);
+}
+
+int retex_set_check(const char *path, int nthreads, RetexError *err)
+{
+    RetexInput *input = NULL;
+    RetexSet *set = NULL;
+    int status = retex_input_open(&input, path, err);
+
+    if (!status && !is_pack(input)) {
+        status = set_check_exr(input, nthreads, err);
+    } else if (!status) {
+        status = retex_pack_open(&set, &input, nthreads, err);
+        if (!status)
+            status = retex_pack_verify(set, nthreads, err);
+    }
+    retex_set_close(&set);
+    retex_input_close(&input);
+    return status;
+}

@@ -1,0 +1,21 @@
+/* See checksum.h. */
+#include "io/checksum.h"
+
+#include <isa-l/crc.h>
+#include <isa-l/igzip_lib.h>
+#include <zlib.h>
+
+uint32_t retex_crc32(uint32_t so_far, const void *bytes, size_t count)
+{
+    return count ? crc32_gzip_refl(so_far, bytes, count) : so_far;
+}
+
+uint32_t retex_crc32_join(uint32_t first, uint32_t second, size_t second_bytes)
+{
+    return (uint32_t)crc32_combine(first, second, (z_off_t)second_bytes);
+}
+
+uint32_t retex_adler32(uint32_t so_far, const void *bytes, size_t count)
+{
+    return count ? isal_adler32(so_far, bytes, count) : so_far;
+}

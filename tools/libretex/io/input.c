@@ -1,0 +1,289 @@
+/* Input files: regular ones are read by position as needed, everything else is spooled first, into memory or, where it
+ * is large, into a temporary file, because an EXR cannot be read from front to back only. A mapping would save a copy
+ * but turns a file that shrinks under us into a crash. */
+#include <errno.h>
+#include <fcntl.h>
+#include <stdatomic.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <sys/sysmacros.h>
+#include <unistd.h>
+
+#include "io/input.h"
+#include "io/temporary.h"
+
+enum { SPOOL_BEGIN = 1 << 20, SPOOL_MEMORY = 64 << 20 }; /* what of a pipe is in memory: first, and at most */
+
+/* Spools and packs beyond this are refused. */
+static const uint64_t SIZE_LIMIT = (uint64_t)16 << 30;
+
+struct RetexInput {
+    char name[512];
+    int descriptor;      /* -1 once all is in memory */
+    int borrowed;        /* 1: standard input, which is not ours to close */
+    unsigned char *data; /* NULL while the file is read by position */
+    int data_borrowed;   /* 1: data is not ours to free */
+    uint64_t size;
+    atomic_int failed; /* errno of a read that failed */
+};
+
+static int fail_read(const RetexInput *input, int code, RetexError *err)
+{
+    return retex_fail(err, RETEX_EIO, "cannot read %s: %s", input->name, strerror(code));
+}
+
+/* More than nothing of what a pipe gives; *got is 0 at its end. */
+static int read_some(const RetexInput *input, unsigned char *to, size_t room, size_t *got, RetexError *err)
+{
+    ssize_t count;
+
+    do
+        count = read(input->descriptor, to, room);
+    while (count < 0 && errno == EINTR);
+    *got = count > 0 ? (size_t)count : 0;
+    return count < 0 ? fail_read(input, errno, err) : 0;
+}
+
+/* Whether anything that is read here begins so: OpenEXR, JPEG, a zip, an unfinished render. Of what does not, no more
+ * is read: it may have no end. */
+static int begins_well(const RetexInput *input)
+{
+    static const struct {
+        const char *bytes;
+        size_t count;
+    } beginnings[] = {{"\x76\x2f\x31\x01", 4}, {"\xff\xd8\xff", 3}, {"PK", 2}, {"retex\n", 6}};
+
+    for (size_t i = 0; i < sizeof beginnings / sizeof *beginnings; i++) {
+        const size_t count = input->size < beginnings[i].count ? (size_t)input->size : beginnings[i].count;
+        if (memcmp(input->data, beginnings[i].bytes, count) == 0)
+            return 1;
+    }
+    return 0;
+}
+
+/* As much of a pipe as may be in memory; *ended: that is all. */
+static int spool_in_memory(RetexInput *input, int *ended, RetexError *err)
+{
+    size_t room = 0, got;
+
+    for (*ended = 0; input->size < SPOOL_MEMORY; input->size += got) {
+        if (input->size && !begins_well(input)) {
+            *ended = 1;
+            return 0;
+        }
+        if (input->size == room) {
+            room = room ? room * 2 : SPOOL_BEGIN;
+            unsigned char *data = realloc(input->data, room);
+            if (!data)
+                return retex_fail(err, RETEX_ENOMEM, "no memory to read %s", input->name);
+            input->data = data;
+        }
+        const int status = read_some(input, input->data + input->size, room - input->size, &got, err);
+        if (status || got == 0) {
+            *ended = 1;
+            return status;
+        }
+    }
+    return 0;
+}
+
+/* Append to the temporary file. */
+static int keep(RetexInput *input, int file, TemporaryName shown, size_t bytes, RetexError *err)
+{
+    for (size_t done = 0; done < bytes;) {
+        const ssize_t written = pwrite(file, input->data + done, bytes - done, (off_t)(input->size + done));
+        if (written < 0 && errno == EINTR)
+            continue;
+        if (written <= 0)
+            return retex_fail(err, RETEX_EIO, "cannot write %s: %s", shown, strerror(written < 0 ? errno : EIO));
+        done += (size_t)written;
+    }
+    input->size += bytes;
+    return 0;
+}
+
+/* What is in memory, and all that follows. */
+static int spool_in_file(RetexInput *input, int file, TemporaryName shown, RetexError *err)
+{
+    size_t got = (size_t)input->size;
+    int status;
+
+    input->size = 0;
+    do {
+        status = keep(input, file, shown, got, err);
+        if (!status)
+            status = read_some(input, input->data, SPOOL_BEGIN, &got, err);
+        if (!status && input->size + got > SIZE_LIMIT)
+            status = retex_fail(err, RETEX_ELIMIT, "%s gives more than %d GiB", input->name, (int)(SIZE_LIMIT >> 30));
+    } while (!status && got);
+    free(input->data);
+    input->data = NULL;
+    return status;
+}
+
+static int spool(RetexInput *input, RetexError *err)
+{
+    TemporaryName shown;
+    int ended, status = spool_in_memory(input, &ended, err);
+
+    if (status || ended)
+        return status;
+    const int file = temporary_open(NULL, shown);
+    if (file < 0)
+        return retex_fail(err, RETEX_EIO, "cannot write %s: %s", shown, strerror(errno));
+    status = spool_in_file(input, file, shown, err);
+    if (!input->borrowed)
+        close(input->descriptor);
+    input->descriptor = file;
+    input->borrowed = 0;
+    return status;
+}
+
+static int open_descriptor(RetexInput *input, const char *path, const RetexAccess *access, RetexError *err)
+{
+    struct stat status;
+
+    if (strcmp(path, "-") == 0) {
+        input->descriptor = STDIN_FILENO;
+        input->borrowed = 1;
+    } else {
+        const int code = retex_access_open(access, path, &input->descriptor, err);
+        if (code)
+            return code;
+    }
+    if (fstat(input->descriptor, &status) != 0)
+        return fail_read(input, errno, err);
+    if (S_ISDIR(status.st_mode))
+        return fail_read(input, EISDIR, err);
+    /* what gives bytes without end, or waits for them; /dev/null is an empty file */
+    if (S_ISBLK(status.st_mode) ||
+        (S_ISCHR(status.st_mode) && status.st_rdev != makedev(1, 3) && !isatty(input->descriptor)))
+        return retex_fail(err, RETEX_EIO, "cannot read %s: it is a device", input->name);
+    /* standard input may be a file that someone has read the beginning of: then only the rest is meant */
+    if (S_ISREG(status.st_mode) && lseek(input->descriptor, 0, SEEK_CUR) == 0) {
+        input->size = (uint64_t)status.st_size;
+        return 0;
+    }
+    return spool(input, err);
+}
+
+int retex_input_open(RetexInput **result, const char *path, RetexError *err)
+{
+    return retex_input_open_allowed(result, path, NULL, err);
+}
+
+int retex_input_open_allowed(RetexInput **result, const char *path, const RetexAccess *access, RetexError *err)
+{
+    RetexInput *input = calloc(1, sizeof *input);
+
+    *result = NULL;
+    if (!input)
+        return retex_fail(err, RETEX_ENOMEM, "no memory to read %s", path);
+    input->descriptor = -1;
+    snprintf(input->name, sizeof input->name, "%s", strcmp(path, "-") == 0 ? "standard input" : path);
+    const int status = open_descriptor(input, path, access, err);
+    if (status)
+        retex_input_close(&input);
+    *result = input;
+    return status;
+}
+
+int retex_input_borrow(RetexInput **result, const void *data, size_t bytes, const char *name, RetexError *err)
+{
+    static unsigned char nothing;
+    RetexInput *input = *result = calloc(1, sizeof *input);
+
+    if (!input)
+        return retex_fail(err, RETEX_ENOMEM, "no memory to read %s", name);
+    input->descriptor = -1;
+    input->data = data ? (unsigned char *)data : &nothing; /* never written to */
+    input->data_borrowed = 1;
+    input->size = bytes;
+    snprintf(input->name, sizeof input->name, "%s", name);
+    return 0;
+}
+
+void retex_input_close(RetexInput **result)
+{
+    RetexInput *input = result ? *result : NULL;
+
+    if (!input)
+        return;
+    if (input->descriptor >= 0 && !input->borrowed)
+        close(input->descriptor);
+    if (!input->data_borrowed)
+        free(input->data);
+    free(input);
+    *result = NULL;
+}
+
+const char *retex_input_name(const RetexInput *input)
+{
+    return input->name;
+}
+
+uint64_t retex_input_size(const RetexInput *input)
+{
+    return input->size;
+}
+
+int retex_input_descriptor(const RetexInput *input)
+{
+    return input->descriptor;
+}
+
+int64_t retex_input_read(const RetexInput *input, void *buffer, size_t bytes, uint64_t offset)
+{
+    if (offset >= input->size)
+        return 0;
+    if (bytes > input->size - offset)
+        bytes = (size_t)(input->size - offset);
+    if (input->data) {
+        memcpy(buffer, input->data + offset, bytes);
+        return (int64_t)bytes;
+    }
+    size_t done = 0;
+    while (done < bytes) {
+        const ssize_t got =
+            pread(input->descriptor, (unsigned char *)buffer + done, bytes - done, (off_t)(offset + done));
+        if (got < 0 && errno == EINTR)
+            continue;
+        if (got < 0) {
+            atomic_store(&((RetexInput *)input)->failed, errno); /* not of the content: const all the same */
+            return -1;
+        }
+        if (got == 0)
+            break; /* the file has shrunk since */
+        done += (size_t)got;
+    }
+    return (int64_t)done;
+}
+
+int retex_input_check(const RetexInput *input, int status, RetexError *err)
+{
+    const int failed = input ? atomic_load(&input->failed) : 0;
+
+    return failed && (status == RETEX_OK || status == RETEX_EFORMAT) ? fail_read(input, failed, err) : status;
+}
+
+int retex_input_load(RetexInput *input, const void **data, size_t *bytes, RetexError *err)
+{
+    if (!input->data) {
+        unsigned char *whole = input->size <= SIZE_LIMIT ? malloc(input->size ? (size_t)input->size : 1) : NULL;
+        if (!whole)
+            return retex_fail(err, RETEX_ENOMEM, "%s is too large to be kept in memory", input->name);
+        const int64_t got = retex_input_read(input, whole, (size_t)input->size, 0);
+        if (got < 0) {
+            const int code = errno;
+            free(whole);
+            return fail_read(input, code, err);
+        }
+        input->size = (uint64_t)got;
+        input->data = whole;
+    }
+    *data = input->data;
+    *bytes = (size_t)input->size;
+    return 0;
+}

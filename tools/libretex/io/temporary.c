@@ -1,0 +1,64 @@
+/* See temporary.h. */
+#include "io/temporary.h"
+#include "io/unfinished.h"
+
+#include <fcntl.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+/* Without a name where the file system can do that, else with one that is taken away at once. */
+static int open_in(const char *folder, TemporaryName shown)
+{
+    char name[PATH_MAX + 16];
+
+    snprintf(shown, sizeof(TemporaryName), "a temporary file in %s", folder);
+#ifdef O_TMPFILE
+    const int unnamed = open(folder, O_TMPFILE | O_RDWR | O_CLOEXEC, 0666);
+    if (unnamed >= 0)
+        return unnamed;
+#endif
+    snprintf(name, sizeof name, "%s/.retex-XXXXXX", folder);
+    unfinished_lock();
+    const int descriptor = mkostemp(name, O_CLOEXEC);
+    if (descriptor >= 0)
+        unlink(name);
+    unfinished_unlock();
+    return descriptor;
+}
+
+/* The folder of a file to be, or "" where it is none: standard output, a device, a pipe. */
+static void folder_of(const char *near, char folder[PATH_MAX])
+{
+    struct stat status;
+    char path[PATH_MAX];
+
+    folder[0] = 0;
+    if (!near || strcmp(near, "-") == 0 || strlen(near) >= PATH_MAX ||
+        (stat(near, &status) == 0 && !S_ISREG(status.st_mode)) || strncmp(near, "/dev/", 5) == 0 ||
+        strncmp(near, "/proc/", 6) == 0)
+        return;
+    snprintf(path, sizeof path, "%s", near);
+    if (stat(near, &status) == 0 && !realpath(near, path)) /* a link's file is in a folder of its own */
+        return;
+    char *slash = strrchr(path, '/');
+    if (slash)
+        slash[slash == path] = 0;
+    snprintf(folder, PATH_MAX, "%s", slash ? path : ".");
+}
+
+int temporary_open(const char *near, TemporaryName shown)
+{
+    char folder[PATH_MAX];
+    const char *temporary = getenv("TMPDIR");
+    int descriptor = -1;
+
+    folder_of(near, folder);
+    if (folder[0])
+        descriptor = open_in(folder, shown);
+    if (descriptor < 0 && temporary && temporary[0])
+        descriptor = open_in(temporary, shown);
+    return descriptor < 0 ? open_in("/tmp", shown) : descriptor;
+}

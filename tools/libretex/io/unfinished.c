@@ -1,0 +1,63 @@
+/* See unfinished.h. */
+#include "io/unfinished.h"
+
+#include <pthread.h>
+#include <stdatomic.h>
+#include <stddef.h>
+#include <time.h>
+#include <unistd.h>
+
+#include <retex/image.h>
+
+static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
+static Unfinished *files; /* under lock */
+static _Atomic(void (*)(void)) also;
+
+void unfinished_also(void (*remove)(void))
+{
+    atomic_store(&also, remove);
+}
+
+void unfinished_lock(void)
+{
+    pthread_mutex_lock(&lock);
+}
+
+void unfinished_unlock(void)
+{
+    pthread_mutex_unlock(&lock);
+}
+
+void unfinished_add(Unfinished *file, const char *path)
+{
+    file->path = path;
+    file->next = files;
+    files = file;
+}
+
+void unfinished_drop(Unfinished *file)
+{
+    for (Unfinished **at = &files; *at; at = &(*at)->next)
+        if (*at == file) {
+            *at = file->next;
+            return;
+        }
+}
+
+/* The lock is kept: nothing gets a name any more. A thread that holds it for long is waiting for a disk. */
+void retex_unfinished_remove(void)
+{
+    struct timespec until;
+    void (*others)(void) = atomic_load(&also);
+
+    if (others)
+        others();
+    clock_gettime(CLOCK_REALTIME, &until);
+    until.tv_nsec += 500000000;
+    until.tv_sec += until.tv_nsec / 1000000000;
+    until.tv_nsec %= 1000000000;
+    if (pthread_mutex_timedlock(&lock, &until) != 0)
+        return;
+    for (const Unfinished *file = files; file; file = file->next)
+        unlink(file->path);
+}

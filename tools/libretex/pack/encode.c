@@ -1,0 +1,397 @@
+/* See encode.h: parts are planned, and their bands encoded on all threads. */
+#include "pack/encode.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <retex/parallel.h>
+
+#include "io/checksum.h"
+#include "pack/combine.h"
+#include "pack/model.h"
+
+static const int EFFORT = 8;              /* of blosc's zstd */
+static const uint32_t NEVER = UINT32_MAX; /* bytes of a piece that cannot be stored so */
+
+static int no_memory(RetexError *err)
+{
+    return retex_fail(err, RETEX_ENOMEM, "no memory to pack a set");
+}
+
+/* --- JPEGs --- */
+
+static int is_black(const float *pixel, size_t channels)
+{
+    int black = 1;
+    for (size_t c = 0; c < channels; c++)
+        black = black && pixel[c] == 0;
+    return black;
+}
+
+/* Black pixels come back from the mask, so their levels are free: the mean of the others of their 8 x 8 block costs
+ * least and keeps edges between light and black from ringing. */
+static void fill_black(float *levels, const RetexImage *im)
+{
+    const size_t channels = (size_t)im->channels;
+    for (int by = 0; by < im->height; by += 8)
+        for (int bx = 0; bx < im->width; bx += 8) {
+            float sum[PACK_CHANNELS_MAX] = {0};
+            int lit = 0;
+            for (int pass = 0; pass < 2; pass++)
+                for (int y = by; y < by + 8 && y < im->height; y++)
+                    for (int x = bx; x < bx + 8 && x < im->width; x++) {
+                        const size_t i = retex_image_index(im, x, y);
+                        const int black = is_black(im->pixels + i, channels);
+                        for (size_t c = 0; c < channels; c++)
+                            if (pass == 0 && !black)
+                                sum[c] += levels[i + c];
+                            else if (pass == 1 && black && lit)
+                                levels[i + c] = sum[c] / (float)lit;
+                        lit += pass == 0 && !black;
+                    }
+        }
+}
+
+/* Levels of a part. most: what is above is clipped. */
+static float *levels_of(const RetexImage *im, const PackCurve *curve, double most)
+{
+    const size_t count = (size_t)im->width * (size_t)im->height * (size_t)im->channels;
+    float *levels = malloc(count * sizeof *levels);
+    for (size_t i = 0; levels && i < count; i++)
+        levels[i] = (float)fmin(pack_curve_level(curve, (double)im->pixels[i]), most);
+    return levels;
+}
+
+/* A band of the mask as a chunk, from its own bytes. */
+static int encode_mask_band(PackItem *item, int band, RetexError *err)
+{
+    const RetexImage *im = &item->part->image;
+    PackPart *p = item->packed;
+    const int rows = pack_band_rows(p, band), width = pack_mask_width(p), k = 1 + p->nbands + band;
+    PackPlane plane = {
+        .width = width, .rows = rows, .bits = 8, .numbers = calloc((size_t)(width * rows), sizeof(int32_t))};
+    const size_t room = pack_plane_room(&plane);
+    unsigned char *scratch = malloc(2 * room);
+    item->chunks[k] = malloc(room);
+    long bytes = -1;
+    if (plane.numbers && scratch && item->chunks[k]) {
+        for (int y = 0; y < rows; y++)
+            for (int x = 0; x < im->width; x++)
+                if (is_black(im->pixels + retex_image_index(im, x, band * PACK_BAND_ROWS + y), (size_t)im->channels))
+                    plane.numbers[y * width + x / 8] |= 1 << (x % 8);
+        bytes = pack_plane_encode(item->chunks[k], &plane, scratch, EFFORT);
+    }
+    free(plane.numbers);
+    free(scratch);
+    p->bytes[k] = bytes < 0 ? 0 : (uint32_t)bytes;
+    return bytes < 0 ? no_memory(err) : 0;
+}
+
+static int has_black(const RetexImage *im)
+{
+    for (size_t i = 0; i < (size_t)im->width * (size_t)im->height; i++)
+        if (is_black(im->pixels + i * (size_t)im->channels, (size_t)im->channels))
+            return 1;
+    return 0;
+}
+
+/* Part 0 is the picture, for viewers: coarser, and white is the most that it shows. */
+static int encode_jpeg(PackItem *item, int is_picture, RetexError *err)
+{
+    const RetexImage *im = &item->part->image;
+    PackPart *p = item->packed;
+    p->masked = !is_picture && has_black(im);
+    int code = pack_part_chunks(p, err);
+    item->chunks = calloc((size_t)p->nchunks + 1, sizeof *item->chunks);
+    float *levels = levels_of(im, &p->curve, is_picture ? 255 : INFINITY);
+    if (!code && (!item->chunks || !levels))
+        code = no_memory(err);
+    if (!code && p->masked)
+        fill_black(levels, im);
+    if (!code)
+        code = pack_jpeg_encode(&item->jpeg, levels, im->width, im->height, im->channels, p->jpeg_step, err);
+    free(levels);
+    unsigned char *at = item->jpeg.data;
+    for (int k = 0; !code && k < 1 + p->nbands; k++) {
+        item->chunks[k] = at;
+        p->bytes[k] = (uint32_t)item->jpeg.pieces[k];
+        at += item->jpeg.pieces[k];
+    }
+    for (int band = 0; !code && p->masked && band < p->nbands; band++)
+        code = encode_mask_band(item, band, err);
+    return code;
+}
+
+/* --- planes --- */
+
+/* Room to encode a band's planes. */
+typedef struct Band {
+    size_t pixels;
+    unsigned char *present, *shift, *scratch;
+    int32_t *numbers, *codes;
+} Band;
+
+static void band_free(Band *band)
+{
+    free(band->present);
+    free(band->shift);
+    free(band->scratch);
+    free(band->numbers);
+    free(band->codes);
+}
+
+static int band_alloc(Band *band, const PackPart *p, int index)
+{
+    const PackPlane plane = {.width = p->width, .rows = pack_band_rows(p, index)};
+    band->pixels = (size_t)plane.width * (size_t)plane.rows;
+    band->present = malloc(band->pixels);
+    band->shift = malloc(band->pixels);
+    band->scratch = malloc(2 * pack_plane_room(&plane));
+    band->numbers = malloc(band->pixels * sizeof *band->numbers);
+    band->codes = malloc(band->pixels * sizeof *band->codes);
+    return band->present && band->shift && band->scratch && band->numbers && band->codes;
+}
+
+/* Numbers of a channel of another part in this band. */
+static void numbers_of(int32_t *numbers, const PackEncoded *w, int part, int channel, int index, size_t pixels)
+{
+    const RetexImage *im = &w->items[part].part->image;
+    pack_map_numbers(numbers, im->pixels + retex_image_index(im, 0, index * PACK_BAND_ROWS) + channel,
+                     (size_t)im->channels, pixels, &w->packed[part].maps[channel], w->items[part].part->type);
+}
+
+static void fill_shift(Band *band, const PackEncoded *w, const PackPart *p, int channel, int index)
+{
+    const int per_octave = w->packed[p->sigma].maps[channel].per_octave;
+    numbers_of(band->codes, w, p->sigma, channel, index, band->pixels);
+    for (size_t i = 0; i < band->pixels; i++)
+        band->shift[i] = (unsigned char)pack_lattice_shift(p, band->codes[i], per_octave);
+}
+
+static int encode_band(const PackEncoded *w, int part, int index)
+{
+    PackItem *item = &w->items[part];
+    PackPart *p = item->packed;
+    Band band = {0};
+    int ok = band_alloc(&band, p, index);
+    if (ok && p->present >= 0) {
+        numbers_of(band.codes, w, p->present, 2, index, band.pixels);
+        for (size_t i = 0; i < band.pixels; i++)
+            band.present[i] = band.codes[i] != 0;
+    }
+    for (int c = 0; ok && c < p->channels; c++) {
+        const PackMap *map = &p->maps[c];
+        const int lattice = map->kind == PACK_MAP_LATTICE, partial = p->present >= 0 && (p->present != part || c != 2);
+        const int bits = pack_map_is_coded(map) ? 8 : map->kind == PACK_MAP_BITS && p->type == RETEX_HALF ? 16 : 32;
+        const int k = index * p->channels + c;
+        if (lattice)
+            fill_shift(&band, w, p, c, index);
+        numbers_of(band.numbers, w, part, c, index, band.pixels);
+        const PackPlane plane = {.width = p->width,
+                                 .rows = pack_band_rows(p, index),
+                                 .bits = bits,
+                                 .present = partial ? band.present : NULL,
+                                 .shift = lattice ? band.shift : NULL,
+                                 .numbers = band.numbers};
+        unsigned char *data = malloc(pack_plane_room(&plane));
+        const long bytes = data ? pack_plane_encode(data, &plane, band.scratch, EFFORT) : -1;
+        unsigned char *fitted = bytes > 0 ? realloc(data, (size_t)bytes) : NULL;
+        item->chunks[k] = fitted ? fitted : data;
+        p->bytes[k] = bytes > 0 ? (uint32_t)bytes : 0;
+        ok = bytes >= 0;
+    }
+    band_free(&band);
+    return ok;
+}
+
+/* --- without loss --- */
+
+/* Shifts of means, from their standard deviations. */
+static void fill_mean_shifts(PackModelBand *model, const PackEncoded *w, const PackPart *p, int index)
+{
+    const RetexImage *sigma = &w->set->parts[p->sigma].image;
+    const float *first = sigma->pixels + retex_image_index(sigma, 0, index * PACK_BAND_ROWS);
+    for (int c = 0; c < p->channels; c++)
+        for (size_t i = 0; model->shifts[c] && i < (size_t)model->width * (size_t)model->rows; i++)
+            model->shifts[c][i] = (unsigned char)pack_mean_shift(first[i * (size_t)sigma->channels + (size_t)c]);
+}
+
+static int encode_model_band(const PackEncoded *w, int part, int index)
+{
+    PackItem *item = &w->items[part];
+    PackPart *p = item->packed;
+    PackModelBand model;
+    int finite = 1;
+    long bytes = -1;
+    if (pack_model_alloc(&model, p->width, pack_band_rows(p, index), p->channels, p->maps)) {
+        for (int c = 0; c < p->channels; c++)
+            numbers_of(model.numbers[c], w, part, c, index, (size_t)model.width * (size_t)model.rows);
+        if (p->sigma >= 0)
+            fill_mean_shifts(&model, w, p, index);
+        int code = p->codec == PACK_COMBINED
+                       ? pack_combine_subtract(&model, w->set, index * PACK_BAND_ROWS, &finite, NULL)
+                       : 0;
+        bytes = code ? -1 : pack_model_encode(&item->chunks[index], &model);
+    }
+    pack_model_free(&model);
+    p->bytes[index] = !finite ? NEVER : bytes > 0 ? (uint32_t)bytes : 0;
+    return bytes >= 0;
+}
+
+/* The picture's numbers less those that the terms give are tried besides the picture alone. */
+static int plan_combined(PackEncoded *w, int nthreads, RetexError *err)
+{
+    PackPart *picture = &w->packed[0];
+    const int fits = picture->codec == PACK_MODEL ? pack_combine_fits(w->set, err) : 0;
+    if (fits < 0 || !fits || !pack_combine_is_stored(w->set, nthreads))
+        return fits < 0 ? fits : 0;
+    w->packed[w->set->nparts] = *picture;
+    w->nitems = w->set->nparts + 1;
+    picture->codec = PACK_COMBINED;
+    return 0;
+}
+
+static uint64_t bytes_of(const PackPart *packed)
+{
+    uint64_t bytes = 0;
+    for (int k = 0; k < packed->nchunks; k++)
+        bytes += packed->bytes[k];
+    return bytes;
+}
+
+/* Part 0 is what is smaller. What readers make of a term that is black all over a row is not told where the sum is not
+ * finite, so then it stays alone. */
+static void choose_picture(PackEncoded *w)
+{
+    PackItem *items[2] = {&w->items[0], &w->items[w->set->nparts]};
+    if (w->nitems == w->set->nparts || bytes_of(items[0]->packed) < bytes_of(items[1]->packed))
+        return;
+    const PackPart packed = *items[0]->packed;
+    unsigned char **chunks = items[0]->chunks;
+    *items[0]->packed = *items[1]->packed;
+    items[0]->chunks = items[1]->chunks;
+    *items[1]->packed = packed;
+    items[1]->chunks = chunks;
+}
+
+/* --- all parts --- */
+
+/* As jobs of their own: JPEGs are encoded whole. */
+static int bands_to_encode(const PackPart *packed)
+{
+    return packed->codec == PACK_PLANES || pack_is_modelled(packed) ? packed->nbands : 0;
+}
+
+static void encode_whole(void *context, int index, int thread)
+{
+    PackEncoded *w = context;
+    PackItem *item = &w->items[index];
+    (void)thread;
+    item->code = pack_samples_crc(&item->crc, item->part, &item->err);
+    if (!item->code && item->packed->codec == PACK_JPEG)
+        item->code = encode_jpeg(item, index == 0, &item->err);
+    if (item->code || !bands_to_encode(item->packed))
+        return;
+    item->code = pack_part_chunks(item->packed, &item->err);
+    item->chunks = calloc((size_t)item->packed->nchunks + 1, sizeof *item->chunks);
+    if (!item->code && !item->chunks)
+        item->code = no_memory(&item->err);
+}
+
+static void encode_job(void *context, int index, int thread)
+{
+    PackEncoded *w = context;
+    (void)thread;
+    const int part = w->jobs[2 * index], band = w->jobs[2 * index + 1];
+    const int ok = pack_is_modelled(&w->packed[part]) ? encode_model_band(w, part, band) : encode_band(w, part, band);
+    w->codes[index] = ok ? 0 : RETEX_ENOMEM;
+}
+
+static int encode_all(PackEncoded *w, int nthreads, RetexError *err)
+{
+    const int count = w->nitems;
+    int code = 0, bands = 0;
+    retex_parallel(nthreads, count, encode_whole, w);
+    for (int i = 0; i < count; i++) {
+        if (!code && w->items[i].code)
+            code = retex_fail(err, w->items[i].code, "%s", w->items[i].err.message);
+        bands += w->packed[i].nbands;
+    }
+    w->jobs = malloc(((size_t)bands + 1) * 2 * sizeof *w->jobs);
+    w->codes = calloc((size_t)bands + 1, sizeof *w->codes);
+    if (!code && (!w->jobs || !w->codes))
+        code = no_memory(err);
+    if (code)
+        return code;
+    for (int i = 0; i < count; i++)
+        for (int band = 0; band < bands_to_encode(&w->packed[i]); band++) {
+            w->jobs[2 * w->njobs] = i;
+            w->jobs[2 * w->njobs++ + 1] = band;
+        }
+    retex_parallel(nthreads, w->njobs, encode_job, w);
+    for (int i = 0; i < w->njobs; i++)
+        if (w->codes[i])
+            return no_memory(err);
+    choose_picture(w);
+    for (int i = 0; i < w->set->nparts; i++)
+        for (int k = 0; k < w->packed[i].nchunks; k++)
+            w->packed[i].crcs[k] = retex_crc32(CRC32_OF_NONE, w->items[i].chunks[k], w->packed[i].bytes[k]);
+    return 0;
+}
+
+/* A lossless pack's picture for viewers. */
+static int encode_picture(PackEncoded *w, RetexError *err)
+{
+    const RetexImage *im = &w->set->parts[0].image;
+    const PackCurve curve = {1, 255};
+    if (w->packed[0].codec == PACK_JPEG || im->width > PACK_JPEG_SIDE_MAX || im->height > PACK_JPEG_SIDE_MAX)
+        return 0;
+    const PackGrain grain = pack_grain(40);
+    float *levels = levels_of(im, &curve, 255);
+    if (!levels)
+        return no_memory(err);
+    for (size_t i = 0; i < 3 * (size_t)im->width * (size_t)im->height; i++)
+        levels[i] = levels[i] >= 0 ? levels[i] : 0; /* NaN too */
+    int code = pack_jpeg_encode(&w->picture, levels, im->width, im->height, 3, grain.picture_step, err);
+    free(levels);
+    return code;
+}
+
+void pack_encoded_free(PackEncoded *w)
+{
+    for (int i = 0; w->items && w->packed && i < w->nitems; i++) {
+        const PackPart *p = &w->packed[i];
+        for (int k = p->codec == PACK_JPEG ? 1 + p->nbands : 0; w->items[i].chunks && k < p->nchunks; k++)
+            free(w->items[i].chunks[k]);
+        free(w->items[i].chunks);
+        pack_jpeg_free(&w->items[i].jpeg);
+        pack_part_free(&w->packed[i]);
+    }
+    pack_jpeg_free(&w->picture);
+    free(w->items);
+    free(w->packed);
+    free(w->jobs);
+    free(w->codes);
+}
+
+int pack_encode(PackEncoded *w, const RetexSet *set, const PackGrain *grain, int nthreads, RetexError *err)
+{
+    *w = (PackEncoded){.set = set, .nitems = set->nparts};
+    w->packed = calloc((size_t)set->nparts + 1, sizeof *w->packed);
+    w->items = calloc((size_t)set->nparts + 1, sizeof *w->items);
+    int code = w->packed && w->items ? 0 : no_memory(err);
+    if (!code)
+        code = pack_plan(w->packed, set, grain, nthreads, err);
+    if (!code && !grain)
+        code = plan_combined(w, nthreads, err);
+    for (int i = 0; !code && i < w->nitems; i++) {
+        w->items[i].part = &set->parts[i % set->nparts];
+        w->items[i].packed = &w->packed[i];
+    }
+    if (!code)
+        code = encode_all(w, nthreads, err);
+    if (!code)
+        code = encode_picture(w, err);
+    return code;
+}

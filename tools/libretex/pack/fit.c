@@ -1,0 +1,131 @@
+/* Weights of a prediction by least squares. See fit.h. */
+#include "pack/fit.h"
+
+#include <math.h>
+#include <string.h>
+
+void pack_fit_begin_row(PackFitChannel *channel, int y)
+{
+    const ptrdiff_t first = pack_fit_place(channel, 0, y), above = pack_fit_above(channel, first, y);
+    for (int i = 1; i <= PACK_FIT_LEFT; i++) {
+        channel->numbers[first - i] = y > 0 ? channel->numbers[above] : channel->mean;
+        channel->sizes[first - i] = y > 0 ? channel->sizes[above] : 0;
+        channel->holes[first - i] = y > 0 ? channel->holes[above] : 0;
+    }
+    if (y > 0) { /* right of the row above */
+        const ptrdiff_t end = above + channel->width;
+        channel->numbers[end] = channel->numbers[end - 1];
+        channel->sizes[end] = channel->sizes[end - 1];
+        channel->holes[end] = channel->holes[end - 1];
+    }
+}
+
+/* Sums of products of terms, the last of them what is to be predicted. */
+typedef struct Normal {
+    double sum[PACK_FIT_WEIGHTS + 1][PACK_FIT_WEIGHTS + 1];
+} Normal;
+
+static void add_products(Normal *normal, const double *terms, int count, double weight)
+{
+    for (int i = 0; i < count; i++) {
+        const double scaled = terms[i] * weight;
+        for (int j = 0; j <= i; j++)
+            normal->sum[i][j] += scaled * terms[j];
+    }
+}
+
+/* Gauss without pivots: the matrix is positive; what it does not determine gets no weight. */
+static void solve(double *solution, Normal *normal, int count)
+{
+    double(*a)[PACK_FIT_WEIGHTS + 1] = normal->sum;
+    double right[PACK_FIT_WEIGHTS];
+    for (int i = 0; i < count; i++) {
+        right[i] = a[count][i];
+        for (int j = 0; j < i; j++)
+            a[j][i] = a[i][j];
+    }
+    for (int i = 0; i < count; i++) {
+        a[i][i] += a[i][i] * 1e-7 + 1e-9;
+        for (int k = i + 1; k < count; k++) {
+            const double factor = a[k][i] / a[i][i];
+            for (int j = i; j < count; j++)
+                a[k][j] -= factor * a[i][j];
+            right[k] -= factor * right[i];
+        }
+    }
+    for (int i = count; i-- > 0;) {
+        solution[i] = right[i];
+        for (int j = i + 1; j < count; j++)
+            solution[i] -= a[i][j] * solution[j];
+        solution[i] /= a[i][i];
+    }
+}
+
+static double step_of(const unsigned char *shifts, const PackFitChannel *channel, int x, int y)
+{
+    return shifts ? (double)(INT64_C(1) << shifts[(size_t)y * (size_t)channel->width + (size_t)x]) : 1;
+}
+
+/* Rows that are looked at: some tens of thousands of numbers are enough. */
+static int row_stride(const PackFitChannel *channel)
+{
+    enum { ENOUGH = 30000 };
+    const int stride = (int)((int64_t)channel->width * channel->rows / ENOUGH);
+    return stride < 1 ? 1 : stride;
+}
+
+/* One round: products weighted by how well the weights of the last one did, so that few outliers do not decide. */
+static void fit_round(PackFitChannel *channel, const unsigned char *shifts, int robust)
+{
+    const int count = channel->nweights;
+    Normal normal = {0};
+    for (int y = 0; y < channel->rows; y += row_stride(channel))
+        for (int x = 0; x < channel->width; x++) {
+            const ptrdiff_t at = pack_fit_place(channel, x, y), above = pack_fit_above(channel, at, y);
+            int64_t terms[PACK_FIT_WEIGHTS];
+            double scaled[PACK_FIT_WEIGHTS + 1];
+            if (channel->holes[at])
+                continue;
+            const double step = step_of(shifts, channel, x, y), scale = 1 / step;
+            pack_fit_terms(terms, channel, at, above, count);
+            for (int i = 0; i < count; i++)
+                scaled[i] = (double)terms[i] * scale;
+            scaled[count] = ((double)channel->numbers[at] - channel->numbers[at - 1]) * scale;
+            double weight = 1;
+            if (robust)
+                weight = 1 / (1 + fabs((double)(channel->numbers[at] - pack_fit_guess(channel, at, above))) * scale);
+            add_products(&normal, scaled, count + 1, weight);
+        }
+    double weights[PACK_FIT_WEIGHTS];
+    solve(weights, &normal, count);
+    for (int i = 0; i < count; i++) {
+        const double weight = rint(weights[i] * (1 << PACK_FIT_SHIFT));
+        channel->weights[i] = (int16_t)(isfinite(weight) ? fmin(fmax(weight, INT16_MIN), INT16_MAX) : 0);
+    }
+}
+
+/* Bits of all residuals, roughly. */
+static double cost(const PackFitChannel *channel, const unsigned char *shifts)
+{
+    double bits = 0;
+    for (int y = 0; y < channel->rows; y += row_stride(channel))
+        for (int x = 0; x < channel->width; x++) {
+            const ptrdiff_t at = pack_fit_place(channel, x, y), above = pack_fit_above(channel, at, y);
+            if (!channel->holes[at])
+                bits += log2(1 + fabs((double)(channel->numbers[at] - pack_fit_guess(channel, at, above))) /
+                                     step_of(shifts, channel, x, y));
+        }
+    return bits;
+}
+
+void pack_fit(PackFitChannel *channel, const unsigned char *shifts)
+{
+    for (int y = 0; y < channel->rows; y++)
+        pack_fit_begin_row(channel, y);
+    channel->by_fit = 0;
+    const double plain = cost(channel, shifts);
+    channel->by_fit = 1;
+    fit_round(channel, shifts, 0);
+    fit_round(channel, shifts, 1);
+    channel->by_fit = cost(channel, shifts) < plain;
+}

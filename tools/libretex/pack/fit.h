@@ -1,0 +1,97 @@
+/* Prediction of a band's numbers as weighted sums of numbers that were coded before, the weights fitted to the band.
+ * Private to libretex; what is predicted by what is described in retex-pack(5). */
+#ifndef RETEX_PACK_FIT_H
+#define RETEX_PACK_FIT_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+enum {
+    PACK_FIT_OWN = 4,    /* terms of the channel itself */
+    PACK_FIT_OTHER = 5,  /* and of each of the channels coded before */
+    PACK_FIT_OTHERS = 2, /* at most so many of them */
+    PACK_FIT_WEIGHTS = PACK_FIT_OWN + PACK_FIT_OTHERS * PACK_FIT_OTHER,
+    PACK_FIT_SHIFT = 12 /* weights are in 4096ths */
+};
+
+/* A channel of a band while it is coded. Rows have a margin, so that each number has neighbours. */
+typedef struct PackFitChannel {
+    int width, rows;
+    int32_t *numbers;     /* holes filled */
+    int32_t *sizes;       /* magnitudes of residuals */
+    unsigned char *holes; /* 1: this number is 0, and predicts nothing */
+    int has_holes, by_fit;
+    int32_t mean;
+    int nweights;
+    int16_t weights[PACK_FIT_WEIGHTS];
+    const struct PackFitChannel *others[PACK_FIT_OTHERS]; /* coded before; NULL where there are none */
+} PackFitChannel;
+
+enum { PACK_FIT_LEFT = 3, PACK_FIT_MARGIN = 4 };
+
+static inline ptrdiff_t pack_fit_place(const PackFitChannel *channel, int x, int y)
+{
+    return (ptrdiff_t)(channel->width + PACK_FIT_MARGIN) * y + PACK_FIT_LEFT + x;
+}
+
+/* The place that counts as above: in the first row the second to the left. */
+static inline ptrdiff_t pack_fit_above(const PackFitChannel *channel, ptrdiff_t at, int y)
+{
+    return y > 0 ? at - channel->width - PACK_FIT_MARGIN : at - 2;
+}
+
+/* What weights multiply: how other numbers differ from the left one, and in the channels before from that one's. */
+static inline void pack_fit_terms(int64_t terms[PACK_FIT_WEIGHTS], const PackFitChannel *channel, ptrdiff_t at,
+                                  ptrdiff_t above, int nweights)
+{
+    const int32_t *n = channel->numbers;
+    const int64_t left = n[at - 1];
+    terms[0] = n[above] - left;
+    terms[1] = n[above - 1] - left;
+    terms[2] = n[above + 1] - left;
+    terms[3] = channel->mean - left;
+    terms += PACK_FIT_OWN;
+    for (int k = 0; PACK_FIT_OWN + k * PACK_FIT_OTHER < nweights; k++, terms += PACK_FIT_OTHER) {
+        const int32_t *o = channel->others[k]->numbers;
+        const int64_t its = o[at - 1];
+        terms[0] = o[at] - its;
+        terms[1] = o[above] - its;
+        terms[2] = o[above - 1] - its;
+        terms[3] = o[above + 1] - its;
+        terms[4] = channel->others[k]->mean - its;
+    }
+}
+
+/* Left plus upper less upper left, but not beyond the first two. */
+static inline int64_t pack_fit_median(const int32_t *n, ptrdiff_t at, ptrdiff_t above)
+{
+    const int64_t left = n[at - 1], upper = n[above], corner = n[above - 1];
+    const int64_t low = left < upper ? left : upper, high = left < upper ? upper : left;
+    return corner >= high ? low : corner <= low ? high : left + upper - corner;
+}
+
+/* By `nweights` weights, which a caller that knows them makes faster; 0: by the median. */
+static inline int64_t pack_fit_guess_by(const PackFitChannel *channel, ptrdiff_t at, ptrdiff_t above, int nweights)
+{
+    int64_t terms[PACK_FIT_WEIGHTS], sum = 1 << (PACK_FIT_SHIFT - 1);
+    if (nweights == 0)
+        return pack_fit_median(channel->numbers, at, above);
+    pack_fit_terms(terms, channel, at, above, nweights);
+#pragma GCC unroll 14
+    for (int i = 0; i < nweights; i++)
+        sum += channel->weights[i] * terms[i];
+    return channel->numbers[at - 1] + (sum >> PACK_FIT_SHIFT);
+}
+
+static inline int64_t pack_fit_guess(const PackFitChannel *channel, ptrdiff_t at, ptrdiff_t above)
+{
+    return pack_fit_guess_by(channel, at, above, channel->by_fit ? channel->nweights : 0);
+}
+
+/* The margin that row y needs to be coded, of everything; what row y - 1 holds is final. */
+void pack_fit_begin_row(PackFitChannel *channel, int y);
+
+/* Choose weights, or the median, for numbers that are multiples of 2^shift; shifts may be NULL. */
+void pack_fit(PackFitChannel *channel, const unsigned char *shifts);
+
+#endif

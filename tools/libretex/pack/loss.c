@@ -1,0 +1,272 @@
+/* What a pack takes, and what it lost: see loss.h. Pictures are compared in codes of 16 bits, by whole numbers, so
+ * that sums do not depend on their order. */
+#include "pack/loss.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <retex/sample.h>
+
+#include "retexture/combine_rows.h"
+#include "set/manifest.h"
+#include "pack/bands.h"
+#include "set/rows.h"
+#include "set/parts.h"
+#include "picture/srgb_codes.h"
+
+/* --- bytes --- */
+
+const char *const retex_pack_group_names[RETEX_PACK_GROUPS] = {"picture", "radiance", "gains",     "uv",   "spread",
+                                                               "weights", "albedo",   "originals", "other"};
+
+static void assign(RetexPackGroup *groups, int part, RetexPackGroup group)
+{
+    if (part > 0)
+        groups[part] = group;
+}
+
+static void assign_all(RetexPackGroup *groups, const RetexSet *set)
+{
+    for (int i = 0; i < set->nparts; i++)
+        groups[i] = i ? RETEX_PACK_OTHER : RETEX_PACK_PICTURE;
+    for (int i = 0; i < set->nterms; i++) {
+        assign(groups, set->terms[i].radiance, RETEX_PACK_RADIANCE);
+        assign(groups, set->terms[i].gain, RETEX_PACK_GAINS);
+    }
+    for (int i = 0; i < set->nmixtures; i++)
+        for (int k = 0; k < set->mixtures[i].nshares; k++)
+            assign(groups, set->mixtures[i].shares[k].weight, RETEX_PACK_WEIGHTS);
+    for (int i = 0; i < set->nfootprints; i++) {
+        assign(groups, set->footprints[i].uv, RETEX_PACK_UV);
+        assign(groups, set->footprints[i].spread, RETEX_PACK_SPREAD);
+        assign(groups, set->footprints[i].albedo, RETEX_PACK_ALBEDO);
+    }
+    for (int i = 0; i < set->ntargets; i++)
+        assign(groups, set->targets[i].original, RETEX_PACK_ORIGINALS);
+}
+
+int retex_pack_bytes(uint64_t bytes[RETEX_PACK_GROUPS], const RetexSet *set)
+{
+    const RetexPack *pack = retex_pack_of(set);
+    RetexPackGroup groups[RETEX_SET_PARTS_MAX];
+    memset(bytes, 0, RETEX_PACK_GROUPS * sizeof *bytes);
+    if (!pack)
+        return 0;
+    assign_all(groups, set);
+    for (int i = 0; i < set->nparts; i++)
+        bytes[groups[i]] += retex_pack_part_bytes(pack, i);
+    return 1;
+}
+
+/* --- loss --- */
+
+/* For each picture its textures: none, white, smooth waves, and a chequerboard, which has the hardest edges. */
+enum { SIDE = 256, WAVES = 4, SQUARES = 16 };
+enum { ENOUGH_SAMPLES = 32 }; /* a pixel: of fewer less is promised */
+
+static const double CODE_MOST = 65535;
+static const double PSNR_MOST = 120;
+
+/* One picture of a set being made. */
+typedef struct Shot {
+    const RetexSet *set;
+    uint16_t *codes;   /* of all of it: to be filled in, or, with squares, to compare with */
+    uint64_t *squares; /* by band; NULL: nothing to compare with */
+    uint64_t *noise;   /* by band, of the set's own; NULL: not wanted */
+} Shot;
+
+static void paint(RetexImage *image, int picture)
+{
+    const double turn = 2 * acos(-1) * WAVES / SIDE;
+    for (int y = 0; y < image->height; y++)
+        for (int x = 0; x < image->width; x++) {
+            float *pixel = image->pixels + retex_image_index(image, x, y);
+            const int dark = (x * SQUARES / SIDE + y * SQUARES / SIDE) % 2;
+            for (int c = 0; c < 3; c++)
+                pixel[c] = picture == RETEX_PACK_LOSS_WHITE   ? 1
+                           : picture == RETEX_PACK_LOSS_WAVES ? (float)(0.5 + 0.4 * sin(turn * (x + c * y)))
+                           : dark                             ? 0
+                                                              : 1;
+        }
+}
+
+static uint64_t squares_between(const uint16_t *a, const uint16_t *b, size_t count)
+{
+    uint64_t sum = 0;
+    for (size_t i = 0; i < count; i++) {
+        const int64_t d = (int64_t)a[i] - b[i];
+        sum += (uint64_t)(d * d);
+    }
+    return sum;
+}
+
+/* Rows of the picture as they would be with the noise that denoising reads on top; that of targets by half, for they
+ * are divided so. */
+static int add_noise(float *rows, const RetexSet *set, int y0, int y1, RetexError *err)
+{
+    const size_t length = 3 * (size_t)set->width;
+    RowReader *reader;
+    int code = row_reader_open(&reader, set, NULL, err);
+    for (int i = 1; i < set->nparts; i++) {
+        const RetexPart *part = &set->parts[i];
+        const float share = strcmp(part->name, "noise_indep") == 0 ? 1 : 0.5f;
+        if (!part_is_denoise_data(set, i) || strncmp(part->name, "noise_", 6) != 0 || part->image.channels != 3)
+            continue;
+        for (int y = y0; y < y1 && !code; y++) {
+            const float *row;
+            code = row_reader_get(reader, i, y, &row, err);
+            for (size_t k = 0; k < length && !code && row; k++)
+                rows[(size_t)(y - y0) * length + k] += share * row[k];
+        }
+    }
+    row_reader_close(&reader);
+    return code;
+}
+
+static int take_rows(void *context, int y0, int y1, const float *rows, RetexError *err)
+{
+    const Shot *shot = context;
+    const size_t first = 3 * (size_t)shot->set->width * (size_t)y0;
+    const size_t count = 3 * (size_t)shot->set->width * (size_t)(y1 - y0);
+    const int band = y0 / RETEX_PICTURE_BAND;
+    if (!shot->squares)
+        retex_srgb_codes_16(shot->codes + first, rows, count);
+    if (!shot->squares && !shot->noise)
+        return RETEX_OK;
+    uint16_t *codes = malloc(count * sizeof *codes);
+    float *noisy = shot->noise ? malloc(count * sizeof *noisy) : NULL;
+    int code = codes && (noisy || !shot->noise) ? RETEX_OK : retex_fail(err, RETEX_ENOMEM, "no memory to compare rows");
+    if (!code && noisy) {
+        memcpy(noisy, rows, count * sizeof *noisy);
+        code = add_noise(noisy, shot->set, y0, y1, err);
+    }
+    if (!code)
+        retex_srgb_codes_16(codes, noisy ? noisy : rows, count);
+    if (!code)
+        (noisy ? shot->noise : shot->squares)[band] = squares_between(codes, shot->codes + first, count);
+    free(codes);
+    free(noisy);
+    return code;
+}
+
+/* A picture of a set, with one of the trials' textures on all of its targets. */
+static int take(const Shot *shot, int picture, int nthreads, RetexError *err)
+{
+    RetexTexture *texture = NULL, *textures[RETEX_MAX_TARGETS] = {NULL};
+    RetexImage painted = {0};
+    Shot own = *shot;
+    int code = RETEX_OK;
+    if (picture != RETEX_PACK_LOSS_ORIGINAL) {
+        const int side = picture == RETEX_PACK_LOSS_WHITE ? 1 : SIDE;
+        code = retex_image_alloc(&painted, side, side, 3, err);
+        if (!code) {
+            paint(&painted, picture);
+            code = retex_texture_create(&texture, &painted, NULL, err);
+        }
+    }
+    for (int i = 0; i < shot->set->ntargets; i++)
+        textures[i] = texture;
+    if (!code)
+        code = retex_retexture(shot->set, NULL, textures, NULL, take_rows, &own, nthreads, err);
+    retex_texture_close(&texture);
+    retex_image_free(&painted);
+    return code;
+}
+
+static int bands_of(const RetexSet *set)
+{
+    return (set->height + RETEX_PICTURE_BAND - 1) / RETEX_PICTURE_BAND;
+}
+
+/* Mean square, of display values of 0 to 1. */
+static double mean_of(const uint64_t *squares, const RetexSet *set)
+{
+    uint64_t sum = 0;
+    for (int i = 0; i < bands_of(set); i++)
+        sum += squares[i];
+    return (double)sum / (3.0 * set->width * set->height) / (CODE_MOST * CODE_MOST);
+}
+
+static double psnr_of(double square)
+{
+    return fmin(square > 0 ? -10 * log10(square) : PSNR_MOST, PSNR_MOST);
+}
+
+void pack_judge_close(PackJudge *judge)
+{
+    for (int k = 0; k < RETEX_PACK_LOSSES; k++)
+        free(judge->codes[k]);
+    free(judge->squares);
+    *judge = (PackJudge){0};
+}
+
+int pack_judge_open(PackJudge *judge, const RetexSet *set, unsigned pictures, int nthreads, RetexError *err)
+{
+    const size_t count = 3 * (size_t)set->width * (size_t)set->height;
+    int code = RETEX_OK;
+    *judge = (PackJudge){.set = set, .squares = calloc((size_t)bands_of(set) + 1, sizeof *judge->squares)};
+    if (!judge->squares)
+        return retex_fail(err, RETEX_ENOMEM, "no memory to compare pictures");
+    for (int k = 0; k < RETEX_PACK_LOSSES && !code; k++) {
+        const int noise = k == RETEX_PACK_LOSS_ORIGINAL && !set->denoised;
+        if (!(pictures & 1u << k))
+            continue;
+        judge->codes[k] = malloc(count * sizeof *judge->codes[k]);
+        const Shot shot = {set, judge->codes[k], NULL, noise ? judge->squares : NULL};
+        code = judge->codes[k] ? take(&shot, k, nthreads, err)
+                               : retex_fail(err, RETEX_ENOMEM, "no memory to compare pictures");
+        if (!code && noise)
+            judge->noise = mean_of(judge->squares, set);
+    }
+    if (code)
+        pack_judge_close(judge);
+    return code;
+}
+
+int pack_judge_read(double psnr[RETEX_PACK_LOSSES], const PackJudge *judge, const RetexSet *pack, int nthreads,
+                    RetexError *err)
+{
+    const RetexSet *set = judge->set;
+    if (pack->width != set->width || pack->height != set->height || pack->ntargets != set->ntargets)
+        return retex_fail(err, RETEX_EINVAL, "the pack is of another set");
+    for (int k = 0; k < RETEX_PACK_LOSSES; k++) {
+        const Shot shot = {pack, judge->codes[k], judge->squares, NULL};
+        psnr[k] = PSNR_MOST;
+        if (!shot.codes)
+            continue;
+        int code = take(&shot, k, nthreads, err);
+        if (code)
+            return code;
+        psnr[k] = psnr_of(mean_of(judge->squares, set));
+    }
+    return RETEX_OK;
+}
+
+double pack_worst(const double psnr[RETEX_PACK_LOSSES])
+{
+    double worst = psnr[0];
+    for (int k = 1; k < RETEX_PACK_LOSSES; k++)
+        worst = fmin(worst, psnr[k]);
+    return worst;
+}
+
+/* --- the promise --- */
+
+double pack_promise(int quality, int spp, double noise)
+{
+    const double few = spp > 0 ? fmax(10 * log10((double)ENOUGH_SAMPLES / spp), 0) : 0;
+    const double psnr = 25 + 0.1 * quality + 1.5 * fmax(quality - 90, 0) - few * fmin((100 - quality) / 10.0, 1);
+    return psnr_of(fmax(pow(10, -psnr / 10), (100 - quality) / 100.0 * noise));
+}
+
+int retex_pack_loss(double psnr[RETEX_PACK_LOSSES], const RetexSet *pack, const RetexSet *set, int nthreads,
+                    RetexError *err)
+{
+    PackJudge judge;
+    int code = pack_judge_open(&judge, set, PACK_ALL_PICTURES, nthreads, err);
+    if (!code)
+        code = pack_judge_read(psnr, &judge, pack, nthreads, err);
+    pack_judge_close(&judge);
+    return code;
+}

@@ -1,0 +1,109 @@
+/* What the numbers of planes stand for. See planes.h. */
+#include <math.h>
+#include <string.h>
+
+#include "base/half.h"
+#include "pack/planes.h"
+
+const char *const pack_map_names[PACK_MAPS] = {"bits", "lattice", "log", "linear", "angle"};
+
+int pack_map_is_coded(const PackMap *map)
+{
+    return map->kind >= PACK_MAP_LOG;
+}
+
+void pack_map_fill(PackMap *map)
+{
+    for (int c = 0; c < PACK_CODES && pack_map_is_coded(map); c++) {
+        double value = c * map->first;
+        if (map->kind == PACK_MAP_LOG)
+            value = c ? map->first * exp2((double)(c - 1) / map->per_octave) : 0;
+        else if (map->kind == PACK_MAP_ANGLE)
+            value = sin(fmin(fmax((double)(c - 128) / map->per_octave, -1), 1) * acos(-1) / 2);
+        map->value[c] = (float)value;
+    }
+}
+
+static int32_t code_of(float sample, const PackMap *map)
+{
+    const double v = (double)sample;
+    if (map->kind == PACK_MAP_LINEAR)
+        return (int32_t)fmin(fmax(rint(v / map->first), v > 0), PACK_CODES - 1);
+    if (map->kind == PACK_MAP_ANGLE)
+        return 128 + (int32_t)rint(asin(fmin(fmax(v, -1), 1)) * 2 / acos(-1) * map->per_octave);
+    if (!(v > 0))
+        return 0;
+    return 1 + (int32_t)fmin(fmax(rint(log2(v / map->first) * map->per_octave), 0), PACK_CODES - 2);
+}
+
+/* Bits such that a larger value has a larger number, and -0 lies just below 0. */
+static int32_t ordered(uint32_t bits, int width)
+{
+    const uint32_t sign = 1u << (width - 1);
+    return bits & sign ? -(int32_t)(bits ^ sign) - 1 : (int32_t)bits;
+}
+
+static uint32_t unordered(int32_t number, int width)
+{
+    return number < 0 ? (uint32_t)(-(number + 1)) | 1u << (width - 1) : (uint32_t)number;
+}
+
+enum { HALVES = 256 }; /* converted at a time */
+
+void pack_map_numbers(int32_t *numbers, const float *samples, size_t stride, size_t count, const PackMap *map,
+                      RetexPixelType type)
+{
+    uint16_t halves[HALVES];
+    float run[HALVES];
+    for (size_t begin = 0; begin < count; begin += HALVES) {
+        const size_t n = count - begin < HALVES ? count - begin : HALVES;
+        for (size_t i = 0; i < n; i++)
+            run[i] = samples[(begin + i) * stride];
+        if (map->kind == PACK_MAP_BITS && type == RETEX_HALF)
+            retex_half_from_float(halves, run, n);
+        for (size_t i = 0; i < n; i++) {
+            uint32_t bits;
+            memcpy(&bits, &run[i], sizeof bits);
+            numbers[begin + i] = map->kind == PACK_MAP_LATTICE
+                                     ? (int32_t)lrint(ldexp((double)run[i], PACK_LATTICE_BITS))
+                                 : map->kind != PACK_MAP_BITS ? code_of(run[i], map)
+                                 : type == RETEX_HALF         ? ordered(halves[i], 16)
+                                                              : ordered(bits, 32);
+        }
+    }
+}
+
+void pack_map_samples(float *samples, size_t stride, const int32_t *numbers, size_t count, const PackMap *map,
+                      RetexPixelType type)
+{
+    uint16_t halves[HALVES];
+    float run[HALVES];
+    const float lattice = 1.0f / (1 << PACK_LATTICE_BITS);
+    if (map->kind == PACK_MAP_LATTICE) {
+        for (size_t i = 0; i < count; i++)
+            samples[i * stride] = (float)numbers[i] * lattice;
+    } else if (map->kind != PACK_MAP_BITS) {
+        for (size_t i = 0; i < count; i++)
+            samples[i * stride] = map->value[numbers[i] & (PACK_CODES - 1)];
+    } else if (type == RETEX_FLOAT) {
+        for (size_t i = 0; i < count; i++) {
+            const uint32_t bits = unordered(numbers[i], 32);
+            memcpy(&samples[i * stride], &bits, sizeof bits);
+        }
+    } else {
+        for (size_t begin = 0; begin < count; begin += HALVES) {
+            const size_t n = count - begin < HALVES ? count - begin : HALVES;
+            for (size_t i = 0; i < n; i++)
+                halves[i] = (uint16_t)unordered(numbers[begin + i], 16);
+            retex_half_to_float(run, halves, n);
+            for (size_t i = 0; i < n; i++)
+                samples[(begin + i) * stride] = run[i];
+        }
+    }
+}
+
+void pack_map_codes(float *samples, size_t stride, const unsigned char *codes, size_t count, const PackMap *map)
+{
+    for (size_t i = 0; i < count; i++)
+        samples[i * stride] = map->value[codes[i]];
+}

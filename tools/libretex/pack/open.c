@@ -1,0 +1,311 @@
+/* Opening packs, as the source of a set that is read as it is asked for. Nothing in a pack is believed: every entry
+ * must be one that the manifest asks for and as long as the index says, and no memory is taken that its bytes could
+ * not fill. */
+#include "pack/open.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "io/checksum.h"
+#include "exr/io.h"
+#include "set/manifest.h"
+#include "base/numbers.h"
+#include "pack/v1.h"
+
+int pack_damaged(RetexError *err, const char *what, const char *name)
+{
+    return retex_fail(err, RETEX_EFORMAT, "the pack is damaged: %s '%s'", what, name);
+}
+
+void retex_pack_close(RetexPack **result)
+{
+    RetexPack *pack = result ? *result : NULL;
+    if (!pack)
+        return;
+    for (int i = 0; pack->parts && i < pack->nparts; i++)
+        pack_part_free(&pack->parts[i]);
+    free(pack->parts);
+    zip_list_free(&pack->entries);
+    retex_input_close(&pack->input);
+    free(pack);
+    *result = NULL;
+}
+
+/* --- opening --- */
+
+/* An entry whole, its checksum compared, with a NUL behind it. */
+static int read_entry(const RetexPack *pack, const char *name, uint64_t most, unsigned char **data, size_t *bytes,
+                      RetexError *err)
+{
+    const ZipEntry *entry = zip_list_find(&pack->entries, name);
+    *data = NULL;
+    if (!entry)
+        return pack_damaged(err, "it lacks", name);
+    *data = entry->bytes <= most ? malloc((size_t)entry->bytes + 1) : NULL;
+    if (!*data)
+        return retex_fail(err, RETEX_ENOMEM, "no memory to read a pack");
+    *bytes = (size_t)entry->bytes;
+    (*data)[*bytes] = 0;
+    if (retex_input_read(pack->input, *data, *bytes, entry->offset) == (int64_t)*bytes &&
+        retex_crc32(CRC32_OF_NONE, *data, *bytes) == entry->crc)
+        return 0;
+    free(*data);
+    *data = NULL;
+    return retex_input_check(pack->input, pack_damaged(err, "the checksum is wrong of", name), err);
+}
+
+static uint32_t little(const unsigned char *at)
+{
+    return at[0] | (uint32_t)at[1] << 8 | (uint32_t)at[2] << 16 | (uint32_t)at[3] << 24;
+}
+
+/* Places of chunks first..first+count of a part, which are one entry of the zip. *used counts entries. */
+static int place_chunks(RetexPack *pack, int part, int planes, int first, int count, int *used, RetexError *err)
+{
+    PackPart *p = &pack->parts[part];
+    char name[PACK_NAME_MAX];
+    uint64_t total = 0;
+    for (int i = first; i < first + count; i++)
+        total += p->bytes[i];
+    pack_file_name(name, sizeof name, pack->set, part, planes);
+    const ZipEntry *entry = zip_list_find(&pack->entries, name);
+    if ((!entry && total > 0) || (entry && entry->bytes != total))
+        return pack_damaged(err, entry ? "the index does not fit" : "it lacks", name);
+    *used += entry != NULL;
+    total = entry ? entry->offset : 0;
+    for (int i = first; i < first + count; i++) {
+        p->offsets[i] = total;
+        total += p->bytes[i];
+    }
+    return 0;
+}
+
+static int read_index(RetexPack *pack, RetexError *err)
+{
+    unsigned char *index;
+    size_t bytes, expected = 0, at = 0;
+    for (int i = 0; i < pack->nparts; i++)
+        expected += (size_t)pack->parts[i].nchunks * PACK_INDEX_ENTRY;
+    int code = read_entry(pack, PACK_INDEX, expected, &index, &bytes, err), used = 2;
+    if (!code && bytes != expected)
+        code = pack_damaged(err, "the size is wrong of", PACK_INDEX);
+    for (int i = 0; !code && i < pack->nparts; i++) {
+        PackPart *p = &pack->parts[i];
+        p->offsets = calloc((size_t)p->nchunks + 1, sizeof *p->offsets);
+        if (!p->offsets)
+            code = retex_fail(err, RETEX_ENOMEM, "no memory to read a pack");
+        for (int k = 0; !code && k < p->nchunks; k++, at += PACK_INDEX_ENTRY) {
+            p->bytes[k] = little(index + at);
+            p->crcs[k] = little(index + at + 4);
+        }
+        const int jpeg = p->codec == PACK_JPEG ? 1 + p->nbands : 0;
+        if (!code && jpeg)
+            code = place_chunks(pack, i, 0, 0, jpeg, &used, err);
+        if (!code && p->nchunks > jpeg)
+            code = place_chunks(pack, i, 1, jpeg, p->nchunks - jpeg, &used, err);
+    }
+    free(index);
+    if (!code && pack->parts[0].codec != PACK_JPEG) /* a lossless pack's picture is for viewers only */
+        used += zip_list_find(&pack->entries, PACK_PICTURE) != NULL;
+    if (!code && used != pack->entries.count)
+        code = retex_fail(err, RETEX_EFORMAT, "the pack is damaged: it has entries that its manifest does not know");
+    return code;
+}
+
+/* What the parts will need in memory, and what could be behind that at most: a chunk of a few bytes holds a band. */
+static int check_sizes(const RetexPack *pack, RetexError *err)
+{
+    uint64_t memory = 0, chunks = 0;
+    for (int i = 0; i < pack->nparts; i++) {
+        const PackPart *p = &pack->parts[i];
+        memory += (uint64_t)p->width * (uint64_t)p->height * (uint64_t)p->channels * sizeof(float);
+        chunks += (uint64_t)p->nchunks;
+    }
+    if (memory > RETEX_EXR_MEMORY_MAX)
+        return retex_fail(err, RETEX_ELIMIT, "the pack's images are too large");
+    if (chunks * PACK_INDEX_ENTRY > retex_input_size(pack->input))
+        return retex_fail(err, RETEX_EFORMAT, "the pack is damaged: it is too small for what it should hold");
+    return 0;
+}
+
+/* The set that the manifest describes, its parts without pixels. */
+static int read_set(RetexSet **set, const char *manifest, RetexError *err)
+{
+    RetexSamples *samples = NULL;
+    RetexSamplePart *names = NULL;
+    int code = retex_manifest_read(manifest, "the pack", set, &samples, &names, NULL, err);
+    free(names);
+    retex_samples_close(&samples);
+    if (!code && !*set)
+        code = retex_fail(err, RETEX_EFORMAT, "the pack is damaged: its manifest describes no set");
+    return code;
+}
+
+static int open_version_2(RetexPack *pack, RetexSet *set, const char *manifest, RetexError *err)
+{
+    pack->set = set;
+    pack->nparts = set->nparts;
+    pack->parts = calloc((size_t)set->nparts + 1, sizeof *pack->parts);
+    int code = pack->parts ? pack_understand(pack->parts, set, manifest, err)
+                           : retex_fail(err, RETEX_ENOMEM, "no memory to read a pack");
+    if (!code)
+        code = check_sizes(pack, err);
+    return code ? code : read_index(pack, err);
+}
+
+static int open_pack(RetexPack *pack, RetexSet **set, int nthreads, RetexError *err)
+{
+    unsigned char *manifest = NULL;
+    size_t bytes;
+    int code = zip_list_read(&pack->entries, pack->input, err);
+    if (!code)
+        code = read_entry(pack, PACK_MANIFEST, PACK_MANIFEST_MAX, &manifest, &bytes, err);
+    if (!code && strlen((char *)manifest) != bytes)
+        code = pack_damaged(err, "no text is in", PACK_MANIFEST);
+    if (!code)
+        code = read_set(set, (char *)manifest, err);
+    const int version = code ? 0 : pack_version_of((char *)manifest);
+    if (!code && version == 0)
+        code = retex_fail(err, RETEX_EFORMAT, "the pack is damaged: its manifest does not say how parts are packed");
+    else if (!code && version > PACK_VERSION)
+        code = retex_fail(err, RETEX_EUNSUPPORTED, "the pack has version %d; this program reads up to %d", version,
+                          PACK_VERSION);
+    else if (!code && version == 1)
+        code = pack_v1_read(*set, pack->input, &pack->entries, (char *)manifest, nthreads, err);
+    else if (!code)
+        code = open_version_2(pack, *set, (char *)manifest, err);
+    pack->says_kept = !code && pack_kept_of(&pack->kept, (char *)manifest);
+    free(manifest);
+    return code ? code : version;
+}
+
+int retex_pack_kept(RetexPackKept *kept, const RetexSet *set)
+{
+    const RetexPack *pack = retex_pack_of(set);
+    if (!pack || !pack->says_kept)
+        return 0;
+    *kept = pack->kept;
+    return 1;
+}
+
+/* --- as the source of a set's parts --- */
+
+static void source_close(RetexSetSource *source)
+{
+    RetexPack *pack = (RetexPack *)(void *)source;
+    retex_pack_close(&pack);
+}
+
+static int reader_open(RetexSetSource *source, void **reader, RetexError *err)
+{
+    RetexPackScratch *scratch = NULL;
+    int code = retex_pack_scratch_create(&scratch, (const RetexPack *)(const void *)source, err);
+    *reader = scratch;
+    return code;
+}
+
+static void reader_close(void *reader)
+{
+    RetexPackScratch *scratch = reader;
+    retex_pack_scratch_close(&scratch);
+}
+
+static int read_row(void *reader, int part, int y, const float **row, RowSpan *span, RetexError *err)
+{
+    RetexPackScratch *scratch = reader;
+    const RetexPack *pack = pack_decoded_by(scratch);
+    int code = retex_pack_row(scratch, part, y, row, span, err);
+    if (!code && *row)
+        code = retex_numbers_check_row(&pack->set->parts[part], *row, span->begin, span->end, y, err);
+    if (code && err && !err->file[0])
+        snprintf(err->file, sizeof err->file, "%s", retex_input_name(pack->input));
+    return code;
+}
+
+static const RetexSetSource pack_methods = {source_close, reader_open, reader_close, read_row};
+
+RetexPack *retex_pack_of(const RetexSet *set)
+{
+    return set->source && set->source->close == source_close ? (RetexPack *)(void *)set->source : NULL;
+}
+
+int retex_pack_open(RetexSet **set, RetexInput **input, int nthreads, RetexError *err)
+{
+    RetexPack *pack = calloc(1, sizeof *pack);
+    *set = NULL;
+    if (!pack)
+        return retex_fail(err, RETEX_ENOMEM, "no memory to read a pack");
+    pack->input = *input;
+    *input = NULL;
+    const int version = retex_input_check(pack->input, open_pack(pack, set, nthreads, err), err);
+    if (version == PACK_VERSION) {
+        pack->methods = pack_methods;
+        (*set)->source = &pack->methods;
+        return 0;
+    }
+    if (version < 0 && err)
+        snprintf(err->file, sizeof err->file, "%s", retex_input_name(pack->input));
+    retex_pack_close(&pack);
+    if (version < 0)
+        retex_set_close(set);
+    return version < 0 ? version : 0;
+}
+
+uint64_t retex_pack_part_bytes(const RetexPack *pack, int part)
+{
+    uint64_t bytes = 0;
+    for (int i = 0; i < pack->parts[part].nchunks; i++)
+        bytes += pack->parts[part].bytes[i];
+    return bytes;
+}
+
+const char *retex_pack_part_codec(const RetexPack *pack, int part)
+{
+    return pack_codec_names[pack->parts[part].codec];
+}
+
+/* --- all of it --- */
+
+/* Every byte of every entry, whether the index knows it or not. */
+static int verify_entries(const RetexPack *pack, RetexError *err)
+{
+    int code = 0;
+    for (int i = 0; !code && i < pack->entries.count; i++) {
+        unsigned char *data;
+        size_t bytes;
+        code = read_entry(pack, pack->entries.entries[i].name, UINT64_MAX, &data, &bytes, err);
+        free(data);
+    }
+    return code;
+}
+
+static int keeps_bits(const PackPart *p)
+{
+    int exact = p->codec != PACK_JPEG;
+    for (int c = 0; p->codec == PACK_PLANES && c < p->channels; c++)
+        exact = exact && p->maps[c].kind == PACK_MAP_BITS;
+    return exact;
+}
+
+int retex_pack_verify(RetexSet *set, int nthreads, RetexError *err)
+{
+    RetexPack *pack = retex_pack_of(set);
+    if (!pack) /* version 1: opening it was checking it */
+        return 0;
+    char *exact = malloc((size_t)set->nparts + 1);
+    int code = exact ? verify_entries(pack, err) : retex_fail(err, RETEX_ENOMEM, "no memory to check a pack");
+    for (int i = 0; !code && i < set->nparts; i++)
+        exact[i] = (char)keeps_bits(&pack->parts[i]);
+    if (!code)
+        code = retex_set_load(set, nthreads, err);
+    for (int i = 0; !code && i < set->nparts; i++) {
+        uint32_t crc = set->parts[i].crc;
+        if (exact[i])
+            code = pack_samples_crc(&crc, &set->parts[i], err);
+        if (!code && crc != set->parts[i].crc)
+            code = pack_damaged(err, "the checksum is wrong of part", set->parts[i].name);
+    }
+    free(exact);
+    return code;
+}

@@ -1,0 +1,24 @@
+/* An open pack, inside: its entries and where its chunks are. Private to what opens and decodes packs. */
+#ifndef RETEX_PACK_OPEN_H
+#define RETEX_PACK_OPEN_H
+
+#include "pack/bands.h"
+#include "pack/format.h"
+#include "pack/zip.h"
+#include "set/source.h"
+
+struct RetexPack {
+    RetexSetSource methods; /* first */
+    RetexInput *input;
+    ZipList entries;
+    PackPart *parts;
+    const RetexSet *set; /* that owns it */
+    int nparts;
+    int says_kept;
+    RetexPackKept kept;
+};
+
+int pack_damaged(RetexError *err, const char *what, const char *name);
+const RetexPack *pack_decoded_by(const RetexPackScratch *scratch);
+
+#endif

@@ -1,0 +1,423 @@
+/* Which part is packed how: by who refers to it, and by what its values allow. See plan.h. */
+#include "pack/plan.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <retex/parallel.h>
+
+#include "compact/light.h"
+#include "compact/image_noise.h"
+
+#define FINE_NOISE 3     /* light's step is at most so many times its noise, */
+#define FINER_MOST 4     /* but this share of the quality's; */
+#define COARSE_NOISE 0.5 /* and at least so many times its noise, */
+#define COARSER_MOST 3   /* but not more than so many times the quality's */
+#define BRIGHTER_MOST 4  /* times white that of light may be */
+#define GAIN_STEP 2.5    /* of gains, of which many are added up, in that of their light, */
+#define GAIN_FINER 1.5   /* or, where there is little noise, so many of these at least, */
+#define GAIN_NOISE 0.8   /* and so many times the noise: a twentieth of it, squared, comes to it */
+
+double pack_quality_psnr(double quality)
+{
+    return 20 + 0.4 * quality;
+}
+
+PackGrain pack_grain(double psnr)
+{
+    const double error = 255 * pow(10, -psnr / 20);                         /* levels */
+    const int fine = psnr >= 50, times = psnr > 58 ? 4 : psnr > 56 ? 2 : 1; /* above the default */
+    return (PackGrain){.jpeg_step = 1.8 * error,
+                       .original_step = 3.6 * error,
+                       .picture_step = fmax(14 * error, 5),
+                       .sharp = {4 * times, fine ? 8 : 4, fine ? 32 : 16},
+                       .broad = {2 * times, times > 1 ? 8 : 2, times > 1 ? 32 : 4},
+                       .weight_steps = times > 2 ? 255 : 64 * times,
+                       .coarser_most = times > 1 ? 1 : COARSER_MOST,
+                       .gain_noise = times > 2 ? 0 : GAIN_NOISE};
+}
+
+typedef enum Role {
+    ROLE_NONE,
+    ROLE_EXACT,
+    ROLE_LIGHT,
+    ROLE_ALBEDO,
+    ROLE_ORIGINAL,
+    ROLE_GAIN,
+    ROLE_MEAN,
+    ROLE_SPREAD,
+    ROLE_WEIGHT
+} Role;
+
+/* What a part's samples are like. */
+typedef struct Range {
+    int all_zero, positive; /* positive: finite and not negative */
+    float most, most_size;  /* the largest, and the largest magnitude */
+} Range;
+
+typedef struct Planning {
+    double white;   /* level 255 of light that no texture multiplies, at least, */
+    double *whites; /* and of each part of light */
+    PackPart *packed;
+    const RetexSet *set;
+    const PackGrain *grain;
+    Role *roles;
+    int *means; /* of a spread: its part of means */
+    Range (*ranges)[PACK_CHANNELS_MAX];
+    double *noise; /* of light, in levels; -1 where there was no memory for it */
+} Planning;
+
+/* --- roles --- */
+
+/* A part that two things of different kinds refer to keeps its bits. */
+static void give_role(Planning *plan, int part, Role role)
+{
+    if (part >= 0)
+        plan->roles[part] = plan->roles[part] == ROLE_NONE || plan->roles[part] == role ? role : ROLE_EXACT;
+}
+
+static void give_footprint_roles(Planning *plan, const RetexFootprint *f)
+{
+    const RetexSet *set = plan->set;
+    give_role(plan, f->albedo, ROLE_ALBEDO);
+    if (f->uv < 0 || f->spread < 0) {
+        give_role(plan, f->uv, ROLE_EXACT);
+        give_role(plan, f->spread, ROLE_EXACT);
+        return;
+    }
+    const RetexPart *uv = &set->parts[f->uv], *spread = &set->parts[f->spread];
+    const int apart = plan->roles[f->spread] != ROLE_NONE && plan->means[f->spread] != f->uv;
+    const int fit = uv->image.channels == 3 && spread->image.channels >= 2 && spread->image.channels <= 3 &&
+                    uv->image.width == spread->image.width && uv->image.height == spread->image.height && !apart &&
+                    (plan->roles[f->uv] == ROLE_NONE || plan->means[f->spread] == f->uv);
+    give_role(plan, f->uv, fit ? ROLE_MEAN : ROLE_EXACT);
+    give_role(plan, f->spread, fit ? ROLE_SPREAD : ROLE_EXACT);
+    plan->means[f->spread] = f->uv;
+}
+
+static void give_roles(Planning *plan)
+{
+    const RetexSet *set = plan->set;
+    for (int i = 0; i < set->nterms; i++) {
+        give_role(plan, set->terms[i].radiance, ROLE_LIGHT);
+        if (set->terms[i].gain)
+            give_role(plan, set->terms[i].gain, ROLE_GAIN);
+    }
+    for (int i = 0; i < set->ntargets; i++)
+        give_role(plan, set->targets[i].original, ROLE_ORIGINAL);
+    for (int i = 0; i < set->nmixtures; i++)
+        for (int k = 0; k < set->mixtures[i].nshares; k++)
+            give_role(plan, set->mixtures[i].shares[k].weight, ROLE_WEIGHT);
+    for (int i = 0; i < set->nfootprints; i++)
+        give_footprint_roles(plan, &set->footprints[i]);
+    give_role(plan, 0, ROLE_LIGHT);
+}
+
+/* --- what samples are like --- */
+
+static void find_ranges(void *context, int part, int thread)
+{
+    Planning *plan = context;
+    const RetexImage *im = &plan->set->parts[part].image;
+    (void)thread;
+    for (int c = 0; c < im->channels && c < PACK_CHANNELS_MAX; c++) {
+        Range range = {1, 1, 0, 0};
+        for (size_t i = 0; i < (size_t)im->width * (size_t)im->height; i++) {
+            const float v = im->pixels[i * (size_t)im->channels + (size_t)c];
+            range.all_zero = range.all_zero && v == 0 && !signbit(v);
+            range.positive = range.positive && v >= 0 && isfinite(v);
+            range.most = fmaxf(range.most, v);
+            range.most_size = isfinite(v) ? fmaxf(range.most_size, fabsf(v)) : INFINITY;
+        }
+        plan->ranges[part][c] = range;
+    }
+}
+
+/* Light that textures darken may be brighter than white and yet not be clipped: the value that little of it exceeds,
+ * for above white steps are twice as coarse. */
+static double white_of(const Planning *plan, int part)
+{
+    const RetexSet *set = plan->set;
+    const RetexImage *im = &set->parts[part].image;
+    double count = 0, sum = 0, squares = 0;
+    int darkened = part > 0;
+    for (int i = 0; i < set->nterms; i++)
+        darkened = darkened && (set->terms[i].radiance != part || set->terms[i].nfactors > 0);
+    for (size_t i = 0; darkened && i < (size_t)im->width * (size_t)im->height * (size_t)im->channels; i++) {
+        const double v = (double)im->pixels[i];
+        if (!(v > 0) || !isfinite(v))
+            continue;
+        count++, sum += v, squares += v * v;
+    }
+    const double mean = count > 0 ? sum / count : 0;
+    const double deviation = count > 0 ? sqrt(fmax(squares / count - mean * mean, 0)) : 0;
+    return fmin(fmax(mean + 2 * deviation, plan->white), BRIGHTER_MOST * plan->white);
+}
+
+static void find_noise(void *context, int part, int thread)
+{
+    Planning *plan = context;
+    const RetexImage *im = &plan->set->parts[part].image;
+    const size_t count = (size_t)im->width * (size_t)im->height * (size_t)im->channels;
+    RetexImage levels = {0};
+    (void)thread;
+    plan->whites[part] = plan->white;
+    if (plan->roles[part] != ROLE_LIGHT || part == 0)
+        return;
+    plan->whites[part] = white_of(plan, part);
+    plan->noise[part] = -1;
+    const PackCurve curve = {.white = plan->whites[part], .levels = 255};
+    if (retex_image_alloc(&levels, im->width, im->height, im->channels, NULL))
+        return;
+    for (size_t i = 0; i < count; i++)
+        levels.pixels[i] = (float)pack_curve_level(&curve, (double)im->pixels[i]);
+    plan->noise[part] = image_noise(&levels, 1);
+    retex_image_free(&levels);
+}
+
+static int all_positive(const Planning *plan, int part)
+{
+    int positive = 1;
+    for (int c = 0; c < plan->set->parts[part].image.channels; c++)
+        positive = positive && plan->ranges[part][c].positive;
+    return positive;
+}
+
+/* --- codecs --- */
+
+/* Codes of equal ratios, of which the highest is the largest value. */
+static void map_log(PackMap *map, const Range *range, int per_octave)
+{
+    map->kind = PACK_MAP_LOG;
+    map->per_octave = per_octave;
+    map->first = range->most > 0 ? (double)range->most * exp2(-(double)(PACK_CODES - 2) / per_octave) : 1;
+    pack_map_fill(map);
+}
+
+/* As JPEG, where that can hold it; `white` as level `levels`, `step` apart. */
+static void plan_light(Planning *plan, int part, double white, double step)
+{
+    PackPart *p = &plan->packed[part];
+    const int fits =
+        (p->channels == 1 || p->channels == 3) && p->width <= PACK_JPEG_SIDE_MAX && p->height <= PACK_JPEG_SIDE_MAX;
+    if (!fits || !all_positive(plan, part))
+        return;
+    p->codec = PACK_JPEG;
+    p->curve.white = white;
+    /* steps below 1 there are none: more levels instead, of which viewers show the lower ones */
+    p->curve.levels = rint(fmin(fmax(255 / step, 255), PACK_LEVELS_MOST));
+    p->jpeg_step = fmax(step, 1);
+}
+
+/* The value that light's levels call white: 1, unless the picture is far too dark or too bright for that. */
+static double choose_white(const RetexImage *picture)
+{
+    const size_t count = (size_t)picture->width * (size_t)picture->height * (size_t)picture->channels;
+    double sum = 0;
+    for (size_t i = 0; i < count; i++)
+        sum += isfinite(picture->pixels[i]) ? fmax((double)picture->pixels[i], 0) : 0;
+    const double mean = sum / (double)count;
+    return !(mean > 0) || (mean >= 0.02 && mean <= 1) ? 1 : mean > 1 ? mean : 50 * mean;
+}
+
+static void plan_weight(Planning *plan, int part)
+{
+    PackPart *p = &plan->packed[part];
+    if (!all_positive(plan, part))
+        return;
+    for (int c = 0; c < p->channels; c++) {
+        const float most = plan->ranges[part][c].most;
+        p->maps[c].kind = PACK_MAP_LINEAR;
+        p->maps[c].first = most > 0 ? (double)most / plan->grain->weight_steps : 1;
+        pack_map_fill(&p->maps[c]);
+    }
+}
+
+/* The step of light: by quality, but finer where there is nearly no noise, which costs little then, and coarser where
+ * there is so much that nothing can be seen of it. */
+static double light_step(const Planning *plan, int part)
+{
+    const double step = plan->grain->jpeg_step / pow(plan->whites[part] / plan->white, 1 / 2.4); /* as sRGB has them */
+    const double noise = plan->noise[part];
+    if (FINE_NOISE * noise < step)
+        return fmax(FINE_NOISE * noise, step / FINER_MOST);
+    return fmax(step, fmin(COARSE_NOISE * noise, plan->grain->coarser_most * step));
+}
+
+static double gain_step(const Planning *plan, int radiance)
+{
+    const double step = light_step(plan, radiance);
+    const double noise = plan->noise[radiance] * (plan->set->denoised ? DENOISED_NOISE : 1);
+    return fmin(GAIN_STEP * step, fmax(GAIN_FINER * step, plan->grain->gain_noise * noise));
+}
+
+/* Gains say what share of the light is theirs were the texture of all further hits COMPACT_GREY: white is all of it. */
+static void plan_gain(Planning *plan, int part)
+{
+    const RetexSet *set = plan->set;
+    int most = 1, radiance = 0;
+    for (int i = 0; i < set->nterms; i++)
+        if (set->terms[i].gain == part && set->terms[i].nfactors >= most)
+            most = set->terms[i].nfactors, radiance = set->terms[i].radiance;
+    plan_light(plan, part, pow((double)COMPACT_GREY, 1 - most), gain_step(plan, radiance));
+}
+
+/* Means on lattices, standard deviations and coverage by their logarithm; where coverage is 0, nothing. */
+static void plan_footprint(Planning *plan, int uv, int spread, const PackFootprintGrain *grain)
+{
+    PackPart *p = &plan->packed[uv], *s = &plan->packed[spread];
+    const Range *of_uv = plan->ranges[uv], *of_spread = plan->ranges[spread];
+    const float farthest = 1 << (30 - PACK_LATTICE_BITS);
+    if (plan->roles[uv] != ROLE_MEAN || plan->roles[spread] != ROLE_SPREAD || of_uv[0].most_size >= farthest ||
+        of_uv[1].most_size >= farthest || !of_uv[2].positive || !of_spread[0].positive || !of_spread[1].positive ||
+        (s->channels == 3 && isinf(of_spread[2].most_size)))
+        return;
+    p->present = s->present = uv;
+    p->sigma = spread;
+    map_log(&p->maps[2], &of_uv[2], 2);
+    Range both = of_spread[0]; /* one scale for both, as one offset serves both */
+    both.most = fmaxf(of_spread[0].most, of_spread[1].most);
+    for (int c = 0; c < 2; c++) {
+        p->maps[c].kind = PACK_MAP_LATTICE;
+        map_log(&s->maps[c], &both, grain->per_octave);
+    }
+    if (s->channels == 3) {
+        s->maps[2].kind = PACK_MAP_ANGLE;
+        s->maps[2].per_octave = grain->angle_steps;
+        pack_map_fill(&s->maps[2]);
+    }
+    p->sigma_first = (int)floor((log2(s->maps[0].first / grain->sigma_share) + PACK_LATTICE_BITS) * grain->per_octave);
+}
+
+/* 1: there are no means but those that the rounding of rendered sets leaves, and no -0. */
+static int on_lattice(const Planning *plan, int uv, int spread)
+{
+    const RetexImage *means = &plan->set->parts[uv].image, *sigmas = &plan->set->parts[spread].image;
+    const Range *ranges = plan->ranges[uv];
+    const float farthest = 1 << (30 - PACK_LATTICE_BITS);
+    if (plan->set->parts[uv].type != RETEX_FLOAT || ranges[0].most_size >= farthest || ranges[1].most_size >= farthest)
+        return 0;
+    for (size_t i = 0; i < (size_t)means->width * (size_t)means->height; i++)
+        for (size_t c = 0; c < 2; c++) {
+            const float mean = means->pixels[i * (size_t)means->channels + c];
+            const int shift = pack_mean_shift(sigmas->pixels[i * (size_t)sigmas->channels + c]);
+            const double steps = ldexp((double)mean, PACK_LATTICE_BITS - shift);
+            if (steps != rint(steps) || (mean == 0 && signbit(mean)))
+                return 0;
+        }
+    return 1;
+}
+
+/* 1: most means end in zero bits, as if they had been rounded. */
+static int ends_in_zeros(const RetexImage *means)
+{
+    const size_t count = (size_t)means->width * (size_t)means->height;
+    size_t rounded = 0, all = 0;
+    for (size_t i = 0; i < count; i++) {
+        uint32_t bits;
+        memcpy(&bits, &means->pixels[i * (size_t)means->channels], sizeof bits);
+        all += bits != 0;
+        rounded += bits != 0 && (bits & 15) == 0;
+    }
+    return 2 * rounded > all;
+}
+
+/* Parts that lose nothing are modelled, means as multiples of what they were rounded to. Those that were rounded in
+ * another way, as by earlier versions, are left to planes, which are better at runs of zero bits. */
+static void plan_exact(Planning *plan)
+{
+    const RetexSet *set = plan->set;
+    for (int i = 0; i < set->nparts; i++) {
+        PackPart *p = &plan->packed[i];
+        int exact = p->codec == PACK_PLANES && (plan->roles[i] != ROLE_MEAN || !ends_in_zeros(&set->parts[i].image));
+        for (int c = 0; c < p->channels; c++)
+            exact = exact && p->maps[c].kind == PACK_MAP_BITS;
+        p->codec = exact ? PACK_MODEL : p->codec;
+    }
+    for (int i = 0; i < set->nfootprints; i++) {
+        const int uv = set->footprints[i].uv, spread = set->footprints[i].spread;
+        if (uv < 0 || spread < 0 || plan->roles[uv] != ROLE_MEAN || plan->roles[spread] != ROLE_SPREAD ||
+            plan->packed[uv].codec == PACK_ZERO || plan->packed[uv].present >= 0 || plan->packed[uv].sigma >= 0 ||
+            plan->packed[spread].codec != PACK_MODEL || !on_lattice(plan, uv, spread))
+            continue;
+        plan->packed[uv].codec = PACK_MODEL;
+        plan->packed[uv].sigma = spread;
+        plan->packed[uv].maps[0].kind = plan->packed[uv].maps[1].kind = PACK_MAP_LATTICE;
+    }
+}
+
+static void plan_parts(Planning *plan)
+{
+    const RetexSet *set = plan->set;
+    for (int i = 0; i < set->nparts; i++) {
+        PackPart *p = &plan->packed[i];
+        int zero = 1;
+        for (int c = 0; c < p->channels; c++)
+            zero = zero && plan->ranges[i][c].all_zero;
+        p->codec = zero ? PACK_ZERO : PACK_PLANES;
+        if (!zero && plan->grain && i == 0) /* viewers take the picture for sRGB */
+            plan_light(plan, i, 1, plan->grain->picture_step);
+        else if (!zero && plan->grain && plan->roles[i] == ROLE_LIGHT)
+            plan_light(plan, i, plan->whites[i], light_step(plan, i));
+        else if (!zero && plan->grain && plan->roles[i] == ROLE_ALBEDO)
+            plan_light(plan, i, plan->white, plan->grain->jpeg_step);
+        else if (!zero && plan->grain && plan->roles[i] == ROLE_ORIGINAL)
+            plan_light(plan, i, 1, plan->grain->original_step);
+        else if (!zero && plan->grain && plan->roles[i] == ROLE_GAIN)
+            plan_gain(plan, i);
+        else if (!zero && plan->grain && plan->roles[i] == ROLE_WEIGHT)
+            plan_weight(plan, i);
+    }
+    for (int i = 0; plan->grain && i < set->nfootprints; i++) {
+        const RetexFootprint *f = &set->footprints[i];
+        if (f->uv >= 0 && f->spread >= 0 && plan->packed[f->uv].codec == PACK_PLANES &&
+            plan->packed[f->spread].codec == PACK_PLANES)
+            plan_footprint(plan, f->uv, f->spread,
+                           f->kind == RETEX_FOOTPRINT_BROAD || f->kind == RETEX_FOOTPRINT_INTERREFLECTION
+                               ? &plan->grain->broad
+                               : &plan->grain->sharp);
+    }
+}
+
+int pack_plan(PackPart *packed, const RetexSet *set, const PackGrain *grain, int nthreads, RetexError *err)
+{
+    const size_t count = (size_t)set->nparts;
+    Planning plan = {choose_white(&set->parts[0].image),
+                     calloc(count + 1, sizeof *plan.whites),
+                     packed,
+                     set,
+                     grain,
+                     calloc(count + 1, sizeof *plan.roles),
+                     calloc(count + 1, sizeof *plan.means),
+                     calloc(count + 1, sizeof *plan.ranges),
+                     calloc(count + 1, sizeof *plan.noise)};
+    int code = plan.roles && plan.means && plan.ranges && plan.noise && plan.whites
+                   ? 0
+                   : retex_fail(err, RETEX_ENOMEM, "no memory to pack a set");
+    for (int i = 0; !code && i < set->nparts; i++) {
+        pack_part_begin(&packed[i], &set->parts[i]);
+        if (packed[i].channels > PACK_CHANNELS_MAX)
+            code =
+                retex_fail(err, RETEX_EUNSUPPORTED, "part '%s' has too many channels to be packed", set->parts[i].name);
+    }
+    if (!code) {
+        give_roles(&plan);
+        retex_parallel(nthreads, set->nparts, find_ranges, &plan);
+        if (plan.grain)
+            retex_parallel(nthreads, set->nparts, find_noise, &plan);
+        for (int i = 0; i < set->nparts && !code; i++)
+            if (plan.noise[i] < 0)
+                code = retex_fail(err, RETEX_ENOMEM, "no memory to pack a set");
+    }
+    if (!code) {
+        plan_parts(&plan);
+        plan_exact(&plan);
+    }
+    free(plan.roles);
+    free(plan.means);
+    free(plan.ranges);
+    free(plan.noise);
+    free(plan.whites);
+    return code;
+}

@@ -1,0 +1,33 @@
+/* How each part of a set is to be packed. */
+#ifndef RETEX_PACK_PLAN_H
+#define RETEX_PACK_PLAN_H
+
+#include "pack/format.h"
+
+typedef struct PackFootprintGrain {
+    int sigma_share; /* means are multiples of at most this share of their standard deviation */
+    int per_octave;  /* steps of standard deviations */
+    int angle_steps; /* of correlations, from 0 to 1 */
+} PackFootprintGrain;
+
+/* How fine everything is. Steps are in levels of 255 to white. */
+typedef struct PackGrain {
+    double jpeg_step;     /* of light, gains and albedo */
+    double original_step; /* of original textures */
+    double picture_step;  /* of the picture, which only viewers see */
+    PackFootprintGrain sharp, broad;
+    int weight_steps;    /* to the largest weight */
+    double coarser_most; /* times jpeg_step, of light so noisy that nothing is seen of it */
+    double gain_noise;   /* steps of gains may be so many times the noise of their light */
+} PackGrain;
+
+/* The grain whose errors have about this PSNR; pictures lose otherwise, see loss.h. */
+PackGrain pack_grain(double psnr);
+
+/* The quality of 1 to 100, or beyond, as PSNR that is aimed at. */
+double pack_quality_psnr(double quality);
+
+/* Plan all parts: packed[set->nparts]. grain: NULL = every part keeps its bits. */
+int pack_plan(PackPart *packed, const RetexSet *set, const PackGrain *grain, int nthreads, RetexError *err);
+
+#endif

@@ -1,0 +1,166 @@
+/* Planes of whole numbers: prediction, and compression by blosc. See planes.h.
+ *
+ * A chunk is a byte that says how its numbers are predicted and how many bytes a residual takes, then blosc's buffer of
+ * the residuals, of which there are none where numbers do not matter. */
+#include "pack/planes.h"
+
+#include <string.h>
+
+#include <blosc.h>
+
+#include "pack/restore.h"
+
+static const int TRIAL_EFFORT = 1; /* that tells which predictor to take */
+
+static int32_t wrap_residual(int32_t value, int bits)
+{
+    return bits == 8 ? (int8_t)value : bits == 16 ? (int16_t)value : value;
+}
+
+static uint32_t to_unsigned(int32_t residual)
+{
+    return ((uint32_t)residual << 1) ^ (uint32_t)(residual >> 31);
+}
+
+static uint32_t residual_at(const PackPlane *plane, Predictor predictor, size_t row, int x, int32_t last)
+{
+    int32_t number = plane->numbers[row + (size_t)x], guess = predict_at(plane, predictor, row, x, last);
+    if (plane->shift) {
+        const int shift = plane->shift[row + (size_t)x];
+        guess = in_steps(guess, shift);
+        number >>= shift;
+    }
+    return to_unsigned(wrap_residual(subtract(number, guess), plane->bits));
+}
+
+size_t pack_plane_room(const PackPlane *plane)
+{
+    return (size_t)plane->width * (size_t)plane->rows * sizeof(int32_t) + BLOSC_MAX_OVERHEAD + 64;
+}
+
+/* --- encoding --- */
+
+/* Numbers as they will come back: multiples of their steps, 0 where they do not matter. 1 if one that matters is not 0.
+ */
+static int settle(const PackPlane *plane)
+{
+    int any = 0;
+    for (size_t i = 0; i < (size_t)plane->width * (size_t)plane->rows; i++) {
+        int32_t *number = &plane->numbers[i];
+        if (plane->present && !plane->present[i])
+            *number = 0;
+        else if (plane->shift)
+            *number = (int32_t)((uint32_t)in_steps(*number, plane->shift[i]) << plane->shift[i]);
+        any = any || *number != 0;
+    }
+    return any;
+}
+
+/* Bits of all residuals, roughly. *largest gets the largest. */
+static double cost(const PackPlane *plane, Predictor predictor, uint32_t *largest)
+{
+    double bits = 0;
+    int32_t last = 0;
+    *largest = 0;
+    for (int y = 0; y < plane->rows; y++)
+        for (int x = 0; x < plane->width; x++) {
+            const size_t row = (size_t)y * (size_t)plane->width;
+            if (plane->present && !plane->present[row + (size_t)x])
+                continue;
+            const uint32_t residual = residual_at(plane, predictor, row, x, last);
+            last = plane->numbers[row + (size_t)x];
+            *largest = residual > *largest ? residual : *largest;
+            bits += 32 - __builtin_clz(residual | 1) - !residual;
+        }
+    return bits;
+}
+
+/* Returns how many bytes they are. */
+static size_t store_residuals(unsigned char *to, const PackPlane *plane, Predictor predictor, int bytes)
+{
+    const unsigned char *const begin = to;
+    int32_t last = 0;
+    for (int y = 0; y < plane->rows; y++)
+        for (int x = 0; x < plane->width; x++) {
+            const size_t row = (size_t)y * (size_t)plane->width;
+            if (plane->present && !plane->present[row + (size_t)x])
+                continue;
+            const uint32_t residual = residual_at(plane, predictor, row, x, last);
+            last = plane->numbers[row + (size_t)x];
+            for (int k = 0; k < bytes; k++)
+                *to++ = (unsigned char)(residual >> 8 * k);
+        }
+    return (size_t)(to - begin);
+}
+
+/* Residuals, compressed; returns the bytes of both, or -1. */
+static long compress_residuals(unsigned char *to, const PackPlane *plane, Predictor predictor, uint32_t largest,
+                               unsigned char *scratch, int effort)
+{
+    const int bytes = largest < 256 ? 1 : largest < 65536 ? 2 : 4;
+    const size_t size = store_residuals(scratch, plane, predictor, bytes);
+    to[0] = (unsigned char)(bytes << 4 | predictor);
+    const int got = blosc_compress_ctx(effort, bytes > 1, (size_t)bytes, size, scratch, to + 1,
+                                       pack_plane_room(plane) - 1, BLOSC_ZSTD_COMPNAME, size, 1);
+    return got > 0 ? got + 1 : -1;
+}
+
+long pack_plane_encode(unsigned char *data, const PackPlane *plane, unsigned char *scratch, int effort)
+{
+    if (!settle(plane))
+        return 0;
+    double least = 0;
+    Predictor chosen = BY_NOTHING;
+    uint32_t largest[PREDICTORS];
+    for (int p = 0; p < PREDICTORS; p++) {
+        const double bits = cost(plane, (Predictor)p, &largest[p]);
+        if (p == 0 || bits < least) {
+            least = bits;
+            chosen = (Predictor)p;
+        }
+    }
+    /* prediction makes runs and repetitions into noise: what has them may do better without */
+    if (chosen != BY_NOTHING) {
+        const long with = compress_residuals(data, plane, chosen, largest[chosen], scratch, TRIAL_EFFORT);
+        const long without = compress_residuals(data, plane, BY_NOTHING, largest[BY_NOTHING], scratch, TRIAL_EFFORT);
+        if (with < 0 || without < 0)
+            return -1;
+        chosen = without < with ? BY_NOTHING : chosen;
+    }
+    return compress_residuals(data, plane, chosen, largest[chosen], scratch, effort);
+}
+
+/* --- decoding --- */
+
+/* What matters becomes 0. */
+static void clear(const PackPlane *plane)
+{
+    const size_t width = (size_t)plane->width, size = plane->bits == 8 ? 1 : sizeof *plane->numbers;
+    char *const to = plane->bits == 8 ? (char *)plane->codes : (char *)plane->numbers;
+    if (!plane->present)
+        memset(to, 0, width * (size_t)plane->rows * size);
+    for (size_t y = 0; plane->present && y < (size_t)plane->rows; y++)
+        for (int k = plane->runs->first[y]; k < plane->runs->first[y + 1]; k++) {
+            const RowSpan run = plane->runs->run[k];
+            memset(to + (y * width + (size_t)run.begin) * size, 0, (size_t)(run.end - run.begin) * size);
+        }
+}
+
+int pack_plane_decode(const PackPlane *plane, const unsigned char *data, size_t bytes, unsigned char *scratch)
+{
+    if (bytes == 0) {
+        clear(plane);
+        return 1;
+    }
+    const size_t pixels = plane->present ? plane->runs->pixels : (size_t)plane->width * (size_t)plane->rows;
+    const int width = data[0] >> 4;
+    const Predictor predictor = (Predictor)(data[0] & 15);
+    const size_t size = pixels * (size_t)width;
+    size_t unpacked;
+    if ((width != 1 && width != 2 && width != 4) || 8 * width > plane->bits || predictor >= PREDICTORS || size == 0 ||
+        bytes < 1 + BLOSC_MIN_HEADER_LENGTH || blosc_cbuffer_validate(data + 1, bytes - 1, &unpacked) < 0 ||
+        unpacked != size || blosc_decompress_ctx(data + 1, scratch, size, 1) != (int)size)
+        return 0;
+    pack_restore(plane, predictor, scratch, width);
+    return 1;
+}

@@ -1,0 +1,268 @@
+/* Writing a pack: the set is made compact and encoded, as fine as the quality promises, and its parts are laid down in
+ * order behind a manifest and an index. The bytes depend on the set and the parameters only: no dates, no order of
+ * threads. */
+#include <retex/pack.h>
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <retex/compact.h>
+
+#include "retexture/combine_rows.h"
+#include "compact/build.h"
+#include "io/output.h"
+#include "pack/bands.h"
+#include "pack/encode.h"
+#include "pack/loss.h"
+#include "pack/zip.h"
+
+/* dB that compacting keeps more than the whole: its errors and those of coding add up. From quality 95 to 100 it rises
+ * to so many times as much, for what is coded is then finer where there is no noise. */
+static const double COMPACTING_MARGIN = 3, COMPACTING_MARGIN_GROWS = 3;
+
+/* Qualities that are aimed at where one was not kept. From 90 on less and less noise is taken away, and beyond 110
+ * nothing gets finer but by keeping all bits. */
+static const double AIMS[] = {50, 70, 92, 94, 96, 98, 100, 105, 110, INFINITY};
+
+static int no_memory(RetexError *err)
+{
+    return retex_fail(err, RETEX_ENOMEM, "no memory to pack a set");
+}
+
+/* --- the file --- */
+
+static int write_manifest(char **text, const PackEncoded *w, const RetexPackKept *kept, RetexError *err)
+{
+    RetexSet described = *w->set;
+    char *json = NULL;
+    described.parts = malloc((size_t)described.nparts * sizeof *described.parts);
+    if (!described.parts)
+        return no_memory(err);
+    for (int i = 0; i < described.nparts; i++) {
+        described.parts[i] = w->set->parts[i];
+        described.parts[i].crc = w->items[i].crc;
+    }
+    int code = retex_set_manifest(&described, NULL, &json, err);
+    free(described.parts);
+    if (!code && !(*text = pack_describe(json, w->set, w->packed, kept)))
+        code = no_memory(err);
+    free(json);
+    return code;
+}
+
+static unsigned char *make_index(const PackEncoded *w, size_t *bytes)
+{
+    *bytes = 0;
+    for (int i = 0; i < w->set->nparts; i++)
+        *bytes += (size_t)w->packed[i].nchunks * PACK_INDEX_ENTRY;
+    unsigned char *index = malloc(*bytes + 1), *at = index;
+    for (int i = 0; index && i < w->set->nparts; i++)
+        for (int k = 0; k < w->packed[i].nchunks; k++)
+            for (int b = 0; b < PACK_INDEX_ENTRY; b++)
+                *at++ = (unsigned char)((b < 4 ? w->packed[i].bytes[k] : w->packed[i].crcs[k]) >> 8 * (b % 4) & 255);
+    return index;
+}
+
+/* Chunks first to first + count as one file of the zip; none where they are empty. */
+static int write_chunks(RetexOutput *output, ZipList *list, const PackEncoded *w, int part, int planes, int first,
+                        int count, uint64_t *written, RetexError *err)
+{
+    const PackPart *p = &w->packed[part];
+    size_t *bytes = calloc((size_t)count + 1, sizeof *bytes), total = 0;
+    char name[PACK_NAME_MAX];
+    int code = bytes ? 0 : no_memory(err);
+    for (int k = 0; !code && k < count; k++)
+        total += bytes[k] = p->bytes[first + k];
+    pack_file_name(name, sizeof name, w->set, part, planes);
+    if (!code && total)
+        code = zip_entry_write(output, list, name, (const void *const *)w->items[part].chunks + first, bytes, count,
+                               written, err);
+    free(bytes);
+    return code;
+}
+
+static int write_entries(RetexOutput *output, ZipList *list, const PackEncoded *w, const char *manifest,
+                         uint64_t *written, RetexError *err)
+{
+    size_t bytes;
+    const void *text = manifest;
+    unsigned char *index = make_index(w, &bytes);
+    const void *index_bytes = index, *picture = w->picture.data;
+    if (!index)
+        return no_memory(err);
+    const size_t length = strlen(manifest);
+    int code = zip_entry_write(output, list, PACK_MANIFEST, &text, &length, 1, written, err);
+    if (!code)
+        code = zip_entry_write(output, list, PACK_INDEX, &index_bytes, &bytes, 1, written, err);
+    free(index);
+    if (!code && picture)
+        code = zip_entry_write(output, list, PACK_PICTURE, &picture, &w->picture.bytes, 1, written, err);
+    for (int planes = 0; planes < 2; planes++)
+        for (int i = 0; !code && i < w->set->nparts; i++) {
+            const PackPart *p = &w->packed[i];
+            const int jpeg = p->codec == PACK_JPEG ? 1 + p->nbands : 0;
+            if (planes ? p->nchunks > jpeg : jpeg)
+                code = write_chunks(output, list, w, i, planes, planes ? jpeg : 0, planes ? p->nchunks - jpeg : jpeg,
+                                    written, err);
+        }
+    return code ? code : zip_directory_write(output, list, written, err);
+}
+
+/* kept: what the manifest says of the loss, or NULL. */
+static int write_all(RetexOutput *output, const PackEncoded *w, const RetexPackKept *kept, uint64_t *written,
+                     RetexError *err)
+{
+    ZipList list = {0};
+    char *manifest = NULL;
+    *written = 0;
+    int code = write_manifest(&manifest, w, kept, err);
+    if (!code)
+        code = write_entries(output, &list, w, manifest, written, err);
+    zip_list_free(&list);
+    free(manifest);
+    return code;
+}
+
+static int write_file(const PackEncoded *w, const RetexPackKept *kept, const char *path, size_t *bytes, RetexError *err)
+{
+    RetexOutput *output = NULL;
+    uint64_t written = 0;
+    int code = retex_output_open(&output, path, err);
+    if (!code)
+        code = write_all(output, w, kept, &written, err);
+    if (!code)
+        code = retex_output_commit(&output, err);
+    retex_output_abandon(&output);
+    if (!code && bytes)
+        *bytes = (size_t)written;
+    return code;
+}
+
+/* --- as fine as was promised --- */
+
+/* What of a set is needed for pictures as good as a quality aims at, which may be beyond 100, encoded. */
+typedef struct Attempt {
+    RetexSet *compact;
+    PackEncoded encoded;
+} Attempt;
+
+static void attempt_free(Attempt *attempt)
+{
+    pack_encoded_free(&attempt->encoded);
+    retex_set_close(&attempt->compact);
+    *attempt = (Attempt){0};
+}
+
+static double compacting_margin(double aim)
+{
+    const double finest = fmax(fmin((aim - 95) / 5, 1), 0);
+    return COMPACTING_MARGIN * (1 + (COMPACTING_MARGIN_GROWS - 1) * finest);
+}
+
+static int attempt_make(Attempt *attempt, const RetexSet *set, double aim, int nthreads, RetexError *err)
+{
+    const int exact = isinf(aim);
+    const PackGrain grain = pack_grain(exact ? 0 : pack_quality_psnr(aim));
+    RetexCompactParams compacting = RETEX_COMPACT_INIT;
+    compacting.psnr = exact ? 0 : pack_quality_psnr(aim) + compacting_margin(aim);
+    compacting.noise = pow(fmax(fmin((100 - aim) / 10, 1), 0), 2);
+    int code = exact ? compact_copy_set(&attempt->compact, set, err)
+                     : retex_set_compact(&attempt->compact, set, &compacting, nthreads, err);
+    return code ? code : pack_encode(&attempt->encoded, attempt->compact, exact ? NULL : &grain, nthreads, err);
+}
+
+/* The PSNR of its worst picture, made from the very bytes that will be written. */
+static int attempt_measure(double *worst, const Attempt *attempt, const PackJudge *judge, int nthreads, RetexError *err)
+{
+    RetexOutput *output = NULL;
+    RetexInput *input = NULL;
+    RetexSet *pack = NULL;
+    double psnr[RETEX_PACK_LOSSES];
+    uint64_t written;
+    void *data = NULL;
+    size_t bytes;
+    int code = retex_output_open_memory(&output, err);
+    if (!code)
+        code = write_all(output, &attempt->encoded, NULL, &written, err);
+    if (!code)
+        code = retex_output_take(&output, &data, &bytes, err);
+    if (!code)
+        code = retex_input_borrow(&input, data, bytes, "the pack", err);
+    if (!code)
+        code = retex_pack_open(&pack, &input, nthreads, err);
+    if (!code)
+        code = pack_judge_read(psnr, judge, pack, nthreads, err);
+    *worst = code ? 0 : pack_worst(psnr);
+    retex_set_close(&pack);
+    retex_input_close(&input);
+    retex_output_abandon(&output);
+    free(data);
+    return code;
+}
+
+static double next_aim(double least)
+{
+    int i = 0;
+    while (AIMS[i] < least)
+        i++;
+    return AIMS[i];
+}
+
+/* Attempts, each finer than the last, until what is promised holds; without loss it does. */
+static int keep_promise(Attempt *attempt, RetexPackKept *kept, const RetexSet *set, const PackJudge *judge,
+                        int nthreads, RetexError *err)
+{
+    double aim = kept->quality;
+    for (;;) {
+        int code = attempt_make(attempt, set, aim, nthreads, err);
+        if (!code)
+            code = attempt_measure(&kept->measured, attempt, judge, nthreads, err);
+        if (code || kept->measured >= kept->promised || isinf(aim))
+            return code;
+        attempt_free(attempt);
+        aim = next_aim(aim + kept->promised - kept->measured);
+    }
+}
+
+/* 1: pictures can be made of the set with other textures. Sets that have no terms, or not what they need, are packed
+ * without a promise. Or RETEX_ENOMEM. */
+static int can_be_judged(const RetexSet *set, RetexError *err)
+{
+    int sound = set->nterms > 0 ? combine_check(set, err) : 0;
+    for (int t = 0; t < set->ntargets && sound > 0; t++) {
+        sound = 0;
+        for (int i = 0; i < set->nfootprints; i++)
+            sound |= set->footprints[i].target == t;
+    }
+    return sound;
+}
+
+int retex_pack_write(const RetexSet *set, const char *path, const RetexPackParams *params, size_t *bytes,
+                     RetexError *err)
+{
+    static const RetexPackParams defaults = RETEX_PACK_INIT;
+    Attempt attempt = {0};
+    PackJudge judge = {0};
+    if (!params)
+        params = &defaults;
+    if (params->quality < 1 || params->quality > 100)
+        return retex_fail(err, RETEX_EINVAL, "quality is 1 to 100, not %d", params->quality);
+    RetexPackKept kept = {.quality = params->quality};
+    const int judged = params->lossless ? 0 : can_be_judged(set, err), nthreads = params->nthreads;
+    if (judged < 0)
+        return judged;
+    int code = judged ? pack_judge_open(&judge, set, PACK_PROMISED_PICTURES, nthreads, err) : 0;
+    kept.promised = pack_promise(params->quality, set->spp, judge.noise);
+    if (!code && params->lossless)
+        code = pack_encode(&attempt.encoded, set, NULL, nthreads, err);
+    else if (!code && judged)
+        code = keep_promise(&attempt, &kept, set, &judge, nthreads, err);
+    else if (!code)
+        code = attempt_make(&attempt, set, params->quality, nthreads, err);
+    if (!code)
+        code = write_file(&attempt.encoded, judged ? &kept : NULL, path, bytes, err);
+    attempt_free(&attempt);
+    pack_judge_close(&judge);
+    return code;
+}

@@ -1,0 +1,157 @@
+/* Finds and loads libretex-oiio.so, once a process, when the first picture needs it. */
+#include "picture/bridge_load.h"
+#include "io/unfinished.h"
+
+#include <dlfcn.h>
+#include <limits.h>
+#include <pthread.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+#include <unistd.h>
+
+#define BRIDGE_NAME "libretex-oiio.so"
+
+static struct {
+    pthread_once_t once;
+    RetexBridgeRead *read;
+    RetexBridgeReadNarrow *read_narrow;
+    RetexBridgeMakePlan *plan;
+    RetexBridgeFreePlan *plan_free;
+    RetexBridgeConvert *convert;
+    RetexBridgeWrite *write;
+    RetexBridgeCheck *check;
+    RetexBridgeRemove *remove;
+    char message[512]; /* why it could not be loaded; "" = it is */
+} bridge = {.once = PTHREAD_ONCE_INIT};
+
+static void keep_message(const char *text)
+{
+    snprintf(bridge.message, sizeof bridge.message, "%s", text ? text : "unknown reason");
+}
+
+/* RTLD_LOCAL keeps the two hundred libraries behind OpenImageIO out of the name space of whoever hosts us. */
+static void *open_library(const char *path)
+{
+    void *library = dlopen(path, RTLD_NOW | RTLD_LOCAL);
+    if (!library)
+        keep_message(dlerror());
+    return library;
+}
+
+/* The library beside the program: PREFIX/bin/retex-x -> PREFIX/lib, and the same for a program run from build/. A
+ * program deeper in the tree (a unit test) is served by the folders above. */
+static void *open_near_program(void)
+{
+    char program[PATH_MAX];
+    ssize_t length = readlink("/proc/self/exe", program, sizeof program - 1);
+    if (length <= 0)
+        return NULL;
+    program[length] = '\0';
+    for (int up = 0; up < 3; up++) {
+        char *slash = strrchr(program, '/');
+        if (!slash)
+            return NULL;
+        *slash = '\0';
+        char path[PATH_MAX + 32];
+        snprintf(path, sizeof path, "%s/lib/" BRIDGE_NAME, program);
+        if (access(path, R_OK) == 0)
+            return open_library(path);
+    }
+    return NULL;
+}
+
+static void load_bridge(void)
+{
+    const char *named = getenv("RETEX_BRIDGE");
+    void *library;
+    if (named && *named) {
+        library = open_library(named); /* named on purpose: no other one may stand in for it */
+    } else {
+        library = open_library(BRIDGE_NAME);
+        if (!library)
+            library = open_near_program();
+    }
+    if (!library)
+        return;
+    /* ISO C has no conversion from object to function pointers; POSIX promises that this one works. */
+    RetexBridgeAbi *abi = NULL;
+    *(void **)&abi = dlsym(library, "retex_oiio_abi");
+    *(void **)&bridge.read = dlsym(library, "retex_oiio_read");
+    *(void **)&bridge.read_narrow = dlsym(library, "retex_oiio_read_narrow");
+    *(void **)&bridge.plan = dlsym(library, "retex_oiio_plan");
+    *(void **)&bridge.plan_free = dlsym(library, "retex_oiio_plan_free");
+    *(void **)&bridge.convert = dlsym(library, "retex_oiio_convert");
+    *(void **)&bridge.write = dlsym(library, "retex_oiio_write");
+    *(void **)&bridge.check = dlsym(library, "retex_oiio_check");
+    *(void **)&bridge.remove = dlsym(library, "retex_oiio_remove");
+    if (!abi || !bridge.read || !bridge.read_narrow || !bridge.plan || !bridge.plan_free || !bridge.convert ||
+        !bridge.write || !bridge.check || !bridge.remove || abi() != RETEX_BRIDGE_ABI)
+        keep_message(BRIDGE_NAME " is of another version");
+    else {
+        bridge.message[0] = '\0';
+        unfinished_also(bridge.remove);
+    }
+}
+
+static int bridge_ready(const char *path, RetexError *err)
+{
+    pthread_once(&bridge.once, load_bridge);
+    if (bridge.message[0])
+        return retex_fail_at(err, RETEX_EUNSUPPORTED, path, 0, 0, "this needs OpenImageIO, which cannot be loaded: %s",
+                             bridge.message);
+    return RETEX_OK;
+}
+
+int retex_names_linear(const char *colorspace)
+{
+    return !colorspace || !colorspace[0] || strcasecmp(colorspace, "linear") == 0 ||
+           strcasecmp(colorspace, "scene_linear") == 0;
+}
+
+static const RetexBridgeHost host = {retex_image_alloc, retex_image_free, malloc, free};
+
+int retex_bridge_read(RetexImage *dst, const RetexBridgeFile *file, RetexError *err)
+{
+    int code = bridge_ready(file->path, err);
+    return code ? code : bridge.read(&host, dst, file, err);
+}
+
+int retex_bridge_read_narrow(RetexNarrowImage *dst, const RetexBridgeFile *file, RetexError *err)
+{
+    int code = bridge_ready(file->path, err);
+    return code ? code : bridge.read_narrow(&host, dst, file, err);
+}
+
+int retex_bridge_plan(RetexBridgePlan **plan, RetexBridgeStored *stored, const char *path, int width, int height,
+                      int channels, const RetexWriteParams *params, RetexError *err)
+{
+    int code = bridge_ready(path, err);
+    *plan = NULL;
+    return code ? code : bridge.plan(plan, stored, path, width, height, channels, params, err);
+}
+
+/* Who has a plan has loaded the bridge. */
+void retex_bridge_plan_free(RetexBridgePlan **plan)
+{
+    if (plan && *plan)
+        bridge.plan_free(plan);
+}
+
+int retex_bridge_convert(const RetexBridgePlan *plan, const float *rows, long pixels, void *samples, RetexError *err)
+{
+    return bridge.convert(plan, rows, pixels, samples, err);
+}
+
+int retex_bridge_write(const RetexBridgePlan *plan, const void *samples, RetexBridgeSink *sink, void *context,
+                       RetexError *err)
+{
+    return bridge.write(plan, samples, sink, context, err);
+}
+
+int retex_bridge_check(const char *path, const RetexWriteParams *params, RetexError *err)
+{
+    int code = bridge_ready(path, err);
+    return code ? code : bridge.check(path, params, err);
+}

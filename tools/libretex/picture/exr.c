@@ -1,0 +1,206 @@
+/* EXR of halves, scene-linear unless a colour space is named, for which there is the bridge. The table of where chunks
+ * are comes before them: a file gets it in the end, where there was room for it; to a pipe nothing goes before all is
+ * there. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "exr/io.h"
+#include "picture/format.h"
+
+enum { LEADER = 8, ENTRY = 8 }; /* bytes before a chunk: its first line, its size; of a table's entry */
+
+typedef struct ExrMaker {
+    RetexImage shape; /* no pixels */
+    RetexExrPart part;
+    RetexColorTag color;        /* of part; known when the first band is made */
+    RetexExrEncoding *encoding; /* for what is no file; or NULL, and: */
+    unsigned char *header;      /* up to the table; made with the first band */
+    size_t header_bytes;
+    uint64_t *chunks; /* bytes of each */
+    int nchunks;
+} ExrMaker;
+
+static int exr_begin(RetexPicture *picture, RetexError *err)
+{
+    ExrMaker *maker = calloc(1, sizeof *maker);
+
+    if (!maker)
+        return retex_fail(err, RETEX_ENOMEM, "no memory to write %s", picture->path);
+    picture->maker = maker;
+    maker->shape = (RetexImage){picture->width, picture->height, picture->channels, NULL};
+    maker->part = (RetexExrPart){.name = "beauty", .type = RETEX_HALF, .image = &maker->shape};
+    strcpy(maker->part.letters, picture->channels == 1 ? "Y" : picture->channels == 3 ? "RGB" : "RGBA");
+    maker->color = picture->params.is_data ? retex_color_tag_data : retex_color_tag_rec709;
+    maker->part.color = &maker->color;
+    if (!retex_output_is_file(picture->path))
+        return retex_exr_encoding_open(&maker->encoding, &maker->part, strcmp(picture->path, "-") != 0, err);
+    maker->nchunks = (picture->height + RETEX_CHUNK_LINES - 1) / RETEX_CHUNK_LINES;
+    maker->chunks = calloc((size_t)maker->nchunks, sizeof *maker->chunks);
+    return maker->chunks ? 0 : retex_fail(err, RETEX_ENOMEM, "no memory to write %s", picture->path);
+}
+
+/* What is known of the colours that the bridge makes. A name of the space goes before what its matrix is like. */
+static void tag_colors(RetexColorTag *tag, const RetexBridgeStored *stored)
+{
+    const RetexColorTag *known = retex_color_tag_find(stored->interop);
+
+    if (!known && !stored->interop[0] && stored->is_linear)
+        known = retex_color_tag_of_matrix(stored->from_rec709);
+    *tag = known ? *known : (RetexColorTag){.interop = ""};
+    if (!known)
+        strcpy(tag->interop, stored->interop);
+}
+
+/* With the first band, for a plan is waited for there. */
+static int make_header(RetexPicture *picture, RetexError *err)
+{
+    ExrMaker *maker = picture->maker;
+
+    if (picture->bridged)
+        tag_colors(&maker->color, &picture->stored);
+    return maker->encoding ? 0 : retex_exr_header(&maker->header, &maker->header_bytes, &maker->part, err);
+}
+
+static void associate(float *associated, const float *rows, size_t pixels)
+{
+    for (size_t i = 0; i < pixels; i++) {
+        for (size_t c = 0; c < 3; c++)
+            associated[4 * i + c] = rows[4 * i + c] * rows[4 * i + 3];
+        associated[4 * i + 3] = rows[4 * i + 3];
+    }
+}
+
+/* Pixels as the file has them, where these are others: in the space asked for, and multiplied by alpha. */
+static int convert(const RetexPicture *picture, float **converted, const float *rows, int lines, RetexError *err)
+{
+    const size_t pixels = (size_t)picture->width * (size_t)lines;
+
+    if (picture->channels != 4 && !picture->bridged)
+        return 0;
+    *converted = malloc(pixels * (size_t)picture->channels * sizeof **converted);
+    if (!*converted)
+        return retex_fail(err, RETEX_ENOMEM, "no memory to write %s", picture->path);
+    if (picture->bridged)
+        return retex_bridge_convert(picture->plan, rows, (long)pixels, *converted, err);
+    associate(*converted, rows, pixels);
+    return 0;
+}
+
+static void put_little(unsigned char *to, uint64_t value, int bytes)
+{
+    for (int i = 0; i < bytes; i++)
+        to[i] = (unsigned char)(value >> 8 * i);
+}
+
+/* Chunks of a band, one after the other. Returns their bytes, or 0 where memory is short. */
+static size_t make_chunks(ExrMaker *maker, unsigned char *to, int y0, int y1, const float *rows)
+{
+    RetexChunkScratch scratch = {.raw = NULL};
+    size_t at = 0;
+
+    for (int y = y0; y < y1; y += RETEX_CHUNK_LINES) {
+        const RetexChunkShape shape = {maker->part.letters, RETEX_HALF, maker->shape.width,
+                                       y1 - y < RETEX_CHUNK_LINES ? y1 - y : RETEX_CHUNK_LINES};
+        if (!retex_chunk_need(&scratch, &shape)) {
+            at = 0;
+            break;
+        }
+        retex_chunk_store(&scratch, &shape, rows + retex_image_index(&maker->shape, 0, y - y0), scratch.raw, NULL);
+        const size_t bytes = retex_chunk_pack(&scratch, scratch.raw, retex_chunk_bytes(&shape), to + at + LEADER);
+        put_little(to + at, (uint64_t)y, 4);
+        put_little(to + at + 4, bytes, 4);
+        maker->chunks[y / RETEX_CHUNK_LINES] = LEADER + bytes;
+        at += LEADER + bytes;
+    }
+    retex_chunk_free(&scratch);
+    return at;
+}
+
+/* The header and room for the table before the first band, and its chunks. */
+static unsigned char *make_piece(ExrMaker *maker, int y0, int y1, const float *rows, size_t *bytes)
+{
+    const RetexChunkShape shape = {maker->part.letters, RETEX_HALF, maker->shape.width, y1 - y0};
+    const size_t before = y0 == 0 ? maker->header_bytes + ENTRY * (size_t)maker->nchunks : 0;
+    const size_t leaders = (size_t)((y1 - y0 + RETEX_CHUNK_LINES - 1) / RETEX_CHUNK_LINES) * LEADER;
+    unsigned char *piece = malloc(before + leaders + retex_chunk_bytes(&shape));
+
+    if (!piece)
+        return NULL;
+    if (before) {
+        memcpy(piece, maker->header, maker->header_bytes);
+        memset(piece + maker->header_bytes, 0, before - maker->header_bytes);
+    }
+    *bytes = make_chunks(maker, piece + before, y0, y1, rows);
+    if (!*bytes) {
+        free(piece);
+        return NULL;
+    }
+    *bytes += before;
+    unsigned char *less = realloc(piece, *bytes);
+    return less ? less : piece;
+}
+
+static int exr_band(RetexPicture *picture, int band, const float *rows, RetexError *err)
+{
+    ExrMaker *maker = picture->maker;
+    const int y0 = band * RETEX_PICTURE_BAND, lines = retex_picture_band_lines(picture, band);
+    float *converted = NULL;
+    unsigned char *piece = NULL;
+    size_t bytes = 0;
+
+    int status = picture->bridged ? retex_picture_plan(picture, err) : 0;
+    if (!status && band == 0)
+        status = make_header(picture, err);
+    if (!status)
+        status = convert(picture, &converted, rows, lines, err);
+    if (status) {
+        free(converted);
+        return status;
+    }
+    rows = converted ? converted : rows;
+    if (maker->encoding)
+        status = retex_exr_encode_rows(maker->encoding, y0, y0 + lines, rows, err);
+    else if (!(piece = make_piece(maker, y0, y0 + lines, rows, &bytes)))
+        status = retex_fail(err, RETEX_ENOMEM, "no memory to write %s", picture->path);
+    free(converted);
+    return status ? status : retex_picture_lay(picture, band, piece, bytes, err);
+}
+
+/* Where all chunks are, as their table has it. */
+static int write_table(RetexPicture *picture, const ExrMaker *maker, RetexError *err)
+{
+    const size_t bytes = ENTRY * (size_t)maker->nchunks;
+    unsigned char *table = malloc(bytes);
+    uint64_t at = maker->header_bytes + bytes;
+
+    if (!table)
+        return retex_fail(err, RETEX_ENOMEM, "no memory to write %s", picture->path);
+    for (int i = 0; i < maker->nchunks; at += maker->chunks[i++])
+        put_little(table + ENTRY * (size_t)i, at, ENTRY);
+    const int status = retex_output_patch(picture->output, maker->header_bytes, table, bytes, err);
+    free(table);
+    return status;
+}
+
+static int exr_finish(RetexPicture *picture, RetexError *err)
+{
+    ExrMaker *maker = picture->maker;
+
+    return maker->encoding
+               ? retex_exr_write(maker->encoding, picture->width, picture->height, NULL, NULL, picture->path, err)
+               : write_table(picture, maker, err);
+}
+
+static void exr_end(RetexPicture *picture)
+{
+    ExrMaker *maker = picture->maker;
+
+    if (!maker)
+        return;
+    retex_exr_encoding_free(&maker->encoding);
+    free(maker->header);
+    free(maker->chunks);
+    free(maker);
+}
+
+const RetexPictureFormat retex_picture_exr = {exr_begin, exr_band, exr_finish, exr_end};

@@ -1,0 +1,110 @@
+/* See image_format.h. */
+#include "picture/image_format.h"
+
+#include <string.h>
+#include <strings.h>
+
+enum { BEGIN = 32, TGA_HEADER = 18, TGA_FOOTER = 26 };
+
+static unsigned get16(const unsigned char *at)
+{
+    return at[0] | (unsigned)at[1] << 8;
+}
+
+static unsigned get32(const unsigned char *at)
+{
+    return get16(at) | get16(at + 2) << 16;
+}
+
+static int is_tiff(const unsigned char *begin)
+{
+    static const char marks[][5] = {"II*\0", "MM\0*", "II+\0", "MM\0+"}; /* the last two: 64-bit offsets */
+
+    for (int i = 0; i < 4; i++)
+        if (memcmp(begin, marks[i], 4) == 0)
+            return 1;
+    return 0;
+}
+
+/* Two letters are no more than a hint: the header's size has to be one that exists. */
+static int is_bmp(const unsigned char *begin)
+{
+    static const unsigned sizes[] = {12, 40, 52, 56, 64, 108, 124};
+
+    for (size_t i = 0; memcmp(begin, "BM", 2) == 0 && i < sizeof sizes / sizeof *sizes; i++)
+        if (get32(begin + 14) == sizes[i])
+            return 1;
+    return 0;
+}
+
+/* The palette and, where pixels are stored as they are, all of them have to be in the file. */
+static int is_plausible_tga(const unsigned char *h, uint64_t size)
+{
+    const unsigned type = h[2], packed = type & 8, kind = type & 7, bits = h[16], palette_bits = h[7];
+    const uint64_t width = get16(h + 12), height = get16(h + 14), entries = get16(h + 5);
+    const int palette_fits = palette_bits == 15 || palette_bits == 16 || palette_bits == 24 || palette_bits == 32;
+    const int bits_fit = kind == 1   ? bits == 8 || bits == 16
+                         : kind == 2 ? bits == 15 || bits == 16 || bits == 24 || bits == 32
+                                     : bits == 8 || bits == 16;
+
+    if (size < TGA_HEADER || (type & ~11u) || kind < 1 || kind > 3 || h[1] > 1 || !width || !height || !bits_fit)
+        return 0;
+    if ((kind == 1 && !h[1]) || (h[1] && (!palette_fits || !entries)))
+        return 0;
+    const uint64_t before = TGA_HEADER + h[0] + (h[1] ? entries * ((palette_bits + 7) / 8) : 0);
+    return packed ? before < size : before + width * height * ((bits + 7) / 8) <= size;
+}
+
+static int is_tga(const RetexInput *input, const unsigned char *begin)
+{
+    static const char mark[] = "TRUEVISION-XFILE.";
+    unsigned char footer[TGA_FOOTER] = {0};
+    const char *name = retex_input_name(input), *dot = strrchr(name, '.');
+    const uint64_t size = retex_input_size(input);
+
+    if (!is_plausible_tga(begin, size))
+        return 0;
+    if (size >= TGA_HEADER + TGA_FOOTER)
+        retex_input_read(input, footer, sizeof footer, size - TGA_FOOTER);
+    return memcmp(footer + 8, mark, sizeof mark) == 0 || (dot && strcasecmp(dot, ".tga") == 0);
+}
+
+const char *image_format(const RetexInput *input)
+{
+    static const struct {
+        const char *name, *mark;
+        size_t length;
+    } marks[] = {{"png", "\x89PNG\r\n\x1a\n", 8},
+                 {"jpeg", "\xff\xd8\xff", 3},
+                 {"openexr", "\x76\x2f\x31\x01", 4},
+                 {"gif", "GIF87a", 6},
+                 {"gif", "GIF89a", 6},
+                 {"hdr", "#?RADIANCE", 10},
+                 {"hdr", "#?RGBE", 6}};
+    unsigned char begin[BEGIN] = {0};
+
+    retex_input_read(input, begin, sizeof begin, 0);
+    for (size_t i = 0; i < sizeof marks / sizeof *marks; i++)
+        if (memcmp(begin, marks[i].mark, marks[i].length) == 0)
+            return marks[i].name;
+    if (is_tiff(begin))
+        return "tiff";
+    if (is_bmp(begin))
+        return "bmp";
+    return is_tga(input, begin) ? "targa" : NULL;
+}
+
+uint64_t image_header_pixels(const RetexInput *input, const char *format)
+{
+    unsigned char begin[BEGIN] = {0};
+
+    retex_input_read(input, begin, sizeof begin, 0);
+    if (format && strcmp(format, "gif") == 0)
+        return (uint64_t)get16(begin + 6) * get16(begin + 8);
+    if (!format || strcmp(format, "bmp") != 0)
+        return 0;
+    if (get32(begin + 14) == 12)
+        return (uint64_t)get16(begin + 18) * get16(begin + 20);
+    const int32_t height = (int32_t)get32(begin + 22); /* below 0: rows from the top */
+    return (uint64_t)get32(begin + 18) * (uint64_t)(height < 0 ? -(int64_t)height : height);
+}

@@ -1,0 +1,345 @@
+/* Who reads a picture's file, by what is in it; for writing see picture.c.
+ *
+ * EXR goes through OpenEXRCore, which starts in 2 ms; every other format, and what Core cannot decode, through the
+ * bridge, which loads OpenImageIO. */
+#include <errno.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <retex/image.h>
+
+#include "exr/io.h"
+#include "io/input.h"
+#include "picture/bridge_load.h"
+#include "picture/image_format.h"
+#include "picture/jpeg_read.h"
+
+/* Which channels of an EXR's first part are its colours: R, G, B, or the grey Y, and A. 0 where there are none. */
+static int choose_channels(const RetexExr *exr, RetexExrRequest *request, int *grey)
+{
+    static const char colors[3][2] = {"R", "G", "B"};
+
+    *grey = 1;
+    for (int c = 0; c < 3; c++)
+        if (retex_exr_has_channel(exr, 0, colors[c])) {
+            strcpy(request->channels[c], colors[c]);
+            *grey = 0;
+        }
+    if (*grey) {
+        if (!retex_exr_has_channel(exr, 0, "Y"))
+            return 0;
+        strcpy(request->channels[0], "Y");
+    }
+    if (retex_exr_has_channel(exr, 0, "A"))
+        strcpy(request->channels[3], "A");
+    return 1;
+}
+
+/* From what an EXR holds, associated alpha or none, to what images here have. */
+static void finish_pixels(RetexImage *image, int grey, int has_alpha)
+{
+    const size_t count = (size_t)image->width * (size_t)image->height;
+
+    for (size_t i = 0; i < count; i++) {
+        float *pixel = image->pixels + 4 * i;
+        if (grey)
+            pixel[1] = pixel[2] = pixel[0];
+        if (!has_alpha)
+            pixel[3] = 1;
+        else if (pixel[3] > 0 && pixel[3] != 1)
+            for (int c = 0; c < 3; c++)
+                pixel[c] /= pixel[3];
+    }
+}
+
+static int check_pixels(int width, int height, const RetexBridgeFile *file, const char *name, RetexError *err)
+{
+    if (file->max_pixels > 0 && (int64_t)width * height > file->max_pixels)
+        return retex_fail(err, RETEX_ELIMIT, "%s is too large: %d x %d pixels, more than %s", name, width, height,
+                          file->limit);
+    return 0;
+}
+
+/* The smaller of two limits, and in words which one that is. */
+static void set_limit(RetexBridgeFile *file, const RetexReadParams *params)
+{
+    const uint64_t left = retex_budget_left(params->budget), room = left / (params->pixel_bytes | !params->pixel_bytes);
+
+    const long all = retex_budget_pixels(params->budget), own = params->max_pixels;
+
+    file->max_pixels = own > 0 && all > 0 ? (own < all ? own : all) : own > 0 ? own : all;
+    snprintf(file->limit, sizeof file->limit, "the %ld of --max-pixels", file->max_pixels);
+    if (left != UINT64_MAX && (file->max_pixels <= 0 || room < (uint64_t)file->max_pixels)) {
+        file->max_pixels = room ? (long)room : 1;
+        snprintf(file->limit, sizeof file->limit, "--max-memory has room for");
+    }
+}
+
+/* What is done with an EXR's colours, by what it says of them. */
+typedef struct ExrColors {
+    const char *colorspace; /* "" = they are linear, and where converted this leads to Rec.709: */
+    int converted;
+    double matrix[3][3];
+    RetexColorTag tag;
+} ExrColors;
+
+/* The interop ID goes before the chromaticities, which stand where it is not known. A file that says nothing is
+ * scene-linear Rec.709, and data are left alone. */
+static void choose_colors(ExrColors *colors, const RetexExr *exr, int is_unknown)
+{
+    const RetexColorTag *tag = &colors->tag;
+
+    *colors = (ExrColors){.colorspace = ""};
+    retex_exr_color_tag(exr, 0, &colors->tag);
+    const RetexColorTag *known = retex_color_tag_find(tag->interop);
+    const int named = !is_unknown && tag->interop[0] && strcmp(tag->interop, "unknown") != 0;
+    if (known)
+        colors->converted = retex_color_tag_to_rec709(known->chromaticities, colors->matrix) == 1;
+    else if (named && strcmp(tag->interop, "data") != 0)
+        colors->colorspace = tag->interop;
+    else if (!named && tag->has_chromaticities)
+        colors->converted = retex_color_tag_to_rec709(tag->chromaticities, colors->matrix) == 1;
+}
+
+static void convert_colors(RetexImage *image, const ExrColors *colors)
+{
+    const size_t count = (size_t)image->width * (size_t)image->height;
+    const double(*m)[3] = colors->matrix;
+
+    for (size_t i = 0; i < count && colors->converted; i++) {
+        float *p = image->pixels + 4 * i;
+        const double r = p[0], g = p[1], b = p[2];
+        for (int c = 0; c < 3; c++)
+            p[c] = (float)(m[c][0] * r + m[c][1] * g + m[c][2] * b);
+    }
+}
+
+/* Read an open EXR. RETEX_EUNSUPPORTED: whole and sound, but not for this reader. */
+static int read_exr(RetexImage *dst, RetexExr *exr, const char *name, const RetexBridgeFile *file, RetexError *err)
+{
+    RetexExrRequest request = {.part = 0};
+    RetexImage image = {0};
+    const char *reason;
+    int grey, width, height;
+
+    if (!retex_exr_part_readable(exr, 0, &reason))
+        return retex_fail(err, RETEX_EUNSUPPORTED, "%s: %s", name, reason);
+    if (!choose_channels(exr, &request, &grey))
+        return retex_fail(err, RETEX_EUNSUPPORTED, "%s has no channels R, G, B or Y", name);
+    retex_exr_part_size(exr, 0, &width, &height);
+    int status = check_pixels(width, height, file, name, err);
+    if (!status && (uint64_t)width * (uint64_t)height * 16 > RETEX_EXR_MEMORY_MAX)
+        status = retex_fail(err, RETEX_ELIMIT, "%s is too large: %d x %d pixels", name, width, height);
+    if (!status)
+        status = retex_image_alloc(&image, width, height, 4, err);
+    if (!status) {
+        request.image = &image;
+        status = retex_exr_read(exr, &request, 1, 0, err);
+    }
+    if (status) {
+        retex_image_free(&image);
+        return status;
+    }
+    finish_pixels(&image, grey, request.channels[3][0] != 0);
+    *dst = image;
+    return 0;
+}
+
+static RetexReadParams understand(const RetexReadParams *given)
+{
+    RetexReadParams params = RETEX_READ_INIT;
+
+    if (given)
+        memcpy(&params, given, given->size < sizeof params ? given->size : sizeof params);
+    params.size = sizeof params;
+    return params;
+}
+
+/* What the bridge is to do with an open file: with any decoder, or, for safe access, with that of its content. */
+static int choose_decoder(RetexBridgeFile *file, const RetexInput *input, const char *path,
+                          const RetexReadParams *params, RetexError *err)
+{
+    *file = (RetexBridgeFile){.path = path, .descriptor = -1, .colorspace = params->colorspace};
+    set_limit(file, params);
+    if (strcmp(path, "-") == 0)
+        return 0;
+    const char *format = image_format(input);
+    const uint64_t pixels = image_header_pixels(input, format);
+    if (file->max_pixels > 0 && pixels > (uint64_t)file->max_pixels)
+        return retex_fail_at(err, RETEX_ELIMIT, path, 0, 0, "the picture is too large: %.0f pixels, more than %s",
+                             (double)pixels, file->limit);
+    if (!params->access || !params->access->safe)
+        return 0;
+    file->format = format;
+    file->descriptor = retex_input_descriptor(input);
+    if (!file->format)
+        return retex_fail_at(err, RETEX_EFORMAT, path, 0, 0,
+                             "no " IMAGE_FORMATS " by what is in it: others are not read (--safe)");
+    return 0;
+}
+
+/* An EXR of linear colours here, if it can be; else by the bridge. */
+static int read_in_space(RetexImage *dst, RetexExr *exr, const RetexInput *input, const RetexBridgeFile *file,
+                         RetexError *err)
+{
+    const int standard_input = strcmp(file->path, "-") == 0;
+    int status = RETEX_EUNSUPPORTED;
+
+    if (retex_names_linear(file->colorspace))
+        status = read_exr(dst, exr, retex_input_name(input), file, err);
+    else if (standard_input)
+        retex_fail(err, status, "standard input is read as scene-linear only, not %s", file->colorspace);
+    if (status == RETEX_EUNSUPPORTED && !standard_input)
+        status = retex_bridge_read(dst, file, err);
+    return status;
+}
+
+/* An EXR in the space that it says itself, as far as that is known. */
+static int read_tagged(RetexImage *dst, RetexExr *exr, const RetexInput *input, const RetexBridgeFile *file,
+                       RetexError *err)
+{
+    RetexBridgeFile tagged = *file;
+    ExrColors colors;
+
+    choose_colors(&colors, exr, 0);
+    tagged.colorspace = colors.colorspace;
+    int status = read_in_space(dst, exr, input, &tagged, err);
+    if (status == RETEX_ENOTFOUND && colors.colorspace[0]) {
+        choose_colors(&colors, exr, 1);
+        tagged.colorspace = colors.colorspace;
+        status = read_in_space(dst, exr, input, &tagged, err);
+    }
+    if (!status)
+        convert_colors(dst, &colors);
+    return status;
+}
+
+int retex_image_read(RetexImage *dst, const char *path, const char *colorspace, long max_pixels, RetexError *err)
+{
+    const RetexReadParams params = {
+        .size = sizeof params, .colorspace = colorspace, .max_pixels = max_pixels, .pixel_bytes = 16};
+
+    return retex_image_read_with(dst, path, &params, err);
+}
+
+static int read_open(RetexImage *dst, RetexInput *input, const char *path, const RetexReadParams *params,
+                     RetexError *err)
+{
+    const int standard_input = strcmp(path, "-") == 0, linear = retex_names_linear(params->colorspace);
+    RetexBridgeFile file;
+    RetexExr *exr = NULL;
+    int status = choose_decoder(&file, input, path, params, err);
+
+    if (status)
+        return status;
+    if (!standard_input && (!retex_exr_probe(input) || !linear))
+        return retex_bridge_read(dst, &file, err);
+    status = retex_exr_open(&exr, input, err);
+    if (!status)
+        status = params->colorspace && params->colorspace[0] ? read_in_space(dst, exr, input, &file, err)
+                                                             : read_tagged(dst, exr, input, &file, err);
+    retex_exr_close(&exr);
+    return status;
+}
+
+int retex_image_read_with(RetexImage *dst, const char *path, const RetexReadParams *given, RetexError *err)
+{
+    const RetexReadParams params = understand(given);
+    RetexInput *input = NULL;
+
+    if (dst->pixels)
+        return retex_fail(err, RETEX_EINVAL, "the destination is allocated already");
+    int status = retex_input_open_allowed(&input, path, params.access, err);
+    if (!status)
+        status = read_open(dst, input, path, &params, err);
+    retex_input_close(&input);
+    return status;
+}
+
+/* Whether the bridge reads a file, by its beginning: no picture is read that has more than one pixel. */
+static int bridge_check(RetexBridgeFile file, RetexError *err)
+{
+    RetexImage image = {0};
+    RetexError error = {0};
+
+    file.max_pixels = 1;
+    const int status = retex_bridge_read(&image, &file, &error);
+    retex_image_free(&image);
+    if (status && status != RETEX_ELIMIT && err)
+        *err = error;
+    return status == RETEX_ELIMIT ? 0 : status;
+}
+
+/* 0 where the header of an EXR is one that can be read, here or by the bridge. */
+static int check_exr(RetexInput *input, const RetexBridgeFile *file, RetexError *err)
+{
+    RetexExr *exr = NULL;
+    RetexExrRequest request = {.part = 0};
+    const char *reason;
+    int grey, status = retex_exr_open(&exr, input, err);
+    const int own = !status && retex_exr_part_readable(exr, 0, &reason) && choose_channels(exr, &request, &grey);
+
+    retex_exr_close(&exr);
+    return own || status ? status : bridge_check(*file, err);
+}
+
+static int check_open(RetexInput *input, const char *path, const RetexReadParams *params, RetexError *err)
+{
+    RetexBridgeFile file;
+    unsigned char begin[3];
+    const int status = choose_decoder(&file, input, path, params, err);
+
+    if (status)
+        return status;
+    if (retex_exr_probe(input))
+        return check_exr(input, &file, err);
+    const int jpeg =
+        retex_input_read(input, begin, sizeof begin, 0) == sizeof begin && memcmp(begin, "\xff\xd8\xff", 3) == 0;
+    return jpeg ? 0 : bridge_check(file, err);
+}
+
+int retex_image_read_check(const char *path, const RetexReadParams *given, RetexError *err)
+{
+    const RetexReadParams params = understand(given);
+    const int safe = params.access && params.access->safe;
+    RetexInput *input = NULL;
+    struct stat info;
+
+    if (strcmp(path, "-") == 0)
+        return 0;
+    if (!safe && stat(path, &info) == 0 && S_ISFIFO(info.st_mode))
+        return access(path, R_OK) == 0 ? 0 : retex_fail(err, RETEX_EIO, "cannot read %s: %s", path, strerror(errno));
+    int status = retex_input_open_allowed(&input, path, params.access, err);
+    if (!status)
+        status = check_open(input, path, &params, err);
+    retex_input_close(&input);
+    return status;
+}
+
+int retex_image_read_narrow(RetexNarrowImage *dst, const char *path, const RetexReadParams *given, RetexError *err)
+{
+    const RetexReadParams params = understand(given);
+    RetexBridgeFile file;
+    RetexInput *input = NULL;
+
+    if (strcmp(path, "-") == 0)
+        return 0;
+    int status = retex_input_open_allowed(&input, path, params.access, err);
+    if (!status)
+        status = choose_decoder(&file, input, path, &params, err);
+    if (!status && !retex_exr_probe(input)) {
+        const char *ocio = getenv("OCIO"); /* whether it is of use is for the bridge to say */
+        const int named = params.colorspace && params.colorspace[0];
+        if (named ? strcasecmp(params.colorspace, "sRGB") == 0 : !ocio || !ocio[0])
+            status = retex_jpeg_read_narrow(dst, input, file.max_pixels, err);
+        if (!status && !dst->pixels)
+            status = retex_bridge_read_narrow(dst, &file, err);
+    }
+    retex_input_close(&input);
+    return status;
+}

@@ -1,0 +1,220 @@
+/* JPEG, band by band. Each band is compressed by itself, as if it were a picture; quantisation and Huffman tables do
+ * not depend on what is in it, so that of all but the first only the entropy-coded data are kept, and restart markers,
+ * at which decoders begin anew anyhow, join them. The pixels are those of a picture compressed in one go. */
+#include <setjmp.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <jpeglib.h>
+
+#include "picture/format.h"
+
+/* Whole numbers of MCUs, which have 8 or 16 lines; no restart interval is too long for the 16 bits that it has. */
+_Static_assert(RETEX_PICTURE_BAND % 16 == 0, "a band ends where MCUs do");
+_Static_assert((JPEG_MAX_DIMENSION + 7) / 8 * (RETEX_PICTURE_BAND / 8) <= 65535, "a band has too many MCUs");
+
+enum { QUALITY_OF_FULL_COLOR = 90, FIRST_ROOM = 1 << 16, MARKER_BYTES = 2 };
+
+typedef struct Compressor {
+    struct jpeg_compress_struct jpeg; /* first: libjpeg hands back pointers to it */
+    struct jpeg_error_mgr errors;
+    struct jpeg_destination_mgr to;
+    jmp_buf failed;
+    unsigned char *data;
+    size_t room;
+    char message[JMSG_LENGTH_MAX];
+} Compressor;
+
+static size_t written(const Compressor *c)
+{
+    return c->room - c->to.free_in_buffer;
+}
+
+static void leave(j_common_ptr jpeg)
+{
+    Compressor *c = (Compressor *)(void *)jpeg;
+
+    jpeg->err->format_message(jpeg, c->message);
+    longjmp(c->failed, 1);
+}
+
+static void say_nothing(j_common_ptr jpeg)
+{
+    (void)jpeg;
+}
+
+static boolean more_room(j_compress_ptr jpeg)
+{
+    Compressor *c = (Compressor *)(void *)jpeg;
+    const size_t room = c->room ? 2 * c->room : FIRST_ROOM, have = c->room;
+    unsigned char *data = realloc(c->data, room);
+
+    if (!data) {
+        snprintf(c->message, sizeof c->message, "not enough memory");
+        longjmp(c->failed, 1);
+    }
+    c->data = data;
+    c->room = room;
+    c->to.next_output_byte = data + have;
+    c->to.free_in_buffer = room - have;
+    return TRUE;
+}
+
+static void begin_output(j_compress_ptr jpeg)
+{
+    more_room(jpeg);
+}
+
+static void end_output(j_compress_ptr jpeg)
+{
+    (void)jpeg;
+}
+
+/* Who made it and, where it is true, that it is sRGB: the tags that viewers and cameras know. */
+static void write_exif(j_compress_ptr jpeg, int is_srgb)
+{
+    static const unsigned char is_made_by[] = "Exif\0\0II*\0\010\0\0\0\001\0\061\001\002\0\006\0\0\0\032\0\0\0\0\0\0\0"
+                                              "retex";
+    static const unsigned char is_shown_as[] =
+        "Exif\0\0II*\0\010\0\0\0\002\0\061\001\002\0\006\0\0\0\046\0\0\0\151\207\004\0\001\0\0\0\054\0\0\0\0\0\0\0"
+        "retex\0\004\0\0\220\007\0\004\0\0\0000230\001\221\007\0\004\0\0\0\001\002\003\0\0\240\007\0\004\0\0\0000100"
+        "\001\240\003\0\001\0\0\0\001\0\0\0\0\0\0";
+
+    if (is_srgb)
+        jpeg_write_marker(jpeg, JPEG_APP0 + 1, is_shown_as, sizeof is_shown_as);
+    else
+        jpeg_write_marker(jpeg, JPEG_APP0 + 1, is_made_by, sizeof is_made_by);
+}
+
+/* The file up to where the coded data begin. */
+static void begin_file(Compressor *c, const RetexPicture *picture, int lines)
+{
+    struct jpeg_compress_struct *jpeg = &c->jpeg;
+
+    jpeg_create_compress(jpeg);
+    jpeg->dest = &c->to;
+    jpeg->image_width = (JDIMENSION)picture->width;
+    jpeg->image_height = (JDIMENSION)lines;
+    jpeg->input_components = picture->channels == 1 ? 1 : 3;
+    jpeg->in_color_space = picture->channels == 1 ? JCS_GRAYSCALE : JCS_RGB;
+    jpeg_set_defaults(jpeg);
+    jpeg_set_quality(jpeg, picture->params.quality, TRUE);
+    if (picture->params.quality >= QUALITY_OF_FULL_COLOR)
+        for (int i = 0; i < jpeg->num_components; i++)
+            jpeg->comp_info[i].h_samp_factor = jpeg->comp_info[i].v_samp_factor = 1;
+    if (picture->nbands > 1)
+        jpeg->restart_in_rows = RETEX_PICTURE_BAND / (DCTSIZE * jpeg->comp_info[0].v_samp_factor);
+    jpeg_start_compress(jpeg, TRUE);
+    write_exif(jpeg, !picture->params.colorspace);
+    jpeg_write_scanlines(jpeg, NULL, 0); /* makes it write the tables */
+}
+
+/* Compress; *head is how much of it comes before the coded data. */
+static int compress(Compressor *c, const RetexPicture *picture, const uint8_t *codes, int lines, size_t *head)
+{
+    const size_t row = (size_t)picture->width * (picture->channels == 1 ? 1 : 3);
+
+    c->jpeg.err = jpeg_std_error(&c->errors);
+    c->errors.error_exit = leave;
+    c->errors.output_message = say_nothing;
+    c->to = (struct jpeg_destination_mgr){
+        .init_destination = begin_output, .empty_output_buffer = more_room, .term_destination = end_output};
+    if (setjmp(c->failed))
+        return 0;
+    begin_file(c, picture, codes ? lines : picture->height);
+    *head = written(c);
+    if (!codes)
+        return 1;
+    for (int y = 0; y < lines; y++) {
+        JSAMPROW line = (JSAMPROW)(codes + (size_t)y * row);
+        jpeg_write_scanlines(&c->jpeg, &line, 1);
+    }
+    jpeg_finish_compress(&c->jpeg);
+    return 1;
+}
+
+static int run_compressor(unsigned char **data, size_t *head, size_t *bytes, const RetexPicture *picture,
+                          const uint8_t *codes, int lines, RetexError *err)
+{
+    Compressor *c = calloc(1, sizeof *c);
+
+    if (!c)
+        return retex_fail(err, RETEX_ENOMEM, "no memory to write %s", picture->path);
+    const int done = compress(c, picture, codes, lines, head);
+    jpeg_destroy_compress(&c->jpeg);
+    if (!done) {
+        const int code = retex_fail(err, RETEX_EIO, "cannot write %s: %s", picture->path, c->message);
+        free(c->data);
+        free(c);
+        return code;
+    }
+    *data = c->data;
+    *bytes = written(c);
+    free(c);
+    return 0;
+}
+
+/* What a band adds to the file: the header or a restart marker, its coded data, at the very end the end's marker. */
+static int make_piece(RetexPicture *picture, int band, const uint8_t *codes, RetexError *err)
+{
+    unsigned char *data, *whole = NULL;
+    size_t head, bytes, start = MARKER_BYTES, unused;
+    int status = run_compressor(&data, &head, &bytes, picture, codes, retex_picture_band_lines(picture, band), err);
+
+    if (status)
+        return status;
+    if (band + 1 < picture->nbands)
+        bytes -= MARKER_BYTES;
+    if (band == 0) {
+        status = run_compressor(&whole, &start, &unused, picture, NULL, 0, err);
+    } else {
+        data[head - 2] = 0xff;
+        data[head - 1] = (unsigned char)(JPEG_RST0 + (band - 1) % 8);
+    }
+    if (!status && band == 0) {
+        /* the header of the picture is as long as that of a band: only the height differs */
+        if (start == head)
+            memcpy(data, whole, head);
+        else
+            status = retex_fail(err, RETEX_EINTERNAL, "cannot write %s: unexpected headers", picture->path);
+    }
+    free(whole);
+    if (status) {
+        free(data);
+        return status;
+    }
+    const size_t skip = band == 0 ? 0 : head - MARKER_BYTES;
+    memmove(data, data + skip, bytes - skip);
+    return retex_picture_lay(picture, band, data, bytes - skip, err);
+}
+
+static int jpeg_begin(RetexPicture *picture, RetexError *err)
+{
+    if (picture->width > JPEG_MAX_DIMENSION || picture->height > JPEG_MAX_DIMENSION)
+        return retex_fail(err, RETEX_EINVAL, "cannot write %s: a JPEG has at most %d x %d pixels", picture->path,
+                          (int)JPEG_MAX_DIMENSION, (int)JPEG_MAX_DIMENSION);
+    return 0;
+}
+
+static int jpeg_band(RetexPicture *picture, int band, const float *rows, RetexError *err)
+{
+    const int lines = retex_picture_band_lines(picture, band), channels = picture->channels == 1 ? 1 : 3;
+    uint8_t *codes = malloc((size_t)picture->width * (size_t)(lines * channels));
+    int status = codes ? 0 : retex_fail(err, RETEX_ENOMEM, "no memory to write %s", picture->path);
+
+    if (!status)
+        status = retex_picture_codes_8(picture, codes, channels, rows, lines, err);
+    if (!status)
+        status = make_piece(picture, band, codes, err);
+    free(codes);
+    return status;
+}
+
+static int jpeg_finish(RetexPicture *picture, RetexError *err)
+{
+    (void)picture, (void)err;
+    return 0; /* the last band brought the end */
+}
+
+const RetexPictureFormat retex_picture_jpeg = {jpeg_begin, jpeg_band, jpeg_finish, NULL};

@@ -1,0 +1,381 @@
+/* Pictures written while they are made: which format it is, the order of the bands, and the turn from scene-linear to
+ * what a display shows. See retex/picture.h; the formats are in picture_*.c. */
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+
+#include <retex/parallel.h>
+
+#include "picture/format.h"
+#include "picture/srgb_codes.h"
+
+/* --- what is to be written --- */
+
+static const char *ending_of(const char *path)
+{
+    const char *slash = strrchr(path, '/'), *dot = strrchr(slash ? slash : path, '.');
+
+    return dot ? dot + 1 : "";
+}
+
+/* Whether it is an EXR, and one that needs no OpenColorIO. */
+static int is_exr(const char *path, const RetexWriteParams *params)
+{
+    return strcasecmp(ending_of(path), "exr") == 0 ||
+           (retex_names_linear(params->colorspace) && (strcmp(path, "-") == 0 || strncmp(path, "/dev/", 5) == 0));
+}
+
+static int is_linear_exr(const char *path, const RetexWriteParams *params)
+{
+    return is_exr(path, params) && (params->is_data || retex_names_linear(params->colorspace));
+}
+
+/* The format of that ending, where it is one that is made here. */
+static const RetexPictureFormat *own_format(const char *path)
+{
+    static const char *const jpeg_endings[] = {"jpg", "jpe", "jpeg", "jif", "jfif", "jfi"};
+    const char *ending = ending_of(path);
+
+    if (strcasecmp(ending, "png") == 0)
+        return &retex_picture_png;
+    for (size_t i = 0; i < sizeof jpeg_endings / sizeof jpeg_endings[0]; i++)
+        if (strcasecmp(ending, jpeg_endings[i]) == 0)
+            return &retex_picture_jpeg;
+    return NULL;
+}
+
+static int is_given(const char *text)
+{
+    return text && text[0];
+}
+
+/* Whether colours are those that need no OpenColorIO: of the built-in configuration, as it shows them by default. */
+static int has_own_colors(const RetexWriteParams *params)
+{
+    return !is_given(params->colorspace) && !is_given(params->display) && !is_given(params->view) &&
+           !is_given(getenv("OCIO"));
+}
+
+static int check_params(const char *path, const RetexWriteParams *params, RetexError *err)
+{
+    if (params->quality < 1 || params->quality > 100)
+        return retex_fail(err, RETEX_EINVAL, "quality is 1 to 100, not %d", params->quality);
+    if (!is_exr(path, params) && strcmp(path, "-") == 0)
+        return retex_fail(err, RETEX_EUNSUPPORTED, "standard output takes scene-linear EXR only, not %s",
+                          params->colorspace);
+    return 0;
+}
+
+/* What was given, and the defaults for what an older caller's struct has not. */
+static RetexWriteParams complete(const RetexWriteParams *given)
+{
+    RetexWriteParams params = RETEX_WRITE_INIT;
+
+    if (given)
+        memcpy(&params, given, given->size < sizeof params ? given->size : sizeof params);
+    return params;
+}
+
+int retex_image_format_check(const char *path, const RetexWriteParams *given, RetexError *err)
+{
+    const RetexWriteParams params = complete(given);
+    const int status = check_params(path, &params, err);
+    if (status || is_linear_exr(path, &params) || (own_format(path) && has_own_colors(&params)))
+        return status;
+    return retex_bridge_check(path, &params, err);
+}
+
+int retex_image_write_check(const char *path, const RetexWriteParams *given, RetexError *err)
+{
+    const RetexWriteParams params = complete(given);
+    int status = check_params(path, &params, err);
+    if (!status)
+        status = retex_output_check(path, err);
+    return status ? status : retex_image_format_check(path, given, err);
+}
+
+/* --- beginning --- */
+
+static void *load_plan(void *argument)
+{
+    RetexPicture *picture = argument;
+
+    retex_bridge_plan(&picture->plan, &picture->stored, picture->path, picture->width, picture->height,
+                      picture->channels, &picture->params, &picture->plan_error);
+    return NULL;
+}
+
+static char *copy_text(const char *text, int *failed)
+{
+    char *copy = is_given(text) ? strdup(text) : NULL;
+
+    *failed |= is_given(text) && !copy;
+    return copy;
+}
+
+static void free_picture(RetexPicture *picture)
+{
+    if (picture->loading)
+        pthread_join(picture->loader, NULL);
+    if (picture->format && picture->format->end)
+        picture->format->end(picture);
+    retex_bridge_plan_free(&picture->plan);
+    retex_output_abandon(&picture->output);
+    for (int i = 0; picture->pieces && i < picture->nbands; i++)
+        free(picture->pieces[i].data);
+    free(picture->pieces);
+    free((char *)picture->params.display);
+    free((char *)picture->params.view);
+    free((char *)picture->params.colorspace);
+    free(picture->path);
+    pthread_mutex_destroy(&picture->lock);
+    free(picture);
+}
+
+static RetexPicture *new_picture(const char *path, int width, int height, int channels, const RetexWriteParams *params)
+{
+    RetexPicture *picture = calloc(1, sizeof *picture);
+    int failed = 0;
+
+    if (!picture)
+        return NULL;
+    pthread_mutex_init(&picture->lock, NULL);
+    picture->width = width;
+    picture->height = height;
+    picture->channels = channels;
+    picture->nbands = (height + RETEX_PICTURE_BAND - 1) / RETEX_PICTURE_BAND;
+    picture->pieces = calloc((size_t)picture->nbands, sizeof *picture->pieces);
+    picture->params = *params;
+    picture->params.display = copy_text(params->display, &failed);
+    picture->params.view = copy_text(params->view, &failed);
+    picture->params.colorspace = copy_text(params->colorspace, &failed);
+    picture->path = strdup(path);
+    if (picture->pieces && picture->path && !failed)
+        return picture;
+    free_picture(picture);
+    return NULL;
+}
+
+/* Begin to load the bridge; where there is no thread for it, right here. */
+static void begin_loading(RetexPicture *picture)
+{
+    picture->bridged = 1;
+    picture->loading = pthread_create(&picture->loader, NULL, load_plan, picture) == 0;
+    if (!picture->loading)
+        load_plan(picture);
+}
+
+int retex_picture_open(RetexPicture **result, const char *path, int width, int height, int channels,
+                       const RetexWriteParams *given, RetexError *err)
+{
+    const RetexWriteParams complete_params = complete(given), *params = &complete_params;
+
+    *result = NULL;
+    int status = check_params(path, params, err);
+    if (!status && (channels < 1 || channels > 4 || channels == 2))
+        status = retex_fail(err, RETEX_EINVAL, "a picture has 1, 3 or 4 channels, not %d", channels);
+    if (!status && (width < 1 || height < 1 || width > RETEX_MAX_SIZE || height > RETEX_MAX_SIZE))
+        status = retex_fail(err, RETEX_EINVAL, "a picture of %d x %d pixels is out of bounds", width, height);
+    if (!status)
+        status = retex_output_check(path, err);
+    if (status)
+        return status;
+    RetexPicture *picture = new_picture(path, width, height, channels, params);
+    if (!picture)
+        return retex_fail(err, RETEX_ENOMEM, "no memory to write %s", path);
+    const RetexPictureFormat *own = is_exr(path, params) ? &retex_picture_exr : own_format(path);
+    picture->format = own ? own : &retex_picture_stored;
+    if (own == &retex_picture_exr ? !is_linear_exr(path, params) : !own || !has_own_colors(params))
+        begin_loading(picture);
+    status = picture->format->begin(picture, err);
+    if (status)
+        free_picture(picture);
+    else
+        *result = picture;
+    return status;
+}
+
+int retex_picture_plan(RetexPicture *picture, RetexError *err)
+{
+    pthread_mutex_lock(&picture->lock);
+    if (picture->loading)
+        pthread_join(picture->loader, NULL);
+    picture->loading = 0;
+    pthread_mutex_unlock(&picture->lock);
+    if (!picture->plan && err)
+        *err = picture->plan_error;
+    return picture->plan ? 0 : picture->plan_error.code;
+}
+
+/* --- bands --- */
+
+int retex_picture_band_lines(const RetexPicture *picture, int band)
+{
+    const int left = picture->height - band * RETEX_PICTURE_BAND;
+
+    return left < RETEX_PICTURE_BAND ? left : RETEX_PICTURE_BAND;
+}
+
+int retex_picture_append(RetexPicture *picture, const void *data, size_t bytes, RetexError *err)
+{
+    int status = picture->output ? 0 : retex_output_open(&picture->output, picture->path, err);
+
+    return status ? status : retex_output_write(picture->output, data, bytes, err);
+}
+
+int retex_picture_lay(RetexPicture *picture, int band, unsigned char *data, size_t bytes, RetexError *err)
+{
+    int status = 0;
+
+    pthread_mutex_lock(&picture->lock);
+    picture->pieces[band] = (RetexPicturePiece){data, bytes, 2};
+    while (!status && picture->next < picture->nbands && picture->pieces[picture->next].state == 2) {
+        RetexPicturePiece *piece = &picture->pieces[picture->next++];
+        if (piece->data)
+            status = retex_picture_append(picture, piece->data, piece->bytes, err);
+        free(piece->data);
+        piece->data = NULL;
+    }
+    pthread_mutex_unlock(&picture->lock);
+    return status;
+}
+
+/* Take a band for this thread: it must be one, and of nobody else. After a failure there is no point in going on. */
+static int take_band(RetexPicture *picture, int y0, int y1, RetexError *err)
+{
+    const int band = y0 / RETEX_PICTURE_BAND;
+    int is_band = y0 >= 0 && y0 < picture->height && y0 % RETEX_PICTURE_BAND == 0 &&
+                  y1 - y0 == retex_picture_band_lines(picture, band);
+
+    pthread_mutex_lock(&picture->lock);
+    *err = picture->error;
+    if (is_band && picture->pieces[band].state == 0)
+        picture->pieces[band].state = 1;
+    else
+        is_band = 0;
+    pthread_mutex_unlock(&picture->lock);
+    if (err->code)
+        return err->code;
+    return is_band ? 0
+                   : retex_fail(err, RETEX_EINVAL, "rows %d to %d are no band of %s, or given twice", y0, y1,
+                                picture->path);
+}
+
+int retex_picture_rows(RetexPicture *picture, int y0, int y1, const float *rows, RetexError *err)
+{
+    RetexError error = {0};
+    int status = take_band(picture, y0, y1, &error);
+
+    if (!status)
+        status = picture->format->band(picture, y0 / RETEX_PICTURE_BAND, rows, &error);
+    if (!status)
+        return 0;
+    pthread_mutex_lock(&picture->lock);
+    if (!picture->error.code)
+        picture->error = error;
+    pthread_mutex_unlock(&picture->lock);
+    if (err)
+        *err = error;
+    return status;
+}
+
+static int finish(RetexPicture *picture, RetexError *err)
+{
+    if (picture->error.code) {
+        if (err)
+            *err = picture->error;
+        return picture->error.code;
+    }
+    if (picture->next < picture->nbands)
+        return retex_fail(err, RETEX_EINVAL, "%s is not complete: rows from %d on are missing", picture->path,
+                          picture->next * RETEX_PICTURE_BAND);
+    const int status = picture->format->finish(picture, err);
+    return status || !picture->output ? status : retex_output_commit(&picture->output, err);
+}
+
+int retex_picture_close(RetexPicture **result, int keep, RetexError *err)
+{
+    RetexPicture *picture = result ? *result : NULL;
+
+    if (!picture)
+        return 0;
+    const int status = keep ? finish(picture, err) : 0;
+    free_picture(picture);
+    *result = NULL;
+    return status;
+}
+
+/* --- colours --- */
+
+/* Alpha goes as it is, or is lost. */
+static int convert_alpha(RetexPicture *picture, uint8_t *codes, int channels, const float *rows, size_t pixels,
+                         RetexError *err)
+{
+    float *colors = malloc(pixels * 3 * sizeof *colors);
+    uint8_t *color_codes = channels == 3 ? codes : malloc(pixels * 3);
+    const int status =
+        colors && color_codes ? 0 : retex_fail(err, RETEX_ENOMEM, "no memory to write %s", picture->path);
+
+    if (!status) {
+        for (size_t i = 0; i < pixels; i++)
+            for (size_t c = 0; c < 3; c++)
+                colors[3 * i + c] = channels == 3 ? rows[4 * i + c] * rows[4 * i + 3] : rows[4 * i + c];
+        retex_srgb_codes_8(color_codes, colors, 3 * pixels);
+        for (size_t i = 0; channels == 4 && i < pixels; i++) {
+            memcpy(codes + 4 * i, color_codes + 3 * i, 3);
+            codes[4 * i + 3] = (uint8_t)retex_linear_code(rows[4 * i + 3], 8);
+        }
+    }
+    free(colors);
+    if (color_codes != codes)
+        free(color_codes);
+    return status;
+}
+
+int retex_picture_codes_8(RetexPicture *picture, uint8_t *codes, int channels, const float *rows, int nrows,
+                          RetexError *err)
+{
+    const size_t pixels = (size_t)picture->width * (size_t)nrows;
+
+    if (picture->bridged) {
+        const int status = retex_picture_plan(picture, err);
+        if (status)
+            return status;
+        if (!picture->stored.is_srgb)
+            return retex_bridge_convert(picture->plan, rows, (long)pixels, codes, err);
+    }
+    if (picture->channels == 4)
+        return convert_alpha(picture, codes, channels, rows, pixels, err);
+    retex_srgb_codes_8(codes, rows, pixels * (size_t)channels);
+    return 0;
+}
+
+/* --- a picture that is there already --- */
+
+typedef struct WholeImage {
+    RetexPicture *picture;
+    const RetexImage *image;
+} WholeImage;
+
+static void write_band(void *context, int index, int thread)
+{
+    const WholeImage *whole = context;
+    const int y0 = index * RETEX_PICTURE_BAND, y1 = y0 + retex_picture_band_lines(whole->picture, index);
+
+    (void)thread;
+    (void)retex_picture_rows(whole->picture, y0, y1, whole->image->pixels + retex_image_index(whole->image, 0, y0),
+                             NULL); /* the picture keeps the error */
+}
+
+int retex_image_write(const RetexImage *src, const char *path, const RetexWriteParams *params, RetexError *err)
+{
+    WholeImage whole = {NULL, src};
+
+    if (!src->pixels)
+        return retex_fail(err, RETEX_EINVAL, "there is no picture to be written");
+    const int status = retex_picture_open(&whole.picture, path, src->width, src->height, src->channels, params, err);
+    if (status)
+        return status;
+    retex_parallel(0, whole.picture->nbands, write_band, &whole);
+    return retex_picture_close(&whole.picture, 1, err);
+}

@@ -1,0 +1,175 @@
+/* PNG of 8 bits, band by band. Each band is filtered and deflated by itself, as a piece of one zlib stream: it begins
+ * and ends at a whole byte, refers to nothing before it, and is an IDAT chunk. The checksum of all is put together from
+ * those of the bands.
+ *
+ * Renders have noise in their low bits, where filters leave little to repeat: what ISA-L's quick level finds, after the
+ * best of all filters, packs them as tightly as zlib's level 6 does, in much less time. */
+#include <stdlib.h>
+#include <string.h>
+
+#include <zlib.h>
+
+#include "io/checksum.h"
+#include "io/deflate.h"
+#include "picture/format.h"
+#include "picture/png_filter.h"
+
+enum { CHUNK_HEAD = 8, CHUNK_TAIL = 4, ZLIB_HEAD = 2, HEADER_ROOM = 256 };
+
+typedef struct Sum {
+    uint32_t adler;
+    size_t bytes;
+} Sum;
+
+static void put_32(unsigned char *to, uint32_t value)
+{
+    for (int i = 0; i < 4; i++)
+        to[i] = (unsigned char)(value >> (24 - 8 * i));
+}
+
+/* A chunk around bytes that are in their place already; how long it is in all. */
+static size_t close_chunk(unsigned char *chunk, const char *type, size_t bytes)
+{
+    put_32(chunk, (uint32_t)bytes);
+    memcpy(chunk + 4, type, 4);
+    put_32(chunk + CHUNK_HEAD + bytes, retex_crc32(CRC32_OF_NONE, chunk + 4, bytes + 4));
+    return CHUNK_HEAD + bytes + CHUNK_TAIL;
+}
+
+static size_t add_chunk(unsigned char *to, const char *type, const void *data, size_t bytes)
+{
+    if (bytes)
+        memcpy(to + CHUNK_HEAD, data, bytes);
+    return close_chunk(to, type, bytes);
+}
+
+/* Everything before the pixels. Colours are tagged as sRGB where they went through a display transform; gamma and
+ * primaries are for readers that do not know that tag. */
+static size_t write_header(unsigned char *to, const RetexPicture *picture)
+{
+    static const unsigned char signature[8] = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
+    static const uint32_t gamma = 45455, primaries[8] = {31270, 32900, 64000, 33000, 30000, 60000, 15000, 6000};
+    static const unsigned char color_types[5] = {[1] = 0, [3] = 2, [4] = 6}, intent = 3;
+    unsigned char header[13] = {[8] = 8, [9] = color_types[picture->channels]}, numbers[32];
+    size_t at = sizeof signature;
+
+    memcpy(to, signature, sizeof signature);
+    put_32(header, (uint32_t)picture->width);
+    put_32(header + 4, (uint32_t)picture->height);
+    at += add_chunk(to + at, "IHDR", header, sizeof header);
+    if (!picture->params.colorspace) {
+        put_32(numbers, gamma);
+        at += add_chunk(to + at, "gAMA", numbers, 4);
+        at += add_chunk(to + at, "sRGB", &intent, 1);
+        for (int i = 0; i < 8; i++)
+            put_32(numbers + 4 * i, primaries[i]);
+        at += add_chunk(to + at, "cHRM", numbers, sizeof numbers);
+    }
+    at += add_chunk(to + at, "tEXt", "Software\0retex", 14);
+    return at;
+}
+
+static size_t line_bytes(const RetexPicture *picture)
+{
+    return (size_t)picture->width * (size_t)picture->channels;
+}
+
+/* The first line looks at no other: that is in another band. */
+static int filter_lines(unsigned char *filtered, const RetexPicture *picture, const uint8_t *codes, int lines)
+{
+    const size_t bytes = line_bytes(picture);
+    unsigned char *trial = malloc(bytes);
+
+    for (int y = 0; trial && y < lines; y++) {
+        const uint8_t *line = codes + (size_t)y * bytes;
+        retex_png_filter(filtered + (size_t)y * (bytes + 1), trial, line, y ? line - bytes : NULL, bytes,
+                         (size_t)picture->channels);
+    }
+    free(trial);
+    return trial != NULL;
+}
+
+/* Deflate into memory with room for head bytes before and tail bytes after; NULL where memory is short. */
+static unsigned char *deflate_lines(const unsigned char *filtered, size_t bytes, int is_last, size_t head, size_t tail,
+                                    size_t *packed_bytes)
+{
+    const size_t room = retex_deflate_room(bytes);
+    unsigned char *data = malloc(head + room + tail);
+
+    *packed_bytes = data ? retex_deflate(NULL, data + head, room, filtered, bytes, is_last) : 0;
+    if (*packed_bytes)
+        return data;
+    free(data);
+    return NULL;
+}
+
+/* What a band adds to the file: the header before the first, and an IDAT chunk. */
+static unsigned char *make_piece(const RetexPicture *picture, int band, const unsigned char *filtered, size_t bytes,
+                                 size_t *piece_bytes)
+{
+    unsigned char header[HEADER_ROOM];
+    const size_t before = band == 0 ? write_header(header, picture) : 0, prefix = band == 0 ? ZLIB_HEAD : 0;
+    size_t packed_bytes;
+    unsigned char *data = deflate_lines(filtered, bytes, band + 1 == picture->nbands, before + CHUNK_HEAD + prefix,
+                                        CHUNK_TAIL, &packed_bytes);
+
+    if (!data)
+        return NULL;
+    memcpy(data, header, before);
+    if (prefix)
+        memcpy(data + before + CHUNK_HEAD, "\x78\x01", ZLIB_HEAD); /* deflate, 32 KB, fastest */
+    *piece_bytes = before + close_chunk(data + before, "IDAT", prefix + packed_bytes);
+    unsigned char *less = realloc(data, *piece_bytes);
+    return less ? less : data;
+}
+
+static int png_begin(RetexPicture *picture, RetexError *err)
+{
+    picture->maker = calloc((size_t)picture->nbands, sizeof(Sum));
+    return picture->maker ? 0 : retex_fail(err, RETEX_ENOMEM, "no memory to write %s", picture->path);
+}
+
+static int png_band(RetexPicture *picture, int band, const float *rows, RetexError *err)
+{
+    const int lines = retex_picture_band_lines(picture, band);
+    const size_t bytes = (line_bytes(picture) + 1) * (size_t)lines;
+    uint8_t *codes = malloc(line_bytes(picture) * (size_t)lines);
+    unsigned char *filtered = malloc(bytes), *piece = NULL;
+    size_t piece_bytes;
+    int status = codes && filtered ? 0 : RETEX_ENOMEM;
+
+    if (!status) {
+        status = retex_picture_codes_8(picture, codes, picture->channels, rows, lines, err);
+        if (!status && !filter_lines(filtered, picture, codes, lines))
+            status = RETEX_ENOMEM;
+    }
+    if (!status) {
+        ((Sum *)picture->maker)[band] = (Sum){retex_adler32(ADLER32_OF_NONE, filtered, bytes), bytes};
+        piece = make_piece(picture, band, filtered, bytes, &piece_bytes);
+        status = piece ? retex_picture_lay(picture, band, piece, piece_bytes, err) : RETEX_ENOMEM;
+    }
+    free(codes);
+    free(filtered);
+    return status == RETEX_ENOMEM ? retex_fail(err, status, "no memory to write %s", picture->path) : status;
+}
+
+/* The stream's checksum, in a chunk of its own, and the end. */
+static int png_finish(RetexPicture *picture, RetexError *err)
+{
+    const Sum *sums = picture->maker;
+    unsigned char end[2 * (CHUNK_HEAD + CHUNK_TAIL) + 4], number[4];
+    uLong adler = ADLER32_OF_NONE;
+
+    for (int band = 0; band < picture->nbands; band++)
+        adler = adler32_combine(adler, sums[band].adler, (z_off_t)sums[band].bytes);
+    put_32(number, (uint32_t)adler);
+    const size_t at = add_chunk(end, "IDAT", number, sizeof number);
+    return retex_picture_append(picture, end, at + add_chunk(end + at, "IEND", NULL, 0), err);
+}
+
+static void png_end(RetexPicture *picture)
+{
+    free(picture->maker);
+}
+
+const RetexPictureFormat retex_picture_png = {png_begin, png_band, png_finish, png_end};

@@ -1,0 +1,69 @@
+/* Every format that OpenImageIO writes: what the file will store of the pixels, 1 to 4 bytes a sample, is held until
+ * all of it is there. */
+#include <stdlib.h>
+
+#include "picture/format.h"
+#include "picture/srgb_codes.h"
+
+static size_t row_samples(const RetexPicture *picture)
+{
+    return (size_t)picture->width * (size_t)picture->stored.channels;
+}
+
+/* Memory for the samples, once the bridge has said how many there are. */
+static int need_samples(RetexPicture *picture, RetexError *err)
+{
+    int status = retex_picture_plan(picture, err);
+
+    if (status)
+        return status;
+    pthread_mutex_lock(&picture->lock);
+    if (!picture->maker)
+        picture->maker = malloc(row_samples(picture) * (size_t)picture->height * (size_t)(picture->stored.bits / 8));
+    if (!picture->maker)
+        status = retex_fail(err, RETEX_ENOMEM, "no memory to write %s", picture->path);
+    pthread_mutex_unlock(&picture->lock);
+    return status;
+}
+
+static int stored_begin(RetexPicture *picture, RetexError *err)
+{
+    (void)picture, (void)err;
+    return 0;
+}
+
+static int stored_band(RetexPicture *picture, int band, const float *rows, RetexError *err)
+{
+    const int lines = retex_picture_band_lines(picture, band);
+    int status = need_samples(picture, err);
+
+    if (status)
+        return status;
+    const size_t row = row_samples(picture), first = row * (size_t)band * RETEX_PICTURE_BAND;
+    unsigned char *samples = (unsigned char *)picture->maker + first * (size_t)(picture->stored.bits / 8);
+    if (picture->stored.bits == 8)
+        status = retex_picture_codes_8(picture, samples, picture->stored.channels, rows, lines, err);
+    else if (picture->stored.bits == 16 && picture->stored.is_srgb && picture->stored.channels == picture->channels &&
+             picture->channels != 4)
+        retex_srgb_codes_16((uint16_t *)(void *)samples, rows, row * (size_t)lines);
+    else
+        status = retex_bridge_convert(picture->plan, rows, (long)picture->width * lines, samples, err);
+    return status ? status : retex_picture_lay(picture, band, NULL, 0, err);
+}
+
+static int append(void *picture, const void *data, size_t bytes, RetexError *err)
+{
+    return retex_picture_append(picture, data, bytes, err);
+}
+
+static int stored_finish(RetexPicture *picture, RetexError *err)
+{
+    return retex_bridge_write(picture->plan, picture->maker, append, picture, err);
+}
+
+static void stored_end(RetexPicture *picture)
+{
+    free(picture->maker);
+}
+
+const RetexPictureFormat retex_picture_stored = {stored_begin, stored_band, stored_finish, stored_end};

@@ -1,0 +1,11 @@
+/* The inner loops of recombination. Private to libretex. */
+#ifndef RETEX_RETEXTURE_COMBINE_KERNEL_H
+#define RETEX_RETEXTURE_COMBINE_KERNEL_H
+
+#include <stddef.h>
+
+/* sum[i] += radiance[i] * product of factors[k][i], for n values. Nothing may overlap sum. */
+void combine_term_kernel(float *restrict sum, const float *restrict radiance, const float *const *factors, int nfactors,
+                         size_t n);
+
+#endif

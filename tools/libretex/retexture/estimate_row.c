@@ -1,0 +1,147 @@
+/* See estimate_row.h. Colours are interleaved: n numbers are a third as many pixels. */
+#include "retexture/estimate_row.h"
+
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+/* k_f and s_f by kind of footprint: hit, sharp, broad, later. */
+static const float agreement[] = {0.3f, 0.05f, 0.1f, 0.1f};
+static const float chance[] = {1, 0.3f, 1, 1};
+
+static size_t row_numbers(const RetexSet *set)
+{
+    return 3 * (size_t)set->width;
+}
+
+size_t estimate_scratch(const RetexSet *set)
+{
+    return row_numbers(set) * (1 + (size_t)set->nfootprints + (size_t)set->nmixtures); /* the sum first */
+}
+
+/* Row of a factor's derivatives: footprints, then mixtures. */
+static size_t derivative_row(const RetexSet *set, int factor)
+{
+    return (size_t)(factor >= 0 ? factor : set->nfootprints + RETEX_MIXTURE(factor));
+}
+
+/* Add to the row's derivatives those of one term, and to its sum the term itself. */
+static void add_term(const RetexSet *set, const Monomial *m, size_t n, float *restrict sum, float *restrict derivatives)
+{
+    for (size_t i = 0; i < n; i++) {
+        float radiance = m->radiance[i];
+        for (int k = m->nfactors; k < m->nimages; k++)
+            radiance *= m->factors[k][i];
+        if (radiance == 0)
+            continue;
+        for (int k = 0; k < m->nfactors; k++) {
+            float others = radiance;
+            for (int j = 0; j < m->nfactors; j++)
+                if (j != k)
+                    others *= m->factors[j][i];
+            derivatives[derivative_row(set, m->footprints[k]) * n + i] += others;
+        }
+        for (int k = 0; k < m->nfactors; k++)
+            radiance *= m->factors[k][i];
+        sum[i] += radiance;
+    }
+}
+
+/* A part's row at the picture's row y; the part may be smaller. */
+typedef struct PartRow {
+    const float *row; /* NULL: black */
+    int scale, channels;
+} PartRow;
+
+static int read_part(PartRow *of, const PolynomialRow *row, int part, int y, RetexError *err)
+{
+    const RetexSet *set = row->polynomial->set;
+    const RetexImage *image = &set->parts[part].image;
+    *of = (PartRow){.scale = retex_set_scale(set, image), .channels = image->channels};
+    return row_reader_get(row->reader, part, y / of->scale, &of->row, err);
+}
+
+/* Value of colour c at the picture's pixel x; a part may have one channel for all. */
+static float value_at(const PartRow *of, int x, int c)
+{
+    if (!of->row)
+        return 0;
+    return of->row[(size_t)(x / of->scale) * (size_t)of->channels + (of->channels == 3 ? (size_t)c : 0)];
+}
+
+static int is_zero(const float *row, size_t n)
+{
+    size_t i = 0;
+    while (i < n && row[i] == 0)
+        i++;
+    return i == n;
+}
+
+/* A mixture's derivative belongs to its footprints, by their shares. */
+static int share_derivatives(const PolynomialRow *row, const RetexMixture *mixture, int y, size_t n,
+                             const float *restrict of_mixture, float *restrict derivatives, RetexError *err)
+{
+    PartRow of[RETEX_SHARES_MAX];
+    if (is_zero(of_mixture, n)) /* no term may have it */
+        return RETEX_OK;
+    for (int k = 0; k < mixture->nshares; k++) {
+        int code = read_part(&of[k], row, mixture->shares[k].weight, y, err);
+        if (code)
+            return code;
+    }
+    for (size_t i = 0; i < n; i++) {
+        float weights[RETEX_SHARES_MAX], sum = 0;
+        if (of_mixture[i] == 0)
+            continue;
+        for (int k = 0; k < mixture->nshares; k++) {
+            weights[k] = value_at(&of[k], (int)(i / 3), (int)(i % 3));
+            sum += weights[k];
+        }
+        for (int k = 0; k < mixture->nshares && sum > 0; k++)
+            derivatives[(size_t)mixture->shares[k].footprint * n + i] += of_mixture[i] * weights[k] / sum;
+    }
+    return RETEX_OK;
+}
+
+/* Add what a footprint's texture makes of its derivatives. */
+static int add_footprint(const PolynomialRow *row, const RetexFootprint *f, int y, size_t n, const float *variances,
+                         const float *restrict derivatives, float *restrict sum, RetexError *err)
+{
+    const float k = agreement[f->kind], s = chance[f->kind];
+    PartRow uv;
+    int code = read_part(&uv, row, f->uv, y, err);
+    const PartRow variance = {variances, uv.scale, 3};
+    for (size_t i = 0; !code && i < n; i++) {
+        const float d = derivatives[i];
+        const int x = (int)(i / 3);
+        if (d == 0)
+            continue;
+        const float paths = value_at(&uv, x, 2) * (float)row->polynomial->set->spp;
+        sum[i] += d * d * value_at(&variance, x, (int)(i % 3)) * (k * k + s / fmaxf(paths, 1));
+    }
+    return code;
+}
+
+int estimate_row(const PolynomialRow *row, int y, const float *const *variances, float *scratch, float *out,
+                 RetexError *err)
+{
+    const RetexSet *set = row->polynomial->set;
+    const size_t n = row_numbers(set);
+    const float folded = (float)set->folded;
+    float *sum = scratch, *derivatives = scratch + n;
+    int code = RETEX_OK;
+    memset(scratch, 0, sizeof *scratch * estimate_scratch(set));
+    for (int t = 0; t < row->count; t++)
+        add_term(set, &row->monomials[t], n, sum, derivatives);
+    for (int m = 0; m < set->nmixtures && !code; m++)
+        code = share_derivatives(row, &set->mixtures[m], y, n, derivatives + derivative_row(set, RETEX_MIXTURE(m)) * n,
+                                 derivatives, err);
+    for (size_t i = 0; i < n; i++)
+        sum[i] = folded * sum[i] * folded * sum[i];
+    for (int f = 0; f < set->nfootprints && !code; f++)
+        if (variances[f])
+            code = add_footprint(row, &set->footprints[f], y, n, variances[f], derivatives + (size_t)f * n, sum, err);
+    for (size_t i = 0; i < n; i++)
+        out[i] = sum[i] <= FLT_MAX ? sqrtf(sum[i]) : FLT_MAX; /* derivatives by large colours, and NaN of such */
+    return code;
+}

@@ -1,0 +1,290 @@
+/* See polynomial.h. */
+#include "retexture/polynomial.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "retexture/enlarge.h"
+#include "retexture/polynomial_factors.h"
+#include "retexture/polynomial_groups.h"
+#include "retexture/polynomial_small.h"
+
+#define MISSING 1 /* the code where the set has not what a term refers to */
+
+int term_is_left_out(const RetexTerm *term, int cross)
+{
+    return (term->kind == RETEX_TERM_CROSS2 && cross < 2) || (term->kind == RETEX_TERM_CROSS3 && cross < 3);
+}
+
+/* ---- opening ---- */
+
+/* Its image where it is smaller than the picture, to be filled in later. */
+static int open_factor(Polynomial *p, int factor, RetexError *err)
+{
+    const RetexImage *shape = factor_shape(p, factor);
+    RetexImage *image = factor >= 0 ? p->footprints + factor : p->mixtures + RETEX_MIXTURE(factor);
+    if (factor < 0 && RETEX_MIXTURE(factor) < p->set->nmixtures && (!shape || !retex_set_scale(p->set, shape)))
+        return retex_fail(err, RETEX_EFORMAT, "a mixture of the set lacks a footprint or its weight");
+    if (!shape || !retex_set_scale(p->set, shape))
+        return MISSING;
+    if (image->pixels || retex_set_scale(p->set, shape) == 1)
+        return RETEX_OK;
+    return retex_image_alloc(image, shape->width, shape->height, 3, err);
+}
+
+/* A gain of that scale is read when its rows are needed. */
+static int open_gain(Polynomial *p, int part, int scale, RetexError *err)
+{
+    const RetexImage *shape = find_part(p->set, part, 1, 3);
+    if (!shape || shape->channels == 2 || !retex_set_scale(p->set, shape))
+        return MISSING;
+    if (p->gains[part].pixels || retex_set_scale(p->set, shape) == scale || retex_set_scale(p->set, shape) == 1)
+        return RETEX_OK;
+    return retex_image_alloc(&p->gains[part], shape->width, shape->height, shape->channels, err);
+}
+
+static int open_term(Polynomial *p, int number, RetexError *err)
+{
+    const RetexTerm *term = &p->set->terms[number];
+    const RetexImage *radiance = find_part(p->set, term->radiance, 3, 3);
+    int code =
+        radiance && retex_set_scale(p->set, radiance) == 1 && term->nfactors >= 0 && term->nfactors <= RETEX_MAX_FACTORS
+            ? RETEX_OK
+            : MISSING;
+    for (int k = 0; k < term->nfactors && !code; k++)
+        code = open_factor(p, term->factors[k], err);
+    if (!code && term->gain)
+        code = open_gain(p, term->gain, p->apart ? 1 : group_scale(p, term), err);
+    if (code == MISSING)
+        code = retex_fail(err, RETEX_EFORMAT, "term %d of the set lacks its radiance or one of its footprints", number);
+    return code;
+}
+
+static void free_images(RetexImage **images, int count)
+{
+    for (int i = 0; *images && i < count; i++)
+        retex_image_free(&(*images)[i]);
+    free(*images);
+    *images = NULL;
+}
+
+void polynomial_close(Polynomial *p)
+{
+    if (!p->set)
+        return;
+    free_images(&p->footprints, p->set->nfootprints);
+    free_images(&p->mixtures, p->set->nmixtures);
+    free_images(&p->gains, p->set->nparts);
+    polynomial_groups_close(p);
+    *p = (Polynomial){0};
+}
+
+int polynomial_open(Polynomial *p, const RetexSet *set, const RetexSamples *samples, RetexTexture *const *textures,
+                    const RetexCombineParams *params, int apart, int nthreads, RetexError *err)
+{
+    static const RetexCombineParams defaults = RETEX_COMBINE_INIT;
+    *p = (Polynomial){.set = set, .samples = samples, .textures = textures, .apart = apart};
+    p->cross = params ? params->cross : defaults.cross;
+    if (p->cross != 0 && p->cross != 2 && p->cross != 3)
+        return retex_fail(err, RETEX_EINVAL, "cross terms go up to 0, 2 or 3 hits, not %d", p->cross);
+    int code = samples ? retex_samples_check(samples, set, err) : RETEX_OK;
+    if (code)
+        return code;
+    p->footprints = calloc((size_t)set->nfootprints + 1, sizeof *p->footprints);
+    p->mixtures = calloc((size_t)set->nmixtures + 1, sizeof *p->mixtures);
+    p->gains = calloc((size_t)set->nparts + 1, sizeof *p->gains);
+    if (!p->footprints || !p->mixtures || !p->gains)
+        code = retex_fail(err, RETEX_ENOMEM, "not enough memory for %d terms", set->nterms);
+    for (int i = 0; i < set->nterms && !code; i++)
+        if (!term_is_left_out(&set->terms[i], p->cross))
+            code = open_term(p, i, err);
+    if (!code)
+        code = small_images_make(p, nthreads, err);
+    if (!code && !apart)
+        code = polynomial_groups_open(p, nthreads, err);
+    if (code)
+        polynomial_close(p);
+    return code;
+}
+
+/* ---- a row ---- */
+
+static const float black_row[1]; /* stands for one that is 0 all over */
+
+static float *room_of(PolynomialRow *row, int slot, RetexError *err)
+{
+    RowRoom *room = &row->rooms[slot];
+    if (!room->values && !(room->values = calloc(3 * (size_t)row->polynomial->set->width, sizeof *room->values)))
+        retex_fail(err, RETEX_ENOMEM, "not enough memory to combine");
+    return room->values;
+}
+
+void spread_channel(float *row, size_t width)
+{
+    for (size_t i = width; i-- > 0;)
+        row[3 * i] = row[3 * i + 1] = row[3 * i + 2] = row[i];
+}
+
+static int full_factor_row(void *context, int factor, int y, const float **made, RetexError *err);
+
+static int make_slot(PolynomialRow *row, int factor, int y, RetexError *err)
+{
+    const Polynomial *p = row->polynomial;
+    const int slot = slot_of_factor(p->set, factor), width = p->set->width;
+    const RetexImage *small = factor >= 0 ? &p->footprints[factor] : &p->mixtures[RETEX_MIXTURE(factor)];
+    float *values = room_of(row, slot, err);
+    int code = RETEX_OK;
+    if (!values)
+        return RETEX_ENOMEM;
+    row->made[slot] = values;
+    row->spans[slot] = (RowSpan){0, width};
+    if (small->pixels) {
+        retex_enlarge_rows(small, retex_set_scale(p->set, small), width, y, y + 1, values);
+    } else if (factor < 0) {
+        code = make_mixture_row(p, row->reader, RETEX_MIXTURE(factor), y, full_factor_row, row, row->weights,
+                                &row->rooms[slot], err);
+        row->spans[slot] = row->rooms[slot].filled;
+    } else {
+        code =
+            make_footprint_row(p, row->reader, factor, y, &row->rooms[slot], &row->made[slot], &row->spans[slot], err);
+    }
+    if (!code && (!row->made[slot] || span_is_empty(row->spans[slot])))
+        row->made[slot] = black_row;
+    return code;
+}
+
+static int full_factor_row(void *context, int factor, int y, const float **made, RetexError *err)
+{
+    PolynomialRow *row = context;
+    const int slot = slot_of_factor(row->polynomial->set, factor);
+    int code = row->made[slot] ? RETEX_OK : make_slot(row, factor, y, err);
+    *made = row->made[slot] == black_row ? NULL : row->made[slot];
+    return code;
+}
+
+static int gain_row(PolynomialRow *row, int part, int y, const float **made, RetexError *err)
+{
+    const Polynomial *p = row->polynomial;
+    const RetexImage *image = &p->set->parts[part].image;
+    const int slot = slot_of_gain(p->set, part), width = p->set->width;
+    if (!row->made[slot]) {
+        float *values = room_of(row, slot, err);
+        if (!values)
+            return RETEX_ENOMEM;
+        row->made[slot] = values;
+        if (p->gains[part].pixels) {
+            retex_enlarge_rows(&p->gains[part], retex_set_scale(p->set, image), width, y, y + 1, values);
+        } else {
+            const float *own;
+            int code = row_reader_get(row->reader, part, y, &own, err);
+            if (code)
+                return code;
+            if (own)
+                memcpy(values, own, sizeof *own * (size_t)width * (size_t)image->channels);
+            else
+                row->made[slot] = black_row;
+        }
+        if (image->channels == 1 && row->made[slot] == values)
+            spread_channel(values, (size_t)width);
+    }
+    *made = row->made[slot] == black_row ? NULL : row->made[slot];
+    return RETEX_OK;
+}
+
+/* The factors of the picture's size; *black: one of them is 0 all over the row. */
+static int factor_rows(PolynomialRow *row, Monomial *m, const int *factors, int count, int y, int *black,
+                       RetexError *err)
+{
+    int code = RETEX_OK;
+    m->nfactors = m->nimages = count;
+    m->span = (RowSpan){0, row->polynomial->set->width};
+    for (int k = 0; k < count && !code && !*black; k++) {
+        code = full_factor_row(row, m->footprints[k] = factors[k], y, &m->factors[k], err);
+        m->span = span_within(m->span, row->spans[slot_of_factor(row->polynomial->set, factors[k])]);
+        *black = !m->factors[k] || span_is_empty(m->span);
+    }
+    return code;
+}
+
+static int make_term(PolynomialRow *row, const RetexTerm *term, int y, RetexError *err)
+{
+    Monomial *m = &row->monomials[row->count];
+    int code = row_reader_get(row->reader, term->radiance, y, &m->radiance, err), black = !m->radiance;
+    if (!code)
+        code = factor_rows(row, m, term->factors, term->nfactors, y, &black, err);
+    if (term->gain && !code && !black) {
+        code = gain_row(row, term->gain, y, &m->factors[m->nimages], err);
+        black = !m->factors[m->nimages++];
+    }
+    row->count += !code && !black;
+    return code;
+}
+
+static int make_group(PolynomialRow *row, const struct PolynomialGroup *group, int y, RetexError *err)
+{
+    const Polynomial *p = row->polynomial;
+    Monomial *m = &row->monomials[row->count];
+    int code = row_reader_get(row->reader, group->radiance, y, &m->radiance, err), black = !m->radiance;
+    if (!code)
+        code = factor_rows(row, m, group->factors, group->nfactors, y, &black, err);
+    if (group->gain && !code && !black) {
+        code = gain_row(row, group->gain, y, &m->factors[m->nimages], err);
+        black = !m->factors[m->nimages++];
+    }
+    if (group->scale && !code && !black) {
+        float *values = room_of(row, slot_count(p->set) + (int)(group - p->groups), err);
+        code = values ? RETEX_OK : RETEX_ENOMEM;
+        if (values)
+            retex_enlarge_rows(&group->product, group->scale, p->set->width, y, y + 1, values);
+        m->factors[m->nimages++] = values;
+    }
+    row->count += !code && !black;
+    return code;
+}
+
+int polynomial_row_make(PolynomialRow *row, int y, RetexError *err)
+{
+    const Polynomial *p = row->polynomial;
+    int code = RETEX_OK;
+    memset(row->made, 0, sizeof *row->made * (size_t)slot_count(p->set));
+    row->count = 0;
+    for (int g = 0; g < p->ngroups && !code; g++)
+        code = make_group(row, &p->groups[g], y, err);
+    for (int t = 0; t < p->set->nterms && !code && p->apart; t++)
+        if (!term_is_left_out(&p->set->terms[t], p->cross))
+            code = make_term(row, &p->set->terms[t], y, err);
+    return code;
+}
+
+void polynomial_row_close(PolynomialRow *row)
+{
+    if (!row->polynomial)
+        return;
+    for (int i = 0; row->rooms && i < slot_count(row->polynomial->set) + row->polynomial->ngroups; i++)
+        free(row->rooms[i].values);
+    free(row->rooms);
+    free(row->spans);
+    free(row->made);
+    free(row->weights);
+    free(row->monomials);
+    row_reader_close(&row->reader);
+    *row = (PolynomialRow){0};
+}
+
+int polynomial_row_open(PolynomialRow *row, const Polynomial *polynomial, RetexError *err)
+{
+    const RetexSet *set = polynomial->set;
+    const size_t slots = (size_t)(slot_count(set) + polynomial->ngroups) + 1;
+    *row = (PolynomialRow){.polynomial = polynomial};
+    int code = row_reader_open(&row->reader, set, polynomial->samples, err);
+    row->monomials = calloc((size_t)set->nterms + 1, sizeof *row->monomials);
+    row->made = calloc(slots, sizeof *row->made);
+    row->spans = calloc(slots, sizeof *row->spans);
+    row->rooms = calloc(slots, sizeof *row->rooms);
+    row->weights = malloc(sizeof *row->weights * 3 * (size_t)set->width);
+    if (!code && (!row->monomials || !row->made || !row->spans || !row->rooms || !row->weights))
+        code = retex_fail(err, RETEX_ENOMEM, "not enough memory to combine");
+    if (code)
+        polynomial_row_close(row);
+    return code;
+}

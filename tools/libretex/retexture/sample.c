@@ -1,0 +1,231 @@
+/* Sampling: the new textures, filtered at every footprint of their targets.
+ *
+ * A footprint is a Gaussian with the stored mean and standard deviations of the surface UV; the texture's own transform
+ * then turns and stretches it exactly. Where the texture is transparent the original albedo of the footprint shows. */
+#include <retex/sample.h>
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "set/gather.h"
+#include "retexture/sample_row.h"
+
+typedef struct SampleWork {
+    const RetexSet *set;
+    const RetexTextureSpec *specs;
+    int nspecs;
+    RetexSamples *samples;
+    RetexTexture *textures[RETEX_MAX_TARGETS]; /* by target */
+    Gathered *edited;                          /* footprints of edited targets */
+    int nedited;
+} SampleWork;
+
+/* Rows y0 <= y < y1 of a footprint. */
+static int sample_rows(void *context, RowReader *reader, const Gathered *edited, int y0, int y1, float *to,
+                       RetexError *err)
+{
+    const SampleWork *work = context;
+    const RetexFootprint *f = &work->set->footprints[edited->footprint];
+    const RetexTexture *texture = work->textures[f->target];
+    const RetexTextureFilter filter = footprint_filter(work->set, f);
+    int code = RETEX_OK;
+    for (int y = y0; y < y1 && !code; y++, to += 3 * (size_t)edited->image->width) {
+        FootprintRow from;
+        code = footprint_row_read(&from, reader, work->set, f, y, !retex_texture_is_opaque(texture), err);
+        if (!code && from.uv)
+            sample_row(texture, filter, &from, to);
+    }
+    return code;
+}
+
+static int sample_all(SampleWork *work, int nthreads, RetexError *err)
+{
+    return gather_made(work->edited, work->nedited, sample_rows, work, work->set, NULL, work->samples->spool, nthreads,
+                       err);
+}
+
+static void describe_texture(char *text, size_t size, const RetexTextureSpec *spec)
+{
+    if (spec->constant)
+        snprintf(text, size, "rgb(%g,%g,%g)", (double)spec->color[0], (double)spec->color[1], (double)spec->color[2]);
+    else
+        snprintf(text, size, "%.*s", (int)size - 1, spec->image);
+}
+
+static int create_samples(SampleWork *work, RetexError *err)
+{
+    const RetexSet *set = work->set;
+    RetexSamples *samples = work->samples = calloc(1, sizeof *samples);
+    if (samples)
+        samples->images = calloc((size_t)set->nfootprints + 1, sizeof *samples->images);
+    if (!samples || !samples->images)
+        return retex_fail(err, RETEX_ENOMEM, "not enough memory for samples");
+    samples->width = set->width;
+    samples->height = set->height;
+    samples->nimages = set->nfootprints;
+    samples->ntargets = set->ntargets;
+    samples->set_id = set->id;
+    for (int i = 0; i < set->ntargets; i++)
+        memcpy(samples->target_names[i], set->targets[i].name, sizeof samples->target_names[i]);
+    for (int i = 0; i < work->nspecs; i++)
+        describe_texture(samples->textures[retex_set_find_target(set, work->specs[i].target)],
+                         sizeof samples->textures[0], &work->specs[i]);
+    for (int i = 0; i < set->nfootprints; i++) {
+        samples->footprint_target[i] = set->footprints[i].target;
+        samples->footprint_hit[i] = set->footprints[i].hit;
+    }
+    return RETEX_OK;
+}
+
+static int alloc_image(const SampleWork *work, int footprint, RetexError *err)
+{
+    const RetexImage *uv = &work->set->parts[work->set->footprints[footprint].uv].image;
+    return retex_image_alloc(&work->samples->images[footprint], uv->width, uv->height, 3, err);
+}
+
+static int alloc_images(const SampleWork *work, RetexError *err)
+{
+    int code = RETEX_OK;
+    for (int i = 0; i < work->nedited && !code; i++)
+        code = alloc_image(work, work->edited[i].footprint, err);
+    return code;
+}
+
+/* A spool with what is as large as the picture; what is smaller is kept in memory. */
+static int spool_images(SampleWork *work, const char *near, RetexError *err)
+{
+    const RetexSet *set = work->set;
+    RetexSamples *samples = work->samples;
+    int code = retex_spool_create(&samples->spool, set->width, set->height, set->id, near, err);
+    if (!code && strcmp(near, "-") == 0)
+        retex_spool_set_plain(samples->spool);
+    for (int i = 0; i < work->nedited && !code; i++) {
+        const int footprint = work->edited[i].footprint;
+        char name[RETEX_NAME_MAX];
+        if (retex_set_footprint_scale(set, footprint) != 1) {
+            code = alloc_image(work, footprint, err);
+            continue;
+        }
+        snprintf(name, sizeof name, "sample_%d", footprint);
+        code = retex_spool_add(samples->spool, name, "RGB", RETEX_FLOAT, &work->edited[i].spooled, err);
+        samples->spooled[footprint] = code ? 0 : 1 + work->edited[i].spooled;
+        samples->images[footprint] = (RetexImage){.width = set->width, .height = set->height, .channels = 3};
+    }
+    return code;
+}
+
+static int is_loaded(const RetexSet *set, const RetexFootprint *f)
+{
+    return set->parts[f->uv].image.pixels && set->parts[f->spread].image.pixels && set->parts[f->albedo].image.pixels;
+}
+
+static int list_edited(SampleWork *work, RetexError *err)
+{
+    work->edited = calloc((size_t)work->set->nfootprints + 1, sizeof *work->edited);
+    if (!work->edited)
+        return retex_fail(err, RETEX_ENOMEM, "not enough memory for samples");
+    for (int i = 0; i < work->set->nfootprints; i++)
+        if (work->textures[work->set->footprints[i].target])
+            work->edited[work->nedited++] = (Gathered){.part = -1, .footprint = i, .image = &work->samples->images[i]};
+    return RETEX_OK;
+}
+
+static int check_loaded(const SampleWork *work, RetexError *err)
+{
+    for (int i = 0; i < work->nedited; i++)
+        if (!is_loaded(work->set, &work->set->footprints[work->edited[i].footprint]))
+            return retex_fail(err, RETEX_EINVAL, "the set is not in memory");
+    return RETEX_OK;
+}
+
+static int open_work(SampleWork *work, int nthreads, RetexError *err)
+{
+    int code = retex_textures_load(work->textures, work->set, work->specs, work->nspecs, nthreads, err);
+    if (!code)
+        code = create_samples(work, err);
+    return code ? code : list_edited(work, err);
+}
+
+/* Give the samples away, unless something failed. */
+static int close_work(SampleWork *work, RetexSamples **samples, int code)
+{
+    if (code)
+        retex_samples_close(&work->samples);
+    *samples = work->samples;
+    retex_textures_close(work->textures);
+    free(work->edited);
+    return code;
+}
+
+int retex_sample(RetexSamples **samples, const RetexSet *set, const RetexTextureSpec *specs, int nspecs, int nthreads,
+                 RetexError *err)
+{
+    SampleWork work = {.set = set, .specs = specs, .nspecs = nspecs};
+    int code = open_work(&work, nthreads, err);
+    if (!code)
+        code = check_loaded(&work, err);
+    if (!code)
+        code = alloc_images(&work, err);
+    return close_work(&work, samples, code ? code : sample_all(&work, nthreads, err));
+}
+
+int retex_sample_spooled(RetexSamples **samples, const RetexSet *set, const RetexTextureSpec *specs, int nspecs,
+                         const char *near, int nthreads, RetexError *err)
+{
+    SampleWork work = {.set = set, .specs = specs, .nspecs = nspecs};
+    int code = open_work(&work, nthreads, err);
+    if (!code)
+        code = spool_images(&work, near, err);
+    return close_work(&work, samples, code ? code : sample_all(&work, nthreads, err));
+}
+
+/* ---- more of them ---- */
+
+static void move_image(RetexSamples *samples, RetexSamples *more, int footprint)
+{
+    retex_image_free(&samples->images[footprint]);
+    samples->images[footprint] = more->images[footprint];
+    samples->spooled[footprint] = more->spooled[footprint];
+    samples->stored[footprint] = more->stored[footprint];
+    more->images[footprint] = (RetexImage){0};
+    more->spooled[footprint] = more->stored[footprint] = 0;
+}
+
+/* Where the images are that have been moved. */
+static void move_stores(RetexSamples *samples, RetexSamples *more)
+{
+    if (more->spool) {
+        samples->spool = more->spool;
+        more->spool = NULL;
+    }
+    if (more->source) {
+        samples->source = more->source;
+        more->source = NULL;
+    }
+}
+
+int retex_samples_merge(RetexSamples *samples, RetexSamples *more, RetexError *err)
+{
+    int same = samples->width == more->width && samples->height == more->height && samples->nimages == more->nimages &&
+               samples->ntargets == more->ntargets;
+    for (int t = 0; same && t < samples->ntargets; t++)
+        same = strcmp(samples->target_names[t], more->target_names[t]) == 0;
+    for (int i = 0; same && i < samples->nimages; i++)
+        same = samples->footprint_target[i] == more->footprint_target[i];
+    if (!same)
+        return retex_fail(err, RETEX_EINVAL, "the samples are of different sets");
+    if ((samples->spool && more->spool) || (samples->source && more->source)) { /* one of each is kept */
+        int code = retex_samples_load(more, 0, err);
+        if (code)
+            return code;
+    }
+    for (int i = 0; i < more->nimages; i++)
+        if (retex_samples_have(more, i))
+            move_image(samples, more, i);
+    move_stores(samples, more);
+    for (int t = 0; t < more->ntargets; t++)
+        if (more->textures[t][0])
+            memcpy(samples->textures[t], more->textures[t], sizeof samples->textures[t]);
+    return RETEX_OK;
+}

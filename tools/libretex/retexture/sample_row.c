@@ -1,0 +1,87 @@
+/* See sample_row.h. */
+#include "retexture/sample_row.h"
+
+#include <math.h>
+#include <string.h>
+
+#define SPAN_PIXELS 1024 /* filtered in one call */
+
+RetexTextureFilter footprint_filter(const RetexSet *set, const RetexFootprint *footprint)
+{
+    int even = footprint->kind == RETEX_FOOTPRINT_SHARP && strcmp(set->filter, "box") == 0;
+    return even ? RETEX_TEXTURE_DISC : RETEX_TEXTURE_GAUSSIAN;
+}
+
+static const float zeros[3 * RETEX_MAX_SIZE];
+
+int footprint_row_read(FootprintRow *row, RowReader *reader, const RetexSet *set, const RetexFootprint *footprint,
+                       int y, int with_albedo, RetexError *err)
+{
+    const RetexImage *uv = &set->parts[footprint->uv].image, *spread = &set->parts[footprint->spread].image;
+    *row = (FootprintRow){.spreads = spread->channels, .width = uv->width};
+    int code = row_reader_get_span(reader, footprint->uv, y, &row->uv, &row->span, err);
+    if (code || !row->uv)
+        return code;
+    code = row_reader_get(reader, footprint->spread, y, &row->spread, err);
+    row->spread = row->spread ? row->spread : zeros;
+    if (!code && with_albedo) {
+        code = row_reader_get(reader, footprint->albedo, y, &row->albedo, err);
+        row->albedo = row->albedo ? row->albedo : zeros;
+    }
+    return code;
+}
+
+FootprintRow footprint_row_part(const FootprintRow *row, RowSpan span)
+{
+    const size_t begin = (size_t)span.begin;
+    return (FootprintRow){.uv = row->uv + 3 * begin,
+                          .spread = row->spread + (size_t)row->spreads * begin,
+                          .albedo = row->albedo ? row->albedo + 3 * begin : NULL,
+                          .spreads = row->spreads,
+                          .width = span.end - span.begin,
+                          .span = {0, span.end - span.begin}};
+}
+
+/* Part of a row's footprints, filtered. */
+static void filter_span(const RetexTexture *texture, RetexTextureFilter filter, const FootprintRow *row, int from,
+                        int count, float *restrict rgba)
+{
+    retex_texture_filter(texture, filter, row->uv + 3 * (size_t)from, row->spread + (size_t)row->spreads * (size_t)from,
+                         row->spreads, (size_t)count, rgba, 4);
+}
+
+void sample_row(const RetexTexture *texture, RetexTextureFilter filter, const FootprintRow *row, float *restrict rgb)
+{
+    float rgba[4 * SPAN_PIXELS];
+    if (!row->albedo) {
+        retex_texture_filter(texture, filter, row->uv, row->spread, row->spreads, (size_t)row->width, rgb, 3);
+        return;
+    }
+    for (int from = 0; from < row->width; from += SPAN_PIXELS) {
+        int count = row->width - from < SPAN_PIXELS ? row->width - from : SPAN_PIXELS;
+        filter_span(texture, filter, row, from, count, rgba);
+        for (int x = 0; x < count; x++, rgb += 3) {
+            size_t at = 3 * (size_t)(from + x);
+            const float *color = rgba + 4 * x;
+            int covered = row->uv[at + 2] > 0;
+            for (int c = 0; c < 3; c++)
+                rgb[c] = covered ? color[c] * color[3] + (1 - color[3]) * row->albedo[at + (size_t)c] : 0;
+        }
+    }
+}
+
+void variance_row(const RetexTexture *texture, const RetexTexture *square, RetexTextureFilter filter,
+                  const FootprintRow *row, float *restrict rgb)
+{
+    float means[4 * SPAN_PIXELS], squares[4 * SPAN_PIXELS];
+    for (int from = 0; from < row->width; from += SPAN_PIXELS) {
+        int count = row->width - from < SPAN_PIXELS ? row->width - from : SPAN_PIXELS;
+        filter_span(texture, filter, row, from, count, means);
+        filter_span(square, filter, row, from, count, squares);
+        for (int x = 0; x < count; x++, rgb += 3) { /* without coverage all is 0 */
+            const float *mean = means + 4 * x;
+            for (int c = 0; c < 3; c++)
+                rgb[c] = fmaxf(squares[4 * x + c] - mean[c] * mean[c], 0) * mean[3] * mean[3];
+        }
+    }
+}

@@ -1,0 +1,138 @@
+/* The textures that are put on a set's targets: checked against the set, and loaded. */
+#include <retex/sample.h>
+
+#include <stdio.h>
+#include <string.h>
+
+#include <retex/nearest.h>
+#include <retex/parallel.h>
+
+#include "set/manifest.h"
+#include "texture/pyramid.h"
+
+typedef struct Loading {
+    RetexTexture **textures; /* by target */
+    const RetexSet *set;
+    const RetexTextureSpec *specs;
+    int target[RETEX_MAX_TARGETS]; /* by spec */
+    int nspecs, threads;
+    RetexError errors[RETEX_MAX_TARGETS];
+} Loading;
+
+/* ---- checks ---- */
+
+static int unknown_target(const RetexSet *set, const char *name, RetexError *err)
+{
+    char names[sizeof err->message] = "", meant[RETEX_MEANT_SIZE];
+    RetexNearest nearest = {name, NULL, 0};
+    size_t used = 0;
+    for (int i = 0; i < set->ntargets; i++)
+        retex_nearest_try(&nearest, set->targets[i].name);
+    for (int i = 0; i < set->ntargets && used < sizeof names; i++)
+        used += (size_t)snprintf(names + used, sizeof names - used, "%s%s", i ? ", " : "", set->targets[i].name);
+    if (!set->ntargets)
+        return retex_fail(err, RETEX_ENOTFOUND, "no target is called '%s': the set has no targets", name);
+    return retex_fail(err, RETEX_ENOTFOUND, "no target is called '%s'; the set has %.700s%s", name, names,
+                      retex_meant(nearest.best, meant));
+}
+
+static int find_targets(Loading *loading, RetexError *err)
+{
+    int taken[RETEX_MAX_TARGETS] = {0};
+    if (loading->nspecs > RETEX_MAX_TARGETS)
+        return retex_fail(err, RETEX_EINVAL, "%d textures are more than a set has targets", loading->nspecs);
+    for (int i = 0; i < loading->nspecs; i++) {
+        int target = retex_set_find_target(loading->set, loading->specs[i].target);
+        if (target < 0)
+            return unknown_target(loading->set, loading->specs[i].target, err);
+        if (taken[target]++)
+            return retex_fail(err, RETEX_EINVAL, "target %s is given two textures", loading->set->targets[target].name);
+        loading->target[i] = target;
+    }
+    return RETEX_OK;
+}
+
+static int check_part(const RetexSet *set, int part, int channels)
+{
+    if (part < 0 || part >= set->nparts)
+        return 0;
+    const RetexImage *im = &set->parts[part].image;
+    return retex_set_scale(set, im) && (im->channels == channels || (channels == 2 && im->channels == 3));
+}
+
+/* Footprints of edited targets need all their parts; of the others nothing is looked at. */
+static int check_footprints(const Loading *loading, RetexError *err)
+{
+    const RetexSet *set = loading->set;
+    if (set->nfootprints > RETEX_SET_FOOTPRINTS_MAX)
+        return retex_fail(err, RETEX_ELIMIT, "the set has %d footprints, more than %d", set->nfootprints,
+                          RETEX_SET_FOOTPRINTS_MAX);
+    for (int i = 0; i < set->nfootprints; i++) {
+        const RetexFootprint *f = &set->footprints[i];
+        if (f->target < 0 || f->target >= set->ntargets)
+            return retex_fail(err, RETEX_EFORMAT, "footprint %d of the set has no target", i);
+        int edited = 0;
+        for (int k = 0; k < loading->nspecs; k++)
+            edited |= loading->target[k] == f->target;
+        if (edited && (!retex_set_footprint_scale(set, i) || !check_part(set, f->uv, 3) ||
+                       !check_part(set, f->spread, 2) || !check_part(set, f->albedo, 3)))
+            return retex_fail(err, RETEX_EFORMAT,
+                              "nothing can be put on target %s: the set does not hold its footprints; "
+                              "one that was sampled and sent through a pipe has left them behind",
+                              set->targets[f->target].name);
+    }
+    return RETEX_OK;
+}
+
+/* ---- loading ---- */
+
+static void load_job(void *context, int index, int thread)
+{
+    Loading *loading = context;
+    (void)thread;
+    int target = loading->target[index];
+    RetexTextureSpec spec = loading->specs[index];
+    spec.warn = NULL; /* afterwards, in order */
+    const RetexTarget *t = &loading->set->targets[target];
+    memcpy(spec.uv_scale, t->uv_scale, sizeof spec.uv_scale);
+    for (int axis = 0; axis < 2; axis++)
+        if (!t->periodic[axis]) {
+            spec.uv_min[axis] = t->uv_min[axis];
+            spec.uv_max[axis] = t->uv_max[axis];
+        }
+    retex_texture_load(&loading->textures[target], &spec, loading->threads, &loading->errors[index]);
+}
+
+/* Side by side: most of the time goes to decoding, which has one thread a file. */
+static int load_textures(Loading *loading, int nthreads, RetexError *err)
+{
+    int threads = retex_threads(nthreads);
+    loading->threads = loading->nspecs && threads > loading->nspecs ? threads / loading->nspecs : 1;
+    retex_parallel(threads, loading->nspecs, load_job, loading);
+    for (int i = 0; i < loading->nspecs; i++)
+        if (loading->errors[i].code) {
+            if (err)
+                *err = loading->errors[i];
+            return loading->errors[i].code;
+        }
+    for (int i = 0; i < loading->nspecs; i++)
+        texture_tell(loading->textures[loading->target[i]], &loading->specs[i]);
+    return RETEX_OK;
+}
+
+void retex_textures_close(RetexTexture *textures[RETEX_MAX_TARGETS])
+{
+    for (int i = 0; i < RETEX_MAX_TARGETS; i++)
+        retex_texture_close(&textures[i]);
+}
+
+int retex_textures_load(RetexTexture *textures[RETEX_MAX_TARGETS], const RetexSet *set, const RetexTextureSpec *specs,
+                        int nspecs, int nthreads, RetexError *err)
+{
+    Loading loading = {textures, set, specs, .nspecs = nspecs};
+    memset(textures, 0, RETEX_MAX_TARGETS * sizeof *textures);
+    int code = find_targets(&loading, err);
+    if (!code)
+        code = check_footprints(&loading, err);
+    return code ? code : load_textures(&loading, nthreads, err);
+}

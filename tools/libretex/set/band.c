@@ -1,0 +1,99 @@
+/* See band.h. */
+#include "set/band.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/jobs.h"
+#include "set/rows.h"
+
+struct SetBand {
+    const RetexSet *whole;
+    int copies;
+    RetexSet set;      /* with parts of its own, that have pixels of others */
+    RetexImage *rooms; /* by part, of most_rows, for those whose rows are not where they are; allocated when needed */
+    int most_rows;
+    int first;
+};
+
+int set_part_rows(RetexImage *image, const RetexSet *set, int part, int first, RetexError *err)
+{
+    const size_t length = (size_t)image->width * (size_t)image->channels;
+    RowReader *reader;
+    int code = row_reader_open(&reader, set, NULL, err);
+    for (int y = 0; y < image->height && !code; y++) {
+        const float *row;
+        float *to = image->pixels + (size_t)y * length;
+        code = row_reader_get(reader, part, first + y, &row, err);
+        if (!code && row)
+            memcpy(to, row, length * sizeof *row);
+        else if (!code)
+            memset(to, 0, length * sizeof *to);
+    }
+    row_reader_close(&reader);
+    return code;
+}
+
+int set_band_open(SetBand **result, const RetexSet *whole, int most_rows, int copies, RetexError *err)
+{
+    const size_t count = (size_t)whole->nparts + 1;
+    SetBand *band = *result = calloc(1, sizeof *band);
+    if (band) {
+        *band = (SetBand){.whole = whole, .copies = copies, .set = *whole, .most_rows = most_rows};
+        band->set.spool = NULL, band->set.source = NULL;
+        band->set.parts = calloc(count, sizeof *band->set.parts);
+        band->rooms = calloc(count, sizeof *band->rooms);
+    }
+    if (!band || !band->set.parts || !band->rooms) {
+        set_band_close(result);
+        return retex_fail(err, RETEX_ENOMEM, "not enough memory for rows of a set");
+    }
+    for (int i = 0; i < whole->nparts; i++) {
+        band->set.parts[i] = whole->parts[i];
+        band->set.parts[i].spooled = 0;
+    }
+    return RETEX_OK;
+}
+
+void set_band_close(SetBand **result)
+{
+    SetBand *band = *result;
+    if (!band)
+        return;
+    for (int i = 0; band->rooms && i < band->whole->nparts; i++)
+        retex_image_free(&band->rooms[i]);
+    free(band->set.parts);
+    free(band->rooms);
+    free(band);
+    *result = NULL;
+}
+
+static int take_part(void *context, int part, int thread, RetexError *err)
+{
+    SetBand *band = context;
+    const RetexImage *whole = &band->whole->parts[part].image;
+    RetexImage *image = &band->set.parts[part].image, *room = &band->rooms[part];
+    (void)thread;
+    *image = (RetexImage){0};
+    if (whole->width != band->whole->width || whole->height != band->whole->height)
+        return RETEX_OK;
+    *image = *whole;
+    image->height = band->set.height;
+    if (whole->pixels && !band->copies) {
+        image->pixels = whole->pixels + retex_image_index(whole, 0, band->first);
+        return RETEX_OK;
+    }
+    int code = RETEX_OK;
+    if (!room->pixels)
+        code = retex_image_alloc(room, whole->width, band->most_rows, whole->channels, err);
+    image->pixels = room->pixels;
+    return code ? code : set_part_rows(image, band->whole, part, band->first, err);
+}
+
+int set_band_take(RetexSet **rows, SetBand *band, int first, int count, int nthreads, RetexError *err)
+{
+    *rows = &band->set;
+    band->first = first;
+    band->set.height = count;
+    return jobs_run(nthreads, band->whole->nparts, take_part, band, err);
+}

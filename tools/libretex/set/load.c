@@ -1,0 +1,144 @@
+/* From the spool or the source of a set, or of samples, into memory. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "set/gather.h"
+#include "set/manifest.h"
+#include "set/source.h"
+
+/* Give images of a set, or of samples, their pixels: those of wanted that have none; on failure none gets any. */
+static int load(RetexImage *const *wanted, int count, const RetexSet *set, const RetexSamples *samples, int nthreads,
+                RetexError *err)
+{
+    RetexImage *loaded = calloc((size_t)count + 1, sizeof *loaded);
+    Gathered *images = calloc((size_t)count + 1, sizeof *images);
+    int missing = 0, code = loaded && images ? 0 : retex_fail(err, RETEX_ENOMEM, "no memory to load a set");
+
+    for (int i = 0; !code && i < count; i++) {
+        const RetexImage *shape = wanted[i];
+        if (!shape || shape->pixels)
+            continue;
+        images[missing++] = (Gathered){.part = set ? i : -1, .footprint = set ? -1 : i, .image = &loaded[i]};
+        code = retex_image_alloc(&loaded[i], shape->width, shape->height, shape->channels, err);
+    }
+    if (!code)
+        code = gather(images, missing, set, samples, NULL, nthreads, err);
+    for (int i = 0; loaded && i < count; i++)
+        if (code)
+            retex_image_free(&loaded[i]);
+        else if (loaded[i].pixels)
+            *wanted[i] = loaded[i];
+    free(loaded);
+    free(images);
+    return code;
+}
+
+static int load_parts(RetexSet *set, const char *wanted, int nthreads, RetexError *err)
+{
+    RetexImage *images[RETEX_SET_PARTS_MAX];
+
+    for (int i = 0; i < set->nparts; i++)
+        images[i] = wanted[i] ? &set->parts[i].image : NULL;
+    const int code = load(images, set->nparts, set, NULL, nthreads, err);
+    for (int i = 0; !code && i < set->nparts; i++)
+        if (wanted[i])
+            set->parts[i].spooled = 0;
+    return code;
+}
+
+/* What nothing is read from any more. */
+static void close_stores(RetexSpool **spool, RetexSetSource **source)
+{
+    retex_spool_close(spool);
+    if (*source)
+        (*source)->close(*source);
+    *source = NULL;
+}
+
+int retex_set_load(RetexSet *set, int nthreads, RetexError *err)
+{
+    char wanted[RETEX_SET_PARTS_MAX];
+
+    /* the picture last: a pack may make it from the other parts, which then need not be decoded twice */
+    memset(wanted, 1, sizeof wanted);
+    wanted[0] = 0;
+    int code = load_parts(set, wanted, nthreads, err);
+    wanted[0] = 1;
+    if (!code)
+        code = load_parts(set, wanted, nthreads, err);
+    if (!code)
+        close_stores(&set->spool, &set->source);
+    return code;
+}
+
+int retex_samples_load(RetexSamples *samples, int nthreads, RetexError *err)
+{
+    RetexImage *images[RETEX_SET_FOOTPRINTS_MAX];
+
+    for (int i = 0; i < samples->nimages; i++)
+        images[i] = retex_samples_have(samples, i) ? &samples->images[i] : NULL;
+    const int code = load(images, samples->nimages, NULL, samples, nthreads, err);
+    if (code)
+        return code;
+    memset(samples->spooled, 0, sizeof samples->spooled);
+    memset(samples->stored, 0, sizeof samples->stored);
+    close_stores(&samples->spool, &samples->source);
+    return 0;
+}
+
+static uint64_t image_bytes(const RetexImage *image)
+{
+    return sizeof(float) * retex_image_index(image, 0, image->height);
+}
+
+uint64_t retex_set_bytes(const RetexSet *set)
+{
+    uint64_t bytes = 0;
+
+    for (int i = 0; i < set->nparts; i++)
+        bytes += image_bytes(&set->parts[i].image);
+    return bytes;
+}
+
+static void want(char *wanted, int part)
+{
+    if (part >= 0)
+        wanted[part] = 1;
+}
+
+/* Bytes of the parts that recombination reads, which wanted tells. */
+static uint64_t list_read_parts(const RetexSet *set, char wanted[RETEX_SET_PARTS_MAX])
+{
+    uint64_t bytes = 0;
+
+    memset(wanted, 0, RETEX_SET_PARTS_MAX);
+    for (int i = 0; i < set->nterms; i++) {
+        want(wanted, set->terms[i].radiance);
+        want(wanted, set->terms[i].gain ? set->terms[i].gain : -1);
+    }
+    for (int i = 0; i < set->nmixtures; i++)
+        for (int k = 0; k < set->mixtures[i].nshares; k++)
+            want(wanted, set->mixtures[i].shares[k].weight);
+    for (int i = 0; i < set->nfootprints; i++) {
+        want(wanted, set->footprints[i].uv);
+        want(wanted, set->footprints[i].spread);
+        want(wanted, set->footprints[i].albedo);
+    }
+    for (int i = 0; i < set->nparts; i++)
+        if (wanted[i])
+            bytes += image_bytes(&set->parts[i].image);
+    return bytes;
+}
+
+int retex_set_keep(RetexSet *set, RetexSamples *samples, uint64_t most_bytes, int nthreads, RetexError *err)
+{
+    char wanted[RETEX_SET_PARTS_MAX];
+    const uint64_t of_set = list_read_parts(set, wanted);
+    const uint64_t left = of_set > most_bytes ? most_bytes : most_bytes - of_set;
+    uint64_t of_samples = 0;
+    int code = of_set > most_bytes ? 0 : load_parts(set, wanted, nthreads, err);
+
+    for (int i = 0; samples && i < samples->nimages; i++)
+        of_samples += image_bytes(&samples->images[i]);
+    return code || !samples || of_samples > left ? code : retex_samples_load(samples, nthreads, err);
+}

@@ -1,0 +1,280 @@
+/* The manifest, written: RetexSet and RetexSamples as JSON. Parts are referred to by name, so that a file keeps its
+ * meaning when parts are reordered, added or left out. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <jansson.h>
+
+#include "base/json_write.h"
+#include "set/manifest.h"
+
+int retex_samples_are_sound(const RetexSamples *samples, RetexError *err)
+{
+    if (samples->ntargets < 0 || samples->ntargets > RETEX_MAX_TARGETS || samples->nimages < 0 ||
+        samples->nimages > RETEX_SET_FOOTPRINTS_MAX)
+        return retex_fail(err, RETEX_EINVAL, "the samples have %d targets and %d images", samples->ntargets,
+                          samples->nimages);
+    for (int i = 0; i < samples->nimages; i++) {
+        const RetexImage *image = &samples->images[i];
+        if (samples->footprint_target[i] < 0 || samples->footprint_target[i] >= samples->ntargets)
+            return retex_fail(err, RETEX_EINVAL, "sample image %d is for target %d of %d", i,
+                              samples->footprint_target[i], samples->ntargets);
+        if (retex_samples_have(samples, i) &&
+            (image->width > samples->width || image->height > samples->height || image->channels != 3))
+            return retex_fail(err, RETEX_EINVAL, "sample image %d has the wrong size", i);
+    }
+    return 0;
+}
+
+static int name_is_taken(const char *name, const RetexSet *set, const RetexSamplePart *parts, int count)
+{
+    for (int i = 0; i < count; i++)
+        if (strcmp(parts[i].name, name) == 0)
+            return 1;
+    return set && retex_set_find_part(set, name) >= 0;
+}
+
+void retex_sample_part_names(const RetexSamples *samples, const RetexSet *set, RetexSamplePart *parts)
+{
+    for (int i = 0; i < samples->nimages; i++) {
+        char target[RETEX_NAME_MAX], *name = parts[i].name;
+        parts[i].crc = 0;
+        name[0] = 0;
+        if (!retex_samples_have(samples, i))
+            continue;
+        /* a target may be called anything, a part not */
+        snprintf(target, sizeof target, "%s", samples->target_names[samples->footprint_target[i]]);
+        for (char *letter = target; *letter; letter++)
+            if (!retex_name_is_valid((char[]){*letter, 0}))
+                *letter = '_';
+        snprintf(name, RETEX_SAMPLE_NAME_MAX, "sample_%s_%d", target, samples->footprint_hit[i]);
+        for (int again = 2; name_is_taken(name, set, parts, i); again++)
+            snprintf(name, RETEX_SAMPLE_NAME_MAX, "sample_%s_%d_%d", target, samples->footprint_hit[i], again);
+    }
+}
+
+/* Text of any bytes: what is not UTF-8 loses its bytes above 127, for JSON has no place for them. */
+static json_t *text(const char *bytes)
+{
+    json_t *value = json_string(bytes);
+
+    if (!value) {
+        char *ascii = strdup(bytes);
+        for (char *byte = ascii; byte && *byte; byte++)
+            if ((unsigned char)*byte > 127)
+                *byte = '?';
+        value = ascii ? json_string(ascii) : NULL;
+        free(ascii);
+    }
+    return value;
+}
+
+/* A number, which JSON does not allow to be infinite or NaN: those become 0 and *finite is cleared. */
+static json_t *real(double value, int *finite)
+{
+    if (!isfinite(value)) {
+        *finite = 0;
+        value = 0;
+    }
+    return json_real(value);
+}
+
+static json_t *pair(const double values[2], int *finite)
+{
+    return json_pack("[o, o]", real(values[0], finite), real(values[1], finite));
+}
+
+static json_t *part_name(const RetexSet *set, int part)
+{
+    return part < 0 || part >= set->nparts ? json_null() : json_string(set->parts[part].name);
+}
+
+static json_t *write_target(const RetexSet *set, const RetexTarget *target, int *finite)
+{
+    const float *albedo = target->mean_albedo;
+
+    return json_pack("{s:o, s:o, s:[b, b], s:o, s:o, s:[o, o, o], s:o, s:o, s:o, s:o, s:o}", "name", text(target->name),
+                     "idents", text(target->idents), "periodic", target->periodic[0], target->periodic[1], "uv_min",
+                     pair(target->uv_min, finite), "uv_max", pair(target->uv_max, finite), "mean_albedo",
+                     real(albedo[0], finite), real(albedo[1], finite), real(albedo[2], finite), "original",
+                     part_name(set, target->original), "original_min", pair(target->original_min, finite),
+                     "original_max", pair(target->original_max, finite), "share", real(target->share, finite),
+                     "uv_scale", pair(target->uv_scale, finite));
+}
+
+static json_t *write_footprint(const RetexSet *set, const RetexFootprint *footprint)
+{
+    return json_pack("{s:i, s:i, s:s, s:o, s:o, s:o}", "target", footprint->target, "hit", footprint->hit, "kind",
+                     retex_footprint_kind_name(footprint->kind), "uv", part_name(set, footprint->uv), "spread",
+                     part_name(set, footprint->spread), "albedo", part_name(set, footprint->albedo));
+}
+
+static json_t *write_term(const RetexSet *set, const RetexTerm *term)
+{
+    json_t *factors = json_array();
+
+    for (int i = 0; i < term->nfactors; i++)
+        retex_json_add(&factors, json_integer(term->factors[i]));
+    json_t *json = json_pack("{s:s, s:o, s:o}", "kind", retex_term_kind_name(term->kind), "radiance",
+                             part_name(set, term->radiance), "factors", factors);
+    if (term->gain)
+        retex_json_put(&json, "gain", part_name(set, term->gain));
+    return json;
+}
+
+static json_t *write_mixture(const RetexSet *set, const RetexMixture *mixture)
+{
+    json_t *shares = json_array();
+
+    for (int i = 0; i < mixture->nshares; i++)
+        retex_json_add(&shares, json_pack("{s:i, s:o}", "footprint", mixture->shares[i].footprint, "weight",
+                                          part_name(set, mixture->shares[i].weight)));
+    return shares;
+}
+
+/* The sums of bands as one row of digits. */
+static json_t *write_bands(const uint32_t *bands, int height)
+{
+    const size_t count = ((size_t)height + RETEX_SPOOL_LINES - 1) / RETEX_SPOOL_LINES;
+    char *digits = malloc(8 * count + 1);
+
+    for (size_t i = 0; digits && i < count; i++)
+        snprintf(digits + 8 * i, 9, "%08x", (unsigned)bands[i]);
+    json_t *json = digits ? json_string(digits) : NULL;
+    free(digits);
+    return json;
+}
+
+/* bands: its sums, or NULL. */
+static json_t *write_part(const char *name, const char *letters, RetexPixelType type, const RetexImage *image,
+                          uint32_t crc, const uint32_t *bands)
+{
+    char hex[16];
+
+    snprintf(hex, sizeof hex, "%08x", (unsigned)crc);
+    json_t *json =
+        json_pack("{s:s, s:s, s:s, s:i, s:i, s:s}", "name", name, "letters", letters, "type",
+                  type == RETEX_HALF ? "half" : "float", "width", image->width, "height", image->height, "crc32", hex);
+    if (bands)
+        retex_json_put(&json, "bands", write_bands(bands, image->height));
+    return json;
+}
+
+static const uint32_t *bands_of(const RetexBandSums *sums, int index)
+{
+    return sums && index < sums->count ? sums->of[index] : NULL;
+}
+
+static json_t *identity(uint32_t id)
+{
+    char hex[16];
+
+    snprintf(hex, sizeof hex, "%08x", (unsigned)id);
+    return json_string(hex);
+}
+
+static void write_set(json_t **root, const RetexSet *set, const RetexBandSums *sums, int *finite)
+{
+    json_t *targets = json_array(), *footprints = json_array(), *terms = json_array(), *parts = json_array();
+
+    for (int i = 0; i < set->ntargets; i++)
+        retex_json_add(&targets, write_target(set, &set->targets[i], finite));
+    for (int i = 0; i < set->nfootprints; i++)
+        retex_json_add(&footprints, write_footprint(set, &set->footprints[i]));
+    for (int i = 0; i < set->nterms; i++)
+        retex_json_add(&terms, write_term(set, &set->terms[i]));
+    for (int i = 0; i < set->nparts; i++) {
+        const RetexPart *part = &set->parts[i];
+        retex_json_add(&parts,
+                       write_part(part->name, part->letters, part->type, &part->image, part->crc, bands_of(sums, i)));
+    }
+    json_t *mixtures = json_array();
+    for (int i = 0; i < set->nmixtures; i++)
+        retex_json_add(&mixtures, write_mixture(set, &set->mixtures[i]));
+    retex_json_put(root, "layout", text(set->layout));
+    retex_json_put(root, "filter", text(set->filter));
+    retex_json_put(root, "scene", text(set->scene));
+    retex_json_put(root, "generator", text(set->generator));
+    retex_json_put(root, "orders", json_integer(set->orders));
+    retex_json_put(root, "spp", json_integer(set->spp));
+    retex_json_put(root, "max_depth", json_integer(set->max_depth));
+    retex_json_put(root, "seed", json_integer(set->seed));
+    retex_json_put(root, "id", identity(set->id));
+    retex_json_put(root, "folded", real(set->folded, finite));
+    retex_json_put(root, "folded_white", real(set->folded_white, finite));
+    retex_json_put(root, "denoised", json_boolean(set->denoised));
+    retex_json_put(root, "strict_paper", json_boolean(set->strict_paper));
+    retex_json_put(root, "targets", targets);
+    retex_json_put(root, "footprints", footprints);
+    retex_json_put(root, "mixtures", mixtures);
+    retex_json_put(root, "terms", terms);
+    retex_json_put(root, "parts", parts);
+}
+
+/* first: where the samples begin in sums. */
+static json_t *write_samples(const RetexSamples *samples, const RetexSamplePart *parts, const RetexBandSums *sums,
+                             int first)
+{
+    json_t *targets = json_array(), *images = json_array();
+
+    for (int i = 0; i < samples->ntargets; i++)
+        retex_json_add(&targets, json_pack("{s:o, s:o}", "name", text(samples->target_names[i]), "texture",
+                                           text(samples->textures[i])));
+    for (int i = 0; i < samples->nimages; i++) {
+        json_t *part = parts[i].name[0] ? write_part(parts[i].name, "RGB", RETEX_FLOAT, &samples->images[i],
+                                                     parts[i].crc, bands_of(sums, first + i))
+                                        : json_null();
+        retex_json_add(&images, json_pack("{s:i, s:i, s:o}", "target", samples->footprint_target[i], "hit",
+                                          samples->footprint_hit[i], "part", part));
+    }
+    return json_pack("{s:o, s:o, s:o}", "set_id", identity(samples->set_id), "targets", targets, "images", images);
+}
+
+int retex_manifest_write(const RetexSet *set, const RetexSamples *samples, const RetexSamplePart *sample_parts,
+                         const RetexBandSums *sums, char **json, RetexError *err)
+{
+    int finite = 1;
+    json_t *root = json_pack("{s:i, s:s, s:s, s:i, s:i}", "retex", RETEX_SET_VERSION, "crc32", "00000000", "kind",
+                             !samples ? "set"
+                             : !set   ? "samples"
+                                      : "stream",
+                             "width", set ? set->width : samples->width, "height", set ? set->height : samples->height);
+
+    *json = NULL;
+    if (root && set)
+        write_set(&root, set, sums, &finite);
+    if (root && samples)
+        retex_json_put(&root, "samples", write_samples(samples, sample_parts, sums, set ? set->nparts : 0));
+    const size_t style = JSON_COMPACT | JSON_PRESERVE_ORDER | JSON_REAL_PRECISION(17);
+    char *dumped = root && finite ? json_dumps(root, style) : NULL;
+    json_decref(root);
+    if (!finite)
+        return retex_fail(err, RETEX_EINVAL, "the set's description has a number that is infinite or NaN");
+    if (!dumped)
+        return retex_fail(err, RETEX_ENOMEM, "no memory for the manifest");
+    retex_manifest_seal(dumped);
+    *json = dumped;
+    return 0;
+}
+
+int retex_set_manifest(const RetexSet *set, const RetexSamples *samples, char **json, RetexError *err)
+{
+    RetexSamplePart *parts = NULL;
+
+    *json = NULL;
+    if (!set && !samples)
+        return retex_fail(err, RETEX_EINVAL, "there is neither a set nor samples to describe");
+    if (samples) {
+        const int status = retex_samples_are_sound(samples, err);
+        if (status)
+            return status;
+        parts = calloc((size_t)samples->nimages + 1, sizeof *parts);
+        if (!parts)
+            return retex_fail(err, RETEX_ENOMEM, "no memory for the manifest");
+        retex_sample_part_names(samples, set, parts);
+    }
+    const int status = retex_manifest_write(set, samples, parts, NULL, json, err);
+    free(parts);
+    return status;
+}

@@ -1,0 +1,558 @@
+/* The manifest, read back. Every reference is resolved and every count, size and name checked here, so that nobody
+ * after this has to: a RetexSet that exists is consistent. Keys that are not known are skipped: a later version may
+ * add some. */
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <jansson.h>
+
+#include "set/manifest.h"
+
+/* Where messages go. Only the first failure is kept, so readers may go on to the end of a group of fields. */
+typedef struct Reading {
+    const char *name; /* of the file */
+    RetexError *err;
+    int status;
+    RetexBandSums *sums; /* or NULL */
+} Reading;
+
+static void bad(Reading *reading, int code, const char *fmt, ...) RETEX_PRINTF(3, 4);
+static void bad(Reading *reading, int code, const char *fmt, ...)
+{
+    char message[512];
+    va_list arguments;
+
+    if (reading->status)
+        return;
+    va_start(arguments, fmt);
+    vsnprintf(message, sizeof message, fmt, arguments);
+    va_end(arguments);
+    reading->status = retex_fail(reading->err, code, "%s: the manifest %s", reading->name, message);
+}
+
+static void get_text(Reading *reading, const json_t *object, const char *key, char *out, size_t room)
+{
+    const json_t *value = json_object_get(object, key);
+    const char *bytes = json_string_value(value);
+
+    if (!bytes || strlen(bytes) >= room || strlen(bytes) != json_string_length(value))
+        bad(reading, RETEX_EFORMAT, "has no proper text \"%s\"", key);
+    else
+        strcpy(out, bytes);
+}
+
+static int get_integer(Reading *reading, const json_t *object, const char *key, int low, int high)
+{
+    const json_t *value = json_object_get(object, key);
+    const json_int_t number = json_integer_value(value);
+
+    if (!json_is_integer(value) || number < low || number > high) {
+        bad(reading, RETEX_EFORMAT, "has no integer \"%s\" from %d to %d", key, low, high);
+        return low;
+    }
+    return (int)number;
+}
+
+static double get_real(Reading *reading, const json_t *value, const char *key)
+{
+    if (!json_is_number(value))
+        bad(reading, RETEX_EFORMAT, "has no number \"%s\"", key);
+    return json_number_value(value);
+}
+
+static int get_boolean(Reading *reading, const json_t *value, const char *key)
+{
+    if (!json_is_boolean(value))
+        bad(reading, RETEX_EFORMAT, "has no true or false \"%s\"", key);
+    return json_is_true(value);
+}
+
+static const json_t *get_array(Reading *reading, const json_t *object, const char *key, size_t most)
+{
+    const json_t *value = json_object_get(object, key);
+
+    if (!json_is_array(value) || json_array_size(value) > most) {
+        bad(reading, RETEX_EFORMAT, "has no list \"%s\" of at most %zu", key, most);
+        return NULL;
+    }
+    return value;
+}
+
+static void get_pair(Reading *reading, const json_t *object, const char *key, double out[2])
+{
+    const json_t *array = get_array(reading, object, key, 2);
+
+    for (size_t i = 0; i < 2; i++)
+        out[i] = get_real(reading, json_array_get(array, i), key);
+}
+
+/* A part referred to by name; -1 where it is null and may be. */
+static int get_part(Reading *reading, const RetexSet *set, const json_t *object, const char *key, size_t channels,
+                    int optional)
+{
+    const json_t *value = json_object_get(object, key);
+    const char *name = json_string_value(value);
+
+    if (json_is_null(value) && optional)
+        return -1;
+    const int part = name ? retex_set_find_part(set, name) : -1;
+    if (part < 0)
+        bad(reading, RETEX_EFORMAT, "refers to a part that is not there in \"%s\"", key);
+    else if (strlen(set->parts[part].letters) != channels)
+        bad(reading, RETEX_EFORMAT, "has in \"%s\" a part of %zu channels instead of %zu", key,
+            strlen(set->parts[part].letters), channels);
+    return part;
+}
+
+/* Standard deviations of u and v, and perhaps their correlation. */
+static int get_spread(Reading *reading, const RetexSet *set, const json_t *json)
+{
+    const char *name = json_string_value(json_object_get(json, "spread"));
+    const int part = name ? retex_set_find_part(set, name) : -1;
+    return get_part(reading, set, json, "spread", part >= 0 && set->parts[part].image.channels == 3 ? 3 : 2, 1);
+}
+
+/* One of a channel for all colours, or of three. */
+static int get_part_of_one_or_three(Reading *reading, const RetexSet *set, const json_t *json, const char *key)
+{
+    const char *name = json_string_value(json_object_get(json, key));
+    const int part = name ? retex_set_find_part(set, name) : -1;
+    return get_part(reading, set, json, key, part >= 0 && set->parts[part].image.channels == 3 ? 3 : 1, 0);
+}
+
+static void check_size(Reading *reading, const RetexSet *set, int part, const char *key)
+{
+    if (part >= 0 && (set->parts[part].image.width != set->width || set->parts[part].image.height != set->height))
+        bad(reading, RETEX_EFORMAT, "has in \"%s\" a part of another size than the set's", key);
+}
+
+/* One that may be smaller. */
+static void check_scale(Reading *reading, const RetexSet *set, int part, const char *key)
+{
+    if (part >= 0 && !retex_set_scale(set, &set->parts[part].image))
+        bad(reading, RETEX_EFORMAT,
+            "has in \"%s\" a part that is neither of the set's size nor 2, 4 or 8 times smaller", key);
+}
+
+/* Eight hexadecimal digits for each band. */
+static uint32_t *parse_bands(Reading *reading, const json_t *json, int height)
+{
+    const size_t count = ((size_t)height + RETEX_SPOOL_LINES - 1) / RETEX_SPOOL_LINES;
+    const char *digits = json_string_value(json);
+    uint32_t *bands = NULL;
+
+    if (!digits || strlen(digits) != 8 * count || strspn(digits, "0123456789abcdef") != 8 * count)
+        bad(reading, RETEX_EFORMAT, "has no proper checksums of a part's \"bands\"");
+    else if (!(bands = calloc(count, sizeof *bands)))
+        bad(reading, RETEX_ENOMEM, "does not fit in memory");
+    for (size_t i = 0; bands && i < count; i++) {
+        char hex[9] = "";
+        memcpy(hex, digits + 8 * i, 8);
+        bands[i] = (uint32_t)strtoul(hex, NULL, 16);
+    }
+    return bands;
+}
+
+/* Of the next part or sample image; part: what is said of it, or null. */
+static void read_bands(Reading *reading, const json_t *part, int height)
+{
+    const json_t *json = json_object_get(part, "bands");
+
+    if (reading->sums && !reading->status)
+        reading->sums->of[reading->sums->count++] = json ? parse_bands(reading, json, height) : NULL;
+}
+
+void retex_band_sums_free(RetexBandSums *sums)
+{
+    for (int i = 0; i < sums->count; i++)
+        free(sums->of[i]);
+    free(sums->of);
+    *sums = (RetexBandSums){0};
+}
+
+static void read_part(Reading *reading, const json_t *json, RetexPart *part, char *name, size_t name_room)
+{
+    char type[8] = "", hex[16] = "", *end = hex;
+
+    get_text(reading, json, "name", name, name_room);
+    get_text(reading, json, "letters", part->letters, sizeof part->letters);
+    get_text(reading, json, "type", type, sizeof type);
+    get_text(reading, json, "crc32", hex, sizeof hex);
+    part->image.width = get_integer(reading, json, "width", 1, RETEX_MAX_SIZE);
+    part->image.height = get_integer(reading, json, "height", 1, RETEX_MAX_SIZE);
+    if (!reading->status && !retex_letters_are_valid(part->letters))
+        bad(reading, RETEX_EFORMAT, "has a part of channels \"%.16s\"", part->letters);
+    part->image.channels = (int)strlen(part->letters);
+    part->crc = (uint32_t)strtoul(hex, &end, 16);
+    if (strlen(hex) != 8 || *end || hex[0] == '+' || hex[0] == '-')
+        bad(reading, RETEX_EFORMAT, "has no proper checksum of part \"%.64s\"", name);
+    part->type = strcmp(type, "float") == 0 ? RETEX_FLOAT : RETEX_HALF;
+    if (part->type == RETEX_HALF && strcmp(type, "half") != 0)
+        bad(reading, RETEX_EFORMAT, "has a part of type \"%s\"", type);
+}
+
+static void read_parts(Reading *reading, const json_t *root, RetexSet *set)
+{
+    const json_t *array = get_array(reading, root, "parts", RETEX_SET_PARTS_MAX);
+    const size_t count = json_array_size(array);
+
+    if (count == 0)
+        bad(reading, RETEX_EFORMAT, "lists no parts");
+    set->parts = calloc(count ? count : 1, sizeof *set->parts);
+    if (!set->parts)
+        bad(reading, RETEX_ENOMEM, "does not fit in memory");
+    for (size_t i = 0; i < count && !reading->status; i++) {
+        RetexPart *part = &set->parts[i];
+        read_part(reading, json_array_get(array, i), part, part->name, sizeof part->name);
+        read_bands(reading, json_array_get(array, i), part->image.height);
+        if (reading->status)
+            return;
+        if (!retex_name_is_valid(part->name))
+            bad(reading, RETEX_EFORMAT, "has a part named \"%.64s\"", part->name);
+        else if (retex_set_find_part(set, part->name) >= 0)
+            bad(reading, RETEX_EFORMAT, "has two parts named \"%s\"", part->name);
+        set->nparts = (int)i + 1;
+    }
+    if (!reading->status) {
+        check_size(reading, set, 0, "parts");
+        if (strcmp(set->parts[0].letters, "RGB") != 0)
+            bad(reading, RETEX_EFORMAT, "has a first part that is no picture");
+    }
+}
+
+static void read_target(Reading *reading, const json_t *json, RetexSet *set, RetexTarget *target)
+{
+    const json_t *periodic = get_array(reading, json, "periodic", 2);
+    const json_t *albedo = get_array(reading, json, "mean_albedo", 3);
+
+    get_text(reading, json, "name", target->name, sizeof target->name);
+    get_text(reading, json, "idents", target->idents, sizeof target->idents);
+    if (!reading->status && !target->name[0])
+        bad(reading, RETEX_EFORMAT, "has a target without a name");
+    for (int i = 0; i < set->ntargets; i++)
+        if (strcmp(set->targets[i].name, target->name) == 0)
+            bad(reading, RETEX_EFORMAT, "has two targets named \"%s\"", target->name);
+    for (size_t i = 0; i < 2; i++)
+        target->periodic[i] = get_boolean(reading, json_array_get(periodic, i), "periodic");
+    for (size_t i = 0; i < 3; i++)
+        target->mean_albedo[i] = (float)get_real(reading, json_array_get(albedo, i), "mean_albedo");
+    get_pair(reading, json, "uv_min", target->uv_min);
+    get_pair(reading, json, "uv_max", target->uv_max);
+    get_pair(reading, json, "original_min", target->original_min);
+    get_pair(reading, json, "original_max", target->original_max);
+    if (json_object_get(json, "uv_scale"))
+        get_pair(reading, json, "uv_scale", target->uv_scale);
+    target->share = get_real(reading, json_object_get(json, "share"), "share");
+    const json_t *original = json_object_get(json, "original");
+    const char *name = json_string_value(original);
+    target->original = name ? retex_set_find_part(set, name) : -1;
+    if (target->original < 0 && !json_is_null(original))
+        bad(reading, RETEX_EFORMAT, "refers to a part that is not there in \"original\"");
+}
+
+static void read_targets(Reading *reading, const json_t *root, RetexSet *set)
+{
+    const json_t *array = get_array(reading, root, "targets", RETEX_MAX_TARGETS);
+
+    for (size_t i = 0; i < json_array_size(array) && !reading->status; i++) {
+        read_target(reading, json_array_get(array, i), set, &set->targets[i]);
+        set->ntargets = (int)i + 1;
+    }
+}
+
+/* Number of the object's "kind" among names; the first where it has none. */
+static int get_kind(Reading *reading, const json_t *json, const char *(*name_of)(int kind), int count)
+{
+    char kind[32] = "";
+    int number = 0;
+
+    if (!json_object_get(json, "kind"))
+        return 0;
+    get_text(reading, json, "kind", kind, sizeof kind);
+    while (number < count && strcmp(kind, name_of(number)) != 0)
+        number++;
+    if (number == count)
+        bad(reading, RETEX_EFORMAT, "has something of unknown kind \"%s\"", kind);
+    return number < count ? number : 0;
+}
+
+static void read_footprints(Reading *reading, const json_t *root, RetexSet *set)
+{
+    const json_t *array = get_array(reading, root, "footprints", RETEX_SET_FOOTPRINTS_MAX);
+
+    for (size_t i = 0; i < json_array_size(array) && !reading->status; i++) {
+        const json_t *json = json_array_get(array, i);
+        RetexFootprint footprint = {
+            .target = get_integer(reading, json, "target", 0, set->ntargets - 1),
+            .hit = get_integer(reading, json, "hit", 1, 1 << 20),
+            .uv = get_part(reading, set, json, "uv", 3, 1),
+            .spread = get_spread(reading, set, json),
+            .albedo = get_part(reading, set, json, "albedo", 3, 1),
+        };
+        if (reading->status)
+            return;
+        footprint.kind = (RetexFootprintKind)get_kind(reading, json, retex_footprint_kind_name, RETEX_FOOTPRINT_KINDS);
+        check_scale(reading, set, footprint.uv, "uv");
+        check_scale(reading, set, footprint.spread, "spread");
+        check_scale(reading, set, footprint.albedo, "albedo");
+        if (!reading->status)
+            reading->status = retex_set_add_footprint(set, &footprint, NULL, reading->err);
+        if (!reading->status && !retex_set_footprint_scale(set, set->nfootprints - 1))
+            bad(reading, RETEX_EFORMAT, "has a footprint whose parts differ in size");
+    }
+}
+
+static void read_terms(Reading *reading, const json_t *root, RetexSet *set)
+{
+    const json_t *array = get_array(reading, root, "terms", RETEX_SET_TERMS_MAX);
+
+    for (size_t i = 0; i < json_array_size(array) && !reading->status; i++) {
+        const json_t *json = json_array_get(array, i);
+        const json_t *factors = get_array(reading, json, "factors", RETEX_MAX_FACTORS);
+        RetexTerm term = {.radiance = get_part(reading, set, json, "radiance", 3, 0),
+                          .nfactors = (int)json_array_size(factors)};
+        if (json_object_get(json, "gain")) {
+            term.gain = get_part_of_one_or_three(reading, set, json, "gain");
+            if (term.gain == 0)
+                bad(reading, RETEX_EFORMAT, "has the picture for a \"gain\"");
+        }
+        if (!json_object_get(json, "kind"))
+            bad(reading, RETEX_EFORMAT, "has a term without a \"kind\"");
+        term.kind = (RetexTermKind)get_kind(reading, json, retex_term_kind_name, RETEX_TERM_KINDS);
+        for (int f = 0; f < term.nfactors; f++) {
+            const json_t *value = json_array_get(factors, (size_t)f);
+            const json_int_t factor = json_integer_value(value);
+            if (!json_is_integer(value) || factor < RETEX_MIXTURE(set->nmixtures - 1) || factor >= set->nfootprints)
+                bad(reading, RETEX_EFORMAT, "has a factor that is no footprint and no mixture");
+            else
+                term.factors[f] = (int)factor;
+        }
+        if (reading->status)
+            return;
+        check_size(reading, set, term.radiance, "radiance");
+        check_scale(reading, set, term.gain ? term.gain : -1, "gain");
+        if (!reading->status)
+            reading->status = retex_set_add_term(set, &term, NULL, reading->err);
+    }
+}
+
+static void read_mixture(Reading *reading, const json_t *array, RetexSet *set)
+{
+    RetexMixture mixture = {.nshares = (int)json_array_size(array)};
+
+    if (!json_is_array(array) || json_array_size(array) > RETEX_SHARES_MAX) {
+        bad(reading, RETEX_EFORMAT, "has a mixture that is no list of at most %d", RETEX_SHARES_MAX);
+        return;
+    }
+    for (int i = 0; i < mixture.nshares && !reading->status; i++) {
+        const json_t *json = json_array_get(array, (size_t)i);
+        mixture.shares[i].footprint = get_integer(reading, json, "footprint", 0, set->nfootprints - 1);
+        mixture.shares[i].weight = get_part_of_one_or_three(reading, set, json, "weight");
+        check_scale(reading, set, mixture.shares[i].weight, "weight");
+        if (reading->status)
+            return;
+        const int scale = retex_set_scale(set, &set->parts[mixture.shares[i].weight].image);
+        const RetexFootprint *f = &set->footprints[mixture.shares[i].footprint];
+        const int sampled = f->uv < 0 && f->spread < 0 && f->albedo < 0; /* in a stream */
+        if ((!sampled && scale != retex_set_footprint_scale(set, mixture.shares[i].footprint)) ||
+            scale != retex_set_scale(set, &set->parts[mixture.shares[0].weight].image))
+            bad(reading, RETEX_EFORMAT, "has a mixture whose footprints and weights differ in size");
+    }
+    if (!reading->status)
+        reading->status = retex_set_add_mixture(set, &mixture, NULL, reading->err);
+}
+
+static void read_mixtures(Reading *reading, const json_t *root, RetexSet *set)
+{
+    if (!json_object_get(root, "mixtures"))
+        return;
+    const json_t *array = get_array(reading, root, "mixtures", RETEX_MIXTURES_MAX);
+    for (size_t i = 0; i < json_array_size(array) && !reading->status; i++)
+        read_mixture(reading, json_array_get(array, i), set);
+}
+
+/* Eight hexadecimal digits. */
+static uint32_t get_identity(Reading *reading, const json_t *json, const char *key)
+{
+    char hex[16], *end;
+
+    get_text(reading, json, key, hex, sizeof hex);
+    unsigned long id = strtoul(hex, &end, 16);
+    if (!reading->status && (end != hex + 8 || *end))
+        bad(reading, RETEX_EFORMAT, "has no \"%s\" of eight hexadecimal digits", key);
+    return (uint32_t)id;
+}
+
+static void read_set(Reading *reading, const json_t *root, int width, int height, RetexSet **result)
+{
+    RetexSet *set = calloc(1, sizeof *set);
+    const json_t *seed = json_object_get(root, "seed");
+
+    *result = set;
+    if (!set) {
+        bad(reading, RETEX_ENOMEM, "does not fit in memory");
+        return;
+    }
+    set->width = width;
+    set->height = height;
+    get_text(reading, root, "layout", set->layout, sizeof set->layout);
+    get_text(reading, root, "filter", set->filter, sizeof set->filter);
+    get_text(reading, root, "scene", set->scene, sizeof set->scene);
+    get_text(reading, root, "generator", set->generator, sizeof set->generator);
+    set->orders = get_integer(reading, root, "orders", 0, RETEX_MAX_ORDERS);
+    set->spp = get_integer(reading, root, "spp", 0, 1 << 30);
+    set->max_depth = get_integer(reading, root, "max_depth", 0, 1 << 30);
+    if (!json_is_integer(seed) || json_integer_value(seed) < 0 || json_integer_value(seed) > UINT32_MAX)
+        bad(reading, RETEX_EFORMAT, "has no integer \"seed\" of 32 bits");
+    set->seed = (uint32_t)json_integer_value(seed);
+    set->id = get_identity(reading, root, "id");
+    set->folded = get_real(reading, json_object_get(root, "folded"), "folded");
+    if (json_object_get(root, "folded_white"))
+        set->folded_white = get_real(reading, json_object_get(root, "folded_white"), "folded_white");
+    if (json_object_get(root, "denoised"))
+        set->denoised = get_boolean(reading, json_object_get(root, "denoised"), "denoised");
+    set->strict_paper = get_boolean(reading, json_object_get(root, "strict_paper"), "strict_paper");
+    if (!reading->status)
+        read_parts(reading, root, set);
+    if (!reading->status)
+        read_targets(reading, root, set);
+    if (!reading->status)
+        read_footprints(reading, root, set);
+    if (!reading->status)
+        read_mixtures(reading, root, set);
+    if (!reading->status)
+        read_terms(reading, root, set);
+}
+
+static void read_sample_image(Reading *reading, const json_t *json, RetexSamples *samples, int index,
+                              RetexSamplePart *parts)
+{
+    const json_t *json_part = json_object_get(json, "part");
+    RetexPart part = {.crc = 0};
+
+    samples->footprint_target[index] = get_integer(reading, json, "target", 0, samples->ntargets - 1);
+    samples->footprint_hit[index] = get_integer(reading, json, "hit", 1, 1 << 20);
+    if (json_is_null(json_part))
+        read_bands(reading, json_part, 0);
+    if (json_is_null(json_part) || reading->status)
+        return;
+    read_part(reading, json_part, &part, parts[index].name, sizeof parts[index].name);
+    read_bands(reading, json_part, part.image.height);
+    if (!reading->status && (part.image.channels != 3 || part.type != RETEX_FLOAT ||
+                             part.image.width > samples->width || part.image.height > samples->height))
+        bad(reading, RETEX_EFORMAT, "has a sample image of the wrong shape");
+    if (!reading->status && !parts[index].name[0])
+        bad(reading, RETEX_EFORMAT, "has a sample image without a name");
+    for (int i = 0; i < index; i++)
+        if (parts[index].name[0] && strcmp(parts[i].name, parts[index].name) == 0)
+            bad(reading, RETEX_EFORMAT, "has two sample images named \"%s\"", parts[i].name);
+    parts[index].crc = part.crc;
+    samples->images[index] = part.image;
+}
+
+static void read_samples(Reading *reading, const json_t *json, int width, int height, RetexSamples **result,
+                         RetexSamplePart **parts)
+{
+    const json_t *targets = get_array(reading, json, "targets", RETEX_MAX_TARGETS);
+    const json_t *images = get_array(reading, json, "images", RETEX_SET_FOOTPRINTS_MAX);
+    const size_t count = json_array_size(images);
+    RetexSamples *samples = calloc(1, sizeof *samples);
+
+    *result = samples;
+    *parts = calloc(count + 1, sizeof **parts);
+    if (samples)
+        samples->images = calloc(count + 1, sizeof *samples->images);
+    if (!samples || !*parts || !samples->images) {
+        bad(reading, RETEX_ENOMEM, "does not fit in memory");
+        return;
+    }
+    samples->width = width;
+    samples->height = height;
+    samples->set_id = get_identity(reading, json, "set_id");
+    samples->ntargets = (int)json_array_size(targets);
+    for (int i = 0; i < samples->ntargets; i++) {
+        const json_t *target = json_array_get(targets, (size_t)i);
+        get_text(reading, target, "name", samples->target_names[i], sizeof samples->target_names[i]);
+        get_text(reading, target, "texture", samples->textures[i], sizeof samples->textures[i]);
+    }
+    samples->nimages = (int)count;
+    for (int i = 0; i < samples->nimages && !reading->status; i++)
+        read_sample_image(reading, json_array_get(images, (size_t)i), samples, i, *parts);
+}
+
+/* The version comes before everything else: of a later one nothing else may be taken for granted. */
+static void check_version(Reading *reading, const json_t *root, RetexManifestSum sum)
+{
+    const json_t *version = json_object_get(root, "retex");
+    const json_int_t number = json_integer_value(version);
+
+    if (!json_is_integer(version) || number < 1)
+        bad(reading, RETEX_EFORMAT, "has no version");
+    else if (number > RETEX_SET_VERSION)
+        bad(reading, RETEX_EUNSUPPORTED, "is of version %lld; this program knows versions up to %d", (long long)number,
+            RETEX_SET_VERSION);
+    else if (sum == RETEX_MANIFEST_PLAIN && (number >= RETEX_MANIFEST_FIRST_WITH_SUM || json_object_get(root, "crc32")))
+        bad(reading, RETEX_EFORMAT, "is damaged: its checksum is missing");
+}
+
+static void read_root(Reading *reading, const json_t *root, RetexManifestSum sum, RetexSet **set,
+                      RetexSamples **samples, RetexSamplePart **sample_parts)
+{
+    char kind[32] = "";
+
+    check_version(reading, root, sum);
+    if (reading->status)
+        return;
+    get_text(reading, root, "kind", kind, sizeof kind);
+    const int stream = strcmp(kind, "stream") == 0;
+    const int has_set = stream || strcmp(kind, "set") == 0;
+    const int has_samples = stream || strcmp(kind, "samples") == 0;
+    const int width = get_integer(reading, root, "width", 1, RETEX_MAX_SIZE);
+    const int height = get_integer(reading, root, "height", 1, RETEX_MAX_SIZE);
+    if (!has_set && !has_samples)
+        bad(reading, RETEX_EFORMAT, "is of unknown kind \"%s\"", kind);
+    if (!reading->status && has_set)
+        read_set(reading, root, width, height, set);
+    if (!reading->status && has_samples)
+        read_samples(reading, json_object_get(root, "samples"), width, height, samples, sample_parts);
+    if (*set)
+        (*set)->version = (int)json_integer_value(json_object_get(root, "retex"));
+    if (*samples)
+        (*samples)->version = (int)json_integer_value(json_object_get(root, "retex"));
+}
+
+int retex_manifest_read(const char *json, const char *name, RetexSet **set, RetexSamples **samples,
+                        RetexSamplePart **sample_parts, RetexBandSums *sums, RetexError *err)
+{
+    Reading reading = {name, err, 0, sums};
+    const RetexManifestSum sum = retex_manifest_sum(json);
+    json_error_t where;
+
+    *set = NULL;
+    *samples = NULL;
+    *sample_parts = NULL;
+    if (sums)
+        *sums = (RetexBandSums){
+            0, calloc((size_t)RETEX_SET_PARTS_MAX + (size_t)RETEX_SET_FOOTPRINTS_MAX, sizeof *sums->of)};
+    if (sums && !sums->of)
+        return retex_fail(err, RETEX_ENOMEM, "no memory to read %s", name);
+    if (sum == RETEX_MANIFEST_WRONG)
+        return retex_fail(err, RETEX_EFORMAT, "%s: the manifest is damaged: its checksum is wrong", name);
+    json_t *root = json_loads(json, JSON_REJECT_DUPLICATES, &where);
+    if (!root)
+        return retex_fail(err, RETEX_EFORMAT, "%s is not a set (its `retex` attribute is no JSON: %s)", name,
+                          where.text);
+    if (!json_is_object(root))
+        bad(&reading, RETEX_EFORMAT, "is no JSON object");
+    else
+        read_root(&reading, root, sum, set, samples, sample_parts);
+    json_decref(root);
+    if (reading.status) {
+        retex_set_close(set);
+        retex_samples_close(samples);
+        free(*sample_parts);
+        *sample_parts = NULL;
+    }
+    return reading.status;
+}

@@ -1,0 +1,55 @@
+/* The manifest's checksum of itself: see manifest.h. It is of the text, not of what the text means, so that it is
+ * compared before anything is parsed. */
+#include <stdio.h>
+#include <string.h>
+
+#include "io/checksum.h"
+#include "set/manifest.h"
+
+enum { DIGITS = 8 };
+
+/* Where the digits are, or NULL. */
+static const char *find_digits(const char *json)
+{
+    static const char begin[] = "{\"retex\":", key[] = ",\"crc32\":\"";
+
+    if (strncmp(json, begin, sizeof begin - 1) != 0)
+        return NULL;
+    const char *at = json + sizeof begin - 1;
+    at += strspn(at, "0123456789");
+    if (strncmp(at, key, sizeof key - 1) != 0)
+        return NULL;
+    at += sizeof key - 1;
+    return strspn(at, "0123456789abcdef") == DIGITS && at[DIGITS] == '"' ? at : NULL;
+}
+
+static void print_sum(char digits[DIGITS + 1], const char *json, const char *place)
+{
+    uint32_t crc = retex_crc32(CRC32_OF_NONE, json, (size_t)(place - json));
+
+    crc = retex_crc32(crc, "00000000", DIGITS);
+    crc = retex_crc32(crc, place + DIGITS, strlen(place + DIGITS));
+    snprintf(digits, DIGITS + 1, "%08x", (unsigned)crc);
+}
+
+RetexManifestSum retex_manifest_sum(const char *json)
+{
+    const char *place = find_digits(json);
+    char digits[DIGITS + 1];
+
+    if (!place)
+        return RETEX_MANIFEST_PLAIN;
+    print_sum(digits, json, place);
+    return memcmp(digits, place, DIGITS) == 0 ? RETEX_MANIFEST_RIGHT : RETEX_MANIFEST_WRONG;
+}
+
+void retex_manifest_seal(char *json)
+{
+    const char *place = find_digits(json);
+    char digits[DIGITS + 1];
+
+    if (!place)
+        return;
+    print_sum(digits, json, place);
+    memcpy(json + (place - json), digits, DIGITS);
+}

@@ -1,0 +1,143 @@
+/* What no pixel has leaves a set. */
+#include <limits.h>
+#include <string.h>
+
+#include <retex/set.h>
+
+#include "set/manifest.h"
+#include "set/parts.h"
+#include "set/signals.h"
+
+#define GONE INT_MIN /* of a factor */
+
+typedef struct Pruning {
+    RetexSet *set;
+    const char *empty;
+    char kept[RETEX_SET_PARTS_MAX];
+    int footprints[RETEX_SET_FOOTPRINTS_MAX]; /* the new number of each, or GONE */
+    int mixtures[RETEX_MIXTURES_MAX];         /* the factor that each becomes, or GONE */
+} Pruning;
+
+static void drop(Pruning *p, int part)
+{
+    if (part >= 0)
+        p->kept[part] = 0;
+}
+
+static void prune_footprints(Pruning *p)
+{
+    RetexSet *set = p->set;
+    int count = 0;
+
+    for (int i = 0; i < set->nfootprints; i++) {
+        const RetexFootprint *footprint = &set->footprints[i];
+        p->footprints[i] = count;
+        if (footprint->uv >= 0 && p->empty[footprint->uv]) {
+            p->footprints[i] = GONE;
+            drop(p, footprint->uv);
+            drop(p, footprint->spread);
+            drop(p, footprint->albedo);
+        } else {
+            set->footprints[count++] = *footprint;
+        }
+    }
+    set->nfootprints = count;
+}
+
+static void prune_shares(Pruning *p, RetexMixture *mixture)
+{
+    int count = 0;
+
+    for (int k = 0; k < mixture->nshares; k++) {
+        const int footprint = p->footprints[mixture->shares[k].footprint];
+        if (footprint != GONE)
+            mixture->shares[count++] = (struct RetexShare){footprint, mixture->shares[k].weight};
+    }
+    mixture->nshares = count;
+}
+
+/* Weights are kept where a mixture is left that needs them; those of later hits always are. */
+static void prune_mixtures(Pruning *p)
+{
+    RetexSet *set = p->set;
+    int count = 0;
+
+    for (int m = 0; m < set->nmixtures; m++)
+        for (int k = 0; k < set->mixtures[m].nshares; k++)
+            drop(p, set->mixtures[m].shares[k].weight);
+    for (int m = 0; m < set->nmixtures; m++) {
+        RetexMixture *mixture = &set->mixtures[m];
+        prune_shares(p, mixture);
+        for (int k = 0; k < mixture->nshares; k++)
+            p->kept[mixture->shares[k].weight] |=
+                mixture->nshares > 1 ||
+                set->footprints[mixture->shares[k].footprint].kind == RETEX_FOOTPRINT_INTERREFLECTION;
+        p->mixtures[m] = mixture->nshares == 0   ? GONE
+                         : mixture->nshares == 1 ? mixture->shares[0].footprint
+                                                 : RETEX_MIXTURE(count);
+        if (mixture->nshares > 1)
+            set->mixtures[count++] = *mixture;
+    }
+    set->nmixtures = count;
+}
+
+/* 0 where a factor is gone. */
+static int prune_factors(const Pruning *p, RetexTerm *term)
+{
+    for (int k = 0; k < term->nfactors; k++) {
+        const int factor = term->factors[k];
+        term->factors[k] = factor < 0 ? p->mixtures[RETEX_MIXTURE(factor)] : p->footprints[factor];
+        if (term->factors[k] == GONE)
+            return 0;
+    }
+    return 1;
+}
+
+static void prune_terms(Pruning *p)
+{
+    RetexSet *set = p->set;
+    int count = 0;
+
+    for (int t = 0; t < set->nterms; t++) {
+        RetexTerm *term = &set->terms[t];
+        if ((term->nfactors && (p->empty[term->radiance] || (term->gain && p->empty[term->gain]))) ||
+            !prune_factors(p, term)) {
+            drop(p, term->radiance);
+            drop(p, term->gain ? term->gain : -1);
+        } else {
+            set->terms[count++] = *term;
+        }
+    }
+    set->nterms = count;
+}
+
+/* Noise of signals that have a term, or of the beauty where there is none. */
+static void prune_noise(Pruning *p)
+{
+    RetexSet *set = p->set;
+    char name[RETEX_NAME_MAX];
+
+    for (int i = 1; i < set->nparts; i++)
+        if (strncmp(set->parts[i].name, "noise_", 6) == 0)
+            p->kept[i] = 0;
+    for (int t = 0; t < set->nterms || (t == 0 && !set->nterms); t++) {
+        signal_noise_name(set, set->nterms ? &set->terms[t] : NULL, name);
+        const int part = retex_set_find_part(set, name);
+        if (part > 0)
+            p->kept[part] = 1;
+    }
+}
+
+void retex_set_prune(RetexSet *set, const char *empty)
+{
+    Pruning p = {.set = set, .empty = empty};
+
+    memset(p.kept, 1, sizeof p.kept);
+    prune_footprints(&p);
+    prune_mixtures(&p);
+    prune_terms(&p);
+    prune_noise(&p);
+    for (int i = set->nparts - 1; i > 0; i--)
+        if (!p.kept[i] && !part_is_used(set, i)) /* several may have shared it */
+            retex_set_remove_part(set, i);
+}

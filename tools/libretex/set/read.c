@@ -1,0 +1,294 @@
+/* Sets, samples and streams of both, from files. The manifest is believed about meaning, the EXR headers about layout,
+ * and the two must agree before any pixel is read. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "set/read.h"
+
+#include "exr/io.h"
+#include "set/exr_source.h"
+#include "io/input.h"
+#include "set/manifest.h"
+#include "exr/spool_chunks.h"
+
+/* Deflate gains at most 1032:1; a file that promises more than this is damaged and gets no memory. */
+enum { LARGEST_GAIN = 1100 };
+
+/* An open file with its description. */
+typedef struct Source {
+    RetexInput *input;
+    RetexExr *exr;
+    RetexSet *set; /* described, without pixels; NULL where the file has none */
+    RetexSamples *samples;
+    RetexSamplePart *names; /* of samples */
+    RetexBandSums sums;
+    RetexExrRequest *requests;
+    int nrequests;
+    uint64_t memory_bytes, stored_bytes; /* of what is requested */
+} Source;
+
+static void source_close(Source *source)
+{
+    retex_exr_close(&source->exr);
+    retex_input_close(&source->input);
+    retex_set_close(&source->set);
+    retex_samples_close(&source->samples);
+    retex_band_sums_free(&source->sums);
+    free(source->names);
+    free(source->requests);
+}
+
+/* Open what is known to be an EXR and read its manifest. */
+static int source_describe(Source *source, RetexError *err)
+{
+    const char *name = retex_input_name(source->input);
+    int status;
+
+    if (retex_input_size(source->input) == 0)
+        return retex_fail(err, RETEX_EFORMAT, "%s is not a set: it is empty", name);
+    unsigned char begin[16];
+    const int64_t got = retex_input_read(source->input, begin, sizeof begin, 0);
+    if (got > 0 && retex_spool_probe(begin, (size_t)got))
+        return retex_fail(err, RETEX_EFORMAT, "%s is not a set yet, but rows of one: %s", name,
+                          "retex-render goes on from them with --resume or --merge");
+    if (!retex_exr_probe(source->input)) {
+        status = retex_fail(err, RETEX_EFORMAT, "%s is not a set: neither an OpenEXR file nor a pack", name);
+        return retex_input_check(source->input, status, err);
+    }
+    status = retex_exr_open(&source->exr, source->input, err);
+    if (status)
+        return status;
+    const char *json = retex_exr_attribute(source->exr, 0, RETEX_MANIFEST_ATTRIBUTE);
+    if (!json)
+        return retex_fail(err, RETEX_EFORMAT, "%s is not a set (no `%s` attribute)", name, RETEX_MANIFEST_ATTRIBUTE);
+    status = retex_manifest_read(json, name, &source->set, &source->samples, &source->names, &source->sums, err);
+    if (status)
+        return status;
+    const size_t most =
+        (size_t)(source->set ? source->set->nparts : 0) + (size_t)(source->samples ? source->samples->nimages : 0);
+    source->requests = calloc(most + 1, sizeof *source->requests);
+    return source->requests ? 0 : retex_fail(err, RETEX_ENOMEM, "no memory to read %s", name);
+}
+
+/* Ask for a part of the manifest: what the file has under that name must be what the manifest says. index: among those
+ * that the sums of bands are of. */
+static int request_part(Source *source, const char *name, const char *letters, RetexPixelType type, uint32_t crc,
+                        int index, RetexImage *image, RetexError *err)
+{
+    const char *file = retex_input_name(source->input);
+    const int part = retex_exr_find_part(source->exr, name);
+    RetexExrRequest *request = &source->requests[source->nrequests];
+    int width, height;
+
+    if (part < 0)
+        return retex_fail(err, RETEX_EFORMAT, "%s lacks part %s, which its manifest lists", file, name);
+    retex_exr_part_size(source->exr, part, &width, &height);
+    if (width != image->width || height != image->height)
+        return retex_fail(err, RETEX_EFORMAT, "%s: part %s has %d x %d pixels where the manifest says %d x %d", file,
+                          name, width, height, image->width, image->height);
+    for (int c = 0; letters[c]; c++) {
+        char *channel = request->channels[c];
+        RetexPixelType found;
+        if (part == 0)
+            snprintf(channel, RETEX_EXR_NAME_MAX, "%c", letters[c]);
+        else
+            snprintf(channel, RETEX_EXR_NAME_MAX, "%.180s.%c", name, letters[c]);
+        if (!retex_exr_channel_type(source->exr, part, channel, &found) || found != type)
+            return retex_fail(err, RETEX_EFORMAT, "%s: part %s has no %s channel %s", file, name,
+                              type == RETEX_HALF ? "half" : "float", channel);
+    }
+    request->part = part;
+    request->image = image;
+    request->with_crc = 1;
+    request->expected = crc;
+    request->bands = source->sums.of[index];
+    request->allowed = retex_numbers_of_part(name);
+    source->nrequests++;
+    const uint64_t count = (uint64_t)width * (uint64_t)height * strlen(letters);
+    source->memory_bytes += count * sizeof(float);
+    source->stored_bytes += count * (type == RETEX_HALF ? 2 : 4);
+    return 0;
+}
+
+static int request_set(Source *source, RetexError *err)
+{
+    int status = 0;
+
+    for (int i = 0; i < source->set->nparts && !status; i++) {
+        RetexPart *part = &source->set->parts[i];
+        status = request_part(source, part->name, part->letters, part->type, part->crc, i, &part->image, err);
+    }
+    return status;
+}
+
+static int request_samples(Source *source, RetexError *err)
+{
+    const int first = source->set ? source->set->nparts : 0;
+    int status = 0;
+
+    for (int i = 0; i < source->samples->nimages && !status; i++)
+        if (source->names[i].name[0])
+            status = request_part(source, source->names[i].name, "RGB", RETEX_FLOAT, source->names[i].crc, first + i,
+                                  &source->samples->images[i], err);
+    return status;
+}
+
+static int check_stored(const Source *source, RetexError *err)
+{
+    if (source->stored_bytes / LARGEST_GAIN > retex_input_size(source->input))
+        return retex_fail(err, RETEX_EFORMAT, "%s is damaged or truncated: it is too small for what it should hold",
+                          retex_input_name(source->input));
+    return 0;
+}
+
+static int check_memory(const Source *source, RetexError *err)
+{
+    if (source->memory_bytes > RETEX_EXR_MEMORY_MAX)
+        return retex_fail(err, RETEX_ELIMIT, "%s needs %.1f GiB of memory, more than the limit of %.0f",
+                          retex_input_name(source->input), (double)source->memory_bytes / 0x1p30,
+                          (double)RETEX_EXR_MEMORY_MAX / 0x1p30);
+    return check_stored(source, err);
+}
+
+/* Read what is requested, and compare its checksums. */
+static int read_requests(Source *source, int nthreads, RetexError *err)
+{
+    const int status = retex_exr_read(source->exr, source->requests, source->nrequests, nthreads, err);
+
+    for (int i = 0; i < source->nrequests && !status; i++) {
+        const RetexExrRequest *request = &source->requests[i];
+        if (request->crc != request->expected)
+            return retex_fail(err, RETEX_EFORMAT, "%s: the checksum of part %s is wrong",
+                              retex_input_name(source->input), retex_exr_part_name(source->exr, request->part));
+    }
+    return status;
+}
+
+/* Give the requested images their pixels. */
+static int read_pixels(Source *source, int nthreads, RetexError *err)
+{
+    int status = check_memory(source, err);
+
+    for (int i = 0; i < source->nrequests && !status; i++) {
+        RetexImage *image = source->requests[i].image;
+        const RetexImage shape = *image;
+        status = retex_image_alloc(image, shape.width, shape.height, shape.channels, err);
+    }
+    return status ? status : read_requests(source, nthreads, err);
+}
+
+static int request_samples_stored(Source *source, RetexError *err)
+{
+    RetexSamples *samples = source->samples;
+    const int first = source->nrequests;
+    const int status = request_samples(source, err);
+
+    for (int i = 0, next = first; i < samples->nimages && !status; i++)
+        samples->stored[i] = source->names[i].name[0] ? ++next : 0;
+    return status;
+}
+
+/* The set's parts stay where they are, and the samples that are wanted. */
+static int keep_open(Source *source, int with_samples, int nthreads, RetexError *err)
+{
+    RetexSetSource *opened;
+    int status = source->set ? request_set(source, err) : 0;
+
+    if (!status && with_samples)
+        status = request_samples_stored(source, err);
+    if (!status)
+        status = check_stored(source, err);
+    if (status)
+        return status;
+    const ExrSourceParts parts = {source->exr,       source->input, source->requests,
+                                  source->nrequests, source->sums,  nthreads};
+    source->requests = NULL;
+    source->input = NULL;
+    source->exr = NULL;
+    source->sums = (RetexBandSums){0};
+    status = exr_source_open(&opened, &parts, err);
+    if (status)
+        return status;
+    if (source->set)
+        source->set->source = opened;
+    if (with_samples)
+        source->samples->source = source->set ? exr_source_share(opened) : opened;
+    return 0;
+}
+
+/* Read what is wanted whole. */
+static int read_whole(Source *source, int with_set, int with_samples, int nthreads, RetexError *err)
+{
+    int status = with_samples ? request_samples(source, err) : 0;
+
+    if (!status && with_set)
+        status = request_set(source, err);
+    return status ? status : read_pixels(source, nthreads, err);
+}
+
+static int read_described(Source *source, RetexSet **set, RetexSamples **samples, int open, int nthreads,
+                          RetexError *err)
+{
+    int status = source_describe(source, err);
+
+    if (status)
+        return status;
+    const int with_set = set && source->set, with_samples = samples && source->samples;
+    if (!with_set && !with_samples)
+        return retex_fail(err, RETEX_EFORMAT, "%s holds %s, no %s", retex_input_name(source->input),
+                          source->set ? "a set" : "samples", source->set ? "samples" : "set");
+    status = open ? keep_open(source, with_samples, nthreads, err)
+                  : read_whole(source, with_set, with_samples, nthreads, err);
+    if (status)
+        return status;
+    if (set) {
+        *set = source->set;
+        source->set = NULL;
+    }
+    if (samples) {
+        *samples = source->samples;
+        source->samples = NULL;
+    }
+    return 0;
+}
+
+int set_read_exr(RetexInput **input, RetexSet **set, RetexSamples **samples, int open, int nthreads, RetexError *err)
+{
+    Source source = {.input = *input};
+    const int status = read_described(&source, set, samples, open, nthreads, err);
+
+    *input = source.input; /* NULL where it stays open */
+    source.input = NULL;
+    source_close(&source);
+    return status;
+}
+
+static int check_described(Source *source, int nthreads, RetexError *err)
+{
+    int status = source_describe(source, err);
+
+    if (!status && source->set)
+        status = request_set(source, err);
+    if (!status && source->samples)
+        status = request_samples(source, err);
+    if (!status)
+        status = check_memory(source, err);
+    if (status)
+        return status;
+    for (int i = 0; i < source->nrequests; i++)
+        source->requests[i].image = NULL; /* the checksum is all that is wanted */
+    status = read_requests(source, nthreads, err);
+    const int version = source->set ? source->set->version : source->samples->version;
+    return status || version >= RETEX_MANIFEST_FIRST_WITH_SUM ? status : RETEX_CHECKED_IN_PART;
+}
+
+int set_check_exr(RetexInput *input, int nthreads, RetexError *err)
+{
+    Source source = {.input = input};
+    const int status = check_described(&source, nthreads, err);
+
+    source.input = NULL;
+    source_close(&source);
+    return status;
+}

@@ -1,0 +1,264 @@
+/* Sets, samples and streams of both, to files. Parts are encoded first, because the manifest holds the checksums and
+ * stands in the file's header. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "exr/io.h"
+#include "set/manifest.h"
+#include "io/output.h"
+#include "set/parts.h"
+#include "set/stage.h"
+
+/* Decide which parts are kept. With samples only what recombination needs: the picture, the terms, and whole
+ * footprints where no sample takes their place, so that another target can be sampled further down the pipe. */
+static void choose_parts(const RetexSet *set, const RetexSamples *samples, char *kept)
+{
+    memset(kept, !samples, (size_t)set->nparts);
+    if (!samples)
+        return;
+    kept[0] = 1;
+    for (int i = 0; i < set->nterms; i++)
+        kept[set->terms[i].radiance] = kept[set->terms[i].gain] = 1; /* no gain: the picture, which is kept */
+    for (int i = 0; i < set->nmixtures; i++)
+        for (int k = 0; k < set->mixtures[i].nshares; k++)
+            kept[set->mixtures[i].shares[k].weight] = 1;
+    for (int i = 0; i < set->nfootprints; i++) {
+        const int parts[3] = {set->footprints[i].albedo, set->footprints[i].uv, set->footprints[i].spread};
+        for (int k = 0; k < 3 && !retex_samples_have(samples, i); k++)
+            if (parts[k] >= 0)
+                kept[parts[k]] = 1;
+    }
+}
+
+static int part_in_range(const RetexSet *set, int part, int optional)
+{
+    return (part >= 0 && part < set->nparts) || (optional && part == -1);
+}
+
+static int mixture_is_sound(const RetexSet *set, const RetexMixture *mixture)
+{
+    int sound = mixture->nshares >= 1 && mixture->nshares <= RETEX_SHARES_MAX;
+    for (int k = 0; k < mixture->nshares && sound; k++)
+        sound = part_in_range(set, mixture->shares[k].weight, 0) && mixture->shares[k].footprint >= 0 &&
+                mixture->shares[k].footprint < set->nfootprints;
+    return sound;
+}
+
+/* Everything about a set that others may have filled in by hand. */
+static int check_set(const RetexSet *set, RetexError *err)
+{
+    if (set->nparts < 1 || set->nparts > RETEX_SET_PARTS_MAX || strcmp(set->parts[0].letters, "RGB") != 0 ||
+        set->parts[0].image.width != set->width || set->parts[0].image.height != set->height)
+        return retex_fail(err, RETEX_EINVAL, "the set's first part is no RGB picture of %d x %d pixels", set->width,
+                          set->height);
+    for (int i = 0; i < set->nparts; i++)
+        if (set->parts[i].spooled ? !set->spool : !set->parts[i].image.pixels && !set->source)
+            return retex_fail(err, RETEX_EINVAL, "part %s has no pixels", set->parts[i].name);
+    int sound = set->ntargets >= 0 && set->ntargets <= RETEX_MAX_TARGETS && set->nfootprints >= 0 &&
+                set->nfootprints <= RETEX_SET_FOOTPRINTS_MAX && set->nterms >= 0 && set->nterms <= RETEX_SET_TERMS_MAX;
+    for (int i = 0; i < set->ntargets && sound; i++)
+        sound = part_in_range(set, set->targets[i].original, 1);
+    for (int i = 0; i < set->nfootprints && sound; i++)
+        sound = part_in_range(set, set->footprints[i].uv, 1) && part_in_range(set, set->footprints[i].spread, 1) &&
+                part_in_range(set, set->footprints[i].albedo, 1);
+    for (int i = 0; i < set->nterms && sound; i++)
+        sound = part_in_range(set, set->terms[i].radiance, 0) && set->terms[i].kind >= RETEX_TERM_FULL &&
+                set->terms[i].kind <= RETEX_TERM_CROSS3 && set->terms[i].nfactors >= 0 &&
+                set->terms[i].nfactors <= RETEX_MAX_FACTORS;
+    sound = sound && set->nmixtures >= 0 && set->nmixtures <= RETEX_MIXTURES_MAX;
+    for (int i = 0; i < set->nmixtures && sound; i++)
+        sound = mixture_is_sound(set, &set->mixtures[i]);
+    return sound ? 0 : retex_fail(err, RETEX_EINVAL, "the set refers to parts it does not have");
+}
+
+/* A file on its way. */
+typedef struct Writing {
+    const RetexSet *whole; /* or NULL */
+    SetView view;          /* of it */
+    const RetexSamples *samples;
+    RetexSamplePart *names;
+    RetexBandSums sums;
+    RetexImage blank;    /* a pixel for a file that would otherwise be empty */
+    RetexExrPart *parts; /* those of the view, then those of samples */
+    int count;
+    SetStage stage;
+    const char *path;
+    int compress, nthreads, width, height;
+} Writing;
+
+static RetexExrPart *add_exr_part(Writing *w, const char *name, const char *letters, RetexPixelType type,
+                                  const RetexImage *image)
+{
+    RetexExrPart *part = &w->parts[w->count++];
+
+    snprintf(part->name, sizeof part->name, "%s", name);
+    snprintf(part->letters, sizeof part->letters, "%s", letters);
+    part->type = type;
+    part->image = image;
+    return part;
+}
+
+static int stage_part(Writing *w, RetexExrPart *exr, int part, int footprint, RetexError *err)
+{
+    return set_stage_add(&w->stage, exr, part, footprint, w->width, w->height, w->path, w->compress, err);
+}
+
+/* Say of all parts where their pixels are, after bringing what is in another file to where it can be had. */
+static int list_parts(Writing *w, RetexError *err)
+{
+    int status = 0;
+
+    for (int i = 0; i < w->view.set.nparts && !status; i++) {
+        const RetexPart *part = &w->view.set.parts[i];
+        RetexExrPart *exr = add_exr_part(w, part->name, part->letters, part->type, &part->image);
+        exr->color = retex_set_part_is_color(&w->view.set, i) ? &retex_color_tag_rec709 : &retex_color_tag_data;
+        if (part->spooled)
+            exr->spool = w->whole->spool, exr->spooled = part->spooled - 1;
+        else if (!part->image.pixels)
+            status = stage_part(w, exr, w->view.source[i], -1, err);
+    }
+    for (int i = 0; w->samples && i < w->samples->nimages && !status; i++) {
+        const RetexSamples *samples = w->samples;
+        if (!w->names[i].name[0])
+            continue;
+        RetexExrPart *exr = add_exr_part(w, w->names[i].name, "RGB", RETEX_FLOAT, &samples->images[i]);
+        exr->color = &retex_color_tag_rec709;
+        if (samples->spooled[i])
+            exr->spool = samples->spool, exr->spooled = samples->spooled[i] - 1;
+        else if (!samples->images[i].pixels)
+            status = stage_part(w, exr, -1, i, err);
+    }
+    if (w->count == 0)
+        add_exr_part(w, "nothing", "RGB", RETEX_HALF, &w->blank);
+    return status ? status : set_stage_fill(&w->stage, w->whole, w->samples, w->nthreads, err);
+}
+
+static int keep_band_sums(Writing *w, const RetexExrEncoding *encoding, int part, RetexError *err)
+{
+    uint32_t *crcs = retex_exr_band_crcs(encoding, part);
+
+    w->sums.of[w->sums.count++] = crcs;
+    return crcs ? 0 : retex_fail(err, RETEX_ENOMEM, "no memory to write %s", w->path);
+}
+
+/* Keep the checksums where the manifest finds them. */
+static int keep_sums(Writing *w, const RetexExrEncoding *encoding, RetexError *err)
+{
+    int next = 0, status = 0;
+
+    w->sums.of =
+        calloc((size_t)w->view.set.nparts + (size_t)(w->samples ? w->samples->nimages : 0) + 1, sizeof *w->sums.of);
+    if (!w->sums.of)
+        return retex_fail(err, RETEX_ENOMEM, "no memory to write %s", w->path);
+    for (int i = 0; i < w->view.set.nparts && !status; i++, next++) {
+        w->view.set.parts[i].crc = w->parts[next].crc;
+        status = keep_band_sums(w, encoding, next, err);
+    }
+    for (int i = 0; w->samples && i < w->samples->nimages && !status; i++) {
+        if (!w->names[i].name[0]) {
+            w->sums.of[w->sums.count++] = NULL;
+            continue;
+        }
+        w->names[i].crc = w->parts[next].crc;
+        status = keep_band_sums(w, encoding, next++, err);
+    }
+    return status;
+}
+
+/* Encode the parts, write all. */
+static int write_parts(Writing *w, RetexError *err)
+{
+    RetexSet *set = w->whole ? &w->view.set : NULL;
+    RetexExrEncoding *encoding = NULL;
+    char *json = NULL;
+    int status = retex_exr_encode(&encoding, w->parts, w->count, w->compress, w->nthreads, err);
+
+    if (!status)
+        status = keep_sums(w, encoding, err);
+    if (!status)
+        status = retex_manifest_write(set, w->samples, w->names, &w->sums, &json, err);
+    if (!status)
+        status = retex_exr_write(encoding, w->width, w->height, RETEX_MANIFEST_ATTRIBUTE, json, w->path, err);
+    retex_exr_encoding_free(&encoding);
+    free(json);
+    return status;
+}
+
+static int check_written(const RetexSet *set, const RetexSamples *samples, RetexError *err)
+{
+    int status = 0;
+
+    if (!set && !samples)
+        return retex_fail(err, RETEX_EINVAL, "there is neither a set nor samples to write");
+    if (set)
+        status = check_set(set, err);
+    if (!status && samples)
+        status = retex_samples_are_sound(samples, err);
+    if (!status && set && samples)
+        status = retex_samples_check(samples, set, err);
+    return status;
+}
+
+static int open_writing(Writing *w, RetexError *err)
+{
+    const int nsamples = w->samples ? w->samples->nimages : 0;
+    char kept[RETEX_SET_PARTS_MAX];
+    int status = 0;
+
+    if (w->whole) {
+        choose_parts(w->whole, w->samples, kept);
+        status = set_view_make(&w->view, w->whole, kept, err);
+    }
+    if (status)
+        return status;
+    const int most = w->view.set.nparts + nsamples + 1;
+    w->parts = calloc((size_t)most, sizeof *w->parts);
+    w->names = calloc((size_t)nsamples + 1, sizeof *w->names);
+    if (!w->parts || !w->names)
+        return retex_fail(err, RETEX_ENOMEM, "no memory to write %s", w->path);
+    if (w->samples)
+        retex_sample_part_names(w->samples, w->whole, w->names);
+    status = retex_image_alloc(&w->blank, 1, 1, 3, err);
+    return status ? status : set_stage_open(&w->stage, most, err);
+}
+
+static void close_writing(Writing *w)
+{
+    set_stage_close(&w->stage);
+    retex_image_free(&w->blank);
+    retex_band_sums_free(&w->sums);
+    free(w->names);
+    free(w->parts);
+    set_view_free(&w->view);
+}
+
+int retex_set_write(RetexSet *set, const RetexSamples *samples, const char *path, const RetexStoreParams *params,
+                    RetexError *err)
+{
+    static const RetexStoreParams defaults = RETEX_STORE_INIT;
+    int status = check_written(set, samples, err);
+
+    if (status)
+        return status;
+    if (!params)
+        params = &defaults;
+    Writing w = {.whole = set, .samples = samples, .path = path, .nthreads = params->nthreads};
+    w.compress = params->compress && strcmp(path, "-") != 0;
+    w.width = set ? set->width : samples->width;
+    w.height = set ? set->height : samples->height;
+    status = open_writing(&w, err);
+    if (!status)
+        status = list_parts(&w, err);
+    if (!status)
+        status = write_parts(&w, err);
+    for (int i = 0; i < w.view.set.nparts && !status; i++)
+        set->parts[w.view.source[i]].crc = w.view.set.parts[i].crc;
+    close_writing(&w);
+    return status;
+}
+
+int retex_set_write_check(const char *path, RetexError *err)
+{
+    return retex_output_check(path, err);
+}

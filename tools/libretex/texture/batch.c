@@ -1,0 +1,173 @@
+/* Rows of footprints: those with coverage are collected, handed to the fastest kernel that this machine has, and what
+ * that leaves alone is filtered one by one. */
+#include "texture/batch.h"
+
+#include <math.h>
+#include <pthread.h>
+#include <string.h>
+
+#include "texture/texture_kernel.h"
+
+#define LEAST_ALPHA 1e-20f /* less has no colour that float could tell */
+
+void texture_gather_block(const RetexTexture *texture, const TextureLevel *level, int x, int y, char *texels)
+{
+    size_t size = texel_size(texture->narrow);
+    for (int j = 0; j < 4; j++) {
+        Row row = find_row(texture, level, y + j, 0);
+        for (int i = 0; i < 4; i++, texels += size) {
+            int at = wrap_index(x + i, level->width, texture->spec.wrap[0]);
+            const char *p = NULL;
+            if (row.texels)
+                p = (unsigned)at < (unsigned)level->width ? row.texels + (size_t)at * size : row.beside[at > 0];
+            if (p)
+                memcpy(texels, p, size);
+            else
+                memset(texels, 0, size);
+        }
+    }
+}
+
+/* Only a level whose texels are about as large along both axes stands for a smaller variance of both. */
+static int count_levels(const RetexTexture *texture)
+{
+    int count = 1;
+    for (; count < texture->nlevels && count < BATCH_LEVELS; count++) {
+        const double *scale = texture->levels[count].scale;
+        if (scale[0] > 1.5 * scale[1] || scale[1] > 1.5 * scale[0])
+            break;
+    }
+    return count;
+}
+
+/* Gaussians are cut off where the surface ends, discs are not: see RetexTextureSpec. There is such an end along an axis
+ * of the image as far as the texture is not turned against the surface. */
+static BatchLimit find_limit(const RetexTexture *texture, const BatchTexture *t, int axis)
+{
+    const RetexTextureSpec *spec = &texture->spec;
+    const int along = t->matrix[axis][0] == 0;
+    if (!t->gaussian || t->matrix[axis][!along] != 0 || !(spec->uv_min[along] < spec->uv_max[along]))
+        return (BatchLimit){.along = -1};
+    return (BatchLimit){along, (float)spec->uv_min[along], (float)spec->uv_max[along], (float)t->matrix[axis][along]};
+}
+
+static void prepare(BatchTexture *t, const RetexTexture *texture, RetexTextureFilter shape)
+{
+    const TextureLevel *image = &texture->levels[0];
+    *t = (BatchTexture){.texture = texture, .gaussian = shape == RETEX_TEXTURE_GAUSSIAN};
+    t->size[0] = image->width;
+    t->size[1] = image->height;
+    t->levels = count_levels(texture);
+    for (int axis = 0; axis < 2; axis++) {
+        RetexWrap wrap = texture->spec.wrap[axis];
+        double sign = axis ? -1 : 1;
+        t->period[axis] = wrap == RETEX_WRAP_REPEAT ? 1 : wrap == RETEX_WRAP_MIRROR ? 2 : 0;
+        t->black[axis] = wrap == RETEX_WRAP_BLACK;
+        t->offset[axis] = axis ? 1 - texture->offset[1] : texture->offset[0];
+        for (int i = 0; i < 2; i++) {
+            t->matrix[axis][i] = sign * texture->matrix[axis][i];
+            t->to_texels[axis][i] = (float)(t->matrix[axis][i] * t->size[axis]);
+        }
+        for (int i = 0; i < t->levels; i++) {
+            const TextureLevel *level = &texture->levels[i];
+            int alone = (axis ? level->height : level->width) == 1 && (t->period[axis] > 0 || is_flat(texture, axis));
+            t->texels[axis][i] = (float)(axis ? level->height : level->width);
+            t->inverse_area[2 * axis][i] = (float)(1 / (level->scale[axis] * level->scale[axis]));
+            t->inverse_area[1][i] = (float)(1 / (level->scale[0] * level->scale[1]));
+            t->spread[axis][i] = alone ? 0 : 1;
+            for (int k = 0; k < 2; k++)
+                t->blur[axis][k][i] = (float)level->blur[axis][k];
+            t->padding[i] = (float)level->padding;
+        }
+        t->limits[axis] = find_limit(texture, t, axis);
+        t->limited |= t->limits[axis].along >= 0;
+    }
+}
+
+static void filter_one(const RetexTexture *texture, RetexTextureFilter shape, const float *uv, const float *spread,
+                       int spreads, float *rgba)
+{
+    double correlation = spreads == 3 ? (double)spread[2] : 0, u = (double)spread[0], v = (double)spread[1];
+    double covariance[3] = {u * u, correlation * u * v, v * v};
+    if (shape == RETEX_TEXTURE_GAUSSIAN)
+        retex_texture_gaussian(texture, (double)uv[0], (double)uv[1], covariance, rgba);
+    else
+        retex_texture_disc(texture, (double)uv[0], (double)uv[1], covariance, rgba);
+}
+
+static TextureBatchKernel *best_kernel;
+
+static void choose_kernel(void)
+{
+    TextureBatchKernel *kernels[3];
+    texture_batch_kernels(kernels);
+    best_kernel = kernels[0];
+}
+
+/* 0 without alpha, as out is already. */
+static inline void unassociate(const float in[4], float *out, int channels)
+{
+    const float alpha = in[3];
+    if (!(alpha > LEAST_ALPHA))
+        return;
+    Float4 color = load4(in) * (1 / alpha);
+    color[3] = alpha < 1 ? alpha : 1;
+    if (channels == 4)
+        memcpy(out, &color, sizeof color);
+    else
+        memcpy(out, &color, 3 * sizeof *out);
+}
+
+void texture_filter_batches(TextureBatchKernel *kernel, const RetexTexture *texture, RetexTextureFilter shape,
+                            const float *uv, const float *spread, int spreads, size_t n, float *colors, int channels)
+{
+    BatchTexture prepared;
+    Batch batch;
+    size_t from[BATCH_SIZE + 1];
+    prepare(&prepared, texture, shape);
+    memset(colors, 0, n * (size_t)channels * sizeof *colors);
+    for (size_t i = 0; i < n;) {
+        batch.count = 0;
+        for (; i < n && batch.count < BATCH_SIZE; i++) {
+            const float *at = uv + 3 * i, *s = spread + (size_t)spreads * i;
+            if (!(at[2] > 0))
+                continue;
+            int k = batch.count++;
+            from[k] = i;
+            batch.u[k] = at[0];
+            batch.v[k] = at[1];
+            batch.su[k] = s[0];
+            batch.sv[k] = s[1];
+            batch.correlation[k] = spreads == 3 ? s[2] : 0;
+        }
+        if (!batch.count)
+            break;
+        kernel(&prepared, &batch);
+        for (int k = 0; k < batch.count; k++)
+            unassociate(batch.rgba[k], colors + (size_t)channels * from[k], channels);
+        for (int k = 0; k < batch.nleft; k++) {
+            size_t at = from[batch.left[k]];
+            float rgba[4];
+            filter_one(texture, shape, uv + 3 * at, spread + (size_t)spreads * at, spreads, rgba);
+            memcpy(colors + (size_t)channels * at, rgba, (size_t)channels * sizeof *colors);
+        }
+    }
+}
+
+void retex_texture_filter(const RetexTexture *texture, RetexTextureFilter shape, const float *uv, const float *spread,
+                          int spreads, size_t n, float *colors, int channels)
+{
+    static pthread_once_t once = PTHREAD_ONCE_INIT;
+    pthread_once(&once, choose_kernel);
+    if (texture->nlevels) {
+        texture_filter_batches(best_kernel, texture, shape, uv, spread, spreads, n, colors, channels);
+        return;
+    }
+    for (size_t i = 0; i < n; i++) {
+        const float color[4] = {texture->spec.color[0], texture->spec.color[1], texture->spec.color[2], 1};
+        if (uv[3 * i + 2] > 0)
+            memcpy(colors + (size_t)channels * i, color, (size_t)channels * sizeof *colors);
+        else
+            memset(colors + (size_t)channels * i, 0, (size_t)channels * sizeof *colors);
+    }
+}

@@ -1,0 +1,245 @@
+/* The first part of batch_body.h: which level of the pyramid a footprint is summed on, what ellipse it is
+ * there, and which blocks of texels that meets. */
+
+/* A batch's footprints on their way. Along is from line to line, across from texel to texel of a line. */
+typedef struct Places {
+    int level[BATCH_SIZE];
+    int column[BATCH_SIZE], row[BATCH_SIZE];     /* of the level: the whole part of the mean */
+    float at_x[BATCH_SIZE], at_y[BATCH_SIZE];    /* and the rest of it */
+    float xx[BATCH_SIZE], yy[BATCH_SIZE];        /* variances in the level's texels */
+    int line[BATCH_SIZE], texel[BATCH_SIZE];     /* the ellipse's first line; the whole part of the mean across */
+    float along[BATCH_SIZE], across[BATCH_SIZE]; /* at_x and at_y, as lines have them */
+    float length[BATCH_SIZE], half[BATCH_SIZE], slope[BATCH_SIZE]; /* the ellipse, as in disc_kernel.c */
+    float lean[BATCH_SIZE], reach[BATCH_SIZE]; /* of the blocks: their slope, how far they go to each side */
+    int first[BATCH_SIZE];                     /* line, from the whole part of the mean */
+    int lines[BATCH_SIZE], columns[BATCH_SIZE], key[BATCH_SIZE];
+    float low[2][BATCH_SIZE], high[2][BATCH_SIZE]; /* batch_cut.h: ends of the surface, from the mean */
+    int cut[BATCH_SIZE];                           /* -1: the ellipse reaches beyond one of them */
+} Places;
+
+/* u and v where they are far away become 0. */
+INLINE void NAME(find_mean)(const BatchTexture *t, int axis, Lanes u, Lanes v, Double *mean)
+{
+    const Double whole = 6755399441055744.0 - (Double){0}; /* 1.5 * 2^52: adding it rounds */
+    const Double period = t->period[axis] - (Double){0}, one = 1 - (Double){0};
+    double inverse = t->period[axis] > 0 ? 1 / t->period[axis] : 0;
+    Half halves[2][2];
+    memcpy(halves[0], &u, sizeof u);
+    memcpy(halves[1], &v, sizeof v);
+    for (int h = 0; h < 2; h++) {
+        Double at = t->matrix[axis][0] * __builtin_convertvector(halves[0][h], Double) +
+                    t->matrix[axis][1] * __builtin_convertvector(halves[1][h], Double) + t->offset[axis];
+        Double turns = at * inverse, below = turns + whole - whole;
+        below -= (Double)((below > turns) & (DoubleMask)one);
+        mean[h] = at - period * below;
+    }
+}
+
+/* The mean in texels of the level, as a whole number and a rest. */
+INLINE void NAME(split_mean)(const Double *mean, Lanes texels, Mask *index, Lanes *rest)
+{
+    const Double whole = 6755399441055744.0 - (Double){0}, one = 1 - (Double){0};
+    Half sizes[2], rests[2];
+    HalfMask indices[2];
+    memcpy(sizes, &texels, sizeof texels);
+    for (int h = 0; h < 2; h++) {
+        Double x = mean[h] * __builtin_convertvector(sizes[h], Double) - 0.5, below = x + whole - whole;
+        below -= (Double)((below > x) & (DoubleMask)one);
+        indices[h] = __builtin_convertvector(below, HalfMask);
+        rests[h] = __builtin_convertvector(x - below, Half);
+    }
+    memcpy(index, indices, sizeof indices);
+    memcpy(rest, rests, sizeof rests);
+}
+
+/* A covariance: of one footprint each, in texels squared. */
+typedef struct Spread {
+    Lanes xx, xy, yy;
+} Spread;
+
+INLINE Spread NAME(find_spread)(const BatchTexture *t, Lanes su, Lanes sv, Lanes correlation)
+{
+    const float(*m)[2] = t->to_texels;
+    float a = m[0][0], b = m[0][1], c = m[1][0], d = m[1][1];
+    Lanes r = MAX(MIN(correlation, NAME(all)(1)), NAME(all)(-1)), uu = su * su, vv = sv * sv, uv = r * su * sv;
+    return (Spread){a * a * uu + 2 * a * b * uv + b * b * vv, a * c * uu + (a * d + b * c) * uv + b * d * vv,
+                    c * c * uu + 2 * c * d * uv + d * d * vv};
+}
+
+/* A Gaussian longer than MAX_RATIO times its width is widened, all around: a needle lies on a level on which it meets
+ * far more texels than others do, and the few paths that it stands for hardly tell how thin it is. */
+INLINE void NAME(widen)(Spread *s)
+{
+    Lanes sum = s->xx + s->yy, difference = s->xx - s->yy;
+    Lanes root = MIN(SQRT(difference * difference + 4 * s->xy * s->xy), sum);
+    Lanes lacks = MAX((sum + root) * (0.5f / (MAX_RATIO * MAX_RATIO)) - 0.5f * (sum - root), NAME(all)(0));
+    s->xx += lacks;
+    s->yy += lacks;
+}
+
+/* By the smaller variance: halving texels divides it by four. *fine: texels are interpolated. */
+INLINE Mask NAME(choose_level)(const BatchTexture *t, const Spread *s, Mask *fine)
+{
+    Lanes sum = s->xx + s->yy, difference = s->xx - s->yy, needed;
+    Lanes root = MIN(SQRT(difference * difference + 4 * s->xy * s->xy), sum);
+    Lanes smaller = 0.5f * (sum - root), larger = MAX(0.5f * (sum + root), NAME(all)(1e-12f));
+    if (t->gaussian) {
+        needed = NAME(all)(GAUSSIAN_LEAST + 1.0f / 12);
+        *fine = smaller < GAUSSIAN_LEAST - BATCH_TENT_VARIANCE;
+    } else {
+        needed = LONG_LEAST + BATCH_TENT_VARIANCE + (ROUND_LEAST - LONG_LEAST) * SQRT(smaller / larger);
+        *fine = smaller < BOX_FROM;
+    }
+    Mask level = (((Mask)((smaller + 0.25f) / needed) >> 23) - 127) >> 1;
+    level &= level > 0;
+    Mask over = level > t->levels - 1;
+    level = (over & (t->levels - 1)) | (~over & level);
+    *fine &= level == 0;
+    return level;
+}
+
+/* What a level leaves of a variance. */
+INLINE Lanes NAME(reduce_variance)(const BatchTexture *t, int axis, const Double *mean, Lanes variance, Mask level,
+                                   Mask fine)
+{
+    Half halves[2] = {__builtin_convertvector(mean[0], Half), __builtin_convertvector(mean[1], Half)};
+    Lanes at;
+    memcpy(&at, halves, sizeof at);
+    float size = (float)t->size[axis];
+    Lanes damping = 1 + variance * (10 / (size * size));
+    if (t->period[axis] > 0)
+        at -= SELECT(at > 1, NAME(all)(1), NAME(all)(0));
+    at = MAX(MIN(at, NAME(all)(1)), NAME(all)(0));
+    Lanes position = BATCH_TENT_VARIANCE + (at * (1 - at) - BATCH_TENT_VARIANCE) / (damping * damping);
+    Lanes blur = OF_LEVEL(t->blur[axis][0], level) + OF_LEVEL(t->blur[axis][1], level) * position;
+    Lanes tent = SELECT(fine, NAME(all)(0), NAME(all)(BATCH_TENT_VARIANCE));
+    Lanes box = SELECT(fine, NAME(all)(0), NAME(all)(t->gaussian ? 0 : BATCH_BOX_VARIANCE));
+    Lanes rest = (variance + tent - blur) * OF_LEVEL(t->inverse_area[2 * axis], level) - box;
+    /* A Gaussian is sampled at texels, some of which it has to meet. */
+    Lanes least = SELECT(fine, NAME(all)(0), NAME(all)(t->gaussian ? GAUSSIAN_LEAST : 0));
+    return MAX(rest * OF_LEVEL(t->spread[axis], level), least);
+}
+
+/* The texels of an open interval: the first, and how many. */
+INLINE Mask NAME(first_within)(Lanes begin, Lanes end, Mask *count)
+{
+    Mask first = NAME(whole_below)(begin) + 1, last = -NAME(whole_below)(-end) - 1;
+    *count = last - first + 1;
+    return first;
+}
+
+#include "texture/batch_cut.h"
+
+/* The ellipse in lines, and the blocks that it meets. */
+INLINE void NAME(find_window)(const BatchTexture *t, const Spread *s, Lanes at_x, Lanes at_y, Mask column, Mask row,
+                              Mask fine, Mask far, const Ends *ends, Places *p, int i)
+{
+    const Lanes least = NAME(all)(LEAST_RADIUS), none = NAME(all)(0);
+    float wider = t->gaussian ? GAUSSIAN_REACH / sqrtf(GAUSSIAN_VARIANCE) : 2;
+    Mask turned = s->xx > 1.1f * s->yy; /* round ones all alike */
+    Lanes along = SELECT(turned, s->xx, s->yy), across = SELECT(turned, s->yy, s->xx);
+    Lanes mean = SELECT(turned, at_x, at_y), beside = SELECT(turned, at_y, at_x);
+    Lanes slope = s->xy / MAX(along, NAME(all)(1e-12f));
+    Lanes radius = SELECT(fine, NAME(all)(t->gaussian ? 2 * OUTER_DISC : 2), NAME(all)(wider));
+    Lanes length = MAX(radius * SQRT(along), least), half = radius * SQRT(MAX(across - slope * s->xy, none));
+    half = MAX(half, least);
+    Lanes width = MAX(radius * SQRT(across), half);
+    /* A little more than texels reach: what rounding adds must not depend on how far a group's windows go. */
+    Lanes edge = SELECT(fine, NAME(all)(1), NAME(all)(t->gaussian ? 0 : 0.5f)) + 1e-4f;
+
+    far |= ~(length < 2 * MAX_BANDS) | ~(width < 8 * MAX_BLOCKS * MAX_BANDS);
+    length = SELECT(far, least, length);
+    half = SELECT(far, least, half);
+    width = SELECT(far, least, width);
+    slope = SELECT(far, none, slope);
+    Mask lines, columns;
+    Mask first = NAME(first_within)(mean - length - edge, mean + length + edge, &lines);
+    Lanes upright = width + edge, leaning = half + MAX(slope, -slope) * (1.5f + edge) + edge;
+    (void)NAME(first_within)(beside - upright, beside + upright, &columns);
+    Mask narrow = __builtin_convertvector(2 * leaning, Mask) + 1;
+    Mask leans = ((narrow + 3) >> 2) < ((columns + 3) >> 2);
+    columns = (leans & narrow) | (~leans & columns);
+    far |= (lines > 4 * MAX_BANDS) | (columns > 4 * MAX_BLOCKS);
+    Mask key = (turned & (2 * MAX_BANDS * MAX_BLOCKS)) + (fine & (MAX_BANDS * MAX_BLOCKS)) +
+               ((lines + 3) >> 2) * MAX_BLOCKS + ((columns + 3) >> 2);
+    key = ((key - MAX_BLOCKS - 1) & ~far) | (NKEYS & far);
+
+    STORE(p->line + i, first + SELECT_INT(turned, column, row));
+    STORE(p->texel + i, SELECT_INT(turned, row, column));
+    STORE(p->along + i, mean);
+    STORE(p->across + i, beside);
+    STORE(p->length + i, length);
+    STORE(p->half + i, half);
+    STORE(p->slope + i, slope);
+    STORE(p->lean + i, SELECT(leans, slope, none));
+    STORE(p->reach + i, SELECT(leans, leaning, upright));
+    STORE(p->first + i, first);
+    STORE(p->lines + i, lines);
+    STORE(p->columns + i, columns);
+    STORE(p->key + i, key);
+    if (t->limited)
+        NAME(place_ends)(ends, turned, length + edge, width + edge, p, i);
+}
+
+/* All of it, for the footprints from i on. */
+INLINE void NAME(place)(const BatchTexture *t, const Batch *batch, Places *p, int i)
+{
+    Lanes u, v, su, sv, correlation, at[2];
+    LOAD(u, batch->u + i);
+    LOAD(v, batch->v + i);
+    LOAD(su, batch->su + i);
+    LOAD(sv, batch->sv + i);
+    LOAD(correlation, batch->correlation + i);
+    Mask far = {0}, fine, index[2];
+    for (int axis = 0; axis < 2; axis++) {
+        Lanes x = (float)t->matrix[axis][0] * u + (float)t->matrix[axis][1] * v + (float)t->offset[axis];
+        far |= ~(MAX(x, -x) < 1e6f);
+    }
+    Spread s = NAME(find_spread)(t, su, sv, correlation);
+    far |= ~(s.xx + s.yy < 1e12f);
+    const Lanes none = NAME(all)(0);
+    u = SELECT(far, none, u);
+    v = SELECT(far, none, v);
+    s = (Spread){SELECT(far, none, s.xx), SELECT(far, none, s.xy), SELECT(far, none, s.yy)};
+
+    if (t->gaussian)
+        NAME(widen)(&s);
+    Double mean[2][2];
+    Mask level = NAME(choose_level)(t, &s, &fine);
+    for (int axis = 0; axis < 2; axis++) {
+        NAME(find_mean)(t, axis, u, v, mean[axis]);
+        NAME(split_mean)(mean[axis], OF_LEVEL(t->texels[axis], level), &index[axis], &at[axis]);
+    }
+    s.xx = NAME(reduce_variance)(t, 0, mean[0], s.xx, level, fine);
+    s.yy = NAME(reduce_variance)(t, 1, mean[1], s.yy, level, fine);
+    s.xy *= OF_LEVEL(t->inverse_area[1], level) * OF_LEVEL(t->spread[0], level) * OF_LEVEL(t->spread[1], level);
+    STORE(p->level + i, level);
+    STORE(p->column + i, index[0]);
+    STORE(p->row + i, index[1]);
+    STORE(p->xx + i, s.xx);
+    STORE(p->yy + i, s.yy);
+    STORE(p->at_x + i, at[0]);
+    STORE(p->at_y + i, at[1]);
+    Ends ends[2];
+    for (int axis = 0; axis < 2 && t->limited; axis++)
+        ends[axis] = NAME(find_ends)(t, axis, u, v, level);
+    NAME(find_window)(t, &s, at[0], at[1], index[0], index[1], fine, far, ends, p, i);
+}
+
+/* What a black border cuts is not for us. */
+INLINE void NAME(leave_borders)(const BatchTexture *t, int count, Places *p)
+{
+    float wider = t->gaussian ? GAUSSIAN_REACH / sqrtf(GAUSSIAN_VARIANCE) : 2;
+    for (int axis = 0; axis < 2; axis++) {
+        if (!t->black[axis])
+            continue;
+        const float *variance = axis ? p->yy : p->xx, *at = axis ? p->at_y : p->at_x;
+        const int *index = axis ? p->row : p->column;
+        for (int i = 0; i < count; i++) {
+            const TextureLevel *level = &t->texture->levels[p->level[i]];
+            float x = (float)index[i] + at[i], reach = wider * sqrtf(variance[i]) + 1.5f;
+            if (x - reach < 0 || x + reach > (float)((axis ? level->height : level->width) - 1))
+                p->key[i] = NKEYS;
+        }
+    }
+}

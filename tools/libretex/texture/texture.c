@@ -1,0 +1,572 @@
+/* Textures: loading, the MIP pyramid, and the way from surface UV to texels.
+ *
+ * A file becomes premultiplied RGBA, integers of 16 bits where the file has integers, else floats; the pyramid is in
+ * pyramid_kernel.c. Look-ups one at a time are in filter_kernel.c and disc_kernel.c, those of
+ * whole rows in batch.c. */
+#include "picture/bridge_load.h"
+#include "texture/pyramid.h"
+
+#include <limits.h>
+#include <math.h>
+#include <stdatomic.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <retex/parallel.h>
+
+#define MAX_TEXTURE_PIXELS (1L << 28) /* 16384 x 16384: 4 GiB of floats */
+#define LEAST_ALPHA 1e-20f            /* less has no colour that float could tell */
+/* A footprint of a thousand textures is the average, whatever its size; larger numbers only lose digits. */
+#define MAX_FOOTPRINT 1000.0
+
+static int no_memory(const RetexTexture *texture, int width, int height, RetexError *err)
+{
+    return retex_fail_at(err, RETEX_ENOMEM, texture->spec.image, 0, 0,
+                         "not enough memory for a texture of %d x %d texels", width, height);
+}
+
+/* Two repeats in place of one: beside each other, the right one moved down, or one above the other, the upper one moved
+ * right. What the filters see is an image like any other. */
+static int compose_repeats(RetexTexture *texture, TextureTexels *image, RetexError *err)
+{
+    int across = texture->spec.repeat == RETEX_REPEAT_HALF_DROP;
+    if (!across && texture->spec.repeat != RETEX_REPEAT_BRICK)
+        return RETEX_OK;
+    int width = image->width, height = image->height;
+    TextureTexels both = {across ? 2 * width : width, across ? height : 2 * height, image->narrow, NULL};
+    if (width > INT_MAX / 2 || height > INT_MAX / 2 || texture_texels_alloc(&both))
+        return no_memory(texture, width, height, err);
+    size_t texel = texture_texel_size(image->narrow), row = (size_t)width * texel;
+    size_t half = (size_t)(width / 2) * texel, rest = row - half;
+    const char *texels = image->texels;
+    for (int y = 0; y < height; y++) {
+        const char *from = texels + (size_t)y * row;
+        if (across) {
+            char *to = (char *)both.texels + 2 * (size_t)y * row;
+            int above = (y + height - height / 2) % height;
+            memcpy(to, from, row);
+            memcpy(to + row, texels + (size_t)above * row, row);
+        } else {
+            char *upper = (char *)both.texels + (size_t)y * row;
+            memcpy(upper, from + rest, half);
+            memcpy(upper + half, from, rest);
+            memcpy(upper + (size_t)height * row, from, row);
+        }
+    }
+    texture->repeats[!across] = 2;
+    free(image->texels);
+    *image = both;
+    return RETEX_OK;
+}
+
+/* All of the spec's placement into one matrix and offset, for an image of that size. */
+static void finish_map(RetexTexture *texture, int width, int height)
+{
+    const RetexTextureSpec *spec = &texture->spec;
+    double angle = fmod(spec->rotate, 360) * M_PI / 180, c = cos(angle), s = sin(angle);
+    if (fmod(spec->rotate, 90) == 0) { /* quarter turns are exact */
+        c = rint(c);
+        s = rint(s);
+    }
+    double before[2] = {spec->scale[0], spec->scale[1]}, after[2] = {1, 1}, turn[2][2] = {{c, -s}, {s, c}};
+    if (spec->width[0] > 0) {
+        double size[2] = {spec->width[0], spec->width[1] > 0 ? spec->width[1] : spec->width[0] * height / width};
+        for (int axis = 0; axis < 2; axis++) {
+            before[axis] *= spec->uv_scale[axis];
+            after[axis] = 1 / size[axis];
+        }
+    }
+    for (int axis = 0; axis < 2; axis++) {
+        double sign = spec->flip[axis] ? -1 : 1, share = 1.0 / texture->repeats[axis];
+        for (int i = 0; i < 2; i++)
+            texture->matrix[axis][i] = sign * share * after[axis] * turn[axis][i] * before[i];
+        texture->offset[axis] = share * (spec->flip[axis] ? 1 - spec->offset[axis] : spec->offset[axis]);
+    }
+}
+
+typedef struct LookWork {
+    const TextureTexels *texels;
+    atomic_int found; /* a texel that is not opaque */
+} LookWork;
+
+static void look_job(void *context, int index, int thread)
+{
+    LookWork *work = context;
+    const size_t width = (size_t)work->texels->width, first = (size_t)index * width;
+    const uint16_t *narrow = work->texels->texels;
+    const float *wide = work->texels->texels;
+    int clear = 0;
+    (void)thread;
+    for (size_t i = first; i < first + width; i++)
+        clear |= work->texels->narrow ? narrow[4 * i + 3] != (uint16_t)NARROW_ONE : !(wide[4 * i + 3] >= 1);
+    if (clear)
+        atomic_store(&work->found, 1);
+}
+
+static void look_through(RetexTexture *texture, const TextureTexels *texels, int nthreads)
+{
+    LookWork work = {texels, 0};
+    retex_parallel(nthreads, texels->height, look_job, &work);
+    texture->opaque =
+        !work.found && texture->spec.wrap[0] != RETEX_WRAP_BLACK && texture->spec.wrap[1] != RETEX_WRAP_BLACK;
+}
+
+int retex_texture_is_opaque(const RetexTexture *texture)
+{
+    return texture->nlevels == 0 || texture->opaque;
+}
+
+static int has_two_repeats(const RetexTextureSpec *spec)
+{
+    return spec->repeat == RETEX_REPEAT_HALF_DROP || spec->repeat == RETEX_REPEAT_BRICK;
+}
+
+/* Of the texels and their pyramid. */
+static int charge(RetexTexture *texture, const TextureTexels *texels, RetexError *err)
+{
+    uint64_t bytes = texture_texel_size(texels->narrow) * (uint64_t)texels->width * (uint64_t)texels->height;
+    bytes += bytes / 3;
+    bytes *= has_two_repeats(&texture->spec) ? 2 : 1;
+    int code = retex_budget_take(texture->spec.budget, bytes, texture->spec.image, err);
+    if (!code)
+        texture->charged = bytes;
+    return code;
+}
+
+/* The texels, premultiplied, become the texture's. */
+static int take_texels(RetexTexture *texture, TextureTexels *texels, int nthreads, RetexError *err)
+{
+    int width = texels->width, height = texels->height, code = charge(texture, texels, err);
+    if (!code)
+        code = compose_repeats(texture, texels, err);
+    if (code)
+        return code;
+    finish_map(texture, width, height);
+    look_through(texture, texels, nthreads);
+    if (texture_grow_pyramid(texture, texels, nthreads))
+        return no_memory(texture, width, height, err);
+    return RETEX_OK;
+}
+
+typedef struct MendWork {
+    const RetexImage *image;
+    TextureValues *values; /* by row */
+} MendWork;
+
+/* One bad texel must not spoil all coarser levels. */
+static void premultiply_job(void *context, int index, int thread)
+{
+    const MendWork *work = context;
+    const int width = work->image->width;
+    (void)thread;
+    float *p = work->image->pixels + (size_t)index * (size_t)width * 4;
+    texture_values_mend(p, width, index, &work->values[index]);
+    for (int x = 0; x < width; x++, p += 4) {
+        float alpha = p[3] < 0 ? 0 : p[3] > 1 ? 1 : p[3];
+        for (int c = 0; c < 3; c++)
+            p[c] *= alpha;
+        p[3] = alpha;
+    }
+}
+
+static int premultiply(RetexTexture *texture, const RetexImage *pixels, int nthreads, RetexError *err)
+{
+    MendWork work = {pixels, calloc((size_t)pixels->height, sizeof *work.values)};
+    if (!work.values)
+        return no_memory(texture, pixels->width, pixels->height, err);
+    retex_parallel(nthreads, pixels->height, premultiply_job, &work);
+    for (int y = 0; y < pixels->height; y++)
+        texture_values_join(&texture->values, &work.values[y]);
+    free(work.values);
+    return RETEX_OK;
+}
+
+/* The pixels (RGBA) become the texture's. */
+static int take_pixels(RetexTexture *texture, RetexImage *pixels, int nthreads, RetexError *err)
+{
+    TextureTexels texels = {pixels->width, pixels->height, 0, pixels->pixels};
+    int code = premultiply(texture, pixels, nthreads, err);
+    if (code)
+        return code;
+    *pixels = (RetexImage){0};
+    code = take_texels(texture, &texels, nthreads, err);
+    free(texels.texels);
+    return code;
+}
+
+/* ---- life ---- */
+
+static int check_width(const RetexTextureSpec *spec, RetexError *err)
+{
+    for (int axis = 0; axis < 2; axis++)
+        if (!isfinite(spec->width[axis]) || spec->width[axis] < 0)
+            return retex_fail(err, RETEX_EINVAL, "texture: width must be finite and above 0");
+    if (spec->width[1] > 0 && !(spec->width[0] > 0))
+        return retex_fail(err, RETEX_EINVAL, "texture: a second width needs a first one");
+    for (int axis = 0; axis < 2 && spec->width[0] > 0; axis++)
+        if (!isfinite(spec->uv_scale[axis]) || !(spec->uv_scale[axis] > 0))
+            return retex_fail(err, RETEX_EINVAL,
+                              "the size of target %s is not known: width= cannot be used on it, only scale=",
+                              spec->target[0] ? spec->target : "(none)");
+    return RETEX_OK;
+}
+
+static int check_spec(const RetexTextureSpec *spec, int constant, RetexError *err)
+{
+    for (int axis = 0; axis < 2; axis++) {
+        if (!isfinite(spec->scale[axis]) || spec->scale[axis] == 0 || !isfinite(spec->offset[axis]))
+            return retex_fail(err, RETEX_EINVAL, "texture: scale must be finite and not 0, offset finite");
+        if ((unsigned)spec->wrap[axis] > RETEX_WRAP_BLACK)
+            return retex_fail(err, RETEX_EINVAL, "texture: no wrap mode has the number %d", (int)spec->wrap[axis]);
+    }
+    if (!isfinite(spec->rotate))
+        return retex_fail(err, RETEX_EINVAL, "texture: rotate must be finite");
+    if ((unsigned)spec->repeat > RETEX_REPEAT_MIRROR)
+        return retex_fail(err, RETEX_EINVAL, "texture: no repeat has the number %d", (int)spec->repeat);
+    int shifted = spec->repeat == RETEX_REPEAT_BRICK || spec->repeat == RETEX_REPEAT_HALF_DROP;
+    if (shifted && (spec->wrap[0] != RETEX_WRAP_REPEAT || spec->wrap[1] != RETEX_WRAP_REPEAT))
+        return retex_fail(err, RETEX_EINVAL, "texture: shifted repeats need wrap = repeat on both axes");
+    return constant ? RETEX_OK : check_width(spec, err);
+}
+
+static RetexTexture *new_texture(const RetexTextureSpec *given, int constant, RetexError *err)
+{
+    RetexTextureSpec spec = RETEX_TEXTURE_SPEC_INIT; /* for what an older caller's has not */
+    memcpy(&spec, given, given->size < sizeof spec ? given->size : sizeof spec);
+    if (check_spec(&spec, constant, err))
+        return NULL;
+    RetexTexture *texture = calloc(1, sizeof *texture);
+    if (!texture) {
+        retex_fail(err, RETEX_ENOMEM, "not enough memory for a texture");
+        return NULL;
+    }
+    spec.constant = constant;
+    if (constant)
+        texture_values_mend_color(spec.color, &texture->values);
+    for (int axis = 0; axis < 2; axis++)
+        if (spec.repeat == RETEX_REPEAT_MIRROR && spec.wrap[axis] == RETEX_WRAP_REPEAT)
+            spec.wrap[axis] = RETEX_WRAP_MIRROR;
+    texture->spec = spec;
+    texture->repeats[0] = texture->repeats[1] = 1;
+    return texture;
+}
+
+void retex_texture_close(RetexTexture **texture)
+{
+    if (!texture || !*texture)
+        return;
+    for (int i = 0; i < TEXTURE_MAX_LEVELS; i++) {
+        TextureLevel *level = &(*texture)->levels[i];
+        free(level->texels);
+        free(level->padded);
+        for (int k = 0; k < 2; k++) {
+            free(level->sides[k]);
+            free(level->ends[k]);
+        }
+    }
+    retex_budget_give((*texture)->spec.budget, (*texture)->charged);
+    free(*texture);
+    *texture = NULL;
+}
+
+void texture_tell(const RetexTexture *texture, const RetexTextureSpec *spec)
+{
+    int width, height;
+    retex_texture_size(texture, &width, &height);
+    texture_values_tell(&texture->values, spec, (long)width * height);
+}
+
+/* What it was made by may be gone soon. */
+static void hand_over(RetexTexture **out, RetexTexture *texture, const float color[3])
+{
+    RetexTextureSpec told = texture->spec;
+    memcpy(told.color, color, sizeof told.color); /* as it was given */
+    texture_tell(texture, &told);
+    texture->spec.access = NULL;
+    texture->spec.warn = NULL;
+    *out = texture;
+}
+
+/* Decoding keeps, beside the texture's own, a picture of 16-bit integers, and of others the floats of the file. */
+static RetexReadParams read_params(const RetexTextureSpec *spec)
+{
+    enum { PEAK_BYTES = 24 };
+    RetexReadParams params = RETEX_READ_INIT;
+    params.colorspace = spec->colorspace[0] ? spec->colorspace : NULL;
+    params.max_pixels = retex_budget_pixels(spec->budget) ? 0 : MAX_TEXTURE_PIXELS;
+    params.access = spec->access;
+    params.budget = spec->budget;
+    params.pixel_bytes = has_two_repeats(spec) ? 2 * PEAK_BYTES : PEAK_BYTES;
+    return params;
+}
+
+int retex_texture_load(RetexTexture **out, const RetexTextureSpec *spec, int nthreads, RetexError *err)
+{
+    RetexError why = {0};
+    *out = NULL;
+    RetexTexture *texture = new_texture(spec, spec->constant, &why);
+    int code = why.code;
+    if (texture && !spec->constant) {
+        const RetexTextureSpec *own = &texture->spec;
+        const RetexReadParams params = read_params(own);
+        RetexNarrowImage narrow = {0};
+        RetexImage image = {0};
+        code = retex_image_read_narrow(&narrow, own->image, &params, &why);
+        TextureTexels texels = {narrow.width, narrow.height, 1, narrow.pixels};
+        if (!code && !narrow.pixels)
+            code = retex_image_read_with(&image, own->image, &params, &why);
+        if (!code)
+            code = narrow.pixels ? take_texels(texture, &texels, nthreads, &why)
+                                 : take_pixels(texture, &image, nthreads, &why);
+        free(texels.texels);
+        retex_image_free(&image);
+    }
+    if (code) {
+        retex_texture_close(&texture);
+        if (err)
+            *err = why;
+        return code;
+    }
+    hand_over(out, texture, spec->color);
+    return RETEX_OK;
+}
+
+int retex_texture_create(RetexTexture **out, const RetexImage *image, const RetexTextureSpec *spec, RetexError *err)
+{
+    static const RetexTextureSpec plain = RETEX_TEXTURE_SPEC_INIT;
+    RetexError why = {0};
+    *out = NULL;
+    if (!image || !image->pixels || (image->channels != 1 && image->channels != 3 && image->channels != 4))
+        return retex_fail(err, RETEX_EINVAL, "a texture is made of 1, 3 or 4 channels");
+    RetexTexture *texture = new_texture(spec ? spec : &plain, 0, &why);
+    RetexImage copy = {0};
+    int code = texture ? retex_image_alloc(&copy, image->width, image->height, 4, &why) : why.code;
+    if (!code) {
+        size_t pixels = (size_t)image->width * (size_t)image->height;
+        for (size_t i = 0; i < pixels; i++) {
+            const float *from = image->pixels + i * (size_t)image->channels;
+            float *to = copy.pixels + i * 4;
+            for (int c = 0; c < 4; c++)
+                to[c] = c < image->channels ? from[c] : c == 3 ? 1 : from[0];
+        }
+        code = take_pixels(texture, &copy, 0, &why);
+        retex_image_free(&copy);
+    }
+    if (code) {
+        retex_texture_close(&texture);
+        if (err)
+            *err = why;
+        return code;
+    }
+    hand_over(out, texture, texture->spec.color);
+    return RETEX_OK;
+}
+
+int retex_texture_square(RetexTexture **out, const RetexTexture *texture, RetexError *err)
+{
+    *out = NULL;
+    RetexTexture *square = calloc(1, sizeof *square);
+    if (!square)
+        return retex_fail(err, RETEX_ENOMEM, "not enough memory for a texture");
+    square->spec = texture->spec;
+    memcpy(square->repeats, texture->repeats, sizeof square->repeats);
+    memcpy(square->matrix, texture->matrix, sizeof square->matrix);
+    memcpy(square->offset, texture->offset, sizeof square->offset);
+    for (int c = 0; c < 3; c++)
+        square->spec.color[c] = texture->spec.color[c] * texture->spec.color[c];
+    int code = RETEX_OK;
+    if (texture->nlevels) {
+        const TextureLevel *from = &texture->levels[0];
+        TextureTexels texels = {from->width, from->height, 0, NULL};
+        if (texture_texels_alloc(&texels))
+            code = no_memory(texture, from->width, from->height, err);
+        size_t count = (size_t)from->width * (size_t)from->height;
+        for (size_t i = 0; !code && i < count; i++) {
+            float p[4], *to = (float *)texels.texels + 4 * i;
+            texture_read_texel(from->texels, i, texture->narrow, p);
+            for (int c = 0; c < 3; c++)
+                to[c] = p[3] > 0 ? p[c] / p[3] * (p[c] / p[3]) * p[3] : 0;
+            to[3] = p[3];
+        }
+        if (!code && texture_grow_pyramid(square, &texels, 0))
+            code = no_memory(texture, from->width, from->height, err);
+        free(texels.texels);
+    }
+    if (code)
+        retex_texture_close(&square);
+    *out = square;
+    return code;
+}
+
+int retex_texture_size(const RetexTexture *texture, int *width, int *height)
+{
+    *width = texture->nlevels ? texture->levels[0].width / texture->repeats[0] : 1;
+    *height = texture->nlevels ? texture->levels[0].height / texture->repeats[1] : 1;
+    return RETEX_OK;
+}
+
+/* ---- from surface UV to texels ---- */
+
+/* Mean of a footprint in texture UV. 0 where there is no place to look up. */
+static int texture_uv(const RetexTexture *texture, double u, double v, double uv[2])
+{
+    for (int i = 0; i < 2; i++)
+        uv[i] = texture->matrix[i][0] * u + texture->matrix[i][1] * v + texture->offset[i];
+    return isfinite(uv[0]) && isfinite(uv[1]);
+}
+
+static void constant_color(const RetexTexture *texture, float rgba[4])
+{
+    memcpy(rgba, texture->spec.color, 3 * sizeof(float));
+    rgba[3] = 1;
+}
+
+/* Covariance in texels of the image: M C M^T, then texels, y down. Returns 0 where nothing is left of it. */
+static int texel_covariance(const RetexTexture *texture, const double c[3], TextureFootprint *f)
+{
+    const double(*m)[2] = texture->matrix;
+    double width = texture->levels[0].width, height = texture->levels[0].height;
+    double uu = c[0] > 0 ? c[0] : 0, vv = c[2] > 0 ? c[2] : 0, uv = c[1];
+    if (!isfinite(uu) || !isfinite(vv) || !isfinite(uv))
+        return 0;
+    double largest = sqrt(uu * vv); /* a covariance beyond this is none; roundings reach it */
+    uv = uv > largest ? largest : uv < -largest ? -largest : uv;
+    double xx = m[0][0] * m[0][0] * uu + 2 * m[0][0] * m[0][1] * uv + m[0][1] * m[0][1] * vv;
+    double xy = m[0][0] * m[1][0] * uu + (m[0][0] * m[1][1] + m[0][1] * m[1][0]) * uv + m[0][1] * m[1][1] * vv;
+    double yy = m[1][0] * m[1][0] * uu + 2 * m[1][0] * m[1][1] * uv + m[1][1] * m[1][1] * vv;
+    double limit = MAX_FOOTPRINT * MAX_FOOTPRINT;
+    if (!isfinite(xx + yy) || !isfinite(xy)) { /* a scale may be near a double's end */
+        xx = yy = limit / 2;
+        xy = 0;
+    }
+    double shrink = xx + yy > limit ? limit / (xx + yy) : 1;
+    f->xx = xx * shrink * width * width;
+    f->xy = -xy * shrink * width * height;
+    f->yy = yy * shrink * height * height;
+    return f->xx > 0 || f->yy > 0;
+}
+
+static void unassociate(float rgba[4])
+{
+    if (!(rgba[3] > LEAST_ALPHA)) {
+        rgba[0] = rgba[1] = rgba[2] = rgba[3] = 0;
+        return;
+    }
+    float inverse = 1 / rgba[3];
+    for (int c = 0; c < 3; c++)
+        rgba[c] *= inverse;
+    if (rgba[3] > 1)
+        rgba[3] = 1; /* sums of weights round */
+}
+
+static void point_at(const RetexTexture *texture, const double uv[2], int nearest, float rgba[4])
+{
+    double x = uv[0] * texture->levels[0].width, y = (1 - uv[1]) * texture->levels[0].height;
+    for (int axis = 0; axis < 2; axis++)
+        if (texture->spec.wrap[axis] == RETEX_WRAP_BLACK && (uv[axis] < 0 || uv[axis] > 1)) {
+            memset(rgba, 0, 4 * sizeof(float));
+            return;
+        }
+    if (nearest)
+        texture_nearest_kernel(texture, x, y, rgba);
+    else
+        texture_point_kernel(texture, x, y, rgba);
+    unassociate(rgba);
+}
+
+static void look_up(const RetexTexture *texture, double u, double v, int nearest, float rgba[4])
+{
+    double uv[2];
+    if (!texture->nlevels)
+        constant_color(texture, rgba);
+    else if (texture_uv(texture, u, v, uv))
+        point_at(texture, uv, nearest, rgba);
+    else
+        memset(rgba, 0, 4 * sizeof(float));
+}
+
+void retex_texture_point(const RetexTexture *texture, double u, double v, float rgba[4])
+{
+    look_up(texture, u, v, 0, rgba);
+}
+
+static int within(double x, int size)
+{
+    return x <= 0 ? 0 : x >= size - 1 ? size - 1 : (int)x;
+}
+
+/* By repeats, whatever the wrap: a wrong guess costs nothing but itself. */
+void retex_texture_prefetch(const RetexTexture *texture, double u, double v)
+{
+    double uv[2];
+    if (!texture->nlevels || !texture_uv(texture, u, v, uv))
+        return;
+    const TextureLevel *image = &texture->levels[0];
+    int column = within((uv[0] - floor(uv[0])) * image->width - 0.5, image->width);
+    int row = within((1 - (uv[1] - floor(uv[1]))) * image->height - 0.5, image->height > 1 ? image->height - 1 : 1);
+    size_t size = 4 * (texture->narrow ? sizeof(uint16_t) : sizeof(float));
+    const char *texel = (const char *)image->texels + ((size_t)row * (size_t)image->width + (size_t)column) * size;
+    __builtin_prefetch(texel);
+    if (image->height > 1)
+        __builtin_prefetch(texel + (size_t)image->width * size);
+}
+
+void retex_texture_nearest(const RetexTexture *texture, double u, double v, float rgba[4])
+{
+    look_up(texture, u, v, 1, rgba);
+}
+
+void retex_texture_row(const RetexTexture *texture, int y, float *rgb)
+{
+    texture_row_kernel(texture, y, rgb);
+}
+
+typedef void Filter(const RetexTexture *texture, const TextureFootprint *footprint, float rgba[4]);
+
+/* How far from (u, v) the surface reaches, along those axes of the texture that lie along one of its own. */
+static void set_limits(const RetexTexture *texture, const double at[2], TextureFootprint *f)
+{
+    const RetexTextureSpec *spec = &texture->spec;
+    const double texels[2] = {texture->levels[0].width, -(double)texture->levels[0].height}; /* y goes down */
+    for (int axis = 0; axis < 2; axis++) {
+        const double *m = texture->matrix[axis];
+        int along = m[0] == 0;
+        f->low[axis] = -INFINITY, f->high[axis] = INFINITY;
+        if (m[!along] != 0 || !(spec->uv_min[along] < spec->uv_max[along]))
+            continue;
+        double share = m[along] * texels[axis], a = (spec->uv_min[along] - at[along]) * share,
+               b = (spec->uv_max[along] - at[along]) * share;
+        f->low[axis] = a < b ? a : b;
+        f->high[axis] = a < b ? b : a;
+    }
+}
+
+static void filter_at(const RetexTexture *texture, double u, double v, const double covariance[3], Filter *filter,
+                      float rgba[4])
+{
+    double uv[2];
+    TextureFootprint footprint;
+    if (!texture->nlevels) {
+        constant_color(texture, rgba);
+    } else if (!texture_uv(texture, u, v, uv)) {
+        memset(rgba, 0, 4 * sizeof(float));
+    } else if (!texel_covariance(texture, covariance, &footprint)) {
+        point_at(texture, uv, 0, rgba);
+    } else {
+        footprint.x = uv[0] * texture->levels[0].width;
+        footprint.y = (1 - uv[1]) * texture->levels[0].height;
+        set_limits(texture, (const double[2]){u, v}, &footprint);
+        filter(texture, &footprint, rgba);
+        unassociate(rgba);
+    }
+}
+
+void retex_texture_gaussian(const RetexTexture *texture, double u, double v, const double covariance[3], float rgba[4])
+{
+    filter_at(texture, u, v, covariance, texture_gaussian_kernel, rgba);
+}
+
+void retex_texture_disc(const RetexTexture *texture, double u, double v, const double covariance[3], float rgba[4])
+{
+    filter_at(texture, u, v, covariance, texture_disc_kernel, rgba);
+}

@@ -1,0 +1,156 @@
+/* See values.h. */
+#include "texture/values.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#define LARGEST_COLOR 65504.0f /* of a half; sums and squares of such stay finite */
+/* Below this a negative colour is a rounding of a conversion. */
+#define LEAST_NEGATIVE -1e-5f
+/* White, and some for rounding. Colours of wide gamuts have channels above 1 that reflect no more than white does, up
+ * to 2.6 for the red of ACES2065-1: they are told by their luminance. */
+#define BRIGHTER_THAN_WHITE 1.001f
+#define BEYOND_ANY_GAMUT 3.0f
+
+static void count_texel(TextureValues *values, TextureOddity oddity, int x, int y)
+{
+    if (values->count[oddity]++ == 0) {
+        values->x[oddity] = x;
+        values->y[oddity] = y;
+    }
+}
+
+static float largest_of(const float *p)
+{
+    return fmaxf(p[0], fmaxf(p[1], p[2]));
+}
+
+static int is_bright(const float *p)
+{
+    return 0.2126f * p[0] + 0.7152f * p[1] + 0.0722f * p[2] > BRIGHTER_THAN_WHITE || largest_of(p) > BEYOND_ANY_GAMUT;
+}
+
+static void count_bright(TextureValues *values, const float *p, int x, int y)
+{
+    count_texel(values, TEXEL_BRIGHT, x, y);
+    values->brightest = fmaxf(values->brightest, largest_of(p));
+}
+
+static void mend_texel(float *p, int x, int y, TextureValues *values)
+{
+    int too_large = 0, negative = 0;
+
+    if (!isfinite(p[0]) || !isfinite(p[1]) || !isfinite(p[2]) || !isfinite(p[3])) {
+        count_texel(values, TEXEL_NOT_FINITE, x, y);
+        p[0] = p[1] = p[2] = 0;
+        p[3] = isfinite(p[3]) ? p[3] : 0;
+        return;
+    }
+    for (int c = 0; c < 3; c++) {
+        too_large |= fabsf(p[c]) > LARGEST_COLOR;
+        negative |= p[c] < LEAST_NEGATIVE;
+        p[c] = fminf(fmaxf(p[c], -LARGEST_COLOR), LARGEST_COLOR);
+    }
+    if (negative)
+        count_texel(values, TEXEL_NEGATIVE, x, y);
+    if (too_large)
+        count_texel(values, TEXEL_TOO_LARGE, x, y);
+    else if (p[3] > 0 && is_bright(p))
+        count_bright(values, p, x, y);
+}
+
+void texture_values_mend(float *rgba, int width, int y, TextureValues *values)
+{
+    *values = (TextureValues){.brightest = 0};
+    if (texture_values_are_plain(rgba, 4 * (size_t)width))
+        return;
+    for (int x = 0; x < width; x++)
+        if (!texture_values_are_plain(rgba + 4 * (size_t)x, 4))
+            mend_texel(rgba + 4 * (size_t)x, x, y, values);
+}
+
+void texture_values_join(TextureValues *values, const TextureValues *row)
+{
+    for (int k = 0; k < TEXTURE_ODDITIES; k++) {
+        if (values->count[k] == 0) {
+            values->x[k] = row->x[k];
+            values->y[k] = row->y[k];
+        }
+        values->count[k] += row->count[k];
+    }
+    values->brightest = fmaxf(values->brightest, row->brightest);
+}
+
+void texture_values_mend_color(float color[3], TextureValues *values)
+{
+    float texel[4] = {color[0], color[1], color[2], 1};
+
+    *values = (TextureValues){.brightest = 0};
+    mend_texel(texel, 0, 0, values);
+    if (values->brightest == 0 && largest_of(texel) > BRIGHTER_THAN_WHITE) /* a file's gamut is no excuse here */
+        count_bright(values, texel, 0, 0);
+    memcpy(color, texel, 3 * sizeof *color);
+}
+
+/* ---- in words ---- */
+
+static double linear_of_code(float code)
+{
+    const double v = (double)code / 255;
+
+    return v <= 0.04045 ? v / 12.92 : pow((v + 0.055) / 1.055, 2.4);
+}
+
+static void tell_color(const TextureValues *values, const RetexTextureSpec *spec)
+{
+    const float *c = spec->color;
+    char text[400];
+    int used;
+
+    if (!values->count[TEXEL_BRIGHT] && !values->count[TEXEL_TOO_LARGE])
+        return;
+    used = snprintf(text, sizeof text,
+                    "%s%srgb(%g,%g,%g): a surface of a colour above 1 gives back more light than it gets", spec->target,
+                    spec->target[0] ? "=" : "", (double)c[0], (double)c[1], (double)c[2]);
+    if (values->count[TEXEL_TOO_LARGE])
+        snprintf(text + used, sizeof text - (size_t)used, "; it is taken as %g at most", (double)LARGEST_COLOR);
+    else if (values->brightest > 4 && values->brightest <= 255)
+        snprintf(text + used, sizeof text - (size_t)used,
+                 "; if numbers from 0 to 255 are meant, it is rgb(%.3g,%.3g,%.3g)", linear_of_code(c[0]),
+                 linear_of_code(c[1]), linear_of_code(c[2]));
+    spec->warn(spec->warn_context, text);
+}
+
+static void tell_texels(const TextureValues *values, const RetexTextureSpec *spec, TextureOddity oddity,
+                        const char *what, const char *so)
+{
+    const long count = values->count[oddity];
+    char text[sizeof spec->image + 400];
+
+    if (!count)
+        return;
+    snprintf(text, sizeof text, "%s%s%ld texel%s %s, the first at %d,%d: %s", spec->image, spec->image[0] ? ": " : "",
+             count, count == 1 ? "" : "s", what, values->x[oddity], values->y[oddity], so);
+    spec->warn(spec->warn_context, text);
+}
+
+void texture_values_tell(const TextureValues *values, const RetexTextureSpec *spec, long texels)
+{
+    char what[160];
+
+    if (!spec->warn)
+        return;
+    if (spec->constant) {
+        tell_color(values, spec);
+        return;
+    }
+    tell_texels(values, spec, TEXEL_NOT_FINITE, "not finite", "taken as black");
+    tell_texels(values, spec, TEXEL_TOO_LARGE, "beyond 65504", "taken as that");
+    tell_texels(values, spec, TEXEL_NEGATIVE, "with negative colours", "kept, for colours of wide gamuts have them");
+    snprintf(what, sizeof what, "of %ld brighter than white, up to %.3g", texels, (double)values->brightest);
+    if (!spec->is_light)
+        tell_texels(values, spec, TEXEL_BRIGHT, what,
+                    "a surface gives back no more light than it gets; perhaps the file holds light, not albedo, or is "
+                    "exposed too brightly");
+}

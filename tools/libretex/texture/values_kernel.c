@@ -1,0 +1,11 @@
+/* Whether all of many values are from 0 to 1: most texels are, and need no other look. */
+#include "texture/values.h"
+
+int texture_values_are_plain(const float *restrict values, size_t count)
+{
+    int odd = 0;
+
+    for (size_t i = 0; i < count; i++)
+        odd |= !(values[i] >= 0 && values[i] <= 1); /* NaN too */
+    return !odd;
+}
