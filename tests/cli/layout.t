@@ -35,13 +35,13 @@ $ retex-info --json f.exr | grep -o '"hit":[0-9]*,"kind":"[a-z]*"'
 > "hit":10,"kind":"interreflection"
 
 # Kinds, by footprint; with several targets each has its own.
-$ retex-info --json f.exr | grep -o '"kind":"\(sharp\|broad\|later\|hit\)"' | sort | uniq -c
+$ retex-info --json f.exr | grep -o '"kind":"\(sharp\|broad\|interreflection\|hit\)"' | sort | uniq -c
 >       2 "kind":"broad"
 >       2 "kind":"interreflection"
 >       2 "kind":"sharp"
-$ retex-info --json p.exr | grep -o '"kind":"\(sharp\|broad\|later\|hit\)"' | sort | uniq -c
+$ retex-info --json p.exr | grep -o '"kind":"\(sharp\|broad\|interreflection\|hit\)"' | sort | uniq -c
 >       6 "kind":"hit"
-$ retex-render -q --size 16x12 --spp 2 -t floor -t white scenes/cornell-box/cornell-box.pov -o two.exr; retex-info --json two.exr | grep -o '"kind":"\(sharp\|broad\|later\|hit\)"' | sort | uniq -c; retex-info --check two.exr
+$ retex-render -q --size 16x12 --spp 2 -t floor -t white scenes/cornell-box/cornell-box.pov -o two.exr; retex-info --json two.exr | grep -o '"kind":"\(sharp\|broad\|interreflection\|hit\)"' | sort | uniq -c; retex-info --check two.exr
 >       3 "kind":"broad"
 >       4 "kind":"interreflection"
 >       4 "kind":"sharp"
