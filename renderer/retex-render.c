@@ -10,7 +10,7 @@
 #include <retex/denoise.h>
 #include "retex-render.h"
 #include "watchdog.h"
-#include "integrate/guides.h"
+#include "render/guides.h"
 
 static double seconds(void)
 {

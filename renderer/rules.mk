@@ -1,6 +1,5 @@
 # The renderer: a library, librender.a (a client of libretex), and its one tool, retex-render.
-RENDERER_SOURCES += $(wildcard renderer/base/*.c renderer/sdl/*.c renderer/scene/*.c renderer/shape/*.c renderer/accel/*.c \
-	renderer/shade/*.c renderer/light/*.c renderer/integrate/*.c renderer/film/*.c renderer/job/*.c)
+RENDERER_SOURCES += $(wildcard renderer/*/*.c renderer/*/*/*.c)
 LIBRENDER := $(if $(RENDERER_SOURCES),$(BUILD)/lib/librender.a)
 
 $(BUILD)/obj/renderer/%.o: renderer/%.c $(BUILD)/config.mk

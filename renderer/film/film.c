@@ -7,10 +7,10 @@
 #include <string.h>
 #include <retex/band_stats.h>
 #include "film/film.h"
-#include "film/footprints.h"
+#include "film/footprints/footprints.h"
 #include "film/noise.h"
-#include "film/paper.h"
-#include "film/plan.h"
+#include "film/paper/paper.h"
+#include "film/footprints/plan.h"
 
 /* What is known of a band so far; under the film's lock. */
 typedef struct BandState {

@@ -3,7 +3,7 @@
 #ifndef RENDERER_JOB_JOB_H
 #define RENDERER_JOB_JOB_H
 
-#include "integrate/render.h"
+#include "render/render.h"
 #include "sdl/sdl.h"
 
 /* Set what an option of retex-render says: spp, noise, size, seed, max-depth, crop, filter, layout, clusters, orders,

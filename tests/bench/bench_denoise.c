@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "bench.h"
-#include "integrate/render.h"
+#include "render/render.h"
 #include "lib_denoise_kernel.h"
 #include "sdl/sdl.h"
 

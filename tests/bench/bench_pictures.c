@@ -6,7 +6,7 @@
 #include <sys/stat.h>
 
 #include "bench.h"
-#include "integrate/render.h"
+#include "render/render.h"
 #include "lib_test.h"
 #include "sdl/sdl.h"
 

@@ -4,7 +4,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "integrate/render.h"
+#include "render/render.h"
 #include "lib_fuzz.h"
 #include "sdl/sdl.h"
 

@@ -22,7 +22,7 @@ forbid() { # directory pattern why
     [ -z "$found" ] || complain "$3:
 $found"
 }
-renderer_headers=$(cd renderer && find . -name '*.h' | sed 's|^\./||; s|.*/\(.*/.*\)|\1|' | tr '\n' '|' | sed 's/|$//')
+renderer_headers=$(cd renderer && find . -name '*.h' | sed 's|^\./||' | tr '\n' '|' | sed 's/|$//')
 forbid tools "renderer/|embree|$renderer_headers" "libretex and the tools must not know the renderer"
 forbid tools/libretex 'cli\.h' "the library must not know the command line"
 forbid tools/libretex 'OpenImageIO|OpenColorIO' "only the bridge may include OpenImageIO or OpenColorIO"
@@ -34,7 +34,7 @@ forbid tools 'oiio_plugins|set_input|(pack|scene)_source|scene_options' "librete
 forbid oiio_plugins \
     'cli\.h|texture_args|texture_table|libretex/|(io|exr|picture|set|retexture|denoise|metrics|compact|pack|files)/' \
     "the plugins use libretex's public headers only"
-for file in renderer/*/*.[ch]; do
+for file in renderer/*/*.[ch] renderer/*/*/*.[ch]; do
     [ -e "$file" ] || continue
     ! grep -qE '#include *"cli\.h"' "$file" || complain "$file: only mains may include cli.h"
 done

@@ -5,7 +5,7 @@
 #include <setjmp.h>
 #include <cmocka.h>
 #include <stdio.h>
-#include "integrate/sampler.h"
+#include "path/sampler.h"
 #include "shade/bsdf.h"
 
 static Pigment white = {.kind = PIGMENT_COLOR, .color = {1, 1, 1, 0, 0}};

@@ -5,9 +5,9 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include "integrate/caustics.h"
-#include "integrate/render.h"
-#include "integrate/sampler.h"
+#include "path/caustics.h"
+#include "render/render.h"
+#include "path/sampler.h"
 
 static const char LENS[] =
     "#version 3.7; global_settings { assumed_gamma 1 } camera { location <0, 3, -4> look_at 0 angle 40 }"

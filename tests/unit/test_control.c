@@ -4,7 +4,7 @@
 #include <setjmp.h>
 #include <cmocka.h>
 #include <string.h>
-#include "integrate/control_variate.h"
+#include "render/control_variate.h"
 #include "lib_test.h"
 
 enum { WIDTH = 8, HEIGHT = 6, SAMPLES = 10 };

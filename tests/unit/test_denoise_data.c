@@ -13,7 +13,7 @@
 #include <retex/denoise.h>
 
 #include "film/film.h"
-#include "integrate/render.h"
+#include "render/render.h"
 #include "sdl/sdl.h"
 #include "set/signals.h"
 

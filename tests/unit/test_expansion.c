@@ -4,7 +4,7 @@
 #include <setjmp.h>
 #include <cmocka.h>
 #include "film/expansion.h"
-#include "film/paper_terms.h"
+#include "film/paper/terms.h"
 
 static float at_random(uint32_t *state)
 {

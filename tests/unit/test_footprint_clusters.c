@@ -6,7 +6,7 @@
 
 #include <cmocka.h>
 
-#include "film/footprint_pixel.h"
+#include "film/footprints/pixel.h"
 
 #define PLACES 400
 

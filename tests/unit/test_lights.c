@@ -5,7 +5,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include "integrate/sampler.h"
+#include "path/sampler.h"
 #include "light/lights.h"
 
 static uint32_t state_of_random = 1;

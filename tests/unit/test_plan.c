@@ -4,7 +4,7 @@
 #include <string.h>
 #include <cmocka.h>
 #include "film/expansion.h"
-#include "film/plan.h"
+#include "film/footprints/plan.h"
 
 static int hits_of(const PlanCoefficient *c)
 {

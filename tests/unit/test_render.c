@@ -8,8 +8,8 @@
 #include <stdlib.h>
 #include <string.h>
 #include <retex/sample.h>
-#include "integrate/path.h"
-#include "integrate/render.h"
+#include "path/path.h"
+#include "render/render.h"
 
 typedef struct Stage {
     Scene *scene;

@@ -5,7 +5,7 @@
 #include <cmocka.h>
 #include <stdlib.h>
 #include <string.h>
-#include "integrate/vertex_samples.h"
+#include "path/vertex_samples.h"
 
 static void pairs_are_nets(void **state)
 {

@@ -6,7 +6,7 @@
 
 #include <cmocka.h>
 
-#include "integrate/path_parts.h"
+#include "path/internal.h"
 
 /* A film of one pixel and one path, whose target is called Floor. */
 typedef struct Fixture {

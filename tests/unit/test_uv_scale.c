@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
-#include "integrate/render.h"
+#include "render/render.h"
 #include "sdl/sdl.h"
 
 /* A scene with targets A and B, where it declares them. */

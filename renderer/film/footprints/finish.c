@@ -1,0 +1,126 @@
+/* From the images of layout `footprints` to the parts, footprints, mixtures and terms of a set: all that a pixel may
+ * have. What none has, retex_set_prune leaves out. */
+#include "film/footprints/images.h"
+
+/* A footprint of three parts; index: its number in the set. */
+static int finish_footprint(FootprintFilm *film, RetexSet *set, const FootprintImages *images, RetexFootprint *f,
+                            int *index, RetexError *err)
+{
+    int code = bands_move_part(film->bands, images->uv, set, &f->uv, err);
+    if (!code)
+        code = bands_move_part(film->bands, images->spread, set, &f->spread, err);
+    if (!code)
+        code = bands_move_part(film->bands, images->albedo, set, &f->albedo, err);
+    return code ? code : retex_set_add_footprint(set, f, index, err);
+}
+
+/* A term of the factors that it has already. */
+static int finish_term(FootprintFilm *film, RetexSet *set, RetexTerm *term, int image, RetexError *err)
+{
+    int code = bands_move_part(film->bands, image, set, &term->radiance, err);
+    return code ? code : retex_set_add_term(set, term, NULL, err);
+}
+
+/* Factors of the terms: which of the set's mixtures, or footprints, stand for what. */
+typedef struct Places {
+    int kinds[RETEX_MAX_TARGETS][2]; /* all clusters of a kind */
+    int later[RETEX_MAX_TARGETS];
+    int any; /* further hits of all targets */
+} Places;
+
+static int finish_mixture(RetexSet *set, const RetexMixture *mixture, int *place, RetexError *err)
+{
+    int index = 0, code = retex_set_add_mixture(set, mixture, &index, err);
+    *place = RETEX_MIXTURE(index);
+    return code;
+}
+
+static void add_share(RetexMixture *mixture, int footprint, int weight)
+{
+    mixture->shares[mixture->nshares++] = (struct RetexShare){footprint, weight};
+}
+
+/* The clusters of one kind, each with the light that meets no other target. */
+static int finish_kind(FootprintFilm *film, RetexSet *set, int t, int kind, Places *places, RetexError *err)
+{
+    RetexMixture all = {0};
+    int code = RETEX_OK;
+    for (int k = 0; k < most_of_kind(&film->params, kind) && !code; k++) {
+        const FootprintImages *images = &film->targets[t].kinds[kind].of[k];
+        RetexFootprint f = {.target = t, .hit = 1 + k + kind * film->params.sharp};
+        int index, weight;
+        f.kind = kind ? RETEX_FOOTPRINT_BROAD : RETEX_FOOTPRINT_SHARP;
+        code = finish_footprint(film, set, images, &f, &index, err);
+        if (code)
+            break;
+        RetexTerm term = {.kind = RETEX_TERM_DEP, .nfactors = 1, .factors = {index}};
+        code = finish_term(film, set, &term, images->light, err);
+        if (code || film->plan.count == 1)
+            continue;
+        code = bands_move_part(film->bands, images->share, set, &weight, err);
+        add_share(&all, index, weight);
+    }
+    return code || film->plan.count == 1 ? code : finish_mixture(set, &all, &places->kinds[t][kind], err);
+}
+
+static int finish_later(FootprintFilm *film, RetexSet *set, int t, RetexMixture *any, Places *places, RetexError *err)
+{
+    RetexMixture own = {0};
+    int code = RETEX_OK;
+    for (int k = 0; k < most_later(film) && !code; k++) {
+        const FootprintImages *images = &film->targets[t].later[k];
+        RetexFootprint f = {.target = t, .kind = RETEX_FOOTPRINT_INTERREFLECTION};
+        int index, weight;
+        f.hit = 1 + film->params.sharp + film->params.broad + k;
+        code = finish_footprint(film, set, images, &f, &index, err);
+        if (!code)
+            code = bands_move_part(film->bands, images->share, set, &weight, err);
+        if (code)
+            break;
+        add_share(&own, index, weight);
+        add_share(any, index, weight);
+    }
+    return code || !own.nshares ? code : finish_mixture(set, &own, &places->later[t], err);
+}
+
+static void add_factors(RetexTerm *term, int place, int count)
+{
+    for (int n = 0; n < count; n++)
+        term->factors[term->nfactors++] = place;
+}
+
+/* The light of one kind that meets targets again. */
+static int finish_again(FootprintFilm *film, RetexSet *set, int t, int kind, const Places *places, RetexError *err)
+{
+    int code = RETEX_OK;
+    for (int i = 1; i < film->plan.count && !code; i++) {
+        const PlanCoefficient *c = &film->plan.coefficients[i];
+        RetexTerm term = {.kind = RETEX_TERM_DEP};
+        add_factors(&term, places->kinds[t][kind], 1);
+        add_factors(&term, places->any, c->mixed);
+        for (int b = 0; b < set->ntargets; b++)
+            add_factors(&term, places->later[b], c->powers[b]);
+        code = finish_term(film, set, &term, film->targets[t].kinds[kind].again[i], err);
+    }
+    return code;
+}
+
+int footprints_finish(FootprintFilm *film, RetexSet *set, RetexError *err)
+{
+    Places places = {.any = 0};
+    RetexMixture any = {0};
+    RetexTerm free_term = {.kind = RETEX_TERM_INDEP};
+    int code = finish_term(film, set, &free_term, film->free, err);
+    for (int t = 0; t < set->ntargets && !code; t++) {
+        for (int kind = 0; kind < 2 && !code; kind++)
+            code = finish_kind(film, set, t, kind, &places, err);
+        if (!code)
+            code = finish_later(film, set, t, &any, &places, err);
+    }
+    if (!code && film->plan.coefficients[film->plan.count - 1].mixed)
+        code = finish_mixture(set, &any, &places.any, err);
+    for (int t = 0; t < set->ntargets; t++)
+        for (int kind = 0; kind < 2 && !code; kind++)
+            code = finish_again(film, set, t, kind, &places, err);
+    return code;
+}

@@ -1,0 +1,225 @@
+/* Light of one pixel, into clusters; see footprints.h. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include "film/footprints/pixel.h"
+
+#define LEAST_ALBEDO 1e-3f /* of other hits, where originals are averaged: a black one may be the one that is edited */
+
+/* ---- life ---- */
+
+int footprints_pixel_create(FootprintPixel **out, FootprintFilm *film, LightSums *light, UvRange *range,
+                            RetexError *err)
+{
+    FootprintPixel *p = *out = calloc(1, sizeof *p);
+    if (p) {
+        p->film = film;
+        p->targets = calloc((size_t)film->scene->ntargets + 1, sizeof *p->targets);
+        p->light = light, p->range = range;
+    }
+    if (p && p->targets)
+        return RETEX_OK;
+    footprints_pixel_close(out);
+    return retex_fail(err, RETEX_ENOMEM, "out of memory for a thread's pixel");
+}
+
+void footprints_pixel_close(FootprintPixel **pixel)
+{
+    if (!*pixel)
+        return;
+    free((*pixel)->targets);
+    free(*pixel);
+    *pixel = NULL;
+}
+
+/* ---- light ---- */
+
+/* Another hit's albedo, as it weighs a hit's own: a black one must not make the hit's own unknown, for it may be the
+ * black one that is edited. */
+static Float4 weighing_albedo(Rgb a)
+{
+    return (Float4){a.r > LEAST_ALBEDO ? a.r : LEAST_ALBEDO, a.g > LEAST_ALBEDO ? a.g : LEAST_ALBEDO,
+                    a.b > LEAST_ALBEDO ? a.b : LEAST_ALBEDO, 1};
+}
+
+static inline void add_coefficient(HitLight *sum, int k, Float4 value)
+{
+    sum->c[k] = sum->used >> k & 1 ? sum->c[k] + value : value;
+    sum->used |= 1u << k;
+}
+
+/* Light of which a hit makes so much. */
+static inline void add_times(HitLight *sum, const HitLight *light, Float4 by)
+{
+    sum->c[0] += light->c[0] * by;
+    sum->original += light->original * by;
+    sum->half += light->half * by;
+    for (unsigned left = light->used; left; left &= left - 1) {
+        int k = __builtin_ctz(left);
+        add_coefficient(sum, k, light->c[k] * by);
+    }
+}
+
+/* The same times the texture of one more hit. */
+static inline void add_textured(HitLight *sum, const HitLight *light, const Plan *plan, int target, Float4 albedo)
+{
+    sum->original += (light->c[0] + light->original) * albedo;
+    sum->half += (light->c[0] + light->half) * splat(0.5f);
+    add_coefficient(sum, plan->coefficients[0].next[target], light->c[0]);
+    for (unsigned left = light->used; left; left &= left - 1) {
+        int k = __builtin_ctz(left);
+        add_coefficient(sum, plan->coefficients[k].next[target], light->c[k]);
+    }
+}
+
+static inline void start_light(HitLight *light, Float4 value)
+{
+    light->c[0] = value;
+    light->original = light->half = splat(0);
+    light->used = 0;
+}
+
+/* What the hits before this one do to light that comes from it, as sums over all of their subsets. */
+static inline void start_node(Node *node, const PathHit *hit, const Node *before)
+{
+    start_light(&node->dependent, hit->dependent);
+    start_light(&node->independent, hit->independent);
+    node->white = path_hit_white(hit->dependent, hit->independent);
+    if (!before) {
+        node->none = node->original = node->half = splat(1);
+        return;
+    }
+    node->none = before->none * hit->way_i;
+    node->original = before->original * (hit->way_i + hit->way_d * before->albedo);
+    node->half = before->half * (hit->way_i + hit->way_d * splat(0.5f));
+}
+
+/* Light that met this hit after others of its path. */
+static int add_later(FootprintPixel *p, const PathHit *hit, const Node *node)
+{
+    const HitLight *light = &node->dependent;
+    const double weight = luminance4((node->half - node->none) * (light->c[0] + light->half));
+    if (!(weight > 0))
+        return 0;
+    const PendingLater later = {.target = hit->at.target,
+                                .uv = {hit->at.uv.u, hit->at.uv.v},
+                                .weight = weight,
+                                .light = (node->original - node->none) * (light->c[0] + light->original),
+                                .albedo = colour4(hit->at.albedo)};
+    clusters_add_later(&p->targets[later.target], &later, p->film->params.periodic[later.target]);
+    return 1;
+}
+
+/* Light that met this hit first of all. */
+static int add_first(FootprintPixel *p, const PathHit *hit, HitLight *light)
+{
+    const double weight = luminance4(light->c[0] + light->half);
+    if (!(weight > 0))
+        return 0;
+    const Pending first = {.target = hit->at.target,
+                           .sharp = hit->at.sharp,
+                           .uv = {hit->at.uv.u, hit->at.uv.v},
+                           .weight = weight,
+                           .light = light,
+                           .albedo = colour4(hit->at.albedo)};
+    clusters_add(&p->targets[first.target], &first, &p->film->params);
+    return 1;
+}
+
+static void scale_light(HitLight *light, Float4 by)
+{
+    light->c[0] *= by, light->original *= by, light->half *= by;
+    for (unsigned left = light->used; left; left &= left - 1)
+        light->c[__builtin_ctz(left)] *= by;
+}
+
+/* Light of a hit goes to the hit before it, when all of those behind it did so. */
+static void gather_node(FootprintPixel *p, const PathHit *hit, Node *node, Node *before)
+{
+    add_textured(&node->independent, &node->dependent, &p->film->plan, hit->at.target, node->albedo);
+    add_times(&before->dependent, &node->independent, hit->way_d);
+    if (!is_black4(hit->way_i))
+        add_times(&before->independent, &node->independent, hit->way_i);
+    before->white += node->white * path_hit_white(hit->way_d, hit->way_i);
+}
+
+static void note_range(FootprintPixel *p, const PathHit *hit)
+{
+    const double uv[2] = {hit->at.uv.u, hit->at.uv.v};
+    uv_range_add(p->range, hit->at.target, uv);
+}
+
+static void finish_node(FootprintPixel *p, const PathHit *hit, Node *node)
+{
+    int was_met = 0;
+    if (hit->before) {
+        was_met = add_later(p, hit, node);
+        scale_light(&node->dependent, node->none);
+    }
+    was_met |= add_first(p, hit, &node->dependent);
+    if (was_met)
+        note_range(p, hit);
+}
+
+/* As end_several, of a path's only hit, as most have. */
+static void end_single(FootprintPixel *p, const PathHit *hit, Float4 *free, Float4 *white)
+{
+    HitLight light;
+    start_light(&light, hit->dependent);
+    *free += hit->independent;
+    *white += path_hit_white(hit->dependent, hit->independent);
+    if (add_first(p, hit, &light))
+        note_range(p, hit);
+}
+
+static void end_several(FootprintPixel *p, const PathHits *path, Float4 *free, Float4 *white)
+{
+    const PathHit *hits[PATH_HITS_MAX];
+    for (const PathHit *hit = path->last; hit; hit = hit->earlier)
+        hits[hit->number] = hit;
+    for (int k = 0; k < path->count; k++) {
+        const PathHit *before = hits[k]->before;
+        p->nodes[k].albedo = weighing_albedo(hits[k]->at.albedo);
+        start_node(&p->nodes[k], hits[k], before ? &p->nodes[before->number] : NULL);
+    }
+    for (int k = path->count - 1; k >= 0; k--)
+        if (hits[k]->before)
+            gather_node(p, hits[k], &p->nodes[k], &p->nodes[hits[k]->before->number]);
+    for (int k = 0; k < path->count; k++) {
+        if (!hits[k]->before)
+            *free += p->nodes[k].independent.c[0], *white += p->nodes[k].white;
+        finish_node(p, hits[k], &p->nodes[k]);
+    }
+}
+
+void footprints_path_end(FootprintPixel *p, const PathHits *path)
+{
+    Float4 free = path->free, white = path->free;
+    if (path->count == 1)
+        end_single(p, path->last, &free, &white);
+    else if (path->count)
+        end_several(p, path, &free, &white);
+    for (int c = 0; c < 3; c++)
+        p->free[c] += (double)free[c];
+    p->light->total_white += luminance4(white);
+}
+
+static void signal_total(double total[3], const Clusters *clusters, const Plan *plan)
+{
+    total[0] = total[1] = total[2] = 0;
+    for (int k = 0; k < clusters->count; k++)
+        for (int c = 0; c < 3; c++)
+            total[c] += (double)clusters->of[k].c[c];
+    for (int i = 1; clusters->used >> i; i++)
+        for (int c = 0; c < 3 && clusters->used >> i & 1; c++)
+            total[c] += plan->coefficients[i].weight * clusters->again[i][c];
+}
+
+void footprints_totals(const FootprintPixel *p, SignalTotals *totals)
+{
+    memcpy(totals->of[0], p->free, sizeof p->free);
+    for (int t = 0; t < p->film->scene->ntargets; t++) {
+        signal_total(totals->of[1 + 2 * t], &p->targets[t].sharp, &p->film->plan);
+        signal_total(totals->of[2 + 2 * t], &p->targets[t].broad, &p->film->plan);
+    }
+}

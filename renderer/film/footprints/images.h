@@ -1,0 +1,50 @@
+/* The images of layout `footprints`: filled in store.c, made parts of a set in finish.c. */
+#ifndef RENDERER_FILM_FOOTPRINTS_IMAGES_H
+#define RENDERER_FILM_FOOTPRINTS_IMAGES_H
+
+#include "film/footprints/footprints.h"
+#include "film/footprints/plan.h"
+
+#define LATER_COUNT 2 /* footprints of further hits, a target */
+
+/* Images of one footprint: their numbers in the film's bands. */
+typedef struct FootprintImages {
+    int uv, spread, albedo;
+    int light; /* of clusters */
+    int share; /* in the light of its mixture; where there are further hits */
+} FootprintImages;
+
+/* Images of the clusters of one kind on a target. */
+typedef struct KindImages {
+    FootprintImages of[FILM_CLUSTERS_MAX];
+    int again[PLAN_COEFFICIENTS_MAX];
+} KindImages;
+
+/* Images of a target. */
+typedef struct TargetImages {
+    KindImages kinds[2]; /* sharp, broad */
+    FootprintImages later[LATER_COUNT];
+} TargetImages;
+
+struct FootprintFilm {
+    const Scene *scene;
+    FilmParams params;
+    Bands *bands; /* borrowed */
+    Plan plan;
+    int free; /* C0 */
+    TargetImages *targets;
+};
+
+/* Clusters that a pixel may have: of what is seen sharply (kind 0), or of the rest (1). */
+static inline int most_of_kind(const FilmParams *p, int kind)
+{
+    return kind ? p->broad : p->sharp;
+}
+
+/* Later footprints that a target may have: none where no further hit is kept. */
+static inline int most_later(const FootprintFilm *film)
+{
+    return film->plan.count > 1 ? LATER_COUNT : 0;
+}
+
+#endif

@@ -1,0 +1,72 @@
+/* Choosing coefficients; see plan.h. */
+#include <math.h>
+#include <string.h>
+#include "film/footprints/plan.h"
+
+/* So many further hits are kept in every combination: all of one target, 15 combinations of two, 10 of three, 15 of
+ * four. */
+static int combined(int ntargets)
+{
+    return ntargets == 1 ? RETEX_MAX_ORDERS : ntargets == 2 ? 4 : ntargets <= 4 ? 2 : 1;
+}
+
+static int find(const Plan *plan, const unsigned char powers[RETEX_MAX_TARGETS])
+{
+    for (int k = 0; k < plan->count; k++)
+        if (!plan->coefficients[k].mixed && !memcmp(plan->coefficients[k].powers, powers, RETEX_MAX_TARGETS))
+            return k;
+    return -1;
+}
+
+/* All combinations of so many hits of the targets from one on. */
+static void add_combinations(Plan *plan, int ntargets, int from, int hits, unsigned char powers[RETEX_MAX_TARGETS])
+{
+    if (hits == 0)
+        memcpy(plan->coefficients[plan->count++].powers, powers, RETEX_MAX_TARGETS);
+    for (int t = from; t < ntargets && hits > 0; t++) {
+        powers[t]++;
+        add_combinations(plan, ntargets, t, hits - 1, powers);
+        powers[t]--;
+    }
+}
+
+int plan_hits(const PlanCoefficient *c)
+{
+    int sum = c->mixed;
+    for (int t = 0; t < RETEX_MAX_TARGETS; t++)
+        sum += c->powers[t];
+    return sum;
+}
+
+/* What each weighs, and where one more hit leads: its combination, else the mixture of as many hits. */
+static void complete(Plan *plan, int ntargets, int first_mixed)
+{
+    for (int k = 0; k < plan->count; k++) {
+        PlanCoefficient *c = &plan->coefficients[k];
+        c->weight = ldexp(1, -plan_hits(c));
+        memset(c->next, -1, sizeof c->next);
+        for (int t = 0; t < ntargets; t++) {
+            unsigned char more[RETEX_MAX_TARGETS];
+            memcpy(more, c->powers, sizeof more);
+            more[t]++;
+            int next = c->mixed ? -1 : find(plan, more);
+            for (int m = first_mixed; next < 0 && m < plan->count; m++)
+                if (plan->coefficients[m].mixed == plan_hits(c) + 1)
+                    next = m;
+            c->next[t] = (signed char)next;
+        }
+    }
+}
+
+void plan_make(Plan *plan, int ntargets, int orders, int factors)
+{
+    unsigned char powers[RETEX_MAX_TARGETS] = {0};
+    int most = ntargets == 1 ? orders - 1 : factors - 1, together = combined(ntargets);
+    *plan = (Plan){.count = 0};
+    for (int hits = 0; hits <= most && hits <= together; hits++)
+        add_combinations(plan, ntargets, 0, hits, powers);
+    int first_mixed = plan->count;
+    for (int hits = together + 1; hits <= most; hits++)
+        plan->coefficients[plan->count++].mixed = (unsigned char)hits;
+    complete(plan, ntargets, first_mixed);
+}

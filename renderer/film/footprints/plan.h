@@ -1,0 +1,32 @@
+/* Which coefficients a cluster of layout `footprints` keeps: what further hits a monomial may have.
+ *
+ * A coefficient belongs to a combination of powers, one for each target: how many hits of it follow the first. Few
+ * further hits are kept in every combination; of more, with several targets, only their number, as if each drew its
+ * target anew (a mixture of the targets' textures). The coefficients form a graph that is walked hit by hit; a hit with
+ * no way on is folded into the light with its original albedo. */
+#ifndef RENDERER_FILM_FOOTPRINTS_PLAN_H
+#define RENDERER_FILM_FOOTPRINTS_PLAN_H
+
+#include <retex/set.h>
+
+#define PLAN_COEFFICIENTS_MAX 24
+
+typedef struct PlanCoefficient {
+    unsigned char powers[RETEX_MAX_TARGETS]; /* further hits of each target; all 0 where mixed */
+    unsigned char mixed;                     /* further hits of whatever target, or 0 */
+    double weight;                           /* 2^-n of n further hits, each as albedo 1/2 */
+    signed char next[RETEX_MAX_TARGETS];     /* the coefficient after one more hit of a target, or -1 */
+} PlanCoefficient;
+
+typedef struct Plan {
+    int count; /* the first coefficient has no further hit */
+    PlanCoefficient coefficients[PLAN_COEFFICIENTS_MAX];
+} Plan;
+
+/* Further hits that a coefficient stands for. */
+int plan_hits(const PlanCoefficient *coefficient);
+
+/* orders: most factors of one target, the first hit included, 1..RETEX_MAX_ORDERS; factors: of all targets together. */
+void plan_make(Plan *plan, int ntargets, int orders, int factors);
+
+#endif

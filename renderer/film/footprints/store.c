@@ -1,0 +1,268 @@
+/* Finished pixels into their images; see footprints.h. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <retex/rounding.h>
+#include "film/footprints/pixel.h"
+
+#define PARTS_MAX 1490 /* of a set, with room for its beauty, originals, AOVs and what denoising needs */
+
+/* ---- life ---- */
+
+/* kind: 0 sharp, 1 broad, 2 interreflections. */
+static const char *kind_name(int kind)
+{
+    return retex_footprint_kind_name(RETEX_FOOTPRINT_SHARP + kind);
+}
+
+/* One image of a footprint: uv_Floor_sharp1 and so on. */
+static int add_image(FootprintFilm *film, const char *what, int t, int kind, int k, int *image, RetexError *err)
+{
+    static const struct {
+        const char *what, *letters;
+        RetexPixelType type;
+    } table[] = {{"uv", "RGA", RETEX_FLOAT},
+                 {"spread", "RGB", RETEX_HALF},
+                 {"albedo", "RGB", RETEX_HALF},
+                 {"dep", "RGB", RETEX_HALF},
+                 {"share", "R", RETEX_HALF}};
+    char name[RETEX_NAME_MAX];
+    int i = 0;
+    while (strcmp(table[i].what, what))
+        i++;
+    snprintf(name, sizeof name, "%s_%.90s_%s%d", what, film->scene->targets[t].name, kind_name(kind), k + 1);
+    return bands_add(film->bands, name, table[i].letters, table[i].type, image, err);
+}
+
+/* kind: 2 for further hits. */
+static int add_footprint(FootprintFilm *film, FootprintImages *f, int t, int kind, int k, RetexError *err)
+{
+    int code = add_image(film, "uv", t, kind, k, &f->uv, err);
+    if (!code)
+        code = add_image(film, "spread", t, kind, k, &f->spread, err);
+    if (!code)
+        code = add_image(film, "albedo", t, kind, k, &f->albedo, err);
+    if (!code && kind < 2)
+        code = add_image(film, "dep", t, kind, k, &f->light, err);
+    if (!code && film->plan.count > 1)
+        code = add_image(film, "share", t, kind, k, &f->share, err);
+    return code;
+}
+
+/* dep_Floor_sharp_a2b1: sharp clusters, then two hits of the first target and one of the second;
+ * dep_Floor_sharp_m5: then five of any. */
+static void again_name(const Scene *scene, int t, int kind, const PlanCoefficient *c, char name[RETEX_NAME_MAX])
+{
+    int used = snprintf(name, RETEX_NAME_MAX, "dep_%.80s_%s_", scene->targets[t].name, kind_name(kind));
+    if (c->mixed)
+        snprintf(name + used, (size_t)(RETEX_NAME_MAX - used), "m%d", c->mixed);
+    for (int later = 0; later < scene->ntargets; later++)
+        if (c->powers[later])
+            used += snprintf(name + used, (size_t)(RETEX_NAME_MAX - used), "%c%d", 'a' + later, c->powers[later]);
+}
+
+static int add_target(FootprintFilm *film, int t, RetexError *err)
+{
+    TargetImages *target = &film->targets[t];
+    char name[RETEX_NAME_MAX];
+    int code = RETEX_OK;
+    for (int kind = 0; kind < 2; kind++) {
+        for (int k = 0; k < most_of_kind(&film->params, kind) && !code; k++)
+            code = add_footprint(film, &target->kinds[kind].of[k], t, kind, k, err);
+        for (int i = 1; i < film->plan.count && !code; i++) {
+            again_name(film->scene, t, kind, &film->plan.coefficients[i], name);
+            code = bands_add(film->bands, name, "RGB", RETEX_HALF, &target->kinds[kind].again[i], err);
+        }
+    }
+    for (int k = 0; k < most_later(film) && !code; k++)
+        code = add_footprint(film, &target->later[k], t, 2, k, err);
+    return code;
+}
+
+int footprints_create(FootprintFilm **out, const Scene *scene, const FilmParams *params, Bands *bands, RetexError *err)
+{
+    FootprintFilm *film = *out = calloc(1, sizeof *film);
+    if (film)
+        film->targets = calloc((size_t)scene->ntargets + 1, sizeof *film->targets);
+    if (!film || !film->targets)
+        return retex_fail(err, RETEX_ENOMEM, "out of memory for the film");
+    film->scene = scene;
+    film->params = *params;
+    film->bands = bands;
+    plan_make(&film->plan, scene->ntargets, params->orders, expansion_most_hits(scene->ntargets, 0));
+    int parts = scene->ntargets * (5 * (params->sharp + params->broad) + 2 * film->plan.count + 4 * LATER_COUNT);
+    if (parts > PARTS_MAX)
+        return retex_fail(err, RETEX_ELIMIT, "the set may need %d parts, more than %d: take fewer targets or clusters",
+                          parts, PARTS_MAX);
+    int code = bands_add(bands, "indep", "RGB", RETEX_HALF, &film->free, err);
+    for (int t = 0; t < scene->ntargets && !code; t++)
+        code = add_target(film, t, err);
+    return code;
+}
+
+void footprints_close(FootprintFilm **out)
+{
+    FootprintFilm *film = *out;
+    if (!film)
+        return;
+    free(film->targets);
+    free(film);
+    *out = NULL;
+}
+
+/* ---- the finished pixel ---- */
+
+/* Where a finished pixel goes. */
+typedef struct Place {
+    BandRows *rows;
+    int x, y;
+} Place;
+
+static float *pixel_of(const Place *place, int image)
+{
+    return bands_pixel(place->rows, image, place->x, place->y);
+}
+
+static void store_footprint(const FootprintImages *to, const UvStats *uv, const AlbedoSums *albedo, float coverage,
+                            const Place *at)
+{
+    float *mean = pixel_of(at, to->uv), *spread = pixel_of(at, to->spread), *a = pixel_of(at, to->albedo);
+    uv_stats_store(uv, mean, spread);
+    mean[2] = retex_round_coverage((double)coverage);
+    float light = albedo->light[0] + albedo->light[1] + albedo->light[2];
+    float reflected = albedo->reflected[0] + albedo->reflected[1] + albedo->reflected[2];
+    for (int c = 0; c < 3; c++) /* a channel without light: grey of the others */
+        a[c] = albedo->light[c] > 0 ? albedo->reflected[c] / albedo->light[c] : light > 0 ? reflected / light : 0;
+}
+
+static int compare_clusters(const void *a, const void *b)
+{
+    const Cluster *x = a, *y = b;
+    double p = x->uv.mean[0] + x->uv.mean[1], q = y->uv.mean[0] + y->uv.mean[1];
+    return p < q ? -1 : p > q;
+}
+
+static void add_white(double sum[3], const Clusters *clusters)
+{
+    for (int c = 0; c < 3; c++) {
+        for (int k = 0; k < clusters->count; k++)
+            sum[c] += clusters->of[k].c[c];
+        for (unsigned left = clusters->used; left; left &= left - 1)
+            sum[c] += clusters->again[__builtin_ctz(left)][c];
+    }
+}
+
+/* The largest channel of the pixel as it would be with white textures, in the set's units. */
+static double white_pixel(const FootprintPixel *p)
+{
+    double sum[3] = {p->free[0], p->free[1], p->free[2]};
+    for (int t = 0; t < p->film->scene->ntargets; t++) {
+        add_white(sum, &p->targets[t].sharp);
+        add_white(sum, &p->targets[t].broad);
+    }
+    return fmax(sum[0], fmax(sum[1], sum[2])) / p->spp;
+}
+
+/* So many paths of equal weight would know as much (Kish 1965): few bright ones count for few. */
+static double effective_samples(const Cluster *cluster)
+{
+    return cluster->uv.weight * cluster->uv.weight / cluster->squares;
+}
+
+static void store_light(int image, Float4 sum, float scale, double unit, const Place *at)
+{
+    if (sum[0] == 0 && sum[1] == 0 && sum[2] == 0)
+        return; /* memory that is never touched is never taken */
+    float *to = pixel_of(at, image);
+    for (int c = 0; c < 3; c++)
+        to[c] = (float)retex_round_by((double)(sum[c] * scale), unit);
+}
+
+static void store_share(int image, float share, const Place *at)
+{
+    *pixel_of(at, image) = retex_round_share((double)share);
+}
+
+/* Clusters into their images, in the order of their place on the texture, so that neighbours agree. */
+static void store_clusters(FootprintPixel *p, const KindImages *images, Clusters *clusters, double unit,
+                           const Place *at)
+{
+    float scale = 1 / (float)p->spp;
+    float again = 0;
+    for (int k = 0; k < clusters->count; k++)
+        again += luminance4(clusters->of[k].again);
+    qsort(clusters->of, (size_t)clusters->count, sizeof *clusters->of, compare_clusters);
+    for (int k = 0; k < clusters->count; k++) {
+        const Cluster *cluster = &clusters->of[k];
+        float coverage = (float)effective_samples(cluster) * scale;
+        store_footprint(&images->of[k], &cluster->uv, &cluster->albedo, coverage, at);
+        store_light(images->of[k].light, cluster->c, scale, unit, at);
+        if (again > 0)
+            store_share(images->of[k].share, luminance4(cluster->again) / again, at);
+    }
+    for (unsigned left = clusters->used; left; left &= left - 1) {
+        int i = __builtin_ctz(left);
+        store_light(images->again[i], clusters->again[i], scale, unit, at);
+        clusters->again[i] = splat(0);
+    }
+    clusters->count = 0;
+    clusters->used = 0;
+}
+
+static double light_sum(const AlbedoSums *albedo)
+{
+    return (double)albedo->light[0] + albedo->light[1] + albedo->light[2];
+}
+
+/* Further hits, with the share that each has in the light of all. */
+static void store_later(FootprintPixel *p, const Place *at)
+{
+    int ntargets = p->film->scene->ntargets;
+    double sum = 0;
+    for (int t = 0; t < ntargets; t++)
+        for (int k = 0; k < LATER_COUNT; k++)
+            sum += light_sum(&p->targets[t].later[k].albedo);
+    for (int t = 0; t < ntargets; t++)
+        for (int k = 0; k < LATER_COUNT; k++) {
+            Later *later = &p->targets[t].later[k];
+            const FootprintImages *images = &p->film->targets[t].later[k];
+            if (!(later->uv.weight > 0))
+                continue;
+            double effective = later->uv.weight * later->uv.weight / later->squares / p->spp;
+            store_footprint(images, &later->uv, &later->albedo, (float)fmin(effective, 1), at);
+            store_share(images->share, sum > 0 ? (float)(light_sum(&later->albedo) / sum) : 0, at);
+            *later = (Later){.squares = 0};
+        }
+}
+
+void footprints_pixel_end(FootprintPixel *p, BandRows *rows, int spp, int x, int y)
+{
+    const Place at = {rows, x, y};
+    FootprintFilm *film = p->film;
+    p->spp = spp;
+    double unit = retex_coefficient_unit(white_pixel(p));
+    float scale = 1 / (float)spp, *c0 = pixel_of(&at, film->free);
+    for (int c = 0; c < 3; c++)
+        c0[c] = (float)(p->free[c] * scale), p->free[c] = 0;
+    for (int t = 0; t < film->scene->ntargets; t++) {
+        store_clusters(p, &film->targets[t].kinds[0], &p->targets[t].sharp, unit, &at);
+        store_clusters(p, &film->targets[t].kinds[1], &p->targets[t].broad, unit, &at);
+    }
+    store_later(p, &at);
+}
+
+/* ---- the finished band ---- */
+
+void footprints_band_stats(const FootprintFilm *film, const BandRows *rows, RetexBandStats *s)
+{
+    for (int t = 0; t < film->scene->ntargets; t++) {
+        const TargetImages *target = &film->targets[t];
+        for (int kind = 0; kind < 2; kind++)
+            for (int k = 0; k < most_of_kind(&film->params, kind); k++)
+                bands_add_albedo(rows, target->kinds[kind].of[k].uv, target->kinds[kind].of[k].albedo, s, t);
+        for (int k = 0; k < most_later(film); k++)
+            bands_add_albedo(rows, target->later[k].uv, target->later[k].albedo, s, t);
+    }
+}

@@ -1,0 +1,337 @@
+/* Layout `paper`; see paper.h. Terms come into being when a path first needs them; with one target all 21 exist from
+ * the start, which with the 12 UV images make the paper's 33. */
+#include <math.h>
+#include <stdatomic.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include "film/paper/paper.h"
+#include "film/paper/terms.h"
+
+typedef struct FootprintSums {
+    int samples;                  /* paths that brought a connection */
+    double count, mean[2], m2[2]; /* Welford's running mean and sum of squared deviations of u and v */
+    Float4 light, light_albedo;   /* what the albedo there multiplied, without it and with it */
+    Float4 albedo;                /* unweighted, for footprints that gave no light */
+} FootprintSums;
+
+struct PaperFilm {
+    const Scene *scene;
+    FilmParams params;
+    Bands *bands; /* borrowed */
+    TermTable terms;
+    /* images of the bands */
+    int uv[RETEX_MAX_TARGETS * RETEX_MAX_ORDERS], spread[RETEX_MAX_TARGETS * RETEX_MAX_ORDERS],
+        albedo[RETEX_MAX_TARGETS * RETEX_MAX_ORDERS];
+    atomic_int lost; /* light found no term to go to */
+};
+
+struct PaperPixel {
+    PaperFilm *film;
+    TermCache cache;
+    Float4 *sums; /* by term */
+    int *touched, ntouched;
+    FootprintSums footprints[RETEX_MAX_TARGETS * RETEX_MAX_ORDERS];
+    /* of the path in hand: */
+    Expansion expansion;
+    ExpansionMark mark;            /* of it before a hit that light came by */
+    TargetHit hits[PATH_HITS_MAX]; /* all hits that connected, with how often */
+    int connections[PATH_HITS_MAX], nhits;
+};
+
+static int footprints_count(const PaperFilm *film)
+{
+    return film->scene->ntargets * RETEX_MAX_ORDERS;
+}
+static int footprint_number(const TargetHit *hit)
+{
+    return hit->target * RETEX_MAX_ORDERS + hit->index;
+}
+
+static int add_footprint(PaperFilm *film, int k, RetexError *err)
+{
+    const char *target = film->scene->targets[k / RETEX_MAX_ORDERS].name;
+    int hit = k % RETEX_MAX_ORDERS + 1;
+    char name[RETEX_NAME_MAX];
+    snprintf(name, sizeof name, "uv_%.90s_%d", target, hit);
+    int code = bands_add(film->bands, name, "RGA", RETEX_FLOAT, &film->uv[k], err);
+    snprintf(name, sizeof name, "spread_%.90s_%d", target, hit);
+    if (!code)
+        code = bands_add(film->bands, name, "RG", RETEX_HALF, &film->spread[k], err);
+    snprintf(name, sizeof name, "albedo_%.90s_%d", target, hit);
+    return code ? code : bands_add(film->bands, name, "RGB", RETEX_HALF, &film->albedo[k], err);
+}
+
+static int paper_alloc(PaperFilm *film, RetexError *err)
+{
+    int code = RETEX_OK;
+    for (int k = 0; k < footprints_count(film) && !code; k++)
+        if (k % RETEX_MAX_ORDERS < film->params.orders)
+            code = add_footprint(film, k, err);
+    return code ? code : terms_create(&film->terms, film->bands, film->scene->ntargets, film->params.orders, err);
+}
+
+int paper_create(PaperFilm **out, const Scene *scene, const FilmParams *params, Bands *bands, RetexError *err)
+{
+    PaperFilm *film = *out = calloc(1, sizeof *film);
+    if (!film)
+        return retex_fail(err, RETEX_ENOMEM, "out of memory for the film");
+    film->scene = scene;
+    film->params = *params;
+    film->bands = bands;
+    return paper_alloc(film, err);
+}
+
+void paper_close(PaperFilm **film)
+{
+    if (!*film)
+        return;
+    terms_close(&(*film)->terms);
+    free(*film);
+    *film = NULL;
+}
+
+int paper_pixel_create(PaperPixel **out, PaperFilm *film, RetexError *err)
+{
+    PaperPixel *p = *out = calloc(1, sizeof *p);
+    if (p) {
+        p->film = film;
+        p->sums = calloc(TERMS_MAX, sizeof *p->sums);
+        p->touched = calloc(TERMS_MAX, sizeof *p->touched);
+    }
+    if (p && p->sums && p->touched)
+        return RETEX_OK;
+    paper_pixel_close(out);
+    return retex_fail(err, RETEX_ENOMEM, "out of memory for a thread's pixel");
+}
+
+void paper_pixel_close(PaperPixel **pixel)
+{
+    if (!*pixel)
+        return;
+    free((*pixel)->sums);
+    free((*pixel)->touched);
+    free(*pixel);
+    *pixel = NULL;
+}
+
+static void add_term(PaperPixel *p, TermKey key, Float4 value)
+{
+    int term = terms_find(&p->film->terms, &p->cache, key);
+    if (term < 0) { /* no room for one more: paper_finish says so */
+        p->film->lost = 1;
+        return;
+    }
+    if (is_black4(p->sums[term]))
+        p->touched[p->ntouched++] = term;
+    p->sums[term] += value;
+}
+
+/* The original albedo of each hit of a monomial, weighted by the light it multiplied: so a term of one factor keeps its
+ * original to the bit that arithmetic allows, whatever the texture does inside the pixel. */
+static void add_albedos(PaperPixel *p, const Expansion *e, unsigned hits, Float4 value)
+{
+    for (unsigned left = hits; left; left &= left - 1) {
+        const TargetHit *hit = &e->hits[__builtin_ctz(left)];
+        Float4 light = value;
+        for (unsigned others = hits & ~(left & -left); others; others &= others - 1)
+            light *= colour4(e->hits[__builtin_ctz(others)].albedo);
+        FootprintSums *f = &p->footprints[footprint_number(hit)];
+        f->light += light;
+        f->light_albedo += light * colour4(hit->albedo);
+    }
+}
+
+/* Remember that each hit of the expansion has more connections behind it. */
+static void note_connections(PaperPixel *p, const Expansion *e, int connections)
+{
+    for (int j = 0; j < e->size.nhits; j++) {
+        const TargetHit *hit = &e->hits[j];
+        int k = p->nhits - 1;
+        while (k >= 0 && !(p->hits[k].target == hit->target && p->hits[k].index == hit->index &&
+                           p->hits[k].uv.u == hit->uv.u && p->hits[k].uv.v == hit->uv.v))
+            k--;
+        if (k < 0) {
+            k = p->nhits++;
+            p->hits[k] = *hit;
+            p->connections[k] = 0;
+        }
+        p->connections[k] += connections;
+    }
+}
+
+/* A monomial's hits by target. */
+static HitMask mask_by_target(const Expansion *e, unsigned hits)
+{
+    HitMask mask = 0;
+    for (; hits; hits &= hits - 1) {
+        const TargetHit *hit = &e->hits[__builtin_ctz(hits)];
+        mask |= hit_bit(hit->target, hit->index);
+    }
+    return mask;
+}
+
+/* Light of so many connections behind the expansion's hits. */
+static void connect(PaperPixel *p, int connections)
+{
+    const Expansion *e = &p->expansion;
+    for (int k = 0; k < e->size.nmonomials; k++) {
+        const Monomial *m = &e->monomials[k];
+        if (is_black4(m->coefficient))
+            continue;
+        TermKey key = term_key(e->size.nhits, mask_by_target(e, m->hits), p->film->params.strict_paper);
+        if (key == TERM_DROPPED)
+            continue;
+        add_term(p, key, m->coefficient);
+        if (m->hits)
+            add_albedos(p, e, m->hits, m->coefficient);
+    }
+    note_connections(p, e, connections);
+}
+
+/* Make the expansion that of the hits before one. */
+static void expand_before(Expansion *e, const PathHit *hit)
+{
+    expansion_reset(e);
+    if (!hit->before)
+        return;
+    expand_before(e, hit->before);
+    expansion_push(e, &hit->before->at, hit->way_d, hit->way_i);
+}
+
+static void add_path(PaperPixel *p, const PathHits *path)
+{
+    Expansion *e = &p->expansion;
+    const PathHit *hits[PATH_HITS_MAX], *previous = NULL;
+    for (const PathHit *hit = path->last; hit; hit = hit->earlier)
+        hits[hit->number] = hit;
+    if (path->free_connections && !is_black4(path->free))
+        add_term(p, term_key(0, 0, 0), path->free);
+    expansion_reset(e);
+    for (int k = 0; k < path->count; previous = hits[k++]) {
+        const PathHit *hit = hits[k];
+        if (hit->before && hit->before == previous)
+            expansion_push(e, &previous->at, hit->way_d, hit->way_i);
+        else
+            expand_before(e, hit);
+        if (!hit->connections)
+            continue;
+        const int is_last = k + 1 == path->count;
+        if (!is_last)
+            expansion_mark(&p->mark, e);
+        expansion_push(e, &hit->at, hit->dependent, hit->independent);
+        connect(p, hit->connections);
+        if (!is_last)
+            expansion_return(e, &p->mark);
+    }
+}
+
+static void footprint_add(FootprintSums *f, const TargetHit *hit, int weight)
+{
+    const double before = f->count, uv[2] = {hit->uv.u, hit->uv.v};
+    f->count += weight;
+    const double share = weight / f->count;
+    for (int k = 0; k < 2; k++) {
+        double delta = uv[k] - f->mean[k];
+        f->mean[k] += delta * share;
+        f->m2[k] += delta * delta * before * share;
+    }
+    f->albedo += colour4(hit->albedo) * splat((float)weight);
+}
+
+void paper_path_end(PaperPixel *p, const PathHits *path, UvRange *range)
+{
+    HitMask seen = 0;
+    add_path(p, path);
+    for (int k = 0; k < p->nhits; k++) {
+        const TargetHit *hit = &p->hits[k];
+        FootprintSums *f = &p->footprints[footprint_number(hit)];
+        HitMask bit = hit_bit(hit->target, hit->index);
+        const double uv[2] = {hit->uv.u, hit->uv.v};
+        footprint_add(f, hit, p->connections[k]);
+        if (!(seen & bit))
+            f->samples++;
+        seen |= bit;
+        uv_range_add(range, hit->target, uv);
+    }
+    p->nhits = 0;
+}
+
+static void store_footprint(const PaperFilm *film, int k, const FootprintSums *f, BandRows *rows, int spp, int x, int y)
+{
+    float *uv = bands_pixel(rows, film->uv[k], x, y);
+    float *spread = bands_pixel(rows, film->spread[k], x, y);
+    float *albedo = bands_pixel(rows, film->albedo[k], x, y);
+    for (int a = 0; a < 2; a++) {
+        uv[a] = (float)f->mean[a];
+        spread[a] = (float)sqrt(f->m2[a] / f->count);
+    }
+    uv[2] = (float)f->samples / (float)spp;
+    for (int c = 0; c < 3; c++)
+        albedo[c] = f->light[c] > 0 ? f->light_albedo[c] / f->light[c] : (float)(f->albedo[c] / f->count);
+}
+
+void paper_totals(const PaperPixel *p, SignalTotals *totals)
+{
+    memset(totals->of, 0, sizeof totals->of[0] * (size_t)(1 + p->film->scene->ntargets));
+    for (int k = 0; k < p->ntouched; k++) {
+        const Float4 sum = p->sums[p->touched[k]];
+        int nfactors, target = terms_place(&p->film->terms, p->touched[k], &nfactors);
+        double weight = nfactors ? 2.0 / (double)(1u << nfactors) : 1;
+        for (int c = 0; c < 3; c++)
+            totals->of[1 + target][c] += weight * sum[c];
+    }
+}
+
+void paper_pixel_end(PaperPixel *p, BandRows *rows, int spp, int x, int y)
+{
+    PaperFilm *film = p->film;
+    float scale = 1 / (float)spp;
+    for (int k = 0; k < p->ntouched; k++) {
+        Float4 *sum = &p->sums[p->touched[k]];
+        float *pixel = bands_pixel(rows, film->terms.images[p->touched[k]], x, y);
+        for (int c = 0; c < 3; c++)
+            pixel[c] = (*sum)[c] * scale;
+        *sum = splat(0);
+    }
+    p->ntouched = 0;
+    for (int k = 0; k < footprints_count(film); k++)
+        if (p->footprints[k].count > 0) {
+            store_footprint(film, k, &p->footprints[k], rows, spp, x, y);
+            p->footprints[k] = (FootprintSums){0};
+        }
+}
+
+void paper_band_stats(const PaperFilm *film, const BandRows *rows, RetexBandStats *stats)
+{
+    for (int t = 0; t < film->scene->ntargets; t++)
+        for (int k = t * RETEX_MAX_ORDERS; k < t * RETEX_MAX_ORDERS + film->params.orders; k++)
+            bands_add_albedo(rows, film->uv[k], film->albedo[k], stats, t);
+}
+
+static int finish_footprints(PaperFilm *film, RetexSet *set, RetexError *err)
+{
+    int code = RETEX_OK;
+    for (int t = 0; t < film->scene->ntargets; t++)
+        for (int j = 0; j < film->params.orders && !code; j++) {
+            int k = t * RETEX_MAX_ORDERS + j;
+            RetexFootprint f = {.target = t, .hit = j + 1};
+            code = bands_move_part(film->bands, film->uv[k], set, &f.uv, err);
+            if (!code)
+                code = bands_move_part(film->bands, film->spread[k], set, &f.spread, err);
+            if (!code)
+                code = bands_move_part(film->bands, film->albedo[k], set, &f.albedo, err);
+            if (!code)
+                code = retex_set_add_footprint(set, &f, NULL, err);
+        }
+    return code;
+}
+
+int paper_finish(PaperFilm *film, RetexSet *set, RetexError *err)
+{
+    if (film->lost)
+        return retex_fail(err, RETEX_ELIMIT, "the set needs more than %d terms, or more memory than there is: %s",
+                          TERMS_MAX, "take fewer targets or orders");
+    int code = finish_footprints(film, set, err);
+    return code ? code : terms_finish(&film->terms, set, err);
+}

@@ -1,0 +1,63 @@
+/* The common case for a whole packet of paths: surfaces that only scatter by Lambert's law, on the side they are seen
+ * from, lit by faces of meshes that shine alike all over. Lane by lane the same numbers, to the bit, as lights_sample,
+ * bsdf_eval, bsdf_sample and accel_offset give. */
+#ifndef RENDERER_PATH_MATTE_H
+#define RENDERER_PATH_MATTE_H
+
+#include "accel/accel.h"
+#include "light/mesh_light.h"
+
+#define MATTE_LANES ACCEL_PACKET
+
+typedef double MatteDoubles[MATTE_LANES];
+typedef float MatteFloats[MATTE_LANES];
+
+typedef struct MatteVectors {
+    MatteDoubles x, y, z;
+} MatteVectors;
+
+/* Lanes beyond the count may hold anything. */
+typedef struct MattePacket {
+    int count;
+    MatteVectors position, normal, geometric; /* normals on the side that is seen, for shading and the shape's own */
+    MatteFloats diffuse;
+    /* the face, the density of points on it, the probability of having picked it */
+    MatteVectors corner, edge1, edge2, face_normal;
+    MatteDoubles density;
+    MatteFloats pick_probability;
+    MatteFloats light_u, light_v, direction_u, direction_v; /* in [0, 1) */
+} MattePacket;
+
+/* Light from the faces, before it is known whether anything is in the way. */
+typedef struct MatteLights {
+    int found[MATTE_LANES];
+    int behind[MATTE_LANES]; /* it is the face's back that shines on the surface */
+    MatteVectors origin, direction;
+    MatteDoubles reach;      /* of the ray */
+    MatteFloats value;       /* of the BSDF over albedo, times the cosine */
+    MatteFloats weight;      /* by both ways to find the light, over its density */
+} MatteLights;
+
+/* Where paths go on. */
+typedef struct MatteBounces {
+    int found[MATTE_LANES];
+    MatteVectors origin, direction;
+    MatteFloats pdf;
+} MatteBounces;
+
+void matte_lights(MatteLights *lights, const MattePacket *packet);
+void matte_bounces(MatteBounces *bounces, const MattePacket *packet);
+/* The same with instructions that every machine has: the reference. */
+void matte_lights_plain(MatteLights *lights, const MattePacket *packet);
+void matte_bounces_plain(MatteBounces *bounces, const MattePacket *packet);
+
+static inline void matte_set(MatteVectors *to, int lane, Vec3 v)
+{
+    to->x[lane] = v.x, to->y[lane] = v.y, to->z[lane] = v.z;
+}
+static inline Vec3 matte_get(const MatteVectors *from, int lane)
+{
+    return vec3(from->x[lane], from->y[lane], from->z[lane]);
+}
+
+#endif

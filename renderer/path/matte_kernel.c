@@ -1,0 +1,141 @@
+/* See matte.h. Loops over lanes without branches: the compiler makes vectors of them. */
+#include "path/matte.h"
+
+#define INLINE static inline __attribute__((always_inline))
+
+/* accel_offset, to the side that a direction leaves to. */
+INLINE Vec3 start_of_ray(Vec3 position, Vec3 geometric, double margin, double side)
+{
+    return vec_mad(position, geometric, side < 0 ? -margin : margin);
+}
+
+INLINE void light_lane(MatteLights *to, const MattePacket *p, int k)
+{
+    Vec3 position = matte_get(&p->position, k), geometric = matte_get(&p->geometric, k);
+    Vec3 face_normal = matte_get(&p->face_normal, k);
+    /* a point of the face, uniform in area */
+    double u = p->light_u[k], v = p->light_v[k], root = sqrt(u), b1 = root * (1 - v), b2 = root * v;
+    Vec3 point = vec_mad(vec_mad(matte_get(&p->corner, k), matte_get(&p->edge1, k), b1), matte_get(&p->edge2, k), b2);
+    Vec3 d = vec_sub(point, position);
+    double distance = vec_length(d);
+    Vec3 direction = vec_scale(d, 1 / distance);
+    double facing = vec_dot(direction, face_normal), slope = fabs(facing);
+    float light_pdf = (float)(p->density[k] * distance * distance / slope) * p->pick_probability[k];
+    /* Lambert */
+    float cosine = (float)vec_dot(direction, matte_get(&p->normal, k));
+    double side = vec_dot(direction, geometric);
+    float pdf = cosine / (float)PI, value = p->diffuse[k] * pdf, ratio = pdf / light_pdf;
+    /* the ray stops just before the light: its surface is met, by a ray begun beside, the earlier the flatter */
+    double margin = accel_margin(position);
+    double reach = distance * (1 - 1e-6) - margin;
+    reach -= (margin + accel_margin(point)) / (slope > 1e-3 ? slope : 1e-3);
+    Vec3 origin = start_of_ray(position, geometric, margin, side);
+    to->found[k] = (distance > 0) & (slope > 1e-9) & (cosine > 0) & (side >= 0) & (value != 0);
+    to->behind[k] = facing > 0;
+    matte_set(&to->direction, k, direction);
+    matte_set(&to->origin, k, origin);
+    to->reach[k] = reach > 0 ? reach : 0;
+    to->value[k] = value;
+    to->weight[k] = 1 / (1 + ratio * ratio) / light_pdf;
+}
+
+INLINE void bounce_lane(MatteBounces *to, const MattePacket *p, int k)
+{
+    Vec3 position = matte_get(&p->position, k), geometric = matte_get(&p->geometric, k);
+    Vec3 normal = matte_get(&p->normal, k), s, t;
+    float u = p->direction_u[k];
+    double r = sqrt(u), sine, cosine;
+    turn_sincos(p->direction_v[k], &sine, &cosine);
+    vec_frame(normal, &s, &t);
+    Vec3 wi = vec_mad(vec_mad(vec_scale(normal, sqrt(1 - u)), s, r * cosine), t, r * sine);
+    float height = (float)vec_dot(wi, normal);
+    double side = vec_dot(wi, geometric);
+    Vec3 origin = start_of_ray(position, geometric, accel_margin(position), side);
+    to->found[k] = (height > 0) & (side > 0);
+    matte_set(&to->direction, k, wi);
+    matte_set(&to->origin, k, origin);
+    to->pdf[k] = height / (float)PI;
+}
+
+INLINE void light_lanes(MatteLights *restrict to, const MattePacket *restrict p)
+{
+    for (int k = 0; k < MATTE_LANES; k++)
+        light_lane(to, p, k);
+}
+
+INLINE void bounce_lanes(MatteBounces *restrict to, const MattePacket *restrict p)
+{
+    for (int k = 0; k < MATTE_LANES; k++)
+        bounce_lane(to, p, k);
+}
+
+void matte_lights_plain(MatteLights *to, const MattePacket *p)
+{
+    light_lanes(to, p);
+}
+
+void matte_bounces_plain(MatteBounces *to, const MattePacket *p)
+{
+    bounce_lanes(to, p);
+}
+
+#if defined(__x86_64__)
+#define TARGET_AVX2 __attribute__((target("avx2")))
+#define TARGET_AVX512 __attribute__((target("avx512f,avx512dq,avx512vl,prefer-vector-width=512")))
+
+TARGET_AVX2 static void lights_avx2(MatteLights *to, const MattePacket *p)
+{
+    light_lanes(to, p);
+}
+
+TARGET_AVX512 static void lights_avx512(MatteLights *to, const MattePacket *p)
+{
+    light_lanes(to, p);
+}
+
+TARGET_AVX2 static void bounces_avx2(MatteBounces *to, const MattePacket *p)
+{
+    bounce_lanes(to, p);
+}
+
+TARGET_AVX512 static void bounces_avx512(MatteBounces *to, const MattePacket *p)
+{
+    bounce_lanes(to, p);
+}
+
+static int has_avx512(void)
+{
+    return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
+           __builtin_cpu_supports("avx512vl");
+}
+
+void matte_lights(MatteLights *to, const MattePacket *p)
+{
+    if (has_avx512())
+        lights_avx512(to, p);
+    else if (__builtin_cpu_supports("avx2"))
+        lights_avx2(to, p);
+    else
+        light_lanes(to, p);
+}
+
+void matte_bounces(MatteBounces *to, const MattePacket *p)
+{
+    if (has_avx512())
+        bounces_avx512(to, p);
+    else if (__builtin_cpu_supports("avx2"))
+        bounces_avx2(to, p);
+    else
+        bounce_lanes(to, p);
+}
+#else
+void matte_lights(MatteLights *to, const MattePacket *p)
+{
+    light_lanes(to, p);
+}
+
+void matte_bounces(MatteBounces *to, const MattePacket *p)
+{
+    bounce_lanes(to, p);
+}
+#endif

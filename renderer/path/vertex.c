@@ -1,0 +1,134 @@
+/* What is chosen at a surface: a light, and a direction to go on, by the BSDF or by the guide to caustics. */
+#include "path/internal.h"
+
+Split emitted(const Shading *s)
+{
+    float opacity = at_most(not_negative(1 - s->filter - s->transmit), 1);
+    return (Split){rgb_scale(s->surface.texture->finish->emission, opacity), {0, 0, 0}};
+}
+
+/* Radiance a sampled light sends, and the factor of its pigment where it is a shape. Returns the number of factors. */
+static int light_factors(PathWorker *w, int lane, LightSample *light, Factor *factors)
+{
+    const PathContext *c = w->context;
+    if (light->kind != LIGHT_SAMPLE_EMITTER)
+        return 0;
+    Shading s;
+    s.surface = light->surface;
+    shading_color(&s, NULL, w->variants, c->nvariants);
+    light->radiance = rgb_grey(1);
+    const Split shines = emitted(&s);
+    factors[0] = shading_factor(&s, colour4(shines.d), colour4(shines.i));
+    factors[0].albedos = keep_albedos(c, w->light_albedos[lane], &s);
+    return 1;
+}
+
+LitPoint lit_point(const Shading *s)
+{
+    const Vec3 none = {0, 0, 0};
+    return (LitPoint){s->surface.position, bsdf_only_reflects(&s->bsdf) ? s->bsdf.normal : none};
+}
+
+/* ---- directions by the guide to caustics ---- */
+
+/* Probability of the lobes that are no deltas: the guide takes a share of their choice. */
+static float wide_probability(const Bsdf *b)
+{
+    return b->p_diffuse + b->p_back + b->p_glossy;
+}
+
+const CausticsCell *guide_cell(const PathContext *c, const Shading *s)
+{
+    return c->caustics && wide_probability(&s->bsdf) > 0 ? caustics_find(c->caustics, s->surface.position) : NULL;
+}
+
+/* Density of a direction by either way, given the BSDF's own. The guide only knows what comes to wo's side. */
+static float guided_density(const Vertex *v, Vec3 wi, float pdf)
+{
+    const Bsdf *b = &v->s.bsdf;
+    if (!v->cell)
+        return pdf;
+    pdf *= 1 - v->cell->share;
+    if (vec_dot(wi, b->normal) <= 0 || vec_dot(wi, b->geometric) <= 0)
+        return pdf;
+    return pdf + v->cell->share * wide_probability(b) * caustics_density(v->cell, v->s.surface.position, wi);
+}
+
+/* A direction by the guide, as one of the BSDF's. */
+static int sample_guide(const Vertex *v, float u_lobe, BsdfSample *sample)
+{
+    const Bsdf *b = &v->s.bsdf;
+    *sample = (BsdfSample){0};
+    sample->wi = caustics_sample(v->cell, v->s.surface.position, u_lobe, v->numbers->direction_u[v->lane],
+                                 v->numbers->direction_v[v->lane]);
+    if (vec_dot(sample->wi, b->normal) <= 0 || vec_dot(sample->wi, b->geometric) <= 0)
+        return 0;
+    Split f = bsdf_eval(b, sample->wi, 0, &sample->pdf);
+    if (sample->pdf <= 0)
+        return 0;
+    sample->weight = (Split){rgb_scale(f.d, 1 / sample->pdf), rgb_scale(f.i, 1 / sample->pdf)};
+    return 1;
+}
+
+int sample_direction(const Vertex *v, BsdfSample *sample, float *pdf)
+{
+    const Bsdf *b = &v->s.bsdf;
+    const VertexSamples *u = v->numbers;
+    float u_lobe = u->lobe[v->lane];
+    int found;
+    if (!v->cell) {
+        found = bsdf_sample(b, u_lobe, u->direction_u[v->lane], u->direction_v[v->lane], sample);
+        *pdf = sample->pdf;
+        return found;
+    }
+    float share = v->cell->share, wide = wide_probability(b), delta = 1 - wide, rest = (u_lobe - delta) / wide;
+    if (rest >= 0 && rest < share) {
+        found = sample_guide(v, rest / share, sample);
+    } else {
+        if (rest >= 0) /* what is left of u, stretched */
+            u_lobe = at_most(delta + (rest - share) / (1 - share) * wide, 1 - 0x1p-24f);
+        found = bsdf_sample(b, u_lobe, u->direction_u[v->lane], u->direction_v[v->lane], sample);
+    }
+    if (!found)
+        return 0;
+    *pdf = sample->pdf > 0 ? guided_density(v, sample->wi, sample->pdf) : 0;
+    return 1;
+}
+
+void pick_light(PathWorker *w, Vertex *v)
+{
+    const PathContext *c = w->context;
+    const Shading *s = &v->s;
+    const VertexSamples *u = v->numbers;
+    int k = v->lane;
+    LightTry *t = &v->light;
+    LightSample *light = &t->light;
+    LitPoint point = lit_point(s);
+    t->found = 0;
+    if (!v->picked)
+        v->pick = lights_pick(c->lights, &point, u->light_choice[k], u->light_part[k]);
+    if (!lights_sample(c->lights, &point, &v->pick, u->light_point_u[k], u->light_point_v[k], light))
+        return;
+    Split f = bsdf_eval(&s->bsdf, light->direction, light->kind == LIGHT_SAMPLE_SOURCE, &t->pdf);
+    if (rgb_is_black(f.d) && rgb_is_black(f.i))
+        return;
+    if (light->kind != LIGHT_SAMPLE_SOURCE)
+        t->pdf = guided_density(v, light->direction, t->pdf);
+    t->found = 1;
+    t->looked = 0;
+    t->factors[0] = shading_factor(s, colour4(f.d), colour4(f.i));
+    t->nfactors = 1 + light_factors(w, k, light, t->factors + 1);
+    t->other_side = vec_dot(light->direction, s->bsdf.geometric) < 0;
+    t->ray = (Ray){accel_offset(s->surface.position, s->surface.geometric_normal, light->direction), light->direction,
+                   0, INFINITY};
+    if (isfinite(light->distance)) { /* stop just before the light, seen from where the ray starts */
+        double margin = accel_margin(s->surface.position);
+        t->ray.tmax = light->distance * (1 - 1e-6) - margin;
+        if (light->kind == LIGHT_SAMPLE_EMITTER) {
+            /* Its surface is met by the ray, begun beside, the earlier the flatter. */
+            double slope = fabs(vec_dot(light->direction, light->surface.geometric_normal));
+            t->ray.tmax -= (margin + accel_margin(light->surface.position)) / (slope > 1e-3 ? slope : 1e-3);
+        }
+        t->ray.tmax = t->ray.tmax > 0 ? t->ray.tmax : 0; /* Embree takes what is below 0 for met already */
+    }
+}

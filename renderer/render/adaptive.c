@@ -1,0 +1,82 @@
+/* See adaptive.h. */
+#include <stdlib.h>
+#include "render/adaptive.h"
+
+#define PIXELS_MAX 1024 /* of a tile */
+#define DARK_SHARE 0.05 /* of the tile's mean: darker pixels need not be better than that */
+
+struct Adaptive {
+    PathContext context;
+    PathWorker worker;
+    Film *film; /* of one pixel, for its sums */
+    FilmPixel *pixel;
+    double sum, squares; /* of the pixel's samples so far */
+    int samples;
+    double mean[PIXELS_MAX], variance[PIXELS_MAX];
+    int count;
+};
+
+int adaptive_create(Adaptive **out, const PathContext *context, const RenderVariant *variants, RetexError *err)
+{
+    const FilmParams film = {.width = 1, .height = 1, .spp = 1, .ntiles = 1};
+    Adaptive *a = *out = calloc(1, sizeof *a);
+    if (!a)
+        return retex_fail(err, RETEX_ENOMEM, "out of memory for adaptive sampling");
+    a->context = *context;
+    a->context.split = 0, a->context.nvariants = a->context.halves = 1;
+    int code = film_create(&a->film, context->scene, &film, err);
+    if (!code)
+        code = film_pixel_create(&a->pixel, a->film, err);
+    if (code)
+        adaptive_close(out);
+    else
+        a->worker.context = &a->context, a->worker.pixel = a->pixel, a->worker.variants = variants;
+    return code;
+}
+
+void adaptive_close(Adaptive **adaptive)
+{
+    if (!*adaptive)
+        return;
+    film_pixel_close(&(*adaptive)->pixel);
+    film_close(&(*adaptive)->film);
+    free(*adaptive);
+    *adaptive = NULL;
+}
+
+PathWorker *adaptive_worker(Adaptive *adaptive)
+{
+    return &adaptive->worker;
+}
+
+void adaptive_path_end(Adaptive *a)
+{
+    Rgb beauty = film_pixel_take(a->pixel);
+    double l = rgb_luminance(beauty);
+    a->sum += l, a->squares += l * l;
+    a->samples++;
+}
+
+void adaptive_pixel_end(Adaptive *a)
+{
+    double n = a->samples, mean = a->sum / n, variance = n > 1 ? (a->squares / n - mean * mean) * n / (n - 1) : 0;
+    a->mean[a->count] = mean;
+    a->variance[a->count++] = variance > 0 ? variance : 0;
+    a->sum = a->squares = 0;
+    a->samples = 0;
+}
+
+int adaptive_tile_samples(Adaptive *a, double noise, int most)
+{
+    double all = 0, sum = 0;
+    for (int k = 0; k < a->count; k++)
+        all += a->mean[k];
+    double dark = DARK_SHARE * all / a->count + 1e-4;
+    for (int k = 0; k < a->count; k++)
+        sum += a->variance[k] / (a->mean[k] + dark);
+    double wanted = sum / a->count / (noise * noise);
+    int packets = wanted < most ? (int)ceil(wanted / ACCEL_PACKET) : most, samples = packets * ACCEL_PACKET;
+    a->count = 0;
+    samples = samples > ADAPTIVE_LEAST ? samples : ADAPTIVE_LEAST;
+    return samples < most ? samples : most;
+}

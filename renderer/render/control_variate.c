@@ -1,0 +1,214 @@
+/* See control_variate.h. */
+#include <math.h>
+#include <string.h>
+#include "render/control_variate.h"
+
+enum { REPLACED = 0, ORIGINAL = 1, CONSTANT = 2 };
+#define RIDGE 1e-3 /* keeps apart controls that are nearly the same */
+
+/* The control's mean and the variance of that mean, or no variance where it is not known. */
+typedef struct Control {
+    const RetexImage *mean, *variance;
+} Control;
+
+static const RetexImage *find_image(const RetexSet *set, const char *name)
+{
+    int part = retex_set_find_part(set, name);
+    if (part < 0 || set->parts[part].image.channels != 3 || set->parts[part].image.width != set->width ||
+        set->parts[part].image.height != set->height)
+        return NULL;
+    return &set->parts[part].image;
+}
+
+/* Number of the window's columns (rows) that lie in a picture so wide (high). */
+static int window_count(int at, int size)
+{
+    int low = at - CONTROL_RADIUS, high = at + CONTROL_RADIUS;
+    return (high < size - 1 ? high : size - 1) - (low > 0 ? low : 0) + 1;
+}
+
+/* Mean over the window about each pixel, of what lies inside the picture; without the pixel itself, if others_only. */
+static int smooth(RetexImage *dst, const RetexImage *src, int others_only, RetexError *err)
+{
+    RetexImage rows = {0};
+    int w = src->width, h = src->height, code = retex_image_alloc(&rows, w, h, 3, err);
+    if (!code)
+        code = retex_image_alloc(dst, w, h, 3, err);
+    for (int pass = 0; pass < 2 && !code; pass++) { /* along rows, then along columns */
+        const RetexImage *from = pass ? &rows : src;
+        for (int y = 0; y < h; y++)
+            for (int x = 0; x < w; x++) {
+                double sum[3] = {0, 0, 0};
+                size_t at = retex_image_index(src, x, y);
+                for (int k = -CONTROL_RADIUS; k <= CONTROL_RADIUS; k++) {
+                    int u = pass ? x : x + k, v = pass ? y + k : y;
+                    if (u < 0 || v < 0 || u >= w || v >= h)
+                        continue;
+                    const float *p = from->pixels + retex_image_index(from, u, v);
+                    sum[0] += p[0], sum[1] += p[1], sum[2] += p[2];
+                }
+                int count = pass ? window_count(x, w) * window_count(y, h) - others_only : 1;
+                for (size_t c = 0; c < 3; c++) {
+                    double own = pass && others_only ? src->pixels[at + c] : 0;
+                    (pass ? dst : &rows)->pixels[at + c] = count > 0 ? (float)((sum[c] - own) / count) : 0;
+                }
+            }
+    }
+    retex_image_free(&rows);
+    return code;
+}
+
+/* alpha, from moments of some samples, when the mean of `wanted` samples is to be mended. */
+static int find_alpha(RetexImage *alpha, const ControlMoments *m, int samples, int wanted, const Control *control,
+                      double control_share, int spp, int others_only, RetexError *err)
+{
+    RetexImage both = {0}, own = {0}, stored = {0};
+    int code = smooth(&both, &m->covariance[control_pair(REPLACED, ORIGINAL)], others_only, err);
+    if (!code)
+        code = smooth(&own, &m->covariance[control_pair(ORIGINAL, ORIGINAL)], others_only, err);
+    if (!code && control->variance)
+        code = smooth(&stored, control->variance, others_only, err);
+    if (!code)
+        code = retex_image_alloc(alpha, own.width, own.height, 3, err);
+    size_t count = (size_t)own.width * (size_t)own.height * 3;
+    double scale = (double)samples / wanted;
+    for (size_t i = 0; i < count && !code; i++) {
+        double f0 = own.pixels[i] * scale,
+               g = control->variance ? stored.pixels[i] * control_share : own.pixels[i] * (double)samples / spp;
+        alpha->pixels[i] = f0 + g > 0 ? (float)(both.pixels[i] * scale / (f0 + g)) : 0;
+    }
+    retex_image_free(&both);
+    retex_image_free(&own);
+    retex_image_free(&stored);
+    return code;
+}
+
+/* Add the share of one half to dst. */
+static void add_estimate(RetexImage *dst, const ControlMoments *m, const RetexImage *alpha, const RetexImage *control,
+                         double weight)
+{
+    const float *f1 = m->mean[REPLACED].pixels, *f0 = m->mean[ORIGINAL].pixels;
+    size_t count = (size_t)dst->width * (size_t)dst->height * 3;
+    for (size_t i = 0; i < count; i++)
+        dst->pixels[i] += (float)(weight * (f1[i] - alpha->pixels[i] * (f0[i] - control->pixels[i])));
+}
+
+static int from_all(RetexImage *dst, const ControlMoments *m, int samples, const RetexSet *set, int others_only,
+                    RetexError *err)
+{
+    Control control = {&set->parts[0].image, find_image(set, "variance")};
+    RetexImage alpha = {0};
+    int code = find_alpha(&alpha, m, samples, samples, &control, 1, set->spp, others_only, err);
+    if (!code)
+        add_estimate(dst, m, &alpha, control.mean, 1);
+    retex_image_free(&alpha);
+    return code;
+}
+
+static int from_halves(RetexImage *dst, ControlMoments *const *moments, const int *samples, const RetexSet *set,
+                       RetexError *err)
+{
+    static const char *const names[2][2] = {{"beauty_a", "variance_a"}, {"beauty_b", "variance_b"}};
+    Control controls[2];
+    int halves = 1, total = samples[0] + samples[1], code = RETEX_OK;
+    for (int h = 0; h < 2; h++) {
+        controls[h] = (Control){find_image(set, names[h][0]), find_image(set, names[h][1])};
+        halves &= controls[h].mean && controls[h].variance;
+    }
+    for (int h = 0; h < 2 && !halves; h++) /* a variance of the same samples as the beauty would depend on it */
+        controls[h] = (Control){&set->parts[0].image, NULL};
+    for (int h = 0; h < 2 && !code; h++) {
+        RetexImage alpha = {0};
+        int other = 1 - h;
+        code = find_alpha(&alpha, moments[other], samples[other], total, &controls[other], 0.5, set->spp, 0, err);
+        if (!code)
+            add_estimate(dst, moments[h], &alpha, controls[h].mean, (double)samples[h] / total);
+        retex_image_free(&alpha);
+    }
+    return code;
+}
+
+/* Both controls, with alphas from the pixels around. What the set's own noise adds to variances and covariances is in
+ * proportion: it is made of the same paths. */
+static int from_both(RetexImage *dst, const ControlMoments *m, int samples, const RetexSet *set,
+                     const RetexImage *combined, RetexError *err)
+{
+    static const int pairs[5][2] = {
+        {REPLACED, ORIGINAL}, {REPLACED, CONSTANT}, {ORIGINAL, ORIGINAL}, {ORIGINAL, CONSTANT}, {CONSTANT, CONSTANT}};
+    RetexImage c[5] = {{0}};
+    int code = RETEX_OK;
+    for (int k = 0; k < 5 && !code; k++)
+        code = smooth(&c[k], &m->covariance[control_pair(pairs[k][0], pairs[k][1])], 1, err);
+    double share = 1 / (1 + (double)samples / set->spp);
+    const float *f1 = m->mean[REPLACED].pixels, *f0 = m->mean[ORIGINAL].pixels, *fc = m->mean[CONSTANT].pixels,
+                *g0 = set->parts[0].image.pixels, *gc = combined->pixels;
+    size_t count = (size_t)dst->width * (size_t)dst->height * 3;
+    for (size_t i = 0; i < count && !code; i++) {
+        double r0 = c[0].pixels[i], rc = c[1].pixels[i], v0 = c[2].pixels[i] * (1 + RIDGE), v0c = c[3].pixels[i],
+               vc = c[4].pixels[i] * (1 + RIDGE), det = v0 * vc - v0c * v0c, a0 = 0, ac = 0;
+        if (det > 0)
+            a0 = (r0 * vc - rc * v0c) / det, ac = (rc * v0 - r0 * v0c) / det;
+        else if (vc > 0)
+            ac = rc / vc;
+        else if (v0 > 0)
+            a0 = r0 / v0;
+        dst->pixels[i] = (float)(f1[i] - share * (a0 * (f0[i] - g0[i]) + ac * (fc[i] - gc[i])));
+    }
+    for (int k = 0; k < 5; k++)
+        retex_image_free(&c[k]);
+    return code;
+}
+
+int control_variate(RetexImage *dst, ControlMoments *const *moments, const int *samples, const RetexSet *set,
+                    const RetexImage *combined, ControlMode mode, RetexError *err)
+{
+    int code = retex_image_alloc(dst, set->width, set->height, 3, err);
+    if (!code)
+        code = mode == CONTROL_HALVES ? from_halves(dst, moments, samples, set, err)
+               : combined             ? from_both(dst, moments[0], samples[0], set, combined, err)
+                                      : from_all(dst, moments[0], samples[0], set, mode == CONTROL_UNBIASED, err);
+    if (code)
+        retex_image_free(dst);
+    return code;
+}
+
+double control_distance(ControlMoments *const *moments, const int *samples, int nhalves, const RetexSet *set)
+{
+    double difference = 0, variance = 0, total = nhalves > 1 ? samples[0] + samples[1] : samples[0];
+    const RetexImage *g = &set->parts[0].image;
+    for (size_t i = 0; i < (size_t)g->width * (size_t)g->height * 3; i++) {
+        double f0 = 0;
+        for (int h = 0; h < nhalves; h++) {
+            double share = samples[h] / total, own = moments[h]->covariance[control_pair(ORIGINAL, ORIGINAL)].pixels[i];
+            f0 += share * moments[h]->mean[ORIGINAL].pixels[i];
+            variance += share * share * own * (1 + total / set->spp);
+        }
+        difference += f0 - g->pixels[i];
+    }
+    return variance > 0 ? fabs(difference) / sqrt(3 * variance) : 0; /* 3: channels go together */
+}
+
+static int add_image(RetexSet *set, const char *name, const RetexImage *image, RetexError *err)
+{
+    int part, code = retex_set_add_part(set, name, "RGB", RETEX_FLOAT, 0, 0, &part, err);
+    if (!code)
+        memcpy(set->parts[part].image.pixels, image->pixels,
+               (size_t)image->width * (size_t)image->height * 3 * sizeof(float));
+    return code;
+}
+
+int control_data_add(RetexSet *set, ControlMoments *const *moments, const int *samples, int nhalves, RetexError *err)
+{
+    static const char *const names[2][2] = {{"beauty_a", "variance_a"}, {"beauty_b", "variance_b"}};
+    double total = nhalves > 1 ? samples[0] + samples[1] : samples[0];
+    int part, code = retex_set_add_part(set, "variance", "RGB", RETEX_FLOAT, 0, 0, &part, err);
+    for (int h = 0; h < nhalves && !code; h++) {
+        const float *own = moments[h]->covariance[0].pixels;
+        float *sum = set->parts[part].image.pixels, share = (float)(samples[h] / total);
+        for (size_t i = 0; i < (size_t)set->width * (size_t)set->height * 3; i++)
+            sum[i] += share * share * own[i];
+        if (nhalves > 1 && !(code = add_image(set, names[h][0], &moments[h]->mean[0], err)))
+            code = add_image(set, names[h][1], &moments[h]->covariance[0], err);
+    }
+    return code;
+}

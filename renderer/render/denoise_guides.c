@@ -1,0 +1,241 @@
+/* See denoise_guides.h. */
+#include <stdio.h>
+#include "render/denoise_guides.h"
+#include "path/path.h"
+
+/* A pixel is looked at in few places, and where these do not all see the same in many: as many of its samples as are
+ * spread evenly. */
+#define PLACES_FEW 16
+#define PLACES_MANY 64
+#define ONE_NORMAL 0.999 /* length of the mean of normals that count as one */
+#define ONE_ALBEDO 1e-4  /* variance of the luminance of albedos that count as one */
+#define FOLLOWED_MAX 16  /* mirrors and glasses on the way */
+
+static const struct {
+    const char *name, *letters;
+    RetexPixelType type;
+} guide_table[GUIDE_COUNT] = {
+    [GUIDE_NORMAL] = {"guide_normal", "RGB", RETEX_HALF},
+    [GUIDE_POSITION] = {"guide_position", "RGB", RETEX_FLOAT},
+    [GUIDE_SPECULAR] = {"guide_specular", "R", RETEX_HALF},
+    [GUIDE_SEEN_NORMAL] = {"guide_seen_normal", "RGB", RETEX_HALF},
+    [GUIDE_SEEN_POSITION] = {"guide_seen_position", "RGB", RETEX_FLOAT},
+    [GUIDE_SEEN_ALBEDO] = {"guide_seen_albedo", "RGB", RETEX_HALF},
+    [GUIDE_SEEN_MATERIAL] = {"guide_seen_material", "RGB", RETEX_HALF},
+};
+
+static void add_sight(Sight *sight, const Shading *s)
+{
+    sight->places++;
+    sight->normal = vec_add(sight->normal, s->bsdf.normal);
+    sight->position = vec_add(sight->position, s->surface.position);
+}
+
+/* What a texture on the surface may be is not known where it is a target. */
+static Rgb known_albedo(const DenoiseGuides *job, const Shading *s)
+{
+    return job->split && s->surface.target >= 0 ? rgb_grey(1) : shading_albedo(s, 0);
+}
+
+/* A lamp, whose colour is no pigment that light falls on. */
+static int is_emitter(const Shading *s)
+{
+    return rgb_luminance(s->surface.texture->finish->emission) > s->bsdf.diffuse;
+}
+
+static void add_albedo(PixelGuides *sums, Rgb albedo)
+{
+    double l = rgb_luminance(albedo);
+    sums->albedo = rgb_add(sums->albedo, albedo);
+    sums->luminance += l, sums->luminance_squared += l * l;
+}
+
+static void add_seen(const DenoiseGuides *job, PixelGuides *sums, const Shading *s)
+{
+    add_sight(&sums->seen, s);
+    add_albedo(sums, is_emitter(s) ? rgb_grey(1) : known_albedo(job, s));
+    sums->roughness += shading_roughness(s);
+    sums->metallic += shading_metallic(s);
+}
+
+/* Where a mirror or clear glass, unless it is more of something else, sends the ray on, and what it leaves of the
+ * light. Returns 0 where the surface is itself what is seen. */
+static int follow(const DenoiseGuides *job, const Shading *s, const Hit *hit, Ray *ray, RayKind *kind,
+                  float *throughput)
+{
+    const Bsdf *b = &s->bsdf;
+    int mirror = b->p_mirror > b->p_passing;
+    float likely = mirror ? b->p_mirror : b->p_passing;
+    BsdfSample next;
+    if (!(likely > fmaxf(b->p_diffuse, fmaxf(b->p_back, b->p_glossy))))
+        return 0;
+    if (!bsdf_sample(b, mirror ? likely / 2 : b->p_mirror + likely / 2, 0, 0, &next))
+        return 0;
+    *throughput *= fminf(1, rgb_luminance(split_apply(mirror ? b->mirror : b->passing, known_albedo(job, s))));
+    if (next.straight) {
+        ray->tmin = hit->t;
+        return 1;
+    }
+    *kind = path_next_kind(*kind, b, next.transmitted);
+    *ray = (Ray){accel_offset(s->surface.position, s->surface.geometric_normal, next.wi), next.wi, 0, INFINITY};
+    return 1;
+}
+
+/* A target counts where it is met first, be it a mirror itself. */
+static void add_cover(double cover[RETEX_MAX_TARGETS], unsigned *met, const Shading *s, float throughput)
+{
+    if (s->surface.target >= 0 && !(*met >> s->surface.target & 1)) {
+        cover[s->surface.target] += throughput;
+        *met |= 1u << s->surface.target;
+    }
+}
+
+/* What is seen at a place, by number. */
+static void note_primitive(PixelGuides *sums, int primitive)
+{
+    if (sums->places++ == 0)
+        sums->primitive = primitive;
+    sums->differ |= primitive != sums->primitive;
+}
+
+/* first: what the ray meets at hit, if anything. */
+static void look(PixelGuides *sums, Ray ray, Hit hit, const Shading *first)
+{
+    const DenoiseGuides *job = sums->of;
+    const FirstHitWindow *w = &job->window;
+    RayKind kind = RAY_CAMERA;
+    float throughput = 1;
+    unsigned met = 0;
+    Shading next;
+    const Shading *s = first;
+    for (int followed = 0;; followed++) {
+        if (followed ? !accel_intersect(w->accel, &ray, kind, &hit) : hit.primitive < 0) {
+            add_albedo(sums, rgb_grey(1));
+            note_primitive(sums, -1);
+            return;
+        }
+        if (followed == 0)
+            add_sight(&sums->first, s);
+        else
+            shading_at(&next, w->scene, w->variants, 1, &ray, &hit), s = &next;
+        add_cover(sums->cover, &met, s, throughput);
+        if (followed == FOLLOWED_MAX || !follow(job, s, &hit, &ray, &kind, &throughput))
+            break;
+        sums->specular += followed == 0;
+    }
+    add_seen(job, sums, s);
+    note_primitive(sums, hit.primitive);
+}
+
+/* Where the guides of a pixel go. */
+typedef struct GuidePlace {
+    FilmPixel *pixel;
+    int x, y;
+} GuidePlace;
+
+static void store(const GuidePlace *at, int image, double scale, double a, double b, double c)
+{
+    float *p = film_image_pixel(at->pixel, image, at->x, at->y);
+    p[0] = (float)(a * scale), p[1] = (float)(b * scale), p[2] = (float)(c * scale);
+}
+
+/* Of one channel; memory that is never touched is never taken. */
+static void store_one(const GuidePlace *at, int image, double value)
+{
+    if (value != 0)
+        *film_image_pixel(at->pixel, image, at->x, at->y) = (float)value;
+}
+
+static void store_sight(const GuidePlace *at, int normal, int position, const Sight *sight)
+{
+    if (!sight->places)
+        return;
+    store(at, normal, 1.0 / sight->places, sight->normal.x, sight->normal.y, sight->normal.z);
+    store(at, position, 1.0 / sight->places, sight->position.x, sight->position.y, sight->position.z);
+}
+
+static int is_one_normal(const Sight *sight)
+{
+    return sight->places == 0 || vec_length(sight->normal) > ONE_NORMAL * sight->places;
+}
+
+/* Did all places see the same? */
+static int is_even(const PixelGuides *s)
+{
+    double mean = s->luminance / s->places;
+    return !s->differ && (s->first.places == 0 || s->first.places == s->places) &&
+           (s->specular == 0 || s->specular == s->places) && is_one_normal(&s->first) && is_one_normal(&s->seen) &&
+           s->luminance_squared / s->places - mean * mean < ONE_ALBEDO;
+}
+
+void denoise_guides_look(PixelGuides *p, const Ray *ray, const Hit *hit, const Shading *shading)
+{
+    if (denoise_guides_missing(p) == 0)
+        return;
+    look(p, *ray, *hit, shading);
+    if (p->places == PLACES_FEW)
+        p->uneven = !is_even(p);
+}
+
+int denoise_guides_missing(const PixelGuides *p)
+{
+    return (p->uneven ? PLACES_MANY : PLACES_FEW) - p->places;
+}
+
+void denoise_guides_look_along(PixelGuides *p, const Ray *rays, int count)
+{
+    const FirstHitWindow *w = &p->of->window;
+    RayKind kinds[ACCEL_PACKET] = {RAY_CAMERA};
+    Hit hits[ACCEL_PACKET];
+    Shading s;
+    for (int i = 0; i < count; i++)
+        kinds[i] = RAY_CAMERA;
+    accel_intersect_packet(w->accel, rays, kinds, count, 1, hits);
+    for (int i = 0; i < count; i++) {
+        if (hits[i].primitive >= 0)
+            shading_at(&s, w->scene, w->variants, 1, &rays[i], &hits[i]);
+        denoise_guides_look(p, &rays[i], &hits[i], &s);
+    }
+}
+
+void denoise_guides_pixel_end(PixelGuides *p, FilmPixel *pixel, int x, int y)
+{
+    const DenoiseGuides *job = p->of;
+    const int *to = job->guides;
+    const GuidePlace at = {pixel, x, y};
+    const double share = 1.0 / p->places;
+    store_sight(&at, to[GUIDE_NORMAL], to[GUIDE_POSITION], &p->first);
+    store_one(&at, to[GUIDE_SPECULAR], share * p->specular);
+    store_sight(&at, to[GUIDE_SEEN_NORMAL], to[GUIDE_SEEN_POSITION], &p->seen);
+    store(&at, to[GUIDE_SEEN_ALBEDO], share, p->albedo.r, p->albedo.g, p->albedo.b);
+    double each = p->seen.places ? 1.0 / p->seen.places : 0;
+    store(&at, to[GUIDE_SEEN_MATERIAL], 1, p->roughness * each, p->metallic * each, 1 - p->seen.places * share);
+    for (int t = 0; t < job->window.scene->ntargets && job->split; t++)
+        store_one(&at, job->covers[t], share * p->cover[t]);
+    *p = (PixelGuides){.of = job};
+}
+
+int denoise_guides_create(DenoiseGuides *g, Film *film, const FirstHitWindow *window, int split, RetexError *err)
+{
+    int code = RETEX_OK;
+    *g = (DenoiseGuides){.window = *window, .split = split};
+    for (int k = 0; k < GUIDE_COUNT && !code; k++)
+        code =
+            film_add_image(film, guide_table[k].name, guide_table[k].letters, guide_table[k].type, &g->guides[k], err);
+    for (int t = 0; t < window->scene->ntargets && split && !code; t++) {
+        char name[RETEX_NAME_MAX];
+        snprintf(name, sizeof name, "guide_cover_%.90s", window->scene->targets[t].name);
+        code = film_add_image(film, name, "R", RETEX_HALF, &g->covers[t], err);
+    }
+    return code;
+}
+
+int denoise_guides_finish(const DenoiseGuides *g, Film *film, RetexSet *set, RetexError *err)
+{
+    int code = RETEX_OK;
+    for (int k = 0; k < GUIDE_COUNT && !code; k++)
+        code = film_move_image(film, g->guides[k], set, err);
+    for (int t = 0; t < g->window.scene->ntargets && g->split && !code; t++)
+        code = film_move_image(film, g->covers[t], set, err);
+    return code;
+}

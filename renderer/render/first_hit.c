@@ -1,0 +1,192 @@
+/* Rays through pixel centres; see first_hit.h. */
+#include <stdlib.h>
+#include <string.h>
+#include <retex/parallel.h>
+#include "path/camera.h"
+#include "render/first_hit.h"
+#include "path/path.h"
+
+/* Channels are named so that Blender takes them as they are: of R, G, A it would show R, 0, A. */
+static const struct {
+    unsigned bit;
+    const char *name, *letters;
+} aov_table[] = {
+    {AOV_DEPTH, "depth", "R"},         {AOV_ALBEDO, "albedo", "RGB"},   {AOV_NORMAL, "normal", "RGB"},
+    {AOV_POSITION, "position", "RGB"}, {AOV_UV, "uv", "UVA"},           {AOV_OBJECT, "object", "R"},
+    {AOV_ROUGHNESS, "roughness", "R"}, {AOV_METALLIC, "metallic", "R"},
+};
+enum { AOV_COUNT = sizeof aov_table / sizeof *aov_table };
+
+typedef struct AovJob {
+    const FirstHitWindow *window;
+    RetexImage *images[AOV_COUNT]; /* NULL where not wanted */
+} AovJob;
+
+static int centre_hit(const FirstHitWindow *w, int x, int y, Hit *hit, Shading *s)
+{
+    Ray ray = camera_ray(&w->scene->camera, w->width, w->height, w->x0 + x + 0.5, w->y0 + y + 0.5);
+    if (!accel_intersect(w->accel, &ray, RAY_CAMERA, hit))
+        return 0;
+    shading_at(s, w->scene, w->variants, 1, &ray, hit);
+    return 1;
+}
+
+static void store(RetexImage *image, int x, int y, float a, float b, float c)
+{
+    if (!image)
+        return;
+    float *p = image->pixels + retex_image_index(image, x, y), v[3] = {a, b, c};
+    for (int k = 0; k < image->channels; k++)
+        p[k] = v[k];
+}
+
+static void aov_row(void *context, int y, int thread)
+{
+    AovJob *job = context;
+    const FirstHitWindow *w = job->window;
+    (void)thread;
+    for (int x = 0; x < w->w; x++) {
+        Hit hit;
+        Shading s;
+        if (!centre_hit(w, x, y, &hit, &s)) {
+            store(job->images[0], x, y, INFINITY, 0, 0);
+            continue;
+        }
+        Vec3 n = s.bsdf.normal, p = s.surface.position;
+        Rgb albedo = shading_albedo(&s, 0);
+        store(job->images[0], x, y, (float)hit.t, 0, 0);
+        store(job->images[1], x, y, albedo.r, albedo.g, albedo.b);
+        store(job->images[2], x, y, (float)n.x, (float)n.y, (float)n.z);
+        store(job->images[3], x, y, (float)p.x, (float)p.y, (float)p.z);
+        if (job->images[4]) {
+            Vec2 uv = surface_target_uv(&s.surface);
+            store(job->images[4], x, y, (float)uv.u, (float)uv.v, 1);
+        }
+        store(job->images[5], x, y, (float)(hit.primitive + 1), 0, 0);
+        store(job->images[6], x, y, shading_roughness(&s), 0, 0);
+        store(job->images[7], x, y, shading_metallic(&s), 0, 0);
+    }
+}
+
+int first_hit_aovs(RetexSet *set, const FirstHitWindow *window, unsigned aovs, RetexError *err)
+{
+    AovJob job = {.window = window};
+    int parts[AOV_COUNT];
+    for (int k = 0; k < AOV_COUNT; k++) {
+        if (!(aovs & aov_table[k].bit))
+            continue;
+        int code = retex_set_add_part(set, aov_table[k].name, aov_table[k].letters, RETEX_FLOAT, 0, 0, &parts[k], err);
+        if (code)
+            return code;
+    }
+    for (int k = 0; k < AOV_COUNT; k++)
+        if (aovs & aov_table[k].bit)
+            job.images[k] = &set->parts[parts[k]].image;
+    if (aovs)
+        retex_parallel(window->nthreads, window->h, aov_row, &job);
+    return RETEX_OK;
+}
+
+typedef struct CountJob {
+    const FirstHitWindow *window;
+    long *counts;      /* by row and item */
+    int items, idents; /* idents: count identifiers, else targets */
+} CountJob;
+
+static void mark(const Scene *scene, const IdentList *list, unsigned char *seen)
+{
+    for (; list; list = list->next)
+        for (int k = 0; k < scene->nidents; k++)
+            if (!strcmp(scene->idents[k], list->name))
+                seen[k] = 1;
+}
+
+static void count_row(void *context, int y, int thread)
+{
+    CountJob *job = context;
+    const Scene *scene = job->window->scene;
+    long *counts = job->counts + (size_t)y * (size_t)job->items;
+    (void)thread;
+    for (int x = 0; x < job->window->w; x++) {
+        Hit hit;
+        Shading s;
+        if (!centre_hit(job->window, x, y, &hit, &s))
+            continue;
+        if (!job->idents) {
+            if (s.surface.target >= 0)
+                counts[s.surface.target]++;
+            continue;
+        }
+        unsigned char *seen = calloc((size_t)job->items, 1);
+        if (!seen)
+            continue;
+        mark(scene, s.surface.primitive->idents, seen);
+        mark(scene, s.surface.texture->idents, seen);
+        mark(scene, s.surface.texture->pigment->idents, seen);
+        for (int k = 0; k < job->items; k++)
+            counts[k] += seen[k];
+        free(seen);
+    }
+}
+
+static int count_shares(const FirstHitWindow *window, int items, int idents, double *shares, RetexError *err)
+{
+    if (items == 0)
+        return RETEX_OK;
+    CountJob job = {window, calloc((size_t)window->h * (size_t)items, sizeof(long)), items, idents};
+    if (!job.counts)
+        return retex_fail(err, RETEX_ENOMEM, "out of memory for shares of the picture");
+    retex_parallel(window->nthreads, window->h, count_row, &job);
+    for (int k = 0; k < items; k++) {
+        long sum = 0;
+        for (int y = 0; y < window->h; y++)
+            sum += job.counts[(size_t)y * (size_t)items + (size_t)k];
+        shares[k] = (double)sum / ((double)window->w * window->h);
+    }
+    free(job.counts);
+    return RETEX_OK;
+}
+
+/* The shape's own UV goes once round from 0 to 1, if the pigment leaves it so. */
+static void closes(const Primitive *p, const Pigment *pigment, int *u, int *v)
+{
+    const double(*m)[4] = pigment->transform.m;
+    int own = pigment->uv_mapping ? m[0][0] == 1 && m[1][1] == 1 && m[0][1] == 0 && m[1][0] == 0
+                                  : pigment->kind != PIGMENT_IMAGE;
+    *u &= own && (p->kind == SHAPE_SPHERE || p->kind == SHAPE_TORUS || (p->kind == SHAPE_CONE && !pigment->uv_mapping));
+    *v &= own && p->kind == SHAPE_TORUS;
+}
+
+void target_periodic(const Scene *scene, int t, int periodic[2])
+{
+    int any = 0, u = 1, v = 1;
+    for (int k = 0; k < scene->nprimitives; k++) {
+        const Primitive *p = &scene->primitives[k];
+        int inside = p->interior_texture && p->interior_target == t;
+        if (p->target == t)
+            closes(p, p->texture->pigment, &u, &v);
+        if (inside)
+            closes(p, p->interior_texture->pigment, &u, &v);
+        any |= p->target == t || inside;
+        for (int j = 0; p->face_targets && j < p->mesh->ntextures; j++)
+            if (p->face_targets[j] == t)
+                u = v = 0;
+    }
+    periodic[0] = any && u, periodic[1] = any && v;
+}
+
+int first_hit_targets(RetexSet *set, const FirstHitWindow *window, RetexError *err)
+{
+    double shares[RETEX_MAX_TARGETS] = {0};
+    int code = count_shares(window, window->scene->ntargets, 0, shares, err);
+    for (int t = 0; t < set->ntargets; t++) {
+        set->targets[t].share = shares[t];
+        target_periodic(window->scene, t, set->targets[t].periodic);
+    }
+    return code;
+}
+
+int first_hit_idents(const FirstHitWindow *window, double *shares, RetexError *err)
+{
+    return count_shares(window, window->scene->nidents, 1, shares, err);
+}

@@ -1,0 +1,25 @@
+/* Pictures of what the pixel centres see first: AOVs, and which targets and identifiers cover how much. */
+#ifndef RENDERER_RENDER_FIRST_HIT_H
+#define RENDERER_RENDER_FIRST_HIT_H
+
+#include "accel/accel.h"
+#include "render/render.h"
+
+typedef struct FirstHitWindow {
+    const Scene *scene;
+    const Accel *accel;
+    int width, height;          /* of the whole picture */
+    int x0, y0, w, h;           /* the part that is looked at */
+    int nthreads;
+    const RenderVariant *variants; /* or NULL: the first one's colours are shown */
+} FirstHitWindow;
+
+/* Add a part for each of the AOV_… bits. */
+int first_hit_aovs(RetexSet *set, const FirstHitWindow *window, unsigned aovs, RetexError *err);
+/* Fill share, and periodic of all targets. */
+int first_hit_targets(RetexSet *set, const FirstHitWindow *window, RetexError *err);
+/* Does a target close in u (v): every primitive it is on does, and looks textures up by its own parametrisation? */
+void target_periodic(const Scene *scene, int target, int periodic[2]);
+int first_hit_idents(const FirstHitWindow *window, double *shares, RetexError *err);
+
+#endif

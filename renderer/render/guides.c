@@ -1,0 +1,148 @@
+/* See guides.h. */
+#include <errno.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include "base/vec.h"
+#include "render/guides.h"
+#include "path/sampler.h"
+
+typedef void (*Encode)(RetexImage *image);
+
+static size_t samples(const RetexImage *im)
+{
+    return (size_t)im->width * (size_t)im->height * (size_t)im->channels;
+}
+
+static void encode_normal(RetexImage *im)
+{
+    for (size_t i = 0; i < samples(im); i++)
+        im->pixels[i] = im->pixels[i] * 0.5f + 0.5f;
+}
+
+/* Each channel from its least to its largest finite value. */
+static void encode_range(RetexImage *im)
+{
+    size_t n = samples(im), step = (size_t)im->channels;
+    for (size_t c = 0; c < step; c++) {
+        float low = INFINITY, high = -INFINITY;
+        for (size_t i = c; i < n; i += step)
+            if (isfinite(im->pixels[i]))
+                low = fminf(low, im->pixels[i]), high = fmaxf(high, im->pixels[i]);
+        float scale = high > low ? 1 / (high - low) : 0;
+        for (size_t i = c; i < n; i += step)
+            im->pixels[i] = isfinite(im->pixels[i]) ? (im->pixels[i] - low) * scale : 1;
+    }
+}
+
+static int compare_floats(const void *a, const void *b)
+{
+    float x = *(const float *)a, y = *(const float *)b;
+    return x < y ? -1 : x > y;
+}
+
+static void encode_irradiance(RetexImage *im)
+{
+    size_t n = samples(im) / 3;
+    float *luminance = malloc((n + 1) * sizeof *luminance), bright = 0;
+    for (size_t i = 0; i < n && luminance; i++)
+        luminance[i] = rgb_luminance(rgb(im->pixels[3 * i], im->pixels[3 * i + 1], im->pixels[3 * i + 2]));
+    if (luminance) {
+        qsort(luminance, n, sizeof *luminance, compare_floats);
+        bright = luminance[(size_t)(0.99 * (double)(n - 1))];
+    }
+    free(luminance);
+    for (size_t i = 0; i < samples(im) && bright > 0; i++)
+        im->pixels[i] /= bright;
+}
+
+static void encode_uv(RetexImage *im)
+{
+    for (size_t i = 0; i < samples(im); i += 3) {
+        im->pixels[i] -= floorf(im->pixels[i]);
+        im->pixels[i + 1] -= floorf(im->pixels[i + 1]);
+        im->pixels[i + 2] = 0;
+    }
+}
+
+static const struct {
+    const char *name, *colorspace; /* of the PNG; NULL = the display transform */
+    Encode encode;
+    int colored; /* numbers of one channel become colours */
+} guide_table[] = {
+    {"beauty", NULL, NULL, 0},
+    {"albedo", "sRGB", NULL, 0},
+    {"irradiance", "sRGB", encode_irradiance, 0},
+    {"normal", "raw", encode_normal, 0},
+    {"depth", "raw", encode_range, 0},
+    {"position", "raw", encode_range, 0},
+    {"uv", "raw", encode_uv, 0},
+    {"roughness", "raw", NULL, 0},
+    {"metallic", "raw", NULL, 0},
+    {"object", "raw", NULL, 1},
+};
+
+enum { GUIDES = sizeof guide_table / sizeof *guide_table };
+
+int guides_path(char *path, size_t size, const char *folder, int k)
+{
+    if (k >= 2 * GUIDES)
+        return 0;
+    snprintf(path, size, "%s/%s.%s", folder, guide_table[k / 2].name, k % 2 ? "png" : "exr");
+    return 1;
+}
+
+/* Far apart for numbers that are next to each other; never dark. */
+static int color_numbers(RetexImage *dst, const RetexImage *src, RetexError *err)
+{
+    int code = retex_image_alloc(dst, src->width, src->height, 3, err);
+    for (size_t i = 0; i < samples(src) && !code; i++) {
+        uint32_t number = (uint32_t)src->pixels[i];
+        for (uint32_t c = 0; c < 3 && number; c++)
+            dst->pixels[3 * i + c] = 0.2f + 0.8f * unit_float(hash_pair(number, c));
+    }
+    return code;
+}
+
+static int write_guide(const RetexSet *set, const char *folder, int k, RetexError *err)
+{
+    int part = k ? retex_set_find_part(set, guide_table[k].name) : 0;
+    if (part < 0)
+        return RETEX_OK;
+    const RetexImage *image = &set->parts[part].image;
+    char path[4096];
+    RetexImage shown = {0};
+    RetexWriteParams params = RETEX_WRITE_INIT;
+    params.is_data = guide_table[k].colorspace && !strcmp(guide_table[k].colorspace, "raw");
+    guides_path(path, sizeof path, folder, 2 * k);
+    int code = retex_image_write(image, path, &params, err);
+    if (!code)
+        code = guide_table[k].colored ? color_numbers(&shown, image, err) : retex_image_copy(&shown, image, err);
+    if (!code && guide_table[k].encode)
+        guide_table[k].encode(&shown);
+    params.colorspace = guide_table[k].colorspace;
+    guides_path(path, sizeof path, folder, 2 * k + 1);
+    if (!code)
+        code = retex_image_write(&shown, path, &params, err);
+    retex_image_free(&shown);
+    return code;
+}
+
+int guides_write(const RetexSet *set, const char *folder, RetexError *err)
+{
+    int code = RETEX_OK;
+    for (int k = 0; k < GUIDES && !code; k++)
+        code = write_guide(set, folder, k, err);
+    return code;
+}
+
+int guides_check(const char *folder, RetexError *err)
+{
+    char path[4096];
+    if (mkdir(folder, 0777) && errno != EEXIST)
+        return retex_fail(err, RETEX_EIO, "cannot make the folder %s: %s", folder, strerror(errno));
+    snprintf(path, sizeof path, "%s/beauty.png", folder);
+    return retex_image_write_check(path, NULL, err);
+}

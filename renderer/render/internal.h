@@ -1,0 +1,68 @@
+/* All of one render; private to render.c, tiles.c and variants.c. */
+#ifndef RENDERER_RENDER_INTERNAL_H
+#define RENDERER_RENDER_INTERNAL_H
+
+#include <stdatomic.h>
+#include "render/adaptive.h"
+#include "render/denoise_guides.h"
+#include "render/first_hit.h"
+#include "path/path.h"
+
+#define TILE_WIDTH 32
+#define TILE_HEIGHT BAND_LINES
+
+typedef struct Render {
+    const Scene *scene;
+    RenderParams params;
+    int width, height; /* of the whole picture */
+    int x0, y0, w, h;  /* the part that is rendered */
+    int tiles_x, tiles_y;
+    Accel *accel;
+    Lights *lights;
+    Caustics *caustics; /* or NULL */
+    Film *film;
+    FilmPixel **pixels;            /* by thread */
+    ControlFilm *control;          /* of several variants, or NULL */
+    ControlPixel **controls;       /* by thread */
+    const RenderVariant *variants; /* or NULL: the original */
+    const RetexImage *constants;   /* or NULL: by target, of the last variant */
+    DenoiseGuides guides;
+    PixelGuides *pixel_guides; /* by thread, or NULL: no guides */
+    char *had;                 /* by band: taken over from another render */
+    int wanted;                /* tiles, of all that are to be rendered */
+    PathContext context;
+    PathWorker *workers; /* by thread */
+    Adaptive **pilots;   /* by thread, or NULL: all tiles get as many samples */
+    atomic_int done;
+    atomic_long paths;
+} Render;
+
+typedef struct HalfSamples {
+    int samples[2];
+} HalfSamples;
+
+/* ---- render.c: what a render needs ---- */
+
+double render_clock(void); /* seconds, from any time on */
+/* What any use of the scene needs: the window, the ray structure and the lights. To be closed whatever comes of it. */
+int render_open(Render *render, const Scene *scene, const RenderParams *params, RetexError *err);
+void render_close(Render *render);
+void render_close_films(Render *render);
+/* For whatever traces paths: a guide to caustics where there may be some, the same for any part of the picture. */
+int render_open_guide(Render *render, RetexError *err);
+/* The film, and what each thread has. control: a film of all variants too, with moments of so many halves. */
+int render_open_film(Render *render, int control, int halves, RetexError *err);
+void render_forget_files(RenderParams *params); /* of a render beside the one that files are for */
+FirstHitWindow render_window(const Render *render);
+
+/* ---- tiles.c: paths over pixels ---- */
+
+/* Trace all, and count; started: by the clock. Fails where the render is stopped and tiles are missing. */
+int render_paths(Render *render, RenderStats *stats, double started, RetexError *err);
+void render_sample(Render *render, int x, int y, int sample);          /* one alone, to be told what happens */
+HalfSamples render_half_samples(const Render *render);                 /* how many samples fall to each half */
+int render_is_stopped(const Render *render);
+/* Whether a band is to be rendered: of this shard, and not done by another render. */
+int render_is_wanted(const Render *render, int band);
+
+#endif

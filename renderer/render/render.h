@@ -1,0 +1,108 @@
+/* Rendering a scene into a set: the renderer's public call. */
+#ifndef RENDERER_RENDER_RENDER_H
+#define RENDERER_RENDER_RENDER_H
+
+#include <stdint.h>
+#include <stdio.h>
+#include <retex/budget.h>
+#include "render/control_variate.h"
+#include "scene/scene.h"
+
+/* Further pictures, one part each, taken at the first hit of the pixel centre's ray, unfiltered. */
+enum {
+    AOV_DEPTH = 1,    /* R: distance along the ray, scene units; inf where nothing is hit */
+    AOV_ALBEDO = 2,   /* RGB: the pigment's colour, scene-linear */
+    AOV_NORMAL = 4,   /* RGB: x, y, z of the unit shading normal, camera's side, world space; 0 where nothing is */
+    AOV_POSITION = 8, /* RGB: world space */
+    AOV_UV = 16,      /* RGA: u, v that a replacement texture would be looked up at, and 1 where something is hit */
+    AOV_OBJECT = 32,  /* R: number of the primitive from 1, 0 where nothing is hit */
+    AOV_ROUGHNESS = 64, /* R: of the sharpest thing the surface does: 0 mirrors and clear glass, 1 what is only diffuse;
+                           between, the square root of GGX's alpha */
+    AOV_METALLIC = 128, /* R: 0..1, how much the surface's reflections have the pigment's colour */
+    AOV_IRRADIANCE = 256, /* RGB: what arrives at the first hit, on the side that is seen, direct and indirect: pi times
+                            the radiance of a white diffuse surface in its place; spp paths */
+    AOV_ALL = 511
+};
+
+/* What lies on the scene's targets in one of several pictures: a texture, or NULL for the original. */
+typedef struct RenderVariant {
+    const RetexTexture *textures[RETEX_MAX_TARGETS];
+    const Rgb *constants; /* or NULL; by target, a colour instead of all textures */
+} RenderVariant;
+
+/* Begin with RENDER_PARAMS_INIT. */
+typedef struct RenderParams {
+    size_t size;
+    int width, height;       /* of the whole picture; 0 = the scene's own */
+    int crop[4];             /* x, y, width, height of the part to render; width 0 = all. The result has this size */
+    int spp;                 /* samples a pixel, 1..2^20; default 64 */
+    double noise;            /* above 0: tiles get as many samples, up to spp, as bring their noise down to this, see
+                                adaptive.h; default 0: all get spp */
+    uint32_t seed;           /* default 0 */
+    int max_depth;           /* segments of a path, 1..256, camera and shadow rays included; default 16 */
+    int gaussian;            /* pixel filter: 0 box of one pixel (default), 1 Gaussian of sigma 0.5 pixel */
+    int paper;               /* layout: 0 footprints (default), 1 paper */
+    int clusters;            /* layout footprints: clusters kept a pixel and target, 2..16; default 4 */
+    int sharp, broad;        /* at most so many of what is seen sharply and of the rest, 1..clusters; default 4, 4 */
+    int orders;              /* most hits of each target kept, 1..6; default 6; of all together 12, in paper 8 */
+    int strict_paper;        /* drop mixed terms of four and more hits, as the supplement does; default 0 */
+    int plain;               /* beauty only, no set; default 0 */
+    unsigned aovs;           /* AOV_… bits */
+    int nthreads;            /* 0 = all cores */
+    void (*progress)(void *context, double done); /* 0..1, from the calling thread; NULL = none */
+    void *progress_context;
+    const RenderVariant *variants; /* textures instead of the originals; NULL = none. render_scene takes the first */
+    int nvariants;           /* 0..VARIANTS_MAX */
+    int control_data;        /* 1, 2: also what later control variates read, of so many parts of the samples: two are
+                                independent, so that the picture is another one than without; default 0 */
+    int denoise_data;        /* 1: also what retex_denoise reads, see <retex/denoise.h>; nothing where spp is 1, which
+                                does not tell how noisy it is; default 0 */
+    int spooled;             /* 1: render_scene leaves parts of the set in a spool, see <retex/spool.h>, for
+                                retex_set_write or retex_set_load; default 0 */
+    const char *output;      /* what the result will be written to, so that the spool is near it; NULL = nothing */
+    uint64_t key;            /* tells this render from others: of the files below those with another are refused */
+    const char *journal;     /* where finished rows are kept when the render is stopped; NULL (default) = nowhere */
+    int resume;              /* 1: they are kept there all the time, and those that are there are taken over */
+    int shard, nshards;      /* render every nshards-th band only, from number shard - 1; 0, 0 (default) = all */
+    const char *const *merged; /* files that render_shard left: their bands, which must be all, are taken over */
+    int nmerged;
+    RetexBudget *budget;     /* where it says stop, nothing more is traced and the render fails; NULL = never */
+    int caustics_guide;      /* 1: photons show paths where caustics come from, see caustics.h; default 0: by chance */
+} RenderParams;
+#define RENDER_PARAMS_INIT \
+    { .size = sizeof(RenderParams), .spp = 64, .max_depth = 16, .clusters = 4, .sharp = 4, .broad = 4, .orders = 6 }
+
+typedef struct RenderStats {
+    double build_seconds, render_seconds;
+    long paths, segments, shadow_rays, dropped; /* dropped: contributions that were not finite */
+    long lights, primitives, triangles;
+} RenderStats;
+
+/* Render into a new set. With plain, or without targets, the set has the beauty and the AOVs only. The picture is the
+ * same to the bit for every nthreads. */
+int render_scene(RetexSet **set, const Scene *scene, const RenderParams *params, RenderStats *stats, RetexError *err);
+
+/* Render one shard, and leave its bands in the file params->output. */
+int render_shard(const Scene *scene, const RenderParams *params, RenderStats *stats, RetexError *err);
+
+/* Render nvariants pictures, pictures[k] (unallocated) with the textures of variants[k], all along the same paths:
+ * each is to the bit what render_scene gives for that variant alone with `plain`. */
+int render_variants(RetexImage *pictures, const Scene *scene, const RenderParams *params, RenderStats *stats,
+                    RetexError *err);
+
+/* The picture with the textures of params' first variant, from new samples and the beauty of a set of the same view
+ * with its original textures, see control_variate.h. *distance (may be NULL): how unlike the set what was found of the
+ * originals is, in standard deviations. */
+int render_control(RetexImage *picture, const Scene *scene, const RenderParams *params, const RetexSet *set,
+                   ControlMode mode, double *distance, RenderStats *stats, RetexError *err);
+
+/* Share of the picture (0..1) that each of scene->idents covers at the centres of pixels; shares has scene->nidents. */
+int render_ident_shares(const Scene *scene, const RenderParams *params, double *shares, RetexError *err);
+
+/* Scene units that a unit of u and of v spans on each target; see uv_scale.h. */
+int render_uv_scales(const Scene *scene, int nthreads, double scales[][2], RetexError *err);
+
+/* Print what happens along one path, step by step with values. x, y and sample as in the picture. */
+int render_trace(const Scene *scene, const RenderParams *params, int x, int y, int sample, FILE *out, RetexError *err);
+
+#endif

@@ -1,0 +1,190 @@
+/* Tiles over threads, paths over samples. */
+#include <retex/parallel.h>
+#include "path/camera.h"
+#include "render/internal.h"
+
+/* Where in the pixel a sample looks: uniform, or by the Gaussian's own density so that every sample weighs the same. */
+static void pixel_offset(const Render *r, const PairKeys *keys, uint32_t sample, double *dx, double *dy)
+{
+    float u, v;
+    pair_of_keys(keys, sample, &u, &v);
+    *dx = u, *dy = v;
+    if (r->context.white)
+        *dx = *dy = 0.5;
+    if (!r->params.gaussian || r->context.white)
+        return;
+    double radius = 0.5 * sqrt(-2 * log(1 - u)), phi = 2 * PI * v;
+    *dx = 0.5 + radius * cos(phi), *dy = 0.5 + radius * sin(phi);
+}
+
+/* What the samples of a pixel begin with, by half: each has points of its own, for those of one would fill each other's
+ * gaps. */
+typedef struct PixelStart {
+    int x, y;
+    Sampler samplers[2]; /* of the first sample */
+    PairKeys offsets[2];
+} PixelStart;
+
+static PixelStart start_pixel(const Render *r, uint32_t seed, int x, int y)
+{
+    PixelStart start = {.x = x, .y = y};
+    for (int half = 0; half < r->context.halves; half++) {
+        Sampler first = sampler_start(half ? hash_pair(seed, 1) : seed, (uint32_t)x, (uint32_t)y, 0);
+        start.samplers[half] = first;
+        start.offsets[half] = pair_keys(first.key, DIMENSION_PIXEL);
+    }
+    return start;
+}
+
+/* Of a sample: its numbers, and the ray from the camera. */
+static Ray start_sample(const Render *r, const PixelStart *start, int sample, Sampler *sampler)
+{
+    int half = r->context.halves == 2 ? sample & 1 : 0;
+    double dx, dy;
+    *sampler = start->samplers[half];
+    sampler->sample = (uint32_t)sample >> (r->context.halves == 2);
+    pixel_offset(r, &start->offsets[half], sampler->sample, &dx, &dy);
+    return camera_ray(&r->scene->camera, r->width, r->height, start->x + dx, start->y + dy);
+}
+
+/* Up to the end, or to where the render is stopped. */
+static void trace_pixel(const Render *r, PathWorker *worker, int spp, int x, int y)
+{
+    Ray rays[PATHS_MAX];
+    Sampler samplers[PATHS_MAX];
+    const PixelStart start = start_pixel(r, r->params.seed, x, y);
+    for (int s = 0; s < spp && !render_is_stopped(r); s += PATHS_MAX) {
+        int count = spp - s < PATHS_MAX ? spp - s : PATHS_MAX;
+        for (int i = 0; i < count; i++)
+            rays[i] = start_sample(r, &start, s + i, &samplers[i]);
+        path_trace(worker, rays, samplers, count);
+    }
+}
+
+/* Samples a pixel of a tile. */
+static int tile_samples(const Render *r, int thread, int x0, int y0)
+{
+    Sampler sampler;
+    Adaptive *pilot = r->pilots ? r->pilots[thread] : NULL;
+    if (!pilot)
+        return r->params.spp;
+    for (int y = y0; y < y0 + TILE_HEIGHT && y < r->h; y++)
+        for (int x = x0; x < x0 + TILE_WIDTH && x < r->w && !render_is_stopped(r); x++) {
+            const PixelStart start = start_pixel(r, hash_pair(r->params.seed, 3), r->x0 + x, r->y0 + y);
+            for (int s = 0; s < ADAPTIVE_PILOT; s++) {
+                Ray ray = start_sample(r, &start, s, &sampler);
+                path_trace(adaptive_worker(pilot), &ray, &sampler, 1);
+                adaptive_path_end(pilot);
+            }
+            adaptive_pixel_end(pilot);
+        }
+    return adaptive_tile_samples(pilot, r->params.noise, r->params.spp);
+}
+
+/* Guides look on where further samples would, if there were fewer than they want. */
+static void end_guides(const Render *r, int thread, int spp, int x, int y)
+{
+    PixelGuides *guides = &r->pixel_guides[thread];
+    Ray rays[ACCEL_PACKET];
+    Sampler unused;
+    const PixelStart start = start_pixel(r, r->params.seed, r->x0 + x, r->y0 + y);
+    for (int s = spp, count; (count = denoise_guides_missing(guides)) > 0; s += count) {
+        count = count < ACCEL_PACKET ? count : ACCEL_PACKET;
+        for (int i = 0; i < count; i++)
+            rays[i] = start_sample(r, &start, s + i, &unused);
+        denoise_guides_look_along(guides, rays, count);
+    }
+    denoise_guides_pixel_end(guides, r->pixels[thread], x, y);
+}
+
+static void render_pixel(Render *r, int thread, int spp, int x, int y)
+{
+    FilmPixel *pixel = r->pixels[thread];
+    PathWorker *worker = &r->workers[thread];
+    for (int t = 0; r->constants && t < r->scene->ntargets; t++) {
+        const float *p = r->constants[t].pixels + retex_image_index(&r->constants[t], x, y);
+        worker->constants[t] = rgb(p[0], p[1], p[2]);
+    }
+    trace_pixel(r, worker, spp, r->x0 + x, r->y0 + y);
+    if (render_is_stopped(r))
+        return;
+    film_pixel_end(pixel, x, y);
+    if (r->control)
+        control_pixel_end(r->controls[thread], x, y);
+    if (r->pixel_guides)
+        end_guides(r, thread, spp, x, y);
+}
+
+int render_is_stopped(const Render *r)
+{
+    return retex_budget_is_stopped(r->params.budget);
+}
+
+int render_is_wanted(const Render *r, int band)
+{
+    return (!r->params.nshards || band % r->params.nshards == r->params.shard - 1) && !r->had[band];
+}
+
+static void render_tile(void *context, int tile, int thread)
+{
+    Render *r = context;
+    int x0 = tile % r->tiles_x * TILE_WIDTH, y0 = tile / r->tiles_x * TILE_HEIGHT;
+    if (film_failed(r->film) || render_is_stopped(r) || !render_is_wanted(r, tile / r->tiles_x))
+        return;
+    int spp = tile_samples(r, thread, x0, y0);
+    film_tile_begin(r->pixels[thread], spp);
+    for (int y = y0; y < y0 + TILE_HEIGHT && y < r->h; y++)
+        for (int x = x0; x < x0 + TILE_WIDTH && x < r->w; x++)
+            render_pixel(r, thread, spp, x, y);
+    if (render_is_stopped(r)) /* then pixels of the tile may lack samples */
+        return;
+    film_tile_end(r->pixels[thread], tile);
+    int across = r->w - x0 < TILE_WIDTH ? r->w - x0 : TILE_WIDTH,
+        down = r->h - y0 < TILE_HEIGHT ? r->h - y0 : TILE_HEIGHT;
+    atomic_fetch_add(&r->paths, (long)across * down * (spp + (r->pilots ? ADAPTIVE_PILOT : 0)));
+    int done = atomic_fetch_add(&r->done, 1) + 1;
+    if (thread == 0 && r->params.progress)
+        r->params.progress(r->params.progress_context, (double)done / r->wanted);
+}
+
+void render_sample(Render *r, int x, int y, int sample)
+{
+    const PixelStart start = start_pixel(r, r->params.seed, x, y);
+    Sampler sampler;
+    Ray ray = start_sample(r, &start, sample, &sampler);
+    path_trace(&r->workers[0], &ray, &sampler, 1);
+}
+
+static void fill_stats(RenderStats *stats, const Render *r)
+{
+    stats->paths = atomic_load(&r->paths);
+    for (int k = 0; k < retex_threads(r->params.nthreads); k++)
+        stats->segments += r->workers[k].segments, stats->shadow_rays += r->workers[k].shadow_rays;
+    stats->dropped = film_dropped(r->film) + (r->control ? control_film_dropped(r->control) : 0);
+    stats->lights = lights_count(r->lights);
+    stats->primitives = r->scene->nprimitives;
+    for (int k = 0; k < r->scene->nprimitives; k++)
+        if (r->scene->primitives[k].kind == SHAPE_MESH)
+            stats->triangles += r->scene->primitives[k].mesh->nfaces;
+}
+
+HalfSamples render_half_samples(const Render *r)
+{
+    int spp = r->params.spp;
+    return r->context.halves == 2 ? (HalfSamples){{(spp + 1) / 2, spp / 2}} : (HalfSamples){{spp, 0}};
+}
+
+int render_paths(Render *r, RenderStats *stats, double started, RetexError *err)
+{
+    stats->build_seconds = render_clock() - started;
+    retex_parallel(r->params.nthreads, r->tiles_x * r->tiles_y, render_tile, r);
+    if (r->params.progress && !render_is_stopped(r))
+        r->params.progress(r->params.progress_context, 1);
+    for (int k = 0; k < retex_threads(r->params.nthreads); k++) {
+        film_pixel_close(&r->pixels[k]);
+        control_pixel_close(&r->controls[k]);
+    }
+    stats->render_seconds = render_clock() - started - stats->build_seconds;
+    fill_stats(stats, r);
+    return r->done < r->wanted ? retex_budget_check(r->params.budget, err) : RETEX_OK;
+}
