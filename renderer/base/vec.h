@@ -3,6 +3,7 @@
 #define RENDERER_BASE_VEC_H
 
 #include <math.h>
+#include <retex/color.h>
 
 #define PI 3.14159265358979323846
 
@@ -63,7 +64,7 @@ static inline int rgb_is_black(Rgb a) { return a.r == 0 && a.g == 0 && a.b == 0;
 static inline int rgb_is_finite(Rgb a) { return isfinite(a.r + a.g + a.b); }
 static inline float rgb_max(Rgb a) { return fmaxf(a.r, fmaxf(a.g, a.b)); }
 /* Rec.709 luminance. */
-static inline float rgb_luminance(Rgb a) { return 0.2126f * a.r + 0.7152f * a.g + 0.0722f * a.b; }
+static inline float rgb_luminance(Rgb a) { return retex_luminancef(a.r, a.g, a.b); }
 
 /* p' = m[.][0..2] p + m[.][3]; inverse holds the inverse map in the same form. */
 typedef struct Transform {

@@ -1,6 +1,6 @@
 /* Colours: `rgb <…>` and its kin, `color NAME`, and the old form `red 1 green 0.5`. */
-#include <math.h>
 #include <string.h>
+#include <retex/color.h>
 #include "sdl/internal.h"
 
 /* The form after its keyword: which numbers it takes, and whether they are sRGB-encoded. */
@@ -34,11 +34,6 @@ int sdl_is_color_start(Sdl *sdl)
     return token->kind == TOKEN_IDENT && token->value->kind == VALUE_VECTOR;
 }
 
-static double linear(double v)
-{
-    return v <= 0.04045 ? v / 12.92 : pow((v + 0.055) / 1.055, 2.4);
-}
-
 /* Of a plain expression: a float fills filter and transmit as well, as in POV-Ray; a vector is red, green, blue,
  * filter, transmit as far as it goes. */
 static Num from_num(Num num)
@@ -64,7 +59,7 @@ static Num from_form(Sdl *sdl, const Form *form)
     num_promote(&num, 5);
     num.color = 1;
     for (int i = 0; i < 3 && form->srgb; i++)
-        num.n[i] = linear(num.n[i]);
+        num.n[i] = retex_srgb_decode(num.n[i]);
     return num;
 }
 

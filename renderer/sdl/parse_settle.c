@@ -9,6 +9,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <retex/color.h>
 #include "base/digest.h"
 #include "sdl/scene_side.h"
 
@@ -30,7 +31,7 @@ static float decode(Space space, double gamma, float x)
 {
     double v = fabs(x), out = v;
     if (space == SPACE_SRGB)
-        out = v <= 0.04045 ? v / 12.92 : pow((v + 0.055) / 1.055, 2.4);
+        out = retex_srgb_decode(v);
     else if (space == SPACE_POWER)
         out = pow(v, gamma);
     return (float)copysign(out, x);

@@ -1,15 +1,12 @@
 /* What all textures are made of: colours, hashes, noise and cells. */
 #include <math.h>
+#include <retex/color.h>
 #include "generate.h"
-
-static double linear(double s)
-{
-    return s <= 0.04045 ? s / 12.92 : pow((s + 0.055) / 1.055, 2.4);
-}
 
 Color color_hex(unsigned srgb)
 {
-    return (Color){linear((srgb >> 16 & 255) / 255.0), linear((srgb >> 8 & 255) / 255.0), linear((srgb & 255) / 255.0)};
+    return (Color){retex_srgb_decode((srgb >> 16 & 255) / 255.0), retex_srgb_decode((srgb >> 8 & 255) / 255.0),
+                   retex_srgb_decode((srgb & 255) / 255.0)};
 }
 
 double clamp01(double x)

@@ -2,6 +2,7 @@
 # Rules of the house that a script can check: make lint.
 #   - arrows between directories: libretex <- renderer <- oiio_plugins; tools -> libretex
 #   - order of the rooms of tools/libretex
+#   - one definition of the sRGB curve and of luminance
 #   - each public header compiles alone, as C11 and as C++17
 #   - man pages without complaints of mandoc
 #   - no line over 120 bytes, no tab, no trailing blank in sources
@@ -65,6 +66,17 @@ back=$(rooms tools/libretex 1:base 2:io 3:exr 4:picture 5:texture 6:set 7:retext
     10:files)
 [ -z "$back" ] || complain "rooms of tools/libretex, from one that stands later:
 $back"
+
+# What the product defines once. Tests may compute it by themselves, as a reference; man pages and texts may name it.
+one_definition() { # file pattern what
+    found=$(grep -rnE "$2" tools renderer oiio_plugins scenes --include='*.[ch]' --include='*.cpp' --include='*.hpp' |
+        grep -v "^$1:")
+    [ -z "$found" ] || complain "$3 is defined by $1 alone:
+$found"
+    grep -qE "$2" "$1" || complain "$1 does not define $3"
+}
+one_definition tools/libretex/include/retex/color.h '(^|[^0-9])0?\.(0031308|04045)|12\.92|(^|[^0-9])1\.055' 'the sRGB curve'
+one_definition tools/libretex/include/retex/color.h '(^|[^0-9])0?\.(2126f?|7152f?|0722f?) *\*' 'luminance'
 
 probe=$(mktemp -d)
 trap 'rm -rf "$probe"' EXIT

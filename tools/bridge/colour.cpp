@@ -15,6 +15,8 @@
 #include <OpenColorIO/OpenColorIO.h>
 #include <strings.h>
 
+#include <retex/color.h>
+
 namespace OCIO = OCIO_NAMESPACE;
 
 namespace bridge
@@ -51,20 +53,6 @@ const Configurations &configurations()
     if (!all.problem.empty())
         throw Failure(RETEX_EIO, all.problem);
     return all;
-}
-
-float srgb_decode(float v)
-{
-    if (v <= 0.04045f) // negative values included: the straight part goes on
-        return v / 12.92f;
-    return std::pow((v + 0.055f) / 1.055f, 2.4f);
-}
-
-float srgb_encode(float v)
-{
-    if (v <= 0.0031308f)
-        return v * 12.92f;
-    return 1.055f * std::pow(v, 1.0f / 2.4f) - 0.055f;
 }
 
 template <typename Curve> Transform per_channel(Curve curve)
@@ -250,7 +238,7 @@ Transform transform_from(const std::string &colorspace)
 {
     OCIO::ConstConfigRcPtr config = config_with(colorspace);
     if (is_own_srgb(config, colorspace))
-        return per_channel(srgb_decode);
+        return per_channel(retex_srgb_decodef);
     return between(config, colorspace, true);
 }
 
@@ -258,7 +246,7 @@ Transform transform_to(const std::string &colorspace)
 {
     OCIO::ConstConfigRcPtr config = config_with(colorspace);
     if (is_own_srgb(config, colorspace))
-        return per_channel(srgb_encode);
+        return per_channel(retex_srgb_encodef);
     return between(config, colorspace, false);
 }
 
@@ -326,8 +314,7 @@ Transform transform_from_srgb_levels(int levels)
 {
     auto table = std::make_shared<std::vector<float>>(levels);
     for (int i = 0; i < levels; i++) {
-        double v = i / double(levels - 1);
-        (*table)[i] = float(v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4));
+        (*table)[i] = float(retex_srgb_decode(i / double(levels - 1)));
     }
     float top = float(levels - 1);
     return per_channel([table, top](float v) {

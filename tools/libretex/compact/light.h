@@ -2,6 +2,7 @@
 #ifndef RETEX_COMPACT_LIGHT_H
 #define RETEX_COMPACT_LIGHT_H
 
+#include <retex/color.h>
 #include <retex/set.h>
 
 /* What further hits are taken to meet where terms of several hits are added up. */
@@ -69,7 +70,7 @@ int compact_shows_again(const CompactLight *light, const CompactKind *kind, size
 
 static inline double compact_luminance(const double rgb[3])
 {
-    return 0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2];
+    return retex_luminance(rgb[0], rgb[1], rgb[2]);
 }
 
 #endif

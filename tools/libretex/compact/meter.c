@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include <retex/color.h>
 #include <retex/parallel.h>
 #include <retex/sample.h>
 
@@ -262,7 +263,7 @@ static float encoded(float x)
 {
     if (!(x > 0))
         return 0;
-    return x >= 1 ? 1 : x <= 0.0031308f ? 12.92f * x : 1.055f * powf(x, 1 / 2.4f) - 0.055f;
+    return x >= 1 ? 1 : retex_srgb_encodef(x);
 }
 
 static void encode_row(void *context, int y, int thread)

@@ -3,6 +3,8 @@
 #ifndef RETEX_DENOISE_PLACES_H
 #define RETEX_DENOISE_PLACES_H
 
+#include <retex/color.h>
+
 #include "denoise/footprints.h"
 
 #define PLACES_FINITE 1e12f /* larger numbers stand for none */
@@ -46,7 +48,7 @@ struct Footprints {
 
 static inline float places_luminance(const float *c)
 {
-    return 0.2126f * c[0] + 0.7152f * c[1] + 0.0722f * c[2];
+    return retex_luminancef(c[0], c[1], c[2]);
 }
 
 #endif

@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include <retex/color.h>
 #include <retex/parallel.h>
 
 #include "metrics/flip.h"
@@ -28,8 +29,7 @@ typedef struct MetricsJob {
 
 static double srgb_encode_clipped(double v)
 {
-    v = v < 0 ? 0 : v > 1 ? 1 : v;
-    return v <= 0.0031308 ? 12.92 * v : 1.055 * pow(v, 1 / 2.4) - 0.055;
+    return retex_srgb_encode(v < 0 ? 0 : v > 1 ? 1 : v);
 }
 
 static void sum_row(void *context, int y, int thread)

@@ -10,6 +10,8 @@
 
 #include <jpeglib.h>
 
+#include <retex/color.h>
+
 #include "pack/jpeg_kernel.h"
 
 /* --- the curve --- */
@@ -21,18 +23,14 @@ static const double ENTRIES_TO_WHITE = (double)PACK_LEVEL_ENTRIES / PACK_WHITES_
 double pack_curve_level(const PackCurve *curve, double value)
 {
     const double x = value / curve->white;
-    const double y = x > 1            ? 1 + LEVELS_PER_E / 255 * log(x)
-                     : x <= 0.0031308 ? 12.92 * x
-                                      : 1.055 * pow(x, 1 / 2.4) - 0.055;
+    const double y = x > 1 ? 1 + LEVELS_PER_E / 255 * log(x) : retex_srgb_encode(x);
     return curve->levels * fmin(y, PACK_WHITES_MOST);
 }
 
 double pack_curve_value(const PackCurve *curve, double level)
 {
     const double y = level / curve->levels;
-    const double x = y > 1          ? exp((y - 1) * 255 / LEVELS_PER_E)
-                     : y <= 0.04045 ? y / 12.92
-                                    : pow((y + 0.055) / 1.055, 2.4);
+    const double x = y > 1 ? exp((y - 1) * 255 / LEVELS_PER_E) : retex_srgb_decode(y);
     return curve->white * x;
 }
 

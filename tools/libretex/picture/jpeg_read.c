@@ -9,6 +9,7 @@
 
 #include <jpeglib.h>
 
+#include <retex/color.h>
 #include <retex/image.h>
 
 enum { LINES = 16, TAG_ORIENTATION = 0x0112, TAG_BYTES = 12 };
@@ -83,8 +84,7 @@ static int is_plain(const struct jpeg_decompress_struct *jpeg, long max_pixels)
 static void fill_table(uint16_t table[256])
 {
     for (int i = 0; i < 256; i++) {
-        const double v = i / 255.0;
-        const float linear = (float)(v <= 0.04045 ? v / 12.92 : pow((v + 0.055) / 1.055, 2.4));
+        const float linear = (float)retex_srgb_decode(i / 255.0);
         table[i] = (uint16_t)(linear * 65535.0f + 0.5f);
     }
 }

@@ -6,6 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include <retex/color.h>
+
 #include "picture/srgb_codes.h"
 
 enum {
@@ -35,7 +37,7 @@ unsigned retex_linear_code(float value, int bits)
 
 unsigned retex_srgb_code(float value, int bits)
 {
-    return retex_linear_code(value <= 0.0031308f ? value * 12.92f : 1.055f * powf(value, 1.0f / 2.4f) - 0.055f, bits);
+    return retex_linear_code(retex_srgb_encodef(value), bits);
 }
 
 static void find_smallest(float *smallest, int bits)
@@ -44,8 +46,7 @@ static void find_smallest(float *smallest, int bits)
 
     smallest[0] = 0;
     for (unsigned code = 1; code < codes; code++) {
-        const double shown = (code - 0.5) / (codes - 1);
-        float value = (float)(shown <= 0.04045 ? shown / 12.92 : pow((shown + 0.055) / 1.055, 2.4));
+        float value = (float)retex_srgb_decode((code - 0.5) / (codes - 1));
         while (retex_srgb_code(value, bits) < code)
             value = nextafterf(value, 2);
         for (float less; (less = nextafterf(value, 0)), retex_srgb_code(less, bits) >= code;)
@@ -84,9 +85,8 @@ static void make_16(void)
 {
     find_smallest(tables.smallest_16, 16);
     for (uint32_t i = 0; i < sizeof tables.first_16 / sizeof tables.first_16[0]; i++) {
-        const double value = float_of(LOWEST(EXPONENTS_16) + (i << STEP_BITS));
-        tables.first_16[i] =
-            (float)((value <= 0.0031308 ? value * 12.92 : 1.055 * pow(value, 1 / 2.4) - 0.055) * (CODES_16 - 1));
+        const float value = float_of(LOWEST(EXPONENTS_16) + (i << STEP_BITS));
+        tables.first_16[i] = (float)(retex_srgb_encode((double)value) * (CODES_16 - 1));
     }
 }
 

@@ -5,6 +5,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include <retex/color.h>
+
 #define LARGEST_COLOR 65504.0f /* of a half; sums and squares of such stay finite */
 /* Below this a negative colour is a rounding of a conversion. */
 #define LEAST_NEGATIVE -1e-5f
@@ -28,7 +30,7 @@ static float largest_of(const float *p)
 
 static int is_bright(const float *p)
 {
-    return 0.2126f * p[0] + 0.7152f * p[1] + 0.0722f * p[2] > BRIGHTER_THAN_WHITE || largest_of(p) > BEYOND_ANY_GAMUT;
+    return retex_luminancef(p[0], p[1], p[2]) > BRIGHTER_THAN_WHITE || largest_of(p) > BEYOND_ANY_GAMUT;
 }
 
 static void count_bright(TextureValues *values, const float *p, int x, int y)
@@ -97,9 +99,7 @@ void texture_values_mend_color(float color[3], TextureValues *values)
 
 static double linear_of_code(float code)
 {
-    const double v = (double)code / 255;
-
-    return v <= 0.04045 ? v / 12.92 : pow((v + 0.055) / 1.055, 2.4);
+    return retex_srgb_decode((double)code / 255);
 }
 
 static void tell_color(const TextureValues *values, const RetexTextureSpec *spec)

@@ -7,6 +7,7 @@
 #include <retex/access.h>
 #include <retex/band_stats.h>
 #include <retex/budget.h>
+#include <retex/color.h>
 #include <retex/compact.h>
 #include <retex/denoise.h>
 #include <retex/diff.h>
