@@ -7,8 +7,8 @@
 set -eu
 
 # kind  what it is known by   the Debian package it comes from
-# Of packs: libjpeg-dev reads and writes the coefficients of JPEGs, libblosc-dev compresses their planes; libturbojpeg
-# and jansson read version 1 and every manifest. libisal-dev deflates and inflates.
+# Of packs: libjpeg-dev reads and writes the coefficients of JPEGs, libblosc-dev compresses their planes, jansson reads
+# and writes manifests. libisal-dev deflates and inflates.
 needs_build='
 command gcc build-essential
 command g++ build-essential
@@ -18,7 +18,6 @@ pkg OpenImageIO libopenimageio-dev
 pkg OpenEXR libopenexr-dev
 pkg OpenColorIO libopencolorio-dev
 embree rtcore.h libembree-dev
-pkg libturbojpeg libturbojpeg0-dev
 pkg libjpeg libjpeg-dev
 pkg blosc libblosc-dev
 pkg jansson libjansson-dev
@@ -109,10 +108,10 @@ cflags() { "$PKG_CONFIG" --cflags "$@" | sed 's/-I/-isystem /g'; }
 config() {
     embree_name=$(embree)
     echo "# Made by tools/setup.sh; remove it after installing other versions of the libraries."
-    echo "LIBRETEX_CFLAGS := $(cflags OpenEXR jansson libturbojpeg libjpeg blosc zlib libisal)"
-    echo "LIBRETEX_LIBS := $("$PKG_CONFIG" --libs-only-L OpenEXR jansson libturbojpeg libjpeg blosc zlib libisal)" \
+    echo "LIBRETEX_CFLAGS := $(cflags OpenEXR jansson libjpeg blosc zlib libisal)"
+    echo "LIBRETEX_LIBS := $("$PKG_CONFIG" --libs-only-L OpenEXR jansson libjpeg blosc zlib libisal)" \
         "$("$PKG_CONFIG" --libs-only-l OpenEXR | tr ' ' '\n' | grep OpenEXRCore)" \
-        "$("$PKG_CONFIG" --libs jansson libturbojpeg libjpeg blosc zlib libisal) -ldl -lm"
+        "$("$PKG_CONFIG" --libs jansson libjpeg blosc zlib libisal) -ldl -lm"
     echo "BRIDGE_CFLAGS := $(cflags OpenImageIO OpenColorIO OpenEXR)"
     echo "BRIDGE_LIBS := $("$PKG_CONFIG" --libs OpenImageIO OpenColorIO)"
     echo "RENDER_CFLAGS := -DRETEX_$(echo "$embree_name" | tr a-z A-Z)"

@@ -27,7 +27,7 @@ renderer_headers=$(cd renderer && find . -name '*.h' | sed 's|^\./||' | tr '\n' 
 forbid tools "renderer/|embree|$renderer_headers" "libretex and the tools must not know the renderer"
 forbid tools/libretex 'cli\.h' "the library must not know the command line"
 forbid tools/libretex 'OpenImageIO|OpenColorIO' "only the bridge may include OpenImageIO or OpenColorIO"
-forbid renderer 'OpenImageIO|OpenColorIO|ImfHeader|openexr|turbojpeg|zip\.h' "the renderer knows libretex only"
+forbid renderer 'OpenImageIO|OpenColorIO|ImfHeader|openexr|jpeglib|zip\.h' "the renderer knows libretex only"
 forbid renderer 'libretex/|bridge|(io|exr|picture|texture|set|retexture|denoise|metrics|compact|pack|files)/' \
     "the renderer uses libretex's public headers only"
 forbid renderer 'oiio_plugins|set_input|(pack|scene)_source|scene_options' "the renderer must not know the plugins"

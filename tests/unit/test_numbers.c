@@ -210,26 +210,13 @@ static void test_packs(void **state)
     retex_set_close(&set);
 }
 
-/* Parts in memory, as packs of version 1 bring them there. */
-static void test_parts(void **state)
-{
-    (void)state;
-    RetexSet *set = test_set(16, 12, 1);
-    RetexError err = {0};
-    RetexPart *part = &set->parts[3];
-    assert_int_equal(retex_numbers_check_part(part, &err), 0);
-    part->image.pixels[retex_image_index(&part->image, 15, 11)] = -INFINITY;
-    assert_int_equal(retex_numbers_check_part(part, &err), RETEX_EFORMAT);
-    assert_non_null(strstr(err.message, "holds -infinity at 15,11 in channel"));
-    assert_int_equal(retex_numbers_check_row(part, part->image.pixels, 0, 16, 0, &err), 0);
-    retex_set_close(&set);
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_kernels), cmocka_unit_test(test_sets),  cmocka_unit_test(test_streams),
-        cmocka_unit_test(test_packs),   cmocka_unit_test(test_parts),
+        cmocka_unit_test(test_kernels),
+        cmocka_unit_test(test_sets),
+        cmocka_unit_test(test_streams),
+        cmocka_unit_test(test_packs),
     };
     return cmocka_run_group_tests(tests, test_make_folder, test_remove_folder);
 }

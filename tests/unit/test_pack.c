@@ -343,7 +343,7 @@ static void test_rows_are_those_of_the_whole(void **state)
     RetexInput *input = NULL;
     RetexPackScratch *scratch = NULL;
     test_must(retex_input_borrow(&input, data, bytes, "memory", &err), &err);
-    test_must(retex_pack_open(&open, &input, 1, &err), &err);
+    test_must(retex_pack_open(&open, &input, &err), &err);
     test_must(retex_pack_scratch_create(&scratch, retex_pack_of(open), &err), &err);
     const int spans[][2] = {{64, 128}, {0, 64}, {63, 65}, {10, 11}, {128, 150}, {0, 150}};
     for (int i = 0; i < open->nparts; i++) {
@@ -374,32 +374,6 @@ static void test_rows_are_those_of_the_whole(void **state)
     retex_set_close(&whole);
     retex_set_close(&set);
     free(data);
-}
-
-/* A pack of version 1, made by the last program that wrote it. */
-static void test_version_1_is_read(void **state)
-{
-    (void)state;
-    RetexSet *set = NULL, *same = test_set(24, 16, 1);
-    RetexSamples *samples = NULL;
-    RetexError err = {0};
-    test_must(retex_set_open("tests/data/pack-v1.retex", &set, &samples, 2, &err), &err);
-    assert_null(samples);
-    assert_null(set->source);
-    assert_int_equal(set->nparts, same->nparts);
-    assert_int_equal(set->nterms, same->nterms);
-    const int depth = retex_set_find_part(set, "depth");
-    assert_true(part_difference(&set->parts[depth], &same->parts[depth], 1) == 0);
-    for (int i = 0; i < set->nterms; i++) {
-        RetexMetrics m;
-        test_must(retex_metrics(&m, &set->parts[set->terms[i].radiance].image,
-                                &same->parts[same->terms[i].radiance].image, 0, &err),
-                  &err);
-        assert_true(m.psnr > 40);
-    }
-    test_must(retex_set_check("tests/data/pack-v1.retex", 1, &err), &err);
-    retex_set_close(&set);
-    retex_set_close(&same);
 }
 
 static void test_threads_do_not_change_bytes(void **state)
@@ -465,7 +439,6 @@ int main(void)
         cmocka_unit_test(test_gains_are_finer_where_there_is_little_noise),
         cmocka_unit_test(test_black_parts_cost_nothing),
         cmocka_unit_test(test_rows_are_those_of_the_whole),
-        cmocka_unit_test(test_version_1_is_read),
         cmocka_unit_test(test_threads_do_not_change_bytes),
         cmocka_unit_test(test_recombination_from_a_pack_is_close),
     };

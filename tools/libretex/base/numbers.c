@@ -61,13 +61,3 @@ int retex_numbers_check_row(const RetexPart *part, const float *row, int x0, int
     const char channel[2] = {part->letters[at % channels], 0};
     return retex_numbers_fail(err, NULL, part->name, channel, (int)(at / channels), y, row[at]);
 }
-
-int retex_numbers_check_part(const RetexPart *part, RetexError *err)
-{
-    const RetexImage *image = &part->image;
-    int code = 0;
-
-    for (int y = 0; y < image->height && !code; y++)
-        code = retex_numbers_check_row(part, image->pixels + retex_image_index(image, 0, y), 0, image->width, y, err);
-    return code;
-}

@@ -23,8 +23,6 @@ int retex_numbers_fail(RetexError *err, const char *file, const char *part, cons
 
 /* Check pixels x0 <= x < x1 of row y of a part, which row begins with pixel 0 of. */
 int retex_numbers_check_row(const RetexPart *part, const float *row, int x0, int x1, int y, RetexError *err);
-/* All rows of a part in memory. */
-int retex_numbers_check_part(const RetexPart *part, RetexError *err);
 
 /* In numbers_kernel.c: whether any of them is infinite or NaN. */
 int retex_halves_are_odd(const void *samples, size_t count);

@@ -29,7 +29,7 @@ static int open_other(RetexLayers *layers, const char *path, const RetexReadPara
         return code;
     if (got != sizeof begin || !retex_pack_probe(begin, sizeof begin))
         return retex_image_read_with(&layers->picture, path, params, err);
-    code = retex_pack_open(&layers->set, &layers->input, layers->nthreads, err);
+    code = retex_pack_open(&layers->set, &layers->input, err);
     return code ? code : retex_set_load(layers->set, layers->nthreads, err);
 }
 

@@ -31,7 +31,7 @@ static int read_file(const char *path, RetexSet **set, RetexSamples **samples, i
     else if (!status && !set)
         status = retex_fail(err, RETEX_EFORMAT, "%s holds a set, no samples", retex_input_name(input));
     else if (!status)
-        status = retex_pack_open(set, &input, nthreads, err);
+        status = retex_pack_open(set, &input, err);
     if (!status && !open && set && *set && (*set)->source)
         status = retex_set_load(*set, nthreads, err);
     if (status && set)
@@ -59,7 +59,7 @@ int retex_set_check(const char *path, int nthreads, RetexError *err)
     if (!status && !is_pack(input)) {
         status = set_check_exr(input, nthreads, err);
     } else if (!status) {
-        status = retex_pack_open(&set, &input, nthreads, err);
+        status = retex_pack_open(&set, &input, err);
         if (!status)
             status = retex_pack_verify(set, nthreads, err);
     }

@@ -9,9 +9,9 @@
 
 typedef struct RetexPack RetexPack; /* an open pack: read-only, shared by threads */
 
-/* Open a pack. *set is created; of version 2 its parts have sizes but no pixels, and the pack is its source; version 1
- * is read whole. *input belongs to the set from then on, and is NULL. */
-int retex_pack_open(RetexSet **set, RetexInput **input, int nthreads, RetexError *err);
+/* Open a pack. *set is created; its parts have sizes but no pixels, and the pack is its source. *input belongs to the
+ * set from then on, and is NULL. */
+int retex_pack_open(RetexSet **set, RetexInput **input, RetexError *err);
 RetexPack *retex_pack_of(const RetexSet *set); /* that it was opened from, or NULL */
 void retex_pack_close(RetexPack **pack);       /* NULL and pointers to NULL are fine */
 

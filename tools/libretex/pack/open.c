@@ -11,7 +11,6 @@
 #include "exr/io.h"
 #include "set/manifest.h"
 #include "base/numbers.h"
-#include "pack/v1.h"
 
 int pack_damaged(RetexError *err, const char *what, const char *name)
 {
@@ -142,7 +141,7 @@ static int read_set(RetexSet **set, const char *manifest, RetexError *err)
     return code;
 }
 
-static int open_version_2(RetexPack *pack, RetexSet *set, const char *manifest, RetexError *err)
+static int open_parts(RetexPack *pack, RetexSet *set, const char *manifest, RetexError *err)
 {
     pack->set = set;
     pack->nparts = set->nparts;
@@ -154,7 +153,7 @@ static int open_version_2(RetexPack *pack, RetexSet *set, const char *manifest, 
     return code ? code : read_index(pack, err);
 }
 
-static int open_pack(RetexPack *pack, RetexSet **set, int nthreads, RetexError *err)
+static int open_pack(RetexPack *pack, RetexSet **set, RetexError *err)
 {
     unsigned char *manifest = NULL;
     size_t bytes;
@@ -163,21 +162,19 @@ static int open_pack(RetexPack *pack, RetexSet **set, int nthreads, RetexError *
         code = read_entry(pack, PACK_MANIFEST, PACK_MANIFEST_MAX, &manifest, &bytes, err);
     if (!code && strlen((char *)manifest) != bytes)
         code = pack_damaged(err, "no text is in", PACK_MANIFEST);
+    const int version = code ? 0 : pack_version_of((char *)manifest);
+    if (version > 0 && version != PACK_VERSION)
+        code = retex_fail(err, RETEX_EUNSUPPORTED, "the pack has version %d; this program reads version %d", version,
+                          PACK_VERSION);
     if (!code)
         code = read_set(set, (char *)manifest, err);
-    const int version = code ? 0 : pack_version_of((char *)manifest);
     if (!code && version == 0)
         code = retex_fail(err, RETEX_EFORMAT, "the pack is damaged: its manifest does not say how parts are packed");
-    else if (!code && version > PACK_VERSION)
-        code = retex_fail(err, RETEX_EUNSUPPORTED, "the pack has version %d; this program reads up to %d", version,
-                          PACK_VERSION);
-    else if (!code && version == 1)
-        code = pack_v1_read(*set, pack->input, &pack->entries, (char *)manifest, nthreads, err);
-    else if (!code)
-        code = open_version_2(pack, *set, (char *)manifest, err);
+    if (!code)
+        code = open_parts(pack, *set, (char *)manifest, err);
     pack->says_kept = !code && pack_kept_of(&pack->kept, (char *)manifest);
     free(manifest);
-    return code ? code : version;
+    return code;
 }
 
 int retex_pack_kept(RetexPackKept *kept, const RetexSet *set)
@@ -230,7 +227,7 @@ RetexPack *retex_pack_of(const RetexSet *set)
     return set->source && set->source->close == source_close ? (RetexPack *)(void *)set->source : NULL;
 }
 
-int retex_pack_open(RetexSet **set, RetexInput **input, int nthreads, RetexError *err)
+int retex_pack_open(RetexSet **set, RetexInput **input, RetexError *err)
 {
     RetexPack *pack = calloc(1, sizeof *pack);
     *set = NULL;
@@ -238,18 +235,17 @@ int retex_pack_open(RetexSet **set, RetexInput **input, int nthreads, RetexError
         return retex_fail(err, RETEX_ENOMEM, "no memory to read a pack");
     pack->input = *input;
     *input = NULL;
-    const int version = retex_input_check(pack->input, open_pack(pack, set, nthreads, err), err);
-    if (version == PACK_VERSION) {
+    const int code = retex_input_check(pack->input, open_pack(pack, set, err), err);
+    if (!code) {
         pack->methods = pack_methods;
         (*set)->source = &pack->methods;
         return 0;
     }
-    if (version < 0 && err)
+    if (err)
         snprintf(err->file, sizeof err->file, "%s", retex_input_name(pack->input));
     retex_pack_close(&pack);
-    if (version < 0)
-        retex_set_close(set);
-    return version < 0 ? version : 0;
+    retex_set_close(set);
+    return code;
 }
 
 uint64_t retex_pack_part_bytes(const RetexPack *pack, int part)
@@ -291,8 +287,6 @@ static int keeps_bits(const PackPart *p)
 int retex_pack_verify(RetexSet *set, int nthreads, RetexError *err)
 {
     RetexPack *pack = retex_pack_of(set);
-    if (!pack) /* version 1: opening it was checking it */
-        return 0;
     char *exact = malloc((size_t)set->nparts + 1);
     int code = exact ? verify_entries(pack, err) : retex_fail(err, RETEX_ENOMEM, "no memory to check a pack");
     for (int i = 0; !code && i < set->nparts; i++)

@@ -13,7 +13,7 @@ int retex_pack_read(const void *data, size_t bytes, RetexSet **set, int nthreads
     *set = NULL;
     int code = retex_input_borrow(&input, data, bytes, "the pack", err);
     if (!code)
-        code = retex_pack_open(set, &input, nthreads, err);
+        code = retex_pack_open(set, &input, err);
     if (!code)
         code = retex_set_load(*set, nthreads, err);
     if (code)
@@ -27,7 +27,7 @@ int retex_pack_check(const void *data, size_t bytes, RetexError *err)
     RetexSet *set = NULL;
     int code = retex_input_borrow(&input, data, bytes, "the pack", err);
     if (!code)
-        code = retex_pack_open(&set, &input, 0, err);
+        code = retex_pack_open(&set, &input, err);
     if (!code)
         code = retex_pack_verify(set, 0, err);
     retex_set_close(&set);

@@ -190,7 +190,7 @@ static int attempt_measure(double *worst, const Attempt *attempt, const PackJudg
     if (!code)
         code = retex_input_borrow(&input, data, bytes, "the pack", err);
     if (!code)
-        code = retex_pack_open(&pack, &input, nthreads, err);
+        code = retex_pack_open(&pack, &input, err);
     if (!code)
         code = pack_judge_read(psnr, judge, pack, nthreads, err);
     *worst = code ? 0 : pack_worst(psnr);

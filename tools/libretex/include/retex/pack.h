@@ -31,7 +31,7 @@ int retex_pack_probe(const void *data, size_t bytes);
 int retex_pack_check(const void *data, size_t bytes, RetexError *err);
 
 /* Bytes of a pack's parts by what they are for; a zip's directory, the manifest and the like are not among them.
- * 1, or 0 where the set is not that of a pack which retex_set_open opened, or its pack is of version 1. */
+ * 1, or 0 where the set is not that of a pack which retex_set_open opened. */
 typedef enum RetexPackGroup {
     RETEX_PACK_PICTURE, RETEX_PACK_RADIANCE, RETEX_PACK_GAINS, RETEX_PACK_UV, RETEX_PACK_SPREAD, RETEX_PACK_WEIGHTS,
     RETEX_PACK_ALBEDO, RETEX_PACK_ORIGINALS, RETEX_PACK_OTHER, RETEX_PACK_GROUPS
