@@ -26,8 +26,8 @@ cd "$work" || exit 2
 status=0
 for name; do
     arguments="--seconds $seconds --seed $seed --keep $KEEP"
-    [ "$name" != scene ] || arguments="$arguments --words $here/renderer/sdl/words.c
-        --words $here/renderer/sdl/function_builtin.c $scenes"
+    [ "$name" != scene ] || arguments="$arguments --words $here/renderer/sdl/lang/words.c
+        --words $here/renderer/sdl/lang/function_builtin.c $scenes"
     # shellcheck disable=SC2086 # words wanted
     nice "$BUILD/tests/fuzz/fuzz_$name" $arguments || status=1
 done

@@ -1,4 +1,4 @@
-/* The scene side of the language: shapes in canonical form, the order of transforms and textures, groups, layers,
+/* What the language builds: shapes in canonical form, the order of transforms and textures, groups, layers,
  * finishes, the working space. */
 #include "lib_scene_text.h"
 

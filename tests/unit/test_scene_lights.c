@@ -1,4 +1,4 @@
-/* The scene side of the language: camera, lights, sky and targets. */
+/* What the language builds: camera, lights, sky and targets. */
 #include "lib_scene_text.h"
 
 #include <stdio.h>

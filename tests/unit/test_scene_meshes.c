@@ -1,4 +1,4 @@
-/* The scene side of the language: meshes and polygons, and what cannot be cut. */
+/* What the language builds: meshes and polygons, and what cannot be cut. */
 #include "lib_scene_text.h"
 
 #include <math.h>

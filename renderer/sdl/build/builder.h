@@ -1,0 +1,355 @@
+/* Private to sdl/build: how objects, textures and the rest are kept between being read and being placed in the Scene.
+ *
+ * Everything that can be #declared is immutable once it is read: a change (a transform, another finish, a name) is made
+ * on a copy, so identifiers share what they have in common. Objects keep their transforms apart from their geometry and
+ * from their textures (Dressed), which makes `object{Ident translate …}` one small copy however large Ident is.
+ *
+ * Where the language asks for more than the renderer has, the thing is marked with a Gap and reported when it is
+ * placed, not when it is declared: the standard includes declare hundreds of textures that no scene uses all of. */
+#ifndef RENDERER_SDL_BUILD_BUILDER_H
+#define RENDERER_SDL_BUILD_BUILDER_H
+
+#include <stdint.h>
+#include "sdl/lang/parser.h"
+
+/* ---- what is not supported ---- */
+
+#define GAP_TABLE(X)                                                                                                   \
+    X(AGATE, "agate", "its mean colour is used")                                                                       \
+    X(AOI, "aoi", "its mean colour is used")                                                                           \
+    X(AVERAGE, "average", "its mean colour is used")                                                                   \
+    X(BOXED, "boxed", "its mean colour is used")                                                                       \
+    X(BOZO, "bozo", "its mean colour is used")                                                                         \
+    X(BRICK, "brick", "its mean colour is used")                                                                       \
+    X(BUMPS, "bumps", "its mean colour is used")                                                                       \
+    X(CELLS, "cells", "its mean colour is used")                                                                       \
+    X(CRACKLE, "crackle", "its mean colour is used")                                                                   \
+    X(CUBIC_PATTERN, "cubic pattern", "its mean colour is used")                                                       \
+    X(CYLINDRICAL, "cylindrical", "its mean colour is used")                                                           \
+    X(DENSITY_FILE, "density_file", "its mean colour is used")                                                         \
+    X(DENTS, "dents", "its mean colour is used")                                                                       \
+    X(FACETS, "facets", "its mean colour is used")                                                                     \
+    X(FUNCTION, "function pattern", "its mean colour is used")                                                         \
+    X(GRANITE, "granite", "its mean colour is used")                                                                   \
+    X(HEXAGON, "hexagon", "its mean colour is used")                                                                   \
+    X(IMAGE_PATTERN, "image_pattern", "its mean colour is used")                                                       \
+    X(JULIA, "julia", "its mean colour is used")                                                                       \
+    X(LEOPARD, "leopard", "its mean colour is used")                                                                   \
+    X(MAGNET, "magnet", "its mean colour is used")                                                                     \
+    X(MANDEL, "mandel", "its mean colour is used")                                                                     \
+    X(MARBLE, "marble", "its mean colour is used")                                                                     \
+    X(OBJECT_PATTERN, "object pattern", "the colour outside the object is used")                                       \
+    X(ONION, "onion", "its mean colour is used")                                                                       \
+    X(PAVEMENT, "pavement", "its mean colour is used")                                                                 \
+    X(PIGMENT_PATTERN, "pigment_pattern", "its mean colour is used")                                                   \
+    X(PLANAR, "planar", "its mean colour is used")                                                                     \
+    X(PROJECTION, "projection", "its mean colour is used")                                                             \
+    X(QUILTED, "quilted", "its mean colour is used")                                                                   \
+    X(RADIAL, "radial", "its mean colour is used")                                                                     \
+    X(RIPPLES, "ripples", "its mean colour is used")                                                                   \
+    X(SLOPE, "slope", "its mean colour is used")                                                                       \
+    X(SPHERICAL, "spherical", "its mean colour is used")                                                               \
+    X(SPIRAL, "spiral", "its mean colour is used")                                                                     \
+    X(SPOTTED, "spotted", "its mean colour is used")                                                                   \
+    X(SQUARE, "square", "its mean colour is used")                                                                     \
+    X(TILING, "tiling", "its mean colour is used")                                                                     \
+    X(TRIANGULAR, "triangular", "its mean colour is used")                                                             \
+    X(WAVES, "waves", "its mean colour is used")                                                                       \
+    X(WOOD, "wood", "its mean colour is used")                                                                         \
+    X(WRINKLES, "wrinkles", "its mean colour is used")                                                                 \
+    X(TURBULENCE, "turbulence", "the pattern is left undisturbed")                                                     \
+    X(WARP, "warp", "the pattern is left undisturbed")                                                                 \
+    X(PIGMENT_MAP, "pigment_map", "each pigment's mean colour is used")                                                \
+    X(TEXTURE_MAP, "texture_map", "each texture's mean colour is used, with the first one's finish")                   \
+    X(MATERIAL_MAP, "material_map", "its first texture is used")                                                       \
+    X(IMAGE_FUNCTION, "image_map of a function", "a middle grey is used")                                              \
+    X(IMAGE_PALETTE, "filter or transmit of a palette entry", "the entry stays opaque")                                \
+    X(IMAGE_PLACE, "repeat and offset of an image", "they are ignored")                                                \
+    X(MAP_TYPE, "this map_type", "the image is mapped as a plane")                                                     \
+    X(LAYERED, "a layered texture", "its topmost opaque layer is used")                                                \
+    X(NORMAL, "normal", "the surface stays smooth")                                                                    \
+    X(IRID, "irid", "it is ignored")                                                                                   \
+    X(SUBSURFACE, "subsurface", "it is ignored")                                                                       \
+    X(MEDIA, "media", "it is ignored")                                                                                 \
+    X(DISPERSION, "dispersion", "one ior is used for all colours")                                                     \
+    X(DIFFERENCE, "difference", "its first object is used whole")                                                      \
+    X(INTERSECTION, "intersection", "its first object that is not a plane is used whole")                              \
+    X(MERGE, "merge", "it is treated as a union")                                                                      \
+    X(CLIPPED_BY, "clipped_by", "the object stays whole")                                                              \
+    X(LIGHT_GROUP, "light_group", "its lights light everything")                                                       \
+    X(PROJECTED_THROUGH, "projected_through", "the light shines everywhere")                                           \
+    X(BICUBIC_PATCH, "bicubic_patch", "it is left out")                                                                \
+    X(BLOB, "blob", "it is left out")                                                                                  \
+    X(CUBIC, "cubic", "it is left out")                                                                                \
+    X(HEIGHT_FIELD, "height_field", "it is left out")                                                                  \
+    X(ISOSURFACE, "isosurface", "it is left out")                                                                      \
+    X(JULIA_FRACTAL, "julia_fractal", "it is left out")                                                                \
+    X(LATHE, "lathe", "it is left out")                                                                                \
+    X(OVUS, "ovus", "it is left out")                                                                                  \
+    X(PARAMETRIC, "parametric", "it is left out")                                                                      \
+    X(POLY, "poly", "it is left out")                                                                                  \
+    X(POLYNOMIAL, "polynomial", "it is left out")                                                                      \
+    X(PRISM, "prism", "it is left out")                                                                                \
+    X(QUADRIC, "quadric", "it is left out")                                                                            \
+    X(QUARTIC, "quartic", "it is left out")                                                                            \
+    X(SOR, "sor", "it is left out")                                                                                    \
+    X(SPHERE_SWEEP, "sphere_sweep", "it is left out")                                                                  \
+    X(SUPERELLIPSOID, "superellipsoid", "it is left out")                                                              \
+    X(TEXT, "text", "it is left out")
+
+typedef enum Gap {
+#define X(id, name, instead) GAP_##id,
+    GAP_TABLE(X)
+#undef X
+        GAP_COUNT
+} Gap;
+typedef struct Gaps {
+    uint64_t bits[2];
+} Gaps;
+_Static_assert(GAP_COUNT <= 128, "Gaps is too small");
+
+void gaps_add(Gaps *gaps, Gap gap);
+void gaps_join(Gaps *gaps, const Gaps *other);
+void gaps_report(Sdl *sdl, const Gaps *gaps);
+
+/* ---- pigments, finishes, textures ---- */
+
+typedef struct ParsedImage {
+    ImageMap map;        /* first; texture, size and alpha are filled in when the scene is complete */
+    char colorspace[64]; /* of the file; "" = by its type */
+    int working;         /* 1: the numbers of an integer file are colours of the working space, taken as they are */
+    const char *file;    /* where it is written, for messages */
+    int line;
+    struct ParsedImage *next;
+} ParsedImage;
+
+/* A pattern that is not supported becomes the mean of its map, or for `average` of the entries by their weights. */
+typedef enum Averaged { AVERAGED_NOT, AVERAGED, AVERAGED_BY_WEIGHT } Averaged;
+
+typedef struct ParsedPigment {
+    Pigment pigment;   /* first: a Pigment* in the Scene is one of these */
+    Averaged averaged; /* then kind is a colour */
+    int disturbed;     /* has turbulence or a warp */
+    const char *file;  /* where its colour is written, for messages; line 0: nowhere */
+    int line, told;    /* told: that it is no albedo */
+    Gaps gaps;
+    struct ParsedPigment *next; /* all there are */
+} ParsedPigment;
+
+typedef struct ParsedColorMap {
+    ColorMap map;
+    Gaps gaps;
+    const struct ParsedTexture *texture; /* of a texture_map: its first */
+    struct ParsedColorMap *next;
+} ParsedColorMap;
+
+typedef struct ParsedFinish {
+    Finish finish; /* first */
+    double ior;    /* written in the finish, as old scenes do; 0 = not */
+    Gaps gaps;
+    struct ParsedFinish *next;
+} ParsedFinish;
+
+typedef struct ParsedTexture {
+    Texture texture;                   /* first: its pigment is a ParsedPigment, its finish a ParsedFinish */
+    const struct ParsedTexture *below; /* the layer under it */
+    Gaps gaps;
+    int settled; /* the names of its pigment are joined to its own */
+} ParsedTexture;
+
+/* A texture and what has moved it since: `sphere{… texture{T} rotate … scale …}` composes matrices only. */
+typedef struct Dressed {
+    const ParsedTexture *texture; /* or NULL */
+    int moved;
+    Transform pending;
+} Dressed;
+
+typedef struct ParsedInterior {
+    Interior interior; /* first */
+    Gaps gaps;
+} ParsedInterior;
+
+typedef struct ParsedMaterial {
+    const ParsedTexture *texture, *interior_texture;
+    const ParsedInterior *interior;
+    const IdentList *idents;
+} ParsedMaterial;
+
+/* ---- objects ---- */
+
+typedef enum ObjectKind { OBJECT_EMPTY, OBJECT_SHAPE, OBJECT_GROUP, OBJECT_LIGHT } ObjectKind;
+enum { OBJECT_NO_SHADOW = 1, OBJECT_NO_IMAGE = 2, OBJECT_NO_REFLECTION = 4, OBJECT_INVERSE = 8, OBJECT_HOLLOW = 16 };
+
+typedef struct ObjectList {
+    const struct Object *object;
+    struct ObjectList *next;
+} ObjectList;
+
+typedef struct Object {
+    ObjectKind kind;
+    ShapeKind shape;
+    double r0, r1;
+    int open;
+    const Mesh *mesh; /* its textures are ParsedTextures in the mesh's own space */
+    int loose;        /* a triangle of its own, which may be gathered into one mesh with its like */
+    int polygon;      /* the mesh is a polygon */
+    const Light *light;
+    const ObjectList *children; /* of a group; of a light: what it looks like */
+    Transform transform;        /* canonical shape, or the children's space, to here */
+    Dressed texture, interior_texture;
+    const ParsedInterior *interior;
+    unsigned flags;
+    int uv_mapping;
+    int depth;    /* of nested groups */
+    double parts; /* objects in it, counted through identifiers */
+    const IdentList *idents;
+    int line;
+    Gaps gaps;
+} Object;
+
+typedef struct ParsedSky {
+    Rgb emission;
+    Transform transform;
+    int npigments;
+    const ParsedPigment *pigments[16];
+} ParsedSky;
+
+typedef struct ParsedCamera {
+    Camera camera;
+    Vec3 sky, look_at;
+} ParsedCamera;
+
+/* ---- the state ---- */
+
+#define PLACED_CACHE 256
+typedef struct PlacedTexture {
+    const ParsedTexture *from, *to;
+    Transform by;
+} PlacedTexture;
+
+typedef struct Builder {
+    const ParsedTexture *default_texture;
+    ParsedCamera camera;
+    const ParsedSky *sky;
+    int has_assumed_gamma;
+    int gamma_srgb; /* `assumed_gamma srgb` */
+    double assumed_gamma;
+    double gamma_version; /* the version where it was set */
+    int depth;            /* of nested statements being read */
+    /* what is decoded from the working space at the end, each once */
+    ParsedPigment *pigments;
+    ParsedColorMap *maps;
+    ParsedFinish *finishes;
+    ParsedImage *images;
+    int primitive_room, light_room;
+    unsigned char *loose; /* by primitive: may be gathered */
+    PlacedTexture placed[PLACED_CACHE];
+    Mesh *placed_mesh; /* the last mesh whose own textures were placed */
+    const Mesh *placed_mesh_from;
+    Transform placed_mesh_by;
+    struct Tracer *tracer; /* trace.c: objects made ready for rays */
+} Builder;
+
+static inline Builder *builder_of(Sdl *sdl)
+{
+    return sdl_builder_state(sdl);
+}
+static inline const ParsedPigment *default_pigment(Sdl *sdl)
+{
+    return (const ParsedPigment *)builder_of(sdl)->default_texture->texture.pigment;
+}
+
+/* Nesting of statements that the parser recurses for; an error when too deep. */
+void statement_enter(Sdl *sdl);
+void statement_leave(Sdl *sdl);
+/* Room for one more of size bytes in an array of the arena: doubled when full. */
+void *builder_grow(Sdl *sdl, void *array, int count, int *room, size_t size);
+
+/* The value of the next token where it is an identifier of that kind, else NULL. */
+Value *peek_ident(Sdl *sdl, ValueKind kind);
+/* … taken: its data, or NULL. */
+void *accept_ident(Sdl *sdl, ValueKind kind);
+/* 1 where the next token begins a number (not a vector or colour). */
+int is_float_start(Sdl *sdl);
+double optional_float(Sdl *sdl, double missing);
+/* A word that introduces a block which is skipped. */
+void skip_statement(Sdl *sdl);
+
+/* transform.c */
+int accept_transform(Sdl *sdl, Transform *by); /* one translate, rotate, scale, matrix or transform */
+Transform parse_transform(Sdl *sdl);           /* after `transform` */
+int transform_is_identity(const Transform *t);
+
+/* pigment.c, pattern.c, image.c */
+ParsedPigment *pigment_new(Sdl *sdl, const ParsedPigment *from /* or NULL */);
+ParsedPigment *parse_pigment_body(Sdl *sdl, const ParsedPigment *from, char end);
+ParsedPigment *parse_pigment(Sdl *sdl, const ParsedPigment *from); /* with its braces */
+Rgbft pigment_mean(const ParsedPigment *pigment);
+int parsed_pigment_is_opaque(const ParsedPigment *pigment);
+/* A pattern of whole textures (texture_map, tiles, texture lists): the pigment of their mean colours. */
+ParsedPigment *parse_texture_pattern(Sdl *sdl, char end, const ParsedTexture **first, Gaps *gaps);
+ParsedColorMap *parse_color_map(Sdl *sdl);   /* after color_map */
+ParsedColorMap *parse_pigment_map(Sdl *sdl); /* after pigment_map */
+ParsedColorMap *parse_texture_map(Sdl *sdl); /* after texture_map */
+Rgbft color_map_mean(const ColorMap *map);
+int accept_pattern(Sdl *sdl, ParsedPigment *pigment, const ParsedTexture **first, int textures);
+int accept_pattern_modifier(Sdl *sdl, ParsedPigment *pigment);
+/* `checker A B`, `brick pigment{A} pigment{B}`: up to n of them replace list[]. */
+void parse_color_list(Sdl *sdl, Rgbft *list, int n, ParsedPigment *pigment, const ParsedTexture **first, int textures);
+void parse_image_map(Sdl *sdl, ParsedPigment *pigment); /* after image_map */
+
+/* finish.c */
+ParsedFinish *finish_new(Sdl *sdl, const ParsedFinish *from /* or NULL: the built-in one */);
+ParsedFinish *parse_finish(Sdl *sdl, const ParsedFinish *from);
+
+/* texture.c */
+const ParsedTexture *parse_texture(Sdl *sdl); /* after `texture` */
+const ParsedTexture *parse_texture_body(Sdl *sdl, char end);
+const ParsedTexture *texture_moved(Sdl *sdl, const ParsedTexture *texture, const Transform *by);
+const ParsedTexture *texture_over(Sdl *sdl, const ParsedTexture *top, const ParsedTexture *bottom);
+const ParsedTexture *texture_named(Sdl *sdl, const ParsedTexture *texture, const IdentList *more);
+/* pigment, finish or normal where the next token is one of them: changes the top layer of *texture (NULL = default). */
+int accept_texture_part(Sdl *sdl, const ParsedTexture **texture);
+const ParsedTexture *texture_visible(const ParsedTexture *texture); /* the layer that is shown */
+ParsedTexture *texture_copy(Sdl *sdl, const ParsedTexture *from);
+const ParsedInterior *parse_interior(Sdl *sdl, const ParsedInterior *from);
+const ParsedMaterial *parse_material(Sdl *sdl);
+
+/* object.c, shape.c, polygon.c, mesh.c, light.c */
+const Object *accept_object(Sdl *sdl); /* an object statement or identifier, or NULL where none is next */
+Object *object_new(Sdl *sdl, ObjectKind kind);
+void object_count_child(Sdl *sdl, Object *object, const Object *child); /* counts; an error beyond all bounds */
+void object_move(Object *object, const Transform *by);
+int accept_object_modifier(Sdl *sdl, Object *object);
+void parse_object_modifiers(Sdl *sdl, Object *object); /* up to the closing brace */
+typedef void ShapeParser(Sdl *sdl, Object *object);    /* what stands between `{` and the modifiers */
+ShapeParser parse_sphere, parse_box, parse_plane, parse_cylinder, parse_cone, parse_torus, parse_disc, parse_triangle,
+    parse_smooth_triangle, parse_polygon, parse_mesh, parse_mesh2;
+const Object *parse_light_source(Sdl *sdl); /* after light_source */
+int polygon_triangulate(Sdl *sdl, const Vec2 *points, const int *starts, int nrings, Vec2 **corners, int *ncorners);
+
+/* extent.c, trace.c, inside.c: see SdlBuilder */
+int object_extent(Sdl *sdl, const Value *object, Vec3 *low, Vec3 *high);
+int object_trace(Sdl *sdl, const Value *object, Vec3 from, Vec3 direction, Vec3 *point, Vec3 *normal);
+int object_inside(Sdl *sdl, const Value *object, Vec3 p);
+int mesh_contains(Sdl *sdl, const Mesh *mesh, Vec3 p); /* an odd number of faces lies between p and far away */
+
+/* camera.c, global.c */
+void camera_default(ParsedCamera *camera);
+const ParsedCamera *parse_camera(Sdl *sdl);
+void camera_use(Sdl *sdl, const ParsedCamera *camera);
+void parse_global_settings(Sdl *sdl);
+void parse_background(Sdl *sdl);
+const ParsedSky *parse_sky_sphere(Sdl *sdl);
+
+/* place.c, finalize.c */
+void place_object(Sdl *sdl, const Object *object);
+void gather_triangles(Sdl *sdl);
+void finalize_scene(Sdl *sdl);         /* everything that waits for the end of the scene */
+Rgb decode_color(Sdl *sdl, Rgb color); /* from the working space */
+
+/* albedo.c */
+int finish_emits(const Finish *finish); /* 1: its pigment stands for light */
+void check_albedo(Sdl *sdl, const Texture *texture);
+
+#endif

@@ -1,0 +1,363 @@
+/* The end of the scene: what could not be decided while reading. Loose triangles are gathered into meshes, images
+ * loaded, layers decided, colours brought from the working space to scene-linear, emitters told, and names listed.
+ *
+ * The working space. Colours are numbers of it: linear with assumed_gamma 1 (and in scenes of version 3.7 that say
+ * nothing), a power or sRGB with other values. Older scenes that say nothing compute in the display's own space, which
+ * is taken as sRGB. Pigments, lights, sky, background, emission, ambient and reflection are decoded; factors such as
+ * diffuse are not, for the sum of several lights has no equal in another space. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <retex/color.h>
+#include "base/digest.h"
+#include "sdl/build/builder.h"
+
+/* ---- the working space ---- */
+
+typedef enum Space { SPACE_LINEAR, SPACE_SRGB, SPACE_POWER } Space;
+
+static Space working_space(Sdl *sdl)
+{
+    const Builder *builder = builder_of(sdl);
+    if (!builder->has_assumed_gamma)
+        return sdl_version(sdl) >= 3.7 ? SPACE_LINEAR : SPACE_SRGB;
+    if (builder->gamma_srgb)
+        return SPACE_SRGB;
+    return fabs(builder->assumed_gamma - 1) < 1e-6 ? SPACE_LINEAR : SPACE_POWER;
+}
+
+static float decode(Space space, double gamma, float x)
+{
+    double v = fabs(x), out = v;
+    if (space == SPACE_SRGB)
+        out = retex_srgb_decode(v);
+    else if (space == SPACE_POWER)
+        out = pow(v, gamma);
+    return (float)copysign(out, x);
+}
+
+static Rgb decode_rgb(Space s, double g, Rgb c)
+{
+    return rgb(decode(s, g, c.r), decode(s, g, c.g), decode(s, g, c.b));
+}
+
+/* Filter and transmit are shares, not colours. */
+static Rgbft decode_rgbft(Space s, double g, Rgbft c)
+{
+    return (Rgbft){decode(s, g, c.r), decode(s, g, c.g), decode(s, g, c.b), c.filter, c.transmit};
+}
+
+Rgb decode_color(Sdl *sdl, Rgb color)
+{
+    return decode_rgb(working_space(sdl), builder_of(sdl)->assumed_gamma, color);
+}
+
+static void decode_colors(Sdl *sdl)
+{
+    Builder *builder = builder_of(sdl);
+    Scene *scene = sdl_scene(sdl);
+    const Space s = working_space(sdl);
+    const double g = builder->assumed_gamma;
+    scene->assumed_gamma = s == SPACE_LINEAR ? 1 : s == SPACE_SRGB ? 2.2 : g;
+    if (s == SPACE_LINEAR)
+        return;
+    for (ParsedPigment *p = builder->pigments; p; p = p->next) {
+        p->pigment.color = decode_rgbft(s, g, p->pigment.color);
+        p->pigment.checker[0] = decode_rgbft(s, g, p->pigment.checker[0]);
+        p->pigment.checker[1] = decode_rgbft(s, g, p->pigment.checker[1]);
+    }
+    for (ParsedColorMap *m = builder->maps; m; m = m->next)
+        for (int i = 0; i < m->map.count; i++)
+            m->map.entries[i].color = decode_rgbft(s, g, m->map.entries[i].color);
+    for (ParsedFinish *f = builder->finishes; f; f = f->next) {
+        f->finish.ambient = decode_rgb(s, g, f->finish.ambient);
+        f->finish.emission = decode_rgb(s, g, f->finish.emission);
+        f->finish.reflection_min = decode_rgb(s, g, f->finish.reflection_min);
+        f->finish.reflection_max = decode_rgb(s, g, f->finish.reflection_max);
+    }
+    for (int i = 0; i < scene->nlights; i++)
+        scene->lights[i].color = decode_rgb(s, g, scene->lights[i].color);
+    scene->background = decode_rgb(s, g, scene->background);
+    scene->ambient_light = decode_rgb(s, g, scene->ambient_light);
+    if (scene->sky)
+        scene->sky->emission = decode_rgb(s, g, scene->sky->emission);
+}
+
+/* ---- images ---- */
+
+/* In scenes before 3.7 the numbers of 8- and 16-bit files are colours of the working space, as they are. */
+static const char *colorspace_of(Sdl *sdl, const ParsedImage *image)
+{
+    const Builder *builder = builder_of(sdl);
+    const double version = builder->has_assumed_gamma ? builder->gamma_version : sdl_version(sdl);
+    const char *dot = strrchr(image->map.path, '.');
+    int is_float = dot && (strcmp(dot, ".exr") == 0 || strcmp(dot, ".hdr") == 0 || strcmp(dot, ".EXR") == 0 ||
+                           strcmp(dot, ".HDR") == 0);
+    if (image->working && !is_float && version < 3.7 && working_space(sdl) == SPACE_LINEAR)
+        return "linear";
+    return image->colorspace[0] ? image->colorspace : NULL;
+}
+
+static int has_alpha(const RetexImage *pixels)
+{
+    size_t n = (size_t)pixels->width * (size_t)pixels->height;
+    if (pixels->channels < 4)
+        return 0;
+    for (size_t i = 0; i < n; i++)
+        if (pixels->pixels[i * (size_t)pixels->channels + 3] < 1)
+            return 1;
+    return 0;
+}
+
+static int same_image(Sdl *sdl, const ParsedImage *a, const ParsedImage *b)
+{
+    const char *x = colorspace_of(sdl, a), *y = colorspace_of(sdl, b);
+    return strcmp(a->map.path, b->map.path) == 0 && strcmp(x ? x : "", y ? y : "") == 0;
+}
+
+static void add_image(Sdl *sdl, ParsedImage *image, int *room)
+{
+    Scene *scene = sdl_scene(sdl);
+    scene->images = builder_grow(sdl, scene->images, scene->nimages, room, sizeof *scene->images);
+    scene->images[scene->nimages++] = &image->map;
+}
+
+enum { IMAGE_PEAK_BYTES = 16 + 22 }; /* a pixel: as it is read, and the texture of it */
+
+/* What is odd about the image's colours. */
+typedef struct ImageWarning {
+    Sdl *sdl;
+    const ParsedImage *image;
+} ImageWarning;
+
+static void warn_of_image(void *context, const char *text)
+{
+    const ImageWarning *warning = context;
+    const ParsedImage *image = warning->image;
+    sdl_warn_at(warning->sdl, image->file, image->line, "image_map: %s", text); /* which begins with the path */
+}
+
+static void load_image(Sdl *sdl, ParsedImage *image, int is_light, int *room)
+{
+    Scene *scene = sdl_scene(sdl);
+    ImageMap *map = &image->map;
+    if (map->texture)
+        return;
+    for (int i = 0; i < scene->nimages; i++)
+        if (same_image(sdl, (ParsedImage *)scene->images[i], image)) {
+            map->texture = scene->images[i]->texture;
+            map->width = scene->images[i]->width;
+            map->height = scene->images[i]->height;
+            map->has_alpha = scene->images[i]->has_alpha;
+            add_image(sdl, image, room);
+            return;
+        }
+    add_image(sdl, image, room); /* before there is anything to free */
+    RetexImage pixels = {0};
+    RetexError err = {0};
+    sdl_add_file(sdl, map->path);
+    const SdlOptions *options = sdl_options(sdl);
+    RetexTextureSpec spec = RETEX_TEXTURE_SPEC_INIT;
+    spec.budget = options->budget;
+    snprintf(spec.image, sizeof spec.image, "%s", map->path);
+    const RetexReadParams params = {.size = sizeof params,
+                                    .colorspace = colorspace_of(sdl, image),
+                                    .access = sdl_access(sdl),
+                                    .budget = options->budget,
+                                    .pixel_bytes = IMAGE_PEAK_BYTES};
+    sdl_step(sdl, 1);
+    if (retex_image_read_with(&pixels, map->path, &params, &err) == 0) {
+        map->has_alpha = has_alpha(&pixels);
+        map->width = pixels.width;
+        map->height = pixels.height;
+        scene->digest =
+            digest_bytes(scene->digest, pixels.pixels, retex_image_index(&pixels, 0, pixels.height) * sizeof(float));
+        ImageWarning warning = {sdl, image};
+        spec.warn = warn_of_image;
+        spec.warn_context = &warning;
+        spec.is_light = is_light;
+        retex_texture_create(&map->texture, &pixels, &spec, &err);
+        retex_image_free(&pixels);
+    }
+    if (!map->texture)
+        sdl_error(sdl, "%s:%d: image_map: %s%s%s", image->file, image->line, err.file, err.file[0] ? ": " : "",
+                  err.message);
+}
+
+static void load_of_texture(Sdl *sdl, const Texture *texture, int *room)
+{
+    for (const ParsedTexture *t = (const ParsedTexture *)texture; t; t = t->below)
+        if (t->texture.pigment->kind == PIGMENT_IMAGE)
+            load_image(sdl, (ParsedImage *)t->texture.pigment->image, finish_emits(t->texture.finish), room);
+}
+
+/* ---- every texture in use ---- */
+
+typedef void TextureVisitor(Sdl *sdl, const Texture **texture, void *context);
+
+static void each_texture(Sdl *sdl, TextureVisitor *visit, void *context)
+{
+    Scene *scene = sdl_scene(sdl);
+    for (int i = 0; i < scene->nprimitives; i++) {
+        Primitive *p = &scene->primitives[i];
+        visit(sdl, &p->texture, context);
+        if (p->interior_texture)
+            visit(sdl, &p->interior_texture, context);
+        if (p->mesh)
+            for (int j = 0; j < p->mesh->ntextures; j++)
+                visit(sdl, &p->mesh->textures[j], context);
+    }
+}
+
+static void visit_load(Sdl *sdl, const Texture **texture, void *context)
+{
+    load_of_texture(sdl, *texture, context);
+}
+
+/* Layers are decided, and a texture takes the names of its pigment. Every texture is this scene's own copy by now. */
+static void visit_settle(Sdl *sdl, const Texture **texture, void *context)
+{
+    (void)context;
+    ParsedTexture *shown = (ParsedTexture *)texture_visible((const ParsedTexture *)*texture);
+    if (!shown->settled) {
+        shown->settled = 1;
+        shown->texture.idents = sdl_ident_join(sdl, shown->texture.pigment->idents, shown->texture.idents);
+    }
+    *texture = &shown->texture;
+}
+
+static void visit_albedo(Sdl *sdl, const Texture **texture, void *context)
+{
+    (void)context;
+    check_albedo(sdl, *texture);
+}
+
+/* What paths ask of them at every hit. */
+static void settle_finishes(Sdl *sdl)
+{
+    for (ParsedFinish *f = builder_of(sdl)->finishes; f; f = f->next)
+        f->finish.matte = finish_is_matte(&f->finish);
+}
+
+/* ---- emitters ---- */
+
+/* `ambient` is no light here, but a surface with ambient >= 1 and nothing diffuse is a way to write a lamp. */
+static void tell_emitters(Sdl *sdl)
+{
+    const int all = sdl_options(sdl)->ambient;
+    const Rgb light = sdl_scene(sdl)->ambient_light;
+    for (ParsedFinish *f = builder_of(sdl)->finishes; f; f = f->next) {
+        int lamp = rgb_max(f->finish.ambient) >= 1 && f->finish.diffuse == 0;
+        if (all || lamp)
+            f->finish.emission = rgb_add(f->finish.emission, rgb_mul(f->finish.ambient, light));
+    }
+}
+
+/* ---- names ---- */
+
+typedef struct Names {
+    int room;
+    const char **table; /* open addressing, a power of two */
+    size_t size;
+} Names;
+
+static size_t hash_name(const char *name)
+{
+    size_t hash = 1469598103u;
+    for (; *name; name++)
+        hash = (hash ^ (unsigned char)*name) * 1099511u;
+    return hash;
+}
+
+static size_t find_slot(const Names *names, const char *name)
+{
+    size_t i = hash_name(name) & (names->size - 1);
+    while (names->table[i] && strcmp(names->table[i], name) != 0)
+        i = (i + 1) & (names->size - 1);
+    return i;
+}
+
+static void grow_table(Sdl *sdl, Names *names)
+{
+    const Scene *scene = sdl_scene(sdl);
+    names->size = names->size ? names->size * 2 : 256;
+    names->table = sdl_alloc(sdl, names->size * sizeof *names->table);
+    for (int i = 0; i < scene->nidents; i++)
+        names->table[find_slot(names, scene->idents[i])] = scene->idents[i];
+}
+
+static void list_names(Sdl *sdl, Names *names, const IdentList *idents)
+{
+    Scene *scene = sdl_scene(sdl);
+    for (; idents; idents = idents->next) {
+        if ((size_t)scene->nidents * 2 >= names->size)
+            grow_table(sdl, names);
+        size_t slot = find_slot(names, idents->name);
+        if (names->table[slot])
+            continue;
+        scene->idents = builder_grow(sdl, scene->idents, scene->nidents, &names->room, sizeof *scene->idents);
+        names->table[slot] = scene->idents[scene->nidents++] = idents->name;
+    }
+}
+
+static void list_all_names(Sdl *sdl)
+{
+    const Scene *scene = sdl_scene(sdl);
+    Names names = {0};
+    const IdentList *last_texture = NULL, *last_object = NULL;
+    for (int i = 0; i < scene->nprimitives; i++) {
+        const Primitive *p = &scene->primitives[i];
+        if (p->texture->idents != last_texture)
+            list_names(sdl, &names, last_texture = p->texture->idents);
+        if (p->interior_texture)
+            list_names(sdl, &names, p->interior_texture->idents);
+        for (int j = 0; p->mesh && j < p->mesh->ntextures; j++)
+            list_names(sdl, &names, p->mesh->textures[j]->idents);
+        if (p->idents != last_object)
+            list_names(sdl, &names, last_object = p->idents);
+    }
+}
+
+/* ---- */
+
+static void settle_sky(Sdl *sdl)
+{
+    Scene *scene = sdl_scene(sdl);
+    const ParsedSky *sky = builder_of(sdl)->sky;
+    if (!sky || sky->npigments == 0)
+        return;
+    scene->sky = sdl_alloc(sdl, sizeof *scene->sky);
+    scene->sky->npigments = sky->npigments;
+    scene->sky->emission = sky->emission;
+    scene->sky->pigments = sdl_alloc(sdl, (size_t)sky->npigments * sizeof *scene->sky->pigments);
+    for (int i = 0; i < sky->npigments; i++) {
+        gaps_report(sdl, &sky->pigments[i]->gaps);
+        scene->sky->pigments[i] = &sky->pigments[i]->pigment;
+    }
+}
+
+static void load_images(Sdl *sdl)
+{
+    const Scene *scene = sdl_scene(sdl);
+    int room = 0;
+    each_texture(sdl, visit_load, &room);
+    for (int i = 0; scene->sky && i < scene->sky->npigments; i++)
+        if (scene->sky->pigments[i]->kind == PIGMENT_IMAGE)
+            load_image(sdl, (ParsedImage *)scene->sky->pigments[i]->image, 1, &room);
+}
+
+void finalize_scene(Sdl *sdl)
+{
+    if (sdl_scene(sdl)->width == 0)
+        camera_use(sdl, &builder_of(sdl)->camera);
+    settle_sky(sdl);
+    gather_triangles(sdl);
+    load_images(sdl);
+    each_texture(sdl, visit_settle, NULL);
+    each_texture(sdl, visit_albedo, NULL);
+    decode_colors(sdl);
+    settle_finishes(sdl);
+    tell_emitters(sdl);
+    list_all_names(sdl);
+}

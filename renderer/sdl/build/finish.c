@@ -1,0 +1,185 @@
+/* finish: how a surface takes and gives light. Only reads what is written; shade/material.c maps it to a BSDF. */
+#include <stddef.h>
+#include <string.h>
+#include "sdl/build/builder.h"
+
+ParsedFinish *finish_new(Sdl *sdl, const ParsedFinish *from)
+{
+    Builder *builder = builder_of(sdl);
+    ParsedFinish *finish = sdl_alloc(sdl, sizeof *finish);
+    if (from)
+        *finish = *from;
+    else
+        finish->finish = (Finish){
+            .ambient = {0.1f, 0.1f, 0.1f},
+            .diffuse = 0.6,
+            .brilliance = 1,
+            .phong_size = 40,
+            .roughness = 0.05,
+            .reflection_falloff = 1,
+            .reflection_exponent = 1,
+            .retex = {.ior = 1.5, .specular_tint = 1},
+        };
+    finish->next = builder->finishes;
+    builder->finishes = finish;
+    return finish;
+}
+
+static Rgb opaque_color(Sdl *sdl)
+{
+    Rgbft c = sdl_color(sdl);
+    return rgb(c.r, c.g, c.b);
+}
+
+static double in_range(Sdl *sdl, const char *word, double low, double high)
+{
+    double value = sdl_float(sdl);
+    if (!(value >= low && value <= high))
+        sdl_error(sdl, "%s must lie between %g and %g, not %g", word, low, high, value);
+    return value;
+}
+
+/* `reflection C`, or `reflection{ [MIN,] MAX [fresnel] [falloff F] [exponent E] [metallic M] }`. */
+static void reflection(Sdl *sdl, Finish *f)
+{
+    if (!sdl_accept(sdl, "{")) {
+        f->reflection_min = f->reflection_max = opaque_color(sdl);
+        f->reflection_falloff = 1;
+        f->reflection_fresnel = 0;
+        return;
+    }
+    int two = 0;
+    f->reflection_min = f->reflection_max = opaque_color(sdl);
+    sdl_optional_comma(sdl);
+    if (sdl_is_color_start(sdl) || sdl_is_expression_start(sdl)) {
+        f->reflection_max = opaque_color(sdl);
+        two = 1;
+    }
+    while (!sdl_accept(sdl, "}")) {
+        if (sdl_accept(sdl, "fresnel")) {
+            f->reflection_fresnel = sdl_optional_bool(sdl, 1);
+            /* With one colour it is the maximum: seen straight on, a Fresnel mirror does not reflect by itself. */
+            if (f->reflection_fresnel && !two)
+                f->reflection_min = rgb_grey(0);
+        } else if (sdl_accept(sdl, "falloff"))
+            f->reflection_falloff = sdl_float(sdl);
+        else if (sdl_accept(sdl, "exponent"))
+            f->reflection_exponent = sdl_float(sdl);
+        else if (sdl_accept(sdl, "metallic"))
+            f->reflection_metallic = optional_float(sdl, 1);
+        else
+            sdl_expected(sdl, "fresnel, falloff, exponent, metallic or } in reflection");
+    }
+}
+
+/* Our extension: retex{ metallic M roughness R ior N specular_tint T transmission A }. */
+static void retex_block(Sdl *sdl, Finish *f)
+{
+    f->retex.present = 1;
+    sdl_expect(sdl, "{");
+    while (!sdl_accept(sdl, "}")) {
+        if (sdl_accept(sdl, "metallic"))
+            f->retex.metallic = in_range(sdl, "metallic", 0, 1);
+        else if (sdl_accept(sdl, "roughness"))
+            f->retex.roughness = in_range(sdl, "roughness", 0, 1);
+        else if (sdl_accept(sdl, "ior"))
+            f->retex.ior = in_range(sdl, "ior", 1, 10);
+        else if (sdl_accept(sdl, "specular_tint"))
+            f->retex.specular_tint = in_range(sdl, "specular_tint", 0, 1);
+        else if (sdl_accept(sdl, "transmission"))
+            f->retex.transmission = in_range(sdl, "transmission", 0, 1);
+        else
+            sdl_expected(sdl, "metallic, roughness, ior, specular_tint, transmission or } in retex");
+    }
+}
+
+static void diffuse(Sdl *sdl, Finish *f)
+{
+    f->diffuse_albedo = sdl_accept(sdl, "albedo");
+    f->diffuse = sdl_float(sdl);
+    sdl_optional_comma(sdl);
+    f->diffuse_back = optional_float(sdl, 0);
+}
+
+/* Keywords with one plain number. */
+static int accept_number(Sdl *sdl, ParsedFinish *finish)
+{
+    static const struct {
+        const char *word;
+        size_t offset;
+    } numbers[] = {
+        {"brilliance", offsetof(Finish, brilliance)},
+        {"crand", offsetof(Finish, crand)},
+        {"phong_size", offsetof(Finish, phong_size)},
+        {"roughness", offsetof(Finish, roughness)},
+        {"reflection_exponent", offsetof(Finish, reflection_exponent)},
+    };
+    for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++)
+        if (sdl_accept(sdl, numbers[i].word)) {
+            *(double *)((char *)&finish->finish + numbers[i].offset) = sdl_float(sdl);
+            return 1;
+        }
+    return 0;
+}
+
+/* Keywords of old scenes, whose place is interior now. */
+static int accept_old(Sdl *sdl, ParsedFinish *finish)
+{
+    if (sdl_accept(sdl, "ior"))
+        finish->ior = sdl_float(sdl);
+    else if (sdl_accept(sdl, "caustics") || sdl_accept(sdl, "refraction"))
+        sdl_float(sdl);
+    else
+        return 0;
+    return 1;
+}
+
+static void item(Sdl *sdl, ParsedFinish *finish)
+{
+    Finish *f = &finish->finish;
+    if (accept_number(sdl, finish) || accept_old(sdl, finish))
+        return;
+    if (sdl_accept(sdl, "ambient"))
+        f->ambient = opaque_color(sdl);
+    else if (sdl_accept(sdl, "emission"))
+        f->emission = opaque_color(sdl);
+    else if (sdl_accept(sdl, "diffuse"))
+        diffuse(sdl, f);
+    else if (sdl_accept(sdl, "phong")) {
+        f->phong_albedo = sdl_accept(sdl, "albedo");
+        f->phong = sdl_float(sdl);
+    } else if (sdl_accept(sdl, "specular")) {
+        f->specular_albedo = sdl_accept(sdl, "albedo");
+        f->specular = sdl_float(sdl);
+    } else if (sdl_accept(sdl, "metallic"))
+        f->metallic = optional_float(sdl, 1);
+    else if (sdl_accept(sdl, "reflection"))
+        reflection(sdl, f);
+    else if (sdl_accept(sdl, "conserve_energy"))
+        f->conserve_energy = sdl_optional_bool(sdl, 1);
+    else if (sdl_accept(sdl, "retex"))
+        retex_block(sdl, f);
+    else if (sdl_accept(sdl, "irid")) {
+        gaps_add(&finish->gaps, GAP_IRID);
+        sdl_skip_block(sdl);
+    } else if (sdl_accept(sdl, "subsurface")) {
+        gaps_add(&finish->gaps, GAP_SUBSURFACE);
+        sdl_skip_block(sdl);
+    } else
+        sdl_expected(sdl, "a finish keyword or }");
+}
+
+ParsedFinish *parse_finish(Sdl *sdl, const ParsedFinish *from)
+{
+    sdl_expect(sdl, "{");
+    const ParsedFinish *known = accept_ident(sdl, VALUE_FINISH);
+    ParsedFinish *finish = finish_new(sdl, known ? known : from);
+    while (!sdl_accept(sdl, "}"))
+        if ((known = accept_ident(sdl, VALUE_FINISH))) {
+            ParsedFinish *next = finish->next;
+            *finish = *known;
+            finish->next = next;
+        } else
+            item(sdl, finish);
+    return finish;
+}

@@ -1,0 +1,105 @@
+/* global_settings, background and sky_sphere. */
+#include <string.h>
+#include "sdl/build/builder.h"
+
+static void assumed_gamma(Sdl *sdl)
+{
+    Builder *builder = builder_of(sdl);
+    builder->has_assumed_gamma = 1;
+    builder->gamma_version = sdl_version(sdl);
+    builder->gamma_srgb = sdl_accept(sdl, "srgb");
+    builder->assumed_gamma = builder->gamma_srgb ? 2.2 : sdl_float(sdl);
+    if (!(builder->assumed_gamma > 0.1 && builder->assumed_gamma < 10))
+        sdl_error(sdl, "assumed_gamma %g is not sensible", builder->assumed_gamma);
+}
+
+/* What a renderer of another kind does not need: a number, a colour, a word or a block. */
+static void ignored(Sdl *sdl)
+{
+    static const char *const blocks[] = {"radiosity", "photons", "subsurface", "tracing", NULL};
+    for (int i = 0; blocks[i]; i++)
+        if (sdl_is(sdl, blocks[i])) {
+            skip_statement(sdl);
+            return;
+        }
+    static const char *const settings[] = {
+        "adc_bailout", "number_of_waves", "noise_generator", "irid_wavelength", "max_intersections",
+        "mm_per_unit", "max_trace_level", "hf_gray_16",      "charset",         NULL};
+    for (int i = 0; settings[i]; i++)
+        if (sdl_accept(sdl, settings[i])) {
+            if (strcmp(settings[i], "charset") == 0)
+                sdl_next(sdl);
+            else if (strcmp(settings[i], "irid_wavelength") == 0)
+                sdl_color(sdl);
+            else
+                sdl_optional_bool(sdl, 1);
+            return;
+        }
+    sdl_expected(sdl, "a global setting or }");
+}
+
+void parse_global_settings(Sdl *sdl)
+{
+    Scene *scene = sdl_scene(sdl);
+    sdl_expect(sdl, "{");
+    while (!sdl_accept(sdl, "}")) {
+        if (sdl_accept(sdl, "assumed_gamma"))
+            assumed_gamma(sdl);
+        else if (sdl_accept(sdl, "ambient_light")) {
+            Rgbft c = sdl_color(sdl);
+            scene->ambient_light = rgb(c.r, c.g, c.b);
+        } else
+            ignored(sdl);
+        sdl_optional_comma(sdl);
+    }
+}
+
+void parse_background(Sdl *sdl)
+{
+    sdl_expect(sdl, "{");
+    Rgbft c = sdl_color(sdl);
+    sdl_expect(sdl, "}");
+    sdl_scene(sdl)->background = rgb(c.r, c.g, c.b);
+}
+
+static void sky_pigment(Sdl *sdl, ParsedSky *sky)
+{
+    const int room = (int)(sizeof sky->pigments / sizeof *sky->pigments);
+    if (sky->npigments == room)
+        sdl_error(sdl, "a sky_sphere has at most %d pigments", room);
+    sky->pigments[sky->npigments++] = parse_pigment(sdl, default_pigment(sdl));
+}
+
+static void sky_move(Sdl *sdl, ParsedSky *sky, const Transform *by)
+{
+    sky->transform = transform_then(sky->transform, *by);
+    for (int i = 0; i < sky->npigments; i++) {
+        ParsedPigment *pigment = pigment_new(sdl, sky->pigments[i]);
+        pigment->pigment.transform = transform_then(pigment->pigment.transform, *by);
+        sky->pigments[i] = pigment;
+    }
+}
+
+const ParsedSky *parse_sky_sphere(Sdl *sdl)
+{
+    ParsedSky *sky = sdl_alloc(sdl, sizeof *sky);
+    Transform by;
+    sky->emission = rgb_grey(1);
+    sky->transform = transform_identity();
+    sdl_expect(sdl, "{");
+    const ParsedSky *known = accept_ident(sdl, VALUE_SKY_SPHERE);
+    if (known)
+        *sky = *known;
+    while (!sdl_accept(sdl, "}")) {
+        if (sdl_accept(sdl, "pigment"))
+            sky_pigment(sdl, sky);
+        else if (sdl_accept(sdl, "emission")) {
+            Rgbft c = sdl_color(sdl);
+            sky->emission = rgb(c.r, c.g, c.b);
+        } else if (accept_transform(sdl, &by))
+            sky_move(sdl, sky, &by);
+        else
+            sdl_expected(sdl, "pigment, emission, a transform or } in sky_sphere");
+    }
+    return sky;
+}

@@ -1,0 +1,166 @@
+/* light_source. A light is an object like others until it is placed; what it looks like is its child. */
+#include <string.h>
+#include "sdl/build/builder.h"
+
+static Light *light_new(Sdl *sdl)
+{
+    Light *light = sdl_alloc(sdl, sizeof *light);
+    light->point_at = vec3(0, 0, 1);
+    light->color = rgb_grey(1);
+    light->radius = 30;
+    light->falloff = 45;
+    return light;
+}
+
+/* Of two kinds that are both written POV-Ray takes, in either order, cylinder over parallel and parallel over
+ * spotlight. */
+static void set_kind(Light *light, LightKind kind)
+{
+    if ((kind == LIGHT_PARALLEL && light->kind == LIGHT_CYLINDER) ||
+        (kind == LIGHT_SPOT && light->kind == LIGHT_PARALLEL))
+        return;
+    light->kind = kind;
+    if (kind == LIGHT_CYLINDER) {
+        light->radius = 0.75;
+        light->falloff = 1;
+    }
+}
+
+static void area_light(Sdl *sdl, Light *light)
+{
+    light->axis1 = sdl_vector(sdl);
+    sdl_optional_comma(sdl);
+    light->axis2 = sdl_vector(sdl);
+    sdl_optional_comma(sdl);
+    double size1 = floor(sdl_float(sdl));
+    sdl_optional_comma(sdl);
+    double size2 = floor(sdl_float(sdl));
+    if (!(size1 >= 1 && size2 >= 1 && size1 <= 4096 && size2 <= 4096))
+        sdl_error(sdl, "an area_light has 1 to 4096 lights a side, not %g by %g", size1, size2);
+    light->area = 1;
+    light->size1 = (int)size1;
+    light->size2 = (int)size2;
+}
+
+static void looks_like(Sdl *sdl, Object *object)
+{
+    sdl_expect(sdl, "{");
+    const Object *inner = accept_ident(sdl, VALUE_OBJECT);
+    if (!inner)
+        inner = accept_object(sdl);
+    if (!inner)
+        sdl_expected(sdl, "an object in looks_like");
+    Object *child = object_new(sdl, OBJECT_EMPTY);
+    *child = *inner;
+    parse_object_modifiers(sdl, child);
+    ObjectList *list = sdl_alloc(sdl, sizeof *list);
+    list->object = child;
+    object_count_child(sdl, object, child);
+    object->children = list;
+}
+
+static int accept_number(Sdl *sdl, Light *light)
+{
+    if (sdl_accept(sdl, "radius"))
+        light->radius = sdl_float(sdl);
+    else if (sdl_accept(sdl, "falloff"))
+        light->falloff = sdl_float(sdl);
+    else if (sdl_accept(sdl, "tightness"))
+        light->tightness = sdl_float(sdl);
+    else if (sdl_accept(sdl, "fade_distance"))
+        light->fade_distance = sdl_float(sdl);
+    else if (sdl_accept(sdl, "fade_power"))
+        light->fade_power = sdl_float(sdl);
+    else if (sdl_accept(sdl, "adaptive"))
+        sdl_float(sdl); /* all of the grid is sampled */
+    else
+        return 0;
+    return 1;
+}
+
+static int accept_switch(Sdl *sdl, Light *light)
+{
+    if (sdl_accept(sdl, "circular"))
+        light->circular = sdl_optional_bool(sdl, 1);
+    else if (sdl_accept(sdl, "orient"))
+        light->orient = sdl_optional_bool(sdl, 1);
+    else if (sdl_accept(sdl, "shadowless") || sdl_accept(sdl, "fill_light"))
+        light->shadowless = sdl_optional_bool(sdl, 1);
+    else if (sdl_accept(sdl, "jitter") || sdl_accept(sdl, "area_illumination") ||
+             sdl_accept(sdl, "media_interaction") || sdl_accept(sdl, "media_attenuation"))
+        sdl_optional_bool(sdl, 1);
+    else
+        return 0;
+    return 1;
+}
+
+static int accept_kind(Sdl *sdl, Light *light)
+{
+    if (sdl_accept(sdl, "spotlight"))
+        set_kind(light, LIGHT_SPOT);
+    else if (sdl_accept(sdl, "cylinder"))
+        set_kind(light, LIGHT_CYLINDER);
+    else if (sdl_accept(sdl, "parallel"))
+        set_kind(light, LIGHT_PARALLEL);
+    else if (sdl_accept(sdl, "point_at"))
+        light->point_at = sdl_vector(sdl);
+    else if (sdl_accept(sdl, "area_light"))
+        area_light(sdl, light);
+    else
+        return 0;
+    return 1;
+}
+
+/* The object's transform is applied when it is placed: location and point_at are in its own space. */
+static void modifier(Sdl *sdl, Object *object, Light *light)
+{
+    Transform by;
+    if (accept_transform(sdl, &by))
+        object_move(object, &by);
+    else if (accept_kind(sdl, light) || accept_number(sdl, light) || accept_switch(sdl, light))
+        ;
+    else if (sdl_accept(sdl, "looks_like"))
+        looks_like(sdl, object);
+    else if (sdl_accept(sdl, "projected_through")) {
+        gaps_add(&object->gaps, GAP_PROJECTED_THROUGH);
+        sdl_skip_block(sdl);
+    } else if (sdl_accept(sdl, "groups"))
+        sdl_string(sdl);
+    else if (sdl_is(sdl, "photons") || sdl_is(sdl, "bounded_by"))
+        skip_statement(sdl);
+    else if (sdl_is_color_start(sdl)) {
+        Rgbft c = sdl_color(sdl);
+        light->color = rgb(c.r, c.g, c.b);
+    } else
+        sdl_expected(sdl, "a light's modifier or }");
+}
+
+static const Object *known_light(Sdl *sdl)
+{
+    const Object *known = accept_ident(sdl, VALUE_LIGHT);
+    return known ? known : accept_ident(sdl, VALUE_OBJECT);
+}
+
+const Object *parse_light_source(Sdl *sdl)
+{
+    Object *object = object_new(sdl, OBJECT_LIGHT);
+    Light *light = light_new(sdl);
+    sdl_expect(sdl, "{");
+    const Object *known = known_light(sdl);
+    if (known) {
+        *object = *known;
+        if (known->kind == OBJECT_LIGHT)
+            *light = *known->light;
+    } else {
+        light->location = sdl_vector(sdl);
+        sdl_optional_comma(sdl);
+        if (sdl_is_color_start(sdl) || sdl_is_expression_start(sdl)) {
+            Rgbft c = sdl_color(sdl);
+            light->color = rgb(c.r, c.g, c.b);
+        }
+    }
+    object->light = light;
+    while (!sdl_accept(sdl, "}"))
+        modifier(sdl, object, light), sdl_optional_comma(sdl);
+    return object;
+}

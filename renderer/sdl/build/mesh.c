@@ -1,0 +1,285 @@
+/* mesh and mesh2: triangles in arrays, with normals, UVs and textures of their own. */
+#include <stddef.h>
+#include <string.h>
+#include "sdl/build/builder.h"
+#include "shape/surface.h"
+
+#define MAX_ELEMENTS 100000000
+
+/* ---- mesh2 ---- */
+
+/* `{ COUNT, …`: the count of a list. */
+static int list_count(Sdl *sdl, const char *what)
+{
+    sdl_expect(sdl, "{");
+    double count = sdl_float(sdl);
+    if (!(count >= 0 && count <= MAX_ELEMENTS))
+        sdl_error(sdl, "%s: %g is not a number of elements", what, count);
+    sdl_optional_comma(sdl);
+    return (int)count;
+}
+
+static void list_end(Sdl *sdl, const char *what, int count)
+{
+    sdl_optional_comma(sdl);
+    if (!sdl_is(sdl, "}"))
+        sdl_error(sdl, "%s: more than the %d elements it announces, or no }", what, count);
+    sdl_next(sdl);
+}
+
+static Vec3 *vectors(Sdl *sdl, const char *what, int *count)
+{
+    *count = list_count(sdl, what);
+    Vec3 *list = sdl_alloc(sdl, (size_t)(*count + 1) * sizeof *list);
+    for (int i = 0; i < *count; i++) {
+        if (sdl_is(sdl, "}"))
+            sdl_error(sdl, "%s: %d elements announced, but only %d are there", what, *count, i);
+        list[i] = sdl_vector(sdl);
+        sdl_optional_comma(sdl);
+    }
+    list_end(sdl, what, *count);
+    return list;
+}
+
+static Vec2 *vectors2(Sdl *sdl, const char *what, int *count)
+{
+    *count = list_count(sdl, what);
+    Vec2 *list = sdl_alloc(sdl, (size_t)(*count + 1) * sizeof *list);
+    for (int i = 0; i < *count; i++) {
+        if (sdl_is(sdl, "}"))
+            sdl_error(sdl, "%s: %d elements announced, but only %d are there", what, *count, i);
+        list[i] = sdl_vector2(sdl);
+        sdl_optional_comma(sdl);
+    }
+    list_end(sdl, what, *count);
+    return list;
+}
+
+static void triple(Sdl *sdl, const char *what, int index, int limit, const char *of, int out[3])
+{
+    Vec3 v = sdl_vector(sdl);
+    const double values[3] = {v.x, v.y, v.z};
+    for (int i = 0; i < 3; i++) {
+        if (!(values[i] >= 0 && values[i] < limit))
+            sdl_error(sdl, "%s: element %d refers to %s %g, of which there are %d", what, index, of, values[i], limit);
+        out[i] = (int)values[i];
+    }
+}
+
+static int texture_index(Sdl *sdl, int ntextures)
+{
+    double index = sdl_float(sdl);
+    if (!(index >= 0 && index < ntextures))
+        sdl_error(sdl, "face_indices: texture %g is used, of which texture_list has %d", index, ntextures);
+    return (int)index;
+}
+
+static void texture_list(Sdl *sdl, Mesh *mesh)
+{
+    mesh->ntextures = list_count(sdl, "texture_list");
+    mesh->textures = sdl_alloc(sdl, (size_t)(mesh->ntextures + 1) * sizeof *mesh->textures);
+    for (int i = 0; i < mesh->ntextures; i++) {
+        if (sdl_accept(sdl, "material")) {
+            const ParsedMaterial *material = parse_material(sdl);
+            mesh->textures[i] =
+                &texture_named(sdl, material->texture ? material->texture : builder_of(sdl)->default_texture,
+                               material->idents)
+                     ->texture;
+        } else {
+            const ParsedTexture *known = accept_ident(sdl, VALUE_TEXTURE);
+            if (!known)
+                sdl_expect(sdl, "texture");
+            mesh->textures[i] = &(known ? known : parse_texture(sdl))->texture;
+        }
+        sdl_optional_comma(sdl);
+    }
+    list_end(sdl, "texture_list", mesh->ntextures);
+}
+
+static void face_indices(Sdl *sdl, Mesh *mesh)
+{
+    mesh->nfaces = list_count(sdl, "face_indices");
+    mesh->faces = sdl_alloc(sdl, (size_t)(mesh->nfaces + 1) * sizeof *mesh->faces);
+    for (int i = 0; i < mesh->nfaces; i++) {
+        MeshFace *face = &mesh->faces[i];
+        if (sdl_is(sdl, "}"))
+            sdl_error(sdl, "face_indices: %d elements announced, but only %d are there", mesh->nfaces, i);
+        triple(sdl, "face_indices", i, mesh->nvertices, "vertex", face->vertex);
+        sdl_optional_comma(sdl);
+        face->texture = -1;
+        for (int j = 0; j < 3; j++)
+            face->normal[j] = face->uv[j] = -1;
+        /* One texture for the face, or three to blend between: the first of those is taken. */
+        for (int j = 0; mesh->ntextures > 0 && j < 3 && is_float_start(sdl); j++) {
+            int index = texture_index(sdl, mesh->ntextures);
+            if (j == 0)
+                face->texture = index;
+            sdl_optional_comma(sdl);
+        }
+    }
+    list_end(sdl, "face_indices", mesh->nfaces);
+}
+
+static int indices(Sdl *sdl, Mesh *mesh, const char *what, int limit, const char *of, size_t offset)
+{
+    int count = list_count(sdl, what);
+    if (count > mesh->nfaces)
+        sdl_error(sdl, "%s: %d elements for %d faces; face_indices must come first", what, count, mesh->nfaces);
+    for (int i = 0; i < count; i++) {
+        if (sdl_is(sdl, "}"))
+            sdl_error(sdl, "%s: %d elements announced, but only %d are there", what, count, i);
+        triple(sdl, what, i, limit, of, (int *)((char *)&mesh->faces[i] + offset));
+        sdl_optional_comma(sdl);
+    }
+    list_end(sdl, what, count);
+    return count;
+}
+
+/* Normals or UVs without indices of their own go by the vertices' indices. */
+static void by_vertex(Mesh *mesh, int limit, size_t offset)
+{
+    for (int i = 0; i < mesh->nfaces; i++) {
+        const int *vertex = mesh->faces[i].vertex;
+        if (vertex[0] < limit && vertex[1] < limit && vertex[2] < limit)
+            memcpy((char *)&mesh->faces[i] + offset, vertex, 3 * sizeof *vertex);
+    }
+}
+
+void parse_mesh2(Sdl *sdl, Object *object)
+{
+    Mesh *mesh = sdl_alloc(sdl, sizeof *mesh);
+    int normal_indices = 0, uv_indices = 0;
+    object->shape = SHAPE_MESH;
+    for (;;) {
+        if (sdl_accept(sdl, "vertex_vectors"))
+            mesh->vertices = vectors(sdl, "vertex_vectors", &mesh->nvertices);
+        else if (sdl_accept(sdl, "normal_vectors"))
+            mesh->normals = vectors(sdl, "normal_vectors", &mesh->nnormals);
+        else if (sdl_accept(sdl, "uv_vectors"))
+            mesh->uvs = vectors2(sdl, "uv_vectors", &mesh->nuvs);
+        else if (sdl_accept(sdl, "texture_list"))
+            texture_list(sdl, mesh);
+        else if (sdl_accept(sdl, "face_indices"))
+            face_indices(sdl, mesh);
+        else if (sdl_accept(sdl, "normal_indices"))
+            normal_indices +=
+                indices(sdl, mesh, "normal_indices", mesh->nnormals, "normal", offsetof(MeshFace, normal));
+        else if (sdl_accept(sdl, "uv_indices"))
+            uv_indices += indices(sdl, mesh, "uv_indices", mesh->nuvs, "UV", offsetof(MeshFace, uv));
+        else if (sdl_accept(sdl, "inside_vector"))
+            mesh->closed_inside = vec_length(sdl_vector(sdl)) > 0;
+        else
+            break;
+    }
+    if (!mesh->vertices)
+        sdl_expected(sdl, "vertex_vectors");
+    if (!mesh->faces)
+        sdl_expected(sdl, "face_indices");
+    if (normal_indices == 0)
+        by_vertex(mesh, mesh->nnormals, offsetof(MeshFace, normal));
+    if (uv_indices == 0)
+        by_vertex(mesh, mesh->nuvs, offsetof(MeshFace, uv));
+    object->mesh = mesh;
+    mesh->inward = mesh_winds_inward(mesh);
+    if (mesh->nfaces == 0)
+        object->kind = OBJECT_EMPTY;
+}
+
+/* ---- mesh ---- */
+
+typedef struct MeshLists {
+    Mesh *mesh;
+    int vertex_room, normal_room, uv_room, face_room, texture_room;
+} MeshLists;
+
+static int mesh_texture(Sdl *sdl, MeshLists *b, const ParsedTexture *texture)
+{
+    Mesh *mesh = b->mesh;
+    for (int i = mesh->ntextures; i-- > 0 && i >= mesh->ntextures - 64;)
+        if (mesh->textures[i] == &texture->texture)
+            return i;
+    mesh->textures = builder_grow(sdl, mesh->textures, mesh->ntextures, &b->texture_room, sizeof *mesh->textures);
+    mesh->textures[mesh->ntextures] = &texture->texture;
+    return mesh->ntextures++;
+}
+
+static void mesh_uvs(Sdl *sdl, MeshLists *b, MeshFace *face)
+{
+    Mesh *mesh = b->mesh;
+    for (int i = 0; i < 3; i++) {
+        mesh->uvs = builder_grow(sdl, mesh->uvs, mesh->nuvs, &b->uv_room, sizeof *mesh->uvs);
+        mesh->uvs[mesh->nuvs] = sdl_vector2(sdl);
+        face->uv[i] = mesh->nuvs++;
+        sdl_optional_comma(sdl);
+    }
+}
+
+static void mesh_corners(Sdl *sdl, MeshLists *b, MeshFace *face, int smooth)
+{
+    Mesh *mesh = b->mesh;
+    for (int i = 0; i < 3; i++) {
+        mesh->vertices = builder_grow(sdl, mesh->vertices, mesh->nvertices, &b->vertex_room, sizeof *mesh->vertices);
+        mesh->vertices[mesh->nvertices] = sdl_vector(sdl);
+        face->vertex[i] = mesh->nvertices++;
+        sdl_optional_comma(sdl);
+        face->normal[i] = face->uv[i] = -1;
+        if (smooth) {
+            mesh->normals = builder_grow(sdl, mesh->normals, mesh->nnormals, &b->normal_room, sizeof *mesh->normals);
+            mesh->normals[mesh->nnormals] = sdl_vector(sdl);
+            face->normal[i] = mesh->nnormals++;
+            sdl_optional_comma(sdl);
+        }
+    }
+}
+
+static void mesh_triangle(Sdl *sdl, MeshLists *b, int smooth)
+{
+    MeshFace face = {.texture = -1};
+    sdl_expect(sdl, "{");
+    mesh_corners(sdl, b, &face, smooth);
+    while (!sdl_accept(sdl, "}")) {
+        if (sdl_accept(sdl, "uv_vectors"))
+            mesh_uvs(sdl, b, &face);
+        else if (sdl_accept(sdl, "texture"))
+            face.texture = mesh_texture(sdl, b, parse_texture(sdl));
+        else if (sdl_accept(sdl, "texture_list")) {
+            /* three to blend between: the first */
+            sdl_expect(sdl, "{");
+            for (int i = 0; !sdl_accept(sdl, "}"); i++) {
+                const ParsedTexture *known = accept_ident(sdl, VALUE_TEXTURE);
+                if (!known)
+                    sdl_expect(sdl, "texture");
+                int index = mesh_texture(sdl, b, known ? known : parse_texture(sdl));
+                face.texture = i == 0 ? index : face.texture;
+                sdl_optional_comma(sdl);
+            }
+        } else
+            sdl_expected(sdl, "uv_vectors, texture or } in a mesh's triangle");
+    }
+    Mesh *mesh = b->mesh;
+    mesh->faces = builder_grow(sdl, mesh->faces, mesh->nfaces, &b->face_room, sizeof *mesh->faces);
+    mesh->faces[mesh->nfaces++] = face;
+}
+
+void parse_mesh(Sdl *sdl, Object *object)
+{
+    MeshLists b = {.mesh = sdl_alloc(sdl, sizeof(Mesh))};
+    object->shape = SHAPE_MESH;
+    for (;;) {
+        if (sdl_accept(sdl, "triangle"))
+            mesh_triangle(sdl, &b, 0);
+        else if (sdl_accept(sdl, "smooth_triangle"))
+            mesh_triangle(sdl, &b, 1);
+        else if (sdl_accept(sdl, "inside_vector"))
+            b.mesh->closed_inside = vec_length(sdl_vector(sdl)) > 0;
+        else if (sdl_accept(sdl, "hierarchy"))
+            sdl_optional_bool(sdl, 1);
+        else
+            break;
+        sdl_optional_comma(sdl);
+    }
+    object->mesh = b.mesh;
+    b.mesh->inward = mesh_winds_inward(b.mesh);
+    if (b.mesh->nfaces == 0)
+        object->kind = OBJECT_EMPTY;
+}

@@ -1,0 +1,352 @@
+/* Objects: their statements, groups, identifiers, and the modifiers they share. */
+#include <string.h>
+#include "sdl/build/builder.h"
+
+/* Through identifiers too: a group that holds itself twice, forty times over, is a short text. */
+#define MAX_GROUP_DEPTH 400
+#define MAX_PARTS 5e7
+
+Object *object_new(Sdl *sdl, ObjectKind kind)
+{
+    Object *object = sdl_alloc(sdl, sizeof *object);
+    object->kind = kind;
+    object->transform = transform_identity();
+    object->line = sdl_peek(sdl)->line;
+    object->parts = 1;
+    return object;
+}
+
+void object_count_child(Sdl *sdl, Object *object, const Object *child)
+{
+    if (child->depth + 1 > object->depth)
+        object->depth = child->depth + 1;
+    object->parts += child->parts;
+    if (object->depth > MAX_GROUP_DEPTH)
+        sdl_error(sdl, "objects are nested more than %d deep", MAX_GROUP_DEPTH);
+    if (object->parts > MAX_PARTS)
+        sdl_error(sdl, "an object of more than %.0f parts", MAX_PARTS);
+}
+
+static void dressed_move(Dressed *dressed, const Transform *by)
+{
+    if (!dressed->texture)
+        return;
+    dressed->pending = dressed->moved ? transform_then(dressed->pending, *by) : *by;
+    dressed->moved = 1;
+}
+
+void object_move(Object *object, const Transform *by)
+{
+    object->transform = transform_then(object->transform, *by);
+    /* Under uv_mapping what moves an object does not move its texture. */
+    if (!object->uv_mapping) {
+        dressed_move(&object->texture, by);
+        dressed_move(&object->interior_texture, by);
+    }
+}
+
+/* What is worn so far, in the object's present space, so that more can be laid over it. */
+static const ParsedTexture *worn(Sdl *sdl, const Dressed *dressed)
+{
+    return dressed->moved ? texture_moved(sdl, dressed->texture, &dressed->pending) : dressed->texture;
+}
+
+static void wear(Dressed *dressed, const ParsedTexture *texture)
+{
+    dressed->texture = texture;
+    dressed->moved = 0;
+}
+
+/* ---- modifiers ---- */
+
+static int accept_flag(Sdl *sdl, Object *object)
+{
+    static const struct {
+        const char *word;
+        unsigned flag;
+    } flags[] = {
+        {"no_shadow", OBJECT_NO_SHADOW},
+        {"no_image", OBJECT_NO_IMAGE},
+        {"no_reflection", OBJECT_NO_REFLECTION},
+        {"hollow", OBJECT_HOLLOW},
+    };
+    static const char *const ignored[] = {"double_illuminate", "sturm",         "hierarchy",
+                                          "no_radiosity",      "split_union",   "no_bump_scale",
+                                          "cutaway_textures",  "global_lights", NULL};
+    for (size_t i = 0; i < sizeof flags / sizeof *flags; i++)
+        if (sdl_accept(sdl, flags[i].word)) {
+            if (sdl_optional_bool(sdl, 1))
+                object->flags |= flags[i].flag;
+            else
+                object->flags &= ~flags[i].flag;
+            return 1;
+        }
+    for (int i = 0; ignored[i]; i++)
+        if (sdl_accept(sdl, ignored[i])) {
+            sdl_optional_bool(sdl, 1);
+            return 1;
+        }
+    if (!sdl_accept(sdl, "inverse"))
+        return 0;
+    object->flags ^= OBJECT_INVERSE;
+    return 1;
+}
+
+static int accept_skipped(Sdl *sdl, Object *object)
+{
+    if (sdl_is(sdl, "bounded_by") || sdl_is(sdl, "photons") || sdl_is(sdl, "radiosity"))
+        skip_statement(sdl);
+    else if (sdl_is(sdl, "clipped_by")) {
+        gaps_add(&object->gaps, GAP_CLIPPED_BY);
+        skip_statement(sdl);
+    } else
+        return 0;
+    return 1;
+}
+
+static void material(Sdl *sdl, Object *object)
+{
+    const ParsedMaterial *material = parse_material(sdl);
+    const ParsedTexture *texture = texture_named(sdl, material->texture, material->idents);
+    const ParsedTexture *inside = texture_named(sdl, material->interior_texture, material->idents);
+    if (texture)
+        wear(&object->texture, texture_over(sdl, texture, worn(sdl, &object->texture)));
+    if (inside)
+        wear(&object->interior_texture, texture_over(sdl, inside, worn(sdl, &object->interior_texture)));
+    if (material->interior)
+        object->interior = material->interior;
+}
+
+static int accept_surface(Sdl *sdl, Object *object)
+{
+    if (sdl_accept(sdl, "texture"))
+        wear(&object->texture, texture_over(sdl, parse_texture(sdl), worn(sdl, &object->texture)));
+    else if (sdl_accept(sdl, "interior_texture"))
+        wear(&object->interior_texture, texture_over(sdl, parse_texture(sdl), worn(sdl, &object->interior_texture)));
+    else if (sdl_accept(sdl, "material"))
+        material(sdl, object);
+    else if (sdl_accept(sdl, "interior"))
+        object->interior = parse_interior(sdl, object->interior);
+    else if (sdl_accept(sdl, "uv_mapping"))
+        object->uv_mapping = sdl_optional_bool(sdl, 1);
+    else if (sdl_is(sdl, "pigment") || sdl_is(sdl, "finish") || sdl_is(sdl, "normal")) {
+        const ParsedTexture *texture = worn(sdl, &object->texture);
+        accept_texture_part(sdl, &texture);
+        wear(&object->texture, texture);
+    } else
+        return 0;
+    return 1;
+}
+
+int accept_object_modifier(Sdl *sdl, Object *object)
+{
+    Transform by;
+    if (accept_transform(sdl, &by)) {
+        object_move(object, &by);
+        return 1;
+    }
+    if (accept_surface(sdl, object) || accept_flag(sdl, object) || accept_skipped(sdl, object))
+        return 1;
+    /* The colour of previews, and of very old scenes: `sphere{0,1 color Red}`. */
+    if (sdl_is(sdl, "color") || sdl_is(sdl, "colour")) {
+        sdl_color(sdl);
+        return 1;
+    }
+    return 0;
+}
+
+void parse_object_modifiers(Sdl *sdl, Object *object)
+{
+    while (!sdl_accept(sdl, "}"))
+        if (!accept_object_modifier(sdl, object))
+            sdl_expected(sdl, "an object modifier or }");
+}
+
+/* ---- groups ---- */
+
+typedef enum GroupKind { GROUP_UNION, GROUP_FIRST, GROUP_FIRST_BOUNDED } GroupKind;
+
+static const struct {
+    const char *word;
+    GroupKind kind;
+    int gap;
+} groups[] = {
+    {"union", GROUP_UNION, -1},
+    {"merge", GROUP_UNION, GAP_MERGE},
+    {"light_group", GROUP_UNION, GAP_LIGHT_GROUP},
+    {"difference", GROUP_FIRST, GAP_DIFFERENCE},
+    {"intersection", GROUP_FIRST_BOUNDED, GAP_INTERSECTION},
+};
+
+static int is_plane(const Object *object)
+{
+    return object->kind == OBJECT_SHAPE && object->shape == SHAPE_PLANE;
+}
+
+/* Whether a group of this kind keeps the object, having kept `kept` of them. */
+static int keeps(GroupKind kind, const Object *object, int seen, int kept)
+{
+    switch (kind) {
+    case GROUP_FIRST:
+        return seen == 0 || object->kind == OBJECT_LIGHT;
+    case GROUP_FIRST_BOUNDED:
+        return (kept == 0 && !is_plane(object)) || object->kind == OBJECT_LIGHT;
+    default:
+        return 1;
+    }
+}
+
+static void add_children(Sdl *sdl, Object *group, GroupKind kind)
+{
+    ObjectList **end = (ObjectList **)&group->children;
+    const Object *child;
+    int seen = 0, kept = 0;
+    while ((child = accept_object(sdl))) {
+        sdl_optional_comma(sdl);
+        if (keeps(kind, child, seen++, kept)) {
+            kept += child->kind != OBJECT_EMPTY;
+            object_count_child(sdl, group, child);
+            *end = sdl_alloc(sdl, sizeof **end);
+            (*end)->object = child;
+            end = &(*end)->next;
+        }
+    }
+}
+
+static Object *group(Sdl *sdl, int which)
+{
+    Object *object = object_new(sdl, OBJECT_GROUP);
+    if (groups[which].gap >= 0)
+        gaps_add(&object->gaps, (Gap)groups[which].gap);
+    add_children(sdl, object, groups[which].kind);
+    return object;
+}
+
+/* ---- statements ---- */
+
+static const struct {
+    const char *word;
+    ShapeParser *parse;
+} shapes[] = {
+    {"sphere", parse_sphere},     {"box", parse_box},           {"plane", parse_plane},
+    {"cylinder", parse_cylinder}, {"cone", parse_cone},         {"torus", parse_torus},
+    {"disc", parse_disc},         {"triangle", parse_triangle}, {"smooth_triangle", parse_smooth_triangle},
+    {"polygon", parse_polygon},   {"mesh", parse_mesh},         {"mesh2", parse_mesh2},
+};
+
+static const struct {
+    const char *word;
+    Gap gap;
+} missing[] = {
+    {"bicubic_patch", GAP_BICUBIC_PATCH},
+    {"blob", GAP_BLOB},
+    {"cubic", GAP_CUBIC},
+    {"height_field", GAP_HEIGHT_FIELD},
+    {"isosurface", GAP_ISOSURFACE},
+    {"julia_fractal", GAP_JULIA_FRACTAL},
+    {"lathe", GAP_LATHE},
+    {"ovus", GAP_OVUS},
+    {"parametric", GAP_PARAMETRIC},
+    {"poly", GAP_POLY},
+    {"polynomial", GAP_POLYNOMIAL},
+    {"prism", GAP_PRISM},
+    {"quadric", GAP_QUADRIC},
+    {"quartic", GAP_QUARTIC},
+    {"sor", GAP_SOR},
+    {"sphere_sweep", GAP_SPHERE_SWEEP},
+    {"superellipsoid", GAP_SUPERELLIPSOID},
+    {"text", GAP_TEXT},
+};
+
+static const Object *known_object(Sdl *sdl)
+{
+    const Object *known = accept_ident(sdl, VALUE_OBJECT);
+    return known ? known : accept_ident(sdl, VALUE_LIGHT);
+}
+
+/* A private copy: the modifiers that follow must not reach the identifier. */
+static Object *copy_of(Sdl *sdl, const Object *known)
+{
+    Object *object = sdl_alloc(sdl, sizeof *object);
+    *object = *known;
+    return object;
+}
+
+/* After the keyword of a shape or group, whose braces may also hold an identifier of such an object. */
+static Object *begin_block(Sdl *sdl)
+{
+    sdl_expect(sdl, "{");
+    const Object *known = known_object(sdl);
+    return known ? copy_of(sdl, known) : NULL;
+}
+
+static Object *shape_statement(Sdl *sdl, int which)
+{
+    Object *object = begin_block(sdl);
+    if (!object) {
+        object = object_new(sdl, OBJECT_SHAPE);
+        shapes[which].parse(sdl, object);
+    }
+    parse_object_modifiers(sdl, object);
+    return object;
+}
+
+static Object *group_statement(Sdl *sdl, int which)
+{
+    Object *object = begin_block(sdl);
+    if (!object)
+        object = group(sdl, which);
+    parse_object_modifiers(sdl, object);
+    return object;
+}
+
+static Object *object_statement(Sdl *sdl)
+{
+    sdl_expect(sdl, "{");
+    if (peek_ident(sdl, VALUE_OTHER)) {
+        sdl_next(sdl);
+        Object *empty = object_new(sdl, OBJECT_EMPTY);
+        parse_object_modifiers(sdl, empty);
+        return empty;
+    }
+    const Object *inner = known_object(sdl);
+    if (!inner)
+        inner = accept_object(sdl);
+    if (!inner)
+        sdl_expected(sdl, "an object");
+    Object *object = copy_of(sdl, inner);
+    parse_object_modifiers(sdl, object);
+    return object;
+}
+
+static const Object *statement(Sdl *sdl)
+{
+    for (size_t i = 0; i < sizeof shapes / sizeof *shapes; i++)
+        if (sdl_accept(sdl, shapes[i].word))
+            return shape_statement(sdl, (int)i);
+    if (sdl_accept(sdl, "object"))
+        return object_statement(sdl);
+    for (size_t i = 0; i < sizeof groups / sizeof *groups; i++)
+        if (sdl_accept(sdl, groups[i].word))
+            return group_statement(sdl, (int)i);
+    if (sdl_accept(sdl, "light_source"))
+        return parse_light_source(sdl);
+    for (size_t i = 0; i < sizeof missing / sizeof *missing; i++)
+        if (sdl_accept(sdl, missing[i].word)) {
+            Object *object = object_new(sdl, OBJECT_EMPTY);
+            gaps_add(&object->gaps, missing[i].gap);
+            sdl_skip_block(sdl);
+            return object;
+        }
+    return NULL;
+}
+
+const Object *accept_object(Sdl *sdl)
+{
+    if (sdl_peek(sdl)->kind != TOKEN_WORD)
+        return NULL;
+    statement_enter(sdl);
+    const Object *object = statement(sdl);
+    statement_leave(sdl);
+    return object;
+}

@@ -1,0 +1,352 @@
+/* pigment: the colour of a surface. Colour maps, and the mean colours that stand in for what is not supported. */
+#include <stdlib.h>
+#include <string.h>
+#include "sdl/build/builder.h"
+
+ParsedPigment *pigment_new(Sdl *sdl, const ParsedPigment *from)
+{
+    Builder *builder = builder_of(sdl);
+    ParsedPigment *pigment = sdl_alloc(sdl, sizeof *pigment);
+    if (from)
+        *pigment = *from;
+    else
+        pigment->pigment =
+            (Pigment){.kind = PIGMENT_COLOR, .frequency = 1, .wave_exponent = 1, .transform = transform_identity()};
+    pigment->next = builder->pigments;
+    builder->pigments = pigment;
+    return pigment;
+}
+
+/* ---- means ---- */
+
+static Rgbft lerp(Rgbft a, Rgbft b, double t)
+{
+    float f = (float)t, g = (float)(1 - t);
+    return (Rgbft){a.r * g + b.r * f, a.g * g + b.g * f, a.b * g + b.b * f, a.filter * g + b.filter * f,
+                   a.transmit * g + b.transmit * f};
+}
+
+static void add(Rgbft *sum, Rgbft c, double weight)
+{
+    float w = (float)weight;
+    sum->r += c.r * w, sum->g += c.g * w, sum->b += c.b * w;
+    sum->filter += c.filter * w, sum->transmit += c.transmit * w;
+}
+
+static Rgbft map_at(const ColorMap *map, double x)
+{
+    const ColorMapEntry *e = map->entries;
+    if (x <= e[0].value)
+        return e[0].color;
+    for (int i = 1; i < map->count; i++)
+        if (x <= e[i].value)
+            return e[i].value > e[i - 1].value
+                       ? lerp(e[i - 1].color, e[i].color, (x - e[i - 1].value) / (e[i].value - e[i - 1].value))
+                       : e[i].color;
+    return e[map->count - 1].color;
+}
+
+/* Over 0..1, exact: the map is piecewise linear between its entries. */
+Rgbft color_map_mean(const ColorMap *map)
+{
+    if (map->count == 0)
+        return (Rgbft){0.5f, 0.5f, 0.5f, 0, 0};
+    Rgbft sum = {0};
+    double at = 0;
+    Rgbft here = map_at(map, 0);
+    for (int i = 0; i < map->count; i++) {
+        double next = fmin(fmax(map->entries[i].value, 0), 1);
+        Rgbft there = map_at(map, next);
+        add(&sum, lerp(here, there, 0.5), next - at);
+        /* Of two entries at one place the second one goes on. */
+        at = next;
+        here = map->entries[i].value >= 0 && map->entries[i].value <= 1 ? map->entries[i].color : there;
+    }
+    add(&sum, here, 1 - at);
+    return sum;
+}
+
+static Rgbft weighted_mean(const ColorMap *map)
+{
+    Rgbft sum = {0};
+    double weights = 0;
+    for (int i = 0; i < map->count; i++)
+        weights += map->entries[i].value;
+    for (int i = 0; i < map->count; i++)
+        add(&sum, map->entries[i].color, weights != 0 ? map->entries[i].value / weights : 1.0 / map->count);
+    return sum;
+}
+
+Rgbft pigment_mean(const ParsedPigment *pigment)
+{
+    const Pigment *p = &pigment->pigment;
+    switch (p->kind) {
+    case PIGMENT_CHECKER:
+        return lerp(p->checker[0], p->checker[1], 0.5);
+    case PIGMENT_GRADIENT:
+        return color_map_mean(&p->map);
+    case PIGMENT_IMAGE:
+        return (Rgbft){0.5f, 0.5f, 0.5f, 0, 0};
+    default:
+        return p->color;
+    }
+}
+
+static int opaque(Rgbft c)
+{
+    return c.filter == 0 && c.transmit == 0;
+}
+
+/* Once images are loaded. */
+int parsed_pigment_is_opaque(const ParsedPigment *pigment)
+{
+    const Pigment *p = &pigment->pigment;
+    switch (p->kind) {
+    case PIGMENT_CHECKER:
+        return opaque(p->checker[0]) && opaque(p->checker[1]);
+    case PIGMENT_GRADIENT:
+        for (int i = 0; i < p->map.count; i++)
+            if (!opaque(p->map.entries[i].color))
+                return 0;
+        return 1;
+    case PIGMENT_IMAGE:
+        return !p->image->has_alpha && !p->image->once && p->image->filter_all == 0 && p->image->transmit_all == 0;
+    default:
+        return opaque(p->color);
+    }
+}
+
+/* ---- maps ---- */
+
+static ParsedColorMap *map_new(Sdl *sdl)
+{
+    Builder *builder = builder_of(sdl);
+    ParsedColorMap *map = sdl_alloc(sdl, sizeof *map);
+    map->next = builder->maps;
+    builder->maps = map;
+    return map;
+}
+
+static void map_add(Sdl *sdl, ParsedColorMap *map, int *room, double value, Rgbft color)
+{
+    map->map.entries = builder_grow(sdl, map->map.entries, map->map.count, room, sizeof(ColorMapEntry));
+    int i = map->map.count++;
+    /* In order of value, what was written first first. */
+    for (; i > 0 && map->map.entries[i - 1].value > value; i--)
+        map->map.entries[i] = map->map.entries[i - 1];
+    map->map.entries[i] = (ColorMapEntry){value, color};
+}
+
+static Rgbft value_color(Sdl *sdl, const Value *value)
+{
+    const double *n = value->number;
+    if (value->kind == VALUE_FLOAT)
+        return (Rgbft){(float)n[0], (float)n[0], (float)n[0], 0, 0};
+    if (value->kind != VALUE_VECTOR || value->count < 3)
+        sdl_expected(sdl, "a colour");
+    return (Rgbft){(float)n[0], (float)n[1], (float)n[2], value->count > 3 ? (float)n[3] : 0,
+                   value->count > 4 ? (float)n[4] : 0};
+}
+
+/* `[VALUE COLOUR]`, or the old `[FROM TO COLOUR COLOUR]`. */
+static void color_map_entry(Sdl *sdl, ParsedColorMap *map, int *room)
+{
+    double from = sdl_float(sdl);
+    sdl_optional_comma(sdl);
+    if (sdl_is_color_start(sdl)) {
+        map_add(sdl, map, room, from, sdl_color(sdl));
+    } else {
+        Value value = sdl_expression(sdl);
+        sdl_optional_comma(sdl);
+        if (value.kind == VALUE_FLOAT && !sdl_is(sdl, "]")) {
+            map_add(sdl, map, room, from, sdl_color(sdl));
+            sdl_optional_comma(sdl);
+            map_add(sdl, map, room, value.number[0], sdl_color(sdl));
+        } else
+            map_add(sdl, map, room, from, value_color(sdl, &value));
+    }
+    sdl_optional_comma(sdl);
+    sdl_expect(sdl, "]");
+}
+
+ParsedColorMap *parse_color_map(Sdl *sdl)
+{
+    sdl_expect(sdl, "{");
+    ParsedColorMap *known = accept_ident(sdl, VALUE_COLOR_MAP);
+    if (known) {
+        sdl_expect(sdl, "}");
+        return known;
+    }
+    ParsedColorMap *map = map_new(sdl);
+    int room = 0;
+    while (sdl_accept(sdl, "["))
+        color_map_entry(sdl, map, &room), sdl_optional_comma(sdl);
+    if (map->map.count == 0)
+        sdl_expected(sdl, "`[` and an entry of the color_map");
+    sdl_expect(sdl, "}");
+    return map;
+}
+
+static ParsedColorMap *known_map(Sdl *sdl, const char *word)
+{
+    Value *value = peek_ident(sdl, VALUE_OTHER);
+    if (!value || !value->word || strcmp(value->word, word) != 0)
+        return NULL;
+    ParsedColorMap *known = value->data;
+    sdl_next(sdl);
+    sdl_expect(sdl, "}");
+    return known;
+}
+
+ParsedColorMap *parse_pigment_map(Sdl *sdl)
+{
+    sdl_expect(sdl, "{");
+    ParsedColorMap *map = known_map(sdl, "pigment_map");
+    if (map)
+        return map;
+    map = map_new(sdl);
+    int room = 0;
+    statement_enter(sdl);
+    while (sdl_accept(sdl, "[")) {
+        double value = optional_float(sdl, 1); /* of `average` it may be left out */
+        sdl_optional_comma(sdl);
+        ParsedPigment *pigment = parse_pigment_body(sdl, default_pigment(sdl), ']');
+        map_add(sdl, map, &room, value, pigment_mean(pigment));
+        gaps_join(&map->gaps, &pigment->gaps);
+        if (pigment->pigment.kind != PIGMENT_COLOR)
+            gaps_add(&map->gaps, GAP_PIGMENT_MAP);
+        sdl_optional_comma(sdl);
+    }
+    statement_leave(sdl);
+    sdl_expect(sdl, "}");
+    return map;
+}
+
+ParsedColorMap *parse_texture_map(Sdl *sdl)
+{
+    sdl_expect(sdl, "{");
+    ParsedColorMap *map = known_map(sdl, "texture_map");
+    if (map)
+        return map;
+    map = map_new(sdl);
+    int room = 0;
+    statement_enter(sdl);
+    gaps_add(&map->gaps, GAP_TEXTURE_MAP);
+    while (sdl_accept(sdl, "[")) {
+        double value = optional_float(sdl, 1);
+        sdl_optional_comma(sdl);
+        const ParsedTexture *texture = parse_texture_body(sdl, ']');
+        const ParsedPigment *pigment = (const ParsedPigment *)texture_visible(texture)->texture.pigment;
+        map_add(sdl, map, &room, value, pigment_mean(pigment));
+        gaps_join(&map->gaps, &texture->gaps);
+        gaps_join(&map->gaps, &pigment->gaps);
+        if (!map->texture)
+            map->texture = texture;
+        sdl_optional_comma(sdl);
+    }
+    statement_leave(sdl);
+    sdl_expect(sdl, "}");
+    return map;
+}
+
+/* ---- the body ---- */
+
+static int accept_map(Sdl *sdl, ParsedPigment *pigment, const ParsedTexture **first)
+{
+    ParsedColorMap *map;
+    if (sdl_accept(sdl, "color_map") || sdl_accept(sdl, "colour_map"))
+        map = parse_color_map(sdl);
+    else if (sdl_accept(sdl, "pigment_map"))
+        map = parse_pigment_map(sdl);
+    else if (sdl_accept(sdl, "texture_map"))
+        map = parse_texture_map(sdl);
+    else
+        return 0;
+    pigment->pigment.map = map->map;
+    gaps_join(&pigment->gaps, &map->gaps);
+    if (map->texture && first && !*first)
+        *first = map->texture;
+    return 1;
+}
+
+static void set_color(ParsedPigment *pigment, Rgbft color)
+{
+    pigment->pigment.kind = PIGMENT_COLOR;
+    pigment->pigment.color = color;
+    pigment->averaged = AVERAGED_NOT;
+}
+
+static int accept_named(Sdl *sdl, ParsedPigment *pigment)
+{
+    const ParsedPigment *known = accept_ident(sdl, VALUE_PIGMENT);
+    if (!known)
+        return 0;
+    ParsedPigment *next = pigment->next;
+    *pigment = *known;
+    pigment->next = next;
+    return 1;
+}
+
+static void pigment_item(Sdl *sdl, ParsedPigment *pigment, const ParsedTexture **first, int textures)
+{
+    Transform by;
+    const char *file = sdl_peek(sdl)->file;
+    const int line = sdl_peek(sdl)->line;
+    if (accept_named(sdl, pigment))
+        return;
+    if (accept_transform(sdl, &by)) {
+        pigment->pigment.transform = transform_then(pigment->pigment.transform, by);
+        return;
+    }
+    if (sdl_accept(sdl, "uv_mapping")) {
+        pigment->pigment.uv_mapping = sdl_optional_bool(sdl, 1);
+        return;
+    }
+    const int mapped = accept_map(sdl, pigment, first) || accept_pattern(sdl, pigment, first, textures);
+    if (mapped)
+        pigment->file = file, pigment->line = line;
+    if (mapped || accept_pattern_modifier(sdl, pigment))
+        return;
+    if (sdl_accept(sdl, "quick_color") || sdl_accept(sdl, "quick_colour"))
+        sdl_color(sdl); /* of previews only */
+    else if (sdl_is_color_start(sdl) || sdl_is_expression_start(sdl))
+        set_color(pigment, sdl_color(sdl)), pigment->file = file, pigment->line = line;
+    else
+        sdl_expected(sdl, "a colour, a pattern, a transform or the end of the pigment");
+}
+
+static void pigment_items(Sdl *sdl, ParsedPigment *pigment, const ParsedTexture **first, int textures, char end)
+{
+    const char closing[2] = {end, 0};
+    statement_enter(sdl);
+    while (!sdl_accept(sdl, closing))
+        pigment_item(sdl, pigment, first, textures), sdl_optional_comma(sdl);
+    statement_leave(sdl);
+    if (pigment->averaged == AVERAGED_BY_WEIGHT)
+        pigment->pigment.color = weighted_mean(&pigment->pigment.map);
+    else if (pigment->averaged)
+        pigment->pigment.color = color_map_mean(&pigment->pigment.map);
+    else if (pigment->disturbed && pigment->pigment.kind != PIGMENT_COLOR)
+        gaps_add(&pigment->gaps, GAP_TURBULENCE);
+}
+
+ParsedPigment *parse_pigment_body(Sdl *sdl, const ParsedPigment *from, char end)
+{
+    ParsedPigment *pigment = pigment_new(sdl, from);
+    pigment_items(sdl, pigment, NULL, 0, end);
+    return pigment;
+}
+
+ParsedPigment *parse_pigment(Sdl *sdl, const ParsedPigment *from)
+{
+    sdl_expect(sdl, "{");
+    return parse_pigment_body(sdl, from, '}');
+}
+
+ParsedPigment *parse_texture_pattern(Sdl *sdl, char end, const ParsedTexture **first, Gaps *gaps)
+{
+    ParsedPigment *pigment = pigment_new(sdl, NULL);
+    pigment_items(sdl, pigment, first, 1, end);
+    gaps_join(gaps, &pigment->gaps);
+    return pigment;
+}

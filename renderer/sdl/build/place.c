@@ -1,0 +1,240 @@
+/* Placing: an object statement at top level becomes primitives and lights of the Scene, in world space. What children
+ * lack they take from the groups they are in; what nobody gave is the default texture of that moment. */
+#include <string.h>
+#include "sdl/build/builder.h"
+
+/* What a child takes from the groups around it. */
+typedef struct Around {
+    Transform to_world;
+    const ParsedTexture *texture, *interior_texture; /* in world space */
+    const ParsedInterior *interior;
+    int uv_mapping;
+    unsigned flags;
+    const IdentList *idents;
+} Around;
+
+/* ---- textures in world space ---- */
+
+static size_t hash_placed(const ParsedTexture *texture, const Transform *by)
+{
+    const unsigned char *bytes = (const unsigned char *)by->m;
+    size_t hash = (size_t)texture >> 4;
+    for (size_t i = 0; i < sizeof by->m; i++)
+        hash = hash * 31 + bytes[i];
+    return (hash ^ hash >> 17) % PLACED_CACHE;
+}
+
+/* Moved, the same copy for the same move where it comes again soon: a group's children mostly share one. */
+static const ParsedTexture *placed_texture(Sdl *sdl, const ParsedTexture *texture, const Transform *by)
+{
+    if (!texture || transform_is_identity(by))
+        return texture;
+    PlacedTexture *slot = &builder_of(sdl)->placed[hash_placed(texture, by)];
+    if (slot->from != texture || memcmp(slot->by.m, by->m, sizeof by->m) != 0) {
+        slot->to = texture_moved(sdl, texture, by);
+        slot->from = texture;
+        slot->by = *by;
+    }
+    return slot->to;
+}
+
+static const ParsedTexture *undressed(Sdl *sdl, const Dressed *dressed, const Transform *outer, int uv_mapping)
+{
+    if (!dressed->texture)
+        return NULL;
+    Transform by = dressed->moved ? dressed->pending : transform_identity();
+    if (!uv_mapping)
+        by = transform_then(by, *outer);
+    return placed_texture(sdl, dressed->texture, &by);
+}
+
+/* uv_mapping said of an object holds for all pigments on it. */
+static const ParsedTexture *uv_mapped(Sdl *sdl, const ParsedTexture *texture)
+{
+    if (!texture || (texture->texture.pigment->uv_mapping && !texture->below))
+        return texture;
+    ParsedTexture *mapped = texture_copy(sdl, texture);
+    ParsedPigment *pigment = pigment_new(sdl, (const ParsedPigment *)texture->texture.pigment);
+    pigment->pigment.uv_mapping = 1;
+    mapped->texture.pigment = &pigment->pigment;
+    mapped->texture.uv_mapping = 1;
+    mapped->below = uv_mapped(sdl, texture->below);
+    return mapped;
+}
+
+static void report_texture(Sdl *sdl, const ParsedTexture *texture)
+{
+    for (; texture; texture = texture->below) {
+        gaps_report(sdl, &texture->gaps);
+        gaps_report(sdl, &((const ParsedPigment *)texture->texture.pigment)->gaps);
+        gaps_report(sdl, &((const ParsedFinish *)texture->texture.finish)->gaps);
+    }
+}
+
+/* ---- shapes ---- */
+
+/* A mesh with textures of its own gets a copy of its head, with those textures in world space. */
+static const Mesh *placed_mesh(Sdl *sdl, const Object *object, const Transform *to_world)
+{
+    Builder *builder = builder_of(sdl);
+    if (object->mesh->ntextures == 0)
+        return object->mesh;
+    const Transform by = object->uv_mapping ? transform_identity() : *to_world;
+    if (builder->placed_mesh_from == object->mesh && !object->uv_mapping &&
+        memcmp(&builder->placed_mesh_by, &by, sizeof by) == 0)
+        return builder->placed_mesh;
+    Mesh *mesh = sdl_alloc(sdl, sizeof *mesh);
+    *mesh = *object->mesh;
+    mesh->textures = sdl_alloc(sdl, (size_t)mesh->ntextures * sizeof *mesh->textures);
+    for (int i = 0; i < mesh->ntextures; i++) {
+        const ParsedTexture *texture = placed_texture(sdl, (const ParsedTexture *)object->mesh->textures[i], &by);
+        if (object->uv_mapping)
+            texture = uv_mapped(sdl, texture);
+        report_texture(sdl, texture);
+        mesh->textures[i] = &texture->texture;
+    }
+    if (!object->uv_mapping) {
+        builder->placed_mesh_from = object->mesh;
+        builder->placed_mesh_by = by;
+        builder->placed_mesh = mesh;
+    }
+    return mesh;
+}
+
+/* Old scenes write the index of refraction in the finish. */
+static const ParsedInterior *interior_of_finish(Sdl *sdl, const ParsedTexture *texture)
+{
+    const ParsedFinish *finish = (const ParsedFinish *)texture->texture.finish;
+    if (finish->ior <= 0)
+        return NULL;
+    ParsedInterior *interior = sdl_alloc(sdl, sizeof *interior);
+    interior->interior.ior = finish->ior;
+    return interior;
+}
+
+static Primitive *primitive_new(Sdl *sdl)
+{
+    Scene *scene = sdl_scene(sdl);
+    Builder *builder = builder_of(sdl);
+    int room = builder->primitive_room;
+    builder->loose = builder_grow(sdl, builder->loose, scene->nprimitives, &room, sizeof *builder->loose);
+    scene->primitives =
+        builder_grow(sdl, scene->primitives, scene->nprimitives, &builder->primitive_room, sizeof *scene->primitives);
+    Primitive *primitive = &scene->primitives[scene->nprimitives++];
+    memset(primitive, 0, sizeof *primitive);
+    return primitive;
+}
+
+static void place_shape(Sdl *sdl, const Object *object, const Around *in)
+{
+    const ParsedTexture *texture = in->texture ? in->texture : builder_of(sdl)->default_texture;
+    const ParsedTexture *inside = in->interior_texture;
+    const ParsedInterior *interior = in->interior ? in->interior : interior_of_finish(sdl, texture);
+    if (in->uv_mapping) {
+        texture = uv_mapped(sdl, texture);
+        inside = uv_mapped(sdl, inside);
+    }
+    report_texture(sdl, texture);
+    report_texture(sdl, inside);
+    if (interior)
+        gaps_report(sdl, &interior->gaps);
+    const Mesh *mesh = object->shape == SHAPE_MESH ? placed_mesh(sdl, object, &in->to_world) : NULL;
+    Primitive *p = primitive_new(sdl);
+    builder_of(sdl)->loose[sdl_scene(sdl)->nprimitives - 1] = (unsigned char)object->loose;
+    p->kind = object->shape;
+    p->r0 = object->r0;
+    p->r1 = object->r1;
+    p->open = object->open;
+    p->mesh = mesh;
+    p->transform = in->to_world;
+    p->texture = &texture->texture;
+    p->interior_texture = inside ? &inside->texture : NULL;
+    p->interior = interior ? &interior->interior : NULL;
+    p->no_shadow = (in->flags & OBJECT_NO_SHADOW) != 0;
+    p->no_image = (in->flags & OBJECT_NO_IMAGE) != 0;
+    p->no_reflection = (in->flags & OBJECT_NO_REFLECTION) != 0;
+    p->inverse = (in->flags & OBJECT_INVERSE) != 0;
+    p->hollow = (in->flags & OBJECT_HOLLOW) != 0;
+    p->idents = in->idents;
+    p->line = object->line;
+    p->target = -1;
+}
+
+/* ---- lights ---- */
+
+static void place_light(Sdl *sdl, const Object *object, const Transform *to_world)
+{
+    Scene *scene = sdl_scene(sdl);
+    scene->lights =
+        builder_grow(sdl, scene->lights, scene->nlights, &builder_of(sdl)->light_room, sizeof *scene->lights);
+    Light *light = &scene->lights[scene->nlights++];
+    *light = *object->light;
+    light->location = transform_point(to_world, light->location);
+    light->point_at = transform_point(to_world, light->point_at);
+    light->axis1 = transform_vector(to_world, light->axis1);
+    light->axis2 = transform_vector(to_world, light->axis2);
+    if (light->fade_distance <= 0)
+        light->fade_power = 0;
+}
+
+/* ---- the walk ---- */
+
+static void place(Sdl *sdl, const Object *object, const Around *around);
+
+static void place_children(Sdl *sdl, const ObjectList *list, const Around *around)
+{
+    for (; list; list = list->next)
+        place(sdl, list->object, around);
+}
+
+/* What an object looks like stands about its light, and casts no shadow. */
+static void place_look(Sdl *sdl, const Object *object, const Around *here)
+{
+    Around look = *here;
+    look.to_world = transform_then(transform_translate(object->light->location), here->to_world);
+    look.flags |= OBJECT_NO_SHADOW;
+    place_children(sdl, object->children, &look);
+}
+
+static void place(Sdl *sdl, const Object *object, const Around *around)
+{
+    Around here = *around;
+    sdl_step(sdl, 1);
+    gaps_report(sdl, &object->gaps);
+    if (object->kind == OBJECT_EMPTY)
+        return;
+    here.to_world = transform_then(object->transform, around->to_world);
+    here.uv_mapping = object->uv_mapping;
+    const ParsedTexture *texture = undressed(sdl, &object->texture, &around->to_world, object->uv_mapping);
+    const ParsedTexture *inside = undressed(sdl, &object->interior_texture, &around->to_world, object->uv_mapping);
+    if (texture)
+        here.texture = texture;
+    else
+        here.uv_mapping |= around->uv_mapping; /* comes along with the texture */
+    if (inside)
+        here.interior_texture = inside;
+    if (object->interior)
+        here.interior = object->interior;
+    here.flags = (around->flags | (object->flags & ~OBJECT_INVERSE)) ^ (object->flags & OBJECT_INVERSE);
+    here.idents = sdl_ident_join(sdl, around->idents, object->idents);
+    switch (object->kind) {
+    case OBJECT_SHAPE:
+        place_shape(sdl, object, &here);
+        break;
+    case OBJECT_GROUP:
+        place_children(sdl, object->children, &here);
+        break;
+    case OBJECT_LIGHT:
+        place_light(sdl, object, &here.to_world);
+        place_look(sdl, object, &here);
+        break;
+    case OBJECT_EMPTY:
+        break;
+    }
+}
+
+void place_object(Sdl *sdl, const Object *object)
+{
+    const Around world = {.to_world = transform_identity()};
+    place(sdl, object, &world);
+}

@@ -1,0 +1,492 @@
+/* Expressions: floats, vectors and colours with POV-Ray's precedence. Comparisons, & | and ?: belong to parentheses and
+ * conditions only, so that `<1,2,3> <4,5,6>` are two vectors and `>` ends one. */
+#include <math.h>
+#include <string.h>
+#include "sdl/lang/internal.h"
+
+static Num factor(Sdl *sdl, int frame);
+
+Num num_float(double value)
+{
+    return (Num){{value}, 1, 0};
+}
+
+/* A float fills all components; a short vector is filled up with zeros, as in POV-Ray. */
+void num_promote(Num *num, int count)
+{
+    if (num->count == 1)
+        for (int i = 1; i < count; i++)
+            num->n[i] = num->n[0];
+    else
+        for (int i = num->count; i < count; i++)
+            num->n[i] = 0;
+    if (num->count < count)
+        num->count = count;
+}
+
+Value value_from_num(Num num)
+{
+    Value value = {.kind = num.count == 1 ? VALUE_FLOAT : VALUE_VECTOR, .count = num.count, .is_color = num.color};
+    memcpy(value.number, num.n, sizeof value.number);
+    return value;
+}
+
+static Num num_from_value(const Value *value)
+{
+    Num num = {{0}, value->kind == VALUE_FLOAT ? 1 : value->count, value->is_color};
+    memcpy(num.n, value->number, sizeof num.n);
+    return num;
+}
+
+static void enter(Sdl *sdl)
+{
+    if (++sdl->expression_depth > MAX_EXPRESSION_DEPTH)
+        sdl_fail(sdl, RETEX_ELIMIT, "expressions nested more than %d deep", MAX_EXPRESSION_DEPTH);
+}
+
+/* The operator that is next, or 0; a declaration that follows in the same file or macro is none. */
+static char operator_next(Sdl *sdl, int frame)
+{
+    const Token *token = sdl_peek_operator(sdl, frame);
+    return token && token->kind == TOKEN_PUNCT ? token->punct : 0;
+}
+
+void num_component(Sdl *sdl, Num *num, const char *name)
+{
+    static const char *const names[] = {"x", "u", "red", "y", "v", "green", "z", "blue", "t", "filter", "transmit"};
+    static const int index[] = {0, 0, 0, 1, 1, 1, 2, 2, 3, 3, 4};
+    int count = num->count;
+    num_promote(num, 5);
+    if (strcmp(name, "gray") == 0) {
+        *num = num_float(0.297 * num->n[0] + 0.589 * num->n[1] + 0.114 * num->n[2]);
+        return;
+    }
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++)
+        if (strcmp(name, names[i]) == 0) {
+            if (count > 1 && index[i] >= count)
+                sdl_error(sdl, "a vector of %d components has no `%s`", count, name);
+            *num = num_float(num->n[index[i]]);
+            return;
+        }
+    sdl_error(sdl, "expected a component such as x or red after the `.`, found `%s`", name);
+}
+
+/* `< … >`, its `<` taken: two to five numbers, commas between them optional. */
+static Num vector_literal(Sdl *sdl)
+{
+    Num vector = {{0}, 0, 0};
+    enter(sdl);
+    do {
+        if (vector.count == 5)
+            sdl_error(sdl, "a vector has at most five components");
+        vector.n[vector.count++] = sdl_float(sdl);
+        sdl_optional_comma(sdl);
+    } while (!sdl_is(sdl, ">"));
+    sdl_next(sdl);
+    sdl->expression_depth--;
+    if (vector.count < 2)
+        sdl_error(sdl, "a vector has two components at least");
+    return vector;
+}
+
+static Num identifier(Sdl *sdl)
+{
+    /* The token goes when the next is looked at; its value may be a name of a macro that ends here. */
+    Value value = *sdl_next(sdl)->value;
+    switch (value.kind) {
+    case VALUE_FLOAT:
+    case VALUE_VECTOR:
+        return num_from_value(&value);
+    case VALUE_FUNCTION:
+        return function_call(sdl, &value);
+    case VALUE_SPLINE:
+        return spline_call(sdl, &value);
+    default:
+        sdl_error(sdl, "`%s` is no number", sdl->token.text);
+    }
+}
+
+static Num word(Sdl *sdl)
+{
+    const Token *token = sdl_peek(sdl);
+    const Builtin *builtin = word_intern(sdl, token->text, strlen(token->text))->builtin;
+    if (!builtin)
+        sdl_expected(sdl, "a number");
+    switch (builtin->kind) {
+    case BUILTIN_CONSTANT:
+        sdl_next(sdl);
+        return builtin_constant(sdl, builtin->id);
+    case BUILTIN_FLOAT:
+    case BUILTIN_NUMBER:
+        sdl_next(sdl);
+        return builtin_number(sdl, builtin);
+    default:
+        sdl_expected(sdl, "a number");
+    }
+}
+
+static Num primary(Sdl *sdl)
+{
+    const Token *token = sdl_peek(sdl);
+    switch (token->kind) {
+    case TOKEN_NUMBER:
+        return num_float(sdl_next(sdl)->number);
+    case TOKEN_IDENT:
+        switch (token->value->kind) {
+        case VALUE_FLOAT:
+        case VALUE_VECTOR:
+        case VALUE_FUNCTION:
+        case VALUE_SPLINE:
+            return identifier(sdl);
+        case VALUE_NONE:
+            sdl_error(sdl, "`%s` has no value yet", token->text);
+        default:
+            sdl_expected(sdl, "a number");
+        }
+    case TOKEN_WORD:
+        return word(sdl);
+    case TOKEN_PUNCT:
+        if (token->punct == '<') {
+            sdl_next(sdl);
+            return vector_literal(sdl);
+        }
+        if (token->punct == '(') {
+            sdl_next(sdl);
+            Num inner = expression_full(sdl);
+            sdl_expect(sdl, ")");
+            return inner;
+        }
+        /* fallthrough */
+    default:
+        sdl_expected(sdl, "a number");
+    }
+}
+
+static Num factor(Sdl *sdl, int frame)
+{
+    const Token *token = sdl_peek(sdl);
+    Num result;
+    enter(sdl);
+    char sign = token->kind == TOKEN_PUNCT ? token->punct : 0;
+    if (sign == '-' || sign == '+' || sign == '!') {
+        sdl_next(sdl);
+        result = factor(sdl, frame);
+        for (int i = 0; i < result.count; i++)
+            result.n[i] = sign == '-' ? -result.n[i] : sign == '!' ? result.n[i] == 0 : result.n[i];
+    } else {
+        result = primary(sdl);
+        while (operator_next(sdl, frame) == '.') {
+            sdl_next(sdl);
+            const Token *name = sdl_next(sdl);
+            if (name->kind != TOKEN_WORD)
+                sdl_error(sdl, "expected a component such as x or red after the `.`");
+            num_component(sdl, &result, name->text);
+        }
+    }
+    sdl->expression_depth--;
+    return result;
+}
+
+static Num apply(Sdl *sdl, char op, Num a, Num b)
+{
+    int count = a.count > b.count ? a.count : b.count;
+    num_promote(&a, count);
+    num_promote(&b, count);
+    a.color |= b.color;
+    for (int i = 0; i < count; i++) {
+        if (op == '/' && b.n[i] == 0 && !sdl->warned_division) {
+            sdl->warned_division = 1;
+            sdl_warn(sdl, "division by zero");
+        }
+        a.n[i] = op == '+'   ? a.n[i] + b.n[i]
+                 : op == '-' ? a.n[i] - b.n[i]
+                 : op == '*' ? a.n[i] * b.n[i]
+                             : a.n[i] / b.n[i];
+    }
+    return a;
+}
+
+static Num term(Sdl *sdl, int frame)
+{
+    Num result = factor(sdl, frame);
+    for (char op; (op = operator_next(sdl, frame)) == '*' || op == '/';) {
+        sdl_next(sdl);
+        result = apply(sdl, op, result, factor(sdl, frame));
+    }
+    return result;
+}
+
+Num expression_sum(Sdl *sdl)
+{
+    int frame = sdl->nframes;
+    Num result = term(sdl, frame);
+    for (char op; (op = operator_next(sdl, frame)) == '+' || op == '-';) {
+        sdl_next(sdl);
+        result = apply(sdl, op, result, term(sdl, frame));
+    }
+    return result;
+}
+
+static double single(Sdl *sdl, const Num *num)
+{
+    if (num->count != 1)
+        sdl_error(sdl, "expected a float, found a %s", num->color ? "color" : "vector");
+    return num->n[0];
+}
+
+/* POV-Ray takes two numbers for equal within 1e-10. */
+static int compare(char op, double a, double b)
+{
+    int equal = fabs(a - b) < 1e-10 || a == b;
+    switch (op) {
+    case '<':
+        return a < b && !equal;
+    case '>':
+        return a > b && !equal;
+    case PUNCT_LE:
+        return a <= b || equal;
+    case PUNCT_GE:
+        return a >= b || equal;
+    case '=':
+        return equal;
+    default:
+        return !equal;
+    }
+}
+
+static int is_comparison(char op)
+{
+    return op == '<' || op == '>' || op == '=' || op == PUNCT_LE || op == PUNCT_GE || op == PUNCT_NE;
+}
+
+/* Strings can be compared too: `#if (Name != "")`. */
+static Num string_comparison(Sdl *sdl)
+{
+    int frame = sdl->nframes;
+    const char *left = sdl_string(sdl);
+    char op = operator_next(sdl, frame);
+    if (!is_comparison(op))
+        sdl_expected(sdl, "a comparison with the string");
+    sdl_next(sdl);
+    return num_float(compare(op, strcmp(left, sdl_string(sdl)), 0));
+}
+
+static Num comparison(Sdl *sdl)
+{
+    if (expression_is_string_start(sdl))
+        return string_comparison(sdl);
+    int frame = sdl->nframes;
+    Num result = expression_sum(sdl);
+    for (char op; is_comparison(op = operator_next(sdl, frame));) {
+        sdl_next(sdl);
+        Num right = expression_sum(sdl);
+        result = num_float(compare(op, single(sdl, &result), single(sdl, &right)));
+    }
+    return result;
+}
+
+/* & and | have the same precedence, from the left. */
+static Num logical(Sdl *sdl)
+{
+    int frame = sdl->nframes;
+    Num result = comparison(sdl);
+    for (char op; (op = operator_next(sdl, frame)) == '&' || op == '|';) {
+        sdl_next(sdl);
+        Num right = comparison(sdl);
+        int a = single(sdl, &result) != 0, b = single(sdl, &right) != 0;
+        result = num_float(op == '&' ? a && b : a || b);
+    }
+    return result;
+}
+
+Num expression_full(Sdl *sdl)
+{
+    int frame = sdl->nframes;
+    enter(sdl);
+    Num result = sdl_is_color_start(sdl) && sdl_peek(sdl)->kind == TOKEN_WORD ? color_parse(sdl) : logical(sdl);
+    if (operator_next(sdl, frame) == '?') {
+        sdl_next(sdl);
+        int chosen = single(sdl, &result) != 0;
+        Num yes = expression_full(sdl);
+        sdl_expect(sdl, ":");
+        Num no = expression_full(sdl);
+        result = chosen ? yes : no;
+    }
+    sdl->expression_depth--;
+    return result;
+}
+
+double expression_parameter(Sdl *sdl)
+{
+    Num num = expression_full(sdl);
+    return single(sdl, &num);
+}
+
+double expression_condition(Sdl *sdl)
+{
+    sdl_expect(sdl, "(");
+    double value = expression_parameter(sdl);
+    sdl_expect(sdl, ")");
+    return value;
+}
+
+/* ---- what the builder asks for ---- */
+
+static int ends_number(const Raw *raw)
+{
+    return raw->kind == RAW_PUNCT && (raw->punct == ',' || raw->punct == '>' || raw->punct == '}' || raw->punct == ';');
+}
+
+/* A plain number, perhaps with a sign, before `end`: the way of long lists. Moves *at behind it. */
+static int plain_number(const Raw **at, double *value)
+{
+    const Raw *raw = *at;
+    int negative = raw->kind == RAW_PUNCT && raw->punct == '-';
+    raw += negative;
+    if (raw->kind != RAW_NUMBER)
+        return 0;
+    *value = negative ? -raw->as.number : raw->as.number;
+    *at = raw + 1;
+    return 1;
+}
+
+double sdl_float(Sdl *sdl)
+{
+    double value;
+    const Raw *at = sdl->cursor;
+    if (!sdl->have && plain_number(&at, &value) && ends_number(at)) {
+        stream_locate(sdl, sdl->cursor);
+        sdl->cursor = at;
+        sdl_step(sdl, 1);
+        return value;
+    }
+    Num num = expression_sum(sdl);
+    return single(sdl, &num);
+}
+
+/* `<1,2,3>` of plain numbers with nothing behind that could go on with it. */
+static int plain_vector(Sdl *sdl, int count, double *values)
+{
+    const Raw *at = sdl->cursor;
+    if (sdl->have || at->kind != RAW_PUNCT || at->punct != '<')
+        return 0;
+    at++;
+    for (int i = 0; i < count; i++) {
+        if (!plain_number(&at, &values[i]))
+            return 0;
+        if (at->kind != RAW_PUNCT || at->punct != (i + 1 < count ? ',' : '>'))
+            return 0;
+        at++;
+    }
+    if (!(at->kind == RAW_PUNCT && (at->punct == ',' || at->punct == '}' || at->punct == '<')) &&
+        at->kind != RAW_NUMBER)
+        return 0;
+    stream_locate(sdl, sdl->cursor);
+    sdl->cursor = at;
+    sdl_step(sdl, count);
+    return 1;
+}
+
+Vec3 sdl_vector(Sdl *sdl)
+{
+    double v[3];
+    if (plain_vector(sdl, 3, v))
+        return vec3(v[0], v[1], v[2]);
+    Num num = expression_sum(sdl);
+    if (num.count > 3)
+        sdl_error(sdl, "expected a vector of three components, found %s of %d", num.color ? "a color" : "one",
+                  num.count);
+    num_promote(&num, 3);
+    return vec3(num.n[0], num.n[1], num.n[2]);
+}
+
+Vec2 sdl_vector2(Sdl *sdl)
+{
+    double v[2];
+    if (plain_vector(sdl, 2, v))
+        return (Vec2){v[0], v[1]};
+    Num num = expression_sum(sdl);
+    if (num.count > 2)
+        sdl_error(sdl, "expected a vector of two components, found one of %d", num.count);
+    num_promote(&num, 2);
+    return (Vec2){num.n[0], num.n[1]};
+}
+
+int sdl_bool(Sdl *sdl)
+{
+    return sdl_float(sdl) != 0;
+}
+
+int sdl_optional_bool(Sdl *sdl, int missing)
+{
+    return expression_is_number_start(sdl) ? sdl_bool(sdl) : missing;
+}
+
+static const Builtin *builtin_next(Sdl *sdl)
+{
+    const Token *token = sdl_peek(sdl);
+    return token->kind == TOKEN_WORD ? word_intern(sdl, token->text, strlen(token->text))->builtin : NULL;
+}
+
+int expression_is_number_start(Sdl *sdl)
+{
+    const Token *token = sdl_peek(sdl);
+    const Builtin *builtin = builtin_next(sdl);
+    switch (token->kind) {
+    case TOKEN_NUMBER:
+        return 1;
+    case TOKEN_IDENT:
+        return token->value->kind == VALUE_FLOAT || token->value->kind == VALUE_VECTOR ||
+               ((token->value->kind == VALUE_FUNCTION || token->value->kind == VALUE_SPLINE) &&
+                sdl->cursor->kind == RAW_PUNCT && sdl->cursor->punct == '(');
+    case TOKEN_PUNCT:
+        return strchr("<(-+!", token->punct) != NULL;
+    case TOKEN_WORD:
+        return builtin &&
+               (builtin->kind == BUILTIN_CONSTANT || builtin->kind == BUILTIN_FLOAT || builtin->kind == BUILTIN_NUMBER);
+    default:
+        return 0;
+    }
+}
+
+int expression_is_string_start(Sdl *sdl)
+{
+    const Token *token = sdl_peek(sdl);
+    const Builtin *builtin = builtin_next(sdl);
+    return token->kind == TOKEN_STRING || (token->kind == TOKEN_IDENT && token->value->kind == VALUE_STRING) ||
+           (builtin && builtin->kind == BUILTIN_STRING);
+}
+
+int sdl_is_expression_start(Sdl *sdl)
+{
+    const Builtin *builtin = builtin_next(sdl);
+    return (builtin && builtin->kind == BUILTIN_COLOR) || expression_is_number_start(sdl) ||
+           expression_is_string_start(sdl);
+}
+
+const char *sdl_string(Sdl *sdl)
+{
+    const Token *token = sdl_peek(sdl);
+    const Builtin *builtin = builtin_next(sdl);
+    if (token->kind == TOKEN_STRING)
+        return sdl_next(sdl)->text;
+    if (token->kind == TOKEN_IDENT && token->value->kind == VALUE_STRING)
+        return sdl_next(sdl)->value->string;
+    if (!builtin || builtin->kind != BUILTIN_STRING)
+        sdl_expected(sdl, "a string");
+    sdl_next(sdl);
+    enter(sdl);
+    const char *result = builtin_string(sdl, builtin);
+    sdl_step(sdl, (long)(strlen(result) / 256));
+    sdl->expression_depth--;
+    return result;
+}
+
+Value sdl_expression(Sdl *sdl)
+{
+    if (expression_is_string_start(sdl))
+        return (Value){.kind = VALUE_STRING, .string = sdl_string(sdl)};
+    if (sdl_peek(sdl)->kind == TOKEN_WORD && sdl_is_color_start(sdl))
+        return value_from_num(color_parse(sdl));
+    return value_from_num(expression_sum(sdl));
+}
