@@ -118,7 +118,7 @@ static _Noreturn void end_tool(const char *kept)
     WatchdogLast *last = atomic_load(&dog.last);
     if (last)
         last(text);
-    retex_unfinished_remove(); /* after which no file gets a name */
+    retex_pending_files_remove(); /* after which no file gets a name */
     const char *other = atomic_load(&dog.remove);
     if (other)
         unlink(other);

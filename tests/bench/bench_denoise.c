@@ -11,41 +11,41 @@
 typedef struct Kernels {
     Room *room;
     Sums *sums;
-    DenoiseSignal signal;
-    DenoiseBatch batch;
+    RetexDenoiseSignal signal;
+    RetexDenoiseBatch batch;
 } Kernels;
 
 static void features(void *context)
 {
     Kernels *k = context;
-    denoise_features_kernel(k->room->alike, &k->room->features, 3, -2, 0);
+    retex_denoise_features_kernel(k->room->alike, &k->room->features, 3, -2, 0);
 }
 
 static void features_scalar(void *context)
 {
     Kernels *k = context;
-    denoise_features_kernel(k->room->alike, &k->room->features, 3, -2, 1);
+    retex_denoise_features_kernel(k->room->alike, &k->room->features, 3, -2, 1);
 }
 
 static void filter_signal(void *context)
 {
     Kernels *k = context;
-    denoise_signal_kernel(&k->signal, &k->batch, 0);
+    retex_denoise_signal_kernel(&k->signal, &k->batch, 0);
 }
 
 static void signal_scalar(void *context)
 {
     Kernels *k = context;
-    denoise_signal_kernel(&k->signal, &k->batch, 1);
+    retex_denoise_signal_kernel(&k->signal, &k->batch, 1);
 }
 
 static void bench_denoise_kernels(void)
 {
     Kernels k = {.room = open_room(1), .sums = calloc(1, sizeof *k.sums)};
     k.signal = signal_of(k.room, k.sums);
-    k.batch = (DenoiseBatch){.dx = -1, .dy = 2, .count = DENOISE_BATCH};
+    k.batch = (RetexDenoiseBatch){.dx = -1, .dy = 2, .count = DENOISE_BATCH};
     for (int n = 0; n < DENOISE_BATCH; n++) {
-        denoise_features_kernel(k.room->alike + n, &k.room->features, k.batch.dx + n, k.batch.dy, 1);
+        retex_denoise_features_kernel(k.room->alike + n, &k.room->features, k.batch.dx + n, k.batch.dy, 1);
         k.batch.alike[n] = k.room->alike + n;
     }
     bench_section("Denoising: times as fast as the scalar reference");

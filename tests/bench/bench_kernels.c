@@ -53,7 +53,7 @@ typedef struct Term {
 static void term_kernel(void *context)
 {
     Term *t = context;
-    combine_term_kernel(t->images[0].pixels, t->images[1].pixels, t->factors, t->nfactors, VALUES);
+    retex_combine_term_kernel(t->images[0].pixels, t->images[1].pixels, t->factors, t->nfactors, VALUES);
 }
 
 static void term_reference(void *context)

@@ -65,13 +65,13 @@ static int is_chosen(const Floor *work, int part)
     return work->wanted[part] && (work->set->parts[part].image.height < work->set->height) == work->is_small;
 }
 
-static int read_band(const Floor *work, RowReader *reader, int part, int band, RetexError *err)
+static int read_band(const Floor *work, RetexRowReader *reader, int part, int band, RetexError *err)
 {
     const int height = work->set->parts[part].image.height, y0 = band * RETEX_PICTURE_BAND;
     int code = RETEX_OK;
     for (int y = y0; !code && y < y0 + RETEX_PICTURE_BAND && y < height; y++) {
         const float *row;
-        code = row_reader_get(reader, part, y, &row, err);
+        code = retex_row_reader_get(reader, part, y, &row, err);
     }
     return code;
 }
@@ -79,14 +79,14 @@ static int read_band(const Floor *work, RowReader *reader, int part, int band, R
 static void read_job(void *context, int band, int thread)
 {
     Floor *work = context;
-    RowReader *reader = NULL;
+    RetexRowReader *reader = NULL;
     if (work->code)
         return;
-    int code = row_reader_open(&reader, work->set, NULL, &work->errors[thread]);
+    int code = retex_row_reader_open(&reader, work->set, NULL, &work->errors[thread]);
     for (int part = 0; !code && part < work->set->nparts; part++)
         if (is_chosen(work, part))
             code = read_band(work, reader, part, band, &work->errors[thread]);
-    row_reader_close(&reader);
+    retex_row_reader_close(&reader);
     if (code)
         atomic_store(&work->code, code);
 }

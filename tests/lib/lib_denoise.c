@@ -195,11 +195,11 @@ static double draw(int samples, uint32_t *seed)
 
 void denoise_add_noise(RetexSet *set, uint32_t seed)
 {
-    Signals signals = denoise_signals(set);
+    RetexSignals signals = denoise_signals(set);
     int n = set->spp, first = n / 2;
     for (int s = 0; s < signals.count; s++)
         for (int k = 0; k < signals.of[s].nmembers; k++) {
-            const SignalMember *m = &signals.of[s].members[k];
+            const RetexSignalMember *m = &signals.of[s].members[k];
             float *to = set->parts[m->part].image.pixels, *noise = set->parts[signals.of[s].noise].image.pixels;
             for (int i = 0; i < 3 * set->width * set->height; i += 3) {
                 double a = draw(first, &seed), b = draw(n - first, &seed);
@@ -209,25 +209,25 @@ void denoise_add_noise(RetexSet *set, uint32_t seed)
                 }
             }
         }
-    signals_close(&signals);
+    retex_signals_close(&signals);
 }
 
 /* ---- what is in a set ---- */
 
-Signals denoise_signals(const RetexSet *set)
+RetexSignals denoise_signals(const RetexSet *set)
 {
-    Signals signals;
+    RetexSignals signals;
     RetexError err = {0};
-    test_must(signals_open(&signals, set, &err), &err);
+    test_must(retex_signals_open(&signals, set, &err), &err);
     return signals;
 }
 
-const char *denoise_signal_name(const RetexSet *set, const Signal *signal)
+const char *denoise_signal_name(const RetexSet *set, const RetexSignal *signal)
 {
     return set->parts[signal->noise].name + 6;
 }
 
-double denoise_total(const RetexSet *set, const Signal *signal, int x, int y, int channel)
+double denoise_total(const RetexSet *set, const RetexSignal *signal, int x, int y, int channel)
 {
     double sum = 0;
     for (int k = 0; k < signal->nmembers; k++)
@@ -235,7 +235,7 @@ double denoise_total(const RetexSet *set, const Signal *signal, int x, int y, in
     return sum;
 }
 
-double denoise_mean(const RetexSet *set, const Signal *signal, int channel)
+double denoise_mean(const RetexSet *set, const RetexSignal *signal, int channel)
 {
     double sum = 0;
     for (int y = 0; y < set->height; y++)

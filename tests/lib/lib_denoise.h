@@ -16,11 +16,11 @@ RetexSet *denoise_set(const char *layout, int width, int height);
 void denoise_add_noise(RetexSet *set, uint32_t seed);
 
 /* A signal's noise_ part and its members' weighted sum. */
-Signals denoise_signals(const RetexSet *set);
-const char *denoise_signal_name(const RetexSet *set, const Signal *signal);
-double denoise_total(const RetexSet *set, const Signal *signal, int x, int y, int channel);
+RetexSignals denoise_signals(const RetexSet *set);
+const char *denoise_signal_name(const RetexSet *set, const RetexSignal *signal);
+double denoise_total(const RetexSet *set, const RetexSignal *signal, int x, int y, int channel);
 /* The mean of that over the picture. */
-double denoise_mean(const RetexSet *set, const Signal *signal, int channel);
+double denoise_mean(const RetexSet *set, const RetexSignal *signal, int channel);
 
 /* Parts of the picture. How far a pixel's middle is from the silhouette, to the right of it above 0; and from the edge
  * of the shadow, above 0 outside. */

@@ -21,7 +21,7 @@ Room *open_room(uint32_t seed)
     for (int k = 0; k < GROUPS; k++) {
         fill(r->scales[2 * k], 0.1, 3, &seed);
         fill(r->scales[2 * k + 1], 0.01, 0.3, &seed);
-        r->features.groups[k] = (DenoiseGroup){
+        r->features.groups[k] = (RetexDenoiseFeatureGroup){
             .first = first, .count = counts[k], .strict = r->scales[2 * k], .loose = r->scales[2 * k + 1]};
         first += counts[k];
     }
@@ -51,16 +51,16 @@ Room *open_room(uint32_t seed)
     return r;
 }
 
-DenoiseSignal signal_of(Room *r, Sums *sums)
+RetexDenoiseSignal signal_of(Room *r, Sums *sums)
 {
-    DenoiseSignal s = {.kind = r->kind,
-                       .modulation = r->modulation,
-                       .epsilon = 1e-6f,
-                       .strength = 0.2f,
-                       .nplanes = IMAGES,
-                       .planes = r->image_planes,
-                       .sums = sums->image_sums,
-                       .scratch = r->scratch};
+    RetexDenoiseSignal s = {.kind = r->kind,
+                            .modulation = r->modulation,
+                            .epsilon = 1e-6f,
+                            .strength = 0.2f,
+                            .nplanes = IMAGES,
+                            .planes = r->image_planes,
+                            .sums = sums->image_sums,
+                            .scratch = r->scratch};
     for (int c = 0; c < 3; c++) {
         s.variance[c] = r->variance[c];
         s.half[0][c] = r->half[0][c], s.half[1][c] = r->half[1][c];

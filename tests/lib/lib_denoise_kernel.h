@@ -13,8 +13,8 @@ typedef struct Room {
     float half[2][3][DENOISE_PLANE], variance[3][DENOISE_PLANE], kind[DENOISE_PLANE], modulation[DENOISE_PLANE];
     float images[IMAGES][DENOISE_PLANE], scratch[DENOISE_SCRATCH];
     const float *image_planes[IMAGES];
-    DenoiseFeatures features;
-    DenoiseAlike alike[DENOISE_BATCH];
+    RetexDenoiseFeatures features;
+    RetexDenoiseSimilarity alike[DENOISE_BATCH];
 } Room;
 
 /* What the signal kernel writes. */
@@ -27,6 +27,6 @@ typedef struct Sums {
 /* Three groups of features and one of positions; weights from 0 to 1 come of it. To be freed. */
 Room *open_room(uint32_t seed);
 /* With all images. */
-DenoiseSignal signal_of(Room *r, Sums *sums);
+RetexDenoiseSignal signal_of(Room *r, Sums *sums);
 
 #endif

@@ -32,11 +32,11 @@ RetexSamples *test_variances(const RetexSet *set, const RetexTextureSpec *specs,
 {
     RetexTexture *textures[RETEX_MAX_TARGETS], *squares[RETEX_MAX_TARGETS] = {0};
     RetexSamples *variances;
-    RowReader *reader;
+    RetexRowReader *reader;
     RetexError err = {0};
     test_must(retex_sample(&variances, set, specs, nspecs, 1, &err), &err);
     test_must(retex_textures_load(textures, set, specs, nspecs, 1, &err), &err);
-    test_must(row_reader_open(&reader, set, NULL, &err), &err);
+    test_must(retex_row_reader_open(&reader, set, NULL, &err), &err);
     for (int i = 0; i < set->nfootprints; i++) {
         const RetexFootprint *f = &set->footprints[i];
         const int t = f->target;
@@ -46,13 +46,13 @@ RetexSamples *test_variances(const RetexSet *set, const RetexTextureSpec *specs,
         if (!squares[t])
             test_must(retex_texture_square(&squares[t], textures[t], &err), &err);
         for (int y = 0; y < image->height; y++) {
-            FootprintRow row;
-            test_must(footprint_row_read(&row, reader, set, f, y, 0, &err), &err);
-            variance_row(textures[t], squares[t], footprint_filter(set, f), &row,
-                         image->pixels + retex_image_index(image, 0, y));
+            RetexFootprintRow row;
+            test_must(retex_footprint_row_read(&row, reader, set, f, y, 0, &err), &err);
+            retex_variance_row(textures[t], squares[t], retex_footprint_filter(set, f), &row,
+                               image->pixels + retex_image_index(image, 0, y));
         }
     }
-    row_reader_close(&reader);
+    retex_row_reader_close(&reader);
     retex_textures_close(textures);
     retex_textures_close(squares);
     return variances;

@@ -155,11 +155,11 @@ Work open_work(RetexSet *set, int footprints)
     test_add_denoise_data(set);
     w.d.params.footprints = footprints;
     w.d.roi = (RetexRoi){0, 0, set->width, set->height, 0, 3};
-    test_must(signals_open(&w.d.signals, set, &err), &err);
-    test_must(denoise_footprints_open(&w.footprints, &w.d, &err), &err);
+    test_must(retex_signals_open(&w.d.signals, set, &err), &err);
+    test_must(retex_denoise_footprints_open(&w.footprints, &w.d, &err), &err);
     w.written = calloc((size_t)set->nparts, 1);
-    footprints_mark_written(w.footprints, &w.d, w.written);
-    w.band = (Band){.rows = set->height, .parts = calloc((size_t)set->nparts, sizeof(float *))};
+    retex_denoise_mark_written(w.footprints, &w.d, w.written);
+    w.band = (RetexDenoisedRows){.rows = set->height, .parts = calloc((size_t)set->nparts, sizeof(float *))};
     for (int k = 0; k < set->nparts; k++) {
         const RetexImage *im = &set->parts[k].image;
         size_t n = (size_t)im->width * (size_t)im->height * (size_t)im->channels;
@@ -178,13 +178,13 @@ void close_work(Work *w)
         free(w->band.parts[k]);
     free(w->band.parts);
     free(w->written);
-    denoise_footprints_close(&w->footprints);
+    retex_denoise_footprints_close(&w->footprints);
     assert_null(w->footprints);
-    signals_close(&w->d.signals);
+    retex_signals_close(&w->d.signals);
     retex_set_close(&w->d.set);
 }
 
-const Signal *find_signal(const Work *w, int target, RetexFootprintKind kind)
+const RetexSignal *find_signal(const Work *w, int target, RetexFootprintKind kind)
 {
     for (int s = 0; s < w->d.signals.count; s++)
         if (w->d.signals.of[s].target == target && w->d.signals.of[s].kind == kind)
@@ -195,18 +195,18 @@ const Signal *find_signal(const Work *w, int target, RetexFootprintKind kind)
 
 void share_light(Work *w, RetexFootprintKind kind, const float *weights, int count, const float light[3])
 {
-    Neighbour neighbours[WIDTH];
+    RetexNeighbour neighbours[WIDTH];
     for (int k = 0; k < count; k++)
-        neighbours[k] = (Neighbour){1 + k, 1, weights[k]};
-    footprints_share_light(w->footprints, &w->d, find_signal(w, 0, kind), 1, 1, neighbours, count, light, &w->band);
+        neighbours[k] = (RetexNeighbour){1 + k, 1, weights[k]};
+    retex_denoise_share_light(w->footprints, &w->d, find_signal(w, 0, kind), 1, 1, neighbours, count, light, &w->band);
 }
 
 void pool_later(Work *w, const float *weights, int count)
 {
-    Neighbour neighbours[WIDTH];
+    RetexNeighbour neighbours[WIDTH];
     for (int k = 0; k < count; k++)
-        neighbours[k] = (Neighbour){1 + k, 1, weights[k]};
-    footprints_pool_later(w->footprints, &w->d, 1, 1, neighbours, count, &w->band);
+        neighbours[k] = (RetexNeighbour){1 + k, 1, weights[k]};
+    retex_denoise_pool_interreflections(w->footprints, &w->d, 1, 1, neighbours, count, &w->band);
 }
 
 const float *result(const Work *w, int part)

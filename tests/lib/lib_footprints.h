@@ -9,9 +9,9 @@ enum { WIDTH = 8, HEIGHT = 4 };
 
 /* A set in the calls, and a band that holds all its rows; what has not been written is -7. */
 typedef struct Work {
-    Denoiser d;
-    Footprints *footprints;
-    Band band;
+    RetexDenoiser d;
+    RetexDenoiseFootprints *footprints;
+    RetexDenoisedRows band;
     unsigned char *written;
 } Work;
 
@@ -48,7 +48,7 @@ void put_again(RetexSet *set, int x, int y, float light);
 /* Gives the set what denoising reads, and takes it. */
 Work open_work(RetexSet *set, int footprints);
 void close_work(Work *w);
-const Signal *find_signal(const Work *w, int target, RetexFootprintKind kind);
+const RetexSignal *find_signal(const Work *w, int target, RetexFootprintKind kind);
 /* To pixel (1,1), with neighbours to its right of these weights. */
 void share_light(Work *w, RetexFootprintKind kind, const float *weights, int count, const float light[3]);
 void pool_later(Work *w, const float *weights, int count);

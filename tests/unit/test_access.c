@@ -253,7 +253,7 @@ static void test_formats(void **state)
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         RetexInput *input = NULL;
         assert_int_equal(retex_input_borrow(&input, cases[i].bytes, cases[i].size, cases[i].name, NULL), 0);
-        const char *format = image_format(input);
+        const char *format = retex_image_format(input);
         if (strcmp(format ? format : "none", cases[i].format ? cases[i].format : "none") != 0)
             fail_msg("case %zu, %s: %s", i, cases[i].name, format ? format : "none");
         retex_input_close(&input);
@@ -278,7 +278,7 @@ static void test_header_pixels(void **state)
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         RetexInput *input = NULL;
         assert_int_equal(retex_input_borrow(&input, cases[i].bytes, sizeof cases[i].bytes, "a", NULL), 0);
-        assert_int_equal(image_header_pixels(input, cases[i].format), cases[i].pixels);
+        assert_int_equal(retex_image_header_pixels(input, cases[i].format), cases[i].pixels);
         retex_input_close(&input);
     }
 }

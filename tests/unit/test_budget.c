@@ -17,7 +17,7 @@
 #include "accel/accel.h"
 #include "base/machine.h"
 #include "sdl/sdl.h"
-#include "io/unfinished.h"
+#include "io/pending_files.h"
 
 static void test_stop(void **state)
 {
@@ -159,13 +159,13 @@ static void test_control_groups(void **state)
     snprintf(folder, sizeof folder, "%s/memory/c", root);
     make_folder(folder);
     put_limit(folder, "memory.limit_in_bytes", "3000\n");
-    assert_int_equal(machine_group_memory("0::/a/b\n", root), 4000);
-    assert_int_equal(machine_group_memory("0::/a", root), 4000);
-    assert_true(machine_group_memory("0::/\n", root) == UINT64_MAX);
-    assert_true(machine_group_memory("0::/../../other\n", root) == UINT64_MAX);
-    assert_int_equal(machine_group_memory("12:cpu:/a\n5:memory:/c\n0::/\n", root), 3000);
-    assert_true(machine_group_memory("", root) == UINT64_MAX);
-    assert_true(machine_group_memory("nonsense\n::\n", root) == UINT64_MAX);
+    assert_int_equal(retex_machine_group_memory("0::/a/b\n", root), 4000);
+    assert_int_equal(retex_machine_group_memory("0::/a", root), 4000);
+    assert_true(retex_machine_group_memory("0::/\n", root) == UINT64_MAX);
+    assert_true(retex_machine_group_memory("0::/../../other\n", root) == UINT64_MAX);
+    assert_int_equal(retex_machine_group_memory("12:cpu:/a\n5:memory:/c\n0::/\n", root), 3000);
+    assert_true(retex_machine_group_memory("", root) == UINT64_MAX);
+    assert_true(retex_machine_group_memory("nonsense\n::\n", root) == UINT64_MAX);
     assert_true(retex_machine_memory() > 1 << 20);
     static const char *const made[] = {"a/b/memory.max",
                                        "a/b",
@@ -241,17 +241,17 @@ static void test_unfinished_files_go(void **state)
     assert_int_equal(chdir(folder), 0);
     const pid_t child = fork();
     if (!child) {
-        Unfinished files[3];
+        RetexPendingFile files[3];
         const char *names[] = {"first", "finished", "last"};
-        unfinished_lock();
+        retex_pending_files_lock();
         for (int i = 0; i < 3; i++) {
             touch(names[i]);
-            unfinished_add(&files[i], names[i]);
+            retex_pending_files_add(&files[i], names[i]);
         }
-        unfinished_drop(&files[1]);
-        unfinished_drop(&files[1]);
-        unfinished_unlock();
-        retex_unfinished_remove();
+        retex_pending_files_drop(&files[1]);
+        retex_pending_files_drop(&files[1]);
+        retex_pending_files_unlock();
+        retex_pending_files_remove();
         _exit(0);
     }
     int status = -1;

@@ -310,7 +310,7 @@ static void test_kernel(void **state)
                     product *= factors[k][i];
                 want[i] += product;
             }
-            combine_term_kernel(sum, images[0].pixels, factors, nfactors, n);
+            retex_combine_term_kernel(sum, images[0].pixels, factors, nfactors, n);
             assert_memory_equal(sum, want, sizeof sum);
         }
     for (int i = 0; i <= RETEX_MAX_FACTORS; i++)

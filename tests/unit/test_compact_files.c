@@ -89,7 +89,7 @@ static void expect_copy(const RetexSet *set, const RetexSet *copy)
 {
     int parts = 0;
     for (int i = 0; i < set->nparts; i++) {
-        if (part_is_denoise_data(set, i))
+        if (retex_part_is_denoise_data(set, i))
             continue;
         const RetexImage *a = &set->parts[i].image, *b = &copy->parts[parts].image;
         assert_string_equal(set->parts[i].name, copy->parts[parts++].name);

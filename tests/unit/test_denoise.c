@@ -264,7 +264,7 @@ static void test_missing_parts(void **state)
 /* Leave light at one pixel of so many, and none at others. */
 static void thin_out(RetexSet *set, int one_of, uint32_t seed)
 {
-    Signals signals = denoise_signals(set);
+    RetexSignals signals = denoise_signals(set);
     for (int s = 0; s < signals.count; s++)
         for (int i = 0; i < set->width * set->height; i++) {
             const int kept = (int)(test_random(&seed) * one_of) == 0;
@@ -273,7 +273,7 @@ static void thin_out(RetexSet *set, int one_of, uint32_t seed)
                 memset(set->parts[part].image.pixels + (size_t)3 * (size_t)i, 0, 3 * sizeof(float));
             }
         }
-    signals_close(&signals);
+    retex_signals_close(&signals);
 }
 
 /* Where the weights that members' proportions are made with meet no light, and other candidates do, it is not lost. */
@@ -285,7 +285,7 @@ static void test_rare_light_is_kept(void **state)
             RetexSet *before = noisy_set(layouts[k], 150, 130), *set = noisy_set(layouts[k], 150, 130);
             thin_out(before, one_of, 3);
             thin_out(set, one_of, 3);
-            Signals signals = denoise_signals(before);
+            RetexSignals signals = denoise_signals(before);
             denoise_all(set, NULL, 2);
             denoise_expect_finite(set);
             for (int s = 0; s < signals.count; s++)
@@ -294,7 +294,7 @@ static void test_rare_light_is_kept(void **state)
                     if (!(fabs(a - b) < 2e-3 * a))
                         fail_msg("%s, one of %d: signal %d had %g, has %g", layouts[k], one_of, s, a, b);
                 }
-            signals_close(&signals);
+            retex_signals_close(&signals);
             retex_set_close(&before);
             retex_set_close(&set);
         }

@@ -88,11 +88,11 @@ static RenderParams small(int spp)
 }
 
 /* The signal's picture in a set, in double; none: zero. */
-static double total(const RetexSet *set, const Signals *signals, const Signal *like, size_t value)
+static double total(const RetexSet *set, const RetexSignals *signals, const RetexSignal *like, size_t value)
 {
     double sum = 0;
     for (int k = 0; k < signals->count; k++) {
-        const Signal *s = &signals->of[k];
+        const RetexSignal *s = &signals->of[k];
         if (s->target != like->target || s->kind != like->kind)
             continue;
         for (int m = 0; m < s->nmembers; m++)
@@ -105,12 +105,12 @@ static double total(const RetexSet *set, const Signals *signals, const Signal *l
  * footprints are rounded, by no more than a small share of the pixel with white targets. */
 static void compare_halves(const RetexSet *all, const RetexSet *half, double tolerance)
 {
-    Signals signals, halves;
+    RetexSignals signals, halves;
     RetexError err = {0};
     double scale = 0, squares = 0;
     int first = all->spp / 2, rest = all->spp - first;
-    test_must(signals_open(&signals, all, &err), &err);
-    test_must(signals_open(&halves, half, &err), &err);
+    test_must(retex_signals_open(&signals, all, &err), &err);
+    test_must(retex_signals_open(&halves, half, &err), &err);
     for (int k = 0; k < signals.count; k++) {
         const RetexImage *noise = &all->parts[signals.of[k].noise].image;
         for (size_t i = 0; i < (size_t)all->width * (size_t)all->height * 3; i++) {
@@ -122,8 +122,8 @@ static void compare_halves(const RetexSet *all, const RetexSet *half, double tol
         }
     }
     assert_true(squares > 1e-4 * scale && squares < scale);
-    signals_close(&signals);
-    signals_close(&halves);
+    retex_signals_close(&signals);
+    retex_signals_close(&halves);
 }
 
 static void noise_is_half_the_difference_of_halves(void **state)

@@ -20,11 +20,11 @@ static void test_features_scalar_and_vector(void **state)
 {
     (void)state;
     Room *r = open_room(1);
-    DenoiseAlike *plain = malloc(sizeof *plain);
+    RetexDenoiseSimilarity *plain = malloc(sizeof *plain);
     for (int k = 0; k < DISPLACEMENTS; k++) {
         memset(plain, 1, sizeof *plain), memset(r->alike, 2, sizeof *r->alike);
-        denoise_features_kernel(plain, &r->features, displacements[k][0], displacements[k][1], 1);
-        denoise_features_kernel(r->alike, &r->features, displacements[k][0], displacements[k][1], 0);
+        retex_denoise_features_kernel(plain, &r->features, displacements[k][0], displacements[k][1], 1);
+        retex_denoise_features_kernel(r->alike, &r->features, displacements[k][0], displacements[k][1], 0);
         expect_bits(plain->valid, r->alike->valid, DENOISE_PIXELS);
         expect_bits(plain->strict, r->alike->strict, DENOISE_PIXELS);
         expect_bits(plain->loose, r->alike->loose, DENOISE_PIXELS);
@@ -34,15 +34,15 @@ static void test_features_scalar_and_vector(void **state)
 }
 
 /* What every other displacement weighs is kept. */
-static void add_batch(const DenoiseSignal *s, Room *r, Sums *sums, int dx, int dy, int count, int scalar)
+static void add_batch(const RetexDenoiseSignal *s, Room *r, Sums *sums, int dx, int dy, int count, int scalar)
 {
-    DenoiseBatch batch = {.dx = dx, .dy = dy, .count = count};
+    RetexDenoiseBatch batch = {.dx = dx, .dy = dy, .count = count};
     for (int n = 0; n < count; n++) {
-        denoise_features_kernel(r->alike + n, &r->features, dx + n, dy, 1);
+        retex_denoise_features_kernel(r->alike + n, &r->features, dx + n, dy, 1);
         batch.alike[n] = r->alike + n;
         batch.weights[n] = (dx + n) % 2 == 0 ? sums->weight[n] : NULL;
     }
-    denoise_signal_kernel(s, &batch, scalar);
+    retex_denoise_signal_kernel(s, &batch, scalar);
 }
 
 static void expect_same_sums(const Sums *a, const Sums *b)
@@ -60,8 +60,8 @@ static void test_signals_scalar_and_vector(void **state)
         Room *r = open_room(2);
         Sums *plain = calloc(1, sizeof *plain), *vector = calloc(1, sizeof *vector),
              *single = calloc(1, sizeof *single);
-        DenoiseSignal to_plain = signal_of(r, plain), to_vector = signal_of(r, vector),
-                      to_single = signal_of(r, single);
+        RetexDenoiseSignal to_plain = signal_of(r, plain), to_vector = signal_of(r, vector),
+                           to_single = signal_of(r, single);
         to_plain.nplanes = to_vector.nplanes = to_single.nplanes = images;
         for (int k = 0; k < 6; k++) {
             const int dx = batches[k][0], dy = batches[k][1], count = batches[k][2];
@@ -88,7 +88,7 @@ static double alike_reference(const Room *r, size_t p, size_t q, int dx, int dy,
 {
     double largest = 0;
     for (int g = 0; g < GROUPS; g++) {
-        const DenoiseGroup *group = &r->features.groups[g];
+        const RetexDenoiseFeatureGroup *group = &r->features.groups[g];
         double squares = 0, along = 0;
         for (int k = 0; k < group->count; k++) {
             double d = (double)r->planes[group->first + k][q] - r->planes[group->first + k][p];
@@ -108,7 +108,7 @@ static void test_features_reference(void **state)
     Room *r = open_room(3);
     for (int k = 0; k < DISPLACEMENTS; k++) {
         const int dx = displacements[k][0], dy = displacements[k][1];
-        denoise_features_kernel(r->alike, &r->features, dx, dy, 0);
+        retex_denoise_features_kernel(r->alike, &r->features, dx, dy, 0);
         for (int y = 0; y < DENOISE_TILE; y++)
             for (int x = 0; x < DENOISE_TILE; x++) {
                 size_t p = denoise_at(x, y), q = denoise_at(x + dx, y + dy), i = (size_t)(y * DENOISE_TILE + x);
@@ -122,7 +122,7 @@ static void test_features_reference(void **state)
 
 /* How unlike two pixels' surroundings are in one half: the mean over the patch, of pairs of one kind, and over colours,
  * of squared differences beyond what noise explains, in units of it. */
-static double distance_reference(const Room *r, const DenoiseSignal *s, int half, int x, int y, int dx, int dy)
+static double distance_reference(const Room *r, const RetexDenoiseSignal *s, int half, int x, int y, int dx, int dy)
 {
     double sum = 0, count = 0;
     if (r->kind[denoise_at(x, y)] != r->kind[denoise_at(x + dx, y + dy)])
@@ -154,13 +154,13 @@ static void test_signals_reference(void **state)
     int between = 0;
     for (int k = 0; k < DISPLACEMENTS; k++) {
         Sums *sums = calloc(1, sizeof *sums);
-        DenoiseSignal s = signal_of(r, sums);
+        RetexDenoiseSignal s = signal_of(r, sums);
         const int dx = displacements[k][0], dy = displacements[k][1];
         const double near = falloff(0.05 * (dx * dx + dy * dy));
-        DenoiseBatch batch = {.dx = dx, .dy = dy, .count = 1, .alike = {r->alike}, .weights = {sums->weight[0]}};
+        RetexDenoiseBatch batch = {.dx = dx, .dy = dy, .count = 1, .alike = {r->alike}, .weights = {sums->weight[0]}};
         for (int i = 0; i < DENOISE_PIXELS; i++)
             r->alike->strict[i] = r->alike->loose[i] = r->alike->valid[i] = 1;
-        denoise_signal_kernel(&s, &batch, 0);
+        retex_denoise_signal_kernel(&s, &batch, 0);
         for (int y = 0; y < DENOISE_TILE; y += 3)
             for (int x = 0; x < DENOISE_TILE; x += 3) {
                 size_t q = denoise_at(x + dx, y + dy), i = (size_t)(y * DENOISE_TILE + x);

@@ -22,7 +22,7 @@ static Region region_of(const RetexSet *set, int x, int y)
 }
 
 /* Mean squared errors of a signal's total, by region. */
-static void find_errors(double errors[REGIONS], const RetexSet *set, const RetexSet *truth, const Signal *signal)
+static void find_errors(double errors[REGIONS], const RetexSet *set, const RetexSet *truth, const RetexSignal *signal)
 {
     int counts[REGIONS] = {0};
     memset(errors, 0, sizeof *errors * REGIONS);
@@ -52,7 +52,7 @@ static void test_noise_falls(void **state)
     for (int k = 0; k < 3; k++)
         for (int spp = 5; spp <= 32; spp += 27) {
             RetexSet *set = denoise_set(layouts[k], 150, 130), *truth = denoise_set(layouts[k], 150, 130);
-            Signals signals = denoise_signals(truth);
+            RetexSignals signals = denoise_signals(truth);
             double before[8][REGIONS], after[REGIONS];
             set->spp = spp;
             denoise_add_noise(set, 7);
@@ -69,7 +69,7 @@ static void test_noise_falls(void **state)
                         fail_msg("%g dB are less than %g", gain, least[r]);
                 }
             }
-            signals_close(&signals);
+            retex_signals_close(&signals);
             retex_set_close(&set);
             retex_set_close(&truth);
         }
@@ -81,14 +81,14 @@ static void test_noise_falls(void **state)
 static void add_detail(RetexSet *set)
 {
     uint32_t seed = 9;
-    Signals signals = denoise_signals(set);
+    RetexSignals signals = denoise_signals(set);
     for (int s = 0; s < signals.count; s++)
         for (int k = 0; k < signals.of[s].nmembers; k++) {
             float *to = set->parts[signals.of[s].members[k].part].image.pixels;
             for (int i = 0; i < 3 * set->width * set->height; i++)
                 to[i] *= (float)(1 - 0.5 * test_random(&seed));
         }
-    signals_close(&signals);
+    retex_signals_close(&signals);
 }
 
 /* How far one number is from another, beside what it may be rounded by; relative, where there is anything. */
@@ -104,7 +104,7 @@ static void test_no_noise(void **state)
     for (int detail = 0; detail < 2; detail++)
         for (int k = 0; k < 3; k++) {
             RetexSet *set = denoise_set(layouts[k], 150, 130), *truth = denoise_set(layouts[k], 150, 130);
-            Signals signals = denoise_signals(truth);
+            RetexSignals signals = denoise_signals(truth);
             double worst = 0, worst_part = 0;
             if (detail)
                 add_detail(set), add_detail(truth);
@@ -127,13 +127,13 @@ static void test_no_noise(void **state)
                    worst_part);
             assert_true(worst < 1e-4);
             assert_true(worst_part < 1e-4 || k == 2); /* clusters share their light in other ways, see below */
-            signals_close(&signals);
+            retex_signals_close(&signals);
             retex_set_close(&set);
             retex_set_close(&truth);
         }
 }
 
-static void expect_means(const RetexSet *set, const Signals *signals, double before[8][3])
+static void expect_means(const RetexSet *set, const RetexSignals *signals, double before[8][3])
 {
     for (int s = 0; s < signals->count; s++)
         for (int c = 0; c < 3; c++) {
@@ -143,7 +143,7 @@ static void expect_means(const RetexSet *set, const Signals *signals, double bef
         }
 }
 
-static void find_means(const RetexSet *set, const Signals *signals, double means[8][3])
+static void find_means(const RetexSet *set, const RetexSignals *signals, double means[8][3])
 {
     for (int s = 0; s < signals->count; s++)
         for (int c = 0; c < 3; c++)
@@ -155,13 +155,13 @@ static void test_means(void **state)
     (void)state;
     for (int k = 0; k < 3; k++) {
         RetexSet *set = denoise_set(layouts[k], 150, 130), *truth = denoise_set(layouts[k], 150, 130);
-        Signals signals = denoise_signals(truth);
+        RetexSignals signals = denoise_signals(truth);
         double means[8][3];
         denoise_add_noise(set, 5);
         find_means(set, &signals, means);
         denoise_all(set, NULL, 2);
         expect_means(set, &signals, means);
-        signals_close(&signals);
+        retex_signals_close(&signals);
         retex_set_close(&set);
         retex_set_close(&truth);
     }
@@ -173,12 +173,12 @@ static void test_firefly(void **state)
     (void)state;
     for (int k = 0; k < 3; k++) {
         RetexSet *set = denoise_set(layouts[k], 150, 130), *truth = denoise_set(layouts[k], 150, 130);
-        Signals signals = denoise_signals(truth);
+        RetexSignals signals = denoise_signals(truth);
         const int x = 100, y = 90, left = 70;
         double means[8][3], was[8];
         denoise_add_noise(set, 5);
         for (int s = 0; s < signals.count; s++) {
-            const Signal *signal = &signals.of[s];
+            const RetexSignal *signal = &signals.of[s];
             for (int m = 0; m < signal->nmembers; m++)
                 for (int c = 0; c < 3; c++) {
                     float *to = pixel(set, signal->members[m].part, m ? x : left, y) + c,
@@ -196,7 +196,7 @@ static void test_firefly(void **state)
                    share);
             assert_true(share < 0.2);
         }
-        signals_close(&signals);
+        retex_signals_close(&signals);
         retex_set_close(&set);
         retex_set_close(&truth);
     }
@@ -258,7 +258,7 @@ static void test_silhouette(void **state)
 /* A set with and without noise, and after denoising. */
 typedef struct Sets {
     RetexSet *truth, *noisy, *denoised;
-    Signals signals;
+    RetexSignals signals;
 } Sets;
 
 static Sets open_sets(const char *layout, int footprints)
@@ -275,22 +275,22 @@ static Sets open_sets(const char *layout, int footprints)
 
 static void close_sets(Sets *sets)
 {
-    signals_close(&sets->signals);
+    retex_signals_close(&sets->signals);
     retex_set_close(&sets->truth);
     retex_set_close(&sets->noisy);
     retex_set_close(&sets->denoised);
 }
 
 /* A member's share of its signal. */
-static double share_of(const RetexSet *set, const Signal *signal, int member, int x, int y)
+static double share_of(const RetexSet *set, const RetexSignal *signal, int member, int x, int y)
 {
     double total = denoise_total(set, signal, x, y, 1);
-    const SignalMember *m = &signal->members[member];
+    const RetexSignalMember *m = &signal->members[member];
     return total > 0 ? m->weight * pixel(set, m->part, x, y)[1] / total : 0;
 }
 
 /* It is as noisy, and smooth in truth. Between clusters light stays as it was, or goes with them: of these below. */
-static double share_error(const RetexSet *set, const Sets *sets, const Signal *signal, int clusters)
+static double share_error(const RetexSet *set, const Sets *sets, const RetexSignal *signal, int clusters)
 {
     double sum = 0;
     for (int m = 0; m < signal->nmembers; m++)
@@ -309,7 +309,7 @@ static void test_shares_of_members(void **state)
     for (int k = 1; k < 3; k++) {
         Sets sets = open_sets(layouts[k], 1);
         for (int s = 0; s < sets.signals.count; s++) {
-            const Signal *signal = &sets.signals.of[s];
+            const RetexSignal *signal = &sets.signals.of[s];
             double gain = decibels(share_error(sets.noisy, &sets, signal, k == 1),
                                    share_error(sets.denoised, &sets, signal, k == 1));
             printf("# %s, %s, shares of %d members: %.1f dB\n", layouts[k], denoise_signal_name(sets.truth, signal),

@@ -24,20 +24,20 @@ static void denoise_all(Work *w, const float light[3])
     const RetexSet *set = w->d.set;
     for (int y = 0; y < set->height; y++)
         for (int x = 0; x < set->width; x++) {
-            Neighbour neighbours[25] = {{x, y, 1}};
+            RetexNeighbour neighbours[25] = {{x, y, 1}};
             int count = 1;
             for (int dy = -6; dy <= 6; dy += 3)
                 for (int dx = -6; dx <= 6; dx += 3)
                     if ((dx || dy) && x + dx >= 0 && y + dy >= 0 && x + dx < set->width && y + dy < set->height)
-                        neighbours[count++] = (Neighbour){x + dx, y + dy, 1.0f / (float)(1 + abs(dx) + abs(dy))};
+                        neighbours[count++] = (RetexNeighbour){x + dx, y + dy, 1.0f / (float)(1 + abs(dx) + abs(dy))};
             for (int s = 0; s < w->d.signals.count; s++)
-                footprints_share_light(w->footprints, &w->d, &w->d.signals.of[s], x, y, neighbours, count, light,
-                                       &w->band);
-            footprints_pool_later(w->footprints, &w->d, x, y, neighbours, count, &w->band);
+                retex_denoise_share_light(w->footprints, &w->d, &w->d.signals.of[s], x, y, neighbours, count, light,
+                                          &w->band);
+            retex_denoise_pool_interreflections(w->footprints, &w->d, x, y, neighbours, count, &w->band);
         }
 }
 
-static int is_cluster(const RetexSet *set, const SignalMember *m)
+static int is_cluster(const RetexSet *set, const RetexSignalMember *m)
 {
     const RetexTerm *term = &set->terms[m->term];
     return term->nfactors == 1 && term->factors[0] >= 0 &&
@@ -50,7 +50,7 @@ static void expect_whole(const Work *w, const float light[3])
     const RetexSet *set = w->d.set;
     for (int s = 0; s < w->d.signals.count; s++)
         for (size_t i = 0; i < 3 * (size_t)set->width * (size_t)set->height; i++) {
-            const Signal *signal = &w->d.signals.of[s];
+            const RetexSignal *signal = &w->d.signals.of[s];
             float sum = 0;
             int count = 0;
             for (int k = 0; k < signal->nmembers; k++)

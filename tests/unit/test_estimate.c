@@ -134,19 +134,19 @@ static void estimate(float rgb[3], const RetexSet *set, const float *values, con
 {
     RetexSamples *samples = small_samples(set, values), *scatter = small_samples(set, variances);
     const float **rows = calloc((size_t)set->nfootprints, sizeof *rows);
-    float *scratch = malloc(sizeof *scratch * estimate_scratch(set));
-    Polynomial polynomial;
-    PolynomialRow row;
+    float *scratch = malloc(sizeof *scratch * retex_estimate_scratch(set));
+    RetexPolynomial polynomial;
+    RetexPolynomialRow row;
     RetexError err = {0};
     assert_true(rows && scratch);
     for (int i = 0; i < set->nfootprints; i++)
         rows[i] = scatter->images[i].pixels;
-    test_must(polynomial_open(&polynomial, set, samples, NULL, NULL, 1, 1, &err), &err);
-    test_must(polynomial_row_open(&row, &polynomial, &err), &err);
-    test_must(polynomial_row_make(&row, 0, &err), &err);
-    test_must(estimate_row(&row, 0, rows, scratch, rgb, &err), &err);
-    polynomial_row_close(&row);
-    polynomial_close(&polynomial);
+    test_must(retex_polynomial_open(&polynomial, set, samples, NULL, NULL, 1, 1, &err), &err);
+    test_must(retex_polynomial_row_open(&row, &polynomial, &err), &err);
+    test_must(retex_polynomial_row_make(&row, 0, &err), &err);
+    test_must(retex_estimate_row(&row, 0, rows, scratch, rgb, &err), &err);
+    retex_polynomial_row_close(&row);
+    retex_polynomial_close(&polynomial);
     free(scratch);
     free(rows);
     retex_samples_close(&samples);

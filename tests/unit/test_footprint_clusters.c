@@ -10,15 +10,16 @@
 
 #define PLACES 400
 
-static double merge_cost(const UvStats *a, const UvStats *b, int sharp, const int periodic[2])
+static double merge_cost(const RetexUvStats *a, const RetexUvStats *b, int sharp, const int periodic[2])
 {
-    return sharp ? uv_stats_ward(a, b, periodic) / (UV_FEATURE * UV_FEATURE) : uv_stats_variation_gain(a, b, periodic);
+    return sharp ? retex_uv_stats_ward(a, b, periodic) / (RETEX_UV_FEATURE * RETEX_UV_FEATURE)
+                 : retex_uv_stats_variation_gain(a, b, periodic);
 }
 
 /* Places of clusters, as of one kind. */
 typedef struct Places {
     int count;
-    UvStats of[FILM_CLUSTERS_MAX];
+    RetexUvStats of[FILM_CLUSTERS_MAX];
 } Places;
 
 typedef struct Best {
@@ -37,15 +38,15 @@ static void find_pair(Best *best, Places *places, int sharp, const int periodic[
         }
 }
 
-static void start_place(UvStats *place, const Pending *q, const int periodic[2])
+static void start_place(RetexUvStats *place, const Pending *q, const int periodic[2])
 {
-    *place = (UvStats){.weight = 0};
-    uv_stats_add(place, q->weight, q->uv, periodic);
+    *place = (RetexUvStats){.weight = 0};
+    retex_uv_stats_add(place, q->weight, q->uv, periodic);
 }
 
 static void squeeze_place(Places *own, Places *other, int own_is_full, const Pending *q, const int periodic[2])
 {
-    const UvStats one = {q->weight, {q->uv[0], q->uv[1]}, {0, 0, 0}};
+    const RetexUvStats one = {q->weight, {q->uv[0], q->uv[1]}, {0, 0, 0}};
     Best best = {.cost = INFINITY};
     for (int i = 0; i < own->count; i++) {
         double cost = merge_cost(&own->of[i], &one, q->sharp, periodic);
@@ -56,10 +57,10 @@ static void squeeze_place(Places *own, Places *other, int own_is_full, const Pen
     if (!own_is_full)
         find_pair(&best, other, !q->sharp, periodic);
     if (best.b < 0) {
-        uv_stats_add(&own->of[best.a], q->weight, one.mean, periodic);
+        retex_uv_stats_add(&own->of[best.a], q->weight, one.mean, periodic);
         return;
     }
-    uv_stats_merge(&best.places->of[best.a], &best.places->of[best.b], periodic);
+    retex_uv_stats_merge(&best.places->of[best.a], &best.places->of[best.b], periodic);
     if (best.places == own) {
         start_place(&own->of[best.b], q, periodic);
         return;
@@ -80,27 +81,27 @@ static void add_place(Places kinds[2], const Pending *q, const FilmParams *param
         squeeze_place(own, other, own->count == room, q, periodic);
 }
 
-static void add_later(UvStats later[LATER_COUNT], const PendingLater *l, const int periodic[2])
+static void add_later(RetexUvStats later[LATER_COUNT], const PendingLater *l, const int periodic[2])
 {
-    const UvStats one = {l->weight, {l->uv[0], l->uv[1]}, {0, 0, 0}};
+    const RetexUvStats one = {l->weight, {l->uv[0], l->uv[1]}, {0, 0, 0}};
     double gain[LATER_COUNT];
     for (int k = 0; k < LATER_COUNT; k++) {
         if (later[k].weight == 0) {
             later[k] = one;
             return;
         }
-        gain[k] = uv_stats_variation_gain(&later[k], &one, periodic);
+        gain[k] = retex_uv_stats_variation_gain(&later[k], &one, periodic);
         if (gain[k] <= 0) {
-            uv_stats_merge(&later[k], &one, periodic);
+            retex_uv_stats_merge(&later[k], &one, periodic);
             return;
         }
     }
-    double both = uv_stats_variation_gain(&later[0], &later[1], periodic);
+    double both = retex_uv_stats_variation_gain(&later[0], &later[1], periodic);
     if (both < gain[0] && both < gain[1]) {
-        uv_stats_merge(&later[0], &later[1], periodic);
+        retex_uv_stats_merge(&later[0], &later[1], periodic);
         later[1] = one;
     } else {
-        uv_stats_merge(&later[gain[1] < gain[0]], &one, periodic);
+        retex_uv_stats_merge(&later[gain[1] < gain[0]], &one, periodic);
     }
 }
 
@@ -152,7 +153,7 @@ static void further_hits_are_pooled_alike(void **state)
     for (uint32_t round = 0; round < 60; round++) {
         const int periodic[2] = {round % 4 == 3, round % 8 == 3};
         TargetClusters target = {.later_apart = 0};
-        UvStats later[LATER_COUNT] = {{.weight = 0}, {.weight = 0}};
+        RetexUvStats later[LATER_COUNT] = {{.weight = 0}, {.weight = 0}};
         uint32_t seed = round + 1;
         Vec2 last = {0, 0};
         for (int n = 0; n < PLACES; n++) {

@@ -23,16 +23,16 @@ static void test_same_means(void **state)
             for (int i = 0; i < 3 * width; i++)
                 factor[i] = (float)test_random(&seed);
             const float *colors = test_random(&seed) < 0.2 ? NULL : factor;
-            mixture_add(sums[0], weights, w, colors, width);
-            mixture_add_colors(sums[1], color_weights, w, 1, colors, width);
+            retex_mixture_add(sums[0], weights, w, colors, width);
+            retex_mixture_add_colors(sums[1], color_weights, w, 1, colors, width);
         }
         int without = 0;
         for (int i = 0; i < 3 * width; i++) {
             assert_true(weights[i / 3] == color_weights[i]);
             without += weights[i / 3] == 0;
         }
-        mixture_divide(sums[0], weights, width);
-        mixture_divide_colors(sums[1], color_weights, width);
+        retex_mixture_divide(sums[0], weights, width);
+        retex_mixture_divide_colors(sums[1], color_weights, width);
         assert_memory_equal(sums[0], sums[1], 3 * (size_t)width * sizeof(float));
         assert_true(width < MOST || without > 0);
     }

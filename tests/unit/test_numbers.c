@@ -93,21 +93,21 @@ static int read_rows(const char *path, RetexError *err)
 {
     RetexSet *set = NULL;
     RetexSamples *samples = NULL;
-    RowReader *reader = NULL;
+    RetexRowReader *reader = NULL;
     int code = retex_set_open(path, &set, &samples, 2, err);
     if (!code)
-        code = row_reader_open(&reader, set, samples, err);
+        code = retex_row_reader_open(&reader, set, samples, err);
     for (int i = 0; set && i < set->nparts; i++)
         for (int y = set->parts[i].image.height; y-- > 0 && !code;) {
             const float *row;
-            code = row_reader_get(reader, i, y, &row, err);
+            code = retex_row_reader_get(reader, i, y, &row, err);
         }
     for (int i = 0; samples && i < samples->nimages; i++)
         for (int y = 0; y < samples->images[i].height && !code; y++) {
             const float *row;
-            code = row_reader_sample(reader, i, y, &row, err);
+            code = retex_row_reader_sample(reader, i, y, &row, err);
         }
-    row_reader_close(&reader);
+    retex_row_reader_close(&reader);
     retex_set_close(&set);
     retex_samples_close(&samples);
     return code;

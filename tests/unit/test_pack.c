@@ -56,14 +56,14 @@ static void test_rounded_means_are_small(void **state)
         RetexImage *means = &set->parts[set->footprints[i].uv].image;
         const RetexImage *sigmas = &set->parts[set->footprints[i].spread].image;
         for (size_t k = 0; k < (size_t)means->width * (size_t)means->height; k++) {
-            UvStats place = {.weight = 1};
+            RetexUvStats place = {.weight = 1};
             float spread[3];
             for (size_t c = 0; c < 2; c++) {
                 const double sigma = (double)sigmas->pixels[k * (size_t)sigmas->channels + c];
                 place.mean[c] = (double)means->pixels[3 * k + c];
                 place.m2[2 * c] = k % 5 ? sigma * sigma : 0; /* and some of one place */
             }
-            uv_stats_store(&place, means->pixels + 3 * k, spread);
+            retex_uv_stats_store(&place, means->pixels + 3 * k, spread);
             memcpy(sigmas->pixels + k * (size_t)sigmas->channels, spread, 2 * sizeof *spread);
         }
     }
@@ -302,7 +302,7 @@ static int expect_row(RetexPackScratch *scratch, int part, int y, const RetexIma
     const float *one, *expected = whole->pixels + row * (size_t)y;
     size_t zeros = 0;
     RetexError err = {0};
-    RowSpan span;
+    RetexRowSpan span;
     test_must(retex_pack_row(scratch, part, y, &one, &span, &err), &err);
     while (zeros < row && expected[zeros] == 0 && !signbit(expected[zeros]))
         zeros++;
@@ -354,7 +354,7 @@ static void test_rows_are_those_of_the_whole(void **state)
             for (int y = spans[k][0]; y < spans[k][1] && y < im->height; y++)
                 black += expect_row(scratch, i, y, im);
         const float *none;
-        RowSpan span;
+        RetexRowSpan span;
         assert_int_equal(retex_pack_row(scratch, i, im->height, &none, &span, &err), RETEX_EINVAL);
         assert_int_equal(retex_pack_row(scratch, i, -1, &none, &span, &err), RETEX_EINVAL);
     }

@@ -113,7 +113,7 @@ static void test_planes_restored_alike(void **state)
     enum { WIDTH = 83, ROWS = 17, ALL = WIDTH * ROWS };
     static int32_t numbers[2][ALL];
     static unsigned char present[ALL], shift[ALL], residuals[4 * ALL + 4], codes[ALL];
-    static RowSpan run[(WIDTH / 2 + 1) * ROWS];
+    static RetexRowSpan run[(WIDTH / 2 + 1) * ROWS];
     PackRuns runs = {.run = run};
     uint32_t seed = 7;
     assert_int_equal(pack_runs_room(WIDTH, ROWS), sizeof run / sizeof *run);
@@ -161,7 +161,7 @@ static void test_planes_keep_numbers(void **state)
     uint32_t seed = 1;
     int32_t numbers[ALL], back[ALL];
     unsigned char present[ALL], shift[ALL], codes[ALL];
-    RowSpan run[(WIDTH / 2 + 1) * ROWS];
+    RetexRowSpan run[(WIDTH / 2 + 1) * ROWS];
     PackRuns runs = {.run = run};
     for (int round = 0; round < 60; round++) {
         const int bits = round % 3 == 0 ? 8 : round % 3 == 1 ? 16 : 32, smooth = round / 3 % 2;

@@ -159,7 +159,7 @@ static void test_rows_are_those_of_the_whole(void **state)
         test_must(retex_pack_scratch_create(&scratch, retex_pack_of(back), &err), &err);
         for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
             const float *row;
-            RowSpan span;
+            RetexRowSpan span;
             test_must(retex_pack_row(scratch, 0, rows[i], &row, &span, &err), &err);
             assert_memory_equal(row, set->parts[0].image.pixels + 3 * 40 * rows[i], 3 * 40 * sizeof *row);
         }

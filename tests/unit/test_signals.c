@@ -30,12 +30,12 @@ static const char *part_name(const RetexSet *set, int part)
 
 static void expect_signals(const RetexSet *set, const Expected *expected, int count)
 {
-    Signals signals;
+    RetexSignals signals;
     RetexError err = {0};
-    test_must(signals_open(&signals, set, &err), &err);
+    test_must(retex_signals_open(&signals, set, &err), &err);
     assert_int_equal(signals.count, count);
     for (int k = 0; k < count; k++) {
-        const Signal *signal = &signals.of[k];
+        const RetexSignal *signal = &signals.of[k];
         assert_int_equal(signal->target, expected[k].target);
         assert_int_equal(signal->kind, expected[k].kind);
         assert_string_equal(part_name(set, signal->noise), expected[k].noise);
@@ -44,7 +44,7 @@ static void expect_signals(const RetexSet *set, const Expected *expected, int co
             assert_string_equal(part_name(set, signal->cover), expected[k].cover);
         assert_int_equal(signal->nmembers, expected[k].nmembers);
         for (int m = 0; m < signal->nmembers; m++) {
-            const SignalMember *member = &signal->members[m];
+            const RetexSignalMember *member = &signal->members[m];
             assert_string_equal(part_name(set, member->part), expected[k].members[m].radiance);
             assert_true(member->weight == expected[k].members[m].weight);
             if (set->nterms)
@@ -53,7 +53,7 @@ static void expect_signals(const RetexSet *set, const Expected *expected, int co
                 assert_int_equal(member->term, -1);
         }
     }
-    signals_close(&signals);
+    retex_signals_close(&signals);
     assert_null(signals.of);
 }
 
@@ -192,10 +192,10 @@ static void test_signal_of_plain(void **state)
 /* A part is not as it should be: the signals say so, if it is theirs, and so does denoising, which leaves the set. */
 static void expect_refused(RetexSet *set, const char *name, int code)
 {
-    Signals signals;
+    RetexSignals signals;
     RetexError err = {0};
     if (strncmp(name, "noise_", 6) == 0 || strncmp(name, "guide_cover_", 12) == 0) {
-        assert_int_equal(signals_open(&signals, set, &err), code);
+        assert_int_equal(retex_signals_open(&signals, set, &err), code);
         assert_non_null(strstr(err.message, name));
         assert_null(signals.of);
     }
@@ -243,7 +243,7 @@ static void test_too_many_signals(void **state)
     (void)state;
     RetexSet *set = plain_set();
     RetexError err = {0};
-    Signals signals;
+    RetexSignals signals;
     set->ntargets = RETEX_MAX_TARGETS;
     for (int t = 0; t < RETEX_MAX_TARGETS; t++) {
         set->targets[t].original = -1;
@@ -257,7 +257,7 @@ static void test_too_many_signals(void **state)
         }
     }
     test_add_denoise_data(set);
-    assert_int_equal(signals_open(&signals, set, &err), RETEX_EFORMAT);
+    assert_int_equal(retex_signals_open(&signals, set, &err), RETEX_EFORMAT);
     assert_null(signals.of);
     retex_set_close(&set);
 }
@@ -270,17 +270,17 @@ static void test_which_parts_are_dropped(void **state)
     const int before = set->nparts;
     test_add_denoise_data(set);
     for (int i = 0; i < set->nparts; i++)
-        assert_int_equal(part_is_denoise_data(set, i), i >= before);
+        assert_int_equal(retex_part_is_denoise_data(set, i), i >= before);
     strcpy(set->parts[set->terms[3].radiance].name, "noise_of-no-kind");
-    assert_false(part_is_denoise_data(set, set->terms[3].radiance));
+    assert_false(retex_part_is_denoise_data(set, set->terms[3].radiance));
     strcpy(set->parts[set->footprints[2].uv].name, "guide_to-the-galaxy");
-    assert_false(part_is_denoise_data(set, set->footprints[2].uv));
+    assert_false(retex_part_is_denoise_data(set, set->footprints[2].uv));
     strcpy(set->parts[set->mixtures[1].shares[2].weight].name, "guide_x");
-    assert_false(part_is_denoise_data(set, set->mixtures[1].shares[2].weight));
+    assert_false(retex_part_is_denoise_data(set, set->mixtures[1].shares[2].weight));
     strcpy(set->parts[set->targets[1].original].name, "noise_x");
-    assert_false(part_is_denoise_data(set, set->targets[1].original));
+    assert_false(retex_part_is_denoise_data(set, set->targets[1].original));
     strcpy(set->parts[0].name, "noise_beauty");
-    assert_false(part_is_denoise_data(set, 0));
+    assert_false(retex_part_is_denoise_data(set, 0));
     retex_set_close(&set);
 }
 
@@ -293,7 +293,7 @@ static void denoise(RetexSet *set)
     assert_true(set->denoised);
     assert_false(retex_denoise_has_data(set));
     for (int i = 0; i < set->nparts; i++)
-        assert_false(part_is_denoise_data(set, i));
+        assert_false(retex_part_is_denoise_data(set, i));
     assert_int_equal(retex_denoise(set, &params, NULL, 2, &err), RETEX_ENOTFOUND);
 }
 
@@ -301,7 +301,7 @@ static void spoil(RetexSet *set, float value, int step)
 {
     for (int i = 0; i < set->nparts; i++) {
         RetexImage *im = &set->parts[i].image;
-        for (int k = 0; part_is_denoise_data(set, i) && k < im->width * im->height * im->channels; k += step)
+        for (int k = 0; retex_part_is_denoise_data(set, i) && k < im->width * im->height * im->channels; k += step)
             im->pixels[k] = value;
     }
 }

@@ -73,17 +73,17 @@ static RetexTexture *make_texture(RetexImage *im, RetexWrap wrap_u, RetexWrap wr
 /* As if it had been read from a file of integers. */
 static RetexTexture *narrowed(const RetexTexture *texture)
 {
-    const TextureLevel *level = &texture->levels[0];
-    TextureTexels texels = {level->width, level->height, 1, NULL};
+    const RetexTextureLevel *level = &texture->levels[0];
+    RetexTexels texels = {level->width, level->height, 1, NULL};
     RetexTexture *narrow = calloc(1, sizeof *narrow);
     assert_non_null(narrow);
-    assert_int_equal(texture_texels_alloc(&texels), 0);
+    assert_int_equal(retex_texels_alloc(&texels), 0);
     for (int i = 0; i < 4 * level->width * level->height; i++)
         ((uint16_t *)texels.texels)[i] = (uint16_t)(((const float *)level->texels)[i] * NARROW_ONE + 0.5f);
     narrow->spec = texture->spec;
     memcpy(narrow->repeats, texture->repeats, sizeof narrow->repeats);
     memcpy(narrow->matrix, texture->matrix, sizeof narrow->matrix);
-    assert_int_equal(texture_grow_pyramid(narrow, &texels, 1), 0);
+    assert_int_equal(retex_texture_build_pyramid(narrow, &texels, 1), 0);
     return narrow;
 }
 
@@ -91,8 +91,8 @@ static void test_same_bits(void **state)
 {
     (void)state;
     static const int sizes[][2] = {{64, 64}, {45, 27}, {300, 7}, {1, 40}, {1, 1}, {512, 256}};
-    TextureBatchKernel *kernels[3];
-    int nkernels = texture_batch_kernels(kernels);
+    RetexTextureBatchKernel *kernels[3];
+    int nkernels = retex_texture_batch_kernels(kernels);
     for (int n = 0; n < 2 * 6 * 16; n++) {
         const int *size = sizes[n / 16 % 6], cut = n >= 6 * 16;
         RetexImage im = {0};
@@ -105,8 +105,8 @@ static void test_same_bits(void **state)
             RetexTextureFilter shape = i % 2 ? RETEX_TEXTURE_GAUSSIAN : RETEX_TEXTURE_DISC;
             retex_texture_filter(texture, shape, footprints.uv, footprints.spread, 3, COUNT, footprints.rgba, 4);
             for (int k = 0; k < nkernels; k++) {
-                texture_filter_batches(kernels[k], texture, shape, footprints.uv, footprints.spread, 3, COUNT,
-                                       footprints.other, 4);
+                retex_texture_filter_batches(kernels[k], texture, shape, footprints.uv, footprints.spread, 3, COUNT,
+                                             footprints.other, 4);
                 assert_memory_equal(footprints.rgba, footprints.other, sizeof footprints.rgba);
             }
             for (size_t f = 0; f < COUNT; f += 37) { /* alone, as in a row */
@@ -288,8 +288,8 @@ static void test_cut_alike(void **state)
 {
     (void)state;
     static const int sizes[][2] = {{512, 512}, {91, 37}, {8, 8}};
-    TextureBatchKernel *kernels[3];
-    int nkernels = texture_batch_kernels(kernels);
+    RetexTextureBatchKernel *kernels[3];
+    int nkernels = retex_texture_batch_kernels(kernels);
     for (int n = 0; n < 3 * 4; n++) {
         const int *size = sizes[n / 4];
         RetexTextureSpec spec = RETEX_TEXTURE_SPEC_INIT;
@@ -312,8 +312,8 @@ static void test_cut_alike(void **state)
         filter_singly(texture, RETEX_TEXTURE_GAUSSIAN, footprints.other);
         for (int k = 0; k < nkernels; k++) {
             double squares = 0, largest = 0;
-            texture_filter_batches(kernels[k], texture, RETEX_TEXTURE_GAUSSIAN, footprints.uv, footprints.spread, 3,
-                                   COUNT, footprints.rgba, 4);
+            retex_texture_filter_batches(kernels[k], texture, RETEX_TEXTURE_GAUSSIAN, footprints.uv, footprints.spread,
+                                         3, COUNT, footprints.rgba, 4);
             for (int i = 0; i < 4 * COUNT; i++) {
                 double e = fabs((double)footprints.rgba[i] - (double)footprints.other[i]);
                 squares += e * e;
@@ -340,12 +340,12 @@ static void test_small_levels_padded(void **state)
         RetexTexture *texture = make_texture(&im, (RetexWrap)(n % 4), (RetexWrap)(n / 4 % 4));
         assert_null(texture->levels[0].padded);
         for (int l = 0; l < texture->nlevels; l++) {
-            const TextureLevel *level = &texture->levels[l];
+            const RetexTextureLevel *level = &texture->levels[l];
             const int edge = level->padding, width = level->width + 2 * edge;
             for (int y = -edge; level->padded && y + 4 <= level->height + edge; y += 3)
                 for (int x = -edge; x + 4 <= level->width + edge; x += 3) {
                     float block[4][16];
-                    texture_gather_block(texture, level, x, y, (char *)block);
+                    retex_texture_copy_block(texture, level, x, y, (char *)block);
                     for (int j = 0; j < 4; j++) {
                         size_t at = (size_t)(y + j + edge) * (size_t)width + (size_t)(x + edge);
                         assert_memory_equal(block[j], (const float *)level->padded + 4 * at, sizeof block[j]);

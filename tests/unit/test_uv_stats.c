@@ -25,18 +25,18 @@ static void make_points(Point *points, int count, double u, double v, double siz
     }
 }
 
-static UvStats add_all(const Point *points, int count, const int periodic[2])
+static RetexUvStats add_all(const Point *points, int count, const int periodic[2])
 {
-    UvStats stats = {0};
+    RetexUvStats stats = {0};
     for (int i = 0; i < count; i++)
-        uv_stats_add(&stats, points[i].weight, points[i].uv, periodic);
+        retex_uv_stats_add(&stats, points[i].weight, points[i].uv, periodic);
     return stats;
 }
 
 /* In two passes, relative to the first point so that nothing cancels. */
-static UvStats sum_directly(const Point *points, int count)
+static RetexUvStats sum_directly(const Point *points, int count)
 {
-    UvStats s = {0};
+    RetexUvStats s = {0};
     double mean[2] = {0, 0};
     for (int i = 0; i < count; i++) {
         s.weight += points[i].weight;
@@ -54,7 +54,7 @@ static UvStats sum_directly(const Point *points, int count)
     return s;
 }
 
-static void expect_equal(const UvStats *a, const UvStats *b, double size)
+static void expect_equal(const RetexUvStats *a, const RetexUvStats *b, double size)
 {
     double spread = b->weight * size * size;
     assert_true(fabs(a->weight - b->weight) < 1e-12 * b->weight);
@@ -72,7 +72,7 @@ static void sums_agree_with_two_passes(void **state)
     for (uint32_t i = 0; i < 16; i++) {
         double size = sizes[i / 4];
         make_points(points, COUNT, places[i % 4], -2 * places[i % 4], size, i + 1);
-        UvStats stats = add_all(points, COUNT, open_axes), want = sum_directly(points, COUNT);
+        RetexUvStats stats = add_all(points, COUNT, open_axes), want = sum_directly(points, COUNT);
         expect_equal(&stats, &want, size);
     }
 }
@@ -81,7 +81,7 @@ static void one_point_has_no_spread(void **state)
 {
     (void)state;
     const Point point = {3, {17.25, -0.75}};
-    UvStats stats = add_all(&point, 1, open_axes);
+    RetexUvStats stats = add_all(&point, 1, open_axes);
     assert_true(stats.weight == 3 && stats.mean[0] == 17.25 && stats.mean[1] == -0.75);
     assert_true(stats.m2[0] == 0 && stats.m2[1] == 0 && stats.m2[2] == 0);
     stats = add_all(&point, 1, closed_axes); /* brought into the first period */
@@ -96,10 +96,11 @@ static void merging_is_adding_all(void **state)
         int split = 1 + (int)seed * 19;
         make_points(points, split, 900, 0.3, 1e-4, seed);
         make_points(points + split, COUNT - split, 900.0003, 0.2999, 1e-4, seed + 100);
-        UvStats stats = add_all(points, split, open_axes), rest = add_all(points + split, COUNT - split, open_axes);
-        UvStats other = rest, want = sum_directly(points, COUNT);
-        uv_stats_merge(&other, &stats, open_axes);
-        uv_stats_merge(&stats, &rest, open_axes);
+        RetexUvStats stats = add_all(points, split, open_axes),
+                     rest = add_all(points + split, COUNT - split, open_axes);
+        RetexUvStats other = rest, want = sum_directly(points, COUNT);
+        retex_uv_stats_merge(&other, &stats, open_axes);
+        retex_uv_stats_merge(&stats, &rest, open_axes);
         expect_equal(&stats, &want, 1e-4);
         expect_equal(&other, &want, 1e-4);
     }
@@ -115,7 +116,7 @@ static void a_seam_is_no_distance(void **state)
 {
     (void)state;
     const Point points[2] = {{1, {0.99, 0.99}}, {1, {0.01, 0.01}}};
-    UvStats closed = add_all(points, 2, closed_axes), open = add_all(points, 2, open_axes);
+    RetexUvStats closed = add_all(points, 2, closed_axes), open = add_all(points, 2, open_axes);
     for (int k = 0; k < 2; k++) {
         assert_true(around(closed.mean[k], 0) < 1e-12);
         assert_true(fabs(open.mean[k] - 0.5) < 1e-12);
@@ -125,7 +126,7 @@ static void a_seam_is_no_distance(void **state)
         assert_true(fabs(open.m2[k] - 2 * 0.49 * 0.49) < 1e-12);
     }
     const int only_v[2] = {0, 1};
-    UvStats mixed = add_all(points, 2, only_v);
+    RetexUvStats mixed = add_all(points, 2, only_v);
     assert_true(fabs(mixed.mean[0] - 0.5) < 1e-12 && around(mixed.mean[1], 0) < 1e-12);
 }
 
@@ -136,14 +137,14 @@ static void a_cloud_may_lie_across_a_seam(void **state)
     Point points[COUNT];
     for (uint32_t seed = 1; seed <= 20; seed++) {
         make_points(points, COUNT, -0.01 + 0.001 * seed, 7, 0.05, seed);
-        UvStats want = sum_directly(points, COUNT);
+        RetexUvStats want = sum_directly(points, COUNT);
         for (int i = 0; i < COUNT; i++)
             for (int k = 0; k < 2; k++)
                 points[i].uv[k] -= floor(points[i].uv[k]);
-        UvStats all = add_all(points, COUNT, closed_axes), half = add_all(points, 150, closed_axes),
-                rest = add_all(points + 150, COUNT - 150, closed_axes);
-        uv_stats_merge(&half, &rest, closed_axes);
-        const UvStats *both[2] = {&all, &half};
+        RetexUvStats all = add_all(points, COUNT, closed_axes), half = add_all(points, 150, closed_axes),
+                     rest = add_all(points + 150, COUNT - 150, closed_axes);
+        retex_uv_stats_merge(&half, &rest, closed_axes);
+        const RetexUvStats *both[2] = {&all, &half};
         for (int i = 0; i < 2; i++) {
             for (int k = 0; k < 2; k++) {
                 assert_true(both[i]->mean[k] >= 0 && both[i]->mean[k] < 1);
@@ -160,10 +161,10 @@ static void the_end_of_a_period_is_its_beginning(void **state)
 {
     (void)state;
     const Point below = {1, {-1e-18, -1e-300}}, above = {1, {1e-18, 0}};
-    UvStats stats = add_all(&below, 1, closed_axes), other = add_all(&above, 1, closed_axes);
+    RetexUvStats stats = add_all(&below, 1, closed_axes), other = add_all(&above, 1, closed_axes);
     assert_true(stats.mean[0] == 0 && stats.mean[1] == 0);
     other.mean[0] = -3e-18;
-    uv_stats_merge(&stats, &other, closed_axes);
+    retex_uv_stats_merge(&stats, &other, closed_axes);
     assert_true(stats.mean[0] == 0 && stats.mean[1] == 0);
     stats = add_all(&below, 1, open_axes);
     assert_true(stats.mean[0] == -1e-18 && stats.mean[1] == -1e-300);
@@ -178,20 +179,20 @@ static void the_cost_is_what_merging_adds(void **state)
         const int *periodic = seed % 2 ? closed_axes : open_axes;
         make_points(points, 20, 0.95, 0.2, 0.02, seed);
         make_points(points + 20, 20, 0.95 + 0.004 * seed, 0.25, 0.02, seed + 50);
-        UvStats a = add_all(points, 20, periodic), b = add_all(points + 20, 20, periodic), both = a;
-        double cost = uv_stats_ward(&a, &b, periodic);
+        RetexUvStats a = add_all(points, 20, periodic), b = add_all(points + 20, 20, periodic), both = a;
+        double cost = retex_uv_stats_ward(&a, &b, periodic);
         assert_true(cost >= 0);
-        assert_true(fabs(cost - uv_stats_ward(&b, &a, periodic)) < 1e-12 * cost);
-        uv_stats_merge(&both, &b, periodic);
+        assert_true(fabs(cost - retex_uv_stats_ward(&b, &a, periodic)) < 1e-12 * cost);
+        retex_uv_stats_merge(&both, &b, periodic);
         double growth = both.m2[0] + both.m2[2] - a.m2[0] - a.m2[2] - b.m2[0] - b.m2[2];
         assert_true(fabs(cost - growth) < 1e-9 * (cost + both.m2[0] + both.m2[2]));
         b = a;
         b.weight *= 3;
-        assert_true(uv_stats_ward(&a, &b, periodic) == 0);
+        assert_true(retex_uv_stats_ward(&a, &b, periodic) == 0);
     }
-    const UvStats low = {1, {0.01, 0.5}, {0, 0, 0}}, high = {1, {0.99, 0.5}, {0, 0, 0}};
-    assert_true(fabs(uv_stats_ward(&low, &high, closed_axes) - 0.5 * 0.02 * 0.02) < 1e-12);
-    assert_true(fabs(uv_stats_ward(&low, &high, open_axes) - 0.5 * 0.98 * 0.98) < 1e-12);
+    const RetexUvStats low = {1, {0.01, 0.5}, {0, 0, 0}}, high = {1, {0.99, 0.5}, {0, 0, 0}};
+    assert_true(fabs(retex_uv_stats_ward(&low, &high, closed_axes) - 0.5 * 0.02 * 0.02) < 1e-12);
+    assert_true(fabs(retex_uv_stats_ward(&low, &high, open_axes) - 0.5 * 0.98 * 0.98) < 1e-12);
 }
 
 /* A single point costs what it costs as a cluster, to the bit. */
@@ -203,19 +204,21 @@ static void a_point_costs_what_its_cluster_does(void **state)
         const int *periodic = seed % 2 ? closed_axes : open_axes;
         make_points(points, 20, 0.95, 0.2, 0.02 * seed, seed);
         for (int n = 1; n < 20; n++) {
-            UvStats a = add_all(points, n, periodic);
-            const UvStats one = {points[n].weight, {points[n].uv[0], points[n].uv[1]}, {0, 0, 0}};
-            assert_true(uv_stats_point_ward(&a, one.weight, one.mean, periodic) == uv_stats_ward(&a, &one, periodic));
-            assert_true(uv_stats_merged_variation(&a, one.weight, one.mean, 0, periodic) - uv_stats_variation(&a) ==
-                        uv_stats_variation_gain(&a, &one, periodic));
+            RetexUvStats a = add_all(points, n, periodic);
+            const RetexUvStats one = {points[n].weight, {points[n].uv[0], points[n].uv[1]}, {0, 0, 0}};
+            assert_true(retex_uv_stats_point_ward(&a, one.weight, one.mean, periodic) ==
+                        retex_uv_stats_ward(&a, &one, periodic));
+            assert_true(retex_uv_stats_merged_variation(&a, one.weight, one.mean, 0, periodic) -
+                            retex_uv_stats_variation(&a) ==
+                        retex_uv_stats_variation_gain(&a, &one, periodic));
         }
     }
 }
 
 /* A cluster of the given variance in all, half of it along each axis. */
-static UvStats blob(double weight, double u, double v, double variance)
+static RetexUvStats blob(double weight, double u, double v, double variance)
 {
-    return (UvStats){weight, {u, v}, {0.5 * weight * variance, 0, 0.5 * weight * variance}};
+    return (RetexUvStats){weight, {u, v}, {0.5 * weight * variance, 0, 0.5 * weight * variance}};
 }
 
 /* Merging never makes a texture vary less, whatever is merged; and either may be called the first. */
@@ -225,14 +228,14 @@ static void variation_never_falls(void **state)
     uint32_t seed = 5;
     for (int k = 0; k < 20000; k++) {
         const int *periodic = k % 2 ? closed_axes : open_axes;
-        UvStats c[2];
+        RetexUvStats c[2];
         for (int i = 0; i < 2; i++) {
             double weight = pow(10, 12 * test_random(&seed) - 6), size = pow(10, 10 * test_random(&seed) - 5);
             c[i] = blob(weight, size * test_random(&seed), test_random(&seed), k % 5 == i ? 0 : size * size);
         }
-        double gain = uv_stats_variation_gain(&c[0], &c[1], periodic), all = c[0].weight + c[1].weight;
+        double gain = retex_uv_stats_variation_gain(&c[0], &c[1], periodic), all = c[0].weight + c[1].weight;
         assert_true(gain >= -1e-12 * all && gain <= all * (1 + 1e-12));
-        assert_true(fabs(gain - uv_stats_variation_gain(&c[1], &c[0], periodic)) <= 1e-12 * all);
+        assert_true(fabs(gain - retex_uv_stats_variation_gain(&c[1], &c[0], periodic)) <= 1e-12 * all);
     }
 }
 
@@ -243,11 +246,11 @@ static void small_clusters_merge_by_ward(void **state)
     uint32_t seed = 9;
     for (int k = 0; k < 1000; k++) {
         const int *periodic = k % 2 ? closed_axes : open_axes;
-        double size = 0.05 * UV_FEATURE * pow(10, -2 * test_random(&seed));
-        UvStats a = blob(0.1 + test_random(&seed), 0.99, 0.4, k % 3 ? size * size : 0);
-        UvStats b = blob(0.1 + test_random(&seed), 0.99 + 2 * size, 0.4 - size, k % 3 == 2 ? size * size : 0);
-        double ward = uv_stats_ward(&a, &b, periodic) / (UV_FEATURE * UV_FEATURE);
-        assert_true(fabs(uv_stats_variation_gain(&a, &b, periodic) - ward) < 0.05 * ward);
+        double size = 0.05 * RETEX_UV_FEATURE * pow(10, -2 * test_random(&seed));
+        RetexUvStats a = blob(0.1 + test_random(&seed), 0.99, 0.4, k % 3 ? size * size : 0);
+        RetexUvStats b = blob(0.1 + test_random(&seed), 0.99 + 2 * size, 0.4 - size, k % 3 == 2 ? size * size : 0);
+        double ward = retex_uv_stats_ward(&a, &b, periodic) / (RETEX_UV_FEATURE * RETEX_UV_FEATURE);
+        assert_true(fabs(retex_uv_stats_variation_gain(&a, &b, periodic) - ward) < 0.05 * ward);
     }
 }
 
@@ -257,24 +260,24 @@ static void wide_clusters_cost_nothing_but_to_tight_ones(void **state)
 {
     (void)state;
     for (double far = 0; far <= 1e6; far = 10 * far + 1) {
-        UvStats wide = blob(3, 0, 0, 400), other = blob(1, far, -far, 900), tight = blob(1, far, -far, 1e-6);
-        assert_true(uv_stats_variation_gain(&wide, &other, open_axes) < 0.001 * 4);
-        assert_float_equal(uv_stats_variation_gain(&wide, &tight, open_axes), 1, 0.01); /* all of its weight */
+        RetexUvStats wide = blob(3, 0, 0, 400), other = blob(1, far, -far, 900), tight = blob(1, far, -far, 1e-6);
+        assert_true(retex_uv_stats_variation_gain(&wide, &other, open_axes) < 0.001 * 4);
+        assert_float_equal(retex_uv_stats_variation_gain(&wide, &tight, open_axes), 1, 0.01); /* all of its weight */
     }
-    UvStats wide = blob(3, 0.5, 0.5, 400), same = blob(1, 0.5, 0.5, 0);
-    assert_true(uv_stats_ward(&wide, &same, open_axes) == 0);
-    assert_float_equal(uv_stats_variation_gain(&wide, &same, open_axes), 1, 0.01);
+    RetexUvStats wide = blob(3, 0.5, 0.5, 400), same = blob(1, 0.5, 0.5, 0);
+    assert_true(retex_uv_stats_ward(&wide, &same, open_axes) == 0);
+    assert_float_equal(retex_uv_stats_variation_gain(&wide, &same, open_axes), 1, 0.01);
 }
 
 /* What merging two places costs has an end: the weight of both. */
 static void far_points_do_not_claim_more_and_more(void **state)
 {
     (void)state;
-    const UvStats here = blob(1, 0, 0, 0);
+    const RetexUvStats here = blob(1, 0, 0, 0);
     double before = 0;
     for (double far = 0.01; far < 1e9; far *= 10) {
-        UvStats there = blob(1, far, 0, 0);
-        double gain = uv_stats_variation_gain(&here, &there, open_axes);
+        RetexUvStats there = blob(1, far, 0, 0);
+        double gain = retex_uv_stats_variation_gain(&here, &there, open_axes);
         assert_true(gain > before || (far > 1e6 && gain >= before));
         assert_true(gain <= 2);
         before = gain;

@@ -32,8 +32,8 @@ static double less_apart(double apart, double spent, const int periodic[2])
 
 static void merge_later(Later *into, const Later *from, const int periodic[2])
 {
-    uv_stats_merge(&into->uv, &from->uv, periodic);
-    into->varies = uv_stats_variation(&into->uv);
+    retex_uv_stats_merge(&into->uv, &from->uv, periodic);
+    into->varies = retex_uv_stats_variation(&into->uv);
     into->squares += from->squares;
     merge_albedo(&into->albedo, &from->albedo);
 }
@@ -51,7 +51,7 @@ void clusters_add_later(TargetClusters *target, const PendingLater *l, const int
             target->later_apart = -INFINITY;
             return;
         }
-        gain[k] = uv_stats_merged_variation(&later[k].uv, l->weight, l->uv, 0, periodic) - later[k].varies;
+        gain[k] = retex_uv_stats_merged_variation(&later[k].uv, l->weight, l->uv, 0, periodic) - later[k].varies;
         if (gain[k] <= 0) {
             merge_later(&later[k], &one, periodic);
             return;
@@ -59,7 +59,7 @@ void clusters_add_later(TargetClusters *target, const PendingLater *l, const int
     }
     int nearer = gain[1] < gain[0];
     if (target->later_apart <= gain[nearer])
-        target->later_apart = uv_stats_variation_gain(&later[0].uv, &later[1].uv, periodic);
+        target->later_apart = retex_uv_stats_variation_gain(&later[0].uv, &later[1].uv, periodic);
     if (target->later_apart < gain[nearer]) {
         merge_later(&later[0], &later[1], periodic);
         later[1] = one;
@@ -74,8 +74,8 @@ void clusters_add_later(TargetClusters *target, const PendingLater *l, const int
 
 static void merge_cluster(Cluster *into, const Cluster *from, const int periodic[2])
 {
-    uv_stats_merge(&into->uv, &from->uv, periodic);
-    into->varies = uv_stats_variation(&into->uv);
+    retex_uv_stats_merge(&into->uv, &from->uv, periodic);
+    into->varies = retex_uv_stats_variation(&into->uv);
     merge_albedo(&into->albedo, &from->albedo);
     into->squares += from->squares;
     into->c += from->c;
@@ -85,8 +85,8 @@ static void merge_cluster(Cluster *into, const Cluster *from, const int periodic
 static void add_pending(Cluster *into, const Pending *q, const int periodic[2])
 {
     const HitLight *l = q->light;
-    uv_stats_add(&into->uv, q->weight, q->uv, periodic);
-    into->varies = uv_stats_variation(&into->uv);
+    retex_uv_stats_add(&into->uv, q->weight, q->uv, periodic);
+    into->varies = retex_uv_stats_variation(&into->uv);
     /* a cluster's own light is what its albedo is for; light that goes on to targets tells where there is no other */
     add_albedo(&into->albedo, l->c[0] + l->original * splat(AGAIN_WEIGHT), q->albedo);
     into->squares += q->weight * q->weight;
@@ -110,16 +110,17 @@ typedef struct Pair {
 static double merge_cost(const Cluster *a, const Cluster *b, int sharp, const int periodic[2])
 {
     if (sharp)
-        return uv_stats_ward(&a->uv, &b->uv, periodic) / (UV_FEATURE * UV_FEATURE);
+        return retex_uv_stats_ward(&a->uv, &b->uv, periodic) / (RETEX_UV_FEATURE * RETEX_UV_FEATURE);
     double squares = b->uv.m2[0] + b->uv.m2[2];
-    return uv_stats_merged_variation(&a->uv, b->uv.weight, b->uv.mean, squares, periodic) - a->varies - b->varies;
+    return retex_uv_stats_merged_variation(&a->uv, b->uv.weight, b->uv.mean, squares, periodic) - a->varies - b->varies;
 }
 
 /* What it costs a cluster to take a place in. */
 static double join_cost(const Cluster *a, const Pending *q, const int periodic[2])
 {
-    return q->sharp ? uv_stats_point_ward(&a->uv, q->weight, q->uv, periodic) / (UV_FEATURE * UV_FEATURE)
-                    : uv_stats_merged_variation(&a->uv, q->weight, q->uv, 0, periodic) - a->varies;
+    return q->sharp
+               ? retex_uv_stats_point_ward(&a->uv, q->weight, q->uv, periodic) / (RETEX_UV_FEATURE * RETEX_UV_FEATURE)
+               : retex_uv_stats_merged_variation(&a->uv, q->weight, q->uv, 0, periodic) - a->varies;
 }
 
 /* Look among the clusters for a pair that is cheaper than the best so far. */

@@ -16,8 +16,8 @@ typedef struct AlbedoSums {
 } AlbedoSums;
 
 typedef struct Cluster {
-    UvStats uv;
-    double varies;  /* uv_stats_variation */
+    RetexUvStats uv;
+    double varies;  /* retex_uv_stats_variation */
     double squares; /* of the paths' weights */
     AlbedoSums albedo;
     Float4 c;     /* light that meets the target here, and no other after it */
@@ -59,8 +59,8 @@ typedef struct Clusters {
 
 /* Further hits of a target. */
 typedef struct Later {
-    UvStats uv;     /* weight 0: none */
-    double varies;  /* uv_stats_variation */
+    RetexUvStats uv;     /* weight 0: none */
+    double varies;  /* retex_uv_stats_variation */
     double squares; /* of the paths' weights */
     AlbedoSums albedo;
 } Later;

@@ -125,11 +125,11 @@ static float *pixel_of(const Place *place, int image)
     return bands_pixel(place->rows, image, place->x, place->y);
 }
 
-static void store_footprint(const FootprintImages *to, const UvStats *uv, const AlbedoSums *albedo, float coverage,
+static void store_footprint(const FootprintImages *to, const RetexUvStats *uv, const AlbedoSums *albedo, float coverage,
                             const Place *at)
 {
     float *mean = pixel_of(at, to->uv), *spread = pixel_of(at, to->spread), *a = pixel_of(at, to->albedo);
-    uv_stats_store(uv, mean, spread);
+    retex_uv_stats_store(uv, mean, spread);
     mean[2] = retex_round_coverage((double)coverage);
     float light = albedo->light[0] + albedo->light[1] + albedo->light[2];
     float reflected = albedo->reflected[0] + albedo->reflected[1] + albedo->reflected[2];

@@ -4,11 +4,11 @@
 
 #include <string.h>
 
-typedef float Float4 __attribute__((vector_size(16)));
+typedef float RetexFloat4 __attribute__((vector_size(16)));
 
-static inline Float4 load4(const float *p)
+static inline RetexFloat4 load4(const float *p)
 {
-    Float4 v;
+    RetexFloat4 v;
     memcpy(&v, p, sizeof v);
     return v;
 }

@@ -6,7 +6,7 @@
 #include <retex/parallel.h>
 
 typedef struct Jobs {
-    Job *job;
+    RetexJob *job;
     void *context;
     atomic_int code;
     RetexError err; /* of the one whose code that is */
@@ -24,7 +24,7 @@ static void run_job(void *context, int index, int thread)
         jobs->err = err;
 }
 
-int jobs_run(int nthreads, int count, Job *job, void *context, RetexError *err)
+int retex_jobs_run(int nthreads, int count, RetexJob *job, void *context, RetexError *err)
 {
     Jobs jobs = {.job = job, .context = context};
     retex_parallel(nthreads, count, run_job, &jobs);

@@ -5,9 +5,9 @@
 #include <retex/error.h>
 
 /* Returns 0 or a negative RetexCode. */
-typedef int Job(void *context, int index, int thread, RetexError *err);
+typedef int RetexJob(void *context, int index, int thread, RetexError *err);
 
 /* As retex_parallel; once a job has failed no other begins, and code and error are those of the first that did. */
-int jobs_run(int nthreads, int count, Job *job, void *context, RetexError *err);
+int retex_jobs_run(int nthreads, int count, RetexJob *job, void *context, RetexError *err);
 
 #endif

@@ -47,7 +47,7 @@ static uint64_t least_on_path(const char *mount, const char *group, const char *
     return least;
 }
 
-uint64_t machine_group_memory(const char *groups, const char *root)
+uint64_t retex_machine_group_memory(const char *groups, const char *root)
 {
     char line[PATH_MAX], mount[PATH_MAX];
     uint64_t least = UINT64_MAX;
@@ -76,6 +76,6 @@ uint64_t retex_machine_memory(void)
     const uint64_t machine = pages > 0 && page > 0 ? (uint64_t)pages * (uint64_t)page : 0;
 
     read_text("/proc/self/cgroup", groups, sizeof groups);
-    const uint64_t group = machine_group_memory(groups, "/sys/fs/cgroup");
+    const uint64_t group = retex_machine_group_memory(groups, "/sys/fs/cgroup");
     return group < machine ? group : machine;
 }

@@ -6,6 +6,6 @@
 
 /* The least limit on memory of a process's control group and of those around it, UINT64_MAX where there is none.
  * groups: text of /proc/self/cgroup; root: where control groups are mounted, /sys/fs/cgroup. */
-uint64_t machine_group_memory(const char *groups, const char *root);
+uint64_t retex_machine_group_memory(const char *groups, const char *root);
 
 #endif

@@ -3,27 +3,27 @@
 #define RETEX_BASE_ROW_SPAN_H
 
 /* Pixels from `begin` on, before `end`; none unless begin < end. */
-typedef struct RowSpan {
+typedef struct RetexRowSpan {
     int begin, end;
-} RowSpan;
+} RetexRowSpan;
 
-static inline int span_is_empty(RowSpan span)
+static inline int span_is_empty(RetexRowSpan span)
 {
     return span.begin >= span.end;
 }
 
 /* What lies in both. */
-static inline RowSpan span_within(RowSpan a, RowSpan b)
+static inline RetexRowSpan span_within(RetexRowSpan a, RetexRowSpan b)
 {
-    return (RowSpan){a.begin > b.begin ? a.begin : b.begin, a.end < b.end ? a.end : b.end};
+    return (RetexRowSpan){a.begin > b.begin ? a.begin : b.begin, a.end < b.end ? a.end : b.end};
 }
 
 /* All that lies in one of them, and between them. */
-static inline RowSpan span_around(RowSpan a, RowSpan b)
+static inline RetexRowSpan span_around(RetexRowSpan a, RetexRowSpan b)
 {
     if (span_is_empty(a) || span_is_empty(b))
         return span_is_empty(a) ? b : a;
-    return (RowSpan){a.begin < b.begin ? a.begin : b.begin, a.end > b.end ? a.end : b.end};
+    return (RetexRowSpan){a.begin < b.begin ? a.begin : b.begin, a.end > b.end ? a.end : b.end};
 }
 
 #endif

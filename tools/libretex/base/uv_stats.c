@@ -11,13 +11,13 @@ static double wrapped(double x, int periodic)
     return periodic && rest >= 1 ? 0 : rest;
 }
 
-void uv_stats_add(UvStats *stats, double weight, const double uv[2], const int periodic[2])
+void retex_uv_stats_add(RetexUvStats *stats, double weight, const double uv[2], const int periodic[2])
 {
     double share, d[2];
     stats->weight += weight;
     share = weight / stats->weight;
     for (int k = 0; k < 2; k++) {
-        d[k] = uv_stats_difference(uv[k], stats->mean[k], periodic[k]);
+        d[k] = retex_uv_stats_difference(uv[k], stats->mean[k], periodic[k]);
         stats->mean[k] = wrapped(stats->mean[k] + share * d[k], periodic[k]);
     }
     double rest = weight * (1 - share);
@@ -26,11 +26,11 @@ void uv_stats_add(UvStats *stats, double weight, const double uv[2], const int p
     stats->m2[2] += rest * d[1] * d[1];
 }
 
-void uv_stats_merge(UvStats *into, const UvStats *from, const int periodic[2])
+void retex_uv_stats_merge(RetexUvStats *into, const RetexUvStats *from, const int periodic[2])
 {
     double total = into->weight + from->weight, share = from->weight / total, d[2];
     for (int k = 0; k < 2; k++) {
-        d[k] = uv_stats_difference(from->mean[k], into->mean[k], periodic[k]);
+        d[k] = retex_uv_stats_difference(from->mean[k], into->mean[k], periodic[k]);
         into->mean[k] = wrapped(into->mean[k] + share * d[k], periodic[k]);
     }
     double between = into->weight * share;
@@ -40,15 +40,15 @@ void uv_stats_merge(UvStats *into, const UvStats *from, const int periodic[2])
     into->weight = total;
 }
 
-double uv_stats_ward(const UvStats *a, const UvStats *b, const int periodic[2])
+double retex_uv_stats_ward(const RetexUvStats *a, const RetexUvStats *b, const int periodic[2])
 {
-    return uv_stats_point_ward(a, b->weight, b->mean, periodic);
+    return retex_uv_stats_point_ward(a, b->weight, b->mean, periodic);
 }
 
-double uv_stats_variation_gain(const UvStats *a, const UvStats *b, const int periodic[2])
+double retex_uv_stats_variation_gain(const RetexUvStats *a, const RetexUvStats *b, const int periodic[2])
 {
-    return uv_stats_merged_variation(a, b->weight, b->mean, b->m2[0] + b->m2[2], periodic) - uv_stats_variation(a) -
-           uv_stats_variation(b);
+    return retex_uv_stats_merged_variation(a, b->weight, b->mean, b->m2[0] + b->m2[2], periodic) -
+           retex_uv_stats_variation(a) - retex_uv_stats_variation(b);
 }
 
 #define UV_STEP (1.0 / 32)
@@ -56,7 +56,7 @@ double uv_stats_variation_gain(const UvStats *a, const UvStats *b, const int per
 enum { SPREAD_BITS = 7 };           /* within 1/128: less than so few samples know of it */
 enum { CORRELATION_BITS = 6 };      /* of what it lacks to 1 */
 
-void uv_stats_store(const UvStats *stats, float mean[2], float spread[3])
+void retex_uv_stats_store(const RetexUvStats *stats, float mean[2], float spread[3])
 {
     double su = sqrt(stats->m2[0] / stats->weight), sv = sqrt(stats->m2[2] / stats->weight);
     /* + 0: no -0 */
@@ -67,7 +67,7 @@ void uv_stats_store(const UvStats *stats, float mean[2], float spread[3])
     spread[2] = (float)copysign(1 - retex_round_bits(1 - fmin(fabs(correlation), 1), CORRELATION_BITS), correlation);
 }
 
-void uv_stats_load(UvStats *stats, double weight, const float mean[2], const float spread[3])
+void retex_uv_stats_load(RetexUvStats *stats, double weight, const float mean[2], const float spread[3])
 {
     stats->weight = weight;
     stats->mean[0] = mean[0], stats->mean[1] = mean[1];

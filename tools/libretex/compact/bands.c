@@ -7,16 +7,16 @@ int compact_bands(const CompactLight *light, CompactBandJob *job, void *context,
 {
     const int height = light->set->height;
     CompactLight band = *light;
-    SetBand *rows;
-    int code = set_band_open(&rows, light->set, COMPACT_BAND_ROWS, 0, err);
+    RetexSetBand *rows;
+    int code = retex_set_band_open(&rows, light->set, COMPACT_BAND_ROWS, 0, err);
     for (int y = 0; y < height && !code; y += COMPACT_BAND_ROWS) {
         RetexSet *set;
-        code = set_band_take(&set, rows, y, height - y < COMPACT_BAND_ROWS ? height - y : COMPACT_BAND_ROWS, nthreads,
-                             err);
+        code = retex_set_band_take(&set, rows, y, height - y < COMPACT_BAND_ROWS ? height - y : COMPACT_BAND_ROWS,
+                                   nthreads, err);
         band.set = set;
         if (!code)
             code = job(context, &band, y, err);
     }
-    set_band_close(&rows);
+    retex_set_band_close(&rows);
     return code;
 }

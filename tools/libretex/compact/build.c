@@ -35,7 +35,7 @@ int compact_copy_part(RetexSet *set, const RetexSet *from, int number, int *inde
     const RetexPart *part = &from->parts[number];
     int code = retex_set_add_part(set, part->name, part->letters, part->type, part->image.width, part->image.height,
                                   index, err);
-    return code ? code : set_part_rows(&set->parts[*index].image, from, number, 0, err);
+    return code ? code : retex_set_part_rows(&set->parts[*index].image, from, number, 0, err);
 }
 
 int compact_copy_head(RetexSet **copy, const RetexSet *set, RetexError *err)
@@ -53,9 +53,9 @@ int compact_copy_head(RetexSet **copy, const RetexSet *set, RetexError *err)
 /* Parts that neither terms nor footprints nor mixtures use stay; so do those of terms without factors. */
 static int is_kept(const RetexSet *set, int part)
 {
-    if (part_is_denoise_data(set, part))
+    if (retex_part_is_denoise_data(set, part))
         return 0;
-    if (!part_is_used(set, part))
+    if (!retex_part_is_used(set, part))
         return 1;
     for (int i = 0; i < set->nterms; i++)
         if (set->terms[i].radiance == part && !set->terms[i].nfactors)

@@ -19,7 +19,7 @@
 #define TEXEL (1.0 / (1 << 26))  /* variance of UV, of a texel of 8192 */
 
 typedef struct Cluster {
-    UvStats place;
+    RetexUvStats place;
     ClusterLight light;
 } Cluster;
 
@@ -41,8 +41,8 @@ typedef struct ClustersWork {
 
 static double merging_cost(const Pool *pool, int i, int j)
 {
-    return pool->sharp ? uv_stats_ward(&pool->of[i].place, &pool->of[j].place, pool->periodic)
-                       : uv_stats_variation_gain(&pool->of[i].place, &pool->of[j].place, pool->periodic);
+    return pool->sharp ? retex_uv_stats_ward(&pool->of[i].place, &pool->of[j].place, pool->periodic)
+                       : retex_uv_stats_variation_gain(&pool->of[i].place, &pool->of[j].place, pool->periodic);
 }
 
 static void find_costs(Pool *pool, int i)
@@ -67,7 +67,7 @@ static void remove_cluster(Pool *pool, int j)
 static void merge_pair(Pool *pool, int i, int j)
 {
     Cluster *into = &pool->of[i];
-    uv_stats_merge(&into->place, &pool->of[j].place, pool->periodic);
+    retex_uv_stats_merge(&into->place, &pool->of[j].place, pool->periodic);
     for (int c = 0; c < 3; c++) {
         into->light.own[c] += pool->of[j].light.own[c];
         into->light.again[c] += pool->of[j].light.again[c];
@@ -99,7 +99,7 @@ typedef struct Shape {
     double uu, uv, vv, area;
 } Shape;
 
-static Shape shape_of(const UvStats *place)
+static Shape shape_of(const RetexUvStats *place)
 {
     Shape shape = {place->m2[0] / place->weight + TEXEL, place->m2[1] / place->weight,
                    place->m2[2] / place->weight + TEXEL, 0};
@@ -122,9 +122,9 @@ static int are_same(const Shape *each, const Shape *merged, double more)
 static int are_one_place(const Pool *pool, int i, int j)
 {
     const double more = 1 + pool->noise * MORE_VARIANCE;
-    const UvStats *const places[] = {&pool->of[i].place, &pool->of[j].place};
-    UvStats both = *places[0];
-    uv_stats_merge(&both, places[1], pool->periodic);
+    const RetexUvStats *const places[] = {&pool->of[i].place, &pool->of[j].place};
+    RetexUvStats both = *places[0];
+    retex_uv_stats_merge(&both, places[1], pool->periodic);
     const Shape each[] = {shape_of(places[0]), shape_of(places[1])}, merged = shape_of(&both);
     for (int k = 0; k < 2; k++)
         if (each[k].uu > more * merged.uu || each[k].vv > more * merged.vv)
@@ -182,7 +182,7 @@ static void gather_cluster(const ClustersWork *work, int k, size_t pixel, const 
     Cluster cluster = {.light = *light};
     if (!(uv[2] > 0) || !(weight > 0) || !isfinite(weight))
         return;
-    uv_stats_load(&cluster.place, weight, uv, set->parts[f->spread].image.pixels + 3 * pixel);
+    retex_uv_stats_load(&cluster.place, weight, uv, set->parts[f->spread].image.pixels + 3 * pixel);
     add_cluster(pool, &cluster);
     pool->weight += weight;
     pool->squares += weight * weight / ((double)uv[2] * (set->spp > 0 ? set->spp : UNKNOWN_SAMPLES));
@@ -281,7 +281,7 @@ static void store_block(const ClustersWork *work, size_t block, const Pool *pool
     double sum = 0, weights = 0;
     for (int i = 0; i < pool->count; i++) {
         float *uv = clusters->uv[i].pixels + 3 * block;
-        uv_stats_store(&pool->of[i].place, uv, clusters->spread[i].pixels + 3 * block);
+        retex_uv_stats_store(&pool->of[i].place, uv, clusters->spread[i].pixels + 3 * block);
         uv[2] = 1;
     }
     store_weights(clusters->weight, block, pool, clusters->split ? PART_OWN : PART_ALL, all);
@@ -302,9 +302,9 @@ static void store_whole(const ClustersWork *work, size_t block, const Pool *pool
     EvenPlace *whole = &work->clusters->whole[block];
     if (pool->count == 0 || (pool->count > 1 && work->clusters->count < 4))
         return;
-    UvStats sum = pool->of[0].place;
+    RetexUvStats sum = pool->of[0].place;
     for (int i = 1; i < pool->count; i++)
-        uv_stats_merge(&sum, &pool->of[i].place, pool->periodic);
+        retex_uv_stats_merge(&sum, &pool->of[i].place, pool->periodic);
     for (int k = 0; k < 2; k++)
         whole->mean[k] = sum.mean[k];
     for (int k = 0; k < 3; k++)

@@ -12,13 +12,13 @@
 
 int compact_copy_set(RetexSet **result, const RetexSet *set, RetexError *err)
 {
-    SetView view;
+    RetexSetView view;
     char *kept = malloc((size_t)set->nparts + 1);
     if (!kept)
         return retex_fail(err, RETEX_ENOMEM, "not enough memory for a set");
     for (int i = 0; i < set->nparts; i++)
-        kept[i] = !part_is_denoise_data(set, i);
-    int code = set_view_make(&view, set, kept, err);
+        kept[i] = !retex_part_is_denoise_data(set, i);
+    int code = retex_set_view_make(&view, set, kept, err);
     free(kept);
     if (code)
         return code;
@@ -33,7 +33,7 @@ int compact_copy_set(RetexSet **result, const RetexSet *set, RetexError *err)
         code = retex_set_add_mixture(*result, &view.set.mixtures[i], NULL, err);
     for (int i = 0; i < view.set.nterms && !code; i++)
         code = retex_set_add_term(*result, &view.set.terms[i], NULL, err);
-    set_view_free(&view);
+    retex_set_view_free(&view);
     return code;
 }
 

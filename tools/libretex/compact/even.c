@@ -377,7 +377,7 @@ static void store_even(const EvenWork *work, size_t pixel)
     const double first = a < 0 ? -1 : 1, second = b < 0 ? -1 : 1;
     for (int k = 0; k < clusters->count; k++) {
         const int goes_right = k == 3 || k == (fabs(a) < fabs(b) ? 1 : 2), goes_down = k == 3 || (!goes_right && k > 0);
-        UvStats place = {.weight = 1};
+        RetexUvStats place = {.weight = 1};
         for (int axis = 0; axis < 2; axis++) {
             const double side = count == 4 ? first * (goes_right ? 0.25 : -0.25) * right[axis] +
                                                  second * (goes_down ? 0.25 : -0.25) * down[axis]
@@ -389,7 +389,7 @@ static void store_even(const EvenWork *work, size_t pixel)
         place.m2[1] = part * (right[0] * right[1] + down[0] * down[1]);
         float *uv = clusters->uv[k].pixels + 3 * pixel, *spread = clusters->spread[k].pixels + 3 * pixel;
         if (k < count) {
-            uv_stats_store(&place, uv, spread);
+            retex_uv_stats_store(&place, uv, spread);
             uv[2] = 1;
         } else {
             for (int i = 0; i < 3; i++)

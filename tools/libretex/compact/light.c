@@ -80,11 +80,11 @@ static int sort_term(CompactLight *light, int number)
     if (!term->nfactors)
         return 1;
     for (int k = 1; k < term->nfactors; k++) {
-        factor_place(light->set, term->factors[k], &target, &what);
+        retex_factor_target(light->set, term->factors[k], &target, &what);
         if (what != RETEX_FOOTPRINT_INTERREFLECTION)
             return 0;
     }
-    factor_place(light->set, term->factors[0], &target, &what);
+    retex_factor_target(light->set, term->factors[0], &target, &what);
     CompactKind *kind = find_kind(light, target, what);
     if (!kind || what == RETEX_FOOTPRINT_INTERREFLECTION)
         return 0;

@@ -325,7 +325,7 @@ static int measure_noise(CompactMeter *meter, int nthreads, RetexError *err)
     for (int i = 1; i < set->nparts && !code; i++) {
         const RetexPart *part = &set->parts[i];
         const float share = strcmp(part->name, "noise_indep") == 0 ? 1 : 0.5f;
-        if (!part_is_denoise_data(set, i) || strncmp(part->name, "noise_", 6) != 0 || part->image.channels != 3)
+        if (!retex_part_is_denoise_data(set, i) || strncmp(part->name, "noise_", 6) != 0 || part->image.channels != 3)
             continue;
         for (size_t k = 0; k < count; k++)
             noise.pixels[k] += share * part->image.pixels[k];

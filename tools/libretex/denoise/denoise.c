@@ -19,25 +19,25 @@ static int find_guides(int parts[GUIDE_COUNT], const RetexSet *set, RetexError *
         [GUIDE_SPECULAR] = {"guide_specular", 1},
     };
     for (int k = 0; k < GUIDE_COUNT; k++)
-        if ((parts[k] = signals_find_part(set, table[k].name, table[k].channels, err)) < 0)
+        if ((parts[k] = retex_signals_find_part(set, table[k].name, table[k].channels, err)) < 0)
             return parts[k];
     return RETEX_OK;
 }
 
 int retex_denoise_has_data(const RetexSet *set)
 {
-    Signals signals;
+    RetexSignals signals;
     int guides[GUIDE_COUNT];
-    if (find_guides(guides, set, NULL) || signals_open(&signals, set, NULL))
+    if (find_guides(guides, set, NULL) || retex_signals_open(&signals, set, NULL))
         return 0;
-    signals_close(&signals);
+    retex_signals_close(&signals);
     return 1;
 }
 
 void retex_denoise_drop_data(RetexSet *set)
 {
     for (int k = set->nparts - 1; k > 0; k--)
-        if (part_is_denoise_data(set, k))
+        if (retex_part_is_denoise_data(set, k))
             retex_set_remove_part(set, k);
 }
 
@@ -52,26 +52,26 @@ static int check_params(const RetexDenoiseParams *p, RetexError *err)
 }
 
 /* The region of a set in memory. */
-static int denoise_in_memory(Denoiser *d, const RetexRoi *roi, int nthreads, RetexError *err)
+static int denoise_in_memory(RetexDenoiser *d, const RetexRoi *roi, int nthreads, RetexError *err)
 {
     RetexSet *set = d->set;
-    DenoiseResult result = {NULL, NULL};
+    RetexDenoiseResult result = {NULL, NULL};
     int code = retex_set_load(set, nthreads, err);
     if (!code)
         code = retex_image_prepare(&set->parts[0].image, set->width, set->height, 3, roi, &d->roi, err);
     if (!code)
-        code = denoise_result_open(&result, d, err);
+        code = retex_denoise_result_open(&result, d, err);
     if (!code)
-        code = denoise_filter(d, &result, nthreads, err);
+        code = retex_denoise_filter(d, &result, nthreads, err);
     if (!code)
-        code = denoise_finish(d, &result, nthreads, err);
-    denoise_result_close(&result);
+        code = retex_denoise_finish(d, &result, nthreads, err);
+    retex_denoise_result_close(&result);
     return code;
 }
 
 int retex_denoise(RetexSet *set, const RetexDenoiseParams *params, const RetexRoi *roi, int nthreads, RetexError *err)
 {
-    Denoiser d = {.set = set, .params = RETEX_DENOISE_INIT};
+    RetexDenoiser d = {.set = set, .params = RETEX_DENOISE_INIT};
     if (params)
         memcpy(&d.params, params, params->size < sizeof d.params ? params->size : sizeof d.params);
     int code = check_params(&d.params, err);
@@ -80,11 +80,11 @@ int retex_denoise(RetexSet *set, const RetexDenoiseParams *params, const RetexRo
     if (!code)
         code = find_guides(d.guides, set, err);
     if (!code)
-        code = signals_open(&d.signals, set, err);
+        code = retex_signals_open(&d.signals, set, err);
     if (!code)
-        code = !roi && denoise_strips_can(set) ? denoise_strips(&d, nthreads, err)
-                                               : denoise_in_memory(&d, roi, nthreads, err);
-    signals_close(&d.signals);
+        code = !roi && retex_denoise_can_use_strips(set) ? retex_denoise_strips(&d, nthreads, err)
+                                                         : denoise_in_memory(&d, roi, nthreads, err);
+    retex_signals_close(&d.signals);
     if (code)
         return code;
     if (d.params.progress)

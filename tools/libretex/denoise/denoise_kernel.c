@@ -27,8 +27,8 @@ INLINE float falloff(float x)
 
 /* ---- features ---- */
 
-INLINE void group_distance(float *restrict strict, float *restrict loose, const DenoiseFeatures *f,
-                           const DenoiseGroup *g, size_t p, ptrdiff_t o, float per_pixel)
+INLINE void group_distance(float *restrict strict, float *restrict loose, const RetexDenoiseFeatures *f,
+                           const RetexDenoiseFeatureGroup *g, size_t p, ptrdiff_t o, float per_pixel)
 {
     float distance[DENOISE_TILE] = {0};
     if (g->normal[0]) {
@@ -56,7 +56,7 @@ INLINE void group_distance(float *restrict strict, float *restrict loose, const 
     }
 }
 
-INLINE void features_body(DenoiseAlike *restrict alike, const DenoiseFeatures *f, int dx, int dy)
+INLINE void features_body(RetexDenoiseSimilarity *restrict alike, const RetexDenoiseFeatures *f, int dx, int dy)
 {
     ptrdiff_t o = (ptrdiff_t)dy * DENOISE_PITCH + dx;
     float per_pixel = 1 / (float)(dx * dx + dy * dy + !(dx | dy));
@@ -77,8 +77,8 @@ INLINE void features_body(DenoiseAlike *restrict alike, const DenoiseFeatures *f
 /* ---- colors ---- */
 
 /* Differences of one row of both halves, in units of their noise, and which count. */
-INLINE void difference_row(const DenoiseSignal *s, size_t p, ptrdiff_t o, float *restrict first, float *restrict second,
-                           float *restrict counts)
+INLINE void difference_row(const RetexDenoiseSignal *s, size_t p, ptrdiff_t o, float *restrict first,
+                           float *restrict second, float *restrict counts)
 {
     const float *restrict kind = s->kind + p;
     for (int i = 0; i < WIDE; i++)
@@ -142,8 +142,8 @@ typedef float Weights[DENOISE_BATCH][DENOISE_TILE];
 
 /* Add one row of what pixels from each q on give to a half's sums. All displacements go in one pass, for the sums would
  * otherwise be read and written for each. */
-INLINE void add_half(const DenoiseSignal *s, const DenoiseSums *to, int half, const size_t q[DENOISE_BATCH], size_t at,
-                     float w[restrict DENOISE_BATCH][DENOISE_TILE])
+INLINE void add_half(const RetexDenoiseSignal *s, const RetexDenoiseSums *to, int half, const size_t q[DENOISE_BATCH],
+                     size_t at, float w[restrict DENOISE_BATCH][DENOISE_TILE])
 {
     const float *restrict a = s->half[half][0], *restrict b = s->half[half][1], *restrict c = s->half[half][2],
                           *restrict m = s->modulation;
@@ -159,8 +159,8 @@ INLINE void add_half(const DenoiseSignal *s, const DenoiseSums *to, int half, co
     }
 }
 
-INLINE void add_planes(const DenoiseSignal *s, const DenoiseBatch *batch, const size_t q[DENOISE_BATCH], size_t at,
-                       Weights w[restrict 2])
+INLINE void add_planes(const RetexDenoiseSignal *s, const RetexDenoiseBatch *batch, const size_t q[DENOISE_BATCH],
+                       size_t at, Weights w[restrict 2])
 {
     Weights mean;
     for (int n = 0; n < DENOISE_BATCH; n++)
@@ -182,7 +182,7 @@ INLINE void add_planes(const DenoiseSignal *s, const DenoiseBatch *batch, const 
 }
 
 /* Distances of all pixels to those at one displacement, by half. */
-INLINE void find_distances(const DenoiseSignal *s, ptrdiff_t o, float *restrict distances)
+INLINE void find_distances(const RetexDenoiseSignal *s, ptrdiff_t o, float *restrict distances)
 {
     float *boxed[3] = {s->scratch, s->scratch + WIDE * DENOISE_TILE, s->scratch + 2 * WIDE * DENOISE_TILE};
     for (int y = 0; y < WIDE; y++) {
@@ -203,7 +203,7 @@ INLINE void find_distances(const DenoiseSignal *s, ptrdiff_t o, float *restrict 
     }
 }
 
-INLINE void signal_body(const DenoiseSignal *s, const DenoiseBatch *batch)
+INLINE void signal_body(const RetexDenoiseSignal *s, const RetexDenoiseBatch *batch)
 {
     float *distances = s->scratch + 3 * WIDE * DENOISE_TILE;
     float near[DENOISE_CANDIDATES][DENOISE_BATCH];
@@ -220,7 +220,7 @@ INLINE void signal_body(const DenoiseSignal *s, const DenoiseBatch *batch)
             q[n] = denoise_at(n < batch->count ? batch->dx + n : 0, n < batch->count ? y + batch->dy : y);
         for (int k = 0; k < DENOISE_CANDIDATES; k++) {
             for (int n = 0; n < batch->count; n++) {
-                const DenoiseAlike *alike = batch->alike[n];
+                const RetexDenoiseSimilarity *alike = batch->alike[n];
                 const float *features = ways[k].features == STRICT  ? alike->strict
                                         : ways[k].features == LOOSE ? alike->loose
                                                                     : alike->valid;
@@ -239,11 +239,12 @@ INLINE void signal_body(const DenoiseSignal *s, const DenoiseBatch *batch)
 /* ---- variants ---- */
 
 #define VARIANTS(attributes, suffix)                                                                                   \
-    attributes static void features_##suffix(DenoiseAlike *alike, const DenoiseFeatures *f, int dx, int dy)            \
+    attributes static void features_##suffix(RetexDenoiseSimilarity *alike, const RetexDenoiseFeatures *f, int dx,     \
+                                             int dy)                                                                   \
     {                                                                                                                  \
         features_body(alike, f, dx, dy);                                                                               \
     }                                                                                                                  \
-    attributes static void signal_##suffix(const DenoiseSignal *s, const DenoiseBatch *batch)                          \
+    attributes static void signal_##suffix(const RetexDenoiseSignal *s, const RetexDenoiseBatch *batch)                \
     {                                                                                                                  \
         signal_body(s, batch);                                                                                         \
     }
@@ -264,12 +265,13 @@ VARIANTS(__attribute__((target("avx512f,avx512vl,avx512bw,avx512dq,prefer-vector
 #define CHOOSE(function, scalar) ((scalar) ? function##_scalar : function##_baseline)
 #endif
 
-void denoise_features_kernel(DenoiseAlike *alike, const DenoiseFeatures *features, int dx, int dy, int scalar)
+void retex_denoise_features_kernel(RetexDenoiseSimilarity *alike, const RetexDenoiseFeatures *features, int dx, int dy,
+                                   int scalar)
 {
     CHOOSE(features, scalar)(alike, features, dx, dy);
 }
 
-void denoise_signal_kernel(const DenoiseSignal *signal, const DenoiseBatch *batch, int scalar)
+void retex_denoise_signal_kernel(const RetexDenoiseSignal *signal, const RetexDenoiseBatch *batch, int scalar)
 {
     CHOOSE(signal, scalar)(signal, batch);
 }

@@ -31,46 +31,47 @@ static inline size_t denoise_at(int x, int y)
 
 /* Features that are compared together: the weight follows the group that differs most. Scales are 1 / squared
  * difference at which the weight is 1/e, by pixel. */
-typedef struct DenoiseGroup {
+typedef struct RetexDenoiseFeatureGroup {
     int first, count;            /* of the planes */
     const float *strict, *loose; /* scales */
     const float *normal[3];      /* or NULL; the difference counts along this direction only, per pixel of distance */
-} DenoiseGroup;
+} RetexDenoiseFeatureGroup;
 
-typedef struct DenoiseFeatures {
+typedef struct RetexDenoiseFeatures {
     const float *valid; /* 1 within the picture, else 0 */
     const float *planes[DENOISE_FEATURES_MAX];
     int ngroups;
-    DenoiseGroup groups[DENOISE_GROUPS_MAX];
-} DenoiseFeatures;
+    RetexDenoiseFeatureGroup groups[DENOISE_GROUPS_MAX];
+} RetexDenoiseFeatures;
 
 /* How alike pixels that lie some way apart are, 0..1: whatever their features, and by both scales of these. */
-typedef struct DenoiseAlike {
+typedef struct RetexDenoiseSimilarity {
     float valid[DENOISE_PIXELS], strict[DENOISE_PIXELS], loose[DENOISE_PIXELS];
-} DenoiseAlike;
+} RetexDenoiseSimilarity;
 
-void denoise_features_kernel(DenoiseAlike *alike, const DenoiseFeatures *features, int dx, int dy, int scalar);
+void retex_denoise_features_kernel(RetexDenoiseSimilarity *alike, const RetexDenoiseFeatures *features, int dx, int dy,
+                                   int scalar);
 
 /* What one way to weigh neighbours has brought, by half. */
-typedef struct DenoiseSums {
+typedef struct RetexDenoiseSums {
     float *sum[2][3], *norm[2];
-} DenoiseSums;
+} RetexDenoiseSums;
 
 /* One signal. Halves are independent estimates; each is filtered with the weights that the other gives (Rousselle et
  * al. 2012). */
-typedef struct DenoiseSignal {
+typedef struct RetexDenoiseSignal {
     const float *half[2][3];     /* over the modulation */
     const float *variance[3];    /* of a half, over the modulation squared */
     const float *kind;           /* 1 or -1: pixels of different kinds are not compared */
     const float *modulation;     /* its mean over colours: what a pixel counts */
     float epsilon;               /* variance below which no difference is seen */
     float strength;              /* squared: how many variances apart still count as alike */
-    DenoiseSums candidates[DENOISE_CANDIDATES];
+    RetexDenoiseSums candidates[DENOISE_CANDIDATES];
     int nplanes;                 /* of images, */
     const float *const *planes;  /* channel by channel, that are filtered with the first candidate's weights */
     float *const *sums;          /* nplanes */
     float *scratch;              /* DENOISE_SCRATCH floats */
-} DenoiseSignal;
+} RetexDenoiseSignal;
 enum {
     DENOISE_SCRATCH =
         3 * (DENOISE_TILE + 2 * DENOISE_PATCH) * DENOISE_TILE + DENOISE_BATCH * 2 * DENOISE_PIXELS
@@ -78,13 +79,13 @@ enum {
 
 /* Some displacements of one row, (dx, dy) to (dx + count - 1, dy): how alike pixels are at each, and where (may be
  * NULL) the first candidate's weights go, the mean of both halves. */
-typedef struct DenoiseBatch {
+typedef struct RetexDenoiseBatch {
     int dx, dy, count;
-    const DenoiseAlike *alike[DENOISE_BATCH];
+    const RetexDenoiseSimilarity *alike[DENOISE_BATCH];
     float *weights[DENOISE_BATCH];
-} DenoiseBatch;
+} RetexDenoiseBatch;
 
 /* Add to the sums what pixels that far away give. */
-void denoise_signal_kernel(const DenoiseSignal *signal, const DenoiseBatch *batch, int scalar);
+void retex_denoise_signal_kernel(const RetexDenoiseSignal *signal, const RetexDenoiseBatch *batch, int scalar);
 
 #endif

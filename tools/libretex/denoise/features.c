@@ -29,7 +29,7 @@ static int clamp(int x, int size)
     return x < 0 ? 0 : x < size ? x : size - 1;
 }
 
-void plane_gather(float *restrict plane, const RetexSet *set, int part, int channel, int x0, int y0)
+void retex_denoise_load_plane(float *restrict plane, const RetexSet *set, int part, int channel, int x0, int y0)
 {
     const RetexImage *im = &set->parts[part].image;
     for (int y = -DENOISE_HALO; y < DENOISE_TILE + DENOISE_HALO; y++) {
@@ -58,13 +58,13 @@ static void add_gradient(float *restrict strict, float *restrict loose, const fl
 }
 
 typedef struct Gathering {
-    DenoiseFeatures *features;
+    RetexDenoiseFeatures *features;
     float *planes, *scales;
 } Gathering;
 
-static DenoiseGroup *add_group(Gathering *g, int first, int count, float factor, float least)
+static RetexDenoiseFeatureGroup *add_group(Gathering *g, int first, int count, float factor, float least)
 {
-    DenoiseFeatures *f = g->features;
+    RetexDenoiseFeatures *f = g->features;
     float *strict = g->scales + (size_t)(2 * f->ngroups) * DENOISE_PLANE, *loose = strict + DENOISE_PLANE;
     memset(strict, 0, sizeof *strict * 2 * DENOISE_PLANE);
     for (int k = 0; k < count; k++)
@@ -73,7 +73,8 @@ static DenoiseGroup *add_group(Gathering *g, int first, int count, float factor,
         strict[i] = 1 / (factor * fmaxf(least, strict[i]));
         loose[i] = 1 / (factor * fmaxf(least, loose[i]));
     }
-    f->groups[f->ngroups] = (DenoiseGroup){.first = first, .count = count, .strict = strict, .loose = loose};
+    f->groups[f->ngroups] =
+        (RetexDenoiseFeatureGroup){.first = first, .count = count, .strict = strict, .loose = loose};
     return &f->groups[f->ngroups++];
 }
 
@@ -85,7 +86,7 @@ static void add_feature(Gathering *g, int first, int count, float least)
 /* Positions are alike where they lie in one plane. */
 static void add_position(Gathering *g, int first, int normal)
 {
-    DenoiseGroup *group = add_group(g, first, 3, SLOPE * SLOPE * 0.5f, LEAST_DISTANCE);
+    RetexDenoiseFeatureGroup *group = add_group(g, first, 3, SLOPE * SLOPE * 0.5f, LEAST_DISTANCE);
     for (int k = 0; k < 3; k++)
         group->normal[k] = g->planes + (size_t)(normal + k) * DENOISE_PLANE;
 }
@@ -98,24 +99,24 @@ static int is_zero(const float *plane)
     return 1;
 }
 
-static int gather_planes(float *planes, const Denoiser *d, int x0, int y0)
+static int gather_planes(float *planes, const RetexDenoiser *d, int x0, int y0)
 {
     int n = 0;
     for (int k = 0; k < GUIDE_COUNT; k++)
         for (int c = 0; c < d->set->parts[d->guides[k]].image.channels; c++)
-            plane_gather(planes + (size_t)n++ * DENOISE_PLANE, d->set, d->guides[k], c, x0, y0);
+            retex_denoise_load_plane(planes + (size_t)n++ * DENOISE_PLANE, d->set, d->guides[k], c, x0, y0);
     for (int t = 0; t < d->set->ntargets; t++)
         if (d->signals.covers[t] >= 0)
-            plane_gather(planes + (size_t)n++ * DENOISE_PLANE, d->set, d->signals.covers[t], 0, x0, y0);
+            retex_denoise_load_plane(planes + (size_t)n++ * DENOISE_PLANE, d->set, d->signals.covers[t], 0, x0, y0);
     return n;
 }
 
-void features_gather(DenoiseFeatures *f, float *room, const Denoiser *d, int x0, int y0)
+void retex_denoise_load_features(RetexDenoiseFeatures *f, float *room, const RetexDenoiser *d, int x0, int y0)
 {
     Gathering g = {f, room, room + (size_t)DENOISE_FEATURES_MAX * DENOISE_PLANE};
     float *valid = g.scales + (size_t)(2 * DENOISE_GROUPS_MAX) * DENOISE_PLANE;
     int n = gather_planes(g.planes, d, x0, y0);
-    *f = (DenoiseFeatures){.valid = valid};
+    *f = (RetexDenoiseFeatures){.valid = valid};
     for (int k = 0; k < n; k++)
         f->planes[k] = g.planes + (size_t)k * DENOISE_PLANE;
     add_feature(&g, SEEN_NORMAL, 3, LEAST_NORMAL);

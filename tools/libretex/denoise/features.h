@@ -6,12 +6,13 @@
 
 /* A channel of a part of the set around the tile at (x0, y0); what lies outside the picture is as its border, what is
  * not finite 0. */
-void plane_gather(float *restrict plane, const RetexSet *set, int part, int channel, int x0, int y0);
+void retex_denoise_load_plane(float *restrict plane, const RetexSet *set, int part, int channel, int x0, int y0);
 
 /* Room for features: planes, two scales a group, and valid. */
-enum { FEATURES_ROOM = DENOISE_FEATURES_MAX + 2 * DENOISE_GROUPS_MAX + 1 };
+enum { DENOISE_FEATURES_SCRATCH = DENOISE_FEATURES_MAX + 2 * DENOISE_GROUPS_MAX + 1 };
 
-/* Fill room, FEATURES_ROOM planes, and have features point to it. */
-void features_gather(DenoiseFeatures *features, float *room, const Denoiser *denoiser, int x0, int y0);
+/* Fill room, DENOISE_FEATURES_SCRATCH planes, and have features point to it. */
+void retex_denoise_load_features(RetexDenoiseFeatures *features, float *room, const RetexDenoiser *denoiser, int x0,
+                                 int y0);
 
 #endif

@@ -10,25 +10,25 @@
 
 /* A tile's results lie in a band until no other tile reads what was there. */
 typedef struct Filter {
-    Denoiser *denoiser;
-    DenoiseResult *result;
-    TileRoom **rooms; /* by thread */
+    RetexDenoiser *denoiser;
+    RetexDenoiseResult *result;
+    RetexDenoiseScratch **rooms; /* by thread */
     int nthreads, tiles_x;
-    Band bands[2], *band;
-    SignalSums *sums; /* by tile of the band, then signal: added up in order */
+    RetexDenoisedRows bands[2], *band;
+    RetexSignalSums *sums; /* by tile of the band, then signal: added up in order */
 } Filter;
 
 static void denoise_job(void *context, int index, int thread)
 {
     Filter *w = context;
-    const Denoiser *d = w->denoiser;
+    const RetexDenoiser *d = w->denoiser;
     if (retex_budget_is_stopped(d->params.budget))
         return;
-    tile_denoise(d, w->rooms[thread], d->roi.x0 + index * DENOISE_STEP, w->band,
-                 w->sums + (size_t)index * (size_t)d->signals.count);
+    retex_denoise_tile(d, w->rooms[thread], d->roi.x0 + index * DENOISE_STEP, w->band,
+                       w->sums + (size_t)index * (size_t)d->signals.count);
 }
 
-static void close_band(Band *band, int nparts)
+static void close_band(RetexDenoisedRows *band, int nparts)
 {
     for (int k = 0; band->parts && k < nparts; k++)
         free(band->parts[k]);
@@ -36,7 +36,7 @@ static void close_band(Band *band, int nparts)
     band->parts = NULL;
 }
 
-static int open_band(Band *band, const Denoiser *d, const unsigned char *written, RetexError *err)
+static int open_band(RetexDenoisedRows *band, const RetexDenoiser *d, const unsigned char *written, RetexError *err)
 {
     const RetexSet *set = d->set;
     band->rows = 0;
@@ -51,20 +51,20 @@ static int open_band(Band *band, const Denoiser *d, const unsigned char *written
 
 static int open_bands(Filter *w, RetexError *err)
 {
-    const Denoiser *d = w->denoiser;
+    const RetexDenoiser *d = w->denoiser;
     unsigned char *written = w->result->written;
     int code = RETEX_OK;
     for (int s = 0; s < d->signals.count; s++)
         for (int k = 0; k < d->signals.of[s].nmembers; k++)
             written[d->signals.of[s].members[k].part] = 1;
-    footprints_mark_written(d->footprints, d, written);
+    retex_denoise_mark_written(d->footprints, d, written);
     for (int k = 0; k < 2 && !code; k++)
         code = open_band(&w->bands[k], d, written, err);
     return code;
 }
 
 /* Into the set. */
-static void commit_band(const Band *band, const Denoiser *d)
+static void commit_band(const RetexDenoisedRows *band, const RetexDenoiser *d)
 {
     for (int part = 0; part < d->set->nparts; part++) {
         RetexImage *im = &d->set->parts[part].image;
@@ -88,7 +88,7 @@ static void add_sums(Filter *w)
 
 static int open_filter(Filter *w, RetexError *err)
 {
-    Denoiser *d = w->denoiser;
+    RetexDenoiser *d = w->denoiser;
     size_t count = (size_t)d->signals.count;
     int code = RETEX_OK;
     w->tiles_x = (d->roi.x1 - d->roi.x0 + DENOISE_STEP - 1) / DENOISE_STEP;
@@ -97,26 +97,26 @@ static int open_filter(Filter *w, RetexError *err)
     if (!w->rooms || !w->sums)
         code = retex_fail(err, RETEX_ENOMEM, "not enough memory to denoise");
     for (int k = 0; k < w->nthreads && k < w->tiles_x && !code; k++)
-        code = tile_room_create(&w->rooms[k], d, err);
+        code = retex_denoise_scratch_create(&w->rooms[k], d, err);
     if (!code)
-        code = denoise_footprints_open(&d->footprints, d, err);
+        code = retex_denoise_footprints_open(&d->footprints, d, err);
     return code ? code : open_bands(w, err);
 }
 
 static void close_filter(Filter *w)
 {
     for (int k = 0; w->rooms && k < w->nthreads; k++)
-        tile_room_close(&w->rooms[k]);
+        retex_denoise_scratch_close(&w->rooms[k]);
     for (int k = 0; k < 2; k++)
         close_band(&w->bands[k], w->denoiser->set->nparts);
     free(w->rooms);
     free(w->sums);
-    denoise_footprints_close(&w->denoiser->footprints);
+    retex_denoise_footprints_close(&w->denoiser->footprints);
 }
 
 static int run(Filter *w, RetexError *err)
 {
-    const Denoiser *d = w->denoiser;
+    const RetexDenoiser *d = w->denoiser;
     int number = 0;
     for (int y = d->roi.y0; y < d->roi.y1; y += DENOISE_STEP, number++) {
         w->band = &w->bands[number % 2];
@@ -138,7 +138,7 @@ static int run(Filter *w, RetexError *err)
     return RETEX_OK;
 }
 
-int denoise_filter(Denoiser *denoiser, DenoiseResult *result, int nthreads, RetexError *err)
+int retex_denoise_filter(RetexDenoiser *denoiser, RetexDenoiseResult *result, int nthreads, RetexError *err)
 {
     Filter filter = {.denoiser = denoiser, .result = result, .nthreads = retex_threads(nthreads)};
     int code = open_filter(&filter, err);
@@ -148,14 +148,14 @@ int denoise_filter(Denoiser *denoiser, DenoiseResult *result, int nthreads, Rete
     return code;
 }
 
-int denoise_result_open(DenoiseResult *result, const Denoiser *denoiser, RetexError *err)
+int retex_denoise_result_open(RetexDenoiseResult *result, const RetexDenoiser *denoiser, RetexError *err)
 {
     result->sums = calloc((size_t)denoiser->signals.count + 1, sizeof *result->sums);
     result->written = calloc((size_t)denoiser->set->nparts + 1, sizeof *result->written);
     return result->sums && result->written ? RETEX_OK : retex_fail(err, RETEX_ENOMEM, "not enough memory to denoise");
 }
 
-void denoise_result_close(DenoiseResult *result)
+void retex_denoise_result_close(RetexDenoiseResult *result)
 {
     free(result->sums);
     free(result->written);

@@ -1,4 +1,4 @@
-/* What denoise_filter leaves, made into what a set holds; see filter.h. */
+/* What retex_denoise_filter leaves, made into what a set holds; see filter.h. */
 #include "denoise/filter.h"
 
 #include <math.h>
@@ -11,10 +11,10 @@
 #include "base/half.h"
 
 /* Means of all signals are as they were. */
-static void restore_means(const Denoiser *d, const DenoiseResult *result, int y)
+static void restore_means(const RetexDenoiser *d, const RetexDenoiseResult *result, int y)
 {
     for (int s = 0; s < d->signals.count; s++) {
-        const SignalSums *sums = &result->sums[s];
+        const RetexSignalSums *sums = &result->sums[s];
         float scale[3];
         for (int c = 0; c < 3; c++)
             scale[c] = sums->after[c] > 0 && sums->before[c] > 0 ? (float)(sums->before[c] / sums->after[c]) : 1;
@@ -28,7 +28,7 @@ static void restore_means(const Denoiser *d, const DenoiseResult *result, int y)
 }
 
 /* The unit to which a pixel's coefficients are rounded. */
-static double pixel_unit(const Denoiser *d, int x, int y)
+static double pixel_unit(const RetexDenoiser *d, int x, int y)
 {
     double white[3] = {0, 0, 0};
     for (int s = 0; s < d->signals.count; s++)
@@ -41,7 +41,7 @@ static double pixel_unit(const Denoiser *d, int x, int y)
 }
 
 /* As the renderer rounds them; light that no texture multiplies stays as it is. */
-static void round_coefficients(const Denoiser *d, int y)
+static void round_coefficients(const RetexDenoiser *d, int y)
 {
     for (int x = d->roi.x0; x < d->roi.x1; x++) {
         const double unit = pixel_unit(d, x, y);
@@ -71,14 +71,14 @@ static void round_halves(const RetexPart *part, int y)
 }
 
 typedef struct Finish {
-    const Denoiser *denoiser;
-    const DenoiseResult *result;
+    const RetexDenoiser *denoiser;
+    const RetexDenoiseResult *result;
 } Finish;
 
 static void finish_row(void *context, int y, int thread)
 {
     const Finish *f = context;
-    const Denoiser *d = f->denoiser;
+    const RetexDenoiser *d = f->denoiser;
     (void)thread;
     if (y >= d->roi.y0 && y < d->roi.y1) {
         restore_means(d, f->result, y);
@@ -90,7 +90,7 @@ static void finish_row(void *context, int y, int thread)
             round_halves(&d->set->parts[k], y);
 }
 
-int denoise_finish(const Denoiser *d, const DenoiseResult *result, int nthreads, RetexError *err)
+int retex_denoise_finish(const RetexDenoiser *d, const RetexDenoiseResult *result, int nthreads, RetexError *err)
 {
     Finish finish = {d, result};
     RetexSet *set = d->set;

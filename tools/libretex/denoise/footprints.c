@@ -17,35 +17,35 @@
 
 /* The pixel that is written, and its number in the set's images. */
 typedef struct Pixel {
-    const Band *band;
+    const RetexDenoisedRows *band;
     size_t at, place; /* in the set, in the band */
 } Pixel;
 
-static Pixel pixel_at(const Footprints *f, const Band *band, int x, int y)
+static Pixel pixel_at(const RetexDenoiseFootprints *f, const RetexDenoisedRows *band, int x, int y)
 {
     return (Pixel){band, (size_t)y * f->width + (size_t)x, (size_t)(y - band->first) * f->width + (size_t)x};
 }
 
-static float *written(const Pixel *p, const Image *image)
+static float *written(const Pixel *p, const RetexFootprintImage *image)
 {
     return p->band->parts[image->part] + p->place * image->channels;
 }
 
-static void copy_pixel(const Pixel *p, const Image *image, size_t from)
+static void copy_pixel(const Pixel *p, const RetexFootprintImage *image, size_t from)
 {
     memcpy(written(p, image), image->pixels + from * image->channels, image->channels * sizeof(float));
 }
 
-static void clear_pixel(const Pixel *p, const Image *image)
+static void clear_pixel(const Pixel *p, const RetexFootprintImage *image)
 {
     memset(written(p, image), 0, image->channels * sizeof(float));
 }
 
 /* Footprints of another pixel, or what they were. */
-static void copy_footprints(const Group *g, const Pixel *p, size_t from)
+static void copy_footprints(const RetexPoolGroup *g, const Pixel *p, size_t from)
 {
     for (int k = 0; k < g->count; k++) {
-        const Place *place = &g->of[k];
+        const RetexFootprintImages *place = &g->of[k];
         copy_pixel(p, &place->uv, from);
         copy_pixel(p, &place->spread, from);
         copy_pixel(p, &place->albedo, from);
@@ -54,7 +54,7 @@ static void copy_footprints(const Group *g, const Pixel *p, size_t from)
     }
 }
 
-static void clear_footprint(const Place *place, const Pixel *p)
+static void clear_footprint(const RetexFootprintImages *place, const Pixel *p)
 {
     clear_pixel(p, &place->uv);
     clear_pixel(p, &place->spread);
@@ -65,13 +65,13 @@ static void clear_footprint(const Place *place, const Pixel *p)
         clear_pixel(p, &place->share);
 }
 
-static void store_share(const Place *place, const Pixel *p, double share)
+static void store_share(const RetexFootprintImages *place, const Pixel *p, double share)
 {
     if (place->share.channels == 1)
         *written(p, &place->share) = share > 0 ? retex_round_share(share) : 0;
 }
 
-static void store_light(const Place *place, const Pixel *p, const float light[3], double share)
+static void store_light(const RetexFootprintImages *place, const Pixel *p, const float light[3], double share)
 {
     float *to = written(p, &place->light);
     for (int c = 0; c < 3; c++)
@@ -80,19 +80,19 @@ static void store_light(const Place *place, const Pixel *p, const float light[3]
 
 /* ---- clusters that stay ---- */
 
-static float cluster_light(const Place *place, size_t i)
+static float cluster_light(const RetexFootprintImages *place, size_t i)
 {
     float l = place->light.pixels ? places_luminance(place->light.pixels + 3 * i) : 0;
     return l > 0 && l < PLACES_FINITE ? l : 0;
 }
 
-static float cluster_cover(const Place *place, size_t i)
+static float cluster_cover(const RetexFootprintImages *place, size_t i)
 {
     const float *uv = place->light.pixels && place->uv.pixels ? place->uv.pixels + 3 * i : NULL;
     return uv && uv[2] > 0 && fabsf(uv[0]) + fabsf(uv[1]) + uv[2] < PLACES_FINITE ? uv[2] : 0;
 }
 
-static double sum_over(const Group *g, size_t i, float (*value)(const Place *, size_t))
+static double sum_over(const RetexPoolGroup *g, size_t i, float (*value)(const RetexFootprintImages *, size_t))
 {
     double sum = 0;
     for (int k = 0; k < g->nlit; k++)
@@ -101,7 +101,8 @@ static double sum_over(const Group *g, size_t i, float (*value)(const Place *, s
 }
 
 /* The neighbour that counts most of those that have clusters; else the pixel itself. */
-static size_t find_lender(const Footprints *f, const Group *g, const Neighbour *neighbours, int count, size_t self)
+static size_t find_lender(const RetexDenoiseFootprints *f, const RetexPoolGroup *g, const RetexNeighbour *neighbours,
+                          int count, size_t self)
 {
     float best = 0;
     for (int n = 0; n < count; n++) {
@@ -113,7 +114,8 @@ static size_t find_lender(const Footprints *f, const Group *g, const Neighbour *
 }
 
 /* Light that meets targets again may come to where none did: no cluster has a share in it, which would lose it. */
-static void mend_shares(const Group *g, const Pixel *p, size_t from, float (*value)(const Place *, size_t), double all)
+static void mend_shares(const RetexPoolGroup *g, const Pixel *p, size_t from,
+                        float (*value)(const RetexFootprintImages *, size_t), double all)
 {
     for (int k = 0; k < g->count; k++)
         if (g->of[k].share.channels != 1 || g->of[k].share.pixels[from] != 0)
@@ -124,7 +126,7 @@ static void mend_shares(const Group *g, const Pixel *p, size_t from, float (*val
 }
 
 /* How much of the pixel a cluster is, if it has light. */
-static float lit_cover(const Place *place, size_t i)
+static float lit_cover(const RetexFootprintImages *place, size_t i)
 {
     return cluster_light(place, i) > 0 ? cluster_cover(place, i) : 0;
 }
@@ -132,7 +134,7 @@ static float lit_cover(const Place *place, size_t i)
 /* How far the light of clusters is to be believed, 0..1, where it differs from how much of the pixel they are: how
  * bright they happened to be is chance in part. So many effective samples tell a sum to one in their root; what is left
  * of the squared difference without that is real (James and Stein 1961). */
-static double light_belief(const Footprints *f, const Group *g, size_t from)
+static double light_belief(const RetexDenoiseFootprints *f, const RetexPoolGroup *g, size_t from)
 {
     double cover = sum_over(g, from, lit_cover), light = sum_over(g, from, cluster_light), chance = 0, differs = 0;
     if (g->kind != RETEX_FOOTPRINT_SHARP || !(cover > 0))
@@ -149,7 +151,8 @@ static double light_belief(const Footprints *f, const Group *g, size_t from)
 
 /* What a cluster has of the light: colour by colour, by its own light as far as that is to be believed, else by how
  * much of the pixel it is. */
-static void share_cluster(const Group *g, int k, const Pixel *p, size_t from, double belief, const float light[3])
+static void share_cluster(const RetexPoolGroup *g, int k, const Pixel *p, size_t from, double belief,
+                          const float light[3])
 {
     double cover = sum_over(g, from, lit_cover), by_cover = cover > 0 ? lit_cover(&g->of[k], from) / cover : 0,
            by_light = cluster_light(&g->of[k], from) / sum_over(g, from, cluster_light);
@@ -165,8 +168,8 @@ static void share_cluster(const Group *g, int k, const Pixel *p, size_t from, do
     }
 }
 
-static void keep_clusters(const Footprints *f, const Group *g, const Pixel *p, const Neighbour *neighbours, int count,
-                          const float light[3])
+static void keep_clusters(const RetexDenoiseFootprints *f, const RetexPoolGroup *g, const Pixel *p,
+                          const RetexNeighbour *neighbours, int count, const float light[3])
 {
     size_t from = p->at;
     double all = sum_over(g, from, cluster_light);
@@ -175,7 +178,7 @@ static void keep_clusters(const Footprints *f, const Group *g, const Pixel *p, c
         from = find_lender(f, g, neighbours, count, from);
         all = sum_over(g, from, cluster_light);
     }
-    float (*value)(const Place *, size_t) = all > 0 ? cluster_light : cluster_cover;
+    float (*value)(const RetexFootprintImages *, size_t) = all > 0 ? cluster_light : cluster_cover;
     if (!(all > 0))
         all = sum_over(g, from, value);
     double belief = value == cluster_light ? light_belief(f, g, from) : 0;
@@ -195,7 +198,7 @@ static void keep_clusters(const Footprints *f, const Group *g, const Pixel *p, c
 
 /* Clusters of several pixels as one. */
 typedef struct Pool {
-    UvStats uv;
+    RetexUvStats uv;
     double squares;                           /* of weights over coverage */
     double luminance, shared;                 /* of own light, and of that which meets targets again */
     double light[3], reflected[3], albedo[3]; /* the last by the statistics' weight */
@@ -207,7 +210,7 @@ typedef struct Pools {
     Pool of[CLUSTERS_MOST];
 } Pools;
 
-static float read_share(const Group *g, const Place *place, size_t i)
+static float read_share(const RetexPoolGroup *g, const RetexFootprintImages *place, size_t i)
 {
     const float *share = place->share.pixels + i * place->share.channels;
     if (!place->share.pixels) /* no mixture has it: it stands alone */
@@ -216,7 +219,7 @@ static float read_share(const Group *g, const Place *place, size_t i)
 }
 
 /* Whether the footprint is there, and counts. */
-static int load_pool(Pool *pool, const Group *g, const Place *place, size_t i, float weight)
+static int load_pool(Pool *pool, const RetexPoolGroup *g, const RetexFootprintImages *place, size_t i, float weight)
 {
     static const float dark[3];
     const float *uv = place->uv.pixels + 3 * i, *spread = place->spread.pixels + i * place->spread.channels;
@@ -236,7 +239,7 @@ static int load_pool(Pool *pool, const Group *g, const Place *place, size_t i, f
     const float w = weight * all;
     if (!(w > 0))
         return 0;
-    uv_stats_load(&pool->uv, w, uv, spreads);
+    retex_uv_stats_load(&pool->uv, w, uv, spreads);
     pool->squares = (double)w * w / uv[2];
     pool->luminance = weight * own, pool->shared = weight * shared;
     for (int c = 0; c < 3; c++) {
@@ -249,7 +252,7 @@ static int load_pool(Pool *pool, const Group *g, const Place *place, size_t i, f
 
 static void merge_pool(Pool *into, const Pool *from, const int periodic[2])
 {
-    uv_stats_merge(&into->uv, &from->uv, periodic);
+    retex_uv_stats_merge(&into->uv, &from->uv, periodic);
     into->squares += from->squares;
     into->luminance += from->luminance, into->shared += from->shared;
     for (int c = 0; c < 3; c++) {
@@ -260,9 +263,9 @@ static void merge_pool(Pool *into, const Pool *from, const int periodic[2])
 }
 
 /* Whether the places are farther apart than the first is wide. */
-static int is_far(const UvStats *a, const UvStats *b, const int periodic[2])
+static int is_far(const RetexUvStats *a, const RetexUvStats *b, const int periodic[2])
 {
-    double squared = uv_stats_ward(a, b, periodic) * (a->weight + b->weight) / (a->weight * b->weight);
+    double squared = retex_uv_stats_ward(a, b, periodic) * (a->weight + b->weight) / (a->weight * b->weight);
     return squared > NEAR * NEAR * (a->m2[0] + a->m2[2]) / a->weight;
 }
 
@@ -272,7 +275,7 @@ static void add_pool(Pools *pools, const Pool *one, const int periodic[2], int o
     int best = -1;
     double least = INFINITY;
     for (int k = 0; k < pools->count && (pools->room > 1 || best < 0); k++) {
-        double gain = uv_stats_variation_gain(&pools->of[k].uv, &one->uv, periodic);
+        double gain = retex_uv_stats_variation_gain(&pools->of[k].uv, &one->uv, periodic);
         if (gain < least || best < 0)
             least = gain, best = k;
     }
@@ -285,7 +288,7 @@ static void add_pool(Pools *pools, const Pool *one, const int periodic[2], int o
 }
 
 /* Those of the pixel itself come first, the heaviest foremost. */
-static void pool_own(Pools *pools, const Group *g, int most, const Neighbour *self, size_t i)
+static void pool_own(Pools *pools, const RetexPoolGroup *g, int most, const RetexNeighbour *self, size_t i)
 {
     Pool own[GROUP_MAX];
     int order[GROUP_MAX], count = 0;
@@ -310,8 +313,8 @@ static int compare_pools(const Pool *a, const Pool *b)
 }
 
 /* All that the neighbours have of a group, into at most so many, in the order of their place on the texture. */
-static void pool_group(Pools *pools, const Footprints *f, const Group *g, int most, const Neighbour *neighbours,
-                       int count)
+static void pool_group(Pools *pools, const RetexDenoiseFootprints *f, const RetexPoolGroup *g, int most,
+                       const RetexNeighbour *neighbours, int count)
 {
     *pools = (Pools){.room = most, .near = g->kind != RETEX_FOOTPRINT_BROAD};
     for (int n = 0; n < count; n++) {
@@ -335,11 +338,11 @@ static void pool_group(Pools *pools, const Footprints *f, const Group *g, int mo
         }
 }
 
-static void store_pool(const Place *place, const Pixel *p, const Pool *pool, double coverage)
+static void store_pool(const RetexFootprintImages *place, const Pixel *p, const Pool *pool, double coverage)
 {
     float *uv = written(p, &place->uv), *spread = written(p, &place->spread), *albedo = written(p, &place->albedo);
     float spreads[3];
-    uv_stats_store(&pool->uv, uv, spreads);
+    retex_uv_stats_store(&pool->uv, uv, spreads);
     uv[2] = retex_round_coverage(fmin(coverage, 1));
     memcpy(spread, spreads, place->spread.channels * sizeof *spread);
     for (int c = 0; c < 3; c++)
@@ -353,8 +356,8 @@ static double effective_coverage(const Pool *pool)
     return pool->uv.weight * pool->uv.weight / pool->squares;
 }
 
-static int pool_clusters(const Footprints *f, const Group *g, const Pixel *p, const Neighbour *neighbours, int count,
-                         const float light[3])
+static int pool_clusters(const RetexDenoiseFootprints *f, const RetexPoolGroup *g, const Pixel *p,
+                         const RetexNeighbour *neighbours, int count, const float light[3])
 {
     Pools pools;
     double lit = 0, shared = 0, weight = 0;
@@ -375,28 +378,29 @@ static int pool_clusters(const Footprints *f, const Group *g, const Pixel *p, co
     return pools.count;
 }
 
-void footprints_share_light(const Footprints *f, const Denoiser *d, const Signal *signal, int x, int y,
-                            const Neighbour *neighbours, int count, const float light[3], Band *band)
+void retex_denoise_share_light(const RetexDenoiseFootprints *f, const RetexDenoiser *d, const RetexSignal *signal,
+                               int x, int y, const RetexNeighbour *neighbours, int count, const float light[3],
+                               RetexDenoisedRows *band)
 {
-    const Group *g = &f->signals[signal - d->signals.of];
+    const RetexPoolGroup *g = &f->signals[signal - d->signals.of];
     const Pixel p = pixel_at(f, band, x, y);
     int pooled = g->kind == RETEX_FOOTPRINT_BROAD && g->movable && d->params.footprints && g->nlit;
     if (!pooled || !pool_clusters(f, g, &p, neighbours, count, light))
         keep_clusters(f, g, &p, neighbours, count, light);
 }
 
-static void pool_later(const Footprints *f, const Pixel *p, const Neighbour *neighbours, int count)
+static void pool_later(const RetexDenoiseFootprints *f, const Pixel *p, const RetexNeighbour *neighbours, int count)
 {
     Pools pools[RETEX_MAX_TARGETS];
     double shared = 0;
     for (int t = 0; t < f->nlater; t++) {
-        const Group *g = &f->later[t];
+        const RetexPoolGroup *g = &f->later[t];
         pool_group(&pools[t], f, g, g->count < CLUSTERS_MOST ? g->count : CLUSTERS_MOST, neighbours, count);
         for (int k = 0; k < pools[t].count; k++)
             shared += pools[t].of[k].shared;
     }
     for (int t = 0; t < f->nlater; t++) {
-        const Group *g = &f->later[t];
+        const RetexPoolGroup *g = &f->later[t];
         if (!(shared > 0))
             copy_footprints(g, p, p->at);
         for (int k = 0; k < g->count && shared > 0; k++) {
@@ -411,7 +415,8 @@ static void pool_later(const Footprints *f, const Pixel *p, const Neighbour *nei
     }
 }
 
-static void pool_hit(const Footprints *f, const Group *g, const Pixel *p, const Neighbour *neighbours, int count)
+static void pool_hit(const RetexDenoiseFootprints *f, const RetexPoolGroup *g, const Pixel *p,
+                     const RetexNeighbour *neighbours, int count)
 {
     Pools pools;
     double all = 0;
@@ -423,8 +428,8 @@ static void pool_hit(const Footprints *f, const Group *g, const Pixel *p, const 
         store_pool(&g->of[0], p, &pools.of[0], pools.of[0].uv.weight / all);
 }
 
-void footprints_pool_later(const Footprints *f, const Denoiser *d, int x, int y, const Neighbour *neighbours, int count,
-                           Band *band)
+void retex_denoise_pool_interreflections(const RetexDenoiseFootprints *f, const RetexDenoiser *d, int x, int y,
+                                         const RetexNeighbour *neighbours, int count, RetexDenoisedRows *band)
 {
     const Pixel p = pixel_at(f, band, x, y);
     if (!d->params.footprints)

@@ -9,15 +9,15 @@ static int is_part(const RetexSet *set, int part)
     return part >= 0 && part < set->nparts;
 }
 
-static Image find_image(const RetexSet *set, int part, int least, int most)
+static RetexFootprintImage find_image(const RetexSet *set, int part, int least, int most)
 {
     if (is_part(set, part)) {
         const RetexImage *im = &set->parts[part].image;
         if (im->pixels && im->width == set->width && im->height == set->height && im->channels >= least &&
             im->channels <= most)
-            return (Image){im->pixels, (size_t)im->channels, part};
+            return (RetexFootprintImage){im->pixels, (size_t)im->channels, part};
     }
-    return (Image){.part = -1};
+    return (RetexFootprintImage){.part = -1};
 }
 
 /* The part of a footprint's weight in mixtures, or -1. Where it has several, these count as used by others. */
@@ -55,21 +55,21 @@ static void count_uses(int *uses, const RetexSet *set)
     }
 }
 
-static int is_own(const int *uses, const Image *image)
+static int is_own(const int *uses, const RetexFootprintImage *image)
 {
     return image->part < 0 || uses[image->part] == 1;
 }
 
 /* One more place of a group: light -1 = none. */
-static void add_place(Footprints *f, const RetexSet *set, Group *g, int footprint, int light)
+static void add_place(RetexDenoiseFootprints *f, const RetexSet *set, RetexPoolGroup *g, int footprint, int light)
 {
     const RetexFootprint *from = &set->footprints[footprint];
-    Place *place = &g->of[g->count++];
-    *place = (Place){.uv = find_image(set, from->uv, 3, 3),
-                     .spread = find_image(set, from->spread, 2, 3),
-                     .albedo = find_image(set, from->albedo, 3, 3),
-                     .light = find_image(set, light, 3, 3),
-                     .share = find_image(set, find_share(set, footprint, NULL), 1, 3)};
+    RetexFootprintImages *place = &g->of[g->count++];
+    *place = (RetexFootprintImages){.uv = find_image(set, from->uv, 3, 3),
+                                    .spread = find_image(set, from->spread, 2, 3),
+                                    .albedo = find_image(set, from->albedo, 3, 3),
+                                    .light = find_image(set, light, 3, 3),
+                                    .share = find_image(set, find_share(set, footprint, NULL), 1, 3)};
     f->nplaces++;
     g->nlit += light >= 0;
     int whole =
@@ -78,28 +78,29 @@ static void add_place(Footprints *f, const RetexSet *set, Group *g, int footprin
                   is_own(f->uses, &place->albedo) && is_own(f->uses, &place->light) && is_own(f->uses, &place->share);
 }
 
-static Group start_group(const Footprints *f, const RetexSet *set, int target, RetexFootprintKind kind)
+static RetexPoolGroup start_group(const RetexDenoiseFootprints *f, const RetexSet *set, int target,
+                                  RetexFootprintKind kind)
 {
-    Group g = {.kind = kind, .of = f->places + f->nplaces, .movable = 1};
+    RetexPoolGroup g = {.kind = kind, .of = f->places + f->nplaces, .movable = 1};
     if (target >= 0)
         memcpy(g.periodic, set->targets[target].periodic, sizeof g.periodic);
     return g;
 }
 
-static int has_cluster(const RetexSet *set, const Signal *signal, int footprint)
+static int has_cluster(const RetexSet *set, const RetexSignal *signal, int footprint)
 {
     int count = 0;
     for (int k = 0; k < signal->nmembers; k++)
-        count += signal_cluster(set, &signal->members[k]) == footprint;
+        count += retex_signal_cluster(set, &signal->members[k]) == footprint;
     return count;
 }
 
 /* A signal's clusters; last those whose light all goes on. */
-static void find_clusters(Footprints *f, const RetexSet *set, const Signal *signal, Group *g)
+static void find_clusters(RetexDenoiseFootprints *f, const RetexSet *set, const RetexSignal *signal, RetexPoolGroup *g)
 {
     *g = start_group(f, set, signal->target, signal->kind);
     for (int k = 0; k < signal->nmembers; k++) {
-        int footprint = signal_cluster(set, &signal->members[k]);
+        int footprint = retex_signal_cluster(set, &signal->members[k]);
         if (footprint < 0)
             continue;
         add_place(f, set, g, footprint, signal->members[k].part);
@@ -113,11 +114,11 @@ static void find_clusters(Footprints *f, const RetexSet *set, const Signal *sign
 }
 
 /* Later footprints share their light over all targets: all are pooled, or none. */
-static void find_later(Footprints *f, const RetexSet *set, const float *again)
+static void find_later(RetexDenoiseFootprints *f, const RetexSet *set, const float *again)
 {
     int movable = 1;
     for (int t = 0; t < set->ntargets; t++) {
-        Group *g = &f->later[f->nlater];
+        RetexPoolGroup *g = &f->later[f->nlater];
         *g = start_group(f, set, t, RETEX_FOOTPRINT_INTERREFLECTION);
         g->again = again;
         for (int k = 0; k < set->nfootprints; k++)
@@ -129,12 +130,12 @@ static void find_later(Footprints *f, const RetexSet *set, const float *again)
     f->nlater = movable ? f->nlater : 0;
 }
 
-static void find_hits(Footprints *f, const RetexSet *set)
+static void find_hits(RetexDenoiseFootprints *f, const RetexSet *set)
 {
     for (int k = 0; k < set->nfootprints; k++) {
         if (set->footprints[k].kind != RETEX_FOOTPRINT_HIT || set->footprints[k].hit < 2)
             continue;
-        Group *g = &f->hits[f->nhits];
+        RetexPoolGroup *g = &f->hits[f->nhits];
         *g = start_group(f, set, set->footprints[k].target, RETEX_FOOTPRINT_HIT);
         add_place(f, set, g, k, -1);
         f->nhits += g->movable;
@@ -142,11 +143,11 @@ static void find_hits(Footprints *f, const RetexSet *set)
 }
 
 /* Luminance of a signal's light that meets targets again, as the film weighs it: NULL where there is none. */
-static int find_again(float **again, const RetexSet *set, const Signal *signal, size_t pixels, RetexError *err)
+static int find_again(float **again, const RetexSet *set, const RetexSignal *signal, size_t pixels, RetexError *err)
 {
     for (int k = 0; k < signal->nmembers; k++) {
-        const SignalMember *m = &signal->members[k];
-        Image light = find_image(set, m->part, 3, 3);
+        const RetexSignalMember *m = &signal->members[k];
+        RetexFootprintImage light = find_image(set, m->part, 3, 3);
         if (signal->target < 0 || m->term < 0 || set->terms[m->term].nfactors < 2 || !light.pixels)
             continue;
         if (!*again && !(*again = calloc(pixels, sizeof **again)))
@@ -159,7 +160,7 @@ static int find_again(float **again, const RetexSet *set, const Signal *signal, 
     return RETEX_OK;
 }
 
-static int find_all_again(Footprints *f, const Denoiser *d, RetexError *err)
+static int find_all_again(RetexDenoiseFootprints *f, const RetexDenoiser *d, RetexError *err)
 {
     float **all = &f->again[f->nsignals];
     int code = RETEX_OK;
@@ -177,11 +178,11 @@ static int find_all_again(Footprints *f, const Denoiser *d, RetexError *err)
     return code;
 }
 
-int denoise_footprints_open(Footprints **out, const Denoiser *d, RetexError *err)
+int retex_denoise_footprints_open(RetexDenoiseFootprints **out, const RetexDenoiser *d, RetexError *err)
 {
     const RetexSet *set = d->set;
     size_t footprints = (size_t)set->nfootprints, signals = (size_t)d->signals.count;
-    Footprints *f = *out = calloc(1, sizeof *f);
+    RetexDenoiseFootprints *f = *out = calloc(1, sizeof *f);
     int code = RETEX_OK;
     if (f) {
         f->width = (size_t)set->width, f->pixels = f->width * (size_t)set->height, f->nsignals = d->signals.count,
@@ -198,7 +199,7 @@ int denoise_footprints_open(Footprints **out, const Denoiser *d, RetexError *err
     if (!code)
         code = find_all_again(f, d, err);
     if (code) {
-        denoise_footprints_close(out);
+        retex_denoise_footprints_close(out);
         return code;
     }
     count_uses(f->uses, set);
@@ -211,9 +212,9 @@ int denoise_footprints_open(Footprints **out, const Denoiser *d, RetexError *err
     return RETEX_OK;
 }
 
-void denoise_footprints_close(Footprints **out)
+void retex_denoise_footprints_close(RetexDenoiseFootprints **out)
 {
-    Footprints *f = *out;
+    RetexDenoiseFootprints *f = *out;
     if (!f)
         return;
     for (int s = 0; f->again && s <= f->nsignals; s++)
@@ -228,13 +229,13 @@ void denoise_footprints_close(Footprints **out)
     *out = NULL;
 }
 
-static void mark(const Image *image, unsigned char *written)
+static void mark(const RetexFootprintImage *image, unsigned char *written)
 {
     if (image->part >= 0)
         written[image->part] = 1;
 }
 
-static void mark_group(const Group *g, unsigned char *written)
+static void mark_group(const RetexPoolGroup *g, unsigned char *written)
 {
     for (int k = 0; k < g->count; k++) {
         mark(&g->of[k].light, written);
@@ -248,7 +249,7 @@ static void mark_group(const Group *g, unsigned char *written)
     }
 }
 
-void footprints_mark_written(const Footprints *f, const Denoiser *d, unsigned char *written)
+void retex_denoise_mark_written(const RetexDenoiseFootprints *f, const RetexDenoiser *d, unsigned char *written)
 {
     for (int s = 0; s < f->nsignals; s++)
         mark_group(&f->signals[s], written);

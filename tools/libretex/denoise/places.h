@@ -11,37 +11,37 @@
 #define GROUP_MAX RETEX_SHARES_MAX
 
 /* An image of the set that is of its size; part is -1 and pixels NULL where there is none. */
-typedef struct Image {
+typedef struct RetexFootprintImage {
     const float *pixels;
     size_t channels;
     int part;
-} Image;
+} RetexFootprintImage;
 
 /* The images of one footprint. */
-typedef struct Place {
-    Image uv, spread, albedo;
-    Image light; /* of clusters */
-    Image share; /* in the light that meets targets again */
-} Place;
+typedef struct RetexFootprintImages {
+    RetexFootprintImage uv, spread, albedo;
+    RetexFootprintImage light; /* of clusters */
+    RetexFootprintImage share; /* in the light that meets targets again */
+} RetexFootprintImages;
 
 /* Footprints that are distributed or pooled together. */
-typedef struct Group {
+typedef struct RetexPoolGroup {
     RetexFootprintKind kind;
     int periodic[2];
     int count, nlit; /* those with light come first */
-    Place *of;
+    RetexFootprintImages *of;
     int movable;        /* the footprints are whole, and no one else's: they may be written */
     const float *again; /* luminance of the light that the shares share, by pixel; NULL = none */
-} Group;
+} RetexPoolGroup;
 
-struct Footprints {
+struct RetexDenoiseFootprints {
     size_t width, pixels;
     double spp;
-    Group *signals;      /* by signal */
-    Group *later, *hits; /* by target; one for each footprint */
+    RetexPoolGroup *signals;      /* by signal */
+    RetexPoolGroup *later, *hits; /* by target; one for each footprint */
     int nsignals, nlater, nhits;
     float **again; /* by signal, then that of all: NULL = none */
-    Place *places; /* of all groups */
+    RetexFootprintImages *places; /* of all groups */
     int nplaces;
     int *uses; /* by part: how many footprints, terms and shares it is of */
 };

@@ -31,7 +31,7 @@ static int is_whole(const RetexSet *set, int part)
     return set->parts[part].image.width == set->width && set->parts[part].image.height == set->height;
 }
 
-static int is_light(const Denoiser *d, int part)
+static int is_light(const RetexDenoiser *d, int part)
 {
     for (int s = 0; s < d->signals.count; s++)
         for (int k = 0; k < d->signals.of[s].nmembers; k++)
@@ -41,8 +41,8 @@ static int is_light(const Denoiser *d, int part)
 }
 
 /* A spool with an image for each part that is wanted. Light that is yet to be scaled is not rounded: as_floats. */
-static int open_spool(RetexSpool **spool, int *images, const Denoiser *d, const unsigned char *wanted, int as_floats,
-                      RetexError *err)
+static int open_spool(RetexSpool **spool, int *images, const RetexDenoiser *d, const unsigned char *wanted,
+                      int as_floats, RetexError *err)
 {
     const RetexSet *set = d->set;
     int code = retex_spool_create(spool, set->width, set->height, set->id, d->params.near, err);
@@ -76,13 +76,13 @@ static int spool_rows(RetexSpool *spool, const int *images, const RetexSet *rows
 {
     Spooling spooling = {.spool = spool, .rows = rows, .images = images, .from = from, .count = count};
     spooling.band = y / RETEX_SPOOL_LINES;
-    return jobs_run(nthreads, rows->nparts, spool_part, &spooling, err);
+    return retex_jobs_run(nthreads, rows->nparts, spool_part, &spooling, err);
 }
 
 /* What the two passes share. */
 typedef struct Strips {
-    const Denoiser *denoiser;
-    DenoiseResult result;
+    const RetexDenoiser *denoiser;
+    RetexDenoiseResult result;
     RetexSet filtered;     /* the set with the spool of what was filtered */
     RetexSpool *spools[2]; /* filtered, finished */
     int *images[2];        /* by part, in these */
@@ -97,18 +97,18 @@ static void show_progress(const Strips *s, double done)
 }
 
 /* One strip, with what lies around it. */
-static int filter_strip(Strips *s, SetBand *band, int y, RetexError *err)
+static int filter_strip(Strips *s, RetexSetBand *band, int y, RetexError *err)
 {
     const RetexSet *set = s->denoiser->set;
     const int end = y + STRIP < set->height ? y + STRIP : set->height;
     const int first = y > DENOISE_REACH ? y - DENOISE_REACH : 0;
     const int last = end + DENOISE_REACH < set->height ? end + DENOISE_REACH : set->height;
-    Denoiser strip = *s->denoiser;
-    int code = set_band_take(&strip.set, band, first, last - first, s->nthreads, err);
+    RetexDenoiser strip = *s->denoiser;
+    int code = retex_set_band_take(&strip.set, band, first, last - first, s->nthreads, err);
     strip.roi = (RetexRoi){0, y - first, set->width, end - first, 0, 3};
     strip.params.progress = NULL;
     if (!code)
-        code = denoise_filter(&strip, &s->result, s->nthreads, err);
+        code = retex_denoise_filter(&strip, &s->result, s->nthreads, err);
     if (!code && !s->spools[0])
         code = open_spool(&s->spools[0], s->images[0], s->denoiser, s->result.written, 1, err);
     return code ? code : spool_rows(s->spools[0], s->images[0], strip.set, y - first, end - y, y, s->nthreads, err);
@@ -117,13 +117,13 @@ static int filter_strip(Strips *s, SetBand *band, int y, RetexError *err)
 static int filter_all(Strips *s, RetexError *err)
 {
     const RetexSet *set = s->denoiser->set;
-    SetBand *band;
-    int code = set_band_open(&band, set, STRIP + 2 * DENOISE_REACH, 1, err);
+    RetexSetBand *band;
+    int code = retex_set_band_open(&band, set, STRIP + 2 * DENOISE_REACH, 1, err);
     for (int y = 0; y < set->height && !code; y += STRIP) {
         show_progress(s, FILTERED * y / set->height);
         code = filter_strip(s, band, y, err);
     }
-    set_band_close(&band);
+    retex_set_band_close(&band);
     return code;
 }
 
@@ -139,22 +139,22 @@ static int open_filtered(Strips *s, RetexError *err)
         return retex_fail(err, RETEX_ENOMEM, "not enough memory to denoise");
     memcpy(s->filtered.parts, set->parts, sizeof *set->parts * (size_t)set->nparts);
     for (int k = 0; k < set->nparts; k++)
-        if (part_is_denoise_data(set, k))
+        if (retex_part_is_denoise_data(set, k))
             s->filtered.parts[k].image = (RetexImage){0};
         else if (s->images[0][k] >= 0)
             s->filtered.parts[k].image.pixels = NULL, s->filtered.parts[k].spooled = 1 + s->images[0][k];
     return RETEX_OK;
 }
 
-static int finish_rows(Strips *s, SetBand *band, int y, RetexError *err)
+static int finish_rows(Strips *s, RetexSetBand *band, int y, RetexError *err)
 {
     const RetexSet *set = s->denoiser->set;
     const int count = set->height - y < FINISHED ? set->height - y : FINISHED;
-    Denoiser rows = *s->denoiser;
-    int code = set_band_take(&rows.set, band, y, count, s->nthreads, err);
+    RetexDenoiser rows = *s->denoiser;
+    int code = retex_set_band_take(&rows.set, band, y, count, s->nthreads, err);
     rows.roi = (RetexRoi){0, 0, set->width, count, 0, 3};
     if (!code)
-        code = denoise_finish(&rows, &s->result, s->nthreads, err);
+        code = retex_denoise_finish(&rows, &s->result, s->nthreads, err);
     return code ? code : spool_rows(s->spools[1], s->images[1], rows.set, 0, count, y, s->nthreads, err);
 }
 
@@ -162,19 +162,19 @@ static int finish_all(Strips *s, RetexError *err)
 {
     const RetexSet *set = s->denoiser->set;
     unsigned char *wanted = calloc((size_t)set->nparts + 1, 1);
-    SetBand *band = NULL;
+    RetexSetBand *band = NULL;
     int code = wanted ? open_filtered(s, err) : retex_fail(err, RETEX_ENOMEM, "not enough memory to denoise");
     for (int k = 0; k < set->nparts && !code; k++)
-        wanted[k] = is_whole(set, k) && !part_is_denoise_data(set, k);
+        wanted[k] = is_whole(set, k) && !retex_part_is_denoise_data(set, k);
     if (!code)
         code = open_spool(&s->spools[1], s->images[1], s->denoiser, wanted, 0, err);
     if (!code)
-        code = set_band_open(&band, &s->filtered, FINISHED, 1, err);
+        code = retex_set_band_open(&band, &s->filtered, FINISHED, 1, err);
     for (int y = 0; y < set->height && !code; y += FINISHED) {
         show_progress(s, FILTERED + (1 - FILTERED) * y / set->height);
         code = finish_rows(s, band, y, err);
     }
-    set_band_close(&band);
+    retex_set_band_close(&band);
     free(wanted);
     return code;
 }
@@ -185,11 +185,11 @@ static int take_over(Strips *s, RetexError *err)
     RetexSet *set = s->denoiser->set;
     for (int k = 0; k < set->nparts; k++) {
         RetexImage image = {0}, *to = &set->parts[k].image;
-        if (s->images[1][k] >= 0 || to->pixels || part_is_denoise_data(set, k))
+        if (s->images[1][k] >= 0 || to->pixels || retex_part_is_denoise_data(set, k))
             continue;
         int code = retex_image_alloc(&image, to->width, to->height, to->channels, err);
         if (!code)
-            code = set_part_rows(&image, set, k, 0, err);
+            code = retex_set_part_rows(&image, set, k, 0, err);
         if (code) {
             retex_image_free(&image);
             return code;
@@ -209,15 +209,15 @@ static int take_over(Strips *s, RetexError *err)
     return RETEX_OK;
 }
 
-int denoise_strips_can(const RetexSet *set)
+int retex_denoise_can_use_strips(const RetexSet *set)
 {
     return set->source && !set->spool;
 }
 
-int denoise_strips(const Denoiser *denoiser, int nthreads, RetexError *err)
+int retex_denoise_strips(const RetexDenoiser *denoiser, int nthreads, RetexError *err)
 {
     Strips s = {.denoiser = denoiser, .nthreads = nthreads};
-    int code = denoise_result_open(&s.result, denoiser, err);
+    int code = retex_denoise_result_open(&s.result, denoiser, err);
     for (int k = 0; k < 2; k++)
         s.images[k] = malloc(sizeof *s.images[k] * ((size_t)denoiser->set->nparts + 1));
     if (!code && (!s.images[0] || !s.images[1]))
@@ -233,6 +233,6 @@ int denoise_strips(const Denoiser *denoiser, int nthreads, RetexError *err)
         free(s.images[k]);
     }
     free(s.filtered.parts);
-    denoise_result_close(&s.result);
+    retex_denoise_result_close(&s.result);
     return code;
 }

@@ -5,9 +5,9 @@
 #include "denoise/tile.h"
 
 /* Whether a set can be: it is open, and no part of it is in a spool. */
-int denoise_strips_can(const RetexSet *set);
+int retex_denoise_can_use_strips(const RetexSet *set);
 
 /* All of denoiser->set, which then has a spool instead of its source. The same to the bit as in memory. */
-int denoise_strips(const Denoiser *denoiser, int nthreads, RetexError *err);
+int retex_denoise_strips(const RetexDenoiser *denoiser, int nthreads, RetexError *err);
 
 #endif

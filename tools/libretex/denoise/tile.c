@@ -32,17 +32,17 @@ typedef struct SignalRoom {
     int nclusters, nplanes;
     float *half[2][3], *variance[3], *kind, *modulation[3], *mean_modulation; /* planes */
     float **planes, **sums; /* channel by channel: all clusters together where there are any, then other members */
-    DenoiseSums candidates[DENOISE_CANDIDATES];
+    RetexDenoiseSums candidates[DENOISE_CANDIDATES];
     float *chosen[CHOICES]; /* how much of each, by pixel */
     float *neighbours;      /* of signals with clusters: weights by neighbour, then pixel */
 } SignalRoom;
 
-struct TileRoom {
+struct RetexDenoiseScratch {
     float *memory;
-    float *features; /* FEATURES_ROOM planes */
+    float *features; /* DENOISE_FEATURES_SCRATCH planes */
     float *spare;    /* a plane */
     float *scratch, *errors[CHOICES], *neighbours;
-    DenoiseAlike *alike; /* DENOISE_BATCH */
+    RetexDenoiseSimilarity *alike; /* DENOISE_BATCH */
     SignalRoom *signals;
     float **pointers;
 };
@@ -64,11 +64,11 @@ static float *take(Layout *l, size_t floats)
     return p;
 }
 
-static void lay_out_signal(SignalRoom *r, Layout *l, const RetexSet *set, const Signal *signal)
+static void lay_out_signal(SignalRoom *r, Layout *l, const RetexSet *set, const RetexSignal *signal)
 {
     r->nclusters = 0;
     for (int k = 0; k < signal->nmembers; k++)
-        r->nclusters += signal_cluster(set, &signal->members[k]) >= 0;
+        r->nclusters += retex_signal_cluster(set, &signal->members[k]) >= 0;
     r->nplanes = 3 * (signal->nmembers - r->nclusters + (r->nclusters > 0));
     r->kind = take(l, DENOISE_PLANE), r->mean_modulation = take(l, DENOISE_PLANE);
     for (int c = 0; c < 3; c++) {
@@ -93,23 +93,23 @@ static void lay_out_signal(SignalRoom *r, Layout *l, const RetexSet *set, const 
     }
 }
 
-static void lay_out(TileRoom *room, Layout *l, const Denoiser *d)
+static void lay_out(RetexDenoiseScratch *room, Layout *l, const RetexDenoiser *d)
 {
     l->used = l->npointers = 0;
-    room->features = take(l, (size_t)FEATURES_ROOM * DENOISE_PLANE);
+    room->features = take(l, (size_t)DENOISE_FEATURES_SCRATCH * DENOISE_PLANE);
     room->spare = take(l, DENOISE_PLANE);
     room->scratch = take(l, DENOISE_SCRATCH);
     room->neighbours = take(l, (size_t)NEIGHBOURS_MAX * DENOISE_PIXELS);
     for (int k = 0; k < CHOICES; k++)
         room->errors[k] = take(l, DENOISE_PIXELS);
-    room->alike = (DenoiseAlike *)take(l, DENOISE_BATCH * sizeof(DenoiseAlike) / sizeof(float));
+    room->alike = (RetexDenoiseSimilarity *)take(l, DENOISE_BATCH * sizeof(RetexDenoiseSimilarity) / sizeof(float));
     for (int s = 0; s < d->signals.count; s++)
         lay_out_signal(&room->signals[s], l, d->set, &d->signals.of[s]);
 }
 
-int tile_room_create(TileRoom **out, const Denoiser *d, RetexError *err)
+int retex_denoise_scratch_create(RetexDenoiseScratch **out, const RetexDenoiser *d, RetexError *err)
 {
-    TileRoom *room = *out = calloc(1, sizeof *room);
+    RetexDenoiseScratch *room = *out = calloc(1, sizeof *room);
     size_t members = 0;
     Layout layout = {NULL, 0, NULL, 0};
     for (int s = 0; s < d->signals.count; s++)
@@ -123,16 +123,16 @@ int tile_room_create(TileRoom **out, const Denoiser *d, RetexError *err)
         layout.memory = room->memory = calloc(layout.used, sizeof(float));
     }
     if (!room || !room->memory) {
-        tile_room_close(out);
+        retex_denoise_scratch_close(out);
         return retex_fail(err, RETEX_ENOMEM, "not enough memory to denoise a tile");
     }
     lay_out(room, &layout, d);
     return RETEX_OK;
 }
 
-void tile_room_close(TileRoom **out)
+void retex_denoise_scratch_close(RetexDenoiseScratch **out)
 {
-    TileRoom *room = *out;
+    RetexDenoiseScratch *room = *out;
     if (!room)
         return;
     free(room->memory);
@@ -155,7 +155,8 @@ static void smooth(float *restrict plane, float *restrict spare)
 }
 
 /* Images to filter; their total goes to the first half's planes. */
-static void gather_members(SignalRoom *r, TileRoom *room, const Denoiser *d, const Signal *signal, int x0, int y0)
+static void gather_members(SignalRoom *r, RetexDenoiseScratch *room, const RetexDenoiser *d, const RetexSignal *signal,
+                           int x0, int y0)
 {
     int image = r->nclusters > 0;
     for (int k = 0; k < r->nplanes; k++)
@@ -163,11 +164,11 @@ static void gather_members(SignalRoom *r, TileRoom *room, const Denoiser *d, con
     for (int c = 0; c < 3; c++)
         memset(r->half[0][c], 0, sizeof(float) * DENOISE_PLANE);
     for (int k = 0; k < signal->nmembers; k++) {
-        const SignalMember *m = &signal->members[k];
-        int to = signal_cluster(d->set, m) >= 0 ? 0 : image++;
+        const RetexSignalMember *m = &signal->members[k];
+        int to = retex_signal_cluster(d->set, m) >= 0 ? 0 : image++;
         for (int c = 0; c < 3; c++) {
             float *restrict plane = r->planes[3 * to + c], *restrict total = r->half[0][c];
-            plane_gather(room->spare, d->set, m->part, c, x0, y0);
+            retex_denoise_load_plane(room->spare, d->set, m->part, c, x0, y0);
             for (int i = 0; i < DENOISE_PLANE; i++)
                 plane[i] += room->spare[i], total[i] += m->weight * room->spare[i];
         }
@@ -176,14 +177,14 @@ static void gather_members(SignalRoom *r, TileRoom *room, const Denoiser *d, con
 
 /* The colour of what is seen; of targets, which guides have as white, how bright they may be in light that their
  * texture does not multiply. */
-static void find_seen_modulation(SignalRoom *r, TileRoom *room, const Denoiser *d, int x0, int y0)
+static void find_seen_modulation(SignalRoom *r, RetexDenoiseScratch *room, const RetexDenoiser *d, int x0, int y0)
 {
     for (int c = 0; c < 3; c++)
-        plane_gather(r->modulation[c], d->set, d->guides[GUIDE_SEEN_ALBEDO], c, x0, y0);
+        retex_denoise_load_plane(r->modulation[c], d->set, d->guides[GUIDE_SEEN_ALBEDO], c, x0, y0);
     for (int t = 0; t < d->set->ntargets; t++) {
         if (d->signals.covers[t] < 0)
             continue;
-        plane_gather(room->spare, d->set, d->signals.covers[t], 0, x0, y0);
+        retex_denoise_load_plane(room->spare, d->set, d->signals.covers[t], 0, x0, y0);
         for (int c = 0; c < 3; c++)
             for (int i = 0; i < DENOISE_PLANE; i++)
                 r->modulation[c][i] -= (1 - TARGET_BRIGHTNESS) * room->spare[i];
@@ -193,14 +194,15 @@ static void find_seen_modulation(SignalRoom *r, TileRoom *room, const Denoiser *
 /* What the light is multiplied by at the pixel, as far as guides know: it is taken out before pixels are compared.
  * Light that comes straight from a target goes with how much of it the pixel sees; other light with the colour of what
  * is seen. Not by less than LEAST_MODULATION: near nothing, guides of few places are far off. */
-static void find_modulation(SignalRoom *r, TileRoom *room, const Denoiser *d, const Signal *signal, int x0, int y0)
+static void find_modulation(SignalRoom *r, RetexDenoiseScratch *room, const RetexDenoiser *d, const RetexSignal *signal,
+                            int x0, int y0)
 {
     int sharp = signal->kind == RETEX_FOOTPRINT_SHARP && signal->target >= 0,
         any = signal->kind == RETEX_FOOTPRINT_HIT && signal->target >= 0;
     for (int i = 0; i < DENOISE_PLANE; i++)
         r->kind[i] = 1;
     if (sharp)
-        plane_gather(room->spare, d->set, signal->cover, 0, x0, y0);
+        retex_denoise_load_plane(room->spare, d->set, signal->cover, 0, x0, y0);
     for (int i = 0; i < DENOISE_PLANE && (sharp || any); i++) {
         int covered = sharp && room->spare[i] > LEAST_COVER;
         for (int c = 0; c < 3; c++)
@@ -217,13 +219,14 @@ static void find_modulation(SignalRoom *r, TileRoom *room, const Denoiser *d, co
 }
 
 /* From the total and its noise to both halves and the variance of these. */
-static void split_halves(SignalRoom *r, TileRoom *room, const Denoiser *d, const Signal *signal, int x0, int y0)
+static void split_halves(SignalRoom *r, RetexDenoiseScratch *room, const RetexDenoiser *d, const RetexSignal *signal,
+                         int x0, int y0)
 {
     float first = 2 * (float)(d->set->spp - d->set->spp / 2) / (float)d->set->spp, second = 2 - first;
     for (int c = 0; c < 3; c++) {
         float *restrict a = r->half[0][c], *restrict b = r->half[1][c], *restrict v = r->variance[c];
         const float *restrict m = r->modulation[c];
-        plane_gather(room->spare, d->set, signal->noise, c, x0, y0);
+        retex_denoise_load_plane(room->spare, d->set, signal->noise, c, x0, y0);
         for (int i = 0; i < DENOISE_PLANE; i++) {
             float total = a[i] / m[i], noise = room->spare[i] / m[i];
             a[i] = total + first * noise, b[i] = total - second * noise;
@@ -233,15 +236,15 @@ static void split_halves(SignalRoom *r, TileRoom *room, const Denoiser *d, const
     }
 }
 
-static DenoiseSignal start_signal(SignalRoom *r, TileRoom *room, const Denoiser *d)
+static RetexDenoiseSignal start_signal(SignalRoom *r, RetexDenoiseScratch *room, const RetexDenoiser *d)
 {
-    DenoiseSignal s = {.kind = r->kind,
-                       .modulation = r->mean_modulation,
-                       .strength = STRENGTH * STRENGTH * d->params.strength * d->params.strength,
-                       .nplanes = r->nplanes > 3 ? r->nplanes : 0,
-                       .planes = (const float *const *)r->planes,
-                       .sums = r->sums,
-                       .scratch = room->scratch};
+    RetexDenoiseSignal s = {.kind = r->kind,
+                            .modulation = r->mean_modulation,
+                            .strength = STRENGTH * STRENGTH * d->params.strength * d->params.strength,
+                            .nplanes = r->nplanes > 3 ? r->nplanes : 0,
+                            .planes = (const float *const *)r->planes,
+                            .sums = r->sums,
+                            .scratch = room->scratch};
     double level = 0;
     for (int c = 0; c < 3; c++) {
         s.variance[c] = r->variance[c];
@@ -290,12 +293,12 @@ static void box(float *restrict image, float *restrict spare, int radius)
 /* A choice's value of one half and channel. */
 static float choice_value(const SignalRoom *r, int choice, int half, int c, size_t p, size_t i)
 {
-    const DenoiseSums *s = &r->candidates[choice ? choice - 1 : 0];
+    const RetexDenoiseSums *s = &r->candidates[choice ? choice - 1 : 0];
     return choice ? s->sum[half][c][i] / s->norm[half][i] : r->half[half][c][p];
 }
 
 /* How far each choice is from the other half, squared and in units of noise, around each pixel. */
-static void find_errors(const SignalRoom *r, TileRoom *room, float epsilon)
+static void find_errors(const SignalRoom *r, RetexDenoiseScratch *room, float epsilon)
 {
     for (int k = 0; k < CHOICES; k++) {
         for (int y = 0; y < DENOISE_TILE; y++)
@@ -315,7 +318,7 @@ static void find_errors(const SignalRoom *r, TileRoom *room, float epsilon)
 
 /* Which choice is nearest to the truth. A half differs from the other by the variance of both, V each: its squared
  * difference is 4V where nothing is filtered, counted twice; a candidate's is twice its own error and V. */
-static int best_choice(const TileRoom *room, size_t i)
+static int best_choice(const RetexDenoiseScratch *room, size_t i)
 {
     float variance = 0.25f * room->errors[0][i], least = variance;
     int best = 0;
@@ -338,7 +341,7 @@ static int is_spike(const SignalRoom *r, size_t p)
     return squared > SPIKE * variance;
 }
 
-static void choose(SignalRoom *r, TileRoom *room, float epsilon)
+static void choose(SignalRoom *r, RetexDenoiseScratch *room, float epsilon)
 {
     unsigned char best[DENOISE_PIXELS];
     find_errors(r, room, epsilon);
@@ -376,12 +379,13 @@ static float filtered_total(const SignalRoom *r, const TilePixel *at, int c)
 }
 
 /* What the first candidate's weights made of it. */
-static float total_of_members(const SignalRoom *r, const Denoiser *d, const Signal *signal, const TilePixel *at, int c)
+static float total_of_members(const SignalRoom *r, const RetexDenoiser *d, const RetexSignal *signal,
+                              const TilePixel *at, int c)
 {
     float members = r->nclusters ? r->sums[c][at->i] : 0;
     int image = r->nclusters > 0;
     for (int k = 0; k < signal->nmembers; k++)
-        if (signal_cluster(d->set, &signal->members[k]) < 0)
+        if (retex_signal_cluster(d->set, &signal->members[k]) < 0)
             members += signal->members[k].weight * r->sums[3 * image++ + c][at->i];
     return members;
 }
@@ -397,27 +401,27 @@ static float image_value(const SignalRoom *r, const TilePixel *at, int image, in
 }
 
 /* How many steps to each side neighbours are, within the window. */
-static int neighbour_reach(const Denoiser *d)
+static int neighbour_reach(const RetexDenoiser *d)
 {
     int reach = d->params.radius / NEIGHBOUR_STEP;
     return reach > NEIGHBOUR_REACH ? NEIGHBOUR_REACH : reach;
 }
 
-static int find_neighbours(Neighbour *out, const Denoiser *d, const float *weights, const TilePixel *at)
+static int find_neighbours(RetexNeighbour *out, const RetexDenoiser *d, const float *weights, const TilePixel *at)
 {
     int count = 1, number = 0, reach = neighbour_reach(d);
-    out[0] = (Neighbour){at->x, at->y, 1};
+    out[0] = (RetexNeighbour){at->x, at->y, 1};
     for (int dy = -reach; dy <= reach; dy++)
         for (int dx = -reach; dx <= reach; dx++, number++) {
             float weight = weights[(size_t)number * DENOISE_PIXELS + at->i];
             if ((dx || dy) && weight > LEAST_WEIGHT)
-                out[count++] = (Neighbour){at->x + NEIGHBOUR_STEP * dx, at->y + NEIGHBOUR_STEP * dy, weight};
+                out[count++] = (RetexNeighbour){at->x + NEIGHBOUR_STEP * dx, at->y + NEIGHBOUR_STEP * dy, weight};
         }
     return count;
 }
 
-static void finish_signal(const SignalRoom *r, const Denoiser *d, const Signal *signal, const TilePixel *at, Band *band,
-                          SignalSums *sums)
+static void finish_signal(const SignalRoom *r, const RetexDenoiser *d, const RetexSignal *signal, const TilePixel *at,
+                          RetexDenoisedRows *band, RetexSignalSums *sums)
 {
     float total[3], members[3], light[3];
     int image = r->nclusters > 0;
@@ -429,8 +433,8 @@ static void finish_signal(const SignalRoom *r, const Denoiser *d, const Signal *
         light[c] = image ? image_value(r, at, 0, c, total[c], members[c], 1) : 0;
     }
     for (int k = 0; k < signal->nmembers; k++) {
-        const SignalMember *m = &signal->members[k];
-        if (signal_cluster(d->set, m) >= 0)
+        const RetexSignalMember *m = &signal->members[k];
+        if (retex_signal_cluster(d->set, m) >= 0)
             continue;
         float *to = band->parts[m->part] + 3 * ((size_t)(at->y - band->first) * (size_t)d->set->width + (size_t)at->x);
         for (int c = 0; c < 3; c++)
@@ -438,25 +442,26 @@ static void finish_signal(const SignalRoom *r, const Denoiser *d, const Signal *
         image++;
     }
     if (r->nclusters) {
-        Neighbour neighbours[NEIGHBOURS_MAX];
+        RetexNeighbour neighbours[NEIGHBOURS_MAX];
         int count = find_neighbours(neighbours, d, r->neighbours, at);
-        footprints_share_light(d->footprints, d, signal, at->x, at->y, neighbours, count, light, band);
+        retex_denoise_share_light(d->footprints, d, signal, at->x, at->y, neighbours, count, light, band);
     }
 }
 
-static void finish_pixel(const Denoiser *d, TileRoom *room, const TilePixel *at, Band *band, SignalSums *sums)
+static void finish_pixel(const RetexDenoiser *d, RetexDenoiseScratch *room, const TilePixel *at,
+                         RetexDenoisedRows *band, RetexSignalSums *sums)
 {
     for (int s = 0; s < d->signals.count; s++)
         finish_signal(&room->signals[s], d, &d->signals.of[s], at, band, &sums[s]);
     if (d->params.footprints && d->set->nfootprints) {
-        Neighbour neighbours[NEIGHBOURS_MAX];
+        RetexNeighbour neighbours[NEIGHBOURS_MAX];
         int count = find_neighbours(neighbours, d, room->neighbours, at);
-        footprints_pool_later(d->footprints, d, at->x, at->y, neighbours, count, band);
+        retex_denoise_pool_interreflections(d->footprints, d, at->x, at->y, neighbours, count, band);
     }
 }
 
 /* Number of the neighbour at a displacement, or -1. */
-static int neighbour_number(const Denoiser *d, int dx, int dy)
+static int neighbour_number(const RetexDenoiser *d, int dx, int dy)
 {
     int reach = neighbour_reach(d);
     if (dx % NEIGHBOUR_STEP || dy % NEIGHBOUR_STEP || abs(dx) > reach * NEIGHBOUR_STEP ||
@@ -465,17 +470,17 @@ static int neighbour_number(const Denoiser *d, int dx, int dy)
     return (dy / NEIGHBOUR_STEP + reach) * (2 * reach + 1) + dx / NEIGHBOUR_STEP + reach;
 }
 
-static void search_window(const Denoiser *d, TileRoom *room, const DenoiseFeatures *features,
-                          const DenoiseSignal *signals)
+static void search_window(const RetexDenoiser *d, RetexDenoiseScratch *room, const RetexDenoiseFeatures *features,
+                          const RetexDenoiseSignal *signals)
 {
     int radius = d->params.radius;
     for (int dy = -radius; dy <= radius; dy++)
         for (int dx = -radius; dx <= radius; dx += DENOISE_BATCH) {
-            DenoiseBatch batch = {.dx = dx, .dy = dy};
+            RetexDenoiseBatch batch = {.dx = dx, .dy = dy};
             int numbers[DENOISE_BATCH];
             for (; batch.count < DENOISE_BATCH && dx + batch.count <= radius; batch.count++) {
                 int n = batch.count, number = numbers[n] = neighbour_number(d, dx + n, dy);
-                denoise_features_kernel(room->alike + n, features, dx + n, dy, d->params.scalar);
+                retex_denoise_features_kernel(room->alike + n, features, dx + n, dy, d->params.scalar);
                 batch.alike[n] = room->alike + n;
                 if (number >= 0)
                     memcpy(room->neighbours + (size_t)number * DENOISE_PIXELS, room->alike[n].strict,
@@ -485,17 +490,18 @@ static void search_window(const Denoiser *d, TileRoom *room, const DenoiseFeatur
                 float *kept = room->signals[s].neighbours;
                 for (int n = 0; n < batch.count; n++)
                     batch.weights[n] = kept && numbers[n] >= 0 ? kept + (size_t)numbers[n] * DENOISE_PIXELS : NULL;
-                denoise_signal_kernel(&signals[s], &batch, d->params.scalar);
+                retex_denoise_signal_kernel(&signals[s], &batch, d->params.scalar);
             }
         }
 }
 
-void tile_denoise(const Denoiser *d, TileRoom *room, int left, Band *band, SignalSums *sums)
+void retex_denoise_tile(const RetexDenoiser *d, RetexDenoiseScratch *room, int left, RetexDenoisedRows *band,
+                        RetexSignalSums *sums)
 {
     int x0 = left - DENOISE_MARGIN, y0 = band->first - DENOISE_MARGIN;
-    DenoiseFeatures features;
-    DenoiseSignal signals[1 + 2 * RETEX_MAX_TARGETS];
-    features_gather(&features, room->features, d, x0, y0);
+    RetexDenoiseFeatures features;
+    RetexDenoiseSignal signals[1 + 2 * RETEX_MAX_TARGETS];
+    retex_denoise_load_features(&features, room->features, d, x0, y0);
     for (int s = 0; s < d->signals.count; s++) {
         SignalRoom *r = &room->signals[s];
         gather_members(r, room, d, &d->signals.of[s], x0, y0);

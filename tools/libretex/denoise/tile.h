@@ -19,33 +19,34 @@ enum {
 };
 
 /* Rows of results, by part of the set: NULL where a part stays as it is. */
-typedef struct Band {
+typedef struct RetexDenoisedRows {
     int first, rows;
     float **parts;
-} Band;
+} RetexDenoisedRows;
 
 /* All of one call. */
-typedef struct Denoiser {
+typedef struct RetexDenoiser {
     RetexSet *set;
     RetexDenoiseParams params;
     RetexRoi roi;
     int guides[GUIDE_COUNT]; /* parts */
-    Signals signals;
-    struct Footprints *footprints;
-} Denoiser;
+    RetexSignals signals;
+    struct RetexDenoiseFootprints *footprints;
+} RetexDenoiser;
 
 /* Sums over pixels of a signal's totals, before and after. */
-typedef struct SignalSums {
+typedef struct RetexSignalSums {
     double before[3], after[3];
-} SignalSums;
+} RetexSignalSums;
 
 /* One thread's room. */
-typedef struct TileRoom TileRoom;
-int tile_room_create(TileRoom **room, const Denoiser *denoiser, RetexError *err);
-void tile_room_close(TileRoom **room);
+typedef struct RetexDenoiseScratch RetexDenoiseScratch;
+int retex_denoise_scratch_create(RetexDenoiseScratch **room, const RetexDenoiser *denoiser, RetexError *err);
+void retex_denoise_scratch_close(RetexDenoiseScratch **room);
 
 /* Filter the DENOISE_STEP pixels a side from (x0, band->first) on, as far as they are of the band and the region, into
  * band; sums has an entry for each signal. */
-void tile_denoise(const Denoiser *denoiser, TileRoom *room, int x0, Band *band, SignalSums *sums);
+void retex_denoise_tile(const RetexDenoiser *denoiser, RetexDenoiseScratch *room, int x0, RetexDenoisedRows *band,
+                        RetexSignalSums *sums);
 
 #endif

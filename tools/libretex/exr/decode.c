@@ -9,7 +9,7 @@
 #include "io/checksum.h"
 #include "base/half.h"
 
-int exr_fail(RetexExr *exr, exr_result_t code, RetexError *err)
+int retex_exr_fail(RetexExr *exr, exr_result_t code, RetexError *err)
 {
     const char *name = retex_input_name(exr->input);
 
@@ -20,7 +20,7 @@ int exr_fail(RetexExr *exr, exr_result_t code, RetexError *err)
     return retex_input_check(exr->input, status, err);
 }
 
-int exr_fail_number(const RetexExr *exr, int part, const ExrOddNumber *odd, RetexError *err)
+int retex_exr_fail_nonfinite(const RetexExr *exr, int part, const RetexExrNonFinite *odd, RetexError *err)
 {
     const char *channel = retex_exr_channel_name(exr, part, odd->channel), *dot = strrchr(channel, '.');
 
@@ -28,13 +28,13 @@ int exr_fail_number(const RetexExr *exr, int part, const ExrOddNumber *odd, Rete
                               dot ? dot + 1 : channel, odd->x, odd->y, odd->value);
 }
 
-void exr_data_window(const RetexExr *exr, int part, exr_attr_box2i_t *window)
+void retex_exr_data_window(const RetexExr *exr, int part, exr_attr_box2i_t *window)
 {
     if (exr_get_data_window(exr->context, part, window) != EXR_ERR_SUCCESS)
         *window = (exr_attr_box2i_t){.min = {.x = 0, .y = 0}, .max = {.x = -1, .y = -1}};
 }
 
-size_t exr_channel_bytes(const exr_attr_chlist_entry_t *channel)
+size_t retex_exr_channel_bytes(const exr_attr_chlist_entry_t *channel)
 {
     return channel->pixel_type == EXR_PIXEL_HALF ? 2 : 4;
 }
@@ -78,8 +78,8 @@ static exr_result_t decode_with_core(RetexExr *exr, int part, const exr_chunk_in
 }
 
 /* Read one chunk and undo its compression: *bytes_of are its samples, lines of planes. */
-static exr_result_t chunk_samples(RetexExr *exr, const ExrPlan *plan, const exr_chunk_info_t *chunk,
-                                  ExrScratch *scratch, const unsigned char **samples)
+static exr_result_t chunk_samples(RetexExr *exr, const RetexExrPlan *plan, const exr_chunk_info_t *chunk,
+                                  RetexExrScratch *scratch, const unsigned char **samples)
 {
     const int part = plan->request->part;
     const size_t bytes = (size_t)chunk->width * (size_t)chunk->height * plan->pixel_bytes;
@@ -127,7 +127,8 @@ static void plane_to_float(float *row, const unsigned char *plane, uint16_t type
 }
 
 /* Whether all of a line's samples may be in the part; else *odd gets the first that may not, but not its line. */
-static int are_allowed(const ExrPlan *plan, int channel, const unsigned char *samples, int width, ExrOddNumber *odd)
+static int are_allowed(const RetexExrPlan *plan, int channel, const unsigned char *samples, int width,
+                       RetexExrNonFinite *odd)
 {
     const exr_pixel_type_t stored = plan->channels[channel].pixel_type;
     const RetexPixelType type = stored == EXR_PIXEL_HALF ? RETEX_HALF : RETEX_FLOAT;
@@ -137,22 +138,23 @@ static int are_allowed(const ExrPlan *plan, int channel, const unsigned char *sa
     const size_t first = retex_numbers_find(samples, type, (size_t)width, plan->request->allowed);
     if (first == (size_t)width)
         return 1;
-    *odd = (ExrOddNumber){.x = (int)first, .channel = channel};
-    plane_to_float(&odd->value, samples + first * exr_channel_bytes(&plan->channels[channel]), (uint16_t)stored, 1);
+    *odd = (RetexExrNonFinite){.x = (int)first, .channel = channel};
+    plane_to_float(&odd->value, samples + first * retex_exr_channel_bytes(&plan->channels[channel]), (uint16_t)stored,
+                   1);
     return 0;
 }
 
 /* Give a chunk's samples to the image, whose first row is row top of the part, and to the checksums. 0: one of them may
  * not be there. */
-static int deliver(const ExrPlan *plan, RetexImage *image, int top, const unsigned char *samples, int x, int y,
-                   int width, int height, ExrScratch *scratch, const ExrSums *sums)
+static int deliver(const RetexExrPlan *plan, RetexImage *image, int top, const unsigned char *samples, int x, int y,
+                   int width, int height, RetexExrScratch *scratch, const RetexExrSums *sums)
 {
     float *row = scratch->row;
 
     for (int line = 0; line < height; line++) {
         uint32_t *crc = sums ? sums->crc[(y + line - sums->top) / sums->lines] : NULL;
         for (int c = 0; c < plan->nchannels; c++) {
-            const size_t plane = (size_t)width * exr_channel_bytes(&plan->channels[c]);
+            const size_t plane = (size_t)width * retex_exr_channel_bytes(&plan->channels[c]);
             const int slot = plan->slot[c];
             if (slot >= 0 && !are_allowed(plan, c, samples, width, &scratch->odd)) {
                 scratch->odd.x += x;
@@ -174,8 +176,8 @@ static int deliver(const ExrPlan *plan, RetexImage *image, int top, const unsign
     return 1;
 }
 
-exr_result_t exr_chunk_read(RetexExr *exr, const ExrPlan *plan, int column, int row, RetexImage *image, int top,
-                            const ExrSums *sums, ExrScratch *scratch)
+exr_result_t retex_exr_chunk_read(RetexExr *exr, const RetexExrPlan *plan, int column, int row, RetexImage *image,
+                                  int top, const RetexExrSums *sums, RetexExrScratch *scratch)
 {
     const int x = column * plan->chunk_width, y = row * plan->chunk_height;
     const int width = plan->width - x < plan->chunk_width ? plan->width - x : plan->chunk_width;
@@ -195,18 +197,19 @@ exr_result_t exr_chunk_read(RetexExr *exr, const ExrPlan *plan, int column, int 
     if (!code && !need((void **)&scratch->row, &scratch->row_count, (size_t)width, sizeof(float)))
         code = EXR_ERR_OUT_OF_MEMORY;
     if (!code && !deliver(plan, image, top, samples, x, y, width, height, scratch, sums))
-        code = EXR_ODD_NUMBER;
+        code = RETEX_EXR_NON_FINITE;
     return code;
 }
 
-uint32_t exr_sums_plane(const ExrPlan *plan, const ExrSums *sums, int slot, int y0, int y1, size_t *bytes)
+uint32_t retex_exr_sums_plane(const RetexExrPlan *plan, const RetexExrSums *sums, int slot, int y0, int y1,
+                              size_t *bytes)
 {
     size_t line = 0, total = 0;
     uint32_t crc = CRC32_OF_NONE;
 
     for (int c = 0; c < plan->nchannels; c++)
         if (plan->slot[c] == slot)
-            line = (size_t)plan->width * exr_channel_bytes(&plan->channels[c]);
+            line = (size_t)plan->width * retex_exr_channel_bytes(&plan->channels[c]);
     for (int y = y0; y < y1; y += sums->lines) {
         const size_t count = line * (size_t)(y1 - y < sums->lines ? y1 - y : sums->lines);
         crc = retex_crc32_join(crc, sums->crc[(y - sums->top) / sums->lines][slot], count);
@@ -217,16 +220,16 @@ uint32_t exr_sums_plane(const ExrPlan *plan, const ExrSums *sums, int slot, int 
     return crc;
 }
 
-void exr_scratch_free(ExrScratch *scratch)
+void retex_exr_scratch_free(RetexExrScratch *scratch)
 {
     retex_zip_free(&scratch->zip);
     free(scratch->packed);
     free(scratch->raw);
     free(scratch->row);
-    *scratch = (ExrScratch){0};
+    *scratch = (RetexExrScratch){0};
 }
 
-static int plan_channels(RetexExr *exr, ExrPlan *plan, RetexError *err)
+static int plan_channels(RetexExr *exr, RetexExrPlan *plan, RetexError *err)
 {
     const RetexExrRequest *request = plan->request;
     const exr_attr_chlist_t *channels;
@@ -237,12 +240,12 @@ static int plan_channels(RetexExr *exr, ExrPlan *plan, RetexError *err)
     plan->channels = channels->entries;
     plan->slot = calloc((size_t)(plan->nchannels ? plan->nchannels : 1), sizeof *plan->slot);
     if (!plan->slot)
-        return exr_fail(exr, EXR_ERR_OUT_OF_MEMORY, err);
+        return retex_exr_fail(exr, EXR_ERR_OUT_OF_MEMORY, err);
     for (int slot = 0; slot < RETEX_EXR_LETTERS_MAX; slot++)
         wanted += request->channels[slot][0] != 0;
     for (int c = 0; c < plan->nchannels; c++) {
         plan->slot[c] = -1;
-        plan->pixel_bytes += exr_channel_bytes(&channels->entries[c]);
+        plan->pixel_bytes += retex_exr_channel_bytes(&channels->entries[c]);
         for (int slot = 0; slot < RETEX_EXR_LETTERS_MAX; slot++)
             if (request->channels[slot][0] && strcmp(channels->entries[c].name.str, request->channels[slot]) == 0) {
                 plan->slot[c] = slot;
@@ -255,7 +258,7 @@ static int plan_channels(RetexExr *exr, ExrPlan *plan, RetexError *err)
     return 0;
 }
 
-int exr_plan_open(RetexExr *exr, ExrPlan *plan, RetexExrRequest *request, RetexError *err)
+int retex_exr_plan_open(RetexExr *exr, RetexExrPlan *plan, RetexExrRequest *request, RetexError *err)
 {
     const char *reason;
     exr_attr_box2i_t window;
@@ -267,7 +270,7 @@ int exr_plan_open(RetexExr *exr, ExrPlan *plan, RetexExrRequest *request, RetexE
                           request->part, reason);
     exr_get_storage(exr->context, request->part, &plan->storage);
     exr_get_compression(exr->context, request->part, &plan->compression);
-    exr_data_window(exr, request->part, &window);
+    retex_exr_data_window(exr, request->part, &window);
     plan->left = window.min.x;
     plan->top = window.min.y;
     retex_exr_part_size(exr, request->part, &plan->width, &plan->height);
@@ -275,13 +278,13 @@ int exr_plan_open(RetexExr *exr, ExrPlan *plan, RetexExrRequest *request, RetexE
         return retex_fail(err, RETEX_EINTERNAL, "the image for part %d has the wrong size", request->part);
     if (plan->storage == EXR_STORAGE_SCANLINE) {
         if (exr_get_scanlines_per_chunk(exr->context, request->part, &lines) || lines < 1)
-            return exr_fail(exr, EXR_ERR_FILE_BAD_HEADER, err);
+            return retex_exr_fail(exr, EXR_ERR_FILE_BAD_HEADER, err);
         plan->chunk_width = plan->width;
         plan->chunk_height = lines;
     } else {
         if (exr_get_tile_sizes(exr->context, request->part, 0, 0, &tile_width, &tile_height) || tile_width < 1 ||
             tile_height < 1)
-            return exr_fail(exr, EXR_ERR_FILE_BAD_HEADER, err);
+            return retex_exr_fail(exr, EXR_ERR_FILE_BAD_HEADER, err);
         plan->chunk_width = tile_width;
         plan->chunk_height = tile_height;
     }
@@ -290,8 +293,8 @@ int exr_plan_open(RetexExr *exr, ExrPlan *plan, RetexExrRequest *request, RetexE
     return plan_channels(exr, plan, err);
 }
 
-void exr_plan_close(ExrPlan *plan)
+void retex_exr_plan_close(RetexExrPlan *plan)
 {
     free(plan->slot);
-    *plan = (ExrPlan){0};
+    *plan = (RetexExrPlan){0};
 }

@@ -14,7 +14,7 @@ struct RetexExr {
 };
 
 /* How one request is met. */
-typedef struct ExrPlan {
+typedef struct RetexExrPlan {
     RetexExrRequest *request;
     exr_storage_t storage;
     exr_compression_t compression;
@@ -25,48 +25,49 @@ typedef struct ExrPlan {
     const exr_attr_chlist_entry_t *channels;
     int *slot; /* channel of the image that a channel of the part fills, or -1 */
     size_t pixel_bytes;
-} ExrPlan;
+} RetexExrPlan;
 
 /* Running checksums of a request's channels: one of each for every `lines` lines from line top on. Where a chunk is as
  * wide as the part a channel's samples come in order, and these may be many; else they are those of one line. */
-typedef struct ExrSums {
+typedef struct RetexExrSums {
     uint32_t (*crc)[RETEX_EXR_LETTERS_MAX];
     int top, lines;
-} ExrSums;
+} RetexExrSums;
 
-/* What exr_chunk_read says of a value that is not allowed; Core has no code for it. */
-#define EXR_ODD_NUMBER ((exr_result_t)1000)
-typedef struct ExrOddNumber {
+/* What retex_exr_chunk_read says of a value that is not allowed; Core has no code for it. */
+#define RETEX_EXR_NON_FINITE ((exr_result_t)1000)
+typedef struct RetexExrNonFinite {
     int x, y, channel; /* in the part, and among its channels */
     float value;
-} ExrOddNumber;
+} RetexExrNonFinite;
 
 /* Of one thread. */
-typedef struct ExrScratch {
+typedef struct RetexExrScratch {
     RetexZip zip;
     unsigned char *packed, *raw;
     float *row;
     size_t packed_bytes, raw_bytes, row_count;
-    ExrOddNumber odd;
-} ExrScratch;
+    RetexExrNonFinite odd;
+} RetexExrScratch;
 
-void exr_data_window(const RetexExr *exr, int part, exr_attr_box2i_t *window); /* empty where there is none */
-int exr_fail(RetexExr *exr, exr_result_t code, RetexError *err);
-int exr_fail_number(const RetexExr *exr, int part, const ExrOddNumber *odd, RetexError *err);
+void retex_exr_data_window(const RetexExr *exr, int part, exr_attr_box2i_t *window); /* empty where there is none */
+int retex_exr_fail(RetexExr *exr, exr_result_t code, RetexError *err);
+int retex_exr_fail_nonfinite(const RetexExr *exr, int part, const RetexExrNonFinite *odd, RetexError *err);
 
 /* Find out how to meet a request, which plan borrows. */
-int exr_plan_open(RetexExr *exr, ExrPlan *plan, RetexExrRequest *request, RetexError *err);
-void exr_plan_close(ExrPlan *plan);
+int retex_exr_plan_open(RetexExr *exr, RetexExrPlan *plan, RetexExrRequest *request, RetexError *err);
+void retex_exr_plan_close(RetexExrPlan *plan);
 
-size_t exr_channel_bytes(const exr_attr_chlist_entry_t *channel);
+size_t retex_exr_channel_bytes(const exr_attr_chlist_entry_t *channel);
 
 /* Read a chunk, by its place among the part's, into the image (NULL: nowhere), whose first row is row top of the part,
  * and into sums (or NULL), to which chunks of a row must come from the left. Thread-safe, each with its own scratch. */
-exr_result_t exr_chunk_read(RetexExr *exr, const ExrPlan *plan, int column, int row, RetexImage *image, int top,
-                            const ExrSums *sums, ExrScratch *scratch);
+exr_result_t retex_exr_chunk_read(RetexExr *exr, const RetexExrPlan *plan, int column, int row, RetexImage *image,
+                                  int top, const RetexExrSums *sums, RetexExrScratch *scratch);
 /* The checksum of lines y0 to y1 of one channel of the request, put together; *bytes (may be NULL): how many they
  * are. */
-uint32_t exr_sums_plane(const ExrPlan *plan, const ExrSums *sums, int slot, int y0, int y1, size_t *bytes);
-void exr_scratch_free(ExrScratch *scratch);
+uint32_t retex_exr_sums_plane(const RetexExrPlan *plan, const RetexExrSums *sums, int slot, int y0, int y1,
+                              size_t *bytes);
+void retex_exr_scratch_free(RetexExrScratch *scratch);
 
 #endif

@@ -70,7 +70,7 @@ int retex_exr_open(RetexExr **result, RetexInput *input, RetexError *err)
     if (!code)
         code = exr_get_count(exr->context, &exr->nparts);
     if (code)
-        status = exr_fail(exr, code, err);
+        status = retex_exr_fail(exr, code, err);
     else if (exr->nparts < 1 || exr->nparts > RETEX_EXR_PARTS_MAX)
         status = retex_fail(err, RETEX_EFORMAT, "%s has %d parts, more than %d", retex_input_name(input), exr->nparts,
                             RETEX_EXR_PARTS_MAX);
@@ -135,7 +135,7 @@ void retex_exr_part_size(const RetexExr *exr, int part, int *width, int *height)
 {
     exr_attr_box2i_t window;
 
-    exr_data_window(exr, part, &window);
+    retex_exr_data_window(exr, part, &window);
     const int64_t w = (int64_t)window.max.x - window.min.x + 1, h = (int64_t)window.max.y - window.min.y + 1;
     *width = w > 0 && w <= RETEX_MAX_SIZE ? (int)w : 0;
     *height = h > 0 && h <= RETEX_MAX_SIZE ? (int)h : 0;
@@ -236,28 +236,28 @@ void retex_exr_color_tag(const RetexExr *exr, int part, RetexColorTag *tag)
 }
 
 /* Some rows of chunks of one request. */
-typedef struct Job {
-    ExrPlan *plan;
+typedef struct RetexJob {
+    RetexExrPlan *plan;
     int first, count;
     uint32_t crc[RETEX_EXR_LETTERS_MAX];
-} Job;
+} RetexJob;
 
 typedef struct DecodeWork {
     RetexExr *exr;
-    Job *jobs;
-    ExrScratch *scratch; /* one a thread */
+    RetexJob *jobs;
+    RetexExrScratch *scratch; /* one a thread */
     atomic_int code;     /* the first failure, exr_result_t */
-    ExrOddNumber odd;    /* of it, where it is that */
+    RetexExrNonFinite odd; /* of it, where it is that */
 } DecodeWork;
 
-static void read_chunks(DecodeWork *work, Job *job, const ExrSums *sums, int thread)
+static void read_chunks(DecodeWork *work, RetexJob *job, const RetexExrSums *sums, int thread)
 {
     for (int row = job->first; row < job->first + job->count; row++)
         for (int column = 0; column < job->plan->across; column++) {
             if (atomic_load_explicit(&work->code, memory_order_relaxed))
                 return; /* some other job has failed: the result is lost anyway */
-            const exr_result_t code = exr_chunk_read(work->exr, job->plan, column, row, job->plan->request->image, 0,
-                                                     sums, &work->scratch[thread]);
+            const exr_result_t code = retex_exr_chunk_read(work->exr, job->plan, column, row, job->plan->request->image,
+                                                           0, sums, &work->scratch[thread]);
             if (code) {
                 int none = 0;
                 if (atomic_compare_exchange_strong(&work->code, &none, code)) {
@@ -272,11 +272,11 @@ static void read_chunks(DecodeWork *work, Job *job, const ExrSums *sums, int thr
 static void run_job(void *context, int index, int thread)
 {
     DecodeWork *work = context;
-    Job *job = &work->jobs[index];
-    const ExrPlan *plan = job->plan;
+    RetexJob *job = &work->jobs[index];
+    const RetexExrPlan *plan = job->plan;
     const int top = job->first * plan->chunk_height, most = job->count * plan->chunk_height;
     const int lines = plan->height - top < most ? plan->height - top : most;
-    ExrSums sums = {NULL, top, plan->across > 1 ? 1 : lines};
+    RetexExrSums sums = {NULL, top, plan->across > 1 ? 1 : lines};
 
     if (!plan->request->with_crc) {
         read_chunks(work, job, NULL, thread);
@@ -288,26 +288,26 @@ static void run_job(void *context, int index, int thread)
     else
         atomic_store(&work->code, EXR_ERR_OUT_OF_MEMORY);
     for (int slot = 0; sums.crc && slot < RETEX_EXR_LETTERS_MAX; slot++)
-        job->crc[slot] = exr_sums_plane(plan, &sums, slot, top, top + lines, NULL);
+        job->crc[slot] = retex_exr_sums_plane(plan, &sums, slot, top, top + lines, NULL);
     free(sums.crc);
 }
 
 /* Rows of chunks that make one job. */
-static int job_rows(const ExrPlan *plan)
+static int job_rows(const RetexExrPlan *plan)
 {
     return plan->chunk_height >= JOB_LINES ? 1 : JOB_LINES / plan->chunk_height;
 }
 
-static Job *make_jobs(ExrPlan *plans, int nplans, int *count)
+static RetexJob *make_jobs(RetexExrPlan *plans, int nplans, int *count)
 {
     size_t total = 0, next = 0;
 
     for (int i = 0; i < nplans; i++)
         total += (size_t)((plans[i].down + job_rows(&plans[i]) - 1) / job_rows(&plans[i]));
-    Job *jobs = calloc(total, sizeof *jobs);
+    RetexJob *jobs = calloc(total, sizeof *jobs);
     for (int i = 0; jobs && i < nplans; i++)
         for (int row = 0; row < plans[i].down; row += job_rows(&plans[i])) {
-            Job *job = &jobs[next++];
+            RetexJob *job = &jobs[next++];
             job->plan = &plans[i];
             job->first = row;
             job->count = plans[i].down - row < job_rows(&plans[i]) ? plans[i].down - row : job_rows(&plans[i]);
@@ -317,10 +317,10 @@ static Job *make_jobs(ExrPlan *plans, int nplans, int *count)
 }
 
 /* Put the jobs' checksums together: planes one after another, each from the top. */
-static void combine_crcs(const Job *jobs, int njobs)
+static void combine_crcs(const RetexJob *jobs, int njobs)
 {
     for (int first = 0, end; first < njobs; first = end) {
-        const ExrPlan *plan = jobs[first].plan;
+        const RetexExrPlan *plan = jobs[first].plan;
         uint32_t crc = CRC32_OF_NONE;
         for (end = first; end < njobs && jobs[end].plan == plan; end++)
             continue;
@@ -331,7 +331,7 @@ static void combine_crcs(const Job *jobs, int njobs)
                 for (int j = first; j < end; j++) {
                     const int y = jobs[j].first * plan->chunk_height, rest = plan->height - y;
                     const int lines = jobs[j].count * plan->chunk_height;
-                    const size_t bytes = (size_t)plan->width * exr_channel_bytes(&plan->channels[c]);
+                    const size_t bytes = (size_t)plan->width * retex_exr_channel_bytes(&plan->channels[c]);
                     crc = retex_crc32_join(crc, jobs[j].crc[slot], bytes * (size_t)(lines < rest ? lines : rest));
                 }
             }
@@ -340,15 +340,15 @@ static void combine_crcs(const Job *jobs, int njobs)
 }
 
 /* The failure of a chunk, with the name of its part. */
-static int fail_chunk(RetexExr *exr, const ExrPlan *plans, int nplans, exr_result_t code, const ExrOddNumber *odd,
-                      RetexError *err)
+static int fail_chunk(RetexExr *exr, const RetexExrPlan *plans, int nplans, exr_result_t code,
+                      const RetexExrNonFinite *odd, RetexError *err)
 {
     const char *name = NULL;
 
     for (int i = 0; i < nplans; i++)
         if (plans[i].request->damaged) {
-            if (code == EXR_ODD_NUMBER)
-                return exr_fail_number(exr, plans[i].request->part, odd, err);
+            if (code == RETEX_EXR_NON_FINITE)
+                return retex_exr_fail_nonfinite(exr, plans[i].request->part, odd, err);
             exr_get_name(exr->context, plans[i].request->part, &name);
         }
     if (code != EXR_ERR_OUT_OF_MEMORY && name)
@@ -357,10 +357,10 @@ static int fail_chunk(RetexExr *exr, const ExrPlan *plans, int nplans, exr_resul
             retex_fail(err, RETEX_EFORMAT, "%s: part %s is damaged or truncated: %s", retex_input_name(exr->input),
                        name, exr->message.text[0] ? exr->message.text : exr_get_default_error_message(code)),
             err);
-    return exr_fail(exr, code, err);
+    return retex_exr_fail(exr, code, err);
 }
 
-static int run_jobs(RetexExr *exr, ExrPlan *plans, int nplans, int nthreads, RetexError *err)
+static int run_jobs(RetexExr *exr, RetexExrPlan *plans, int nplans, int nthreads, RetexError *err)
 {
     DecodeWork work = {.exr = exr};
     int njobs = 0;
@@ -376,7 +376,7 @@ static int run_jobs(RetexExr *exr, ExrPlan *plans, int nplans, int nthreads, Ret
     if (!code)
         combine_crcs(work.jobs, njobs);
     for (int i = 0; work.scratch && i < nthreads; i++)
-        exr_scratch_free(&work.scratch[i]);
+        retex_exr_scratch_free(&work.scratch[i]);
     free(work.scratch);
     free(work.jobs);
     return code ? fail_chunk(exr, plans, nplans, code, &work.odd, err) : 0;
@@ -384,20 +384,20 @@ static int run_jobs(RetexExr *exr, ExrPlan *plans, int nplans, int nthreads, Ret
 
 int retex_exr_read(RetexExr *exr, RetexExrRequest *requests, int nrequests, int nthreads, RetexError *err)
 {
-    ExrPlan *plans;
+    RetexExrPlan *plans;
     int status = 0;
 
     if (nrequests == 0)
         return 0;
     plans = calloc((size_t)nrequests, sizeof *plans);
     if (!plans)
-        return exr_fail(exr, EXR_ERR_OUT_OF_MEMORY, err);
+        return retex_exr_fail(exr, EXR_ERR_OUT_OF_MEMORY, err);
     for (int i = 0; i < nrequests && !status; i++)
-        status = exr_plan_open(exr, &plans[i], &requests[i], err);
+        status = retex_exr_plan_open(exr, &plans[i], &requests[i], err);
     if (!status)
         status = run_jobs(exr, plans, nrequests, nthreads, err);
     for (int i = 0; i < nrequests; i++)
-        exr_plan_close(&plans[i]);
+        retex_exr_plan_close(&plans[i]);
     free(plans);
     return status;
 }

@@ -11,7 +11,7 @@
 
 #include "io/checksum.h"
 #include "exr/spool_file.h"
-#include "io/unfinished.h"
+#include "io/pending_files.h"
 
 /* What one thread works with; kept for the next. */
 typedef struct SpoolScratch {
@@ -58,7 +58,7 @@ int retex_spool_create(RetexSpool **result, int width, int height, uint64_t key,
 
     if (!spool)
         return retex_fail(err, RETEX_ENOMEM, "no memory for a spool");
-    spool->descriptor = temporary_open(near, spool->shown);
+    spool->descriptor = retex_temporary_open(near, spool->shown);
     const int status = spool->descriptor < 0 ? fail_system(spool, errno, err) : spool_begin(spool, err);
     if (status)
         retex_spool_close(result);
@@ -130,11 +130,11 @@ static int rename_hidden(const char *hidden, const char *path)
 
 static int link_in_place(const RetexSpool *spool, const char *path, const char *hidden)
 {
-    unfinished_lock();
+    retex_pending_files_lock();
     int code = link_to(spool, hidden ? hidden : path);
     if (!code)
         code = rename_hidden(hidden, path);
-    unfinished_unlock();
+    retex_pending_files_unlock();
     return code;
 }
 
@@ -157,24 +157,24 @@ static int copy_bytes(const RetexSpool *spool, int copy)
 static int copy_in_place(const RetexSpool *spool, const char *path, const char *hidden)
 {
     const char *name = hidden ? hidden : path;
-    Unfinished unfinished;
+    RetexPendingFile unfinished;
 
-    unfinished_lock();
+    retex_pending_files_lock();
     const int copy = open(name, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     int code = copy < 0 ? errno : 0;
     if (!code)
-        unfinished_add(&unfinished, name);
-    unfinished_unlock();
+        retex_pending_files_add(&unfinished, name);
+    retex_pending_files_unlock();
     if (code)
         return code;
     code = copy_bytes(spool, copy);
-    unfinished_lock();
+    retex_pending_files_lock();
     if (code)
         unlink(name);
     else
         code = rename_hidden(hidden, path);
-    unfinished_drop(&unfinished);
-    unfinished_unlock();
+    retex_pending_files_drop(&unfinished);
+    retex_pending_files_unlock();
     return code;
 }
 

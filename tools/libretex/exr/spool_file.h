@@ -24,7 +24,7 @@ struct RetexSpool {
     uint64_t key;
     int descriptor;
     int plain;           /* 1: bands are not compressed */
-    TemporaryName shown; /* what the file is, for messages */
+    RetexTemporaryName shown; /* what the file is, for messages */
     RetexBandStats *stats;     /* by band, */
     char *committed;           /* where this is 1 */
     pthread_mutex_t lock;

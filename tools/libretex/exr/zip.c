@@ -63,8 +63,8 @@ size_t retex_zip_pack(RetexZip *zip, unsigned char *packed, const unsigned char 
 {
     if (bytes <= HEAD + TAIL || bytes > INT_MAX)
         return 0;
-    exr_zip_regroup(zip->scratch, raw, bytes);
-    exr_zip_difference(zip->scratch + bytes, zip->scratch, bytes);
+    retex_exr_zip_regroup(zip->scratch, raw, bytes);
+    retex_exr_zip_difference(zip->scratch + bytes, zip->scratch, bytes);
     /* a chunk as long as its data would be taken for uncompressed */
     const size_t coded = deflate_chunk(zip->work, packed + HEAD, bytes - 1 - HEAD - TAIL, zip->scratch + bytes, bytes);
     if (!coded)
@@ -80,8 +80,8 @@ int retex_zip_unpack(RetexZip *zip, unsigned char *raw, size_t bytes, const unsi
 {
     if (!retex_inflate(zip->work, zip->scratch, bytes, packed, packed_bytes))
         return 0;
-    exr_zip_accumulate(zip->scratch, bytes);
-    exr_zip_interleave(raw, zip->scratch, bytes);
+    retex_exr_zip_accumulate(zip->scratch, bytes);
+    retex_exr_zip_interleave(raw, zip->scratch, bytes);
     return 1;
 }
 

@@ -5,7 +5,7 @@
 #include <emmintrin.h>
 #endif
 
-void exr_zip_regroup(unsigned char *restrict out, const unsigned char *restrict raw, size_t bytes)
+void retex_exr_zip_regroup(unsigned char *restrict out, const unsigned char *restrict raw, size_t bytes)
 {
     unsigned char *restrict odd = out + (bytes + 1) / 2;
 
@@ -17,14 +17,14 @@ void exr_zip_regroup(unsigned char *restrict out, const unsigned char *restrict 
         out[bytes / 2] = raw[bytes - 1];
 }
 
-void exr_zip_difference(unsigned char *restrict out, const unsigned char *restrict in, size_t bytes)
+void retex_exr_zip_difference(unsigned char *restrict out, const unsigned char *restrict in, size_t bytes)
 {
     out[0] = in[0];
     for (size_t i = 1; i < bytes; i++)
         out[i] = (unsigned char)(in[i] - in[i - 1] + 128);
 }
 
-void exr_zip_accumulate(unsigned char *data, size_t bytes)
+void retex_exr_zip_accumulate(unsigned char *data, size_t bytes)
 {
     unsigned previous = 128;
     size_t i = 0;
@@ -48,7 +48,7 @@ void exr_zip_accumulate(unsigned char *data, size_t bytes)
     }
 }
 
-void exr_zip_interleave(unsigned char *restrict raw, const unsigned char *restrict in, size_t bytes)
+void retex_exr_zip_interleave(unsigned char *restrict raw, const unsigned char *restrict in, size_t bytes)
 {
     const unsigned char *restrict odd = in + (bytes + 1) / 2;
     size_t i = 0;

@@ -5,11 +5,11 @@
 #include <stddef.h>
 
 /* Bytes at even places first, those at odd places after them. */
-void exr_zip_regroup(unsigned char *restrict out, const unsigned char *restrict raw, size_t bytes);
-void exr_zip_interleave(unsigned char *restrict raw, const unsigned char *restrict in, size_t bytes);
+void retex_exr_zip_regroup(unsigned char *restrict out, const unsigned char *restrict raw, size_t bytes);
+void retex_exr_zip_interleave(unsigned char *restrict raw, const unsigned char *restrict in, size_t bytes);
 
 /* Each byte as its difference from the one before, plus 128; and the running sum of such, in place. */
-void exr_zip_difference(unsigned char *restrict out, const unsigned char *restrict in, size_t bytes);
-void exr_zip_accumulate(unsigned char *data, size_t bytes);
+void retex_exr_zip_difference(unsigned char *restrict out, const unsigned char *restrict in, size_t bytes);
+void retex_exr_zip_accumulate(unsigned char *data, size_t bytes);
 
 #endif

@@ -27,7 +27,7 @@ static int read_file(const char *path, RetexSet **set, RetexSamples **samples, i
         return retex_fail(err, RETEX_EINVAL, "nothing is wanted from %s", path);
     int status = retex_input_open(&input, path, err);
     if (!status && !is_pack(input))
-        status = set_read_exr(&input, set, samples, open, nthreads, err);
+        status = retex_set_read_exr(&input, set, samples, open, nthreads, err);
     else if (!status && !set)
         status = retex_fail(err, RETEX_EFORMAT, "%s holds a set, no samples", retex_input_name(input));
     else if (!status)
@@ -57,7 +57,7 @@ int retex_set_check(const char *path, int nthreads, RetexError *err)
     int status = retex_input_open(&input, path, err);
 
     if (!status && !is_pack(input)) {
-        status = set_check_exr(input, nthreads, err);
+        status = retex_set_check_exr(input, nthreads, err);
     } else if (!status) {
         status = retex_pack_open(&set, &input, err);
         if (!status)

@@ -90,7 +90,7 @@ static int spool_in_memory(RetexInput *input, int *ended, RetexError *err)
 }
 
 /* Append to the temporary file. */
-static int keep(RetexInput *input, int file, TemporaryName shown, size_t bytes, RetexError *err)
+static int keep(RetexInput *input, int file, RetexTemporaryName shown, size_t bytes, RetexError *err)
 {
     for (size_t done = 0; done < bytes;) {
         const ssize_t written = pwrite(file, input->data + done, bytes - done, (off_t)(input->size + done));
@@ -105,7 +105,7 @@ static int keep(RetexInput *input, int file, TemporaryName shown, size_t bytes, 
 }
 
 /* What is in memory, and all that follows. */
-static int spool_in_file(RetexInput *input, int file, TemporaryName shown, RetexError *err)
+static int spool_in_file(RetexInput *input, int file, RetexTemporaryName shown, RetexError *err)
 {
     size_t got = (size_t)input->size;
     int status;
@@ -125,12 +125,12 @@ static int spool_in_file(RetexInput *input, int file, TemporaryName shown, Retex
 
 static int spool(RetexInput *input, RetexError *err)
 {
-    TemporaryName shown;
+    RetexTemporaryName shown;
     int ended, status = spool_in_memory(input, &ended, err);
 
     if (status || ended)
         return status;
-    const int file = temporary_open(NULL, shown);
+    const int file = retex_temporary_open(NULL, shown);
     if (file < 0)
         return retex_fail(err, RETEX_EIO, "cannot write %s: %s", shown, strerror(errno));
     status = spool_in_file(input, file, shown, err);

@@ -18,7 +18,7 @@
 #include <retex/image.h>
 
 #include "io/output.h"
-#include "io/unfinished.h"
+#include "io/pending_files.h"
 
 enum { BUFFER_BYTES = 1 << 18, NAME_ATTEMPTS = 100 };
 
@@ -27,7 +27,7 @@ struct RetexOutput {
     char path[PATH_MAX];                 /* what will be replaced; symbolic links resolved */
     char folder[PATH_MAX];               /* of path, with the final '/', or "" for the current one */
     char temporary[PATH_MAX + NAME_MAX]; /* hidden name, or "" while the file has none */
-    Unfinished unfinished;               /* where temporary is listed while it is a file's name */
+    RetexPendingFile unfinished;         /* where temporary is listed while it is a file's name */
     int descriptor;
     int direct;   /* 1: no temporary file, straight to a device, pipe or standard output */
     int borrowed; /* 1: standard output, which is not ours to close */
@@ -60,12 +60,12 @@ static int open_hidden(RetexOutput *output)
 {
     for (int attempt = 0; attempt < NAME_ATTEMPTS; attempt++) {
         hidden_name(output);
-        unfinished_lock();
+        retex_pending_files_lock();
         output->descriptor = open(output->temporary, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
         const int code = output->descriptor >= 0 ? 0 : errno;
         if (!code)
-            unfinished_add(&output->unfinished, output->temporary);
-        unfinished_unlock();
+            retex_pending_files_add(&output->unfinished, output->temporary);
+        retex_pending_files_unlock();
         if (!code)
             return 0;
         output->temporary[0] = 0;
@@ -293,7 +293,7 @@ static int link_nameless(RetexOutput *output)
     if (code)
         output->temporary[0] = 0;
     else
-        unfinished_add(&output->unfinished, output->temporary);
+        retex_pending_files_add(&output->unfinished, output->temporary);
     return code;
 }
 
@@ -311,16 +311,16 @@ static int put_in_place(RetexOutput *output)
 {
     int code = 0;
 
-    unfinished_lock();
+    retex_pending_files_lock();
     if (!output->temporary[0])
         code = link_nameless(output);
     if (!code && output->temporary[0] && rename(output->temporary, output->path) != 0)
         code = errno;
     if (!code) {
-        unfinished_drop(&output->unfinished);
+        retex_pending_files_drop(&output->unfinished);
         output->temporary[0] = 0;
     }
-    unfinished_unlock();
+    retex_pending_files_unlock();
     return code;
 }
 
@@ -369,10 +369,10 @@ void retex_output_abandon(RetexOutput **result)
     if (output->descriptor >= 0 && !output->borrowed)
         close(output->descriptor);
     if (output->temporary[0]) {
-        unfinished_lock();
+        retex_pending_files_lock();
         unlink(output->temporary);
-        unfinished_drop(&output->unfinished);
-        unfinished_unlock();
+        retex_pending_files_drop(&output->unfinished);
+        retex_pending_files_unlock();
     }
     if (output->memory)
         fclose(output->memory);

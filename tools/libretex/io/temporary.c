@@ -1,6 +1,6 @@
 /* See temporary.h. */
 #include "io/temporary.h"
-#include "io/unfinished.h"
+#include "io/pending_files.h"
 
 #include <fcntl.h>
 #include <stdio.h>
@@ -10,22 +10,22 @@
 #include <unistd.h>
 
 /* Without a name where the file system can do that, else with one that is taken away at once. */
-static int open_in(const char *folder, TemporaryName shown)
+static int open_in(const char *folder, RetexTemporaryName shown)
 {
     char name[PATH_MAX + 16];
 
-    snprintf(shown, sizeof(TemporaryName), "a temporary file in %s", folder);
+    snprintf(shown, sizeof(RetexTemporaryName), "a temporary file in %s", folder);
 #ifdef O_TMPFILE
     const int unnamed = open(folder, O_TMPFILE | O_RDWR | O_CLOEXEC, 0666);
     if (unnamed >= 0)
         return unnamed;
 #endif
     snprintf(name, sizeof name, "%s/.retex-XXXXXX", folder);
-    unfinished_lock();
+    retex_pending_files_lock();
     const int descriptor = mkostemp(name, O_CLOEXEC);
     if (descriptor >= 0)
         unlink(name);
-    unfinished_unlock();
+    retex_pending_files_unlock();
     return descriptor;
 }
 
@@ -49,7 +49,7 @@ static void folder_of(const char *near, char folder[PATH_MAX])
     snprintf(folder, PATH_MAX, "%s", slash ? path : ".");
 }
 
-int temporary_open(const char *near, TemporaryName shown)
+int retex_temporary_open(const char *near, RetexTemporaryName shown)
 {
     char folder[PATH_MAX];
     const char *temporary = getenv("TMPDIR");

@@ -6,10 +6,10 @@
 #include <stdint.h>
 
 /* What such a file is called in messages. */
-typedef char TemporaryName[PATH_MAX + 32];
+typedef char RetexTemporaryName[PATH_MAX + 32];
 
 /* A descriptor for reading and writing, or -1 with errno set. The file lies in the folder of `near`, where that is the
  * path of a file to be, else in $TMPDIR or /tmp. */
-int temporary_open(const char *near /* or NULL */, TemporaryName shown);
+int retex_temporary_open(const char *near /* or NULL */, RetexTemporaryName shown);
 
 #endif

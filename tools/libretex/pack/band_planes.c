@@ -143,7 +143,7 @@ int plane_band_decode(int part, int band, uint64_t *lit, RetexPackScratch *s, Re
 /* ---- rows ---- */
 
 /* Where a row of a channel, all of which matters, is not 0. */
-static RowSpan find_span(const PackPart *p, int c, const void *numbers, int line)
+static RetexRowSpan find_span(const PackPart *p, int c, const void *numbers, int line)
 {
     const int width = p->width;
     const int32_t none = 0;
@@ -151,7 +151,7 @@ static RowSpan find_span(const PackPart *p, int c, const void *numbers, int line
     int begin = 0, end = width;
     pack_map_samples(&of_none, 1, &none, 1, &p->maps[c], p->type);
     if (pack_is_any(&of_none, sizeof of_none))
-        return (RowSpan){0, width};
+        return (RetexRowSpan){0, width};
     enum { STEP = 64 };
     const size_t size = pack_map_is_coded(&p->maps[c]) ? 1 : sizeof none;
     const char *row = (const char *)numbers + (size_t)line * (size_t)width * size;
@@ -159,11 +159,11 @@ static RowSpan find_span(const PackPart *p, int c, const void *numbers, int line
         begin += STEP;
     while (end - STEP >= begin && !pack_is_any(row + (size_t)(end - STEP) * size, STEP * size))
         end -= STEP;
-    return (RowSpan){begin, end};
+    return (RetexRowSpan){begin, end};
 }
 
 /* A run of a row to samples, in all channels. */
-static void map_run(const PackPart *p, const PlaneBand *own, int line, RowSpan run, float *row)
+static void map_run(const PackPart *p, const PlaneBand *own, int line, RetexRowSpan run, float *row)
 {
     const size_t channels = (size_t)p->channels, count = (size_t)(run.end - run.begin);
     const size_t at = (size_t)line * (size_t)p->width + (size_t)run.begin;
@@ -179,12 +179,12 @@ static void map_run(const PackPart *p, const PlaneBand *own, int line, RowSpan r
 static void clear_row(const PackPart *p, const PlaneBand *own, float *row)
 {
     const size_t channels = (size_t)p->channels;
-    const RowSpan old = own->line < 0 ? (RowSpan){0, p->width} : own->span;
+    const RetexRowSpan old = own->line < 0 ? (RetexRowSpan){0, p->width} : own->span;
     if (!span_is_empty(old))
         memset(row + (size_t)old.begin * channels, 0, (size_t)(old.end - old.begin) * channels * sizeof *row);
 }
 
-int plane_band_row(int part, int band, int line, float *row, RowSpan *span, RetexPackScratch *s, RetexError *err)
+int plane_band_row(int part, int band, int line, float *row, RetexRowSpan *span, RetexPackScratch *s, RetexError *err)
 {
     const PackPart *p = &s->pack->parts[part];
     PlaneBand *own = &s->cached[part].planes;
@@ -199,7 +199,7 @@ int plane_band_row(int part, int band, int line, float *row, RowSpan *span, Rete
     if (code)
         return code;
     clear_row(p, own, row);
-    *span = (RowSpan){0, 0};
+    *span = (RetexRowSpan){0, 0};
     if (p->present < 0) {
         for (int c = 0; c < p->channels; c++)
             *span = span_around(*span, find_span(p, c, own->numbers[c], line));
@@ -207,7 +207,7 @@ int plane_band_row(int part, int band, int line, float *row, RowSpan *span, Rete
     } else {
         const PackRuns *runs = &s->cached[p->present].planes.runs;
         for (int k = runs->first[line]; k < runs->first[line + 1]; k++) {
-            const RowSpan run = runs->run[k];
+            const RetexRowSpan run = runs->run[k];
             map_run(p, own, line, run, row);
             *span = span_around(*span, run);
         }

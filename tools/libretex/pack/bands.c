@@ -275,7 +275,7 @@ static int cache_band(int part, int band, RetexPackScratch *s, RetexError *err)
     return code;
 }
 
-int retex_pack_row(RetexPackScratch *s, int part, int y, const float **row, RowSpan *span, RetexError *err)
+int retex_pack_row(RetexPackScratch *s, int part, int y, const float **row, RetexRowSpan *span, RetexError *err)
 {
     *row = NULL;
     if (part < 0 || part >= s->pack->nparts || y < 0 || y >= s->pack->parts[part].height)
@@ -283,7 +283,7 @@ int retex_pack_row(RetexPackScratch *s, int part, int y, const float **row, RowS
     const PackPart *p = &s->pack->parts[part];
     CachedBand *cached = &s->cached[part];
     const int band = y / PACK_BAND_ROWS, line = y % PACK_BAND_ROWS;
-    *span = (RowSpan){0, p->width};
+    *span = (RetexRowSpan){0, p->width};
     if (p->codec == PACK_ZERO)
         return 0;
     int code = cache_band(part, band, s, err);

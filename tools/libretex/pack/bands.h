@@ -23,7 +23,7 @@ void retex_pack_scratch_close(RetexPackScratch **scratch); /* NULL and pointers 
 /* A part's row y of its own rows, interleaved; NULL where all of it is 0. Beside the span it is 0. It is the scratch's,
  * and stays until the next call for the same part. Bands of 64 rows are decoded whole: cheapest is one row after the
  * other. */
-int retex_pack_row(RetexPackScratch *scratch, int part, int y, const float **row, RowSpan *span, RetexError *err);
+int retex_pack_row(RetexPackScratch *scratch, int part, int y, const float **row, RetexRowSpan *span, RetexError *err);
 
 /* Bytes that a part takes in the pack, and how it is coded: "jpeg", "planes", … */
 uint64_t retex_pack_part_bytes(const RetexPack *pack, int part);

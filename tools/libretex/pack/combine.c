@@ -44,7 +44,7 @@ int pack_combine_fits(const RetexSet *set, RetexError *err)
         if (i == 0 || needed[i])
             ok = !(i == 0 && needed[i]) && set->parts[i].image.width == set->width &&
                  set->parts[i].image.height == set->height;
-    return ok ? combine_check(set, err) : 0;
+    return ok ? retex_combine_check(set, err) : 0;
 }
 
 typedef struct Rounding {
@@ -94,7 +94,7 @@ static int recombine(Recombined *r, const PackModelBand *band, const RetexSet *s
 {
     const size_t pixels = (size_t)band->width * (size_t)band->rows;
     *r = (Recombined){malloc(3 * pixels * sizeof *r->rows), malloc(pixels * sizeof *r->numbers)};
-    return r->rows && r->numbers ? combine_original_rows(r->rows, set, y0, y0 + band->rows, err)
+    return r->rows && r->numbers ? retex_combine_original_rows(r->rows, set, y0, y0 + band->rows, err)
                                  : retex_fail(err, RETEX_ENOMEM, "no memory for the picture of a pack");
 }
 

@@ -106,21 +106,21 @@ static uint64_t squares_between(const uint16_t *a, const uint16_t *b, size_t cou
 static int add_noise(float *rows, const RetexSet *set, int y0, int y1, RetexError *err)
 {
     const size_t length = 3 * (size_t)set->width;
-    RowReader *reader;
-    int code = row_reader_open(&reader, set, NULL, err);
+    RetexRowReader *reader;
+    int code = retex_row_reader_open(&reader, set, NULL, err);
     for (int i = 1; i < set->nparts; i++) {
         const RetexPart *part = &set->parts[i];
         const float share = strcmp(part->name, "noise_indep") == 0 ? 1 : 0.5f;
-        if (!part_is_denoise_data(set, i) || strncmp(part->name, "noise_", 6) != 0 || part->image.channels != 3)
+        if (!retex_part_is_denoise_data(set, i) || strncmp(part->name, "noise_", 6) != 0 || part->image.channels != 3)
             continue;
         for (int y = y0; y < y1 && !code; y++) {
             const float *row;
-            code = row_reader_get(reader, i, y, &row, err);
+            code = retex_row_reader_get(reader, i, y, &row, err);
             for (size_t k = 0; k < length && !code && row; k++)
                 rows[(size_t)(y - y0) * length + k] += share * row[k];
         }
     }
-    row_reader_close(&reader);
+    retex_row_reader_close(&reader);
     return code;
 }
 

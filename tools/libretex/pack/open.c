@@ -208,7 +208,7 @@ static void reader_close(void *reader)
     retex_pack_scratch_close(&scratch);
 }
 
-static int read_row(void *reader, int part, int y, const float **row, RowSpan *span, RetexError *err)
+static int read_row(void *reader, int part, int y, const float **row, RetexRowSpan *span, RetexError *err)
 {
     RetexPackScratch *scratch = reader;
     const RetexPack *pack = pack_decoded_by(scratch);

@@ -141,7 +141,7 @@ static void clear(const PackPlane *plane)
         memset(to, 0, width * (size_t)plane->rows * size);
     for (size_t y = 0; plane->present && y < (size_t)plane->rows; y++)
         for (int k = plane->runs->first[y]; k < plane->runs->first[y + 1]; k++) {
-            const RowSpan run = plane->runs->run[k];
+            const RetexRowSpan run = plane->runs->run[k];
             memset(to + (y * width + (size_t)run.begin) * size, 0, (size_t)(run.end - run.begin) * size);
         }
 }

@@ -45,7 +45,7 @@ void pack_map_codes(float *samples, size_t stride, const unsigned char *codes, s
 typedef struct PackRuns {
     size_t pixels;                 /* that matter */
     int first[PACK_BAND_ROWS + 1]; /* row y has run[first[y]] to run[first[y + 1] - 1] */
-    RowSpan *run;
+    RetexRowSpan *run;
 } PackRuns;
 
 /* Most runs that there can be. */

@@ -11,7 +11,7 @@ static inline NUMBER NAME(step)(int32_t guess, int shift, const unsigned char *f
 }
 
 /* A run of a row; above: the row above and what of it matters, or NULL. Returns the end of its residuals. */
-static inline const unsigned char *NAME(restore_run)(NUMBER *n, RowSpan run, const unsigned char *shift,
+static inline const unsigned char *NAME(restore_run)(NUMBER *n, RetexRowSpan run, const unsigned char *shift,
                                                      const NUMBER *above, const unsigned char *above_present,
                                                      Predictor predictor, const unsigned char *from, int bytes,
                                                      int bits, int32_t *last)

@@ -33,7 +33,7 @@ void pack_find_runs(PackRuns *runs, const unsigned char *present, int width, int
                 break;
             const unsigned char *after = memchr(begin, 0, (size_t)(width - (begin - present)));
             end = after ? (int)(after - present) : width;
-            runs->run[count++] = (RowSpan){(int)(begin - present), end};
+            runs->run[count++] = (RetexRowSpan){(int)(begin - present), end};
             runs->pixels += (size_t)(end - runs->run[count - 1].begin);
         }
         runs->first[y + 1] = count;
@@ -111,12 +111,12 @@ static inline void spread_codes(unsigned char *codes, size_t count, const unsign
 static void spread(const PackPlane *plane, const unsigned char *from, int bytes)
 {
     const size_t width = (size_t)plane->width;
-    const RowSpan whole = {0, plane->width};
+    const RetexRowSpan whole = {0, plane->width};
     for (size_t y = 0; y < (size_t)plane->rows; y++) {
         const int first = plane->present ? plane->runs->first[y] : 0;
         const int end = plane->present ? plane->runs->first[y + 1] : 1;
         for (int k = first; k < end; k++) {
-            const RowSpan run = plane->present ? plane->runs->run[k] : whole;
+            const RetexRowSpan run = plane->present ? plane->runs->run[k] : whole;
             const size_t at = y * width + (size_t)run.begin, count = (size_t)(run.end - run.begin);
             if (plane->bits == 8)
                 spread_codes(plane->codes + at, count, from);

@@ -11,7 +11,7 @@ typedef struct PlaneBand {
     int band[PACK_CHANNELS_MAX];      /* that a channel's numbers are of; -1: none */
     void *numbers[PACK_CHANNELS_MAX]; /* unsigned char where the channel is coded, else int32_t; or NULL */
     int line;                         /* of the band, that the row is of; -1: none */
-    RowSpan span;                     /* beside which the row is 0 */
+    RetexRowSpan span;                     /* beside which the row is 0 */
     int runs_band;                    /* that what matters is of; -1: none */
     unsigned char *present;
     PackRuns runs; /* of `present` */
@@ -50,7 +50,7 @@ int pack_is_any(const void *data, size_t bytes);
 /* Have the numbers of a band of planes, and say which rows are not all 0. */
 int plane_band_decode(int part, int band, uint64_t *lit, RetexPackScratch *s, RetexError *err);
 /* Have one of these rows, as samples. */
-int plane_band_row(int part, int band, int line, float *row, RowSpan *span, RetexPackScratch *s, RetexError *err);
+int plane_band_row(int part, int band, int line, float *row, RetexRowSpan *span, RetexPackScratch *s, RetexError *err);
 void plane_band_init(PlaneBand *planes);
 void plane_band_free(PlaneBand *planes);
 

@@ -229,7 +229,7 @@ static int keep_promise(Attempt *attempt, RetexPackKept *kept, const RetexSet *s
  * without a promise. Or RETEX_ENOMEM. */
 static int can_be_judged(const RetexSet *set, RetexError *err)
 {
-    int sound = set->nterms > 0 ? combine_check(set, err) : 0;
+    int sound = set->nterms > 0 ? retex_combine_check(set, err) : 0;
     for (int t = 0; t < set->ntargets && sound > 0; t++) {
         sound = 0;
         for (int i = 0; i < set->nfootprints; i++)

@@ -1,6 +1,6 @@
 /* Finds and loads libretex-oiio.so, once a process, when the first picture needs it. */
 #include "picture/bridge_load.h"
-#include "io/unfinished.h"
+#include "io/pending_files.h"
 
 #include <dlfcn.h>
 #include <limits.h>
@@ -91,7 +91,7 @@ static void load_bridge(void)
         keep_message(BRIDGE_NAME " is of another version");
     else {
         bridge.message[0] = '\0';
-        unfinished_also(bridge.remove);
+        retex_pending_files_set_hook(bridge.remove);
     }
 }
 

@@ -69,7 +69,7 @@ static int is_tga(const RetexInput *input, const unsigned char *begin)
     return memcmp(footer + 8, mark, sizeof mark) == 0 || (dot && strcasecmp(dot, ".tga") == 0);
 }
 
-const char *image_format(const RetexInput *input)
+const char *retex_image_format(const RetexInput *input)
 {
     static const struct {
         const char *name, *mark;
@@ -94,7 +94,7 @@ const char *image_format(const RetexInput *input)
     return is_tga(input, begin) ? "targa" : NULL;
 }
 
-uint64_t image_header_pixels(const RetexInput *input, const char *format)
+uint64_t retex_image_header_pixels(const RetexInput *input, const char *format)
 {
     unsigned char begin[BEGIN] = {0};
 

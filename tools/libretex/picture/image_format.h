@@ -4,14 +4,14 @@
 
 #include "io/input.h"
 
-#define IMAGE_FORMATS "PNG, JPEG, OpenEXR, TIFF, TGA, BMP, GIF or Radiance HDR"
+#define RETEX_IMAGE_FORMATS "PNG, JPEG, OpenEXR, TIFF, TGA, BMP, GIF or Radiance HDR"
 
 /* OpenImageIO's name of the format, or NULL where it is none of these. The name of the input is looked at for TGA
  * alone. */
-const char *image_format(const RetexInput *input);
+const char *retex_image_format(const RetexInput *input);
 
 /* Pixels of a GIF or BMP, by its header: OpenImageIO makes room for all of them before it tells how many they are.
  * 0 of other formats. */
-uint64_t image_header_pixels(const RetexInput *input, const char *format /* or NULL */);
+uint64_t retex_image_header_pixels(const RetexInput *input, const char *format /* or NULL */);
 
 #endif

@@ -168,8 +168,8 @@ static int choose_decoder(RetexBridgeFile *file, const RetexInput *input, const 
     set_limit(file, params);
     if (strcmp(path, "-") == 0)
         return 0;
-    const char *format = image_format(input);
-    const uint64_t pixels = image_header_pixels(input, format);
+    const char *format = retex_image_format(input);
+    const uint64_t pixels = retex_image_header_pixels(input, format);
     if (file->max_pixels > 0 && pixels > (uint64_t)file->max_pixels)
         return retex_fail_at(err, RETEX_ELIMIT, path, 0, 0, "the picture is too large: %.0f pixels, more than %s",
                              (double)pixels, file->limit);
@@ -179,7 +179,7 @@ static int choose_decoder(RetexBridgeFile *file, const RetexInput *input, const 
     file->descriptor = retex_input_descriptor(input);
     if (!file->format)
         return retex_fail_at(err, RETEX_EFORMAT, path, 0, 0,
-                             "no " IMAGE_FORMATS " by what is in it: others are not read (--safe)");
+                             "no " RETEX_IMAGE_FORMATS " by what is in it: others are not read (--safe)");
     return 0;
 }
 

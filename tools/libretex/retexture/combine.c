@@ -16,36 +16,37 @@
 
 #define SPAN_PIXELS 512 /* its sum and one span of each image fit the first two caches */
 
-static void combine_row(const PolynomialRow *row, int width, float *restrict out)
+static void combine_row(const RetexPolynomialRow *row, int width, float *restrict out)
 {
     for (int x = 0; x < width; x += SPAN_PIXELS) {
         size_t first = 3 * (size_t)x, numbers = 3 * (size_t)(width - x < SPAN_PIXELS ? width - x : SPAN_PIXELS);
         memset(out + first, 0, numbers * sizeof *out);
         for (int t = 0; t < row->count; t++) {
-            const Monomial *m = &row->monomials[t];
-            const RowSpan span = span_within(m->span, (RowSpan){x, width - x < SPAN_PIXELS ? width : x + SPAN_PIXELS});
+            const RetexMonomial *m = &row->monomials[t];
+            const RetexRowSpan span =
+                span_within(m->span, (RetexRowSpan){x, width - x < SPAN_PIXELS ? width : x + SPAN_PIXELS});
             const float *factors[RETEX_MAX_FACTORS + 2];
             if (span_is_empty(span))
                 continue;
             const size_t begin = 3 * (size_t)span.begin;
             for (int k = 0; k < m->nimages; k++)
                 factors[k] = m->factors[k] + begin;
-            combine_term_kernel(out + begin, m->radiance + begin, factors, m->nimages,
-                                3 * (size_t)(span.end - span.begin));
+            retex_combine_term_kernel(out + begin, m->radiance + begin, factors, m->nimages,
+                                      3 * (size_t)(span.end - span.begin));
         }
     }
 }
 
 /* A product of many large colours goes beyond what a float holds, and infinities of both signs make NaN: such numbers
  * of the row once more, in doubles, limited to the largest float. */
-static void limit_row(const PolynomialRow *row, size_t count, float *restrict out)
+static void limit_row(const RetexPolynomialRow *row, size_t count, float *restrict out)
 {
     for (size_t i = 0; i < count; i++) {
         double sum = 0;
         if (isfinite(out[i]))
             continue;
         for (int t = 0; t < row->count; t++) {
-            const Monomial *m = &row->monomials[t];
+            const RetexMonomial *m = &row->monomials[t];
             const int pixel = (int)(i / 3), inside = pixel >= m->span.begin && pixel < m->span.end;
             double product = inside ? m->radiance[i] : 0;
             for (int k = 0; inside && k < m->nimages && product != 0; k++) {
@@ -58,13 +59,13 @@ static void limit_row(const PolynomialRow *row, size_t count, float *restrict ou
     }
 }
 
-static int combine_band(const void *context, PolynomialRow *row, int y0, int y1, float *rgb, RetexError *err)
+static int combine_band(const void *context, RetexPolynomialRow *row, int y0, int y1, float *rgb, RetexError *err)
 {
     const int width = row->polynomial->set->width;
     int code = RETEX_OK;
     (void)context;
     for (int y = y0; !code && y < y1; y++, rgb += 3 * (size_t)width) {
-        code = polynomial_row_make(row, y, err);
+        code = retex_polynomial_row_make(row, y, err);
         if (!code)
             combine_row(row, width, rgb);
         if (!code && retex_floats_are_odd(rgb, 3 * (size_t)width))
@@ -73,51 +74,51 @@ static int combine_band(const void *context, PolynomialRow *row, int y0, int y1,
     return code;
 }
 
-static int combine(const Polynomial *polynomial, int y0, int y1, RetexRowSink *sink, void *context, int nthreads,
+static int combine(const RetexPolynomial *polynomial, int y0, int y1, RetexRowSink *sink, void *context, int nthreads,
                    RetexError *err)
 {
-    return polynomial_bands(polynomial, y0, y1, combine_band, NULL, sink, context, nthreads, err);
+    return retex_polynomial_bands(polynomial, y0, y1, combine_band, NULL, sink, context, nthreads, err);
 }
 
 int retex_retexture(const RetexSet *set, const RetexSamples *samples, RetexTexture *const textures[RETEX_MAX_TARGETS],
                     const RetexCombineParams *params, RetexRowSink *sink, void *context, int nthreads, RetexError *err)
 {
-    Polynomial polynomial;
-    int code = polynomial_open(&polynomial, set, samples, textures, params, 0, nthreads, err);
+    RetexPolynomial polynomial;
+    int code = retex_polynomial_open(&polynomial, set, samples, textures, params, 0, nthreads, err);
     if (code)
         return code;
     code = combine(&polynomial, 0, set->height, sink, context, nthreads, err);
-    polynomial_close(&polynomial);
+    retex_polynomial_close(&polynomial);
     return code;
 }
 
 /* ---- with the originals, some rows ---- */
 
-static int open_original(Polynomial *polynomial, const RetexSet *set, RetexError *err)
+static int open_original(RetexPolynomial *polynomial, const RetexSet *set, RetexError *err)
 {
     const RetexCombineParams all = {sizeof all, 3};
-    return polynomial_open(polynomial, set, NULL, NULL, &all, 0, 1, err);
+    return retex_polynomial_open(polynomial, set, NULL, NULL, &all, 0, 1, err);
 }
 
-int combine_check(const RetexSet *set, RetexError *err)
+int retex_combine_check(const RetexSet *set, RetexError *err)
 {
-    Polynomial polynomial;
+    RetexPolynomial polynomial;
     int code = open_original(&polynomial, set, err);
-    polynomial_close(&polynomial);
+    retex_polynomial_close(&polynomial);
     return code == RETEX_ENOMEM ? code : code == RETEX_OK;
 }
 
-int combine_original_rows(float *out, const RetexSet *set, int y0, int y1, RetexError *err)
+int retex_combine_original_rows(float *out, const RetexSet *set, int y0, int y1, RetexError *err)
 {
-    Polynomial polynomial;
-    PolynomialRow row = {0};
+    RetexPolynomial polynomial;
+    RetexPolynomialRow row = {0};
     int code = open_original(&polynomial, set, err);
     if (!code)
-        code = polynomial_row_open(&row, &polynomial, err);
+        code = retex_polynomial_row_open(&row, &polynomial, err);
     if (!code)
         code = combine_band(NULL, &row, y0, y1, out, err);
-    polynomial_row_close(&row);
-    polynomial_close(&polynomial);
+    retex_polynomial_row_close(&row);
+    retex_polynomial_close(&polynomial);
     return code;
 }
 
@@ -147,13 +148,13 @@ int retex_combine(RetexImage *dst, const RetexSet *set, const RetexSamples *samp
                   const RetexRoi *roi, int nthreads, RetexError *err)
 {
     Region region = {.dst = dst};
-    Polynomial polynomial;
-    int code = polynomial_open(&polynomial, set, samples, NULL, params, 0, nthreads, err);
+    RetexPolynomial polynomial;
+    int code = retex_polynomial_open(&polynomial, set, samples, NULL, params, 0, nthreads, err);
     if (code)
         return code;
     code = retex_image_prepare(dst, set->width, set->height, 3, roi, &region.roi, err);
     if (!code)
         code = combine(&polynomial, region.roi.y0, region.roi.y1, copy_rows, &region, nthreads, err);
-    polynomial_close(&polynomial);
+    retex_polynomial_close(&polynomial);
     return code;
 }

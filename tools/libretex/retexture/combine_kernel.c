@@ -7,14 +7,14 @@
 
 #include "base/float4.h"
 
-static inline void add4(float *p, Float4 v)
+static inline void add4(float *p, RetexFloat4 v)
 {
     v += load4(p);
     memcpy(p, &v, sizeof v);
 }
 
-void combine_term_kernel(float *restrict sum, const float *restrict radiance, const float *const *factors, int nfactors,
-                         size_t n)
+void retex_combine_term_kernel(float *restrict sum, const float *restrict radiance, const float *const *factors,
+                               int nfactors, size_t n)
 {
     size_t i = 0;
     switch (nfactors) { /* the common cases without an inner loop */
@@ -32,7 +32,7 @@ void combine_term_kernel(float *restrict sum, const float *restrict radiance, co
         break;
     default:
         for (; i + 4 <= n; i += 4) {
-            Float4 product = load4(radiance + i);
+            RetexFloat4 product = load4(radiance + i);
             for (int k = 0; k < nfactors; k++)
                 product *= load4(factors[k] + i);
             add4(sum + i, product);

@@ -5,7 +5,7 @@
 #include <stddef.h>
 
 /* sum[i] += radiance[i] * product of factors[k][i], for n values. Nothing may overlap sum. */
-void combine_term_kernel(float *restrict sum, const float *restrict radiance, const float *const *factors, int nfactors,
-                         size_t n);
+void retex_combine_term_kernel(float *restrict sum, const float *restrict radiance, const float *const *factors,
+                               int nfactors, size_t n);
 
 #endif

@@ -6,10 +6,10 @@
 
 /* 1 where the set has what its terms need, as far as that can be told without its samples; 0 where it has not; or
  * RETEX_ENOMEM. */
-int combine_check(const RetexSet *set, RetexError *err);
+int retex_combine_check(const RetexSet *set, RetexError *err);
 
 /* Rows y0 <= y < y1, RGB interleaved, with all terms: what retex_combine makes without samples. In this thread alone,
  * as packs do it, whose bands are spread over threads. */
-int combine_original_rows(float *out, const RetexSet *set, int y0, int y1, RetexError *err);
+int retex_combine_original_rows(float *out, const RetexSet *set, int y0, int y1, RetexError *err);
 
 #endif

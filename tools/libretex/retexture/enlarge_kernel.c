@@ -39,9 +39,9 @@ static inline float *draw_out(float *restrict out, const float *left, int channe
     const float step = 1 / (float)scale;
     float t = 0.5f * step; /* exact: scale is a power of two */
     if (channels == 3 && out + 3 * count < end) {
-        const Float4 from = load4(left), by = load4(right) - from;
+        const RetexFloat4 from = load4(left), by = load4(right) - from;
         for (int k = 0; k < count; k++, t += step, out += 3) {
-            const Float4 pixel = from + t * by;
+            const RetexFloat4 pixel = from + t * by;
             memcpy(out, &pixel, sizeof pixel);
         }
         return out;

@@ -46,7 +46,7 @@ static void close_scatter(Scatter *s, const RetexSet *set)
 static int open_scatter(Scatter *s, const RetexSet *set, RetexError *err)
 {
     const size_t count = (size_t)set->nfootprints + 1;
-    *s = (Scatter){malloc(sizeof *s->scratch * estimate_scratch(set)), calloc(count, sizeof *s->variances),
+    *s = (Scatter){malloc(sizeof *s->scratch * retex_estimate_scratch(set)), calloc(count, sizeof *s->variances),
                    calloc(count, sizeof *s->rows), calloc(count, sizeof *s->at)};
     if (s->scratch && s->variances && s->rows && s->at)
         return RETEX_OK;
@@ -54,40 +54,40 @@ static int open_scatter(Scatter *s, const RetexSet *set, RetexError *err)
 }
 
 /* Look up how a footprint scatters at the picture's row y, which several rows may have in common. */
-static int look_up(Scatter *s, const Estimate *estimate, const PolynomialRow *row, int footprint, int y,
+static int look_up(Scatter *s, const Estimate *estimate, const RetexPolynomialRow *row, int footprint, int y,
                    RetexError *err)
 {
     const RetexSet *set = row->polynomial->set;
     const RetexFootprint *f = &set->footprints[footprint];
     const RetexTexture *texture = estimate->textures[f->target];
     const int own = texture ? y / retex_set_footprint_scale(set, footprint) : 0;
-    FootprintRow from;
+    RetexFootprintRow from;
     if (!texture || s->at[footprint] == own + 1)
         return RETEX_OK;
-    int code = footprint_row_read(&from, row->reader, set, f, own, 0, err);
+    int code = retex_footprint_row_read(&from, row->reader, set, f, own, 0, err);
     float **to = &s->rows[footprint];
     if (!code && !*to && !(*to = malloc(sizeof **to * 3 * (size_t)from.width)))
         code = retex_fail(err, RETEX_ENOMEM, "not enough memory to estimate the error");
     if (code)
         return code;
     if (from.uv)
-        variance_row(texture, estimate->squares[f->target], footprint_filter(set, f), &from, *to);
+        retex_variance_row(texture, estimate->squares[f->target], retex_footprint_filter(set, f), &from, *to);
     s->variances[footprint] = from.uv ? *to : NULL;
     s->at[footprint] = own + 1;
     return RETEX_OK;
 }
 
-static int estimate_band(const void *context, PolynomialRow *row, int y0, int y1, float *rgb, RetexError *err)
+static int estimate_band(const void *context, RetexPolynomialRow *row, int y0, int y1, float *rgb, RetexError *err)
 {
     const RetexSet *set = row->polynomial->set;
     Scatter scatter;
     int code = open_scatter(&scatter, set, err);
     for (int y = y0; !code && y < y1; y++, rgb += 3 * (size_t)set->width) {
-        code = polynomial_row_make(row, y, err);
+        code = retex_polynomial_row_make(row, y, err);
         for (int f = 0; !code && f < set->nfootprints; f++)
             code = look_up(&scatter, context, row, f, y, err);
         if (!code)
-            code = estimate_row(row, y, scatter.variances, scatter.scratch, rgb, err);
+            code = retex_estimate_row(row, y, scatter.variances, scatter.scratch, rgb, err);
     }
     close_scatter(&scatter, set);
     return code;
@@ -98,14 +98,15 @@ int retex_estimate_error(const RetexSet *set, const RetexSamples *samples,
                          RetexRowSink *sink, void *context, int nthreads, RetexError *err)
 {
     Estimate estimate = {.textures = textures};
-    Polynomial polynomial;
-    int code = polynomial_open(&polynomial, set, samples, textures, params, 1, nthreads, err);
+    RetexPolynomial polynomial;
+    int code = retex_polynomial_open(&polynomial, set, samples, textures, params, 1, nthreads, err);
     for (int t = 0; !code && t < RETEX_MAX_TARGETS; t++)
         if (textures[t])
             code = retex_texture_square(&estimate.squares[t], textures[t], err);
     if (!code)
-        code = polynomial_bands(&polynomial, 0, set->height, estimate_band, &estimate, sink, context, nthreads, err);
+        code =
+            retex_polynomial_bands(&polynomial, 0, set->height, estimate_band, &estimate, sink, context, nthreads, err);
     retex_textures_close(estimate.squares);
-    polynomial_close(&polynomial);
+    retex_polynomial_close(&polynomial);
     return code;
 }

@@ -14,7 +14,7 @@ static size_t row_numbers(const RetexSet *set)
     return 3 * (size_t)set->width;
 }
 
-size_t estimate_scratch(const RetexSet *set)
+size_t retex_estimate_scratch(const RetexSet *set)
 {
     return row_numbers(set) * (1 + (size_t)set->nfootprints + (size_t)set->nmixtures); /* the sum first */
 }
@@ -26,7 +26,8 @@ static size_t derivative_row(const RetexSet *set, int factor)
 }
 
 /* Add to the row's derivatives those of one term, and to its sum the term itself. */
-static void add_term(const RetexSet *set, const Monomial *m, size_t n, float *restrict sum, float *restrict derivatives)
+static void add_term(const RetexSet *set, const RetexMonomial *m, size_t n, float *restrict sum,
+                     float *restrict derivatives)
 {
     for (size_t i = 0; i < n; i++) {
         float radiance = m->radiance[i];
@@ -53,12 +54,12 @@ typedef struct PartRow {
     int scale, channels;
 } PartRow;
 
-static int read_part(PartRow *of, const PolynomialRow *row, int part, int y, RetexError *err)
+static int read_part(PartRow *of, const RetexPolynomialRow *row, int part, int y, RetexError *err)
 {
     const RetexSet *set = row->polynomial->set;
     const RetexImage *image = &set->parts[part].image;
     *of = (PartRow){.scale = retex_set_scale(set, image), .channels = image->channels};
-    return row_reader_get(row->reader, part, y / of->scale, &of->row, err);
+    return retex_row_reader_get(row->reader, part, y / of->scale, &of->row, err);
 }
 
 /* Value of colour c at the picture's pixel x; a part may have one channel for all. */
@@ -78,7 +79,7 @@ static int is_zero(const float *row, size_t n)
 }
 
 /* A mixture's derivative belongs to its footprints, by their shares. */
-static int share_derivatives(const PolynomialRow *row, const RetexMixture *mixture, int y, size_t n,
+static int share_derivatives(const RetexPolynomialRow *row, const RetexMixture *mixture, int y, size_t n,
                              const float *restrict of_mixture, float *restrict derivatives, RetexError *err)
 {
     PartRow of[RETEX_SHARES_MAX];
@@ -104,8 +105,9 @@ static int share_derivatives(const PolynomialRow *row, const RetexMixture *mixtu
 }
 
 /* Add what a footprint's texture makes of its derivatives. */
-static int add_footprint(const PolynomialRow *row, const RetexFootprint *f, int y, size_t n, const float *variances,
-                         const float *restrict derivatives, float *restrict sum, RetexError *err)
+static int add_footprint(const RetexPolynomialRow *row, const RetexFootprint *f, int y, size_t n,
+                         const float *variances, const float *restrict derivatives, float *restrict sum,
+                         RetexError *err)
 {
     const float k = agreement[f->kind], s = chance[f->kind];
     PartRow uv;
@@ -122,15 +124,15 @@ static int add_footprint(const PolynomialRow *row, const RetexFootprint *f, int 
     return code;
 }
 
-int estimate_row(const PolynomialRow *row, int y, const float *const *variances, float *scratch, float *out,
-                 RetexError *err)
+int retex_estimate_row(const RetexPolynomialRow *row, int y, const float *const *variances, float *scratch, float *out,
+                       RetexError *err)
 {
     const RetexSet *set = row->polynomial->set;
     const size_t n = row_numbers(set);
     const float folded = (float)set->folded;
     float *sum = scratch, *derivatives = scratch + n;
     int code = RETEX_OK;
-    memset(scratch, 0, sizeof *scratch * estimate_scratch(set));
+    memset(scratch, 0, sizeof *scratch * retex_estimate_scratch(set));
     for (int t = 0; t < row->count; t++)
         add_term(set, &row->monomials[t], n, sum, derivatives);
     for (int m = 0; m < set->nmixtures && !code; m++)

@@ -7,26 +7,26 @@
 
 typedef int Int4 __attribute__((vector_size(16)));
 
-static inline void store4(float *p, Float4 v)
+static inline void store4(float *p, RetexFloat4 v)
 {
     memcpy(p, &v, sizeof v);
 }
 
 /* Numbers of four pixels as those of their twelve colours. */
-static inline void spread4(Float4 v, Float4 out[3])
+static inline void spread4(RetexFloat4 v, RetexFloat4 out[3])
 {
-    out[0] = (Float4){v[0], v[0], v[0], v[1]};
-    out[1] = (Float4){v[1], v[1], v[2], v[2]};
-    out[2] = (Float4){v[2], v[3], v[3], v[3]};
+    out[0] = (RetexFloat4){v[0], v[0], v[0], v[1]};
+    out[1] = (RetexFloat4){v[1], v[1], v[2], v[2]};
+    out[2] = (RetexFloat4){v[2], v[3], v[3], v[3]};
 }
 
-void mixture_add(float *restrict sum, float *restrict weights, const float *restrict w, const float *restrict factor,
-                 int width)
+void retex_mixture_add(float *restrict sum, float *restrict weights, const float *restrict w,
+                       const float *restrict factor, int width)
 {
     int i = 0;
     for (; i + 4 <= width; i += 4) {
-        const Float4 share = load4(w + i);
-        Float4 shares[3];
+        const RetexFloat4 share = load4(w + i);
+        RetexFloat4 shares[3];
         store4(weights + i, load4(weights + i) + share);
         spread4(share, shares);
         for (int k = 0; factor && k < 3; k++) {
@@ -41,15 +41,15 @@ void mixture_add(float *restrict sum, float *restrict weights, const float *rest
     }
 }
 
-void mixture_divide(float *restrict sum, const float *restrict weights, int width)
+void retex_mixture_divide(float *restrict sum, const float *restrict weights, int width)
 {
     int i = 0;
     for (; i + 4 <= width; i += 4) {
-        Float4 all[3];
+        RetexFloat4 all[3];
         spread4(load4(weights + i), all);
         for (int k = 0; k < 3; k++) {
             float *s = sum + 3 * i + 4 * k;
-            store4(s, (Float4)((Int4)(load4(s) / all[k]) & (all[k] > 0)));
+            store4(s, (RetexFloat4)((Int4)(load4(s) / all[k]) & (all[k] > 0)));
         }
     }
     for (; i < width; i++)
@@ -57,8 +57,8 @@ void mixture_divide(float *restrict sum, const float *restrict weights, int widt
             sum[3 * i + c] = weights[i] > 0 ? sum[3 * i + c] / weights[i] : 0;
 }
 
-void mixture_add_colors(float *restrict sum, float *restrict weights, const float *restrict w, int channels,
-                        const float *restrict factor, int width)
+void retex_mixture_add_colors(float *restrict sum, float *restrict weights, const float *restrict w, int channels,
+                              const float *restrict factor, int width)
 {
     size_t step = channels == 3;
     for (size_t i = 0; i < (size_t)width && !factor; i++)
@@ -74,7 +74,7 @@ void mixture_add_colors(float *restrict sum, float *restrict weights, const floa
         }
 }
 
-void mixture_divide_colors(float *restrict sum, const float *restrict weights, int width)
+void retex_mixture_divide_colors(float *restrict sum, const float *restrict weights, int width)
 {
     for (int i = 0; i < width; i++, sum += 3, weights += 3) {
         float all = weights[0] + weights[1] + weights[2], mean = all > 0 ? (sum[0] + sum[1] + sum[2]) / all : 0;

@@ -7,11 +7,11 @@
 #include "retexture/enlarge.h"
 #include "retexture/polynomial_factors.h"
 #include "retexture/polynomial_groups.h"
-#include "retexture/polynomial_small.h"
+#include "retexture/polynomial_reduced.h"
 
 #define MISSING 1 /* the code where the set has not what a term refers to */
 
-int term_is_left_out(const RetexTerm *term, int cross)
+int retex_term_is_excluded(const RetexTerm *term, int cross)
 {
     return (term->kind == RETEX_TERM_CROSS2 && cross < 2) || (term->kind == RETEX_TERM_CROSS3 && cross < 3);
 }
@@ -19,9 +19,9 @@ int term_is_left_out(const RetexTerm *term, int cross)
 /* ---- opening ---- */
 
 /* Its image where it is smaller than the picture, to be filled in later. */
-static int open_factor(Polynomial *p, int factor, RetexError *err)
+static int open_factor(RetexPolynomial *p, int factor, RetexError *err)
 {
-    const RetexImage *shape = factor_shape(p, factor);
+    const RetexImage *shape = retex_polynomial_factor_image(p, factor);
     RetexImage *image = factor >= 0 ? p->footprints + factor : p->mixtures + RETEX_MIXTURE(factor);
     if (factor < 0 && RETEX_MIXTURE(factor) < p->set->nmixtures && (!shape || !retex_set_scale(p->set, shape)))
         return retex_fail(err, RETEX_EFORMAT, "a mixture of the set lacks a footprint or its weight");
@@ -33,9 +33,9 @@ static int open_factor(Polynomial *p, int factor, RetexError *err)
 }
 
 /* A gain of that scale is read when its rows are needed. */
-static int open_gain(Polynomial *p, int part, int scale, RetexError *err)
+static int open_gain(RetexPolynomial *p, int part, int scale, RetexError *err)
 {
-    const RetexImage *shape = find_part(p->set, part, 1, 3);
+    const RetexImage *shape = retex_polynomial_part_image(p->set, part, 1, 3);
     if (!shape || shape->channels == 2 || !retex_set_scale(p->set, shape))
         return MISSING;
     if (p->gains[part].pixels || retex_set_scale(p->set, shape) == scale || retex_set_scale(p->set, shape) == 1)
@@ -43,10 +43,10 @@ static int open_gain(Polynomial *p, int part, int scale, RetexError *err)
     return retex_image_alloc(&p->gains[part], shape->width, shape->height, shape->channels, err);
 }
 
-static int open_term(Polynomial *p, int number, RetexError *err)
+static int open_term(RetexPolynomial *p, int number, RetexError *err)
 {
     const RetexTerm *term = &p->set->terms[number];
-    const RetexImage *radiance = find_part(p->set, term->radiance, 3, 3);
+    const RetexImage *radiance = retex_polynomial_part_image(p->set, term->radiance, 3, 3);
     int code =
         radiance && retex_set_scale(p->set, radiance) == 1 && term->nfactors >= 0 && term->nfactors <= RETEX_MAX_FACTORS
             ? RETEX_OK
@@ -54,7 +54,7 @@ static int open_term(Polynomial *p, int number, RetexError *err)
     for (int k = 0; k < term->nfactors && !code; k++)
         code = open_factor(p, term->factors[k], err);
     if (!code && term->gain)
-        code = open_gain(p, term->gain, p->apart ? 1 : group_scale(p, term), err);
+        code = open_gain(p, term->gain, p->apart ? 1 : retex_polynomial_group_scale(p, term), err);
     if (code == MISSING)
         code = retex_fail(err, RETEX_EFORMAT, "term %d of the set lacks its radiance or one of its footprints", number);
     return code;
@@ -68,22 +68,23 @@ static void free_images(RetexImage **images, int count)
     *images = NULL;
 }
 
-void polynomial_close(Polynomial *p)
+void retex_polynomial_close(RetexPolynomial *p)
 {
     if (!p->set)
         return;
     free_images(&p->footprints, p->set->nfootprints);
     free_images(&p->mixtures, p->set->nmixtures);
     free_images(&p->gains, p->set->nparts);
-    polynomial_groups_close(p);
-    *p = (Polynomial){0};
+    retex_polynomial_groups_close(p);
+    *p = (RetexPolynomial){0};
 }
 
-int polynomial_open(Polynomial *p, const RetexSet *set, const RetexSamples *samples, RetexTexture *const *textures,
-                    const RetexCombineParams *params, int apart, int nthreads, RetexError *err)
+int retex_polynomial_open(RetexPolynomial *p, const RetexSet *set, const RetexSamples *samples,
+                          RetexTexture *const *textures, const RetexCombineParams *params, int apart, int nthreads,
+                          RetexError *err)
 {
     static const RetexCombineParams defaults = RETEX_COMBINE_INIT;
-    *p = (Polynomial){.set = set, .samples = samples, .textures = textures, .apart = apart};
+    *p = (RetexPolynomial){.set = set, .samples = samples, .textures = textures, .apart = apart};
     p->cross = params ? params->cross : defaults.cross;
     if (p->cross != 0 && p->cross != 2 && p->cross != 3)
         return retex_fail(err, RETEX_EINVAL, "cross terms go up to 0, 2 or 3 hits, not %d", p->cross);
@@ -96,14 +97,14 @@ int polynomial_open(Polynomial *p, const RetexSet *set, const RetexSamples *samp
     if (!p->footprints || !p->mixtures || !p->gains)
         code = retex_fail(err, RETEX_ENOMEM, "not enough memory for %d terms", set->nterms);
     for (int i = 0; i < set->nterms && !code; i++)
-        if (!term_is_left_out(&set->terms[i], p->cross))
+        if (!retex_term_is_excluded(&set->terms[i], p->cross))
             code = open_term(p, i, err);
     if (!code)
-        code = small_images_make(p, nthreads, err);
+        code = retex_polynomial_reduced_make(p, nthreads, err);
     if (!code && !apart)
-        code = polynomial_groups_open(p, nthreads, err);
+        code = retex_polynomial_groups_open(p, nthreads, err);
     if (code)
-        polynomial_close(p);
+        retex_polynomial_close(p);
     return code;
 }
 
@@ -111,15 +112,15 @@ int polynomial_open(Polynomial *p, const RetexSet *set, const RetexSamples *samp
 
 static const float black_row[1]; /* stands for one that is 0 all over */
 
-static float *room_of(PolynomialRow *row, int slot, RetexError *err)
+static float *room_of(RetexPolynomialRow *row, int slot, RetexError *err)
 {
-    RowRoom *room = &row->rooms[slot];
+    RetexRowBuffer *room = &row->rooms[slot];
     if (!room->values && !(room->values = calloc(3 * (size_t)row->polynomial->set->width, sizeof *room->values)))
         retex_fail(err, RETEX_ENOMEM, "not enough memory to combine");
     return room->values;
 }
 
-void spread_channel(float *row, size_t width)
+void retex_row_gray_to_rgb(float *row, size_t width)
 {
     for (size_t i = width; i-- > 0;)
         row[3 * i] = row[3 * i + 1] = row[3 * i + 2] = row[i];
@@ -127,26 +128,26 @@ void spread_channel(float *row, size_t width)
 
 static int full_factor_row(void *context, int factor, int y, const float **made, RetexError *err);
 
-static int make_slot(PolynomialRow *row, int factor, int y, RetexError *err)
+static int make_slot(RetexPolynomialRow *row, int factor, int y, RetexError *err)
 {
-    const Polynomial *p = row->polynomial;
-    const int slot = slot_of_factor(p->set, factor), width = p->set->width;
+    const RetexPolynomial *p = row->polynomial;
+    const int slot = retex_polynomial_slot_of_factor(p->set, factor), width = p->set->width;
     const RetexImage *small = factor >= 0 ? &p->footprints[factor] : &p->mixtures[RETEX_MIXTURE(factor)];
     float *values = room_of(row, slot, err);
     int code = RETEX_OK;
     if (!values)
         return RETEX_ENOMEM;
     row->made[slot] = values;
-    row->spans[slot] = (RowSpan){0, width};
+    row->spans[slot] = (RetexRowSpan){0, width};
     if (small->pixels) {
         retex_enlarge_rows(small, retex_set_scale(p->set, small), width, y, y + 1, values);
     } else if (factor < 0) {
-        code = make_mixture_row(p, row->reader, RETEX_MIXTURE(factor), y, full_factor_row, row, row->weights,
-                                &row->rooms[slot], err);
+        code = retex_polynomial_mixture_row(p, row->reader, RETEX_MIXTURE(factor), y, full_factor_row, row,
+                                            row->weights, &row->rooms[slot], err);
         row->spans[slot] = row->rooms[slot].filled;
     } else {
-        code =
-            make_footprint_row(p, row->reader, factor, y, &row->rooms[slot], &row->made[slot], &row->spans[slot], err);
+        code = retex_polynomial_footprint_row(p, row->reader, factor, y, &row->rooms[slot], &row->made[slot],
+                                              &row->spans[slot], err);
     }
     if (!code && (!row->made[slot] || span_is_empty(row->spans[slot])))
         row->made[slot] = black_row;
@@ -155,18 +156,18 @@ static int make_slot(PolynomialRow *row, int factor, int y, RetexError *err)
 
 static int full_factor_row(void *context, int factor, int y, const float **made, RetexError *err)
 {
-    PolynomialRow *row = context;
-    const int slot = slot_of_factor(row->polynomial->set, factor);
+    RetexPolynomialRow *row = context;
+    const int slot = retex_polynomial_slot_of_factor(row->polynomial->set, factor);
     int code = row->made[slot] ? RETEX_OK : make_slot(row, factor, y, err);
     *made = row->made[slot] == black_row ? NULL : row->made[slot];
     return code;
 }
 
-static int gain_row(PolynomialRow *row, int part, int y, const float **made, RetexError *err)
+static int gain_row(RetexPolynomialRow *row, int part, int y, const float **made, RetexError *err)
 {
-    const Polynomial *p = row->polynomial;
+    const RetexPolynomial *p = row->polynomial;
     const RetexImage *image = &p->set->parts[part].image;
-    const int slot = slot_of_gain(p->set, part), width = p->set->width;
+    const int slot = retex_polynomial_slot_of_gain(p->set, part), width = p->set->width;
     if (!row->made[slot]) {
         float *values = room_of(row, slot, err);
         if (!values)
@@ -176,7 +177,7 @@ static int gain_row(PolynomialRow *row, int part, int y, const float **made, Ret
             retex_enlarge_rows(&p->gains[part], retex_set_scale(p->set, image), width, y, y + 1, values);
         } else {
             const float *own;
-            int code = row_reader_get(row->reader, part, y, &own, err);
+            int code = retex_row_reader_get(row->reader, part, y, &own, err);
             if (code)
                 return code;
             if (own)
@@ -185,31 +186,31 @@ static int gain_row(PolynomialRow *row, int part, int y, const float **made, Ret
                 row->made[slot] = black_row;
         }
         if (image->channels == 1 && row->made[slot] == values)
-            spread_channel(values, (size_t)width);
+            retex_row_gray_to_rgb(values, (size_t)width);
     }
     *made = row->made[slot] == black_row ? NULL : row->made[slot];
     return RETEX_OK;
 }
 
 /* The factors of the picture's size; *black: one of them is 0 all over the row. */
-static int factor_rows(PolynomialRow *row, Monomial *m, const int *factors, int count, int y, int *black,
+static int factor_rows(RetexPolynomialRow *row, RetexMonomial *m, const int *factors, int count, int y, int *black,
                        RetexError *err)
 {
     int code = RETEX_OK;
     m->nfactors = m->nimages = count;
-    m->span = (RowSpan){0, row->polynomial->set->width};
+    m->span = (RetexRowSpan){0, row->polynomial->set->width};
     for (int k = 0; k < count && !code && !*black; k++) {
         code = full_factor_row(row, m->footprints[k] = factors[k], y, &m->factors[k], err);
-        m->span = span_within(m->span, row->spans[slot_of_factor(row->polynomial->set, factors[k])]);
+        m->span = span_within(m->span, row->spans[retex_polynomial_slot_of_factor(row->polynomial->set, factors[k])]);
         *black = !m->factors[k] || span_is_empty(m->span);
     }
     return code;
 }
 
-static int make_term(PolynomialRow *row, const RetexTerm *term, int y, RetexError *err)
+static int make_term(RetexPolynomialRow *row, const RetexTerm *term, int y, RetexError *err)
 {
-    Monomial *m = &row->monomials[row->count];
-    int code = row_reader_get(row->reader, term->radiance, y, &m->radiance, err), black = !m->radiance;
+    RetexMonomial *m = &row->monomials[row->count];
+    int code = retex_row_reader_get(row->reader, term->radiance, y, &m->radiance, err), black = !m->radiance;
     if (!code)
         code = factor_rows(row, m, term->factors, term->nfactors, y, &black, err);
     if (term->gain && !code && !black) {
@@ -220,11 +221,11 @@ static int make_term(PolynomialRow *row, const RetexTerm *term, int y, RetexErro
     return code;
 }
 
-static int make_group(PolynomialRow *row, const struct PolynomialGroup *group, int y, RetexError *err)
+static int make_group(RetexPolynomialRow *row, const struct RetexPolynomialGroup *group, int y, RetexError *err)
 {
-    const Polynomial *p = row->polynomial;
-    Monomial *m = &row->monomials[row->count];
-    int code = row_reader_get(row->reader, group->radiance, y, &m->radiance, err), black = !m->radiance;
+    const RetexPolynomial *p = row->polynomial;
+    RetexMonomial *m = &row->monomials[row->count];
+    int code = retex_row_reader_get(row->reader, group->radiance, y, &m->radiance, err), black = !m->radiance;
     if (!code)
         code = factor_rows(row, m, group->factors, group->nfactors, y, &black, err);
     if (group->gain && !code && !black) {
@@ -232,7 +233,7 @@ static int make_group(PolynomialRow *row, const struct PolynomialGroup *group, i
         black = !m->factors[m->nimages++];
     }
     if (group->scale && !code && !black) {
-        float *values = room_of(row, slot_count(p->set) + (int)(group - p->groups), err);
+        float *values = room_of(row, retex_polynomial_slot_count(p->set) + (int)(group - p->groups), err);
         code = values ? RETEX_OK : RETEX_ENOMEM;
         if (values)
             retex_enlarge_rows(&group->product, group->scale, p->set->width, y, y + 1, values);
@@ -242,41 +243,41 @@ static int make_group(PolynomialRow *row, const struct PolynomialGroup *group, i
     return code;
 }
 
-int polynomial_row_make(PolynomialRow *row, int y, RetexError *err)
+int retex_polynomial_row_make(RetexPolynomialRow *row, int y, RetexError *err)
 {
-    const Polynomial *p = row->polynomial;
+    const RetexPolynomial *p = row->polynomial;
     int code = RETEX_OK;
-    memset(row->made, 0, sizeof *row->made * (size_t)slot_count(p->set));
+    memset(row->made, 0, sizeof *row->made * (size_t)retex_polynomial_slot_count(p->set));
     row->count = 0;
     for (int g = 0; g < p->ngroups && !code; g++)
         code = make_group(row, &p->groups[g], y, err);
     for (int t = 0; t < p->set->nterms && !code && p->apart; t++)
-        if (!term_is_left_out(&p->set->terms[t], p->cross))
+        if (!retex_term_is_excluded(&p->set->terms[t], p->cross))
             code = make_term(row, &p->set->terms[t], y, err);
     return code;
 }
 
-void polynomial_row_close(PolynomialRow *row)
+void retex_polynomial_row_close(RetexPolynomialRow *row)
 {
     if (!row->polynomial)
         return;
-    for (int i = 0; row->rooms && i < slot_count(row->polynomial->set) + row->polynomial->ngroups; i++)
+    for (int i = 0; row->rooms && i < retex_polynomial_slot_count(row->polynomial->set) + row->polynomial->ngroups; i++)
         free(row->rooms[i].values);
     free(row->rooms);
     free(row->spans);
     free(row->made);
     free(row->weights);
     free(row->monomials);
-    row_reader_close(&row->reader);
-    *row = (PolynomialRow){0};
+    retex_row_reader_close(&row->reader);
+    *row = (RetexPolynomialRow){0};
 }
 
-int polynomial_row_open(PolynomialRow *row, const Polynomial *polynomial, RetexError *err)
+int retex_polynomial_row_open(RetexPolynomialRow *row, const RetexPolynomial *polynomial, RetexError *err)
 {
     const RetexSet *set = polynomial->set;
-    const size_t slots = (size_t)(slot_count(set) + polynomial->ngroups) + 1;
-    *row = (PolynomialRow){.polynomial = polynomial};
-    int code = row_reader_open(&row->reader, set, polynomial->samples, err);
+    const size_t slots = (size_t)(retex_polynomial_slot_count(set) + polynomial->ngroups) + 1;
+    *row = (RetexPolynomialRow){.polynomial = polynomial};
+    int code = retex_row_reader_open(&row->reader, set, polynomial->samples, err);
     row->monomials = calloc((size_t)set->nterms + 1, sizeof *row->monomials);
     row->made = calloc(slots, sizeof *row->made);
     row->spans = calloc(slots, sizeof *row->spans);
@@ -285,6 +286,6 @@ int polynomial_row_open(PolynomialRow *row, const Polynomial *polynomial, RetexE
     if (!code && (!row->monomials || !row->made || !row->spans || !row->rooms || !row->weights))
         code = retex_fail(err, RETEX_ENOMEM, "not enough memory to combine");
     if (code)
-        polynomial_row_close(row);
+        retex_polynomial_row_close(row);
     return code;
 }

@@ -8,54 +8,54 @@
 
 #include "set/rows.h"
 
-typedef struct Polynomial {
+typedef struct RetexPolynomial {
     const RetexSet *set;
     const RetexSamples *samples;   /* or NULL */
     RetexTexture *const *textures; /* by target; they go before samples. Or NULL */
     int cross;
     int apart;                                 /* 1: every term is a monomial of its own, with all its factors */
     RetexImage *footprints, *mixtures, *gains; /* those that are smaller, by number; of gains that of the part */
-    struct PolynomialGroup *groups;            /* unless apart: see polynomial_groups.h */
+    struct RetexPolynomialGroup *groups;            /* unless apart: see polynomial_groups.h */
     int ngroups;
-} Polynomial;
+} RetexPolynomial;
 
 /* The terms that params ask for (NULL = defaults). Borrows set, samples and textures. */
-int polynomial_open(Polynomial *polynomial, const RetexSet *set, const RetexSamples *samples,
-                    RetexTexture *const *textures, const RetexCombineParams *params, int apart, int nthreads,
-                    RetexError *err);
-void polynomial_close(Polynomial *polynomial);
+int retex_polynomial_open(RetexPolynomial *polynomial, const RetexSet *set, const RetexSamples *samples,
+                          RetexTexture *const *textures, const RetexCombineParams *params, int apart, int nthreads,
+                          RetexError *err);
+void retex_polynomial_close(RetexPolynomial *polynomial);
 
 /* Room for a row of colours, which is 0 but for the span that was filled last. */
-typedef struct RowRoom {
+typedef struct RetexRowBuffer {
     float *values;
-    RowSpan filled;
-} RowRoom;
+    RetexRowSpan filled;
+} RetexRowBuffer;
 
 /* One term over one row, or several that differ in what is smaller than the picture only. */
-typedef struct Monomial {
-    RowSpan span;                                /* beside which one of the factors is 0 */
+typedef struct RetexMonomial {
+    RetexRowSpan span;                                /* beside which one of the factors is 0 */
     const float *radiance;                       /* RGB, 3 * width numbers */
     int nfactors;                                /* footprints and mixtures, */
     int nimages;                                 /* and with what else multiplies radiance, which comes last */
     const float *factors[RETEX_MAX_FACTORS + 2]; /* RGB: samples, or the original albedo */
     int footprints[RETEX_MAX_FACTORS];           /* or mixtures: as in RetexTerm */
-} Monomial;
+} RetexMonomial;
 
-typedef struct PolynomialRow {
-    const Polynomial *polynomial;
-    RowReader *reader;
-    Monomial *monomials; /* those that are not black all over the row */
+typedef struct RetexPolynomialRow {
+    const RetexPolynomial *polynomial;
+    RetexRowReader *reader;
+    RetexMonomial *monomials; /* those that are not black all over the row */
     int count;
     const float **made; /* rows of footprints, mixtures and gains, as soon as they are made; see polynomial.c */
-    RowSpan *spans;     /* beside which they are 0 */
-    RowRoom *rooms;     /* where they are made, if they have to be */
+    RetexRowSpan *spans;     /* beside which they are 0 */
+    RetexRowBuffer *rooms;     /* where they are made, if they have to be */
     float *weights;
-} PolynomialRow;
+} RetexPolynomialRow;
 
 /* One a thread. */
-int polynomial_row_open(PolynomialRow *row, const Polynomial *polynomial, RetexError *err);
-void polynomial_row_close(PolynomialRow *row);
+int retex_polynomial_row_open(RetexPolynomialRow *row, const RetexPolynomial *polynomial, RetexError *err);
+void retex_polynomial_row_close(RetexPolynomialRow *row);
 /* Fill in the monomials of row y. */
-int polynomial_row_make(PolynomialRow *row, int y, RetexError *err);
+int retex_polynomial_row_make(RetexPolynomialRow *row, int y, RetexError *err);
 
 #endif

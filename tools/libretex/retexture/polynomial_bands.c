@@ -8,14 +8,14 @@
 #include "base/jobs.h"
 
 typedef struct BandThread {
-    PolynomialRow row; /* opened when the thread has its first band */
+    RetexPolynomialRow row; /* opened when the thread has its first band */
     float *rgb;
 } BandThread;
 
 typedef struct BandWork {
-    const Polynomial *polynomial;
+    const RetexPolynomial *polynomial;
     int y0, y1; /* of the picture */
-    PolynomialBand *make;
+    RetexPolynomialBand *make;
     const void *context;
     RetexRowSink *sink;
     void *sink_context;
@@ -30,7 +30,7 @@ static int band_job(void *context, int index, int thread, RetexError *err)
     const int first = (work->y0 / RETEX_PICTURE_BAND + index) * RETEX_PICTURE_BAND, end = first + RETEX_PICTURE_BAND;
     const int y0 = first > work->y0 ? first : work->y0, y1 = end < work->y1 ? end : work->y1;
     const size_t room = 3 * (size_t)work->polynomial->set->width * RETEX_PICTURE_BAND;
-    int code = own->row.polynomial ? RETEX_OK : polynomial_row_open(&own->row, work->polynomial, err);
+    int code = own->row.polynomial ? RETEX_OK : retex_polynomial_row_open(&own->row, work->polynomial, err);
     if (!code && !own->rgb && !(own->rgb = malloc(sizeof *own->rgb * room)))
         code = retex_fail(err, RETEX_ENOMEM, "not enough memory to combine");
     if (!code)
@@ -38,8 +38,8 @@ static int band_job(void *context, int index, int thread, RetexError *err)
     return code ? code : work->sink(work->sink_context, y0, y1, own->rgb, err);
 }
 
-int polynomial_bands(const Polynomial *polynomial, int y0, int y1, PolynomialBand *make, const void *context,
-                     RetexRowSink *sink, void *sink_context, int nthreads, RetexError *err)
+int retex_polynomial_bands(const RetexPolynomial *polynomial, int y0, int y1, RetexPolynomialBand *make,
+                           const void *context, RetexRowSink *sink, void *sink_context, int nthreads, RetexError *err)
 {
     const int threads = retex_threads(nthreads);
     BandWork work = {polynomial, y0, y1, make, context, sink, sink_context, NULL};
@@ -47,9 +47,10 @@ int polynomial_bands(const Polynomial *polynomial, int y0, int y1, PolynomialBan
     if (!(work.threads = calloc((size_t)threads, sizeof *work.threads)))
         return retex_fail(err, RETEX_ENOMEM, "not enough memory to combine");
     if (y1 > y0)
-        code = jobs_run(threads, (y1 - 1) / RETEX_PICTURE_BAND - y0 / RETEX_PICTURE_BAND + 1, band_job, &work, err);
+        code =
+            retex_jobs_run(threads, (y1 - 1) / RETEX_PICTURE_BAND - y0 / RETEX_PICTURE_BAND + 1, band_job, &work, err);
     for (int i = 0; i < threads; i++) {
-        polynomial_row_close(&work.threads[i].row);
+        retex_polynomial_row_close(&work.threads[i].row);
         free(work.threads[i].rgb);
     }
     free(work.threads);

@@ -6,10 +6,11 @@
 #include "retexture/polynomial.h"
 
 /* Makes rows y0 <= y < y1 of the picture, RGB interleaved, by a row that is this call's alone. */
-typedef int PolynomialBand(const void *context, PolynomialRow *row, int y0, int y1, float *rgb, RetexError *err);
+typedef int RetexPolynomialBand(const void *context, RetexPolynomialRow *row, int y0, int y1, float *rgb,
+                                RetexError *err);
 
 /* Rows y0 <= y < y1, made and given to the sink. */
-int polynomial_bands(const Polynomial *polynomial, int y0, int y1, PolynomialBand *make, const void *context,
-                     RetexRowSink *sink, void *sink_context, int nthreads, RetexError *err);
+int retex_polynomial_bands(const RetexPolynomial *polynomial, int y0, int y1, RetexPolynomialBand *make,
+                           const void *context, RetexRowSink *sink, void *sink_context, int nthreads, RetexError *err);
 
 #endif

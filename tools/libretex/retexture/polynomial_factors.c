@@ -8,22 +8,22 @@
 
 /* ---- what a factor is made of ---- */
 
-int slot_of_factor(const RetexSet *set, int factor)
+int retex_polynomial_slot_of_factor(const RetexSet *set, int factor)
 {
     return factor >= 0 ? factor : set->nfootprints + RETEX_MIXTURE(factor);
 }
 
-int slot_of_gain(const RetexSet *set, int part)
+int retex_polynomial_slot_of_gain(const RetexSet *set, int part)
 {
     return set->nfootprints + set->nmixtures + part;
 }
 
-int slot_count(const RetexSet *set)
+int retex_polynomial_slot_count(const RetexSet *set)
 {
-    return slot_of_gain(set, set->nparts);
+    return retex_polynomial_slot_of_gain(set, set->nparts);
 }
 
-const RetexImage *find_part(const RetexSet *set, int part, int least, int most)
+const RetexImage *retex_polynomial_part_image(const RetexSet *set, int part, int least, int most)
 {
     if (part < 0 || part >= set->nparts)
         return NULL;
@@ -33,20 +33,20 @@ const RetexImage *find_part(const RetexSet *set, int part, int least, int most)
 
 /* The image whose size a footprint's samples have: the UV they will be made from, they themselves, or the original
  * albedo. NULL where the footprint is not there. */
-static const RetexImage *footprint_shape(const Polynomial *p, int footprint)
+static const RetexImage *footprint_shape(const RetexPolynomial *p, int footprint)
 {
     const RetexSet *set = p->set;
     if (footprint < 0 || footprint >= set->nfootprints)
         return NULL;
     const RetexFootprint *f = &set->footprints[footprint];
     if (p->textures && p->textures[f->target])
-        return find_part(set, f->uv, 3, 3);
+        return retex_polynomial_part_image(set, f->uv, 3, 3);
     if (p->samples && retex_samples_have(p->samples, footprint))
         return &p->samples->images[footprint];
-    return find_part(set, f->albedo, 3, 3);
+    return retex_polynomial_part_image(set, f->albedo, 3, 3);
 }
 
-static const RetexImage *mixture_shape(const Polynomial *p, int mixture)
+static const RetexImage *mixture_shape(const RetexPolynomial *p, int mixture)
 {
     const RetexImage *shape = NULL;
     if (mixture >= p->set->nmixtures)
@@ -54,7 +54,7 @@ static const RetexImage *mixture_shape(const Polynomial *p, int mixture)
     const RetexMixture *m = &p->set->mixtures[mixture];
     for (int k = 0; k < m->nshares; k++) {
         const RetexImage *image = footprint_shape(p, m->shares[k].footprint);
-        const RetexImage *weight = find_part(p->set, m->shares[k].weight, 1, 3);
+        const RetexImage *weight = retex_polynomial_part_image(p->set, m->shares[k].weight, 1, 3);
         if (!image || !weight || weight->channels == 2 || weight->width != image->width ||
             weight->height != image->height ||
             (shape && (shape->width != image->width || shape->height != image->height)))
@@ -64,7 +64,7 @@ static const RetexImage *mixture_shape(const Polynomial *p, int mixture)
     return shape;
 }
 
-const RetexImage *factor_shape(const Polynomial *p, int factor)
+const RetexImage *retex_polynomial_factor_image(const RetexPolynomial *p, int factor)
 {
     return factor >= 0 ? footprint_shape(p, factor) : mixture_shape(p, RETEX_MIXTURE(factor));
 }
@@ -72,34 +72,34 @@ const RetexImage *factor_shape(const Polynomial *p, int factor)
 /* ---- rows at a footprint's own size ---- */
 
 /* Make a room 0 beside a span, of which what was there stays. */
-static void refill(RowRoom *room, RowSpan span)
+static void refill(RetexRowBuffer *room, RetexRowSpan span)
 {
-    const RowSpan old = room->filled;
+    const RetexRowSpan old = room->filled;
     if (!span_is_empty(old))
         memset(room->values + 3 * (size_t)old.begin, 0, 3 * (size_t)(old.end - old.begin) * sizeof *room->values);
     room->filled = span;
 }
 
-int make_footprint_row(const Polynomial *p, RowReader *reader, int footprint, int y, RowRoom *room, const float **row,
-                       RowSpan *span, RetexError *err)
+int retex_polynomial_footprint_row(const RetexPolynomial *p, RetexRowReader *reader, int footprint, int y,
+                                   RetexRowBuffer *room, const float **row, RetexRowSpan *span, RetexError *err)
 {
     const RetexSet *set = p->set;
     const RetexFootprint *f = &set->footprints[footprint];
     const RetexTexture *texture = p->textures ? p->textures[f->target] : NULL;
     if (!texture && p->samples && retex_samples_have(p->samples, footprint)) {
-        *span = (RowSpan){0, p->samples->images[footprint].width};
-        return row_reader_sample(reader, footprint, y, row, err);
+        *span = (RetexRowSpan){0, p->samples->images[footprint].width};
+        return retex_row_reader_sample(reader, footprint, y, row, err);
     }
     if (!texture)
-        return row_reader_get_span(reader, f->albedo, y, row, span, err);
-    FootprintRow from;
-    int code = footprint_row_read(&from, reader, set, f, y, !retex_texture_is_opaque(texture), err);
+        return retex_row_reader_get_span(reader, f->albedo, y, row, span, err);
+    RetexFootprintRow from;
+    int code = retex_footprint_row_read(&from, reader, set, f, y, !retex_texture_is_opaque(texture), err);
     *row = NULL;
     if (code || !from.uv || span_is_empty(from.span))
         return code;
     refill(room, from.span);
-    const FootprintRow within = footprint_row_part(&from, from.span);
-    sample_row(texture, footprint_filter(set, f), &within, room->values + 3 * (size_t)from.span.begin);
+    const RetexFootprintRow within = retex_footprint_row_slice(&from, from.span);
+    retex_sample_row(texture, retex_footprint_filter(set, f), &within, room->values + 3 * (size_t)from.span.begin);
     *row = room->values;
     *span = from.span;
     return RETEX_OK;
@@ -114,17 +114,18 @@ static int has_single_weights(const RetexSet *set, const RetexMixture *m)
     return single;
 }
 
-int make_mixture_row(const Polynomial *p, RowReader *reader, int mixture, int y, FactorRow *factor_row, void *context,
-                     float *weights, RowRoom *sum, RetexError *err)
+int retex_polynomial_mixture_row(const RetexPolynomial *p, RetexRowReader *reader, int mixture, int y,
+                                 RetexFactorRow *factor_row, void *context, float *weights, RetexRowBuffer *sum,
+                                 RetexError *err)
 {
     const RetexMixture *m = &p->set->mixtures[mixture];
     const int single = has_single_weights(p->set, m), numbers = single ? 1 : 3;
     const float *weight, *factor;
-    RowSpan spans[RETEX_SHARES_MAX], all = {0, 0};
+    RetexRowSpan spans[RETEX_SHARES_MAX], all = {0, 0};
     int code = RETEX_OK;
     for (int k = 0; k < m->nshares && !code; k++) {
-        code = row_reader_get_span(reader, m->shares[k].weight, y, &weight, &spans[k], err);
-        spans[k] = code || !weight ? (RowSpan){0, 0} : spans[k];
+        code = retex_row_reader_get_span(reader, m->shares[k].weight, y, &weight, &spans[k], err);
+        spans[k] = code || !weight ? (RetexRowSpan){0, 0} : spans[k];
         all = span_around(all, spans[k]);
     }
     refill(sum, all);
@@ -135,7 +136,7 @@ int make_mixture_row(const Polynomial *p, RowReader *reader, int mixture, int y,
     for (int k = 0; k < m->nshares; k++) {
         if (span_is_empty(spans[k]))
             continue;
-        code = row_reader_get(reader, m->shares[k].weight, y, &weight, err);
+        code = retex_row_reader_get(reader, m->shares[k].weight, y, &weight, err);
         if (!code)
             code = factor_row(context, m->shares[k].footprint, y, &factor, err);
         if (code)
@@ -145,14 +146,14 @@ int make_mixture_row(const Polynomial *p, RowReader *reader, int mixture, int y,
         const int count = spans[k].end - spans[k].begin;
         factor = factor ? factor + 3 * at : NULL;
         if (single)
-            mixture_add(sum->values + 3 * at, weights + at, weight + at, factor, count);
+            retex_mixture_add(sum->values + 3 * at, weights + at, weight + at, factor, count);
         else
-            mixture_add_colors(sum->values + 3 * at, weights + 3 * at, weight + (size_t)channels * at, channels, factor,
-                               count);
+            retex_mixture_add_colors(sum->values + 3 * at, weights + 3 * at, weight + (size_t)channels * at, channels,
+                                     factor, count);
     }
     if (single)
-        mixture_divide(sum->values + 3 * first, weights + first, all.end - all.begin);
+        retex_mixture_divide(sum->values + 3 * first, weights + first, all.end - all.begin);
     else
-        mixture_divide_colors(sum->values + 3 * first, weights + 3 * first, all.end - all.begin);
+        retex_mixture_divide_colors(sum->values + 3 * first, weights + 3 * first, all.end - all.begin);
     return RETEX_OK;
 }

@@ -13,13 +13,13 @@
 
 #define ROWS_A_JOB 64 /* a pack's band */
 
-static int factor_scale(const Polynomial *p, int factor)
+static int factor_scale(const RetexPolynomial *p, int factor)
 {
-    const RetexImage *shape = factor_shape(p, factor);
+    const RetexImage *shape = retex_polynomial_factor_image(p, factor);
     return shape ? retex_set_scale(p->set, shape) : 0;
 }
 
-static int gain_scale(const Polynomial *p, int part)
+static int gain_scale(const RetexPolynomial *p, int part)
 {
     return part ? retex_set_scale(p->set, &p->set->parts[part].image) : 0;
 }
@@ -29,7 +29,7 @@ static int finer(int scale, int other)
     return other > 1 && (!scale || other < scale) ? other : scale;
 }
 
-int group_scale(const Polynomial *p, const RetexTerm *term)
+int retex_polynomial_group_scale(const RetexPolynomial *p, const RetexTerm *term)
 {
     int scale = finer(0, gain_scale(p, term->gain));
     for (int k = 0; k < term->nfactors; k++)
@@ -39,16 +39,16 @@ int group_scale(const Polynomial *p, const RetexTerm *term)
 
 /* ---- which terms go together ---- */
 
-static int is_same(const struct PolynomialGroup *a, const struct PolynomialGroup *b)
+static int is_same(const struct RetexPolynomialGroup *a, const struct RetexPolynomialGroup *b)
 {
     return a->scale && a->radiance == b->radiance && a->gain == b->gain && a->scale == b->scale &&
            a->nfactors == b->nfactors && memcmp(a->factors, b->factors, sizeof *a->factors * (size_t)a->nfactors) == 0;
 }
 
-static int add_term(Polynomial *p, int number, RetexError *err)
+static int add_term(RetexPolynomial *p, int number, RetexError *err)
 {
     const RetexTerm *term = &p->set->terms[number];
-    struct PolynomialGroup wanted = {.radiance = term->radiance, .scale = group_scale(p, term)};
+    struct RetexPolynomialGroup wanted = {.radiance = term->radiance, .scale = retex_polynomial_group_scale(p, term)};
     for (int k = 0; k < term->nfactors; k++)
         if (factor_scale(p, term->factors[k]) == 1)
             wanted.factors[wanted.nfactors++] = term->factors[k];
@@ -69,13 +69,13 @@ static int add_term(Polynomial *p, int number, RetexError *err)
 /* ---- their products ---- */
 
 typedef struct ProductThread {
-    RowReader *reader;
+    RetexRowReader *reader;
     float **rows; /* by slot, of the group's size */
 } ProductThread;
 
 typedef struct ProductWork {
-    const Polynomial *polynomial;
-    struct PolynomialGroup *group;
+    const RetexPolynomial *polynomial;
+    struct RetexPolynomialGroup *group;
     ProductThread *threads;
 } ProductWork;
 
@@ -83,7 +83,7 @@ typedef struct ProductWork {
 static int small_row(const ProductWork *work, ProductThread *own, int slot, const RetexImage *image, int part, int y,
                      char *made, const float **row, RetexError *err)
 {
-    const Polynomial *p = work->polynomial;
+    const RetexPolynomial *p = work->polynomial;
     const RetexImage *product = &work->group->product;
     const int channels = part ? p->set->parts[part].image.channels : image->channels;
     *row = own->rows[slot];
@@ -96,14 +96,14 @@ static int small_row(const ProductWork *work, ProductThread *own, int slot, cons
         retex_enlarge_rows(image, ratio, product->width, y, y + 1, own->rows[slot]);
     } else { /* a gain of this very size */
         const float *from;
-        int code = row_reader_get(own->reader, part, y, &from, err);
+        int code = retex_row_reader_get(own->reader, part, y, &from, err);
         *row = NULL;
         if (code || !from)
             return code;
         memcpy(own->rows[slot], from, sizeof *from * (size_t)product->width * (size_t)channels);
     }
     if (channels == 1)
-        spread_channel(own->rows[slot], (size_t)product->width);
+        retex_row_gray_to_rgb(own->rows[slot], (size_t)product->width);
     made[slot] = 1;
     *row = own->rows[slot];
     return RETEX_OK;
@@ -113,12 +113,12 @@ static int small_row(const ProductWork *work, ProductThread *own, int slot, cons
 static int add_product(const ProductWork *work, ProductThread *own, const RetexTerm *term, int y, char *made,
                        const float *ones, float *sum, RetexError *err)
 {
-    const Polynomial *p = work->polynomial;
+    const RetexPolynomial *p = work->polynomial;
     const float *rows[RETEX_MAX_FACTORS + 1];
     int count = 0, code = RETEX_OK;
     if (gain_scale(p, term->gain) > 1) {
-        code = small_row(work, own, slot_of_gain(p->set, term->gain), &p->gains[term->gain], term->gain, y, made,
-                         &rows[count], err);
+        code = small_row(work, own, retex_polynomial_slot_of_gain(p->set, term->gain), &p->gains[term->gain],
+                         term->gain, y, made, &rows[count], err);
         if (code || !rows[count++])
             return code;
     }
@@ -127,10 +127,11 @@ static int add_product(const ProductWork *work, ProductThread *own, const RetexT
         if (factor_scale(p, factor) <= 1)
             continue;
         const RetexImage *image = factor >= 0 ? &p->footprints[factor] : &p->mixtures[RETEX_MIXTURE(factor)];
-        code = small_row(work, own, slot_of_factor(p->set, factor), image, 0, y, made, &rows[count++], err);
+        code = small_row(work, own, retex_polynomial_slot_of_factor(p->set, factor), image, 0, y, made, &rows[count++],
+                         err);
     }
     if (!code)
-        combine_term_kernel(sum, ones, rows, count, 3 * (size_t)work->group->product.width);
+        retex_combine_term_kernel(sum, ones, rows, count, 3 * (size_t)work->group->product.width);
     return code;
 }
 
@@ -139,8 +140,8 @@ static int open_thread(const ProductWork *work, ProductThread *own, RetexError *
     const RetexSet *set = work->polynomial->set;
     if (own->reader)
         return RETEX_OK;
-    int code = row_reader_open(&own->reader, set, work->polynomial->samples, err);
-    own->rows = calloc((size_t)slot_count(set) + 1, sizeof *own->rows);
+    int code = retex_row_reader_open(&own->reader, set, work->polynomial->samples, err);
+    own->rows = calloc((size_t)retex_polynomial_slot_count(set) + 1, sizeof *own->rows);
     return code || own->rows ? code : retex_fail(err, RETEX_ENOMEM, "not enough memory to combine");
 }
 
@@ -152,14 +153,14 @@ static int product_job(void *context, int index, int thread, RetexError *err)
     const RetexSet *set = work->polynomial->set;
     int code = open_thread(work, own, err);
     float *ones = malloc(sizeof *ones * 3 * (size_t)product->width);
-    char *made = malloc((size_t)slot_count(set) + 1);
+    char *made = malloc((size_t)retex_polynomial_slot_count(set) + 1);
     if (!code && (!ones || !made))
         code = retex_fail(err, RETEX_ENOMEM, "not enough memory to combine");
     for (size_t i = 0; !code && i < 3 * (size_t)product->width; i++)
         ones[i] = 1;
     for (int y = index * ROWS_A_JOB; !code && y < (index + 1) * ROWS_A_JOB && y < product->height; y++) {
         float *sum = product->pixels + retex_image_index(product, 0, y);
-        memset(made, 0, (size_t)slot_count(set) + 1);
+        memset(made, 0, (size_t)retex_polynomial_slot_count(set) + 1);
         /* it is 0 already, but a fresh page that is read before it is written costs twice, and other threads too */
         memset(sum, 0, sizeof *sum * 3 * (size_t)product->width);
         for (int k = 0; k < work->group->nterms && !code; k++)
@@ -170,7 +171,7 @@ static int product_job(void *context, int index, int thread, RetexError *err)
     return code;
 }
 
-static int make_product(const Polynomial *p, struct PolynomialGroup *group, int nthreads, RetexError *err)
+static int make_product(const RetexPolynomial *p, struct RetexPolynomialGroup *group, int nthreads, RetexError *err)
 {
     const int threads = retex_threads(nthreads), scale = group->scale;
     ProductWork work = {p, group, NULL};
@@ -180,11 +181,11 @@ static int make_product(const Polynomial *p, struct PolynomialGroup *group, int 
         return code;
     if (!(work.threads = calloc((size_t)threads, sizeof *work.threads)))
         return retex_fail(err, RETEX_ENOMEM, "not enough memory to combine");
-    code = jobs_run(threads, (group->product.height + ROWS_A_JOB - 1) / ROWS_A_JOB, product_job, &work, err);
+    code = retex_jobs_run(threads, (group->product.height + ROWS_A_JOB - 1) / ROWS_A_JOB, product_job, &work, err);
     for (int i = 0; i < threads; i++) {
         ProductThread *own = &work.threads[i];
-        row_reader_close(&own->reader);
-        for (int k = 0; own->rows && k < slot_count(p->set); k++)
+        retex_row_reader_close(&own->reader);
+        for (int k = 0; own->rows && k < retex_polynomial_slot_count(p->set); k++)
             free(own->rows[k]);
         free(own->rows);
     }
@@ -194,13 +195,13 @@ static int make_product(const Polynomial *p, struct PolynomialGroup *group, int 
 
 /* ---- all of them ---- */
 
-int polynomial_groups_open(Polynomial *p, int nthreads, RetexError *err)
+int retex_polynomial_groups_open(RetexPolynomial *p, int nthreads, RetexError *err)
 {
     int code = RETEX_OK;
     if (!(p->groups = calloc((size_t)p->set->nterms + 1, sizeof *p->groups)))
         return retex_fail(err, RETEX_ENOMEM, "not enough memory for %d terms", p->set->nterms);
     for (int t = 0; t < p->set->nterms && !code; t++)
-        if (!term_is_left_out(&p->set->terms[t], p->cross))
+        if (!retex_term_is_excluded(&p->set->terms[t], p->cross))
             code = add_term(p, t, err);
     for (int g = 0; g < p->ngroups && !code; g++)
         if (p->groups[g].scale)
@@ -208,7 +209,7 @@ int polynomial_groups_open(Polynomial *p, int nthreads, RetexError *err)
     return code;
 }
 
-void polynomial_groups_close(Polynomial *p)
+void retex_polynomial_groups_close(RetexPolynomial *p)
 {
     for (int g = 0; g < p->ngroups; g++) {
         retex_image_free(&p->groups[g].product);

@@ -6,7 +6,7 @@
 
 #include "retexture/polynomial.h"
 
-struct PolynomialGroup {
+struct RetexPolynomialGroup {
     int radiance;                             /* part */
     int nfactors, factors[RETEX_MAX_FACTORS]; /* of the picture's size, as in RetexTerm */
     int gain;                                 /* part of the picture's size, or 0 */
@@ -16,16 +16,16 @@ struct PolynomialGroup {
 };
 
 /* All factors are open. */
-int polynomial_groups_open(Polynomial *polynomial, int nthreads, RetexError *err);
-void polynomial_groups_close(Polynomial *polynomial);
+int retex_polynomial_groups_open(RetexPolynomial *polynomial, int nthreads, RetexError *err);
+void retex_polynomial_groups_close(RetexPolynomial *polynomial);
 
 /* The finest scale above 1 of a term's gain and factors, or 0. */
-int group_scale(const Polynomial *polynomial, const RetexTerm *term);
+int retex_polynomial_group_scale(const RetexPolynomial *polynomial, const RetexTerm *term);
 
 /* ---- of polynomial.c ---- */
 
-int term_is_left_out(const RetexTerm *term, int cross);
+int retex_term_is_excluded(const RetexTerm *term, int cross);
 /* A row of one channel as one of three, in place. */
-void spread_channel(float *row, size_t width);
+void retex_row_gray_to_rgb(float *row, size_t width);
 
 #endif

@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "set/gather.h"
+#include "set/transfer.h"
 #include "retexture/sample_row.h"
 
 typedef struct SampleWork {
@@ -17,32 +17,32 @@ typedef struct SampleWork {
     int nspecs;
     RetexSamples *samples;
     RetexTexture *textures[RETEX_MAX_TARGETS]; /* by target */
-    Gathered *edited;                          /* footprints of edited targets */
+    RetexImageTransfer *edited;                /* footprints of edited targets */
     int nedited;
 } SampleWork;
 
 /* Rows y0 <= y < y1 of a footprint. */
-static int sample_rows(void *context, RowReader *reader, const Gathered *edited, int y0, int y1, float *to,
-                       RetexError *err)
+static int sample_rows(void *context, RetexRowReader *reader, const RetexImageTransfer *edited, int y0, int y1,
+                       float *to, RetexError *err)
 {
     const SampleWork *work = context;
     const RetexFootprint *f = &work->set->footprints[edited->footprint];
     const RetexTexture *texture = work->textures[f->target];
-    const RetexTextureFilter filter = footprint_filter(work->set, f);
+    const RetexTextureFilter filter = retex_footprint_filter(work->set, f);
     int code = RETEX_OK;
     for (int y = y0; y < y1 && !code; y++, to += 3 * (size_t)edited->image->width) {
-        FootprintRow from;
-        code = footprint_row_read(&from, reader, work->set, f, y, !retex_texture_is_opaque(texture), err);
+        RetexFootprintRow from;
+        code = retex_footprint_row_read(&from, reader, work->set, f, y, !retex_texture_is_opaque(texture), err);
         if (!code && from.uv)
-            sample_row(texture, filter, &from, to);
+            retex_sample_row(texture, filter, &from, to);
     }
     return code;
 }
 
 static int sample_all(SampleWork *work, int nthreads, RetexError *err)
 {
-    return gather_made(work->edited, work->nedited, sample_rows, work, work->set, NULL, work->samples->spool, nthreads,
-                       err);
+    return retex_compute_images(work->edited, work->nedited, sample_rows, work, work->set, NULL, work->samples->spool,
+                                nthreads, err);
 }
 
 static void describe_texture(char *text, size_t size, const RetexTextureSpec *spec)
@@ -127,7 +127,8 @@ static int list_edited(SampleWork *work, RetexError *err)
         return retex_fail(err, RETEX_ENOMEM, "not enough memory for samples");
     for (int i = 0; i < work->set->nfootprints; i++)
         if (work->textures[work->set->footprints[i].target])
-            work->edited[work->nedited++] = (Gathered){.part = -1, .footprint = i, .image = &work->samples->images[i]};
+            work->edited[work->nedited++] =
+                (RetexImageTransfer){.part = -1, .footprint = i, .image = &work->samples->images[i]};
     return RETEX_OK;
 }
 

@@ -6,7 +6,7 @@
 
 #define SPAN_PIXELS 1024 /* filtered in one call */
 
-RetexTextureFilter footprint_filter(const RetexSet *set, const RetexFootprint *footprint)
+RetexTextureFilter retex_footprint_filter(const RetexSet *set, const RetexFootprint *footprint)
 {
     int even = footprint->kind == RETEX_FOOTPRINT_SHARP && strcmp(set->filter, "box") == 0;
     return even ? RETEX_TEXTURE_DISC : RETEX_TEXTURE_GAUSSIAN;
@@ -14,43 +14,44 @@ RetexTextureFilter footprint_filter(const RetexSet *set, const RetexFootprint *f
 
 static const float zeros[3 * RETEX_MAX_SIZE];
 
-int footprint_row_read(FootprintRow *row, RowReader *reader, const RetexSet *set, const RetexFootprint *footprint,
-                       int y, int with_albedo, RetexError *err)
+int retex_footprint_row_read(RetexFootprintRow *row, RetexRowReader *reader, const RetexSet *set,
+                             const RetexFootprint *footprint, int y, int with_albedo, RetexError *err)
 {
     const RetexImage *uv = &set->parts[footprint->uv].image, *spread = &set->parts[footprint->spread].image;
-    *row = (FootprintRow){.spreads = spread->channels, .width = uv->width};
-    int code = row_reader_get_span(reader, footprint->uv, y, &row->uv, &row->span, err);
+    *row = (RetexFootprintRow){.spreads = spread->channels, .width = uv->width};
+    int code = retex_row_reader_get_span(reader, footprint->uv, y, &row->uv, &row->span, err);
     if (code || !row->uv)
         return code;
-    code = row_reader_get(reader, footprint->spread, y, &row->spread, err);
+    code = retex_row_reader_get(reader, footprint->spread, y, &row->spread, err);
     row->spread = row->spread ? row->spread : zeros;
     if (!code && with_albedo) {
-        code = row_reader_get(reader, footprint->albedo, y, &row->albedo, err);
+        code = retex_row_reader_get(reader, footprint->albedo, y, &row->albedo, err);
         row->albedo = row->albedo ? row->albedo : zeros;
     }
     return code;
 }
 
-FootprintRow footprint_row_part(const FootprintRow *row, RowSpan span)
+RetexFootprintRow retex_footprint_row_slice(const RetexFootprintRow *row, RetexRowSpan span)
 {
     const size_t begin = (size_t)span.begin;
-    return (FootprintRow){.uv = row->uv + 3 * begin,
-                          .spread = row->spread + (size_t)row->spreads * begin,
-                          .albedo = row->albedo ? row->albedo + 3 * begin : NULL,
-                          .spreads = row->spreads,
-                          .width = span.end - span.begin,
-                          .span = {0, span.end - span.begin}};
+    return (RetexFootprintRow){.uv = row->uv + 3 * begin,
+                               .spread = row->spread + (size_t)row->spreads * begin,
+                               .albedo = row->albedo ? row->albedo + 3 * begin : NULL,
+                               .spreads = row->spreads,
+                               .width = span.end - span.begin,
+                               .span = {0, span.end - span.begin}};
 }
 
 /* Part of a row's footprints, filtered. */
-static void filter_span(const RetexTexture *texture, RetexTextureFilter filter, const FootprintRow *row, int from,
+static void filter_span(const RetexTexture *texture, RetexTextureFilter filter, const RetexFootprintRow *row, int from,
                         int count, float *restrict rgba)
 {
     retex_texture_filter(texture, filter, row->uv + 3 * (size_t)from, row->spread + (size_t)row->spreads * (size_t)from,
                          row->spreads, (size_t)count, rgba, 4);
 }
 
-void sample_row(const RetexTexture *texture, RetexTextureFilter filter, const FootprintRow *row, float *restrict rgb)
+void retex_sample_row(const RetexTexture *texture, RetexTextureFilter filter, const RetexFootprintRow *row,
+                      float *restrict rgb)
 {
     float rgba[4 * SPAN_PIXELS];
     if (!row->albedo) {
@@ -70,8 +71,8 @@ void sample_row(const RetexTexture *texture, RetexTextureFilter filter, const Fo
     }
 }
 
-void variance_row(const RetexTexture *texture, const RetexTexture *square, RetexTextureFilter filter,
-                  const FootprintRow *row, float *restrict rgb)
+void retex_variance_row(const RetexTexture *texture, const RetexTexture *square, RetexTextureFilter filter,
+                        const RetexFootprintRow *row, float *restrict rgb)
 {
     float means[4 * SPAN_PIXELS], squares[4 * SPAN_PIXELS];
     for (int from = 0; from < row->width; from += SPAN_PIXELS) {

@@ -7,7 +7,7 @@
 #include "base/jobs.h"
 #include "set/rows.h"
 
-struct SetBand {
+struct RetexSetBand {
     const RetexSet *whole;
     int copies;
     RetexSet set;      /* with parts of its own, that have pixels of others */
@@ -16,36 +16,36 @@ struct SetBand {
     int first;
 };
 
-int set_part_rows(RetexImage *image, const RetexSet *set, int part, int first, RetexError *err)
+int retex_set_part_rows(RetexImage *image, const RetexSet *set, int part, int first, RetexError *err)
 {
     const size_t length = (size_t)image->width * (size_t)image->channels;
-    RowReader *reader;
-    int code = row_reader_open(&reader, set, NULL, err);
+    RetexRowReader *reader;
+    int code = retex_row_reader_open(&reader, set, NULL, err);
     for (int y = 0; y < image->height && !code; y++) {
         const float *row;
         float *to = image->pixels + (size_t)y * length;
-        code = row_reader_get(reader, part, first + y, &row, err);
+        code = retex_row_reader_get(reader, part, first + y, &row, err);
         if (!code && row)
             memcpy(to, row, length * sizeof *row);
         else if (!code)
             memset(to, 0, length * sizeof *to);
     }
-    row_reader_close(&reader);
+    retex_row_reader_close(&reader);
     return code;
 }
 
-int set_band_open(SetBand **result, const RetexSet *whole, int most_rows, int copies, RetexError *err)
+int retex_set_band_open(RetexSetBand **result, const RetexSet *whole, int most_rows, int copies, RetexError *err)
 {
     const size_t count = (size_t)whole->nparts + 1;
-    SetBand *band = *result = calloc(1, sizeof *band);
+    RetexSetBand *band = *result = calloc(1, sizeof *band);
     if (band) {
-        *band = (SetBand){.whole = whole, .copies = copies, .set = *whole, .most_rows = most_rows};
+        *band = (RetexSetBand){.whole = whole, .copies = copies, .set = *whole, .most_rows = most_rows};
         band->set.spool = NULL, band->set.source = NULL;
         band->set.parts = calloc(count, sizeof *band->set.parts);
         band->rooms = calloc(count, sizeof *band->rooms);
     }
     if (!band || !band->set.parts || !band->rooms) {
-        set_band_close(result);
+        retex_set_band_close(result);
         return retex_fail(err, RETEX_ENOMEM, "not enough memory for rows of a set");
     }
     for (int i = 0; i < whole->nparts; i++) {
@@ -55,9 +55,9 @@ int set_band_open(SetBand **result, const RetexSet *whole, int most_rows, int co
     return RETEX_OK;
 }
 
-void set_band_close(SetBand **result)
+void retex_set_band_close(RetexSetBand **result)
 {
-    SetBand *band = *result;
+    RetexSetBand *band = *result;
     if (!band)
         return;
     for (int i = 0; band->rooms && i < band->whole->nparts; i++)
@@ -70,7 +70,7 @@ void set_band_close(SetBand **result)
 
 static int take_part(void *context, int part, int thread, RetexError *err)
 {
-    SetBand *band = context;
+    RetexSetBand *band = context;
     const RetexImage *whole = &band->whole->parts[part].image;
     RetexImage *image = &band->set.parts[part].image, *room = &band->rooms[part];
     (void)thread;
@@ -87,13 +87,13 @@ static int take_part(void *context, int part, int thread, RetexError *err)
     if (!room->pixels)
         code = retex_image_alloc(room, whole->width, band->most_rows, whole->channels, err);
     image->pixels = room->pixels;
-    return code ? code : set_part_rows(image, band->whole, part, band->first, err);
+    return code ? code : retex_set_part_rows(image, band->whole, part, band->first, err);
 }
 
-int set_band_take(RetexSet **rows, SetBand *band, int first, int count, int nthreads, RetexError *err)
+int retex_set_band_take(RetexSet **rows, RetexSetBand *band, int first, int count, int nthreads, RetexError *err)
 {
     *rows = &band->set;
     band->first = first;
     band->set.height = count;
-    return jobs_run(nthreads, band->whole->nparts, take_part, band, err);
+    return retex_jobs_run(nthreads, band->whole->nparts, take_part, band, err);
 }

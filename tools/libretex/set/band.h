@@ -4,18 +4,18 @@
 
 #include <retex/set.h>
 
-typedef struct SetBand SetBand;
+typedef struct RetexSetBand RetexSetBand;
 
 /* At most so many rows of `whole`, which stays the caller's. copies: 1 = the rows of parts in memory are copied too, so
  * that they may be changed; 0 = they are where they are. */
-int set_band_open(SetBand **band, const RetexSet *whole, int most_rows, int copies, RetexError *err);
-void set_band_close(SetBand **band); /* NULL and pointers to NULL are fine */
+int retex_set_band_open(RetexSetBand **band, const RetexSet *whole, int most_rows, int copies, RetexError *err);
+void retex_set_band_close(RetexSetBand **band); /* NULL and pointers to NULL are fine */
 
 /* The rows from `first` on: a set with as many rows as its height says, the band's own until the next call. Of parts
  * that are no larger or smaller than the picture it has the rows, of others nothing. All else is as in `whole`. */
-int set_band_take(RetexSet **rows, SetBand *band, int first, int count, int nthreads, RetexError *err);
+int retex_set_band_take(RetexSet **rows, RetexSetBand *band, int first, int count, int nthreads, RetexError *err);
 
 /* Rows of one part, from wherever the set has them: as many as the image, which is allocated, has. */
-int set_part_rows(RetexImage *image, const RetexSet *set, int part, int first, RetexError *err);
+int retex_set_part_rows(RetexImage *image, const RetexSet *set, int part, int first, RetexError *err);
 
 #endif

@@ -14,8 +14,8 @@ enum { NOT_CHECKED, RIGHT, WRONG };
 
 typedef struct ExrSource {
     RetexSetSource methods; /* first */
-    ExrSourceParts parts;
-    ExrPlan *plans;       /* by part, as is: */
+    RetexExrSourceParts parts;
+    RetexExrPlan *plans;  /* by part, as is: */
     atomic_char *checked; /* whether all of it was compared, of those without sums of bands */
     pthread_mutex_t checking;
     int holders;
@@ -24,7 +24,7 @@ typedef struct ExrSource {
 /* Some rows of one part. */
 typedef struct Strip {
     RetexImage image;
-    ExrSums sums;
+    RetexExrSums sums;
     int number; /* from 1; 0: none */
     char *lit;  /* by row: some of it is not 0 */
 } Strip;
@@ -32,7 +32,7 @@ typedef struct Strip {
 typedef struct ExrReader {
     ExrSource *source;
     Strip *strips; /* by part */
-    ExrScratch scratch;
+    RetexExrScratch scratch;
 } ExrReader;
 
 static int no_memory(const ExrSource *source, RetexError *err)
@@ -46,7 +46,7 @@ static void source_close(RetexSetSource *methods)
     if (--source->holders)
         return;
     for (int i = 0; source->plans && i < source->parts.count; i++)
-        exr_plan_close(&source->plans[i]);
+        retex_exr_plan_close(&source->plans[i]);
     free(source->plans);
     free(source->checked);
     free(source->parts.requests);
@@ -80,7 +80,7 @@ static void reader_close(void *data)
         free(reader->strips[i].sums.crc);
         free(reader->strips[i].lit);
     }
-    exr_scratch_free(&reader->scratch);
+    retex_exr_scratch_free(&reader->scratch);
     free(reader->strips);
     free(reader);
 }
@@ -114,15 +114,15 @@ static int check_whole(ExrSource *source, int part, RetexError *err)
 }
 
 /* Rows from y0 on, as far as the strip goes, were read. */
-static int check_bands(const ExrSource *source, int part, const ExrSums *sums, int y0, int y1, RetexError *err)
+static int check_bands(const ExrSource *source, int part, const RetexExrSums *sums, int y0, int y1, RetexError *err)
 {
-    const ExrPlan *plan = &source->plans[part];
+    const RetexExrPlan *plan = &source->plans[part];
     for (int y = y0; y < y1; y += RETEX_CHUNK_LINES) {
         const int end = y + RETEX_CHUNK_LINES < y1 ? y + RETEX_CHUNK_LINES : y1;
         uint32_t crc = CRC32_OF_NONE;
         for (int slot = 0; slot < RETEX_EXR_LETTERS_MAX && plan->request->channels[slot][0]; slot++) {
             size_t bytes;
-            const uint32_t plane = exr_sums_plane(plan, sums, slot, y, end, &bytes);
+            const uint32_t plane = retex_exr_sums_plane(plan, sums, slot, y, end, &bytes);
             crc = retex_crc32_join(crc, plane, bytes);
         }
         if (crc != plan->request->bands[y / RETEX_CHUNK_LINES])
@@ -145,7 +145,7 @@ static int least_common_multiple(int a, int b)
 }
 
 /* Of a strip: whole chunks, and whole bands where these have checksums, but no more than there are. */
-static int strip_lines(const ExrPlan *plan)
+static int strip_lines(const RetexExrPlan *plan)
 {
     int lines = plan->chunk_height;
     if (plan->request->bands && lines < plan->height)
@@ -153,7 +153,7 @@ static int strip_lines(const ExrPlan *plan)
     return lines < plan->height ? lines : plan->height;
 }
 
-static int alloc_strip(Strip *strip, const ExrPlan *plan, RetexError *err)
+static int alloc_strip(Strip *strip, const RetexExrPlan *plan, RetexError *err)
 {
     const int lines = strip_lines(plan);
     int channels = 0;
@@ -179,13 +179,13 @@ static int is_lit(const RetexImage *image, int y)
     return 0;
 }
 
-static int fail_chunk(const ExrReader *reader, const ExrPlan *plan, exr_result_t result, RetexError *err)
+static int fail_chunk(const ExrReader *reader, const RetexExrPlan *plan, exr_result_t result, RetexError *err)
 {
     const ExrSource *source = reader->source;
-    if (result == EXR_ODD_NUMBER)
-        return exr_fail_number(source->parts.exr, plan->request->part, &reader->scratch.odd, err);
+    if (result == RETEX_EXR_NON_FINITE)
+        return retex_exr_fail_nonfinite(source->parts.exr, plan->request->part, &reader->scratch.odd, err);
     if (result == EXR_ERR_OUT_OF_MEMORY)
-        return exr_fail(source->parts.exr, result, err);
+        return retex_exr_fail(source->parts.exr, result, err);
     const int status =
         retex_fail(err, RETEX_EFORMAT, "%s: part %s is damaged or truncated", retex_input_name(source->parts.input),
                    retex_exr_part_name(source->parts.exr, plan->request->part));
@@ -195,7 +195,7 @@ static int fail_chunk(const ExrReader *reader, const ExrPlan *plan, exr_result_t
 static int read_strip(ExrReader *reader, int part, int number, RetexError *err)
 {
     ExrSource *source = reader->source;
-    const ExrPlan *plan = &source->plans[part];
+    const RetexExrPlan *plan = &source->plans[part];
     Strip *strip = &reader->strips[part];
     const uint32_t *bands = plan->request->bands;
     int code = bands ? RETEX_OK : check_whole(source, part, err);
@@ -211,8 +211,8 @@ static int read_strip(ExrReader *reader, int part, int number, RetexError *err)
     for (int y = y0; y < y1; y += plan->chunk_height)
         for (int column = 0; column < plan->across; column++) {
             const exr_result_t result =
-                exr_chunk_read(source->parts.exr, plan, column, y / plan->chunk_height, &strip->image, y0,
-                               bands ? &strip->sums : NULL, &reader->scratch);
+                retex_exr_chunk_read(source->parts.exr, plan, column, y / plan->chunk_height, &strip->image, y0,
+                                     bands ? &strip->sums : NULL, &reader->scratch);
             if (result)
                 return fail_chunk(reader, plan, result, err);
         }
@@ -226,7 +226,7 @@ static int read_strip(ExrReader *reader, int part, int number, RetexError *err)
     return RETEX_OK;
 }
 
-static int read_row(void *data, int part, int y, const float **row, RowSpan *span, RetexError *err)
+static int read_row(void *data, int part, int y, const float **row, RetexRowSpan *span, RetexError *err)
 {
     ExrReader *reader = data;
     const int lines = strip_lines(&reader->source->plans[part]);
@@ -235,7 +235,7 @@ static int read_row(void *data, int part, int y, const float **row, RowSpan *spa
     if (code)
         return code;
     *row = strip->lit[y % lines] ? strip->image.pixels + retex_image_index(&strip->image, 0, y % lines) : NULL;
-    *span = (RowSpan){0, strip->image.width};
+    *span = (RetexRowSpan){0, strip->image.width};
     return RETEX_OK;
 }
 
@@ -249,18 +249,18 @@ static int open_plans(ExrSource *source, RetexError *err)
         return no_memory(source, err);
     for (int i = 0; !code && i < count; i++) {
         source->parts.requests[i].image = NULL; /* rows go elsewhere */
-        code = exr_plan_open(source->parts.exr, &source->plans[i], &source->parts.requests[i], err);
+        code = retex_exr_plan_open(source->parts.exr, &source->plans[i], &source->parts.requests[i], err);
     }
     return code;
 }
 
-int exr_source_open(RetexSetSource **result, const ExrSourceParts *parts, RetexError *err)
+int retex_exr_source_open(RetexSetSource **result, const RetexExrSourceParts *parts, RetexError *err)
 {
     static const RetexSetSource methods = {source_close, reader_open, reader_close, read_row};
     ExrSource *source = calloc(1, sizeof *source);
     *result = NULL;
     if (!source) {
-        ExrSourceParts left = *parts;
+        RetexExrSourceParts left = *parts;
         free(left.requests);
         retex_band_sums_free(&left.sums);
         retex_exr_close(&left.exr);
@@ -279,7 +279,7 @@ int exr_source_open(RetexSetSource **result, const ExrSourceParts *parts, RetexE
     return code;
 }
 
-RetexSetSource *exr_source_share(RetexSetSource *methods)
+RetexSetSource *retex_exr_source_retain(RetexSetSource *methods)
 {
     ExrSource *source = (ExrSource *)(void *)methods;
     source->holders++;

@@ -9,18 +9,18 @@
 /* What it is made of. requests[i] names the channels of what is read as part i, and its checksums: rows are compared
  * with those of their bands before anyone sees them. Where these are not known the whole part is, when the first of its
  * rows is wanted, by so many threads. */
-typedef struct ExrSourceParts {
+typedef struct RetexExrSourceParts {
     RetexExr *exr;
     RetexInput *input;
     RetexExrRequest *requests;
     int count;
     RetexBandSums sums; /* that requests point to */
     int nthreads;
-} ExrSourceParts;
+} RetexExrSourceParts;
 
 /* Takes exr, input, requests and sums over, whatever it returns. */
-int exr_source_open(RetexSetSource **source, const ExrSourceParts *parts, RetexError *err);
+int retex_exr_source_open(RetexSetSource **source, const RetexExrSourceParts *parts, RetexError *err);
 /* The same for one more, who closes it too. */
-RetexSetSource *exr_source_share(RetexSetSource *source);
+RetexSetSource *retex_exr_source_retain(RetexSetSource *source);
 
 #endif

@@ -2,7 +2,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "set/gather.h"
+#include "set/transfer.h"
 #include "set/manifest.h"
 #include "set/source.h"
 
@@ -11,18 +11,18 @@ static int load(RetexImage *const *wanted, int count, const RetexSet *set, const
                 RetexError *err)
 {
     RetexImage *loaded = calloc((size_t)count + 1, sizeof *loaded);
-    Gathered *images = calloc((size_t)count + 1, sizeof *images);
+    RetexImageTransfer *images = calloc((size_t)count + 1, sizeof *images);
     int missing = 0, code = loaded && images ? 0 : retex_fail(err, RETEX_ENOMEM, "no memory to load a set");
 
     for (int i = 0; !code && i < count; i++) {
         const RetexImage *shape = wanted[i];
         if (!shape || shape->pixels)
             continue;
-        images[missing++] = (Gathered){.part = set ? i : -1, .footprint = set ? -1 : i, .image = &loaded[i]};
+        images[missing++] = (RetexImageTransfer){.part = set ? i : -1, .footprint = set ? -1 : i, .image = &loaded[i]};
         code = retex_image_alloc(&loaded[i], shape->width, shape->height, shape->channels, err);
     }
     if (!code)
-        code = gather(images, missing, set, samples, NULL, nthreads, err);
+        code = retex_transfer_images(images, missing, set, samples, NULL, nthreads, err);
     for (int i = 0; loaded && i < count; i++)
         if (code)
             retex_image_free(&loaded[i]);

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-int part_is_used(const RetexSet *set, int part)
+int retex_part_is_used(const RetexSet *set, int part)
 {
     for (int i = 0; i < set->ntargets; i++)
         if (set->targets[i].original == part)
@@ -24,13 +24,14 @@ int part_is_used(const RetexSet *set, int part)
     return 0;
 }
 
-int part_is_denoise_data(const RetexSet *set, int part)
+int retex_part_is_denoise_data(const RetexSet *set, int part)
 {
     const char *name = set->parts[part].name;
-    return part > 0 && (strncmp(name, "noise_", 6) == 0 || strncmp(name, "guide_", 6) == 0) && !part_is_used(set, part);
+    return part > 0 && (strncmp(name, "noise_", 6) == 0 || strncmp(name, "guide_", 6) == 0) &&
+           !retex_part_is_used(set, part);
 }
 
-void set_view_free(SetView *view)
+void retex_set_view_free(RetexSetView *view)
 {
     free(view->set.parts);
     free(view->set.footprints);
@@ -45,7 +46,7 @@ static int renumber(const int *place, int part)
 }
 
 /* Copy what refers to parts; place[i]: number of part i in the view, or -1. */
-static void copy_references(SetView *view, const RetexSet *set, const int *place)
+static void copy_references(RetexSetView *view, const RetexSet *set, const int *place)
 {
     for (int i = 0; i < set->ntargets; i++)
         view->set.targets[i].original = renumber(place, set->targets[i].original);
@@ -67,7 +68,7 @@ static void copy_references(SetView *view, const RetexSet *set, const int *place
             view->set.mixtures[i].shares[k].weight = place[set->mixtures[i].shares[k].weight];
 }
 
-int set_view_make(SetView *view, const RetexSet *set, const char *kept, RetexError *err)
+int retex_set_view_make(RetexSetView *view, const RetexSet *set, const char *kept, RetexError *err)
 {
     int *place = calloc((size_t)set->nparts + 1, sizeof *place);
 
@@ -79,7 +80,7 @@ int set_view_make(SetView *view, const RetexSet *set, const char *kept, RetexErr
     view->set.terms = calloc((size_t)set->nterms + 1, sizeof *set->terms);
     view->source = calloc((size_t)set->nparts + 1, sizeof *view->source);
     if (!place || !view->set.parts || !view->set.footprints || !view->set.terms || !view->source) {
-        set_view_free(view);
+        retex_set_view_free(view);
         free(place);
         return retex_fail(err, RETEX_ENOMEM, "no memory to write a set");
     }

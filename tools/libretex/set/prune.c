@@ -121,7 +121,7 @@ static void prune_noise(Pruning *p)
         if (strncmp(set->parts[i].name, "noise_", 6) == 0)
             p->kept[i] = 0;
     for (int t = 0; t < set->nterms || (t == 0 && !set->nterms); t++) {
-        signal_noise_name(set, set->nterms ? &set->terms[t] : NULL, name);
+        retex_signal_noise_name(set, set->nterms ? &set->terms[t] : NULL, name);
         const int part = retex_set_find_part(set, name);
         if (part > 0)
             p->kept[part] = 1;
@@ -138,6 +138,6 @@ void retex_set_prune(RetexSet *set, const char *empty)
     prune_terms(&p);
     prune_noise(&p);
     for (int i = set->nparts - 1; i > 0; i--)
-        if (!p.kept[i] && !part_is_used(set, i)) /* several may have shared it */
+        if (!p.kept[i] && !retex_part_is_used(set, i)) /* several may have shared it */
             retex_set_remove_part(set, i);
 }

@@ -201,19 +201,19 @@ static int keep_open(Source *source, int with_samples, int nthreads, RetexError 
         status = check_stored(source, err);
     if (status)
         return status;
-    const ExrSourceParts parts = {source->exr,       source->input, source->requests,
-                                  source->nrequests, source->sums,  nthreads};
+    const RetexExrSourceParts parts = {source->exr,       source->input, source->requests,
+                                       source->nrequests, source->sums,  nthreads};
     source->requests = NULL;
     source->input = NULL;
     source->exr = NULL;
     source->sums = (RetexBandSums){0};
-    status = exr_source_open(&opened, &parts, err);
+    status = retex_exr_source_open(&opened, &parts, err);
     if (status)
         return status;
     if (source->set)
         source->set->source = opened;
     if (with_samples)
-        source->samples->source = source->set ? exr_source_share(opened) : opened;
+        source->samples->source = source->set ? retex_exr_source_retain(opened) : opened;
     return 0;
 }
 
@@ -253,7 +253,8 @@ static int read_described(Source *source, RetexSet **set, RetexSamples **samples
     return 0;
 }
 
-int set_read_exr(RetexInput **input, RetexSet **set, RetexSamples **samples, int open, int nthreads, RetexError *err)
+int retex_set_read_exr(RetexInput **input, RetexSet **set, RetexSamples **samples, int open, int nthreads,
+                       RetexError *err)
 {
     Source source = {.input = *input};
     const int status = read_described(&source, set, samples, open, nthreads, err);
@@ -283,7 +284,7 @@ static int check_described(Source *source, int nthreads, RetexError *err)
     return status || version >= RETEX_MANIFEST_FIRST_WITH_SUM ? status : RETEX_CHECKED_IN_PART;
 }
 
-int set_check_exr(RetexInput *input, int nthreads, RetexError *err)
+int retex_set_check_exr(RetexInput *input, int nthreads, RetexError *err)
 {
     Source source = {.input = input};
     const int status = check_described(&source, nthreads, err);

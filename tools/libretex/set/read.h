@@ -8,9 +8,10 @@
 
 /* As retex_set_read, or, with open, retex_set_open, from an input that is no pack: each of set and samples may be NULL.
  * *input is NULL afterwards where the set or the samples keep it. */
-int set_read_exr(RetexInput **input, RetexSet **set, RetexSamples **samples, int open, int nthreads, RetexError *err);
+int retex_set_read_exr(RetexInput **input, RetexSet **set, RetexSamples **samples, int open, int nthreads,
+                       RetexError *err);
 
 /* As retex_set_check. */
-int set_check_exr(RetexInput *input, int nthreads, RetexError *err);
+int retex_set_check_exr(RetexInput *input, int nthreads, RetexError *err);
 
 #endif

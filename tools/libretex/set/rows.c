@@ -20,7 +20,7 @@ typedef struct Store {
     int count;
 } Store;
 
-struct RowReader {
+struct RetexRowReader {
     const RetexSet *set;
     const RetexSamples *samples;
     Store of_set, of_samples;
@@ -43,9 +43,9 @@ static void store_close(Store *store)
     free(store->bands);
 }
 
-int row_reader_open(RowReader **result, const RetexSet *set, const RetexSamples *samples, RetexError *err)
+int retex_row_reader_open(RetexRowReader **result, const RetexSet *set, const RetexSamples *samples, RetexError *err)
 {
-    RowReader *reader = *result = calloc(1, sizeof *reader);
+    RetexRowReader *reader = *result = calloc(1, sizeof *reader);
     if (!reader)
         return retex_fail(err, RETEX_ENOMEM, "no memory to read a set's rows");
     reader->set = set;
@@ -54,13 +54,13 @@ int row_reader_open(RowReader **result, const RetexSet *set, const RetexSamples 
     if (!code && samples)
         code = store_open(&reader->of_samples, samples->spool, samples->source, samples->nimages, err);
     if (code)
-        row_reader_close(result);
+        retex_row_reader_close(result);
     return code;
 }
 
-void row_reader_close(RowReader **result)
+void retex_row_reader_close(RetexRowReader **result)
 {
-    RowReader *reader = *result;
+    RetexRowReader *reader = *result;
     if (!reader)
         return;
     store_close(&reader->of_set);
@@ -85,11 +85,12 @@ static int spooled_row(const float **row, Store *store, int index, int image, co
     return code;
 }
 
-int row_reader_get_span(RowReader *reader, int part, int y, const float **row, RowSpan *span, RetexError *err)
+int retex_row_reader_get_span(RetexRowReader *reader, int part, int y, const float **row, RetexRowSpan *span,
+                              RetexError *err)
 {
     const RetexPart *p = &reader->set->parts[part];
     Store *store = &reader->of_set;
-    *span = (RowSpan){0, p->image.width};
+    *span = (RetexRowSpan){0, p->image.width};
     if (p->image.pixels) {
         *row = p->image.pixels + retex_image_index(&p->image, 0, y);
         return RETEX_OK;
@@ -101,13 +102,13 @@ int row_reader_get_span(RowReader *reader, int part, int y, const float **row, R
     return store->source->read_row(store->reader, part, y, row, span, err);
 }
 
-int row_reader_get(RowReader *reader, int part, int y, const float **row, RetexError *err)
+int retex_row_reader_get(RetexRowReader *reader, int part, int y, const float **row, RetexError *err)
 {
-    RowSpan span;
-    return row_reader_get_span(reader, part, y, row, &span, err);
+    RetexRowSpan span;
+    return retex_row_reader_get_span(reader, part, y, row, &span, err);
 }
 
-int row_reader_sample(RowReader *reader, int footprint, int y, const float **row, RetexError *err)
+int retex_row_reader_sample(RetexRowReader *reader, int footprint, int y, const float **row, RetexError *err)
 {
     const RetexSamples *samples = reader->samples;
     const RetexImage *image = &samples->images[footprint];
@@ -118,6 +119,6 @@ int row_reader_sample(RowReader *reader, int footprint, int y, const float **row
     }
     if (samples->spooled[footprint])
         return spooled_row(row, store, footprint, samples->spooled[footprint] - 1, image, y, err);
-    RowSpan span;
+    RetexRowSpan span;
     return store->source->read_row(store->reader, samples->stored[footprint] - 1, y, row, &span, err);
 }

@@ -6,18 +6,19 @@
 
 #include "base/row_span.h"
 
-typedef struct RowReader RowReader; /* one a thread */
+typedef struct RetexRowReader RetexRowReader; /* one a thread */
 
 /* Either may be NULL. */
-int row_reader_open(RowReader **reader, const RetexSet *set, const RetexSamples *samples, RetexError *err);
-void row_reader_close(RowReader **reader);
+int retex_row_reader_open(RetexRowReader **reader, const RetexSet *set, const RetexSamples *samples, RetexError *err);
+void retex_row_reader_close(RetexRowReader **reader);
 
 /* Row y of a part, its channels interleaved; NULL in *row where all of it is 0. It stays as it is until the next call
  * for the same part. */
-int row_reader_get(RowReader *reader, int part, int y, const float **row, RetexError *err);
+int retex_row_reader_get(RetexRowReader *reader, int part, int y, const float **row, RetexError *err);
 /* And beside what span it is known to be 0, if there is a row. */
-int row_reader_get_span(RowReader *reader, int part, int y, const float **row, RowSpan *span, RetexError *err);
+int retex_row_reader_get_span(RetexRowReader *reader, int part, int y, const float **row, RetexRowSpan *span,
+                              RetexError *err);
 /* The same of the samples' image of a footprint. */
-int row_reader_sample(RowReader *reader, int footprint, int y, const float **row, RetexError *err);
+int retex_row_reader_sample(RetexRowReader *reader, int footprint, int y, const float **row, RetexError *err);
 
 #endif

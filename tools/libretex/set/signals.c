@@ -7,14 +7,14 @@
 
 #define SIGNALS_MAX (1 + 2 * RETEX_MAX_TARGETS)
 
-void factor_place(const RetexSet *set, int factor, int *target, RetexFootprintKind *kind)
+void retex_factor_target(const RetexSet *set, int factor, int *target, RetexFootprintKind *kind)
 {
     int footprint = factor < 0 ? set->mixtures[RETEX_MIXTURE(factor)].shares[0].footprint : factor;
     *target = set->footprints[footprint].target;
     *kind = set->footprints[footprint].kind;
 }
 
-int signal_cluster(const RetexSet *set, const SignalMember *member)
+int retex_signal_cluster(const RetexSet *set, const RetexSignalMember *member)
 {
     const RetexTerm *term = member->term < 0 ? NULL : &set->terms[member->term];
     return term && term->nfactors == 1 && term->factors[0] >= 0 &&
@@ -36,10 +36,10 @@ static void term_place(const RetexSet *set, const RetexTerm *term, int *target, 
 {
     *target = -1, *kind = RETEX_FOOTPRINT_HIT;
     if (term && term->nfactors)
-        factor_place(set, term->factors[0], target, kind);
+        retex_factor_target(set, term->factors[0], target, kind);
 }
 
-void signal_noise_name(const RetexSet *set, const RetexTerm *term, char name[RETEX_NAME_MAX])
+void retex_signal_noise_name(const RetexSet *set, const RetexTerm *term, char name[RETEX_NAME_MAX])
 {
     int target;
     RetexFootprintKind kind;
@@ -47,7 +47,7 @@ void signal_noise_name(const RetexSet *set, const RetexTerm *term, char name[RET
     noise_name(set, target, kind, name);
 }
 
-int signals_find_part(const RetexSet *set, const char *name, int channels, RetexError *err)
+int retex_signals_find_part(const RetexSet *set, const char *name, int channels, RetexError *err)
 {
     int part = retex_set_find_part(set, name);
     if (part < 0)
@@ -61,7 +61,7 @@ int signals_find_part(const RetexSet *set, const char *name, int channels, Retex
 }
 
 /* The signal that a term belongs to, made where it is the first. */
-static Signal *signal_of(Signals *signals, const RetexSet *set, const RetexTerm *term)
+static RetexSignal *signal_of(RetexSignals *signals, const RetexSet *set, const RetexTerm *term)
 {
     int target;
     RetexFootprintKind kind;
@@ -71,23 +71,23 @@ static Signal *signal_of(Signals *signals, const RetexSet *set, const RetexTerm 
             return &signals->of[k];
     if (signals->count == SIGNALS_MAX)
         return NULL;
-    Signal *signal = &signals->of[signals->count++];
-    *signal = (Signal){.target = target, .kind = kind, .noise = -1, .cover = -1};
+    RetexSignal *signal = &signals->of[signals->count++];
+    *signal = (RetexSignal){.target = target, .kind = kind, .noise = -1, .cover = -1};
     return signal;
 }
 
-static int find_parts(Signals *signals, const RetexSet *set, RetexError *err)
+static int find_parts(RetexSignals *signals, const RetexSet *set, RetexError *err)
 {
     char name[RETEX_NAME_MAX];
     for (int k = 0; k < signals->count; k++) {
-        Signal *signal = &signals->of[k];
+        RetexSignal *signal = &signals->of[k];
         noise_name(set, signal->target, signal->kind, name);
-        if ((signal->noise = signals_find_part(set, name, 3, err)) < 0)
+        if ((signal->noise = retex_signals_find_part(set, name, 3, err)) < 0)
             return signal->noise;
         if (signal->target < 0)
             continue;
         snprintf(name, sizeof name, "guide_cover_%.90s", set->targets[signal->target].name);
-        if ((signal->cover = signals_find_part(set, name, 1, err)) < 0)
+        if ((signal->cover = retex_signals_find_part(set, name, 1, err)) < 0)
             return signal->cover;
         signals->covers[signal->target] = signal->cover;
     }
@@ -95,19 +95,19 @@ static int find_parts(Signals *signals, const RetexSet *set, RetexError *err)
 }
 
 /* Terms by signal. */
-static int sort_terms(Signals *signals, const RetexSet *set, RetexError *err)
+static int sort_terms(RetexSignals *signals, const RetexSet *set, RetexError *err)
 {
     int used = 0;
     for (int t = 0; t < set->nterms; t++)
         if (!signal_of(signals, set, &set->terms[t]))
             return retex_fail(err, RETEX_EFORMAT, "the set's terms are of too many kinds");
     if (!set->nterms) {
-        signals->members[0] = (SignalMember){0, 1, -1};
+        signals->members[0] = (RetexSignalMember){0, 1, -1};
         *signal_of(signals, set, NULL) =
-            (Signal){.target = -1, .noise = -1, .cover = -1, .nmembers = 1, .members = signals->members};
+            (RetexSignal){.target = -1, .noise = -1, .cover = -1, .nmembers = 1, .members = signals->members};
     }
     for (int k = 0; set->nterms && k < signals->count; k++) {
-        Signal *signal = &signals->of[k];
+        RetexSignal *signal = &signals->of[k];
         signal->members = signals->members + used;
         for (int t = 0; t < set->nterms; t++) {
             float weight = 1;
@@ -115,17 +115,17 @@ static int sort_terms(Signals *signals, const RetexSet *set, RetexError *err)
                 continue;
             for (int n = 1; n < set->terms[t].nfactors; n++)
                 weight *= 0.5f;
-            signal->members[signal->nmembers++] = (SignalMember){set->terms[t].radiance, weight, t};
+            signal->members[signal->nmembers++] = (RetexSignalMember){set->terms[t].radiance, weight, t};
             used++;
         }
     }
     return RETEX_OK;
 }
 
-int signals_open(Signals *signals, const RetexSet *set, RetexError *err)
+int retex_signals_open(RetexSignals *signals, const RetexSet *set, RetexError *err)
 {
-    *signals = (Signals){.of = calloc(SIGNALS_MAX, sizeof *signals->of),
-                         .members = calloc((size_t)set->nterms + 1, sizeof *signals->members)};
+    *signals = (RetexSignals){.of = calloc(SIGNALS_MAX, sizeof *signals->of),
+                              .members = calloc((size_t)set->nterms + 1, sizeof *signals->members)};
     for (int t = 0; t < RETEX_MAX_TARGETS; t++)
         signals->covers[t] = -1;
     int code = signals->of && signals->members ? sort_terms(signals, set, err)
@@ -133,13 +133,13 @@ int signals_open(Signals *signals, const RetexSet *set, RetexError *err)
     if (!code)
         code = find_parts(signals, set, err);
     if (code)
-        signals_close(signals);
+        retex_signals_close(signals);
     return code;
 }
 
-void signals_close(Signals *signals)
+void retex_signals_close(RetexSignals *signals)
 {
     free(signals->of);
     free(signals->members);
-    *signals = (Signals){0};
+    *signals = (RetexSignals){0};
 }

@@ -14,7 +14,7 @@ struct RetexSetSource {
     /* Row y of the set's part of that number, its channels interleaved; NULL where all of it is 0. Beside the span it
      * is 0. It is the reader's, and stays until the next call for the same part. Cheapest from the top, row after row.
      */
-    int (*read_row)(void *reader, int part, int y, const float **row, RowSpan *span, RetexError *err);
+    int (*read_row)(void *reader, int part, int y, const float **row, RetexRowSpan *span, RetexError *err);
 };
 
 #endif

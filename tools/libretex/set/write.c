@@ -8,7 +8,7 @@
 #include "set/manifest.h"
 #include "io/output.h"
 #include "set/parts.h"
-#include "set/stage.h"
+#include "set/staging.h"
 
 /* Decide which parts are kept. With samples only what recombination needs: the picture, the terms, and whole
  * footprints where no sample takes their place, so that another target can be sampled further down the pipe. */
@@ -75,14 +75,14 @@ static int check_set(const RetexSet *set, RetexError *err)
 /* A file on its way. */
 typedef struct Writing {
     const RetexSet *whole; /* or NULL */
-    SetView view;          /* of it */
+    RetexSetView view;     /* of it */
     const RetexSamples *samples;
     RetexSamplePart *names;
     RetexBandSums sums;
     RetexImage blank;    /* a pixel for a file that would otherwise be empty */
     RetexExrPart *parts; /* those of the view, then those of samples */
     int count;
-    SetStage stage;
+    RetexStaging stage;
     const char *path;
     int compress, nthreads, width, height;
 } Writing;
@@ -101,7 +101,7 @@ static RetexExrPart *add_exr_part(Writing *w, const char *name, const char *lett
 
 static int stage_part(Writing *w, RetexExrPart *exr, int part, int footprint, RetexError *err)
 {
-    return set_stage_add(&w->stage, exr, part, footprint, w->width, w->height, w->path, w->compress, err);
+    return retex_staging_add(&w->stage, exr, part, footprint, w->width, w->height, w->path, w->compress, err);
 }
 
 /* Say of all parts where their pixels are, after bringing what is in another file to where it can be had. */
@@ -131,7 +131,7 @@ static int list_parts(Writing *w, RetexError *err)
     }
     if (w->count == 0)
         add_exr_part(w, "nothing", "RGB", RETEX_HALF, &w->blank);
-    return status ? status : set_stage_fill(&w->stage, w->whole, w->samples, w->nthreads, err);
+    return status ? status : retex_staging_fill(&w->stage, w->whole, w->samples, w->nthreads, err);
 }
 
 static int keep_band_sums(Writing *w, const RetexExrEncoding *encoding, int part, RetexError *err)
@@ -208,7 +208,7 @@ static int open_writing(Writing *w, RetexError *err)
 
     if (w->whole) {
         choose_parts(w->whole, w->samples, kept);
-        status = set_view_make(&w->view, w->whole, kept, err);
+        status = retex_set_view_make(&w->view, w->whole, kept, err);
     }
     if (status)
         return status;
@@ -220,17 +220,17 @@ static int open_writing(Writing *w, RetexError *err)
     if (w->samples)
         retex_sample_part_names(w->samples, w->whole, w->names);
     status = retex_image_alloc(&w->blank, 1, 1, 3, err);
-    return status ? status : set_stage_open(&w->stage, most, err);
+    return status ? status : retex_staging_open(&w->stage, most, err);
 }
 
 static void close_writing(Writing *w)
 {
-    set_stage_close(&w->stage);
+    retex_staging_close(&w->stage);
     retex_image_free(&w->blank);
     retex_band_sums_free(&w->sums);
     free(w->names);
     free(w->parts);
-    set_view_free(&w->view);
+    retex_set_view_free(&w->view);
 }
 
 int retex_set_write(RetexSet *set, const RetexSamples *samples, const char *path, const RetexStoreParams *params,

@@ -10,11 +10,11 @@
 
 #define LEAST_ALPHA 1e-20f /* less has no colour that float could tell */
 
-void texture_gather_block(const RetexTexture *texture, const TextureLevel *level, int x, int y, char *texels)
+void retex_texture_copy_block(const RetexTexture *texture, const RetexTextureLevel *level, int x, int y, char *texels)
 {
     size_t size = texel_size(texture->narrow);
     for (int j = 0; j < 4; j++) {
-        Row row = find_row(texture, level, y + j, 0);
+        RetexLevelRow row = find_row(texture, level, y + j, 0);
         for (int i = 0; i < 4; i++, texels += size) {
             int at = wrap_index(x + i, level->width, texture->spec.wrap[0]);
             const char *p = NULL;
@@ -42,19 +42,20 @@ static int count_levels(const RetexTexture *texture)
 
 /* Gaussians are cut off where the surface ends, discs are not: see RetexTextureSpec. There is such an end along an axis
  * of the image as far as the texture is not turned against the surface. */
-static BatchLimit find_limit(const RetexTexture *texture, const BatchTexture *t, int axis)
+static RetexBatchLimit find_limit(const RetexTexture *texture, const RetexBatchTexture *t, int axis)
 {
     const RetexTextureSpec *spec = &texture->spec;
     const int along = t->matrix[axis][0] == 0;
     if (!t->gaussian || t->matrix[axis][!along] != 0 || !(spec->uv_min[along] < spec->uv_max[along]))
-        return (BatchLimit){.along = -1};
-    return (BatchLimit){along, (float)spec->uv_min[along], (float)spec->uv_max[along], (float)t->matrix[axis][along]};
+        return (RetexBatchLimit){.along = -1};
+    return (RetexBatchLimit){along, (float)spec->uv_min[along], (float)spec->uv_max[along],
+                             (float)t->matrix[axis][along]};
 }
 
-static void prepare(BatchTexture *t, const RetexTexture *texture, RetexTextureFilter shape)
+static void prepare(RetexBatchTexture *t, const RetexTexture *texture, RetexTextureFilter shape)
 {
-    const TextureLevel *image = &texture->levels[0];
-    *t = (BatchTexture){.texture = texture, .gaussian = shape == RETEX_TEXTURE_GAUSSIAN};
+    const RetexTextureLevel *image = &texture->levels[0];
+    *t = (RetexBatchTexture){.texture = texture, .gaussian = shape == RETEX_TEXTURE_GAUSSIAN};
     t->size[0] = image->width;
     t->size[1] = image->height;
     t->levels = count_levels(texture);
@@ -69,7 +70,7 @@ static void prepare(BatchTexture *t, const RetexTexture *texture, RetexTextureFi
             t->to_texels[axis][i] = (float)(t->matrix[axis][i] * t->size[axis]);
         }
         for (int i = 0; i < t->levels; i++) {
-            const TextureLevel *level = &texture->levels[i];
+            const RetexTextureLevel *level = &texture->levels[i];
             int alone = (axis ? level->height : level->width) == 1 && (t->period[axis] > 0 || is_flat(texture, axis));
             t->texels[axis][i] = (float)(axis ? level->height : level->width);
             t->inverse_area[2 * axis][i] = (float)(1 / (level->scale[axis] * level->scale[axis]));
@@ -95,12 +96,12 @@ static void filter_one(const RetexTexture *texture, RetexTextureFilter shape, co
         retex_texture_disc(texture, (double)uv[0], (double)uv[1], covariance, rgba);
 }
 
-static TextureBatchKernel *best_kernel;
+static RetexTextureBatchKernel *best_kernel;
 
 static void choose_kernel(void)
 {
-    TextureBatchKernel *kernels[3];
-    texture_batch_kernels(kernels);
+    RetexTextureBatchKernel *kernels[3];
+    retex_texture_batch_kernels(kernels);
     best_kernel = kernels[0];
 }
 
@@ -110,7 +111,7 @@ static inline void unassociate(const float in[4], float *out, int channels)
     const float alpha = in[3];
     if (!(alpha > LEAST_ALPHA))
         return;
-    Float4 color = load4(in) * (1 / alpha);
+    RetexFloat4 color = load4(in) * (1 / alpha);
     color[3] = alpha < 1 ? alpha : 1;
     if (channels == 4)
         memcpy(out, &color, sizeof color);
@@ -118,11 +119,12 @@ static inline void unassociate(const float in[4], float *out, int channels)
         memcpy(out, &color, 3 * sizeof *out);
 }
 
-void texture_filter_batches(TextureBatchKernel *kernel, const RetexTexture *texture, RetexTextureFilter shape,
-                            const float *uv, const float *spread, int spreads, size_t n, float *colors, int channels)
+void retex_texture_filter_batches(RetexTextureBatchKernel *kernel, const RetexTexture *texture,
+                                  RetexTextureFilter shape, const float *uv, const float *spread, int spreads, size_t n,
+                                  float *colors, int channels)
 {
-    BatchTexture prepared;
-    Batch batch;
+    RetexBatchTexture prepared;
+    RetexBatch batch;
     size_t from[BATCH_SIZE + 1];
     prepare(&prepared, texture, shape);
     memset(colors, 0, n * (size_t)channels * sizeof *colors);
@@ -160,7 +162,7 @@ void retex_texture_filter(const RetexTexture *texture, RetexTextureFilter shape,
     static pthread_once_t once = PTHREAD_ONCE_INIT;
     pthread_once(&once, choose_kernel);
     if (texture->nlevels) {
-        texture_filter_batches(best_kernel, texture, shape, uv, spread, spreads, n, colors, channels);
+        retex_texture_filter_batches(best_kernel, texture, shape, uv, spread, spreads, n, colors, channels);
         return;
     }
     for (size_t i = 0; i < n; i++) {

@@ -12,14 +12,14 @@
 #define BATCH_SIZE 1024 /* footprints in one call of a kernel */
 
 /* Where the surface, and with it every Gaussian, ends along an axis of the image. */
-typedef struct BatchLimit {
+typedef struct RetexBatchLimit {
     int along;       /* the surface's own axis, 0 u or 1 v; -1: no end */
     float low, high; /* of the surface's UV */
     float scale;     /* images a unit of UV, y down */
-} BatchLimit;
+} RetexBatchLimit;
 
 /* A texture's placement and levels, as the kernels read them. */
-typedef struct BatchTexture {
+typedef struct RetexBatchTexture {
     const RetexTexture *texture;
     int gaussian;
     double matrix[2][2], offset[2];      /* surface UV to the image's, in images, y down */
@@ -32,29 +32,30 @@ typedef struct BatchTexture {
     float inverse_area[3][BATCH_LEVELS]; /* what divides xx, xy and yy on a level */
     float blur[2][2][BATCH_LEVELS];      /* of axis and term: variance that a level has already */
     float spread[2][BATCH_LEVELS];       /* 0 along an axis of one texel that goes on for ever, else 1 */
-    float padding[BATCH_LEVELS];         /* texels that TextureLevel's origin has around a level */
-    BatchLimit limits[2];                /* of the image along x and y */
+    float padding[BATCH_LEVELS];         /* texels that RetexTextureLevel's origin has around a level */
+    RetexBatchLimit limits[2];                /* of the image along x and y */
     int limited;                         /* 1: some of them is one */
-} BatchTexture;
+} RetexBatchTexture;
 
 /* In: live footprints. Out: premultiplied colours, and which of them the kernel left alone. */
-typedef struct Batch {
+typedef struct RetexBatch {
     int count;
     float u[BATCH_SIZE], v[BATCH_SIZE], su[BATCH_SIZE], sv[BATCH_SIZE], correlation[BATCH_SIZE];
     float rgba[BATCH_SIZE][4];
     int left[BATCH_SIZE], nleft;
-} Batch;
+} RetexBatch;
 
-typedef void TextureBatchKernel(const BatchTexture *texture, Batch *batch);
+typedef void RetexTextureBatchKernel(const RetexBatchTexture *texture, RetexBatch *batch);
 
 /* The kernels of this build that this machine can run, the best one first; the last is the scalar reference. */
-int texture_batch_kernels(TextureBatchKernel *kernels[3]);
+int retex_texture_batch_kernels(RetexTextureBatchKernel *kernels[3]);
 
 /* retex_texture_filter, by one of them; not for constants. */
-void texture_filter_batches(TextureBatchKernel *kernel, const RetexTexture *texture, RetexTextureFilter shape,
-                            const float *uv, const float *spread, int spreads, size_t n, float *colors, int channels);
+void retex_texture_filter_batches(RetexTextureBatchKernel *kernel, const RetexTexture *texture,
+                                  RetexTextureFilter shape, const float *uv, const float *spread, int spreads, size_t n,
+                                  float *colors, int channels);
 
 /* The 4 x 4 texels from column x and row y on, as they are stored, where some lie beyond the level's borders. */
-void texture_gather_block(const RetexTexture *texture, const TextureLevel *level, int x, int y, char *texels);
+void retex_texture_copy_block(const RetexTexture *texture, const RetexTextureLevel *level, int x, int y, char *texels);
 
 #endif

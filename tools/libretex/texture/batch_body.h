@@ -152,7 +152,7 @@ INLINE Mask NAME(whole_below)(Lanes x)
 
 /* Footprints side by side, of about as many blocks. */
 typedef struct Group {
-    const BatchTexture *texture;
+    const RetexBatchTexture *texture;
     const Places *places;
     int count;        /* lanes that have one of their own; those behind do the last one's again */
     int index[LANES]; /* in the batch */
@@ -346,7 +346,7 @@ INLINE int NAME(load_ends)(Group *g)
     return cut;
 }
 
-INLINE void NAME(filter_group)(Group *g, Batch *batch)
+INLINE void NAME(filter_group)(Group *g, RetexBatch *batch)
 {
     Band band;
     const Places *p = g->places;
@@ -383,7 +383,7 @@ INLINE void NAME(filter_group)(Group *g, Batch *batch)
     Lanes inverse = 1 / (g->total * (g->texture->texture->narrow ? NARROW_ONE : 1));
     for (int lane = 0; lane < g->count; lane++) {
         const float *s = g->sums[lane];
-        Float4 sum = ((load4(s) + load4(s + 4)) + (load4(s + 8) + load4(s + 12))) * inverse[lane];
+        RetexFloat4 sum = ((load4(s) + load4(s + 4)) + (load4(s + 8) + load4(s + 12))) * inverse[lane];
         memcpy(batch->rgba[g->index[lane]], &sum, sizeof sum);
     }
     for (int lane = 0; lane < g->count && g->cut; lane++)
@@ -393,7 +393,7 @@ INLINE void NAME(filter_group)(Group *g, Batch *batch)
 
 /* How many of the batch's footprints have keys below. Makes `order` that of their keys, ends[k] that of key k in it:
  * counting is sorting. */
-INLINE int NAME(sort)(const Batch *batch, const Places *places, int *order, int *ends)
+INLINE int NAME(sort)(const RetexBatch *batch, const Places *places, int *order, int *ends)
 {
     int sum = 0;
     memset(ends, 0, sizeof *ends * (NKEYS + 1));
@@ -444,7 +444,7 @@ INLINE void NAME(form_group)(Group *g, const int *order, const int *ends, int be
     g->contiguous = begin + LANES <= ends[key] && g->index[LANES - 1] == g->index[0] + LANES - 1;
 }
 
-static void NAME(filter_batch)(const BatchTexture *texture, Batch *batch)
+static void NAME(filter_batch)(const RetexBatchTexture *texture, RetexBatch *batch)
 {
     Places places;
     Group group = {.texture = texture, .places = &places};

@@ -6,9 +6,9 @@ typedef struct Ends {
     Lanes low, high;
 } Ends;
 
-INLINE Ends NAME(find_ends)(const BatchTexture *t, int axis, Lanes u, Lanes v, Mask level)
+INLINE Ends NAME(find_ends)(const RetexBatchTexture *t, int axis, Lanes u, Lanes v, Mask level)
 {
-    const BatchLimit *limit = &t->limits[axis];
+    const RetexBatchLimit *limit = &t->limits[axis];
     if (limit->along < 0)
         return (Ends){NAME(all)(-INFINITY), NAME(all)(INFINITY)};
     Lanes at = limit->along ? v : u, scale = limit->scale * OF_LEVEL(t->texels[axis], level);

@@ -34,7 +34,7 @@
 #undef NAME
 #pragma GCC pop_options
 
-int texture_batch_kernels(TextureBatchKernel *kernels[3])
+int retex_texture_batch_kernels(RetexTextureBatchKernel *kernels[3])
 {
     int count = 0;
     if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512dq") &&
@@ -46,7 +46,7 @@ int texture_batch_kernels(TextureBatchKernel *kernels[3])
     return count;
 }
 #else
-int texture_batch_kernels(TextureBatchKernel *kernels[3])
+int retex_texture_batch_kernels(RetexTextureBatchKernel *kernels[3])
 {
     kernels[0] = filter_batch_plain;
     return 1;

@@ -18,7 +18,7 @@ typedef struct Places {
 } Places;
 
 /* u and v where they are far away become 0. */
-INLINE void NAME(find_mean)(const BatchTexture *t, int axis, Lanes u, Lanes v, Double *mean)
+INLINE void NAME(find_mean)(const RetexBatchTexture *t, int axis, Lanes u, Lanes v, Double *mean)
 {
     const Double whole = 6755399441055744.0 - (Double){0}; /* 1.5 * 2^52: adding it rounds */
     const Double period = t->period[axis] - (Double){0}, one = 1 - (Double){0};
@@ -57,7 +57,7 @@ typedef struct Spread {
     Lanes xx, xy, yy;
 } Spread;
 
-INLINE Spread NAME(find_spread)(const BatchTexture *t, Lanes su, Lanes sv, Lanes correlation)
+INLINE Spread NAME(find_spread)(const RetexBatchTexture *t, Lanes su, Lanes sv, Lanes correlation)
 {
     const float(*m)[2] = t->to_texels;
     float a = m[0][0], b = m[0][1], c = m[1][0], d = m[1][1];
@@ -78,7 +78,7 @@ INLINE void NAME(widen)(Spread *s)
 }
 
 /* By the smaller variance: halving texels divides it by four. *fine: texels are interpolated. */
-INLINE Mask NAME(choose_level)(const BatchTexture *t, const Spread *s, Mask *fine)
+INLINE Mask NAME(choose_level)(const RetexBatchTexture *t, const Spread *s, Mask *fine)
 {
     Lanes sum = s->xx + s->yy, difference = s->xx - s->yy, needed;
     Lanes root = MIN(SQRT(difference * difference + 4 * s->xy * s->xy), sum);
@@ -99,7 +99,7 @@ INLINE Mask NAME(choose_level)(const BatchTexture *t, const Spread *s, Mask *fin
 }
 
 /* What a level leaves of a variance. */
-INLINE Lanes NAME(reduce_variance)(const BatchTexture *t, int axis, const Double *mean, Lanes variance, Mask level,
+INLINE Lanes NAME(reduce_variance)(const RetexBatchTexture *t, int axis, const Double *mean, Lanes variance, Mask level,
                                    Mask fine)
 {
     Half halves[2] = {__builtin_convertvector(mean[0], Half), __builtin_convertvector(mean[1], Half)};
@@ -131,8 +131,8 @@ INLINE Mask NAME(first_within)(Lanes begin, Lanes end, Mask *count)
 #include "texture/batch_cut.h"
 
 /* The ellipse in lines, and the blocks that it meets. */
-INLINE void NAME(find_window)(const BatchTexture *t, const Spread *s, Lanes at_x, Lanes at_y, Mask column, Mask row,
-                              Mask fine, Mask far, const Ends *ends, Places *p, int i)
+INLINE void NAME(find_window)(const RetexBatchTexture *t, const Spread *s, Lanes at_x, Lanes at_y, Mask column,
+                              Mask row, Mask fine, Mask far, const Ends *ends, Places *p, int i)
 {
     const Lanes least = NAME(all)(LEAST_RADIUS), none = NAME(all)(0);
     float wider = t->gaussian ? GAUSSIAN_REACH / sqrtf(GAUSSIAN_VARIANCE) : 2;
@@ -182,7 +182,7 @@ INLINE void NAME(find_window)(const BatchTexture *t, const Spread *s, Lanes at_x
 }
 
 /* All of it, for the footprints from i on. */
-INLINE void NAME(place)(const BatchTexture *t, const Batch *batch, Places *p, int i)
+INLINE void NAME(place)(const RetexBatchTexture *t, const RetexBatch *batch, Places *p, int i)
 {
     Lanes u, v, su, sv, correlation, at[2];
     LOAD(u, batch->u + i);
@@ -227,7 +227,7 @@ INLINE void NAME(place)(const BatchTexture *t, const Batch *batch, Places *p, in
 }
 
 /* What a black border cuts is not for us. */
-INLINE void NAME(leave_borders)(const BatchTexture *t, int count, Places *p)
+INLINE void NAME(leave_borders)(const RetexBatchTexture *t, int count, Places *p)
 {
     float wider = t->gaussian ? GAUSSIAN_REACH / sqrtf(GAUSSIAN_VARIANCE) : 2;
     for (int axis = 0; axis < 2; axis++) {
@@ -236,7 +236,7 @@ INLINE void NAME(leave_borders)(const BatchTexture *t, int count, Places *p)
         const float *variance = axis ? p->yy : p->xx, *at = axis ? p->at_y : p->at_x;
         const int *index = axis ? p->row : p->column;
         for (int i = 0; i < count; i++) {
-            const TextureLevel *level = &t->texture->levels[p->level[i]];
+            const RetexTextureLevel *level = &t->texture->levels[p->level[i]];
             float x = (float)index[i] + at[i], reach = wider * sqrtf(variance[i]) + 1.5f;
             if (x - reach < 0 || x + reach > (float)((axis ? level->height : level->width) - 1))
                 p->key[i] = NKEYS;

@@ -96,7 +96,7 @@ INLINE void NAME(sum_texels)(float sums[16], const float weights[][16], int bloc
     _mm256_storeu_ps(sums + 8, high);
 #else
     int row = turned ? 1 : 4, column = turned ? 4 : 1;
-    Float4 sum[4];
+    RetexFloat4 sum[4];
     memcpy(sum, sums, sizeof sum);
     for (int k = 0; k < blocks; k++) {
         const char *from = texels + (size_t)k * step * size;
@@ -112,7 +112,7 @@ INLINE void NAME(sum_texels)(float sums[16], const float weights[][16], int bloc
  * lie outside. */
 INLINE Mask NAME(find_blocks)(const Group *g, int number, const Band *band, Mask *x, Mask *y)
 {
-    const BatchTexture *t = g->texture;
+    const RetexBatchTexture *t = g->texture;
     Mask lines = (Mask)g->line + 4 * number, texels = (Mask)g->texel + band->column;
     *x = g->turned ? lines : texels;
     *y = g->turned ? texels : lines;
@@ -138,7 +138,7 @@ INLINE void NAME(sum_band)(Group *g, int number, const Band *band, int turned, i
     for (int k = 0; k < g->blocks; k++)
         NAME(turn_weights)(band, k, weights);
     for (int lane = 0; lane < g->count; lane++) {
-        const TextureLevel *level = &g->texture->texture->levels[levels[lane]];
+        const RetexTextureLevel *level = &g->texture->texture->levels[levels[lane]];
         size_t stride = (size_t)(level->width + 2 * level->padding);
         const float(*own)[16] = (const float(*)[16])weights[lane];
         if (first[lane] >= 0) {
@@ -148,8 +148,8 @@ INLINE void NAME(sum_band)(Group *g, int number, const Band *band, int turned, i
         } else {
             for (int k = 0; k < g->blocks; k++) {
                 char around[16 * 4 * sizeof(float)];
-                texture_gather_block(g->texture->texture, level, columns[lane] + (turned ? 0 : 4 * k),
-                                     rows[lane] + (turned ? 4 * k : 0), around);
+                retex_texture_copy_block(g->texture->texture, level, columns[lane] + (turned ? 0 : 4 * k),
+                                         rows[lane] + (turned ? 4 * k : 0), around);
                 NAME(sum_texels)(g->sums[lane], own + k, 1, turned, narrow, around, 4, 0);
             }
         }

@@ -29,7 +29,7 @@
  * along, from line to line, and index 1 across, from texel to texel of a line. */
 typedef struct Lines {
     const RetexTexture *texture;
-    const TextureLevel *level;
+    const RetexTextureLevel *level;
     int turned;   /* 1: lines are columns */
     int box;      /* 1: texels are averages of what they cover; 0: they are interpolated */
     int count[2]; /* lines; texels of each */
@@ -84,7 +84,7 @@ static const Rule rules[2][4] = {
 
 /* What an ellipse of that covariance over a level's texels is in lines; flat axes have one texel that goes on for
  * ever, and lie across. */
-static inline Ellipse find_ellipse(const Rest *c, const int flat[2], int *turned)
+static inline Ellipse find_ellipse(const RetexLevelCovariance *c, const int flat[2], int *turned)
 {
     double xx = c->xx > 0 ? c->xx : 0, yy = c->yy > 0 ? c->yy : 0;
     *turned = flat[1] || (xx > yy && !flat[0]);
@@ -98,25 +98,26 @@ static inline Ellipse find_ellipse(const Rest *c, const int flat[2], int *turned
     return e;
 }
 
-static inline void find_flat(const RetexTexture *texture, const TextureLevel *level, int flat[2])
+static inline void find_flat(const RetexTexture *texture, const RetexTextureLevel *level, int flat[2])
 {
     flat[0] = level->width == 1 && (texture->spec.wrap[0] <= RETEX_WRAP_MIRROR || is_flat(texture, 0));
     flat[1] = level->height == 1 && (texture->spec.wrap[1] <= RETEX_WRAP_MIRROR || is_flat(texture, 1));
 }
 
 /* The covariance of the ellipse on a level: what is left but for the level's own reconstruction. */
-static inline Rest ellipse_rest(const TextureLevel *level, const TextureFootprint *f, const double position[2], int box)
+static inline RetexLevelCovariance ellipse_rest(const RetexTextureLevel *level, const RetexTexelFootprint *f,
+                                                const double position[2], int box)
 {
-    Rest rest = level_rest(level, f, position);
+    RetexLevelCovariance rest = level_rest(level, f, position);
     rest.xx -= box ? BOX_VARIANCE : TENT_VARIANCE;
     rest.yy -= box ? BOX_VARIANCE : TENT_VARIANCE;
     return rest;
 }
 
-static inline int level_leaves(const RetexTexture *texture, int level, const TextureFootprint *f,
+static inline int level_leaves(const RetexTexture *texture, int level, const RetexTexelFootprint *f,
                                const double position[2], double least)
 {
-    Rest rest = ellipse_rest(&texture->levels[level], f, position, 0);
+    RetexLevelCovariance rest = ellipse_rest(&texture->levels[level], f, position, 0);
     double x = rest.xx - least, y = rest.yy - least;
     if (is_flat(texture, 0) || is_flat(texture, 1))
         return (is_flat(texture, 0) || x >= 0) && (is_flat(texture, 1) || y >= 0);
@@ -129,7 +130,8 @@ static inline int taps_of(const Ellipse *e)
     return (int)((2 * length + 2) * (2 * half + 2 + fabs(e->slope)));
 }
 
-static inline int find_level(const RetexTexture *texture, const TextureFootprint *f, const double position[2], int *box)
+static inline int find_level(const RetexTexture *texture, const RetexTexelFootprint *f, const double position[2],
+                             int *box)
 {
     double trace = f->xx + f->yy, smaller = trace > 0 ? (f->xx * f->yy - f->xy * f->xy) / trace : 0;
     int level = smaller > GOOD_VARIANCE ? ilogb(smaller / GOOD_VARIANCE) / 2 : 0, flat[2], turned;
@@ -141,7 +143,7 @@ static inline int find_level(const RetexTexture *texture, const TextureFootprint
         level++;
     for (; level + 1 < texture->nlevels; level++) {
         find_flat(texture, &texture->levels[level], flat);
-        Rest rest = ellipse_rest(&texture->levels[level], f, position, 0);
+        RetexLevelCovariance rest = ellipse_rest(&texture->levels[level], f, position, 0);
         Ellipse e = find_ellipse(&rest, flat, &turned);
         if (taps_of(&e) <= TAP_BUDGET || !level_leaves(texture, level + 1, f, position, LEAST_VARIANCE))
             break;
@@ -160,7 +162,7 @@ static inline int wrap_line(const Lines *lines, int axis, int i)
 
 static const char *find_texel(const Lines *lines, int line, int texel)
 {
-    const TextureLevel *level = lines->level;
+    const RetexTextureLevel *level = lines->level;
     const RetexTexture *texture = lines->texture;
     size_t size = texel_size(texture->narrow);
     int x = lines->turned ? line : texel, y = lines->turned ? texel : line; /* wrapped already */
@@ -175,9 +177,9 @@ static const char *find_texel(const Lines *lines, int line, int texel)
 }
 
 /* Sum of weights times texels that lie `step` bytes apart. */
-static inline Float4 sum_texels(const char *p, const float *weights, int count, size_t step, int narrow)
+static inline RetexFloat4 sum_texels(const char *p, const float *weights, int count, size_t step, int narrow)
 {
-    Float4 sum = {0, 0, 0, 0}, odd = {0, 0, 0, 0};
+    RetexFloat4 sum = {0, 0, 0, 0}, odd = {0, 0, 0, 0};
     int i = 0;
     for (; i + 1 < count; i += 2, p += 2 * step) {
         sum += raw_texel(p, narrow) * weights[i];
@@ -197,9 +199,9 @@ static inline void begin_strip(Strip *strip, int used)
 
 /* Sum of a line's texels with its weights; then the strip's next line is its line. base: the texel of the strip's
  * first. */
-static inline Float4 sum_line(const Lines *lines, int line, int base, Strip *restrict strip)
+static inline RetexFloat4 sum_line(const Lines *lines, int line, int base, Strip *restrict strip)
 {
-    Float4 sum = {0, 0, 0, 0};
+    RetexFloat4 sum = {0, 0, 0, 0};
     int low = strip->low[0] < strip->low[1] ? strip->low[0] : strip->low[1];
     int high = strip->high[0] > strip->high[1] ? strip->high[0] : strip->high[1];
     int at = wrap_line(lines, 0, line), i;
@@ -307,7 +309,7 @@ static inline void find_cut(const Lines *lines, int axis, double base, float cut
 }
 
 /* All lines that the ellipse meets. */
-static inline Float4 sum_dense(const Lines *lines, const Ellipse *e)
+static inline RetexFloat4 sum_dense(const Lines *lines, const Ellipse *e)
 {
     Strip strip;
     Chords chords;
@@ -327,7 +329,7 @@ static inline Float4 sum_dense(const Lines *lines, const Ellipse *e)
     shape.cut[1] = limit(shape.cut[1], (float[2]){0, (float)(used - 3)});
     float from = shape.y - shape.length, to = shape.y + shape.length;
     float begin = from > rows[0] ? from : rows[0], end = to < rows[1] ? to : rows[1], total = 0;
-    Float4 sum = {0, 0, 0, 0};
+    RetexFloat4 sum = {0, 0, 0, 0};
     if (begin > end)
         return sum;
     int fine = shape.length < 2 || (shape.half < 3 && fabsf(shape.slope) > 0.6f), first = whole_below(begin), count = 0;
@@ -360,9 +362,9 @@ static inline Float4 sum_dense(const Lines *lines, const Ellipse *e)
 
 /* A long ellipse: some of its lines, each for as many. A step that shares no factor with the lines' number meets all of
  * a repeating axis, not a few again and again. */
-static inline Float4 sum_sparse(const Lines *lines, const Ellipse *e)
+static inline RetexFloat4 sum_sparse(const Lines *lines, const Ellipse *e)
 {
-    Float4 sum = {0, 0, 0, 0};
+    RetexFloat4 sum = {0, 0, 0, 0};
     Strip strip;
     begin_strip(&strip, MAX_ACROSS);
     int step = coprime_step(whole_above(e->length / MAX_LENGTH), lines->count[0], lines->wrap[0]);
@@ -413,16 +415,16 @@ static inline double draw_nearer(const Lines *lines, Ellipse *e)
     return filled;
 }
 
-void texture_disc_kernel(const RetexTexture *texture, const TextureFootprint *footprint, float rgba[4])
+void retex_texture_disc_kernel(const RetexTexture *texture, const RetexTexelFootprint *footprint, float rgba[4])
 {
-    const TextureLevel *image = &texture->levels[0];
+    const RetexTextureLevel *image = &texture->levels[0];
     double x = first_period(footprint->x, image->width, texture->spec.wrap[0]);
     double y = first_period(footprint->y, image->height, texture->spec.wrap[1]);
     double position[2] = {mean_position(x, footprint->xx, image->width, texture->spec.wrap[0]),
                           mean_position(y, footprint->yy, image->height, texture->spec.wrap[1])};
     int box, found = find_level(texture, footprint, position, &box), flat[2], turned;
-    const TextureLevel *level = &texture->levels[found];
-    Rest rest = ellipse_rest(level, footprint, position, box);
+    const RetexTextureLevel *level = &texture->levels[found];
+    RetexLevelCovariance rest = ellipse_rest(level, footprint, position, box);
     find_flat(texture, level, flat);
     Ellipse e = find_ellipse(&rest, flat, &turned);
     double at[2] = {flat[0] ? 0 : x / level->scale[0] - 0.5, flat[1] ? 0 : y / level->scale[1] - 0.5};
@@ -436,7 +438,7 @@ void texture_disc_kernel(const RetexTexture *texture, const TextureFootprint *fo
                    texel_size(texture->narrow) * (turned ? (size_t)level->width : 1),
                    {texture->spec.wrap[!turned], texture->spec.wrap[turned]}};
     double filled = found == texture->nlevels - 1 ? draw_nearer(&lines, &e) : 1;
-    Float4 sum = e.length > MAX_LENGTH ? sum_sparse(&lines, &e) : sum_dense(&lines, &e);
+    RetexFloat4 sum = e.length > MAX_LENGTH ? sum_sparse(&lines, &e) : sum_dense(&lines, &e);
     sum *= (float)filled * texel_unit(texture->narrow);
     memcpy(rgba, &sum, sizeof sum);
 }

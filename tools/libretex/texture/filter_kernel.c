@@ -32,10 +32,10 @@ typedef struct Edges {
 #define EDGE_TEXELS ((RetexWrap)(RETEX_WRAP_BLACK + 1)) /* a wrap mode of the kernel's own */
 
 /* Sum of weight[i] * texel(first + i * step) of one row, texels as they are stored. */
-static inline Float4 sum_row(const Row *row, int width, RetexWrap wrap, int narrow, const float *restrict weight,
-                             int count, int first, int step)
+static inline RetexFloat4 sum_row(const RetexLevelRow *row, int width, RetexWrap wrap, int narrow,
+                                  const float *restrict weight, int count, int first, int step)
 {
-    Float4 sum = {0, 0, 0, 0}, odd = {0, 0, 0, 0};
+    RetexFloat4 sum = {0, 0, 0, 0}, odd = {0, 0, 0, 0};
     size_t size = texel_size(narrow);
     if (!row->texels)
         return sum;
@@ -130,18 +130,18 @@ static inline void gaussian_window(Window *restrict window, const Shape *shape, 
     count = count > MAX_TAPS ? MAX_TAPS : count;
     float s = (float)step, curve = shape->curve, curve2 = curve * curve, curve4 = curve2 * curve2;
     float curve8 = curve4 * curve4, curve16 = curve8 * curve8;
-    Float4 total = {0, 0, 0, 0};
+    RetexFloat4 total = {0, 0, 0, 0};
     for (int begin = 0; begin < count; begin += 32) {
         float d = (float)first + (float)begin * s - centre;
         float w0 = expf(-0.5f * d * d * shape->inverse), ratio = expf(-(d + 0.5f * s) * s * shape->inverse);
         float w1 = w0 * ratio, w2 = w1 * ratio * curve, w3 = w2 * ratio * curve2;
         float ratio2 = ratio * ratio, over4 = ratio2 * ratio2 * curve4 * curve2;
-        Float4 w = {w0, w1, w2, w3};
-        Float4 ratios = {over4, over4 * curve4, over4 * curve8, over4 * curve8 * curve4};
+        RetexFloat4 w = {w0, w1, w2, w3};
+        RetexFloat4 ratios = {over4, over4 * curve4, over4 * curve8, over4 * curve8 * curve4};
         int end = begin + 32 < count ? begin + 32 : count;
         for (int i = begin; i < end; i += 4) {
-            Float4 lowered = w - WINDOW_EDGE;
-            lowered = (Float4)((Int4)lowered & (lowered > 0));
+            RetexFloat4 lowered = w - WINDOW_EDGE;
+            lowered = (RetexFloat4)((Int4)lowered & (lowered > 0));
             memcpy(window->weight + i, &lowered, sizeof lowered);
             total += lowered;
             w *= ratios;
@@ -184,7 +184,7 @@ static inline void make_window(Window *restrict window, const float *restrict ta
 }
 
 /* Keep the look-up within its budget by skipping texels along the longer way. */
-static inline void limit_taps(Shape *x, Shape *y, const TextureLevel *level, const RetexTexture *texture)
+static inline void limit_taps(Shape *x, Shape *y, const RetexTextureLevel *level, const RetexTexture *texture)
 {
     float taps = (2 * x->reach + 1) * (2 * y->reach + 1);
     if (taps <= TAP_BUDGET)
@@ -197,10 +197,10 @@ static inline void limit_taps(Shape *x, Shape *y, const TextureLevel *level, con
 }
 
 /* Whether both eigenvalues of what is left to do on a level are at least LEAST_VARIANCE. */
-static inline int level_fits(const RetexTexture *texture, int level, const TextureFootprint *f,
+static inline int level_fits(const RetexTexture *texture, int level, const RetexTexelFootprint *f,
                              const double position[2])
 {
-    Rest rest = level_rest(&texture->levels[level], f, position);
+    RetexLevelCovariance rest = level_rest(&texture->levels[level], f, position);
     double x = rest.xx - LEAST_VARIANCE, y = rest.yy - LEAST_VARIANCE;
     if (is_flat(texture, 0))
         return y >= 0;
@@ -210,7 +210,7 @@ static inline int level_fits(const RetexTexture *texture, int level, const Textu
 }
 
 /* The coarsest level that fits; the image itself always does. */
-static inline int find_level(const RetexTexture *texture, const TextureFootprint *f, const double position[2])
+static inline int find_level(const RetexTexture *texture, const RetexTexelFootprint *f, const double position[2])
 {
     double trace = f->xx + f->yy;
     /* det / trace lies between half the smaller eigenvalue and itself, and a level of s texels wants about 0.43 s^2: a
@@ -246,8 +246,8 @@ static const Limits no_limits = {{-INFINITY, -INFINITY}, {INFINITY, INFINITY}};
 
 /* Sum over a level's texels of a Gaussian with mean (x, y), in texel indices, and covariance rest. *kept: how much of
  * it lies within the limits. */
-static inline Float4 sum_level(const RetexTexture *texture, const TextureLevel *level, float x, float y, Rest rest,
-                               const Limits *limits, const Edges *edges, float *kept)
+static inline RetexFloat4 sum_level(const RetexTexture *texture, const RetexTextureLevel *level, float x, float y,
+                                    RetexLevelCovariance rest, const Limits *limits, const Edges *edges, float *kept)
 {
     /* Where an axis has one texel that goes on for ever, its marginal is all there is. */
     int flat_x = level->width == 1 && (texture->spec.wrap[0] <= RETEX_WRAP_MIRROR || is_flat(texture, 0));
@@ -284,7 +284,7 @@ static inline Float4 sum_level(const RetexTexture *texture, const TextureLevel *
         if (cut)
             cut_window(&columns, shape_x.step, x + limits->low[0], x + limits->high[0]);
     }
-    Float4 sum = {0, 0, 0, 0};
+    RetexFloat4 sum = {0, 0, 0, 0};
     for (int j = 0; j < rows.count; j++) {
         int at = rows.first + j * shape_y.step;
         if (!upright) {
@@ -293,7 +293,7 @@ static inline Float4 sum_level(const RetexTexture *texture, const TextureLevel *
             if (cut)
                 cut_window(&columns, shape_x.step, x + limits->low[0], x + limits->high[0]);
         }
-        Row row = find_row(texture, level, at, edges->sharp[1]);
+        RetexLevelRow row = find_row(texture, level, at, edges->sharp[1]);
         RetexWrap wrap = edges->sharp[0] ? EDGE_TEXELS : texture->spec.wrap[0];
         sum += rows.weight[j] *
                (texture->narrow
@@ -312,15 +312,15 @@ static float coverage(double x, double variance, double size)
     return (float)(0.5 * (erf((size - x) * inverse) + erf(x * inverse)));
 }
 
-void texture_gaussian_kernel(const RetexTexture *texture, const TextureFootprint *footprint, float rgba[4])
+void retex_texture_gaussian_kernel(const RetexTexture *texture, const RetexTexelFootprint *footprint, float rgba[4])
 {
-    const TextureLevel *image = &texture->levels[0];
+    const RetexTextureLevel *image = &texture->levels[0];
     double x = first_period(footprint->x, image->width, texture->spec.wrap[0]);
     double y = first_period(footprint->y, image->height, texture->spec.wrap[1]);
     double position[2] = {mean_position(x, footprint->xx, image->width, texture->spec.wrap[0]),
                           mean_position(y, footprint->yy, image->height, texture->spec.wrap[1])};
-    const TextureLevel *level = &texture->levels[find_level(texture, footprint, position)];
-    Rest rest = level_rest(level, footprint, position);
+    const RetexTextureLevel *level = &texture->levels[find_level(texture, footprint, position)];
+    RetexLevelCovariance rest = level_rest(level, footprint, position);
     Edges edges = {{texture->spec.wrap[0] == RETEX_WRAP_BLACK && rest.xx < TENT_LIMIT,
                     texture->spec.wrap[1] == RETEX_WRAP_BLACK && rest.yy < TENT_LIMIT}};
     Limits limits;
@@ -329,7 +329,7 @@ void texture_gaussian_kernel(const RetexTexture *texture, const TextureFootprint
         limits.high[axis] = (float)(footprint->high[axis] / level->scale[axis]);
     }
     float column = (float)(x / level->scale[0] - 0.5), row = (float)(y / level->scale[1] - 0.5), kept;
-    Float4 sum = sum_level(texture, level, column, row, rest, &limits, &edges, &kept);
+    RetexFloat4 sum = sum_level(texture, level, column, row, rest, &limits, &edges, &kept);
     if (!(kept > 1e-3f)) /* what would lose nearly all is kept */
         sum = sum_level(texture, level, column, row, rest, &no_limits, &edges, &kept);
     if (edges.sharp[0])
@@ -345,15 +345,15 @@ static RetexWrap wrap_of_points(const RetexTexture *texture, int axis)
     return texture->spec.wrap[axis] == RETEX_WRAP_BLACK ? RETEX_WRAP_CLAMP : texture->spec.wrap[axis];
 }
 
-void texture_point_kernel(const RetexTexture *texture, double x, double y, float rgba[4])
+void retex_texture_point_kernel(const RetexTexture *texture, double x, double y, float rgba[4])
 {
-    const TextureLevel *image = &texture->levels[0];
+    const RetexTextureLevel *image = &texture->levels[0];
     x = first_period(x, image->width, texture->spec.wrap[0]) - 0.5;
     y = first_period(y, image->height, texture->spec.wrap[1]) - 0.5;
     int x0 = whole_below(x), y0 = whole_below(y);
     float tx = (float)(x - x0), ty = (float)(y - y0);
     RetexWrap wrap_x = wrap_of_points(texture, 0), wrap_y = wrap_of_points(texture, 1);
-    Float4 lines[2];
+    RetexFloat4 lines[2];
     size_t size = texel_size(texture->narrow);
     int columns[2];
     for (int i = 0; i < 2; i++)
@@ -364,30 +364,30 @@ void texture_point_kernel(const RetexTexture *texture, double x, double y, float
         lines[j] = raw_texel(row + (size_t)columns[0] * size, texture->narrow) * (1 - tx) +
                    raw_texel(row + (size_t)columns[1] * size, texture->narrow) * tx;
     }
-    Float4 sum = (lines[0] * (1 - ty) + lines[1] * ty) * texel_unit(texture->narrow);
+    RetexFloat4 sum = (lines[0] * (1 - ty) + lines[1] * ty) * texel_unit(texture->narrow);
     memcpy(rgba, &sum, sizeof sum);
 }
 
-void texture_nearest_kernel(const RetexTexture *texture, double x, double y, float rgba[4])
+void retex_texture_nearest_kernel(const RetexTexture *texture, double x, double y, float rgba[4])
 {
-    const TextureLevel *image = &texture->levels[0];
+    const RetexTextureLevel *image = &texture->levels[0];
     int column = whole_below(first_period(x, image->width, texture->spec.wrap[0]));
     int line = whole_below(first_period(y, image->height, texture->spec.wrap[1]));
     column = clamp_index(wrap_index(column, image->width, wrap_of_points(texture, 0)), image->width);
     line = clamp_index(wrap_index(line, image->height, wrap_of_points(texture, 1)), image->height);
     size_t texel = (size_t)line * (size_t)image->width + (size_t)column;
-    Float4 value = raw_texel((const char *)image->texels + texel * texel_size(texture->narrow), texture->narrow) *
-                   texel_unit(texture->narrow);
+    RetexFloat4 value = raw_texel((const char *)image->texels + texel * texel_size(texture->narrow), texture->narrow) *
+                        texel_unit(texture->narrow);
     memcpy(rgba, &value, sizeof value);
 }
 
-void texture_row_kernel(const RetexTexture *texture, int y, float *rgb)
+void retex_texture_row_kernel(const RetexTexture *texture, int y, float *rgb)
 {
-    const TextureLevel *image = &texture->levels[0];
+    const RetexTextureLevel *image = &texture->levels[0];
     const size_t size = texel_size(texture->narrow);
     const char *texel = (const char *)image->texels + (size_t)y * (size_t)image->width * size;
     for (int x = 0; x < image->width; x++, texel += size, rgb += 3) {
-        Float4 value = raw_texel(texel, texture->narrow) * texel_unit(texture->narrow);
+        RetexFloat4 value = raw_texel(texel, texture->narrow) * texel_unit(texture->narrow);
         memcpy(rgb, &value, 3 * sizeof *rgb);
     }
 }

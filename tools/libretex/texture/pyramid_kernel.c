@@ -10,20 +10,20 @@
 #define PADDING 56               /* texels: about half of the longest window */
 #define MOST_PADDED (256 * 256L) /* texels of a padded level */
 
-size_t texture_texel_size(int narrow)
+size_t retex_texture_texel_size(int narrow)
 {
     return texel_size(narrow);
 }
 
-int texture_texels_alloc(TextureTexels *texels)
+int retex_texels_alloc(RetexTexels *texels)
 {
     texels->texels = malloc(texel_size(texels->narrow) * (size_t)texels->width * (size_t)texels->height);
     return texels->texels ? 0 : -1;
 }
 
-void texture_read_texel(const void *texels, size_t index, int narrow, float rgba[4])
+void retex_texture_read_texel(const void *texels, size_t index, int narrow, float rgba[4])
 {
-    Float4 texel = raw_texel((const char *)texels + index * texel_size(narrow), narrow) * texel_unit(narrow);
+    RetexFloat4 texel = raw_texel((const char *)texels + index * texel_size(narrow), narrow) * texel_unit(narrow);
     memcpy(rgba, &texel, sizeof texel);
 }
 
@@ -63,7 +63,7 @@ static void halving_blur(int n, double blur[2])
     }
 }
 
-static inline void store_texel(char *to, int narrow, Float4 texel)
+static inline void store_texel(char *to, int narrow, RetexFloat4 texel)
 {
     if (!narrow) {
         memcpy(to, &texel, sizeof texel);
@@ -84,7 +84,7 @@ static inline void halve_texels(char *restrict out, const char *const in[3], con
     for (int x = 0; x < half; x++, out += size) {
         float across[3];
         int left, columns = halving_weights(n, x, across, &left);
-        Float4 sum = {0, 0, 0, 0};
+        RetexFloat4 sum = {0, 0, 0, 0};
         for (int j = 0; j < rows; j++)
             for (int i = 0; i < columns; i++)
                 sum += down[j] * across[i] * raw_texel(in[j] + (size_t)(left + i) * size, narrow);
@@ -99,7 +99,7 @@ static inline void halve_pairs(char *restrict out, const char *restrict above, c
     size_t size = texel_size(narrow);
     if (!narrow) {
         for (int x = 0; x < half; x++, out += size, above += 2 * size, below += 2 * size) {
-            Float4 sum =
+            RetexFloat4 sum =
                 (load4((const float *)(const void *)above) + load4((const float *)(const void *)(above + size))) +
                 (load4((const float *)(const void *)below) + load4((const float *)(const void *)(below + size)));
             store_texel(out, 0, sum * 0.25f);
@@ -125,12 +125,12 @@ static void halve_line(void *out, const void *in, int n, int narrow)
 }
 
 typedef struct HalvingWork {
-    const TextureLevel *from;
-    TextureLevel *to;
+    const RetexTextureLevel *from;
+    RetexTextureLevel *to;
     int narrow;
 } HalvingWork;
 
-static void halve_row(const TextureLevel *from, TextureLevel *to, int narrow, int y)
+static void halve_row(const RetexTextureLevel *from, RetexTextureLevel *to, int narrow, int y)
 {
     float down[3];
     int top, rows = halving_weights(from->height, y, down, &top);
@@ -163,15 +163,15 @@ static void halve_job(void *context, int index, int thread)
 
 static void *new_texels(int width, int height, int narrow)
 {
-    TextureTexels texels = {width, height, narrow, NULL};
-    texture_texels_alloc(&texels);
+    RetexTexels texels = {width, height, narrow, NULL};
+    retex_texels_alloc(&texels);
     return texels.texels;
 }
 
 /* The image's border, for axes that clamp. */
 static int take_borders(RetexTexture *texture)
 {
-    TextureLevel *image = &texture->levels[0];
+    RetexTextureLevel *image = &texture->levels[0];
     int narrow = texture->narrow;
     size_t width = (size_t)image->width, height = (size_t)image->height, size = texel_size(narrow);
     const char *texels = image->texels;
@@ -196,8 +196,8 @@ static int take_borders(RetexTexture *texture)
 
 static int add_level(RetexTexture *texture, int nthreads)
 {
-    const TextureLevel *from = &texture->levels[texture->nlevels - 1], *image = &texture->levels[0];
-    TextureLevel *to = &texture->levels[texture->nlevels++];
+    const RetexTextureLevel *from = &texture->levels[texture->nlevels - 1], *image = &texture->levels[0];
+    RetexTextureLevel *to = &texture->levels[texture->nlevels++];
     int narrow = texture->narrow;
     to->width = from->width > 1 ? from->width / 2 : 1;
     to->height = from->height > 1 ? from->height / 2 : 1;
@@ -231,10 +231,10 @@ static int add_level(RetexTexture *texture, int nthreads)
 
 /* ---- small levels, padded ---- */
 
-static void pad_row(const RetexTexture *texture, const TextureLevel *level, int y, char *to)
+static void pad_row(const RetexTexture *texture, const RetexTextureLevel *level, int y, char *to)
 {
     const size_t size = texel_size(texture->narrow);
-    const Row row = find_row(texture, level, y, 0);
+    const RetexLevelRow row = find_row(texture, level, y, 0);
     for (int x = -level->padding; x < level->width + level->padding; x++, to += size) {
         const int at = wrap_index(x, level->width, texture->spec.wrap[0]);
         const char *texel = NULL;
@@ -247,7 +247,7 @@ static void pad_row(const RetexTexture *texture, const TextureLevel *level, int 
     }
 }
 
-static int pad_level(const RetexTexture *texture, TextureLevel *level)
+static int pad_level(const RetexTexture *texture, RetexTextureLevel *level)
 {
     const int width = level->width + 2 * PADDING, height = level->height + 2 * PADDING;
     if ((long)width * height > MOST_PADDED)
@@ -270,9 +270,9 @@ static void fill_tail(RetexTexture *texture)
     }
 }
 
-int texture_grow_pyramid(RetexTexture *texture, TextureTexels *texels, int nthreads)
+int retex_texture_build_pyramid(RetexTexture *texture, RetexTexels *texels, int nthreads)
 {
-    TextureLevel *image = &texture->levels[0];
+    RetexTextureLevel *image = &texture->levels[0];
     image->width = texels->width;
     image->height = texels->height;
     image->texels = texels->texels;
@@ -283,7 +283,7 @@ int texture_grow_pyramid(RetexTexture *texture, TextureTexels *texels, int nthre
     fill_tail(texture);
     int failed = take_borders(texture);
     while (!failed) {
-        const TextureLevel *last = &texture->levels[texture->nlevels - 1];
+        const RetexTextureLevel *last = &texture->levels[texture->nlevels - 1];
         if ((last->width == 1 && last->height == 1) || texture->nlevels == TEXTURE_MAX_LEVELS)
             break;
         failed = add_level(texture, nthreads);

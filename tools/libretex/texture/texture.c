@@ -27,16 +27,16 @@ static int no_memory(const RetexTexture *texture, int width, int height, RetexEr
 
 /* Two repeats in place of one: beside each other, the right one moved down, or one above the other, the upper one moved
  * right. What the filters see is an image like any other. */
-static int compose_repeats(RetexTexture *texture, TextureTexels *image, RetexError *err)
+static int compose_repeats(RetexTexture *texture, RetexTexels *image, RetexError *err)
 {
     int across = texture->spec.repeat == RETEX_REPEAT_HALF_DROP;
     if (!across && texture->spec.repeat != RETEX_REPEAT_BRICK)
         return RETEX_OK;
     int width = image->width, height = image->height;
-    TextureTexels both = {across ? 2 * width : width, across ? height : 2 * height, image->narrow, NULL};
-    if (width > INT_MAX / 2 || height > INT_MAX / 2 || texture_texels_alloc(&both))
+    RetexTexels both = {across ? 2 * width : width, across ? height : 2 * height, image->narrow, NULL};
+    if (width > INT_MAX / 2 || height > INT_MAX / 2 || retex_texels_alloc(&both))
         return no_memory(texture, width, height, err);
-    size_t texel = texture_texel_size(image->narrow), row = (size_t)width * texel;
+    size_t texel = retex_texture_texel_size(image->narrow), row = (size_t)width * texel;
     size_t half = (size_t)(width / 2) * texel, rest = row - half;
     const char *texels = image->texels;
     for (int y = 0; y < height; y++) {
@@ -85,7 +85,7 @@ static void finish_map(RetexTexture *texture, int width, int height)
 }
 
 typedef struct LookWork {
-    const TextureTexels *texels;
+    const RetexTexels *texels;
     atomic_int found; /* a texel that is not opaque */
 } LookWork;
 
@@ -103,7 +103,7 @@ static void look_job(void *context, int index, int thread)
         atomic_store(&work->found, 1);
 }
 
-static void look_through(RetexTexture *texture, const TextureTexels *texels, int nthreads)
+static void look_through(RetexTexture *texture, const RetexTexels *texels, int nthreads)
 {
     LookWork work = {texels, 0};
     retex_parallel(nthreads, texels->height, look_job, &work);
@@ -122,9 +122,9 @@ static int has_two_repeats(const RetexTextureSpec *spec)
 }
 
 /* Of the texels and their pyramid. */
-static int charge(RetexTexture *texture, const TextureTexels *texels, RetexError *err)
+static int charge(RetexTexture *texture, const RetexTexels *texels, RetexError *err)
 {
-    uint64_t bytes = texture_texel_size(texels->narrow) * (uint64_t)texels->width * (uint64_t)texels->height;
+    uint64_t bytes = retex_texture_texel_size(texels->narrow) * (uint64_t)texels->width * (uint64_t)texels->height;
     bytes += bytes / 3;
     bytes *= has_two_repeats(&texture->spec) ? 2 : 1;
     int code = retex_budget_take(texture->spec.budget, bytes, texture->spec.image, err);
@@ -134,7 +134,7 @@ static int charge(RetexTexture *texture, const TextureTexels *texels, RetexError
 }
 
 /* The texels, premultiplied, become the texture's. */
-static int take_texels(RetexTexture *texture, TextureTexels *texels, int nthreads, RetexError *err)
+static int take_texels(RetexTexture *texture, RetexTexels *texels, int nthreads, RetexError *err)
 {
     int width = texels->width, height = texels->height, code = charge(texture, texels, err);
     if (!code)
@@ -143,14 +143,14 @@ static int take_texels(RetexTexture *texture, TextureTexels *texels, int nthread
         return code;
     finish_map(texture, width, height);
     look_through(texture, texels, nthreads);
-    if (texture_grow_pyramid(texture, texels, nthreads))
+    if (retex_texture_build_pyramid(texture, texels, nthreads))
         return no_memory(texture, width, height, err);
     return RETEX_OK;
 }
 
 typedef struct MendWork {
     const RetexImage *image;
-    TextureValues *values; /* by row */
+    RetexTexelDefects *values; /* by row */
 } MendWork;
 
 /* One bad texel must not spoil all coarser levels. */
@@ -160,7 +160,7 @@ static void premultiply_job(void *context, int index, int thread)
     const int width = work->image->width;
     (void)thread;
     float *p = work->image->pixels + (size_t)index * (size_t)width * 4;
-    texture_values_mend(p, width, index, &work->values[index]);
+    retex_texel_defects_repair(p, width, index, &work->values[index]);
     for (int x = 0; x < width; x++, p += 4) {
         float alpha = p[3] < 0 ? 0 : p[3] > 1 ? 1 : p[3];
         for (int c = 0; c < 3; c++)
@@ -176,7 +176,7 @@ static int premultiply(RetexTexture *texture, const RetexImage *pixels, int nthr
         return no_memory(texture, pixels->width, pixels->height, err);
     retex_parallel(nthreads, pixels->height, premultiply_job, &work);
     for (int y = 0; y < pixels->height; y++)
-        texture_values_join(&texture->values, &work.values[y]);
+        retex_texel_defects_merge(&texture->values, &work.values[y]);
     free(work.values);
     return RETEX_OK;
 }
@@ -184,7 +184,7 @@ static int premultiply(RetexTexture *texture, const RetexImage *pixels, int nthr
 /* The pixels (RGBA) become the texture's. */
 static int take_pixels(RetexTexture *texture, RetexImage *pixels, int nthreads, RetexError *err)
 {
-    TextureTexels texels = {pixels->width, pixels->height, 0, pixels->pixels};
+    RetexTexels texels = {pixels->width, pixels->height, 0, pixels->pixels};
     int code = premultiply(texture, pixels, nthreads, err);
     if (code)
         return code;
@@ -242,7 +242,7 @@ static RetexTexture *new_texture(const RetexTextureSpec *given, int constant, Re
     }
     spec.constant = constant;
     if (constant)
-        texture_values_mend_color(spec.color, &texture->values);
+        retex_texel_defects_repair_color(spec.color, &texture->values);
     for (int axis = 0; axis < 2; axis++)
         if (spec.repeat == RETEX_REPEAT_MIRROR && spec.wrap[axis] == RETEX_WRAP_REPEAT)
             spec.wrap[axis] = RETEX_WRAP_MIRROR;
@@ -256,7 +256,7 @@ void retex_texture_close(RetexTexture **texture)
     if (!texture || !*texture)
         return;
     for (int i = 0; i < TEXTURE_MAX_LEVELS; i++) {
-        TextureLevel *level = &(*texture)->levels[i];
+        RetexTextureLevel *level = &(*texture)->levels[i];
         free(level->texels);
         free(level->padded);
         for (int k = 0; k < 2; k++) {
@@ -269,11 +269,11 @@ void retex_texture_close(RetexTexture **texture)
     *texture = NULL;
 }
 
-void texture_tell(const RetexTexture *texture, const RetexTextureSpec *spec)
+void retex_texture_report_defects(const RetexTexture *texture, const RetexTextureSpec *spec)
 {
     int width, height;
     retex_texture_size(texture, &width, &height);
-    texture_values_tell(&texture->values, spec, (long)width * height);
+    retex_texel_defects_report(&texture->values, spec, (long)width * height);
 }
 
 /* What it was made by may be gone soon. */
@@ -281,7 +281,7 @@ static void hand_over(RetexTexture **out, RetexTexture *texture, const float col
 {
     RetexTextureSpec told = texture->spec;
     memcpy(told.color, color, sizeof told.color); /* as it was given */
-    texture_tell(texture, &told);
+    retex_texture_report_defects(texture, &told);
     texture->spec.access = NULL;
     texture->spec.warn = NULL;
     *out = texture;
@@ -312,7 +312,7 @@ int retex_texture_load(RetexTexture **out, const RetexTextureSpec *spec, int nth
         RetexNarrowImage narrow = {0};
         RetexImage image = {0};
         code = retex_image_read_narrow(&narrow, own->image, &params, &why);
-        TextureTexels texels = {narrow.width, narrow.height, 1, narrow.pixels};
+        RetexTexels texels = {narrow.width, narrow.height, 1, narrow.pixels};
         if (!code && !narrow.pixels)
             code = retex_image_read_with(&image, own->image, &params, &why);
         if (!code)
@@ -376,19 +376,19 @@ int retex_texture_square(RetexTexture **out, const RetexTexture *texture, RetexE
         square->spec.color[c] = texture->spec.color[c] * texture->spec.color[c];
     int code = RETEX_OK;
     if (texture->nlevels) {
-        const TextureLevel *from = &texture->levels[0];
-        TextureTexels texels = {from->width, from->height, 0, NULL};
-        if (texture_texels_alloc(&texels))
+        const RetexTextureLevel *from = &texture->levels[0];
+        RetexTexels texels = {from->width, from->height, 0, NULL};
+        if (retex_texels_alloc(&texels))
             code = no_memory(texture, from->width, from->height, err);
         size_t count = (size_t)from->width * (size_t)from->height;
         for (size_t i = 0; !code && i < count; i++) {
             float p[4], *to = (float *)texels.texels + 4 * i;
-            texture_read_texel(from->texels, i, texture->narrow, p);
+            retex_texture_read_texel(from->texels, i, texture->narrow, p);
             for (int c = 0; c < 3; c++)
                 to[c] = p[3] > 0 ? p[c] / p[3] * (p[c] / p[3]) * p[3] : 0;
             to[3] = p[3];
         }
-        if (!code && texture_grow_pyramid(square, &texels, 0))
+        if (!code && retex_texture_build_pyramid(square, &texels, 0))
             code = no_memory(texture, from->width, from->height, err);
         free(texels.texels);
     }
@@ -422,7 +422,7 @@ static void constant_color(const RetexTexture *texture, float rgba[4])
 }
 
 /* Covariance in texels of the image: M C M^T, then texels, y down. Returns 0 where nothing is left of it. */
-static int texel_covariance(const RetexTexture *texture, const double c[3], TextureFootprint *f)
+static int texel_covariance(const RetexTexture *texture, const double c[3], RetexTexelFootprint *f)
 {
     const double(*m)[2] = texture->matrix;
     double width = texture->levels[0].width, height = texture->levels[0].height;
@@ -468,9 +468,9 @@ static void point_at(const RetexTexture *texture, const double uv[2], int neares
             return;
         }
     if (nearest)
-        texture_nearest_kernel(texture, x, y, rgba);
+        retex_texture_nearest_kernel(texture, x, y, rgba);
     else
-        texture_point_kernel(texture, x, y, rgba);
+        retex_texture_point_kernel(texture, x, y, rgba);
     unassociate(rgba);
 }
 
@@ -501,7 +501,7 @@ void retex_texture_prefetch(const RetexTexture *texture, double u, double v)
     double uv[2];
     if (!texture->nlevels || !texture_uv(texture, u, v, uv))
         return;
-    const TextureLevel *image = &texture->levels[0];
+    const RetexTextureLevel *image = &texture->levels[0];
     int column = within((uv[0] - floor(uv[0])) * image->width - 0.5, image->width);
     int row = within((1 - (uv[1] - floor(uv[1]))) * image->height - 0.5, image->height > 1 ? image->height - 1 : 1);
     size_t size = 4 * (texture->narrow ? sizeof(uint16_t) : sizeof(float));
@@ -518,13 +518,13 @@ void retex_texture_nearest(const RetexTexture *texture, double u, double v, floa
 
 void retex_texture_row(const RetexTexture *texture, int y, float *rgb)
 {
-    texture_row_kernel(texture, y, rgb);
+    retex_texture_row_kernel(texture, y, rgb);
 }
 
-typedef void Filter(const RetexTexture *texture, const TextureFootprint *footprint, float rgba[4]);
+typedef void Filter(const RetexTexture *texture, const RetexTexelFootprint *footprint, float rgba[4]);
 
 /* How far from (u, v) the surface reaches, along those axes of the texture that lie along one of its own. */
-static void set_limits(const RetexTexture *texture, const double at[2], TextureFootprint *f)
+static void set_limits(const RetexTexture *texture, const double at[2], RetexTexelFootprint *f)
 {
     const RetexTextureSpec *spec = &texture->spec;
     const double texels[2] = {texture->levels[0].width, -(double)texture->levels[0].height}; /* y goes down */
@@ -545,7 +545,7 @@ static void filter_at(const RetexTexture *texture, double u, double v, const dou
                       float rgba[4])
 {
     double uv[2];
-    TextureFootprint footprint;
+    RetexTexelFootprint footprint;
     if (!texture->nlevels) {
         constant_color(texture, rgba);
     } else if (!texture_uv(texture, u, v, uv)) {
@@ -563,10 +563,10 @@ static void filter_at(const RetexTexture *texture, double u, double v, const dou
 
 void retex_texture_gaussian(const RetexTexture *texture, double u, double v, const double covariance[3], float rgba[4])
 {
-    filter_at(texture, u, v, covariance, texture_gaussian_kernel, rgba);
+    filter_at(texture, u, v, covariance, retex_texture_gaussian_kernel, rgba);
 }
 
 void retex_texture_disc(const RetexTexture *texture, double u, double v, const double covariance[3], float rgba[4])
 {
-    filter_at(texture, u, v, covariance, texture_disc_kernel, rgba);
+    filter_at(texture, u, v, covariance, retex_texture_disc_kernel, rgba);
 }

@@ -13,13 +13,13 @@
 #define TENT_VARIANCE (1.0 / 6)
 
 /* A texel as it is stored, and its size in bytes. */
-static inline Float4 raw_texel(const void *p, int narrow)
+static inline RetexFloat4 raw_texel(const void *p, int narrow)
 {
     if (!narrow)
         return load4(p);
     uint16_t t[4];
     memcpy(t, p, sizeof t);
-    return (Float4){t[0], t[1], t[2], t[3]};
+    return (RetexFloat4){t[0], t[1], t[2], t[3]};
 }
 
 static inline size_t texel_size(int narrow)
@@ -72,14 +72,14 @@ static inline int clamp_index(int i, int n)
 }
 
 /* One row of a level, as far as it can be seen: inside texels and what lies to the left and right; NULL = nothing. */
-typedef struct Row {
+typedef struct RetexLevelRow {
     const char *texels;
     const char *beside[2];
-} Row;
+} RetexLevelRow;
 
-static inline Row find_row(const RetexTexture *texture, const TextureLevel *level, int y, int sharp)
+static inline RetexLevelRow find_row(const RetexTexture *texture, const RetexTextureLevel *level, int y, int sharp)
 {
-    Row row = {NULL, {NULL, NULL}};
+    RetexLevelRow row = {NULL, {NULL, NULL}};
     int at = sharp ? clamp_index(y, level->height) : wrap_index(y, level->height, texture->spec.wrap[1]);
     if ((unsigned)at < (unsigned)level->height) {
         size_t size = texel_size(texture->narrow);
@@ -123,16 +123,17 @@ static inline double mean_position(double x, double variance, double size, Retex
 }
 
 /* Covariance that the sum over a level's texels has to supply, in that level's texels. */
-typedef struct Rest {
+typedef struct RetexLevelCovariance {
     double xx, xy, yy;
-} Rest;
+} RetexLevelCovariance;
 
-static inline Rest level_rest(const TextureLevel *level, const TextureFootprint *f, const double position[2])
+static inline RetexLevelCovariance level_rest(const RetexTextureLevel *level, const RetexTexelFootprint *f,
+                                              const double position[2])
 {
     double sx = level->scale[0], sy = level->scale[1];
     double blur_x = level->blur[0][0] + level->blur[0][1] * position[0];
     double blur_y = level->blur[1][0] + level->blur[1][1] * position[1];
-    Rest rest = {(f->xx + TENT_VARIANCE - blur_x) / (sx * sx), f->xy / (sx * sy),
+    RetexLevelCovariance rest = {(f->xx + TENT_VARIANCE - blur_x) / (sx * sx), f->xy / (sx * sy),
                  (f->yy + TENT_VARIANCE - blur_y) / (sy * sy)};
     return rest;
 }
@@ -140,7 +141,7 @@ static inline Rest level_rest(const TextureLevel *level, const TextureFootprint 
 /* An axis along which the image cannot change: one texel, and nothing else beside it. */
 static inline int is_flat(const RetexTexture *texture, int axis)
 {
-    const TextureLevel *image = &texture->levels[0];
+    const RetexTextureLevel *image = &texture->levels[0];
     return (axis ? image->height : image->width) == 1 && texture->spec.wrap[axis] != RETEX_WRAP_BLACK;
 }
 

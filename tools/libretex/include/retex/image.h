@@ -101,7 +101,7 @@ int retex_file_write(const char *path, const void *data, size_t bytes, RetexErro
 
 /* Before a process ends in the middle of its work, from any thread: remove what outputs that are not whole have of
  * temporary names. No output can be finished afterwards. */
-void retex_unfinished_remove(void);
+void retex_pending_files_remove(void);
 
 #ifdef __cplusplus
 }

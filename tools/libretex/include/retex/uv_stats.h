@@ -9,67 +9,69 @@ extern "C" {
 #endif
 
 /* A weighted distribution of UV. On a periodic axis the mean lies in [0,1), and distances go the short way round. */
-typedef struct UvStats {
+typedef struct RetexUvStats {
     double weight;
     double mean[2];
     double m2[3]; /* weighted sums of squared deviations: uu, uv, vv */
-} UvStats;
+} RetexUvStats;
 
-void uv_stats_add(UvStats *stats, double weight, const double uv[2], const int periodic[2]);
-void uv_stats_merge(UvStats *into, const UvStats *from, const int periodic[2]);
+void retex_uv_stats_add(RetexUvStats *stats, double weight, const double uv[2], const int periodic[2]);
+void retex_uv_stats_merge(RetexUvStats *into, const RetexUvStats *from, const int periodic[2]);
 
 /* By how much merging two raises the sum of squared deviations (Ward 1963): for points seen sharply, whose mean every
  * texture follows. */
-double uv_stats_ward(const UvStats *a, const UvStats *b, const int periodic[2]);
+double retex_uv_stats_ward(const RetexUvStats *a, const RetexUvStats *b, const int periodic[2]);
 
-/* By how much merging two raises what an unknown texture varies within clusters, weight V / (V + UV_FEATURE^2), V the
- * variance of UV: Ward's rule in units of UV_FEATURE^2 while clusters are small. Larger ones see the texture's
- * mean, however large: so a few points far away, as on a plane to the horizon, do not claim a cluster each. */
-double uv_stats_variation_gain(const UvStats *a, const UvStats *b, const int periodic[2]);
-#define UV_FEATURE 0.5 /* of UV, in which most textures have changed all they do */
+/* By how much merging two raises the variation of an unknown texture within clusters, weight V / (V +
+ * RETEX_UV_FEATURE^2), V the variance of UV: Ward's rule in units of RETEX_UV_FEATURE^2 while clusters are small.
+ * Larger clusters see the texture's mean, however large they are: so a few points far away, as on a plane to the
+ * horizon, do not take a cluster each. */
+double retex_uv_stats_variation_gain(const RetexUvStats *a, const RetexUvStats *b, const int periodic[2]);
+#define RETEX_UV_FEATURE 0.5 /* of UV, in which most textures have changed all they do */
 
 /* What an unknown texture varies within a cluster. */
-static inline double uv_stats_variation(const UvStats *a)
+static inline double retex_uv_stats_variation(const RetexUvStats *a)
 {
     double squares = a->m2[0] + a->m2[2];
-    return a->weight * squares / (squares + a->weight * UV_FEATURE * UV_FEATURE);
+    return a->weight * squares / (squares + a->weight * RETEX_UV_FEATURE * RETEX_UV_FEATURE);
 }
 
-static inline double uv_stats_difference(double to, double from, int periodic)
+static inline double retex_uv_stats_difference(double to, double from, int periodic)
 {
     double d = to - from;
     return periodic ? d - rint(d) : d;
 }
 
 /* The square of how far it is from one's mean to a point. */
-static inline double uv_stats_distance2(const UvStats *a, const double uv[2], const int periodic[2])
+static inline double retex_uv_stats_distance2(const RetexUvStats *a, const double uv[2], const int periodic[2])
 {
-    double u = uv_stats_difference(a->mean[0], uv[0], periodic[0]);
-    double v = uv_stats_difference(a->mean[1], uv[1], periodic[1]);
+    double u = retex_uv_stats_difference(a->mean[0], uv[0], periodic[0]);
+    double v = retex_uv_stats_difference(a->mean[1], uv[1], periodic[1]);
     return u * u + v * v;
 }
 
-/* As uv_stats_ward where one of the two is a single point, to the bit. */
-static inline double uv_stats_point_ward(const UvStats *a, double weight, const double uv[2], const int periodic[2])
+/* As retex_uv_stats_ward where one of the two is a single point, to the bit. */
+static inline double retex_uv_stats_point_ward(const RetexUvStats *a, double weight, const double uv[2],
+                                               const int periodic[2])
 {
-    return a->weight * weight / (a->weight + weight) * uv_stats_distance2(a, uv, periodic);
+    return a->weight * weight / (a->weight + weight) * retex_uv_stats_distance2(a, uv, periodic);
 }
 
 /* What an unknown texture would vary within both, merged: one with squared deviations of this sum, and a point or a
  * cluster of another. In one division. */
-static inline double uv_stats_merged_variation(const UvStats *a, double weight, const double uv[2], double squares,
-                                               const int periodic[2])
+static inline double retex_uv_stats_merged_variation(const RetexUvStats *a, double weight, const double uv[2],
+                                                     double squares, const int periodic[2])
 {
     double sum = a->weight + weight, all = a->m2[0] + a->m2[2] + squares;
-    double both = sum * all + a->weight * weight * uv_stats_distance2(a, uv, periodic);
-    return sum * both / (both + sum * sum * (UV_FEATURE * UV_FEATURE));
+    double both = sum * all + a->weight * weight * retex_uv_stats_distance2(a, uv, periodic);
+    return sum * both / (both + sum * sum * (RETEX_UV_FEATURE * RETEX_UV_FEATURE));
 }
 
 /* As footprints hold it: mean u and v, rounded to a 32nd of their standard deviation at most; spread: these deviations,
  * and the correlation. */
-void uv_stats_store(const UvStats *stats, float mean[2], float spread[3]);
+void retex_uv_stats_store(const RetexUvStats *stats, float mean[2], float spread[3]);
 /* And back. */
-void uv_stats_load(UvStats *stats, double weight, const float mean[2], const float spread[3]);
+void retex_uv_stats_load(RetexUvStats *stats, double weight, const float mean[2], const float spread[3]);
 
 #ifdef __cplusplus
 }

@@ -1,5 +1,5 @@
 /* See gather.h. */
-#include "set/gather.h"
+#include "set/transfer.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -9,21 +9,22 @@
 #define ROWS_A_JOB 64 /* a pack's band, some of a spool's */
 
 typedef struct GatherWork {
-    const Gathered *images;
+    const RetexImageTransfer *images;
     int blocks; /* an image, at most */
-    GatherRows *make;
+    RetexComputeRows *make;
     void *context;
     const RetexSet *set;
     const RetexSamples *samples;
     RetexSpool *spool;
 } GatherWork;
 
-static size_t row_length(const Gathered *g)
+static size_t row_length(const RetexImageTransfer *g)
 {
     return (size_t)g->image->width * (size_t)g->image->channels;
 }
 
-static int spool_rows(const GatherWork *work, RowReader *reader, const Gathered *g, int y0, int y1, RetexError *err)
+static int spool_rows(const GatherWork *work, RetexRowReader *reader, const RetexImageTransfer *g, int y0, int y1,
+                      RetexError *err)
 {
     const size_t bytes = row_length(g) * RETEX_SPOOL_LINES * sizeof(float);
     float *band = malloc(bytes);
@@ -42,50 +43,52 @@ static int spool_rows(const GatherWork *work, RowReader *reader, const Gathered 
 static int gather_job(void *context, int index, int thread, RetexError *err)
 {
     const GatherWork *work = context;
-    const Gathered *g = &work->images[index / work->blocks];
+    const RetexImageTransfer *g = &work->images[index / work->blocks];
     const int y0 = index % work->blocks * ROWS_A_JOB;
     const int y1 = y0 + ROWS_A_JOB < g->image->height ? y0 + ROWS_A_JOB : g->image->height;
-    RowReader *reader;
+    RetexRowReader *reader;
     (void)thread;
     if (y0 >= y1)
         return RETEX_OK;
-    int code = row_reader_open(&reader, work->set, work->samples, err);
+    int code = retex_row_reader_open(&reader, work->set, work->samples, err);
     if (!code && g->image->pixels)
         code = work->make(work->context, reader, g, y0, y1, g->image->pixels + retex_image_index(g->image, 0, y0), err);
     else if (!code)
         code = spool_rows(work, reader, g, y0, y1, err);
-    row_reader_close(&reader);
+    retex_row_reader_close(&reader);
     return code;
 }
 
-int gather_made(const Gathered *images, int count, GatherRows *make, void *context, const RetexSet *set,
-                const RetexSamples *samples, RetexSpool *spool, int nthreads, RetexError *err)
+int retex_compute_images(const RetexImageTransfer *images, int count, RetexComputeRows *make, void *context,
+                         const RetexSet *set, const RetexSamples *samples, RetexSpool *spool, int nthreads,
+                         RetexError *err)
 {
     GatherWork work = {images, 0, make, context, set, samples, spool};
     for (int i = 0; i < count; i++) {
         const int blocks = (images[i].image->height + ROWS_A_JOB - 1) / ROWS_A_JOB;
         work.blocks = blocks > work.blocks ? blocks : work.blocks;
     }
-    return jobs_run(nthreads, count * work.blocks, gather_job, &work, err);
+    return retex_jobs_run(nthreads, count * work.blocks, gather_job, &work, err);
 }
 
-static int copy_rows(void *context, RowReader *reader, const Gathered *g, int y0, int y1, float *to, RetexError *err)
+static int copy_rows(void *context, RetexRowReader *reader, const RetexImageTransfer *g, int y0, int y1, float *to,
+                     RetexError *err)
 {
     const size_t length = row_length(g);
     int code = RETEX_OK;
     (void)context;
     for (int y = y0; y < y1 && !code; y++, to += length) {
         const float *row;
-        code = g->part >= 0 ? row_reader_get(reader, g->part, y, &row, err)
-                            : row_reader_sample(reader, g->footprint, y, &row, err);
+        code = g->part >= 0 ? retex_row_reader_get(reader, g->part, y, &row, err)
+                            : retex_row_reader_sample(reader, g->footprint, y, &row, err);
         if (!code && row)
             memcpy(to, row, length * sizeof *row);
     }
     return code;
 }
 
-int gather(const Gathered *images, int count, const RetexSet *set, const RetexSamples *samples, RetexSpool *spool,
-           int nthreads, RetexError *err)
+int retex_transfer_images(const RetexImageTransfer *images, int count, const RetexSet *set, const RetexSamples *samples,
+                          RetexSpool *spool, int nthreads, RetexError *err)
 {
-    return gather_made(images, count, copy_rows, NULL, set, samples, spool, nthreads, err);
+    return retex_compute_images(images, count, copy_rows, NULL, set, samples, spool, nthreads, err);
 }

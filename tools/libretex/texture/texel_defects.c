@@ -1,5 +1,5 @@
 /* See values.h. */
-#include "texture/values.h"
+#include "texture/texel_defects.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -15,7 +15,7 @@
 #define BRIGHTER_THAN_WHITE 1.001f
 #define BEYOND_ANY_GAMUT 3.0f
 
-static void count_texel(TextureValues *values, TextureOddity oddity, int x, int y)
+static void count_texel(RetexTexelDefects *values, RetexTexelDefect oddity, int x, int y)
 {
     if (values->count[oddity]++ == 0) {
         values->x[oddity] = x;
@@ -33,18 +33,18 @@ static int is_bright(const float *p)
     return retex_luminancef(p[0], p[1], p[2]) > BRIGHTER_THAN_WHITE || largest_of(p) > BEYOND_ANY_GAMUT;
 }
 
-static void count_bright(TextureValues *values, const float *p, int x, int y)
+static void count_bright(RetexTexelDefects *values, const float *p, int x, int y)
 {
-    count_texel(values, TEXEL_BRIGHT, x, y);
+    count_texel(values, RETEX_TEXEL_BRIGHT, x, y);
     values->brightest = fmaxf(values->brightest, largest_of(p));
 }
 
-static void mend_texel(float *p, int x, int y, TextureValues *values)
+static void mend_texel(float *p, int x, int y, RetexTexelDefects *values)
 {
     int too_large = 0, negative = 0;
 
     if (!isfinite(p[0]) || !isfinite(p[1]) || !isfinite(p[2]) || !isfinite(p[3])) {
-        count_texel(values, TEXEL_NOT_FINITE, x, y);
+        count_texel(values, RETEX_TEXEL_NOT_FINITE, x, y);
         p[0] = p[1] = p[2] = 0;
         p[3] = isfinite(p[3]) ? p[3] : 0;
         return;
@@ -55,26 +55,26 @@ static void mend_texel(float *p, int x, int y, TextureValues *values)
         p[c] = fminf(fmaxf(p[c], -LARGEST_COLOR), LARGEST_COLOR);
     }
     if (negative)
-        count_texel(values, TEXEL_NEGATIVE, x, y);
+        count_texel(values, RETEX_TEXEL_NEGATIVE, x, y);
     if (too_large)
-        count_texel(values, TEXEL_TOO_LARGE, x, y);
+        count_texel(values, RETEX_TEXEL_TOO_LARGE, x, y);
     else if (p[3] > 0 && is_bright(p))
         count_bright(values, p, x, y);
 }
 
-void texture_values_mend(float *rgba, int width, int y, TextureValues *values)
+void retex_texel_defects_repair(float *rgba, int width, int y, RetexTexelDefects *values)
 {
-    *values = (TextureValues){.brightest = 0};
-    if (texture_values_are_plain(rgba, 4 * (size_t)width))
+    *values = (RetexTexelDefects){.brightest = 0};
+    if (retex_texels_are_in_range(rgba, 4 * (size_t)width))
         return;
     for (int x = 0; x < width; x++)
-        if (!texture_values_are_plain(rgba + 4 * (size_t)x, 4))
+        if (!retex_texels_are_in_range(rgba + 4 * (size_t)x, 4))
             mend_texel(rgba + 4 * (size_t)x, x, y, values);
 }
 
-void texture_values_join(TextureValues *values, const TextureValues *row)
+void retex_texel_defects_merge(RetexTexelDefects *values, const RetexTexelDefects *row)
 {
-    for (int k = 0; k < TEXTURE_ODDITIES; k++) {
+    for (int k = 0; k < RETEX_TEXEL_DEFECTS; k++) {
         if (values->count[k] == 0) {
             values->x[k] = row->x[k];
             values->y[k] = row->y[k];
@@ -84,11 +84,11 @@ void texture_values_join(TextureValues *values, const TextureValues *row)
     values->brightest = fmaxf(values->brightest, row->brightest);
 }
 
-void texture_values_mend_color(float color[3], TextureValues *values)
+void retex_texel_defects_repair_color(float color[3], RetexTexelDefects *values)
 {
     float texel[4] = {color[0], color[1], color[2], 1};
 
-    *values = (TextureValues){.brightest = 0};
+    *values = (RetexTexelDefects){.brightest = 0};
     mend_texel(texel, 0, 0, values);
     if (values->brightest == 0 && largest_of(texel) > BRIGHTER_THAN_WHITE) /* a file's gamut is no excuse here */
         count_bright(values, texel, 0, 0);
@@ -102,18 +102,18 @@ static double linear_of_code(float code)
     return retex_srgb_decode((double)code / 255);
 }
 
-static void tell_color(const TextureValues *values, const RetexTextureSpec *spec)
+static void tell_color(const RetexTexelDefects *values, const RetexTextureSpec *spec)
 {
     const float *c = spec->color;
     char text[400];
     int used;
 
-    if (!values->count[TEXEL_BRIGHT] && !values->count[TEXEL_TOO_LARGE])
+    if (!values->count[RETEX_TEXEL_BRIGHT] && !values->count[RETEX_TEXEL_TOO_LARGE])
         return;
     used = snprintf(text, sizeof text,
                     "%s%srgb(%g,%g,%g): a surface of a colour above 1 gives back more light than it gets", spec->target,
                     spec->target[0] ? "=" : "", (double)c[0], (double)c[1], (double)c[2]);
-    if (values->count[TEXEL_TOO_LARGE])
+    if (values->count[RETEX_TEXEL_TOO_LARGE])
         snprintf(text + used, sizeof text - (size_t)used, "; it is taken as %g at most", (double)LARGEST_COLOR);
     else if (values->brightest > 4 && values->brightest <= 255)
         snprintf(text + used, sizeof text - (size_t)used,
@@ -122,7 +122,7 @@ static void tell_color(const TextureValues *values, const RetexTextureSpec *spec
     spec->warn(spec->warn_context, text);
 }
 
-static void tell_texels(const TextureValues *values, const RetexTextureSpec *spec, TextureOddity oddity,
+static void tell_texels(const RetexTexelDefects *values, const RetexTextureSpec *spec, RetexTexelDefect oddity,
                         const char *what, const char *so)
 {
     const long count = values->count[oddity];
@@ -135,7 +135,7 @@ static void tell_texels(const TextureValues *values, const RetexTextureSpec *spe
     spec->warn(spec->warn_context, text);
 }
 
-void texture_values_tell(const TextureValues *values, const RetexTextureSpec *spec, long texels)
+void retex_texel_defects_report(const RetexTexelDefects *values, const RetexTextureSpec *spec, long texels)
 {
     char what[160];
 
@@ -145,12 +145,13 @@ void texture_values_tell(const TextureValues *values, const RetexTextureSpec *sp
         tell_color(values, spec);
         return;
     }
-    tell_texels(values, spec, TEXEL_NOT_FINITE, "not finite", "taken as black");
-    tell_texels(values, spec, TEXEL_TOO_LARGE, "beyond 65504", "taken as that");
-    tell_texels(values, spec, TEXEL_NEGATIVE, "with negative colours", "kept, for colours of wide gamuts have them");
+    tell_texels(values, spec, RETEX_TEXEL_NOT_FINITE, "not finite", "taken as black");
+    tell_texels(values, spec, RETEX_TEXEL_TOO_LARGE, "beyond 65504", "taken as that");
+    tell_texels(values, spec, RETEX_TEXEL_NEGATIVE, "with negative colours",
+                "kept, for colours of wide gamuts have them");
     snprintf(what, sizeof what, "of %ld brighter than white, up to %.3g", texels, (double)values->brightest);
     if (!spec->is_light)
-        tell_texels(values, spec, TEXEL_BRIGHT, what,
+        tell_texels(values, spec, RETEX_TEXEL_BRIGHT, what,
                     "a surface gives back no more light than it gets; perhaps the file holds light, not albedo, or is "
                     "exposed too brightly");
 }

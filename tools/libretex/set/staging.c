@@ -1,30 +1,31 @@
 /* See stage.h. */
-#include "set/stage.h"
+#include "set/staging.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 
-int set_stage_open(SetStage *stage, int most, RetexError *err)
+int retex_staging_open(RetexStaging *stage, int most, RetexError *err)
 {
-    *stage = (SetStage){.small = calloc((size_t)most + 1, sizeof *stage->small),
-                        .images = calloc((size_t)most + 1, sizeof *stage->images)};
+    *stage = (RetexStaging){.small = calloc((size_t)most + 1, sizeof *stage->small),
+                            .images = calloc((size_t)most + 1, sizeof *stage->images)};
     if (stage->small && stage->images)
         return RETEX_OK;
-    set_stage_close(stage);
+    retex_staging_close(stage);
     return retex_fail(err, RETEX_ENOMEM, "no memory to write a set");
 }
 
-void set_stage_close(SetStage *stage)
+void retex_staging_close(RetexStaging *stage)
 {
     for (int i = 0; stage->small && i < stage->count; i++)
         retex_image_free(&stage->small[i]);
     free(stage->small);
     free(stage->images);
     retex_spool_close(&stage->spool);
-    *stage = (SetStage){0};
+    *stage = (RetexStaging){0};
 }
 
-static int add_spooled(SetStage *stage, RetexExrPart *exr, Gathered *g, const char *near, int compress, RetexError *err)
+static int add_spooled(RetexStaging *stage, RetexExrPart *exr, RetexImageTransfer *g, const char *near, int compress,
+                       RetexError *err)
 {
     char name[RETEX_NAME_MAX];
     int code = RETEX_OK;
@@ -41,14 +42,14 @@ static int add_spooled(SetStage *stage, RetexExrPart *exr, Gathered *g, const ch
     return code;
 }
 
-int set_stage_add(SetStage *stage, RetexExrPart *exr, int part, int footprint, int width, int height, const char *near,
-                  int compress, RetexError *err)
+int retex_staging_add(RetexStaging *stage, RetexExrPart *exr, int part, int footprint, int width, int height,
+                      const char *near, int compress, RetexError *err)
 {
     const RetexImage *shape = exr->image;
     RetexImage *image = &stage->small[stage->count];
-    Gathered *g = &stage->images[stage->count];
+    RetexImageTransfer *g = &stage->images[stage->count];
     int code;
-    *g = (Gathered){.part = part, .footprint = footprint, .image = image};
+    *g = (RetexImageTransfer){.part = part, .footprint = footprint, .image = image};
     if (shape->width == width && shape->height == height) {
         *image = *shape;
         code = add_spooled(stage, exr, g, near, compress, err);
@@ -60,7 +61,8 @@ int set_stage_add(SetStage *stage, RetexExrPart *exr, int part, int footprint, i
     return code;
 }
 
-int set_stage_fill(SetStage *stage, const RetexSet *set, const RetexSamples *samples, int nthreads, RetexError *err)
+int retex_staging_fill(RetexStaging *stage, const RetexSet *set, const RetexSamples *samples, int nthreads,
+                       RetexError *err)
 {
-    return gather(stage->images, stage->count, set, samples, stage->spool, nthreads, err);
+    return retex_transfer_images(stage->images, stage->count, set, samples, stage->spool, nthreads, err);
 }

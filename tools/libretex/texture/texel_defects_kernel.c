@@ -1,7 +1,7 @@
 /* Whether all of many values are from 0 to 1: most texels are, and need no other look. */
-#include "texture/values.h"
+#include "texture/texel_defects.h"
 
-int texture_values_are_plain(const float *restrict values, size_t count)
+int retex_texels_are_in_range(const float *restrict values, size_t count)
 {
     int odd = 0;
 

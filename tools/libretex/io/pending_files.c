@@ -1,5 +1,5 @@
 /* See unfinished.h. */
-#include "io/unfinished.h"
+#include "io/pending_files.h"
 
 #include <pthread.h>
 #include <stdatomic.h>
@@ -10,34 +10,34 @@
 #include <retex/image.h>
 
 static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
-static Unfinished *files; /* under lock */
+static RetexPendingFile *files; /* under lock */
 static _Atomic(void (*)(void)) also;
 
-void unfinished_also(void (*remove)(void))
+void retex_pending_files_set_hook(void (*remove)(void))
 {
     atomic_store(&also, remove);
 }
 
-void unfinished_lock(void)
+void retex_pending_files_lock(void)
 {
     pthread_mutex_lock(&lock);
 }
 
-void unfinished_unlock(void)
+void retex_pending_files_unlock(void)
 {
     pthread_mutex_unlock(&lock);
 }
 
-void unfinished_add(Unfinished *file, const char *path)
+void retex_pending_files_add(RetexPendingFile *file, const char *path)
 {
     file->path = path;
     file->next = files;
     files = file;
 }
 
-void unfinished_drop(Unfinished *file)
+void retex_pending_files_drop(RetexPendingFile *file)
 {
-    for (Unfinished **at = &files; *at; at = &(*at)->next)
+    for (RetexPendingFile **at = &files; *at; at = &(*at)->next)
         if (*at == file) {
             *at = file->next;
             return;
@@ -45,7 +45,7 @@ void unfinished_drop(Unfinished *file)
 }
 
 /* The lock is kept: nothing gets a name any more. A thread that holds it for long is waiting for a disk. */
-void retex_unfinished_remove(void)
+void retex_pending_files_remove(void)
 {
     struct timespec until;
     void (*others)(void) = atomic_load(&also);
@@ -58,6 +58,6 @@ void retex_unfinished_remove(void)
     until.tv_nsec %= 1000000000;
     if (pthread_mutex_timedlock(&lock, &until) != 0)
         return;
-    for (const Unfinished *file = files; file; file = file->next)
+    for (const RetexPendingFile *file = files; file; file = file->next)
         unlink(file->path);
 }

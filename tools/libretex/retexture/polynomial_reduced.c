@@ -1,6 +1,6 @@
 /* See polynomial_small.h. All images of one size are made side by side, row by row, so that a footprint that several
  * mixtures have is looked up once, and its parts are read once. */
-#include "retexture/polynomial_small.h"
+#include "retexture/polynomial_reduced.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -13,7 +13,7 @@
 #define ROWS_A_JOB 64 /* a pack's band */
 
 typedef struct SmallWork {
-    const Polynomial *polynomial;
+    const RetexPolynomial *polynomial;
     const int *slots; /* of the images to be made */
     int nslots, width, height;
     struct SmallThread *threads;
@@ -22,19 +22,20 @@ typedef struct SmallWork {
 /* One thread's means, and the row that it is at. */
 typedef struct SmallThread {
     const SmallWork *work;
-    RowReader *reader;
-    RowRoom *rooms;     /* by footprint, made when they are needed */
+    RetexRowReader *reader;
+    RetexRowBuffer *rooms; /* by footprint, made when they are needed */
     const float **rows; /* by footprint; NULL: black */
     char *made;         /* by footprint: it is in rows */
     float *weights;
 } SmallThread;
 
-static RetexImage *image_of_slot(const Polynomial *p, int slot)
+static RetexImage *image_of_slot(const RetexPolynomial *p, int slot)
 {
     const RetexSet *set = p->set;
     if (slot < set->nfootprints)
         return &p->footprints[slot];
-    return slot < slot_of_gain(set, 0) ? &p->mixtures[slot - set->nfootprints] : &p->gains[slot - slot_of_gain(set, 0)];
+    return slot < retex_polynomial_slot_of_gain(set, 0) ? &p->mixtures[slot - set->nfootprints]
+                                                        : &p->gains[slot - retex_polynomial_slot_of_gain(set, 0)];
 }
 
 static int footprint_row(void *context, int footprint, int y, const float **row, RetexError *err)
@@ -43,11 +44,12 @@ static int footprint_row(void *context, int footprint, int y, const float **row,
     const SmallWork *work = own->work;
     int code = RETEX_OK;
     if (!own->made[footprint]) {
-        RowRoom *room = &own->rooms[footprint];
-        RowSpan span;
+        RetexRowBuffer *room = &own->rooms[footprint];
+        RetexRowSpan span;
         if (!room->values && !(room->values = calloc(3 * (size_t)work->width, sizeof *room->values)))
             return retex_fail(err, RETEX_ENOMEM, "not enough memory to combine");
-        code = make_footprint_row(work->polynomial, own->reader, footprint, y, room, &own->rows[footprint], &span, err);
+        code = retex_polynomial_footprint_row(work->polynomial, own->reader, footprint, y, room, &own->rows[footprint],
+                                              &span, err);
         own->made[footprint] = !code;
     }
     *row = own->rows[footprint];
@@ -56,17 +58,18 @@ static int footprint_row(void *context, int footprint, int y, const float **row,
 
 static int make_row(SmallThread *own, int slot, int y, RetexError *err)
 {
-    const Polynomial *p = own->work->polynomial;
+    const RetexPolynomial *p = own->work->polynomial;
     const RetexSet *set = p->set;
     RetexImage *image = image_of_slot(p, slot);
     float *out = image->pixels + retex_image_index(image, 0, y);
-    RowRoom sum = {.values = out}; /* still 0 */
-    if (slot >= set->nfootprints && slot < slot_of_gain(set, 0))
-        return make_mixture_row(p, own->reader, slot - set->nfootprints, y, footprint_row, own, own->weights, &sum,
-                                err);
+    RetexRowBuffer sum = {.values = out}; /* still 0 */
+    if (slot >= set->nfootprints && slot < retex_polynomial_slot_of_gain(set, 0))
+        return retex_polynomial_mixture_row(p, own->reader, slot - set->nfootprints, y, footprint_row, own,
+                                            own->weights, &sum, err);
     const float *row;
-    int code = slot < set->nfootprints ? footprint_row(own, slot, y, &row, err)
-                                       : row_reader_get(own->reader, slot - slot_of_gain(set, 0), y, &row, err);
+    int code = slot < set->nfootprints
+                   ? footprint_row(own, slot, y, &row, err)
+                   : retex_row_reader_get(own->reader, slot - retex_polynomial_slot_of_gain(set, 0), y, &row, err);
     if (!code && row)
         memcpy(out, row, sizeof *out * (size_t)image->width * (size_t)image->channels);
     return code;
@@ -85,7 +88,7 @@ static int open_thread(const SmallWork *work, SmallThread *own, RetexError *err)
     own->weights = malloc(sizeof *own->weights * 3 * (size_t)work->width);
     if (!own->rooms || !own->rows || !own->made || !own->weights)
         return retex_fail(err, RETEX_ENOMEM, "not enough memory to combine");
-    return row_reader_open(&own->reader, set, work->polynomial->samples, err);
+    return retex_row_reader_open(&own->reader, set, work->polynomial->samples, err);
 }
 
 static void close_thread(const SmallWork *work, SmallThread *own)
@@ -96,7 +99,7 @@ static void close_thread(const SmallWork *work, SmallThread *own)
     free(own->rows);
     free(own->made);
     free(own->weights);
-    row_reader_close(&own->reader);
+    retex_row_reader_close(&own->reader);
 }
 
 static int make_job(void *context, int index, int thread, RetexError *err)
@@ -117,22 +120,22 @@ static int make_all(SmallWork *work, int nthreads, RetexError *err)
     const int threads = retex_threads(nthreads);
     if (!(work->threads = calloc((size_t)threads, sizeof *work->threads)))
         return retex_fail(err, RETEX_ENOMEM, "not enough memory to combine");
-    int code = jobs_run(threads, (work->height + ROWS_A_JOB - 1) / ROWS_A_JOB, make_job, work, err);
+    int code = retex_jobs_run(threads, (work->height + ROWS_A_JOB - 1) / ROWS_A_JOB, make_job, work, err);
     for (int i = 0; i < threads; i++)
         close_thread(work, &work->threads[i]);
     free(work->threads);
     return code;
 }
 
-int small_images_make(Polynomial *p, int nthreads, RetexError *err)
+int retex_polynomial_reduced_make(RetexPolynomial *p, int nthreads, RetexError *err)
 {
     int code = RETEX_OK;
-    int *slots = calloc((size_t)slot_count(p->set) + 1, sizeof *slots);
+    int *slots = calloc((size_t)retex_polynomial_slot_count(p->set) + 1, sizeof *slots);
     if (!slots)
         return retex_fail(err, RETEX_ENOMEM, "not enough memory to combine");
     for (int scale = RETEX_SCALE_MAX; scale > 1 && !code; scale /= 2) {
         SmallWork work = {.polynomial = p, .slots = slots};
-        for (int slot = 0; slot < slot_count(p->set); slot++) {
+        for (int slot = 0; slot < retex_polynomial_slot_count(p->set); slot++) {
             const RetexImage *image = image_of_slot(p, slot);
             if (!image->pixels || retex_set_scale(p->set, image) != scale)
                 continue;

@@ -1,0 +1,28 @@
+/* Parts of a file to be whose pixels are in another one that is open: taken from there before the first byte is
+ * written, which the checksums of all come before. Private to libretex. */
+#ifndef RETEX_SET_STAGING_H
+#define RETEX_SET_STAGING_H
+
+#include "exr/io.h"
+#include "set/transfer.h"
+
+typedef struct RetexStaging {
+    RetexSpool *spool; /* what is as large as the picture */
+    RetexImage *small; /* what is smaller */
+    RetexImageTransfer *images;
+    int count;
+} RetexStaging;
+
+/* At most so many parts. */
+int retex_staging_open(RetexStaging *stage, int most, RetexError *err);
+void retex_staging_close(RetexStaging *stage); /* once they are written */
+
+/* Give an EXR part the place where a part of the set will be, or the samples of a footprint; the other is -1. The spool
+ * is made near the file to be, and not compressed where that is not either. */
+int retex_staging_add(RetexStaging *stage, RetexExrPart *exr, int part, int footprint, int width, int height,
+                      const char *near, int compress, RetexError *err);
+/* Bring all of them there. */
+int retex_staging_fill(RetexStaging *stage, const RetexSet *set, const RetexSamples *samples, int nthreads,
+                       RetexError *err);
+
+#endif
