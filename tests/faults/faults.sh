@@ -1,13 +1,13 @@
 #!/bin/sh
 # Lets calls for memory, files and threads fail on every road of roads.txt, one at a time. RETEX_FAULTS=all: every call of
-# our own (of a kind on a road at most 2500, spread evenly: only packs come to so many), and 500 of the libraries'; else
+# our own (of a kind on a road at most 2000, spread evenly: only packs come to so many), and 500 of the libraries'; else
 # a few of each.
 set -u
 . tests/lib/tap.sh
 mkdir -p "$work/run/out" "$work/run/log" "$work/run/tmp"
 cp tests/faults/good.pov tests/faults/image.pov tests/faults/t.png "$work/run"
 most=3 libraries=0
-[ "${RETEX_FAULTS:-}" != all ] || { most=2500 libraries=500; }
+[ "${RETEX_FAULTS:-}" != all ] || { most=2000 libraries=500; }
 (
     cd "$work/run" &&
     printf 'output,F\nout/a.png,t.jpg\nout/b.jpg,"rgb(.7,.2,.1)"\n' >table.csv &&

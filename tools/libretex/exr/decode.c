@@ -198,7 +198,7 @@ exr_result_t retex_exr_chunk_read(RetexExr *exr, const RetexExrPlan *plan, int c
         code = EXR_ERR_OUT_OF_MEMORY;
     if (!code && !deliver(plan, image, top, samples, x, y, width, height, scratch, sums))
         code = RETEX_EXR_NON_FINITE;
-    return code;
+    return retex_exr_alloc_failed() ? EXR_ERR_OUT_OF_MEMORY : code;
 }
 
 uint32_t retex_exr_sums_plane(const RetexExrPlan *plan, const RetexExrSums *sums, int slot, int y0, int y1,

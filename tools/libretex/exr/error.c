@@ -31,7 +31,22 @@ int retex_exr_fail_write(exr_result_t code, const char *path, RetexError *err)
     return retex_fail(err, RETEX_EINTERNAL, "cannot write %s: %s", path, exr_get_default_error_message(code));
 }
 
+static _Thread_local int alloc_failed;
+
 void *retex_exr_alloc(size_t bytes)
 {
-    return bytes <= (size_t)1 << 30 ? calloc(1, bytes ? bytes : 1) : NULL;
+    if (bytes > (size_t)1 << 30)
+        return NULL;
+    void *block = calloc(1, bytes ? bytes : 1);
+    if (!block)
+        alloc_failed = 1;
+    return block;
+}
+
+int retex_exr_alloc_failed(void)
+{
+    const int failed = alloc_failed;
+
+    alloc_failed = 0;
+    return failed;
 }

@@ -25,5 +25,8 @@ int retex_exr_fail_write(exr_result_t code, const char *path, RetexError *err);
 /* OpenEXRCore's memory: zeroed, so that a damaged chunk never shows what was there before, and limited, so that a
  * damaged size is refused rather than tried. */
 void *retex_exr_alloc(size_t bytes);
+/* 1 if the machine had no memory for one of these in this thread since this was asked last. Core tells it as damage in
+ * some places, and in others goes on with less of a header. */
+int retex_exr_alloc_failed(void);
 
 #endif

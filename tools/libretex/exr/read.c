@@ -66,9 +66,12 @@ int retex_exr_open(RetexExr **result, RetexInput *input, RetexError *err)
     settings.max_tile_width = settings.max_tile_height = RETEX_MAX_SIZE;
     /* a set with chunks missing is no set; guessing where they might be helps nobody */
     settings.flags = EXR_CONTEXT_FLAG_DISABLE_CHUNK_RECONSTRUCTION;
+    (void)retex_exr_alloc_failed();
     exr_result_t code = exr_start_read(&exr->context, retex_input_name(input), &settings);
     if (!code)
         code = exr_get_count(exr->context, &exr->nparts);
+    if (retex_exr_alloc_failed())
+        code = EXR_ERR_OUT_OF_MEMORY;
     if (code)
         status = retex_exr_fail(exr, code, err);
     else if (exr->nparts < 1 || exr->nparts > RETEX_EXR_PARTS_MAX)

@@ -540,6 +540,8 @@ int retex_manifest_read(const char *json, const char *name, RetexSet **set, Rete
     if (sum == RETEX_MANIFEST_WRONG)
         return retex_fail(err, RETEX_EFORMAT, "%s: the manifest is damaged: its checksum is wrong", name);
     json_t *root = json_loads(json, JSON_REJECT_DUPLICATES, &where);
+    if (!root && !where.text[0]) /* jansson says nothing then */
+        return retex_fail(err, RETEX_ENOMEM, "no memory to read %s", name);
     if (!root)
         return retex_fail(err, RETEX_EFORMAT, "%s is not a set (its `retex` attribute is no JSON: %s)", name,
                           where.text);
