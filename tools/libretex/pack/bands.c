@@ -191,6 +191,8 @@ static void apply_mask(const PackPart *p, float *out, const unsigned char *mask)
 
 static int jpeg_damaged(RetexError *err, int code, const RetexError *why, const RetexPackScratch *s, int part)
 {
+    if (code == RETEX_ENOMEM)
+        return retex_fail(err, code, "%s", why->message);
     return retex_fail(err, code, "the pack is damaged: part '%s': %s", s->pack->set->parts[part].name, why->message);
 }
 

@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include <jpeglib.h>
+#include <jerror.h>
 
 #include <retex/color.h>
 
@@ -84,6 +85,13 @@ static struct jpeg_error_mgr *catch_trouble(Trouble *trouble)
     trouble->manager.emit_message = warn;
     trouble->manager.output_message = stay_quiet;
     return &trouble->manager;
+}
+
+static int fail_decoding(const Trouble *trouble, RetexError *err)
+{
+    if (trouble->manager.msg_code == JERR_OUT_OF_MEMORY)
+        return retex_fail(err, RETEX_ENOMEM, "no memory to decode JPEGs");
+    return retex_fail(err, RETEX_EFORMAT, "its JPEG cannot be decoded: %s", trouble->message);
 }
 
 /* --- encoding --- */
@@ -335,7 +343,7 @@ int pack_jpeg_open_band(PackJpegDecoder *decoder, unsigned char *file, size_t he
     decoder->levels = levels_of(curve);
     if (setjmp(decoder->trouble.out)) {
         close_band(decoder);
-        return retex_fail(err, RETEX_EFORMAT, "its JPEG cannot be decoded: %s", decoder->trouble.message);
+        return fail_decoding(&decoder->trouble, err);
     }
     jpeg_mem_src(jpeg, file, bytes);
     jpeg_read_header(jpeg, TRUE);
@@ -362,7 +370,7 @@ int pack_jpeg_decode_blocks(PackJpegDecoder *decoder, int row, float *values, Re
         return retex_fail(err, RETEX_EINTERNAL, "no such blocks of a JPEG");
     if (setjmp(decoder->trouble.out)) {
         close_band(decoder);
-        return retex_fail(err, RETEX_EFORMAT, "its JPEG cannot be decoded: %s", decoder->trouble.message);
+        return fail_decoding(&decoder->trouble, err);
     }
     for (int c = 0; c < channels; c++) {
         JBLOCKARRAY array =
