@@ -312,8 +312,8 @@ static int what_fired(char *text)
     return fired;
 }
 
-/* tests/faults/known.txt: lines `KIND MODULE REASON`, of calls in libraries that cannot be helped. KIND verdict: only that
- * retex-info --check calls a file damaged. */
+/* tests/faults/known.txt: lines `KIND MODULE REASON`, of calls in libraries that cannot be helped. KIND verdict: only
+ * that retex-info --check calls a file damaged. */
 static int is_known(const char *kind, const char *fired, const Bytes *known)
 {
     char line[PATH], of[NAME], module[NAME];
