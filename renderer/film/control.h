@@ -5,8 +5,8 @@
 
 #include <retex/image.h>
 #include "base/vec.h"
+#include "scene/variant.h"
 
-#define VARIANTS_MAX 16        /* pictures of one traversal */
 #define CONTROL_VARIANTS_MAX 3 /* of which moments can be kept */
 #define CONTROL_PAIRS_MAX (CONTROL_VARIANTS_MAX * (CONTROL_VARIANTS_MAX + 1) / 2)
 

@@ -1,4 +1,4 @@
-/* What both layouts share: the beauty, sums of energy, the range of UV, and handing images over to a set. */
+/* What all layouts share: the beauty, sums of light, the range of UV, and making images parts of a set. */
 #include <math.h>
 #include <pthread.h>
 #include <stdatomic.h>
@@ -7,10 +7,8 @@
 #include <string.h>
 #include <retex/band_stats.h>
 #include "film/film.h"
-#include "film/footprints/footprints.h"
+#include "film/layout.h"
 #include "film/noise.h"
-#include "film/paper/paper.h"
-#include "film/footprints/plan.h"
 
 /* What is known of a band so far; under the film's lock. */
 typedef struct BandState {
@@ -27,8 +25,8 @@ struct Film {
     RetexImage beauty;
     int beauty_image; /* in the spool */
     Bands *bands;
-    PaperFilm *paper; /* one of these two, where there is a split */
-    FootprintFilm *footprints;
+    const FilmLayout *layout; /* where there is a split, else NULL */
+    void *layout_film;
     NoiseImages noise;
     LightSums *tiles;
     BandState *states; /* by band */
@@ -39,9 +37,8 @@ struct Film {
 
 struct FilmPixel {
     Film *film;
-    PaperPixel *paper;
-    FootprintPixel *footprints;
-    BandRows *rows; /* that the tile in hand writes to, once it does */
+    void *layout_pixel; /* of the film's layout */
+    BandRows *rows;     /* that the tile in hand writes to, once it does */
     double beauty[3];
     int spp;           /* of the tile's pixels */
     int paths;         /* so far */
@@ -50,24 +47,6 @@ struct FilmPixel {
     UvRange range;
     long dropped, samples;
 };
-
-/* ---- ranges of UV ---- */
-
-void uv_range_reset(UvRange *range)
-{
-    for (int t = 0; t < RETEX_MAX_TARGETS; t++)
-        for (int k = 0; k < 2; k++)
-            range->low[t][k] = INFINITY, range->high[t][k] = -INFINITY;
-}
-
-void uv_range_merge(UvRange *into, const UvRange *from)
-{
-    for (int t = 0; t < RETEX_MAX_TARGETS; t++)
-        for (int k = 0; k < 2; k++) {
-            into->low[t][k] = fmin(into->low[t][k], from->low[t][k]);
-            into->high[t][k] = fmax(into->high[t][k], from->high[t][k]);
-        }
-}
 
 /* ---- life ---- */
 
@@ -94,9 +73,8 @@ static int film_alloc(Film *film, RetexError *err)
         code = retex_image_alloc(&film->beauty, p->width, p->height, 3, err);
     if (!code && p->spool)
         code = retex_spool_add(p->spool, "beauty", "RGB", RETEX_FLOAT, &film->beauty_image, err);
-    if (!code && p->split)
-        code = p->paper ? paper_create(&film->paper, film->scene, p, film->bands, err)
-                        : footprints_create(&film->footprints, film->scene, p, film->bands, err);
+    if (!code && film->layout)
+        code = film->layout->create(&film->layout_film, film->scene, p, film->bands, err);
     return code ? code : noise_create(&film->noise, p, film->scene, film->bands, err);
 }
 
@@ -111,6 +89,7 @@ int film_create(Film **out, const Scene *scene, const FilmParams *params, RetexE
     }
     film->scene = scene;
     film->params = *params;
+    film->layout = params->split ? params->layout : NULL;
     pthread_mutex_init(&film->lock, NULL);
     int code = film_alloc(film, err);
     if (code)
@@ -118,19 +97,20 @@ int film_create(Film **out, const Scene *scene, const FilmParams *params, RetexE
     return code;
 }
 
-void film_close(Film **film)
+void film_close(Film **out)
 {
-    if (!*film)
+    Film *film = *out;
+    if (!film)
         return;
-    retex_image_free(&(*film)->beauty);
-    paper_close(&(*film)->paper);
-    footprints_close(&(*film)->footprints);
-    bands_close(&(*film)->bands);
-    free((*film)->tiles);
-    free((*film)->states);
-    pthread_mutex_destroy(&(*film)->lock);
-    free(*film);
-    *film = NULL;
+    retex_image_free(&film->beauty);
+    if (film->layout)
+        film->layout->close(&film->layout_film);
+    bands_close(&film->bands);
+    free(film->tiles);
+    free(film->states);
+    pthread_mutex_destroy(&film->lock);
+    free(film);
+    *out = NULL;
 }
 
 int film_pixel_create(FilmPixel **out, Film *film, RetexError *err)
@@ -142,10 +122,8 @@ int film_pixel_create(FilmPixel **out, Film *film, RetexError *err)
     p->spp = film->params.spp;
     uv_range_reset(&p->range);
     int code = RETEX_OK;
-    if (film->paper)
-        code = paper_pixel_create(&p->paper, film->paper, err);
-    if (film->footprints)
-        code = footprints_pixel_create(&p->footprints, film->footprints, &p->light, &p->range, err);
+    if (film->layout)
+        code = film->layout->pixel_create(&p->layout_pixel, film->layout_film, &p->light, &p->range, err);
     if (code)
         film_pixel_close(out);
     return code;
@@ -156,8 +134,8 @@ void film_pixel_close(FilmPixel **pixel)
     FilmPixel *p = *pixel;
     if (!p)
         return;
-    paper_pixel_close(&p->paper);
-    footprints_pixel_close(&p->footprints);
+    if (p->film->layout)
+        p->film->layout->pixel_close(&p->layout_pixel);
     free(p);
     *pixel = NULL;
 }
@@ -179,27 +157,23 @@ void film_add_light(FilmPixel *p, const double light[3])
 void film_add_folded(FilmPixel *p, Rgb light, Rgb white)
 {
     p->light.folded += rgb_luminance(light);
-    if (p->footprints)
+    if (p->film->layout->keeps_white)
         p->light.folded_white += rgb_luminance(white);
 }
 
 /* What each signal got in the pixel so far. */
 static void signal_totals(const FilmPixel *p, SignalTotals *totals)
 {
-    if (p->paper)
-        paper_totals(p->paper, totals);
-    else if (p->footprints)
-        footprints_totals(p->footprints, totals);
+    if (p->film->layout)
+        p->film->layout->totals(p->layout_pixel, totals);
     else
         memcpy(totals->of[0], p->beauty, sizeof p->beauty);
 }
 
 void film_path_end(FilmPixel *p, const PathHits *hits)
 {
-    if (p->paper)
-        paper_path_end(p->paper, hits, &p->range);
-    if (p->footprints)
-        footprints_path_end(p->footprints, hits);
+    if (p->film->layout)
+        p->film->layout->path_end(p->layout_pixel, hits);
     if (++p->paths == p->spp / 2 && p->film->noise.count)
         signal_totals(p, &p->half);
 }
@@ -253,10 +227,8 @@ void film_pixel_end(FilmPixel *p, int x, int y)
     p->paths = 0;
     for (int c = 0; c < 3; c++)
         beauty[c] = (float)(p->beauty[c] / p->spp), p->beauty[c] = 0;
-    if (p->paper)
-        paper_pixel_end(p->paper, rows, p->spp, x, y);
-    if (p->footprints)
-        footprints_pixel_end(p->footprints, rows, p->spp, x, y);
+    if (film->layout)
+        film->layout->pixel_end(p->layout_pixel, rows, p->spp, x, y);
 }
 
 static float *beauty_rows(const Film *film, int band)
@@ -277,10 +249,8 @@ static void finish_stats(Film *film, int band, int tiles, const BandRows *rows)
     memcpy(s->uv_high, state->range.high, sizeof s->uv_high);
     s->dropped = state->dropped;
     s->samples = state->samples;
-    if (film->paper)
-        paper_band_stats(film->paper, rows, s);
-    if (film->footprints)
-        footprints_band_stats(film->footprints, rows, s);
+    if (film->layout)
+        film->layout->band_stats(film->layout_film, rows, s);
 }
 
 /* The band's images are where they stay. */
@@ -411,15 +381,8 @@ float *film_image_pixel(FilmPixel *p, int image, int x, int y)
 
 long film_floats(const FilmParams *params, int ntargets)
 {
-    int noise = 3 * noise_count(params, ntargets);
-    if (!params->split || ntargets == 0)
-        return 3 + noise;
-    if (params->paper)
-        return 3 + noise + params->orders * (8 * ntargets + 6); /* footprints, terms */
-    Plan plan;
-    plan_make(&plan, ntargets, params->orders, expansion_most_hits(ntargets, 0));
-    /* few pixels have all clusters, and what is never written takes no memory: one cluster, and its coefficients */
-    return 6 + noise + ntargets * (12 + 10 + 3 * (plan.count - 1));
+    long layout = params->split && ntargets > 0 ? params->layout->floats(params, ntargets) : 0;
+    return 3 + 3 * noise_count(params, ntargets) + layout;
 }
 
 double film_bytes(const FilmParams *params, int ntargets, int spooled)
@@ -466,11 +429,7 @@ static int finish_stats_of_all(const Film *film, RetexSet *set, RetexError *err)
 /* Layout, then noise. */
 static int finish_images(Film *film, RetexSet *set, RetexError *err)
 {
-    int code = RETEX_OK;
-    if (film->paper)
-        code = paper_finish(film->paper, set, err);
-    if (film->footprints)
-        code = footprints_finish(film->footprints, set, err);
+    int code = film->layout ? film->layout->finish(film->layout_film, set, err) : RETEX_OK;
     return code ? code : noise_finish(&film->noise, film->bands, set, err);
 }
 
@@ -501,7 +460,7 @@ int film_finish(Film *film, RetexSet *set, RetexError *err)
             return code;
     }
     int code = finish_images(film, set, err);
-    if (!code && film->footprints) {
+    if (!code && film->layout && film->layout->prunes) {
         find_empty(film, set, empty);
         retex_set_prune(set, empty);
     }

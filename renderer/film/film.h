@@ -2,49 +2,11 @@
 #ifndef RENDERER_FILM_FILM_H
 #define RENDERER_FILM_FILM_H
 
-#include "film/bands.h"
+#include "film/params.h"
 #include "film/path_hits.h"
 #include "scene/scene.h"
 
-#define FILM_CLUSTERS_MAX 16
-
 typedef struct Film Film;
-
-typedef struct FilmParams {
-    int width, height; /* of the picture that is kept */
-    int spp;           /* samples a pixel; the most, where tiles say how many */
-    int orders;
-    int strict_paper;
-    int split;        /* 0: the beauty only (plain and replaced renders) */
-    int ntiles;       /* of equal rows, BAND_LINES high */
-    int paper;        /* layout: 0 footprints, 1 paper */
-    int clusters;     /* layout footprints: a pixel and target, of both kinds together, 2..FILM_CLUSTERS_MAX */
-    int sharp, broad; /* at most so many of each kind, 1..clusters */
-    int periodic[RETEX_MAX_TARGETS][2]; /* targets that close in u, v */
-    int noise;                          /* also keep how noisy each signal is, see noise.h; needs two samples */
-    RetexSpool *spool; /* where finished bands go, film_create takes it over; or NULL. The beauty stays too */
-    int spooled;       /* then: images leave memory for the spool */
-} FilmParams;
-
-/* Where on the targets light was met. */
-typedef struct UvRange {
-    double low[RETEX_MAX_TARGETS][2], high[RETEX_MAX_TARGETS][2]; /* inf, -inf: nowhere */
-} UvRange;
-
-void uv_range_reset(UvRange *range);
-static inline void uv_range_add(UvRange *range, int target, const double uv[2])
-{
-    for (int k = 0; k < 2; k++) {
-        range->low[target][k] = uv[k] < range->low[target][k] ? uv[k] : range->low[target][k];
-        range->high[target][k] = uv[k] > range->high[target][k] ? uv[k] : range->high[target][k];
-    }
-}
-void uv_range_merge(UvRange *into, const UvRange *from);
-
-/* Luminance, summed; as of RetexBandStats. */
-typedef struct LightSums {
-    double total, folded, total_white, folded_white;
-} LightSums;
 
 /* One thread's scratch: sums of the pixel in hand. */
 typedef struct FilmPixel FilmPixel;
@@ -58,8 +20,8 @@ void film_drop(FilmPixel *pixel);                             /* count light tha
 void film_add_light(FilmPixel *pixel, const double light[3]); /* of a path, all together */
 /* Of that, what met hits that are folded; and what it would be with white targets. */
 void film_add_folded(FilmPixel *pixel, Rgb light, Rgb white);
-/* A path ends, with what it met of the targets, where light is split: behind one another no more hits of a target than
- * there are orders, and of all of them no more than expansion_most_hits. */
+/* A path ends, with the hits that it has where there is a split. A hit and those before it, up to the camera, are at
+ * most FilmParams.orders of each target, and of all targets at most what FilmLayout.most_hits says. */
 void film_path_end(FilmPixel *pixel, const PathHits *hits);
 /* Before a tile's first pixel, where its pixels have not as many samples as FilmParams say. */
 void film_tile_begin(FilmPixel *pixel, int spp);

@@ -6,18 +6,17 @@ int noise_count(const FilmParams *params, int ntargets)
 {
     if (!params->noise || params->spp < 2)
         return 0;
-    return !params->split ? 1 : 1 + ntargets * (params->paper ? 1 : 2);
+    return !params->split ? 1 : 1 + ntargets * params->layout->nsignals;
 }
 
 static void signal_name(const Scene *scene, const FilmParams *params, int signal, char name[RETEX_NAME_MAX])
 {
+    const FilmLayout *layout = params->layout;
     if (signal == 0)
         snprintf(name, RETEX_NAME_MAX, "noise_%s", params->split ? "indep" : "beauty");
-    else if (params->paper)
-        snprintf(name, RETEX_NAME_MAX, "noise_%.90s_hit", scene->targets[signal - 1].name);
     else
-        snprintf(name, RETEX_NAME_MAX, "noise_%.90s_%s", scene->targets[(signal - 1) / 2].name,
-                 retex_footprint_kind_name(RETEX_FOOTPRINT_SHARP + (signal - 1) % 2));
+        snprintf(name, RETEX_NAME_MAX, "noise_%.90s_%s", scene->targets[(signal - 1) / layout->nsignals].name,
+                 layout->signals[(signal - 1) % layout->nsignals]);
 }
 
 int noise_create(NoiseImages *images, const FilmParams *params, const Scene *scene, Bands *bands, RetexError *err)
@@ -25,7 +24,7 @@ int noise_create(NoiseImages *images, const FilmParams *params, const Scene *sce
     char name[RETEX_NAME_MAX];
     int code = RETEX_OK;
     images->count = noise_count(params, scene->ntargets);
-    images->paper = params->split && params->paper;
+    images->prunes = !params->split || params->layout->prunes;
     for (int k = 0; k < images->count && !code; k++) {
         signal_name(scene, params, k, name);
         code = bands_add(bands, name, "RGB", RETEX_HALF, &images->of[k], err);
@@ -51,8 +50,8 @@ int noise_finish(const NoiseImages *images, Bands *bands, RetexSet *set, RetexEr
 {
     int wanted[NOISE_SIGNALS_MAX], code = RETEX_OK;
     for (int k = 0; k < images->count; k++)
-        wanted[k] = !images->paper;
-    for (int t = 0; t < set->nterms && images->paper; t++) {
+        wanted[k] = images->prunes;
+    for (int t = 0; t < set->nterms && !images->prunes; t++) {
         const RetexTerm *term = &set->terms[t];
         wanted[term->nfactors ? 1 + set->footprints[term->factors[0]].target : 0] = 1;
     }

@@ -3,18 +3,11 @@
 #ifndef RENDERER_FILM_NOISE_H
 #define RENDERER_FILM_NOISE_H
 
-#include "film/film.h"
-
-#define NOISE_SIGNALS_MAX (1 + 2 * RETEX_MAX_TARGETS)
-
-/* Sums over a pixel's samples so far, by signal: light that no target's texture multiplies (the beauty, where there is
- * no split), then that of each target; in layout footprints sharp and broad. */
-typedef struct SignalTotals {
-    double of[NOISE_SIGNALS_MAX][3];
-} SignalTotals;
+#include "film/layout.h"
 
 typedef struct NoiseImages {
-    int count, paper; /* signals, 0 = none are kept; by the hits of layout paper */
+    int count; /* signals, 0 = none are kept */
+    int prunes; /* all become parts of the set; else those that its terms belong to */
     int of[NOISE_SIGNALS_MAX]; /* images of the film */
 } NoiseImages;
 
@@ -24,8 +17,8 @@ int noise_create(NoiseImages *images, const FilmParams *params, const Scene *sce
 /* half: totals of the first spp / 2 samples; all: of all spp. */
 void noise_store(const NoiseImages *images, BandRows *rows, const SignalTotals *half, const SignalTotals *all, int spp,
                  int x, int y);
-/* A part for each signal that terms of the set belong to, or for the beauty of a set without terms; in layout
- * footprints for all, of which retex_set_prune leaves those. */
+/* A part for each signal that terms of the set belong to, or for the beauty of a set without terms. Where the layout
+ * prunes all become parts, of which retex_set_prune leaves those. */
 int noise_finish(const NoiseImages *images, Bands *bands, RetexSet *set, RetexError *err);
 
 #endif

@@ -1,65 +1,97 @@
-/* What a light path met of the targets, and the light that came by it.
+/* The hits of one light path, and the light that came by them.
  *
- * A hit n of a target multiplies what comes by it by d a_n + i, a_n being the target's texture there. With D_n and I_n
- * for light that came by the hit and met no other target before it, on its way from where it shines to the camera, the
- * light that goes on from hit n is
- *   L_n = D_n a_n + I_n + sum over the hits m right behind n of (d_m a_n + i_m) L_m.
- * All else that is on the way, as far as the camera, is in D_n and I_n already. More than one hit is right behind
- * another where shadow rays pass targets; the path itself goes on from one. */
+ * A hit is a vertex on a target. Hit n multiplies light by d a_n + i, where a_n is the target's texture there. With D_n
+ * and I_n for light that comes to hit n without another hit between it and its emitter, the light that leaves hit n
+ * towards the camera is
+ *   L_n = D_n a_n + I_n + sum over the hits m next to n, away from the camera, of (d_m a_n + i_m) L_m.
+ * D_n and I_n contain all other factors of the path, from the emitter to the camera. A hit has more than one next hit
+ * where shadow rays pass through targets; the path itself goes on from one of them. */
 #ifndef RENDERER_FILM_PATH_HITS_H
 #define RENDERER_FILM_PATH_HITS_H
 
+#include <retex/set.h>
 #include "base/color4.h"
-#include "film/expansion.h"
 
 #define PATH_HITS_MAX 64  /* of one path, those of its shadow rays too */
+#define MONOMIALS_MAX 256 /* of a path multiplied out: eight hits with both parts; of diffuse targets each has one */
 #define WHITE_ALBEDO 0.8f /* of white paint, for what there would be with white targets */
+
+/* A vertex on a target. */
+typedef struct TargetHit {
+    Vec2 uv;
+    Rgb albedo; /* the original's, there */
+    unsigned char target, sharp; /* sharp: every bounce between the camera and it was specular, or nearly so */
+    unsigned char index;         /* among the hits of the same target along the path, from 0; in expansions */
+} TargetHit;
+
+/* How many hits a path has, and how many monomials its throughput would have multiplied out. */
+typedef struct HitCounts {
+    int nhits, nmonomials;
+    unsigned char per_target[RETEX_MAX_TARGETS]; /* hits of each target so far */
+} HitCounts;
+
+#define HIT_COUNTS_INIT ((HitCounts){.nmonomials = 1})
+
+/* May one more hit of a target be kept apart, with at most so many hits of each target and so many of all? */
+static inline int hit_counts_allow(const HitCounts *counts, int target, int orders, int most_hits)
+{
+    return counts->nhits < most_hits && counts->per_target[target] < orders && 2 * counts->nmonomials <= MONOMIALS_MAX;
+}
+
+/* Count one more hit; both_parts: its d and its i are not black. */
+static inline void hit_counts_add(HitCounts *counts, int target, int both_parts)
+{
+    counts->nhits++;
+    counts->per_target[target]++;
+    if (both_parts)
+        counts->nmonomials *= 2;
+}
 
 /* There are many, so that they should not drive the scene out of the caches: one takes two lines of 64 bytes. */
 typedef struct PathHit {
     Float4 dependent, independent; /* D, I */
-    Float4 way_d, way_i;           /* d, i: what the hit before this one does to light that comes from here */
+    Float4 before_d, before_i;     /* d, i: what the hit before this one does to light that comes from here */
     TargetHit at;
     struct PathHit *before,
-        *earlier;    /* the next hit towards the camera; the one that was met last before it. Or NULL */
-    int number;      /* of the path's, as they were met */
+        *earlier;    /* the next hit towards the camera; the one that was added last before it. Or NULL */
+    int number;      /* in the order in which they were added */
     int connections; /* D and I are of so many */
 } PathHit;
 
 typedef struct PathHits {
-    PathHit *last; /* that was met, or NULL */
+    PathHit *last; /* that was added, or NULL */
     int count;
     Float4 free;          /* light that met no target */
     int free_connections; /* of so many */
 } PathHits;
 
-/* One more hit, in the room for it; way_d and way_i are of the hit before it. */
-static inline PathHit *path_hits_add(PathHits *hits, PathHit *room, const TargetHit *at, PathHit *before, Float4 way_d,
-                                     Float4 way_i)
+/* Add a hit, in memory of the caller; before_d and before_i are of the hit before it. */
+static inline PathHit *path_hits_add(PathHits *hits, PathHit *hit, const TargetHit *at, PathHit *before,
+                                     Float4 before_d, Float4 before_i)
 {
-    room->dependent = room->independent = splat(0);
-    room->way_d = way_d, room->way_i = way_i;
-    room->at = *at;
-    room->before = before, room->earlier = hits->last;
-    room->number = hits->count++, room->connections = 0;
-    return hits->last = room;
+    hit->dependent = hit->independent = splat(0);
+    hit->before_d = before_d, hit->before_i = before_i;
+    hit->at = *at;
+    hit->before = before, hit->earlier = hits->last;
+    hit->number = hits->count++, hit->connections = 0;
+    return hits->last = hit;
 }
 
-/* Light that comes by a hit, which makes d a + i of it, and by no other hit before. */
-static inline void path_hit_shine(PathHit *hit, Float4 d, Float4 i, Float4 light)
+/* Add light that a hit multiplies by d a + i and that meets no other hit before it, from the emitter on. */
+static inline void path_hit_add_light(PathHit *hit, Float4 d, Float4 i, Float4 light)
 {
     hit->dependent += d * light;
     hit->independent += i * light;
     hit->connections++;
 }
 
-/* What d a + i is, or D a + I, where the target is white. */
+/* d a + i, or D a + I, where the target is white. */
 static inline Float4 path_hit_white(Float4 d, Float4 i)
 {
     return i + splat(WHITE_ALBEDO) * d;
 }
 
-/* Light that comes by a hit, D and I, or to the camera where there is none: what it would be with white targets. */
+/* Light that comes to a hit, D and I, or to the camera where hit is NULL: what it would be with white targets. */
 Float4 path_white(const PathHit *hit, Float4 dependent, Float4 independent);
 
 #endif

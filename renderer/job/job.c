@@ -1,5 +1,4 @@
 /* See job.h. */
-#include "film/film.h"
 #include "job/job.h"
 
 int job_target_is_empty(const Scene *scene, int t)
@@ -39,24 +38,13 @@ int job_check_size(const Scene *scene, const RenderParams *r, RetexError *err)
 {
     double width = r->crop[2] ? r->crop[2] : r->width ? r->width : scene->width;
     double height = r->crop[3] ? r->crop[3] : r->height ? r->height : scene->height;
-    FilmParams film = {.width = (int)width,
-                       .height = (int)height,
-                       .orders = r->orders,
-                       .split = !r->plain,
-                       .paper = r->paper,
-                       .sharp = r->sharp,
-                       .broad = r->broad,
-                       .spp = r->spp,
-                       .noise = r->denoise_data};
     const uint64_t left = retex_budget_left(r->budget);
-    double guides = r->denoise_data && !r->spooled ? 19 + scene->ntargets : 0;
     double memory = (double)(left == UINT64_MAX ? retex_machine_memory() : left);
     const long pixels = retex_budget_pixels(r->budget);
     if (pixels > 0 && width * height > (double)pixels)
         return retex_fail(err, RETEX_ELIMIT, "%.0fx%.0f pixels are more than the %ld of --max-pixels", width, height,
                           pixels);
-    double bytes = film_bytes(&film, scene->ntargets, r->spooled) +
-                   width * height * sizeof(float) * (guides + 19 * (r->aovs != 0));
+    double bytes = render_bytes(scene, r, (int)width, (int)height);
     if (memory > 0 && bytes > memory)
         return retex_fail(err, RETEX_ENOMEM,
                           "%.0fx%.0f pixels need %.1f GB of memory, there are %.1f: render parts with --crop%s", width,

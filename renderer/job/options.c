@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <retex/nearest.h>
-#include "film/film.h"
+#include "film/params.h"
 #include "job/job.h"
 
 typedef struct Option {

@@ -74,13 +74,13 @@ static inline void take_part(Path *path, Float4 d, Float4 i)
 
 /* Multiply by a factor: as a target hit while there is an order left, which goes into size, else by what it is as a
  * whole. Returns 1 for a hit. */
-static inline int take_factor(const PathContext *c, const Path *path, Float4 *outside, ExpansionSize *size, int *folded,
+static inline int take_factor(const PathContext *c, const Path *path, Float4 *outside, HitCounts *size, int *folded,
                               const Factor *f, Float4 whole)
 {
     int more = size->nhits - path->size.nhits;
     if (is_hit(f) && path->hits.count + more < PATH_HITS_MAX &&
-        expansion_has_room(size, f->target, c->orders, c->most_hits)) {
-        expansion_grow(size, f->target, !is_black4(f->d) && !is_black4(f->i));
+        hit_counts_allow(size, f->target, c->orders, c->most_hits)) {
+        hit_counts_add(size, f->target, !is_black4(f->d) && !is_black4(f->i));
         return 1;
     }
     *outside *= whole;
@@ -88,10 +88,11 @@ static inline int take_factor(const PathContext *c, const Path *path, Float4 *ou
     return 0;
 }
 
-static inline PathHit *add_hit(PathWorker *w, Path *path, const Factor *f, PathHit *before, Float4 way_d, Float4 way_i)
+static inline PathHit *add_hit(PathWorker *w, Path *path, const Factor *f, PathHit *before, Float4 before_d,
+                               Float4 before_i)
 {
     const TargetHit at = {f->uv, rgb_of4(f->albedo), (unsigned char)f->target, (unsigned char)f->sharp, 0};
-    return path_hits_add(&path->hits, &w->hits[w->nhits++], &at, before, way_d, way_i);
+    return path_hits_add(&path->hits, &w->hits[w->nhits++], &at, before, before_d, before_i);
 }
 
 /* The hit of a factor right behind those that the path came by: light that was picked at a surface, and the path that
@@ -116,7 +117,7 @@ static inline void arrive(PathWorker *w, Path *path, const Factor *const *more, 
         d = more[k]->d, i = more[k]->i;
     }
     if (last)
-        path_hit_shine(last, d, i, light);
+        path_hit_add_light(last, d, i, light);
     else
         path->hits.free += light, path->hits.free_connections++;
     if (folded)
@@ -165,7 +166,7 @@ void path_start(PathWorker *w, Path *path, const Ray *ray, const Sampler *sample
     path->media.count = 0, path->kind = RAY_CAMERA;
     path->sample = sampler->sample;
     path->light[0] = path->light[1] = path->light[2] = 0;
-    path->size = (ExpansionSize){.nmonomials = 1}, path->folded = 0;
+    path->size = (HitCounts){.nmonomials = 1}, path->folded = 0;
     path->hits = (PathHits){.last = NULL}, path->from_hit = path->here = NULL;
     path->first_light = path->last_light = -1;
     for (int v = 1; v < c->nvariants; v++)
@@ -238,7 +239,7 @@ static inline Float4 connect_split(PathWorker *w, Path *path, Float4 light, cons
     const PathContext *c = w->context;
     const Factor *own[SHADOW_FACTORS_MAX + 2];
     Float4 beauty = path->beta * light, outside = path->outside * light;
-    ExpansionSize size = path->size;
+    HitCounts size = path->size;
     int count = 0, folded = path->folded;
     for (int k = 0; k < nfactors; k++) {
         const Float4 whole = factor_whole(&factors[k]);

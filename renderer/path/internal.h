@@ -2,6 +2,7 @@
 #ifndef RENDERER_PATH_INTERNAL_H
 #define RENDERER_PATH_INTERNAL_H
 
+#include "base/color4.h"
 #include "path/path.h"
 
 #define STRAIGHT_MAX 128 /* surfaces a path or shadow ray may pass without bending */
@@ -11,6 +12,21 @@ typedef struct Media {
     const Interior *interiors[MEDIA_MAX];
     int count;
 } Media;
+
+/* One factor of a connection: a surface it scatters at or passes. */
+typedef struct Factor {
+    int target;          /* -1: none */
+    Float4 d, i, albedo; /* it is d albedo + i */
+    const Rgb *albedos; /* by variant, or NULL: the same in all */
+    Vec2 uv;
+    int reflects; /* light stays on its side of the surface */
+    int sharp;    /* nothing on the way from the camera scattered widely */
+} Factor;
+
+static inline Float4 factor_whole(const Factor *f)
+{
+    return f->d * f->albedo + f->i;
+}
 
 /* Light arrives, or the path goes on. */
 typedef struct Path {
@@ -29,7 +45,7 @@ typedef struct Path {
     double light[3];             /* that arrived */
     int first_light, last_light; /* in the worker's log, or -1 */
     /* In sets: */
-    ExpansionSize size;    /* of the hits that it came by */
+    HitCounts size;    /* of the hits that it came by */
     int folded;            /* a target hit beyond the last order kept its albedo */
     PathHits hits;         /* and those that only light came by */
     PathHit *from_hit;     /* the last that it came by, or NULL, */

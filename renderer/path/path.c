@@ -6,7 +6,6 @@
  * segment are traced before anything is done where they met the scene: tracing and shading together are more code than
  * a processor's first cache holds. */
 #include <string.h>
-#include "render/denoise_guides.h"
 #include "path/matte.h"
 #include "path/internal.h"
 
@@ -240,11 +239,11 @@ static void fill_vertex(PathWorker *w, Packet *p, int lane, const Hit *hit)
 /* Guides look on from what rays from the camera meet. */
 static void look_on(PathWorker *w, const Ray *ray, const Hit *hit, Vertex *v, int is_matte)
 {
-    if (!w->guides || denoise_guides_missing(w->guides) == 0)
+    if (!w->first_hit)
         return;
     if (hit->primitive >= 0 && is_matte)
         bsdf_setup(&v->s.bsdf, &v->s.surface, vec_neg(ray->direction), v->s.filter, v->s.transmit);
-    denoise_guides_look(w->guides, ray, hit, &v->s);
+    w->first_hit(w->first_hit_context, ray, hit, &v->s);
 }
 
 /* A ray met something, or the sky: what shines there reaches the path. Returns 0 where it ends. */

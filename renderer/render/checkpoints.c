@@ -1,5 +1,6 @@
 /* See checkpoints.h. */
 #include <unistd.h>
+#include "film/bands.h"
 #include "render/checkpoints.h"
 
 int pieces_open(RetexSpool **spool, const RenderParams *p, int width, int height, RetexError *err)

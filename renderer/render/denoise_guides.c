@@ -1,7 +1,6 @@
 /* See denoise_guides.h. */
 #include <stdio.h>
 #include "render/denoise_guides.h"
-#include "path/path.h"
 
 /* A pixel is looked at in few places, and where these do not all see the same in many: as many of its samples as are
  * spread evenly. */
@@ -168,8 +167,9 @@ static int is_even(const PixelGuides *s)
            s->luminance_squared / s->places - mean * mean < ONE_ALBEDO;
 }
 
-void denoise_guides_look(PixelGuides *p, const Ray *ray, const Hit *hit, const Shading *shading)
+void denoise_guides_look(void *pixel, const Ray *ray, const Hit *hit, const Shading *shading)
 {
+    PixelGuides *p = pixel;
     if (denoise_guides_missing(p) == 0)
         return;
     look(p, *ray, *hit, shading);

@@ -6,8 +6,8 @@
 #define RENDERER_RENDER_DENOISE_GUIDES_H
 
 #include "film/film.h"
+#include "path/shading.h"
 #include "render/first_hit.h"
-#include "path/path.h"
 
 enum {
     GUIDE_NORMAL,
@@ -47,8 +47,8 @@ typedef struct PixelGuides {
 
 int denoise_guides_create(DenoiseGuides *guides, Film *film, const FirstHitWindow *window, int split, RetexError *err);
 
-/* What the next place sees: what a camera's ray meets, whose hit is none or has a shading. */
-void denoise_guides_look(PixelGuides *pixel, const Ray *ray, const Hit *hit, const Shading *shading);
+/* What the next place sees, given what a ray from the camera meets: a FirstHitObserver. pixel: PixelGuides. */
+void denoise_guides_look(void *pixel, const Ray *ray, const Hit *hit, const Shading *shading);
 /* So many more places the pixel wants, at the least. */
 int denoise_guides_missing(const PixelGuides *pixel);
 /* Look at them where no path does, along up to ACCEL_PACKET rays. */

@@ -3,6 +3,7 @@
 #define RENDERER_RENDER_INTERNAL_H
 
 #include <stdatomic.h>
+#include "film/bands.h"
 #include "render/adaptive.h"
 #include "render/denoise_guides.h"
 #include "render/first_hit.h"

@@ -3,6 +3,8 @@
 #include <string.h>
 #include <time.h>
 #include <retex/parallel.h>
+#include "film/footprints/footprints.h"
+#include "film/paper/paper.h"
 #include "render/originals.h"
 #include "render/checkpoints.h"
 #include "render/internal.h"
@@ -34,6 +36,27 @@ static int check_params(const RenderParams *p, RetexError *err)
         return retex_fail(err, RETEX_EINVAL, "clusters must be 2 to %d, of them 1 to all sharp and 1 to all broad ones",
                           FILM_CLUSTERS_MAX);
     return RETEX_OK;
+}
+
+static const FilmLayout *layout_of(const RenderParams *p)
+{
+    return p->paper ? &paper_layout : &footprints_layout;
+}
+
+double render_bytes(const Scene *scene, const RenderParams *p, int width, int height)
+{
+    const FilmParams film = {.width = width,
+                             .height = height,
+                             .orders = p->orders,
+                             .split = !p->plain,
+                             .layout = layout_of(p),
+                             .sharp = p->sharp,
+                             .broad = p->broad,
+                             .spp = p->spp,
+                             .noise = p->denoise_data};
+    const double guides = p->denoise_data && !p->spooled ? 19 + scene->ntargets : 0;
+    return film_bytes(&film, scene->ntargets, p->spooled) +
+           (double)width * height * sizeof(float) * (guides + 19 * (p->aovs != 0));
 }
 
 void render_forget_files(RenderParams *p)
@@ -108,7 +131,7 @@ int render_open(Render *r, const Scene *scene, const RenderParams *params, Retex
                                .lights = r->lights,
                                .max_depth = r->params.max_depth,
                                .orders = r->params.orders,
-                               .most_hits = expansion_most_hits(scene->ntargets, r->params.paper),
+                               .most_hits = layout_of(&r->params)->most_hits(scene->ntargets),
                                .split = split,
                                .nvariants = 1,
                                .halves = 1};
@@ -133,7 +156,8 @@ static int open_worker(Render *r, int k, RetexError *err)
     PathWorker *w = &r->workers[k];
     w->context = &r->context;
     w->pixel = r->pixels[k], w->control = r->controls[k];
-    w->guides = r->pixel_guides ? &r->pixel_guides[k] : NULL;
+    if (r->pixel_guides)
+        w->first_hit = denoise_guides_look, w->first_hit_context = &r->pixel_guides[k];
     w->variants = r->variants;
     if (r->constants) {
         memcpy(w->own, r->variants, (size_t)r->context.nvariants * sizeof *w->own);
@@ -203,7 +227,7 @@ int render_open_film(Render *r, int control, int halves, RetexError *err)
                        .strict_paper = r->params.strict_paper,
                        .split = r->context.split,
                        .ntiles = r->tiles_x * r->tiles_y,
-                       .paper = r->params.paper,
+                       .layout = layout_of(&r->params),
                        .clusters = r->params.clusters,
                        .sharp = r->params.sharp,
                        .broad = r->params.broad,
@@ -244,7 +268,7 @@ static int start_set(RetexSet **set, const Render *r, RetexError *err)
     if (s->nparts == 0 && (code = retex_set_add_part(s, "beauty", "RGB", RETEX_FLOAT, 0, 0, NULL, err)))
         return code;
     const char *name = strrchr(r->scene->path, '/');
-    snprintf(s->layout, sizeof s->layout, "%s", !r->context.split ? "plain" : r->params.paper ? "paper" : "footprints");
+    snprintf(s->layout, sizeof s->layout, "%s", r->context.split ? layout_of(&r->params)->name : "plain");
     snprintf(s->filter, sizeof s->filter, "%s", r->params.gaussian ? "gaussian" : "box");
     snprintf(s->scene, sizeof s->scene, "%.255s", name ? name + 1 : r->scene->path);
     snprintf(s->generator, sizeof s->generator, "retex-render 0.1.0");

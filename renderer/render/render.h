@@ -7,6 +7,7 @@
 #include <retex/budget.h>
 #include "render/control_variate.h"
 #include "scene/scene.h"
+#include "scene/variant.h"
 
 /* Further pictures, one part each, taken at the first hit of the pixel centre's ray, unfiltered. */
 enum {
@@ -23,12 +24,6 @@ enum {
                             the radiance of a white diffuse surface in its place; spp paths */
     AOV_ALL = 511
 };
-
-/* What lies on the scene's targets in one of several pictures: a texture, or NULL for the original. */
-typedef struct RenderVariant {
-    const RetexTexture *textures[RETEX_MAX_TARGETS];
-    const Rgb *constants; /* or NULL; by target, a colour instead of all textures */
-} RenderVariant;
 
 /* Begin with RENDER_PARAMS_INIT. */
 typedef struct RenderParams {
@@ -77,6 +72,9 @@ typedef struct RenderStats {
     long paths, segments, shadow_rays, dropped; /* dropped: contributions that were not finite */
     long lights, primitives, triangles;
 } RenderStats;
+
+/* Bytes that the film and the AOVs of a render of width by height pixels take at least, all together. */
+double render_bytes(const Scene *scene, const RenderParams *params, int width, int height);
 
 /* Render into a new set. With plain, or without targets, the set has the beauty and the AOVs only. The picture is the
  * same to the bit for every nthreads. */

@@ -1,5 +1,6 @@
 /* See lib_film.h. */
 #include "lib_film.h"
+#include "film/footprints/footprints.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -12,7 +13,8 @@ void begin_film(Fixture *f, int ntargets, int spp, int orders, int sharp, int br
     *f = (Fixture){.scene = {.ntargets = ntargets}};
     for (int t = 0; t < ntargets; t++)
         snprintf(f->scene.targets[t].name, sizeof f->scene.targets[t].name, "%s", names[t]);
-    f->params = (FilmParams){.width = 2, .height = 1, .spp = spp, .orders = orders, .split = 1, .ntiles = 1};
+    f->params = (FilmParams){
+        .width = 2, .height = 1, .spp = spp, .orders = orders, .split = 1, .ntiles = 1, .layout = &footprints_layout};
     f->params.clusters = sharp + broad, f->params.sharp = sharp, f->params.broad = broad;
 }
 
@@ -53,7 +55,7 @@ void connect_light(Fixture *f, Rgb light)
     const double sum[3] = {(double)beauty.r, (double)beauty.g, (double)beauty.b};
     film_add_light(f->pixel, sum);
     if (f->hits.last)
-        path_hit_shine(f->hits.last, colour4(f->split.d), colour4(f->split.i), colour4(light));
+        path_hit_add_light(f->hits.last, colour4(f->split.d), colour4(f->split.i), colour4(light));
     else
         f->hits.free += colour4(light), f->hits.free_connections++;
     f->light = rgb_add(f->light, beauty);

@@ -3,6 +3,7 @@
 #define LIB_FILM_H
 
 #include "film/film.h"
+#include "shade/bsdf.h"
 #include "lib_test.h"
 
 #define SHARP 1

@@ -13,6 +13,8 @@
 #include <retex/denoise.h>
 
 #include "film/film.h"
+#include "film/footprints/footprints.h"
+#include "film/paper/paper.h"
 #include "render/render.h"
 #include "sdl/sdl.h"
 #include "set/signals.h"
@@ -220,7 +222,10 @@ static void the_film_counts_its_noise(void **state)
         int split, paper, spp, ntargets, signals;
     } cases[] = {{0, 0, 2, 0, 1}, {1, 0, 2, 1, 3}, {1, 0, 2, 2, 5}, {1, 1, 2, 2, 3}, {1, 0, 1, 2, 0}};
     for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++) {
-        FilmParams with = {.split = cases[k].split, .paper = cases[k].paper, .spp = cases[k].spp, .orders = 6};
+        FilmParams with = {.split = cases[k].split,
+                           .layout = cases[k].paper ? &paper_layout : &footprints_layout,
+                           .spp = cases[k].spp,
+                           .orders = 6};
         FilmParams without = with;
         with.noise = 1;
         assert_int_equal(film_floats(&with, cases[k].ntargets) - film_floats(&without, cases[k].ntargets),

@@ -3,7 +3,7 @@
 #include <stddef.h>
 #include <setjmp.h>
 #include <cmocka.h>
-#include "film/expansion.h"
+#include "film/paper/expansion.h"
 #include "film/paper/terms.h"
 
 static float at_random(uint32_t *state)
@@ -31,8 +31,8 @@ static void multiplies_out(void **state)
             targets[j] = (int)(at_random(&seed) * 3);
             for (int k = 3; k < RETEX_MAX_TARGETS && seen[targets[j]] == RETEX_MAX_ORDERS; k++)
                 targets[j] = k;
-            if (!expansion_has_room(&e.size, targets[j], RETEX_MAX_ORDERS, RETEX_MAX_FACTORS)) {
-                assert_true(2 * e.size.nmonomials > EXPANSION_MONOMIALS_MAX); /* eight with both parts, at least */
+            if (!hit_counts_allow(&e.size, targets[j], RETEX_MAX_ORDERS, RETEX_MAX_FACTORS)) {
+                assert_true(2 * e.size.nmonomials > MONOMIALS_MAX); /* eight with both parts, at least */
                 n = j;
                 break;
             }
@@ -79,7 +79,7 @@ static void any_number_of_targets_has_its_terms(void **state)
     (void)state;
     for (int targets = 1; targets <= RETEX_MAX_TARGETS; targets++) {
         double prefixes = 1; /* counts of factors of each target: targets + n over n */
-        int n = expansion_most_hits(targets, 1), cross = 8 * targets + 3 * targets * targets;
+        int n = expansion_most_hits(targets), cross = 8 * targets + 3 * targets * targets;
         for (int k = 1; k <= n; k++)
             prefixes = prefixes * (targets + k) / k;
         assert_true(n >= 4 && n <= RETEX_MAX_FACTORS);

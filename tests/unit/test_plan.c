@@ -3,7 +3,6 @@
 #include <stdio.h>
 #include <string.h>
 #include <cmocka.h>
-#include "film/expansion.h"
 #include "film/footprints/plan.h"
 
 static int hits_of(const PlanCoefficient *c)

@@ -6,6 +6,8 @@
 
 #include <cmocka.h>
 
+#include "film/footprints/footprints.h"
+#include "film/paper/paper.h"
 #include "path/internal.h"
 
 /* A film of one pixel and one path, whose target is called Floor. */
@@ -28,11 +30,16 @@ static void begin_orders(Fixture *f, int paper, int orders)
     memset(f, 0, sizeof *f);
     f->scene.ntargets = 1;
     strcpy(f->scene.targets[0].name, "Floor");
-    f->params =
-        (FilmParams){.width = 1, .height = 1, .spp = 1, .orders = orders, .split = 1, .ntiles = 1, .paper = paper};
+    f->params = (FilmParams){.width = 1,
+                             .height = 1,
+                             .spp = 1,
+                             .orders = orders,
+                             .split = 1,
+                             .ntiles = 1,
+                             .layout = paper ? &paper_layout : &footprints_layout};
     f->params.clusters = 2, f->params.sharp = f->params.broad = 1;
     f->context = (PathContext){.scene = &f->scene, .max_depth = 16, .orders = orders, .split = 1, .nvariants = 1};
-    f->context.most_hits = expansion_most_hits(1, paper);
+    f->context.most_hits = f->params.layout->most_hits(1);
     test_must(film_create(&f->film, &f->scene, &f->params, &err), &err);
     test_must(film_pixel_create(&f->pixel, f->film, &err), &err);
     f->worker.context = &f->context, f->worker.pixel = f->pixel;

@@ -105,8 +105,9 @@ static int finish_again(FootprintFilm *film, RetexSet *set, int t, int kind, con
     return code;
 }
 
-int footprints_finish(FootprintFilm *film, RetexSet *set, RetexError *err)
+int footprints_finish(void *layout, RetexSet *set, RetexError *err)
 {
+    FootprintFilm *film = layout;
     Places places = {.any = 0};
     RetexMixture any = {0};
     RetexTerm free_term = {.kind = RETEX_TERM_INDEP};

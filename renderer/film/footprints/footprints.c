@@ -2,15 +2,26 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include "film/footprints/footprints.h"
 #include "film/footprints/pixel.h"
 
 #define LEAST_ALBEDO 1e-3f /* of other hits, where originals are averaged: a black one may be the one that is edited */
 
 /* ---- life ---- */
 
-int footprints_pixel_create(FootprintPixel **out, FootprintFilm *film, LightSums *light, UvRange *range,
-                            RetexError *err)
+static void close_pixel(void **pixel)
 {
+    FootprintPixel *p = *pixel;
+    if (!p)
+        return;
+    free(p->targets);
+    free(p);
+    *pixel = NULL;
+}
+
+static int create_pixel(void **out, void *layout, LightSums *light, UvRange *range, RetexError *err)
+{
+    FootprintFilm *film = layout;
     FootprintPixel *p = *out = calloc(1, sizeof *p);
     if (p) {
         p->film = film;
@@ -19,17 +30,8 @@ int footprints_pixel_create(FootprintPixel **out, FootprintFilm *film, LightSums
     }
     if (p && p->targets)
         return RETEX_OK;
-    footprints_pixel_close(out);
+    close_pixel(out);
     return retex_fail(err, RETEX_ENOMEM, "out of memory for a thread's pixel");
-}
-
-void footprints_pixel_close(FootprintPixel **pixel)
-{
-    if (!*pixel)
-        return;
-    free((*pixel)->targets);
-    free(*pixel);
-    *pixel = NULL;
 }
 
 /* ---- light ---- */
@@ -89,9 +91,9 @@ static inline void start_node(Node *node, const PathHit *hit, const Node *before
         node->none = node->original = node->half = splat(1);
         return;
     }
-    node->none = before->none * hit->way_i;
-    node->original = before->original * (hit->way_i + hit->way_d * before->albedo);
-    node->half = before->half * (hit->way_i + hit->way_d * splat(0.5f));
+    node->none = before->none * hit->before_i;
+    node->original = before->original * (hit->before_i + hit->before_d * before->albedo);
+    node->half = before->half * (hit->before_i + hit->before_d * splat(0.5f));
 }
 
 /* Light that met this hit after others of its path. */
@@ -137,10 +139,10 @@ static void scale_light(HitLight *light, Float4 by)
 static void gather_node(FootprintPixel *p, const PathHit *hit, Node *node, Node *before)
 {
     add_textured(&node->independent, &node->dependent, &p->film->plan, hit->at.target, node->albedo);
-    add_times(&before->dependent, &node->independent, hit->way_d);
-    if (!is_black4(hit->way_i))
-        add_times(&before->independent, &node->independent, hit->way_i);
-    before->white += node->white * path_hit_white(hit->way_d, hit->way_i);
+    add_times(&before->dependent, &node->independent, hit->before_d);
+    if (!is_black4(hit->before_i))
+        add_times(&before->independent, &node->independent, hit->before_i);
+    before->white += node->white * path_hit_white(hit->before_d, hit->before_i);
 }
 
 static void note_range(FootprintPixel *p, const PathHit *hit)
@@ -192,8 +194,9 @@ static void end_several(FootprintPixel *p, const PathHits *path, Float4 *free, F
     }
 }
 
-void footprints_path_end(FootprintPixel *p, const PathHits *path)
+static void end_path(void *pixel, const PathHits *path)
 {
+    FootprintPixel *p = pixel;
     Float4 free = path->free, white = path->free;
     if (path->count == 1)
         end_single(p, path->last, &free, &white);
@@ -215,11 +218,35 @@ static void signal_total(double total[3], const Clusters *clusters, const Plan *
             total[c] += plan->coefficients[i].weight * clusters->again[i][c];
 }
 
-void footprints_totals(const FootprintPixel *p, SignalTotals *totals)
+static void sum_signals(const void *pixel, SignalTotals *totals)
 {
+    const FootprintPixel *p = pixel;
     memcpy(totals->of[0], p->free, sizeof p->free);
     for (int t = 0; t < p->film->scene->ntargets; t++) {
         signal_total(totals->of[1 + 2 * t], &p->targets[t].sharp, &p->film->plan);
         signal_total(totals->of[2 + 2 * t], &p->targets[t].broad, &p->film->plan);
     }
 }
+
+static int most_hits(int ntargets)
+{
+    (void)ntargets;
+    return RETEX_MAX_FACTORS;
+}
+
+const FilmLayout footprints_layout = {.name = "footprints",
+                                      .nsignals = 2,
+                                      .signals = {"sharp", "broad"},
+                                      .keeps_white = 1,
+                                      .prunes = 1,
+                                      .most_hits = most_hits,
+                                      .floats = footprints_floats,
+                                      .create = footprints_create,
+                                      .close = footprints_close,
+                                      .pixel_create = create_pixel,
+                                      .pixel_close = close_pixel,
+                                      .path_end = end_path,
+                                      .totals = sum_signals,
+                                      .pixel_end = footprints_pixel_end,
+                                      .band_stats = footprints_band_stats,
+                                      .finish = footprints_finish};

@@ -2,7 +2,7 @@
 #ifndef RENDERER_FILM_FOOTPRINTS_IMAGES_H
 #define RENDERER_FILM_FOOTPRINTS_IMAGES_H
 
-#include "film/footprints/footprints.h"
+#include "film/layout.h"
 #include "film/footprints/plan.h"
 
 #define LATER_COUNT 2 /* footprints of further hits, a target */
@@ -26,14 +26,14 @@ typedef struct TargetImages {
     FootprintImages later[LATER_COUNT];
 } TargetImages;
 
-struct FootprintFilm {
+typedef struct FootprintFilm {
     const Scene *scene;
     FilmParams params;
     Bands *bands; /* borrowed */
     Plan plan;
     int free; /* C0 */
     TargetImages *targets;
-};
+} FootprintFilm;
 
 /* Clusters that a pixel may have: of what is seen sharply (kind 0), or of the rest (1). */
 static inline int most_of_kind(const FilmParams *p, int kind)
@@ -46,5 +46,14 @@ static inline int most_later(const FootprintFilm *film)
 {
     return film->plan.count > 1 ? LATER_COUNT : 0;
 }
+
+/* ---- store.c and finish.c: operations of the layout, see film/layout.h ---- */
+
+int footprints_create(void **layout, const Scene *scene, const FilmParams *params, Bands *bands, RetexError *err);
+void footprints_close(void **layout);
+long footprints_floats(const FilmParams *params, int ntargets);
+void footprints_pixel_end(void *pixel, BandRows *rows, int spp, int x, int y);
+void footprints_band_stats(const void *layout, const BandRows *rows, RetexBandStats *stats);
+int footprints_finish(void *layout, RetexSet *set, RetexError *err);
 
 #endif

@@ -87,7 +87,7 @@ typedef struct Node {
     Float4 none, original, half;
 } Node;
 
-struct FootprintPixel {
+typedef struct FootprintPixel {
     FootprintFilm *film;
     int spp; /* of the pixel, when it is finished */
     double free[3];
@@ -95,6 +95,6 @@ struct FootprintPixel {
     Node nodes[PATH_HITS_MAX];
     LightSums *light; /* of what arrives */
     UvRange *range;   /* of what was met */
-};
+} FootprintPixel;
 
 #endif

@@ -81,7 +81,7 @@ static int add_target(FootprintFilm *film, int t, RetexError *err)
     return code;
 }
 
-int footprints_create(FootprintFilm **out, const Scene *scene, const FilmParams *params, Bands *bands, RetexError *err)
+int footprints_create(void **out, const Scene *scene, const FilmParams *params, Bands *bands, RetexError *err)
 {
     FootprintFilm *film = *out = calloc(1, sizeof *film);
     if (film)
@@ -91,7 +91,7 @@ int footprints_create(FootprintFilm **out, const Scene *scene, const FilmParams 
     film->scene = scene;
     film->params = *params;
     film->bands = bands;
-    plan_make(&film->plan, scene->ntargets, params->orders, expansion_most_hits(scene->ntargets, 0));
+    plan_make(&film->plan, scene->ntargets, params->orders, RETEX_MAX_FACTORS);
     int parts = scene->ntargets * (5 * (params->sharp + params->broad) + 2 * film->plan.count + 4 * LATER_COUNT);
     if (parts > PARTS_MAX)
         return retex_fail(err, RETEX_ELIMIT, "the set may need %d parts, more than %d: take fewer targets or clusters",
@@ -102,7 +102,7 @@ int footprints_create(FootprintFilm **out, const Scene *scene, const FilmParams 
     return code;
 }
 
-void footprints_close(FootprintFilm **out)
+void footprints_close(void **out)
 {
     FootprintFilm *film = *out;
     if (!film)
@@ -110,6 +110,14 @@ void footprints_close(FootprintFilm **out)
     free(film->targets);
     free(film);
     *out = NULL;
+}
+
+long footprints_floats(const FilmParams *params, int ntargets)
+{
+    Plan plan;
+    plan_make(&plan, ntargets, params->orders, RETEX_MAX_FACTORS);
+    /* few pixels have all clusters, and what is never written takes no memory: one cluster, and its coefficients */
+    return 3 + ntargets * (12 + 10 + 3 * (plan.count - 1));
 }
 
 /* ---- the finished pixel ---- */
@@ -237,8 +245,9 @@ static void store_later(FootprintPixel *p, const Place *at)
         }
 }
 
-void footprints_pixel_end(FootprintPixel *p, BandRows *rows, int spp, int x, int y)
+void footprints_pixel_end(void *pixel, BandRows *rows, int spp, int x, int y)
 {
+    FootprintPixel *p = pixel;
     const Place at = {rows, x, y};
     FootprintFilm *film = p->film;
     p->spp = spp;
@@ -255,8 +264,9 @@ void footprints_pixel_end(FootprintPixel *p, BandRows *rows, int spp, int x, int
 
 /* ---- the finished band ---- */
 
-void footprints_band_stats(const FootprintFilm *film, const BandRows *rows, RetexBandStats *s)
+void footprints_band_stats(const void *layout, const BandRows *rows, RetexBandStats *s)
 {
+    const FootprintFilm *film = layout;
     for (int t = 0; t < film->scene->ntargets; t++) {
         const TargetImages *target = &film->targets[t];
         for (int kind = 0; kind < 2; kind++)

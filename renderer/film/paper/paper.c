@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include "film/paper/expansion.h"
 #include "film/paper/paper.h"
 #include "film/paper/terms.h"
 
@@ -15,7 +16,7 @@ typedef struct FootprintSums {
     Float4 albedo;                /* unweighted, for footprints that gave no light */
 } FootprintSums;
 
-struct PaperFilm {
+typedef struct PaperFilm {
     const Scene *scene;
     FilmParams params;
     Bands *bands; /* borrowed */
@@ -24,9 +25,9 @@ struct PaperFilm {
     int uv[RETEX_MAX_TARGETS * RETEX_MAX_ORDERS], spread[RETEX_MAX_TARGETS * RETEX_MAX_ORDERS],
         albedo[RETEX_MAX_TARGETS * RETEX_MAX_ORDERS];
     atomic_int lost; /* light found no term to go to */
-};
+} PaperFilm;
 
-struct PaperPixel {
+typedef struct PaperPixel {
     PaperFilm *film;
     TermCache cache;
     Float4 *sums; /* by term */
@@ -37,7 +38,8 @@ struct PaperPixel {
     ExpansionMark mark;            /* of it before a hit that light came by */
     TargetHit hits[PATH_HITS_MAX]; /* all hits that connected, with how often */
     int connections[PATH_HITS_MAX], nhits;
-};
+    UvRange *range; /* of what was met */
+} PaperPixel;
 
 static int footprints_count(const PaperFilm *film)
 {
@@ -71,7 +73,7 @@ static int paper_alloc(PaperFilm *film, RetexError *err)
     return code ? code : terms_create(&film->terms, film->bands, film->scene->ntargets, film->params.orders, err);
 }
 
-int paper_create(PaperFilm **out, const Scene *scene, const FilmParams *params, Bands *bands, RetexError *err)
+static int create_film(void **out, const Scene *scene, const FilmParams *params, Bands *bands, RetexError *err)
 {
     PaperFilm *film = *out = calloc(1, sizeof *film);
     if (!film)
@@ -82,43 +84,47 @@ int paper_create(PaperFilm **out, const Scene *scene, const FilmParams *params, 
     return paper_alloc(film, err);
 }
 
-void paper_close(PaperFilm **film)
+static void close_film(void **layout)
 {
-    if (!*film)
+    PaperFilm *film = *layout;
+    if (!film)
         return;
-    terms_close(&(*film)->terms);
-    free(*film);
-    *film = NULL;
+    terms_close(&film->terms);
+    free(film);
+    *layout = NULL;
 }
 
-int paper_pixel_create(PaperPixel **out, PaperFilm *film, RetexError *err)
+static void close_pixel(void **pixel)
+{
+    PaperPixel *p = *pixel;
+    if (!p)
+        return;
+    free(p->sums);
+    free(p->touched);
+    free(p);
+    *pixel = NULL;
+}
+
+static int create_pixel(void **out, void *layout, LightSums *light, UvRange *range, RetexError *err)
 {
     PaperPixel *p = *out = calloc(1, sizeof *p);
+    (void)light;
     if (p) {
-        p->film = film;
+        p->film = layout;
+        p->range = range;
         p->sums = calloc(TERMS_MAX, sizeof *p->sums);
         p->touched = calloc(TERMS_MAX, sizeof *p->touched);
     }
     if (p && p->sums && p->touched)
         return RETEX_OK;
-    paper_pixel_close(out);
+    close_pixel(out);
     return retex_fail(err, RETEX_ENOMEM, "out of memory for a thread's pixel");
-}
-
-void paper_pixel_close(PaperPixel **pixel)
-{
-    if (!*pixel)
-        return;
-    free((*pixel)->sums);
-    free((*pixel)->touched);
-    free(*pixel);
-    *pixel = NULL;
 }
 
 static void add_term(PaperPixel *p, TermKey key, Float4 value)
 {
     int term = terms_find(&p->film->terms, &p->cache, key);
-    if (term < 0) { /* no room for one more: paper_finish says so */
+    if (term < 0) { /* no room for one more: finish says so */
         p->film->lost = 1;
         return;
     }
@@ -196,7 +202,7 @@ static void expand_before(Expansion *e, const PathHit *hit)
     if (!hit->before)
         return;
     expand_before(e, hit->before);
-    expansion_push(e, &hit->before->at, hit->way_d, hit->way_i);
+    expansion_push(e, &hit->before->at, hit->before_d, hit->before_i);
 }
 
 static void add_path(PaperPixel *p, const PathHits *path)
@@ -211,7 +217,7 @@ static void add_path(PaperPixel *p, const PathHits *path)
     for (int k = 0; k < path->count; previous = hits[k++]) {
         const PathHit *hit = hits[k];
         if (hit->before && hit->before == previous)
-            expansion_push(e, &previous->at, hit->way_d, hit->way_i);
+            expansion_push(e, &previous->at, hit->before_d, hit->before_i);
         else
             expand_before(e, hit);
         if (!hit->connections)
@@ -239,8 +245,9 @@ static void footprint_add(FootprintSums *f, const TargetHit *hit, int weight)
     f->albedo += colour4(hit->albedo) * splat((float)weight);
 }
 
-void paper_path_end(PaperPixel *p, const PathHits *path, UvRange *range)
+static void end_path(void *pixel, const PathHits *path)
 {
+    PaperPixel *p = pixel;
     HitMask seen = 0;
     add_path(p, path);
     for (int k = 0; k < p->nhits; k++) {
@@ -252,7 +259,7 @@ void paper_path_end(PaperPixel *p, const PathHits *path, UvRange *range)
         if (!(seen & bit))
             f->samples++;
         seen |= bit;
-        uv_range_add(range, hit->target, uv);
+        uv_range_add(p->range, hit->target, uv);
     }
     p->nhits = 0;
 }
@@ -271,8 +278,9 @@ static void store_footprint(const PaperFilm *film, int k, const FootprintSums *f
         albedo[c] = f->light[c] > 0 ? f->light_albedo[c] / f->light[c] : (float)(f->albedo[c] / f->count);
 }
 
-void paper_totals(const PaperPixel *p, SignalTotals *totals)
+static void sum_signals(const void *pixel, SignalTotals *totals)
 {
+    const PaperPixel *p = pixel;
     memset(totals->of, 0, sizeof totals->of[0] * (size_t)(1 + p->film->scene->ntargets));
     for (int k = 0; k < p->ntouched; k++) {
         const Float4 sum = p->sums[p->touched[k]];
@@ -283,8 +291,9 @@ void paper_totals(const PaperPixel *p, SignalTotals *totals)
     }
 }
 
-void paper_pixel_end(PaperPixel *p, BandRows *rows, int spp, int x, int y)
+static void end_pixel(void *context, BandRows *rows, int spp, int x, int y)
 {
+    PaperPixel *p = context;
     PaperFilm *film = p->film;
     float scale = 1 / (float)spp;
     for (int k = 0; k < p->ntouched; k++) {
@@ -302,8 +311,9 @@ void paper_pixel_end(PaperPixel *p, BandRows *rows, int spp, int x, int y)
         }
 }
 
-void paper_band_stats(const PaperFilm *film, const BandRows *rows, RetexBandStats *stats)
+static void add_band_stats(const void *layout, const BandRows *rows, RetexBandStats *stats)
 {
+    const PaperFilm *film = layout;
     for (int t = 0; t < film->scene->ntargets; t++)
         for (int k = t * RETEX_MAX_ORDERS; k < t * RETEX_MAX_ORDERS + film->params.orders; k++)
             bands_add_albedo(rows, film->uv[k], film->albedo[k], stats, t);
@@ -327,11 +337,33 @@ static int finish_footprints(PaperFilm *film, RetexSet *set, RetexError *err)
     return code;
 }
 
-int paper_finish(PaperFilm *film, RetexSet *set, RetexError *err)
+static int finish_film(void *layout, RetexSet *set, RetexError *err)
 {
+    PaperFilm *film = layout;
     if (film->lost)
         return retex_fail(err, RETEX_ELIMIT, "the set needs more than %d terms, or more memory than there is: %s",
                           TERMS_MAX, "take fewer targets or orders");
     int code = finish_footprints(film, set, err);
     return code ? code : terms_finish(&film->terms, set, err);
 }
+
+/* Footprints, and terms: what each has for every order. */
+static long count_floats(const FilmParams *params, int ntargets)
+{
+    return params->orders * (8 * ntargets + 6);
+}
+
+const FilmLayout paper_layout = {.name = "paper",
+                                 .nsignals = 1,
+                                 .signals = {"hit"},
+                                 .most_hits = expansion_most_hits,
+                                 .floats = count_floats,
+                                 .create = create_film,
+                                 .close = close_film,
+                                 .pixel_create = create_pixel,
+                                 .pixel_close = close_pixel,
+                                 .path_end = end_path,
+                                 .totals = sum_signals,
+                                 .pixel_end = end_pixel,
+                                 .band_stats = add_band_stats,
+                                 .finish = finish_film};

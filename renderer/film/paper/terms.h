@@ -4,7 +4,7 @@
 
 #include <pthread.h>
 #include "film/bands.h"
-#include "film/expansion.h"
+#include "film/paper/expansion.h"
 
 #define TERMS_MAX 1280 /* with footprints, originals and AOVs below what a set may have of parts */
 

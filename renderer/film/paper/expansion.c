@@ -1,6 +1,11 @@
 /* Polynomials of one path; see expansion.h. */
 #include <string.h>
-#include "film/expansion.h"
+#include "film/paper/expansion.h"
+
+int expansion_most_hits(int ntargets)
+{
+    return ntargets <= 4 ? 8 : 12 - ntargets;
+}
 
 void expansion_mark(ExpansionMark *mark, const Expansion *e)
 {
@@ -35,5 +40,5 @@ void expansion_push(Expansion *e, const TargetHit *hit, Float4 d, Float4 i)
             m->coefficient *= d;
         }
     }
-    expansion_grow(&e->size, hit->target, dependent && independent);
+    hit_counts_add(&e->size, hit->target, dependent && independent);
 }

@@ -1,0 +1,50 @@
+/* What a surface looks like where a ray met it: its colours and its BSDF. */
+#ifndef RENDERER_PATH_SHADING_H
+#define RENDERER_PATH_SHADING_H
+
+#include "accel/accel.h"
+#include "scene/variant.h"
+#include "shade/bsdf.h"
+
+/* Everything shading needs at a hit: the surface, its colour and its BSDF. */
+typedef struct Shading {
+    Surface surface;
+    Rgb albedo;   /* the original's */
+    int replaced; /* some variant has another one: by variant */
+    Rgb albedos[VARIANTS_MAX];
+    float filter, transmit;
+    Vec2 uv; /* of a target: where a replacement is looked up */
+    Bsdf bsdf;
+} Shading;
+
+/* Where a replacement texture is looked up on a surface, were it a target. */
+Vec2 surface_target_uv(const Surface *surface);
+/* Where an image is looked up on a surface: a point of its pattern space, if it is known already. */
+typedef struct ImagePlace {
+    int is_known;
+    Vec3 point;
+} ImagePlace;
+
+/* The colours at a surface (shading->surface is filled), the original's and those of variants (NULL = none). place:
+ * what shading_prefetch found, or NULL. */
+void shading_color(Shading *shading, const ImagePlace *place, const RenderVariant *variants, int nvariants);
+/* They will be asked for soon. */
+ImagePlace shading_prefetch(const Surface *surface);
+void shading_at(Shading *shading, const Scene *scene, const RenderVariant *variants, int nvariants, const Ray *ray,
+                const Hit *hit);
+static inline Rgb shading_albedo(const Shading *s, int variant)
+{
+    return s->replaced ? s->albedos[variant] : s->albedo;
+}
+
+/* AOV_ROUGHNESS and AOV_METALLIC of render.h. */
+float shading_roughness(const Shading *shading);
+float shading_metallic(const Shading *shading);
+
+/* Which rays a path goes on with: light that bends in glass is still looked at by the camera. */
+static inline RayKind path_next_kind(RayKind kind, const Bsdf *bsdf, int transmitted)
+{
+    return transmitted && bsdf->refracts ? kind : RAY_BOUNCE;
+}
+
+#endif
