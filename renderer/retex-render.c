@@ -118,37 +118,37 @@ static OutputKind output_kind(const Arguments *a, const char *output)
 }
 
 /* Finished rows are kept beside a file. */
-static void name_journal(Arguments *a, const char *output)
+static void name_checkpoint(Arguments *a, const char *output)
 {
     struct stat old;
     RenderParams *r = &a->render;
     if (!output || !strcmp(output, "-") || !strncmp(output, "/dev/", 5) ||
         (!stat(output, &old) && !S_ISREG(old.st_mode)) || r->paper || r->control_data)
         return;
-    if (snprintf(a->journal, sizeof a->journal, "%s.partial", output) >= (int)sizeof a->journal)
+    if (snprintf(a->checkpoint, sizeof a->checkpoint, "%s.partial", output) >= (int)sizeof a->checkpoint)
         cli_die(a->cli, "the output's name is too long");
-    r->journal = a->journal, r->output = output;
+    r->checkpoint = a->checkpoint, r->output = output;
     r->merged = a->merged, r->nmerged = a->nmerged;
-    int there = access(a->journal, F_OK) == 0;
+    int there = access(a->checkpoint, F_OK) == 0;
     if (r->resume || !there)
-        cli_writes(a->cli, "the file of finished rows", a->journal);
+        cli_writes(a->cli, "the file of finished rows", a->checkpoint);
     if (!r->resume && there)
-        cli_warn(a->cli, "%s is left as it is: --resume would go on from it", a->journal);
+        cli_warn(a->cli, "%s is left as it is: --resume would go on from it", a->checkpoint);
 }
 
 /* Render, or only some rows of it: then there is no set. */
 static int render(Arguments *a, const Scene *scene, RetexSet **set, RenderStats *stats, RetexError *err)
 {
-    if (a->render.journal)
+    if (a->render.checkpoint)
         a->render.key = render_fingerprint(a, scene);
-    watchdog_let_keep(a->render.journal != NULL);
+    watchdog_let_keep(a->render.checkpoint != NULL);
     int code = a->render.nshards ? render_shard(scene, &a->render, stats, err)
                                  : render_scene(set, scene, &a->render, stats, err);
     watchdog_let_keep(0);
     if (!code && a->render.nshards) {
         cli_info(a->cli, "shard %d of %d: %.2f s", a->render.shard, a->render.nshards, stats->render_seconds);
         if (a->render.resume)
-            unlink(a->journal);
+            unlink(a->checkpoint);
     }
     return code;
 }
@@ -253,7 +253,7 @@ int main(int argc, char **argv)
     int needless = a.list || a.tracing || a.variants || (a.aov_dir && !cli.output && isatty(STDOUT_FILENO));
     const char *output = needless ? NULL : cli_output(&cli);
     announce_files(&a, output);
-    name_journal(&a, output);
+    name_checkpoint(&a, output);
     if (a.variants)
         check_table(&a);
     if (output)
@@ -263,7 +263,7 @@ int main(int argc, char **argv)
     /* a set keeps it for later, but packs leave it out, and a picture without targets can only be filtered here */
     int keeps = output && a.ntargets && !a.render.plain && (a.render.nshards || output_kind(&a, output) == OUTPUT_SET);
     a.render.denoise_data = a.denoise || (keeps && !a.no_denoise_data);
-    a.render.spooled = keeps && !a.denoise;
+    a.render.stored = keeps && !a.denoise;
     double started = seconds();
     if (job_open_scene(&scene, a.scene, &a.sdl, a.targets, a.ntargets, &err))
         fail(&a, &err);
@@ -298,7 +298,7 @@ int main(int argc, char **argv)
         if (output)
             write_result(&a, set, output);
         if (a.render.resume)
-            unlink(a.journal);
+            unlink(a.checkpoint);
         report(&a, set, &stats);
         if (a.stats)
             write_stats(&a, &stats, set, parse_seconds);

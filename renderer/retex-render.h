@@ -31,7 +31,7 @@ typedef struct Arguments {
     int denoise, no_denoise_data;
     const char *merged[LIST_MAX];
     int nmerged;
-    char journal[4096]; /* OUTPUT.partial, or "" where the output is no file */
+    char checkpoint[4096]; /* OUTPUT.partial, or "" where the output is no file */
 } Arguments;
 
 /* ---- arguments.c ---- */

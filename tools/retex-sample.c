@@ -65,7 +65,7 @@ int main(int argc, char **argv)
     if (!set)
         cli_die(&cli, "%s holds samples but no set", input);
     double read = texture_args_now();
-    if (retex_sample_spooled(&samples, set, textures.specs, textures.count, output, cli.threads, &err))
+    if (retex_sample_to_store(&samples, set, textures.specs, textures.count, output, cli.threads, &err))
         cli_fail(&cli, &err);
     if (earlier) { /* a stream that has been through here before: other targets' samples go on with it */
         if (retex_samples_merge(earlier, samples, &err))

@@ -10,7 +10,7 @@ typedef struct BandImage {
     char name[RETEX_NAME_MAX], letters[8];
     RetexPixelType type;
     size_t channels;
-    int spooled;       /* its number in the spool */
+    int store_image;   /* its number in the band store */
     atomic_int filled; /* where it is kept whole: a pixel is not 0 */
     RetexImage whole;  /* then, once a pixel was asked for; under the lock */
 } BandImage;
@@ -26,7 +26,7 @@ struct BandRows {
 
 struct Bands {
     int width, height, count, whole;
-    RetexSpool *spool;
+    RetexBandStore *store;
     pthread_mutex_t lock;
     atomic_int starved; /* memory was short */
     BandRows **open;    /* by band; under the lock, as is: */
@@ -35,16 +35,16 @@ struct Bands {
     BandImage *images[BAND_IMAGES_MAX];
 };
 
-int bands_create(Bands **result, int width, int height, RetexSpool *spool, int whole, RetexError *err)
+int bands_create(Bands **result, int width, int height, RetexBandStore *store, int whole, RetexError *err)
 {
     Bands *bands = *result = calloc(1, sizeof *bands);
     if (!bands) {
-        retex_spool_close(&spool);
+        retex_band_store_close(&store);
         return retex_fail(err, RETEX_ENOMEM, "out of memory for the film");
     }
     bands->width = width, bands->height = height;
     bands->count = (height + BAND_LINES - 1) / BAND_LINES;
-    bands->spool = spool, bands->whole = whole;
+    bands->store = store, bands->whole = whole;
     pthread_mutex_init(&bands->lock, NULL);
     bands->open = calloc((size_t)bands->count, sizeof *bands->open);
     return bands->open ? RETEX_OK : retex_fail(err, RETEX_ENOMEM, "out of memory for the film");
@@ -85,7 +85,7 @@ void bands_close(Bands **result)
         retex_image_free(&bands->images[k]->whole);
         free(bands->images[k]);
     }
-    retex_spool_close(&bands->spool);
+    retex_band_store_close(&bands->store);
     pthread_mutex_destroy(&bands->lock);
     free(bands);
     *result = NULL;
@@ -105,8 +105,9 @@ int bands_add(Bands *bands, const char *name, const char *letters, RetexPixelTyp
     snprintf(image->letters, sizeof image->letters, "%s", letters);
     image->type = type, image->channels = strlen(letters);
     int code = RETEX_OK;
-    if (bands->spool)
-        code = retex_spool_add(bands->spool, name, letters, bands->whole ? RETEX_FLOAT : type, &image->spooled, err);
+    if (bands->store)
+        code = retex_band_store_add(bands->store, name, letters, bands->whole ? RETEX_FLOAT : type, &image->store_image,
+                                    err);
     pthread_mutex_lock(&bands->lock);
     if (!code && bands->nimages == BAND_IMAGES_MAX)
         code = retex_fail(err, RETEX_ELIMIT, "the film has at most %d images", BAND_IMAGES_MAX);
@@ -236,8 +237,8 @@ static int keep_rows(BandRows *rows, int k, RetexError *err)
     float *kept = rows->rows[k];
     int code = RETEX_OK;
     rows->rows[k] = NULL;
-    if (bands->spool)
-        code = retex_spool_put(bands->spool, image->spooled, rows->band, kept, err);
+    if (bands->store)
+        code = retex_band_store_put(bands->store, image->store_image, rows->band, kept, err);
     if (bands->whole) {
         note_filled(image, kept, count);
         return code;
@@ -278,14 +279,14 @@ int bands_resume(Bands *bands, int band, RetexError *err)
         float *rows = whole_rows(bands, k, band);
         if (!rows)
             return retex_fail(err, RETEX_ENOMEM, "out of memory for the film");
-        code = retex_spool_load_band(bands->spool, bands->images[k]->spooled, band, rows, err);
+        code = retex_band_store_load_band(bands->store, bands->images[k]->store_image, band, rows, err);
         if (!code)
             note_filled(bands->images[k], rows, band_size(bands, k, band));
     }
     return code;
 }
 
-int bands_copy(const Bands *bands, int band, RetexSpool *spool, RetexError *err)
+int bands_copy(const Bands *bands, int band, RetexBandStore *store, RetexError *err)
 {
     int code = RETEX_OK;
     for (int k = 0; k < bands->nimages && !code; k++) {
@@ -293,17 +294,17 @@ int bands_copy(const Bands *bands, int band, RetexSpool *spool, RetexError *err)
         int number;
         if (!image->whole.pixels)
             continue;
-        code = retex_spool_add(spool, image->name, image->letters, RETEX_FLOAT, &number, err);
+        code = retex_band_store_add(store, image->name, image->letters, RETEX_FLOAT, &number, err);
         if (!code)
-            code = retex_spool_put(spool, number, band,
-                                   image->whole.pixels + retex_image_index(&image->whole, 0, band * BAND_LINES), err);
+            code = retex_band_store_put(
+                store, number, band, image->whole.pixels + retex_image_index(&image->whole, 0, band * BAND_LINES), err);
     }
     return code;
 }
 
-RetexSpool *bands_spool(const Bands *bands)
+RetexBandStore *bands_store(const Bands *bands)
 {
-    return bands->spool;
+    return bands->store;
 }
 
 /* ---- into a set ---- */
@@ -319,14 +320,14 @@ int bands_find(const Bands *bands, const char *name)
 int bands_is_empty(const Bands *bands, int image)
 {
     const BandImage *im = bands->images[image];
-    return bands->whole ? !im->filled : retex_spool_is_empty(bands->spool, im->spooled);
+    return bands->whole ? !im->filled : retex_band_store_is_empty(bands->store, im->store_image);
 }
 
 int bands_move_part(Bands *bands, int number, RetexSet *set, int *part, RetexError *err)
 {
     BandImage *image = bands->images[number];
     if (!bands->whole)
-        return retex_set_add_spooled(set, image->name, image->letters, image->type, image->spooled, part, err);
+        return retex_set_add_stored(set, image->name, image->letters, image->type, image->store_image, part, err);
     if (!image->whole.pixels) {
         int code = retex_image_alloc(&image->whole, bands->width, bands->height, (int)image->channels, err);
         if (code)
@@ -343,12 +344,12 @@ int bands_move_part(Bands *bands, int number, RetexSet *set, int *part, RetexErr
     return RETEX_OK;
 }
 
-RetexSpool *bands_take_spool(Bands *bands)
+RetexBandStore *bands_take_store(Bands *bands)
 {
-    RetexSpool *spool = bands->spool;
+    RetexBandStore *store = bands->store;
     if (bands->whole)
         return NULL;
     close_rows(bands);
-    bands->spool = NULL;
-    return spool;
+    bands->store = NULL;
+    return store;
 }

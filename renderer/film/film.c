@@ -23,7 +23,7 @@ struct Film {
     const Scene *scene;
     FilmParams params;
     RetexImage beauty;
-    int beauty_image; /* in the spool */
+    int beauty_image; /* in the band store */
     Bands *bands;
     const FilmLayout *layout; /* where there is a split, else NULL */
     void *layout_film;
@@ -66,13 +66,13 @@ static int alloc_states(Film *film, RetexError *err)
 static int film_alloc(Film *film, RetexError *err)
 {
     const FilmParams *p = &film->params;
-    int code = bands_create(&film->bands, p->width, p->height, p->spool, !p->spooled, err);
+    int code = bands_create(&film->bands, p->width, p->height, p->store, !p->stored, err);
     if (!code)
         code = alloc_states(film, err);
     if (!code)
         code = retex_image_alloc(&film->beauty, p->width, p->height, 3, err);
-    if (!code && p->spool)
-        code = retex_spool_add(p->spool, "beauty", "RGB", RETEX_FLOAT, &film->beauty_image, err);
+    if (!code && p->store)
+        code = retex_band_store_add(p->store, "beauty", "RGB", RETEX_FLOAT, &film->beauty_image, err);
     if (!code && film->layout)
         code = film->layout->create(&film->layout_film, film->scene, p, film->bands, err);
     return code ? code : noise_create(&film->noise, p, film->scene, film->bands, err);
@@ -83,8 +83,8 @@ int film_create(Film **out, const Scene *scene, const FilmParams *params, RetexE
     Film *film = calloc(1, sizeof *film);
     *out = film;
     if (!film) {
-        RetexSpool *spool = params->spool;
-        retex_spool_close(&spool);
+        RetexBandStore *store = params->store;
+        retex_band_store_close(&store);
         return retex_fail(err, RETEX_ENOMEM, "out of memory for the film");
     }
     film->scene = scene;
@@ -256,12 +256,12 @@ static void finish_stats(Film *film, int band, int tiles, const BandRows *rows)
 /* The band's images are where they stay. */
 static int commit_band(Film *film, int band, RetexError *err)
 {
-    RetexSpool *spool = bands_spool(film->bands);
+    RetexBandStore *store = bands_store(film->bands);
     int code = RETEX_OK;
-    if (spool)
-        code = retex_spool_put(spool, film->beauty_image, band, beauty_rows(film, band), err);
-    if (!code && spool)
-        code = retex_spool_commit(spool, band, &film->states[band].stats, err);
+    if (store)
+        code = retex_band_store_put(store, film->beauty_image, band, beauty_rows(film, band), err);
+    if (!code && store)
+        code = retex_band_store_commit(store, band, &film->states[band].stats, err);
     film->states[band].done = !code;
     return code;
 }
@@ -318,13 +318,13 @@ int film_bands_done(const Film *film)
 
 int film_resume(Film *film, RetexError *err)
 {
-    RetexSpool *spool = bands_spool(film->bands);
+    RetexBandStore *store = bands_store(film->bands);
     int code = RETEX_OK;
     for (int k = 0; k < film_bands(film) && !code; k++) {
-        const RetexBandStats *stats = retex_spool_committed(spool, k);
+        const RetexBandStats *stats = retex_band_store_committed(store, k);
         if (!stats)
             continue;
-        code = retex_spool_load_band(spool, film->beauty_image, k, beauty_rows(film, k), err);
+        code = retex_band_store_load_band(store, film->beauty_image, k, beauty_rows(film, k), err);
         if (!code)
             code = bands_resume(film->bands, k, err);
         film->states[k].stats = *stats;
@@ -333,33 +333,33 @@ int film_resume(Film *film, RetexError *err)
     return code;
 }
 
-/* Whole images, of which no spool has a copy. */
-static int copy_bands(const Film *film, RetexSpool *spool, RetexError *err)
+/* Whole images, of which no band store has a copy. */
+static int copy_bands(const Film *film, RetexBandStore *store, RetexError *err)
 {
-    int beauty, code = retex_spool_add(spool, "beauty", "RGB", RETEX_FLOAT, &beauty, err);
+    int beauty, code = retex_band_store_add(store, "beauty", "RGB", RETEX_FLOAT, &beauty, err);
     for (int k = 0; k < film_bands(film) && !code; k++) {
         if (!film->states[k].done)
             continue;
-        code = retex_spool_put(spool, beauty, k, beauty_rows(film, k), err);
+        code = retex_band_store_put(store, beauty, k, beauty_rows(film, k), err);
         if (!code)
-            code = bands_copy(film->bands, k, spool, err);
+            code = bands_copy(film->bands, k, store, err);
         if (!code)
-            code = retex_spool_commit(spool, k, &film->states[k].stats, err);
+            code = retex_band_store_commit(store, k, &film->states[k].stats, err);
     }
     return code;
 }
 
 int film_keep(Film *film, uint64_t key, const char *path, int replace, RetexError *err)
 {
-    RetexSpool *spool = bands_spool(film->bands), *copy = NULL;
-    if (spool)
-        return retex_spool_keep(spool, path, replace, err);
-    int code = retex_spool_create(&copy, film->params.width, film->params.height, key, path, err);
+    RetexBandStore *store = bands_store(film->bands), *copy = NULL;
+    if (store)
+        return retex_band_store_keep(store, path, replace, err);
+    int code = retex_band_store_create(&copy, film->params.width, film->params.height, key, path, err);
     if (!code)
         code = copy_bands(film, copy, err);
     if (!code)
-        code = retex_spool_keep(copy, path, replace, err);
-    retex_spool_close(&copy);
+        code = retex_band_store_keep(copy, path, replace, err);
+    retex_band_store_close(&copy);
     return code;
 }
 
@@ -385,11 +385,11 @@ long film_floats(const FilmParams *params, int ntargets)
     return 3 + 3 * noise_count(params, ntargets) + layout;
 }
 
-double film_bytes(const FilmParams *params, int ntargets, int spooled)
+double film_bytes(const FilmParams *params, int ntargets, int stored)
 {
     double row = params->width * (double)sizeof(float);
     double floats = film_floats(params, ntargets);
-    return spooled ? 3 * row * params->height + floats * row * BAND_LINES : floats * row * params->height;
+    return stored ? 3 * row * params->height + floats * row * BAND_LINES : floats * row * params->height;
 }
 
 long film_dropped(const Film *film)
@@ -472,7 +472,7 @@ int film_move_image(Film *film, int image, RetexSet *set, RetexError *err)
     return bands_move_part(film->bands, image, set, NULL, err);
 }
 
-void film_give_spool(Film *film, RetexSet *set)
+void film_give_store(Film *film, RetexSet *set)
 {
-    set->spool = bands_take_spool(film->bands);
+    set->store = bands_take_store(film->bands);
 }

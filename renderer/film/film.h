@@ -34,7 +34,7 @@ int film_failed(const Film *film);                   /* a band could not be kept
 int film_bands(const Film *film); /* of all */
 int film_bands_done(const Film *film);
 int film_band_is_done(const Film *film, int band);
-/* When all images are added: take over what the spool holds already. */
+/* When all images are added: take over what the band store holds already. */
 int film_resume(Film *film, RetexError *err);
 /* Leave finished bands in a file, for another film of this key to go on from. */
 int film_keep(Film *film, uint64_t key, const char *path, int replace, RetexError *err);
@@ -47,12 +47,12 @@ int film_move_image(Film *film, int image, RetexSet *set, RetexError *err);
 
 /* Make all of it a set: parts, terms, footprints, shares of energy; what no pixel has is left out. */
 int film_finish(Film *film, RetexSet *set, RetexError *err);
-/* When all images are in the set: let it have the spool. */
-void film_give_spool(Film *film, RetexSet *set);
+/* When all images are in the set: let it have the band store. */
+void film_give_store(Film *film, RetexSet *set);
 /* Numbers a pixel that the film's images have at least, all together. */
 long film_floats(const FilmParams *params, int ntargets);
-/* Bytes that they take at least, with a spool or without. */
-double film_bytes(const FilmParams *params, int ntargets, int spooled);
+/* Bytes that they take at least, with a band store or without. */
+double film_bytes(const FilmParams *params, int ntargets, int stored);
 long film_dropped(const Film *film); /* samples that were not finite */
 
 #endif

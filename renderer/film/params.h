@@ -3,7 +3,7 @@
 #define RENDERER_FILM_PARAMS_H
 
 #include <retex/set.h>
-#include <retex/spool.h>
+#include <retex/band_store.h>
 
 #define FILM_CLUSTERS_MAX 16
 
@@ -19,8 +19,8 @@ typedef struct FilmParams {
     int sharp, broad; /* at most so many of each kind, 1..clusters */
     int periodic[RETEX_MAX_TARGETS][2]; /* targets that close in u, v */
     int noise;                          /* also keep how noisy each signal is, see noise.h; needs two samples */
-    RetexSpool *spool; /* where finished bands go, film_create takes it over; or NULL. The beauty stays too */
-    int spooled;       /* then: images leave memory for the spool */
+    RetexBandStore *store; /* where finished bands go, film_create takes it over; or NULL. The beauty stays too */
+    int stored;       /* then: images leave memory for the band store */
 } FilmParams;
 
 #endif

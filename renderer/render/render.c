@@ -54,15 +54,15 @@ double render_bytes(const Scene *scene, const RenderParams *p, int width, int he
                              .broad = p->broad,
                              .spp = p->spp,
                              .noise = p->denoise_data};
-    const double guides = p->denoise_data && !p->spooled ? 19 + scene->ntargets : 0;
-    return film_bytes(&film, scene->ntargets, p->spooled) +
+    const double guides = p->denoise_data && !p->stored ? 19 + scene->ntargets : 0;
+    return film_bytes(&film, scene->ntargets, p->stored) +
            (double)width * height * sizeof(float) * (guides + 19 * (p->aovs != 0));
 }
 
 void render_forget_files(RenderParams *p)
 {
-    p->spooled = p->resume = p->nshards = p->nmerged = 0;
-    p->journal = NULL;
+    p->stored = p->resume = p->nshards = p->nmerged = 0;
+    p->checkpoint = NULL;
 }
 
 static int set_window(Render *r, RetexError *err)
@@ -180,13 +180,13 @@ FirstHitWindow render_window(const Render *r)
 }
 
 /* What others have rendered already, now that the film has all its images. */
-static int take_over(Render *r, RetexSpool *spool, RetexError *err)
+static int take_over(Render *r, RetexBandStore *store, RetexError *err)
 {
     r->had = calloc((size_t)r->tiles_y, 1);
     if (!r->had)
         return retex_fail(err, RETEX_ENOMEM, "out of memory for the film");
-    int code = spool ? pieces_merge(spool, &r->params, r->w, r->h, err) : RETEX_OK;
-    if (!code && spool)
+    int code = store ? pieces_merge(store, &r->params, r->w, r->h, err) : RETEX_OK;
+    if (!code && store)
         code = film_resume(r->film, err);
     for (int band = 0; band < r->tiles_y; band++)
         r->had[band] = (char)film_band_is_done(r->film, band);
@@ -232,7 +232,7 @@ int render_open_film(Render *r, int control, int halves, RetexError *err)
                        .sharp = r->params.sharp,
                        .broad = r->params.broad,
                        .noise = keeps_denoise_data(&r->params),
-                       .spooled = r->params.spooled};
+                       .stored = r->params.stored};
     for (int t = 0; t < r->scene->ntargets; t++)
         target_periodic(r->scene, t, film.periodic[t]);
     r->pixels = calloc((size_t)threads, sizeof *r->pixels);
@@ -240,7 +240,7 @@ int render_open_film(Render *r, int control, int halves, RetexError *err)
     r->workers = calloc((size_t)threads, sizeof *r->workers);
     if (!r->pixels || !r->controls || !r->workers)
         return retex_fail(err, RETEX_ENOMEM, "out of memory for %d threads", threads);
-    int code = pieces_open(&film.spool, &r->params, r->w, r->h, err);
+    int code = pieces_open(&film.store, &r->params, r->w, r->h, err);
     if (!code)
         code = film_create(&r->film, r->scene, &film, err);
     for (int k = 0; k < threads && !code; k++)
@@ -248,7 +248,7 @@ int render_open_film(Render *r, int control, int halves, RetexError *err)
     if (!code && keeps_denoise_data(&r->params))
         code = open_guides(r, threads, err);
     if (!code)
-        code = take_over(r, film.spool, err);
+        code = take_over(r, film.store, err);
     if (!code && control)
         code = control_film_create(&r->control, r->w, r->h, r->params.spp, r->context.nvariants, halves, err);
     for (int k = 0; k < threads && !code && r->control; k++)
@@ -345,7 +345,7 @@ static int render_into(RetexSet *set, Render *r, RenderStats *stats, double star
         ControlMoments *moments[2] = {control_film_moments(r->control, 0), control_film_moments(r->control, 1)};
         code = control_data_add(set, moments, render_half_samples(r).samples, r->context.halves, err);
     }
-    film_give_spool(r->film, set);
+    film_give_store(r->film, set);
     stats->render_seconds = render_clock() - started - stats->build_seconds;
     return code;
 }

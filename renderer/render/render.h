@@ -52,11 +52,11 @@ typedef struct RenderParams {
                                 independent, so that the picture is another one than without; default 0 */
     int denoise_data;        /* 1: also what retex_denoise reads, see <retex/denoise.h>; nothing where spp is 1, which
                                 does not tell how noisy it is; default 0 */
-    int spooled;             /* 1: render_scene leaves parts of the set in a spool, see <retex/spool.h>, for
+    int stored;             /* 1: render_scene leaves parts of the set in a band store, see <retex/band_store.h>, for
                                 retex_set_write or retex_set_load; default 0 */
-    const char *output;      /* what the result will be written to, so that the spool is near it; NULL = nothing */
+    const char *output;      /* what the result will be written to, so that the band store is near it; NULL = nothing */
     uint64_t key;            /* tells this render from others: of the files below those with another are refused */
-    const char *journal;     /* where finished rows are kept when the render is stopped; NULL (default) = nowhere */
+    const char *checkpoint;     /* where finished rows are kept when the render is stopped; NULL (default) = nowhere */
     int resume;              /* 1: they are kept there all the time, and those that are there are taken over */
     int shard, nshards;      /* render every nshards-th band only, from number shard - 1; 0, 0 (default) = all */
     const char *const *merged; /* files that render_shard left: their bands, which must be all, are taken over */

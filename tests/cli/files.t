@@ -96,5 +96,5 @@ $ OCIO=config.png; export OCIO; touch config.png; md5sum * 2>/dev/null >../sums;
 # Devices may be everything at once, and a file may be read twice.
 $ retex-render -q --size 24x16 --spp 2 room.pov -o /dev/null --stats /dev/null; retex-diff -q s.exr s.exr; retex-render -q --plain --size 24x16 --spp 2 --replace F=t.jpg room.pov -o x.png; retex-combine -q s.exr --texture floor=t.jpg --texture wall=t.jpg -o x.png; printf 'output,floor\nx.png,t.jpg\ny.png,t.jpg\nlink.png,soft.jpg\n' >b.csv; retex-combine -q s.exr --batch b.csv; mkfifo pipe; cat pipe >/dev/null & retex-combine -q s.exr -o - >pipe
 
-# An output that is there already is replaced; a journal is an input and an output.
+# An output that is there already is replaced; a checkpoint is an input and an output.
 $ retex-combine -q s.exr -o x.png; retex-render -q --resume --size 24x16 --spp 2 room.pov -o c.exr; retex-render -q --resume --size 24x16 --spp 2 room.pov -o c.exr

@@ -80,7 +80,7 @@ $ retex-combine s1 -o x.png
 = 2
 $ for k in 1 2; do ./render --plain --shard $k/2 -o t$k; ./render --denoise --shard $k/2 -o u$k; done; ./render --plain -o ref.png; ./render --plain --merge t1 --merge t2 -o t.png; cmp t.png ref.png; ./render --denoise -o v.exr; ./render --denoise --merge u1 --merge u2 -o u.exr; cmp u.exr v.exr
 
-# A journal may have lost its end, or more.
+# A checkpoint may have lost its end, or more.
 $ cp s1 x.exr.partial; printf 'something' >>x.exr.partial; ./render --resume -o x.exr; cmp x.exr ref.exr
 $ for n in 10 40 47 48 100 5000 20000 60000; do head -c $n s1 >x.exr.partial; rm x.exr; ./render --resume -o x.exr; cmp x.exr ref.exr; done
 $ for n in 50 200 9000 30000; do (head -c $n s2; printf x; tail -c +$((n + 2)) s2) >x.exr.partial; rm x.exr; ./render --resume -o x.exr; cmp x.exr ref.exr; done

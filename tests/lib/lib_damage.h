@@ -9,7 +9,7 @@ typedef enum DamageRoad {
     ROAD_ROWS,     /* open, retextured row by row */
     ROAD_READ,     /* read whole, retextured */
     ROAD_ESTIMATE, /* open, its error estimated */
-    ROAD_SAMPLE,   /* open, sampled into a spool, recombined from there */
+    ROAD_SAMPLE,   /* open, sampled into a band store, recombined from there */
     ROAD_STREAM,   /* the same, but written as a stream */
     ROAD_WRITE,    /* open, written as another file */
     ROAD_PACK,     /* open, loaded, packed without loss */

@@ -33,7 +33,7 @@ static void denoise_file(const char *from, const char *to, int in_memory, int nt
                         : retex_set_open(from, &set, NULL, nthreads, &err),
               &err);
     test_must(retex_denoise(set, &params, NULL, nthreads, &err), &err);
-    assert_int_equal(!in_memory, set->spool != NULL);
+    assert_int_equal(!in_memory, set->store != NULL);
     assert_null(set->source);
     assert_int_equal(set->denoised, 1);
     test_must(retex_set_write(set, NULL, to, NULL, &err), &err);

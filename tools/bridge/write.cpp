@@ -61,20 +61,20 @@ template <typename Value> Value quantise(float v)
 using Sink = std::function<void(const void *data, size_t bytes)>;
 
 // A file without a name, in memory.
-class Spool
+class MemoryFile
 {
   public:
-    Spool() : fd_(memfd_create("retex-picture", MFD_CLOEXEC))
+    MemoryFile() : fd_(memfd_create("retex-picture", MFD_CLOEXEC))
     {
         if (fd_ < 0)
             throw Failure(RETEX_EIO, std::string("cannot make a file in memory: ") + std::strerror(errno));
     }
-    ~Spool()
+    ~MemoryFile()
     {
         ::close(fd_);
     }
-    Spool(const Spool &) = delete;
-    Spool &operator=(const Spool &) = delete;
+    MemoryFile(const MemoryFile &) = delete;
+    MemoryFile &operator=(const MemoryFile &) = delete;
     std::string path() const
     {
         return "/proc/self/fd/" + std::to_string(fd_);
@@ -99,7 +99,7 @@ class Spool
     int fd_;
 };
 
-void Spool::copy_to(const Sink &sink) const
+void MemoryFile::copy_to(const Sink &sink) const
 {
     std::vector<char> buffer(1 << 20);
     for (off_t at = 0;;) {
@@ -116,23 +116,23 @@ void Spool::copy_to(const Sink &sink) const
 }
 
 // Portable float map, which OpenImageIO reads but does not write: rows from the bottom.
-void write_pfm(Spool &spool, int width, int height, int channels, const float *pixels)
+void write_pfm(MemoryFile &memory_file, int width, int height, int channels, const float *pixels)
 {
     const uint16_t probe = 1;
     bool little = *reinterpret_cast<const uint8_t *>(&probe) == 1;
     std::string header = (channels == 1 ? "Pf\n" : "PF\n") + std::to_string(width) + " " + std::to_string(height) +
                          (little ? "\n-1.0\n" : "\n1.0\n");
-    spool.append(header.data(), header.size());
+    memory_file.append(header.data(), header.size());
     size_t row = size_t(width) * channels;
     for (int y = height; y-- > 0;)
-        spool.append(pixels + y * row, row * sizeof(float));
+        memory_file.append(pixels + y * row, row * sizeof(float));
 }
 
 // A file of our own with a name, for as long as it takes: a format whose library insists on its ending (JPEG 2000).
-class NamedSpool
+class TemporaryFile
 {
   public:
-    explicit NamedSpool(const std::string &end)
+    explicit TemporaryFile(const std::string &end)
     {
         const char *folder = std::getenv("TMPDIR");
         path = std::string(folder && *folder ? folder : "/tmp") + "/retex-XXXXXX." + end;
@@ -143,7 +143,7 @@ class NamedSpool
         ::close(fd);
         all().push_back(this);
     }
-    ~NamedSpool()
+    ~TemporaryFile()
     {
         std::lock_guard<std::mutex> lock(mutex());
         unlink(path.c_str());
@@ -153,12 +153,12 @@ class NamedSpool
     static void remove_all()
     {
         std::unique_lock<std::mutex> lock(mutex(), std::try_to_lock);
-        for (const NamedSpool *one : all())
+        for (const TemporaryFile *one : all())
             unlink(one->path.c_str());
         lock.release(); // kept, so that no other is made
     }
-    NamedSpool(const NamedSpool &) = delete;
-    NamedSpool &operator=(const NamedSpool &) = delete;
+    TemporaryFile(const TemporaryFile &) = delete;
+    TemporaryFile &operator=(const TemporaryFile &) = delete;
     std::string path;
 
   private:
@@ -167,20 +167,20 @@ class NamedSpool
         static std::mutex one;
         return one;
     }
-    static std::vector<const NamedSpool *> &all()
+    static std::vector<const TemporaryFile *> &all()
     {
-        static std::vector<const NamedSpool *> list;
+        static std::vector<const TemporaryFile *> list;
         return list;
     }
 };
 
-void copy_file(const std::string &path, Spool &spool)
+void copy_file(const std::string &path, MemoryFile &memory_file)
 {
     std::unique_ptr<FILE, int (*)(FILE *)> file(std::fopen(path.c_str(), "rb"), std::fclose);
     std::vector<char> buffer(1 << 20);
     for (size_t got; file && (got = std::fread(buffer.data(), 1, buffer.size(), file.get())) > 0;)
-        spool.append(buffer.data(), got);
-    if (!file || std::ferror(file.get()) || spool.empty())
+        memory_file.append(buffer.data(), got);
+    if (!file || std::ferror(file.get()) || memory_file.empty())
         throw Failure(RETEX_EIO, "cannot write: OpenImageIO wrote nothing");
 }
 
@@ -357,10 +357,10 @@ OIIO::ImageSpec describe(const RetexBridgePlan &plan)
 
 void write_picture(const RetexBridgePlan &plan, const void *samples, const Sink &sink)
 {
-    Spool spool;
+    MemoryFile memory_file;
     if (plan.format == "pfm") {
-        write_pfm(spool, plan.width, plan.height, plan.stored, static_cast<const float *>(samples));
-        spool.copy_to(sink);
+        write_pfm(memory_file, plan.width, plan.height, plan.stored, static_cast<const float *>(samples));
+        memory_file.copy_to(sink);
         return;
     }
     OIIO::ImageSpec spec = describe(plan);
@@ -372,13 +372,13 @@ void write_picture(const RetexBridgePlan &plan, const void *samples, const Sink 
         if (!out->open(name, spec) || !out->write_image(sample_type(plan), samples) || !out->close())
             throw Failure(RETEX_EIO, "cannot write: " + out->geterror());
     };
-    write_to(spool.path());
-    if (spool.empty()) {
-        NamedSpool named(ending(plan.path));
+    write_to(memory_file.path());
+    if (memory_file.empty()) {
+        TemporaryFile named(ending(plan.path));
         write_to(named.path);
-        copy_file(named.path, spool);
+        copy_file(named.path, memory_file);
     }
-    spool.copy_to(sink);
+    memory_file.copy_to(sink);
 }
 
 // The transform is looked at only where someone has named a part of it: the built-in default is sound.
@@ -456,5 +456,5 @@ int retex_oiio_check(const char *path, const RetexWriteParams *params, RetexErro
 
 void retex_oiio_remove(void)
 {
-    bridge::NamedSpool::remove_all();
+    bridge::TemporaryFile::remove_all();
 }

@@ -45,7 +45,7 @@ int compact_copy_head(RetexSet **copy, const RetexSet *set, RetexError *err)
         return code;
     RetexSet empty = *set;
     empty.nparts = empty.nfootprints = empty.nterms = empty.nmixtures = 0;
-    empty.parts = NULL, empty.footprints = NULL, empty.terms = NULL, empty.spool = NULL, empty.source = NULL;
+    empty.parts = NULL, empty.footprints = NULL, empty.terms = NULL, empty.store = NULL, empty.source = NULL;
     **copy = empty;
     return code;
 }

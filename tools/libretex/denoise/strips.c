@@ -1,4 +1,4 @@
-/* See strips.h. Twice through the set: strips are filtered into a spool, and, when it is known what that did to
+/* See strips.h. Twice through the set: strips are filtered into a band store, and, when it is known what that did to
  * the means of all, rows from there and from the file are finished into another. */
 #include "denoise/strips.h"
 
@@ -11,20 +11,20 @@
 #include "set/parts.h"
 #include "set/source.h"
 
-enum { STRIP = 2 * DENOISE_STEP, FINISHED = 4 * RETEX_SPOOL_LINES };
+enum { STRIP = 2 * DENOISE_STEP, FINISHED = 4 * RETEX_BAND_ROWS };
 
-_Static_assert(STRIP % RETEX_SPOOL_LINES == 0, "strips are whole bands of the spool");
+_Static_assert(STRIP % RETEX_BAND_ROWS == 0, "strips are whole bands of the band store");
 
 static const double FILTERED = 0.9; /* of the work */
 
-/* Rows on their way into a spool. */
-typedef struct Spooling {
-    RetexSpool *spool;
+/* Rows on their way into a band store. */
+typedef struct StoreJob {
+    RetexBandStore *store;
     const RetexSet *rows;
-    const int *images; /* by part: its number in the spool, or -1 */
+    const int *images; /* by part: its number in the band store, or -1 */
     int from, count;   /* which of the rows */
-    int band;          /* of the spool, that begins with these */
-} Spooling;
+    int band;          /* of the band store, that begins with these */
+} StoreJob;
 
 static int is_whole(const RetexSet *set, int part)
 {
@@ -40,51 +40,51 @@ static int is_light(const RetexDenoiser *d, int part)
     return 0;
 }
 
-/* A spool with an image for each part that is wanted. Light that is yet to be scaled is not rounded: as_floats. */
-static int open_spool(RetexSpool **spool, int *images, const RetexDenoiser *d, const unsigned char *wanted,
+/* A band store with an image for each part that is wanted. Light that is yet to be scaled is not rounded: as_floats. */
+static int open_store(RetexBandStore **store, int *images, const RetexDenoiser *d, const unsigned char *wanted,
                       int as_floats, RetexError *err)
 {
     const RetexSet *set = d->set;
-    int code = retex_spool_create(spool, set->width, set->height, set->id, d->params.near, err);
+    int code = retex_band_store_create(store, set->width, set->height, set->id, d->params.near, err);
     for (int k = 0; k < set->nparts; k++) {
         const RetexPart *part = &set->parts[k];
         images[k] = -1;
         if (!code && wanted[k])
-            code = retex_spool_add(*spool, part->name, part->letters,
-                                   as_floats && is_light(d, k) ? RETEX_FLOAT : part->type, &images[k], err);
+            code = retex_band_store_add(*store, part->name, part->letters,
+                                        as_floats && is_light(d, k) ? RETEX_FLOAT : part->type, &images[k], err);
     }
     return code;
 }
 
-static int spool_part(void *context, int part, int thread, RetexError *err)
+static int store_part(void *context, int part, int thread, RetexError *err)
 {
-    const Spooling *s = context;
+    const StoreJob *s = context;
     const RetexImage *im = &s->rows->parts[part].image;
     int code = RETEX_OK;
     (void)thread;
     if (s->images[part] < 0)
         return RETEX_OK;
-    for (int y = 0; y < s->count && !code; y += RETEX_SPOOL_LINES)
-        code = retex_spool_put(s->spool, s->images[part], s->band + y / RETEX_SPOOL_LINES,
-                               im->pixels + retex_image_index(im, 0, s->from + y), err);
+    for (int y = 0; y < s->count && !code; y += RETEX_BAND_ROWS)
+        code = retex_band_store_put(s->store, s->images[part], s->band + y / RETEX_BAND_ROWS,
+                                    im->pixels + retex_image_index(im, 0, s->from + y), err);
     return code;
 }
 
 /* `count` rows from `from` on, of which the first is the picture's row y. */
-static int spool_rows(RetexSpool *spool, const int *images, const RetexSet *rows, int from, int count, int y,
+static int store_rows(RetexBandStore *store, const int *images, const RetexSet *rows, int from, int count, int y,
                       int nthreads, RetexError *err)
 {
-    Spooling spooling = {.spool = spool, .rows = rows, .images = images, .from = from, .count = count};
-    spooling.band = y / RETEX_SPOOL_LINES;
-    return retex_jobs_run(nthreads, rows->nparts, spool_part, &spooling, err);
+    StoreJob job = {.store = store, .rows = rows, .images = images, .from = from, .count = count};
+    job.band = y / RETEX_BAND_ROWS;
+    return retex_jobs_run(nthreads, rows->nparts, store_part, &job, err);
 }
 
 /* What the two passes share. */
 typedef struct Strips {
     const RetexDenoiser *denoiser;
     RetexDenoiseResult result;
-    RetexSet filtered;     /* the set with the spool of what was filtered */
-    RetexSpool *spools[2]; /* filtered, finished */
+    RetexSet filtered;         /* the set with the band store of what was filtered */
+    RetexBandStore *stores[2]; /* filtered, finished */
     int *images[2];        /* by part, in these */
     int nthreads;
 } Strips;
@@ -109,9 +109,9 @@ static int filter_strip(Strips *s, RetexSetBand *band, int y, RetexError *err)
     strip.params.progress = NULL;
     if (!code)
         code = retex_denoise_filter(&strip, &s->result, s->nthreads, err);
-    if (!code && !s->spools[0])
-        code = open_spool(&s->spools[0], s->images[0], s->denoiser, s->result.written, 1, err);
-    return code ? code : spool_rows(s->spools[0], s->images[0], strip.set, y - first, end - y, y, s->nthreads, err);
+    if (!code && !s->stores[0])
+        code = open_store(&s->stores[0], s->images[0], s->denoiser, s->result.written, 1, err);
+    return code ? code : store_rows(s->stores[0], s->images[0], strip.set, y - first, end - y, y, s->nthreads, err);
 }
 
 static int filter_all(Strips *s, RetexError *err)
@@ -133,7 +133,7 @@ static int open_filtered(Strips *s, RetexError *err)
 {
     const RetexSet *set = s->denoiser->set;
     s->filtered = *set;
-    s->filtered.spool = s->spools[0];
+    s->filtered.store = s->stores[0];
     s->filtered.parts = malloc(sizeof *set->parts * (size_t)set->nparts);
     if (!s->filtered.parts)
         return retex_fail(err, RETEX_ENOMEM, "not enough memory to denoise");
@@ -142,7 +142,7 @@ static int open_filtered(Strips *s, RetexError *err)
         if (retex_part_is_denoise_data(set, k))
             s->filtered.parts[k].image = (RetexImage){0};
         else if (s->images[0][k] >= 0)
-            s->filtered.parts[k].image.pixels = NULL, s->filtered.parts[k].spooled = 1 + s->images[0][k];
+            s->filtered.parts[k].image.pixels = NULL, s->filtered.parts[k].store_image = 1 + s->images[0][k];
     return RETEX_OK;
 }
 
@@ -155,7 +155,7 @@ static int finish_rows(Strips *s, RetexSetBand *band, int y, RetexError *err)
     rows.roi = (RetexRoi){0, 0, set->width, count, 0, 3};
     if (!code)
         code = retex_denoise_finish(&rows, &s->result, s->nthreads, err);
-    return code ? code : spool_rows(s->spools[1], s->images[1], rows.set, 0, count, y, s->nthreads, err);
+    return code ? code : store_rows(s->stores[1], s->images[1], rows.set, 0, count, y, s->nthreads, err);
 }
 
 static int finish_all(Strips *s, RetexError *err)
@@ -167,7 +167,7 @@ static int finish_all(Strips *s, RetexError *err)
     for (int k = 0; k < set->nparts && !code; k++)
         wanted[k] = is_whole(set, k) && !retex_part_is_denoise_data(set, k);
     if (!code)
-        code = open_spool(&s->spools[1], s->images[1], s->denoiser, wanted, 0, err);
+        code = open_store(&s->stores[1], s->images[1], s->denoiser, wanted, 0, err);
     if (!code)
         code = retex_set_band_open(&band, &s->filtered, FINISHED, 1, err);
     for (int y = 0; y < set->height && !code; y += FINISHED) {
@@ -200,18 +200,18 @@ static int take_over(Strips *s, RetexError *err)
         if (s->images[1][k] >= 0) {
             free(set->parts[k].image.pixels);
             set->parts[k].image.pixels = NULL;
-            set->parts[k].spooled = 1 + s->images[1][k];
+            set->parts[k].store_image = 1 + s->images[1][k];
         }
     set->source->close(set->source);
     set->source = NULL;
-    set->spool = s->spools[1];
-    s->spools[1] = NULL;
+    set->store = s->stores[1];
+    s->stores[1] = NULL;
     return RETEX_OK;
 }
 
 int retex_denoise_can_use_strips(const RetexSet *set)
 {
-    return set->source && !set->spool;
+    return set->source && !set->store;
 }
 
 int retex_denoise_strips(const RetexDenoiser *denoiser, int nthreads, RetexError *err)
@@ -229,7 +229,7 @@ int retex_denoise_strips(const RetexDenoiser *denoiser, int nthreads, RetexError
     if (!code)
         code = take_over(&s, err);
     for (int k = 0; k < 2; k++) {
-        retex_spool_close(&s.spools[k]);
+        retex_band_store_close(&s.stores[k]);
         free(s.images[k]);
     }
     free(s.filtered.parts);

@@ -4,10 +4,10 @@
 
 #include "denoise/tile.h"
 
-/* Whether a set can be: it is open, and no part of it is in a spool. */
+/* Whether a set can be: it is open, and no part of it is in a band store. */
 int retex_denoise_can_use_strips(const RetexSet *set);
 
-/* All of denoiser->set, which then has a spool instead of its source. The same to the bit as in memory. */
+/* All of denoiser->set, which then has a band store instead of its source. The same to the bit as in memory. */
 int retex_denoise_strips(const RetexDenoiser *denoiser, int nthreads, RetexError *err);
 
 #endif

@@ -25,14 +25,14 @@ typedef struct RetexExrPart {
     char letters[RETEX_EXR_LETTERS_MAX + 1]; /* one for each channel of image, in its order */
     RetexPixelType type;           /* how samples are stored; see base/half.h for what becomes of floats */
     const RetexImage *image;       /* borrowed until the encoding is freed, as is: */
-    const RetexSpool *spool;       /* where the pixels are if image has none, */
-    int spooled;                   /* under this number */
+    const RetexBandStore *store;       /* where the pixels are if image has none, */
+    int store_image;                   /* under this number */
     uint32_t crc;                  /* filled by retex_exr_encode: see RetexPart */
     const RetexColorTag *color;    /* what its header says of its colours, or NULL; borrowed as image is */
 } RetexExrPart;
 
-/* All chunks of a file, converted and compressed, in memory or still in a spool: checksums are known before the header
- * is written. */
+/* All chunks of a file, converted and compressed, in memory or still in a band store: checksums are known before the
+ * header is written. */
 typedef struct RetexExrEncoding RetexExrEncoding;
 
 int retex_exr_encode(RetexExrEncoding **encoding, RetexExrPart *parts, int nparts, int compress, int nthreads,

@@ -2,8 +2,8 @@
  *
  * First all chunks are converted, checksummed and compressed on all threads, in bands of 16 lines. Then the file goes
  * out front to back: OpenEXRCore lays out the header and the chunks, and the table of chunk offsets, which it would go
- * back for at the end, is worked out from the known sizes and written when its turn comes. So a pipe needs no spool.
- * What Core writes as the table in the end is compared with what went out. */
+ * back for at the end, is worked out from the known sizes and written when its turn comes. So a pipe needs no band
+ * store. What Core writes as the table in the end is compared with what went out. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -15,12 +15,12 @@
 #include "exr/error.h"
 #include "exr/io.h"
 #include "io/output.h"
-#include "exr/spool_chunks.h"
+#include "exr/band_store_chunks.h"
 
 typedef struct Band {
     int part, first_line, lines;
     unsigned char *data;            /* what is stored; NULL: fetched when its turn comes */
-    const RetexSpoolChunk *spooled; /* or NULL */
+    const RetexBandStoreChunk *stored; /* or NULL */
     size_t bytes;
     uint32_t crc[RETEX_EXR_LETTERS_MAX]; /* of this band's piece of each plane, in the order of letters */
 } Band;
@@ -89,15 +89,15 @@ static int encode_zero_band(Band *band, const RetexChunkShape *shape, int compre
     return band->data != NULL;
 }
 
-/* Of what a spool holds only the size is needed yet. */
-static int encode_spooled_band(Band *band, const RetexExrPart *part, int compress, RetexChunkScratch *scratch)
+/* Of what a band store holds only the size is needed yet. */
+static int encode_stored_band(Band *band, const RetexExrPart *part, int compress, RetexChunkScratch *scratch)
 {
     const RetexChunkShape shape = band_shape(part, band);
 
-    if (!band->spooled->bytes)
+    if (!band->stored->bytes)
         return encode_zero_band(band, &shape, compress, scratch);
-    memcpy(band->crc, band->spooled->crc, sizeof band->crc);
-    band->bytes = compress ? band->spooled->bytes : retex_chunk_bytes(&shape);
+    memcpy(band->crc, band->stored->crc, sizeof band->crc);
+    band->bytes = compress ? band->stored->bytes : retex_chunk_bytes(&shape);
     return 1;
 }
 
@@ -108,8 +108,8 @@ static void encode_job(void *context, int index, int thread)
     const RetexExrPart *part = &work->encoding->parts[band->part];
     const int compress = work->encoding->compress;
 
-    if (band->spooled)
-        work->failed[index] = !encode_spooled_band(band, part, compress, &work->scratch[thread]);
+    if (band->stored)
+        work->failed[index] = !encode_stored_band(band, part, compress, &work->scratch[thread]);
     else
         work->failed[index] =
             !encode_band(band, part, part->image->pixels + retex_image_index(part->image, 0, band->first_line),
@@ -156,7 +156,7 @@ static int check_parts(const RetexExrPart *parts, int nparts, int rows_later, Re
                           RETEX_EXR_PARTS_MAX);
     for (int i = 0; i < nparts; i++) {
         const RetexImage *image = parts[i].image;
-        if (!image || (!image->pixels && !parts[i].spool && !rows_later) ||
+        if (!image || (!image->pixels && !parts[i].store && !rows_later) ||
             (size_t)image->channels != strlen(parts[i].letters))
             return retex_fail(err, RETEX_EINVAL, "part %s has no image, or one whose channels are not %s",
                               parts[i].name, parts[i].letters);
@@ -181,9 +181,9 @@ static int lay_out_bands(RetexExrEncoding *encoding, RetexError *err)
         for (int y = 0; y < height; y += RETEX_CHUNK_LINES) {
             Band *band = &encoding->bands[encoding->nbands++];
             band->part = i;
-            if (encoding->parts[i].spool && !encoding->parts[i].image->pixels)
-                band->spooled =
-                    retex_spool_chunk(encoding->parts[i].spool, encoding->parts[i].spooled, y / RETEX_CHUNK_LINES);
+            if (encoding->parts[i].store && !encoding->parts[i].image->pixels)
+                band->stored = retex_band_store_chunk(encoding->parts[i].store, encoding->parts[i].store_image,
+                                                           y / RETEX_CHUNK_LINES);
             band->first_line = y;
             band->lines = height - y < RETEX_CHUNK_LINES ? height - y : RETEX_CHUNK_LINES;
         }
@@ -430,13 +430,14 @@ static const unsigned char *fetch_band(RetexExrEncoding *encoding, const Band *b
         retex_fail(err, RETEX_ENOMEM, "no memory to write an EXR file");
         return NULL;
     }
-    if (!band->spooled->bytes)
+    if (!band->stored->bytes)
         return memset(encoding->packed, 0, bytes);
-    if (retex_spool_read(part->spool, band->spooled, encoding->packed, err))
+    if (retex_band_store_read(part->store, band->stored, encoding->packed, err))
         return NULL;
     if (encoding->compress)
         return encoding->packed;
-    if (retex_chunk_unpack(&encoding->scratch, encoding->packed, band->spooled->bytes, encoding->scratch.raw, bytes))
+    if (retex_chunk_unpack(&encoding->scratch, encoding->packed, band->stored->bytes, encoding->scratch.raw,
+                           bytes))
         return encoding->scratch.raw;
     retex_fail(err, RETEX_EFORMAT, "the temporary file is damaged");
     return NULL;

@@ -1,4 +1,4 @@
-/* Input files: regular ones are read by position as needed, everything else is spooled first, into memory or, where it
+/* Input files: regular ones are read by position as needed, everything else is copied first, into memory or, where it
  * is large, into a temporary file, because an EXR cannot be read from front to back only. A mapping would save a copy
  * but turns a file that shrinks under us into a crash. */
 #include <errno.h>
@@ -14,9 +14,9 @@
 #include "io/input.h"
 #include "io/temporary.h"
 
-enum { SPOOL_BEGIN = 1 << 20, SPOOL_MEMORY = 64 << 20 }; /* what of a pipe is in memory: first, and at most */
+enum { BAND_STORE_BEGIN = 1 << 20, STORE_MEMORY = 64 << 20 }; /* what of a pipe is in memory: first, and at most */
 
-/* Spools and packs beyond this are refused. */
+/* Band stores and packs beyond this are refused. */
 static const uint64_t SIZE_LIMIT = (uint64_t)16 << 30;
 
 struct RetexInput {
@@ -64,17 +64,17 @@ static int begins_well(const RetexInput *input)
 }
 
 /* As much of a pipe as may be in memory; *ended: that is all. */
-static int spool_in_memory(RetexInput *input, int *ended, RetexError *err)
+static int set_in_memory(RetexInput *input, int *ended, RetexError *err)
 {
     size_t room = 0, got;
 
-    for (*ended = 0; input->size < SPOOL_MEMORY; input->size += got) {
+    for (*ended = 0; input->size < STORE_MEMORY; input->size += got) {
         if (input->size && !begins_well(input)) {
             *ended = 1;
             return 0;
         }
         if (input->size == room) {
-            room = room ? room * 2 : SPOOL_BEGIN;
+            room = room ? room * 2 : BAND_STORE_BEGIN;
             unsigned char *data = realloc(input->data, room);
             if (!data)
                 return retex_fail(err, RETEX_ENOMEM, "no memory to read %s", input->name);
@@ -105,7 +105,7 @@ static int keep(RetexInput *input, int file, RetexTemporaryName shown, size_t by
 }
 
 /* What is in memory, and all that follows. */
-static int spool_in_file(RetexInput *input, int file, RetexTemporaryName shown, RetexError *err)
+static int set_in_file(RetexInput *input, int file, RetexTemporaryName shown, RetexError *err)
 {
     size_t got = (size_t)input->size;
     int status;
@@ -114,7 +114,7 @@ static int spool_in_file(RetexInput *input, int file, RetexTemporaryName shown, 
     do {
         status = keep(input, file, shown, got, err);
         if (!status)
-            status = read_some(input, input->data, SPOOL_BEGIN, &got, err);
+            status = read_some(input, input->data, BAND_STORE_BEGIN, &got, err);
         if (!status && input->size + got > SIZE_LIMIT)
             status = retex_fail(err, RETEX_ELIMIT, "%s gives more than %d GiB", input->name, (int)(SIZE_LIMIT >> 30));
     } while (!status && got);
@@ -123,17 +123,17 @@ static int spool_in_file(RetexInput *input, int file, RetexTemporaryName shown, 
     return status;
 }
 
-static int spool(RetexInput *input, RetexError *err)
+static int store(RetexInput *input, RetexError *err)
 {
     RetexTemporaryName shown;
-    int ended, status = spool_in_memory(input, &ended, err);
+    int ended, status = set_in_memory(input, &ended, err);
 
     if (status || ended)
         return status;
     const int file = retex_temporary_open(NULL, shown);
     if (file < 0)
         return retex_fail(err, RETEX_EIO, "cannot write %s: %s", shown, strerror(errno));
-    status = spool_in_file(input, file, shown, err);
+    status = set_in_file(input, file, shown, err);
     if (!input->borrowed)
         close(input->descriptor);
     input->descriptor = file;
@@ -166,7 +166,7 @@ static int open_descriptor(RetexInput *input, const char *path, const RetexAcces
         input->size = (uint64_t)status.st_size;
         return 0;
     }
-    return spool(input, err);
+    return store(input, err);
 }
 
 int retex_input_open(RetexInput **result, const char *path, RetexError *err)

@@ -41,7 +41,7 @@ static int sample_rows(void *context, RetexRowReader *reader, const RetexImageTr
 
 static int sample_all(SampleWork *work, int nthreads, RetexError *err)
 {
-    return retex_compute_images(work->edited, work->nedited, sample_rows, work, work->set, NULL, work->samples->spool,
+    return retex_compute_images(work->edited, work->nedited, sample_rows, work, work->set, NULL, work->samples->store,
                                 nthreads, err);
 }
 
@@ -92,14 +92,14 @@ static int alloc_images(const SampleWork *work, RetexError *err)
     return code;
 }
 
-/* A spool with what is as large as the picture; what is smaller is kept in memory. */
-static int spool_images(SampleWork *work, const char *near, RetexError *err)
+/* A band store with what is as large as the picture; what is smaller is kept in memory. */
+static int store_images(SampleWork *work, const char *near, RetexError *err)
 {
     const RetexSet *set = work->set;
     RetexSamples *samples = work->samples;
-    int code = retex_spool_create(&samples->spool, set->width, set->height, set->id, near, err);
+    int code = retex_band_store_create(&samples->store, set->width, set->height, set->id, near, err);
     if (!code && strcmp(near, "-") == 0)
-        retex_spool_set_plain(samples->spool);
+        retex_band_store_set_plain(samples->store);
     for (int i = 0; i < work->nedited && !code; i++) {
         const int footprint = work->edited[i].footprint;
         char name[RETEX_NAME_MAX];
@@ -108,8 +108,8 @@ static int spool_images(SampleWork *work, const char *near, RetexError *err)
             continue;
         }
         snprintf(name, sizeof name, "sample_%d", footprint);
-        code = retex_spool_add(samples->spool, name, "RGB", RETEX_FLOAT, &work->edited[i].spooled, err);
-        samples->spooled[footprint] = code ? 0 : 1 + work->edited[i].spooled;
+        code = retex_band_store_add(samples->store, name, "RGB", RETEX_FLOAT, &work->edited[i].store_image, err);
+        samples->store_image[footprint] = code ? 0 : 1 + work->edited[i].store_image;
         samples->images[footprint] = (RetexImage){.width = set->width, .height = set->height, .channels = 3};
     }
     return code;
@@ -171,13 +171,13 @@ int retex_sample(RetexSamples **samples, const RetexSet *set, const RetexTexture
     return close_work(&work, samples, code ? code : sample_all(&work, nthreads, err));
 }
 
-int retex_sample_spooled(RetexSamples **samples, const RetexSet *set, const RetexTextureSpec *specs, int nspecs,
-                         const char *near, int nthreads, RetexError *err)
+int retex_sample_to_store(RetexSamples **samples, const RetexSet *set, const RetexTextureSpec *specs, int nspecs,
+                          const char *near, int nthreads, RetexError *err)
 {
     SampleWork work = {.set = set, .specs = specs, .nspecs = nspecs};
     int code = open_work(&work, nthreads, err);
     if (!code)
-        code = spool_images(&work, near, err);
+        code = store_images(&work, near, err);
     return close_work(&work, samples, code ? code : sample_all(&work, nthreads, err));
 }
 
@@ -187,18 +187,18 @@ static void move_image(RetexSamples *samples, RetexSamples *more, int footprint)
 {
     retex_image_free(&samples->images[footprint]);
     samples->images[footprint] = more->images[footprint];
-    samples->spooled[footprint] = more->spooled[footprint];
-    samples->stored[footprint] = more->stored[footprint];
+    samples->store_image[footprint] = more->store_image[footprint];
+    samples->source_image[footprint] = more->source_image[footprint];
     more->images[footprint] = (RetexImage){0};
-    more->spooled[footprint] = more->stored[footprint] = 0;
+    more->store_image[footprint] = more->source_image[footprint] = 0;
 }
 
 /* Where the images are that have been moved. */
 static void move_stores(RetexSamples *samples, RetexSamples *more)
 {
-    if (more->spool) {
-        samples->spool = more->spool;
-        more->spool = NULL;
+    if (more->store) {
+        samples->store = more->store;
+        more->store = NULL;
     }
     if (more->source) {
         samples->source = more->source;
@@ -216,7 +216,7 @@ int retex_samples_merge(RetexSamples *samples, RetexSamples *more, RetexError *e
         same = samples->footprint_target[i] == more->footprint_target[i];
     if (!same)
         return retex_fail(err, RETEX_EINVAL, "the samples are of different sets");
-    if ((samples->spool && more->spool) || (samples->source && more->source)) { /* one of each is kept */
+    if ((samples->store && more->store) || (samples->source && more->source)) { /* one of each is kept */
         int code = retex_samples_load(more, 0, err);
         if (code)
             return code;

@@ -40,7 +40,7 @@ int retex_set_band_open(RetexSetBand **result, const RetexSet *whole, int most_r
     RetexSetBand *band = *result = calloc(1, sizeof *band);
     if (band) {
         *band = (RetexSetBand){.whole = whole, .copies = copies, .set = *whole, .most_rows = most_rows};
-        band->set.spool = NULL, band->set.source = NULL;
+        band->set.store = NULL, band->set.source = NULL;
         band->set.parts = calloc(count, sizeof *band->set.parts);
         band->rooms = calloc(count, sizeof *band->rooms);
     }
@@ -50,7 +50,7 @@ int retex_set_band_open(RetexSetBand **result, const RetexSet *whole, int most_r
     }
     for (int i = 0; i < whole->nparts; i++) {
         band->set.parts[i] = whole->parts[i];
-        band->set.parts[i].spooled = 0;
+        band->set.parts[i].store_image = 0;
     }
     return RETEX_OK;
 }

@@ -1,4 +1,4 @@
-/* From the spool or the source of a set, or of samples, into memory. */
+/* From the band store or the source of a set, or of samples, into memory. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -42,14 +42,14 @@ static int load_parts(RetexSet *set, const char *wanted, int nthreads, RetexErro
     const int code = load(images, set->nparts, set, NULL, nthreads, err);
     for (int i = 0; !code && i < set->nparts; i++)
         if (wanted[i])
-            set->parts[i].spooled = 0;
+            set->parts[i].store_image = 0;
     return code;
 }
 
 /* What nothing is read from any more. */
-static void close_stores(RetexSpool **spool, RetexSetSource **source)
+static void close_stores(RetexBandStore **store, RetexSetSource **source)
 {
-    retex_spool_close(spool);
+    retex_band_store_close(store);
     if (*source)
         (*source)->close(*source);
     *source = NULL;
@@ -67,7 +67,7 @@ int retex_set_load(RetexSet *set, int nthreads, RetexError *err)
     if (!code)
         code = load_parts(set, wanted, nthreads, err);
     if (!code)
-        close_stores(&set->spool, &set->source);
+        close_stores(&set->store, &set->source);
     return code;
 }
 
@@ -80,9 +80,9 @@ int retex_samples_load(RetexSamples *samples, int nthreads, RetexError *err)
     const int code = load(images, samples->nimages, NULL, samples, nthreads, err);
     if (code)
         return code;
-    memset(samples->spooled, 0, sizeof samples->spooled);
-    memset(samples->stored, 0, sizeof samples->stored);
-    close_stores(&samples->spool, &samples->source);
+    memset(samples->store_image, 0, sizeof samples->store_image);
+    memset(samples->source_image, 0, sizeof samples->source_image);
+    close_stores(&samples->store, &samples->source);
     return 0;
 }
 

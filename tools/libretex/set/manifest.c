@@ -136,7 +136,7 @@ static json_t *write_mixture(const RetexSet *set, const RetexMixture *mixture)
 /* The sums of bands as one row of digits. */
 static json_t *write_bands(const uint32_t *bands, int height)
 {
-    const size_t count = ((size_t)height + RETEX_SPOOL_LINES - 1) / RETEX_SPOOL_LINES;
+    const size_t count = ((size_t)height + RETEX_BAND_ROWS - 1) / RETEX_BAND_ROWS;
     char *digits = malloc(8 * count + 1);
 
     for (size_t i = 0; digits && i < count; i++)

@@ -26,7 +26,7 @@ typedef struct RetexSamplePart {
 /* Names of the samples' parts, unique among themselves and the set's (which may be NULL). parts has nimages places. */
 void retex_sample_part_names(const RetexSamples *samples, const RetexSet *set, RetexSamplePart *parts);
 
-/* What the manifest says of bands of RETEX_SPOOL_LINES rows: of each the CRC-32 of its samples, as the part's is of
+/* What the manifest says of bands of RETEX_BAND_ROWS rows: of each the CRC-32 of its samples, as the part's is of
  * all. Of the set's parts, then of the samples' images; NULL where it is not known. */
 typedef struct RetexBandSums {
     int count;

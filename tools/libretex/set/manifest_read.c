@@ -138,7 +138,7 @@ static void check_scale(Reading *reading, const RetexSet *set, int part, const c
 /* Eight hexadecimal digits for each band. */
 static uint32_t *parse_bands(Reading *reading, const json_t *json, int height)
 {
-    const size_t count = ((size_t)height + RETEX_SPOOL_LINES - 1) / RETEX_SPOOL_LINES;
+    const size_t count = ((size_t)height + RETEX_BAND_ROWS - 1) / RETEX_BAND_ROWS;
     const char *digits = json_string_value(json);
     uint32_t *bands = NULL;
 

@@ -10,7 +10,7 @@
 #include "set/exr_source.h"
 #include "io/input.h"
 #include "set/manifest.h"
-#include "exr/spool_chunks.h"
+#include "exr/band_store_chunks.h"
 
 /* Deflate gains at most 1032:1; a file that promises more than this is damaged and gets no memory. */
 enum { LARGEST_GAIN = 1100 };
@@ -49,7 +49,7 @@ static int source_describe(Source *source, RetexError *err)
         return retex_fail(err, RETEX_EFORMAT, "%s is not a set: it is empty", name);
     unsigned char begin[16];
     const int64_t got = retex_input_read(source->input, begin, sizeof begin, 0);
-    if (got > 0 && retex_spool_probe(begin, (size_t)got))
+    if (got > 0 && retex_band_store_probe(begin, (size_t)got))
         return retex_fail(err, RETEX_EFORMAT, "%s is not a set yet, but rows of one: %s", name,
                           "retex-render goes on from them with --resume or --merge");
     if (!retex_exr_probe(source->input)) {
@@ -185,7 +185,7 @@ static int request_samples_stored(Source *source, RetexError *err)
     const int status = request_samples(source, err);
 
     for (int i = 0, next = first; i < samples->nimages && !status; i++)
-        samples->stored[i] = source->names[i].name[0] ? ++next : 0;
+        samples->source_image[i] = source->names[i].name[0] ? ++next : 0;
     return status;
 }
 

@@ -5,42 +5,43 @@
 
 #include "set/source.h"
 
-/* A band of a spooled image. */
-typedef struct SpooledBand {
+/* A band of an image of a band store. */
+typedef struct StoredBand {
     float *pixels; /* or NULL, until one is wanted */
     int number;
-} SpooledBand;
+} StoredBand;
 
 /* What is not in memory, of a set or of samples. */
-typedef struct Store {
-    const RetexSpool *spool;
+typedef struct Backing {
+    const RetexBandStore *store;
     RetexSetSource *source;
     void *reader;       /* of the source, or NULL */
-    SpooledBand *bands; /* by part or image, or NULL where there is no spool */
+    StoredBand *bands;  /* by part or image, or NULL where there is no band store */
     int count;
-} Store;
+} Backing;
 
 struct RetexRowReader {
     const RetexSet *set;
     const RetexSamples *samples;
-    Store of_set, of_samples;
+    Backing of_set, of_samples;
 };
 
-static int store_open(Store *store, const RetexSpool *spool, RetexSetSource *source, int count, RetexError *err)
+static int backing_open(Backing *backing, const RetexBandStore *store, RetexSetSource *source, int count,
+                        RetexError *err)
 {
-    *store = (Store){.spool = spool, .source = source, .count = count};
-    if (spool && !(store->bands = calloc((size_t)count + 1, sizeof *store->bands)))
+    *backing = (Backing){.store = store, .source = source, .count = count};
+    if (store && !(backing->bands = calloc((size_t)count + 1, sizeof *backing->bands)))
         return retex_fail(err, RETEX_ENOMEM, "no memory to read a set's rows");
-    return source ? source->reader_open(source, &store->reader, err) : RETEX_OK;
+    return source ? source->reader_open(source, &backing->reader, err) : RETEX_OK;
 }
 
-static void store_close(Store *store)
+static void backing_close(Backing *backing)
 {
-    if (store->reader)
-        store->source->reader_close(store->reader);
-    for (int i = 0; store->bands && i < store->count; i++)
-        free(store->bands[i].pixels);
-    free(store->bands);
+    if (backing->reader)
+        backing->source->reader_close(backing->reader);
+    for (int i = 0; backing->bands && i < backing->count; i++)
+        free(backing->bands[i].pixels);
+    free(backing->bands);
 }
 
 int retex_row_reader_open(RetexRowReader **result, const RetexSet *set, const RetexSamples *samples, RetexError *err)
@@ -50,9 +51,9 @@ int retex_row_reader_open(RetexRowReader **result, const RetexSet *set, const Re
         return retex_fail(err, RETEX_ENOMEM, "no memory to read a set's rows");
     reader->set = set;
     reader->samples = samples;
-    int code = set ? store_open(&reader->of_set, set->spool, set->source, set->nparts, err) : RETEX_OK;
+    int code = set ? backing_open(&reader->of_set, set->store, set->source, set->nparts, err) : RETEX_OK;
     if (!code && samples)
-        code = store_open(&reader->of_samples, samples->spool, samples->source, samples->nimages, err);
+        code = backing_open(&reader->of_samples, samples->store, samples->source, samples->nimages, err);
     if (code)
         retex_row_reader_close(result);
     return code;
@@ -63,25 +64,25 @@ void retex_row_reader_close(RetexRowReader **result)
     RetexRowReader *reader = *result;
     if (!reader)
         return;
-    store_close(&reader->of_set);
-    store_close(&reader->of_samples);
+    backing_close(&reader->of_set);
+    backing_close(&reader->of_samples);
     free(reader);
     *result = NULL;
 }
 
-static int spooled_row(const float **row, Store *store, int index, int image, const RetexImage *shape, int y,
-                       RetexError *err)
+static int stored_row(const float **row, Backing *backing, int index, int image, const RetexImage *shape, int y,
+                      RetexError *err)
 {
     const size_t length = (size_t)shape->width * (size_t)shape->channels;
-    SpooledBand *band = &store->bands[index];
-    const int number = y / RETEX_SPOOL_LINES, kept = band->pixels && band->number == number;
+    StoredBand *band = &backing->bands[index];
+    const int number = y / RETEX_BAND_ROWS, kept = band->pixels && band->number == number;
     int code = RETEX_OK;
-    if (!band->pixels && !(band->pixels = malloc(RETEX_SPOOL_LINES * length * sizeof *band->pixels)))
+    if (!band->pixels && !(band->pixels = malloc(RETEX_BAND_ROWS * length * sizeof *band->pixels)))
         return retex_fail(err, RETEX_ENOMEM, "no memory to read a set's rows");
     if (!kept)
-        code = retex_spool_load_band(store->spool, image, number, band->pixels, err);
+        code = retex_band_store_load_band(backing->store, image, number, band->pixels, err);
     band->number = code ? -1 : number;
-    *row = band->pixels + length * (size_t)(y % RETEX_SPOOL_LINES);
+    *row = band->pixels + length * (size_t)(y % RETEX_BAND_ROWS);
     return code;
 }
 
@@ -89,17 +90,17 @@ int retex_row_reader_get_span(RetexRowReader *reader, int part, int y, const flo
                               RetexError *err)
 {
     const RetexPart *p = &reader->set->parts[part];
-    Store *store = &reader->of_set;
+    Backing *backing = &reader->of_set;
     *span = (RetexRowSpan){0, p->image.width};
     if (p->image.pixels) {
         *row = p->image.pixels + retex_image_index(&p->image, 0, y);
         return RETEX_OK;
     }
-    if (p->spooled)
-        return spooled_row(row, store, part, p->spooled - 1, &p->image, y, err);
-    if (!store->reader)
+    if (p->store_image)
+        return stored_row(row, backing, part, p->store_image - 1, &p->image, y, err);
+    if (!backing->reader)
         return retex_fail(err, RETEX_EINVAL, "part %s of the set is not in memory", p->name);
-    return store->source->read_row(store->reader, part, y, row, span, err);
+    return backing->source->read_row(backing->reader, part, y, row, span, err);
 }
 
 int retex_row_reader_get(RetexRowReader *reader, int part, int y, const float **row, RetexError *err)
@@ -112,13 +113,13 @@ int retex_row_reader_sample(RetexRowReader *reader, int footprint, int y, const 
 {
     const RetexSamples *samples = reader->samples;
     const RetexImage *image = &samples->images[footprint];
-    Store *store = &reader->of_samples;
+    Backing *backing = &reader->of_samples;
     if (image->pixels) {
         *row = image->pixels + retex_image_index(image, 0, y);
         return RETEX_OK;
     }
-    if (samples->spooled[footprint])
-        return spooled_row(row, store, footprint, samples->spooled[footprint] - 1, image, y, err);
+    if (samples->store_image[footprint])
+        return stored_row(row, backing, footprint, samples->store_image[footprint] - 1, image, y, err);
     RetexRowSpan span;
-    return store->source->read_row(store->reader, samples->stored[footprint] - 1, y, row, &span, err);
+    return backing->source->read_row(backing->reader, samples->source_image[footprint] - 1, y, row, &span, err);
 }

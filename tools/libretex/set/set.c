@@ -37,7 +37,7 @@ void retex_set_close(RetexSet **result)
     free(set->parts);
     free(set->footprints);
     free(set->terms);
-    retex_spool_close(&set->spool);
+    retex_band_store_close(&set->store);
     if (set->source)
         set->source->close(set->source);
     free(set);
@@ -108,15 +108,15 @@ int retex_set_add_part(RetexSet *set, const char *name, const char *letters, Ret
     return 0;
 }
 
-int retex_set_add_spooled(RetexSet *set, const char *name, const char *letters, RetexPixelType type, int image,
-                          int *index, RetexError *err)
+int retex_set_add_stored(RetexSet *set, const char *name, const char *letters, RetexPixelType type, int image,
+                         int *index, RetexError *err)
 {
     RetexPart *part;
     const int status = describe_part(set, name, letters, type, 0, 0, &part, err);
 
     if (status)
         return status;
-    part->spooled = image + 1;
+    part->store_image = image + 1;
     if (index)
         *index = set->nparts;
     set->nparts++;
@@ -327,7 +327,7 @@ void retex_samples_close(RetexSamples **result)
     for (int i = 0; samples->images && i < samples->nimages; i++)
         retex_image_free(&samples->images[i]);
     free(samples->images);
-    retex_spool_close(&samples->spool);
+    retex_band_store_close(&samples->store);
     if (samples->source)
         samples->source->close(samples->source);
     free(samples);
@@ -336,7 +336,7 @@ void retex_samples_close(RetexSamples **result)
 
 int retex_samples_have(const RetexSamples *samples, int footprint)
 {
-    return samples->images[footprint].pixels || samples->spooled[footprint] || samples->stored[footprint];
+    return samples->images[footprint].pixels || samples->store_image[footprint] || samples->source_image[footprint];
 }
 
 void retex_set_identify(RetexSet *set)

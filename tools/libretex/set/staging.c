@@ -20,25 +20,25 @@ void retex_staging_close(RetexStaging *stage)
         retex_image_free(&stage->small[i]);
     free(stage->small);
     free(stage->images);
-    retex_spool_close(&stage->spool);
+    retex_band_store_close(&stage->store);
     *stage = (RetexStaging){0};
 }
 
-static int add_spooled(RetexStaging *stage, RetexExrPart *exr, RetexImageTransfer *g, const char *near, int compress,
-                       RetexError *err)
+static int add_stored(RetexStaging *stage, RetexExrPart *exr, RetexImageTransfer *g, const char *near, int compress,
+                      RetexError *err)
 {
     char name[RETEX_NAME_MAX];
     int code = RETEX_OK;
-    if (!stage->spool) {
-        code = retex_spool_create(&stage->spool, exr->image->width, exr->image->height, 0, near, err);
+    if (!stage->store) {
+        code = retex_band_store_create(&stage->store, exr->image->width, exr->image->height, 0, near, err);
         if (!code && !compress)
-            retex_spool_set_plain(stage->spool);
+            retex_band_store_set_plain(stage->store);
     }
     snprintf(name, sizeof name, "part_%d", stage->count);
     if (!code)
-        code = retex_spool_add(stage->spool, name, exr->letters, exr->type, &g->spooled, err);
-    exr->spool = stage->spool;
-    exr->spooled = g->spooled;
+        code = retex_band_store_add(stage->store, name, exr->letters, exr->type, &g->store_image, err);
+    exr->store = stage->store;
+    exr->store_image = g->store_image;
     return code;
 }
 
@@ -52,7 +52,7 @@ int retex_staging_add(RetexStaging *stage, RetexExrPart *exr, int part, int foot
     *g = (RetexImageTransfer){.part = part, .footprint = footprint, .image = image};
     if (shape->width == width && shape->height == height) {
         *image = *shape;
-        code = add_spooled(stage, exr, g, near, compress, err);
+        code = add_stored(stage, exr, g, near, compress, err);
     } else {
         code = retex_image_alloc(image, shape->width, shape->height, shape->channels, err);
     }
@@ -64,5 +64,5 @@ int retex_staging_add(RetexStaging *stage, RetexExrPart *exr, int part, int foot
 int retex_staging_fill(RetexStaging *stage, const RetexSet *set, const RetexSamples *samples, int nthreads,
                        RetexError *err)
 {
-    return retex_transfer_images(stage->images, stage->count, set, samples, stage->spool, nthreads, err);
+    return retex_transfer_images(stage->images, stage->count, set, samples, stage->store, nthreads, err);
 }

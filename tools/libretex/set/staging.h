@@ -7,7 +7,7 @@
 #include "set/transfer.h"
 
 typedef struct RetexStaging {
-    RetexSpool *spool; /* what is as large as the picture */
+    RetexBandStore *store; /* what is as large as the picture */
     RetexImage *small; /* what is smaller */
     RetexImageTransfer *images;
     int count;
@@ -17,8 +17,8 @@ typedef struct RetexStaging {
 int retex_staging_open(RetexStaging *stage, int most, RetexError *err);
 void retex_staging_close(RetexStaging *stage); /* once they are written */
 
-/* Give an EXR part the place where a part of the set will be, or the samples of a footprint; the other is -1. The spool
- * is made near the file to be, and not compressed where that is not either. */
+/* Give an EXR part the place where a part of the set will be, or the samples of a footprint; the other is -1. The band
+ * store is made near the file to be, and not compressed where that is not either. */
 int retex_staging_add(RetexStaging *stage, RetexExrPart *exr, int part, int footprint, int width, int height,
                       const char *near, int compress, RetexError *err);
 /* Bring all of them there. */

@@ -6,7 +6,7 @@
 
 #include "base/jobs.h"
 
-#define ROWS_A_JOB 64 /* a pack's band, some of a spool's */
+#define ROWS_A_JOB 64 /* a pack's band, some of a band store's */
 
 typedef struct GatherWork {
     const RetexImageTransfer *images;
@@ -15,7 +15,7 @@ typedef struct GatherWork {
     void *context;
     const RetexSet *set;
     const RetexSamples *samples;
-    RetexSpool *spool;
+    RetexBandStore *store;
 } GatherWork;
 
 static size_t row_length(const RetexImageTransfer *g)
@@ -23,18 +23,18 @@ static size_t row_length(const RetexImageTransfer *g)
     return (size_t)g->image->width * (size_t)g->image->channels;
 }
 
-static int spool_rows(const GatherWork *work, RetexRowReader *reader, const RetexImageTransfer *g, int y0, int y1,
+static int store_rows(const GatherWork *work, RetexRowReader *reader, const RetexImageTransfer *g, int y0, int y1,
                       RetexError *err)
 {
-    const size_t bytes = row_length(g) * RETEX_SPOOL_LINES * sizeof(float);
+    const size_t bytes = row_length(g) * RETEX_BAND_ROWS * sizeof(float);
     float *band = malloc(bytes);
     int code = band ? RETEX_OK : retex_fail(err, RETEX_ENOMEM, "not enough memory for rows of a set");
-    for (int y = y0; y < y1 && !code; y += RETEX_SPOOL_LINES) {
-        const int end = y + RETEX_SPOOL_LINES < y1 ? y + RETEX_SPOOL_LINES : y1;
+    for (int y = y0; y < y1 && !code; y += RETEX_BAND_ROWS) {
+        const int end = y + RETEX_BAND_ROWS < y1 ? y + RETEX_BAND_ROWS : y1;
         memset(band, 0, bytes);
         code = work->make(work->context, reader, g, y, end, band, err);
         if (!code)
-            code = retex_spool_put(work->spool, g->spooled, y / RETEX_SPOOL_LINES, band, err);
+            code = retex_band_store_put(work->store, g->store_image, y / RETEX_BAND_ROWS, band, err);
     }
     free(band);
     return code;
@@ -54,16 +54,16 @@ static int gather_job(void *context, int index, int thread, RetexError *err)
     if (!code && g->image->pixels)
         code = work->make(work->context, reader, g, y0, y1, g->image->pixels + retex_image_index(g->image, 0, y0), err);
     else if (!code)
-        code = spool_rows(work, reader, g, y0, y1, err);
+        code = store_rows(work, reader, g, y0, y1, err);
     retex_row_reader_close(&reader);
     return code;
 }
 
 int retex_compute_images(const RetexImageTransfer *images, int count, RetexComputeRows *make, void *context,
-                         const RetexSet *set, const RetexSamples *samples, RetexSpool *spool, int nthreads,
+                         const RetexSet *set, const RetexSamples *samples, RetexBandStore *store, int nthreads,
                          RetexError *err)
 {
-    GatherWork work = {images, 0, make, context, set, samples, spool};
+    GatherWork work = {images, 0, make, context, set, samples, store};
     for (int i = 0; i < count; i++) {
         const int blocks = (images[i].image->height + ROWS_A_JOB - 1) / ROWS_A_JOB;
         work.blocks = blocks > work.blocks ? blocks : work.blocks;
@@ -88,7 +88,7 @@ static int copy_rows(void *context, RetexRowReader *reader, const RetexImageTran
 }
 
 int retex_transfer_images(const RetexImageTransfer *images, int count, const RetexSet *set, const RetexSamples *samples,
-                          RetexSpool *spool, int nthreads, RetexError *err)
+                          RetexBandStore *store, int nthreads, RetexError *err)
 {
-    return retex_compute_images(images, count, copy_rows, NULL, set, samples, spool, nthreads, err);
+    return retex_compute_images(images, count, copy_rows, NULL, set, samples, store, nthreads, err);
 }

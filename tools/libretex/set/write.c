@@ -53,7 +53,7 @@ static int check_set(const RetexSet *set, RetexError *err)
         return retex_fail(err, RETEX_EINVAL, "the set's first part is no RGB picture of %d x %d pixels", set->width,
                           set->height);
     for (int i = 0; i < set->nparts; i++)
-        if (set->parts[i].spooled ? !set->spool : !set->parts[i].image.pixels && !set->source)
+        if (set->parts[i].store_image ? !set->store : !set->parts[i].image.pixels && !set->source)
             return retex_fail(err, RETEX_EINVAL, "part %s has no pixels", set->parts[i].name);
     int sound = set->ntargets >= 0 && set->ntargets <= RETEX_MAX_TARGETS && set->nfootprints >= 0 &&
                 set->nfootprints <= RETEX_SET_FOOTPRINTS_MAX && set->nterms >= 0 && set->nterms <= RETEX_SET_TERMS_MAX;
@@ -113,8 +113,8 @@ static int list_parts(Writing *w, RetexError *err)
         const RetexPart *part = &w->view.set.parts[i];
         RetexExrPart *exr = add_exr_part(w, part->name, part->letters, part->type, &part->image);
         exr->color = retex_set_part_is_color(&w->view.set, i) ? &retex_color_tag_rec709 : &retex_color_tag_data;
-        if (part->spooled)
-            exr->spool = w->whole->spool, exr->spooled = part->spooled - 1;
+        if (part->store_image)
+            exr->store = w->whole->store, exr->store_image = part->store_image - 1;
         else if (!part->image.pixels)
             status = stage_part(w, exr, w->view.source[i], -1, err);
     }
@@ -124,8 +124,8 @@ static int list_parts(Writing *w, RetexError *err)
             continue;
         RetexExrPart *exr = add_exr_part(w, w->names[i].name, "RGB", RETEX_FLOAT, &samples->images[i]);
         exr->color = &retex_color_tag_rec709;
-        if (samples->spooled[i])
-            exr->spool = samples->spool, exr->spooled = samples->spooled[i] - 1;
+        if (samples->store_image[i])
+            exr->store = samples->store, exr->store_image = samples->store_image[i] - 1;
         else if (!samples->images[i].pixels)
             status = stage_part(w, exr, -1, i, err);
     }

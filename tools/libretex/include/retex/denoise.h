@@ -57,10 +57,11 @@ typedef struct RetexDenoiseParams {
 #define RETEX_DENOISE_INIT { sizeof(RetexDenoiseParams), 1, 5, 1, 0, NULL, NULL, NULL, NULL }
 
 /* Filter a set where it lies, or, where it is open (retex_set_open) and roi is NULL, some rows after the other, into a
- * spool: terms, with `footprints` also broad footprints and, as far as they are near to each other, later ones, and the
- * beauty, which becomes the recombination with the original textures. Means of each signal over roi (NULL = all) stay
- * what they were. Pixels outside roi keep their terms and footprints. What the filter needed is removed from the set,
- * and set->denoised is 1. RETEX_ENOTFOUND where the set has no such parts. The same to the bit for every nthreads. */
+ * band store: terms, with `footprints` also broad footprints and, as far as they are near to each other, later ones,
+ * and the beauty, which becomes the recombination with the original textures. Means of each signal over roi (NULL =
+ * all) stay what they were. Pixels outside roi keep their terms and footprints. What the filter needed is removed from
+ * the set, and set->denoised is 1. RETEX_ENOTFOUND where the set has no such parts. The same to the bit for every
+ * nthreads. */
 int retex_denoise(RetexSet *set, const RetexDenoiseParams *params /* NULL = defaults */, const RetexRoi *roi,
                   int nthreads, RetexError *err);
 

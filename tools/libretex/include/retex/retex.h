@@ -21,7 +21,7 @@
 #include <retex/rounding.h>
 #include <retex/sample.h>
 #include <retex/set.h>
-#include <retex/spool.h>
+#include <retex/band_store.h>
 #include <retex/texture.h>
 #include <retex/uv_stats.h>
 

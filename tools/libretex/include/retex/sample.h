@@ -17,9 +17,9 @@ int retex_sample(RetexSamples **samples, const RetexSet *set, const RetexTexture
                  RetexError *err);
 
 /* As retex_sample, of a set that may be open, with little of either in memory: images as large as the picture go band
- * by band into a spool near the file that they are for, "-" being standard output. */
-int retex_sample_spooled(RetexSamples **samples, const RetexSet *set, const RetexTextureSpec *specs, int nspecs,
-                         const char *near, int nthreads, RetexError *err);
+ * by band into a band store near the file that they are for, "-" being standard output. */
+int retex_sample_to_store(RetexSamples **samples, const RetexSet *set, const RetexTextureSpec *specs, int nspecs,
+                          const char *near, int nthreads, RetexError *err);
 
 /* Put the images of `more` into samples, where they replace those of the same footprints; both must be of the same set.
  * They are moved: more keeps none of them and is still the caller's to close. On failure both are as they were. */

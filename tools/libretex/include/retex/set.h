@@ -16,7 +16,7 @@
 
 #include <stdint.h>
 #include <retex/image.h>
-#include <retex/spool.h>
+#include <retex/band_store.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -42,7 +42,7 @@ typedef struct RetexPart {
     RetexPixelType type;
     uint32_t crc;              /* CRC-32 of the stored samples, planes in the order of letters, little-endian, rows from
                                   the top; filled by reading and writing */
-    int spooled;               /* 0, or 1 + its number in the set's spool: then image has its size, but no pixels */
+    int store_image; /* 0, or 1 + its number in the set's band store: then image has its size, but no pixels */
     RetexImage image;
 } RetexPart;
 
@@ -132,15 +132,15 @@ typedef struct RetexSet {
     RetexPart *parts;      /* parts[0] is the beauty */
     int nmixtures;
     RetexMixture mixtures[RETEX_MIXTURES_MAX];
-    RetexSpool *spool;     /* owned; where spooled parts are, or NULL */
+    RetexBandStore *store;     /* owned; where parts with a store_image are, or NULL */
     RetexSetSource *source; /* owned; where all other parts without pixels are, or NULL: see retex_set_open */
     int version;           /* of the manifest that it was read from, 0 where from none: below 3 that has no checksum of
                               its own, and damage to it may go unseen */
 } RetexSet;
 
 /* The textures filtered at a set's footprints: image i belongs to footprint i and is RGB of the size of its parts, or
- * all 0 where that footprint's target keeps its original. One of a size but without pixels is in the samples' spool or
- * in the file that they come from. */
+ * all 0 where that footprint's target keeps its original. One of a size but without pixels is in the samples' band
+ * store or in the file that they come from. */
 typedef struct RetexSamples {
     int width, height;
     int nimages;
@@ -151,9 +151,9 @@ typedef struct RetexSamples {
     int ntargets;
     int footprint_target[512]; /* target and hit of footprint i, for the same check and for part names */
     int footprint_hit[512];
-    int spooled[512];      /* 0, or 1 + the image's number in the spool */
-    int stored[512];       /* 0, or 1 + its number in the source */
-    RetexSpool *spool;     /* owned, or NULL; as is */
+    int store_image[512];      /* 0, or 1 + the image's number in the band store */
+    int source_image[512];       /* 0, or 1 + its number in the source */
+    RetexBandStore *store;     /* owned, or NULL; as is */
     RetexSetSource *source;
     int version;           /* as of a set */
 } RetexSamples;
@@ -163,11 +163,11 @@ void retex_set_close(RetexSet **set); /* NULL and pointers to NULL are fine */
 /* Append; *index (may be NULL) gets its number. The image is allocated zeroed, width 0 = the set's own size. */
 int retex_set_add_part(RetexSet *set, const char *name, const char *letters, RetexPixelType type, int width, int height,
                        int *index, RetexError *err);
-/* Append a part whose pixels are in the set's spool, under the same name, letters and type. It is read there row by
- * row, as parts of a set that is open are in their file. */
-int retex_set_add_spooled(RetexSet *set, const char *name, const char *letters, RetexPixelType type, int image,
-                          int *index, RetexError *err);
-/* Bring all parts into memory, and close the spool or the source. */
+/* Append a part whose pixels are in the set's band store, under the same name, letters and type. It is read there row
+ * by row, as parts of a set that is open are in their file. */
+int retex_set_add_stored(RetexSet *set, const char *name, const char *letters, RetexPixelType type, int image,
+                         int *index, RetexError *err);
+/* Bring all parts into memory, and close the band store or the source. */
 int retex_set_load(RetexSet *set, int nthreads, RetexError *err);
 /* Bytes that all parts take in memory. */
 uint64_t retex_set_bytes(const RetexSet *set);
@@ -205,7 +205,7 @@ int retex_set_find_target(const RetexSet *set, const char *name);
 void retex_samples_close(RetexSamples **samples);
 /* Whether they have an image for that footprint, wherever it is. */
 int retex_samples_have(const RetexSamples *samples, int footprint);
-/* Bring all images into memory, and close the spool and the source. */
+/* Bring all images into memory, and close the band store and the source. */
 int retex_samples_load(RetexSamples *samples, int nthreads, RetexError *err);
 /* Check that samples were made for this set (size, targets, footprints). */
 int retex_samples_check(const RetexSamples *samples, const RetexSet *set, RetexError *err);
@@ -225,7 +225,7 @@ typedef struct RetexStoreParams {
 int retex_set_read(const char *path, RetexSet **set, RetexSamples **samples, int nthreads, RetexError *err);
 
 /* As retex_set_read, but the set's parts and the samples stay in the file until they are taken from there row by row,
- * by retex_retexture, retex_combine, retex_estimate_error, retex_sample_spooled or retex_set_write, or all at once by
+ * by retex_retexture, retex_combine, retex_estimate_error, retex_sample_to_store or retex_set_write, or all at once by
  * retex_set_load and retex_samples_load; whatever else looks at pixels needs them loaded. Checksums are compared when
  * rows are taken, so that all of these may return RETEX_EFORMAT. The file must stay as it is
  * until both are closed, and so must parts that retex_set_keep brought into memory: a pack may make its picture from

@@ -1,4 +1,4 @@
-/* Journals: what was committed is there when a spool is opened again, however its file ends or is damaged. */
+/* Checkpoints: what was committed is there when a band store is opened again, however its file ends or is damaged. */
 #include "lib_damage.h"
 #include <cmocka.h>
 
@@ -9,7 +9,7 @@
 
 #include <retex/band_stats.h>
 
-#include "exr/spool_file.h"
+#include "exr/band_store_file.h"
 
 #define WIDTH 5
 #define HEIGHT 40
@@ -21,7 +21,7 @@ static char path[64], copy[80];
 static int make_path(void **state)
 {
     (void)state;
-    strcpy(path, "/tmp/retex-journal-XXXXXX");
+    strcpy(path, "/tmp/retex-checkpoint-XXXXXX");
     const int descriptor = mkstemp(path);
     snprintf(copy, sizeof copy, "%s.copy", path);
     return descriptor < 0 ? -1 : close(descriptor) || unlink(path);
@@ -41,7 +41,7 @@ static float value_of(int image, int band, int i)
     return image == 1 && band == 0 ? 0 : (float)(1 + image + 2 * band) + (float)(i % 7) / 8;
 }
 
-static void put_band(RetexSpool *spool, int band, int commit)
+static void put_band(RetexBandStore *store, int band, int commit)
 {
     RetexError err;
     RetexBandStats stats;
@@ -49,51 +49,51 @@ static void put_band(RetexSpool *spool, int band, int commit)
     for (int image = 0; image < 2; image++) {
         for (int i = 0; i < 16 * WIDTH * 3; i++)
             pixels[i] = value_of(image, band, i);
-        test_must(retex_spool_put(spool, image, band, pixels, &err), &err);
+        test_must(retex_band_store_put(store, image, band, pixels, &err), &err);
     }
     retex_band_stats_reset(&stats);
     stats.total = band + 0.5;
     if (commit)
-        test_must(retex_spool_commit(spool, band, &stats, &err), &err);
+        test_must(retex_band_store_commit(store, band, &stats, &err), &err);
 }
 
-static void add_images(RetexSpool *spool)
+static void add_images(RetexBandStore *store)
 {
     RetexError err;
     int number;
-    test_must(retex_spool_add(spool, "first", "RGB", RETEX_HALF, &number, &err), &err);
+    test_must(retex_band_store_add(store, "first", "RGB", RETEX_HALF, &number, &err), &err);
     assert_int_equal(number, 0);
-    test_must(retex_spool_add(spool, "second", "RGB", RETEX_FLOAT, &number, &err), &err);
+    test_must(retex_band_store_add(store, "second", "RGB", RETEX_FLOAT, &number, &err), &err);
     assert_int_equal(number, 1);
 }
 
 /* Two of three bands are committed, a third is there in part. */
-static void make_journal(void)
+static void make_checkpoint(void)
 {
     RetexError err;
-    RetexSpool *spool = NULL;
-    test_must(retex_spool_open(&spool, WIDTH, HEIGHT, KEY, path, 1, &err), &err);
-    add_images(spool);
-    put_band(spool, 1, 1);
-    put_band(spool, 0, 1);
-    put_band(spool, 2, 0);
-    retex_spool_close(&spool);
+    RetexBandStore *store = NULL;
+    test_must(retex_band_store_open(&store, WIDTH, HEIGHT, KEY, path, 1, &err), &err);
+    add_images(store);
+    put_band(store, 1, 1);
+    put_band(store, 0, 1);
+    put_band(store, 2, 0);
+    retex_band_store_close(&store);
 }
 
 /* How many bands are committed; they must be as they were. */
-static int check_bands(const RetexSpool *spool)
+static int check_bands(const RetexBandStore *store)
 {
     RetexError err;
     float pixels[16 * WIDTH * 3];
     int count = 0;
     for (int band = 0; band < BANDS; band++) {
-        const RetexBandStats *stats = retex_spool_committed(spool, band);
+        const RetexBandStats *stats = retex_band_store_committed(store, band);
         if (!stats)
             continue;
         assert_true(stats->total == band + 0.5);
         count++;
         for (int image = 0; image < 2; image++) {
-            test_must(retex_spool_load_band(spool, image, band, pixels, &err), &err);
+            test_must(retex_band_store_load_band(store, image, band, pixels, &err), &err);
             for (int i = 0; i < (band < 2 ? 16 : 8) * WIDTH * 3; i++)
                 assert_true(pixels[i] == value_of(image, band, i));
         }
@@ -105,39 +105,39 @@ static void what_was_committed_is_there(void **state)
 {
     (void)state;
     RetexError err;
-    RetexSpool *spool = NULL;
-    make_journal();
-    test_must(retex_spool_open(&spool, WIDTH, HEIGHT, KEY, path, 1, &err), &err);
-    add_images(spool);
-    assert_int_equal(check_bands(spool), 2);
-    assert_null(retex_spool_committed(spool, 2));
-    assert_false(retex_spool_is_empty(spool, 1));
-    put_band(spool, 2, 1);
-    assert_int_equal(check_bands(spool), 3);
-    retex_spool_close(&spool);
-    test_must(retex_spool_open(&spool, WIDTH, HEIGHT, KEY, path, 0, &err), &err);
-    assert_int_equal(check_bands(spool), 3);
-    retex_spool_close(&spool);
+    RetexBandStore *store = NULL;
+    make_checkpoint();
+    test_must(retex_band_store_open(&store, WIDTH, HEIGHT, KEY, path, 1, &err), &err);
+    add_images(store);
+    assert_int_equal(check_bands(store), 2);
+    assert_null(retex_band_store_committed(store, 2));
+    assert_false(retex_band_store_is_empty(store, 1));
+    put_band(store, 2, 1);
+    assert_int_equal(check_bands(store), 3);
+    retex_band_store_close(&store);
+    test_must(retex_band_store_open(&store, WIDTH, HEIGHT, KEY, path, 0, &err), &err);
+    assert_int_equal(check_bands(store), 3);
+    retex_band_store_close(&store);
 }
 
 static void another_render_is_refused(void **state)
 {
     (void)state;
     RetexError err;
-    RetexSpool *spool = NULL, *second = NULL;
+    RetexBandStore *store = NULL, *second = NULL;
     int number;
-    make_journal();
-    assert_int_equal(retex_spool_open(&spool, WIDTH, HEIGHT, KEY + 1, path, 1, &err), RETEX_EINVAL);
-    assert_int_equal(retex_spool_open(&spool, WIDTH, HEIGHT + 1, KEY, path, 0, &err), RETEX_EINVAL);
-    assert_null(spool);
-    test_must(retex_spool_open(&spool, WIDTH, HEIGHT, KEY, path, 1, &err), &err);
-    assert_int_equal(retex_spool_open(&second, WIDTH, HEIGHT, KEY, path, 0, &err), RETEX_EIO); /* in use */
-    assert_int_equal(retex_spool_add(spool, "first", "RGB", RETEX_FLOAT, &number, &err), RETEX_EFORMAT);
-    retex_spool_close(&spool);
-    assert_int_equal(retex_spool_open(&spool, WIDTH, HEIGHT, KEY, copy, 0, &err), RETEX_EIO); /* not there */
+    make_checkpoint();
+    assert_int_equal(retex_band_store_open(&store, WIDTH, HEIGHT, KEY + 1, path, 1, &err), RETEX_EINVAL);
+    assert_int_equal(retex_band_store_open(&store, WIDTH, HEIGHT + 1, KEY, path, 0, &err), RETEX_EINVAL);
+    assert_null(store);
+    test_must(retex_band_store_open(&store, WIDTH, HEIGHT, KEY, path, 1, &err), &err);
+    assert_int_equal(retex_band_store_open(&second, WIDTH, HEIGHT, KEY, path, 0, &err), RETEX_EIO); /* in use */
+    assert_int_equal(retex_band_store_add(store, "first", "RGB", RETEX_FLOAT, &number, &err), RETEX_EFORMAT);
+    retex_band_store_close(&store);
+    assert_int_equal(retex_band_store_open(&store, WIDTH, HEIGHT, KEY, copy, 0, &err), RETEX_EIO); /* not there */
 }
 
-static unsigned char *read_journal(size_t *size)
+static unsigned char *read_checkpoint(size_t *size)
 {
     FILE *file = fopen(path, "rb");
     unsigned char *bytes = malloc(1 << 16);
@@ -159,36 +159,36 @@ static void one_of_an_older_version_is_refused(void **state)
 {
     (void)state;
     RetexError err;
-    RetexSpool *spool = NULL;
+    RetexBandStore *store = NULL;
     size_t size;
-    make_journal();
-    unsigned char *bytes = read_journal(&size);
+    make_checkpoint();
+    unsigned char *bytes = read_checkpoint(&size);
     bytes[7]--;
     write_copy(bytes, size);
-    assert_int_equal(retex_spool_open(&spool, WIDTH, HEIGHT, KEY, copy, 1, &err), RETEX_EFORMAT);
+    assert_int_equal(retex_band_store_open(&store, WIDTH, HEIGHT, KEY, copy, 1, &err), RETEX_EFORMAT);
     assert_non_null(strstr(err.message, "another kind of machine or version"));
     free(bytes);
 }
 
-static void a_journal_may_end_anywhere(void **state)
+static void a_checkpoint_may_end_anywhere(void **state)
 {
     (void)state;
     RetexError err;
     size_t size;
     int before = 0;
-    make_journal();
-    unsigned char *bytes = read_journal(&size);
+    make_checkpoint();
+    unsigned char *bytes = read_checkpoint(&size);
     for (size_t cut = 0; cut <= size; cut++) {
-        RetexSpool *spool = NULL;
+        RetexBandStore *store = NULL;
         write_copy(bytes, cut);
-        test_must(retex_spool_open(&spool, WIDTH, HEIGHT, KEY, copy, 1, &err), &err);
-        const int count = check_bands(spool);
+        test_must(retex_band_store_open(&store, WIDTH, HEIGHT, KEY, copy, 1, &err), &err);
+        const int count = check_bands(store);
         assert_in_range(count, before, 2);
         before = count;
-        add_images(spool);
-        put_band(spool, 2, 1);
-        assert_int_equal(check_bands(spool), count + 1);
-        retex_spool_close(&spool);
+        add_images(store);
+        put_band(store, 2, 1);
+        assert_int_equal(check_bands(store), count + 1);
+        retex_band_store_close(&store);
     }
     assert_int_equal(before, 2);
     free(bytes);
@@ -199,29 +199,29 @@ static void damage_costs_bands_at_most(void **state)
     (void)state;
     RetexError err;
     size_t size;
-    make_journal();
-    unsigned char *bytes = read_journal(&size);
+    make_checkpoint();
+    unsigned char *bytes = read_checkpoint(&size);
     for (size_t at = 0; at < size; at++) {
-        RetexSpool *spool = NULL;
+        RetexBandStore *store = NULL;
         bytes[at] ^= 0x41;
         write_copy(bytes, size);
         bytes[at] ^= 0x41;
-        if (retex_spool_open(&spool, WIDTH, HEIGHT, KEY, copy, 1, &err) == 0)
-            check_bands(spool);
+        if (retex_band_store_open(&store, WIDTH, HEIGHT, KEY, copy, 1, &err) == 0)
+            check_bands(store);
         else
             assert_true(at < 64); /* the header */
-        retex_spool_close(&spool);
+        retex_band_store_close(&store);
     }
     free(bytes);
 }
 
-/* Where the records of a journal begin, and at last where it ends. */
+/* Where the records of a checkpoint begin, and at last where it ends. */
 static int find_records(const unsigned char *bytes, size_t size, size_t *begins)
 {
     size_t at = 32; /* the header */
     int count = 0;
-    while (at + sizeof(SpoolRecord) <= size) {
-        SpoolRecord record;
+    while (at + sizeof(RetexBandStoreRecord) <= size) {
+        RetexBandStoreRecord record;
         memcpy(&record, bytes + at, sizeof record);
         begins[count++] = at;
         at += sizeof record + record.bytes;
@@ -234,10 +234,10 @@ static int find_records(const unsigned char *bytes, size_t size, size_t *begins)
 static void check_copy(void)
 {
     RetexError err;
-    RetexSpool *spool = NULL;
-    test_must(retex_spool_open(&spool, WIDTH, HEIGHT, KEY, copy, 1, &err), &err);
-    check_bands(spool);
-    retex_spool_close(&spool);
+    RetexBandStore *store = NULL;
+    test_must(retex_band_store_open(&store, WIDTH, HEIGHT, KEY, copy, 1, &err), &err);
+    check_bands(store);
+    retex_band_store_close(&store);
 }
 
 /* Whole records, each with its right checksum: without one of them a band would be black where it was not. */
@@ -245,8 +245,8 @@ static void no_record_is_missing_or_comes_twice(void **state)
 {
     (void)state;
     size_t size, begins[32];
-    make_journal();
-    unsigned char *bytes = read_journal(&size), *other = malloc(2 * size);
+    make_checkpoint();
+    unsigned char *bytes = read_checkpoint(&size), *other = malloc(2 * size);
     const int count = find_records(bytes, size, begins);
     assert_in_range(count, 8, 30);
     for (int i = 0; i < count; i++) {
@@ -275,27 +275,27 @@ static void damage_after_opening_is_seen(void **state)
 {
     (void)state;
     RetexError err;
-    RetexSpool *spool = NULL, *to = NULL;
+    RetexBandStore *store = NULL, *to = NULL;
     float pixels[16 * WIDTH * 3];
     size_t size;
     int refused = 0;
-    make_journal();
-    unsigned char *bytes = read_journal(&size);
+    make_checkpoint();
+    unsigned char *bytes = read_checkpoint(&size);
     write_copy(bytes, size);
-    test_must(retex_spool_open(&spool, WIDTH, HEIGHT, KEY, copy, 0, &err), &err);
+    test_must(retex_band_store_open(&store, WIDTH, HEIGHT, KEY, copy, 0, &err), &err);
     FILE *file = fopen(copy, "r+b");
     assert_non_null(file);
     setbuf(file, NULL);
     for (size_t at = 0; at < size; at++) {
         assert_true(fseek(file, (long)at, SEEK_SET) == 0 && fputc(bytes[at] ^ 1 << at % 8, file) != EOF);
-        test_must(retex_spool_create(&to, WIDTH, HEIGHT, KEY, NULL, &err), &err);
+        test_must(retex_band_store_create(&to, WIDTH, HEIGHT, KEY, NULL, &err), &err);
         add_images(to);
         for (int band = 0; band < 2; band++) {
-            int code = retex_spool_copy_band(to, spool, band, &err);
+            int code = retex_band_store_copy_band(to, store, band, &err);
             refused += code != 0;
             assert_true(code == 0 || code == RETEX_EFORMAT);
             for (int image = 0; image < 2; image++) {
-                code = retex_spool_load_band(spool, image, band, pixels, &err);
+                code = retex_band_store_load_band(store, image, band, pixels, &err);
                 refused += code != 0;
                 assert_true(code == 0 || (code == RETEX_EFORMAT && strstr(err.message, "a checksum is wrong")));
                 for (int i = 0; i < 16 * WIDTH * 3 && !code; i++)
@@ -303,62 +303,62 @@ static void damage_after_opening_is_seen(void **state)
             }
         }
         check_bands(to);
-        retex_spool_close(&to);
+        retex_band_store_close(&to);
         assert_true(fseek(file, (long)at, SEEK_SET) == 0 && fputc(bytes[at], file) != EOF);
     }
     assert_true(refused > 0);
     fclose(file);
-    retex_spool_close(&spool);
+    retex_band_store_close(&store);
     free(bytes);
 }
 
-/* Whatever happens to a journal, the render that goes on from it ends as one that was not disturbed. */
+/* Whatever happens to a checkpoint, the render that goes on from it ends as one that was not disturbed. */
 static void renders_go_on_from_what_is_whole(void **state)
 {
     (void)state;
     RetexError err;
     size_t size;
     int refused = 0, lost = 0;
-    make_journal();
-    unsigned char *bytes = read_journal(&size), *other = malloc(size + DAMAGE_ROOM);
+    make_checkpoint();
+    unsigned char *bytes = read_checkpoint(&size), *other = malloc(size + DAMAGE_ROOM);
     for (int i = 0; i < 100 * DAMAGE_KINDS; i++) {
         uint32_t seed = 77u + (uint32_t)i * 7919u;
-        RetexSpool *spool = NULL;
+        RetexBandStore *store = NULL;
         memcpy(other, bytes, size);
         write_copy(other, damage_change(other, size, (DamageKind)(i % DAMAGE_KINDS), &seed));
-        const int code = retex_spool_open(&spool, WIDTH, HEIGHT, KEY, copy, 1, &err);
+        const int code = retex_band_store_open(&store, WIDTH, HEIGHT, KEY, copy, 1, &err);
         refused += code != 0;
         if (code)
             continue;
-        add_images(spool);
-        lost += check_bands(spool) < 2;
+        add_images(store);
+        lost += check_bands(store) < 2;
         for (int band = 0; band < BANDS; band++)
-            if (!retex_spool_committed(spool, band))
-                put_band(spool, band, 1);
-        assert_int_equal(check_bands(spool), BANDS);
-        retex_spool_close(&spool);
+            if (!retex_band_store_committed(store, band))
+                put_band(store, band, 1);
+        assert_int_equal(check_bands(store), BANDS);
+        retex_band_store_close(&store);
     }
     assert_true(refused > 0 && lost > 0);
     free(bytes);
     free(other);
 }
 
-static void a_nameless_spool_gets_a_name(void **state)
+static void a_nameless_band_store_gets_a_name(void **state)
 {
     (void)state;
     RetexError err;
-    RetexSpool *spool = NULL, *read = NULL;
+    RetexBandStore *store = NULL, *read = NULL;
     for (int elsewhere = 0; elsewhere < 2; elsewhere++) {
-        test_must(retex_spool_create(&spool, WIDTH, HEIGHT, KEY, elsewhere ? "/dev/null" : path, &err), &err);
-        add_images(spool);
-        put_band(spool, 1, 1);
-        test_must(retex_spool_keep(spool, path, 1, &err), &err);
-        assert_int_equal(retex_spool_keep(spool, path, 0, &err), RETEX_EIO); /* is there */
-        assert_int_equal(retex_spool_keep(spool, "/no/such/folder/x", 1, &err), RETEX_EIO);
-        test_must(retex_spool_open(&read, WIDTH, HEIGHT, KEY, path, 0, &err), &err);
+        test_must(retex_band_store_create(&store, WIDTH, HEIGHT, KEY, elsewhere ? "/dev/null" : path, &err), &err);
+        add_images(store);
+        put_band(store, 1, 1);
+        test_must(retex_band_store_keep(store, path, 1, &err), &err);
+        assert_int_equal(retex_band_store_keep(store, path, 0, &err), RETEX_EIO); /* is there */
+        assert_int_equal(retex_band_store_keep(store, "/no/such/folder/x", 1, &err), RETEX_EIO);
+        test_must(retex_band_store_open(&read, WIDTH, HEIGHT, KEY, path, 0, &err), &err);
         assert_int_equal(check_bands(read), 1);
-        retex_spool_close(&read);
-        retex_spool_close(&spool);
+        retex_band_store_close(&read);
+        retex_band_store_close(&store);
     }
 }
 
@@ -366,20 +366,20 @@ static void bands_are_copied(void **state)
 {
     (void)state;
     RetexError err;
-    RetexSpool *from = NULL, *to = NULL;
+    RetexBandStore *from = NULL, *to = NULL;
     int number;
-    make_journal();
-    test_must(retex_spool_open(&from, WIDTH, HEIGHT, KEY, path, 0, &err), &err);
-    test_must(retex_spool_create(&to, WIDTH, HEIGHT, KEY, NULL, &err), &err);
-    assert_int_equal(retex_spool_copy_band(to, from, 1, &err), RETEX_EFORMAT); /* it has no such images */
+    make_checkpoint();
+    test_must(retex_band_store_open(&from, WIDTH, HEIGHT, KEY, path, 0, &err), &err);
+    test_must(retex_band_store_create(&to, WIDTH, HEIGHT, KEY, NULL, &err), &err);
+    assert_int_equal(retex_band_store_copy_band(to, from, 1, &err), RETEX_EFORMAT); /* it has no such images */
     add_images(to);
     for (int band = 0; band < 2; band++)
-        test_must(retex_spool_copy_band(to, from, band, &err), &err);
+        test_must(retex_band_store_copy_band(to, from, band, &err), &err);
     assert_int_equal(check_bands(to), 2);
-    test_must(retex_spool_add(to, "third", "R", RETEX_HALF, &number, &err), &err);
-    assert_true(retex_spool_is_empty(to, number) && !retex_spool_is_empty(to, 0));
-    retex_spool_close(&from);
-    retex_spool_close(&to);
+    test_must(retex_band_store_add(to, "third", "R", RETEX_HALF, &number, &err), &err);
+    assert_true(retex_band_store_is_empty(to, number) && !retex_band_store_is_empty(to, 0));
+    retex_band_store_close(&from);
+    retex_band_store_close(&to);
 }
 
 int main(void)
@@ -388,12 +388,12 @@ int main(void)
         cmocka_unit_test_setup_teardown(what_was_committed_is_there, make_path, remove_path),
         cmocka_unit_test_setup_teardown(another_render_is_refused, make_path, remove_path),
         cmocka_unit_test_setup_teardown(one_of_an_older_version_is_refused, make_path, remove_path),
-        cmocka_unit_test_setup_teardown(a_journal_may_end_anywhere, make_path, remove_path),
+        cmocka_unit_test_setup_teardown(a_checkpoint_may_end_anywhere, make_path, remove_path),
         cmocka_unit_test_setup_teardown(damage_costs_bands_at_most, make_path, remove_path),
         cmocka_unit_test_setup_teardown(no_record_is_missing_or_comes_twice, make_path, remove_path),
         cmocka_unit_test_setup_teardown(damage_after_opening_is_seen, make_path, remove_path),
         cmocka_unit_test_setup_teardown(renders_go_on_from_what_is_whole, make_path, remove_path),
-        cmocka_unit_test_setup_teardown(a_nameless_spool_gets_a_name, make_path, remove_path),
+        cmocka_unit_test_setup_teardown(a_nameless_band_store_gets_a_name, make_path, remove_path),
         cmocka_unit_test_setup_teardown(bands_are_copied, make_path, remove_path),
     };
     cmocka_set_message_output(CM_OUTPUT_TAP);

@@ -1,4 +1,4 @@
-/* The spool: bands in any order, and a set that is written from it is the same file as from memory. */
+/* The band store: bands in any order, and a set that is written from it is the same file as from memory. */
 #include "lib_folder.h"
 #include "lib_test.h"
 #include <cmocka.h>
@@ -11,7 +11,7 @@
 
 #include <retex/parallel.h>
 
-#include "exr/spool_file.h"
+#include "exr/band_store_file.h"
 
 #define WIDTH 37
 #define HEIGHT 41 /* two bands and a half */
@@ -22,7 +22,7 @@ static char folder[64], path[96], other[96];
 static int make_folder(void **state)
 {
     (void)state;
-    strcpy(folder, "/tmp/retex-spool-XXXXXX");
+    strcpy(folder, "/tmp/retex-band-store-XXXXXX");
     if (!mkdtemp(folder))
         return -1;
     snprintf(path, sizeof path, "%s/a.exr", folder);
@@ -39,7 +39,7 @@ static int remove_folder(void **state)
 }
 
 typedef struct PutJob {
-    RetexSpool *spool;
+    RetexBandStore *store;
     const RetexSet *set;
     const int *numbers;
 } PutJob;
@@ -52,23 +52,23 @@ static void put_band(void *context, int index, int thread)
     RetexError err;
     (void)thread;
     if (job->numbers[part] >= 0)
-        test_must(retex_spool_put(job->spool, job->numbers[part], band,
-                                  image->pixels + retex_image_index(image, 0, band * RETEX_SPOOL_LINES), &err),
+        test_must(retex_band_store_put(job->store, job->numbers[part], band,
+                                       image->pixels + retex_image_index(image, 0, band * RETEX_BAND_ROWS), &err),
                   &err);
 }
 
-/* Move all parts of the set's size, but for the beauty, into a spool of the set. */
-static void spool_parts(RetexSet *set)
+/* Move all parts of the set's size, but for the beauty, into a band store of the set. */
+static void store_parts(RetexSet *set)
 {
     RetexError err;
     int *numbers = calloc((size_t)set->nparts, sizeof *numbers);
     PutJob job = {NULL, set, numbers};
-    test_must(retex_spool_create(&job.spool, set->width, set->height, 0, path, &err), &err);
+    test_must(retex_band_store_create(&job.store, set->width, set->height, 0, path, &err), &err);
     for (int i = 0; i < set->nparts; i++) {
         const RetexPart *part = &set->parts[i];
         numbers[i] = -1;
         if (i > 0 && part->image.width == set->width && part->image.height == set->height)
-            test_must(retex_spool_add(job.spool, part->name, part->letters, part->type, &numbers[i], &err), &err);
+            test_must(retex_band_store_add(job.store, part->name, part->letters, part->type, &numbers[i], &err), &err);
     }
     retex_parallel(4, set->nparts * BANDS, put_band, &job);
     for (int i = 0; i < set->nparts; i++) {
@@ -76,9 +76,9 @@ static void spool_parts(RetexSet *set)
             continue;
         free(set->parts[i].image.pixels);
         set->parts[i].image.pixels = NULL;
-        set->parts[i].spooled = numbers[i] + 1;
+        set->parts[i].store_image = numbers[i] + 1;
     }
-    set->spool = job.spool;
+    set->store = job.store;
     free(numbers);
 }
 
@@ -107,7 +107,7 @@ static void darken(RetexSet *set)
     }
 }
 
-static void a_spooled_set_is_written_as_one_in_memory(void **state)
+static void a_set_in_a_band_store_is_written_as_one_in_memory(void **state)
 {
     (void)state;
     RetexError err;
@@ -118,7 +118,7 @@ static void a_spooled_set_is_written_as_one_in_memory(void **state)
         darken(set);
         store.compress = compress;
         test_must(retex_set_write(set, NULL, path, &store, &err), &err);
-        spool_parts(set);
+        store_parts(set);
         test_must(retex_set_write(set, NULL, other, &store, &err), &err);
         expect_same_file();
         retex_set_close(&set);
@@ -132,12 +132,12 @@ static void a_loaded_set_is_what_a_file_gives(void **state)
     RetexSet *set = test_set(WIDTH, HEIGHT, 8), *read = NULL;
     test_must(retex_set_write(set, NULL, path, NULL, &err), &err);
     test_must(retex_set_read(path, &read, NULL, 2, &err), &err);
-    spool_parts(set);
+    store_parts(set);
     test_must(retex_set_load(set, 2, &err), &err);
-    assert_null(set->spool);
+    assert_null(set->store);
     for (int i = 1; i < set->nparts; i++) {
         const RetexImage *a = &set->parts[i].image, *b = &read->parts[i].image;
-        assert_int_equal(set->parts[i].spooled, 0);
+        assert_int_equal(set->parts[i].store_image, 0);
         assert_int_equal(retex_image_index(a, 0, a->height), retex_image_index(b, 0, b->height));
         if (a->width == WIDTH)
             assert_memory_equal(a->pixels, b->pixels, retex_image_index(a, 0, a->height) * sizeof(float));
@@ -150,48 +150,48 @@ static void what_is_empty_is_known(void **state)
 {
     (void)state;
     RetexError err;
-    RetexSpool *spool = NULL;
+    RetexBandStore *store = NULL;
     static const float values[] = {0, -0.0f, 1e-12f, 1, NAN};
     static const int empty[] = {1, 1, 0, 0, 0};
-    test_must(retex_spool_create(&spool, WIDTH, HEIGHT, 0, NULL, &err), &err);
+    test_must(retex_band_store_create(&store, WIDTH, HEIGHT, 0, NULL, &err), &err);
     for (int k = 0; k < 5; k++) {
         char name[] = "part0";
         float pixels[WIDTH * 9] = {0};
         int number;
         name[4] = (char)('0' + k);
-        test_must(retex_spool_add(spool, name, "R", RETEX_HALF, &number, &err), &err);
-        assert_true(retex_spool_is_empty(spool, number));
+        test_must(retex_band_store_add(store, name, "R", RETEX_HALF, &number, &err), &err);
+        assert_true(retex_band_store_is_empty(store, number));
         pixels[17] = values[k];
-        test_must(retex_spool_put(spool, number, BANDS - 1, pixels, &err), &err);
-        assert_int_equal(retex_spool_is_empty(spool, number), empty[k]);
+        test_must(retex_band_store_put(store, number, BANDS - 1, pixels, &err), &err);
+        assert_int_equal(retex_band_store_is_empty(store, number), empty[k]);
     }
-    retex_spool_close(&spool);
+    retex_band_store_close(&store);
 }
 
-static void a_spool_needs_no_folder_of_the_output(void **state)
+static void a_band_store_needs_no_folder_of_the_output(void **state)
 {
     (void)state;
     static const char *const near[] = {NULL, "-", "/dev/null", "/dev/full", "/no/such/folder/x.exr", "x.exr"};
     RetexError err;
     for (int k = 0; k < 6; k++) {
-        RetexSpool *spool = NULL;
-        test_must(retex_spool_create(&spool, 8, 8, 0, near[k], &err), &err);
-        retex_spool_close(&spool);
+        RetexBandStore *store = NULL;
+        test_must(retex_band_store_create(&store, 8, 8, 0, near[k], &err), &err);
+        retex_band_store_close(&store);
     }
-    RetexSpool *spool = NULL;
+    RetexBandStore *store = NULL;
     int number;
-    test_must(retex_spool_create(&spool, 8, 8, 0, NULL, &err), &err);
-    assert_int_equal(retex_spool_add(spool, "a part", "R", RETEX_HALF, &number, &err), RETEX_EINVAL);
-    assert_int_equal(retex_spool_add(spool, "part", "", RETEX_HALF, &number, &err), RETEX_EINVAL);
-    retex_spool_close(&spool);
+    test_must(retex_band_store_create(&store, 8, 8, 0, NULL, &err), &err);
+    assert_int_equal(retex_band_store_add(store, "a part", "R", RETEX_HALF, &number, &err), RETEX_EINVAL);
+    assert_int_equal(retex_band_store_add(store, "part", "", RETEX_HALF, &number, &err), RETEX_EINVAL);
+    retex_band_store_close(&store);
 }
 
-static void flip(const RetexSpool *spool, uint64_t at)
+static void flip(const RetexBandStore *store, uint64_t at)
 {
     unsigned char byte;
-    assert_int_equal(pread(spool->descriptor, &byte, 1, (off_t)at), 1);
+    assert_int_equal(pread(store->descriptor, &byte, 1, (off_t)at), 1);
     byte ^= 1 << at % 8;
-    assert_int_equal(pwrite(spool->descriptor, &byte, 1, (off_t)at), 1);
+    assert_int_equal(pwrite(store->descriptor, &byte, 1, (off_t)at), 1);
 }
 
 /* A bit of what waits in the temporary file: no file is made of it, and no memory. */
@@ -203,18 +203,18 @@ static void what_is_damaged_is_not_read_back(void **state)
         RetexStoreParams store = RETEX_STORE_INIT;
         RetexSet *set = test_set(WIDTH, HEIGHT, 7);
         store.compress = !plain;
-        spool_parts(set);
-        for (int image = 0; image < set->spool->nimages; image++) {
-            const RetexSpoolChunk *chunk = retex_spool_chunk(set->spool, image, image % BANDS);
+        store_parts(set);
+        for (int image = 0; image < set->store->nimages; image++) {
+            const RetexBandStoreChunk *chunk = retex_band_store_chunk(set->store, image, image % BANDS);
             const uint64_t at = chunk->offset + (uint64_t)(image * 37) % (chunk->bytes ? chunk->bytes : 1);
             if (!chunk->bytes)
                 continue;
-            flip(set->spool, at);
+            flip(set->store, at);
             assert_int_equal(retex_set_write(set, NULL, path, &store, &err), RETEX_EFORMAT);
             assert_non_null(strstr(err.message, "is damaged: a checksum is wrong"));
             assert_int_equal(access(path, F_OK), -1);
             assert_int_equal(retex_set_load(set, 1, &err), RETEX_EFORMAT);
-            flip(set->spool, at);
+            flip(set->store, at);
         }
         test_must(retex_set_write(set, NULL, path, &store, &err), &err);
         unlink(path);
@@ -225,11 +225,11 @@ static void what_is_damaged_is_not_read_back(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(a_spooled_set_is_written_as_one_in_memory, make_folder, remove_folder),
+        cmocka_unit_test_setup_teardown(a_set_in_a_band_store_is_written_as_one_in_memory, make_folder, remove_folder),
         cmocka_unit_test_setup_teardown(a_loaded_set_is_what_a_file_gives, make_folder, remove_folder),
         cmocka_unit_test_setup_teardown(what_is_damaged_is_not_read_back, make_folder, remove_folder),
         cmocka_unit_test(what_is_empty_is_known),
-        cmocka_unit_test(a_spool_needs_no_folder_of_the_output),
+        cmocka_unit_test(a_band_store_needs_no_folder_of_the_output),
     };
     cmocka_set_message_output(CM_OUTPUT_TAP);
     return cmocka_run_group_tests(tests, NULL, NULL);

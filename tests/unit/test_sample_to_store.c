@@ -86,13 +86,13 @@ static void write_to(RetexSet *set, const RetexSamples *samples, const char *pat
     test_must(retex_set_write(set, samples, path, &store, &err), &err);
 }
 
-/* Files of samples and of streams, whichever way the spool keeps its bands. */
+/* Files of samples and of streams, whichever way the band store keeps its bands. */
 static void files_are_those_from_memory(void **state)
 {
     (void)state;
     RetexSet *set = make_set(), *open;
     RetexTextureSpec spec = make_spec("Floor");
-    RetexSamples *samples, *spooled;
+    RetexSamples *samples, *stored;
     RetexError err = {0};
     write_to(set, NULL, test_in_folder("set.exr"), 1);
     retex_set_close(&set);
@@ -101,25 +101,26 @@ static void files_are_those_from_memory(void **state)
     for (int round = 0; round < 4; round++) {
         const int compress = round & 1, plain = round >> 1;
         test_must(retex_set_open(test_in_folder("set.exr"), &open, NULL, 2, &err), &err);
-        test_must(retex_sample_spooled(&spooled, open, &spec, 1, plain ? "-" : test_own_file, 1 + plain, &err), &err);
-        assert_true(is_out_of_memory(open, spooled));
+        test_must(retex_sample_to_store(&stored, open, &spec, 1, plain ? "-" : test_own_file, 1 + plain, &err),
+                  &err);
+        assert_true(is_out_of_memory(open, stored));
         write_to(NULL, samples, test_in_folder("a.exr"), compress);
-        write_to(NULL, spooled, test_in_folder("b.exr"), compress);
-        if (!plain || !compress) /* a spool that is not compressed is not for a file that is */
+        write_to(NULL, stored, test_in_folder("b.exr"), compress);
+        if (!plain || !compress) /* a band store that is not compressed is not for a file that is */
             expect_same_file(test_in_folder("a.exr"), test_in_folder("b.exr"));
         write_to(set, samples, test_in_folder("a.exr"), compress);
-        write_to(open, spooled, test_in_folder("b.exr"), compress);
+        write_to(open, stored, test_in_folder("b.exr"), compress);
         if (!plain || !compress)
             expect_same_file(test_in_folder("a.exr"), test_in_folder("b.exr"));
-        assert_true(is_out_of_memory(open, spooled));
-        test_must(retex_samples_load(spooled, 2, &err), &err);
+        assert_true(is_out_of_memory(open, stored));
+        test_must(retex_samples_load(stored, 2, &err), &err);
         for (int i = 0; i < samples->nimages; i++) {
-            const RetexImage *a = &samples->images[i], *b = &spooled->images[i];
-            assert_int_equal(retex_samples_have(samples, i), retex_samples_have(spooled, i));
+            const RetexImage *a = &samples->images[i], *b = &stored->images[i];
+            assert_int_equal(retex_samples_have(samples, i), retex_samples_have(stored, i));
             if (a->pixels)
                 assert_memory_equal(a->pixels, b->pixels, sizeof(float) * retex_image_index(a, 0, a->height));
         }
-        retex_samples_close(&spooled);
+        retex_samples_close(&stored);
         retex_set_close(&open);
     }
     retex_samples_close(&samples);
@@ -158,14 +159,14 @@ static void streams_stay_in_their_files(void **state)
     test_must(retex_samples_merge(samples, more, &err), &err);
     write_to(set, samples, test_in_folder("a.exr"), 0);
     retex_samples_close(&more);
-    test_must(retex_sample_spooled(&more, open, &wall, 1, "-", 2, &err), &err);
+    test_must(retex_sample_to_store(&more, open, &wall, 1, "-", 2, &err), &err);
     test_must(retex_samples_merge(stored, more, &err), &err);
     retex_samples_close(&more);
     write_to(open, stored, test_in_folder("b.exr"), 0);
     expect_same_file(test_in_folder("a.exr"), test_in_folder("b.exr"));
 
-    /* a second spool has no place beside the first: its images are loaded */
-    test_must(retex_sample_spooled(&more, open, &wall, 1, "-", 2, &err), &err);
+    /* a second band store has no place beside the first: its images are loaded */
+    test_must(retex_sample_to_store(&more, open, &wall, 1, "-", 2, &err), &err);
     test_must(retex_samples_merge(stored, more, &err), &err);
     retex_samples_close(&more);
     write_to(open, stored, test_in_folder("b.exr"), 0);
@@ -173,7 +174,7 @@ static void streams_stay_in_their_files(void **state)
 
     retex_set_close(&open); /* the file is held by the samples too */
     test_must(retex_samples_load(stored, 2, &err), &err);
-    assert_true(!stored->spool && !stored->source);
+    assert_true(!stored->store && !stored->source);
     retex_image_free(&picture);
     retex_image_free(&other);
     retex_samples_close(&samples);

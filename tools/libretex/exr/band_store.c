@@ -1,0 +1,433 @@
+/* The band store: see <retex/band_store.h>. The file is described in band_store_file.h. */
+#include <errno.h>
+#include <fcntl.h>
+#include <limits.h>
+#include <pthread.h>
+#include <stdatomic.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "io/checksum.h"
+#include "exr/band_store_file.h"
+#include "io/pending_files.h"
+
+/* What one thread works with; kept for the next. */
+typedef struct RetexBandStoreScratch {
+    RetexChunkScratch chunk;
+    unsigned char *packed;
+    size_t packed_bytes;
+    struct RetexBandStoreScratch *next;
+} RetexBandStoreScratch;
+
+static int fail_system(const RetexBandStore *store, int code, RetexError *err)
+{
+    return retex_fail(err, RETEX_EIO, "cannot write %s: %s", store->shown, strerror(code));
+}
+
+static int fail_damaged(const RetexBandStore *store, RetexError *err)
+{
+    return retex_fail(err, RETEX_EFORMAT, "%s is damaged: a checksum is wrong", store->shown);
+}
+
+/* --- the file ------------------------------------------------------------------------------------------------ */
+
+static RetexBandStore *band_store_new(int width, int height, uint64_t key)
+{
+    RetexBandStore *store = calloc(1, sizeof *store);
+
+    if (!store)
+        return NULL;
+    store->width = width;
+    store->height = height;
+    store->nbands = (height + RETEX_BAND_ROWS - 1) / RETEX_BAND_ROWS;
+    store->key = key;
+    store->descriptor = -1;
+    store->stats = calloc((size_t)store->nbands, sizeof *store->stats);
+    store->committed = calloc((size_t)store->nbands, 1);
+    pthread_mutex_init(&store->lock, NULL);
+    if (!store->stats || !store->committed)
+        retex_band_store_close(&store);
+    return store;
+}
+
+int retex_band_store_create(RetexBandStore **result, int width, int height, uint64_t key, const char *near,
+                            RetexError *err)
+{
+    RetexBandStore *store = *result = band_store_new(width, height, key);
+
+    if (!store)
+        return retex_fail(err, RETEX_ENOMEM, "no memory for a band store");
+    store->descriptor = retex_temporary_open(near, store->shown);
+    const int status = store->descriptor < 0 ? fail_system(store, errno, err) : retex_band_store_begin(store, err);
+    if (status)
+        retex_band_store_close(result);
+    return status;
+}
+
+int retex_band_store_open(RetexBandStore **result, int width, int height, uint64_t key, const char *path, int make,
+                          RetexError *err)
+{
+    RetexBandStore *store = *result = band_store_new(width, height, key);
+
+    if (!store)
+        return retex_fail(err, RETEX_ENOMEM, "no memory for a band store");
+    snprintf(store->shown, sizeof store->shown, "%s", path);
+    store->descriptor = open(path, (make ? O_RDWR | O_CREAT : O_RDONLY) | O_CLOEXEC, 0666);
+    int status = store->descriptor < 0 ? retex_fail(err, RETEX_EIO, "cannot open %s: %s", path, strerror(errno))
+                                       : retex_band_store_recover(store, make, err);
+    if (status)
+        retex_band_store_close(result);
+    return status;
+}
+
+void retex_band_store_set_plain(RetexBandStore *store)
+{
+    store->plain = 1;
+}
+
+void retex_band_store_close(RetexBandStore **result)
+{
+    RetexBandStore *store = result ? *result : NULL;
+
+    if (!store)
+        return;
+    if (store->descriptor >= 0)
+        close(store->descriptor);
+    for (int i = 0; i < store->nimages; i++)
+        free(store->images[i]);
+    free(store->stats);
+    free(store->committed);
+    for (RetexBandStoreScratch *scratch = store->scratch, *next; scratch; scratch = next) {
+        next = scratch->next;
+        retex_chunk_free(&scratch->chunk);
+        free(scratch->packed);
+        free(scratch);
+    }
+    pthread_mutex_destroy(&store->lock);
+    free(store);
+    *result = NULL;
+}
+
+/* Linux gives a file that was made without a name one where it was made; elsewhere its bytes are copied. */
+static int link_to(const RetexBandStore *store, const char *path)
+{
+    char descriptor[64];
+
+    snprintf(descriptor, sizeof descriptor, "/proc/self/fd/%d", store->descriptor);
+    return linkat(AT_FDCWD, descriptor, AT_FDCWD, path, AT_SYMLINK_FOLLOW) == 0 ? 0 : errno;
+}
+
+/* Under the lock of names; hidden, where there is one, is what path becomes a name of. */
+static int rename_hidden(const char *hidden, const char *path)
+{
+    const int code = hidden && rename(hidden, path) != 0 ? errno : 0;
+
+    if (code)
+        unlink(hidden);
+    return code;
+}
+
+static int link_in_place(const RetexBandStore *store, const char *path, const char *hidden)
+{
+    retex_pending_files_lock();
+    int code = link_to(store, hidden ? hidden : path);
+    if (!code)
+        code = rename_hidden(hidden, path);
+    retex_pending_files_unlock();
+    return code;
+}
+
+static int copy_bytes(const RetexBandStore *store, int copy)
+{
+    unsigned char buffer[65536];
+    int code = 0;
+
+    for (uint64_t done = 0; done < store->end && !code;) {
+        const ssize_t got = pread(store->descriptor, buffer, sizeof buffer, (off_t)done);
+        if (got <= 0)
+            code = got < 0 ? errno : EIO;
+        else
+            code = retex_band_store_write_at(copy, buffer, (size_t)got, done);
+        done += got > 0 ? (uint64_t)got : 0;
+    }
+    return close(copy) != 0 && !code ? errno : code;
+}
+
+static int copy_in_place(const RetexBandStore *store, const char *path, const char *hidden)
+{
+    const char *name = hidden ? hidden : path;
+    RetexPendingFile unfinished;
+
+    retex_pending_files_lock();
+    const int copy = open(name, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    int code = copy < 0 ? errno : 0;
+    if (!code)
+        retex_pending_files_add(&unfinished, name);
+    retex_pending_files_unlock();
+    if (code)
+        return code;
+    code = copy_bytes(store, copy);
+    retex_pending_files_lock();
+    if (code)
+        unlink(name);
+    else
+        code = rename_hidden(hidden, path);
+    retex_pending_files_drop(&unfinished);
+    retex_pending_files_unlock();
+    return code;
+}
+
+int retex_band_store_keep(RetexBandStore *store, const char *path, int replace, RetexError *err)
+{
+    char hidden[PATH_MAX];
+
+    snprintf(hidden, sizeof hidden, "%s.tmp%08x", path, (unsigned)getpid());
+    int code = link_in_place(store, path, replace ? hidden : NULL);
+    if (code && code != EEXIST)
+        code = copy_in_place(store, path, replace ? hidden : NULL);
+    return code ? retex_fail(err, RETEX_EIO, "cannot write %s: %s", path, strerror(code)) : 0;
+}
+
+static int find_image(const RetexBandStore *store, const char *name)
+{
+    for (int i = 0; i < store->nimages; i++)
+        if (strcmp(store->images[i]->name, name) == 0)
+            return i;
+    return -1;
+}
+
+static int add_image(RetexBandStore *store, RetexBandStoreImage *added, int *image, RetexError *err)
+{
+    const int there = find_image(store, added->name);
+
+    if (there >= 0) {
+        const RetexBandStoreImage *old = store->images[there];
+        if (old->type != added->type || strcmp(old->letters, added->letters) != 0)
+            return retex_fail(err, RETEX_EFORMAT, "%s has another image %s", store->shown, added->name);
+        free(added);
+        *image = there;
+        return 0;
+    }
+    const int status = retex_band_store_add_image(store, added, err);
+    if (!status)
+        *image = store->nimages - 1;
+    return status;
+}
+
+int retex_band_store_add(RetexBandStore *store, const char *name, const char *letters, RetexPixelType type, int *image,
+                         RetexError *err)
+{
+    if (!retex_name_is_valid(name) || !retex_letters_are_valid(letters))
+        return retex_fail(err, RETEX_EINVAL, "\"%s\" with channels \"%s\" is no image", name, letters);
+    RetexBandStoreImage *added = retex_band_store_image_new(store, name, letters, type);
+    if (!added)
+        return retex_fail(err, RETEX_ENOMEM, "no memory for a band store");
+    pthread_mutex_lock(&store->lock);
+    const int status = add_image(store, added, image, err);
+    pthread_mutex_unlock(&store->lock);
+    if (status)
+        free(added);
+    return status;
+}
+
+/* --- bands --------------------------------------------------------------------------------------------------- */
+
+static RetexBandStoreScratch *take_scratch(RetexBandStore *store)
+{
+    pthread_mutex_lock(&store->lock);
+    RetexBandStoreScratch *scratch = store->scratch;
+    if (scratch)
+        store->scratch = scratch->next;
+    pthread_mutex_unlock(&store->lock);
+    return scratch ? scratch : calloc(1, sizeof *scratch);
+}
+
+static void return_scratch(RetexBandStore *store, RetexBandStoreScratch *scratch)
+{
+    if (!scratch)
+        return;
+    pthread_mutex_lock(&store->lock);
+    scratch->next = store->scratch;
+    store->scratch = scratch;
+    pthread_mutex_unlock(&store->lock);
+}
+
+/* Room for a chunk. */
+static int prepare(RetexBandStoreScratch *scratch, const RetexChunkShape *shape)
+{
+    const size_t bytes = retex_chunk_bytes(shape);
+
+    if (!scratch || !retex_chunk_need(&scratch->chunk, shape))
+        return 0;
+    if (scratch->packed_bytes < bytes) {
+        free(scratch->packed);
+        scratch->packed = malloc(bytes);
+        scratch->packed_bytes = scratch->packed ? bytes : 0;
+    }
+    return scratch->packed != NULL;
+}
+
+static int all_zero(const unsigned char *bytes, size_t count)
+{
+    return count == 0 || (bytes[0] == 0 && memcmp(bytes, bytes + 1, count - 1) == 0);
+}
+
+static int any_light(const float *pixels, size_t count)
+{
+    for (size_t i = 0; i < count; i++)
+        if (pixels[i] != 0)
+            return 1;
+    return 0;
+}
+
+/* Keep the band that scratch holds. One whose pixels are so dark that all are stored as 0 leaves a record without
+ * bytes. */
+static int put_chunk(RetexBandStore *store, int number, int band, size_t bytes, int lit, RetexBandStoreScratch *scratch,
+                     RetexError *err)
+{
+    RetexBandStoreRecord record = {
+        .kind = BAND_STORE_CHUNK, .image = (uint32_t)number, .band = (uint32_t)band, .lit = (uint32_t)lit};
+    RetexBandStoreChunk *chunk = &store->images[number]->chunks[band];
+
+    memcpy(record.crc, chunk->crc, sizeof record.crc);
+    if (!all_zero(scratch->chunk.raw, bytes))
+        record.bytes = store->plain
+                           ? (uint32_t)bytes
+                           : (uint32_t)retex_chunk_pack(&scratch->chunk, scratch->chunk.raw, bytes, scratch->packed);
+    return retex_band_store_append_chunk(store, &record, store->plain ? scratch->chunk.raw : scratch->packed, err);
+}
+
+int retex_band_store_put(RetexBandStore *store, int number, int band, const float *pixels, RetexError *err)
+{
+    RetexBandStoreImage *image = store->images[number];
+    const RetexChunkShape shape = retex_band_store_shape(store, image, band);
+    const int lit = any_light(pixels, (size_t)shape.width * (size_t)shape.lines * strlen(shape.letters));
+    RetexBandStoreScratch *scratch = take_scratch(store);
+    int status = 0;
+
+    if (prepare(scratch, &shape)) {
+        const size_t bytes = retex_chunk_bytes(&shape);
+        retex_chunk_store(&scratch->chunk, &shape, pixels, scratch->chunk.raw, image->chunks[band].crc);
+        if (lit || !all_zero(scratch->chunk.raw, bytes)) /* a zero may have a sign */
+            status = put_chunk(store, number, band, bytes, lit, scratch, err);
+    } else {
+        status = retex_fail(err, RETEX_ENOMEM, "no memory to store a part of the picture");
+    }
+    return_scratch(store, scratch);
+    return status;
+}
+
+int retex_band_store_commit(RetexBandStore *store, int band, const RetexBandStats *stats, RetexError *err)
+{
+    RetexBandStoreRecord record = {.kind = BAND_STORE_COMMIT, .band = (uint32_t)band, .bytes = sizeof *stats};
+
+    pthread_mutex_lock(&store->lock);
+    const int status = retex_band_store_append(store, &record, stats, NULL, err);
+    if (!status) {
+        store->stats[band] = *stats;
+        store->committed[band] = 1;
+    }
+    pthread_mutex_unlock(&store->lock);
+    return status;
+}
+
+const RetexBandStats *retex_band_store_committed(const RetexBandStore *store, int band)
+{
+    return store->committed[band] ? &store->stats[band] : NULL;
+}
+
+static int copy_chunk(RetexBandStore *store, const RetexBandStore *from, int number, int band, RetexError *err)
+{
+    const RetexBandStoreImage *image = from->images[number];
+    const RetexBandStoreChunk *chunk = &image->chunks[band];
+    const int to = find_image(store, image->name);
+    RetexBandStoreRecord record = {.kind = BAND_STORE_CHUNK,
+                                   .band = (uint32_t)band,
+                                   .bytes = chunk->bytes,
+                                   .lit = chunk->lit,
+                                   .image = (uint32_t)to};
+
+    if (!chunk->bytes && !chunk->lit)
+        return 0;
+    if (to < 0 || store->images[to]->type != image->type || strcmp(store->images[to]->letters, image->letters) != 0)
+        return retex_fail(err, RETEX_EFORMAT, "%s has an image %s that this render has not", from->shown, image->name);
+    unsigned char *packed = malloc((size_t)chunk->bytes + 1);
+    if (!packed)
+        return retex_fail(err, RETEX_ENOMEM, "no memory to read a part of the picture");
+    memcpy(record.crc, chunk->crc, sizeof record.crc);
+    int status = retex_band_store_read(from, chunk, packed, err);
+    if (!status)
+        status = retex_band_store_append_chunk(store, &record, packed, err);
+    free(packed);
+    return status;
+}
+
+int retex_band_store_copy_band(RetexBandStore *store, const RetexBandStore *from, int band, RetexError *err)
+{
+    int status = 0;
+
+    for (int i = 0; i < from->nimages && !status; i++)
+        status = copy_chunk(store, from, i, band, err);
+    return status ? status : retex_band_store_commit(store, band, &from->stats[band], err);
+}
+
+int retex_band_store_is_empty(const RetexBandStore *store, int image)
+{
+    return !store->images[image]->filled;
+}
+
+/* --- reading ------------------------------------------------------------------------------------------------- */
+
+const RetexBandStoreChunk *retex_band_store_chunk(const RetexBandStore *store, int image, int band)
+{
+    return &store->images[image]->chunks[band];
+}
+
+int retex_band_store_read(const RetexBandStore *store, const RetexBandStoreChunk *chunk, unsigned char *packed,
+                          RetexError *err)
+{
+    for (size_t done = 0; done < chunk->bytes;) {
+        const ssize_t got = pread(store->descriptor, packed + done, chunk->bytes - done, (off_t)(chunk->offset + done));
+        if (got < 0 && errno == EINTR)
+            continue;
+        if (got <= 0)
+            return retex_fail(err, RETEX_EIO, "cannot read back %s: %s", store->shown,
+                              got < 0 ? strerror(errno) : "it has become shorter");
+        done += (size_t)got;
+    }
+    return retex_crc32(CRC32_OF_NONE, packed, chunk->bytes) == chunk->bytes_crc ? 0 : fail_damaged(store, err);
+}
+
+static int load_band(const RetexBandStore *store, const RetexBandStoreChunk *chunk, const RetexChunkShape *shape,
+                     RetexBandStoreScratch *scratch, float *pixels, RetexError *err)
+{
+    const size_t bytes = retex_chunk_bytes(shape);
+
+    if (!prepare(scratch, shape))
+        return retex_fail(err, RETEX_ENOMEM, "no memory to read a part of the picture");
+    const int status = retex_band_store_read(store, chunk, scratch->packed, err);
+    if (status)
+        return status;
+    if (!retex_chunk_unpack(&scratch->chunk, scratch->packed, chunk->bytes, scratch->chunk.raw, bytes))
+        return fail_damaged(store, err);
+    retex_chunk_fetch(&scratch->chunk, shape, scratch->chunk.raw, pixels);
+    return 0;
+}
+
+int retex_band_store_load_band(const RetexBandStore *store, int number, int band, float *pixels, RetexError *err)
+{
+    const RetexBandStoreImage *image = store->images[number];
+    const RetexChunkShape shape = retex_band_store_shape(store, image, band);
+    RetexBandStoreScratch scratch = {.packed = NULL};
+    int status = 0;
+
+    if (image->chunks[band].bytes)
+        status = load_band(store, &image->chunks[band], &shape, &scratch, pixels, err);
+    else
+        memset(pixels, 0, (size_t)shape.width * (size_t)shape.lines * strlen(image->letters) * sizeof *pixels);
+    retex_chunk_free(&scratch.chunk);
+    free(scratch.packed);
+    return status;
+}

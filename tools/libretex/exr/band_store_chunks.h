@@ -1,0 +1,25 @@
+/* What a band store holds, for those who write it into a file. */
+#ifndef RETEX_EXR_BAND_STORE_CHUNKS_H
+#define RETEX_EXR_BAND_STORE_CHUNKS_H
+
+#include <retex/band_store.h>
+
+#include "exr/chunk.h"
+
+typedef struct RetexBandStoreChunk {
+    uint64_t offset;
+    uint32_t bytes; /* 0: all samples are stored as 0 */
+    uint32_t lit;   /* 1: a pixel was not 0 */
+    uint32_t crc[RETEX_EXR_LETTERS_MAX]; /* of planes, where bytes is not 0 */
+    uint32_t bytes_crc;                  /* of the bytes */
+} RetexBandStoreChunk;
+
+const RetexBandStoreChunk *retex_band_store_chunk(const RetexBandStore *store, int image, int band);
+/* Its bytes, as retex_chunk_pack left them; RETEX_EFORMAT where they are no longer. */
+int retex_band_store_read(const RetexBandStore *store, const RetexBandStoreChunk *chunk, unsigned char *packed,
+                          RetexError *err);
+
+/* 1 if a file begins like a checkpoint. */
+int retex_band_store_probe(const void *begin, size_t bytes);
+
+#endif
