@@ -2,11 +2,9 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/resource.h>
 #include <sys/stat.h>
 #include <time.h>
 #include <unistd.h>
-#include <jansson.h>
 #include <retex/denoise.h>
 #include "retex-render.h"
 #include "watchdog.h"
@@ -71,39 +69,6 @@ static void announce_files_of_scene(Arguments *a, const Scene *scene)
     for (const SceneFile *file = scene->files; file; file = file->next)
         cli_reads(a->cli, strcmp(file->path, a->scene) ? "a file that the scene reads" : "the scene", file->path);
     a->batch.inputs_known = 1;
-}
-
-/* Before the work: whether the statistics can be written. */
-static void check_stats(const Arguments *a)
-{
-    RetexError err;
-    if (!a->stats)
-        return;
-    if (strcmp(a->stats, "-") && retex_set_write_check(a->stats, &err))
-        cli_die(a->cli, "--stats: %s", err.message);
-}
-
-void write_stats(Arguments *a, const RenderStats *s, const RetexSet *set, double parse_seconds)
-{
-    struct rusage usage;
-    getrusage(RUSAGE_SELF, &usage);
-    json_t *j = json_pack(
-        "{s:f, s:f, s:f, s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:f}", "parse_seconds", parse_seconds, "build_seconds",
-        s->build_seconds, "render_seconds", s->render_seconds, "paths", (json_int_t)s->paths, "segments",
-        (json_int_t)s->segments, "shadow_rays", (json_int_t)s->shadow_rays, "dropped_samples", (json_int_t)s->dropped,
-        "lights", (json_int_t)s->lights, "primitives", (json_int_t)s->primitives, "triangles", (json_int_t)s->triangles,
-        "peak_memory_bytes", (json_int_t)usage.ru_maxrss * 1024, "folded", set->folded);
-    char *text = j ? json_dumps(j, JSON_INDENT(2)) : NULL;
-    RetexError err;
-    json_decref(j);
-    if (!text)
-        cli_die(a->cli, "out of memory for the statistics");
-    size_t length = strlen(text);
-    text[length++] = '\n'; /* in place of the closing zero */
-    int failed = retex_file_write(a->stats, text, length, &err);
-    free(text);
-    if (failed)
-        cli_die(a->cli, "--stats: %s", err.message);
 }
 
 /* What an output's name asks for: a pack by its ending, a set where EXR can be one, else a picture. */

@@ -56,8 +56,10 @@ void replace_textures(Arguments *arguments, const Scene *scene, RetexTexture **l
 /* Of everything that the rendered rows depend on. */
 uint64_t render_fingerprint(const Arguments *arguments, const Scene *scene);
 
-/* ---- retex-render.c ---- */
+/* ---- stats.c ---- */
 
+/* Before the work: whether the statistics can be written. */
+void check_stats(const Arguments *arguments);
 void write_stats(Arguments *arguments, const RenderStats *stats, const RetexSet *set, double parse_seconds);
 
 #endif

@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include "accel/embree.h"
-#include "shade/bsdf.h"
+#include "shade/material.h"
 #include "shade/pigment.h"
 
 #define SPATIAL_SPLIT_LIMIT 4000000 /* triangles: beyond it building would take too long for what tracing gains */

@@ -3,7 +3,9 @@
 #include <string.h>
 #include <retex/parallel.h>
 #include "path/caustics.h"
-#include "path/path.h"
+#include "path/sampler.h"
+#include "path/shading.h"
+#include "shade/material.h"
 
 #define PATHS_PER_PHOTON 20 /* of the picture, for each photon that is tried */
 #define PHOTONS_MIN (1 << 14)

@@ -8,6 +8,7 @@
 #include <string.h>
 #include "path/matte.h"
 #include "path/internal.h"
+#include "shade/material.h"
 
 #define ROULETTE_START 2 /* segments before Russian roulette begins */
 #define PACKET_LEAST 4   /* rays that are traced together; fewer go one by one */

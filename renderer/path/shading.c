@@ -1,5 +1,6 @@
 /* What a surface looks like where a ray met it. */
 #include "path/shading.h"
+#include "shade/material.h"
 #include "shade/pigment.h"
 
 /* A replacement takes the pigment's colour, not its opacity; where it is transparent the original shows through. */

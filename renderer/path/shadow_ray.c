@@ -1,6 +1,8 @@
 /* What is between a point and a light: fading interiors, surfaces that let light through, and what only one of paths
  * and shadow rays can see. */
 #include "path/internal.h"
+#include "shade/fresnel.h"
+#include "shade/material.h"
 
 static float fade_channel(float color, double x, double power)
 {

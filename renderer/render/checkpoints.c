@@ -3,7 +3,7 @@
 #include "film/bands.h"
 #include "render/checkpoints.h"
 
-int pieces_open(RetexBandStore **store, const RenderParams *p, int width, int height, RetexError *err)
+int checkpoint_open(RetexBandStore **store, const RenderParams *p, int width, int height, RetexError *err)
 {
     if (p->resume)
         return retex_band_store_open(store, width, height, p->key, p->checkpoint, 1, err);
@@ -26,7 +26,7 @@ static int merge_file(RetexBandStore *store, RetexBandStore *from, int bands, co
     return code;
 }
 
-int pieces_merge(RetexBandStore *store, const RenderParams *p, int width, int height, RetexError *err)
+int checkpoint_merge(RetexBandStore *store, const RenderParams *p, int width, int height, RetexError *err)
 {
     int code = RETEX_OK, missing = 0, bands = (height + BAND_LINES - 1) / BAND_LINES;
     for (int k = 0; k < p->nmerged && !code; k++) {
@@ -45,7 +45,7 @@ int pieces_merge(RetexBandStore *store, const RenderParams *p, int width, int he
     return code;
 }
 
-int pieces_keep(Film *film, const RenderParams *p, RetexError *err)
+int checkpoint_keep(Film *film, const RenderParams *p, RetexError *err)
 {
     int done = film_bands_done(film);
     RetexError why;

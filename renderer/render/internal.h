@@ -1,9 +1,10 @@
-/* All of one render; private to render.c, tiles.c and variants.c. */
+/* All of one render; private to setup.c, tiles.c, render.c and variants.c. */
 #ifndef RENDERER_RENDER_INTERNAL_H
 #define RENDERER_RENDER_INTERNAL_H
 
 #include <stdatomic.h>
 #include "film/bands.h"
+#include "film/layout.h"
 #include "render/adaptive.h"
 #include "render/denoise_guides.h"
 #include "render/first_hit.h"
@@ -42,7 +43,7 @@ typedef struct HalfSamples {
     int samples[2];
 } HalfSamples;
 
-/* ---- render.c: what a render needs ---- */
+/* ---- setup.c: what a render needs ---- */
 
 double render_clock(void); /* seconds, from any time on */
 /* What any use of the scene needs: the window, the ray structure and the lights. To be closed whatever comes of it. */
@@ -55,6 +56,10 @@ int render_open_guide(Render *render, RetexError *err);
 int render_open_film(Render *render, int control, int halves, RetexError *err);
 void render_forget_files(RenderParams *params); /* of a render beside the one that files are for */
 FirstHitWindow render_window(const Render *render);
+const FilmLayout *render_layout(const RenderParams *params);
+int render_is_stopped(const Render *render);
+/* Whether a band is to be rendered: of this shard, and not done by another render. */
+int render_is_wanted(const Render *render, int band);
 
 /* ---- tiles.c: paths over pixels ---- */
 
@@ -62,8 +67,5 @@ FirstHitWindow render_window(const Render *render);
 int render_paths(Render *render, RenderStats *stats, double started, RetexError *err);
 void render_sample(Render *render, int x, int y, int sample);          /* one alone, to be told what happens */
 HalfSamples render_half_samples(const Render *render);                 /* how many samples fall to each half */
-int render_is_stopped(const Render *render);
-/* Whether a band is to be rendered: of this shard, and not done by another render. */
-int render_is_wanted(const Render *render, int band);
 
 #endif

@@ -115,16 +115,6 @@ static void render_pixel(Render *r, int thread, int spp, int x, int y)
         end_guides(r, thread, spp, x, y);
 }
 
-int render_is_stopped(const Render *r)
-{
-    return retex_budget_is_stopped(r->params.budget);
-}
-
-int render_is_wanted(const Render *r, int band)
-{
-    return (!r->params.nshards || band % r->params.nshards == r->params.shard - 1) && !r->had[band];
-}
-
 static void render_tile(void *context, int tile, int thread)
 {
     Render *r = context;

@@ -1,19 +1,7 @@
 /* Evaluation and sampling of the split BSDF; what a finish means is in material.c. */
 #include "shade/bsdf.h"
+#include "shade/fresnel.h"
 #include "shade/microfacet.h"
-
-float fresnel_dielectric(float cos_i, float eta)
-{
-    if (eta == 1)
-        return 0;
-    float sin2_t = (1 - cos_i * cos_i) / (eta * eta);
-    if (sin2_t >= 1)
-        return 1;
-    float cos_t = sqrtf(1 - sin2_t);
-    float parallel = (eta * cos_i - cos_t) / (eta * cos_i + cos_t);
-    float perpendicular = (cos_i - eta * cos_t) / (cos_i + eta * cos_t);
-    return (parallel * parallel + perpendicular * perpendicular) / 2;
-}
 
 static float power5(float x)
 {

@@ -13,14 +13,7 @@
 #define RENDERER_SHADE_BSDF_H
 
 #include "base/vec.h"
-#include "shape/surface.h"
-
-#define NEUTRAL_ALBEDO 0.8f
-
-typedef struct Split { Rgb d, i; } Split;
-
-static inline Rgb split_apply(Split s, Rgb albedo) { return rgb_add(rgb_mul(s.d, albedo), s.i); }
-static inline float split_neutral(Split s) { return rgb_luminance(split_apply(s, rgb_grey(NEUTRAL_ALBEDO))); }
+#include "shade/split.h"
 
 typedef struct Bsdf {
     Vec3 normal;             /* shading normal on wo's side */
@@ -56,9 +49,6 @@ typedef struct BsdfSample {
     int straight;            /* passed without bending: the path sees on as if nothing was there */
 } BsdfSample;
 
-/* Set up for a surface seen along wo. opacity comes from the pigment: filter and transmit. */
-void bsdf_setup(Bsdf *bsdf, const Surface *surface, Vec3 wo, float filter, float transmit);
-
 /* f |cos_i| for a given direction; light_source: the light is one of POV-Ray's, which no path can hit. *pdf gets the
  * density with which bsdf_sample would find wi (0 where it never does). */
 Split bsdf_eval(const Bsdf *bsdf, Vec3 wi, int light_source, float *pdf);
@@ -70,14 +60,5 @@ static inline int bsdf_only_reflects(const Bsdf *b)
 {
     return b->diffuse_back <= 0 && !(b->disney && b->transmission > 0);
 }
-
-/* Unpolarised Fresnel reflectance of a dielectric; cos_i >= 0 on the incoming side, eta = far over near. */
-float fresnel_dielectric(float cos_i, float eta);
-/* 1 where the extension lets light through, whatever the pigment says. */
-int finish_transmits(const Finish *finish);
-/* Normals on the side that a surface is seen from along wo: for shading, and the shape's own. */
-void bsdf_normals(const Surface *surface, Vec3 wo, Vec3 *normal, Vec3 *geometric);
-/* POV-Ray's `metallic`: the tint by the pigment wears off towards grazing angles. */
-Split metallic_tint(Split head_on, float cosine);
 
 #endif

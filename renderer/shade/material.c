@@ -1,10 +1,9 @@
 /* From a finish to a BSDF: what POV-Ray's keywords mean to a path tracer. Described for users in retex-scene(5),
  * section FINISH AND PHYSICS; keep the two in step. */
-#include "shade/bsdf.h"
-#include "shade/microfacet.h"
-#include "shade/pigment.h"
+#include "shade/fresnel.h"
+#include "shade/material.h"
 
-#define LEAST_COSINE 1e-4 /* between a normal and where it is seen from */
+#define LEAST_COSINE 1e-4  /* between a normal and where it is seen from */
 #define SMOOTH_ALPHA 1e-3f /* below this width a microfacet lobe is a delta */
 
 static float clamp01(double x)
@@ -20,14 +19,6 @@ static int interior_bends(const Primitive *p)
 int finish_transmits(const Finish *finish)
 {
     return finish->retex.present && finish->retex.transmission > 0 && finish->retex.metallic < 1;
-}
-
-Split metallic_tint(Split head_on, float cosine)
-{
-    /* POV-Ray's curve over the angle, 0 head-on and 1 at 90 degrees */
-    float x = acosf(fminf(1, cosine)) * (float)(2 / PI) - 1.12f;
-    float white = clamp01(0.014567225f / (x * x) - 0.011612903f);
-    return (Split){rgb_scale(head_on.d, 1 - white), rgb_add(head_on.i, rgb_scale(head_on.d, white))};
 }
 
 /* POV-Ray's highlights are Blinn's (N.H)^n and Phong's (R.V)^p with a peak of `amount`. The GGX lobe of the same width

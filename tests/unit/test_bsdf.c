@@ -6,7 +6,8 @@
 #include <cmocka.h>
 #include <stdio.h>
 #include "path/sampler.h"
-#include "shade/bsdf.h"
+#include "shade/fresnel.h"
+#include "shade/material.h"
 
 static Pigment white = {.kind = PIGMENT_COLOR, .color = {1, 1, 1, 0, 0}};
 

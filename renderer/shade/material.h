@@ -1,0 +1,15 @@
+/* From a finish to a BSDF. */
+#ifndef RENDERER_SHADE_MATERIAL_H
+#define RENDERER_SHADE_MATERIAL_H
+
+#include "shade/bsdf.h"
+#include "shape/surface.h"
+
+/* The BSDF of a surface seen along wo. Opacity comes from the pigment: filter and transmit. */
+void bsdf_setup(Bsdf *bsdf, const Surface *surface, Vec3 wo, float filter, float transmit);
+/* The normals on wo's side: for shading, and the shape's own. */
+void bsdf_normals(const Surface *surface, Vec3 wo, Vec3 *normal, Vec3 *geometric);
+/* 1 where the extension lets light through, whatever the pigment says. */
+int finish_transmits(const Finish *finish);
+
+#endif
