@@ -1,7 +1,7 @@
 #!/bin/sh
 # Rules of the house that a script can check: make lint.
 #   - arrows between directories: libretex <- renderer <- oiio_plugins; tools -> libretex
-#   - order of the rooms of tools/libretex
+#   - order of the rooms of tools/libretex and of the renderer; no circles of headers, nor of the renderer's files
 #   - one definition of the sRGB curve and of luminance
 #   - each public header compiles alone, as C11 and as C++17
 #   - man pages without complaints of mandoc
@@ -40,22 +40,27 @@ for file in renderer/*/*.[ch] renderer/*/*/*.[ch]; do
     ! grep -qE '#include *"cli\.h"' "$file" || complain "$file: only mains may include cli.h"
 done
 
-# Rooms, lowest first: each may use those before it, and none of its own rank. Looked for in includes and, where there are
-# objects, in the symbols they need.
+# FILE NEEDED SYMBOL for each symbol that a file's object takes from another's, where there are objects; without suffix
+needs() { # directory
+    objects=${BUILD:-build}/obj/$1
+    [ ! -d "$objects" ] || find "$objects" -name '*.o' | while read -r object; do
+        source=${object#"${BUILD:-build}/obj/"}
+        [ ! -e "${source%.o}.c" ] || nm -A "$object"
+    done | awk -v prefix="$objects/" '
+        { file = substr($1, length(prefix) + 1); sub(/\.o:.*/, "", file) }
+        $(NF - 1) ~ /^[TDBRV]$/ { of[$NF] = file }
+        $(NF - 1) == "U" { from[++n] = file; symbol[n] = $NF }
+        END { for (i = 1; i <= n; i++) if (symbol[i] in of) print from[i], of[symbol[i]], symbol[i] }'
+}
+
+# Rooms, lowest first: each may use those before it, and none of its own rank. Looked for in includes and in symbols. Files
+# of the directory itself stand on top.
 rooms() { # directory rank:room…
     directory=$1; shift
-    objects=${BUILD:-build}/obj/$directory
     { grep -rE '^#include "' "$directory" --include='*.[ch]' | sed -nE \
           "s|^$directory/([^:]*)/[^/:]*:#include \"(.*)/[^/]*\"|\1 \2 \1 includes \2|p"
-      [ ! -d "$objects" ] || find "$objects" -name '*.o' | while read -r object; do
-          source=${object#"${BUILD:-build}/obj/"}
-          [ ! -e "${source%.o}.c" ] || nm -A "$object"
-      done | awk -v prefix="$objects/" '
-          { file = substr($1, length(prefix) + 1); sub(/:.*/, "", file); room = file; sub("/[^/]*$", "", room) }
-          $(NF - 1) ~ /^[TDBRV]$/ { of[$NF] = room }
-          $(NF - 1) == "U" { from[++n] = room; file_of[n] = file; symbol[n] = $NF }
-          END { for (i = 1; i <= n; i++) if (symbol[i] in of)
-                    print from[i], of[symbol[i]], file_of[i], "needs", symbol[i], "of", of[symbol[i]] }'
+      needs "$directory" | awk '{ a = $1; b = $2; sub("/[^/]*$", "", a); sub("/[^/]*$", "", b)
+          if ($1 ~ /\//) print a, b, $1, "needs", $3, "of", $2 }'
     } | awk -v order="$*" '
         BEGIN { n = split(order, list); for (i = 1; i <= n; i++) { split(list[i], pair, ":"); rank[pair[2]] = pair[1] } }
         $1 == $2 || !($2 in rank) { next }
@@ -66,17 +71,28 @@ back=$(rooms tools/libretex 1:base 2:io 3:exr 4:picture 5:texture 6:set 7:retext
     10:files)
 [ -z "$back" ] || complain "rooms of tools/libretex, from one that stands later:
 $back"
+back=$(rooms renderer 1:base 2:scene 3:sdl/lang 3:shape 4:shade 5:accel 5:light 5:sdl/build 6:sdl 6:film 7:film/footprints \
+    7:film/paper 8:path 9:render 10:job)
+[ -z "$back" ] || complain "rooms of the renderer, from one that stands later:
+$back"
 
-# What the product defines once. Tests may compute it by themselves, as a reference; man pages and texts may name it.
-one_definition() { # file pattern what
-    found=$(grep -rnE "$2" tools renderer oiio_plugins scenes --include='*.[ch]' --include='*.cpp' --include='*.hpp' |
-        grep -v "^$1:")
-    [ -z "$found" ] || complain "$3 is defined by $1 alone:
+# No circles. Of headers: none includes, by however many steps, itself. Of the renderer's files: no two need symbols of
+# each other, by however many steps; but for the rooms of the scene language, whose grammar is recursive, and pigments,
+# which are made of pigments.
+no_circle() { # pairs of names, what
+    found=$(echo "$1" | tsort 2>&1 >/dev/null | sed 's/^tsort: //')
+    [ -z "$found" ] || complain "$2:
 $found"
-    grep -qE "$2" "$1" || complain "$1 does not define $3"
 }
-one_definition tools/libretex/include/retex/color.h '(^|[^0-9])0?\.(0031308|04045)|12\.92|(^|[^0-9])1\.055' 'the sRGB curve'
-one_definition tools/libretex/include/retex/color.h '(^|[^0-9])0?\.(2126f?|7152f?|0722f?) *\*' 'luminance'
+for root in tools tools/libretex renderer oiio_plugins tests/lib; do
+    no_circle "$(grep -rE '^#include "' "$root" --include='*.h' --include='*.hpp' |
+        sed -nE "s|^$root/([^:]*):#include \"(.*)\"|\1 \2|p")" "headers of $root that include each other"
+done
+no_circle "$(grep -rE '^#include <retex/' tools/libretex/include/retex |
+    sed -nE 's|^.*/(retex/[^:]*):#include <(.*)>|\1 \2|p')" "public headers that include each other"
+recursive='^(sdl/|shade/pigment)'
+no_circle "$(needs renderer | awk -v may="$recursive" '!($1 ~ may && $2 ~ may) { print $1, $2 }')" \
+    "files of the renderer that need each other"
 
 probe=$(mktemp -d)
 trap 'rm -rf "$probe"' EXIT
