@@ -1,5 +1,5 @@
-/* The split BSDF against what must hold: sampling matches evaluation, densities add up to one, energy is kept, the
- * split adds up, smooth dielectrics give Fresnel's reflectance, and no choice depends on the albedo. */
+/* The split BSDF against what must hold: sampling matches evaluation, densities add up to one, energy is kept,
+ * smooth dielectrics give Fresnel's reflectance, and no choice depends on the albedo. */
 #include <stdarg.h>
 #include <stddef.h>
 #include <setjmp.h>
@@ -190,32 +190,6 @@ static void refraction_bends_by_snell(void **state)
     close_to(s.weight.i.r, 1 / (1.5 * 1.5), 1e-6, "radiance in the denser side's measure");
 }
 
-static void supplement_split(void **state)
-{
-    (void)state;
-    /* Eq. 1 put together from F_dep and F_indep, for several albedos */
-    Case c;
-    case_begin(&c, 0);
-    c.finish.retex.present = 1;
-    double m = 0.6, t = 0.4, eta = 1.5, rho = 0.3;
-    c.finish.retex.metallic = m, c.finish.retex.roughness = 0.5, c.finish.retex.specular_tint = t,
-    c.finish.retex.ior = eta;
-    c.finish.retex.transmission = 0;
-    Bsdf b = make(&c, 0.6, 0, 0);
-    Vec3 wi = vec_normalize(vec3(-0.3, 0.5, 0.8)), h = vec_normalize(vec_add(wi, b.wo));
-    double w = pow(1 - vec_dot(wi, h), 5), f0 = pow((eta - 1) / (eta + 1), 2);
-    double fdiel = fresnel_dielectric((float)vec_dot(wi, h), (float)eta), r0 = m * rho + (1 - m) * f0 * t;
-    double fresnel = (1 - m) * fdiel + m * (r0 + (1 - r0) * w);
-    float pdf;
-    Split f = bsdf_eval(&b, wi, 0, &pdf);
-    b.diffuse = 0;
-    Split glossy = bsdf_eval(&b, wi, 0, &pdf);
-    double split = m * (1 - w) * m, indep = (1 - m) * fdiel + m * ((1 - m) * f0 * t + (1 - (1 - m) * f0 * t) * w);
-    close_to(split * rho + indep, fresnel, 1e-6, "split of Eq. 1");
-    close_to(glossy.d.r / glossy.i.r, split / indep, 1e-4, "ratio of the lobe's parts");
-    assert_true(f.d.r > glossy.d.r && f.i.r == glossy.i.r);
-}
-
 static void cutouts_pass_straight(void **state)
 {
     (void)state;
@@ -330,7 +304,6 @@ int main(void)
                                        cmocka_unit_test(energy_is_kept),
                                        cmocka_unit_test(glass_obeys_fresnel),
                                        cmocka_unit_test(refraction_bends_by_snell),
-                                       cmocka_unit_test(supplement_split),
                                        cmocka_unit_test(cutouts_pass_straight),
                                        cmocka_unit_test(povray_highlight_peak),
                                        cmocka_unit_test(holes_have_no_coat),
