@@ -109,11 +109,11 @@ static int render_loaded(Arguments *a, const Scene *scene, Variants *v, double b
     int go_on = 1;
     a->render.variants = v->variants, a->render.nvariants = v->count;
     const int failed = render_variants(v->pictures, scene, &a->render, &stats, &err);
-    const double share = (texture_args_now() - began) / v->count;
+    const double share = (retex_clock_seconds() - began) / v->count;
     for (int k = 0; k < v->count && go_on; k++) {
-        const double wrote = texture_args_now();
+        const double wrote = retex_clock_seconds();
         const int unwritten = failed ? failed : write_variant(a, v, k, &err);
-        go_on = batch_done(&a->batch, v->rows[k], share + texture_args_now() - wrote, unwritten ? &err : NULL);
+        go_on = batch_done(&a->batch, v->rows[k], share + retex_clock_seconds() - wrote, unwritten ? &err : NULL);
         retex_image_free(&v->pictures[k]);
     }
     if (failed)
@@ -130,7 +130,7 @@ static void render_table(Arguments *a, const Scene *scene, Variants *v)
 {
     int go_on = 1;
     for (int row = 0; row < a->batch.table.nrows && go_on;) {
-        const double began = texture_args_now();
+        const double began = retex_clock_seconds();
         *v = (Variants){.count = 0};
         for (; row < a->batch.table.nrows && v->count < VARIANTS_MAX && go_on; row++) {
             RetexError err = {0};

@@ -3,19 +3,11 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
-#include <time.h>
 #include <unistd.h>
 #include <retex/denoise.h>
 #include "retex-render.h"
 #include "watchdog.h"
 #include "render/guides.h"
-
-static double seconds(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
 
 typedef struct IdentShare {
     const char *name;
@@ -229,7 +221,7 @@ int main(int argc, char **argv)
     int keeps = output && a.ntargets && !a.render.plain && (a.render.nshards || output_kind(&a, output) == OUTPUT_SET);
     a.render.denoise_data = a.denoise || (keeps && !a.no_denoise_data);
     a.render.stored = keeps && !a.denoise;
-    double started = seconds();
+    double started = retex_clock_seconds();
     if (job_open_scene(&scene, a.scene, &a.sdl, a.targets, a.ntargets, &err))
         fail(&a, &err);
     announce_files_of_scene(&a, scene);
@@ -241,7 +233,7 @@ int main(int argc, char **argv)
     if (!a.list && job_check_size(scene, &a.render, &err))
         fail(&a, &err);
     replace_textures(&a, scene, loaded);
-    double parse_seconds = seconds() - started;
+    double parse_seconds = retex_clock_seconds() - started;
     int failed = 0, status = CLI_OK;
     if (a.list)
         list_targets(&a, scene);

@@ -3,7 +3,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 #include "batch.h"
 #include "output_folder.h"
@@ -83,12 +82,8 @@ static void write_last_report(void)
 /* A signal or a limit ends it. A lock that cannot be had in half a second is held by who waits for a disk. */
 static void write_report_at_end(const char *why)
 {
-    struct timespec until;
+    const struct timespec until = retex_clock_time_after(0.5);
     RetexError err = {0};
-    clock_gettime(CLOCK_REALTIME, &until);
-    until.tv_nsec += 500000000;
-    until.tv_sec += until.tv_nsec / 1000000000;
-    until.tv_nsec %= 1000000000;
     if (pthread_mutex_timedlock(&lock, &until) != 0)
         return;
     if (running) {
@@ -105,7 +100,7 @@ void batch_open(Batch *batch, const Cli *cli, const char *path)
     atexit(write_last_report);
     watchdog_at_end(write_report_at_end);
     batch->cli = cli;
-    batch->began = texture_args_now();
+    batch->began = retex_clock_seconds();
     texture_table_open(&batch->table, cli, path);
     batch->rows = calloc((size_t)batch->table.nrows + 1, sizeof *batch->rows);
     if (!batch->rows)
@@ -214,7 +209,8 @@ int batch_finish(Batch *batch, const RetexError *err)
         retex_fail(&told, RETEX_EIO, "%d of %d picture%s failed", batch->failed, total, total == 1 ? "" : "s");
         cli_error(batch->cli, &told);
     } else if (!batch->failed && !batch->dry_run && !batch->cli->json_progress) {
-        cli_info(batch->cli, "%d picture%s, %.2f s", total, total == 1 ? "" : "s", texture_args_now() - batch->began);
+        cli_info(batch->cli, "%d picture%s, %.2f s", total, total == 1 ? "" : "s",
+                 retex_clock_seconds() - batch->began);
     }
     if (batch->cli->json_progress)
         batch_report_end(batch);

@@ -56,7 +56,7 @@ void batch_report_row(const Batch *batch, int row)
 static void print_totals(FILE *file, const Batch *batch)
 {
     fprintf(file, "\"total\": %d, \"made\": %d, \"failed\": %d, \"seconds\": %.4f", batch->table.nrows, batch->made,
-            batch->failed, texture_args_now() - batch->began);
+            batch->failed, retex_clock_seconds() - batch->began);
     if (batch->error) {
         fprintf(file, ", \"error\": ");
         json_text(file, batch->error);

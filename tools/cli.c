@@ -13,7 +13,6 @@
 #include <string.h>
 #include <strings.h>
 #include <sys/stat.h>
-#include <time.h>
 #include <unistd.h>
 
 #include <retex/retex.h>
@@ -544,13 +543,6 @@ double cli_file_size(const char *path)
     return strcmp(path, "-") != 0 && stat(path, &info) == 0 && S_ISREG(info.st_mode) ? (double)info.st_size : 0;
 }
 
-static double seconds_now(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-
 /* 12 s, 3 min 05 s, 2 h 10 min. */
 static const char *duration(double seconds, char text[32])
 {
@@ -601,7 +593,7 @@ void cli_progress(const Cli *cli, const char *label, double done)
     const int json = cli->json_progress, terminal = !json && isatty(STDERR_FILENO);
     if (!json && (cli->quiet || (!terminal && !cli->verbose)))
         return;
-    double now = seconds_now();
+    double now = retex_clock_seconds();
     if (started < 0)
         started = now, drawn = terminal ? 0 : now;
     done = fmin(fmax(done, 0), 1);

@@ -248,7 +248,7 @@ static int make_picture(const Cli *cli, Job *job, const Row *row, const char *ou
     if (!cli->json_progress)
         cli_info(cli, "%s: %s, %d x %d%s, %.2f s", strcmp(output, "-") ? output : "standard output",
                  describe(job, row, text, sizeof text), job->set->width, job->set->height, expected,
-                 texture_args_now() - began);
+                 retex_clock_seconds() - began);
     return RETEX_OK;
 }
 
@@ -258,14 +258,14 @@ static int make_one(const Cli *cli, Job *job, const char *output, double began, 
     const Row row = {job->textures.specs, job->textures.count, textures};
     int code = retex_textures_load(textures, job->set, row.specs, row.count, cli->threads, err);
     if (!code) {
-        cli_detail(cli, "ready after %.2f s", texture_args_now() - began);
+        cli_detail(cli, "ready after %.2f s", retex_clock_seconds() - began);
         code = make_picture(cli, job, &row, output, began, err);
     }
     if (!code && cli->json_progress) {
         fprintf(stderr, "{\"output\": ");
         json_text(stderr, output);
         fprintf(stderr, ", \"status\": \"made\", \"seconds\": %.4f, \"done\": 1, \"total\": 1}\n",
-                texture_args_now() - began);
+                retex_clock_seconds() - began);
     }
     retex_textures_close(textures);
     return code;
@@ -383,7 +383,7 @@ static int make_row(const Cli *cli, Job *job, int number, Kept *kept, RetexError
 {
     RetexTextureSpec specs[RETEX_MAX_TARGETS];
     char path[PATH_MAX];
-    const double began = texture_args_now();
+    const double began = retex_clock_seconds();
     const int count = complete_row(job, specs, texture_table_textures(&job->batch.table, number, specs));
     const Row row = {kept->specs, count, kept->textures};
     int code = load_row(cli, job, kept, specs, count, err);
@@ -409,9 +409,9 @@ static int run_batch(const Cli *cli, Job *job)
     if (retex_set_keep(job->set, job->samples, cli_memory(cli, job->memory), cli->threads, &err))
         return batch_finish(batch, &err);
     for (int number = 0; number < batch->table.nrows; number++) {
-        const double began = texture_args_now();
+        const double began = retex_clock_seconds();
         int failed = make_row(cli, job, number, &kept, &err);
-        if (!batch_done(batch, number, texture_args_now() - began, failed ? &err : NULL))
+        if (!batch_done(batch, number, retex_clock_seconds() - began, failed ? &err : NULL))
             break;
     }
     retex_textures_close(kept.textures);
@@ -437,7 +437,7 @@ int main(int argc, char **argv)
                .argc = argc,
                .argv = argv,
                .next = 1};
-    double began = texture_args_now();
+    double began = retex_clock_seconds();
     keep_memory();
     parse(&cli, &job);
     check_samples_path(&cli, &job);

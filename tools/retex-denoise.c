@@ -1,8 +1,8 @@
 /* retex-denoise: remove the noise from a set's coefficients, once. See retex-denoise(1). */
 #include <stdio.h>
 #include <string.h>
-#include <time.h>
 
+#include <retex/clock.h>
 #include <retex/denoise.h>
 #include <retex/pack.h>
 
@@ -49,13 +49,6 @@ static void check_ending(const Cli *cli, const char *output)
                     output);
 }
 
-static double seconds_now(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-
 static void progress(void *context, double done)
 {
     cli_progress(context, "denoise", done);
@@ -91,20 +84,20 @@ int main(int argc, char **argv)
     check_ending(&cli, output);
     if (retex_set_write_check(output, &err))
         cli_fail(&cli, &err);
-    const double began = seconds_now();
+    const double began = retex_clock_seconds();
     if (cli_open_set(&cli, &set, input, memory, &err))
         cli_fail(&cli, &err);
-    const double read = seconds_now();
+    const double read = retex_clock_seconds();
     params.progress = progress;
     params.progress_context = &cli;
     params.near = output;
     params.budget = cli.budget;
     if (retex_denoise(set, &params, NULL, cli.threads, &err))
         cli_fail(&cli, &err);
-    const double denoised = seconds_now();
+    const double denoised = retex_clock_seconds();
     if (write_set(&cli, set, output, &err))
         cli_fail(&cli, &err);
-    const double written = seconds_now();
+    const double written = retex_clock_seconds();
 
     cli_info(&cli, "%s: %d x %d, %.2f s", strcmp(output, "-") == 0 ? "standard output" : output, set->width,
              set->height, written - began);

@@ -58,13 +58,13 @@ int main(int argc, char **argv)
     check_ending(&cli, output);
     if (retex_set_write_check(output, &err))
         cli_fail(&cli, &err);
-    double began = texture_args_now();
+    double began = retex_clock_seconds();
     if (retex_set_open(input, &set, &earlier, cli.threads, &err))
         cli_fail(&cli, &err);
     cli_check_pixels(&cli, set, input);
     if (!set)
         cli_die(&cli, "%s holds samples but no set", input);
-    double read = texture_args_now();
+    double read = retex_clock_seconds();
     if (retex_sample_to_store(&samples, set, textures.specs, textures.count, output, cli.threads, &err))
         cli_fail(&cli, &err);
     if (earlier) { /* a stream that has been through here before: other targets' samples go on with it */
@@ -73,13 +73,13 @@ int main(int argc, char **argv)
         retex_samples_close(&samples);
         samples = earlier;
     }
-    double sampled = texture_args_now();
+    double sampled = retex_clock_seconds();
     RetexStoreParams store = RETEX_STORE_INIT;
     store.nthreads = cli.threads;
     int to_pipe = strcmp(output, "-") == 0;
     if (retex_set_write(to_pipe ? set : NULL, samples, output, &store, &err))
         cli_fail(&cli, &err);
-    double written = texture_args_now();
+    double written = retex_clock_seconds();
 
     char text[2048];
     cli_info(&cli, "%s: %d x %d, %.2f s", texture_args_describe(samples, text, sizeof text), set->width, set->height,

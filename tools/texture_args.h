@@ -4,7 +4,6 @@
 
 #include <stdio.h>
 #include <string.h>
-#include <time.h>
 
 #include <retex/retex.h>
 
@@ -14,13 +13,6 @@ typedef struct TextureArgs {
     RetexTextureSpec specs[RETEX_MAX_TARGETS];
     int count;
 } TextureArgs;
-
-static inline double texture_args_now(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
 
 /* The option --texture just seen. */
 static inline void texture_args_add(const Cli *cli, TextureArgs *args)

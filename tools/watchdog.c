@@ -12,6 +12,7 @@
 #include <time.h>
 #include <unistd.h>
 
+#include <retex/clock.h>
 #include <retex/image.h>
 
 enum {
@@ -221,20 +222,12 @@ static int milliseconds_to_wait(uint64_t in_use)
     return milliseconds < LEAST_MILLISECONDS ? LEAST_MILLISECONDS : (int)milliseconds;
 }
 
-static long long milliseconds_now(void)
-{
-    struct timespec t;
-
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return t.tv_sec * 1000LL + t.tv_nsec / 1000000;
-}
-
 /* The work has been told to stop, and may come to its end by itself. */
 static void wait_for_work(void)
 {
-    const long long until = milliseconds_now() + KEEP_MILLISECONDS;
+    const double until = retex_clock_seconds() + 1e-3 * KEEP_MILLISECONDS;
 
-    while (retex_budget_is_held(dog.budget) || milliseconds_now() < until) {
+    while (retex_budget_is_held(dog.budget) || retex_clock_seconds() < until) {
         const int number = take_signal(20);
         if (number)
             raise_again(number);

@@ -45,7 +45,6 @@ typedef struct HalfSamples {
 
 /* ---- setup.c: what a render needs ---- */
 
-double render_clock(void); /* seconds, from any time on */
 /* What any use of the scene needs: the window, the ray structure and the lights. To be closed whatever comes of it. */
 int render_open(Render *render, const Scene *scene, const RenderParams *params, RetexError *err);
 void render_close(Render *render);

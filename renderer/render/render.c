@@ -1,6 +1,8 @@
 /* A render from beginning to end: everything into a set. */
 #include <stdlib.h>
 #include <string.h>
+#include <retex/clock.h>
+#include <retex/version.h>
 #include "render/checkpoints.h"
 #include "render/internal.h"
 #include "render/originals.h"
@@ -18,7 +20,7 @@ static int start_set(RetexSet **set, const Render *r, RetexError *err)
     snprintf(s->layout, sizeof s->layout, "%s", r->context.split ? render_layout(&r->params)->name : "plain");
     snprintf(s->filter, sizeof s->filter, "%s", r->params.gaussian ? "gaussian" : "box");
     snprintf(s->scene, sizeof s->scene, "%.255s", name ? name + 1 : r->scene->path);
-    snprintf(s->generator, sizeof s->generator, "retex-render 0.1.0");
+    snprintf(s->generator, sizeof s->generator, "retex-render " RETEX_VERSION);
     s->orders = r->params.orders, s->spp = r->params.spp, s->max_depth = r->params.max_depth, s->seed = r->params.seed;
     return RETEX_OK;
 }
@@ -93,7 +95,7 @@ static int render_into(RetexSet *set, Render *r, RenderStats *stats, double star
         code = control_data_add(set, moments, render_half_samples(r).samples, r->context.halves, err);
     }
     film_give_store(r->film, set);
-    stats->render_seconds = render_clock() - started - stats->build_seconds;
+    stats->render_seconds = retex_clock_seconds() - started - stats->build_seconds;
     return code;
 }
 
@@ -105,7 +107,7 @@ int render_scene(RetexSet **set, const Scene *scene, const RenderParams *params,
         stats = &ignored;
     *stats = (RenderStats){0};
     *set = NULL;
-    double started = render_clock();
+    double started = retex_clock_seconds();
     Render r;
     int code = render_open(&r, scene, params ? params : &defaults, err);
     if (!code)
@@ -123,7 +125,7 @@ int render_scene(RetexSet **set, const Scene *scene, const RenderParams *params,
 int render_shard(const Scene *scene, const RenderParams *params, RenderStats *stats, RetexError *err)
 {
     *stats = (RenderStats){0};
-    double started = render_clock();
+    double started = retex_clock_seconds();
     Render r;
     int code = render_open(&r, scene, params, err);
     if (!code)

@@ -1,19 +1,11 @@
 /* What a render needs: its window, the ray structure, lights, films, and what each thread has. */
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 #include <retex/parallel.h>
 #include "film/footprints/footprints.h"
 #include "film/paper/paper.h"
 #include "render/checkpoints.h"
 #include "render/internal.h"
-
-double render_clock(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
 
 static int check_params(const RenderParams *p, RetexError *err)
 {

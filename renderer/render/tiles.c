@@ -1,4 +1,5 @@
 /* Tiles over threads, paths over samples. */
+#include <retex/clock.h>
 #include <retex/parallel.h>
 #include "path/camera.h"
 #include "render/internal.h"
@@ -166,7 +167,7 @@ HalfSamples render_half_samples(const Render *r)
 
 int render_paths(Render *r, RenderStats *stats, double started, RetexError *err)
 {
-    stats->build_seconds = render_clock() - started;
+    stats->build_seconds = retex_clock_seconds() - started;
     retex_parallel(r->params.nthreads, r->tiles_x * r->tiles_y, render_tile, r);
     if (r->params.progress && !render_is_stopped(r))
         r->params.progress(r->params.progress_context, 1);
@@ -174,7 +175,7 @@ int render_paths(Render *r, RenderStats *stats, double started, RetexError *err)
         film_pixel_close(&r->pixels[k]);
         control_pixel_close(&r->controls[k]);
     }
-    stats->render_seconds = render_clock() - started - stats->build_seconds;
+    stats->render_seconds = retex_clock_seconds() - started - stats->build_seconds;
     fill_stats(stats, r);
     return r->done < r->wanted ? retex_budget_check(r->params.budget, err) : RETEX_OK;
 }

@@ -1,5 +1,6 @@
 /* Pictures of other textures: several along the same paths, and one with the noise taken off that a set tells of. */
 #include <string.h>
+#include <retex/clock.h>
 #include "render/control_constants.h"
 #include "render/internal.h"
 
@@ -10,7 +11,7 @@ int render_variants(RetexImage *pictures, const Scene *scene, const RenderParams
     if (!stats)
         stats = &ignored;
     *stats = (RenderStats){0};
-    double started = render_clock();
+    double started = retex_clock_seconds();
     RenderParams plain = *params;
     Render r;
     plain.plain = 1, plain.denoise_data = 0;
@@ -91,7 +92,7 @@ int render_control(RetexImage *picture, const Scene *scene, const RenderParams *
     if (!stats)
         stats = &ignored;
     *stats = (RenderStats){0};
-    double started = render_clock();
+    double started = retex_clock_seconds();
     RenderParams plain = *params;
     RenderVariant variants[CONTROL_VARIANTS_MAX] = {{{NULL}, NULL}};
     RetexImage constants[RETEX_MAX_TARGETS] = {{0}}, combined = {0};

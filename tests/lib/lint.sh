@@ -2,7 +2,7 @@
 # Rules of the house that a script can check: make lint.
 #   - arrows between directories: libretex <- renderer <- oiio_plugins; tools -> libretex
 #   - order of the rooms of tools/libretex and of the renderer; no circles of headers, nor of the renderer's files
-#   - one definition of the sRGB curve and of luminance
+#   - one definition of the sRGB curve, of luminance, the clock, the version
 #   - each public header compiles alone, as C11 and as C++17
 #   - man pages without complaints of mandoc
 #   - no line over 120 bytes, no tab, no trailing blank in sources
@@ -93,6 +93,20 @@ no_circle "$(grep -rE '^#include <retex/' tools/libretex/include/retex |
 recursive='^(sdl/|shade/pigment)'
 no_circle "$(needs renderer | awk -v may="$recursive" '!($1 ~ may && $2 ~ may) { print $1, $2 }')" \
     "files of the renderer that need each other"
+
+# What the product defines once. Tests may compute it by themselves, as a reference; man pages and texts may name it.
+one_definition() { # file pattern what
+    found=$(grep -rnE "$2" tools renderer oiio_plugins scenes --include='*.[ch]' --include='*.cpp' --include='*.hpp' |
+        grep -v "^$1:")
+    [ -z "$found" ] || complain "$3 is defined by $1 alone:
+$found"
+    grep -qE "$2" "$1" || complain "$1 does not define $3"
+}
+one_definition tools/libretex/include/retex/color.h '(^|[^0-9])0?\.(0031308|04045)|12\.92|(^|[^0-9])1\.055' 'the sRGB curve'
+one_definition tools/libretex/include/retex/color.h '(^|[^0-9])0?\.(2126f?|7152f?|0722f?) *\*' 'luminance'
+one_definition tools/libretex/base/clock.c 'clock_gettime|gettimeofday|timespec_get|std::chrono' 'the clock'
+version=$(sed -nE 's/^#define RETEX_VERSION "(.*)"$/\1/p' tools/libretex/include/retex/version.h)
+one_definition tools/libretex/include/retex/version.h "\"([^\"]* )?${version:-no version}" 'the version'
 
 probe=$(mktemp -d)
 trap 'rm -rf "$probe"' EXIT

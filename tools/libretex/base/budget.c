@@ -2,9 +2,9 @@
 #include <math.h>
 #include <stdatomic.h>
 #include <stdlib.h>
-#include <time.h>
 
 #include <retex/budget.h>
+#include <retex/clock.h>
 
 struct RetexBudget {
     atomic_int stopped, held;
@@ -13,14 +13,6 @@ struct RetexBudget {
     atomic_llong deadline; /* nanoseconds of the monotonic clock; 0 = none */
     double seconds;        /* what the deadline was made of, for messages */
 };
-
-static long long nanoseconds_now(void)
-{
-    struct timespec t;
-
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return t.tv_sec * 1000000000LL + t.tv_nsec;
-}
 
 int retex_budget_create(RetexBudget **budget, RetexError *err)
 {
@@ -91,7 +83,7 @@ void retex_budget_stop(RetexBudget *budget)
 void retex_budget_set_seconds(RetexBudget *budget, double seconds)
 {
     budget->seconds = seconds;
-    atomic_store(&budget->deadline, seconds > 0 ? nanoseconds_now() + llrint(1e9 * fmin(seconds, 1e9)) : 0);
+    atomic_store(&budget->deadline, seconds > 0 ? retex_clock_nanoseconds() + llrint(1e9 * fmin(seconds, 1e9)) : 0);
 }
 
 double retex_budget_seconds(const RetexBudget *budget)
@@ -103,7 +95,7 @@ double retex_budget_seconds_left(const RetexBudget *budget)
 {
     const long long deadline = atomic_load_explicit(&budget->deadline, memory_order_relaxed);
 
-    return deadline ? 1e-9 * (double)(deadline - nanoseconds_now()) : INFINITY;
+    return deadline ? 1e-9 * (double)(deadline - retex_clock_nanoseconds()) : INFINITY;
 }
 
 static int is_late(const RetexBudget *budget)

@@ -12,9 +12,9 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
-#include <time.h>
 #include <unistd.h>
 
+#include <retex/clock.h>
 #include <retex/image.h>
 
 #include "io/output.h"
@@ -48,10 +48,8 @@ static void hidden_name(RetexOutput *output)
 {
     static atomic_uint counter;
     const char *base = output->path + strlen(output->folder);
-    struct timespec now = {0, 0};
-
-    clock_gettime(CLOCK_REALTIME, &now);
-    const unsigned salt = (unsigned)now.tv_nsec ^ (unsigned)getpid() << 10 ^ atomic_fetch_add(&counter, 1) << 24;
+    const unsigned salt =
+        (unsigned)retex_clock_nanoseconds() ^ (unsigned)getpid() << 10 ^ atomic_fetch_add(&counter, 1) << 24;
     /* the base is cut so that the whole stays a legal file name */
     snprintf(output->temporary, sizeof output->temporary, "%s.%.200s.tmp%08x", output->folder, base, salt);
 }

@@ -4,9 +4,9 @@
 #include <pthread.h>
 #include <stdatomic.h>
 #include <stddef.h>
-#include <time.h>
 #include <unistd.h>
 
+#include <retex/clock.h>
 #include <retex/image.h>
 
 static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
@@ -47,15 +47,11 @@ void retex_pending_files_drop(RetexPendingFile *file)
 /* The lock is kept: nothing gets a name any more. A thread that holds it for long is waiting for a disk. */
 void retex_pending_files_remove(void)
 {
-    struct timespec until;
+    const struct timespec until = retex_clock_time_after(0.5);
     void (*others)(void) = atomic_load(&also);
 
     if (others)
         others();
-    clock_gettime(CLOCK_REALTIME, &until);
-    until.tv_nsec += 500000000;
-    until.tv_sec += until.tv_nsec / 1000000000;
-    until.tv_nsec %= 1000000000;
     if (pthread_mutex_timedlock(&lock, &until) != 0)
         return;
     for (const RetexPendingFile *file = files; file; file = file->next)

@@ -2,11 +2,10 @@
 #ifndef RETEX_RETEX_H
 #define RETEX_RETEX_H
 
-#define RETEX_VERSION "0.1.0"
-
 #include <retex/access.h>
 #include <retex/band_stats.h>
 #include <retex/budget.h>
+#include <retex/clock.h>
 #include <retex/color.h>
 #include <retex/compact.h>
 #include <retex/denoise.h>
@@ -24,5 +23,6 @@
 #include <retex/band_store.h>
 #include <retex/texture.h>
 #include <retex/uv_stats.h>
+#include <retex/version.h>
 
 #endif

@@ -116,7 +116,7 @@ typedef struct RetexSet {
     char layout[16];       /* "footprints", "paper", or "plain": no terms */
     char filter[16];       /* pixel filter: "box" or "gaussian" */
     char scene[256];       /* base name of the scene file */
-    char generator[64];    /* "retex-render 0.1.0" */
+    char generator[64];    /* program and version: "retex-render 1.0" */
     int orders, spp, max_depth;
     uint32_t seed;
     uint32_t id;           /* tells one render's set from another's; kept by packing; 0 = unknown */

@@ -1,0 +1,21 @@
+/* The one clock of this house: for durations, deadlines and locks that are not waited for any longer. */
+#ifndef RETEX_CLOCK_H
+#define RETEX_CLOCK_H
+
+#include <time.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Time since some moment before the program began, by a clock that never goes back. */
+long long retex_clock_nanoseconds(void);
+double retex_clock_seconds(void);
+
+/* The time of day so many seconds from now, 0 or more: what pthread_mutex_timedlock and its like take. */
+struct timespec retex_clock_time_after(double seconds);
+
+#ifdef __cplusplus
+}
+#endif
+#endif
