@@ -1,15 +1,14 @@
 /* See matte.h. Loops over lanes without branches: the compiler makes vectors of them. */
+#include <retex/cpu.h>
 #include "path/matte.h"
 
-#define INLINE static inline __attribute__((always_inline))
-
 /* accel_offset, to the side that a direction leaves to. */
-INLINE Vec3 start_of_ray(Vec3 position, Vec3 geometric, double margin, double side)
+RETEX_CPU_INLINE Vec3 start_of_ray(Vec3 position, Vec3 geometric, double margin, double side)
 {
     return vec_mad(position, geometric, side < 0 ? -margin : margin);
 }
 
-INLINE void light_lane(MatteLights *to, const MattePacket *p, int k)
+RETEX_CPU_INLINE void light_lane(MatteLights *to, const MattePacket *p, int k)
 {
     Vec3 position = matte_get(&p->position, k), geometric = matte_get(&p->geometric, k);
     Vec3 face_normal = matte_get(&p->face_normal, k);
@@ -39,7 +38,7 @@ INLINE void light_lane(MatteLights *to, const MattePacket *p, int k)
     to->weight[k] = 1 / (1 + ratio * ratio) / light_pdf;
 }
 
-INLINE void bounce_lane(MatteBounces *to, const MattePacket *p, int k)
+RETEX_CPU_INLINE void bounce_lane(MatteBounces *to, const MattePacket *p, int k)
 {
     Vec3 position = matte_get(&p->position, k), geometric = matte_get(&p->geometric, k);
     Vec3 normal = matte_get(&p->normal, k), s, t;
@@ -57,85 +56,37 @@ INLINE void bounce_lane(MatteBounces *to, const MattePacket *p, int k)
     to->pdf[k] = height / (float)PI;
 }
 
-INLINE void light_lanes(MatteLights *restrict to, const MattePacket *restrict p)
+RETEX_CPU_INLINE void lights_body(MatteLights *restrict to, const MattePacket *restrict p)
 {
     for (int k = 0; k < MATTE_LANES; k++)
         light_lane(to, p, k);
 }
 
-INLINE void bounce_lanes(MatteBounces *restrict to, const MattePacket *restrict p)
+RETEX_CPU_INLINE void bounces_body(MatteBounces *restrict to, const MattePacket *restrict p)
 {
     for (int k = 0; k < MATTE_LANES; k++)
         bounce_lane(to, p, k);
 }
 
+RETEX_CPU_KERNEL(lights, (MatteLights * to, const MattePacket *p), (to, p))
+RETEX_CPU_KERNEL(bounces, (MatteBounces * to, const MattePacket *p), (to, p))
+
 void matte_lights_plain(MatteLights *to, const MattePacket *p)
 {
-    light_lanes(to, p);
+    lights_baseline(to, p);
 }
 
 void matte_bounces_plain(MatteBounces *to, const MattePacket *p)
 {
-    bounce_lanes(to, p);
-}
-
-#if defined(__x86_64__)
-#define TARGET_AVX2 __attribute__((target("avx2")))
-#define TARGET_AVX512 __attribute__((target("avx512f,avx512dq,avx512vl,prefer-vector-width=512")))
-
-TARGET_AVX2 static void lights_avx2(MatteLights *to, const MattePacket *p)
-{
-    light_lanes(to, p);
-}
-
-TARGET_AVX512 static void lights_avx512(MatteLights *to, const MattePacket *p)
-{
-    light_lanes(to, p);
-}
-
-TARGET_AVX2 static void bounces_avx2(MatteBounces *to, const MattePacket *p)
-{
-    bounce_lanes(to, p);
-}
-
-TARGET_AVX512 static void bounces_avx512(MatteBounces *to, const MattePacket *p)
-{
-    bounce_lanes(to, p);
-}
-
-static int has_avx512(void)
-{
-    return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
-           __builtin_cpu_supports("avx512vl");
+    bounces_baseline(to, p);
 }
 
 void matte_lights(MatteLights *to, const MattePacket *p)
 {
-    if (has_avx512())
-        lights_avx512(to, p);
-    else if (__builtin_cpu_supports("avx2"))
-        lights_avx2(to, p);
-    else
-        light_lanes(to, p);
+    lights_by_level[retex_cpu_level()](to, p);
 }
 
 void matte_bounces(MatteBounces *to, const MattePacket *p)
 {
-    if (has_avx512())
-        bounces_avx512(to, p);
-    else if (__builtin_cpu_supports("avx2"))
-        bounces_avx2(to, p);
-    else
-        bounce_lanes(to, p);
+    bounces_by_level[retex_cpu_level()](to, p);
 }
-#else
-void matte_lights(MatteLights *to, const MattePacket *p)
-{
-    light_lanes(to, p);
-}
-
-void matte_bounces(MatteBounces *to, const MattePacket *p)
-{
-    bounce_lanes(to, p);
-}
-#endif

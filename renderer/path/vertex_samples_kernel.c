@@ -1,11 +1,10 @@
 /* See vertex_samples.h. Loops over lanes without branches: the compiler makes vectors of them. */
+#include <retex/cpu.h>
 #include "path/vertex_samples.h"
 
-#define INLINE static inline __attribute__((always_inline))
-
 /* sampler_pair, of all lanes. */
-INLINE void pair_lanes(const VertexKeys *keys, int pair, const uint32_t *restrict sample, float *restrict u,
-                       float *restrict v)
+RETEX_CPU_INLINE void pair_lanes(const VertexKeys *keys, int pair, const uint32_t *restrict sample, float *restrict u,
+                                 float *restrict v)
 {
     uint32_t shuffle = keys->shuffle[pair], first = keys->scramble[pair][0], second = keys->scramble[pair][1];
     for (int k = 0; k < VERTEX_LANES; k++) {
@@ -17,13 +16,16 @@ INLINE void pair_lanes(const VertexKeys *keys, int pair, const uint32_t *restric
     }
 }
 
-INLINE void numbers(const VertexKeys *keys, const uint32_t *sample, VertexSamples *samples)
+RETEX_CPU_INLINE void numbers_body(const VertexKeys *keys, const uint32_t *sample, VertexSamples *samples)
 {
     pair_lanes(keys, VERTEX_LOBE, sample, samples->lobe, samples->roulette);
     pair_lanes(keys, VERTEX_DIRECTION, sample, samples->direction_u, samples->direction_v);
     pair_lanes(keys, VERTEX_LIGHT_CHOICE, sample, samples->light_choice, samples->light_part);
     pair_lanes(keys, VERTEX_LIGHT_POINT, sample, samples->light_point_u, samples->light_point_v);
 }
+
+RETEX_CPU_KERNEL(numbers, (const VertexKeys *keys, const uint32_t *sample, VertexSamples *samples),
+                 (keys, sample, samples))
 
 static void make_keys(VertexKeys *keys, uint32_t key, unsigned vertex)
 {
@@ -50,37 +52,11 @@ static const VertexKeys *vertex_keys(PixelKeys *keys, uint32_t key, unsigned ver
 void vertex_samples_plain(PixelKeys *keys, uint32_t key, const uint32_t sample[VERTEX_LANES], unsigned vertex,
                           VertexSamples *samples)
 {
-    numbers(vertex_keys(keys, key, vertex), sample, samples);
-}
-
-#if defined(__x86_64__)
-__attribute__((target("avx2"))) static void numbers_avx2(const VertexKeys *keys, const uint32_t *sample,
-                                                         VertexSamples *samples)
-{
-    numbers(keys, sample, samples);
-}
-
-__attribute__((target("avx512f,avx512vl,avx512bw,prefer-vector-width=512"))) static void
-numbers_avx512(const VertexKeys *keys, const uint32_t *sample, VertexSamples *samples)
-{
-    numbers(keys, sample, samples);
+    numbers_baseline(vertex_keys(keys, key, vertex), sample, samples);
 }
 
 void vertex_samples(PixelKeys *keys, uint32_t key, const uint32_t sample[VERTEX_LANES], unsigned vertex,
                     VertexSamples *samples)
 {
-    const VertexKeys *own = vertex_keys(keys, key, vertex);
-    if (__builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512vl"))
-        numbers_avx512(own, sample, samples);
-    else if (__builtin_cpu_supports("avx2"))
-        numbers_avx2(own, sample, samples);
-    else
-        numbers(own, sample, samples);
+    numbers_by_level[retex_cpu_level()](vertex_keys(keys, key, vertex), sample, samples);
 }
-#else
-void vertex_samples(PixelKeys *keys, uint32_t key, const uint32_t sample[VERTEX_LANES], unsigned vertex,
-                    VertexSamples *samples)
-{
-    vertex_samples_plain(keys, key, sample, vertex, samples);
-}
-#endif

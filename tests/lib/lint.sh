@@ -2,7 +2,8 @@
 # Rules of the house that a script can check: make lint.
 #   - arrows between directories: libretex <- renderer <- oiio_plugins; tools -> libretex
 #   - order of the rooms of tools/libretex and of the renderer; no circles of headers, nor of the renderer's files
-#   - one definition of the sRGB curve, of luminance, the clock, the version
+#   - one definition of the sRGB curve, of luminance, the clock, the version,
+#     the choice of vector instructions
 #   - each public header compiles alone, as C11 and as C++17
 #   - man pages without complaints of mandoc
 #   - no line over 120 bytes, no tab, no trailing blank in sources
@@ -107,6 +108,8 @@ one_definition tools/libretex/include/retex/color.h '(^|[^0-9])0?\.(2126f?|7152f
 one_definition tools/libretex/base/clock.c 'clock_gettime|gettimeofday|timespec_get|std::chrono' 'the clock'
 version=$(sed -nE 's/^#define RETEX_VERSION "(.*)"$/\1/p' tools/libretex/include/retex/version.h)
 one_definition tools/libretex/include/retex/version.h "\"([^\"]* )?${version:-no version}" 'the version'
+one_definition tools/libretex/base/cpu.c '__builtin_cpu|target_clones|ifunc|getauxval|cpuid' 'what the processor can do'
+one_definition tools/libretex/include/retex/cpu.h '__attribute__ *\(\(target|GCC target|__x86_64__' 'how kernels are compiled for a processor'
 
 probe=$(mktemp -d)
 trap 'rm -rf "$probe"' EXIT

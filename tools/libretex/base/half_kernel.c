@@ -1,6 +1,7 @@
-/* Conversion between float and half: a scalar reference and, where the processor has F16C, eight values at a time.
- * The choice is made at run time, so the default flags stay those of any x86-64 or ARM. */
+/* Conversion between float and half: a scalar reference and, with F16C, eight values at a time. */
 #include <string.h>
+
+#include <retex/cpu.h>
 
 #include "base/half.h"
 
@@ -65,11 +66,10 @@ void retex_half_to_float_scalar(float *restrict dst, const uint16_t *restrict sr
         dst[i] = half_to_float(src[i]);
 }
 
-#if defined(__x86_64__) && defined(__GNUC__)
+#if RETEX_CPU_X86
 #include <immintrin.h>
 
-__attribute__((target("avx,f16c"))) static void from_float_f16c(uint16_t *restrict dst, const float *restrict src,
-                                                                size_t count)
+RETEX_CPU_TARGET_AVX2 static void from_float_f16c(uint16_t *restrict dst, const float *restrict src, size_t count)
 {
     const __m256 magnitude = _mm256_castsi256_ps(_mm256_set1_epi32(0x7fffffff));
     const __m256 largest = _mm256_set1_ps(65504.0f), infinity = _mm256_set1_ps(__builtin_inff());
@@ -89,8 +89,7 @@ __attribute__((target("avx,f16c"))) static void from_float_f16c(uint16_t *restri
     retex_half_from_float_scalar(dst + i, src + i, count - i);
 }
 
-__attribute__((target("avx,f16c"))) static void to_float_f16c(float *restrict dst, const uint16_t *restrict src,
-                                                              size_t count)
+RETEX_CPU_TARGET_AVX2 static void to_float_f16c(float *restrict dst, const uint16_t *restrict src, size_t count)
 {
     size_t i = 0;
 
@@ -99,31 +98,28 @@ __attribute__((target("avx,f16c"))) static void to_float_f16c(float *restrict ds
     retex_half_to_float_scalar(dst + i, src + i, count - i);
 }
 
-static int have_f16c(void)
-{
-    return __builtin_cpu_supports("avx") && __builtin_cpu_supports("f16c");
-}
-#else
-#define from_float_f16c retex_half_from_float_scalar
-#define to_float_f16c retex_half_to_float_scalar
-static int have_f16c(void)
-{
-    return 0;
-}
 #endif
 
 void retex_half_from_float(uint16_t *restrict dst, const float *restrict src, size_t count)
 {
-    if (have_f16c())
-        from_float_f16c(dst, src, count);
-    else
-        retex_half_from_float_scalar(dst, src, count);
+    static void (*const by_level[RETEX_CPU_LEVELS])(uint16_t *restrict, const float *restrict, size_t) = {
+        retex_half_from_float_scalar,
+#if RETEX_CPU_X86
+        from_float_f16c,
+        from_float_f16c
+#endif
+    };
+    by_level[retex_cpu_level()](dst, src, count);
 }
 
 void retex_half_to_float(float *restrict dst, const uint16_t *restrict src, size_t count)
 {
-    if (have_f16c())
-        to_float_f16c(dst, src, count);
-    else
-        retex_half_to_float_scalar(dst, src, count);
+    static void (*const by_level[RETEX_CPU_LEVELS])(float *restrict, const uint16_t *restrict, size_t) = {
+        retex_half_to_float_scalar,
+#if RETEX_CPU_X86
+        to_float_f16c,
+        to_float_f16c
+#endif
+    };
+    by_level[retex_cpu_level()](dst, src, count);
 }

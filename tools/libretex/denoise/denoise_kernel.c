@@ -1,12 +1,12 @@
-/* See denoise_kernel.h. Each loop is written once and compiled for AVX-512, for AVX2, for what every machine of the
- * kind has, and without any vector unit: elementwise arithmetic, so that all give the same bits. */
+/* See denoise_kernel.h. Each loop is written once, compiled for each level of the processor, and once more
+ * without vectors: elementwise arithmetic, so that all give the same bits. */
 #include "denoise/denoise_kernel.h"
 
 #include <string.h>
 
-enum { WIDE = DENOISE_TILE + 2 * DENOISE_PATCH, BOX = 2 * DENOISE_PATCH + 1 };
+#include <retex/cpu.h>
 
-#define INLINE static inline __attribute__((always_inline))
+enum { WIDE = DENOISE_TILE + 2 * DENOISE_PATCH, BOX = 2 * DENOISE_PATCH + 1 };
 
 /* The candidates. Color: factor of squared differences in color; which features count; near: how fast pixels count
  * less the farther away they are, per squared pixel. The second is for where features change from pixel to pixel, the
@@ -17,7 +17,7 @@ static const struct {
 } ways[DENOISE_CANDIDATES] = {{1, 0.05f, STRICT}, {0.2f, 0.1f, LOOSE}, {1, 0.1f, NONE}, {0.05f, 0.1f, STRICT}};
 
 /* Near exp(-x) for x >= 0, and 0 from 8 on. */
-INLINE float falloff(float x)
+RETEX_CPU_INLINE float falloff(float x)
 {
     float y = 1 - x * 0.125f;
     y = y > 0 ? y : 0;
@@ -27,8 +27,8 @@ INLINE float falloff(float x)
 
 /* ---- features ---- */
 
-INLINE void group_distance(float *restrict strict, float *restrict loose, const RetexDenoiseFeatures *f,
-                           const RetexDenoiseFeatureGroup *g, size_t p, ptrdiff_t o, float per_pixel)
+RETEX_CPU_INLINE void group_distance(float *restrict strict, float *restrict loose, const RetexDenoiseFeatures *f,
+                                     const RetexDenoiseFeatureGroup *g, size_t p, ptrdiff_t o, float per_pixel)
 {
     float distance[DENOISE_TILE] = {0};
     if (g->normal[0]) {
@@ -56,7 +56,8 @@ INLINE void group_distance(float *restrict strict, float *restrict loose, const 
     }
 }
 
-INLINE void features_body(RetexDenoiseSimilarity *restrict alike, const RetexDenoiseFeatures *f, int dx, int dy)
+RETEX_CPU_INLINE void features_body(RetexDenoiseSimilarity *restrict alike, const RetexDenoiseFeatures *f, int dx,
+                                    int dy)
 {
     ptrdiff_t o = (ptrdiff_t)dy * DENOISE_PITCH + dx;
     float per_pixel = 1 / (float)(dx * dx + dy * dy + !(dx | dy));
@@ -77,8 +78,8 @@ INLINE void features_body(RetexDenoiseSimilarity *restrict alike, const RetexDen
 /* ---- colors ---- */
 
 /* Differences of one row of both halves, in units of their noise, and which count. */
-INLINE void difference_row(const RetexDenoiseSignal *s, size_t p, ptrdiff_t o, float *restrict first,
-                           float *restrict second, float *restrict counts)
+RETEX_CPU_INLINE void difference_row(const RetexDenoiseSignal *s, size_t p, ptrdiff_t o, float *restrict first,
+                                     float *restrict second, float *restrict counts)
 {
     const float *restrict kind = s->kind + p;
     for (int i = 0; i < WIDE; i++)
@@ -101,13 +102,13 @@ INLINE void difference_row(const RetexDenoiseSignal *s, size_t p, ptrdiff_t o, f
     }
 }
 
-INLINE void box_row(float *restrict out, const float *restrict in)
+RETEX_CPU_INLINE void box_row(float *restrict out, const float *restrict in)
 {
     for (int i = 0; i < DENOISE_TILE; i++)
         out[i] = in[i] + in[i + 1] + in[i + 2] + in[i + 3] + in[i + 4] + in[i + 5] + in[i + 6];
 }
 
-INLINE void box_column(float *restrict out, const float *restrict rows)
+RETEX_CPU_INLINE void box_column(float *restrict out, const float *restrict rows)
 {
     for (int i = 0; i < DENOISE_TILE; i++) {
         float sum = rows[i];
@@ -118,8 +119,8 @@ INLINE void box_column(float *restrict out, const float *restrict rows)
 }
 
 /* From sums over patches to means; of pixels of different kinds nothing is alike. */
-INLINE void distance_row(float *restrict distance, const float *restrict counts, const float *restrict kind,
-                         ptrdiff_t o)
+RETEX_CPU_INLINE void distance_row(float *restrict distance, const float *restrict counts, const float *restrict kind,
+                                   ptrdiff_t o)
 {
     for (int i = 0; i < DENOISE_TILE; i++) {
         float n = counts[i] > 1 ? counts[i] : 1, d = distance[i] / (3 * n);
@@ -128,8 +129,8 @@ INLINE void distance_row(float *restrict distance, const float *restrict counts,
     }
 }
 
-INLINE void weight_row(float *restrict weight, const float *restrict distance, const float *restrict alike, float color,
-                       float near)
+RETEX_CPU_INLINE void weight_row(float *restrict weight, const float *restrict distance, const float *restrict alike,
+                                 float color, float near)
 {
     for (int i = 0; i < DENOISE_TILE; i++) {
         float a = falloff(distance[i] * color), b = alike[i] * near;
@@ -142,8 +143,8 @@ typedef float Weights[DENOISE_BATCH][DENOISE_TILE];
 
 /* Add one row of what pixels from each q on give to a half's sums. All displacements go in one pass, for the sums would
  * otherwise be read and written for each. */
-INLINE void add_half(const RetexDenoiseSignal *s, const RetexDenoiseSums *to, int half, const size_t q[DENOISE_BATCH],
-                     size_t at, float w[restrict DENOISE_BATCH][DENOISE_TILE])
+RETEX_CPU_INLINE void add_half(const RetexDenoiseSignal *s, const RetexDenoiseSums *to, int half,
+                               const size_t q[DENOISE_BATCH], size_t at, float w[restrict DENOISE_BATCH][DENOISE_TILE])
 {
     const float *restrict a = s->half[half][0], *restrict b = s->half[half][1], *restrict c = s->half[half][2],
                           *restrict m = s->modulation;
@@ -159,8 +160,8 @@ INLINE void add_half(const RetexDenoiseSignal *s, const RetexDenoiseSums *to, in
     }
 }
 
-INLINE void add_planes(const RetexDenoiseSignal *s, const RetexDenoiseBatch *batch, const size_t q[DENOISE_BATCH],
-                       size_t at, Weights w[restrict 2])
+RETEX_CPU_INLINE void add_planes(const RetexDenoiseSignal *s, const RetexDenoiseBatch *batch,
+                                 const size_t q[DENOISE_BATCH], size_t at, Weights w[restrict 2])
 {
     Weights mean;
     for (int n = 0; n < DENOISE_BATCH; n++)
@@ -182,7 +183,7 @@ INLINE void add_planes(const RetexDenoiseSignal *s, const RetexDenoiseBatch *bat
 }
 
 /* Distances of all pixels to those at one displacement, by half. */
-INLINE void find_distances(const RetexDenoiseSignal *s, ptrdiff_t o, float *restrict distances)
+RETEX_CPU_INLINE void find_distances(const RetexDenoiseSignal *s, ptrdiff_t o, float *restrict distances)
 {
     float *boxed[3] = {s->scratch, s->scratch + WIDE * DENOISE_TILE, s->scratch + 2 * WIDE * DENOISE_TILE};
     for (int y = 0; y < WIDE; y++) {
@@ -203,7 +204,7 @@ INLINE void find_distances(const RetexDenoiseSignal *s, ptrdiff_t o, float *rest
     }
 }
 
-INLINE void signal_body(const RetexDenoiseSignal *s, const RetexDenoiseBatch *batch)
+RETEX_CPU_INLINE void signal_body(const RetexDenoiseSignal *s, const RetexDenoiseBatch *batch)
 {
     float *distances = s->scratch + 3 * WIDE * DENOISE_TILE;
     float near[DENOISE_CANDIDATES][DENOISE_BATCH];
@@ -238,40 +239,29 @@ INLINE void signal_body(const RetexDenoiseSignal *s, const RetexDenoiseBatch *ba
 
 /* ---- variants ---- */
 
-#define VARIANTS(attributes, suffix)                                                                                   \
-    attributes static void features_##suffix(RetexDenoiseSimilarity *alike, const RetexDenoiseFeatures *f, int dx,     \
-                                             int dy)                                                                   \
-    {                                                                                                                  \
-        features_body(alike, f, dx, dy);                                                                               \
-    }                                                                                                                  \
-    attributes static void signal_##suffix(const RetexDenoiseSignal *s, const RetexDenoiseBatch *batch)                \
-    {                                                                                                                  \
-        signal_body(s, batch);                                                                                         \
-    }
+RETEX_CPU_KERNEL(features, (RetexDenoiseSimilarity * alike, const RetexDenoiseFeatures *f, int dx, int dy),
+                 (alike, f, dx, dy))
+RETEX_CPU_KERNEL(signal, (const RetexDenoiseSignal *s, const RetexDenoiseBatch *batch), (s, batch))
 
-VARIANTS(, baseline)
-VARIANTS(__attribute__((optimize("no-tree-vectorize,no-tree-slp-vectorize"))), scalar)
-#if defined(__x86_64__) && defined(__GNUC__)
-VARIANTS(__attribute__((target("avx2"))), avx2)
-VARIANTS(__attribute__((target("avx512f,avx512vl,avx512bw,avx512dq,prefer-vector-width=512"))), avx512)
-#define HAS_AVX2 __builtin_cpu_supports("avx2")
-#define HAS_AVX512                                                                                                     \
-    (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512bw") &&  \
-     __builtin_cpu_supports("avx512dq"))
-/* The widest of a function's variants that the machine has. */
-#define CHOOSE(function, scalar)                                                                                       \
-    ((scalar) ? function##_scalar : HAS_AVX512 ? function##_avx512 : HAS_AVX2 ? function##_avx2 : function##_baseline)
-#else
-#define CHOOSE(function, scalar) ((scalar) ? function##_scalar : function##_baseline)
-#endif
+#define NO_VECTORS __attribute__((optimize("no-tree-vectorize,no-tree-slp-vectorize")))
+
+NO_VECTORS static void features_scalar(RetexDenoiseSimilarity *alike, const RetexDenoiseFeatures *f, int dx, int dy)
+{
+    features_body(alike, f, dx, dy);
+}
+
+NO_VECTORS static void signal_scalar(const RetexDenoiseSignal *s, const RetexDenoiseBatch *batch)
+{
+    signal_body(s, batch);
+}
 
 void retex_denoise_features_kernel(RetexDenoiseSimilarity *alike, const RetexDenoiseFeatures *features, int dx, int dy,
                                    int scalar)
 {
-    CHOOSE(features, scalar)(alike, features, dx, dy);
+    (scalar ? features_scalar : features_by_level[retex_cpu_level()])(alike, features, dx, dy);
 }
 
 void retex_denoise_signal_kernel(const RetexDenoiseSignal *signal, const RetexDenoiseBatch *batch, int scalar)
 {
-    CHOOSE(signal, scalar)(signal, batch);
+    (scalar ? signal_scalar : signal_by_level[retex_cpu_level()])(signal, batch);
 }

@@ -266,9 +266,7 @@ int pack_jpeg_decoder_create(PackJpegDecoder **result, RetexError *err)
     PackJpegDecoder *decoder = *result = calloc(1, sizeof *decoder);
     if (!decoder)
         return retex_fail(err, RETEX_ENOMEM, "no memory to decode JPEGs");
-    const PackJpegKernels *kernels[PACK_JPEG_KERNELS_MAX];
-    pack_jpeg_kernels(kernels);
-    decoder->kernels = kernels[0];
+    decoder->kernels = &pack_jpeg_kernels[retex_cpu_level()];
     decoder->jpeg.err = catch_trouble(&decoder->trouble);
     if (setjmp(decoder->trouble.out)) {
         jpeg_destroy_decompress(&decoder->jpeg);

@@ -139,19 +139,16 @@ static void greys_plain(float *restrict values, const float *y, int count, const
         values[i] = value_of(y[i] + 128, levels);
 }
 
-static const PackJpegKernels plain = {inverse_plain, colours_plain, greys_plain};
-
 /* --- back: eight at a time --- */
 
-#if defined(__x86_64__) && defined(__GNUC__)
+#if RETEX_CPU_X86
 #include <immintrin.h>
 
-#pragma GCC push_options
-#pragma GCC target("avx2")
+RETEX_CPU_BEGIN_AVX2
 
 /* inverse8 of vectors, in the same order of operations. */
 #define DEFINE_INVERSE8(name, Vector)                                                                                  \
-    static inline __attribute__((always_inline)) void name(Vector v[8])                                                \
+    RETEX_CPU_INLINE void name(Vector v[8])                                                                            \
     {                                                                                                                  \
         const Vector a = C4 * (v[0] + v[4]), b = C4 * (v[0] - v[4]), c = C2 * v[2] + C6 * v[6],                        \
                      d = C6 * v[2] - C2 * v[6];                                                                        \
@@ -166,7 +163,7 @@ static const PackJpegKernels plain = {inverse_plain, colours_plain, greys_plain}
 
 DEFINE_INVERSE8(inverse8_avx2, __m256)
 
-static inline __attribute__((always_inline)) void transpose8_avx2(__m256 v[8])
+RETEX_CPU_INLINE void transpose8_avx2(__m256 v[8])
 {
     __m256 pairs[8], fours[8];
     for (int i = 0; i < 4; i++) {
@@ -219,7 +216,7 @@ static void inverse_avx2(float *samples, int stride, const int16_t *coefficients
 }
 
 /* value_of; an entry and the next one lie side by side and come at once. */
-static inline __attribute__((always_inline)) __m256 values_of(__m256 level, const PackLevels *levels)
+RETEX_CPU_INLINE __m256 values_of(__m256 level, const PackLevels *levels)
 {
     const __m256 place = _mm256_max_ps(levels->scale * level, _mm256_setzero_ps());
     const __m256i entry = _mm256_cvttps_epi32(_mm256_min_ps(place, _mm256_set1_ps(PACK_LEVEL_ENTRIES)));
@@ -261,18 +258,17 @@ static void greys_avx2(float *restrict values, const float *y, int count, const 
     _mm256_zeroupper();
     greys_plain(values + i, y + i, count - i, levels);
 }
-#pragma GCC pop_options
+RETEX_CPU_END
 
 /* --- back: sixteen at a time --- */
 
-#pragma GCC push_options
-#pragma GCC target("avx512f,avx512dq,prefer-vector-width=512")
+RETEX_CPU_BEGIN_AVX512
 
 /* Of two blocks side by side. */
 DEFINE_INVERSE8(inverse8_avx512, __m512)
 
 /* Each half by itself. */
-static inline __attribute__((always_inline)) void transpose8_avx512(__m512 v[8])
+RETEX_CPU_INLINE void transpose8_avx512(__m512 v[8])
 {
     const __m512i low = _mm512_setr_epi64(0, 1, 8, 9, 4, 5, 12, 13),
                   high = _mm512_setr_epi64(2, 3, 10, 11, 6, 7, 14, 15);
@@ -322,24 +318,14 @@ static void inverse_avx512(float *samples, int stride, const int16_t *coefficien
     _mm256_zeroupper();
     inverse_avx2(samples, stride, coefficients, blocks - block, steps);
 }
-#pragma GCC pop_options
+RETEX_CPU_END
 
-int pack_jpeg_kernels(const PackJpegKernels *kernels[PACK_JPEG_KERNELS_MAX])
-{
-    static const PackJpegKernels avx512 = {inverse_avx512, colours_avx2, greys_avx2},
-                                 avx2 = {inverse_avx2, colours_avx2, greys_avx2};
-    int count = 0;
-    if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq"))
-        kernels[count++] = &avx512;
-    if (__builtin_cpu_supports("avx2"))
-        kernels[count++] = &avx2;
-    kernels[count++] = &plain;
-    return count;
-}
-#else
-int pack_jpeg_kernels(const PackJpegKernels *kernels[PACK_JPEG_KERNELS_MAX])
-{
-    kernels[0] = &plain;
-    return 1;
-}
 #endif
+
+const PackJpegKernels pack_jpeg_kernels[RETEX_CPU_LEVELS] = {
+    {inverse_plain, colours_plain, greys_plain},
+#if RETEX_CPU_X86
+    {inverse_avx2, colours_avx2, greys_avx2},
+    {inverse_avx512, colours_avx2, greys_avx2},
+#endif
+};

@@ -4,6 +4,8 @@
 
 #include <stdint.h>
 
+#include <retex/cpu.h>
+
 enum { PACK_LEVEL_ENTRIES = 8192 };
 
 /* Which values levels stand for: entries, between which one interpolates; beyond the last one the line goes on. */
@@ -29,8 +31,6 @@ typedef struct PackJpegKernels {
     void (*greys)(float *values, const float *y, int count, const PackLevels *levels);
 } PackJpegKernels;
 
-/* Those that this processor can run, the fastest first, the plain reference last; returns how many. */
-enum { PACK_JPEG_KERNELS_MAX = 3 };
-int pack_jpeg_kernels(const PackJpegKernels *kernels[PACK_JPEG_KERNELS_MAX]);
+extern const PackJpegKernels pack_jpeg_kernels[RETEX_CPU_LEVELS];
 
 #endif

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include <retex/color.h>
+#include <retex/cpu.h>
 
 #include "picture/srgb_codes.h"
 
@@ -108,10 +109,10 @@ static void codes_8_plain(uint8_t *restrict codes, const float *restrict values,
     }
 }
 
-#if defined(__x86_64__) && defined(__GNUC__)
+#if RETEX_CPU_X86
 #include <immintrin.h>
 
-__attribute__((target("avx2"))) static inline __m256i eight_codes(const float *values)
+RETEX_CPU_TARGET_AVX2 static inline __m256i eight_codes(const float *values)
 {
     const __m256 low = _mm256_castsi256_ps(_mm256_set1_epi32(LOWEST(EXPONENTS_8)));
     /* of NaN and a number the second is the larger one */
@@ -124,7 +125,7 @@ __attribute__((target("avx2"))) static inline __m256i eight_codes(const float *v
     return _mm256_sub_epi32(code, _mm256_castps_si256(_mm256_cmp_ps(value, next, _CMP_GE_OQ)));
 }
 
-__attribute__((target("avx2"))) static void codes_8(uint8_t *restrict codes, const float *restrict values, size_t count)
+RETEX_CPU_TARGET_AVX2 static void codes_8_avx2(uint8_t *restrict codes, const float *restrict values, size_t count)
 {
     const __m256i order = _mm256_setr_epi32(0, 4, 1, 5, 2, 6, 3, 7);
     size_t i = 0;
@@ -138,25 +139,19 @@ __attribute__((target("avx2"))) static void codes_8(uint8_t *restrict codes, con
     codes_8_plain(codes + i, values + i, count - i);
 }
 
-static int have_vectors(void)
-{
-    return __builtin_cpu_supports("avx2");
-}
-#else
-#define codes_8 codes_8_plain
-static int have_vectors(void)
-{
-    return 0;
-}
 #endif
 
 void retex_srgb_codes_8(uint8_t *restrict codes, const float *restrict values, size_t count)
 {
+    static void (*const by_level[RETEX_CPU_LEVELS])(uint8_t *restrict, const float *restrict, size_t) = {
+        codes_8_plain,
+#if RETEX_CPU_X86
+        codes_8_avx2,
+        codes_8_avx2
+#endif
+    };
     pthread_once(&tables.once_8, make_8);
-    if (have_vectors())
-        codes_8(codes, values, count);
-    else
-        codes_8_plain(codes, values, count);
+    by_level[retex_cpu_level()](codes, values, count);
 }
 
 void retex_srgb_codes_16(uint16_t *restrict codes, const float *restrict values, size_t count)

@@ -3,7 +3,6 @@
 #include "texture/batch.h"
 
 #include <math.h>
-#include <pthread.h>
 #include <string.h>
 
 #include "texture/texture_kernel.h"
@@ -96,15 +95,6 @@ static void filter_one(const RetexTexture *texture, RetexTextureFilter shape, co
         retex_texture_disc(texture, (double)uv[0], (double)uv[1], covariance, rgba);
 }
 
-static RetexTextureBatchKernel *best_kernel;
-
-static void choose_kernel(void)
-{
-    RetexTextureBatchKernel *kernels[3];
-    retex_texture_batch_kernels(kernels);
-    best_kernel = kernels[0];
-}
-
 /* 0 without alpha, as out is already. */
 static inline void unassociate(const float in[4], float *out, int channels)
 {
@@ -159,10 +149,9 @@ void retex_texture_filter_batches(RetexTextureBatchKernel *kernel, const RetexTe
 void retex_texture_filter(const RetexTexture *texture, RetexTextureFilter shape, const float *uv, const float *spread,
                           int spreads, size_t n, float *colors, int channels)
 {
-    static pthread_once_t once = PTHREAD_ONCE_INIT;
-    pthread_once(&once, choose_kernel);
     if (texture->nlevels) {
-        retex_texture_filter_batches(best_kernel, texture, shape, uv, spread, spreads, n, colors, channels);
+        retex_texture_filter_batches(retex_texture_batch_kernels[retex_cpu_level()], texture, shape, uv, spread,
+                                     spreads, n, colors, channels);
         return;
     }
     for (size_t i = 0; i < n; i++) {

@@ -6,6 +6,8 @@
 #ifndef RETEX_TEXTURE_BATCH_H
 #define RETEX_TEXTURE_BATCH_H
 
+#include <retex/cpu.h>
+
 #include "texture/pyramid.h"
 
 #define BATCH_LEVELS 16
@@ -47,8 +49,7 @@ typedef struct RetexBatch {
 
 typedef void RetexTextureBatchKernel(const RetexBatchTexture *texture, RetexBatch *batch);
 
-/* The kernels of this build that this machine can run, the best one first; the last is the scalar reference. */
-int retex_texture_batch_kernels(RetexTextureBatchKernel *kernels[3]);
+extern RetexTextureBatchKernel *const retex_texture_batch_kernels[RETEX_CPU_LEVELS];
 
 /* retex_texture_filter, by one of them; not for constants. */
 void retex_texture_filter_batches(RetexTextureBatchKernel *kernel, const RetexTexture *texture,

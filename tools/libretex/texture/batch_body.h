@@ -96,23 +96,23 @@ static const int batch_rows[2][4][16] = {{{0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3
 #define LOOK_UP(table, index) NAME(pick)(table, index)
 #define PICK(array, index) NAME(pick)(array, index)
 #define OF_LEVEL(table, level) NAME(pick)(table, level)
-INLINE Lanes NAME(lesser)(Lanes a, Lanes b)
+RETEX_CPU_INLINE Lanes NAME(lesser)(Lanes a, Lanes b)
 {
     Mask less = a < b;
     return (Lanes)((less & (Mask)a) | (~less & (Mask)b));
 }
-INLINE Lanes NAME(greater)(Lanes a, Lanes b)
+RETEX_CPU_INLINE Lanes NAME(greater)(Lanes a, Lanes b)
 {
     Mask more = a > b;
     return (Lanes)((more & (Mask)a) | (~more & (Mask)b));
 }
-INLINE Lanes NAME(root)(Lanes a)
+RETEX_CPU_INLINE Lanes NAME(root)(Lanes a)
 {
     for (int i = 0; i < LANES; i++)
         a[i] = sqrtf(a[i]);
     return a;
 }
-INLINE Lanes NAME(pick)(const float *array, Mask index)
+RETEX_CPU_INLINE Lanes NAME(pick)(const float *array, Mask index)
 {
     Lanes out;
     for (int i = 0; i < LANES; i++)
@@ -125,22 +125,22 @@ INLINE Lanes NAME(pick)(const float *array, Mask index)
 #define SELECT_INT(mask, a, b) (((mask) & (a)) | (~(mask) & (b)))
 #define LOAD(value, from) memcpy(&(value), from, sizeof(value))
 #define STORE(to, value) NAME(store)(to, (Mask)(value))
-INLINE void NAME(store)(void *to, Mask value)
+RETEX_CPU_INLINE void NAME(store)(void *to, Mask value)
 {
     memcpy(to, &value, sizeof value);
 }
 
-INLINE Lanes NAME(all)(float value)
+RETEX_CPU_INLINE Lanes NAME(all)(float value)
 {
     return value - (Lanes){0};
 }
 
-INLINE Lanes NAME(to_float)(Mask i)
+RETEX_CPU_INLINE Lanes NAME(to_float)(Mask i)
 {
     return __builtin_convertvector(i, Lanes);
 }
 
-INLINE Mask NAME(whole_below)(Lanes x)
+RETEX_CPU_INLINE Mask NAME(whole_below)(Lanes x)
 {
     Mask i = __builtin_convertvector(x, Mask);
     return i + (x < NAME(to_float)(i));
@@ -175,7 +175,7 @@ typedef struct Band {
     Lanes weights[4][4 * MAX_BLOCKS]; /* of texels, by line and column */
 } Band;
 
-INLINE void NAME(begin_band)(const Group *g, int number, Band *band)
+RETEX_CPU_INLINE void NAME(begin_band)(const Group *g, int number, Band *band)
 {
     band->begin = g->first + (float)(4 * number) - g->along;
     band->lines = g->lines - 4 * number < 4 ? g->lines - 4 * number : 4;
@@ -193,8 +193,8 @@ typedef struct Chord {
 } Chord;
 
 /* Chords between `low` and the next line's place; the ellipse's size is given apart, for a Gaussian has two. */
-INLINE void NAME(find_chords)(const Group *g, const Band *band, Lanes low, Lanes length, Lanes inverse, Lanes half,
-                              Chord *chords)
+RETEX_CPU_INLINE void NAME(find_chords)(const Group *g, const Band *band, Lanes low, Lanes length, Lanes inverse,
+                                        Lanes half, Chord *chords)
 {
     Lanes high = low + 1, begin = MAX(low, -length), end = MIN(high, length);
     Lanes span = MAX(end - begin, NAME(all)(0));
@@ -211,7 +211,7 @@ INLINE void NAME(find_chords)(const Group *g, const Band *band, Lanes low, Lanes
 
 /* Texels are interpolated: their tents' double integral, differenced twice. To the weights that are there, or to none.
  */
-INLINE void NAME(weigh_fine)(Group *g, Band *band, Lanes length, Lanes half, Lanes scale, int is_added)
+RETEX_CPU_INLINE void NAME(weigh_fine)(Group *g, Band *band, Lanes length, Lanes half, Lanes scale, int is_added)
 {
     Lanes lines[5][MAX_COLUMNS]; /* the last is of no meaning */
     Chord chords[NODES];
@@ -249,7 +249,7 @@ INLINE void NAME(weigh_fine)(Group *g, Band *band, Lanes length, Lanes half, Lan
 }
 
 /* Texels are averages over squares: how much of a chord each covers. */
-INLINE void NAME(weigh_boxes)(Group *g, Band *band)
+RETEX_CPU_INLINE void NAME(weigh_boxes)(Group *g, Band *band)
 {
     Chord chords[NODES];
     Lanes inverse = 1 / g->length;
@@ -267,7 +267,7 @@ INLINE void NAME(weigh_boxes)(Group *g, Band *band)
 
 /* exp(-x) within 4e-5 for 0 <= x <= 5.28125, as the eighth power of a polynomial fitted to be so; less than
  * GAUSSIAN_EDGE at the end. */
-INLINE Lanes NAME(exp_minus)(Lanes x)
+RETEX_CPU_INLINE Lanes NAME(exp_minus)(Lanes x)
 {
     Lanes p = 0.99999528f + x * (-0.12493123f + x * (0.0076847804f + x * -0.00025969859f));
     p *= p;
@@ -275,7 +275,7 @@ INLINE Lanes NAME(exp_minus)(Lanes x)
     return p * p;
 }
 
-INLINE void NAME(weigh_gaussian)(Group *g, Band *band)
+RETEX_CPU_INLINE void NAME(weigh_gaussian)(Group *g, Band *band)
 {
     const float reach = GAUSSIAN_REACH * 0.70710678f; /* so that squares are exponents */
     Lanes down = reach / g->length, over = reach / g->half, columns[4 * MAX_BLOCKS];
@@ -293,7 +293,7 @@ INLINE void NAME(weigh_gaussian)(Group *g, Band *band)
 }
 
 /* Take off what lies beyond the surface's ends. */
-INLINE void NAME(cut_band)(Group *g, Band *band)
+RETEX_CPU_INLINE void NAME(cut_band)(Group *g, Band *band)
 {
     Lanes across[4 * MAX_BLOCKS];
     for (int c = 0; c < g->columns; c++)
@@ -307,7 +307,7 @@ INLINE void NAME(cut_band)(Group *g, Band *band)
     }
 }
 
-INLINE void NAME(weigh_band)(Group *g, int number, Band *band)
+RETEX_CPU_INLINE void NAME(weigh_band)(Group *g, int number, Band *band)
 {
     NAME(begin_band)(g, number, band);
     if (g->texture->gaussian && g->fine) {
@@ -332,7 +332,7 @@ INLINE void NAME(weigh_band)(Group *g, int number, Band *band)
 #include "texture/batch_sum.h"
 
 /* The surface's ends, if there are any within the windows. */
-INLINE int NAME(load_ends)(Group *g)
+RETEX_CPU_INLINE int NAME(load_ends)(Group *g)
 {
     const Places *p = g->places;
     int cut = 0;
@@ -346,7 +346,7 @@ INLINE int NAME(load_ends)(Group *g)
     return cut;
 }
 
-INLINE void NAME(filter_group)(Group *g, RetexBatch *batch)
+RETEX_CPU_INLINE void NAME(filter_group)(Group *g, RetexBatch *batch)
 {
     Band band;
     const Places *p = g->places;
@@ -393,7 +393,7 @@ INLINE void NAME(filter_group)(Group *g, RetexBatch *batch)
 
 /* How many of the batch's footprints have keys below. Makes `order` that of their keys, ends[k] that of key k in it:
  * counting is sorting. */
-INLINE int NAME(sort)(const RetexBatch *batch, const Places *places, int *order, int *ends)
+RETEX_CPU_INLINE int NAME(sort)(const RetexBatch *batch, const Places *places, int *order, int *ends)
 {
     int sum = 0;
     memset(ends, 0, sizeof *ends * (NKEYS + 1));
@@ -411,7 +411,7 @@ INLINE int NAME(sort)(const RetexBatch *batch, const Places *places, int *order,
 
 /* Full vectors of footprints from place `begin` of the order on. Side by side go those of one key; what room they leave
  * takes those of the keys after it, where that saves a group more than it makes this one larger. */
-INLINE void NAME(form_group)(Group *g, const int *order, const int *ends, int begin)
+RETEX_CPU_INLINE void NAME(form_group)(Group *g, const int *order, const int *ends, int begin)
 {
     const int key = g->places->key[order[begin]], kinds = MAX_BANDS * MAX_BLOCKS;
     g->turned = key / (2 * kinds);

@@ -6,7 +6,7 @@ typedef struct Ends {
     Lanes low, high;
 } Ends;
 
-INLINE Ends NAME(find_ends)(const RetexBatchTexture *t, int axis, Lanes u, Lanes v, Mask level)
+RETEX_CPU_INLINE Ends NAME(find_ends)(const RetexBatchTexture *t, int axis, Lanes u, Lanes v, Mask level)
 {
     const RetexBatchLimit *limit = &t->limits[axis];
     if (limit->along < 0)
@@ -17,7 +17,7 @@ INLINE Ends NAME(find_ends)(const RetexBatchTexture *t, int axis, Lanes u, Lanes
 }
 
 /* Ends by lines and texels of a line; length and width are how far the windows go. */
-INLINE void NAME(place_ends)(const Ends *ends, Mask turned, Lanes length, Lanes width, Places *p, int i)
+RETEX_CPU_INLINE void NAME(place_ends)(const Ends *ends, Mask turned, Lanes length, Lanes width, Places *p, int i)
 {
     Lanes low[2] = {SELECT(turned, ends[0].low, ends[1].low), SELECT(turned, ends[1].low, ends[0].low)};
     Lanes high[2] = {SELECT(turned, ends[0].high, ends[1].high), SELECT(turned, ends[1].high, ends[0].high)};
@@ -30,7 +30,7 @@ INLINE void NAME(place_ends)(const Ends *ends, Mask turned, Lanes length, Lanes 
 }
 
 /* The share of a texel, or of a line of them, that lies on the surface; exactly 1 far from its ends. */
-INLINE Lanes NAME(share_within)(Lanes at, Lanes low, Lanes high)
+RETEX_CPU_INLINE Lanes NAME(share_within)(Lanes at, Lanes low, Lanes high)
 {
     const Lanes none = NAME(all)(0), one = NAME(all)(1);
     Lanes above = MAX(MIN(at - low + 0.5f, one), none), below = MAX(MIN(high - at + 0.5f, one), none);

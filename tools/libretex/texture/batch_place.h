@@ -18,7 +18,7 @@ typedef struct Places {
 } Places;
 
 /* u and v where they are far away become 0. */
-INLINE void NAME(find_mean)(const RetexBatchTexture *t, int axis, Lanes u, Lanes v, Double *mean)
+RETEX_CPU_INLINE void NAME(find_mean)(const RetexBatchTexture *t, int axis, Lanes u, Lanes v, Double *mean)
 {
     const Double whole = 6755399441055744.0 - (Double){0}; /* 1.5 * 2^52: adding it rounds */
     const Double period = t->period[axis] - (Double){0}, one = 1 - (Double){0};
@@ -36,7 +36,7 @@ INLINE void NAME(find_mean)(const RetexBatchTexture *t, int axis, Lanes u, Lanes
 }
 
 /* The mean in texels of the level, as a whole number and a rest. */
-INLINE void NAME(split_mean)(const Double *mean, Lanes texels, Mask *index, Lanes *rest)
+RETEX_CPU_INLINE void NAME(split_mean)(const Double *mean, Lanes texels, Mask *index, Lanes *rest)
 {
     const Double whole = 6755399441055744.0 - (Double){0}, one = 1 - (Double){0};
     Half sizes[2], rests[2];
@@ -57,7 +57,7 @@ typedef struct Spread {
     Lanes xx, xy, yy;
 } Spread;
 
-INLINE Spread NAME(find_spread)(const RetexBatchTexture *t, Lanes su, Lanes sv, Lanes correlation)
+RETEX_CPU_INLINE Spread NAME(find_spread)(const RetexBatchTexture *t, Lanes su, Lanes sv, Lanes correlation)
 {
     const float(*m)[2] = t->to_texels;
     float a = m[0][0], b = m[0][1], c = m[1][0], d = m[1][1];
@@ -68,7 +68,7 @@ INLINE Spread NAME(find_spread)(const RetexBatchTexture *t, Lanes su, Lanes sv, 
 
 /* A Gaussian longer than MAX_RATIO times its width is widened, all around: a needle lies on a level on which it meets
  * far more texels than others do, and the few paths that it stands for hardly tell how thin it is. */
-INLINE void NAME(widen)(Spread *s)
+RETEX_CPU_INLINE void NAME(widen)(Spread *s)
 {
     Lanes sum = s->xx + s->yy, difference = s->xx - s->yy;
     Lanes root = MIN(SQRT(difference * difference + 4 * s->xy * s->xy), sum);
@@ -78,7 +78,7 @@ INLINE void NAME(widen)(Spread *s)
 }
 
 /* By the smaller variance: halving texels divides it by four. *fine: texels are interpolated. */
-INLINE Mask NAME(choose_level)(const RetexBatchTexture *t, const Spread *s, Mask *fine)
+RETEX_CPU_INLINE Mask NAME(choose_level)(const RetexBatchTexture *t, const Spread *s, Mask *fine)
 {
     Lanes sum = s->xx + s->yy, difference = s->xx - s->yy, needed;
     Lanes root = MIN(SQRT(difference * difference + 4 * s->xy * s->xy), sum);
@@ -99,8 +99,8 @@ INLINE Mask NAME(choose_level)(const RetexBatchTexture *t, const Spread *s, Mask
 }
 
 /* What a level leaves of a variance. */
-INLINE Lanes NAME(reduce_variance)(const RetexBatchTexture *t, int axis, const Double *mean, Lanes variance, Mask level,
-                                   Mask fine)
+RETEX_CPU_INLINE Lanes NAME(reduce_variance)(const RetexBatchTexture *t, int axis, const Double *mean, Lanes variance,
+                                             Mask level, Mask fine)
 {
     Half halves[2] = {__builtin_convertvector(mean[0], Half), __builtin_convertvector(mean[1], Half)};
     Lanes at;
@@ -121,7 +121,7 @@ INLINE Lanes NAME(reduce_variance)(const RetexBatchTexture *t, int axis, const D
 }
 
 /* The texels of an open interval: the first, and how many. */
-INLINE Mask NAME(first_within)(Lanes begin, Lanes end, Mask *count)
+RETEX_CPU_INLINE Mask NAME(first_within)(Lanes begin, Lanes end, Mask *count)
 {
     Mask first = NAME(whole_below)(begin) + 1, last = -NAME(whole_below)(-end) - 1;
     *count = last - first + 1;
@@ -131,8 +131,8 @@ INLINE Mask NAME(first_within)(Lanes begin, Lanes end, Mask *count)
 #include "texture/batch_cut.h"
 
 /* The ellipse in lines, and the blocks that it meets. */
-INLINE void NAME(find_window)(const RetexBatchTexture *t, const Spread *s, Lanes at_x, Lanes at_y, Mask column,
-                              Mask row, Mask fine, Mask far, const Ends *ends, Places *p, int i)
+RETEX_CPU_INLINE void NAME(find_window)(const RetexBatchTexture *t, const Spread *s, Lanes at_x, Lanes at_y,
+                                        Mask column, Mask row, Mask fine, Mask far, const Ends *ends, Places *p, int i)
 {
     const Lanes least = NAME(all)(LEAST_RADIUS), none = NAME(all)(0);
     float wider = t->gaussian ? GAUSSIAN_REACH / sqrtf(GAUSSIAN_VARIANCE) : 2;
@@ -182,7 +182,7 @@ INLINE void NAME(find_window)(const RetexBatchTexture *t, const Spread *s, Lanes
 }
 
 /* All of it, for the footprints from i on. */
-INLINE void NAME(place)(const RetexBatchTexture *t, const RetexBatch *batch, Places *p, int i)
+RETEX_CPU_INLINE void NAME(place)(const RetexBatchTexture *t, const RetexBatch *batch, Places *p, int i)
 {
     Lanes u, v, su, sv, correlation, at[2];
     LOAD(u, batch->u + i);
@@ -227,7 +227,7 @@ INLINE void NAME(place)(const RetexBatchTexture *t, const RetexBatch *batch, Pla
 }
 
 /* What a black border cuts is not for us. */
-INLINE void NAME(leave_borders)(const RetexBatchTexture *t, int count, Places *p)
+RETEX_CPU_INLINE void NAME(leave_borders)(const RetexBatchTexture *t, int count, Places *p)
 {
     float wider = t->gaussian ? GAUSSIAN_REACH / sqrtf(GAUSSIAN_VARIANCE) : 2;
     for (int axis = 0; axis < 2; axis++) {

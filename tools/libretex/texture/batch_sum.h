@@ -1,7 +1,7 @@
 /* A part of batch_body.h: the sums of texels times weights, once the weights of a band are there. */
 
 /* A block's weights, footprint by footprint. */
-INLINE void NAME(turn_weights)(const Band *band, int block, float out[LANES][MAX_BLOCKS][16])
+RETEX_CPU_INLINE void NAME(turn_weights)(const Band *band, int block, float out[LANES][MAX_BLOCKS][16])
 {
     const Lanes *w[4];
     for (int j = 0; j < 4; j++)
@@ -52,8 +52,8 @@ INLINE void NAME(turn_weights)(const Band *band, int block, float out[LANES][MAX
 
 /* Add a band's texels to four sums, one for every fourth column. Weights come by lines, which may be columns. The
  * blocks lie `step` texels apart. */
-INLINE void NAME(sum_texels)(float sums[16], const float weights[][16], int blocks, int turned, int narrow,
-                             const char *texels, size_t stride, size_t step)
+RETEX_CPU_INLINE void NAME(sum_texels)(float sums[16], const float weights[][16], int blocks, int turned, int narrow,
+                                       const char *texels, size_t stride, size_t step)
 {
     size_t size = narrow ? 4 * sizeof(uint16_t) : 4 * sizeof(float);
 #if LANES == 16
@@ -110,7 +110,7 @@ INLINE void NAME(sum_texels)(float sums[16], const float weights[][16], int bloc
 
 /* Where a band's blocks lie in their levels, or the padded copies of these: texels from the first one; -1 where some
  * lie outside. */
-INLINE Mask NAME(find_blocks)(const Group *g, int number, const Band *band, Mask *x, Mask *y)
+RETEX_CPU_INLINE Mask NAME(find_blocks)(const Group *g, int number, const Band *band, Mask *x, Mask *y)
 {
     const RetexBatchTexture *t = g->texture;
     Mask lines = (Mask)g->line + 4 * number, texels = (Mask)g->texel + band->column;
@@ -126,7 +126,7 @@ INLINE Mask NAME(find_blocks)(const Group *g, int number, const Band *band, Mask
     return ((row & inside) * width + (column & inside)) | ~inside; /* far ones would overflow */
 }
 
-INLINE void NAME(sum_band)(Group *g, int number, const Band *band, int turned, int narrow)
+RETEX_CPU_INLINE void NAME(sum_band)(Group *g, int number, const Band *band, int turned, int narrow)
 {
     float weights[LANES][MAX_BLOCKS][16];
     int first[LANES], columns[LANES], rows[LANES], levels[LANES];
@@ -156,7 +156,7 @@ INLINE void NAME(sum_band)(Group *g, int number, const Band *band, int turned, i
     }
 }
 
-INLINE void NAME(sum_blocks)(Group *g, int number, const Band *band)
+RETEX_CPU_INLINE void NAME(sum_blocks)(Group *g, int number, const Band *band)
 {
     int narrow = g->texture->texture->narrow;
     if (g->turned && narrow)

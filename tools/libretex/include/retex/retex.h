@@ -7,6 +7,7 @@
 #include <retex/budget.h>
 #include <retex/clock.h>
 #include <retex/color.h>
+#include <retex/cpu.h>
 #include <retex/compact.h>
 #include <retex/denoise.h>
 #include <retex/diff.h>

@@ -1,0 +1,66 @@
+/* Which vector instructions a kernel may use, chosen at run time: the one place that asks the processor, and the one
+ * way to compile a kernel for it. Builds run on any x86-64 or ARM; elsewhere than on x86-64 there is one level.
+ *
+ * A kernel is a table by level, NAME_by_level, of functions that give the same bits:
+ *
+ *     RETEX_CPU_INLINE void scale_body(float *v, int n) { ... }    // a plain loop that the compiler makes vectors of
+ *     RETEX_CPU_KERNEL(scale, (float *v, int n), (v, n))           // scale_by_level: the body compiled for each level
+ *
+ *     scale_by_level[retex_cpu_level()](v, n);
+ *
+ * Kernels written with intrinsics fill their table by hand, between #if RETEX_CPU_X86 and #endif. The function of
+ * RETEX_CPU_BASELINE is the reference that tests compare the others with. */
+#ifndef RETEX_CPU_H
+#define RETEX_CPU_H
+
+#if defined(__x86_64__) && defined(__GNUC__)
+#define RETEX_CPU_X86 1
+#else
+#define RETEX_CPU_X86 0
+#endif
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Each level has all that those before it have. */
+typedef enum RetexCpuLevel {
+    RETEX_CPU_BASELINE, /* what the compiler assumes by default */
+#if RETEX_CPU_X86
+    RETEX_CPU_AVX2,   /* with F16C */
+    RETEX_CPU_AVX512, /* F, VL, BW and DQ */
+#endif
+    RETEX_CPU_LEVELS
+} RetexCpuLevel;
+
+/* The highest level that this machine has. */
+RetexCpuLevel retex_cpu_level(void);
+
+#define RETEX_CPU_INLINE static inline __attribute__((always_inline))
+
+#if RETEX_CPU_X86
+/* Attributes of functions that are compiled for a level. */
+#define RETEX_CPU_TARGET_AVX2 __attribute__((target("avx2,f16c")))
+#define RETEX_CPU_TARGET_AVX512 __attribute__((target("avx512f,avx512vl,avx512bw,avx512dq,prefer-vector-width=512")))
+/* The same for all functions up to RETEX_CPU_END. */
+#define RETEX_CPU_BEGIN_AVX2 _Pragma("GCC push_options") _Pragma("GCC target(\"avx2,f16c\")")
+#define RETEX_CPU_BEGIN_AVX512                                                                                         \
+    _Pragma("GCC push_options")                                                                                        \
+        _Pragma("GCC target(\"avx512f,avx512vl,avx512bw,avx512dq,prefer-vector-width=512\")")
+#define RETEX_CPU_END _Pragma("GCC pop_options")
+
+#define RETEX_CPU_KERNEL(name, parameters, arguments)                                                                  \
+    static void name##_baseline parameters { name##_body arguments; }                                                  \
+    RETEX_CPU_TARGET_AVX2 static void name##_avx2 parameters { name##_body arguments; }                                \
+    RETEX_CPU_TARGET_AVX512 static void name##_avx512 parameters { name##_body arguments; }                            \
+    static void(*const name##_by_level[RETEX_CPU_LEVELS]) parameters = {name##_baseline, name##_avx2, name##_avx512};
+#else
+#define RETEX_CPU_KERNEL(name, parameters, arguments)                                                                  \
+    static void name##_baseline parameters { name##_body arguments; }                                                  \
+    static void(*const name##_by_level[RETEX_CPU_LEVELS]) parameters = {name##_baseline};
+#endif
+
+#ifdef __cplusplus
+}
+#endif
+#endif
