@@ -199,7 +199,7 @@ int main(int argc, char **argv)
                .argc = argc,
                .argv = argv,
                .next = 1,
-               .about = "Render a POV-Ray-style scene once and keep what retexturing needs: a set."};
+               .about = "Render a scene in POV-Ray's language into a set for retexturing."};
     Arguments a = {.cli = &cli};
     RetexError err = {0};
     Scene *scene = NULL;

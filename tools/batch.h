@@ -9,12 +9,12 @@
 
 /* The options, rows of the tool's table of options. */
 #define BATCH_OPTIONS                                                                                                  \
-    {"dry-run", 0, NULL, "check the table, print what it would make, and stop", 0},                                    \
-        {"keep-going", 0, NULL, "a picture that fails does not end the batch", 0},                                     \
-        {"mkdir", 0, NULL, "make the folders of pictures where they are missing", 0},                                  \
-        {"batch-root", 0, "DIR", "pictures are below DIR, or refused", 0},                                             \
+    {"dry-run", 0, NULL, "check the table, print the pictures it would make, and stop", 0},                            \
+        {"keep-going", 0, NULL, "continue after a picture that fails", 0},                                             \
+        {"mkdir", 0, NULL, "create missing folders of pictures", 0},                                                   \
+        {"batch-root", 0, "DIR", "write pictures only below DIR", 0},                                                  \
     {                                                                                                                  \
-        "report", 0, "FILE.json", "write what became of each picture; - is standard output", 0                         \
+        "report", 0, "FILE.json", "write the result of each picture; - is standard output", 0                          \
     }
 
 /* What is on a target of a picture, for people to read: a file's name or rgb(r,g,b). */

@@ -21,18 +21,18 @@ const CliOption cli_positional = {"", 0, NULL, NULL, 0};
 
 static const CliOption common_options[] = {
     {"output", 'o', "FILE", "write to FILE; - is standard output", 0},
-    {"threads", 0, "N", "use N threads; 0, the default, is all cores", 0},
-    {"safe", 0, NULL, "read no devices and few kinds of pictures; a scene only reads its own folder; also RETEX_SAFE=1",
+    {"threads", 0, "N", "use N threads; 0, the default, uses all cores", 0},
+    {"safe", 0, NULL, "refuse devices and rare picture formats; scenes read only their own folder; also RETEX_SAFE=1",
      0},
     {"max-memory", 0, "SIZE",
-     "use no more than SIZE, such as 4G or 512M, or of so many MB; default three quarters of what there is; also "
+     "use at most SIZE of memory, such as 4G, 512M, or a number of MB; default three quarters of the machine's; also "
      "RETEX_MAX_MEMORY",
      0},
-    {"max-time", 0, "SECONDS", "end after so long; also RETEX_MAX_TIME", 0},
-    {"max-pixels", 0, "N", "take no picture of more pixels; default 268435456; also RETEX_MAX_PIXELS", 0},
-    {"quiet", 'q', NULL, "print nothing but warnings and errors", 0},
+    {"max-time", 0, "SECONDS", "stop after this time; also RETEX_MAX_TIME", 0},
+    {"max-pixels", 0, "N", "refuse pictures of more pixels; default 268435456; also RETEX_MAX_PIXELS", 0},
+    {"quiet", 'q', NULL, "print only warnings and errors", 0},
     {"verbose", 'v', NULL, "print more", 0},
-    {"help", 'h', NULL, "print this and exit", 0},
+    {"help", 'h', NULL, "print this help and exit", 0},
     {"version", 'V', NULL, "print the version and exit", 0},
     {0},
 };

@@ -115,7 +115,7 @@ void cli_check_pixels(const Cli *cli, const RetexSet *set, const char *path);
 int cli_open_set(const Cli *cli, RetexSet **set, const char *path, long megabytes, RetexError *err);
 
 /* --progress, of the tools that have it: a row of their options, and what to do when it comes. */
-#define CLI_PROGRESS_OPTION {"progress", 0, "json", "tell what is done, as a line of JSON each on standard error", 0}
+#define CLI_PROGRESS_OPTION {"progress", 0, "json", "print progress as lines of JSON on standard error", 0}
 void cli_take_progress(Cli *cli);
 
 /* A progress bar on stderr, on a terminal and without -q, with the time so far and the time left; elsewhere with -v a

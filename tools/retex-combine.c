@@ -16,15 +16,16 @@
 #include "watchdog.h"
 
 static const CliOption options[] = {
-    {"texture", 0, "NAME=IMAGE", "put IMAGE, a file or rgb(r,g,b), on target NAME; opts as for retex-sample", 1},
-    {"display", 0, "NAME", "OCIO display the picture is for", 0},
+    {"texture", 0, "NAME=IMAGE", "put IMAGE, a file or rgb(r,g,b), on target NAME; opts as in retex-sample", 1},
+    {"display", 0, "NAME", "OCIO display for the picture", 0},
     {"view", 0, "NAME", "OCIO view of that display", 0},
     {"colorspace", 0, "NAME", "write in this OCIO colour space instead", 0},
-    {"quality", 0, "N", "of a JPEG, 1 to 100; default 95", 0},
-    {"cross", 0, "0|2|3", "use cross terms of paths with up to so many hits; default 3", 0},
-    {"error", 0, "FILE.exr", "write the error to be expected against rendering again, per pixel", 0},
-    {"batch", 0, "FILE.csv", "one picture a row: its name, then one texture a target", 0},
-    {"memory", 0, "SIZE", "of a batch: keep set and samples in memory if they take no more; default 2048", 0},
+    {"quality", 0, "N", "quality of a JPEG, 1 to 100; default 95", 0},
+    {"cross", 0, "0|2|3", "use cross terms of paths with at most this many hits; default 3", 0},
+    {"error", 0, "FILE.exr", "write the expected error against a new render, per pixel", 0},
+    {"batch", 0, "FILE.csv", "make one picture per row of a table: its file, then one texture per target", 0},
+    {"memory", 0, "SIZE", "with --batch: keep the set and samples in memory if they take at most SIZE; default 2048 MB",
+     0},
     BATCH_OPTIONS,
     CLI_PROGRESS_OPTION,
     {0},
@@ -432,7 +433,7 @@ int main(int argc, char **argv)
     static Job job = {.write = RETEX_WRITE_INIT, .combine = RETEX_COMBINE_INIT, .memory = CLI_MEMORY_DEFAULT};
     Cli cli = {.tool = "retex-combine",
                .usage = "SET [SAMPLES] [--texture[:opts] NAME=IMAGE ...] -o FILE",
-               .about = "Recombine a set, with its own textures or new ones, into a picture.",
+               .about = "Make a picture from a set, with its original textures or new ones.",
                .options = options,
                .argc = argc,
                .argv = argv,

@@ -9,10 +9,11 @@
 #include "cli.h"
 
 static const CliOption options[] = {
-    {"strength", 0, "F", "how unlike pixels may be and still help each other, 0.1 to 10; default 1", 0},
-    {"radius", 0, "N", "of the window in which they are looked for, 1 to 10 pixels; default 5", 0},
-    {"memory", 0, "SIZE", "keep the set in memory if it takes no more; default 2048", 0},
-    {"no-footprints", 0, NULL, "leave UV footprints as they are", 0},
+    {"strength", 0, "F", "difference of similar pixels, in standard deviations of their noise, 0.1 to 10; default 1",
+     0},
+    {"radius", 0, "N", "radius of the window of similar pixels, 1 to 10 pixels; default 5", 0},
+    {"memory", 0, "SIZE", "keep the set in memory if it takes at most SIZE; default 2048 MB", 0},
+    {"no-footprints", 0, NULL, "leave footprints unchanged", 0},
     {0},
 };
 
@@ -67,7 +68,7 @@ int main(int argc, char **argv)
 {
     Cli cli = {.tool = "retex-denoise",
                .usage = "SET [--strength F] [--radius N] [--no-footprints] -o SET",
-               .about = "Removes the noise from a set's coefficients, once, so that every retexture of it is clean.",
+               .about = "Remove the noise from a set once, so that every retexture of it is free of noise.",
                .options = options,
                .argc = argc,
                .argv = argv,

@@ -10,14 +10,14 @@
 
 static const CliOption options[] = {
     {"json", 0, NULL, "print the figures as JSON", 0},
-    {"part", 0, "NAME", "compare the parts called NAME instead of the first of each file", 0},
+    {"part", 0, "NAME", "compare the parts called NAME, not the first part of each file", 0},
     {"all-parts", 0, NULL, "compare all parts, by name", 0},
-    {"allow-inf", 0, NULL, "equal infinities are equal", 0},
-    {"fail-psnr", 0, "DB", "differ when psnr is below DB", 0},
-    {"fail-relmse", 0, "X", "differ when relmse is above X", 0},
-    {"fail-flip", 0, "X", "differ when the mean of FLIP is above X", 0},
-    {"fail-abs", 0, "X", "differ when some value differs by more than X", 0},
-    {"fail-rel", 0, "X", "differ when some value differs by more than X times the second's", 0},
+    {"allow-inf", 0, NULL, "treat infinities of the same sign as equal", 0},
+    {"fail-psnr", 0, "DB", "fail if the PSNR is below DB", 0},
+    {"fail-relmse", 0, "X", "fail if relMSE is above X", 0},
+    {"fail-flip", 0, "X", "fail if the mean of FLIP is above X", 0},
+    {"fail-abs", 0, "X", "fail if any value differs by more than X", 0},
+    {"fail-rel", 0, "X", "fail if any value differs by more than X times that of B", 0},
     {0},
 };
 
@@ -134,14 +134,16 @@ static void print_line(RetexDiffPart *part, int name)
 
 int main(int argc, char **argv)
 {
-    Cli cli = {.tool = "retex-diff",
-               .usage = "[options] A B",
-               .options = options,
-               .no_output = 1,
-               .argc = argc,
-               .argv = argv,
-               .about = "Compares picture A with the reference B: exit 0 when they are the same or within the limits "
-                        "given, 1 when they differ."};
+    Cli cli = {
+        .tool = "retex-diff",
+        .usage = "[options] A B",
+        .options = options,
+        .no_output = 1,
+        .argc = argc,
+        .argv = argv,
+        .about =
+            "Compare picture A with the reference B. The exit status is 0 if they are the same or within the limits "
+            "given, 1 if they differ."};
     RetexDiffParams params = RETEX_DIFF_INIT;
     RetexDiff *diff = NULL;
     RetexError err = {0};

@@ -10,7 +10,7 @@
 
 static const CliOption options[] = {
     {"json", 0, NULL, "print the manifest and the sizes as JSON", 0},
-    {"check", 0, NULL, "compare every part's checksum with its data: exit status 1 if one is wrong", 0},
+    {"check", 0, NULL, "check the checksums of all parts; exit status 1 if one is wrong", 0},
     {0},
 };
 
@@ -290,7 +290,7 @@ int main(int argc, char **argv)
 {
     Cli cli = {.tool = "retex-info",
                .usage = "SET [--json] [--check]",
-               .about = "Describe a set, samples or a pack.",
+               .about = "Describe a set, samples or a pack, or check that it is whole.",
                .options = options,
                .no_output = 1,
                .argc = argc,

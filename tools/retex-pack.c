@@ -7,12 +7,12 @@
 #include "cli.h"
 
 static const CliOption options[] = {
-    {"quality", 0, "1..100", "of pictures made from the pack, at least; default 90", 0},
+    {"quality", 0, "1..100", "lowest quality of pictures made from the pack; default 90", 0},
     {"lossless", 0, NULL, "keep every bit of every part", 0},
-    {"codec", 0, "NAME", "what radiance is stored as: jpeg, the default", 0},
-    {"stats", 0, "FILE.json", "write sizes by group and the loss that pictures show; - is standard output", 0},
-    {"memory", 0, "SIZE", "keep the set in memory if it takes no more; default 2048", 0},
-    {"unpack", 0, NULL, "read a pack and write a set: SET.exr", 0},
+    {"codec", 0, "NAME", "codec for light and albedo: jpeg, the default", 0},
+    {"stats", 0, "FILE.json", "write sizes by group and the loss in pictures; - is standard output", 0},
+    {"memory", 0, "SIZE", "keep the set in memory if it takes at most SIZE; default 2048 MB", 0},
+    {"unpack", 0, NULL, "read a pack and write a set, SET.exr", 0},
     {0},
 };
 
@@ -124,14 +124,16 @@ static void check_stats(Cli *cli, const Job *job, const char *output)
 
 int main(int argc, char **argv)
 {
-    Cli cli = {.tool = "retex-pack",
-               .options = options,
-               .argc = argc,
-               .argv = argv,
-               .usage = "SET [--quality 1..100 | --lossless] -o FILE.retex\n"
-                        "       retex-pack --unpack FILE.retex -o SET.exr",
-               .about = "Packs a set into one small file, radiance as JPEG and footprints without visible loss; or "
-                        "unpacks one."};
+    Cli cli = {
+        .tool = "retex-pack",
+        .options = options,
+        .argc = argc,
+        .argv = argv,
+        .usage = "SET [--quality 1..100 | --lossless] -o FILE.retex\n"
+                 "       retex-pack --unpack FILE.retex -o SET.exr",
+        .about =
+            "Compress a set to one small file, or decompress one. Light is stored as JPEG, footprints without visible "
+            "loss."};
     Job job = {.params = RETEX_PACK_INIT, .memory = CLI_MEMORY_DEFAULT};
     RetexError err = {0};
     RetexSet *set = NULL;

@@ -4,7 +4,8 @@
 static const CliOption options[] = {
     {"texture", 0, "NAME=IMAGE",
      "put IMAGE, a file or rgb(r,g,b), on target NAME; opts: scale=S[,T], rotate=DEGREES, offset=U,V, "
-     "wrap=repeat|mirror|clamp|black, colorspace=NAME",
+     "flip=u|v|uv, width=W[,H], wrap=repeat|mirror|clamp|black, repeat=straight|brick|half-drop|mirror, "
+     "colorspace=NAME",
      1},
     {0},
 };
