@@ -6,6 +6,7 @@
 #include <cstdlib>
 
 #include <retex/denoise.h>
+#include <retex/set_file.h>
 
 #include "budget.hpp"
 #include "cache.hpp"

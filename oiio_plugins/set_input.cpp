@@ -9,6 +9,7 @@
 
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/strutil.h>
+#include <retex/set_file.h>
 
 #include "failure.hpp"
 #include "own_folder.hpp"

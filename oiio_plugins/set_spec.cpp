@@ -3,6 +3,7 @@
 
 #include <cstdlib>
 #include <cstring>
+#include <retex/set_file.h>
 
 #include "failure.hpp"
 

@@ -4,6 +4,7 @@
 #define RETEX_BATCH_H
 
 #include <limits.h>
+#include <retex/image_file.h>
 
 #include "texture_table.h"
 

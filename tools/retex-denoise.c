@@ -5,6 +5,7 @@
 #include <retex/clock.h>
 #include <retex/denoise.h>
 #include <retex/pack.h>
+#include <retex/set_file.h>
 
 #include "cli.h"
 

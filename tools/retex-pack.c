@@ -2,7 +2,9 @@
 #include <stdio.h>
 #include <string.h>
 
+#include <retex/output_file.h>
 #include <retex/pack.h>
+#include <retex/set_file.h>
 
 #include "cli.h"
 

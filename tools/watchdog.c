@@ -14,6 +14,7 @@
 
 #include <retex/clock.h>
 #include <retex/image.h>
+#include <retex/output_file.h>
 
 enum {
     STACK_BYTES = 256 << 10,

@@ -1,8 +1,9 @@
 /* See control_constants.h. */
 #include <stdlib.h>
 #include <string.h>
+#include <retex/combine.h>
 #include <retex/parallel.h>
-#include <retex/sample.h>
+#include <retex/samples.h>
 #include "path/camera.h"
 #include "render/control_constants.h"
 #include "path/path.h"

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <retex/image_file.h>
 #include "base/vec.h"
 #include "render/guides.h"
 #include "path/sampler.h"

@@ -6,6 +6,7 @@
 #include <stdio.h>
 #include <string.h>
 #include <retex/image.h>
+#include <retex/image_file.h>
 #include <retex/parallel.h>
 #include "generate.h"
 

@@ -1,6 +1,6 @@
 /* Optimised kernels against the plain references that the unit tests compare them with. */
 #include <math.h>
-#include <retex/sample.h>
+#include <retex/combine.h>
 #include <stdio.h>
 #include <stdlib.h>
 

@@ -1,6 +1,8 @@
 /* What a set costs beside a plain render, and what it saves. */
+#include <retex/combine.h>
 #include <retex/pack.h>
-#include <retex/sample.h>
+#include <retex/samples.h>
+#include <retex/set_file.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <sys/stat.h>

@@ -1,5 +1,6 @@
 /* Manifests, their checksum put right: what is accepted must be written and accepted again. */
-#include <retex/sample.h>
+#include <retex/samples.h>
+#include <retex/set_file.h>
 #include <stdlib.h>
 #include <string.h>
 

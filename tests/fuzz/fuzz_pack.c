@@ -2,8 +2,9 @@
  * zip is made of here: `E`, then for each entry its name, a line end, its length in 4 bytes, its data. If the letter
  * is `F` the index's lengths and checksums are put right before, so that decoders are reached. What is accepted is
  * recombined. */
+#include <retex/combine.h>
 #include <retex/pack.h>
-#include <retex/sample.h>
+#include <retex/samples.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

@@ -3,8 +3,10 @@
  * little would be accepted. */
 #include <fcntl.h>
 #include <math.h>
+#include <retex/combine.h>
 #include <retex/denoise.h>
-#include <retex/sample.h>
+#include <retex/samples.h>
+#include <retex/set_file.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

@@ -10,22 +10,16 @@
 
 RetexSamples *make_samples(const RetexSet *set, int every)
 {
-    RetexSamples *samples = calloc(1, sizeof *samples);
-    samples->width = set->width;
-    samples->height = set->height;
-    samples->ntargets = set->ntargets;
-    samples->nimages = set->nfootprints;
-    samples->images = calloc((size_t)set->nfootprints + 1, sizeof *samples->images);
+    RetexSamples *samples;
+    test_must(retex_samples_create(&samples, set, NULL), NULL);
+    samples->set_id = 0;
     for (int i = 0; i < set->ntargets; i++) {
-        snprintf(samples->target_names[i], sizeof samples->target_names[i], "%s", set->targets[i].name);
         snprintf(samples->textures[i], sizeof samples->textures[i],
                  "b\xfc"
                  "hne %d.jpg",
                  i);
     }
     for (int i = 0; i < set->nfootprints; i++) {
-        samples->footprint_target[i] = set->footprints[i].target;
-        samples->footprint_hit[i] = set->footprints[i].hit;
         if (every && i % every == 0)
             test_random_image(&samples->images[i], set->width, set->height, 3, (uint32_t)i + 50, 0, 1);
     }
@@ -129,8 +123,8 @@ void expect_equal_samples(const RetexSamples *a, const RetexSamples *b)
         assert_string_equal(b->textures[i], i ? "b?hne 1.jpg" : "b?hne 0.jpg"); /* JSON is UTF-8 */
     }
     for (int i = 0; i < a->nimages; i++) {
-        assert_int_equal(a->footprint_target[i], b->footprint_target[i]);
-        assert_int_equal(a->footprint_hit[i], b->footprint_hit[i]);
+        assert_int_equal(a->footprints[i].target, b->footprints[i].target);
+        assert_int_equal(a->footprints[i].hit, b->footprints[i].hit);
         assert_true(!a->images[i].pixels == !b->images[i].pixels);
         if (a->images[i].pixels)
             expect_equal_pixels(&a->images[i], &b->images[i], RETEX_FLOAT);

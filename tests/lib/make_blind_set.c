@@ -1,5 +1,6 @@
 /* make_blind_set SET OUT: the set with its beauty part black, to show that recombination never reads it. */
 #include <retex/set.h>
+#include <retex/set_file.h>
 #include <stdio.h>
 #include <string.h>
 

@@ -2,6 +2,7 @@
 #include <stdio.h>
 #include <string.h>
 #include <retex/image.h>
+#include <retex/image_file.h>
 
 static int fail(const RetexError *err)
 {

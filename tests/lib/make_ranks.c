@@ -2,6 +2,7 @@
  * correlation between the root mean square of EXPECTED and that of A - B; then both over the whole picture. */
 #include <math.h>
 #include <retex/image.h>
+#include <retex/image_file.h>
 #include <stdio.h>
 #include <stdlib.h>
 

@@ -1,6 +1,8 @@
 /* make_values FILE X,Y…: the samples of part 0 of a set or picture at pixels, a line each, to nine digits. */
 #include <retex/image.h>
+#include <retex/image_file.h>
 #include <retex/set.h>
+#include <retex/set_file.h>
 #include <stdio.h>
 #include <string.h>
 

@@ -13,6 +13,7 @@
 
 #include <retex/budget.h>
 #include <retex/image.h>
+#include <retex/output_file.h>
 
 #include "accel/accel.h"
 #include "base/machine.h"

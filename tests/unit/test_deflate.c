@@ -74,7 +74,7 @@ static void test_comes_back(void **state)
     uint32_t seed = 3;
     for (int round = 0; round < 1500; round++) {
         const size_t most = round % 30 == 0 ? MOST : round % 3 ? 2000 : 20;
-        const size_t count = (size_t)((double)most * test_random(&seed)), room = retex_deflate_room(count);
+        const size_t count = (size_t)((double)most * test_random(&seed)), room = retex_deflate_bound(count);
         fill(round % KINDS, count, &seed);
         unsigned char *packed = malloc(room); /* exactly, so that a sanitizer sees what lies beyond */
         assert_non_null(packed);
@@ -99,7 +99,7 @@ static void test_pieces(void **state)
     uint32_t seed = 5;
     for (int round = 0; round < 200; round++) {
         const size_t count = (size_t)(70000 * test_random(&seed)), first = (size_t)((double)count * test_random(&seed));
-        const size_t room = retex_deflate_room(first) + retex_deflate_room(count - first);
+        const size_t room = retex_deflate_bound(first) + retex_deflate_bound(count - first);
         fill(round % KINDS, count, &seed);
         unsigned char *packed = malloc(room);
         assert_non_null(packed);
@@ -121,7 +121,7 @@ static void test_same_again(void **state)
     uint32_t seed = 7;
     for (int round = 0; round < 4000; round++) {
         const size_t count = (size_t)((round % 50 ? 3000 : MOST) * test_random(&seed));
-        const size_t room = retex_deflate_room(count), step = (size_t)(60 * test_random(&seed)) + 1;
+        const size_t room = retex_deflate_bound(count), step = (size_t)(60 * test_random(&seed)) + 1;
         unsigned char *first = malloc(room), *again = malloc(room), *hole = malloc(round % 7 * 30000 + 1);
         assert_true(first && again && hole);
         fill(round % KINDS, count, &seed);

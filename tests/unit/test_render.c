@@ -7,7 +7,8 @@
 #include <cmocka.h>
 #include <stdlib.h>
 #include <string.h>
-#include <retex/sample.h>
+#include <retex/combine.h>
+#include <retex/samples.h>
 #include "path/path.h"
 #include "render/render.h"
 

@@ -257,7 +257,7 @@ static void test_samples_of_another_set(void **state)
     strcpy(samples->target_names[0], "Ceiling");
     assert_int_equal(retex_samples_check(samples, set, &err), RETEX_EINVAL);
     strcpy(samples->target_names[0], set->targets[0].name);
-    samples->footprint_hit[1]++;
+    samples->footprints[1].hit++;
     assert_int_equal(retex_samples_check(samples, set, &err), RETEX_EINVAL);
     retex_samples_close(&samples);
     retex_set_close(&set);

@@ -10,6 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <retex/color.h>
+#include <retex/image_file.h>
 #include "base/digest.h"
 #include "sdl/build/builder.h"
 

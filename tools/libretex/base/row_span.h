@@ -7,22 +7,22 @@ typedef struct RetexRowSpan {
     int begin, end;
 } RetexRowSpan;
 
-static inline int span_is_empty(RetexRowSpan span)
+static inline int retex_span_is_empty(RetexRowSpan span)
 {
     return span.begin >= span.end;
 }
 
 /* What lies in both. */
-static inline RetexRowSpan span_within(RetexRowSpan a, RetexRowSpan b)
+static inline RetexRowSpan retex_span_intersection(RetexRowSpan a, RetexRowSpan b)
 {
     return (RetexRowSpan){a.begin > b.begin ? a.begin : b.begin, a.end < b.end ? a.end : b.end};
 }
 
 /* All that lies in one of them, and between them. */
-static inline RetexRowSpan span_around(RetexRowSpan a, RetexRowSpan b)
+static inline RetexRowSpan retex_span_union(RetexRowSpan a, RetexRowSpan b)
 {
-    if (span_is_empty(a) || span_is_empty(b))
-        return span_is_empty(a) ? b : a;
+    if (retex_span_is_empty(a) || retex_span_is_empty(b))
+        return retex_span_is_empty(a) ? b : a;
     return (RetexRowSpan){a.begin < b.begin ? a.begin : b.begin, a.end > b.end ? a.end : b.end};
 }
 

@@ -6,8 +6,9 @@
 #include <string.h>
 
 #include <retex/color.h>
+#include <retex/combine.h>
 #include <retex/parallel.h>
-#include <retex/sample.h>
+#include <retex/samples.h>
 
 #include "compact/bands.h"
 #include "compact/build.h"
@@ -238,25 +239,6 @@ static int make_waves(RetexImage *image, const RetexSet *set, int footprint, int
     return RETEX_OK;
 }
 
-/* Samples whose images are to be filled in. */
-static int start_samples(RetexSamples **result, const RetexSet *set, RetexError *err)
-{
-    RetexSamples *samples = *result = calloc(1, sizeof *samples);
-    if (samples)
-        samples->images = calloc((size_t)set->nfootprints + 1, sizeof *samples->images);
-    if (!samples || !samples->images)
-        return retex_fail(err, RETEX_ENOMEM, "not enough memory for samples");
-    samples->width = set->width, samples->height = set->height;
-    samples->ntargets = set->ntargets, samples->nimages = set->nfootprints;
-    for (int t = 0; t < set->ntargets; t++)
-        memcpy(samples->target_names[t], set->targets[t].name, sizeof samples->target_names[t]);
-    for (int i = 0; i < set->nfootprints; i++) {
-        samples->footprint_target[i] = set->footprints[i].target;
-        samples->footprint_hit[i] = set->footprints[i].hit;
-    }
-    return RETEX_OK;
-}
-
 /* ---- pictures ---- */
 
 static float encoded(float x)
@@ -280,7 +262,7 @@ static int make_picture(RetexImage *picture, const RetexSet *set, RetexImage *wa
                         int nthreads, RetexError *err)
 {
     RetexSamples *samples = NULL;
-    int code = trial < COMPACT_WAVES ? start_samples(&samples, set, err) : RETEX_OK;
+    int code = trial < COMPACT_WAVES ? retex_samples_create(&samples, set, err) : RETEX_OK;
     for (int i = 0; trial < COMPACT_WAVES && i < set->nfootprints && !code; i++) {
         RetexImage *image = waves ? waves[i][trial] : &samples->images[i];
         if (!image->pixels)
@@ -289,7 +271,7 @@ static int make_picture(RetexImage *picture, const RetexSet *set, RetexImage *wa
     }
     if (!code)
         code = retex_combine(picture, set, samples, NULL, NULL, nthreads, err);
-    if (samples && samples->images && waves) /* they stay the cache's */
+    if (samples && waves) /* they stay the cache's */
         memset(samples->images, 0, (size_t)set->nfootprints * sizeof *samples->images);
     retex_samples_close(&samples);
     return code;

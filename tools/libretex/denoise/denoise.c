@@ -1,5 +1,6 @@
 /* Denoising a set; see <retex/denoise.h>. */
 #include <retex/denoise.h>
+#include <retex/set_file.h>
 
 #include <string.h>
 

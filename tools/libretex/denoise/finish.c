@@ -4,9 +4,9 @@
 #include <math.h>
 #include <string.h>
 
+#include <retex/combine.h>
 #include <retex/parallel.h>
 #include <retex/rounding.h>
-#include <retex/sample.h>
 
 #include "base/half.h"
 

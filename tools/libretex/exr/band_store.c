@@ -259,7 +259,7 @@ static int prepare(RetexBandStoreScratch *scratch, const RetexChunkShape *shape)
 {
     const size_t bytes = retex_chunk_bytes(shape);
 
-    if (!scratch || !retex_chunk_need(&scratch->chunk, shape))
+    if (!scratch || !retex_chunk_reserve(&scratch->chunk, shape))
         return 0;
     if (scratch->packed_bytes < bytes) {
         free(scratch->packed);
@@ -293,9 +293,9 @@ static int put_chunk(RetexBandStore *store, int number, int band, size_t bytes, 
 
     memcpy(record.crc, chunk->crc, sizeof record.crc);
     if (!all_zero(scratch->chunk.raw, bytes))
-        record.bytes = store->plain
-                           ? (uint32_t)bytes
-                           : (uint32_t)retex_chunk_pack(&scratch->chunk, scratch->chunk.raw, bytes, scratch->packed);
+        record.bytes =
+            store->plain ? (uint32_t)bytes
+                         : (uint32_t)retex_chunk_compress(&scratch->chunk, scratch->chunk.raw, bytes, scratch->packed);
     return retex_band_store_append_chunk(store, &record, store->plain ? scratch->chunk.raw : scratch->packed, err);
 }
 
@@ -309,7 +309,7 @@ int retex_band_store_put(RetexBandStore *store, int number, int band, const floa
 
     if (prepare(scratch, &shape)) {
         const size_t bytes = retex_chunk_bytes(&shape);
-        retex_chunk_store(&scratch->chunk, &shape, pixels, scratch->chunk.raw, image->chunks[band].crc);
+        retex_chunk_encode(&scratch->chunk, &shape, pixels, scratch->chunk.raw, image->chunks[band].crc);
         if (lit || !all_zero(scratch->chunk.raw, bytes)) /* a zero may have a sign */
             status = put_chunk(store, number, band, bytes, lit, scratch, err);
     } else {
@@ -410,9 +410,9 @@ static int load_band(const RetexBandStore *store, const RetexBandStoreChunk *chu
     const int status = retex_band_store_read(store, chunk, scratch->packed, err);
     if (status)
         return status;
-    if (!retex_chunk_unpack(&scratch->chunk, scratch->packed, chunk->bytes, scratch->chunk.raw, bytes))
+    if (!retex_chunk_decompress(&scratch->chunk, scratch->packed, chunk->bytes, scratch->chunk.raw, bytes))
         return fail_damaged(store, err);
-    retex_chunk_fetch(&scratch->chunk, shape, scratch->chunk.raw, pixels);
+    retex_chunk_decode(&scratch->chunk, shape, scratch->chunk.raw, pixels);
     return 0;
 }
 

@@ -15,7 +15,7 @@ typedef struct RetexBandStoreChunk {
 } RetexBandStoreChunk;
 
 const RetexBandStoreChunk *retex_band_store_chunk(const RetexBandStore *store, int image, int band);
-/* Its bytes, as retex_chunk_pack left them; RETEX_EFORMAT where they are no longer. */
+/* Its bytes, as retex_chunk_compress left them; RETEX_EFORMAT where they are no longer. */
 int retex_band_store_read(const RetexBandStore *store, const RetexBandStoreChunk *chunk, unsigned char *packed,
                           RetexError *err);
 

@@ -37,7 +37,7 @@ struct RetexBandStore {
 
 enum {
     BAND_STORE_IMAGE = 0x67616d69, /* a RetexBandStoreDescription */
-    BAND_STORE_CHUNK = 0x6b6e6863, /* what retex_chunk_pack gives */
+    BAND_STORE_CHUNK = 0x6b6e6863, /* what retex_chunk_compress gives */
     BAND_STORE_COMMIT = 0x646e6162 /* a RetexBandStats; what there is of the band so far is all of it */
 };
 

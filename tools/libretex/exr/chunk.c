@@ -32,7 +32,7 @@ static int need(void **memory, size_t *have, size_t want, size_t unit)
     return *memory != NULL;
 }
 
-int retex_chunk_need(RetexChunkScratch *scratch, const RetexChunkShape *shape)
+int retex_chunk_reserve(RetexChunkScratch *scratch, const RetexChunkShape *shape)
 {
     const size_t line = (size_t)shape->width * strlen(shape->letters);
 
@@ -72,8 +72,8 @@ static void take_plane_float(unsigned char *restrict out, const float *restrict 
         memcpy(out + (size_t)x * 4, &in[(size_t)x * (size_t)stride], 4);
 }
 
-void retex_chunk_store(RetexChunkScratch *scratch, const RetexChunkShape *shape, const float *pixels,
-                       unsigned char *raw, uint32_t *crc)
+void retex_chunk_encode(RetexChunkScratch *scratch, const RetexChunkShape *shape, const float *pixels,
+                        unsigned char *raw, uint32_t *crc)
 {
     const int channels = (int)strlen(shape->letters);
     const size_t line = (size_t)shape->width * (size_t)channels,
@@ -98,8 +98,8 @@ void retex_chunk_store(RetexChunkScratch *scratch, const RetexChunkShape *shape,
     }
 }
 
-void retex_chunk_fetch(RetexChunkScratch *scratch, const RetexChunkShape *shape, const unsigned char *raw,
-                       float *pixels)
+void retex_chunk_decode(RetexChunkScratch *scratch, const RetexChunkShape *shape, const unsigned char *raw,
+                        float *pixels)
 {
     const int channels = (int)strlen(shape->letters);
     const size_t line = (size_t)shape->width * (size_t)channels,
@@ -121,7 +121,7 @@ void retex_chunk_fetch(RetexChunkScratch *scratch, const RetexChunkShape *shape,
     }
 }
 
-size_t retex_chunk_pack(RetexChunkScratch *scratch, const unsigned char *raw, size_t bytes, unsigned char *packed)
+size_t retex_chunk_compress(RetexChunkScratch *scratch, const unsigned char *raw, size_t bytes, unsigned char *packed)
 {
     const size_t packed_bytes = retex_zip_pack(&scratch->zip, packed, raw, bytes);
 
@@ -131,8 +131,8 @@ size_t retex_chunk_pack(RetexChunkScratch *scratch, const unsigned char *raw, si
     return bytes;
 }
 
-int retex_chunk_unpack(RetexChunkScratch *scratch, const unsigned char *packed, size_t packed_bytes, unsigned char *raw,
-                       size_t bytes)
+int retex_chunk_decompress(RetexChunkScratch *scratch, const unsigned char *packed, size_t packed_bytes,
+                           unsigned char *raw, size_t bytes)
 {
     if (packed_bytes != bytes)
         return retex_zip_unpack(&scratch->zip, raw, bytes, packed, packed_bytes);

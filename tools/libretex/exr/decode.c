@@ -20,12 +20,12 @@ int retex_exr_fail(RetexExr *exr, exr_result_t code, RetexError *err)
     return retex_input_check(exr->input, status, err);
 }
 
-int retex_exr_fail_nonfinite(const RetexExr *exr, int part, const RetexExrNonFinite *odd, RetexError *err)
+int retex_exr_fail_nonfinite(const RetexExr *exr, int part, const RetexExrNonFinite *bad, RetexError *err)
 {
-    const char *channel = retex_exr_channel_name(exr, part, odd->channel), *dot = strrchr(channel, '.');
+    const char *channel = retex_exr_channel_name(exr, part, bad->channel), *dot = strrchr(channel, '.');
 
-    return retex_numbers_fail(err, retex_input_name(exr->input), retex_exr_part_name(exr, part),
-                              dot ? dot + 1 : channel, odd->x, odd->y, odd->value);
+    return retex_fail_disallowed(err, retex_input_name(exr->input), retex_exr_part_name(exr, part),
+                                 dot ? dot + 1 : channel, bad->x, bad->y, bad->value);
 }
 
 void retex_exr_data_window(const RetexExr *exr, int part, exr_attr_box2i_t *window)
@@ -126,20 +126,20 @@ static void plane_to_float(float *row, const unsigned char *plane, uint16_t type
     }
 }
 
-/* Whether all of a line's samples may be in the part; else *odd gets the first that may not, but not its line. */
+/* Whether all of a line's samples may be in the part; else *bad gets the first that may not, but not its line. */
 static int are_allowed(const RetexExrPlan *plan, int channel, const unsigned char *samples, int width,
-                       RetexExrNonFinite *odd)
+                       RetexExrNonFinite *bad)
 {
     const exr_pixel_type_t stored = plan->channels[channel].pixel_type;
     const RetexPixelType type = stored == EXR_PIXEL_HALF ? RETEX_HALF : RETEX_FLOAT;
 
-    if (plan->request->allowed == RETEX_ANY_NUMBERS || stored == EXR_PIXEL_UINT)
+    if (plan->request->allowed == RETEX_ALLOW_ANY || stored == EXR_PIXEL_UINT)
         return 1;
-    const size_t first = retex_numbers_find(samples, type, (size_t)width, plan->request->allowed);
+    const size_t first = retex_find_disallowed(samples, type, (size_t)width, plan->request->allowed);
     if (first == (size_t)width)
         return 1;
-    *odd = (RetexExrNonFinite){.x = (int)first, .channel = channel};
-    plane_to_float(&odd->value, samples + first * retex_exr_channel_bytes(&plan->channels[channel]), (uint16_t)stored,
+    *bad = (RetexExrNonFinite){.x = (int)first, .channel = channel};
+    plane_to_float(&bad->value, samples + first * retex_exr_channel_bytes(&plan->channels[channel]), (uint16_t)stored,
                    1);
     return 0;
 }
@@ -156,9 +156,9 @@ static int deliver(const RetexExrPlan *plan, RetexImage *image, int top, const u
         for (int c = 0; c < plan->nchannels; c++) {
             const size_t plane = (size_t)width * retex_exr_channel_bytes(&plan->channels[c]);
             const int slot = plan->slot[c];
-            if (slot >= 0 && !are_allowed(plan, c, samples, width, &scratch->odd)) {
-                scratch->odd.x += x;
-                scratch->odd.y = y + line;
+            if (slot >= 0 && !are_allowed(plan, c, samples, width, &scratch->bad)) {
+                scratch->bad.x += x;
+                scratch->bad.y = y + line;
                 return 0;
             }
             if (slot >= 0 && crc)

@@ -47,12 +47,12 @@ typedef struct RetexExrScratch {
     unsigned char *packed, *raw;
     float *row;
     size_t packed_bytes, raw_bytes, row_count;
-    RetexExrNonFinite odd;
+    RetexExrNonFinite bad;
 } RetexExrScratch;
 
 void retex_exr_data_window(const RetexExr *exr, int part, exr_attr_box2i_t *window); /* empty where there is none */
 int retex_exr_fail(RetexExr *exr, exr_result_t code, RetexError *err);
-int retex_exr_fail_nonfinite(const RetexExr *exr, int part, const RetexExrNonFinite *odd, RetexError *err);
+int retex_exr_fail_nonfinite(const RetexExr *exr, int part, const RetexExrNonFinite *bad, RetexError *err);
 
 /* Find out how to meet a request, which plan borrows. */
 int retex_exr_plan_open(RetexExr *exr, RetexExrPlan *plan, RetexExrRequest *request, RetexError *err);

@@ -12,7 +12,7 @@
 #include "exr/color_tag.h"
 #include "exr/chunk.h"
 #include "io/input.h"
-#include "base/numbers.h"
+#include "base/value_check.h"
 
 enum {
     RETEX_EXR_PARTS_MAX = 2048,
@@ -84,7 +84,7 @@ typedef struct RetexExrRequest {
     uint32_t crc;
     uint32_t expected;     /* what crc should be; for the caller, and for set/exr_source.c, which also looks at */
     const uint32_t *bands; /* borrowed: as of retex_exr_band_crcs; NULL: not known */
-    RetexNumbers allowed; /* other values make the reading fail; default: any */
+    RetexAllowedValues allowed; /* other values make the reading fail; default: any */
     int damaged;       /* 1: this is the part that made the reading fail */
 } RetexExrRequest;
 

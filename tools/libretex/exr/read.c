@@ -250,7 +250,7 @@ typedef struct DecodeWork {
     RetexJob *jobs;
     RetexExrScratch *scratch; /* one a thread */
     atomic_int code;     /* the first failure, exr_result_t */
-    RetexExrNonFinite odd; /* of it, where it is that */
+    RetexExrNonFinite bad; /* of it, where it is that */
 } DecodeWork;
 
 static void read_chunks(DecodeWork *work, RetexJob *job, const RetexExrSums *sums, int thread)
@@ -265,7 +265,7 @@ static void read_chunks(DecodeWork *work, RetexJob *job, const RetexExrSums *sum
                 int none = 0;
                 if (atomic_compare_exchange_strong(&work->code, &none, code)) {
                     job->plan->request->damaged = 1;
-                    work->odd = work->scratch[thread].odd;
+                    work->bad = work->scratch[thread].bad;
                 }
                 return;
             }
@@ -344,14 +344,14 @@ static void combine_crcs(const RetexJob *jobs, int njobs)
 
 /* The failure of a chunk, with the name of its part. */
 static int fail_chunk(RetexExr *exr, const RetexExrPlan *plans, int nplans, exr_result_t code,
-                      const RetexExrNonFinite *odd, RetexError *err)
+                      const RetexExrNonFinite *bad, RetexError *err)
 {
     const char *name = NULL;
 
     for (int i = 0; i < nplans; i++)
         if (plans[i].request->damaged) {
             if (code == RETEX_EXR_NON_FINITE)
-                return retex_exr_fail_nonfinite(exr, plans[i].request->part, odd, err);
+                return retex_exr_fail_nonfinite(exr, plans[i].request->part, bad, err);
             exr_get_name(exr->context, plans[i].request->part, &name);
         }
     if (code != EXR_ERR_OUT_OF_MEMORY && name)
@@ -382,7 +382,7 @@ static int run_jobs(RetexExr *exr, RetexExrPlan *plans, int nplans, int nthreads
         retex_exr_scratch_free(&work.scratch[i]);
     free(work.scratch);
     free(work.jobs);
-    return code ? fail_chunk(exr, plans, nplans, code, &work.odd, err) : 0;
+    return code ? fail_chunk(exr, plans, nplans, code, &work.bad, err) : 0;
 }
 
 int retex_exr_read(RetexExr *exr, RetexExrRequest *requests, int nrequests, int nthreads, RetexError *err)

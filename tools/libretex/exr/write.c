@@ -49,7 +49,7 @@ static RetexChunkShape band_shape(const RetexExrPart *part, const Band *band)
 /* Compress what is in scratch->raw. */
 static void pack_band(Band *band, RetexChunkScratch *scratch)
 {
-    band->bytes = retex_chunk_pack(scratch, scratch->raw, band->bytes, band->data);
+    band->bytes = retex_chunk_compress(scratch, scratch->raw, band->bytes, band->data);
     unsigned char *less = realloc(band->data, band->bytes);
     if (less)
         band->data = less;
@@ -62,9 +62,9 @@ static int encode_band(Band *band, const RetexExrPart *part, const float *pixels
 
     band->bytes = retex_chunk_bytes(&shape);
     band->data = malloc(band->bytes);
-    if (!band->data || !retex_chunk_need(scratch, &shape))
+    if (!band->data || !retex_chunk_reserve(scratch, &shape))
         return 0;
-    retex_chunk_store(scratch, &shape, pixels, compress ? scratch->raw : band->data, band->crc);
+    retex_chunk_encode(scratch, &shape, pixels, compress ? scratch->raw : band->data, band->crc);
     if (compress)
         pack_band(band, scratch);
     return 1;
@@ -76,7 +76,7 @@ static int encode_zero_band(Band *band, const RetexChunkShape *shape, int compre
     const int channels = (int)strlen(shape->letters);
 
     band->bytes = retex_chunk_bytes(shape);
-    if (!retex_chunk_need(scratch, shape))
+    if (!retex_chunk_reserve(scratch, shape))
         return 0;
     memset(scratch->raw, 0, band->bytes);
     for (int c = 0; c < channels; c++)
@@ -426,7 +426,7 @@ static const unsigned char *fetch_band(RetexExrEncoding *encoding, const Band *b
         encoding->packed = malloc(bytes);
         encoding->packed_bytes = encoding->packed ? bytes : 0;
     }
-    if (!encoding->packed || !retex_chunk_need(&encoding->scratch, &shape)) {
+    if (!encoding->packed || !retex_chunk_reserve(&encoding->scratch, &shape)) {
         retex_fail(err, RETEX_ENOMEM, "no memory to write an EXR file");
         return NULL;
     }
@@ -436,8 +436,7 @@ static const unsigned char *fetch_band(RetexExrEncoding *encoding, const Band *b
         return NULL;
     if (encoding->compress)
         return encoding->packed;
-    if (retex_chunk_unpack(&encoding->scratch, encoding->packed, band->stored->bytes, encoding->scratch.raw,
-                           bytes))
+    if (retex_chunk_decompress(&encoding->scratch, encoding->packed, band->stored->bytes, encoding->scratch.raw, bytes))
         return encoding->scratch.raw;
     retex_fail(err, RETEX_EFORMAT, "the temporary file is damaged");
     return NULL;

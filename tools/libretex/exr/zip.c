@@ -19,7 +19,7 @@ enum { HEAD = 2, TAIL = 4 }; /* of a zlib stream: what it is, and a checksum */
 
 int retex_zip_need(RetexZip *zip, size_t bytes)
 {
-    if (!zip->work && !(zip->work = malloc(retex_deflate_work())))
+    if (!zip->work && !(zip->work = malloc(retex_deflate_scratch_bytes())))
         return 0;
     if (zip->scratch_bytes >= 2 * bytes)
         return 1;

@@ -5,7 +5,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include <retex/image_file.h>
 #include <retex/pack.h>
+#include <retex/set_file.h>
 
 #include "exr/io.h"
 #include "io/input.h"

@@ -1,6 +1,8 @@
 /* What a set's path leads to: an EXR file, or a pack. */
 #include <retex/pack.h>
+#include <retex/samples.h>
 #include <retex/set.h>
+#include <retex/set_file.h>
 
 #include "io/input.h"
 #include "pack/bands.h"

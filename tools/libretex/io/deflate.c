@@ -16,12 +16,12 @@ typedef struct Deflater {
     unsigned char level[LEVEL_BYTES];
 } Deflater;
 
-size_t retex_deflate_work(void)
+size_t retex_deflate_scratch_bytes(void)
 {
     return sizeof(Deflater) > sizeof(struct inflate_state) ? sizeof(Deflater) : sizeof(struct inflate_state);
 }
 
-size_t retex_deflate_room(size_t bytes)
+size_t retex_deflate_bound(size_t bytes)
 {
     return bytes + bytes / 64 + 512; /* more than stored blocks of 65535 bytes take */
 }

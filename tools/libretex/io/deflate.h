@@ -5,11 +5,11 @@
 #include <stddef.h>
 
 /* Room that is always enough for so many bytes. */
-size_t retex_deflate_room(size_t bytes);
+size_t retex_deflate_bound(size_t bytes);
 
 /* Bytes of memory that deflating or inflating works in; what they hold before and after tells nothing. The functions
  * below take work, or get as much for themselves where it is NULL. */
-size_t retex_deflate_work(void);
+size_t retex_deflate_scratch_bytes(void);
 
 /* A piece of a raw stream that stands for bytes, at a level that takes little time: of noise a longer search finds no
  * more. The last piece ends the stream; otherwise what comes next begins at a whole byte. Returns how many bytes it

@@ -16,6 +16,7 @@
 
 #include <retex/clock.h>
 #include <retex/image.h>
+#include <retex/output_file.h>
 
 #include "io/output.h"
 #include "io/pending_files.h"

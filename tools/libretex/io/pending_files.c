@@ -8,6 +8,7 @@
 
 #include <retex/clock.h>
 #include <retex/image.h>
+#include <retex/output_file.h>
 
 static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
 static RetexPendingFile *files; /* under lock */

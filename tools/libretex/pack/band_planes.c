@@ -180,7 +180,7 @@ static void clear_row(const PackPart *p, const PlaneBand *own, float *row)
 {
     const size_t channels = (size_t)p->channels;
     const RetexRowSpan old = own->line < 0 ? (RetexRowSpan){0, p->width} : own->span;
-    if (!span_is_empty(old))
+    if (!retex_span_is_empty(old))
         memset(row + (size_t)old.begin * channels, 0, (size_t)(old.end - old.begin) * channels * sizeof *row);
 }
 
@@ -202,14 +202,14 @@ int plane_band_row(int part, int band, int line, float *row, RetexRowSpan *span,
     *span = (RetexRowSpan){0, 0};
     if (p->present < 0) {
         for (int c = 0; c < p->channels; c++)
-            *span = span_around(*span, find_span(p, c, own->numbers[c], line));
+            *span = retex_span_union(*span, find_span(p, c, own->numbers[c], line));
         map_run(p, own, line, *span, row);
     } else {
         const PackRuns *runs = &s->cached[p->present].planes.runs;
         for (int k = runs->first[line]; k < runs->first[line + 1]; k++) {
             const RetexRowSpan run = runs->run[k];
             map_run(p, own, line, run, row);
-            *span = span_around(*span, run);
+            *span = retex_span_union(*span, run);
         }
     }
     own->line = line;

@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include <retex/sample.h>
+#include <retex/combine.h>
 
 #include "retexture/combine_rows.h"
 #include "set/manifest.h"

@@ -6,11 +6,13 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <retex/samples.h>
+#include <retex/set_file.h>
 
 #include "io/checksum.h"
 #include "exr/io.h"
 #include "set/manifest.h"
-#include "base/numbers.h"
+#include "base/value_check.h"
 
 int pack_damaged(RetexError *err, const char *what, const char *name)
 {
@@ -214,7 +216,7 @@ static int read_row(void *reader, int part, int y, const float **row, RetexRowSp
     const RetexPack *pack = pack_decoded_by(scratch);
     int code = retex_pack_row(scratch, part, y, row, span, err);
     if (!code && *row)
-        code = retex_numbers_check_row(&pack->set->parts[part], *row, span->begin, span->end, y, err);
+        code = retex_check_row_values(&pack->set->parts[part], *row, span->begin, span->end, y, err);
     if (code && err && !err->file[0])
         snprintf(err->file, sizeof err->file, "%s", retex_input_name(pack->input));
     return code;

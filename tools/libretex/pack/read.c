@@ -1,5 +1,6 @@
 /* Packs read whole, and checked. */
 #include <retex/pack.h>
+#include <retex/set_file.h>
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include <retex/compact.h>
+#include <retex/set_file.h>
 
 #include "retexture/combine_rows.h"
 #include "compact/build.h"

@@ -6,6 +6,7 @@
 #include <stdint.h>
 
 #include <retex/image.h>
+#include <retex/image_file.h>
 
 #ifdef __cplusplus
 extern "C" {

@@ -101,12 +101,12 @@ static size_t make_chunks(ExrMaker *maker, unsigned char *to, int y0, int y1, co
     for (int y = y0; y < y1; y += RETEX_CHUNK_LINES) {
         const RetexChunkShape shape = {maker->part.letters, RETEX_HALF, maker->shape.width,
                                        y1 - y < RETEX_CHUNK_LINES ? y1 - y : RETEX_CHUNK_LINES};
-        if (!retex_chunk_need(&scratch, &shape)) {
+        if (!retex_chunk_reserve(&scratch, &shape)) {
             at = 0;
             break;
         }
-        retex_chunk_store(&scratch, &shape, rows + retex_image_index(&maker->shape, 0, y - y0), scratch.raw, NULL);
-        const size_t bytes = retex_chunk_pack(&scratch, scratch.raw, retex_chunk_bytes(&shape), to + at + LEADER);
+        retex_chunk_encode(&scratch, &shape, rows + retex_image_index(&maker->shape, 0, y - y0), scratch.raw, NULL);
+        const size_t bytes = retex_chunk_compress(&scratch, scratch.raw, retex_chunk_bytes(&shape), to + at + LEADER);
         put_little(to + at, (uint64_t)y, 4);
         put_little(to + at + 4, bytes, 4);
         maker->chunks[y / RETEX_CHUNK_LINES] = LEADER + bytes;
@@ -163,7 +163,7 @@ static int exr_band(RetexPicture *picture, int band, const float *rows, RetexErr
     else if (!(piece = make_piece(maker, y0, y0 + lines, rows, &bytes)))
         status = retex_fail(err, RETEX_ENOMEM, "no memory to write %s", picture->path);
     free(converted);
-    return status ? status : retex_picture_lay(picture, band, piece, bytes, err);
+    return status ? status : retex_picture_submit_band(picture, band, piece, bytes, err);
 }
 
 /* Where all chunks are, as their table has it. */

@@ -6,6 +6,7 @@
 
 #include <pthread.h>
 #include <stdint.h>
+#include <retex/image_file.h>
 #include <retex/picture.h>
 
 #include "picture/bridge_load.h"
@@ -53,7 +54,7 @@ struct RetexPicture {
 int retex_picture_band_lines(const RetexPicture *picture, int band);
 
 /* Hand in a band's bytes, which are freed sooner or later; they are in the file as soon as all before them are. */
-int retex_picture_lay(RetexPicture *picture, int band, unsigned char *data, size_t bytes, RetexError *err);
+int retex_picture_submit_band(RetexPicture *picture, int band, unsigned char *data, size_t bytes, RetexError *err);
 /* Append to the file; only while no other thread works on it. */
 int retex_picture_append(RetexPicture *picture, const void *data, size_t bytes, RetexError *err);
 

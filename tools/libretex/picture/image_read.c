@@ -12,6 +12,7 @@
 #include <unistd.h>
 
 #include <retex/image.h>
+#include <retex/image_file.h>
 
 #include "exr/io.h"
 #include "io/input.h"

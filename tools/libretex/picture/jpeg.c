@@ -186,7 +186,7 @@ static int make_piece(RetexPicture *picture, int band, const uint8_t *codes, Ret
     }
     const size_t skip = band == 0 ? 0 : head - MARKER_BYTES;
     memmove(data, data + skip, bytes - skip);
-    return retex_picture_lay(picture, band, data, bytes - skip, err);
+    return retex_picture_submit_band(picture, band, data, bytes - skip, err);
 }
 
 static int jpeg_begin(RetexPicture *picture, RetexError *err)

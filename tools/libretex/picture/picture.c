@@ -223,7 +223,7 @@ int retex_picture_append(RetexPicture *picture, const void *data, size_t bytes, 
     return status ? status : retex_output_write(picture->output, data, bytes, err);
 }
 
-int retex_picture_lay(RetexPicture *picture, int band, unsigned char *data, size_t bytes, RetexError *err)
+int retex_picture_submit_band(RetexPicture *picture, int band, unsigned char *data, size_t bytes, RetexError *err)
 {
     int status = 0;
 

@@ -93,7 +93,7 @@ static int filter_lines(unsigned char *filtered, const RetexPicture *picture, co
 static unsigned char *deflate_lines(const unsigned char *filtered, size_t bytes, int is_last, size_t head, size_t tail,
                                     size_t *packed_bytes)
 {
-    const size_t room = retex_deflate_room(bytes);
+    const size_t room = retex_deflate_bound(bytes);
     unsigned char *data = malloc(head + room + tail);
 
     *packed_bytes = data ? retex_deflate(NULL, data + head, room, filtered, bytes, is_last) : 0;
@@ -146,7 +146,7 @@ static int png_band(RetexPicture *picture, int band, const float *rows, RetexErr
     if (!status) {
         ((Sum *)picture->maker)[band] = (Sum){retex_adler32(ADLER32_OF_NONE, filtered, bytes), bytes};
         piece = make_piece(picture, band, filtered, bytes, &piece_bytes);
-        status = piece ? retex_picture_lay(picture, band, piece, piece_bytes, err) : RETEX_ENOMEM;
+        status = piece ? retex_picture_submit_band(picture, band, piece, piece_bytes, err) : RETEX_ENOMEM;
     }
     free(codes);
     free(filtered);

@@ -48,7 +48,7 @@ static int stored_band(RetexPicture *picture, int band, const float *rows, Retex
         retex_srgb_codes_16((uint16_t *)(void *)samples, rows, row * (size_t)lines);
     else
         status = retex_bridge_convert(picture->plan, rows, (long)picture->width * lines, samples, err);
-    return status ? status : retex_picture_lay(picture, band, NULL, 0, err);
+    return status ? status : retex_picture_submit_band(picture, band, NULL, 0, err);
 }
 
 static int append(void *picture, const void *data, size_t bytes, RetexError *err)

@@ -3,7 +3,8 @@
  * What a term means - no hit, dependent, independent, cross - is the set's business; here it is a polynomial. A
  * factor is the new texture's sample at its footprint or, where the target keeps its original, the footprint's mean
  * original albedo, which is exact for it. */
-#include <retex/sample.h>
+#include <retex/combine.h>
+#include <retex/samples.h>
 
 #include <float.h>
 #include <math.h>
@@ -11,7 +12,7 @@
 
 #include "retexture/combine_kernel.h"
 #include "retexture/combine_rows.h"
-#include "base/numbers.h"
+#include "base/value_check.h"
 #include "retexture/polynomial_bands.h"
 
 #define SPAN_PIXELS 512 /* its sum and one span of each image fit the first two caches */
@@ -24,9 +25,9 @@ static void combine_row(const RetexPolynomialRow *row, int width, float *restric
         for (int t = 0; t < row->count; t++) {
             const RetexMonomial *m = &row->monomials[t];
             const RetexRowSpan span =
-                span_within(m->span, (RetexRowSpan){x, width - x < SPAN_PIXELS ? width : x + SPAN_PIXELS});
+                retex_span_intersection(m->span, (RetexRowSpan){x, width - x < SPAN_PIXELS ? width : x + SPAN_PIXELS});
             const float *factors[RETEX_MAX_FACTORS + 2];
-            if (span_is_empty(span))
+            if (retex_span_is_empty(span))
                 continue;
             const size_t begin = 3 * (size_t)span.begin;
             for (int k = 0; k < m->nimages; k++)
@@ -68,7 +69,7 @@ static int combine_band(const void *context, RetexPolynomialRow *row, int y0, in
         code = retex_polynomial_row_make(row, y, err);
         if (!code)
             combine_row(row, width, rgb);
-        if (!code && retex_floats_are_odd(rgb, 3 * (size_t)width))
+        if (!code && retex_floats_have_nonfinite(rgb, 3 * (size_t)width))
             limit_row(row, 3 * (size_t)width, rgb);
     }
     return code;

@@ -14,7 +14,8 @@
  * The formula is in estimate_row.c; here the texture's variance is looked up, row by row. */
 #include <stdlib.h>
 
-#include <retex/sample.h>
+#include <retex/combine.h>
+#include <retex/samples.h>
 
 #include "retexture/estimate_row.h"
 #include "retexture/polynomial_bands.h"

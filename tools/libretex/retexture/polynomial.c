@@ -149,7 +149,7 @@ static int make_slot(RetexPolynomialRow *row, int factor, int y, RetexError *err
         code = retex_polynomial_footprint_row(p, row->reader, factor, y, &row->rooms[slot], &row->made[slot],
                                               &row->spans[slot], err);
     }
-    if (!code && (!row->made[slot] || span_is_empty(row->spans[slot])))
+    if (!code && (!row->made[slot] || retex_span_is_empty(row->spans[slot])))
         row->made[slot] = black_row;
     return code;
 }
@@ -201,8 +201,9 @@ static int factor_rows(RetexPolynomialRow *row, RetexMonomial *m, const int *fac
     m->span = (RetexRowSpan){0, row->polynomial->set->width};
     for (int k = 0; k < count && !code && !*black; k++) {
         code = full_factor_row(row, m->footprints[k] = factors[k], y, &m->factors[k], err);
-        m->span = span_within(m->span, row->spans[retex_polynomial_slot_of_factor(row->polynomial->set, factors[k])]);
-        *black = !m->factors[k] || span_is_empty(m->span);
+        m->span = retex_span_intersection(
+            m->span, row->spans[retex_polynomial_slot_of_factor(row->polynomial->set, factors[k])]);
+        *black = !m->factors[k] || retex_span_is_empty(m->span);
     }
     return code;
 }

@@ -4,7 +4,8 @@
 #ifndef RETEX_RETEXTURE_POLYNOMIAL_H
 #define RETEX_RETEXTURE_POLYNOMIAL_H
 
-#include <retex/sample.h>
+#include <retex/combine.h>
+#include <retex/samples.h>
 
 #include "set/rows.h"
 

@@ -75,7 +75,7 @@ const RetexImage *retex_polynomial_factor_image(const RetexPolynomial *p, int fa
 static void refill(RetexRowBuffer *room, RetexRowSpan span)
 {
     const RetexRowSpan old = room->filled;
-    if (!span_is_empty(old))
+    if (!retex_span_is_empty(old))
         memset(room->values + 3 * (size_t)old.begin, 0, 3 * (size_t)(old.end - old.begin) * sizeof *room->values);
     room->filled = span;
 }
@@ -95,7 +95,7 @@ int retex_polynomial_footprint_row(const RetexPolynomial *p, RetexRowReader *rea
     RetexFootprintRow from;
     int code = retex_footprint_row_read(&from, reader, set, f, y, !retex_texture_is_opaque(texture), err);
     *row = NULL;
-    if (code || !from.uv || span_is_empty(from.span))
+    if (code || !from.uv || retex_span_is_empty(from.span))
         return code;
     refill(room, from.span);
     const RetexFootprintRow within = retex_footprint_row_slice(&from, from.span);
@@ -126,15 +126,15 @@ int retex_polynomial_mixture_row(const RetexPolynomial *p, RetexRowReader *reade
     for (int k = 0; k < m->nshares && !code; k++) {
         code = retex_row_reader_get_span(reader, m->shares[k].weight, y, &weight, &spans[k], err);
         spans[k] = code || !weight ? (RetexRowSpan){0, 0} : spans[k];
-        all = span_around(all, spans[k]);
+        all = retex_span_union(all, spans[k]);
     }
     refill(sum, all);
-    if (code || span_is_empty(all))
+    if (code || retex_span_is_empty(all))
         return code;
     const size_t first = (size_t)all.begin;
     memset(weights + (size_t)numbers * first, 0, sizeof *weights * (size_t)(numbers * (all.end - all.begin)));
     for (int k = 0; k < m->nshares; k++) {
-        if (span_is_empty(spans[k]))
+        if (retex_span_is_empty(spans[k]))
             continue;
         code = retex_row_reader_get(reader, m->shares[k].weight, y, &weight, err);
         if (!code)

@@ -2,7 +2,8 @@
  *
  * A footprint is a Gaussian with the stored mean and standard deviations of the surface UV; the texture's own transform
  * then turns and stretches it exactly. Where the texture is transparent the original albedo of the footprint shows. */
-#include <retex/sample.h>
+#include <retex/combine.h>
+#include <retex/samples.h>
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -56,25 +57,12 @@ static void describe_texture(char *text, size_t size, const RetexTextureSpec *sp
 static int create_samples(SampleWork *work, RetexError *err)
 {
     const RetexSet *set = work->set;
-    RetexSamples *samples = work->samples = calloc(1, sizeof *samples);
-    if (samples)
-        samples->images = calloc((size_t)set->nfootprints + 1, sizeof *samples->images);
-    if (!samples || !samples->images)
-        return retex_fail(err, RETEX_ENOMEM, "not enough memory for samples");
-    samples->width = set->width;
-    samples->height = set->height;
-    samples->nimages = set->nfootprints;
-    samples->ntargets = set->ntargets;
-    samples->set_id = set->id;
-    for (int i = 0; i < set->ntargets; i++)
-        memcpy(samples->target_names[i], set->targets[i].name, sizeof samples->target_names[i]);
+    const int code = retex_samples_create(&work->samples, set, err);
+    if (code)
+        return code;
     for (int i = 0; i < work->nspecs; i++)
-        describe_texture(samples->textures[retex_set_find_target(set, work->specs[i].target)],
-                         sizeof samples->textures[0], &work->specs[i]);
-    for (int i = 0; i < set->nfootprints; i++) {
-        samples->footprint_target[i] = set->footprints[i].target;
-        samples->footprint_hit[i] = set->footprints[i].hit;
-    }
+        describe_texture(work->samples->textures[retex_set_find_target(set, work->specs[i].target)],
+                         sizeof work->samples->textures[0], &work->specs[i]);
     return RETEX_OK;
 }
 
@@ -109,7 +97,7 @@ static int store_images(SampleWork *work, const char *near, RetexError *err)
         }
         snprintf(name, sizeof name, "sample_%d", footprint);
         code = retex_band_store_add(samples->store, name, "RGB", RETEX_FLOAT, &work->edited[i].store_image, err);
-        samples->store_image[footprint] = code ? 0 : 1 + work->edited[i].store_image;
+        samples->footprints[footprint].store_image = code ? 0 : 1 + work->edited[i].store_image;
         samples->images[footprint] = (RetexImage){.width = set->width, .height = set->height, .channels = 3};
     }
     return code;
@@ -187,10 +175,10 @@ static void move_image(RetexSamples *samples, RetexSamples *more, int footprint)
 {
     retex_image_free(&samples->images[footprint]);
     samples->images[footprint] = more->images[footprint];
-    samples->store_image[footprint] = more->store_image[footprint];
-    samples->source_image[footprint] = more->source_image[footprint];
+    samples->footprints[footprint].store_image = more->footprints[footprint].store_image;
+    samples->footprints[footprint].source_image = more->footprints[footprint].source_image;
     more->images[footprint] = (RetexImage){0};
-    more->store_image[footprint] = more->source_image[footprint] = 0;
+    more->footprints[footprint].store_image = more->footprints[footprint].source_image = 0;
 }
 
 /* Where the images are that have been moved. */
@@ -213,7 +201,7 @@ int retex_samples_merge(RetexSamples *samples, RetexSamples *more, RetexError *e
     for (int t = 0; same && t < samples->ntargets; t++)
         same = strcmp(samples->target_names[t], more->target_names[t]) == 0;
     for (int i = 0; same && i < samples->nimages; i++)
-        same = samples->footprint_target[i] == more->footprint_target[i];
+        same = samples->footprints[i].target == more->footprints[i].target;
     if (!same)
         return retex_fail(err, RETEX_EINVAL, "the samples are of different sets");
     if ((samples->store && more->store) || (samples->source && more->source)) { /* one of each is kept */

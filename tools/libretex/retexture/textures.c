@@ -1,9 +1,9 @@
 /* The textures that are put on a set's targets: checked against the set, and loaded. */
-#include <retex/sample.h>
 
 #include <stdio.h>
 #include <string.h>
 
+#include <retex/combine.h>
 #include <retex/nearest.h>
 #include <retex/parallel.h>
 

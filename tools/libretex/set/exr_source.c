@@ -183,7 +183,7 @@ static int fail_chunk(const ExrReader *reader, const RetexExrPlan *plan, exr_res
 {
     const ExrSource *source = reader->source;
     if (result == RETEX_EXR_NON_FINITE)
-        return retex_exr_fail_nonfinite(source->parts.exr, plan->request->part, &reader->scratch.odd, err);
+        return retex_exr_fail_nonfinite(source->parts.exr, plan->request->part, &reader->scratch.bad, err);
     if (result == EXR_ERR_OUT_OF_MEMORY)
         return retex_exr_fail(source->parts.exr, result, err);
     const int status =

@@ -1,6 +1,8 @@
 /* From the band store or the source of a set, or of samples, into memory. */
 #include <stdlib.h>
 #include <string.h>
+#include <retex/samples.h>
+#include <retex/set_file.h>
 
 #include "set/transfer.h"
 #include "set/manifest.h"
@@ -73,15 +75,18 @@ int retex_set_load(RetexSet *set, int nthreads, RetexError *err)
 
 int retex_samples_load(RetexSamples *samples, int nthreads, RetexError *err)
 {
-    RetexImage *images[RETEX_SET_FOOTPRINTS_MAX];
+    RetexImage **images = calloc((size_t)samples->nimages + 1, sizeof *images);
 
+    if (!images)
+        return retex_fail(err, RETEX_ENOMEM, "not enough memory for samples");
     for (int i = 0; i < samples->nimages; i++)
         images[i] = retex_samples_have(samples, i) ? &samples->images[i] : NULL;
     const int code = load(images, samples->nimages, NULL, samples, nthreads, err);
+    free(images);
     if (code)
         return code;
-    memset(samples->store_image, 0, sizeof samples->store_image);
-    memset(samples->source_image, 0, sizeof samples->source_image);
+    for (int i = 0; i < samples->nimages; i++)
+        samples->footprints[i].store_image = samples->footprints[i].source_image = 0;
     close_stores(&samples->store, &samples->source);
     return 0;
 }

@@ -5,27 +5,11 @@
 #include <stdlib.h>
 #include <string.h>
 #include <jansson.h>
+#include <retex/samples.h>
+#include <retex/set_file.h>
 
 #include "base/json_write.h"
 #include "set/manifest.h"
-
-int retex_samples_are_sound(const RetexSamples *samples, RetexError *err)
-{
-    if (samples->ntargets < 0 || samples->ntargets > RETEX_MAX_TARGETS || samples->nimages < 0 ||
-        samples->nimages > RETEX_SET_FOOTPRINTS_MAX)
-        return retex_fail(err, RETEX_EINVAL, "the samples have %d targets and %d images", samples->ntargets,
-                          samples->nimages);
-    for (int i = 0; i < samples->nimages; i++) {
-        const RetexImage *image = &samples->images[i];
-        if (samples->footprint_target[i] < 0 || samples->footprint_target[i] >= samples->ntargets)
-            return retex_fail(err, RETEX_EINVAL, "sample image %d is for target %d of %d", i,
-                              samples->footprint_target[i], samples->ntargets);
-        if (retex_samples_have(samples, i) &&
-            (image->width > samples->width || image->height > samples->height || image->channels != 3))
-            return retex_fail(err, RETEX_EINVAL, "sample image %d has the wrong size", i);
-    }
-    return 0;
-}
 
 static int name_is_taken(const char *name, const RetexSet *set, const RetexSamplePart *parts, int count)
 {
@@ -44,13 +28,13 @@ void retex_sample_part_names(const RetexSamples *samples, const RetexSet *set, R
         if (!retex_samples_have(samples, i))
             continue;
         /* a target may be called anything, a part not */
-        snprintf(target, sizeof target, "%s", samples->target_names[samples->footprint_target[i]]);
+        snprintf(target, sizeof target, "%s", samples->target_names[samples->footprints[i].target]);
         for (char *letter = target; *letter; letter++)
             if (!retex_name_is_valid((char[]){*letter, 0}))
                 *letter = '_';
-        snprintf(name, RETEX_SAMPLE_NAME_MAX, "sample_%s_%d", target, samples->footprint_hit[i]);
+        snprintf(name, RETEX_SAMPLE_NAME_MAX, "sample_%s_%d", target, samples->footprints[i].hit);
         for (int again = 2; name_is_taken(name, set, parts, i); again++)
-            snprintf(name, RETEX_SAMPLE_NAME_MAX, "sample_%s_%d_%d", target, samples->footprint_hit[i], again);
+            snprintf(name, RETEX_SAMPLE_NAME_MAX, "sample_%s_%d_%d", target, samples->footprints[i].hit, again);
     }
 }
 
@@ -225,8 +209,8 @@ static json_t *write_samples(const RetexSamples *samples, const RetexSamplePart 
         json_t *part = parts[i].name[0] ? write_part(parts[i].name, "RGB", RETEX_FLOAT, &samples->images[i],
                                                      parts[i].crc, bands_of(sums, first + i))
                                         : json_null();
-        retex_json_add(&images, json_pack("{s:i, s:i, s:o}", "target", samples->footprint_target[i], "hit",
-                                          samples->footprint_hit[i], "part", part));
+        retex_json_add(&images, json_pack("{s:i, s:i, s:o}", "target", samples->footprints[i].target, "hit",
+                                          samples->footprints[i].hit, "part", part));
     }
     return json_pack("{s:o, s:o, s:o}", "set_id", identity(samples->set_id), "targets", targets, "images", images);
 }

@@ -2,20 +2,15 @@
 #ifndef RETEX_SET_MANIFEST_H
 #define RETEX_SET_MANIFEST_H
 
-#include <retex/set.h>
-
 #include "base/part_name.h"
+#include "set/samples.h"
 
 enum {
-    RETEX_SET_FOOTPRINTS_MAX = 512, /* RetexSamples has room for as many */
     RETEX_SET_TERMS_MAX = 4096,
     RETEX_SAMPLE_NAME_MAX = 192     /* bytes of a sample part's name, with the final NUL */
 };
 
 #define RETEX_MANIFEST_ATTRIBUTE "retex" /* of an EXR file's first part: where it is */
-
-/* Check that the samples' numbers and sizes agree among themselves. */
-int retex_samples_are_sound(const RetexSamples *samples, RetexError *err);
 
 /* What the manifest says of one of the file's samples parts. */
 typedef struct RetexSamplePart {

@@ -431,8 +431,8 @@ static void read_sample_image(Reading *reading, const json_t *json, RetexSamples
     const json_t *json_part = json_object_get(json, "part");
     RetexPart part = {.crc = 0};
 
-    samples->footprint_target[index] = get_integer(reading, json, "target", 0, samples->ntargets - 1);
-    samples->footprint_hit[index] = get_integer(reading, json, "hit", 1, 1 << 20);
+    samples->footprints[index].target = get_integer(reading, json, "target", 0, samples->ntargets - 1);
+    samples->footprints[index].hit = get_integer(reading, json, "hit", 1, 1 << 20);
     if (json_is_null(json_part))
         read_bands(reading, json_part, 0);
     if (json_is_null(json_part) || reading->status)
@@ -457,16 +457,13 @@ static void read_samples(Reading *reading, const json_t *json, int width, int he
     const json_t *targets = get_array(reading, json, "targets", RETEX_MAX_TARGETS);
     const json_t *images = get_array(reading, json, "images", RETEX_SET_FOOTPRINTS_MAX);
     const size_t count = json_array_size(images);
-    RetexSamples *samples = calloc(1, sizeof *samples);
 
-    *result = samples;
     *parts = calloc(count + 1, sizeof **parts);
-    if (samples)
-        samples->images = calloc(count + 1, sizeof *samples->images);
-    if (!samples || !*parts || !samples->images) {
+    if (!*parts || retex_samples_alloc(result, (int)count, NULL)) {
         bad(reading, RETEX_ENOMEM, "does not fit in memory");
         return;
     }
+    RetexSamples *samples = *result;
     samples->width = width;
     samples->height = height;
     samples->set_id = get_identity(reading, json, "set_id");
@@ -476,7 +473,6 @@ static void read_samples(Reading *reading, const json_t *json, int width, int he
         get_text(reading, target, "name", samples->target_names[i], sizeof samples->target_names[i]);
         get_text(reading, target, "texture", samples->textures[i], sizeof samples->textures[i]);
     }
-    samples->nimages = (int)count;
     for (int i = 0; i < samples->nimages && !reading->status; i++)
         read_sample_image(reading, json_array_get(images, (size_t)i), samples, i, *parts);
 }

@@ -3,6 +3,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <retex/samples.h>
+#include <retex/set_file.h>
 
 #include "set/read.h"
 
@@ -103,7 +105,7 @@ static int request_part(Source *source, const char *name, const char *letters, R
     request->with_crc = 1;
     request->expected = crc;
     request->bands = source->sums.of[index];
-    request->allowed = retex_numbers_of_part(name);
+    request->allowed = retex_allowed_values(name);
     source->nrequests++;
     const uint64_t count = (uint64_t)width * (uint64_t)height * strlen(letters);
     source->memory_bytes += count * sizeof(float);
@@ -185,7 +187,7 @@ static int request_samples_stored(Source *source, RetexError *err)
     const int status = request_samples(source, err);
 
     for (int i = 0, next = first; i < samples->nimages && !status; i++)
-        samples->source_image[i] = source->names[i].name[0] ? ++next : 0;
+        samples->footprints[i].source_image = source->names[i].name[0] ? ++next : 0;
     return status;
 }
 

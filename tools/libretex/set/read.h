@@ -2,7 +2,7 @@
 #ifndef RETEX_SET_READ_H
 #define RETEX_SET_READ_H
 
-#include <retex/set.h>
+#include <retex/samples.h>
 
 #include "io/input.h"
 

@@ -15,8 +15,8 @@ typedef struct StoredBand {
 typedef struct Backing {
     const RetexBandStore *store;
     RetexSetSource *source;
-    void *reader;       /* of the source, or NULL */
-    StoredBand *bands;  /* by part or image, or NULL where there is no band store */
+    void *reader;      /* of the source, or NULL */
+    StoredBand *bands; /* by part or image, or NULL where there is no band store */
     int count;
 } Backing;
 
@@ -118,8 +118,9 @@ int retex_row_reader_sample(RetexRowReader *reader, int footprint, int y, const 
         *row = image->pixels + retex_image_index(image, 0, y);
         return RETEX_OK;
     }
-    if (samples->store_image[footprint])
-        return stored_row(row, backing, footprint, samples->store_image[footprint] - 1, image, y, err);
+    if (samples->footprints[footprint].store_image)
+        return stored_row(row, backing, footprint, samples->footprints[footprint].store_image - 1, image, y, err);
     RetexRowSpan span;
-    return backing->source->read_row(backing->reader, samples->source_image[footprint] - 1, y, row, &span, err);
+    return backing->source->read_row(backing->reader, samples->footprints[footprint].source_image - 1, y, row, &span,
+                                     err);
 }

@@ -2,7 +2,7 @@
 #ifndef RETEX_SET_ROWS_H
 #define RETEX_SET_ROWS_H
 
-#include <retex/set.h>
+#include <retex/samples.h>
 
 #include "base/row_span.h"
 

@@ -318,27 +318,6 @@ int retex_set_find_target(const RetexSet *set, const char *name)
     return count == 1 ? found : -1;
 }
 
-void retex_samples_close(RetexSamples **result)
-{
-    RetexSamples *samples = result ? *result : NULL;
-
-    if (!samples)
-        return;
-    for (int i = 0; samples->images && i < samples->nimages; i++)
-        retex_image_free(&samples->images[i]);
-    free(samples->images);
-    retex_band_store_close(&samples->store);
-    if (samples->source)
-        samples->source->close(samples->source);
-    free(samples);
-    *result = NULL;
-}
-
-int retex_samples_have(const RetexSamples *samples, int footprint)
-{
-    return samples->images[footprint].pixels || samples->store_image[footprint] || samples->source_image[footprint];
-}
-
 void retex_set_identify(RetexSet *set)
 {
     const RetexImage *beauty = &set->parts[0].image;
@@ -348,34 +327,4 @@ void retex_set_identify(RetexSet *set)
     for (size_t y = 0; y < rows; y++)
         id = retex_crc32(id, (const unsigned char *)beauty->pixels + y * bytes, bytes);
     set->id = id ? id : 1;
-}
-
-int retex_samples_check(const RetexSamples *samples, const RetexSet *set, RetexError *err)
-{
-    if (samples->width != set->width || samples->height != set->height)
-        return retex_fail(err, RETEX_EINVAL, "the samples have %d x %d pixels, the set %d x %d", samples->width,
-                          samples->height, set->width, set->height);
-    if (samples->ntargets != set->ntargets)
-        return retex_fail(err, RETEX_EINVAL, "the samples know %d targets, the set %d", samples->ntargets,
-                          set->ntargets);
-    if (samples->set_id && set->id && samples->set_id != set->id)
-        return retex_fail(err, RETEX_EINVAL, "the samples were made for another render of these targets");
-    for (int i = 0; i < set->ntargets; i++)
-        if (strcmp(samples->target_names[i], set->targets[i].name) != 0)
-            return retex_fail(err, RETEX_EINVAL, "the samples are for target %s where the set has %s",
-                              samples->target_names[i], set->targets[i].name);
-    if (samples->nimages != set->nfootprints)
-        return retex_fail(err, RETEX_EINVAL, "the samples have %d images for the set's %d footprints", samples->nimages,
-                          set->nfootprints);
-    for (int i = 0; i < samples->nimages; i++) {
-        const RetexImage *image = &samples->images[i];
-        if (samples->footprint_target[i] != set->footprints[i].target ||
-            samples->footprint_hit[i] != set->footprints[i].hit)
-            return retex_fail(err, RETEX_EINVAL, "sample image %d belongs to another footprint than the set's", i);
-        const RetexImage *uv = set->footprints[i].uv >= 0 ? &set->parts[set->footprints[i].uv].image : NULL;
-        const int fits = uv ? image->width == uv->width && image->height == uv->height : retex_set_scale(set, image);
-        if (retex_samples_have(samples, i) && (image->channels != 3 || !fits))
-            return retex_fail(err, RETEX_EINVAL, "sample image %d has the wrong size", i);
-    }
-    return 0;
 }

@@ -4,6 +4,7 @@
 
 #include <retex/parallel.h>
 #include <retex/set.h>
+#include <retex/set_file.h>
 
 #include "io/checksum.h"
 #include "base/half.h"

@@ -3,6 +3,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <retex/samples.h>
+#include <retex/set_file.h>
 
 #include "exr/io.h"
 #include "set/manifest.h"
@@ -124,8 +126,8 @@ static int list_parts(Writing *w, RetexError *err)
             continue;
         RetexExrPart *exr = add_exr_part(w, w->names[i].name, "RGB", RETEX_FLOAT, &samples->images[i]);
         exr->color = &retex_color_tag_rec709;
-        if (samples->store_image[i])
-            exr->store = samples->store, exr->store_image = samples->store_image[i] - 1;
+        if (samples->footprints[i].store_image)
+            exr->store = samples->store, exr->store_image = samples->footprints[i].store_image - 1;
         else if (!samples->images[i].pixels)
             status = stage_part(w, exr, -1, i, err);
     }

@@ -3,7 +3,7 @@
 #ifndef RETEX_PICTURE_H
 #define RETEX_PICTURE_H
 
-#include <retex/image.h>
+#include <retex/image_file.h>
 
 #ifdef __cplusplus
 extern "C" {

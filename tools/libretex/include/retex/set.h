@@ -138,26 +138,6 @@ typedef struct RetexSet {
                               its own, and damage to it may go unseen */
 } RetexSet;
 
-/* The textures filtered at a set's footprints: image i belongs to footprint i and is RGB of the size of its parts, or
- * all 0 where that footprint's target keeps its original. One of a size but without pixels is in the samples' band
- * store or in the file that they come from. */
-typedef struct RetexSamples {
-    int width, height;
-    int nimages;
-    RetexImage *images;
-    char textures[RETEX_MAX_TARGETS][256]; /* per target, what was put on it, for people to read; "" = nothing */
-    char target_names[RETEX_MAX_TARGETS][RETEX_NAME_MAX]; /* so that samples can be checked against their set */
-    uint32_t set_id;       /* of the set they were made for */
-    int ntargets;
-    int footprint_target[512]; /* target and hit of footprint i, for the same check and for part names */
-    int footprint_hit[512];
-    int store_image[512];      /* 0, or 1 + the image's number in the band store */
-    int source_image[512];       /* 0, or 1 + its number in the source */
-    RetexBandStore *store;     /* owned, or NULL; as is */
-    RetexSetSource *source;
-    int version;           /* as of a set */
-} RetexSamples;
-
 int retex_set_create(RetexSet **set, int width, int height, RetexError *err);
 void retex_set_close(RetexSet **set); /* NULL and pointers to NULL are fine */
 /* Append; *index (may be NULL) gets its number. The image is allocated zeroed, width 0 = the set's own size. */
@@ -167,15 +147,6 @@ int retex_set_add_part(RetexSet *set, const char *name, const char *letters, Ret
  * by row, as parts of a set that is open are in their file. */
 int retex_set_add_stored(RetexSet *set, const char *name, const char *letters, RetexPixelType type, int image,
                          int *index, RetexError *err);
-/* Bring all parts into memory, and close the band store or the source. */
-int retex_set_load(RetexSet *set, int nthreads, RetexError *err);
-/* Bytes that all parts take in memory. */
-uint64_t retex_set_bytes(const RetexSet *set);
-/* Bring what recombination reads into memory, for several pictures one after the other: what it reads of the set, if
- * that takes no more than so many bytes, and the samples, if what is left then is enough; else they stay where they
- * are. */
-int retex_set_keep(RetexSet *set, RetexSamples *samples /* or NULL */, uint64_t most_bytes, int nthreads,
-                   RetexError *err);
 /* Leave out what no pixel has; empty[i]: part i is 0 everywhere. Footprints go without UV, and with them their parts,
  * their shares in mixtures, and mixtures of none; a mixture of one becomes that footprint. Terms of hits go without
  * radiance or gain, and noise of signals that have no term. Parts that something else refers to stay. What remains
@@ -201,64 +172,6 @@ int retex_set_footprint_scale(const RetexSet *set, int footprint);
 int retex_set_part_is_color(const RetexSet *set, int part);
 /* Exactly, else ignoring case where that is unique; or -1. */
 int retex_set_find_target(const RetexSet *set, const char *name);
-
-void retex_samples_close(RetexSamples **samples);
-/* Whether they have an image for that footprint, wherever it is. */
-int retex_samples_have(const RetexSamples *samples, int footprint);
-/* Bring all images into memory, and close the band store and the source. */
-int retex_samples_load(RetexSamples *samples, int nthreads, RetexError *err);
-/* Check that samples were made for this set (size, targets, footprints). */
-int retex_samples_check(const RetexSamples *samples, const RetexSet *set, RetexError *err);
-
-/* How a set is stored. Begin with RETEX_STORE_INIT. */
-typedef struct RetexStoreParams {
-    size_t size;
-    int compress; /* 1 (default): EXR ZIP; 0: none. Writing to "-" never compresses. */
-    int nthreads; /* 0 = all cores */
-} RetexStoreParams;
-#define RETEX_STORE_INIT { sizeof(RetexStoreParams), 1, 0 }
-
-/* Read a set, samples, or the stream of both that retex-sample writes to a pipe; from a file or "-". *.retex packs are
- * recognised by content. What the file does not hold comes back NULL; either out-parameter may be NULL when it is not
- * wanted (its parts are skipped). A file that holds nothing wanted is RETEX_EFORMAT, and so is one where a checksum of
- * what is read is wrong, or a value is not finite; the part "depth" alone may be infinite. */
-int retex_set_read(const char *path, RetexSet **set, RetexSamples **samples, int nthreads, RetexError *err);
-
-/* As retex_set_read, but the set's parts and the samples stay in the file until they are taken from there row by row,
- * by retex_retexture, retex_combine, retex_estimate_error, retex_sample_to_store or retex_set_write, or all at once by
- * retex_set_load and retex_samples_load; whatever else looks at pixels needs them loaded. Checksums are compared when
- * rows are taken, so that all of these may return RETEX_EFORMAT. The file must stay as it is
- * until both are closed, and so must parts that retex_set_keep brought into memory: a pack may make its picture from
- * them. Of a pipe that gives more than 64 MiB all is in a temporary file, in $TMPDIR or /tmp. */
-int retex_set_open(const char *path, RetexSet **set, RetexSamples **samples, int nthreads, RetexError *err);
-
-/* Write a set (samples NULL), samples alone (set NULL), or both as one stream, under a temporary name renamed when
- * complete, or to "-". CRCs are computed and kept in set->parts. Of a stream's set only what recombination needs is
- * written when samples are given: beauty, terms, and the footprints that have no sample. What is in an open file yet
- * goes through a temporary one near path. */
-int retex_set_write(RetexSet *set, const RetexSamples *samples, const char *path,
-                    const RetexStoreParams *params /* NULL = defaults */, RetexError *err);
-
-/* Whether a set, samples or a pack could be written there, as far as one can tell without doing it: for before the work
- * that makes them. */
-int retex_set_write_check(const char *path, RetexError *err);
-
-/* One row of a part as retex_set_write would store it: samples of its type in the order of letters, pixel by pixel, in
- * this machine's byte order. Halves are rounded to the nearest, and finite values beyond 65504 become 65504. */
-void retex_part_stored_row(const RetexPart *part, int y, void *samples);
-
-/* Give the parts, all in memory, the checksums that retex_set_write would, so that the manifest is true of rows stored
- * by other means. */
-int retex_set_checksum(RetexSet *set, int nthreads /* 0 = all cores */, RetexError *err);
-
-/* Compare every part's stored CRC with its data, and the manifest's own with its text: 0, or RETEX_EFORMAT naming the
- * first damaged part, or RETEX_CHECKED_IN_PART where all that has a checksum is right, but the manifest, of an old
- * version, has none. */
-enum { RETEX_CHECKED_IN_PART = 1 };
-int retex_set_check(const char *path, int nthreads, RetexError *err);
-
-/* The manifest as JSON text; the caller frees it with free(). */
-int retex_set_manifest(const RetexSet *set, const RetexSamples *samples, char **json, RetexError *err);
 
 #ifdef __cplusplus
 }

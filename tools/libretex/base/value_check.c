@@ -1,14 +1,14 @@
 /* See numbers.h. */
-#include "base/numbers.h"
+#include "base/value_check.h"
 
 #include <math.h>
 #include <string.h>
 
 #include "base/half.h"
 
-RetexNumbers retex_numbers_of_part(const char *name)
+RetexAllowedValues retex_allowed_values(const char *name)
 {
-    return strcmp(name, "depth") == 0 ? RETEX_NO_NAN : RETEX_FINITE;
+    return strcmp(name, "depth") == 0 ? RETEX_ALLOW_INFINITE : RETEX_ALLOW_FINITE;
 }
 
 static float sample_at(const void *samples, RetexPixelType type, size_t i)
@@ -25,21 +25,21 @@ static float sample_at(const void *samples, RetexPixelType type, size_t i)
     return value;
 }
 
-size_t retex_numbers_find(const void *samples, RetexPixelType type, size_t count, RetexNumbers allowed)
+size_t retex_find_disallowed(const void *samples, RetexPixelType type, size_t count, RetexAllowedValues allowed)
 {
-    if (allowed == RETEX_ANY_NUMBERS ||
-        !(type == RETEX_FLOAT ? retex_floats_are_odd(samples, count) : retex_halves_are_odd(samples, count)))
+    if (allowed == RETEX_ALLOW_ANY || !(type == RETEX_FLOAT ? retex_floats_have_nonfinite(samples, count)
+                                                            : retex_halves_have_nonfinite(samples, count)))
         return count;
     for (size_t i = 0; i < count; i++) {
         const float value = sample_at(samples, type, i);
-        if (isnan(value) || (allowed == RETEX_FINITE && !isfinite(value)))
+        if (isnan(value) || (allowed == RETEX_ALLOW_FINITE && !isfinite(value)))
             return i;
     }
     return count;
 }
 
-int retex_numbers_fail(RetexError *err, const char *file, const char *part, const char *channel, int x, int y,
-                       float value)
+int retex_fail_disallowed(RetexError *err, const char *file, const char *part, const char *channel, int x, int y,
+                          float value)
 {
     return retex_fail(err, RETEX_EFORMAT, "%s%spart %s holds %s at %d,%d in channel %s: such values are refused",
                       file ? file : "", file ? ": " : "", part,
@@ -49,15 +49,15 @@ int retex_numbers_fail(RetexError *err, const char *file, const char *part, cons
                       x, y, channel);
 }
 
-int retex_numbers_check_row(const RetexPart *part, const float *row, int x0, int x1, int y, RetexError *err)
+int retex_check_row_values(const RetexPart *part, const float *row, int x0, int x1, int y, RetexError *err)
 {
     const size_t channels = strlen(part->letters), first = (size_t)x0 * channels;
     const size_t count = x1 > x0 ? (size_t)(x1 - x0) * channels : 0;
-    const size_t found = retex_numbers_find(row + first, RETEX_FLOAT, count, retex_numbers_of_part(part->name));
+    const size_t found = retex_find_disallowed(row + first, RETEX_FLOAT, count, retex_allowed_values(part->name));
 
     if (found == count)
         return 0;
     const size_t at = first + found;
     const char channel[2] = {part->letters[at % channels], 0};
-    return retex_numbers_fail(err, NULL, part->name, channel, (int)(at / channels), y, row[at]);
+    return retex_fail_disallowed(err, NULL, part->name, channel, (int)(at / channels), y, row[at]);
 }

@@ -2,30 +2,30 @@
 #include <stdint.h>
 #include <string.h>
 
-#include "base/numbers.h"
+#include "base/value_check.h"
 
-int retex_halves_are_odd(const void *samples, size_t count)
+int retex_halves_have_nonfinite(const void *samples, size_t count)
 {
     const unsigned char *restrict at = samples;
-    uint16_t odd = 0;
+    uint16_t bad = 0;
 
     for (size_t i = 0; i < count; i++) {
         uint16_t bits;
         memcpy(&bits, at + 2 * i, sizeof bits);
-        odd |= (uint16_t) - ((bits & 0x7c00) == 0x7c00);
+        bad |= (uint16_t) - ((bits & 0x7c00) == 0x7c00);
     }
-    return odd != 0;
+    return bad != 0;
 }
 
-int retex_floats_are_odd(const void *samples, size_t count)
+int retex_floats_have_nonfinite(const void *samples, size_t count)
 {
     const unsigned char *restrict at = samples;
-    uint32_t odd = 0;
+    uint32_t bad = 0;
 
     for (size_t i = 0; i < count; i++) {
         uint32_t bits;
         memcpy(&bits, at + 4 * i, sizeof bits);
-        odd |= (uint32_t) - ((bits & 0x7f800000) == 0x7f800000);
+        bad |= (uint32_t) - ((bits & 0x7f800000) == 0x7f800000);
     }
-    return odd != 0;
+    return bad != 0;
 }

@@ -11,7 +11,7 @@
 #include <cmocka.h>
 
 #include "base/half.h"
-#include "base/numbers.h"
+#include "base/value_check.h"
 #include "pack/bands.h"
 #include "set/rows.h"
 
@@ -48,15 +48,15 @@ static void test_kernels(void **state)
         size_t first = 0;
         while (first < count && !is_odd(memcpy(copy, at + first * bytes, bytes), type))
             first++;
-        assert_int_equal(retex_numbers_find(at, type, count, RETEX_FINITE), first);
-        assert_int_equal(retex_numbers_find(at, type, count, RETEX_ANY_NUMBERS), count);
+        assert_int_equal(retex_find_disallowed(at, type, count, RETEX_ALLOW_FINITE), first);
+        assert_int_equal(retex_find_disallowed(at, type, count, RETEX_ALLOW_ANY), count);
         found_some += first < count;
     }
     assert_true(found_some > 5000);
     static const float depths[4] = {1, INFINITY, -INFINITY, NAN};
-    assert_int_equal(retex_numbers_find(depths, RETEX_FLOAT, 4, RETEX_FINITE), 1);
-    assert_int_equal(retex_numbers_find(depths, RETEX_FLOAT, 4, RETEX_NO_NAN), 3);
-    assert_int_equal(retex_numbers_find(depths, RETEX_FLOAT, 3, RETEX_NO_NAN), 3);
+    assert_int_equal(retex_find_disallowed(depths, RETEX_FLOAT, 4, RETEX_ALLOW_FINITE), 1);
+    assert_int_equal(retex_find_disallowed(depths, RETEX_FLOAT, 4, RETEX_ALLOW_INFINITE), 3);
+    assert_int_equal(retex_find_disallowed(depths, RETEX_FLOAT, 3, RETEX_ALLOW_INFINITE), 3);
 }
 
 /* ---- readers ---- */

@@ -1,0 +1,53 @@
+/* Recombination: the polynomial of a set evaluated with samples, or with textures directly; and its expected error. */
+#ifndef RETEX_COMBINE_H
+#define RETEX_COMBINE_H
+
+#include <retex/picture.h>
+#include <retex/samples.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Begin with RETEX_COMBINE_INIT. */
+typedef struct RetexCombineParams {
+    size_t size;
+    int cross;    /* highest hit count whose cross terms are used: 0, 2 or 3 (default); the supplement's ablation */
+} RetexCombineParams;
+#define RETEX_COMBINE_INIT { sizeof(RetexCombineParams), 3 }
+
+/* dst (RGB, the set's size) = sum of terms times factors. samples may be NULL: then every target keeps its original.
+ * The beauty part is never read. */
+int retex_combine(RetexImage *dst, const RetexSet *set, const RetexSamples *samples,
+                  const RetexCombineParams *params /* NULL = defaults */, const RetexRoi *roi /* NULL = all */,
+                  int nthreads /* 0 = all cores */, RetexError *err);
+
+/* Load textures for a set's targets: textures[t], NULL where target t is given none. specs name their targets, each at
+ * most once; the set must hold these targets' footprints. To be closed by the caller, also after a failure. */
+int retex_textures_load(RetexTexture *textures[RETEX_MAX_TARGETS], const RetexSet *set, const RetexTextureSpec *specs,
+                        int nspecs, int nthreads, RetexError *err);
+void retex_textures_close(RetexTexture *textures[RETEX_MAX_TARGETS]);
+
+/* Receives rows y0 <= y < y1 of a picture, RGB interleaved; y0 is a multiple of RETEX_PICTURE_BAND, y1 the next one or
+ * the picture's height. Called from several threads at once, in any order; returns 0 or a negative RetexCode. */
+typedef int RetexRowSink(void *context, int y0, int y1, const float *rows, RetexError *err);
+
+/* Sampling and recombination in one pass, band by band. The rows are those that retex_sample, retex_samples_merge into
+ * samples (which may be NULL) and retex_combine would give. */
+int retex_retexture(const RetexSet *set, const RetexSamples *samples, RetexTexture *const textures[RETEX_MAX_TARGETS],
+                    const RetexCombineParams *params /* NULL = defaults */, RetexRowSink *sink, void *context,
+                    int nthreads /* 0 = all cores */, RetexError *err);
+
+/* The expected error of what retex_retexture makes of the same arguments, as rows of a picture: the standard deviation,
+ * per channel and scene-linear, of the difference to rendering again with these textures at the set's sample count. It
+ * is computed from the variance of the textures within the footprints, the light that multiplies them there, and the
+ * energy that was folded; targets without a texture add no error. */
+int retex_estimate_error(const RetexSet *set, const RetexSamples *samples /* or NULL */,
+                         RetexTexture *const textures[RETEX_MAX_TARGETS],
+                         const RetexCombineParams *params /* NULL = defaults */, RetexRowSink *sink, void *context,
+                         int nthreads /* 0 = all cores */, RetexError *err);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,66 @@
+/* Picture files: reading and writing of whole images. <retex/picture.h> writes pictures row by row. */
+#ifndef RETEX_IMAGE_FILE_H
+#define RETEX_IMAGE_FILE_H
+
+#include <retex/image.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Read the colours of any file that OpenImageIO reads, or an EXR through OpenEXRCore without loading OpenImageIO.
+ * path "-" is standard input (EXR only). The result has 4 channels R,G,B,A, scene-linear Rec.709, alpha unassociated
+ * (1 where the file has none; grey is spread over R,G,B). colorspace: NULL = 8- and 16-bit integers are sRGB, floats
+ * scene-linear, an EXR what its header says (acesImageContainerFlag, colorInteropID, chromaticities, in this order);
+ * otherwise a name known to the OCIO config. Only the first subimage is read.
+ * Files of more than max_pixels pixels (0 = no limit) are refused with RETEX_ELIMIT. */
+int retex_image_read(RetexImage *dst, const char *path, const char *colorspace, long max_pixels, RetexError *err);
+
+/* The same, and which files may be read. Begin with RETEX_READ_INIT. */
+typedef struct RetexReadParams {
+    size_t size;               /* of this struct */
+    const char *colorspace;    /* default NULL */
+    long max_pixels;           /* default 0 */
+    const RetexAccess *access; /* borrowed; default NULL = any file */
+    const RetexBudget *budget; /* borrowed: a picture of more pixels, or for which it has not enough memory left, is
+                                  refused before it is decoded. Default NULL = none is */
+    unsigned pixel_bytes;      /* what the caller will need a pixel, at the peak; default 16, the pixels alone */
+} RetexReadParams;
+#define RETEX_READ_INIT { sizeof(RetexReadParams), NULL, 0, NULL, NULL, 16 }
+
+int retex_image_read_with(RetexImage *dst, const char *path, const RetexReadParams *params /* NULL = defaults */,
+                          RetexError *err);
+/* Whether retex_image_read_with could read it, as far as the file's beginning tells: it is there, may be read, and is a
+ * picture. Colour spaces are not looked at, of pipes and "-" nothing is read. For before long work. */
+int retex_image_read_check(const char *path, const RetexReadParams *params /* NULL = defaults */, RetexError *err);
+
+/* How a picture leaves. Begin with RETEX_WRITE_INIT. */
+typedef struct RetexWriteParams {
+    size_t size;            /* of this struct */
+    const char *display;    /* OCIO display for 8- and 16-bit files; NULL = the config's default */
+    const char *view;       /* OCIO view; NULL = the display's default */
+    const char *colorspace; /* write in this colour space instead of through display and view; NULL = none */
+    int quality;            /* of JPEG, 1..100; default 95 */
+    int is_data;            /* 1: numbers that are no colours, which an EXR stores as they are and says so; other
+                               formats go by what is above. Default 0 */
+} RetexWriteParams;
+#define RETEX_WRITE_INIT { sizeof(RetexWriteParams), NULL, NULL, NULL, 95, 0 }
+
+/* Write a picture of 1 (grey), 3 (RGB) or 4 (RGBA) channels; the format follows the name's ending, "-" is EXR to
+ * standard output. EXR (half) and other float formats stay scene-linear unless colorspace says otherwise; 8- and 16-bit
+ * formats go through the display transform. An EXR names its colours where they are known, by chromaticities where they
+ * are linear, and by the interop ID. Written under a temporary name and renamed when complete. */
+int retex_image_write(const RetexImage *src, const char *path, const RetexWriteParams *params /* NULL = defaults */,
+                      RetexError *err);
+
+/* Whether retex_image_write could write there, as far as one can tell without doing it: a format of that ending, a
+ * folder that takes files, a known display, view or colour space. For before the work that makes the picture. */
+int retex_image_write_check(const char *path, const RetexWriteParams *params /* NULL = defaults */, RetexError *err);
+
+/* The same without looking at the folder, which need not be there yet. */
+int retex_image_format_check(const char *path, const RetexWriteParams *params /* NULL = defaults */, RetexError *err);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,23 @@
+/* Output files in general: complete or not there at all. */
+#ifndef RETEX_OUTPUT_FILE_H
+#define RETEX_OUTPUT_FILE_H
+
+#include <stddef.h>
+#include <retex/error.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Write a file of any kind as all outputs of the library are written: under a temporary name, renamed when complete; or
+ * to "-", standard output. */
+int retex_file_write(const char *path, const void *data, size_t bytes, RetexError *err);
+
+/* Remove all pending files: outputs under temporary names that are not complete. For a process that ends in the middle
+ * of its work, from any thread; no output can be completed afterwards. */
+void retex_pending_files_remove(void);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,66 @@
+/* Samples: new textures filtered at the footprints of a set, the first half of a retexture. */
+#ifndef RETEX_SAMPLES_H
+#define RETEX_SAMPLES_H
+
+#include <retex/set.h>
+#include <retex/texture.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Where the image of one footprint is, and what it belongs to. */
+typedef struct RetexSampleFootprint {
+    int target, hit;  /* of the set's footprint: checked against the set, and part of the image's name in files */
+    int store_image;  /* 0, or 1 + the number of the image in the band store */
+    int source_image; /* 0, or 1 + the number of the image in the source */
+} RetexSampleFootprint;
+
+/* Image i belongs to footprint i of the set. It is RGB of the size of the footprint's parts, or unallocated where the
+ * footprint's target keeps its original. An image with a size but without pixels is in the band store or in the source.
+ */
+typedef struct RetexSamples {
+    int width, height; /* of the set */
+    int nimages;
+    RetexImage *images;               /* nimages */
+    RetexSampleFootprint *footprints; /* nimages */
+    int ntargets;
+    char target_names[RETEX_MAX_TARGETS][RETEX_NAME_MAX];
+    char textures[RETEX_MAX_TARGETS][256]; /* by target, the texture in words, for people to read; "" = none */
+    uint32_t set_id;                       /* id of the set; 0 = unknown */
+    RetexBandStore *store;                 /* owned, or NULL */
+    RetexSetSource *source;                /* owned, or NULL */
+    int version; /* of the manifest that the samples were read from, as RetexSet has it */
+} RetexSamples;
+
+/* Create samples of a set without any image: every target keeps its original. */
+int retex_samples_create(RetexSamples **samples, const RetexSet *set, RetexError *err);
+void retex_samples_close(RetexSamples **samples); /* NULL and pointers to NULL are fine */
+
+/* Filter textures at every footprint of their targets. specs[0..nspecs) name their targets; a target named twice is an
+ * error, a target that is not named keeps its original. *samples is created. Where a texture is transparent the
+ * footprint's original albedo shows through. Output is the same to the bit for every nthreads. */
+int retex_sample(RetexSamples **samples, const RetexSet *set, const RetexTextureSpec *specs, int nspecs, int nthreads,
+                 RetexError *err);
+
+/* As retex_sample, of a set that may be open, with little of set and samples in memory: images as large as the picture
+ * go band by band into a band store in the folder of `near`, the file that the samples are for; "-" is standard output.
+ */
+int retex_sample_to_store(RetexSamples **samples, const RetexSet *set, const RetexTextureSpec *specs, int nspecs,
+                          const char *near, int nthreads, RetexError *err);
+
+/* Move the images of `more` into samples, where they replace those of the same footprints; both must be of the same
+ * set. `more` keeps no image and is still the caller's to close. On failure both are as they were. */
+int retex_samples_merge(RetexSamples *samples, RetexSamples *more, RetexError *err);
+
+/* 1 if there is an image for that footprint: in memory, in the band store or in the source. */
+int retex_samples_have(const RetexSamples *samples, int footprint);
+/* Bring all images into memory, and close the band store and the source. */
+int retex_samples_load(RetexSamples *samples, int nthreads, RetexError *err);
+/* Check that samples were made for this set: same size, targets and footprints. */
+int retex_samples_check(const RetexSamples *samples, const RetexSet *set, RetexError *err);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

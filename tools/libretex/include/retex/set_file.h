@@ -1,0 +1,74 @@
+/* Files of sets and samples: reading, writing, checking. */
+#ifndef RETEX_SET_FILE_H
+#define RETEX_SET_FILE_H
+
+#include <retex/samples.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* How a set is written. Begin with RETEX_STORE_INIT. */
+typedef struct RetexStoreParams {
+    size_t size;
+    int compress; /* 1 (default): EXR ZIP; 0: none. Writing to "-" never compresses. */
+    int nthreads; /* 0 = all cores */
+} RetexStoreParams;
+#define RETEX_STORE_INIT { sizeof(RetexStoreParams), 1, 0 }
+
+/* Read a set, samples, or the stream of both that retex-sample writes to a pipe; from a file or "-". *.retex packs are
+ * recognised by content. What the file does not hold comes back NULL; either out-parameter may be NULL when it is not
+ * wanted (its parts are skipped). A file that holds nothing wanted is RETEX_EFORMAT, and so is one where a checksum of
+ * what is read is wrong, or a value is not finite; the part "depth" alone may be infinite. */
+int retex_set_read(const char *path, RetexSet **set, RetexSamples **samples, int nthreads, RetexError *err);
+
+/* As retex_set_read, but the set's parts and the samples stay in the file until they are read from there row by row,
+ * by retex_retexture, retex_combine, retex_estimate_error, retex_sample_to_store or retex_set_write, or all at once by
+ * retex_set_load and retex_samples_load; every other function that looks at pixels needs them loaded. Checksums are
+ * compared when rows are read, so that all of these functions may return RETEX_EFORMAT. The file must stay as it is
+ * until both are closed, and so must parts that retex_set_keep brought into memory: a pack may make its picture from
+ * them. Of a pipe that gives more than 64 MiB all is in a temporary file, in $TMPDIR or /tmp. */
+int retex_set_open(const char *path, RetexSet **set, RetexSamples **samples, int nthreads, RetexError *err);
+
+/* Bring all parts of a set into memory, and close its band store or source. */
+int retex_set_load(RetexSet *set, int nthreads, RetexError *err);
+/* Bytes that all parts take in memory. */
+uint64_t retex_set_bytes(const RetexSet *set);
+/* Load what recombination reads, for several pictures one after the other: the parts of the set that it reads, if they
+ * take at most most_bytes, and the samples, if the rest of most_bytes is enough for them; else they stay where they
+ * are. */
+int retex_set_keep(RetexSet *set, RetexSamples *samples /* or NULL */, uint64_t most_bytes, int nthreads,
+                   RetexError *err);
+
+/* Write a set (samples NULL), samples alone (set NULL), or both as one stream, under a temporary name renamed when
+ * complete, or to "-". CRCs are computed and kept in set->parts. Of a stream's set only what recombination needs is
+ * written when samples are given: beauty, terms, and the footprints that have no sample. Pixels that are still in an
+ * open file go through a temporary file near path. */
+int retex_set_write(RetexSet *set, const RetexSamples *samples, const char *path,
+                    const RetexStoreParams *params /* NULL = defaults */, RetexError *err);
+
+/* Check that a set, samples or a pack can be written to path, as far as that is known without writing: to be called
+ * before the work that makes them. */
+int retex_set_write_check(const char *path, RetexError *err);
+
+/* One row of a part as retex_set_write would store it: samples of its type in the order of letters, pixel by pixel, in
+ * this machine's byte order. Halves are rounded to the nearest, and finite values beyond 65504 become 65504. */
+void retex_part_stored_row(const RetexPart *part, int y, void *samples);
+
+/* Compute the checksums of parts, all of which are in memory, as retex_set_write does, for rows that are stored by
+ * other means with the manifest of retex_set_manifest. */
+int retex_set_checksum(RetexSet *set, int nthreads /* 0 = all cores */, RetexError *err);
+
+/* Compare every part's stored CRC with its data, and the manifest's own CRC with its text: 0, or RETEX_EFORMAT naming
+ * the first damaged part, or RETEX_CHECKED_IN_PART where all checksums are right, but the manifest, of an old version,
+ * has none. */
+enum { RETEX_CHECKED_IN_PART = 1 };
+int retex_set_check(const char *path, int nthreads, RetexError *err);
+
+/* The manifest as JSON text; the caller frees it with free(). */
+int retex_set_manifest(const RetexSet *set, const RetexSamples *samples, char **json, RetexError *err);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

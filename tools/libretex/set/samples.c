@@ -1,0 +1,113 @@
+/* Samples in memory: see <retex/samples.h>. What is filtered into them is in retexture/sample.c. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "set/samples.h"
+#include "set/source.h"
+
+int retex_samples_alloc(RetexSamples **result, int nimages, RetexError *err)
+{
+    RetexSamples *samples = *result = calloc(1, sizeof *samples);
+
+    if (samples) {
+        samples->images = calloc((size_t)nimages + 1, sizeof *samples->images);
+        samples->footprints = calloc((size_t)nimages + 1, sizeof *samples->footprints);
+    }
+    if (!samples || !samples->images || !samples->footprints) {
+        retex_samples_close(result);
+        return retex_fail(err, RETEX_ENOMEM, "not enough memory for samples");
+    }
+    samples->nimages = nimages;
+    return RETEX_OK;
+}
+
+int retex_samples_create(RetexSamples **result, const RetexSet *set, RetexError *err)
+{
+    const int code = retex_samples_alloc(result, set->nfootprints, err);
+    RetexSamples *samples = *result;
+
+    if (code)
+        return code;
+    samples->width = set->width;
+    samples->height = set->height;
+    samples->ntargets = set->ntargets;
+    samples->set_id = set->id;
+    for (int t = 0; t < set->ntargets; t++)
+        memcpy(samples->target_names[t], set->targets[t].name, sizeof samples->target_names[t]);
+    for (int i = 0; i < set->nfootprints; i++) {
+        samples->footprints[i].target = set->footprints[i].target;
+        samples->footprints[i].hit = set->footprints[i].hit;
+    }
+    return RETEX_OK;
+}
+
+void retex_samples_close(RetexSamples **result)
+{
+    RetexSamples *samples = result ? *result : NULL;
+
+    if (!samples)
+        return;
+    for (int i = 0; samples->images && i < samples->nimages; i++)
+        retex_image_free(&samples->images[i]);
+    free(samples->images);
+    free(samples->footprints);
+    retex_band_store_close(&samples->store);
+    if (samples->source)
+        samples->source->close(samples->source);
+    free(samples);
+    *result = NULL;
+}
+
+int retex_samples_have(const RetexSamples *samples, int footprint)
+{
+    return samples->images[footprint].pixels || samples->footprints[footprint].store_image ||
+           samples->footprints[footprint].source_image;
+}
+
+int retex_samples_are_sound(const RetexSamples *samples, RetexError *err)
+{
+    if (samples->ntargets < 0 || samples->ntargets > RETEX_MAX_TARGETS || samples->nimages < 0 ||
+        samples->nimages > RETEX_SET_FOOTPRINTS_MAX)
+        return retex_fail(err, RETEX_EINVAL, "the samples have %d targets and %d images", samples->ntargets,
+                          samples->nimages);
+    for (int i = 0; i < samples->nimages; i++) {
+        const RetexImage *image = &samples->images[i];
+        if (samples->footprints[i].target < 0 || samples->footprints[i].target >= samples->ntargets)
+            return retex_fail(err, RETEX_EINVAL, "sample image %d is for target %d of %d", i,
+                              samples->footprints[i].target, samples->ntargets);
+        if (retex_samples_have(samples, i) &&
+            (image->width > samples->width || image->height > samples->height || image->channels != 3))
+            return retex_fail(err, RETEX_EINVAL, "sample image %d has the wrong size", i);
+    }
+    return 0;
+}
+
+int retex_samples_check(const RetexSamples *samples, const RetexSet *set, RetexError *err)
+{
+    if (samples->width != set->width || samples->height != set->height)
+        return retex_fail(err, RETEX_EINVAL, "the samples have %d x %d pixels, the set %d x %d", samples->width,
+                          samples->height, set->width, set->height);
+    if (samples->ntargets != set->ntargets)
+        return retex_fail(err, RETEX_EINVAL, "the samples know %d targets, the set %d", samples->ntargets,
+                          set->ntargets);
+    if (samples->set_id && set->id && samples->set_id != set->id)
+        return retex_fail(err, RETEX_EINVAL, "the samples were made for another render of these targets");
+    for (int i = 0; i < set->ntargets; i++)
+        if (strcmp(samples->target_names[i], set->targets[i].name) != 0)
+            return retex_fail(err, RETEX_EINVAL, "the samples are for target %s where the set has %s",
+                              samples->target_names[i], set->targets[i].name);
+    if (samples->nimages != set->nfootprints)
+        return retex_fail(err, RETEX_EINVAL, "the samples have %d images for the set's %d footprints", samples->nimages,
+                          set->nfootprints);
+    for (int i = 0; i < samples->nimages; i++) {
+        const RetexImage *image = &samples->images[i];
+        if (samples->footprints[i].target != set->footprints[i].target ||
+            samples->footprints[i].hit != set->footprints[i].hit)
+            return retex_fail(err, RETEX_EINVAL, "sample image %d belongs to another footprint than the set's", i);
+        const RetexImage *uv = set->footprints[i].uv >= 0 ? &set->parts[set->footprints[i].uv].image : NULL;
+        const int fits = uv ? image->width == uv->width && image->height == uv->height : retex_set_scale(set, image);
+        if (retex_samples_have(samples, i) && (image->channels != 3 || !fits))
+            return retex_fail(err, RETEX_EINVAL, "sample image %d has the wrong size", i);
+    }
+    return 0;
+}
