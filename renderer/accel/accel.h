@@ -21,15 +21,16 @@ int accel_intersect(const Accel *accel, const Ray *ray, RayKind kind, Hit *hit);
 /* Is anything in between? skip_transparent: 0 = any hit blocks; 1 = primitives whose pigment (of either side, of any
  * face) is not opaque are skipped, and those of the finish that transmits; the caller walks them itself. */
 int accel_occluded(const Accel *accel, const Ray *ray, RayKind kind, int skip_transparent);
-/* What is on the way to a light: nothing, something that blocks it, or only what may let it through, which the caller
- * walks itself. Light sources shine through bending glass unbent; other lights do not. */
-typedef enum AccelWay { WAY_FREE, WAY_BLOCKED, WAY_PASSABLE } AccelWay;
-AccelWay accel_way(const Accel *accel, const Ray *ray, int light_source);
+/* What a shadow ray meets: nothing, something that blocks it, or only primitives that may let light through, which the
+ * caller then follows itself. Light sources shine through refracting glass unbent; other lights do not. */
+typedef enum Visibility { VISIBILITY_CLEAR, VISIBILITY_BLOCKED, VISIBILITY_TRANSPARENT } Visibility;
+Visibility accel_visibility(const Accel *accel, const Ray *ray, int light_source);
 /* The same of up to ACCEL_PACKET rays at once. side_by_side: they are, from one pixel or to one light. */
 #define ACCEL_PACKET 16
 void accel_intersect_packet(const Accel *accel, const Ray *rays, const RayKind *kinds, int count, int side_by_side,
                             Hit *hits);
-void accel_way_packet(const Accel *accel, const Ray *rays, const int *light_sources, int count, AccelWay *ways);
+void accel_visibility_packet(const Accel *accel, const Ray *rays, const int *light_sources, int count,
+                             Visibility *visibilities);
 /* 1 if this primitive could let shadow rays through. */
 int accel_is_transparent(const Accel *accel, int primitive);
 /* World bounds of all bounded primitives and the camera. */

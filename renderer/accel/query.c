@@ -354,7 +354,7 @@ int accel_intersect(const Accel *accel, const Ray *ray, RayKind kind, Hit *hit)
     return hit->primitive >= 0;
 }
 
-static AccelWay look_along(const Accel *accel, const Ray *ray, RayKind kind, unsigned passes)
+static Visibility look_along(const Accel *accel, const Ray *ray, RayKind kind, unsigned passes)
 {
     Query query;
     QueryRay of;
@@ -362,19 +362,19 @@ static AccelWay look_along(const Accel *accel, const Ray *ray, RayKind kind, uns
 
     start_query(&query, accel, 0, &of);
     if (!start_single(&of, &occluded, accel, ray, kind, passes, NULL))
-        return WAY_FREE;
+        return VISIBILITY_CLEAR;
     if (plane_blocks(accel, &of))
-        return WAY_BLOCKED;
+        return VISIBILITY_BLOCKED;
     trace_occluded(&query, &occluded);
-    return occluded.tfar < 0 ? WAY_BLOCKED : of.passed ? WAY_PASSABLE : WAY_FREE;
+    return occluded.tfar < 0 ? VISIBILITY_BLOCKED : of.passed ? VISIBILITY_TRANSPARENT : VISIBILITY_CLEAR;
 }
 
 int accel_occluded(const Accel *accel, const Ray *ray, RayKind kind, int skip_transparent)
 {
-    return look_along(accel, ray, kind, skip_transparent ? TRANSPARENT : 0) == WAY_BLOCKED;
+    return look_along(accel, ray, kind, skip_transparent ? TRANSPARENT : 0) == VISIBILITY_BLOCKED;
 }
 
-AccelWay accel_way(const Accel *accel, const Ray *ray, int light_source)
+Visibility accel_visibility(const Accel *accel, const Ray *ray, int light_source)
 {
     return look_along(accel, ray, RAY_SHADOW, light_source ? TRANSPARENT : STRAIGHT);
 }
@@ -454,7 +454,7 @@ void accel_intersect_packet(const Accel *accel, const Ray *rays, const RayKind *
     }
 }
 
-void accel_way_packet(const Accel *accel, const Ray *rays, const int *light_sources, int count, AccelWay *ways)
+void accel_visibility_packet(const Accel *accel, const Ray *rays, const int *light_sources, int count, Visibility *ways)
 {
     Packet p;
     Query query;
@@ -474,6 +474,6 @@ void accel_way_packet(const Accel *accel, const Ray *rays, const int *light_sour
 #endif
     for (int i = 0; i < count; i++) {
         int blocked = p.valid[i] && (p.rays.ray.tfar[i] < 0 || plane_blocks(accel, &p.of[i]));
-        ways[i] = blocked ? WAY_BLOCKED : p.of[i].passed ? WAY_PASSABLE : WAY_FREE;
+        ways[i] = blocked ? VISIBILITY_BLOCKED : p.of[i].passed ? VISIBILITY_TRANSPARENT : VISIBILITY_CLEAR;
     }
 }

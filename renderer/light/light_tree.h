@@ -10,10 +10,10 @@
 #include "base/vec.h"
 
 /* A point that light falls on. */
-typedef struct LitPoint {
+typedef struct LightSampleContext {
     Vec3 position;
     Vec3 normal; /* unit length, on the side that light must come from; 0 where it may come from both */
-} LitPoint;
+} LightSampleContext;
 
 /* What bounds a light, in world space. Its irradiance at distance d on a surface that faces it is about
  * even + falling / (d^2 + falling / peak). */
@@ -32,10 +32,10 @@ typedef struct LightTree LightTree;
 int light_tree_create(LightTree **tree, const LightBounds *lights, int count, RetexError *err);
 void light_tree_close(LightTree **tree);
 /* Choose a light by *u in [0,1), which is stretched to [0,1) again. */
-int light_tree_pick(const LightTree *tree, const LitPoint *point, double *u, float *probability);
+int light_tree_pick(const LightTree *tree, const LightSampleContext *point, double *u, float *probability);
 /* With which light_tree_pick chooses that light. They add up to 1; one that can light the point has some. */
-float light_tree_probability(const LightTree *tree, const LitPoint *point, int light);
+float light_tree_probability(const LightTree *tree, const LightSampleContext *point, int light);
 /* Rough irradiance of all of them on a surface that faces them. */
-float light_tree_estimate(const LightTree *tree, const LitPoint *point);
+float light_tree_estimate(const LightTree *tree, const LightSampleContext *point);
 
 #endif

@@ -8,13 +8,13 @@
 
 typedef int Int4 __attribute__((vector_size(16)));
 
-/* A LitPoint in floats. */
+/* A LightSampleContext in floats. */
 typedef struct Lit {
     float x, y, z, normal_x, normal_y, normal_z;
     float any_side; /* 1: there is no normal */
 } Lit;
 
-static Lit lit_point(const LitPoint *p)
+static Lit light_sample_context(const LightSampleContext *p)
 {
     return (Lit){(float)p->position.x,
                  (float)p->position.y,
@@ -84,9 +84,9 @@ static float choice_weights(const LightTreeNode *n, const Lit *p, float *weights
     return sum > 0 ? sum : (float)n->count;
 }
 
-int light_tree_pick(const LightTree *tree, const LitPoint *point, double *u, float *probability)
+int light_tree_pick(const LightTree *tree, const LightSampleContext *point, double *u, float *probability)
 {
-    Lit p = lit_point(point);
+    Lit p = light_sample_context(point);
     int index = tree->nodes[0].child[0];
     *probability = 1;
     while (index >= 0) {
@@ -105,9 +105,9 @@ int light_tree_pick(const LightTree *tree, const LitPoint *point, double *u, flo
     return -1 - index;
 }
 
-float light_tree_probability(const LightTree *tree, const LitPoint *point, int light)
+float light_tree_probability(const LightTree *tree, const LightSampleContext *point, int light)
 {
-    Lit p = lit_point(point);
+    Lit p = light_sample_context(point);
     float probability = 1;
     for (int place = tree->places[light]; place >= WIDTH; place = tree->nodes[place / WIDTH].parent) {
         float weights[WIDTH], sum = choice_weights(&tree->nodes[place / WIDTH], &p, weights);
@@ -116,8 +116,8 @@ float light_tree_probability(const LightTree *tree, const LitPoint *point, int l
     return probability;
 }
 
-float light_tree_estimate(const LightTree *tree, const LitPoint *point)
+float light_tree_estimate(const LightTree *tree, const LightSampleContext *point)
 {
-    Lit p = lit_point(point);
+    Lit p = light_sample_context(point);
     return weigh_four(&tree->nodes[0], &p, 0)[0];
 }

@@ -319,7 +319,7 @@ static void local_shares(const Lights *lights, Vec3 position, float *shares)
 }
 
 /* Share of the tree as a whole; the rest is that of the lights beside it. */
-static float tree_share(const Lights *lights, const LitPoint *point)
+static float tree_share(const Lights *lights, const LightSampleContext *point)
 {
     if (lights->nbeside == 0)
         return 1;
@@ -350,7 +350,7 @@ static float exact_probability(const Lights *lights, Vec3 position, int entry)
 }
 
 /* Probability of an entry, or of a face of its mesh where faces are lights of their own. */
-static float pick_probability(const Lights *lights, const LitPoint *point, int entry, int face)
+static float pick_probability(const Lights *lights, const LightSampleContext *point, int entry, int face)
 {
     if (is_exact(lights))
         return exact_probability(lights, point->position, entry);
@@ -387,7 +387,7 @@ static LightPick beside_pick(const Lights *lights, float share, double u, float 
     return (LightPick){lights->beside[low], -1, share * beside_share(lights, low), u_part};
 }
 
-LightPick lights_pick(const Lights *lights, const LitPoint *point, float u_pick, float u_part)
+LightPick lights_pick(const Lights *lights, const LightSampleContext *point, float u_pick, float u_part)
 {
     if (lights->count == 0)
         return (LightPick){-1, -1, 1, u_part};
@@ -454,7 +454,7 @@ static double sample_area(const Lights *lights, const LightPick *pick, float u1,
     return density;
 }
 
-const MeshLightFace *lights_even_face(const Lights *lights, const LightPick *pick, double *density)
+const MeshLightFace *lights_uniform_face(const Lights *lights, const LightPick *pick, double *density)
 {
     if (pick->entry < 0)
         return NULL;
@@ -486,7 +486,7 @@ static int sample_emitter(const Lights *lights, const LightPick *pick, Vec3 posi
     return 1;
 }
 
-int lights_sample(const Lights *lights, const LitPoint *point, const LightPick *pick, float u1, float u2,
+int lights_sample(const Lights *lights, const LightSampleContext *point, const LightPick *pick, float u1, float u2,
                   LightSample *sample)
 {
     if (pick->entry < 0)
@@ -526,7 +526,7 @@ static double area_density(const Entry *e, const Surface *surface, int *face)
     return (is_by_face(e) ? 1 : f->share) * f->inverse_area;
 }
 
-float lights_emitter_pdf(const Lights *lights, const LitPoint *from, int primitive, const Surface *surface)
+float lights_emitter_pdf(const Lights *lights, const LightSampleContext *from, int primitive, const Surface *surface)
 {
     int k = lights->of_primitive[primitive], face = -1;
     if (k < 0)
@@ -549,7 +549,7 @@ float lights_emitter_pdf(const Lights *lights, const LitPoint *from, int primiti
     return pdf > 0 ? (float)pdf * pick_probability(lights, from, k, face) : 0;
 }
 
-float lights_sky_pdf(const Lights *lights, const LitPoint *from, Vec3 direction)
+float lights_sky_pdf(const Lights *lights, const LightSampleContext *from, Vec3 direction)
 {
     if (lights->sky < 0)
         return 0;
@@ -587,7 +587,7 @@ int lights_emission(const Lights *lights, float u_pick, float u_part, float u1, 
     return 1;
 }
 
-float lights_estimate(const Lights *lights, const LitPoint *point)
+float lights_estimate(const Lights *lights, const LightSampleContext *point)
 {
     float sum = 0;
     if (is_exact(lights)) {

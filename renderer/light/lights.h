@@ -40,16 +40,16 @@ typedef struct LightPick {
 
 /* Sample light for a point: u_pick chooses the light, u_part the part of it (of many lights, both together), u1 and u2
  * the point on it. Returns 0 where no light reaches the point. */
-LightPick lights_pick(const Lights *lights, const LitPoint *point, float u_pick, float u_part);
-int lights_sample(const Lights *lights, const LitPoint *point, const LightPick *pick, float u1, float u2,
+LightPick lights_pick(const Lights *lights, const LightSampleContext *point, float u_pick, float u_part);
+int lights_sample(const Lights *lights, const LightSampleContext *point, const LightPick *pick, float u1, float u2,
                   LightSample *sample);
 /* A picked face of a mesh that shines evenly and is met by paths that bounced, which can do without lights_sample: see
  * matte.h. *density is that of points on the face. Else NULL. */
-const struct MeshLightFace *lights_even_face(const Lights *lights, const LightPick *pick, double *density);
+const struct MeshLightFace *lights_uniform_face(const Lights *lights, const LightPick *pick, double *density);
 /* Density, with the probability of picking that light, with which lights_sample finds a direction that hit an emitter
  * or went to the sky: for multiple importance sampling. */
-float lights_emitter_pdf(const Lights *lights, const LitPoint *from, int primitive, const Surface *surface);
-float lights_sky_pdf(const Lights *lights, const LitPoint *from, Vec3 direction);
+float lights_emitter_pdf(const Lights *lights, const LightSampleContext *from, int primitive, const Surface *surface);
+float lights_sky_pdf(const Lights *lights, const LightSampleContext *from, Vec3 direction);
 
 /* A point of an emitting shape, for light that is followed from there. */
 typedef struct EmissionPoint {
@@ -60,7 +60,7 @@ int lights_emit(const Lights *lights); /* 1: there are shapes that do */
 /* Shapes are chosen by their power. Returns 0 where there is none. */
 int lights_emission(const Lights *lights, float u_pick, float u_part, float u1, float u2, EmissionPoint *point);
 /* Rough irradiance of all lights on a surface that faces them. */
-float lights_estimate(const Lights *lights, const LitPoint *point);
+float lights_estimate(const Lights *lights, const LightSampleContext *point);
 
 /* Radiance of sky and background in a direction. */
 Rgb sky_radiance(const Scene *scene, Vec3 direction);

@@ -409,7 +409,7 @@ static float cell_share(const Maker *m, const Bounds *b, double power)
 {
     Vec3 d = vec_sub(b->high, b->low);
     double area = fmax(d.x * d.y, fmax(d.y * d.z, d.z * d.x)), caustic = power / fmax(area, 1e-12) / m->nphotons;
-    LitPoint point = {vec_scale(vec_add(b->low, b->high), 0.5), {0, 0, 0}};
+    LightSampleContext point = {vec_scale(vec_add(b->low, b->high), 0.5), {0, 0, 0}};
     double other = lights_estimate(m->lights, &point);
     return fminf(SHARE_MOST, fmaxf(SHARE_LEAST, (float)(caustic / (caustic + other))));
 }

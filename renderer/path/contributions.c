@@ -1,18 +1,19 @@
-/* What paths bring to the film, and to a control film beside it.
+/* Throughput, and the contributions of paths: what they add to the film, and to a control film beside it.
  *
- * `beta` is the whole throughput; of several variants of the textures each has its own, for no choice along a path
- * looks at a texture. Sets keep target hits apart: `outside` is the throughput without them, and the hits are written
- * down with the light that came by them. Films want one path after the other: so paths that are traced side by side
- * hand all that over when they end. */
+ * `beta` is the whole throughput. With several variants of the textures each has a throughput of its own, for nothing
+ * that is chosen along a path depends on a texture. In sets, hits keep the factors of targets: `beta_rest` is the
+ * throughput without those factors, and the light of each contribution is added to the hit that it met last, counted
+ * from the camera. A film takes paths one after the other, so the paths of a packet hand their contributions over when
+ * they end. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include "path/internal.h"
 
-/* Lights at a vertex: an emitter met, a light picked. */
+/* Contributions at a vertex: of an emitter that the path meets, and of direct light. */
 #define VERTEX_LIGHTS_MAX 2
 
-/* Room for the most that may be, of which little is ever touched. */
+/* Memory for the most contributions that there may be, of which little is ever touched. */
 int path_worker_open(PathWorker *w, RetexError *err)
 {
     const PathContext *c = w->context;
@@ -43,47 +44,48 @@ Factor shading_factor(const Shading *s, Float4 d, Float4 i)
         s->surface.target, d, i, colour4(shading_albedo(s, 0)), s->replaced ? s->albedos : NULL, s->uv, 0, 0};
 }
 
-/* ---- target hits ---- */
+/* ---- hits ---- */
 
-/* Does the target's texture matter to this factor? */
+/* Whether the target's texture changes this factor. */
 static int is_textured(const Factor *f)
 {
     return f->target >= 0 && !is_black4(f->d);
 }
 
-/* A reflection counts as a hit of its target even where the texture does not matter, so that what is seen in a polished
- * floor stays apart from what is seen on it. What merely passes a target does not count. */
+/* Whether a factor is a hit. A reflection is one even where the texture does not change it, so that what is seen
+ * reflected in a polished floor stays apart from the floor's own texture. Light that only passes through a target
+ * unchanged makes no hit. */
 static int is_hit(const Factor *f)
 {
     return f->target >= 0 && (f->reflects || !is_black4(f->d));
 }
 
-/* Of a hit that the path goes on from and that has a single part, the part goes outside, and 1 of it is left: where
- * outside is black, no texture brings light back. */
-static inline void take_part(Path *path, Float4 d, Float4 i)
+/* Set the factor of the last hit, d a + i. Where one of d and i is black, the other is multiplied into beta_rest and 1
+ * stays in its place: so beta_rest is black wherever no texture can make the contribution other than black. */
+static inline void set_last_factor(Path *path, Float4 d, Float4 i)
 {
-    path->from_d = d, path->from_i = i;
+    path->last_d = d, path->last_i = i;
     if (is_black4(i)) {
-        path->outside *= d;
-        path->from_d = splat(1);
+        path->beta_rest *= d;
+        path->last_d = splat(1);
     } else if (is_black4(d)) {
-        path->outside *= i;
-        path->from_i = splat(1);
+        path->beta_rest *= i;
+        path->last_i = splat(1);
     }
 }
 
-/* Multiply by a factor: as a target hit while there is an order left, which goes into size, else by what it is as a
- * whole. Returns 1 for a hit. */
-static inline int take_factor(const PathContext *c, const Path *path, Float4 *outside, HitCounts *size, int *folded,
+/* Whether a hit keeps the factor apart: then it is counted. Else it is multiplied into beta_rest as a whole, with the
+ * original albedo; *folded: with a texture that changes it. counts: of the path's hits and those added since. */
+static inline int keep_as_hit(const PathContext *c, const Path *path, Float4 *beta_rest, HitCounts *counts, int *folded,
                               const Factor *f, Float4 whole)
 {
-    int more = size->nhits - path->size.nhits;
-    if (is_hit(f) && path->hits.count + more < PATH_HITS_MAX &&
-        hit_counts_allow(size, f->target, c->orders, c->most_hits)) {
-        hit_counts_add(size, f->target, !is_black4(f->d) && !is_black4(f->i));
+    int added = counts->nhits - path->counts.nhits;
+    if (is_hit(f) && path->hits.count + added < PATH_HITS_MAX &&
+        hit_counts_allow(counts, f->target, c->orders, c->most_hits)) {
+        hit_counts_add(counts, f->target, !is_black4(f->d) && !is_black4(f->i));
         return 1;
     }
-    *outside *= whole;
+    *beta_rest *= whole;
     *folded |= is_textured(f);
     return 0;
 }
@@ -95,26 +97,27 @@ static inline PathHit *add_hit(PathWorker *w, Path *path, const Factor *f, PathH
     return path_hits_add(&path->hits, &w->hits[w->nhits++], &at, before, before_d, before_i);
 }
 
-/* The hit of a factor right behind those that the path came by: light that was picked at a surface, and the path that
- * goes on from there, share one. */
-static inline PathHit *next_hit(PathWorker *w, Path *path, const Factor *f)
+/* The hit of the vertex in hand, next to those that the path came by: direct light and the path that goes on share
+ * it. */
+static inline PathHit *find_current_hit(PathWorker *w, Path *path, const Factor *f)
 {
-    const PathHit *here = path->here;
-    if (!here || here->at.target != f->target || here->at.uv.u != f->uv.u || here->at.uv.v != f->uv.v ||
-        here->at.sharp != f->sharp)
-        path->here = add_hit(w, path, f, path->from_hit, path->from_d, path->from_i);
-    return path->here;
+    const PathHit *hit = path->current_hit;
+    if (!hit || hit->at.target != f->target || hit->at.uv.u != f->uv.u || hit->at.uv.v != f->uv.v ||
+        hit->at.sharp != f->sharp)
+        path->current_hit = add_hit(w, path, f, path->last_hit, path->last_d, path->last_i);
+    return path->current_hit;
 }
 
-/* Light behind the path's hits so far, and some more; folded: what it is, where it met hits that are, or NULL. */
-static inline void arrive(PathWorker *w, Path *path, const Factor *const *more, int count, Float4 light,
-                          const Float4 *folded)
+/* Add light to the last of the path's hits and `count` further ones. folded: the contribution, where some factor of it
+ * was folded, else NULL. */
+static inline void add_to_hits(PathWorker *w, Path *path, const Factor *const *further, int count, Float4 light,
+                               const Float4 *folded)
 {
-    PathHit *last = path->from_hit;
-    Float4 d = path->from_d, i = path->from_i;
+    PathHit *last = path->last_hit;
+    Float4 d = path->last_d, i = path->last_i;
     for (int k = 0; k < count; k++) {
-        last = k == 0 ? next_hit(w, path, more[0]) : add_hit(w, path, more[k], last, d, i);
-        d = more[k]->d, i = more[k]->i;
+        last = k == 0 ? find_current_hit(w, path, further[0]) : add_hit(w, path, further[k], last, d, i);
+        d = further[k]->d, i = further[k]->i;
     }
     if (last)
         path_hit_add_light(last, d, i, light);
@@ -126,14 +129,14 @@ static inline void arrive(PathWorker *w, Path *path, const Factor *const *more, 
 
 /* ---- variants ---- */
 
-/* Those after the first. */
+/* Multiply the throughputs of the variants after the first. */
 static inline void multiply_others(const PathContext *c, Rgb *betas, const Factor *f)
 {
     for (int v = 1; v < c->nvariants; v++)
         betas[v] = rgb_of4(colour4(betas[v]) * (f->d * (f->albedos ? colour4(f->albedos[v]) : f->albedo) + f->i));
 }
 
-/* Room for the light that just arrived, by variant, for the control film. */
+/* One more contribution in the log for the control film, by variant: to be filled in. */
 static Rgb *add_to_log(PathWorker *w, Path *path)
 {
     ControlLog *log = &w->log;
@@ -155,25 +158,25 @@ static void hand_over_log(PathWorker *w, const Path *path)
     control_sample_end(w->control, path->half);
 }
 
-/* ---- a path's life ---- */
+/* ---- a path from its start to its end ---- */
 
 void path_start(PathWorker *w, Path *path, const Ray *ray, const Sampler *sampler)
 {
     const PathContext *c = w->context;
-    path->beta = path->outside = colour4(rgb_grey(1));
-    path->neutral = 1, path->pdf = 0, path->from = (LitPoint){ray->origin, {0, 0, 0}};
-    path->segments = 1, path->passed = 0, path->sharp = 1;
+    path->beta = path->beta_rest = colour4(rgb_grey(1));
+    path->beta_neutral = 1, path->pdf = 0, path->prev_context = (LightSampleContext){ray->origin, {0, 0, 0}};
+    path->segments = 1, path->straight = 0, path->sharp = 1;
     path->media.count = 0, path->kind = RAY_CAMERA;
     path->sample = sampler->sample;
     path->light[0] = path->light[1] = path->light[2] = 0;
-    path->size = (HitCounts){.nmonomials = 1}, path->folded = 0;
-    path->hits = (PathHits){.last = NULL}, path->from_hit = path->here = NULL;
+    path->counts = HIT_COUNTS_INIT, path->folded = 0;
+    path->hits = (PathHits){.last = NULL}, path->last_hit = path->current_hit = NULL;
     path->first_light = path->last_light = -1;
     for (int v = 1; v < c->nvariants; v++)
         path->betas[v] = rgb_grey(1);
 }
 
-int path_scatter(PathWorker *w, Path *path, const Shading *s, Float4 d, Float4 i, int reflects)
+int path_apply_factor(PathWorker *w, Path *path, const Shading *s, Float4 d, Float4 i, int reflects)
 {
     const PathContext *c = w->context;
     Factor factor = shading_factor(s, d, i);
@@ -181,91 +184,92 @@ int path_scatter(PathWorker *w, Path *path, const Shading *s, Float4 d, Float4 i
     const Float4 whole = factor_whole(&factor);
     path->beta *= whole;
     multiply_others(c, path->betas, &factor);
-    if (c->split && take_factor(c, path, &path->outside, &path->size, &path->folded, &factor, whole)) {
-        path->from_hit = next_hit(w, path, &factor);
-        take_part(path, d, i);
+    if (c->split && keep_as_hit(c, path, &path->beta_rest, &path->counts, &path->folded, &factor, whole)) {
+        path->last_hit = find_current_hit(w, path, &factor);
+        set_last_factor(path, d, i);
     }
-    path->here = NULL;
+    path->current_hit = NULL;
     return path_is_alive(w, path);
 }
 
-static void trace_light(const PathContext *c, Float4 light)
+static void print_light(const PathContext *c, Float4 light)
 {
     fprintf(c->trace, "  light %.6g %.6g %.6g\n", light[0], light[1], light[2]);
 }
 
-/* Light reaches the picture, unless it is not finite. Returns 0 where it has no use for sets either. */
-static inline int add_beauty(PathWorker *w, Path *path, Float4 beauty, Float4 outside)
+/* Add a contribution to the picture, unless it is not finite. rest: the same without the factors that hits keep.
+ * Returns 0 where hits need not know of it. */
+static inline int add_to_beauty(PathWorker *w, Path *path, Float4 beauty, Float4 rest)
 {
-    if (!rgb_is_finite(rgb_of4(beauty + outside))) {
+    if (!rgb_is_finite(rgb_of4(beauty + rest))) {
         film_drop(w->pixel);
         return 0;
     }
     for (int c = 0; c < 3; c++)
         path->light[c] += (double)beauty[c];
-    return !is_black4(outside);
+    return !is_black4(rest);
 }
 
-void path_bring(PathWorker *w, Path *path, const Rgb *lights)
+void path_add_unsplit_light(PathWorker *w, Path *path, const Rgb *lights)
 {
     int split = w->context->split;
     const Float4 light = colour4(lights[0]), beauty = path->beta * light;
-    const Float4 outside = split ? path->outside * light : beauty;
-    if (add_beauty(w, path, beauty, outside) && split)
-        arrive(w, path, NULL, 0, outside, path->folded ? &beauty : NULL);
+    const Float4 rest = split ? path->beta_rest * light : beauty;
+    if (add_to_beauty(w, path, beauty, rest) && split)
+        add_to_hits(w, path, NULL, 0, rest, path->folded ? &beauty : NULL);
     if (!w->control)
         return;
-    Rgb *arrived = add_to_log(w, path);
-    arrived[0] = rgb_of4(beauty);
+    Rgb *logged = add_to_log(w, path);
+    logged[0] = rgb_of4(beauty);
     for (int v = 1; v < w->context->nvariants; v++)
-        arrived[v] = rgb_mul(path->betas[v], lights[v]);
+        logged[v] = rgb_mul(path->betas[v], lights[v]);
 }
 
-/* As path_connect, of plain pictures. Returns what arrives. */
-static inline Float4 connect_plain(PathWorker *w, Path *path, Float4 light, const Factor *factors, int nfactors)
+/* As path_add_light, of plain pictures. Returns the contribution. */
+static inline Float4 add_plain_light(PathWorker *w, Path *path, Float4 light, const Factor *factors, int nfactors)
 {
     Float4 beauty = path->beta * light;
     for (int k = 0; k < nfactors; k++)
         beauty *= factor_whole(&factors[k]);
     if (w->context->trace)
-        trace_light(w->context, beauty);
-    add_beauty(w, path, beauty, beauty);
+        print_light(w->context, beauty);
+    add_to_beauty(w, path, beauty, beauty);
     return beauty;
 }
 
-/* As path_connect, of sets. */
-static inline Float4 connect_split(PathWorker *w, Path *path, Float4 light, const Factor *factors, int nfactors)
+/* As path_add_light, of sets. */
+static inline Float4 add_split_light(PathWorker *w, Path *path, Float4 light, const Factor *factors, int nfactors)
 {
     const PathContext *c = w->context;
-    const Factor *own[SHADOW_FACTORS_MAX + 2];
-    Float4 beauty = path->beta * light, outside = path->outside * light;
-    HitCounts size = path->size;
+    const Factor *kept[SHADOW_FACTORS_MAX + 2];
+    Float4 beauty = path->beta * light, rest = path->beta_rest * light;
+    HitCounts counts = path->counts;
     int count = 0, folded = path->folded;
     for (int k = 0; k < nfactors; k++) {
         const Float4 whole = factor_whole(&factors[k]);
         beauty *= whole;
-        if (take_factor(c, path, &outside, &size, &folded, &factors[k], whole))
-            own[count++] = &factors[k];
+        if (keep_as_hit(c, path, &rest, &counts, &folded, &factors[k], whole))
+            kept[count++] = &factors[k];
     }
     if (c->trace)
-        trace_light(c, beauty);
-    if (add_beauty(w, path, beauty, outside))
-        arrive(w, path, own, count, outside, folded ? &beauty : NULL);
+        print_light(c, beauty);
+    if (add_to_beauty(w, path, beauty, rest))
+        add_to_hits(w, path, kept, count, rest, folded ? &beauty : NULL);
     return beauty;
 }
 
-void path_connect(PathWorker *w, Path *path, Rgb light, const Factor *factors, int nfactors)
+void path_add_light(PathWorker *w, Path *path, Rgb light, const Factor *factors, int nfactors)
 {
-    const Float4 beauty = w->context->split ? connect_split(w, path, colour4(light), factors, nfactors)
-                                            : connect_plain(w, path, colour4(light), factors, nfactors);
+    const Float4 beauty = w->context->split ? add_split_light(w, path, colour4(light), factors, nfactors)
+                                            : add_plain_light(w, path, colour4(light), factors, nfactors);
     if (!w->control)
         return;
-    Rgb *arrived = add_to_log(w, path);
-    arrived[0] = rgb_of4(beauty);
+    Rgb *logged = add_to_log(w, path);
+    logged[0] = rgb_of4(beauty);
     for (int v = 1; v < w->context->nvariants; v++)
-        arrived[v] = rgb_mul(path->betas[v], light);
+        logged[v] = rgb_mul(path->betas[v], light);
     for (int k = 0; k < nfactors; k++)
-        multiply_others(w->context, arrived, &factors[k]);
+        multiply_others(w->context, logged, &factors[k]);
 }
 
 void path_end(PathWorker *w, Path *path)

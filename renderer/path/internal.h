@@ -1,4 +1,4 @@
-/* What a path is made of; private to path.c, contributions.c, shadow_ray.c and vertex.c. */
+/* The state of a path and of its vertices; private to path.c, packet.c, vertex.c, shadow_ray.c and contributions.c. */
 #ifndef RENDERER_PATH_INTERNAL_H
 #define RENDERER_PATH_INTERNAL_H
 
@@ -6,6 +6,7 @@
 #include "path/path.h"
 
 #define STRAIGHT_MAX 128 /* surfaces a path or shadow ray may pass without bending */
+#define SHARP_PDF 25     /* per steradian: a bounce into a lobe no wider than about 7 degrees keeps things sharp */
 
 /* The fading interiors a ray is in. */
 typedef struct Media {
@@ -13,14 +14,14 @@ typedef struct Media {
     int count;
 } Media;
 
-/* One factor of a connection: a surface it scatters at or passes. */
+/* One factor of a contribution: a surface that light scatters at or passes, or that emits it. */
 typedef struct Factor {
     int target;          /* -1: none */
     Float4 d, i, albedo; /* it is d albedo + i */
-    const Rgb *albedos; /* by variant, or NULL: the same in all */
+    const Rgb *albedos;  /* by variant, or NULL: the same in all */
     Vec2 uv;
     int reflects; /* light stays on its side of the surface */
-    int sharp;    /* nothing on the way from the camera scattered widely */
+    int sharp;    /* no vertex between it and the camera scattered widely */
 } Factor;
 
 static inline Float4 factor_whole(const Factor *f)
@@ -28,118 +29,120 @@ static inline Float4 factor_whole(const Factor *f)
     return f->d * f->albedo + f->i;
 }
 
-/* Light arrives, or the path goes on. */
 typedef struct Path {
-    Float4 beta;          /* throughput */
-    Rgb *betas;           /* by variant, from the second on: the first one's is beta */
-    Float4 outside;       /* throughput but for target hits: where it is black no texture brings light back */
-    float neutral;        /* throughput with NEUTRAL_ALBEDO everywhere: for Russian roulette */
-    float pdf;            /* density of the direction, 0 after a delta */
-    LitPoint from;        /* where that direction was sampled */
-    int segments, passed; /* so far; passed: surfaces that did not bend the path, which are no segments of their own */
-    int sharp;            /* so far every bounce was specular, or nearly so */
+    Float4 beta;        /* throughput */
+    Rgb *betas;         /* by variant, from the second on: the first one's is beta */
+    Float4 beta_rest;   /* throughput without the factors that hits keep, see contributions.c */
+    float beta_neutral; /* throughput with NEUTRAL_ALBEDO everywhere and without the eta scale: for Russian roulette */
+    float pdf;          /* with which the ray's direction was sampled, per steradian; 0 after a delta lobe */
+    LightSampleContext prev_context; /* of the vertex where it was sampled: for MIS */
+    int segments, straight; /* so far; straight: surfaces that did not bend the path, which end no segment */
+    int sharp;              /* so far every bounce was specular, or nearly so */
     RayKind kind;
     uint32_t sample; /* in its half of the pixel's */
     int half;
     Media media;
-    double light[3];             /* that arrived */
-    int first_light, last_light; /* in the worker's log, or -1 */
+    double light[3];             /* sum of its contributions */
+    int first_light, last_light; /* of them in the worker's log, or -1 */
     /* In sets: */
-    HitCounts size;    /* of the hits that it came by */
-    int folded;            /* a target hit beyond the last order kept its albedo */
-    PathHits hits;         /* and those that only light came by */
-    PathHit *from_hit;     /* the last that it came by, or NULL, */
-    Float4 from_d, from_i; /* and what that does to it */
-    PathHit *here;         /* the hit where the path is, once light came by it; or NULL */
+    HitCounts counts;      /* of the hits between the camera and the ray */
+    int folded;            /* a hit beyond the last order was multiplied in with its original albedo */
+    PathHits hits;         /* those hits, and those of shadow rays */
+    PathHit *last_hit;     /* the last one between the camera and the ray, or NULL, */
+    Float4 last_d, last_i; /* and its factor */
+    PathHit *current_hit;  /* the hit of the vertex in hand, once light came by it; or NULL */
 } Path;
 
-/* Light picked for a vertex, before it is known whether anything is in the way. */
-typedef struct LightTry {
-    int found;  /* 0: none that could give any */
-    int looked; /* way is known */
-    AccelWay way;
+/* A direct-light sample: a point on one light, chosen for a vertex before its shadow ray is traced. */
+typedef struct DirectLightSample {
+    int found;  /* 0: no light, or one that gives nothing here */
+    int traced; /* visibility is known */
+    Visibility visibility;
     LightSample light;
-    Ray ray;        /* to the light */
-    int other_side; /* of the surface */
-    float pdf;      /* with which the BSDF would find the direction */
+    Ray ray;         /* the shadow ray */
+    int transmitted; /* it leaves on the other side of the surface */
+    float pdf;       /* with which the BSDF and the guide would sample its direction */
     Factor factors[2];
     int nfactors;
-} LightTry;
+} DirectLightSample;
 
 /* Where a ray met the scene, and what is chosen there. */
 typedef struct Vertex {
-    int met, last; /* last: the path does not go on but where it passes straight */
+    int is_last; /* the path has no segment left: it goes on only where it passes straight */
     double distance;
     Shading s;
     ImagePlace place;
-    const VertexSamples *numbers; /* of the packet, this one's in a lane of it */
+    const VertexSamples *numbers; /* of a packet; this vertex has one lane of it */
     int lane;
-    int picked; /* a light was */
+    int picked; /* pick is known */
     LightPick pick;
-    LightTry light;
-    const CausticsCell *cell; /* where caustics come from, or NULL: none, or nothing scatters widely */
+    DirectLightSample light;
+    const CausticsCell *cell; /* of the guide to caustics; NULL: none here, or nothing scatters widely */
 } Vertex;
 
-/* ---- contributions.c: what reaches the film ---- */
+/* ---- contributions.c: throughput, hits, and light that reaches the film ---- */
 
-/* d times the colour at a surface, and i. */
+/* d times the colour at a surface, plus i. */
 Factor shading_factor(const Shading *s, Float4 d, Float4 i);
 void path_start(PathWorker *worker, Path *path, const Ray *ray, const Sampler *sampler);
-/* Can any light come by it? */
+/* Whether any light can come by it, whatever the textures are. */
 static inline int path_is_alive(const PathWorker *w, const Path *path)
 {
     const PathContext *c = w->context;
     if (c->split)
-        return !is_black4(path->outside);
+        return !is_black4(path->beta_rest);
     int alive = !is_black4(path->beta);
     for (int v = 1; v < c->nvariants && !alive; v++)
         alive = !rgb_is_black(path->betas[v]);
     return alive;
 }
-/* By what no target did. Returns 0 where no light can come by it. */
+/* Multiply throughput by what no texture changes. Returns path_is_alive. */
 static inline int path_scale(PathWorker *w, Path *path, Rgb by)
 {
     path->beta *= colour4(by);
-    path->outside *= colour4(by);
+    path->beta_rest *= colour4(by);
     for (int v = 1; v < w->context->nvariants; v++)
         path->betas[v] = rgb_mul(path->betas[v], by);
     return path_is_alive(w, path);
 }
-/* A bounce, of which the surface makes d times its colour, and i. Returns 0 likewise. */
-int path_scatter(PathWorker *worker, Path *path, const Shading *s, Float4 d, Float4 i, int reflects);
-/* Light reaches the path's end through some more factors. */
-void path_connect(PathWorker *worker, Path *path, Rgb light, const Factor *factors, int nfactors);
-/* By variant, through no factor of a target: all are in it. */
-void path_bring(PathWorker *worker, Path *path, const Rgb *lights);
+/* Multiply throughput by the factor of a surface, d times its colour plus i: in sets this may be a hit. Returns
+ * path_is_alive. */
+int path_apply_factor(PathWorker *worker, Path *path, const Shading *s, Float4 d, Float4 i, int reflects);
+/* Add the contribution of light that comes to the path's end by some more factors. */
+void path_add_light(PathWorker *worker, Path *path, Rgb light, const Factor *factors, int nfactors);
+/* The same of light by variant that has all further factors in it, of which none is a hit. */
+void path_add_unsplit_light(PathWorker *worker, Path *path, const Rgb *lights);
+/* Hand its contributions over to the film. */
 void path_end(PathWorker *worker, Path *path);
-/* May a surface's factors go into a scale or light as they are? */
-static inline int path_sees_plain(const PathContext *c, const Shading *s)
+/* Whether factors of this surface are never hits, so that they may be multiplied into throughput or light. */
+static inline int surface_is_unsplit(const PathContext *c, const Shading *s)
 {
     return !c->split || s->surface.target < 0;
 }
 
-/* ---- shadow_ray.c: what is on the way ---- */
+/* ---- shadow_ray.c: visibility ---- */
 
 Rgb media_fade(const Media *media, double distance, const Surface *met);
 void media_cross(Media *media, const Surface *surface);
-/* Colours of variants for a factor that outlives its shading. */
-const Rgb *keep_albedos(const PathContext *context, Rgb *room, const Shading *s);
-/* What the way to a picked light does to it goes into its radiance and, where targets do it, into factors. Returns how
- * many of these there are, or -1 where the way is blocked. */
-int way_to_light(PathWorker *worker, const Path *path, const Surface *from, LightTry *light, Factor *factors, int room);
-/* Density with which the path itself finds what a shadow ray found, given that of its direction: 0 where it cannot, for
- * the ways of the two are not blocked by the same things. -1: nobody should. */
-float path_density(const PathContext *context, const Ray *ray, RayKind kind, const LightSample *light, float pdf);
+/* Copy a surface's colours by variant, for a factor that outlives its shading. NULL: the same in all. */
+const Rgb *keep_albedos(const PathContext *context, Rgb *storage, const Shading *s);
+/* Trace the shadow ray of a direct-light sample. What dims light on it goes into the sample's radiance and, where
+ * targets do it, into factors. Returns how many of these there are, or -1 where the light is not visible. */
+int trace_shadow_ray(PathWorker *worker, const Path *path, const Surface *from, DirectLightSample *light,
+                     Factor *factors, int most_factors);
+/* Density with which the path itself, going on along the shadow ray, would find the light, where pdf is that of the
+ * direction: 0 where it cannot, as paths and shadow rays may see different primitives. -1: no light comes that way. */
+float path_pdf_of_light(const PathContext *context, const Ray *ray, RayKind kind, const LightSample *light, float pdf);
 
 /* ---- vertex.c: what is chosen at a surface ---- */
 
-LitPoint lit_point(const Shading *s);
-/* Radiance over albedo: what is not there does not shine. */
-Split emitted(const Shading *s);
+LightSampleContext light_sample_context(const Shading *s);
+/* Emitted radiance over albedo: only the opaque share of a surface emits. */
+Split surface_emission(const Shading *s);
 const CausticsCell *guide_cell(const PathContext *context, const Shading *s);
-void pick_light(PathWorker *worker, Vertex *vertex);
-/* Choose a direction by the BSDF or the guide: first between deltas and the rest. The sample's weight and density are
- * the BSDF's own; *pdf gets that of both ways. */
+void sample_direct_light(PathWorker *worker, Vertex *vertex);
+/* Sample a direction by the BSDF or by the guide: first between delta lobes and the rest. The sample's weight and
+ * density are the BSDF's own; *pdf gets the density of both together. */
 int sample_direction(const Vertex *vertex, BsdfSample *sample, float *pdf);
 
 static inline float mis_weight(float a, float b)
@@ -147,5 +150,36 @@ static inline float mis_weight(float a, float b)
     float ratio = b / a; /* the squares of densities may be too large for a float */
     return 1 / (1 + ratio * ratio);
 }
+
+/* ---- path.c: the steps of a path, in their order; packet.c takes the same ones ---- */
+
+/* Colours at a vertex whose surface is known. */
+void find_colors(PathWorker *worker, const Path *path, Vertex *vertex, const Hit *hit, const VertexSamples *numbers,
+                 int lane);
+void find_bsdf(PathWorker *worker, const Path *path, Vertex *vertex, const Ray *ray, const Hit *hit);
+void observe_first_hit(PathWorker *worker, const Path *path, const Vertex *vertex, const Ray *ray, const Hit *hit);
+/* Emission that the ray meets: of a surface, or of the sky. Returns 0 where the path ends. */
+int add_emission(PathWorker *worker, Path *path, const Vertex *vertex, const Ray *ray, const Hit *hit);
+/* Of the vertex's direct-light sample, if it has one. */
+void add_direct_light(PathWorker *worker, Path *path, Vertex *vertex);
+/* Sample the BSDF: throughput, and the ray to go on with. Returns 0 where the path ends. */
+int scatter(PathWorker *worker, Path *path, const Vertex *vertex, BsdfSample *next, Ray *ray);
+/* Multiply throughput by the weight of a BSDF sample. Returns path_is_alive. */
+static inline int path_apply_weight(PathWorker *w, Path *path, const Shading *s, Split weight, int reflects)
+{
+    if (surface_is_unsplit(w->context, s) && !s->replaced)
+        return path_scale(w, path, split_apply(weight, shading_albedo(s, 0)));
+    return path_apply_factor(w, path, s, colour4(weight.d), colour4(weight.i), reflects);
+}
+/* Begin the next segment, whose direction was sampled with density pdf, of which the BSDF's own share is bsdf_pdf. */
+static inline void path_next_segment(Path *path, float pdf, float bsdf_pdf)
+{
+    path->pdf = pdf;
+    path->sharp &= bsdf_pdf == 0 || bsdf_pdf > SHARP_PDF;
+    path->segments++;
+}
+int survives_roulette(PathWorker *worker, Path *path, float u);
+/* All of one path. */
+void trace_path(PathWorker *worker, Path *path, Ray ray);
 
 #endif

@@ -36,8 +36,9 @@ typedef struct ControlLog {
     int count;
 } ControlLog;
 
-/* Is told what each ray from the camera meets: hit->primitive is -1, or the shading has its BSDF. */
-typedef void FirstHitObserver(void *context, const Ray *ray, const Hit *hit, const Shading *shading);
+/* Is told what a ray from the camera meets: hit->primitive is -1, or the shading has its BSDF. Returns how many more of
+ * the pixel it wants to be told. */
+typedef int FirstHitObserver(void *context, const Ray *ray, const Hit *hit, const Shading *shading);
 
 /* One thread's counters and scratch. */
 typedef struct PathWorker {
@@ -45,8 +46,9 @@ typedef struct PathWorker {
     FilmPixel *pixel;
     const RenderVariant *variants;           /* or NULL: the original */
     ControlPixel *control;                   /* gets all variants, or NULL */
-    FirstHitObserver *first_hit;             /* or NULL */
+    FirstHitObserver *first_hit;
     void *first_hit_context;
+    int first_hits_wanted;                   /* of the pixel in hand; 0: there is no observer, or it has enough */
     RenderVariant own[CONTROL_VARIANTS_MAX]; /* variants, where they have constants by pixel */
     Rgb constants[RETEX_MAX_TARGETS];        /* of the pixel in hand */
     PathHit *hits;                           /* of sets: those of all paths that are traced side by side */

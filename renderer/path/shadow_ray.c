@@ -1,5 +1,4 @@
-/* What is between a point and a light: fading interiors, surfaces that let light through, and what only one of paths
- * and shadow rays can see. */
+/* Shadow rays: which lights a vertex sees, and how fading interiors and transparent surfaces dim them. */
 #include "path/internal.h"
 #include "shade/fresnel.h"
 #include "shade/material.h"
@@ -32,8 +31,8 @@ static const Interior *fading_interior(const Surface *surface)
     return in && in->fade_power > 0 && in->fade_distance > 0 ? in : NULL;
 }
 
-/* POV-Ray's fading of light that went a distance and met a surface, or NULL. Leaving what was never entered: the
- * camera or a light stands in it. */
+/* POV-Ray's fading of light over a distance, up to a surface or NULL. A ray that leaves an interior that it never
+ * entered started in it: the camera or a light stands there. */
 Rgb media_fade(const Media *media, double distance, const Surface *met)
 {
     Rgb fade = rgb_grey(1);
@@ -43,7 +42,7 @@ Rgb media_fade(const Media *media, double distance, const Surface *met)
     return in && media_find(media, in) < 0 ? rgb_mul(fade, fade_over(in, distance)) : fade;
 }
 
-/* A ray goes through a surface. */
+/* A ray passes through a surface: it enters or leaves an interior. */
 void media_cross(Media *media, const Surface *surface)
 {
     const Interior *in = fading_interior(surface);
@@ -56,8 +55,8 @@ void media_cross(Media *media, const Surface *surface)
         media->interiors[k] = media->interiors[--media->count];
 }
 
-/* What a surface between a point and a light does to the light: pass it straight, or block it. Light sources, which no
- * path can hit, shine through glass unbent; all others leave bent light to the paths that find it. */
+/* What a surface on a shadow ray does to the light: let it pass straight, or block it (0). Light sources, which no path
+ * can hit, shine through glass unbent. Refracted light of all other lights is found by paths. */
 static int shadow_factor(const Shading *s, int light_source, Factor *factor)
 {
     if (s->bsdf.refracts && !light_source)
@@ -73,17 +72,17 @@ static int shadow_factor(const Shading *s, int light_source, Factor *factor)
     return 1;
 }
 
-const Rgb *keep_albedos(const PathContext *c, Rgb *room, const Shading *s)
+const Rgb *keep_albedos(const PathContext *c, Rgb *storage, const Shading *s)
 {
     if (!s->replaced)
         return NULL;
     for (int v = 0; v < c->nvariants; v++)
-        room[v] = s->albedos[v];
-    return room;
+        storage[v] = s->albedos[v];
+    return storage;
 }
 
-/* What a surface is to a ray that goes through it unbent. Reflectance is taken from outside on either side: light that
- * came in through the one face of a pane goes out through the other, and is never totally reflected. */
+/* What a surface is to a ray that passes through it unbent. Reflectance is that from outside on either side: light that
+ * entered a pane through one face leaves through the other and is never totally reflected. */
 static void shading_straight(Shading *s, const PathWorker *w, const Ray *ray, Surface *surface)
 {
     s->surface = *surface;
@@ -96,8 +95,9 @@ static void shading_straight(Shading *s, const PathWorker *w, const Ray *ray, Su
     bsdf_setup(&s->bsdf, &s->surface, vec_neg(ray->direction), s->filter, s->transmit);
 }
 
-/* Follow a shadow ray through what may let it pass. */
-static int walk(PathWorker *w, Ray ray, int light_source, Media *media, Rgb *light, Factor *factors, int room)
+/* Follow a shadow ray through transparent surfaces, one after the other. */
+static int trace_through_surfaces(PathWorker *w, Ray ray, int light_source, Media *media, Rgb *light, Factor *factors,
+                                  int most_factors)
 {
     const PathContext *c = w->context;
     int n = 0;
@@ -120,7 +120,7 @@ static int walk(PathWorker *w, Ray ray, int light_source, Media *media, Rgb *lig
         if (factor.target < 0 || is_black4(factor.d)) {
             *light = rgb_mul(*light, rgb_of4(factor_whole(&factor)));
         } else {
-            if (n == room)
+            if (n == most_factors)
                 return -1;
             factor.albedos = keep_albedos(c, w->shadow_albedos[n], &s);
             factors[n++] = factor;
@@ -132,29 +132,30 @@ static int walk(PathWorker *w, Ray ray, int light_source, Media *media, Rgb *lig
     return -1;
 }
 
-int way_to_light(PathWorker *w, const Path *path, const Surface *from, LightTry *t, Factor *factors, int room)
+int trace_shadow_ray(PathWorker *w, const Path *path, const Surface *from, DirectLightSample *t, Factor *factors,
+                     int most_factors)
 {
     int source = t->light.kind == LIGHT_SAMPLE_SOURCE;
     Rgb *light = &t->light.radiance;
     if (t->light.shadowless)
         return 0;
-    if (!t->looked) {
+    if (!t->traced) {
         w->shadow_rays++;
-        t->way = accel_way(w->context->accel, &t->ray, source);
+        t->visibility = accel_visibility(w->context->accel, &t->ray, source);
     }
-    if (t->way == WAY_BLOCKED)
+    if (t->visibility == VISIBILITY_BLOCKED)
         return -1;
     Media media = path->media;
-    if (t->other_side)
+    if (t->transmitted)
         media_cross(&media, from);
-    if (t->way == WAY_PASSABLE)
-        return walk(w, t->ray, source, &media, light, factors, room);
+    if (t->visibility == VISIBILITY_TRANSPARENT)
+        return trace_through_surfaces(w, t->ray, source, &media, light, factors, most_factors);
     if (media.count > 0 && isfinite(t->ray.tmax))
         *light = rgb_mul(*light, media_fade(&media, t->ray.tmax - t->ray.tmin, NULL));
     return 0;
 }
 
-/* Is a point of an emitter that throws no shadow behind the emitter's own front? */
+/* Whether the front of an emitter that throws no shadow hides the sampled point of it. */
 static int hidden_by_itself(const PathContext *c, Ray ray, const Primitive *emitter)
 {
     Hit hit;
@@ -166,7 +167,7 @@ static int hidden_by_itself(const PathContext *c, Ray ray, const Primitive *emit
     return 0;
 }
 
-float path_density(const PathContext *c, const Ray *ray, RayKind kind, const LightSample *light, float pdf)
+float path_pdf_of_light(const PathContext *c, const Ray *ray, RayKind kind, const LightSample *light, float pdf)
 {
     const Primitive *emitter = light->kind == LIGHT_SAMPLE_EMITTER ? light->surface.primitive : NULL;
     if (emitter && (kind == RAY_CAMERA ? emitter->no_image : emitter->no_reflection))

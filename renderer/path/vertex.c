@@ -1,13 +1,13 @@
-/* What is chosen at a surface: a light, and a direction to go on, by the BSDF or by the guide to caustics. */
+/* What is chosen at a surface: a light, and the next direction, by the BSDF or by the guide to caustics. */
 #include "path/internal.h"
 
-Split emitted(const Shading *s)
+Split surface_emission(const Shading *s)
 {
     float opacity = at_most(not_negative(1 - s->filter - s->transmit), 1);
     return (Split){rgb_scale(s->surface.texture->finish->emission, opacity), {0, 0, 0}};
 }
 
-/* Radiance a sampled light sends, and the factor of its pigment where it is a shape. Returns the number of factors. */
+/* An emitter's radiance is a factor of its pigment, with radiance 1. Returns the number of factors. */
 static int light_factors(PathWorker *w, int lane, LightSample *light, Factor *factors)
 {
     const PathContext *c = w->context;
@@ -17,16 +17,16 @@ static int light_factors(PathWorker *w, int lane, LightSample *light, Factor *fa
     s.surface = light->surface;
     shading_color(&s, NULL, w->variants, c->nvariants);
     light->radiance = rgb_grey(1);
-    const Split shines = emitted(&s);
-    factors[0] = shading_factor(&s, colour4(shines.d), colour4(shines.i));
+    const Split emission = surface_emission(&s);
+    factors[0] = shading_factor(&s, colour4(emission.d), colour4(emission.i));
     factors[0].albedos = keep_albedos(c, w->light_albedos[lane], &s);
     return 1;
 }
 
-LitPoint lit_point(const Shading *s)
+LightSampleContext light_sample_context(const Shading *s)
 {
     const Vec3 none = {0, 0, 0};
-    return (LitPoint){s->surface.position, bsdf_only_reflects(&s->bsdf) ? s->bsdf.normal : none};
+    return (LightSampleContext){s->surface.position, bsdf_only_reflects(&s->bsdf) ? s->bsdf.normal : none};
 }
 
 /* ---- directions by the guide to caustics ---- */
@@ -42,7 +42,7 @@ const CausticsCell *guide_cell(const PathContext *c, const Shading *s)
     return c->caustics && wide_probability(&s->bsdf) > 0 ? caustics_find(c->caustics, s->surface.position) : NULL;
 }
 
-/* Density of a direction by either way, given the BSDF's own. The guide only knows what comes to wo's side. */
+/* Density of a direction by BSDF and guide together, given the BSDF's own. The guide only samples wo's side. */
 static float guided_density(const Vertex *v, Vec3 wi, float pdf)
 {
     const Bsdf *b = &v->s.bsdf;
@@ -54,7 +54,7 @@ static float guided_density(const Vertex *v, Vec3 wi, float pdf)
     return pdf + v->cell->share * wide_probability(b) * caustics_density(v->cell, v->s.surface.position, wi);
 }
 
-/* A direction by the guide, as one of the BSDF's. */
+/* Sample a direction by the guide; weight and density are those of the BSDF for it. */
 static int sample_guide(const Vertex *v, float u_lobe, BsdfSample *sample)
 {
     const Bsdf *b = &v->s.bsdf;
@@ -95,40 +95,44 @@ int sample_direction(const Vertex *v, BsdfSample *sample, float *pdf)
     return 1;
 }
 
-void pick_light(PathWorker *w, Vertex *v)
+/* Where a shadow ray ends: just before the light, as seen from the ray's origin beside the vertex. */
+static double shadow_ray_end(Vec3 position, const LightSample *light)
+{
+    if (!isfinite(light->distance))
+        return INFINITY;
+    double margin = accel_margin(position), end = light->distance * (1 - 1e-6) - margin;
+    if (light->kind == LIGHT_SAMPLE_EMITTER) {
+        /* The flatter the angle, the earlier the ray meets the emitter's surface. */
+        double slope = fabs(vec_dot(light->direction, light->surface.geometric_normal));
+        end -= (margin + accel_margin(light->surface.position)) / (slope > 1e-3 ? slope : 1e-3);
+    }
+    return end > 0 ? end : 0; /* Embree takes an end below 0 for a ray that is blocked */
+}
+
+void sample_direct_light(PathWorker *w, Vertex *v)
 {
     const PathContext *c = w->context;
     const Shading *s = &v->s;
     const VertexSamples *u = v->numbers;
     int k = v->lane;
-    LightTry *t = &v->light;
-    LightSample *light = &t->light;
-    LitPoint point = lit_point(s);
-    t->found = 0;
+    DirectLightSample *sample = &v->light;
+    LightSample *light = &sample->light;
+    LightSampleContext context = light_sample_context(s);
+    sample->found = 0;
     if (!v->picked)
-        v->pick = lights_pick(c->lights, &point, u->light_choice[k], u->light_part[k]);
-    if (!lights_sample(c->lights, &point, &v->pick, u->light_point_u[k], u->light_point_v[k], light))
+        v->pick = lights_pick(c->lights, &context, u->light_choice[k], u->light_part[k]);
+    if (!lights_sample(c->lights, &context, &v->pick, u->light_point_u[k], u->light_point_v[k], light))
         return;
-    Split f = bsdf_eval(&s->bsdf, light->direction, light->kind == LIGHT_SAMPLE_SOURCE, &t->pdf);
+    Split f = bsdf_eval(&s->bsdf, light->direction, light->kind == LIGHT_SAMPLE_SOURCE, &sample->pdf);
     if (rgb_is_black(f.d) && rgb_is_black(f.i))
         return;
     if (light->kind != LIGHT_SAMPLE_SOURCE)
-        t->pdf = guided_density(v, light->direction, t->pdf);
-    t->found = 1;
-    t->looked = 0;
-    t->factors[0] = shading_factor(s, colour4(f.d), colour4(f.i));
-    t->nfactors = 1 + light_factors(w, k, light, t->factors + 1);
-    t->other_side = vec_dot(light->direction, s->bsdf.geometric) < 0;
-    t->ray = (Ray){accel_offset(s->surface.position, s->surface.geometric_normal, light->direction), light->direction,
-                   0, INFINITY};
-    if (isfinite(light->distance)) { /* stop just before the light, seen from where the ray starts */
-        double margin = accel_margin(s->surface.position);
-        t->ray.tmax = light->distance * (1 - 1e-6) - margin;
-        if (light->kind == LIGHT_SAMPLE_EMITTER) {
-            /* Its surface is met by the ray, begun beside, the earlier the flatter. */
-            double slope = fabs(vec_dot(light->direction, light->surface.geometric_normal));
-            t->ray.tmax -= (margin + accel_margin(light->surface.position)) / (slope > 1e-3 ? slope : 1e-3);
-        }
-        t->ray.tmax = t->ray.tmax > 0 ? t->ray.tmax : 0; /* Embree takes what is below 0 for met already */
-    }
+        sample->pdf = guided_density(v, light->direction, sample->pdf);
+    sample->found = 1;
+    sample->traced = 0;
+    sample->factors[0] = shading_factor(s, colour4(f.d), colour4(f.i));
+    sample->nfactors = 1 + light_factors(w, k, light, sample->factors + 1);
+    sample->transmitted = vec_dot(light->direction, s->bsdf.geometric) < 0;
+    sample->ray = (Ray){accel_offset(s->surface.position, s->surface.geometric_normal, light->direction),
+                        light->direction, 0, shadow_ray_end(s->surface.position, light)};
 }

@@ -167,14 +167,15 @@ static int is_even(const PixelGuides *s)
            s->luminance_squared / s->places - mean * mean < ONE_ALBEDO;
 }
 
-void denoise_guides_look(void *pixel, const Ray *ray, const Hit *hit, const Shading *shading)
+int denoise_guides_look(void *pixel, const Ray *ray, const Hit *hit, const Shading *shading)
 {
     PixelGuides *p = pixel;
     if (denoise_guides_missing(p) == 0)
-        return;
+        return 0;
     look(p, *ray, *hit, shading);
     if (p->places == PLACES_FEW)
         p->uneven = !is_even(p);
+    return denoise_guides_missing(p);
 }
 
 int denoise_guides_missing(const PixelGuides *p)

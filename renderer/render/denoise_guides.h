@@ -48,7 +48,7 @@ typedef struct PixelGuides {
 int denoise_guides_create(DenoiseGuides *guides, Film *film, const FirstHitWindow *window, int split, RetexError *err);
 
 /* What the next place sees, given what a ray from the camera meets: a FirstHitObserver. pixel: PixelGuides. */
-void denoise_guides_look(void *pixel, const Ray *ray, const Hit *hit, const Shading *shading);
+int denoise_guides_look(void *pixel, const Ray *ray, const Hit *hit, const Shading *shading);
 /* So many more places the pixel wants, at the least. */
 int denoise_guides_missing(const PixelGuides *pixel);
 /* Look at them where no path does, along up to ACCEL_PACKET rays. */

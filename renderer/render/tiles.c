@@ -106,6 +106,7 @@ static void render_pixel(Render *r, int thread, int spp, int x, int y)
         const float *p = r->constants[t].pixels + retex_image_index(&r->constants[t], x, y);
         worker->constants[t] = rgb(p[0], p[1], p[2]);
     }
+    worker->first_hits_wanted = r->pixel_guides ? denoise_guides_missing(&r->pixel_guides[thread]) : 0;
     trace_pixel(r, worker, spp, r->x0 + x, r->y0 + y);
     if (render_is_stopped(r))
         return;

@@ -329,10 +329,10 @@ static void rays_see_what_they_may(void **state)
     ray.tmax = 5;
     assert_true(accel_occluded(accel, &ray, RAY_SHADOW, 0));
     assert_false(accel_occluded(accel, &ray, RAY_SHADOW, 1));
-    assert_int_equal(accel_way(accel, &ray, 0), WAY_PASSABLE);
+    assert_int_equal(accel_visibility(accel, &ray, 0), VISIBILITY_TRANSPARENT);
     ray.tmax = INFINITY;
     assert_true(accel_occluded(accel, &ray, RAY_SHADOW, 1));
-    assert_int_equal(accel_way(accel, &ray, 0), WAY_BLOCKED);
+    assert_int_equal(accel_visibility(accel, &ray, 0), VISIBILITY_BLOCKED);
     ray.origin.z = 9;
     assert_true(accel_intersect(accel, &ray, RAY_CAMERA, &hit) && hit.primitive == 3 && fabs(hit.t - 2) < 1e-15);
     assert_false(accel_intersect(accel, &ray, RAY_BOUNCE, &hit));
@@ -419,7 +419,7 @@ static void packets_are_single_rays(void **state)
         Ray rays[ACCEL_PACKET];
         Hit hits[ACCEL_PACKET], hit;
         RayKind kinds[ACCEL_PACKET];
-        AccelWay ways[ACCEL_PACKET];
+        Visibility ways[ACCEL_PACKET];
         int sources[ACCEL_PACKET], count = 1 + n % ACCEL_PACKET;
         for (int i = 0; i < count; i++)
             rays[i] = (Ray){vec_scale(direction(), 4 * uniform()), direction(), 0, i % 3 ? INFINITY : 3 * uniform()};
@@ -428,12 +428,12 @@ static void packets_are_single_rays(void **state)
         for (int i = 0; i < count; i++)
             kinds[i] = i % 2 ? RAY_CAMERA : RAY_BOUNCE, sources[i] = i % 3 == 0;
         accel_intersect_packet(accel, rays, kinds, count, n & 1, hits);
-        accel_way_packet(accel, rays, sources, count, ways);
+        accel_visibility_packet(accel, rays, sources, count, ways);
         for (int i = 0; i < count; i++) {
             int found = accel_intersect(accel, &rays[i], kinds[i], &hit);
             assert_int_equal(hits[i].primitive, hit.primitive);
-            assert_int_equal(ways[i], accel_way(accel, &rays[i], sources[i]));
-            passable += ways[i] == WAY_PASSABLE;
+            assert_int_equal(ways[i], accel_visibility(accel, &rays[i], sources[i]));
+            passable += ways[i] == VISIBILITY_TRANSPARENT;
             assert_true(!found || (hits[i].t == hit.t && hits[i].face == hit.face));
             met += found;
         }

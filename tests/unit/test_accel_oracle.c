@@ -346,7 +346,7 @@ static int passed(const World *w, int primitive, int passes)
     return (passes == 1 && w->of[primitive]->transparent) || (passes == 2 && w->of[primitive]->straight);
 }
 
-static void judge_way(const World *w, const Ray *ray, RayKind kind, const Met *met, int passes, AccelWay way)
+static void judge_way(const World *w, const Ray *ray, RayKind kind, const Met *met, int passes, Visibility way)
 {
     int blocked[2] = {0, 0}, passable[2] = {0, 0}; /* perhaps, surely */
 
@@ -356,9 +356,9 @@ static void judge_way(const World *w, const Ray *ray, RayKind kind, const Met *m
         list[0] = 1;
         list[1] |= c->sure;
     }
-    if (way == WAY_BLOCKED ? !blocked[0] : blocked[1])
-        complain(w, ray, kind, met, way == WAY_BLOCKED ? "nothing blocks the way" : "the way is blocked", NULL);
-    if (way != WAY_BLOCKED && (way == WAY_PASSABLE ? !passable[0] : passable[1]))
+    if (way == VISIBILITY_BLOCKED ? !blocked[0] : blocked[1])
+        complain(w, ray, kind, met, way == VISIBILITY_BLOCKED ? "nothing blocks the way" : "the way is blocked", NULL);
+    if (way != VISIBILITY_BLOCKED && (way == VISIBILITY_TRANSPARENT ? !passable[0] : passable[1]))
         complain(w, ray, kind, met, "what may let light through is not told", NULL);
 }
 
@@ -440,20 +440,20 @@ static int check_ray(const World *w, const Ray *ray, RayKind kind, Hit *hit)
     meet_all(w, ray, kind, &met);
     *hit = (Hit){.t = -1, .primitive = 77, .face = 77};
     found = accel_intersect(w->accel, ray, kind, hit);
-    judge_way(w, ray, kind, &met, 0, accel_occluded(w->accel, ray, kind, 0) ? WAY_BLOCKED : WAY_FREE);
+    judge_way(w, ray, kind, &met, 0, accel_occluded(w->accel, ray, kind, 0) ? VISIBILITY_BLOCKED : VISIBILITY_CLEAR);
     return judge(w, ray, kind, &met, found, hit);
 }
 
-static void check_ways(const World *w, const Ray *ray, AccelWay packet, int source)
+static void check_ways(const World *w, const Ray *ray, Visibility packet, int source)
 {
     Met met;
     int occluded = accel_occluded(w->accel, ray, RAY_SHADOW, 1);
 
     meet_all(w, ray, RAY_SHADOW, &met);
     judge_way(w, ray, RAY_SHADOW, &met, source ? 1 : 2, packet);
-    judge_way(w, ray, RAY_SHADOW, &met, source ? 1 : 2, accel_way(w->accel, ray, source));
-    if (occluded != (accel_way(w->accel, ray, 1) == WAY_BLOCKED))
-        complain(w, ray, RAY_SHADOW, &met, "accel_occluded and accel_way differ", NULL);
+    judge_way(w, ray, RAY_SHADOW, &met, source ? 1 : 2, accel_visibility(w->accel, ray, source));
+    if (occluded != (accel_visibility(w->accel, ray, 1) == VISIBILITY_BLOCKED))
+        complain(w, ray, RAY_SHADOW, &met, "accel_occluded and accel_visibility differ", NULL);
 }
 
 /* A packet of any number of rays. Returns how many met something for sure. */
@@ -461,13 +461,13 @@ static int check_packet(const World *w, Ray rays[ACCEL_PACKET], Hit hits[ACCEL_P
 {
     RayKind kinds[ACCEL_PACKET];
     Hit of_packet[ACCEL_PACKET];
-    AccelWay ways[ACCEL_PACKET];
+    Visibility ways[ACCEL_PACKET];
     int sources[ACCEL_PACKET], sure = 0;
 
     for (int i = 0; i < count; i++)
         kinds[i] = random_kind(), sources[i] = chance(0.5);
     accel_intersect_packet(w->accel, rays, kinds, count, chance(0.5), of_packet);
-    accel_way_packet(w->accel, rays, sources, count, ways);
+    accel_visibility_packet(w->accel, rays, sources, count, ways);
     for (int i = 0; i < count; i++) {
         Met met;
         meet_all(w, &rays[i], kinds[i], &met);

@@ -46,16 +46,16 @@ static LightBounds random_light(int kind)
     return b;
 }
 
-static LitPoint random_lit(int k)
+static LightSampleContext random_lit(int k)
 {
-    LitPoint p = {random_point(6), {0, 0, 0}};
+    LightSampleContext p = {random_point(6), {0, 0, 0}};
     if (k % 2)
         p.normal = random_direction();
     return p;
 }
 
 /* May the middle of a light shine on a point? */
-static int reaches(const LightBounds *l, const LitPoint *p)
+static int reaches(const LightBounds *l, const LightSampleContext *p)
 {
     Vec3 to = vec_normalize(vec_sub(vec_scale(vec_add(l->low, l->high), 0.5), p->position));
     if (vec_dot(p->normal, p->normal) > 0 && vec_dot(to, p->normal) <= 0)
@@ -76,7 +76,7 @@ static void tree_probabilities(void **state)
             lights[k] = random_light(k % 6);
         assert_int_equal(light_tree_create(&tree, lights, n, NULL), 0);
         for (int j = 0; j < 40; j++) {
-            LitPoint p = random_lit(j);
+            LightSampleContext p = random_lit(j);
             double sum = 0;
             for (int k = 0; k < n; k++) {
                 float probability = light_tree_probability(tree, &p, k);
@@ -108,7 +108,7 @@ static void tree_frequencies(void **state)
     for (int k = 0; k < N; k++)
         lights[k] = random_light(k % 6);
     assert_int_equal(light_tree_create(&tree, lights, N, NULL), 0);
-    LitPoint p = random_lit(1);
+    LightSampleContext p = random_lit(1);
     for (int k = 0; k < SAMPLES; k++) {
         double u = (k + 0.5) / SAMPLES;
         float probability;
@@ -132,7 +132,7 @@ static void tree_of_one_place(void **state)
     for (int k = 0; k < N; k++)
         lights[k] = (LightBounds){.axis = {0, 0, 1}, .spread = PI, .reach = PI / 2, .falling = 1, .peak = INFINITY};
     assert_int_equal(light_tree_create(&tree, lights, N, NULL), 0);
-    LitPoint there = {{0, 0, 0}, {0, 0, 0}}, away = {{1, 0, 0}, {0, 0, 0}};
+    LightSampleContext there = {{0, 0, 0}, {0, 0, 0}}, away = {{1, 0, 0}, {0, 0, 0}};
     for (int k = 0; k < N; k++) {
         assert_true(fabsf(light_tree_probability(tree, &there, k) - 1.0f / N) < 0.001f / N);
         assert_true(fabsf(light_tree_probability(tree, &away, k) - 1.0f / N) < 0.001f / N);
@@ -175,7 +175,7 @@ static void densities_agree(void **state)
         int found = 0;
         assert_int_equal(lights_create(&lights, scene, NULL), 0);
         for (int k = 0; k < 4000; k++) {
-            LitPoint p = random_lit(k);
+            LightSampleContext p = random_lit(k);
             LightSample s;
             float u[4], pdf;
             for (int j = 0; j < 4; j++)
@@ -199,7 +199,7 @@ static void densities_agree(void **state)
 }
 
 /* Irradiance that all samples together find at a point. */
-static double mean_irradiance(const char *text, LitPoint p)
+static double mean_irradiance(const char *text, LightSampleContext p)
 {
     Scene *scene = test_scene(text);
     Lights *lights;
@@ -226,7 +226,8 @@ static double mean_irradiance(const char *text, LitPoint p)
 static void faces_give_what_their_sheet_gives(void **state)
 {
     (void)state;
-    LitPoint points[] = {{{0, 0, 0}, {0, 1, 0}}, {{2, 2.5, 0.3}, {-0.6, 0.8, 0}}, {{0.3, 5, 0}, {0, -0.8, 0.6}}};
+    LightSampleContext points[] = {
+        {{0, 0, 0}, {0, 1, 0}}, {{2, 2.5, 0.3}, {-0.6, 0.8, 0}}, {{0.3, 5, 0}, {0, -0.8, 0.6}}};
     for (int k = 0; k < 3; k++) {
         double whole = mean_irradiance(HEAD SHEET(1), points[k]), cut = mean_irradiance(HEAD SHEET(12), points[k]);
         if (fabs(whole - cut) > 0.004 * whole)

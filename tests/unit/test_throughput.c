@@ -81,19 +81,19 @@ static Factor floor_factor(float d, double u)
 static void bounce(Fixture *f, double u)
 {
     const Shading floor = {.surface = {.target = 0}, .albedo = rgb_grey(0.5f), .uv = {u, 0.25}};
-    assert_true(path_scatter(&f->worker, &f->path, &floor, splat(1), splat(0), 1));
+    assert_true(path_apply_factor(&f->worker, &f->path, &floor, splat(1), splat(0), 1));
 }
 
 static void bring(Fixture *f, float light)
 {
-    path_bring(&f->worker, &f->path, &(Rgb){light, light, light});
+    path_add_unsplit_light(&f->worker, &f->path, &(Rgb){light, light, light});
 }
 
 /* Light by one more hit. */
 static void connect_by_floor(Fixture *f, float light, double u)
 {
     Factor factor = floor_factor(1, u);
-    path_connect(&f->worker, &f->path, rgb_grey(light), &factor, 1);
+    path_add_light(&f->worker, &f->path, rgb_grey(light), &factor, 1);
 }
 
 static float red(const Fixture *f, const char *name)
@@ -213,7 +213,7 @@ static void light_passes_targets(void **state)
         for (int k = 0; k < 2 * PATH_HITS_MAX; k++)
             connect_by_floor(&f, 1, k / 1024.0);
         Factor factors[] = {floor_factor(1, 0.25), floor_factor(1, 0.75)};
-        path_connect(&f.worker, &f.path, rgb_grey(4), factors, 2);
+        path_add_light(&f.worker, &f.path, rgb_grey(4), factors, 2);
         bounce(&f, 0.25);
         bring(&f, 2);
         finish(&f);

@@ -1,0 +1,316 @@
+/* Many paths of a pixel side by side. Each takes the steps of trace_path, by the same functions and with the same
+ * numbers; but a step is taken by all paths of a packet before the next one is: rays are traced together, and memory is
+ * asked for before it is needed. All rays of a segment are traced before anything is shaded: tracing and shading
+ * together are more code than a processor's first cache holds.
+ *
+ * Of matte surfaces, as most are, the direct-light sample and the BSDF sample are computed for a whole packet at once,
+ * see matte.h. */
+#include <string.h>
+#include "path/internal.h"
+#include "path/matte.h"
+#include "shade/material.h"
+
+#define PACKET_LEAST 4 /* rays that are traced together; fewer go one by one */
+
+/* The paths that are still alive, their rays and what these meet. */
+typedef struct Wavefront {
+    Path paths[PATHS_MAX];
+    Path *live[PATHS_MAX];
+    Ray rays[PATHS_MAX];
+    Hit hits[PATHS_MAX];
+    int count;
+} Wavefront;
+
+/* Some of them, at their next vertices. */
+typedef struct Packet {
+    Path **paths;
+    Ray *rays; /* that they came along */
+    int count;
+    Vertex vertices[ACCEL_PACKET];
+    int scatters[ACCEL_PACKET]; /* by lane: the path met a surface */
+    VertexSamples numbers[2];   /* by half of the samples */
+    int matte[ACCEL_PACKET];    /* by lane: its lane among the matte ones, or -1 */
+    /* by lane of the matte ones: */
+    MattePacket mattes;
+    MatteLights lights;
+    MatteBounces bounces;
+    const MeshLightFace *faces[MATTE_LANES];
+    Visibility visibilities[MATTE_LANES];
+    int traced[MATTE_LANES]; /* visibility is known */
+} Packet;
+
+/* ---- intersection ---- */
+
+/* Of those from `first` on, as many as go in one packet. */
+static int packet_size(int alive, int first)
+{
+    return alive - first < ACCEL_PACKET ? alive - first : ACCEL_PACKET;
+}
+
+static void trace_rays(PathWorker *w, Wavefront *wave, int step)
+{
+    const Accel *accel = w->context->accel;
+    for (int first = 0; first < wave->count; first += ACCEL_PACKET) {
+        int count = packet_size(wave->count, first);
+        RayKind kinds[ACCEL_PACKET];
+        for (int i = 0; i < count; i++)
+            kinds[i] = wave->live[first + i]->kind;
+        if (count >= PACKET_LEAST)
+            accel_intersect_packet(accel, wave->rays + first, kinds, count, step == 0, wave->hits + first);
+        else
+            for (int i = 0; i < count; i++)
+                accel_intersect(accel, &wave->rays[first + i], kinds[i], &wave->hits[first + i]);
+    }
+}
+
+/* Step by step for all, so that what one step has to wait for from memory is on its way while others are at work. */
+static void find_surfaces(const Scene *scene, Packet *p, const Hit *hits)
+{
+    for (int i = 0; i < p->count; i++)
+        if (hits[i].primitive >= 0)
+            surface_prefetch_face(scene, &hits[i]);
+    for (int i = 0; i < p->count; i++)
+        if (hits[i].primitive >= 0)
+            surface_prefetch_corners(scene, &hits[i]);
+    for (int i = 0; i < p->count; i++)
+        if (hits[i].primitive >= 0) {
+            Vertex *v = &p->vertices[i];
+            surface_at(&v->s.surface, scene, &p->rays[i], &hits[i]);
+            v->place = shading_prefetch(&v->s.surface);
+        }
+}
+
+/* ---- matte surfaces ---- */
+
+/* Take a vertex among the matte ones, if it is one and its light a face that the kernel knows. */
+static int add_matte(PathWorker *w, Packet *p, int lane)
+{
+    const PathContext *c = w->context;
+    Vertex *v = &p->vertices[lane];
+    const VertexSamples *u = v->numbers;
+    const Shading *s = &v->s;
+    const Finish *finish = s->surface.texture->finish;
+    MattePacket *m = &p->mattes;
+    int k = m->count;
+    double density;
+    Vec3 normal, geometric;
+    if (!c->matte || v->is_last || s->filter + s->transmit > 0 || !finish->matte)
+        return 0;
+    bsdf_normals(&s->surface, vec_neg(p->rays[lane].direction), &normal, &geometric);
+    LightSampleContext context = {s->surface.position, normal};
+    v->pick = lights_pick(c->lights, &context, u->light_choice[lane], u->light_part[lane]);
+    v->picked = 1;
+    const MeshLightFace *face = lights_uniform_face(c->lights, &v->pick, &density);
+    if (!face)
+        return 0;
+    matte_set(&m->position, k, s->surface.position);
+    matte_set(&m->normal, k, normal);
+    matte_set(&m->geometric, k, geometric);
+    matte_set(&m->corner, k, face->corner);
+    matte_set(&m->edge1, k, face->edge1);
+    matte_set(&m->edge2, k, face->edge2);
+    matte_set(&m->face_normal, k, face->normal);
+    m->density[k] = density, m->pick_probability[k] = v->pick.probability;
+    m->diffuse[k] = (float)finish->diffuse;
+    m->light_u[k] = u->light_point_u[lane], m->light_v[k] = u->light_point_v[lane];
+    m->direction_u[k] = u->direction_u[lane], m->direction_v[k] = u->direction_v[lane];
+    p->faces[k] = face;
+    p->matte[lane] = m->count++;
+    return 1;
+}
+
+static Ray matte_shadow_ray(const MatteLights *lights, int k)
+{
+    return (Ray){matte_get(&lights->origin, k), matte_get(&lights->direction, k), 0, lights->reach[k]};
+}
+
+/* As add_direct_light, of a matte surface and a face that emits. */
+static void add_matte_light(PathWorker *w, Packet *p, int lane, int k)
+{
+    const MatteLights *lights = &p->lights;
+    Path *path = p->paths[lane];
+    Vertex *v = &p->vertices[lane];
+    DirectLightSample sample;
+    if (!lights->found[k])
+        return;
+    sample.ray = matte_shadow_ray(lights, k);
+    sample.light.kind = LIGHT_SAMPLE_EMITTER, sample.light.shadowless = 0, sample.light.radiance = rgb_grey(1);
+    sample.transmitted = 0, sample.traced = p->traced[k], sample.visibility = p->visibilities[k];
+    Factor factors[SHADOW_FACTORS_MAX + 1];
+    int passed = trace_shadow_ray(w, path, &v->s.surface, &sample, factors + 1, SHADOW_FACTORS_MAX);
+    if (passed < 0)
+        return;
+    Split value = {rgb_grey(lights->value[k]), {0, 0, 0}};
+    Rgb light = rgb_mul(rgb_scale(sample.light.radiance, lights->weight[k]), p->faces[k]->shine[lights->behind[k]]);
+    if (passed == 0 && surface_is_unsplit(w->context, &v->s)) {
+        Rgb by_variant[VARIANTS_MAX];
+        for (int i = 0; i < w->context->nvariants; i++)
+            by_variant[i] = rgb_mul(light, split_apply(value, shading_albedo(&v->s, i)));
+        path_add_unsplit_light(w, path, by_variant);
+        return;
+    }
+    factors[0] = shading_factor(&v->s, colour4(value.d), colour4(value.i));
+    factors[0].sharp = path->sharp;
+    path_add_light(w, path, light, factors, 1 + passed);
+}
+
+/* As scatter, of a matte surface. */
+static int scatter_matte(PathWorker *w, Packet *p, int lane, int k, Ray *ray)
+{
+    const MatteBounces *bounces = &p->bounces;
+    Path *path = p->paths[lane];
+    const Shading *s = &p->vertices[lane].s;
+    Split weight = {rgb_grey(p->mattes.diffuse[k]), {0, 0, 0}};
+    if (!bounces->found[k])
+        return 0;
+    path->beta_neutral *= at_most(split_neutral(weight), 1);
+    if (!path_apply_weight(w, path, s, weight, 1))
+        return 0;
+    path->kind = RAY_BOUNCE;
+    path->prev_context = (LightSampleContext){s->surface.position, matte_get(&p->mattes.normal, k)};
+    ray->origin = matte_get(&bounces->origin, k);
+    ray->direction = matte_get(&bounces->direction, k);
+    ray->tmin = 0;
+    path_next_segment(path, bounces->pdf[k], bounces->pdf[k]);
+    return 1;
+}
+
+/* ---- a packet ---- */
+
+/* The surface, and emission, of one lane. */
+static void shade_lane(PathWorker *w, Packet *p, int lane, const Hit *hit)
+{
+    Path *path = p->paths[lane];
+    const Ray *ray = &p->rays[lane];
+    Vertex *v = &p->vertices[lane];
+    p->matte[lane] = -1;
+    w->segments++;
+    if (hit->primitive >= 0) {
+        find_colors(w, path, v, hit, &p->numbers[path->half], lane);
+        if (!add_matte(w, p, lane)) {
+            find_bsdf(w, path, v, ray, hit);
+            if (!v->is_last)
+                sample_direct_light(w, v);
+        } else if (w->first_hits_wanted > 0 && path->segments == 1) { /* who observes first hits looks at BSDFs */
+            bsdf_setup(&v->s.bsdf, &v->s.surface, vec_neg(ray->direction), v->s.filter, v->s.transmit);
+        }
+    }
+    observe_first_hit(w, path, v, ray, hit);
+    p->scatters[lane] = add_emission(w, path, v, ray, hit);
+}
+
+static void shade(PathWorker *w, Packet *p, const Hit *hits, int step)
+{
+    uint32_t samples[VERTEX_LANES] = {0};
+    for (int i = 0; i < p->count; i++)
+        samples[i] = p->paths[i]->sample;
+    for (int half = 0; half < w->context->halves; half++)
+        vertex_samples(&w->keys[half], w->key[half], samples, (unsigned)step, &p->numbers[half]);
+    find_surfaces(w->context->scene, p, hits);
+    p->mattes.count = 0;
+    for (int i = 0; i < p->count; i++)
+        shade_lane(w, p, i, &hits[i]);
+    memset(p->traced, 0, sizeof p->traced);
+    if (p->mattes.count > 0) {
+        matte_lights(&p->lights, &p->mattes);
+        matte_bounces(&p->bounces, &p->mattes);
+    }
+}
+
+/* Trace the shadow rays of all lanes together. */
+static void trace_shadow_rays(PathWorker *w, Packet *p)
+{
+    Visibility *to[ACCEL_PACKET], visibilities[ACCEL_PACKET];
+    Ray rays[ACCEL_PACKET];
+    int sources[ACCEL_PACKET], n = 0;
+    for (int i = 0; i < p->count; i++) {
+        DirectLightSample *sample = &p->vertices[i].light;
+        int k = p->matte[i];
+        if (!p->scatters[i])
+            continue;
+        if (k >= 0 && p->lights.found[k]) {
+            rays[n] = matte_shadow_ray(&p->lights, k);
+            sources[n] = 0;
+            to[n++] = &p->visibilities[k];
+            p->traced[k] = 1;
+        } else if (k < 0 && sample->found && !sample->light.shadowless) {
+            rays[n] = sample->ray;
+            sources[n] = sample->light.kind == LIGHT_SAMPLE_SOURCE;
+            to[n++] = &sample->visibility;
+            sample->traced = 1;
+        }
+    }
+    if (n == 0)
+        return;
+    accel_visibility_packet(w->context->accel, rays, sources, n, visibilities);
+    for (int i = 0; i < n; i++)
+        *to[i] = visibilities[i];
+    w->shadow_rays += n;
+}
+
+/* Direct light and the next ray of one lane. Returns 0 where the path ends. */
+static int advance_lane(PathWorker *w, Packet *p, int lane, Ray *ray)
+{
+    Path *path = p->paths[lane];
+    Vertex *v = &p->vertices[lane];
+    const int k = p->matte[lane];
+    BsdfSample next;
+    if (!p->scatters[lane])
+        return 0;
+    if (k >= 0) {
+        add_matte_light(w, p, lane, k);
+        return scatter_matte(w, p, lane, k, ray) && survives_roulette(w, path, v->numbers->roulette[lane]);
+    }
+    add_direct_light(w, path, v);
+    return scatter(w, path, v, &next, ray) && (next.straight || survives_roulette(w, path, v->numbers->roulette[lane]));
+}
+
+/* A packet of paths goes on by a segment; those that stay alive go to the end of the wavefront's. */
+static void advance(PathWorker *w, Wavefront *wave, int first, int count, int step)
+{
+    Packet p;
+    p.paths = wave->live + first, p.rays = wave->rays + first, p.count = count;
+    shade(w, &p, wave->hits + first, step);
+    if (step == 0 && count >= PACKET_LEAST) /* later shadow rays have little in common */
+        trace_shadow_rays(w, &p);
+    for (int i = 0; i < count; i++) {
+        Path *path = p.paths[i];
+        Ray *ray = &p.rays[i];
+        if (advance_lane(w, &p, i, ray)) {
+            wave->rays[wave->count] = *ray;
+            wave->live[wave->count++] = path;
+        }
+    }
+}
+
+static void trace_wavefront(PathWorker *w, Wavefront *wave)
+{
+    for (int step = 0; wave->count > 0; step++) {
+        int alive = wave->count;
+        trace_rays(w, wave, step);
+        wave->count = 0;
+        for (int first = 0; first < alive; first += ACCEL_PACKET)
+            advance(w, wave, first, packet_size(alive, first), step);
+    }
+}
+
+void path_trace(PathWorker *w, const Ray *rays, const Sampler *samplers, int count)
+{
+    Wavefront wave;
+    wave.count = count;
+    w->nhits = w->log.count = 0;
+    for (int i = 0; i < count; i++) {
+        Path *path = wave.live[i] = &wave.paths[i];
+        wave.rays[i] = rays[i];
+        path->half = w->context->halves == 2 ? i & 1 : 0;
+        path->betas = w->betas[i];
+        w->key[path->half] = samplers[i].key;
+        path_start(w, path, &rays[i], &samplers[i]);
+    }
+    if (count == 1)
+        trace_path(w, &wave.paths[0], rays[0]);
+    else
+        trace_wavefront(w, &wave);
+    for (int i = 0; i < count; i++)
+        path_end(w, &wave.paths[i]);
+}
