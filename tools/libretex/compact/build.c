@@ -141,7 +141,7 @@ static int copy_clusters(CompactClusters *to, const CompactClusters *from, Retex
 
 static CompactClusters *cached_clusters(const Compaction *work, int number)
 {
-    return &work->cache->clusters[number][step_of(work->scales->clusters[number])][work->scales->split[number]];
+    return &work->cache->clusters[number][step_of(work->scales->clusters[number])];
 }
 
 static int make_clusters(CompactClusters *clusters, const Compaction *work, int number, RetexError *err)
@@ -156,7 +156,7 @@ static int make_clusters(CompactClusters *clusters, const Compaction *work, int 
     }
     if (!kept->albedo.pixels)
         code = compact_clusters_make(kept, work->light, &work->light->kinds[number], work->scales->clusters[number],
-                                     work->scales->split[number], work->nthreads, err);
+                                     work->nthreads, err);
     if (!code)
         code = copy_clusters(clusters, kept, err);
     if (code)
@@ -208,10 +208,10 @@ static int make_gain(RetexImage *gain, const Compaction *work, int number, int r
 void compact_cache_free(CompactCache *cache, const CompactLight *light)
 {
     for (int i = 0; i < light->nkinds; i++) {
-        for (int j = 0; j < COMPACT_STEPS * 2; j++) {
-            compact_clusters_free(&cache->clusters[i][j / 2][j % 2]);
+        for (int j = 0; j < COMPACT_STEPS; j++) {
+            compact_clusters_free(&cache->clusters[i][j]);
             for (int k = 0; k < COMPACT_WAVES * RETEX_SHARES_MAX; k++)
-                retex_image_free(&cache->waves[i][j / 2][j % 2][k / RETEX_SHARES_MAX][k % RETEX_SHARES_MAX]);
+                retex_image_free(&cache->waves[i][j][k / RETEX_SHARES_MAX][k % RETEX_SHARES_MAX]);
         }
         for (int j = 0; j < COMPACT_STEPS * COMPACT_CHOICES; j++) {
             const int step = j / COMPACT_CHOICES, mixed = j % COMPACT_CHOICES;
@@ -248,7 +248,7 @@ static int add_cluster(Compaction *work, int number, CompactClusters *clusters, 
         code = retex_set_add_footprint(work->set, &f, &work->footprints[number][k], err);
     for (int i = 0; i < COMPACT_WAVES && !code && work->trial; i++)
         work->waves[work->footprints[number][k]][i] =
-            &work->cache->waves[number][step_of(work->scales->clusters[number])][work->scales->split[number]][i][k];
+            &work->cache->waves[number][step_of(work->scales->clusters[number])][i][k];
     return code;
 }
 
@@ -397,8 +397,7 @@ static int begin_kind(const Compaction *work, int number, RetexError *err)
 {
     const CompactLight *light = work->light;
     const CompactKind *kind = &light->kinds[number];
-    int code = compact_clusters_begin(cached_clusters(work, number), light, kind, work->scales->clusters[number],
-                                      work->scales->split[number], err);
+    int code = compact_clusters_begin(cached_clusters(work, number), light, kind, work->scales->clusters[number], err);
     RetexImage *gains = cached_gains(work, number, err);
     if (code || !gains || kind->kind == RETEX_FOOTPRINT_INTERREFLECTION)
         return code ? code : gains ? RETEX_OK : RETEX_ENOMEM;

@@ -13,18 +13,17 @@ typedef struct CompactScales {
     int clusters[COMPACT_KINDS]; /* footprints and weights; those of later ones must be the same */
     int gains[COMPACT_KINDS];
     CompactMixed mixed[COMPACT_KINDS];
-    int split[COMPACT_KINDS]; /* 1: light that goes on has weights of its own */
 } CompactScales;
 
 int compact_build(RetexSet **result, const CompactLight *light, const CompactScales *scales, int nthreads,
                   RetexError *err);
 
-/* What trials of the same light have in common: clusters by kind, scale (its logarithm) and split, with their waves
+/* What trials of the same light have in common: clusters by kind and scale (its logarithm), with their waves
  * (meter.h); sums of light by kind; gains by kind, scale and place among its terms, 0 for the clusters alone.
  * Begin with {0}. */
 typedef struct CompactCache {
-    CompactClusters clusters[COMPACT_KINDS][COMPACT_STEPS][2];
-    RetexImage waves[COMPACT_KINDS][COMPACT_STEPS][2][COMPACT_WAVES][RETEX_SHARES_MAX];
+    CompactClusters clusters[COMPACT_KINDS][COMPACT_STEPS];
+    RetexImage waves[COMPACT_KINDS][COMPACT_STEPS][COMPACT_WAVES][RETEX_SHARES_MAX];
     RetexImage sums[COMPACT_KINDS];
     RetexImage *gains[COMPACT_KINDS][COMPACT_STEPS][COMPACT_CHOICES];
 } CompactCache;

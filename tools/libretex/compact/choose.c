@@ -24,9 +24,8 @@
 #define GROUPS_MOST 64
 #define KINDS_APART 6 /* more kinds than these, of three or more targets, are chosen for together */
 
-/* One choice: the scale of some kinds' footprints or gains, whether light that goes on has weights of its own (of sharp
- * ones it always has, for textures show every letter there), or whether many further hits are those on any target. */
-typedef enum What { CLUSTERS, GAINS, SPLIT, MIXED } What;
+/* One choice: the scale of some kinds' footprints or gains, or whether many further hits are those on any target. */
+typedef enum What { CLUSTERS, GAINS, MIXED } What;
 
 typedef struct Choice {
     What what;
@@ -39,7 +38,7 @@ typedef struct Choice {
 
 /* A kind's pictures at some scales. */
 typedef struct Shown {
-    int clusters, gains, split, mixed, later;
+    int clusters, gains, mixed, later;
     RetexImage pictures[COMPACT_TRIALS];
 } Shown;
 
@@ -65,8 +64,6 @@ static void apply(CompactScales *scales, const Choice *choice, int step)
             scales->clusters[kind] = 1 << step;
         else if (choice->what == GAINS)
             scales->gains[kind] = 1 << step;
-        else if (choice->what == SPLIT)
-            scales->split[kind] = !step;
         else
             scales->mixed[kind] = step ? COMPACT_MIXED : COMPACT_APART;
     }
@@ -81,10 +78,8 @@ static double numbers_of(const Choosing *work, const Choice *choice, int step)
             numbers += (3 + 7.0 * kind->count) / (1 << (2 * step));
         else if (choice->what == GAINS)
             numbers += 3.0 * (kind->ngains[COMPACT_MIXED] + 1) / (1 << (2 * step));
-        else if (choice->what == MIXED)
-            numbers += step ? 0 : 3.0 / 16 * (kind->ngains[COMPACT_APART] - kind->ngains[COMPACT_MIXED]);
         else if (!step)
-            numbers += kind->count / 16.0; /* of a usual size */
+            numbers += 3.0 / 16 * (kind->ngains[COMPACT_APART] - kind->ngains[COMPACT_MIXED]); /* of a usual size */
     }
     return numbers;
 }
@@ -98,7 +93,7 @@ static Choice *find_choice(Choosing *work, What what, const CompactKind *kind)
             return &work->choices[i];
     }
     Choice *choice = &work->choices[work->count++];
-    *choice = (Choice){.what = what, .steps = what == SPLIT || what == MIXED ? 2 : STEPS};
+    *choice = (Choice){.what = what, .steps = what == MIXED ? 2 : STEPS};
     return choice;
 }
 
@@ -117,13 +112,10 @@ static void list_choices(Choosing *work, CompactScales *scales, const RetexCompa
         const int wanted = sharp ? 1 : later ? params->later : params->broad;
         scales->clusters[i] = wanted ? wanted : 1;
         scales->gains[i] = params->gain ? params->gain : 1;
-        scales->split[i] = 1;
         if (!wanted)
             add_choice(work, CLUSTERS, i);
         if (kind->nagain && !params->gain)
             add_choice(work, GAINS, i);
-        if (kind->nagain && kind->count > 1 && !sharp)
-            add_choice(work, SPLIT, i);
         if (kind->ngains[COMPACT_MIXED] < kind->ngains[COMPACT_APART])
             add_choice(work, MIXED, i);
     }
@@ -151,15 +143,14 @@ static int show_kind(Choosing *work, int kind, const CompactScales *scales, cons
 {
     const Shown wanted = {.clusters = scales->clusters[kind],
                           .gains = scales->gains[kind],
-                          .split = scales->split[kind],
                           .mixed = (int)scales->mixed[kind],
                           .later = later_scale(work->light, scales)};
     int place = 0;
     for (; place < 2 && work->shown[kind][place].pictures[0].pixels; place++) {
         const Shown *shown = &work->shown[kind][place];
         *pictures = shown->pictures;
-        if (shown->clusters == wanted.clusters && shown->gains == wanted.gains && shown->split == wanted.split &&
-            shown->mixed == wanted.mixed && shown->later == wanted.later)
+        if (shown->clusters == wanted.clusters && shown->gains == wanted.gains && shown->mixed == wanted.mixed &&
+            shown->later == wanted.later)
             return RETEX_OK;
     }
     Shown *shown = &work->shown[kind][place < 1 ? 0 : 1];

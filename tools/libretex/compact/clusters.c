@@ -415,11 +415,12 @@ static int is_empty(const CompactClusters *clusters, int k)
 }
 
 int compact_clusters_begin(CompactClusters *clusters, const CompactLight *light, const CompactKind *kind, int scale,
-                           int split, RetexError *err)
+                           RetexError *err)
 {
-    const int even = kind->kind == RETEX_FOOTPRINT_SHARP && scale == 1 && light->noise >= EVEN_NOISE &&
-                     strcmp(light->set->filter, "box") == 0;
-    *clusters = (CompactClusters){.count = kind->count, .scale = scale, .split = split && kind->nagain};
+    const int sharp = kind->kind == RETEX_FOOTPRINT_SHARP;
+    const int even = sharp && scale == 1 && light->noise >= EVEN_NOISE && strcmp(light->set->filter, "box") == 0;
+    *clusters = (CompactClusters){
+        .count = kind->count, .scale = scale, .split = kind->nagain && (sharp || !(light->noise > 0))};
     int code = alloc_images(clusters, light, even, err);
     if (code)
         compact_clusters_free(clusters);
@@ -452,9 +453,9 @@ int compact_clusters_end(CompactClusters *clusters, const CompactLight *light, c
 }
 
 int compact_clusters_make(CompactClusters *clusters, const CompactLight *light, const CompactKind *kind, int scale,
-                          int split, int nthreads, RetexError *err)
+                          int nthreads, RetexError *err)
 {
-    int code = compact_clusters_begin(clusters, light, kind, scale, split, err);
+    int code = compact_clusters_begin(clusters, light, kind, scale, err);
     if (code)
         return code;
     compact_clusters_rows(clusters, light, kind, 0, nthreads);

@@ -19,13 +19,13 @@ typedef struct CompactClusters {
 } CompactClusters;
 
 /* Merge the clusters of each block into no more than the kind has in a pixel, by the light they weigh. Blocks without
- * light take the clusters of a neighbour, for enlarging reaches as far. split: the light that
- * goes on has weights of its own. */
+ * light take the clusters of a neighbour, for enlarging reaches as far. Interreflected light has weights of its own on
+ * sharp footprints, where textures show every letter, and on broad ones where no noise may be removed. */
 int compact_clusters_make(CompactClusters *clusters, const CompactLight *light, const CompactKind *kind, int scale,
-                          int split, int nthreads, RetexError *err);
+                          int nthreads, RetexError *err);
 /* The same by rows of the picture, `first` and as many as light->set has, a multiple of the scale but for the last. */
 int compact_clusters_begin(CompactClusters *clusters, const CompactLight *light, const CompactKind *kind, int scale,
-                           int split, RetexError *err);
+                           RetexError *err);
 void compact_clusters_rows(CompactClusters *clusters, const CompactLight *light, const CompactKind *kind, int first,
                            int nthreads);
 int compact_clusters_end(CompactClusters *clusters, const CompactLight *light, const CompactKind *kind, int nthreads,
