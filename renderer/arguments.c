@@ -257,20 +257,20 @@ static void check_denoise(const Arguments *a)
     if (!a->denoise)
         return;
     if (a->no_denoise_data)
-        cli_die(a->cli, "--denoise reads what --no-denoise-data leaves out: one of them");
+        cli_die(a->cli, "--denoise needs the data that --no-denoise-data omits");
     if (a->list || a->tracing || a->variants || a->control)
-        cli_die(a->cli,
-                "--denoise goes with a render of its own: no --list-targets, --trace-pixel, --variants or --control");
+        cli_die(a->cli, "--denoise cannot be combined with --list-targets, --trace-pixel, --variants or --control");
     if (a->render.control_data)
-        cli_die(a->cli, "--denoise makes another picture than --control-data tells of: one of them");
+        cli_die(a->cli, "--denoise and --control-data exclude each other");
     if (a->render.spp < 2)
-        cli_die(a->cli, "--denoise needs two samples a pixel at least: one does not tell how noisy it is");
+        cli_die(a->cli, "--denoise needs at least two samples per pixel: one does not show the noise");
 }
 
 static void check_noise(const Arguments *a)
 {
     if (a->render.noise > 0 && (a->control || a->variants || a->render.control_data))
-        cli_die(a->cli, "--noise goes without --control, --control-data and --variants: their samples are counted");
+        cli_die(a->cli, "--noise cannot be combined with --control, --control-data or --variants: these need equal "
+                        "samples per pixel");
 }
 
 /* Rendering in pieces: of a picture or a set, whose rows are all there is to keep. */
@@ -281,16 +281,16 @@ static void check_pieces(const Arguments *a)
     if (!option)
         return;
     if (a->list || a->tracing || a->variants || a->control || r->control_data)
-        cli_die(a->cli, "--%s goes with a render of its own: no %s", option,
+        cli_die(a->cli, "--%s cannot be combined with %s", option,
                 "--list-targets, --trace-pixel, --variants, --control or --control-data");
     if (r->paper)
-        cli_die(a->cli, "--%s: layout paper is rendered in one piece", option);
+        cli_die(a->cli, "--%s: layout paper cannot be rendered in pieces", option);
     if (a->nmerged && (r->resume || r->nshards))
-        cli_die(a->cli, "--merge has all rows already: no --resume or --shard");
+        cli_die(a->cli, "--merge renders no rows: no --resume or --shard");
     if (!a->cli->output || !strcmp(a->cli->output, "-"))
         cli_die(a->cli, "--%s needs an output file: -o FILE", option);
     if (r->nshards && (r->aovs || a->aov_dir || a->stats))
-        cli_die(a->cli, "--shard leaves rows only: --aov, --aov-dir and --stats go with --merge");
+        cli_die(a->cli, "--shard writes rows only: give --aov, --aov-dir and --stats with --merge");
 }
 
 /* Whichever of the two is no scene by its name may lack an option. */
@@ -321,7 +321,7 @@ void parse_arguments(Arguments *a)
             a->scene = cli->value;
     }
     if (!a->scene)
-        cli_die(cli, "which scene? (try --help)");
+        cli_die(cli, "no scene given; try --help");
     if (a->render.paper && a->render.sharp)
         cli_die(cli, "--layout paper has no clusters: no --clusters");
     if (!a->render.sharp)
@@ -339,19 +339,18 @@ void parse_arguments(Arguments *a)
     if (a->nreplacements || a->variants)
         a->render.plain = 1;
     if (a->variants && cli->output)
-        cli_die(cli, "--variants names its outputs itself: no -o");
+        cli_die(cli, "the table of --variants names the outputs: no -o");
     if (a->variants && (a->list || a->tracing || a->render.aovs || a->stats))
         cli_die(cli, "--variants makes pictures only: no --list-targets, --trace-pixel, --aov or --stats");
     if (a->control && (!a->nreplacements || a->variants))
-        cli_die(cli, "--control goes with --replace: what is new in the picture?");
+        cli_die(cli, "--control needs --replace, without --variants");
     if (a->control && (a->render.aovs || a->render.control_data))
         cli_die(cli, "--control makes a picture only: no --aov or --control-data");
     check_denoise(a);
     check_noise(a);
     check_pieces(a);
     if (a->aov_dir && (a->list || a->tracing || a->variants || a->control))
-        cli_die(cli,
-                "--aov-dir goes with a render of its own: no --list-targets, --trace-pixel, --variants or --control");
+        cli_die(cli, "--aov-dir cannot be combined with --list-targets, --trace-pixel, --variants or --control");
     if (a->aov_dir && !a->render.aovs)
         a->render.aovs = AOV_ALL;
     const char *answer = a->list ? "list-targets" : a->tracing ? "trace-pixel" : NULL;

@@ -122,7 +122,7 @@ static int render_loaded(Arguments *a, const Scene *scene, Variants *v, double b
         cli_info(a->cli, "%d picture%s, %d samples: %.2f s", v->count, v->count == 1 ? "" : "s", a->render.spp,
                  stats.render_seconds);
     if (stats.dropped)
-        cli_warn(a->cli, "%ld contributions were not finite and left out", stats.dropped);
+        cli_warn(a->cli, "%ld contributions were not finite and were left out", stats.dropped);
     return go_on;
 }
 
@@ -243,13 +243,15 @@ void render_controlled(Arguments *a, const Scene *scene, const char *output)
     if (render_control(&picture, scene, &a->render, set, a->control_mode, &distance, &stats, &err))
         cli_die(a->cli, "--control %s: %s", a->control, err.message);
     if (distance > 8)
-        cli_warn(a->cli, "--control %s: its picture is not this scene's as it was, %.0f standard deviations off",
+        cli_warn(a->cli,
+                 "--control %s: its picture does not match this scene with its original textures, %.0f standard "
+                 "deviations off",
                  a->control, distance);
     if (retex_image_write(&picture, output, NULL, &err))
         cli_fail(a->cli, &err);
     cli_info(a->cli, "%dx%d, %d samples: %.2f s", picture.width, picture.height, a->render.spp, stats.render_seconds);
     if (stats.dropped)
-        cli_warn(a->cli, "%ld contributions were not finite and left out", stats.dropped);
+        cli_warn(a->cli, "%ld contributions were not finite and were left out", stats.dropped);
     if (a->stats)
         write_stats(a, &stats, set, 0);
     retex_image_free(&picture);

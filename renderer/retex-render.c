@@ -90,7 +90,7 @@ static void name_checkpoint(Arguments *a, const char *output)
     if (r->resume || !there)
         cli_writes(a->cli, "the file of finished rows", a->checkpoint);
     if (!r->resume && there)
-        cli_warn(a->cli, "%s is left as it is: --resume would go on from it", a->checkpoint);
+        cli_warn(a->cli, "%s is unchanged: --resume continues from it", a->checkpoint);
 }
 
 /* Render, or only some rows of it: then there is no set. */
@@ -170,7 +170,7 @@ static void report(const Arguments *a, const RetexSet *set, const RenderStats *s
              s->render_seconds, (double)s->paths / seconds * 1e-6,
              (double)(s->segments + s->shadow_rays) / seconds * 1e-6);
     if (s->dropped)
-        cli_warn(a->cli, "%ld contributions were not finite and left out", s->dropped);
+        cli_warn(a->cli, "%ld contributions were not finite and were left out", s->dropped);
     if (set->nterms)
         cli_info(a->cli, "%d target%s, energy beyond order %d: %.4f%%", set->ntargets, set->ntargets == 1 ? "" : "s",
                  set->orders, 100 * set->folded);
@@ -181,7 +181,7 @@ static void check_targets(const Arguments *a, const Scene *scene)
     for (int t = 0; t < scene->ntargets; t++)
         if (job_target_is_empty(scene, t))
             cli_warn(a->cli, "target `%s` has no surface%s", scene->targets[t].name,
-                     t ? ": those it names belong to targets named before it" : "");
+                     t ? ": its surfaces belong to targets named before it" : "");
 }
 
 /* A batch says so in its report, too. */

@@ -37,7 +37,7 @@ void batch_check_options(const Batch *batch, const Cli *cli, const char *option)
                         : batch->report       ? "report"
                                               : NULL;
     if (given)
-        cli_die(cli, "--%s is of a table of pictures: it needs --%s", given, option);
+        cli_die(cli, "--%s needs a table of pictures: --%s", given, option);
 }
 
 /* ---- life ---- */

@@ -121,7 +121,7 @@ int batch_path(const Batch *batch, int row, char path[PATH_MAX], RetexError *err
 int batch_check_root(const Batch *batch, const char *real, const char *output, RetexError *err)
 {
     if (batch->root_path[0] && !output_is_below(real, batch->root_path))
-        return retex_fail(err, RETEX_EINVAL, "%s is not below %s, as --batch-root wants it", output, batch->root);
+        return retex_fail(err, RETEX_EINVAL, "%s is not below %s, as --batch-root requires", output, batch->root);
     return RETEX_OK;
 }
 

@@ -78,9 +78,9 @@ static void parse(Cli *cli, Job *job)
     if (!job->table)
         batch_check_options(&job->batch, cli, "batch");
     if (job->table && cli->output)
-        cli_die(cli, "--batch names its outputs itself: no -o");
+        cli_die(cli, "the table of --batch names the outputs: no -o");
     if (job->error && job->table)
-        cli_die(cli, "--error is of one picture: no --batch");
+        cli_die(cli, "--error and --batch exclude each other");
     if (job->error && !job->textures.count)
         cli_die(cli, "--error needs the textures: name them with --texture");
     if (job->write.colorspace && (job->write.display || job->write.view))

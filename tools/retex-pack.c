@@ -146,7 +146,7 @@ int main(int argc, char **argv)
     cli_input(&cli, job.input, job.unpack ? "a pack" : "a set, as from retex-render");
     if (cli_ends_with(output, job.unpack ? ".retex" : ".exr"))
         cli_die(&cli,
-                job.unpack ? "%s: what is unpacked is an OpenEXR file, .exr"
+                job.unpack ? "%s: --unpack writes an OpenEXR file, .exr"
                            : "%s: a pack is no OpenEXR file; its name ends in .retex",
                 output);
     cli_reads(&cli, job.unpack ? "the pack" : "the set", job.input);

@@ -52,7 +52,7 @@ static int check_control(const Render *r, const RetexSet *set, RetexError *err)
         if (retex_set_find_target(set, r->scene->targets[t].name) < 0)
             return retex_fail(err, RETEX_EINVAL, "the set has no target `%s`", r->scene->targets[t].name);
     if (set->seed == r->params.seed)
-        return retex_fail(err, RETEX_EINVAL, "the set has seed %u too: its noise must not be that of the new samples",
+        return retex_fail(err, RETEX_EINVAL, "the set has the same seed, %u: the new samples must have other noise",
                           (unsigned)set->seed);
     return RETEX_OK;
 }

@@ -9,5 +9,5 @@ $ retex-render -q --size 96x64 --spp 24 --noise 0 scenes/glass-caustics/glass-ca
 > retex-render: error: --noise: expected a number from 1e-06 to 10, not '0'
 = 2
 $ retex-render -q --size 16x12 --noise 0.1 --control-data biased -t Floor scenes/glass-caustics/glass-caustics.pov -o c.exr 2>&1
-> retex-render: error: --noise goes without --control, --control-data and --variants: their samples are counted
+> retex-render: error: --noise cannot be combined with --control, --control-data or --variants: these need equal samples per pixel
 = 2

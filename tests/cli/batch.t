@@ -201,13 +201,13 @@ $ mkfifo ../pipe; cp brick.jpg ../soon.jpg; mkdir out ../outside; printf '%s\n' 
 
 # Pictures stay below --batch-root, whatever they are called; they are named from there.
 $ mkdir -p root/there rootx; ln -s ../../outside root/link; ln -s ../../outside/x.png root/x.png; ln -s nowhere.png root/dangling.png; touch ../outside/x.png; printf '%s\n' output,floor ../d.png ../rootx/e.png link/f.png x.png "$PWD/h.png" link/new/i.png there/../../j.png gone/../k.png >../t; retex-combine s.exr --batch ../t --batch-root root --mkdir 2>&1 | sed "s,$PWD,PWD,"; printf '%s\n' output,floor a.png ./there/../b.png new/c.png "$PWD/root/g.png" ../root/k.png dangling.png >../t; retex-combine -q s.exr --batch ../t --batch-root root/ --mkdir; find root | sort | tr '\n' ' '; ls rootx; rm -r root rootx
-> retex-combine: error: ../t:2: ../d.png is not below root, as --batch-root wants it
-> retex-combine: error: ../t:3: ../rootx/e.png is not below root, as --batch-root wants it
-> retex-combine: error: ../t:4: link/f.png is not below root, as --batch-root wants it
-> retex-combine: error: ../t:5: x.png is not below root, as --batch-root wants it
-> retex-combine: error: ../t:6: PWD/h.png is not below root, as --batch-root wants it
-> retex-combine: error: ../t:7: link/new/i.png is not below root, as --batch-root wants it
-> retex-combine: error: ../t:8: there/../../j.png is not below root, as --batch-root wants it
+> retex-combine: error: ../t:2: ../d.png is not below root, as --batch-root requires
+> retex-combine: error: ../t:3: ../rootx/e.png is not below root, as --batch-root requires
+> retex-combine: error: ../t:4: link/f.png is not below root, as --batch-root requires
+> retex-combine: error: ../t:5: x.png is not below root, as --batch-root requires
+> retex-combine: error: ../t:6: PWD/h.png is not below root, as --batch-root requires
+> retex-combine: error: ../t:7: link/new/i.png is not below root, as --batch-root requires
+> retex-combine: error: ../t:8: there/../../j.png is not below root, as --batch-root requires
 > retex-combine: error: ../t:9: cannot write gone/../k.png: '..' in a folder that is not there
 > root root/a.png root/b.png root/dangling.png root/g.png root/k.png root/link root/new root/new/c.png root/there root/x.png
 $ printf 'output\na.png\n' >../t; retex-combine -q s.exr --batch ../t --batch-root root; retex-combine -q s.exr --batch ../t --batch-root s.exr --mkdir; retex-combine -q s.exr --batch ../t --batch-root root/of/batch --mkdir --dry-run; retex-combine -q s.exr --batch ../t --batch-root root/of/batch --mkdir; find root | sort; rm -r root
@@ -221,9 +221,9 @@ $ printf 'output\na.png\n' >../t; retex-combine -q s.exr --batch ../t --batch-ro
 $ mkdir -p root/sub; printf '%s\n' output,floor a.png,../pipe sub/b.png,brick.jpg new/c.png,brick.jpg sub/deep/e.png,brick.jpg d.png,brick.jpg >../t; timeout 20 retex-combine -q s.exr --batch ../t --keep-going --batch-root root --mkdir & sh ../race 'mv root/sub root/old; ln -s ../../outside root/sub; ln -s ../../outside root/new'; wait $!; echo $?; find root | sort | tr '\n' ' '; ls ../outside; rm -r root; sh ../new
 > 2
 > root root/a.png root/d.png root/new root/old root/sub x.png
-! retex-combine: error: ../t:3: sub/b.png is not below root, as --batch-root wants it
-! retex-combine: error: ../t:4: new/c.png is not below root, as --batch-root wants it
-! retex-combine: error: ../t:5: sub/deep/e.png is not below root, as --batch-root wants it
+! retex-combine: error: ../t:3: sub/b.png is not below root, as --batch-root requires
+! retex-combine: error: ../t:4: new/c.png is not below root, as --batch-root requires
+! retex-combine: error: ../t:5: sub/deep/e.png is not below root, as --batch-root requires
 ! retex-combine: error: 3 of 5 pictures failed
 
 # A signal ends a batch, while it waits for its second row's image; the report has what was done until then.
@@ -252,16 +252,16 @@ $ { echo output,floor,wall; for k in $(seq 5000); do echo "$k.png,:rotate=$k bri
 
 # These options are of a table.
 $ for o in --dry-run --keep-going --mkdir '--batch-root .' '--report r.json'; do retex-combine -q s.exr -o x.png $o; retex-render scenes/cornell-box/cornell-box.pov -o x.exr $o; done; sh ../new
-! retex-combine: error: --dry-run is of a table of pictures: it needs --batch
-! retex-render: error: --dry-run is of a table of pictures: it needs --variants
-! retex-combine: error: --keep-going is of a table of pictures: it needs --batch
-! retex-render: error: --keep-going is of a table of pictures: it needs --variants
-! retex-combine: error: --mkdir is of a table of pictures: it needs --batch
-! retex-render: error: --mkdir is of a table of pictures: it needs --variants
-! retex-combine: error: --batch-root is of a table of pictures: it needs --batch
-! retex-render: error: --batch-root is of a table of pictures: it needs --variants
-! retex-combine: error: --report is of a table of pictures: it needs --batch
-! retex-render: error: --report is of a table of pictures: it needs --variants
+! retex-combine: error: --dry-run needs a table of pictures: --batch
+! retex-render: error: --dry-run needs a table of pictures: --variants
+! retex-combine: error: --keep-going needs a table of pictures: --batch
+! retex-render: error: --keep-going needs a table of pictures: --variants
+! retex-combine: error: --mkdir needs a table of pictures: --batch
+! retex-render: error: --mkdir needs a table of pictures: --variants
+! retex-combine: error: --batch-root needs a table of pictures: --batch
+! retex-render: error: --batch-root needs a table of pictures: --variants
+! retex-combine: error: --report needs a table of pictures: --batch
+! retex-render: error: --report needs a table of pictures: --variants
 
 # retex-render --variants: its table is checked before the scene is read, its targets then.
 $ printf '%s\n' output,floor a/1.exr,none.jpg 2.exr,brick.jpg 2.exr '3.exr,rgb(1)' >../t; retex-render --size 8x6 --spp 1 --variants ../t none.pov; printf '%s\n' output,sofa,floor,Floor 1.exr >../t; retex-render -t floor --size 8x6 --spp 1 --variants ../t scenes/cornell-box/cornell-box.pov; sh ../new

@@ -18,7 +18,7 @@ $ make_set big.exr 1024 1280; retex-sample -q big.exr --texture 'Wall=rgb(1,.5,.
 $ rm ?.exr ?.png pipe.exr; make_set s.exr 48 32
 
 $ printf 'output,floor\nx.png,brick.jpg\n' >batch.csv; retex-combine -q s.exr --batch batch.csv --error x.exr
-! retex-combine: error: --error is of one picture: no --batch
+! retex-combine: error: --error and --batch exclude each other
 = 2
 $ retex-combine -q s.exr --error x.exr -o x.png
 ! retex-combine: error: --error needs the textures: name them with --texture

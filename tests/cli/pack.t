@@ -138,5 +138,5 @@ $ retex-pack -q s.exr -o t.exr
 ! retex-pack: error: t.exr: a pack is no OpenEXR file; its name ends in .retex
 = 2
 $ retex-pack -q --unpack s.retex -o t.retex
-! retex-pack: error: t.retex: what is unpacked is an OpenEXR file, .exr
+! retex-pack: error: t.retex: --unpack writes an OpenEXR file, .exr
 = 2

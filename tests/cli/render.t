@@ -6,7 +6,7 @@ $ for n in 1 2 7; do retex-render -q --threads $n --size 32x24 --spp 2 -t floor 
 $ rm ?.exr ?.png
 
 $ retex-render
-! retex-render: error: which scene? (try --help)
+! retex-render: error: no scene given; try --help
 = 2
 $ retex-render none.pov -o x.exr
 ! retex-render: error: none.pov: cannot read none.pov: No such file or directory
@@ -123,7 +123,7 @@ $ retex-render -q --size 8x6 --spp 1 --aov depth,irradiance --aov-dir guides bal
 > 20
 $ retex-render -q --size 8x6 --spp 1 --aov-dir nowhere/guides ball.pov -o y.png; retex-render -q --size 8x6 --aov-dir guides --list-targets ball.pov
 ! retex-render: error: --aov-dir: cannot make the folder nowhere/guides: No such file or directory
-! retex-render: error: --aov-dir goes with a render of its own: no --list-targets, --trace-pixel, --variants or --control
+! retex-render: error: --aov-dir cannot be combined with --list-targets, --trace-pixel, --variants or --control
 = 2
 
 # No scene, or nothing in it.
@@ -139,8 +139,8 @@ $ ls x.*
 
 # --control needs something new, and another seed than the set's.
 $ retex-render -q --size 8x6 --spp 2 -t ball ball.pov -o y.exr; retex-render -q --size 8x6 --spp 2 --control y.exr ball.pov -o x.exr; retex-render -q --size 8x6 --spp 2 --seed 0 --control y.exr --replace 'ball=rgb(1,0,0)' ball.pov -o x.exr; retex-render -q --size 8x6 --spp 2 --control y.exr --control-mode magic --replace 'ball=rgb(1,0,0)' ball.pov -o x.exr; retex-render -q --size 8x6 --spp 2 --control y.exr --replace 'ball=rgb(1,0,0)' ball.pov -o y.exr
-! retex-render: error: --control goes with --replace: what is new in the picture?
-! retex-render: error: --control y.exr: the set has seed 0 too: its noise must not be that of the new samples
+! retex-render: error: --control needs --replace, without --variants
+! retex-render: error: --control y.exr: the set has the same seed, 0: the new samples must have other noise
 ! retex-render: error: --control-mode knows unbiased, halves and biased, not `magic`
 ! retex-render: error: y.exr: the output would replace the set of --control
 = 2
@@ -153,7 +153,7 @@ $ retex-render -q --size 32x24 --spp 2 --replace:width=1.3333333333333333 floor=
 
 # A target whose surfaces all belong to another.
 $ retex-render -q --size 8x6 --spp 1 -t ball -t b=Ball ball.pov -o y.exr
-! retex-render: warning: target `b` has no surface: those it names belong to targets named before it
+! retex-render: warning: target `b` has no surface: its surfaces belong to targets named before it
 
 # Many pictures along the same paths: each is to the bit what --replace gives. More than sixteen take more traversals.
 $ { echo output,floor; for k in $(seq 17); do echo "v$k.exr,\"rgb(0.$k,0.5,0)\""; done; echo v18.exr,:scale=2 scenes/textures/brick.jpg; echo v19.exr,; } >rows.csv; retex-render -q --size 32x24 --spp 2 --variants rows.csv scenes/cornell-box/cornell-box.pov; retex-render -q --size 32x24 --spp 2 --replace 'floor=rgb(0.5,0.5,0)' scenes/cornell-box/cornell-box.pov -o w5.exr; retex-render -q --size 32x24 --spp 2 --replace:scale=2 floor=scenes/textures/brick.jpg scenes/cornell-box/cornell-box.pov -o w18.exr; retex-render -q --size 32x24 --spp 2 --plain scenes/cornell-box/cornell-box.pov -o w19.exr; for k in 5 18 19; do cmp v$k.exr w$k.exr; done; ls v*.exr | wc -l; rm v*.exr w*.exr
@@ -166,7 +166,7 @@ $ printf 'output,floor\nscenes/cornell-box/cornell-box.pov,\n' | retex-render -q
 ! retex-render: error: standard input:2: x.nothing: no picture format has the ending .nothing; try .png, .jpg, .tif, .exr or .hdr
 ! retex-render: error: no texture, pigment, material or object `nope` in the scene; there are: Floor, White, Red, Green
 ! retex-render: error: standard input:1: `nope` is no target, there are: floor; name it with -t
-! retex-render: error: --variants names its outputs itself: no -o
+! retex-render: error: the table of --variants names the outputs: no -o
 = 2
 
 # What denoising reads is in sets of two samples and more, but not in packs and pictures; without it the set is the same.
@@ -213,10 +213,10 @@ $ set -- --denoise --size 2000x2000 --spp 4096 ball.pov; for o in --no-denoise-d
 > 2
 > 2
 > 2
-! retex-render: error: --denoise reads what --no-denoise-data leaves out: one of them
-! retex-render: error: --denoise goes with a render of its own: no --list-targets, --trace-pixel, --variants or --control
-! retex-render: error: --denoise goes with a render of its own: no --list-targets, --trace-pixel, --variants or --control
-! retex-render: error: --denoise goes with a render of its own: no --list-targets, --trace-pixel, --variants or --control
-! retex-render: error: --denoise goes with a render of its own: no --list-targets, --trace-pixel, --variants or --control
-! retex-render: error: --denoise makes another picture than --control-data tells of: one of them
-! retex-render: error: --denoise needs two samples a pixel at least: one does not tell how noisy it is
+! retex-render: error: --denoise needs the data that --no-denoise-data omits
+! retex-render: error: --denoise cannot be combined with --list-targets, --trace-pixel, --variants or --control
+! retex-render: error: --denoise cannot be combined with --list-targets, --trace-pixel, --variants or --control
+! retex-render: error: --denoise cannot be combined with --list-targets, --trace-pixel, --variants or --control
+! retex-render: error: --denoise cannot be combined with --list-targets, --trace-pixel, --variants or --control
+! retex-render: error: --denoise and --control-data exclude each other
+! retex-render: error: --denoise needs at least two samples per pixel: one does not show the noise

@@ -38,7 +38,7 @@ $ for o in --resume ''; do for s in INT TERM; do ./stop $s $o -o i.exr 2>err; ec
 = 2
 $ set -- --plain --spp 24; ./stop INT "$@" -o i.png 2>err; sed '/^Terminated/d; s/[0-9]* of 256/N of 256/' err; ./long --plain --spp 1 -o i.png 2>&1; ./long "$@" -o ref.png; ./long "$@" --resume -o i.png; cmp i.png ref.png; ls *.partial
 > retex-render: error: ended by SIGINT; N of 256 bands are finished and in i.png.partial: the same command with --resume goes on
-> retex-render: warning: i.png.partial is left as it is: --resume would go on from it
+> retex-render: warning: i.png.partial is unchanged: --resume continues from it
 ! ls: cannot access '*.partial': No such file or directory
 = 2
 $ ./stop TERM -o - >i.exr 2>err; ls *.partial
@@ -93,7 +93,7 @@ $ sed 's/0.73/0.74/' cornell-box/cornell-box.pov >cornell-box/other.pov; cmp -s 
 $ echo text >z.exr.partial; ./render --resume -o z.exr; cat z.exr.partial; ./render -o z.exr; cmp z.exr ref.exr
 > text
 ! retex-render: error: z.exr.partial is no unfinished render
-! retex-render: warning: z.exr.partial is left as it is: --resume would go on from it
+! retex-render: warning: z.exr.partial is unchanged: --resume continues from it
 
 # What does not go together.
 $ ./render --resume
@@ -106,16 +106,16 @@ $ ./render --shard 1 -o x
 ! retex-render: error: --shard wants I/N, not `1`
 = 2
 $ ./render --merge s1 --resume -o x.exr
-! retex-render: error: --merge has all rows already: no --resume or --shard
+! retex-render: error: --merge renders no rows: no --resume or --shard
 = 2
 $ ./render --resume --layout paper -o x.exr
-! retex-render: error: --resume: layout paper is rendered in one piece
+! retex-render: error: --resume: layout paper cannot be rendered in pieces
 = 2
 $ ./render --resume --list-targets
-! retex-render: error: --resume goes with a render of its own: no --list-targets, --trace-pixel, --variants, --control or --control-data
+! retex-render: error: --resume cannot be combined with --list-targets, --trace-pixel, --variants, --control or --control-data
 = 2
 $ ./render --shard 1/2 --aov depth -o x
-! retex-render: error: --shard leaves rows only: --aov, --aov-dir and --stats go with --merge
+! retex-render: error: --shard writes rows only: give --aov, --aov-dir and --stats with --merge
 = 2
 $ ./render --shard 1/2 -o nowhere/x
 ! retex-render: error: cannot write nowhere/x: No such file or directory
