@@ -1,4 +1,4 @@
-/* See batch.h: options, and the life of a batch. */
+/* See batch.h: options of batches, and their start, rows and end. */
 #include <pthread.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -40,14 +40,14 @@ void batch_check_options(const Batch *batch, const Cli *cli, const char *option)
         cli_die(cli, "--%s needs a table of pictures: --%s", given, option);
 }
 
-/* ---- life ---- */
+/* ---- start and end ---- */
 
-/* The batch of this process, of which there is one, and what a report tells of it: a signal has one written in another
- * thread. */
+/* The only batch of this process. The lock guards the data of the report, because after a signal another thread writes
+ * the report. */
 static Batch *running;
 static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
 
-/* The report, once; under lock. */
+/* Write the report, once. The caller holds the lock. */
 static int save_report(Batch *batch, RetexError *err)
 {
     const int due = batch->report_due && (batch->inputs_known || batch_report_is_free(batch->report));
@@ -55,7 +55,7 @@ static int save_report(Batch *batch, RetexError *err)
     return due ? batch_report_write(batch, err) : RETEX_OK;
 }
 
-/* Where there is an error of the report alone, it is the last that is told. */
+/* Write the report, and print an error if that fails. */
 static int write_report(Batch *batch)
 {
     RetexError err = {0}, told = {0};
@@ -69,7 +69,7 @@ static int write_report(Batch *batch)
     return CLI_FAIL;
 }
 
-/* A mistake elsewhere ended the program, which has been told. */
+/* Called at exit: an error that has been printed ended the program before the batch began. */
 static void write_last_report(void)
 {
     if (!running || !running->report_due)
@@ -79,7 +79,8 @@ static void write_last_report(void)
     write_report(running);
 }
 
-/* A signal or a limit ends it. A lock that cannot be had in half a second is held by who waits for a disk. */
+/* Called when a signal or a limit ends the tool. If the lock is not free within half a second, a thread holds it that
+ * waits for a disk; the report is then not written. */
 static void write_report_at_end(const char *why)
 {
     const struct timespec until = retex_clock_time_after(0.5);
@@ -164,11 +165,11 @@ int batch_output(const Batch *batch, int row, char path[PATH_MAX], RetexError *e
     if (batch->make_folders)
         code = output_make_folders(real, err);
     if (!code)
-        code = output_resolve(path, &missing, real, output, err); /* what it leads to now */
+        code = output_resolve(path, &missing, real, output, err); /* again: it may lead elsewhere now */
     return code ? code : batch_check_root(batch, path, output, err);
 }
 
-/* Keep what became of a row. */
+/* Record the result of a row. */
 static void note_row(Batch *batch, BatchRow *row, double seconds, const char *error)
 {
     pthread_mutex_lock(&lock);

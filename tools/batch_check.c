@@ -1,5 +1,5 @@
-/* A table is checked whole before the first picture: its images, each once, then its outputs. That costs some system
- * calls a row. See batch.h. */
+/* Checks of a whole table before the first picture: first the images, each once, then the outputs. This takes a few
+ * system calls per row. See batch.h. */
 #include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -13,9 +13,9 @@
 #include "output_folder.h"
 #include "texture_args.h"
 
-enum { COLORSPACES_MAX = 32 }; /* that are tried; a wrong one beyond them is found when its picture is made */
+enum { COLORSPACES_MAX = 32 }; /* colour spaces that are checked; further ones are checked when their picture is made */
 
-/* What is wrong with a row. */
+/* Add a mistake in a row. */
 static void note(TextureTable *table, int row, const RetexError *err)
 {
     char message[sizeof err->file + sizeof err->message + 32];
@@ -37,7 +37,7 @@ static int compare_images(const void *a, const void *b)
     return order ? order : x->row != y->row ? x->row - y->row : x->column - y->column;
 }
 
-/* All that the table names, by name, and then as they come. */
+/* All images of the table, sorted by name, then by row and column. */
 static Image *list_images(const Batch *batch, size_t *count)
 {
     const TextureTable *table = &batch->table;
@@ -56,13 +56,13 @@ static Image *list_images(const Batch *batch, size_t *count)
     return images;
 }
 
-/* Colour spaces that images were read with. */
+/* Colour spaces that have been checked. */
 typedef struct Colorspaces {
     char names[COLORSPACES_MAX][sizeof((RetexTextureSpec *)0)->colorspace];
     int count;
 } Colorspaces;
 
-/* A colour space that no image before had is tried on this one, which is read for it. */
+/* Check the image's colour space by loading the image, unless an earlier image had the same. */
 static int check_colorspace(Colorspaces *known, RetexTextureSpec spec, int nthreads, RetexError *err)
 {
     RetexTexture *texture = NULL;
@@ -72,8 +72,8 @@ static int check_colorspace(Colorspaces *known, RetexTextureSpec spec, int nthre
         if (strcmp(known->names[i], spec.colorspace) == 0)
             return RETEX_OK;
     strcpy(known->names[known->count++], spec.colorspace);
-    spec.width[0] = spec.width[1] = 0; /* what they are measured by is not known here */
-    spec.warn = NULL;                  /* it is loaded again for its picture */
+    spec.width[0] = spec.width[1] = 0; /* the size of the target is not known here */
+    spec.warn = NULL;                  /* warnings come when it is loaded for its picture */
     int code = retex_texture_load(&texture, &spec, nthreads, err);
     retex_texture_close(&texture);
     return code;
@@ -86,7 +86,7 @@ static void check_images(Batch *batch)
     Image *images = list_images(batch, &count);
     Colorspaces known = {.count = 0};
     RetexTextureSpec spec;
-    const char *read = NULL; /* the image before, if it can be */
+    const char *read = NULL; /* the previous image if it is readable */
     const RetexReadParams read_params = {
         .size = sizeof read_params, .access = table->access, .budget = table->cli->budget, .pixel_bytes = 16};
     for (size_t i = 0; i < count; i++) {
@@ -125,7 +125,7 @@ int batch_check_root(const Batch *batch, const char *real, const char *output, R
     return RETEX_OK;
 }
 
-/* The folders of a path that are missing can be made. */
+/* Check that the missing folders of a path can be created. */
 static int check_folder(const Batch *batch, const char *real, int missing, const char *output, RetexError *err)
 {
     char folder[PATH_MAX];
@@ -172,9 +172,9 @@ static void check_rows(Batch *batch, const RetexWriteParams *params)
     }
 }
 
-/* ---- all of it ---- */
+/* ---- the whole table ---- */
 
-/* The folder that pictures must be below; --mkdir makes that one too. */
+/* Resolve --batch-root; --mkdir also creates it. */
 static void find_root(Batch *batch)
 {
     RetexError err = {0};
@@ -199,7 +199,8 @@ void batch_check(Batch *batch, const RetexWriteParams *params)
     check_rows(batch, params);
     if (batch->dry_run)
         cli_writes(batch->cli, "--dry-run", "-");
-    cli_writes(batch->cli, "--report", batch->report); /* last: where it is one of the files above there is none */
+    cli_writes(batch->cli, "--report",
+               batch->report); /* last, so that a report that is one of the files above is refused */
     if (batch->report && retex_set_write_check(batch->report, &err))
         cli_die(batch->cli, "--report: %s", err.message);
     batch->report_due = batch->report != NULL;

@@ -1,4 +1,4 @@
-/* What became of a batch, for programs: lines of JSON while it runs, and the report. See batch.h. */
+/* Results of a batch for programs: lines of JSON while it runs, and the report. See batch.h. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -18,7 +18,7 @@ static const char *status_name(const Batch *batch, const BatchRow *row)
                                          : "not made";
 }
 
-/* The keys that tell of one row, without braces. */
+/* The keys of one row, without braces. */
 static void print_row(FILE *file, const Batch *batch, int row)
 {
     const BatchRow *r = &batch->rows[row];
@@ -31,7 +31,7 @@ static void print_row(FILE *file, const Batch *batch, int row)
     }
 }
 
-/* Print what was collected as one piece, so that lines of other programs do not come between. */
+/* Print the collected line with one write, so that output of other programs does not split it. */
 static void print_line(FILE *file, char **text)
 {
     if (fclose(file) == 0)
@@ -52,7 +52,7 @@ void batch_report_row(const Batch *batch, int row)
     print_line(file, &text);
 }
 
-/* The keys that tell of the whole batch. */
+/* The keys of the whole batch. */
 static void print_totals(FILE *file, const Batch *batch)
 {
     fprintf(file, "\"total\": %d, \"made\": %d, \"failed\": %d, \"seconds\": %.4f", batch->table.nrows, batch->made,
@@ -134,7 +134,7 @@ static void print_report(FILE *file, const Batch *batch)
     for (int row = 0; row < table->nrows; row++) {
         fprintf(file, "%s\n    {", row ? "," : "");
         print_row(file, batch, row);
-        if (!table->nmistakes) /* else targets may be wrong */
+        if (!table->nmistakes) /* with mistakes, target names may be wrong */
             print_textures(file, batch, row);
         fprintf(file, "}");
     }

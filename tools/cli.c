@@ -1,4 +1,4 @@
-/* The command line all tools share: see cli.h. Options first (walk, lookup, --help), then values, messages, output. */
+/* The command line of all tools, see cli.h: options (parsing, lookup, --help), then values, messages, output. */
 #include "cli.h"
 #include "watchdog.h"
 
@@ -37,15 +37,15 @@ static const CliOption common_options[] = {
     {0},
 };
 
-/* The common options of this tool: the first one is -o. */
+/* The common options of this tool; without -o if it has no output file. */
 static const CliOption *common_of(const Cli *cli)
 {
     return common_options + (cli->no_output != 0);
 }
 
-/* Before the first option: the standard descriptors are open, so that no file of ours becomes one of them (a closed one
- * is opened the wrong way round, so that using it still fails); a closed pipe and a file that grows beyond its limit
- * are errors like a full disk; and the signals that end a tool are the watchdog's. */
+/* Called before the first option is parsed. Open closed standard descriptors, so that no other file gets their numbers;
+ * they are opened in the wrong direction, so that using them still fails. Ignore SIGPIPE and SIGXFSZ: a closed pipe or
+ * a file size limit is then a write error like a full disk. The watchdog takes over the terminating signals. */
 static void prepare_process(const Cli *cli)
 {
     static int prepared;
@@ -64,7 +64,7 @@ static void prepare_process(const Cli *cli)
 
 enum { HELP_COLUMN = 30, HELP_WIDTH = 79 };
 
-/* Print text, broken between words, from column `indent` on; `column` is where the cursor is. */
+/* Print text wrapped between words, from column `indent` on. `column` is the cursor's current column. */
 static void print_wrapped(const char *text, int column, int indent)
 {
     if (column > indent - 2 && indent > 0) {
@@ -121,9 +121,9 @@ static _Noreturn void print_version(const Cli *cli)
     exit(cli_close(cli, CLI_OK));
 }
 
-/* --- walking argv --- */
+/* --- parsing argv --- */
 
-/* The option of that name (length bytes) or, with name NULL, of that letter; the tool's own come first. */
+/* Find an option by name (length bytes) or, if name is NULL, by letter. The tool's own options come first. */
 static const CliOption *find_option(const Cli *cli, const char *name, size_t length, char letter)
 {
     const CliOption *tables[] = {cli->options, common_of(cli)};
@@ -147,7 +147,7 @@ static const CliOption *nearest_option(const Cli *cli, const char *name)
     return nearest.best ? find_option(cli, nearest.best, strlen(nearest.best), 0) : NULL;
 }
 
-/* text is what stands behind the dashes. Long names may have been written with one dash, letters in the other case. */
+/* text follows the dashes. The suggestion covers long names with one dash and letters in the other case. */
 static _Noreturn void unknown_option(const Cli *cli, const char *dashes, const char *text, int length)
 {
     char name[RETEX_NEAREST_MAX + 1];
@@ -165,7 +165,7 @@ static _Noreturn void unknown_option(const Cli *cli, const char *dashes, const c
     cli_die(cli, "unknown option %s%.*s; try --help", dashes, length, text);
 }
 
-/* An option where another one's argument should be: that was forgotten. ./--name is a file. */
+/* Fail if an option stands in place of another option's argument. A file of that name can be given as ./--name. */
 static void check_value(const Cli *cli, const CliOption *option)
 {
     const char *name = cli->value + 2;
@@ -173,7 +173,7 @@ static void check_value(const Cli *cli, const CliOption *option)
         cli_die(cli, "--%s needs an argument, %s, before %s", option->name, option->argument, cli->value);
 }
 
-/* The option's argument: `attached` if there is one, else the next word. */
+/* Set cli->value to the option's argument: `attached` if not NULL, else the next word. */
 static void take_value(Cli *cli, const CliOption *option, const char *attached)
 {
     cli->value = NULL;
@@ -208,7 +208,7 @@ static const CliOption *long_option(Cli *cli, const char *text)
     return option;
 }
 
-/* The first letter of cli->group; what follows is its argument, or more letters. */
+/* Parse the first letter of cli->group. Its argument or more letters follow it. */
 static const CliOption *short_option(Cli *cli)
 {
     char letter = *cli->group++;
@@ -222,7 +222,7 @@ static const CliOption *short_option(Cli *cli)
     return option;
 }
 
-/* 1 if the option is one that every tool has, which is then dealt with. */
+/* Handle an option that every tool has. Return 0 if it is not one of these. */
 static int common_option(Cli *cli, const CliOption *option)
 {
     if (option < common_options || option >= common_options + sizeof common_options / sizeof *common_options)
@@ -318,9 +318,9 @@ double cli_number(const Cli *cli, const CliOption *option, double low, double hi
     return value;
 }
 
-/* --- what may have been forgotten --- */
+/* --- missing options --- */
 
-/* Whether -o was given, or still will be. */
+/* Whether -o was given or follows in argv. */
 static int has_output(const Cli *cli)
 {
     for (int i = cli->next; i < cli->argc; i++)
@@ -378,8 +378,8 @@ char *cli_plain(char *text)
     return text;
 }
 
-/* One line to stderr. What users' files are called and hold appears in messages: control characters would let them
- * write over the terminal. */
+/* Print one line to stderr. Messages contain names and text from users' files, so control characters are replaced: a
+ * terminal would obey them. */
 static void message(const Cli *cli, const char *kind, const char *text)
 {
     watchdog_go_on();
@@ -472,7 +472,7 @@ void cli_fail(const Cli *cli, const RetexError *err)
 
 /* --- output --- */
 
-/* /dev/tty, or /dev/stdout where that is a terminal. */
+/* Whether path is a terminal: /dev/tty, or /dev/stdout if that is one. */
 static int names_terminal(const char *path)
 {
     struct stat info;
@@ -556,7 +556,7 @@ static const char *duration(double seconds, char text[32])
     return text;
 }
 
-/* The same for a log: now and then a line. */
+/* One line of progress, for log files. */
 static void progress_line(const char *label, double done, double elapsed)
 {
     char so_far[32], left[32];
@@ -599,7 +599,7 @@ void cli_progress(const Cli *cli, const char *label, double done)
     done = fmin(fmax(done, 0), 1);
     double elapsed = now - started;
     if (done >= 1)
-        started = -1; /* what comes next is another one */
+        started = -1; /* the next call starts a new bar */
     if (now - drawn < (terminal ? 0.1 : json ? 1 : 30) && !(done >= 1 && (terminal || json)))
         return;
     drawn = now;

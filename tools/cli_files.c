@@ -1,4 +1,5 @@
-/* The files of a command, and whether one that it writes is one that it reads, or another that it writes: see cli.h. */
+/* The list of a tool's input and output files, which finds an output that is also an input or another output: see
+ * cli.h. */
 #include "cli.h"
 
 #include <limits.h>
@@ -11,11 +12,11 @@
 
 #include <retex/retex.h>
 
-/* What a path leads to. A file that is not there yet is known by the folder where it would be. */
+/* The identity of a file. A missing file is identified by the deepest existing folder of its path and the rest. */
 typedef struct Place {
     dev_t device;
     ino_t inode;
-    char name[PATH_MAX]; /* below that folder; "" of a file that is there */
+    char name[PATH_MAX]; /* path below that folder; "" for an existing file */
 } Place;
 
 typedef struct File {
@@ -26,14 +27,14 @@ typedef struct File {
 } File;
 
 static struct {
-    File *slots; /* a hash table with open addressing; free where path is NULL */
+    File *slots; /* a hash table with open addressing; a slot with path NULL is free */
     size_t count, size;
-    char *standard[2]; /* what standard input and output are, once they are something */
+    char *standard[2]; /* the uses of standard input and output, NULL = unused */
 } files;
 
 enum { LINKS_MAX = 40 };
 
-/* Where a link that leads to nothing leads. */
+/* Replace a dangling link by its target, repeatedly. */
 static void follow_links(char path[PATH_MAX])
 {
     char target[PATH_MAX], joined[2 * PATH_MAX];
@@ -64,7 +65,7 @@ static void append_components(char name[PATH_MAX], const char *text)
     }
 }
 
-/* The deepest folder of path that is there, and what is below it. */
+/* Find the deepest existing folder of a path, and the missing rest. */
 static int find_missing(Place *place, const char *text)
 {
     char path[PATH_MAX];
@@ -89,7 +90,7 @@ static int find_missing(Place *place, const char *text)
     }
 }
 
-/* Standard input or output, whichever way it is written. */
+/* Whether path is standard input or output under any of its names. */
 static int is_standard(const char *path, int written)
 {
     static const char *const names[2][3] = {{"/dev/stdin", "/dev/fd/0", "/proc/self/fd/0"},
@@ -100,7 +101,7 @@ static int is_standard(const char *path, int written)
     return strcmp(path, "-") == 0;
 }
 
-/* 0: a device, a pipe, a folder, or no path that could be opened: nothing that can be overwritten. */
+/* Return 0 if nothing can be overwritten: path is a device, a pipe, a folder, or cannot be opened. */
 static int find_place(Place *place, const char *path, int written)
 {
     struct stat info;
@@ -123,7 +124,7 @@ static uint64_t hash_place(const Place *place)
     return hash ^ hash >> 32;
 }
 
-/* The slot of that place, or the free one where it would be. */
+/* The slot of that place, or the free slot for it. */
 static File *find_slot(const Place *place)
 {
     for (size_t k = hash_place(place) & (files.size - 1);; k = (k + 1) & (files.size - 1)) {
@@ -159,7 +160,7 @@ static int out_of_memory(RetexError *err)
     return retex_fail(err, RETEX_ENOMEM, "not enough memory for the list of files");
 }
 
-/* Standard input and output are there once, whatever they are. */
+/* Standard input and output can be used only once each, whatever they are connected to. */
 static int add_standard(const char *what, int written, RetexError *err)
 {
     char **user = &files.standard[written];
@@ -208,7 +209,7 @@ int cli_add_input(const char *what, const char *path, RetexError *err)
 
 int cli_add_output(const char *what, const char *path, RetexError *err)
 {
-    int code = add_file("the OpenColorIO configuration", getenv("OCIO"), 0, err); /* of any picture */
+    int code = add_file("the OpenColorIO configuration", getenv("OCIO"), 0, err); /* an input of every picture */
     return code ? code : add_file(what, path, 1, err);
 }
 

@@ -1,7 +1,7 @@
 /* See json_text.h. */
 #include "json_text.h"
 
-/* Bytes of the UTF-8 character that text begins with, or 0: as RFC 3629 has them, neither too long nor surrogates. */
+/* Length of the UTF-8 character at the start of text; 0 if it is invalid by RFC 3629 (overlong, a surrogate …). */
 static int utf8_length(const unsigned char *text)
 {
     const unsigned first = text[0];

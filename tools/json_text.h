@@ -1,10 +1,10 @@
-/* Text of any bytes as a string of JSON. */
+/* Strings of JSON from arbitrary bytes. */
 #ifndef RETEX_JSON_TEXT_H
 #define RETEX_JSON_TEXT_H
 
 #include <stdio.h>
 
-/* With its quotes. Bytes that are not UTF-8, for which JSON has no place, become U+FFFD each. */
+/* Print text as a JSON string, with quotes. Each byte that is not valid UTF-8 becomes U+FFFD. */
 void json_text(FILE *file, const char *text);
 
 #endif

@@ -11,7 +11,7 @@ static int fail_system(const char *path, int code, RetexError *err)
     return retex_fail(err, RETEX_EIO, "cannot write %s: %s", path, strerror(code));
 }
 
-/* Cut the last component off a path, and the slashes before it. Returns it; the rest is "." where nothing is left. */
+/* Remove the last component of a path and the slashes before it, and return it. An empty rest becomes ".". */
 static const char *cut_component(char path[PATH_MAX], char component[PATH_MAX])
 {
     size_t end = strlen(path);
@@ -26,7 +26,7 @@ static const char *cut_component(char path[PATH_MAX], char component[PATH_MAX])
     return component;
 }
 
-/* Put a component before what is below the folder that is there. */
+/* Put a component in front of rest. */
 static int prepend(char rest[PATH_MAX], const char *component)
 {
     size_t length = strlen(component), used = strlen(rest);
@@ -38,7 +38,7 @@ static int prepend(char rest[PATH_MAX], const char *component)
     return 1;
 }
 
-/* folder, whose end is not there, becomes its deepest folder that is, resolved; rest gets what is below. */
+/* Replace folder by its deepest existing part, resolved. The missing components are put in front of rest. */
 static int resolve_folder(char folder[PATH_MAX], char rest[PATH_MAX], int *missing, const char *shown, RetexError *err)
 {
     char real[PATH_MAX], component[PATH_MAX];
@@ -81,7 +81,7 @@ int output_resolve(char real[PATH_MAX], int *missing, const char *path, const ch
     if (path[length - 1] == '/' || strcmp(name, ".") == 0 || strcmp(name, "..") == 0)
         return fail_system(shown, EISDIR, err);
     strcpy(rest, "/");
-    strcat(rest, name); /* shorter than path */
+    strcat(rest, name); /* fits: shorter than path */
     int code = resolve_folder(folder, rest, missing, shown, err);
     if (code)
         return code;

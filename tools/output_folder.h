@@ -1,4 +1,4 @@
-/* The folders that outputs go to, which need not be there yet. */
+/* Paths of output files whose folders may not exist yet. */
 #ifndef RETEX_OUTPUT_FOLDER_H
 #define RETEX_OUTPUT_FOLDER_H
 
@@ -6,13 +6,12 @@
 
 #include <retex/error.h>
 
-/* What path leads to, absolute and without links, as far as it is there; *missing: how many of its folders are not.
- * A link in the place of the file that leads to nothing is what a file put there replaces. shown: its name in
- * messages. */
+/* Resolve path: absolute, with links resolved as far as the path exists. *missing: number of its folders that do not
+ * exist. A dangling link in place of the file is accepted; the output replaces it. shown: the name in messages. */
 int output_resolve(char real[PATH_MAX], int *missing, const char *path, const char *shown, RetexError *err);
-/* Whether a resolved path is in a resolved folder, or below it. */
+/* Whether a resolved path is a resolved folder or below it. */
 int output_is_below(const char *real, const char *folder);
-/* Make the folders of path that are missing. */
+/* Create the missing folders of path. */
 int output_make_folders(const char *path, RetexError *err);
 
 #endif

@@ -1,4 +1,4 @@
-/* What retex-sample and retex-combine share: --texture on the command line, reading the set, and the closing line. */
+/* --texture of retex-sample and retex-combine: parsing, the files that it reads, and its description in messages. */
 #ifndef RETEX_TEXTURE_ARGS_H
 #define RETEX_TEXTURE_ARGS_H
 
@@ -14,7 +14,7 @@ typedef struct TextureArgs {
     int count;
 } TextureArgs;
 
-/* The option --texture just seen. */
+/* Parse --texture, the option that cli_next returned. */
 static inline void texture_args_add(const Cli *cli, TextureArgs *args)
 {
     RetexError err = {0};
@@ -29,7 +29,8 @@ static inline void texture_args_add(const Cli *cli, TextureArgs *args)
     args->count++;
 }
 
-/* The file of a texture, if it has one; of a pack or scene with a query, `room.retex?Floor=oak.jpg`, that file too. */
+/* Announce the file of a texture, if it has one. For a name with options, `room.retex?Floor=oak.jpg`, also announce the
+ * file before the `?`. */
 static inline int texture_args_add_input(const RetexTextureSpec *spec, RetexError *err)
 {
     char file[sizeof spec->image];
@@ -52,7 +53,7 @@ static inline void texture_args_reads(const Cli *cli, const RetexTextureSpec *sp
             cli_fail(cli, &err);
 }
 
-/* What a texture is, for people to read: its file's name, or its colour. */
+/* A texture in readable form: its file name or its colour. */
 static inline void texture_args_name(const RetexTextureSpec *spec, char *text, size_t size)
 {
     if (spec->constant)

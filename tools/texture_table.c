@@ -21,7 +21,7 @@ void texture_table_mistake(TextureTable *table, int line, const char *fmt, ...)
     table->nmistakes++;
 }
 
-/* By line; those of one line stay as they were found. */
+/* Sort by line; mistakes of one line stay in the order in which they were found. */
 static void sort_mistakes(TableMistake *mistakes, int count)
 {
     for (int i = 1; i < count; i++) {
@@ -41,7 +41,7 @@ void texture_table_tell(TextureTable *table, const Cli *cli)
     for (int i = 0; i < told; i++) {
         const TableMistake *mistake = &table->mistakes[i];
         retex_fail_at(&err, RETEX_EPARSE, table->name, mistake->line, 0, "%s",
-                      mistake->message ? mistake->message : "wrong"); /* where memory is short */
+                      mistake->message ? mistake->message : "wrong"); /* no memory for the message */
         cli_error(cli, &err);
     }
     if (told < table->nmistakes) {
@@ -57,17 +57,17 @@ static char *read_text(const Cli *cli, const char *path)
     cli_input(cli, path, "a table");
     FILE *file = strcmp(path, "-") == 0 ? stdin : fopen(path, "rb");
     char *text = NULL;
-    size_t used = 0, room = 0, got = 1;
+    size_t used = 0, capacity = 0, got = 1;
     while (file && got > 0) {
         if (used > TABLE_BYTES_MAX)
             cli_die(cli, "%s: more than the %d MB that a table may have", path, TABLE_BYTES_MAX >> 20);
-        if (used + 1 >= room) {
-            char *more = realloc(text, room = room ? 2 * room : 65536);
+        if (used + 1 >= capacity) {
+            char *more = realloc(text, capacity = capacity ? 2 * capacity : 65536);
             if (!more)
                 cli_die(cli, "not enough memory for %s", path);
             text = more;
         }
-        got = fread(text + used, 1, room - used - 1, file);
+        got = fread(text + used, 1, capacity - used - 1, file);
         used += got;
     }
     if (!file || ferror(file))
@@ -80,29 +80,29 @@ static char *read_text(const Cli *cli, const char *path)
     return text;
 }
 
-/* Where the text is being taken apart. */
+/* The state of the parser. */
 typedef struct Reader {
     const Cli *cli;
     TextureTable *table;
     char *at;
-    int line;          /* of `at` */
-    const char *fault; /* of the row that is being read, or NULL */
-    size_t rows_room, cells_room;
+    int line;          /* line number of `at` */
+    const char *fault; /* an error in the current row, or NULL */
+    size_t rows_capacity, cells_capacity;
 } Reader;
 
-/* Room for one more element. */
-static void *grow(const Cli *cli, void *array, size_t used, size_t *room, size_t size)
+/* Grow an array for one more element. */
+static void *grow(const Cli *cli, void *array, size_t used, size_t *capacity, size_t size)
 {
-    if (used < *room)
+    if (used < *capacity)
         return array;
-    *room = *room ? 2 * *room : 256;
-    array = realloc(array, *room * size);
+    *capacity = *capacity ? 2 * *capacity : 256;
+    array = realloc(array, *capacity * size);
     if (!array)
         cli_die(cli, "not enough memory for the table");
     return array;
 }
 
-/* Take one cell off the text, in place; quoted ones may hold commas, line ends and doubled quotes. */
+/* Parse one cell in place. Quoted cells may hold commas, line ends and doubled quotes. */
 static char *next_cell(Reader *reader)
 {
     char *cell = reader->at, *out = cell;
@@ -124,11 +124,11 @@ static char *next_cell(Reader *reader)
         reader->fault = "something follows a closing quote";
         reader->at += strcspn(reader->at, "\r\n");
     }
-    *out = '\0'; /* before `at`: the opening quote is gone */
+    *out = '\0'; /* before `at`, because the opening quote is removed */
     return cell;
 }
 
-/* The next record that is not an empty line; 0 at the end. One with a fault is read to its end. */
+/* Read the next record that is not empty; return 0 at the end. A record with an error is read to its end. */
 static int next_row(Reader *reader, TableRow *row)
 {
     TextureTable *table = reader->table;
@@ -143,7 +143,8 @@ static int next_row(Reader *reader, TableRow *row)
         if (row->ncells == 1 + RETEX_MAX_TARGETS) {
             reader->fault = reader->fault ? reader->fault : "too many cells";
         } else {
-            table->cells = grow(reader->cli, table->cells, table->ncells, &reader->cells_room, sizeof *table->cells);
+            table->cells =
+                grow(reader->cli, table->cells, table->ncells, &reader->cells_capacity, sizeof *table->cells);
             table->cells[table->ncells++] = cell;
             row->ncells++;
         }
@@ -158,7 +159,7 @@ static int next_row(Reader *reader, TableRow *row)
     }
 }
 
-/* Where the image of a cell begins, behind its options; NULL where it has options alone. */
+/* The image of a cell, after its options; NULL if it has only options. */
 static char *find_image(char *cell)
 {
     if (*cell != ':')
@@ -167,7 +168,7 @@ static char *find_image(char *cell)
     return space ? space + strspn(space, " ") : NULL;
 }
 
-/* A cell: IMAGE, rgb(r,g,b), or `:opts IMAGE`. */
+/* Parse a cell: IMAGE, rgb(r,g,b), or `:opts IMAGE`. */
 static int parse_cell(RetexTextureSpec *spec, const char *target, char *cell, RetexError *err)
 {
     const char *image = find_image(cell);
@@ -185,7 +186,7 @@ static int parse_cell(RetexTextureSpec *spec, const char *target, char *cell, Re
     return retex_texture_spec_parse(spec, opts, argument, err);
 }
 
-/* Notes all that is wrong with a row; 1 where it is a picture. */
+/* Add all mistakes of a row; return 1 if it is a valid picture. */
 static int check_row(TextureTable *table, const TableRow *row)
 {
     RetexError err = {0};
@@ -205,7 +206,7 @@ static int check_row(TextureTable *table, const TableRow *row)
     return table->nmistakes == before;
 }
 
-/* The first row; 0 where there is none that names columns. */
+/* Parse the first row; return 0 if it does not name columns. */
 static int read_columns(Reader *reader)
 {
     TextureTable *table = reader->table;
@@ -235,7 +236,7 @@ static void read_rows(Reader *reader)
             table->ncells = row.first;
             continue;
         }
-        table->rows = grow(reader->cli, table->rows, (size_t)table->nrows, &reader->rows_room, sizeof *table->rows);
+        table->rows = grow(reader->cli, table->rows, (size_t)table->nrows, &reader->rows_capacity, sizeof *table->rows);
         table->rows[table->nrows++] = row;
     }
 }
@@ -262,7 +263,7 @@ int texture_table_texture(const TextureTable *table, int row, int column, RetexT
     if (!cell || !*cell)
         return RETEX_ENOTFOUND;
     *image = find_image(cell);
-    int code = parse_cell(spec, table->columns[column], cell, NULL); /* which was right before */
+    int code = parse_cell(spec, table->columns[column], cell, NULL); /* cannot fail: checked when the table was read */
     spec->access = table->access;
     spec->budget = table->cli->budget;
     spec->warn = cli_warn_text;

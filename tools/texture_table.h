@@ -1,6 +1,6 @@
-/* A table of pictures to make: comma-separated values as RFC 4180 has them. The first row names the columns: output,
- * then targets; each row that follows is a picture: its file, then for each target IMAGE, rgb(r,g,b), `:opts IMAGE`, or
- * nothing. It is read whole; mistakes are collected, so that all of them can be told at once. */
+/* A table of pictures: comma-separated values (RFC 4180). The first row names the columns: output, then targets. Each
+ * further row is a picture: its file, then for each target IMAGE, rgb(r,g,b), `:opts IMAGE`, or nothing. The whole
+ * table is read at once. Mistakes are collected, so that all of them can be reported together. */
 #ifndef RETEX_TEXTURE_TABLE_H
 #define RETEX_TEXTURE_TABLE_H
 
@@ -9,52 +9,52 @@
 
 #include "cli.h"
 
-/* Bytes of a table, and how many mistakes of it are told; the others are counted. */
+/* Maximum bytes of a table, and maximum number of mistakes that are printed; the others are only counted. */
 enum { TABLE_BYTES_MAX = 64 << 20, TABLE_MISTAKES_MAX = 20 };
 
-/* A row that is a picture. */
+/* One picture. */
 typedef struct TableRow {
-    int line;     /* where it begins, from 1 */
-    int ncells;   /* 1 for the output, and those that follow; those at the end may be missing */
-    size_t first; /* of them, in the table's cells */
+    int line;     /* line in the file where the row begins, from 1 */
+    int ncells;   /* the output and the textures; textures at the end may be missing */
+    size_t first; /* index of the row's first cell in the table's cells */
 } TableRow;
 
 typedef struct TableMistake {
-    int line; /* 0: none */
+    int line; /* 0 = no line */
     char *message;
 } TableMistake;
 
 typedef struct TextureTable {
     const char *name;          /* for messages */
-    const RetexAccess *access; /* which images may be read */
-    const Cli *cli;            /* who is told what is odd about textures */
+    const RetexAccess *access; /* rules for reading images */
+    const Cli *cli;            /* prints warnings about textures */
     char *text;
     char **cells;
     TableRow *rows;
     size_t ncells;
     int nrows;
-    int ncolumns;                           /* of targets */
-    const char *columns[RETEX_MAX_TARGETS]; /* as they are written; the caller may put others there */
+    int ncolumns;                           /* number of columns with targets */
+    const char *columns[RETEX_MAX_TARGETS]; /* names as in the file; the caller may replace them */
     TableMistake mistakes[TABLE_MISTAKES_MAX];
-    int nmistakes; /* all of them */
+    int nmistakes; /* number of all mistakes */
 } TextureTable;
 
-/* Read the file, or standard input where path is "-". What cannot be read at all ends the program, what is wrong in it
- * becomes a mistake, and the row is left out. */
+/* Read the file, or standard input if path is "-". Exit if it cannot be read. An error in a row becomes a mistake, and
+ * the row is skipped. */
 void texture_table_open(TextureTable *table, const Cli *cli, const char *path);
 void texture_table_close(TextureTable *table);
 
-/* A row's picture, as it is written. */
+/* The output of a row, as in the file. */
 const char *texture_table_output(const TextureTable *table, int row);
-/* What a row puts on a column's target; RETEX_ENOTFOUND where that is nothing. *image, its name, stays until the table
- * is closed. */
+/* The texture of a row for a column's target; RETEX_ENOTFOUND if the cell is empty. *image, its name, is valid until
+ * the table is closed. */
 int texture_table_texture(const TextureTable *table, int row, int column, RetexTextureSpec *spec, const char **image);
-/* All of a row's; returns how many. */
+/* All textures of a row; returns their number. */
 int texture_table_textures(const TextureTable *table, int row, RetexTextureSpec specs[RETEX_MAX_TARGETS]);
 
-/* Note a mistake. */
+/* Add a mistake. */
 void texture_table_mistake(TextureTable *table, int line, const char *fmt, ...) RETEX_PRINTF(3, 4);
-/* Print the mistakes, each a line, in the order of the table. */
+/* Print the mistakes in the order of the table, one line each. */
 void texture_table_tell(TextureTable *table, const Cli *cli);
 
 #endif

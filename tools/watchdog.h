@@ -1,38 +1,40 @@
-/* What ends a tool before its work is done: SIGINT, SIGTERM, SIGHUP and limits. One thread waits for them, so that they
- * are answered at once whatever the others do, and whatever library they do it in. It removes unfinished files, says
- * one line, and raises the signal again; a limit ends the tool with exit status 2. */
+/* The watchdog ends a tool early: after SIGINT, SIGTERM or SIGHUP, or when a limit is reached. A thread of its own
+ * waits for these, so that it can respond at once while other threads are busy, in any library. It removes unfinished
+ * files, prints one line, and raises the signal again. A limit ends the tool with exit status 2. */
 #ifndef RETEX_WATCHDOG_H
 #define RETEX_WATCHDOG_H
 
 #include <retex/budget.h>
 
-/* First of all, before there are other threads: from here on signals wait for the watchdog. Those that are ignored, as
- * under nohup, stay so. */
+/* Call first, before other threads start: blocks the signals, so that only the watchdog receives them. Signals that are
+ * ignored, for instance under nohup, stay ignored. */
 void watchdog_prepare(const char *tool);
 void watchdog_start(void);
 
-/* For the params of long work: stopped when the tool is to end. */
+/* The budget for the params of long operations. The watchdog stops it when the tool has to end. */
 RetexBudget *watchdog_budget(void);
 
-/* While on, work that is stopped is waited for, because it has something to keep: a little until it says so by
- * retex_budget_hold, then as long as it takes. It comes back through watchdog_fail. A second signal ends the tool. */
+/* While on, the watchdog waits for stopped work, which may save its results: for a short time until the work calls
+ * retex_budget_hold, then as long as it takes. The work returns through watchdog_fail. A second signal ends the tool at
+ * once. */
 void watchdog_let_keep(int on);
 
-/* The tool fails, and is about to say why: does not return where that is because it was stopped. */
+/* Call before an error message. Does not return if the error is a consequence of the watchdog's stop. */
 void watchdog_fail(const char *why);
-/* The tool is done. */
+/* Call when the tool is done. */
 void watchdog_done(void);
-/* The tool goes on: does not return where the watchdog is ending it, so that its word is the last. */
+/* Call before any other message. Does not return if the watchdog is ending the tool, whose message is the last one. */
 void watchdog_go_on(void);
 
-/* Whether the cursor stands behind a progress bar, so that a message begins on a new line. */
+/* Tell whether the cursor is at the end of a progress bar; a message then begins on a new line. */
 void watchdog_note_bar(int open);
 
-/* A file to be removed too should the tool be ended: what belongs to an output that is not there yet. NULL = none. */
+/* Set another file to remove when the tool is ended early, which belongs to an unfinished output. NULL = none. */
 void watchdog_remove(const char *path);
 
-/* What is to be done before the tool is ended: in any thread, while the others run. why: "ended by SIGTERM". */
+/* A callback before the tool is ended early. It runs in any thread, while other threads run. why: "ended by
+ * SIGTERM". */
 typedef void WatchdogLast(const char *why);
-void watchdog_at_end(WatchdogLast *last /* NULL = nothing */);
+void watchdog_at_end(WatchdogLast *last /* NULL = none */);
 
 #endif
