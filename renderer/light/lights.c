@@ -6,6 +6,7 @@
 #include "light/lights.h"
 #include "light/mesh_light.h"
 #include "shade/bsdf.h"
+#include "shape/shape.h"
 
 #define EXACT_MAX 4        /* up to here lights are chosen by an estimate of each; beyond, by the tree */
 #define FACES_WHOLE 8      /* a mesh of no more emitting faces is one light; of more, each face is */
@@ -57,7 +58,7 @@ static int primitive_emits(const Primitive *p)
 /* A sphere under rotation, translation and equal scaling. */
 static int is_round_sphere(const Primitive *p, double *radius)
 {
-    if (p->kind != SHAPE_SPHERE)
+    if (p->shape.ops != &shape_sphere)
         return 0;
     Vec3 a[3];
     for (int k = 0; k < 3; k++)
@@ -74,7 +75,7 @@ static int add_emitter(Lights *lights, int index, RetexError *err)
     const Primitive *p = &lights->scene->primitives[index];
     Entry e = {.kind = ENTRY_EMITTER, .index = index};
     double power = 0, r;
-    if (p->kind == SHAPE_MESH) {
+    if (p->shape.mesh) {
         int code = mesh_light_create(&e.mesh, p, err);
         if (code)
             return code;
@@ -162,8 +163,10 @@ static LightBounds shape_light_bounds(const Primitive *p, const Entry *e)
     LightBounds b = {.axis = {0, 0, 1}, .spread = PI, .reach = PI / 2, .back = 1, .falling = e->strength / 4};
     shape_bounds(p, &b.low, &b.high);
     b.peak = e->area > 0 ? PI * e->strength / e->area : 0;
-    if (p->kind == SHAPE_DISC) {
-        b.axis = vec_normalize(transform_normal(&p->transform, vec3(0, 0, 1)));
+    if (p->shape.ops->properties & SHAPE_FLAT) {
+        ShapePoint point;
+        p->shape.ops->point(p, vec3(0, 0, 0), 0, &point);
+        b.axis = vec_normalize(transform_normal(&p->transform, point.normal));
         b.spread = 0;
         b.falling = e->strength;
     }
@@ -447,7 +450,7 @@ static double sample_area(const Lights *lights, const LightPick *pick, float u1,
     const Primitive *p = &lights->scene->primitives[e->index];
     double density;
     if (!e->mesh) {
-        shape_sample(p, lights->scene, -1, u1, u2, surface, &density);
+        shape_sample(p, -1, u1, u2, surface, &density);
         return density;
     }
     mesh_light_point(picked_face(lights, pick, &density), p, u1, u2, surface);

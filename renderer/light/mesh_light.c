@@ -7,8 +7,8 @@
 
 static const Texture *face_texture(const Primitive *p, int face)
 {
-    int t = p->mesh->ntextures > 0 ? p->mesh->faces[face].texture : -1;
-    return t < 0 ? p->texture : p->mesh->textures[t];
+    int t = p->shape.mesh->ntextures > 0 ? p->shape.mesh->faces[face].texture : -1;
+    return t < 0 ? p->texture : p->shape.mesh->textures[t];
 }
 
 /* The radiance of one side, where it is the same all over. */
@@ -26,13 +26,13 @@ static int find_shine(const Texture *texture, int target, Rgb *shine)
 /* Returns 0 for a face without area. */
 static int fill_face(MeshLightFace *f, const Primitive *p, int face)
 {
-    const int *index = p->mesh->faces[face].vertex;
+    const int *index = p->shape.mesh->faces[face].vertex;
     Vec3 corners[3];
     Surface surface;
     double density;
     for (int k = 0; k < 3; k++)
-        corners[k] = transform_point(&p->transform, p->mesh->vertices[index[k]]);
-    shape_sample(p, NULL, face, 0.5, 0.5, &surface, &density);
+        corners[k] = transform_point(&p->transform, p->shape.mesh->vertices[index[k]]);
+    shape_sample(p, face, 0.5, 0.5, &surface, &density);
     *f = (MeshLightFace){.corner = corners[0],
                          .edge1 = vec_sub(corners[1], corners[0]),
                          .edge2 = vec_sub(corners[2], corners[0]),
@@ -53,10 +53,10 @@ static int is_closed(const Primitive *p)
 {
     Vec3 sum = {0, 0, 0};
     double area = 0;
-    for (int k = 0; k < p->mesh->nfaces; k++) {
+    for (int k = 0; k < p->shape.mesh->nfaces; k++) {
         Surface surface;
         double density, face = mesh_face_area(p, k);
-        shape_sample(p, NULL, k, 0.5, 0.5, &surface, &density);
+        shape_sample(p, k, 0.5, 0.5, &surface, &density);
         sum = vec_mad(sum, surface.geometric_normal, face);
         area += face;
     }
@@ -66,7 +66,7 @@ static int is_closed(const Primitive *p)
 static int count_faces(const Primitive *p)
 {
     int count = 0;
-    for (int k = 0; k < p->mesh->nfaces; k++)
+    for (int k = 0; k < p->shape.mesh->nfaces; k++)
         count += !rgb_is_black(face_texture(p, k)->finish->emission);
     return count;
 }
@@ -99,13 +99,13 @@ int mesh_light_create(MeshLight **out, const Primitive *p, RetexError *err)
     if (light) {
         light->faces = malloc((size_t)most * sizeof *light->faces);
         light->sums = calloc((size_t)most + 1, sizeof *light->sums);
-        light->of_face = malloc((size_t)p->mesh->nfaces * sizeof *light->of_face);
+        light->of_face = malloc((size_t)p->shape.mesh->nfaces * sizeof *light->of_face);
     }
     if (!light || !light->faces || !light->sums || !light->of_face) {
         mesh_light_close(out);
         return retex_fail(err, RETEX_ENOMEM, "out of memory for an emitter's faces");
     }
-    for (int k = 0; k < p->mesh->nfaces; k++) {
+    for (int k = 0; k < p->shape.mesh->nfaces; k++) {
         light->of_face[k] = -1;
         if (!rgb_is_black(face_texture(p, k)->finish->emission) && fill_face(&light->faces[light->count], p, k))
             light->of_face[k] = light->count++;

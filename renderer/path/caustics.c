@@ -84,7 +84,7 @@ static int finish_casts(const Finish *f, const Primitive *p, const Texture *text
 
 static int primitive_casts(const Primitive *p)
 {
-    const Mesh *mesh = p->kind == SHAPE_MESH ? p->mesh : NULL;
+    const Mesh *mesh = p->shape.mesh;
     if (finish_casts(p->texture->finish, p, p->texture))
         return 1;
     for (int k = 0; mesh && k < mesh->ntextures; k++)

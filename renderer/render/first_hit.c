@@ -5,6 +5,7 @@
 #include "path/camera.h"
 #include "render/first_hit.h"
 #include "path/path.h"
+#include "shape/shape.h"
 
 /* Channels are named so that Blender takes them as they are: of R, G, A it would show R, 0, A. */
 static const struct {
@@ -153,8 +154,10 @@ static void closes(const Primitive *p, const Pigment *pigment, int *u, int *v)
     const double(*m)[4] = pigment->transform.m;
     int own = pigment->uv_mapping ? m[0][0] == 1 && m[1][1] == 1 && m[0][1] == 0 && m[1][0] == 0
                                   : pigment->kind != PIGMENT_IMAGE;
-    *u &= own && (p->kind == SHAPE_SPHERE || p->kind == SHAPE_TORUS || (p->kind == SHAPE_CONE && !pigment->uv_mapping));
-    *v &= own && p->kind == SHAPE_TORUS;
+    const unsigned properties = p->shape.ops->properties;
+    own &= !pigment->uv_mapping || (properties & SHAPE_UV_NATURAL) != 0;
+    *u &= own && (properties & SHAPE_U_PERIODIC) != 0;
+    *v &= own && (properties & SHAPE_V_PERIODIC) != 0;
 }
 
 void target_periodic(const Scene *scene, int t, int periodic[2])
@@ -168,7 +171,7 @@ void target_periodic(const Scene *scene, int t, int periodic[2])
         if (inside)
             closes(p, p->interior_texture->pigment, &u, &v);
         any |= p->target == t || inside;
-        for (int j = 0; p->face_targets && j < p->mesh->ntextures; j++)
+        for (int j = 0; p->face_targets && j < p->shape.mesh->ntextures; j++)
             if (p->face_targets[j] == t)
                 u = v = 0;
     }

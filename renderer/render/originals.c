@@ -4,6 +4,7 @@
 #include <retex/parallel.h>
 #include "render/originals.h"
 #include "shade/pigment.h"
+#include "shape/shapes.h"
 
 static int is_inside(const Primitive *p, int target)
 {
@@ -17,7 +18,7 @@ static const Primitive *first_primitive(const Scene *scene, int target)
             return &scene->primitives[k];
     for (int k = 0; k < scene->nprimitives; k++) {
         const Primitive *p = &scene->primitives[k];
-        for (int j = 0; p->face_targets && j < p->mesh->ntextures; j++)
+        for (int j = 0; p->face_targets && j < p->shape.mesh->ntextures; j++)
             if (p->face_targets[j] == target)
                 return p;
     }
@@ -26,9 +27,9 @@ static const Primitive *first_primitive(const Scene *scene, int target)
 
 static const Texture *target_texture(const Primitive *p, int target)
 {
-    for (int j = 0; p->target != target && p->face_targets && j < p->mesh->ntextures; j++)
+    for (int j = 0; p->target != target && p->face_targets && j < p->shape.mesh->ntextures; j++)
         if (p->face_targets[j] == target)
-            return p->mesh->textures[j];
+            return p->shape.mesh->textures[j];
     return p->target != target && is_inside(p, target) ? p->interior_texture : p->texture;
 }
 
@@ -89,7 +90,7 @@ static int fill_original(RetexImage *dst, const Pigment *pigment, int axis, cons
 /* The axis along which a plane or a box is flattest: how its planar UV looks at it. */
 static int dominant_axis(const Primitive *p)
 {
-    if (p->kind != SHAPE_PLANE)
+    if (p->shape.ops != &shape_plane)
         return 1;
     Vec3 n = transform_normal(&p->transform, vec3(0, 1, 0));
     n = transform_inverse_vector(&p->texture->pigment->transform, n);

@@ -156,8 +156,8 @@ static void fill_stats(RenderStats *stats, const Render *r)
     stats->lights = lights_count(r->lights);
     stats->primitives = r->scene->nprimitives;
     for (int k = 0; k < r->scene->nprimitives; k++)
-        if (r->scene->primitives[k].kind == SHAPE_MESH)
-            stats->triangles += r->scene->primitives[k].mesh->nfaces;
+        if (r->scene->primitives[k].shape.mesh)
+            stats->triangles += r->scene->primitives[k].shape.mesh->nfaces;
 }
 
 HalfSamples render_half_samples(const Render *r)

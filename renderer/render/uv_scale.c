@@ -35,7 +35,7 @@ static int step(const Scene *scene, const Accel *accel, const Surface *from, Vec
     if (!accel_intersect(accel, &ray, kind, &hit) || &scene->primitives[hit.primitive] != from->primitive)
         return 0;
     surface_at(&s, scene, &ray, &hit);
-    if (s.target != from->target || (from->primitive->kind != SHAPE_MESH && s.face != from->face))
+    if (s.target != from->target || (!from->primitive->shape.mesh && s.face != from->face))
         return 0;
     *place = (Place){s.position, surface_target_uv(&s)};
     return 1;

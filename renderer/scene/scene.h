@@ -125,16 +125,6 @@ typedef struct Texture {
 
 /* ---- primitives ---- */
 
-typedef enum ShapeKind {
-    SHAPE_SPHERE,   /* unit sphere about the origin */
-    SHAPE_BOX,      /* [0,1]^3 */
-    SHAPE_PLANE,    /* y = 0, inside is y < 0 */
-    SHAPE_CONE,     /* about z from z = 0 with radius r0 to z = 1 with radius r1 (cylinders too); `open` = no caps */
-    SHAPE_TORUS,    /* about y: major radius r0, minor r1 */
-    SHAPE_DISC,     /* z = 0, x^2 + y^2 <= r0^2, hole of radius r1 */
-    SHAPE_MESH      /* triangles, smooth triangles, polygons and meshes, in object space */
-} ShapeKind;
-
 /* Triangles. Indices are into the arrays; a normal or UV index of -1 means that the corner has none. */
 typedef struct MeshFace {
     int vertex[3], normal[3], uv[3];
@@ -157,11 +147,19 @@ static inline int mesh_face_has_normals(const MeshFace *f)
 }
 static inline int mesh_face_has_uvs(const MeshFace *f) { return f->uv[0] >= 0 && f->uv[1] >= 0 && f->uv[2] >= 0; }
 
+typedef struct ShapeOps ShapeOps; /* shape/shape.h */
+
+/* A shape in its canonical space, which shape/NAME.c describes, with its parameters there. */
+typedef struct Shape {
+    const ShapeOps *ops;
+    double r0, r1;           /* radii, exponents and the like */
+    int open;                /* of a cone: without caps */
+    const Mesh *mesh;        /* of a mesh, and of nothing else; shared by copies that differ in transform only */
+    const void *data;        /* what else the shape's operations read */
+} Shape;
+
 typedef struct Primitive {
-    ShapeKind kind;
-    double r0, r1;           /* see ShapeKind */
-    int open;
-    const Mesh *mesh;        /* shared between copies that differ in transform only */
+    Shape shape;
     Transform transform;     /* canonical shape to world */
     const Texture *texture;  /* never NULL after parsing */
     const Texture *interior_texture; /* or NULL: the same on both sides */

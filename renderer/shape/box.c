@@ -1,8 +1,13 @@
-/* The box [0,1]^3. Traced as triangles; its points are found on the exact faces. */
-#include "shape/shapes.h"
+/* The box [0,1]^3. The picture traces it as triangles and finds points on the exact faces. Faces: 0..5 are
+ * -x +x -y +y -z +z. */
+#include "shape/shape.h"
 
-/* Corner bits: 1 x, 2 y, 4 z. Two triangles a face, wound so that edge 01 x edge 02 points outward. */
-const int box_triangles[12][3] = {
+/* Bit 0 of the index is x, bit 1 y, bit 2 z. */
+static const Vec3 vertices[8] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0},
+                                 {0, 0, 1}, {1, 0, 1}, {0, 1, 1}, {1, 1, 1}};
+
+/* Two triangles a face, wound so that edge 01 x edge 02 points outward. */
+static const int corners[12][3] = {
     {0, 4, 6}, {0, 6, 2}, /* -x */
     {1, 3, 7}, {1, 7, 5}, /* +x */
     {0, 1, 5}, {0, 5, 4}, /* -y */
@@ -11,9 +16,49 @@ const int box_triangles[12][3] = {
     {4, 5, 7}, {4, 7, 6}, /* +z */
 };
 
-Vec3 box_corner(int index)
+static void triangles(const Shape *shape, ShapeTriangles *out)
 {
-    return vec3(index & 1, index >> 1 & 1, index >> 2 & 1);
+    (void)shape;
+    *out = (ShapeTriangles){
+        .nvertices = 8, .ntriangles = 12, .vertices = vertices, .corners = corners[0], .stride = 3, .per_face = 2};
+}
+
+static void bounds(const Primitive *primitive, Vec3 *low, Vec3 *high)
+{
+    for (int i = 0; i < 8; i++)
+        shape_bound_point(low, high, transform_point(&primitive->transform, vertices[i]));
+}
+
+static double along(Vec3 v, int axis)
+{
+    return axis == 0 ? v.x : axis == 1 ? v.y : v.z;
+}
+
+/* The box between its three pairs of planes. */
+static int intersect(const Primitive *primitive, const ShapeRay *ray, double *t, int *face)
+{
+    double times[2] = {-INFINITY, INFINITY};
+    int faces[2] = {0, 0};
+
+    (void)primitive;
+    for (int k = 0; k < 3; k++) {
+        double o = along(ray->origin, k), d = along(ray->direction, k);
+        if (d == 0 && (o < 0 || o > 1))
+            return 0;
+        if (d == 0)
+            continue;
+        double enter = ((d < 0) - o) / d, leave = ((d > 0) - o) / d;
+        if (enter > times[0])
+            times[0] = enter, faces[0] = 2 * k + (d < 0);
+        if (leave < times[1])
+            times[1] = leave, faces[1] = 2 * k + (d > 0);
+    }
+    for (int i = 0; i < 2 && times[0] <= times[1]; i++)
+        if (shape_accept(ray, times[i], t)) {
+            *face = faces[i];
+            return 1;
+        }
+    return 0;
 }
 
 static double clamp01(double x)
@@ -21,25 +66,35 @@ static double clamp01(double x)
     return fmin(fmax(x, 0), 1);
 }
 
-void box_point(Vec3 p, int face, ShapePoint *out)
+static void point(const Primitive *primitive, Vec3 p, int face, ShapePoint *out)
 {
-    double side = face & 1, x, y, z;
+    double side = face & 1;
 
-    x = face >> 1 == 0 ? side : clamp01(p.x);
-    y = face >> 1 == 1 ? side : clamp01(p.y);
-    z = face >> 1 == 2 ? side : clamp01(p.z);
-    out->p = vec3(x, y, z);
+    (void)primitive;
+    out->p.x = face >> 1 == 0 ? side : clamp01(p.x);
+    out->p.y = face >> 1 == 1 ? side : clamp01(p.y);
+    out->p.z = face >> 1 == 2 ? side : clamp01(p.z);
     out->normal = vec3(face >> 1 == 0, face >> 1 == 1, face >> 1 == 2);
     if (face % 2 == 0)
         out->normal = vec_neg(out->normal);
 }
 
-void box_uv(Vec3 p, int face, ShapeUv *out)
+static Vec3 face_normal(const Primitive *primitive, int face, const Vec3 corner[3])
 {
+    ShapePoint at;
+
+    (void)corner;
+    point(primitive, vec3(0.5, 0.5, 0.5), face, &at);
+    return shape_world_normal(primitive, at.normal);
+}
+
+static void uv(const Surface *surface, ShapeUv *out)
+{
+    int face = surface->face;
     ShapePoint on;
     double x, y, z;
 
-    box_point(p, face, &on);
+    point(surface->primitive, shape_local_point(surface), face, &on);
     x = on.p.x, y = on.p.y, z = on.p.z;
     /* POV-Ray unfolds the box into a cross, 4 by 3 fields: -x +z +x -z from left to right in the middle row, the bottom
      * below +z and the top above it. */
@@ -71,3 +126,62 @@ void box_uv(Vec3 p, int face, ShapeUv *out)
     }
     out->has_uv = out->has_natural = 1;
 }
+
+static int inside(const Shape *shape, Vec3 p)
+{
+    (void)shape;
+    return p.x >= 0 && p.x <= 1 && p.y >= 0 && p.y <= 1 && p.z >= 0 && p.z <= 1;
+}
+
+/* ---- sampling ---- */
+
+/* Areas of a face of each pair; returns the sum of all six. */
+static double face_areas(const Transform *t, double areas[3])
+{
+    for (int k = 0; k < 3; k++)
+        areas[k] = vec_length(vec_cross(shape_axis(t, (k + 1) % 3), shape_axis(t, (k + 2) % 3)));
+    return 2 * (areas[0] + areas[1] + areas[2]);
+}
+
+static double area(const Primitive *primitive)
+{
+    double areas[3];
+
+    return face_areas(&primitive->transform, areas);
+}
+
+static double density(const Primitive *primitive, Vec3 p, int face)
+{
+    (void)p, (void)face;
+    return shape_inverse(area(primitive));
+}
+
+static double sample(const Primitive *primitive, double u1, double u2, int *face, ShapePoint *out)
+{
+    double areas[3], pick = u1 * face_areas(&primitive->transform, areas), c[3];
+    int f = 0;
+
+    while (f < 5 && pick >= areas[f / 2])
+        pick -= areas[f++ / 2];
+    c[f / 2] = f & 1;
+    c[(f / 2 + 1) % 3] = fmin(pick / areas[f / 2], 1);
+    c[(f / 2 + 2) % 3] = u2;
+    *face = f;
+    point(primitive, vec3(c[0], c[1], c[2]), f, out);
+    return density(primitive, out->p, f);
+}
+
+const ShapeOps shape_box = {
+    .name = "box",
+    .properties = SHAPE_UV_NATURAL,
+    .bounds = bounds,
+    .intersect = intersect,
+    .point = point,
+    .uv = uv,
+    .inside = inside,
+    .area = area,
+    .sample = sample,
+    .density = density,
+    .triangles = triangles,
+    .face_normal = face_normal,
+};

@@ -1,6 +1,26 @@
-/* Points of triangle meshes, in object space. A triangle's outward side is the one its vertex normals lie on; without
- * them, the one its winding gives, turned round for closed meshes that wind inward. */
-#include "shape/shapes.h"
+/* Triangle meshes, in object space. A triangle's outward side is the one its vertex normals lie on; without them, the
+ * one its winding gives, turned round for closed meshes that wind inward. They are traced as triangles only. */
+#include "shape/shape.h"
+
+static void triangles(const Shape *shape, ShapeTriangles *out)
+{
+    const Mesh *mesh = shape->mesh;
+
+    *out = (ShapeTriangles){.nvertices = mesh->nvertices,
+                            .ntriangles = mesh->nfaces,
+                            .vertices = mesh->vertices,
+                            .corners = mesh->nfaces > 0 ? mesh->faces[0].vertex : NULL,
+                            .stride = sizeof(MeshFace) / sizeof(int),
+                            .per_face = 1};
+}
+
+static void bounds(const Primitive *primitive, Vec3 *low, Vec3 *high)
+{
+    const Mesh *mesh = primitive->shape.mesh;
+
+    for (int i = 0; i < mesh->nvertices; i++)
+        shape_bound_point(low, high, transform_point(&primitive->transform, mesh->vertices[i]));
+}
 
 static Vec3 interpolate(const Vec3 *values, const int index[3], double b0, double b1, double b2)
 {
@@ -16,7 +36,8 @@ static Vec3 winding_normal(const Mesh *mesh, const int vertex[3])
     return vec_cross(vec_sub(mesh->vertices[vertex[1]], v0), vec_sub(mesh->vertices[vertex[2]], v0));
 }
 
-void mesh_point(const Mesh *mesh, int face, double b1, double b2, ShapePoint *out)
+/* Point and normal of a face; the normal of any length. */
+static void point_of_face(const Mesh *mesh, int face, double b1, double b2, ShapePoint *out)
 {
     const MeshFace *f = &mesh->faces[face];
     Vec3 n = winding_normal(mesh, f->vertex);
@@ -27,6 +48,16 @@ void mesh_point(const Mesh *mesh, int face, double b1, double b2, ShapePoint *ou
         turn = vec_dot(interpolate(mesh->normals, f->normal, third, third, third), n) < 0;
     out->p = interpolate(mesh->vertices, f->vertex, 1 - b1 - b2, b1, b2);
     out->normal = turn ? vec_neg(n) : n;
+    out->b1 = b1, out->b2 = b2;
+}
+
+static Vec3 face_normal(const Primitive *primitive, int face, const Vec3 corner[3])
+{
+    Vec3 n = vec_normalize(vec_cross(vec_sub(corner[1], corner[0]), vec_sub(corner[2], corner[0])));
+    ShapePoint at;
+
+    point_of_face(primitive->shape.mesh, face, 0, 0, &at);
+    return vec_dot(n, shape_world_normal(primitive, at.normal)) < 0 ? vec_neg(n) : n;
 }
 
 Vec3 mesh_shading_normal(const Mesh *mesh, int face, double b1, double b2)
@@ -36,10 +67,11 @@ Vec3 mesh_shading_normal(const Mesh *mesh, int face, double b1, double b2)
     return mesh_face_has_normals(f) ? interpolate(mesh->normals, f->normal, 1 - b1 - b2, b1, b2) : vec3(0, 0, 0);
 }
 
-void mesh_uv(const Mesh *mesh, int face, double b1, double b2, ShapeUv *out)
+static void uv(const Surface *surface, ShapeUv *out)
 {
-    const MeshFace *f = &mesh->faces[face];
-    double b0 = 1 - b1 - b2;
+    const Mesh *mesh = surface->primitive->shape.mesh;
+    const MeshFace *f = &mesh->faces[surface->face];
+    double b1 = surface->b1, b2 = surface->b2, b0 = 1 - b1 - b2;
 
     out->has_uv = out->has_natural = mesh_face_has_uvs(f);
     if (out->has_uv) {
@@ -67,3 +99,49 @@ int mesh_winds_inward(const Mesh *mesh)
     /* The areas of a closed surface, as vectors, add up to nothing. An open one has no inside. */
     return volume < 0 && vec_length(sum) < 1e-6 * area;
 }
+
+/* ---- sampling: of a face that the caller chooses ---- */
+
+double mesh_face_area(const Primitive *primitive, int face)
+{
+    const Vec3 *v = primitive->shape.mesh->vertices;
+    const int *index = primitive->shape.mesh->faces[face].vertex;
+
+    return shape_stretch(&primitive->transform, vec_sub(v[index[1]], v[index[0]]), vec_sub(v[index[2]], v[index[0]])) /
+           2;
+}
+
+static double area(const Primitive *primitive)
+{
+    double sum = 0;
+
+    for (int i = 0; i < primitive->shape.mesh->nfaces; i++)
+        sum += mesh_face_area(primitive, i);
+    return sum;
+}
+
+static double density(const Primitive *primitive, Vec3 p, int face)
+{
+    (void)p;
+    return shape_inverse(mesh_face_area(primitive, face));
+}
+
+static double sample(const Primitive *primitive, double u1, double u2, int *face, ShapePoint *out)
+{
+    double root = sqrt(u1);
+
+    point_of_face(primitive->shape.mesh, *face, root * (1 - u2), root * u2, out);
+    return density(primitive, out->p, *face);
+}
+
+const ShapeOps shape_mesh = {
+    .name = "mesh",
+    .properties = SHAPE_UV_NATURAL,
+    .bounds = bounds,
+    .uv = uv,
+    .area = area,
+    .sample = sample,
+    .density = density,
+    .triangles = triangles,
+    .face_normal = face_normal,
+};

@@ -2,7 +2,7 @@
 #ifndef RENDERER_SHAPE_SURFACE_H
 #define RENDERER_SHAPE_SURFACE_H
 
-#include "scene/scene.h"
+#include "shape/shapes.h"
 
 typedef struct Ray {
     Vec3 origin, direction; /* direction of unit length */
@@ -34,7 +34,7 @@ typedef struct Surface {
 
 typedef struct SurfaceUv {
     Vec2 uv;                 /* of uv_mapping: the shape's own, or world x,y for cylinders, cones and shapes without */
-    Vec2 natural;            /* natural parametrisation of sphere, box, cone, torus, disc, mesh with UVs: shapes.h */
+    Vec2 natural;            /* natural parametrisation of sphere, box, cone, torus, disc, mesh with UVs: shape.h */
     int has_natural;         /* 0: plane, mesh without UVs */
 } SurfaceUv;
 
@@ -43,25 +43,27 @@ void surface_at(Surface *surface, const Scene *scene, const Ray *ray, const Hit 
 static inline void surface_prefetch_face(const Scene *scene, const Hit *hit)
 {
     const Primitive *primitive = &scene->primitives[hit->primitive];
-    if (primitive->kind == SHAPE_MESH)
-        __builtin_prefetch(&primitive->mesh->faces[hit->face]);
+    if (primitive->shape.mesh)
+        __builtin_prefetch(&primitive->shape.mesh->faces[hit->face]);
 }
 static inline void surface_prefetch_corners(const Scene *scene, const Hit *hit)
 {
     const Primitive *primitive = &scene->primitives[hit->primitive];
-    if (primitive->kind != SHAPE_MESH)
+    if (!primitive->shape.mesh)
         return;
-    const MeshFace *face = &primitive->mesh->faces[hit->face];
+    const MeshFace *face = &primitive->shape.mesh->faces[hit->face];
     for (int k = 0; k < 3 && mesh_face_has_normals(face); k++)
-        __builtin_prefetch(&primitive->mesh->normals[face->normal[k]]);
+        __builtin_prefetch(&primitive->shape.mesh->normals[face->normal[k]]);
     for (int k = 0; k < 3 && mesh_face_has_uvs(face); k++)
-        __builtin_prefetch(&primitive->mesh->uvs[face->uv[k]]);
+        __builtin_prefetch(&primitive->shape.mesh->uvs[face->uv[k]]);
 }
 SurfaceUv surface_uv(const Surface *surface); /* apart: most surfaces have one colour */
 /* Of a surface fresh from shape_sample: which side it is seen from, with the texture there. */
 void surface_turn(Surface *surface, int backside);
 
-/* Intersect one analytic primitive (not a mesh or box): the nearest t in (tmin, tmax). 1 if found, with face as in
+/* ---- operations of shapes (shape.h), by their table ---- */
+
+/* Intersect a shape that has an equation (all but meshes): the nearest t in (tmin, tmax). 1 if found, with face as in
  * Hit; else 0, and *t and *face are left as they were: they may be those of a nearer hit. Whatever looks for hits here
  * and in accel/ keeps to that. */
 int shape_intersect(const Primitive *primitive, const Ray *ray, double *t, int *face);
@@ -75,17 +77,14 @@ double shape_area(const Primitive *primitive);
  * and the density per unit area at that point (not constant under non-uniform scaling of curved shapes). Shapes choose
  * among their faces themselves and take any face (-1), but for meshes, where the weights come from the caller's table:
  * there both densities are those within the face, to be multiplied by the caller's probability of it. */
-void shape_sample(const Primitive *primitive, const Scene *scene, int face, double u1, double u2, Surface *surface,
-                  double *pdf_area);
+void shape_sample(const Primitive *primitive, int face, double u1, double u2, Surface *surface, double *pdf_area);
 double shape_pdf_area(const Primitive *primitive, const Surface *surface); /* of shape_sample, at that point */
-double mesh_face_area(const Primitive *primitive, int face);
 
-/* Boxes and meshes as triangles. Unit normals in the world, as in Hit: of a box's side, and of a mesh's face with these
- * corners. */
-Vec3 box_normal(const Primitive *primitive, int side);
-Vec3 face_normal(const Primitive *primitive, int face, const Vec3 corner[3]);
-extern const int box_triangles[12][3]; /* into the corners; two a face, in the order of Hit's faces */
-Vec3 box_corner(int index);            /* of the unit box: bit 0 x, bit 1 y, bit 2 z */
+/* ---- meshes ---- */
+
+double mesh_face_area(const Primitive *primitive, int face);
+/* The interpolated normal, of any length; 0 where the face has none. */
+Vec3 mesh_shading_normal(const Mesh *mesh, int face, double b1, double b2);
 /* 1: the mesh is closed and its winding makes normals that point inside. For Mesh.inward, once the mesh is complete. */
 int mesh_winds_inward(const Mesh *mesh);
 

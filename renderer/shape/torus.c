@@ -1,8 +1,10 @@
-/* The torus about y. Its quartic is solved by monotonic pieces: between two neighbouring critical points there is at
+/* The torus about y: major radius r0, minor r1.
+ *
+ * Its quartic is solved by monotonic pieces: between two neighbouring critical points there is at
  * most one root, and a sign change finds it for certain. So no root is lost or made up but for grazing pairs closer
  * than rounding, and there is nothing to tune. */
 #include <float.h>
-#include "shape/shapes.h"
+#include "shape/shape.h"
 
 /* s^4 + c2 s^2 + c1 s + c0: measured from the point of closest approach to the centre there is no cubic term. */
 typedef struct Quartic {
@@ -133,14 +135,22 @@ static int start_side(double major, double minor, const ShapeRay *ray)
     return side == 0 && minor > major ? -circle_side(-major, minor, ray) : side;
 }
 
-int torus_hit(const Primitive *primitive, const ShapeRay *ray, double *t)
+static void bounds(const Primitive *primitive, Vec3 *low, Vec3 *high)
 {
-    double major = primitive->r0, minor = fabs(primitive->r1), length = vec_length(ray->direction), shift, low, high;
+    shape_bound_circle(low, high, &primitive->transform, vec3(0, 0, 0), 0, 2, primitive->shape.r0,
+                       fabs(primitive->shape.r1));
+}
+
+static int intersect(const Primitive *primitive, const ShapeRay *ray, double *t, int *face)
+{
+    double major = primitive->shape.r0, minor = fabs(primitive->shape.r1), length = vec_length(ray->direction), shift,
+           low, high;
     Vec3 d = vec_scale(ray->direction, 1 / length), o;
     double begin, k, ends[5], previous;
     int count, start;
     Quartic q;
 
+    (void)face;
     shift = -vec_dot(ray->origin, d);
     o = vec_mad(ray->origin, d, shift);
     begin = low = ray->tmin * length - shift;
@@ -173,11 +183,12 @@ int torus_hit(const Primitive *primitive, const ShapeRay *ray, double *t)
     return 0;
 }
 
-void torus_point(const Primitive *primitive, Vec3 p, ShapePoint *out)
+static void point(const Primitive *primitive, Vec3 p, int face, ShapePoint *out)
 {
-    double major = primitive->r0, minor = fabs(primitive->r1), rho = hypot(p.x, p.z), pull;
+    double major = primitive->shape.r0, minor = fabs(primitive->shape.r1), rho = hypot(p.x, p.z), pull;
     Vec3 ring = rho > 0 ? vec3(p.x * major / rho, 0, p.z * major / rho) : vec3(major, 0, 0), arm = vec_sub(p, ring);
 
+    (void)face;
     /* The inner skin of a torus that overlaps itself belongs to the far side of the ring. */
     if (minor > major && fabs(vec_length(arm) - minor) > 1e-6 * minor) {
         ring = vec_neg(ring);
@@ -188,13 +199,84 @@ void torus_point(const Primitive *primitive, Vec3 p, ShapePoint *out)
     out->normal = pull > 0 ? arm : vec3(0, 1, 0);
 }
 
-void torus_uv(const Primitive *primitive, Vec3 p, ShapeUv *out)
+static void uv(const Surface *surface, ShapeUv *out)
 {
+    Vec3 p = shape_local_point(surface);
     double rho = hypot(p.x, p.z);
 
     /* POV-Ray counts from -x (measured); its torus image_map counts from x. */
-    out->uv.u = rho > 0 ? turn_of(-p.x, p.z) : 0;
-    out->uv.v = 0.5 + atan2(p.y, rho - primitive->r0) / (2 * PI);
+    out->uv.u = rho > 0 ? shape_turn(-p.x, p.z) : 0;
+    out->uv.v = 0.5 + atan2(p.y, rho - surface->primitive->shape.r0) / (2 * PI);
     out->natural = out->uv;
     out->has_uv = out->has_natural = 1;
 }
+
+static int inside(const Shape *shape, Vec3 p)
+{
+    return hypot(hypot(p.x, p.z) - shape->r0, p.y) <= fabs(shape->r1);
+}
+
+/* ---- sampling ---- */
+
+/* A point by its angles around the axis and around the tube, and the world area of a unit of both there. */
+static double at_angles(const Primitive *primitive, double around, double tube, Vec3 *p)
+{
+    double r = fabs(primitive->shape.r1), ring = primitive->shape.r0 + r * cos(tube);
+    Vec3 e = vec3(-ring * sin(around), 0, ring * cos(around));
+    Vec3 f = vec3(-r * sin(tube) * cos(around), r * cos(tube), -r * sin(tube) * sin(around));
+
+    *p = vec3(ring * cos(around), r * sin(tube), ring * sin(around));
+    return shape_stretch(&primitive->transform, e, f);
+}
+
+/* 0 where the tube is wider than the ring and meets itself. */
+static double area(const Primitive *primitive)
+{
+    double r0 = primitive->shape.r0, r1 = fabs(primitive->shape.r1), sum = 0;
+    double scale = shape_similarity(&primitive->transform);
+    const int turns = 64;
+    Vec3 p;
+
+    if (r1 > r0)
+        return 0;
+    if (scale > 0)
+        return 4 * PI * PI * r0 * r1 * scale * scale;
+    for (int i = 0; i < turns * turns; i++)
+        sum += at_angles(primitive, 2 * PI * (i % turns) / turns, 2 * PI * (i / turns) / turns, &p);
+    return 4 * PI * PI * sum / (turns * turns);
+}
+
+/* Both angles are chosen uniformly. */
+static double density(const Primitive *primitive, Vec3 p, int face)
+{
+    double tube = atan2(p.y, hypot(p.x, p.z) - primitive->shape.r0), whole;
+
+    (void)face;
+    if (fabs(primitive->shape.r1) > primitive->shape.r0)
+        return 0;
+    whole = 4 * PI * PI * at_angles(primitive, atan2(p.z, p.x), tube, &p);
+    return shape_inverse(whole);
+}
+
+static double sample(const Primitive *primitive, double u1, double u2, int *face, ShapePoint *out)
+{
+    Vec3 p;
+
+    *face = 0;
+    at_angles(primitive, 2 * PI * u2, 2 * PI * u1, &p);
+    point(primitive, p, 0, out);
+    return density(primitive, out->p, 0);
+}
+
+const ShapeOps shape_torus = {
+    .name = "torus",
+    .properties = SHAPE_U_PERIODIC | SHAPE_V_PERIODIC | SHAPE_UV_NATURAL,
+    .bounds = bounds,
+    .intersect = intersect,
+    .point = point,
+    .uv = uv,
+    .inside = inside,
+    .area = area,
+    .sample = sample,
+    .density = density,
+};

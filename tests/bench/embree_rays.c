@@ -58,29 +58,29 @@ static void *must(void *memory)
 
 static void count_mesh(World *w, const Primitive *p)
 {
-    if (p->kind != SHAPE_MESH) {
+    if (!p->shape.mesh) {
         fprintf(stderr, "embree_rays: line %d: not a mesh\n", p->line);
         exit(2);
     }
-    w->nvertices += (size_t)p->mesh->nvertices;
-    w->nfaces += (size_t)p->mesh->nfaces;
+    w->nvertices += (size_t)p->shape.mesh->nvertices;
+    w->nfaces += (size_t)p->shape.mesh->nfaces;
 }
 
 static void add_mesh(World *w, const Primitive *p)
 {
     int lamp = !rgb_is_black(p->texture->finish->emission);
     unsigned base = (unsigned)w->nvertices;
-    for (int i = 0; i < p->mesh->nvertices; i++) {
-        Vec3 v = transform_point(&p->transform, p->mesh->vertices[i]);
+    for (int i = 0; i < p->shape.mesh->nvertices; i++) {
+        Vec3 v = transform_point(&p->transform, p->shape.mesh->vertices[i]);
         float *out = w->vertices[w->nvertices++];
         out[0] = (float)v.x, out[1] = (float)v.y, out[2] = (float)v.z;
         w->reach = fmax(w->reach, fmax(fabs(v.x), fmax(fabs(v.y), fabs(v.z))));
     }
-    for (int i = 0; i < p->mesh->nfaces; i++) {
+    for (int i = 0; i < p->shape.mesh->nfaces; i++) {
         if (lamp)
             w->lamps[w->nlamps++] = (unsigned)w->nfaces;
         for (int k = 0; k < 3; k++)
-            w->faces[w->nfaces][k] = base + (unsigned)p->mesh->faces[i].vertex[k];
+            w->faces[w->nfaces][k] = base + (unsigned)p->shape.mesh->faces[i].vertex[k];
         w->nfaces++;
     }
 }

@@ -8,6 +8,7 @@
 #include <string.h>
 #include <cmocka.h>
 #include "accel/accel.h"
+#include "shape/shape.h"
 
 static uint64_t seed = 1;
 
@@ -28,10 +29,10 @@ static const Pigment grey = {.kind = PIGMENT_COLOR, .color = {0.5f, 0.5f, 0.5f, 
 static const Pigment glass = {.kind = PIGMENT_COLOR, .color = {1, 1, 1, 0.9f, 0}};
 static const Texture solid = {.pigment = &grey}, clear = {.pigment = &glass};
 
-static Primitive shape(ShapeKind kind, Transform transform)
+static Primitive shape(const ShapeOps *ops, Transform transform)
 {
     return (Primitive){
-        .kind = kind, .r0 = 1, .r1 = 0.3, .transform = transform, .texture = &solid, .target = -1, .line = 7};
+        .shape = {.ops = ops, .r0 = 1, .r1 = 0.3}, .transform = transform, .texture = &solid, .target = -1, .line = 7};
 }
 
 /* A ball of triangles: latitude rows, without poles' degenerate ones; bumpy so that edges turn both ways. */
@@ -109,12 +110,12 @@ static double meet_mesh(const Primitive *p, const Ray *ray, int *face, int *doub
 {
     double best = INFINITY;
 
-    for (int i = 0; i < p->mesh->nfaces; i++) {
-        const int *v = p->mesh->faces[i].vertex;
+    for (int i = 0; i < p->shape.mesh->nfaces; i++) {
+        const int *v = p->shape.mesh->faces[i].vertex;
         Vec3 corner[3];
         double edge = -1, t;
         for (int k = 0; k < 3; k++)
-            corner[k] = transform_point(&p->transform, p->mesh->vertices[v[k]]);
+            corner[k] = transform_point(&p->transform, p->shape.mesh->vertices[v[k]]);
         t = meet(corner[0], corner[1], corner[2], ray, &edge);
         if (fabs(edge) < 1e-4)
             *doubtful = 1;
@@ -130,13 +131,13 @@ static void agrees_with_every_triangle(void **state)
 {
     Mesh mesh = ball(12, 16, 0.3);
     Transform t = transform_then(transform_scale(vec3(1, 2, -0.5)), transform_rotate(vec3(20, 40, 60)));
-    Primitive p = shape(SHAPE_MESH, transform_then(t, transform_translate(vec3(3, -2, 1))));
+    Primitive p = shape(&shape_mesh, transform_then(t, transform_translate(vec3(3, -2, 1))));
     Scene scene;
     Accel *accel;
     int checked = 0;
 
     (void)state;
-    p.mesh = &mesh;
+    p.shape.mesh = &mesh;
     accel = create(&scene, &p, 1);
     for (int i = 0; i < 5000; i++) {
         Ray ray = {vec_mad(vec3(3, -2, 1), direction(), 3 * uniform()), direction(), 0, INFINITY};
@@ -181,11 +182,11 @@ static void closed_meshes_are_tight(void **state)
     (void)state;
     for (int k = 0; k < 3; k++) {
         Vec3 shift = vec_scale(vec3(0.3, -0.5, 0.8), shifts[k]);
-        Primitive p = shape(SHAPE_MESH, transform_translate(shift));
+        Primitive p = shape(&shape_mesh, transform_translate(shift));
         Scene scene;
         Accel *accel;
         long leaks = 0;
-        p.mesh = &mesh;
+        p.shape.mesh = &mesh;
         accel = create(&scene, &p, 1);
         for (int i = 0; i < 300000; i++) {
             /* Rays at single vertices may still slip through (Embree: 7 in 1000); no random ray ever is one. */
@@ -227,8 +228,8 @@ static void check_leaving(Accel *accel, const Scene *scene, Vec3 from, double si
     ray.origin = accel_offset(s.position, s.geometric_normal, ray.direction);
     if (accel_intersect(accel, &ray, RAY_BOUNCE, &again)) {
         /* in float, what leaves a box's face at less than this may meet the next face at the edge */
-        assert_true(s.backside || s.primitive->kind == SHAPE_TORUS || slope < 1e-4);
-        assert_true(again.face != hit.face || s.primitive->kind != SHAPE_BOX);
+        assert_true(s.backside || s.primitive->shape.ops == &shape_torus || slope < 1e-4);
+        assert_true(again.face != hit.face || s.primitive->shape.ops != &shape_box);
         assert_true(again.face != hit.face || again.t > 0.02 * slope * size);
     } else {
         assert_false(accel_occluded(accel, &ray, RAY_SHADOW, 0));
@@ -246,8 +247,8 @@ static void no_self_intersection(void **state)
         for (int far = 0; far < 2; far++) {
             Vec3 centre = vec_scale(vec3(2, 3, -1), far ? fmin(size * 100, 1e4) : size);
             Transform placed = transform_then(t, transform_translate(centre));
-            Primitive p[4] = {shape(SHAPE_BOX, placed), shape(SHAPE_SPHERE, placed), shape(SHAPE_CONE, placed),
-                              shape(SHAPE_TORUS, placed)};
+            Primitive p[4] = {shape(&shape_box, placed), shape(&shape_sphere, placed), shape(&shape_cone, placed),
+                              shape(&shape_torus, placed)};
             for (int i = 0; i < 4; i++) {
                 Scene scene;
                 Accel *accel = create(&scene, &p[i], 1);
@@ -278,7 +279,7 @@ static void rooms_do_not_leak(void **state)
                  scale = {i / 2 == 0 ? 0.1 : 1, i / 2 == 1 ? 0.1 : 1, i / 2 == 2 ? 0.1 : 1};
             Transform wall =
                 transform_then(transform_scale(scale), transform_translate(vec_scale(at, i % 2 ? 1 : -0.1)));
-            p[i] = shape(SHAPE_BOX, transform_then(wall, whole));
+            p[i] = shape(&shape_box, transform_then(wall, whole));
         }
         accel = create(&scene, p, 6);
         for (int n = 0; n < 100000; n++) {
@@ -313,12 +314,12 @@ static void rays_see_what_they_may(void **state)
     (void)state;
     for (int i = 0; i < 4; i++)
         ahead[i] = transform_translate(vec3(i == 0 ? -0.5 : 0, i == 0 ? -0.5 : 0, 2.0 + 3 * i));
-    p[0] = shape(SHAPE_BOX, ahead[0]);                                                      /* at 2 */
-    p[1] = shape(SHAPE_SPHERE, ahead[1]);                                                   /* at 4 */
-    p[2] = shape(SHAPE_DISC, ahead[2]);                                                     /* at 8 but for its hole */
-    p[3] = shape(SHAPE_PLANE, transform_then(transform_rotate(vec3(-90, 0, 0)), ahead[3])); /* at 11 */
+    p[0] = shape(&shape_box, ahead[0]);                                                      /* at 2 */
+    p[1] = shape(&shape_sphere, ahead[1]);                                                   /* at 4 */
+    p[2] = shape(&shape_disc, ahead[2]);                                                     /* at 8 but for its hole */
+    p[3] = shape(&shape_plane, transform_then(transform_rotate(vec3(-90, 0, 0)), ahead[3])); /* at 11 */
     p[0].no_image = p[1].no_shadow = p[3].no_reflection = 1;
-    p[2].r1 = 0;
+    p[2].shape.r1 = 0;
     p[2].texture = &clear;
     accel = create(&scene, p, 4);
     assert_true(accel_intersect(accel, &ray, RAY_CAMERA, &hit) && hit.primitive == 1 &&
@@ -353,7 +354,7 @@ static void bad_geometry(void **state)
                          {{0, 1, 2}, {-1, -1, -1}, {-1, -1, -1}, -1},
                          {{0, 4, 2}, {-1, -1, -1}, {-1, -1, -1}, -1}};
     Mesh mesh = {.nvertices = 5, .nfaces = 3, .vertices = vertices, .faces = faces};
-    Primitive p = shape(SHAPE_MESH, transform_identity());
+    Primitive p = shape(&shape_mesh, transform_identity());
     Scene scene;
     Accel *accel;
     RetexError err = {0};
@@ -361,7 +362,7 @@ static void bad_geometry(void **state)
     Hit hit;
 
     (void)state;
-    p.mesh = &mesh;
+    p.shape.mesh = &mesh;
     accel = create(&scene, &p, 1);
     assert_true(accel_intersect(accel, &ray, RAY_CAMERA, &hit) && hit.face == 1 && hit.t == 1);
     accel_close(&accel);
@@ -381,7 +382,7 @@ static void bad_geometry(void **state)
 static void bad_rays(void **state)
 {
     static const double bad[] = {NAN, INFINITY, -INFINITY, 1e30};
-    Primitive p = shape(SHAPE_SPHERE, transform_identity());
+    Primitive p = shape(&shape_sphere, transform_identity());
     Scene scene;
     Accel *accel = create(&scene, &p, 1);
     Hit hit;
@@ -402,16 +403,16 @@ static void bad_rays(void **state)
 static void packets_are_single_rays(void **state)
 {
     Mesh mesh = ball(12, 16, 0.3);
-    Primitive p[4] = {shape(SHAPE_MESH, transform_translate(vec3(-1.5, 0, 0))),
-                      shape(SHAPE_SPHERE, transform_translate(vec3(1.5, 0, 0))),
-                      shape(SHAPE_BOX, transform_translate(vec3(0, 1, 0))),
-                      shape(SHAPE_PLANE, transform_translate(vec3(0, -2, 0)))};
+    Primitive p[4] = {shape(&shape_mesh, transform_translate(vec3(-1.5, 0, 0))),
+                      shape(&shape_sphere, transform_translate(vec3(1.5, 0, 0))),
+                      shape(&shape_box, transform_translate(vec3(0, 1, 0))),
+                      shape(&shape_plane, transform_translate(vec3(0, -2, 0)))};
     Scene scene;
     Accel *accel;
     int met = 0, passable = 0;
 
     (void)state;
-    p[0].mesh = &mesh;
+    p[0].shape.mesh = &mesh;
     p[0].no_image = p[2].no_reflection = 1;
     p[1].texture = &clear;
     accel = create(&scene, p, 4);

@@ -16,6 +16,7 @@
 #include "lib_test.h"
 #include <cmocka.h>
 #include "accel/accel.h"
+#include "shape/shape.h"
 
 #define EDGE 2e-6
 #define START 4e-7
@@ -122,27 +123,29 @@ static Transform random_transform(double size, Vec3 at)
 
 static void random_form(Primitive *p)
 {
-    p->r0 = p->r1 = 0;
-    if (p->kind == SHAPE_CONE) {
-        p->r0 = chance(0.2) ? 0 : between(0.1, 1.5);
-        p->r1 = chance(0.3) ? p->r0 : chance(0.2) ? 0 : between(0.1, 1.5);
-        p->r0 = p->r0 + p->r1 > 0 ? p->r0 : 1;
-        p->open = chance(0.4);
-    } else if (p->kind == SHAPE_TORUS) {
-        p->r0 = between(0.2, 1);
-        p->r1 = chance(0.2) ? p->r0 * between(1, 1.5) : p->r0 * magnitude(0.02, 1);
-    } else if (p->kind == SHAPE_DISC) {
-        p->r0 = between(0.3, 1.5);
-        p->r1 = chance(0.5) ? 0 : between(0, p->r0);
-    } else if (p->kind == SHAPE_MESH) {
-        p->mesh = chance(0.5) ? &soup : &tent;
+    p->shape.r0 = p->shape.r1 = 0;
+    if (p->shape.ops == &shape_cone) {
+        p->shape.r0 = chance(0.2) ? 0 : between(0.1, 1.5);
+        p->shape.r1 = chance(0.3) ? p->shape.r0 : chance(0.2) ? 0 : between(0.1, 1.5);
+        p->shape.r0 = p->shape.r0 + p->shape.r1 > 0 ? p->shape.r0 : 1;
+        p->shape.open = chance(0.4);
+    } else if (p->shape.ops == &shape_torus) {
+        p->shape.r0 = between(0.2, 1);
+        p->shape.r1 = chance(0.2) ? p->shape.r0 * between(1, 1.5) : p->shape.r0 * magnitude(0.02, 1);
+    } else if (p->shape.ops == &shape_disc) {
+        p->shape.r0 = between(0.3, 1.5);
+        p->shape.r1 = chance(0.5) ? 0 : between(0, p->shape.r0);
+    } else if (p->shape.ops == &shape_mesh) {
+        p->shape.mesh = chance(0.5) ? &soup : &tent;
     }
 }
 
 /* Anywhere, or as the one before, or round the same middle: nested, or through each other. */
 static Primitive random_shape(const World *w, int index)
 {
-    Primitive p = {.kind = (ShapeKind)(index < 7 ? index : below(7)), .target = -1};
+    static const ShapeOps *const all[7] = {&shape_sphere, &shape_box,  &shape_plane, &shape_cone,
+                                           &shape_torus,  &shape_disc, &shape_mesh};
+    Primitive p = {.shape.ops = all[index < 7 ? index : below(7)], .target = -1};
     const Primitive *before = index > 0 ? &w->shapes[below(index)] : NULL;
     double size = w->size * magnitude(0.05, 1);
 
@@ -150,28 +153,34 @@ static Primitive random_shape(const World *w, int index)
         double factor = chance(0.2) ? 1 : chance(0.3) ? 1 + magnitude(1e-9, 1e-2) : between(0.4, 1.1);
         p.transform = transform_then(transform_scale(vec3(factor, factor, factor)), before->transform);
         if (chance(0.5))
-            p.kind = before->kind;
+            p.shape.ops = before->shape.ops;
     } else {
         p.transform = random_transform(size, vec_mad(w->centre, direction(), w->size * between(0, 1)));
     }
     random_form(&p);
-    if (before && p.kind == before->kind)
-        p.r0 = before->r0, p.r1 = before->r1, p.mesh = before->mesh, p.open = before->open;
+    if (before && p.shape.ops == before->shape.ops)
+        p.shape = before->shape;
     p.no_image = chance(0.12), p.no_shadow = chance(0.12), p.no_reflection = chance(0.12);
     return p;
 }
 
-static const int *corners_of(const Primitive *p, int face)
+static ShapeTriangles triangles_of(const Primitive *p)
 {
-    return p->kind == SHAPE_BOX ? box_triangles[face] : p->mesh->faces[face].vertex;
+    ShapeTriangles triangles = {0, 0, NULL, NULL, 0, 1};
+
+    if (p->shape.ops->triangles)
+        p->shape.ops->triangles(&p->shape, &triangles);
+    return triangles;
 }
-static int triangles_of(const Primitive *p)
+static const int *corners_of(const Primitive *p, int triangle)
 {
-    return p->kind == SHAPE_BOX ? 12 : p->kind == SHAPE_MESH ? p->mesh->nfaces : 0;
+    const ShapeTriangles of = triangles_of(p);
+
+    return of.corners + (size_t)triangle * of.stride;
 }
 static Vec3 corner_at(const Primitive *p, int index)
 {
-    return transform_point(&p->transform, p->kind == SHAPE_BOX ? box_corner(index) : p->mesh->vertices[index]);
+    return transform_point(&p->transform, triangles_of(p).vertices[index]);
 }
 
 static double size_of(Vec3 p)
@@ -199,7 +208,7 @@ static void make_world(World *w, uint32_t seed)
         *p = random_shape(w, i);
         w->of[i] = &materials[below(5)];
         p->texture = w->of[i]->texture, p->interior_texture = w->of[i]->inside, p->interior = w->of[i]->interior;
-        for (int k = 0; k < triangles_of(p); k++)
+        for (int k = 0; k < triangles_of(p).ntriangles; k++)
             for (int c = 0; c < 3; c++)
                 w->reach = fmax(w->reach, size_of(corner_at(p, corners_of(p, k)[c])));
     }
@@ -261,7 +270,7 @@ static void meet_triangle(const World *w, const Ray *ray, int index, int k, Met 
     if (!(within > -doubt))
         return;
     add(met, ray,
-        (Candidate){t, 1e-14 * sizes / fabs(fall), fabs(fall), index, p->kind == SHAPE_BOX ? k / 2 : k,
+        (Candidate){t, 1e-14 * sizes / fabs(fall), fabs(fall), index, k / triangles_of(p).per_face,
                     within > doubt && fabs(fall) > 2e-3 && fabs(height) > START * sizes});
 }
 
@@ -274,9 +283,9 @@ static void meet_all(const World *w, const Ray *ray, RayKind kind, Met *met)
         int face;
         if (!visible(p, kind))
             continue;
-        for (int k = 0; k < triangles_of(p); k++)
+        for (int k = 0; k < triangles_of(p).ntriangles; k++)
             meet_triangle(w, ray, i, k, met);
-        if (triangles_of(p) == 0 && shape_intersect(p, ray, &t, &face))
+        if (!p->shape.ops->triangles && shape_intersect(p, ray, &t, &face))
             add(met, ray, (Candidate){t, 0, 0, i, face, 1});
     }
 }
@@ -294,11 +303,11 @@ static void complain(const World *w, const Ray *ray, RayKind kind, const Met *me
                   ray->tmax, ray->origin.x, ray->origin.y, ray->origin.z, ray->direction.x, ray->direction.y,
                   ray->direction.z);
     if (hit && hit->primitive >= 0)
-        print_message("# met: %d (kind %d) face %d at %.17g\n", hit->primitive, w->shapes[hit->primitive].kind,
+        print_message("# met: %d (%s) face %d at %.17g\n", hit->primitive, w->shapes[hit->primitive].shape.ops->name,
                       hit->face, hit->t);
     if (nearest)
-        print_message("# is there: %d (kind %d) face %d at %.17g, cosine %g\n", nearest->primitive,
-                      w->shapes[nearest->primitive].kind, nearest->face, nearest->t, nearest->fall);
+        print_message("# is there: %d (%s) face %d at %.17g, cosine %g\n", nearest->primitive,
+                      w->shapes[nearest->primitive].shape.ops->name, nearest->face, nearest->t, nearest->fall);
     fail_msg("%s; RETEX_ORACLE_SEED=%u, size %g, %d shapes", what, (unsigned)w->seed, w->size, w->scene.nprimitives);
 }
 
@@ -392,7 +401,7 @@ static Ray random_ray(const World *w)
     Ray ray = {vec_mad(w->centre, direction(), w->size * (chance(0.1) ? w->far : between(0, 2))), direction(), 0,
                INFINITY};
 
-    if (aim->kind == SHAPE_SPHERE && chance(0.3))
+    if (aim->shape.ops == &shape_sphere && chance(0.3))
         return skimming_ray(w, aim);
     if (chance(0.1)) {
         int axis = below(3);
@@ -544,22 +553,18 @@ static void queries_are_a_plain_loop(void **unused)
 /* 0 on the surface, and of another sign on its other side; in canonical space. */
 static double equation(const Primitive *p, Vec3 q)
 {
-    double sum = vec_dot(q, q) + p->r0 * p->r0 - p->r1 * p->r1, radius = p->r0 + (p->r1 - p->r0) * q.z;
+    double r0 = p->shape.r0, r1 = p->shape.r1;
+    double sum = vec_dot(q, q) + r0 * r0 - r1 * r1, radius = r0 + (r1 - r0) * q.z;
 
-    switch (p->kind) {
-    case SHAPE_SPHERE:
+    if (p->shape.ops == &shape_sphere)
         return vec_dot(q, q) - 1;
-    case SHAPE_CONE:
-        if (p->open) /* both nappes: what of them is there is asked of the crossing */
-            return q.x * q.x + q.y * q.y - radius * radius;
+    if (p->shape.ops == &shape_cone && p->shape.open) /* both nappes: what of them is there is asked of the crossing */
+        return q.x * q.x + q.y * q.y - radius * radius;
+    if (p->shape.ops == &shape_cone)
         return fmax(hypot(q.x, q.y) - radius, fmax(-q.z, q.z - 1));
-    case SHAPE_TORUS:
-        return sum * sum - 4 * p->r0 * p->r0 * (q.x * q.x + q.z * q.z);
-    case SHAPE_DISC:
-        return q.z;
-    default:
-        return q.y;
-    }
+    if (p->shape.ops == &shape_torus)
+        return sum * sum - 4 * p->shape.r0 * p->shape.r0 * (q.x * q.x + q.z * q.z);
+    return p->shape.ops == &shape_disc ? q.z : q.y;
 }
 
 /* How far within the edges of a shape that has some a point of its surface is. */
@@ -567,9 +572,9 @@ static double within_edges(const Primitive *p, Vec3 q)
 {
     double rho = hypot(q.x, q.y);
 
-    if (p->kind == SHAPE_CONE && p->open)
+    if (p->shape.ops == &shape_cone && p->shape.open)
         return fmin(q.z, 1 - q.z);
-    return p->kind == SHAPE_DISC ? fmin(p->r0 - rho, p->r1 > 0 ? rho - p->r1 : INFINITY) : 1;
+    return p->shape.ops == &shape_disc ? fmin(p->shape.r0 - rho, p->shape.r1 > 0 ? rho - p->shape.r1 : INFINITY) : 1;
 }
 
 /* The solution of m x = v, by Cramer's rule: not by the inverse that the renderer goes by. */
@@ -609,8 +614,8 @@ static uint32_t case_seed;
 
 static void complain_of(const Primitive *p, const char *what, double first, double second)
 {
-    fail_msg("kind %d, r0 %g, r1 %g, open %d: %s: %.17g, %.17g; RETEX_ORACLE_SEED=%u", p->kind, p->r0, p->r1, p->open,
-             what, first, second, (unsigned)case_seed);
+    fail_msg("%s, r0 %g, r1 %g, open %d: %s: %.17g, %.17g; RETEX_ORACLE_SEED=%u", p->shape.ops->name, p->shape.r0,
+             p->shape.r1, p->shape.open, what, first, second, (unsigned)case_seed);
 }
 
 /* What shape_intersect finds is on the surface, and nothing comes before it; nothing is where it finds nothing. Returns
@@ -630,7 +635,7 @@ static int check_shape(const Primitive *p, const Ray *ray, double *where)
         complain_of(p, "off the surface", ray->tmin, t);
     else if (within_edges(p, vec_mad(o, d, t)) < -1e-6)
         complain_of(p, "beyond the edge", ray->tmin, t);
-    half = (p->kind == SHAPE_PLANE ? 1e3 * (1 + vec_length(o)) : 3.5) / length; /* all others are within 3.5 */
+    half = (p->shape.ops == &shape_plane ? 1e3 * (1 + vec_length(o)) : 3.5) / length; /* all others are within 3.5 */
     low = fmax(ray->tmin, middle - half);
     high = fmin(found ? t : ray->tmax, middle + half);
     /* The end is the hit itself: the last step before it has the sign of this side. */
@@ -645,7 +650,8 @@ static int check_shape(const Primitive *p, const Ray *ray, double *where)
 
 static void curved_shapes_are_their_equations(void **unused)
 {
-    const ShapeKind kinds[] = {SHAPE_SPHERE, SHAPE_PLANE, SHAPE_CONE, SHAPE_TORUS, SHAPE_DISC, SHAPE_CONE, SHAPE_TORUS};
+    const ShapeOps *const kinds[] = {&shape_sphere, &shape_plane, &shape_cone, &shape_torus,
+                                     &shape_disc,   &shape_cone,  &shape_torus};
     static World w;
     double end = end_after(0.2);
     int met[7] = {0};
@@ -654,7 +660,7 @@ static void curved_shapes_are_their_equations(void **unused)
     for (int i = 0; i < 1000 || seconds() < end; i++) {
         state = case_seed = first_seed() + (uint32_t)i;
         int row = (int)(case_seed % 7);
-        Primitive p = {.kind = kinds[row], .target = -1};
+        Primitive p = {.shape.ops = kinds[row], .target = -1};
         w.size = magnitude(1e-3, 1e3), w.far = 20;
         w.centre = vec_scale(direction(), w.size * (chance(0.5) ? 0 : magnitude(0.1, 30)));
         p.transform = random_transform(w.size * magnitude(0.1, 1), w.centre);

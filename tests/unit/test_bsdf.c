@@ -29,7 +29,7 @@ static void case_begin(Case *c, int backside)
                            .roughness = 0.05},
                 .interior = {.ior = 1}};
     c->texture = (Texture){.pigment = &white, .finish = &c->finish};
-    c->primitive = (Primitive){.kind = SHAPE_PLANE, .texture = &c->texture, .interior = &c->interior};
+    c->primitive = (Primitive){.shape.ops = &shape_plane, .texture = &c->texture, .interior = &c->interior};
     c->surface = (Surface){.primitive = &c->primitive,
                            .texture = &c->texture,
                            .target = -1,

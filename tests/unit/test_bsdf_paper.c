@@ -138,7 +138,7 @@ static void povray_finish(Subject *s)
     s->finish.phong_size = 40, s->finish.roughness = 0.05;
     s->interior.ior = 1;
     s->texture = (Texture){.pigment = &s->pigment, .finish = &s->finish};
-    s->primitive = (Primitive){.kind = SHAPE_PLANE, .texture = &s->texture, .interior = &s->interior};
+    s->primitive = (Primitive){.shape.ops = &shape_plane, .texture = &s->texture, .interior = &s->interior};
     s->surface = (Surface){.primitive = &s->primitive,
                            .texture = &s->texture,
                            .target = -1,

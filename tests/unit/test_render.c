@@ -38,7 +38,7 @@ static void stage_open(Stage *s)
 }
 
 /* One more primitive with a colour and POV-Ray's plain diffuse finish of 1. */
-static Primitive *stage_add(Stage *s, ShapeKind kind, Transform transform, float r, float g, float b)
+static Primitive *stage_add(Stage *s, const ShapeOps *ops, Transform transform, float r, float g, float b)
 {
     int k = s->scene->nprimitives++;
     s->pigments[k] =
@@ -51,13 +51,11 @@ static Primitive *stage_add(Stage *s, ShapeKind kind, Transform transform, float
                               .roughness = 0.05};
     s->interiors[k] = (Interior){.ior = 1};
     s->textures[k] = (Texture){.pigment = &s->pigments[k], .finish = &s->finishes[k]};
-    s->primitives[k] = (Primitive){.kind = kind,
+    s->primitives[k] = (Primitive){.shape = {.ops = ops, .r0 = 1, .r1 = 1},
                                    .transform = transform,
                                    .texture = &s->textures[k],
                                    .interior = &s->interiors[k],
-                                   .target = -1,
-                                   .r0 = 1,
-                                   .r1 = 1};
+                                   .target = -1};
     return &s->primitives[k];
 }
 
@@ -107,7 +105,7 @@ static void furnace_is_invisible(void **state)
         Stage s;
         stage_open(&s);
         s.scene->background = rgb_grey(1);
-        stage_add(&s, SHAPE_SPHERE, at(0, 0, 0, 1), 1, 1, 1);
+        stage_add(&s, &shape_sphere, at(0, 0, 0, 1), 1, 1, 1);
         if (glass) {
             s.pigments[0].color = (Rgbft){1, 1, 1, 0, 1};
             s.interiors[0].ior = 1.5;
@@ -136,7 +134,7 @@ static void point_light_over_a_plane(void **state)
     Stage s;
     stage_open(&s);
     s.scene->camera = (Camera){CAMERA_ORTHOGRAPHIC, {0, 5, 0}, {0, -1, 0}, {4, 0, 0}, {0, 0, 3}};
-    stage_add(&s, SHAPE_PLANE, transform_identity(), 0.5f, 0.25f, 1);
+    stage_add(&s, &shape_plane, transform_identity(), 0.5f, 0.25f, 1);
     s.scene->nlights = 1;
     s.lights[0] = (Light){.kind = LIGHT_POINT, .location = {0.5, 2, 0}, .color = {1, 1, 0.5f}};
     RetexSet *set = stage_render(&s, 64, 0, 2);
@@ -159,8 +157,8 @@ static void sphere_emitter_irradiance(void **state)
     Stage s;
     stage_open(&s);
     s.scene->camera = (Camera){CAMERA_ORTHOGRAPHIC, {0, 1, 0}, {0, -1, 0}, {0.02, 0, 0}, {0, 0, 0.015}};
-    stage_add(&s, SHAPE_PLANE, transform_identity(), 0.6f, 0.6f, 0.6f);
-    stage_add(&s, SHAPE_SPHERE, at(0, 3, 0, 0.5), 1, 1, 1);
+    stage_add(&s, &shape_plane, transform_identity(), 0.6f, 0.6f, 0.6f);
+    stage_add(&s, &shape_sphere, at(0, 3, 0, 0.5), 1, 1, 1);
     s.finishes[1].diffuse = 0, s.finishes[1].emission = rgb_grey(8);
     RetexSet *set = stage_render(&s, 256, 0, 2);
     double mean = 0;
@@ -180,8 +178,8 @@ static void slab_reflects_by_fresnel(void **state)
     stage_open(&s);
     s.scene->camera = (Camera){CAMERA_ORTHOGRAPHIC, {0, 5, 0}, {0, -1, 0}, {4, 0, 0}, {0, 0, 3}};
     s.scene->background = rgb_grey(1);
-    stage_add(&s, SHAPE_PLANE, transform_identity(), 1, 1, 1);
-    stage_add(&s, SHAPE_PLANE, at(0, -1, 0, 1), 0, 0, 0);
+    stage_add(&s, &shape_plane, transform_identity(), 1, 1, 1);
+    stage_add(&s, &shape_plane, at(0, -1, 0, 1), 0, 0, 0);
     s.pigments[0].color = (Rgbft){1, 1, 1, 0, 1};
     s.interiors[0].ior = 1.5;
     s.finishes[0].diffuse = 0, s.finishes[0].reflection_max = rgb_grey(1), s.finishes[0].reflection_fresnel = 1;
@@ -200,9 +198,9 @@ static void target_stage(Stage *s)
 {
     stage_open(s);
     s->scene->background = rgb(0.6f, 0.7f, 1);
-    stage_add(s, SHAPE_PLANE, at(0, -1, 0, 1), 0.7f, 0.5f, 0.3f);
-    stage_add(s, SHAPE_SPHERE, at(0, 0, 0, 1), 0.3f, 0.8f, 0.4f);
-    stage_add(s, SHAPE_SPHERE, at(2, 2.5, -1, 0.5), 1, 0.9f, 0.8f);
+    stage_add(s, &shape_plane, at(0, -1, 0, 1), 0.7f, 0.5f, 0.3f);
+    stage_add(s, &shape_sphere, at(0, 0, 0, 1), 0.3f, 0.8f, 0.4f);
+    stage_add(s, &shape_sphere, at(2, 2.5, -1, 0.5), 1, 0.9f, 0.8f);
     s->finishes[1].specular = 0.3, s->finishes[1].roughness = 0.02;
     s->finishes[2].diffuse = 0, s->finishes[2].emission = rgb_grey(10);
     s->scene->ntargets = 2;
@@ -305,7 +303,7 @@ static void the_inside_is_another_surface(void **state)
     /* the target is the sphere's outer texture; a camera in the sphere sees the inner one and its emission */
     Stage s;
     stage_open(&s);
-    stage_add(&s, SHAPE_SPHERE, at(0, 0, -5, 1), 1, 0, 0);
+    stage_add(&s, &shape_sphere, at(0, 0, -5, 1), 1, 0, 0);
     s.pigments[1] =
         (Pigment){.kind = PIGMENT_COLOR, .color = {0, 1, 0, 0, 0}, .transform = transform_identity(), .frequency = 1};
     s.finishes[1] = s.finishes[0];
@@ -342,7 +340,7 @@ static void irradiance_knows_no_material(void **state)
         RetexSet *set = NULL;
         stage_open(&s);
         s.scene->camera = (Camera){CAMERA_ORTHOGRAPHIC, {0, 5, 0}, {0, -1, 0}, {4, 0, 0}, {0, 0, 3}};
-        stage_add(&s, SHAPE_PLANE, transform_identity(), 0, 0.25f, 1);
+        stage_add(&s, &shape_plane, transform_identity(), 0, 0.25f, 1);
         s.finishes[0].diffuse = 0.3, s.finishes[0].emission = rgb_grey(2);
         s.finishes[0].reflection_max = rgb_grey(0.5f);
         s.finishes[0].reflection_metallic = 0.75;

@@ -1,6 +1,7 @@
 /* What the language builds: shapes in canonical form, the order of transforms and textures, groups, layers,
  * finishes, the working space. */
 #include "lib_scene_text.h"
+#include "shape/shapes.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -14,7 +15,7 @@ static void test_sphere_and_transforms(void **state)
     (void)state;
     Scene *scene = parse(V37 "sphere{<1,2,3>,2 scale <2,1,1> rotate 90*z translate x}");
     const Primitive *p = only(scene);
-    assert_int_equal(p->kind, SHAPE_SPHERE);
+    assert_ptr_equal(p->shape.ops, &shape_sphere);
     /* Left-handed: a turn of 90 degrees about z takes x to y. (2,2,3) -> (-2,2,3) -> (-1,2,3). */
     assert_vec(transform_point(&p->transform, vec3(0, 0, 0)), -1, 2, 3);
     assert_vec(transform_vector(&p->transform, vec3(1, 0, 0)), 0, 4, 0);
@@ -50,17 +51,17 @@ static void test_cone_torus_disc(void **state)
     (void)state;
     Scene *scene = parse(V37 "cone{<1,0,0>,.5,<1,4,0>,.25 open} cylinder{-z,z,2} torus{3,.5} disc{y,<1,0,0>,4,1}");
     const Primitive *p = scene->primitives;
-    assert_int_equal(p[0].kind, SHAPE_CONE);
-    assert_true(p[0].open && !p[1].open);
-    assert_near(p[0].r0, 0.5);
-    assert_near(p[0].r1, 0.25);
+    assert_ptr_equal(p[0].shape.ops, &shape_cone);
+    assert_true(p[0].shape.open && !p[1].shape.open);
+    assert_near(p[0].shape.r0, 0.5);
+    assert_near(p[0].shape.r1, 0.25);
     assert_vec(transform_point(&p[0].transform, vec3(0, 0, 1)), 1, 4, 0);
     assert_near(vec_length(transform_vector(&p[0].transform, vec3(1, 0, 0))), 1);
     assert_vec(transform_point(&p[1].transform, vec3(0, 0, 0)), 0, 0, -1);
-    assert_near(p[2].r0, 3);
-    assert_near(p[2].r1, 0.5);
-    assert_near(p[3].r0, 4);
-    assert_near(p[3].r1, 1);
+    assert_near(p[2].shape.r0, 3);
+    assert_near(p[2].shape.r1, 0.5);
+    assert_near(p[3].shape.r0, 4);
+    assert_near(p[3].shape.r1, 1);
     assert_vec(transform_normal(&p[3].transform, vec3(0, 0, 1)), 1, 0, 0);
     scene_close(&scene);
 }

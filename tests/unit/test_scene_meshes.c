@@ -1,5 +1,6 @@
 /* What the language builds: meshes and polygons, and what cannot be cut. */
 #include "lib_scene_text.h"
+#include "shape/shapes.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -20,7 +21,7 @@ static void test_mesh2(void **state)
     (void)state;
     Scene *scene = parse(mesh2_text);
     const Primitive *p = only(scene);
-    const Mesh *mesh = p->mesh;
+    const Mesh *mesh = p->shape.mesh;
     assert_int_equal(mesh->nvertices, 4);
     assert_int_equal(mesh->nfaces, 2);
     assert_int_equal(mesh->faces[1].texture, 1);
@@ -54,7 +55,7 @@ static void test_mesh(void **state)
         V37 "#declare A = texture{pigment{rgb 1}} #declare B = texture{pigment{rgb <1,0,0>}}"
             "mesh{ triangle{0,x,y texture{A}} smooth_triangle{0,z,x,z,y,z uv_vectors <0,0>,<1,0>,<0,1> texture{B}}"
             " triangle{0,x,z texture{A}} triangle{0,z,y} inside_vector y pigment{rgb <0,0,1>} }");
-    const Mesh *mesh = only(scene)->mesh;
+    const Mesh *mesh = only(scene)->shape.mesh;
     assert_int_equal(mesh->nfaces, 4);
     assert_int_equal(mesh->ntextures, 2);
     assert_int_equal(mesh->faces[2].texture, mesh->faces[0].texture);
@@ -72,7 +73,7 @@ static void test_loose_triangles(void **state)
                              "  smooth_triangle{0,z,x,z,y,z} pigment{rgb 1} }"
                              "object{Net translate 3*x} sphere{0,1} triangle{0,x,y no_shadow} triangle{0,x,z}");
     assert_int_equal(scene->nprimitives, 4);
-    const Mesh *mesh = scene->primitives[0].mesh;
+    const Mesh *mesh = scene->primitives[0].shape.mesh;
     assert_int_equal(mesh->nfaces, 3);
     assert_vec(mesh->vertices[3], 4, 0, 1);
     assert_int_equal(mesh->faces[0].normal[0], -1);
@@ -84,7 +85,7 @@ static void test_loose_triangles(void **state)
 static double mesh_area(const Scene *scene)
 {
     double area = 0;
-    const Mesh *mesh = only(scene)->mesh;
+    const Mesh *mesh = only(scene)->shape.mesh;
     for (int i = 0; i < mesh->nfaces; i++) {
         const int *v = mesh->faces[i].vertex;
         area += 0.5 * vec_length(vec_cross(vec_sub(mesh->vertices[v[1]], mesh->vertices[v[0]]),
@@ -148,8 +149,8 @@ static void test_csg(void **state)
     Scene *scene = parse(V37 "difference{box{-1,1} sphere{0,1.2} pigment{rgb 1}} "
                              "intersection{plane{y,0} sphere{0,1} box{0,1}} merge{sphere{0,1} sphere{x,1}}");
     assert_int_equal(scene->nprimitives, 4);
-    assert_int_equal(scene->primitives[0].kind, SHAPE_BOX);
-    assert_int_equal(scene->primitives[1].kind, SHAPE_SPHERE);
+    assert_ptr_equal(scene->primitives[0].shape.ops, &shape_box);
+    assert_ptr_equal(scene->primitives[1].shape.ops, &shape_sphere);
     assert_non_null(strstr(messages, "`difference` is not supported yet"));
     assert_non_null(strstr(messages, "`intersection` is not supported yet"));
     scene_close(&scene);

@@ -6,7 +6,7 @@
 #include <setjmp.h>
 #include <string.h>
 #include <cmocka.h>
-#include "shape/surface.h"
+#include "shape/shape.h"
 
 static uint64_t seed = 1;
 
@@ -38,10 +38,10 @@ static Transform random_transform(double scale, double shift, int even)
     return transform_then(t, transform_translate(vec_scale(direction(), shift)));
 }
 
-static Primitive shape(ShapeKind kind, double r0, double r1, Transform transform)
+static Primitive shape(const ShapeOps *ops, double r0, double r1, Transform transform)
 {
     static Texture texture;
-    Primitive p = {.kind = kind, .r0 = r0, .r1 = r1, .transform = transform, .texture = &texture, .target = 3};
+    Primitive p = {.shape = {.ops = ops, .r0 = r0, .r1 = r1}, .transform = transform, .texture = &texture, .target = 3};
 
     return p;
 }
@@ -52,9 +52,8 @@ static Surface surface_of(const Primitive *p, const Ray *ray, double t, int face
     Hit hit = {.t = t, .face = face};
     Surface s;
 
-    if (p->kind == SHAPE_BOX)
-        hit.normal = box_normal(p, face);
-
+    if (p->shape.ops->face_normal)
+        hit.normal = p->shape.ops->face_normal(p, face, NULL);
     surface_at(&s, &scene, ray, &hit);
     return s;
 }
@@ -64,20 +63,19 @@ static Surface surface_of(const Primitive *p, const Ray *ray, double t, int face
 /* Negative inside, positive outside, near a distance, in canonical space. */
 static double implicit(const Primitive *p, Vec3 q)
 {
-    double rho, side, slope = p->r1 - p->r0;
+    double rho, side, slope = p->shape.r1 - p->shape.r0;
 
-    switch (p->kind) {
-    case SHAPE_SPHERE:
+    if (p->shape.ops == &shape_sphere)
         return vec_length(q) - 1;
-    case SHAPE_CONE:
-        side = (hypot(q.x, q.y) - p->r0 - slope * q.z) / sqrt(1 + slope * slope);
+    if (p->shape.ops == &shape_cone) {
+        side = (hypot(q.x, q.y) - p->shape.r0 - slope * q.z) / sqrt(1 + slope * slope);
         return fmax(side, fmax(-q.z, q.z - 1));
-    case SHAPE_TORUS:
-        rho = hypot(q.x, q.z);
-        return hypot(rho - p->r0, q.y) - p->r1;
-    default:
-        return q.y;
     }
+    if (p->shape.ops == &shape_torus) {
+        rho = hypot(q.x, q.z);
+        return hypot(rho - p->shape.r0, q.y) - p->shape.r1;
+    }
+    return q.y;
 }
 
 /* The first crossing of the surface by marching; -1 for none. *doubtful: the ray came too near to tell. */
@@ -105,7 +103,7 @@ static void check_against_march(Primitive p, double size)
     Vec3 low, high;
     int hits = 0;
 
-    assert_true(shape_bounds(&p, &low, &high) || p.kind == SHAPE_PLANE);
+    assert_true(shape_bounds(&p, &low, &high) || p.shape.ops == &shape_plane);
     for (int i = 0; i < 300; i++) {
         Vec3 centre = transform_point(&p.transform, vec3(0, 0, 0)),
              aim = vec_mad(centre, direction(), size * uniform());
@@ -120,7 +118,7 @@ static void check_against_march(Primitive p, double size)
             Vec3 at = vec_mad(ray.origin, ray.direction, t);
             assert_true(fabs(implicit(&p, transform_inverse_point(&p.transform, at))) < 1e-11);
             assert_true(vec_length(vec_sub(s.position, at)) < 1e-10 * size);
-            if (p.kind != SHAPE_PLANE)
+            if (p.shape.ops != &shape_plane)
                 assert_true(at.x > low.x - 1e-9 * size && at.y > low.y - 1e-9 * size && at.z > low.z - 1e-9 * size &&
                             at.x < high.x + 1e-9 * size && at.y < high.y + 1e-9 * size && at.z < high.z + 1e-9 * size);
             /* the normal looks where the implicit function grows */
@@ -146,13 +144,13 @@ static void intersections_match_marching(void **state)
     for (int i = 0; i < 4; i++) {
         double size = i < 2 ? 1 : 1e-3;
         Transform t = random_transform(size / 3, size, 0);
-        check_against_march(shape(SHAPE_SPHERE, 0, 0, t), size);
-        check_against_march(shape(SHAPE_CONE, 0.7, 0.7, t), size);
-        check_against_march(shape(SHAPE_CONE, 0.9, 0.2, t), size);
-        check_against_march(shape(SHAPE_CONE, 0, 1, t), size);
-        check_against_march(shape(SHAPE_PLANE, 0, 0, t), size);
+        check_against_march(shape(&shape_sphere, 0, 0, t), size);
+        check_against_march(shape(&shape_cone, 0.7, 0.7, t), size);
+        check_against_march(shape(&shape_cone, 0.9, 0.2, t), size);
+        check_against_march(shape(&shape_cone, 0, 1, t), size);
+        check_against_march(shape(&shape_plane, 0, 0, t), size);
         for (int k = 0; k < 3; k++)
-            check_against_march(shape(SHAPE_TORUS, 1, tubes[k], t), size);
+            check_against_march(shape(&shape_torus, 1, tubes[k], t), size);
     }
 }
 
@@ -160,7 +158,7 @@ static void intersections_match_marching(void **state)
  * on the other side. At all scales, far from the origin and near it. */
 static void no_self_intersection(void **state)
 {
-    const ShapeKind kinds[] = {SHAPE_SPHERE, SHAPE_CONE, SHAPE_CONE, SHAPE_TORUS};
+    const ShapeOps *const kinds[] = {&shape_sphere, &shape_cone, &shape_cone, &shape_torus};
     const double low[] = {0, 0.8, 1, 1}, high[] = {0, 0.8, 0, 0.3};
     const double scales[] = {1e-4, 1e-2, 1, 1e2, 1e4};
 
@@ -198,8 +196,8 @@ static void no_self_intersection(void **state)
 
 static void discs_and_open_cones(void **state)
 {
-    Primitive disc = shape(SHAPE_DISC, 2, 1, transform_identity()),
-              tube = shape(SHAPE_CONE, 1, 1, transform_identity());
+    Primitive disc = shape(&shape_disc, 2, 1, transform_identity()),
+              tube = shape(&shape_cone, 1, 1, transform_identity());
     Ray ray = {{1.5, 0, -3}, {0, 0, 1}, 0, INFINITY}, along = {{0.2, 0, -3}, {0, 0, 1}, 0, INFINITY};
     double t;
     int face;
@@ -210,7 +208,7 @@ static void discs_and_open_cones(void **state)
     assert_true(shape_intersect(&tube, &along, &t, &face) && t == 3 && face == 1);
     along.tmin = 3;
     assert_true(shape_intersect(&tube, &along, &t, &face) && t == 4 && face == 2);
-    tube.open = 1;
+    tube.shape.open = 1;
     assert_false(shape_intersect(&tube, &along, &t, &face));
     ray = (Ray){{0, 0, 0.5}, {1, 0, 0}, 0, INFINITY};
     assert_true(shape_intersect(&tube, &ray, &t, &face) && t == 1 && face == 0);
@@ -237,7 +235,8 @@ static Surface box_surface(int face, Vec3 at)
     Vec3 out = {face / 2 == 0, face / 2 == 1, face / 2 == 2};
     Ray ray;
 
-    box = shape(SHAPE_BOX, 0, 0, transform_then(transform_scale(vec3(2, 2, 2)), transform_translate(vec3(-1, -1, -1))));
+    box =
+        shape(&shape_box, 0, 0, transform_then(transform_scale(vec3(2, 2, 2)), transform_translate(vec3(-1, -1, -1))));
     out = vec_scale(out, face & 1 ? 1 : -1);
     ray = (Ray){vec_mad(at, out, 5), vec_neg(out), 0, INFINITY};
     return surface_of(&box, &ray, 5, face);
@@ -246,9 +245,9 @@ static Surface box_surface(int face, Vec3 at)
 /* The UVs are POV-Ray's own pixels at these points. */
 static void uv_is_povray(void **state)
 {
-    Primitive sphere = shape(SHAPE_SPHERE, 0, 0, transform_identity()),
-              torus = shape(SHAPE_TORUS, 1, 0.4, transform_rotate(vec3(-60, 0, 0)));
-    Primitive disc = shape(SHAPE_DISC, 1, 0, transform_translate(vec3(0.25, 0, 0)));
+    Primitive sphere = shape(&shape_sphere, 0, 0, transform_identity()),
+              torus = shape(&shape_torus, 1, 0.4, transform_rotate(vec3(-60, 0, 0)));
+    Primitive disc = shape(&shape_disc, 1, 0, transform_translate(vec3(0.25, 0, 0)));
     Ray ray = {{-0.0375, -0.0375, -5}, {0, 0, 1}, 0, INFINITY};
     double t;
     int face;
@@ -278,13 +277,17 @@ static void uv_is_povray(void **state)
 static void box_points_lie_on_faces(void **state)
 {
     Surface s = box_surface(1, vec3(1, 0.4, 0.5));
+    ShapeTriangles box;
 
     (void)state;
+    shape_box.triangles(NULL, &box);
+    assert_int_equal(box.ntriangles, 12);
     assert_true(s.position.x == 1 && fabs(s.position.y - 0.4) < 1e-15 && s.geometric_normal.x == 1 && s.target == 3);
     for (int i = 0; i < 12; i++) {
-        const int *k = box_triangles[i];
-        Vec3 n = vec_cross(vec_sub(box_corner(k[1]), box_corner(k[0])), vec_sub(box_corner(k[2]), box_corner(k[0])));
-        Surface face = box_surface(i / 2, vec3(0, 0, 0));
+        const int *k = box.corners + (size_t)i * box.stride;
+        const Vec3 *v = box.vertices;
+        Vec3 n = vec_cross(vec_sub(v[k[1]], v[k[0]]), vec_sub(v[k[2]], v[k[0]]));
+        Surface face = box_surface(i / box.per_face, vec3(0, 0, 0));
         assert_true(vec_dot(n, face.geometric_normal) == 1);
     }
 }
@@ -292,13 +295,13 @@ static void box_points_lie_on_faces(void **state)
 static Surface mesh_surface(const Primitive *p, Hit hit, const Ray *ray)
 {
     Scene scene = {.primitives = (Primitive *)p, .nprimitives = 1};
-    const int *vertex = p->mesh->faces[hit.face].vertex;
+    const int *vertex = p->shape.mesh->faces[hit.face].vertex;
     Vec3 corner[3];
     Surface s;
 
     for (int k = 0; k < 3; k++)
-        corner[k] = transform_point(&p->transform, p->mesh->vertices[vertex[k]]);
-    hit.normal = face_normal(p, hit.face, corner);
+        corner[k] = transform_point(&p->transform, p->shape.mesh->vertices[vertex[k]]);
+    hit.normal = p->shape.ops->face_normal(p, hit.face, corner);
     surface_at(&s, &scene, ray, &hit);
     return s;
 }
@@ -319,13 +322,13 @@ static void mesh_normals(void **state)
                  .normals = normals,
                  .uvs = uvs,
                  .faces = faces};
-    Primitive p = shape(SHAPE_MESH, 0, 0, transform_identity());
+    Primitive p = shape(&shape_mesh, 0, 0, transform_identity());
     Ray ray = {{0.25, 0.25, -1}, {0, 0, 1}, 0, INFINITY};
     Hit hit = {.t = 1, .face = 0, .b1 = 0.25, .b2 = 0.25};
     Surface s;
 
     (void)state;
-    p.mesh = &mesh;
+    p.shape.mesh = &mesh;
     mesh.inward = mesh_winds_inward(&mesh);
     assert_int_equal(mesh.inward, 1);
     s = mesh_surface(&p, hit, &ray);
@@ -358,7 +361,7 @@ static void check_sampling(Primitive p, double known_area)
     for (int i = 0; i < n; i++) {
         Surface s;
         double pdf;
-        shape_sample(&p, NULL, -1, uniform(), uniform(), &s, &pdf);
+        shape_sample(&p, -1, uniform(), uniform(), &s, &pdf);
         assert_true(pdf > 0);
         assert_true(fabs(shape_pdf_area(&p, &s) / pdf - 1) < 1e-9);
         assert_true(fabs(vec_length(s.geometric_normal) - 1) < 1e-12 && s.backside == 0);
@@ -378,22 +381,22 @@ static void sampling_has_its_density(void **state)
     Transform twice = transform_then(transform_scale(vec3(-2, 2, 2)), transform_rotate(vec3(10, 20, 30)));
 
     (void)state;
-    check_sampling(shape(SHAPE_SPHERE, 0, 0, twice), 16 * PI);
-    check_sampling(shape(SHAPE_BOX, 0, 0, twice), 24);
-    check_sampling(shape(SHAPE_BOX, 0, 0, transform_scale(vec3(1, 2, 3))), 22);
-    check_sampling(shape(SHAPE_CONE, 1, 1, twice), 4 * (2 * PI + 2 * PI));
-    check_sampling(shape(SHAPE_CONE, 2, 0, twice), 4 * (2 * PI * sqrt(5) + 4 * PI));
-    check_sampling(shape(SHAPE_DISC, 2, 1, twice), 12 * PI);
-    check_sampling(shape(SHAPE_TORUS, 2, 0.5, twice), 4 * 4 * PI * PI);
+    check_sampling(shape(&shape_sphere, 0, 0, twice), 16 * PI);
+    check_sampling(shape(&shape_box, 0, 0, twice), 24);
+    check_sampling(shape(&shape_box, 0, 0, transform_scale(vec3(1, 2, 3))), 22);
+    check_sampling(shape(&shape_cone, 1, 1, twice), 4 * (2 * PI + 2 * PI));
+    check_sampling(shape(&shape_cone, 2, 0, twice), 4 * (2 * PI * sqrt(5) + 4 * PI));
+    check_sampling(shape(&shape_disc, 2, 1, twice), 12 * PI);
+    check_sampling(shape(&shape_torus, 2, 0.5, twice), 4 * 4 * PI * PI);
     for (int i = 0; i < 5; i++) {
-        check_sampling(shape(SHAPE_SPHERE, 0, 0, random_transform(1, 1, 0)), 0);
-        check_sampling(shape(SHAPE_CONE, 1, 0.3, random_transform(1, 1, 0)), 0);
-        check_sampling(shape(SHAPE_DISC, 1, 0.3, random_transform(1, 1, 0)), 0);
-        check_sampling(shape(SHAPE_TORUS, 1, 0.4, random_transform(1, 1, 0)), 0);
-        check_sampling(shape(SHAPE_BOX, 0, 0, random_transform(1, 1, 0)), 0);
+        check_sampling(shape(&shape_sphere, 0, 0, random_transform(1, 1, 0)), 0);
+        check_sampling(shape(&shape_cone, 1, 0.3, random_transform(1, 1, 0)), 0);
+        check_sampling(shape(&shape_disc, 1, 0.3, random_transform(1, 1, 0)), 0);
+        check_sampling(shape(&shape_torus, 1, 0.4, random_transform(1, 1, 0)), 0);
+        check_sampling(shape(&shape_box, 0, 0, random_transform(1, 1, 0)), 0);
     }
-    assert_true(shape_area(&(Primitive){.kind = SHAPE_PLANE, .transform = twice}) == 0);
-    Primitive spindle = shape(SHAPE_TORUS, 1, 1.5, twice);
+    assert_true(shape_area(&(Primitive){.shape.ops = &shape_plane, .transform = twice}) == 0);
+    Primitive spindle = shape(&shape_torus, 1, 1.5, twice);
     assert_true(shape_area(&spindle) == 0);
 }
 
@@ -410,7 +413,8 @@ static double density_sum(const Primitive *p, int cone, int face)
                 double a = (i + (k == 4 ? 0.5 : k & 1)) / rows, b = 2 * PI * (j + (k == 4 ? 0.5 : k >> 1)) / turns, r,
                        z;
                 if (cone) {
-                    r = face == 0 ? p->r0 + (p->r1 - p->r0) * a : a * (face == 1 ? p->r0 : p->r1);
+                    r = face == 0 ? p->shape.r0 + (p->shape.r1 - p->shape.r0) * a
+                                  : a * (face == 1 ? p->shape.r0 : p->shape.r1);
                     z = face == 0 ? a : face - 1;
                 } else {
                     r = sin(PI * a);
@@ -431,20 +435,49 @@ static void densities_add_up(void **state)
 {
     (void)state;
     for (int i = 0; i < 4; i++) {
-        Primitive sphere = shape(SHAPE_SPHERE, 0, 0, random_transform(1, 1, 0));
-        Primitive cone = shape(SHAPE_CONE, 1, 0.2, random_transform(1, 1, 0));
+        Primitive sphere = shape(&shape_sphere, 0, 0, random_transform(1, 1, 0));
+        Primitive cone = shape(&shape_cone, 1, 0.2, random_transform(1, 1, 0));
         assert_true(fabs(density_sum(&sphere, 0, 0) - 1) < 1e-3);
         assert_true(fabs(density_sum(&cone, 1, 0) + density_sum(&cone, 1, 1) + density_sum(&cone, 1, 2) - 1) < 1e-3);
+    }
+}
+
+/* ---- the table ---- */
+
+/* What callers take for granted of a row. */
+static void rows_are_whole(void **state)
+{
+    static const ShapeOps *const rows[] = {
+#define X(name) &shape_##name,
+        SHAPE_TABLE(X)
+#undef X
+    };
+
+    (void)state;
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        const ShapeOps *ops = rows[i];
+        assert_true(ops->intersect || ops->triangles);
+        assert_true(ops->bounds || (ops->intersect && !ops->triangles));
+        assert_true(!ops->triangles == !ops->face_normal);
+        assert_true(ops->point || (ops->triangles && ops->sample));
+        assert_true(!ops->area == !ops->sample && !ops->area == !ops->density);
+        for (size_t k = 0; k < i; k++)
+            assert_string_not_equal(ops->name, rows[k]->name);
     }
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(intersections_match_marching), cmocka_unit_test(no_self_intersection),
-        cmocka_unit_test(discs_and_open_cones),         cmocka_unit_test(uv_is_povray),
-        cmocka_unit_test(box_points_lie_on_faces),      cmocka_unit_test(mesh_normals),
-        cmocka_unit_test(sampling_has_its_density),     cmocka_unit_test(densities_add_up),
+        cmocka_unit_test(intersections_match_marching),
+        cmocka_unit_test(no_self_intersection),
+        cmocka_unit_test(discs_and_open_cones),
+        cmocka_unit_test(uv_is_povray),
+        cmocka_unit_test(rows_are_whole),
+        cmocka_unit_test(box_points_lie_on_faces),
+        cmocka_unit_test(mesh_normals),
+        cmocka_unit_test(sampling_has_its_density),
+        cmocka_unit_test(densities_add_up),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -11,101 +11,82 @@
 
 #include <stdint.h>
 #include "sdl/lang/parser.h"
+#include "shape/shapes.h"
 
 /* ---- what is not supported ---- */
 
-#define GAP_TABLE(X)                                                                                                   \
-    X(AGATE, "agate", "its mean colour is used")                                                                       \
-    X(AOI, "aoi", "its mean colour is used")                                                                           \
-    X(AVERAGE, "average", "its mean colour is used")                                                                   \
-    X(BOXED, "boxed", "its mean colour is used")                                                                       \
-    X(BOZO, "bozo", "its mean colour is used")                                                                         \
-    X(BRICK, "brick", "its mean colour is used")                                                                       \
-    X(BUMPS, "bumps", "its mean colour is used")                                                                       \
-    X(CELLS, "cells", "its mean colour is used")                                                                       \
-    X(CRACKLE, "crackle", "its mean colour is used")                                                                   \
-    X(CUBIC_PATTERN, "cubic pattern", "its mean colour is used")                                                       \
-    X(CYLINDRICAL, "cylindrical", "its mean colour is used")                                                           \
-    X(DENSITY_FILE, "density_file", "its mean colour is used")                                                         \
-    X(DENTS, "dents", "its mean colour is used")                                                                       \
-    X(FACETS, "facets", "its mean colour is used")                                                                     \
-    X(FUNCTION, "function pattern", "its mean colour is used")                                                         \
-    X(GRANITE, "granite", "its mean colour is used")                                                                   \
-    X(HEXAGON, "hexagon", "its mean colour is used")                                                                   \
-    X(IMAGE_PATTERN, "image_pattern", "its mean colour is used")                                                       \
-    X(JULIA, "julia", "its mean colour is used")                                                                       \
-    X(LEOPARD, "leopard", "its mean colour is used")                                                                   \
-    X(MAGNET, "magnet", "its mean colour is used")                                                                     \
-    X(MANDEL, "mandel", "its mean colour is used")                                                                     \
-    X(MARBLE, "marble", "its mean colour is used")                                                                     \
-    X(OBJECT_PATTERN, "object pattern", "the colour outside the object is used")                                       \
-    X(ONION, "onion", "its mean colour is used")                                                                       \
-    X(PAVEMENT, "pavement", "its mean colour is used")                                                                 \
-    X(PIGMENT_PATTERN, "pigment_pattern", "its mean colour is used")                                                   \
-    X(PLANAR, "planar", "its mean colour is used")                                                                     \
-    X(PROJECTION, "projection", "its mean colour is used")                                                             \
-    X(QUILTED, "quilted", "its mean colour is used")                                                                   \
-    X(RADIAL, "radial", "its mean colour is used")                                                                     \
-    X(RIPPLES, "ripples", "its mean colour is used")                                                                   \
-    X(SLOPE, "slope", "its mean colour is used")                                                                       \
-    X(SPHERICAL, "spherical", "its mean colour is used")                                                               \
-    X(SPIRAL, "spiral", "its mean colour is used")                                                                     \
-    X(SPOTTED, "spotted", "its mean colour is used")                                                                   \
-    X(SQUARE, "square", "its mean colour is used")                                                                     \
-    X(TILING, "tiling", "its mean colour is used")                                                                     \
-    X(TRIANGULAR, "triangular", "its mean colour is used")                                                             \
-    X(WAVES, "waves", "its mean colour is used")                                                                       \
-    X(WOOD, "wood", "its mean colour is used")                                                                         \
-    X(WRINKLES, "wrinkles", "its mean colour is used")                                                                 \
-    X(TURBULENCE, "turbulence", "the pattern is left undisturbed")                                                     \
-    X(WARP, "warp", "the pattern is left undisturbed")                                                                 \
-    X(PIGMENT_MAP, "pigment_map", "each pigment's mean colour is used")                                                \
-    X(TEXTURE_MAP, "texture_map", "each texture's mean colour is used, with the first one's finish")                   \
-    X(MATERIAL_MAP, "material_map", "its first texture is used")                                                       \
-    X(IMAGE_FUNCTION, "image_map of a function", "a middle grey is used")                                              \
-    X(IMAGE_PALETTE, "filter or transmit of a palette entry", "the entry stays opaque")                                \
-    X(IMAGE_PLACE, "repeat and offset of an image", "they are ignored")                                                \
-    X(MAP_TYPE, "this map_type", "the image is mapped as a plane")                                                     \
-    X(LAYERED, "a layered texture", "its topmost opaque layer is used")                                                \
-    X(NORMAL, "normal", "the surface stays smooth")                                                                    \
-    X(IRID, "irid", "it is ignored")                                                                                   \
-    X(SUBSURFACE, "subsurface", "it is ignored")                                                                       \
-    X(MEDIA, "media", "it is ignored")                                                                                 \
-    X(DISPERSION, "dispersion", "one ior is used for all colours")                                                     \
-    X(DIFFERENCE, "difference", "its first object is used whole")                                                      \
-    X(INTERSECTION, "intersection", "its first object that is not a plane is used whole")                              \
-    X(MERGE, "merge", "it is treated as a union")                                                                      \
-    X(CLIPPED_BY, "clipped_by", "the object stays whole")                                                              \
-    X(LIGHT_GROUP, "light_group", "its lights light everything")                                                       \
-    X(PROJECTED_THROUGH, "projected_through", "the light shines everywhere")                                           \
-    X(BICUBIC_PATCH, "bicubic_patch", "it is left out")                                                                \
-    X(BLOB, "blob", "it is left out")                                                                                  \
-    X(CUBIC, "cubic", "it is left out")                                                                                \
-    X(HEIGHT_FIELD, "height_field", "it is left out")                                                                  \
-    X(ISOSURFACE, "isosurface", "it is left out")                                                                      \
-    X(JULIA_FRACTAL, "julia_fractal", "it is left out")                                                                \
-    X(LATHE, "lathe", "it is left out")                                                                                \
-    X(OVUS, "ovus", "it is left out")                                                                                  \
-    X(PARAMETRIC, "parametric", "it is left out")                                                                      \
-    X(POLY, "poly", "it is left out")                                                                                  \
-    X(POLYNOMIAL, "polynomial", "it is left out")                                                                      \
-    X(PRISM, "prism", "it is left out")                                                                                \
-    X(QUADRIC, "quadric", "it is left out")                                                                            \
-    X(QUARTIC, "quartic", "it is left out")                                                                            \
-    X(SOR, "sor", "it is left out")                                                                                    \
-    X(SPHERE_SWEEP, "sphere_sweep", "it is left out")                                                                  \
-    X(SUPERELLIPSOID, "superellipsoid", "it is left out")                                                              \
-    X(TEXT, "text", "it is left out")
+#define GAP_TABLE(X) \
+    X(AGATE, "agate", "its mean colour is used") \
+    X(AOI, "aoi", "its mean colour is used") \
+    X(AVERAGE, "average", "its mean colour is used") \
+    X(BOXED, "boxed", "its mean colour is used") \
+    X(BOZO, "bozo", "its mean colour is used") \
+    X(BRICK, "brick", "its mean colour is used") \
+    X(BUMPS, "bumps", "its mean colour is used") \
+    X(CELLS, "cells", "its mean colour is used") \
+    X(CRACKLE, "crackle", "its mean colour is used") \
+    X(CUBIC_PATTERN, "cubic pattern", "its mean colour is used") \
+    X(CYLINDRICAL, "cylindrical", "its mean colour is used") \
+    X(DENSITY_FILE, "density_file", "its mean colour is used") \
+    X(DENTS, "dents", "its mean colour is used") \
+    X(FACETS, "facets", "its mean colour is used") \
+    X(FUNCTION, "function pattern", "its mean colour is used") \
+    X(GRANITE, "granite", "its mean colour is used") \
+    X(HEXAGON, "hexagon", "its mean colour is used") \
+    X(IMAGE_PATTERN, "image_pattern", "its mean colour is used") \
+    X(JULIA, "julia", "its mean colour is used") \
+    X(LEOPARD, "leopard", "its mean colour is used") \
+    X(MAGNET, "magnet", "its mean colour is used") \
+    X(MANDEL, "mandel", "its mean colour is used") \
+    X(MARBLE, "marble", "its mean colour is used") \
+    X(OBJECT_PATTERN, "object pattern", "the colour outside the object is used") \
+    X(ONION, "onion", "its mean colour is used") \
+    X(PAVEMENT, "pavement", "its mean colour is used") \
+    X(PIGMENT_PATTERN, "pigment_pattern", "its mean colour is used") \
+    X(PLANAR, "planar", "its mean colour is used") \
+    X(PROJECTION, "projection", "its mean colour is used") \
+    X(QUILTED, "quilted", "its mean colour is used") \
+    X(RADIAL, "radial", "its mean colour is used") \
+    X(RIPPLES, "ripples", "its mean colour is used") \
+    X(SLOPE, "slope", "its mean colour is used") \
+    X(SPHERICAL, "spherical", "its mean colour is used") \
+    X(SPIRAL, "spiral", "its mean colour is used") \
+    X(SPOTTED, "spotted", "its mean colour is used") \
+    X(SQUARE, "square", "its mean colour is used") \
+    X(TILING, "tiling", "its mean colour is used") \
+    X(TRIANGULAR, "triangular", "its mean colour is used") \
+    X(WAVES, "waves", "its mean colour is used") \
+    X(WOOD, "wood", "its mean colour is used") \
+    X(WRINKLES, "wrinkles", "its mean colour is used") \
+    X(TURBULENCE, "turbulence", "the pattern is left undisturbed") \
+    X(WARP, "warp", "the pattern is left undisturbed") \
+    X(PIGMENT_MAP, "pigment_map", "each pigment's mean colour is used") \
+    X(TEXTURE_MAP, "texture_map", "each texture's mean colour is used, with the first one's finish") \
+    X(MATERIAL_MAP, "material_map", "its first texture is used") \
+    X(IMAGE_FUNCTION, "image_map of a function", "a middle grey is used") \
+    X(IMAGE_PALETTE, "filter or transmit of a palette entry", "the entry stays opaque") \
+    X(IMAGE_PLACE, "repeat and offset of an image", "they are ignored") \
+    X(MAP_TYPE, "this map_type", "the image is mapped as a plane") \
+    X(LAYERED, "a layered texture", "its topmost opaque layer is used") \
+    X(NORMAL, "normal", "the surface stays smooth") \
+    X(IRID, "irid", "it is ignored") \
+    X(SUBSURFACE, "subsurface", "it is ignored") \
+    X(MEDIA, "media", "it is ignored") \
+    X(DISPERSION, "dispersion", "one ior is used for all colours") \
+    X(DIFFERENCE, "difference", "its first object is used whole") \
+    X(INTERSECTION, "intersection", "its first object that is not a plane is used whole") \
+    X(MERGE, "merge", "it is treated as a union") \
+    X(CLIPPED_BY, "clipped_by", "the object stays whole") \
+    X(LIGHT_GROUP, "light_group", "its lights light everything") \
+    X(PROJECTED_THROUGH, "projected_through", "the light shines everywhere")
 
 typedef enum Gap {
 #define X(id, name, instead) GAP_##id,
     GAP_TABLE(X)
 #undef X
-        GAP_COUNT
+    GAP_COUNT
 } Gap;
-typedef struct Gaps {
-    uint64_t bits[2];
-} Gaps;
+typedef struct Gaps { uint64_t bits[2]; } Gaps;
 _Static_assert(GAP_COUNT <= 128, "Gaps is too small");
 
 void gaps_add(Gaps *gaps, Gap gap);
@@ -187,10 +168,7 @@ typedef struct ObjectList {
 
 typedef struct Object {
     ObjectKind kind;
-    ShapeKind shape;
-    double r0, r1;
-    int open;
-    const Mesh *mesh; /* its textures are ParsedTextures in the mesh's own space */
+    Shape shape;      /* textures of its mesh are ParsedTextures in the mesh's own space */
     int loose;        /* a triangle of its own, which may be gathered into one mesh with its like */
     int polygon;      /* the mesh is a polygon */
     const Light *light;
@@ -200,6 +178,7 @@ typedef struct Object {
     const ParsedInterior *interior;
     unsigned flags;
     int uv_mapping;
+    const char *unsupported; /* keyword of a shape that is left out */
     int depth;    /* of nested groups */
     double parts; /* objects in it, counted through identifiers */
     const IdentList *idents;
@@ -318,13 +297,18 @@ const ParsedMaterial *parse_material(Sdl *sdl);
 /* object.c, shape.c, polygon.c, mesh.c, light.c */
 const Object *accept_object(Sdl *sdl); /* an object statement or identifier, or NULL where none is next */
 Object *object_new(Sdl *sdl, ObjectKind kind);
+void object_report(Sdl *sdl, const Object *object); /* what of it is not supported */
 void object_count_child(Sdl *sdl, Object *object, const Object *child); /* counts; an error beyond all bounds */
 void object_move(Object *object, const Transform *by);
 int accept_object_modifier(Sdl *sdl, Object *object);
 void parse_object_modifiers(Sdl *sdl, Object *object); /* up to the closing brace */
 typedef void ShapeParser(Sdl *sdl, Object *object);    /* what stands between `{` and the modifiers */
-ShapeParser parse_sphere, parse_box, parse_plane, parse_cylinder, parse_cone, parse_torus, parse_disc, parse_triangle,
-    parse_smooth_triangle, parse_polygon, parse_mesh, parse_mesh2;
+/* Keywords that are not the name of a shape's operations. */
+#define SHAPE_KEYWORDS(X) X(cylinder) X(mesh2) X(polygon) X(smooth_triangle) X(triangle)
+#define X(name) ShapeParser parse_##name;
+SHAPE_TABLE(X)
+SHAPE_KEYWORDS(X)
+#undef X
 const Object *parse_light_source(Sdl *sdl); /* after light_source */
 int polygon_triangulate(Sdl *sdl, const Vec2 *points, const int *starts, int nrings, Vec2 **corners, int *ncorners);
 

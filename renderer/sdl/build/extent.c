@@ -16,12 +16,7 @@ static void extent(Sdl *sdl, const Object *object, const Transform *outer, Vec3 
     Transform to_world = transform_then(object->transform, *outer);
     sdl_step(sdl, 1);
     if (object->kind == OBJECT_SHAPE) {
-        Primitive p = {.kind = object->shape,
-                       .r0 = object->r0,
-                       .r1 = object->r1,
-                       .open = object->open,
-                       .mesh = object->mesh,
-                       .transform = to_world};
+        Primitive p = {.shape = object->shape, .transform = to_world};
         Vec3 a = vec3(-EVERYWHERE, -EVERYWHERE, -EVERYWHERE), b = vec_neg(a);
         shape_bounds(&p, &a, &b);
         widen(low, high, a);

@@ -12,7 +12,7 @@ static int alike(const Primitive *a, const Primitive *b)
 
 static void add_face(Mesh *mesh, const Primitive *p)
 {
-    const Mesh *one = p->mesh;
+    const Mesh *one = p->shape.mesh;
     MeshFace *face = &mesh->faces[mesh->nfaces++];
     *face = one->faces[0];
     for (int i = 0; i < 3; i++) {
@@ -48,7 +48,7 @@ void gather_triangles(Sdl *sdl)
             end++;
         Primitive p = scene->primitives[i];
         if (end - i > 1) {
-            p.mesh = gather(sdl, &scene->primitives[i], end - i);
+            p.shape.mesh = gather(sdl, &scene->primitives[i], end - i);
             p.transform = transform_identity();
         }
         scene->primitives[kept++] = p;

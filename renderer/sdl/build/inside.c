@@ -1,36 +1,23 @@
 /* Is a point inside an object? As POV-Ray has it: a plane and a disc have all that lies below them, open cones and
  * cylinders what they would have with their caps, meshes something only with inside_vector. */
 #include "sdl/build/builder.h"
+#include "shape/shape.h"
 
-static int shape_holds(Sdl *sdl, const Object *object, Vec3 p)
+static int shape_holds(Sdl *sdl, const Shape *shape, Vec3 p)
 {
-    switch (object->shape) {
-    case SHAPE_SPHERE:
-        return vec_dot(p, p) < 1;
-    case SHAPE_BOX:
-        return p.x >= 0 && p.x <= 1 && p.y >= 0 && p.y <= 1 && p.z >= 0 && p.z <= 1;
-    case SHAPE_PLANE:
-        return p.y < 0;
-    case SHAPE_CONE:
-        return p.z >= 0 && p.z <= 1 && hypot(p.x, p.y) <= object->r0 + (object->r1 - object->r0) * p.z;
-    case SHAPE_TORUS:
-        return hypot(hypot(p.x, p.z) - object->r0, p.y) <= fabs(object->r1);
-    case SHAPE_DISC:
-        return p.z < 0;
-    case SHAPE_MESH:
-        return object->mesh->closed_inside && mesh_contains(sdl, object->mesh, p);
-    }
-    return 0;
+    if (shape->mesh)
+        return shape->mesh->closed_inside && mesh_contains(sdl, shape->mesh, p);
+    return shape->ops->inside && shape->ops->inside(shape, p);
 }
 
 static int holds(Sdl *sdl, const Object *object, Vec3 p)
 {
     int inside = 0;
-    gaps_report(sdl, &object->gaps);
+    object_report(sdl, object);
     sdl_step(sdl, 1);
     p = transform_inverse_point(&object->transform, p);
     if (object->kind == OBJECT_SHAPE)
-        inside = shape_holds(sdl, object, p);
+        inside = shape_holds(sdl, &object->shape, p);
     else {
         if (object->kind == OBJECT_LIGHT) /* what it looks like */
             p = vec_sub(p, object->light->location);

@@ -149,7 +149,7 @@ void parse_mesh2(Sdl *sdl, Object *object)
 {
     Mesh *mesh = sdl_alloc(sdl, sizeof *mesh);
     int normal_indices = 0, uv_indices = 0;
-    object->shape = SHAPE_MESH;
+    object->shape.ops = &shape_mesh;
     for (;;) {
         if (sdl_accept(sdl, "vertex_vectors"))
             mesh->vertices = vectors(sdl, "vertex_vectors", &mesh->nvertices);
@@ -179,7 +179,7 @@ void parse_mesh2(Sdl *sdl, Object *object)
         by_vertex(mesh, mesh->nnormals, offsetof(MeshFace, normal));
     if (uv_indices == 0)
         by_vertex(mesh, mesh->nuvs, offsetof(MeshFace, uv));
-    object->mesh = mesh;
+    object->shape.mesh = mesh;
     mesh->inward = mesh_winds_inward(mesh);
     if (mesh->nfaces == 0)
         object->kind = OBJECT_EMPTY;
@@ -264,7 +264,7 @@ static void mesh_triangle(Sdl *sdl, MeshLists *b, int smooth)
 void parse_mesh(Sdl *sdl, Object *object)
 {
     MeshLists b = {.mesh = sdl_alloc(sdl, sizeof(Mesh))};
-    object->shape = SHAPE_MESH;
+    object->shape.ops = &shape_mesh;
     for (;;) {
         if (sdl_accept(sdl, "triangle"))
             mesh_triangle(sdl, &b, 0);
@@ -278,7 +278,7 @@ void parse_mesh(Sdl *sdl, Object *object)
             break;
         sdl_optional_comma(sdl);
     }
-    object->mesh = b.mesh;
+    object->shape.mesh = b.mesh;
     b.mesh->inward = mesh_winds_inward(b.mesh);
     if (b.mesh->nfaces == 0)
         object->kind = OBJECT_EMPTY;

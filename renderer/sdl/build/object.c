@@ -1,6 +1,7 @@
 /* Objects: their statements, groups, identifiers, and the modifiers they share. */
 #include <string.h>
 #include "sdl/build/builder.h"
+#include "shape/shape.h"
 
 /* Through identifiers too: a group that holds itself twice, forty times over, is a short text. */
 #define MAX_GROUP_DEPTH 400
@@ -14,6 +15,13 @@ Object *object_new(Sdl *sdl, ObjectKind kind)
     object->line = sdl_peek(sdl)->line;
     object->parts = 1;
     return object;
+}
+
+void object_report(Sdl *sdl, const Object *object)
+{
+    gaps_report(sdl, &object->gaps);
+    if (object->unsupported)
+        sdl_unsupported(sdl, object->unsupported, "it is left out");
 }
 
 void object_count_child(Sdl *sdl, Object *object, const Object *child)
@@ -178,9 +186,9 @@ static const struct {
     {"intersection", GROUP_FIRST_BOUNDED, GAP_INTERSECTION},
 };
 
-static int is_plane(const Object *object)
+static int is_unbounded(const Object *object)
 {
-    return object->kind == OBJECT_SHAPE && object->shape == SHAPE_PLANE;
+    return object->kind == OBJECT_SHAPE && !object->shape.ops->bounds;
 }
 
 /* Whether a group of this kind keeps the object, having kept `kept` of them. */
@@ -190,7 +198,7 @@ static int keeps(GroupKind kind, const Object *object, int seen, int kept)
     case GROUP_FIRST:
         return seen == 0 || object->kind == OBJECT_LIGHT;
     case GROUP_FIRST_BOUNDED:
-        return (kept == 0 && !is_plane(object)) || object->kind == OBJECT_LIGHT;
+        return (kept == 0 && !is_unbounded(object)) || object->kind == OBJECT_LIGHT;
     default:
         return 1;
     }
@@ -228,34 +236,15 @@ static const struct {
     const char *word;
     ShapeParser *parse;
 } shapes[] = {
-    {"sphere", parse_sphere},     {"box", parse_box},           {"plane", parse_plane},
-    {"cylinder", parse_cylinder}, {"cone", parse_cone},         {"torus", parse_torus},
-    {"disc", parse_disc},         {"triangle", parse_triangle}, {"smooth_triangle", parse_smooth_triangle},
-    {"polygon", parse_polygon},   {"mesh", parse_mesh},         {"mesh2", parse_mesh2},
+#define X(name) {#name, parse_##name},
+    SHAPE_TABLE(X) SHAPE_KEYWORDS(X)
+#undef X
 };
 
-static const struct {
-    const char *word;
-    Gap gap;
-} missing[] = {
-    {"bicubic_patch", GAP_BICUBIC_PATCH},
-    {"blob", GAP_BLOB},
-    {"cubic", GAP_CUBIC},
-    {"height_field", GAP_HEIGHT_FIELD},
-    {"isosurface", GAP_ISOSURFACE},
-    {"julia_fractal", GAP_JULIA_FRACTAL},
-    {"lathe", GAP_LATHE},
-    {"ovus", GAP_OVUS},
-    {"parametric", GAP_PARAMETRIC},
-    {"poly", GAP_POLY},
-    {"polynomial", GAP_POLYNOMIAL},
-    {"prism", GAP_PRISM},
-    {"quadric", GAP_QUADRIC},
-    {"quartic", GAP_QUARTIC},
-    {"sor", GAP_SOR},
-    {"sphere_sweep", GAP_SPHERE_SWEEP},
-    {"superellipsoid", GAP_SUPERELLIPSOID},
-    {"text", GAP_TEXT},
+static const char *const unsupported[] = {
+#define X(name) #name,
+    UNSUPPORTED_SHAPES(X)
+#undef X
 };
 
 static const Object *known_object(Sdl *sdl)
@@ -280,12 +269,12 @@ static Object *begin_block(Sdl *sdl)
     return known ? copy_of(sdl, known) : NULL;
 }
 
-static Object *shape_statement(Sdl *sdl, int which)
+static Object *shape_statement(Sdl *sdl, ShapeParser *parse)
 {
     Object *object = begin_block(sdl);
     if (!object) {
         object = object_new(sdl, OBJECT_SHAPE);
-        shapes[which].parse(sdl, object);
+        parse(sdl, object);
     }
     parse_object_modifiers(sdl, object);
     return object;
@@ -319,22 +308,32 @@ static Object *object_statement(Sdl *sdl)
     return object;
 }
 
+/* The next token is a word; it is taken if it is this one. */
+static int accept_word(Sdl *sdl, const char *next, const char *word)
+{
+    if (*next != *word || strcmp(next, word) != 0)
+        return 0;
+    sdl_next(sdl);
+    return 1;
+}
+
 static const Object *statement(Sdl *sdl)
 {
+    const char *next = sdl_peek(sdl)->text;
     for (size_t i = 0; i < sizeof shapes / sizeof *shapes; i++)
-        if (sdl_accept(sdl, shapes[i].word))
-            return shape_statement(sdl, (int)i);
-    if (sdl_accept(sdl, "object"))
+        if (accept_word(sdl, next, shapes[i].word))
+            return shape_statement(sdl, shapes[i].parse);
+    if (accept_word(sdl, next, "object"))
         return object_statement(sdl);
     for (size_t i = 0; i < sizeof groups / sizeof *groups; i++)
-        if (sdl_accept(sdl, groups[i].word))
+        if (accept_word(sdl, next, groups[i].word))
             return group_statement(sdl, (int)i);
-    if (sdl_accept(sdl, "light_source"))
+    if (accept_word(sdl, next, "light_source"))
         return parse_light_source(sdl);
-    for (size_t i = 0; i < sizeof missing / sizeof *missing; i++)
-        if (sdl_accept(sdl, missing[i].word)) {
+    for (size_t i = 0; i < sizeof unsupported / sizeof *unsupported; i++)
+        if (accept_word(sdl, next, unsupported[i])) {
             Object *object = object_new(sdl, OBJECT_EMPTY);
-            gaps_add(&object->gaps, missing[i].gap);
+            object->unsupported = unsupported[i];
             sdl_skip_block(sdl);
             return object;
         }

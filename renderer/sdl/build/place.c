@@ -77,24 +77,24 @@ static void report_texture(Sdl *sdl, const ParsedTexture *texture)
 static const Mesh *placed_mesh(Sdl *sdl, const Object *object, const Transform *to_world)
 {
     Builder *builder = builder_of(sdl);
-    if (object->mesh->ntextures == 0)
-        return object->mesh;
+    if (object->shape.mesh->ntextures == 0)
+        return object->shape.mesh;
     const Transform by = object->uv_mapping ? transform_identity() : *to_world;
-    if (builder->placed_mesh_from == object->mesh && !object->uv_mapping &&
+    if (builder->placed_mesh_from == object->shape.mesh && !object->uv_mapping &&
         memcmp(&builder->placed_mesh_by, &by, sizeof by) == 0)
         return builder->placed_mesh;
     Mesh *mesh = sdl_alloc(sdl, sizeof *mesh);
-    *mesh = *object->mesh;
+    *mesh = *object->shape.mesh;
     mesh->textures = sdl_alloc(sdl, (size_t)mesh->ntextures * sizeof *mesh->textures);
     for (int i = 0; i < mesh->ntextures; i++) {
-        const ParsedTexture *texture = placed_texture(sdl, (const ParsedTexture *)object->mesh->textures[i], &by);
+        const ParsedTexture *texture = placed_texture(sdl, (const ParsedTexture *)object->shape.mesh->textures[i], &by);
         if (object->uv_mapping)
             texture = uv_mapped(sdl, texture);
         report_texture(sdl, texture);
         mesh->textures[i] = &texture->texture;
     }
     if (!object->uv_mapping) {
-        builder->placed_mesh_from = object->mesh;
+        builder->placed_mesh_from = object->shape.mesh;
         builder->placed_mesh_by = by;
         builder->placed_mesh = mesh;
     }
@@ -138,14 +138,11 @@ static void place_shape(Sdl *sdl, const Object *object, const Around *in)
     report_texture(sdl, inside);
     if (interior)
         gaps_report(sdl, &interior->gaps);
-    const Mesh *mesh = object->shape == SHAPE_MESH ? placed_mesh(sdl, object, &in->to_world) : NULL;
+    const Mesh *mesh = object->shape.mesh ? placed_mesh(sdl, object, &in->to_world) : NULL;
     Primitive *p = primitive_new(sdl);
     builder_of(sdl)->loose[sdl_scene(sdl)->nprimitives - 1] = (unsigned char)object->loose;
-    p->kind = object->shape;
-    p->r0 = object->r0;
-    p->r1 = object->r1;
-    p->open = object->open;
-    p->mesh = mesh;
+    p->shape = object->shape;
+    p->shape.mesh = mesh;
     p->transform = in->to_world;
     p->texture = &texture->texture;
     p->interior_texture = inside ? &inside->texture : NULL;
@@ -200,7 +197,7 @@ static void place(Sdl *sdl, const Object *object, const Around *around)
 {
     Around here = *around;
     sdl_step(sdl, 1);
-    gaps_report(sdl, &object->gaps);
+    object_report(sdl, object);
     if (object->kind == OBJECT_EMPTY)
         return;
     here.to_world = transform_then(object->transform, around->to_world);

@@ -244,7 +244,7 @@ static void build(Sdl *sdl, Object *object, Vec3 *points, int n)
         Vec3 d = vec_sub(points[i], points[0]);
         flat[i] = (Vec2){vec_dot(d, s), vec_dot(d, t)};
     }
-    object->shape = SHAPE_MESH;
+    object->shape.ops = &shape_mesh;
     if (vec_length(normal) == 0 || nrings == 0 ||
         polygon_triangulate(sdl, flat, starts, nrings, &corners, &ncorners) == 0) {
         sdl_warn(sdl, "a polygon without area: it is left out");
@@ -252,7 +252,7 @@ static void build(Sdl *sdl, Object *object, Vec3 *points, int n)
         return;
     }
     object->polygon = 1;
-    object->mesh = flat_mesh(sdl, corners, ncorners, points[0], s, t);
+    object->shape.mesh = flat_mesh(sdl, corners, ncorners, points[0], s, t);
 }
 
 void parse_polygon(Sdl *sdl, Object *object)

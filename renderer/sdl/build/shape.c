@@ -24,7 +24,7 @@ void parse_sphere(Sdl *sdl, Object *object)
 {
     Vec3 centre = sdl_vector(sdl);
     double radius = length_of(sdl);
-    object->shape = SHAPE_SPHERE;
+    object->shape.ops = &shape_sphere;
     if (radius == 0)
         empty(sdl, object, "a sphere of radius 0");
     else
@@ -40,7 +40,7 @@ void parse_box(Sdl *sdl, Object *object)
     Vec3 low = vec3(fmin(a.x, b.x), fmin(a.y, b.y), fmin(a.z, b.z));
     Vec3 size = vec_sub(vec3(fmax(a.x, b.x), fmax(a.y, b.y), fmax(a.z, b.z)), low);
     double thin = 1e-6 * fmax(size.x, fmax(size.y, size.z));
-    object->shape = SHAPE_BOX;
+    object->shape.ops = &shape_box;
     if (thin == 0)
         empty(sdl, object, "a box of one point");
     else
@@ -58,16 +58,16 @@ void parse_plane(Sdl *sdl, Object *object)
         sdl_error(sdl, "a plane needs a normal that is not zero");
     normal = vec_normalize(normal);
     vec_frame(normal, &s, &t);
-    object->shape = SHAPE_PLANE;
+    object->shape.ops = &shape_plane;
     frame(sdl, object, s, normal, vec_neg(t), vec_scale(normal, distance));
 }
 
 static void about_axis(Sdl *sdl, Object *object, Vec3 from, Vec3 to, double r0, double r1)
 {
     Vec3 axis = vec_sub(to, from), s, t;
-    object->shape = SHAPE_CONE;
-    object->r0 = r0;
-    object->r1 = r1;
+    object->shape.ops = &shape_cone;
+    object->shape.r0 = r0;
+    object->shape.r1 = r1;
     if (vec_length(axis) < 1e-12 || (r0 == 0 && r1 == 0)) {
         empty(sdl, object, "a cylinder or cone without length or radius");
         return;
@@ -82,7 +82,7 @@ void parse_cylinder(Sdl *sdl, Object *object)
     sdl_optional_comma(sdl);
     Vec3 to = sdl_vector(sdl);
     double radius = length_of(sdl);
-    object->open = sdl_accept(sdl, "open");
+    object->shape.open = sdl_accept(sdl, "open");
     about_axis(sdl, object, from, to, radius, radius);
 }
 
@@ -93,16 +93,16 @@ void parse_cone(Sdl *sdl, Object *object)
     sdl_optional_comma(sdl);
     Vec3 to = sdl_vector(sdl);
     double r1 = length_of(sdl);
-    object->open = sdl_accept(sdl, "open");
+    object->shape.open = sdl_accept(sdl, "open");
     about_axis(sdl, object, from, to, r0, r1);
 }
 
 void parse_torus(Sdl *sdl, Object *object)
 {
-    object->r0 = fabs(sdl_float(sdl));
-    object->r1 = length_of(sdl);
-    object->shape = SHAPE_TORUS;
-    if (object->r1 == 0)
+    object->shape.r0 = fabs(sdl_float(sdl));
+    object->shape.r1 = length_of(sdl);
+    object->shape.ops = &shape_torus;
+    if (object->shape.r1 == 0)
         empty(sdl, object, "a torus of minor radius 0");
 }
 
@@ -111,13 +111,13 @@ void parse_disc(Sdl *sdl, Object *object)
     Vec3 centre = sdl_vector(sdl), s, t;
     sdl_optional_comma(sdl);
     Vec3 normal = sdl_vector(sdl);
-    object->r0 = length_of(sdl);
+    object->shape.r0 = length_of(sdl);
     sdl_optional_comma(sdl);
-    object->r1 = fabs(optional_float(sdl, 0));
-    object->shape = SHAPE_DISC;
+    object->shape.r1 = fabs(optional_float(sdl, 0));
+    object->shape.ops = &shape_disc;
     if (vec_length(normal) == 0)
         empty(sdl, object, "a disc without a normal");
-    else if (object->r0 <= object->r1)
+    else if (object->shape.r0 <= object->shape.r1)
         empty(sdl, object, "a disc that is all hole");
     else {
         normal = vec_normalize(normal);
@@ -151,12 +151,12 @@ static Mesh *one_face(Sdl *sdl, const Vec3 points[3], const Vec3 *normals /* or 
 
 static void triangle(Sdl *sdl, Object *object, const Vec3 points[3], const Vec3 *normals)
 {
-    object->shape = SHAPE_MESH;
+    object->shape.ops = &shape_mesh;
     object->loose = 1;
     if (vec_length(vec_cross(vec_sub(points[1], points[0]), vec_sub(points[2], points[0]))) == 0)
         empty(sdl, object, "a triangle without area");
     else
-        object->mesh = one_face(sdl, points, normals);
+        object->shape.mesh = one_face(sdl, points, normals);
 }
 
 void parse_triangle(Sdl *sdl, Object *object)

@@ -4,7 +4,7 @@
  * its own over its faces, in its own space. Both are kept for the next call, by the address of what they were made of:
  * objects and meshes never change, and live as long as the scene. */
 #include "sdl/build/builder.h"
-#include "shape/surface.h"
+#include "shape/shape.h"
 
 #define NEAREST 1e-4 /* nothing is hit closer than that, as in POV-Ray */
 #define LEAF 4
@@ -292,7 +292,7 @@ typedef struct Flattening {
 
 static void flatten(Sdl *sdl, Flattening *f, const Object *object, const Transform *outer, unsigned inverse)
 {
-    gaps_report(sdl, &object->gaps);
+    object_report(sdl, object);
     sdl_step(sdl, 1);
     const Transform to_world = transform_then(object->transform, *outer);
     inverse ^= object->flags & OBJECT_INVERSE;
@@ -301,14 +301,8 @@ static void flatten(Sdl *sdl, Flattening *f, const Object *object, const Transfo
         t->primitives = builder_grow(sdl, t->primitives, t->nprimitives, &f->room, sizeof *t->primitives);
         t->objects = builder_grow(sdl, t->objects, t->nprimitives, &f->object_room, sizeof *t->objects);
         t->objects[t->nprimitives] = object;
-        t->primitives[t->nprimitives++] = (Primitive){.kind = object->shape,
-                                                      .r0 = object->r0,
-                                                      .r1 = object->r1,
-                                                      .open = object->open,
-                                                      .mesh = object->mesh,
-                                                      .transform = to_world,
-                                                      .inverse = inverse != 0,
-                                                      .target = -1};
+        t->primitives[t->nprimitives++] =
+            (Primitive){.shape = object->shape, .transform = to_world, .inverse = inverse != 0, .target = -1};
         return;
     }
     Transform within = to_world;
@@ -318,11 +312,11 @@ static void flatten(Sdl *sdl, Flattening *f, const Object *object, const Transfo
         flatten(sdl, f, list->object, &within, inverse);
 }
 
-/* Planes have no bounds and go to the front. */
+/* Shapes without bounds go to the front. */
 static void unbounded_first(Traced *t)
 {
     for (int i = 0; i < t->nprimitives; i++)
-        if (t->primitives[i].kind == SHAPE_PLANE) {
+        if (!t->primitives[i].shape.ops->bounds) {
             const Primitive p = t->primitives[i];
             const Object *o = t->objects[i];
             t->primitives[i] = t->primitives[t->nunbounded];
@@ -351,33 +345,6 @@ static Traced *traced_object(Sdl *sdl, const Object *object)
     return t;
 }
 
-/* The box between its three pairs of planes. */
-static int box_hit(const Transform *to_world, const Ray *world, double *t, int *face)
-{
-    const Ray ray = ray_into(to_world, world);
-    double times[2] = {-INFINITY, INFINITY};
-    int faces[2] = {0, 0};
-    for (int k = 0; k < 3; k++) {
-        double o = along(ray.origin, k), d = along(ray.direction, k);
-        if (d == 0 && (o < 0 || o > 1))
-            return 0;
-        if (d == 0)
-            continue;
-        double enter = ((d < 0) - o) / d, leave = ((d > 0) - o) / d;
-        if (enter > times[0])
-            times[0] = enter, faces[0] = 2 * k + (d < 0);
-        if (leave < times[1])
-            times[1] = leave, faces[1] = 2 * k + (d > 0);
-    }
-    for (int i = 0; i < 2 && times[0] <= times[1]; i++)
-        if (times[i] > ray.tmin && times[i] < ray.tmax) {
-            *t = times[i];
-            *face = faces[i];
-            return 1;
-        }
-    return 0;
-}
-
 typedef struct ObjectHit {
     const Traced *traced;
     Hit hit;
@@ -389,19 +356,18 @@ static void nearest_primitive(Sdl *sdl, void *context, Ray *ray, int index)
     ObjectHit *found = context;
     const Primitive *p = &found->traced->primitives[index];
     Hit hit = {.primitive = index};
-    if (p->kind == SHAPE_MESH) {
-        MeshHit mesh = {.mesh = p->mesh};
+    if (p->shape.mesh) {
+        MeshHit mesh = {.mesh = p->shape.mesh};
         Ray local = ray_into(&p->transform, ray);
-        tree_walk(sdl, mesh_tree(sdl, p->mesh), 0, &local, nearest_face, &mesh);
+        tree_walk(sdl, mesh_tree(sdl, p->shape.mesh), 0, &local, nearest_face, &mesh);
         if (!mesh.crossings)
             return;
         hit.t = local.tmax;
         found->mesh = mesh;
-    } else if (!(p->kind == SHAPE_BOX ? box_hit(&p->transform, ray, &hit.t, &hit.face)
-                                      : shape_intersect(p, ray, &hit.t, &hit.face)))
+    } else if (!shape_intersect(p, ray, &hit.t, &hit.face))
         return;
-    if (p->kind == SHAPE_BOX)
-        hit.normal = box_normal(p, hit.face);
+    else if (p->shape.ops->face_normal)
+        hit.normal = p->shape.ops->face_normal(p, hit.face, NULL);
     ray->tmax = hit.t;
     found->hit = hit;
 }
@@ -415,7 +381,7 @@ static Vec3 normal_at(Sdl *sdl, const ObjectHit *found, const Ray *ray)
 {
     const Traced *t = found->traced;
     const Primitive *p = &t->primitives[found->hit.primitive];
-    if (p->kind == SHAPE_MESH) {
+    if (p->shape.mesh) {
         const Object *object = t->objects[found->hit.primitive];
         Vec3 n = vec_normalize(mesh_normal(object, &p->transform, &found->mesh));
         return p->inverse && !object->loose ? vec_neg(n) : n;

@@ -1,0 +1,57 @@
+/* What the files of shapes share: bounds of circles, areas under a transform. */
+#include "shape/shape.h"
+
+double shape_turn(double x, double y)
+{
+    double turn = atan2(y, x) / (2 * PI);
+
+    return turn < 0 ? turn + 1 : turn;
+}
+
+void shape_bound_point(Vec3 *low, Vec3 *high, Vec3 p)
+{
+    *low = vec3(fmin(low->x, p.x), fmin(low->y, p.y), fmin(low->z, p.z));
+    *high = vec3(fmax(high->x, p.x), fmax(high->y, p.y), fmax(high->z, p.z));
+}
+
+void shape_bound_circle(Vec3 *low, Vec3 *high, const Transform *t, Vec3 centre, int i, int j, double radius,
+                        double ball)
+{
+    Vec3 p = transform_point(t, centre), half;
+    double extent[3];
+
+    for (int k = 0; k < 3; k++) {
+        const double *row = t->m[k];
+        extent[k] = radius * hypot(row[i], row[j]) + ball * sqrt(row[0] * row[0] + row[1] * row[1] + row[2] * row[2]);
+    }
+    half = vec3(extent[0], extent[1], extent[2]);
+    shape_bound_point(low, high, vec_sub(p, half));
+    shape_bound_point(low, high, vec_add(p, half));
+}
+
+double shape_stretch(const Transform *t, Vec3 e, Vec3 f)
+{
+    return vec_length(vec_cross(transform_vector(t, e), transform_vector(t, f)));
+}
+
+Vec3 shape_axis(const Transform *t, int i)
+{
+    return vec3(t->m[0][i], t->m[1][i], t->m[2][i]);
+}
+
+double shape_similarity(const Transform *t)
+{
+    Vec3 x = shape_axis(t, 0), y = shape_axis(t, 1), z = shape_axis(t, 2);
+    double xx = vec_dot(x, x), bound = 1e-12 * xx;
+
+    if (fabs(vec_dot(x, y)) > bound || fabs(vec_dot(y, z)) > bound || fabs(vec_dot(z, x)) > bound)
+        return 0;
+    return fabs(vec_dot(y, y) - xx) <= bound && fabs(vec_dot(z, z) - xx) <= bound ? sqrt(xx) : 0;
+}
+
+Vec3 shape_world_normal(const Primitive *primitive, Vec3 normal)
+{
+    Vec3 n = vec_normalize(transform_normal(&primitive->transform, normal));
+
+    return primitive->inverse ? vec_neg(n) : n;
+}

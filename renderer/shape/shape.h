@@ -1,0 +1,124 @@
+/* What a shape is: a row of operations on its canonical form. Included by the files that define shapes, and by those
+ * that call their operations one by one.
+ *
+ * Natural parametrisation, where a target has no uv_mapping:
+ *   sphere          POV-Ray's uv: u around y from +x towards +z (.75 at -z), v from the lower pole to the upper
+ *   torus           POV-Ray's uv: u around y from -x towards +z, v around the tube from the inner equator (0) over the
+ *                   bottom, the outer equator (.5) and the top (.75)
+ *   box             each face 0..1, upright and unmirrored seen from outside, with y up; the top and the bottom as they
+ *                   unfold from the -z face
+ *   cone, cylinder  side: u the angle from x towards y, v the height from the base; caps: x and y, the unit square
+ *                   round the cap's circle
+ *   disc            x and y, the unit square round the outer circle
+ *   mesh            its uv_vectors */
+#ifndef RENDERER_SHAPE_SHAPE_H
+#define RENDERER_SHAPE_SHAPE_H
+
+#include "shape/shapes.h"
+#include "shape/surface.h"
+
+/* A ray in canonical space; its direction keeps the length that makes t the world's. */
+typedef struct ShapeRay {
+    Vec3 origin, direction;
+    double tmin, tmax;
+    double slack; /* how far the origin may be from where it ought to be, by rounding */
+} ShapeRay;
+
+/* A point on the shape. */
+typedef struct ShapePoint {
+    Vec3 p, normal; /* canonical space; normal outward, of any length */
+    double b1, b2;  /* as in Hit */
+} ShapePoint;
+
+/* Its UVs. */
+typedef struct ShapeUv {
+    Vec2 uv, natural;
+    int has_uv; /* 0: uv_mapping falls back to the world's x and y */
+    int has_natural;
+} ShapeUv;
+
+/* A shape as triangles, in canonical space. */
+typedef struct ShapeTriangles {
+    int nvertices, ntriangles;
+    const Vec3 *vertices;
+    const int *corners; /* the first triangle's three vertices; the next triangle's are stride further on */
+    size_t stride;
+    int per_face;       /* so many triangles, one after the other, are one face as Hit counts them */
+} ShapeTriangles;
+
+typedef enum ShapeProperty {
+    SHAPE_U_PERIODIC = 1, /* the natural u goes once round from 0 to 1 */
+    SHAPE_V_PERIODIC = 2,
+    SHAPE_UV_NATURAL = 4, /* uv_mapping takes the natural parametrisation too */
+    SHAPE_FLAT = 8        /* one normal everywhere */
+} ShapeProperty;
+
+/* Operations that a shape does without are NULL. */
+struct ShapeOps {
+    const char *name;
+    unsigned properties; /* bits of ShapeProperty */
+    /* Bounding box in the world. NULL: there is none, and every ray is tested against the shape. */
+    void (*bounds)(const Primitive *primitive, Vec3 *low, Vec3 *high);
+    /* The nearest t in (tmin, tmax), and the face there where there is more than one: returns 1; else 0, and t is left
+     * as it was. NULL: by its triangles only. */
+    int (*intersect)(const Primitive *primitive, const ShapeRay *ray, double *t, int *face);
+    /* p, in canonical space, is near the surface: puts it onto the face. */
+    void (*point)(const Primitive *primitive, Vec3 p, int face, ShapePoint *out);
+    void (*uv)(const Surface *surface, ShapeUv *out);
+    /* 1 for points inside, in canonical space; as POV-Ray's inside(). */
+    int (*inside)(const Shape *shape, Vec3 p);
+    /* Emitters; NULL where they cannot be sampled. area: of the surface in the world, 0 where it cannot be sampled.
+     * sample: a point uniform in area, on *face where that is not -1, else on a face of its choice; returns the density
+     * in the world, per unit area. density: of sample, at a point of canonical space. */
+    double (*area)(const Primitive *primitive);
+    double (*sample)(const Primitive *primitive, double u1, double u2, int *face, ShapePoint *out);
+    double (*density)(const Primitive *primitive, Vec3 p, int face);
+    /* Of shapes that are traced as triangles, and the unit normal in the world of a face with these corners. */
+    void (*triangles)(const Shape *shape, ShapeTriangles *out);
+    Vec3 (*face_normal)(const Primitive *primitive, int face, const Vec3 corner[3]);
+};
+
+/* World space from canonical space, and the face's texture and target. Leaves backside 0. */
+void surface_from_point(Surface *surface, const Primitive *primitive, int face, const ShapePoint *point);
+
+/* ---- for the files of shapes ---- */
+
+/* The surface's point in canonical space. */
+static inline Vec3 shape_local_point(const Surface *surface)
+{
+    return transform_inverse_point(&surface->primitive->transform, surface->position);
+}
+
+/* It is the hit, if it is in range. */
+static inline int shape_accept(const ShapeRay *ray, double candidate, double *t)
+{
+    if (!(candidate > ray->tmin && candidate < ray->tmax))
+        return 0;
+    *t = candidate;
+    return 1;
+}
+
+/* An angle's share of the turn, 0..1, of the direction (x, y) counted from x. */
+double shape_turn(double x, double y);
+
+/* A ring in the plane z = height, and the natural parametrisation of a circle about z. */
+int shape_intersect_ring(const ShapeRay *ray, double height, double outer, double inner, double *t);
+Vec2 shape_circle_uv(Vec3 p, double radius);
+
+/* Widen low..high. A ball of radius ball is swept along an ellipse: the image of the circle of the given radius about
+ * centre whose axes are canonical axes i and j. */
+void shape_bound_point(Vec3 *low, Vec3 *high, Vec3 p);
+void shape_bound_circle(Vec3 *low, Vec3 *high, const Transform *t, Vec3 centre, int i, int j, double radius,
+                        double ball);
+
+static inline double shape_inverse(double area)
+{
+    return area > 0 ? 1 / area : 0;
+}
+/* Area in the world of a unit square in canonical space with edges e and f. */
+double shape_stretch(const Transform *t, Vec3 e, Vec3 f);
+Vec3 shape_axis(const Transform *t, int i); /* the image of a canonical axis */
+double shape_similarity(const Transform *t); /* the scale, if the transform keeps shapes, else 0 */
+Vec3 shape_world_normal(const Primitive *primitive, Vec3 normal); /* of unit length, outward */
+
+#endif
