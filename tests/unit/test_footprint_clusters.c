@@ -38,13 +38,13 @@ static void find_pair(Best *best, Places *places, int sharp, const int periodic[
         }
 }
 
-static void start_place(RetexUvStats *place, const Pending *q, const int periodic[2])
+static void start_place(RetexUvStats *place, const FirstHit *q, const int periodic[2])
 {
     *place = (RetexUvStats){.weight = 0};
     retex_uv_stats_add(place, q->weight, q->uv, periodic);
 }
 
-static void squeeze_place(Places *own, Places *other, int own_is_full, const Pending *q, const int periodic[2])
+static void squeeze_place(Places *own, Places *other, int own_is_full, const FirstHit *q, const int periodic[2])
 {
     const RetexUvStats one = {q->weight, {q->uv[0], q->uv[1]}, {0, 0, 0}};
     Best best = {.cost = INFINITY};
@@ -70,7 +70,7 @@ static void squeeze_place(Places *own, Places *other, int own_is_full, const Pen
     start_place(&own->of[own->count++], q, periodic);
 }
 
-static void add_place(Places kinds[2], const Pending *q, const FilmParams *params)
+static void add_place(Places kinds[2], const FirstHit *q, const FilmParams *params)
 {
     Places *own = &kinds[!q->sharp], *other = &kinds[q->sharp];
     int room = q->sharp ? params->sharp : params->broad;
@@ -81,27 +81,28 @@ static void add_place(Places kinds[2], const Pending *q, const FilmParams *param
         squeeze_place(own, other, own->count == room, q, periodic);
 }
 
-static void add_later(RetexUvStats later[LATER_COUNT], const PendingLater *l, const int periodic[2])
+static void add_interreflection(RetexUvStats clusters[INTERREFLECTION_CLUSTERS], const Interreflection *l,
+                                const int periodic[2])
 {
     const RetexUvStats one = {l->weight, {l->uv[0], l->uv[1]}, {0, 0, 0}};
-    double gain[LATER_COUNT];
-    for (int k = 0; k < LATER_COUNT; k++) {
-        if (later[k].weight == 0) {
-            later[k] = one;
+    double gain[INTERREFLECTION_CLUSTERS];
+    for (int k = 0; k < INTERREFLECTION_CLUSTERS; k++) {
+        if (clusters[k].weight == 0) {
+            clusters[k] = one;
             return;
         }
-        gain[k] = retex_uv_stats_variation_gain(&later[k], &one, periodic);
+        gain[k] = retex_uv_stats_variation_gain(&clusters[k], &one, periodic);
         if (gain[k] <= 0) {
-            retex_uv_stats_merge(&later[k], &one, periodic);
+            retex_uv_stats_merge(&clusters[k], &one, periodic);
             return;
         }
     }
-    double both = retex_uv_stats_variation_gain(&later[0], &later[1], periodic);
+    double both = retex_uv_stats_variation_gain(&clusters[0], &clusters[1], periodic);
     if (both < gain[0] && both < gain[1]) {
-        retex_uv_stats_merge(&later[0], &later[1], periodic);
-        later[1] = one;
+        retex_uv_stats_merge(&clusters[0], &clusters[1], periodic);
+        clusters[1] = one;
     } else {
-        retex_uv_stats_merge(&later[gain[1] < gain[0]], &one, periodic);
+        retex_uv_stats_merge(&clusters[gain[1] < gain[0]], &one, periodic);
     }
 }
 
@@ -126,7 +127,7 @@ static void clusters_are_those_of_all_pairs(void **state)
 {
     (void)state;
     for (uint32_t round = 0; round < 120; round++) {
-        TargetClusters target = {.later_apart = 0};
+        TargetClusters target = {.interreflections_bound = 0};
         Places kinds[2] = {{.count = 0}, {.count = 0}};
         FilmParams params = {.sharp = 1 + (int)round % 4, .broad = 1 + (int)round % 3};
         uint32_t seed = round + 1;
@@ -137,7 +138,7 @@ static void clusters_are_those_of_all_pairs(void **state)
         for (int n = 0; n < PLACES; n++) {
             last = any_place(&seed, last);
             const HitLight dark = {.used = 0};
-            Pending q = {.uv = {last.u, last.v}, .light = &dark};
+            FirstHit q = {.uv = {last.u, last.v}, .light = &dark};
             q.sharp = test_random(&seed) < 0.4, q.weight = 1e-3 + pow(test_random(&seed), 8) * 50;
             clusters_add(&target, &q, &params);
             add_place(kinds, &q, &params);
@@ -152,17 +153,17 @@ static void further_hits_are_pooled_alike(void **state)
     (void)state;
     for (uint32_t round = 0; round < 60; round++) {
         const int periodic[2] = {round % 4 == 3, round % 8 == 3};
-        TargetClusters target = {.later_apart = 0};
-        RetexUvStats later[LATER_COUNT] = {{.weight = 0}, {.weight = 0}};
+        TargetClusters target = {.interreflections_bound = 0};
+        RetexUvStats clusters[INTERREFLECTION_CLUSTERS] = {{.weight = 0}, {.weight = 0}};
         uint32_t seed = round + 1;
         Vec2 last = {0, 0};
         for (int n = 0; n < PLACES; n++) {
             last = any_place(&seed, last);
-            const PendingLater l = {.uv = {last.u, last.v}, .weight = 1e-3 + pow(test_random(&seed), 8) * 50};
-            clusters_add_later(&target, &l, periodic);
-            add_later(later, &l, periodic);
-            for (int k = 0; k < LATER_COUNT; k++)
-                assert_memory_equal(&target.later[k].uv, &later[k], sizeof later[k]);
+            const Interreflection l = {.uv = {last.u, last.v}, .weight = 1e-3 + pow(test_random(&seed), 8) * 50};
+            clusters_add_interreflection(&target, &l, periodic);
+            add_interreflection(clusters, &l, periodic);
+            for (int k = 0; k < INTERREFLECTION_CLUSTERS; k++)
+                assert_memory_equal(&target.interreflections[k].uv, &clusters[k], sizeof clusters[k]);
         }
     }
 }

@@ -1,16 +1,17 @@
-/* Few clusters for all places that a pixel met: the cheapest pair merges. See footprints.h.
+/* Few clusters for all hits of a pixel: the pair that costs the least merges. See footprints.h.
  *
- * Which pair is cheapest is asked for nearly every path, and nearly always a new place joins a cluster for little,
- * while clusters are far from each other. What merging two of them costs is therefore bounded from below, and looked at
- * only where the bound does not tell. With f(C) for what a texture varies within a cluster (uv_stats.h), merging a with
- * k costs f(ak) - f(a) - f(k). A place x that joins a cannot make ak vary less, and makes a vary more by exactly what
- * it cost: f(axk) - f(ax) - f(k) >= f(ak) - f(a) - f(k) - (f(ax) - f(a)). So the bound falls by what is spent. That
- * does not hold where UV close, whose distances go the short way round. */
+ * The cheapest pair is looked for at nearly every path. Nearly always a new hit joins a cluster at a low cost, while
+ * merging two clusters would cost much. So there is a lower bound of the cost of merging any two clusters, and their
+ * costs are computed only where the bound is below the cost of joining. With f(C) for what a texture varies within a
+ * cluster (retex/uv_stats.h), merging a with k costs f(ak) - f(a) - f(k). A hit x that joins a cannot make ak vary
+ * less, and makes a vary more by exactly what joining cost: f(axk) - f(ax) - f(k) >= f(ak) - f(a) - f(k) -
+ * (f(ax) - f(a)). So the bound falls by the cost of joining. There is no bound for UV that close (periodic), as
+ * distances there may go either way round. */
 #include <math.h>
 #include "film/footprints/pixel.h"
 
-#define ROUNDING 1e-9      /* of bounds */
-#define AGAIN_WEIGHT 1e-3f /* in a cluster's albedo, of light that goes on to targets */
+#define ROUNDING 1e-9               /* of bounds */
+#define INTERREFLECTED_WEIGHT 1e-3f /* in a cluster's albedo, of light that goes on to targets */
 
 static void add_albedo(AlbedoSums *sums, Float4 light, Float4 albedo)
 {
@@ -22,15 +23,16 @@ static void merge_albedo(AlbedoSums *into, const AlbedoSums *from)
     into->light += from->light, into->reflected += from->reflected;
 }
 
-/* The bound on what pairs cost, after so much was spent on joining one. */
-static double less_apart(double apart, double spent, const int periodic[2])
+/* The lower bound of merging two clusters, after a hit joined one of them at a cost of `spent`. */
+static double lowered_bound(double bound, double spent, const int periodic[2])
 {
-    return periodic[0] || periodic[1] ? -INFINITY : (apart - spent) * (1 - ROUNDING);
+    return periodic[0] || periodic[1] ? -INFINITY : (bound - spent) * (1 - ROUNDING);
 }
 
-/* ---- further hits ---- */
+/* ---- interreflections ---- */
 
-static void merge_later(Later *into, const Later *from, const int periodic[2])
+static void merge_interreflections(InterreflectionCluster *into, const InterreflectionCluster *from,
+                                   const int periodic[2])
 {
     retex_uv_stats_merge(&into->uv, &from->uv, periodic);
     into->varies = retex_uv_stats_variation(&into->uv);
@@ -38,35 +40,35 @@ static void merge_later(Later *into, const Later *from, const int periodic[2])
     merge_albedo(&into->albedo, &from->albedo);
 }
 
-void clusters_add_later(TargetClusters *target, const PendingLater *l, const int periodic[2])
+void clusters_add_interreflection(TargetClusters *target, const Interreflection *l, const int periodic[2])
 {
-    const Later one = {.uv = {l->weight, {l->uv[0], l->uv[1]}, {0, 0, 0}},
-                       .squares = l->weight * l->weight,
-                       .albedo = {l->light, l->light * l->albedo}};
-    Later *later = target->later;
-    double gain[LATER_COUNT];
-    for (int k = 0; k < LATER_COUNT; k++) {
-        if (later[k].uv.weight == 0) {
-            later[k] = one;
-            target->later_apart = -INFINITY;
+    const InterreflectionCluster one = {.uv = {l->weight, {l->uv[0], l->uv[1]}, {0, 0, 0}},
+                                        .squares = l->weight * l->weight,
+                                        .albedo = {l->light, l->light * l->albedo}};
+    InterreflectionCluster *clusters = target->interreflections;
+    double gain[INTERREFLECTION_CLUSTERS];
+    for (int k = 0; k < INTERREFLECTION_CLUSTERS; k++) {
+        if (clusters[k].uv.weight == 0) {
+            clusters[k] = one;
+            target->interreflections_bound = -INFINITY;
             return;
         }
-        gain[k] = retex_uv_stats_merged_variation(&later[k].uv, l->weight, l->uv, 0, periodic) - later[k].varies;
+        gain[k] = retex_uv_stats_merged_variation(&clusters[k].uv, l->weight, l->uv, 0, periodic) - clusters[k].varies;
         if (gain[k] <= 0) {
-            merge_later(&later[k], &one, periodic);
+            merge_interreflections(&clusters[k], &one, periodic);
             return;
         }
     }
     int nearer = gain[1] < gain[0];
-    if (target->later_apart <= gain[nearer])
-        target->later_apart = retex_uv_stats_variation_gain(&later[0].uv, &later[1].uv, periodic);
-    if (target->later_apart < gain[nearer]) {
-        merge_later(&later[0], &later[1], periodic);
-        later[1] = one;
-        target->later_apart = -INFINITY;
+    if (target->interreflections_bound <= gain[nearer])
+        target->interreflections_bound = retex_uv_stats_variation_gain(&clusters[0].uv, &clusters[1].uv, periodic);
+    if (target->interreflections_bound < gain[nearer]) {
+        merge_interreflections(&clusters[0], &clusters[1], periodic);
+        clusters[1] = one;
+        target->interreflections_bound = -INFINITY;
     } else {
-        merge_later(&later[nearer], &one, periodic);
-        target->later_apart = less_apart(target->later_apart, gain[nearer], periodic);
+        merge_interreflections(&clusters[nearer], &one, periodic);
+        target->interreflections_bound = lowered_bound(target->interreflections_bound, gain[nearer], periodic);
     }
 }
 
@@ -79,28 +81,28 @@ static void merge_cluster(Cluster *into, const Cluster *from, const int periodic
     merge_albedo(&into->albedo, &from->albedo);
     into->squares += from->squares;
     into->c += from->c;
-    into->again += from->again;
+    into->interreflected += from->interreflected;
 }
 
-static void add_pending(Cluster *into, const Pending *q, const int periodic[2])
+static void add_first_hit(Cluster *into, const FirstHit *q, const int periodic[2])
 {
     const HitLight *l = q->light;
     retex_uv_stats_add(&into->uv, q->weight, q->uv, periodic);
     into->varies = retex_uv_stats_variation(&into->uv);
-    /* a cluster's own light is what its albedo is for; light that goes on to targets tells where there is no other */
-    add_albedo(&into->albedo, l->c[0] + l->original * splat(AGAIN_WEIGHT), q->albedo);
+    /* the albedo is that of the cluster's own light; interreflected light counts where there is no other */
+    add_albedo(&into->albedo, l->c[0] + l->original * splat(INTERREFLECTED_WEIGHT), q->albedo);
     into->squares += q->weight * q->weight;
     into->c += l->c[0];
-    into->again += l->original;
+    into->interreflected += l->original;
 }
 
-static void start_cluster(Cluster *cluster, const Pending *q, const int periodic[2])
+static void start_cluster(Cluster *cluster, const FirstHit *q, const int periodic[2])
 {
     *cluster = (Cluster){.squares = 0};
-    add_pending(cluster, q, periodic);
+    add_first_hit(cluster, q, periodic);
 }
 
-/* Two clusters of one kind, or one and what is to be added (b = -1). */
+/* Two clusters of one kind, or a cluster and the hit that is to be added (b = -1). */
 typedef struct Pair {
     Clusters *clusters;
     int a, b;
@@ -115,8 +117,8 @@ static double merge_cost(const Cluster *a, const Cluster *b, int sharp, const in
     return retex_uv_stats_merged_variation(&a->uv, b->uv.weight, b->uv.mean, squares, periodic) - a->varies - b->varies;
 }
 
-/* What it costs a cluster to take a place in. */
-static double join_cost(const Cluster *a, const Pending *q, const int periodic[2])
+/* The cost of adding a hit to a cluster. */
+static double join_cost(const Cluster *a, const FirstHit *q, const int periodic[2])
 {
     return q->sharp
                ? retex_uv_stats_point_ward(&a->uv, q->weight, q->uv, periodic) / (RETEX_UV_FEATURE * RETEX_UV_FEATURE)
@@ -126,19 +128,20 @@ static double join_cost(const Cluster *a, const Pending *q, const int periodic[2
 /* Look among the clusters for a pair that is cheaper than the best so far. */
 static void find_pair(Pair *best, Clusters *clusters, int sharp, const int periodic[2])
 {
-    clusters->apart = INFINITY;
+    clusters->merge_bound = INFINITY;
     for (int i = 0; i < clusters->count; i++)
         for (int k = i + 1; k < clusters->count; k++) {
             double cost = merge_cost(&clusters->of[i], &clusters->of[k], sharp, periodic);
             if (cost < best->cost)
                 *best = (Pair){clusters, i, k, cost};
-            if (cost < clusters->apart)
-                clusters->apart = cost;
+            if (cost < clusters->merge_bound)
+                clusters->merge_bound = cost;
         }
 }
 
-/* The cheapest way to have room for one more: of either kind, or of its own where that has all that it may have. */
-static Pair find_cheapest(Clusters *own, Clusters *other, int own_is_full, const Pending *q, const int periodic[2])
+/* The cheapest way to add a hit: join a cluster, or merge two of either kind; but only two of its own kind, where that
+ * kind has as many as it may have. */
+static Pair find_cheapest(Clusters *own, Clusters *other, int own_is_full, const FirstHit *q, const int periodic[2])
 {
     Pair best = own->count ? (Pair){own, 0, -1, INFINITY} : (Pair){other, 0, 1, INFINITY};
     for (int i = 0; i < own->count; i++) {
@@ -146,25 +149,25 @@ static Pair find_cheapest(Clusters *own, Clusters *other, int own_is_full, const
         if (cost < best.cost)
             best = (Pair){own, i, -1, cost};
     }
-    if (!(own->apart > best.cost))
+    if (!(own->merge_bound > best.cost))
         find_pair(&best, own, q->sharp, periodic);
-    if (!own_is_full && !(other->apart > best.cost))
+    if (!own_is_full && !(other->merge_bound > best.cost))
         find_pair(&best, other, !q->sharp, periodic);
     return best;
 }
 
-/* One more, where there are as many clusters as there may be. */
-static void squeeze(Clusters *own, Clusters *other, int own_is_full, const Pending *q, const int periodic[2])
+/* Add a hit where there are as many clusters as there may be. */
+static void merge_cheapest(Clusters *own, Clusters *other, int own_is_full, const FirstHit *q, const int periodic[2])
 {
     Pair best = find_cheapest(own, other, own_is_full, q, periodic);
     if (best.b < 0) {
-        add_pending(&own->of[best.a], q, periodic);
-        own->apart = less_apart(own->apart, best.cost, periodic);
+        add_first_hit(&own->of[best.a], q, periodic);
+        own->merge_bound = lowered_bound(own->merge_bound, best.cost, periodic);
         return;
     }
     Clusters *merged = best.clusters;
     merge_cluster(&merged->of[best.a], &merged->of[best.b], periodic);
-    own->apart = merged->apart = -INFINITY;
+    own->merge_bound = merged->merge_bound = -INFINITY;
     if (merged == own) {
         start_cluster(&own->of[best.b], q, periodic);
         return;
@@ -174,20 +177,20 @@ static void squeeze(Clusters *own, Clusters *other, int own_is_full, const Pendi
     start_cluster(&own->of[own->count++], q, periodic);
 }
 
-void clusters_add(TargetClusters *target, const Pending *q, const FilmParams *params)
+void clusters_add(TargetClusters *target, const FirstHit *q, const FilmParams *params)
 {
     Clusters *own = q->sharp ? &target->sharp : &target->broad, *other = q->sharp ? &target->broad : &target->sharp;
-    int room = q->sharp ? params->sharp : params->broad;
+    int most = q->sharp ? params->sharp : params->broad;
     const int *periodic = params->periodic[q->target];
     own->used |= q->light->used;
     for (unsigned left = q->light->used; left; left &= left - 1) {
         int i = __builtin_ctz(left);
-        own->again[i] += q->light->c[i];
+        own->interreflected[i] += q->light->c[i];
     }
-    if (own->count < room && own->count + other->count < params->clusters) {
+    if (own->count < most && own->count + other->count < params->clusters) {
         start_cluster(&own->of[own->count++], q, periodic);
-        own->apart = -INFINITY;
+        own->merge_bound = -INFINITY;
     } else {
-        squeeze(own, other, own->count == room, q, periodic);
+        merge_cheapest(own, other, own->count == most, q, periodic);
     }
 }

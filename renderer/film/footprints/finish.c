@@ -23,9 +23,9 @@ static int finish_term(FootprintFilm *film, RetexSet *set, RetexTerm *term, int 
 
 /* Factors of the terms: which of the set's mixtures, or footprints, stand for what. */
 typedef struct Places {
-    int kinds[RETEX_MAX_TARGETS][2]; /* all clusters of a kind */
-    int later[RETEX_MAX_TARGETS];
-    int any; /* further hits of all targets */
+    int kinds[RETEX_MAX_TARGETS][2];         /* all clusters of a kind */
+    int interreflections[RETEX_MAX_TARGETS]; /* further hits of a target */
+    int any;                                 /* further hits of all targets */
 } Places;
 
 static int finish_mixture(RetexSet *set, const RetexMixture *mixture, int *place, RetexError *err)
@@ -63,12 +63,13 @@ static int finish_kind(FootprintFilm *film, RetexSet *set, int t, int kind, Plac
     return code || film->plan.count == 1 ? code : finish_mixture(set, &all, &places->kinds[t][kind], err);
 }
 
-static int finish_later(FootprintFilm *film, RetexSet *set, int t, RetexMixture *any, Places *places, RetexError *err)
+static int finish_interreflections(FootprintFilm *film, RetexSet *set, int t, RetexMixture *any, Places *places,
+                                   RetexError *err)
 {
     RetexMixture own = {0};
     int code = RETEX_OK;
-    for (int k = 0; k < most_later(film) && !code; k++) {
-        const FootprintImages *images = &film->targets[t].later[k];
+    for (int k = 0; k < most_interreflections(film) && !code; k++) {
+        const FootprintImages *images = &film->targets[t].interreflections[k];
         RetexFootprint f = {.target = t, .kind = RETEX_FOOTPRINT_INTERREFLECTION};
         int index, weight;
         f.hit = 1 + film->params.sharp + film->params.broad + k;
@@ -80,7 +81,7 @@ static int finish_later(FootprintFilm *film, RetexSet *set, int t, RetexMixture 
         add_share(&own, index, weight);
         add_share(any, index, weight);
     }
-    return code || !own.nshares ? code : finish_mixture(set, &own, &places->later[t], err);
+    return code || !own.nshares ? code : finish_mixture(set, &own, &places->interreflections[t], err);
 }
 
 static void add_factors(RetexTerm *term, int place, int count)
@@ -89,8 +90,9 @@ static void add_factors(RetexTerm *term, int place, int count)
         term->factors[term->nfactors++] = place;
 }
 
-/* The light of one kind that meets targets again. */
-static int finish_again(FootprintFilm *film, RetexSet *set, int t, int kind, const Places *places, RetexError *err)
+/* The interreflected light of one kind. */
+static int finish_interreflected(FootprintFilm *film, RetexSet *set, int t, int kind, const Places *places,
+                                 RetexError *err)
 {
     int code = RETEX_OK;
     for (int i = 1; i < film->plan.count && !code; i++) {
@@ -99,8 +101,8 @@ static int finish_again(FootprintFilm *film, RetexSet *set, int t, int kind, con
         add_factors(&term, places->kinds[t][kind], 1);
         add_factors(&term, places->any, c->mixed);
         for (int b = 0; b < set->ntargets; b++)
-            add_factors(&term, places->later[b], c->powers[b]);
-        code = finish_term(film, set, &term, film->targets[t].kinds[kind].again[i], err);
+            add_factors(&term, places->interreflections[b], c->powers[b]);
+        code = finish_term(film, set, &term, film->targets[t].kinds[kind].interreflected[i], err);
     }
     return code;
 }
@@ -116,12 +118,12 @@ int footprints_finish(void *layout, RetexSet *set, RetexError *err)
         for (int kind = 0; kind < 2 && !code; kind++)
             code = finish_kind(film, set, t, kind, &places, err);
         if (!code)
-            code = finish_later(film, set, t, &any, &places, err);
+            code = finish_interreflections(film, set, t, &any, &places, err);
     }
     if (!code && film->plan.coefficients[film->plan.count - 1].mixed)
         code = finish_mixture(set, &any, &places.any, err);
     for (int t = 0; t < set->ntargets; t++)
         for (int kind = 0; kind < 2 && !code; kind++)
-            code = finish_again(film, set, t, kind, &places, err);
+            code = finish_interreflected(film, set, t, kind, &places, err);
     return code;
 }

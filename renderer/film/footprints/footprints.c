@@ -1,11 +1,11 @@
-/* Light of one pixel, into clusters; see footprints.h. */
+/* From the paths of a pixel to clusters; see footprints.h. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include "film/footprints/footprints.h"
 #include "film/footprints/pixel.h"
 
-#define LEAST_ALBEDO 1e-3f /* of other hits, where originals are averaged: a black one may be the one that is edited */
+#define LEAST_ALBEDO 1e-3f /* of other hits, as weights of a hit's albedo */
 
 /* ---- life ---- */
 
@@ -36,8 +36,8 @@ static int create_pixel(void **out, void *layout, LightSums *light, UvRange *ran
 
 /* ---- light ---- */
 
-/* Another hit's albedo, as it weighs a hit's own: a black one must not make the hit's own unknown, for it may be the
- * black one that is edited. */
+/* The albedo of another hit, as a weight of this hit's own albedo. It is never quite black: a target whose original is
+ * black may be the one that is retextured, and then the other albedos matter. */
 static Float4 weighing_albedo(Rgb a)
 {
     return (Float4){a.r > LEAST_ALBEDO ? a.r : LEAST_ALBEDO, a.g > LEAST_ALBEDO ? a.g : LEAST_ALBEDO,
@@ -50,7 +50,7 @@ static inline void add_coefficient(HitLight *sum, int k, Float4 value)
     sum->used |= 1u << k;
 }
 
-/* Light of which a hit makes so much. */
+/* Add light times the factor of a hit, without its texture. */
 static inline void add_times(HitLight *sum, const HitLight *light, Float4 by)
 {
     sum->c[0] += light->c[0] * by;
@@ -62,7 +62,7 @@ static inline void add_times(HitLight *sum, const HitLight *light, Float4 by)
     }
 }
 
-/* The same times the texture of one more hit. */
+/* Add light times the texture of one more hit. */
 static inline void add_textured(HitLight *sum, const HitLight *light, const Plan *plan, int target, Float4 albedo)
 {
     sum->original += (light->c[0] + light->original) * albedo;
@@ -81,7 +81,7 @@ static inline void start_light(HitLight *light, Float4 value)
     light->used = 0;
 }
 
-/* What the hits before this one do to light that comes from it, as sums over all of their subsets. */
+/* Set what the hits before this one, towards the camera, do to light that comes from it. */
 static inline void start_node(Node *node, const PathHit *hit, const Node *before)
 {
     start_light(&node->dependent, hit->dependent);
@@ -96,34 +96,34 @@ static inline void start_node(Node *node, const PathHit *hit, const Node *before
     node->half = before->half * (hit->before_i + hit->before_d * splat(0.5f));
 }
 
-/* Light that met this hit after others of its path. */
-static int add_later(FootprintPixel *p, const PathHit *hit, const Node *node)
+/* Add a hit that is an interreflection, in the monomials that have a factor of a hit before it. */
+static int add_interreflection(FootprintPixel *p, const PathHit *hit, const Node *node)
 {
     const HitLight *light = &node->dependent;
     const double weight = luminance4((node->half - node->none) * (light->c[0] + light->half));
     if (!(weight > 0))
         return 0;
-    const PendingLater later = {.target = hit->at.target,
-                                .uv = {hit->at.uv.u, hit->at.uv.v},
-                                .weight = weight,
-                                .light = (node->original - node->none) * (light->c[0] + light->original),
-                                .albedo = colour4(hit->at.albedo)};
-    clusters_add_later(&p->targets[later.target], &later, p->film->params.periodic[later.target]);
+    const Interreflection further = {.target = hit->at.target,
+                                     .uv = {hit->at.uv.u, hit->at.uv.v},
+                                     .weight = weight,
+                                     .light = (node->original - node->none) * (light->c[0] + light->original),
+                                     .albedo = colour4(hit->at.albedo)};
+    clusters_add_interreflection(&p->targets[further.target], &further, p->film->params.periodic[further.target]);
     return 1;
 }
 
-/* Light that met this hit first of all. */
+/* Add a hit as the first one, in the monomials that have no factor of a hit before it. */
 static int add_first(FootprintPixel *p, const PathHit *hit, HitLight *light)
 {
     const double weight = luminance4(light->c[0] + light->half);
     if (!(weight > 0))
         return 0;
-    const Pending first = {.target = hit->at.target,
-                           .sharp = hit->at.sharp,
-                           .uv = {hit->at.uv.u, hit->at.uv.v},
-                           .weight = weight,
-                           .light = light,
-                           .albedo = colour4(hit->at.albedo)};
+    const FirstHit first = {.target = hit->at.target,
+                            .sharp = hit->at.sharp,
+                            .uv = {hit->at.uv.u, hit->at.uv.v},
+                            .weight = weight,
+                            .light = light,
+                            .albedo = colour4(hit->at.albedo)};
     clusters_add(&p->targets[first.target], &first, &p->film->params);
     return 1;
 }
@@ -135,7 +135,7 @@ static void scale_light(HitLight *light, Float4 by)
         light->c[__builtin_ctz(left)] *= by;
 }
 
-/* Light of a hit goes to the hit before it, when all of those behind it did so. */
+/* Add a hit's light to the hit before it, once it has the light of all further hits itself. */
 static void gather_node(FootprintPixel *p, const PathHit *hit, Node *node, Node *before)
 {
     add_textured(&node->independent, &node->dependent, &p->film->plan, hit->at.target, node->albedo);
@@ -155,7 +155,7 @@ static void finish_node(FootprintPixel *p, const PathHit *hit, Node *node)
 {
     int was_met = 0;
     if (hit->before) {
-        was_met = add_later(p, hit, node);
+        was_met = add_interreflection(p, hit, node);
         scale_light(&node->dependent, node->none);
     }
     was_met |= add_first(p, hit, &node->dependent);
@@ -163,7 +163,7 @@ static void finish_node(FootprintPixel *p, const PathHit *hit, Node *node)
         note_range(p, hit);
 }
 
-/* As end_several, of a path's only hit, as most have. */
+/* As end_several, of a path with one hit, as most are. */
 static void end_single(FootprintPixel *p, const PathHit *hit, Float4 *free, Float4 *white)
 {
     HitLight light;
@@ -215,7 +215,7 @@ static void signal_total(double total[3], const Clusters *clusters, const Plan *
             total[c] += (double)clusters->of[k].c[c];
     for (int i = 1; clusters->used >> i; i++)
         for (int c = 0; c < 3 && clusters->used >> i & 1; c++)
-            total[c] += plan->coefficients[i].weight * clusters->again[i][c];
+            total[c] += plan->coefficients[i].weight * clusters->interreflected[i][c];
 }
 
 static void sum_signals(const void *pixel, SignalTotals *totals)

@@ -5,7 +5,7 @@
 #include "film/layout.h"
 #include "film/footprints/plan.h"
 
-#define LATER_COUNT 2 /* footprints of further hits, a target */
+#define INTERREFLECTION_CLUSTERS 2 /* footprints of further hits, of each target */
 
 /* Images of one footprint: their numbers in the film's bands. */
 typedef struct FootprintImages {
@@ -17,13 +17,13 @@ typedef struct FootprintImages {
 /* Images of the clusters of one kind on a target. */
 typedef struct KindImages {
     FootprintImages of[FILM_CLUSTERS_MAX];
-    int again[PLAN_COEFFICIENTS_MAX];
+    int interreflected[PLAN_COEFFICIENTS_MAX];
 } KindImages;
 
 /* Images of a target. */
 typedef struct TargetImages {
     KindImages kinds[2]; /* sharp, broad */
-    FootprintImages later[LATER_COUNT];
+    FootprintImages interreflections[INTERREFLECTION_CLUSTERS];
 } TargetImages;
 
 typedef struct FootprintFilm {
@@ -35,16 +35,16 @@ typedef struct FootprintFilm {
     TargetImages *targets;
 } FootprintFilm;
 
-/* Clusters that a pixel may have: of what is seen sharply (kind 0), or of the rest (1). */
+/* Most clusters of a kind that a pixel may have on a target: sharp (kind 0) or broad (1). */
 static inline int most_of_kind(const FilmParams *p, int kind)
 {
     return kind ? p->broad : p->sharp;
 }
 
-/* Later footprints that a target may have: none where no further hit is kept. */
-static inline int most_later(const FootprintFilm *film)
+/* Footprints of interreflections that a target may have: none where no further hit is kept. */
+static inline int most_interreflections(const FootprintFilm *film)
 {
-    return film->plan.count > 1 ? LATER_COUNT : 0;
+    return film->plan.count > 1 ? INTERREFLECTION_CLUSTERS : 0;
 }
 
 /* ---- store.c and finish.c: operations of the layout, see film/layout.h ---- */

@@ -1,5 +1,4 @@
-/* What a pixel gathers while its paths are traced: filled in footprints.c and clusters.c, stored by
- * store.c. */
+/* The sums of one pixel: filled in footprints.c and clusters.c while its paths end, stored by store.c. */
 #ifndef RENDERER_FILM_FOOTPRINTS_PIXEL_H
 #define RENDERER_FILM_FOOTPRINTS_PIXEL_H
 
@@ -20,61 +19,62 @@ typedef struct Cluster {
     double varies;  /* retex_uv_stats_variation */
     double squares; /* of the paths' weights */
     AlbedoSums albedo;
-    Float4 c;     /* light that meets the target here, and no other after it */
-    Float4 again; /* that which does */
+    Float4 c;              /* light without further hits */
+    Float4 interreflected; /* light with further hits, with their original albedos */
 } Cluster;
 
-/* Light as a polynomial in the textures of further hits, by the coefficients of the plan; and what those but the first
- * come to, with each further hit's original albedo and with 1/2. */
+/* Light as a polynomial in the textures of further hits, by the coefficients of the plan; and the sum of all its terms
+ * but the first, with each further hit's original albedo and with 1/2. */
 typedef struct HitLight {
     Coefficients c; /* [0], and those in use; the others are not set */
     Float4 original, half;
     unsigned used; /* bits, of those after the first */
 } HitLight;
 
-/* A place of one path, and the light that met it before other hits. */
-typedef struct Pending {
+/* A hit of one path as the first hit of monomials, and their light. */
+typedef struct FirstHit {
     int target, sharp;
     double uv[2];
     double weight;
     Float4 albedo; /* the original's, there */
     const HitLight *light;
-} Pending;
+} FirstHit;
 
-/* The same after other hits. */
-typedef struct PendingLater {
+/* A hit of one path as a further hit of monomials. */
+typedef struct Interreflection {
     int target;
     double uv[2], weight;
-    Float4 light, albedo; /* that reaches it, with the original albedo of the path's other hits; its own */
-} PendingLater;
+    Float4 light, albedo; /* light, with the original albedos of the path's other hits; its own albedo */
+} Interreflection;
 
-/* Clusters of one kind, and the light of all of them that meets targets again: [0] stays empty. */
+/* Clusters of one kind, and the interreflected light of all of them, by the coefficients of the plan: [0] stays
+ * empty. */
 typedef struct Clusters {
     int count;
-    unsigned used; /* bits: coefficients of `again` that are not 0 */
-    double apart;  /* no two of them merge for less; -inf: not known */
+    unsigned used; /* bits: coefficients of `interreflected` that are not 0 */
+    double merge_bound;  /* merging any two of them costs at least this; -inf: not known */
     Cluster of[FILM_CLUSTERS_MAX];
-    Coefficients again;
+    Coefficients interreflected;
 } Clusters;
 
-/* Further hits of a target. */
-typedef struct Later {
+/* A cluster of further hits on a target. */
+typedef struct InterreflectionCluster {
     RetexUvStats uv;     /* weight 0: none */
     double varies;  /* retex_uv_stats_variation */
     double squares; /* of the paths' weights */
     AlbedoSums albedo;
-} Later;
+} InterreflectionCluster;
 
 /* The clusters of one pixel on one target. */
 typedef struct TargetClusters {
     Clusters sharp, broad;
-    Later later[LATER_COUNT];
-    double later_apart; /* as of clusters */
+    InterreflectionCluster interreflections[INTERREFLECTION_CLUSTERS];
+    double interreflections_bound; /* merge_bound of interreflections */
 } TargetClusters;
 
-/* Of a path: its light by first hit, of some weight, and its further hits. */
-void clusters_add(TargetClusters *target, const Pending *pending, const FilmParams *params);
-void clusters_add_later(TargetClusters *target, const PendingLater *pending, const int periodic[2]);
+/* Add a hit of a path to the clusters of its target. */
+void clusters_add(TargetClusters *target, const FirstHit *hit, const FilmParams *params);
+void clusters_add_interreflection(TargetClusters *target, const Interreflection *hit, const int periodic[2]);
 
 /* A hit of the path in hand; see path_hits.h. */
 typedef struct Node {

@@ -53,14 +53,15 @@ static int add_footprint(FootprintFilm *film, FootprintImages *f, int t, int kin
 
 /* dep_Floor_sharp_a2b1: sharp clusters, then two hits of the first target and one of the second;
  * dep_Floor_sharp_m5: then five of any. */
-static void again_name(const Scene *scene, int t, int kind, const PlanCoefficient *c, char name[RETEX_NAME_MAX])
+static void interreflected_name(const Scene *scene, int t, int kind, const PlanCoefficient *c,
+                                char name[RETEX_NAME_MAX])
 {
     int used = snprintf(name, RETEX_NAME_MAX, "dep_%.80s_%s_", scene->targets[t].name, kind_name(kind));
     if (c->mixed)
         snprintf(name + used, (size_t)(RETEX_NAME_MAX - used), "m%d", c->mixed);
-    for (int later = 0; later < scene->ntargets; later++)
-        if (c->powers[later])
-            used += snprintf(name + used, (size_t)(RETEX_NAME_MAX - used), "%c%d", 'a' + later, c->powers[later]);
+    for (int other = 0; other < scene->ntargets; other++)
+        if (c->powers[other])
+            used += snprintf(name + used, (size_t)(RETEX_NAME_MAX - used), "%c%d", 'a' + other, c->powers[other]);
 }
 
 static int add_target(FootprintFilm *film, int t, RetexError *err)
@@ -72,12 +73,12 @@ static int add_target(FootprintFilm *film, int t, RetexError *err)
         for (int k = 0; k < most_of_kind(&film->params, kind) && !code; k++)
             code = add_footprint(film, &target->kinds[kind].of[k], t, kind, k, err);
         for (int i = 1; i < film->plan.count && !code; i++) {
-            again_name(film->scene, t, kind, &film->plan.coefficients[i], name);
-            code = bands_add(film->bands, name, "RGB", RETEX_HALF, &target->kinds[kind].again[i], err);
+            interreflected_name(film->scene, t, kind, &film->plan.coefficients[i], name);
+            code = bands_add(film->bands, name, "RGB", RETEX_HALF, &target->kinds[kind].interreflected[i], err);
         }
     }
-    for (int k = 0; k < most_later(film) && !code; k++)
-        code = add_footprint(film, &target->later[k], t, 2, k, err);
+    for (int k = 0; k < most_interreflections(film) && !code; k++)
+        code = add_footprint(film, &target->interreflections[k], t, 2, k, err);
     return code;
 }
 
@@ -92,7 +93,8 @@ int footprints_create(void **out, const Scene *scene, const FilmParams *params, 
     film->params = *params;
     film->bands = bands;
     plan_make(&film->plan, scene->ntargets, params->orders, RETEX_MAX_FACTORS);
-    int parts = scene->ntargets * (5 * (params->sharp + params->broad) + 2 * film->plan.count + 4 * LATER_COUNT);
+    int parts =
+        scene->ntargets * (5 * (params->sharp + params->broad) + 2 * film->plan.count + 4 * INTERREFLECTION_CLUSTERS);
     if (parts > PARTS_MAX)
         return retex_fail(err, RETEX_ELIMIT, "the set may need %d parts, more than %d: take fewer targets or clusters",
                           parts, PARTS_MAX);
@@ -158,7 +160,7 @@ static void add_white(double sum[3], const Clusters *clusters)
         for (int k = 0; k < clusters->count; k++)
             sum[c] += clusters->of[k].c[c];
         for (unsigned left = clusters->used; left; left &= left - 1)
-            sum[c] += clusters->again[__builtin_ctz(left)][c];
+            sum[c] += clusters->interreflected[__builtin_ctz(left)][c];
     }
 }
 
@@ -198,22 +200,22 @@ static void store_clusters(FootprintPixel *p, const KindImages *images, Clusters
                            const Place *at)
 {
     float scale = 1 / (float)p->spp;
-    float again = 0;
+    float interreflected = 0;
     for (int k = 0; k < clusters->count; k++)
-        again += luminance4(clusters->of[k].again);
+        interreflected += luminance4(clusters->of[k].interreflected);
     qsort(clusters->of, (size_t)clusters->count, sizeof *clusters->of, compare_clusters);
     for (int k = 0; k < clusters->count; k++) {
         const Cluster *cluster = &clusters->of[k];
         float coverage = (float)effective_samples(cluster) * scale;
         store_footprint(&images->of[k], &cluster->uv, &cluster->albedo, coverage, at);
         store_light(images->of[k].light, cluster->c, scale, unit, at);
-        if (again > 0)
-            store_share(images->of[k].share, luminance4(cluster->again) / again, at);
+        if (interreflected > 0)
+            store_share(images->of[k].share, luminance4(cluster->interreflected) / interreflected, at);
     }
     for (unsigned left = clusters->used; left; left &= left - 1) {
         int i = __builtin_ctz(left);
-        store_light(images->again[i], clusters->again[i], scale, unit, at);
-        clusters->again[i] = splat(0);
+        store_light(images->interreflected[i], clusters->interreflected[i], scale, unit, at);
+        clusters->interreflected[i] = splat(0);
     }
     clusters->count = 0;
     clusters->used = 0;
@@ -224,24 +226,24 @@ static double light_sum(const AlbedoSums *albedo)
     return (double)albedo->light[0] + albedo->light[1] + albedo->light[2];
 }
 
-/* Further hits, with the share that each has in the light of all. */
-static void store_later(FootprintPixel *p, const Place *at)
+/* Interreflections, with the share that each has in the light of all. */
+static void store_interreflections(FootprintPixel *p, const Place *at)
 {
     int ntargets = p->film->scene->ntargets;
     double sum = 0;
     for (int t = 0; t < ntargets; t++)
-        for (int k = 0; k < LATER_COUNT; k++)
-            sum += light_sum(&p->targets[t].later[k].albedo);
+        for (int k = 0; k < INTERREFLECTION_CLUSTERS; k++)
+            sum += light_sum(&p->targets[t].interreflections[k].albedo);
     for (int t = 0; t < ntargets; t++)
-        for (int k = 0; k < LATER_COUNT; k++) {
-            Later *later = &p->targets[t].later[k];
-            const FootprintImages *images = &p->film->targets[t].later[k];
-            if (!(later->uv.weight > 0))
+        for (int k = 0; k < INTERREFLECTION_CLUSTERS; k++) {
+            InterreflectionCluster *cluster = &p->targets[t].interreflections[k];
+            const FootprintImages *images = &p->film->targets[t].interreflections[k];
+            if (!(cluster->uv.weight > 0))
                 continue;
-            double effective = later->uv.weight * later->uv.weight / later->squares / p->spp;
-            store_footprint(images, &later->uv, &later->albedo, (float)fmin(effective, 1), at);
-            store_share(images->share, sum > 0 ? (float)(light_sum(&later->albedo) / sum) : 0, at);
-            *later = (Later){.squares = 0};
+            double effective = cluster->uv.weight * cluster->uv.weight / cluster->squares / p->spp;
+            store_footprint(images, &cluster->uv, &cluster->albedo, (float)fmin(effective, 1), at);
+            store_share(images->share, sum > 0 ? (float)(light_sum(&cluster->albedo) / sum) : 0, at);
+            *cluster = (InterreflectionCluster){.squares = 0};
         }
 }
 
@@ -259,7 +261,7 @@ void footprints_pixel_end(void *pixel, BandRows *rows, int spp, int x, int y)
         store_clusters(p, &film->targets[t].kinds[0], &p->targets[t].sharp, unit, &at);
         store_clusters(p, &film->targets[t].kinds[1], &p->targets[t].broad, unit, &at);
     }
-    store_later(p, &at);
+    store_interreflections(p, &at);
 }
 
 /* ---- the finished band ---- */
@@ -272,7 +274,7 @@ void footprints_band_stats(const void *layout, const BandRows *rows, RetexBandSt
         for (int kind = 0; kind < 2; kind++)
             for (int k = 0; k < most_of_kind(&film->params, kind); k++)
                 bands_add_albedo(rows, target->kinds[kind].of[k].uv, target->kinds[kind].of[k].albedo, s, t);
-        for (int k = 0; k < most_later(film); k++)
-            bands_add_albedo(rows, target->later[k].uv, target->later[k].albedo, s, t);
+        for (int k = 0; k < most_interreflections(film); k++)
+            bands_add_albedo(rows, target->interreflections[k].uv, target->interreflections[k].albedo, s, t);
     }
 }
