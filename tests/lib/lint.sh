@@ -2,6 +2,7 @@
 # Rules of the house that a script can check: make lint.
 #   - arrows between directories: libretex <- renderer <- oiio_plugins; tools -> libretex
 #   - order of the rooms of tools/libretex and of the renderer; no circles of headers, nor of the renderer's files
+#   - symbols of libretex begin with retex_; its README names all files
 #   - one definition of the sRGB curve, of luminance, the clock, the version,
 #     the choice of vector instructions
 #   - each public header compiles alone, as C11 and as C++17
@@ -110,6 +111,27 @@ version=$(sed -nE 's/^#define RETEX_VERSION "(.*)"$/\1/p' tools/libretex/include
 one_definition tools/libretex/include/retex/version.h "\"([^\"]* )?${version:-no version}" 'the version'
 one_definition tools/libretex/base/cpu.c '__builtin_cpu|target_clones|ifunc|getauxval|cpuid' 'what the processor can do'
 one_definition tools/libretex/include/retex/cpu.h '__attribute__ *\(\(target|GCC target|__x86_64__' 'how kernels are compiled for a processor'
+
+# Symbols of the library that others can see begin with retex_.
+unprefixed=$(find "${BUILD:-build}/obj/tools/libretex" -name '*.o' 2>/dev/null | while read -r object; do
+    source=${object#"${BUILD:-build}/obj/"}
+    case $source in */compact/* | */pack/* | */files/*) continue ;; esac
+    [ ! -e "${source%.o}.c" ] || nm -A -g --defined-only "$object"
+done | awk '$NF !~ /^retex_/ { sub(/:.*/, "", $1); print $1 ": " $NF }')
+[ -z "$unprefixed" ] || complain "symbols of libretex without retex_:
+$unprefixed"
+
+# Each room's files are named in its section of the README, x.h by x.c.
+for room in base io exr picture texture set retexture denoise metrics; do
+    section=$(awk -v head="### $room" '/^##/ { inside = $0 == head } inside' tools/libretex/README.md)
+    for file in tools/libretex/$room/*.[ch]; do
+        name=${file##*/}
+        case $section in *"\`$name\`"*) continue ;; esac
+        [ "$name" != "${name%.h}" ] && [ -e "${file%.h}.c" ] && continue
+        complain "$file: not in tools/libretex/README.md"
+    done
+    [ "$(find tools/libretex/$room -type f | wc -l)" -le 40 ] || complain "tools/libretex/$room has more than 40 files"
+done
 
 probe=$(mktemp -d)
 trap 'rm -rf "$probe"' EXIT

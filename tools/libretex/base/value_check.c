@@ -1,4 +1,4 @@
-/* See numbers.h. */
+/* See value_check.h. */
 #include "base/value_check.h"
 
 #include <math.h>

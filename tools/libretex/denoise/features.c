@@ -57,12 +57,12 @@ static void add_gradient(float *restrict strict, float *restrict loose, const fl
         }
 }
 
-typedef struct Gathering {
+typedef struct FeatureList {
     RetexDenoiseFeatures *features;
     float *planes, *scales;
-} Gathering;
+} FeatureList;
 
-static RetexDenoiseFeatureGroup *add_group(Gathering *g, int first, int count, float factor, float least)
+static RetexDenoiseFeatureGroup *add_group(FeatureList *g, int first, int count, float factor, float least)
 {
     RetexDenoiseFeatures *f = g->features;
     float *strict = g->scales + (size_t)(2 * f->ngroups) * DENOISE_PLANE, *loose = strict + DENOISE_PLANE;
@@ -78,13 +78,13 @@ static RetexDenoiseFeatureGroup *add_group(Gathering *g, int first, int count, f
     return &f->groups[f->ngroups++];
 }
 
-static void add_feature(Gathering *g, int first, int count, float least)
+static void add_feature(FeatureList *g, int first, int count, float least)
 {
     add_group(g, first, count, STRENGTH * STRENGTH, least);
 }
 
 /* Positions are alike where they lie in one plane. */
-static void add_position(Gathering *g, int first, int normal)
+static void add_position(FeatureList *g, int first, int normal)
 {
     RetexDenoiseFeatureGroup *group = add_group(g, first, 3, SLOPE * SLOPE * 0.5f, LEAST_DISTANCE);
     for (int k = 0; k < 3; k++)
@@ -99,7 +99,7 @@ static int is_zero(const float *plane)
     return 1;
 }
 
-static int gather_planes(float *planes, const RetexDenoiser *d, int x0, int y0)
+static int load_planes(float *planes, const RetexDenoiser *d, int x0, int y0)
 {
     int n = 0;
     for (int k = 0; k < GUIDE_COUNT; k++)
@@ -111,11 +111,11 @@ static int gather_planes(float *planes, const RetexDenoiser *d, int x0, int y0)
     return n;
 }
 
-void retex_denoise_load_features(RetexDenoiseFeatures *f, float *room, const RetexDenoiser *d, int x0, int y0)
+void retex_denoise_load_features(RetexDenoiseFeatures *f, float *memory, const RetexDenoiser *d, int x0, int y0)
 {
-    Gathering g = {f, room, room + (size_t)DENOISE_FEATURES_MAX * DENOISE_PLANE};
+    FeatureList g = {f, memory, memory + (size_t)DENOISE_FEATURES_MAX * DENOISE_PLANE};
     float *valid = g.scales + (size_t)(2 * DENOISE_GROUPS_MAX) * DENOISE_PLANE;
-    int n = gather_planes(g.planes, d, x0, y0);
+    int n = load_planes(g.planes, d, x0, y0);
     *f = (RetexDenoiseFeatures){.valid = valid};
     for (int k = 0; k < n; k++)
         f->planes[k] = g.planes + (size_t)k * DENOISE_PLANE;

@@ -11,8 +11,8 @@ void retex_denoise_load_plane(float *restrict plane, const RetexSet *set, int pa
 /* Room for features: planes, two scales a group, and valid. */
 enum { DENOISE_FEATURES_SCRATCH = DENOISE_FEATURES_MAX + 2 * DENOISE_GROUPS_MAX + 1 };
 
-/* Fill room, DENOISE_FEATURES_SCRATCH planes, and have features point to it. */
-void retex_denoise_load_features(RetexDenoiseFeatures *features, float *room, const RetexDenoiser *denoiser, int x0,
+/* Fill memory, DENOISE_FEATURES_SCRATCH planes, and have features point to it. */
+void retex_denoise_load_features(RetexDenoiseFeatures *features, float *memory, const RetexDenoiser *denoiser, int x0,
                                  int y0);
 
 #endif

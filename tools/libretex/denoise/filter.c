@@ -12,7 +12,7 @@
 typedef struct Filter {
     RetexDenoiser *denoiser;
     RetexDenoiseResult *result;
-    RetexDenoiseScratch **rooms; /* by thread */
+    RetexDenoiseScratch **scratch; /* by thread */
     int nthreads, tiles_x;
     RetexDenoisedRows bands[2], *band;
     RetexSignalSums *sums; /* by tile of the band, then signal: added up in order */
@@ -24,7 +24,7 @@ static void denoise_job(void *context, int index, int thread)
     const RetexDenoiser *d = w->denoiser;
     if (retex_budget_is_stopped(d->params.budget))
         return;
-    retex_denoise_tile(d, w->rooms[thread], d->roi.x0 + index * DENOISE_STEP, w->band,
+    retex_denoise_tile(d, w->scratch[thread], d->roi.x0 + index * DENOISE_STEP, w->band,
                        w->sums + (size_t)index * (size_t)d->signals.count);
 }
 
@@ -92,12 +92,12 @@ static int open_filter(Filter *w, RetexError *err)
     size_t count = (size_t)d->signals.count;
     int code = RETEX_OK;
     w->tiles_x = (d->roi.x1 - d->roi.x0 + DENOISE_STEP - 1) / DENOISE_STEP;
-    w->rooms = calloc((size_t)w->nthreads, sizeof *w->rooms);
+    w->scratch = calloc((size_t)w->nthreads, sizeof *w->scratch);
     w->sums = calloc((size_t)w->tiles_x * count + 1, sizeof *w->sums);
-    if (!w->rooms || !w->sums)
+    if (!w->scratch || !w->sums)
         code = retex_fail(err, RETEX_ENOMEM, "not enough memory to denoise");
     for (int k = 0; k < w->nthreads && k < w->tiles_x && !code; k++)
-        code = retex_denoise_scratch_create(&w->rooms[k], d, err);
+        code = retex_denoise_scratch_create(&w->scratch[k], d, err);
     if (!code)
         code = retex_denoise_footprints_open(&d->footprints, d, err);
     return code ? code : open_bands(w, err);
@@ -105,11 +105,11 @@ static int open_filter(Filter *w, RetexError *err)
 
 static void close_filter(Filter *w)
 {
-    for (int k = 0; w->rooms && k < w->nthreads; k++)
-        retex_denoise_scratch_close(&w->rooms[k]);
+    for (int k = 0; w->scratch && k < w->nthreads; k++)
+        retex_denoise_scratch_close(&w->scratch[k]);
     for (int k = 0; k < 2; k++)
         close_band(&w->bands[k], w->denoiser->set->nparts);
-    free(w->rooms);
+    free(w->scratch);
     free(w->sums);
     retex_denoise_footprints_close(&w->denoiser->footprints);
 }

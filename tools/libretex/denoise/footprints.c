@@ -5,7 +5,7 @@
 #include <retex/rounding.h>
 #include <retex/uv_stats.h>
 
-#include "denoise/places.h"
+#include "denoise/pools.h"
 
 #define NEGLIGIBLE 1e-2f /* neighbours that count for less are left out */
 #define CLUSTERS_LEAST 2 /* of broad light that a pixel may have, whatever it had */
@@ -82,14 +82,14 @@ static void store_light(const RetexFootprintImages *place, const Pixel *p, const
 
 static float cluster_light(const RetexFootprintImages *place, size_t i)
 {
-    float l = place->light.pixels ? places_luminance(place->light.pixels + 3 * i) : 0;
-    return l > 0 && l < PLACES_FINITE ? l : 0;
+    float l = place->light.pixels ? footprint_luminance(place->light.pixels + 3 * i) : 0;
+    return l > 0 && l < FOOTPRINT_VALUE_MAX ? l : 0;
 }
 
 static float cluster_cover(const RetexFootprintImages *place, size_t i)
 {
     const float *uv = place->light.pixels && place->uv.pixels ? place->uv.pixels + 3 * i : NULL;
-    return uv && uv[2] > 0 && fabsf(uv[0]) + fabsf(uv[1]) + uv[2] < PLACES_FINITE ? uv[2] : 0;
+    return uv && uv[2] > 0 && fabsf(uv[0]) + fabsf(uv[1]) + uv[2] < FOOTPRINT_VALUE_MAX ? uv[2] : 0;
 }
 
 static double sum_over(const RetexPoolGroup *g, size_t i, float (*value)(const RetexFootprintImages *, size_t))
@@ -205,7 +205,7 @@ typedef struct Pool {
 } Pool;
 
 typedef struct Pools {
-    int count, room;
+    int count, capacity;
     int near; /* only what is near to what the pixel itself has */
     Pool of[CLUSTERS_MOST];
 } Pools;
@@ -228,13 +228,13 @@ static int load_pool(Pool *pool, const RetexPoolGroup *g, const RetexFootprintIm
     const float spreads[3] = {spread[0], spread[1], place->spread.channels == 3 ? spread[2] : 0};
     if (!(uv[2] > 0))
         return 0;
-    float own = places_luminance(light),
-          shared = g->again && g->again[i] > 0 ? g->again[i] * read_share(g, place, i) : 0;
+    float own = footprint_luminance(light),
+          shared = g->interreflected && g->interreflected[i] > 0 ? g->interreflected[i] * read_share(g, place, i) : 0;
     float all = g->kind == RETEX_FOOTPRINT_HIT ? uv[2] : own + shared;
     float size = fabsf(uv[0]) + fabsf(uv[1]) + uv[2] + fabsf(spreads[0]) + fabsf(spreads[1]) + fabsf(spreads[2]) +
                  fabsf(albedo[0]) + fabsf(albedo[1]) + fabsf(albedo[2]) + fabsf(light[0]) + fabsf(light[1]) +
                  fabsf(light[2]);
-    if (!(size < PLACES_FINITE) || !(own >= 0) || !(shared >= 0) || !(all > 0) || !(all < PLACES_FINITE))
+    if (!(size < FOOTPRINT_VALUE_MAX) || !(own >= 0) || !(shared >= 0) || !(all > 0) || !(all < FOOTPRINT_VALUE_MAX))
         return 0;
     const float w = weight * all;
     if (!(w > 0))
@@ -274,14 +274,14 @@ static void add_pool(Pools *pools, const Pool *one, const int periodic[2], int o
 {
     int best = -1;
     double least = INFINITY;
-    for (int k = 0; k < pools->count && (pools->room > 1 || best < 0); k++) {
+    for (int k = 0; k < pools->count && (pools->capacity > 1 || best < 0); k++) {
         double gain = retex_uv_stats_variation_gain(&pools->of[k].uv, &one->uv, periodic);
         if (gain < least || best < 0)
             least = gain, best = k;
     }
     if (best >= 0 && !open && pools->near && is_far(&pools->of[best].uv, &one->uv, periodic))
         return;
-    if (best < 0 || (pools->count < pools->room && (open || least > FAR * one->uv.weight)))
+    if (best < 0 || (pools->count < pools->capacity && (open || least > FAR * one->uv.weight)))
         pools->of[pools->count++] = *one;
     else
         merge_pool(&pools->of[best], one, periodic);
@@ -290,8 +290,8 @@ static void add_pool(Pools *pools, const Pool *one, const int periodic[2], int o
 /* Those of the pixel itself come first, the heaviest foremost. */
 static void pool_own(Pools *pools, const RetexPoolGroup *g, int most, const RetexNeighbour *self, size_t i)
 {
-    Pool own[GROUP_MAX];
-    int order[GROUP_MAX], count = 0;
+    Pool own[POOL_GROUP_MAX];
+    int order[POOL_GROUP_MAX], count = 0;
     for (int k = 0; k < g->count; k++) {
         if (!load_pool(&own[count], g, &g->of[k], i, self->weight))
             continue;
@@ -300,8 +300,8 @@ static void pool_own(Pools *pools, const RetexPoolGroup *g, int most, const Rete
             order[at] = order[at - 1];
         order[at] = count - 1;
     }
-    pools->room = count < CLUSTERS_LEAST ? CLUSTERS_LEAST : count < CLUSTERS_MOST ? count : CLUSTERS_MOST;
-    pools->room = pools->room < most ? pools->room : most;
+    pools->capacity = count < CLUSTERS_LEAST ? CLUSTERS_LEAST : count < CLUSTERS_MOST ? count : CLUSTERS_MOST;
+    pools->capacity = pools->capacity < most ? pools->capacity : most;
     for (int k = 0; k < count; k++)
         add_pool(pools, &own[order[k]], g->periodic, 1);
 }
@@ -316,10 +316,10 @@ static int compare_pools(const Pool *a, const Pool *b)
 static void pool_group(Pools *pools, const RetexDenoiseFootprints *f, const RetexPoolGroup *g, int most,
                        const RetexNeighbour *neighbours, int count)
 {
-    *pools = (Pools){.room = most, .near = g->kind != RETEX_FOOTPRINT_BROAD};
+    *pools = (Pools){.capacity = most, .near = g->kind != RETEX_FOOTPRINT_BROAD};
     for (int n = 0; n < count; n++) {
         size_t i = (size_t)neighbours[n].y * f->width + (size_t)neighbours[n].x;
-        if (!(neighbours[n].weight > NEGLIGIBLE && neighbours[n].weight < PLACES_FINITE))
+        if (!(neighbours[n].weight > NEGLIGIBLE && neighbours[n].weight < FOOTPRINT_VALUE_MAX))
             continue;
         if (n == 0) {
             pool_own(pools, g, most, &neighbours[0], i);
@@ -389,18 +389,19 @@ void retex_denoise_share_light(const RetexDenoiseFootprints *f, const RetexDenoi
         keep_clusters(f, g, &p, neighbours, count, light);
 }
 
-static void pool_later(const RetexDenoiseFootprints *f, const Pixel *p, const RetexNeighbour *neighbours, int count)
+static void pool_interreflections(const RetexDenoiseFootprints *f, const Pixel *p, const RetexNeighbour *neighbours,
+                                  int count)
 {
     Pools pools[RETEX_MAX_TARGETS];
     double shared = 0;
-    for (int t = 0; t < f->nlater; t++) {
-        const RetexPoolGroup *g = &f->later[t];
+    for (int t = 0; t < f->ninterreflections; t++) {
+        const RetexPoolGroup *g = &f->interreflections[t];
         pool_group(&pools[t], f, g, g->count < CLUSTERS_MOST ? g->count : CLUSTERS_MOST, neighbours, count);
         for (int k = 0; k < pools[t].count; k++)
             shared += pools[t].of[k].shared;
     }
-    for (int t = 0; t < f->nlater; t++) {
-        const RetexPoolGroup *g = &f->later[t];
+    for (int t = 0; t < f->ninterreflections; t++) {
+        const RetexPoolGroup *g = &f->interreflections[t];
         if (!(shared > 0))
             copy_footprints(g, p, p->at);
         for (int k = 0; k < g->count && shared > 0; k++) {
@@ -422,7 +423,8 @@ static void pool_hit(const RetexDenoiseFootprints *f, const RetexPoolGroup *g, c
     double all = 0;
     pool_group(&pools, f, g, 1, neighbours, count);
     for (int n = 0; n < count; n++)
-        all += neighbours[n].weight > NEGLIGIBLE && neighbours[n].weight < PLACES_FINITE ? neighbours[n].weight : 0;
+        all +=
+            neighbours[n].weight > NEGLIGIBLE && neighbours[n].weight < FOOTPRINT_VALUE_MAX ? neighbours[n].weight : 0;
     copy_footprints(g, p, p->at); /* its weight in a mixture stays, where it has one */
     if (pools.count)
         store_pool(&g->of[0], p, &pools.of[0], pools.of[0].uv.weight / all);
@@ -434,8 +436,8 @@ void retex_denoise_pool_interreflections(const RetexDenoiseFootprints *f, const 
     const Pixel p = pixel_at(f, band, x, y);
     if (!d->params.footprints)
         return;
-    if (f->nlater)
-        pool_later(f, &p, neighbours, count);
+    if (f->ninterreflections)
+        pool_interreflections(f, &p, neighbours, count);
     for (int k = 0; k < f->nhits; k++)
         pool_hit(f, &f->hits[k], &p, neighbours, count);
 }

@@ -28,14 +28,14 @@ _Static_assert(ERROR_RADIUS + CHOICE_RADIUS <= DENOISE_MARGIN, "what is chosen m
 enum { CHOICES = DENOISE_CANDIDATES + 1 };
 
 /* What a tile holds of one signal. */
-typedef struct SignalRoom {
+typedef struct SignalScratch {
     int nclusters, nplanes;
     float *half[2][3], *variance[3], *kind, *modulation[3], *mean_modulation; /* planes */
     float **planes, **sums; /* channel by channel: all clusters together where there are any, then other members */
     RetexDenoiseSums candidates[DENOISE_CANDIDATES];
     float *chosen[CHOICES]; /* how much of each, by pixel */
     float *neighbours;      /* of signals with clusters: weights by neighbour, then pixel */
-} SignalRoom;
+} SignalScratch;
 
 struct RetexDenoiseScratch {
     float *memory;
@@ -43,11 +43,11 @@ struct RetexDenoiseScratch {
     float *spare;    /* a plane */
     float *scratch, *errors[CHOICES], *neighbours;
     RetexDenoiseSimilarity *alike; /* DENOISE_BATCH */
-    SignalRoom *signals;
+    SignalScratch *signals;
     float **pointers;
 };
 
-/* ---- room ---- */
+/* ---- scratch memory ---- */
 
 /* Memory is laid out twice: first from NULL, to see how much it takes. */
 typedef struct Layout {
@@ -64,7 +64,7 @@ static float *take(Layout *l, size_t floats)
     return p;
 }
 
-static void lay_out_signal(SignalRoom *r, Layout *l, const RetexSet *set, const RetexSignal *signal)
+static void lay_out_signal(SignalScratch *r, Layout *l, const RetexSet *set, const RetexSignal *signal)
 {
     r->nclusters = 0;
     for (int k = 0; k < signal->nmembers; k++)
@@ -93,52 +93,52 @@ static void lay_out_signal(SignalRoom *r, Layout *l, const RetexSet *set, const 
     }
 }
 
-static void lay_out(RetexDenoiseScratch *room, Layout *l, const RetexDenoiser *d)
+static void lay_out(RetexDenoiseScratch *work, Layout *l, const RetexDenoiser *d)
 {
     l->used = l->npointers = 0;
-    room->features = take(l, (size_t)DENOISE_FEATURES_SCRATCH * DENOISE_PLANE);
-    room->spare = take(l, DENOISE_PLANE);
-    room->scratch = take(l, DENOISE_SCRATCH);
-    room->neighbours = take(l, (size_t)NEIGHBOURS_MAX * DENOISE_PIXELS);
+    work->features = take(l, (size_t)DENOISE_FEATURES_SCRATCH * DENOISE_PLANE);
+    work->spare = take(l, DENOISE_PLANE);
+    work->scratch = take(l, DENOISE_SCRATCH);
+    work->neighbours = take(l, (size_t)NEIGHBOURS_MAX * DENOISE_PIXELS);
     for (int k = 0; k < CHOICES; k++)
-        room->errors[k] = take(l, DENOISE_PIXELS);
-    room->alike = (RetexDenoiseSimilarity *)take(l, DENOISE_BATCH * sizeof(RetexDenoiseSimilarity) / sizeof(float));
+        work->errors[k] = take(l, DENOISE_PIXELS);
+    work->alike = (RetexDenoiseSimilarity *)take(l, DENOISE_BATCH * sizeof(RetexDenoiseSimilarity) / sizeof(float));
     for (int s = 0; s < d->signals.count; s++)
-        lay_out_signal(&room->signals[s], l, d->set, &d->signals.of[s]);
+        lay_out_signal(&work->signals[s], l, d->set, &d->signals.of[s]);
 }
 
 int retex_denoise_scratch_create(RetexDenoiseScratch **out, const RetexDenoiser *d, RetexError *err)
 {
-    RetexDenoiseScratch *room = *out = calloc(1, sizeof *room);
+    RetexDenoiseScratch *work = *out = calloc(1, sizeof *work);
     size_t members = 0;
     Layout layout = {NULL, 0, NULL, 0};
     for (int s = 0; s < d->signals.count; s++)
         members += (size_t)d->signals.of[s].nmembers + 1;
-    if (room) {
-        room->signals = calloc((size_t)d->signals.count + 1, sizeof *room->signals);
-        layout.pointers = room->pointers = calloc(6 * members + 1, sizeof *room->pointers);
+    if (work) {
+        work->signals = calloc((size_t)d->signals.count + 1, sizeof *work->signals);
+        layout.pointers = work->pointers = calloc(6 * members + 1, sizeof *work->pointers);
     }
-    if (room && room->signals && room->pointers) {
-        lay_out(room, &layout, d);
-        layout.memory = room->memory = calloc(layout.used, sizeof(float));
+    if (work && work->signals && work->pointers) {
+        lay_out(work, &layout, d);
+        layout.memory = work->memory = calloc(layout.used, sizeof(float));
     }
-    if (!room || !room->memory) {
+    if (!work || !work->memory) {
         retex_denoise_scratch_close(out);
         return retex_fail(err, RETEX_ENOMEM, "not enough memory to denoise a tile");
     }
-    lay_out(room, &layout, d);
+    lay_out(work, &layout, d);
     return RETEX_OK;
 }
 
 void retex_denoise_scratch_close(RetexDenoiseScratch **out)
 {
-    RetexDenoiseScratch *room = *out;
-    if (!room)
+    RetexDenoiseScratch *work = *out;
+    if (!work)
         return;
-    free(room->memory);
-    free(room->signals);
-    free(room->pointers);
-    free(room);
+    free(work->memory);
+    free(work->signals);
+    free(work->pointers);
+    free(work);
     *out = NULL;
 }
 
@@ -155,8 +155,8 @@ static void smooth(float *restrict plane, float *restrict spare)
 }
 
 /* Images to filter; their total goes to the first half's planes. */
-static void gather_members(SignalRoom *r, RetexDenoiseScratch *room, const RetexDenoiser *d, const RetexSignal *signal,
-                           int x0, int y0)
+static void load_members(SignalScratch *r, RetexDenoiseScratch *work, const RetexDenoiser *d, const RetexSignal *signal,
+                         int x0, int y0)
 {
     int image = r->nclusters > 0;
     for (int k = 0; k < r->nplanes; k++)
@@ -168,49 +168,49 @@ static void gather_members(SignalRoom *r, RetexDenoiseScratch *room, const Retex
         int to = retex_signal_cluster(d->set, m) >= 0 ? 0 : image++;
         for (int c = 0; c < 3; c++) {
             float *restrict plane = r->planes[3 * to + c], *restrict total = r->half[0][c];
-            retex_denoise_load_plane(room->spare, d->set, m->part, c, x0, y0);
+            retex_denoise_load_plane(work->spare, d->set, m->part, c, x0, y0);
             for (int i = 0; i < DENOISE_PLANE; i++)
-                plane[i] += room->spare[i], total[i] += m->weight * room->spare[i];
+                plane[i] += work->spare[i], total[i] += m->weight * work->spare[i];
         }
     }
 }
 
 /* The colour of what is seen; of targets, which guides have as white, how bright they may be in light that their
  * texture does not multiply. */
-static void find_seen_modulation(SignalRoom *r, RetexDenoiseScratch *room, const RetexDenoiser *d, int x0, int y0)
+static void find_seen_modulation(SignalScratch *r, RetexDenoiseScratch *work, const RetexDenoiser *d, int x0, int y0)
 {
     for (int c = 0; c < 3; c++)
         retex_denoise_load_plane(r->modulation[c], d->set, d->guides[GUIDE_SEEN_ALBEDO], c, x0, y0);
     for (int t = 0; t < d->set->ntargets; t++) {
         if (d->signals.covers[t] < 0)
             continue;
-        retex_denoise_load_plane(room->spare, d->set, d->signals.covers[t], 0, x0, y0);
+        retex_denoise_load_plane(work->spare, d->set, d->signals.covers[t], 0, x0, y0);
         for (int c = 0; c < 3; c++)
             for (int i = 0; i < DENOISE_PLANE; i++)
-                r->modulation[c][i] -= (1 - TARGET_BRIGHTNESS) * room->spare[i];
+                r->modulation[c][i] -= (1 - TARGET_BRIGHTNESS) * work->spare[i];
     }
 }
 
 /* What the light is multiplied by at the pixel, as far as guides know: it is taken out before pixels are compared.
  * Light that comes straight from a target goes with how much of it the pixel sees; other light with the colour of what
  * is seen. Not by less than LEAST_MODULATION: near nothing, guides of few places are far off. */
-static void find_modulation(SignalRoom *r, RetexDenoiseScratch *room, const RetexDenoiser *d, const RetexSignal *signal,
-                            int x0, int y0)
+static void find_modulation(SignalScratch *r, RetexDenoiseScratch *work, const RetexDenoiser *d,
+                            const RetexSignal *signal, int x0, int y0)
 {
     int sharp = signal->kind == RETEX_FOOTPRINT_SHARP && signal->target >= 0,
         any = signal->kind == RETEX_FOOTPRINT_HIT && signal->target >= 0;
     for (int i = 0; i < DENOISE_PLANE; i++)
         r->kind[i] = 1;
     if (sharp)
-        retex_denoise_load_plane(room->spare, d->set, signal->cover, 0, x0, y0);
+        retex_denoise_load_plane(work->spare, d->set, signal->cover, 0, x0, y0);
     for (int i = 0; i < DENOISE_PLANE && (sharp || any); i++) {
-        int covered = sharp && room->spare[i] > LEAST_COVER;
+        int covered = sharp && work->spare[i] > LEAST_COVER;
         for (int c = 0; c < 3; c++)
-            r->modulation[c][i] = covered ? room->spare[i] : 1;
+            r->modulation[c][i] = covered ? work->spare[i] : 1;
         r->kind[i] = sharp && !covered ? -1 : 1;
     }
     if (!sharp && !any)
-        find_seen_modulation(r, room, d, x0, y0);
+        find_seen_modulation(r, work, d, x0, y0);
     for (int i = 0; i < DENOISE_PLANE; i++) {
         for (int c = 0; c < 3; c++)
             r->modulation[c][i] = fmaxf(r->modulation[c][i], LEAST_MODULATION);
@@ -219,24 +219,24 @@ static void find_modulation(SignalRoom *r, RetexDenoiseScratch *room, const Rete
 }
 
 /* From the total and its noise to both halves and the variance of these. */
-static void split_halves(SignalRoom *r, RetexDenoiseScratch *room, const RetexDenoiser *d, const RetexSignal *signal,
+static void split_halves(SignalScratch *r, RetexDenoiseScratch *work, const RetexDenoiser *d, const RetexSignal *signal,
                          int x0, int y0)
 {
     float first = 2 * (float)(d->set->spp - d->set->spp / 2) / (float)d->set->spp, second = 2 - first;
     for (int c = 0; c < 3; c++) {
         float *restrict a = r->half[0][c], *restrict b = r->half[1][c], *restrict v = r->variance[c];
         const float *restrict m = r->modulation[c];
-        retex_denoise_load_plane(room->spare, d->set, signal->noise, c, x0, y0);
+        retex_denoise_load_plane(work->spare, d->set, signal->noise, c, x0, y0);
         for (int i = 0; i < DENOISE_PLANE; i++) {
-            float total = a[i] / m[i], noise = room->spare[i] / m[i];
+            float total = a[i] / m[i], noise = work->spare[i] / m[i];
             a[i] = total + first * noise, b[i] = total - second * noise;
             v[i] = 2 * noise * noise;
         }
-        smooth(v, room->spare);
+        smooth(v, work->spare);
     }
 }
 
-static RetexDenoiseSignal start_signal(SignalRoom *r, RetexDenoiseScratch *room, const RetexDenoiser *d)
+static RetexDenoiseSignal start_signal(SignalScratch *r, RetexDenoiseScratch *work, const RetexDenoiser *d)
 {
     RetexDenoiseSignal s = {.kind = r->kind,
                             .modulation = r->mean_modulation,
@@ -244,7 +244,7 @@ static RetexDenoiseSignal start_signal(SignalRoom *r, RetexDenoiseScratch *room,
                             .nplanes = r->nplanes > 3 ? r->nplanes : 0,
                             .planes = (const float *const *)r->planes,
                             .sums = r->sums,
-                            .scratch = room->scratch};
+                            .scratch = work->scratch};
     double level = 0;
     for (int c = 0; c < 3; c++) {
         s.variance[c] = r->variance[c];
@@ -291,14 +291,14 @@ static void box(float *restrict image, float *restrict spare, int radius)
 }
 
 /* A choice's value of one half and channel. */
-static float choice_value(const SignalRoom *r, int choice, int half, int c, size_t p, size_t i)
+static float choice_value(const SignalScratch *r, int choice, int half, int c, size_t p, size_t i)
 {
     const RetexDenoiseSums *s = &r->candidates[choice ? choice - 1 : 0];
     return choice ? s->sum[half][c][i] / s->norm[half][i] : r->half[half][c][p];
 }
 
 /* How far each choice is from the other half, squared and in units of noise, around each pixel. */
-static void find_errors(const SignalRoom *r, RetexDenoiseScratch *room, float epsilon)
+static void find_errors(const SignalScratch *r, RetexDenoiseScratch *work, float epsilon)
 {
     for (int k = 0; k < CHOICES; k++) {
         for (int y = 0; y < DENOISE_TILE; y++)
@@ -310,20 +310,20 @@ static void find_errors(const SignalRoom *r, RetexDenoiseScratch *room, float ep
                           b = choice_value(r, k, 1, c, p, i) - r->half[0][c][p];
                     error += (a * a + b * b) / (epsilon + r->variance[c][p]);
                 }
-                room->errors[k][i] = error;
+                work->errors[k][i] = error;
             }
-        box(room->errors[k], room->spare, ERROR_RADIUS);
+        box(work->errors[k], work->spare, ERROR_RADIUS);
     }
 }
 
 /* Which choice is nearest to the truth. A half differs from the other by the variance of both, V each: its squared
  * difference is 4V where nothing is filtered, counted twice; a candidate's is twice its own error and V. */
-static int best_choice(const RetexDenoiseScratch *room, size_t i)
+static int best_choice(const RetexDenoiseScratch *work, size_t i)
 {
-    float variance = 0.25f * room->errors[0][i], least = variance;
+    float variance = 0.25f * work->errors[0][i], least = variance;
     int best = 0;
     for (int k = 1; k < CHOICES; k++) {
-        float error = 0.5f * room->errors[k][i] - variance;
+        float error = 0.5f * work->errors[k][i] - variance;
         if (error < least)
             least = error, best = k;
     }
@@ -331,7 +331,7 @@ static int best_choice(const RetexDenoiseScratch *room, size_t i)
 }
 
 /* One path of much light, in one half: other pixels are better off without it, and choose to stay as they are. */
-static int is_spike(const SignalRoom *r, size_t p)
+static int is_spike(const SignalScratch *r, size_t p)
 {
     float squared = 0, variance = 0;
     for (int c = 0; c < 3; c++) {
@@ -341,17 +341,17 @@ static int is_spike(const SignalRoom *r, size_t p)
     return squared > SPIKE * variance;
 }
 
-static void choose(SignalRoom *r, RetexDenoiseScratch *room, float epsilon)
+static void choose(SignalScratch *r, RetexDenoiseScratch *work, float epsilon)
 {
     unsigned char best[DENOISE_PIXELS];
-    find_errors(r, room, epsilon);
+    find_errors(r, work, epsilon);
     for (size_t i = 0; i < DENOISE_PIXELS; i++) {
-        best[i] = (unsigned char)best_choice(room, i);
+        best[i] = (unsigned char)best_choice(work, i);
         for (int k = 0; k < CHOICES; k++)
             r->chosen[k][i] = k == best[i];
     }
     for (int k = 0; k < CHOICES; k++)
-        box(r->chosen[k], room->spare, CHOICE_RADIUS);
+        box(r->chosen[k], work->spare, CHOICE_RADIUS);
     for (int y = 0; y < DENOISE_TILE; y++)
         for (int x = 0; x < DENOISE_TILE; x++) {
             size_t i = (size_t)y * DENOISE_TILE + (size_t)x;
@@ -369,7 +369,7 @@ typedef struct TilePixel {
 } TilePixel;
 
 /* The filtered total of one channel. */
-static float filtered_total(const SignalRoom *r, const TilePixel *at, int c)
+static float filtered_total(const SignalScratch *r, const TilePixel *at, int c)
 {
     float total = 0;
     for (int k = 0; k < CHOICES; k++)
@@ -379,7 +379,7 @@ static float filtered_total(const SignalRoom *r, const TilePixel *at, int c)
 }
 
 /* What the first candidate's weights made of it. */
-static float total_of_members(const SignalRoom *r, const RetexDenoiser *d, const RetexSignal *signal,
+static float total_of_members(const SignalScratch *r, const RetexDenoiser *d, const RetexSignal *signal,
                               const TilePixel *at, int c)
 {
     float members = r->nclusters ? r->sums[c][at->i] : 0;
@@ -392,7 +392,7 @@ static float total_of_members(const SignalRoom *r, const RetexDenoiser *d, const
 
 /* What an image has of the filtered total: members keep their proportions of what the first candidate's weights made
  * of them. Where that is nothing, as of a single image, which is not filtered, the first one has all. */
-static float image_value(const SignalRoom *r, const TilePixel *at, int image, int c, float total, float members,
+static float image_value(const SignalScratch *r, const TilePixel *at, int image, int c, float total, float members,
                          float weight)
 {
     if (members > 0) /* sums may be so small that only their quotient is a number */
@@ -420,8 +420,8 @@ static int find_neighbours(RetexNeighbour *out, const RetexDenoiser *d, const fl
     return count;
 }
 
-static void finish_signal(const SignalRoom *r, const RetexDenoiser *d, const RetexSignal *signal, const TilePixel *at,
-                          RetexDenoisedRows *band, RetexSignalSums *sums)
+static void finish_signal(const SignalScratch *r, const RetexDenoiser *d, const RetexSignal *signal,
+                          const TilePixel *at, RetexDenoisedRows *band, RetexSignalSums *sums)
 {
     float total[3], members[3], light[3];
     int image = r->nclusters > 0;
@@ -448,14 +448,14 @@ static void finish_signal(const SignalRoom *r, const RetexDenoiser *d, const Ret
     }
 }
 
-static void finish_pixel(const RetexDenoiser *d, RetexDenoiseScratch *room, const TilePixel *at,
+static void finish_pixel(const RetexDenoiser *d, RetexDenoiseScratch *work, const TilePixel *at,
                          RetexDenoisedRows *band, RetexSignalSums *sums)
 {
     for (int s = 0; s < d->signals.count; s++)
-        finish_signal(&room->signals[s], d, &d->signals.of[s], at, band, &sums[s]);
+        finish_signal(&work->signals[s], d, &d->signals.of[s], at, band, &sums[s]);
     if (d->params.footprints && d->set->nfootprints) {
         RetexNeighbour neighbours[NEIGHBOURS_MAX];
-        int count = find_neighbours(neighbours, d, room->neighbours, at);
+        int count = find_neighbours(neighbours, d, work->neighbours, at);
         retex_denoise_pool_interreflections(d->footprints, d, at->x, at->y, neighbours, count, band);
     }
 }
@@ -470,7 +470,7 @@ static int neighbour_number(const RetexDenoiser *d, int dx, int dy)
     return (dy / NEIGHBOUR_STEP + reach) * (2 * reach + 1) + dx / NEIGHBOUR_STEP + reach;
 }
 
-static void search_window(const RetexDenoiser *d, RetexDenoiseScratch *room, const RetexDenoiseFeatures *features,
+static void search_window(const RetexDenoiser *d, RetexDenoiseScratch *work, const RetexDenoiseFeatures *features,
                           const RetexDenoiseSignal *signals)
 {
     int radius = d->params.radius;
@@ -480,14 +480,14 @@ static void search_window(const RetexDenoiser *d, RetexDenoiseScratch *room, con
             int numbers[DENOISE_BATCH];
             for (; batch.count < DENOISE_BATCH && dx + batch.count <= radius; batch.count++) {
                 int n = batch.count, number = numbers[n] = neighbour_number(d, dx + n, dy);
-                retex_denoise_features_kernel(room->alike + n, features, dx + n, dy, d->params.scalar);
-                batch.alike[n] = room->alike + n;
+                retex_denoise_features_kernel(work->alike + n, features, dx + n, dy, d->params.scalar);
+                batch.alike[n] = work->alike + n;
                 if (number >= 0)
-                    memcpy(room->neighbours + (size_t)number * DENOISE_PIXELS, room->alike[n].strict,
-                           sizeof room->alike->strict);
+                    memcpy(work->neighbours + (size_t)number * DENOISE_PIXELS, work->alike[n].strict,
+                           sizeof work->alike->strict);
             }
             for (int s = 0; s < d->signals.count; s++) {
-                float *kept = room->signals[s].neighbours;
+                float *kept = work->signals[s].neighbours;
                 for (int n = 0; n < batch.count; n++)
                     batch.weights[n] = kept && numbers[n] >= 0 ? kept + (size_t)numbers[n] * DENOISE_PIXELS : NULL;
                 retex_denoise_signal_kernel(&signals[s], &batch, d->params.scalar);
@@ -495,26 +495,26 @@ static void search_window(const RetexDenoiser *d, RetexDenoiseScratch *room, con
         }
 }
 
-void retex_denoise_tile(const RetexDenoiser *d, RetexDenoiseScratch *room, int left, RetexDenoisedRows *band,
+void retex_denoise_tile(const RetexDenoiser *d, RetexDenoiseScratch *work, int left, RetexDenoisedRows *band,
                         RetexSignalSums *sums)
 {
     int x0 = left - DENOISE_MARGIN, y0 = band->first - DENOISE_MARGIN;
     RetexDenoiseFeatures features;
     RetexDenoiseSignal signals[1 + 2 * RETEX_MAX_TARGETS];
-    retex_denoise_load_features(&features, room->features, d, x0, y0);
+    retex_denoise_load_features(&features, work->features, d, x0, y0);
     for (int s = 0; s < d->signals.count; s++) {
-        SignalRoom *r = &room->signals[s];
-        gather_members(r, room, d, &d->signals.of[s], x0, y0);
-        find_modulation(r, room, d, &d->signals.of[s], x0, y0);
-        split_halves(r, room, d, &d->signals.of[s], x0, y0);
-        signals[s] = start_signal(r, room, d);
+        SignalScratch *r = &work->signals[s];
+        load_members(r, work, d, &d->signals.of[s], x0, y0);
+        find_modulation(r, work, d, &d->signals.of[s], x0, y0);
+        split_halves(r, work, d, &d->signals.of[s], x0, y0);
+        signals[s] = start_signal(r, work, d);
     }
-    search_window(d, room, &features, signals);
+    search_window(d, work, &features, signals);
     for (int s = 0; s < d->signals.count; s++)
-        choose(&room->signals[s], room, signals[s].epsilon);
+        choose(&work->signals[s], work, signals[s].epsilon);
     for (int y = band->first; y < band->first + band->rows; y++)
         for (int x = left; x < left + DENOISE_STEP && x < d->roi.x1; x++) {
             TilePixel at = {x, y, denoise_at(x - x0, y - y0), (size_t)(y - y0) * DENOISE_TILE + (size_t)(x - x0)};
-            finish_pixel(d, room, &at, band, sums);
+            finish_pixel(d, work, &at, band, sums);
         }
 }

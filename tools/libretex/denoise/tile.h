@@ -39,14 +39,14 @@ typedef struct RetexSignalSums {
     double before[3], after[3];
 } RetexSignalSums;
 
-/* One thread's room. */
+/* Scratch memory of one thread. */
 typedef struct RetexDenoiseScratch RetexDenoiseScratch;
-int retex_denoise_scratch_create(RetexDenoiseScratch **room, const RetexDenoiser *denoiser, RetexError *err);
-void retex_denoise_scratch_close(RetexDenoiseScratch **room);
+int retex_denoise_scratch_create(RetexDenoiseScratch **work, const RetexDenoiser *denoiser, RetexError *err);
+void retex_denoise_scratch_close(RetexDenoiseScratch **work);
 
 /* Filter the DENOISE_STEP pixels a side from (x0, band->first) on, as far as they are of the band and the region, into
  * band; sums has an entry for each signal. */
-void retex_denoise_tile(const RetexDenoiser *denoiser, RetexDenoiseScratch *room, int x0, RetexDenoisedRows *band,
+void retex_denoise_tile(const RetexDenoiser *denoiser, RetexDenoiseScratch *work, int x0, RetexDenoisedRows *band,
                         RetexSignalSums *sums);
 
 #endif

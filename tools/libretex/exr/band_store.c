@@ -158,13 +158,13 @@ static int copy_bytes(const RetexBandStore *store, int copy)
 static int copy_in_place(const RetexBandStore *store, const char *path, const char *hidden)
 {
     const char *name = hidden ? hidden : path;
-    RetexPendingFile unfinished;
+    RetexPendingFile pending;
 
     retex_pending_files_lock();
     const int copy = open(name, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     int code = copy < 0 ? errno : 0;
     if (!code)
-        retex_pending_files_add(&unfinished, name);
+        retex_pending_files_add(&pending, name);
     retex_pending_files_unlock();
     if (code)
         return code;
@@ -174,7 +174,7 @@ static int copy_in_place(const RetexBandStore *store, const char *path, const ch
         unlink(name);
     else
         code = rename_hidden(hidden, path);
-    retex_pending_files_drop(&unfinished);
+    retex_pending_files_drop(&pending);
     retex_pending_files_unlock();
     return code;
 }

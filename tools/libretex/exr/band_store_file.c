@@ -236,17 +236,17 @@ static void read_records(RetexBandStore *store, const Header *header, int *image
     uint32_t last = crc_of(header, sizeof *header);
     uint64_t at = sizeof *header;
     unsigned char *bytes = NULL;
-    size_t room = 0;
+    size_t capacity = 0;
     RetexBandStoreRecord record;
 
     *images = 0;
     store->end = at;
     store->last_crc = last;
     while (read_at(store->descriptor, &record, sizeof record, at) && record_crc(&record, last) == record.record_crc) {
-        if (room < record.bytes || !bytes) {
+        if (capacity < record.bytes || !bytes) {
             free(bytes);
-            room = (size_t)record.bytes + 1;
-            bytes = malloc(room);
+            capacity = (size_t)record.bytes + 1;
+            bytes = malloc(capacity);
         }
         if (!bytes || !read_at(store->descriptor, bytes, record.bytes, at + sizeof record) ||
             crc_of(bytes, record.bytes) != record.bytes_crc || !take_record(store, &record, bytes, at + sizeof record))

@@ -49,13 +49,15 @@ static int is_noise(const unsigned char *bytes, size_t count)
 }
 
 /* The raw stream of a chunk: its low bytes, then its high ones. */
-static size_t deflate_chunk(void *work, unsigned char *packed, size_t room, const unsigned char *bytes, size_t count)
+static size_t deflate_chunk(void *work, unsigned char *packed, size_t capacity, const unsigned char *bytes,
+                            size_t count)
 {
     const size_t low = (count + 1) / 2;
     if (!is_noise(bytes, low))
-        return retex_deflate(work, packed, room, bytes, count, 1);
-    const size_t stored = retex_deflate_stored(packed, room, bytes, low, 0);
-    const size_t coded = stored ? retex_deflate(work, packed + stored, room - stored, bytes + low, count - low, 1) : 0;
+        return retex_deflate(work, packed, capacity, bytes, count, 1);
+    const size_t stored = retex_deflate_stored(packed, capacity, bytes, low, 0);
+    const size_t coded =
+        stored ? retex_deflate(work, packed + stored, capacity - stored, bytes + low, count - low, 1) : 0;
     return coded ? stored + coded : 0;
 }
 

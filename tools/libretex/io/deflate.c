@@ -26,13 +26,13 @@ size_t retex_deflate_bound(size_t bytes)
     return bytes + bytes / 64 + 512; /* more than stored blocks of 65535 bytes take */
 }
 
-size_t retex_deflate(void *work, unsigned char *packed, size_t room, const unsigned char *bytes, size_t count,
+size_t retex_deflate(void *scratch, unsigned char *packed, size_t capacity, const unsigned char *bytes, size_t count,
                      int is_last)
 {
-    Deflater *deflater = work ? work : malloc(sizeof *deflater);
+    Deflater *deflater = scratch ? scratch : malloc(sizeof *deflater);
     size_t packed_bytes = 0;
 
-    if (!deflater || count > UINT32_MAX || room > UINT32_MAX)
+    if (!deflater || count > UINT32_MAX || capacity > UINT32_MAX)
         goto done;
     struct isal_zstream *stream = &deflater->stream;
     isal_deflate_stateless_init(stream);
@@ -40,21 +40,22 @@ size_t retex_deflate(void *work, unsigned char *packed, size_t room, const unsig
     stream->level = LEVEL, stream->level_buf = deflater->level, stream->level_buf_size = LEVEL_BYTES;
     stream->end_of_stream = is_last, stream->flush = is_last ? NO_FLUSH : FULL_FLUSH;
     stream->next_in = (uint8_t *)bytes, stream->avail_in = (uint32_t)count;
-    stream->next_out = packed, stream->avail_out = (uint32_t)room;
+    stream->next_out = packed, stream->avail_out = (uint32_t)capacity;
     if (isal_deflate_stateless(stream) == COMP_OK && stream->avail_in == 0)
         packed_bytes = stream->total_out;
 done:
-    if (!work)
+    if (!scratch)
         free(deflater);
     return packed_bytes;
 }
 
-size_t retex_deflate_stored(unsigned char *packed, size_t room, const unsigned char *bytes, size_t count, int is_last)
+size_t retex_deflate_stored(unsigned char *packed, size_t capacity, const unsigned char *bytes, size_t count,
+                            int is_last)
 {
     enum { BLOCK = 65535, HEAD = 5 };
     const size_t blocks = count ? (count + BLOCK - 1) / BLOCK : 1;
 
-    if (count > room || blocks * HEAD > room - count)
+    if (count > capacity || blocks * HEAD > capacity - count)
         return 0;
     for (size_t block = 0; block < blocks; block++) {
         const size_t left = count - block * BLOCK, length = left < BLOCK ? left : BLOCK;
@@ -67,9 +68,9 @@ size_t retex_deflate_stored(unsigned char *packed, size_t room, const unsigned c
     return count + blocks * HEAD;
 }
 
-int retex_inflate(void *work, unsigned char *bytes, size_t count, const unsigned char *packed, size_t packed_bytes)
+int retex_inflate(void *scratch, unsigned char *bytes, size_t count, const unsigned char *packed, size_t packed_bytes)
 {
-    struct inflate_state *state = work ? work : malloc(sizeof *state);
+    struct inflate_state *state = scratch ? scratch : malloc(sizeof *state);
     int ok = 0;
 
     if (!state || count > UINT32_MAX || packed_bytes > UINT32_MAX)
@@ -80,7 +81,7 @@ int retex_inflate(void *work, unsigned char *bytes, size_t count, const unsigned
     state->next_out = bytes, state->avail_out = (uint32_t)count;
     ok = isal_inflate_stateless(state) == ISAL_DECOMP_OK && state->total_out == count;
 done:
-    if (!work)
+    if (!scratch)
         free(state);
     return ok;
 }

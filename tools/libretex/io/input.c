@@ -14,7 +14,7 @@
 #include "io/input.h"
 #include "io/temporary.h"
 
-enum { BAND_STORE_BEGIN = 1 << 20, STORE_MEMORY = 64 << 20 }; /* what of a pipe is in memory: first, and at most */
+enum { COPY_INITIAL = 1 << 20, COPY_IN_MEMORY = 64 << 20 }; /* bytes of a pipe that are kept in memory */
 
 /* Band stores and packs beyond this are refused. */
 static const uint64_t SIZE_LIMIT = (uint64_t)16 << 30;
@@ -35,12 +35,12 @@ static int fail_read(const RetexInput *input, int code, RetexError *err)
 }
 
 /* More than nothing of what a pipe gives; *got is 0 at its end. */
-static int read_some(const RetexInput *input, unsigned char *to, size_t room, size_t *got, RetexError *err)
+static int read_some(const RetexInput *input, unsigned char *to, size_t capacity, size_t *got, RetexError *err)
 {
     ssize_t count;
 
     do
-        count = read(input->descriptor, to, room);
+        count = read(input->descriptor, to, capacity);
     while (count < 0 && errno == EINTR);
     *got = count > 0 ? (size_t)count : 0;
     return count < 0 ? fail_read(input, errno, err) : 0;
@@ -66,21 +66,21 @@ static int begins_well(const RetexInput *input)
 /* As much of a pipe as may be in memory; *ended: that is all. */
 static int set_in_memory(RetexInput *input, int *ended, RetexError *err)
 {
-    size_t room = 0, got;
+    size_t capacity = 0, got;
 
-    for (*ended = 0; input->size < STORE_MEMORY; input->size += got) {
+    for (*ended = 0; input->size < COPY_IN_MEMORY; input->size += got) {
         if (input->size && !begins_well(input)) {
             *ended = 1;
             return 0;
         }
-        if (input->size == room) {
-            room = room ? room * 2 : BAND_STORE_BEGIN;
-            unsigned char *data = realloc(input->data, room);
+        if (input->size == capacity) {
+            capacity = capacity ? capacity * 2 : COPY_INITIAL;
+            unsigned char *data = realloc(input->data, capacity);
             if (!data)
                 return retex_fail(err, RETEX_ENOMEM, "no memory to read %s", input->name);
             input->data = data;
         }
-        const int status = read_some(input, input->data + input->size, room - input->size, &got, err);
+        const int status = read_some(input, input->data + input->size, capacity - input->size, &got, err);
         if (status || got == 0) {
             *ended = 1;
             return status;
@@ -114,7 +114,7 @@ static int set_in_file(RetexInput *input, int file, RetexTemporaryName shown, Re
     do {
         status = keep(input, file, shown, got, err);
         if (!status)
-            status = read_some(input, input->data, BAND_STORE_BEGIN, &got, err);
+            status = read_some(input, input->data, COPY_INITIAL, &got, err);
         if (!status && input->size + got > SIZE_LIMIT)
             status = retex_fail(err, RETEX_ELIMIT, "%s gives more than %d GiB", input->name, (int)(SIZE_LIMIT >> 30));
     } while (!status && got);

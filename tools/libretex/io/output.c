@@ -28,7 +28,7 @@ struct RetexOutput {
     char path[PATH_MAX];                 /* what will be replaced; symbolic links resolved */
     char folder[PATH_MAX];               /* of path, with the final '/', or "" for the current one */
     char temporary[PATH_MAX + NAME_MAX]; /* hidden name, or "" while the file has none */
-    RetexPendingFile unfinished;         /* where temporary is listed while it is a file's name */
+    RetexPendingFile pending;            /* where temporary is listed while it is a file's name */
     int descriptor;
     int direct;   /* 1: no temporary file, straight to a device, pipe or standard output */
     int borrowed; /* 1: standard output, which is not ours to close */
@@ -63,7 +63,7 @@ static int open_hidden(RetexOutput *output)
         output->descriptor = open(output->temporary, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
         const int code = output->descriptor >= 0 ? 0 : errno;
         if (!code)
-            retex_pending_files_add(&output->unfinished, output->temporary);
+            retex_pending_files_add(&output->pending, output->temporary);
         retex_pending_files_unlock();
         if (!code)
             return 0;
@@ -292,7 +292,7 @@ static int link_nameless(RetexOutput *output)
     if (code)
         output->temporary[0] = 0;
     else
-        retex_pending_files_add(&output->unfinished, output->temporary);
+        retex_pending_files_add(&output->pending, output->temporary);
     return code;
 }
 
@@ -316,7 +316,7 @@ static int put_in_place(RetexOutput *output)
     if (!code && output->temporary[0] && rename(output->temporary, output->path) != 0)
         code = errno;
     if (!code) {
-        retex_pending_files_drop(&output->unfinished);
+        retex_pending_files_drop(&output->pending);
         output->temporary[0] = 0;
     }
     retex_pending_files_unlock();
@@ -370,7 +370,7 @@ void retex_output_abandon(RetexOutput **result)
     if (output->temporary[0]) {
         retex_pending_files_lock();
         unlink(output->temporary);
-        retex_pending_files_drop(&output->unfinished);
+        retex_pending_files_drop(&output->pending);
         retex_pending_files_unlock();
     }
     if (output->memory)

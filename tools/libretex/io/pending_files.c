@@ -1,4 +1,4 @@
-/* See unfinished.h. */
+/* See pending_files.h. */
 #include "io/pending_files.h"
 
 #include <pthread.h>

@@ -9,7 +9,7 @@
 
 enum { LEADER = 8, ENTRY = 8 }; /* bytes before a chunk: its first line, its size; of a table's entry */
 
-typedef struct ExrMaker {
+typedef struct ExrState {
     RetexImage shape; /* no pixels */
     RetexExrPart part;
     RetexColorTag color;        /* of part; known when the first band is made */
@@ -18,25 +18,25 @@ typedef struct ExrMaker {
     size_t header_bytes;
     uint64_t *chunks; /* bytes of each */
     int nchunks;
-} ExrMaker;
+} ExrState;
 
 static int exr_begin(RetexPicture *picture, RetexError *err)
 {
-    ExrMaker *maker = calloc(1, sizeof *maker);
+    ExrState *state = calloc(1, sizeof *state);
 
-    if (!maker)
+    if (!state)
         return retex_fail(err, RETEX_ENOMEM, "no memory to write %s", picture->path);
-    picture->maker = maker;
-    maker->shape = (RetexImage){picture->width, picture->height, picture->channels, NULL};
-    maker->part = (RetexExrPart){.name = "beauty", .type = RETEX_HALF, .image = &maker->shape};
-    strcpy(maker->part.letters, picture->channels == 1 ? "Y" : picture->channels == 3 ? "RGB" : "RGBA");
-    maker->color = picture->params.is_data ? retex_color_tag_data : retex_color_tag_rec709;
-    maker->part.color = &maker->color;
+    picture->state = state;
+    state->shape = (RetexImage){picture->width, picture->height, picture->channels, NULL};
+    state->part = (RetexExrPart){.name = "beauty", .type = RETEX_HALF, .image = &state->shape};
+    strcpy(state->part.letters, picture->channels == 1 ? "Y" : picture->channels == 3 ? "RGB" : "RGBA");
+    state->color = picture->params.is_data ? retex_color_tag_data : retex_color_tag_rec709;
+    state->part.color = &state->color;
     if (!retex_output_is_file(picture->path))
-        return retex_exr_encoding_open(&maker->encoding, &maker->part, strcmp(picture->path, "-") != 0, err);
-    maker->nchunks = (picture->height + RETEX_CHUNK_LINES - 1) / RETEX_CHUNK_LINES;
-    maker->chunks = calloc((size_t)maker->nchunks, sizeof *maker->chunks);
-    return maker->chunks ? 0 : retex_fail(err, RETEX_ENOMEM, "no memory to write %s", picture->path);
+        return retex_exr_encoding_open(&state->encoding, &state->part, strcmp(picture->path, "-") != 0, err);
+    state->nchunks = (picture->height + RETEX_CHUNK_LINES - 1) / RETEX_CHUNK_LINES;
+    state->chunks = calloc((size_t)state->nchunks, sizeof *state->chunks);
+    return state->chunks ? 0 : retex_fail(err, RETEX_ENOMEM, "no memory to write %s", picture->path);
 }
 
 /* What is known of the colours that the bridge makes. A name of the space goes before what its matrix is like. */
@@ -54,11 +54,11 @@ static void tag_colors(RetexColorTag *tag, const RetexBridgeStored *stored)
 /* With the first band, for a plan is waited for there. */
 static int make_header(RetexPicture *picture, RetexError *err)
 {
-    ExrMaker *maker = picture->maker;
+    ExrState *state = picture->state;
 
     if (picture->bridged)
-        tag_colors(&maker->color, &picture->stored);
-    return maker->encoding ? 0 : retex_exr_header(&maker->header, &maker->header_bytes, &maker->part, err);
+        tag_colors(&state->color, &picture->stored);
+    return state->encoding ? 0 : retex_exr_header(&state->header, &state->header_bytes, &state->part, err);
 }
 
 static void associate(float *associated, const float *rows, size_t pixels)
@@ -93,23 +93,23 @@ static void put_little(unsigned char *to, uint64_t value, int bytes)
 }
 
 /* Chunks of a band, one after the other. Returns their bytes, or 0 where memory is short. */
-static size_t make_chunks(ExrMaker *maker, unsigned char *to, int y0, int y1, const float *rows)
+static size_t make_chunks(ExrState *state, unsigned char *to, int y0, int y1, const float *rows)
 {
     RetexChunkScratch scratch = {.raw = NULL};
     size_t at = 0;
 
     for (int y = y0; y < y1; y += RETEX_CHUNK_LINES) {
-        const RetexChunkShape shape = {maker->part.letters, RETEX_HALF, maker->shape.width,
+        const RetexChunkShape shape = {state->part.letters, RETEX_HALF, state->shape.width,
                                        y1 - y < RETEX_CHUNK_LINES ? y1 - y : RETEX_CHUNK_LINES};
         if (!retex_chunk_reserve(&scratch, &shape)) {
             at = 0;
             break;
         }
-        retex_chunk_encode(&scratch, &shape, rows + retex_image_index(&maker->shape, 0, y - y0), scratch.raw, NULL);
+        retex_chunk_encode(&scratch, &shape, rows + retex_image_index(&state->shape, 0, y - y0), scratch.raw, NULL);
         const size_t bytes = retex_chunk_compress(&scratch, scratch.raw, retex_chunk_bytes(&shape), to + at + LEADER);
         put_little(to + at, (uint64_t)y, 4);
         put_little(to + at + 4, bytes, 4);
-        maker->chunks[y / RETEX_CHUNK_LINES] = LEADER + bytes;
+        state->chunks[y / RETEX_CHUNK_LINES] = LEADER + bytes;
         at += LEADER + bytes;
     }
     retex_chunk_free(&scratch);
@@ -117,20 +117,20 @@ static size_t make_chunks(ExrMaker *maker, unsigned char *to, int y0, int y1, co
 }
 
 /* The header and room for the table before the first band, and its chunks. */
-static unsigned char *make_piece(ExrMaker *maker, int y0, int y1, const float *rows, size_t *bytes)
+static unsigned char *make_piece(ExrState *state, int y0, int y1, const float *rows, size_t *bytes)
 {
-    const RetexChunkShape shape = {maker->part.letters, RETEX_HALF, maker->shape.width, y1 - y0};
-    const size_t before = y0 == 0 ? maker->header_bytes + ENTRY * (size_t)maker->nchunks : 0;
+    const RetexChunkShape shape = {state->part.letters, RETEX_HALF, state->shape.width, y1 - y0};
+    const size_t before = y0 == 0 ? state->header_bytes + ENTRY * (size_t)state->nchunks : 0;
     const size_t leaders = (size_t)((y1 - y0 + RETEX_CHUNK_LINES - 1) / RETEX_CHUNK_LINES) * LEADER;
     unsigned char *piece = malloc(before + leaders + retex_chunk_bytes(&shape));
 
     if (!piece)
         return NULL;
     if (before) {
-        memcpy(piece, maker->header, maker->header_bytes);
-        memset(piece + maker->header_bytes, 0, before - maker->header_bytes);
+        memcpy(piece, state->header, state->header_bytes);
+        memset(piece + state->header_bytes, 0, before - state->header_bytes);
     }
-    *bytes = make_chunks(maker, piece + before, y0, y1, rows);
+    *bytes = make_chunks(state, piece + before, y0, y1, rows);
     if (!*bytes) {
         free(piece);
         return NULL;
@@ -142,7 +142,7 @@ static unsigned char *make_piece(ExrMaker *maker, int y0, int y1, const float *r
 
 static int exr_band(RetexPicture *picture, int band, const float *rows, RetexError *err)
 {
-    ExrMaker *maker = picture->maker;
+    ExrState *state = picture->state;
     const int y0 = band * RETEX_PICTURE_BAND, lines = retex_picture_band_lines(picture, band);
     float *converted = NULL;
     unsigned char *piece = NULL;
@@ -158,49 +158,49 @@ static int exr_band(RetexPicture *picture, int band, const float *rows, RetexErr
         return status;
     }
     rows = converted ? converted : rows;
-    if (maker->encoding)
-        status = retex_exr_encode_rows(maker->encoding, y0, y0 + lines, rows, err);
-    else if (!(piece = make_piece(maker, y0, y0 + lines, rows, &bytes)))
+    if (state->encoding)
+        status = retex_exr_encode_rows(state->encoding, y0, y0 + lines, rows, err);
+    else if (!(piece = make_piece(state, y0, y0 + lines, rows, &bytes)))
         status = retex_fail(err, RETEX_ENOMEM, "no memory to write %s", picture->path);
     free(converted);
     return status ? status : retex_picture_submit_band(picture, band, piece, bytes, err);
 }
 
 /* Where all chunks are, as their table has it. */
-static int write_table(RetexPicture *picture, const ExrMaker *maker, RetexError *err)
+static int write_table(RetexPicture *picture, const ExrState *state, RetexError *err)
 {
-    const size_t bytes = ENTRY * (size_t)maker->nchunks;
+    const size_t bytes = ENTRY * (size_t)state->nchunks;
     unsigned char *table = malloc(bytes);
-    uint64_t at = maker->header_bytes + bytes;
+    uint64_t at = state->header_bytes + bytes;
 
     if (!table)
         return retex_fail(err, RETEX_ENOMEM, "no memory to write %s", picture->path);
-    for (int i = 0; i < maker->nchunks; at += maker->chunks[i++])
+    for (int i = 0; i < state->nchunks; at += state->chunks[i++])
         put_little(table + ENTRY * (size_t)i, at, ENTRY);
-    const int status = retex_output_patch(picture->output, maker->header_bytes, table, bytes, err);
+    const int status = retex_output_patch(picture->output, state->header_bytes, table, bytes, err);
     free(table);
     return status;
 }
 
 static int exr_finish(RetexPicture *picture, RetexError *err)
 {
-    ExrMaker *maker = picture->maker;
+    ExrState *state = picture->state;
 
-    return maker->encoding
-               ? retex_exr_write(maker->encoding, picture->width, picture->height, NULL, NULL, picture->path, err)
-               : write_table(picture, maker, err);
+    return state->encoding
+               ? retex_exr_write(state->encoding, picture->width, picture->height, NULL, NULL, picture->path, err)
+               : write_table(picture, state, err);
 }
 
 static void exr_end(RetexPicture *picture)
 {
-    ExrMaker *maker = picture->maker;
+    ExrState *state = picture->state;
 
-    if (!maker)
+    if (!state)
         return;
-    retex_exr_encoding_free(&maker->encoding);
-    free(maker->header);
-    free(maker->chunks);
-    free(maker);
+    retex_exr_encoding_free(&state->encoding);
+    free(state->header);
+    free(state->chunks);
+    free(state);
 }
 
 const RetexPictureFormat retex_picture_exr = {exr_begin, exr_band, exr_finish, exr_end};

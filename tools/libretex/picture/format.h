@@ -34,7 +34,7 @@ struct RetexPicture {
     int width, height, channels; /* of the rows that come in */
     RetexWriteParams params;     /* its strings are copies */
     const RetexPictureFormat *format;
-    void *maker; /* what format keeps between its calls */
+    void *state; /* what format keeps between its calls */
 
     pthread_mutex_t lock;      /* of all below */
     RetexError error;          /* the first one, whichever thread met it */

@@ -69,14 +69,15 @@ static int check_pixels(int width, int height, const RetexBridgeFile *file, cons
 /* The smaller of two limits, and in words which one that is. */
 static void set_limit(RetexBridgeFile *file, const RetexReadParams *params)
 {
-    const uint64_t left = retex_budget_left(params->budget), room = left / (params->pixel_bytes | !params->pixel_bytes);
+    const uint64_t left = retex_budget_left(params->budget),
+                   pixels = left / (params->pixel_bytes | !params->pixel_bytes);
 
     const long all = retex_budget_pixels(params->budget), own = params->max_pixels;
 
     file->max_pixels = own > 0 && all > 0 ? (own < all ? own : all) : own > 0 ? own : all;
     snprintf(file->limit, sizeof file->limit, "the %ld of --max-pixels", file->max_pixels);
-    if (left != UINT64_MAX && (file->max_pixels <= 0 || room < (uint64_t)file->max_pixels)) {
-        file->max_pixels = room ? (long)room : 1;
+    if (left != UINT64_MAX && (file->max_pixels <= 0 || pixels < (uint64_t)file->max_pixels)) {
+        file->max_pixels = pixels ? (long)pixels : 1;
         snprintf(file->limit, sizeof file->limit, "--max-memory has room for");
     }
 }

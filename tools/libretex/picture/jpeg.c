@@ -14,7 +14,7 @@
 _Static_assert(RETEX_PICTURE_BAND % 16 == 0, "a band ends where MCUs do");
 _Static_assert((JPEG_MAX_DIMENSION + 7) / 8 * (RETEX_PICTURE_BAND / 8) <= 65535, "a band has too many MCUs");
 
-enum { QUALITY_OF_FULL_COLOR = 90, FIRST_ROOM = 1 << 16, MARKER_BYTES = 2 };
+enum { QUALITY_OF_FULL_COLOR = 90, INITIAL_CAPACITY = 1 << 16, MARKER_BYTES = 2 };
 
 typedef struct Compressor {
     struct jpeg_compress_struct jpeg; /* first: libjpeg hands back pointers to it */
@@ -22,13 +22,13 @@ typedef struct Compressor {
     struct jpeg_destination_mgr to;
     jmp_buf failed;
     unsigned char *data;
-    size_t room;
+    size_t capacity;
     char message[JMSG_LENGTH_MAX];
 } Compressor;
 
 static size_t written(const Compressor *c)
 {
-    return c->room - c->to.free_in_buffer;
+    return c->capacity - c->to.free_in_buffer;
 }
 
 static void leave(j_common_ptr jpeg)
@@ -47,17 +47,17 @@ static void say_nothing(j_common_ptr jpeg)
 static boolean more_room(j_compress_ptr jpeg)
 {
     Compressor *c = (Compressor *)(void *)jpeg;
-    const size_t room = c->room ? 2 * c->room : FIRST_ROOM, have = c->room;
-    unsigned char *data = realloc(c->data, room);
+    const size_t capacity = c->capacity ? 2 * c->capacity : INITIAL_CAPACITY, have = c->capacity;
+    unsigned char *data = realloc(c->data, capacity);
 
     if (!data) {
         snprintf(c->message, sizeof c->message, "not enough memory");
         longjmp(c->failed, 1);
     }
     c->data = data;
-    c->room = room;
+    c->capacity = capacity;
     c->to.next_output_byte = data + have;
-    c->to.free_in_buffer = room - have;
+    c->to.free_in_buffer = capacity - have;
     return TRUE;
 }
 

@@ -52,13 +52,13 @@ static unsigned find_orientation(const unsigned char *exif, size_t bytes)
         return 1;
     const unsigned char *tiff = exif + 6;
     const int big = tiff[0] == 'M';
-    const size_t room = bytes - 6, first = get_number(tiff + 4, 4, big);
-    if (first + 2 > room)
+    const size_t size = bytes - 6, first = get_number(tiff + 4, 4, big);
+    if (first + 2 > size)
         return 0;
     const size_t count = get_number(tiff + first, 2, big);
     for (size_t i = 0; i < count; i++) {
         const size_t at = first + 2 + i * TAG_BYTES;
-        if (at + TAG_BYTES > room)
+        if (at + TAG_BYTES > size)
             return 0;
         if (get_number(tiff + at, 2, big) == TAG_ORIENTATION)
             return get_number(tiff + at + 8, 2, big);

@@ -93,10 +93,10 @@ static int filter_lines(unsigned char *filtered, const RetexPicture *picture, co
 static unsigned char *deflate_lines(const unsigned char *filtered, size_t bytes, int is_last, size_t head, size_t tail,
                                     size_t *packed_bytes)
 {
-    const size_t room = retex_deflate_bound(bytes);
-    unsigned char *data = malloc(head + room + tail);
+    const size_t bound = retex_deflate_bound(bytes);
+    unsigned char *data = malloc(head + bound + tail);
 
-    *packed_bytes = data ? retex_deflate(NULL, data + head, room, filtered, bytes, is_last) : 0;
+    *packed_bytes = data ? retex_deflate(NULL, data + head, bound, filtered, bytes, is_last) : 0;
     if (*packed_bytes)
         return data;
     free(data);
@@ -125,8 +125,8 @@ static unsigned char *make_piece(const RetexPicture *picture, int band, const un
 
 static int png_begin(RetexPicture *picture, RetexError *err)
 {
-    picture->maker = calloc((size_t)picture->nbands, sizeof(Sum));
-    return picture->maker ? 0 : retex_fail(err, RETEX_ENOMEM, "no memory to write %s", picture->path);
+    picture->state = calloc((size_t)picture->nbands, sizeof(Sum));
+    return picture->state ? 0 : retex_fail(err, RETEX_ENOMEM, "no memory to write %s", picture->path);
 }
 
 static int png_band(RetexPicture *picture, int band, const float *rows, RetexError *err)
@@ -144,7 +144,7 @@ static int png_band(RetexPicture *picture, int band, const float *rows, RetexErr
             status = RETEX_ENOMEM;
     }
     if (!status) {
-        ((Sum *)picture->maker)[band] = (Sum){retex_adler32(ADLER32_OF_NONE, filtered, bytes), bytes};
+        ((Sum *)picture->state)[band] = (Sum){retex_adler32(ADLER32_OF_NONE, filtered, bytes), bytes};
         piece = make_piece(picture, band, filtered, bytes, &piece_bytes);
         status = piece ? retex_picture_submit_band(picture, band, piece, piece_bytes, err) : RETEX_ENOMEM;
     }
@@ -156,7 +156,7 @@ static int png_band(RetexPicture *picture, int band, const float *rows, RetexErr
 /* The stream's checksum, in a chunk of its own, and the end. */
 static int png_finish(RetexPicture *picture, RetexError *err)
 {
-    const Sum *sums = picture->maker;
+    const Sum *sums = picture->state;
     unsigned char end[2 * (CHUNK_HEAD + CHUNK_TAIL) + 4], number[4];
     uLong adler = ADLER32_OF_NONE;
 
@@ -169,7 +169,7 @@ static int png_finish(RetexPicture *picture, RetexError *err)
 
 static void png_end(RetexPicture *picture)
 {
-    free(picture->maker);
+    free(picture->state);
 }
 
 const RetexPictureFormat retex_picture_png = {png_begin, png_band, png_finish, png_end};

@@ -18,9 +18,9 @@ static int need_samples(RetexPicture *picture, RetexError *err)
     if (status)
         return status;
     pthread_mutex_lock(&picture->lock);
-    if (!picture->maker)
-        picture->maker = malloc(row_samples(picture) * (size_t)picture->height * (size_t)(picture->stored.bits / 8));
-    if (!picture->maker)
+    if (!picture->state)
+        picture->state = malloc(row_samples(picture) * (size_t)picture->height * (size_t)(picture->stored.bits / 8));
+    if (!picture->state)
         status = retex_fail(err, RETEX_ENOMEM, "no memory to write %s", picture->path);
     pthread_mutex_unlock(&picture->lock);
     return status;
@@ -40,7 +40,7 @@ static int stored_band(RetexPicture *picture, int band, const float *rows, Retex
     if (status)
         return status;
     const size_t row = row_samples(picture), first = row * (size_t)band * RETEX_PICTURE_BAND;
-    unsigned char *samples = (unsigned char *)picture->maker + first * (size_t)(picture->stored.bits / 8);
+    unsigned char *samples = (unsigned char *)picture->state + first * (size_t)(picture->stored.bits / 8);
     if (picture->stored.bits == 8)
         status = retex_picture_codes_8(picture, samples, picture->stored.channels, rows, lines, err);
     else if (picture->stored.bits == 16 && picture->stored.is_srgb && picture->stored.channels == picture->channels &&
@@ -58,12 +58,12 @@ static int append(void *picture, const void *data, size_t bytes, RetexError *err
 
 static int stored_finish(RetexPicture *picture, RetexError *err)
 {
-    return retex_bridge_write(picture->plan, picture->maker, append, picture, err);
+    return retex_bridge_write(picture->plan, picture->state, append, picture, err);
 }
 
 static void stored_end(RetexPicture *picture)
 {
-    free(picture->maker);
+    free(picture->state);
 }
 
 const RetexPictureFormat retex_picture_stored = {stored_begin, stored_band, stored_finish, stored_end};

@@ -114,10 +114,10 @@ static const float black_row[1]; /* stands for one that is 0 all over */
 
 static float *room_of(RetexPolynomialRow *row, int slot, RetexError *err)
 {
-    RetexRowBuffer *room = &row->rooms[slot];
-    if (!room->values && !(room->values = calloc(3 * (size_t)row->polynomial->set->width, sizeof *room->values)))
+    RetexRowBuffer *buffer = &row->buffers[slot];
+    if (!buffer->values && !(buffer->values = calloc(3 * (size_t)row->polynomial->set->width, sizeof *buffer->values)))
         retex_fail(err, RETEX_ENOMEM, "not enough memory to combine");
-    return room->values;
+    return buffer->values;
 }
 
 void retex_row_gray_to_rgb(float *row, size_t width)
@@ -143,10 +143,10 @@ static int make_slot(RetexPolynomialRow *row, int factor, int y, RetexError *err
         retex_enlarge_rows(small, retex_set_scale(p->set, small), width, y, y + 1, values);
     } else if (factor < 0) {
         code = retex_polynomial_mixture_row(p, row->reader, RETEX_MIXTURE(factor), y, full_factor_row, row,
-                                            row->weights, &row->rooms[slot], err);
-        row->spans[slot] = row->rooms[slot].filled;
+                                            row->weights, &row->buffers[slot], err);
+        row->spans[slot] = row->buffers[slot].filled;
     } else {
-        code = retex_polynomial_footprint_row(p, row->reader, factor, y, &row->rooms[slot], &row->made[slot],
+        code = retex_polynomial_footprint_row(p, row->reader, factor, y, &row->buffers[slot], &row->made[slot],
                                               &row->spans[slot], err);
     }
     if (!code && (!row->made[slot] || retex_span_is_empty(row->spans[slot])))
@@ -262,9 +262,10 @@ void retex_polynomial_row_close(RetexPolynomialRow *row)
 {
     if (!row->polynomial)
         return;
-    for (int i = 0; row->rooms && i < retex_polynomial_slot_count(row->polynomial->set) + row->polynomial->ngroups; i++)
-        free(row->rooms[i].values);
-    free(row->rooms);
+    for (int i = 0; row->buffers && i < retex_polynomial_slot_count(row->polynomial->set) + row->polynomial->ngroups;
+         i++)
+        free(row->buffers[i].values);
+    free(row->buffers);
     free(row->spans);
     free(row->made);
     free(row->weights);
@@ -282,9 +283,9 @@ int retex_polynomial_row_open(RetexPolynomialRow *row, const RetexPolynomial *po
     row->monomials = calloc((size_t)set->nterms + 1, sizeof *row->monomials);
     row->made = calloc(slots, sizeof *row->made);
     row->spans = calloc(slots, sizeof *row->spans);
-    row->rooms = calloc(slots, sizeof *row->rooms);
+    row->buffers = calloc(slots, sizeof *row->buffers);
     row->weights = malloc(sizeof *row->weights * 3 * (size_t)set->width);
-    if (!code && (!row->monomials || !row->made || !row->spans || !row->rooms || !row->weights))
+    if (!code && (!row->monomials || !row->made || !row->spans || !row->buffers || !row->weights))
         code = retex_fail(err, RETEX_ENOMEM, "not enough memory to combine");
     if (code)
         retex_polynomial_row_close(row);

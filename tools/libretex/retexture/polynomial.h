@@ -49,7 +49,7 @@ typedef struct RetexPolynomialRow {
     int count;
     const float **made; /* rows of footprints, mixtures and gains, as soon as they are made; see polynomial.c */
     RetexRowSpan *spans;     /* beside which they are 0 */
-    RetexRowBuffer *rooms;     /* where they are made, if they have to be */
+    RetexRowBuffer *buffers;     /* where they are made, if they have to be */
     float *weights;
 } RetexPolynomialRow;
 

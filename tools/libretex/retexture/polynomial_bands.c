@@ -29,9 +29,9 @@ static int band_job(void *context, int index, int thread, RetexError *err)
     /* bands begin at multiples of their height, wherever the region does */
     const int first = (work->y0 / RETEX_PICTURE_BAND + index) * RETEX_PICTURE_BAND, end = first + RETEX_PICTURE_BAND;
     const int y0 = first > work->y0 ? first : work->y0, y1 = end < work->y1 ? end : work->y1;
-    const size_t room = 3 * (size_t)work->polynomial->set->width * RETEX_PICTURE_BAND;
+    const size_t count = 3 * (size_t)work->polynomial->set->width * RETEX_PICTURE_BAND;
     int code = own->row.polynomial ? RETEX_OK : retex_polynomial_row_open(&own->row, work->polynomial, err);
-    if (!code && !own->rgb && !(own->rgb = malloc(sizeof *own->rgb * room)))
+    if (!code && !own->rgb && !(own->rgb = malloc(sizeof *own->rgb * count)))
         code = retex_fail(err, RETEX_ENOMEM, "not enough memory to combine");
     if (!code)
         code = work->make(work->context, &own->row, y0, y1, own->rgb, err);

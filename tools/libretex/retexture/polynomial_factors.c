@@ -71,17 +71,17 @@ const RetexImage *retex_polynomial_factor_image(const RetexPolynomial *p, int fa
 
 /* ---- rows at a footprint's own size ---- */
 
-/* Make a room 0 beside a span, of which what was there stays. */
-static void refill(RetexRowBuffer *room, RetexRowSpan span)
+/* Make a buffer 0 beside a span, of which what was there stays. */
+static void refill(RetexRowBuffer *buffer, RetexRowSpan span)
 {
-    const RetexRowSpan old = room->filled;
+    const RetexRowSpan old = buffer->filled;
     if (!retex_span_is_empty(old))
-        memset(room->values + 3 * (size_t)old.begin, 0, 3 * (size_t)(old.end - old.begin) * sizeof *room->values);
-    room->filled = span;
+        memset(buffer->values + 3 * (size_t)old.begin, 0, 3 * (size_t)(old.end - old.begin) * sizeof *buffer->values);
+    buffer->filled = span;
 }
 
 int retex_polynomial_footprint_row(const RetexPolynomial *p, RetexRowReader *reader, int footprint, int y,
-                                   RetexRowBuffer *room, const float **row, RetexRowSpan *span, RetexError *err)
+                                   RetexRowBuffer *buffer, const float **row, RetexRowSpan *span, RetexError *err)
 {
     const RetexSet *set = p->set;
     const RetexFootprint *f = &set->footprints[footprint];
@@ -97,10 +97,10 @@ int retex_polynomial_footprint_row(const RetexPolynomial *p, RetexRowReader *rea
     *row = NULL;
     if (code || !from.uv || retex_span_is_empty(from.span))
         return code;
-    refill(room, from.span);
+    refill(buffer, from.span);
     const RetexFootprintRow within = retex_footprint_row_slice(&from, from.span);
-    retex_sample_row(texture, retex_footprint_filter(set, f), &within, room->values + 3 * (size_t)from.span.begin);
-    *row = room->values;
+    retex_sample_row(texture, retex_footprint_filter(set, f), &within, buffer->values + 3 * (size_t)from.span.begin);
+    *row = buffer->values;
     *span = from.span;
     return RETEX_OK;
 }

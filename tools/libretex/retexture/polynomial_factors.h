@@ -15,10 +15,10 @@ const RetexImage *retex_polynomial_part_image(const RetexSet *set, int part, int
 /* The image whose size a factor has; NULL where it is not there. */
 const RetexImage *retex_polynomial_factor_image(const RetexPolynomial *polynomial, int factor);
 
-/* A footprint's samples, or its original albedo, in the room or wherever they are, and beside what span they are 0;
+/* A footprint's samples, or its original albedo, in the buffer or wherever they are, and beside what span they are 0;
  * NULL in *row where all is black. */
 int retex_polynomial_footprint_row(const RetexPolynomial *polynomial, RetexRowReader *reader, int footprint, int y,
-                                   RetexRowBuffer *room, const float **row, RetexRowSpan *span, RetexError *err);
+                                   RetexRowBuffer *buffer, const float **row, RetexRowSpan *span, RetexError *err);
 
 /* One factor of a mixture: its row, or NULL where it is black. */
 typedef int RetexFactorRow(void *context, int footprint, int y, const float **row, RetexError *err);

@@ -1,4 +1,4 @@
-/* See polynomial_small.h. All images of one size are made side by side, row by row, so that a footprint that several
+/* See polynomial_reduced.h. All images of one size are made side by side, row by row, so that a footprint that several
  * mixtures have is looked up once, and its parts are read once. */
 #include "retexture/polynomial_reduced.h"
 
@@ -23,7 +23,7 @@ typedef struct SmallWork {
 typedef struct SmallThread {
     const SmallWork *work;
     RetexRowReader *reader;
-    RetexRowBuffer *rooms; /* by footprint, made when they are needed */
+    RetexRowBuffer *buffers; /* by footprint, made when they are needed */
     const float **rows; /* by footprint; NULL: black */
     char *made;         /* by footprint: it is in rows */
     float *weights;
@@ -44,12 +44,12 @@ static int footprint_row(void *context, int footprint, int y, const float **row,
     const SmallWork *work = own->work;
     int code = RETEX_OK;
     if (!own->made[footprint]) {
-        RetexRowBuffer *room = &own->rooms[footprint];
+        RetexRowBuffer *buffer = &own->buffers[footprint];
         RetexRowSpan span;
-        if (!room->values && !(room->values = calloc(3 * (size_t)work->width, sizeof *room->values)))
+        if (!buffer->values && !(buffer->values = calloc(3 * (size_t)work->width, sizeof *buffer->values)))
             return retex_fail(err, RETEX_ENOMEM, "not enough memory to combine");
-        code = retex_polynomial_footprint_row(work->polynomial, own->reader, footprint, y, room, &own->rows[footprint],
-                                              &span, err);
+        code = retex_polynomial_footprint_row(work->polynomial, own->reader, footprint, y, buffer,
+                                              &own->rows[footprint], &span, err);
         own->made[footprint] = !code;
     }
     *row = own->rows[footprint];
@@ -82,20 +82,20 @@ static int open_thread(const SmallWork *work, SmallThread *own, RetexError *err)
     if (own->work)
         return RETEX_OK;
     own->work = work;
-    own->rooms = calloc(count, sizeof *own->rooms);
+    own->buffers = calloc(count, sizeof *own->buffers);
     own->rows = calloc(count, sizeof *own->rows);
     own->made = calloc(count, 1);
     own->weights = malloc(sizeof *own->weights * 3 * (size_t)work->width);
-    if (!own->rooms || !own->rows || !own->made || !own->weights)
+    if (!own->buffers || !own->rows || !own->made || !own->weights)
         return retex_fail(err, RETEX_ENOMEM, "not enough memory to combine");
     return retex_row_reader_open(&own->reader, set, work->polynomial->samples, err);
 }
 
 static void close_thread(const SmallWork *work, SmallThread *own)
 {
-    for (int i = 0; own->rooms && i < work->polynomial->set->nfootprints; i++)
-        free(own->rooms[i].values);
-    free(own->rooms);
+    for (int i = 0; own->buffers && i < work->polynomial->set->nfootprints; i++)
+        free(own->buffers[i].values);
+    free(own->buffers);
     free(own->rows);
     free(own->made);
     free(own->weights);

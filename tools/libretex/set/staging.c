@@ -1,68 +1,68 @@
-/* See stage.h. */
+/* See staging.h. */
 #include "set/staging.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 
-int retex_staging_open(RetexStaging *stage, int most, RetexError *err)
+int retex_staging_open(RetexStaging *staging, int most, RetexError *err)
 {
-    *stage = (RetexStaging){.small = calloc((size_t)most + 1, sizeof *stage->small),
-                            .images = calloc((size_t)most + 1, sizeof *stage->images)};
-    if (stage->small && stage->images)
+    *staging = (RetexStaging){.reduced = calloc((size_t)most + 1, sizeof *staging->reduced),
+                              .images = calloc((size_t)most + 1, sizeof *staging->images)};
+    if (staging->reduced && staging->images)
         return RETEX_OK;
-    retex_staging_close(stage);
+    retex_staging_close(staging);
     return retex_fail(err, RETEX_ENOMEM, "no memory to write a set");
 }
 
-void retex_staging_close(RetexStaging *stage)
+void retex_staging_close(RetexStaging *staging)
 {
-    for (int i = 0; stage->small && i < stage->count; i++)
-        retex_image_free(&stage->small[i]);
-    free(stage->small);
-    free(stage->images);
-    retex_band_store_close(&stage->store);
-    *stage = (RetexStaging){0};
+    for (int i = 0; staging->reduced && i < staging->count; i++)
+        retex_image_free(&staging->reduced[i]);
+    free(staging->reduced);
+    free(staging->images);
+    retex_band_store_close(&staging->store);
+    *staging = (RetexStaging){0};
 }
 
-static int add_stored(RetexStaging *stage, RetexExrPart *exr, RetexImageTransfer *g, const char *near, int compress,
+static int add_stored(RetexStaging *staging, RetexExrPart *exr, RetexImageTransfer *g, const char *near, int compress,
                       RetexError *err)
 {
     char name[RETEX_NAME_MAX];
     int code = RETEX_OK;
-    if (!stage->store) {
-        code = retex_band_store_create(&stage->store, exr->image->width, exr->image->height, 0, near, err);
+    if (!staging->store) {
+        code = retex_band_store_create(&staging->store, exr->image->width, exr->image->height, 0, near, err);
         if (!code && !compress)
-            retex_band_store_set_plain(stage->store);
+            retex_band_store_set_plain(staging->store);
     }
-    snprintf(name, sizeof name, "part_%d", stage->count);
+    snprintf(name, sizeof name, "part_%d", staging->count);
     if (!code)
-        code = retex_band_store_add(stage->store, name, exr->letters, exr->type, &g->store_image, err);
-    exr->store = stage->store;
+        code = retex_band_store_add(staging->store, name, exr->letters, exr->type, &g->store_image, err);
+    exr->store = staging->store;
     exr->store_image = g->store_image;
     return code;
 }
 
-int retex_staging_add(RetexStaging *stage, RetexExrPart *exr, int part, int footprint, int width, int height,
+int retex_staging_add(RetexStaging *staging, RetexExrPart *exr, int part, int footprint, int width, int height,
                       const char *near, int compress, RetexError *err)
 {
     const RetexImage *shape = exr->image;
-    RetexImage *image = &stage->small[stage->count];
-    RetexImageTransfer *g = &stage->images[stage->count];
+    RetexImage *image = &staging->reduced[staging->count];
+    RetexImageTransfer *g = &staging->images[staging->count];
     int code;
     *g = (RetexImageTransfer){.part = part, .footprint = footprint, .image = image};
     if (shape->width == width && shape->height == height) {
         *image = *shape;
-        code = add_stored(stage, exr, g, near, compress, err);
+        code = add_stored(staging, exr, g, near, compress, err);
     } else {
         code = retex_image_alloc(image, shape->width, shape->height, shape->channels, err);
     }
     exr->image = image;
-    stage->count++;
+    staging->count++;
     return code;
 }
 
-int retex_staging_fill(RetexStaging *stage, const RetexSet *set, const RetexSamples *samples, int nthreads,
+int retex_staging_fill(RetexStaging *staging, const RetexSet *set, const RetexSamples *samples, int nthreads,
                        RetexError *err)
 {
-    return retex_transfer_images(stage->images, stage->count, set, samples, stage->store, nthreads, err);
+    return retex_transfer_images(staging->images, staging->count, set, samples, staging->store, nthreads, err);
 }

@@ -8,21 +8,21 @@
 
 typedef struct RetexStaging {
     RetexBandStore *store; /* what is as large as the picture */
-    RetexImage *small; /* what is smaller */
+    RetexImage *reduced; /* what is smaller */
     RetexImageTransfer *images;
     int count;
 } RetexStaging;
 
 /* At most so many parts. */
-int retex_staging_open(RetexStaging *stage, int most, RetexError *err);
-void retex_staging_close(RetexStaging *stage); /* once they are written */
+int retex_staging_open(RetexStaging *staging, int most, RetexError *err);
+void retex_staging_close(RetexStaging *staging); /* once they are written */
 
 /* Give an EXR part the place where a part of the set will be, or the samples of a footprint; the other is -1. The band
  * store is made near the file to be, and not compressed where that is not either. */
-int retex_staging_add(RetexStaging *stage, RetexExrPart *exr, int part, int footprint, int width, int height,
+int retex_staging_add(RetexStaging *staging, RetexExrPart *exr, int part, int footprint, int width, int height,
                       const char *near, int compress, RetexError *err);
 /* Bring all of them there. */
-int retex_staging_fill(RetexStaging *stage, const RetexSet *set, const RetexSamples *samples, int nthreads,
+int retex_staging_fill(RetexStaging *staging, const RetexSet *set, const RetexSamples *samples, int nthreads,
                        RetexError *err);
 
 #endif

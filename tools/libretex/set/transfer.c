@@ -1,4 +1,4 @@
-/* See gather.h. */
+/* See transfer.h. */
 #include "set/transfer.h"
 
 #include <stdlib.h>
@@ -8,7 +8,7 @@
 
 #define ROWS_A_JOB 64 /* a pack's band, some of a band store's */
 
-typedef struct GatherWork {
+typedef struct TransferWork {
     const RetexImageTransfer *images;
     int blocks; /* an image, at most */
     RetexComputeRows *make;
@@ -16,14 +16,14 @@ typedef struct GatherWork {
     const RetexSet *set;
     const RetexSamples *samples;
     RetexBandStore *store;
-} GatherWork;
+} TransferWork;
 
 static size_t row_length(const RetexImageTransfer *g)
 {
     return (size_t)g->image->width * (size_t)g->image->channels;
 }
 
-static int store_rows(const GatherWork *work, RetexRowReader *reader, const RetexImageTransfer *g, int y0, int y1,
+static int store_rows(const TransferWork *work, RetexRowReader *reader, const RetexImageTransfer *g, int y0, int y1,
                       RetexError *err)
 {
     const size_t bytes = row_length(g) * RETEX_BAND_ROWS * sizeof(float);
@@ -40,9 +40,9 @@ static int store_rows(const GatherWork *work, RetexRowReader *reader, const Rete
     return code;
 }
 
-static int gather_job(void *context, int index, int thread, RetexError *err)
+static int transfer_job(void *context, int index, int thread, RetexError *err)
 {
-    const GatherWork *work = context;
+    const TransferWork *work = context;
     const RetexImageTransfer *g = &work->images[index / work->blocks];
     const int y0 = index % work->blocks * ROWS_A_JOB;
     const int y1 = y0 + ROWS_A_JOB < g->image->height ? y0 + ROWS_A_JOB : g->image->height;
@@ -63,12 +63,12 @@ int retex_compute_images(const RetexImageTransfer *images, int count, RetexCompu
                          const RetexSet *set, const RetexSamples *samples, RetexBandStore *store, int nthreads,
                          RetexError *err)
 {
-    GatherWork work = {images, 0, make, context, set, samples, store};
+    TransferWork work = {images, 0, make, context, set, samples, store};
     for (int i = 0; i < count; i++) {
         const int blocks = (images[i].image->height + ROWS_A_JOB - 1) / ROWS_A_JOB;
         work.blocks = blocks > work.blocks ? blocks : work.blocks;
     }
-    return retex_jobs_run(nthreads, count * work.blocks, gather_job, &work, err);
+    return retex_jobs_run(nthreads, count * work.blocks, transfer_job, &work, err);
 }
 
 static int copy_rows(void *context, RetexRowReader *reader, const RetexImageTransfer *g, int y0, int y1, float *to,

@@ -84,7 +84,7 @@ typedef struct Writing {
     RetexImage blank;    /* a pixel for a file that would otherwise be empty */
     RetexExrPart *parts; /* those of the view, then those of samples */
     int count;
-    RetexStaging stage;
+    RetexStaging staging;
     const char *path;
     int compress, nthreads, width, height;
 } Writing;
@@ -103,7 +103,7 @@ static RetexExrPart *add_exr_part(Writing *w, const char *name, const char *lett
 
 static int stage_part(Writing *w, RetexExrPart *exr, int part, int footprint, RetexError *err)
 {
-    return retex_staging_add(&w->stage, exr, part, footprint, w->width, w->height, w->path, w->compress, err);
+    return retex_staging_add(&w->staging, exr, part, footprint, w->width, w->height, w->path, w->compress, err);
 }
 
 /* Say of all parts where their pixels are, after bringing what is in another file to where it can be had. */
@@ -133,7 +133,7 @@ static int list_parts(Writing *w, RetexError *err)
     }
     if (w->count == 0)
         add_exr_part(w, "nothing", "RGB", RETEX_HALF, &w->blank);
-    return status ? status : retex_staging_fill(&w->stage, w->whole, w->samples, w->nthreads, err);
+    return status ? status : retex_staging_fill(&w->staging, w->whole, w->samples, w->nthreads, err);
 }
 
 static int keep_band_sums(Writing *w, const RetexExrEncoding *encoding, int part, RetexError *err)
@@ -222,12 +222,12 @@ static int open_writing(Writing *w, RetexError *err)
     if (w->samples)
         retex_sample_part_names(w->samples, w->whole, w->names);
     status = retex_image_alloc(&w->blank, 1, 1, 3, err);
-    return status ? status : retex_staging_open(&w->stage, most, err);
+    return status ? status : retex_staging_open(&w->staging, most, err);
 }
 
 static void close_writing(Writing *w)
 {
-    retex_staging_close(&w->stage);
+    retex_staging_close(&w->staging);
     retex_image_free(&w->blank);
     retex_band_sums_free(&w->sums);
     free(w->names);

@@ -39,7 +39,7 @@ struct RetexTexture {
     double offset[2];
     int nlevels; /* 0 = constant */
     int opaque;  /* 1: alpha is 1 wherever the texture is looked up */
-    RetexTexelDefects values; /* what was odd about the file's */
+    RetexTexelDefects defects; /* what was odd about the file's */
     int narrow;  /* 1: texels are 16-bit integers, NARROW_ONE standing for 1; else floats */
     RetexTextureLevel levels[TEXTURE_MAX_LEVELS];
     char corners[4][16]; /* texels of the image: top left, top right, bottom left, bottom right */

@@ -21,16 +21,16 @@ typedef struct RetexTexelDefects {
 } RetexTexelDefects;
 
 /* Make colours of width texels of row y, R,G,B,A with alpha unassociated, and count those that were none. */
-void retex_texel_defects_repair(float *rgba, int width, int y, RetexTexelDefects *values);
+void retex_texel_defects_repair(float *rgba, int width, int y, RetexTexelDefects *defects);
 /* Put rows together, in their order. */
-void retex_texel_defects_merge(RetexTexelDefects *values, const RetexTexelDefects *row);
+void retex_texel_defects_merge(RetexTexelDefects *defects, const RetexTexelDefects *row);
 /* A constant: as a single texel. */
-void retex_texel_defects_repair_color(float color[3], RetexTexelDefects *values);
+void retex_texel_defects_repair_color(float color[3], RetexTexelDefects *defects);
 
-/* In values_kernel.c: 1 where all are from 0 to 1. */
+/* In texel_defects_kernel.c: 1 where all are from 0 to 1. */
 int retex_texels_are_in_range(const float *values, size_t count);
 
 /* Say what there is to be said of the texture that spec describes, line by line; texels: how many it has. */
-void retex_texel_defects_report(const RetexTexelDefects *values, const RetexTextureSpec *spec, long texels);
+void retex_texel_defects_report(const RetexTexelDefects *defects, const RetexTextureSpec *spec, long texels);
 
 #endif

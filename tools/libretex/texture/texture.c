@@ -148,19 +148,19 @@ static int take_texels(RetexTexture *texture, RetexTexels *texels, int nthreads,
     return RETEX_OK;
 }
 
-typedef struct MendWork {
+typedef struct RepairWork {
     const RetexImage *image;
-    RetexTexelDefects *values; /* by row */
-} MendWork;
+    RetexTexelDefects *defects; /* by row */
+} RepairWork;
 
 /* One bad texel must not spoil all coarser levels. */
 static void premultiply_job(void *context, int index, int thread)
 {
-    const MendWork *work = context;
+    const RepairWork *work = context;
     const int width = work->image->width;
     (void)thread;
     float *p = work->image->pixels + (size_t)index * (size_t)width * 4;
-    retex_texel_defects_repair(p, width, index, &work->values[index]);
+    retex_texel_defects_repair(p, width, index, &work->defects[index]);
     for (int x = 0; x < width; x++, p += 4) {
         float alpha = p[3] < 0 ? 0 : p[3] > 1 ? 1 : p[3];
         for (int c = 0; c < 3; c++)
@@ -171,13 +171,13 @@ static void premultiply_job(void *context, int index, int thread)
 
 static int premultiply(RetexTexture *texture, const RetexImage *pixels, int nthreads, RetexError *err)
 {
-    MendWork work = {pixels, calloc((size_t)pixels->height, sizeof *work.values)};
-    if (!work.values)
+    RepairWork work = {pixels, calloc((size_t)pixels->height, sizeof *work.defects)};
+    if (!work.defects)
         return no_memory(texture, pixels->width, pixels->height, err);
     retex_parallel(nthreads, pixels->height, premultiply_job, &work);
     for (int y = 0; y < pixels->height; y++)
-        retex_texel_defects_merge(&texture->values, &work.values[y]);
-    free(work.values);
+        retex_texel_defects_merge(&texture->defects, &work.defects[y]);
+    free(work.defects);
     return RETEX_OK;
 }
 
@@ -242,7 +242,7 @@ static RetexTexture *new_texture(const RetexTextureSpec *given, int constant, Re
     }
     spec.constant = constant;
     if (constant)
-        retex_texel_defects_repair_color(spec.color, &texture->values);
+        retex_texel_defects_repair_color(spec.color, &texture->defects);
     for (int axis = 0; axis < 2; axis++)
         if (spec.repeat == RETEX_REPEAT_MIRROR && spec.wrap[axis] == RETEX_WRAP_REPEAT)
             spec.wrap[axis] = RETEX_WRAP_MIRROR;
@@ -273,7 +273,7 @@ void retex_texture_report_defects(const RetexTexture *texture, const RetexTextur
 {
     int width, height;
     retex_texture_size(texture, &width, &height);
-    retex_texel_defects_report(&texture->values, spec, (long)width * height);
+    retex_texel_defects_report(&texture->defects, spec, (long)width * height);
 }
 
 /* What it was made by may be gone soon. */

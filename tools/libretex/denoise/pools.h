@@ -1,14 +1,14 @@
 /* Which footprints of a set are distributed and pooled together, and with which parts. Private to denoising's
  * footprints. */
-#ifndef RETEX_DENOISE_PLACES_H
-#define RETEX_DENOISE_PLACES_H
+#ifndef RETEX_DENOISE_POOLS_H
+#define RETEX_DENOISE_POOLS_H
 
 #include <retex/color.h>
 
 #include "denoise/footprints.h"
 
-#define PLACES_FINITE 1e12f /* larger numbers stand for none */
-#define GROUP_MAX RETEX_SHARES_MAX
+#define FOOTPRINT_VALUE_MAX 1e12f /* larger numbers stand for none */
+#define POOL_GROUP_MAX RETEX_SHARES_MAX
 
 /* An image of the set that is of its size; part is -1 and pixels NULL where there is none. */
 typedef struct RetexFootprintImage {
@@ -31,22 +31,22 @@ typedef struct RetexPoolGroup {
     int count, nlit; /* those with light come first */
     RetexFootprintImages *of;
     int movable;        /* the footprints are whole, and no one else's: they may be written */
-    const float *again; /* luminance of the light that the shares share, by pixel; NULL = none */
+    const float *interreflected; /* luminance of the light that the shares share, by pixel; NULL = none */
 } RetexPoolGroup;
 
 struct RetexDenoiseFootprints {
     size_t width, pixels;
     double spp;
     RetexPoolGroup *signals;      /* by signal */
-    RetexPoolGroup *later, *hits; /* by target; one for each footprint */
-    int nsignals, nlater, nhits;
-    float **again; /* by signal, then that of all: NULL = none */
+    RetexPoolGroup *interreflections, *hits; /* by target; one for each footprint */
+    int nsignals, ninterreflections, nhits;
+    float **interreflected; /* by signal, then that of all: NULL = none */
     RetexFootprintImages *places; /* of all groups */
     int nplaces;
     int *uses; /* by part: how many footprints, terms and shares it is of */
 };
 
-static inline float places_luminance(const float *c)
+static inline float footprint_luminance(const float *c)
 {
     return retex_luminancef(c[0], c[1], c[2]);
 }

@@ -1,5 +1,5 @@
-/* See places.h. */
-#include "denoise/places.h"
+/* See pools.h. */
+#include "denoise/pools.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -110,24 +110,24 @@ static void find_clusters(RetexDenoiseFootprints *f, const RetexSet *set, const 
         if (set->footprints[k].target == signal->target && set->footprints[k].kind == signal->kind &&
             !has_cluster(set, signal, k))
             add_place(f, set, g, k, -1);
-    g->movable &= g->count <= GROUP_MAX && (g->kind == RETEX_FOOTPRINT_SHARP || g->kind == RETEX_FOOTPRINT_BROAD);
+    g->movable &= g->count <= POOL_GROUP_MAX && (g->kind == RETEX_FOOTPRINT_SHARP || g->kind == RETEX_FOOTPRINT_BROAD);
 }
 
 /* Later footprints share their light over all targets: all are pooled, or none. */
-static void find_later(RetexDenoiseFootprints *f, const RetexSet *set, const float *again)
+static void find_interreflections(RetexDenoiseFootprints *f, const RetexSet *set, const float *interreflected)
 {
     int movable = 1;
     for (int t = 0; t < set->ntargets; t++) {
-        RetexPoolGroup *g = &f->later[f->nlater];
+        RetexPoolGroup *g = &f->interreflections[f->ninterreflections];
         *g = start_group(f, set, t, RETEX_FOOTPRINT_INTERREFLECTION);
-        g->again = again;
+        g->interreflected = interreflected;
         for (int k = 0; k < set->nfootprints; k++)
             if (set->footprints[k].target == t && set->footprints[k].kind == RETEX_FOOTPRINT_INTERREFLECTION)
                 add_place(f, set, g, k, -1);
-        movable &= g->movable && g->count <= GROUP_MAX;
-        f->nlater += g->count > 0;
+        movable &= g->movable && g->count <= POOL_GROUP_MAX;
+        f->ninterreflections += g->count > 0;
     }
-    f->nlater = movable ? f->nlater : 0;
+    f->ninterreflections = movable ? f->ninterreflections : 0;
 }
 
 static void find_hits(RetexDenoiseFootprints *f, const RetexSet *set)
@@ -143,18 +143,19 @@ static void find_hits(RetexDenoiseFootprints *f, const RetexSet *set)
 }
 
 /* Luminance of a signal's light that meets targets again, as the film weighs it: NULL where there is none. */
-static int find_again(float **again, const RetexSet *set, const RetexSignal *signal, size_t pixels, RetexError *err)
+static int find_interreflected_light(float **interreflected, const RetexSet *set, const RetexSignal *signal,
+                                     size_t pixels, RetexError *err)
 {
     for (int k = 0; k < signal->nmembers; k++) {
         const RetexSignalMember *m = &signal->members[k];
         RetexFootprintImage light = find_image(set, m->part, 3, 3);
         if (signal->target < 0 || m->term < 0 || set->terms[m->term].nfactors < 2 || !light.pixels)
             continue;
-        if (!*again && !(*again = calloc(pixels, sizeof **again)))
+        if (!*interreflected && !(*interreflected = calloc(pixels, sizeof **interreflected)))
             return retex_fail(err, RETEX_ENOMEM, "not enough memory to denoise footprints");
         for (size_t i = 0; i < pixels; i++) {
-            float more = m->weight * places_luminance(light.pixels + 3 * i);
-            (*again)[i] += more > 0 && more < PLACES_FINITE ? more : 0;
+            float more = m->weight * footprint_luminance(light.pixels + 3 * i);
+            (*interreflected)[i] += more > 0 && more < FOOTPRINT_VALUE_MAX ? more : 0;
         }
     }
     return RETEX_OK;
@@ -162,18 +163,18 @@ static int find_again(float **again, const RetexSet *set, const RetexSignal *sig
 
 static int find_all_again(RetexDenoiseFootprints *f, const RetexDenoiser *d, RetexError *err)
 {
-    float **all = &f->again[f->nsignals];
+    float **all = &f->interreflected[f->nsignals];
     int code = RETEX_OK;
     for (int s = 0; s < f->nsignals && !code; s++) {
         if (d->signals.of[s].kind == RETEX_FOOTPRINT_HIT)
             continue;
-        code = find_again(&f->again[s], d->set, &d->signals.of[s], f->pixels, err);
-        if (!f->again[s] || code)
+        code = find_interreflected_light(&f->interreflected[s], d->set, &d->signals.of[s], f->pixels, err);
+        if (!f->interreflected[s] || code)
             continue;
         if (!*all && !(*all = calloc(f->pixels, sizeof **all)))
             return retex_fail(err, RETEX_ENOMEM, "not enough memory to denoise footprints");
         for (size_t i = 0; i < f->pixels; i++)
-            (*all)[i] += f->again[s][i];
+            (*all)[i] += f->interreflected[s][i];
     }
     return code;
 }
@@ -189,12 +190,12 @@ int retex_denoise_footprints_open(RetexDenoiseFootprints **out, const RetexDenoi
         f->spp = set->spp;
         f->uses = calloc((size_t)set->nparts + 1, sizeof *f->uses);
         f->signals = calloc(signals + 1, sizeof *f->signals);
-        f->later = calloc(RETEX_MAX_TARGETS + 1, sizeof *f->later);
+        f->interreflections = calloc(RETEX_MAX_TARGETS + 1, sizeof *f->interreflections);
         f->hits = calloc(footprints + 1, sizeof *f->hits);
-        f->again = calloc(signals + 1, sizeof *f->again);
+        f->interreflected = calloc(signals + 1, sizeof *f->interreflected);
         f->places = calloc(2 * footprints + (size_t)set->nterms + 1, sizeof *f->places);
     }
-    if (!f || !f->uses || !f->signals || !f->later || !f->hits || !f->again || !f->places)
+    if (!f || !f->uses || !f->signals || !f->interreflections || !f->hits || !f->interreflected || !f->places)
         code = retex_fail(err, RETEX_ENOMEM, "not enough memory to denoise footprints");
     if (!code)
         code = find_all_again(f, d, err);
@@ -205,9 +206,9 @@ int retex_denoise_footprints_open(RetexDenoiseFootprints **out, const RetexDenoi
     count_uses(f->uses, set);
     for (int s = 0; s < f->nsignals; s++) {
         find_clusters(f, set, &d->signals.of[s], &f->signals[s]);
-        f->signals[s].again = f->again[s];
+        f->signals[s].interreflected = f->interreflected[s];
     }
-    find_later(f, set, f->again[f->nsignals]);
+    find_interreflections(f, set, f->interreflected[f->nsignals]);
     find_hits(f, set);
     return RETEX_OK;
 }
@@ -217,13 +218,13 @@ void retex_denoise_footprints_close(RetexDenoiseFootprints **out)
     RetexDenoiseFootprints *f = *out;
     if (!f)
         return;
-    for (int s = 0; f->again && s <= f->nsignals; s++)
-        free(f->again[s]);
+    for (int s = 0; f->interreflected && s <= f->nsignals; s++)
+        free(f->interreflected[s]);
     free(f->uses);
     free(f->signals);
-    free(f->later);
+    free(f->interreflections);
     free(f->hits);
-    free(f->again);
+    free(f->interreflected);
     free(f->places);
     free(f);
     *out = NULL;
@@ -253,8 +254,8 @@ void retex_denoise_mark_written(const RetexDenoiseFootprints *f, const RetexDeno
 {
     for (int s = 0; s < f->nsignals; s++)
         mark_group(&f->signals[s], written);
-    for (int k = 0; k < f->nlater && d->params.footprints; k++)
-        mark_group(&f->later[k], written);
+    for (int k = 0; k < f->ninterreflections && d->params.footprints; k++)
+        mark_group(&f->interreflections[k], written);
     for (int k = 0; k < f->nhits && d->params.footprints; k++)
         mark_group(&f->hits[k], written);
 }
