@@ -4,6 +4,7 @@
 #   make check        set up, build, run the tests; check-unit, check-cli, … run one suite
 #   make check-all    also those that take long or need heavy programs
 #   make check-faults every call for memory, files and threads fails in turn; ten minutes
+#   make check-mutants every small wrongness of tests/mutants/list.txt is built, and a test must notice
 #   make check-update CASE=golden/NAME   make a golden reference anew, printing before and after
 #   make asan, tsan   the unit and command-line tests with the sanitizers
 #   make fuzz         mutated inputs with the sanitizers; FUZZ_SECONDS=60 for each kind of input

@@ -58,7 +58,7 @@ $(BUILD)/tests/bench/embree_rays: $(BUILD)/obj/tests/bench/embree_rays.o $(LIBTE
 	@mkdir -p $(@D)
 	$(SAY)$(LINK) -Wl,-rpath,'$$ORIGIN/../../lib' $^ -o $@ $(RENDER_LIBS) $(LIBRETEX_LIBS) $(TEST_LIBS)
 
-.PHONY: unit-tests check check-all check-faults check-unit check-cli check-oiio check-golden check-man check-fidelity check-long check-update \
+.PHONY: unit-tests check check-all check-faults check-mutants check-unit check-cli check-oiio check-golden check-man check-fidelity check-long check-update \
 	asan tsan bench fuzz fuzz-programs sanitized-fuzz
 unit-tests: $(UNIT_TESTS:%=$(BUILD)/tests/unit/%)
 tests: $(TEST_PROGRAMS) $(FAULTS) unit-tests all
@@ -70,7 +70,9 @@ check: tests
 	@$(RUN_CHECK) $(SUITES)
 check-all: tests sanitized-fuzz
 	@RETEX_FAULTS=all $(RUN_CHECK) $(SUITES) long
-# Every call that can fail does, in turn.
+# Every call that can fail does, in turn; every small wrongness of tests/mutants/list.txt must be noticed.
+check-mutants: tests
+	@MUTANTS="$${MUTANTS:-all}" $(RUN_CHECK) mutants
 check-faults: tests
 	@RETEX_FAULTS=all $(RUN_CHECK) faults
 check-unit check-cli check-man check-golden check-fidelity: tests

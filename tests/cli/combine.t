@@ -18,6 +18,11 @@ $ printf 'output,Floor,Wall\none.png,brick.jpg,\ntwo.png,"rgb(0.1,0.2,0.3)",bric
 > one.png
 > two.png
 
+# --cross leaves out terms of more hits: each choice is another picture, and 3 is the default.
+$ for c in 0 2 3; do retex-combine -q s.exr --texture floor=brick.jpg --cross $c -o c$c.exr; done; cmp c3.exr fused.exr; cmp -s c0.exr c2.exr || echo 0 is not 2; cmp -s c2.exr c3.exr || echo 2 is not 3
+> 0 is not 2
+> 2 is not 3
+
 $ retex-combine
 ! retex-combine: error: no set given; - is standard input
 = 2

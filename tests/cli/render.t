@@ -137,6 +137,12 @@ $ ls x.*
 ! ls: cannot access 'x.*': No such file or directory
 = 2
 
+# The modes of --control are three, and the first is the default.
+$ retex-render -q --size 8x6 --spp 4 -t ball ball.pov -o y.exr; for m in unbiased halves biased; do retex-render -q --size 8x6 --spp 4 --seed 1 --control y.exr --control-mode $m --replace 'ball=rgb(1,0,0)' ball.pov -o $m.exr; done; retex-render -q --size 8x6 --spp 4 --seed 1 --control y.exr --replace 'ball=rgb(1,0,0)' ball.pov -o default.exr; cmp default.exr unbiased.exr; cmp -s unbiased.exr halves.exr || echo halves differ; cmp -s unbiased.exr biased.exr || echo biased differs; cmp -s halves.exr biased.exr || echo from halves too
+> halves differ
+> biased differs
+> from halves too
+
 # --control needs something new, and another seed than the set's.
 $ retex-render -q --size 8x6 --spp 2 -t ball ball.pov -o y.exr; retex-render -q --size 8x6 --spp 2 --control y.exr ball.pov -o x.exr; retex-render -q --size 8x6 --spp 2 --seed 0 --control y.exr --replace 'ball=rgb(1,0,0)' ball.pov -o x.exr; retex-render -q --size 8x6 --spp 2 --control y.exr --control-mode magic --replace 'ball=rgb(1,0,0)' ball.pov -o x.exr; retex-render -q --size 8x6 --spp 2 --control y.exr --replace 'ball=rgb(1,0,0)' ball.pov -o y.exr
 ! retex-render: error: --control needs --replace, without --variants

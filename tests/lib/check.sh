@@ -1,5 +1,5 @@
 #!/bin/sh
-# Runs suites of tests and adds up what they report: check.sh SUITE…
+# Runs suites of tests and adds up what they report: check.sh SUITE… or check.sh SUITE/TEST…
 #
 # Every test program prints TAP (`ok N - name`, `not ok N - name`, `ok N - name # SKIP why`, a plan `1..N`) and is one
 # job of a suite; JOBS of them run at a time. A job that ends badly without a failed test, reports fewer results than
@@ -33,12 +33,16 @@ jobs_of() {
             [ ! -e "$t" ] || { t=${t##*/}; echo "$1/${t%.sh} sh tests/$1/$t"; }
         done ;;
     faults) echo "faults/calls sh tests/faults/faults.sh" ;;
+    mutants) echo "mutants/list tests/mutants/run.py" ;;
     lint) echo "lint/house sh tests/lib/lint.sh --tap" ;;
     esac
 }
 
 for suite; do
-    jobs_of "$suite"
+    case $suite in
+    */*) jobs_of "${suite%%/*}" | grep "^$suite " ;;
+    *) jobs_of "$suite" ;;
+    esac
 done >"$logs/jobs"
 
 # One job: its output into NAME.log, its exit status as the last line of it.

@@ -1,0 +1,191 @@
+#!/usr/bin/env python3
+"""Mutation testing: each small wrongness of list.txt is built, and a test must notice. Prints TAP.
+
+A mutant that no named test notices fails, and so does one that does not compile or whose text is not in its file once.
+MUTANTS chooses: `all`; `tenth`, the default, those that the commit's hash picks; or names. Trees with builds of their
+own lie in $BUILD/mutants, JOBS of them side by side. $BUILD/mutants/results keeps what was found, so that a run that was
+stopped goes on; it counts as long as the sources are the same."""
+
+import concurrent.futures
+import hashlib
+import os
+import queue
+import shutil
+import subprocess
+import sys
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+ROOT = os.path.dirname(os.path.dirname(HERE))
+BUILD = os.path.join(ROOT, os.environ.get("BUILD", "build"))
+SECONDS = 900  # for one test; a mutant that hangs is noticed
+
+
+class Mutant:
+    """One block of list.txt."""
+
+    def __init__(self, name, path):
+        self.name, self.path = name, path
+        self.old, self.new, self.tests, self.equivalent = "", "", [], ""
+
+
+def read_list():
+    """Blocks: `@ NAME FILE`, `- text` once in that file, `+ what takes its place`, then `= TEST…`, cheapest first, or
+    `~ why it changes nothing`. Several lines of a kind are joined by newlines."""
+    mutants = []
+    with open(os.path.join(HERE, "list.txt"), encoding="utf-8") as lines:
+        for number, line in enumerate(lines, 1):
+            kind, text = line[:1], line[2:].rstrip("\n")
+            if not line.strip() or kind == "#":
+                continue
+            if kind == "@":
+                mutants.append(Mutant(*text.split()))
+            elif kind == "-":
+                mutants[-1].old += ("\n" if mutants[-1].old else "") + text
+            elif kind == "+":
+                mutants[-1].new += ("\n" if mutants[-1].new else "") + text
+            elif kind == "=":
+                mutants[-1].tests += text.split()
+            elif kind == "~":
+                mutants[-1].equivalent += text
+            else:
+                sys.exit(f"list.txt:{number}: a line begins with @ - + = ~ or #")
+    return mutants
+
+
+def run(tree, *command):
+    """Exit status and output; a status of None where it took too long."""
+    try:
+        done = subprocess.run(command, cwd=tree, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+                              stdin=subprocess.DEVNULL, timeout=SECONDS, check=False,
+                              env={**os.environ, "BUILD": "build", "JOBS": "1", "CI": ""})
+        return done.returncode, done.stdout.decode(errors="replace")
+    except subprocess.TimeoutExpired:
+        return None, ""
+
+
+def source_key():
+    """Of all files that git knows, as they are."""
+    names = subprocess.check_output(["git", "ls-files", "-z"], cwd=ROOT).decode().split("\0")[:-1]
+    digest = hashlib.sha256()
+    for name in sorted(names):
+        if name.endswith(".md") or not os.path.exists(os.path.join(ROOT, name)):
+            continue
+        with open(os.path.join(ROOT, name), "rb") as file:
+            digest.update(name.encode() + b"\0" + hashlib.sha256(file.read()).digest())
+    return digest.hexdigest(), names
+
+
+def make_tree(number, names):
+    """A copy of the sources and of what is built, times kept, so that make builds what a mutant changes and no more."""
+    tree = os.path.join(BUILD, "mutants", f"tree{number}")
+    shutil.rmtree(tree, ignore_errors=True)
+    for name in names:
+        source, copy = os.path.join(ROOT, name), os.path.join(tree, name)
+        if os.path.exists(source):
+            os.makedirs(os.path.dirname(copy), exist_ok=True)
+            shutil.copy2(source, copy)
+    for name in ("obj", "lib", "bin", "plugins", "tests/unit", "tests/bin", "tests/libtest.a", "config.mk", "test.mk"):
+        source, copy = os.path.join(BUILD, name), os.path.join(tree, "build", name)
+        os.makedirs(os.path.dirname(copy), exist_ok=True)
+        if os.path.isdir(source):
+            shutil.copytree(source, copy, symlinks=True)
+        elif os.path.exists(source):
+            shutil.copy2(source, copy)
+    return tree
+
+
+def target_of(test):
+    """What make has to build for a test."""
+    suite, _, name = test.partition("/")
+    return [f"build/tests/unit/{name}"] if suite == "unit" and name else ["tests"]
+
+
+def judge(tree, mutant):
+    """(passed, what became of it)."""
+    path = os.path.join(tree, mutant.path)
+    with open(path, encoding="utf-8") as file:
+        text = file.read()
+    if text.count(mutant.old) != 1:
+        return False, f"its text is {text.count(mutant.old)} times in {mutant.path}"
+    before = os.stat(path)
+    with open(path, "w", encoding="utf-8") as file:
+        file.write(text.replace(mutant.old, mutant.new))
+    try:
+        built = set()
+        for test in mutant.tests:
+            for target in target_of(test):
+                if target not in built:
+                    built.add(target)
+                    status, output = run(tree, "make", "JOBS=1", target)
+                    if status != 0:
+                        return False, "does not compile: " + output.strip().split("\n")[-1]
+            if run(tree, "tests/lib/check.sh", test)[0] != 0:
+                return True, f"noticed by {test}"
+        return False, "survives " + " ".join(mutant.tests)
+    finally:
+        with open(path, "w", encoding="utf-8") as file:
+            file.write(text)
+        # newer than the mutant's object, for make
+        os.utime(path, (before.st_atime, os.stat(path).st_mtime))
+
+
+def choose(mutants):
+    """By MUTANTS."""
+    wanted = os.environ.get("MUTANTS") or "tenth"
+    if wanted == "all":
+        return mutants
+    if wanted == "tenth":
+        commit = subprocess.check_output(["git", "rev-parse", "HEAD"], cwd=ROOT).decode().strip()
+        return [m for m in mutants if hashlib.sha256((commit + m.name).encode()).digest()[0] % 10 == 0]
+    unknown = set(wanted.split()) - {m.name for m in mutants}
+    if unknown:
+        sys.exit("no such mutant: " + " ".join(sorted(unknown)))
+    return [m for m in mutants if m.name in wanted.split()]
+
+
+def main():
+    mutants = read_list()
+    if len({m.name for m in mutants}) != len(mutants):
+        sys.exit("list.txt: two mutants have one name")
+    chosen = choose(mutants)
+    key, names = source_key()
+    os.makedirs(os.path.join(BUILD, "mutants"), exist_ok=True)
+    results = os.path.join(BUILD, "mutants", "results")
+    known = {}
+    if os.path.exists(results):
+        with open(results, encoding="utf-8") as file:
+            for line in file:
+                found, name, told = line.rstrip("\n").split("\t")
+                if found == key:
+                    known[name] = told
+    trees = queue.Queue()
+    fresh = [m for m in chosen if not m.equivalent and m.name not in known]
+    for number in range(min(int(os.environ.get("JOBS") or 2), len(fresh))):
+        trees.put(make_tree(number, names))
+
+    def work(mutant):
+        if mutant.equivalent:
+            return True, "equivalent: " + mutant.equivalent
+        if mutant.name in known:
+            return True, known[mutant.name]
+        tree = trees.get()
+        try:
+            passed, told = judge(tree, mutant)
+        finally:
+            trees.put(tree)
+        if passed:
+            with open(results, "a", encoding="utf-8") as file:
+                file.write(f"{key}\t{mutant.name}\t{told}\n")
+        return passed, told
+
+    print(f"1..{max(len(chosen), 1)}", flush=True)
+    if not chosen:
+        print("ok 1 - the commit's hash picks no mutant")
+    with concurrent.futures.ThreadPoolExecutor(max(trees.qsize(), 1)) as pool:
+        for number, (mutant, (passed, told)) in enumerate(zip(chosen, pool.map(work, chosen)), 1):
+            print(f"{'' if passed else 'not '}ok {number} - {mutant.name} ({mutant.path}): {told}", flush=True)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,179 @@
+/* The parts and terms of layout paper against the supplement's formulas (4.2 and 4.3), hit by hit: of one path whose
+ * hits all differ in both parts, in every channel and in where they are. Names, values and factors are compared. */
+#include <stdarg.h>
+#include <stddef.h>
+#include <setjmp.h>
+#include <cmocka.h>
+#include <stdio.h>
+#include <string.h>
+#include "film/paper/paper.h"
+#include "lib_film.h"
+
+static const Rgb LIGHT = {4, 2, 3};
+
+/* Hit j, from 1: what it does, where it is. All are powers of two, so that halves hold the products. */
+static Split split_of(int j)
+{
+    static const Split splits[] = {{{0.5f, 0.25f, 1}, {0.25f, 1, 0.125f}},
+                                   {{1, 0.5f, 0.125f}, {0.5f, 0.25f, 1}},
+                                   {{0.25f, 1, 0.5f}, {1, 0.125f, 0.25f}}};
+
+    return splits[j - 1];
+}
+
+static double u_of(int j)
+{
+    return 0.125 + 0.25 * (j - 1);
+}
+
+static void begin(Fixture *f, int ntargets)
+{
+    begin_film(f, ntargets, 1, 6, 1, 1);
+    f->params.layout = &paper_layout;
+    create_film(f);
+}
+
+/* One path that hits a target for each letter of targets, first the one nearest to the camera. */
+static void one_path(Fixture *f, const char *targets)
+{
+    begin_path(f);
+    for (int j = 1; targets[j - 1]; j++)
+        split_hit(f, targets[j - 1] - 'a', u_of(j), 0.5, rgb_grey(0.5f), 1, split_of(j));
+    connect_light(f, LIGHT);
+    end_path(f);
+    finish_film(f);
+}
+
+/* "did": d of hit 1, i of hit 2, d of hit 3, times the light. */
+static Rgb product(const char *parts)
+{
+    Rgb value = LIGHT;
+
+    for (int j = 1; parts[j - 1]; j++)
+        value = rgb_mul(value, parts[j - 1] == 'd' ? split_of(j).d : split_of(j).i);
+    return value;
+}
+
+static const RetexTerm *term_of(const Fixture *f, const char *name)
+{
+    const int number = retex_set_find_part(f->set, name);
+
+    for (int k = 0; k < f->set->nterms; k++)
+        if (f->set->terms[k].radiance == number)
+            return &f->set->terms[k];
+    fail_msg("there is no term %s", name);
+    return NULL;
+}
+
+/* The part has that product, and its term multiplies the textures at the hits that are d, and no others. */
+static void expect_term(const Fixture *f, const char *name, RetexTermKind kind, const char *parts)
+{
+    const Rgb value = product(parts);
+    const RetexTerm *term = term_of(f, name);
+    char hits[8] = "", want[8] = "";
+
+    expect_rgb(part(f, name), value.r, value.g, value.b, 0);
+    assert_int_equal(term->kind, kind);
+    for (int k = 0; k < term->nfactors; k++) {
+        const RetexFootprint *at = &f->set->footprints[term->factors[k]];
+        const double u = f->set->parts[at->uv].image.pixels[0];
+        int j = 1;
+        while (j < 4 && fabs(u_of(j) - u) > 1e-6)
+            j++;
+        int place = k; /* in order: how factors are listed says nothing */
+        for (; place > 0 && hits[place - 1] > '0' + j; place--)
+            hits[place] = hits[place - 1];
+        hits[place] = (char)('0' + j);
+    }
+    for (int j = 1, k = 0; parts[j - 1] && kind != RETEX_TERM_INDEP; j++)
+        if (parts[j - 1] == 'd')
+            want[k++] = (char)('0' + j);
+    if (strcmp(hits, want) != 0)
+        fail_msg("%s multiplies the textures at hits %s, should be %s", name, hits, want);
+}
+
+/* Light of this pixel is in the parts named, and nowhere else. */
+static void expect_no_others(const Fixture *f, const char *const *names)
+{
+    for (int k = 0; k < f->set->nterms; k++) {
+        const RetexPart *p = &f->set->parts[f->set->terms[k].radiance];
+        int is_named = 0;
+        for (int i = 0; names[i]; i++)
+            is_named |= strcmp(names[i], p->name) == 0;
+        for (int c = 0; c < 3 && !is_named; c++)
+            if (p->image.pixels[c] != 0)
+                fail_msg("%s has light", p->name);
+    }
+}
+
+static void one_hit_has_two_parts(void **state)
+{
+    (void)state;
+    Fixture f;
+    begin(&f, 1);
+    one_path(&f, "a");
+    expect_term(&f, "dep_1", RETEX_TERM_DEP, "d");
+    expect_term(&f, "indep_1", RETEX_TERM_INDEP, "i");
+    expect_no_others(&f, (const char *const[]){"dep_1", "indep_1", NULL});
+    end_film(&f);
+}
+
+static void two_hits_have_the_supplements_cross_terms(void **state)
+{
+    (void)state;
+    Fixture f;
+    begin(&f, 1);
+    one_path(&f, "aa");
+    expect_term(&f, "dep_2", RETEX_TERM_DEP, "dd");
+    expect_term(&f, "indep_2", RETEX_TERM_INDEP, "ii");
+    expect_term(&f, "cross2_1", RETEX_TERM_CROSS2, "di");
+    expect_term(&f, "cross2_2", RETEX_TERM_CROSS2, "id");
+    expect_no_others(&f, (const char *const[]){"dep_2", "indep_2", "cross2_1", "cross2_2", NULL});
+    end_film(&f);
+}
+
+static void three_hits_have_them_in_the_supplements_order(void **state)
+{
+    (void)state;
+    Fixture f;
+    begin(&f, 1);
+    one_path(&f, "aaa");
+    expect_term(&f, "dep_3", RETEX_TERM_DEP, "ddd");
+    expect_term(&f, "indep_3", RETEX_TERM_INDEP, "iii");
+    expect_term(&f, "cross3_1", RETEX_TERM_CROSS3, "ddi");
+    expect_term(&f, "cross3_2", RETEX_TERM_CROSS3, "did");
+    expect_term(&f, "cross3_3", RETEX_TERM_CROSS3, "dii");
+    expect_term(&f, "cross3_4", RETEX_TERM_CROSS3, "idd");
+    expect_term(&f, "cross3_5", RETEX_TERM_CROSS3, "idi");
+    expect_term(&f, "cross3_6", RETEX_TERM_CROSS3, "iid");
+    expect_no_others(&f, (const char *const[]){"dep_3", "indep_3", "cross3_1", "cross3_2", "cross3_3", "cross3_4",
+                                               "cross3_5", "cross3_6", NULL});
+    end_film(&f);
+}
+
+/* Letters say the target, digits which of its hits: the hits of each count on their own. */
+static void two_targets_are_named_by_their_hits(void **state)
+{
+    (void)state;
+    Fixture f;
+    begin(&f, 2);
+    one_path(&f, "aba");
+    expect_term(&f, "dep_a2b1", RETEX_TERM_DEP, "ddd");
+    expect_term(&f, "indep_3", RETEX_TERM_INDEP, "iii");
+    expect_term(&f, "cross3_a1b1", RETEX_TERM_CROSS3, "ddi");
+    expect_term(&f, "cross3_a12", RETEX_TERM_CROSS3, "did");
+    expect_term(&f, "cross3_a1", RETEX_TERM_CROSS3, "dii");
+    expect_term(&f, "cross3_a2b1", RETEX_TERM_CROSS3, "idd");
+    expect_term(&f, "cross3_b1", RETEX_TERM_CROSS3, "idi");
+    expect_term(&f, "cross3_a2", RETEX_TERM_CROSS3, "iid");
+    end_film(&f);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(one_hit_has_two_parts),
+                                       cmocka_unit_test(two_hits_have_the_supplements_cross_terms),
+                                       cmocka_unit_test(three_hits_have_them_in_the_supplements_order),
+                                       cmocka_unit_test(two_targets_are_named_by_their_hits)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
