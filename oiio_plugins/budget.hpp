@@ -1,4 +1,4 @@
-// What reading one name may take: RETEX_MAX_MEMORY, RETEX_MAX_TIME, RETEX_MAX_PIXELS and RETEX_MAX_STEPS of the
+// The limits of reading one name: RETEX_MAX_MEMORY, RETEX_MAX_TIME, RETEX_MAX_PIXELS and RETEX_MAX_STEPS of the
 // environment, with the defaults of the tools.
 #ifndef OIIO_PLUGINS_BUDGET_HPP
 #define OIIO_PLUGINS_BUDGET_HPP
@@ -11,18 +11,18 @@ namespace plugins
 class Budget
 {
   public:
-    Budget(); // throws Failure where the environment has no proper number
+    Budget(); // throws Failure if a number in the environment is invalid
     ~Budget();
     Budget(const Budget &) = delete;
     Budget &operator=(const Budget &) = delete;
 
-    // The time begins: for each piece of work, since a host may wait in between for as long as it likes.
+    // Start the time limit. Call for each operation, because a host may wait between them.
     RetexBudget *begin() const;
     long steps() const
     {
         return limits_.steps;
     }
-    // Throws Failure where a picture has too many pixels.
+    // Throws Failure if a picture has too many pixels.
     void check_size(int width, int height) const;
 
   private:

@@ -1,4 +1,4 @@
-// What is dear to make and asked for again and again: OpenImageIO opens one name up to twelve times to read it once.
+// A cache of expensive results. OpenImageIO opens a name up to twelve times to read it once.
 #ifndef OIIO_PLUGINS_CACHE_HPP
 #define OIIO_PLUGINS_CACHE_HPP
 
@@ -13,7 +13,7 @@
 namespace plugins
 {
 
-// Tells one state of a file from another; "absent" where there is none.
+// Identifies the state of a file; "absent" if it does not exist.
 inline std::string file_stamp(const std::string &path)
 {
     struct stat s;
@@ -23,8 +23,8 @@ inline std::string file_stamp(const std::string &path)
            std::to_string(s.st_mtim.tv_sec) + "." + std::to_string(s.st_mtim.tv_nsec);
 }
 
-// The values last used, few of them, each made once however many threads ask for it. A value lives on while it is used.
-// make may use other keys and other caches, never its own key again.
+// Keeps a few values, those used last. Each value is computed once, also if several threads request it. A value lives
+// while it is used. `make` may use other keys and other caches, but not its own key.
 template <typename Value> class Cache
 {
   public:
@@ -33,8 +33,8 @@ template <typename Value> class Cache
     explicit Cache(size_t most) : most_(most)
     {
     }
-    // stamp: the state of what the value is made of; with another one the value is made anew. Whatever make throws goes
-    // to the caller, and the next one tries again.
+    // stamp: the state of the value's sources; the value is computed again if it changes. An exception of `make` goes
+    // to the caller, and the next call tries again.
     Pointer get(const std::string &key, const std::string &stamp, const std::function<Pointer()> &make)
     {
         std::shared_ptr<Slot> slot = find(key, stamp);
@@ -75,7 +75,7 @@ template <typename Value> class Cache
 
     const size_t most_;
     std::mutex mutex_;
-    std::list<std::shared_ptr<Slot>> slots_; // the last used first
+    std::list<std::shared_ptr<Slot>> slots_; // most recently used first
 };
 
 } // namespace plugins

@@ -11,7 +11,7 @@ namespace plugins
 namespace
 {
 
-// The thread's locale is C as long as this lives.
+// Sets the thread's locale to C during its lifetime.
 class PlainNumbers
 {
   public:

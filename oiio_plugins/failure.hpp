@@ -1,4 +1,4 @@
-// How failures travel inside the plugins, and what keeps them from leaving.
+// Errors inside the plugins, and the guard that keeps exceptions from leaving them.
 #ifndef OIIO_PLUGINS_FAILURE_HPP
 #define OIIO_PLUGINS_FAILURE_HPP
 
@@ -15,10 +15,10 @@ struct Failure : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-// Throw what a call of libretex or the renderer says went wrong: "FILE:LINE:COLUMN: message". Nothing where it is 0.
+// Throw the error of a call of libretex or the renderer, "FILE:LINE:COLUMN: message". Do nothing if the code is 0.
 void must(int code, const RetexError &err);
 
-// Run body with numbers read and written as in C, whatever the host's language. "" or, where body throws, why.
+// Run body with the C locale for numbers, whatever the host's locale. Return "", or the error if body throws.
 std::string guarded(const std::function<void()> &body);
 
 } // namespace plugins

@@ -1,4 +1,4 @@
-// Safe access (retex/access.h) in names that a stranger may have written.
+// Safe access (retex/access.h) for names from untrusted authors.
 #ifndef OIIO_PLUGINS_OWN_FOLDER_HPP
 #define OIIO_PLUGINS_OWN_FOLDER_HPP
 
@@ -11,10 +11,11 @@
 namespace plugins
 {
 
-// Whether a name asks for safe access, by safe and anything but 0, or the environment does, which a name cannot undo.
+// Whether access is safe: the name has `safe` with a value other than 0, or the environment sets it. A name cannot
+// override the environment.
 bool wants_safe(const Arguments &arguments);
 
-// The folder that a scene or a pack lies in: with safe access all there is.
+// The folder of a scene or a pack. With safe access, files are read only below it.
 class OwnFolder
 {
   public:
@@ -22,8 +23,8 @@ class OwnFolder
     OwnFolder(const OwnFolder &) = delete;
     OwnFolder &operator=(const OwnFolder &) = delete;
 
-    // A file of that name, or a folder, to be read later: the name itself, or with safe access one that stands for what
-    // lies below. Throws Failure where there is none.
+    // Resolve the name of a file or folder to read later: the name itself, or with safe access the path below the
+    // folder. Throws Failure if it does not exist there.
     std::string find(const std::string &name, bool wants_folder = false) const;
     const RetexAccess *access() const
     {
@@ -31,7 +32,7 @@ class OwnFolder
     }
 
   private:
-    std::string folder_, root_; // the second resolved
+    std::string folder_, root_; // root_ is folder_ with links resolved
     const char *roots_[1];
     RetexAccess access_ = RETEX_ACCESS_INIT;
 };

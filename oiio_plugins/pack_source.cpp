@@ -1,4 +1,4 @@
-// See pack_source.hpp. How a set comes out of its pack is behind `PackSet` and `open_set` alone.
+// See pack_source.hpp. Only `PackSet` and `open_set` know how a set is read from its pack.
 #include "pack_source.hpp"
 
 #include <algorithm>
@@ -18,13 +18,13 @@ namespace plugins
 namespace
 {
 
-// So many sets are kept in memory, and so many of their pictures, which are small.
+// Number of sets kept in memory, and of their pictures, which are small.
 const size_t sets_kept = 3, pictures_kept = 8;
 
 // ---- the set ----
 
-// A pack's set: open, for the picture takes its rows from the file as it needs them, and read whole once somebody asks
-// for a part. Neither is changed afterwards, so any thread may look.
+// The set of a pack. The picture reads rows of the open file when it needs them; the first request for another part
+// reads the whole set. Neither changes afterwards, so any thread may read.
 class PackSet
 {
   public:
@@ -47,11 +47,11 @@ class PackSet
     PackSet(const PackSet &) = delete;
     PackSet &operator=(const PackSet &) = delete;
 
-    const RetexSet &description() const // without pixels
+    const RetexSet &description() const // has no pixels
     {
         return *set_;
     }
-    // With its pixels and their checksums, which of a pack with losses are not those of the set that was packed.
+    // The set with pixels and their checksums. With a lossy pack the checksums differ from those of the packed set.
     const RetexSet &whole(int threads)
     {
         std::call_once(reading_, [&] {
@@ -63,7 +63,7 @@ class PackSet
         });
         return *whole_;
     }
-    // With those textures; without any the one that was rendered, as far as the set holds it.
+    // The picture with these textures; without any, the picture as rendered, as far as the set has it.
     RetexImage picture(std::vector<RetexTextureSpec> specs, int threads)
     {
         Budget budget;
@@ -118,7 +118,7 @@ std::string target_names(const RetexSet &set)
     return names.empty() ? "none" : names;
 }
 
-// Neither a wrong name nor a missing file should be found out when the pixels are wanted.
+// Find wrong names and missing files when the name is opened, not when pixels are read.
 void check_texture(const RetexSet &set, const RetexTextureSpec &texture)
 {
     if (retex_set_find_target(&set, texture.target) < 0)
@@ -127,13 +127,13 @@ void check_texture(const RetexSet &set, const RetexTextureSpec &texture)
         throw Failure(std::string("cannot read ") + texture.image + ": No such file or directory");
 }
 
-// OpenImageIO knows errors only, and what is said here is none: a texture is read while it is sampled.
+// Print warnings to standard error, because OpenImageIO has only errors. Textures are read while they are sampled.
 void print_warning(void *, const char *text)
 {
     std::fprintf(stderr, "retex: warning: %s\n", text);
 }
 
-// Options of a target come behind the target itself: that is the order of the alphabet.
+// The arguments are sorted, so a target comes before its options.
 std::vector<RetexTextureSpec> parse_textures(const Arguments &arguments, const OwnFolder &own)
 {
     std::vector<RetexTextureSpec> textures;
@@ -174,14 +174,14 @@ std::vector<RetexTextureSpec> parse_textures(const Arguments &arguments, const O
 
 struct Picture {
     RetexPart part{};
-    std::string manifest; // of the set with this picture in front; "" where it is another one than was rendered
+    std::string manifest; // manifest of the set with this picture as part 0; "" for a picture with other textures
     ~Picture()
     {
         retex_image_free(&part.image);
     }
 };
 
-// The set has the picture in front as it is shown, so that what is written of all parts is a set again.
+// The set's part 0 is the picture that the plugin shows, so that a copy of all parts is a valid set.
 void make_manifest(Picture &picture, const RetexSet &set)
 {
     RetexError err{};

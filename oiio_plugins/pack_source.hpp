@@ -1,5 +1,5 @@
-// A pack as OpenImageIO sees it: its picture and then the other parts of its set; or, where the name says so, the
-// picture with other textures alone.
+// A pack as a source of subimages: its picture and then the other parts of its set; or, for a name with textures, only
+// the picture with these textures.
 #ifndef OIIO_PLUGINS_PACK_SOURCE_HPP
 #define OIIO_PLUGINS_PACK_SOURCE_HPP
 

@@ -1,5 +1,5 @@
-// pov.imageio: scenes, `room.pov?spp=64&targets=Floor`, rendered in every program that reads pictures through
-// OpenImageIO. See retex-oiio(7).
+// pov.imageio: lets programs that read pictures through OpenImageIO open scenes, as in
+// `room.pov?spp=64&targets=Floor`. See retex-oiio(7).
 #include <cstring>
 
 #include <OpenImageIO/imageio.h>
@@ -11,7 +11,7 @@
 namespace
 {
 
-// Text can begin anyhow; what it says is for the parser.
+// A scene is text, which can begin with anything; the parser decides.
 bool is_text(const void *data, size_t bytes)
 {
     return bytes > 0 && !std::memchr(data, 0, bytes);

@@ -1,4 +1,4 @@
-// retex.imageio: packs, `room.retex?Floor=oak.jpg`, in every program that reads pictures through OpenImageIO. See
+// retex.imageio: lets programs that read pictures through OpenImageIO open packs, as in `room.retex?Floor=oak.jpg`. See
 // retex-oiio(7).
 #include <OpenImageIO/imageio.h>
 

@@ -36,7 +36,7 @@ std::vector<std::string> list(const std::string &name, const std::string &value)
     return items;
 }
 
-// Floor, Wall=Brick+Plaster -> what -t takes: Floor, Wall=Brick,Plaster
+// Convert `Floor,Wall=Brick+Plaster` to arguments of -t: `Floor`, `Wall=Brick,Plaster`.
 std::vector<std::string> targets(const std::string &value)
 {
     std::vector<std::string> items = list("targets", value);
@@ -61,7 +61,7 @@ void set_option(SceneOptions &options, const std::string &name, const std::strin
     } else if (name == "threads") {
         options.render.nthreads = whole(name, value, 0, 256);
     } else if (name == "safe") {
-        whole(name, value, 0, 1); // wants_safe does the rest
+        whole(name, value, 0, 1); // only checks the value; wants_safe applies it
     } else if (name == "denoise") {
         options.denoise = whole(name, value, 0, 1);
     } else if (name == "no-denoise-data") {

@@ -1,4 +1,4 @@
-// What the name of a scene says about how to render it.
+// Render options in the name of a scene.
 #ifndef OIIO_PLUGINS_SCENE_OPTIONS_HPP
 #define OIIO_PLUGINS_SCENE_OPTIONS_HPP
 
@@ -16,14 +16,14 @@ namespace plugins
 
 struct SceneOptions {
     RenderParams render = RENDER_PARAMS_INIT;
-    SdlOptions sdl = SDL_OPTIONS_INIT; // without the lists below
+    SdlOptions sdl = SDL_OPTIONS_INIT; // its lists point to those below
     std::vector<std::string> targets, includes, declares;
-    int width = 0, height = 0; // one alone: the other one by the scene's shape
+    int width = 0, height = 0; // 0 = from the other one and the scene's aspect ratio
     int denoise = 0, no_denoise_data = 0;
 };
 
-// Options of retex-render without their dashes, where `_` is as good as `-`; targets=NAME[=IDENT+IDENT],NAME,
-// include=FOLDER,FOLDER and declare.NAME=VALUE. path: of the scene. threads: where the name does not say. Throws
+// Parse options of retex-render without their dashes, where `_` may replace `-`, and targets=NAME[=IDENT+IDENT],NAME,
+// include=FOLDER,FOLDER and declare.NAME=VALUE. path: the scene's path. threads: the default number of threads. Throws
 // Failure.
 SceneOptions parse_scene_options(const std::string &path, const Arguments &arguments, int threads);
 

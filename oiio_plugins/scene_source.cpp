@@ -21,10 +21,10 @@ namespace
 
 const size_t scenes_kept = 3;
 
-// Of the whole process; told as `retex:renders` where $RETEX_OIIO_DEBUG is set.
+// Number of renders of this process, shown as `retex:renders` if $RETEX_OIIO_DEBUG is set.
 std::atomic<int> renders{0};
 
-// A scene whose texture is a scene, itself perhaps, would be waited for by its own reading.
+// Refuse scenes as textures of scenes: a scene that is its own texture would wait for itself.
 class NotNested
 {
   public:
@@ -87,7 +87,7 @@ ScenePointer parse_scene(const std::string &path, const SceneOptions &options, s
     return {scene, close_scene};
 }
 
-// A scene that is read and, once that is wanted, rendered.
+// A scene that is read at once and rendered on demand.
 class SceneJob
 {
   public:
@@ -114,12 +114,12 @@ class SceneJob
     SceneJob(const SceneJob &) = delete;
     SceneJob &operator=(const SceneJob &) = delete;
 
-    // Nothing but a picture, so that all is known before it is rendered.
+    // Whether there is only a picture, whose description is known before it is rendered.
     bool is_picture() const
     {
         return (options_.targets.empty() || options_.render.plain) && !options_.render.aovs;
     }
-    // Of the picture alone, without pixels.
+    // The description of a picture alone, without pixels.
     const RetexSet &description() const
     {
         return description_;
@@ -142,7 +142,7 @@ class SceneJob
     }
 
   private:
-    // The scene itself may go by the size of the picture: it is read again once that is known.
+    // A scene may depend on the size of the picture, so it is read again when the size is known.
     void settle_size(const std::string &path)
     {
         double shape = double(scene_->width) / scene_->height;
@@ -191,10 +191,10 @@ class SceneJob
             manifest_ = manifest_of(*rendered);
         }
         set_ = owned.release();
-        scene_.reset(); // all that is wanted of it is rendered
+        scene_.reset(); // not needed after the render
     }
 
-    Budget budget_; // before all that is charged to it
+    Budget budget_; // declared before all members that use it
     SceneOptions options_;
     ScenePointer scene_;
     std::string warnings_, manifest_;
@@ -243,7 +243,7 @@ std::shared_ptr<Source> open_scene(const std::string &path, const Arguments &arg
     NotNested guard;
     std::string key = (wants_safe(arguments) ? "safe:" : "") + path;
     for (const auto &argument : arguments)
-        if (argument.first != "threads") // the picture is the same
+        if (argument.first != "threads") // the number of threads does not change the picture
             key += "&" + argument.first + "=" + argument.second;
     return std::make_shared<SceneSource>(
         cache.get(key, file_stamp(path), [&] { return std::make_shared<SceneJob>(path, arguments, threads); }));

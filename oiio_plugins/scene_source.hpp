@@ -1,4 +1,4 @@
-// A scene as OpenImageIO sees it: the picture it renders to, then the other parts of its set.
+// A scene as a source of subimages: the rendered picture, then the other parts of its set.
 #ifndef OIIO_PLUGINS_SCENE_SOURCE_HPP
 #define OIIO_PLUGINS_SCENE_SOURCE_HPP
 
@@ -7,8 +7,8 @@
 namespace plugins
 {
 
-// The scene is read here. A picture alone is rendered when its pixels are asked for; which parts a set has, and what
-// its manifest says, only a render can tell: then it is now.
+// Read the scene. A picture alone is rendered when its pixels are read. A set is rendered here, because its parts and
+// its manifest are known only after the render.
 std::shared_ptr<Source> open_scene(const std::string &path, const Arguments &arguments, int threads);
 
 } // namespace plugins

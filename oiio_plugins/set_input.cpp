@@ -1,4 +1,4 @@
-// See set_input.hpp. Nothing that is thrown leaves an entry from OpenImageIO.
+// See set_input.hpp. No exception leaves a function that OpenImageIO calls.
 #include "set_input.hpp"
 
 #include <cerrno>
@@ -19,7 +19,7 @@ namespace plugins
 namespace
 {
 
-// %26 -> & and %25 -> %: between options an & ends the value.
+// Decode %26 to & and %25 to %, because an & ends the value of an option.
 std::string unescaped(const std::string &text)
 {
     std::string plain;
@@ -31,8 +31,8 @@ std::string unescaped(const std::string &text)
     return plain;
 }
 
-// What stands for a name with options that cannot be opened: of such a one oiiotool would say no more than that there
-// is no such file. So it opens, and says what is wrong when pixels are asked for.
+// Replaces a name with options that cannot be opened. oiiotool reports any failed open as a missing file, so this
+// source opens, and reports the error when pixels are read.
 class Unreadable final : public Source
 {
   public:
@@ -97,7 +97,7 @@ class SetInput final : public OIIO::ImageInput
         lock_guard lock(*this);
         return current_ < 0 ? 0 : current_;
     }
-    // OpenImageIO counts subimages by seeking until it fails: that is no error.
+    // OpenImageIO counts subimages by seeking until that fails, so it is not an error.
     bool seek_subimage(int subimage, int miplevel) override
     {
         lock_guard lock(*this);
@@ -169,7 +169,7 @@ class SetInput final : public OIIO::ImageInput
             throw Failure("cannot read " + name.path + ": " + std::strerror(errno));
         return std::string(begin, got);
     }
-    // OpenImageIO offers any file that nothing else can read.
+    // OpenImageIO tries every plugin on files of unknown type.
     void check_content(const Name &name) const
     {
         std::string begin = read_begin(name);
@@ -177,7 +177,7 @@ class SetInput final : public OIIO::ImageInput
             throw Failure(name.path + ": no ." + format_.name + " file" +
                           (begin.empty() ? ": it is empty" : " by what is in it"));
     }
-    // As many as the host lets OpenImageIO use; 0 = all cores.
+    // The number of threads that the host allows OpenImageIO; 0 = all cores.
     int host_threads() const
     {
         return threads() > 0 ? threads() : OIIO::get_int_attribute("threads");

@@ -1,4 +1,4 @@
-// What OpenImageIO is told of a set's parts.
+// Describes a set's parts to OpenImageIO.
 #include "set_input.hpp"
 
 #include <cstdlib>
@@ -12,10 +12,10 @@ namespace plugins
 namespace
 {
 
-// What a part is in its set, and of which target.
+// The role of a part in its set, and its target.
 struct Role {
     const char *name;
-    int target; // or -1
+    int target; // or -1 = none
 };
 
 Role footprint_role(const RetexSet &set, int part)
@@ -72,7 +72,7 @@ OIIO::ImageSpec part_spec(const RetexSet &set, int index)
     const RetexPart &part = set.parts[index];
     OIIO::ImageSpec spec(part.image.width, part.image.height, int(std::strlen(part.letters)),
                          part.type == RETEX_HALF ? OIIO::TypeDesc::HALF : OIIO::TypeDesc::FLOAT);
-    // One display window for all, as in a set; the A of a mean UV is no alpha.
+    // All parts have the same display window, as in a set. Channel A of a mean UV is not alpha.
     spec.full_width = set.width;
     spec.full_height = set.height;
     spec.alpha_channel = spec.z_channel = -1;
@@ -85,7 +85,7 @@ OIIO::ImageSpec part_spec(const RetexSet &set, int index)
         spec.attribute("retex:target", set.targets[role.target].name);
     if (spec.nchannels == 3)
         spec.attribute("oiio:ColorSpace", "Linear");
-    // As in the set's own file.
+    // The same attributes as in the set's file.
     static const float rec709[8] = {0.64f, 0.33f, 0.3f, 0.6f, 0.15f, 0.06f, 0.3127f, 0.329f};
     bool color = retex_set_part_is_color(&set, index);
     spec.attribute("colorInteropID", color ? "lin_rec709_scene" : "data");

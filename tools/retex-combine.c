@@ -1,4 +1,4 @@
-/* retex-combine: recombine a set, with its own textures or new ones, into a picture. See retex-combine(1). */
+/* retex-combine: make a picture from a set, with its original textures or new ones. See retex-combine(1). */
 #include <errno.h>
 #include <limits.h>
 #ifdef __GLIBC__
@@ -35,11 +35,11 @@ typedef struct Job {
     const char *set_path, *samples_path, *table, *error;
     Batch batch;
     TextureArgs textures;
-    long memory; /* megabytes that --batch may keep of the set */
+    long memory; /* megabytes of the set that --batch may keep in memory */
     RetexWriteParams write;
     RetexCombineParams combine;
-    RetexSet *set;         /* open: its rows are read as they are needed */
-    RetexSamples *samples; /* of the set's file or stream, or of a file of their own; or NULL */
+    RetexSet *set;         /* rows are read when they are needed */
+    RetexSamples *samples; /* from the set's file or stream, or from a separate file; or NULL */
 } Job;
 
 static void parse(Cli *cli, Job *job)
@@ -87,7 +87,7 @@ static void parse(Cli *cli, Job *job)
         cli_die(cli, "--colorspace excludes --display and --view");
 }
 
-/* What is known of the files before any is opened; a table has more. */
+/* Announce the files of the command line. batch_check announces those of a table. */
 static void announce_files(const Cli *cli, const Job *job, const char *output)
 {
     cli_reads(cli, "the set", job->set_path);
@@ -98,7 +98,7 @@ static void announce_files(const Cli *cli, const Job *job, const char *output)
     cli_writes(cli, "--error", job->error);
 }
 
-/* What stands where samples would may lack its -o or --texture. */
+/* The samples cannot be read. The message asks whether -o or --texture is missing before the name. */
 static void fail_samples(const Cli *cli, const Job *job, const RetexError *err)
 {
     char forgotten[1024] = "";
@@ -117,7 +117,7 @@ static void check_samples_path(const Cli *cli, const Job *job)
     }
 }
 
-/* The set, and the samples that came with it or have a file of their own. */
+/* Open the set, and the samples from the same stream or from a separate file. */
 static void load(const Cli *cli, Job *job)
 {
     RetexError err = {0};
@@ -140,7 +140,7 @@ static void load(const Cli *cli, Job *job)
         cli_fail(cli, &err);
 }
 
-/* What is put on each target: one texture, or what came with the set as samples. */
+/* The textures of one picture. Targets without one use the samples that came with the set. */
 typedef struct Row {
     const RetexTextureSpec *specs;
     int count;
@@ -185,10 +185,10 @@ static int write_rows(void *picture, int y0, int y1, const float *rows, RetexErr
     return retex_picture_rows(picture, y0, y1, rows, err);
 }
 
-/* The error to be expected, on its way. */
+/* The picture of the expected error while it is written. */
 typedef struct ErrorPicture {
     RetexPicture *picture;
-    double *squares; /* by band: their sum */
+    double *squares; /* sum of squares of each band */
     size_t width;
 } ErrorPicture;
 
@@ -202,7 +202,7 @@ static int write_error_rows(void *context, int y0, int y1, const float *rows, Re
     return retex_picture_rows(error->picture, y0, y1, rows, err);
 }
 
-/* Write the error to be expected, while it is made; text says it in numbers. */
+/* Compute and write the expected error; text gets its root mean square. */
 static int make_error(const Cli *cli, Job *job, const Row *row, char *text, size_t size, RetexError *err)
 {
     const int width = job->set->width, height = job->set->height;
@@ -223,8 +223,8 @@ static int make_error(const Cli *cli, Job *job, const Row *row, char *text, size
     return code ? code : closed;
 }
 
-/* One picture, written while it is made. The error to be expected comes first, and goes again where the picture cannot
- * be written: neither stays alone. */
+/* Compute and write one picture. The expected error is written first, and removed if the picture cannot be written, so
+ * that neither is left alone. */
 static int make_picture(const Cli *cli, Job *job, const Row *row, const char *output, double began, RetexError *err)
 {
     RetexPicture *picture = NULL;
@@ -274,14 +274,14 @@ static int make_one(const Cli *cli, Job *job, const char *output, double began, 
 
 /* ---- --batch ---- */
 
-/* Textures of the row before, which the next may have too. */
+/* Textures of the previous row, which the next row may use again. */
 typedef struct Kept {
     RetexTextureSpec specs[RETEX_MAX_TARGETS];
     int count;
     RetexTexture *textures[RETEX_MAX_TARGETS]; /* by target */
 } Kept;
 
-/* A row's own textures, and those of the whole run where it says nothing. */
+/* Add the textures of --texture to a row, for targets that the row does not name. */
 static int complete_row(const Job *job, RetexTextureSpec *specs, int count)
 {
     for (int i = 0; i < job->textures.count; i++) {
@@ -294,7 +294,7 @@ static int complete_row(const Job *job, RetexTextureSpec *specs, int count)
     return count;
 }
 
-/* Load what the row before had not; kept has the row's textures then. */
+/* Load the textures that the previous row did not have. `kept` then has the row's textures. */
 static int load_row(const Cli *cli, const Job *job, Kept *kept, const RetexTextureSpec *specs, int count,
                     RetexError *err)
 {
@@ -319,7 +319,7 @@ static int load_row(const Cli *cli, const Job *job, Kept *kept, const RetexTextu
     for (int t = 0; t < RETEX_MAX_TARGETS; t++)
         if (loaded[t])
             next.textures[t] = loaded[t];
-    if (code) { /* nothing is kept of a row that lacks a texture */
+    if (code) { /* a texture failed: keep none of the row */
         retex_textures_close(next.textures);
         next.count = 0;
     }
@@ -327,7 +327,7 @@ static int load_row(const Cli *cli, const Job *job, Kept *kept, const RetexTextu
     return code;
 }
 
-/* The set's own names for the table's columns; 0 where some are wrong. */
+/* Replace the table's column names by the set's target names; 0 if some match no target. */
 static int find_columns(TextureTable *table, const RetexSet *set)
 {
     RetexTexture *textures[RETEX_MAX_TARGETS];
@@ -344,13 +344,13 @@ static int find_columns(TextureTable *table, const RetexSet *set)
             continue;
         }
         snprintf(unknown.target, sizeof unknown.target, "%s", table->columns[i]);
-        retex_textures_load(textures, set, &unknown, 1, 1, &err); /* which says what there is */
+        retex_textures_load(textures, set, &unknown, 1, 1, &err); /* makes the message, which lists the targets */
         texture_table_mistake(table, 1, "%s", err.message);
     }
     return table->nmistakes == before;
 }
 
-/* Whether the set has what these targets need: tried with colours, which load nothing. */
+/* Check that the set supports these textures. Colours replace the images, so that nothing is loaded. */
 static int check_row(void *context, const RetexTextureSpec *specs, int count, RetexError *err)
 {
     const RetexSet *set = ((const Job *)context)->set;
@@ -364,7 +364,7 @@ static int check_row(void *context, const RetexTextureSpec *specs, int count, Re
                 "the size of target %s is not known: width= cannot be used on it, only scale=", set->targets[t].name);
         colors[i] = specs[i];
         colors[i].constant = 1;
-        colors[i].warn = NULL; /* it is loaded again for the picture */
+        colors[i].warn = NULL; /* warnings come when it is loaded for the picture */
     }
     int code = retex_textures_load(textures, set, colors, count, 1, err);
     retex_textures_close(textures);
@@ -419,12 +419,13 @@ static int run_batch(const Cli *cli, Job *job)
     return batch_finish(batch, NULL);
 }
 
-/* Bands come and go by the hundred: memory given back to the system would be asked for, and cleared, again. */
+/* Keep freed memory in the process. Hundreds of bands are allocated and freed; the system would clear their memory each
+ * time. */
 static void keep_memory(void)
 {
 #ifdef __GLIBC__
     mallopt(M_TRIM_THRESHOLD, INT_MAX);
-    mallopt(M_MMAP_THRESHOLD, 32 << 20); /* the most there may be */
+    mallopt(M_MMAP_THRESHOLD, 32 << 20); /* the maximum */
 #endif
 }
 

@@ -41,7 +41,7 @@ static const char *parse(Cli *cli, RetexDenoiseParams *params, long *memory)
     return input;
 }
 
-/* What comes out is a set; a name that promises a picture is a slip of the pen, retex-combine being meant. */
+/* The output is a set. Refuse names of picture formats, which suggest that retex-combine is meant. */
 static void check_ending(const Cli *cli, const char *output)
 {
     static const char *const others[] = {".png", ".jpg", ".jpeg", ".tif", ".tiff", ".hdr", ".pfm", ".webp"};

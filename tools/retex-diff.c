@@ -1,4 +1,4 @@
-/* retex-diff: how different two pictures are, and whether that is too much. See retex-diff(1). */
+/* retex-diff: compare two pictures, and check the difference against limits. See retex-diff(1). */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -21,7 +21,7 @@ static const CliOption options[] = {
     {0},
 };
 
-/* What the options say; the two files in names. */
+/* Parse the options; names gets the two files. */
 static void parse(Cli *cli, RetexDiffParams *params, int *json, const char *names[2])
 {
     const CliOption *option;
@@ -58,7 +58,7 @@ static void parse(Cli *cli, RetexDiffParams *params, int *json, const char *name
     params->nthreads = cli->threads;
 }
 
-/* A figure, or null where the part has no colours. */
+/* Print a figure, or null if it is not defined: the part has no colours. */
 static void print_json_figure(const char *name, double value, int defined)
 {
     if (defined)
@@ -67,7 +67,7 @@ static void print_json_figure(const char *name, double value, int defined)
         printf("\"%s\": null, ", name);
 }
 
-/* The keys of one part, without braces. */
+/* Print the keys of one part, without braces. */
 static void print_json_part(const RetexDiffPart *part)
 {
     const RetexMetrics *m = &part->metrics;
@@ -94,7 +94,7 @@ static void print_json_part(const RetexDiffPart *part)
     json_text(stdout, part->reason);
 }
 
-/* The first part's figures at the top; with --all-parts all of them in a list too. */
+/* Print the first part's figures; with --all-parts also a list of all parts. */
 static void print_json(const RetexDiff *diff, int all_parts)
 {
     printf("{\"differs\": %s, ", diff->differs ? "true" : "false");
@@ -116,7 +116,7 @@ static void print_json(const RetexDiff *diff, int all_parts)
     printf("}\n");
 }
 
-/* One line a part: figures, and why it differs. */
+/* Print one line per part: its figures, and why it differs. */
 static void print_line(RetexDiffPart *part, int name)
 {
     const RetexMetrics *m = &part->metrics;

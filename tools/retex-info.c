@@ -1,4 +1,4 @@
-/* retex-info: what a set holds, for people or as JSON, and whether its checksums are right. */
+/* retex-info: describe a set, as text or JSON, and verify its checksums. See retex-info(1). */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -14,9 +14,9 @@ static const CliOption options[] = {
     {0},
 };
 
-/* Uncompressed bytes as stored, by what they are for; and how many AOVs the supplement would count. */
+/* Uncompressed bytes of each group of parts, and the number of AOVs as the paper's supplement counts them. */
 typedef struct Sizes {
-    long long file; /* bytes, or -1 where it cannot be known */
+    long long file; /* size of the file, or -1 if unknown */
     long long radiance, uv, spread, albedo, originals, other, samples;
     int radiance_aovs, uv_aovs, spread_aovs;
 } Sizes;
@@ -27,7 +27,7 @@ static long long part_bytes(const RetexPart *part)
            (part->type == RETEX_HALF ? 2 : 4);
 }
 
-/* Add a part to a group, once, however often it is referred to. */
+/* Add a part to a group. A part with several references is counted once. */
 static void count_part(const RetexSet *set, int part, char *counted, long long *bytes, int *aovs)
 {
     if (part < 0 || counted[part])
@@ -100,7 +100,7 @@ static void print_target(const RetexSet *set, const RetexTarget *target)
                target->original_max[0], target->original_max[1]);
 }
 
-/* Of layout footprints: how many clusters a pixel has at most of a target, whichever has most. */
+/* Layout footprints: print the highest number of clusters per pixel and target, for any target. */
 static void print_clusters(const RetexSet *set)
 {
     int sharp[RETEX_MAX_TARGETS] = {0}, broad[RETEX_MAX_TARGETS] = {0}, most_sharp = 0, most_broad = 0;
@@ -118,7 +118,7 @@ static void print_clusters(const RetexSet *set)
         printf("clusters       %d sharp, %d broad\n", most_sharp, most_broad);
 }
 
-/* Light whose hits were too many to be kept apart does not follow a new texture. */
+/* Warn of folded light, which does not follow a new texture: its path has more hits than the set keeps apart. */
 static void warn_folded(const Cli *cli, const RetexSet *set)
 {
     const double worst = set->folded > set->folded_white ? set->folded : set->folded_white;
@@ -170,7 +170,7 @@ static void print_samples(const RetexSamples *samples)
             printf("  %-12s %s\n", samples->target_names[i], samples->textures[i]);
 }
 
-/* Of a pack: what its parts take in the file. */
+/* For a pack: print the sizes of its parts in the file. */
 static void print_packed(const RetexSet *set)
 {
     uint64_t bytes[RETEX_PACK_GROUPS];
@@ -201,7 +201,7 @@ static void print_text(const RetexSet *set, const RetexSamples *samples, const S
     print_packed(set);
 }
 
-/* The manifest with the sizes before its own first key. */
+/* Print the manifest, with the sizes before its first key. */
 static int print_json(const Cli *cli, const RetexSet *set, const RetexSamples *samples, const Sizes *sizes)
 {
     RetexError error = {0};
@@ -232,7 +232,7 @@ static int print_json(const Cli *cli, const RetexSet *set, const RetexSamples *s
     return CLI_OK;
 }
 
-/* What strangers' files are called in is shown on terminals. */
+/* Names in users' files must not send control characters to a terminal. */
 static void make_plain(RetexSet *set, RetexSamples *samples)
 {
     for (int i = 0; set && i < set->ntargets; i++)
@@ -267,7 +267,7 @@ static int print_info(const Cli *cli, const char *path, int json)
     return status;
 }
 
-/* A damaged set is an answer; a file that cannot be read, or is no set at all, a failure. */
+/* The exit status is 1 for a damaged set, and 2 for a file that cannot be read or is not a set. */
 static int check(const Cli *cli, const char *path)
 {
     RetexError error = {0};

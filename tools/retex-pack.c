@@ -1,4 +1,4 @@
-/* retex-pack: a set as one small file, and back. See retex-pack(1). */
+/* retex-pack: compress a set to a pack, or decompress a pack. See retex-pack(1). */
 #include <stdio.h>
 #include <string.h>
 
@@ -71,7 +71,7 @@ static void report(const Cli *cli, const char *set_path, double set_bytes, const
         cli_info(cli, "pack %s: %.0f bytes%s", pack_path, pack_bytes, ratio);
 }
 
-/* The set, still in memory, against the pack as it was written. */
+/* Compare pictures from the set, which is still open, with pictures from the written pack. */
 static int write_stats(const Job *job, const RetexSet *set, const char *pack_path, double pack_bytes, RetexError *err)
 {
     static const char *const names[RETEX_PACK_LOSSES] = {"original", "white", "waves", "squares"};
@@ -112,7 +112,7 @@ static int write_stats(const Job *job, const RetexSet *set, const char *pack_pat
     return code;
 }
 
-/* The pack is read again for its statistics, so it must be a file. */
+/* --stats reads the pack again, so the output must be a file. */
 static void check_stats(Cli *cli, const Job *job, const char *output)
 {
     RetexError err = {0};

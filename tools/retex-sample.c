@@ -28,7 +28,7 @@ static const char *parse(Cli *cli, TextureArgs *textures)
     return set;
 }
 
-/* Samples are OpenEXR whatever the name; one that says otherwise is a slip of the pen, retex-combine being meant. */
+/* Samples are always OpenEXR. Refuse names of other formats, which suggest that retex-combine is meant. */
 static void check_ending(const Cli *cli, const char *output)
 {
     static const char *const others[] = {".png", ".jpg", ".jpeg", ".tif", ".tiff", ".hdr", ".pfm", ".webp", ".retex"};
@@ -68,7 +68,7 @@ int main(int argc, char **argv)
     double read = retex_clock_seconds();
     if (retex_sample_to_store(&samples, set, textures.specs, textures.count, output, cli.threads, &err))
         cli_fail(&cli, &err);
-    if (earlier) { /* a stream that has been through here before: other targets' samples go on with it */
+    if (earlier) { /* a stream from another retex-sample: keep the samples of its other targets */
         if (retex_samples_merge(earlier, samples, &err))
             cli_fail(&cli, &err);
         retex_samples_close(&samples);

@@ -1,4 +1,5 @@
-/* See watchdog.h. Signals are blocked in all threads and taken by one, so nothing here runs in a signal handler. */
+/* See watchdog.h. All threads block the signals; one thread receives them by sigtimedwait. Nothing runs in a signal
+ * handler. */
 #include "watchdog.h"
 
 #include <fcntl.h>
@@ -20,7 +21,7 @@ enum {
     STACK_BYTES = 256 << 10,
     IDLE_MILLISECONDS = 500,
     LEAST_MILLISECONDS = 5,
-    KEEP_MILLISECONDS = 900, /* for stopped work to say that it keeps something */
+    KEEP_MILLISECONDS = 900, /* time for stopped work to call retex_budget_hold */
     EXIT_STATUS = 2
 };
 
@@ -29,13 +30,13 @@ enum { THE_WORK = 1, THE_DOG }; /* who ends the tool */
 static struct {
     const char *tool;
     RetexBudget *budget;
-    sigset_t signals; /* that end the tool */
+    sigset_t signals; /* signals that end the tool */
     atomic_int started;
     atomic_int may_keep, bar_is_open;
-    atomic_int number;    /* the signal that came first, or 0 */
-    atomic_int too_large; /* more memory than allowed is in use */
+    atomic_int number;    /* the first signal received, or 0 */
+    atomic_int too_large; /* the process uses more memory than the limit */
     int status_file;      /* /proc/self/statm, or below 0 */
-    atomic_int ending;    /* who has taken it on to end the tool, or 0 */
+    atomic_int ending;    /* THE_WORK or THE_DOG, which ends the tool; or 0 */
     _Atomic(const char *) remove;
     _Atomic(WatchdogLast *) last;
 } dog;
@@ -92,7 +93,7 @@ static _Noreturn void wait_for_the_end(void)
         pause();
 }
 
-/* One write, past stdio, whose locks may be anybody's. */
+/* Print with one system call, not with stdio: another thread may hold its locks. */
 static void say(const char *text)
 {
     char line[2048];
@@ -104,7 +105,8 @@ static void say(const char *text)
     (void)!write(STDERR_FILENO, line, (size_t)n);
 }
 
-/* Once; who comes second waits. `kept`: what there is to say of what was kept, with what stands before it, or "". */
+/* End the tool. Callers must have succeeded in take_on. `kept` continues the message, about saved results, or is
+ * "". */
 static _Noreturn void end_tool(const char *kept)
 {
     const int number = atomic_load(&dog.number);
@@ -120,7 +122,7 @@ static _Noreturn void end_tool(const char *kept)
     WatchdogLast *last = atomic_load(&dog.last);
     if (last)
         last(text);
-    retex_pending_files_remove(); /* after which no file gets a name */
+    retex_pending_files_remove(); /* from now on no temporary file is renamed */
     const char *other = atomic_load(&dog.remove);
     if (other)
         unlink(other);
@@ -130,7 +132,7 @@ static _Noreturn void end_tool(const char *kept)
     _exit(EXIT_STATUS);
 }
 
-/* Whether it is `who` that ends the tool: the one who asks first. */
+/* Whether `who` ends the tool: true for the first one who asks. */
 static int take_on(int who)
 {
     int nobody = 0;
@@ -138,7 +140,7 @@ static int take_on(int who)
     return atomic_compare_exchange_strong(&dog.ending, &nobody, who) || nobody == who;
 }
 
-/* What the library says of work that was stopped begins so. */
+/* The library's message about stopped work begins with "stopped". Return the rest, or "". */
 static const char *what_was_kept(const char *why)
 {
     static const char begin[] = "stopped";
@@ -199,7 +201,7 @@ static int take_signal(int milliseconds)
     return number > 0 ? number : 0;
 }
 
-/* What of the process is in memory. */
+/* Resident memory of the process. */
 static uint64_t bytes_in_use(void)
 {
     char text[128] = "";
@@ -211,7 +213,7 @@ static uint64_t bytes_in_use(void)
     return (uint64_t)pages * (uint64_t)sysconf(_SC_PAGESIZE);
 }
 
-/* Until a limit may be reached: memory is cleared by a few bytes a nanosecond at the most. */
+/* Time until a limit can be reached. A process can touch at most a few bytes of new memory per nanosecond. */
 static int milliseconds_to_wait(uint64_t in_use)
 {
     const uint64_t most = retex_budget_memory(dog.budget);
@@ -223,7 +225,7 @@ static int milliseconds_to_wait(uint64_t in_use)
     return milliseconds < LEAST_MILLISECONDS ? LEAST_MILLISECONDS : (int)milliseconds;
 }
 
-/* The work has been told to stop, and may come to its end by itself. */
+/* Wait for stopped work, which may end the tool itself. */
 static void wait_for_work(void)
 {
     const double until = retex_clock_seconds() + 1e-3 * KEEP_MILLISECONDS;
@@ -269,7 +271,7 @@ void watchdog_start(void)
     pthread_attr_init(&attributes);
     pthread_attr_setstacksize(&attributes, STACK_BYTES);
     pthread_attr_setdetachstate(&attributes, PTHREAD_CREATE_DETACHED);
-    if (pthread_create(&thread, &attributes, watch, NULL) != 0) /* then signals do as they always did */
+    if (pthread_create(&thread, &attributes, watch, NULL) != 0) /* signals keep their default action */
         pthread_sigmask(SIG_UNBLOCK, &dog.signals, NULL);
     pthread_attr_destroy(&attributes);
 }

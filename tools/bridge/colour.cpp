@@ -1,6 +1,6 @@
-// Colour: the names a user says, looked up in the configuration ($OCIO, else our own), become transforms to and from
-// scene-linear Rec.709. sRGB itself is computed here: OpenColorIO's curve breaks at a slightly other point than the
-// standard's, and 8-bit values should come back as they went in.
+// Colour transforms to and from scene-linear Rec.709, for names of colour spaces in the configuration of $OCIO or the
+// built-in one. sRGB is computed here, not by OpenColorIO, whose curve has its break at a slightly different point than
+// the standard's: 8-bit values must be the same after a round trip.
 #include "bridge.hpp"
 
 #include <cmath>
@@ -33,7 +33,7 @@ struct Configurations {
 const Configurations &configurations()
 {
     static const Configurations all = [] {
-        OCIO::SetLoggingLevel(OCIO::LOGGING_LEVEL_NONE); // a library does not print
+        OCIO::SetLoggingLevel(OCIO::LOGGING_LEVEL_NONE); // libraries must not print
         Configurations c;
         std::istringstream text(own_configuration);
         c.own = OCIO::Config::CreateFromStream(text);
@@ -68,7 +68,7 @@ Transform from_processor(const OCIO::ConstProcessorRcPtr &processor)
 {
     if (processor->isNoOp())
         return {};
-    // Lossless: the faster approximations of log and pow are off by more than an 8-bit step in the darks.
+    // Lossless: the faster approximations of log and pow are wrong by more than an 8-bit step in dark colours.
     OCIO::ConstCPUProcessorRcPtr cpu = processor->getOptimizedCPUProcessor(OCIO::OPTIMIZATION_LOSSLESS);
     return [cpu](float *rgba, long pixels) {
         OCIO::PackedImageDesc desc(rgba, pixels, 1, 4);
@@ -81,7 +81,7 @@ bool is_name(const char *a, const char *b)
     return strcasecmp(a, b) == 0;
 }
 
-// What a configuration calls scene-linear Rec.709; its scene_linear role where it has no such space.
+// The configuration's scene-linear Rec.709 space; if it has none, the space of its scene_linear role.
 std::string linear_name(const OCIO::ConstConfigRcPtr &config)
 {
     for (const char *name : {"lin_rec709_scene", "Linear Rec.709 (sRGB)", "Linear Rec.709", "lin_rec709",
@@ -99,8 +99,8 @@ std::string list_colorspaces(const OCIO::ConstConfigRcPtr &config)
     return names;
 }
 
-// The configuration that knows the name: the user's first, else ours, so that `sRGB`, `linear`, `ACEScg` and `raw` mean
-// something under every $OCIO.
+// The configuration that has the name: the user's if possible, otherwise the built-in one, so that `sRGB`, `linear`,
+// `ACEScg` and `raw` exist with every $OCIO.
 OCIO::ConstConfigRcPtr config_with(const std::string &name)
 {
     const Configurations &all = configurations();
@@ -117,8 +117,8 @@ bool is_own_srgb(const OCIO::ConstConfigRcPtr &config, const std::string &name)
     return config == configurations().own && is_name(config->getColorSpace(name.c_str())->getName(), "sRGB");
 }
 
-// Between two configurations the common ground is ACES2065-1; where the user's has no such role, the name of its
-// scene-linear space has to do.
+// Two configurations are connected by ACES2065-1. If the user's has no such role, its scene-linear space is assumed to
+// be Rec.709.
 Transform between(const OCIO::ConstConfigRcPtr &config, const std::string &name, bool inward)
 {
     const Configurations &all = configurations();
@@ -135,7 +135,8 @@ Transform between(const OCIO::ConstConfigRcPtr &config, const std::string &name,
                                  : config->getProcessor(linear.c_str(), name.c_str()));
 }
 
-// Whether the configuration says where its colours lie against Rec.709; else its scene-linear space is taken for that.
+// Whether the configuration defines how its colours relate to Rec.709. Otherwise its scene-linear space is taken for
+// it.
 bool knows_rec709(const OCIO::ConstConfigRcPtr &config)
 {
     return config == configurations().own || linear_name(config) != OCIO::ROLE_SCENE_LINEAR ||
@@ -150,7 +151,7 @@ const char *const interop_ids[] = {
     "ocio:acescct_ap1_scene", "ocio:acescc_ap1_scene",
 };
 
-// The ID that is the name of the space or one of its aliases.
+// The interop ID among the space's name and aliases.
 std::string find_interop(const OCIO::ConstConfigRcPtr &config, const std::string &name)
 {
     OCIO::ConstColorSpaceRcPtr space = config->getColorSpace(name.c_str());
@@ -164,7 +165,7 @@ std::string find_interop(const OCIO::ConstConfigRcPtr &config, const std::string
     return "";
 }
 
-// The matrix that a transform is, if it is one: looked at where a curve or a table would show.
+// The matrix of a transform, if it is linear. Probe values reveal curves and tables.
 bool find_matrix(const Transform &transform, double matrix[3][3])
 {
     const int sizes = 4;
@@ -205,7 +206,7 @@ std::string list_views(const OCIO::ConstConfigRcPtr &config, const std::string &
     return names;
 }
 
-// The configuration's own spelling, so that case does not matter.
+// The configuration's spelling of a name, ignoring case.
 std::string find_display(const OCIO::ConstConfigRcPtr &config, const std::string &display)
 {
     if (display.empty())

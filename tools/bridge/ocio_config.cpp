@@ -1,5 +1,5 @@
-// The colour configuration used unless $OCIO is set. The reference space is scene-linear Rec.709, what libretex
-// computes in. OpenColorIO 2.1 brings none of its own, and a renderer should show the same picture on every machine.
+// The built-in OpenColorIO configuration, used unless $OCIO is set. Its reference space is scene-linear Rec.709, as in
+// libretex. OpenColorIO 2.1 has no built-in configuration, and pictures must be the same on every machine.
 #include "bridge.hpp"
 
 namespace bridge

@@ -1,4 +1,4 @@
-// Reading: any picture OpenImageIO knows becomes R,G,B,A floats, scene-linear Rec.709, alpha unassociated.
+// Reading: converts any picture that OpenImageIO reads to R,G,B,A floats, scene-linear Rec.709, unassociated alpha.
 #include "bridge.hpp"
 
 #include <algorithm>
@@ -33,7 +33,7 @@ int guarded(const char *path, RetexError *err, const std::function<void()> &body
     } catch (const std::bad_alloc &) {
         code = RETEX_ENOMEM;
         std::snprintf(message, sizeof message, "not enough memory");
-    } catch (const std::length_error &) { // a decoder's array, of more than there can be
+    } catch (const std::length_error &) { // from a decoder that asks for an impossibly large array
         code = RETEX_ENOMEM;
         std::snprintf(message, sizeof message, "not enough memory");
     } catch (const std::exception &e) {
@@ -64,7 +64,7 @@ void apply_transform(const Transform &transform, float *rgba, int width, int hei
 namespace
 {
 
-// An image of the caller's that is freed unless it is handed over.
+// Frees the caller's image unless it is released.
 class OwnedImage
 {
   public:
@@ -97,13 +97,13 @@ class OwnedImage
     const RetexBridgeHost *host_;
 };
 
-// Which channels of the file are R, G, B, A; -1 = there is none. All three the same: grey.
+// The file's channels for R, G, B and A; -1 = none. Three equal ones: grey.
 struct Channels {
     int rgba[4] = {-1, -1, -1, -1};
     bool cmyk = false;
 };
 
-// 0..3 if the channel's name, its layer left off, says red, green, blue or alpha; else -1.
+// 0..3 if the channel's name without its layer is red, green, blue or alpha; otherwise -1.
 int channel_role(const std::string &name)
 {
     size_t dot = name.rfind('.');
@@ -119,7 +119,7 @@ Channels find_channels(const OIIO::ImageSpec &spec)
 {
     Channels found;
     int n = spec.nchannels;
-    // Plain names first: in a file of many layers they are the picture itself.
+    // Names without a layer come first: in a file of many layers they are the picture itself.
     for (bool plain : {true, false})
         for (int i = 0; i < n && i < int(spec.channelnames.size()); i++) {
             const std::string &name = spec.channelnames[i];
@@ -174,7 +174,7 @@ void check_size(long width, long height, const RetexBridgeFile &file)
         throw Failure(RETEX_ELIMIT, "the picture is too large: " + size + " pixels, more than " + file.limit);
 }
 
-// The first line says what is wrong; what libraries add to it is where in them.
+// The first line of an error. Further lines are details of the library.
 [[noreturn]] void fail_read(std::string why)
 {
     why = why.substr(0, why.find('\n'));
@@ -183,7 +183,7 @@ void check_size(long width, long height, const RetexBridgeFile &file)
     throw Failure(RETEX_EFORMAT, "cannot read: " + why);
 }
 
-// Fill image with the file's channels in the order R,G,B,A, values as stored, integers scaled to 0..1.
+// Read the file's channels into image in the order R,G,B,A. Values are as stored, integers scaled to 0..1.
 void read_channels(OIIO::ImageInput &in, const OIIO::ImageSpec &spec, const Channels &channels, RetexImage &image)
 {
     int first = spec.nchannels, last = 0;
@@ -196,7 +196,7 @@ void read_channels(OIIO::ImageInput &in, const OIIO::ImageSpec &spec, const Chan
         throw Failure(RETEX_EFORMAT, "the picture has no colour channels");
     int count = last - first;
     size_t pixels = size_t(image.width) * image.height;
-    std::vector<float> wide; // only where the wanted channels do not fit the four places of a pixel
+    std::vector<float> wide; // only if the file's channels do not fit into R,G,B,A in place
     float *data = image.pixels;
     int stride = 4;
     if (count > 4) {
@@ -232,7 +232,7 @@ void unassociate(RetexImage &image)
     });
 }
 
-// How the values are encoded: as the user says, else as the file says, else by its type.
+// The encoding of the values: from the user, else from the file, else by the file's type.
 Transform decoding(const OIIO::ImageSpec &spec, const char *format, const char *colorspace)
 {
     if (colorspace && *colorspace && strcasecmp(colorspace, "sRGB") != 0)
@@ -243,7 +243,7 @@ Transform decoding(const OIIO::ImageSpec &spec, const char *format, const char *
         check_configuration();
         if (!integer)
             return {};
-        // Of all formats only PNG states its encoding reliably.
+        // Only PNG states its encoding reliably.
         std::string said = spec.get_string_attribute("oiio:ColorSpace");
         if (std::strcmp(format, "png") == 0 && said.compare(0, 3, "lin") == 0)
             return {};
@@ -259,14 +259,14 @@ Transform decoding(const OIIO::ImageSpec &spec, const char *format, const char *
     return transform_from("sRGB");
 }
 
-// Which pixel of the file stands at x, y of the upright picture: EXIF orientations 1..8.
+// Maps a pixel of the upright picture to the file's pixel, for EXIF orientations 1..8.
 struct Upright {
     Upright(int width_, int height_, int orientation_) : width(width_), height(height_), orientation(orientation_)
     {
         if (orientation < 2 || orientation > 8)
             orientation = 1;
     }
-    bool turned() const // rows and columns change places
+    bool turned() const // rows and columns are swapped
     {
         return orientation >= 5;
     }
@@ -296,7 +296,7 @@ void orient(const RetexBridgeHost *host, OwnedImage &picture, int orientation)
     picture.swap(to);
 }
 
-// An EXR may store less or more than what it shows: cut and pad (transparent) to the display window.
+// Crop and pad (transparent) an EXR's data window to its display window.
 void fit_window(const RetexBridgeHost *host, OwnedImage &picture, const OIIO::ImageSpec &spec)
 {
     OwnedImage shown(host, spec.full_width, spec.full_height);
@@ -310,8 +310,8 @@ void fit_window(const RetexBridgeHost *host, OwnedImage &picture, const OIIO::Im
     picture.swap(shown);
 }
 
-// A file that holds a picture of a size that can be read. With a format its decoder alone sees the file, as it is open,
-// and no name.
+// An open file with a picture of an acceptable size. With a format, only that format's decoder gets the file, as an
+// open file without a name.
 class OpenPicture
 {
   public:
@@ -320,7 +320,7 @@ class OpenPicture
         check_file(file);
         check_whole(file);
         OIIO::ImageSpec wish;
-        wish.attribute("oiio:UnassociatedAlpha", 1); // no needless multiplying and dividing of 8-bit values
+        wish.attribute("oiio:UnassociatedAlpha", 1); // avoids lossy conversions of 8-bit values
         if (file.format)
             open_as(file, wish);
         else
@@ -359,7 +359,7 @@ class OpenPicture
 
     std::unique_ptr<FILE, int (*)(FILE *)> stream_{nullptr, std::fclose};
     std::unique_ptr<OIIO::Filesystem::IOFile> proxy_;
-    std::unique_ptr<OIIO::ImageInput> in_; // last: goes first
+    std::unique_ptr<OIIO::ImageInput> in_; // last member: destroyed first
 };
 
 RetexImage read_picture(const RetexBridgeHost *host, const RetexBridgeFile &file)
@@ -386,7 +386,7 @@ RetexImage read_picture(const RetexBridgeHost *host, const RetexBridgeFile &file
     return picture.release();
 }
 
-// Memory of the caller's that is freed unless it is handed over.
+// Frees the caller's memory unless it is released.
 using OwnedPixels = std::unique_ptr<uint16_t, void (*)(void *)>;
 
 OwnedPixels new_pixels(const RetexBridgeHost *host, int width, int height)
@@ -397,7 +397,7 @@ OwnedPixels new_pixels(const RetexBridgeHost *host, int width, int height)
     return pixels;
 }
 
-// How integers of a file become linear ones of 16 bits: a level's place in the table is its own.
+// Converts integers of a file to linear 16-bit integers; the table is indexed by the file's value.
 std::vector<uint16_t> linear_levels(const Transform &decode, int levels)
 {
     std::vector<float> ramp(size_t(levels) * 4);
@@ -411,7 +411,7 @@ std::vector<uint16_t> linear_levels(const Transform &decode, int levels)
     return table;
 }
 
-// One row of a file's integers, the wanted channels alone, to premultiplied R,G,B,A.
+// Convert one row of a file's integers to premultiplied R,G,B,A, from the selected channels.
 template <typename Level>
 void convert_row(const Level *from, int count, const Channels &channels, int first, const uint16_t *table, int width,
                  uint16_t *to)
@@ -436,7 +436,7 @@ void convert_row(const Level *from, int count, const Channels &channels, int fir
     }
 }
 
-// Rows are converted while they are in the processor's cache, some at a time where the file allows.
+// Convert a few rows at a time, while they are in the processor's cache, if the file allows it.
 template <typename Level>
 void read_levels(OIIO::ImageInput &in, const OIIO::ImageSpec &spec, const Channels &channels, const Transform &decode,
                  uint16_t *pixels)

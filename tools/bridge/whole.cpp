@@ -1,5 +1,6 @@
-// Is a JPEG or PNG file whole? libjpeg makes grey of what is missing and says nothing; libpng prints to standard error.
-// So what they need is looked at first: the markers of the one up to its end, the chunks of the other with checksums.
+// Checks that a JPEG or PNG file is whole, before its decoder reads it. libjpeg silently replaces missing data by grey,
+// and libpng prints to standard error. A JPEG's markers are checked up to the end marker, a PNG's chunks with
+// checksums.
 #include "bridge.hpp"
 
 #include <cerrno>
@@ -16,7 +17,7 @@ namespace bridge
 namespace
 {
 
-// Bytes in order; -1 behind the end.
+// Reads bytes in order; -1 after the end.
 class Reader
 {
   public:
@@ -27,7 +28,7 @@ class Reader
     {
         return getc_unlocked(file_.get());
     }
-    // Big-endian; -1 where the file ends before.
+    // A big-endian number; -1 if the file ends before it.
     int64_t number(int bytes)
     {
         int64_t value = 0;
@@ -60,8 +61,8 @@ class Reader
     throw Failure(RETEX_EFORMAT, "cannot read: the file is truncated");
 }
 
-// From behind the start-of-image marker to the end-of-image marker. Data that is not made of markers is left to
-// libjpeg, which says so.
+// Check from after the start-of-image marker to the end-of-image marker. Data without markers is left to libjpeg, which
+// reports it.
 void check_jpeg(Reader &in)
 {
     enum { Stuffed = 0x00, Temporary = 0x01, Restart = 0xd0, RestartEnd = 0xd8, End = 0xd9, Scan = 0xda };
@@ -94,7 +95,7 @@ uint32_t crc_of(uint32_t crc, int byte)
     return crc;
 }
 
-// The table of crc_of for every byte.
+// A table of crc_of for all byte values.
 struct CrcTable {
     uint32_t of[256];
     CrcTable()
@@ -104,7 +105,7 @@ struct CrcTable {
     }
 };
 
-// Chunks from behind the signature to IEND.
+// Check the chunks from after the signature to IEND.
 void check_png(Reader &in)
 {
     static const CrcTable table;
@@ -146,7 +147,7 @@ std::unique_ptr<FILE, int (*)(FILE *)> open_file(const RetexBridgeFile &file)
         throw Failure(RETEX_EIO, std::string("cannot read: ") + std::strerror(why));
     }
     if (file.format)
-        std::rewind(stream.get()); // the place is common to all copies
+        std::rewind(stream.get()); // all copies of the descriptor share the file position
     return stream;
 }
 

@@ -1,6 +1,6 @@
-// Writing: a scene-linear picture leaves in any format OpenImageIO writes, through the display transform where the
-// format holds 8 or 16 bits. The file is made in memory and then handed on, because few of the format libraries notice
-// a full disk.
+// Writing: converts a scene-linear picture to any format that OpenImageIO writes. Formats of 8 and 16 bits go through
+// the display transform. The file is encoded in memory and then written, because few format libraries detect a full
+// disk.
 #include "bridge.hpp"
 
 #include <algorithm>
@@ -57,10 +57,10 @@ template <typename Value> Value quantise(float v)
     return v >= 1 ? Value(~Value(0)) : Value(v * top + 0.5f);
 }
 
-// Where the bytes go.
+// The destination of the encoded bytes.
 using Sink = std::function<void(const void *data, size_t bytes)>;
 
-// A file without a name, in memory.
+// A file in memory.
 class MemoryFile
 {
   public:
@@ -115,7 +115,7 @@ void MemoryFile::copy_to(const Sink &sink) const
     }
 }
 
-// Portable float map, which OpenImageIO reads but does not write: rows from the bottom.
+// Writes portable float maps, which OpenImageIO only reads. Rows go from bottom to top.
 void write_pfm(MemoryFile &memory_file, int width, int height, int channels, const float *pixels)
 {
     const uint16_t probe = 1;
@@ -128,7 +128,7 @@ void write_pfm(MemoryFile &memory_file, int width, int height, int channels, con
         memory_file.append(pixels + y * row, row * sizeof(float));
 }
 
-// A file of our own with a name, for as long as it takes: a format whose library insists on its ending (JPEG 2000).
+// A temporary file with a name, for formats whose library requires a file of its ending (JPEG 2000).
 class TemporaryFile
 {
   public:
@@ -149,13 +149,13 @@ class TemporaryFile
         unlink(path.c_str());
         all().erase(std::find(all().begin(), all().end(), this));
     }
-    // Of all there are; the process is about to end.
+    // Remove all temporary files; the process is about to end.
     static void remove_all()
     {
         std::unique_lock<std::mutex> lock(mutex(), std::try_to_lock);
         for (const TemporaryFile *one : all())
             unlink(one->path.c_str());
-        lock.release(); // kept, so that no other is made
+        lock.release(); // never unlocked, so that no other file is created
     }
     TemporaryFile(const TemporaryFile &) = delete;
     TemporaryFile &operator=(const TemporaryFile &) = delete;
@@ -191,14 +191,14 @@ std::unique_ptr<OIIO::ImageOutput> find_writer(const std::string &path)
         throw Failure(RETEX_EINVAL, "cannot tell the picture's format: the name has no ending, such as .png or .exr");
     auto out = OIIO::ImageOutput::create(path);
     if (!out) {
-        OIIO::geterror(); // takes it off OpenImageIO's list
+        OIIO::geterror(); // clears OpenImageIO's error
         throw Failure(RETEX_EINVAL,
                       "no picture format has the ending ." + end + "; try .png, .jpg, .tif, .exr or .hdr");
     }
     return out;
 }
 
-// Formats that OpenImageIO hands colours to as they are, alpha apart. Others want or keep them multiplied by it.
+// Formats to which OpenImageIO passes unassociated colours unchanged. Others need or keep colours multiplied by alpha.
 bool keeps_unassociated(const std::string &format)
 {
     return format == "png" || format == "tiff" || format == "targa";
@@ -219,7 +219,7 @@ std::string text(const char *given)
     return given ? given : "";
 }
 
-// What the pixels are turned into before they are stored.
+// The transform of pixels before they are stored.
 Transform encoding(const RetexWriteParams &params, Depth depth)
 {
     if (params.colorspace && *params.colorspace)
@@ -238,14 +238,14 @@ bool encodes_srgb(const RetexWriteParams &params, Depth depth)
 } // namespace
 } // namespace bridge
 
-// How a picture goes into its file.
+// The conversion of a picture to its file.
 struct RetexBridgePlan {
     std::string path, format;
     int width, height, channels; // of the picture
     int stored;                  // channels of the file
     bridge::Depth depth;
     bridge::Transform encode;
-    // The colours are multiplied by alpha before they are encoded, or after.
+    // Whether colours are multiplied by alpha before they are encoded, or after.
     bool multiply_light, multiply_codes;
     int quality;
     bool names_colorspace;
@@ -276,7 +276,7 @@ std::unique_ptr<RetexBridgePlan> make_plan(const char *path, int width, int heig
         plan->stored = 3;
     if (channels == 1 && (plan->format == "hdr" || plan->format == "webp"))
         plan->stored = 3;
-    // Where alpha is lost the picture is shown over black; WebP's writer divides by it in linear light.
+    // A format without alpha gets the picture over black. WebP's writer divides by alpha in linear light.
     plan->multiply_light = channels == 4 && (plan->stored != 4 || plan->format == "webp");
     plan->multiply_codes = plan->stored == 4 && !keeps_unassociated(plan->format) && plan->format != "webp";
     plan->encode = encoding(params, plan->depth);
@@ -295,7 +295,7 @@ RetexBridgeStored describe_stored(const RetexBridgePlan &plan, const RetexWriteP
     return stored;
 }
 
-// Pixels as the format stores them: the wanted channels, with alpha applied or not.
+// Convert pixels to the format's channels, with alpha applied or not.
 template <typename Value, typename Convert>
 void store(Value *out, const RetexBridgePlan &plan, const std::vector<float> &rgba, Convert convert)
 {
@@ -317,7 +317,7 @@ void convert_pixels(const RetexBridgePlan &plan, const float *from, size_t pixel
     }
     if (plan.encode)
         plan.encode(rgba.data(), long(pixels));
-    // Halves end at 65504: a bright highlight stays a number.
+    // Clamp to 65504, the largest half, so that bright highlights do not become infinite.
     float limit = plan.depth == Depth::Half ? 65504.0f : 3e38f;
     if (plan.depth == Depth::Eight)
         store(static_cast<uint8_t *>(samples), plan, rgba, quantise<uint8_t>);
@@ -364,7 +364,8 @@ void write_picture(const RetexBridgePlan &plan, const void *samples, const Sink 
         return;
     }
     OIIO::ImageSpec spec = describe(plan);
-    // TIFF's strips are compressed in a pool that has one thread less than there are cores, and not at all in one of 1.
+    // TIFF strips are compressed by a pool with one thread less than the cores; a pool of 1 thread does not compress
+    // them.
     if (plan.format == "tiff" && std::thread::hardware_concurrency() > 1 && OIIO::default_thread_pool()->size() < 2)
         OIIO::default_thread_pool()->resize(2);
     auto write_to = [&](const std::string &name) {
@@ -381,7 +382,7 @@ void write_picture(const RetexBridgePlan &plan, const void *samples, const Sink 
     memory_file.copy_to(sink);
 }
 
-// The transform is looked at only where someone has named a part of it: the built-in default is sound.
+// Check the transform only if the user named a part of it; the built-in default is valid.
 void check_picture(const char *path, const RetexWriteParams &params)
 {
     Depth depth = is_pfm(path) ? Depth::Float : depth_of(find_writer(path)->format_name());
@@ -423,7 +424,7 @@ void retex_oiio_plan_free(RetexBridgePlan **plan)
 int retex_oiio_convert(const RetexBridgePlan *plan, const float *rows, long pixels, void *samples, RetexError *err)
 {
     return bridge::guarded(plan->path.c_str(), err, [&] {
-        // Few at a time: they stay in the cache.
+        // A few rows at a time, which stay in the cache.
         const long some = 4096;
         size_t bytes = size_t(plan->stored) * bridge::sample_type(*plan).size();
         for (long done = 0; done < pixels; done += some)
@@ -445,7 +446,7 @@ int retex_oiio_write(const RetexBridgePlan *plan, const void *samples, RetexBrid
         });
     });
     if (sink_code && err)
-        *err = sink_error; // it names the file itself
+        *err = sink_error; // the sink's error already names the file
     return code;
 }
 
