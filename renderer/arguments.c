@@ -1,4 +1,4 @@
-/* The command line of retex-render: its options, and what they exclude. */
+/* The command line of retex-render: its options, and which of them cannot be combined. */
 #include <ctype.h>
 #include <stdint.h>
 #include <stdio.h>
@@ -113,7 +113,7 @@ static void push(Cli *cli, const char **list, int *count, const char *what)
     list[(*count)++] = cli->value;
 }
 
-/* N whole numbers with one separator; anything behind them is an error. */
+/* Parse `count` whole numbers between separators. Any further text is an error. */
 static void numbers(Cli *cli, const CliOption *option, char separator, int count, int *out)
 {
     if (!job_numbers(cli->value, separator, count, out))
@@ -134,7 +134,7 @@ static void parse_replace(Arguments *a)
     spec->budget = a->cli->budget;
 }
 
-/* Which of some names the value is. */
+/* The index of the option's value among names; an error if it is none of them. */
 static int choose(const Cli *cli, const CliOption *o, int count, const char *const *names)
 {
     char known[128] = "", meant[RETEX_MEANT_SIZE];
@@ -232,7 +232,7 @@ static void parse_option(Arguments *a, const CliOption *o)
 static void scene_message(void *context, int level, const char *text)
 {
     const Cli *cli = context;
-    if (level > 0) /* a warning, -q or not; the text says so */
+    if (level > 0) /* a warning, printed also with -q */
         cli_message(cli, text);
     else
         cli_detail(cli, "%s", text);
@@ -243,7 +243,7 @@ static void progress(void *context, double done)
     cli_progress(context, "render", done);
 }
 
-/* One more target, unless it is there. */
+/* Add a target, unless it is in the list. */
 static void add_target(Arguments *a, const char *name)
 {
     for (int k = 0; k < a->ntargets; k++)
@@ -273,7 +273,7 @@ static void check_noise(const Arguments *a)
                         "samples per pixel");
 }
 
-/* Rendering in pieces: of a picture or a set, whose rows are all there is to keep. */
+/* --resume, --shard and --merge: only pictures and sets in layout footprints can be rendered in pieces of rows. */
 static void check_pieces(const Arguments *a)
 {
     const RenderParams *r = &a->render;
@@ -293,7 +293,7 @@ static void check_pieces(const Arguments *a)
         cli_die(a->cli, "--shard writes rows only: give --aov, --aov-dir and --stats with --merge");
 }
 
-/* Whichever of the two is no scene by its name may lack an option. */
+/* Two positional arguments. The one that does not end in .pov may be the argument of a missing option. */
 static _Noreturn void surplus_scene(const Arguments *a)
 {
     char forgotten[1024] = "";
@@ -310,7 +310,7 @@ void parse_arguments(Arguments *a)
     cli->options = options;
     const RenderParams defaults = RENDER_PARAMS_INIT;
     a->render = defaults;
-    a->render.sharp = 0; /* until --clusters says how many */
+    a->render.sharp = 0; /* 0 until --clusters is given */
     a->sdl = (SdlOptions)SDL_OPTIONS_INIT;
     while ((o = cli_next(cli))) {
         if (o != &cli_positional)
@@ -330,7 +330,7 @@ void parse_arguments(Arguments *a)
         batch_open(&a->batch, cli, a->variants);
     else
         batch_check_options(&a->batch, cli, "variants");
-    if ((a->nreplacements || a->variants) && !a->ntargets) { /* replacing names the targets */
+    if ((a->nreplacements || a->variants) && !a->ntargets) { /* --replace and --variants name the targets */
         for (int k = 0; k < a->nreplacements; k++)
             a->targets[a->ntargets++] = a->replacements[k].target;
         for (int k = 0; k < a->batch.table.ncolumns; k++)
@@ -365,6 +365,6 @@ void parse_arguments(Arguments *a)
     a->render.nthreads = cli->threads;
     a->render.budget = a->sdl.budget = cli->budget;
     a->sdl.max_steps = cli->limits.steps;
-    a->sdl.max_memory = SIZE_MAX; /* the budget's limit is all there is */
+    a->sdl.max_memory = SIZE_MAX; /* only the budget limits memory */
     a->render.progress = progress, a->render.progress_context = cli;
 }

@@ -1,4 +1,5 @@
-/* What makes one render another: by it the rows that an interrupted render or a shard left are recognised. */
+/* The fingerprint of a render: a digest of all that its rows depend on. --resume and --merge accept only rows with the
+ * same fingerprint. */
 #include <stdio.h>
 #include <string.h>
 #include "base/digest.h"
@@ -9,7 +10,7 @@ static uint64_t digest_file(uint64_t digest, const char *path)
     unsigned char buffer[65536];
     size_t got;
     FILE *file = fopen(path, "rb");
-    if (!file) /* it was read before, and is gone now: the texture in memory is what counts */
+    if (!file) /* removed after it was read: the texture in memory counts */
         return digest_text(digest, path);
     while ((got = fread(buffer, 1, sizeof buffer, file)) > 0)
         digest = digest_bytes(digest, buffer, got);

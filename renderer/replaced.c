@@ -1,4 +1,4 @@
-/* Other textures than the scene's: --replace, tables of pictures with --variants, and --control. */
+/* Renders with new textures: --replace, tables of pictures with --variants, and --control. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -17,7 +17,7 @@ static int find_target(const Scene *scene, const char *name)
     return count == 1 ? found : -1;
 }
 
-/* Of a name that is no target: what was probably meant, or what would help. */
+/* Advice for a name that is no target: the name probably meant, or the option to add. */
 static const char *target_meant(const Scene *scene, const char *name, char meant[RETEX_MEANT_SIZE])
 {
     RetexNearest nearest = {name, NULL, 0};
@@ -26,7 +26,7 @@ static const char *target_meant(const Scene *scene, const char *name, char meant
     return nearest.best ? retex_meant(nearest.best, meant) : "; name it with -t";
 }
 
-/* Load a texture for target t; one that is asked for by its width needs the scale of the target's UV. */
+/* Load a texture for target t. The option `width` of a texture needs the scale of the target's UV. */
 static int load_texture(Arguments *a, const Scene *scene, int t, RetexTextureSpec *spec, RetexTexture **texture,
                         RetexError *err)
 {
@@ -59,10 +59,10 @@ void replace_textures(Arguments *a, const Scene *scene, RetexTexture **loaded)
 
 /* ---- --variants ---- */
 
-/* The pictures of one traversal. */
+/* The pictures that are rendered along the same paths. */
 typedef struct Variants {
     int count;
-    int rows[VARIANTS_MAX]; /* of the table */
+    int rows[VARIANTS_MAX]; /* rows of the table */
     RetexTexture *loaded[VARIANTS_MAX][RETEX_MAX_TARGETS];
     RenderVariant variants[VARIANTS_MAX];
     RetexImage pictures[VARIANTS_MAX];
@@ -74,7 +74,7 @@ static void close_variant(Variants *v, int k)
     retex_image_free(&v->pictures[k]);
 }
 
-/* What a row puts on its targets, and what --replace does where it says nothing. */
+/* The textures of a row, and those of --replace for targets that the row does not name. */
 static int load_variant(Arguments *a, const Scene *scene, Variants *v, int row, RetexError *err)
 {
     RetexTextureSpec specs[RETEX_MAX_TARGETS];
@@ -101,7 +101,8 @@ static int write_variant(Arguments *a, Variants *v, int k, RetexError *err)
     return code ? code : retex_image_write(&v->pictures[k], path, NULL, err);
 }
 
-/* Render and write what is loaded; began: since then it took. 0: the batch ends here. */
+/* Render and write the loaded pictures. began: their start, for the times in the report. Return 0 if the batch ends
+ * here. */
 static int render_loaded(Arguments *a, const Scene *scene, Variants *v, double began)
 {
     RenderStats stats;

@@ -1,4 +1,4 @@
-/* retex-render: from a scene file to a set, a plain picture, or a picture with replaced textures. */
+/* retex-render: renders a scene to a set, a plain picture, or a picture with replaced textures. See retex-render(1). */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -38,7 +38,7 @@ static void list_targets(Arguments *a, const Scene *scene)
     free(list);
 }
 
-/* All files of the command, but for those that the scene names. */
+/* Announce all files of the command line. Files that the scene names are not among them. */
 static void announce_files(Arguments *a, const char *output)
 {
     char path[4096];
@@ -63,7 +63,7 @@ static void announce_files_of_scene(Arguments *a, const Scene *scene)
     a->batch.inputs_known = 1;
 }
 
-/* What an output's name asks for: a pack by its ending, a set where EXR can be one, else a picture. */
+/* The kind of output by its name: a pack, a set if it is EXR and a set is rendered, otherwise a picture. */
 typedef enum OutputKind { OUTPUT_SET, OUTPUT_PACK, OUTPUT_PICTURE } OutputKind;
 
 static OutputKind output_kind(const Arguments *a, const char *output)
@@ -74,7 +74,7 @@ static OutputKind output_kind(const Arguments *a, const char *output)
     return exr && (!a->render.plain || a->render.aovs || a->render.control_data) ? OUTPUT_SET : OUTPUT_PICTURE;
 }
 
-/* Finished rows are kept beside a file. */
+/* Finished rows are kept in a file beside the output. */
 static void name_checkpoint(Arguments *a, const char *output)
 {
     struct stat old;
@@ -93,7 +93,7 @@ static void name_checkpoint(Arguments *a, const char *output)
         cli_warn(a->cli, "%s is unchanged: --resume continues from it", a->checkpoint);
 }
 
-/* Render, or only some rows of it: then there is no set. */
+/* Render; with --shard only some rows, and then there is no set. */
 static int render(Arguments *a, const Scene *scene, RetexSet **set, RenderStats *stats, RetexError *err)
 {
     if (a->render.checkpoint)
@@ -110,7 +110,7 @@ static int render(Arguments *a, const Scene *scene, RetexSet **set, RenderStats 
     return code;
 }
 
-/* Before the work: whether the result can be written, and what of it would be lost. */
+/* Before the render: check that the output can be written and holds all that is asked for. */
 static void check_output(const Arguments *a, const char *output)
 {
     RetexError err;
@@ -184,7 +184,7 @@ static void check_targets(const Arguments *a, const Scene *scene)
                      t ? ": its surfaces belong to targets named before it" : "");
 }
 
-/* A batch says so in its report, too. */
+/* Fail. A batch also writes the error to its report. */
 static _Noreturn void fail(Arguments *a, const RetexError *err)
 {
     if (!a->variants)
@@ -217,7 +217,8 @@ int main(int argc, char **argv)
         check_output(&a, output), check_stats(&a);
     if (a.control)
         read_control(&a);
-    /* a set keeps it for later, but packs leave it out, and a picture without targets can only be filtered here */
+    /* sets in OpenEXR keep the data for retex-denoise; packs omit it, and pictures without targets are only filtered
+     * here */
     int keeps = output && a.ntargets && !a.render.plain && (a.render.nshards || output_kind(&a, output) == OUTPUT_SET);
     a.render.denoise_data = a.denoise || (keeps && !a.no_denoise_data);
     a.render.stored = keeps && !a.denoise;

@@ -1,5 +1,5 @@
-/* What the parts of retex-render share: what was said on the command line, and what is done for it. Every mistake
- * prints one line and exits with CLI_FAIL. */
+/* The files of retex-render: the command line and its actions. Every function prints one line about an error and exits
+ * with CLI_FAIL. */
 #ifndef RENDERER_RETEX_RENDER_H
 #define RENDERER_RETEX_RENDER_H
 
@@ -18,20 +18,20 @@ typedef struct Arguments {
     const char *scene, *stats, *variants, *control, *aov_dir;
     ControlMode control_mode;
     int seeded;
-    Batch batch; /* of --variants */
+    Batch batch; /* the table of --variants */
     const char *targets[LIST_MAX], *includes[LIST_MAX], *declares[LIST_MAX];
     int ntargets, nincludes, ndeclares, nreplacements, list, trace[3], tracing;
     RetexTextureSpec replacements[RETEX_MAX_TARGETS];
     RenderVariant replaced;
-    double uv_scales[RETEX_MAX_TARGETS][2]; /* once measured */
+    double uv_scales[RETEX_MAX_TARGETS][2]; /* set when measured */
     int measured;
     RetexSet *control_set;
-    char set_targets[RETEX_MAX_TARGETS][RETEX_NAME_MAX + 512]; /* its targets, as of -t */
+    char set_targets[RETEX_MAX_TARGETS][RETEX_NAME_MAX + 512]; /* the set's targets, as arguments of -t */
     int named;                                                 /* -t was given */
     int denoise, no_denoise_data;
     const char *merged[LIST_MAX];
     int nmerged;
-    char checkpoint[4096]; /* OUTPUT.partial, or "" where the output is no file */
+    char checkpoint[4096]; /* OUTPUT.partial, or "" if the output is not a file */
 } Arguments;
 
 /* ---- arguments.c ---- */
@@ -42,23 +42,23 @@ void parse_arguments(Arguments *arguments);
 
 /* Check the table of --variants, before the scene is read. */
 void check_table(Arguments *arguments);
-/* Make its pictures, or with --dry-run say what they would be; returns the exit status. */
+/* Make its pictures, or with --dry-run list them. Return the exit status. */
 int make_variants(Arguments *arguments, const Scene *scene);
-/* The set of --control. Its targets are those of the render, unless some are named: then it tells the most. */
+/* Open the set of --control. Without -t, its targets become those of the render, which reduces noise the most. */
 void read_control(Arguments *arguments);
-/* A picture from new samples and that set. */
+/* Render a picture with that set as control variate. */
 void render_controlled(Arguments *arguments, const Scene *scene, const char *output);
 /* Load replacement textures onto their targets. */
 void replace_textures(Arguments *arguments, const Scene *scene, RetexTexture **loaded);
 
 /* ---- fingerprint.c ---- */
 
-/* Of everything that the rendered rows depend on. */
+/* A digest of everything that the rendered rows depend on. */
 uint64_t render_fingerprint(const Arguments *arguments, const Scene *scene);
 
 /* ---- stats.c ---- */
 
-/* Before the work: whether the statistics can be written. */
+/* Before the render: check that the statistics can be written. */
 void check_stats(const Arguments *arguments);
 void write_stats(Arguments *arguments, const RenderStats *stats, const RetexSet *set, double parse_seconds);
 

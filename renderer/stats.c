@@ -30,7 +30,7 @@ void write_stats(Arguments *a, const RenderStats *s, const RetexSet *set, double
     if (!text)
         cli_die(a->cli, "out of memory for the statistics");
     size_t length = strlen(text);
-    text[length++] = '\n'; /* in place of the closing zero */
+    text[length++] = '\n'; /* replaces the terminating zero */
     int failed = retex_file_write(a->stats, text, length, &err);
     free(text);
     if (failed)

@@ -1,4 +1,4 @@
-/* Whether a scene has anything that gives light. A picture that is black by mistake takes as long as a good one. */
+/* Finds out whether a scene has any emitter, to warn before a black picture is rendered. */
 #include <stdio.h>
 #include "job/job.h"
 #include "light/lights.h"
@@ -18,7 +18,7 @@ static int is_ambient(const Finish *finish)
     return !rgb_is_black(finish->ambient);
 }
 
-/* Whether a surface of the scene, inner sides and faces of meshes included, has it. */
+/* Whether any surface of the scene emits light, including inner sides and faces of meshes. */
 static int any_surface(const Scene *scene, int (*has)(const Finish *))
 {
     for (int k = 0; k < scene->nprimitives; k++) {
@@ -40,7 +40,7 @@ static int any_light_source(const Scene *scene)
     return 0;
 }
 
-/* The sky's own table tells: pigments may be black here and there. */
+/* Check the sky's sampling table, because a pigment may be black in places. */
 static int any_sky(const Scene *scene)
 {
     Environment *environment = NULL;

@@ -1,5 +1,5 @@
-/* Options of a render, from text: the same names, values and complaints on the command line and in a name that
- * OpenImageIO opens. */
+/* Parses render options. Names, values and messages are the same on the command line and in names that OpenImageIO
+ * opens. */
 #include <ctype.h>
 #include <errno.h>
 #include <math.h>
@@ -91,7 +91,7 @@ static int set_crop(const Option *o)
     return RETEX_OK;
 }
 
-/* Which of two names the value is. */
+/* The index of the value among two names. */
 static int set_choice(const Option *o, const char *first, const char *second, int *field)
 {
     char meant[RETEX_MEANT_SIZE];
@@ -102,7 +102,7 @@ static int set_choice(const Option *o, const char *first, const char *second, in
     return RETEX_OK;
 }
 
-/* 4, of either kind, or 2+1. */
+/* Clusters: one number for both kinds together, or S+B. */
 static int set_clusters(const Option *o)
 {
     int all, sharp, broad, used = 0;
@@ -150,7 +150,7 @@ static int add_aovs(const Option *o)
     return RETEX_OK;
 }
 
-/* Options that take a value. */
+/* Options with a value. */
 static int set_value(const Option *o)
 {
     RenderParams *r = o->render;
