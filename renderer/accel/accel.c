@@ -12,7 +12,7 @@
 #include "shade/pigment.h"
 #include "shape/shape.h"
 
-#define SPATIAL_SPLIT_LIMIT 4000000 /* triangles: beyond it building would take too long for what tracing gains */
+#define SPATIAL_SPLIT_LIMIT 4000000 /* triangles: above it, building takes longer than tracing gains */
 
 static double largest(Vec3 a)
 {
@@ -67,7 +67,7 @@ static int lets_through(const Texture *texture)
     return texture && ((texture->finish && finish_transmits(texture->finish)) || !pigment_is_opaque(texture->pigment));
 }
 
-/* Has the primitive one texture, and does that bend what it lets through? */
+/* Whether the primitive has one texture, which refracts what it lets through. */
 static int always_bends(const Primitive *primitive)
 {
     const Finish *finish = primitive->texture->finish;
@@ -131,13 +131,13 @@ static int survey(Accel *accel, RetexError *err)
     return 0;
 }
 
-/* Bounds take the smaller and the larger of numbers, and so overlook NaN among others. */
+/* Bounds are made by minimum and maximum, which pass over NaN: so vertices are checked. */
 static int finite_point(Vec3 p)
 {
     return isfinite(p.x) && isfinite(p.y) && isfinite(p.z);
 }
 
-/* Left out where it has no area. */
+/* Add a triangle, unless it has no area. */
 static void add_triangle(Accel *accel, size_t *count, size_t base, const int corner[3], int index, int face)
 {
     const Primitive *primitive = &accel->source->primitives[index];
@@ -224,7 +224,7 @@ static void add_curved_geometry(Accel *accel)
     rtcReleaseGeometry(geometry);
 }
 
-/* Embree is about to take memory, or has given some back. It asks from its threads; a refusal ends the build. */
+/* Called by threads of Embree before it takes memory and after it gives some back; a refusal ends the build. */
 static bool charge_embree(void *context, ssize_t bytes, bool after)
 {
     Accel *accel = context;
@@ -248,7 +248,7 @@ static bool go_on(void *context, double done)
     return !retex_budget_is_stopped(accel->budget);
 }
 
-/* What Embree complained of comes of the budget, if that is used up. */
+/* An error of Embree is one of the budget, if that is used up. */
 static int why_not_built(Accel *accel, RetexError *err)
 {
     int status = retex_budget_check(accel->budget, err);

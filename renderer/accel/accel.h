@@ -18,8 +18,9 @@ int accel_create_within(Accel **accel, const Scene *scene, int nthreads, RetexBu
 void accel_close(Accel **accel);
 /* Nearest hit in (tmin, tmax). Returns 1 and fills hit, else 0 and hit->primitive = -1. */
 int accel_intersect(const Accel *accel, const Ray *ray, RayKind kind, Hit *hit);
-/* Is anything in between? skip_transparent: 0 = any hit blocks; 1 = primitives whose pigment (of either side, of any
- * face) is not opaque are skipped, and those of the finish that transmits; the caller walks them itself. */
+/* Whether anything lies in (tmin, tmax). skip_transparent: 0 = any hit blocks; 1 = the caller follows the ray itself
+ * through primitives that may let light through: those with a pigment (of either side, of any face) that is not opaque,
+ * and those with a finish that transmits. */
 int accel_occluded(const Accel *accel, const Ray *ray, RayKind kind, int skip_transparent);
 /* What a shadow ray meets: nothing, something that blocks it, or only primitives that may let light through, which the
  * caller then follows itself. Light sources shine through refracting glass unbent; other lights do not. */
@@ -35,8 +36,8 @@ void accel_visibility_packet(const Accel *accel, const Ray *rays, const int *lig
 int accel_is_transparent(const Accel *accel, int primitive);
 /* World bounds of all bounded primitives and the camera. */
 void accel_bounds(const Accel *accel, Vec3 *low, Vec3 *high);
-/* Where to start a ray that leaves a surface in a direction, so that it does not meet it again. To walk on along a ray,
- * tmin = the t of the last hit works as well. */
+/* The origin of a ray that leaves a surface, far enough from it that the ray does not meet it again. To go on along the
+ * same ray, set tmin to the t of the last hit instead. */
 static inline double accel_margin(Vec3 position)
 {
     /* A few roundings of a float, so that Embree seldom proposes the surface that is left. What decides is in double:

@@ -1,4 +1,4 @@
-/* What Embree is given and asked; private to renderer/accel. Builds with Embree 3 and 4. */
+/* The data that Embree works on, and its callbacks; private to renderer/accel. Builds with Embree 3 and 4. */
 #ifndef RENDERER_ACCEL_EMBREE_H
 #define RENDERER_ACCEL_EMBREE_H
 
@@ -12,7 +12,7 @@ typedef struct RTCIntersectContext QueryContext;
 #include <stdatomic.h>
 #include "accel/accel.h"
 
-/* In flags, beside the RayKinds that see the primitive: it could let light through, and that unbent. */
+/* Flags beside the RayKinds that see the primitive: it may let light through, and may do so without bending it. */
 #define TRANSPARENT 0x80u
 #define STRAIGHT 0x40u
 #define LARGEST_COORDINATE 1e18 /* Embree takes anything beyond about 1.8e18 as no geometry */
@@ -37,7 +37,7 @@ struct Accel {
     unsigned char *flags; /* of each primitive */
     double reach; /* the triangles' largest coordinate */
     Vec3 low, high;
-    RetexError error; /* Embree's first complaint */
+    RetexError error; /* Embree's first error */
     RetexBudget *budget;
     uint64_t charged;   /* to the budget, of what is not Embree's */
     atomic_int refused; /* Embree wanted more than the budget has */

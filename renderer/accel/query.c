@@ -26,7 +26,7 @@
 
 /* A ray in double, and what it has met so far. */
 typedef struct QueryRay {
-    Ray ray;         /* ends just behind the nearest, so that what is as near is found too */
+    Ray ray;         /* ends just behind the nearest hit, so that others at the same distance are found */
     Hit *hit;        /* the nearest so far; NULL where any will do */
     double size;     /* of the origin's coordinates */
     double rounding; /* a plane whose height over the origin is this small goes through it */
@@ -49,7 +49,7 @@ static inline int visible(const Accel *accel, const QueryRay *of, int primitive)
     return (accel->flags[primitive] & of->kind) != 0;
 }
 
-/* Something on the ray is met: is it passed? */
+/* Whether a primitive that the ray meets lets it pass. */
 static inline int pass(const Accel *accel, QueryRay *of, int primitive)
 {
     if (!(accel->flags[primitive] & of->passes))
@@ -76,8 +76,8 @@ static inline int triangle_distance(const QueryRay *of, const Triangle *triangle
     return 1;
 }
 
-/* Something on the ray becomes the nearest if it is; of two that are as near the first in the scene, so that the answer
- * does not depend on the order in which they are found. */
+/* Make a hit the nearest, if it is. Of two at the same distance the first in the scene wins, so that the result does
+ * not depend on the order in which they are found. */
 static inline int take(QueryRay *of, double t, int primitive, int face)
 {
     Hit *hit = of->hit;
@@ -99,7 +99,7 @@ static inline void take_triangle(QueryRay *of, const Triangle *triangle, double 
     of->hit->b1 = b1, of->hit->b2 = b2;
 }
 
-/* Does the ray meet a curved shape or a plane? */
+/* Whether the ray meets a curved shape or a plane. */
 static inline int meet_shape(const Accel *accel, const QueryRay *of, int primitive, double *t, int *face)
 {
     return visible(accel, of, primitive) && shape_intersect(&accel->source->primitives[primitive], &of->ray, t, face);
@@ -255,7 +255,7 @@ static inline int start_single(QueryRay *of, struct RTCRay *to, const Accel *acc
     return start_ray(of, accel, ray, kind, passes, hit, &to->tnear, &to->tfar);
 }
 
-/* Is there a plane on the way, of those that are not passed? */
+/* Whether a plane that lets no light pass occludes the ray. */
 static int plane_blocks(const Accel *accel, QueryRay *of)
 {
     double t;

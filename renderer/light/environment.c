@@ -1,4 +1,4 @@
-/* The sky as a light: its radiance, and a table over the sphere that sends samples where it is bright. */
+/* The sky as a light: its radiance, and a table over the sphere for sampling directions by luminance. */
 #include <stdlib.h>
 #include "light/lights.h"
 #include "shade/pigment.h"
@@ -33,7 +33,7 @@ static Vec3 table_direction(double x, double y)
     return vec3(sin(theta) * cos(phi), cos(theta), sin(theta) * sin(phi));
 }
 
-/* Luminance of a cell, taken at a few points so that small suns are not missed between centres. */
+/* Luminance of a cell, the mean of a few points, so that a small sun between centres is not missed. */
 static float cell_luminance(const Scene *scene, int x, int y)
 {
     float sum = 0;

@@ -4,13 +4,13 @@
 #include "light/light_tree_nodes.h"
 
 #define WIDTH LIGHT_TREE_WIDTH
-#define BUCKETS 12 /* places a range is tried to be cut at, along each axis */
+#define BUCKETS 12 /* along each axis: a range may be split between any two of them */
 
 typedef struct Builder {
     LightTree *tree;
     const LightBounds *lights;
     int *order;     /* the lights, so that every cluster has a range of them */
-    double extent2; /* of all lights: compares light that falls off with light that does not */
+    double extent2; /* squared, of all lights: at this distance intensity and constant are compared */
     int nnodes;
 } Builder;
 
@@ -29,7 +29,7 @@ typedef struct Bucket {
 
 static double light_power(const Builder *b, const LightBounds *l)
 {
-    return l->falling + l->even * b->extent2;
+    return l->intensity + l->constant * b->extent2;
 }
 
 static Vec3 center_of(const LightBounds *l)
@@ -53,10 +53,10 @@ static void grow(Bucket *b, Vec3 low, Vec3 high)
     b->high = vec3(fmax(b->high.x, high.x), fmax(b->high.y, high.y), fmax(b->high.z, high.z));
 }
 
-/* An axis of light that shines both ways has no sign: it is turned to another. */
+/* The axis of a light that emits on both sides has no sign: it is turned to the side of another axis. */
 static Vec3 turned_axis(const LightBounds *l, Vec3 to)
 {
-    return l->back == 1 && vec_dot(l->axis, to) < 0 ? vec_neg(l->axis) : l->axis;
+    return l->back_share == 1 && vec_dot(l->axis, to) < 0 ? vec_neg(l->axis) : l->axis;
 }
 
 static void bucket_add(Bucket *b, const LightBounds *l, double power, Vec3 facing)
@@ -64,7 +64,7 @@ static void bucket_add(Bucket *b, const LightBounds *l, double power, Vec3 facin
     b->count++;
     b->power += power;
     grow(b, l->low, l->high);
-    if (l->spread < PI)
+    if (l->theta_o < PI)
         b->facing = vec_mad(b->facing, turned_axis(l, facing), power);
 }
 
@@ -76,8 +76,8 @@ static void bucket_merge(Bucket *b, const Bucket *other)
     b->facing = vec_add(b->facing, other->facing);
 }
 
-/* Power times surface area times the solid angle shone into (the paper's SAOH); the latter by how well the axes agree,
- * which adds up where cones do not. */
+/* Power times surface area times the solid angle of emission (the paper's SAOH). The solid angle is estimated by how
+ * well the axes agree, as that can be summed and cones cannot. */
 static double bucket_cost(const Bucket *b)
 {
     if (b->count == 0 || b->power <= 0)
@@ -94,19 +94,19 @@ static double range_cone(const Builder *b, int first, int end, Vec3 *axis)
     for (int k = first; k < end; k++)
         sum = vec_add(sum, turned_axis(&b->lights[b->order[k]], reference));
     *axis = vec_normalize(sum);
-    double spread = vec_dot(*axis, *axis) > 0 ? 0 : PI;
-    for (int k = first; k < end && spread < PI; k++) {
+    double theta_o = vec_dot(*axis, *axis) > 0 ? 0 : PI;
+    for (int k = first; k < end && theta_o < PI; k++) {
         const LightBounds *l = &b->lights[b->order[k]];
         double cosine = vec_dot(turned_axis(l, *axis), *axis);
-        if (l->spread > 0 || cosine < cos(spread))
-            spread = fmin(PI, fmax(spread, l->spread + acos(fmax(-1, fmin(1, cosine)))));
+        if (l->theta_o > 0 || cosine < cos(theta_o))
+            theta_o = fmin(PI, fmax(theta_o, l->theta_o + acos(fmax(-1, fmin(1, cosine)))));
     }
-    return spread;
+    return theta_o;
 }
 
 static void fill_child(const Builder *b, LightTreeNode *node, int k, const Range *range)
 {
-    double even = 0, falling = 0, peak = 0, reach = 0, power = 0;
+    double constant = 0, intensity = 0, peak = 0, theta_e = 0, power = 0;
     float both_sides = 0, least = 0;
     Bucket box;
     Vec3 axis;
@@ -114,24 +114,24 @@ static void fill_child(const Builder *b, LightTreeNode *node, int k, const Range
     for (int i = range->first; i < range->end; i++) {
         const LightBounds *l = &b->lights[b->order[i]];
         grow(&box, l->low, l->high);
-        even += l->even, falling += l->falling, peak += l->peak, power += light_power(b, l);
-        reach = fmax(reach, l->reach);
-        if (l->back == 1)
+        constant += l->constant, intensity += l->intensity, peak += l->peak, power += light_power(b, l);
+        theta_e = fmax(theta_e, l->theta_e);
+        if (l->back_share == 1)
             both_sides = 1;
         else
-            least = fmaxf(least, (float)l->back);
+            least = fmaxf(least, (float)l->back_share);
     }
-    double spread = range_cone(b, range->first, range->end, &axis);
+    double theta_o = range_cone(b, range->first, range->end, &axis);
     Vec3 center = vec_scale(vec_add(box.low, box.high), 0.5);
     double radius = vec_length(vec_sub(box.high, box.low)) / 2;
     node->x[k] = (float)center.x, node->y[k] = (float)center.y, node->z[k] = (float)center.z;
     node->radius[k] = (float)(radius * 1.0001);
     node->axis_x[k] = (float)axis.x, node->axis_y[k] = (float)axis.y, node->axis_z[k] = (float)axis.z;
-    node->cos_spread[k] = (float)cos(spread), node->sin_spread[k] = (float)sin(spread);
-    node->cos_reach[k] = (float)cos(reach);
+    node->cos_theta_o[k] = (float)cos(theta_o), node->sin_theta_o[k] = (float)sin(theta_o);
+    node->cos_theta_e[k] = (float)cos(theta_e);
     node->both_sides[k] = both_sides, node->least[k] = least;
-    node->even[k] = (float)even, node->falling[k] = (float)falling, node->power[k] = (float)power;
-    node->soft2[k] = fmaxf(1e-12f, (float)(radius * radius + (peak > 0 ? falling / peak : 0)));
+    node->constant[k] = (float)constant, node->intensity[k] = (float)intensity, node->power[k] = (float)power;
+    node->soft2[k] = fmaxf(1e-12f, (float)(radius * radius + (peak > 0 ? intensity / peak : 0)));
 }
 
 /* The bucket of a place along an axis. */
@@ -195,7 +195,7 @@ static Cut find_cut(const Builder *b, int first, int end)
         int at = 0;
         if (!(component(extent, axis) > 0))
             continue;
-        /* thin slabs are dearer than their surface says */
+        /* thin slabs cost more than their surface area tells */
         double cost = cheapest_split(buckets[axis], &at) * longest / component(extent, axis);
         if (cost < least || best.axis < 0)
             least = cost, best = (Cut){axis, at, component(centers.low, axis), component(centers.high, axis)};
@@ -215,7 +215,7 @@ static double range_cost(const Builder *b, const Range *range)
     return bucket_cost(&sum);
 }
 
-/* Cut a range in two; `range` keeps the first part. */
+/* Split a range in two; `range` keeps the first part. */
 static void cut_range(Builder *b, Range *range, Range *rest)
 {
     Cut cut = find_cut(b, range->first, range->end);
@@ -235,7 +235,7 @@ static void cut_range(Builder *b, Range *range, Range *rest)
     rest->cost = range_cost(b, rest);
 }
 
-/* The dearest of ranges that can be cut, or -1. */
+/* The range of the highest cost that can be split, or -1. */
 static int dearest(const Range *ranges, int count)
 {
     int best = -1;

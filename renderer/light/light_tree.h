@@ -9,21 +9,21 @@
 #include <retex/error.h>
 #include "base/vec.h"
 
-/* A point that light falls on. */
+/* What choosing a light may look at: pbrt's LightSampleContext. */
 typedef struct LightSampleContext {
     Vec3 position;
     Vec3 normal; /* unit length, on the side that light must come from; 0 where it may come from both */
 } LightSampleContext;
 
 /* What bounds a light, in world space. Its irradiance at distance d on a surface that faces it is about
- * even + falling / (d^2 + falling / peak). */
+ * constant + intensity / (d^2 + intensity / peak). */
 typedef struct LightBounds {
     Vec3 low, high;
     Vec3 axis;     /* of its cone, unit length */
-    double spread; /* half-angle of the cone its surface normals lie in, 0..pi */
-    double reach;  /* how far from a normal it shines, 0..pi/2 */
-    double back;   /* share of it that shines against its normals, 0..1; above 0 that side is never left out */
-    double even, falling, peak;
+    double theta_o;    /* half-angle of the cone that its surface normals lie in, 0..pi */
+    double theta_e;    /* largest angle to a normal at which it emits, 0..pi/2 */
+    double back_share; /* share that it emits on the back of its surface, 0..1; above 0 the back is never left out */
+    double constant, intensity, peak;
 } LightBounds;
 
 typedef struct LightTree LightTree;

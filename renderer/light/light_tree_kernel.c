@@ -4,7 +4,7 @@
 #include "light/light_tree_nodes.h"
 
 #define WIDTH LIGHT_TREE_WIDTH
-#define SLACK .01f /* of cosines: bounds are rounded, and nothing is left out by less or counts less */
+#define SLACK .01f /* of cosines: for the rounding of bounds; no weight is lowered by less than this */
 
 typedef int Int4 __attribute__((vector_size(16)));
 
@@ -35,7 +35,7 @@ static inline Float4 larger(Float4 a, Float4 b)
     return choose(a > b, a, b);
 }
 
-/* Irradiance that each of four children may give, roughly: bounds of directions, but distances from the middle. */
+/* Estimate the irradiance of four children: with bounds of directions, and distances from their centres. */
 static inline Float4 weigh_four(const LightTreeNode *n, const Lit *p, int k)
 {
     const Float4 zero = splat(0), one = splat(1), slack = splat(SLACK);
@@ -46,23 +46,23 @@ static inline Float4 weigh_four(const LightTreeNode *n, const Lit *p, int k)
     Int4 outside = sine < one;
     Float4 sin_bound = choose(outside, sine, zero);
     Float4 cos_bound = choose(outside, root(one - sin_bound * sin_bound), splat(-1));
-    /* least angle between a light's normal and the way from it to the point */
+    /* least angle between a light's normal and the direction from it to the point */
     Float4 c = -(x * load(n->axis_x + k) + y * load(n->axis_y + k) + z * load(n->axis_z + k)) * inverse;
     c = choose((load(n->both_sides + k) > zero) & (c < zero), -c, c);
-    Float4 cos_spread = load(n->cos_spread + k), sin_spread = load(n->sin_spread + k);
+    Float4 cos_theta_o = load(n->cos_theta_o + k), sin_theta_o = load(n->sin_theta_o + k);
     Float4 s = root(larger(one - c * c, zero));
-    Int4 within = c >= cos_spread;
-    Float4 c2 = choose(within, one, c * cos_spread + s * sin_spread);
-    Float4 s2 = choose(within, zero, s * cos_spread - c * sin_spread);
+    Int4 within = c >= cos_theta_o;
+    Float4 c2 = choose(within, one, c * cos_theta_o + s * sin_theta_o);
+    Float4 s2 = choose(within, zero, s * cos_theta_o - c * sin_theta_o);
     Float4 facing = choose(c2 >= cos_bound, one, c2 * cos_bound + s2 * sin_bound);
-    Float4 shines = choose(facing > load(n->cos_reach + k) - slack, larger(facing, slack), zero);
+    Float4 shines = choose(facing > load(n->cos_theta_e + k) - slack, larger(facing, slack), zero);
     shines = larger(shines, load(n->least + k));
     /* least angle to the point's own normal */
     Float4 h = (x * splat(p->normal_x) + y * splat(p->normal_y) + z * splat(p->normal_z)) * inverse;
     Float4 above = choose(h >= cos_bound, one, h * cos_bound + root(larger(one - h * h, zero)) * sin_bound);
     Float4 lit = choose(above > -slack, larger(above, slack), zero);
     lit = larger(lit, splat(p->any_side));
-    return shines * lit * (load(n->even + k) + load(n->falling + k) / (d2 + load(n->soft2 + k)));
+    return shines * lit * (load(n->constant + k) + load(n->intensity + k) / (d2 + load(n->soft2 + k)));
 }
 
 /* Weights of the choice; returns their sum. */
@@ -76,7 +76,7 @@ static float choice_weights(const LightTreeNode *n, const Lit *p, float *weights
     }
     if (sum > 0)
         return sum;
-    /* none can be, the bounds of all were too wide; but something must be chosen */
+    /* no child can light the point, as the bounds of their parents were too wide; but one must be chosen */
     for (int k = 0; k < n->count; k++)
         sum += weights[k] = n->power[k];
     for (int k = 0; k < n->count && !(sum > 0); k++)

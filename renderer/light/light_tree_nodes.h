@@ -11,12 +11,12 @@ typedef struct LightTreeNode {
     float x[LIGHT_TREE_WIDTH], y[LIGHT_TREE_WIDTH], z[LIGHT_TREE_WIDTH]; /* centres */
     float radius[LIGHT_TREE_WIDTH];
     float axis_x[LIGHT_TREE_WIDTH], axis_y[LIGHT_TREE_WIDTH], axis_z[LIGHT_TREE_WIDTH];
-    float cos_spread[LIGHT_TREE_WIDTH], sin_spread[LIGHT_TREE_WIDTH], cos_reach[LIGHT_TREE_WIDTH];
-    float both_sides[LIGHT_TREE_WIDTH]; /* 1: either side of the cone is its front; else 0 */
-    float least[LIGHT_TREE_WIDTH];      /* factor that directions leave at the least */
-    float even[LIGHT_TREE_WIDTH], falling[LIGHT_TREE_WIDTH];
-    float soft2[LIGHT_TREE_WIDTH];      /* added to the squared distance: radius^2 + falling / peak */
-    float power[LIGHT_TREE_WIDTH];      /* where nothing else tells */
+    float cos_theta_o[LIGHT_TREE_WIDTH], sin_theta_o[LIGHT_TREE_WIDTH], cos_theta_e[LIGHT_TREE_WIDTH];
+    float both_sides[LIGHT_TREE_WIDTH]; /* 1: it emits as much on the back as on the front; else 0 */
+    float least[LIGHT_TREE_WIDTH];      /* least factor that directions may lower its weight to */
+    float constant[LIGHT_TREE_WIDTH], intensity[LIGHT_TREE_WIDTH];
+    float soft2[LIGHT_TREE_WIDTH];      /* added to the squared distance: radius^2 + intensity / peak */
+    float power[LIGHT_TREE_WIDTH];      /* the weight where all others are 0 */
     int child[LIGHT_TREE_WIDTH];        /* index of a node, or -1 - light */
     int count;
     int parent;                         /* a place: node * LIGHT_TREE_WIDTH + child */

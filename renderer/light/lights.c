@@ -8,11 +8,11 @@
 #include "shade/bsdf.h"
 #include "shape/shape.h"
 
-#define EXACT_MAX 4        /* up to here lights are chosen by an estimate of each; beyond, by the tree */
-#define FACES_WHOLE 8      /* a mesh of no more emitting faces is one light; of more, each face is */
-#define CHOICE_FLOOR 0.02f /* every light keeps at least this share of an equal choice: estimates may be wrong */
-#define BESIDE_MIN 0.05f   /* the same for the tree as a whole and what is beside it */
-#define BACK_OF_CLOSED 0.1 /* the inner side of a closed mesh counts so much: it may be a room */
+#define EXACT_MAX 4   /* up to so many lights are chosen by an estimate of each; more by the tree */
+#define FACES_WHOLE 8 /* a mesh of up to so many emitting faces is one light; of a larger one each face is a light */
+#define CHOICE_FLOOR 0.02f /* least probability of every light, over that of a uniform choice: estimates may be wrong */
+#define INFINITE_MIN 0.05f /* the same for all of the tree, and for all infinite lights */
+#define BACK_OF_CLOSED 0.1 /* weight of the inside of a closed mesh, which may be a room */
 
 typedef enum EntryKind { ENTRY_SOURCE, ENTRY_EMITTER, ENTRY_SKY } EntryKind;
 
@@ -25,8 +25,8 @@ typedef struct Entry {
     float strength;  /* emitter: radiance * area; sky: irradiance; source: luminance of its colour times pi */
     MeshLight *mesh; /* emitting meshes */
     int sphere;      /* sampled by the cone it is seen in */
-    int leaf;        /* first in the tree: one, or as many as the mesh has emitting faces; -1: beside the tree */
-    int beside;      /* index of what is beside the tree */
+    int leaf;        /* its first leaf of the tree: it has one, or one for each emitting face; -1: an infinite light */
+    int infinite;    /* index among the infinite lights */
 } Entry;
 
 /* What a leaf of the tree is. */
@@ -45,9 +45,9 @@ struct Lights {
     /* many lights; tree is NULL for few */
     LightTree *tree;
     Leaf *leaves;
-    int nbeside;        /* lights that are infinitely far: sky and beams */
-    int *beside;        /* their entries */
-    float *beside_sums; /* running sums of their irradiance, nbeside + 1 */
+    int ninfinite;        /* lights that are infinitely far: sky and beams */
+    int *infinite;        /* their entries */
+    float *infinite_sums; /* running sums of their irradiance, ninfinite + 1 */
 };
 
 static int primitive_emits(const Primitive *p)
@@ -108,7 +108,7 @@ static void add_others(Lights *lights)
         if (strength > 0)
             lights->entries[lights->count++] = (Entry){.kind = ENTRY_SOURCE, .index = k, .strength = strength};
     }
-    /* A sky of one colour is found as well by the BSDF alone, without noise where nothing is in the way. */
+    /* A uniform sky is sampled as well by the BSDF alone, without noise where nothing occludes it. */
     if (!lights->environment || !lights->scene->sky)
         return;
     lights->sky = lights->count;
@@ -118,21 +118,21 @@ static void add_others(Lights *lights)
 
 /* ---- many lights ---- */
 
-static int is_beside(const Lights *lights, const Entry *e)
+static int is_infinite(const Lights *lights, const Entry *e)
 {
     return e->kind == ENTRY_SKY || (e->kind == ENTRY_SOURCE && source_is_beam(&lights->scene->lights[e->index]));
 }
 
-/* Is each face of its mesh a light? */
+/* Whether each face of its mesh is a light of its own. */
 static int is_by_face(const Entry *e)
 {
     return e->mesh && e->mesh->count > FACES_WHOLE;
 }
 
-/* As many leaves as an entry has in the tree. */
+/* The number of leaves of an entry in the tree. */
 static int leaf_count(const Lights *lights, const Entry *e)
 {
-    if (is_beside(lights, e))
+    if (is_infinite(lights, e))
         return 0;
     return is_by_face(e) ? e->mesh->count : 1;
 }
@@ -140,7 +140,7 @@ static int leaf_count(const Lights *lights, const Entry *e)
 static LightBounds face_bounds(const MeshLight *mesh, int face)
 {
     const MeshLightFace *f = &mesh->faces[face];
-    double a[3], b[3], c[3], low[3], high[3], falling = NEUTRAL_ALBEDO * fmaxf(0, f->radiance) / f->inverse_area;
+    double a[3], b[3], c[3], low[3], high[3], intensity = NEUTRAL_ALBEDO * fmaxf(0, f->radiance) / f->inverse_area;
     a[0] = f->corner.x, a[1] = f->corner.y, a[2] = f->corner.z;
     b[0] = f->edge1.x, b[1] = f->edge1.y, b[2] = f->edge1.z;
     c[0] = f->edge2.x, c[1] = f->edge2.y, c[2] = f->edge2.z;
@@ -151,24 +151,25 @@ static LightBounds face_bounds(const MeshLight *mesh, int face)
     return (LightBounds){.low = vec3(low[0], low[1], low[2]),
                          .high = vec3(high[0], high[1], high[2]),
                          .axis = f->normal,
-                         .reach = PI / 2,
-                         .back = mesh->closed ? BACK_OF_CLOSED : 1,
-                         .falling = falling,
+                         .theta_e = PI / 2,
+                         .back_share = mesh->closed ? BACK_OF_CLOSED : 1,
+                         .intensity = intensity,
                          .peak = NEUTRAL_ALBEDO * PI * fmaxf(0, f->radiance)};
 }
 
-/* An emitting shape as a whole: flat, or seen from any side with a quarter of its surface. */
+/* An emitting shape as a whole: a flat one, or one of which any side shows a quarter of the surface. */
 static LightBounds shape_light_bounds(const Primitive *p, const Entry *e)
 {
-    LightBounds b = {.axis = {0, 0, 1}, .spread = PI, .reach = PI / 2, .back = 1, .falling = e->strength / 4};
+    LightBounds b = {
+        .axis = {0, 0, 1}, .theta_o = PI, .theta_e = PI / 2, .back_share = 1, .intensity = e->strength / 4};
     shape_bounds(p, &b.low, &b.high);
     b.peak = e->area > 0 ? PI * e->strength / e->area : 0;
     if (p->shape.ops->properties & SHAPE_FLAT) {
         ShapePoint point;
         p->shape.ops->point(p, vec3(0, 0, 0), 0, &point);
         b.axis = vec_normalize(transform_normal(&p->transform, point.normal));
-        b.spread = 0;
-        b.falling = e->strength;
+        b.theta_o = 0;
+        b.intensity = e->strength;
     }
     return b;
 }
@@ -180,20 +181,20 @@ static LightBounds entry_bounds(const Lights *lights, const Entry *e)
     return shape_light_bounds(&lights->scene->primitives[e->index], e);
 }
 
-/* The infinite lights, with running sums of what they may give. */
-static void sum_beside(Lights *lights)
+/* List the infinite lights, with running sums of their estimated irradiance. */
+static void sum_infinite(Lights *lights)
 {
     float sum = 0;
     for (int k = 0; k < lights->count; k++) {
-        if (!is_beside(lights, &lights->entries[k]))
+        if (!is_infinite(lights, &lights->entries[k]))
             continue;
-        lights->entries[k].beside = lights->nbeside;
-        lights->beside[lights->nbeside++] = k;
-        lights->beside_sums[lights->nbeside] = sum += fmaxf(lights->entries[k].strength, 1e-20f);
+        lights->entries[k].infinite = lights->ninfinite;
+        lights->infinite[lights->ninfinite++] = k;
+        lights->infinite_sums[lights->ninfinite] = sum += fmaxf(lights->entries[k].strength, 1e-20f);
     }
 }
 
-/* A tree, where there are many lights that are somewhere. */
+/* A tree, where there are many finite lights. */
 static int grow_tree(Lights *lights, RetexError *err)
 {
     long leaves = 0;
@@ -207,10 +208,10 @@ static int grow_tree(Lights *lights, RetexError *err)
         return RETEX_OK;
     LightBounds *bounds = malloc((size_t)leaves * sizeof *bounds + 1);
     lights->leaves = malloc((size_t)leaves * sizeof *lights->leaves + 1);
-    lights->beside = malloc(((size_t)lights->count + 1) * sizeof *lights->beside);
-    lights->beside_sums = calloc((size_t)lights->count + 1, sizeof *lights->beside_sums);
+    lights->infinite = malloc(((size_t)lights->count + 1) * sizeof *lights->infinite);
+    lights->infinite_sums = calloc((size_t)lights->count + 1, sizeof *lights->infinite_sums);
     int code = RETEX_OK;
-    if (!bounds || !lights->leaves || !lights->beside || !lights->beside_sums || leaves > INT_MAX / 2)
+    if (!bounds || !lights->leaves || !lights->infinite || !lights->infinite_sums || leaves > INT_MAX / 2)
         code = retex_fail(err, RETEX_ENOMEM, "out of memory for %ld lights", leaves);
     for (int k = 0; k < lights->count && !code; k++) {
         Entry *e = &lights->entries[k];
@@ -223,7 +224,7 @@ static int grow_tree(Lights *lights, RetexError *err)
         }
     }
     if (!code)
-        sum_beside(lights);
+        sum_infinite(lights);
     if (!code && n > 0)
         code = light_tree_create(&lights->tree, bounds, n, err);
     free(bounds);
@@ -280,8 +281,8 @@ void lights_close(Lights **lights)
     free((*lights)->of_primitive);
     free((*lights)->emitter_sums);
     free((*lights)->leaves);
-    free((*lights)->beside);
-    free((*lights)->beside_sums);
+    free((*lights)->infinite);
+    free((*lights)->infinite_sums);
     free(*lights);
     *lights = NULL;
 }
@@ -293,7 +294,7 @@ int lights_count(const Lights *lights)
 
 /* ---- the choice ---- */
 
-/* Rough irradiance an entry may give at a point that faces it. */
+/* Estimate the irradiance of an entry on a surface that faces it. */
 static float entry_estimate(const Lights *lights, const Entry *e, Vec3 position)
 {
     if (e->kind == ENTRY_SKY)
@@ -308,7 +309,7 @@ static float entry_estimate(const Lights *lights, const Entry *e, Vec3 position)
     return e->strength / (float)fmax(vec_dot(d, d), e->radius * e->radius / 4);
 }
 
-/* Shares of the choice at a point, adding up to 1. */
+/* Probabilities of the entries at a point; their sum is 1. */
 static void local_shares(const Lights *lights, Vec3 position, float *shares)
 {
     float total = 0;
@@ -321,26 +322,26 @@ static void local_shares(const Lights *lights, Vec3 position, float *shares)
         shares[k] /= sum;
 }
 
-/* Share of the tree as a whole; the rest is that of the lights beside it. */
+/* Probability of the tree as a whole; the rest is that of the infinite lights. */
 static float tree_share(const Lights *lights, const LightSampleContext *point)
 {
-    if (lights->nbeside == 0)
+    if (lights->ninfinite == 0)
         return 1;
     if (!lights->tree)
         return 0;
-    float tree = light_tree_estimate(lights->tree, point), beside = lights->beside_sums[lights->nbeside];
-    return fminf(1 - BESIDE_MIN, fmaxf(BESIDE_MIN, tree / (tree + beside)));
+    float tree = light_tree_estimate(lights->tree, point), infinite = lights->infinite_sums[lights->ninfinite];
+    return fminf(1 - INFINITE_MIN, fmaxf(INFINITE_MIN, tree / (tree + infinite)));
 }
 
-static float beside_share(const Lights *lights, int k)
+static float infinite_share(const Lights *lights, int k)
 {
-    return (lights->beside_sums[k + 1] - lights->beside_sums[k]) / lights->beside_sums[lights->nbeside];
+    return (lights->infinite_sums[k + 1] - lights->infinite_sums[k]) / lights->infinite_sums[lights->ninfinite];
 }
 
-/* Is every light estimated? */
+/* Whether lights are chosen by an estimate of each. */
 static int is_exact(const Lights *lights)
 {
-    return !lights->tree && lights->nbeside == 0;
+    return !lights->tree && lights->ninfinite == 0;
 }
 
 static float exact_probability(const Lights *lights, Vec3 position, int entry)
@@ -360,7 +361,7 @@ static float pick_probability(const Lights *lights, const LightSampleContext *po
     const Entry *e = &lights->entries[entry];
     float share = tree_share(lights, point);
     if (e->leaf < 0)
-        return (1 - share) * beside_share(lights, e->beside);
+        return (1 - share) * infinite_share(lights, e->infinite);
     return share * light_tree_probability(lights->tree, point, e->leaf + (is_by_face(e) ? face : 0));
 }
 
@@ -376,18 +377,18 @@ static LightPick exact_pick(const Lights *lights, Vec3 position, float u, float 
     return (LightPick){k, -1, shares[k], u_part};
 }
 
-static LightPick beside_pick(const Lights *lights, float share, double u, float u_part)
+static LightPick pick_infinite(const Lights *lights, float share, double u, float u_part)
 {
-    const float *sums = lights->beside_sums;
-    int low = 0, high = lights->nbeside;
+    const float *sums = lights->infinite_sums;
+    int low = 0, high = lights->ninfinite;
     while (high - low > 1) {
         int middle = (low + high) / 2;
-        if (sums[middle] <= u * sums[lights->nbeside])
+        if (sums[middle] <= u * sums[lights->ninfinite])
             low = middle;
         else
             high = middle;
     }
-    return (LightPick){lights->beside[low], -1, share * beside_share(lights, low), u_part};
+    return (LightPick){lights->infinite[low], -1, share * infinite_share(lights, low), u_part};
 }
 
 LightPick lights_pick(const Lights *lights, const LightSampleContext *point, float u_pick, float u_part)
@@ -396,18 +397,18 @@ LightPick lights_pick(const Lights *lights, const LightSampleContext *point, flo
         return (LightPick){-1, -1, 1, u_part};
     if (is_exact(lights))
         return exact_pick(lights, point->position, u_pick, u_part);
-    /* both numbers make one: the way down to one of very many takes more than the bits of a float */
+    /* both numbers together: a path down a large tree takes more bits than a float has */
     double u = u_pick + u_part * 0x1p-24;
     float share = tree_share(lights, point), probability;
     if (u >= share)
-        return beside_pick(lights, 1 - share, (u - share) / (1 - share), u_part);
+        return pick_infinite(lights, 1 - share, (u - share) / (1 - share), u_part);
     u /= share;
     const Leaf *leaf = &lights->leaves[light_tree_pick(lights->tree, point, &u, &probability)];
     return (LightPick){leaf->entry, leaf->face, share * probability, fminf((float)u, 1 - 0x1p-24f)};
 }
 
-/* Uniform in the cone in which a sphere is seen from outside. The sample's surface lies where that direction meets
- * it. */
+/* Sample a direction uniformly in the cone in which a sphere is seen from outside. The sample's surface is where that
+ * direction meets the sphere. */
 static int sample_sphere_cone(const Entry *e, const Scene *scene, Vec3 position, float u1, float u2,
                               LightSample *sample)
 {
@@ -443,7 +444,7 @@ static const MeshLightFace *picked_face(const Lights *lights, const LightPick *p
     return f;
 }
 
-/* A point of an emitter that is sampled by its area; returns the density there. */
+/* Sample a point of an emitter by area; returns its density. */
 static double sample_area(const Lights *lights, const LightPick *pick, float u1, float u2, Surface *surface)
 {
     const Entry *e = &lights->entries[pick->entry];
@@ -465,7 +466,7 @@ const MeshLightFace *lights_uniform_face(const Lights *lights, const LightPick *
     if (!e->mesh || lights->scene->primitives[e->index].no_reflection)
         return NULL;
     const MeshLightFace *f = picked_face(lights, pick, density);
-    return f->even ? f : NULL;
+    return f->uniform ? f : NULL;
 }
 
 static int sample_emitter(const Lights *lights, const LightPick *pick, Vec3 position, float u1, float u2,
@@ -540,7 +541,7 @@ float lights_emitter_pdf(const Lights *lights, const LightSampleContext *from, i
     if (outside_sphere(e, from->position)) {
         Vec3 axis = vec_sub(e->center, from->position);
         double sin2 = e->radius * e->radius / vec_dot(axis, axis);
-        /* the far side of the sphere is never sampled from here */
+        /* points on the far side of the sphere are never sampled from here */
         if (vec_dot(d, vec_sub(surface->position, e->center)) > 0)
             return 0;
         pdf = (1 + sqrt(1 - sin2)) / (2 * PI * sin2);
@@ -559,7 +560,7 @@ float lights_sky_pdf(const Lights *lights, const LightSampleContext *from, Vec3 
     return environment_pdf(lights->environment, direction) * pick_probability(lights, from, lights->sky, -1);
 }
 
-/* ---- light that is followed ---- */
+/* ---- emission: where photons start ---- */
 
 int lights_emit(const Lights *lights)
 {
@@ -600,5 +601,5 @@ float lights_estimate(const Lights *lights, const LightSampleContext *point)
     }
     if (lights->tree)
         sum = light_tree_estimate(lights->tree, point);
-    return lights->nbeside > 0 ? sum + lights->beside_sums[lights->nbeside] : sum;
+    return lights->ninfinite > 0 ? sum + lights->infinite_sums[lights->ninfinite] : sum;
 }

@@ -19,7 +19,7 @@ typedef struct LightSample {
     LightSampleKind kind;
     Vec3 direction;      /* from the lit point, unit length */
     double distance;     /* INFINITY for the sky */
-    Rgb radiance;        /* already divided by nothing: see pick_probability and pdf */
+    Rgb radiance;        /* not divided by pick_probability and pdf */
     float pick_probability; /* of having picked this light */
     float pdf;           /* per solid angle, without pick_probability; 0 for a light source */
     int shadowless;
@@ -30,12 +30,12 @@ int lights_create(Lights **lights, const Scene *scene, RetexError *err);
 void lights_close(Lights **lights);
 int lights_count(const Lights *lights);
 
-/* What was chosen. */
+/* The light that was chosen. */
 typedef struct LightPick {
     int entry; /* -1: there is no light */
     int face;  /* of its mesh light, or -1: not chosen yet */
     float probability;
-    float u_part; /* what is left of the random number, for the part */
+    float u_part; /* the random number for the part, uniform again */
 } LightPick;
 
 /* Sample light for a point: u_pick chooses the light, u_part the part of it (of many lights, both together), u1 and u2
@@ -43,15 +43,15 @@ typedef struct LightPick {
 LightPick lights_pick(const Lights *lights, const LightSampleContext *point, float u_pick, float u_part);
 int lights_sample(const Lights *lights, const LightSampleContext *point, const LightPick *pick, float u1, float u2,
                   LightSample *sample);
-/* A picked face of a mesh that shines evenly and is met by paths that bounced, which can do without lights_sample: see
- * matte.h. *density is that of points on the face. Else NULL. */
+/* The picked face of a mesh, if its radiance is uniform and rays of paths see it; else NULL. Such a face is sampled by
+ * the matte kernel (path/matte.h) instead of lights_sample. *density: of points on the face, by area. */
 const struct MeshLightFace *lights_uniform_face(const Lights *lights, const LightPick *pick, double *density);
-/* Density, with the probability of picking that light, with which lights_sample finds a direction that hit an emitter
- * or went to the sky: for multiple importance sampling. */
+/* Density with which lights_pick and lights_sample together sample a direction that met an emitter, or the sky: for
+ * multiple importance sampling. */
 float lights_emitter_pdf(const Lights *lights, const LightSampleContext *from, int primitive, const Surface *surface);
 float lights_sky_pdf(const Lights *lights, const LightSampleContext *from, Vec3 direction);
 
-/* A point of an emitting shape, for light that is followed from there. */
+/* A point of an emitting shape, where photons start. */
 typedef struct EmissionPoint {
     Vec3 position, normal;
     float power; /* luminance of its radiance, with NEUTRAL_ALBEDO, over the density of the point: area is in it */
@@ -59,7 +59,7 @@ typedef struct EmissionPoint {
 int lights_emit(const Lights *lights); /* 1: there are shapes that do */
 /* Shapes are chosen by their power. Returns 0 where there is none. */
 int lights_emission(const Lights *lights, float u_pick, float u_part, float u1, float u2, EmissionPoint *point);
-/* Rough irradiance of all lights on a surface that faces them. */
+/* Estimate of the irradiance of all lights on a surface that faces them. */
 float lights_estimate(const Lights *lights, const LightSampleContext *point);
 
 /* Radiance of sky and background in a direction. */

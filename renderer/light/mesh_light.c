@@ -1,9 +1,9 @@
-/* Emitting meshes: everything about their faces that sampling would work out each time. */
+/* Emitting meshes: all that sampling needs to know of their faces, computed once. */
 #include <stdlib.h>
 #include <string.h>
 #include "light/mesh_light.h"
 
-#define CLOSED 1e-3 /* a mesh is closed if its faces' areas as vectors add up to no more than this share */
+#define CLOSED 1e-3 /* a mesh is closed if the sum of its faces' area vectors is below this share of its area */
 
 static const Texture *face_texture(const Primitive *p, int face)
 {
@@ -11,7 +11,7 @@ static const Texture *face_texture(const Primitive *p, int face)
     return t < 0 ? p->texture : p->shape.mesh->textures[t];
 }
 
-/* The radiance of one side, where it is the same all over. */
+/* The radiance of one side, if it is uniform. */
 static int find_shine(const Texture *texture, int target, Rgb *shine)
 {
     const Rgbft *c = &texture->pigment->color;
@@ -42,13 +42,13 @@ static int fill_face(MeshLightFace *f, const Primitive *p, int face)
                          .face = face,
                          .target = surface.target,
                          .texture = surface.texture};
-    f->even = find_shine(surface.texture, surface.target, &f->shine[0]);
+    f->uniform = find_shine(surface.texture, surface.target, &f->shine[0]);
     surface_turn(&surface, 1);
-    f->even &= find_shine(surface.texture, surface.target, &f->shine[1]);
+    f->uniform &= find_shine(surface.texture, surface.target, &f->shine[1]);
     return density > 0 && isfinite(density);
 }
 
-/* Areas as vectors, of all faces, add up to nothing where the mesh is closed. */
+/* The area vectors of all faces of a closed mesh add up to 0. */
 static int is_closed(const Primitive *p)
 {
     Vec3 sum = {0, 0, 0};
@@ -71,7 +71,7 @@ static int count_faces(const Primitive *p)
     return count;
 }
 
-/* Faces of no luminance, blue below black, are chosen by area alone if there is nothing else. */
+/* Where no face has luminance (negative colours), faces are chosen by area. */
 static void sum_shares(MeshLight *light)
 {
     double sum = 0;

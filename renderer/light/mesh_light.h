@@ -12,7 +12,7 @@ typedef struct MeshLightFace {
     float radiance;      /* luminance of its emission */
     int face, target;    /* of the mesh; of the face's outside */
     const Texture *texture; /* of its outside */
-    int even;            /* nobody's target and of one colour: radiance is shine, of its outside and of its inside */
+    int uniform;            /* it is no target and its radiance is uniform: shine, of its outside and of its inside */
     Rgb shine[2];
 } MeshLightFace;
 
@@ -22,13 +22,13 @@ typedef struct MeshLight {
     double *sums;        /* running sums of shares, count + 1, the last one 1 */
     int *of_face;        /* by face of the mesh: index into faces, or -1 */
     double area, power;  /* power: luminance of emission times area */
-    int closed;          /* as far as its faces' areas tell: most is seen from outside */
+    int closed;          /* its faces' area vectors add up to 0: the outside is what is seen most */
 } MeshLight;
 
 /* *light is NULL where no face emits. */
 int mesh_light_create(MeshLight **light, const Primitive *primitive, RetexError *err);
 void mesh_light_close(MeshLight **light);
-/* A face by its power, from u in [0,1). */
+/* Choose a face by its power, by u in [0,1). */
 int mesh_light_face(const MeshLight *light, float u);
 /* A point of a face, uniform in area: a Surface of backside 0 as from shape_sample, but with the shading normal
  * of a flat face. */

@@ -68,7 +68,7 @@ Vec3 source_point(const Light *light, Vec3 position, float u1, float u2)
     return vec_mad(vec_mad(light->location, axis1, a), axis2, b);
 }
 
-/* It starts from the plane through its location. */
+/* Parallel light starts on the plane through its location. */
 int source_is_beam(const Light *light)
 {
     return light->kind == LIGHT_PARALLEL || light->kind == LIGHT_CYLINDER;
@@ -80,8 +80,7 @@ Rgb source_irradiance(const Light *light, Vec3 position, Vec3 light_point, Vec3 
     Vec3 d = vec_sub(light_point, position);
     if (source_is_beam(light)) {
         *direction = vec_normalize(vec_sub(light_point, light->point_at));
-        *distance = fmax(
-            0, vec_dot(d, *direction)); /* POV-Ray lights what lies behind the plane too, and nothing is in the way */
+        *distance = fmax(0, vec_dot(d, *direction)); /* POV-Ray lights points behind the plane too, without shadows */
         if (light->kind == LIGHT_CYLINDER)
             value *= cylinder_attenuation(light, position);
     } else {
@@ -95,26 +94,27 @@ Rgb source_irradiance(const Light *light, Vec3 position, Vec3 light_point, Vec3 
     return rgb_scale(light->color, (float)(value * distance_fade(light, *distance)));
 }
 
-/* Fading as even light, or as light that falls with the square of the distance, whichever comes closer. */
+/* Approximate POV-Ray's fading by constant light, or by light that falls with the square of the distance. */
 static void set_fading(const Light *light, LightBounds *b)
 {
     double strength = PI * fmaxf(0, rgb_luminance(light->color)), at = light->fade_distance;
     if (light->fade_power < 1.5) {
-        b->even = light->fade_power > 0 ? 2 * strength : strength;
+        b->constant = light->fade_power > 0 ? 2 * strength : strength;
         return;
     }
-    b->falling = at > 0 ? 2 * strength * at * at : strength;
+    b->intensity = at > 0 ? 2 * strength * at * at : strength;
     b->peak = at > 0 ? 2 * strength : INFINITY;
 }
 
 LightBounds source_bounds(const Light *light)
 {
-    LightBounds b = {.low = light->location, .high = light->location, .axis = {0, 0, 1}, .spread = PI, .reach = PI / 2};
+    LightBounds b = {
+        .low = light->location, .high = light->location, .axis = {0, 0, 1}, .theta_o = PI, .theta_e = PI / 2};
     set_fading(light, &b);
     if (light->kind == LIGHT_SPOT) {
         b.axis = vec_normalize(vec_sub(light->point_at, light->location));
-        b.spread = 0;
-        b.reach = light->falloff > 0 ? fmin(90, light->falloff) * PI / 180 : PI / 2;
+        b.theta_o = 0;
+        b.theta_e = light->falloff > 0 ? fmin(90, light->falloff) * PI / 180 : PI / 2;
     }
     if (light->area) {
         double x = vec_length(light->axis1), y = vec_length(light->axis2), most = (x + y) / 2;

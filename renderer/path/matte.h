@@ -33,7 +33,7 @@ typedef struct MatteLights {
     int found[MATTE_LANES];
     int behind[MATTE_LANES]; /* it is the face's back that shines on the surface */
     MatteVectors origin, direction;
-    MatteDoubles reach;      /* of the ray */
+    MatteDoubles length;      /* of the ray */
     MatteFloats value;       /* of the BSDF over albedo, times the cosine */
     MatteFloats weight;      /* by both ways to find the light, over its density */
 } MatteLights;

@@ -26,14 +26,14 @@ RETEX_CPU_INLINE void light_lane(MatteLights *to, const MattePacket *p, int k)
     float pdf = cosine / (float)PI, value = p->diffuse[k] * pdf, ratio = pdf / light_pdf;
     /* the ray stops just before the light: its surface is met, by a ray begun beside, the earlier the flatter */
     double margin = accel_margin(position);
-    double reach = distance * (1 - 1e-6) - margin;
-    reach -= (margin + accel_margin(point)) / (slope > 1e-3 ? slope : 1e-3);
+    double length = distance * (1 - 1e-6) - margin;
+    length -= (margin + accel_margin(point)) / (slope > 1e-3 ? slope : 1e-3);
     Vec3 origin = start_of_ray(position, geometric, margin, side);
     to->found[k] = (distance > 0) & (slope > 1e-9) & (cosine > 0) & (side >= 0) & (value != 0);
     to->behind[k] = facing > 0;
     matte_set(&to->direction, k, direction);
     matte_set(&to->origin, k, origin);
-    to->reach[k] = reach > 0 ? reach : 0;
+    to->length[k] = length > 0 ? length : 0;
     to->value[k] = value;
     to->weight[k] = 1 / (1 + ratio * ratio) / light_pdf;
 }

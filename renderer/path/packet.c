@@ -121,7 +121,7 @@ static int add_matte(PathWorker *w, Packet *p, int lane)
 
 static Ray matte_shadow_ray(const MatteLights *lights, int k)
 {
-    return (Ray){matte_get(&lights->origin, k), matte_get(&lights->direction, k), 0, lights->reach[k]};
+    return (Ray){matte_get(&lights->origin, k), matte_get(&lights->direction, k), 0, lights->length[k]};
 }
 
 /* As add_direct_light, of a matte surface and a face that emits. */

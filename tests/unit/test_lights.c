@@ -35,14 +35,15 @@ static LightBounds random_light(int kind)
 {
     Vec3 p = random_point(5);
     double size = kind == 0 ? 0 : 0.1;
-    LightBounds b = {.low = p, .high = vec_add(p, vec3(size, size, size)), .axis = random_direction(), .reach = PI / 2};
-    b.falling = 0.1 + random_unit(), b.peak = 10;
-    b.spread = kind == 0 || kind == 3 ? PI : 0;
-    b.back = kind == 2 ? 1 : kind == 4 ? 0.1 : 0;
+    LightBounds b = {
+        .low = p, .high = vec_add(p, vec3(size, size, size)), .axis = random_direction(), .theta_e = PI / 2};
+    b.intensity = 0.1 + random_unit(), b.peak = 10;
+    b.theta_o = kind == 0 || kind == 3 ? PI : 0;
+    b.back_share = kind == 2 ? 1 : kind == 4 ? 0.1 : 0;
     if (kind == 1)
-        b.reach = 0.3;
+        b.theta_e = 0.3;
     if (kind == 5)
-        b.even = b.falling, b.falling = b.peak = 0;
+        b.constant = b.intensity, b.intensity = b.peak = 0;
     return b;
 }
 
@@ -61,7 +62,7 @@ static int reaches(const LightBounds *l, const LightSampleContext *p)
     if (vec_dot(p->normal, p->normal) > 0 && vec_dot(to, p->normal) <= 0)
         return 0;
     double cosine = -vec_dot(to, l->axis);
-    return l->spread == PI || cosine > cos(l->reach) || (l->back > 0 && -cosine > cos(l->reach));
+    return l->theta_o == PI || cosine > cos(l->theta_e) || (l->back_share > 0 && -cosine > cos(l->theta_e));
 }
 
 static void tree_probabilities(void **state)
@@ -130,7 +131,8 @@ static void tree_of_one_place(void **state)
     static LightBounds lights[N];
     LightTree *tree;
     for (int k = 0; k < N; k++)
-        lights[k] = (LightBounds){.axis = {0, 0, 1}, .spread = PI, .reach = PI / 2, .falling = 1, .peak = INFINITY};
+        lights[k] =
+            (LightBounds){.axis = {0, 0, 1}, .theta_o = PI, .theta_e = PI / 2, .intensity = 1, .peak = INFINITY};
     assert_int_equal(light_tree_create(&tree, lights, N, NULL), 0);
     LightSampleContext there = {{0, 0, 0}, {0, 0, 0}}, away = {{1, 0, 0}, {0, 0, 0}};
     for (int k = 0; k < N; k++) {

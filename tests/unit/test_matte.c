@@ -92,7 +92,7 @@ static int light_is_sample(const MattePacket *p, const MatteLights *lights, int 
     double light_pdf = p->density[k] * distance * distance / fabs(facing) * p->pick_probability[k];
     double weight = light_pdf / (light_pdf * light_pdf + (double)pdf * pdf);
     assert_true(fabs(lights->weight[k] - weight) < 1e-5 * weight);
-    assert_true(lights->reach[k] >= 0 && lights->reach[k] < distance);
+    assert_true(lights->length[k] >= 0 && lights->length[k] < distance);
     return 1;
 }
 
