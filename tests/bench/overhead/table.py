@@ -25,23 +25,25 @@ SCENES = {"living-room": "scenes/living-room", "artist": "the artist's living ro
 
 INTRODUCTION = """# What a set costs
 
-How much longer a render takes that leaves a set, than one of the plain picture: what tables 1 to 3 of the paper
-measure. `make bench-overhead` made this page, on {cores} cores; the same figures, with their least and largest
-values, are in [overhead.csv](overhead.csv).
+This page shows how much more time a render takes if it writes a set and not only the plain picture, as tables 1 to 3 of
+the paper do. `make bench-overhead` made this page on {cores} cores. [overhead.csv](overhead.csv) has the same figures,
+with their least and largest values.
 
-Pictures are {size} with {spp} samples a pixel. A figure is that of a whole process, from reading the scene to
-the written OpenEXR file; sets have the denoising data that users get, unless said otherwise. All rows of a table were
-under way at once and went on by turns, a tenth of a second each: so the machine's speed, which moves, is the same for
-all, where runs one after the other may differ by a fifth. Times are medians of all rounds, without what a process
-waited for its turn, with least and largest overhead in brackets; an overhead is the median of those over the mean plain
-picture of the same round, the paper's "baseline path tracer". Wall time is what one waits, processor time what all
-cores spend. The plain picture is there twice: what it has as overhead is the measurement's own error.
+Pictures are {size} with {spp} samples per pixel. A figure is that of a whole process, from reading the scene to the
+written OpenEXR file. Sets have denoising data unless stated otherwise.
+
+The speed of the machine varies; runs one after the other may differ by a fifth. All processes of a table therefore run
+by turns, for a tenth of a second each, so that the speed is the same for all. Times are medians of all rounds, without
+the time that a process waited for its turn. The least and largest overhead are in brackets. An overhead is relative to
+the mean plain picture of the same round, the paper's "baseline path tracer"; it is the median of all rounds. Wall time
+is the time that a user waits. Processor time is the sum of all cores. The plain picture is measured twice: its overhead
+is the error of the measurement.
 """
 RIVALS = """
-"Rousselle" is the method that the paper compares with, as `retex-render` has it: a first render with
-`--plain --control-data biased` or `unbiased`, and for each change of texture a re-render with
-`--replace ... --control`, in `--control-mode biased` or `halves`. A set needs no re-render. "Plain re-render" is
-`--replace` alone, the scene with its new textures rendered anew; its overhead says what the texture files cost.
+"Rousselle" is the method that the paper compares with, as `retex-render` implements it. The first render is one with
+`--plain --control-data biased` or `unbiased`. Each change of texture needs a re-render with `--replace ... --control`,
+in `--control-mode biased` or `halves`. A set needs no re-render. "Plain re-render" is `--replace` alone: the scene
+rendered with new textures. Its overhead is the cost of reading the texture files.
 """
 
 
@@ -99,8 +101,9 @@ def section(scene, edit, rows):
 
 
 def paper():
-    print("\n## The paper's figures\n\nIts Living Room, 128 samples a pixel, averages of five runs; over its plain "
-          "path tracer:\n\n| changed | its set | Rousselle, first render | Rousselle, re-render |\n|---|---|---|---|")
+    print("\n## The paper's figures\n\nThe Living Room of the paper, 128 samples per pixel, averages of five runs, "
+          "relative to its plain path tracer:\n\n"
+          "| changed | its set | Rousselle, first render | Rousselle, re-render |\n|---|---|---|---|")
     for edit, figures in PAPER.items():
         print(f"| {edit} | " + " | ".join(f"{f:.2f} %" for f in figures) + " |")
 
@@ -109,8 +112,8 @@ def memory(found, size):
     rows = {key: runs[0] for key, runs in found.items() if key[0] == "memory"}
     if not rows:
         return
-    print(f"\n## Memory\n\nThe peak of `scenes/living-room` at {size}, 2 samples a pixel; more samples need a little "
-          "more. The plain\npicture's is that of program and scene.\n")
+    print(f"\n## Memory\n\nThe peak memory of `scenes/living-room` at {size}, 2 samples per pixel. More samples need a "
+          "little more.\nThe memory of the plain picture is that of program and scene.\n")
     print("| render | targets | memory MB | file MB |\n|---|---|---|---|")
     for (_, _, edit, name), run in rows.items():
         targets = "" if name == "plain" else edit.count("+") + 1

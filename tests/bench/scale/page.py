@@ -10,26 +10,30 @@ from statistics import median
 COLUMNS = ["series", "at", "render", "turns", "us_per_path", "us_per_path_min", "us_per_path_max", "rays_per_path",
            "reading_s", "peak_memory_bytes", "file_bytes"]
 TITLES = {
-    "triangles": ("Triangles", "triangles", "Twelve bumpy balls in a room; no instances."),
-    "lights": ("Lights: emitting spheres", "lights", "Small spheres below the ceiling, with equal power in all."),
-    "points": ("Lights: light sources", "lights", "`light_source`s in their places."),
+    "triangles": ("Triangles", "triangles", "Twelve bumpy balls in a room, without instances."),
+    "lights": ("Lights: emitting spheres", "lights", "Small spheres below the ceiling. "
+               "Their total power is the same in all rows."),
+    "points": ("Lights: light sources", "lights", "`light_source`s in the places of the spheres."),
     "targets": ("Targets", "targets", "Back wall, floor, balls, left and right wall, ceiling, table and front wall are "
-                "added one after the other;\neight targets are everything."),
-    "resolution": ("Resolution", "size", "With {sizes_spp} samples a pixel: the fewer, the more writing weighs."),
+                "added one after the other.\nEight targets are the whole scene."),
+    "resolution": ("Resolution", "size", "With {sizes_spp} samples per pixel. "
+                   "With fewer samples, writing takes a larger part of the time."),
 }
 LIMIT = 8e9
 
 INTRODUCTION = """# How costs grow
 
-What a path costs, in microseconds of processor time, of the plain picture and of a set, as a scene or picture
-grows. `make bench-scale` made this page, on {cores} cores, each figure the median of {turns}, with the least
-and largest in brackets; they are in [scale.csv](scale.csv) too. The scene is a room of 100,000 triangles with one
-lamp, and what varies is one thing at a time; the set has one target, the back wall, which covers two fifths
-of the picture. Pictures are {size} with {spp} samples a pixel where nothing else is said.
+This page shows how the cost of a path grows with a scene or picture, for the plain picture and for a set. The cost is
+processor time in microseconds. `make bench-scale` made this page on {cores} cores.
+Each figure is the median of {turns}, with the least and largest in brackets.
+[scale.csv](scale.csv) has the same figures.
 
-The time is that of the process, with writing the file, from when it has read and prepared the scene; until then
-is the column "reading". Sets are compared with plain pictures of the same turn. Rays
-are those of the plain picture, shadow rays included.
+The scene is a room of 100,000 triangles with one lamp. Each table varies one property. The set has one target, the back
+wall, which covers two fifths of the picture. Pictures are {size} with {spp} samples per pixel unless stated otherwise.
+
+The time is that of the process after it has read and prepared the scene, including writing the file. The column
+"reading" is the time before that. Sets are compared with plain pictures of the same turn. Rays are those of the plain
+picture, including shadow rays.
 
 ![](pictures/scale.png)
 """
@@ -68,7 +72,8 @@ def cell(row):
 def section(series, rows, sizes_spp):
     title, unit, text = TITLES[series]
     print(f"\n## {title}\n\n{text.format(sizes_spp=sizes_spp)}\n")
-    print(f"| {unit} | plain, us a path | set | set / plain | rays a path | reading, s | memory, MB: plain | set |\n"
+    print(f"| {unit} | plain, us per path | set | set / plain | rays per path | reading, s |"
+          " memory, MB: plain | set |\n"
           "|---|---|---|---|---|---|---|---|")
     by = {(r["at"], r["render"]): r for r in rows}
     for at in dict.fromkeys(r["at"] for r in rows):
@@ -87,16 +92,16 @@ def large(found):
     for (series, at, _), runs in found.items():
         if series != "large":
             continue
-        print(f"\n## A large set\n\n`scenes/living-room` at {at}, one target, `--clusters 8`, 4 samples a pixel: ",
+        print(f"\n## A large set\n\n`scenes/living-room` at {at}, one target, `--clusters 8`, 4 samples per pixel: ",
               end="")
         run = next(iter(runs.values()))
         if run["status"]:
-            print("was not rendered.")
+            print("not rendered.")
             return
         peak = run["peak_memory_bytes"]
         than = "less" if peak < LIMIT else "more"
-        print(f"peak memory {peak / 1e9:.2f} GB,\n{than} than the {LIMIT / 1e9:.0f} GB of a "
-              f"small machine; the file has {run['bytes'] / 1e9:.2f} GB.")
+        print(f"the peak memory is {peak / 1e9:.2f} GB,\n{than} than the {LIMIT / 1e9:.0f} GB of a "
+              f"small machine. The file has {run['bytes'] / 1e9:.2f} GB.")
 
 
 def main(records, table, cores, size, spp, sizes_spp):

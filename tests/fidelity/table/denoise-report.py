@@ -111,19 +111,20 @@ def asked(t):
     many = min((*least(t, MANY_DENOISED, MANY, region=r), r) for r in REGIONS if t.values(MANY, region=r))
     detail = [x for x in DETAIL if x in t.textures]
     lost = [x for x in detail if t.gain(DENOISED, RIVAL, textures=[x]) <= 0]
-    rows = [("at 128 samples at least as good as rendered again with 512, mean",
+    rows = [("at 128 samples at least as good as rendered again with 512 samples, mean",
              signed(t.gain(DENOISED, MORE)) + " dB", t.gain(DENOISED, MORE) >= 0),
-            ("the aim: 6 dB over the set, mean", signed(t.gain(DENOISED, SET)) + " dB", t.gain(DENOISED, SET) >= 6),
-            ("no scene worse than the set by more than 0.1 dB in any region, mean of textures, "
-             f"each of {len(t.seeds[SET])} seeds",
+            ("at 128 samples 6 dB over the set, mean", signed(t.gain(DENOISED, SET)) + " dB",
+             t.gain(DENOISED, SET) >= 6),
+            ("in no scene and region worse than the set by more than 0.1 dB, mean of textures, "
+             f"for each of {len(t.seeds[SET])} seeds",
              f"least {signed(below)} dB: {scene}, {region}, seed {seed}", below >= -0.1),
-            ("at 1024 samples never worse than the set: whole pictures, each scene and texture",
+            ("at 1024 samples never worse than the set, in whole pictures, for each scene and texture",
              f"least {signed(whole[0])} dB: {whole[1]}, {whole[2]}", whole[0] >= 0),
-            ("the same, each region too",
+            ("the same for each region",
              f"least {signed(many[0])} dB: {many[1]}, {many[2]}, {many[4]}", many[0] >= 0),
-            ("better than rendered again and denoised alike, on each texture with detail, mean of scenes",
+            ("better than rendered again and denoised, for each texture with detail, mean of scenes",
              "yes" if not lost else "not on " + ", ".join(lost), not lost)]
-    table(["asked", "found", ""], [(a, b, "kept" if kept else "**not kept**") for a, b, kept in rows])
+    table(["requirement", "result", ""], [(text, found, "met" if met else "**not met**") for text, found, met in rows])
 
 
 def summary(t):
@@ -175,7 +176,7 @@ def against_rival(t):
     table(["scene"] + t.textures,
           [[scene] + [signed(t.gain(DENOISED, RIVAL, scenes=[scene], textures=[x])) for x in t.textures]
            for scene in t.scenes])
-    print("and by scene and region, mean of textures:")
+    print("By scene and region, mean of textures:")
     by_scene_and_region(t, lambda s, r: signed(t.gain(DENOISED, RIVAL, scenes=[s], region=r)))
 
 
@@ -198,25 +199,36 @@ def strip(work, scene, texture):
 
 def main(work, size, truth_samples, notes):
     t = Table(f"{work}/denoise.csv")
-    print(f"""# Denoised sets against rendering again
+    print(f"""# Denoised sets compared with rendering again
 
-PSNR in decibels (sRGB-encoded, clipped to 0..1) and mean FLIP against converged pictures of {truth_samples} samples,
-{size}. `set` is a set, layout footprints, retextured; `denoised` the same after
-`retex-denoise`; `again` the scene rendered anew with the new texture; `again denoised` that with `--denoise`, the same
-filter: a fair rival, which must filter every texture anew and sees it only with its noise. Sets of 128 samples have {len(t.seeds[SET])} seeds, all
-else one; means are of all scenes, textures and seeds. Scenes and textures are those of [fidelity.md](fidelity.md).
-The truths have a little noise too: gains at 1024 samples are larger than they seem. Made by `make fidelity-denoise`;
-all figures are in [denoise.csv](denoise.csv).""")
+The figures are PSNR in decibels (sRGB-encoded, clipped to 0..1) and mean FLIP, against converged pictures
+of {truth_samples} samples, {size}. The rows are:
+
+- `set`: a set, layout footprints, retextured;
+- `denoised`: the same after `retex-denoise`;
+- `again`: the scene rendered again with the new texture;
+- `again denoised`: that with `--denoise`. It uses the same filter, and is therefore a fair comparison. It must filter
+  each texture anew, and sees the texture only with its noise.
+
+Sets of 128 samples have {len(t.seeds[SET])} seeds, everything else has one. Means are over all scenes, textures and seeds.
+Scenes and textures are those of [fidelity.md](fidelity.md). The converged pictures have a little noise too: they make
+gains at 1024 samples look smaller than they are. `make fidelity-denoise` made this page; [denoise.csv](denoise.csv) has all
+figures.""")
     asked(t)
     print("## Means")
     summary(t)
     print("""## By region
 
-A pixel is `glass-mirror` where the first hit is sharper than roughness 0.1, else `silhouette` next to where surfaces
-part, else `caustic` (in glass-caustics) where glass or a mirror gathers light, else `shadow-edge` where direct light
-changes by 8 % or more from pixel to pixel, else `smooth`. They are found from first hits and from light that is nearly
-free of noise (`tests/fidelity/table/regions.py`); a region of fewer than 60 pixels is left out.
-PSNR of the set, and gains over it:""")
+A pixel is in the first of these regions that applies:
+
+- `glass-mirror`: the first hit is sharper than roughness 0.1;
+- `silhouette`: next to an edge between surfaces;
+- `caustic` (in glass-caustics only): glass or a mirror concentrates light there;
+- `shadow-edge`: direct light changes by 8 % or more from pixel to pixel;
+- `smooth`: everything else.
+
+`tests/fidelity/table/regions.py` finds regions from first hits and from light that is nearly free of noise. Regions of
+fewer than 60 pixels are left out. The table has the PSNR of the set, and gains over it:""")
     by(t, "region", REGIONS, lambda name: {"region": name})
     print("## By scene")
     by(t, "scene", t.scenes, lambda name: {"scenes": [name]})
@@ -224,14 +236,14 @@ PSNR of the set, and gains over it:""")
     by(t, "texture", t.textures, lambda name: {"textures": [name]})
     print("""## Worst cases
 
-128 samples, denoised over set: mean over textures, of the seed where that is least:""")
+128 samples, denoised over set: mean over textures, for the seed with the least mean:""")
     seeds = worst_seeds(t)
     by_scene_and_region(t, lambda s, r: f"{seeds[s, r][0]:+.2f}" if (s, r) in seeds else "")
-    print("and the least of all textures and seeds, with the texture:")
+    print("The least of all textures and seeds, with the texture:")
     by_scene_and_region(t, least_cell(t, DENOISED, SET))
     print("1024 samples, denoised over set: the least of all textures, with the texture:")
     by_scene_and_region(t, least_cell(t, MANY_DENOISED, MANY))
-    print("## Against rendering again and denoising alike\n\n128 samples, whole pictures, mean of scenes:")
+    print("## Compared with rendering again and denoising\n\n128 samples, whole pictures, mean of scenes:")
     against_rival(t)
     if os.path.exists(notes):
         with open(notes, encoding="utf-8") as file:
@@ -242,9 +254,10 @@ PSNR of the set, and gains over it:""")
             signed(t.gain(("paper-denoised", 128), ("paper", 128), scenes=[s]))] for s in t.scenes])
     print("""## Pictures
 
-From left to right the truth, the set, the denoised set, rendered again with 512 samples, and rendered again with 128
-and denoised. Below the truth the regions: grey smooth, white silhouette, blue glass and mirror, yellow caustic, red
-shadow edge; below the others their difference from the truth, sRGB-encoded, four times over, about middle grey.""")
+From left to right: the converged picture, the set, the denoised set, rendered again with 512 samples, and rendered
+again with 128 samples and denoised. Below the converged picture are the regions: grey smooth, white silhouette, blue
+glass and mirror, yellow caustic, red shadow edge. Below the others is their difference from the converged picture,
+sRGB-encoded, multiplied by four, around middle grey.""")
     for scene, texture in SHOWN:
         if scene in t.scenes and texture in t.textures:
             strip(work, scene, texture)

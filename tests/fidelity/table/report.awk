@@ -10,14 +10,16 @@ NR == 1 { next }
 }
 function gap(s, t, n, m) { return value[s, t, n, m] - value[s, t, n, "again"] }
 END {
-    print "# Retexturing against rendering again\n"
-    print "PSNR in decibels (sRGB-encoded, clipped to 0..1) against converged pictures of " truth " samples, at " size \
-        " pixels:"
-    print "the scene rendered again with the new textures, and sets of the same number of samples and the same seed,"
-    print "retextured. `gap` is what retexturing loses to rendering again; where it is above 0, it is the better picture,"
-    print "for it filters textures where rendering samples them. Made by `make fidelity`; the same figures are in"
-    print "[fidelity.csv](fidelity.csv). Of two targets both change. The scenes are in `scenes/` and"
-    print "`tests/fidelity/scenes/`, the textures are those of `make fidelity-textures`.\n"
+    print "# Retexturing compared with rendering again"
+    print ""
+    print "Each scene was rendered again with new textures. Sets of the same number of samples and the same seed were retextured."
+    print "The figures are PSNR in decibels (sRGB-encoded, clipped to 0..1) against converged pictures of " truth " samples, at"
+    print size " pixels. `gap` is the PSNR of retexturing minus that of rendering again. Where it is above 0, retexturing gives"
+    print "the better picture, because it filters textures where rendering samples them."
+    print ""
+    print "In scenes with two targets both change. The scenes are in `scenes/` and `tests/fidelity/scenes/`. The textures are those"
+    print "of `make fidelity-textures`. `make fidelity` made this page; [fidelity.csv](fidelity.csv) has the same figures."
+    print ""
     print "| samples | set | mean gap | worst gap | where |"
     print "|---|---|---|---|---|"
     for (c = 1; c <= counts; c++)
@@ -32,10 +34,12 @@ END {
                 }
             if (all) printf "| %d | %s | %+.2f dB | %+.2f dB | %s |\n", count[c], method[m], sum / all, worst, where
         }
-    print "\n`footprints` keeps 4 clusters a pixel and target, the default; `footprints-8` 8 (`--clusters 8`)."
-    print "`paper-cross-2` leaves the cross terms of three hits out, `paper-cross-0` all of them"
-    print "(`retex-combine --cross`)."
-    print "\nMean gap by scene, and in brackets the mean PSNR of rendering again:\n"
+    print ""
+    print "`footprints` has 4 clusters per pixel and target, the default; `footprints-8` has 8 (`--clusters 8`). `paper-cross-2`"
+    print "leaves out the cross terms of three hits, `paper-cross-0` all cross terms (`retex-combine --cross`)."
+    print ""
+    print "Mean gap by scene, and in brackets the mean PSNR of rendering again:"
+    print ""
     line = "| scene |"; rule = "|---|"
     for (c = 1; c <= counts; c++) {
         line = line " footprints, " count[c] " | footprints-8 | paper |"
