@@ -80,9 +80,7 @@ static const CliOption options[] = {
     [OPT_DEPTH] = {"max-depth", 0, "N", "maximum number of segments of a path; default 16", 0},
     [OPT_CROP] = {"crop", 0, "X,Y,W,H", "render only this rectangle of the picture", 0},
     [OPT_FILTER] = {"filter", 0, "NAME", "pixel filter: box or gaussian; default box", 0},
-    [OPT_AOV] = {"aov", 0, "LIST",
-                 "add parts, of: beauty, depth, albedo, normal, position, uv, object, roughness, metallic, irradiance",
-                 0},
+    [OPT_AOV] = {"aov", 0, "LIST", "add parts, of: " RETEX_AOV_NAMES, 0},
     [OPT_AOV_DIR] = {"aov-dir", 0, "DIR",
                      "also write the beauty and the AOVs of --aov, or all, as DIR/NAME.exr and .png", 0},
     [OPT_INCLUDE] = {"include", 'I', "DIR", "also look for included files and images in DIR; repeatable", 0},
@@ -352,7 +350,7 @@ void parse_arguments(Arguments *a)
     if (a->aov_dir && (a->list || a->tracing || a->variants || a->control))
         cli_die(cli, "--aov-dir cannot be combined with --list-targets, --trace-pixel, --variants or --control");
     if (a->aov_dir && !a->render.aovs)
-        a->render.aovs = AOV_ALL;
+        a->render.aovs = RETEX_AOV_ALL;
     const char *answer = a->list ? "list-targets" : a->tracing ? "trace-pixel" : NULL;
     if (answer && cli->output)
         cli_die(cli, "--%s goes to standard output: no -o", answer);

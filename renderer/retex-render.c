@@ -7,7 +7,7 @@
 #include <retex/denoise.h>
 #include "retex-render.h"
 #include "watchdog.h"
-#include "render/guides.h"
+#include "render/aov_files.h"
 
 typedef struct IdentShare {
     const char *name;
@@ -52,7 +52,7 @@ static void announce_files(Arguments *a, const char *output)
     texture_args_reads(a->cli, a->replacements, a->nreplacements);
     cli_writes(a->cli, a->list || a->tracing ? "the answer" : "the output", a->list || a->tracing ? "-" : output);
     cli_writes(a->cli, "--stats", a->stats);
-    for (int k = 0; a->aov_dir && guides_path(path, sizeof path, a->aov_dir, k); k++)
+    for (int k = 0; a->aov_dir && aov_files_path(path, sizeof path, a->aov_dir, k); k++)
         cli_writes(a->cli, "the file of --aov-dir", path);
 }
 
@@ -226,7 +226,7 @@ int main(int argc, char **argv)
     if (job_open_scene(&scene, a.scene, &a.sdl, a.targets, a.ntargets, &err))
         fail(&a, &err);
     announce_files_of_scene(&a, scene);
-    if (a.aov_dir && guides_check(a.aov_dir, &err))
+    if (a.aov_dir && aov_files_check(a.aov_dir, &err))
         cli_die(&cli, "--aov-dir: %s", err.message);
     if (!a.list)
         job_warn_dark(scene, &a.sdl);
@@ -251,7 +251,7 @@ int main(int argc, char **argv)
     if (set) {
         if (a.denoise)
             denoise(&a, set);
-        if (a.aov_dir && guides_write(set, a.aov_dir, &err))
+        if (a.aov_dir && aov_files_write(set, a.aov_dir, &err))
             cli_fail(&cli, &err);
         if (output)
             write_result(&a, set, output);

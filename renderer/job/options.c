@@ -121,35 +121,6 @@ static int set_clusters(const Option *o)
     return RETEX_OK;
 }
 
-static int add_aovs(const Option *o)
-{
-    static const char *const names[] = {"depth",  "albedo",    "normal",   "position",   "uv",
-                                        "object", "roughness", "metallic", "irradiance", "beauty"};
-    enum { COUNT = sizeof names / sizeof *names };
-    unsigned bits = 0;
-    for (const char *name = o->value;; name++) {
-        size_t length = strcspn(name, ",");
-        int k = 0;
-        while (k < COUNT && (strlen(names[k]) != length || strncmp(names[k], name, length)))
-            k++;
-        if (k == COUNT) {
-            char word[RETEX_NEAREST_MAX + 1], meant[RETEX_MEANT_SIZE];
-            snprintf(word, sizeof word, "%.*s", (int)length, name);
-            return retex_fail(
-                o->err, RETEX_EPARSE,
-                "%s knows beauty,depth,albedo,normal,position,uv,object,roughness,metallic,irradiance, not `%.*s`%s",
-                o->name, (int)length, name, retex_meant(retex_nearest_of(word, names, COUNT), meant));
-        }
-        if (k < COUNT - 1)
-            bits |= 1u << k;
-        name += length;
-        if (!*name)
-            break;
-    }
-    o->render->aovs |= bits;
-    return RETEX_OK;
-}
-
 /* Options with a value. */
 static int set_value(const Option *o)
 {
@@ -175,7 +146,7 @@ static int set_value(const Option *o)
     if (!strcmp(o->name, "clusters"))
         return set_clusters(o);
     if (!strcmp(o->name, "aov"))
-        return add_aovs(o);
+        return retex_aov_parse(&r->aovs, o->value, o->name, o->err);
     return retex_fail(o->err, RETEX_ENOTFOUND, "%s is no option of a render", o->name);
 }
 

@@ -37,7 +37,7 @@ static inline Rgb shading_albedo(const Shading *s, int variant)
     return s->replaced ? s->albedos[variant] : s->albedo;
 }
 
-/* AOV_ROUGHNESS and AOV_METALLIC of render.h. */
+/* The AOVs of these names, see <retex/aov.h>. */
 float shading_roughness(const Shading *shading);
 float shading_metallic(const Shading *shading);
 

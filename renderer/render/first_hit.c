@@ -7,20 +7,76 @@
 #include "path/path.h"
 #include "shape/shape.h"
 
-/* Channels are named so that Blender takes them as they are: of R, G, A it would show R, 0, A. */
-static const struct {
-    unsigned bit;
-    const char *name, *letters;
-} aov_table[] = {
-    {AOV_DEPTH, "depth", "R"},         {AOV_ALBEDO, "albedo", "RGB"},   {AOV_NORMAL, "normal", "RGB"},
-    {AOV_POSITION, "position", "RGB"}, {AOV_UV, "uv", "UVA"},           {AOV_OBJECT, "object", "R"},
-    {AOV_ROUGHNESS, "roughness", "R"}, {AOV_METALLIC, "metallic", "R"},
+/* The value of an AOV at a first hit: up to three channels. */
+typedef void AovValue(float value[3], const Hit *hit, const Shading *shading);
+
+static void depth_at(float value[3], const Hit *hit, const Shading *s)
+{
+    (void)s;
+    value[0] = (float)hit->t;
+}
+
+static void albedo_at(float value[3], const Hit *hit, const Shading *s)
+{
+    (void)hit;
+    const Rgb albedo = shading_albedo(s, 0);
+    value[0] = albedo.r, value[1] = albedo.g, value[2] = albedo.b;
+}
+
+static void normal_at(float value[3], const Hit *hit, const Shading *s)
+{
+    (void)hit;
+    const Vec3 n = s->bsdf.normal;
+    value[0] = (float)n.x, value[1] = (float)n.y, value[2] = (float)n.z;
+}
+
+static void position_at(float value[3], const Hit *hit, const Shading *s)
+{
+    (void)hit;
+    const Vec3 p = s->surface.position;
+    value[0] = (float)p.x, value[1] = (float)p.y, value[2] = (float)p.z;
+}
+
+static void uv_at(float value[3], const Hit *hit, const Shading *s)
+{
+    (void)hit;
+    const Vec2 uv = surface_target_uv(&s->surface);
+    value[0] = (float)uv.u, value[1] = (float)uv.v, value[2] = 1;
+}
+
+static void object_at(float value[3], const Hit *hit, const Shading *s)
+{
+    (void)s;
+    value[0] = (float)(hit->primitive + 1);
+}
+
+static void roughness_at(float value[3], const Hit *hit, const Shading *s)
+{
+    (void)hit;
+    value[0] = shading_roughness(s);
+}
+
+static void metallic_at(float value[3], const Hit *hit, const Shading *s)
+{
+    (void)hit;
+    value[0] = shading_metallic(s);
+}
+
+/* NULL: the AOV is not of the first hit alone, and render.c adds it. */
+static AovValue *const aov_values[RETEX_AOV_COUNT] = {
+    [RETEX_AOV_DEPTH] = depth_at,
+    [RETEX_AOV_ALBEDO] = albedo_at,
+    [RETEX_AOV_NORMAL] = normal_at,
+    [RETEX_AOV_POSITION] = position_at,
+    [RETEX_AOV_UV] = uv_at,
+    [RETEX_AOV_OBJECT] = object_at,
+    [RETEX_AOV_ROUGHNESS] = roughness_at,
+    [RETEX_AOV_METALLIC] = metallic_at,
 };
-enum { AOV_COUNT = sizeof aov_table / sizeof *aov_table };
 
 typedef struct AovJob {
     const FirstHitWindow *window;
-    RetexImage *images[AOV_COUNT]; /* NULL where not wanted */
+    RetexImage *images[RETEX_AOV_COUNT]; /* NULL where not wanted */
 } AovJob;
 
 static int centre_hit(const FirstHitWindow *w, int x, int y, Hit *hit, Shading *s)
@@ -32,15 +88,6 @@ static int centre_hit(const FirstHitWindow *w, int x, int y, Hit *hit, Shading *
     return 1;
 }
 
-static void store(RetexImage *image, int x, int y, float a, float b, float c)
-{
-    if (!image)
-        return;
-    float *p = image->pixels + retex_image_index(image, x, y), v[3] = {a, b, c};
-    for (int k = 0; k < image->channels; k++)
-        p[k] = v[k];
-}
-
 static void aov_row(void *context, int y, int thread)
 {
     AovJob *job = context;
@@ -49,41 +96,39 @@ static void aov_row(void *context, int y, int thread)
     for (int x = 0; x < w->w; x++) {
         Hit hit;
         Shading s;
-        if (!centre_hit(w, x, y, &hit, &s)) {
-            store(job->images[0], x, y, INFINITY, 0, 0);
-            continue;
+        const int is_hit = centre_hit(w, x, y, &hit, &s);
+        for (int k = 0; k < RETEX_AOV_COUNT; k++) {
+            RetexImage *image = job->images[k];
+            float value[3] = {retex_aovs[k].nothing, retex_aovs[k].nothing, retex_aovs[k].nothing};
+            if (!image)
+                continue;
+            if (is_hit)
+                aov_values[k](value, &hit, &s);
+            memcpy(image->pixels + retex_image_index(image, x, y), value, (size_t)image->channels * sizeof *value);
         }
-        Vec3 n = s.bsdf.normal, p = s.surface.position;
-        Rgb albedo = shading_albedo(&s, 0);
-        store(job->images[0], x, y, (float)hit.t, 0, 0);
-        store(job->images[1], x, y, albedo.r, albedo.g, albedo.b);
-        store(job->images[2], x, y, (float)n.x, (float)n.y, (float)n.z);
-        store(job->images[3], x, y, (float)p.x, (float)p.y, (float)p.z);
-        if (job->images[4]) {
-            Vec2 uv = surface_target_uv(&s.surface);
-            store(job->images[4], x, y, (float)uv.u, (float)uv.v, 1);
-        }
-        store(job->images[5], x, y, (float)(hit.primitive + 1), 0, 0);
-        store(job->images[6], x, y, shading_roughness(&s), 0, 0);
-        store(job->images[7], x, y, shading_metallic(&s), 0, 0);
     }
+}
+
+int first_hit_add_aov(RetexSet *set, RetexAov aov, int *part, RetexError *err)
+{
+    const RetexAovInfo *info = &retex_aovs[aov];
+    return retex_set_add_part(set, info->name, info->letters, info->type, 0, 0, part, err);
 }
 
 int first_hit_aovs(RetexSet *set, const FirstHitWindow *window, unsigned aovs, RetexError *err)
 {
     AovJob job = {.window = window};
-    int parts[AOV_COUNT];
-    for (int k = 0; k < AOV_COUNT; k++) {
-        if (!(aovs & aov_table[k].bit))
-            continue;
-        int code = retex_set_add_part(set, aov_table[k].name, aov_table[k].letters, RETEX_FLOAT, 0, 0, &parts[k], err);
+    int parts[RETEX_AOV_COUNT], wanted = 0;
+    for (int k = 0; k < RETEX_AOV_COUNT; k++) {
+        parts[k] = -1;
+        int code = aovs >> k & 1 && aov_values[k] ? first_hit_add_aov(set, (RetexAov)k, &parts[k], err) : RETEX_OK;
         if (code)
             return code;
     }
-    for (int k = 0; k < AOV_COUNT; k++)
-        if (aovs & aov_table[k].bit)
-            job.images[k] = &set->parts[parts[k]].image;
-    if (aovs)
+    for (int k = 0; k < RETEX_AOV_COUNT; k++)
+        if (parts[k] >= 0)
+            job.images[k] = &set->parts[parts[k]].image, wanted = 1;
+    if (wanted)
         retex_parallel(window->nthreads, window->h, aov_row, &job);
     return RETEX_OK;
 }

@@ -14,7 +14,9 @@ typedef struct FirstHitWindow {
     const RenderVariant *variants; /* or NULL: the first one's colours are shown */
 } FirstHitWindow;
 
-/* Add a part for each of the AOV_… bits. */
+/* Add a part for an AOV. */
+int first_hit_add_aov(RetexSet *set, RetexAov aov, int *part, RetexError *err);
+/* Add and fill a part for each of these AOVs, of the first hit alone: all but irradiance. */
 int first_hit_aovs(RetexSet *set, const FirstHitWindow *window, unsigned aovs, RetexError *err);
 /* Fill share, and periodic of all targets. */
 int first_hit_targets(RetexSet *set, const FirstHitWindow *window, RetexError *err);

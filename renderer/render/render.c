@@ -55,7 +55,7 @@ static int add_irradiance(RetexSet *set, const Render *r, RetexError *err)
     if (!code)
         code = film_finish(pass.film, found, err);
     if (!code)
-        code = retex_set_add_part(set, "irradiance", "RGB", RETEX_FLOAT, 0, 0, &part, err);
+        code = first_hit_add_aov(set, RETEX_AOV_IRRADIANCE, &part, err);
     for (size_t i = 0; i < (size_t)r->w * (size_t)r->h * 3 && !code; i++)
         set->parts[part].image.pixels[i] = (float)PI * found->parts[0].image.pixels[i];
     render_close_films(&pass);
@@ -88,7 +88,7 @@ static int render_into(RetexSet *set, Render *r, RenderStats *stats, double star
         code = first_hit_aovs(set, &window, r->params.aovs, err);
     if (!code && r->pixel_guides)
         code = denoise_guides_finish(&r->guides, r->film, set, err);
-    if (!code && r->params.aovs & AOV_IRRADIANCE)
+    if (!code && r->params.aovs & RETEX_AOV_BIT(IRRADIANCE))
         code = add_irradiance(set, r, err);
     if (!code && data) {
         ControlMoments *moments[2] = {control_film_moments(r->control, 0), control_film_moments(r->control, 1)};

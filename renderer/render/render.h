@@ -4,26 +4,11 @@
 
 #include <stdint.h>
 #include <stdio.h>
+#include <retex/aov.h>
 #include <retex/budget.h>
 #include "render/control_variate.h"
 #include "scene/scene.h"
 #include "scene/variant.h"
-
-/* Further pictures, one part each, taken at the first hit of the pixel centre's ray, unfiltered. */
-enum {
-    AOV_DEPTH = 1,    /* R: distance along the ray, scene units; inf where nothing is hit */
-    AOV_ALBEDO = 2,   /* RGB: the pigment's colour, scene-linear */
-    AOV_NORMAL = 4,   /* RGB: x, y, z of the unit shading normal, camera's side, world space; 0 where nothing is */
-    AOV_POSITION = 8, /* RGB: world space */
-    AOV_UV = 16,      /* RGA: u, v that a replacement texture would be looked up at, and 1 where something is hit */
-    AOV_OBJECT = 32,  /* R: number of the primitive from 1, 0 where nothing is hit */
-    AOV_ROUGHNESS = 64, /* R: of the sharpest thing the surface does: 0 mirrors and clear glass, 1 what is only diffuse;
-                           between, the square root of GGX's alpha */
-    AOV_METALLIC = 128, /* R: 0..1, how much the surface's reflections have the pigment's colour */
-    AOV_IRRADIANCE = 256, /* RGB: what arrives at the first hit, on the side that is seen, direct and indirect: pi times
-                            the radiance of a white diffuse surface in its place; spp paths */
-    AOV_ALL = 511
-};
 
 /* Begin with RENDER_PARAMS_INIT. */
 typedef struct RenderParams {
@@ -42,7 +27,8 @@ typedef struct RenderParams {
     int orders;              /* most hits of each target kept, 1..6; default 6; of all together 12, in paper 8 */
     int strict_paper;        /* drop mixed terms of four and more hits, as the supplement does; default 0 */
     int plain;               /* beauty only, no set; default 0 */
-    unsigned aovs;           /* AOV_… bits */
+    unsigned aovs;           /* RETEX_AOV_BIT(…) of each AOV that the set is to have: of the first hit of the ray
+                                through the pixel's centre, unfiltered; irradiance by spp paths from there */
     int nthreads;            /* 0 = all cores */
     void (*progress)(void *context, double done); /* 0..1, from the calling thread; NULL = none */
     void *progress_context;

@@ -46,7 +46,7 @@ double render_bytes(const Scene *scene, const RenderParams *p, int width, int he
                              .noise = p->denoise_data};
     const double guides = p->denoise_data && !p->stored ? 19 + scene->ntargets : 0;
     return film_bytes(&film, scene->ntargets, p->stored) +
-           (double)width * height * sizeof(float) * (guides + 19 * (p->aovs != 0));
+           (double)width * height * sizeof(float) * (guides + retex_aov_channels(p->aovs));
 }
 
 void render_forget_files(RenderParams *p)

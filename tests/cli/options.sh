@@ -49,6 +49,13 @@ for page in "$pages"/retex-*.1; do
     done <"$work/$tool.help"
 done
 
+# The AOVs of retex-render, by its own message, are those that the page describes.
+retex-render --aov '?' scene.pov 2>&1 | sed -n 's/.* knows \(.*\), not .*/\1/p' | tr -d , | tr ' ' '\n' | sort >"$work/aovs"
+[ -s "$work/aovs" ] || echo "retex-render --aov '?' lists nothing"
+sed -n '/^[.]It Fl -aov Ar/,/^[.]It Fl -aov-dir/s/^[.]Cm //p' "$pages/retex-render.1" | tr -s ' ,.' '\n' | sed '/^$/d' |
+    sort -u >"$work/man"
+comm -3 "$work/aovs" "$work/man" | sed 's/.*/retex-render.1 and the AOVs there are differ by &/'
+
 # An option that a page speaks of is one that there is, in a tool or, in retex-oiio(7), in oiiotool.
 {
     cat "$work"/*.help

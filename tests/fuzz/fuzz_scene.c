@@ -24,7 +24,7 @@ static void render(Scene *scene)
     params.spp = 2;
     params.max_depth = 5;
     params.nthreads = 1;
-    params.aovs = AOV_DEPTH | AOV_ALBEDO | AOV_NORMAL | AOV_POSITION | AOV_UV | AOV_OBJECT;
+    params.aovs = RETEX_AOV_ALL & ~RETEX_AOV_BIT(IRRADIANCE);
     if (scene->nidents)
         scene_resolve_targets(scene, &scene->idents[0], 1, NULL);
     if (render_scene(&set, scene, &params, &stats, NULL) == 0)

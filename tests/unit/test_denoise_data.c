@@ -256,7 +256,7 @@ static void the_rest_of_the_set_is_the_same(void **state)
     for (int paper = 0; paper < 2; paper++) {
         Scene *scene = read_scene(room, NULL, room_targets, 2);
         RenderParams p = small(6);
-        p.paper = paper, p.aovs = AOV_ALL, p.control_data = paper;
+        p.paper = paper, p.aovs = RETEX_AOV_ALL, p.control_data = paper;
         RetexSet *with = render(scene, &p);
         p.denoise_data = 0;
         RetexSet *without = render(scene, &p);

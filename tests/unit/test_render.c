@@ -347,7 +347,7 @@ static void irradiance_knows_no_material(void **state)
         s.scene->nlights = !sky;
         s.scene->background = rgb_grey((float)sky);
         s.lights[0] = (Light){.kind = LIGHT_POINT, .location = {0.5, 2, 0}, .color = {1, 1, 0.5f}};
-        p.spp = 64, p.plain = 1, p.aovs = AOV_ALL;
+        p.spp = 64, p.plain = 1, p.aovs = RETEX_AOV_ALL;
         assert_int_equal(render_scene(&set, s.scene, &p, NULL, NULL), 0);
         for (int y = 0; y < 12; y++)
             for (int x = 0; x < 16; x++) {

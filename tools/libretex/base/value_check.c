@@ -4,11 +4,15 @@
 #include <math.h>
 #include <string.h>
 
+#include <retex/aov.h>
+
 #include "base/half.h"
 
 RetexAllowedValues retex_allowed_values(const char *name)
 {
-    return strcmp(name, "depth") == 0 ? RETEX_ALLOW_INFINITE : RETEX_ALLOW_FINITE;
+    const int aov = retex_aov_find(name);
+
+    return aov >= 0 && isinf(retex_aovs[aov].nothing) ? RETEX_ALLOW_INFINITE : RETEX_ALLOW_FINITE;
 }
 
 static float sample_at(const void *samples, RetexPixelType type, size_t i)

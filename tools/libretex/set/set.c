@@ -3,6 +3,7 @@
 #include <string.h>
 #include <strings.h>
 
+#include <retex/aov.h>
 #include <retex/set.h>
 
 #include "base/part_name.h"
@@ -289,8 +290,8 @@ int retex_set_footprint_scale(const RetexSet *set, int footprint)
 
 int retex_set_part_is_color(const RetexSet *set, int part)
 {
-    static const char *const pictures[] = {"albedo", "irradiance"}; /* of those that stand beside a set's own parts */
-    int found = part == 0;
+    const int aov = retex_aov_find(set->parts[part].name);
+    int found = part == 0 || (aov >= 0 && retex_aov_is_color((RetexAov)aov));
 
     for (int i = 0; i < set->nterms && !found; i++)
         found = set->terms[i].radiance == part;
@@ -298,8 +299,6 @@ int retex_set_part_is_color(const RetexSet *set, int part)
         found = set->footprints[i].albedo == part;
     for (int i = 0; i < set->ntargets && !found; i++)
         found = set->targets[i].original == part;
-    for (size_t i = 0; i < sizeof pictures / sizeof *pictures && !found; i++)
-        found = strcmp(set->parts[part].name, pictures[i]) == 0;
     return found;
 }
 

@@ -3,6 +3,7 @@
 #define RETEX_RETEX_H
 
 #include <retex/access.h>
+#include <retex/aov.h>
 #include <retex/band_stats.h>
 #include <retex/band_store.h>
 #include <retex/budget.h>

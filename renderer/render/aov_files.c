@@ -1,13 +1,14 @@
-/* See guides.h. */
+/* See aov_files.h. */
 #include <errno.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <retex/aov.h>
 #include <retex/image_file.h>
 #include "base/vec.h"
-#include "render/guides.h"
+#include "render/aov_files.h"
 #include "path/sampler.h"
 
 typedef void (*Encode)(RetexImage *image);
@@ -17,7 +18,7 @@ static size_t samples(const RetexImage *im)
     return (size_t)im->width * (size_t)im->height * (size_t)im->channels;
 }
 
-static void encode_normal(RetexImage *im)
+static void encode_signed(RetexImage *im)
 {
     for (size_t i = 0; i < samples(im); i++)
         im->pixels[i] = im->pixels[i] * 0.5f + 0.5f;
@@ -44,7 +45,7 @@ static int compare_floats(const void *a, const void *b)
     return x < y ? -1 : x > y;
 }
 
-static void encode_irradiance(RetexImage *im)
+static void encode_exposed(RetexImage *im)
 {
     size_t n = samples(im) / 3;
     float *luminance = malloc((n + 1) * sizeof *luminance), bright = 0;
@@ -59,7 +60,7 @@ static void encode_irradiance(RetexImage *im)
         im->pixels[i] /= bright;
 }
 
-static void encode_uv(RetexImage *im)
+static void encode_fraction(RetexImage *im)
 {
     for (size_t i = 0; i < samples(im); i += 3) {
         im->pixels[i] -= floorf(im->pixels[i]);
@@ -68,30 +69,24 @@ static void encode_uv(RetexImage *im)
     }
 }
 
-static const struct {
-    const char *name, *colorspace; /* of the PNG; NULL = the display transform */
-    Encode encode;
-    int colored; /* numbers of one channel become colours */
-} guide_table[] = {
-    {"beauty", NULL, NULL, 0},
-    {"albedo", "sRGB", NULL, 0},
-    {"irradiance", "sRGB", encode_irradiance, 0},
-    {"normal", "raw", encode_normal, 0},
-    {"depth", "raw", encode_range, 0},
-    {"position", "raw", encode_range, 0},
-    {"uv", "raw", encode_uv, 0},
-    {"roughness", "raw", NULL, 0},
-    {"metallic", "raw", NULL, 0},
-    {"object", "raw", NULL, 1},
+static const Encode encoders[] = {
+    [RETEX_AOV_EXPOSED] = encode_exposed,   [RETEX_AOV_SIGNED] = encode_signed, [RETEX_AOV_RANGE] = encode_range,
+    [RETEX_AOV_FRACTION] = encode_fraction, [RETEX_AOV_NUMBER] = NULL,
 };
 
-enum { GUIDES = sizeof guide_table / sizeof *guide_table };
+/* Files are of the beauty, number 0, and of the AOVs. */
+enum { PICTURES = 1 + RETEX_AOV_COUNT };
 
-int guides_path(char *path, size_t size, const char *folder, int k)
+static const char *name_of(int picture)
 {
-    if (k >= 2 * GUIDES)
+    return picture ? retex_aovs[picture - 1].name : "beauty";
+}
+
+int aov_files_path(char *path, size_t size, const char *folder, int k)
+{
+    if (k >= 2 * PICTURES)
         return 0;
-    snprintf(path, size, "%s/%s.%s", folder, guide_table[k / 2].name, k % 2 ? "png" : "exr");
+    snprintf(path, size, "%s/%s.%s", folder, name_of(k / 2), k % 2 ? "png" : "exr");
     return 1;
 }
 
@@ -107,39 +102,41 @@ static int color_numbers(RetexImage *dst, const RetexImage *src, RetexError *err
     return code;
 }
 
-static int write_guide(const RetexSet *set, const char *folder, int k, RetexError *err)
+static int write_picture(const RetexSet *set, const char *folder, int k, RetexError *err)
 {
-    int part = k ? retex_set_find_part(set, guide_table[k].name) : 0;
+    const RetexAov aov = (RetexAov)(k - 1);
+    const int part = k ? retex_set_find_part(set, name_of(k)) : 0, is_color = k == 0 || retex_aov_is_color(aov),
+              is_number = k && retex_aovs[aov].shown == RETEX_AOV_NUMBER;
     if (part < 0)
         return RETEX_OK;
     const RetexImage *image = &set->parts[part].image;
     char path[4096];
     RetexImage shown = {0};
     RetexWriteParams params = RETEX_WRITE_INIT;
-    params.is_data = guide_table[k].colorspace && !strcmp(guide_table[k].colorspace, "raw");
-    guides_path(path, sizeof path, folder, 2 * k);
+    params.is_data = !is_color;
+    aov_files_path(path, sizeof path, folder, 2 * k);
     int code = retex_image_write(image, path, &params, err);
     if (!code)
-        code = guide_table[k].colored ? color_numbers(&shown, image, err) : retex_image_copy(&shown, image, err);
-    if (!code && guide_table[k].encode)
-        guide_table[k].encode(&shown);
-    params.colorspace = guide_table[k].colorspace;
-    guides_path(path, sizeof path, folder, 2 * k + 1);
+        code = is_number ? color_numbers(&shown, image, err) : retex_image_copy(&shown, image, err);
+    if (!code && k && encoders[retex_aovs[aov].shown])
+        encoders[retex_aovs[aov].shown](&shown);
+    params.colorspace = k == 0 ? NULL : is_color ? "sRGB" : "raw"; /* NULL: the display transform */
+    aov_files_path(path, sizeof path, folder, 2 * k + 1);
     if (!code)
         code = retex_image_write(&shown, path, &params, err);
     retex_image_free(&shown);
     return code;
 }
 
-int guides_write(const RetexSet *set, const char *folder, RetexError *err)
+int aov_files_write(const RetexSet *set, const char *folder, RetexError *err)
 {
     int code = RETEX_OK;
-    for (int k = 0; k < GUIDES && !code; k++)
-        code = write_guide(set, folder, k, err);
+    for (int k = 0; k < PICTURES && !code; k++)
+        code = write_picture(set, folder, k, err);
     return code;
 }
 
-int guides_check(const char *folder, RetexError *err)
+int aov_files_check(const char *folder, RetexError *err)
 {
     char path[4096];
     if (mkdir(folder, 0777) && errno != EEXIST)
