@@ -2,26 +2,26 @@
 #   make              the tools, the library and the bridge, into build/
 #   make demo         set up, build, render the living room, denoise and retexture it, into build/demo/
 #   make check        set up, build, run the tests; check-unit, check-cli, … run one suite
-#   make check-all    also those that take long or need heavy programs
-#   make check-faults every call for memory, files and threads fails in turn; ten minutes
-#   make check-mutants every small wrongness of tests/mutants/list.txt is built, and a test must notice
-#   make check-update CASE=golden/NAME   make a golden reference anew, printing before and after
-#   make asan, tsan   the unit and command-line tests with the sanitizers
-#   make fuzz         mutated inputs with the sanitizers; FUZZ_SECONDS=60 for each kind of input
-#   make bench        ratios of speed: kernels against references, sets against plain renders
-#   make bench-render speed and error of rendering, against Cycles and against rays of Embree alone
-#   make bench-overhead   what sets cost over plain pictures, as in the paper; BENCH_DOCS=1: docs/overhead.md
-#   make bench-post   how long retextures take and how large sets are, as in the paper; BENCH_DOCS=1: docs/post.md
-#   make bench-storage    size of sets and packs against what they lose; BENCH_DOCS=1: docs/storage.md
-#   make bench-scale  cost a path by triangles, lights, targets and resolution; BENCH_DOCS=1: docs/scale.md
-#   make fidelity     retextures against rendering again: docs/fidelity.md, docs/denoise.md; takes hours
-#   make fidelity-denoise   the second of these alone
-#   make pictures     the README's pictures, into docs/pictures; takes long
-#   make compare-external DIR=FOLDER   score pictures of another method against our truths; sheets in build/external
-#   make lint         rules of the house that a script can check
-#   make format       clang-format over the sources
+#   make check-all    also tests that take long or need heavy programs
+#   make check-faults let every allocation, file and thread call fail in turn; ten minutes
+#   make check-mutants build each defect of tests/mutants/list.txt; a test must fail
+#   make check-update CASE=golden/NAME   update a golden reference, printing the change
+#   make asan, tsan   run the unit and command-line tests with the sanitizers
+#   make fuzz         run mutated inputs with the sanitizers; FUZZ_SECONDS=60 for each kind of input
+#   make bench        print ratios of speed: kernels against references, sets against plain renders
+#   make bench-render speed and error of rendering, compared with Cycles and with Embree's rays alone
+#   make bench-overhead   time of sets over plain pictures, as in the paper; BENCH_DOCS=1: docs/overhead.md
+#   make bench-post   time of retextures and size of sets, as in the paper; BENCH_DOCS=1: docs/post.md
+#   make bench-storage    size and loss of sets and packs; BENCH_DOCS=1: docs/storage.md
+#   make bench-scale  time per path by triangles, lights, targets and resolution; BENCH_DOCS=1: docs/scale.md
+#   make fidelity     compare retextures with new renders: docs/fidelity.md, docs/denoise.md; takes hours
+#   make fidelity-denoise   docs/denoise.md alone
+#   make pictures     make the README's pictures in docs/pictures; takes long
+#   make compare-external DIR=FOLDER   score another method's pictures against the references; sheets in build/external
+#   make lint         check the project's rules that a script can check
+#   make format       run clang-format on the sources
 #   make install      PREFIX=/usr/local DESTDIR=
-# Whatever of the compiler and the libraries is missing is installed first where that may be done: tools/setup.sh.
+# A missing compiler or library is installed first if permitted: tools/setup.sh.
 
 BUILD ?= build
 PREFIX ?= /usr/local
@@ -35,7 +35,7 @@ INSTALL ?= install
 # V=1 prints whole commands.
 V ?= 0
 SAY = $(if $(filter 0,$(V)),@echo '  $@' && )
-# -j of the command line wins; a make inside make shares its jobs.
+# -j on the command line has precedence; a recursive make shares its jobs.
 JOBS ?= $(shell nproc 2>/dev/null || echo 2)
 ifeq ($(MAKELEVEL),0)
 MAKEFLAGS += -j$(JOBS)
@@ -48,8 +48,8 @@ LIBRETEX_SOURCES :=
 RENDERER_SOURCES :=
 TOOLS :=
 
-# The flags of the libraries. Made after set-up, whereupon make reads everything again: so a machine that had nothing at
-# the start builds in the same run. Not needed to clean or to format.
+# The flags of the libraries, written after set-up. make then reads all makefiles again, so a machine that lacked
+# packages builds in the same run. `make clean` and `make format` do not need them.
 ifneq ($(filter-out clean format,$(or $(MAKECMDGOALS),all)),)
 include $(BUILD)/config.mk
 endif

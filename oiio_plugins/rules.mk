@@ -1,5 +1,5 @@
-# Plugins for OpenImageIO: NAME.imageio.so, of NAME_imageio.cpp and what both share. Each has the libraries inside, with
-# no symbol to be seen but those that OpenImageIO looks for; the bridge is found beside it at run time.
+# Plugins for OpenImageIO: NAME.imageio.so from NAME_imageio.cpp and the common sources. Each contains the libraries and
+# exports only the symbols that OpenImageIO looks up. It loads the bridge from beside it at run time.
 PLUGINS := $(patsubst oiio_plugins/%_imageio.cpp,$(BUILD)/plugins/%.imageio.so,$(wildcard oiio_plugins/*_imageio.cpp))
 PLUGIN_FOLDER := lib/retex/plugins
 PLUGIN_OBJECTS := $(BUILD)/obj/oiio_plugins/failure.o $(BUILD)/obj/oiio_plugins/set_input.o \

@@ -1,6 +1,6 @@
 #!/bin/sh
-# make pictures: the pictures of the README, made by the tools, into docs/pictures. pictures.sh BUILD. Takes some minutes a
-# scene; PICTURES_SPP (default 192) sets the samples a pixel.
+# make pictures: makes the pictures of the README in docs/pictures. Usage: pictures.sh BUILD. Takes some minutes per
+# scene. PICTURES_SPP (default 192) sets the samples per pixel.
 set -eu
 here=$(pwd)
 case $1 in /*) build=$1 ;; *) build=$here/$1 ;; esac
@@ -11,7 +11,7 @@ spp=${PICTURES_SPP:-192}
 textures=$here/scenes/textures
 mkdir -p "$out" "$sets"
 
-# set NAME SCENE SIZE TARGET…: render once, keep the set.
+# set_of NAME SCENE SIZE TARGET…: render the set once.
 set_of() {
     name=$1 scene=$2 size=$3
     shift 3
@@ -20,7 +20,7 @@ set_of() {
     # shellcheck disable=SC2086 # words wanted
     [ -e "$sets/$name.exr" ] || retex-render --size "$size" --spp "$spp" $flags "$scene" -o "$sets/$name.exr"
 }
-# picture SET NAME [--texture …]
+# picture SET NAME [--texture …]: make one picture of a set.
 picture() {
     from=$sets/$1.exr to=$out/$2.jpg
     shift 2
@@ -33,7 +33,7 @@ picture living-room living-room-walnut --texture "Floor=$textures/walnut-herring
 picture living-room living-room-terrazzo-brick --texture "Floor=$textures/terrazzo.jpg" --texture "Wall=$textures/brick.jpg"
 picture living-room living-room-damask --texture "Wall=$textures/damask.jpg"
 
-# Few samples, as rendered and denoised.
+# A set of few samples, as rendered and denoised.
 [ -e "$sets/living-room-64.exr" ] || retex-render --size 640x480 --spp 64 -t Floor -t Wall \
     scenes/living-room/living-room.pov -o "$sets/living-room-64.exr"
 retex-denoise -q "$sets/living-room-64.exr" -o "$sets/living-room-64-denoised.exr"
@@ -42,7 +42,7 @@ for set in living-room-64 living-room-64-denoised; do
         --texture:scale=2 "Wall=$textures/damask.jpg"
 done
 
-# From a denoised set, and from its pack.
+# A picture from a denoised set, and from its pack.
 retex-denoise -q "$sets/living-room.exr" -o "$sets/living-room-denoised.exr"
 retex-pack -q "$sets/living-room-denoised.exr" -o "$sets/living-room-denoised.retex"
 for from in exr retex; do
@@ -61,7 +61,7 @@ picture glass-caustics glass-caustics-fans --texture "Floor=$textures/fans.jpg"
 retex-render --size 640x480 --spp "$spp" --replace "Floor=$textures/fans.jpg" \
     scenes/glass-caustics/glass-caustics.pov -o "$out/glass-caustics-fans-truth.jpg"
 
-# Part of it at four times the size, dot for dot: the floor through the glass ball, and in the mirror.
+# A part at four times the size, without smoothing: the floor through the glass ball and in the mirror.
 crop='--size 1280x960 --crop 130,150,420,330'
 # shellcheck disable=SC2086
 [ -e "$sets/glass-crop.exr" ] ||
@@ -76,13 +76,13 @@ picture cornell-box cornell-box
 picture cornell-box cornell-box-red --texture 'Floor=rgb(0.8,0.02,0.02)'
 picture cornell-box cornell-box-terrazzo --texture "Floor=$textures/terrazzo.jpg"
 
-# A sample scene of POV-Ray's own, as it comes in Debian's povray-examples.
+# An unchanged sample scene of POV-Ray, from Debian's package povray-examples.
 sample=/usr/share/povray-3.7/scenes/radiosity/cornell.pov
 if [ -e "$sample" ]; then
     set_of povray-cornell "$sample" 400x300 White
     picture povray-cornell povray-cornell
     picture povray-cornell povray-cornell-terrazzo --texture:scale=0.018 "White=$textures/terrazzo.jpg"
 else
-    echo "$sample is not there (package povray-examples): its pictures are left as they are" >&2
+    echo "$sample does not exist (package povray-examples): its pictures are unchanged" >&2
 fi
 ls -l "$out"

@@ -2,11 +2,11 @@
 LIBRETEX_SOURCES += $(wildcard tools/libretex/*/*.c)
 TOOLS += $(patsubst tools/%.c,%,$(wildcard tools/retex-*.c))
 
-# Only libretex sees the headers of the libraries it stands on, only the bridge those of OpenImageIO and OpenColorIO.
+# Only libretex includes the headers of its libraries; only the bridge includes those of OpenImageIO and OpenColorIO.
 CPPFLAGS_ALL = -Itools/libretex/include -Itools -D_GNU_SOURCE $(CPPFLAGS)
 CFLAGS_ALL = -std=c11 -fno-math-errno -ffp-contract=off -fvisibility=hidden -fPIC -pthread $(WARNINGS) $(CFLAGS)
 CXXFLAGS_ALL = -std=c++17 -ffp-contract=off -fvisibility=hidden -fPIC -pthread $(CXXWARNINGS) $(CXXFLAGS)
-# Hot loops (*_kernel.c) get the vectoriser; everything runs on any x86-64 or ARM, so never -march here.
+# Hot loops (*_kernel.c) are compiled with the vectoriser. The build runs on any x86-64 or ARM: no -march here.
 KERNEL_CFLAGS = $(if $(filter %_kernel.c,$<),-fno-math-errno -fno-trapping-math $(if $(filter -O2,$(CFLAGS)),-O3))
 
 LIBRETEX := $(BUILD)/lib/libretex.a
@@ -32,7 +32,7 @@ $(BRIDGE): $(patsubst %.cpp,$(BUILD)/obj/%.o,$(wildcard tools/bridge/*.cpp))
 	@mkdir -p $(@D)
 	$(SAY)$(CXX) -shared $(CXXFLAGS_ALL) $(LDFLAGS) $^ -o $@ $(BRIDGE_LIBS)
 
-# A tool is tools/retex-NAME.c, the shared command line and the library. The bridge is found beside it at run time.
+# A tool is tools/retex-NAME.c, the common command line and the library. It loads the bridge from beside it at run time.
 LINK = $(CC) $(CFLAGS_ALL) $(LDFLAGS) -Wl,-rpath,'$$ORIGIN/../lib' -Wl,--disable-new-dtags
 TOOL_OBJECTS := $(patsubst %,$(BUILD)/obj/tools/%.o,cli cli_files watchdog texture_table batch batch_check \
 	batch_report output_folder json_text)

@@ -6,7 +6,7 @@ $ mkdir b; ln -s "$(dirname "$(command -v retex-render)")" b/bin; b=$PWD/b; cd "
 > demo/original.png
 > demo/wall-brick.png
 > demo/wall-damask.png
-> Your own photograph on the floor, 1.5 metres wide:
+> To put a photograph of yours on the floor, 1.5 metres wide:
 >      b/bin/retex-combine  b/demo/living-room.exr --texture:width=1.5 Floor=PHOTOGRAPH.jpg -o mine.png
 $ retex-info b/demo/living-room.exr | grep denoise
 > denoised       yes
