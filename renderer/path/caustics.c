@@ -1,4 +1,4 @@
-/* Photons through glass and off mirrors, and the cells that are made of where they came down. */
+/* Photons through glass and off mirrors, and the cells made of where they landed. */
 #include <stdlib.h>
 #include <string.h>
 #include <retex/parallel.h>
@@ -25,13 +25,13 @@
 #define SHARE_WORTH 0.03f  /* below, a cell is not worth looking at */
 #define SPREAD_OF_CELL 0.5 /* how far beyond its photons a cell reaches, of their extent */
 
-/* A photon that came down. */
+/* A photon that landed on a surface that scatters widely. */
 typedef struct Landing {
-    Vec3 position, from; /* from: on the last surface that bent or mirrored it */
+    Vec3 position, from; /* from: on the last surface that refracted or mirrored it */
     float power;
 } Landing;
 
-/* What may bend or mirror light to somewhere else, in a sphere. */
+/* The bounding sphere of a primitive that may refract or mirror light. */
 typedef struct Caster {
     int primitive;
     Vec3 center;
@@ -51,11 +51,11 @@ typedef struct Bounds {
 struct Caustics {
     Node *nodes;
     CausticsCell *cells;
-    Bounds *bounds; /* of cells: where they are good for something */
+    Bounds *bounds; /* of cells: where they are used */
     int nnodes, ncells;
 };
 
-/* While it is made. */
+/* State of building it. */
 typedef struct Maker {
     const Scene *scene;
     const Accel *accel;
@@ -133,7 +133,7 @@ static int pick_caster(const Maker *m, double u)
     return low;
 }
 
-/* Into the cone that a caster is seen in. Returns the solid angle. */
+/* Sample a direction in the cone of a caster. Returns the solid angle. */
 static double aim(const Caster *c, Vec3 from, float u1, float u2, Vec3 *direction)
 {
     Vec3 axis = vec_sub(c->center, from), s, t;
@@ -164,7 +164,7 @@ static double start_photon(const Maker *m, uint32_t photon, Ray *ray, int *caste
     return point.power * fabs(vec_dot(ray->direction, point.normal)) * angle / part;
 }
 
-/* Follow a photon while it is bent or mirrored. Returns 1 where it came down after that. */
+/* Follow a photon while it is refracted or mirrored. Returns 1 where it lands after that. */
 static int trace_photon(const Maker *m, uint32_t photon, Landing *landing)
 {
     Ray ray;
@@ -176,7 +176,7 @@ static int trace_photon(const Maker *m, uint32_t photon, Landing *landing)
         BsdfSample next;
         if (!accel_intersect(m->accel, &ray, RAY_BOUNCE, &hit))
             return 0;
-        /* what came to another caster first is that one's */
+        /* a photon that meets another caster first is counted there */
         if (k == 0 && hit.primitive != m->casters[caster].primitive)
             return 0;
         shading_at(&s, m->scene, NULL, 1, &ray, &hit);
@@ -188,7 +188,7 @@ static int trace_photon(const Maker *m, uint32_t photon, Landing *landing)
         }
         if (!(straight > 0))
             return 0;
-        /* what is mirrored first is weak but spreads widely: it is worth as many photons */
+        /* light that is mirrored first is weak but spreads widely: it gets as many photons */
         float mirrored = s.bsdf.p_mirror / straight, u = photon_number(photon, 7 + k);
         float chosen = bent || mirrored <= 0 || mirrored >= 1 ? mirrored : 0.5f;
         int mirrors = u < chosen;
@@ -222,7 +222,7 @@ static void trace_batch(void *context, int index, int thread)
     m->counts[index] = count;
 }
 
-/* Trace so many batches; their landings are put together in order. Returns how many there are. */
+/* Trace batches; landings are collected in the order of batches. Returns their number. */
 static int trace_batches(Maker *m, int batches, int nthreads)
 {
     int count = 0;
@@ -236,13 +236,13 @@ static int trace_batches(Maker *m, int batches, int nthreads)
 
 /* ---- lobes ---- */
 
-/* A group of a cell's photons, and what becomes of it. */
+/* A group of a cell's photons, and the lobe that is fitted to it. */
 typedef struct Lobe {
     int first, end;
-    Vec3 center, at; /* means of where they came from, and to */
+    Vec3 center, at; /* means of where they came from, and of where they landed */
     double power;
-    double less;      /* mean 1 - cos between the ways to there and to the centre */
-    double distance2; /* mean, of where they came down from `at` */
+    double less;      /* mean 1 - cos between the directions to there and to the centre */
+    double distance2; /* mean squared distance of the landings from `at` */
 } Lobe;
 
 static double component(Vec3 v, int axis)
@@ -250,13 +250,13 @@ static double component(Vec3 v, int axis)
     return axis == 0 ? v.x : axis == 1 ? v.y : v.z;
 }
 
-/* What photons are put in order by. */
+/* The key that photons are sorted by. */
 static double key(const Landing *l, int of_from, int axis)
 {
     return component(of_from ? l->from : l->position, axis);
 }
 
-/* Put the nth of a range in its place, what is smaller before it and what is larger after it. */
+/* Partial sort: the nth of a range gets its place, smaller ones before it and larger ones after it. */
 static void put_nth(Landing *l, int first, int end, int nth, int of_from, int axis)
 {
     while (end - first > 1) {
@@ -299,8 +299,8 @@ static int compare(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* The axis along which all but the outermost lie widest apart, and their middle: a few may have come down very far
- * away. */
+/* The axis along which photons spread most, without the outermost few, which may be very far away; and their
+ * middle. */
 static int widest_axis(const Landing *l, int first, int end, int of_from, double *middle)
 {
     double keys[QUANTILE_SAMPLES], widest = -1;
@@ -341,7 +341,7 @@ static void fit_lobe(const Landing *landings, Lobe *lobe)
     }
 }
 
-/* Put a lobe's photons in order for two halves, and fit these. Returns how wide they are by their power. */
+/* Sort a lobe's photons into two halves, and fit a lobe to each. Returns their widths, weighted by power. */
 static double halve_lobe(Landing *landings, const Lobe *lobe, int of_from, Lobe halves[2])
 {
     int middle = lobe->first + (lobe->end - lobe->first) / 2;
@@ -355,7 +355,8 @@ static double halve_lobe(Landing *landings, const Lobe *lobe, int of_from, Lobe 
     return halves[0].power * halves[0].less + halves[1].power * halves[1].less;
 }
 
-/* By where light comes from, or by where it comes to: there each half has all light, else its share only. */
+/* Split a lobe by where photons came from or by where they landed. In the second case each half keeps the power of the
+ * whole. */
 static void split_lobe(Landing *landings, Lobe *lobe, Lobe *other)
 {
     Lobe halves[2];
@@ -366,7 +367,7 @@ static void split_lobe(Landing *landings, Lobe *lobe, Lobe *other)
     *other = halves[1];
 }
 
-/* The lobe that is the worst for being one, or -1. */
+/* The lobe that gains most by being split, or -1. */
 static int worst_lobe(const Lobe *lobes, int count)
 {
     int worst = -1;
@@ -404,7 +405,7 @@ static void make_lobes(CausticsCell *cell, Landing *landings, int first, int end
 
 /* ---- cells ---- */
 
-/* How often to go by the guide: by the irradiance of caustics and that of all other light, roughly. */
+/* The probability of sampling by the guide: by estimates of the irradiance of caustics and of all other light. */
 static float cell_share(const Maker *m, const Bounds *b, double power)
 {
     Vec3 d = vec_sub(b->high, b->low);
@@ -414,8 +415,8 @@ static float cell_share(const Maker *m, const Bounds *b, double power)
     return fminf(SHARE_MOST, fmaxf(SHARE_LEAST, (float)(caustic / (caustic + other))));
 }
 
-/* What the guide gains over a diffuse lobe where photons came from: the mean of what each makes of their light's second
- * moment, 1 / density. 0 for nothing, up to 1. */
+/* What the guide gains over a diffuse lobe, 0 to 1: by the second moment, mean 1 / density, that each has for the
+ * directions of the photons. */
 static double cell_gain(const CausticsCell *cell, const Landing *landings, int first, int end)
 {
     double guided = 0, power = 0;
@@ -446,7 +447,7 @@ static void make_cell(Maker *m, Landing *landings, int first, int end, Bounds b)
     c->bounds[c->ncells++] = (Bounds){vec_sub(b.low, by), vec_add(b.high, by)};
 }
 
-/* Put what lies below a place along an axis first; returns how far that goes. */
+/* Partition photons by a plane across an axis, those below it first; returns their number. */
 static int part_range(Landing *landings, int first, int end, int axis, float at)
 {
     int middle = first;
@@ -494,7 +495,7 @@ static int make_guide(Maker *m, int count, RetexError *err)
     return RETEX_OK;
 }
 
-/* Trace photons, by rounds of batches, until there are enough or it has taken long enough. */
+/* Trace photons, in rounds of batches, until there are enough landings or photons. */
 static int trace_photons(Maker *m, long paths, int nthreads, int *found, RetexError *err)
 {
     long wanted = paths / PATHS_PER_PHOTON;

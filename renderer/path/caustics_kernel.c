@@ -3,7 +3,7 @@
 #include "base/color4.h"
 #include "path/caustics.h"
 
-/* Weights of four lobes at a place. */
+/* Weights of four lobes at a point. */
 static inline Float4 weigh_four(const CausticsCell *c, int k, Float4 px, Float4 py, Float4 pz)
 {
     Float4 x = load(c->at_x + k) - px, y = load(c->at_y + k) - py, z = load(c->at_z + k) - pz;
@@ -56,7 +56,7 @@ static int pick_lobe(const CausticsCell *c, Vec3 position, float u)
 Vec3 caustics_sample(const CausticsCell *c, Vec3 position, float u_lobe, float u1, float u2)
 {
     int k = pick_lobe(c, position, u_lobe);
-    /* the axis as the density has it: from a position in floats */
+    /* the axis as caustics_density computes it: from a position in floats */
     Vec3 axis = vec_normalize(vec3((double)(c->x[k] - (float)position.x), (double)(c->y[k] - (float)position.y),
                                    (double)(c->z[k] - (float)position.z)));
     Vec3 s, t;

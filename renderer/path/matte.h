@@ -1,6 +1,6 @@
-/* The common case for a whole packet of paths: surfaces that only scatter by Lambert's law, on the side they are seen
- * from, lit by faces of meshes that shine alike all over. Lane by lane the same numbers, to the bit, as lights_sample,
- * bsdf_eval, bsdf_sample and accel_offset give. */
+/* The common case for a whole packet of paths: surfaces that only reflect, by Lambert's law, and direct light from
+ * faces of meshes with uniform emission. Each lane has the same numbers, to the bit, as lights_sample, bsdf_eval,
+ * bsdf_sample and accel_offset give. */
 #ifndef RENDERER_PATH_MATTE_H
 #define RENDERER_PATH_MATTE_H
 
@@ -28,17 +28,17 @@ typedef struct MattePacket {
     MatteFloats light_u, light_v, direction_u, direction_v; /* in [0, 1) */
 } MattePacket;
 
-/* Light from the faces, before it is known whether anything is in the way. */
+/* Direct-light samples of the faces, before their shadow rays are traced. */
 typedef struct MatteLights {
     int found[MATTE_LANES];
-    int behind[MATTE_LANES]; /* it is the face's back that shines on the surface */
+    int behind[MATTE_LANES]; /* the back of the face lights the surface */
     MatteVectors origin, direction;
     MatteDoubles length;      /* of the ray */
     MatteFloats value;       /* of the BSDF over albedo, times the cosine */
-    MatteFloats weight;      /* by both ways to find the light, over its density */
+    MatteFloats weight;      /* MIS weight over the density of the light sample */
 } MatteLights;
 
-/* Where paths go on. */
+/* BSDF samples: the rays that paths go on with. */
 typedef struct MatteBounces {
     int found[MATTE_LANES];
     MatteVectors origin, direction;
@@ -47,7 +47,7 @@ typedef struct MatteBounces {
 
 void matte_lights(MatteLights *lights, const MattePacket *packet);
 void matte_bounces(MatteBounces *bounces, const MattePacket *packet);
-/* The same with instructions that every machine has: the reference. */
+/* The same without vector instructions: the reference. */
 void matte_lights_plain(MatteLights *lights, const MattePacket *packet);
 void matte_bounces_plain(MatteBounces *bounces, const MattePacket *packet);
 

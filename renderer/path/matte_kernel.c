@@ -2,7 +2,7 @@
 #include <retex/cpu.h>
 #include "path/matte.h"
 
-/* accel_offset, to the side that a direction leaves to. */
+/* accel_offset, by the side that a direction points to. */
 RETEX_CPU_INLINE Vec3 start_of_ray(Vec3 position, Vec3 geometric, double margin, double side)
 {
     return vec_mad(position, geometric, side < 0 ? -margin : margin);
@@ -24,7 +24,7 @@ RETEX_CPU_INLINE void light_lane(MatteLights *to, const MattePacket *p, int k)
     float cosine = (float)vec_dot(direction, matte_get(&p->normal, k));
     double side = vec_dot(direction, geometric);
     float pdf = cosine / (float)PI, value = p->diffuse[k] * pdf, ratio = pdf / light_pdf;
-    /* the ray stops just before the light: its surface is met, by a ray begun beside, the earlier the flatter */
+    /* the shadow ray ends just before the face, which it meets the earlier, the flatter the angle: see vertex.c */
     double margin = accel_margin(position);
     double length = distance * (1 - 1e-6) - margin;
     length -= (margin + accel_margin(point)) / (slope > 1e-3 ? slope : 1e-3);

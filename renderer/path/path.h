@@ -9,7 +9,7 @@
 #include "path/shading.h"
 #include "path/vertex_samples.h"
 
-#define SHADOW_FACTORS_MAX 16 /* targets a shadow ray may pass */
+#define SHADOW_FACTORS_MAX 16 /* factors of targets on one shadow ray */
 #define MEDIA_MAX 4           /* fading interiors that a path may be in at once */
 #define PATHS_MAX 128         /* that are traced side by side */
 
@@ -21,18 +21,19 @@ typedef struct PathContext {
     int max_depth, orders;
     int most_hits;     /* of all targets together */
     int split;         /* keep target hits apart */
-    int matte;         /* matte surfaces may be looked at a packet at a time, see matte.h */
-    int nvariants;     /* 1..VARIANTS_MAX: what the same path brings with different textures; 1 where split */
-    int halves;        /* of a pixel's samples, which take turns: 1, or 2 with numbers of their own */
-    int white;         /* the first hit is a white diffuse surface instead, that gives no light itself */
-    int has_no_shadow; /* some primitive throws no shadow: what blocks shadow rays and paths is not the same */
-    FILE *trace;       /* say what happens, or NULL */
+    int matte;         /* packets may sample matte surfaces together, see matte.h */
+    int nvariants;     /* 1..VARIANTS_MAX: sets of textures that each path is evaluated with; 1 where split */
+    int halves;        /* of a pixel's samples: 1, or 2 with sample numbers of their own, in turn */
+    int white;         /* first hits are white diffuse surfaces that do not emit */
+    int has_no_shadow; /* some primitive throws no shadow: shadow rays and paths see different primitives */
+    FILE *trace;       /* print every step, or NULL */
 } PathContext;
 
-/* Light that reached the ends of paths, in the order it came: what a control film gets when they end. */
+/* Contributions of the paths of a packet, in the order in which they were added: a control film gets them when the
+ * paths end. */
 typedef struct ControlLog {
     Rgb *lights; /* of so many variants each */
-    int *next;   /* of the same path; -1: none */
+    int *next;   /* the next one of the same path; -1: none */
     int count;
 } ControlLog;
 
@@ -45,28 +46,28 @@ typedef struct PathWorker {
     const PathContext *context;
     FilmPixel *pixel;
     const RenderVariant *variants;           /* or NULL: the original */
-    ControlPixel *control;                   /* gets all variants, or NULL */
+    ControlPixel *control;                   /* gets contributions by variant, or NULL */
     FirstHitObserver *first_hit;
     void *first_hit_context;
     int first_hits_wanted;                   /* of the pixel in hand; 0: there is no observer, or it has enough */
-    RenderVariant own[CONTROL_VARIANTS_MAX]; /* variants, where they have constants by pixel */
+    RenderVariant own[CONTROL_VARIANTS_MAX]; /* the variants, where the last one has constants by pixel */
     Rgb constants[RETEX_MAX_TARGETS];        /* of the pixel in hand */
-    PathHit *hits;                           /* of sets: those of all paths that are traced side by side */
+    PathHit *hits;                           /* of sets: memory for the hits of all paths of a packet */
     int nhits;
-    ControlLog log; /* where there is a control film: likewise */
+    ControlLog log; /* where there is a control film */
     PixelKeys keys[2];
     uint32_t key[2]; /* of the sample numbers of the paths in hand, by half of the samples */
     long segments, shadow_rays;
-    /* By variant: colours at the lights sampled for a packet and at what a shadow ray passes; throughputs of all paths
-     * that are traced side by side. */
+    /* By variant: colours at the lights sampled for a packet and at the surfaces on a shadow ray; throughputs of all
+     * paths that are traced side by side. */
     Rgb light_albedos[ACCEL_PACKET][VARIANTS_MAX], shadow_albedos[SHADOW_FACTORS_MAX][VARIANTS_MAX];
     Rgb betas[PATHS_MAX][VARIANTS_MAX];
 } PathWorker;
 
 int path_worker_open(PathWorker *worker, RetexError *err); /* the rest is filled in */
 void path_worker_close(PathWorker *worker);
-/* Up to PATHS_MAX paths of one pixel, side by side; what they bring is the same as of one after the other. The first is
- * of the first half of the samples. One only where what happens is said. */
+/* Trace up to PATHS_MAX paths of one pixel, side by side; the result is the same as of one after the other. The
+ * first is of the first half of the samples. With PathContext.trace it is one path at a time. */
 void path_trace(PathWorker *worker, const Ray *rays, const Sampler *samplers, int count);
 
 #endif

@@ -28,7 +28,7 @@ typedef struct ImagePlace {
 /* The colours at a surface (shading->surface is filled), the original's and those of variants (NULL = none). place:
  * what shading_prefetch found, or NULL. */
 void shading_color(Shading *shading, const ImagePlace *place, const RenderVariant *variants, int nvariants);
-/* They will be asked for soon. */
+/* Prefetch what shading_color will read. */
 ImagePlace shading_prefetch(const Surface *surface);
 void shading_at(Shading *shading, const Scene *scene, const RenderVariant *variants, int nvariants, const Ray *ray,
                 const Hit *hit);
@@ -41,7 +41,7 @@ static inline Rgb shading_albedo(const Shading *s, int variant)
 float shading_roughness(const Shading *shading);
 float shading_metallic(const Shading *shading);
 
-/* Which rays a path goes on with: light that bends in glass is still looked at by the camera. */
+/* The kind of a path's next ray: rays that the camera sends through refracting glass stay camera rays. */
 static inline RayKind path_next_kind(RayKind kind, const Bsdf *bsdf, int transmitted)
 {
     return transmitted && bsdf->refracts ? kind : RAY_BOUNCE;

@@ -85,7 +85,7 @@ int sample_direction(const Vertex *v, BsdfSample *sample, float *pdf)
     if (rest >= 0 && rest < share) {
         found = sample_guide(v, rest / share, sample);
     } else {
-        if (rest >= 0) /* what is left of u, stretched */
+        if (rest >= 0) /* the rest of u, uniform in [0,1) again */
             u_lobe = at_most(delta + (rest - share) / (1 - share) * wide, 1 - 0x1p-24f);
         found = bsdf_sample(b, u_lobe, u->direction_u[v->lane], u->direction_v[v->lane], sample);
     }

@@ -197,7 +197,7 @@ static int sample_glossy(const Bsdf *b, float choice, float u1, float u2, Vec3 *
     if (choice < through_share(b, (float)fmin(1, vec_dot(b->wo, h))))
         return refract(b->wo, h, b->eta, wi) && vec_dot(*wi, b->normal) < 0;
     *wi = reflect(b->wo, h);
-    return vec_dot(*wi, b->normal) > 0; /* below the horizon would be a second bounce, which the lobe leaves out */
+    return vec_dot(*wi, b->normal) > 0; /* below the horizon: a second bounce, which the lobe leaves out */
 }
 
 static Split split_scale(Split s, float k)
@@ -253,7 +253,7 @@ int bsdf_sample(const Bsdf *b, float u_lobe, float u1, float u2, BsdfSample *sam
     } else {
         if (b->p_glossy <= 0)
             return 0;
-        float choice = u / b->p_glossy; /* what is left of u, stretched to [0,1) again */
+        float choice = u / b->p_glossy; /* the rest of u, uniform in [0,1) again */
         if (!sample_glossy(b, choice, u1, u2, &sample->wi))
             return 0;
     }

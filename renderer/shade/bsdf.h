@@ -21,9 +21,9 @@ typedef struct Bsdf {
     Vec3 wo;
     double cos_o;            /* dot(wo, normal), > 0 */
     float eta;               /* index of refraction on the far side over that on wo's side */
-    int refracts;            /* eta matters: transmission bends */
-    int lambert;             /* only diffuse lobes, of brilliance 1: what follows after alpha is not set */
-    float p_diffuse, p_back, p_glossy, p_mirror, p_passing; /* add up to 1, or to 0 where nothing is scattered */
+    int refracts;            /* transmission bends, by eta */
+    int lambert;             /* only diffuse lobes, of brilliance 1: fields after alpha are not set */
+    float p_diffuse, p_back, p_glossy, p_mirror, p_passing; /* of sampling a lobe; sum 1, or 0: nothing scatters */
 
     float diffuse, diffuse_back;
     int disney;              /* diffuse lobe with retro-reflection, Fresnel of the supplement's Eq. 1 */
@@ -36,7 +36,7 @@ typedef struct Bsdf {
     float metallic, roughness, specular_tint, coat_eta; /* disney */
     float coverage;          /* disney: share of the surface that is there, where an image cuts holes */
     Split highlight;         /* POV-Ray highlight: reflectance of the microfacet lobe, head-on */
-    int highlight_lights_only; /* seen by light sources only: the mirror lobe shows the rest */
+    int highlight_lights_only; /* the highlight reflects light sources only: the mirror lobe reflects all else */
     int smooth;              /* disney with roughness about 0: its reflection and transmission are deltas */
     Split mirror;            /* weight of the mirror lobe, already at cos_o */
 } Bsdf;
@@ -46,7 +46,7 @@ typedef struct BsdfSample {
     Split weight;            /* f |cos| / (probability density), with the probability of the lobe */
     float pdf;               /* per solid angle, of all non-delta lobes together; 0 for a delta */
     int transmitted;         /* wi is on the other side */
-    int straight;            /* passed without bending: the path sees on as if nothing was there */
+    int straight;            /* passed without bending: the same ray goes on */
 } BsdfSample;
 
 /* f |cos_i| for a given direction; light_source: the light is one of POV-Ray's, which no path can hit. *pdf gets the

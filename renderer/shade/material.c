@@ -45,7 +45,7 @@ static void setup_highlight(Bsdf *b, const Finish *f)
 static void setup_mirror(Bsdf *b, const Finish *f, int transparent)
 {
     if (rgb_is_black(f->reflection_min) && rgb_is_black(f->reflection_max) && !(transparent && b->refracts))
-        return; /* most surfaces: no curve of theirs is worth a power */
+        return; /* most surfaces: spares them powf */
     float rise = f->reflection_fresnel ? fresnel_dielectric((float)b->cos_o, b->eta)
                                        : powf(1 - (float)b->cos_o, (float)f->reflection_falloff);
     Rgb r = rgb_lerp(f->reflection_min, f->reflection_max, rise);
@@ -65,7 +65,7 @@ static void setup_povray(Bsdf *b, const Finish *f, float filter, float transmit)
     setup_highlight(b, f);
     setup_mirror(b, f, opacity < 1);
     b->highlight_lights_only = !rgb_is_black(f->reflection_min) || !rgb_is_black(f->reflection_max);
-    /* What is mirrored does not pass: POV-Ray does so with conserve_energy only. */
+    /* Mirrored light does not pass: POV-Ray does so with conserve_energy only. */
     float passes = 1 - clamp01(rgb_luminance(split_apply(b->mirror, rgb_grey(1))));
     b->passing = (Split){rgb_grey(filter * passes), rgb_grey(transmit * passes)};
 }
@@ -74,8 +74,7 @@ static void setup_povray(Bsdf *b, const Finish *f, float filter, float transmit)
 static void setup_disney(Bsdf *b, const Finish *f, float filter, float transmit)
 {
     float a = clamp01(f->retex.transmission) * (1 - clamp01(f->retex.metallic));
-    float opacity =
-        a > 0 ? 1 : clamp01(1 - filter - transmit); /* the pigment does not make clear what is clear already */
+    float opacity = a > 0 ? 1 : clamp01(1 - filter - transmit); /* a finish that transmits ignores the pigment here */
     b->coverage = opacity;
     b->disney = 1;
     b->metallic = clamp01(f->retex.metallic);
@@ -98,13 +97,13 @@ static void setup_disney(Bsdf *b, const Finish *f, float filter, float transmit)
     } else {
         b->alpha = alpha;
         if (b->eta == 1)
-            b->passing.d = rgb_grey(a); /* however rough, it does not bend */
+            b->passing.d = rgb_grey(a); /* index 1: no refraction, however rough */
     }
     if (a == 0 && opacity < 1)
         b->passing = (Split){rgb_grey(filter), rgb_grey(transmit)}, b->refracts = 0;
 }
 
-/* Reflectance the microfacet lobe shows from cos_o, roughly: what its share of the choice goes by. */
+/* Estimate of the reflectance of the microfacet lobe at cos_o, for the probability of sampling it. */
 static float glossy_estimate(const Bsdf *b)
 {
     if (b->alpha <= 0 || b->highlight_lights_only)
