@@ -50,35 +50,38 @@ STORED = {
     "control-unbiased": "Rousselle, unbiased: its buffers",
 }
 
-INTRODUCTION = """# How long a retexture takes
+INTRODUCTION = """# How long retexturing takes
 
-From a set on the disk to the written picture, what table 6 of the paper measures, and how large sets are, as in its
-tables 4 and 5. `make bench-post` made this page, on {cores} cores; all figures, with their least and largest values,
-are in [post.csv](post.csv).
+This page has the time from a set on disk to the written picture, as table 6 of the paper, and the sizes of
+sets, as its tables 4 and 5. `make bench-post` made this page on {cores} cores. [post.csv](post.csv) has all
+figures, with their least and largest values.
 
-A time is that of a whole process, or of all in a pipe, from its start until the file is written, reading the set
-and loading and filtering the textures included. Files were read once before and lie in the system's memory. All rows
-of a table were run in turn, {turns}; times are medians, with least and largest in
-brackets, and ratios medians of those of the same turn. Memory is the largest peak of a process; in pipes each has
-its own.
+A time is that of a whole process, or of all processes of a pipe, from the start until the file is written. It
+includes reading the set, and loading and filtering the textures. All files were read once before and are in the
+page cache. The rows of a table were run in turn,
+{turns}. Times are medians, with the least and largest in
+brackets. Ratios are medians over the runs of the same turn. Memory is the largest peak of a process; in pipes
+each process has its own.
 
-"Reading alone" opens the same file, reads and decodes every row that recombination looks at on all cores, and does
-nothing with it: faster than that nothing can be that takes all of the file. "oiiotool" is the same sum in one call of
-OpenImageIO's program, which reads the same set and textures that `retex-sample` has already filtered;
-their making, on a line of its own, is not in its time. "Rendering again" is `retex-render --replace` with the samples
-that the set has, which are few: with 128, as in the paper's other tables, it takes so many times as long. That ran
-once, and so did oiiotool and the variants of pictures from four million pixels on, whose other rows ran at most three
-times.
+- "Reading alone" opens the same file. It reads and decodes every row that recombination needs, on all cores,
+  and does nothing with it. No program that needs the whole file can be faster.
+- "oiiotool" computes the same sum in one call of OpenImageIO's program. It reads the same set, and textures
+  that `retex-sample` has already filtered. The time for these is not included; it is in a row of its own.
+- "Rendering again" is `retex-render --replace` with the samples of the set, which are few. With 128 samples, as
+  in the other tables of the paper, its time grows in proportion. It ran once.
+
+For pictures of four million pixels and more, oiiotool and the variants ran once, and the other rows at most
+three times.
 """
 
 SIZES = """
 ## Sizes
 
-Megabytes on the disk at {size}, {spp} samples a pixel. The paper's are those of its Living Room at 1920x1080: EXR, and
-the same with radiance as JPEG; it has no originals in them. "DWAA" is `oiiotool -a --compression dwaa:45` of the whole
-set, which also coarsens UV: [storage.md](storage.md) measures what such files lose. Rousselle's buffers are those of
-the scene, whatever is changed, and need the scene as well{control}.
-The columns behind say what of it is for what.
+Megabytes on disk at {size}, {spp} samples per pixel. The paper's figures are those of its Living Room at
+1920x1080: EXR, and the same with radiance as JPEG. They contain no originals. "DWAA" is
+`oiiotool -a --compression dwaa:45` of the whole set, which also makes UV coarser; [storage.md](storage.md)
+measures what such files lose. Rousselle's buffers belong to the scene, whatever is changed, and require the
+scene as well{control}. The last columns give the size by purpose.
 """
 
 
@@ -174,8 +177,8 @@ def goals(cases):
     every = [c for c in cases.values() if c.about["layout"] == "footprints"] or list(cases.values())
     large, small = ([c for c in every if c.about["size"] == size] for size in (LARGE, SMALL))
     tenth = PAPER_SECONDS[LARGE] / 10
-    print("\n## Goals\n\nThe worst of all scenes and edits, in the default layout where it was measured.\n\n"
-          "| goal | worst | reached |\n|---|---|---|")
+    print("\n## Goals\n\nThe worst case of all scenes and edits, in the default layout if it was measured.\n\n"
+          "| goal | worst | met |\n|---|---|---|")
     for row in ("pack-jpg", "pack-exr"):
         worst(f"{ROWS[row]}, {LARGE}: at most a tenth of the paper's {PAPER_SECONDS[LARGE]} s", tenth, "s", wall(row),
               large)
@@ -188,7 +191,7 @@ def goals(cases):
         for row in ("pack-exr", "set-exr"):
             worst(f"{ROWS[row]}, {at}: at least 8 times as fast as oiiotool", 8, "times",
                   lambda c, r=row: c.ratio("oiio", r), chosen, at_most=False)
-            worst("the same, where oiiotool takes `retex-sample` too", 8, "times", with_samples(row), chosen,
+            worst("the same, with the time of `retex-sample` added to oiiotool", 8, "times", with_samples(row), chosen,
                   at_most=False)
     worst(f"one picture from a file, {LARGE}: peak memory below 1.5 GB", 1.5, "GB", peak("pack-", "set-"), large)
     worst("the same through a pipe", 1.5, "GB", peak("cat-", "pipe"), large)
@@ -223,9 +226,10 @@ def size_goal(name, most, unit, found):
 
 
 def against_paper(cases):
-    print("\n## Beside table 6 of the paper\n\nSeconds from set to picture, and how many times faster than the paper's "
-          "\"total processing time\".\n\n| scene | targets | layout | size | pack to JPEG | to half EXR |"
-          " paper | faster, JPEG | EXR | set, MB | pack, MB | variants a minute |\n"
+    print("\n## Compared with table 6 of the paper\n\nSeconds from set to picture, and how many times faster this is than "
+          "the paper's \"total processing time\".\n\n"
+          "| scene | targets | layout | size | pack to JPEG | to half EXR |"
+          " paper | faster, JPEG | EXR | set, MB | pack, MB | variants per minute |\n"
           "|---|---|---|---|---|---|---|---|---|---|---|---|")
     for c in cases.values():
         about = c.about
@@ -242,9 +246,10 @@ def section(c):
     about = c.about
     print(f"\n## {SCENES[about['scene']]}: {targets(c)}, {about['size']}, layout {about['layout']}\n")
     agreement = "\n".join(f"{text} {c.agreement[name]:.1f} dB." for name, text in
-                        (("oiio", "The picture of oiiotool agrees with that of the set by"),
-                         ("pack", "That of the pack does by")) if name in c.agreement)
-    print(f"The set has {about['spp']} samples a pixel, {about['run']['aovs']} AOVs and is denoised.\n{agreement}\n\n"
+                        (("oiio", "PSNR against the picture from the set: oiiotool"),
+                         ("pack", "PSNR against the picture from the set: pack")) if name in c.agreement)
+    print(f"The set has {about['spp']} samples per pixel and {about['run']['aovs']} AOVs, and is denoised.\n"
+          f"{agreement}\n\n"
           "| what | wall s | processor s | of pack to JPEG | of reading alone | memory MB |\n|---|---|---|---|---|---|")
     for row, name in ROWS.items():
         if row not in c.runs:
@@ -262,7 +267,7 @@ def section(c):
 def sizes(stored, size, spp, control_spp):
     if not stored:
         return
-    control = "" if control_spp == spp else f"; here they have {control_spp} samples"
+    control = "" if control_spp == spp else f"; here they have {control_spp} samples per pixel"
     print(SIZES.format(size=size, spp=spp, control=control))
     for (scene, layout, edit), files in stored.items():
         if not edit:

@@ -19,31 +19,45 @@ COLUMNS = ["scene", "layout", "set", "method", "level", "bytes", "bytes_without_
 
 INTRODUCTION = """# Size of stored sets, and what they lose
 
-A set can be stored without loss or with some. `make bench-storage` made this page from sets of {size} pixels and
-{spp} samples, denoised unless said otherwise; the figures are in [storage.csv](storage.csv) too. Every stored form is
-read again and given {textures}, as `make fidelity` lays them on the scenes' targets. PSNR is that of these pictures
-against those of the set as it was before (retex-diff: sRGB-encoded, clipped), in the mean of the textures and the worst;
-the loss is by how much the PSNR against converged pictures is lower than that of the set, where there are any. Of sets
-as they were rendered, shares of the noise, the mean square by which the set's pictures are off the converged ones, are
-given for the worst of the textures: "adds" is by how much more the pack's pictures are off, "moves" by how much they
-differ from the set's. Where a pack takes noise away it moves, and what it adds is below 0.
+A set can be stored without loss or with loss. `make bench-storage` made this page from sets of {size} pixels
+and {spp} samples, denoised unless stated otherwise. [storage.csv](storage.csv) has the same figures. Every
+stored form is read again and retextured with {textures}. They are laid on the scenes' targets
+as `make fidelity` does.
 
-Bits a pixel leave out the originals, textures that do not grow with the picture; megabytes are those of the whole
-file, and in brackets scaled to 1920x1080 without originals. In the figure full lines are means, dashed ones the worst
-textures, and upright ones what loses nothing.
+- *PSNR* compares these pictures with those of the original set (retex-diff: sRGB-encoded, clipped). The tables
+  have the mean of the textures and the worst one.
+- *Loss against truth* is the PSNR of the set's pictures against converged pictures minus that of the stored
+  form's pictures, where there are converged pictures.
+- For sets as rendered, two columns are shares of the noise, for the worst of the textures. The noise is the
+  mean squared error of the set's pictures against converged ones. *adds* is the increase of that error by
+  storing. *moves* is the mean squared difference from the set's pictures. If a pack removes noise, it moves,
+  and adds less than 0.
+- *Bits per pixel* leave out the originals, which do not grow with the picture. Megabytes are those of the whole
+  file, and in brackets scaled to 1920x1080 without originals.
 
-- *pack* is `retex-pack`, with the `--codec` and the `--quality` that are named.
-- *EXR, DWAA of radiance* takes OpenEXR's lossy DWAA for what is light, with the level that is named, and leaves the
-  rest as it is; *of everything* is what `oiiotool -a --compression dwaa:45` makes of a set, UV included.
-- *EXR, radiance as plain JPEG* stores each image of light as a JPEG of that quality, scaled to its largest value and
-  encoded as sRGB, and the rest as the set does: in layout `paper` that is what the paper does.
+In the plot, full lines are means, dashed lines are the worst textures, and vertical lines are lossless forms.
 
-Tried and left out, with the living room at 960x540 and 128 samples, and its light that no texture multiplies: JPEG XL
-(libjxl 0.7, effort 7) takes 380 KB for a PSNR of 54.8 dB, in the levels that JPEGs have here, where JPEG takes 332;
-as rendered, with noise, 586 KB for 49.7, where JPEG takes 530. JPEG is coded for equal errors at all frequencies,
-JPEG XL for eyes. It decodes 12 to 35 million pixels a second on two cores. JPEGs that are recoded as JPEG XL without
-loss are 11 percent smaller, noisy ones 6, and decode no faster. For lossless packs JPEG XL takes as many bytes as
-their model, 0.98 to 1.06 for light and albedo, 0.8 for original textures, and decodes a fourth as fast.
+The stored forms are:
+
+- *pack* is `retex-pack`, with the `--codec` and the `--quality` in its name.
+- *EXR, DWAA of radiance* stores radiance with OpenEXR's lossy DWAA of the level in its name, and the other
+  parts unchanged. *EXR, DWAA of everything* is `oiiotool -a --compression dwaa:45` of the whole set, UV
+  included.
+- *EXR, radiance as plain JPEG* stores each radiance image as a JPEG of the quality in its name, scaled to its
+  largest value and sRGB-encoded, and the other parts as the set does. In layout `paper` this is the method of
+  the paper.
+
+JPEG XL (libjxl 0.7, effort 7) was tried and is not used. The test image is the light of the living room that no
+texture multiplies, at 960x540 and 128 samples:
+
+- With loss, in the levels that JPEGs have here, it takes 380 KB for a PSNR of 54.8 dB, where JPEG takes 332 KB.
+  As rendered, with noise, it takes 586 KB for 49.7 dB, where JPEG takes 530 KB. The JPEG is coded for equal
+  errors at all frequencies, JPEG XL for the eye.
+- It decodes 12 to 35 million pixels a second on two cores.
+- JPEGs that are transcoded to JPEG XL without loss are 11 percent smaller, noisy ones 6 percent, and decode no
+  faster.
+- In lossless packs it takes 0.98 to 1.06 times the bytes of their model for light and albedo, and 0.8 times for
+  original textures. It decodes a fourth as fast.
 
 ![](pictures/storage.png)
 """
@@ -95,7 +109,7 @@ def megabytes(row, pixels):
 
 
 def section(scene, layout, rows, pixels):
-    print(f"\n## {scene}, layout {layout}\n\n| stored as | MB | bits a pixel | PSNR, dB | worst |"
+    print(f"\n## {scene}, layout {layout}\n\n| stored as | MB | bits per pixel | PSNR, dB | worst |"
           " loss against truth, dB | worst |\n|---|---|---|---|---|---|---|")
     for row in rows:
         cells = [row.get(c, "") for c in ("bits_a_pixel", "psnr", "psnr_worst", "truth_loss", "truth_loss_worst")]
@@ -103,8 +117,9 @@ def section(scene, layout, rows, pixels):
 
 
 def rendered(rows, pixels):
-    print("\n## Sets as rendered\n\n| scene | layout | stored as | MB | bits a pixel | PSNR, dB | worst |"
-          " loss against truth, dB | worst | adds, of the noise | moves |\n|---|---|---|---|---|---|---|---|---|---|---|")
+    print("\n## Sets as rendered\n\n| scene | layout | stored as | MB | bits per pixel | PSNR, dB | worst |"
+          " loss against truth, dB | worst | adds, share of the noise | moves |\n"
+          "|---|---|---|---|---|---|---|---|---|---|---|")
     for row in rows:
         cells = [row.get(c, "") for c in ("bits_a_pixel", "psnr", "psnr_worst", "truth_loss", "truth_loss_worst",
                                           "noise_added", "noise_moved")]

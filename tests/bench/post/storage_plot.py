@@ -59,7 +59,7 @@ def main(table, out):
             panel(axes[down, across], rows, scene, layout)
         axes[down, 0].set_ylabel("PSNR against the set, dB")
     for place in axes[-1]:
-        place.set_xlabel("bits a pixel, originals left out")
+        place.set_xlabel("bits per pixel without originals")
     handles = dict(reversed(pair) for place in axes.flat for pair in zip(*place.get_legend_handles_labels()))
     figure.legend(handles.values(), handles.keys(), loc="lower center", ncols=3, frameon=False, fontsize=9)
     # No date or version: equal figures make equal files.
