@@ -1,6 +1,7 @@
 /* Damage that nothing but a checksum sees: whoever reads a set, samples or a stream refuses it, whole or row by row. */
 #include "lib_damage.h"
 #include "lib_folder.h"
+#include "set/manifest.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -137,6 +138,34 @@ static void test_threads(void **state)
     free(data);
 }
 
+/* CRC-32 bit by bit, from its polynomial (ISO 3309). */
+static uint32_t plain_crc32(const char *text)
+{
+    uint32_t crc = 0xffffffff;
+
+    for (; *text; text++) {
+        crc ^= (unsigned char)*text;
+        for (int bit = 0; bit < 8; bit++)
+            crc = crc >> 1 ^ (crc & 1 ? 0xedb88320 : 0);
+    }
+    return ~crc;
+}
+
+/* The manifest's sum is of all its text with 0s in the place of the digits. */
+static void test_sum_of_the_manifest(void **state)
+{
+    (void)state;
+    char json[] = "{\"retex\":3,\"crc32\":\"00000000\",\"kind\":\"set\",\"width\":48}", digits[9];
+
+    assert_int_equal(plain_crc32("123456789"), 0xcbf43926);
+    snprintf(digits, sizeof digits, "%08x", (unsigned)plain_crc32(json));
+    retex_manifest_seal(json);
+    assert_memory_equal(strstr(json, "crc32") + 8, digits, 8);
+    assert_int_equal(retex_manifest_sum(json), RETEX_MANIFEST_RIGHT);
+    json[sizeof json - 2] = ' ';
+    assert_int_equal(retex_manifest_sum(json), RETEX_MANIFEST_WRONG);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -144,6 +173,7 @@ int main(void)
         cmocka_unit_test(test_sets_as_they_are),
         cmocka_unit_test(test_streams),
         cmocka_unit_test(test_threads),
+        cmocka_unit_test(test_sum_of_the_manifest),
     };
     return cmocka_run_group_tests(tests, begin, end);
 }
