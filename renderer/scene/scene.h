@@ -28,7 +28,7 @@ typedef struct IdentList {
 
 /* ---- pigments ---- */
 
-typedef enum PigmentKind { PIGMENT_COLOR, PIGMENT_IMAGE, PIGMENT_CHECKER, PIGMENT_GRADIENT } PigmentKind;
+typedef enum PigmentKind { PIGMENT_COLOR, PIGMENT_IMAGE, PIGMENT_PATTERN } PigmentKind;
 typedef enum MapType { MAP_PLANAR = 0, MAP_SPHERICAL = 1, MAP_CYLINDRICAL = 2, MAP_TORUS = 5 } MapType;
 
 typedef struct ColorMapEntry {
@@ -54,14 +54,23 @@ typedef struct ImageMap {
     float filter_all, transmit_all;
 } ImageMap;
 
+typedef struct PatternOps PatternOps; /* pattern/pattern.h */
+/* A function of space, with its arguments. */
+typedef struct Pattern {
+    const PatternOps *ops;
+    Vec3 vector;             /* what is written after the keyword, as the pattern's file says */
+    double number;
+    WaveKind wave;           /* of patterns that make a value 0..1 */
+    double frequency, phase, wave_exponent;
+} Pattern;
+enum { PATTERN_COLORS = 6 }; /* the longest list of colours */
+
 typedef struct Pigment {
     PigmentKind kind;
     Rgbft color;             /* PIGMENT_COLOR */
-    Rgbft checker[2];        /* PIGMENT_CHECKER */
-    Vec3 gradient;           /* PIGMENT_GRADIENT: its direction as written; its length does not matter */
+    Pattern pattern;         /* PIGMENT_PATTERN */
+    Rgbft colors[PATTERN_COLORS]; /* of patterns that choose among colours */
     ColorMap map;            /* of patterns that make a value 0..1; empty = black to white */
-    WaveKind wave;
-    double frequency, phase, wave_exponent;
     ImageMap *image;         /* PIGMENT_IMAGE */
     int uv_mapping;
     Transform transform;     /* pattern space to world; inverse takes a world point to where the pattern is evaluated.

@@ -1,47 +1,7 @@
-/* Pigments: patterns as POV-Ray 3.7 evaluates them (measured where its manual is silent), and the UV at which a
- * replacement texture lies on a target. */
+/* Pigments: colours by pattern, map or image as POV-Ray 3.7 evaluates them (measured where its manual is silent), and
+ * the UV at which a replacement texture lies on a target. */
+#include "pattern/pattern.h"
 #include "shade/pigment_image.h"
-
-/* POV-Ray's: keeps a checker whose plane goes through a cell boundary from speckling. */
-#define CHECKER_EPSILON 1e-10
-
-static double gradient_value(Vec3 gradient, Vec3 p)
-{
-    double value = vec_dot(vec_normalize(gradient), p);
-
-    return value > 1 ? fmod(value, 1) : value;
-}
-
-static double triangle_wave(double x)
-{
-    double offset = x - floor(x);
-
-    return offset >= 0.5 ? 2 * (1 - offset) : 2 * offset;
-}
-
-static double apply_wave(const Pigment *pigment, double value)
-{
-    if (pigment->frequency != 0)
-        /* 1.00001 is POV-Ray's own, so that a value of exactly 1 stays 1. */
-        value = fmod(value * pigment->frequency + pigment->phase, 1.00001);
-    if (value < 0)
-        value -= floor(value);
-    switch (pigment->wave) {
-    case WAVE_RAMP:
-        break;
-    case WAVE_TRIANGLE:
-        return triangle_wave(value);
-    case WAVE_SINE:
-        return (1 + sin(2 * PI * value)) / 2;
-    case WAVE_SCALLOP:
-        return fabs(sin(PI * value));
-    case WAVE_CUBIC:
-        return value * value * (3 - 2 * value);
-    case WAVE_POLY:
-        return pow(value, pigment->wave_exponent);
-    }
-    return value;
-}
 
 static Rgbft blend(const Rgbft *a, const Rgbft *b, float t)
 {
@@ -71,20 +31,12 @@ static Rgbft map_color(const ColorMap *map, double value)
 
 Rgbft pigment_pattern(const Pigment *pigment, Vec3 p)
 {
-    double cell;
-
-    switch (pigment->kind) {
-    case PIGMENT_COLOR:
-        break;
-    case PIGMENT_IMAGE:
+    if (pigment->kind == PIGMENT_COLOR)
+        return pigment->color;
+    if (pigment->kind == PIGMENT_IMAGE)
         return image_lookup(pigment->image, pigment_image_uv(pigment->image, p));
-    case PIGMENT_CHECKER:
-        cell = floor(p.x + CHECKER_EPSILON) + floor(p.y + CHECKER_EPSILON) + floor(p.z + CHECKER_EPSILON);
-        return pigment->checker[fmod(cell, 2) != 0];
-    case PIGMENT_GRADIENT:
-        return map_color(&pigment->map, apply_wave(pigment, gradient_value(pigment->gradient, p)));
-    }
-    return pigment->color;
+    const double value = pattern_value(&pigment->pattern, p);
+    return pigment->pattern.ops->colors ? pigment->colors[(int)value] : map_color(&pigment->map, value);
 }
 
 Vec3 pigment_point(const Pigment *pigment, Vec3 p, Vec2 uv)
@@ -120,24 +72,24 @@ static int same_color(const Rgbft *a, const Rgbft *b)
 int pigment_is_constant(const Pigment *pigment)
 {
     const ImageMap *image = pigment->image;
+    const ColorMapEntry *entry = pigment->map.entries;
 
-    switch (pigment->kind) {
-    case PIGMENT_COLOR:
-        break;
-    case PIGMENT_IMAGE:
+    if (pigment->kind == PIGMENT_COLOR)
+        return 1;
+    if (pigment->kind == PIGMENT_IMAGE)
         return image->width == 1 && image->height == 1 && !image->once;
-    case PIGMENT_CHECKER:
-        return same_color(&pigment->checker[0], &pigment->checker[1]);
-    case PIGMENT_GRADIENT:
-        for (int i = 1; i < pigment->map.count; i++)
-            if (!same_color(&pigment->map.entries[0].color, &pigment->map.entries[i].color))
-                return 0;
-        return pigment->map.count > 0;
-    }
-    return 1;
+    for (int i = 1; i < pigment->pattern.ops->colors; i++)
+        if (!same_color(&pigment->colors[0], &pigment->colors[i]))
+            return 0;
+    if (pigment->pattern.ops->colors)
+        return 1;
+    for (int i = 1; i < pigment->map.count; i++)
+        if (!same_color(&entry[0].color, &entry[i].color))
+            return 0;
+    return pigment->map.count > 0;
 }
 
-static int opaque(const Rgbft *c)
+static int is_opaque(const Rgbft *c)
 {
     return c->filter == 0 && c->transmit == 0;
 }
@@ -146,20 +98,17 @@ int pigment_is_opaque(const Pigment *pigment)
 {
     const ImageMap *image = pigment->image;
 
-    switch (pigment->kind) {
-    case PIGMENT_COLOR:
-        break;
-    case PIGMENT_IMAGE:
+    if (pigment->kind == PIGMENT_COLOR)
+        return is_opaque(&pigment->color);
+    if (pigment->kind == PIGMENT_IMAGE)
         return !image->has_alpha && !image->once && image->filter_all == 0 && image->transmit_all == 0;
-    case PIGMENT_CHECKER:
-        return opaque(&pigment->checker[0]) && opaque(&pigment->checker[1]);
-    case PIGMENT_GRADIENT:
-        for (int i = 0; i < pigment->map.count; i++)
-            if (!opaque(&pigment->map.entries[i].color))
-                return 0;
-        return 1;
-    }
-    return opaque(&pigment->color);
+    for (int i = 0; i < pigment->pattern.ops->colors; i++)
+        if (!is_opaque(&pigment->colors[i]))
+            return 0;
+    for (int i = 0; !pigment->pattern.ops->colors && i < pigment->map.count; i++)
+        if (!is_opaque(&pigment->map.entries[i].color))
+            return 0;
+    return 1;
 }
 
 Vec2 target_uv(const Pigment *pigment, Vec3 p, Vec3 normal, const Vec2 *mapped_uv, const Vec2 *natural)

@@ -73,14 +73,13 @@ back=$(rooms tools/libretex 1:base 2:io 3:exr 4:picture 5:texture 6:set 7:retext
     10:files)
 [ -z "$back" ] || complain "rooms of tools/libretex, from one that stands later:
 $back"
-back=$(rooms renderer 1:base 2:scene 3:sdl/lang 3:shape 4:shade 5:accel 5:light 5:sdl/build 6:sdl 6:film 7:film/footprints \
-    7:film/paper 8:path 9:render 10:job)
+back=$(rooms renderer 1:base 2:scene 3:sdl/lang 3:shape 3:pattern 4:shade 5:accel 5:light 5:sdl/build 6:sdl 6:film \
+    7:film/footprints 7:film/paper 8:path 9:render 10:job)
 [ -z "$back" ] || complain "rooms of the renderer, from one that stands later:
 $back"
 
 # No circles. Of headers: none includes, by however many steps, itself. Of the renderer's files: no two need symbols of
-# each other, by however many steps; but for the rooms of the scene language, whose grammar is recursive, and pigments,
-# which are made of pigments.
+# each other, by however many steps; but for the rooms of the scene language, whose grammar is recursive.
 no_circle() { # pairs of names, what
     found=$(echo "$1" | tsort 2>&1 >/dev/null | sed 's/^tsort: //')
     [ -z "$found" ] || complain "$2:
@@ -92,7 +91,7 @@ for root in tools tools/libretex renderer oiio_plugins tests/lib; do
 done
 no_circle "$(grep -rE '^#include <retex/' tools/libretex/include/retex |
     sed -nE 's|^.*/(retex/[^:]*):#include <(.*)>|\1 \2|p')" "public headers that include each other"
-recursive='^(sdl/|shade/pigment)'
+recursive='^sdl/'
 no_circle "$(needs renderer | awk -v may="$recursive" '!($1 ~ may && $2 ~ may) { print $1, $2 }')" \
     "files of the renderer that need each other"
 

@@ -5,18 +5,17 @@
 #include <setjmp.h>
 #include <string.h>
 #include <cmocka.h>
+#include "pattern/pattern.h"
 #include "shade/pigment.h"
 
 static const Vec2 nowhere = {0, 0};
 
-static Pigment pigment(PigmentKind kind)
+static Pigment pigment(const PatternOps *ops)
 {
-    return (Pigment){.kind = kind,
-                     .frequency = 1,
-                     .wave_exponent = 1,
-                     .gradient = {1, 0, 0},
+    return (Pigment){.kind = PIGMENT_PATTERN,
+                     .pattern = {.ops = ops, .vector = {1, 0, 0}, .frequency = 1, .wave_exponent = 1},
                      .transform = transform_identity(),
-                     .checker = {{1, 0, 0, 0, 0}, {0, 1, 0, 0, 0}}};
+                     .colors = {{1, 0, 0, 0, 0}, {0, 1, 0, 0, 0}}};
 }
 
 static double value(const Pigment *p, double x, double y)
@@ -49,12 +48,12 @@ static void gradients_are_povray(void **state)
 
     (void)state;
     for (size_t i = 0; i < sizeof(cases) / sizeof(cases[0]); i++) {
-        Pigment p = pigment(PIGMENT_GRADIENT);
-        p.gradient = cases[i].gradient;
-        p.frequency = cases[i].frequency;
-        p.phase = cases[i].phase;
-        p.wave = cases[i].wave;
-        p.wave_exponent = 2;
+        Pigment p = pigment(&pattern_gradient);
+        p.pattern.vector = cases[i].gradient;
+        p.pattern.frequency = cases[i].frequency;
+        p.pattern.phase = cases[i].phase;
+        p.pattern.wave = cases[i].wave;
+        p.pattern.wave_exponent = 2;
         assert_near(value(&p, -2.95, 0.75), cases[i].at[0]);
         assert_near(value(&p, 2.65, 0.75), cases[i].at[1]);
     }
@@ -64,7 +63,7 @@ static void color_maps(void **state)
 {
     ColorMapEntry entries[] = {
         {0.2, {1, 0, 0, 0, 0}}, {0.5, {0, 0, 0, 0, 0}}, {0.5, {0.5f, 0, 0, 0, 0.2f}}, {0.7, {1, 1, 1, 0, 0}}};
-    Pigment p = pigment(PIGMENT_GRADIENT);
+    Pigment p = pigment(&pattern_gradient);
 
     (void)state;
     p.map = (ColorMap){4, entries};
@@ -83,7 +82,7 @@ static void color_maps(void **state)
 
 static void checkers(void **state)
 {
-    Pigment p = pigment(PIGMENT_CHECKER);
+    Pigment p = pigment(&pattern_checker);
 
     (void)state;
     assert_true(value(&p, 0.5, 0.5) == 1 && value(&p, 1.5, 0.5) == 0 && value(&p, -0.5, 0.5) == 0 &&
@@ -96,9 +95,9 @@ static void checkers(void **state)
     p.transform = transform_scale(vec3(0.5, 0.5, 1));
     assert_true(pigment_eval(&p, vec3(9, 9, 9), (Vec2){0.75, 0.25}).g == 1);
     assert_false(pigment_is_constant(&p));
-    p.checker[1].filter = 0.5f;
+    p.colors[1].filter = 0.5f;
     assert_false(pigment_is_opaque(&p));
-    p.checker[0] = p.checker[1];
+    p.colors[0] = p.colors[1];
     assert_true(pigment_is_constant(&p));
 }
 
@@ -125,7 +124,7 @@ static ImageMap image_map(MapType type)
 static void images_are_povray(void **state)
 {
     ImageMap map = image_map(MAP_PLANAR);
-    Pigment p = pigment(PIGMENT_IMAGE);
+    Pigment p = {.kind = PIGMENT_IMAGE, .transform = transform_identity()};
     Rgbft c;
 
     (void)state;
@@ -179,7 +178,7 @@ static void projections(void **state)
 static void target_uvs(void **state)
 {
     ImageMap map = {.map_type = MAP_CYLINDRICAL};
-    Pigment p = pigment(PIGMENT_COLOR);
+    Pigment p = {.kind = PIGMENT_COLOR, .transform = transform_identity()};
     Vec2 mapped = {0.5, 0.25}, natural = {0.1, 0.2};
     Vec3 at = {2, 4, 6};
 
@@ -202,7 +201,7 @@ static void bakes(void **state)
 {
     const double low[2] = {-1, 0.5}, high[2] = {3, 2.5};
     ImageMap map = image_map(MAP_PLANAR);
-    Pigment p = pigment(PIGMENT_CHECKER);
+    Pigment p = pigment(&pattern_checker);
     RetexImage baked = {0};
 
     (void)state;
@@ -210,7 +209,7 @@ static void bakes(void **state)
     p.transform = transform_rotate(vec3(0, 0, 90));
     for (int k = 0; k < 4; k++) {
         int axis = k < 3 ? k : 2;
-        p.kind = k < 3 ? PIGMENT_CHECKER : PIGMENT_IMAGE;
+        p.kind = k < 3 ? PIGMENT_PATTERN : PIGMENT_IMAGE;
         assert_int_equal(pigment_bake(&baked, &p, axis, low, high, 40, 20, 1, NULL), 0);
         for (int y = 0; y < 20; y++)
             for (int x = 0; x < 40; x++) {
@@ -227,12 +226,29 @@ static void bakes(void **state)
     retex_texture_close(&map.texture);
 }
 
+/* ---- the table ---- */
+
+/* Each keyword once; a pattern without a value has a name for the warning; lists of colours are not too long. */
+static void rows_are_whole(void **state)
+{
+    (void)state;
+    assert_true(pattern_count() <= 64); /* Gaps of sdl/build */
+    assert_int_equal(pattern_find("checkers"), -1);
+    for (int i = 0; i < pattern_count(); i++) {
+        const PatternOps *ops = pattern_at(i);
+        assert_true(ops->value || ops->name);
+        assert_in_range(ops->colors, 0, PATTERN_COLORS);
+        assert_int_equal(pattern_find(ops->keyword), i);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(gradients_are_povray),
         cmocka_unit_test(color_maps),
         cmocka_unit_test(checkers),
+        cmocka_unit_test(rows_are_whole),
         cmocka_unit_test(images_are_povray),
         cmocka_unit_test(projections),
         cmocka_unit_test(target_uvs),

@@ -41,8 +41,8 @@ static void stage_open(Stage *s)
 static Primitive *stage_add(Stage *s, const ShapeOps *ops, Transform transform, float r, float g, float b)
 {
     int k = s->scene->nprimitives++;
-    s->pigments[k] =
-        (Pigment){.kind = PIGMENT_COLOR, .color = {r, g, b, 0, 0}, .transform = transform_identity(), .frequency = 1};
+    s->pigments[k] = (Pigment){
+        .kind = PIGMENT_COLOR, .color = {r, g, b, 0, 0}, .transform = transform_identity(), .pattern.frequency = 1};
     s->finishes[k] = (Finish){.diffuse = 1,
                               .brilliance = 1,
                               .reflection_falloff = 1,
@@ -304,8 +304,8 @@ static void the_inside_is_another_surface(void **state)
     Stage s;
     stage_open(&s);
     stage_add(&s, &shape_sphere, at(0, 0, -5, 1), 1, 0, 0);
-    s.pigments[1] =
-        (Pigment){.kind = PIGMENT_COLOR, .color = {0, 1, 0, 0, 0}, .transform = transform_identity(), .frequency = 1};
+    s.pigments[1] = (Pigment){
+        .kind = PIGMENT_COLOR, .color = {0, 1, 0, 0, 0}, .transform = transform_identity(), .pattern.frequency = 1};
     s.finishes[1] = s.finishes[0];
     s.finishes[1].diffuse = 0, s.finishes[1].emission = rgb_grey(0.5f);
     s.textures[1] = (Texture){.pigment = &s.pigments[1], .finish = &s.finishes[1]};

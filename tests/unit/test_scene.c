@@ -1,6 +1,7 @@
 /* What the language builds: shapes in canonical form, the order of transforms and textures, groups, layers,
  * finishes, the working space. */
 #include "lib_scene_text.h"
+#include "pattern/patterns.h"
 #include "shape/shapes.h"
 
 #include <stdio.h>
@@ -190,7 +191,7 @@ static void test_textures_of_a_checker(void **state)
     (void)state;
     Scene *scene = parse(V37 "plane{y,0 texture{checker texture{pigment{rgb 1}}"
                              " texture{pigment{rgb <1,0,0>}} scale 2}}");
-    assert_int_equal(only(scene)->texture->pigment->kind, PIGMENT_CHECKER);
+    assert_ptr_equal(only(scene)->texture->pigment->pattern.ops, &pattern_checker);
     assert_color(color_at(only(scene), 1, 0, 1), 1, 1, 1);
     assert_color(color_at(only(scene), 3, 0, 1), 1, 0, 0);
     assert_string_equal(messages, "");

@@ -1,6 +1,7 @@
 /* Pigments that are no albedo: a surface of such a colour would give back more light than it gets. What shines may be
  * as bright as it likes. Each is warned of once, where its colour is written. */
 #include <string.h>
+#include "pattern/pattern.h"
 #include "sdl/build/builder.h"
 
 /* White, and some for rounding. */
@@ -35,9 +36,12 @@ static void look_at_all(Sdl *sdl, const Pigment *pigment, const Finish *finish, 
 {
     if (pigment->kind == PIGMENT_COLOR)
         look_at(sdl, finish, pigment->color, found);
-    for (int i = 0; i < 2 && pigment->kind == PIGMENT_CHECKER; i++)
-        look_at(sdl, finish, pigment->checker[i], found);
-    for (int i = 0; i < pigment->map.count && pigment->kind == PIGMENT_GRADIENT; i++)
+    if (pigment->kind != PIGMENT_PATTERN)
+        return;
+    const int colors = pigment->pattern.ops->colors;
+    for (int i = 0; i < colors; i++)
+        look_at(sdl, finish, pigment->colors[i], found);
+    for (int i = 0; !colors && i < pigment->map.count; i++)
         look_at(sdl, finish, pigment->map.entries[i].color, found);
 }
 

@@ -1,6 +1,7 @@
 /* What the language calls: the builder's state, statements at top level, declarations, and the report of what is not
  * supported. */
 #include <string.h>
+#include "pattern/pattern.h"
 #include "sdl/build/build.h"
 #include "sdl/build/builder.h"
 
@@ -16,21 +17,31 @@ static const struct {
 
 void gaps_add(Gaps *gaps, Gap gap)
 {
-    gaps->bits[gap / 64] |= (uint64_t)1 << gap % 64;
+    gaps->bits |= (uint64_t)1 << gap;
+}
+
+void gaps_add_pattern(Gaps *gaps, int pattern)
+{
+    gaps->patterns |= (uint64_t)1 << pattern;
 }
 
 void gaps_join(Gaps *gaps, const Gaps *other)
 {
-    gaps->bits[0] |= other->bits[0];
-    gaps->bits[1] |= other->bits[1];
+    gaps->bits |= other->bits;
+    gaps->patterns |= other->patterns;
 }
 
 void gaps_report(Sdl *sdl, const Gaps *gaps)
 {
-    if (!gaps->bits[0] && !gaps->bits[1])
-        return;
-    for (int i = 0; i < GAP_COUNT; i++)
-        if (gaps->bits[i / 64] >> i % 64 & 1)
+    for (int i = 0; gaps->patterns >> i && i < pattern_count(); i++)
+        if (gaps->patterns >> i & 1) {
+            const PatternOps *pattern = pattern_at(i);
+            sdl_unsupported(sdl, pattern->name,
+                            pattern->arguments == ARGUMENTS_OBJECT ? "the colour outside the object is used"
+                                                                   : "its mean colour is used");
+        }
+    for (int i = 0; gaps->bits >> i && i < GAP_COUNT; i++)
+        if (gaps->bits >> i & 1)
             sdl_unsupported(sdl, gap_names[i].name, gap_names[i].instead);
 }
 

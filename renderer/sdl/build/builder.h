@@ -16,48 +16,6 @@
 /* ---- what is not supported ---- */
 
 #define GAP_TABLE(X) \
-    X(AGATE, "agate", "its mean colour is used") \
-    X(AOI, "aoi", "its mean colour is used") \
-    X(AVERAGE, "average", "its mean colour is used") \
-    X(BOXED, "boxed", "its mean colour is used") \
-    X(BOZO, "bozo", "its mean colour is used") \
-    X(BRICK, "brick", "its mean colour is used") \
-    X(BUMPS, "bumps", "its mean colour is used") \
-    X(CELLS, "cells", "its mean colour is used") \
-    X(CRACKLE, "crackle", "its mean colour is used") \
-    X(CUBIC_PATTERN, "cubic pattern", "its mean colour is used") \
-    X(CYLINDRICAL, "cylindrical", "its mean colour is used") \
-    X(DENSITY_FILE, "density_file", "its mean colour is used") \
-    X(DENTS, "dents", "its mean colour is used") \
-    X(FACETS, "facets", "its mean colour is used") \
-    X(FUNCTION, "function pattern", "its mean colour is used") \
-    X(GRANITE, "granite", "its mean colour is used") \
-    X(HEXAGON, "hexagon", "its mean colour is used") \
-    X(IMAGE_PATTERN, "image_pattern", "its mean colour is used") \
-    X(JULIA, "julia", "its mean colour is used") \
-    X(LEOPARD, "leopard", "its mean colour is used") \
-    X(MAGNET, "magnet", "its mean colour is used") \
-    X(MANDEL, "mandel", "its mean colour is used") \
-    X(MARBLE, "marble", "its mean colour is used") \
-    X(OBJECT_PATTERN, "object pattern", "the colour outside the object is used") \
-    X(ONION, "onion", "its mean colour is used") \
-    X(PAVEMENT, "pavement", "its mean colour is used") \
-    X(PIGMENT_PATTERN, "pigment_pattern", "its mean colour is used") \
-    X(PLANAR, "planar", "its mean colour is used") \
-    X(PROJECTION, "projection", "its mean colour is used") \
-    X(QUILTED, "quilted", "its mean colour is used") \
-    X(RADIAL, "radial", "its mean colour is used") \
-    X(RIPPLES, "ripples", "its mean colour is used") \
-    X(SLOPE, "slope", "its mean colour is used") \
-    X(SPHERICAL, "spherical", "its mean colour is used") \
-    X(SPIRAL, "spiral", "its mean colour is used") \
-    X(SPOTTED, "spotted", "its mean colour is used") \
-    X(SQUARE, "square", "its mean colour is used") \
-    X(TILING, "tiling", "its mean colour is used") \
-    X(TRIANGULAR, "triangular", "its mean colour is used") \
-    X(WAVES, "waves", "its mean colour is used") \
-    X(WOOD, "wood", "its mean colour is used") \
-    X(WRINKLES, "wrinkles", "its mean colour is used") \
     X(TURBULENCE, "turbulence", "the pattern is left undisturbed") \
     X(WARP, "warp", "the pattern is left undisturbed") \
     X(PIGMENT_MAP, "pigment_map", "each pigment's mean colour is used") \
@@ -86,10 +44,11 @@ typedef enum Gap {
 #undef X
     GAP_COUNT
 } Gap;
-typedef struct Gaps { uint64_t bits[2]; } Gaps;
-_Static_assert(GAP_COUNT <= 128, "Gaps is too small");
+typedef struct Gaps { uint64_t bits, patterns; } Gaps; /* by Gap; by the index of the pattern */
+_Static_assert(GAP_COUNT <= 64, "Gaps is too small");
 
 void gaps_add(Gaps *gaps, Gap gap);
+void gaps_add_pattern(Gaps *gaps, int pattern);
 void gaps_join(Gaps *gaps, const Gaps *other);
 void gaps_report(Sdl *sdl, const Gaps *gaps);
 
@@ -264,7 +223,6 @@ ParsedPigment *pigment_new(Sdl *sdl, const ParsedPigment *from /* or NULL */);
 ParsedPigment *parse_pigment_body(Sdl *sdl, const ParsedPigment *from, char end);
 ParsedPigment *parse_pigment(Sdl *sdl, const ParsedPigment *from); /* with its braces */
 Rgbft pigment_mean(const ParsedPigment *pigment);
-int parsed_pigment_is_opaque(const ParsedPigment *pigment);
 /* A pattern of whole textures (texture_map, tiles, texture lists): the pigment of their mean colours. */
 ParsedPigment *parse_texture_pattern(Sdl *sdl, char end, const ParsedTexture **first, Gaps *gaps);
 ParsedColorMap *parse_color_map(Sdl *sdl);   /* after color_map */

@@ -65,8 +65,8 @@ static void decode_colors(Sdl *sdl)
         return;
     for (ParsedPigment *p = builder->pigments; p; p = p->next) {
         p->pigment.color = decode_rgbft(s, g, p->pigment.color);
-        p->pigment.checker[0] = decode_rgbft(s, g, p->pigment.checker[0]);
-        p->pigment.checker[1] = decode_rgbft(s, g, p->pigment.checker[1]);
+        for (int i = 0; i < PATTERN_COLORS; i++)
+            p->pigment.colors[i] = decode_rgbft(s, g, p->pigment.colors[i]);
     }
     for (ParsedColorMap *m = builder->maps; m; m = m->next)
         for (int i = 0; i < m->map.count; i++)

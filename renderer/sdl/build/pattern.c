@@ -1,82 +1,8 @@
-/* Patterns of pigments and textures: checker and gradient are kept, all others are read and averaged. */
+/* Patterns of pigments and textures: what follows a keyword is read as the pattern's row says. Patterns that are not
+ * supported are replaced by their mean colour. */
 #include <string.h>
+#include "pattern/pattern.h"
 #include "sdl/build/builder.h"
-
-/* What follows a pattern's name. */
-typedef enum Args {
-    ARGS_NONE,
-    ARGS_FLOAT,
-    ARGS_BLOCK,
-    ARGS_LIST,
-    ARGS_FILE,
-    ARGS_JULIA,
-    ARGS_MAGNET,
-    ARGS_SLOPE,
-    ARGS_OBJECT,
-    ARGS_AVERAGE
-} Args;
-
-static const struct Pattern {
-    const char *word;
-    Args args;
-    Gap gap;
-    int list; /* how many colours or pigments may stand in a list */
-} patterns[] = {
-    {"agate", ARGS_NONE, GAP_AGATE, 0},
-    {"aoi", ARGS_NONE, GAP_AOI, 0},
-    {"average", ARGS_AVERAGE, GAP_AVERAGE, 0},
-    {"boxed", ARGS_NONE, GAP_BOXED, 0},
-    {"bozo", ARGS_NONE, GAP_BOZO, 0},
-    {"brick", ARGS_LIST, GAP_BRICK, 2},
-    {"bumps", ARGS_NONE, GAP_BUMPS, 0},
-    {"cells", ARGS_NONE, GAP_CELLS, 0},
-    {"crackle", ARGS_NONE, GAP_CRACKLE, 0},
-    {"cubic", ARGS_LIST, GAP_CUBIC_PATTERN, 6},
-    {"cylindrical", ARGS_NONE, GAP_CYLINDRICAL, 0},
-    {"density_file", ARGS_FILE, GAP_DENSITY_FILE, 0},
-    {"dents", ARGS_NONE, GAP_DENTS, 0},
-    {"facets", ARGS_NONE, GAP_FACETS, 0},
-    {"function", ARGS_BLOCK, GAP_FUNCTION, 0},
-    {"granite", ARGS_NONE, GAP_GRANITE, 0},
-    {"hexagon", ARGS_LIST, GAP_HEXAGON, 3},
-    {"image_pattern", ARGS_BLOCK, GAP_IMAGE_PATTERN, 0},
-    {"julia", ARGS_JULIA, GAP_JULIA, 0},
-    {"leopard", ARGS_NONE, GAP_LEOPARD, 0},
-    {"magnet", ARGS_MAGNET, GAP_MAGNET, 0},
-    {"mandel", ARGS_FLOAT, GAP_MANDEL, 0},
-    {"marble", ARGS_NONE, GAP_MARBLE, 0},
-    {"object", ARGS_OBJECT, GAP_OBJECT_PATTERN, 2},
-    {"onion", ARGS_NONE, GAP_ONION, 0},
-    {"pavement", ARGS_NONE, GAP_PAVEMENT, 0},
-    {"pigment_pattern", ARGS_BLOCK, GAP_PIGMENT_PATTERN, 0},
-    {"planar", ARGS_NONE, GAP_PLANAR, 0},
-    {"projection", ARGS_BLOCK, GAP_PROJECTION, 0},
-    {"quilted", ARGS_NONE, GAP_QUILTED, 0},
-    {"radial", ARGS_NONE, GAP_RADIAL, 0},
-    {"ripples", ARGS_NONE, GAP_RIPPLES, 0},
-    {"slope", ARGS_SLOPE, GAP_SLOPE, 0},
-    {"spherical", ARGS_NONE, GAP_SPHERICAL, 0},
-    {"spiral1", ARGS_FLOAT, GAP_SPIRAL, 0},
-    {"spiral2", ARGS_FLOAT, GAP_SPIRAL, 0},
-    {"spotted", ARGS_NONE, GAP_SPOTTED, 0},
-    {"square", ARGS_LIST, GAP_SQUARE, 4},
-    {"tiling", ARGS_FLOAT, GAP_TILING, 0},
-    {"triangular", ARGS_LIST, GAP_TRIANGULAR, 6},
-    {"waves", ARGS_NONE, GAP_WAVES, 0},
-    {"wood", ARGS_NONE, GAP_WOOD, 0},
-    {"wrinkles", ARGS_NONE, GAP_WRINKLES, 0},
-};
-
-static const struct Pattern *find_pattern(Sdl *sdl)
-{
-    const Token *token = sdl_peek(sdl);
-    if (token->kind != TOKEN_WORD)
-        return NULL;
-    for (size_t i = 0; i < sizeof patterns / sizeof *patterns; i++)
-        if (strcmp(token->text, patterns[i].word) == 0)
-            return &patterns[i];
-    return NULL;
-}
 
 /* ---- lists of colours, pigments or textures ---- */
 
@@ -134,31 +60,6 @@ static void set_average(Sdl *sdl, ParsedPigment *pigment, const Rgbft *list, int
     pigment->pigment.map = map->map;
 }
 
-/* brick's second colour is the brick; the mortar between is thin. */
-static void list_pattern(Sdl *sdl, const struct Pattern *pattern, ParsedPigment *pigment, const ParsedTexture **first,
-                         int textures)
-{
-    Rgbft list[6] = {{0, 0, 1, 0, 0}, {0, 1, 0, 0, 0}, {1, 0, 0, 0, 0},
-                     {1, 0, 1, 0, 0}, {1, 1, 0, 0, 0}, {0, 1, 1, 0, 0}};
-    parse_color_list(sdl, list, pattern->list, pigment, first, textures);
-    if (pattern->gap == GAP_BRICK)
-        set_average(sdl, pigment, list + 1, 1);
-    else
-        set_average(sdl, pigment, list, pattern->list);
-}
-
-static void object_pattern(Sdl *sdl, ParsedPigment *pigment, const ParsedTexture **first, int textures)
-{
-    Rgbft list[2] = {{0, 0, 1, 0, 0}, {0, 1, 0, 0, 0}};
-    sdl_expect(sdl, "{");
-    if (!accept_ident(sdl, VALUE_OBJECT) && !accept_object(sdl))
-        sdl_expected(sdl, "an object");
-    sdl_optional_comma(sdl);
-    parse_color_list(sdl, list, 2, pigment, first, textures);
-    sdl_expect(sdl, "}");
-    set_average(sdl, pigment, list, 1);
-}
-
 static void slope_arguments(Sdl *sdl)
 {
     if (sdl_is(sdl, "{")) {
@@ -182,74 +83,106 @@ static void magnet_arguments(Sdl *sdl)
     sdl_float(sdl);
 }
 
-static void averaged_pattern(Sdl *sdl, const struct Pattern *pattern, ParsedPigment *pigment,
-                             const ParsedTexture **first, int textures)
+/* What stands between the keyword and a list of colours. */
+static void pattern_arguments(Sdl *sdl, Pattern *pattern)
 {
-    sdl_next(sdl);
-    pigment->pigment.kind = PIGMENT_COLOR;
-    pigment->averaged = pattern->args == ARGS_AVERAGE ? AVERAGED_BY_WEIGHT : AVERAGED;
-    gaps_add(&pigment->gaps, pattern->gap);
-    switch (pattern->args) {
-    case ARGS_FLOAT:
-        sdl_float(sdl);
+    switch (pattern->ops->arguments) {
+    case ARGUMENTS_FLOAT:
+        pattern->number = sdl_float(sdl);
         break;
-    case ARGS_BLOCK:
+    case ARGUMENTS_VECTOR:
+        pattern->vector = sdl_vector(sdl);
+        if (vec_length(pattern->vector) == 0)
+            sdl_error(sdl, "%s needs a direction, not the zero vector", pattern->ops->keyword);
+        break;
+    case ARGUMENTS_BLOCK:
         sdl_skip_block(sdl);
         break;
-    case ARGS_LIST:
-        list_pattern(sdl, pattern, pigment, first, textures);
-        break;
-    case ARGS_FILE:
+    case ARGUMENTS_FILE:
         sdl_accept(sdl, "df3"), sdl_string(sdl);
         break;
-    case ARGS_JULIA:
+    case ARGUMENTS_JULIA:
         sdl_vector2(sdl), sdl_optional_comma(sdl), sdl_float(sdl);
         break;
-    case ARGS_MAGNET:
+    case ARGUMENTS_MAGNET:
         magnet_arguments(sdl);
         break;
-    case ARGS_SLOPE:
+    case ARGUMENTS_SLOPE:
         slope_arguments(sdl);
         break;
-    case ARGS_OBJECT:
-        object_pattern(sdl, pigment, first, textures);
-        break;
-    case ARGS_AVERAGE:
-    case ARGS_NONE:
+    case ARGUMENTS_AVERAGE:
+    case ARGUMENTS_NONE:
+    case ARGUMENTS_OBJECT:
         break;
     }
 }
 
+/* object { OBJECT COLOURS }: a list of two, the first outside. */
+static void object_pattern(Sdl *sdl, ParsedPigment *pigment, const ParsedTexture **first, int textures)
+{
+    Rgbft *colors = pigment->pigment.colors;
+    sdl_expect(sdl, "{");
+    if (!accept_ident(sdl, VALUE_OBJECT) && !accept_object(sdl))
+        sdl_expected(sdl, "an object");
+    sdl_optional_comma(sdl);
+    parse_color_list(sdl, colors, 2, pigment, first, textures);
+    sdl_expect(sdl, "}");
+    set_average(sdl, pigment, colors, 1);
+}
+
+/* The mean of a pattern that is not supported: of its list, or of the map that follows. Of brick's colours the second
+ * is the brick; the mortar between is thin. */
+static void average_pattern(Sdl *sdl, ParsedPigment *pigment)
+{
+    const PatternOps *ops = pigment->pigment.pattern.ops;
+    const int brick = strcmp(ops->keyword, "brick") == 0;
+    pigment->pigment.kind = PIGMENT_COLOR;
+    pigment->averaged = ops->arguments == ARGUMENTS_AVERAGE ? AVERAGED_BY_WEIGHT : AVERAGED;
+    if (ops->colors)
+        set_average(sdl, pigment, pigment->pigment.colors + brick, brick ? 1 : ops->colors);
+}
+
+static void pattern_of(Sdl *sdl, int index, ParsedPigment *pigment, const ParsedTexture **first, int textures)
+{
+    static const Rgbft colors[PATTERN_COLORS] = {{0, 0, 1, 0, 0}, {0, 1, 0, 0, 0}, {1, 0, 0, 0, 0},
+                                                 {1, 0, 1, 0, 0}, {1, 1, 0, 0, 0}, {0, 1, 1, 0, 0}};
+    const PatternOps *ops = pattern_at(index);
+    Pigment *p = &pigment->pigment;
+    p->kind = PIGMENT_PATTERN;
+    p->pattern.ops = ops;
+    if (ops->value)
+        p->pattern.wave = WAVE_RAMP;
+    else
+        gaps_add_pattern(&pigment->gaps, index);
+    memcpy(p->colors, colors, sizeof colors);
+    pattern_arguments(sdl, &p->pattern);
+    parse_color_list(sdl, p->colors, ops->colors, pigment, first, textures);
+    pigment->averaged = AVERAGED_NOT;
+    if (!ops->value)
+        average_pattern(sdl, pigment);
+    if (ops->arguments == ARGUMENTS_OBJECT)
+        object_pattern(sdl, pigment, first, textures);
+}
+
 int accept_pattern(Sdl *sdl, ParsedPigment *pigment, const ParsedTexture **first, int textures)
 {
-    Pigment *p = &pigment->pigment;
-    if (sdl_accept(sdl, "checker")) {
-        p->kind = PIGMENT_CHECKER;
-        p->checker[0] = (Rgbft){0, 0, 1, 0, 0};
-        p->checker[1] = (Rgbft){0, 1, 0, 0, 0};
-        parse_color_list(sdl, p->checker, 2, pigment, first, textures);
-    } else if (sdl_accept(sdl, "gradient")) {
-        p->kind = PIGMENT_GRADIENT;
-        p->gradient = sdl_vector(sdl);
-        if (vec_length(p->gradient) == 0)
-            sdl_error(sdl, "gradient needs a direction, not the zero vector");
-        p->wave = WAVE_RAMP;
-    } else if (sdl_accept(sdl, "image_map"))
-        parse_image_map(sdl, pigment);
-    else {
-        const struct Pattern *pattern = find_pattern(sdl);
-        if (!pattern)
-            return 0;
-        averaged_pattern(sdl, pattern, pigment, first, textures);
+    const Token *token = sdl_peek(sdl);
+    const int index = token->kind == TOKEN_WORD ? pattern_find(token->text) : -1;
+    if (index >= 0) {
+        sdl_next(sdl);
+        pattern_of(sdl, index, pigment, first, textures);
         return 1;
     }
+    if (!sdl_accept(sdl, "image_map"))
+        return 0;
+    parse_image_map(sdl, pigment);
     pigment->averaged = AVERAGED_NOT;
     return 1;
 }
 
 /* ---- what may follow any pattern ---- */
 
-static int accept_wave(Sdl *sdl, Pigment *p)
+static int accept_wave(Sdl *sdl, Pattern *p)
 {
     static const struct {
         const char *word;
@@ -304,7 +237,7 @@ static int accept_ignored(Sdl *sdl)
 
 int accept_pattern_modifier(Sdl *sdl, ParsedPigment *pigment)
 {
-    Pigment *p = &pigment->pigment;
+    Pattern *p = &pigment->pigment.pattern;
     if (sdl_accept(sdl, "frequency"))
         p->frequency = sdl_float(sdl);
     else if (sdl_accept(sdl, "phase"))

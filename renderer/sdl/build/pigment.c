@@ -1,6 +1,7 @@
 /* pigment: the colour of a surface. Colour maps, and the mean colours that stand in for what is not supported. */
 #include <stdlib.h>
 #include <string.h>
+#include "pattern/pattern.h"
 #include "sdl/build/builder.h"
 
 ParsedPigment *pigment_new(Sdl *sdl, const ParsedPigment *from)
@@ -10,8 +11,8 @@ ParsedPigment *pigment_new(Sdl *sdl, const ParsedPigment *from)
     if (from)
         *pigment = *from;
     else
-        pigment->pigment =
-            (Pigment){.kind = PIGMENT_COLOR, .frequency = 1, .wave_exponent = 1, .transform = transform_identity()};
+        pigment->pigment = (Pigment){
+            .kind = PIGMENT_COLOR, .pattern = {.frequency = 1, .wave_exponent = 1}, .transform = transform_identity()};
     pigment->next = builder->pigments;
     builder->pigments = pigment;
     return pigment;
@@ -80,40 +81,17 @@ static Rgbft weighted_mean(const ColorMap *map)
 Rgbft pigment_mean(const ParsedPigment *pigment)
 {
     const Pigment *p = &pigment->pigment;
-    switch (p->kind) {
-    case PIGMENT_CHECKER:
-        return lerp(p->checker[0], p->checker[1], 0.5);
-    case PIGMENT_GRADIENT:
-        return color_map_mean(&p->map);
-    case PIGMENT_IMAGE:
-        return (Rgbft){0.5f, 0.5f, 0.5f, 0, 0};
-    default:
+    if (p->kind == PIGMENT_COLOR)
         return p->color;
-    }
-}
-
-static int opaque(Rgbft c)
-{
-    return c.filter == 0 && c.transmit == 0;
-}
-
-/* Once images are loaded. */
-int parsed_pigment_is_opaque(const ParsedPigment *pigment)
-{
-    const Pigment *p = &pigment->pigment;
-    switch (p->kind) {
-    case PIGMENT_CHECKER:
-        return opaque(p->checker[0]) && opaque(p->checker[1]);
-    case PIGMENT_GRADIENT:
-        for (int i = 0; i < p->map.count; i++)
-            if (!opaque(p->map.entries[i].color))
-                return 0;
-        return 1;
-    case PIGMENT_IMAGE:
-        return !p->image->has_alpha && !p->image->once && p->image->filter_all == 0 && p->image->transmit_all == 0;
-    default:
-        return opaque(p->color);
-    }
+    if (p->kind == PIGMENT_IMAGE)
+        return (Rgbft){0.5f, 0.5f, 0.5f, 0, 0};
+    const int n = p->pattern.ops->colors;
+    if (n == 0)
+        return color_map_mean(&p->map);
+    Rgbft sum = {0};
+    for (int i = 0; i < n; i++)
+        add(&sum, p->colors[i], 1.0 / n);
+    return sum;
 }
 
 /* ---- maps ---- */

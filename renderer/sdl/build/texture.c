@@ -1,6 +1,8 @@
 /* texture, material, interior: pigment and finish put together, in layers. */
 #include <string.h>
+#include "pattern/patterns.h"
 #include "sdl/build/builder.h"
+#include "shade/pigment.h"
 
 ParsedTexture *texture_copy(Sdl *sdl, const ParsedTexture *from)
 {
@@ -39,7 +41,7 @@ const ParsedTexture *texture_over(Sdl *sdl, const ParsedTexture *top, const Pars
         return top;
     ParsedTexture *texture = texture_copy(sdl, top);
     texture->below = texture_over(sdl, top->below ? top->below : bottom, top->below ? bottom : NULL);
-    if (!parsed_pigment_is_opaque(pigment_of(top)))
+    if (!pigment_is_opaque(top->texture.pigment))
         gaps_add(&texture->gaps, GAP_LAYERED);
     return texture;
 }
@@ -57,7 +59,7 @@ const ParsedTexture *texture_named(Sdl *sdl, const ParsedTexture *texture, const
 /* Layers are not blended: the topmost that hides what is under it is shown, or the lowest. */
 const ParsedTexture *texture_visible(const ParsedTexture *texture)
 {
-    while (texture->below && !parsed_pigment_is_opaque(pigment_of(texture)))
+    while (texture->below && !pigment_is_opaque(texture->texture.pigment))
         texture = texture->below;
     return texture;
 }
@@ -126,11 +128,12 @@ static const ParsedTexture *tiles(Sdl *sdl)
 {
     const ParsedTexture *first = NULL;
     ParsedPigment *pigment = pigment_new(sdl, NULL);
-    pigment->pigment.kind = PIGMENT_CHECKER;
+    pigment->pigment.kind = PIGMENT_PATTERN;
+    pigment->pigment.pattern.ops = &pattern_checker;
     sdl_expect(sdl, "{");
-    parse_color_list(sdl, &pigment->pigment.checker[1], 1, pigment, &first, 1);
+    parse_color_list(sdl, &pigment->pigment.colors[1], 1, pigment, &first, 1);
     sdl_expect(sdl, "tile2");
-    parse_color_list(sdl, &pigment->pigment.checker[0], 1, pigment, &first, 1);
+    parse_color_list(sdl, &pigment->pigment.colors[0], 1, pigment, &first, 1);
     sdl_expect(sdl, "}");
     return pattern_texture(sdl, pigment, first, &pigment->gaps);
 }
@@ -179,7 +182,7 @@ static void texture_item(Sdl *sdl, const ParsedTexture **texture, char end, int 
     else if (sdl_accept(sdl, "material_map"))
         *texture = material_map(sdl);
     else {
-        Gaps gaps = {{0}};
+        Gaps gaps = {0};
         const ParsedTexture *first = NULL;
         int uv_mapping = (*texture)->texture.uv_mapping;
         ParsedPigment *pigment = parse_texture_pattern(sdl, end, &first, &gaps);

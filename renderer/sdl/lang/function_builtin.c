@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
+#include "base/noise.h"
 #include "sdl/lang/internal.h"
 
 enum {

@@ -2,6 +2,7 @@
  * reported where it is called. */
 #include <math.h>
 #include <stdio.h>
+#include "base/noise.h"
 #include "sdl/lang/internal.h"
 
 enum { F_PH = 47, F_R = 57, F_SPHERE = 61, F_TH = 69, F_TORUS = 70, F_NOISE3D = 76, F_NOISE_GENERATOR = 78 };

@@ -338,10 +338,6 @@ Num function_call(Sdl *sdl, const Value *function); /* with its arguments, from 
 double internal_call(Sdl *sdl, int number, const double *args, int count);
 int internal_arguments(int number);
 
-/* noise.c */
-double noise_scalar(Vec3 p); /* 0 to 1 */
-Vec3 noise_turbulence(Vec3 p, double lambda, double omega, double octaves);
-
 /* spline.c */
 void spline_declare(Sdl *sdl, Value *value);    /* after `spline` */
 Num spline_call(Sdl *sdl, const Value *spline); /* from `(` on */

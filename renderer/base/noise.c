@@ -3,7 +3,7 @@
  * same numbers: those come out of POV-Ray's own tables. */
 #include <math.h>
 #include <stdint.h>
-#include "sdl/lang/internal.h"
+#include "base/noise.h"
 
 /* Chosen so that the mean square is that of POV-Ray's, .0162 about .5 and .065 about 0. */
 #define SCALAR_SPREAD 0.308

@@ -1,0 +1,11 @@
+/* gradient: how far a point lies along the vector, whose length does not matter. */
+#include "pattern/pattern.h"
+
+static double value(const Pattern *pattern, Vec3 p)
+{
+    const double along = vec_dot(vec_normalize(pattern->vector), p);
+
+    return along > 1 ? fmod(along, 1) : along;
+}
+
+const PatternOps pattern_gradient = {.keyword = "gradient", .arguments = ARGUMENTS_VECTOR, .value = value};

@@ -1,0 +1,71 @@
+/* The table of patterns, and the waves that shape their values. */
+#include <string.h>
+#include "pattern/pattern.h"
+
+static const PatternOps *const patterns[] = {
+#define X(name) &pattern_##name,
+    PATTERN_TABLE(X)
+#undef X
+#define X(word, after, count, title)                                                                                   \
+    &(const PatternOps){.keyword = #word, .arguments = ARGUMENTS_##after, .colors = count, .name = title},
+        UNSUPPORTED_PATTERNS(X)
+#undef X
+};
+
+int pattern_count(void)
+{
+    return (int)(sizeof patterns / sizeof *patterns);
+}
+
+const PatternOps *pattern_at(int index)
+{
+    return patterns[index];
+}
+
+int pattern_find(const char *keyword)
+{
+    for (int i = 0; i < pattern_count(); i++)
+        if (*patterns[i]->keyword == *keyword && strcmp(patterns[i]->keyword, keyword) == 0)
+            return i;
+    return -1;
+}
+
+/* ---- values ---- */
+
+static double triangle_wave(double x)
+{
+    double offset = x - floor(x);
+
+    return offset >= 0.5 ? 2 * (1 - offset) : 2 * offset;
+}
+
+static double apply_wave(const Pattern *pattern, double value)
+{
+    if (pattern->frequency != 0)
+        /* 1.00001 is POV-Ray's own, so that a value of exactly 1 stays 1. */
+        value = fmod(value * pattern->frequency + pattern->phase, 1.00001);
+    if (value < 0)
+        value -= floor(value);
+    switch (pattern->wave) {
+    case WAVE_RAMP:
+        break;
+    case WAVE_TRIANGLE:
+        return triangle_wave(value);
+    case WAVE_SINE:
+        return (1 + sin(2 * PI * value)) / 2;
+    case WAVE_SCALLOP:
+        return fabs(sin(PI * value));
+    case WAVE_CUBIC:
+        return value * value * (3 - 2 * value);
+    case WAVE_POLY:
+        return pow(value, pattern->wave_exponent);
+    }
+    return value;
+}
+
+double pattern_value(const Pattern *pattern, Vec3 p)
+{
+    const double value = pattern->ops->value(pattern, p);
+
+    return pattern->ops->colors ? value : apply_wave(pattern, value);
+}
