@@ -115,7 +115,7 @@ static void push(Cli *cli, const char **list, int *count, const char *what)
 static void numbers(Cli *cli, const CliOption *option, char separator, int count, int *out)
 {
     if (!job_numbers(cli->value, separator, count, out))
-        cli_die(cli, "--%s wants %s, not `%s`", option->name, option->argument, cli->value);
+        cli_die(cli, "--%s: expected %s, not `%s`", option->name, option->argument, cli->value);
 }
 
 static void parse_replace(Arguments *a)
@@ -140,9 +140,9 @@ static int choose(const Cli *cli, const CliOption *o, int count, const char *con
         if (!strcmp(cli->value, names[k]))
             return k;
         size_t used = strlen(known);
-        snprintf(known + used, sizeof known - used, "%s%s", k ? (k + 1 < count ? ", " : " and ") : "", names[k]);
+        snprintf(known + used, sizeof known - used, "%s%s", k ? (k + 1 < count ? ", " : " or ") : "", names[k]);
     }
-    cli_die(cli, "--%s knows %s, not `%s`%s", o->name, known, cli->value,
+    cli_die(cli, "--%s: expected %s, not `%s`%s", o->name, known, cli->value,
             retex_meant(retex_nearest_of(cli->value, names, count), meant));
 }
 
@@ -201,7 +201,7 @@ static void parse_option(Arguments *a, const CliOption *o)
         numbers(cli, o, '/', 2, size);
         r->shard = size[0], r->nshards = size[1];
         if (r->nshards < 1 || r->nshards > 4096 || r->shard < 1 || r->shard > r->nshards)
-            cli_die(cli, "--shard wants I/N, I from 1 to N, not `%s`", cli->value);
+            cli_die(cli, "--shard: expected I/N, I from 1 to N, not `%s`", cli->value);
         break;
     case OPT_MERGE:
         push(cli, a->merged, &a->nmerged, o->name);

@@ -76,7 +76,7 @@ static int set_size(const Option *o)
 {
     int size[2];
     if (!job_numbers(o->value, 'x', 2, size) || size[0] < 1 || size[1] < 1)
-        return retex_fail(o->err, RETEX_EPARSE, "%s wants WxH, not `%s`", o->name, o->value);
+        return retex_fail(o->err, RETEX_EPARSE, "%s: expected WxH, not `%s`", o->name, o->value);
     o->render->width = o->sdl->width = size[0];
     o->render->height = o->sdl->height = size[1];
     return RETEX_OK;
@@ -86,7 +86,7 @@ static int set_crop(const Option *o)
 {
     int crop[4];
     if (!job_numbers(o->value, ',', 4, crop) || crop[2] < 1 || crop[3] < 1)
-        return retex_fail(o->err, RETEX_EPARSE, "%s wants X,Y,W,H, not `%s`", o->name, o->value);
+        return retex_fail(o->err, RETEX_EPARSE, "%s: expected X,Y,W,H, not `%s`", o->name, o->value);
     memcpy(o->render->crop, crop, sizeof crop);
     return RETEX_OK;
 }
@@ -96,7 +96,7 @@ static int set_choice(const Option *o, const char *first, const char *second, in
 {
     char meant[RETEX_MEANT_SIZE];
     if (strcmp(o->value, first) && strcmp(o->value, second))
-        return retex_fail(o->err, RETEX_EPARSE, "%s knows %s and %s, not `%s`%s", o->name, first, second, o->value,
+        return retex_fail(o->err, RETEX_EPARSE, "%s: expected %s or %s, not `%s`%s", o->name, first, second, o->value,
                           retex_meant(retex_nearest_of(o->value, (const char *const[]){first, second}, 2), meant));
     *field = !strcmp(o->value, second);
     return RETEX_OK;
@@ -112,10 +112,10 @@ static int set_clusters(const Option *o)
     else if (isdigit((unsigned char)text[0]) && sscanf(text, "%2d+%2d%n", &sharp, &broad, &used) == 2 && !text[used])
         all = sharp + broad;
     else
-        return retex_fail(o->err, RETEX_EPARSE, "%s wants a number, or two as in 2+1, not `%s`", o->name, text);
+        return retex_fail(o->err, RETEX_EPARSE, "%s: expected a number, or two as in 2+1, not `%s`", o->name, text);
     if (all < 2 || all > FILM_CLUSTERS_MAX || sharp < 1 || broad < 1)
-        return retex_fail(o->err, RETEX_EPARSE, "%s wants 2 to %d, at least one sharp and one broad, not `%s`", o->name,
-                          FILM_CLUSTERS_MAX, text);
+        return retex_fail(o->err, RETEX_EPARSE, "%s: expected 2 to %d, at least one sharp and one broad, not `%s`",
+                          o->name, FILM_CLUSTERS_MAX, text);
     o->render->clusters = all;
     o->render->sharp = sharp, o->render->broad = broad;
     return RETEX_OK;
@@ -166,7 +166,7 @@ int job_set_option(RenderParams *render, SdlOptions *sdl, const char *name, cons
             *flags[k].field = 1;
             return value ? set_whole(&option, 0, 1, flags[k].field) : RETEX_OK;
         }
-    return value ? set_value(&option) : retex_fail(err, RETEX_EPARSE, "%s wants a value", name);
+    return value ? set_value(&option) : retex_fail(err, RETEX_EPARSE, "%s: expected a value", name);
 }
 
 int job_check_declare(const char *declare, RetexError *err)

@@ -83,49 +83,49 @@ $ for s in f p two; do retex-pack -q --lossless $s.exr -o $s.retex; retex-combin
 > clusters       2 sharp, 2 broad
 
 $ retex-render --layout cubist scenes/cornell-box/cornell-box.pov -o x.exr
-! retex-render: error: --layout knows footprints and paper, not `cubist`
+! retex-render: error: --layout: expected footprints or paper, not `cubist`
 = 2
 $ retex-render --layout '' scenes/cornell-box/cornell-box.pov -o x.exr
-! retex-render: error: --layout knows footprints and paper, not ``
+! retex-render: error: --layout: expected footprints or paper, not ``
 = 2
 $ retex-render --clusters 0 scenes/cornell-box/cornell-box.pov -o x.exr
-! retex-render: error: --clusters wants 2 to 16, at least one sharp and one broad, not `0`
+! retex-render: error: --clusters: expected 2 to 16, at least one sharp and one broad, not `0`
 = 2
 $ retex-render --clusters 1 scenes/cornell-box/cornell-box.pov -o x.exr
-! retex-render: error: --clusters wants 2 to 16, at least one sharp and one broad, not `1`
+! retex-render: error: --clusters: expected 2 to 16, at least one sharp and one broad, not `1`
 = 2
 $ retex-render --clusters 17 scenes/cornell-box/cornell-box.pov -o x.exr
-! retex-render: error: --clusters wants 2 to 16, at least one sharp and one broad, not `17`
+! retex-render: error: --clusters: expected 2 to 16, at least one sharp and one broad, not `17`
 = 2
 $ retex-render --clusters 12+5 scenes/cornell-box/cornell-box.pov -o x.exr
-! retex-render: error: --clusters wants 2 to 16, at least one sharp and one broad, not `12+5`
+! retex-render: error: --clusters: expected 2 to 16, at least one sharp and one broad, not `12+5`
 = 2
 $ retex-render --clusters 0+3 scenes/cornell-box/cornell-box.pov -o x.exr
-! retex-render: error: --clusters wants 2 to 16, at least one sharp and one broad, not `0+3`
+! retex-render: error: --clusters: expected 2 to 16, at least one sharp and one broad, not `0+3`
 = 2
 $ retex-render --clusters 3+0 scenes/cornell-box/cornell-box.pov -o x.exr
-! retex-render: error: --clusters wants 2 to 16, at least one sharp and one broad, not `3+0`
+! retex-render: error: --clusters: expected 2 to 16, at least one sharp and one broad, not `3+0`
 = 2
 $ retex-render --clusters 99999999999 scenes/cornell-box/cornell-box.pov -o x.exr
-! retex-render: error: --clusters wants a number, or two as in 2+1, not `99999999999`
+! retex-render: error: --clusters: expected a number, or two as in 2+1, not `99999999999`
 = 2
 $ retex-render --clusters 3+ scenes/cornell-box/cornell-box.pov -o x.exr
-! retex-render: error: --clusters wants a number, or two as in 2+1, not `3+`
+! retex-render: error: --clusters: expected a number, or two as in 2+1, not `3+`
 = 2
 $ retex-render --clusters +1 scenes/cornell-box/cornell-box.pov -o x.exr
-! retex-render: error: --clusters wants a number, or two as in 2+1, not `+1`
+! retex-render: error: --clusters: expected a number, or two as in 2+1, not `+1`
 = 2
 $ retex-render --clusters -1 scenes/cornell-box/cornell-box.pov -o x.exr
-! retex-render: error: --clusters wants a number, or two as in 2+1, not `-1`
+! retex-render: error: --clusters: expected a number, or two as in 2+1, not `-1`
 = 2
 $ retex-render --clusters many scenes/cornell-box/cornell-box.pov -o x.exr
-! retex-render: error: --clusters wants a number, or two as in 2+1, not `many`
+! retex-render: error: --clusters: expected a number, or two as in 2+1, not `many`
 = 2
 $ retex-render --clusters 3+1+1 scenes/cornell-box/cornell-box.pov -o x.exr
-! retex-render: error: --clusters wants a number, or two as in 2+1, not `3+1+1`
+! retex-render: error: --clusters: expected a number, or two as in 2+1, not `3+1+1`
 = 2
 $ retex-render --clusters '' scenes/cornell-box/cornell-box.pov -o x.exr
-! retex-render: error: --clusters wants a number, or two as in 2+1, not ``
+! retex-render: error: --clusters: expected a number, or two as in 2+1, not ``
 = 2
 $ retex-render --layout paper --clusters 4 scenes/cornell-box/cornell-box.pov -o x.exr
 ! retex-render: error: --layout paper has no clusters: no --clusters

@@ -47,16 +47,16 @@ $ for x in scal=2 rotat=30 warp=mirror colourspace=sRGB zzz=1; do retex-combine 
 ! retex-combine: error: no texture option is called 'colourspace'; there are scale, rotate, offset, flip, wrap, repeat, width, colorspace; is colorspace meant?
 ! retex-combine: error: no texture option is called 'zzz'; there are scale, rotate, offset, flip, wrap, repeat, width, colorspace
 = 2
-$ for x in dpeth depth,nromal smell; do retex-render --size 8x6 --aov $x box.pov -o x.exr; done 2>&1 | sed 's/knows beauty, [a-z, ]*, not/knows LIST, not/'
-> retex-render: error: --aov knows LIST, not `dpeth`; is depth meant?
-> retex-render: error: --aov knows LIST, not `nromal`; is normal meant?
-> retex-render: error: --aov knows LIST, not `smell`
+$ for x in dpeth depth,nromal smell; do retex-render --size 8x6 --aov $x box.pov -o x.exr; done 2>&1 | sed 's/expected beauty, [a-z, ]*, not/expected LIST, not/'
+> retex-render: error: --aov: expected LIST, not `dpeth`; is depth meant?
+> retex-render: error: --aov: expected LIST, not `nromal`; is normal meant?
+> retex-render: error: --aov: expected LIST, not `smell`
 $ for x in '--layout footprnts' '--layout papre' '--layout cubist' '--filter bx' '--control-mode unbaised' '-t flor' '-t Wihte' '-t sofa' '-t Floor --replace flor=t.jpg'; do retex-render --size 8x6 $x box.pov -o x.exr; done; printf 'output,flor\nx.png,t.jpg\n' | retex-render -t Floor --variants - box.pov
-! retex-render: error: --layout knows footprints and paper, not `footprnts`; is footprints meant?
-! retex-render: error: --layout knows footprints and paper, not `papre`; is paper meant?
-! retex-render: error: --layout knows footprints and paper, not `cubist`
-! retex-render: error: --filter knows box and gaussian, not `bx`
-! retex-render: error: --control-mode knows unbiased, halves and biased, not `unbaised`; is unbiased meant?
+! retex-render: error: --layout: expected footprints or paper, not `footprnts`; is footprints meant?
+! retex-render: error: --layout: expected footprints or paper, not `papre`; is paper meant?
+! retex-render: error: --layout: expected footprints or paper, not `cubist`
+! retex-render: error: --filter: expected box or gaussian, not `bx`
+! retex-render: error: --control-mode: expected unbiased, halves or biased, not `unbaised`; is unbiased meant?
 ! retex-render: error: no texture, pigment, material or object `flor` in the scene; similar: Floor
 ! retex-render: error: no texture, pigment, material or object `Wihte` in the scene; similar: White
 ! retex-render: error: no texture, pigment, material or object `sofa` in the scene; there are: Floor, White

@@ -50,7 +50,7 @@ for page in "$pages"/retex-*.1; do
 done
 
 # The AOVs of retex-render, by its own message, are those that the page describes.
-retex-render --aov '?' scene.pov 2>&1 | sed -n 's/.* knows \(.*\), not .*/\1/p' | tr -d , | tr ' ' '\n' | sort >"$work/aovs"
+retex-render --aov '?' scene.pov 2>&1 | sed -n 's/.*: expected \(.*\), not .*/\1/p' | tr -d , | tr ' ' '\n' | sort >"$work/aovs"
 [ -s "$work/aovs" ] || echo "retex-render --aov '?' lists nothing"
 sed -n '/^[.]It Fl -aov Ar/,/^[.]It Fl -aov-dir/s/^[.]Cm //p' "$pages/retex-render.1" | tr -s ' ,.' '\n' | sed '/^$/d' |
     sort -u >"$work/man"

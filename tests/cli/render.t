@@ -27,16 +27,16 @@ $ retex-render -t Nope scenes/cornell-box/cornell-box.pov -o x.exr
 ! retex-render: error: no texture, pigment, material or object `Nope` in the scene; there are: Floor, White, Red, Green
 = 2
 $ retex-render --size 0x5 bad.pov -o x.exr
-! retex-render: error: --size wants WxH, not `0x5`
+! retex-render: error: --size: expected WxH, not `0x5`
 = 2
 $ retex-render --crop 1,2 bad.pov -o x.exr
-! retex-render: error: --crop wants X,Y,W,H, not `1,2`
+! retex-render: error: --crop: expected X,Y,W,H, not `1,2`
 = 2
 $ retex-render --spp 0 bad.pov -o x.exr
 ! retex-render: error: --spp: expected a whole number from 1 to 1048576, not '0'
 = 2
 $ retex-render --layout cubist scenes/cornell-box/cornell-box.pov -o x.exr
-! retex-render: error: --layout knows footprints and paper, not `cubist`
+! retex-render: error: --layout: expected footprints or paper, not `cubist`
 = 2
 $ retex-render --replace floor=none.jpg -q --size 32x24 --spp 1 scenes/cornell-box/cornell-box.pov -o x.exr
 ! retex-render: error: cannot read none.jpg: No such file or directory
@@ -99,10 +99,10 @@ $ retex-render --list-targets --size 8x6 ball.pov -o x.txt
 $ retex-render --trace-pixel 1,1,0 --size 8x6 ball.pov -o x.txt
 ! retex-render: error: --trace-pixel goes to standard output: no -o
 = 2
-$ retex-render --aov depth, --size 8x6 ball.pov -o x.exr 2>&1 | sed 's/knows beauty, [a-z, ]*, not/knows LIST, not/'
-> retex-render: error: --aov knows LIST, not ``
+$ retex-render --aov depth, --size 8x6 ball.pov -o x.exr 2>&1 | sed 's/expected beauty, [a-z, ]*, not/expected LIST, not/'
+> retex-render: error: --aov: expected LIST, not ``
 $ retex-render --size +8x6 ball.pov -o x.exr
-! retex-render: error: --size wants WxH, not `+8x6`
+! retex-render: error: --size: expected WxH, not `+8x6`
 = 2
 $ retex-render -D A=1/3 --size 8x6 ball.pov -o x.exr
 ! retex-render: error: --declare: expected NAME=NUMBER or NAME="TEXT", not `A=1/3`
@@ -146,7 +146,7 @@ $ retex-render -q --size 8x6 --spp 4 -t ball ball.pov -o y.exr; for m in unbiase
 $ retex-render -q --size 8x6 --spp 2 -t ball ball.pov -o y.exr; retex-render -q --size 8x6 --spp 2 --control y.exr ball.pov -o x.exr; retex-render -q --size 8x6 --spp 2 --seed 0 --control y.exr --replace 'ball=rgb(1,0,0)' ball.pov -o x.exr; retex-render -q --size 8x6 --spp 2 --control y.exr --control-mode magic --replace 'ball=rgb(1,0,0)' ball.pov -o x.exr; retex-render -q --size 8x6 --spp 2 --control y.exr --replace 'ball=rgb(1,0,0)' ball.pov -o y.exr
 ! retex-render: error: --control needs --replace, without --variants
 ! retex-render: error: --control y.exr: the set has the same seed, 0: the new samples must have other noise
-! retex-render: error: --control-mode knows unbiased, halves and biased, not `magic`
+! retex-render: error: --control-mode: expected unbiased, halves or biased, not `magic`
 ! retex-render: error: y.exr: the output would replace the set of --control
 = 2
 $ retex-render -q --size 8x6 --spp 2 --plain --control-data unbiased ball.pov -o y.exr; retex-info --check y.exr; retex-render -q --size 8x6 --spp 2 --control y.exr --replace 'ball=rgb(1,0,0)' ball.pov -o y.png

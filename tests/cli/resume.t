@@ -100,10 +100,10 @@ $ ./render --resume
 ! retex-render: error: --resume needs an output file: -o FILE
 = 2
 $ ./render --shard 4/3 -o x
-! retex-render: error: --shard wants I/N, I from 1 to N, not `4/3`
+! retex-render: error: --shard: expected I/N, I from 1 to N, not `4/3`
 = 2
 $ ./render --shard 1 -o x
-! retex-render: error: --shard wants I/N, not `1`
+! retex-render: error: --shard: expected I/N, not `1`
 = 2
 $ ./render --merge s1 --resume -o x.exr
 ! retex-render: error: --merge renders no rows: no --resume or --shard

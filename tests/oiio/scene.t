@@ -42,20 +42,20 @@ $ iinfo -a 'box.pov?spp=1&size=16x12&aov=depth,normal'
 > box.pov?spp=1&size=16x12&aov=depth,normal :   16 x   12, 3 channel, float pov (3 subimages)
 
 # What is wrong with options.
-$ oiiotool 'box.pov?aov=smell' -o no.exr 2>&1 | sed -n '/ERROR/s/knows beauty, [a-z, ]*, not/knows LIST, not/p'
-> oiiotool ERROR: read : "box.pov?aov=smell": aov knows LIST, not `smell`
+$ oiiotool 'box.pov?aov=smell' -o no.exr 2>&1 | sed -n '/ERROR/s/expected beauty, [a-z, ]*, not/expected LIST, not/p'
+> oiiotool ERROR: read : "box.pov?aov=smell": aov: expected LIST, not `smell`
 $ for o in sppp=2 spp=many spp=0 width=0 size=3 'size=8x8&width=8' targets=Nope targets=Floor,, crop=0,0,900,900 plain=2 clusters=99 'layout=paper&clusters=3' 'denoise=1&spp=1' 'denoise=1&no_denoise_data=1' threads=x declare.A=1/3 threads=999; do oiiotool "box.pov?$o" -o no.exr 2>&1 | grep ERROR; done
 > oiiotool ERROR: read : "box.pov?sppp=2": there is no option 'sppp'; there are targets, spp, noise, size, width, height, crop, seed, max_depth, filter, layout, clusters, orders, strict_paper, plain, aov, denoise, no_denoise_data, caustics_guide, include, declare.NAME, ambient, strict, safe and threads
 > oiiotool ERROR: read : "box.pov?spp=many": spp: expected a whole number from 1 to 1048576, not 'many'
 > oiiotool ERROR: read : "box.pov?spp=0": spp: expected a whole number from 1 to 1048576, not '0'
 > oiiotool ERROR: read : "box.pov?width=0": width: expected a whole number from 1 to 65536, not '0'
-> oiiotool ERROR: read : "box.pov?size=3": size wants WxH, not `3`
+> oiiotool ERROR: read : "box.pov?size=3": size: expected WxH, not `3`
 > oiiotool ERROR: read : "box.pov?size=8x8&width=8": size says it all: no width or height beside it
 > oiiotool ERROR: read : "box.pov?targets=Nope": no texture, pigment, material or object `Nope` in the scene; there are: Floor, White, Red, Green
 > oiiotool ERROR: read : "box.pov?targets=Floor,,": targets: an empty name in 'Floor,,'
 > oiiotool ERROR: read : "box.pov?crop=0,0,900,900": crop does not lie inside the picture of 640x640
 > oiiotool ERROR: read : "box.pov?plain=2": plain: expected a whole number from 0 to 1, not '2'
-> oiiotool ERROR: read : "box.pov?clusters=99": clusters wants 2 to 16, at least one sharp and one broad, not `99`
+> oiiotool ERROR: read : "box.pov?clusters=99": clusters: expected 2 to 16, at least one sharp and one broad, not `99`
 > oiiotool ERROR: read : "box.pov?layout=paper&clusters=3": layout paper has no clusters: one of them
 > oiiotool ERROR: read : "box.pov?denoise=1&spp=1": denoise needs two samples a pixel at least: one does not tell how noisy it is
 > oiiotool ERROR: read : "box.pov?denoise=1&no_denoise_data=1": denoise reads what no_denoise_data leaves out: one of them

@@ -46,7 +46,7 @@ static int refuse(const char *option, const char *name, size_t length, RetexErro
     retex_nearest_try(&nearest, "beauty");
     for (int k = 0; k < RETEX_AOV_COUNT; k++)
         retex_nearest_try(&nearest, retex_aovs[k].name);
-    return retex_fail(err, RETEX_EPARSE, "%s knows " RETEX_AOV_NAMES ", not `%.*s`%s", option, (int)length, name,
+    return retex_fail(err, RETEX_EPARSE, "%s: expected " RETEX_AOV_NAMES ", not `%.*s`%s", option, (int)length, name,
                       retex_meant(nearest.best, meant));
 }
 
