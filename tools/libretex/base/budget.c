@@ -1,4 +1,5 @@
-/* See retex/budget.h. Counters are atomic: all threads of a piece of work charge them, and others stop it. */
+/* See <retex/budget.h>. The counters are atomic: all threads of the work charge them, and another thread may stop
+ * it. */
 #include <math.h>
 #include <stdatomic.h>
 #include <stdlib.h>

@@ -1,7 +1,5 @@
-/* Filling a RetexError: the one place where messages are put together.
- *
- * The text is formatted aside first, so that a caller may quote the very message it is about to replace:
- * retex_fail(err, code, "%s: %s", path, err->message). */
+/* Fills a RetexError. The message is formatted into a buffer first, so that a caller may quote the message that it
+ * replaces: retex_fail(err, code, "%s: %s", path, err->message). */
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>

@@ -1,4 +1,4 @@
-/* Four floats side by side, in what registers the machine has: for kernels. Private to libretex. */
+/* A vector of four floats, for kernels; any x86-64 and ARM processor has such registers. Private to libretex. */
 #ifndef RETEX_BASE_FLOAT4_H
 #define RETEX_BASE_FLOAT4_H
 

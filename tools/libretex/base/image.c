@@ -22,7 +22,8 @@ int retex_image_alloc(RetexImage *im, int width, int height, int channels, Retex
         return retex_fail(err, RETEX_ENOMEM, "no memory for an image of %d x %d pixels and %d channels", width, height,
                           channels);
 #ifdef MADV_HUGEPAGE
-    /* Fresh pages cost more than the work on them; large pages cost less. Advice only: failing is fine. */
+    /* Page faults of fresh memory cost more than the work on it; huge pages cost less. This is advice only: failure
+     * does not matter. */
     if (bytes >= (uint64_t)4 << 20) {
         const uintptr_t page = (uintptr_t)sysconf(_SC_PAGESIZE);
         const uintptr_t begin = ((uintptr_t)im->pixels + page - 1) / page * page;
@@ -77,7 +78,7 @@ int retex_image_prepare(RetexImage *dst, int width, int height, int channels, co
     }
     *out = retex_image_roi(dst);
     if (roi) {
-        /* a region that lies outside, or is turned inside out, becomes empty */
+        /* a region outside of the image, or with its bounds swapped, becomes empty */
         out->x0 = clamp(roi->x0, 0, width);
         out->y0 = clamp(roi->y0, 0, height);
         out->c0 = clamp(roi->c0, 0, channels);

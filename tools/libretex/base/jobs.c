@@ -9,7 +9,7 @@ typedef struct Jobs {
     RetexJob *job;
     void *context;
     atomic_int code;
-    RetexError err; /* of the one whose code that is */
+    RetexError err; /* error of the job whose code `code` is */
 } Jobs;
 
 static void run_job(void *context, int index, int thread)

@@ -4,10 +4,11 @@
 
 #include <retex/error.h>
 
-/* Returns 0 or a negative RetexCode. */
+/* A job returns 0 or a negative RetexCode. */
 typedef int RetexJob(void *context, int index, int thread, RetexError *err);
 
-/* As retex_parallel; once a job has failed no other begins, and code and error are those of the first that did. */
+/* Like retex_parallel. Once a job has failed no other job begins; the result is the code and error of the first job
+ * that failed. */
 int retex_jobs_run(int nthreads, int count, RetexJob *job, void *context, RetexError *err);
 
 #endif

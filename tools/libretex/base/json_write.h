@@ -1,4 +1,4 @@
-/* Building JSON: where jansson's own calls would drop what there was no memory for, all of it becomes NULL here, as
+/* Building JSON. jansson's own calls drop a value that there is no memory for; with these the whole becomes NULL, as
  * with json_pack, and json_dumps of NULL is NULL. Private to libretex. */
 #ifndef RETEX_BASE_JSON_WRITE_H
 #define RETEX_BASE_JSON_WRITE_H
@@ -13,13 +13,13 @@ static inline void retex_json_keep(json_t **whole, int failed)
     *whole = NULL;
 }
 
-/* Take over a value, which may be NULL, into an object, which may have become so. */
+/* Put a value, which may be NULL, into an object, which may have become NULL; takes ownership of the value. */
 static inline void retex_json_put(json_t **object, const char *key, json_t *value)
 {
     retex_json_keep(object, json_object_set_new(*object, key, value));
 }
 
-/* The same into an array. */
+/* Append a value to an array in the same way. */
 static inline void retex_json_add(json_t **array, json_t *value)
 {
     retex_json_keep(array, json_array_append_new(*array, value));

@@ -1,4 +1,4 @@
-/* What a user allows, from text: see retex/budget.h. */
+/* The limits that a user sets, parsed from text: see <retex/budget.h>. */
 #include <ctype.h>
 #include <errno.h>
 #include <math.h>

@@ -9,7 +9,7 @@
 
 #include <retex/budget.h>
 
-/* A file's beginning as text; "" where there is none. */
+/* Reads the beginning of a file as text; "" where there is no file. */
 static void read_text(const char *path, char *text, size_t size)
 {
     FILE *file = fopen(path, "r");
@@ -26,12 +26,12 @@ static uint64_t limit_of(const char *folder, const char *file)
 
     snprintf(path, sizeof path, "%s/%s", folder, file);
     read_text(path, text, sizeof text);
-    const unsigned long long bytes = strtoull(text, &end, 10); /* "max" is no number */
+    const unsigned long long bytes = strtoull(text, &end, 10); /* "max" means no limit */
     return end == text || bytes == 0 ? UINT64_MAX : bytes;
 }
 
-/* The least of a group and all above it, up to where the tree is mounted. In a container the path may be the machine's,
- * of which only the root is to be seen. */
+/* The lowest limit of a control group and all groups above it, up to the mount point. In a container the path may be
+ * that of the host, of which only the root is visible. */
 static uint64_t least_on_path(const char *mount, const char *group, const char *file)
 {
     char folder[PATH_MAX];

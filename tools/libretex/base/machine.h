@@ -1,11 +1,11 @@
-/* What this process may have of the machine's memory. */
+/* Memory limits of the process's control group. */
 #ifndef RETEX_BASE_MACHINE_H
 #define RETEX_BASE_MACHINE_H
 
 #include <stdint.h>
 
-/* The least limit on memory of a process's control group and of those around it, UINT64_MAX where there is none.
- * groups: text of /proc/self/cgroup; root: where control groups are mounted, /sys/fs/cgroup. */
+/* The lowest memory limit of the process's control group and of those around it; UINT64_MAX where there is none.
+ * groups: the text of /proc/self/cgroup; root: where control groups are mounted, /sys/fs/cgroup. */
 uint64_t retex_machine_group_memory(const char *groups, const char *root);
 
 #endif

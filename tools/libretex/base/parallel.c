@@ -1,7 +1,6 @@
-/* Threads: jobs are handed out by one atomic counter to threads that live for one call.
- *
- * Starting a thread costs some 20 microseconds, nothing beside the images the jobs work on, and there is no pool whose
- * life time, nesting and forking would have to be thought about. Which thread does a job never shows in its result. */
+/* Threads: one atomic counter hands out jobs to threads that live for one call. Starting a thread takes some 20
+ * microseconds, little beside jobs on images, and without a thread pool there is no question of its life time, of
+ * nesting and of forking. The result does not depend on which thread runs a job. */
 #include <pthread.h>
 #include <sched.h>
 #include <stdatomic.h>
@@ -37,7 +36,7 @@ int retex_threads(int nthreads)
     return nthreads < 1 ? 1 : nthreads > MAX_THREADS ? MAX_THREADS : nthreads;
 }
 
-/* Take indices until none is left. The counter cannot overflow: each thread goes past count once at most. */
+/* Runs jobs until no index is left. The counter cannot overflow: each thread goes beyond count at most once. */
 static void work_through(Work *work, int thread)
 {
     for (;;) {
@@ -70,7 +69,7 @@ void retex_parallel(int nthreads, int count, void (*job)(void *context, int inde
         worker->work = &work;
         worker->number = number;
         if (pthread_create(&worker->thread, NULL, worker_main, worker) != 0)
-            break; /* those already running, and this one, do it all */
+            break; /* the threads that run already, and this one, do all jobs */
         started++;
     }
     work_through(&work, 0);

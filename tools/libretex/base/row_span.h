@@ -1,8 +1,8 @@
-/* Where a row of pixels is not 0. Private to libretex. */
+/* Spans: the part of a row outside of which all pixels are 0. Private to libretex. */
 #ifndef RETEX_BASE_ROW_SPAN_H
 #define RETEX_BASE_ROW_SPAN_H
 
-/* Pixels from `begin` on, before `end`; none unless begin < end. */
+/* Pixels begin <= x < end; empty unless begin < end. */
 typedef struct RetexRowSpan {
     int begin, end;
 } RetexRowSpan;
@@ -12,13 +12,13 @@ static inline int retex_span_is_empty(RetexRowSpan span)
     return span.begin >= span.end;
 }
 
-/* What lies in both. */
+/* The pixels in both spans. */
 static inline RetexRowSpan retex_span_intersection(RetexRowSpan a, RetexRowSpan b)
 {
     return (RetexRowSpan){a.begin > b.begin ? a.begin : b.begin, a.end < b.end ? a.end : b.end};
 }
 
-/* All that lies in one of them, and between them. */
+/* The smallest span that contains both. */
 static inline RetexRowSpan retex_span_union(RetexRowSpan a, RetexRowSpan b)
 {
     if (retex_span_is_empty(a) || retex_span_is_empty(b))

@@ -4,7 +4,7 @@
 #include <retex/rounding.h>
 #include <retex/uv_stats.h>
 
-/* Into [0,1): what is below 0 by less than a double can tell from 1 is 0. */
+/* Wraps x into [0,1); a negative x too small for the sum to be below 1 becomes 0. */
 static double wrapped(double x, int periodic)
 {
     double rest = periodic ? x - floor(x) : x;
@@ -52,9 +52,9 @@ double retex_uv_stats_variation_gain(const RetexUvStats *a, const RetexUvStats *
 }
 
 #define UV_STEP (1.0 / 32)
-#define UV_FINEST (1.0 / (1 << 18)) /* a 64th of a texel of a 4K texture: where all samples met one place */
-enum { SPREAD_BITS = 7 };           /* within 1/128: less than so few samples know of it */
-enum { CORRELATION_BITS = 6 };      /* of what it lacks to 1 */
+#define UV_FINEST (1.0 / (1 << 18)) /* a 64th of a texel of a 4K texture: the step where all samples met one place */
+enum { SPREAD_BITS = 7 };           /* an error of 1/128 is less than the uncertainty from so few samples */
+enum { CORRELATION_BITS = 6 };      /* significant bits of 1 - correlation */
 
 void retex_uv_stats_store(const RetexUvStats *stats, float mean[2], float spread[3])
 {

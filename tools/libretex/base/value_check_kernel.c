@@ -1,4 +1,4 @@
-/* Whether any of many values is not finite: exponents of all ones. One look at each, without a branch. */
+/* Checks many values for infinities and NaN, whose exponent bits are all ones. One pass without branches. */
 #include <stdint.h>
 #include <string.h>
 

@@ -1,5 +1,5 @@
-/* See denoise_kernel.h. Each loop is written once, compiled for each level of the processor, and once more
- * without vectors: elementwise arithmetic, so that all give the same bits. */
+/* See denoise_kernel.h. Each loop is written once and compiled for several vector widths, and once without vectors. The
+ * arithmetic is elementwise, so that all versions give the same bits. */
 #include "denoise/denoise_kernel.h"
 
 #include <string.h>
@@ -8,15 +8,15 @@
 
 enum { WIDE = DENOISE_TILE + 2 * DENOISE_PATCH, BOX = 2 * DENOISE_PATCH + 1 };
 
-/* The candidates. Color: factor of squared differences in color; which features count; near: how fast pixels count
- * less the farther away they are, per squared pixel. The second is for where features change from pixel to pixel, the
- * third for where they tell nothing, the fourth for even light. */
+/* The candidate filters. color: factor of the squared differences in colour; which features count; near: how fast the
+ * weight falls with the squared distance in pixels. The second is for places where features change from pixel to pixel,
+ * the third for places where features say nothing, the fourth for even light. */
 static const struct {
     float color, near;
     enum { STRICT, LOOSE, NONE } features;
 } ways[DENOISE_CANDIDATES] = {{1, 0.05f, STRICT}, {0.2f, 0.1f, LOOSE}, {1, 0.1f, NONE}, {0.05f, 0.1f, STRICT}};
 
-/* Near exp(-x) for x >= 0, and 0 from 8 on. */
+/* Approximates exp(-x) for x >= 0; 0 from x = 8 on. */
 RETEX_CPU_INLINE float falloff(float x)
 {
     float y = 1 - x * 0.125f;
@@ -77,7 +77,7 @@ RETEX_CPU_INLINE void features_body(RetexDenoiseSimilarity *restrict alike, cons
 
 /* ---- colors ---- */
 
-/* Differences of one row of both halves, in units of their noise, and which count. */
+/* Squared differences of one row, for both halves, in units of their noise; 0 for pixels that do not count. */
 RETEX_CPU_INLINE void difference_row(const RetexDenoiseSignal *s, size_t p, ptrdiff_t o, float *restrict first,
                                      float *restrict second, float *restrict counts)
 {
@@ -118,7 +118,7 @@ RETEX_CPU_INLINE void box_column(float *restrict out, const float *restrict rows
     }
 }
 
-/* From sums over patches to means; of pixels of different kinds nothing is alike. */
+/* Turns sums over patches into means; pixels of different kinds get the largest distance. */
 RETEX_CPU_INLINE void distance_row(float *restrict distance, const float *restrict counts, const float *restrict kind,
                                    ptrdiff_t o)
 {
@@ -138,11 +138,11 @@ RETEX_CPU_INLINE void weight_row(float *restrict weight, const float *restrict d
     }
 }
 
-/* One row of weights at each displacement of a batch; what a batch has not weighs nothing. */
+/* One row of weights for each displacement of a batch; unused displacements have weight 0. */
 typedef float Weights[DENOISE_BATCH][DENOISE_TILE];
 
-/* Add one row of what pixels from each q on give to a half's sums. All displacements go in one pass, for the sums would
- * otherwise be read and written for each. */
+/* Adds the weighted pixels of one row, beginning at q, to the sums of a half. All displacements of the batch are added
+ * in one pass, because the sums would otherwise be read and written once for each. */
 RETEX_CPU_INLINE void add_half(const RetexDenoiseSignal *s, const RetexDenoiseSums *to, int half,
                                const size_t q[DENOISE_BATCH], size_t at, float w[restrict DENOISE_BATCH][DENOISE_TILE])
 {
@@ -182,7 +182,7 @@ RETEX_CPU_INLINE void add_planes(const RetexDenoiseSignal *s, const RetexDenoise
             memcpy(batch->weights[n] + at, mean[n], sizeof mean[n]);
 }
 
-/* Distances of all pixels to those at one displacement, by half. */
+/* The patch distances of all pixels to the pixels at one displacement, for both halves. */
 RETEX_CPU_INLINE void find_distances(const RetexDenoiseSignal *s, ptrdiff_t o, float *restrict distances)
 {
     float *boxed[3] = {s->scratch, s->scratch + WIDE * DENOISE_TILE, s->scratch + 2 * WIDE * DENOISE_TILE};
@@ -229,7 +229,7 @@ RETEX_CPU_INLINE void signal_body(const RetexDenoiseSignal *s, const RetexDenois
                     weight_row(w[h][n], distances + (size_t)(2 * n + h) * DENOISE_PIXELS + at, features + at,
                                ways[k].color, near[k][n]);
             }
-            add_half(s, &s->candidates[k], 0, q, at, w[1]); /* each by the other's weights */
+            add_half(s, &s->candidates[k], 0, q, at, w[1]); /* each half with the weights of the other half */
             add_half(s, &s->candidates[k], 1, q, at, w[0]);
             if (k == 0)
                 add_planes(s, batch, q, at, w);

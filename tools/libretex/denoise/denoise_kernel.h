@@ -1,7 +1,7 @@
-/* The inner loops of denoising: displacements of the window over one tile. Private to libretex.
+/* The inner loops of denoising: one tile, compared with itself at displacements within the window. Private to libretex.
  *
- * Planes are DENOISE_PITCH x DENOISE_ROWS floats: a tile of DENOISE_TILE pixels a side and around it DENOISE_HALO more.
- * Sums and weights are DENOISE_TILE x DENOISE_TILE floats, of the tile alone. */
+ * Planes are DENOISE_PITCH x DENOISE_ROWS floats: a tile of DENOISE_TILE pixels a side with DENOISE_HALO more on each
+ * side. Sums and weights are DENOISE_TILE x DENOISE_TILE floats, for the tile alone. */
 #ifndef RETEX_DENOISE_DENOISE_KERNEL_H
 #define RETEX_DENOISE_DENOISE_KERNEL_H
 
@@ -9,7 +9,8 @@
 
 enum {
     DENOISE_TILE = 64,
-    DENOISE_MARGIN = 4, /* of a tile's pixels at each side, which the next tile makes: here they only help to choose */
+    DENOISE_MARGIN = 4, /* pixels at each side of a tile that the next tile filters: here they only help to choose
+                           the candidate */
     DENOISE_STEP = DENOISE_TILE - 2 * DENOISE_MARGIN,
     DENOISE_RADIUS_MAX = 10,
     DENOISE_PATCH = 3, /* patches of 7x7 pixels are compared */
@@ -18,8 +19,8 @@ enum {
     DENOISE_ROWS = DENOISE_TILE + 2 * DENOISE_HALO,
     DENOISE_PLANE = DENOISE_PITCH * DENOISE_ROWS,
     DENOISE_PIXELS = DENOISE_TILE * DENOISE_TILE,
-    DENOISE_CANDIDATES = 4, /* ways to weigh neighbours */
-    DENOISE_BATCH = 4,      /* displacements at once: sums stay in the cache */
+    DENOISE_CANDIDATES = 4, /* candidate filters */
+    DENOISE_BATCH = 4,      /* displacements in one call, so that the sums stay in the cache */
     DENOISE_FEATURES_MAX = 32,
     DENOISE_GROUPS_MAX = 16
 };
@@ -29,12 +30,13 @@ static inline size_t denoise_at(int x, int y)
     return (size_t)(y + DENOISE_HALO) * DENOISE_PITCH + (size_t)(x + DENOISE_HALO);
 }
 
-/* Features that are compared together: the weight follows the group that differs most. Scales are 1 / squared
- * difference at which the weight is 1/e, by pixel. */
+/* Features that are compared together. The weight of a neighbour follows the group that differs most. strict and loose
+ * are by pixel 1 / the squared difference at which the weight is 1/e. */
 typedef struct RetexDenoiseFeatureGroup {
-    int first, count;            /* of the planes */
+    int first, count;            /* index of the first plane; number of planes */
     const float *strict, *loose; /* scales */
-    const float *normal[3];      /* or NULL; the difference counts along this direction only, per pixel of distance */
+    const float *normal[3];      /* or NULL; a position's difference counts along this direction only, divided by the
+                                    distance in pixels */
 } RetexDenoiseFeatureGroup;
 
 typedef struct RetexDenoiseFeatures {
@@ -44,7 +46,8 @@ typedef struct RetexDenoiseFeatures {
     RetexDenoiseFeatureGroup groups[DENOISE_GROUPS_MAX];
 } RetexDenoiseFeatures;
 
-/* How alike pixels that lie some way apart are, 0..1: whatever their features, and by both scales of these. */
+/* Similarity, 0..1, of each pixel to the pixel at a displacement: 1 if both are in the picture, and by both scales of
+ * the features. */
 typedef struct RetexDenoiseSimilarity {
     float valid[DENOISE_PIXELS], strict[DENOISE_PIXELS], loose[DENOISE_PIXELS];
 } RetexDenoiseSimilarity;
@@ -52,23 +55,24 @@ typedef struct RetexDenoiseSimilarity {
 void retex_denoise_features_kernel(RetexDenoiseSimilarity *alike, const RetexDenoiseFeatures *features, int dx, int dy,
                                    int scalar);
 
-/* What one way to weigh neighbours has brought, by half. */
+/* Weighted sums and sums of weights of one candidate filter, for both halves. */
 typedef struct RetexDenoiseSums {
     float *sum[2][3], *norm[2];
 } RetexDenoiseSums;
 
-/* One signal. Halves are independent estimates; each is filtered with the weights that the other gives (Rousselle et
- * al. 2012). */
+/* One signal. Its halves are independent estimates; each is filtered with the weights that the other half gives
+ * (Rousselle et al. 2012). */
 typedef struct RetexDenoiseSignal {
-    const float *half[2][3];     /* over the modulation */
-    const float *variance[3];    /* of a half, over the modulation squared */
+    const float *half[2][3];     /* divided by the modulation */
+    const float *variance[3];    /* variance of a half, divided by the squared modulation */
     const float *kind;           /* 1 or -1: pixels of different kinds are not compared */
-    const float *modulation;     /* its mean over colours: what a pixel counts */
-    float epsilon;               /* variance below which no difference is seen */
-    float strength;              /* squared: how many variances apart still count as alike */
+    const float *modulation;     /* mean over colours: the weight of a pixel in weighted sums */
+    float epsilon;               /* added to the variance, so that invisible differences do not count */
+    float strength;              /* squared parameter `strength`: differences of so many variances still count as
+                                    similar */
     RetexDenoiseSums candidates[DENOISE_CANDIDATES];
-    int nplanes;                 /* of images, */
-    const float *const *planes;  /* channel by channel, that are filtered with the first candidate's weights */
+    int nplanes;                 /* number of images to filter; */
+    const float *const *planes;  /* their channels, filtered with the weights of the first candidate */
     float *const *sums;          /* nplanes */
     float *scratch;              /* DENOISE_SCRATCH floats */
 } RetexDenoiseSignal;
@@ -77,15 +81,15 @@ enum {
         3 * (DENOISE_TILE + 2 * DENOISE_PATCH) * DENOISE_TILE + DENOISE_BATCH * 2 * DENOISE_PIXELS
 };
 
-/* Some displacements of one row, (dx, dy) to (dx + count - 1, dy): how alike pixels are at each, and where (may be
- * NULL) the first candidate's weights go, the mean of both halves. */
+/* Displacements (dx, dy) to (dx + count - 1, dy), with the similarity of features at each. weights (NULL: not wanted)
+ * receives the weights of the first candidate, as the mean of both halves. */
 typedef struct RetexDenoiseBatch {
     int dx, dy, count;
     const RetexDenoiseSimilarity *alike[DENOISE_BATCH];
     float *weights[DENOISE_BATCH];
 } RetexDenoiseBatch;
 
-/* Add to the sums what pixels that far away give. */
+/* Add the weighted pixels at these displacements to the sums of the signal. */
 void retex_denoise_signal_kernel(const RetexDenoiseSignal *signal, const RetexDenoiseBatch *batch, int scalar);
 
 #endif

@@ -1,13 +1,15 @@
-/* See features.h. How unlike features must be to count follows their own change from pixel to pixel, as in
- * Rousselle et al. 2013. */
+/* See features.h. The scale at which a difference of features counts follows the feature's own change from pixel to
+ * pixel, as in Rousselle et al. 2013. */
 #include "denoise/features.h"
 
 #include <math.h>
 #include <string.h>
 
 #define STRENGTH 0.6f      /* k_f of Rousselle et al. 2013 */
-#define SLOPE 0.3f         /* how far from the tangent plane, per distance, surfaces count as one */
-#define LEAST_NORMAL 4e-3f /* squared differences that do not matter */
+#define SLOPE                                                                                                          \
+    0.3f                   /* distance from the tangent plane, per distance, at which two points still count as one
+                              surface */
+#define LEAST_NORMAL 4e-3f /* squared differences below this do not count */
 #define LEAST_ALBEDO 2e-3f
 #define LEAST_SHARE 4e-3f
 #define LEAST_DISTANCE 1e-20f
@@ -42,8 +44,8 @@ void retex_denoise_load_plane(float *restrict plane, const RetexSet *set, int pa
     }
 }
 
-/* Add the squared change from pixel to pixel along both axes: to strict the lesser of both sides, so that edges are no
- * slopes, to loose the greater. */
+/* Adds the squared change from pixel to pixel along both axes: to strict the smaller of both sides, so that an edge
+ * does not count as a slope, to loose the larger. */
 static void add_gradient(float *restrict strict, float *restrict loose, const float *restrict f)
 {
     for (int y = 1; y < DENOISE_ROWS - 1; y++)
@@ -83,7 +85,7 @@ static void add_feature(FeatureList *g, int first, int count, float least)
     add_group(g, first, count, STRENGTH * STRENGTH, least);
 }
 
-/* Positions are alike where they lie in one plane. */
+/* Positions are similar where they lie in one plane. */
 static void add_position(FeatureList *g, int first, int normal)
 {
     RetexDenoiseFeatureGroup *group = add_group(g, first, 3, SLOPE * SLOPE * 0.5f, LEAST_DISTANCE);
@@ -123,7 +125,7 @@ void retex_denoise_load_features(RetexDenoiseFeatures *f, float *memory, const R
     add_position(&g, SEEN_POSITION, SEEN_NORMAL);
     add_feature(&g, SEEN_ALBEDO, 3, LEAST_ALBEDO);
     add_feature(&g, SEEN_MATERIAL, 3, LEAST_SHARE);
-    if (!is_zero(f->planes[SPECULAR])) { /* else the first hit is what is seen */
+    if (!is_zero(f->planes[SPECULAR])) { /* else the first hit is the surface that is seen */
         add_feature(&g, NORMAL, 3, LEAST_NORMAL);
         add_position(&g, POSITION, NORMAL);
         add_feature(&g, SPECULAR, 1, LEAST_SHARE);

@@ -8,7 +8,7 @@
 
 #include "denoise/footprints.h"
 
-/* A tile's results lie in a band until no other tile reads what was there. */
+/* The results of a row of tiles stay in a band of their own until no other tile reads the pixels that they replace. */
 typedef struct Filter {
     RetexDenoiser *denoiser;
     RetexDenoiseResult *result;
@@ -63,7 +63,7 @@ static int open_bands(Filter *w, RetexError *err)
     return code;
 }
 
-/* Into the set. */
+/* Copies the band into the set. */
 static void commit_band(const RetexDenoisedRows *band, const RetexDenoiser *d)
 {
     for (int part = 0; part < d->set->nparts; part++) {
@@ -128,7 +128,7 @@ static int run(Filter *w, RetexError *err)
         if (code)
             return code;
         add_sums(w);
-        commit_band(&w->bands[(number + 1) % 2], d); /* nothing reads the band before any more */
+        commit_band(&w->bands[(number + 1) % 2], d); /* no tile reads the rows of the band before any more */
         w->bands[(number + 1) % 2].rows = 0;
         if (d->params.progress)
             d->params.progress(d->params.progress_context, (double)(y - d->roi.y0) / (d->roi.y1 - d->roi.y0));

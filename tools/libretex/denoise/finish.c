@@ -1,4 +1,4 @@
-/* What retex_denoise_filter leaves, made into what a set holds; see filter.h. */
+/* Finishes a filtered set: see filter.h. */
 #include "denoise/filter.h"
 
 #include <math.h>
@@ -10,7 +10,7 @@
 
 #include "base/half.h"
 
-/* Means of all signals are as they were. */
+/* Scales signals so that their means are as before filtering. */
 static void restore_means(const RetexDenoiser *d, const RetexDenoiseResult *result, int y)
 {
     for (int s = 0; s < d->signals.count; s++) {
@@ -40,7 +40,7 @@ static double pixel_unit(const RetexDenoiser *d, int x, int y)
     return retex_coefficient_unit(fmax(white[0], fmax(white[1], white[2])));
 }
 
-/* As the renderer rounds them; light that no texture multiplies stays as it is. */
+/* Rounds coefficients as the renderer does; light that no texture multiplies is not rounded. */
 static void round_coefficients(const RetexDenoiser *d, int y)
 {
     for (int x = d->roi.x0; x < d->roi.x1; x++) {
@@ -56,7 +56,7 @@ static void round_coefficients(const RetexDenoiser *d, int y)
     }
 }
 
-/* Halves as they will be stored, so that it does not matter whether the set was written and read in between. */
+/* Rounds to halves as the file will, so that it does not matter whether the set is written and read in between. */
 static void round_halves(const RetexPart *part, int y)
 {
     const RetexImage *im = &part->image;

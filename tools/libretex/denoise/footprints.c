@@ -7,11 +7,13 @@
 
 #include "denoise/pools.h"
 
-#define NEGLIGIBLE 1e-2f /* neighbours that count for less are left out */
-#define CLUSTERS_LEAST 2 /* of broad light that a pixel may have, whatever it had */
+#define NEGLIGIBLE 1e-2f /* neighbours with less weight are left out */
+#define CLUSTERS_LEAST 2 /* clusters of broad light that a pixel may always have */
 #define CLUSTERS_MOST 3
-#define NEAR 0.1 /* of a place's width: how far other pixels' may be */
-#define FAR 0.05 /* of its weight, that merging a cluster would lose: it opens another one if there is room */
+#define NEAR 0.1 /* fraction of a cluster's width that another pixel's may be away */
+#define FAR                                                                                                            \
+    0.05 /* fraction of its weight that merging a cluster may lose: beyond, it opens another one if there is
+                    capacity */
 
 /* ---- one pixel ---- */
 
@@ -41,7 +43,7 @@ static void clear_pixel(const Pixel *p, const RetexFootprintImage *image)
     memset(written(p, image), 0, image->channels * sizeof(float));
 }
 
-/* Footprints of another pixel, or what they were. */
+/* Copies the footprints of another pixel, or of the pixel itself. */
 static void copy_footprints(const RetexPoolGroup *g, const Pixel *p, size_t from)
 {
     for (int k = 0; k < g->count; k++) {
@@ -100,7 +102,7 @@ static double sum_over(const RetexPoolGroup *g, size_t i, float (*value)(const R
     return sum;
 }
 
-/* The neighbour that counts most of those that have clusters; else the pixel itself. */
+/* The neighbour with the largest weight that has clusters; else the pixel itself. */
 static size_t find_lender(const RetexDenoiseFootprints *f, const RetexPoolGroup *g, const RetexNeighbour *neighbours,
                           int count, size_t self)
 {
@@ -113,7 +115,8 @@ static size_t find_lender(const RetexDenoiseFootprints *f, const RetexPoolGroup 
     return self;
 }
 
-/* Light that meets targets again may come to where none did: no cluster has a share in it, which would lose it. */
+/* Filtered interreflected light may come to a pixel that had none, so that no cluster has a share in it. Shares of 0
+ * would lose that light. */
 static void mend_shares(const RetexPoolGroup *g, const Pixel *p, size_t from,
                         float (*value)(const RetexFootprintImages *, size_t), double all)
 {
@@ -125,15 +128,15 @@ static void mend_shares(const RetexPoolGroup *g, const Pixel *p, size_t from,
             store_share(&g->of[k], p, value(&g->of[k], from) / all);
 }
 
-/* How much of the pixel a cluster is, if it has light. */
+/* The coverage of a cluster in the pixel, if the cluster has light. */
 static float lit_cover(const RetexFootprintImages *place, size_t i)
 {
     return cluster_light(place, i) > 0 ? cluster_cover(place, i) : 0;
 }
 
-/* How far the light of clusters is to be believed, 0..1, where it differs from how much of the pixel they are: how
- * bright they happened to be is chance in part. So many effective samples tell a sum to one in their root; what is left
- * of the squared difference without that is real (James and Stein 1961). */
+/* How far the clusters' light is credible, 0..1, where its proportions differ from those of the coverage: in part the
+ * brightness of a cluster is noise. The relative variance of a sum of n effective samples is 1/n; the part of the
+ * squared difference beyond that is real (James and Stein 1961). */
 static double light_belief(const RetexDenoiseFootprints *f, const RetexPoolGroup *g, size_t from)
 {
     double cover = sum_over(g, from, lit_cover), light = sum_over(g, from, cluster_light), chance = 0, differs = 0;
@@ -149,8 +152,8 @@ static double light_belief(const RetexDenoiseFootprints *f, const RetexPoolGroup
     return differs > chance ? 1 - chance / differs : 0;
 }
 
-/* What a cluster has of the light: colour by colour, by its own light as far as that is to be believed, else by how
- * much of the pixel it is. */
+/* The share of a cluster in the light: for each colour by the cluster's own light, as far as that is credible, else by
+ * its coverage. */
 static void share_cluster(const RetexPoolGroup *g, int k, const Pixel *p, size_t from, double belief,
                           const float light[3])
 {
@@ -199,26 +202,27 @@ static void keep_clusters(const RetexDenoiseFootprints *f, const RetexPoolGroup 
 /* Clusters of several pixels as one. */
 typedef struct Pool {
     RetexUvStats uv;
-    double squares;                           /* of weights over coverage */
-    double luminance, shared;                 /* of own light, and of that which meets targets again */
-    double light[3], reflected[3], albedo[3]; /* the last by the statistics' weight */
+    double squares;                           /* sum of squared weights over coverage */
+    double luminance, shared;                 /* luminance of the cluster's light, and of its share in interreflected
+                                                 light */
+    double light[3], reflected[3], albedo[3]; /* albedo is weighted by the statistics' weight */
 } Pool;
 
 typedef struct Pools {
     int count, capacity;
-    int near; /* only what is near to what the pixel itself has */
+    int near; /* 1: only clusters near to those of the pixel itself */
     Pool of[CLUSTERS_MOST];
 } Pools;
 
 static float read_share(const RetexPoolGroup *g, const RetexFootprintImages *place, size_t i)
 {
     const float *share = place->share.pixels + i * place->share.channels;
-    if (!place->share.pixels) /* no mixture has it: it stands alone */
+    if (!place->share.pixels) /* the footprint is in no mixture */
         return g->kind == RETEX_FOOTPRINT_INTERREFLECTION || g->count == 1;
     return place->share.channels == 1 ? share[0] : (share[0] + share[1] + share[2]) / 3;
 }
 
-/* Whether the footprint is there, and counts. */
+/* Loads a footprint; 0 if it is not there or has no weight. */
 static int load_pool(Pool *pool, const RetexPoolGroup *g, const RetexFootprintImages *place, size_t i, float weight)
 {
     static const float dark[3];
@@ -262,14 +266,15 @@ static void merge_pool(Pool *into, const Pool *from, const int periodic[2])
     }
 }
 
-/* Whether the places are farther apart than the first is wide. */
+/* 1 if the distance of the means is larger than the first cluster's width. */
 static int is_far(const RetexUvStats *a, const RetexUvStats *b, const int periodic[2])
 {
     double squared = retex_uv_stats_ward(a, b, periodic) * (a->weight + b->weight) / (a->weight * b->weight);
     return squared > NEAR * NEAR * (a->m2[0] + a->m2[2]) / a->weight;
 }
 
-/* To where that loses least; `open`: or to a place of its own, if there is room. */
+/* Merges a cluster into the pool where that loses least; with `open`, or where the loss is large, into a new one if
+ * there is capacity. */
 static void add_pool(Pools *pools, const Pool *one, const int periodic[2], int open)
 {
     int best = -1;
@@ -287,7 +292,7 @@ static void add_pool(Pools *pools, const Pool *one, const int periodic[2], int o
         merge_pool(&pools->of[best], one, periodic);
 }
 
-/* Those of the pixel itself come first, the heaviest foremost. */
+/* The clusters of the pixel itself come first, the heaviest foremost. */
 static void pool_own(Pools *pools, const RetexPoolGroup *g, int most, const RetexNeighbour *self, size_t i)
 {
     Pool own[POOL_GROUP_MAX];
@@ -312,7 +317,7 @@ static int compare_pools(const Pool *a, const Pool *b)
     return p < q ? -1 : p > q;
 }
 
-/* All that the neighbours have of a group, into at most so many, in the order of their place on the texture. */
+/* Pools the clusters of all neighbours into at most `most`, ordered by their place on the texture. */
 static void pool_group(Pools *pools, const RetexDenoiseFootprints *f, const RetexPoolGroup *g, int most,
                        const RetexNeighbour *neighbours, int count)
 {
@@ -350,7 +355,7 @@ static void store_pool(const RetexFootprintImages *place, const Pixel *p, const 
             (float)(pool->light[c] > 0 ? pool->reflected[c] / pool->light[c] : pool->albedo[c] / pool->uv.weight);
 }
 
-/* So many samples of equal weight would know as much (Kish 1965). */
+/* The effective number of samples of equal weight (Kish 1965), as a share of all samples. */
 static double effective_coverage(const Pool *pool)
 {
     return pool->uv.weight * pool->uv.weight / pool->squares;
@@ -372,7 +377,7 @@ static int pool_clusters(const RetexDenoiseFootprints *f, const RetexPoolGroup *
         }
         store_pool(&g->of[k], p, pool, effective_coverage(pool));
         store_light(&g->of[k], p, light, lit > 0 ? pool->luminance / lit : pool->uv.weight / weight);
-        /* without shares, light that comes from other pixels and meets targets again would be lost */
+        /* without shares, interreflected light from other pixels would be lost */
         store_share(&g->of[k], p, shared > 0 ? pool->shared / shared : pool->uv.weight / weight);
     }
     return pools.count;
@@ -425,7 +430,7 @@ static void pool_hit(const RetexDenoiseFootprints *f, const RetexPoolGroup *g, c
     for (int n = 0; n < count; n++)
         all +=
             neighbours[n].weight > NEGLIGIBLE && neighbours[n].weight < FOOTPRINT_VALUE_MAX ? neighbours[n].weight : 0;
-    copy_footprints(g, p, p->at); /* its weight in a mixture stays, where it has one */
+    copy_footprints(g, p, p->at); /* its weight in a mixture is not changed, where it has one */
     if (pools.count)
         store_pool(&g->of[0], p, &pools.of[0], pools.of[0].uv.weight / all);
 }

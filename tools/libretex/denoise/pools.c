@@ -20,7 +20,7 @@ static RetexFootprintImage find_image(const RetexSet *set, int part, int least, 
     return (RetexFootprintImage){.part = -1};
 }
 
-/* The part of a footprint's weight in mixtures, or -1. Where it has several, these count as used by others. */
+/* The part that holds a footprint's weight in mixtures, or -1. Further such parts are counted as used by others. */
 static int find_share(const RetexSet *set, int footprint, int *uses)
 {
     int found = -1;
@@ -60,7 +60,7 @@ static int is_own(const int *uses, const RetexFootprintImage *image)
     return image->part < 0 || uses[image->part] == 1;
 }
 
-/* One more place of a group: light -1 = none. */
+/* Adds a footprint to a group; light -1 = none. */
 static void add_place(RetexDenoiseFootprints *f, const RetexSet *set, RetexPoolGroup *g, int footprint, int light)
 {
     const RetexFootprint *from = &set->footprints[footprint];
@@ -95,7 +95,7 @@ static int has_cluster(const RetexSet *set, const RetexSignal *signal, int footp
     return count;
 }
 
-/* A signal's clusters; last those whose light all goes on. */
+/* Finds the clusters of a signal; those all of whose light is interreflected come last. */
 static void find_clusters(RetexDenoiseFootprints *f, const RetexSet *set, const RetexSignal *signal, RetexPoolGroup *g)
 {
     *g = start_group(f, set, signal->target, signal->kind);
@@ -113,7 +113,7 @@ static void find_clusters(RetexDenoiseFootprints *f, const RetexSet *set, const 
     g->movable &= g->count <= POOL_GROUP_MAX && (g->kind == RETEX_FOOTPRINT_SHARP || g->kind == RETEX_FOOTPRINT_BROAD);
 }
 
-/* Later footprints share their light over all targets: all are pooled, or none. */
+/* Interreflections of all targets share their light: all are pooled, or none. */
 static void find_interreflections(RetexDenoiseFootprints *f, const RetexSet *set, const float *interreflected)
 {
     int movable = 1;
@@ -142,7 +142,7 @@ static void find_hits(RetexDenoiseFootprints *f, const RetexSet *set)
     }
 }
 
-/* Luminance of a signal's light that meets targets again, as the film weighs it: NULL where there is none. */
+/* Luminance of a signal's interreflected light, weighted as the film does; NULL where there is none. */
 static int find_interreflected_light(float **interreflected, const RetexSet *set, const RetexSignal *signal,
                                      size_t pixels, RetexError *err)
 {

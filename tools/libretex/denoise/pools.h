@@ -1,5 +1,5 @@
-/* Which footprints of a set are distributed and pooled together, and with which parts. Private to denoising's
- * footprints. */
+/* Which footprints of a set are distributed and pooled together, and their parts. Private to footprints.c and
+ * pools.c. */
 #ifndef RETEX_DENOISE_POOLS_H
 #define RETEX_DENOISE_POOLS_H
 
@@ -7,10 +7,10 @@
 
 #include "denoise/footprints.h"
 
-#define FOOTPRINT_VALUE_MAX 1e12f /* larger numbers stand for none */
+#define FOOTPRINT_VALUE_MAX 1e12f /* larger values count as absent */
 #define POOL_GROUP_MAX RETEX_SHARES_MAX
 
-/* An image of the set that is of its size; part is -1 and pixels NULL where there is none. */
+/* An image of the set's size; part is -1 and pixels NULL where there is none. */
 typedef struct RetexFootprintImage {
     const float *pixels;
     size_t channels;
@@ -20,30 +20,31 @@ typedef struct RetexFootprintImage {
 /* The images of one footprint. */
 typedef struct RetexFootprintImages {
     RetexFootprintImage uv, spread, albedo;
-    RetexFootprintImage light; /* of clusters */
-    RetexFootprintImage share; /* in the light that meets targets again */
+    RetexFootprintImage light; /* radiance of a cluster */
+    RetexFootprintImage share; /* share in interreflected light */
 } RetexFootprintImages;
 
 /* Footprints that are distributed or pooled together. */
 typedef struct RetexPoolGroup {
     RetexFootprintKind kind;
     int periodic[2];
-    int count, nlit; /* those with light come first */
+    int count, nlit; /* clusters with light of their own come first */
     RetexFootprintImages *of;
-    int movable;        /* the footprints are whole, and no one else's: they may be written */
-    const float *interreflected; /* luminance of the light that the shares share, by pixel; NULL = none */
+    int movable;        /* 1: all parts are there and used by no other footprint: they may be written */
+    const float *interreflected; /* luminance of the interreflected light that the shares divide, by pixel; NULL =
+                                    none */
 } RetexPoolGroup;
 
 struct RetexDenoiseFootprints {
     size_t width, pixels;
     double spp;
     RetexPoolGroup *signals;      /* by signal */
-    RetexPoolGroup *interreflections, *hits; /* by target; one for each footprint */
+    RetexPoolGroup *interreflections, *hits; /* interreflections by target; hits: one group for each footprint */
     int nsignals, ninterreflections, nhits;
-    float **interreflected; /* by signal, then that of all: NULL = none */
+    float **interreflected; /* by signal, then the sum of all; NULL = none */
     RetexFootprintImages *places; /* of all groups */
     int nplaces;
-    int *uses; /* by part: how many footprints, terms and shares it is of */
+    int *uses; /* by part: the number of footprints, terms and shares that use it */
 };
 
 static inline float footprint_luminance(const float *c)

@@ -1,5 +1,5 @@
-/* See strips.h. Twice through the set: strips are filtered into a band store, and, when it is known what that did to
- * the means of all, rows from there and from the file are finished into another. */
+/* See strips.h. Two passes over the set: strips are filtered into a band store; when the change of the signals' means
+ * is known, rows of the band store and of the file are finished into another band store. */
 #include "denoise/strips.h"
 
 #include <stdlib.h>
@@ -15,15 +15,15 @@ enum { STRIP = 2 * DENOISE_STEP, FINISHED = 4 * RETEX_BAND_ROWS };
 
 _Static_assert(STRIP % RETEX_BAND_ROWS == 0, "strips are whole bands of the band store");
 
-static const double FILTERED = 0.9; /* of the work */
+static const double FILTERED = 0.9; /* share of the work, for progress */
 
-/* Rows on their way into a band store. */
+/* Rows to be written to a band store. */
 typedef struct StoreJob {
     RetexBandStore *store;
     const RetexSet *rows;
     const int *images; /* by part: its number in the band store, or -1 */
-    int from, count;   /* which of the rows */
-    int band;          /* of the band store, that begins with these */
+    int from, count;   /* the rows of the set to be written */
+    int band;          /* the band that begins with these rows */
 } StoreJob;
 
 static int is_whole(const RetexSet *set, int part)
@@ -40,7 +40,8 @@ static int is_light(const RetexDenoiser *d, int part)
     return 0;
 }
 
-/* A band store with an image for each part that is wanted. Light that is yet to be scaled is not rounded: as_floats. */
+/* Creates a band store with an image for each part that is wanted. as_floats: light that is yet to be scaled is not
+ * rounded to halves. */
 static int open_store(RetexBandStore **store, int *images, const RetexDenoiser *d, const unsigned char *wanted,
                       int as_floats, RetexError *err)
 {
@@ -70,7 +71,7 @@ static int store_part(void *context, int part, int thread, RetexError *err)
     return code;
 }
 
-/* `count` rows from `from` on, of which the first is the picture's row y. */
+/* Writes count rows of `rows`, beginning at from, which is row y of the picture. */
 static int store_rows(RetexBandStore *store, const int *images, const RetexSet *rows, int from, int count, int y,
                       int nthreads, RetexError *err)
 {
@@ -79,13 +80,13 @@ static int store_rows(RetexBandStore *store, const int *images, const RetexSet *
     return retex_jobs_run(nthreads, rows->nparts, store_part, &job, err);
 }
 
-/* What the two passes share. */
+/* State of both passes. */
 typedef struct Strips {
     const RetexDenoiser *denoiser;
     RetexDenoiseResult result;
     RetexSet filtered;         /* the set with the band store of what was filtered */
     RetexBandStore *stores[2]; /* filtered, finished */
-    int *images[2];        /* by part, in these */
+    int *images[2];            /* by part: number of its image in each band store, or -1 */
     int nthreads;
 } Strips;
 
@@ -96,7 +97,7 @@ static void show_progress(const Strips *s, double done)
         params->progress(params->progress_context, done);
 }
 
-/* One strip, with what lies around it. */
+/* Filters one strip, loaded with the rows around it that the filter reads. */
 static int filter_strip(Strips *s, RetexSetBand *band, int y, RetexError *err)
 {
     const RetexSet *set = s->denoiser->set;
@@ -127,8 +128,8 @@ static int filter_all(Strips *s, RetexError *err)
     return code;
 }
 
-/* The set as it is after filtering: parts from its source but for those that were written, and without what filtering
- * needed. */
+/* The set after filtering: written parts are in the band store, others in the source; without the data that only
+ * denoising reads. */
 static int open_filtered(Strips *s, RetexError *err)
 {
     const RetexSet *set = s->denoiser->set;
@@ -179,7 +180,7 @@ static int finish_all(Strips *s, RetexError *err)
     return code;
 }
 
-/* The set has what was finished, and in memory what is of another size: its source is done with. */
+/* Makes the finished rows those of the set, loads parts of another size into memory, and closes the source. */
 static int take_over(Strips *s, RetexError *err)
 {
     RetexSet *set = s->denoiser->set;

@@ -1,5 +1,6 @@
-/* See tile.h. The weights are those of Rousselle et al. 2012, limited by features as in Rousselle et al. 2013;
- * there are several candidates, and each half of the samples tells how good the other's are. */
+/* See tile.h. Weights are those of Rousselle et al. 2012, limited by features as in Rousselle et al. 2013. There are
+ * several candidate filters; the error of each is estimated by comparing its result in one half of the samples with the
+ * other half. */
 #include "denoise/tile.h"
 
 #include <math.h>
@@ -9,32 +10,37 @@
 #include "denoise/features.h"
 #include "denoise/footprints.h"
 
-#define STRENGTH 0.45f    /* of params.strength 1, in standard deviations: k of Rousselle et al. 2012 */
-#define LEAST_COVER 0.02f /* of a target: less is not told from none */
+#define STRENGTH 0.45f    /* in standard deviations, at params.strength 1: k of Rousselle et al. 2012 */
+#define LEAST_COVER 0.02f /* coverage of a target below which it counts as not seen */
 #define LEAST_MODULATION 0.2f
-#define TARGET_BRIGHTNESS 0.3f /* of light that a target's texture does not multiply: mirrors more, dull ones less */
-#define LEAST_DIFFERENCE 1e-6f /* squared, of the mean: what no one sees */
-#define ERROR_RADIUS 2         /* of the patch by which a candidate is chosen */
-#define CHOICE_RADIUS 2        /* choices change over so many pixels */
-#define SPIKE 40               /* times the variance around, the squared difference of halves: it chooses for itself */
-#define NEIGHBOUR_STEP 3       /* footprints are pooled from a grid of pixels of this step, */
+#define TARGET_BRIGHTNESS                                                                                              \
+    0.3f                       /* brightness assumed for a target in light that its texture does not multiply:
+                                  mirrors have more, matte surfaces less */
+#define LEAST_DIFFERENCE 1e-6f /* squared relative difference below which nothing is visible */
+#define ERROR_RADIUS 2         /* radius of the patch over which candidates are compared */
+#define CHOICE_RADIUS 2        /* radius over which the choice is smoothed */
+#define SPIKE                                                                                                          \
+    40                         /* a pixel whose squared difference of halves is so many times the variance around is
+                                  a spike and chooses for itself */
+#define NEIGHBOUR_STEP 3       /* footprints are pooled over a grid of pixels of this step, */
 #define NEIGHBOUR_REACH 2      /* so many steps to each side */
 #define NEIGHBOURS_MAX ((2 * NEIGHBOUR_REACH + 1) * (2 * NEIGHBOUR_REACH + 1))
-#define LEAST_WEIGHT 0.02f /* of a neighbour that is pooled */
+#define LEAST_WEIGHT 0.02f /* weight below which a neighbour is not pooled */
 
 _Static_assert(ERROR_RADIUS + CHOICE_RADIUS <= DENOISE_MARGIN, "what is chosen must not depend on tiles");
 
-/* The pixel as it is, and the candidates. */
+/* The choices: the noisy pixel, and the candidates. */
 enum { CHOICES = DENOISE_CANDIDATES + 1 };
 
-/* What a tile holds of one signal. */
+/* Scratch memory of a tile for one signal. */
 typedef struct SignalScratch {
     int nclusters, nplanes;
     float *half[2][3], *variance[3], *kind, *modulation[3], *mean_modulation; /* planes */
-    float **planes, **sums; /* channel by channel: all clusters together where there are any, then other members */
+    float **planes, **sums; /* images to filter, by channel: the sum of all clusters if there are any, then the other
+                               members */
     RetexDenoiseSums candidates[DENOISE_CANDIDATES];
-    float *chosen[CHOICES]; /* how much of each, by pixel */
-    float *neighbours;      /* of signals with clusters: weights by neighbour, then pixel */
+    float *chosen[CHOICES]; /* weight of each choice, by pixel */
+    float *neighbours;      /* for signals with clusters: weights by neighbour, then pixel */
 } SignalScratch;
 
 struct RetexDenoiseScratch {
@@ -49,7 +55,7 @@ struct RetexDenoiseScratch {
 
 /* ---- scratch memory ---- */
 
-/* Memory is laid out twice: first from NULL, to see how much it takes. */
+/* The layout is computed twice: first from NULL, to find its size. */
 typedef struct Layout {
     float *memory;
     size_t used;
@@ -144,7 +150,7 @@ void retex_denoise_scratch_close(RetexDenoiseScratch **out)
 
 /* ---- signals ---- */
 
-/* Mean over 5x5 pixels of a plane, through spare. */
+/* Replaces a plane by its mean over 5x5 pixels; spare is scratch. */
 static void smooth(float *restrict plane, float *restrict spare)
 {
     for (int i = 2; i < DENOISE_PLANE - 2; i++)
@@ -154,7 +160,7 @@ static void smooth(float *restrict plane, float *restrict spare)
                            spare[i + DENOISE_PITCH] + spare[i + 2 * DENOISE_PITCH]);
 }
 
-/* Images to filter; their total goes to the first half's planes. */
+/* Loads the images to filter; their weighted sum goes to the planes of the first half. */
 static void load_members(SignalScratch *r, RetexDenoiseScratch *work, const RetexDenoiser *d, const RetexSignal *signal,
                          int x0, int y0)
 {
@@ -175,8 +181,7 @@ static void load_members(SignalScratch *r, RetexDenoiseScratch *work, const Rete
     }
 }
 
-/* The colour of what is seen; of targets, which guides have as white, how bright they may be in light that their
- * texture does not multiply. */
+/* The albedo of the seen surface; for targets, white in the guide, TARGET_BRIGHTNESS. */
 static void find_seen_modulation(SignalScratch *r, RetexDenoiseScratch *work, const RetexDenoiser *d, int x0, int y0)
 {
     for (int c = 0; c < 3; c++)
@@ -191,9 +196,10 @@ static void find_seen_modulation(SignalScratch *r, RetexDenoiseScratch *work, co
     }
 }
 
-/* What the light is multiplied by at the pixel, as far as guides know: it is taken out before pixels are compared.
- * Light that comes straight from a target goes with how much of it the pixel sees; other light with the colour of what
- * is seen. Not by less than LEAST_MODULATION: near nothing, guides of few places are far off. */
+/* The factor by which guides expect the pixel's light to be multiplied; the light is divided by it before pixels are
+ * compared. Light directly from a target is proportional to the target's coverage, other light to the albedo of the
+ * seen surface. Factors below LEAST_MODULATION are raised to it: guides of few samples have large relative errors
+ * there. */
 static void find_modulation(SignalScratch *r, RetexDenoiseScratch *work, const RetexDenoiser *d,
                             const RetexSignal *signal, int x0, int y0)
 {
@@ -218,7 +224,7 @@ static void find_modulation(SignalScratch *r, RetexDenoiseScratch *work, const R
     }
 }
 
-/* From the total and its noise to both halves and the variance of these. */
+/* Computes both halves and their variance from the total and its noise. */
 static void split_halves(SignalScratch *r, RetexDenoiseScratch *work, const RetexDenoiser *d, const RetexSignal *signal,
                          int x0, int y0)
 {
@@ -268,7 +274,7 @@ static RetexDenoiseSignal start_signal(SignalScratch *r, RetexDenoiseScratch *wo
 
 /* ---- choosing ---- */
 
-/* Mean over so many pixels to each side, within the tile. */
+/* Replaces an image of the tile by its mean over `radius` pixels to each side. */
 static void box(float *restrict image, float *restrict spare, int radius)
 {
     for (int y = 0; y < DENOISE_TILE; y++)
@@ -290,14 +296,14 @@ static void box(float *restrict image, float *restrict spare, int radius)
     }
 }
 
-/* A choice's value of one half and channel. */
+/* The value of a choice for one half and channel. */
 static float choice_value(const SignalScratch *r, int choice, int half, int c, size_t p, size_t i)
 {
     const RetexDenoiseSums *s = &r->candidates[choice ? choice - 1 : 0];
     return choice ? s->sum[half][c][i] / s->norm[half][i] : r->half[half][c][p];
 }
 
-/* How far each choice is from the other half, squared and in units of noise, around each pixel. */
+/* The squared difference of each choice to the other half, in units of noise, averaged around each pixel. */
 static void find_errors(const SignalScratch *r, RetexDenoiseScratch *work, float epsilon)
 {
     for (int k = 0; k < CHOICES; k++) {
@@ -316,8 +322,8 @@ static void find_errors(const SignalScratch *r, RetexDenoiseScratch *work, float
     }
 }
 
-/* Which choice is nearest to the truth. A half differs from the other by the variance of both, V each: its squared
- * difference is 4V where nothing is filtered, counted twice; a candidate's is twice its own error and V. */
+/* The choice with the smallest estimated error. The halves differ by the variance of both, V each: without a filter the
+ * squared difference, counted twice, is 4V; for a candidate it is twice its own error plus V. */
 static int best_choice(const RetexDenoiseScratch *work, size_t i)
 {
     float variance = 0.25f * work->errors[0][i], least = variance;
@@ -330,7 +336,7 @@ static int best_choice(const RetexDenoiseScratch *work, size_t i)
     return best;
 }
 
-/* One path of much light, in one half: other pixels are better off without it, and choose to stay as they are. */
+/* A single bright path in one half: other pixels are better without it and keep their own choice. */
 static int is_spike(const SignalScratch *r, size_t p)
 {
     float squared = 0, variance = 0;
@@ -365,7 +371,7 @@ static void choose(SignalScratch *r, RetexDenoiseScratch *work, float epsilon)
 /* A pixel of the tile. */
 typedef struct TilePixel {
     int x, y;    /* in the picture */
-    size_t p, i; /* in planes, in sums */
+    size_t p, i; /* index in planes; index in sums */
 } TilePixel;
 
 /* The filtered total of one channel. */
@@ -378,7 +384,7 @@ static float filtered_total(const SignalScratch *r, const TilePixel *at, int c)
     return fmaxf(0, 0.5f * r->modulation[c][at->p] * total);
 }
 
-/* What the first candidate's weights made of it. */
+/* The total of the members filtered with the first candidate's weights. */
 static float total_of_members(const SignalScratch *r, const RetexDenoiser *d, const RetexSignal *signal,
                               const TilePixel *at, int c)
 {
@@ -390,17 +396,17 @@ static float total_of_members(const SignalScratch *r, const RetexDenoiser *d, co
     return members;
 }
 
-/* What an image has of the filtered total: members keep their proportions of what the first candidate's weights made
- * of them. Where that is nothing, as of a single image, which is not filtered, the first one has all. */
+/* The share of an image in the filtered total: members keep the proportions that the first candidate's weights give.
+ * Where these are all 0, or for a single image, which is not filtered, the first image takes all. */
 static float image_value(const SignalScratch *r, const TilePixel *at, int image, int c, float total, float members,
                          float weight)
 {
-    if (members > 0) /* sums may be so small that only their quotient is a number */
+    if (members > 0) /* the sums may be so small that only their quotient is a normal number */
         return total * (r->sums[3 * image + c][at->i] / members);
     return image ? 0 : total / weight;
 }
 
-/* How many steps to each side neighbours are, within the window. */
+/* Steps to each side at which neighbours lie within the window. */
 static int neighbour_reach(const RetexDenoiser *d)
 {
     int reach = d->params.radius / NEIGHBOUR_STEP;

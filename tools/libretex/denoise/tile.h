@@ -1,4 +1,4 @@
-/* Denoising one tile: what is prepared for the kernels, and what their sums become. Private to libretex. */
+/* Filtering one tile: the input of the kernels, and the pixels made from their sums. Private to libretex. */
 #ifndef RETEX_DENOISE_TILE_H
 #define RETEX_DENOISE_TILE_H
 
@@ -18,13 +18,13 @@ enum {
     GUIDE_COUNT
 };
 
-/* Rows of results, by part of the set: NULL where a part stays as it is. */
+/* Rows of results, by part of the set; NULL for a part that is not changed. */
 typedef struct RetexDenoisedRows {
     int first, rows;
     float **parts;
 } RetexDenoisedRows;
 
-/* All of one call. */
+/* The state of one call of retex_denoise. */
 typedef struct RetexDenoiser {
     RetexSet *set;
     RetexDenoiseParams params;
@@ -34,7 +34,7 @@ typedef struct RetexDenoiser {
     struct RetexDenoiseFootprints *footprints;
 } RetexDenoiser;
 
-/* Sums over pixels of a signal's totals, before and after. */
+/* Sums over the pixels of a signal's total, before and after filtering. */
 typedef struct RetexSignalSums {
     double before[3], after[3];
 } RetexSignalSums;
@@ -44,8 +44,8 @@ typedef struct RetexDenoiseScratch RetexDenoiseScratch;
 int retex_denoise_scratch_create(RetexDenoiseScratch **work, const RetexDenoiser *denoiser, RetexError *err);
 void retex_denoise_scratch_close(RetexDenoiseScratch **work);
 
-/* Filter the DENOISE_STEP pixels a side from (x0, band->first) on, as far as they are of the band and the region, into
- * band; sums has an entry for each signal. */
+/* Filter DENOISE_STEP x DENOISE_STEP pixels from (x0, band->first) on, as far as they are in the band and the region,
+ * into band. sums has an entry for each signal. */
 void retex_denoise_tile(const RetexDenoiser *denoiser, RetexDenoiseScratch *work, int x0, RetexDenoisedRows *band,
                         RetexSignalSums *sums);
 

@@ -13,7 +13,7 @@
 #include "exr/band_store_file.h"
 #include "io/pending_files.h"
 
-/* What one thread works with; kept for the next. */
+/* Scratch memory of one thread; kept for the next thread. */
 typedef struct RetexBandStoreScratch {
     RetexChunkScratch chunk;
     unsigned char *packed;
@@ -110,7 +110,7 @@ void retex_band_store_close(RetexBandStore **result)
     *result = NULL;
 }
 
-/* Linux gives a file that was made without a name one where it was made; elsewhere its bytes are copied. */
+/* Links a file without a name to a path, which Linux can do on the same file system; elsewhere its bytes are copied. */
 static int link_to(const RetexBandStore *store, const char *path)
 {
     char descriptor[64];
@@ -119,7 +119,7 @@ static int link_to(const RetexBandStore *store, const char *path)
     return linkat(AT_FDCWD, descriptor, AT_FDCWD, path, AT_SYMLINK_FOLLOW) == 0 ? 0 : errno;
 }
 
-/* Under the lock of names; hidden, where there is one, is what path becomes a name of. */
+/* Renames a file, called under the lock of pending files; hidden is its temporary name or NULL. */
 static int rename_hidden(const char *hidden, const char *path)
 {
     const int code = hidden && rename(hidden, path) != 0 ? errno : 0;
@@ -254,7 +254,7 @@ static void return_scratch(RetexBandStore *store, RetexBandStoreScratch *scratch
     pthread_mutex_unlock(&store->lock);
 }
 
-/* Room for a chunk. */
+/* Allocates the memory for a chunk. */
 static int prepare(RetexBandStoreScratch *scratch, const RetexChunkShape *shape)
 {
     const size_t bytes = retex_chunk_bytes(shape);
@@ -282,8 +282,7 @@ static int any_light(const float *pixels, size_t count)
     return 0;
 }
 
-/* Keep the band that scratch holds. One whose pixels are so dark that all are stored as 0 leaves a record without
- * bytes. */
+/* Appends the band in scratch. A band whose pixels are so dark that all are stored as 0 has a record without bytes. */
 static int put_chunk(RetexBandStore *store, int number, int band, size_t bytes, int lit, RetexBandStoreScratch *scratch,
                      RetexError *err)
 {
@@ -310,7 +309,7 @@ int retex_band_store_put(RetexBandStore *store, int number, int band, const floa
     if (prepare(scratch, &shape)) {
         const size_t bytes = retex_chunk_bytes(&shape);
         retex_chunk_encode(&scratch->chunk, &shape, pixels, scratch->chunk.raw, image->chunks[band].crc);
-        if (lit || !all_zero(scratch->chunk.raw, bytes)) /* a zero may have a sign */
+        if (lit || !all_zero(scratch->chunk.raw, bytes)) /* -0 is not all zero bits */
             status = put_chunk(store, number, band, bytes, lit, scratch, err);
     } else {
         status = retex_fail(err, RETEX_ENOMEM, "no memory to store a part of the picture");

@@ -1,4 +1,4 @@
-/* What a band store holds, for those who write it into a file. */
+/* The chunks of a band store, as they are copied into EXR files. */
 #ifndef RETEX_EXR_BAND_STORE_CHUNKS_H
 #define RETEX_EXR_BAND_STORE_CHUNKS_H
 
@@ -10,12 +10,12 @@ typedef struct RetexBandStoreChunk {
     uint64_t offset;
     uint32_t bytes; /* 0: all samples are stored as 0 */
     uint32_t lit;   /* 1: a pixel was not 0 */
-    uint32_t crc[RETEX_EXR_LETTERS_MAX]; /* of planes, where bytes is not 0 */
-    uint32_t bytes_crc;                  /* of the bytes */
+    uint32_t crc[RETEX_EXR_LETTERS_MAX]; /* checksum of each plane, where bytes is not 0 */
+    uint32_t bytes_crc;                  /* checksum of the compressed bytes */
 } RetexBandStoreChunk;
 
 const RetexBandStoreChunk *retex_band_store_chunk(const RetexBandStore *store, int image, int band);
-/* Its bytes, as retex_chunk_compress left them; RETEX_EFORMAT where they are no longer. */
+/* Read the bytes of a chunk, which retex_chunk_compress made; RETEX_EFORMAT where they have changed. */
 int retex_band_store_read(const RetexBandStore *store, const RetexBandStoreChunk *chunk, unsigned char *packed,
                           RetexError *err);
 

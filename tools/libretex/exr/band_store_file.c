@@ -10,7 +10,7 @@
 
 #include "io/checksum.h"
 
-static const char MAGIC[8] = "retex\n\032\002"; /* the last one is the version */
+static const char MAGIC[8] = "retex\n\032\002"; /* the last byte is the version */
 
 typedef struct Header {
     char magic[8];
@@ -50,7 +50,7 @@ static uint32_t crc_of(const void *data, size_t bytes)
     return retex_crc32(CRC32_OF_NONE, data, bytes);
 }
 
-/* It goes on from the record before, so that none can be missing or come twice. */
+/* The checksum of a record continues that of the record before, so that a missing or repeated record is noticed. */
 static uint32_t record_crc(const RetexBandStoreRecord *record, uint32_t last)
 {
     return retex_crc32(last, record, offsetof(RetexBandStoreRecord, record_crc));
@@ -163,7 +163,7 @@ int retex_band_store_append_chunk(RetexBandStore *store, RetexBandStoreRecord *r
 
 /* --- reading what another process left --- */
 
-/* Exactly so many bytes, or 0. */
+/* Reads exactly so many bytes; 0 where there are fewer. */
 static int read_at(int descriptor, void *data, size_t bytes, uint64_t offset)
 {
     unsigned char *to = data;
@@ -198,7 +198,7 @@ static int chunk_is_sound(const RetexBandStore *store, const RetexBandStoreRecor
     return record->bytes <= retex_chunk_bytes(&shape);
 }
 
-/* Take in a record whose bytes are there and whole; 0 where it makes no sense. */
+/* Applies a record whose bytes are complete; 0 where its values make no sense. */
 static int take_record(RetexBandStore *store, const RetexBandStoreRecord *record, const void *bytes, uint64_t offset)
 {
     RetexBandStoreDescription description;
@@ -229,8 +229,8 @@ static int take_record(RetexBandStore *store, const RetexBandStoreRecord *record
     }
 }
 
-/* Read records up to the first that is not whole. The band store goes on from the end of the last commit; *images: how
- * many there are then. */
+/* Reads records up to the first that is not complete. The band store continues at the end of the last commit; *images:
+ * the number of images at that point. */
 static void read_records(RetexBandStore *store, const Header *header, int *images)
 {
     uint32_t last = crc_of(header, sizeof *header);
@@ -262,7 +262,7 @@ static void read_records(RetexBandStore *store, const Header *header, int *image
     free(bytes);
 }
 
-/* Forget what is not of a committed band. */
+/* Forgets chunks of bands that were not committed, and images added after the last commit. */
 static void drop_the_rest(RetexBandStore *store, int images)
 {
     while (store->nimages > images)
@@ -292,7 +292,7 @@ static int check_header(const RetexBandStore *store, const Header *header, Retex
     return 0;
 }
 
-/* Whether the file ends before its header does. */
+/* 1 if the file ends before its header does. */
 static int is_begun_only(const RetexBandStore *store)
 {
     const Header own = header_of(store);

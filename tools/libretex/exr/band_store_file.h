@@ -1,6 +1,7 @@
-/* The file of a band store: a header, then records, each with its bytes. Nothing in it is changed once it is written,
- * and there is one writer at a time, so that it is whole up to some record whenever the process ends. Numbers are the
- * machine's: a checkpoint does not travel between machines of different kinds, and says so. */
+/* The file of a band store: a header, then records, each followed by its bytes. Nothing in the file is changed once it
+ * is written, and there is one writer at a time, so that the file is complete up to some record whenever the process
+ * ends. Numbers are in the machine's byte order: a checkpoint cannot be used on a machine of another kind, and is
+ * refused there. */
 #ifndef RETEX_EXR_BAND_STORE_FILE_H
 #define RETEX_EXR_BAND_STORE_FILE_H
 
@@ -15,7 +16,7 @@
 typedef struct RetexBandStoreImage {
     char letters[8], name[RETEX_NAME_MAX];
     RetexPixelType type;
-    atomic_int filled;        /* a pixel is not 0 */
+    atomic_int filled;        /* 1: some pixel is not 0 */
     RetexBandStoreChunk chunks[]; /* by band */
 } RetexBandStoreImage;
 
@@ -24,13 +25,13 @@ struct RetexBandStore {
     uint64_t key;
     int descriptor;
     int plain;           /* 1: bands are not compressed */
-    RetexTemporaryName shown; /* what the file is, for messages */
-    RetexBandStats *stats;     /* by band, */
-    char *committed;           /* where this is 1 */
+    RetexTemporaryName shown; /* the file's name, for messages */
+    RetexBandStats *stats;     /* by band, valid */
+    char *committed;           /* where committed is 1 */
     pthread_mutex_t lock;
-    uint64_t end;                 /* under lock, as is: */
+    uint64_t end;                 /* end of the file; under lock, as are: */
     uint32_t last_crc;            /* of the last record, or of the header */
-    struct RetexBandStoreScratch *scratch; /* that no thread uses */
+    struct RetexBandStoreScratch *scratch; /* list of those that no thread uses */
     int nimages;
     RetexBandStoreImage *images[RETEX_SET_PARTS_MAX];
 };
@@ -38,13 +39,14 @@ struct RetexBandStore {
 enum {
     BAND_STORE_IMAGE = 0x67616d69, /* a RetexBandStoreDescription */
     BAND_STORE_CHUNK = 0x6b6e6863, /* what retex_chunk_compress gives */
-    BAND_STORE_COMMIT = 0x646e6162 /* a RetexBandStats; what there is of the band so far is all of it */
+    BAND_STORE_COMMIT = 0x646e6162 /* followed by a RetexBandStats; commits the band with all its chunks so far */
 };
 
 typedef struct RetexBandStoreRecord {
     uint32_t kind, image, band, bytes, lit;
     uint32_t crc[RETEX_EXR_LETTERS_MAX];
-    uint32_t bytes_crc, record_crc; /* of the bytes that follow; of all before it, and the last record's */
+    uint32_t bytes_crc, record_crc; /* bytes_crc: of the bytes that follow; record_crc: of all members before it,
+                                       continuing that of the last record */
 } RetexBandStoreRecord;
 
 typedef struct RetexBandStoreDescription {
@@ -56,20 +58,22 @@ RetexBandStoreImage *retex_band_store_image_new(const RetexBandStore *store, con
                                                 RetexPixelType type);
 RetexChunkShape retex_band_store_shape(const RetexBandStore *store, const RetexBandStoreImage *image, int band);
 
-/* 0 or what errno says. */
+/* Write all bytes; returns 0 or an errno. */
 int retex_band_store_write_at(int descriptor, const void *data, size_t bytes, uint64_t offset);
 
-/* The header of a new file. */
+/* Write the header of a new file. */
 int retex_band_store_begin(RetexBandStore *store, RetexError *err);
-/* Of a file that may be there: all that was committed. make: write the header of an empty one, cut off the rest. */
+/* Read what was committed. make = 1: write the header if the file is empty, and cut off bands that were not
+ * committed. */
 int retex_band_store_recover(RetexBandStore *store, int make, RetexError *err);
 
-/* Under the lock: fill in the checksums of a record and append it; *offset (may be NULL) is that of its bytes. */
+/* Fill in the checksums of a record and append it, under the lock; *offset (may be NULL) receives the position of its
+ * bytes. */
 int retex_band_store_append(RetexBandStore *store, RetexBandStoreRecord *record, const void *bytes, uint64_t *offset,
                             RetexError *err);
-/* Under the lock: an image that is the band store's from now on. */
+/* Add an image, which the band store owns from now on; under the lock. */
 int retex_band_store_add_image(RetexBandStore *store, RetexBandStoreImage *image, RetexError *err);
-/* A chunk, with its place in the index. */
+/* Append a chunk and enter it into the index. */
 int retex_band_store_append_chunk(RetexBandStore *store, RetexBandStoreRecord *record, const void *bytes,
                                   RetexError *err);
 

@@ -49,7 +49,7 @@ void retex_chunk_free(RetexChunkScratch *scratch)
     *scratch = (RetexChunkScratch){.raw = NULL};
 }
 
-/* EXR keeps channels in alphabetical order: order[i] is the letter that comes i-th. */
+/* EXR keeps channels in alphabetical order: order[i] is the index of the letter that comes i-th. */
 static void channel_order(const char *letters, int count, int *order)
 {
     for (int i = 0; i < count; i++) {
@@ -127,7 +127,7 @@ size_t retex_chunk_compress(RetexChunkScratch *scratch, const unsigned char *raw
 
     if (packed_bytes)
         return packed_bytes;
-    memcpy(packed, raw, bytes); /* no gain: as it is */
+    memcpy(packed, raw, bytes); /* compression gained nothing: stored uncompressed */
     return bytes;
 }
 

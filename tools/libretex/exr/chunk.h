@@ -1,5 +1,5 @@
-/* What an EXR file stores of 16 lines of a part: samples as halves or floats, line by line, in each line plane by
- * plane, planes in alphabetical order; one chunk of EXR's ZIP. */
+/* One chunk of an EXR file with ZIP compression: 16 lines of a part. Samples are halves or floats, line by line, in
+ * each line plane by plane, planes in alphabetical order. */
 #ifndef RETEX_EXR_CHUNK_H
 #define RETEX_EXR_CHUNK_H
 
@@ -9,43 +9,44 @@
 #include "exr/zip.h"
 
 enum {
-    RETEX_EXR_LETTERS_MAX = 7,  /* channels of a part that we write or read at once */
-    RETEX_CHUNK_LINES = 16      /* what EXR's ZIP takes as one chunk */
+    RETEX_EXR_LETTERS_MAX = 7,  /* channels of a part that are written or read at once */
+    RETEX_CHUNK_LINES = 16      /* lines that EXR's ZIP compresses together */
 };
 
 typedef struct RetexChunkShape {
-    const char *letters;        /* one for each channel, in the order of samples in memory */
+    const char *letters;        /* a letter for each channel, in the order of samples in memory */
     RetexPixelType type;
     int width, lines;
 } RetexChunkShape;
 
-/* What one thread needs for chunk after chunk. Begin with {0}. */
+/* Scratch memory of one thread for chunks. Begin with {0}. */
 typedef struct RetexChunkScratch {
     RetexZip zip;
-    unsigned char *raw; /* room for a chunk, after retex_chunk_reserve */
+    unsigned char *raw; /* memory for a chunk, after retex_chunk_reserve */
     uint16_t *halves;   /* one line, interleaved */
     size_t raw_bytes, halves_count;
 } RetexChunkScratch;
 
-/* Of one plane, and of all. */
+/* Bytes of one plane, and of the whole chunk. */
 size_t retex_chunk_plane(const RetexChunkShape *shape);
 size_t retex_chunk_bytes(const RetexChunkShape *shape);
 
-/* 0 where memory is short. */
+/* Allocate the scratch memory for a chunk; 0 where memory is short. */
 int retex_chunk_reserve(RetexChunkScratch *scratch, const RetexChunkShape *shape);
 void retex_chunk_free(RetexChunkScratch *scratch);
 
-/* From floats, line by line and interleaved, to what is stored, before compression; crc gets the checksum of each plane
- * in the order of letters. */
+/* Convert floats, line by line and interleaved, to the chunk's samples, uncompressed. crc (or NULL) receives the
+ * checksum of each plane in the order of letters. */
 void retex_chunk_encode(RetexChunkScratch *scratch, const RetexChunkShape *shape, const float *pixels,
                         unsigned char *raw, uint32_t *crc);
-/* And back. */
+/* Convert the samples of a chunk back to floats. */
 void retex_chunk_decode(RetexChunkScratch *scratch, const RetexChunkShape *shape, const unsigned char *raw,
                         float *pixels);
 
-/* Compress, into room for as many bytes as there are. How many it takes: all of them where nothing is gained. */
+/* Compress a chunk into packed, which has at least `bytes` bytes. Returns the size: `bytes` where compression gains
+ * nothing and the chunk is stored as it is. */
 size_t retex_chunk_compress(RetexChunkScratch *scratch, const unsigned char *raw, size_t bytes, unsigned char *packed);
-/* And back. 0 where it is damaged. */
+/* Decompress a chunk. Returns 0 where it is damaged. */
 int retex_chunk_decompress(RetexChunkScratch *scratch, const unsigned char *packed, size_t packed_bytes,
                            unsigned char *raw, size_t bytes);
 

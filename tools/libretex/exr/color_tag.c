@@ -6,7 +6,7 @@
 #include <stddef.h>
 #include <string.h>
 
-#define TOLERANCE 1e-3 /* of chromaticities, and of a matrix's elements */
+#define TOLERANCE 1e-3 /* tolerance for chromaticities and for elements of a matrix */
 
 #define D65 0.3127f, 0.3290f
 #define ACES_WHITE 0.32168f, 0.33767f
@@ -38,7 +38,7 @@ const RetexColorTag *retex_color_tag_find(const char *interop)
 
 /* ---- matrices ---- */
 
-/* 0 where there is no inverse that doubles could hold. */
+/* Inverts a matrix; 0 where the inverse does not exist or overflows. */
 static int invert(const double m[3][3], double out[3][3])
 {
     double determinant = 0, size = 0;
@@ -82,7 +82,8 @@ static int xyz_of(const float xy[2], double out[3])
     return isfinite(x) && isfinite(y) && y > TOLERANCE && x > 0 && x + y < 1 + TOLERANCE;
 }
 
-/* From RGB to CIE XYZ: primaries as columns, of such sizes that (1, 1, 1) is white. 0 where they span no space. */
+/* The matrix from RGB to CIE XYZ: primaries as columns, scaled so that (1, 1, 1) is white. 0 where they span no
+ * space. */
 static int rgb_to_xyz(const float c[8], double out[3][3])
 {
     double primaries[3][3], inverse[3][3], white[3], sizes[3];
@@ -101,7 +102,7 @@ static int rgb_to_xyz(const float c[8], double out[3][3])
     return 1;
 }
 
-/* Bradford's chromatic adaptation from one white to another. 0 where a white has no cone response. */
+/* Bradford's chromatic adaptation between two whites. 0 where a white has no cone response. */
 static int adapt(const float from[2], const float to[2], double out[3][3])
 {
     static const double cones[3][3] = {{.8951, .2664, -.1614}, {-.7502, 1.7135, .0367}, {.0389, -.0685, 1.0296}};

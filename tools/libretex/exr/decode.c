@@ -1,6 +1,6 @@
-/* See decode.h. Uncompressed and ZIP chunks, all that sets are made of, are decoded here, the other compressions by
- * OpenEXRCore. Nothing in a file is believed: sizes are checked against what the header promises, and a chunk must fill
- * its place exactly. */
+/* See decode.h. Uncompressed and ZIP chunks, of which sets consist, are decoded here, other compressions by
+ * OpenEXRCore. Nothing in a file is trusted: sizes are checked against the header, and a chunk must fill its place
+ * exactly. */
 #include "exr/decode.h"
 
 #include <stdlib.h>
@@ -49,7 +49,7 @@ static int need(void **memory, size_t *have, size_t want, size_t unit)
     return *memory != NULL;
 }
 
-/* Let Core decode a chunk whose compression is not one of ours. */
+/* Decodes a chunk of another compression by OpenEXRCore. */
 static exr_result_t decode_with_core(RetexExr *exr, int part, const exr_chunk_info_t *chunk, unsigned char *raw,
                                      size_t bytes)
 {
@@ -58,7 +58,8 @@ static exr_result_t decode_with_core(RetexExr *exr, int part, const exr_chunk_in
 
     if (code)
         return code;
-    /* Core chooses its routines by where channels are to go; they go nowhere, the bytes before that are wanted */
+    /* Core chooses its routines by the destination of channels; here they have none, because only the uncompressed
+     * bytes are needed */
     for (int c = 0; c < pipeline.channel_count; c++) {
         exr_coding_channel_info_t *channel = &pipeline.channels[c];
         channel->decode_to_ptr = raw;
@@ -77,7 +78,7 @@ static exr_result_t decode_with_core(RetexExr *exr, int part, const exr_chunk_in
     return code;
 }
 
-/* Read one chunk and undo its compression: *bytes_of are its samples, lines of planes. */
+/* Reads and decompresses one chunk: *bytes_of are its samples, lines of planes. */
 static exr_result_t chunk_samples(RetexExr *exr, const RetexExrPlan *plan, const exr_chunk_info_t *chunk,
                                   RetexExrScratch *scratch, const unsigned char **samples)
 {
@@ -126,7 +127,7 @@ static void plane_to_float(float *row, const unsigned char *plane, uint16_t type
     }
 }
 
-/* Whether all of a line's samples may be in the part; else *bad gets the first that may not, but not its line. */
+/* Checks the values of one channel of a line; *bad receives the first that is not allowed, without its line. */
 static int are_allowed(const RetexExrPlan *plan, int channel, const unsigned char *samples, int width,
                        RetexExrNonFinite *bad)
 {
@@ -144,8 +145,8 @@ static int are_allowed(const RetexExrPlan *plan, int channel, const unsigned cha
     return 0;
 }
 
-/* Give a chunk's samples to the image, whose first row is row top of the part, and to the checksums. 0: one of them may
- * not be there. */
+/* Copies a chunk's samples to the image, whose first row is row top of the part, and updates the checksums. 0: a value
+ * is not allowed. */
 static int deliver(const RetexExrPlan *plan, RetexImage *image, int top, const unsigned char *samples, int x, int y,
                    int width, int height, RetexExrScratch *scratch, const RetexExrSums *sums)
 {

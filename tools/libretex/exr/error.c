@@ -1,4 +1,4 @@
-/* OpenEXRCore's callbacks: by default it prints to stderr, which a library must not. */
+/* OpenEXRCore's callbacks: its default prints messages to stderr, which a library must not do. */
 #include <stdio.h>
 
 #include "exr/error.h"

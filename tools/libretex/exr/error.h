@@ -1,4 +1,4 @@
-/* What OpenEXRCore says, caught per file and kept until the call that met it fails. */
+/* Messages of OpenEXRCore, kept for each file until the call that caused them fails. */
 #ifndef RETEX_EXR_ERROR_H
 #define RETEX_EXR_ERROR_H
 
@@ -7,8 +7,8 @@
 #include <openexr.h>
 #include <retex/error.h>
 
-/* The first message of a file that is read; several threads may report. First member of the context's user data, so
- * that the callback finds it. */
+/* The first message about a file that is read; several threads may report. First member of the context's user data,
+ * where the callback finds it. */
 typedef struct RetexExrMessage {
     pthread_mutex_t lock;
     char text[256];
@@ -16,14 +16,14 @@ typedef struct RetexExrMessage {
 
 void retex_exr_message(exr_const_context_t context, exr_result_t code, const char *text);
 
-/* For a file that is written: there Core holds its lock while it reports, and would wait for itself if the callback
- * asked for the user data. The code says enough. */
+/* For a file that is written. Core holds its lock while it reports there, so asking for the user data would deadlock;
+ * the code is enough. */
 void retex_exr_no_message(exr_const_context_t context, exr_result_t code, const char *text);
-/* The failure of a file that is written. */
+/* Fill err with the failure of a file that is written. */
 int retex_exr_fail_write(exr_result_t code, const char *path, RetexError *err);
 
-/* OpenEXRCore's memory: zeroed, so that a damaged chunk never shows what was there before, and limited, so that a
- * damaged size is refused rather than tried. */
+/* OpenEXRCore's allocator: memory is zeroed, so that a damaged chunk never shows old data, and limited, so that a
+ * damaged size is refused. */
 void *retex_exr_alloc(size_t bytes);
 /* 1 if the machine had no memory for one of these in this thread since this was asked last. Core tells it as damage in
  * some places, and in others goes on with less of a header. */

@@ -19,38 +19,37 @@ enum {
     RETEX_EXR_NAME_MAX = 192   /* bytes of a part or channel name, with the final NUL */
 };
 
-/* A part to be written. */
+/* A part to write. */
 typedef struct RetexExrPart {
     char name[RETEX_EXR_NAME_MAX]; /* unique in the file */
     char letters[RETEX_EXR_LETTERS_MAX + 1]; /* one for each channel of image, in its order */
     RetexPixelType type;           /* how samples are stored; see base/half.h for what becomes of floats */
     const RetexImage *image;       /* borrowed until the encoding is freed, as is: */
-    const RetexBandStore *store;       /* where the pixels are if image has none, */
-    int store_image;                   /* under this number */
+    const RetexBandStore *store;       /* holds the pixels if image has none, */
+    int store_image;                   /* as its image of this number */
     uint32_t crc;                  /* filled by retex_exr_encode: see RetexPart */
-    const RetexColorTag *color;    /* what its header says of its colours, or NULL; borrowed as image is */
+    const RetexColorTag *color;    /* colours for its header, or NULL; borrowed as image is */
 } RetexExrPart;
 
-/* All chunks of a file, converted and compressed, in memory or still in a band store: checksums are known before the
+/* All chunks of a file, converted and compressed, in memory or in a band store, so that checksums are known before the
  * header is written. */
 typedef struct RetexExrEncoding RetexExrEncoding;
 
 int retex_exr_encode(RetexExrEncoding **encoding, RetexExrPart *parts, int nparts, int compress, int nthreads,
                      RetexError *err);
-/* The same for a file of one part whose rows come later, image->pixels being NULL: from any thread, in any order, those
- * of whole chunks, each once. Their checksum is not known. */
+/* The same for a file of one part whose rows come later; image->pixels is NULL. Rows may come from any thread and in
+ * any order, whole chunks each, every chunk once. The checksum is not computed. */
 int retex_exr_encoding_open(RetexExrEncoding **encoding, const RetexExrPart *part, int compress, RetexError *err);
 int retex_exr_encode_rows(RetexExrEncoding *encoding, int y0, int y1, const float *rows, RetexError *err);
-/* Of what was encoded whole: one checksum for each RETEX_CHUNK_LINES lines of a part, of their samples as the part's is
- * of all, for the caller to free; NULL where memory is short. */
+/* The checksums of bands of a part that was encoded whole: one for each RETEX_CHUNK_LINES lines, computed as
+ * RetexPart.crc is. For the caller to free; NULL where memory is short. */
 uint32_t *retex_exr_band_crcs(const RetexExrEncoding *encoding, int part);
 /* Write to path ("-" = standard output) front to back; attribute (a string of part 0) may be NULL. Consumes encoding:
  * chunks are freed as they are written. width, height: the display window. */
 int retex_exr_write(RetexExrEncoding *encoding, int width, int height, const char *attribute, const char *value,
                     const char *path, RetexError *err);
 void retex_exr_encoding_free(RetexExrEncoding **encoding);
-/* The beginning of a compressed file of one part, up to its table of chunks, which are RETEX_CHUNK_LINES lines each; to
- * be freed. */
+/* The header of a compressed file of one part, up to its table of chunks of RETEX_CHUNK_LINES lines; to be freed. */
 int retex_exr_header(unsigned char **header, size_t *bytes, const RetexExrPart *part, RetexError *err);
 
 /* An EXR file opened for reading. */
@@ -62,7 +61,7 @@ void retex_exr_close(RetexExr **exr);
 int retex_exr_part_count(const RetexExr *exr);
 int retex_exr_find_part(const RetexExr *exr, const char *name); /* index or -1 */
 void retex_exr_part_size(const RetexExr *exr, int part, int *width, int *height); /* of the data window */
-/* 1 if this version can decode the part; else 0 and *reason says what stands in the way. */
+/* 1 if the part can be decoded; else 0, and *reason says why not. */
 int retex_exr_part_readable(const RetexExr *exr, int part, const char **reason);
 const char *retex_exr_part_name(const RetexExr *exr, int part);     /* "" where it has none */
 int retex_exr_channel_count(const RetexExr *exr, int part);
@@ -71,27 +70,27 @@ int retex_exr_has_channel(const RetexExr *exr, int part, const char *channel);
 int retex_exr_channel_type(const RetexExr *exr, int part, const char *channel, RetexPixelType *type); /* 0: another */
 /* Value of a string attribute, owned by exr; NULL where there is none. */
 const char *retex_exr_attribute(const RetexExr *exr, int part, const char *name);
-/* What the part's header says of its colours; all 0 where that is nothing. */
+/* The colours that the part's header names; all 0 where it names none. */
 void retex_exr_color_tag(const RetexExr *exr, int part, RetexColorTag *tag);
 
-/* Channels of one part to be read into an image that has the part's size. Channel i of the image gets channels[i];
- * "" leaves it as it is. */
+/* Channels of one part to read into an image that has the part's size. Channel i of the image receives channels[i];
+ * with "" it is not changed. */
 typedef struct RetexExrRequest {
     int part;
     RetexImage *image;
     char channels[RETEX_EXR_LETTERS_MAX][RETEX_EXR_NAME_MAX];
     int with_crc;      /* 1: also compute crc (see RetexPart) over the channels asked for */
     uint32_t crc;
-    uint32_t expected;     /* what crc should be; for the caller, and for set/exr_source.c, which also looks at */
-    const uint32_t *bands; /* borrowed: as of retex_exr_band_crcs; NULL: not known */
+    uint32_t expected;     /* the expected crc, for the caller and for set/exr_source.c, which also uses: */
+    const uint32_t *bands; /* borrowed: as from retex_exr_band_crcs; NULL: not known */
     RetexAllowedValues allowed; /* other values make the reading fail; default: any */
-    int damaged;       /* 1: this is the part that made the reading fail */
+    int damaged;       /* 1: reading failed at this part */
 } RetexExrRequest;
 
-/* Read them all. image may be NULL where only the crc is wanted. */
+/* Read all requests. image may be NULL where only the crc is wanted. */
 int retex_exr_read(RetexExr *exr, RetexExrRequest *requests, int nrequests, int nthreads, RetexError *err);
 
-/* Bytes of one file's pixels in memory that readers accept at most. */
+/* The limit on bytes that the pixels of one file may take in memory. */
 #define RETEX_EXR_MEMORY_MAX ((uint64_t)16 << 30)
 
 #endif

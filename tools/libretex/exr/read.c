@@ -13,7 +13,7 @@
 #include "io/checksum.h"
 #include "exr/decode.h"
 
-enum { JOB_LINES = 16 }; /* one line chunks are read that many at a time */
+enum { JOB_LINES = 16 }; /* chunks of one line that are read as one job */
 
 static int64_t core_read(exr_const_context_t context, void *data, void *buffer, uint64_t bytes, uint64_t offset,
                          exr_stream_error_func_ptr_t report)
@@ -64,7 +64,7 @@ int retex_exr_open(RetexExr **result, RetexInput *input, RetexError *err)
     settings.size_fn = core_size;
     settings.max_image_width = settings.max_image_height = RETEX_MAX_SIZE;
     settings.max_tile_width = settings.max_tile_height = RETEX_MAX_SIZE;
-    /* a set with chunks missing is no set; guessing where they might be helps nobody */
+    /* a set with missing chunks is useless, so Core must not search for them */
     settings.flags = EXR_CONTEXT_FLAG_DISABLE_CHUNK_RECONSTRUCTION;
     (void)retex_exr_alloc_failed();
     exr_result_t code = exr_start_read(&exr->context, retex_input_name(input), &settings);
@@ -249,8 +249,8 @@ typedef struct DecodeWork {
     RetexExr *exr;
     RetexJob *jobs;
     RetexExrScratch *scratch; /* one a thread */
-    atomic_int code;     /* the first failure, exr_result_t */
-    RetexExrNonFinite bad; /* of it, where it is that */
+    atomic_int code;          /* the first failure, an exr_result_t */
+    RetexExrNonFinite bad;    /* the value, where the failure is RETEX_EXR_NON_FINITE */
 } DecodeWork;
 
 static void read_chunks(DecodeWork *work, RetexJob *job, const RetexExrSums *sums, int thread)
@@ -258,7 +258,7 @@ static void read_chunks(DecodeWork *work, RetexJob *job, const RetexExrSums *sum
     for (int row = job->first; row < job->first + job->count; row++)
         for (int column = 0; column < job->plan->across; column++) {
             if (atomic_load_explicit(&work->code, memory_order_relaxed))
-                return; /* some other job has failed: the result is lost anyway */
+                return; /* another job has failed: the result is not needed any more */
             const exr_result_t code = retex_exr_chunk_read(work->exr, job->plan, column, row, job->plan->request->image,
                                                            0, sums, &work->scratch[thread]);
             if (code) {
@@ -295,7 +295,7 @@ static void run_job(void *context, int index, int thread)
     free(sums.crc);
 }
 
-/* Rows of chunks that make one job. */
+/* The number of rows of chunks in one job. */
 static int job_rows(const RetexExrPlan *plan)
 {
     return plan->chunk_height >= JOB_LINES ? 1 : JOB_LINES / plan->chunk_height;
@@ -319,7 +319,7 @@ static RetexJob *make_jobs(RetexExrPlan *plans, int nplans, int *count)
     return jobs;
 }
 
-/* Put the jobs' checksums together: planes one after another, each from the top. */
+/* Combines the jobs' checksums: planes one after another, each from the top. */
 static void combine_crcs(const RetexJob *jobs, int njobs)
 {
     for (int first = 0, end; first < njobs; first = end) {
@@ -342,7 +342,7 @@ static void combine_crcs(const RetexJob *jobs, int njobs)
     }
 }
 
-/* The failure of a chunk, with the name of its part. */
+/* Fills err with the failure of a chunk and the name of its part. */
 static int fail_chunk(RetexExr *exr, const RetexExrPlan *plans, int nplans, exr_result_t code,
                       const RetexExrNonFinite *bad, RetexError *err)
 {

@@ -1,9 +1,9 @@
-/* Writing multi-part EXR files.
+/* Writes multi-part EXR files.
  *
- * First all chunks are converted, checksummed and compressed on all threads, in bands of 16 lines. Then the file goes
- * out front to back: OpenEXRCore lays out the header and the chunks, and the table of chunk offsets, which it would go
- * back for at the end, is worked out from the known sizes and written when its turn comes. So a pipe needs no band
- * store. What Core writes as the table in the end is compared with what went out. */
+ * First all chunks are converted, checksummed and compressed on all threads, in bands of 16 lines. Then the file is
+ * written front to back. OpenEXRCore writes the header and the chunks. The table of chunk offsets, for which Core seeks
+ * back at the end, is computed from the known sizes and written in its place, so that the output may be a pipe. The
+ * table that Core writes at the end is compared with it. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -19,16 +19,16 @@
 
 typedef struct Band {
     int part, first_line, lines;
-    unsigned char *data;            /* what is stored; NULL: fetched when its turn comes */
+    unsigned char *data;               /* the encoded band; NULL: fetched from the band store when it is written */
     const RetexBandStoreChunk *stored; /* or NULL */
     size_t bytes;
-    uint32_t crc[RETEX_EXR_LETTERS_MAX]; /* of this band's piece of each plane, in the order of letters */
+    uint32_t crc[RETEX_EXR_LETTERS_MAX]; /* checksum of this band of each plane, in the order of letters */
 } Band;
 
 struct RetexExrEncoding {
     RetexExrPart *parts; /* a copy */
     int nparts, compress;
-    RetexChunkScratch scratch; /* for what is fetched */
+    RetexChunkScratch scratch; /* for bands that are fetched */
     unsigned char *packed;
     size_t packed_bytes;
     Band *bands;
@@ -46,7 +46,7 @@ static RetexChunkShape band_shape(const RetexExrPart *part, const Band *band)
     return (RetexChunkShape){part->letters, part->type, part->image->width, band->lines};
 }
 
-/* Compress what is in scratch->raw. */
+/* Compresses the chunk in scratch->raw. */
 static void pack_band(Band *band, RetexChunkScratch *scratch)
 {
     band->bytes = retex_chunk_compress(scratch, scratch->raw, band->bytes, band->data);
@@ -70,7 +70,7 @@ static int encode_band(Band *band, const RetexExrPart *part, const float *pixels
     return 1;
 }
 
-/* A band that is 0 everywhere. */
+/* Encodes a band that is 0 everywhere. */
 static int encode_zero_band(Band *band, const RetexChunkShape *shape, int compress, RetexChunkScratch *scratch)
 {
     const int channels = (int)strlen(shape->letters);
@@ -89,7 +89,7 @@ static int encode_zero_band(Band *band, const RetexChunkShape *shape, int compre
     return band->data != NULL;
 }
 
-/* Of what a band store holds only the size is needed yet. */
+/* For a band in the band store only the size is needed at first. */
 static int encode_stored_band(Band *band, const RetexExrPart *part, int compress, RetexChunkScratch *scratch)
 {
     const RetexChunkShape shape = band_shape(part, band);
@@ -116,7 +116,7 @@ static void encode_job(void *context, int index, int thread)
                          compress, &work->scratch[thread]);
 }
 
-/* Put the bands' checksums together: planes one after another, each from the top. */
+/* Combines the bands' checksums: planes one after another, each from the top. */
 static uint32_t part_crc(const RetexExrEncoding *encoding, int part, const Band *first)
 {
     const RetexExrPart *of = &encoding->parts[part];
@@ -148,7 +148,7 @@ uint32_t *retex_exr_band_crcs(const RetexExrEncoding *encoding, int part)
     return crcs;
 }
 
-/* Where rows come later images have no pixels yet. */
+/* Checks the parts; rows_later: 1 = images have no pixels yet. */
 static int check_parts(const RetexExrPart *parts, int nparts, int rows_later, RetexError *err)
 {
     if (nparts < 1 || nparts > RETEX_EXR_PARTS_MAX)
@@ -292,12 +292,12 @@ void retex_exr_encoding_free(RetexExrEncoding **result)
     *result = NULL;
 }
 
-/* User data of the write context. */
+/* User data of Core's write context. */
 typedef struct Sink {
     RetexOutput *output;
-    RetexError error;  /* of output, which knows more than Core does */
-    uint64_t position; /* bytes sent so far */
-    uint64_t *table;   /* offsets of all chunks; relative to table_end until they are sent */
+    RetexError error;  /* the error of the output, with more detail than Core's */
+    uint64_t position; /* bytes written so far */
+    uint64_t *table;   /* offsets of all chunks; relative to table_end until they are written */
     uint64_t table_start, table_bytes;
     int table_sent;
 } Sink;
@@ -319,7 +319,7 @@ static int send_table(Sink *sink)
     return send_bytes(sink, sink->table, sink->table_bytes);
 }
 
-/* Core's write: in sequence, but for one gap where the table belongs, and the table itself at the end. */
+/* Core's write callback: sequential, but for a gap where the table belongs, and the table itself at the end. */
 static int64_t sink_write(exr_const_context_t context, void *data, const void *buffer, uint64_t bytes, uint64_t offset,
                           exr_stream_error_func_ptr_t report)
 {
@@ -343,13 +343,13 @@ static int64_t sink_write(exr_const_context_t context, void *data, const void *b
     return send_bytes(sink, buffer, bytes) ? (int64_t)bytes : -1;
 }
 
-/* The number of a band's chunks: uncompressed, every line is one. */
+/* The number of chunks in a band: uncompressed, every line is a chunk. */
 static int band_chunks(const RetexExrEncoding *encoding, const Band *band)
 {
     return encoding->compress ? 1 : band->lines;
 }
 
-/* Work out where every chunk will begin, counted from the table's end. */
+/* Computes the offset of every chunk, counted from the table's end. */
 static int plan_table(Sink *sink, const RetexExrEncoding *encoding, RetexError *err)
 {
     const uint64_t leader = encoding->nparts > 1 ? 12 : 8; /* (part number,) line, size */
@@ -414,7 +414,7 @@ static exr_result_t declare_part(exr_context_t context, const RetexExrEncoding *
     return code;
 }
 
-/* Get a band whose data is not at hand, into the encoding's own memory. */
+/* Fetches a band from the band store into the encoding's own memory. */
 static const unsigned char *fetch_band(RetexExrEncoding *encoding, const Band *band, RetexError *err)
 {
     const RetexExrPart *part = &encoding->parts[band->part];
@@ -528,7 +528,7 @@ int retex_exr_write(RetexExrEncoding *encoding, int width, int height, const cha
 typedef struct HeaderSink {
     unsigned char *bytes;
     size_t count;
-    int starved; /* memory was short */
+    int starved; /* 1: out of memory */
 } HeaderSink;
 
 static int64_t keep_header(exr_const_context_t context, void *data, const void *buffer, uint64_t bytes, uint64_t offset,
@@ -566,7 +566,7 @@ int retex_exr_header(unsigned char **header, size_t *bytes, const RetexExrPart *
     *header = sink.bytes;
     *bytes = sink.count;
     if (context)
-        exr_finish(&context); /* it lacks its chunks, but the header is here already */
+        exr_finish(&context); /* the file lacks its chunks, but the header has been received */
     if (!code)
         return 0;
     free(*header);

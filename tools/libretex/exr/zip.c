@@ -1,9 +1,9 @@
 /* OpenEXR's ZIP compression of one chunk.
  *
- * The bytes at even positions go first, those at odd positions after them, so that the high bytes of halves lie side by
- * side; each byte becomes its difference from the one before, plus 128; the result is a zlib stream. Doing it here
- * rather than through OpenEXRCore's pipelines lets chunks be compressed on all threads before the file is even open,
- * and every byte of a damaged chunk be accounted for. */
+ * The bytes at even positions come first, those at odd positions after them, so that the high bytes of halves are
+ * together; each byte becomes its difference from the one before, plus 128; the result is a zlib stream. It is
+ * implemented here rather than through OpenEXRCore's pipelines so that chunks can be compressed on all threads before
+ * the file is open, and every byte of a damaged chunk is checked. */
 #include <limits.h>
 #include <math.h>
 #include <stdint.h>
@@ -15,7 +15,7 @@
 #include "exr/zip.h"
 #include "exr/zip_kernel.h"
 
-enum { HEAD = 2, TAIL = 4 }; /* of a zlib stream: what it is, and a checksum */
+enum { HEAD = 2, TAIL = 4 }; /* bytes of a zlib stream's header and of its checksum */
 
 int retex_zip_need(RetexZip *zip, size_t bytes)
 {
@@ -29,13 +29,13 @@ int retex_zip_need(RetexZip *zip, size_t bytes)
     return zip->scratch != NULL;
 }
 
-/* Bytes of more bits each than that, by how often they come, are stored as they are: to deflate them would save a
- * sixteenth of them at most. The low bytes of light that is no whole number of anything are so. */
+/* Bytes with more entropy than this many bits each are stored uncompressed: deflate would save at most a sixteenth. The
+ * low bytes of continuous values are like that. */
 static const double NOISE_BITS = 7.5;
 
 static int is_noise(const unsigned char *bytes, size_t count)
 {
-    enum { STEP = 512, RUN = 64, LEAST = 1 << 13 }; /* one run of each step is looked at */
+    enum { STEP = 512, RUN = 64, LEAST = 1 << 13 }; /* entropy is estimated from a run of RUN bytes in every STEP */
     unsigned long counts[256] = {0}, all = 0;
     double sum = 0;
     if (count < LEAST)
@@ -48,7 +48,7 @@ static int is_noise(const unsigned char *bytes, size_t count)
     return log2((double)all) - sum / (double)all > NOISE_BITS;
 }
 
-/* The raw stream of a chunk: its low bytes, then its high ones. */
+/* Deflates the raw stream of a chunk: its low bytes, then its high ones. */
 static size_t deflate_chunk(void *work, unsigned char *packed, size_t capacity, const unsigned char *bytes,
                             size_t count)
 {
@@ -67,7 +67,7 @@ size_t retex_zip_pack(RetexZip *zip, unsigned char *packed, const unsigned char 
         return 0;
     retex_exr_zip_regroup(zip->scratch, raw, bytes);
     retex_exr_zip_difference(zip->scratch + bytes, zip->scratch, bytes);
-    /* a chunk as long as its data would be taken for uncompressed */
+    /* a chunk as long as its data would be read as uncompressed */
     const size_t coded = deflate_chunk(zip->work, packed + HEAD, bytes - 1 - HEAD - TAIL, zip->scratch + bytes, bytes);
     if (!coded)
         return 0;

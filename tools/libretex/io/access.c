@@ -1,5 +1,6 @@
-/* See access.h. A path is resolved first and judged as text; then it is opened from the root on, folder by folder and
- * following no link: what came in between, a link in place of a folder, is an error and not another file. */
+/* See <retex/access.h>. A path is resolved first, and the resolved path is checked as text. Then the file is opened
+ * folder by folder from the root without following links: if somebody replaces a folder by a link in between, opening
+ * fails and no other file is read. */
 #include <errno.h>
 #include <fcntl.h>
 #include <limits.h>
@@ -31,8 +32,8 @@ static int lies_inside(const RetexAccess *access, const char *resolved)
     return 0;
 }
 
-/* Every folder on the way, for a safe access: once inside it must stay there, and what lies outside is not told from
- * what is not there. done: so much of path is one of the roots. */
+/* Checks every folder of the path, for safe access: once the path is inside a root it must stay there; the answer does
+ * not reveal which files exist outside. done: the length of the beginning of path that is one of the roots. */
 static RetexAccessAnswer follow(const RetexAccess *access, const char *path, size_t done)
 {
     char begin[PATH_MAX], resolved[PATH_MAX];
@@ -72,7 +73,7 @@ RetexAccessAnswer retex_access_ask(const RetexAccess *access, const char *folder
     memcpy(path + before, "/", (size_t)slash);
     strcpy(path + before + slash, name);
     if (access && access->safe && access->roots) {
-        char from_here[PATH_MAX + 2] = "./"; /* so that some of it is the folder's */
+        char from_here[PATH_MAX + 2] = "./"; /* so that at least one byte is the folder's */
         const int here = !before && name[0] != '/';
         strcat(from_here, path);
         const RetexAccessAnswer answer = follow(access, here ? from_here : path, here ? 2 : before + (size_t)slash);
@@ -86,7 +87,7 @@ RetexAccessAnswer retex_access_ask(const RetexAccess *access, const char *folder
     return S_ISREG(info.st_mode) ? RETEX_ACCESS_ALLOWED : RETEX_ACCESS_IRREGULAR;
 }
 
-/* -1 with errno, as open(2). */
+/* Opens a resolved path; -1 with errno set, as open(2). */
 static int open_resolved(const char *resolved)
 {
     char name[NAME_MAX + 1];
@@ -102,7 +103,8 @@ static int open_resolved(const char *resolved)
         }
         memcpy(name, at, length);
         name[length] = '\0';
-        /* a pipe without a writer is not waited for, and no terminal becomes ours, before we know what it is */
+        /* do not wait for the writer of a pipe, and do not acquire a controlling terminal, before the file's type is
+         * known */
         const int next =
             openat(folder, length ? name : ".",
                    O_NOFOLLOW | O_CLOEXEC | (is_last ? O_RDONLY | O_NONBLOCK | O_NOCTTY : O_PATH | O_DIRECTORY));
@@ -136,7 +138,7 @@ static int open_safely(const RetexAccess *access, const char *path, RetexError *
         return fail_open(path, errno, err);
     if (!lies_inside(access, resolved))
         return retex_fail(err, RETEX_EACCESS, "%s is outside the folders that may be read (--safe)", path);
-    if (!S_ISREG(info.st_mode)) /* opening alone may do something to a device */
+    if (!S_ISREG(info.st_mode)) /* opening a device may already have an effect */
         return refuse(path, err);
     const int file = open_resolved(resolved);
     if (file < 0 || fstat(file, &info) != 0) {

@@ -7,8 +7,8 @@
 
 #include <isa-l/igzip_lib.h>
 
-/* Levels 1 and 2 are faster still, but what they find depends on where in memory they work: the same render would not
- * always make the same file. Blocks are of 16384 codes, to follow what planes have in turn. */
+/* Levels 1 and 2 are faster still, but their output depends on the address of their memory: the same render would not
+ * always make the same file. Blocks are of 16384 codes, so that the Huffman codes follow the planes of the data. */
 enum { LEVEL = 3, LEVEL_BYTES = ISAL_DEF_LVL3_SMALL };
 
 typedef struct Deflater {
@@ -23,7 +23,7 @@ size_t retex_deflate_scratch_bytes(void)
 
 size_t retex_deflate_bound(size_t bytes)
 {
-    return bytes + bytes / 64 + 512; /* more than stored blocks of 65535 bytes take */
+    return bytes + bytes / 64 + 512; /* stored blocks of 65535 bytes take less */
 }
 
 size_t retex_deflate(void *scratch, unsigned char *packed, size_t capacity, const unsigned char *bytes, size_t count,
@@ -36,7 +36,7 @@ size_t retex_deflate(void *scratch, unsigned char *packed, size_t capacity, cons
         goto done;
     struct isal_zstream *stream = &deflater->stream;
     isal_deflate_stateless_init(stream);
-    stream->hist_bits = 0; /* all of 32 KB is looked at; isal_deflate_stateless_init leaves what was there */
+    stream->hist_bits = 0; /* search the whole window of 32 KB; isal_deflate_stateless_init leaves the old value */
     stream->level = LEVEL, stream->level_buf = deflater->level, stream->level_buf_size = LEVEL_BYTES;
     stream->end_of_stream = is_last, stream->flush = is_last ? NO_FLUSH : FULL_FLUSH;
     stream->next_in = (uint8_t *)bytes, stream->avail_in = (uint32_t)count;

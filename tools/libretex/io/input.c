@@ -1,6 +1,6 @@
-/* Input files: regular ones are read by position as needed, everything else is copied first, into memory or, where it
- * is large, into a temporary file, because an EXR cannot be read from front to back only. A mapping would save a copy
- * but turns a file that shrinks under us into a crash. */
+/* Input files. Regular files are read by position as needed; everything else is copied first, into memory or, where it
+ * is large, into a temporary file, because an EXR cannot be read from front to back only. A mapping would save a copy,
+ * but a file that shrinks while it is mapped crashes the process. */
 #include <errno.h>
 #include <fcntl.h>
 #include <stdatomic.h>
@@ -16,15 +16,15 @@
 
 enum { COPY_INITIAL = 1 << 20, COPY_IN_MEMORY = 64 << 20 }; /* bytes of a pipe that are kept in memory */
 
-/* Band stores and packs beyond this are refused. */
+/* Larger copies of pipes and larger files to load are refused. */
 static const uint64_t SIZE_LIMIT = (uint64_t)16 << 30;
 
 struct RetexInput {
     char name[512];
-    int descriptor;      /* -1 once all is in memory */
-    int borrowed;        /* 1: standard input, which is not ours to close */
+    int descriptor;      /* -1 once the whole input is in memory */
+    int borrowed;        /* 1: standard input, which must not be closed */
     unsigned char *data; /* NULL while the file is read by position */
-    int data_borrowed;   /* 1: data is not ours to free */
+    int data_borrowed;   /* 1: data belongs to the caller */
     uint64_t size;
     atomic_int failed; /* errno of a read that failed */
 };
@@ -34,7 +34,7 @@ static int fail_read(const RetexInput *input, int code, RetexError *err)
     return retex_fail(err, RETEX_EIO, "cannot read %s: %s", input->name, strerror(code));
 }
 
-/* More than nothing of what a pipe gives; *got is 0 at its end. */
+/* Reads at least one byte of a pipe; *got is 0 at its end. */
 static int read_some(const RetexInput *input, unsigned char *to, size_t capacity, size_t *got, RetexError *err)
 {
     ssize_t count;
@@ -46,8 +46,8 @@ static int read_some(const RetexInput *input, unsigned char *to, size_t capacity
     return count < 0 ? fail_read(input, errno, err) : 0;
 }
 
-/* Whether anything that is read here begins so: OpenEXR, JPEG, a zip, an unfinished render. Of what does not, no more
- * is read: it may have no end. */
+/* 1 if the first bytes are those of a known format: OpenEXR, JPEG, ZIP, a checkpoint. Of anything else no more is read:
+ * it may have no end. */
 static int begins_well(const RetexInput *input)
 {
     static const struct {
@@ -63,7 +63,7 @@ static int begins_well(const RetexInput *input)
     return 0;
 }
 
-/* As much of a pipe as may be in memory; *ended: that is all. */
+/* Reads a pipe into memory up to the limit; *ended: 1 if that is all of it. */
 static int set_in_memory(RetexInput *input, int *ended, RetexError *err)
 {
     size_t capacity = 0, got;
@@ -89,7 +89,7 @@ static int set_in_memory(RetexInput *input, int *ended, RetexError *err)
     return 0;
 }
 
-/* Append to the temporary file. */
+/* Appends to the temporary file. */
 static int keep(RetexInput *input, int file, RetexTemporaryName shown, size_t bytes, RetexError *err)
 {
     for (size_t done = 0; done < bytes;) {
@@ -104,7 +104,7 @@ static int keep(RetexInput *input, int file, RetexTemporaryName shown, size_t by
     return 0;
 }
 
-/* What is in memory, and all that follows. */
+/* Writes the bytes in memory, and all that follow in the pipe, to the temporary file. */
 static int set_in_file(RetexInput *input, int file, RetexTemporaryName shown, RetexError *err)
 {
     size_t got = (size_t)input->size;
@@ -157,11 +157,11 @@ static int open_descriptor(RetexInput *input, const char *path, const RetexAcces
         return fail_read(input, errno, err);
     if (S_ISDIR(status.st_mode))
         return fail_read(input, EISDIR, err);
-    /* what gives bytes without end, or waits for them; /dev/null is an empty file */
+    /* devices may give bytes without end or make the reader wait; /dev/null is an empty file */
     if (S_ISBLK(status.st_mode) ||
         (S_ISCHR(status.st_mode) && status.st_rdev != makedev(1, 3) && !isatty(input->descriptor)))
         return retex_fail(err, RETEX_EIO, "cannot read %s: it is a device", input->name);
-    /* standard input may be a file that someone has read the beginning of: then only the rest is meant */
+    /* standard input may be a file whose beginning somebody has read: then only the rest is the input */
     if (S_ISREG(status.st_mode) && lseek(input->descriptor, 0, SEEK_CUR) == 0) {
         input->size = (uint64_t)status.st_size;
         return 0;
@@ -251,11 +251,12 @@ int64_t retex_input_read(const RetexInput *input, void *buffer, size_t bytes, ui
         if (got < 0 && errno == EINTR)
             continue;
         if (got < 0) {
-            atomic_store(&((RetexInput *)input)->failed, errno); /* not of the content: const all the same */
+            atomic_store(&((RetexInput *)input)->failed, errno); /* the failure is not part of the content, so the
+                                                                    input stays const for callers */
             return -1;
         }
         if (got == 0)
-            break; /* the file has shrunk since */
+            break; /* the file has shrunk since it was opened */
         done += (size_t)got;
     }
     return (int64_t)done;

@@ -1,9 +1,8 @@
-/* Output files: what is at a path is either the old file or the whole new one, never a part of it.
- *
- * The file is made without a name (O_TMPFILE) where the file system allows it, so that even a killed process leaves
- * nothing behind; elsewhere under a hidden name in the same folder. Both end in a rename, which replaces the old file
- * in one step. Every error the system may report, the last close included, is looked at: that is where a full disk
- * shows. */
+/* Output files. The file at a path is either the old one or the complete new one, never a part of it. The new file is
+ * made without a name (O_TMPFILE) where the file system allows that, so that even a killed process leaves nothing
+ * behind; elsewhere under a hidden name in the same folder. Both end in a rename, which replaces the old file in one
+ * step. Every error that the system may report is checked, that of the last close included, which may be the first sign
+ * of a full disk. */
 #include <errno.h>
 #include <fcntl.h>
 #include <limits.h>
@@ -28,11 +27,11 @@ struct RetexOutput {
     char path[PATH_MAX];                 /* what will be replaced; symbolic links resolved */
     char folder[PATH_MAX];               /* of path, with the final '/', or "" for the current one */
     char temporary[PATH_MAX + NAME_MAX]; /* hidden name, or "" while the file has none */
-    RetexPendingFile pending;            /* where temporary is listed while it is a file's name */
+    RetexPendingFile pending;            /* entry in the list of pending files while the file is called temporary */
     int descriptor;
     int direct;   /* 1: no temporary file, straight to a device, pipe or standard output */
-    int borrowed; /* 1: standard output, which is not ours to close */
-    FILE *memory; /* instead of a descriptor, or NULL; with where it lies */
+    int borrowed; /* 1: standard output, which must not be closed */
+    FILE *memory; /* used instead of a descriptor, with the data it writes to; or NULL */
     char *data;
     size_t bytes;
     size_t buffered;
@@ -44,7 +43,7 @@ static int fail_system(const RetexOutput *output, int code, RetexError *err)
     return retex_fail(err, RETEX_EIO, "cannot write %s: %s", output->shown, strerror(code));
 }
 
-/* A hidden name beside path. */
+/* Makes a hidden name in the folder of path. */
 static void hidden_name(RetexOutput *output)
 {
     static atomic_uint counter;
@@ -89,7 +88,7 @@ static int names_a_descriptor(const char *path)
     return strncmp(path, "/dev/", 5) == 0 || strncmp(path, "/proc/", 6) == 0;
 }
 
-/* Find out what path is: sets direct, path and folder, and *mode to the old file's permissions or -1. */
+/* Finds out what path is: sets direct, path and folder, and *mode to the old file's permissions or -1. */
 static int resolve(RetexOutput *output, const char *path, int *mode, RetexError *err)
 {
     struct stat status;
@@ -105,7 +104,7 @@ static int resolve(RetexOutput *output, const char *path, int *mode, RetexError 
         *mode = status.st_mode & 0777;
         if (!output->direct && !realpath(path, output->path))
             return fail_system(output, errno, err);
-        /* a file that may not be written is not replaced either, though its folder would allow it */
+        /* a file without write permission is not replaced either, though the folder's permissions would allow it */
         if (!output->direct && access(output->path, W_OK) != 0)
             return fail_system(output, errno, err);
     } else if (errno != ENOENT) {
@@ -231,7 +230,7 @@ static int flush(RetexOutput *output, RetexError *err)
 
 int retex_output_write(RetexOutput *output, const void *data, size_t bytes, RetexError *err)
 {
-    if (!bytes) /* of nothing, data may be NULL */
+    if (!bytes) /* data may be NULL */
         return 0;
     if (output->buffered + bytes > BUFFER_BYTES) {
         const int status = flush(output, err);
@@ -275,8 +274,8 @@ int retex_output_patch(RetexOutput *output, uint64_t at, const void *data, size_
     return 0;
 }
 
-/* Give a nameless file its name, in one step where nothing is there yet. Otherwise a hidden one: a link cannot replace
- * the old file, but the rename that follows at once can. */
+/* Links a file without a name to its path, in one step where there is no old file. Otherwise under a hidden name, which
+ * is renamed at once: a link cannot replace the old file, a rename can. */
 static int link_nameless(RetexOutput *output)
 {
     char descriptor[64];
@@ -296,8 +295,8 @@ static int link_nameless(RetexOutput *output)
     return code;
 }
 
-/* Some file systems tell of a failed write only when a descriptor is closed: close another one first, while the file
- * can still be dropped. */
+/* Some file systems report a failed write only when a descriptor is closed. So a duplicate is closed first, while the
+ * file can still be removed. */
 static int close_checked(RetexOutput *output, RetexError *err)
 {
     const int other = dup(output->descriptor);
@@ -305,7 +304,7 @@ static int close_checked(RetexOutput *output, RetexError *err)
     return other < 0 || (close(other) != 0 && errno != EINTR) ? fail_system(output, errno, err) : 0;
 }
 
-/* All is written: let it be at its path. */
+/* Puts the complete file at its path. */
 static int put_in_place(RetexOutput *output)
 {
     int code = 0;
@@ -339,7 +338,7 @@ int retex_output_commit(RetexOutput **output, RetexError *err)
 {
     const int status = finish(*output, err);
 
-    retex_output_abandon(output); /* frees it; removes a file that did not get its name */
+    retex_output_abandon(output); /* frees the output; removes a file that is not at its path */
     return status;
 }
 
@@ -350,7 +349,7 @@ int retex_output_take(RetexOutput **result, void **data, size_t *bytes, RetexErr
 
     if (fclose(output->memory) != 0 && !status)
         status = fail_system(output, ENOMEM, err);
-    output->memory = NULL; /* data is what it became by closing */
+    output->memory = NULL; /* fclose has set data */
     *data = status ? NULL : output->data;
     *bytes = status ? 0 : output->bytes;
     if (!status)

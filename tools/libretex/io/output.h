@@ -1,4 +1,5 @@
-/* The one way any output file is written: under a temporary name (or none at all yet), renamed when complete. */
+/* Output files: written under a temporary name, or without a name, and renamed when complete. All output files are
+ * written through this. */
 #ifndef RETEX_IO_OUTPUT_H
 #define RETEX_IO_OUTPUT_H
 
@@ -15,21 +16,22 @@ int retex_output_open(RetexOutput **output, const char *path, RetexError *err);
 
 /* Begin writing into memory. */
 int retex_output_open_memory(RetexOutput **output, RetexError *err);
-/* What has been written so, malloc'ed, the caller's to free. Nulls *output. */
+/* The bytes written into memory, which the caller frees with free(). Nulls *output. */
 int retex_output_take(RetexOutput **output, void **data, size_t *bytes, RetexError *err);
 
-/* Whether path could be opened so, as far as one can tell without making anything: for before long work. */
+/* Check whether path could be opened by retex_output_open, as far as that is known without creating anything: to be
+ * called before long work. */
 int retex_output_check(const char *path, RetexError *err);
 
 /* Append; buffered. */
 int retex_output_write(RetexOutput *output, const void *data, size_t bytes, RetexError *err);
 
-/* Whether path would be a regular file, of which parts may be written again. */
+/* 1 if path is, or will be, a regular file, which retex_output_patch needs. */
 int retex_output_is_file(const char *path);
-/* Write again, within what has been written already; of a regular file. */
+/* Overwrite bytes that have been written already; of a regular file. */
 int retex_output_patch(RetexOutput *output, uint64_t at, const void *data, size_t bytes, RetexError *err);
 
-/* Flush, close, and put the file in its place. Nulls *output whatever happens; nothing partial is left on failure. */
+/* Flush, close, and put the file at its path. Nulls *output whatever happens; on failure nothing partial is left. */
 int retex_output_commit(RetexOutput **output, RetexError *err);
 
 /* Give up: close and remove what was written. NULL and pointers to NULL are fine. */

@@ -45,7 +45,7 @@ void retex_pending_files_drop(RetexPendingFile *file)
         }
 }
 
-/* The lock is kept: nothing gets a name any more. A thread that holds it for long is waiting for a disk. */
+/* The lock is never released: no file gets a name any more. A thread that holds it for long waits for a disk. */
 void retex_pending_files_remove(void)
 {
     const struct timespec until = retex_clock_time_after(0.5);

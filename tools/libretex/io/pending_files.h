@@ -1,5 +1,6 @@
-/* Files that have a name before they are whole. A process that a signal ends runs no code of those who write them, so
- * their names are kept in one list, the library's only one, and retex_pending_files_remove goes through it. */
+/* Pending files: output files that have a name and are not complete. A process that a signal ends runs no code of the
+ * threads that write them. So their names are in one list, the library's only global state, which
+ * retex_pending_files_remove goes through. */
 #ifndef RETEX_IO_PENDING_FILES_H
 #define RETEX_IO_PENDING_FILES_H
 
@@ -8,15 +9,16 @@ typedef struct RetexPendingFile {
     struct RetexPendingFile *next;
 } RetexPendingFile;
 
-/* Between these a file gets its name, loses it, or becomes whole, so that no name is missed. */
+/* Between lock and unlock a file may get its name, lose it, or become complete, so that the list misses none. */
 void retex_pending_files_lock(void);
 void retex_pending_files_unlock(void);
 
-/* Locked: the path's file exists and is not whole; file and path stay where they are until it is dropped. */
+/* To be called locked, when the file at path exists and is not complete; file and path must stay valid until the file
+ * is dropped. */
 void retex_pending_files_add(RetexPendingFile *file, const char *path);
-void retex_pending_files_drop(RetexPendingFile *file); /* one that is not there is fine */
+void retex_pending_files_drop(RetexPendingFile *file); /* a file that is not in the list is ignored */
 
-/* Who removes what a library of its own keeps a list of; called by retex_pending_files_remove too. NULL = nobody. */
+/* A function that removes the pending files of another library; retex_pending_files_remove calls it. NULL = none. */
 void retex_pending_files_set_hook(void (*remove)(void));
 
 #endif

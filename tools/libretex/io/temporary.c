@@ -9,7 +9,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-/* Without a name where the file system can do that, else with one that is taken away at once. */
+/* Creates the file without a name where the file system can do that, else with a name that is removed at once. */
 static int open_in(const char *folder, RetexTemporaryName shown)
 {
     char name[PATH_MAX + 16];
@@ -29,7 +29,8 @@ static int open_in(const char *folder, RetexTemporaryName shown)
     return descriptor;
 }
 
-/* The folder of a file to be, or "" where it is none: standard output, a device, a pipe. */
+/* The folder of the file at path `near`; "" where that will not be a regular file but standard output, a device or a
+ * pipe. */
 static void folder_of(const char *near, char folder[PATH_MAX])
 {
     struct stat status;
@@ -41,7 +42,7 @@ static void folder_of(const char *near, char folder[PATH_MAX])
         strncmp(near, "/proc/", 6) == 0)
         return;
     snprintf(path, sizeof path, "%s", near);
-    if (stat(near, &status) == 0 && !realpath(near, path)) /* a link's file is in a folder of its own */
+    if (stat(near, &status) == 0 && !realpath(near, path)) /* the target of a symbolic link may be in another folder */
         return;
     char *slash = strrchr(path, '/');
     if (slash)

@@ -15,7 +15,7 @@
 #include "base/value_check.h"
 #include "retexture/polynomial_bands.h"
 
-#define SPAN_PIXELS 512 /* its sum and one span of each image fit the first two caches */
+#define SPAN_PIXELS 512 /* the sum and one span of each image fit the first two levels of cache */
 
 static void combine_row(const RetexPolynomialRow *row, int width, float *restrict out)
 {
@@ -38,8 +38,8 @@ static void combine_row(const RetexPolynomialRow *row, int width, float *restric
     }
 }
 
-/* A product of many large colours goes beyond what a float holds, and infinities of both signs make NaN: such numbers
- * of the row once more, in doubles, limited to the largest float. */
+/* A product of many large colours may be beyond the largest float, and infinities of both signs add to NaN. Such values
+ * of the row are computed again in doubles and limited to the largest float. */
 static void limit_row(const RetexPolynomialRow *row, size_t count, float *restrict out)
 {
     for (size_t i = 0; i < count; i++) {
@@ -51,7 +51,8 @@ static void limit_row(const RetexPolynomialRow *row, size_t count, float *restri
             const int pixel = (int)(i / 3), inside = pixel >= m->span.begin && pixel < m->span.end;
             double product = inside ? m->radiance[i] : 0;
             for (int k = 0; inside && k < m->nimages && product != 0; k++) {
-                const float factor = m->factors[k][i]; /* NaN: 0 times infinity, on the way to the picture's size */
+                const float factor = m->factors[k][i]; /* NaN comes from 0 times infinity when a small image is
+                                                          enlarged */
                 product = isnan(factor) ? 0 : fmin(fmax(product * factor, -1e200), 1e200);
             }
             sum += product;

@@ -1,6 +1,6 @@
-/* One term of the polynomial over a span. All images are interleaved alike, so colours need no telling apart: a
- * span of n pixels is 3 n numbers. Four at a time, which every x86-64 and ARM does; the loops wait for memory, not
- * for arithmetic. */
+/* Adds one term of the polynomial over a span. All images are interleaved in the same way, so that colours need not be
+ * told apart: a span of n pixels is 3 n values. Vectors of four, which every x86-64 and ARM processor has; the loops
+ * are limited by memory, not by arithmetic. */
 #include "retexture/combine_kernel.h"
 
 #include <string.h>

@@ -7,7 +7,7 @@
 
 #include "base/float4.h"
 
-/* Where pixel i of the large image lies among those of the small one: between first and next, t of the way. */
+/* The place of pixel i of the large image among those of the small one: between first and next, at fraction t. */
 typedef struct Place {
     int first, next;
     float t;
@@ -26,12 +26,12 @@ static Place find_place(int i, int scale, int size)
     return place;
 }
 
-/* Numbers of the small image at a time: its rows are mixed there. */
+/* Values of the small image that are interpolated at a time. */
 enum { NUMBERS = 1024 };
 _Static_assert(NUMBERS >= 4 * RETEX_MAX_CHANNELS, "a few pixels fit");
 
-/* Pixels from the centre of one of the small image's to that of the next: scale of them, or fewer where the row ends.
- * Of three channels, a fourth is written where the next pixel will be, unless the row ends there. */
+/* Writes the pixels between the centres of two neighbouring small pixels: scale pixels, or fewer where the row ends.
+ * With three channels a fourth value is written where the next pixel will be, unless the row ends there. */
 static inline float *draw_out(float *restrict out, const float *left, int channels, int scale, int count,
                               const float *end)
 {
@@ -52,7 +52,8 @@ static inline float *draw_out(float *restrict out, const float *left, int channe
     return out;
 }
 
-/* Pixels begin <= i < end of the small image, those beyond its ends as the outermost, from two of its rows. */
+/* Interpolates pixels begin <= i < end between two rows of the small image; pixels beyond its ends repeat the
+ * outermost. */
 static inline void mix_rows(float *restrict out, const float *restrict upper, const float *restrict lower, float t,
                             int begin, int end, int size, int channels)
 {
@@ -70,7 +71,8 @@ static inline void mix_rows(float *restrict out, const float *restrict upper, co
         memcpy(inside + count, inside + count - pixel, pixel * sizeof *out);
 }
 
-/* Two of the small image's rows, mixed some pixels at a time, drawn out to the width. */
+/* Interpolates between two rows of the small image, a block of pixels at a time, and enlarges the result to the
+ * width. */
 static inline void enlarge_row(const float *restrict upper, const float *restrict lower, float t, int size,
                                int channels, int scale, int width, float *restrict out)
 {

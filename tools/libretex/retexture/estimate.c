@@ -1,17 +1,17 @@
-/* The error to be expected of a retexture.
+/* The expected error of a retexture.
  *
  * A footprint stands for many places on its texture, each lit by its own share of the light; the retexture multiplies
- * the sum of the light by the mean of the texture. That is wrong by as much as light and texture happen to agree inside
- * the footprint, which grows with how far the texture scatters there and with how much light it multiplies:
+ * the sum of the light by the mean of the texture. The error is the covariance of light and texture inside the
+ * footprint. It grows with the variance of the texture there and with the light that multiplies it:
  *
  *     e^2 = sum over footprints f of (dI/dA_f)^2 Var(A_f) (k_f^2 + s_f / n_f)  +  (folded I)^2
  *
- * dI/dA_f: the picture's derivative to the footprint's texture; Var(A_f): the texture's variance within it; n_f: the
- * paths that met it, for rendering again looks the texture up at as many places; s_f: what of that chance is left, for
- * samples of a pixel are spread evenly over what is seen sharply; k_f: how much light and texture agree beyond chance.
- * s_f and k_f were measured for each kind of footprint in the scenes of tests/fidelity/error.sh.
- *
- * The formula is in estimate_row.c; here the texture's variance is looked up, row by row. */
+ * dI/dA_f: derivative of the picture by the texture's value at the footprint; Var(A_f): variance of the texture within
+ * the footprint; n_f: number of paths that met it, because a new render would look the texture up at as many places;
+ * s_f: the fraction of that noise which remains, because the samples of a pixel are stratified over surfaces that are
+ * seen sharply; k_f: the correlation of light and texture beyond noise. s_f and k_f were measured for each kind of
+ * footprint in the scenes of tests/fidelity/error.sh. The formula is in estimate_row.c; here the variance of the
+ * texture is computed, row by row. */
 #include <stdlib.h>
 
 #include <retex/combine.h>
@@ -26,12 +26,12 @@ typedef struct Estimate {
     RetexTexture *squares[RETEX_MAX_TARGETS];
 } Estimate;
 
-/* How footprints scatter along a row. */
+/* Variance of the textures within the footprints of a row. */
 typedef struct Scatter {
     float *scratch;
-    const float **variances; /* by footprint: in one of the rows, or NULL: not at all */
+    const float **variances; /* by footprint: points into rows, or NULL: 0 */
     float **rows;
-    int *at; /* by footprint: 1 + the row of its own size that this is */
+    int *at; /* by footprint: 1 + the row, at the footprint's own size, that is loaded */
 } Scatter;
 
 static void close_scatter(Scatter *s, const RetexSet *set)
@@ -54,7 +54,8 @@ static int open_scatter(Scatter *s, const RetexSet *set, RetexError *err)
     return retex_fail(err, RETEX_ENOMEM, "not enough memory to estimate the error");
 }
 
-/* Look up how a footprint scatters at the picture's row y, which several rows may have in common. */
+/* Loads the variance of a footprint for row y of the picture; several rows of the picture may share one of a reduced
+ * footprint. */
 static int look_up(Scatter *s, const Estimate *estimate, const RetexPolynomialRow *row, int footprint, int y,
                    RetexError *err)
 {

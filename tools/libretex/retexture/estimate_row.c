@@ -1,4 +1,4 @@
-/* See estimate_row.h. Colours are interleaved: n numbers are a third as many pixels. */
+/* See estimate_row.h. Colours are interleaved: n values are n / 3 pixels. */
 #include "retexture/estimate_row.h"
 
 #include <float.h>
@@ -19,13 +19,13 @@ size_t retex_estimate_scratch(const RetexSet *set)
     return row_numbers(set) * (1 + (size_t)set->nfootprints + (size_t)set->nmixtures); /* the sum first */
 }
 
-/* Row of a factor's derivatives: footprints, then mixtures. */
+/* The row of derivatives of a factor: footprints come first, then mixtures. */
 static size_t derivative_row(const RetexSet *set, int factor)
 {
     return (size_t)(factor >= 0 ? factor : set->nfootprints + RETEX_MIXTURE(factor));
 }
 
-/* Add to the row's derivatives those of one term, and to its sum the term itself. */
+/* Adds the derivatives of one term to those of the row, and the term itself to its sum. */
 static void add_term(const RetexSet *set, const RetexMonomial *m, size_t n, float *restrict sum,
                      float *restrict derivatives)
 {
@@ -48,7 +48,7 @@ static void add_term(const RetexSet *set, const RetexMonomial *m, size_t n, floa
     }
 }
 
-/* A part's row at the picture's row y; the part may be smaller. */
+/* A row of a part for row y of the picture; the part may be reduced. */
 typedef struct PartRow {
     const float *row; /* NULL: black */
     int scale, channels;
@@ -62,7 +62,7 @@ static int read_part(PartRow *of, const RetexPolynomialRow *row, int part, int y
     return retex_row_reader_get(row->reader, part, y / of->scale, &of->row, err);
 }
 
-/* Value of colour c at the picture's pixel x; a part may have one channel for all. */
+/* The value of colour c at pixel x of the picture; a part may have one channel for all colours. */
 static float value_at(const PartRow *of, int x, int c)
 {
     if (!of->row)
@@ -78,12 +78,12 @@ static int is_zero(const float *row, size_t n)
     return i == n;
 }
 
-/* A mixture's derivative belongs to its footprints, by their shares. */
+/* Distributes the derivative of a mixture to its footprints by their shares. */
 static int share_derivatives(const RetexPolynomialRow *row, const RetexMixture *mixture, int y, size_t n,
                              const float *restrict of_mixture, float *restrict derivatives, RetexError *err)
 {
     PartRow of[RETEX_SHARES_MAX];
-    if (is_zero(of_mixture, n)) /* no term may have it */
+    if (is_zero(of_mixture, n)) /* no term uses the mixture */
         return RETEX_OK;
     for (int k = 0; k < mixture->nshares; k++) {
         int code = read_part(&of[k], row, mixture->shares[k].weight, y, err);
@@ -104,7 +104,7 @@ static int share_derivatives(const RetexPolynomialRow *row, const RetexMixture *
     return RETEX_OK;
 }
 
-/* Add what a footprint's texture makes of its derivatives. */
+/* Adds the error that the variance of a footprint's texture causes. */
 static int add_footprint(const RetexPolynomialRow *row, const RetexFootprint *f, int y, size_t n,
                          const float *variances, const float *restrict derivatives, float *restrict sum,
                          RetexError *err)
@@ -144,6 +144,7 @@ int retex_estimate_row(const RetexPolynomialRow *row, int y, const float *const 
         if (variances[f])
             code = add_footprint(row, &set->footprints[f], y, n, variances[f], derivatives + (size_t)f * n, sum, err);
     for (size_t i = 0; i < n; i++)
-        out[i] = sum[i] <= FLT_MAX ? sqrtf(sum[i]) : FLT_MAX; /* derivatives by large colours, and NaN of such */
+        out[i] = sum[i] <= FLT_MAX ? sqrtf(sum[i]) : FLT_MAX; /* derivatives of large colours may overflow to
+                                                                 infinity and NaN */
     return code;
 }

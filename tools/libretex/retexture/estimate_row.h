@@ -1,14 +1,14 @@
-/* The error to be expected of one row of a retexture: the formula of estimate.c. Private to libretex. */
+/* The expected error of one row of a retexture: the formula of estimate.c. Private to libretex. */
 #ifndef RETEX_RETEXTURE_ESTIMATE_ROW_H
 #define RETEX_RETEXTURE_ESTIMATE_ROW_H
 
 #include "retexture/polynomial.h"
 
-/* Numbers of scratch for a set. */
+/* Number of scratch floats that a set needs. */
 size_t retex_estimate_scratch(const RetexSet *set);
 
-/* Row y, RGB interleaved, into out: of a row of a polynomial whose terms are apart, made for that y. variances: of each
- * footprint how far its texture scatters there, RGB, at the footprint's own size, or NULL: not at all. */
+/* Compute row y of the error, RGB interleaved. row: row y of a polynomial opened with apart = 1. variances: by
+ * footprint the variance of its texture, RGB, at the footprint's own size; NULL: 0. */
 int retex_estimate_row(const RetexPolynomialRow *row, int y, const float *const *variances, float *scratch, float *out,
                        RetexError *err);
 

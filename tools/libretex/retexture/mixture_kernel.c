@@ -1,4 +1,4 @@
-/* See mixture_kernel.h. Four pixels at a time, which are twelve numbers. */
+/* See mixture_kernel.h. Loops work on four pixels, twelve values, at a time. */
 #include "retexture/mixture_kernel.h"
 
 #include <stddef.h>
@@ -12,7 +12,7 @@ static inline void store4(float *p, RetexFloat4 v)
     memcpy(p, &v, sizeof v);
 }
 
-/* Numbers of four pixels as those of their twelve colours. */
+/* Repeats the values of four pixels for each of their three colours. */
 static inline void spread4(RetexFloat4 v, RetexFloat4 out[3])
 {
     out[0] = (RetexFloat4){v[0], v[0], v[0], v[1]};

@@ -9,7 +9,7 @@
 #include "retexture/polynomial_groups.h"
 #include "retexture/polynomial_reduced.h"
 
-#define MISSING 1 /* the code where the set has not what a term refers to */
+#define MISSING 1 /* the code where the set lacks a part that a term needs */
 
 int retex_term_is_excluded(const RetexTerm *term, int cross)
 {
@@ -18,7 +18,7 @@ int retex_term_is_excluded(const RetexTerm *term, int cross)
 
 /* ---- opening ---- */
 
-/* Its image where it is smaller than the picture, to be filled in later. */
+/* Allocates the image of a factor that is reduced, to be filled in later. */
 static int open_factor(RetexPolynomial *p, int factor, RetexError *err)
 {
     const RetexImage *shape = retex_polynomial_factor_image(p, factor);
@@ -32,7 +32,7 @@ static int open_factor(RetexPolynomial *p, int factor, RetexError *err)
     return retex_image_alloc(image, shape->width, shape->height, 3, err);
 }
 
-/* A gain of that scale is read when its rows are needed. */
+/* A gain of that scale is read row by row, when it is needed. */
 static int open_gain(RetexPolynomial *p, int part, int scale, RetexError *err)
 {
     const RetexImage *shape = retex_polynomial_part_image(p->set, part, 1, 3);
@@ -110,7 +110,7 @@ int retex_polynomial_open(RetexPolynomial *p, const RetexSet *set, const RetexSa
 
 /* ---- a row ---- */
 
-static const float black_row[1]; /* stands for one that is 0 all over */
+static const float black_row[1]; /* marks a row that is 0 everywhere */
 
 static float *room_of(RetexPolynomialRow *row, int slot, RetexError *err)
 {
@@ -192,7 +192,7 @@ static int gain_row(RetexPolynomialRow *row, int part, int y, const float **made
     return RETEX_OK;
 }
 
-/* The factors of the picture's size; *black: one of them is 0 all over the row. */
+/* Makes the rows of all factors of the picture's size; *black: one of them is 0 everywhere in the row. */
 static int factor_rows(RetexPolynomialRow *row, RetexMonomial *m, const int *factors, int count, int y, int *black,
                        RetexError *err)
 {

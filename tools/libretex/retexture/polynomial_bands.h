@@ -1,15 +1,15 @@
-/* Pictures that a polynomial gives, in bands of RETEX_PICTURE_BAND rows on all cores; nothing of the picture's size is
- * in memory. Private to libretex. */
+/* Computes a picture from a polynomial in bands of RETEX_PICTURE_BAND rows, on all threads. The picture is never
+ * complete in memory. Private to libretex. */
 #ifndef RETEX_RETEXTURE_POLYNOMIAL_BANDS_H
 #define RETEX_RETEXTURE_POLYNOMIAL_BANDS_H
 
 #include "retexture/polynomial.h"
 
-/* Makes rows y0 <= y < y1 of the picture, RGB interleaved, by a row that is this call's alone. */
+/* Computes rows y0 <= y < y1 of the picture, RGB interleaved. `row` belongs to this call alone. */
 typedef int RetexPolynomialBand(const void *context, RetexPolynomialRow *row, int y0, int y1, float *rgb,
                                 RetexError *err);
 
-/* Rows y0 <= y < y1, made and given to the sink. */
+/* Compute rows y0 <= y < y1 and give them to the sink. */
 int retex_polynomial_bands(const RetexPolynomial *polynomial, int y0, int y1, RetexPolynomialBand *make,
                            const void *context, RetexRowSink *sink, void *sink_context, int nthreads, RetexError *err);
 

@@ -31,8 +31,8 @@ const RetexImage *retex_polynomial_part_image(const RetexSet *set, int part, int
     return im->channels >= least && im->channels <= most ? im : NULL;
 }
 
-/* The image whose size a footprint's samples have: the UV they will be made from, they themselves, or the original
- * albedo. NULL where the footprint is not there. */
+/* The image that has the size of a footprint's samples: UV, the samples themselves, or the original albedo. NULL where
+ * the footprint is absent. */
 static const RetexImage *footprint_shape(const RetexPolynomial *p, int footprint)
 {
     const RetexSet *set = p->set;
@@ -71,7 +71,7 @@ const RetexImage *retex_polynomial_factor_image(const RetexPolynomial *p, int fa
 
 /* ---- rows at a footprint's own size ---- */
 
-/* Make a buffer 0 beside a span, of which what was there stays. */
+/* Clears the filled span of a buffer outside of the new span; values inside keep what they were. */
 static void refill(RetexRowBuffer *buffer, RetexRowSpan span)
 {
     const RetexRowSpan old = buffer->filled;
@@ -105,7 +105,7 @@ int retex_polynomial_footprint_row(const RetexPolynomial *p, RetexRowReader *rea
     return RETEX_OK;
 }
 
-/* 1 where every share has one weight a pixel, not one a colour. */
+/* 1 if every share has one weight a pixel, not one for each colour. */
 static int has_single_weights(const RetexSet *set, const RetexMixture *m)
 {
     int single = 1;

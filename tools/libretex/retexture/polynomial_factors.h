@@ -1,29 +1,29 @@
-/* The factors of a polynomial, and the gains: their numbers in one list, their sizes, and rows of them, each at its own
- * size. Private to libretex. */
+/* The factors and gains of a polynomial: their slots in one list, their sizes, and their rows at their own size.
+ * Private to libretex. */
 #ifndef RETEX_RETEXTURE_POLYNOMIAL_FACTORS_H
 #define RETEX_RETEXTURE_POLYNOMIAL_FACTORS_H
 
 #include "retexture/polynomial.h"
 
-/* Slots: footprints, mixtures and the parts that gains are, in one list. */
+/* Slots number footprints, mixtures and the parts of gains in one list. */
 int retex_polynomial_slot_of_factor(const RetexSet *set, int factor);
 int retex_polynomial_slot_of_gain(const RetexSet *set, int part);
 int retex_polynomial_slot_count(const RetexSet *set);
 
-/* A part that has so many channels, or NULL. */
+/* The image of a part if it has `least` to `most` channels, else NULL. */
 const RetexImage *retex_polynomial_part_image(const RetexSet *set, int part, int least, int most);
-/* The image whose size a factor has; NULL where it is not there. */
+/* An image that has the size of the factor; NULL where the factor is absent. */
 const RetexImage *retex_polynomial_factor_image(const RetexPolynomial *polynomial, int factor);
 
-/* A footprint's samples, or its original albedo, in the buffer or wherever they are, and beside what span they are 0;
- * NULL in *row where all is black. */
+/* Make or find the row of a footprint's samples or original albedo, and the span outside of which it is 0; *row is NULL
+ * where all is black. buffer is used where the row must be made. */
 int retex_polynomial_footprint_row(const RetexPolynomial *polynomial, RetexRowReader *reader, int footprint, int y,
                                    RetexRowBuffer *buffer, const float **row, RetexRowSpan *span, RetexError *err);
 
-/* One factor of a mixture: its row, or NULL where it is black. */
+/* Gives the row of one factor of a mixture; NULL where it is black. */
 typedef int RetexFactorRow(void *context, int footprint, int y, const float **row, RetexError *err);
 
-/* A mixture's row into sum; weights is scratch of as many numbers. */
+/* Compute a mixture's row into sum; weights is scratch of the same size. */
 int retex_polynomial_mixture_row(const RetexPolynomial *polynomial, RetexRowReader *reader, int mixture, int y,
                                  RetexFactorRow *factor_row, void *context, float *weights, RetexRowBuffer *sum,
                                  RetexError *err);

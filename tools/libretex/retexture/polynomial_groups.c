@@ -11,7 +11,7 @@
 #include "base/jobs.h"
 #include "retexture/polynomial_factors.h"
 
-#define ROWS_A_JOB 64 /* a pack's band */
+#define ROWS_A_JOB 64 /* rows of a pack's band */
 
 static int factor_scale(const RetexPolynomial *p, int factor)
 {
@@ -70,7 +70,7 @@ static int add_term(RetexPolynomial *p, int number, RetexError *err)
 
 typedef struct ProductThread {
     RetexRowReader *reader;
-    float **rows; /* by slot, of the group's size */
+    float **rows; /* by slot, at the size of the group */
 } ProductThread;
 
 typedef struct ProductWork {
@@ -79,7 +79,8 @@ typedef struct ProductWork {
     ProductThread *threads;
 } ProductWork;
 
-/* A small image's row at the group's size, in three channels; NULL: black. made[slot] says whether it is there. */
+/* The row of a reduced image at the size of the group, with three channels; NULL: black. made[slot]: 1 if it is made
+ * already. */
 static int small_row(const ProductWork *work, ProductThread *own, int slot, const RetexImage *image, int part, int y,
                      char *made, const float **row, RetexError *err)
 {
@@ -94,7 +95,7 @@ static int small_row(const ProductWork *work, ProductThread *own, int slot, cons
     if (image->pixels) {
         const int ratio = retex_set_scale(p->set, image) / work->group->scale;
         retex_enlarge_rows(image, ratio, product->width, y, y + 1, own->rows[slot]);
-    } else { /* a gain of this very size */
+    } else { /* a gain that has the group's size */
         const float *from;
         int code = retex_row_reader_get(own->reader, part, y, &from, err);
         *row = NULL;
@@ -109,7 +110,7 @@ static int small_row(const ProductWork *work, ProductThread *own, int slot, cons
     return RETEX_OK;
 }
 
-/* Add one term's product to a row. */
+/* Adds the product of one term's reduced factors and gain to a row. */
 static int add_product(const ProductWork *work, ProductThread *own, const RetexTerm *term, int y, char *made,
                        const float *ones, float *sum, RetexError *err)
 {
@@ -161,7 +162,8 @@ static int product_job(void *context, int index, int thread, RetexError *err)
     for (int y = index * ROWS_A_JOB; !code && y < (index + 1) * ROWS_A_JOB && y < product->height; y++) {
         float *sum = product->pixels + retex_image_index(product, 0, y);
         memset(made, 0, (size_t)retex_polynomial_slot_count(set) + 1);
-        /* it is 0 already, but a fresh page that is read before it is written costs twice, and other threads too */
+        /* it is 0 already, but reading a fresh page before writing to it causes two page faults and slows other
+         * threads */
         memset(sum, 0, sizeof *sum * 3 * (size_t)product->width);
         for (int k = 0; k < work->group->nterms && !code; k++)
             code = add_product(work, own, &set->terms[work->group->terms[k]], y, made, ones, sum, err);

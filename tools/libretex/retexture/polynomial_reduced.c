@@ -1,5 +1,5 @@
-/* See polynomial_reduced.h. All images of one size are made side by side, row by row, so that a footprint that several
- * mixtures have is looked up once, and its parts are read once. */
+/* See polynomial_reduced.h. All images of one size are made together, row by row, so that a footprint that several
+ * mixtures use is filtered once and its parts are read once. */
 #include "retexture/polynomial_reduced.h"
 
 #include <stdlib.h>
@@ -14,18 +14,18 @@
 
 typedef struct SmallWork {
     const RetexPolynomial *polynomial;
-    const int *slots; /* of the images to be made */
+    const int *slots; /* slots of the images to make */
     int nslots, width, height;
     struct SmallThread *threads;
 } SmallWork;
 
-/* One thread's means, and the row that it is at. */
+/* The state of one thread, and the row that it works on. */
 typedef struct SmallThread {
     const SmallWork *work;
     RetexRowReader *reader;
-    RetexRowBuffer *buffers; /* by footprint, made when they are needed */
+    RetexRowBuffer *buffers; /* by footprint, allocated when needed */
     const float **rows; /* by footprint; NULL: black */
-    char *made;         /* by footprint: it is in rows */
+    char *made;         /* by footprint: 1 if rows has it */
     float *weights;
 } SmallThread;
 
@@ -62,7 +62,7 @@ static int make_row(SmallThread *own, int slot, int y, RetexError *err)
     const RetexSet *set = p->set;
     RetexImage *image = image_of_slot(p, slot);
     float *out = image->pixels + retex_image_index(image, 0, y);
-    RetexRowBuffer sum = {.values = out}; /* still 0 */
+    RetexRowBuffer sum = {.values = out}; /* which is 0 before */
     if (slot >= set->nfootprints && slot < retex_polynomial_slot_of_gain(set, 0))
         return retex_polynomial_mixture_row(p, own->reader, slot - set->nfootprints, y, footprint_row, own,
                                             own->weights, &sum, err);

@@ -1,7 +1,6 @@
-/* Sampling: the new textures, filtered at every footprint of their targets.
- *
- * A footprint is a Gaussian with the stored mean and standard deviations of the surface UV; the texture's own transform
- * then turns and stretches it exactly. Where the texture is transparent the original albedo of the footprint shows. */
+/* Sampling: new textures are filtered at every footprint of their targets. A footprint is a Gaussian with the stored
+ * mean and standard deviations of the surface UV, which the texture's transform maps exactly. Where the texture is
+ * transparent the original albedo of the footprint shows. */
 #include <retex/combine.h>
 #include <retex/samples.h>
 
@@ -22,7 +21,7 @@ typedef struct SampleWork {
     int nedited;
 } SampleWork;
 
-/* Rows y0 <= y < y1 of a footprint. */
+/* Computes rows y0 <= y < y1 of a footprint's samples. */
 static int sample_rows(void *context, RetexRowReader *reader, const RetexImageTransfer *edited, int y0, int y1,
                        float *to, RetexError *err)
 {
@@ -80,7 +79,7 @@ static int alloc_images(const SampleWork *work, RetexError *err)
     return code;
 }
 
-/* A band store with what is as large as the picture; what is smaller is kept in memory. */
+/* Creates a band store for images as large as the picture; smaller images are kept in memory. */
 static int store_images(SampleWork *work, const char *near, RetexError *err)
 {
     const RetexSet *set = work->set;
@@ -136,7 +135,7 @@ static int open_work(SampleWork *work, int nthreads, RetexError *err)
     return code ? code : list_edited(work, err);
 }
 
-/* Give the samples away, unless something failed. */
+/* Returns the samples, or closes them if code says that something failed. */
 static int close_work(SampleWork *work, RetexSamples **samples, int code)
 {
     if (code)
@@ -181,7 +180,7 @@ static void move_image(RetexSamples *samples, RetexSamples *more, int footprint)
     more->footprints[footprint].store_image = more->footprints[footprint].source_image = 0;
 }
 
-/* Where the images are that have been moved. */
+/* Moves the band store and the source of moved images. */
 static void move_stores(RetexSamples *samples, RetexSamples *more)
 {
     if (more->store) {
@@ -204,7 +203,7 @@ int retex_samples_merge(RetexSamples *samples, RetexSamples *more, RetexError *e
         same = samples->footprints[i].target == more->footprints[i].target;
     if (!same)
         return retex_fail(err, RETEX_EINVAL, "the samples are of different sets");
-    if ((samples->store && more->store) || (samples->source && more->source)) { /* one of each is kept */
+    if ((samples->store && more->store) || (samples->source && more->source)) { /* samples have one of each only */
         int code = retex_samples_load(more, 0, err);
         if (code)
             return code;

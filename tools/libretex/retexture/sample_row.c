@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-#define SPAN_PIXELS 1024 /* filtered in one call */
+#define SPAN_PIXELS 1024 /* pixels filtered in one call */
 
 RetexTextureFilter retex_footprint_filter(const RetexSet *set, const RetexFootprint *footprint)
 {
@@ -42,7 +42,7 @@ RetexFootprintRow retex_footprint_row_slice(const RetexFootprintRow *row, RetexR
                                .span = {0, span.end - span.begin}};
 }
 
-/* Part of a row's footprints, filtered. */
+/* Filters the texture at some footprints of a row. */
 static void filter_span(const RetexTexture *texture, RetexTextureFilter filter, const RetexFootprintRow *row, int from,
                         int count, float *restrict rgba)
 {
@@ -79,7 +79,7 @@ void retex_variance_row(const RetexTexture *texture, const RetexTexture *square,
         int count = row->width - from < SPAN_PIXELS ? row->width - from : SPAN_PIXELS;
         filter_span(texture, filter, row, from, count, means);
         filter_span(square, filter, row, from, count, squares);
-        for (int x = 0; x < count; x++, rgb += 3) { /* without coverage all is 0 */
+        for (int x = 0; x < count; x++, rgb += 3) { /* without coverage all colours are 0 */
             const float *mean = means + 4 * x;
             for (int c = 0; c < 3; c++)
                 rgb[c] = fmaxf(squares[4 * x + c] - mean[c] * mean[c], 0) * mean[3] * mean[3];

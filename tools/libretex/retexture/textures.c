@@ -1,4 +1,4 @@
-/* The textures that are put on a set's targets: checked against the set, and loaded. */
+/* Loads the textures for a set's targets, after checking them against the set. */
 
 #include <stdio.h>
 #include <string.h>
@@ -60,7 +60,7 @@ static int check_part(const RetexSet *set, int part, int channels)
     return retex_set_scale(set, im) && (im->channels == channels || (channels == 2 && im->channels == 3));
 }
 
-/* Footprints of edited targets need all their parts; of the others nothing is looked at. */
+/* Checks that the footprints of targets with a new texture have all their parts. */
 static int check_footprints(const Loading *loading, RetexError *err)
 {
     const RetexSet *set = loading->set;
@@ -92,7 +92,7 @@ static void load_job(void *context, int index, int thread)
     (void)thread;
     int target = loading->target[index];
     RetexTextureSpec spec = loading->specs[index];
-    spec.warn = NULL; /* afterwards, in order */
+    spec.warn = NULL; /* warnings come afterwards, in the order of specs */
     const RetexTarget *t = &loading->set->targets[target];
     memcpy(spec.uv_scale, t->uv_scale, sizeof spec.uv_scale);
     for (int axis = 0; axis < 2; axis++)
@@ -103,7 +103,7 @@ static void load_job(void *context, int index, int thread)
     retex_texture_load(&loading->textures[target], &spec, loading->threads, &loading->errors[index]);
 }
 
-/* Side by side: most of the time goes to decoding, which has one thread a file. */
+/* Loads all textures in parallel: most of the time is decoding, which uses one thread a file. */
 static int load_textures(Loading *loading, int nthreads, RetexError *err)
 {
     int threads = retex_threads(nthreads);

@@ -10,8 +10,9 @@
 struct RetexSetBand {
     const RetexSet *whole;
     int copies;
-    RetexSet set;      /* with parts of its own, that have pixels of others */
-    RetexImage *rooms; /* by part, of most_rows, for those whose rows are not where they are; allocated when needed */
+    RetexSet set;      /* its parts belong to the band; their pixels may be those of the whole set */
+    RetexImage *rooms; /* by part: memory for most_rows rows, for parts whose rows are not in memory; allocated when
+                          needed */
     int most_rows;
     int first;
 };

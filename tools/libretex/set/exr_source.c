@@ -1,5 +1,5 @@
-/* See exr_source.h. A reader keeps the last strip of each part, decoded: as many rows of chunks as are whole bands that
- * have a checksum. */
+/* See exr_source.h. A reader keeps the last decoded strip of each part: so many rows that they are whole rows of chunks
+ * and whole bands that have a checksum. */
 #include "set/exr_source.h"
 
 #include <pthread.h>
@@ -15,8 +15,8 @@ enum { NOT_CHECKED, RIGHT, WRONG };
 typedef struct ExrSource {
     RetexSetSource methods; /* first */
     RetexExrSourceParts parts;
-    RetexExrPlan *plans;  /* by part, as is: */
-    atomic_char *checked; /* whether all of it was compared, of those without sums of bands */
+    RetexExrPlan *plans;  /* by part, as are: */
+    atomic_char *checked; /* 1: the whole part has been compared with its checksum, where bands have none */
     pthread_mutex_t checking;
     int holders;
 } ExrSource;
@@ -26,7 +26,7 @@ typedef struct Strip {
     RetexImage image;
     RetexExrSums sums;
     int number; /* from 1; 0: none */
-    char *lit;  /* by row: some of it is not 0 */
+    char *lit;  /* by row: 1 if some value is not 0 */
 } Strip;
 
 typedef struct ExrReader {
@@ -113,7 +113,7 @@ static int check_whole(ExrSource *source, int part, RetexError *err)
     return code;
 }
 
-/* Rows from y0 on, as far as the strip goes, were read. */
+/* Compares the checksums of the bands from row y0 to the end of the strip, which was just read. */
 static int check_bands(const ExrSource *source, int part, const RetexExrSums *sums, int y0, int y1, RetexError *err)
 {
     const RetexExrPlan *plan = &source->plans[part];
@@ -144,7 +144,8 @@ static int least_common_multiple(int a, int b)
     return a / x * b;
 }
 
-/* Of a strip: whole chunks, and whole bands where these have checksums, but no more than there are. */
+/* The number of rows of a strip: whole chunks, and whole bands where these have checksums, but no more than the part
+ * has. */
 static int strip_lines(const RetexExrPlan *plan)
 {
     int lines = plan->chunk_height;
@@ -248,7 +249,7 @@ static int open_plans(ExrSource *source, RetexError *err)
     if (!source->plans || !source->checked)
         return no_memory(source, err);
     for (int i = 0; !code && i < count; i++) {
-        source->parts.requests[i].image = NULL; /* rows go elsewhere */
+        source->parts.requests[i].image = NULL; /* rows are read into strips instead */
         code = retex_exr_plan_open(source->parts.exr, &source->plans[i], &source->parts.requests[i], err);
     }
     return code;

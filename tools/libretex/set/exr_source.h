@@ -6,21 +6,21 @@
 #include "set/manifest.h"
 #include "set/source.h"
 
-/* What it is made of. requests[i] names the channels of what is read as part i, and its checksums: rows are compared
- * with those of their bands before anyone sees them. Where these are not known the whole part is, when the first of its
- * rows is wanted, by so many threads. */
+/* The parts of a source. requests[i] names the channels that are read as part i, and its checksums. Rows are compared
+ * with the checksums of their bands before they are returned. Where bands have none, the whole part is compared when
+ * the first of its rows is read, on nthreads threads. */
 typedef struct RetexExrSourceParts {
     RetexExr *exr;
     RetexInput *input;
     RetexExrRequest *requests;
     int count;
-    RetexBandSums sums; /* that requests point to */
+    RetexBandSums sums; /* requests point into it */
     int nthreads;
 } RetexExrSourceParts;
 
-/* Takes exr, input, requests and sums over, whatever it returns. */
+/* Open a source. Takes ownership of exr, input, requests and sums, whatever it returns. */
 int retex_exr_source_open(RetexSetSource **source, const RetexExrSourceParts *parts, RetexError *err);
-/* The same for one more, who closes it too. */
+/* Add a reference to a source, which is closed for good when each owner has closed it. */
 RetexSetSource *retex_exr_source_retain(RetexSetSource *source);
 
 #endif

@@ -1,4 +1,4 @@
-/* From the band store or the source of a set, or of samples, into memory. */
+/* Loads sets and samples into memory, from the band store or the source. */
 #include <stdlib.h>
 #include <string.h>
 #include <retex/samples.h>
@@ -8,7 +8,7 @@
 #include "set/manifest.h"
 #include "set/source.h"
 
-/* Give images of a set, or of samples, their pixels: those of wanted that have none; on failure none gets any. */
+/* Loads those of the wanted images that have no pixels; on failure none is loaded. */
 static int load(RetexImage *const *wanted, int count, const RetexSet *set, const RetexSamples *samples, int nthreads,
                 RetexError *err)
 {
@@ -48,7 +48,7 @@ static int load_parts(RetexSet *set, const char *wanted, int nthreads, RetexErro
     return code;
 }
 
-/* What nothing is read from any more. */
+/* Closes the band store and the source. */
 static void close_stores(RetexBandStore **store, RetexSetSource **source)
 {
     retex_band_store_close(store);
@@ -61,7 +61,7 @@ int retex_set_load(RetexSet *set, int nthreads, RetexError *err)
 {
     char wanted[RETEX_SET_PARTS_MAX];
 
-    /* the picture last: a pack may make it from the other parts, which then need not be decoded twice */
+    /* the picture comes last: a pack may compute it from the other parts, which then need not be decoded twice */
     memset(wanted, 1, sizeof wanted);
     wanted[0] = 0;
     int code = load_parts(set, wanted, nthreads, err);
@@ -111,7 +111,7 @@ static void want(char *wanted, int part)
         wanted[part] = 1;
 }
 
-/* Bytes of the parts that recombination reads, which wanted tells. */
+/* Marks in `wanted` the parts that recombination reads; returns their bytes. */
 static uint64_t list_read_parts(const RetexSet *set, char wanted[RETEX_SET_PARTS_MAX])
 {
     uint64_t bytes = 0;

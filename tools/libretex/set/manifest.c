@@ -1,5 +1,5 @@
-/* The manifest, written: RetexSet and RetexSamples as JSON. Parts are referred to by name, so that a file keeps its
- * meaning when parts are reordered, added or left out. */
+/* Writes the manifest: RetexSet and RetexSamples as JSON. Parts are referred to by name, so that a file keeps its
+ * meaning when parts are reordered, added or removed. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -27,7 +27,7 @@ void retex_sample_part_names(const RetexSamples *samples, const RetexSet *set, R
         name[0] = 0;
         if (!retex_samples_have(samples, i))
             continue;
-        /* a target may be called anything, a part not */
+        /* names of targets are free, names of parts are not */
         snprintf(target, sizeof target, "%s", samples->target_names[samples->footprints[i].target]);
         for (char *letter = target; *letter; letter++)
             if (!retex_name_is_valid((char[]){*letter, 0}))
@@ -38,7 +38,7 @@ void retex_sample_part_names(const RetexSamples *samples, const RetexSet *set, R
     }
 }
 
-/* Text of any bytes: what is not UTF-8 loses its bytes above 127, for JSON has no place for them. */
+/* A JSON string of any bytes: text that is not UTF-8 loses its bytes above 127, which JSON cannot hold. */
 static json_t *text(const char *bytes)
 {
     json_t *value = json_string(bytes);
@@ -54,7 +54,7 @@ static json_t *text(const char *bytes)
     return value;
 }
 
-/* A number, which JSON does not allow to be infinite or NaN: those become 0 and *finite is cleared. */
+/* A JSON number. JSON has no infinity or NaN: these become 0 and *finite is cleared. */
 static json_t *real(double value, int *finite)
 {
     if (!isfinite(value)) {
@@ -117,7 +117,7 @@ static json_t *write_mixture(const RetexSet *set, const RetexMixture *mixture)
     return shares;
 }
 
-/* The sums of bands as one row of digits. */
+/* The checksums of bands as one string of hexadecimal digits. */
 static json_t *write_bands(const uint32_t *bands, int height)
 {
     const size_t count = ((size_t)height + RETEX_BAND_ROWS - 1) / RETEX_BAND_ROWS;
@@ -130,7 +130,7 @@ static json_t *write_bands(const uint32_t *bands, int height)
     return json;
 }
 
-/* bands: its sums, or NULL. */
+/* bands: the checksums of the part's bands, or NULL. */
 static json_t *write_part(const char *name, const char *letters, RetexPixelType type, const RetexImage *image,
                           uint32_t crc, const uint32_t *bands)
 {
@@ -196,7 +196,7 @@ static void write_set(json_t **root, const RetexSet *set, const RetexBandSums *s
     retex_json_put(root, "parts", parts);
 }
 
-/* first: where the samples begin in sums. */
+/* first: index of the samples' first image in sums. */
 static json_t *write_samples(const RetexSamples *samples, const RetexSamplePart *parts, const RetexBandSums *sums,
                              int first)
 {

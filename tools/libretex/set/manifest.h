@@ -10,19 +10,20 @@ enum {
     RETEX_SAMPLE_NAME_MAX = 192     /* bytes of a sample part's name, with the final NUL */
 };
 
-#define RETEX_MANIFEST_ATTRIBUTE "retex" /* of an EXR file's first part: where it is */
+#define RETEX_MANIFEST_ATTRIBUTE "retex" /* name of the attribute of an EXR file's first part that holds the manifest */
 
-/* What the manifest says of one of the file's samples parts. */
+/* One of the samples' parts in the manifest. */
 typedef struct RetexSamplePart {
     char name[RETEX_SAMPLE_NAME_MAX]; /* "" where the footprint's target keeps its original */
     uint32_t crc;
 } RetexSamplePart;
 
-/* Names of the samples' parts, unique among themselves and the set's (which may be NULL). parts has nimages places. */
+/* Choose names for the samples' parts, unique among themselves and the set's parts (set may be NULL). parts has nimages
+ * elements. */
 void retex_sample_part_names(const RetexSamples *samples, const RetexSet *set, RetexSamplePart *parts);
 
-/* What the manifest says of bands of RETEX_BAND_ROWS rows: of each the CRC-32 of its samples, as the part's is of
- * all. Of the set's parts, then of the samples' images; NULL where it is not known. */
+/* Checksums of bands in the manifest: for each band of RETEX_BAND_ROWS rows the CRC-32 of its samples, computed as
+ * RetexPart.crc is. of[i] is that of part i of the set, then of the samples' images; NULL where it is not known. */
 typedef struct RetexBandSums {
     int count;
     uint32_t **of;
@@ -30,21 +31,21 @@ typedef struct RetexBandSums {
 
 void retex_band_sums_free(RetexBandSums *sums);
 
-/* As retex_set_manifest, with the sample parts' names and checksums, and those of bands (or NULL). */
+/* Like retex_set_manifest, with names and checksums of the samples' parts, and checksums of bands (or NULL). */
 int retex_manifest_write(const RetexSet *set, const RetexSamples *samples, const RetexSamplePart *sample_parts,
                          const RetexBandSums *sums, char **json, RetexError *err);
 
 /* The manifest's checksum of itself. Its text begins {"retex":VERSION,"crc32":"DIGITS", and the eight hexadecimal
  * digits are the CRC-32 of all of it with 0s in their place. */
-enum { RETEX_MANIFEST_FIRST_WITH_SUM = 3 }; /* version */
+enum { RETEX_MANIFEST_FIRST_WITH_SUM = 3 }; /* the first version of the manifest with a checksum */
 typedef enum RetexManifestSum { RETEX_MANIFEST_PLAIN, RETEX_MANIFEST_RIGHT, RETEX_MANIFEST_WRONG } RetexManifestSum;
 
-RetexManifestSum retex_manifest_sum(const char *json); /* PLAIN: there is none */
-void retex_manifest_seal(char *json);                  /* fill it in, where there is a place for it */
+RetexManifestSum retex_manifest_sum(const char *json); /* RETEX_MANIFEST_PLAIN: the manifest has no checksum */
+void retex_manifest_seal(char *json);                  /* fill in the checksum, where the text has a place for it */
 
-/* From JSON. *set and *samples are created, without pixels: parts know their size in image.width, height and channels,
- * and so do those images of *samples that sample_parts (allocated here, free with free()) names. What the manifest does
- * not describe comes back NULL. name: the file, for messages. sums (or NULL) is to be freed. */
+/* Parse a manifest. *set and *samples are created without pixels: their parts, and those images of *samples that
+ * sample_parts names, have width, height and channels. sample_parts is allocated, to be freed with free(). Whatever the
+ * manifest does not describe is NULL. name: the file, for messages. sums (or NULL) is filled, to be freed. */
 int retex_manifest_read(const char *json, const char *name, RetexSet **set, RetexSamples **samples,
                         RetexSamplePart **sample_parts, RetexBandSums *sums, RetexError *err);
 

@@ -1,6 +1,5 @@
-/* The manifest, read back. Every reference is resolved and every count, size and name checked here, so that nobody
- * after this has to: a RetexSet that exists is consistent. Keys that are not known are skipped: a later version may
- * add some. */
+/* Reads the manifest. Every reference is resolved and every count, size and name is checked here, so that no other code
+ * has to: a RetexSet that exists is consistent. Unknown keys are skipped, because a later version may add some. */
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -9,9 +8,9 @@
 
 #include "set/manifest.h"
 
-/* Where messages go. Only the first failure is kept, so readers may go on to the end of a group of fields. */
+/* State of the parser. Only the first failure is kept, so readers may go on to the end of a group of fields. */
 typedef struct Reading {
-    const char *name; /* of the file */
+    const char *name; /* name of the file, for messages */
     RetexError *err;
     int status;
     RetexBandSums *sums; /* or NULL */
@@ -87,7 +86,7 @@ static void get_pair(Reading *reading, const json_t *object, const char *key, do
         out[i] = get_real(reading, json_array_get(array, i), key);
 }
 
-/* A part referred to by name; -1 where it is null and may be. */
+/* The index of a part that is referred to by name; -1 where the value is null and may be. */
 static int get_part(Reading *reading, const RetexSet *set, const json_t *object, const char *key, size_t channels,
                     int optional)
 {
@@ -105,7 +104,7 @@ static int get_part(Reading *reading, const RetexSet *set, const json_t *object,
     return part;
 }
 
-/* Standard deviations of u and v, and perhaps their correlation. */
+/* The part of the standard deviations of u and v, with or without their correlation. */
 static int get_spread(Reading *reading, const RetexSet *set, const json_t *json)
 {
     const char *name = json_string_value(json_object_get(json, "spread"));
@@ -113,7 +112,7 @@ static int get_spread(Reading *reading, const RetexSet *set, const json_t *json)
     return get_part(reading, set, json, "spread", part >= 0 && set->parts[part].image.channels == 3 ? 3 : 2, 1);
 }
 
-/* One of a channel for all colours, or of three. */
+/* A part with one channel for all colours, or with three. */
 static int get_part_of_one_or_three(Reading *reading, const RetexSet *set, const json_t *json, const char *key)
 {
     const char *name = json_string_value(json_object_get(json, key));
@@ -127,7 +126,7 @@ static void check_size(Reading *reading, const RetexSet *set, int part, const ch
         bad(reading, RETEX_EFORMAT, "has in \"%s\" a part of another size than the set's", key);
 }
 
-/* One that may be smaller. */
+/* Checks the size of a part that may be reduced. */
 static void check_scale(Reading *reading, const RetexSet *set, int part, const char *key)
 {
     if (part >= 0 && !retex_set_scale(set, &set->parts[part].image))
@@ -135,7 +134,7 @@ static void check_scale(Reading *reading, const RetexSet *set, int part, const c
             "has in \"%s\" a part that is neither of the set's size nor 2, 4 or 8 times smaller", key);
 }
 
-/* Eight hexadecimal digits for each band. */
+/* Parses the checksums of bands: eight hexadecimal digits each. */
 static uint32_t *parse_bands(Reading *reading, const json_t *json, int height)
 {
     const size_t count = ((size_t)height + RETEX_BAND_ROWS - 1) / RETEX_BAND_ROWS;
@@ -154,7 +153,7 @@ static uint32_t *parse_bands(Reading *reading, const json_t *json, int height)
     return bands;
 }
 
-/* Of the next part or sample image; part: what is said of it, or null. */
+/* Reads the checksums of the bands of the next part or sample image; part: its description, or null. */
 static void read_bands(Reading *reading, const json_t *part, int height)
 {
     const json_t *json = json_object_get(part, "bands");
@@ -261,7 +260,7 @@ static void read_targets(Reading *reading, const json_t *root, RetexSet *set)
     }
 }
 
-/* Number of the object's "kind" among names; the first where it has none. */
+/* The number of the object's "kind" among names; the first where it has no kind. */
 static int get_kind(Reading *reading, const json_t *json, const char *(*name_of)(int kind), int count)
 {
     char kind[32] = "";
@@ -372,7 +371,7 @@ static void read_mixtures(Reading *reading, const json_t *root, RetexSet *set)
         read_mixture(reading, json_array_get(array, i), set);
 }
 
-/* Eight hexadecimal digits. */
+/* Parses an id: eight hexadecimal digits. */
 static uint32_t get_identity(Reading *reading, const json_t *json, const char *key)
 {
     char hex[16], *end;
@@ -477,7 +476,7 @@ static void read_samples(Reading *reading, const json_t *json, int width, int he
         read_sample_image(reading, json_array_get(images, (size_t)i), samples, i, *parts);
 }
 
-/* The version comes before everything else: of a later one nothing else may be taken for granted. */
+/* Checks the version before everything else: in a manifest of a later version nothing else may be relied on. */
 static void check_version(Reading *reading, const json_t *root, RetexManifestSum sum)
 {
     const json_t *version = json_object_get(root, "retex");

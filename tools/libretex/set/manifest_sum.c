@@ -1,4 +1,4 @@
-/* The manifest's checksum of itself: see manifest.h. It is of the text, not of what the text means, so that it is
+/* The manifest's checksum of itself: see manifest.h. It is computed from the text, not from its meaning, so that it is
  * compared before anything is parsed. */
 #include <stdio.h>
 #include <string.h>
@@ -8,7 +8,7 @@
 
 enum { DIGITS = 8 };
 
-/* Where the digits are, or NULL. */
+/* The place of the checksum's digits, or NULL. */
 static const char *find_digits(const char *json)
 {
     static const char begin[] = "{\"retex\":", key[] = ",\"crc32\":\"";

@@ -45,7 +45,7 @@ static int renumber(const int *place, int part)
     return part < 0 ? -1 : place[part];
 }
 
-/* Copy what refers to parts; place[i]: number of part i in the view, or -1. */
+/* Copies all that refers to parts; place[i]: number of part i in the view, or -1. */
 static void copy_references(RetexSetView *view, const RetexSet *set, const int *place)
 {
     for (int i = 0; i < set->ntargets; i++)

@@ -1,4 +1,4 @@
-/* What no pixel has leaves a set. */
+/* Removes terms, footprints and parts of a set that are empty. */
 #include <limits.h>
 #include <string.h>
 
@@ -8,7 +8,7 @@
 #include "set/parts.h"
 #include "set/signals.h"
 
-#define GONE INT_MIN /* of a factor */
+#define GONE INT_MIN /* marks a factor that is removed */
 
 typedef struct Pruning {
     RetexSet *set;
@@ -56,7 +56,7 @@ static void prune_shares(Pruning *p, RetexMixture *mixture)
     mixture->nshares = count;
 }
 
-/* Weights are kept where a mixture is left that needs them; those of later hits always are. */
+/* Keeps weights where a mixture remains that needs them; weights of interreflections are always kept. */
 static void prune_mixtures(Pruning *p)
 {
     RetexSet *set = p->set;
@@ -81,7 +81,7 @@ static void prune_mixtures(Pruning *p)
     set->nmixtures = count;
 }
 
-/* 0 where a factor is gone. */
+/* Renumbers the factors of a term; 0 where one is removed. */
 static int prune_factors(const Pruning *p, RetexTerm *term)
 {
     for (int k = 0; k < term->nfactors; k++) {
@@ -111,7 +111,7 @@ static void prune_terms(Pruning *p)
     set->nterms = count;
 }
 
-/* Noise of signals that have a term, or of the beauty where there is none. */
+/* Removes noise parts of signals without terms; the beauty's stays where there are no terms. */
 static void prune_noise(Pruning *p)
 {
     RetexSet *set = p->set;
@@ -138,6 +138,6 @@ void retex_set_prune(RetexSet *set, const char *empty)
     prune_terms(&p);
     prune_noise(&p);
     for (int i = set->nparts - 1; i > 0; i--)
-        if (!p.kept[i] && !retex_part_is_used(set, i)) /* several may have shared it */
+        if (!p.kept[i] && !retex_part_is_used(set, i)) /* a part may have been shared */
             retex_set_remove_part(set, i);
 }

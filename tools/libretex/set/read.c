@@ -1,5 +1,5 @@
-/* Sets, samples and streams of both, from files. The manifest is believed about meaning, the EXR headers about layout,
- * and the two must agree before any pixel is read. */
+/* Reads sets, samples and streams of both from EXR files. The meaning of parts comes from the manifest, their layout
+ * from the EXR headers, and both must agree before any pixel is read. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -14,20 +14,21 @@
 #include "set/manifest.h"
 #include "exr/band_store_chunks.h"
 
-/* Deflate gains at most 1032:1; a file that promises more than this is damaged and gets no memory. */
+/* Deflate compresses at most 1032:1. A file that promises more than this is damaged, and no memory is allocated for
+ * it. */
 enum { LARGEST_GAIN = 1100 };
 
-/* An open file with its description. */
+/* An open file and its manifest. */
 typedef struct Source {
     RetexInput *input;
     RetexExr *exr;
-    RetexSet *set; /* described, without pixels; NULL where the file has none */
+    RetexSet *set; /* without pixels; NULL where the file has no set */
     RetexSamples *samples;
     RetexSamplePart *names; /* of samples */
     RetexBandSums sums;
     RetexExrRequest *requests;
     int nrequests;
-    uint64_t memory_bytes, stored_bytes; /* of what is requested */
+    uint64_t memory_bytes, stored_bytes; /* sizes of the requested parts in memory and in the file */
 } Source;
 
 static void source_close(Source *source)
@@ -41,7 +42,7 @@ static void source_close(Source *source)
     free(source->requests);
 }
 
-/* Open what is known to be an EXR and read its manifest. */
+/* Opens a file that begins like an EXR and reads its manifest. */
 static int source_describe(Source *source, RetexError *err)
 {
     const char *name = retex_input_name(source->input);
@@ -73,8 +74,8 @@ static int source_describe(Source *source, RetexError *err)
     return source->requests ? 0 : retex_fail(err, RETEX_ENOMEM, "no memory to read %s", name);
 }
 
-/* Ask for a part of the manifest: what the file has under that name must be what the manifest says. index: among those
- * that the sums of bands are of. */
+/* Requests a part of the manifest; the file's part of that name must be as the manifest says. index: the part's number
+ * in the checksums of bands. */
 static int request_part(Source *source, const char *name, const char *letters, RetexPixelType type, uint32_t crc,
                         int index, RetexImage *image, RetexError *err)
 {
@@ -153,7 +154,7 @@ static int check_memory(const Source *source, RetexError *err)
     return check_stored(source, err);
 }
 
-/* Read what is requested, and compare its checksums. */
+/* Reads all requested parts and compares their checksums. */
 static int read_requests(Source *source, int nthreads, RetexError *err)
 {
     const int status = retex_exr_read(source->exr, source->requests, source->nrequests, nthreads, err);
@@ -167,7 +168,7 @@ static int read_requests(Source *source, int nthreads, RetexError *err)
     return status;
 }
 
-/* Give the requested images their pixels. */
+/* Allocates the requested images and reads their pixels. */
 static int read_pixels(Source *source, int nthreads, RetexError *err)
 {
     int status = check_memory(source, err);
@@ -191,7 +192,7 @@ static int request_samples_stored(Source *source, RetexError *err)
     return status;
 }
 
-/* The set's parts stay where they are, and the samples that are wanted. */
+/* Makes the open file the source of the set's parts, and of the samples if they are wanted. */
 static int keep_open(Source *source, int with_samples, int nthreads, RetexError *err)
 {
     RetexSetSource *opened;
@@ -219,7 +220,7 @@ static int keep_open(Source *source, int with_samples, int nthreads, RetexError 
     return 0;
 }
 
-/* Read what is wanted whole. */
+/* Reads the set, the samples, or both into memory. */
 static int read_whole(Source *source, int with_set, int with_samples, int nthreads, RetexError *err)
 {
     int status = with_samples ? request_samples(source, err) : 0;
@@ -261,7 +262,7 @@ int retex_set_read_exr(RetexInput **input, RetexSet **set, RetexSamples **sample
     Source source = {.input = *input};
     const int status = read_described(&source, set, samples, open, nthreads, err);
 
-    *input = source.input; /* NULL where it stays open */
+    *input = source.input; /* NULL where the file stays open as the source */
     source.input = NULL;
     source_close(&source);
     return status;
@@ -280,7 +281,7 @@ static int check_described(Source *source, int nthreads, RetexError *err)
     if (status)
         return status;
     for (int i = 0; i < source->nrequests; i++)
-        source->requests[i].image = NULL; /* the checksum is all that is wanted */
+        source->requests[i].image = NULL; /* only the checksum is wanted */
     status = read_requests(source, nthreads, err);
     const int version = source->set ? source->set->version : source->samples->version;
     return status || version >= RETEX_MANIFEST_FIRST_WITH_SUM ? status : RETEX_CHECKED_IN_PART;

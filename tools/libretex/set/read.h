@@ -1,4 +1,4 @@
-/* Sets, samples and streams of both, from EXR files that are open. Private to libretex. */
+/* Reading sets, samples and streams of both from EXR files. Private to libretex. */
 #ifndef RETEX_SET_READ_H
 #define RETEX_SET_READ_H
 
@@ -6,8 +6,8 @@
 
 #include "io/input.h"
 
-/* As retex_set_read, or, with open, retex_set_open, from an input that is no pack: each of set and samples may be NULL.
- * *input is NULL afterwards where the set or the samples keep it. */
+/* Like retex_set_read, or with open = 1 like retex_set_open, for an input that is not a pack; set and samples may be
+ * NULL. *input is NULL afterwards where the set or the samples keep it open. */
 int retex_set_read_exr(RetexInput **input, RetexSet **set, RetexSamples **samples, int open, int nthreads,
                        RetexError *err);
 

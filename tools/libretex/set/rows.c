@@ -5,17 +5,17 @@
 
 #include "set/source.h"
 
-/* A band of an image of a band store. */
+/* The last decoded band of an image in a band store. */
 typedef struct StoredBand {
-    float *pixels; /* or NULL, until one is wanted */
+    float *pixels; /* NULL until a band is needed */
     int number;
 } StoredBand;
 
-/* What is not in memory, of a set or of samples. */
+/* The band store and the source of a set, or of samples. */
 typedef struct Backing {
     const RetexBandStore *store;
     RetexSetSource *source;
-    void *reader;      /* of the source, or NULL */
+    void *reader;      /* reader of the source, or NULL */
     StoredBand *bands; /* by part or image, or NULL where there is no band store */
     int count;
 } Backing;

@@ -1,4 +1,4 @@
-/* Sets in memory: made empty, filled by appending, found by name. */
+/* Sets in memory: creation, adding, searching. */
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
@@ -45,7 +45,7 @@ void retex_set_close(RetexSet **result)
     *result = NULL;
 }
 
-/* Make room for one more. The size asked for is the next power of two, so that most calls move nothing, whoever made
+/* Grows an array by one element. It grows to the next power of two, so that most calls move nothing, whoever allocated
  * the array. */
 static int make_room(void **array, int count, size_t element, int most, const char *what, RetexError *err)
 {
@@ -62,7 +62,7 @@ static int make_room(void **array, int count, size_t element, int most, const ch
     return 0;
 }
 
-/* A part without pixels. */
+/* Appends a part without pixels. */
 static int describe_part(RetexSet *set, const char *name, const char *letters, RetexPixelType type, int width,
                          int height, RetexPart **result, RetexError *err)
 {
@@ -150,7 +150,7 @@ void retex_set_remove_part(RetexSet *set, int part)
             move_up(&set->mixtures[m].shares[k].weight, part);
 }
 
-/* A part a footprint or term refers to: it must exist, or be left out (-1) where that is allowed. */
+/* Checks a part that a footprint or term refers to: it must exist, or be absent (-1) where that is allowed. */
 static int check_part(const RetexSet *set, int part, size_t channels, int optional, const char *what, RetexError *err)
 {
     if (part == -1 && optional)

@@ -31,7 +31,7 @@ static void noise_name(const RetexSet *set, int target, RetexFootprintKind kind,
         snprintf(name, RETEX_NAME_MAX, "noise_%.90s_%s", set->targets[target].name, retex_footprint_kind_name(kind));
 }
 
-/* Where the light of a term meets a target first: target -1 where it does not. */
+/* The target that the light of a term meets first; -1 where it meets none. */
 static void term_place(const RetexSet *set, const RetexTerm *term, int *target, RetexFootprintKind *kind)
 {
     *target = -1, *kind = RETEX_FOOTPRINT_HIT;
@@ -60,7 +60,7 @@ int retex_signals_find_part(const RetexSet *set, const char *name, int channels,
     return part;
 }
 
-/* The signal that a term belongs to, made where it is the first. */
+/* The signal of a term; created for its first term. */
 static RetexSignal *signal_of(RetexSignals *signals, const RetexSet *set, const RetexTerm *term)
 {
     int target;
@@ -94,7 +94,7 @@ static int find_parts(RetexSignals *signals, const RetexSet *set, RetexError *er
     return RETEX_OK;
 }
 
-/* Terms by signal. */
+/* Groups the terms by signal. */
 static int sort_terms(RetexSignals *signals, const RetexSet *set, RetexError *err)
 {
     int used = 0;

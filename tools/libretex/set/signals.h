@@ -1,13 +1,13 @@
-/* The signals of a set, which are denoised each with weights of its own: see <retex/denoise.h>. */
+/* The signals of a set, each of which is denoised with weights of its own: see <retex/denoise.h>. */
 #ifndef RETEX_SET_SIGNALS_H
 #define RETEX_SET_SIGNALS_H
 
 #include <retex/set.h>
 
-/* An image of a signal: the radiance of one of its terms. */
+/* A member of a signal: the radiance of one of its terms. */
 typedef struct RetexSignalMember {
     int part;
-    float weight; /* in the signal's total */
+    float weight; /* its factor in the signal's total */
     int term;     /* -1: the beauty of a set without terms */
 } RetexSignalMember;
 
@@ -23,7 +23,7 @@ typedef struct RetexSignal {
 typedef struct RetexSignals {
     int count;
     RetexSignal *of;
-    RetexSignalMember *members; /* of all */
+    RetexSignalMember *members; /* of all signals */
     int covers[RETEX_MAX_TARGETS]; /* parts guide_cover_… by target; -1 where no signal is of the target */
 } RetexSignals;
 
@@ -34,14 +34,14 @@ void retex_signals_close(RetexSignals *signals);
 /* A part of the set's size with so many channels: its index, or RETEX_ENOTFOUND or RETEX_EFORMAT. */
 int retex_signals_find_part(const RetexSet *set, const char *name, int channels, RetexError *err);
 
-/* The footprint whose light alone a member is, a cluster's: its term has that one factor. Else -1, as always in
- * layout paper. */
+/* The footprint of a cluster if the member is the light of that cluster alone, that is its term has that one factor.
+ * Else -1, as always in layout paper. */
 int retex_signal_cluster(const RetexSet *set, const RetexSignalMember *member);
 
-/* The name of the part that says how noisy the signal of a term is; term NULL: the beauty of a set without terms. */
+/* The name of the noise part of a term's signal; term NULL: of the beauty of a set without terms. */
 void retex_signal_noise_name(const RetexSet *set, const RetexTerm *term, char name[RETEX_NAME_MAX]);
 
-/* Kind and target of what a term's factor lies on. */
+/* The target and kind of the footprint or mixture that is a term's factor. */
 void retex_factor_target(const RetexSet *set, int factor, int *target, RetexFootprintKind *kind);
 
 #endif

@@ -1,4 +1,4 @@
-/* Where the parts of a set are that are not in memory: in a file that is open. Private to libretex. */
+/* The interface of an open file from which parts of a set are read. Private to libretex. */
 #ifndef RETEX_SET_SOURCE_H
 #define RETEX_SET_SOURCE_H
 
@@ -8,12 +8,12 @@
 
 struct RetexSetSource {
     void (*close)(RetexSetSource *source);
-    /* Readers of rows, one a thread. */
+    /* Open a reader of rows, one for each thread. */
     int (*reader_open)(RetexSetSource *source, void **reader, RetexError *err);
     void (*reader_close)(void *reader);
-    /* Row y of the set's part of that number, its channels interleaved; NULL where all of it is 0. Beside the span it
-     * is 0. It is the reader's, and stays until the next call for the same part. Cheapest from the top, row after row.
-     */
+    /* Read row y of a part, its channels interleaved; *row is NULL where all of it is 0. The row is 0 outside of span.
+     * It belongs to the reader and stays valid until the next call for the same part. Rows are cheapest to read from
+     * the top down. */
     int (*read_row)(void *reader, int part, int y, const float **row, RetexRowSpan *span, RetexError *err);
 };
 

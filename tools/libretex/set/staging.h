@@ -1,5 +1,5 @@
-/* Parts of a file to be whose pixels are in another one that is open: taken from there before the first byte is
- * written, which the checksums of all come before. Private to libretex. */
+/* Staging: parts to be written whose pixels are in another file that is open. They are copied before the first byte is
+ * written, because the manifest, which stands first, has the checksums of all parts. Private to libretex. */
 #ifndef RETEX_SET_STAGING_H
 #define RETEX_SET_STAGING_H
 
@@ -7,21 +7,22 @@
 #include "set/transfer.h"
 
 typedef struct RetexStaging {
-    RetexBandStore *store; /* what is as large as the picture */
-    RetexImage *reduced; /* what is smaller */
+    RetexBandStore *store; /* images as large as the picture */
+    RetexImage *reduced; /* smaller images */
     RetexImageTransfer *images;
     int count;
 } RetexStaging;
 
-/* At most so many parts. */
+/* Prepare staging for at most `most` parts. */
 int retex_staging_open(RetexStaging *staging, int most, RetexError *err);
-void retex_staging_close(RetexStaging *staging); /* once they are written */
+void retex_staging_close(RetexStaging *staging); /* after the parts have been written */
 
-/* Give an EXR part the place where a part of the set will be, or the samples of a footprint; the other is -1. The band
- * store is made near the file to be, and not compressed where that is not either. */
+/* Reserve the place where a part of the set, or the samples of a footprint, will be staged, and let the EXR part refer
+ * to it; the other index is -1. The band store is created near the file to be written, and uncompressed where that file
+ * is. */
 int retex_staging_add(RetexStaging *staging, RetexExrPart *exr, int part, int footprint, int width, int height,
                       const char *near, int compress, RetexError *err);
-/* Bring all of them there. */
+/* Copy all staged images. */
 int retex_staging_fill(RetexStaging *staging, const RetexSet *set, const RetexSamples *samples, int nthreads,
                        RetexError *err);
 

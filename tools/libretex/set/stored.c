@@ -1,4 +1,4 @@
-/* What a set's parts are once they are stored: for hosts that write files themselves. */
+/* Rows and checksums of parts as a file stores them, for hosts that write files themselves. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -23,10 +23,10 @@ void retex_part_stored_row(const RetexPart *part, int y, void *samples)
 
 typedef struct ChecksumJob {
     RetexSet *set;
-    int *failed; /* by part: no memory */
+    int *failed; /* by part: 1 = out of memory */
 } ChecksumJob;
 
-/* A sample's bytes in the order of files, least significant first. */
+/* Writes a sample's bytes in the byte order of files, least significant first. */
 static void put_sample(unsigned char *to, const unsigned char *samples, size_t index, size_t bytes)
 {
     uint32_t value = 0;

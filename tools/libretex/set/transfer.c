@@ -6,11 +6,11 @@
 
 #include "base/jobs.h"
 
-#define ROWS_A_JOB 64 /* a pack's band, some of a band store's */
+#define ROWS_A_JOB 64 /* rows of a pack's band; several bands of a band store */
 
 typedef struct TransferWork {
     const RetexImageTransfer *images;
-    int blocks; /* an image, at most */
+    int blocks; /* blocks of rows in the tallest image */
     RetexComputeRows *make;
     void *context;
     const RetexSet *set;

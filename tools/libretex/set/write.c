@@ -1,5 +1,5 @@
-/* Sets, samples and streams of both, to files. Parts are encoded first, because the manifest holds the checksums and
- * stands in the file's header. */
+/* Writes sets, samples and streams of both. Parts are encoded first, because the manifest, which is in the file's
+ * header, holds their checksums. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -12,8 +12,8 @@
 #include "set/parts.h"
 #include "set/staging.h"
 
-/* Decide which parts are kept. With samples only what recombination needs: the picture, the terms, and whole
- * footprints where no sample takes their place, so that another target can be sampled further down the pipe. */
+/* Decides which parts are written. With samples only those that recombination needs: the picture, the terms, and
+ * footprints that have no sample, so that another target can be sampled further down the pipe. */
 static void choose_parts(const RetexSet *set, const RetexSamples *samples, char *kept)
 {
     memset(kept, !samples, (size_t)set->nparts);
@@ -21,7 +21,8 @@ static void choose_parts(const RetexSet *set, const RetexSamples *samples, char 
         return;
     kept[0] = 1;
     for (int i = 0; i < set->nterms; i++)
-        kept[set->terms[i].radiance] = kept[set->terms[i].gain] = 1; /* no gain: the picture, which is kept */
+        kept[set->terms[i].radiance] = kept[set->terms[i].gain] = 1; /* gain 0 means none: then this is the picture,
+                                                                        which is kept anyway */
     for (int i = 0; i < set->nmixtures; i++)
         for (int k = 0; k < set->mixtures[i].nshares; k++)
             kept[set->mixtures[i].shares[k].weight] = 1;
@@ -47,7 +48,7 @@ static int mixture_is_sound(const RetexSet *set, const RetexMixture *mixture)
     return sound;
 }
 
-/* Everything about a set that others may have filled in by hand. */
+/* Checks everything about a set that a caller may have filled in by hand. */
 static int check_set(const RetexSet *set, RetexError *err)
 {
     if (set->nparts < 1 || set->nparts > RETEX_SET_PARTS_MAX || strcmp(set->parts[0].letters, "RGB") != 0 ||
@@ -74,15 +75,15 @@ static int check_set(const RetexSet *set, RetexError *err)
     return sound ? 0 : retex_fail(err, RETEX_EINVAL, "the set refers to parts it does not have");
 }
 
-/* A file on its way. */
+/* State of writing one file. */
 typedef struct Writing {
     const RetexSet *whole; /* or NULL */
     RetexSetView view;     /* of it */
     const RetexSamples *samples;
     RetexSamplePart *names;
     RetexBandSums sums;
-    RetexImage blank;    /* a pixel for a file that would otherwise be empty */
-    RetexExrPart *parts; /* those of the view, then those of samples */
+    RetexImage blank;    /* one pixel, for a file that would have no part */
+    RetexExrPart *parts; /* parts of the view, then of the samples */
     int count;
     RetexStaging staging;
     const char *path;
@@ -106,7 +107,7 @@ static int stage_part(Writing *w, RetexExrPart *exr, int part, int footprint, Re
     return retex_staging_add(&w->staging, exr, part, footprint, w->width, w->height, w->path, w->compress, err);
 }
 
-/* Say of all parts where their pixels are, after bringing what is in another file to where it can be had. */
+/* Lists all parts with the place of their pixels, after staging those of another open file. */
 static int list_parts(Writing *w, RetexError *err)
 {
     int status = 0;
@@ -144,7 +145,7 @@ static int keep_band_sums(Writing *w, const RetexExrEncoding *encoding, int part
     return crcs ? 0 : retex_fail(err, RETEX_ENOMEM, "no memory to write %s", w->path);
 }
 
-/* Keep the checksums where the manifest finds them. */
+/* Copies the checksums to where the manifest takes them from. */
 static int keep_sums(Writing *w, const RetexExrEncoding *encoding, RetexError *err)
 {
     int next = 0, status = 0;
@@ -168,7 +169,7 @@ static int keep_sums(Writing *w, const RetexExrEncoding *encoding, RetexError *e
     return status;
 }
 
-/* Encode the parts, write all. */
+/* Encodes the parts and writes the file. */
 static int write_parts(Writing *w, RetexError *err)
 {
     RetexSet *set = w->whole ? &w->view.set : NULL;
