@@ -6,9 +6,7 @@
 #include <string.h>
 
 #define STRENGTH 0.6f      /* k_f of Rousselle et al. 2013 */
-#define SLOPE                                                                                                          \
-    0.3f                   /* distance from the tangent plane, per distance, at which two points still count as one
-                              surface */
+#define SLOPE 0.3f         /* distance from the tangent plane, per distance, that counts as one surface */
 #define LEAST_NORMAL 4e-3f /* squared differences below this do not count */
 #define LEAST_ALBEDO 2e-3f
 #define LEAST_SHARE 4e-3f

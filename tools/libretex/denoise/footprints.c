@@ -11,9 +11,7 @@
 #define CLUSTERS_LEAST 2 /* clusters of broad light that a pixel may always have */
 #define CLUSTERS_MOST 3
 #define NEAR 0.1 /* fraction of a cluster's width that another pixel's may be away */
-#define FAR                                                                                                            \
-    0.05 /* fraction of its weight that merging a cluster may lose: beyond, it opens another one if there is
-                    capacity */
+#define FAR 0.05 /* share of its weight that merging may lose: with more a cluster stays apart, within capacity */
 
 /* ---- one pixel ---- */
 

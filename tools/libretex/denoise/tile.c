@@ -13,15 +13,11 @@
 #define STRENGTH 0.45f    /* in standard deviations, at params.strength 1: k of Rousselle et al. 2012 */
 #define LEAST_COVER 0.02f /* coverage of a target below which it counts as not seen */
 #define LEAST_MODULATION 0.2f
-#define TARGET_BRIGHTNESS                                                                                              \
-    0.3f                       /* brightness assumed for a target in light that its texture does not multiply:
-                                  mirrors have more, matte surfaces less */
+#define TARGET_BRIGHTNESS 0.3f /* assumed of a target in light that its texture does not multiply */
 #define LEAST_DIFFERENCE 1e-6f /* squared relative difference below which nothing is visible */
 #define ERROR_RADIUS 2         /* radius of the patch over which candidates are compared */
 #define CHOICE_RADIUS 2        /* radius over which the choice is smoothed */
-#define SPIKE                                                                                                          \
-    40                         /* a pixel whose squared difference of halves is so many times the variance around is
-                                  a spike and chooses for itself */
+#define SPIKE 40               /* times the variance around: such a squared difference of halves is a spike */
 #define NEIGHBOUR_STEP 3       /* footprints are pooled over a grid of pixels of this step, */
 #define NEIGHBOUR_REACH 2      /* so many steps to each side */
 #define NEIGHBOURS_MAX ((2 * NEIGHBOUR_REACH + 1) * (2 * NEIGHBOUR_REACH + 1))

@@ -1,11 +1,12 @@
-/* LDR-FLIP: the difference a person sees when two pictures alternate on a screen.
+/* LDR-FLIP: the difference that a person sees when two pictures alternate on a screen.
  *
  * Source: Andersson, Nilsson, Akenine-Möller, Oskarsson, Åström, Fairchild: 'FLIP: A Difference Evaluator for
- * Alternating Images', 2020. Two pipelines per picture: colours, low-passed as the eye does at that distance (section
- * 4.1.1), in Hunt-adjusted L*a*b* with the HyAB distance (4.1.2, 4.1.3); and edges and points (4.2). The features raise
- * the colour difference (4.3). All filters are sums of separable ones, so one horizontal and one vertical pass do.
+ * Alternating Images', 2020. Each picture has two pipelines: colours, low-pass filtered as by the eye at that distance
+ * (section 4.1.1), in Hunt-adjusted L*a*b* with the HyAB distance (4.1.2, 4.1.3); and edges and points (4.2). The
+ * features increase the colour difference (4.3).
  *
- * Work is cut into bands of rows with a margin; a band's result does not depend on the others. */
+ * All filters are sums of separable ones, so that one horizontal and one vertical pass suffice. The picture is
+ * processed in bands of rows with a margin; a band's result does not depend on the others. */
 #include "metrics/flip.h"
 
 #include <math.h>
@@ -24,12 +25,12 @@ enum { RADIUS = 10, TAPS = 2 * RADIUS + 1, BAND = 32, ROWS = BAND + 2 * RADIUS }
 
 /* Horizontally filtered planes of a band with margin; all but the last three serve the colour pipeline. */
 enum { H_Y, H_CX, H_CZ1, H_CZ2, H_EDGE, H_POINT, H_SMOOTH, H_PLANES };
-/* What is compared, per pixel of a band. */
+/* Planes that are compared, for a band. */
 enum { F_L, F_A, F_B, F_EDGE, F_POINT, F_PLANES };
 
 typedef struct Filters {
     float y[TAPS], cx[TAPS], cz1[TAPS], cz2[TAPS]; /* contrast sensitivity; each sums to 1 */
-    float cz1_share;                               /* of the first of blue-yellow's two Gaussians */
+    float cz1_share;                               /* weight of the first of the two blue-yellow Gaussians */
     float smooth[TAPS], edge[TAPS], point[TAPS];   /* Gaussian and its derivatives; +1 and -1 of positive, negative */
     float color_max;                               /* the largest colour difference, to the power q_c: green to blue */
 } Filters;
@@ -117,7 +118,7 @@ static double csf_gaussian(float taps[TAPS], double b)
     return sum;
 }
 
-/* Scale so that what is positive sums to 1 and what is negative to -1. */
+/* Scales so that positive values sum to 1 and negative ones to -1. */
 static void balance(float taps[TAPS], const double value[TAPS])
 {
     double positive = 0, negative = 0;

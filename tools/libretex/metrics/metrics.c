@@ -1,6 +1,5 @@
-/* How different two pictures are: PSNR, relMSE, mean and largest errors, FLIP. See retex/metrics.h.
- *
- * Rows are summed on their own and then in order, so the figures are the same for every number of threads. */
+/* The difference of two pictures: PSNR, relMSE, mean and largest errors, FLIP. See <retex/metrics.h>. Each row is
+ * summed separately, and rows are added in order, so that the figures are the same for every number of threads. */
 #include <retex/metrics.h>
 
 #include <math.h>

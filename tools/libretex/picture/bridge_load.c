@@ -1,4 +1,4 @@
-/* Finds and loads libretex-oiio.so, once a process, when the first picture needs it. */
+/* Finds and loads libretex-oiio.so, once per process, when the first picture needs it. */
 #include "picture/bridge_load.h"
 #include "io/pending_files.h"
 
@@ -23,7 +23,7 @@ static struct {
     RetexBridgeWrite *write;
     RetexBridgeCheck *check;
     RetexBridgeRemove *remove;
-    char message[512]; /* why it could not be loaded; "" = it is */
+    char message[512]; /* why it could not be loaded; "" = it is loaded */
 } bridge = {.once = PTHREAD_ONCE_INIT};
 
 static void keep_message(const char *text)
@@ -31,7 +31,7 @@ static void keep_message(const char *text)
     snprintf(bridge.message, sizeof bridge.message, "%s", text ? text : "unknown reason");
 }
 
-/* RTLD_LOCAL keeps the two hundred libraries behind OpenImageIO out of the name space of whoever hosts us. */
+/* RTLD_LOCAL keeps the symbols of the two hundred libraries that OpenImageIO needs away from the host program. */
 static void *open_library(const char *path)
 {
     void *library = dlopen(path, RTLD_NOW | RTLD_LOCAL);
@@ -67,7 +67,7 @@ static void load_bridge(void)
     const char *named = getenv("RETEX_BRIDGE");
     void *library;
     if (named && *named) {
-        library = open_library(named); /* named on purpose: no other one may stand in for it */
+        library = open_library(named); /* the user named this one: no other may replace it */
     } else {
         library = open_library(BRIDGE_NAME);
         if (!library)
@@ -75,7 +75,7 @@ static void load_bridge(void)
     }
     if (!library)
         return;
-    /* ISO C has no conversion from object to function pointers; POSIX promises that this one works. */
+    /* ISO C has no conversion from object to function pointers; POSIX guarantees this one. */
     RetexBridgeAbi *abi = NULL;
     *(void **)&abi = dlsym(library, "retex_oiio_abi");
     *(void **)&bridge.read = dlsym(library, "retex_oiio_read");
@@ -132,7 +132,7 @@ int retex_bridge_plan(RetexBridgePlan **plan, RetexBridgeStored *stored, const c
     return code ? code : bridge.plan(plan, stored, path, width, height, channels, params, err);
 }
 
-/* Who has a plan has loaded the bridge. */
+/* A plan exists only if the bridge is loaded. */
 void retex_bridge_plan_free(RetexBridgePlan **plan)
 {
     if (plan && *plan)

@@ -1,5 +1,6 @@
-/* The bridge: OpenImageIO and OpenColorIO behind a few C calls. They live in a library of their own, libretex-oiio.so,
- * loaded on first use, because linking OpenImageIO costs every process 0.17 s of start-up and most need none of it. */
+/* The bridge: OpenImageIO and OpenColorIO behind a few C functions. They are in a library of their own,
+ * libretex-oiio.so, loaded on first use, because linking OpenImageIO costs every process 0.17 s of start-up time, and
+ * most processes do not need it. */
 #ifndef RETEX_PICTURE_BRIDGE_LOAD_H
 #define RETEX_PICTURE_BRIDGE_LOAD_H
 
@@ -12,21 +13,23 @@
 extern "C" {
 #endif
 
-/* Whether a colour space, by its name or by none, is what we compute in: then OpenColorIO is not needed for an EXR. */
+/* 1 if a colour space, by its name or NULL, is the one in which the library computes: then an EXR needs no
+ * OpenColorIO. */
 int retex_names_linear(const char *colorspace);
 
-/* What is to be read. */
+/* A file to read. */
 typedef struct RetexBridgeFile {
     const char *path;
-    const char *format;     /* OpenImageIO's name of the one decoder that may see it, or NULL: any one */
-    int descriptor;         /* with a format: the file, in place of path, which then is for messages only */
+    const char *format;     /* OpenImageIO's name of the only decoder that may be used, or NULL: any */
+    int descriptor;         /* with a format: the file's descriptor, used instead of path, which then is for messages
+                               only */
     const char *colorspace; /* or NULL */
     long max_pixels;        /* 0 = no limit */
-    char limit[64];         /* that in words */
+    char limit[64];         /* the limit in words, for messages */
 } RetexBridgeFile;
 
-/* Read any file OpenImageIO knows as R,G,B,A, scene-linear Rec.709, unassociated alpha; as retex_image_read, of
- * which it is the general case. dst is unallocated. */
+/* Read any file that OpenImageIO reads as R,G,B,A, scene-linear Rec.709, unassociated alpha: the general case of
+ * retex_image_read. dst is unallocated. */
 int retex_bridge_read(RetexImage *dst, const RetexBridgeFile *file, RetexError *err);
 
 /* An image of 16-bit integers, 65535 for 1: R,G,B,A, scene-linear Rec.709, premultiplied, rows from the top. The
@@ -36,25 +39,26 @@ typedef struct RetexNarrowImage {
     uint16_t *pixels;
 } RetexNarrowImage;
 
-/* The same picture without floats, for files of 8- and 16-bit integers whose channels are decoded one by one. Others
- * are left alone: dst->pixels stays NULL. */
+/* Read the same picture as integers, for files of 8- and 16-bit integers whose channels are decoded one by one. For
+ * other files dst->pixels stays NULL. */
 int retex_bridge_read_narrow(RetexNarrowImage *dst, const RetexBridgeFile *file, RetexError *err);
 
-/* In base/image.c: the same for any path that retex_image_read_with takes. */
+/* In image_read.c: the same for any path that retex_image_read_with takes. */
 int retex_image_read_narrow(RetexNarrowImage *dst, const char *path, const RetexReadParams *params, RetexError *err);
 
-/* How a picture of that size goes into a file of the format that path's ending names, in the colours that params name.
- * Neither is needed afterwards. */
+/* A plan: how a picture of that size is stored in a file of the format that path's ending names, in the colours that
+ * params name. path and params are not needed afterwards. */
 typedef struct RetexBridgePlan RetexBridgePlan;
 
-/* What such a file stores of a pixel. */
+/* The samples that such a file stores for a pixel. */
 typedef struct RetexBridgeStored {
-    int channels; /* fewer than the picture has where the format knows no alpha */
-    int bits;     /* a sample: 8, 16, or 32 for floats */
-    int is_srgb;  /* colours are shown as plain sRGB, alpha apart or lost: whoever knows the curve may store them */
-    /* Of params->colorspace, as far as the configuration tells: */
+    int channels; /* fewer than the picture has where the format has no alpha */
+    int bits;     /* bits a sample: 8, 16, or 32 for floats */
+    int is_srgb;  /* 1: colours are plain sRGB, and alpha is separate or absent: then the library can convert them
+                     itself */
+    /* What the configuration says of params->colorspace: */
     char interop[64];          /* the interop ID that the space has as its name or an alias, "data", or "" */
-    int is_linear;             /* 1: a linear space, and this leads to it from scene-linear Rec.709: */
+    int is_linear;             /* 1: a linear space; this matrix leads to it from scene-linear Rec.709: */
     double from_rec709[3][3];
 } RetexBridgeStored;
 
@@ -62,21 +66,21 @@ int retex_bridge_plan(RetexBridgePlan **plan, RetexBridgeStored *stored, const c
                       int channels, const RetexWriteParams *params, RetexError *err);
 void retex_bridge_plan_free(RetexBridgePlan **plan); /* NULL in it is fine */
 
-/* Scene-linear pixels as the file stores them; from any thread. */
+/* Convert scene-linear pixels to the file's samples; from any thread. */
 int retex_bridge_convert(const RetexBridgePlan *plan, const float *rows, long pixels, void *samples, RetexError *err);
 
-/* Where the bytes of a written picture go: returns 0 or a RETEX_E… that ends the writing, with err filled. */
+/* Receives the bytes of a picture that is written: returns 0 or a RETEX_E… that ends the writing, with err filled. */
 typedef int RetexBridgeSink(void *context, const void *data, size_t bytes, RetexError *err);
 
-/* Encode all stored samples of the picture and hand the file to sink. The path of the plan is not opened. */
+/* Encode all samples of the picture and write the file to sink. The path of the plan is not opened. */
 int retex_bridge_write(const RetexBridgePlan *plan, const void *samples, RetexBridgeSink *sink, void *context,
                        RetexError *err);
 
-/* Whether there is such a format, and the colour space or the display that params name. */
+/* Check that the format, and the colour space or the display that params name, exist. */
 int retex_bridge_check(const char *path, const RetexWriteParams *params, RetexError *err);
 
-/* What the library exports and what it is given. The library has no part of libretex inside: memory of images comes
- * from the caller's functions. */
+/* The functions that the library exports and those that it receives. The library contains no part of libretex: memory
+ * of images comes from the caller's functions. */
 typedef struct RetexBridgeHost {
     int (*image_alloc)(RetexImage *im, int width, int height, int channels, RetexError *err);
     void (*image_free)(RetexImage *im);
@@ -96,7 +100,7 @@ typedef int RetexBridgeConvert(const RetexBridgePlan *plan, const float *rows, l
                                RetexError *err);
 typedef int RetexBridgeWrite(const RetexBridgePlan *plan, const void *samples, RetexBridgeSink *sink, void *context,
                              RetexError *err);
-/* Before the process ends: temporary files that have a name. */
+/* Remove temporary files that have a name, before the process ends. */
 typedef void RetexBridgeRemove(void);
 typedef int RetexBridgeCheck(const char *path, const RetexWriteParams *params, RetexError *err);
 

@@ -1,20 +1,20 @@
-/* EXR of halves, scene-linear unless a colour space is named, for which there is the bridge. The table of where chunks
- * are comes before them: a file gets it in the end, where there was room for it; to a pipe nothing goes before all is
- * there. */
+/* EXR of halves, scene-linear unless a colour space is named, for which the bridge is used. The table of chunk offsets
+ * precedes the chunks: in a file its place is reserved and written at the end; to a pipe nothing is written before all
+ * chunks are there. */
 #include <stdlib.h>
 #include <string.h>
 
 #include "exr/io.h"
 #include "picture/format.h"
 
-enum { LEADER = 8, ENTRY = 8 }; /* bytes before a chunk: its first line, its size; of a table's entry */
+enum { LEADER = 8, ENTRY = 8 }; /* bytes before a chunk: its first line and its size; bytes of an entry of the table */
 
 typedef struct ExrState {
     RetexImage shape; /* no pixels */
     RetexExrPart part;
-    RetexColorTag color;        /* of part; known when the first band is made */
-    RetexExrEncoding *encoding; /* for what is no file; or NULL, and: */
-    unsigned char *header;      /* up to the table; made with the first band */
+    RetexColorTag color;        /* colours of part; known when the first band is encoded */
+    RetexExrEncoding *encoding; /* for outputs that are not files; or NULL, and: */
+    unsigned char *header;      /* everything before the table; made with the first band */
     size_t header_bytes;
     uint64_t *chunks; /* bytes of each */
     int nchunks;
@@ -39,7 +39,8 @@ static int exr_begin(RetexPicture *picture, RetexError *err)
     return state->chunks ? 0 : retex_fail(err, RETEX_ENOMEM, "no memory to write %s", picture->path);
 }
 
-/* What is known of the colours that the bridge makes. A name of the space goes before what its matrix is like. */
+/* Fills in the colours that the bridge produces. The interop ID of the space's name has precedence over that of its
+ * matrix. */
 static void tag_colors(RetexColorTag *tag, const RetexBridgeStored *stored)
 {
     const RetexColorTag *known = retex_color_tag_find(stored->interop);
@@ -51,7 +52,7 @@ static void tag_colors(RetexColorTag *tag, const RetexBridgeStored *stored)
         strcpy(tag->interop, stored->interop);
 }
 
-/* With the first band, for a plan is waited for there. */
+/* Makes the header when the first band comes, because that waits for the bridge's plan. */
 static int make_header(RetexPicture *picture, RetexError *err)
 {
     ExrState *state = picture->state;
@@ -70,7 +71,7 @@ static void associate(float *associated, const float *rows, size_t pixels)
     }
 }
 
-/* Pixels as the file has them, where these are others: in the space asked for, and multiplied by alpha. */
+/* Converts pixels to those of the file, where these differ: in the named space, and multiplied by alpha. */
 static int convert(const RetexPicture *picture, float **converted, const float *rows, int lines, RetexError *err)
 {
     const size_t pixels = (size_t)picture->width * (size_t)lines;
@@ -92,7 +93,7 @@ static void put_little(unsigned char *to, uint64_t value, int bytes)
         to[i] = (unsigned char)(value >> 8 * i);
 }
 
-/* Chunks of a band, one after the other. Returns their bytes, or 0 where memory is short. */
+/* Encodes the chunks of a band one after another. Returns their bytes, or 0 where memory is short. */
 static size_t make_chunks(ExrState *state, unsigned char *to, int y0, int y1, const float *rows)
 {
     RetexChunkScratch scratch = {.raw = NULL};
@@ -116,7 +117,7 @@ static size_t make_chunks(ExrState *state, unsigned char *to, int y0, int y1, co
     return at;
 }
 
-/* The header and room for the table before the first band, and its chunks. */
+/* Makes the piece of a band: its chunks, for the first band preceded by the header and the reserved table. */
 static unsigned char *make_piece(ExrState *state, int y0, int y1, const float *rows, size_t *bytes)
 {
     const RetexChunkShape shape = {state->part.letters, RETEX_HALF, state->shape.width, y1 - y0};
@@ -166,7 +167,7 @@ static int exr_band(RetexPicture *picture, int band, const float *rows, RetexErr
     return status ? status : retex_picture_submit_band(picture, band, piece, bytes, err);
 }
 
-/* Where all chunks are, as their table has it. */
+/* Writes the table of chunk offsets. */
 static int write_table(RetexPicture *picture, const ExrState *state, RetexError *err)
 {
     const size_t bytes = ENTRY * (size_t)state->nchunks;

@@ -26,7 +26,7 @@ static int is_tiff(const unsigned char *begin)
     return 0;
 }
 
-/* Two letters are no more than a hint: the header's size has to be one that exists. */
+/* "BM" alone is weak evidence: the header's size must be one that exists. */
 static int is_bmp(const unsigned char *begin)
 {
     static const unsigned sizes[] = {12, 40, 52, 56, 64, 108, 124};
@@ -37,7 +37,7 @@ static int is_bmp(const unsigned char *begin)
     return 0;
 }
 
-/* The palette and, where pixels are stored as they are, all of them have to be in the file. */
+/* The palette must be inside the file and, without compression, all pixels too. */
 static int is_plausible_tga(const unsigned char *h, uint64_t size)
 {
     const unsigned type = h[2], packed = type & 8, kind = type & 7, bits = h[16], palette_bits = h[7];

@@ -1,7 +1,6 @@
-/* Who reads a picture's file, by what is in it; for writing see picture.c.
- *
- * EXR goes through OpenEXRCore, which starts in 2 ms; every other format, and what Core cannot decode, through the
- * bridge, which loads OpenImageIO. */
+/* Reads pictures, by the decoder that the file's content asks for; picture.c writes them. EXR is read by OpenEXRCore,
+ * which starts in 2 ms, every other format, and EXR files that Core cannot decode, by the bridge, which loads
+ * OpenImageIO. */
 #include <errno.h>
 #include <stdint.h>
 #include <stdio.h>
@@ -20,7 +19,8 @@
 #include "picture/image_format.h"
 #include "picture/jpeg_read.h"
 
-/* Which channels of an EXR's first part are its colours: R, G, B, or the grey Y, and A. 0 where there are none. */
+/* Chooses the channels of an EXR's first part that are its colours: R, G, B, or the grey Y, and A. 0 where there are
+ * none. */
 static int choose_channels(const RetexExr *exr, RetexExrRequest *request, int *grey)
 {
     static const char colors[3][2] = {"R", "G", "B"};
@@ -41,7 +41,7 @@ static int choose_channels(const RetexExr *exr, RetexExrRequest *request, int *g
     return 1;
 }
 
-/* From what an EXR holds, associated alpha or none, to what images here have. */
+/* Converts the pixels of an EXR, with associated alpha or none, to those of a RetexImage. */
 static void finish_pixels(RetexImage *image, int grey, int has_alpha)
 {
     const size_t count = (size_t)image->width * (size_t)image->height;
@@ -66,7 +66,7 @@ static int check_pixels(int width, int height, const RetexBridgeFile *file, cons
     return 0;
 }
 
-/* The smaller of two limits, and in words which one that is. */
+/* Sets the smaller of two limits, and its name for messages. */
 static void set_limit(RetexBridgeFile *file, const RetexReadParams *params)
 {
     const uint64_t left = retex_budget_left(params->budget),
@@ -82,16 +82,16 @@ static void set_limit(RetexBridgeFile *file, const RetexReadParams *params)
     }
 }
 
-/* What is done with an EXR's colours, by what it says of them. */
+/* How the colours of an EXR are converted. */
 typedef struct ExrColors {
-    const char *colorspace; /* "" = they are linear, and where converted this leads to Rec.709: */
+    const char *colorspace; /* "" = linear; where converted is 1 this matrix leads to Rec.709: */
     int converted;
     double matrix[3][3];
     RetexColorTag tag;
 } ExrColors;
 
-/* The interop ID goes before the chromaticities, which stand where it is not known. A file that says nothing is
- * scene-linear Rec.709, and data are left alone. */
+/* Chooses the conversion. The interop ID has precedence; chromaticities are used where it is unknown. A file without
+ * either is scene-linear Rec.709; data are not converted. */
 static void choose_colors(ExrColors *colors, const RetexExr *exr, int is_unknown)
 {
     const RetexColorTag *tag = &colors->tag;
@@ -121,7 +121,7 @@ static void convert_colors(RetexImage *image, const ExrColors *colors)
     }
 }
 
-/* Read an open EXR. RETEX_EUNSUPPORTED: whole and sound, but not for this reader. */
+/* Reads an open EXR. RETEX_EUNSUPPORTED: the file is sound, but this reader cannot read it. */
 static int read_exr(RetexImage *dst, RetexExr *exr, const char *name, const RetexBridgeFile *file, RetexError *err)
 {
     RetexExrRequest request = {.part = 0};
@@ -162,7 +162,7 @@ static RetexReadParams understand(const RetexReadParams *given)
     return params;
 }
 
-/* What the bridge is to do with an open file: with any decoder, or, for safe access, with that of its content. */
+/* Chooses the bridge's decoder: any, or for safe access that of the content. */
 static int choose_decoder(RetexBridgeFile *file, const RetexInput *input, const char *path,
                           const RetexReadParams *params, RetexError *err)
 {
@@ -185,7 +185,7 @@ static int choose_decoder(RetexBridgeFile *file, const RetexInput *input, const 
     return 0;
 }
 
-/* An EXR of linear colours here, if it can be; else by the bridge. */
+/* Reads an EXR with linear colours here if possible, else by the bridge. */
 static int read_in_space(RetexImage *dst, RetexExr *exr, const RetexInput *input, const RetexBridgeFile *file,
                          RetexError *err)
 {
@@ -201,7 +201,7 @@ static int read_in_space(RetexImage *dst, RetexExr *exr, const RetexInput *input
     return status;
 }
 
-/* An EXR in the space that it says itself, as far as that is known. */
+/* Reads an EXR in the colour space that its header names, as far as it is known. */
 static int read_tagged(RetexImage *dst, RetexExr *exr, const RetexInput *input, const RetexBridgeFile *file,
                        RetexError *err)
 {
@@ -263,7 +263,7 @@ int retex_image_read_with(RetexImage *dst, const char *path, const RetexReadPara
     return status;
 }
 
-/* Whether the bridge reads a file, by its beginning: no picture is read that has more than one pixel. */
+/* Checks whether the bridge can read a file, by its beginning: with a limit of one pixel no picture is decoded. */
 static int bridge_check(RetexBridgeFile file, RetexError *err)
 {
     RetexImage image = {0};
@@ -277,7 +277,7 @@ static int bridge_check(RetexBridgeFile file, RetexError *err)
     return status == RETEX_ELIMIT ? 0 : status;
 }
 
-/* 0 where the header of an EXR is one that can be read, here or by the bridge. */
+/* Checks the header of an EXR: 0 if it can be read, here or by the bridge. */
 static int check_exr(RetexInput *input, const RetexBridgeFile *file, RetexError *err)
 {
     RetexExr *exr = NULL;
@@ -335,7 +335,7 @@ int retex_image_read_narrow(RetexNarrowImage *dst, const char *path, const Retex
     if (!status)
         status = choose_decoder(&file, input, path, &params, err);
     if (!status && !retex_exr_probe(input)) {
-        const char *ocio = getenv("OCIO"); /* whether it is of use is for the bridge to say */
+        const char *ocio = getenv("OCIO"); /* the bridge decides whether it is usable */
         const int named = params.colorspace && params.colorspace[0];
         if (named ? strcasecmp(params.colorspace, "sRGB") == 0 : !ocio || !ocio[0])
             status = retex_jpeg_read_narrow(dst, input, file.max_pixels, err);

@@ -1,6 +1,6 @@
-/* JPEG, band by band. Each band is compressed by itself, as if it were a picture; quantisation and Huffman tables do
- * not depend on what is in it, so that of all but the first only the entropy-coded data are kept, and restart markers,
- * at which decoders begin anew anyhow, join them. The pixels are those of a picture compressed in one go. */
+/* JPEG, band by band. Each band is compressed separately, as if it were a picture. Quantisation and Huffman tables do
+ * not depend on the content, so that of all bands but the first only the entropy-coded data are used, joined by restart
+ * markers, at which decoders start again anyway. The pixels are the same as when the picture is compressed at once. */
 #include <setjmp.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -10,14 +10,14 @@
 
 #include "picture/format.h"
 
-/* Whole numbers of MCUs, which have 8 or 16 lines; no restart interval is too long for the 16 bits that it has. */
+/* A band is a whole number of MCUs, which have 8 or 16 lines; no restart interval is too long for its 16 bits. */
 _Static_assert(RETEX_PICTURE_BAND % 16 == 0, "a band ends where MCUs do");
 _Static_assert((JPEG_MAX_DIMENSION + 7) / 8 * (RETEX_PICTURE_BAND / 8) <= 65535, "a band has too many MCUs");
 
 enum { QUALITY_OF_FULL_COLOR = 90, INITIAL_CAPACITY = 1 << 16, MARKER_BYTES = 2 };
 
 typedef struct Compressor {
-    struct jpeg_compress_struct jpeg; /* first: libjpeg hands back pointers to it */
+    struct jpeg_compress_struct jpeg; /* first member: libjpeg passes pointers to it */
     struct jpeg_error_mgr errors;
     struct jpeg_destination_mgr to;
     jmp_buf failed;
@@ -71,7 +71,7 @@ static void end_output(j_compress_ptr jpeg)
     (void)jpeg;
 }
 
-/* Who made it and, where it is true, that it is sRGB: the tags that viewers and cameras know. */
+/* Writes the program's name and, where it is true, that the colours are sRGB, as Exif tags. */
 static void write_exif(j_compress_ptr jpeg, int is_srgb)
 {
     static const unsigned char is_made_by[] = "Exif\0\0II*\0\010\0\0\0\001\0\061\001\002\0\006\0\0\0\032\0\0\0\0\0\0\0"
@@ -87,7 +87,7 @@ static void write_exif(j_compress_ptr jpeg, int is_srgb)
         jpeg_write_marker(jpeg, JPEG_APP0 + 1, is_made_by, sizeof is_made_by);
 }
 
-/* The file up to where the coded data begin. */
+/* Writes the file up to the coded data. */
 static void begin_file(Compressor *c, const RetexPicture *picture, int lines)
 {
     struct jpeg_compress_struct *jpeg = &c->jpeg;
@@ -107,10 +107,10 @@ static void begin_file(Compressor *c, const RetexPicture *picture, int lines)
         jpeg->restart_in_rows = RETEX_PICTURE_BAND / (DCTSIZE * jpeg->comp_info[0].v_samp_factor);
     jpeg_start_compress(jpeg, TRUE);
     write_exif(jpeg, !picture->params.colorspace);
-    jpeg_write_scanlines(jpeg, NULL, 0); /* makes it write the tables */
+    jpeg_write_scanlines(jpeg, NULL, 0); /* writes the tables */
 }
 
-/* Compress; *head is how much of it comes before the coded data. */
+/* Compresses a band; *head is the number of bytes before the coded data. */
 static int compress(Compressor *c, const RetexPicture *picture, const uint8_t *codes, int lines, size_t *head)
 {
     const size_t row = (size_t)picture->width * (picture->channels == 1 ? 1 : 3);
@@ -155,7 +155,7 @@ static int run_compressor(unsigned char **data, size_t *head, size_t *bytes, con
     return 0;
 }
 
-/* What a band adds to the file: the header or a restart marker, its coded data, at the very end the end's marker. */
+/* Makes the piece of a band: the header or a restart marker, the coded data, and the end marker after the last band. */
 static int make_piece(RetexPicture *picture, int band, const uint8_t *codes, RetexError *err)
 {
     unsigned char *data, *whole = NULL;
@@ -214,7 +214,7 @@ static int jpeg_band(RetexPicture *picture, int band, const float *rows, RetexEr
 static int jpeg_finish(RetexPicture *picture, RetexError *err)
 {
     (void)picture, (void)err;
-    return 0; /* the last band brought the end */
+    return 0; /* the last band contains the end marker */
 }
 
 const RetexPictureFormat retex_picture_jpeg = {jpeg_begin, jpeg_band, jpeg_finish, NULL};

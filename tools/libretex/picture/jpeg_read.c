@@ -1,4 +1,4 @@
-/* See jpeg_read.h. Whatever is not as it is in nearly all files is left to OpenImageIO. */
+/* See jpeg_read.h. Files with rare features are left to OpenImageIO. */
 #include "picture/jpeg_read.h"
 
 #include <math.h>
@@ -29,7 +29,7 @@ static void leave(j_common_ptr jpeg)
     longjmp(d->failed, 1);
 }
 
-/* Warnings are of damage; other messages say nothing of interest. */
+/* Counts warnings, which mean damage; other messages are ignored. */
 static void message(j_common_ptr jpeg, int level)
 {
     if (level < 0)
@@ -45,7 +45,7 @@ static unsigned get_number(const unsigned char *at, int bytes, int big)
     return value;
 }
 
-/* EXIF's orientation, 1 where it says none; 0 where it cannot be made out. */
+/* The orientation by Exif, 1 where it is absent; 0 where the data are not understood. */
 static unsigned find_orientation(const unsigned char *exif, size_t bytes)
 {
     if (bytes < 14 || memcmp(exif, "Exif\0", 6) != 0)
@@ -80,7 +80,7 @@ static int is_plain(const struct jpeg_decompress_struct *jpeg, long max_pixels)
     return 1;
 }
 
-/* Linear levels of the file's: as the bridge has them. */
+/* Linear values of the file's levels, the same as the bridge's. */
 static void fill_table(uint16_t table[256])
 {
     for (int i = 0; i < 256; i++) {
@@ -100,7 +100,7 @@ static void convert(uint16_t *restrict to, const unsigned char *restrict from, s
     }
 }
 
-/* 1: all of it is in d->pixels; 0: it is for others; -1: not enough memory. */
+/* 1: decoded into d->pixels; 0: a file for OpenImageIO; -1: out of memory. */
 static int decode(Decoder *d, const void *data, size_t bytes, long max_pixels)
 {
     struct jpeg_decompress_struct *jpeg = &d->jpeg;

@@ -5,9 +5,9 @@
 #include "picture/bridge_load.h"
 #include "io/input.h"
 
-/* What retex_bridge_read_narrow would give for a file whose colours are sRGB. dst->pixels stays NULL where the file is
- * not a whole, upright JPEG of grey or three colours, or has more pixels than that (0: no limit): then the bridge has
- * to look at it, and to say what is wrong. Fails for want of memory only. */
+/* Read what retex_bridge_read_narrow would for a file whose colours are sRGB. dst->pixels stays NULL where the file is
+ * not a complete, upright JPEG with one or three colours, or has more than max_pixels pixels (0: no limit): then the
+ * bridge must read it and report problems. Fails for lack of memory only. */
 int retex_jpeg_read_narrow(RetexNarrowImage *dst, RetexInput *input, long max_pixels, RetexError *err);
 
 #endif

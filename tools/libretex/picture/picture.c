@@ -1,5 +1,5 @@
-/* Pictures written while they are made: which format it is, the order of the bands, and the turn from scene-linear to
- * what a display shows. See retex/picture.h; the formats are in picture_*.c. */
+/* Pictures that are written band by band: choice of the format, order of the bands, and conversion from scene-linear to
+ * display colours. See <retex/picture.h>; formats are in files of their own, see format.h. */
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
@@ -18,7 +18,7 @@ static const char *ending_of(const char *path)
     return dot ? dot + 1 : "";
 }
 
-/* Whether it is an EXR, and one that needs no OpenColorIO. */
+/* 1 for an EXR that needs no OpenColorIO. */
 static int is_exr(const char *path, const RetexWriteParams *params)
 {
     return strcasecmp(ending_of(path), "exr") == 0 ||
@@ -30,7 +30,7 @@ static int is_linear_exr(const char *path, const RetexWriteParams *params)
     return is_exr(path, params) && (params->is_data || retex_names_linear(params->colorspace));
 }
 
-/* The format of that ending, where it is one that is made here. */
+/* The format by the path's ending, where it is encoded in this room. */
 static const RetexPictureFormat *own_format(const char *path)
 {
     static const char *const jpeg_endings[] = {"jpg", "jpe", "jpeg", "jif", "jfif", "jfi"};
@@ -49,7 +49,7 @@ static int is_given(const char *text)
     return text && text[0];
 }
 
-/* Whether colours are those that need no OpenColorIO: of the built-in configuration, as it shows them by default. */
+/* 1 if the colours are those of the built-in configuration by default, which need no OpenColorIO. */
 static int has_own_colors(const RetexWriteParams *params)
 {
     return !is_given(params->colorspace) && !is_given(params->display) && !is_given(params->view) &&
@@ -66,7 +66,7 @@ static int check_params(const char *path, const RetexWriteParams *params, RetexE
     return 0;
 }
 
-/* What was given, and the defaults for what an older caller's struct has not. */
+/* The given parameters, with defaults for members that an older caller's struct does not have. */
 static RetexWriteParams complete(const RetexWriteParams *given)
 {
     RetexWriteParams params = RETEX_WRITE_INIT;
@@ -156,7 +156,7 @@ static RetexPicture *new_picture(const char *path, int width, int height, int ch
     return NULL;
 }
 
-/* Begin to load the bridge; where there is no thread for it, right here. */
+/* Starts loading the bridge in a thread; where no thread is available, loads it here. */
 static void begin_loading(RetexPicture *picture)
 {
     picture->bridged = 1;
@@ -240,7 +240,8 @@ int retex_picture_submit_band(RetexPicture *picture, int band, unsigned char *da
     return status;
 }
 
-/* Take a band for this thread: it must be one, and of nobody else. After a failure there is no point in going on. */
+/* Claims a band for this thread: it must be a whole band that no other thread has claimed. After a failure all calls
+ * fail. */
 static int take_band(RetexPicture *picture, int y0, int y1, RetexError *err)
 {
     const int band = y0 / RETEX_PICTURE_BAND;
@@ -307,7 +308,7 @@ int retex_picture_close(RetexPicture **result, int keep, RetexError *err)
 
 /* --- colours --- */
 
-/* Alpha goes as it is, or is lost. */
+/* Converts alpha without the curve, or drops it. */
 static int convert_alpha(RetexPicture *picture, uint8_t *codes, int channels, const float *rows, size_t pixels,
                          RetexError *err)
 {

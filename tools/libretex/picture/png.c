@@ -1,9 +1,7 @@
-/* PNG of 8 bits, band by band. Each band is filtered and deflated by itself, as a piece of one zlib stream: it begins
- * and ends at a whole byte, refers to nothing before it, and is an IDAT chunk. The checksum of all is put together from
- * those of the bands.
- *
- * Renders have noise in their low bits, where filters leave little to repeat: what ISA-L's quick level finds, after the
- * best of all filters, packs them as tightly as zlib's level 6 does, in much less time. */
+/* PNG of 8 bits, band by band. Each band is filtered and deflated separately, as a piece of one zlib stream: it begins
+ * and ends at a whole byte, refers to nothing before it, and is an IDAT chunk. The checksum of the stream is combined
+ * from those of the bands. Renders have noise in their low bits, where filters leave little to compress: with the best
+ * of all filters ISA-L's fast level gives files as small as zlib's level 6, in much less time. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -27,7 +25,7 @@ static void put_32(unsigned char *to, uint32_t value)
         to[i] = (unsigned char)(value >> (24 - 8 * i));
 }
 
-/* A chunk around bytes that are in their place already; how long it is in all. */
+/* Completes a chunk whose bytes are in place; returns its whole length. */
 static size_t close_chunk(unsigned char *chunk, const char *type, size_t bytes)
 {
     put_32(chunk, (uint32_t)bytes);
@@ -43,7 +41,7 @@ static size_t add_chunk(unsigned char *to, const char *type, const void *data, s
     return close_chunk(to, type, bytes);
 }
 
-/* Everything before the pixels. Colours are tagged as sRGB where they went through a display transform; gamma and
+/* Writes everything before the pixels. Colours that went through a display transform are tagged as sRGB; gamma and
  * primaries are for readers that do not know that tag. */
 static size_t write_header(unsigned char *to, const RetexPicture *picture)
 {
@@ -74,7 +72,7 @@ static size_t line_bytes(const RetexPicture *picture)
     return (size_t)picture->width * (size_t)picture->channels;
 }
 
-/* The first line looks at no other: that is in another band. */
+/* Filters lines; the first line of a band must not use the line above, which is in another band. */
 static int filter_lines(unsigned char *filtered, const RetexPicture *picture, const uint8_t *codes, int lines)
 {
     const size_t bytes = line_bytes(picture);
@@ -89,7 +87,7 @@ static int filter_lines(unsigned char *filtered, const RetexPicture *picture, co
     return trial != NULL;
 }
 
-/* Deflate into memory with room for head bytes before and tail bytes after; NULL where memory is short. */
+/* Deflates into new memory with head bytes before and tail bytes after; NULL where memory is short. */
 static unsigned char *deflate_lines(const unsigned char *filtered, size_t bytes, int is_last, size_t head, size_t tail,
                                     size_t *packed_bytes)
 {
@@ -103,7 +101,7 @@ static unsigned char *deflate_lines(const unsigned char *filtered, size_t bytes,
     return NULL;
 }
 
-/* What a band adds to the file: the header before the first, and an IDAT chunk. */
+/* Makes the piece of a band: an IDAT chunk, for the first band preceded by the header. */
 static unsigned char *make_piece(const RetexPicture *picture, int band, const unsigned char *filtered, size_t bytes,
                                  size_t *piece_bytes)
 {
@@ -153,7 +151,7 @@ static int png_band(RetexPicture *picture, int band, const float *rows, RetexErr
     return status == RETEX_ENOMEM ? retex_fail(err, status, "no memory to write %s", picture->path) : status;
 }
 
-/* The stream's checksum, in a chunk of its own, and the end. */
+/* Writes the stream's checksum, in a chunk of its own, and the end. */
 static int png_finish(RetexPicture *picture, RetexError *err)
 {
     const Sum *sums = picture->state;

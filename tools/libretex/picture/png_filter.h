@@ -4,9 +4,9 @@
 
 #include <stddef.h>
 
-/* Write a line's filter and what is left of its bytes, 1 + bytes in all: of all filters the one whose rest is smallest,
- * summed without signs. above is the line before, NULL where it must not be looked at; pixel is the number of bytes
- * before the same sample of the next pixel; trial has room for bytes. */
+/* Write the number of a line's filter and the filtered bytes, 1 + bytes in all: the filter with the smallest sum of
+ * absolute values. above is the line before, NULL where it must not be used; pixel is the number of bytes of a pixel;
+ * trial is scratch of `bytes` bytes. */
 void retex_png_filter(unsigned char *restrict out, unsigned char *restrict trial, const unsigned char *restrict line,
                       const unsigned char *restrict above, size_t bytes, size_t pixel);
 

@@ -1,4 +1,4 @@
-/* See png_filter.h. A line's first pixel has nothing to its left, which counts as 0. */
+/* See png_filter.h. The pixel to the left of a line's first counts as 0. */
 #include <stdint.h>
 #include <string.h>
 
@@ -34,7 +34,8 @@ static inline int16_t magnitude(int16_t value)
     return value < 0 ? (int16_t)-value : value;
 }
 
-/* Of left, above and above left the one nearest to left + above - above left; the first of equals. */
+/* The Paeth predictor: of left, above and above left the one nearest to left + above - above left; the first of
+ * equals. */
 static void take_paeth(unsigned char *restrict out, const unsigned char *restrict line,
                        const unsigned char *restrict above, size_t bytes, size_t pixel)
 {

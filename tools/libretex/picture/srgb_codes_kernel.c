@@ -1,6 +1,6 @@
-/* The code of a value never falls as the value grows. So for each code there is a smallest float that has it, found
- * once by looking at the curve around where its inverse lands; and the code of any value is the highest whose smallest
- * float it reaches. A table by the value's exponent and upper bits says nearly which. */
+/* Codes are monotonic in the value. So each code has a smallest float, found once by evaluating the curve near its
+ * inverse; the code of any value is the highest whose smallest float is not above it. A table by the value's exponent
+ * and upper bits gives a first guess. */
 #include <math.h>
 #include <pthread.h>
 #include <stdlib.h>
@@ -12,7 +12,7 @@
 #include "picture/srgb_codes.h"
 
 enum {
-    STEP_BITS = 15,    /* a bucket: floats that differ in these bits only; at 8 bits at most two codes meet in one */
+    STEP_BITS = 15,    /* a bucket has floats that differ in these bits only; at 8 bits at most two codes meet in one */
     EXPONENTS_8 = 13,  /* 2^-13 is below the smallest float of code 1 */
     EXPONENTS_16 = 21, /* the same of 16 bits */
     BUCKETS_OF_ONE = 1 << (23 - STEP_BITS),
@@ -22,8 +22,10 @@ enum {
 
 static struct {
     pthread_once_t once_8, once_16;
-    float smallest_8[CODES_8 + 1], smallest_16[CODES_16 + 1]; /* floats that have the code; a last one beyond all */
-    uint8_t first_8[EXPONENTS_8 * BUCKETS_OF_ONE + 3];        /* code of a bucket's first float; 4 bytes come at once */
+    float smallest_8[CODES_8 + 1], smallest_16[CODES_16 + 1]; /* the smallest float of each code; a last one beyond
+                                                                 all */
+    uint8_t first_8[EXPONENTS_8 * BUCKETS_OF_ONE + 3];        /* code of a bucket's first float; 4 bytes are loaded
+                                                                 at once */
     float first_16[EXPONENTS_16 * BUCKETS_OF_ONE + 1];        /* the same, not rounded */
 } tables = {.once_8 = PTHREAD_ONCE_INIT, .once_16 = PTHREAD_ONCE_INIT};
 
@@ -91,7 +93,8 @@ static void make_16(void)
     }
 }
 
-/* Between the lowest float of the tables and the highest below 1, which have the codes of all beyond. NaN is lowest. */
+/* Clamps between the lowest float of the tables and the highest below 1, which have the codes of all values beyond. NaN
+ * becomes the lowest. */
 static inline uint32_t clamped_bits(float value, int exponents)
 {
     const float low = float_of(LOWEST(exponents)), high = 0x1.fffffep-1f;

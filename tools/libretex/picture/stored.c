@@ -1,5 +1,5 @@
-/* Every format that OpenImageIO writes: what the file will store of the pixels, 1 to 4 bytes a sample, is held until
- * all of it is there. */
+/* All other formats, which OpenImageIO writes: the samples of the file, 1 to 4 bytes each, are kept in memory until all
+ * are there. */
 #include <stdlib.h>
 
 #include "picture/format.h"
@@ -10,7 +10,7 @@ static size_t row_samples(const RetexPicture *picture)
     return (size_t)picture->width * (size_t)picture->stored.channels;
 }
 
-/* Memory for the samples, once the bridge has said how many there are. */
+/* Allocates the samples, when the bridge has told how many there are. */
 static int need_samples(RetexPicture *picture, RetexError *err)
 {
     int status = retex_picture_plan(picture, err);

@@ -1,5 +1,5 @@
-/* Rows of footprints: those with coverage are collected, handed to the fastest kernel that this machine has, and what
- * that leaves alone is filtered one by one. */
+/* Filters rows of footprints. Footprints with coverage are collected and given to the fastest kernel that the processor
+ * can run; those that the kernel does not filter are filtered one by one. */
 #include "texture/batch.h"
 
 #include <math.h>
@@ -7,7 +7,7 @@
 
 #include "texture/texture_kernel.h"
 
-#define LEAST_ALPHA 1e-20f /* less has no colour that float could tell */
+#define LEAST_ALPHA 1e-20f /* alpha below this has no colour that a float can hold */
 
 void retex_texture_copy_block(const RetexTexture *texture, const RetexTextureLevel *level, int x, int y, char *texels)
 {
@@ -27,7 +27,8 @@ void retex_texture_copy_block(const RetexTexture *texture, const RetexTextureLev
     }
 }
 
-/* Only a level whose texels are about as large along both axes stands for a smaller variance of both. */
+/* The number of usable levels: only a level whose texels have about the same size along both axes stands for the
+ * smaller variance along both. */
 static int count_levels(const RetexTexture *texture)
 {
     int count = 1;
@@ -39,8 +40,8 @@ static int count_levels(const RetexTexture *texture)
     return count;
 }
 
-/* Gaussians are cut off where the surface ends, discs are not: see RetexTextureSpec. There is such an end along an axis
- * of the image as far as the texture is not turned against the surface. */
+/* The limit of Gaussians, which are cut off where the surface ends; discs are not: see RetexTextureSpec. An axis of the
+ * image has such a limit if the texture is not turned against the surface. */
 static RetexBatchLimit find_limit(const RetexTexture *texture, const RetexBatchTexture *t, int axis)
 {
     const RetexTextureSpec *spec = &texture->spec;
@@ -95,7 +96,7 @@ static void filter_one(const RetexTexture *texture, RetexTextureFilter shape, co
         retex_texture_disc(texture, (double)uv[0], (double)uv[1], covariance, rgba);
 }
 
-/* 0 without alpha, as out is already. */
+/* Divides by alpha; without alpha out stays 0. */
 static inline void unassociate(const float in[4], float *out, int channels)
 {
     const float alpha = in[3];

@@ -1,8 +1,8 @@
 /* Many footprints of one texture at once. Private to libretex.
  *
- * What is summed is what disc_kernel.c and filter_kernel.c sum, on coarser levels of the pyramid:
- * texels times weights, the weights of 4 x 4 texels at a time, for as many footprints as the machine's vectors have
- * lanes. All kernels do the same arithmetic in the same order and give the same bits. */
+ * The sums are those of disc_kernel.c and filter_kernel.c, on coarser levels of the pyramid: texels times weights, for
+ * 4 x 4 texels at a time, for as many footprints as the processor's vectors have lanes. All kernels do the same
+ * arithmetic in the same order and give the same bits. */
 #ifndef RETEX_TEXTURE_BATCH_H
 #define RETEX_TEXTURE_BATCH_H
 
@@ -13,33 +13,34 @@
 #define BATCH_LEVELS 16
 #define BATCH_SIZE 1024 /* footprints in one call of a kernel */
 
-/* Where the surface, and with it every Gaussian, ends along an axis of the image. */
+/* The limit of the surface, where Gaussians are cut off, along an axis of the image. */
 typedef struct RetexBatchLimit {
-    int along;       /* the surface's own axis, 0 u or 1 v; -1: no end */
-    float low, high; /* of the surface's UV */
-    float scale;     /* images a unit of UV, y down */
+    int along;       /* axis of the surface: 0 u, 1 v; -1: no limit */
+    float low, high; /* limits in the surface's UV */
+    float scale;     /* images per unit of UV, y down */
 } RetexBatchLimit;
 
-/* A texture's placement and levels, as the kernels read them. */
+/* Placement and levels of a texture, in the form that kernels read. */
 typedef struct RetexBatchTexture {
     const RetexTexture *texture;
     int gaussian;
-    double matrix[2][2], offset[2];      /* surface UV to the image's, in images, y down */
-    double period[2];                    /* of the image along x and y; 0: it does not repeat */
+    double matrix[2][2], offset[2];      /* from surface UV to image UV, in images, y down */
+    double period[2];                    /* period of the image along x and y; 0: it does not repeat */
     double size[2];                      /* texels of level 0 */
-    int black[2];                        /* the image ends in nothing */
+    int black[2];                        /* 1: outside of the image all is transparent */
     float to_texels[2][2];               /* surface UV to texels of level 0, y down */
-    int levels;                          /* that are halved along both axes alike */
-    float texels[2][BATCH_LEVELS];       /* of a level */
-    float inverse_area[3][BATCH_LEVELS]; /* what divides xx, xy and yy on a level */
-    float blur[2][2][BATCH_LEVELS];      /* of axis and term: variance that a level has already */
-    float spread[2][BATCH_LEVELS];       /* 0 along an axis of one texel that goes on for ever, else 1 */
-    float padding[BATCH_LEVELS];         /* texels that RetexTextureLevel's origin has around a level */
-    RetexBatchLimit limits[2];                /* of the image along x and y */
-    int limited;                         /* 1: some of them is one */
+    int levels;                          /* number of levels that are halved along both axes */
+    float texels[2][BATCH_LEVELS];       /* size of each level */
+    float inverse_area[3][BATCH_LEVELS]; /* factors of the covariance xx, xy and yy on each level */
+    float blur[2][2][BATCH_LEVELS];      /* by axis and term: the variance that a level already has */
+    float spread[2][BATCH_LEVELS];       /* 0 along an axis of one repeating texel, else 1 */
+    float padding[BATCH_LEVELS];         /* padding of each level */
+    RetexBatchLimit limits[2];                /* limits of the image along x and y */
+    int limited;                         /* 1: there is at least one limit */
 } RetexBatchTexture;
 
-/* In: live footprints. Out: premultiplied colours, and which of them the kernel left alone. */
+/* Input: footprints with coverage. Output: premultiplied colours, and the indices of footprints that the kernel did not
+ * filter. */
 typedef struct RetexBatch {
     int count;
     float u[BATCH_SIZE], v[BATCH_SIZE], su[BATCH_SIZE], sv[BATCH_SIZE], correlation[BATCH_SIZE];
@@ -51,12 +52,12 @@ typedef void RetexTextureBatchKernel(const RetexBatchTexture *texture, RetexBatc
 
 extern RetexTextureBatchKernel *const retex_texture_batch_kernels[RETEX_CPU_LEVELS];
 
-/* retex_texture_filter, by one of them; not for constants. */
+/* Like retex_texture_filter, with one of these kernels; not for constants. */
 void retex_texture_filter_batches(RetexTextureBatchKernel *kernel, const RetexTexture *texture,
                                   RetexTextureFilter shape, const float *uv, const float *spread, int spreads, size_t n,
                                   float *colors, int channels);
 
-/* The 4 x 4 texels from column x and row y on, as they are stored, where some lie beyond the level's borders. */
+/* Copy the 4 x 4 texels from column x and row y on, as they are stored, where some are beyond the level's borders. */
 void retex_texture_copy_block(const RetexTexture *texture, const RetexTextureLevel *level, int x, int y, char *texels);
 
 #endif

@@ -1,12 +1,11 @@
-/* One kernel of batch.h, for LANES footprints at a time. Included by batch_kernel.c alone, once for
- * each number of lanes; NAME(x) is that kernel's own x.
+/* One kernel of batch.h, for LANES footprints at a time. Included by batch_kernel.c alone, once for each number of
+ * lanes; NAME(x) is that kernel's own x.
  *
- * The road of a footprint: where its mean lies in the image (place_means), which level of the pyramid it is summed on
- * (choose_levels), the ellipse over that level's texels and the blocks of 4 x 4 texels that it meets (find_windows).
- * Footprints of about as many blocks are then weighed together (weigh_*) and each sums its texels (sum_blocks).
- *
- * Lines are rows of texels, or columns where the ellipse lies flat; a band is four lines. Where an ellipse leans, its
- * bands' blocks go along with it. */
+ * The steps for a footprint: find its mean in the image, choose the level of the pyramid, compute the ellipse over that
+ * level's texels and the blocks of 4 x 4 texels that it meets (place). Footprints with about the same number of blocks
+ * are then grouped, their weights computed together (weigh_*), and each sums its texels (sum_texels). Lines are rows of
+ * texels, or columns where the ellipse is flat; a band is four lines. Where an ellipse is oblique, the blocks of its
+ * bands follow it. */
 
 #define Lanes NAME(Lanes)
 #define Mask NAME(Mask)
@@ -29,36 +28,36 @@ typedef int HalfMask __attribute__((vector_size(2 * LANES)));
 #ifndef TEXTURE_BATCH_CONSTANTS
 #define TEXTURE_BATCH_CONSTANTS
 #define MAX_BANDS 36
-#define MAX_BLOCKS 4 /* across, in a band */
+#define MAX_BLOCKS 4 /* blocks across in a band */
 #define MAX_COLUMNS (4 * MAX_BLOCKS + 2)
 #define NKEYS (4 * MAX_BANDS * MAX_BLOCKS)
-#define NODES 2 /* chords from line to line */
+#define NODES 2 /* chords between two lines */
 #define BATCH_BOX_VARIANCE (1.0f / 12)
 #define BATCH_TENT_VARIANCE (1.0f / 6)
-/* The smaller variance that a level leaves a disc, in its texels: of round ones, and of very long ones. */
+/* The smaller variance, in texels of the level, that remains for a disc: for round ones, and for very long ones. */
 #define ROUND_LEAST 0.75f
 #define LONG_LEAST 0.3f
 #define BOX_FROM 0.36f     /* the smaller variance from which level 0's texels need no interpolation */
-#define MAX_RATIO 8.0f     /* of a Gaussian's standard deviations */
-#define LEAST_KEPT 1e-3f   /* of a cut Gaussian; with less the reference goes on as if there were no end */
+#define MAX_RATIO 8.0f     /* limit of the ratio of a Gaussian's standard deviations */
+#define LEAST_KEPT 1e-3f   /* share of a cut Gaussian that must remain; with less the reference ignores the limit */
 #define LEAST_RADIUS 0.02f /* texels */
-/* A Gaussian ends at 3.25 standard deviations, lowered so that it is 0 there, which leaves it .9267 of its variance. */
+/* A Gaussian ends at 3.25 standard deviations, lowered so that it is 0 there, which leaves .9267 of its variance. */
 #define GAUSSIAN_REACH 3.25f
 #define GAUSSIAN_EDGE 0.0050865f
 #define GAUSSIAN_VARIANCE 0.926732f
-#define GAUSSIAN_LEAST 0.35f /* the smaller variance, interpolation included, of one sampled at texels */
-/* Below, two discs that have a Gaussian's second and fourth moments take its place. */
+#define GAUSSIAN_LEAST 0.35f /* the smaller variance, with interpolation, of a Gaussian that is sampled at texels */
+/* With a smaller variance two discs that have the Gaussian's second and fourth moments replace it. */
 #define INNER_DISC 0.54119610f
 #define OUTER_DISC 1.30656296f
 
-/* Rules of Gauss on 0..1, as in disc_kernel.c: inside, after an ellipse's tip, before one, between both. */
+/* Gauss's quadrature rules on 0..1, as in disc_kernel.c: inside, after an ellipse's tip, before one, between both. */
 static const float batch_nodes[2][4] = {{0.21132487f, 0.2899492f, 0.17883809f, 0.25f},
                                         {0.78867513f, 0.82116191f, 0.7100508f, 0.75f}};
 static const float batch_weights[2][4] = {{0.5f, 0.5154537f, 0.42939674f, 0.45344984f},
                                           {0.5f, 0.42939674f, 0.5154537f, 0.45344984f}};
 #endif
 
-#if LANES == 16 /* which weights the texels of a block's row have; turned: [1] */
+#if LANES == 16 /* indices of the weights of a block's row of texels; turned: [1] */
 static const int batch_rows[2][4][16] = {{{0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3},
                                           {4, 4, 4, 4, 5, 5, 5, 5, 6, 6, 6, 6, 7, 7, 7, 7},
                                           {8, 8, 8, 8, 9, 9, 9, 9, 10, 10, 10, 10, 11, 11, 11, 11},
@@ -150,29 +149,30 @@ RETEX_CPU_INLINE Mask NAME(whole_below)(Lanes x)
 
 /* ---- weights ---- */
 
-/* Footprints side by side, of about as many blocks. */
+/* Footprints that are computed together, one in each lane, with about the same number of blocks. */
 typedef struct Group {
     const RetexBatchTexture *texture;
     const Places *places;
-    int count;        /* lanes that have one of their own; those behind do the last one's again */
-    int index[LANES]; /* in the batch */
-    int contiguous;   /* 1: one after the other */
+    int count;        /* lanes with a footprint of their own; further lanes repeat the last one */
+    int index[LANES]; /* index in the batch */
+    int contiguous;   /* 1: consecutive in the batch */
     int turned, fine, bands, blocks, lines, columns;
-    Lanes along, across, length, half, slope, lean, reach, first, line, texel; /* the last three: whole numbers */
+    Lanes along, across, length, half, slope, lean, reach, first, line, texel; /* the last three are whole numbers */
     Mask level;
     int cut;               /* 1: the surface ends within some of the windows */
-    Lanes low[2], high[2]; /* its ends, by lines and texels, from the mean */
-    Lanes total, whole;    /* weights: what is left of them, and all */
-    float sums[LANES][16]; /* four neighbouring texels' RGBA */
+    Lanes low[2], high[2]; /* limits of the surface, in lines and texels from the mean */
+    Lanes total, whole;    /* sum of weights within the limits, and of all weights */
+    float sums[LANES][16]; /* sums of RGBA, one for each of four neighbouring texels */
 } Group;
 
-/* A band: the first line from the mean, each footprint's first column, where its ellipse's middle lies from there. */
+/* A band: the first line, each footprint's first column, and the middle of its ellipse from there, all from the
+ * mean. */
 #define Band NAME(Band)
 typedef struct Band {
     int lines;
     Lanes begin, middle;
     Mask column;
-    Lanes weights[4][4 * MAX_BLOCKS]; /* of texels, by line and column */
+    Lanes weights[4][4 * MAX_BLOCKS]; /* weights of texels, by line and column */
 } Band;
 
 RETEX_CPU_INLINE void NAME(begin_band)(const Group *g, int number, Band *band)
@@ -181,18 +181,19 @@ RETEX_CPU_INLINE void NAME(begin_band)(const Group *g, int number, Band *band)
     band->lines = g->lines - 4 * number < 4 ? g->lines - 4 * number : 4;
     band->column = NAME(whole_below)(g->across + g->lean * (band->begin + 1.5f) - g->reach) + 1;
     band->middle = g->across - NAME(to_float)(band->column);
-    for (int j = 0; j < 4; j++) /* the others are weighed */
+    for (int j = 0; j < 4; j++) /* other weights are written before they are read */
         for (int c = j < band->lines ? g->columns : 0; c < 4 * g->blocks; c++)
             band->weights[j][c] = NAME(all)(0);
 }
 
-/* A chord's ends, and its rule's weight. */
+/* The ends of a chord, and its weight in the quadrature. */
 #define Chord NAME(Chord)
 typedef struct Chord {
-    Lanes left, right, weight, share; /* share: how far from the line before to the next one, 0..1 */
+    Lanes left, right, weight, share; /* share: fraction of the way from the line before to the next one, 0..1 */
 } Chord;
 
-/* Chords between `low` and the next line's place; the ellipse's size is given apart, for a Gaussian has two. */
+/* Finds the chords between `low` and the next line. The size of the ellipse is an argument, because a Gaussian has
+ * two. */
 RETEX_CPU_INLINE void NAME(find_chords)(const Group *g, const Band *band, Lanes low, Lanes length, Lanes inverse,
                                         Lanes half, Chord *chords)
 {
@@ -209,11 +210,11 @@ RETEX_CPU_INLINE void NAME(find_chords)(const Group *g, const Band *band, Lanes 
     }
 }
 
-/* Texels are interpolated: their tents' double integral, differenced twice. To the weights that are there, or to none.
- */
+/* Weights of interpolated texels: the double integral of their tents, differenced twice. Adds to the weights, or sets
+ * them. */
 RETEX_CPU_INLINE void NAME(weigh_fine)(Group *g, Band *band, Lanes length, Lanes half, Lanes scale, int is_added)
 {
-    Lanes lines[5][MAX_COLUMNS]; /* the last is of no meaning */
+    Lanes lines[5][MAX_COLUMNS]; /* the last one is not used */
     Chord chords[NODES];
     Lanes inverse = 1 / length;
     for (int c = 0; c <= g->columns; c++)
@@ -227,7 +228,7 @@ RETEX_CPU_INLINE void NAME(weigh_fine)(Group *g, Band *band, Lanes length, Lanes
             here[k] = chords[k].weight * scale - next[k];
         }
         Lanes *before = lines[i > 0 ? i - 1 : 4], *after = lines[i < 4 ? i : 4];
-        for (int c = 0; c <= g->columns; c++) { /* no chord reaches beyond the last column's neighbour */
+        for (int c = 0; c <= g->columns; c++) { /* no chord goes beyond the neighbour of the last column */
             Lanes at = NAME(all)((float)(c - 1)), sum = {0}, more = {0};
             for (int k = 0; k < NODES; k++) {
                 Lanes r = MAX(chords[k].right - at, NAME(all)(0)), l = MAX(chords[k].left - at, NAME(all)(0));
@@ -248,7 +249,7 @@ RETEX_CPU_INLINE void NAME(weigh_fine)(Group *g, Band *band, Lanes length, Lanes
         }
 }
 
-/* Texels are averages over squares: how much of a chord each covers. */
+/* Weights of texels that are averages over squares: the length of each chord in each texel. */
 RETEX_CPU_INLINE void NAME(weigh_boxes)(Group *g, Band *band)
 {
     Chord chords[NODES];
@@ -265,7 +266,7 @@ RETEX_CPU_INLINE void NAME(weigh_boxes)(Group *g, Band *band)
     }
 }
 
-/* exp(-x) within 4e-5 for 0 <= x <= 5.28125, as the eighth power of a polynomial fitted to be so; less than
+/* exp(-x) with an error below 4e-5 for 0 <= x <= 5.28125: the eighth power of a fitted polynomial; less than
  * GAUSSIAN_EDGE at the end. */
 RETEX_CPU_INLINE Lanes NAME(exp_minus)(Lanes x)
 {
@@ -277,7 +278,7 @@ RETEX_CPU_INLINE Lanes NAME(exp_minus)(Lanes x)
 
 RETEX_CPU_INLINE void NAME(weigh_gaussian)(Group *g, Band *band)
 {
-    const float reach = GAUSSIAN_REACH * 0.70710678f; /* so that squares are exponents */
+    const float reach = GAUSSIAN_REACH * 0.70710678f; /* so that the squares are the exponents */
     Lanes down = reach / g->length, over = reach / g->half, columns[4 * MAX_BLOCKS];
     const Lanes most = NAME(all)(0.5f * GAUSSIAN_REACH * GAUSSIAN_REACH);
     for (int c = 0; c < g->columns; c++)
@@ -292,7 +293,7 @@ RETEX_CPU_INLINE void NAME(weigh_gaussian)(Group *g, Band *band)
     }
 }
 
-/* Take off what lies beyond the surface's ends. */
+/* Cuts off weights beyond the limits of the surface. */
 RETEX_CPU_INLINE void NAME(cut_band)(Group *g, Band *band)
 {
     Lanes across[4 * MAX_BLOCKS];
@@ -311,7 +312,7 @@ RETEX_CPU_INLINE void NAME(weigh_band)(Group *g, int number, Band *band)
 {
     NAME(begin_band)(g, number, band);
     if (g->texture->gaussian && g->fine) {
-        /* both discs weigh the same: each chord counts by its own ellipse's area */
+        /* both discs have the same weight: each chord is divided by the area of its own ellipse */
         float in = INNER_DISC / OUTER_DISC;
         NAME(weigh_fine)(g, band, g->length * in, g->half * in, NAME(all)(1 / (in * in)), 0);
         NAME(weigh_fine)(g, band, g->length, g->half, NAME(all)(1), 1);
@@ -331,7 +332,7 @@ RETEX_CPU_INLINE void NAME(weigh_band)(Group *g, int number, Band *band)
 
 #include "texture/batch_sum.h"
 
-/* The surface's ends, if there are any within the windows. */
+/* Loads the limits of the surface; 0 if there is none within the windows. */
 RETEX_CPU_INLINE int NAME(load_ends)(Group *g)
 {
     const Places *p = g->places;
@@ -391,8 +392,8 @@ RETEX_CPU_INLINE void NAME(filter_group)(Group *g, RetexBatch *batch)
             batch->left[batch->nleft++] = g->index[lane];
 }
 
-/* How many of the batch's footprints have keys below. Makes `order` that of their keys, ends[k] that of key k in it:
- * counting is sorting. */
+/* Sorts the footprints of a batch by key, by counting; returns how many have one. `order`: indices by key; ends[k]: end
+ * of key k in it. */
 RETEX_CPU_INLINE int NAME(sort)(const RetexBatch *batch, const Places *places, int *order, int *ends)
 {
     int sum = 0;
@@ -409,8 +410,8 @@ RETEX_CPU_INLINE int NAME(sort)(const RetexBatch *batch, const Places *places, i
     return ends[NKEYS - 1];
 }
 
-/* Full vectors of footprints from place `begin` of the order on. Side by side go those of one key; what room they leave
- * takes those of the keys after it, where that saves a group more than it makes this one larger. */
+/* Forms a group, one full vector of footprints, from `begin` of the order on: those of one key and, in the remaining
+ * lanes, those of the next keys, if that saves a group at a smaller cost than it adds to this one. */
 RETEX_CPU_INLINE void NAME(form_group)(Group *g, const int *order, const int *ends, int begin)
 {
     const int key = g->places->key[order[begin]], kinds = MAX_BANDS * MAX_BLOCKS;
@@ -440,7 +441,7 @@ RETEX_CPU_INLINE void NAME(form_group)(Group *g, const int *order, const int *en
         g->lines = g->places->lines[i] > g->lines ? g->places->lines[i] : g->lines;
         g->columns = g->places->columns[i] > g->columns ? g->places->columns[i] : g->columns;
     }
-    /* of one key, whose footprints lie in their own order */
+    /* 1 for one key, whose footprints are in the batch's order */
     g->contiguous = begin + LANES <= ends[key] && g->index[LANES - 1] == g->index[0] + LANES - 1;
 }
 
@@ -449,7 +450,7 @@ static void NAME(filter_batch)(const RetexBatchTexture *texture, RetexBatch *bat
     Places places;
     Group group = {.texture = texture, .places = &places};
     int ends[NKEYS + 1], order[BATCH_SIZE], begin = 0;
-    for (int i = batch->count; i % LANES; i++) { /* footprints of no meaning, for whole vectors */
+    for (int i = batch->count; i % LANES; i++) { /* unused footprints that complete a vector */
         batch->u[i] = batch->v[i] = batch->su[i] = batch->sv[i] = batch->correlation[i] = 0;
     }
     for (int i = 0; i < batch->count; i += LANES)

@@ -1,7 +1,7 @@
-/* A part of batch_body.h: Gaussians end where the surface does. What its texels weigh is cut there, of a texel
- * that lies on the end as much as its share beyond, as in filter_kernel.c. */
+/* A part of batch_body.h: Gaussians are cut off where the surface ends. A texel on the limit keeps the share of its
+ * weight that is inside, as in filter_kernel.c. */
 
-/* How far the surface goes below and above a mean along an axis of the image, in the level's texels. */
+/* The distance from a mean to the limits of the surface along an axis of the image, in texels of the level. */
 typedef struct Ends {
     Lanes low, high;
 } Ends;
@@ -16,20 +16,20 @@ RETEX_CPU_INLINE Ends NAME(find_ends)(const RetexBatchTexture *t, int axis, Lane
     return (Ends){MIN(a, b), MAX(a, b)};
 }
 
-/* Ends by lines and texels of a line; length and width are how far the windows go. */
+/* Converts the limits to lines and texels of a line; length and width are the half sizes of the window. */
 RETEX_CPU_INLINE void NAME(place_ends)(const Ends *ends, Mask turned, Lanes length, Lanes width, Places *p, int i)
 {
     Lanes low[2] = {SELECT(turned, ends[0].low, ends[1].low), SELECT(turned, ends[1].low, ends[0].low)};
     Lanes high[2] = {SELECT(turned, ends[0].high, ends[1].high), SELECT(turned, ends[1].high, ends[0].high)};
     Mask within = (low[0] < -length) & (high[0] > length) & (low[1] < -width) & (high[1] > width);
-    for (int k = 0; k < 2; k++) { /* what is not cut must not depend on what lies beside it in a group */
+    for (int k = 0; k < 2; k++) { /* a footprint that is not cut must not depend on others in its group */
         STORE(p->low[k] + i, SELECT(within, NAME(all)(-INFINITY), low[k]));
         STORE(p->high[k] + i, SELECT(within, NAME(all)(INFINITY), high[k]));
     }
     STORE(p->cut + i, ~within);
 }
 
-/* The share of a texel, or of a line of them, that lies on the surface; exactly 1 far from its ends. */
+/* The share of a texel, or of a line of texels, that is on the surface; exactly 1 far from the limits. */
 RETEX_CPU_INLINE Lanes NAME(share_within)(Lanes at, Lanes low, Lanes high)
 {
     const Lanes none = NAME(all)(0), one = NAME(all)(1);

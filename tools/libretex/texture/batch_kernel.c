@@ -1,10 +1,10 @@
-/* The kernels of batch_body.h, one for each width of vectors. */
+/* The kernels of batch_body.h, one for each vector width. */
 #include "texture/batch.h"
 #include <stdint.h>
 
 #include "texture/texture_kernel.h"
 
-/* The widest that every machine has. */
+/* The widest vectors that every processor has. */
 #define LANES 4
 #define NAME(name) name##_plain
 #include "texture/batch_body.h"

@@ -1,23 +1,24 @@
-/* The first part of batch_body.h: which level of the pyramid a footprint is summed on, what ellipse it is
- * there, and which blocks of texels that meets. */
+/* The first part of batch_body.h: the level of the pyramid for a footprint, its ellipse there, and the blocks of texels
+ * that the ellipse meets. */
 
-/* A batch's footprints on their way. Along is from line to line, across from texel to texel of a line. */
+/* Intermediate results for a batch's footprints. `along` is from line to line, `across` from texel to texel of a
+ * line. */
 typedef struct Places {
     int level[BATCH_SIZE];
-    int column[BATCH_SIZE], row[BATCH_SIZE];     /* of the level: the whole part of the mean */
-    float at_x[BATCH_SIZE], at_y[BATCH_SIZE];    /* and the rest of it */
+    int column[BATCH_SIZE], row[BATCH_SIZE];     /* texel of the level: the whole part of the mean */
+    float at_x[BATCH_SIZE], at_y[BATCH_SIZE];    /* the fraction of the mean */
     float xx[BATCH_SIZE], yy[BATCH_SIZE];        /* variances in the level's texels */
     int line[BATCH_SIZE], texel[BATCH_SIZE];     /* the ellipse's first line; the whole part of the mean across */
-    float along[BATCH_SIZE], across[BATCH_SIZE]; /* at_x and at_y, as lines have them */
+    float along[BATCH_SIZE], across[BATCH_SIZE]; /* at_x and at_y along and across lines */
     float length[BATCH_SIZE], half[BATCH_SIZE], slope[BATCH_SIZE]; /* the ellipse, as in disc_kernel.c */
-    float lean[BATCH_SIZE], reach[BATCH_SIZE]; /* of the blocks: their slope, how far they go to each side */
+    float lean[BATCH_SIZE], reach[BATCH_SIZE]; /* slope of the blocks, and their extent to each side */
     int first[BATCH_SIZE];                     /* line, from the whole part of the mean */
     int lines[BATCH_SIZE], columns[BATCH_SIZE], key[BATCH_SIZE];
-    float low[2][BATCH_SIZE], high[2][BATCH_SIZE]; /* batch_cut.h: ends of the surface, from the mean */
-    int cut[BATCH_SIZE];                           /* -1: the ellipse reaches beyond one of them */
+    float low[2][BATCH_SIZE], high[2][BATCH_SIZE]; /* for batch_cut.h: limits of the surface, from the mean */
+    int cut[BATCH_SIZE];                           /* -1: the ellipse goes beyond a limit */
 } Places;
 
-/* u and v where they are far away become 0. */
+/* Finds the mean in the image; u and v too far away become 0. */
 RETEX_CPU_INLINE void NAME(find_mean)(const RetexBatchTexture *t, int axis, Lanes u, Lanes v, Double *mean)
 {
     const Double whole = 6755399441055744.0 - (Double){0}; /* 1.5 * 2^52: adding it rounds */
@@ -35,7 +36,7 @@ RETEX_CPU_INLINE void NAME(find_mean)(const RetexBatchTexture *t, int axis, Lane
     }
 }
 
-/* The mean in texels of the level, as a whole number and a rest. */
+/* Splits the mean, in texels of the level, into a whole number and a fraction. */
 RETEX_CPU_INLINE void NAME(split_mean)(const Double *mean, Lanes texels, Mask *index, Lanes *rest)
 {
     const Double whole = 6755399441055744.0 - (Double){0}, one = 1 - (Double){0};
@@ -52,7 +53,7 @@ RETEX_CPU_INLINE void NAME(split_mean)(const Double *mean, Lanes texels, Mask *i
     memcpy(rest, rests, sizeof rests);
 }
 
-/* A covariance: of one footprint each, in texels squared. */
+/* A covariance in texels squared, one in each lane. */
 typedef struct Spread {
     Lanes xx, xy, yy;
 } Spread;
@@ -66,8 +67,8 @@ RETEX_CPU_INLINE Spread NAME(find_spread)(const RetexBatchTexture *t, Lanes su, 
                     c * c * uu + 2 * c * d * uv + d * d * vv};
 }
 
-/* A Gaussian longer than MAX_RATIO times its width is widened, all around: a needle lies on a level on which it meets
- * far more texels than others do, and the few paths that it stands for hardly tell how thin it is. */
+/* Widens a Gaussian that is longer than MAX_RATIO times its width: the level chosen by its width would have far more
+ * texels in it than others have, and the few paths that it stands for hardly determine how narrow it is. */
 RETEX_CPU_INLINE void NAME(widen)(Spread *s)
 {
     Lanes sum = s->xx + s->yy, difference = s->xx - s->yy;
@@ -77,7 +78,7 @@ RETEX_CPU_INLINE void NAME(widen)(Spread *s)
     s->yy += lacks;
 }
 
-/* By the smaller variance: halving texels divides it by four. *fine: texels are interpolated. */
+/* Chooses the level by the smaller variance: each level divides it by four. *fine: texels are interpolated. */
 RETEX_CPU_INLINE Mask NAME(choose_level)(const RetexBatchTexture *t, const Spread *s, Mask *fine)
 {
     Lanes sum = s->xx + s->yy, difference = s->xx - s->yy, needed;
@@ -98,7 +99,7 @@ RETEX_CPU_INLINE Mask NAME(choose_level)(const RetexBatchTexture *t, const Sprea
     return level;
 }
 
-/* What a level leaves of a variance. */
+/* The variance that remains on a level. */
 RETEX_CPU_INLINE Lanes NAME(reduce_variance)(const RetexBatchTexture *t, int axis, const Double *mean, Lanes variance,
                                              Mask level, Mask fine)
 {
@@ -115,12 +116,12 @@ RETEX_CPU_INLINE Lanes NAME(reduce_variance)(const RetexBatchTexture *t, int axi
     Lanes tent = SELECT(fine, NAME(all)(0), NAME(all)(BATCH_TENT_VARIANCE));
     Lanes box = SELECT(fine, NAME(all)(0), NAME(all)(t->gaussian ? 0 : BATCH_BOX_VARIANCE));
     Lanes rest = (variance + tent - blur) * OF_LEVEL(t->inverse_area[2 * axis], level) - box;
-    /* A Gaussian is sampled at texels, some of which it has to meet. */
+    /* A Gaussian is sampled at texels, so its window must contain some of them. */
     Lanes least = SELECT(fine, NAME(all)(0), NAME(all)(t->gaussian ? GAUSSIAN_LEAST : 0));
     return MAX(rest * OF_LEVEL(t->spread[axis], level), least);
 }
 
-/* The texels of an open interval: the first, and how many. */
+/* The first texel of an open interval, and the number of texels. */
 RETEX_CPU_INLINE Mask NAME(first_within)(Lanes begin, Lanes end, Mask *count)
 {
     Mask first = NAME(whole_below)(begin) + 1, last = -NAME(whole_below)(-end) - 1;
@@ -130,13 +131,13 @@ RETEX_CPU_INLINE Mask NAME(first_within)(Lanes begin, Lanes end, Mask *count)
 
 #include "texture/batch_cut.h"
 
-/* The ellipse in lines, and the blocks that it meets. */
+/* Computes the ellipse in lines, and the blocks that it meets. */
 RETEX_CPU_INLINE void NAME(find_window)(const RetexBatchTexture *t, const Spread *s, Lanes at_x, Lanes at_y,
                                         Mask column, Mask row, Mask fine, Mask far, const Ends *ends, Places *p, int i)
 {
     const Lanes least = NAME(all)(LEAST_RADIUS), none = NAME(all)(0);
     float wider = t->gaussian ? GAUSSIAN_REACH / sqrtf(GAUSSIAN_VARIANCE) : 2;
-    Mask turned = s->xx > 1.1f * s->yy; /* round ones all alike */
+    Mask turned = s->xx > 1.1f * s->yy; /* round ellipses are never turned */
     Lanes along = SELECT(turned, s->xx, s->yy), across = SELECT(turned, s->yy, s->xx);
     Lanes mean = SELECT(turned, at_x, at_y), beside = SELECT(turned, at_y, at_x);
     Lanes slope = s->xy / MAX(along, NAME(all)(1e-12f));
@@ -144,7 +145,7 @@ RETEX_CPU_INLINE void NAME(find_window)(const RetexBatchTexture *t, const Spread
     Lanes length = MAX(radius * SQRT(along), least), half = radius * SQRT(MAX(across - slope * s->xy, none));
     half = MAX(half, least);
     Lanes width = MAX(radius * SQRT(across), half);
-    /* A little more than texels reach: what rounding adds must not depend on how far a group's windows go. */
+    /* Slightly more than the reach of texels, so that rounding does not depend on the size of a group's windows. */
     Lanes edge = SELECT(fine, NAME(all)(1), NAME(all)(t->gaussian ? 0 : 0.5f)) + 1e-4f;
 
     far |= ~(length < 2 * MAX_BANDS) | ~(width < 8 * MAX_BLOCKS * MAX_BANDS);
@@ -181,7 +182,7 @@ RETEX_CPU_INLINE void NAME(find_window)(const RetexBatchTexture *t, const Spread
         NAME(place_ends)(ends, turned, length + edge, width + edge, p, i);
 }
 
-/* All of it, for the footprints from i on. */
+/* All steps for the footprints from i on. */
 RETEX_CPU_INLINE void NAME(place)(const RetexBatchTexture *t, const RetexBatch *batch, Places *p, int i)
 {
     Lanes u, v, su, sv, correlation, at[2];
@@ -226,7 +227,7 @@ RETEX_CPU_INLINE void NAME(place)(const RetexBatchTexture *t, const RetexBatch *
     NAME(find_window)(t, &s, at[0], at[1], index[0], index[1], fine, far, ends, p, i);
 }
 
-/* What a black border cuts is not for us. */
+/* Leaves footprints that a transparent border cuts to the reference. */
 RETEX_CPU_INLINE void NAME(leave_borders)(const RetexBatchTexture *t, int count, Places *p)
 {
     float wider = t->gaussian ? GAUSSIAN_REACH / sqrtf(GAUSSIAN_VARIANCE) : 2;

@@ -1,6 +1,6 @@
-/* A part of batch_body.h: the sums of texels times weights, once the weights of a band are there. */
+/* A part of batch_body.h: the sums of texels times weights, when the weights of a band are known. */
 
-/* A block's weights, footprint by footprint. */
+/* Transposes a block's weights, so that those of each footprint are together. */
 RETEX_CPU_INLINE void NAME(turn_weights)(const Band *band, int block, float out[LANES][MAX_BLOCKS][16])
 {
     const Lanes *w[4];
@@ -50,8 +50,8 @@ RETEX_CPU_INLINE void NAME(turn_weights)(const Band *band, int block, float out[
 #endif
 }
 
-/* Add a band's texels to four sums, one for every fourth column. Weights come by lines, which may be columns. The
- * blocks lie `step` texels apart. */
+/* Adds a band's texels to four sums, one for every fourth column. Weights are by lines, which may be columns. Blocks
+ * are `step` texels apart. */
 RETEX_CPU_INLINE void NAME(sum_texels)(float sums[16], const float weights[][16], int blocks, int turned, int narrow,
                                        const char *texels, size_t stride, size_t step)
 {
@@ -108,8 +108,8 @@ RETEX_CPU_INLINE void NAME(sum_texels)(float sums[16], const float weights[][16]
 #endif
 }
 
-/* Where a band's blocks lie in their levels, or the padded copies of these: texels from the first one; -1 where some
- * lie outside. */
+/* The offset of a band's blocks in the texels of their levels, or of the padded copies; -1 where a block is partly
+ * outside. */
 RETEX_CPU_INLINE Mask NAME(find_blocks)(const Group *g, int number, const Band *band, Mask *x, Mask *y)
 {
     const RetexBatchTexture *t = g->texture;
@@ -123,7 +123,7 @@ RETEX_CPU_INLINE Mask NAME(find_blocks)(const Group *g, int number, const Band *
     Mask column = *x + padding, row = *y + padding;
     Mask inside = (column >= 0) & (row >= 0) & (column <= width - (g->turned ? 4 : across)) &
                   (row <= height - (g->turned ? across : 4));
-    return ((row & inside) * width + (column & inside)) | ~inside; /* far ones would overflow */
+    return ((row & inside) * width + (column & inside)) | ~inside; /* values far outside would overflow */
 }
 
 RETEX_CPU_INLINE void NAME(sum_band)(Group *g, int number, const Band *band, int turned, int narrow)

@@ -1,37 +1,35 @@
 /* The disc: a texture averaged evenly over an ellipse.
  *
- * What is averaged is the bilinear reconstruction of the image, as in filter_kernel.c, and levels of the
- * pyramid are made up for in the same way: the ellipse shrinks by the variance that the level's texels have already.
- *
- * On coarser levels, where an ellipse covers many texels, these count as what they are, averages over squares: a box
- * takes the place of the tent.
+ * As in filter_kernel.c the average is of the bilinear reconstruction of the image, and the variance of a level's
+ * texels is compensated: the ellipse shrinks by it. On coarser levels, where an ellipse covers many texels, texels are
+ * treated as averages over squares: a box replaces the tent.
  *
  * The ellipse is cut into chords across its longer image axis. Along a chord the integral of the reconstruction is
- * exact: a texel's weight is the difference of the tent's integral S at the chord's ends. Summed by differences: an end
- * changes S at three neighbouring texels only, so a chord costs six additions a line of texels, however long it is.
- * From chord to chord the quadrature is Gauss's between two lines of texels, where the tent is linear; at the
- * ellipse's tips, where the chord's length goes as a square root, it is Gauss-Jacobi's. */
+ * exact: a texel's weight is the difference of the tent's integral S at the chord's ends. Weights are accumulated as
+ * differences: an end changes S at three neighbouring texels only, so a chord costs six additions a line of texels,
+ * however long it is. From chord to chord the quadrature is Gauss's between two lines of texels, where the tent is
+ * linear, and Gauss-Jacobi's at the ellipse's tips, where the chord's length is a square root. */
 #include "texture/texture_kernel.h"
 
-/* The smaller eigenvalue that a level must leave: below it, how texels lie to the ellipse would show. */
+/* The smaller eigenvalue that must remain on a level: below it the result depends visibly on the position of texels. */
 #define LEAST_VARIANCE 0.2
-/* What a level should leave where that is not too dear: its texels blur the ellipse's rim. */
+/* The eigenvalue that should remain if the cost allows it, because the level's texels blur the ellipse's rim. */
 #define GOOD_VARIANCE 3.4
-#define TAP_BUDGET 350 /* beyond it a coarser level will do, if it leaves LEAST_VARIANCE */
-/* Leaving this, a coarser level's texels need no interpolation, and the rim stays sharper without. */
+#define TAP_BUDGET 350 /* with more texels a coarser level is used if LEAST_VARIANCE remains there */
+/* With this variance a coarser level's texels need no interpolation, and without it the rim is sharper. */
 #define BOX_LEAST 1.0
 #define BOX_VARIANCE (1.0 / 12)
-#define MAX_LENGTH 80 /* lines to each side; beyond, lines are skipped */
+#define MAX_LENGTH 80 /* lines to each side; with more, lines are skipped */
 #define MAX_ACROSS (2 * MAX_LENGTH + 8)
-#define LEAST_HALF 0.002f /* of a chord: shorter ones lose digits */
+#define LEAST_HALF 0.002f /* half length of a chord; shorter ones lose digits */
 
-/* The level as lines of texels: rows, or columns where the footprint lies flat. In this file index 0 of a pair is
- * along, from line to line, and index 1 across, from texel to texel of a line. */
+/* The level as lines of texels: rows, or columns where the ellipse is flat. In this file index 0 of a pair is along,
+ * from line to line, and index 1 across, from texel to texel of a line. */
 typedef struct Lines {
     const RetexTexture *texture;
     const RetexTextureLevel *level;
     int turned;   /* 1: lines are columns */
-    int box;      /* 1: texels are averages of what they cover; 0: they are interpolated */
+    int box;      /* 1: texels are averages over squares; 0: they are interpolated */
     int count[2]; /* lines; texels of each */
     size_t step;  /* bytes from texel to texel of a line */
     RetexWrap wrap[2];
@@ -41,21 +39,22 @@ typedef struct Lines {
 typedef struct Ellipse {
     double at[2];
     double length; /* half its extent along */
-    double slope;  /* how the chords' middles move across from line to line */
+    double slope;  /* shift of the chords' middles from line to line */
     double half;   /* half the middle chord */
 } Ellipse;
 
 typedef float Float2 __attribute__((vector_size(8)));
 
-/* Weights of a line and of the next one, as differences from texel to texel; low and high (past the last) of those that
- * chords have touched: [0] since the line began, [1] while it was the next one. */
+/* Weights of a line and of the next one, as differences from texel to texel. low and high (one beyond the last) bound
+ * those that chords have changed: [0] as the current line, [1] as the next one. */
 typedef struct Strip {
     int low[2], high[2];
     Float2 change[MAX_ACROSS];
 } Strip;
 
-/* Gauss's rules on 0..1. Weights are divided by what the chord's length supplies: 1 inside, sqrt(t) behind the
- * ellipse's tip, sqrt(1 - t) before the other, the product of both where it lies between two lines whole. */
+/* Gauss's quadrature rules on 0..1. Weights are divided by the factor that the chord's length contains: 1 inside,
+ * sqrt(t) after the ellipse's tip, sqrt(1 - t) before the other, the product of both where the ellipse is between two
+ * lines. */
 typedef struct Rule {
     int count;
     struct {
@@ -82,8 +81,7 @@ static const Rule rules[2][4] = {
        {0.75f, 0.22672492f},
        {0.9330127f, 0.13089969f}}}}};
 
-/* What an ellipse of that covariance over a level's texels is in lines; flat axes have one texel that goes on for
- * ever, and lie across. */
+/* The ellipse of a covariance, in lines; a flat axis, of one repeating texel, is across. */
 static inline Ellipse find_ellipse(const RetexLevelCovariance *c, const int flat[2], int *turned)
 {
     double xx = c->xx > 0 ? c->xx : 0, yy = c->yy > 0 ? c->yy : 0;
@@ -104,7 +102,7 @@ static inline void find_flat(const RetexTexture *texture, const RetexTextureLeve
     flat[1] = level->height == 1 && (texture->spec.wrap[1] <= RETEX_WRAP_MIRROR || is_flat(texture, 1));
 }
 
-/* The covariance of the ellipse on a level: what is left but for the level's own reconstruction. */
+/* The covariance of the ellipse on a level, without that of the level's reconstruction. */
 static inline RetexLevelCovariance ellipse_rest(const RetexTextureLevel *level, const RetexTexelFootprint *f,
                                                 const double position[2], int box)
 {
@@ -152,8 +150,8 @@ static inline int find_level(const RetexTexture *texture, const RetexTexelFootpr
     return level;
 }
 
-/* Where a line or a texel of a line lies in the level; black axes are cut off where the image ends, so that their
- * border's texels go on. */
+/* The index of a line, or of a texel of a line, in the level. Transparent axes are cut where the image ends, so that
+ * the border's texels continue. */
 static inline int wrap_line(const Lines *lines, int axis, int i)
 {
     int n = lines->count[axis];
@@ -176,7 +174,7 @@ static const char *find_texel(const Lines *lines, int line, int texel)
     return texture->corners[2 * (y > 0) + (x > 0)];
 }
 
-/* Sum of weights times texels that lie `step` bytes apart. */
+/* The sum of weights times texels that are `step` bytes apart. */
 static inline RetexFloat4 sum_texels(const char *p, const float *weights, int count, size_t step, int narrow)
 {
     RetexFloat4 sum = {0, 0, 0, 0}, odd = {0, 0, 0, 0};
@@ -197,8 +195,8 @@ static inline void begin_strip(Strip *strip, int used)
     memset(strip->change, 0, (size_t)used * sizeof *strip->change);
 }
 
-/* Sum of a line's texels with its weights; then the strip's next line is its line. base: the texel of the strip's
- * first. */
+/* The sum of a line's texels with its weights; then the strip moves to the next line. base: the texel of the strip's
+ * first weight. */
 static inline RetexFloat4 sum_line(const Lines *lines, int line, int base, Strip *restrict strip)
 {
     RetexFloat4 sum = {0, 0, 0, 0};
@@ -209,7 +207,8 @@ static inline RetexFloat4 sum_line(const Lines *lines, int line, int base, Strip
     for (i = low; i < high; i++) {
         Float2 change = strip->change[i];
         weight += change[0];
-        /* Differences leave roundings of either sign; with weights of one sign colours stay between the texels'. */
+        /* Differences leave rounding errors of either sign; without negative weights colours stay between those of the
+         * texels. */
         weights[i] = weight > 0 ? weight : 0;
         strip->change[i] = (Float2){change[1], 0};
     }
@@ -228,8 +227,8 @@ static inline RetexFloat4 sum_line(const Lines *lines, int line, int base, Strip
     return sum;
 }
 
-/* What an end at x changes in its line's weights: `first` at texel (int)x, `last` at the next but one, the rest of 1 at
- * the one between. */
+/* The change that a chord's end at x makes to the weights of its line: `first` at texel (int)x, `last` at the next but
+ * one, 1 minus both between. */
 typedef struct End {
     float first, last;
     int texel;
@@ -258,11 +257,11 @@ static inline void add_chord(Strip *restrict strip, End left, End right, Float2 
     strip->high[0] = right.texel + 3 > strip->high[0] ? right.texel + 3 : strip->high[0];
 }
 
-/* All chords of an ellipse, for the vectoriser. In: where along, and the rule's weight. */
+/* All chords of an ellipse, for vectorisation. Input: place along, and weight of the quadrature. */
 #define MAX_CHORDS (6 * MAX_LENGTH + 16)
 typedef struct Chords {
     float at[MAX_CHORDS], weight[MAX_CHORDS];
-    float line[MAX_CHORDS];                   /* the line before it */
+    float line[MAX_CHORDS];                   /* the line before the chord */
     float here[MAX_CHORDS], next[MAX_CHORDS]; /* weights of a texel in that line and the next one */
     End left[MAX_CHORDS], right[MAX_CHORDS];
 } Chords;
@@ -300,7 +299,7 @@ static inline void find_chords(Chords *restrict chords, int count, const Shape *
     }
 }
 
-/* Where an axis is cut off, in indices relative to base. */
+/* The limits at which an axis is cut off, relative to base. */
 static inline void find_cut(const Lines *lines, int axis, double base, float cut[2])
 {
     int black = lines->wrap[axis] == RETEX_WRAP_BLACK;
@@ -308,12 +307,12 @@ static inline void find_cut(const Lines *lines, int axis, double base, float cut
     cut[1] = black ? (float)(lines->count[axis] - 0.5 - base) : 1e9f;
 }
 
-/* All lines that the ellipse meets. */
+/* The sum over all lines that the ellipse meets. */
 static inline RetexFloat4 sum_dense(const Lines *lines, const Ellipse *e)
 {
     Strip strip;
     Chords chords;
-    double centre = lines->box ? 0.5 : 0; /* of a line or texel */
+    double centre = lines->box ? 0.5 : 0; /* centre of a line or texel */
     double at[2] = {e->at[0] + centre, e->at[1] + centre};
     int line = whole_below(at[0]), texel = whole_below(at[1]);
     Shape shape = {.length = (float)e->length, .slope = (float)e->slope, .half = (float)e->half};
@@ -360,8 +359,8 @@ static inline RetexFloat4 sum_dense(const Lines *lines, const Ellipse *e)
     return sum / total;
 }
 
-/* A long ellipse: some of its lines, each for as many. A step that shares no factor with the lines' number meets all of
- * a repeating axis, not a few again and again. */
+/* The sum over some lines of a long ellipse, each of which stands for several. A step without a common factor with the
+ * number of lines visits all lines of a repeating axis. */
 static inline RetexFloat4 sum_sparse(const Lines *lines, const Ellipse *e)
 {
     RetexFloat4 sum = {0, 0, 0, 0};
@@ -392,8 +391,8 @@ static inline RetexFloat4 sum_sparse(const Lines *lines, const Ellipse *e)
     return sum / total;
 }
 
-/* On the coarsest level, an axis that does not repeat: an ellipse much larger than the image meets little but what lies
- * beside it, and may be drawn smaller together with its distance. Returns how much more of it the image now fills. */
+/* On the coarsest level, for an axis that does not repeat: an ellipse much larger than the image covers mostly the
+ * border, and is shrunk together with its distance. Returns the factor by which the image's share grows. */
 static inline double draw_nearer(const Lines *lines, Ellipse *e)
 {
     double filled = 1;

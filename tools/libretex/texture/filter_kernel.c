@@ -1,37 +1,38 @@
-/* Looking textures up: the bilinear point, and the exact Gaussian footprint.
+/* Texture look-ups: the bilinear point, and the exact Gaussian footprint.
  *
- * What is averaged is the bilinear reconstruction of the image, so that a footprint that shrinks to nothing becomes
- * the point look-up. Its kernel over the image's texels has the footprint's covariance plus 1/6 texel^2 (the tent's
+ * The average is of the bilinear reconstruction of the image, so that a footprint that shrinks to a point becomes the
+ * point look-up. Its kernel over the image's texels has the footprint's covariance plus 1/6 texel^2 (the tent's
  * variance) on each axis. A level of the pyramid has already applied a box; the sum over the level's texels applies a
- * Gaussian with what is missing. Since variances add, the whole has the covariance asked for, on whichever level: the
- * choice of level is one of cost, and no blending between levels is needed.
+ * Gaussian with the remaining covariance. Since variances add, the total has the right covariance on any level: the
+ * choice of level is one of cost, and levels need no blending.
  *
- * The sum goes by rows. Along y the Gaussian is the marginal one; within a row it is the conditional one, whose
- * centre moves by slope = xy / yy per row and whose variance is xx - xy^2 / yy. This is exact for any orientation,
- * and where the smaller eigenvalue is large enough for sampling at texels, so are both variances. */
+ * The sum goes by rows. Along y the Gaussian is the marginal one; within a row it is the conditional one, whose centre
+ * moves by slope = xy / yy per row and whose variance is xx - xy^2 / yy. This is exact for any orientation, and where
+ * the smaller eigenvalue is large enough for sampling at texels, so are both variances. */
 #include "texture/texture_kernel.h"
 
 typedef int Int4 __attribute__((vector_size(16)));
 
 /* A Gaussian sampled at texels with this variance keeps its own variance within 2.8% at any phase. */
 #define LEAST_VARIANCE 0.35
-/* Below this the tent is told from a Gaussian: a window of few texels, cut off, has not the variance of a long one. */
+/* Below this the tent is used rather than a Gaussian: a window of few texels that is cut off does not have the
+ * Gaussian's variance. */
 #define TENT_LIMIT 0.70f
 /* Windows end at 3.25 standard deviations, lowered so that they end at zero; that takes 4.7% of the variance. */
 #define WINDOW_REACH 3.25f
 #define WINDOW_EDGE 0.00508606923f /* exp(-3.25^2 / 2) */
 #define WINDOW_VARIANCE 0.952889f  /* of the lowered window, relative to the Gaussian it was made of */
-#define TAP_BUDGET 1150            /* a look-up; longer footprints skip texels along their length */
+#define TAP_BUDGET 1150            /* texels of a look-up; longer footprints skip texels along their length */
 #define MAX_TAPS 512               /* along one axis */
 
-/* A footprint of less than a texel on an axis that ends in black: the border is sharp there, as for the point
- * look-up. The border's texels go on outside, and the result is weighted by how much of the footprint lies within. */
+/* For a footprint smaller than a texel on an axis with transparent outside: the border is sharp there, as in the point
+ * look-up. The border's texels continue outside, and the result is weighted by the share of the footprint inside. */
 typedef struct Edges {
     int sharp[2];
 } Edges;
 #define EDGE_TEXELS ((RetexWrap)(RETEX_WRAP_BLACK + 1)) /* a wrap mode of the kernel's own */
 
-/* Sum of weight[i] * texel(first + i * step) of one row, texels as they are stored. */
+/* The sum of weight[i] * texel(first + i * step) of one row, texels as they are stored. */
 static inline RetexFloat4 sum_row(const RetexLevelRow *row, int width, RetexWrap wrap, int narrow,
                                   const float *restrict weight, int count, int first, int step)
 {
@@ -43,7 +44,7 @@ static inline RetexFloat4 sum_row(const RetexLevelRow *row, int width, RetexWrap
         const char *p = row->texels + (size_t)first * size;
         size_t pace = size * (size_t)step;
         int i = 0;
-        for (; i + 1 < count; i += 2, p += 2 * pace) { /* two sums, for neither has to wait for the other */
+        for (; i + 1 < count; i += 2, p += 2 * pace) { /* two independent sums, for parallel execution */
             sum += raw_texel(p, narrow) * weight[i];
             odd += raw_texel(p + pace, narrow) * weight[i + 1];
         }
@@ -99,7 +100,7 @@ static inline void tent_window(Window *restrict window, const float *restrict ta
     window->total = total;
 }
 
-/* Take off what lies beyond low and high; of a texel that is cut, its share. */
+/* Cuts off weights beyond low and high; a texel that is cut keeps its share. */
 static inline void cut_window(Window *restrict window, int step, float low, float high)
 {
     float total = 0;
@@ -113,7 +114,7 @@ static inline void cut_window(Window *restrict window, int step, float low, floa
     window->total = total;
 }
 
-/* What makes a window, apart from its centre. */
+/* The parameters of a window, apart from its centre. */
 typedef struct Shape {
     int tent; /* 1: a tent blurred by sd; 0: a Gaussian of variance 1 / inverse, up to reach */
     int step; /* texels from tap to tap */
@@ -121,8 +122,8 @@ typedef struct Shape {
     float curve; /* exp(-step^2 / variance): how much the ratio of neighbouring taps falls from tap to tap */
 } Shape;
 
-/* exp(-d^2 / 2) at equal steps by two multiplications each, the exponent being quadratic; four taps at a time.
- * Begun anew every 32 taps, so that rounding does not pile up. */
+/* exp(-d^2 / 2) at equal steps by two multiplications each, the exponent being quadratic; four taps at a time. The
+ * recurrence restarts every 32 taps, so that rounding errors do not accumulate. */
 static inline void gaussian_window(Window *restrict window, const Shape *shape, float centre)
 {
     int first = whole_above(centre - shape->reach), step = shape->step;
@@ -183,7 +184,7 @@ static inline void make_window(Window *restrict window, const float *restrict ta
         gaussian_window(window, shape, centre);
 }
 
-/* Keep the look-up within its budget by skipping texels along the longer way. */
+/* Limits the look-up to its budget by skipping texels along the longer axis. */
 static inline void limit_taps(Shape *x, Shape *y, const RetexTextureLevel *level, const RetexTexture *texture)
 {
     float taps = (2 * x->reach + 1) * (2 * y->reach + 1);
@@ -196,7 +197,7 @@ static inline void limit_taps(Shape *x, Shape *y, const RetexTextureLevel *level
         y->step = coprime_step(step, level->height, texture->spec.wrap[1]);
 }
 
-/* Whether both eigenvalues of what is left to do on a level are at least LEAST_VARIANCE. */
+/* 1 if both eigenvalues of the covariance that remains on a level are at least LEAST_VARIANCE. */
 static inline int level_fits(const RetexTexture *texture, int level, const RetexTexelFootprint *f,
                              const double position[2])
 {
@@ -226,7 +227,7 @@ static inline int find_level(const RetexTexture *texture, const RetexTexelFootpr
     return level;
 }
 
-/* The variance that a window has, where it lies: a tent's swings between 0 and 1/4 as its centre goes from texel to
+/* The variance that a window has at its centre: a tent's varies between 0 and 1/4 as its centre moves from texel to
  * texel. */
 static inline float spread(const Window *window, float centre)
 {
@@ -238,18 +239,18 @@ static inline float spread(const Window *window, float centre)
     return sum / window->total;
 }
 
-/* How far from its centre a footprint may reach, in the level's texels. */
+/* The limits of a footprint, in the level's texels from its centre. */
 typedef struct Limits {
     float low[2], high[2];
 } Limits;
 static const Limits no_limits = {{-INFINITY, -INFINITY}, {INFINITY, INFINITY}};
 
-/* Sum over a level's texels of a Gaussian with mean (x, y), in texel indices, and covariance rest. *kept: how much of
- * it lies within the limits. */
+/* The sum over a level's texels of a Gaussian with mean (x, y), in texel indices, and covariance rest. *kept: the share
+ * of it within the limits. */
 static inline RetexFloat4 sum_level(const RetexTexture *texture, const RetexTextureLevel *level, float x, float y,
                                     RetexLevelCovariance rest, const Limits *limits, const Edges *edges, float *kept)
 {
-    /* Where an axis has one texel that goes on for ever, its marginal is all there is. */
+    /* Along an axis of one repeating texel only the marginal matters. */
     int flat_x = level->width == 1 && (texture->spec.wrap[0] <= RETEX_WRAP_MIRROR || is_flat(texture, 0));
     int flat_y = level->height == 1 && (texture->spec.wrap[1] <= RETEX_WRAP_MIRROR || is_flat(texture, 1));
     double slope = flat_x || flat_y ? 0 : rest.xy / rest.yy;
@@ -265,8 +266,8 @@ static inline RetexFloat4 sum_level(const RetexTexture *texture, const RetexText
     Window rows, columns;
     make_window(&rows, texture->tail, &shape_y, y);
     float total = 0, whole = rows.total;
-    if (shape_y.tent && slope != 0) {           /* the covariance is the slope times what the rows really have */
-        double least = rest.yy - TENT_VARIANCE; /* of the footprint alone, which it can only exceed */
+    if (shape_y.tent && slope != 0) {           /* the covariance is the slope times the actual variance of the rows */
+        double least = rest.yy - TENT_VARIANCE; /* variance of the footprint alone, the lower bound */
         slope = rest.xy / fmax(spread(&rows, y), least > 1e-9 ? least : 1e-9);
         int step = shape_x.step;
         shape_x = find_shape(rest.xx - slope * rest.xy);
@@ -289,7 +290,7 @@ static inline RetexFloat4 sum_level(const RetexTexture *texture, const RetexText
         int at = rows.first + j * shape_y.step;
         if (!upright) {
             make_window(&columns, texture->tail, &shape_x, x + (float)slope * ((float)at - y));
-            whole *= j == 0 ? columns.total : 1; /* they are all alike */
+            whole *= j == 0 ? columns.total : 1; /* all rows have the same total */
             if (cut)
                 cut_window(&columns, shape_x.step, x + limits->low[0], x + limits->high[0]);
         }
@@ -305,7 +306,7 @@ static inline RetexFloat4 sum_level(const RetexTexture *texture, const RetexText
     return sum * texel_unit(texture->narrow) / total;
 }
 
-/* How much of a Gaussian at x lies within 0..size. */
+/* The share of a Gaussian at x within 0..size. */
 static float coverage(double x, double variance, double size)
 {
     double inverse = variance > 1e-12 ? sqrt(0.5 / variance) : 1e6;
@@ -330,7 +331,7 @@ void retex_texture_gaussian_kernel(const RetexTexture *texture, const RetexTexel
     }
     float column = (float)(x / level->scale[0] - 0.5), row = (float)(y / level->scale[1] - 0.5), kept;
     RetexFloat4 sum = sum_level(texture, level, column, row, rest, &limits, &edges, &kept);
-    if (!(kept > 1e-3f)) /* what would lose nearly all is kept */
+    if (!(kept > 1e-3f)) /* a footprint that would lose nearly all is not cut */
         sum = sum_level(texture, level, column, row, rest, &no_limits, &edges, &kept);
     if (edges.sharp[0])
         sum *= coverage(x, footprint->xx, image->width);
@@ -339,7 +340,7 @@ void retex_texture_gaussian_kernel(const RetexTexture *texture, const RetexTexel
     memcpy(rgba, &sum, sizeof sum);
 }
 
-/* A black axis ends sharply: what lies within half a texel of its border is the border's texel. */
+/* An axis with transparent outside ends sharply: a point within half a texel of the border has the border's texel. */
 static RetexWrap wrap_of_points(const RetexTexture *texture, int axis)
 {
     return texture->spec.wrap[axis] == RETEX_WRAP_BLACK ? RETEX_WRAP_CLAMP : texture->spec.wrap[axis];

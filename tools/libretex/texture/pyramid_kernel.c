@@ -1,5 +1,5 @@
-/* The MIP pyramid: level after level is halved, an odd number of texels rounding down with each new texel still the
- * exact average of its share. */
+/* The MIP pyramid. Each level has half the size of the one before, rounded down; with an odd number of texels, too,
+ * each new texel is the exact average of its share. */
 #include <stdlib.h>
 
 #include "texture/texture_kernel.h"
@@ -29,7 +29,7 @@ void retex_texture_read_texel(const void *texels, size_t index, int narrow, floa
 
 /* ---- halving ---- */
 
-/* Which of n texels, with what weights, make texel i of the next coarser level. Returns how many: 1, 2 or 3. */
+/* The texels, of n, that form texel i of the next coarser level, and their weights. Returns their number: 1, 2 or 3. */
 static int halving_weights(int n, int i, float weight[3], int *first)
 {
     int half = n / 2;
@@ -49,7 +49,7 @@ static int halving_weights(int n, int i, float weight[3], int *first)
     return 3;
 }
 
-/* The variance halving n texels adds, in texels of the finer level, at relative position p: blur[0] + blur[1] p (1
+/* The variance that halving n texels adds, in texels of the finer level, at relative position p: blur[0] + blur[1] p (1
  * - p). It is the variance of the weights above. */
 static void halving_blur(int n, double blur[2])
 {
@@ -75,7 +75,7 @@ static inline void store_texel(char *to, int narrow, RetexFloat4 texel)
     memcpy(to, t, sizeof t);
 }
 
-/* Of texels in a row, or of those of several rows with weights `down`. */
+/* Halves a row of texels, or several rows with weights `down`. */
 static inline void halve_texels(char *restrict out, const char *const in[3], const float *down, int rows, int n,
                                 int narrow)
 {
@@ -92,7 +92,7 @@ static inline void halve_texels(char *restrict out, const char *const in[3], con
     }
 }
 
-/* Even numbers of texels: two by two. */
+/* Halves two rows with an even number of texels, two by two. */
 static inline void halve_pairs(char *restrict out, const char *restrict above, const char *restrict below, int half,
                                int narrow)
 {
@@ -168,7 +168,7 @@ static void *new_texels(int width, int height, int narrow)
     return texels.texels;
 }
 
-/* The image's border, for axes that clamp. */
+/* Copies the image's border, for axes that clamp. */
 static int take_borders(RetexTexture *texture)
 {
     RetexTextureLevel *image = &texture->levels[0];

@@ -1,5 +1,5 @@
-/* What the user says about a texture, `--texture:scale=2,2:rotate=30 floor=oak.jpg`, becomes a RetexTextureSpec. Every
- * mistake gets one message that names the option and says what would be right. */
+/* Parses the texture option, `--texture:scale=2,2:rotate=30 floor=oak.jpg`, into a RetexTextureSpec. Every mistake has
+ * one message that names the option and says what would be right. */
 #include <retex/nearest.h>
 #include <retex/texture.h>
 
@@ -19,7 +19,7 @@ static int unknown_option(const char *name, RetexError *err)
                       retex_meant(retex_nearest_of(name, names, sizeof names / sizeof *names), meant));
 }
 
-/* A finite number from text on; *end is behind it. 0 where there is none. */
+/* Parses a finite number; *end is behind it. 0 where there is none. */
 static int parse_number(const char *text, const char **end, double *value)
 {
     char *stop;
@@ -37,7 +37,7 @@ static const char *skip_spaces(const char *text)
     return text;
 }
 
-/* One or two numbers; one stands for both. */
+/* Parses one or two numbers; one number stands for both. */
 static int parse_pair(double pair[2], const char *text)
 {
     const char *at = text;
@@ -95,7 +95,7 @@ static int parse_repeat(RetexRepeat *repeat, const char *text)
     return 0;
 }
 
-/* One length leaves the other to the image. */
+/* Parses one or two lengths; the image determines the second where it is missing. */
 static int parse_width(double width[2], const char *text)
 {
     if (!parse_pair(width, text) || !(width[0] > 0) || !(width[1] > 0))
@@ -161,7 +161,8 @@ static int parse_option(RetexTextureSpec *spec, const char *name, const char *va
 static int parse_options(RetexTextureSpec *spec, const char *opts, RetexError *err)
 {
     int code = RETEX_OK;
-    char text[4096]; /* what was parsed once is parsed again later: that must not fail for want of memory */
+    char text[4096]; /* fixed memory: text that was parsed once is parsed again later, which must not fail for lack
+                        of memory */
     if (strlen(opts) >= sizeof text)
         return retex_fail(err, RETEX_EPARSE, "texture options of more than %zu characters", sizeof text - 1);
     strcpy(text, opts);
@@ -169,7 +170,7 @@ static int parse_options(RetexTextureSpec *spec, const char *opts, RetexError *e
         next = strchr(at, ':');
         if (next)
             *next++ = '\0';
-        if (!*at) /* "::" and a colon at either end do no harm */
+        if (!*at) /* "::" and a colon at either end are allowed */
             continue;
         char *equals = strchr(at, '=');
         if (!equals) {
@@ -187,7 +188,7 @@ static int parse_options(RetexTextureSpec *spec, const char *opts, RetexError *e
     return code;
 }
 
-/* `rgb(r, g, b)` and nothing else; 0 where the text is no colour at all and so a file name. */
+/* Parses `rgb(r, g, b)`; 0 where the text is not a colour and so is a file name. */
 static int parse_color(RetexTextureSpec *spec, const char *text, RetexError *err)
 {
     const char *at = skip_spaces(text);

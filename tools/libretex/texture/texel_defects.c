@@ -7,11 +7,11 @@
 
 #include <retex/color.h>
 
-#define LARGEST_COLOR 65504.0f /* of a half; sums and squares of such stay finite */
-/* Below this a negative colour is a rounding of a conversion. */
+#define LARGEST_COLOR 65504.0f /* the largest half; sums and squares of it are finite */
+/* A negative colour above this is a rounding error of a conversion. */
 #define LEAST_NEGATIVE -1e-5f
-/* White, and some for rounding. Colours of wide gamuts have channels above 1 that reflect no more than white does, up
- * to 2.6 for the red of ACES2065-1: they are told by their luminance. */
+/* White, with a margin for rounding. Colours of wide gamuts have channels above 1 that reflect no more than white does,
+ * up to 2.6 for the red of ACES2065-1: they are judged by their luminance. */
 #define BRIGHTER_THAN_WHITE 1.001f
 #define BEYOND_ANY_GAMUT 3.0f
 
@@ -90,7 +90,7 @@ void retex_texel_defects_repair_color(float color[3], RetexTexelDefects *defects
 
     *defects = (RetexTexelDefects){.brightest = 0};
     repair_texel(texel, 0, 0, defects);
-    if (defects->brightest == 0 && largest_of(texel) > BRIGHTER_THAN_WHITE) /* a file's gamut is no excuse here */
+    if (defects->brightest == 0 && largest_of(texel) > BRIGHTER_THAN_WHITE) /* a constant has no wide gamut */
         count_bright(defects, texel, 0, 0);
     memcpy(color, texel, 3 * sizeof *color);
 }

@@ -1,4 +1,4 @@
-/* Whether all of many values are from 0 to 1: most texels are, and need no other look. */
+/* Checks whether many values are all from 0 to 1: most texels are, and need no other check. */
 #include "texture/texel_defects.h"
 
 int retex_texels_are_in_range(const float *restrict values, size_t count)

@@ -1,8 +1,6 @@
-/* Textures: loading, the MIP pyramid, and the way from surface UV to texels.
- *
- * A file becomes premultiplied RGBA, integers of 16 bits where the file has integers, else floats; the pyramid is in
- * pyramid_kernel.c. Look-ups one at a time are in filter_kernel.c and disc_kernel.c, those of
- * whole rows in batch.c. */
+/* Textures: loading, placement, and the transform from surface UV to texels. A file becomes premultiplied RGBA: 16-bit
+ * integers where the file has integers, else floats. The pyramid is in pyramid_kernel.c, single look-ups in
+ * filter_kernel.c and disc_kernel.c, those of whole rows in batch.c. */
 #include "picture/bridge_load.h"
 #include "texture/pyramid.h"
 
@@ -15,8 +13,8 @@
 #include <retex/parallel.h>
 
 #define MAX_TEXTURE_PIXELS (1L << 28) /* 16384 x 16384: 4 GiB of floats */
-#define LEAST_ALPHA 1e-20f            /* less has no colour that float could tell */
-/* A footprint of a thousand textures is the average, whatever its size; larger numbers only lose digits. */
+#define LEAST_ALPHA 1e-20f            /* alpha below this has no colour that a float can hold */
+/* A footprint of a thousand repeats gives the average, whatever its size; larger sizes only lose digits. */
 #define MAX_FOOTPRINT 1000.0
 
 static int no_memory(const RetexTexture *texture, int width, int height, RetexError *err)
@@ -25,8 +23,8 @@ static int no_memory(const RetexTexture *texture, int width, int height, RetexEr
                          "not enough memory for a texture of %d x %d texels", width, height);
 }
 
-/* Two repeats in place of one: beside each other, the right one moved down, or one above the other, the upper one moved
- * right. What the filters see is an image like any other. */
+/* Makes two repeats one image: side by side, the right one moved down, or one above the other, the upper one moved
+ * right. To the filters it is an image like any other. */
 static int compose_repeats(RetexTexture *texture, RetexTexels *image, RetexError *err)
 {
     int across = texture->spec.repeat == RETEX_REPEAT_HALF_DROP;
@@ -59,7 +57,7 @@ static int compose_repeats(RetexTexture *texture, RetexTexels *image, RetexError
     return RETEX_OK;
 }
 
-/* All of the spec's placement into one matrix and offset, for an image of that size. */
+/* Combines the spec's placement into one matrix and offset, for an image of that size. */
 static void finish_map(RetexTexture *texture, int width, int height)
 {
     const RetexTextureSpec *spec = &texture->spec;
@@ -86,7 +84,7 @@ static void finish_map(RetexTexture *texture, int width, int height)
 
 typedef struct LookWork {
     const RetexTexels *texels;
-    atomic_int found; /* a texel that is not opaque */
+    atomic_int found; /* 1: a texel that is not opaque */
 } LookWork;
 
 static void look_job(void *context, int index, int thread)
@@ -121,7 +119,7 @@ static int has_two_repeats(const RetexTextureSpec *spec)
     return spec->repeat == RETEX_REPEAT_HALF_DROP || spec->repeat == RETEX_REPEAT_BRICK;
 }
 
-/* Of the texels and their pyramid. */
+/* Charges the texels and their pyramid to the budget. */
 static int charge(RetexTexture *texture, const RetexTexels *texels, RetexError *err)
 {
     uint64_t bytes = retex_texture_texel_size(texels->narrow) * (uint64_t)texels->width * (uint64_t)texels->height;
@@ -133,7 +131,7 @@ static int charge(RetexTexture *texture, const RetexTexels *texels, RetexError *
     return code;
 }
 
-/* The texels, premultiplied, become the texture's. */
+/* Makes premultiplied texels those of the texture. */
 static int take_texels(RetexTexture *texture, RetexTexels *texels, int nthreads, RetexError *err)
 {
     int width = texels->width, height = texels->height, code = charge(texture, texels, err);
@@ -153,7 +151,7 @@ typedef struct RepairWork {
     RetexTexelDefects *defects; /* by row */
 } RepairWork;
 
-/* One bad texel must not spoil all coarser levels. */
+/* Repairs and premultiplies a row: one texel that is not finite would make all coarser levels so. */
 static void premultiply_job(void *context, int index, int thread)
 {
     const RepairWork *work = context;
@@ -181,7 +179,7 @@ static int premultiply(RetexTexture *texture, const RetexImage *pixels, int nthr
     return RETEX_OK;
 }
 
-/* The pixels (RGBA) become the texture's. */
+/* Makes RGBA pixels the texels of the texture. */
 static int take_pixels(RetexTexture *texture, RetexImage *pixels, int nthreads, RetexError *err)
 {
     RetexTexels texels = {pixels->width, pixels->height, 0, pixels->pixels};
@@ -231,7 +229,8 @@ static int check_spec(const RetexTextureSpec *spec, int constant, RetexError *er
 
 static RetexTexture *new_texture(const RetexTextureSpec *given, int constant, RetexError *err)
 {
-    RetexTextureSpec spec = RETEX_TEXTURE_SPEC_INIT; /* for what an older caller's has not */
+    RetexTextureSpec spec = RETEX_TEXTURE_SPEC_INIT; /* defaults for members that an older caller's struct does not
+                                                        have */
     memcpy(&spec, given, given->size < sizeof spec ? given->size : sizeof spec);
     if (check_spec(&spec, constant, err))
         return NULL;
@@ -276,18 +275,19 @@ void retex_texture_report_defects(const RetexTexture *texture, const RetexTextur
     retex_texel_defects_report(&texture->defects, spec, (long)width * height);
 }
 
-/* What it was made by may be gone soon. */
+/* Returns the texture without pointers to the caller's data, which may not live as long. */
 static void hand_over(RetexTexture **out, RetexTexture *texture, const float color[3])
 {
     RetexTextureSpec told = texture->spec;
-    memcpy(told.color, color, sizeof told.color); /* as it was given */
+    memcpy(told.color, color, sizeof told.color); /* the colour as it was given */
     retex_texture_report_defects(texture, &told);
     texture->spec.access = NULL;
     texture->spec.warn = NULL;
     *out = texture;
 }
 
-/* Decoding keeps, beside the texture's own, a picture of 16-bit integers, and of others the floats of the file. */
+/* Parameters of reading. While an image is decoded, an image of 16-bit integers, or for other files the floats of the
+ * file, exists beside the texture's own texels. */
 static RetexReadParams read_params(const RetexTextureSpec *spec)
 {
     enum { PEAK_BYTES = 24 };
@@ -407,7 +407,7 @@ int retex_texture_size(const RetexTexture *texture, int *width, int *height)
 
 /* ---- from surface UV to texels ---- */
 
-/* Mean of a footprint in texture UV. 0 where there is no place to look up. */
+/* The mean of a footprint in texture UV. 0 where it is not finite. */
 static int texture_uv(const RetexTexture *texture, double u, double v, double uv[2])
 {
     for (int i = 0; i < 2; i++)
@@ -421,7 +421,7 @@ static void constant_color(const RetexTexture *texture, float rgba[4])
     rgba[3] = 1;
 }
 
-/* Covariance in texels of the image: M C M^T, then texels, y down. Returns 0 where nothing is left of it. */
+/* The covariance in texels of the image, y down: M C M^T, scaled. Returns 0 where it is 0. */
 static int texel_covariance(const RetexTexture *texture, const double c[3], RetexTexelFootprint *f)
 {
     const double(*m)[2] = texture->matrix;
@@ -429,13 +429,13 @@ static int texel_covariance(const RetexTexture *texture, const double c[3], Rete
     double uu = c[0] > 0 ? c[0] : 0, vv = c[2] > 0 ? c[2] : 0, uv = c[1];
     if (!isfinite(uu) || !isfinite(vv) || !isfinite(uv))
         return 0;
-    double largest = sqrt(uu * vv); /* a covariance beyond this is none; roundings reach it */
+    double largest = sqrt(uu * vv); /* a larger covariance is impossible; rounding may cause it */
     uv = uv > largest ? largest : uv < -largest ? -largest : uv;
     double xx = m[0][0] * m[0][0] * uu + 2 * m[0][0] * m[0][1] * uv + m[0][1] * m[0][1] * vv;
     double xy = m[0][0] * m[1][0] * uu + (m[0][0] * m[1][1] + m[0][1] * m[1][0]) * uv + m[0][1] * m[1][1] * vv;
     double yy = m[1][0] * m[1][0] * uu + 2 * m[1][0] * m[1][1] * uv + m[1][1] * m[1][1] * vv;
     double limit = MAX_FOOTPRINT * MAX_FOOTPRINT;
-    if (!isfinite(xx + yy) || !isfinite(xy)) { /* a scale may be near a double's end */
+    if (!isfinite(xx + yy) || !isfinite(xy)) { /* a scale may be near the largest double */
         xx = yy = limit / 2;
         xy = 0;
     }
@@ -456,7 +456,7 @@ static void unassociate(float rgba[4])
     for (int c = 0; c < 3; c++)
         rgba[c] *= inverse;
     if (rgba[3] > 1)
-        rgba[3] = 1; /* sums of weights round */
+        rgba[3] = 1; /* sums of weights have rounding errors */
 }
 
 static void point_at(const RetexTexture *texture, const double uv[2], int nearest, float rgba[4])
@@ -495,7 +495,7 @@ static int within(double x, int size)
     return x <= 0 ? 0 : x >= size - 1 ? size - 1 : (int)x;
 }
 
-/* By repeats, whatever the wrap: a wrong guess costs nothing but itself. */
+/* Assumes repeats for every wrap mode: a wrong guess only costs the prefetch. */
 void retex_texture_prefetch(const RetexTexture *texture, double u, double v)
 {
     double uv[2];
@@ -523,7 +523,7 @@ void retex_texture_row(const RetexTexture *texture, int y, float *rgb)
 
 typedef void Filter(const RetexTexture *texture, const RetexTexelFootprint *footprint, float rgba[4]);
 
-/* How far from (u, v) the surface reaches, along those axes of the texture that lie along one of its own. */
+/* The limits of the surface from (u, v), along those axes of the texture that are parallel to one of its own. */
 static void set_limits(const RetexTexture *texture, const double at[2], RetexTexelFootprint *f)
 {
     const RetexTextureSpec *spec = &texture->spec;

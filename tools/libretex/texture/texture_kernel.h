@@ -1,5 +1,5 @@
-/* What the two filters share: reading texels of a level beyond its borders, and what a level leaves to do. Included by
- * texture_*_kernel.c alone. */
+/* Shared by the two filters: reading texels beyond the borders of a level, and the covariance that remains on a level.
+ * Included by the kernels of this room alone. */
 #ifndef RETEX_TEXTURE_TEXTURE_KERNEL_H
 #define RETEX_TEXTURE_TEXTURE_KERNEL_H
 
@@ -27,13 +27,13 @@ static inline size_t texel_size(int narrow)
     return narrow ? 4 * sizeof(uint16_t) : 4 * sizeof(float);
 }
 
-/* What sums of raw texels are multiplied with. */
+/* The factor of sums of raw texels. */
 static inline float texel_unit(int narrow)
 {
     return narrow ? 1 / NARROW_ONE : 1;
 }
 
-/* The next whole number below or above; baseline x86-64 has a function call for floorf. Within int's range only. */
+/* The next whole number below or above, within int's range; baseline x86-64 has a function call for floorf. */
 static inline int whole_below(double x)
 {
     int i = (int)x;
@@ -46,7 +46,7 @@ static inline int whole_above(double x)
     return i + (x > i);
 }
 
-/* i folded into 0..n-1; -1 or n where it lies outside an axis that neither repeats nor mirrors. */
+/* Wraps i into 0..n-1; -1 or n where it is outside of an axis that neither repeats nor mirrors. */
 static inline int wrap_index(int i, int n, RetexWrap wrap)
 {
     if ((unsigned)i < (unsigned)n)
@@ -71,7 +71,7 @@ static inline int clamp_index(int i, int n)
     return i < 0 ? 0 : i >= n ? n - 1 : i;
 }
 
-/* One row of a level, as far as it can be seen: inside texels and what lies to the left and right; NULL = nothing. */
+/* One row of a level: texels inside, and those to the left and right; NULL = transparent. */
 typedef struct RetexLevelRow {
     const char *texels;
     const char *beside[2];
@@ -97,15 +97,15 @@ static inline RetexLevelRow find_row(const RetexTexture *texture, const RetexTex
     return row;
 }
 
-/* Fold a coordinate of a repeating axis into its first period, for float's sake. */
+/* Wraps a coordinate of a repeating axis into its first period, for the precision of floats. */
 static inline double first_period(double x, int texels, RetexWrap wrap)
 {
     double period = wrap == RETEX_WRAP_MIRROR ? 2.0 * texels : texels;
     if (wrap == RETEX_WRAP_REPEAT || wrap == RETEX_WRAP_MIRROR) {
         double folded = x - period * floor(x / period);
-        return folded >= 0 && folded <= period ? folded : 0; /* too far away for a double to tell where */
+        return folded >= 0 && folded <= period ? folded : 0; /* beyond the precision of doubles */
     }
-    /* Far outside nothing changes any more; an int has to hold it. */
+    /* Far outside nothing changes any more, and the coordinate must fit an int. */
     double far = 1e6;
     return x < -far ? -far : x > far ? far : x;
 }
@@ -122,7 +122,7 @@ static inline double mean_position(double x, double variance, double size, Retex
     return 1.0 / 6 + (p * (1 - p) - 1.0 / 6) / (damping * damping);
 }
 
-/* Covariance that the sum over a level's texels has to supply, in that level's texels. */
+/* The covariance that the sum over a level's texels must have, in that level's texels. */
 typedef struct RetexLevelCovariance {
     double xx, xy, yy;
 } RetexLevelCovariance;
@@ -138,14 +138,14 @@ static inline RetexLevelCovariance level_rest(const RetexTextureLevel *level, co
     return rest;
 }
 
-/* An axis along which the image cannot change: one texel, and nothing else beside it. */
+/* 1 if the image cannot change along an axis: it has one texel, and nothing else beside it. */
 static inline int is_flat(const RetexTexture *texture, int axis)
 {
     const RetexTextureLevel *image = &texture->levels[0];
     return (axis ? image->height : image->width) == 1 && texture->spec.wrap[axis] != RETEX_WRAP_BLACK;
 }
 
-/* A step that shares no factor with the period meets all of a repeating axis's texels, not a few again and again. */
+/* A step without a common factor with the period, which visits all texels of a repeating axis. */
 static inline int coprime_step(int step, int texels, RetexWrap wrap)
 {
     int period = wrap == RETEX_WRAP_MIRROR ? 2 * texels : texels;

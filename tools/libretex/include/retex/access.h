@@ -1,10 +1,10 @@
-/* Which files may be read where somebody else says which: a scene, or a name that a stranger asks for.
+/* Access: which files may be read where the name comes from somebody else, such as a scene or a request.
  *
- * A file lies in a folder when its path does once links and `..` are resolved. Safe access, for scenes and names of
+ * A file is in a folder if its path is, after links and `..` are resolved. Safe access, for scenes and names from
  * strangers, is narrower: regular files only; of pictures only PNG, JPEG, OpenEXR, TIFF, TGA, BMP, GIF and Radiance
- * HDR, known by their content (TGA has no mark: by its name and a plausible header, or by its footer), each read by its
- * own decoder and no other; and what is read is the very file that was looked at, whatever its name stands for
- * since. */
+ * HDR, recognised by their content (TGA has no signature: by its name and a plausible header, or by its footer), each
+ * read by its own decoder only; and the file that is read is the one that was checked, even if its name is changed
+ * meanwhile. */
 #ifndef RETEX_ACCESS_H
 #define RETEX_ACCESS_H
 
@@ -15,7 +15,7 @@
 extern "C" {
 #endif
 
-/* Begin with RETEX_ACCESS_INIT, which allows everything. NULL in place of one does, too. */
+/* Begin with RETEX_ACCESS_INIT, which allows everything, as NULL does. */
 typedef struct RetexAccess {
     size_t size;              /* of this struct */
     int safe;                 /* 1: safe access, as above; default 0 */
@@ -32,15 +32,15 @@ typedef enum RetexAccessAnswer {
     RETEX_ACCESS_IRREGULAR /* a folder, a device or a pipe */
 } RetexAccessAnswer;
 
-/* 1: $RETEX_SAFE asks for safe access: it is set, and neither empty nor 0. */
+/* 1 if the environment asks for safe access: RETEX_SAFE is set, and neither empty nor 0. */
 int retex_access_safe_wanted(void);
 
-/* Whether the file `name`, taken from `folder` (one of the roots, in any spelling; "" = the current folder) unless it
- * begins with /, may be read. A safe access refuses names that leave the folders on their way, even if they come back:
- * nobody shall find out by them what there is elsewhere. */
+/* Check whether a file may be read. `name` is relative to `folder` (one of the roots, in any spelling; "" = the current
+ * folder) unless it begins with /. Safe access refuses names that leave the folders even if they come back, so that
+ * they reveal nothing about other folders. */
 RetexAccessAnswer retex_access_ask(const RetexAccess *access, const char *folder, const char *name);
 
-/* Open a file to read; the caller closes *descriptor. RETEX_EACCESS where it may not be read. */
+/* Open a file for reading; the caller closes *descriptor. RETEX_EACCESS where it may not be read. */
 int retex_access_open(const RetexAccess *access, const char *path, int *descriptor, RetexError *err);
 
 #ifdef __cplusplus

@@ -1,5 +1,5 @@
-/* What a set says of the picture as a whole, kept band by band while it is rendered: sums are then the same to the bit
- * however bands were spread over threads, or renders. */
+/* Statistics of the whole picture, kept band by band while it is rendered, so that the sums are the same to the bit
+ * however bands are distributed over threads, or renders. */
 #ifndef RETEX_BAND_STATS_H
 #define RETEX_BAND_STATS_H
 
@@ -10,16 +10,18 @@ extern "C" {
 #endif
 
 struct RetexBandStats {
-    /* Luminance, summed: all light, and that whose surplus hits had to take their original albedo; as it is, and as it
-     * would be with white targets. */
+    /* Sums of luminance: of all light, and of the light whose hits beyond the set's orders kept their original albedo;
+     * as rendered, and as with white targets. */
     double total, folded, total_white, folded_white;
-    double uv_low[RETEX_MAX_TARGETS][2], uv_high[RETEX_MAX_TARGETS][2]; /* by target; inf, -inf: not met */
-    double albedo[RETEX_MAX_TARGETS][3], coverage[RETEX_MAX_TARGETS];   /* originals times coverage, coverage */
+    double uv_low[RETEX_MAX_TARGETS][2], uv_high[RETEX_MAX_TARGETS][2]; /* by target; inf, -inf: the target was not
+                                                                           met */
+    double albedo[RETEX_MAX_TARGETS][3], coverage[RETEX_MAX_TARGETS];   /* sum of original albedo times coverage, sum
+                                                                           of coverage */
     long dropped; /* samples that were not finite */
     long samples; /* of all pixels */
 };
 
-void retex_band_stats_reset(RetexBandStats *stats); /* of nothing */
+void retex_band_stats_reset(RetexBandStats *stats); /* to those of an empty band */
 
 /* Fill spp (the mean, for the set's size), folded, folded_white, and uv_min, uv_max and mean_albedo of the targets from
  * all bands, from the top. */

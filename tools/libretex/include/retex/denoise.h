@@ -56,18 +56,18 @@ typedef struct RetexDenoiseParams {
 } RetexDenoiseParams;
 #define RETEX_DENOISE_INIT { sizeof(RetexDenoiseParams), 1, 5, 1, 0, NULL, NULL, NULL, NULL }
 
-/* Filter a set where it lies, or, where it is open (retex_set_open) and roi is NULL, some rows after the other, into a
- * band store: terms, with `footprints` also broad footprints and, as far as they are near to each other, later ones,
- * and the beauty, which becomes the recombination with the original textures. Means of each signal over roi (NULL =
- * all) stay what they were. Pixels outside roi keep their terms and footprints. What the filter needed is removed from
- * the set, and set->denoised is 1. RETEX_ENOTFOUND where the set has no such parts. The same to the bit for every
- * nthreads. */
+/* Filter a set in place. A set that is open (retex_set_open) is filtered strip by strip into a band store if roi is
+ * NULL. Filtered are terms, with `footprints` also broad footprints and, as far as they are near to each other,
+ * interreflections; the beauty becomes the recombination with the original textures. The mean of each signal over roi
+ * (NULL = all) is preserved. Pixels outside roi keep their terms and footprints. The data that only denoising reads are
+ * removed from the set, and set->denoised is 1. RETEX_ENOTFOUND where the set has no such data. The same to the bit for
+ * every nthreads. */
 int retex_denoise(RetexSet *set, const RetexDenoiseParams *params /* NULL = defaults */, const RetexRoi *roi,
                   int nthreads, RetexError *err);
 
-/* Whether the set has everything that retex_denoise reads. */
+/* 1 if the set has all data that retex_denoise reads. */
 int retex_denoise_has_data(const RetexSet *set);
-/* Remove it. */
+/* Remove these data. */
 void retex_denoise_drop_data(RetexSet *set);
 
 #ifdef __cplusplus

@@ -16,7 +16,7 @@ extern "C" {
  * Files of more than max_pixels pixels (0 = no limit) are refused with RETEX_ELIMIT. */
 int retex_image_read(RetexImage *dst, const char *path, const char *colorspace, long max_pixels, RetexError *err);
 
-/* The same, and which files may be read. Begin with RETEX_READ_INIT. */
+/* The same with limits and access. Begin with RETEX_READ_INIT. */
 typedef struct RetexReadParams {
     size_t size;               /* of this struct */
     const char *colorspace;    /* default NULL */
@@ -30,11 +30,11 @@ typedef struct RetexReadParams {
 
 int retex_image_read_with(RetexImage *dst, const char *path, const RetexReadParams *params /* NULL = defaults */,
                           RetexError *err);
-/* Whether retex_image_read_with could read it, as far as the file's beginning tells: it is there, may be read, and is a
- * picture. Colour spaces are not looked at, of pipes and "-" nothing is read. For before long work. */
+/* Check whether retex_image_read_with could read a file, as far as its beginning tells: it exists, may be read, and is
+ * a picture. Colour spaces are not checked, and pipes and "-" are not read. To be called before long work. */
 int retex_image_read_check(const char *path, const RetexReadParams *params /* NULL = defaults */, RetexError *err);
 
-/* How a picture leaves. Begin with RETEX_WRITE_INIT. */
+/* How a picture is written. Begin with RETEX_WRITE_INIT. */
 typedef struct RetexWriteParams {
     size_t size;            /* of this struct */
     const char *display;    /* OCIO display for 8- and 16-bit files; NULL = the config's default */
@@ -53,11 +53,12 @@ typedef struct RetexWriteParams {
 int retex_image_write(const RetexImage *src, const char *path, const RetexWriteParams *params /* NULL = defaults */,
                       RetexError *err);
 
-/* Whether retex_image_write could write there, as far as one can tell without doing it: a format of that ending, a
- * folder that takes files, a known display, view or colour space. For before the work that makes the picture. */
+/* Check whether retex_image_write could write there, as far as that is known without writing: a format of that ending,
+ * a folder that takes files, a known display, view or colour space. To be called before the work that makes the
+ * picture. */
 int retex_image_write_check(const char *path, const RetexWriteParams *params /* NULL = defaults */, RetexError *err);
 
-/* The same without looking at the folder, which need not be there yet. */
+/* The same without the folder, which need not exist yet. */
 int retex_image_format_check(const char *path, const RetexWriteParams *params /* NULL = defaults */, RetexError *err);
 
 #ifdef __cplusplus

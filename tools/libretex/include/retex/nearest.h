@@ -1,4 +1,4 @@
-/* Which of some words is most like one that is none of them: for messages about slips of the pen. */
+/* The word most like a misspelt one, for messages. */
 #ifndef RETEX_NEAREST_H
 #define RETEX_NEAREST_H
 
@@ -8,15 +8,15 @@ extern "C" {
 
 enum { RETEX_NEAREST_MAX = 64 }; /* bytes of a word; longer ones are like none */
 
-/* Insertions, deletions, replacements and swaps of neighbours that make one word of the other, counted twice; a letter
- * in the other case counts once. */
+/* The distance of two words: insertions, deletions, replacements and swaps of neighbours count twice; a letter in the
+ * other case counts once. */
 int retex_word_distance(const char *a, const char *b);
-/* The largest distance at which a word is still taken for a slip of this one: the longer it is, the more. */
+/* The largest distance at which a word counts as a misspelling of this one; it grows with the word's length. */
 int retex_word_tolerance(const char *word);
 
-/* Begin with {word, NULL, 0}; then try all candidates. best is that of least distance within the tolerance, or one
- * that begins with the word, of which at least three letters are there; the first in the alphabet of several; NULL
- * where none is. */
+/* Begin with {word, NULL, 0}, then try all candidates. best is the one of smallest distance within the tolerance, or
+ * one that begins with the word if the word has at least three letters; of several the first in the alphabet; NULL
+ * where none is near. */
 typedef struct RetexNearest {
     const char *word, *best; /* borrowed */
     int distance;            /* of best */
@@ -24,7 +24,7 @@ typedef struct RetexNearest {
 
 void retex_nearest_try(RetexNearest *nearest, const char *candidate);
 
-/* The same for an array of words; NULL where none is near. */
+/* The nearest word of an array; NULL where none is near. */
 const char *retex_nearest_of(const char *word, const char *const *words, int count);
 
 /* "; is BEST meant?" for the end of a message, or "" where best is NULL. Returns text. */

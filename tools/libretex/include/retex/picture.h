@@ -1,5 +1,5 @@
-/* Pictures written while they are made: rows are handed in as bands from any thread, in any order, and are converted
- * and compressed in the calling thread. The whole picture is never in memory as floats. */
+/* Pictures that are written while they are computed: rows are submitted as bands from any thread, in any order, and are
+ * converted and compressed in the calling thread. The whole picture is never in memory as floats. */
 #ifndef RETEX_PICTURE_H
 #define RETEX_PICTURE_H
 
@@ -9,26 +9,26 @@
 extern "C" {
 #endif
 
-/* Rows of a band; the last band of a picture has what is left. */
+/* Rows of a band; the last band of a picture may have fewer. */
 #define RETEX_PICTURE_BAND 64
 
 typedef struct RetexPicture RetexPicture;
 
-/* Begin a picture of 1 (grey), 3 (RGB) or 4 (RGBA, unassociated) channels; path and params as for retex_image_write,
- * which is this, band by band. Whatever needs OpenImageIO begins loading it in a thread of its own; JPEG, PNG and EXR
- * do not, unless params or $OCIO ask for colours other than the built-in ones. A format or a colour space that is
- * unknown fails here or at the first rows; retex_image_write_check tells at once. */
+/* Begin a picture of 1 (grey), 3 (RGB) or 4 (RGBA, unassociated) channels; path and params are as for
+ * retex_image_write, which does the same for a whole image. Formats that need OpenImageIO begin loading it in a thread
+ * of its own; JPEG, PNG and EXR do not need it, unless params or $OCIO ask for colours other than the built-in ones. An
+ * unknown format or colour space fails here or at the first rows; retex_image_write_check tells at once. */
 int retex_picture_open(RetexPicture **picture, const char *path, int width, int height, int channels,
                        const RetexWriteParams *params /* NULL = defaults; not needed afterwards */, RetexError *err);
 
-/* Give rows y0 <= y < y1: y0 a multiple of RETEX_PICTURE_BAND, y1 the next one, or the height. They are scene-linear,
- * interleaved, and not needed afterwards. From any thread, each band once; after a failure every call fails with
- * it. The file is the same to the byte whatever the order and the threads. */
+/* Submit rows y0 <= y < y1: y0 is a multiple of RETEX_PICTURE_BAND, y1 the next one or the height. Rows are
+ * scene-linear, interleaved, and not needed afterwards. From any thread, each band once; after a failure every call
+ * fails with the same error. The file is the same to the byte whatever the order and the threads. */
 int retex_picture_rows(RetexPicture *picture, int y0, int y1, const float *rows, RetexError *err);
 
-/* Complete the file and put it in its place; fails if any call before did, or rows are missing. Not keep: give up.
- * Unless it succeeds nothing new is left behind and an old file is whole. Nulls *picture; NULL in it is fine. To be
- * called before the process exits, while no other thread uses the picture. */
+/* Complete the file and put it at its path; fails if any call before did, or rows are missing. keep = 0: give up.
+ * Unless it succeeds no new file is left and an old file is complete. Nulls *picture; NULL in it is fine. To be called
+ * before the process exits, while no other thread uses the picture. */
 int retex_picture_close(RetexPicture **picture, int keep, RetexError *err);
 
 #ifdef __cplusplus

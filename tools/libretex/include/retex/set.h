@@ -140,37 +140,39 @@ typedef struct RetexSet {
 
 int retex_set_create(RetexSet **set, int width, int height, RetexError *err);
 void retex_set_close(RetexSet **set); /* NULL and pointers to NULL are fine */
-/* Append; *index (may be NULL) gets its number. The image is allocated zeroed, width 0 = the set's own size. */
+/* Append a part; *index (may be NULL) receives its number. The image is allocated and zeroed; width 0 = the set's own
+ * size. */
 int retex_set_add_part(RetexSet *set, const char *name, const char *letters, RetexPixelType type, int width, int height,
                        int *index, RetexError *err);
-/* Append a part whose pixels are in the set's band store, under the same name, letters and type. It is read there row
- * by row, as parts of a set that is open are in their file. */
+/* Append a part whose pixels are in the set's band store, under the same name, letters and type. Its rows are read from
+ * there. */
 int retex_set_add_stored(RetexSet *set, const char *name, const char *letters, RetexPixelType type, int image,
                          int *index, RetexError *err);
-/* Leave out what no pixel has; empty[i]: part i is 0 everywhere. Footprints go without UV, and with them their parts,
- * their shares in mixtures, and mixtures of none; a mixture of one becomes that footprint. Terms of hits go without
- * radiance or gain, and noise of signals that have no term. Parts that something else refers to stay. What remains
- * keeps its order. */
+/* Remove all that is empty; empty[i]: 1 if part i is 0 everywhere. Footprints without UV are removed with their parts,
+ * their shares in mixtures, and mixtures that lose all shares; a mixture of one share becomes that footprint. Terms
+ * with factors are removed if their radiance or gain is empty, and noise parts of signals without terms. Parts that
+ * something else refers to stay. All else keeps its order. */
 void retex_set_prune(RetexSet *set, const char *empty);
-/* Remove a part that no term, footprint, mixture or target names; those behind it move up, and references follow. */
+/* Remove a part to which no term, footprint, mixture or target refers; later parts move up, and references follow. */
 void retex_set_remove_part(RetexSet *set, int part);
-/* Of a RetexFootprintKind, "hit", "sharp", "broad" or "interreflection", and of a RetexTermKind, "full" and so on: in
- * the manifest, the former also in names of parts. */
+/* The names of a RetexFootprintKind, "hit", "sharp", "broad" or "interreflection", and of a RetexTermKind, "full" and
+ * so on, in the manifest; the former also in names of parts. */
 const char *retex_footprint_kind_name(int kind);
 const char *retex_term_kind_name(int kind);
 int retex_set_add_footprint(RetexSet *set, const RetexFootprint *footprint, int *index, RetexError *err);
 int retex_set_add_mixture(RetexSet *set, const RetexMixture *mixture, int *index, RetexError *err);
 int retex_set_add_term(RetexSet *set, const RetexTerm *term, int *index, RetexError *err);
-/* Give the set an id made from its beauty's pixels: the renderer's last step. */
+/* Compute the set's id from its beauty's pixels: the renderer's last step. */
 void retex_set_identify(RetexSet *set);
 int retex_set_find_part(const RetexSet *set, const char *name);     /* index or -1 */
-/* 1, 2, 4 or 8: how many times smaller than the set's an image is; 0 where it is of none of these sizes. */
+/* The scale of an image, 1, 2, 4 or 8: how many times smaller than the set it is; 0 where it has none of these
+ * sizes. */
 int retex_set_scale(const RetexSet *set, const RetexImage *image);
-/* The scale of a footprint: that of its parts that are there, which have one; 1 where none is. 0: they differ. */
+/* The scale that all present parts of a footprint have; 1 where none is present; 0 where they differ. */
 int retex_set_footprint_scale(const RetexSet *set, int footprint);
-/* 1: it holds colours, scene-linear Rec.709: the picture, radiance, albedos and originals. 0: other numbers. */
+/* 1 if the part holds colours, scene-linear Rec.709: the picture, radiance, albedos and originals. 0: other values. */
 int retex_set_part_is_color(const RetexSet *set, int part);
-/* Exactly, else ignoring case where that is unique; or -1. */
+/* The target of that name, exactly, else ignoring case if that is unique; or -1. */
 int retex_set_find_target(const RetexSet *set, const char *name);
 
 #ifdef __cplusplus

@@ -1,17 +1,17 @@
-/* Textures and how they lie on a target.
+/* Textures, and their placement on a target.
  *
- * u runs right, v up, v = 0 at the image's bottom row; texel centres lie at (i + 0.5) / width. Before the look-up the
- * surface's UV is taken through
+ * u runs right, v up, v = 0 at the image's bottom row; texel centres are at (i + 0.5) / width. Before the look-up the
+ * surface's UV is transformed:
  *
  *     uv' = M uv + offset,  M = R(rotate) diag(scale)
  *
  * R turns counter-clockwise about 0; scale 2 shows two repeats. With `width` repeats have a size in scene units, and
- * the turning happens in these units, so that a plank stays a plank:
+ * the rotation is done in these units, so that a plank stays a plank:
  *
  *     M = diag(1 / width, 1 / height) R(rotate) diag(uv_scale * scale)
  *
- * Last comes `flip`, u' -> 1 - u' and v' -> 1 - v'. A footprint's mean goes through all of it, its covariance C becomes
- * M C M^T: exactly, in every look-up below. Constants ignore it. */
+ * `flip` is applied last, u' -> 1 - u' and v' -> 1 - v'. A footprint's mean is transformed so, its covariance C becomes
+ * M C M^T: exactly, in every look-up below. Constants ignore the placement. */
 #ifndef RETEX_TEXTURE_H
 #define RETEX_TEXTURE_H
 
@@ -23,9 +23,9 @@ extern "C" {
 
 typedef enum RetexWrap { RETEX_WRAP_REPEAT, RETEX_WRAP_MIRROR, RETEX_WRAP_CLAMP, RETEX_WRAP_BLACK } RetexWrap;
 
-/* How repeats lie beside each other. Brick and half-drop need wrap = repeat on both axes and twice the memory: two
- * repeats are kept, 512 MiB for an image of 5792 x 5792 texels, pyramid not counted (a third more). A shift is a whole
- * number of texels, so that no repeat is softer than another: half of the image's, rounded down. */
+/* How repeats are arranged. Brick and half-drop need wrap = repeat on both axes and twice the memory: two repeats are
+ * kept, 512 MiB for an image of 5792 x 5792 texels, without the pyramid (a third more). A shift is a whole number of
+ * texels, half of the image's rounded down, so that no repeat is softer than another. */
 typedef enum RetexRepeat {
     RETEX_REPEAT_STRAIGHT,
     RETEX_REPEAT_BRICK,     /* every second row of repeats, floor(v') odd, moved right by half a repeat */
@@ -33,10 +33,10 @@ typedef enum RetexRepeat {
     RETEX_REPEAT_MIRROR     /* book-matched: every second repeat mirrored, as by wrap = mirror */
 } RetexRepeat;
 
-/* Told a line of text, without file or line of the caller's. */
+/* Receives a line of text, without the caller's file or line. */
 typedef void RetexWarn(void *context, const char *text);
 
-/* What the user said: --texture:scale=2,2:rotate=30:wrap=mirror NAME=IMAGE. Begin with RETEX_TEXTURE_SPEC_INIT. */
+/* A parsed texture option: --texture:scale=2,2:rotate=30:wrap=mirror NAME=IMAGE. Begin with RETEX_TEXTURE_SPEC_INIT. */
 typedef struct RetexTextureSpec {
     size_t size;
     char target[128];
@@ -107,7 +107,7 @@ int retex_texture_is_opaque(const RetexTexture *texture);
  * use. */
 void retex_texture_point(const RetexTexture *texture, double u, double v, float rgba[4]);
 
-/* That point will be looked up soon: have the memory it lies in come near, without waiting for it. Thread-safe. */
+/* Prefetch the memory of a point that will be looked up soon. Thread-safe. */
 void retex_texture_prefetch(const RetexTexture *texture, double u, double v);
 
 /* One point without interpolation: the texel that (u, v) falls in, floor(u * width) from the left, floor((1 - v) *

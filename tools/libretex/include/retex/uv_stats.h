@@ -1,4 +1,4 @@
-/* Clusters of weighted UVs, and what merging them costs. */
+/* Clusters of weighted UVs, and the cost of merging them. */
 #ifndef RETEX_UV_STATS_H
 #define RETEX_UV_STATS_H
 
@@ -18,8 +18,8 @@ typedef struct RetexUvStats {
 void retex_uv_stats_add(RetexUvStats *stats, double weight, const double uv[2], const int periodic[2]);
 void retex_uv_stats_merge(RetexUvStats *into, const RetexUvStats *from, const int periodic[2]);
 
-/* By how much merging two raises the sum of squared deviations (Ward 1963): for points seen sharply, whose mean every
- * texture follows. */
+/* By how much merging two raises the sum of squared deviations (Ward 1963): for points that are seen sharply, whose
+ * mean matters for every texture. */
 double retex_uv_stats_ward(const RetexUvStats *a, const RetexUvStats *b, const int periodic[2]);
 
 /* By how much merging two raises the variation of an unknown texture within clusters, weight V / (V +
@@ -27,9 +27,9 @@ double retex_uv_stats_ward(const RetexUvStats *a, const RetexUvStats *b, const i
  * Larger clusters see the texture's mean, however large they are: so a few points far away, as on a plane to the
  * horizon, do not take a cluster each. */
 double retex_uv_stats_variation_gain(const RetexUvStats *a, const RetexUvStats *b, const int periodic[2]);
-#define RETEX_UV_FEATURE 0.5 /* of UV, in which most textures have changed all they do */
+#define RETEX_UV_FEATURE 0.5 /* distance in UV over which most textures change completely */
 
-/* What an unknown texture varies within a cluster. */
+/* The variation of an unknown texture within a cluster. */
 static inline double retex_uv_stats_variation(const RetexUvStats *a)
 {
     double squares = a->m2[0] + a->m2[2];
@@ -42,7 +42,7 @@ static inline double retex_uv_stats_difference(double to, double from, int perio
     return periodic ? d - rint(d) : d;
 }
 
-/* The square of how far it is from one's mean to a point. */
+/* The squared distance of a point from a cluster's mean. */
 static inline double retex_uv_stats_distance2(const RetexUvStats *a, const double uv[2], const int periodic[2])
 {
     double u = retex_uv_stats_difference(a->mean[0], uv[0], periodic[0]);
@@ -50,15 +50,15 @@ static inline double retex_uv_stats_distance2(const RetexUvStats *a, const doubl
     return u * u + v * v;
 }
 
-/* As retex_uv_stats_ward where one of the two is a single point, to the bit. */
+/* Like retex_uv_stats_ward for a cluster and a single point, the same to the bit. */
 static inline double retex_uv_stats_point_ward(const RetexUvStats *a, double weight, const double uv[2],
                                                const int periodic[2])
 {
     return a->weight * weight / (a->weight + weight) * retex_uv_stats_distance2(a, uv, periodic);
 }
 
-/* What an unknown texture would vary within both, merged: one with squared deviations of this sum, and a point or a
- * cluster of another. In one division. */
+/* The variation of an unknown texture within a cluster merged with a point or another cluster, which has this weight,
+ * mean and sum of squared deviations. Takes one division. */
 static inline double retex_uv_stats_merged_variation(const RetexUvStats *a, double weight, const double uv[2],
                                                      double squares, const int periodic[2])
 {
@@ -67,10 +67,10 @@ static inline double retex_uv_stats_merged_variation(const RetexUvStats *a, doub
     return sum * both / (both + sum * sum * (RETEX_UV_FEATURE * RETEX_UV_FEATURE));
 }
 
-/* As footprints hold it: mean u and v, rounded to a 32nd of their standard deviation at most; spread: these deviations,
+/* Round as footprints are stored: mean u and v to a 32nd of their standard deviation at most; spread: these deviations,
  * and the correlation. */
 void retex_uv_stats_store(const RetexUvStats *stats, float mean[2], float spread[3]);
-/* And back. */
+/* Statistics from a footprint's stored mean and spread. */
 void retex_uv_stats_load(RetexUvStats *stats, double weight, const float mean[2], const float spread[3]);
 
 #ifdef __cplusplus
