@@ -122,9 +122,9 @@ static void print_clusters(const RetexSet *set)
 static void warn_folded(const Cli *cli, const RetexSet *set)
 {
     const double worst = set->folded > set->folded_white ? set->folded : set->folded_white;
-    const char *advice = set->orders < RETEX_MAX_ORDERS ? "more --orders hold it apart"
-                         : set->ntargets > 1            ? "fewer targets may hold it apart"
-                                                        : "it meets them more often than a set can hold apart";
+    const char *advice = set->orders < RETEX_MAX_ORDERS ? "more --orders keep its hits apart"
+                         : set->ntargets > 1            ? "fewer targets may keep its hits apart"
+                                                        : "it has more hits than a set can keep apart";
 
     if (worst > 0.005)
         cli_warn(cli, "%.2f%% of the light keeps the original textures: %s", 100 * worst, advice);
