@@ -63,23 +63,23 @@ static int fail_unknown(const Scene *scene, const char *wanted, RetexError *err)
 /* Exact, else the only one that differs in case alone. */
 static int find_ident(const Scene *scene, const char *wanted, const char **found, RetexError *err)
 {
-    const char *loose = NULL, *second = NULL;
+    const char *any_case = NULL, *second = NULL;
     for (int i = 0; i < scene->nidents; i++) {
         if (strcmp(scene->idents[i], wanted) == 0) {
             *found = scene->idents[i];
             return 0;
         }
         if (lower_equal(scene->idents[i], wanted)) {
-            second = loose;
-            loose = scene->idents[i];
+            second = any_case;
+            any_case = scene->idents[i];
         }
     }
     if (second)
         return retex_fail(err, RETEX_ENOTFOUND, "`%s` could be `%s` or `%s`: write it as the scene does", wanted,
-                          second, loose);
-    if (!loose)
+                          second, any_case);
+    if (!any_case)
         return fail_unknown(scene, wanted, err);
-    *found = loose;
+    *found = any_case;
     return 0;
 }
 

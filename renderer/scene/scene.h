@@ -104,7 +104,7 @@ typedef struct Finish {
         double specular_tint; /* t, scalar, 0..1; default 1 (F0 as it is) */
         double transmission; /* 0..1: share of the base that is a (rough) dielectric and lets light through */
     } retex;
-    int matte;               /* finish_is_matte; set where a scene is settled, 0 is slower only */
+    int matte;               /* finish_is_matte; set at the end of reading; 0 is only slower */
 } Finish;
 
 /* Most surfaces: nothing but Lambert's law, on either side; or on the side that is seen. */

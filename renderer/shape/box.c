@@ -47,11 +47,11 @@ static int intersect(const Primitive *primitive, const ShapeRay *ray, double *t,
             return 0;
         if (d == 0)
             continue;
-        double enter = ((d < 0) - o) / d, leave = ((d > 0) - o) / d;
-        if (enter > times[0])
-            times[0] = enter, faces[0] = 2 * k + (d < 0);
-        if (leave < times[1])
-            times[1] = leave, faces[1] = 2 * k + (d > 0);
+        double near = ((d < 0) - o) / d, far = ((d > 0) - o) / d;
+        if (near > times[0])
+            times[0] = near, faces[0] = 2 * k + (d < 0);
+        if (far < times[1])
+            times[1] = far, faces[1] = 2 * k + (d > 0);
     }
     for (int i = 0; i < 2 && times[0] <= times[1]; i++)
         if (shape_accept(ray, times[i], t)) {

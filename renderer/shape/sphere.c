@@ -6,10 +6,9 @@ static void bounds(const Primitive *primitive, Vec3 *low, Vec3 *high)
     shape_bound_circle(low, high, &primitive->transform, vec3(0, 0, 0), 0, 1, 0, 1);
 }
 
-/* A ray that starts on the surface must not meet it at its start. Which root is the start's is decided by the surface's
- * equation there: where its value is within rounding of 0, the root is 0 and dropped. Comparing t with a small number
- * instead fails at grazing angles, where a rounding error of the equation moves the root by far more. So do plane, disc
- * and cone. */
+/* A ray that starts on the surface must not hit it at its start. The surface's equation decides: where its value at the
+ * start is within rounding of 0, one root is 0 and is dropped. To compare t with a small number instead fails at
+ * grazing angles, where a rounding error of the equation moves the root by far more. Plane, disc and cone do so too. */
 static int intersect(const Primitive *primitive, const ShapeRay *ray, double *t, int *face)
 {
     Vec3 o = ray->origin, d = ray->direction;

@@ -1,54 +1,54 @@
-/* Pigments that are no albedo: a surface of such a colour would give back more light than it gets. What shines may be
- * as bright as it likes. Each is warned of once, where its colour is written. */
+/* Warns of pigments that are no albedo: a surface of such a colour would reflect more light than arrives. Emitters may
+ * have any colour. Each pigment is warned of once, at the line where its colour is written. */
 #include <string.h>
 #include "pattern/pattern.h"
 #include "sdl/build/builder.h"
 
-/* White, and some for rounding. */
-#define MOST_ALBEDO 1.001
+/* 1, and a margin for rounding. */
+#define LARGEST_ALBEDO 1.001
 
-int finish_emits(const Finish *finish)
+int finish_is_emitter(const Finish *finish)
 {
     const int lamp = rgb_max(finish->ambient) >= 1 && finish->diffuse == 0;
     return lamp || !rgb_is_black(finish->emission) || (finish->diffuse <= 0 && !finish->retex.present);
 }
 
-/* How many times the light that arrives a surface of this finish gives back, all its colour being white. */
-static double white_of(const Finish *finish)
+/* The share of the light that a white surface of this finish reflects. */
+static double reflectance_of_white(const Finish *finish)
 {
     return finish->retex.present ? 1 : finish->diffuse;
 }
 
 typedef struct Brightest {
     Rgbft color;
-    double share; /* of the light that it gives back */
+    double share; /* of the light that it reflects */
 } Brightest;
 
-static void look_at(Sdl *sdl, const Finish *finish, Rgbft c, Brightest *found)
+static void consider_color(Sdl *sdl, const Finish *finish, Rgbft c, Brightest *found)
 {
     const Rgb linear = decode_color(sdl, rgb(c.r, c.g, c.b));
-    const double opaque = 1 - c.filter - c.transmit, share = rgb_max(linear) * opaque * white_of(finish);
-    if (fmaxf(c.r, fmaxf(c.g, c.b)) > MOST_ALBEDO && share > found->share)
+    const double opaque = 1 - c.filter - c.transmit, share = rgb_max(linear) * opaque * reflectance_of_white(finish);
+    if (fmaxf(c.r, fmaxf(c.g, c.b)) > LARGEST_ALBEDO && share > found->share)
         *found = (Brightest){c, share};
 }
 
-static void look_at_all(Sdl *sdl, const Pigment *pigment, const Finish *finish, Brightest *found)
+static void find_brightest(Sdl *sdl, const Pigment *pigment, const Finish *finish, Brightest *found)
 {
     if (pigment->kind == PIGMENT_COLOR)
-        look_at(sdl, finish, pigment->color, found);
+        consider_color(sdl, finish, pigment->color, found);
     if (pigment->kind != PIGMENT_PATTERN)
         return;
     const int colors = pigment->pattern.ops->colors;
     for (int i = 0; i < colors; i++)
-        look_at(sdl, finish, pigment->colors[i], found);
+        consider_color(sdl, finish, pigment->colors[i], found);
     for (int i = 0; !colors && i < pigment->map.count; i++)
-        look_at(sdl, finish, pigment->map.entries[i].color, found);
+        consider_color(sdl, finish, pigment->map.entries[i].color, found);
 }
 
-static int was_told(Sdl *sdl, const ParsedPigment *pigment)
+static int was_warned_about(Sdl *sdl, const ParsedPigment *pigment)
 {
     for (const ParsedPigment *p = builder_of(sdl)->pigments; p; p = p->next)
-        if (p->told && p->line == pigment->line && strcmp(p->file, pigment->file) == 0)
+        if (p->warned && p->line == pigment->line && strcmp(p->file, pigment->file) == 0)
             return 1;
     return 0;
 }
@@ -56,13 +56,13 @@ static int was_told(Sdl *sdl, const ParsedPigment *pigment)
 void check_albedo(Sdl *sdl, const Texture *texture)
 {
     ParsedPigment *pigment = (ParsedPigment *)texture->pigment;
-    Brightest found = {.share = MOST_ALBEDO};
-    if (!pigment->line || finish_emits(texture->finish))
+    Brightest found = {.share = LARGEST_ALBEDO};
+    if (!pigment->line || finish_is_emitter(texture->finish))
         return;
-    look_at_all(sdl, &pigment->pigment, texture->finish, &found);
-    if (found.share <= MOST_ALBEDO || was_told(sdl, pigment))
+    find_brightest(sdl, &pigment->pigment, texture->finish, &found);
+    if (found.share <= LARGEST_ALBEDO || was_warned_about(sdl, pigment))
         return;
-    pigment->told = 1;
+    pigment->warned = 1;
     const Rgbft c = found.color;
     const double largest = fmaxf(c.r, fmaxf(c.g, c.b));
     sdl_warn_at(sdl, pigment->file, pigment->line,

@@ -47,25 +47,25 @@ void gaps_report(Sdl *sdl, const Gaps *gaps)
 
 /* ---- small helpers of all files ---- */
 
-void statement_enter(Sdl *sdl)
+void statement_begin(Sdl *sdl)
 {
     if (++builder_of(sdl)->depth > MAX_NESTING)
         sdl_error(sdl, "statements are nested more than %d deep", MAX_NESTING);
 }
 
-void statement_leave(Sdl *sdl)
+void statement_end(Sdl *sdl)
 {
     builder_of(sdl)->depth--;
 }
 
-void *builder_grow(Sdl *sdl, void *array, int count, int *room, size_t size)
+void *builder_grow(Sdl *sdl, void *array, int count, int *capacity, size_t size)
 {
-    if (count < *room)
+    if (count < *capacity)
         return array;
-    if (*room > 1 << 28)
-        sdl_error(sdl, "more than %d things of one kind", *room);
-    *room = *room ? *room * 2 : 16;
-    void *larger = sdl_alloc(sdl, (size_t)*room * size);
+    if (*capacity > 1 << 28)
+        sdl_error(sdl, "more than %d things of one kind", *capacity);
+    *capacity = *capacity ? *capacity * 2 : 16;
+    void *larger = sdl_alloc(sdl, (size_t)*capacity * size);
     if (count > 0)
         memcpy(larger, array, (size_t)count * size);
     return larger;

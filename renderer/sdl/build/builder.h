@@ -2,7 +2,7 @@
  *
  * Everything that can be #declared is immutable once it is read: a change (a transform, another finish, a name) is made
  * on a copy, so identifiers share what they have in common. Objects keep their transforms apart from their geometry and
- * from their textures (Dressed), which makes `object{Ident translate …}` one small copy however large Ident is.
+ * from their textures (MovedTexture), which makes `object{Ident translate …}` one small copy however large Ident is.
  *
  * Where the language asks for more than the renderer has, the thing is marked with a Gap and reported when it is
  * placed, not when it is declared: the standard includes declare hundreds of textures that no scene uses all of. */
@@ -71,7 +71,7 @@ typedef struct ParsedPigment {
     Averaged averaged; /* then kind is a colour */
     int disturbed;     /* has turbulence or a warp */
     const char *file;  /* where its colour is written, for messages; line 0: nowhere */
-    int line, told;    /* told: that it is no albedo */
+    int line, warned;    /* warned: that it is no albedo */
     Gaps gaps;
     struct ParsedPigment *next; /* all there are */
 } ParsedPigment;
@@ -94,15 +94,15 @@ typedef struct ParsedTexture {
     Texture texture;                   /* first: its pigment is a ParsedPigment, its finish a ParsedFinish */
     const struct ParsedTexture *below; /* the layer under it */
     Gaps gaps;
-    int settled; /* the names of its pigment are joined to its own */
+    int names_joined; /* the names of its pigment are joined to its own */
 } ParsedTexture;
 
-/* A texture and what has moved it since: `sphere{… texture{T} rotate … scale …}` composes matrices only. */
-typedef struct Dressed {
+/* A texture and the transform written after it: `sphere{… texture{T} rotate …}` only multiplies matrices. */
+typedef struct MovedTexture {
     const ParsedTexture *texture; /* or NULL */
-    int moved;
-    Transform pending;
-} Dressed;
+    int is_moved;
+    Transform transform; /* where is_moved */
+} MovedTexture;
 
 typedef struct ParsedInterior {
     Interior interior; /* first */
@@ -128,12 +128,12 @@ typedef struct ObjectList {
 typedef struct Object {
     ObjectKind kind;
     Shape shape;      /* textures of its mesh are ParsedTextures in the mesh's own space */
-    int loose;        /* a triangle of its own, which may be gathered into one mesh with its like */
+    int single_triangle;        /* not of a mesh: may be gathered into one with its neighbours */
     int polygon;      /* the mesh is a polygon */
     const Light *light;
     const ObjectList *children; /* of a group; of a light: what it looks like */
     Transform transform;        /* canonical shape, or the children's space, to here */
-    Dressed texture, interior_texture;
+    MovedTexture texture, interior_texture;
     const ParsedInterior *interior;
     unsigned flags;
     int uv_mapping;
@@ -179,8 +179,8 @@ typedef struct Builder {
     ParsedColorMap *maps;
     ParsedFinish *finishes;
     ParsedImage *images;
-    int primitive_room, light_room;
-    unsigned char *loose; /* by primitive: may be gathered */
+    int primitive_capacity, light_capacity;
+    unsigned char *single_triangle; /* of each primitive */
     PlacedTexture placed[PLACED_CACHE];
     Mesh *placed_mesh; /* the last mesh whose own textures were placed */
     const Mesh *placed_mesh_from;
@@ -198,10 +198,10 @@ static inline const ParsedPigment *default_pigment(Sdl *sdl)
 }
 
 /* Nesting of statements that the parser recurses for; an error when too deep. */
-void statement_enter(Sdl *sdl);
-void statement_leave(Sdl *sdl);
-/* Room for one more of size bytes in an array of the arena: doubled when full. */
-void *builder_grow(Sdl *sdl, void *array, int count, int *room, size_t size);
+void statement_begin(Sdl *sdl);
+void statement_end(Sdl *sdl);
+/* The array, or a copy twice as large where it is full: there is place for one more of size bytes. */
+void *builder_grow(Sdl *sdl, void *array, int count, int *capacity, size_t size);
 
 /* The value of the next token where it is an identifier of that kind, else NULL. */
 Value *peek_ident(Sdl *sdl, ValueKind kind);
@@ -291,7 +291,7 @@ void finalize_scene(Sdl *sdl);         /* everything that waits for the end of t
 Rgb decode_color(Sdl *sdl, Rgb color); /* from the working space */
 
 /* albedo.c */
-int finish_emits(const Finish *finish); /* 1: its pigment stands for light */
+int finish_is_emitter(const Finish *finish); /* 1: its pigment stands for light */
 void check_albedo(Sdl *sdl, const Texture *texture);
 
 #endif

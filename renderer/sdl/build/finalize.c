@@ -1,5 +1,6 @@
-/* The end of the scene: what could not be decided while reading. Loose triangles are gathered into meshes, images
- * loaded, layers decided, colours brought from the working space to scene-linear, emitters told, and names listed.
+/* What can only be done at the end of the scene: single triangles are gathered into meshes, images are loaded, the
+ * visible layer of each texture is chosen, colours are converted from the working space to scene-linear, emission is
+ * derived from `ambient`, and names are listed.
  *
  * The working space. Colours are numbers of it: linear with assumed_gamma 1 (and in scenes of version 3.7 that say
  * nothing), a power or sRGB with other values. Older scenes that say nothing compute in the display's own space, which
@@ -117,10 +118,10 @@ static int same_image(Sdl *sdl, const ParsedImage *a, const ParsedImage *b)
     return strcmp(a->map.path, b->map.path) == 0 && strcmp(x ? x : "", y ? y : "") == 0;
 }
 
-static void add_image(Sdl *sdl, ParsedImage *image, int *room)
+static void add_image(Sdl *sdl, ParsedImage *image, int *capacity)
 {
     Scene *scene = sdl_scene(sdl);
-    scene->images = builder_grow(sdl, scene->images, scene->nimages, room, sizeof *scene->images);
+    scene->images = builder_grow(sdl, scene->images, scene->nimages, capacity, sizeof *scene->images);
     scene->images[scene->nimages++] = &image->map;
 }
 
@@ -139,7 +140,7 @@ static void warn_of_image(void *context, const char *text)
     sdl_warn_at(warning->sdl, image->file, image->line, "image_map: %s", text); /* which begins with the path */
 }
 
-static void load_image(Sdl *sdl, ParsedImage *image, int is_light, int *room)
+static void load_image(Sdl *sdl, ParsedImage *image, int is_light, int *capacity)
 {
     Scene *scene = sdl_scene(sdl);
     ImageMap *map = &image->map;
@@ -151,10 +152,10 @@ static void load_image(Sdl *sdl, ParsedImage *image, int is_light, int *room)
             map->width = scene->images[i]->width;
             map->height = scene->images[i]->height;
             map->has_alpha = scene->images[i]->has_alpha;
-            add_image(sdl, image, room);
+            add_image(sdl, image, capacity);
             return;
         }
-    add_image(sdl, image, room); /* before there is anything to free */
+    add_image(sdl, image, capacity); /* before there is anything to free */
     RetexImage pixels = {0};
     RetexError err = {0};
     sdl_add_file(sdl, map->path);
@@ -186,11 +187,11 @@ static void load_image(Sdl *sdl, ParsedImage *image, int is_light, int *room)
                   err.message);
 }
 
-static void load_of_texture(Sdl *sdl, const Texture *texture, int *room)
+static void load_texture_images(Sdl *sdl, const Texture *texture, int *capacity)
 {
     for (const ParsedTexture *t = (const ParsedTexture *)texture; t; t = t->below)
         if (t->texture.pigment->kind == PIGMENT_IMAGE)
-            load_image(sdl, (ParsedImage *)t->texture.pigment->image, finish_emits(t->texture.finish), room);
+            load_image(sdl, (ParsedImage *)t->texture.pigment->image, finish_is_emitter(t->texture.finish), capacity);
 }
 
 /* ---- every texture in use ---- */
@@ -213,16 +214,17 @@ static void each_texture(Sdl *sdl, TextureVisitor *visit, void *context)
 
 static void visit_load(Sdl *sdl, const Texture **texture, void *context)
 {
-    load_of_texture(sdl, *texture, context);
+    load_texture_images(sdl, *texture, context);
 }
 
-/* Layers are decided, and a texture takes the names of its pigment. Every texture is this scene's own copy by now. */
-static void visit_settle(Sdl *sdl, const Texture **texture, void *context)
+/* Chooses the visible layer and joins the names of its pigment to its own. Every texture is this scene's own copy by
+ * now. */
+static void visit_layers(Sdl *sdl, const Texture **texture, void *context)
 {
     (void)context;
     ParsedTexture *shown = (ParsedTexture *)texture_visible((const ParsedTexture *)*texture);
-    if (!shown->settled) {
-        shown->settled = 1;
+    if (!shown->names_joined) {
+        shown->names_joined = 1;
         shown->texture.idents = sdl_ident_join(sdl, shown->texture.pigment->idents, shown->texture.idents);
     }
     *texture = &shown->texture;
@@ -234,8 +236,8 @@ static void visit_albedo(Sdl *sdl, const Texture **texture, void *context)
     check_albedo(sdl, *texture);
 }
 
-/* What paths ask of them at every hit. */
-static void settle_finishes(Sdl *sdl)
+/* Paths ask for it at every vertex. */
+static void find_matte_finishes(Sdl *sdl)
 {
     for (ParsedFinish *f = builder_of(sdl)->finishes; f; f = f->next)
         f->finish.matte = finish_is_matte(&f->finish);
@@ -244,7 +246,7 @@ static void settle_finishes(Sdl *sdl)
 /* ---- emitters ---- */
 
 /* `ambient` is no light here, but a surface with ambient >= 1 and nothing diffuse is a way to write a lamp. */
-static void tell_emitters(Sdl *sdl)
+static void set_emission(Sdl *sdl)
 {
     const int all = sdl_options(sdl)->ambient;
     const Rgb light = sdl_scene(sdl)->ambient_light;
@@ -258,7 +260,7 @@ static void tell_emitters(Sdl *sdl)
 /* ---- names ---- */
 
 typedef struct Names {
-    int room;
+    int capacity;
     const char **table; /* open addressing, a power of two */
     size_t size;
 } Names;
@@ -297,7 +299,7 @@ static void list_names(Sdl *sdl, Names *names, const IdentList *idents)
         size_t slot = find_slot(names, idents->name);
         if (names->table[slot])
             continue;
-        scene->idents = builder_grow(sdl, scene->idents, scene->nidents, &names->room, sizeof *scene->idents);
+        scene->idents = builder_grow(sdl, scene->idents, scene->nidents, &names->capacity, sizeof *scene->idents);
         names->table[slot] = scene->idents[scene->nidents++] = idents->name;
     }
 }
@@ -322,7 +324,7 @@ static void list_all_names(Sdl *sdl)
 
 /* ---- */
 
-static void settle_sky(Sdl *sdl)
+static void build_sky(Sdl *sdl)
 {
     Scene *scene = sdl_scene(sdl);
     const ParsedSky *sky = builder_of(sdl)->sky;
@@ -341,24 +343,24 @@ static void settle_sky(Sdl *sdl)
 static void load_images(Sdl *sdl)
 {
     const Scene *scene = sdl_scene(sdl);
-    int room = 0;
-    each_texture(sdl, visit_load, &room);
+    int capacity = 0;
+    each_texture(sdl, visit_load, &capacity);
     for (int i = 0; scene->sky && i < scene->sky->npigments; i++)
         if (scene->sky->pigments[i]->kind == PIGMENT_IMAGE)
-            load_image(sdl, (ParsedImage *)scene->sky->pigments[i]->image, 1, &room);
+            load_image(sdl, (ParsedImage *)scene->sky->pigments[i]->image, 1, &capacity);
 }
 
 void finalize_scene(Sdl *sdl)
 {
     if (sdl_scene(sdl)->width == 0)
         camera_use(sdl, &builder_of(sdl)->camera);
-    settle_sky(sdl);
+    build_sky(sdl);
     gather_triangles(sdl);
     load_images(sdl);
-    each_texture(sdl, visit_settle, NULL);
+    each_texture(sdl, visit_layers, NULL);
     each_texture(sdl, visit_albedo, NULL);
     decode_colors(sdl);
-    settle_finishes(sdl);
-    tell_emitters(sdl);
+    find_matte_finishes(sdl);
+    set_emission(sdl);
     list_all_names(sdl);
 }

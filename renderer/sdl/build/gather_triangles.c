@@ -1,9 +1,9 @@
-/* Loose triangles become meshes: a scene that writes thousands of them would otherwise have as many primitives.
- * Only neighbours that share texture, interior, flags and names are gathered: it cannot be told from outside. */
+/* Single triangles become meshes: a scene that writes thousands of them would otherwise have as many primitives. Only
+ * neighbours that share texture, interior, flags and names are gathered, so that no result changes. */
 #include <string.h>
 #include "sdl/build/builder.h"
 
-static int alike(const Primitive *a, const Primitive *b)
+static int same_surface(const Primitive *a, const Primitive *b)
 {
     return a->texture == b->texture && a->interior_texture == b->interior_texture && a->interior == b->interior &&
            a->idents == b->idents && a->no_shadow == b->no_shadow && a->no_image == b->no_image &&
@@ -39,12 +39,12 @@ static const Mesh *gather(Sdl *sdl, const Primitive *first, int n)
 void gather_triangles(Sdl *sdl)
 {
     Scene *scene = sdl_scene(sdl);
-    const unsigned char *loose = builder_of(sdl)->loose;
+    const unsigned char *single_triangle = builder_of(sdl)->single_triangle;
     int kept = 0;
     for (int i = 0, end; i < scene->nprimitives; i = end) {
         end = i + 1;
-        while (loose[i] && end < scene->nprimitives && loose[end] &&
-               alike(&scene->primitives[i], &scene->primitives[end]))
+        while (single_triangle[i] && end < scene->nprimitives && single_triangle[end] &&
+               same_surface(&scene->primitives[i], &scene->primitives[end]))
             end++;
         Primitive p = scene->primitives[i];
         if (end - i > 1) {

@@ -64,9 +64,9 @@ void parse_background(Sdl *sdl)
 
 static void sky_pigment(Sdl *sdl, ParsedSky *sky)
 {
-    const int room = (int)(sizeof sky->pigments / sizeof *sky->pigments);
-    if (sky->npigments == room)
-        sdl_error(sdl, "a sky_sphere has at most %d pigments", room);
+    const int most = (int)(sizeof sky->pigments / sizeof *sky->pigments);
+    if (sky->npigments == most)
+        sdl_error(sdl, "a sky_sphere has at most %d pigments", most);
     sky->pigments[sky->npigments++] = parse_pigment(sdl, default_pigment(sdl));
 }
 

@@ -189,7 +189,7 @@ void parse_mesh2(Sdl *sdl, Object *object)
 
 typedef struct MeshLists {
     Mesh *mesh;
-    int vertex_room, normal_room, uv_room, face_room, texture_room;
+    int vertex_capacity, normal_capacity, uv_capacity, face_capacity, texture_capacity;
 } MeshLists;
 
 static int mesh_texture(Sdl *sdl, MeshLists *b, const ParsedTexture *texture)
@@ -198,7 +198,7 @@ static int mesh_texture(Sdl *sdl, MeshLists *b, const ParsedTexture *texture)
     for (int i = mesh->ntextures; i-- > 0 && i >= mesh->ntextures - 64;)
         if (mesh->textures[i] == &texture->texture)
             return i;
-    mesh->textures = builder_grow(sdl, mesh->textures, mesh->ntextures, &b->texture_room, sizeof *mesh->textures);
+    mesh->textures = builder_grow(sdl, mesh->textures, mesh->ntextures, &b->texture_capacity, sizeof *mesh->textures);
     mesh->textures[mesh->ntextures] = &texture->texture;
     return mesh->ntextures++;
 }
@@ -207,7 +207,7 @@ static void mesh_uvs(Sdl *sdl, MeshLists *b, MeshFace *face)
 {
     Mesh *mesh = b->mesh;
     for (int i = 0; i < 3; i++) {
-        mesh->uvs = builder_grow(sdl, mesh->uvs, mesh->nuvs, &b->uv_room, sizeof *mesh->uvs);
+        mesh->uvs = builder_grow(sdl, mesh->uvs, mesh->nuvs, &b->uv_capacity, sizeof *mesh->uvs);
         mesh->uvs[mesh->nuvs] = sdl_vector2(sdl);
         face->uv[i] = mesh->nuvs++;
         sdl_optional_comma(sdl);
@@ -218,13 +218,15 @@ static void mesh_corners(Sdl *sdl, MeshLists *b, MeshFace *face, int smooth)
 {
     Mesh *mesh = b->mesh;
     for (int i = 0; i < 3; i++) {
-        mesh->vertices = builder_grow(sdl, mesh->vertices, mesh->nvertices, &b->vertex_room, sizeof *mesh->vertices);
+        mesh->vertices =
+            builder_grow(sdl, mesh->vertices, mesh->nvertices, &b->vertex_capacity, sizeof *mesh->vertices);
         mesh->vertices[mesh->nvertices] = sdl_vector(sdl);
         face->vertex[i] = mesh->nvertices++;
         sdl_optional_comma(sdl);
         face->normal[i] = face->uv[i] = -1;
         if (smooth) {
-            mesh->normals = builder_grow(sdl, mesh->normals, mesh->nnormals, &b->normal_room, sizeof *mesh->normals);
+            mesh->normals =
+                builder_grow(sdl, mesh->normals, mesh->nnormals, &b->normal_capacity, sizeof *mesh->normals);
             mesh->normals[mesh->nnormals] = sdl_vector(sdl);
             face->normal[i] = mesh->nnormals++;
             sdl_optional_comma(sdl);
@@ -257,7 +259,7 @@ static void mesh_triangle(Sdl *sdl, MeshLists *b, int smooth)
             sdl_expected(sdl, "uv_vectors, texture or } in a mesh's triangle");
     }
     Mesh *mesh = b->mesh;
-    mesh->faces = builder_grow(sdl, mesh->faces, mesh->nfaces, &b->face_room, sizeof *mesh->faces);
+    mesh->faces = builder_grow(sdl, mesh->faces, mesh->nfaces, &b->face_capacity, sizeof *mesh->faces);
     mesh->faces[mesh->nfaces++] = face;
 }
 

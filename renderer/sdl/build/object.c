@@ -35,12 +35,12 @@ void object_count_child(Sdl *sdl, Object *object, const Object *child)
         sdl_error(sdl, "an object of more than %.0f parts", MAX_PARTS);
 }
 
-static void dressed_move(Dressed *dressed, const Transform *by)
+static void moved_texture_move(MovedTexture *moved, const Transform *by)
 {
-    if (!dressed->texture)
+    if (!moved->texture)
         return;
-    dressed->pending = dressed->moved ? transform_then(dressed->pending, *by) : *by;
-    dressed->moved = 1;
+    moved->transform = moved->is_moved ? transform_then(moved->transform, *by) : *by;
+    moved->is_moved = 1;
 }
 
 void object_move(Object *object, const Transform *by)
@@ -48,21 +48,21 @@ void object_move(Object *object, const Transform *by)
     object->transform = transform_then(object->transform, *by);
     /* Under uv_mapping what moves an object does not move its texture. */
     if (!object->uv_mapping) {
-        dressed_move(&object->texture, by);
-        dressed_move(&object->interior_texture, by);
+        moved_texture_move(&object->texture, by);
+        moved_texture_move(&object->interior_texture, by);
     }
 }
 
-/* What is worn so far, in the object's present space, so that more can be laid over it. */
-static const ParsedTexture *worn(Sdl *sdl, const Dressed *dressed)
+/* The texture so far, in the object's present space, so that a layer can be laid over it. */
+static const ParsedTexture *texture_so_far(Sdl *sdl, const MovedTexture *moved)
 {
-    return dressed->moved ? texture_moved(sdl, dressed->texture, &dressed->pending) : dressed->texture;
+    return moved->is_moved ? texture_moved(sdl, moved->texture, &moved->transform) : moved->texture;
 }
 
-static void wear(Dressed *dressed, const ParsedTexture *texture)
+static void set_texture(MovedTexture *moved, const ParsedTexture *texture)
 {
-    dressed->texture = texture;
-    dressed->moved = 0;
+    moved->texture = texture;
+    moved->is_moved = 0;
 }
 
 /* ---- modifiers ---- */
@@ -118,9 +118,10 @@ static void material(Sdl *sdl, Object *object)
     const ParsedTexture *texture = texture_named(sdl, material->texture, material->idents);
     const ParsedTexture *inside = texture_named(sdl, material->interior_texture, material->idents);
     if (texture)
-        wear(&object->texture, texture_over(sdl, texture, worn(sdl, &object->texture)));
+        set_texture(&object->texture, texture_over(sdl, texture, texture_so_far(sdl, &object->texture)));
     if (inside)
-        wear(&object->interior_texture, texture_over(sdl, inside, worn(sdl, &object->interior_texture)));
+        set_texture(&object->interior_texture,
+                    texture_over(sdl, inside, texture_so_far(sdl, &object->interior_texture)));
     if (material->interior)
         object->interior = material->interior;
 }
@@ -128,9 +129,10 @@ static void material(Sdl *sdl, Object *object)
 static int accept_surface(Sdl *sdl, Object *object)
 {
     if (sdl_accept(sdl, "texture"))
-        wear(&object->texture, texture_over(sdl, parse_texture(sdl), worn(sdl, &object->texture)));
+        set_texture(&object->texture, texture_over(sdl, parse_texture(sdl), texture_so_far(sdl, &object->texture)));
     else if (sdl_accept(sdl, "interior_texture"))
-        wear(&object->interior_texture, texture_over(sdl, parse_texture(sdl), worn(sdl, &object->interior_texture)));
+        set_texture(&object->interior_texture,
+                    texture_over(sdl, parse_texture(sdl), texture_so_far(sdl, &object->interior_texture)));
     else if (sdl_accept(sdl, "material"))
         material(sdl, object);
     else if (sdl_accept(sdl, "interior"))
@@ -138,9 +140,9 @@ static int accept_surface(Sdl *sdl, Object *object)
     else if (sdl_accept(sdl, "uv_mapping"))
         object->uv_mapping = sdl_optional_bool(sdl, 1);
     else if (sdl_is(sdl, "pigment") || sdl_is(sdl, "finish") || sdl_is(sdl, "normal")) {
-        const ParsedTexture *texture = worn(sdl, &object->texture);
+        const ParsedTexture *texture = texture_so_far(sdl, &object->texture);
         accept_texture_part(sdl, &texture);
-        wear(&object->texture, texture);
+        set_texture(&object->texture, texture);
     } else
         return 0;
     return 1;
@@ -344,8 +346,8 @@ const Object *accept_object(Sdl *sdl)
 {
     if (sdl_peek(sdl)->kind != TOKEN_WORD)
         return NULL;
-    statement_enter(sdl);
+    statement_begin(sdl);
     const Object *object = statement(sdl);
-    statement_leave(sdl);
+    statement_end(sdl);
     return object;
 }

@@ -105,9 +105,9 @@ static ParsedColorMap *map_new(Sdl *sdl)
     return map;
 }
 
-static void map_add(Sdl *sdl, ParsedColorMap *map, int *room, double value, Rgbft color)
+static void map_add(Sdl *sdl, ParsedColorMap *map, int *capacity, double value, Rgbft color)
 {
-    map->map.entries = builder_grow(sdl, map->map.entries, map->map.count, room, sizeof(ColorMapEntry));
+    map->map.entries = builder_grow(sdl, map->map.entries, map->map.count, capacity, sizeof(ColorMapEntry));
     int i = map->map.count++;
     /* In order of value, what was written first first. */
     for (; i > 0 && map->map.entries[i - 1].value > value; i--)
@@ -127,21 +127,21 @@ static Rgbft value_color(Sdl *sdl, const Value *value)
 }
 
 /* `[VALUE COLOUR]`, or the old `[FROM TO COLOUR COLOUR]`. */
-static void color_map_entry(Sdl *sdl, ParsedColorMap *map, int *room)
+static void color_map_entry(Sdl *sdl, ParsedColorMap *map, int *capacity)
 {
     double from = sdl_float(sdl);
     sdl_optional_comma(sdl);
     if (sdl_is_color_start(sdl)) {
-        map_add(sdl, map, room, from, sdl_color(sdl));
+        map_add(sdl, map, capacity, from, sdl_color(sdl));
     } else {
         Value value = sdl_expression(sdl);
         sdl_optional_comma(sdl);
         if (value.kind == VALUE_FLOAT && !sdl_is(sdl, "]")) {
-            map_add(sdl, map, room, from, sdl_color(sdl));
+            map_add(sdl, map, capacity, from, sdl_color(sdl));
             sdl_optional_comma(sdl);
-            map_add(sdl, map, room, value.number[0], sdl_color(sdl));
+            map_add(sdl, map, capacity, value.number[0], sdl_color(sdl));
         } else
-            map_add(sdl, map, room, from, value_color(sdl, &value));
+            map_add(sdl, map, capacity, from, value_color(sdl, &value));
     }
     sdl_optional_comma(sdl);
     sdl_expect(sdl, "]");
@@ -156,9 +156,9 @@ ParsedColorMap *parse_color_map(Sdl *sdl)
         return known;
     }
     ParsedColorMap *map = map_new(sdl);
-    int room = 0;
+    int capacity = 0;
     while (sdl_accept(sdl, "["))
-        color_map_entry(sdl, map, &room), sdl_optional_comma(sdl);
+        color_map_entry(sdl, map, &capacity), sdl_optional_comma(sdl);
     if (map->map.count == 0)
         sdl_expected(sdl, "`[` and an entry of the color_map");
     sdl_expect(sdl, "}");
@@ -183,19 +183,19 @@ ParsedColorMap *parse_pigment_map(Sdl *sdl)
     if (map)
         return map;
     map = map_new(sdl);
-    int room = 0;
-    statement_enter(sdl);
+    int capacity = 0;
+    statement_begin(sdl);
     while (sdl_accept(sdl, "[")) {
         double value = optional_float(sdl, 1); /* of `average` it may be left out */
         sdl_optional_comma(sdl);
         ParsedPigment *pigment = parse_pigment_body(sdl, default_pigment(sdl), ']');
-        map_add(sdl, map, &room, value, pigment_mean(pigment));
+        map_add(sdl, map, &capacity, value, pigment_mean(pigment));
         gaps_join(&map->gaps, &pigment->gaps);
         if (pigment->pigment.kind != PIGMENT_COLOR)
             gaps_add(&map->gaps, GAP_PIGMENT_MAP);
         sdl_optional_comma(sdl);
     }
-    statement_leave(sdl);
+    statement_end(sdl);
     sdl_expect(sdl, "}");
     return map;
 }
@@ -207,22 +207,22 @@ ParsedColorMap *parse_texture_map(Sdl *sdl)
     if (map)
         return map;
     map = map_new(sdl);
-    int room = 0;
-    statement_enter(sdl);
+    int capacity = 0;
+    statement_begin(sdl);
     gaps_add(&map->gaps, GAP_TEXTURE_MAP);
     while (sdl_accept(sdl, "[")) {
         double value = optional_float(sdl, 1);
         sdl_optional_comma(sdl);
         const ParsedTexture *texture = parse_texture_body(sdl, ']');
         const ParsedPigment *pigment = (const ParsedPigment *)texture_visible(texture)->texture.pigment;
-        map_add(sdl, map, &room, value, pigment_mean(pigment));
+        map_add(sdl, map, &capacity, value, pigment_mean(pigment));
         gaps_join(&map->gaps, &texture->gaps);
         gaps_join(&map->gaps, &pigment->gaps);
         if (!map->texture)
             map->texture = texture;
         sdl_optional_comma(sdl);
     }
-    statement_leave(sdl);
+    statement_end(sdl);
     sdl_expect(sdl, "}");
     return map;
 }
@@ -296,10 +296,10 @@ static void pigment_item(Sdl *sdl, ParsedPigment *pigment, const ParsedTexture *
 static void pigment_items(Sdl *sdl, ParsedPigment *pigment, const ParsedTexture **first, int textures, char end)
 {
     const char closing[2] = {end, 0};
-    statement_enter(sdl);
+    statement_begin(sdl);
     while (!sdl_accept(sdl, closing))
         pigment_item(sdl, pigment, first, textures), sdl_optional_comma(sdl);
-    statement_leave(sdl);
+    statement_end(sdl);
     if (pigment->averaged == AVERAGED_BY_WEIGHT)
         pigment->pigment.color = weighted_mean(&pigment->pigment.map);
     else if (pigment->averaged)

@@ -3,15 +3,15 @@
 #include <string.h>
 #include "sdl/build/builder.h"
 
-/* What a child takes from the groups around it. */
-typedef struct Around {
+/* What a child inherits from the groups around it. */
+typedef struct Inherited {
     Transform to_world;
     const ParsedTexture *texture, *interior_texture; /* in world space */
     const ParsedInterior *interior;
     int uv_mapping;
     unsigned flags;
     const IdentList *idents;
-} Around;
+} Inherited;
 
 /* ---- textures in world space ---- */
 
@@ -38,14 +38,15 @@ static const ParsedTexture *placed_texture(Sdl *sdl, const ParsedTexture *textur
     return slot->to;
 }
 
-static const ParsedTexture *undressed(Sdl *sdl, const Dressed *dressed, const Transform *outer, int uv_mapping)
+static const ParsedTexture *texture_in_world(Sdl *sdl, const MovedTexture *moved, const Transform *outer,
+                                             int uv_mapping)
 {
-    if (!dressed->texture)
+    if (!moved->texture)
         return NULL;
-    Transform by = dressed->moved ? dressed->pending : transform_identity();
+    Transform by = moved->is_moved ? moved->transform : transform_identity();
     if (!uv_mapping)
         by = transform_then(by, *outer);
-    return placed_texture(sdl, dressed->texture, &by);
+    return placed_texture(sdl, moved->texture, &by);
 }
 
 /* uv_mapping said of an object holds for all pigments on it. */
@@ -116,16 +117,17 @@ static Primitive *primitive_new(Sdl *sdl)
 {
     Scene *scene = sdl_scene(sdl);
     Builder *builder = builder_of(sdl);
-    int room = builder->primitive_room;
-    builder->loose = builder_grow(sdl, builder->loose, scene->nprimitives, &room, sizeof *builder->loose);
-    scene->primitives =
-        builder_grow(sdl, scene->primitives, scene->nprimitives, &builder->primitive_room, sizeof *scene->primitives);
+    int capacity = builder->primitive_capacity;
+    builder->single_triangle =
+        builder_grow(sdl, builder->single_triangle, scene->nprimitives, &capacity, sizeof *builder->single_triangle);
+    scene->primitives = builder_grow(sdl, scene->primitives, scene->nprimitives, &builder->primitive_capacity,
+                                     sizeof *scene->primitives);
     Primitive *primitive = &scene->primitives[scene->nprimitives++];
     memset(primitive, 0, sizeof *primitive);
     return primitive;
 }
 
-static void place_shape(Sdl *sdl, const Object *object, const Around *in)
+static void place_shape(Sdl *sdl, const Object *object, const Inherited *in)
 {
     const ParsedTexture *texture = in->texture ? in->texture : builder_of(sdl)->default_texture;
     const ParsedTexture *inside = in->interior_texture;
@@ -140,7 +142,7 @@ static void place_shape(Sdl *sdl, const Object *object, const Around *in)
         gaps_report(sdl, &interior->gaps);
     const Mesh *mesh = object->shape.mesh ? placed_mesh(sdl, object, &in->to_world) : NULL;
     Primitive *p = primitive_new(sdl);
-    builder_of(sdl)->loose[sdl_scene(sdl)->nprimitives - 1] = (unsigned char)object->loose;
+    builder_of(sdl)->single_triangle[sdl_scene(sdl)->nprimitives - 1] = (unsigned char)object->single_triangle;
     p->shape = object->shape;
     p->shape.mesh = mesh;
     p->transform = in->to_world;
@@ -163,7 +165,7 @@ static void place_light(Sdl *sdl, const Object *object, const Transform *to_worl
 {
     Scene *scene = sdl_scene(sdl);
     scene->lights =
-        builder_grow(sdl, scene->lights, scene->nlights, &builder_of(sdl)->light_room, sizeof *scene->lights);
+        builder_grow(sdl, scene->lights, scene->nlights, &builder_of(sdl)->light_capacity, sizeof *scene->lights);
     Light *light = &scene->lights[scene->nlights++];
     *light = *object->light;
     light->location = transform_point(to_world, light->location);
@@ -176,34 +178,35 @@ static void place_light(Sdl *sdl, const Object *object, const Transform *to_worl
 
 /* ---- the walk ---- */
 
-static void place(Sdl *sdl, const Object *object, const Around *around);
+static void place(Sdl *sdl, const Object *object, const Inherited *around);
 
-static void place_children(Sdl *sdl, const ObjectList *list, const Around *around)
+static void place_children(Sdl *sdl, const ObjectList *list, const Inherited *around)
 {
     for (; list; list = list->next)
         place(sdl, list->object, around);
 }
 
-/* What an object looks like stands about its light, and casts no shadow. */
-static void place_look(Sdl *sdl, const Object *object, const Around *here)
+/* The object of looks_like is placed at its light, and casts no shadow. */
+static void place_looks_like(Sdl *sdl, const Object *object, const Inherited *here)
 {
-    Around look = *here;
+    Inherited look = *here;
     look.to_world = transform_then(transform_translate(object->light->location), here->to_world);
     look.flags |= OBJECT_NO_SHADOW;
     place_children(sdl, object->children, &look);
 }
 
-static void place(Sdl *sdl, const Object *object, const Around *around)
+static void place(Sdl *sdl, const Object *object, const Inherited *around)
 {
-    Around here = *around;
+    Inherited here = *around;
     sdl_step(sdl, 1);
     object_report(sdl, object);
     if (object->kind == OBJECT_EMPTY)
         return;
     here.to_world = transform_then(object->transform, around->to_world);
     here.uv_mapping = object->uv_mapping;
-    const ParsedTexture *texture = undressed(sdl, &object->texture, &around->to_world, object->uv_mapping);
-    const ParsedTexture *inside = undressed(sdl, &object->interior_texture, &around->to_world, object->uv_mapping);
+    const ParsedTexture *texture = texture_in_world(sdl, &object->texture, &around->to_world, object->uv_mapping);
+    const ParsedTexture *inside =
+        texture_in_world(sdl, &object->interior_texture, &around->to_world, object->uv_mapping);
     if (texture)
         here.texture = texture;
     else
@@ -223,7 +226,7 @@ static void place(Sdl *sdl, const Object *object, const Around *around)
         break;
     case OBJECT_LIGHT:
         place_light(sdl, object, &here.to_world);
-        place_look(sdl, object, &here);
+        place_looks_like(sdl, object, &here);
         break;
     case OBJECT_EMPTY:
         break;
@@ -232,6 +235,6 @@ static void place(Sdl *sdl, const Object *object, const Around *around)
 
 void place_object(Sdl *sdl, const Object *object)
 {
-    const Around world = {.to_world = transform_identity()};
+    const Inherited world = {.to_world = transform_identity()};
     place(sdl, object, &world);
 }

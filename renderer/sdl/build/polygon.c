@@ -19,7 +19,7 @@ typedef struct Crossing {
 
 typedef struct Triangles {
     Vec2 *corners; /* three each */
-    int count, room;
+    int count, capacity;
 } Triangles;
 
 static void add(Sdl *sdl, Triangles *out, Vec2 a, Vec2 b, Vec2 c)
@@ -28,7 +28,7 @@ static void add(Sdl *sdl, Triangles *out, Vec2 a, Vec2 b, Vec2 c)
     if (area == 0)
         return;
     for (int i = 0; i < 3; i++) {
-        out->corners = builder_grow(sdl, out->corners, out->count, &out->room, sizeof *out->corners);
+        out->corners = builder_grow(sdl, out->corners, out->count, &out->capacity, sizeof *out->corners);
         out->corners[out->count++] = i == 0 ? a : (i == 1) == (area > 0) ? b : c;
     }
 }
@@ -103,18 +103,18 @@ static int crossing_height(const Edge *a, const Edge *b, double *v)
 
 static double *heights(Sdl *sdl, const Edge *edges, int n, int *count)
 {
-    int room = 0;
+    int capacity = 0;
     double *all = NULL, v;
     *count = 0;
     for (int i = 0; i < n; i++) {
         sdl_step(sdl, 1 + i / EDGES_A_STEP);
         for (int end = 0; end < 2; end++) {
-            all = builder_grow(sdl, all, *count, &room, sizeof *all);
+            all = builder_grow(sdl, all, *count, &capacity, sizeof *all);
             all[(*count)++] = end ? edges[i].high.v : edges[i].low.v;
         }
         for (int j = 0; j < i; j++)
             if (crossing_height(&edges[i], &edges[j], &v)) {
-                all = builder_grow(sdl, all, *count, &room, sizeof *all);
+                all = builder_grow(sdl, all, *count, &capacity, sizeof *all);
                 all[(*count)++] = v;
             }
     }

@@ -199,10 +199,10 @@ const ParsedTexture *parse_texture_body(Sdl *sdl, char end)
     const char closing[2] = {end, 0};
     const ParsedTexture *texture = builder_of(sdl)->default_texture;
     int whole = 0;
-    statement_enter(sdl);
+    statement_begin(sdl);
     while (!whole && !sdl_accept(sdl, closing))
         texture_item(sdl, &texture, end, &whole);
-    statement_leave(sdl);
+    statement_end(sdl);
     return texture;
 }
 
@@ -263,7 +263,7 @@ const ParsedMaterial *parse_material(Sdl *sdl)
 {
     ParsedMaterial *material = sdl_alloc(sdl, sizeof *material);
     Transform by;
-    statement_enter(sdl);
+    statement_begin(sdl);
     sdl_expect(sdl, "{");
     while (!sdl_accept(sdl, "}")) {
         const ParsedMaterial *known = accept_ident(sdl, VALUE_MATERIAL);
@@ -281,6 +281,6 @@ const ParsedMaterial *parse_material(Sdl *sdl)
         } else if (!accept_texture_part(sdl, &material->texture))
             sdl_expected(sdl, "texture, interior, interior_texture or a transform in material");
     }
-    statement_leave(sdl);
+    statement_end(sdl);
     return material;
 }

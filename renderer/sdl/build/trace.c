@@ -37,7 +37,7 @@ static void widen(Bounds *b, Vec3 p)
 }
 
 /* A little larger, so that rounding loses nothing. */
-static Bounds loosened(Bounds b)
+static Bounds padded(Bounds b)
 {
     double size = fmax(vec_length(b.low), vec_length(b.high)) * 1e-12;
     Vec3 more = vec3(size, size, size);
@@ -204,7 +204,7 @@ static const Tree *mesh_tree(Sdl *sdl, const Mesh *mesh)
         bounds[i] = nothing;
         for (int k = 0; k < 3; k++)
             widen(&bounds[i], mesh->vertices[mesh->faces[i].vertex[k]]);
-        bounds[i] = loosened(bounds[i]);
+        bounds[i] = padded(bounds[i]);
     }
     tree_make(sdl, &t->tree, bounds, mesh->nfaces);
     return &t->tree;
@@ -273,7 +273,7 @@ static Vec3 mesh_normal(const Object *object, const Transform *t, const MeshHit 
         Vec3 sum = {0, 0, 0};
         for (int i = 0; i < 3; i++) {
             Vec3 n = transform_normal(t, vec_normalize(mesh->normals[f->normal[i]]));
-            sum = vec_mad(sum, object->loose ? vec_normalize(n) : n, weights[i]);
+            sum = vec_mad(sum, object->single_triangle ? vec_normalize(n) : n, weights[i]);
         }
         return sum;
     }
@@ -285,12 +285,12 @@ static Vec3 mesh_normal(const Object *object, const Transform *t, const MeshHit 
 
 /* ---- objects ---- */
 
-typedef struct Flattening {
+typedef struct Flattener {
     Traced *traced;
-    int room, object_room;
-} Flattening;
+    int capacity, object_capacity;
+} Flattener;
 
-static void flatten(Sdl *sdl, Flattening *f, const Object *object, const Transform *outer, unsigned inverse)
+static void flatten(Sdl *sdl, Flattener *f, const Object *object, const Transform *outer, unsigned inverse)
 {
     object_report(sdl, object);
     sdl_step(sdl, 1);
@@ -298,8 +298,8 @@ static void flatten(Sdl *sdl, Flattening *f, const Object *object, const Transfo
     inverse ^= object->flags & OBJECT_INVERSE;
     if (object->kind == OBJECT_SHAPE) {
         Traced *t = f->traced;
-        t->primitives = builder_grow(sdl, t->primitives, t->nprimitives, &f->room, sizeof *t->primitives);
-        t->objects = builder_grow(sdl, t->objects, t->nprimitives, &f->object_room, sizeof *t->objects);
+        t->primitives = builder_grow(sdl, t->primitives, t->nprimitives, &f->capacity, sizeof *t->primitives);
+        t->objects = builder_grow(sdl, t->objects, t->nprimitives, &f->object_capacity, sizeof *t->objects);
         t->objects[t->nprimitives] = object;
         t->primitives[t->nprimitives++] =
             (Primitive){.shape = object->shape, .transform = to_world, .inverse = inverse != 0, .target = -1};
@@ -333,13 +333,13 @@ static Traced *traced_object(Sdl *sdl, const Object *object)
     if (!fresh)
         return t;
     const Transform none = transform_identity();
-    flatten(sdl, &(Flattening){.traced = t}, object, &none, 0);
+    flatten(sdl, &(Flattener){.traced = t}, object, &none, 0);
     unbounded_first(t);
     const int count = t->nprimitives - t->nunbounded;
     Bounds *bounds = sdl_alloc(sdl, (size_t)(count + 1) * sizeof *bounds);
     for (int i = 0; i < count; i++) {
         shape_bounds(&t->primitives[t->nunbounded + i], &bounds[i].low, &bounds[i].high);
-        bounds[i] = loosened(bounds[i]);
+        bounds[i] = padded(bounds[i]);
     }
     tree_make(sdl, &t->tree, bounds, count);
     return t;
@@ -384,7 +384,7 @@ static Vec3 normal_at(Sdl *sdl, const ObjectHit *found, const Ray *ray)
     if (p->shape.mesh) {
         const Object *object = t->objects[found->hit.primitive];
         Vec3 n = vec_normalize(mesh_normal(object, &p->transform, &found->mesh));
-        return p->inverse && !object->loose ? vec_neg(n) : n;
+        return p->inverse && !object->single_triangle ? vec_neg(n) : n;
     }
     Scene *scene = &tracer_of(sdl)->scene;
     Surface surface;

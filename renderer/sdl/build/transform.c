@@ -53,7 +53,7 @@ Transform parse_transform(Sdl *sdl)
         return *known;
     Transform all = transform_identity(), by;
     int inverse = 0;
-    statement_enter(sdl);
+    statement_begin(sdl);
     sdl_expect(sdl, "{");
     while (!sdl_accept(sdl, "}")) {
         if (sdl_accept(sdl, "inverse"))
@@ -66,7 +66,7 @@ Transform parse_transform(Sdl *sdl)
             sdl_expected(sdl, "a transform");
         sdl_optional_comma(sdl);
     }
-    statement_leave(sdl);
+    statement_end(sdl);
     return inverse ? transform_inverse(all) : all;
 }
 
