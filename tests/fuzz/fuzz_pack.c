@@ -21,7 +21,7 @@
 enum { ENTRIES_MAX = 256 };
 
 typedef struct Entry {
-    char name[PACK_NAME_MAX];
+    char name[RETEX_PACK_NAME_MAX];
     unsigned char *data;
     size_t size;
 } Entry;
@@ -136,7 +136,7 @@ static void put_number(unsigned char *at, uint32_t value)
 static void put_right(unsigned char *index, const Entry *entry, int chunks)
 {
     size_t begin = 0;
-    for (int k = 0; entry && k < chunks; k++, index += PACK_INDEX_ENTRY) {
+    for (int k = 0; entry && k < chunks; k++, index += RETEX_PACK_INDEX_ENTRY_BYTES) {
         size_t bytes = index[0] | (size_t)index[1] << 8 | (size_t)index[2] << 16 | (size_t)index[3] << 24;
         if (k == chunks - 1 || bytes > entry->size - begin)
             bytes = entry->size - begin;
@@ -146,27 +146,28 @@ static void put_right(unsigned char *index, const Entry *entry, int chunks)
     }
 }
 
-static void put_parts_right(unsigned char *index, size_t size, const RetexSet *set, const PackPart *parts,
+static void put_parts_right(unsigned char *index, size_t size, const RetexSet *set, const RetexPackPart *parts,
                             Entry *entries, int count)
 {
-    char name[PACK_NAME_MAX];
+    char name[RETEX_PACK_NAME_MAX];
     size_t at = 0;
     for (int i = 0; i < set->nparts; i++) {
-        const int jpeg = parts[i].codec == PACK_JPEG ? 1 + parts[i].nbands : 0,
+        const int jpeg = parts[i].codec == RETEX_PACK_JPEG ? 1 + parts[i].nbands : 0,
                   chunks[2] = {jpeg, parts[i].nchunks - jpeg};
         for (int planes = 0; planes < 2; planes++) {
-            pack_file_name(name, sizeof name, set, i, planes);
-            if (size - at < (size_t)chunks[planes] * PACK_INDEX_ENTRY)
+            retex_pack_file_name(name, sizeof name, set, i, planes);
+            if (size - at < (size_t)chunks[planes] * RETEX_PACK_INDEX_ENTRY_BYTES)
                 return;
             put_right(index + at, find_entry(entries, count, name), chunks[planes]);
-            at += (size_t)chunks[planes] * PACK_INDEX_ENTRY;
+            at += (size_t)chunks[planes] * RETEX_PACK_INDEX_ENTRY_BYTES;
         }
     }
 }
 
 static void put_all_right(Entry *entries, int count)
 {
-    Entry *manifest = find_entry(entries, count, PACK_MANIFEST), *index = find_entry(entries, count, PACK_INDEX);
+    Entry *manifest = find_entry(entries, count, RETEX_PACK_MANIFEST_NAME),
+          *index = find_entry(entries, count, RETEX_PACK_INDEX_NAME);
     RetexSet *set = NULL;
     RetexSamples *samples = NULL;
     RetexSamplePart *names = NULL;
@@ -178,11 +179,11 @@ static void put_all_right(Entry *entries, int count)
         memcpy(manifest->data, json, strlen(json));
     }
     if (json && retex_manifest_read(json, "fuzz", &set, &samples, &names, NULL, NULL) == 0 && set) {
-        PackPart *parts = calloc((size_t)set->nparts + 1, sizeof *parts);
-        if (parts && pack_understand(parts, set, json, NULL) == 0)
+        RetexPackPart *parts = calloc((size_t)set->nparts + 1, sizeof *parts);
+        if (parts && retex_pack_parse(parts, set, json, NULL) == 0)
             put_parts_right(index->data, index->size, set, parts, entries, count);
         for (int i = 0; parts && i < set->nparts; i++)
-            pack_part_free(&parts[i]);
+            retex_pack_part_free(&parts[i]);
         free(parts);
     }
     free(names);

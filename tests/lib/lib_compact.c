@@ -83,7 +83,7 @@ RetexSet *compacted(const RetexSet *set, int broad, int later, int gain)
     RetexCompactParams params = RETEX_COMPACT_INIT;
     RetexError err = {0};
     RetexSet *compact;
-    params.broad = broad, params.later = later, params.gain = gain;
+    params.broad = broad, params.interreflection = later, params.gain = gain;
     test_must(retex_set_compact(&compact, set, &params, 2, &err), &err);
     return compact;
 }

@@ -16,7 +16,7 @@ static int take(RetexCompactParams *params, const char *word)
     else if (strcmp(name, "broad") == 0)
         params->broad = (int)value;
     else if (strcmp(name, "interreflection") == 0)
-        params->later = (int)value;
+        params->interreflection = (int)value;
     else if (strcmp(name, "gain") == 0)
         params->gain = (int)value;
     else

@@ -34,7 +34,7 @@ static RetexImage make_image(double shade, double edge, double deviation)
 static double noise_of(double shade, double edge, double deviation)
 {
     RetexImage im = make_image(shade, edge, deviation);
-    const double noise = image_noise(&im, LEVELS);
+    const double noise = retex_image_noise(&im, LEVELS);
     retex_image_free(&im);
     return noise;
 }
@@ -70,10 +70,10 @@ static void black_and_odd_pixels_do_not_count(void **state)
                 else if (x % 30 == 0 && y % 30 == 0)
                     *value = 100;
             }
-    assert_float_equal(image_noise(&im, LEVELS) / 2, 1, 0.1);
+    assert_float_equal(retex_image_noise(&im, LEVELS) / 2, 1, 0.1);
     for (size_t i = 0; i < (size_t)SIDE * SIDE * 3; i++)
         im.pixels[i] = 0;
-    assert_float_equal(image_noise(&im, LEVELS), 0, 0);
+    assert_float_equal(retex_image_noise(&im, LEVELS), 0, 0);
     retex_image_free(&im);
 }
 
@@ -83,7 +83,7 @@ static void the_smallest_and_the_noisiest(void **state)
     (void)state;
     float pixels[4] = {1, 2, 3, 4};
     const RetexImage small = {.width = 2, .height = 2, .channels = 1, .pixels = pixels};
-    assert_float_equal(image_noise(&small, LEVELS), 0, 0);
+    assert_float_equal(retex_image_noise(&small, LEVELS), 0, 0);
     assert_true(isfinite(noise_of(0, 0, 1e6)));
     assert_true(noise_of(0, 0, 1e6) > 20);
 }

@@ -70,10 +70,11 @@ static void test_rounded_means_are_small(void **state)
     const int uv = set->footprints[0].uv;
     float *one = &set->parts[uv].image.pixels[3 * 40];
     for (int odd = 0; odd < 2; odd++) {
-        PackPart *plan = calloc((size_t)set->nparts, sizeof *plan);
-        test_must(pack_plan(plan, set, NULL, 1, NULL), NULL);
-        assert_int_equal(plan[uv].codec, odd ? PACK_PLANES : PACK_MODEL); /* these end in zeros all the same */
-        assert_int_equal(plan[uv].maps[1].kind, odd ? PACK_MAP_BITS : PACK_MAP_LATTICE);
+        RetexPackPart *plan = calloc((size_t)set->nparts, sizeof *plan);
+        test_must(retex_pack_plan(plan, set, NULL, 1, NULL), NULL);
+        assert_int_equal(plan[uv].codec,
+                         odd ? RETEX_PACK_PLANES : RETEX_PACK_MODEL); /* these end in zeros all the same */
+        assert_int_equal(plan[uv].maps[1].kind, odd ? RETEX_PACK_MAP_BITS : RETEX_PACK_MAP_LATTICE);
         free(plan);
         unsigned char *data = pack(set, &params, &bytes[odd]);
         RetexSet *back = unpack(data, bytes[odd]);
@@ -224,12 +225,12 @@ static void test_quality_trades_size(void **state)
     retex_set_close(&set);
 }
 
-static PackPart *plan_of(const RetexSet *set)
+static RetexPackPart *plan_of(const RetexSet *set)
 {
-    const PackGrain grain = pack_grain(56);
-    PackPart *packed = calloc((size_t)set->nparts, sizeof *packed);
+    const RetexPackQuantizer quantizer = retex_pack_quantizer(56);
+    RetexPackPart *packed = calloc((size_t)set->nparts, sizeof *packed);
     RetexError err = {0};
-    test_must(pack_plan(packed, set, &grain, 1, &err), &err);
+    test_must(retex_pack_plan(packed, set, &quantizer, 1, &err), &err);
     return packed;
 }
 
@@ -240,12 +241,12 @@ static void test_radiance_that_does_not_suit_jpeg_keeps_its_bits(void **state)
     for (int i = 0; i < 3; i++) {
         RetexSet *set = test_set(32, 24, 5);
         const int part = set->terms[1].radiance;
-        PackPart *before = plan_of(set);
-        assert_int_equal(before[part].codec, PACK_JPEG);
+        RetexPackPart *before = plan_of(set);
+        assert_int_equal(before[part].codec, RETEX_PACK_JPEG);
         set->parts[part].image.pixels[7] = odd[i];
-        PackPart *after = plan_of(set);
-        assert_int_equal(after[part].codec, PACK_MODEL);
-        assert_int_equal(after[part].maps[1].kind, PACK_MAP_BITS);
+        RetexPackPart *after = plan_of(set);
+        assert_int_equal(after[part].codec, RETEX_PACK_MODEL);
+        assert_int_equal(after[part].maps[1].kind, RETEX_PACK_MAP_BITS);
         free(before);
         free(after);
         retex_set_close(&set);
@@ -266,8 +267,8 @@ static double gain_step_with(double noise, int denoised)
         light->pixels[i] = (float)(0.5 + noise * (test_random(&seed) - 0.5));
         gain->pixels[i] = 0.5f;
     }
-    PackPart *packed = plan_of(set);
-    const PackPart *of_light = &packed[term->radiance], *of_gain = &packed[term->gain];
+    RetexPackPart *packed = plan_of(set);
+    const RetexPackPart *of_light = &packed[term->radiance], *of_gain = &packed[term->gain];
     const double ratio = of_gain->jpeg_step / of_gain->curve.levels * of_light->curve.levels / of_light->jpeg_step;
     free(packed);
     retex_set_close(&set);
@@ -289,8 +290,8 @@ static void test_black_parts_cost_nothing(void **state)
     RetexSet *set = test_set(32, 24, 5);
     const int part = set->terms[1].radiance;
     memset(set->parts[part].image.pixels, 0, 32 * 24 * 3 * sizeof(float));
-    PackPart *packed = plan_of(set);
-    assert_int_equal(packed[part].codec, PACK_ZERO);
+    RetexPackPart *packed = plan_of(set);
+    assert_int_equal(packed[part].codec, RETEX_PACK_ZERO);
     free(packed);
     retex_set_close(&set);
 }

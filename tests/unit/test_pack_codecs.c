@@ -16,7 +16,7 @@
 static void test_jpeg_keeps_levels(void **state)
 {
     (void)state;
-    const PackCurve curve = {1, 255};
+    const RetexPackCurve curve = {1, 255};
     const int width = 75, height = 141;
     for (int channels = 1; channels <= 3; channels += 2)
         for (int bright = 0; bright < 2; bright++) {
@@ -26,15 +26,15 @@ static void test_jpeg_keeps_levels(void **state)
             for (size_t i = 0; i < count; i++) {
                 const double x = (double)(i / (size_t)channels % (size_t)width) / width;
                 values[i] = (float)((bright ? 40 : 0.9) * (0.5 + 0.5 * sin(9 * x)) * (1 - 0.1 * (double)(i % 3)));
-                levels[i] = (float)pack_curve_level(&curve, (double)values[i]);
-                assert_true(fabs(pack_curve_value(&curve, (double)levels[i]) - (double)values[i]) <
+                levels[i] = (float)retex_pack_curve_level(&curve, (double)values[i]);
+                assert_true(fabs(retex_pack_curve_value(&curve, (double)levels[i]) - (double)values[i]) <
                             1e-4 * fmax((double)values[i], 1));
             }
-            PackJpeg jpeg;
-            PackJpegDecoder *decoder;
+            RetexPackJpeg jpeg;
+            RetexPackJpegDecoder *decoder;
             RetexError err = {0};
-            test_must(pack_jpeg_encode(&jpeg, levels, width, height, channels, 1, &err), &err);
-            test_must(pack_jpeg_decoder_create(&decoder, &err), &err);
+            test_must(retex_pack_jpeg_encode(&jpeg, levels, width, height, channels, 1, &err), &err);
+            test_must(retex_pack_jpeg_decoder_create(&decoder, &err), &err);
             assert_int_equal(jpeg.npieces, 4);
             size_t at = jpeg.pieces[0];
             double sum = 0;
@@ -45,23 +45,24 @@ static void test_jpeg_keeps_levels(void **state)
                 memcpy(file, jpeg.data, jpeg.pieces[0]);
                 memcpy(file + jpeg.pieces[0], jpeg.data + at, piece);
                 at += piece;
-                test_must(pack_jpeg_open_band(decoder, file, jpeg.pieces[0], jpeg.pieces[0] + piece, width, rows,
-                                              channels, &curve, &err),
+                test_must(retex_pack_jpeg_open_band(decoder, file, jpeg.pieces[0], jpeg.pieces[0] + piece, width, rows,
+                                                    channels, &curve, &err),
                           &err);
                 free(file);
                 for (int row = 0; 8 * row < rows; row++)
-                    test_must(pack_jpeg_decode_blocks(decoder, row, back + 8 * row * width * channels, &err), &err);
-                assert_int_not_equal(pack_jpeg_decode_blocks(decoder, (rows + 7) / 8, back, &err), 0);
+                    test_must(retex_pack_jpeg_decode_blocks(decoder, row, back + 8 * row * width * channels, &err),
+                              &err);
+                assert_int_not_equal(retex_pack_jpeg_decode_blocks(decoder, (rows + 7) / 8, back, &err), 0);
                 for (int i = 0; i < width * rows * channels; i++) {
-                    const double off = pack_curve_level(&curve, (double)back[i]) -
+                    const double off = retex_pack_curve_level(&curve, (double)back[i]) -
                                        (double)levels[(size_t)band * (size_t)(64 * width * channels) + (size_t)i];
                     assert_true(fabs(off) < 6);
                     sum += off * off;
                 }
             }
             assert_true(sqrt(sum / (double)count) < (bright ? 1.0 : 0.6));
-            pack_jpeg_decoder_close(&decoder);
-            pack_jpeg_free(&jpeg);
+            retex_pack_jpeg_decoder_close(&decoder);
+            retex_pack_jpeg_free(&jpeg);
             free(values);
             free(levels);
             free(back);
@@ -75,12 +76,12 @@ static void test_jpeg_kernels_agree(void **state)
     enum { BLOCKS = 9, WIDTH = 8 * BLOCKS, MOST = 3 * WIDTH };
     static int16_t coefficients[64 * BLOCKS];
     static float steps[64], samples[2][8 * WIDTH], values[2][8 * MOST];
-    static float share[PACK_LEVEL_ENTRIES + 2];
-    const PackLevels levels = {.scale = 3.7f, .white = 1.3f, .share = share};
+    static float share[RETEX_PACK_LEVEL_ENTRIES + 2];
+    const RetexPackLevels levels = {.scale = 3.7f, .white = 1.3f, .share = share};
     uint32_t seed = 7;
-    for (int i = 0; i < PACK_LEVEL_ENTRIES + 2; i++)
+    for (int i = 0; i < RETEX_PACK_LEVEL_ENTRIES + 2; i++)
         share[i] = (float)(i * i) / 1000;
-    const PackJpegKernels *plain = &pack_jpeg_kernels[RETEX_CPU_BASELINE];
+    const RetexPackJpegKernels *plain = &retex_pack_jpeg_kernels[RETEX_CPU_BASELINE];
     for (int round = 0; round < 200; round++) {
         for (int i = 0; i < 64 * BLOCKS; i++)
             coefficients[i] = (int16_t)(i % 64 && (i / 64 + round) % 2 ? 0 : exp(8 * test_random(&seed)) - 40);
@@ -92,7 +93,7 @@ static void test_jpeg_kernels_agree(void **state)
         plain->colours(values[0], planes, planes + WIDTH, planes + 2 * WIDTH, width, &levels);
         plain->greys(values[0] + MOST, planes, width, &levels);
         for (int k = 0; k <= (int)retex_cpu_level(); k++) {
-            const PackJpegKernels *kernel = &pack_jpeg_kernels[k];
+            const RetexPackJpegKernels *kernel = &retex_pack_jpeg_kernels[k];
             kernel->inverse(samples[1], WIDTH, coefficients, BLOCKS, steps);
             for (int i = 0; i < 8 * WIDTH; i++)
                 assert_true(samples[1][i] == samples[0][i]); /* zeros may have a sign */
@@ -113,14 +114,14 @@ static void test_planes_restored_alike(void **state)
     static int32_t numbers[2][ALL];
     static unsigned char present[ALL], shift[ALL], residuals[4 * ALL + 4], codes[ALL];
     static RetexRowSpan run[(WIDTH / 2 + 1) * ROWS];
-    PackRuns runs = {.run = run};
+    RetexPackRuns runs = {.run = run};
     uint32_t seed = 7;
-    assert_int_equal(pack_runs_room(WIDTH, ROWS), sizeof run / sizeof *run);
+    assert_int_equal(retex_pack_runs_bound(WIDTH, ROWS), sizeof run / sizeof *run);
     for (int round = 0; round < 3 * 3 * 4 * PREDICTORS * 3; round++) {
         const int bits = 8 << round % 3, bytes = 1 << round / 3 % 3, holes = round / 9 % 2, steps = round / 18 % 2;
         if (bits == 8 && (bytes > 1 || steps)) /* there is no such plane */
             continue;
-        const Predictor predictor = (Predictor)(round / 36 % PREDICTORS);
+        const RetexPackPredictor predictor = (RetexPackPredictor)(round / 36 % PREDICTORS);
         const int rare = round / (36 * PREDICTORS); /* how often a run of what matters ends */
         for (int i = 0; i < ALL; i++) {
             const int change = i % WIDTH == 0 || test_random(&seed) < (rare == 0 ? 0.5 : rare == 1 ? 0.05 : 0.0);
@@ -129,13 +130,13 @@ static void test_planes_restored_alike(void **state)
         }
         for (size_t i = 0; i < sizeof residuals; i++)
             residuals[i] = (unsigned char)(test_random(&seed) * 256);
-        pack_find_runs(&runs, present, WIDTH, ROWS);
+        retex_pack_find_runs(&runs, present, WIDTH, ROWS);
         for (int k = 0; k < 2; k++) {
-            PackPlane plane = {WIDTH,      ROWS,  bits, holes ? present : NULL, steps ? shift : NULL,
-                               numbers[k], &runs, codes};
+            RetexPackPlane plane = {WIDTH,      ROWS,  bits, holes ? present : NULL, steps ? shift : NULL,
+                                    numbers[k], &runs, codes};
             memset(numbers[k], 0x5a, sizeof numbers[k]); /* what does not matter stays */
             memset(codes, 0x5a, sizeof codes);
-            (k ? pack_restore : pack_restore_plainly)(&plane, predictor, residuals, bytes);
+            (k ? retex_pack_restore : retex_pack_restore_reference)(&plane, predictor, residuals, bytes);
         }
         for (int i = 0; i < ALL && bits == 8; i++)
             if (holes && !present[i])
@@ -161,7 +162,7 @@ static void test_planes_keep_numbers(void **state)
     int32_t numbers[ALL], back[ALL];
     unsigned char present[ALL], shift[ALL], codes[ALL];
     RetexRowSpan run[(WIDTH / 2 + 1) * ROWS];
-    PackRuns runs = {.run = run};
+    RetexPackRuns runs = {.run = run};
     for (int round = 0; round < 60; round++) {
         const int bits = round % 3 == 0 ? 8 : round % 3 == 1 ? 16 : 32, smooth = round / 3 % 2;
         for (int i = 0; i < ALL; i++) {
@@ -172,20 +173,20 @@ static void test_planes_keep_numbers(void **state)
             numbers[i] = bits == 8 ? (int32_t)value : (int32_t)(value - ldexp(1, bits == 32 ? 29 : bits - 1));
         }
         const int holes = round / 6 % 2, steps = bits == 32 && round / 12 % 2;
-        pack_find_runs(&runs, present, WIDTH, ROWS);
-        PackPlane plane = {WIDTH, ROWS, bits, holes ? present : NULL, steps ? shift : NULL, numbers, &runs, NULL};
-        const size_t room = pack_plane_room(&plane);
+        retex_pack_find_runs(&runs, present, WIDTH, ROWS);
+        RetexPackPlane plane = {WIDTH, ROWS, bits, holes ? present : NULL, steps ? shift : NULL, numbers, &runs, NULL};
+        const size_t room = retex_pack_plane_bound(&plane);
         unsigned char *data = malloc(room), *scratch = malloc(2 * room);
-        const long bytes = pack_plane_encode(data, &plane, scratch, 5);
+        const long bytes = retex_pack_plane_encode(data, &plane, scratch, 5);
         assert_true(bytes > 0);
         plane.numbers = back;
         plane.codes = codes;
-        assert_true(pack_plane_decode(&plane, data, (size_t)bytes, scratch));
+        assert_true(retex_pack_plane_decode(&plane, data, (size_t)bytes, scratch));
         for (int i = 0; i < ALL && bits == 8; i++)
             back[i] = codes[i];
         for (int i = 0; i < ALL; i++) /* encoding rounds them to their steps, and clears what is missing */
             assert_int_equal(holes && !present[i] ? 0 : back[i], numbers[i]);
-        assert_false(pack_plane_decode(&plane, data, (size_t)bytes - 1, scratch));
+        assert_false(retex_pack_plane_decode(&plane, data, (size_t)bytes - 1, scratch));
         free(data);
         free(scratch);
     }

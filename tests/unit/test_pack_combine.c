@@ -216,11 +216,11 @@ static void test_unsound_descriptions_are_refused(void **state)
     const char *const wrongs[] = {"nothing", "another part", "itself", "no terms", "smaller"};
     for (size_t i = 0; i < sizeof wrongs / sizeof *wrongs; i++) {
         RetexSet *set = make_set(40, 70, 1, RETEX_FLOAT, 0);
-        PackPart *packed = calloc((size_t)set->nparts, sizeof *packed),
-                 *read = calloc((size_t)set->nparts, sizeof *read);
+        RetexPackPart *packed = calloc((size_t)set->nparts, sizeof *packed),
+                      *read = calloc((size_t)set->nparts, sizeof *read);
         RetexError err = {0};
         char *manifest = NULL;
-        packed[i == 1 ? set->terms[1].radiance : 0].codec = PACK_COMBINED;
+        packed[i == 1 ? set->terms[1].radiance : 0].codec = RETEX_PACK_COMBINED;
         if (i == 2)
             set->footprints[set->nfootprints - 1].albedo = 0;
         if (i == 3)
@@ -228,12 +228,12 @@ static void test_unsound_descriptions_are_refused(void **state)
         if (i == 4)
             set->parts[set->footprints[0].albedo].image.width = 20;
         test_must(retex_set_manifest(set, NULL, &manifest, &err), &err);
-        char *text = pack_describe(manifest, set, packed, NULL);
-        assert_int_equal(pack_understand(read, set, text, &err), i ? RETEX_EFORMAT : RETEX_OK);
+        char *text = retex_pack_describe(manifest, set, packed, NULL);
+        assert_int_equal(retex_pack_parse(read, set, text, &err), i ? RETEX_EFORMAT : RETEX_OK);
         if (i)
             assert_non_null(strstr(err.message, "not sound"));
         for (int k = 0; k < set->nparts; k++)
-            pack_part_free(&read[k]);
+            retex_pack_part_free(&read[k]);
         free(text);
         free(manifest);
         free(packed);

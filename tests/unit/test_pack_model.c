@@ -12,30 +12,31 @@
 
 enum { WIDTH = 61, ROWS = 29, ALL = WIDTH * ROWS };
 
-static PackModelBand make_band(int channels, int with_shifts)
+static RetexPackModelBand make_band(int channels, int with_shifts)
 {
-    PackModelBand band;
-    const PackMap maps[PACK_MODEL_CHANNELS_MAX] = {{.kind = with_shifts ? PACK_MAP_LATTICE : PACK_MAP_BITS},
-                                                   {.kind = with_shifts ? PACK_MAP_LATTICE : PACK_MAP_BITS}};
-    assert_true(pack_model_alloc(&band, WIDTH, ROWS, channels, maps));
+    RetexPackModelBand band;
+    const RetexPackMap maps[RETEX_PACK_MODEL_CHANNELS_MAX] = {
+        {.kind = with_shifts ? RETEX_PACK_MAP_LATTICE : RETEX_PACK_MAP_BITS},
+        {.kind = with_shifts ? RETEX_PACK_MAP_LATTICE : RETEX_PACK_MAP_BITS}};
+    assert_true(retex_pack_model_alloc(&band, WIDTH, ROWS, channels, maps));
     return band;
 }
 
 /* The numbers after encoding and decoding are the numbers; returns the bytes between. */
-static size_t there_and_back(const PackModelBand *band)
+static size_t there_and_back(const RetexPackModelBand *band)
 {
-    PackModelBand back = make_band(band->channels, band->shifts[0] != NULL);
+    RetexPackModelBand back = make_band(band->channels, band->shifts[0] != NULL);
     unsigned char *data;
-    const long bytes = pack_model_encode(&data, band);
+    const long bytes = retex_pack_model_encode(&data, band);
     assert_true(bytes >= 0);
     for (int c = 0; c < band->channels; c++)
         if (band->shifts[c])
             memcpy(back.shifts[c], band->shifts[c], ALL);
-    assert_int_equal(pack_model_decode(&back, data, (size_t)bytes), 1);
+    assert_int_equal(retex_pack_model_decode(&back, data, (size_t)bytes), 1);
     for (int c = 0; c < band->channels; c++)
         assert_memory_equal(back.numbers[c], band->numbers[c], ALL * sizeof *band->numbers[c]);
     free(data);
-    pack_model_free(&back);
+    retex_pack_model_free(&back);
     return (size_t)bytes;
 }
 
@@ -45,7 +46,7 @@ static void test_any_numbers_come_back(void **state)
     uint32_t seed = 1;
     for (int round = 0; round < 96; round++) {
         const int channels = 1 + round % 4, kind = round / 4 % 4, holes = round / 16 % 3, steps = round / 48;
-        PackModelBand band = make_band(channels, steps);
+        RetexPackModelBand band = make_band(channels, steps);
         for (int c = 0; c < channels; c++)
             for (int i = 0; i < ALL; i++) {
                 const double noise = test_random(&seed), wide = ldexp(noise - 0.5, 32);
@@ -64,18 +65,18 @@ static void test_any_numbers_come_back(void **state)
                 band.numbers[c][i] = n;
             }
         assert_true(there_and_back(&band) > 0);
-        pack_model_free(&band);
+        retex_pack_model_free(&band);
     }
 }
 
 static void test_nothing_takes_no_bytes(void **state)
 {
     (void)state;
-    PackModelBand band = make_band(3, 0);
+    RetexPackModelBand band = make_band(3, 0);
     for (int c = 0; c < 3; c++)
         memset(band.numbers[c], 0, ALL * sizeof *band.numbers[c]);
     assert_int_equal(there_and_back(&band), 0);
-    pack_model_free(&band);
+    retex_pack_model_free(&band);
 }
 
 /* Extremes, whose differences do not fit into a number. */
@@ -84,12 +85,12 @@ static void test_extremes_come_back(void **state)
     (void)state;
     uint32_t seed = 3;
     const int32_t extremes[] = {INT32_MIN, INT32_MAX, 0, -1, 1, INT32_MIN + 1};
-    PackModelBand band = make_band(2, 0);
+    RetexPackModelBand band = make_band(2, 0);
     for (int c = 0; c < 2; c++)
         for (int i = 0; i < ALL; i++)
             band.numbers[c][i] = extremes[(int)(6 * test_random(&seed))];
     there_and_back(&band);
-    pack_model_free(&band);
+    retex_pack_model_free(&band);
 }
 
 /* Noise takes its entropy; a channel that follows from the others, or from its neighbours, next to nothing; so do bits
@@ -98,7 +99,7 @@ static void test_what_can_be_predicted_is_small(void **state)
 {
     (void)state;
     uint32_t seed = 5;
-    PackModelBand band = make_band(1, 0), three = make_band(3, 0);
+    RetexPackModelBand band = make_band(1, 0), three = make_band(3, 0);
     for (int i = 0; i < ALL; i++)
         band.numbers[0][i] = 5000 + (int)(256 * test_random(&seed));
     const size_t noise = there_and_back(&band);
@@ -114,32 +115,32 @@ static void test_what_can_be_predicted_is_small(void **state)
     for (int i = 0; i < ALL; i++)
         band.numbers[0][i] = (int32_t)(32 * test_random(&seed)) << 20;
     assert_true(there_and_back(&band) < ALL * 5 / 8 * 115 / 100);
-    pack_model_free(&band);
-    pack_model_free(&three);
+    retex_pack_model_free(&band);
+    retex_pack_model_free(&three);
 }
 
 static void test_damaged_data_does_no_harm(void **state)
 {
     (void)state;
     uint32_t seed = 7;
-    PackModelBand band = make_band(3, 0);
+    RetexPackModelBand band = make_band(3, 0);
     for (int c = 0; c < 3; c++)
         for (int i = 0; i < ALL; i++)
             band.numbers[c][i] = (int32_t)(900 * test_random(&seed) * test_random(&seed)) - 60 * c;
     unsigned char *data;
-    const long bytes = pack_model_encode(&data, &band);
+    const long bytes = retex_pack_model_encode(&data, &band);
     assert_true(bytes > 8);
     for (long cut = 1; cut < bytes; cut += 1 + cut / 8)
-        assert_int_equal(pack_model_decode(&band, data, (size_t)(bytes - cut)), 0);
+        assert_int_equal(retex_pack_model_decode(&band, data, (size_t)(bytes - cut)), 0);
     for (int round = 0; round < 200; round++) {
         const size_t at = (size_t)((double)bytes * test_random(&seed));
         const unsigned char was = data[at];
         data[at] = (unsigned char)(256 * test_random(&seed));
-        pack_model_decode(&band, data, (size_t)bytes);
+        retex_pack_model_decode(&band, data, (size_t)bytes);
         data[at] = was;
     }
     free(data);
-    pack_model_free(&band);
+    retex_pack_model_free(&band);
 }
 
 int main(void)

@@ -24,17 +24,18 @@ static void promises_rise_with_quality(void **state)
     (void)state;
     for (int i = 0; i < 3; i++)
         for (int quality = 2; quality <= 100; quality++)
-            assert_true(pack_promise(quality, 32, noises[i]) > pack_promise(quality - 1, 32, noises[i]));
+            assert_true(retex_pack_promised_psnr(quality, 32, noises[i]) >
+                        retex_pack_promised_psnr(quality - 1, 32, noises[i]));
     for (int quality = 2; quality <= 100; quality++)
-        assert_true(pack_promise(quality, 1, 0) > pack_promise(quality - 1, 1, 0));
-    assert_float_equal(pack_promise(50, 32, 0), 30, 1e-9);
-    assert_float_equal(pack_promise(50, 1024, 0), 30, 1e-9);
-    assert_float_equal(pack_promise(50, 16, 0), 30 - 10 * log10(2), 1e-9);
-    assert_float_equal(pack_promise(95, 16, 0), 42 - 5 * log10(2), 1e-9);
-    assert_float_equal(pack_promise(100, 1, 0), 50, 1e-9);
-    assert_float_equal(pack_promise(90, 32, 0), 34, 1e-9);
-    assert_float_equal(pack_promise(100, 32, 0.1), 50, 1e-9);
-    assert_float_equal(pack_promise(90, 32, 0.01), 30, 1e-9); /* a tenth of the noise */
+        assert_true(retex_pack_promised_psnr(quality, 1, 0) > retex_pack_promised_psnr(quality - 1, 1, 0));
+    assert_float_equal(retex_pack_promised_psnr(50, 32, 0), 30, 1e-9);
+    assert_float_equal(retex_pack_promised_psnr(50, 1024, 0), 30, 1e-9);
+    assert_float_equal(retex_pack_promised_psnr(50, 16, 0), 30 - 10 * log10(2), 1e-9);
+    assert_float_equal(retex_pack_promised_psnr(95, 16, 0), 42 - 5 * log10(2), 1e-9);
+    assert_float_equal(retex_pack_promised_psnr(100, 1, 0), 50, 1e-9);
+    assert_float_equal(retex_pack_promised_psnr(90, 32, 0), 34, 1e-9);
+    assert_float_equal(retex_pack_promised_psnr(100, 32, 0.1), 50, 1e-9);
+    assert_float_equal(retex_pack_promised_psnr(90, 32, 0.01), 30, 1e-9); /* a tenth of the noise */
 }
 
 /* ---- sets ---- */
@@ -143,7 +144,7 @@ static void promises_are_kept(void **state)
             RetexSet *pack = packed(set, qualities[i], 2, NULL);
             assert_true(retex_pack_kept(&kept, pack));
             assert_int_equal(kept.quality, qualities[i]);
-            assert_float_equal(kept.promised, pack_promise(qualities[i], 32, 0), 1e-9);
+            assert_float_equal(kept.promised, retex_pack_promised_psnr(qualities[i], 32, 0), 1e-9);
             assert_true(kept.measured >= kept.promised);
             test_must(retex_pack_loss(psnr, pack, set, 1, &err), &err);
             assert_float_equal(fmin(fmin(psnr[0], psnr[1]), psnr[RETEX_PACK_LOSS_SQUARES]), kept.measured, 1e-9);

@@ -3,16 +3,17 @@
 
 #include "set/band.h"
 
-int compact_bands(const CompactLight *light, CompactBandJob *job, void *context, int nthreads, RetexError *err)
+int retex_compact_bands(const RetexCompactLight *light, RetexCompactBandJob *job, void *context, int nthreads,
+                        RetexError *err)
 {
     const int height = light->set->height;
-    CompactLight band = *light;
+    RetexCompactLight band = *light;
     RetexSetBand *rows;
-    int code = retex_set_band_open(&rows, light->set, COMPACT_BAND_ROWS, 0, err);
-    for (int y = 0; y < height && !code; y += COMPACT_BAND_ROWS) {
+    int code = retex_set_band_open(&rows, light->set, RETEX_COMPACT_BAND_ROWS, 0, err);
+    for (int y = 0; y < height && !code; y += RETEX_COMPACT_BAND_ROWS) {
         RetexSet *set;
-        code = retex_set_band_take(&set, rows, y, height - y < COMPACT_BAND_ROWS ? height - y : COMPACT_BAND_ROWS,
-                                   nthreads, err);
+        code = retex_set_band_take(
+            &set, rows, y, height - y < RETEX_COMPACT_BAND_ROWS ? height - y : RETEX_COMPACT_BAND_ROWS, nthreads, err);
         band.set = set;
         if (!code)
             code = job(context, &band, y, err);

@@ -4,13 +4,14 @@
 
 #include "compact/light.h"
 
-#define COMPACT_BAND_ROWS 64 /* a multiple of all scales, and of a tile of meter.c */
+#define RETEX_COMPACT_BAND_ROWS 64 /* a multiple of all scales, and of a tile of distortion.c */
 
 /* Light of a band, which has as many rows as light->set->height says; first: the picture's row that it begins with.
  * Of parts that are no larger or smaller than the picture it has the rows, of others nothing. */
-typedef int CompactBandJob(void *context, const CompactLight *light, int first, RetexError *err);
+typedef int RetexCompactBandJob(void *context, const RetexCompactLight *light, int first, RetexError *err);
 
 /* From the first row to the last, one after the other. */
-int compact_bands(const CompactLight *light, CompactBandJob *job, void *context, int nthreads, RetexError *err);
+int retex_compact_bands(const RetexCompactLight *light, RetexCompactBandJob *job, void *context, int nthreads,
+                        RetexError *err);
 
 #endif

@@ -13,24 +13,26 @@
 #include "set/parts.h"
 
 typedef struct Compaction {
-    const CompactLight *light;
+    const RetexCompactLight *light;
     RetexSet *set; /* the new one */
-    const CompactScales *scales;
+    const RetexCompactScales *scales;
     int nthreads;
-    CompactCache *cache;                             /* where what is made is kept */
-    int trial;                                       /* 1: for other trials too; 0: all is there, and is taken */
-    RetexImage *(*waves)[COMPACT_WAVES];             /* of trials */
-    int places[COMPACT_KINDS], again[COMPACT_KINDS]; /* of each kind, the factor that stands for it: for its own light,
+    RetexCompactCache *cache;                  /* where what is made is kept */
+    int trial;                                 /* 1: for other trials too; 0: all is there, and is taken */
+    RetexImage *(*waves)[RETEX_COMPACT_WAVES]; /* of trials */
+    int factors[RETEX_COMPACT_KINDS],
+        interreflected[RETEX_COMPACT_KINDS]; /* of each kind, the factor that stands for it: for its own light,
                                                         and for that which goes on */
-    int mixtures[RETEX_MIXTURES_MAX];                /* of the old ones of later footprints, the new factor */
-    int footprints[COMPACT_KINDS][RETEX_SHARES_MAX];
-    int weights[COMPACT_KINDS][RETEX_SHARES_MAX], shares[COMPACT_KINDS][RETEX_SHARES_MAX]; /* parts, again */
-    int counts[COMPACT_KINDS]; /* of each kind's new footprints and their weights */
+    int mixtures[RETEX_MIXTURES_MAX];        /* of the old ones of later footprints, the new factor */
+    int footprints[RETEX_COMPACT_KINDS][RETEX_SHARES_MAX];
+    int weights[RETEX_COMPACT_KINDS][RETEX_SHARES_MAX],
+        shares[RETEX_COMPACT_KINDS][RETEX_SHARES_MAX]; /* parts, again */
+    int counts[RETEX_COMPACT_KINDS];                   /* of each kind's new footprints and their weights */
 } Compaction;
 
 /* ---- what stays as it is ---- */
 
-int compact_copy_part(RetexSet *set, const RetexSet *from, int number, int *index, RetexError *err)
+int retex_compact_copy_part(RetexSet *set, const RetexSet *from, int number, int *index, RetexError *err)
 {
     const RetexPart *part = &from->parts[number];
     int code = retex_set_add_part(set, part->name, part->letters, part->type, part->image.width, part->image.height,
@@ -38,7 +40,7 @@ int compact_copy_part(RetexSet *set, const RetexSet *from, int number, int *inde
     return code ? code : retex_set_part_rows(&set->parts[*index].image, from, number, 0, err);
 }
 
-int compact_copy_head(RetexSet **copy, const RetexSet *set, RetexError *err)
+int retex_compact_copy_head(RetexSet **copy, const RetexSet *set, RetexError *err)
 {
     int code = retex_set_create(copy, set->width, set->height, err);
     if (code)
@@ -75,7 +77,7 @@ static int copy_kept(const Compaction *work, RetexError *err)
         int index = -1;
         if (!is_kept(old, i))
             continue;
-        code = compact_copy_part(set, old, i, &index, err);
+        code = retex_compact_copy_part(set, old, i, &index, err);
         for (int t = 0; t < old->ntargets; t++)
             if (old->targets[t].original == i)
                 set->targets[t].original = index;
@@ -123,7 +125,7 @@ static int step_of(int scale)
 }
 
 /* A copy of what the cache holds, for a set to own. */
-static int copy_clusters(CompactClusters *to, const CompactClusters *from, RetexError *err)
+static int copy_clusters(RetexCompactClusters *to, const RetexCompactClusters *from, RetexError *err)
 {
     int code = retex_image_copy(&to->albedo, &from->albedo, err);
     to->count = from->count;
@@ -133,34 +135,34 @@ static int copy_clusters(CompactClusters *to, const CompactClusters *from, Retex
             code = retex_image_copy(&to->spread[k], &from->spread[k], err);
         if (!code)
             code = retex_image_copy(&to->weight[k], &from->weight[k], err);
-        if (!code && from->again[k].pixels)
-            code = retex_image_copy(&to->again[k], &from->again[k], err);
+        if (!code && from->interreflected[k].pixels)
+            code = retex_image_copy(&to->interreflected[k], &from->interreflected[k], err);
     }
     return code;
 }
 
-static CompactClusters *cached_clusters(const Compaction *work, int number)
+static RetexCompactClusters *cached_clusters(const Compaction *work, int number)
 {
     return &work->cache->clusters[number][step_of(work->scales->clusters[number])];
 }
 
-static int make_clusters(CompactClusters *clusters, const Compaction *work, int number, RetexError *err)
+static int make_clusters(RetexCompactClusters *clusters, const Compaction *work, int number, RetexError *err)
 {
-    CompactClusters *kept = cached_clusters(work, number);
+    RetexCompactClusters *kept = cached_clusters(work, number);
     int code = RETEX_OK;
-    *clusters = (CompactClusters){0};
+    *clusters = (RetexCompactClusters){0};
     if (!work->trial) {
         *clusters = *kept;
-        *kept = (CompactClusters){0};
+        *kept = (RetexCompactClusters){0};
         return RETEX_OK;
     }
     if (!kept->albedo.pixels)
-        code = compact_clusters_make(kept, work->light, &work->light->kinds[number], work->scales->clusters[number],
-                                     work->nthreads, err);
+        code = retex_compact_clusters_make(kept, work->light, &work->light->kinds[number],
+                                           work->scales->clusters[number], work->nthreads, err);
     if (!code)
         code = copy_clusters(clusters, kept, err);
     if (code)
-        compact_clusters_free(clusters);
+        retex_compact_clusters_free(clusters);
     return code;
 }
 
@@ -178,14 +180,14 @@ static int make_sum(RetexImage *sum, const Compaction *work, int number, RetexEr
     RetexImage *kept = &work->cache->sums[number];
     int code = RETEX_OK;
     if (!kept->pixels)
-        code = compact_sum_light(kept, work->light, &work->light->kinds[number], work->nthreads, err);
+        code = retex_compact_sum_light(kept, work->light, &work->light->kinds[number], work->nthreads, err);
     return code ? code : take_image(sum, work, kept, err);
 }
 
 /* All gains of a kind: 0 for the clusters alone, then those of the terms that go on. */
 static RetexImage *cached_gains(const Compaction *work, int number, RetexError *err)
 {
-    const CompactMixed mixed = work->scales->mixed[number];
+    const RetexCompactMixed mixed = work->scales->mixed[number];
     RetexImage **all = &work->cache->gains[number][step_of(work->scales->gains[number])][mixed];
     if (!*all && !(*all = calloc((size_t)work->light->kinds[number].ngains[mixed] + 1, sizeof **all)))
         retex_fail(err, RETEX_ENOMEM, "not enough memory for gains");
@@ -200,21 +202,21 @@ static int make_gain(RetexImage *gain, const Compaction *work, int number, int r
     if (!all)
         return RETEX_ENOMEM;
     if (!kept->pixels)
-        code = compact_make_gain(kept, work->light, &work->light->kinds[number], sum, place - 1,
-                                 work->scales->mixed[number], work->scales->gains[number], work->nthreads, err);
+        code = retex_compact_make_gain(kept, work->light, &work->light->kinds[number], sum, place - 1,
+                                       work->scales->mixed[number], work->scales->gains[number], work->nthreads, err);
     return code ? code : take_image(gain, work, kept, err);
 }
 
-void compact_cache_free(CompactCache *cache, const CompactLight *light)
+void retex_compact_cache_free(RetexCompactCache *cache, const RetexCompactLight *light)
 {
     for (int i = 0; i < light->nkinds; i++) {
-        for (int j = 0; j < COMPACT_STEPS; j++) {
-            compact_clusters_free(&cache->clusters[i][j]);
-            for (int k = 0; k < COMPACT_WAVES * RETEX_SHARES_MAX; k++)
+        for (int j = 0; j < RETEX_COMPACT_STEPS; j++) {
+            retex_compact_clusters_free(&cache->clusters[i][j]);
+            for (int k = 0; k < RETEX_COMPACT_WAVES * RETEX_SHARES_MAX; k++)
                 retex_image_free(&cache->waves[i][j][k / RETEX_SHARES_MAX][k % RETEX_SHARES_MAX]);
         }
-        for (int j = 0; j < COMPACT_STEPS * COMPACT_CHOICES; j++) {
-            const int step = j / COMPACT_CHOICES, mixed = j % COMPACT_CHOICES;
+        for (int j = 0; j < RETEX_COMPACT_STEPS * RETEX_COMPACT_CHOICES; j++) {
+            const int step = j / RETEX_COMPACT_CHOICES, mixed = j % RETEX_COMPACT_CHOICES;
             for (int k = 0; cache->gains[i][step][mixed] && k <= light->kinds[i].ngains[mixed]; k++)
                 retex_image_free(&cache->gains[i][step][mixed][k]);
             free(cache->gains[i][step][mixed]);
@@ -226,9 +228,9 @@ void compact_cache_free(CompactCache *cache, const CompactLight *light)
 /* ---- footprints ---- */
 
 /* One cluster as a footprint, which refers to the albedo that all of its kind have. */
-static int add_cluster(Compaction *work, int number, CompactClusters *clusters, int k, int albedo, RetexError *err)
+static int add_cluster(Compaction *work, int number, RetexCompactClusters *clusters, int k, int albedo, RetexError *err)
 {
-    const CompactKind *kind = &work->light->kinds[number];
+    const RetexCompactKind *kind = &work->light->kinds[number];
     const char *target = work->set->targets[kind->target].name, *name = retex_footprint_kind_name(kind->kind);
     RetexFootprint f = {.target = kind->target, .kind = kind->kind, .albedo = albedo};
     f.hit = work->light->set->footprints[kind->footprints[k]].hit;
@@ -241,12 +243,12 @@ static int add_cluster(Compaction *work, int number, CompactClusters *clusters, 
         code = move_image(work->set, &clusters->weight[k], "R", RETEX_HALF, &work->weights[number][k], err,
                           "weight_%s_%s%d", target, name, k + 1);
     work->shares[number][k] = -1;
-    if (!code && clusters->count > 1 && clusters->again[k].pixels)
-        code = move_image(work->set, &clusters->again[k], "R", RETEX_HALF, &work->shares[number][k], err,
+    if (!code && clusters->count > 1 && clusters->interreflected[k].pixels)
+        code = move_image(work->set, &clusters->interreflected[k], "R", RETEX_HALF, &work->shares[number][k], err,
                           "share_%s_%s%d", target, name, k + 1);
     if (!code)
         code = retex_set_add_footprint(work->set, &f, &work->footprints[number][k], err);
-    for (int i = 0; i < COMPACT_WAVES && !code && work->trial; i++)
+    for (int i = 0; i < RETEX_COMPACT_WAVES && !code && work->trial; i++)
         work->waves[work->footprints[number][k]][i] =
             &work->cache->waves[number][step_of(work->scales->clusters[number])][i][k];
     return code;
@@ -269,8 +271,8 @@ static int add_mixture(Compaction *work, int number, const int *weights, int *pl
 
 static int add_clusters(Compaction *work, int number, RetexError *err)
 {
-    const CompactKind *kind = &work->light->kinds[number];
-    CompactClusters clusters;
+    const RetexCompactKind *kind = &work->light->kinds[number];
+    RetexCompactClusters clusters;
     int albedo, code = make_clusters(&clusters, work, number, err);
     if (code)
         return code;
@@ -279,18 +281,18 @@ static int add_clusters(Compaction *work, int number, RetexError *err)
                       work->set->targets[kind->target].name, retex_footprint_kind_name(kind->kind));
     for (int k = 0; k < clusters.count && !code; k++)
         code = add_cluster(work, number, &clusters, k, albedo, err);
-    compact_clusters_free(&clusters);
+    retex_compact_clusters_free(&clusters);
     if (!code)
-        code = add_mixture(work, number, work->weights[number], &work->places[number], err);
-    work->again[number] = work->places[number];
+        code = add_mixture(work, number, work->weights[number], &work->factors[number], err);
+    work->interreflected[number] = work->factors[number];
     if (!code && work->counts[number] > 1 && work->shares[number][0] >= 0)
-        code = add_mixture(work, number, work->shares[number], &work->again[number], err);
+        code = add_mixture(work, number, work->shares[number], &work->interreflected[number], err);
     return code;
 }
 
 /* ---- terms ---- */
 
-static int find_kind(const CompactLight *light, int target, RetexFootprintKind kind)
+static int find_kind(const RetexCompactLight *light, int target, RetexFootprintKind kind)
 {
     for (int i = 0; i < light->nkinds; i++)
         if (light->kinds[i].target == target && light->kinds[i].kind == kind)
@@ -299,7 +301,7 @@ static int find_kind(const CompactLight *light, int target, RetexFootprintKind k
 }
 
 /* Mixtures of later footprints: of one target, or of several. */
-static int add_later_mixtures(Compaction *work, RetexError *err)
+static int add_interreflection_mixtures(Compaction *work, RetexError *err)
 {
     const RetexSet *old = work->light->set;
     int code = RETEX_OK;
@@ -319,7 +321,7 @@ static int add_later_mixtures(Compaction *work, RetexError *err)
                 mixture.shares[mixture.nshares++] =
                     (struct RetexShare){work->footprints[one][k], work->weights[one][k]};
         }
-        work->mixtures[m] = work->places[one];
+        work->mixtures[m] = work->factors[one];
         if (count == 1)
             continue;
         code = retex_set_add_mixture(work->set, &mixture, &index, err);
@@ -328,17 +330,17 @@ static int add_later_mixtures(Compaction *work, RetexError *err)
     return code;
 }
 
-static int later_factor(const Compaction *work, int factor)
+static int interreflection_factor(const Compaction *work, int factor)
 {
     const RetexSet *old = work->light->set;
     return factor < 0
                ? work->mixtures[RETEX_MIXTURE(factor)]
-               : work->places[find_kind(work->light, old->footprints[factor].target, RETEX_FOOTPRINT_INTERREFLECTION)];
+               : work->factors[find_kind(work->light, old->footprints[factor].target, RETEX_FOOTPRINT_INTERREFLECTION)];
 }
 
 static int add_gain(Compaction *work, int number, int radiance, int place, RetexTerm *term, RetexError *err)
 {
-    const CompactKind *kind = &work->light->kinds[number];
+    const RetexCompactKind *kind = &work->light->kinds[number];
     const char *target = work->set->targets[kind->target].name, *name = retex_footprint_kind_name(kind->kind);
     RetexImage gain = {0};
     int code = make_gain(&gain, work, number, radiance, place, err);
@@ -355,35 +357,35 @@ static int add_term(Compaction *work, int number, int radiance, int place, int w
     if (place)
         term = work->light->kinds[number].gains[work->scales->mixed[number]][place - 1].term;
     term.radiance = radiance;
-    term.factors[0] = place ? work->again[number] : work->places[number];
+    term.factors[0] = place ? work->interreflected[number] : work->factors[number];
     for (int k = 1; k < term.nfactors; k++)
-        term.factors[k] = later_factor(work, term.factors[k]);
+        term.factors[k] = interreflection_factor(work, term.factors[k]);
     int code = with_gain ? add_gain(work, number, radiance, place, &term, err) : RETEX_OK;
     return code ? code : retex_set_add_term(work->set, &term, NULL, err);
 }
 
-static int has_own(const CompactKind *kind)
+static int has_single(const RetexCompactKind *kind)
 {
-    int owns = 0;
+    int single = 0;
     for (int k = 0; k < kind->count; k++)
-        owns |= kind->own[k] >= 0;
-    return owns;
+        single |= kind->single[k] >= 0;
+    return single;
 }
 
 static int add_terms(Compaction *work, int number, RetexError *err)
 {
-    const CompactKind *kind = &work->light->kinds[number];
+    const RetexCompactKind *kind = &work->light->kinds[number];
     RetexImage sum = {0};
-    const int owns = has_own(kind);
+    const int single = has_single(kind);
     int radiance;
-    if (!owns && !kind->nagain)
+    if (!single && !kind->ninterreflections)
         return RETEX_OK;
     int code = make_sum(&sum, work, number, err);
     if (!code)
         code = move_image(work->set, &sum, "RGB", RETEX_HALF, &radiance, err, "dep_%s_%s",
                           work->set->targets[kind->target].name, retex_footprint_kind_name(kind->kind));
-    if (!code && owns)
-        code = add_term(work, number, radiance, 0, kind->nagain > 0, err);
+    if (!code && single)
+        code = add_term(work, number, radiance, 0, kind->ninterreflections > 0, err);
     for (int i = 0; i < kind->ngains[work->scales->mixed[number]] && !code; i++)
         code = add_term(work, number, radiance, i + 1, 1, err);
     retex_image_free(&sum);
@@ -395,82 +397,83 @@ static int add_terms(Compaction *work, int number, RetexError *err)
 /* Room for all that is made of a kind. */
 static int begin_kind(const Compaction *work, int number, RetexError *err)
 {
-    const CompactLight *light = work->light;
-    const CompactKind *kind = &light->kinds[number];
-    int code = compact_clusters_begin(cached_clusters(work, number), light, kind, work->scales->clusters[number], err);
+    const RetexCompactLight *light = work->light;
+    const RetexCompactKind *kind = &light->kinds[number];
+    int code =
+        retex_compact_clusters_begin(cached_clusters(work, number), light, kind, work->scales->clusters[number], err);
     RetexImage *gains = cached_gains(work, number, err);
     if (code || !gains || kind->kind == RETEX_FOOTPRINT_INTERREFLECTION)
         return code ? code : gains ? RETEX_OK : RETEX_ENOMEM;
-    if (has_own(kind) || kind->nagain)
+    if (has_single(kind) || kind->ninterreflections)
         code = retex_image_alloc(&work->cache->sums[number], light->set->width, light->set->height, 3, err);
-    for (int i = 0; i <= kind->ngains[work->scales->mixed[number]] && !code && kind->nagain; i++)
-        if (i || has_own(kind))
-            code = compact_gain_begin(&gains[i], light, work->scales->gains[number], err);
+    for (int i = 0; i <= kind->ngains[work->scales->mixed[number]] && !code && kind->ninterreflections; i++)
+        if (i || has_single(kind))
+            code = retex_compact_gain_begin(&gains[i], light, work->scales->gains[number], err);
     return code;
 }
 
-static int make_rows(void *context, const CompactLight *light, int first, RetexError *err)
+static int make_rows(void *context, const RetexCompactLight *light, int first, RetexError *err)
 {
     const Compaction *work = context;
     int code = RETEX_OK;
     for (int i = 0; i < light->nkinds && !code; i++) {
-        const CompactKind *kind = &light->kinds[i];
-        const CompactMixed mixed = work->scales->mixed[i];
+        const RetexCompactKind *kind = &light->kinds[i];
+        const RetexCompactMixed mixed = work->scales->mixed[i];
         RetexImage *sum = &work->cache->sums[i], *gains = cached_gains(work, i, err);
-        compact_clusters_rows(cached_clusters(work, i), light, kind, first, work->nthreads);
+        retex_compact_clusters_rows(cached_clusters(work, i), light, kind, first, work->nthreads);
         if (sum->pixels)
-            compact_sum_rows(sum, light, kind, first, work->nthreads);
+            retex_compact_sum_rows(sum, light, kind, first, work->nthreads);
         for (int k = 0; k <= kind->ngains[mixed] && !code; k++)
             if (gains[k].pixels)
-                code = compact_gain_rows(&gains[k], light, kind, sum, k - 1, mixed, work->scales->gains[i], first,
-                                         work->nthreads, err);
+                code = retex_compact_gain_rows(&gains[k], light, kind, sum, k - 1, mixed, work->scales->gains[i], first,
+                                               work->nthreads, err);
     }
     return code;
 }
 
 static int end_kind(const Compaction *work, int number, RetexError *err)
 {
-    const CompactKind *kind = &work->light->kinds[number];
+    const RetexCompactKind *kind = &work->light->kinds[number];
     RetexImage *gains = cached_gains(work, number, err);
-    int code = compact_clusters_end(cached_clusters(work, number), work->light, kind, work->nthreads, err);
+    int code = retex_compact_clusters_end(cached_clusters(work, number), work->light, kind, work->nthreads, err);
     for (int k = 0; k <= kind->ngains[work->scales->mixed[number]] && !code; k++)
         if (gains[k].pixels)
-            code = compact_gain_end(&gains[k], err);
+            code = retex_compact_gain_end(&gains[k], err);
     return code;
 }
 
 /* All kinds by bands of rows, for the set may be larger than memory. */
 static int make_kinds(Compaction *work, RetexError *err)
 {
-    const CompactLight *light = work->light;
+    const RetexCompactLight *light = work->light;
     int code = RETEX_OK;
     for (int i = 0; i < light->nkinds && !code; i++)
         code = begin_kind(work, i, err);
     if (!code)
-        code = compact_bands(light, make_rows, work, work->nthreads, err);
+        code = retex_compact_bands(light, make_rows, work, work->nthreads, err);
     for (int i = 0; i < light->nkinds && !code; i++)
         code = end_kind(work, i, err);
     return code;
 }
 
-int compact_build(RetexSet **result, const CompactLight *light, const CompactScales *scales, int nthreads,
-                  RetexError *err)
+int retex_compact_build(RetexSet **result, const RetexCompactLight *light, const RetexCompactScales *scales,
+                        int nthreads, RetexError *err)
 {
     Compaction work = {.light = light, .scales = scales, .nthreads = nthreads, .cache = calloc(1, sizeof *work.cache)};
     int code = work.cache ? make_kinds(&work, err) : retex_fail(err, RETEX_ENOMEM, "not enough memory for a set");
     if (!code)
-        code = compact_copy_head(&work.set, light->set, err);
+        code = retex_compact_copy_head(&work.set, light->set, err);
     if (!code)
         code = copy_kept(&work, err);
     for (int i = 0; i < light->nkinds && !code; i++)
         code = add_clusters(&work, i, err);
     if (!code)
-        code = add_later_mixtures(&work, err);
+        code = add_interreflection_mixtures(&work, err);
     for (int i = 0; i < light->nkinds && !code; i++)
         if (light->kinds[i].kind != RETEX_FOOTPRINT_INTERREFLECTION)
             code = add_terms(&work, i, err);
     if (work.cache)
-        compact_cache_free(work.cache, light);
+        retex_compact_cache_free(work.cache, light);
     free(work.cache);
     if (code)
         retex_set_close(&work.set);
@@ -478,12 +481,13 @@ int compact_build(RetexSet **result, const CompactLight *light, const CompactSca
     return code;
 }
 
-int compact_build_kind(RetexSet **result, RetexImage *of[][COMPACT_WAVES], const CompactLight *light, int kind,
-                       const CompactScales *scales, CompactCache *cache, int nthreads, RetexError *err)
+int retex_compact_build_kind(RetexSet **result, RetexImage *of[][RETEX_COMPACT_WAVES], const RetexCompactLight *light,
+                             int kind, const RetexCompactScales *scales, RetexCompactCache *cache, int nthreads,
+                             RetexError *err)
 {
     Compaction work = {.light = light, .scales = scales, .nthreads = nthreads, .cache = cache, .trial = 1, .waves = of};
     const RetexSet *old = light->set;
-    int code = compact_copy_head(&work.set, old, err);
+    int code = retex_compact_copy_head(&work.set, old, err);
     for (int t = 0; t < old->ntargets && !code; t++)
         work.set->targets[t].original = -1;
     if (!code && kind < 0)
@@ -495,7 +499,7 @@ int compact_build_kind(RetexSet **result, RetexImage *of[][COMPACT_WAVES], const
         if (i == kind || light->kinds[i].kind == RETEX_FOOTPRINT_INTERREFLECTION)
             code = add_clusters(&work, i, err);
     if (!code && kind >= 0)
-        code = add_later_mixtures(&work, err);
+        code = add_interreflection_mixtures(&work, err);
     if (!code && kind >= 0)
         code = add_terms(&work, kind, err);
     if (code)

@@ -8,34 +8,34 @@
 #include <retex/parallel.h>
 #include <retex/uv_stats.h>
 
-#include "compact/even.h"
+#include "compact/uniform.h"
 
 #define POOL 12                  /* clusters kept apart while a block's are gathered */
 #define SHARE_STEP (1.0 / 512)   /* of weights */
 #define LEAST_SHARE (1.0 / 1024) /* of a block's light, of clusters that are kept */
-#define EVEN_NOISE 0.3           /* of noise that may be taken away, what makes pixels even */
+#define UNIFORM_NOISE 0.3        /* of noise that may be taken away, what makes pixels uniform */
 #define MORE_VARIANCE 0.25       /* of a place, that no texture tells apart */
 #define UNKNOWN_SAMPLES 1024     /* of a pixel, where the set does not say */
 #define TEXEL (1.0 / (1 << 26))  /* variance of UV, of a texel of 8192 */
 
 typedef struct Cluster {
     RetexUvStats place;
-    ClusterLight light;
+    RetexCompactClusterLight light;
 } Cluster;
 
 typedef struct Pool {
     const int *periodic;
     int sharp, count;
-    double noise;           /* CompactLight's */
+    double noise;           /* RetexCompactLight's */
     double weight, squares; /* of all light that was gathered; its squares by the samples it came with */
     Cluster of[POOL + 1];
     double cost[POOL + 1][POOL + 1]; /* of merging i with j < i */
 } Pool;
 
 typedef struct ClustersWork {
-    CompactClusters *clusters;
-    const CompactLight *light;
-    const CompactKind *kind;
+    RetexCompactClusters *clusters;
+    const RetexCompactLight *light;
+    const RetexCompactKind *kind;
     int scale, first; /* first: row of blocks */
 } ClustersWork;
 
@@ -69,8 +69,8 @@ static void merge_pair(Pool *pool, int i, int j)
     Cluster *into = &pool->of[i];
     retex_uv_stats_merge(&into->place, &pool->of[j].place, pool->periodic);
     for (int c = 0; c < 3; c++) {
-        into->light.own[c] += pool->of[j].light.own[c];
-        into->light.again[c] += pool->of[j].light.again[c];
+        into->light.single[c] += pool->of[j].light.single[c];
+        into->light.interreflected[c] += pool->of[j].light.interreflected[c];
     }
     remove_cluster(pool, j);
     find_costs(pool, i);
@@ -170,15 +170,15 @@ typedef struct Albedo {
     double sum[3], weight[3];
 } Albedo;
 
-static void gather_cluster(const ClustersWork *work, int k, size_t pixel, const ClusterLight *light, Pool *pool,
-                           Albedo *albedo)
+static void gather_cluster(const ClustersWork *work, int k, size_t pixel, const RetexCompactClusterLight *light,
+                           Pool *pool, Albedo *albedo)
 {
     const RetexSet *set = work->light->set;
     const RetexFootprint *f = &set->footprints[work->kind->footprints[k]];
     const float *uv = set->parts[f->uv].image.pixels + 3 * pixel, *met = set->parts[f->albedo].image.pixels + 3 * pixel;
-    const double rgb[] = {light->own[0] + light->again[0], light->own[1] + light->again[1],
-                          light->own[2] + light->again[2]};
-    const double weight = compact_luminance(rgb);
+    const double rgb[] = {light->single[0] + light->interreflected[0], light->single[1] + light->interreflected[1],
+                          light->single[2] + light->interreflected[2]};
+    const double weight = retex_compact_luminance(rgb);
     Cluster cluster = {.light = *light};
     if (!(uv[2] > 0) || !(weight > 0) || !isfinite(weight))
         return;
@@ -193,12 +193,12 @@ static void gather_cluster(const ClustersWork *work, int k, size_t pixel, const 
 }
 
 /* Of the later footprints that a pixel has, of all targets: only how they compare counts. */
-static double sum_of_shares(const CompactLight *light, size_t pixel)
+static double sum_of_shares(const RetexCompactLight *light, size_t pixel)
 {
     const RetexSet *set = light->set;
     double sum = 0;
     for (int i = 0; i < light->nkinds; i++) {
-        const CompactKind *kind = &light->kinds[i];
+        const RetexCompactKind *kind = &light->kinds[i];
         for (int k = 0; k < kind->count && kind->kind == RETEX_FOOTPRINT_INTERREFLECTION; k++)
             if (set->parts[set->footprints[kind->footprints[k]].uv].image.pixels[3 * pixel + 2] > 0)
                 sum += kind->share[k] >= 0 ? (double)set->parts[kind->share[k]].image.pixels[pixel] : 1;
@@ -207,25 +207,26 @@ static double sum_of_shares(const CompactLight *light, size_t pixel)
 }
 
 /* Light of all terms of further hits; of that by share, for later footprints. */
-static double later_light(const ClustersWork *work, size_t pixel, ClusterLight of[RETEX_SHARES_MAX])
+static double interreflected_light(const ClustersWork *work, size_t pixel,
+                                   RetexCompactClusterLight of[RETEX_SHARES_MAX])
 {
     const RetexSet *set = work->light->set;
     const double sum = sum_of_shares(work->light, pixel);
-    double again = 0;
+    double interreflected = 0;
     for (int i = 0; i < set->nterms; i++) {
         const RetexTerm *term = &set->terms[i];
         if (term->nfactors < 2)
             continue;
-        const float *rgb = set->parts[term->radiance].image.pixels + 3 * pixel, grey = compact_grey(term);
-        again += compact_luminance((const double[3]){grey * rgb[0], grey * rgb[1], grey * rgb[2]});
+        const float *rgb = set->parts[term->radiance].image.pixels + 3 * pixel, grey = retex_compact_grey(term);
+        interreflected += retex_compact_luminance((const double[3]){grey * rgb[0], grey * rgb[1], grey * rgb[2]});
     }
     for (int k = 0; k < work->kind->count; k++) {
         const int share = work->kind->share[k];
         const double part = share >= 0 ? (double)set->parts[share].image.pixels[pixel] : 1;
-        const double weight = sum > 0 ? again * part / sum : 0;
-        of[k] = (ClusterLight){.again = {weight, weight, weight}};
+        const double weight = sum > 0 ? interreflected * part / sum : 0;
+        of[k] = (RetexCompactClusterLight){.interreflected = {weight, weight, weight}};
     }
-    return again;
+    return interreflected;
 }
 
 /* All clusters of a block. Returns the light that they are shares of: for later footprints, which are weighed across
@@ -233,15 +234,15 @@ static double later_light(const ClustersWork *work, size_t pixel, ClusterLight o
 static double gather_block(const ClustersWork *work, int bx, int by, Pool *pool, Albedo *albedo)
 {
     const RetexSet *set = work->light->set;
-    ClusterLight light[RETEX_SHARES_MAX];
+    RetexCompactClusterLight light[RETEX_SHARES_MAX];
     double all = 0;
     for (int y = by * work->scale; y < (by + 1) * work->scale && y < set->height; y++)
         for (int x = bx * work->scale; x < (bx + 1) * work->scale && x < set->width; x++) {
             const size_t pixel = (size_t)y * (size_t)set->width + (size_t)x;
             if (work->kind->kind == RETEX_FOOTPRINT_INTERREFLECTION)
-                all += later_light(work, pixel, light);
+                all += interreflected_light(work, pixel, light);
             else
-                compact_cluster_light(work->light, work->kind, pixel, light);
+                retex_compact_cluster_light(work->light, work->kind, pixel, light);
             for (int k = 0; k < work->kind->count; k++)
                 gather_cluster(work, k, pixel, &light[k], pool, albedo);
         }
@@ -249,13 +250,13 @@ static double gather_block(const ClustersWork *work, int bx, int by, Pool *pool,
 }
 
 /* Which light a weight is a share of. */
-typedef enum Part { PART_ALL, PART_OWN, PART_AGAIN } Part;
+typedef enum Part { PART_ALL, PART_SINGLE, PART_INTERREFLECTED } Part;
 
 static double part_of(const Cluster *cluster, Part part)
 {
-    return part == PART_OWN     ? compact_luminance(cluster->light.own)
-           : part == PART_AGAIN ? compact_luminance(cluster->light.again)
-                                : cluster->place.weight;
+    return part == PART_SINGLE           ? retex_compact_luminance(cluster->light.single)
+           : part == PART_INTERREFLECTED ? retex_compact_luminance(cluster->light.interreflected)
+                                         : cluster->place.weight;
 }
 
 /* Shares of all, 0 for that of the clusters; but where they have none of this light, of what they have. A share is 0
@@ -277,16 +278,16 @@ static void store_weights(RetexImage *images, size_t block, const Pool *pool, Pa
 
 static void store_block(const ClustersWork *work, size_t block, const Pool *pool, double all, const Albedo *albedo)
 {
-    CompactClusters *clusters = work->clusters;
+    RetexCompactClusters *clusters = work->clusters;
     double sum = 0, weights = 0;
     for (int i = 0; i < pool->count; i++) {
         float *uv = clusters->uv[i].pixels + 3 * block;
         retex_uv_stats_store(&pool->of[i].place, uv, clusters->spread[i].pixels + 3 * block);
         uv[2] = 1;
     }
-    store_weights(clusters->weight, block, pool, clusters->split ? PART_OWN : PART_ALL, all);
+    store_weights(clusters->weight, block, pool, clusters->split ? PART_SINGLE : PART_ALL, all);
     if (clusters->split)
-        store_weights(clusters->again, block, pool, PART_AGAIN, 0);
+        store_weights(clusters->interreflected, block, pool, PART_INTERREFLECTED, 0);
     for (int c = 0; c < 3; c++)
         sum += albedo->sum[c], weights += albedo->weight[c];
     for (int c = 0; c < 3; c++)
@@ -297,9 +298,9 @@ static void store_block(const ClustersWork *work, size_t block, const Pool *pool
 }
 
 /* All that a pixel sees, as one place, where there is room to store the quarters of a pixel if it has several parts. */
-static void store_whole(const ClustersWork *work, size_t block, const Pool *pool)
+static void store_pixel(const ClustersWork *work, size_t block, const Pool *pool)
 {
-    EvenPlace *whole = &work->clusters->whole[block];
+    RetexUniformPixel *whole = &work->clusters->pixels[block];
     if (pool->count == 0 || (pool->count > 1 && work->clusters->count < 4))
         return;
     RetexUvStats sum = pool->of[0].place;
@@ -330,27 +331,27 @@ static void blocks_job(void *context, int by, int thread)
         merge_places(&pool);
         sort_places(&pool);
         store_block(work, block, &pool, all, &albedo);
-        if (work->clusters->whole)
-            store_whole(work, block, &pool);
+        if (work->clusters->pixels)
+            store_pixel(work, block, &pool);
         work->clusters->lit[block] = pool.count > 0;
     }
 }
 
 /* Of later footprints other targets' may be there, to which this one must add next to nothing. */
-static void copy_block(CompactClusters *clusters, size_t to, size_t from, float weight)
+static void copy_block(RetexCompactClusters *clusters, size_t to, size_t from, float weight)
 {
     for (int k = 0; k < clusters->count; k++) {
         memcpy(clusters->uv[k].pixels + 3 * to, clusters->uv[k].pixels + 3 * from, 3 * sizeof(float));
         memcpy(clusters->spread[k].pixels + 3 * to, clusters->spread[k].pixels + 3 * from, 3 * sizeof(float));
         clusters->weight[k].pixels[to] = weight * clusters->weight[k].pixels[from];
-        if (clusters->again[k].pixels)
-            clusters->again[k].pixels[to] = clusters->again[k].pixels[from];
+        if (clusters->interreflected[k].pixels)
+            clusters->interreflected[k].pixels[to] = clusters->interreflected[k].pixels[from];
     }
     memcpy(clusters->albedo.pixels + 3 * to, clusters->albedo.pixels + 3 * from, 3 * sizeof(float));
 }
 
 /* Those beside, then those above and below, then across corners. */
-static void fill_holes(CompactClusters *clusters, const unsigned char *lit, float weight)
+static void fill_holes(RetexCompactClusters *clusters, const unsigned char *lit, float weight)
 {
     static const int beside[8][2] = {{-1, 0}, {1, 0}, {0, -1}, {0, 1}, {-1, -1}, {1, -1}, {-1, 1}, {1, 1}};
     const int width = clusters->albedo.width, height = clusters->albedo.height;
@@ -367,7 +368,7 @@ static void fill_holes(CompactClusters *clusters, const unsigned char *lit, floa
 
 /* ---- all of them ---- */
 
-static int alloc_images(CompactClusters *clusters, const CompactLight *light, int even, RetexError *err)
+static int alloc_images(RetexCompactClusters *clusters, const RetexCompactLight *light, int uniform, RetexError *err)
 {
     const int scale = clusters->scale;
     const int width = (light->set->width + scale - 1) / scale, height = (light->set->height + scale - 1) / scale;
@@ -380,32 +381,32 @@ static int alloc_images(CompactClusters *clusters, const CompactLight *light, in
         if (!code)
             code = retex_image_alloc(&clusters->weight[k], width, height, 1, err);
         if (!code && clusters->split)
-            code = retex_image_alloc(&clusters->again[k], width, height, 1, err);
+            code = retex_image_alloc(&clusters->interreflected[k], width, height, 1, err);
     }
     clusters->lit = calloc(blocks, sizeof *clusters->lit);
-    clusters->whole = even ? calloc(blocks, sizeof *clusters->whole) : NULL;
-    if (!code && (!clusters->lit || (even && !clusters->whole)))
+    clusters->pixels = uniform ? calloc(blocks, sizeof *clusters->pixels) : NULL;
+    if (!code && (!clusters->lit || (uniform && !clusters->pixels)))
         code = retex_fail(err, RETEX_ENOMEM, "not enough memory for footprints");
     return code;
 }
 
-static void free_work(CompactClusters *clusters)
+static void free_work(RetexCompactClusters *clusters)
 {
     free(clusters->lit);
-    free(clusters->whole);
+    free(clusters->pixels);
     clusters->lit = NULL;
-    clusters->whole = NULL;
+    clusters->pixels = NULL;
 }
 
-static void free_cluster(CompactClusters *clusters, int k)
+static void free_cluster(RetexCompactClusters *clusters, int k)
 {
     retex_image_free(&clusters->uv[k]);
     retex_image_free(&clusters->spread[k]);
     retex_image_free(&clusters->weight[k]);
-    retex_image_free(&clusters->again[k]);
+    retex_image_free(&clusters->interreflected[k]);
 }
 
-static int is_empty(const CompactClusters *clusters, int k)
+static int is_empty(const RetexCompactClusters *clusters, int k)
 {
     const size_t blocks = (size_t)clusters->uv[k].width * (size_t)clusters->uv[k].height;
     for (size_t i = 0; i < blocks; i++)
@@ -414,55 +415,55 @@ static int is_empty(const CompactClusters *clusters, int k)
     return 1;
 }
 
-int compact_clusters_begin(CompactClusters *clusters, const CompactLight *light, const CompactKind *kind, int scale,
-                           RetexError *err)
+int retex_compact_clusters_begin(RetexCompactClusters *clusters, const RetexCompactLight *light,
+                                 const RetexCompactKind *kind, int scale, RetexError *err)
 {
     const int sharp = kind->kind == RETEX_FOOTPRINT_SHARP;
-    const int even = sharp && scale == 1 && light->noise >= EVEN_NOISE && strcmp(light->set->filter, "box") == 0;
-    *clusters = (CompactClusters){
-        .count = kind->count, .scale = scale, .split = kind->nagain && (sharp || !(light->noise > 0))};
-    int code = alloc_images(clusters, light, even, err);
+    const int uniform = sharp && scale == 1 && light->noise >= UNIFORM_NOISE && strcmp(light->set->filter, "box") == 0;
+    *clusters = (RetexCompactClusters){
+        .count = kind->count, .scale = scale, .split = kind->ninterreflections && (sharp || !(light->noise > 0))};
+    int code = alloc_images(clusters, light, uniform, err);
     if (code)
-        compact_clusters_free(clusters);
+        retex_compact_clusters_free(clusters);
     return code;
 }
 
-void compact_clusters_rows(CompactClusters *clusters, const CompactLight *light, const CompactKind *kind, int first,
-                           int nthreads)
+void retex_compact_clusters_rows(RetexCompactClusters *clusters, const RetexCompactLight *light,
+                                 const RetexCompactKind *kind, int first, int nthreads)
 {
     const int scale = clusters->scale;
     ClustersWork work = {clusters, light, kind, scale, first / scale};
     retex_parallel(nthreads, (light->set->height + scale - 1) / scale, blocks_job, &work);
 }
 
-int compact_clusters_end(CompactClusters *clusters, const CompactLight *light, const CompactKind *kind, int nthreads,
-                         RetexError *err)
+int retex_compact_clusters_end(RetexCompactClusters *clusters, const RetexCompactLight *light,
+                               const RetexCompactKind *kind, int nthreads, RetexError *err)
 {
     int code = RETEX_OK;
-    if (clusters->whole)
-        code = compact_even_smooth(clusters, clusters->whole, light->set->targets[kind->target].periodic, light->noise,
-                                   nthreads, err);
+    if (clusters->pixels)
+        code = retex_compact_smooth_uniform(clusters, clusters->pixels, light->set->targets[kind->target].periodic,
+                                            light->noise, nthreads, err);
     if (clusters->scale > 1)
         fill_holes(clusters, clusters->lit, kind->kind == RETEX_FOOTPRINT_INTERREFLECTION ? (float)SHARE_STEP : 1);
     free_work(clusters);
     while (clusters->count > 1 && is_empty(clusters, clusters->count - 1))
         free_cluster(clusters, --clusters->count);
     if (code)
-        compact_clusters_free(clusters);
+        retex_compact_clusters_free(clusters);
     return code;
 }
 
-int compact_clusters_make(CompactClusters *clusters, const CompactLight *light, const CompactKind *kind, int scale,
-                          int nthreads, RetexError *err)
+int retex_compact_clusters_make(RetexCompactClusters *clusters, const RetexCompactLight *light,
+                                const RetexCompactKind *kind, int scale, int nthreads, RetexError *err)
 {
-    int code = compact_clusters_begin(clusters, light, kind, scale, err);
+    int code = retex_compact_clusters_begin(clusters, light, kind, scale, err);
     if (code)
         return code;
-    compact_clusters_rows(clusters, light, kind, 0, nthreads);
-    return compact_clusters_end(clusters, light, kind, nthreads, err);
+    retex_compact_clusters_rows(clusters, light, kind, 0, nthreads);
+    return retex_compact_clusters_end(clusters, light, kind, nthreads, err);
 }
 
-void compact_clusters_free(CompactClusters *clusters)
+void retex_compact_clusters_free(RetexCompactClusters *clusters)
 {
     for (int k = 0; k < clusters->count; k++)
         free_cluster(clusters, k);

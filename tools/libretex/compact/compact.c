@@ -1,5 +1,5 @@
 /* Compacting a set: see compact.h. The set is sorted by whose light is where (light.h); sizes are chosen by
- * trial (choose.h); then each kind's footprints are made anew (clusters.h), its terms become gains of
+ * trial (search.h); then each kind's footprints are made anew (clusters.h), its terms become gains of
  * one radiance (gains.h), and the new set is put together (build.h). */
 #include <retex/compact.h>
 
@@ -7,10 +7,10 @@
 #include <string.h>
 
 #include "compact/build.h"
-#include "compact/choose.h"
+#include "compact/search.h"
 #include "set/parts.h"
 
-int compact_copy_set(RetexSet **result, const RetexSet *set, RetexError *err)
+int retex_compact_copy_set(RetexSet **result, const RetexSet *set, RetexError *err)
 {
     RetexSetView view;
     char *kept = malloc((size_t)set->nparts + 1);
@@ -22,10 +22,10 @@ int compact_copy_set(RetexSet **result, const RetexSet *set, RetexError *err)
     free(kept);
     if (code)
         return code;
-    code = compact_copy_head(result, &view.set, err);
+    code = retex_compact_copy_head(result, &view.set, err);
     for (int i = 0; i < view.set.nparts && !code; i++) {
         int index;
-        code = compact_copy_part(*result, set, view.source[i], &index, err);
+        code = retex_compact_copy_part(*result, set, view.source[i], &index, err);
     }
     for (int i = 0; i < view.set.nfootprints && !code; i++)
         code = retex_set_add_footprint(*result, &view.set.footprints[i], NULL, err);
@@ -48,7 +48,7 @@ static int check_params(const RetexCompactParams *params, RetexError *err)
 {
     int code = check_scale(params->broad, "broad footprints", err);
     if (!code)
-        code = check_scale(params->later, "later footprints", err);
+        code = check_scale(params->interreflection, "later footprints", err);
     if (!code)
         code = check_scale(params->gain, "gains", err);
     if (!code && !(params->psnr >= 20 && params->psnr <= 120))
@@ -63,21 +63,21 @@ int retex_set_compact(RetexSet **compact, const RetexSet *set, const RetexCompac
 {
     static const RetexCompactParams defaults = RETEX_COMPACT_INIT;
     RetexCompactParams chosen = params ? *params : defaults;
-    CompactScales scales;
-    CompactLight light = {0};
+    RetexCompactScales scales;
+    RetexCompactLight light = {0};
     int understood = 0;
     *compact = NULL;
     int code = check_params(&chosen, err);
     if (!code && strcmp(set->layout, "footprints") == 0)
-        code = compact_light_open(&light, set, chosen.noise, &understood, err);
+        code = retex_compact_light_open(&light, set, chosen.noise, &understood, err);
     if (!code && understood) {
-        code = compact_choose(&scales, &light, &chosen, nthreads, err);
+        code = retex_compact_search(&scales, &light, &chosen, nthreads, err);
         if (!code)
-            code = compact_build(compact, &light, &scales, nthreads, err);
+            code = retex_compact_build(compact, &light, &scales, nthreads, err);
     } else if (!code) {
-        code = compact_copy_set(compact, set, err);
+        code = retex_compact_copy_set(compact, set, err);
     }
-    compact_light_close(&light);
+    retex_compact_light_close(&light);
     if (code)
         retex_set_close(compact);
     return code;

@@ -13,12 +13,12 @@ typedef struct Source {
 } Source;
 
 typedef struct GainWork {
-    const CompactLight *light;
-    const CompactKind *kind;
+    const RetexCompactLight *light;
+    const RetexCompactKind *kind;
     RetexImage *sum, *gain; /* of the whole picture */
     int first;              /* row of it that light begins with */
     int number;
-    CompactMixed mixed;
+    RetexCompactMixed mixed;
     int scale;
     Source *sources;
     int count;
@@ -32,29 +32,30 @@ static void sum_row(void *context, int y, int thread)
     (void)thread;
     for (int x = 0; x < set->width; x++) {
         const size_t pixel = (size_t)y * (size_t)set->width + (size_t)x;
-        ClusterLight of[RETEX_SHARES_MAX];
+        RetexCompactClusterLight of[RETEX_SHARES_MAX];
         double all[3] = {0};
-        compact_cluster_light(work->light, work->kind, pixel, of);
+        retex_compact_cluster_light(work->light, work->kind, pixel, of);
         for (int k = 0; k < work->kind->count; k++)
             for (int c = 0; c < 3; c++)
-                all[c] += of[k].own[c] + of[k].again[c];
+                all[c] += of[k].single[c] + of[k].interreflected[c];
         for (int c = 0; c < 3; c++)
             sum[3 * x + c] = (float)all[c];
     }
 }
 
-void compact_sum_rows(RetexImage *sum, const CompactLight *light, const CompactKind *kind, int first, int nthreads)
+void retex_compact_sum_rows(RetexImage *sum, const RetexCompactLight *light, const RetexCompactKind *kind, int first,
+                            int nthreads)
 {
     GainWork work = {.light = light, .kind = kind, .sum = sum, .first = first};
     retex_parallel(nthreads, light->set->height, sum_row, &work);
 }
 
-int compact_sum_light(RetexImage *sum, const CompactLight *light, const CompactKind *kind, int nthreads,
-                      RetexError *err)
+int retex_compact_sum_light(RetexImage *sum, const RetexCompactLight *light, const RetexCompactKind *kind, int nthreads,
+                            RetexError *err)
 {
     int code = retex_image_alloc(sum, light->set->width, light->set->height, 3, err);
     if (!code)
-        compact_sum_rows(sum, light, kind, 0, nthreads);
+        retex_compact_sum_rows(sum, light, kind, 0, nthreads);
     return code;
 }
 
@@ -62,20 +63,20 @@ int compact_sum_light(RetexImage *sum, const CompactLight *light, const CompactK
 static int list_sources(GainWork *work, RetexError *err)
 {
     const RetexSet *set = work->light->set;
-    const CompactKind *kind = work->kind;
-    work->sources = malloc((2 * (size_t)kind->nagain + RETEX_SHARES_MAX) * sizeof *work->sources);
+    const RetexCompactKind *kind = work->kind;
+    work->sources = malloc((2 * (size_t)kind->ninterreflections + RETEX_SHARES_MAX) * sizeof *work->sources);
     if (!work->sources)
-        return retex_fail(err, RETEX_ENOMEM, "not enough memory for %d terms", kind->nagain);
+        return retex_fail(err, RETEX_ENOMEM, "not enough memory for %d terms", kind->ninterreflections);
     for (int k = 0; k < kind->count && work->number < 0; k++)
-        if (kind->own[k] >= 0)
+        if (kind->single[k] >= 0)
             work->sources[work->count++] =
-                (Source){set->parts[set->terms[kind->own[k]].radiance].image.pixels,
+                (Source){set->parts[set->terms[kind->single[k]].radiance].image.pixels,
                          set->parts[set->footprints[kind->footprints[k]].uv].image.pixels, 1};
-    for (int i = 0; i < 2 * kind->nagain && work->number >= 0; i++) {
-        const CompactAgain *again = &kind->again[i / 2];
-        if (again->in[work->mixed][i % 2].gain == work->number)
-            work->sources[work->count++] = (Source){set->parts[set->terms[again->term].radiance].image.pixels, NULL,
-                                                    again->in[work->mixed][i % 2].share};
+    for (int i = 0; i < 2 * kind->ninterreflections && work->number >= 0; i++) {
+        const RetexCompactInterreflection *part = &kind->interreflections[i / 2];
+        if (part->in[work->mixed][i % 2].gain == work->number)
+            work->sources[work->count++] = (Source){set->parts[set->terms[part->term].radiance].image.pixels, NULL,
+                                                    part->in[work->mixed][i % 2].share};
     }
     return RETEX_OK;
 }
@@ -84,7 +85,7 @@ static int list_sources(GainWork *work, RetexError *err)
 static void term_light(const GainWork *work, size_t pixel, double rgb[3])
 {
     rgb[0] = rgb[1] = rgb[2] = 0;
-    if (work->number >= 0 && !compact_shows_again(work->light, work->kind, pixel))
+    if (work->number >= 0 && !retex_compact_has_interreflections(work->light, work->kind, pixel))
         return;
     for (int i = 0; i < work->count; i++) {
         const Source *source = &work->sources[i];
@@ -157,14 +158,15 @@ static int fill_holes(RetexImage *image, RetexError *err)
     return code;
 }
 
-int compact_gain_begin(RetexImage *gain, const CompactLight *light, int scale, RetexError *err)
+int retex_compact_gain_begin(RetexImage *gain, const RetexCompactLight *light, int scale, RetexError *err)
 {
     return retex_image_alloc(gain, (light->set->width + scale - 1) / scale, (light->set->height + scale - 1) / scale, 3,
                              err);
 }
 
-int compact_gain_rows(RetexImage *gain, const CompactLight *light, const CompactKind *kind, const RetexImage *sum,
-                      int number, CompactMixed mixed, int scale, int first, int nthreads, RetexError *err)
+int retex_compact_gain_rows(RetexImage *gain, const RetexCompactLight *light, const RetexCompactKind *kind,
+                            const RetexImage *sum, int number, RetexCompactMixed mixed, int scale, int first,
+                            int nthreads, RetexError *err)
 {
     RetexImage borrowed = *sum;
     GainWork work = {light, kind, &borrowed, gain, first, number, mixed, scale, NULL, 0};
@@ -176,16 +178,17 @@ int compact_gain_rows(RetexImage *gain, const CompactLight *light, const Compact
     return RETEX_OK;
 }
 
-int compact_gain_end(RetexImage *gain, RetexError *err)
+int retex_compact_gain_end(RetexImage *gain, RetexError *err)
 {
     return fill_holes(gain, err);
 }
 
-int compact_make_gain(RetexImage *gain, const CompactLight *light, const CompactKind *kind, const RetexImage *sum,
-                      int number, CompactMixed mixed, int scale, int nthreads, RetexError *err)
+int retex_compact_make_gain(RetexImage *gain, const RetexCompactLight *light, const RetexCompactKind *kind,
+                            const RetexImage *sum, int number, RetexCompactMixed mixed, int scale, int nthreads,
+                            RetexError *err)
 {
-    int code = compact_gain_begin(gain, light, scale, err);
+    int code = retex_compact_gain_begin(gain, light, scale, err);
     if (!code)
-        code = compact_gain_rows(gain, light, kind, sum, number, mixed, scale, 0, nthreads, err);
-    return code ? code : compact_gain_end(gain, err);
+        code = retex_compact_gain_rows(gain, light, kind, sum, number, mixed, scale, 0, nthreads, err);
+    return code ? code : retex_compact_gain_end(gain, err);
 }

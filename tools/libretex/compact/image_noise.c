@@ -19,7 +19,7 @@ static double median(const int counts[BINS], int all)
     return (bin + 0.5) * BIN;
 }
 
-double image_noise(const RetexImage *image, double levels)
+double retex_image_noise(const RetexImage *image, double levels)
 {
     static const int weights[3] = {1, -2, 1};
     int counts[BINS] = {0}, all = 0;

@@ -6,9 +6,9 @@
 
 /* Standard deviation of noise, in levels, of which the image's values have so many to 1; of pixels above 0. What is no
  * finer than a few pixels it does not see. */
-double image_noise(const RetexImage *image, double levels);
+double retex_image_noise(const RetexImage *image, double levels);
 
 /* So many times what it finds in denoised images is all that denoising leaves, roughly. */
-#define DENOISED_NOISE 10
+#define RETEX_DENOISED_NOISE 10
 
 #endif

@@ -7,7 +7,7 @@
 #include "compact/orders.h"
 #include "set/signals.h"
 
-static CompactKind *find_kind(CompactLight *light, int target, RetexFootprintKind kind)
+static RetexCompactKind *find_kind(RetexCompactLight *light, int target, RetexFootprintKind kind)
 {
     for (int i = 0; i < light->nkinds; i++)
         if (light->kinds[i].target == target && light->kinds[i].kind == kind)
@@ -23,29 +23,29 @@ static int is_whole(const RetexSet *set, const RetexFootprint *f)
            set->parts[f->albedo].image.width == set->width && set->parts[f->albedo].image.height == set->height;
 }
 
-static int sort_footprints(CompactLight *light)
+static int sort_footprints(RetexCompactLight *light)
 {
     const RetexSet *set = light->set;
     for (int i = 0; i < set->nfootprints; i++) {
         const RetexFootprint *f = &set->footprints[i];
-        CompactKind *kind = find_kind(light, f->target, f->kind);
+        RetexCompactKind *kind = find_kind(light, f->target, f->kind);
         if (f->kind == RETEX_FOOTPRINT_HIT || !is_whole(set, f))
             return 0;
         if (!kind) {
             kind = &light->kinds[light->nkinds++];
-            *kind = (CompactKind){.target = f->target, .kind = f->kind};
+            *kind = (RetexCompactKind){.target = f->target, .kind = f->kind};
         }
         if (kind->count == RETEX_SHARES_MAX)
             return 0;
         kind->footprints[kind->count] = i;
-        kind->own[kind->count] = kind->share[kind->count] = -1;
+        kind->single[kind->count] = kind->share[kind->count] = -1;
         kind->count++;
     }
     return 1;
 }
 
 /* A mixture's weights; its footprints are of one kind, but those of later hits may be of all targets. */
-static int sort_shares(CompactLight *light)
+static int sort_shares(RetexCompactLight *light)
 {
     const RetexSet *set = light->set;
     for (int m = 0; m < set->nmixtures; m++) {
@@ -54,7 +54,7 @@ static int sort_shares(CompactLight *light)
         for (int k = 0; k < mixture->nshares; k++) {
             const RetexFootprint *f = &set->footprints[mixture->shares[k].footprint];
             const int weight = mixture->shares[k].weight;
-            CompactKind *kind = find_kind(light, f->target, f->kind);
+            RetexCompactKind *kind = find_kind(light, f->target, f->kind);
             if (f->kind != first->kind || (f->kind != RETEX_FOOTPRINT_INTERREFLECTION && f->target != first->target) ||
                 set->parts[weight].image.channels != 1)
                 return 0;
@@ -70,7 +70,7 @@ static int sort_shares(CompactLight *light)
     return 1;
 }
 
-static int sort_term(CompactLight *light, int number)
+static int sort_term(RetexCompactLight *light, int number)
 {
     const RetexTerm *term = &light->set->terms[number];
     int target;
@@ -85,60 +85,61 @@ static int sort_term(CompactLight *light, int number)
             return 0;
     }
     retex_factor_target(light->set, term->factors[0], &target, &what);
-    CompactKind *kind = find_kind(light, target, what);
+    RetexCompactKind *kind = find_kind(light, target, what);
     if (!kind || what == RETEX_FOOTPRINT_INTERREFLECTION)
         return 0;
     if (term->nfactors > 1) {
-        if (kind->nagain && term->factors[0] != kind->first)
+        if (kind->ninterreflections && term->factors[0] != kind->first)
             return 0;
         kind->first = term->factors[0];
-        kind->again[kind->nagain++].term = number;
+        kind->interreflections[kind->ninterreflections++].term = number;
         return 1;
     }
     for (int i = 0; i < kind->count; i++)
-        if (kind->footprints[i] == term->factors[0] && kind->own[i] < 0) {
-            kind->own[i] = number;
+        if (kind->footprints[i] == term->factors[0] && kind->single[i] < 0) {
+            kind->single[i] = number;
             return 1;
         }
     return 0;
 }
 
-int compact_light_open(CompactLight *light, const RetexSet *set, double noise, int *understood, RetexError *err)
+int retex_compact_light_open(RetexCompactLight *light, const RetexSet *set, double noise, int *understood,
+                             RetexError *err)
 {
-    *light = (CompactLight){.set = set, .noise = noise};
+    *light = (RetexCompactLight){.set = set, .noise = noise};
     *understood = sort_footprints(light) && light->nkinds > 0 && sort_shares(light);
     if (!*understood)
         return RETEX_OK;
-    light->again = calloc((size_t)light->nkinds * (size_t)set->nterms + 1, sizeof *light->again);
-    if (!light->again)
+    light->interreflections = calloc((size_t)light->nkinds * (size_t)set->nterms + 1, sizeof *light->interreflections);
+    if (!light->interreflections)
         return retex_fail(err, RETEX_ENOMEM, "not enough memory for %d terms", set->nterms);
     for (int i = 0; i < light->nkinds; i++)
-        light->kinds[i].again = light->again + (size_t)i * (size_t)set->nterms;
+        light->kinds[i].interreflections = light->interreflections + (size_t)i * (size_t)set->nterms;
     for (int i = 0; i < set->nterms && *understood; i++)
         *understood = sort_term(light, i);
     int code = RETEX_OK;
-    for (int i = 0; i < COMPACT_CHOICES * light->nkinds && *understood && !code; i++)
-        code = compact_orders_make(&light->kinds[i / COMPACT_CHOICES], set, i % COMPACT_CHOICES, err);
+    for (int i = 0; i < RETEX_COMPACT_CHOICES * light->nkinds && *understood && !code; i++)
+        code = retex_compact_orders_make(&light->kinds[i / RETEX_COMPACT_CHOICES], set, i % RETEX_COMPACT_CHOICES, err);
     return code;
 }
 
-void compact_light_close(CompactLight *light)
+void retex_compact_light_close(RetexCompactLight *light)
 {
     for (int i = 0; i < light->nkinds; i++) {
-        for (int k = 0; k < COMPACT_CHOICES; k++) {
+        for (int k = 0; k < RETEX_COMPACT_CHOICES; k++) {
             free(light->kinds[i].gains[k]);
             light->kinds[i].gains[k] = NULL;
         }
     }
-    free(light->again);
-    light->again = NULL;
+    free(light->interreflections);
+    light->interreflections = NULL;
 }
 
-float compact_grey(const RetexTerm *term)
+float retex_compact_grey(const RetexTerm *term)
 {
     float grey = 1;
     for (int k = 1; k < term->nfactors; k++)
-        grey *= COMPACT_GREY;
+        grey *= RETEX_COMPACT_GREY;
     return grey;
 }
 
@@ -148,17 +149,17 @@ static int is_covered(const RetexSet *set, int footprint, size_t pixel)
 }
 
 /* Light that goes on begins on footprints by their shares; on one alone, where it is. */
-static double share_of(const CompactLight *light, const CompactKind *kind, int k, size_t pixel)
+static double share_of(const RetexCompactLight *light, const RetexCompactKind *kind, int k, size_t pixel)
 {
     const int footprint = kind->footprints[k];
-    if (!kind->nagain || !is_covered(light->set, footprint, pixel))
+    if (!kind->ninterreflections || !is_covered(light->set, footprint, pixel))
         return 0;
     if (kind->first >= 0)
         return kind->first == footprint;
     return kind->share[k] >= 0 ? (double)light->set->parts[kind->share[k]].image.pixels[pixel] : 0;
 }
 
-int compact_shows_again(const CompactLight *light, const CompactKind *kind, size_t pixel)
+int retex_compact_has_interreflections(const RetexCompactLight *light, const RetexCompactKind *kind, size_t pixel)
 {
     for (int k = 0; k < kind->count; k++)
         if (share_of(light, kind, k, pixel) > 0)
@@ -166,25 +167,25 @@ int compact_shows_again(const CompactLight *light, const CompactKind *kind, size
     return 0;
 }
 
-void compact_cluster_light(const CompactLight *light, const CompactKind *kind, size_t pixel,
-                           ClusterLight of[RETEX_SHARES_MAX])
+void retex_compact_cluster_light(const RetexCompactLight *light, const RetexCompactKind *kind, size_t pixel,
+                                 RetexCompactClusterLight of[RETEX_SHARES_MAX])
 {
     const RetexSet *set = light->set;
-    double again[3] = {0}, shares[RETEX_SHARES_MAX], all = 0;
+    double interreflected[3] = {0}, shares[RETEX_SHARES_MAX], all = 0;
     for (int k = 0; k < kind->count; k++)
         all += shares[k] = share_of(light, kind, k, pixel);
-    for (int i = 0; i < kind->nagain && all > 0; i++) {
-        const RetexTerm *term = &set->terms[kind->again[i].term];
-        const float *radiance = set->parts[term->radiance].image.pixels + 3 * pixel, grey = compact_grey(term);
+    for (int i = 0; i < kind->ninterreflections && all > 0; i++) {
+        const RetexTerm *term = &set->terms[kind->interreflections[i].term];
+        const float *radiance = set->parts[term->radiance].image.pixels + 3 * pixel, grey = retex_compact_grey(term);
         for (int c = 0; c < 3; c++)
-            again[c] += (double)(grey * radiance[c]);
+            interreflected[c] += (double)(grey * radiance[c]);
     }
     for (int k = 0; k < kind->count; k++) {
-        const int shown = kind->own[k] >= 0 && is_covered(set, kind->footprints[k], pixel);
-        const float *own = shown ? set->parts[set->terms[kind->own[k]].radiance].image.pixels + 3 * pixel : NULL;
+        const int shown = kind->single[k] >= 0 && is_covered(set, kind->footprints[k], pixel);
+        const float *own = shown ? set->parts[set->terms[kind->single[k]].radiance].image.pixels + 3 * pixel : NULL;
         for (int c = 0; c < 3; c++) {
-            of[k].own[c] = own ? (double)own[c] : 0;
-            of[k].again[c] = all > 0 ? again[c] * shares[k] / all : 0;
+            of[k].single[c] = own ? (double)own[c] : 0;
+            of[k].interreflected[c] = all > 0 ? interreflected[c] * shares[k] / all : 0;
         }
     }
 }

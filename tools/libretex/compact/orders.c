@@ -1,7 +1,7 @@
-/* See orders.h. Light of h further hits varies as a^h with a grey texture a. Orders that are left out are
- * shared by the next lower and the next higher one that are kept, such that COMPACT_GREY and white stay exact: both
- * shares are positive, and between the two what is wrong is small. Where hits are mixed, from the third further one on
- * each is taken to meet any target as later footprints do on the whole, not one that is told apart. */
+/* See orders.h. Light with h interreflections varies as a^h with a grey texture of albedo a. A term of an order that
+ * is left out is divided between the next lower and the next higher order that is kept. The two shares are positive
+ * and exact for albedo 1 and RETEX_COMPACT_GREY; between these albedos the error is small. With RETEX_COMPACT_MIXED,
+ * terms of three and more interreflections use one mixture of all targets' interreflections. */
 #include "compact/orders.h"
 
 #include <math.h>
@@ -27,11 +27,11 @@ static int is_any_target(const RetexSet *set, int factor)
 }
 
 /* That of hits on any target; 0 where no term has it. */
-static int find_any_target(const CompactKind *kind, const RetexSet *set)
+static int find_any_target(const RetexCompactKind *kind, const RetexSet *set)
 {
-    for (int i = 0; i < kind->nagain; i++)
-        if (is_any_target(set, set->terms[kind->again[i].term].factors[1]))
-            return set->terms[kind->again[i].term].factors[1];
+    for (int i = 0; i < kind->ninterreflections; i++)
+        if (is_any_target(set, set->terms[kind->interreflections[i].term].factors[1]))
+            return set->terms[kind->interreflections[i].term].factors[1];
     return 0;
 }
 
@@ -41,7 +41,8 @@ static int same_factors(const RetexTerm *a, const RetexTerm *b)
 }
 
 /* The gain of so many further hits on what another term's are on. */
-static int find_gain(CompactKind *kind, const RetexSet *set, CompactMixed mixed, int number, int order, int any)
+static int find_gain(RetexCompactKind *kind, const RetexSet *set, RetexCompactMixed mixed, int number, int order,
+                     int any)
 {
     const RetexTerm *old = &set->terms[number];
     RetexTerm term = *old;
@@ -53,7 +54,7 @@ static int find_gain(CompactKind *kind, const RetexSet *set, CompactMixed mixed,
         g++;
     if (g < kind->ngains[mixed])
         return g;
-    CompactGain *gain = &kind->gains[mixed][kind->ngains[mixed]++];
+    RetexCompactGain *gain = &kind->gains[mixed][kind->ngains[mixed]++];
     gain->term = term;
     /* named after the radiance it replaces, or the order */
     const char *name = set->parts[old->radiance].name, *tail = strrchr(name, '_');
@@ -77,36 +78,37 @@ static double between(int order, int highest, int orders[2])
     for (int i = KEPT_ORDERS - 1; i >= 0 && kept_orders[i] > order; i--)
         if (kept_orders[i] < highest)
             orders[1] = kept_orders[i];
-    const double grey = (double)COMPACT_GREY, low = pow(grey, orders[0]), high = pow(grey, orders[1]);
+    const double grey = (double)RETEX_COMPACT_GREY, low = pow(grey, orders[0]), high = pow(grey, orders[1]);
     return (pow(grey, order) - high) / (low - high);
 }
 
 /* Into which gains a term goes. */
-static void share_term(CompactKind *kind, const RetexSet *set, CompactMixed mixed, CompactAgain *again, int highest)
+static void share_term(RetexCompactKind *kind, const RetexSet *set, RetexCompactMixed mixed,
+                       RetexCompactInterreflection *part, int highest)
 {
-    const RetexTerm *term = &set->terms[again->term];
+    const RetexTerm *term = &set->terms[part->term];
     const int order = term->nfactors - 1;
-    const int mixes = mixed == COMPACT_MIXED && order >= FIRST_MIXED;
+    const int mixes = mixed == RETEX_COMPACT_MIXED && order >= FIRST_MIXED;
     const int any = mixes ? find_any_target(kind, set) : is_any_target(set, term->factors[1]) ? term->factors[1] : 0;
     int orders[2] = {order, order};
     const double share = any || set->ntargets == 1 ? between(order, highest, orders) : 1;
     for (int k = 0; k < 2; k++) {
-        again->in[mixed][k].share = k ? 1 - share : share;
-        again->in[mixed][k].gain =
-            again->in[mixed][k].share > 0 ? find_gain(kind, set, mixed, again->term, orders[k], any) : -1;
+        part->in[mixed][k].share = k ? 1 - share : share;
+        part->in[mixed][k].gain =
+            part->in[mixed][k].share > 0 ? find_gain(kind, set, mixed, part->term, orders[k], any) : -1;
     }
 }
 
-int compact_orders_make(CompactKind *kind, const RetexSet *set, CompactMixed mixed, RetexError *err)
+int retex_compact_orders_make(RetexCompactKind *kind, const RetexSet *set, RetexCompactMixed mixed, RetexError *err)
 {
     int highest = 0;
-    kind->gains[mixed] = calloc(2 * (size_t)kind->nagain + 1, sizeof **kind->gains);
+    kind->gains[mixed] = calloc(2 * (size_t)kind->ninterreflections + 1, sizeof **kind->gains);
     if (!kind->gains[mixed])
-        return retex_fail(err, RETEX_ENOMEM, "not enough memory for %d terms", kind->nagain);
-    for (int i = 0; i < kind->nagain; i++)
-        if (set->terms[kind->again[i].term].nfactors - 1 > highest)
-            highest = set->terms[kind->again[i].term].nfactors - 1;
-    for (int i = 0; i < kind->nagain; i++)
-        share_term(kind, set, mixed, &kind->again[i], highest);
+        return retex_fail(err, RETEX_ENOMEM, "not enough memory for %d terms", kind->ninterreflections);
+    for (int i = 0; i < kind->ninterreflections; i++)
+        if (set->terms[kind->interreflections[i].term].nfactors - 1 > highest)
+            highest = set->terms[kind->interreflections[i].term].nfactors - 1;
+    for (int i = 0; i < kind->ninterreflections; i++)
+        share_term(kind, set, mixed, &kind->interreflections[i], highest);
     return RETEX_OK;
 }

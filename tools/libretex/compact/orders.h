@@ -5,6 +5,6 @@
 #include "compact/light.h"
 
 /* Give a kind its gains: which there are, and what each term is in them. */
-int compact_orders_make(CompactKind *kind, const RetexSet *set, CompactMixed mixed, RetexError *err);
+int retex_compact_orders_make(RetexCompactKind *kind, const RetexSet *set, RetexCompactMixed mixed, RetexError *err);
 
 #endif

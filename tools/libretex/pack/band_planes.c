@@ -5,16 +5,16 @@
 #include "pack/restore.h"
 #include "pack/scratch.h"
 
-void plane_band_init(PlaneBand *planes)
+void retex_pack_plane_band_init(RetexPackPlaneBand *planes)
 {
-    for (int c = 0; c < PACK_CHANNELS_MAX; c++)
+    for (int c = 0; c < RETEX_PACK_CHANNELS_MAX; c++)
         planes->band[c] = -1;
     planes->line = planes->runs_band = -1;
 }
 
-void plane_band_free(PlaneBand *planes)
+void retex_pack_plane_band_free(RetexPackPlaneBand *planes)
 {
-    for (int c = 0; c < PACK_CHANNELS_MAX; c++)
+    for (int c = 0; c < RETEX_PACK_CHANNELS_MAX; c++)
         free(planes->numbers[c]);
     free(planes->present);
     free(planes->runs.run);
@@ -32,39 +32,39 @@ static int have_numbers(int part, int band, int c, RetexPackScratch *s, RetexErr
 /* Know where the numbers matter of the parts that this one says it of. */
 static int have_runs(int part, int band, RetexPackScratch *s, RetexError *err)
 {
-    const PackPart *p = &s->pack->parts[part];
-    PlaneBand *own = &s->cached[part].planes;
-    const size_t pixels = (size_t)p->width * PACK_BAND_ROWS;
+    const RetexPackPart *p = &s->pack->parts[part];
+    RetexPackPlaneBand *own = &s->cached[part].planes;
+    const size_t pixels = (size_t)p->width * RETEX_PACK_BAND_ROWS;
     if (own->runs_band == band)
         return 0;
     own->runs_band = -1;
     if (!own->present)
         own->present = malloc(pixels);
     if (!own->runs.run)
-        own->runs.run = malloc(pack_runs_room(p->width, PACK_BAND_ROWS) * sizeof *own->runs.run);
+        own->runs.run = malloc(retex_pack_runs_bound(p->width, RETEX_PACK_BAND_ROWS) * sizeof *own->runs.run);
     if (!own->present || !own->runs.run)
         return no_memory(err);
     int code = have_numbers(part, band, 2, s, err);
-    const int rows = pack_band_rows(p, band);
+    const int rows = retex_pack_band_rows(p, band);
     if (code)
         return code;
-    pack_find_present(own->present, own->numbers[2], (size_t)p->width * (size_t)rows);
-    pack_find_runs(&own->runs, own->present, p->width, rows);
+    retex_pack_find_present(own->present, own->numbers[2], (size_t)p->width * (size_t)rows);
+    retex_pack_find_runs(&own->runs, own->present, p->width, rows);
     own->runs_band = band;
     return 0;
 }
 
 /* What multiples the means of channel c are, into s->shift. */
-static int make_shift(int part, int band, int c, const PackRuns *runs, RetexPackScratch *s, RetexError *err)
+static int make_shift(int part, int band, int c, const RetexPackRuns *runs, RetexPackScratch *s, RetexError *err)
 {
-    const PackPart *p = &s->pack->parts[part];
+    const RetexPackPart *p = &s->pack->parts[part];
     const int per_octave = s->pack->parts[p->sigma].maps[c].per_octave;
-    unsigned char shift[PACK_CODES];
-    for (int i = 0; i < PACK_CODES; i++)
-        shift[i] = (unsigned char)pack_lattice_shift(p, i, per_octave);
+    unsigned char shift[RETEX_PACK_CODES];
+    for (int i = 0; i < RETEX_PACK_CODES; i++)
+        shift[i] = (unsigned char)retex_pack_lattice_shift(p, i, per_octave);
     int code = have_numbers(p->sigma, band, c, s, err);
     const unsigned char *codes = s->cached[p->sigma].planes.numbers[c];
-    for (int y = 0; !code && y < pack_band_rows(p, band); y++)
+    for (int y = 0; !code && y < retex_pack_band_rows(p, band); y++)
         for (int k = runs->first[y]; k < runs->first[y + 1]; k++) {
             const size_t row = (size_t)y * (size_t)p->width;
             for (size_t i = row + (size_t)runs->run[k].begin; i < row + (size_t)runs->run[k].end; i++)
@@ -76,13 +76,13 @@ static int make_shift(int part, int band, int c, const PackRuns *runs, RetexPack
 /* Have those of one channel. */
 static int have_numbers(int part, int band, int c, RetexPackScratch *s, RetexError *err)
 {
-    const PackPart *p = &s->pack->parts[part];
-    PlaneBand *own = &s->cached[part].planes;
-    const PackMap *map = &p->maps[c];
-    const int is_coded = pack_map_is_coded(map), k = band * p->channels + c;
-    const size_t pixels = (size_t)p->width * PACK_BAND_ROWS;
-    PackPlane plane = {.width = p->width, .rows = pack_band_rows(p, band)};
-    plane.bits = is_coded ? 8 : map->kind == PACK_MAP_BITS && p->type == RETEX_HALF ? 16 : 32;
+    const RetexPackPart *p = &s->pack->parts[part];
+    RetexPackPlaneBand *own = &s->cached[part].planes;
+    const RetexPackMap *map = &p->maps[c];
+    const int is_coded = retex_pack_map_is_coded(map), k = band * p->channels + c;
+    const size_t pixels = (size_t)p->width * RETEX_PACK_BAND_ROWS;
+    RetexPackPlane plane = {.width = p->width, .rows = retex_pack_band_rows(p, band)};
+    plane.bits = is_coded ? 8 : map->kind == RETEX_PACK_MAP_BITS && p->type == RETEX_HALF ? 16 : 32;
     if (own->band[c] == band)
         return 0;
     own->band[c] = -1;
@@ -90,47 +90,48 @@ static int have_numbers(int part, int band, int c, RetexPackScratch *s, RetexErr
         return no_memory(err);
     plane.codes = is_coded ? own->numbers[c] : NULL;
     plane.numbers = is_coded ? NULL : own->numbers[c];
-    int code = pack_scratch_reserve(s, p, err);
+    int code = retex_pack_scratch_reserve(s, p, err);
     if (!code && p->present >= 0 && (p->present != part || c != 2)) {
         code = have_runs(p->present, band, s, err);
         plane.present = s->cached[p->present].planes.present;
         plane.runs = &s->cached[p->present].planes.runs;
     }
-    if (!code && map->kind == PACK_MAP_LATTICE) {
+    if (!code && map->kind == RETEX_PACK_MAP_LATTICE) {
         code = make_shift(part, band, c, plane.runs, s, err);
         plane.shift = s->shift;
     }
     if (!code)
-        code = pack_read_chunk(part, k, 0, s, err);
-    if (!code && !pack_plane_decode(&plane, s->chunk, p->bytes[k], s->residuals))
-        code = pack_damaged(err, "planes cannot be decoded of part", s->pack->set->parts[part].name);
+        code = retex_pack_read_chunk(part, k, 0, s, err);
+    if (!code && !retex_pack_plane_decode(&plane, s->chunk, p->bytes[k], s->residuals))
+        code = retex_pack_damaged(err, "planes cannot be decoded of part", s->pack->set->parts[part].name);
     own->band[c] = code ? -1 : band;
     return code;
 }
 
 /* The rows of a channel, all of which matters, that are not all 0. */
-static uint64_t find_lit(const PackPart *p, int band, int c, const void *numbers)
+static uint64_t find_lit(const RetexPackPart *p, int band, int c, const void *numbers)
 {
-    const size_t row = (size_t)p->width * (pack_map_is_coded(&p->maps[c]) ? 1 : sizeof(int32_t));
+    const size_t row = (size_t)p->width * (retex_pack_map_is_coded(&p->maps[c]) ? 1 : sizeof(int32_t));
     const int32_t none = 0;
     float of_none;
-    pack_map_samples(&of_none, 1, &none, 1, &p->maps[c], p->type);
+    retex_pack_map_samples(&of_none, 1, &none, 1, &p->maps[c], p->type);
     uint64_t lit = 0;
-    for (int y = 0; y < pack_band_rows(p, band); y++)
-        if (pack_is_any(&of_none, sizeof of_none) || pack_is_any((const char *)numbers + (size_t)y * row, row))
+    for (int y = 0; y < retex_pack_band_rows(p, band); y++)
+        if (retex_pack_any_nonzero(&of_none, sizeof of_none) ||
+            retex_pack_any_nonzero((const char *)numbers + (size_t)y * row, row))
             lit |= (uint64_t)1 << y;
     return lit;
 }
 
-int plane_band_decode(int part, int band, uint64_t *lit, RetexPackScratch *s, RetexError *err)
+int retex_pack_plane_band_decode(int part, int band, uint64_t *lit, RetexPackScratch *s, RetexError *err)
 {
-    const PackPart *p = &s->pack->parts[part];
-    PlaneBand *own = &s->cached[part].planes;
+    const RetexPackPart *p = &s->pack->parts[part];
+    RetexPackPlaneBand *own = &s->cached[part].planes;
     int code = p->present >= 0 ? have_runs(p->present, band, s, err) : 0;
-    const PackRuns *runs = p->present >= 0 ? &s->cached[p->present].planes.runs : NULL;
+    const RetexPackRuns *runs = p->present >= 0 ? &s->cached[p->present].planes.runs : NULL;
     own->line = -1;
     *lit = 0;
-    for (int y = 0; !code && runs && y < pack_band_rows(p, band); y++)
+    for (int y = 0; !code && runs && y < retex_pack_band_rows(p, band); y++)
         *lit |= (uint64_t)(runs->first[y] < runs->first[y + 1]) << y;
     for (int c = 0; !code && (*lit || !runs) && c < p->channels; c++) {
         code = have_numbers(part, band, c, s, err);
@@ -143,40 +144,40 @@ int plane_band_decode(int part, int band, uint64_t *lit, RetexPackScratch *s, Re
 /* ---- rows ---- */
 
 /* Where a row of a channel, all of which matters, is not 0. */
-static RetexRowSpan find_span(const PackPart *p, int c, const void *numbers, int line)
+static RetexRowSpan find_span(const RetexPackPart *p, int c, const void *numbers, int line)
 {
     const int width = p->width;
     const int32_t none = 0;
     float of_none;
     int begin = 0, end = width;
-    pack_map_samples(&of_none, 1, &none, 1, &p->maps[c], p->type);
-    if (pack_is_any(&of_none, sizeof of_none))
+    retex_pack_map_samples(&of_none, 1, &none, 1, &p->maps[c], p->type);
+    if (retex_pack_any_nonzero(&of_none, sizeof of_none))
         return (RetexRowSpan){0, width};
     enum { STEP = 64 };
-    const size_t size = pack_map_is_coded(&p->maps[c]) ? 1 : sizeof none;
+    const size_t size = retex_pack_map_is_coded(&p->maps[c]) ? 1 : sizeof none;
     const char *row = (const char *)numbers + (size_t)line * (size_t)width * size;
-    while (begin + STEP <= end && !pack_is_any(row + (size_t)begin * size, STEP * size))
+    while (begin + STEP <= end && !retex_pack_any_nonzero(row + (size_t)begin * size, STEP * size))
         begin += STEP;
-    while (end - STEP >= begin && !pack_is_any(row + (size_t)(end - STEP) * size, STEP * size))
+    while (end - STEP >= begin && !retex_pack_any_nonzero(row + (size_t)(end - STEP) * size, STEP * size))
         end -= STEP;
     return (RetexRowSpan){begin, end};
 }
 
 /* A run of a row to samples, in all channels. */
-static void map_run(const PackPart *p, const PlaneBand *own, int line, RetexRowSpan run, float *row)
+static void map_run(const RetexPackPart *p, const RetexPackPlaneBand *own, int line, RetexRowSpan run, float *row)
 {
     const size_t channels = (size_t)p->channels, count = (size_t)(run.end - run.begin);
     const size_t at = (size_t)line * (size_t)p->width + (size_t)run.begin;
     float *out = row + (size_t)run.begin * channels;
     for (int c = 0; c < p->channels; c++, out++)
-        if (pack_map_is_coded(&p->maps[c]))
-            pack_map_codes(out, channels, (const unsigned char *)own->numbers[c] + at, count, &p->maps[c]);
+        if (retex_pack_map_is_coded(&p->maps[c]))
+            retex_pack_map_codes(out, channels, (const unsigned char *)own->numbers[c] + at, count, &p->maps[c]);
         else
-            pack_map_samples(out, channels, (const int32_t *)own->numbers[c] + at, count, &p->maps[c], p->type);
+            retex_pack_map_samples(out, channels, (const int32_t *)own->numbers[c] + at, count, &p->maps[c], p->type);
 }
 
 /* What is of the row that was there becomes 0. */
-static void clear_row(const PackPart *p, const PlaneBand *own, float *row)
+static void clear_row(const RetexPackPart *p, const RetexPackPlaneBand *own, float *row)
 {
     const size_t channels = (size_t)p->channels;
     const RetexRowSpan old = own->line < 0 ? (RetexRowSpan){0, p->width} : own->span;
@@ -184,10 +185,11 @@ static void clear_row(const PackPart *p, const PlaneBand *own, float *row)
         memset(row + (size_t)old.begin * channels, 0, (size_t)(old.end - old.begin) * channels * sizeof *row);
 }
 
-int plane_band_row(int part, int band, int line, float *row, RetexRowSpan *span, RetexPackScratch *s, RetexError *err)
+int retex_pack_plane_band_row(int part, int band, int line, float *row, RetexRowSpan *span, RetexPackScratch *s,
+                              RetexError *err)
 {
-    const PackPart *p = &s->pack->parts[part];
-    PlaneBand *own = &s->cached[part].planes;
+    const RetexPackPart *p = &s->pack->parts[part];
+    RetexPackPlaneBand *own = &s->cached[part].planes;
     int code = 0;
     *span = own->span;
     if (own->line == line)
@@ -205,7 +207,7 @@ int plane_band_row(int part, int band, int line, float *row, RetexRowSpan *span,
             *span = retex_span_union(*span, find_span(p, c, own->numbers[c], line));
         map_run(p, own, line, *span, row);
     } else {
-        const PackRuns *runs = &s->cached[p->present].planes.runs;
+        const RetexPackRuns *runs = &s->cached[p->present].planes.runs;
         for (int k = runs->first[line]; k < runs->first[line + 1]; k++) {
             const RetexRowSpan run = runs->run[k];
             map_run(p, own, line, run, row);

@@ -23,7 +23,7 @@ int retex_pack_scratch_create(RetexPackScratch **result, const RetexPack *pack, 
     }
     for (int i = 0; !code && i < s->nparts; i++) {
         s->cached[i].band = -1;
-        plane_band_init(&s->cached[i].planes);
+        retex_pack_plane_band_init(&s->cached[i].planes);
     }
     if (!code)
         return 0;
@@ -39,8 +39,8 @@ void retex_pack_scratch_close(RetexPackScratch **result)
     for (int i = 0; s->cached && i < s->nparts; i++) {
         free(s->cached[i].rows);
         free(s->cached[i].mask);
-        plane_band_free(&s->cached[i].planes);
-        pack_jpeg_decoder_close(&s->cached[i].jpeg);
+        retex_pack_plane_band_free(&s->cached[i].planes);
+        retex_pack_jpeg_decoder_close(&s->cached[i].jpeg);
     }
     free(s->cached);
     free(s->chunk);
@@ -50,44 +50,45 @@ void retex_pack_scratch_close(RetexPackScratch **result)
     *result = NULL;
 }
 
-const RetexPack *pack_decoded_by(const RetexPackScratch *scratch)
+const RetexPack *retex_pack_of_scratch(const RetexPackScratch *scratch)
 {
     return scratch->pack;
 }
 
-int pack_scratch_reserve(RetexPackScratch *s, const PackPart *p, RetexError *err)
+int retex_pack_scratch_reserve(RetexPackScratch *s, const RetexPackPart *p, RetexError *err)
 {
-    const size_t pixels = (size_t)p->width * PACK_BAND_ROWS;
+    const size_t pixels = (size_t)p->width * RETEX_PACK_BAND_ROWS;
     if (pixels <= s->pixels)
         return 0;
     free(s->residuals);
     free(s->shift);
-    const PackPlane plane = {.width = p->width, .rows = PACK_BAND_ROWS};
-    s->residuals = malloc(pack_plane_room(&plane));
+    const RetexPackPlane plane = {.width = p->width, .rows = RETEX_PACK_BAND_ROWS};
+    s->residuals = malloc(retex_pack_plane_bound(&plane));
     s->shift = malloc(pixels);
     s->pixels = s->residuals && s->shift ? pixels : 0;
     return s->pixels ? 0 : retex_fail(err, RETEX_ENOMEM, "no memory to read a pack");
 }
 
-int pack_read_chunk(int part, int k, size_t before, RetexPackScratch *s, RetexError *err)
+int retex_pack_read_chunk(int part, int k, size_t before, RetexPackScratch *s, RetexError *err)
 {
-    const PackPart *p = &s->pack->parts[part];
+    const RetexPackPart *p = &s->pack->parts[part];
     const size_t bytes = p->bytes[k];
-    if (before + bytes > s->chunk_room) {
+    if (before + bytes > s->chunk_capacity) {
         unsigned char *chunk = realloc(s->chunk, before + bytes + 4096);
         if (!chunk)
             return retex_fail(err, RETEX_ENOMEM, "no memory to read a pack");
         s->chunk = chunk;
-        s->chunk_room = before + bytes + 4096;
+        s->chunk_capacity = before + bytes + 4096;
     }
     if (bytes && (retex_input_read(s->pack->input, s->chunk + before, bytes, p->offsets[k]) != (int64_t)bytes ||
                   retex_crc32(CRC32_OF_NONE, s->chunk + before, bytes) != p->crcs[k]))
         return retex_input_check(
-            s->pack->input, pack_damaged(err, "the checksum is wrong of part", s->pack->set->parts[part].name), err);
+            s->pack->input, retex_pack_damaged(err, "the checksum is wrong of part", s->pack->set->parts[part].name),
+            err);
     return 0;
 }
 
-int pack_is_any(const void *data, size_t bytes)
+int retex_pack_any_nonzero(const void *data, size_t bytes)
 {
     const unsigned char *at = data;
     size_t i = 0;
@@ -103,69 +104,69 @@ int pack_is_any(const void *data, size_t bytes)
 }
 
 /* The rows of a band that are not all 0: bit y of row y. */
-static uint64_t find_lit(const PackPart *p, int band, const float *rows)
+static uint64_t find_lit(const RetexPackPart *p, int band, const float *rows)
 {
     const size_t row = (size_t)p->width * (size_t)p->channels;
     uint64_t lit = 0;
-    for (int y = 0; y < pack_band_rows(p, band); y++)
-        lit |= (uint64_t)pack_is_any(rows + (size_t)y * row, row * sizeof *rows) << y;
+    for (int y = 0; y < retex_pack_band_rows(p, band); y++)
+        lit |= (uint64_t)retex_pack_any_nonzero(rows + (size_t)y * row, row * sizeof *rows) << y;
     return lit;
 }
 
 /* Shifts of means, from the standard deviations of the band, which are decoded for it. */
-static int fill_mean_shifts(int part, int band, PackModelBand *model, RetexPackScratch *s, RetexError *err)
+static int fill_mean_shifts(int part, int band, RetexPackModelBand *model, RetexPackScratch *s, RetexError *err)
 {
-    const PackPart *p = &s->pack->parts[part], *sigma = &s->pack->parts[p->sigma];
+    const RetexPackPart *p = &s->pack->parts[part], *sigma = &s->pack->parts[p->sigma];
     const size_t pixels = (size_t)model->width * (size_t)model->rows;
     int code = cache_band(p->sigma, band, s, err);
-    const CachedBand *cached = &s->cached[p->sigma];
+    const RetexPackCachedBand *cached = &s->cached[p->sigma];
     for (int c = 0; !code && c < p->channels; c++)
         for (size_t i = 0; model->shifts[c] && i < pixels; i++) {
             const int is_black = !(cached->lit >> i / (size_t)model->width & 1);
             const float deviation = is_black ? 0 : cached->rows[i * (size_t)sigma->channels + (size_t)c];
-            model->shifts[c][i] = (unsigned char)pack_mean_shift(deviation);
+            model->shifts[c][i] = (unsigned char)retex_pack_mean_shift(deviation);
         }
     return code;
 }
 
 static int decode_model(int part, int band, float *out, RetexPackScratch *s, RetexError *err)
 {
-    const PackPart *p = &s->pack->parts[part];
-    PackModelBand model;
-    int code = pack_model_alloc(&model, p->width, pack_band_rows(p, band), p->channels, p->maps)
+    const RetexPackPart *p = &s->pack->parts[part];
+    RetexPackModelBand model;
+    int code = retex_pack_model_alloc(&model, p->width, retex_pack_band_rows(p, band), p->channels, p->maps)
                    ? 0
                    : retex_fail(err, RETEX_ENOMEM, "no memory to read a pack");
     if (!code && p->sigma >= 0)
         code = fill_mean_shifts(part, band, &model, s, err);
     if (!code)
-        code = pack_read_chunk(part, band, 0, s, err);
-    const int decoded = code ? 1 : pack_model_decode(&model, s->chunk, p->bytes[band]);
+        code = retex_pack_read_chunk(part, band, 0, s, err);
+    const int decoded = code ? 1 : retex_pack_model_decode(&model, s->chunk, p->bytes[band]);
     if (decoded < 0)
         code = retex_fail(err, RETEX_ENOMEM, "no memory to read a pack");
     else if (!decoded)
-        code = pack_damaged(err, "planes cannot be decoded of part", s->pack->set->parts[part].name);
-    if (!code && p->codec == PACK_COMBINED)
-        code = pack_combine_add(&model, s->pack->set, band * PACK_BAND_ROWS, err);
+        code = retex_pack_damaged(err, "planes cannot be decoded of part", s->pack->set->parts[part].name);
+    if (!code && p->codec == RETEX_PACK_COMBINED)
+        code = retex_pack_combine_add(&model, s->pack->set, band * RETEX_PACK_BAND_ROWS, err);
     for (int c = 0; !code && c < p->channels; c++)
-        pack_map_samples(out + c, (size_t)p->channels, model.numbers[c], (size_t)model.width * (size_t)model.rows,
-                         &p->maps[c], p->type);
-    pack_model_free(&model);
+        retex_pack_map_samples(out + c, (size_t)p->channels, model.numbers[c], (size_t)model.width * (size_t)model.rows,
+                               &p->maps[c], p->type);
+    retex_pack_model_free(&model);
     return code;
 }
 
 /* ---- JPEGs ---- */
 
 /* Have the mask of a band, bits of bytes, and know whether it leaves any pixel. */
-static int decode_mask(int part, int band, CachedBand *cached, RetexPackScratch *s, RetexError *err)
+static int decode_mask(int part, int band, RetexPackCachedBand *cached, RetexPackScratch *s, RetexError *err)
 {
-    const PackPart *p = &s->pack->parts[part];
-    const int k = 1 + p->nbands + band, rows = pack_band_rows(p, band), width = pack_mask_width(p);
-    int code = cached->mask || (cached->mask = malloc((size_t)width * PACK_BAND_ROWS))
-                   ? pack_read_chunk(part, k, 0, s, err)
+    const RetexPackPart *p = &s->pack->parts[part];
+    const int k = 1 + p->nbands + band, rows = retex_pack_band_rows(p, band), width = retex_pack_mask_width(p);
+    int code = cached->mask || (cached->mask = malloc((size_t)width * RETEX_PACK_BAND_ROWS))
+                   ? retex_pack_read_chunk(part, k, 0, s, err)
                    : retex_fail(err, RETEX_ENOMEM, "no memory to read a pack");
-    const PackPlane plane = {.width = width, .rows = rows, .bits = 8, .codes = cached->mask};
-    if (!code && !pack_plane_decode(&plane, s->chunk, p->bytes[k], s->residuals))
-        code = pack_damaged(err, "the mask cannot be decoded of part", s->pack->set->parts[part].name);
+    const RetexPackPlane plane = {.width = width, .rows = rows, .bits = 8, .codes = cached->mask};
+    if (!code && !retex_pack_plane_decode(&plane, s->chunk, p->bytes[k], s->residuals))
+        code = retex_pack_damaged(err, "the mask cannot be decoded of part", s->pack->set->parts[part].name);
     const int last = 255 >> (8 * width - p->width);
     int every = 255; /* bits that all pixels have */
     for (int y = 0; !code && y < rows; y++)
@@ -176,7 +177,7 @@ static int decode_mask(int part, int band, CachedBand *cached, RetexPackScratch 
 }
 
 /* Make pixels of a row black whose bit is set. */
-static void apply_mask(const PackPart *p, float *out, const unsigned char *mask)
+static void apply_mask(const RetexPackPart *p, float *out, const unsigned char *mask)
 {
     const size_t channels = (size_t)p->channels;
     for (int x = 0; x < p->width; x += 8) {
@@ -197,50 +198,50 @@ static int jpeg_damaged(RetexError *err, int code, const RetexError *why, const 
 }
 
 /* Have the coefficients of a band. */
-static int open_jpeg(int part, int band, CachedBand *cached, RetexPackScratch *s, RetexError *err)
+static int open_jpeg(int part, int band, RetexPackCachedBand *cached, RetexPackScratch *s, RetexError *err)
 {
-    const PackPart *p = &s->pack->parts[part];
+    const RetexPackPart *p = &s->pack->parts[part];
     RetexError why = {0};
-    int code = pack_scratch_reserve(s, p, err);
+    int code = retex_pack_scratch_reserve(s, p, err);
     cached->blocks = -1;
     cached->lit = 0;
     cached->is_black = 0;
     if (!code && !cached->jpeg)
-        code = pack_jpeg_decoder_create(&cached->jpeg, err);
+        code = retex_pack_jpeg_decoder_create(&cached->jpeg, err);
     if (!code && p->masked)
         code = decode_mask(part, band, cached, s, err);
     if (code || cached->is_black) /* what the JPEG has here means nothing */
         return code;
-    code = pack_read_chunk(part, 0, 0, s, err);
+    code = retex_pack_read_chunk(part, 0, 0, s, err);
     if (!code)
-        code = pack_read_chunk(part, 1 + band, p->bytes[0], s, err);
+        code = retex_pack_read_chunk(part, 1 + band, p->bytes[0], s, err);
     if (code)
         return code;
-    code = pack_jpeg_open_band(cached->jpeg, s->chunk, p->bytes[0], (size_t)p->bytes[0] + p->bytes[1 + band], p->width,
-                               pack_band_rows(p, band), p->channels, &p->curve, &why);
+    code = retex_pack_jpeg_open_band(cached->jpeg, s->chunk, p->bytes[0], (size_t)p->bytes[0] + p->bytes[1 + band],
+                                     p->width, retex_pack_band_rows(p, band), p->channels, &p->curve, &why);
     return code ? jpeg_damaged(err, code, &why, s, part) : 0;
 }
 
 /* Have the row of blocks that a row of the band is in. */
-static int decode_blocks(int part, int line, CachedBand *cached, const RetexPackScratch *s, RetexError *err)
+static int decode_blocks(int part, int line, RetexPackCachedBand *cached, const RetexPackScratch *s, RetexError *err)
 {
-    const PackPart *p = &s->pack->parts[part];
-    const int blocks = line / PACK_BLOCK_ROWS, first = blocks * PACK_BLOCK_ROWS;
+    const RetexPackPart *p = &s->pack->parts[part];
+    const int blocks = line / RETEX_PACK_BLOCK_ROWS, first = blocks * RETEX_PACK_BLOCK_ROWS;
     const size_t row = (size_t)p->width * (size_t)p->channels;
     RetexError why = {0};
     if (cached->blocks == blocks || cached->is_black)
         return 0;
     cached->blocks = -1;
-    int code = pack_jpeg_decode_blocks(cached->jpeg, blocks, cached->rows, &why);
+    int code = retex_pack_jpeg_decode_blocks(cached->jpeg, blocks, cached->rows, &why);
     if (code)
         return jpeg_damaged(err, code, &why, s, part);
     cached->blocks = blocks;
     cached->lit = 0;
-    for (int y = 0; y < PACK_BLOCK_ROWS && first + y < pack_band_rows(p, cached->band); y++) {
+    for (int y = 0; y < RETEX_PACK_BLOCK_ROWS && first + y < retex_pack_band_rows(p, cached->band); y++) {
         float *values = cached->rows + (size_t)y * row;
         if (p->masked)
-            apply_mask(p, values, cached->mask + (size_t)(first + y) * (size_t)pack_mask_width(p));
-        cached->lit |= (uint64_t)pack_is_any(values, row * sizeof *values) << (first + y);
+            apply_mask(p, values, cached->mask + (size_t)(first + y) * (size_t)retex_pack_mask_width(p));
+        cached->lit |= (uint64_t)retex_pack_any_nonzero(values, row * sizeof *values) << (first + y);
     }
     return 0;
 }
@@ -248,27 +249,29 @@ static int decode_blocks(int part, int line, CachedBand *cached, const RetexPack
 /* ---- any part ---- */
 
 /* How many rows of a part's band are kept. */
-static int kept_rows(const PackPart *p)
+static int kept_rows(const RetexPackPart *p)
 {
-    return p->codec == PACK_JPEG ? PACK_BLOCK_ROWS : p->codec == PACK_PLANES ? 1 : PACK_BAND_ROWS;
+    return p->codec == RETEX_PACK_JPEG     ? RETEX_PACK_BLOCK_ROWS
+           : p->codec == RETEX_PACK_PLANES ? 1
+                                           : RETEX_PACK_BAND_ROWS;
 }
 
 /* Have the band in the cache. */
 static int cache_band(int part, int band, RetexPackScratch *s, RetexError *err)
 {
-    const PackPart *p = &s->pack->parts[part];
+    const RetexPackPart *p = &s->pack->parts[part];
     const size_t row = (size_t)p->width * (size_t)p->channels;
-    CachedBand *cached = &s->cached[part];
+    RetexPackCachedBand *cached = &s->cached[part];
     int code;
     if (cached->band == band)
         return 0;
     cached->band = -1;
     if (!cached->rows && !(cached->rows = malloc(row * (size_t)kept_rows(p) * sizeof *cached->rows)))
         return retex_fail(err, RETEX_ENOMEM, "no memory to read a pack");
-    if (p->codec == PACK_JPEG) {
+    if (p->codec == RETEX_PACK_JPEG) {
         code = open_jpeg(part, band, cached, s, err);
-    } else if (p->codec == PACK_PLANES) {
-        code = plane_band_decode(part, band, &cached->lit, s, err);
+    } else if (p->codec == RETEX_PACK_PLANES) {
+        code = retex_pack_plane_band_decode(part, band, &cached->lit, s, err);
     } else {
         code = decode_model(part, band, cached->rows, s, err);
         cached->lit = code ? 0 : find_lit(p, band, cached->rows);
@@ -282,19 +285,19 @@ int retex_pack_row(RetexPackScratch *s, int part, int y, const float **row, Rete
     *row = NULL;
     if (part < 0 || part >= s->pack->nparts || y < 0 || y >= s->pack->parts[part].height)
         return retex_fail(err, RETEX_EINVAL, "the pack has no such rows");
-    const PackPart *p = &s->pack->parts[part];
-    CachedBand *cached = &s->cached[part];
-    const int band = y / PACK_BAND_ROWS, line = y % PACK_BAND_ROWS;
+    const RetexPackPart *p = &s->pack->parts[part];
+    RetexPackCachedBand *cached = &s->cached[part];
+    const int band = y / RETEX_PACK_BAND_ROWS, line = y % RETEX_PACK_BAND_ROWS;
     *span = (RetexRowSpan){0, p->width};
-    if (p->codec == PACK_ZERO)
+    if (p->codec == RETEX_PACK_ZERO)
         return 0;
     int code = cache_band(part, band, s, err);
-    if (!code && p->codec == PACK_JPEG)
+    if (!code && p->codec == RETEX_PACK_JPEG)
         code = decode_blocks(part, line, cached, s, err);
     if (code || !(cached->lit >> line & 1))
         return code;
-    if (p->codec == PACK_PLANES)
-        code = plane_band_row(part, band, line, cached->rows, span, s, err);
+    if (p->codec == RETEX_PACK_PLANES)
+        code = retex_pack_plane_band_row(part, band, line, cached->rows, span, s, err);
     if (!code)
         *row = cached->rows + (size_t)(line % kept_rows(p)) * (size_t)p->width * (size_t)p->channels;
     return code;

@@ -35,7 +35,7 @@ static int mark_needed(char *needed, const RetexSet *set)
     return ok;
 }
 
-int pack_combine_fits(const RetexSet *set, RetexError *err)
+int retex_pack_combine_fits(const RetexSet *set, RetexError *err)
 {
     char needed[RETEX_SET_PARTS_MAX];
     const RetexPart *picture = &set->parts[0];
@@ -73,7 +73,7 @@ static void compare_with_halves(void *context, int part, int thread)
     }
 }
 
-int pack_combine_is_stored(const RetexSet *set, int nthreads)
+int retex_pack_combine_is_stored(const RetexSet *set, int nthreads)
 {
     Rounding rounding = {.set = set};
     if (!mark_needed(rounding.needed, set))
@@ -90,7 +90,7 @@ typedef struct Recombined {
     int32_t *numbers;
 } Recombined;
 
-static int recombine(Recombined *r, const PackModelBand *band, const RetexSet *set, int y0, RetexError *err)
+static int recombine(Recombined *r, const RetexPackModelBand *band, const RetexSet *set, int y0, RetexError *err)
 {
     const size_t pixels = (size_t)band->width * (size_t)band->rows;
     *r = (Recombined){malloc(3 * pixels * sizeof *r->rows), malloc(pixels * sizeof *r->numbers)};
@@ -99,12 +99,12 @@ static int recombine(Recombined *r, const PackModelBand *band, const RetexSet *s
 }
 
 /* Add their numbers to the band's, or take them from these; they may wrap. */
-static void apply(PackModelBand *band, const Recombined *r, RetexPixelType type, uint32_t sign)
+static void apply(RetexPackModelBand *band, const Recombined *r, RetexPixelType type, uint32_t sign)
 {
-    const PackMap bits = {.kind = PACK_MAP_BITS};
+    const RetexPackMap bits = {.kind = RETEX_PACK_MAP_BITS};
     const size_t pixels = (size_t)band->width * (size_t)band->rows;
     for (int c = 0; c < 3; c++) {
-        pack_map_numbers(r->numbers, r->rows + c, 3, pixels, &bits, type);
+        retex_pack_map_numbers(r->numbers, r->rows + c, 3, pixels, &bits, type);
         for (size_t i = 0; i < pixels; i++)
             band->numbers[c][i] = (int32_t)((uint32_t)band->numbers[c][i] + sign * (uint32_t)r->numbers[i]);
     }
@@ -116,7 +116,7 @@ static void recombined_free(Recombined *r)
     free(r->numbers);
 }
 
-int pack_combine_subtract(PackModelBand *band, const RetexSet *set, int y0, int *finite, RetexError *err)
+int retex_pack_combine_subtract(RetexPackModelBand *band, const RetexSet *set, int y0, int *finite, RetexError *err)
 {
     Recombined r;
     int code = recombine(&r, band, set, y0, err);
@@ -128,7 +128,7 @@ int pack_combine_subtract(PackModelBand *band, const RetexSet *set, int y0, int 
     return code;
 }
 
-int pack_combine_add(PackModelBand *band, const RetexSet *set, int y0, RetexError *err)
+int retex_pack_combine_add(RetexPackModelBand *band, const RetexSet *set, int y0, RetexError *err)
 {
     Recombined r;
     int code = recombine(&r, band, set, y0, err);

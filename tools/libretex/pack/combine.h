@@ -9,15 +9,15 @@
 
 /* 1: part 0 is a picture, and all that its terms need is there, of its size and not part 0 itself; else 0; or
  * RETEX_ENOMEM. Looks at what the set says of its parts, not at their samples. */
-int pack_combine_fits(const RetexSet *set, RetexError *err);
+int retex_pack_combine_fits(const RetexSet *set, RetexError *err);
 
 /* 1: the halves among what terms need, all of it in memory, are what will be read back: they have been rounded. */
-int pack_combine_is_stored(const RetexSet *set, int nthreads);
+int retex_pack_combine_is_stored(const RetexSet *set, int nthreads);
 
 /* Take the numbers of the recombined picture from those of part 0, whose rows from y0 on the band has. *finite is
  * cleared where a value of the picture is infinite or not a number. */
-int pack_combine_subtract(PackModelBand *band, const RetexSet *set, int y0, int *finite, RetexError *err);
+int retex_pack_combine_subtract(RetexPackModelBand *band, const RetexSet *set, int y0, int *finite, RetexError *err);
 /* And back. Rows of the terms' parts come from memory, or else from the set's source. */
-int pack_combine_add(PackModelBand *band, const RetexSet *set, int y0, RetexError *err);
+int retex_pack_combine_add(RetexPackModelBand *band, const RetexSet *set, int y0, RetexError *err);
 
 #endif

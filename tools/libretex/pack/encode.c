@@ -36,7 +36,7 @@ static void fill_black(float *levels, const RetexImage *im)
     const size_t channels = (size_t)im->channels;
     for (int by = 0; by < im->height; by += 8)
         for (int bx = 0; bx < im->width; bx += 8) {
-            float sum[PACK_CHANNELS_MAX] = {0};
+            float sum[RETEX_PACK_CHANNELS_MAX] = {0};
             int lit = 0;
             for (int pass = 0; pass < 2; pass++)
                 for (int y = by; y < by + 8 && y < im->height; y++)
@@ -54,33 +54,34 @@ static void fill_black(float *levels, const RetexImage *im)
 }
 
 /* Levels of a part. most: what is above is clipped. */
-static float *levels_of(const RetexImage *im, const PackCurve *curve, double most)
+static float *levels_of(const RetexImage *im, const RetexPackCurve *curve, double most)
 {
     const size_t count = (size_t)im->width * (size_t)im->height * (size_t)im->channels;
     float *levels = malloc(count * sizeof *levels);
     for (size_t i = 0; levels && i < count; i++)
-        levels[i] = (float)fmin(pack_curve_level(curve, (double)im->pixels[i]), most);
+        levels[i] = (float)fmin(retex_pack_curve_level(curve, (double)im->pixels[i]), most);
     return levels;
 }
 
 /* A band of the mask as a chunk, from its own bytes. */
-static int encode_mask_band(PackItem *item, int band, RetexError *err)
+static int encode_mask_band(RetexPackItem *item, int band, RetexError *err)
 {
     const RetexImage *im = &item->part->image;
-    PackPart *p = item->packed;
-    const int rows = pack_band_rows(p, band), width = pack_mask_width(p), k = 1 + p->nbands + band;
-    PackPlane plane = {
+    RetexPackPart *p = item->packed;
+    const int rows = retex_pack_band_rows(p, band), width = retex_pack_mask_width(p), k = 1 + p->nbands + band;
+    RetexPackPlane plane = {
         .width = width, .rows = rows, .bits = 8, .numbers = calloc((size_t)(width * rows), sizeof(int32_t))};
-    const size_t room = pack_plane_room(&plane);
-    unsigned char *scratch = malloc(2 * room);
-    item->chunks[k] = malloc(room);
+    const size_t bound = retex_pack_plane_bound(&plane);
+    unsigned char *scratch = malloc(2 * bound);
+    item->chunks[k] = malloc(bound);
     long bytes = -1;
     if (plane.numbers && scratch && item->chunks[k]) {
         for (int y = 0; y < rows; y++)
             for (int x = 0; x < im->width; x++)
-                if (is_black(im->pixels + retex_image_index(im, x, band * PACK_BAND_ROWS + y), (size_t)im->channels))
+                if (is_black(im->pixels + retex_image_index(im, x, band * RETEX_PACK_BAND_ROWS + y),
+                             (size_t)im->channels))
                     plane.numbers[y * width + x / 8] |= 1 << (x % 8);
-        bytes = pack_plane_encode(item->chunks[k], &plane, scratch, EFFORT);
+        bytes = retex_pack_plane_encode(item->chunks[k], &plane, scratch, EFFORT);
     }
     free(plane.numbers);
     free(scratch);
@@ -97,12 +98,12 @@ static int has_black(const RetexImage *im)
 }
 
 /* Part 0 is the picture, for viewers: coarser, and white is the most that it shows. */
-static int encode_jpeg(PackItem *item, int is_picture, RetexError *err)
+static int encode_jpeg(RetexPackItem *item, int is_picture, RetexError *err)
 {
     const RetexImage *im = &item->part->image;
-    PackPart *p = item->packed;
+    RetexPackPart *p = item->packed;
     p->masked = !is_picture && has_black(im);
-    int code = pack_part_chunks(p, err);
+    int code = retex_pack_part_chunks(p, err);
     item->chunks = calloc((size_t)p->nchunks + 1, sizeof *item->chunks);
     float *levels = levels_of(im, &p->curve, is_picture ? 255 : INFINITY);
     if (!code && (!item->chunks || !levels))
@@ -110,7 +111,7 @@ static int encode_jpeg(PackItem *item, int is_picture, RetexError *err)
     if (!code && p->masked)
         fill_black(levels, im);
     if (!code)
-        code = pack_jpeg_encode(&item->jpeg, levels, im->width, im->height, im->channels, p->jpeg_step, err);
+        code = retex_pack_jpeg_encode(&item->jpeg, levels, im->width, im->height, im->channels, p->jpeg_step, err);
     free(levels);
     unsigned char *at = item->jpeg.data;
     for (int k = 0; !code && k < 1 + p->nbands; k++) {
@@ -141,38 +142,38 @@ static void band_free(Band *band)
     free(band->codes);
 }
 
-static int band_alloc(Band *band, const PackPart *p, int index)
+static int band_alloc(Band *band, const RetexPackPart *p, int index)
 {
-    const PackPlane plane = {.width = p->width, .rows = pack_band_rows(p, index)};
+    const RetexPackPlane plane = {.width = p->width, .rows = retex_pack_band_rows(p, index)};
     band->pixels = (size_t)plane.width * (size_t)plane.rows;
     band->present = malloc(band->pixels);
     band->shift = malloc(band->pixels);
-    band->scratch = malloc(2 * pack_plane_room(&plane));
+    band->scratch = malloc(2 * retex_pack_plane_bound(&plane));
     band->numbers = malloc(band->pixels * sizeof *band->numbers);
     band->codes = malloc(band->pixels * sizeof *band->codes);
     return band->present && band->shift && band->scratch && band->numbers && band->codes;
 }
 
 /* Numbers of a channel of another part in this band. */
-static void numbers_of(int32_t *numbers, const PackEncoded *w, int part, int channel, int index, size_t pixels)
+static void numbers_of(int32_t *numbers, const RetexPackEncoded *w, int part, int channel, int index, size_t pixels)
 {
     const RetexImage *im = &w->items[part].part->image;
-    pack_map_numbers(numbers, im->pixels + retex_image_index(im, 0, index * PACK_BAND_ROWS) + channel,
-                     (size_t)im->channels, pixels, &w->packed[part].maps[channel], w->items[part].part->type);
+    retex_pack_map_numbers(numbers, im->pixels + retex_image_index(im, 0, index * RETEX_PACK_BAND_ROWS) + channel,
+                           (size_t)im->channels, pixels, &w->packed[part].maps[channel], w->items[part].part->type);
 }
 
-static void fill_shift(Band *band, const PackEncoded *w, const PackPart *p, int channel, int index)
+static void fill_shift(Band *band, const RetexPackEncoded *w, const RetexPackPart *p, int channel, int index)
 {
     const int per_octave = w->packed[p->sigma].maps[channel].per_octave;
     numbers_of(band->codes, w, p->sigma, channel, index, band->pixels);
     for (size_t i = 0; i < band->pixels; i++)
-        band->shift[i] = (unsigned char)pack_lattice_shift(p, band->codes[i], per_octave);
+        band->shift[i] = (unsigned char)retex_pack_lattice_shift(p, band->codes[i], per_octave);
 }
 
-static int encode_band(const PackEncoded *w, int part, int index)
+static int encode_band(const RetexPackEncoded *w, int part, int index)
 {
-    PackItem *item = &w->items[part];
-    PackPart *p = item->packed;
+    RetexPackItem *item = &w->items[part];
+    RetexPackPart *p = item->packed;
     Band band = {0};
     int ok = band_alloc(&band, p, index);
     if (ok && p->present >= 0) {
@@ -181,21 +182,24 @@ static int encode_band(const PackEncoded *w, int part, int index)
             band.present[i] = band.codes[i] != 0;
     }
     for (int c = 0; ok && c < p->channels; c++) {
-        const PackMap *map = &p->maps[c];
-        const int lattice = map->kind == PACK_MAP_LATTICE, partial = p->present >= 0 && (p->present != part || c != 2);
-        const int bits = pack_map_is_coded(map) ? 8 : map->kind == PACK_MAP_BITS && p->type == RETEX_HALF ? 16 : 32;
+        const RetexPackMap *map = &p->maps[c];
+        const int lattice = map->kind == RETEX_PACK_MAP_LATTICE,
+                  partial = p->present >= 0 && (p->present != part || c != 2);
+        const int bits = retex_pack_map_is_coded(map)                                ? 8
+                         : map->kind == RETEX_PACK_MAP_BITS && p->type == RETEX_HALF ? 16
+                                                                                     : 32;
         const int k = index * p->channels + c;
         if (lattice)
             fill_shift(&band, w, p, c, index);
         numbers_of(band.numbers, w, part, c, index, band.pixels);
-        const PackPlane plane = {.width = p->width,
-                                 .rows = pack_band_rows(p, index),
-                                 .bits = bits,
-                                 .present = partial ? band.present : NULL,
-                                 .shift = lattice ? band.shift : NULL,
-                                 .numbers = band.numbers};
-        unsigned char *data = malloc(pack_plane_room(&plane));
-        const long bytes = data ? pack_plane_encode(data, &plane, band.scratch, EFFORT) : -1;
+        const RetexPackPlane plane = {.width = p->width,
+                                      .rows = retex_pack_band_rows(p, index),
+                                      .bits = bits,
+                                      .present = partial ? band.present : NULL,
+                                      .shift = lattice ? band.shift : NULL,
+                                      .numbers = band.numbers};
+        unsigned char *data = malloc(retex_pack_plane_bound(&plane));
+        const long bytes = data ? retex_pack_plane_encode(data, &plane, band.scratch, EFFORT) : -1;
         unsigned char *fitted = bytes > 0 ? realloc(data, (size_t)bytes) : NULL;
         item->chunks[k] = fitted ? fitted : data;
         p->bytes[k] = bytes > 0 ? (uint32_t)bytes : 0;
@@ -208,51 +212,51 @@ static int encode_band(const PackEncoded *w, int part, int index)
 /* --- without loss --- */
 
 /* Shifts of means, from their standard deviations. */
-static void fill_mean_shifts(PackModelBand *model, const PackEncoded *w, const PackPart *p, int index)
+static void fill_mean_shifts(RetexPackModelBand *model, const RetexPackEncoded *w, const RetexPackPart *p, int index)
 {
     const RetexImage *sigma = &w->set->parts[p->sigma].image;
-    const float *first = sigma->pixels + retex_image_index(sigma, 0, index * PACK_BAND_ROWS);
+    const float *first = sigma->pixels + retex_image_index(sigma, 0, index * RETEX_PACK_BAND_ROWS);
     for (int c = 0; c < p->channels; c++)
         for (size_t i = 0; model->shifts[c] && i < (size_t)model->width * (size_t)model->rows; i++)
-            model->shifts[c][i] = (unsigned char)pack_mean_shift(first[i * (size_t)sigma->channels + (size_t)c]);
+            model->shifts[c][i] = (unsigned char)retex_pack_mean_shift(first[i * (size_t)sigma->channels + (size_t)c]);
 }
 
-static int encode_model_band(const PackEncoded *w, int part, int index)
+static int encode_model_band(const RetexPackEncoded *w, int part, int index)
 {
-    PackItem *item = &w->items[part];
-    PackPart *p = item->packed;
-    PackModelBand model;
+    RetexPackItem *item = &w->items[part];
+    RetexPackPart *p = item->packed;
+    RetexPackModelBand model;
     int finite = 1;
     long bytes = -1;
-    if (pack_model_alloc(&model, p->width, pack_band_rows(p, index), p->channels, p->maps)) {
+    if (retex_pack_model_alloc(&model, p->width, retex_pack_band_rows(p, index), p->channels, p->maps)) {
         for (int c = 0; c < p->channels; c++)
             numbers_of(model.numbers[c], w, part, c, index, (size_t)model.width * (size_t)model.rows);
         if (p->sigma >= 0)
             fill_mean_shifts(&model, w, p, index);
-        int code = p->codec == PACK_COMBINED
-                       ? pack_combine_subtract(&model, w->set, index * PACK_BAND_ROWS, &finite, NULL)
+        int code = p->codec == RETEX_PACK_COMBINED
+                       ? retex_pack_combine_subtract(&model, w->set, index * RETEX_PACK_BAND_ROWS, &finite, NULL)
                        : 0;
-        bytes = code ? -1 : pack_model_encode(&item->chunks[index], &model);
+        bytes = code ? -1 : retex_pack_model_encode(&item->chunks[index], &model);
     }
-    pack_model_free(&model);
+    retex_pack_model_free(&model);
     p->bytes[index] = !finite ? NEVER : bytes > 0 ? (uint32_t)bytes : 0;
     return bytes >= 0;
 }
 
 /* The picture's numbers less those that the terms give are tried besides the picture alone. */
-static int plan_combined(PackEncoded *w, int nthreads, RetexError *err)
+static int plan_combined(RetexPackEncoded *w, int nthreads, RetexError *err)
 {
-    PackPart *picture = &w->packed[0];
-    const int fits = picture->codec == PACK_MODEL ? pack_combine_fits(w->set, err) : 0;
-    if (fits < 0 || !fits || !pack_combine_is_stored(w->set, nthreads))
+    RetexPackPart *picture = &w->packed[0];
+    const int fits = picture->codec == RETEX_PACK_MODEL ? retex_pack_combine_fits(w->set, err) : 0;
+    if (fits < 0 || !fits || !retex_pack_combine_is_stored(w->set, nthreads))
         return fits < 0 ? fits : 0;
     w->packed[w->set->nparts] = *picture;
     w->nitems = w->set->nparts + 1;
-    picture->codec = PACK_COMBINED;
+    picture->codec = RETEX_PACK_COMBINED;
     return 0;
 }
 
-static uint64_t bytes_of(const PackPart *packed)
+static uint64_t bytes_of(const RetexPackPart *packed)
 {
     uint64_t bytes = 0;
     for (int k = 0; k < packed->nchunks; k++)
@@ -262,12 +266,12 @@ static uint64_t bytes_of(const PackPart *packed)
 
 /* Part 0 is what is smaller. What readers make of a term that is black all over a row is not told where the sum is not
  * finite, so then it stays alone. */
-static void choose_picture(PackEncoded *w)
+static void choose_picture(RetexPackEncoded *w)
 {
-    PackItem *items[2] = {&w->items[0], &w->items[w->set->nparts]};
+    RetexPackItem *items[2] = {&w->items[0], &w->items[w->set->nparts]};
     if (w->nitems == w->set->nparts || bytes_of(items[0]->packed) < bytes_of(items[1]->packed))
         return;
-    const PackPart packed = *items[0]->packed;
+    const RetexPackPart packed = *items[0]->packed;
     unsigned char **chunks = items[0]->chunks;
     *items[0]->packed = *items[1]->packed;
     items[0]->chunks = items[1]->chunks;
@@ -278,22 +282,22 @@ static void choose_picture(PackEncoded *w)
 /* --- all parts --- */
 
 /* As jobs of their own: JPEGs are encoded whole. */
-static int bands_to_encode(const PackPart *packed)
+static int bands_to_encode(const RetexPackPart *packed)
 {
-    return packed->codec == PACK_PLANES || pack_is_modelled(packed) ? packed->nbands : 0;
+    return packed->codec == RETEX_PACK_PLANES || retex_pack_is_modelled(packed) ? packed->nbands : 0;
 }
 
 static void encode_whole(void *context, int index, int thread)
 {
-    PackEncoded *w = context;
-    PackItem *item = &w->items[index];
+    RetexPackEncoded *w = context;
+    RetexPackItem *item = &w->items[index];
     (void)thread;
-    item->code = pack_samples_crc(&item->crc, item->part, &item->err);
-    if (!item->code && item->packed->codec == PACK_JPEG)
+    item->code = retex_pack_samples_crc(&item->crc, item->part, &item->err);
+    if (!item->code && item->packed->codec == RETEX_PACK_JPEG)
         item->code = encode_jpeg(item, index == 0, &item->err);
     if (item->code || !bands_to_encode(item->packed))
         return;
-    item->code = pack_part_chunks(item->packed, &item->err);
+    item->code = retex_pack_part_chunks(item->packed, &item->err);
     item->chunks = calloc((size_t)item->packed->nchunks + 1, sizeof *item->chunks);
     if (!item->code && !item->chunks)
         item->code = no_memory(&item->err);
@@ -301,14 +305,15 @@ static void encode_whole(void *context, int index, int thread)
 
 static void encode_job(void *context, int index, int thread)
 {
-    PackEncoded *w = context;
+    RetexPackEncoded *w = context;
     (void)thread;
     const int part = w->jobs[2 * index], band = w->jobs[2 * index + 1];
-    const int ok = pack_is_modelled(&w->packed[part]) ? encode_model_band(w, part, band) : encode_band(w, part, band);
+    const int ok =
+        retex_pack_is_modelled(&w->packed[part]) ? encode_model_band(w, part, band) : encode_band(w, part, band);
     w->codes[index] = ok ? 0 : RETEX_ENOMEM;
 }
 
-static int encode_all(PackEncoded *w, int nthreads, RetexError *err)
+static int encode_all(RetexPackEncoded *w, int nthreads, RetexError *err)
 {
     const int count = w->nitems;
     int code = 0, bands = 0;
@@ -341,49 +346,51 @@ static int encode_all(PackEncoded *w, int nthreads, RetexError *err)
 }
 
 /* A lossless pack's picture for viewers. */
-static int encode_picture(PackEncoded *w, RetexError *err)
+static int encode_picture(RetexPackEncoded *w, RetexError *err)
 {
     const RetexImage *im = &w->set->parts[0].image;
-    const PackCurve curve = {1, 255};
-    if (w->packed[0].codec == PACK_JPEG || im->width > PACK_JPEG_SIDE_MAX || im->height > PACK_JPEG_SIDE_MAX)
+    const RetexPackCurve curve = {1, 255};
+    if (w->packed[0].codec == RETEX_PACK_JPEG || im->width > RETEX_PACK_JPEG_SIDE_MAX ||
+        im->height > RETEX_PACK_JPEG_SIDE_MAX)
         return 0;
-    const PackGrain grain = pack_grain(40);
+    const RetexPackQuantizer quantizer = retex_pack_quantizer(40);
     float *levels = levels_of(im, &curve, 255);
     if (!levels)
         return no_memory(err);
     for (size_t i = 0; i < 3 * (size_t)im->width * (size_t)im->height; i++)
         levels[i] = levels[i] >= 0 ? levels[i] : 0; /* NaN too */
-    int code = pack_jpeg_encode(&w->picture, levels, im->width, im->height, 3, grain.picture_step, err);
+    int code = retex_pack_jpeg_encode(&w->picture, levels, im->width, im->height, 3, quantizer.picture_step, err);
     free(levels);
     return code;
 }
 
-void pack_encoded_free(PackEncoded *w)
+void retex_pack_encoded_free(RetexPackEncoded *w)
 {
     for (int i = 0; w->items && w->packed && i < w->nitems; i++) {
-        const PackPart *p = &w->packed[i];
-        for (int k = p->codec == PACK_JPEG ? 1 + p->nbands : 0; w->items[i].chunks && k < p->nchunks; k++)
+        const RetexPackPart *p = &w->packed[i];
+        for (int k = p->codec == RETEX_PACK_JPEG ? 1 + p->nbands : 0; w->items[i].chunks && k < p->nchunks; k++)
             free(w->items[i].chunks[k]);
         free(w->items[i].chunks);
-        pack_jpeg_free(&w->items[i].jpeg);
-        pack_part_free(&w->packed[i]);
+        retex_pack_jpeg_free(&w->items[i].jpeg);
+        retex_pack_part_free(&w->packed[i]);
     }
-    pack_jpeg_free(&w->picture);
+    retex_pack_jpeg_free(&w->picture);
     free(w->items);
     free(w->packed);
     free(w->jobs);
     free(w->codes);
 }
 
-int pack_encode(PackEncoded *w, const RetexSet *set, const PackGrain *grain, int nthreads, RetexError *err)
+int retex_pack_encode(RetexPackEncoded *w, const RetexSet *set, const RetexPackQuantizer *quantizer, int nthreads,
+                      RetexError *err)
 {
-    *w = (PackEncoded){.set = set, .nitems = set->nparts};
+    *w = (RetexPackEncoded){.set = set, .nitems = set->nparts};
     w->packed = calloc((size_t)set->nparts + 1, sizeof *w->packed);
     w->items = calloc((size_t)set->nparts + 1, sizeof *w->items);
     int code = w->packed && w->items ? 0 : no_memory(err);
     if (!code)
-        code = pack_plan(w->packed, set, grain, nthreads, err);
-    if (!code && !grain)
+        code = retex_pack_plan(w->packed, set, quantizer, nthreads, err);
+    if (!code && !quantizer)
         code = plan_combined(w, nthreads, err);
     for (int i = 0; !code && i < w->nitems; i++) {
         w->items[i].part = &set->parts[i % set->nparts];

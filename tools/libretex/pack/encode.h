@@ -5,30 +5,31 @@
 #include "pack/plan.h"
 
 /* Encoding one part. */
-typedef struct PackItem {
+typedef struct RetexPackItem {
     const RetexPart *part;
-    PackPart *packed;
+    RetexPackPart *packed;
     unsigned char **chunks; /* malloc'ed each, but those of a JPEG, which lie in jpeg.data */
-    PackJpeg jpeg;
+    RetexPackJpeg jpeg;
     uint32_t crc; /* of its samples */
     int code;
     RetexError err;
-} PackItem;
+} RetexPackItem;
 
-typedef struct PackEncoded {
+typedef struct RetexPackEncoded {
     const RetexSet *set;
-    PackPart *packed;
-    PackItem *items;
-    int nitems;       /* one for each part, and one more where part 0 is tried in two ways: without the terms */
-    PackJpeg picture; /* of a lossless pack: for viewers only */
-    int *jobs;        /* pairs: part and band */
+    RetexPackPart *packed;
+    RetexPackItem *items;
+    int nitems;            /* one for each part, and one more where part 0 is tried in two ways: without the terms */
+    RetexPackJpeg picture; /* of a lossless pack: for viewers only */
+    int *jobs;             /* pairs: part and band */
     int njobs;
     int *codes; /* by job */
-} PackEncoded;
+} RetexPackEncoded;
 
-/* Encode a set, compact or not, which is to stay as long as what comes of it; to be freed also after a failure. grain:
- * NULL = every part keeps its bits. */
-int pack_encode(PackEncoded *encoded, const RetexSet *set, const PackGrain *grain, int nthreads, RetexError *err);
-void pack_encoded_free(PackEncoded *encoded); /* one that is all zeros is fine */
+/* Encode the parts of a set, compact or not. The set must outlive the result; free the result after failures too.
+ * quantizer: NULL = every part keeps its bits. */
+int retex_pack_encode(RetexPackEncoded *encoded, const RetexSet *set, const RetexPackQuantizer *quantizer, int nthreads,
+                      RetexError *err);
+void retex_pack_encoded_free(RetexPackEncoded *encoded); /* one that is all zeros is fine */
 
 #endif

@@ -4,10 +4,10 @@
 #include <math.h>
 #include <string.h>
 
-void pack_fit_begin_row(PackFitChannel *channel, int y)
+void retex_pack_fit_begin_row(RetexPackFitChannel *channel, int y)
 {
-    const ptrdiff_t first = pack_fit_place(channel, 0, y), above = pack_fit_above(channel, first, y);
-    for (int i = 1; i <= PACK_FIT_LEFT; i++) {
+    const ptrdiff_t first = retex_pack_fit_place(channel, 0, y), above = retex_pack_fit_above(channel, first, y);
+    for (int i = 1; i <= RETEX_PACK_FIT_LEFT; i++) {
         channel->numbers[first - i] = y > 0 ? channel->numbers[above] : channel->mean;
         channel->sizes[first - i] = y > 0 ? channel->sizes[above] : 0;
         channel->holes[first - i] = y > 0 ? channel->holes[above] : 0;
@@ -22,7 +22,7 @@ void pack_fit_begin_row(PackFitChannel *channel, int y)
 
 /* Sums of products of terms, the last of them what is to be predicted. */
 typedef struct Normal {
-    double sum[PACK_FIT_WEIGHTS + 1][PACK_FIT_WEIGHTS + 1];
+    double sum[RETEX_PACK_FIT_WEIGHTS + 1][RETEX_PACK_FIT_WEIGHTS + 1];
 } Normal;
 
 static void add_products(Normal *normal, const double *terms, int count, double weight)
@@ -37,8 +37,8 @@ static void add_products(Normal *normal, const double *terms, int count, double 
 /* Gauss without pivots: the matrix is positive; what it does not determine gets no weight. */
 static void solve(double *solution, Normal *normal, int count)
 {
-    double(*a)[PACK_FIT_WEIGHTS + 1] = normal->sum;
-    double right[PACK_FIT_WEIGHTS];
+    double(*a)[RETEX_PACK_FIT_WEIGHTS + 1] = normal->sum;
+    double right[RETEX_PACK_FIT_WEIGHTS];
     for (int i = 0; i < count; i++) {
         right[i] = a[count][i];
         for (int j = 0; j < i; j++)
@@ -61,13 +61,13 @@ static void solve(double *solution, Normal *normal, int count)
     }
 }
 
-static double step_of(const unsigned char *shifts, const PackFitChannel *channel, int x, int y)
+static double step_of(const unsigned char *shifts, const RetexPackFitChannel *channel, int x, int y)
 {
     return shifts ? (double)(INT64_C(1) << shifts[(size_t)y * (size_t)channel->width + (size_t)x]) : 1;
 }
 
 /* Rows that are looked at: some tens of thousands of numbers are enough. */
-static int row_stride(const PackFitChannel *channel)
+static int row_stride(const RetexPackFitChannel *channel)
 {
     enum { ENOUGH = 30000 };
     const int stride = (int)((int64_t)channel->width * channel->rows / ENOUGH);
@@ -75,53 +75,54 @@ static int row_stride(const PackFitChannel *channel)
 }
 
 /* One round: products weighted by how well the weights of the last one did, so that few outliers do not decide. */
-static void fit_round(PackFitChannel *channel, const unsigned char *shifts, int robust)
+static void fit_round(RetexPackFitChannel *channel, const unsigned char *shifts, int robust)
 {
     const int count = channel->nweights;
     Normal normal = {0};
     for (int y = 0; y < channel->rows; y += row_stride(channel))
         for (int x = 0; x < channel->width; x++) {
-            const ptrdiff_t at = pack_fit_place(channel, x, y), above = pack_fit_above(channel, at, y);
-            int64_t terms[PACK_FIT_WEIGHTS];
-            double scaled[PACK_FIT_WEIGHTS + 1];
+            const ptrdiff_t at = retex_pack_fit_place(channel, x, y), above = retex_pack_fit_above(channel, at, y);
+            int64_t terms[RETEX_PACK_FIT_WEIGHTS];
+            double scaled[RETEX_PACK_FIT_WEIGHTS + 1];
             if (channel->holes[at])
                 continue;
             const double step = step_of(shifts, channel, x, y), scale = 1 / step;
-            pack_fit_terms(terms, channel, at, above, count);
+            retex_pack_fit_terms(terms, channel, at, above, count);
             for (int i = 0; i < count; i++)
                 scaled[i] = (double)terms[i] * scale;
             scaled[count] = ((double)channel->numbers[at] - channel->numbers[at - 1]) * scale;
             double weight = 1;
             if (robust)
-                weight = 1 / (1 + fabs((double)(channel->numbers[at] - pack_fit_guess(channel, at, above))) * scale);
+                weight =
+                    1 / (1 + fabs((double)(channel->numbers[at] - retex_pack_fit_guess(channel, at, above))) * scale);
             add_products(&normal, scaled, count + 1, weight);
         }
-    double weights[PACK_FIT_WEIGHTS];
+    double weights[RETEX_PACK_FIT_WEIGHTS];
     solve(weights, &normal, count);
     for (int i = 0; i < count; i++) {
-        const double weight = rint(weights[i] * (1 << PACK_FIT_SHIFT));
+        const double weight = rint(weights[i] * (1 << RETEX_PACK_FIT_SHIFT));
         channel->weights[i] = (int16_t)(isfinite(weight) ? fmin(fmax(weight, INT16_MIN), INT16_MAX) : 0);
     }
 }
 
 /* Bits of all residuals, roughly. */
-static double cost(const PackFitChannel *channel, const unsigned char *shifts)
+static double cost(const RetexPackFitChannel *channel, const unsigned char *shifts)
 {
     double bits = 0;
     for (int y = 0; y < channel->rows; y += row_stride(channel))
         for (int x = 0; x < channel->width; x++) {
-            const ptrdiff_t at = pack_fit_place(channel, x, y), above = pack_fit_above(channel, at, y);
+            const ptrdiff_t at = retex_pack_fit_place(channel, x, y), above = retex_pack_fit_above(channel, at, y);
             if (!channel->holes[at])
-                bits += log2(1 + fabs((double)(channel->numbers[at] - pack_fit_guess(channel, at, above))) /
+                bits += log2(1 + fabs((double)(channel->numbers[at] - retex_pack_fit_guess(channel, at, above))) /
                                      step_of(shifts, channel, x, y));
         }
     return bits;
 }
 
-void pack_fit(PackFitChannel *channel, const unsigned char *shifts)
+void retex_pack_fit(RetexPackFitChannel *channel, const unsigned char *shifts)
 {
     for (int y = 0; y < channel->rows; y++)
-        pack_fit_begin_row(channel, y);
+        retex_pack_fit_begin_row(channel, y);
     channel->by_fit = 0;
     const double plain = cost(channel, shifts);
     channel->by_fit = 1;

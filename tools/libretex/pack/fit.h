@@ -7,15 +7,15 @@
 #include <stdint.h>
 
 enum {
-    PACK_FIT_OWN = 4,    /* terms of the channel itself */
-    PACK_FIT_OTHER = 5,  /* and of each of the channels coded before */
-    PACK_FIT_OTHERS = 2, /* at most so many of them */
-    PACK_FIT_WEIGHTS = PACK_FIT_OWN + PACK_FIT_OTHERS * PACK_FIT_OTHER,
-    PACK_FIT_SHIFT = 12 /* weights are in 4096ths */
+    RETEX_PACK_FIT_OWN = 4,    /* terms of the channel itself */
+    RETEX_PACK_FIT_OTHER = 5,  /* and of each of the channels coded before */
+    RETEX_PACK_FIT_OTHERS = 2, /* at most so many of them */
+    RETEX_PACK_FIT_WEIGHTS = RETEX_PACK_FIT_OWN + RETEX_PACK_FIT_OTHERS * RETEX_PACK_FIT_OTHER,
+    RETEX_PACK_FIT_SHIFT = 12 /* weights are in 4096ths */
 };
 
 /* A channel of a band while it is coded. Rows have a margin, so that each number has neighbours. */
-typedef struct PackFitChannel {
+typedef struct RetexPackFitChannel {
     int width, rows;
     int32_t *numbers;     /* holes filled */
     int32_t *sizes;       /* magnitudes of residuals */
@@ -23,26 +23,26 @@ typedef struct PackFitChannel {
     int has_holes, by_fit;
     int32_t mean;
     int nweights;
-    int16_t weights[PACK_FIT_WEIGHTS];
-    const struct PackFitChannel *others[PACK_FIT_OTHERS]; /* coded before; NULL where there are none */
-} PackFitChannel;
+    int16_t weights[RETEX_PACK_FIT_WEIGHTS];
+    const struct RetexPackFitChannel *others[RETEX_PACK_FIT_OTHERS]; /* coded before; NULL where there are none */
+} RetexPackFitChannel;
 
-enum { PACK_FIT_LEFT = 3, PACK_FIT_MARGIN = 4 };
+enum { RETEX_PACK_FIT_LEFT = 3, RETEX_PACK_FIT_MARGIN = 4 };
 
-static inline ptrdiff_t pack_fit_place(const PackFitChannel *channel, int x, int y)
+static inline ptrdiff_t retex_pack_fit_place(const RetexPackFitChannel *channel, int x, int y)
 {
-    return (ptrdiff_t)(channel->width + PACK_FIT_MARGIN) * y + PACK_FIT_LEFT + x;
+    return (ptrdiff_t)(channel->width + RETEX_PACK_FIT_MARGIN) * y + RETEX_PACK_FIT_LEFT + x;
 }
 
 /* The place that counts as above: in the first row the second to the left. */
-static inline ptrdiff_t pack_fit_above(const PackFitChannel *channel, ptrdiff_t at, int y)
+static inline ptrdiff_t retex_pack_fit_above(const RetexPackFitChannel *channel, ptrdiff_t at, int y)
 {
-    return y > 0 ? at - channel->width - PACK_FIT_MARGIN : at - 2;
+    return y > 0 ? at - channel->width - RETEX_PACK_FIT_MARGIN : at - 2;
 }
 
 /* What weights multiply: how other numbers differ from the left one, and in the channels before from that one's. */
-static inline void pack_fit_terms(int64_t terms[PACK_FIT_WEIGHTS], const PackFitChannel *channel, ptrdiff_t at,
-                                  ptrdiff_t above, int nweights)
+static inline void retex_pack_fit_terms(int64_t terms[RETEX_PACK_FIT_WEIGHTS], const RetexPackFitChannel *channel,
+                                        ptrdiff_t at, ptrdiff_t above, int nweights)
 {
     const int32_t *n = channel->numbers;
     const int64_t left = n[at - 1];
@@ -50,8 +50,8 @@ static inline void pack_fit_terms(int64_t terms[PACK_FIT_WEIGHTS], const PackFit
     terms[1] = n[above - 1] - left;
     terms[2] = n[above + 1] - left;
     terms[3] = channel->mean - left;
-    terms += PACK_FIT_OWN;
-    for (int k = 0; PACK_FIT_OWN + k * PACK_FIT_OTHER < nweights; k++, terms += PACK_FIT_OTHER) {
+    terms += RETEX_PACK_FIT_OWN;
+    for (int k = 0; RETEX_PACK_FIT_OWN + k * RETEX_PACK_FIT_OTHER < nweights; k++, terms += RETEX_PACK_FIT_OTHER) {
         const int32_t *o = channel->others[k]->numbers;
         const int64_t its = o[at - 1];
         terms[0] = o[at] - its;
@@ -63,7 +63,7 @@ static inline void pack_fit_terms(int64_t terms[PACK_FIT_WEIGHTS], const PackFit
 }
 
 /* Left plus upper less upper left, but not beyond the first two. */
-static inline int64_t pack_fit_median(const int32_t *n, ptrdiff_t at, ptrdiff_t above)
+static inline int64_t retex_pack_fit_median(const int32_t *n, ptrdiff_t at, ptrdiff_t above)
 {
     const int64_t left = n[at - 1], upper = n[above], corner = n[above - 1];
     const int64_t low = left < upper ? left : upper, high = left < upper ? upper : left;
@@ -71,27 +71,28 @@ static inline int64_t pack_fit_median(const int32_t *n, ptrdiff_t at, ptrdiff_t 
 }
 
 /* By `nweights` weights, which a caller that knows them makes faster; 0: by the median. */
-static inline int64_t pack_fit_guess_by(const PackFitChannel *channel, ptrdiff_t at, ptrdiff_t above, int nweights)
+static inline int64_t retex_pack_fit_guess_by(const RetexPackFitChannel *channel, ptrdiff_t at, ptrdiff_t above,
+                                              int nweights)
 {
-    int64_t terms[PACK_FIT_WEIGHTS], sum = 1 << (PACK_FIT_SHIFT - 1);
+    int64_t terms[RETEX_PACK_FIT_WEIGHTS], sum = 1 << (RETEX_PACK_FIT_SHIFT - 1);
     if (nweights == 0)
-        return pack_fit_median(channel->numbers, at, above);
-    pack_fit_terms(terms, channel, at, above, nweights);
+        return retex_pack_fit_median(channel->numbers, at, above);
+    retex_pack_fit_terms(terms, channel, at, above, nweights);
 #pragma GCC unroll 14
     for (int i = 0; i < nweights; i++)
         sum += channel->weights[i] * terms[i];
-    return channel->numbers[at - 1] + (sum >> PACK_FIT_SHIFT);
+    return channel->numbers[at - 1] + (sum >> RETEX_PACK_FIT_SHIFT);
 }
 
-static inline int64_t pack_fit_guess(const PackFitChannel *channel, ptrdiff_t at, ptrdiff_t above)
+static inline int64_t retex_pack_fit_guess(const RetexPackFitChannel *channel, ptrdiff_t at, ptrdiff_t above)
 {
-    return pack_fit_guess_by(channel, at, above, channel->by_fit ? channel->nweights : 0);
+    return retex_pack_fit_guess_by(channel, at, above, channel->by_fit ? channel->nweights : 0);
 }
 
 /* The margin that row y needs to be coded, of everything; what row y - 1 holds is final. */
-void pack_fit_begin_row(PackFitChannel *channel, int y);
+void retex_pack_fit_begin_row(RetexPackFitChannel *channel, int y);
 
 /* Choose weights, or the median, for numbers that are multiples of 2^shift; shifts may be NULL. */
-void pack_fit(PackFitChannel *channel, const unsigned char *shifts);
+void retex_pack_fit(RetexPackFitChannel *channel, const unsigned char *shifts);
 
 #endif

@@ -13,31 +13,31 @@
 #include "set/manifest.h"
 #include "pack/combine.h"
 
-const char *const pack_codec_names[PACK_CODECS] = {"zero", "planes", "model", "combined", "jpeg"};
+const char *const retex_pack_codec_names[RETEX_PACK_CODECS] = {"zero", "planes", "model", "combined", "jpeg"};
 
-void pack_part_begin(PackPart *packed, const RetexPart *part)
+void retex_pack_part_begin(RetexPackPart *packed, const RetexPart *part)
 {
     memset(packed, 0, sizeof *packed);
     packed->width = part->image.width;
     packed->height = part->image.height;
     packed->channels = (int)strlen(part->letters);
     packed->type = part->type;
-    packed->nbands = (part->image.height + PACK_BAND_ROWS - 1) / PACK_BAND_ROWS;
+    packed->nbands = (part->image.height + RETEX_PACK_BAND_ROWS - 1) / RETEX_PACK_BAND_ROWS;
     packed->present = packed->sigma = -1;
 }
 
-int pack_part_chunks(PackPart *packed, RetexError *err)
+int retex_pack_part_chunks(RetexPackPart *packed, RetexError *err)
 {
-    packed->nchunks = packed->codec == PACK_ZERO     ? 0
-                      : packed->codec == PACK_PLANES ? packed->nbands * packed->channels
-                      : pack_is_modelled(packed)     ? packed->nbands
-                                                     : 1 + packed->nbands * (1 + packed->masked);
+    packed->nchunks = packed->codec == RETEX_PACK_ZERO     ? 0
+                      : packed->codec == RETEX_PACK_PLANES ? packed->nbands * packed->channels
+                      : retex_pack_is_modelled(packed)     ? packed->nbands
+                                                           : 1 + packed->nbands * (1 + packed->masked);
     packed->bytes = calloc((size_t)packed->nchunks + 1, sizeof *packed->bytes);
     packed->crcs = calloc((size_t)packed->nchunks + 1, sizeof *packed->crcs);
     return packed->bytes && packed->crcs ? 0 : retex_fail(err, RETEX_ENOMEM, "no memory for a pack's index");
 }
 
-void pack_part_free(PackPart *packed)
+void retex_pack_part_free(RetexPackPart *packed)
 {
     free(packed->offsets);
     free(packed->bytes);
@@ -46,49 +46,49 @@ void pack_part_free(PackPart *packed)
     packed->bytes = packed->crcs = NULL;
 }
 
-int pack_is_modelled(const PackPart *packed)
+int retex_pack_is_modelled(const RetexPackPart *packed)
 {
-    return packed->codec == PACK_MODEL || packed->codec == PACK_COMBINED;
+    return packed->codec == RETEX_PACK_MODEL || packed->codec == RETEX_PACK_COMBINED;
 }
 
-int pack_band_rows(const PackPart *packed, int band)
+int retex_pack_band_rows(const RetexPackPart *packed, int band)
 {
-    const int left = packed->height - band * PACK_BAND_ROWS;
-    return left < PACK_BAND_ROWS ? left : PACK_BAND_ROWS;
+    const int left = packed->height - band * RETEX_PACK_BAND_ROWS;
+    return left < RETEX_PACK_BAND_ROWS ? left : RETEX_PACK_BAND_ROWS;
 }
 
-int pack_lattice_shift(const PackPart *packed, int code, int per_octave)
+int retex_pack_lattice_shift(const RetexPackPart *packed, int code, int per_octave)
 {
     const int octaves = code - 1 + packed->sigma_first;
     const int shift = code > 0 && octaves > 0 ? octaves / per_octave : 0;
-    return shift < PACK_LATTICE_SHIFT_MAX ? shift : PACK_LATTICE_SHIFT_MAX;
+    return shift < RETEX_PACK_LATTICE_SHIFT_MAX ? shift : RETEX_PACK_LATTICE_SHIFT_MAX;
 }
 
-int pack_mean_shift(float sigma)
+int retex_pack_mean_shift(float sigma)
 {
     int exponent;
     if (!(sigma > 0) || isinf(sigma))
         return 0;
     /* a power of two may have been rounded up to it, and its step be half as large */
     const int exact = frexp((double)sigma, &exponent) == 0.5;
-    const int shift = exponent - 1 - exact - PACK_MEAN_BITS + PACK_LATTICE_BITS;
-    return shift < 0 ? 0 : shift < PACK_LATTICE_SHIFT_MAX ? shift : PACK_LATTICE_SHIFT_MAX;
+    const int shift = exponent - 1 - exact - RETEX_PACK_MEAN_BITS + RETEX_PACK_LATTICE_BITS;
+    return shift < 0 ? 0 : shift < RETEX_PACK_LATTICE_SHIFT_MAX ? shift : RETEX_PACK_LATTICE_SHIFT_MAX;
 }
 
-int pack_mask_width(const PackPart *packed)
+int retex_pack_mask_width(const RetexPackPart *packed)
 {
     return (packed->width + 7) / 8;
 }
 
-void pack_file_name(char *name, size_t room, const RetexSet *set, int part, int planes)
+void retex_pack_file_name(char *name, size_t size, const RetexSet *set, int part, int planes)
 {
     if (part == 0 && !planes)
-        snprintf(name, room, PACK_PICTURE);
+        snprintf(name, size, RETEX_PACK_PICTURE_NAME);
     else
-        snprintf(name, room, planes ? "planes/%s.blk" : "radiance/%s.jpg", set->parts[part].name);
+        snprintf(name, size, planes ? "planes/%s.blk" : "radiance/%s.jpg", set->parts[part].name);
 }
 
-int pack_samples_crc(uint32_t *crc, const RetexPart *part, RetexError *err)
+int retex_pack_samples_crc(uint32_t *crc, const RetexPart *part, RetexError *err)
 {
     const size_t n = (size_t)part->image.width * (size_t)part->image.height, channels = (size_t)part->image.channels;
     float *plane = malloc(n * sizeof *plane);
@@ -117,25 +117,25 @@ int pack_samples_crc(uint32_t *crc, const RetexPart *part, RetexError *err)
 
 /* --- to JSON --- */
 
-static json_t *describe_map(const PackMap *map)
+static json_t *describe_map(const RetexPackMap *map)
 {
-    json_t *o = json_pack("{s:s}", "map", pack_map_names[map->kind]);
-    if (map->kind == PACK_MAP_LOG || map->kind == PACK_MAP_LINEAR)
+    json_t *o = json_pack("{s:s}", "map", retex_pack_map_names[map->kind]);
+    if (map->kind == RETEX_PACK_MAP_LOG || map->kind == RETEX_PACK_MAP_LINEAR)
         retex_json_put(&o, "first", json_real(map->first));
-    if (map->kind == PACK_MAP_LOG || map->kind == PACK_MAP_ANGLE)
-        retex_json_put(&o, map->kind == PACK_MAP_LOG ? "per_octave" : "steps", json_integer(map->per_octave));
+    if (map->kind == RETEX_PACK_MAP_LOG || map->kind == RETEX_PACK_MAP_ANGLE)
+        retex_json_put(&o, map->kind == RETEX_PACK_MAP_LOG ? "per_octave" : "steps", json_integer(map->per_octave));
     return o;
 }
 
-static json_t *describe_part(const RetexSet *set, int part, const PackPart *packed)
+static json_t *describe_part(const RetexSet *set, int part, const RetexPackPart *packed)
 {
-    json_t *o = json_pack("{s:s, s:s}", "name", set->parts[part].name, "codec", pack_codec_names[packed->codec]);
-    if (packed->codec == PACK_JPEG) {
+    json_t *o = json_pack("{s:s, s:s}", "name", set->parts[part].name, "codec", retex_pack_codec_names[packed->codec]);
+    if (packed->codec == RETEX_PACK_JPEG) {
         retex_json_put(&o, "white", json_real(packed->curve.white));
         retex_json_put(&o, "levels", json_real(packed->curve.levels));
         retex_json_put(&o, "masked", json_boolean(packed->masked));
     }
-    if (packed->codec == PACK_PLANES || packed->codec == PACK_MODEL) {
+    if (packed->codec == RETEX_PACK_PLANES || packed->codec == RETEX_PACK_MODEL) {
         json_t *channels = json_array();
         for (int c = 0; c < packed->channels; c++)
             retex_json_add(&channels, describe_map(&packed->maps[c]));
@@ -144,19 +144,20 @@ static json_t *describe_part(const RetexSet *set, int part, const PackPart *pack
             retex_json_put(&o, "present", json_string(set->parts[packed->present].name));
         if (packed->sigma >= 0) {
             retex_json_put(&o, "sigma", json_string(set->parts[packed->sigma].name));
-            if (packed->codec == PACK_PLANES)
+            if (packed->codec == RETEX_PACK_PLANES)
                 retex_json_put(&o, "sigma_first", json_integer(packed->sigma_first));
         }
     }
     return o;
 }
 
-char *pack_describe(const char *manifest, const RetexSet *set, const PackPart *packed, const RetexPackKept *kept)
+char *retex_pack_describe(const char *manifest, const RetexSet *set, const RetexPackPart *packed,
+                          const RetexPackKept *kept)
 {
     json_t *root = json_loads(manifest, 0, NULL), *parts = json_array();
     for (int i = 0; i < set->nparts; i++)
         retex_json_add(&parts, describe_part(set, i, &packed[i]));
-    json_t *pack = json_pack("{s:i, s:o}", "version", PACK_VERSION, "parts", parts);
+    json_t *pack = json_pack("{s:i, s:o}", "version", RETEX_PACK_VERSION, "parts", parts);
     if (kept) {
         retex_json_put(&pack, "quality", json_integer(kept->quality));
         retex_json_put(&pack, "promised", json_real(kept->promised));
@@ -172,7 +173,7 @@ char *pack_describe(const char *manifest, const RetexSet *set, const PackPart *p
 
 /* --- from JSON --- */
 
-int pack_version_of(const char *manifest)
+int retex_pack_version_of(const char *manifest)
 {
     json_t *root = json_loads(manifest, 0, NULL);
     const json_t *version = json_object_get(json_object_get(root, "pack"), "version");
@@ -196,7 +197,7 @@ static int get_integer(const json_t *value, int least, int most, int *out)
     return json_is_integer(value) && v >= least && v <= most;
 }
 
-int pack_kept_of(RetexPackKept *kept, const char *manifest)
+int retex_pack_kept_of(RetexPackKept *kept, const char *manifest)
 {
     json_t *root = json_loads(manifest, 0, NULL);
     const json_t *pack = json_object_get(root, "pack");
@@ -207,26 +208,26 @@ int pack_kept_of(RetexPackKept *kept, const char *manifest)
     return sound;
 }
 
-static int understand_map(PackMap *map, const json_t *o)
+static int understand_map(RetexPackMap *map, const json_t *o)
 {
     const char *name = json_string_value(json_object_get(o, "map"));
     int kind = 0, ok = 1;
-    while (name && kind < PACK_MAPS && strcmp(name, pack_map_names[kind]) != 0)
+    while (name && kind < RETEX_PACK_MAPS && strcmp(name, retex_pack_map_names[kind]) != 0)
         kind++;
-    if (!name || kind == PACK_MAPS)
+    if (!name || kind == RETEX_PACK_MAPS)
         return 0;
-    map->kind = (PackMapKind)kind;
-    if (map->kind == PACK_MAP_LOG || map->kind == PACK_MAP_LINEAR)
+    map->kind = (RetexPackMapKind)kind;
+    if (map->kind == RETEX_PACK_MAP_LOG || map->kind == RETEX_PACK_MAP_LINEAR)
         ok = get_positive(json_object_get(o, "first"), &map->first);
-    if (map->kind == PACK_MAP_LOG || map->kind == PACK_MAP_ANGLE)
-        ok = ok && get_integer(json_object_get(o, map->kind == PACK_MAP_LOG ? "per_octave" : "steps"), 1, 1000,
+    if (map->kind == RETEX_PACK_MAP_LOG || map->kind == RETEX_PACK_MAP_ANGLE)
+        ok = ok && get_integer(json_object_get(o, map->kind == RETEX_PACK_MAP_LOG ? "per_octave" : "steps"), 1, 1000,
                                &map->per_octave);
-    pack_map_fill(map);
+    retex_pack_map_fill(map);
     return ok;
 }
 
 /* The part named by a key, or -1 where there is none; *ok is cleared where it names no part of this size. */
-static int named_part(const json_t *o, const char *key, const RetexSet *set, const PackPart *packed, int *ok)
+static int named_part(const json_t *o, const char *key, const RetexSet *set, const RetexPackPart *packed, int *ok)
 {
     const json_t *value = json_object_get(o, key);
     if (!value)
@@ -238,49 +239,50 @@ static int named_part(const json_t *o, const char *key, const RetexSet *set, con
     return part;
 }
 
-static int understand_part(PackPart *packed, const RetexSet *set, const json_t *o, RetexError *err)
+static int understand_part(RetexPackPart *packed, const RetexSet *set, const json_t *o, RetexError *err)
 {
     const char *codec = json_string_value(json_object_get(o, "codec"));
     int c = 0, ok = 1;
-    while (codec && c < PACK_CODECS && strcmp(codec, pack_codec_names[c]) != 0)
+    while (codec && c < RETEX_PACK_CODECS && strcmp(codec, retex_pack_codec_names[c]) != 0)
         c++;
-    if (codec && c == PACK_CODECS)
-        return retex_fail(
-            err, RETEX_EUNSUPPORTED, "a part is packed as '%.64s'; this version knows %s, %s, %s, %s and %s", codec,
-            pack_codec_names[0], pack_codec_names[1], pack_codec_names[2], pack_codec_names[3], pack_codec_names[4]);
-    packed->codec = codec ? (PackCodec)c : PACK_ZERO;
-    ok = codec != NULL && packed->channels <= PACK_CHANNELS_MAX;
-    if (ok && packed->codec == PACK_JPEG) {
+    if (codec && c == RETEX_PACK_CODECS)
+        return retex_fail(err, RETEX_EUNSUPPORTED,
+                          "a part is packed as '%.64s'; this version knows %s, %s, %s, %s and %s", codec,
+                          retex_pack_codec_names[0], retex_pack_codec_names[1], retex_pack_codec_names[2],
+                          retex_pack_codec_names[3], retex_pack_codec_names[4]);
+    packed->codec = codec ? (RetexPackCodec)c : RETEX_PACK_ZERO;
+    ok = codec != NULL && packed->channels <= RETEX_PACK_CHANNELS_MAX;
+    if (ok && packed->codec == RETEX_PACK_JPEG) {
         const json_t *masked = json_object_get(o, "masked");
         ok = get_positive(json_object_get(o, "white"), &packed->curve.white) &&
              get_positive(json_object_get(o, "levels"), &packed->curve.levels) && packed->curve.levels >= 255 &&
-             packed->curve.levels <= PACK_LEVELS_MOST && json_is_boolean(masked) &&
-             (packed->channels == 1 || packed->channels == 3) && packed->width <= PACK_JPEG_SIDE_MAX &&
-             packed->height <= PACK_JPEG_SIDE_MAX;
+             packed->curve.levels <= RETEX_PACK_LEVELS_MOST && json_is_boolean(masked) &&
+             (packed->channels == 1 || packed->channels == 3) && packed->width <= RETEX_PACK_JPEG_SIDE_MAX &&
+             packed->height <= RETEX_PACK_JPEG_SIDE_MAX;
         packed->masked = json_is_true(masked);
     }
-    if (ok && (packed->codec == PACK_PLANES || packed->codec == PACK_MODEL)) {
+    if (ok && (packed->codec == RETEX_PACK_PLANES || packed->codec == RETEX_PACK_MODEL)) {
         const json_t *channels = json_object_get(o, "channels");
         ok = json_array_size(channels) == (size_t)packed->channels;
         for (int i = 0; ok && i < packed->channels; i++)
             ok = understand_map(&packed->maps[i], json_array_get(channels, (size_t)i));
         packed->present = named_part(o, "present", set, packed, &ok);
         packed->sigma = named_part(o, "sigma", set, packed, &ok);
-        if (packed->sigma >= 0 && packed->codec == PACK_PLANES)
+        if (packed->sigma >= 0 && packed->codec == RETEX_PACK_PLANES)
             ok = ok && get_integer(json_object_get(o, "sigma_first"), -100000, 100000, &packed->sigma_first);
     }
     return ok ? 0 : retex_fail(err, RETEX_EFORMAT, "the pack is damaged: the description of a part is not sound");
 }
 
 /* Means on a lattice need standard deviations, which need nothing. */
-static int modelled_is_sound(const PackPart *packed, const PackPart *all)
+static int modelled_is_sound(const RetexPackPart *packed, const RetexPackPart *all)
 {
     int ok = packed->present < 0;
     for (int c = 0; c < packed->channels; c++) {
-        const PackPart *sigma = packed->sigma >= 0 ? &all[packed->sigma] : NULL;
-        ok = ok && (packed->maps[c].kind == PACK_MAP_BITS || packed->maps[c].kind == PACK_MAP_LATTICE);
-        if (packed->maps[c].kind == PACK_MAP_LATTICE)
-            ok = ok && packed->type == RETEX_FLOAT && sigma && sigma->codec == PACK_MODEL && sigma->sigma < 0 &&
+        const RetexPackPart *sigma = packed->sigma >= 0 ? &all[packed->sigma] : NULL;
+        ok = ok && (packed->maps[c].kind == RETEX_PACK_MAP_BITS || packed->maps[c].kind == RETEX_PACK_MAP_LATTICE);
+        if (packed->maps[c].kind == RETEX_PACK_MAP_LATTICE)
+            ok = ok && packed->type == RETEX_FLOAT && sigma && sigma->codec == RETEX_PACK_MODEL && sigma->sigma < 0 &&
                  c < sigma->channels;
     }
     return ok;
@@ -288,37 +290,38 @@ static int modelled_is_sound(const PackPart *packed, const PackPart *all)
 
 /* References lead to parts of the right kind, and never in circles: coverage needs nothing, standard deviations need
  * coverage, means need both. */
-static int references_are_sound(const PackPart *packed, const PackPart *all)
+static int references_are_sound(const RetexPackPart *packed, const RetexPackPart *all)
 {
-    if (packed->codec == PACK_MODEL)
+    if (packed->codec == RETEX_PACK_MODEL)
         return modelled_is_sound(packed, all);
-    if (packed->codec != PACK_PLANES)
+    if (packed->codec != RETEX_PACK_PLANES)
         return 1;
-    const PackPart *present = packed->present >= 0 ? &all[packed->present] : NULL;
-    if (present && (present->codec != PACK_PLANES || present->channels != 3 || !pack_map_is_coded(&present->maps[2]) ||
-                    (present->present >= 0 && &all[present->present] != present)))
+    const RetexPackPart *present = packed->present >= 0 ? &all[packed->present] : NULL;
+    if (present &&
+        (present->codec != RETEX_PACK_PLANES || present->channels != 3 || !retex_pack_map_is_coded(&present->maps[2]) ||
+         (present->present >= 0 && &all[present->present] != present)))
         return 0;
     for (int c = 0; c < packed->channels; c++)
-        if (packed->maps[c].kind == PACK_MAP_LATTICE) {
-            const PackPart *sigma = packed->sigma >= 0 ? &all[packed->sigma] : NULL;
-            if (!present || !sigma || c > 1 || sigma->codec != PACK_PLANES || sigma->channels < 2 ||
-                sigma->maps[c].kind != PACK_MAP_LOG || sigma->present != packed->present)
+        if (packed->maps[c].kind == RETEX_PACK_MAP_LATTICE) {
+            const RetexPackPart *sigma = packed->sigma >= 0 ? &all[packed->sigma] : NULL;
+            if (!present || !sigma || c > 1 || sigma->codec != RETEX_PACK_PLANES || sigma->channels < 2 ||
+                sigma->maps[c].kind != RETEX_PACK_MAP_LOG || sigma->present != packed->present)
                 return 0;
         }
     return 1;
 }
 
-static int part_is_sound(int part, const RetexSet *set, const PackPart *packed, RetexError *err)
+static int part_is_sound(int part, const RetexSet *set, const RetexPackPart *packed, RetexError *err)
 {
-    int sound = packed[part].codec != PACK_COMBINED ? references_are_sound(&packed[part], packed)
-                : part > 0                          ? 0
-                                                    : pack_combine_fits(set, err);
+    int sound = packed[part].codec != RETEX_PACK_COMBINED ? references_are_sound(&packed[part], packed)
+                : part > 0                                ? 0
+                                                          : retex_pack_combine_fits(set, err);
     if (sound == 0)
         return retex_fail(err, RETEX_EFORMAT, "the pack is damaged: the description of a part is not sound");
     return sound < 0 ? sound : 0;
 }
 
-int pack_understand(PackPart *packed, const RetexSet *set, const char *manifest, RetexError *err)
+int retex_pack_parse(RetexPackPart *packed, const RetexSet *set, const char *manifest, RetexError *err)
 {
     json_t *root = json_loads(manifest, 0, NULL);
     const json_t *parts = json_object_get(json_object_get(root, "pack"), "parts");
@@ -328,7 +331,7 @@ int pack_understand(PackPart *packed, const RetexSet *set, const char *manifest,
     for (int i = 0; !code && i < set->nparts; i++) {
         const json_t *o = json_array_get(parts, (size_t)i);
         const char *name = json_string_value(json_object_get(o, "name"));
-        pack_part_begin(&packed[i], &set->parts[i]);
+        retex_pack_part_begin(&packed[i], &set->parts[i]);
         if (!name || strcmp(name, set->parts[i].name) != 0)
             code = retex_fail(err, RETEX_EFORMAT, "the pack is damaged: its list of parts does not match");
         else
@@ -337,7 +340,7 @@ int pack_understand(PackPart *packed, const RetexSet *set, const char *manifest,
     for (int i = 0; !code && i < set->nparts; i++)
         code = part_is_sound(i, set, packed, err);
     for (int i = 0; !code && i < set->nparts; i++)
-        code = pack_part_chunks(&packed[i], err);
+        code = retex_pack_part_chunks(&packed[i], err);
     json_decref(root);
     return code;
 }

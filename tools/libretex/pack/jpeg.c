@@ -19,36 +19,36 @@
 
 /* sRGB up to white; above, levels follow the logarithm: LEVELS_PER_E of 255 for each factor of e. */
 static const double LEVELS_PER_E = 48;
-static const double ENTRIES_TO_WHITE = (double)PACK_LEVEL_ENTRIES / PACK_WHITES_MOST;
+static const double ENTRIES_TO_WHITE = (double)RETEX_PACK_LEVEL_ENTRIES / RETEX_PACK_WHITES_MOST;
 
-double pack_curve_level(const PackCurve *curve, double value)
+double retex_pack_curve_level(const RetexPackCurve *curve, double value)
 {
     const double x = value / curve->white;
     const double y = x > 1 ? 1 + LEVELS_PER_E / 255 * log(x) : retex_srgb_encode(x);
-    return curve->levels * fmin(y, PACK_WHITES_MOST);
+    return curve->levels * fmin(y, RETEX_PACK_WHITES_MOST);
 }
 
-double pack_curve_value(const PackCurve *curve, double level)
+double retex_pack_curve_value(const RetexPackCurve *curve, double level)
 {
     const double y = level / curve->levels;
     const double x = y > 1 ? exp((y - 1) * 255 / LEVELS_PER_E) : retex_srgb_decode(y);
     return curve->white * x;
 }
 
-static float shares[PACK_LEVEL_ENTRIES + 2]; /* every curve's, once fill_shares has run */
+static float shares[RETEX_PACK_LEVEL_ENTRIES + 2]; /* every curve's, once fill_shares has run */
 
 static void fill_shares(void)
 {
-    const PackCurve unit = {1, ENTRIES_TO_WHITE};
-    for (int i = 0; i < PACK_LEVEL_ENTRIES + 2; i++)
-        shares[i] = (float)pack_curve_value(&unit, i);
+    const RetexPackCurve unit = {1, ENTRIES_TO_WHITE};
+    for (int i = 0; i < RETEX_PACK_LEVEL_ENTRIES + 2; i++)
+        shares[i] = (float)retex_pack_curve_value(&unit, i);
 }
 
-static PackLevels levels_of(const PackCurve *curve)
+static RetexPackLevels levels_of(const RetexPackCurve *curve)
 {
     static pthread_once_t once = PTHREAD_ONCE_INIT;
     pthread_once(&once, fill_shares);
-    return (PackLevels){(float)(ENTRIES_TO_WHITE / curve->levels), (float)curve->white, shares};
+    return (RetexPackLevels){(float)(ENTRIES_TO_WHITE / curve->levels), (float)curve->white, shares};
 }
 
 /* --- libjpeg's errors --- */
@@ -96,7 +96,7 @@ static int fail_decoding(const Trouble *trouble, RetexError *err)
 
 /* --- encoding --- */
 
-void pack_jpeg_free(PackJpeg *jpeg)
+void retex_pack_jpeg_free(RetexPackJpeg *jpeg)
 {
     free(jpeg->data);
     free(jpeg->pieces);
@@ -114,7 +114,7 @@ static void choose_steps(unsigned int steps[64], double step, const float larges
     for (int i = 0; i < 64; i++) {
         /* between two whole numbers the smaller one is for low frequencies */
         const double wanted = rint(step + (i % 8 + i / 8) / 14.0 - 0.5), least = ceil((double)largest[i] / 1023);
-        steps[i] = (unsigned int)fmin(fmax(fmax(wanted, least), 1), PACK_JPEG_STEP_MAX);
+        steps[i] = (unsigned int)fmin(fmax(fmax(wanted, least), 1), RETEX_PACK_JPEG_STEP_MAX);
     }
 }
 
@@ -149,7 +149,7 @@ static void find_largest(Largest *largest, const float *levels, float *plane, in
         for (int row = 0; row < rows; row++) {
             gather(plane, levels, width, height, channels, c, row, blocks);
             for (int block = 0; block < blocks; block++)
-                pack_block_largest(largest->size[c > 0], plane + 8 * block, 8 * blocks);
+                retex_pack_block_largest(largest->size[c > 0], plane + 8 * block, 8 * blocks);
         }
 }
 
@@ -165,11 +165,11 @@ static void fill_coefficients(struct jpeg_compress_struct *jpeg, jvirt_barray_pt
             JBLOCKARRAY array = jpeg->mem->access_virt_barray((j_common_ptr)jpeg, arrays[c], (JDIMENSION)row, 1, TRUE);
             gather(plane, levels, width, height, jpeg->num_components, c, row, blocks);
             for (int block = 0; block < blocks; block++)
-                pack_block_forward(array[0][block], plane + 8 * block, 8 * blocks, inverse[c > 0]);
+                retex_pack_block_forward(array[0][block], plane + 8 * block, 8 * blocks, inverse[c > 0]);
         }
 }
 
-static int take_apart(PackJpeg *jpeg, int bands)
+static int take_apart(RetexPackJpeg *jpeg, int bands)
 {
     const unsigned char *p = jpeg->data;
     jpeg->pieces = calloc((size_t)bands + 1, sizeof *jpeg->pieces);
@@ -206,14 +206,14 @@ static void write_file(struct jpeg_compress_struct *jpeg, const float *levels, f
         arrays[c] = jpeg->mem->request_virt_barray((j_common_ptr)jpeg, JPOOL_IMAGE, TRUE, blocks, rows, 1);
     }
     jpeg->optimize_coding = TRUE;
-    jpeg->restart_in_rows = PACK_BAND_ROWS / 8;
+    jpeg->restart_in_rows = RETEX_PACK_BAND_ROWS / 8;
     jpeg_write_coefficients(jpeg, arrays);
     fill_coefficients(jpeg, arrays, levels, plane, width, height, steps);
     jpeg_finish_compress(jpeg);
 }
 
-int pack_jpeg_encode(PackJpeg *result, const float *levels, int width, int height, int channels, double step,
-                     RetexError *err)
+int retex_pack_jpeg_encode(RetexPackJpeg *result, const float *levels, int width, int height, int channels, double step,
+                           RetexError *err)
 {
     struct jpeg_compress_struct jpeg;
     Trouble trouble;
@@ -242,31 +242,31 @@ int pack_jpeg_encode(PackJpeg *result, const float *levels, int width, int heigh
     free(plane);
     result->data = data;
     result->bytes = bytes;
-    if (take_apart(result, (height + PACK_BAND_ROWS - 1) / PACK_BAND_ROWS))
+    if (take_apart(result, (height + RETEX_PACK_BAND_ROWS - 1) / RETEX_PACK_BAND_ROWS))
         return 0;
-    pack_jpeg_free(result);
+    retex_pack_jpeg_free(result);
     return retex_fail(err, RETEX_EINTERNAL, "cannot take a JPEG apart");
 }
 
 /* --- decoding --- */
 
-struct PackJpegDecoder {
+struct RetexPackJpegDecoder {
     struct jpeg_decompress_struct jpeg;
     Trouble trouble;
-    const PackJpegKernels *kernels;
+    const RetexPackJpegKernels *kernels;
     jvirt_barray_ptr *arrays; /* coefficients of the open band, or NULL */
     int width, rows, channels;
-    PackLevels levels;
+    RetexPackLevels levels;
     float *planes; /* three, of 8 rows */
-    size_t room;
+    size_t capacity;
 };
 
-int pack_jpeg_decoder_create(PackJpegDecoder **result, RetexError *err)
+int retex_pack_jpeg_decoder_create(RetexPackJpegDecoder **result, RetexError *err)
 {
-    PackJpegDecoder *decoder = *result = calloc(1, sizeof *decoder);
+    RetexPackJpegDecoder *decoder = *result = calloc(1, sizeof *decoder);
     if (!decoder)
         return retex_fail(err, RETEX_ENOMEM, "no memory to decode JPEGs");
-    decoder->kernels = &pack_jpeg_kernels[retex_cpu_level()];
+    decoder->kernels = &retex_pack_jpeg_kernels[retex_cpu_level()];
     decoder->jpeg.err = catch_trouble(&decoder->trouble);
     if (setjmp(decoder->trouble.out)) {
         jpeg_destroy_decompress(&decoder->jpeg);
@@ -278,7 +278,7 @@ int pack_jpeg_decoder_create(PackJpegDecoder **result, RetexError *err)
     return 0;
 }
 
-void pack_jpeg_decoder_close(PackJpegDecoder **decoder)
+void retex_pack_jpeg_decoder_close(RetexPackJpegDecoder **decoder)
 {
     if (!decoder || !*decoder)
         return;
@@ -309,25 +309,26 @@ static int patch(unsigned char *file, size_t header, size_t bytes, int width, in
     return sized;
 }
 
-static void close_band(PackJpegDecoder *decoder)
+static void close_band(RetexPackJpegDecoder *decoder)
 {
     jpeg_abort_decompress(&decoder->jpeg);
     decoder->arrays = NULL;
 }
 
-static int reserve(PackJpegDecoder *decoder, int width)
+static int reserve(RetexPackJpegDecoder *decoder, int width)
 {
-    const size_t room = (size_t)((width + 7) / 8) * 64 * 3;
-    float *planes = room > decoder->room ? realloc(decoder->planes, room * sizeof *planes) : decoder->planes;
+    const size_t capacity = (size_t)((width + 7) / 8) * 64 * 3;
+    float *planes =
+        capacity > decoder->capacity ? realloc(decoder->planes, capacity * sizeof *planes) : decoder->planes;
     if (!planes)
         return 0;
     decoder->planes = planes;
-    decoder->room = room > decoder->room ? room : decoder->room;
+    decoder->capacity = capacity > decoder->capacity ? capacity : decoder->capacity;
     return 1;
 }
 
-int pack_jpeg_open_band(PackJpegDecoder *decoder, unsigned char *file, size_t header, size_t bytes, int width, int rows,
-                        int channels, const PackCurve *curve, RetexError *err)
+int retex_pack_jpeg_open_band(RetexPackJpegDecoder *decoder, unsigned char *file, size_t header, size_t bytes,
+                              int width, int rows, int channels, const RetexPackCurve *curve, RetexError *err)
 {
     struct jpeg_decompress_struct *jpeg = &decoder->jpeg;
     close_band(decoder);
@@ -358,7 +359,7 @@ int pack_jpeg_open_band(PackJpegDecoder *decoder, unsigned char *file, size_t he
     return retex_fail(err, RETEX_EFORMAT, "its JPEG is not of the part's size");
 }
 
-int pack_jpeg_decode_blocks(PackJpegDecoder *decoder, int row, float *values, RetexError *err)
+int retex_pack_jpeg_decode_blocks(RetexPackJpegDecoder *decoder, int row, float *values, RetexError *err)
 {
     struct jpeg_decompress_struct *jpeg = &decoder->jpeg;
     const int width = decoder->width, channels = decoder->channels, blocks = (width + 7) / 8;

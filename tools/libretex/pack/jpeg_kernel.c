@@ -78,7 +78,7 @@ static void forward(float a[restrict 8][8], const float *samples, int stride)
     transpose8(a, b);
 }
 
-void pack_block_largest(float *largest, const float *samples, int stride)
+void retex_pack_block_largest(float *largest, const float *samples, int stride)
 {
     float a[8][8];
     forward(a, samples, stride);
@@ -86,7 +86,7 @@ void pack_block_largest(float *largest, const float *samples, int stride)
         largest[i] = fmaxf(largest[i], fabsf(a[i / 8][i % 8]));
 }
 
-void pack_block_forward(int16_t *coefficients, const float *samples, int stride, const float *inverse_steps)
+void retex_pack_block_forward(int16_t *coefficients, const float *samples, int stride, const float *inverse_steps)
 {
     float a[8][8];
     forward(a, samples, stride);
@@ -114,16 +114,16 @@ static void inverse_plain(float *samples, int stride, const int16_t *coefficient
     }
 }
 
-static inline float value_of(float level, const PackLevels *levels)
+static inline float value_of(float level, const RetexPackLevels *levels)
 {
     const float scaled = level * levels->scale, place = scaled > 0 ? scaled : 0;
-    const int entry = place < PACK_LEVEL_ENTRIES ? (int)place : PACK_LEVEL_ENTRIES;
+    const int entry = place < RETEX_PACK_LEVEL_ENTRIES ? (int)place : RETEX_PACK_LEVEL_ENTRIES;
     const float low = levels->share[entry];
     return (low + (levels->share[entry + 1] - low) * (place - (float)entry)) * levels->white;
 }
 
 static void colours_plain(float *restrict values, const float *y, const float *cb, const float *cr, int count,
-                          const PackLevels *levels)
+                          const RetexPackLevels *levels)
 {
     for (int i = 0; i < count; i++) {
         const float level = y[i] + 128;
@@ -133,7 +133,7 @@ static void colours_plain(float *restrict values, const float *y, const float *c
     }
 }
 
-static void greys_plain(float *restrict values, const float *y, int count, const PackLevels *levels)
+static void greys_plain(float *restrict values, const float *y, int count, const RetexPackLevels *levels)
 {
     for (int i = 0; i < count; i++)
         values[i] = value_of(y[i] + 128, levels);
@@ -216,10 +216,10 @@ static void inverse_avx2(float *samples, int stride, const int16_t *coefficients
 }
 
 /* value_of; an entry and the next one lie side by side and come at once. */
-RETEX_CPU_INLINE __m256 values_of(__m256 level, const PackLevels *levels)
+RETEX_CPU_INLINE __m256 values_of(__m256 level, const RetexPackLevels *levels)
 {
     const __m256 place = _mm256_max_ps(levels->scale * level, _mm256_setzero_ps());
-    const __m256i entry = _mm256_cvttps_epi32(_mm256_min_ps(place, _mm256_set1_ps(PACK_LEVEL_ENTRIES)));
+    const __m256i entry = _mm256_cvttps_epi32(_mm256_min_ps(place, _mm256_set1_ps(RETEX_PACK_LEVEL_ENTRIES)));
     const __m256i halves = _mm256_permute4x64_epi64(entry, 0xd8); /* 0, 1, 4, 5 and 2, 3, 6, 7 */
     const long long *from = (const long long *)(const void *)levels->share;
     const __m256 a = _mm256_castsi256_ps(_mm256_i32gather_epi64(from, _mm256_castsi256_si128(halves), 4)),
@@ -229,7 +229,7 @@ RETEX_CPU_INLINE __m256 values_of(__m256 level, const PackLevels *levels)
 }
 
 static void colours_avx2(float *restrict values, const float *y, const float *cb, const float *cr, int count,
-                         const PackLevels *levels)
+                         const RetexPackLevels *levels)
 {
     const __m256i reds = _mm256_setr_epi32(0, 3, 6, 1, 4, 7, 2, 5), greens = _mm256_setr_epi32(5, 0, 3, 6, 1, 4, 7, 2),
                   blues = _mm256_setr_epi32(2, 5, 0, 3, 6, 1, 4, 7);
@@ -250,7 +250,7 @@ static void colours_avx2(float *restrict values, const float *y, const float *cb
     colours_plain(values + 3 * (size_t)i, y + i, cb + i, cr + i, count - i, levels);
 }
 
-static void greys_avx2(float *restrict values, const float *y, int count, const PackLevels *levels)
+static void greys_avx2(float *restrict values, const float *y, int count, const RetexPackLevels *levels)
 {
     int i = 0;
     for (; i + 8 <= count; i += 8)
@@ -322,7 +322,7 @@ RETEX_CPU_END
 
 #endif
 
-const PackJpegKernels pack_jpeg_kernels[RETEX_CPU_LEVELS] = {
+const RetexPackJpegKernels retex_pack_jpeg_kernels[RETEX_CPU_LEVELS] = {
     {inverse_plain, colours_plain, greys_plain},
 #if RETEX_CPU_X86
     {inverse_avx2, colours_avx2, greys_avx2},

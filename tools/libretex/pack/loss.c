@@ -193,57 +193,59 @@ static double psnr_of(double square)
     return fmin(square > 0 ? -10 * log10(square) : PSNR_MOST, PSNR_MOST);
 }
 
-void pack_judge_close(PackJudge *judge)
+void retex_pack_reference_close(RetexPackReference *reference)
 {
     for (int k = 0; k < RETEX_PACK_LOSSES; k++)
-        free(judge->codes[k]);
-    free(judge->squares);
-    *judge = (PackJudge){0};
+        free(reference->codes[k]);
+    free(reference->squares);
+    *reference = (RetexPackReference){0};
 }
 
-int pack_judge_open(PackJudge *judge, const RetexSet *set, unsigned pictures, int nthreads, RetexError *err)
+int retex_pack_reference_open(RetexPackReference *reference, const RetexSet *set, unsigned pictures, int nthreads,
+                              RetexError *err)
 {
     const size_t count = 3 * (size_t)set->width * (size_t)set->height;
     int code = RETEX_OK;
-    *judge = (PackJudge){.set = set, .squares = calloc((size_t)bands_of(set) + 1, sizeof *judge->squares)};
-    if (!judge->squares)
+    *reference =
+        (RetexPackReference){.set = set, .squares = calloc((size_t)bands_of(set) + 1, sizeof *reference->squares)};
+    if (!reference->squares)
         return retex_fail(err, RETEX_ENOMEM, "no memory to compare pictures");
     for (int k = 0; k < RETEX_PACK_LOSSES && !code; k++) {
         const int noise = k == RETEX_PACK_LOSS_ORIGINAL && !set->denoised;
         if (!(pictures & 1u << k))
             continue;
-        judge->codes[k] = malloc(count * sizeof *judge->codes[k]);
-        const Shot shot = {set, judge->codes[k], NULL, noise ? judge->squares : NULL};
-        code = judge->codes[k] ? take(&shot, k, nthreads, err)
-                               : retex_fail(err, RETEX_ENOMEM, "no memory to compare pictures");
+        reference->codes[k] = malloc(count * sizeof *reference->codes[k]);
+        const Shot shot = {set, reference->codes[k], NULL, noise ? reference->squares : NULL};
+        code = reference->codes[k] ? take(&shot, k, nthreads, err)
+                                   : retex_fail(err, RETEX_ENOMEM, "no memory to compare pictures");
         if (!code && noise)
-            judge->noise = mean_of(judge->squares, set);
+            reference->noise = mean_of(reference->squares, set);
     }
     if (code)
-        pack_judge_close(judge);
+        retex_pack_reference_close(reference);
     return code;
 }
 
-int pack_judge_read(double psnr[RETEX_PACK_LOSSES], const PackJudge *judge, const RetexSet *pack, int nthreads,
-                    RetexError *err)
+int retex_pack_reference_psnr(double psnr[RETEX_PACK_LOSSES], const RetexPackReference *reference, const RetexSet *pack,
+                              int nthreads, RetexError *err)
 {
-    const RetexSet *set = judge->set;
+    const RetexSet *set = reference->set;
     if (pack->width != set->width || pack->height != set->height || pack->ntargets != set->ntargets)
         return retex_fail(err, RETEX_EINVAL, "the pack is of another set");
     for (int k = 0; k < RETEX_PACK_LOSSES; k++) {
-        const Shot shot = {pack, judge->codes[k], judge->squares, NULL};
+        const Shot shot = {pack, reference->codes[k], reference->squares, NULL};
         psnr[k] = PSNR_MOST;
         if (!shot.codes)
             continue;
         int code = take(&shot, k, nthreads, err);
         if (code)
             return code;
-        psnr[k] = psnr_of(mean_of(judge->squares, set));
+        psnr[k] = psnr_of(mean_of(reference->squares, set));
     }
     return RETEX_OK;
 }
 
-double pack_worst(const double psnr[RETEX_PACK_LOSSES])
+double retex_pack_worst_psnr(const double psnr[RETEX_PACK_LOSSES])
 {
     double worst = psnr[0];
     for (int k = 1; k < RETEX_PACK_LOSSES; k++)
@@ -253,7 +255,7 @@ double pack_worst(const double psnr[RETEX_PACK_LOSSES])
 
 /* --- the promise --- */
 
-double pack_promise(int quality, int spp, double noise)
+double retex_pack_promised_psnr(int quality, int spp, double noise)
 {
     const double few = spp > 0 ? fmax(10 * log10((double)ENOUGH_SAMPLES / spp), 0) : 0;
     const double psnr = 25 + 0.1 * quality + 1.5 * fmax(quality - 90, 0) - few * fmin((100 - quality) / 10.0, 1);
@@ -263,10 +265,10 @@ double pack_promise(int quality, int spp, double noise)
 int retex_pack_loss(double psnr[RETEX_PACK_LOSSES], const RetexSet *pack, const RetexSet *set, int nthreads,
                     RetexError *err)
 {
-    PackJudge judge;
-    int code = pack_judge_open(&judge, set, PACK_ALL_PICTURES, nthreads, err);
+    RetexPackReference reference;
+    int code = retex_pack_reference_open(&reference, set, RETEX_PACK_ALL_PICTURES, nthreads, err);
     if (!code)
-        code = pack_judge_read(psnr, &judge, pack, nthreads, err);
-    pack_judge_close(&judge);
+        code = retex_pack_reference_psnr(psnr, &reference, pack, nthreads, err);
+    retex_pack_reference_close(&reference);
     return code;
 }

@@ -5,35 +5,35 @@
 #include "base/half.h"
 #include "pack/planes.h"
 
-const char *const pack_map_names[PACK_MAPS] = {"bits", "lattice", "log", "linear", "angle"};
+const char *const retex_pack_map_names[RETEX_PACK_MAPS] = {"bits", "lattice", "log", "linear", "angle"};
 
-int pack_map_is_coded(const PackMap *map)
+int retex_pack_map_is_coded(const RetexPackMap *map)
 {
-    return map->kind >= PACK_MAP_LOG;
+    return map->kind >= RETEX_PACK_MAP_LOG;
 }
 
-void pack_map_fill(PackMap *map)
+void retex_pack_map_fill(RetexPackMap *map)
 {
-    for (int c = 0; c < PACK_CODES && pack_map_is_coded(map); c++) {
+    for (int c = 0; c < RETEX_PACK_CODES && retex_pack_map_is_coded(map); c++) {
         double value = c * map->first;
-        if (map->kind == PACK_MAP_LOG)
+        if (map->kind == RETEX_PACK_MAP_LOG)
             value = c ? map->first * exp2((double)(c - 1) / map->per_octave) : 0;
-        else if (map->kind == PACK_MAP_ANGLE)
+        else if (map->kind == RETEX_PACK_MAP_ANGLE)
             value = sin(fmin(fmax((double)(c - 128) / map->per_octave, -1), 1) * acos(-1) / 2);
         map->value[c] = (float)value;
     }
 }
 
-static int32_t code_of(float sample, const PackMap *map)
+static int32_t code_of(float sample, const RetexPackMap *map)
 {
     const double v = (double)sample;
-    if (map->kind == PACK_MAP_LINEAR)
-        return (int32_t)fmin(fmax(rint(v / map->first), v > 0), PACK_CODES - 1);
-    if (map->kind == PACK_MAP_ANGLE)
+    if (map->kind == RETEX_PACK_MAP_LINEAR)
+        return (int32_t)fmin(fmax(rint(v / map->first), v > 0), RETEX_PACK_CODES - 1);
+    if (map->kind == RETEX_PACK_MAP_ANGLE)
         return 128 + (int32_t)rint(asin(fmin(fmax(v, -1), 1)) * 2 / acos(-1) * map->per_octave);
     if (!(v > 0))
         return 0;
-    return 1 + (int32_t)fmin(fmax(rint(log2(v / map->first) * map->per_octave), 0), PACK_CODES - 2);
+    return 1 + (int32_t)fmin(fmax(rint(log2(v / map->first) * map->per_octave), 0), RETEX_PACK_CODES - 2);
 }
 
 /* Bits such that a larger value has a larger number, and -0 lies just below 0. */
@@ -50,8 +50,8 @@ static uint32_t unordered(int32_t number, int width)
 
 enum { HALVES = 256 }; /* converted at a time */
 
-void pack_map_numbers(int32_t *numbers, const float *samples, size_t stride, size_t count, const PackMap *map,
-                      RetexPixelType type)
+void retex_pack_map_numbers(int32_t *numbers, const float *samples, size_t stride, size_t count,
+                            const RetexPackMap *map, RetexPixelType type)
 {
     uint16_t halves[HALVES];
     float run[HALVES];
@@ -59,32 +59,32 @@ void pack_map_numbers(int32_t *numbers, const float *samples, size_t stride, siz
         const size_t n = count - begin < HALVES ? count - begin : HALVES;
         for (size_t i = 0; i < n; i++)
             run[i] = samples[(begin + i) * stride];
-        if (map->kind == PACK_MAP_BITS && type == RETEX_HALF)
+        if (map->kind == RETEX_PACK_MAP_BITS && type == RETEX_HALF)
             retex_half_from_float(halves, run, n);
         for (size_t i = 0; i < n; i++) {
             uint32_t bits;
             memcpy(&bits, &run[i], sizeof bits);
-            numbers[begin + i] = map->kind == PACK_MAP_LATTICE
-                                     ? (int32_t)lrint(ldexp((double)run[i], PACK_LATTICE_BITS))
-                                 : map->kind != PACK_MAP_BITS ? code_of(run[i], map)
-                                 : type == RETEX_HALF         ? ordered(halves[i], 16)
-                                                              : ordered(bits, 32);
+            numbers[begin + i] = map->kind == RETEX_PACK_MAP_LATTICE
+                                     ? (int32_t)lrint(ldexp((double)run[i], RETEX_PACK_LATTICE_BITS))
+                                 : map->kind != RETEX_PACK_MAP_BITS ? code_of(run[i], map)
+                                 : type == RETEX_HALF               ? ordered(halves[i], 16)
+                                                                    : ordered(bits, 32);
         }
     }
 }
 
-void pack_map_samples(float *samples, size_t stride, const int32_t *numbers, size_t count, const PackMap *map,
-                      RetexPixelType type)
+void retex_pack_map_samples(float *samples, size_t stride, const int32_t *numbers, size_t count,
+                            const RetexPackMap *map, RetexPixelType type)
 {
     uint16_t halves[HALVES];
     float run[HALVES];
-    const float lattice = 1.0f / (1 << PACK_LATTICE_BITS);
-    if (map->kind == PACK_MAP_LATTICE) {
+    const float lattice = 1.0f / (1 << RETEX_PACK_LATTICE_BITS);
+    if (map->kind == RETEX_PACK_MAP_LATTICE) {
         for (size_t i = 0; i < count; i++)
             samples[i * stride] = (float)numbers[i] * lattice;
-    } else if (map->kind != PACK_MAP_BITS) {
+    } else if (map->kind != RETEX_PACK_MAP_BITS) {
         for (size_t i = 0; i < count; i++)
-            samples[i * stride] = map->value[numbers[i] & (PACK_CODES - 1)];
+            samples[i * stride] = map->value[numbers[i] & (RETEX_PACK_CODES - 1)];
     } else if (type == RETEX_FLOAT) {
         for (size_t i = 0; i < count; i++) {
             const uint32_t bits = unordered(numbers[i], 32);
@@ -102,7 +102,8 @@ void pack_map_samples(float *samples, size_t stride, const int32_t *numbers, siz
     }
 }
 
-void pack_map_codes(float *samples, size_t stride, const unsigned char *codes, size_t count, const PackMap *map)
+void retex_pack_map_codes(float *samples, size_t stride, const unsigned char *codes, size_t count,
+                          const RetexPackMap *map)
 {
     for (size_t i = 0; i < count; i++)
         samples[i * stride] = map->value[codes[i]];

@@ -23,31 +23,31 @@ enum {
 
 /* What is learnt while a band is coded. */
 typedef struct Models {
-    BitModel hole[16];
-    BitModel token[CLASSES][TOKENS];
-    BitModel same_gap, gap[TOKENS];
+    RetexBitModel hole[16];
+    RetexBitModel token[CLASSES][TOKENS];
+    RetexBitModel same_gap, gap[TOKENS];
 } Models;
 
 /* The two streams of a band, written or read: what is modelled, and what is not. */
 typedef struct Stream {
-    RangeEncoder to;
-    RangeDecoder from;
+    RetexRangeEncoder to;
+    RetexRangeDecoder from;
     BitWriter plain_to;
     BitReader plain_from;
 } Stream;
 
 typedef struct Coding {
-    const PackModelBand *band;
+    const RetexPackModelBand *band;
     Stream stream;
     Models *models;
-    PackFitChannel channels[PACK_MODEL_CHANNELS_MAX];
+    RetexPackFitChannel channels[RETEX_PACK_MODEL_CHANNELS_MAX];
     int32_t *ranks; /* the numbers that occur, from the least */
     int nranks;     /* 0: numbers are coded as they are */
 } Coding;
 
 /* --- bits and numbers: the same code writes and reads --- */
 
-static inline int code_bit(Stream *s, BitModel *model, int bit, int reading)
+static inline int code_bit(Stream *s, RetexBitModel *model, int bit, int reading)
 {
     if (reading)
         return range_decode(&s->from, model);
@@ -64,7 +64,7 @@ static inline uint32_t code_plain(Stream *s, uint32_t bits, int count, int readi
 }
 
 /* Numbers below 4 are tokens; of others the token says how many bits they have, and the second one. */
-ALWAYS_INLINE static inline uint32_t code_number(Stream *s, BitModel *models, uint32_t number, int reading)
+ALWAYS_INLINE static inline uint32_t code_number(Stream *s, RetexBitModel *models, uint32_t number, int reading)
 {
     int token = (int)number, node = 1;
     if (!reading && number >= 4) {
@@ -166,7 +166,7 @@ static int code_ranks(Coding *c, int reading)
 
 static int code_description(Coding *c, int index, int reading)
 {
-    PackFitChannel *channel = &c->channels[index];
+    RetexPackFitChannel *channel = &c->channels[index];
     Stream *s = &c->stream;
     channel->by_fit = (int)code_plain(s, (uint32_t)channel->by_fit, 1, reading);
     channel->has_holes = (int)code_plain(s, (uint32_t)channel->has_holes, 1, reading);
@@ -186,7 +186,7 @@ static inline int half_octave(uint32_t size)
 }
 
 /* How large residuals nearby are, and that of the same pixel in the channel before. */
-static inline int class_of(const PackFitChannel *channel, ptrdiff_t at, ptrdiff_t above)
+static inline int class_of(const RetexPackFitChannel *channel, ptrdiff_t at, ptrdiff_t above)
 {
     const int32_t *sizes = channel->sizes;
     uint32_t nearby = (uint32_t)(2 * sizes[at - 1] + 2 * sizes[above] + sizes[above - 1] + sizes[above + 1]);
@@ -196,7 +196,7 @@ static inline int class_of(const PackFitChannel *channel, ptrdiff_t at, ptrdiff_
     return class < CLASSES ? class : CLASSES - 1;
 }
 
-static inline int code_hole(Coding *c, const PackFitChannel *channel, ptrdiff_t at, ptrdiff_t above, int reading)
+static inline int code_hole(Coding *c, const RetexPackFitChannel *channel, ptrdiff_t at, ptrdiff_t above, int reading)
 {
     const unsigned char *holes = channel->holes;
     const int both = channel->others[0] && channel->others[0]->holes[at];
@@ -212,20 +212,20 @@ static inline int32_t in_steps(int64_t number, int shift)
 
 ALWAYS_INLINE static inline void code_numbers(Coding *c, int index, int nweights, int reading)
 {
-    PackFitChannel *channel = &c->channels[index];
+    RetexPackFitChannel *channel = &c->channels[index];
     const unsigned char *shifts = c->band->shifts[index];
     int32_t last = channel->mean;
     for (int y = 0; y < channel->rows; y++) {
-        pack_fit_begin_row(channel, y);
+        retex_pack_fit_begin_row(channel, y);
         for (int x = 0; x < channel->width; x++) {
-            const ptrdiff_t at = pack_fit_place(channel, x, y), above = pack_fit_above(channel, at, y);
+            const ptrdiff_t at = retex_pack_fit_place(channel, x, y), above = retex_pack_fit_above(channel, at, y);
             const int shift = shifts ? *shifts++ : 0;
             if (channel->has_holes && (channel->holes[at] = (unsigned char)code_hole(c, channel, at, above, reading))) {
                 channel->sizes[at] = channel->sizes[at - 1];
                 channel->numbers[at] = last;
                 continue;
             }
-            const int32_t guess = in_steps(pack_fit_guess_by(channel, at, above, nweights), shift);
+            const int32_t guess = in_steps(retex_pack_fit_guess_by(channel, at, above, nweights), shift);
             uint32_t code = 0;
             if (!reading)
                 code = to_unsigned((int32_t)((uint32_t)(channel->numbers[at] >> shift) - (uint32_t)guess));
@@ -239,15 +239,15 @@ ALWAYS_INLINE static inline void code_numbers(Coding *c, int index, int nweights
 /* The same, with what loops depend on known to the compiler. */
 static inline void code_channel(Coding *c, int index, int reading)
 {
-    const PackFitChannel *channel = &c->channels[index];
+    const RetexPackFitChannel *channel = &c->channels[index];
     if (!channel->by_fit)
         code_numbers(c, index, 0, reading);
-    else if (channel->nweights == PACK_FIT_OWN)
-        code_numbers(c, index, PACK_FIT_OWN, reading);
-    else if (channel->nweights == PACK_FIT_OWN + PACK_FIT_OTHER)
-        code_numbers(c, index, PACK_FIT_OWN + PACK_FIT_OTHER, reading);
+    else if (channel->nweights == RETEX_PACK_FIT_OWN)
+        code_numbers(c, index, RETEX_PACK_FIT_OWN, reading);
+    else if (channel->nweights == RETEX_PACK_FIT_OWN + RETEX_PACK_FIT_OTHER)
+        code_numbers(c, index, RETEX_PACK_FIT_OWN + RETEX_PACK_FIT_OTHER, reading);
     else
-        code_numbers(c, index, PACK_FIT_WEIGHTS, reading);
+        code_numbers(c, index, RETEX_PACK_FIT_WEIGHTS, reading);
 }
 
 /* --- a band --- */
@@ -263,36 +263,36 @@ static void coding_free(Coding *c)
     free(c->ranks);
 }
 
-static int coding_alloc(Coding *c, const PackModelBand *band)
+static int coding_alloc(Coding *c, const RetexPackModelBand *band)
 {
-    const size_t room = (size_t)(band->width + PACK_FIT_MARGIN) * (size_t)band->rows + PACK_FIT_MARGIN;
+    const size_t capacity = (size_t)(band->width + RETEX_PACK_FIT_MARGIN) * (size_t)band->rows + RETEX_PACK_FIT_MARGIN;
     int ok = 1;
     c->band = band;
     for (int i = 0; i < band->channels; i++) {
-        PackFitChannel *channel = &c->channels[i];
+        RetexPackFitChannel *channel = &c->channels[i];
         channel->width = band->width;
         channel->rows = band->rows;
-        channel->numbers = calloc(room, sizeof *channel->numbers);
-        channel->sizes = calloc(room, sizeof *channel->sizes);
-        channel->holes = calloc(room, 1);
-        channel->nweights = PACK_FIT_OWN;
-        for (int k = 0; k < PACK_FIT_OTHERS && k < i; k++) {
+        channel->numbers = calloc(capacity, sizeof *channel->numbers);
+        channel->sizes = calloc(capacity, sizeof *channel->sizes);
+        channel->holes = calloc(capacity, 1);
+        channel->nweights = RETEX_PACK_FIT_OWN;
+        for (int k = 0; k < RETEX_PACK_FIT_OTHERS && k < i; k++) {
             channel->others[k] = &c->channels[i - 1 - k];
-            channel->nweights += PACK_FIT_OTHER;
+            channel->nweights += RETEX_PACK_FIT_OTHER;
         }
         ok = ok && channel->numbers && channel->sizes && channel->holes;
     }
     c->models = malloc(sizeof *c->models);
     c->ranks = malloc(RANKS_MAX * sizeof *c->ranks);
-    for (size_t i = 0; c->models && i < sizeof *c->models / sizeof(BitModel); i++)
-        ((BitModel *)c->models)[i] = BIT_MODEL_EVEN;
+    for (size_t i = 0; c->models && i < sizeof *c->models / sizeof(RetexBitModel); i++)
+        ((RetexBitModel *)c->models)[i] = BIT_MODEL_EVEN;
     return ok && c->models && c->ranks;
 }
 
 /* A channel as it is coded: as ranks where these are few, holes filled. scratch: as many numbers. */
 static void load_channel(Coding *c, int index, int32_t *scratch)
 {
-    PackFitChannel *channel = &c->channels[index];
+    RetexPackFitChannel *channel = &c->channels[index];
     const int32_t *numbers = c->band->numbers[index];
     const size_t count = (size_t)channel->width * (size_t)channel->rows;
     c->nranks = 0;
@@ -311,7 +311,7 @@ static void load_channel(Coding *c, int index, int32_t *scratch)
     int32_t last = channel->mean;
     for (int y = 0; y < channel->rows; y++)
         for (int x = 0; x < channel->width; x++, scratch++) {
-            const ptrdiff_t at = pack_fit_place(channel, x, y);
+            const ptrdiff_t at = retex_pack_fit_place(channel, x, y);
             channel->holes[at] = *scratch == 0;
             channel->numbers[at] = last = *scratch ? *scratch : last;
         }
@@ -319,12 +319,12 @@ static void load_channel(Coding *c, int index, int32_t *scratch)
 
 static void unload_channel(const Coding *c, int index)
 {
-    const PackFitChannel *channel = &c->channels[index];
+    const RetexPackFitChannel *channel = &c->channels[index];
     int32_t *numbers = c->band->numbers[index];
     const int positive = first_positive(c);
     for (int y = 0; y < channel->rows; y++)
         for (int x = 0; x < channel->width; x++) {
-            const ptrdiff_t at = pack_fit_place(channel, x, y);
+            const ptrdiff_t at = retex_pack_fit_place(channel, x, y);
             int32_t number = channel->holes[at] ? 0 : channel->numbers[at];
             if (c->nranks && number) {
                 const int64_t place = (int64_t)number + positive - (number > 0);
@@ -334,13 +334,13 @@ static void unload_channel(const Coding *c, int index)
         }
 }
 
-int pack_model_alloc(PackModelBand *band, int width, int rows, int channels, const PackMap *maps)
+int retex_pack_model_alloc(RetexPackModelBand *band, int width, int rows, int channels, const RetexPackMap *maps)
 {
     const size_t count = (size_t)width * (size_t)rows;
     int ok = 1;
-    *band = (PackModelBand){.width = width, .rows = rows, .channels = channels};
+    *band = (RetexPackModelBand){.width = width, .rows = rows, .channels = channels};
     for (int c = 0; c < channels; c++) {
-        const int lattice = maps[c].kind == PACK_MAP_LATTICE;
+        const int lattice = maps[c].kind == RETEX_PACK_MAP_LATTICE;
         band->numbers[c] = malloc(count * sizeof *band->numbers[c]);
         band->shifts[c] = lattice ? malloc(count) : NULL;
         ok = ok && band->numbers[c] && (!lattice || band->shifts[c]);
@@ -348,7 +348,7 @@ int pack_model_alloc(PackModelBand *band, int width, int rows, int channels, con
     return ok;
 }
 
-void pack_model_free(PackModelBand *band)
+void retex_pack_model_free(RetexPackModelBand *band)
 {
     for (int c = 0; c < band->channels; c++) {
         free(band->numbers[c]);
@@ -356,7 +356,7 @@ void pack_model_free(PackModelBand *band)
     }
 }
 
-static int any_number(const PackModelBand *band)
+static int any_number(const RetexPackModelBand *band)
 {
     for (int c = 0; c < band->channels; c++)
         for (size_t i = 0; i < (size_t)band->width * (size_t)band->rows; i++)
@@ -366,29 +366,29 @@ static int any_number(const PackModelBand *band)
 }
 
 /* Most bytes of each of the two streams. */
-static size_t stream_room(const PackModelBand *band)
+static size_t stream_bound(const RetexPackModelBand *band)
 {
     const size_t numbers = ((size_t)band->width * (size_t)band->rows + RANKS_MAX) * (size_t)band->channels;
     return 12 * numbers + 4096;
 }
 
-long pack_model_encode(unsigned char **data, const PackModelBand *band)
+long retex_pack_model_encode(unsigned char **data, const RetexPackModelBand *band)
 {
-    const size_t count = (size_t)band->width * (size_t)band->rows, room = stream_room(band);
+    const size_t count = (size_t)band->width * (size_t)band->rows, capacity = stream_bound(band);
     Coding c = {0};
     *data = NULL;
     if (!any_number(band))
         return 0;
     int ok = coding_alloc(&c, band);
     int32_t *scratch = malloc(count * sizeof *scratch);
-    unsigned char *modelled = malloc(4 + 2 * room), *plain = modelled ? modelled + 4 + room : NULL;
+    unsigned char *modelled = malloc(4 + 2 * capacity), *plain = modelled ? modelled + 4 + capacity : NULL;
     long bytes = -1;
     if (ok && scratch && modelled) {
         range_encoder_begin(&c.stream.to, modelled + 4);
         c.stream.plain_to = (BitWriter){0, 0, plain, plain};
         for (int i = 0; i < band->channels; i++) {
             load_channel(&c, i, scratch);
-            pack_fit(&c.channels[i], band->shifts[i]);
+            retex_pack_fit(&c.channels[i], band->shifts[i]);
             code_description(&c, i, 0);
             code_channel(&c, i, 0);
         }
@@ -407,7 +407,7 @@ long pack_model_encode(unsigned char **data, const PackModelBand *band)
     return bytes;
 }
 
-int pack_model_decode(const PackModelBand *band, const unsigned char *data, size_t bytes)
+int retex_pack_model_decode(const RetexPackModelBand *band, const unsigned char *data, size_t bytes)
 {
     const size_t count = (size_t)band->width * (size_t)band->rows;
     if (bytes == 0) {

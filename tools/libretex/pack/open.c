@@ -14,7 +14,7 @@
 #include "set/manifest.h"
 #include "base/value_check.h"
 
-int pack_damaged(RetexError *err, const char *what, const char *name)
+int retex_pack_damaged(RetexError *err, const char *what, const char *name)
 {
     return retex_fail(err, RETEX_EFORMAT, "the pack is damaged: %s '%s'", what, name);
 }
@@ -25,9 +25,9 @@ void retex_pack_close(RetexPack **result)
     if (!pack)
         return;
     for (int i = 0; pack->parts && i < pack->nparts; i++)
-        pack_part_free(&pack->parts[i]);
+        retex_pack_part_free(&pack->parts[i]);
     free(pack->parts);
-    zip_list_free(&pack->entries);
+    retex_zip_list_free(&pack->entries);
     retex_input_close(&pack->input);
     free(pack);
     *result = NULL;
@@ -39,10 +39,10 @@ void retex_pack_close(RetexPack **result)
 static int read_entry(const RetexPack *pack, const char *name, uint64_t most, unsigned char **data, size_t *bytes,
                       RetexError *err)
 {
-    const ZipEntry *entry = zip_list_find(&pack->entries, name);
+    const RetexZipEntry *entry = retex_zip_list_find(&pack->entries, name);
     *data = NULL;
     if (!entry)
-        return pack_damaged(err, "it lacks", name);
+        return retex_pack_damaged(err, "it lacks", name);
     *data = entry->bytes <= most ? malloc((size_t)entry->bytes + 1) : NULL;
     if (!*data)
         return retex_fail(err, RETEX_ENOMEM, "no memory to read a pack");
@@ -53,7 +53,7 @@ static int read_entry(const RetexPack *pack, const char *name, uint64_t most, un
         return 0;
     free(*data);
     *data = NULL;
-    return retex_input_check(pack->input, pack_damaged(err, "the checksum is wrong of", name), err);
+    return retex_input_check(pack->input, retex_pack_damaged(err, "the checksum is wrong of", name), err);
 }
 
 static uint32_t little(const unsigned char *at)
@@ -64,15 +64,15 @@ static uint32_t little(const unsigned char *at)
 /* Places of chunks first..first+count of a part, which are one entry of the zip. *used counts entries. */
 static int place_chunks(RetexPack *pack, int part, int planes, int first, int count, int *used, RetexError *err)
 {
-    PackPart *p = &pack->parts[part];
-    char name[PACK_NAME_MAX];
+    RetexPackPart *p = &pack->parts[part];
+    char name[RETEX_PACK_NAME_MAX];
     uint64_t total = 0;
     for (int i = first; i < first + count; i++)
         total += p->bytes[i];
-    pack_file_name(name, sizeof name, pack->set, part, planes);
-    const ZipEntry *entry = zip_list_find(&pack->entries, name);
+    retex_pack_file_name(name, sizeof name, pack->set, part, planes);
+    const RetexZipEntry *entry = retex_zip_list_find(&pack->entries, name);
     if ((!entry && total > 0) || (entry && entry->bytes != total))
-        return pack_damaged(err, entry ? "the index does not fit" : "it lacks", name);
+        return retex_pack_damaged(err, entry ? "the index does not fit" : "it lacks", name);
     *used += entry != NULL;
     total = entry ? entry->offset : 0;
     for (int i = first; i < first + count; i++) {
@@ -87,28 +87,28 @@ static int read_index(RetexPack *pack, RetexError *err)
     unsigned char *index;
     size_t bytes, expected = 0, at = 0;
     for (int i = 0; i < pack->nparts; i++)
-        expected += (size_t)pack->parts[i].nchunks * PACK_INDEX_ENTRY;
-    int code = read_entry(pack, PACK_INDEX, expected, &index, &bytes, err), used = 2;
+        expected += (size_t)pack->parts[i].nchunks * RETEX_PACK_INDEX_ENTRY_BYTES;
+    int code = read_entry(pack, RETEX_PACK_INDEX_NAME, expected, &index, &bytes, err), used = 2;
     if (!code && bytes != expected)
-        code = pack_damaged(err, "the size is wrong of", PACK_INDEX);
+        code = retex_pack_damaged(err, "the size is wrong of", RETEX_PACK_INDEX_NAME);
     for (int i = 0; !code && i < pack->nparts; i++) {
-        PackPart *p = &pack->parts[i];
+        RetexPackPart *p = &pack->parts[i];
         p->offsets = calloc((size_t)p->nchunks + 1, sizeof *p->offsets);
         if (!p->offsets)
             code = retex_fail(err, RETEX_ENOMEM, "no memory to read a pack");
-        for (int k = 0; !code && k < p->nchunks; k++, at += PACK_INDEX_ENTRY) {
+        for (int k = 0; !code && k < p->nchunks; k++, at += RETEX_PACK_INDEX_ENTRY_BYTES) {
             p->bytes[k] = little(index + at);
             p->crcs[k] = little(index + at + 4);
         }
-        const int jpeg = p->codec == PACK_JPEG ? 1 + p->nbands : 0;
+        const int jpeg = p->codec == RETEX_PACK_JPEG ? 1 + p->nbands : 0;
         if (!code && jpeg)
             code = place_chunks(pack, i, 0, 0, jpeg, &used, err);
         if (!code && p->nchunks > jpeg)
             code = place_chunks(pack, i, 1, jpeg, p->nchunks - jpeg, &used, err);
     }
     free(index);
-    if (!code && pack->parts[0].codec != PACK_JPEG) /* a lossless pack's picture is for viewers only */
-        used += zip_list_find(&pack->entries, PACK_PICTURE) != NULL;
+    if (!code && pack->parts[0].codec != RETEX_PACK_JPEG) /* a lossless pack's picture is for viewers only */
+        used += retex_zip_list_find(&pack->entries, RETEX_PACK_PICTURE_NAME) != NULL;
     if (!code && used != pack->entries.count)
         code = retex_fail(err, RETEX_EFORMAT, "the pack is damaged: it has entries that its manifest does not know");
     return code;
@@ -119,13 +119,13 @@ static int check_sizes(const RetexPack *pack, RetexError *err)
 {
     uint64_t memory = 0, chunks = 0;
     for (int i = 0; i < pack->nparts; i++) {
-        const PackPart *p = &pack->parts[i];
+        const RetexPackPart *p = &pack->parts[i];
         memory += (uint64_t)p->width * (uint64_t)p->height * (uint64_t)p->channels * sizeof(float);
         chunks += (uint64_t)p->nchunks;
     }
     if (memory > RETEX_EXR_MEMORY_MAX)
         return retex_fail(err, RETEX_ELIMIT, "the pack's images are too large");
-    if (chunks * PACK_INDEX_ENTRY > retex_input_size(pack->input))
+    if (chunks * RETEX_PACK_INDEX_ENTRY_BYTES > retex_input_size(pack->input))
         return retex_fail(err, RETEX_EFORMAT, "the pack is damaged: it is too small for what it should hold");
     return 0;
 }
@@ -148,7 +148,7 @@ static int open_parts(RetexPack *pack, RetexSet *set, const char *manifest, Rete
     pack->set = set;
     pack->nparts = set->nparts;
     pack->parts = calloc((size_t)set->nparts + 1, sizeof *pack->parts);
-    int code = pack->parts ? pack_understand(pack->parts, set, manifest, err)
+    int code = pack->parts ? retex_pack_parse(pack->parts, set, manifest, err)
                            : retex_fail(err, RETEX_ENOMEM, "no memory to read a pack");
     if (!code)
         code = check_sizes(pack, err);
@@ -159,22 +159,22 @@ static int open_pack(RetexPack *pack, RetexSet **set, RetexError *err)
 {
     unsigned char *manifest = NULL;
     size_t bytes;
-    int code = zip_list_read(&pack->entries, pack->input, err);
+    int code = retex_zip_list_read(&pack->entries, pack->input, err);
     if (!code)
-        code = read_entry(pack, PACK_MANIFEST, PACK_MANIFEST_MAX, &manifest, &bytes, err);
+        code = read_entry(pack, RETEX_PACK_MANIFEST_NAME, RETEX_PACK_MANIFEST_MAX, &manifest, &bytes, err);
     if (!code && strlen((char *)manifest) != bytes)
-        code = pack_damaged(err, "no text is in", PACK_MANIFEST);
-    const int version = code ? 0 : pack_version_of((char *)manifest);
-    if (version > 0 && version != PACK_VERSION)
+        code = retex_pack_damaged(err, "no text is in", RETEX_PACK_MANIFEST_NAME);
+    const int version = code ? 0 : retex_pack_version_of((char *)manifest);
+    if (version > 0 && version != RETEX_PACK_VERSION)
         code = retex_fail(err, RETEX_EUNSUPPORTED, "the pack has version %d; this program reads version %d", version,
-                          PACK_VERSION);
+                          RETEX_PACK_VERSION);
     if (!code)
         code = read_set(set, (char *)manifest, err);
     if (!code && version == 0)
         code = retex_fail(err, RETEX_EFORMAT, "the pack is damaged: its manifest does not say how parts are packed");
     if (!code)
         code = open_parts(pack, *set, (char *)manifest, err);
-    pack->says_kept = !code && pack_kept_of(&pack->kept, (char *)manifest);
+    pack->says_kept = !code && retex_pack_kept_of(&pack->kept, (char *)manifest);
     free(manifest);
     return code;
 }
@@ -213,7 +213,7 @@ static void reader_close(void *reader)
 static int read_row(void *reader, int part, int y, const float **row, RetexRowSpan *span, RetexError *err)
 {
     RetexPackScratch *scratch = reader;
-    const RetexPack *pack = pack_decoded_by(scratch);
+    const RetexPack *pack = retex_pack_of_scratch(scratch);
     int code = retex_pack_row(scratch, part, y, row, span, err);
     if (!code && *row)
         code = retex_check_row_values(&pack->set->parts[part], *row, span->begin, span->end, y, err);
@@ -260,7 +260,7 @@ uint64_t retex_pack_part_bytes(const RetexPack *pack, int part)
 
 const char *retex_pack_part_codec(const RetexPack *pack, int part)
 {
-    return pack_codec_names[pack->parts[part].codec];
+    return retex_pack_codec_names[pack->parts[part].codec];
 }
 
 /* --- all of it --- */
@@ -278,11 +278,11 @@ static int verify_entries(const RetexPack *pack, RetexError *err)
     return code;
 }
 
-static int keeps_bits(const PackPart *p)
+static int keeps_bits(const RetexPackPart *p)
 {
-    int exact = p->codec != PACK_JPEG;
-    for (int c = 0; p->codec == PACK_PLANES && c < p->channels; c++)
-        exact = exact && p->maps[c].kind == PACK_MAP_BITS;
+    int exact = p->codec != RETEX_PACK_JPEG;
+    for (int c = 0; p->codec == RETEX_PACK_PLANES && c < p->channels; c++)
+        exact = exact && p->maps[c].kind == RETEX_PACK_MAP_BITS;
     return exact;
 }
 
@@ -298,9 +298,9 @@ int retex_pack_verify(RetexSet *set, int nthreads, RetexError *err)
     for (int i = 0; !code && i < set->nparts; i++) {
         uint32_t crc = set->parts[i].crc;
         if (exact[i])
-            code = pack_samples_crc(&crc, &set->parts[i], err);
+            code = retex_pack_samples_crc(&crc, &set->parts[i], err);
         if (!code && crc != set->parts[i].crc)
-            code = pack_damaged(err, "the checksum is wrong of part", set->parts[i].name);
+            code = retex_pack_damaged(err, "the checksum is wrong of part", set->parts[i].name);
     }
     free(exact);
     return code;

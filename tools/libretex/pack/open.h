@@ -10,15 +10,15 @@
 struct RetexPack {
     RetexSetSource methods; /* first */
     RetexInput *input;
-    ZipList entries;
-    PackPart *parts;
+    RetexZipList entries;
+    RetexPackPart *parts;
     const RetexSet *set; /* that owns it */
     int nparts;
     int says_kept;
     RetexPackKept kept;
 };
 
-int pack_damaged(RetexError *err, const char *what, const char *name);
-const RetexPack *pack_decoded_by(const RetexPackScratch *scratch);
+int retex_pack_damaged(RetexError *err, const char *what, const char *name);
+const RetexPack *retex_pack_of_scratch(const RetexPackScratch *scratch);
 
 #endif

@@ -19,23 +19,23 @@
 #define GAIN_FINER 1.5   /* or, where there is little noise, so many of these at least, */
 #define GAIN_NOISE 0.8   /* and so many times the noise: a twentieth of it, squared, comes to it */
 
-double pack_quality_psnr(double quality)
+double retex_pack_quality_psnr(double quality)
 {
     return 20 + 0.4 * quality;
 }
 
-PackGrain pack_grain(double psnr)
+RetexPackQuantizer retex_pack_quantizer(double psnr)
 {
     const double error = 255 * pow(10, -psnr / 20);                         /* levels */
     const int fine = psnr >= 50, times = psnr > 58 ? 4 : psnr > 56 ? 2 : 1; /* above the default */
-    return (PackGrain){.jpeg_step = 1.8 * error,
-                       .original_step = 3.6 * error,
-                       .picture_step = fmax(14 * error, 5),
-                       .sharp = {4 * times, fine ? 8 : 4, fine ? 32 : 16},
-                       .broad = {2 * times, times > 1 ? 8 : 2, times > 1 ? 32 : 4},
-                       .weight_steps = times > 2 ? 255 : 64 * times,
-                       .coarser_most = times > 1 ? 1 : COARSER_MOST,
-                       .gain_noise = times > 2 ? 0 : GAIN_NOISE};
+    return (RetexPackQuantizer){.jpeg_step = 1.8 * error,
+                                .original_step = 3.6 * error,
+                                .picture_step = fmax(14 * error, 5),
+                                .sharp = {4 * times, fine ? 8 : 4, fine ? 32 : 16},
+                                .broad = {2 * times, times > 1 ? 8 : 2, times > 1 ? 32 : 4},
+                                .weight_steps = times > 2 ? 255 : 64 * times,
+                                .coarser_most = times > 1 ? 1 : COARSER_MOST,
+                                .gain_noise = times > 2 ? 0 : GAIN_NOISE};
 }
 
 typedef enum Role {
@@ -59,12 +59,12 @@ typedef struct Range {
 typedef struct Planning {
     double white;   /* level 255 of light that no texture multiplies, at least, */
     double *whites; /* and of each part of light */
-    PackPart *packed;
+    RetexPackPart *packed;
     const RetexSet *set;
-    const PackGrain *grain;
+    const RetexPackQuantizer *quantizer;
     Role *roles;
     int *means; /* of a spread: its part of means */
-    Range (*ranges)[PACK_CHANNELS_MAX];
+    Range (*ranges)[RETEX_PACK_CHANNELS_MAX];
     double *noise; /* of light, in levels; -1 where there was no memory for it */
 } Planning;
 
@@ -121,7 +121,7 @@ static void find_ranges(void *context, int part, int thread)
     Planning *plan = context;
     const RetexImage *im = &plan->set->parts[part].image;
     (void)thread;
-    for (int c = 0; c < im->channels && c < PACK_CHANNELS_MAX; c++) {
+    for (int c = 0; c < im->channels && c < RETEX_PACK_CHANNELS_MAX; c++) {
         Range range = {1, 1, 0, 0};
         for (size_t i = 0; i < (size_t)im->width * (size_t)im->height; i++) {
             const float v = im->pixels[i * (size_t)im->channels + (size_t)c];
@@ -167,12 +167,12 @@ static void find_noise(void *context, int part, int thread)
         return;
     plan->whites[part] = white_of(plan, part);
     plan->noise[part] = -1;
-    const PackCurve curve = {.white = plan->whites[part], .levels = 255};
+    const RetexPackCurve curve = {.white = plan->whites[part], .levels = 255};
     if (retex_image_alloc(&levels, im->width, im->height, im->channels, NULL))
         return;
     for (size_t i = 0; i < count; i++)
-        levels.pixels[i] = (float)pack_curve_level(&curve, (double)im->pixels[i]);
-    plan->noise[part] = image_noise(&levels, 1);
+        levels.pixels[i] = (float)retex_pack_curve_level(&curve, (double)im->pixels[i]);
+    plan->noise[part] = retex_image_noise(&levels, 1);
     retex_image_free(&levels);
 }
 
@@ -187,26 +187,26 @@ static int all_positive(const Planning *plan, int part)
 /* --- codecs --- */
 
 /* Codes of equal ratios, of which the highest is the largest value. */
-static void map_log(PackMap *map, const Range *range, int per_octave)
+static void map_log(RetexPackMap *map, const Range *range, int per_octave)
 {
-    map->kind = PACK_MAP_LOG;
+    map->kind = RETEX_PACK_MAP_LOG;
     map->per_octave = per_octave;
-    map->first = range->most > 0 ? (double)range->most * exp2(-(double)(PACK_CODES - 2) / per_octave) : 1;
-    pack_map_fill(map);
+    map->first = range->most > 0 ? (double)range->most * exp2(-(double)(RETEX_PACK_CODES - 2) / per_octave) : 1;
+    retex_pack_map_fill(map);
 }
 
 /* As JPEG, where that can hold it; `white` as level `levels`, `step` apart. */
 static void plan_light(Planning *plan, int part, double white, double step)
 {
-    PackPart *p = &plan->packed[part];
-    const int fits =
-        (p->channels == 1 || p->channels == 3) && p->width <= PACK_JPEG_SIDE_MAX && p->height <= PACK_JPEG_SIDE_MAX;
+    RetexPackPart *p = &plan->packed[part];
+    const int fits = (p->channels == 1 || p->channels == 3) && p->width <= RETEX_PACK_JPEG_SIDE_MAX &&
+                     p->height <= RETEX_PACK_JPEG_SIDE_MAX;
     if (!fits || !all_positive(plan, part))
         return;
-    p->codec = PACK_JPEG;
+    p->codec = RETEX_PACK_JPEG;
     p->curve.white = white;
     /* steps below 1 there are none: more levels instead, of which viewers show the lower ones */
-    p->curve.levels = rint(fmin(fmax(255 / step, 255), PACK_LEVELS_MOST));
+    p->curve.levels = rint(fmin(fmax(255 / step, 255), RETEX_PACK_LEVELS_MOST));
     p->jpeg_step = fmax(step, 1);
 }
 
@@ -223,14 +223,14 @@ static double choose_white(const RetexImage *picture)
 
 static void plan_weight(Planning *plan, int part)
 {
-    PackPart *p = &plan->packed[part];
+    RetexPackPart *p = &plan->packed[part];
     if (!all_positive(plan, part))
         return;
     for (int c = 0; c < p->channels; c++) {
         const float most = plan->ranges[part][c].most;
-        p->maps[c].kind = PACK_MAP_LINEAR;
-        p->maps[c].first = most > 0 ? (double)most / plan->grain->weight_steps : 1;
-        pack_map_fill(&p->maps[c]);
+        p->maps[c].kind = RETEX_PACK_MAP_LINEAR;
+        p->maps[c].first = most > 0 ? (double)most / plan->quantizer->weight_steps : 1;
+        retex_pack_map_fill(&p->maps[c]);
     }
 }
 
@@ -238,21 +238,22 @@ static void plan_weight(Planning *plan, int part)
  * there is so much that nothing can be seen of it. */
 static double light_step(const Planning *plan, int part)
 {
-    const double step = plan->grain->jpeg_step / pow(plan->whites[part] / plan->white, 1 / 2.4); /* as sRGB has them */
+    const double step =
+        plan->quantizer->jpeg_step / pow(plan->whites[part] / plan->white, 1 / 2.4); /* as sRGB has them */
     const double noise = plan->noise[part];
     if (FINE_NOISE * noise < step)
         return fmax(FINE_NOISE * noise, step / FINER_MOST);
-    return fmax(step, fmin(COARSE_NOISE * noise, plan->grain->coarser_most * step));
+    return fmax(step, fmin(COARSE_NOISE * noise, plan->quantizer->coarser_most * step));
 }
 
 static double gain_step(const Planning *plan, int radiance)
 {
     const double step = light_step(plan, radiance);
-    const double noise = plan->noise[radiance] * (plan->set->denoised ? DENOISED_NOISE : 1);
-    return fmin(GAIN_STEP * step, fmax(GAIN_FINER * step, plan->grain->gain_noise * noise));
+    const double noise = plan->noise[radiance] * (plan->set->denoised ? RETEX_DENOISED_NOISE : 1);
+    return fmin(GAIN_STEP * step, fmax(GAIN_FINER * step, plan->quantizer->gain_noise * noise));
 }
 
-/* Gains say what share of the light is theirs were the texture of all further hits COMPACT_GREY: white is all of it. */
+/* With RETEX_COMPACT_GREY on all interreflections, gains are shares of the light. White is a share of 1. */
 static void plan_gain(Planning *plan, int part)
 {
     const RetexSet *set = plan->set;
@@ -260,15 +261,15 @@ static void plan_gain(Planning *plan, int part)
     for (int i = 0; i < set->nterms; i++)
         if (set->terms[i].gain == part && set->terms[i].nfactors >= most)
             most = set->terms[i].nfactors, radiance = set->terms[i].radiance;
-    plan_light(plan, part, pow((double)COMPACT_GREY, 1 - most), gain_step(plan, radiance));
+    plan_light(plan, part, pow((double)RETEX_COMPACT_GREY, 1 - most), gain_step(plan, radiance));
 }
 
 /* Means on lattices, standard deviations and coverage by their logarithm; where coverage is 0, nothing. */
-static void plan_footprint(Planning *plan, int uv, int spread, const PackFootprintGrain *grain)
+static void plan_footprint(Planning *plan, int uv, int spread, const RetexPackFootprintSteps *quantizer)
 {
-    PackPart *p = &plan->packed[uv], *s = &plan->packed[spread];
+    RetexPackPart *p = &plan->packed[uv], *s = &plan->packed[spread];
     const Range *of_uv = plan->ranges[uv], *of_spread = plan->ranges[spread];
-    const float farthest = 1 << (30 - PACK_LATTICE_BITS);
+    const float farthest = 1 << (30 - RETEX_PACK_LATTICE_BITS);
     if (plan->roles[uv] != ROLE_MEAN || plan->roles[spread] != ROLE_SPREAD || of_uv[0].most_size >= farthest ||
         of_uv[1].most_size >= farthest || !of_uv[2].positive || !of_spread[0].positive || !of_spread[1].positive ||
         (s->channels == 3 && isinf(of_spread[2].most_size)))
@@ -279,15 +280,16 @@ static void plan_footprint(Planning *plan, int uv, int spread, const PackFootpri
     Range both = of_spread[0]; /* one scale for both, as one offset serves both */
     both.most = fmaxf(of_spread[0].most, of_spread[1].most);
     for (int c = 0; c < 2; c++) {
-        p->maps[c].kind = PACK_MAP_LATTICE;
-        map_log(&s->maps[c], &both, grain->per_octave);
+        p->maps[c].kind = RETEX_PACK_MAP_LATTICE;
+        map_log(&s->maps[c], &both, quantizer->per_octave);
     }
     if (s->channels == 3) {
-        s->maps[2].kind = PACK_MAP_ANGLE;
-        s->maps[2].per_octave = grain->angle_steps;
-        pack_map_fill(&s->maps[2]);
+        s->maps[2].kind = RETEX_PACK_MAP_ANGLE;
+        s->maps[2].per_octave = quantizer->angle_steps;
+        retex_pack_map_fill(&s->maps[2]);
     }
-    p->sigma_first = (int)floor((log2(s->maps[0].first / grain->sigma_share) + PACK_LATTICE_BITS) * grain->per_octave);
+    p->sigma_first =
+        (int)floor((log2(s->maps[0].first / quantizer->sigma_share) + RETEX_PACK_LATTICE_BITS) * quantizer->per_octave);
 }
 
 /* 1: there are no means but those that the rounding of rendered sets leaves, and no -0. */
@@ -295,14 +297,14 @@ static int on_lattice(const Planning *plan, int uv, int spread)
 {
     const RetexImage *means = &plan->set->parts[uv].image, *sigmas = &plan->set->parts[spread].image;
     const Range *ranges = plan->ranges[uv];
-    const float farthest = 1 << (30 - PACK_LATTICE_BITS);
+    const float farthest = 1 << (30 - RETEX_PACK_LATTICE_BITS);
     if (plan->set->parts[uv].type != RETEX_FLOAT || ranges[0].most_size >= farthest || ranges[1].most_size >= farthest)
         return 0;
     for (size_t i = 0; i < (size_t)means->width * (size_t)means->height; i++)
         for (size_t c = 0; c < 2; c++) {
             const float mean = means->pixels[i * (size_t)means->channels + c];
-            const int shift = pack_mean_shift(sigmas->pixels[i * (size_t)sigmas->channels + c]);
-            const double steps = ldexp((double)mean, PACK_LATTICE_BITS - shift);
+            const int shift = retex_pack_mean_shift(sigmas->pixels[i * (size_t)sigmas->channels + c]);
+            const double steps = ldexp((double)mean, RETEX_PACK_LATTICE_BITS - shift);
             if (steps != rint(steps) || (mean == 0 && signbit(mean)))
                 return 0;
         }
@@ -329,21 +331,22 @@ static void plan_exact(Planning *plan)
 {
     const RetexSet *set = plan->set;
     for (int i = 0; i < set->nparts; i++) {
-        PackPart *p = &plan->packed[i];
-        int exact = p->codec == PACK_PLANES && (plan->roles[i] != ROLE_MEAN || !ends_in_zeros(&set->parts[i].image));
+        RetexPackPart *p = &plan->packed[i];
+        int exact =
+            p->codec == RETEX_PACK_PLANES && (plan->roles[i] != ROLE_MEAN || !ends_in_zeros(&set->parts[i].image));
         for (int c = 0; c < p->channels; c++)
-            exact = exact && p->maps[c].kind == PACK_MAP_BITS;
-        p->codec = exact ? PACK_MODEL : p->codec;
+            exact = exact && p->maps[c].kind == RETEX_PACK_MAP_BITS;
+        p->codec = exact ? RETEX_PACK_MODEL : p->codec;
     }
     for (int i = 0; i < set->nfootprints; i++) {
         const int uv = set->footprints[i].uv, spread = set->footprints[i].spread;
         if (uv < 0 || spread < 0 || plan->roles[uv] != ROLE_MEAN || plan->roles[spread] != ROLE_SPREAD ||
-            plan->packed[uv].codec == PACK_ZERO || plan->packed[uv].present >= 0 || plan->packed[uv].sigma >= 0 ||
-            plan->packed[spread].codec != PACK_MODEL || !on_lattice(plan, uv, spread))
+            plan->packed[uv].codec == RETEX_PACK_ZERO || plan->packed[uv].present >= 0 || plan->packed[uv].sigma >= 0 ||
+            plan->packed[spread].codec != RETEX_PACK_MODEL || !on_lattice(plan, uv, spread))
             continue;
-        plan->packed[uv].codec = PACK_MODEL;
+        plan->packed[uv].codec = RETEX_PACK_MODEL;
         plan->packed[uv].sigma = spread;
-        plan->packed[uv].maps[0].kind = plan->packed[uv].maps[1].kind = PACK_MAP_LATTICE;
+        plan->packed[uv].maps[0].kind = plan->packed[uv].maps[1].kind = RETEX_PACK_MAP_LATTICE;
     }
 }
 
@@ -351,43 +354,44 @@ static void plan_parts(Planning *plan)
 {
     const RetexSet *set = plan->set;
     for (int i = 0; i < set->nparts; i++) {
-        PackPart *p = &plan->packed[i];
+        RetexPackPart *p = &plan->packed[i];
         int zero = 1;
         for (int c = 0; c < p->channels; c++)
             zero = zero && plan->ranges[i][c].all_zero;
-        p->codec = zero ? PACK_ZERO : PACK_PLANES;
-        if (!zero && plan->grain && i == 0) /* viewers take the picture for sRGB */
-            plan_light(plan, i, 1, plan->grain->picture_step);
-        else if (!zero && plan->grain && plan->roles[i] == ROLE_LIGHT)
+        p->codec = zero ? RETEX_PACK_ZERO : RETEX_PACK_PLANES;
+        if (!zero && plan->quantizer && i == 0) /* viewers take the picture for sRGB */
+            plan_light(plan, i, 1, plan->quantizer->picture_step);
+        else if (!zero && plan->quantizer && plan->roles[i] == ROLE_LIGHT)
             plan_light(plan, i, plan->whites[i], light_step(plan, i));
-        else if (!zero && plan->grain && plan->roles[i] == ROLE_ALBEDO)
-            plan_light(plan, i, plan->white, plan->grain->jpeg_step);
-        else if (!zero && plan->grain && plan->roles[i] == ROLE_ORIGINAL)
-            plan_light(plan, i, 1, plan->grain->original_step);
-        else if (!zero && plan->grain && plan->roles[i] == ROLE_GAIN)
+        else if (!zero && plan->quantizer && plan->roles[i] == ROLE_ALBEDO)
+            plan_light(plan, i, plan->white, plan->quantizer->jpeg_step);
+        else if (!zero && plan->quantizer && plan->roles[i] == ROLE_ORIGINAL)
+            plan_light(plan, i, 1, plan->quantizer->original_step);
+        else if (!zero && plan->quantizer && plan->roles[i] == ROLE_GAIN)
             plan_gain(plan, i);
-        else if (!zero && plan->grain && plan->roles[i] == ROLE_WEIGHT)
+        else if (!zero && plan->quantizer && plan->roles[i] == ROLE_WEIGHT)
             plan_weight(plan, i);
     }
-    for (int i = 0; plan->grain && i < set->nfootprints; i++) {
+    for (int i = 0; plan->quantizer && i < set->nfootprints; i++) {
         const RetexFootprint *f = &set->footprints[i];
-        if (f->uv >= 0 && f->spread >= 0 && plan->packed[f->uv].codec == PACK_PLANES &&
-            plan->packed[f->spread].codec == PACK_PLANES)
+        if (f->uv >= 0 && f->spread >= 0 && plan->packed[f->uv].codec == RETEX_PACK_PLANES &&
+            plan->packed[f->spread].codec == RETEX_PACK_PLANES)
             plan_footprint(plan, f->uv, f->spread,
                            f->kind == RETEX_FOOTPRINT_BROAD || f->kind == RETEX_FOOTPRINT_INTERREFLECTION
-                               ? &plan->grain->broad
-                               : &plan->grain->sharp);
+                               ? &plan->quantizer->broad
+                               : &plan->quantizer->sharp);
     }
 }
 
-int pack_plan(PackPart *packed, const RetexSet *set, const PackGrain *grain, int nthreads, RetexError *err)
+int retex_pack_plan(RetexPackPart *packed, const RetexSet *set, const RetexPackQuantizer *quantizer, int nthreads,
+                    RetexError *err)
 {
     const size_t count = (size_t)set->nparts;
     Planning plan = {choose_white(&set->parts[0].image),
                      calloc(count + 1, sizeof *plan.whites),
                      packed,
                      set,
-                     grain,
+                     quantizer,
                      calloc(count + 1, sizeof *plan.roles),
                      calloc(count + 1, sizeof *plan.means),
                      calloc(count + 1, sizeof *plan.ranges),
@@ -396,15 +400,15 @@ int pack_plan(PackPart *packed, const RetexSet *set, const PackGrain *grain, int
                    ? 0
                    : retex_fail(err, RETEX_ENOMEM, "no memory to pack a set");
     for (int i = 0; !code && i < set->nparts; i++) {
-        pack_part_begin(&packed[i], &set->parts[i]);
-        if (packed[i].channels > PACK_CHANNELS_MAX)
+        retex_pack_part_begin(&packed[i], &set->parts[i]);
+        if (packed[i].channels > RETEX_PACK_CHANNELS_MAX)
             code =
                 retex_fail(err, RETEX_EUNSUPPORTED, "part '%s' has too many channels to be packed", set->parts[i].name);
     }
     if (!code) {
         give_roles(&plan);
         retex_parallel(nthreads, set->nparts, find_ranges, &plan);
-        if (plan.grain)
+        if (plan.quantizer)
             retex_parallel(nthreads, set->nparts, find_noise, &plan);
         for (int i = 0; i < set->nparts && !code; i++)
             if (plan.noise[i] < 0)

@@ -4,30 +4,31 @@
 
 #include "pack/format.h"
 
-typedef struct PackFootprintGrain {
+typedef struct RetexPackFootprintSteps {
     int sigma_share; /* means are multiples of at most this share of their standard deviation */
     int per_octave;  /* steps of standard deviations */
     int angle_steps; /* of correlations, from 0 to 1 */
-} PackFootprintGrain;
+} RetexPackFootprintSteps;
 
 /* How fine everything is. Steps are in levels of 255 to white. */
-typedef struct PackGrain {
+typedef struct RetexPackQuantizer {
     double jpeg_step;     /* of light, gains and albedo */
     double original_step; /* of original textures */
     double picture_step;  /* of the picture, which only viewers see */
-    PackFootprintGrain sharp, broad;
+    RetexPackFootprintSteps sharp, broad;
     int weight_steps;    /* to the largest weight */
     double coarser_most; /* times jpeg_step, of light so noisy that nothing is seen of it */
     double gain_noise;   /* steps of gains may be so many times the noise of their light */
-} PackGrain;
+} RetexPackQuantizer;
 
-/* The grain whose errors have about this PSNR; pictures lose otherwise, see loss.h. */
-PackGrain pack_grain(double psnr);
+/* The quantizer whose errors have about this PSNR; pictures lose otherwise, see loss.h. */
+RetexPackQuantizer retex_pack_quantizer(double psnr);
 
 /* The quality of 1 to 100, or beyond, as PSNR that is aimed at. */
-double pack_quality_psnr(double quality);
+double retex_pack_quality_psnr(double quality);
 
-/* Plan all parts: packed[set->nparts]. grain: NULL = every part keeps its bits. */
-int pack_plan(PackPart *packed, const RetexSet *set, const PackGrain *grain, int nthreads, RetexError *err);
+/* Plan all parts: packed[set->nparts]. quantizer: NULL = every part keeps its bits. */
+int retex_pack_plan(RetexPackPart *packed, const RetexSet *set, const RetexPackQuantizer *quantizer, int nthreads,
+                    RetexError *err);
 
 #endif

@@ -22,7 +22,7 @@ static uint32_t to_unsigned(int32_t residual)
     return ((uint32_t)residual << 1) ^ (uint32_t)(residual >> 31);
 }
 
-static uint32_t residual_at(const PackPlane *plane, Predictor predictor, size_t row, int x, int32_t last)
+static uint32_t residual_at(const RetexPackPlane *plane, RetexPackPredictor predictor, size_t row, int x, int32_t last)
 {
     int32_t number = plane->numbers[row + (size_t)x], guess = predict_at(plane, predictor, row, x, last);
     if (plane->shift) {
@@ -33,7 +33,7 @@ static uint32_t residual_at(const PackPlane *plane, Predictor predictor, size_t 
     return to_unsigned(wrap_residual(subtract(number, guess), plane->bits));
 }
 
-size_t pack_plane_room(const PackPlane *plane)
+size_t retex_pack_plane_bound(const RetexPackPlane *plane)
 {
     return (size_t)plane->width * (size_t)plane->rows * sizeof(int32_t) + BLOSC_MAX_OVERHEAD + 64;
 }
@@ -42,7 +42,7 @@ size_t pack_plane_room(const PackPlane *plane)
 
 /* Numbers as they will come back: multiples of their steps, 0 where they do not matter. 1 if one that matters is not 0.
  */
-static int settle(const PackPlane *plane)
+static int settle(const RetexPackPlane *plane)
 {
     int any = 0;
     for (size_t i = 0; i < (size_t)plane->width * (size_t)plane->rows; i++) {
@@ -57,7 +57,7 @@ static int settle(const PackPlane *plane)
 }
 
 /* Bits of all residuals, roughly. *largest gets the largest. */
-static double cost(const PackPlane *plane, Predictor predictor, uint32_t *largest)
+static double cost(const RetexPackPlane *plane, RetexPackPredictor predictor, uint32_t *largest)
 {
     double bits = 0;
     int32_t last = 0;
@@ -76,7 +76,7 @@ static double cost(const PackPlane *plane, Predictor predictor, uint32_t *larges
 }
 
 /* Returns how many bytes they are. */
-static size_t store_residuals(unsigned char *to, const PackPlane *plane, Predictor predictor, int bytes)
+static size_t store_residuals(unsigned char *to, const RetexPackPlane *plane, RetexPackPredictor predictor, int bytes)
 {
     const unsigned char *const begin = to;
     int32_t last = 0;
@@ -94,29 +94,29 @@ static size_t store_residuals(unsigned char *to, const PackPlane *plane, Predict
 }
 
 /* Residuals, compressed; returns the bytes of both, or -1. */
-static long compress_residuals(unsigned char *to, const PackPlane *plane, Predictor predictor, uint32_t largest,
-                               unsigned char *scratch, int effort)
+static long compress_residuals(unsigned char *to, const RetexPackPlane *plane, RetexPackPredictor predictor,
+                               uint32_t largest, unsigned char *scratch, int effort)
 {
     const int bytes = largest < 256 ? 1 : largest < 65536 ? 2 : 4;
     const size_t size = store_residuals(scratch, plane, predictor, bytes);
     to[0] = (unsigned char)(bytes << 4 | predictor);
     const int got = blosc_compress_ctx(effort, bytes > 1, (size_t)bytes, size, scratch, to + 1,
-                                       pack_plane_room(plane) - 1, BLOSC_ZSTD_COMPNAME, size, 1);
+                                       retex_pack_plane_bound(plane) - 1, BLOSC_ZSTD_COMPNAME, size, 1);
     return got > 0 ? got + 1 : -1;
 }
 
-long pack_plane_encode(unsigned char *data, const PackPlane *plane, unsigned char *scratch, int effort)
+long retex_pack_plane_encode(unsigned char *data, const RetexPackPlane *plane, unsigned char *scratch, int effort)
 {
     if (!settle(plane))
         return 0;
     double least = 0;
-    Predictor chosen = BY_NOTHING;
+    RetexPackPredictor chosen = BY_NOTHING;
     uint32_t largest[PREDICTORS];
     for (int p = 0; p < PREDICTORS; p++) {
-        const double bits = cost(plane, (Predictor)p, &largest[p]);
+        const double bits = cost(plane, (RetexPackPredictor)p, &largest[p]);
         if (p == 0 || bits < least) {
             least = bits;
-            chosen = (Predictor)p;
+            chosen = (RetexPackPredictor)p;
         }
     }
     /* prediction makes runs and repetitions into noise: what has them may do better without */
@@ -133,7 +133,7 @@ long pack_plane_encode(unsigned char *data, const PackPlane *plane, unsigned cha
 /* --- decoding --- */
 
 /* What matters becomes 0. */
-static void clear(const PackPlane *plane)
+static void clear(const RetexPackPlane *plane)
 {
     const size_t width = (size_t)plane->width, size = plane->bits == 8 ? 1 : sizeof *plane->numbers;
     char *const to = plane->bits == 8 ? (char *)plane->codes : (char *)plane->numbers;
@@ -146,7 +146,8 @@ static void clear(const PackPlane *plane)
         }
 }
 
-int pack_plane_decode(const PackPlane *plane, const unsigned char *data, size_t bytes, unsigned char *scratch)
+int retex_pack_plane_decode(const RetexPackPlane *plane, const unsigned char *data, size_t bytes,
+                            unsigned char *scratch)
 {
     if (bytes == 0) {
         clear(plane);
@@ -154,13 +155,13 @@ int pack_plane_decode(const PackPlane *plane, const unsigned char *data, size_t 
     }
     const size_t pixels = plane->present ? plane->runs->pixels : (size_t)plane->width * (size_t)plane->rows;
     const int width = data[0] >> 4;
-    const Predictor predictor = (Predictor)(data[0] & 15);
+    const RetexPackPredictor predictor = (RetexPackPredictor)(data[0] & 15);
     const size_t size = pixels * (size_t)width;
     size_t unpacked;
     if ((width != 1 && width != 2 && width != 4) || 8 * width > plane->bits || predictor >= PREDICTORS || size == 0 ||
         bytes < 1 + BLOSC_MIN_HEADER_LENGTH || blosc_cbuffer_validate(data + 1, bytes - 1, &unpacked) < 0 ||
         unpacked != size || blosc_decompress_ctx(data + 1, scratch, size, 1) != (int)size)
         return 0;
-    pack_restore(plane, predictor, scratch, width);
+    retex_pack_restore(plane, predictor, scratch, width);
     return 1;
 }

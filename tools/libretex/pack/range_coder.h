@@ -7,43 +7,43 @@
 #include <stdint.h>
 
 /* How likely a bit is 0, in 65536ths; it begins in the middle. */
-typedef uint16_t BitModel;
+typedef uint16_t RetexBitModel;
 
 enum { BIT_MODEL_EVEN = 32768, BIT_MODEL_RATE = 5 };
 
-static inline void bit_model_learn(BitModel *model, int bit)
+static inline void bit_model_learn(RetexBitModel *model, int bit)
 {
     if (bit)
-        *model = (BitModel)(*model - (*model >> BIT_MODEL_RATE));
+        *model = (RetexBitModel)(*model - (*model >> BIT_MODEL_RATE));
     else
-        *model = (BitModel)(*model + ((65535 - *model) >> BIT_MODEL_RATE));
+        *model = (RetexBitModel)(*model + ((65535 - *model) >> BIT_MODEL_RATE));
 }
 
-static inline uint64_t range_of_zero(uint64_t range, BitModel model)
+static inline uint64_t range_of_zero(uint64_t range, RetexBitModel model)
 {
     return (range >> 16) * model;
 }
 
 /* --- writing --- */
 
-typedef struct RangeEncoder {
+typedef struct RetexRangeEncoder {
     uint64_t low, range;
     unsigned char *begin, *at;
-} RangeEncoder;
+} RetexRangeEncoder;
 
-static inline void range_encoder_begin(RangeEncoder *e, unsigned char *to)
+static inline void range_encoder_begin(RetexRangeEncoder *e, unsigned char *to)
 {
-    *e = (RangeEncoder){0, UINT64_MAX, to, to};
+    *e = (RetexRangeEncoder){0, UINT64_MAX, to, to};
 }
 
-static inline void range_encoder_put_word(RangeEncoder *e)
+static inline void range_encoder_put_word(RetexRangeEncoder *e)
 {
     for (int shift = 56; shift >= 32; shift -= 8)
         *e->at++ = (unsigned char)(e->low >> shift);
     e->low <<= 32;
 }
 
-static inline void range_encode(RangeEncoder *e, BitModel *model, int bit)
+static inline void range_encode(RetexRangeEncoder *e, RetexBitModel *model, int bit)
 {
     const uint64_t zero = range_of_zero(e->range, *model);
     if (bit) {
@@ -63,7 +63,7 @@ static inline void range_encode(RangeEncoder *e, BitModel *model, int bit)
 }
 
 /* Bytes written. */
-static inline size_t range_encoder_end(RangeEncoder *e)
+static inline size_t range_encoder_end(RetexRangeEncoder *e)
 {
     range_encoder_put_word(e);
     range_encoder_put_word(e);
@@ -72,13 +72,13 @@ static inline size_t range_encoder_end(RangeEncoder *e)
 
 /* --- reading --- */
 
-typedef struct RangeDecoder {
+typedef struct RetexRangeDecoder {
     uint64_t code, range;
     const unsigned char *at, *end;
     int lacks; /* 1: it read beyond the end */
-} RangeDecoder;
+} RetexRangeDecoder;
 
-static inline uint64_t range_decoder_get_word(RangeDecoder *d)
+static inline uint64_t range_decoder_get_word(RetexRangeDecoder *d)
 {
     if (d->end - d->at < 4) {
         d->lacks = 1;
@@ -89,14 +89,14 @@ static inline uint64_t range_decoder_get_word(RangeDecoder *d)
     return (uint64_t)at[0] << 24 | (uint64_t)at[1] << 16 | (uint64_t)at[2] << 8 | at[3];
 }
 
-static inline void range_decoder_begin(RangeDecoder *d, const unsigned char *from, const unsigned char *end)
+static inline void range_decoder_begin(RetexRangeDecoder *d, const unsigned char *from, const unsigned char *end)
 {
-    *d = (RangeDecoder){0, UINT64_MAX, from, end, 0};
+    *d = (RetexRangeDecoder){0, UINT64_MAX, from, end, 0};
     d->code = range_decoder_get_word(d) << 32;
     d->code |= range_decoder_get_word(d);
 }
 
-static inline int range_decode(RangeDecoder *d, BitModel *model)
+static inline int range_decode(RetexRangeDecoder *d, RetexBitModel *model)
 {
     const uint64_t zero = range_of_zero(d->range, *model);
     const int bit = d->code >= zero;

@@ -6,7 +6,14 @@
 
 /* How a number is predicted where its left, upper and upper left neighbours matter. At an edge of what matters it is by
  * the left one, else the upper one, else the last one that was met in the row. */
-typedef enum Predictor { BY_NOTHING, BY_LEFT, BY_UPPER, BY_GRADIENT, BY_MEDIAN, PREDICTORS } Predictor;
+typedef enum RetexPackPredictor {
+    BY_NOTHING,
+    BY_LEFT,
+    BY_UPPER,
+    BY_GRADIENT,
+    BY_MEDIAN,
+    PREDICTORS
+} RetexPackPredictor;
 
 static inline int32_t add(int32_t a, int32_t b)
 {
@@ -25,7 +32,7 @@ static inline int32_t median(int32_t left, int32_t upper, int32_t corner)
     return corner >= high ? low : corner <= low ? high : add(left, subtract(upper, corner));
 }
 
-static inline int32_t predict(Predictor predictor, int32_t left, int32_t upper, int32_t corner)
+static inline int32_t predict(RetexPackPredictor predictor, int32_t left, int32_t upper, int32_t corner)
 {
     switch (predictor) {
     case BY_LEFT:
@@ -53,7 +60,8 @@ static inline int32_t from_unsigned(uint32_t code)
 }
 
 /* The prediction of number x of the row at `row`, which has one above it unless it is the first. */
-static inline int32_t predict_at(const PackPlane *plane, Predictor predictor, size_t row, int x, int32_t last)
+static inline int32_t predict_at(const RetexPackPlane *plane, RetexPackPredictor predictor, size_t row, int x,
+                                 int32_t last)
 {
     const int32_t *n = plane->numbers + row;
     const unsigned char *present = plane->present ? plane->present + row : NULL;
@@ -73,14 +81,16 @@ static inline int32_t in_steps(int32_t number, int shift)
 }
 
 /* 1 where codes are not 0, else 0. */
-void pack_find_present(unsigned char *restrict present, const unsigned char *restrict codes, size_t count);
-/* Runs of what is present; runs->run has room for pack_runs_room. */
-void pack_find_runs(PackRuns *runs, const unsigned char *present, int width, int rows);
+void retex_pack_find_present(unsigned char *restrict present, const unsigned char *restrict codes, size_t count);
+/* Runs of what is present; runs->run has room for retex_pack_runs_bound. */
+void retex_pack_find_runs(RetexPackRuns *runs, const unsigned char *present, int width, int rows);
 
 /* The plane's numbers, or codes, from the residuals of those that matter, each of so many bytes, codes' of one. Those
  * that do not matter are left alone. The second is the reference, which needs no runs, and puts codes too into
  * numbers. */
-void pack_restore(const PackPlane *plane, Predictor predictor, const unsigned char *residuals, int bytes);
-void pack_restore_plainly(const PackPlane *plane, Predictor predictor, const unsigned char *residuals, int bytes);
+void retex_pack_restore(const RetexPackPlane *plane, RetexPackPredictor predictor, const unsigned char *residuals,
+                        int bytes);
+void retex_pack_restore_reference(const RetexPackPlane *plane, RetexPackPredictor predictor,
+                                  const unsigned char *residuals, int bytes);
 
 #endif

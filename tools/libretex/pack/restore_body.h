@@ -13,7 +13,7 @@ static inline NUMBER NAME(step)(int32_t guess, int shift, const unsigned char *f
 /* A run of a row; above: the row above and what of it matters, or NULL. Returns the end of its residuals. */
 static inline const unsigned char *NAME(restore_run)(NUMBER *n, RetexRowSpan run, const unsigned char *shift,
                                                      const NUMBER *above, const unsigned char *above_present,
-                                                     Predictor predictor, const unsigned char *from, int bytes,
+                                                     RetexPackPredictor predictor, const unsigned char *from, int bytes,
                                                      int bits, int32_t *last)
 {
     int x = run.begin, has_corner = above && above_present[x];
@@ -32,7 +32,7 @@ static inline const unsigned char *NAME(restore_run)(NUMBER *n, RetexRowSpan run
     return from;
 }
 
-static inline void NAME(restore_runs_by)(const PackPlane *plane, NUMBER *numbers, Predictor predictor,
+static inline void NAME(restore_runs_by)(const RetexPackPlane *plane, NUMBER *numbers, RetexPackPredictor predictor,
                                          const unsigned char *shift, const unsigned char *from, int bytes, int bits)
 {
     const size_t width = (size_t)plane->width;
@@ -46,7 +46,7 @@ static inline void NAME(restore_runs_by)(const PackPlane *plane, NUMBER *numbers
     }
 }
 
-static inline void NAME(restore_runs)(const PackPlane *plane, NUMBER *numbers, Predictor predictor,
+static inline void NAME(restore_runs)(const RetexPackPlane *plane, NUMBER *numbers, RetexPackPredictor predictor,
                                       const unsigned char *shift, const unsigned char *from, int bytes, int bits)
 {
     switch (predictor) { /* so that the compiler sees each alone */
@@ -70,8 +70,8 @@ static inline void NAME(restore_runs)(const PackPlane *plane, NUMBER *numbers, P
 /* ---- all numbers, of steps of 1 ---- */
 
 /* All numbers of a row but the first, by one predictor: what most of the time goes to. */
-static inline void NAME(restore_row)(NUMBER *n, const NUMBER *above, Predictor predictor, const unsigned char *from,
-                                     int bytes, int width, int bits)
+static inline void NAME(restore_row)(NUMBER *n, const NUMBER *above, RetexPackPredictor predictor,
+                                     const unsigned char *from, int bytes, int width, int bits)
 {
     int32_t left = n[0];
     for (int x = 1; x < width; x++) {
@@ -82,7 +82,7 @@ static inline void NAME(restore_row)(NUMBER *n, const NUMBER *above, Predictor p
 }
 
 /* Where all numbers matter and have steps of 1. */
-static inline void NAME(restore_all)(const PackPlane *plane, NUMBER *numbers, Predictor predictor,
+static inline void NAME(restore_all)(const RetexPackPlane *plane, NUMBER *numbers, RetexPackPredictor predictor,
                                      const unsigned char *from, int bytes, int bits)
 {
     const int width = plane->width;

@@ -9,7 +9,7 @@
 
 typedef unsigned char Bytes16 __attribute__((vector_size(16)));
 
-void pack_find_present(unsigned char *restrict present, const unsigned char *restrict codes, size_t count)
+void retex_pack_find_present(unsigned char *restrict present, const unsigned char *restrict codes, size_t count)
 {
     size_t i = 0;
     for (Bytes16 some; i + 16 <= count; i += 16) {
@@ -21,7 +21,7 @@ void pack_find_present(unsigned char *restrict present, const unsigned char *res
         present[i] = codes[i] != 0;
 }
 
-void pack_find_runs(PackRuns *runs, const unsigned char *present, int width, int rows)
+void retex_pack_find_runs(RetexPackRuns *runs, const unsigned char *present, int width, int rows)
 {
     int count = 0;
     runs->pixels = 0;
@@ -47,7 +47,8 @@ static inline uint32_t load(const unsigned char *from, int bytes)
                         : from[0] | (uint32_t)from[1] << 8 | (uint32_t)from[2] << 16 | (uint32_t)from[3] << 24;
 }
 
-void pack_restore_plainly(const PackPlane *plane, Predictor predictor, const unsigned char *from, int bytes)
+void retex_pack_restore_reference(const RetexPackPlane *plane, RetexPackPredictor predictor, const unsigned char *from,
+                                  int bytes)
 {
     int32_t last = 0;
     for (int y = 0; y < plane->rows; y++)
@@ -108,7 +109,7 @@ static inline void spread_codes(unsigned char *codes, size_t count, const unsign
 }
 
 /* Of all that matters, the one or the other. */
-static void spread(const PackPlane *plane, const unsigned char *from, int bytes)
+static void spread(const RetexPackPlane *plane, const unsigned char *from, int bytes)
 {
     const size_t width = (size_t)plane->width;
     const RetexRowSpan whole = {0, plane->width};
@@ -129,7 +130,8 @@ static void spread(const PackPlane *plane, const unsigned char *from, int bytes)
 
 /* ---- any plane ---- */
 
-void pack_restore(const PackPlane *plane, Predictor predictor, const unsigned char *residuals, int bytes)
+void retex_pack_restore(const RetexPackPlane *plane, RetexPackPredictor predictor, const unsigned char *residuals,
+                        int bytes)
 {
     const int bits = plane->bits;
     if (predictor == BY_NOTHING && !plane->shift)
@@ -143,7 +145,7 @@ void pack_restore(const PackPlane *plane, Predictor predictor, const unsigned ch
     else if (plane->present)
         restore_runs_wide(plane, plane->numbers, predictor, plane->shift, residuals, bytes, bits);
     else if (plane->shift)
-        pack_restore_plainly(plane, predictor, residuals, bytes);
+        retex_pack_restore_reference(plane, predictor, residuals, bytes);
     else if (bytes == 1)
         restore_all_wide(plane, plane->numbers, predictor, residuals, 1, bits);
     else if (bytes == 2)

@@ -33,7 +33,7 @@ static int no_memory(RetexError *err)
 
 /* --- the file --- */
 
-static int write_manifest(char **text, const PackEncoded *w, const RetexPackKept *kept, RetexError *err)
+static int write_manifest(char **text, const RetexPackEncoded *w, const RetexPackKept *kept, RetexError *err)
 {
     RetexSet described = *w->set;
     char *json = NULL;
@@ -46,44 +46,44 @@ static int write_manifest(char **text, const PackEncoded *w, const RetexPackKept
     }
     int code = retex_set_manifest(&described, NULL, &json, err);
     free(described.parts);
-    if (!code && !(*text = pack_describe(json, w->set, w->packed, kept)))
+    if (!code && !(*text = retex_pack_describe(json, w->set, w->packed, kept)))
         code = no_memory(err);
     free(json);
     return code;
 }
 
-static unsigned char *make_index(const PackEncoded *w, size_t *bytes)
+static unsigned char *make_index(const RetexPackEncoded *w, size_t *bytes)
 {
     *bytes = 0;
     for (int i = 0; i < w->set->nparts; i++)
-        *bytes += (size_t)w->packed[i].nchunks * PACK_INDEX_ENTRY;
+        *bytes += (size_t)w->packed[i].nchunks * RETEX_PACK_INDEX_ENTRY_BYTES;
     unsigned char *index = malloc(*bytes + 1), *at = index;
     for (int i = 0; index && i < w->set->nparts; i++)
         for (int k = 0; k < w->packed[i].nchunks; k++)
-            for (int b = 0; b < PACK_INDEX_ENTRY; b++)
+            for (int b = 0; b < RETEX_PACK_INDEX_ENTRY_BYTES; b++)
                 *at++ = (unsigned char)((b < 4 ? w->packed[i].bytes[k] : w->packed[i].crcs[k]) >> 8 * (b % 4) & 255);
     return index;
 }
 
 /* Chunks first to first + count as one file of the zip; none where they are empty. */
-static int write_chunks(RetexOutput *output, ZipList *list, const PackEncoded *w, int part, int planes, int first,
-                        int count, uint64_t *written, RetexError *err)
+static int write_chunks(RetexOutput *output, RetexZipList *list, const RetexPackEncoded *w, int part, int planes,
+                        int first, int count, uint64_t *written, RetexError *err)
 {
-    const PackPart *p = &w->packed[part];
+    const RetexPackPart *p = &w->packed[part];
     size_t *bytes = calloc((size_t)count + 1, sizeof *bytes), total = 0;
-    char name[PACK_NAME_MAX];
+    char name[RETEX_PACK_NAME_MAX];
     int code = bytes ? 0 : no_memory(err);
     for (int k = 0; !code && k < count; k++)
         total += bytes[k] = p->bytes[first + k];
-    pack_file_name(name, sizeof name, w->set, part, planes);
+    retex_pack_file_name(name, sizeof name, w->set, part, planes);
     if (!code && total)
-        code = zip_entry_write(output, list, name, (const void *const *)w->items[part].chunks + first, bytes, count,
-                               written, err);
+        code = retex_zip_entry_write(output, list, name, (const void *const *)w->items[part].chunks + first, bytes,
+                                     count, written, err);
     free(bytes);
     return code;
 }
 
-static int write_entries(RetexOutput *output, ZipList *list, const PackEncoded *w, const char *manifest,
+static int write_entries(RetexOutput *output, RetexZipList *list, const RetexPackEncoded *w, const char *manifest,
                          uint64_t *written, RetexError *err)
 {
     size_t bytes;
@@ -93,39 +93,41 @@ static int write_entries(RetexOutput *output, ZipList *list, const PackEncoded *
     if (!index)
         return no_memory(err);
     const size_t length = strlen(manifest);
-    int code = zip_entry_write(output, list, PACK_MANIFEST, &text, &length, 1, written, err);
+    int code = retex_zip_entry_write(output, list, RETEX_PACK_MANIFEST_NAME, &text, &length, 1, written, err);
     if (!code)
-        code = zip_entry_write(output, list, PACK_INDEX, &index_bytes, &bytes, 1, written, err);
+        code = retex_zip_entry_write(output, list, RETEX_PACK_INDEX_NAME, &index_bytes, &bytes, 1, written, err);
     free(index);
     if (!code && picture)
-        code = zip_entry_write(output, list, PACK_PICTURE, &picture, &w->picture.bytes, 1, written, err);
+        code =
+            retex_zip_entry_write(output, list, RETEX_PACK_PICTURE_NAME, &picture, &w->picture.bytes, 1, written, err);
     for (int planes = 0; planes < 2; planes++)
         for (int i = 0; !code && i < w->set->nparts; i++) {
-            const PackPart *p = &w->packed[i];
-            const int jpeg = p->codec == PACK_JPEG ? 1 + p->nbands : 0;
+            const RetexPackPart *p = &w->packed[i];
+            const int jpeg = p->codec == RETEX_PACK_JPEG ? 1 + p->nbands : 0;
             if (planes ? p->nchunks > jpeg : jpeg)
                 code = write_chunks(output, list, w, i, planes, planes ? jpeg : 0, planes ? p->nchunks - jpeg : jpeg,
                                     written, err);
         }
-    return code ? code : zip_directory_write(output, list, written, err);
+    return code ? code : retex_zip_directory_write(output, list, written, err);
 }
 
 /* kept: what the manifest says of the loss, or NULL. */
-static int write_all(RetexOutput *output, const PackEncoded *w, const RetexPackKept *kept, uint64_t *written,
+static int write_all(RetexOutput *output, const RetexPackEncoded *w, const RetexPackKept *kept, uint64_t *written,
                      RetexError *err)
 {
-    ZipList list = {0};
+    RetexZipList list = {0};
     char *manifest = NULL;
     *written = 0;
     int code = write_manifest(&manifest, w, kept, err);
     if (!code)
         code = write_entries(output, &list, w, manifest, written, err);
-    zip_list_free(&list);
+    retex_zip_list_free(&list);
     free(manifest);
     return code;
 }
 
-static int write_file(const PackEncoded *w, const RetexPackKept *kept, const char *path, size_t *bytes, RetexError *err)
+static int write_file(const RetexPackEncoded *w, const RetexPackKept *kept, const char *path, size_t *bytes,
+                      RetexError *err)
 {
     RetexOutput *output = NULL;
     uint64_t written = 0;
@@ -145,12 +147,12 @@ static int write_file(const PackEncoded *w, const RetexPackKept *kept, const cha
 /* What of a set is needed for pictures as good as a quality aims at, which may be beyond 100, encoded. */
 typedef struct Attempt {
     RetexSet *compact;
-    PackEncoded encoded;
+    RetexPackEncoded encoded;
 } Attempt;
 
 static void attempt_free(Attempt *attempt)
 {
-    pack_encoded_free(&attempt->encoded);
+    retex_pack_encoded_free(&attempt->encoded);
     retex_set_close(&attempt->compact);
     *attempt = (Attempt){0};
 }
@@ -164,17 +166,19 @@ static double compacting_margin(double aim)
 static int attempt_make(Attempt *attempt, const RetexSet *set, double aim, int nthreads, RetexError *err)
 {
     const int exact = isinf(aim);
-    const PackGrain grain = pack_grain(exact ? 0 : pack_quality_psnr(aim));
+    const RetexPackQuantizer quantizer = retex_pack_quantizer(exact ? 0 : retex_pack_quality_psnr(aim));
     RetexCompactParams compacting = RETEX_COMPACT_INIT;
-    compacting.psnr = exact ? 0 : pack_quality_psnr(aim) + compacting_margin(aim);
+    compacting.psnr = exact ? 0 : retex_pack_quality_psnr(aim) + compacting_margin(aim);
     compacting.noise = pow(fmax(fmin((100 - aim) / 10, 1), 0), 2);
-    int code = exact ? compact_copy_set(&attempt->compact, set, err)
+    int code = exact ? retex_compact_copy_set(&attempt->compact, set, err)
                      : retex_set_compact(&attempt->compact, set, &compacting, nthreads, err);
-    return code ? code : pack_encode(&attempt->encoded, attempt->compact, exact ? NULL : &grain, nthreads, err);
+    return code ? code
+                : retex_pack_encode(&attempt->encoded, attempt->compact, exact ? NULL : &quantizer, nthreads, err);
 }
 
 /* The PSNR of its worst picture, made from the very bytes that will be written. */
-static int attempt_measure(double *worst, const Attempt *attempt, const PackJudge *judge, int nthreads, RetexError *err)
+static int attempt_measure(double *worst, const Attempt *attempt, const RetexPackReference *reference, int nthreads,
+                           RetexError *err)
 {
     RetexOutput *output = NULL;
     RetexInput *input = NULL;
@@ -193,8 +197,8 @@ static int attempt_measure(double *worst, const Attempt *attempt, const PackJudg
     if (!code)
         code = retex_pack_open(&pack, &input, err);
     if (!code)
-        code = pack_judge_read(psnr, judge, pack, nthreads, err);
-    *worst = code ? 0 : pack_worst(psnr);
+        code = retex_pack_reference_psnr(psnr, reference, pack, nthreads, err);
+    *worst = code ? 0 : retex_pack_worst_psnr(psnr);
     retex_set_close(&pack);
     retex_input_close(&input);
     retex_output_abandon(&output);
@@ -211,14 +215,14 @@ static double next_aim(double least)
 }
 
 /* Attempts, each finer than the last, until what is promised holds; without loss it does. */
-static int keep_promise(Attempt *attempt, RetexPackKept *kept, const RetexSet *set, const PackJudge *judge,
+static int keep_promise(Attempt *attempt, RetexPackKept *kept, const RetexSet *set, const RetexPackReference *reference,
                         int nthreads, RetexError *err)
 {
     double aim = kept->quality;
     for (;;) {
         int code = attempt_make(attempt, set, aim, nthreads, err);
         if (!code)
-            code = attempt_measure(&kept->measured, attempt, judge, nthreads, err);
+            code = attempt_measure(&kept->measured, attempt, reference, nthreads, err);
         if (code || kept->measured >= kept->promised || isinf(aim))
             return code;
         attempt_free(attempt);
@@ -228,7 +232,7 @@ static int keep_promise(Attempt *attempt, RetexPackKept *kept, const RetexSet *s
 
 /* 1: pictures can be made of the set with other textures. Sets that have no terms, or not what they need, are packed
  * without a promise. Or RETEX_ENOMEM. */
-static int can_be_judged(const RetexSet *set, RetexError *err)
+static int is_comparable(const RetexSet *set, RetexError *err)
 {
     int sound = set->nterms > 0 ? retex_combine_check(set, err) : 0;
     for (int t = 0; t < set->ntargets && sound > 0; t++) {
@@ -244,26 +248,26 @@ int retex_pack_write(const RetexSet *set, const char *path, const RetexPackParam
 {
     static const RetexPackParams defaults = RETEX_PACK_INIT;
     Attempt attempt = {0};
-    PackJudge judge = {0};
+    RetexPackReference reference = {0};
     if (!params)
         params = &defaults;
     if (params->quality < 1 || params->quality > 100)
         return retex_fail(err, RETEX_EINVAL, "quality is 1 to 100, not %d", params->quality);
     RetexPackKept kept = {.quality = params->quality};
-    const int judged = params->lossless ? 0 : can_be_judged(set, err), nthreads = params->nthreads;
-    if (judged < 0)
-        return judged;
-    int code = judged ? pack_judge_open(&judge, set, PACK_PROMISED_PICTURES, nthreads, err) : 0;
-    kept.promised = pack_promise(params->quality, set->spp, judge.noise);
+    const int comparable = params->lossless ? 0 : is_comparable(set, err), nthreads = params->nthreads;
+    if (comparable < 0)
+        return comparable;
+    int code = comparable ? retex_pack_reference_open(&reference, set, RETEX_PACK_PROMISED_PICTURES, nthreads, err) : 0;
+    kept.promised = retex_pack_promised_psnr(params->quality, set->spp, reference.noise);
     if (!code && params->lossless)
-        code = pack_encode(&attempt.encoded, set, NULL, nthreads, err);
-    else if (!code && judged)
-        code = keep_promise(&attempt, &kept, set, &judge, nthreads, err);
+        code = retex_pack_encode(&attempt.encoded, set, NULL, nthreads, err);
+    else if (!code && comparable)
+        code = keep_promise(&attempt, &kept, set, &reference, nthreads, err);
     else if (!code)
         code = attempt_make(&attempt, set, params->quality, nthreads, err);
     if (!code)
-        code = write_file(&attempt.encoded, judged ? &kept : NULL, path, bytes, err);
+        code = write_file(&attempt.encoded, comparable ? &kept : NULL, path, bytes, err);
     attempt_free(&attempt);
-    pack_judge_close(&judge);
+    retex_pack_reference_close(&reference);
     return code;
 }

@@ -27,13 +27,13 @@ static int damaged(RetexError *err, const char *what)
     return retex_fail(err, RETEX_EFORMAT, "the pack is damaged or truncated: %s", what);
 }
 
-void zip_list_free(ZipList *list)
+void retex_zip_list_free(RetexZipList *list)
 {
     free(list->entries);
     memset(list, 0, sizeof *list);
 }
 
-const ZipEntry *zip_list_find(const ZipList *list, const char *name)
+const RetexZipEntry *retex_zip_list_find(const RetexZipList *list, const char *name)
 {
     for (int i = 0; i < list->count; i++)
         if (strcmp(list->entries[i].name, name) == 0)
@@ -41,17 +41,17 @@ const ZipEntry *zip_list_find(const ZipList *list, const char *name)
     return NULL;
 }
 
-static ZipEntry *append(ZipList *list, RetexError *err)
+static RetexZipEntry *append(RetexZipList *list, RetexError *err)
 {
-    if (list->count == list->room) {
-        const int room = list->room ? 2 * list->room : 64;
-        ZipEntry *entries = realloc(list->entries, (size_t)room * sizeof *entries);
+    if (list->count == list->capacity) {
+        const int capacity = list->capacity ? 2 * list->capacity : 64;
+        RetexZipEntry *entries = realloc(list->entries, (size_t)capacity * sizeof *entries);
         if (!entries) {
             retex_fail(err, RETEX_ENOMEM, "no memory for a pack's entries");
             return NULL;
         }
         list->entries = entries;
-        list->room = room;
+        list->capacity = capacity;
     }
     memset(&list->entries[list->count], 0, sizeof *list->entries);
     return &list->entries[list->count++];
@@ -71,7 +71,7 @@ static uint64_t capped(uint64_t value)
 }
 
 /* What local and central headers share, from the version needed to the length of the extra field. */
-static void put_common(unsigned char **at, const ZipEntry *entry, int extra_bytes)
+static void put_common(unsigned char **at, const RetexZipEntry *entry, int extra_bytes)
 {
     put(at, extra_bytes ? 45 : 10, 2);
     put(at, NAMES_ARE_UTF8, 2);
@@ -90,11 +90,11 @@ static int emit(RetexOutput *output, const void *data, size_t bytes, uint64_t *w
     return retex_output_write(output, data, bytes, err);
 }
 
-int zip_entry_write(RetexOutput *output, ZipList *list, const char *name, const void *const *pieces,
-                    const size_t *bytes, int count, uint64_t *written, RetexError *err)
+int retex_zip_entry_write(RetexOutput *output, RetexZipList *list, const char *name, const void *const *pieces,
+                          const size_t *bytes, int count, uint64_t *written, RetexError *err)
 {
-    unsigned char header[LOCAL_BYTES + PACK_NAME_MAX + 20], *at = header;
-    ZipEntry *entry = append(list, err);
+    unsigned char header[LOCAL_BYTES + RETEX_PACK_NAME_MAX + 20], *at = header;
+    RetexZipEntry *entry = append(list, err);
     if (!entry)
         return RETEX_ENOMEM;
     snprintf(entry->name, sizeof entry->name, "%s", name);
@@ -122,14 +122,14 @@ int zip_entry_write(RetexOutput *output, ZipList *list, const char *name, const 
 }
 
 /* Where an entry's local header begins: what the directory names. */
-static uint64_t header_place(const ZipEntry *entry)
+static uint64_t header_place(const RetexZipEntry *entry)
 {
     return entry->offset - LOCAL_BYTES - strlen(entry->name) - (entry->bytes >= MOST_32 ? 20 : 0);
 }
 
-static int write_central(RetexOutput *output, const ZipEntry *entry, uint64_t *written, RetexError *err)
+static int write_central(RetexOutput *output, const RetexZipEntry *entry, uint64_t *written, RetexError *err)
 {
-    unsigned char header[CENTRAL_BYTES + PACK_NAME_MAX + 28], *at = header;
+    unsigned char header[CENTRAL_BYTES + RETEX_PACK_NAME_MAX + 28], *at = header;
     const uint64_t place = header_place(entry);
     const int wide = entry->bytes >= MOST_32, far = place >= MOST_32, extra = 16 * wide + 8 * far;
     put(&at, CENTRAL_MARK, 4);
@@ -150,7 +150,7 @@ static int write_central(RetexOutput *output, const ZipEntry *entry, uint64_t *w
     return emit(output, header, (size_t)(at - header), written, err);
 }
 
-int zip_directory_write(RetexOutput *output, const ZipList *list, uint64_t *written, RetexError *err)
+int retex_zip_directory_write(RetexOutput *output, const RetexZipList *list, uint64_t *written, RetexError *err)
 {
     unsigned char end[END64_BYTES + LOCATOR64_BYTES + END_BYTES], *at = end;
     const uint64_t begin = *written;
@@ -223,18 +223,18 @@ static int find_directory(Directory *directory, const RetexInput *input, RetexEr
     }
     ok = ok && directory->bytes <= directory->end && directory->begin == directory->end - directory->bytes &&
          directory->bytes >= (uint64_t)directory->count * CENTRAL_BYTES &&
-         directory->bytes <= (uint64_t)directory->count * (CENTRAL_BYTES + PACK_NAME_MAX + 1024);
+         directory->bytes <= (uint64_t)directory->count * (CENTRAL_BYTES + RETEX_PACK_NAME_MAX + 1024);
     return ok ? 0 : damaged(err, "its directory is not sound");
 }
 
 /* One entry of the directory at *at; the place of its local header goes to entry->offset. */
-static int parse_central(ZipEntry *entry, const unsigned char **at, const unsigned char *end, RetexError *err)
+static int parse_central(RetexZipEntry *entry, const unsigned char **at, const unsigned char *end, RetexError *err)
 {
     const unsigned char *p = *at;
     if (end - p < CENTRAL_BYTES || get(p, 4) != CENTRAL_MARK)
         return damaged(err, "its directory is not sound");
     const size_t name = (size_t)get(p + 28, 2), extra = (size_t)get(p + 30, 2), comment = (size_t)get(p + 32, 2);
-    if ((size_t)(end - p) < CENTRAL_BYTES + name + extra + comment || name == 0 || name >= PACK_NAME_MAX ||
+    if ((size_t)(end - p) < CENTRAL_BYTES + name + extra + comment || name == 0 || name >= RETEX_PACK_NAME_MAX ||
         memchr(p + CENTRAL_BYTES, 0, name))
         return damaged(err, "an entry has no proper name");
     if ((get(p + 8, 2) & ~(uint64_t)NAMES_ARE_UTF8) || get(p + 10, 2) != 0)
@@ -260,9 +260,9 @@ static int parse_central(ZipEntry *entry, const unsigned char **at, const unsign
 }
 
 /* From the place of the local header to that of the data; the header must say what the directory does. */
-static int check_local(ZipEntry *entry, const RetexInput *input, uint64_t end, RetexError *err)
+static int check_local(RetexZipEntry *entry, const RetexInput *input, uint64_t end, RetexError *err)
 {
-    unsigned char header[LOCAL_BYTES + PACK_NAME_MAX];
+    unsigned char header[LOCAL_BYTES + RETEX_PACK_NAME_MAX];
     const size_t name = strlen(entry->name);
     int ok = entry->offset < end && end - entry->offset >= LOCAL_BYTES + name &&
              read_all(input, header, LOCAL_BYTES + name, entry->offset) && get(header, 4) == LOCAL_MARK &&
@@ -278,18 +278,18 @@ static int check_local(ZipEntry *entry, const RetexInput *input, uint64_t end, R
 
 static int by_offset(const void *a, const void *b)
 {
-    const ZipEntry *x = a, *y = b;
+    const RetexZipEntry *x = a, *y = b;
     return (x->offset > y->offset) - (x->offset < y->offset);
 }
 
 static int by_name(const void *a, const void *b)
 {
-    return strcmp((*(const ZipEntry *const *)a)->name, (*(const ZipEntry *const *)b)->name);
+    return strcmp((*(const RetexZipEntry *const *)a)->name, (*(const RetexZipEntry *const *)b)->name);
 }
 
-static int names_differ(const ZipList *list, RetexError *err)
+static int names_differ(const RetexZipList *list, RetexError *err)
 {
-    const ZipEntry **sorted = malloc(((size_t)list->count + 1) * sizeof *sorted);
+    const RetexZipEntry **sorted = malloc(((size_t)list->count + 1) * sizeof *sorted);
     int differ = 1;
     if (!sorted)
         return retex_fail(err, RETEX_ENOMEM, "no memory for a pack's entries");
@@ -302,13 +302,13 @@ static int names_differ(const ZipList *list, RetexError *err)
     return differ ? 0 : damaged(err, "two entries have the same name");
 }
 
-static int parse_directory(ZipList *list, const Directory *directory, const unsigned char *bytes,
+static int parse_directory(RetexZipList *list, const Directory *directory, const unsigned char *bytes,
                            const RetexInput *input, RetexError *err)
 {
     const unsigned char *at = bytes, *end = bytes + directory->bytes;
     int code = 0;
     for (int i = 0; !code && i < directory->count; i++) {
-        ZipEntry *entry = append(list, err);
+        RetexZipEntry *entry = append(list, err);
         code = entry ? parse_central(entry, &at, end, err) : RETEX_ENOMEM;
         if (!code)
             code = check_local(entry, input, directory->begin, err);
@@ -320,14 +320,14 @@ static int parse_directory(ZipList *list, const Directory *directory, const unsi
     if (list->count)
         qsort(list->entries, (size_t)list->count, sizeof *list->entries, by_offset);
     for (int i = 1; i < list->count; i++) {
-        const ZipEntry *before = &list->entries[i - 1], *entry = &list->entries[i];
+        const RetexZipEntry *before = &list->entries[i - 1], *entry = &list->entries[i];
         if (entry->offset - before->offset < before->bytes + LOCAL_BYTES + strlen(entry->name))
             return damaged(err, "its entries overlap");
     }
     return names_differ(list, err);
 }
 
-int zip_list_read(ZipList *list, const RetexInput *input, RetexError *err)
+int retex_zip_list_read(RetexZipList *list, const RetexInput *input, RetexError *err)
 {
     Directory directory = {0};
     memset(list, 0, sizeof *list);
@@ -342,6 +342,6 @@ int zip_list_read(ZipList *list, const RetexInput *input, RetexError *err)
                : damaged(err, "its directory cannot be read");
     free(bytes);
     if (code)
-        zip_list_free(list);
+        retex_zip_list_free(list);
     return code;
 }

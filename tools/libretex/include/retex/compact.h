@@ -15,12 +15,15 @@ typedef struct RetexCompactParams {
                     as retex_metrics does it, but in part of the set and with waves for textures, and not counting noise
                     that averages away; default 55 */
     int broad;   /* How many times smaller than the picture broad footprints are, 1, 2, 4 or 8, */
-    int later;   /* later ones, */
-    int gain;    /* and gains. 0, the default: as many times as psnr allows. */
+    int interreflection; /* later ones, */
+    int gain;            /* and gains. 0, the default: as many times as psnr allows. */
     double noise; /* 0 to 1: how freely noise of the set is taken away, by which pictures of the compact set differ from
                      the set's more than by psnr, but not from the truth; default 1 */
 } RetexCompactParams;
-#define RETEX_COMPACT_INIT { sizeof(RetexCompactParams), 55, 0, 0, 0, 1 }
+#define RETEX_COMPACT_INIT                                                                                             \
+    {                                                                                                                  \
+        sizeof(RetexCompactParams), 55, 0, 0, 0, 1                                                                     \
+    }
 
 /* *compact is created: the set without what only denoising reads. In layout footprints, for each target and kind of
  * cluster, sharp and broad, all light is one image, what it would be if further hits met a texture of 0.6 everywhere;
@@ -29,9 +32,8 @@ typedef struct RetexCompactParams {
  * are of the picture's size only where they are sharp, and one image of albedo serves all footprints of a kind. Sets of
  * other layouts, and those that are compact already, come out as they are. Output is the same to the bit for every
  * nthreads. */
-int retex_set_compact(RetexSet **compact, const RetexSet *set,
-                      const RetexCompactParams *params /* NULL = defaults */, int nthreads /* 0 = all cores */,
-                      RetexError *err);
+int retex_set_compact(RetexSet **compact, const RetexSet *set, const RetexCompactParams *params /* NULL = defaults */,
+                      int nthreads /* 0 = all cores */, RetexError *err);
 
 #ifdef __cplusplus
 }

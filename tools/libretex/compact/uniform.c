@@ -1,4 +1,4 @@
-/* See even.h. A pixel that sees a surface through nothing but air has the UV of a parallelogram, known by the
+/* See uniform.h. A pixel that sees a surface through nothing but air has the UV of a parallelogram, known by the
  * means of the pixels around it. Its clusters are some partition of its samples, of which few bright ones may count
  * for all others: noise, which costs more than all else that sharp footprints store, and which denoising of light
  * leaves there. The quarters of the parallelogram are what more samples come to, vary smoothly, and cost next to
@@ -8,28 +8,29 @@
  * Towards a horizon UV run to infinity, which quadratics do not: five pixels below it they make steps a seventh too
  * long. What a plane has in perspective are linear functions over a common one, the depth; so where the bends of both
  * axes tell of one depth, maps are quadratics over that. */
-#include "compact/even.h"
+#include "compact/uniform.h"
 
 #include <math.h>
 #include <stdlib.h>
 
 #include <retex/parallel.h>
 
-#define TEXEL (1.0 / (1 << 26))  /* variance of UV, of a texel of 8192 */
-#define OFF_TIMES 3              /* deviations that a mean may be off its map's, */
-#define OFF_MEDIAN 0.55          /* of what independent samples are off a map that was fitted to them too, squared, by
+#define TEXEL (1.0 / (1 << 26)) /* variance of UV, of a texel of 8192 */
+#define OFF_TIMES 3             /* deviations that a mean may be off its map's, */
+#define OFF_MEDIAN                                                                                                     \
+    0.55                      /* of what independent samples are off a map that was fitted to them too, squared, by
                                     what they are off the true one */
-#define OFF_LEAST 0.02           /* pixels, and so far always */
-#define VARIANCE_TIMES 3         /* deviations of a variance's ratio to its map's, in roots of samples, */
-#define VARIANCE_LEAST 0.4       /* and so far always */
-#define CORRELATION_LEAST 0.3    /* likewise of covariances, by the variances' mean */
-#define INSIDE 0.75              /* pixels from the middle to a cluster, at most, on both sides */
-#define ROUGH 9                  /* times what a mean may be off, squared, about a first map */
-#define DEPTH_LEAST 0.04         /* from a pixel to the next one; less makes steps wrong by half a hundredth */
-#define DEPTH_MOST 0.4           /* then a fifth is left at a corner of those that are fitted */
-#define DEPTH_BEND 0.25          /* of depth, squared, that may bend other than by it */
-#define QUARTERED 16             /* samples of a pixel that is stored as quarters, at least */
-#define NEAR_MAP 0.02            /* pixels, squared, that smoothed means are off their neighbours' maps, at most */
+#define OFF_LEAST 0.02        /* pixels, and so far always */
+#define VARIANCE_TIMES 3      /* deviations of a variance's ratio to its map's, in roots of samples, */
+#define VARIANCE_LEAST 0.4    /* and so far always */
+#define CORRELATION_LEAST 0.3 /* likewise of covariances, by the variances' mean */
+#define INSIDE 0.75           /* pixels from the middle to a cluster, at most, on both sides */
+#define ROUGH 9               /* times what a mean may be off, squared, about a first map */
+#define DEPTH_LEAST 0.04      /* from a pixel to the next one; less makes steps wrong by half a hundredth */
+#define DEPTH_MOST 0.4        /* then a fifth is left at a corner of those that are fitted */
+#define DEPTH_BEND 0.25       /* of depth, squared, that may bend other than by it */
+#define QUARTERED 16          /* samples of a pixel that is stored as quarters, at least */
+#define NEAR_MAP 0.02         /* pixels, squared, that smoothed means are off their neighbours' maps, at most */
 enum { REACH = 2, SIDE = 2 * REACH + 1, FITTED_LEAST = 12, PASSES = 3 /* in which maps are fitted */ };
 
 /* ---- the map ---- */
@@ -43,23 +44,23 @@ typedef struct Map {
 } Map;
 
 /* What is kept of a map. */
-typedef struct EvenMap {
+typedef struct UvMap {
     double mean[2];
     float right[2], down[2], depth[2];
     int parts; /* 0: the pixel is not even; 1; or 4, the quarters */
-} EvenMap;
+} UvMap;
 
-typedef struct EvenWork {
-    CompactClusters *clusters;
-    EvenPlace *whole;
-    EvenMap *maps;
+typedef struct SmoothWork {
+    RetexCompactClusters *clusters;
+    RetexUniformPixel *pixels;
+    UvMap *maps;
     const int *periodic;
     int width, height;
     int pass;       /* -1: only offs are found */
     double noise;   /* of that, what may be taken away */
     double scatter; /* of means about their maps, squared, by that of independent samples */
     float *offs;
-} EvenWork;
+} SmoothWork;
 
 /* Of an axis, squared, from a pixel to the next. */
 static double step_of(const Map *map, int axis)
@@ -68,8 +69,8 @@ static double step_of(const Map *map, int axis)
 }
 
 /* How far a pixel's UV are from the map's middle, times depth, and by how many pixels they are off it, squared. */
-static double off_map(const EvenWork *work, const Map *map, const EvenPlace *center, const EvenPlace *each,
-                      const double terms[TERMS], double d[2])
+static double off_map(const SmoothWork *work, const Map *map, const RetexUniformPixel *center,
+                      const RetexUniformPixel *each, const double terms[TERMS], double d[2])
 {
     double off = 0;
     for (int a = 0; a < 2; a++) {
@@ -87,12 +88,12 @@ static double off_map(const EvenWork *work, const Map *map, const EvenPlace *cen
 
 /* Pixels, squared, that a mean is off by chance: of a parallelogram both variances are a twelfth of its sides' squares;
  * samples that were spread well come nearer than independent ones. */
-static double off_expected(const EvenWork *work, const EvenPlace *place)
+static double off_expected(const SmoothWork *work, const RetexUniformPixel *place)
 {
     return work->scatter * 2 / (12 * (double)place->samples);
 }
 
-static double off_most(const EvenWork *work, const EvenPlace *place)
+static double off_most(const SmoothWork *work, const RetexUniformPixel *place)
 {
     return work->noise * work->noise * (OFF_TIMES * OFF_TIMES * off_expected(work, place) + OFF_LEAST * OFF_LEAST);
 }
@@ -134,8 +135,12 @@ static int fit_window(Map *map, const Window *window)
     const int whole = window->count == SIDE * SIDE;
     for (int i = 0; i < window->count; i++) {
         const double dx = window->dx[i], dy = window->dy[i], terms[TERMS] = {1, dx, dy, dx * dx, dx * dy, dy * dy};
-        const double weights[TERMS] = {(27 - 5 * (terms[3] + terms[5])) / 175, dx / 50,      dy / 50,
-                                       (terms[3] - 2) / 70,                    terms[4] / 100, (terms[5] - 2) / 70};
+        const double weights[TERMS] = {(27 - 5 * (terms[3] + terms[5])) / 175,
+                                       dx / 50,
+                                       dy / 50,
+                                       (terms[3] - 2) / 70,
+                                       terms[4] / 100,
+                                       (terms[5] - 2) / 70};
         for (int k = 0; k < TERMS; k++) {
             for (int l = 0; l < TERMS && !whole; l++)
                 rows[k][l] += terms[k] * terms[l];
@@ -201,16 +206,16 @@ static void find_depth(Map *map)
 
 /* The map about a pixel, over the depth that the last one has, if any; means are left out that are farther from that
  * than `times` what they may be, or, of the passes that smooth, than NEAR_MAP. */
-static int fit_map(Map *map, const EvenWork *work, int x, int y, const Map *last, double times)
+static int fit_map(Map *map, const SmoothWork *work, int x, int y, const Map *last, double times)
 {
-    const EvenPlace *center = &work->whole[y * work->width + x];
+    const RetexUniformPixel *center = &work->pixels[y * work->width + x];
     Window window;
     window.count = 0;
     for (int j = y - REACH; j <= y + REACH; j++)
         for (int i = x - REACH; i <= x + REACH; i++) {
             if (i < 0 || j < 0 || i >= work->width || j >= work->height)
                 continue;
-            const EvenPlace *each = &work->whole[j * work->width + i];
+            const RetexUniformPixel *each = &work->pixels[j * work->width + i];
             const double dx = i - x, dy = j - y, terms[TERMS] = {1, dx, dy, dx * dx, dx * dy, dy * dy};
             if (!(each->samples > 0))
                 continue;
@@ -238,7 +243,7 @@ static double off_middle(const Map *map)
 }
 
 /* Whether a pixel's own mean and variances may be the map's. */
-static int suits(const EvenWork *work, const Map *map, const EvenPlace *own)
+static int suits(const SmoothWork *work, const Map *map, const RetexUniformPixel *own)
 {
     const double few = VARIANCE_TIMES / sqrt((double)own->samples);
     double variances[3];
@@ -253,14 +258,13 @@ static int suits(const EvenWork *work, const Map *map, const EvenPlace *own)
     }
     const double difference = (double)own->variances[1] - variances[1];
     return off_middle(map) <= off_most(work, own) &&
-           fabs(difference) <=
-               fmax(few, CORRELATION_LEAST) * sqrt((variances[0] + TEXEL) * (variances[2] + TEXEL));
+           fabs(difference) <= fmax(few, CORRELATION_LEAST) * sqrt((variances[0] + TEXEL) * (variances[2] + TEXEL));
 }
 
 /* Whether all clusters of a pixel lie in it. */
-static int are_inside(const EvenWork *work, size_t pixel, const Map *map)
+static int are_inside(const SmoothWork *work, size_t pixel, const Map *map)
 {
-    const EvenPlace *own = &work->whole[pixel];
+    const RetexUniformPixel *own = &work->pixels[pixel];
     const double a = map->of[0][RIGHT], b = map->of[0][DOWN], c = map->of[1][RIGHT], d = map->of[1][DOWN];
     const double area = a * d - b * c;
     for (int k = 0; k < work->clusters->count; k++) {
@@ -281,10 +285,10 @@ static int are_inside(const EvenWork *work, size_t pixel, const Map *map)
 
 /* ---- the picture ---- */
 
-static void keep_map(EvenMap *to, const EvenWork *work, size_t pixel, const Map *map)
+static void keep_map(UvMap *to, const SmoothWork *work, size_t pixel, const Map *map)
 {
     for (int a = 0; a < 2; a++) {
-        to->mean[a] = work->whole[pixel].mean[a] + map->of[a][MIDDLE];
+        to->mean[a] = work->pixels[pixel].mean[a] + map->of[a][MIDDLE];
         to->mean[a] -= work->periodic[a] ? floor(to->mean[a]) : 0;
         to->right[a] = (float)(map->of[a][RIGHT] - map->depth[0] * map->of[a][MIDDLE]);
         to->down[a] = (float)(map->of[a][DOWN] - map->depth[1] * map->of[a][MIDDLE]);
@@ -294,55 +298,55 @@ static void keep_map(EvenMap *to, const EvenWork *work, size_t pixel, const Map 
 
 /* How many parts even pixels have: where most pixels around have several clusters, and samples enough to show how
  * little one part differs from them, quarters, if there is room for these. */
-static int parts_around(const EvenWork *work, int x, int y)
+static int parts_around(const SmoothWork *work, int x, int y)
 {
-    const CompactClusters *clusters = work->clusters;
+    const RetexCompactClusters *clusters = work->clusters;
     int several = 0;
     for (int j = y - REACH; j <= y + REACH && clusters->count >= 4; j++)
         for (int i = x - REACH; i <= x + REACH; i++) {
             const int there = i >= 0 && j >= 0 && i < work->width && j < work->height;
             const size_t at = there ? (size_t)j * (size_t)work->width + (size_t)i : 0;
-            if (there && work->whole[at].samples > 0)
-                several += clusters->uv[1].pixels[3 * at + 2] > 0 && work->whole[at].samples >= QUARTERED ? 1 : -1;
+            if (there && work->pixels[at].samples > 0)
+                several += clusters->uv[1].pixels[3 * at + 2] > 0 && work->pixels[at].samples >= QUARTERED ? 1 : -1;
         }
     return several > 0 ? 4 : 1;
 }
 
 /* Whether a pixel is even, by its map; an edge draws the first one to it. */
-static int is_even(Map *map, const EvenWork *work, int x, int y)
+static int is_uniform(Map *map, const SmoothWork *work, int x, int y)
 {
     const size_t pixel = (size_t)y * (size_t)work->width + (size_t)x;
     Map rough, better;
     return fit_map(&rough, work, x, y, NULL, 0) && fit_map(&better, work, x, y, &rough, ROUGH) &&
-           fit_map(map, work, x, y, &better, 1) && suits(work, map, &work->whole[pixel]) &&
+           fit_map(map, work, x, y, &better, 1) && suits(work, map, &work->pixels[pixel]) &&
            are_inside(work, pixel, map);
 }
 
 /* Where it is, the map again, of what its neighbours have come to, unless that takes away more than noise. */
-static int is_smoothed(Map *map, const EvenWork *work, int x, int y)
+static int is_smoothed(Map *map, const SmoothWork *work, int x, int y)
 {
     const size_t pixel = (size_t)y * (size_t)work->width + (size_t)x;
-    const EvenMap *before = &work->maps[pixel];
+    const UvMap *before = &work->maps[pixel];
     const Map last = {{{0, (double)before->right[0], (double)before->down[0]},
                        {0, (double)before->right[1], (double)before->down[1]}},
                       {(double)before->depth[0], (double)before->depth[1]}};
-    return fit_map(map, work, x, y, &last, 0) && off_middle(map) <= off_expected(work, &work->whole[pixel]);
+    return fit_map(map, work, x, y, &last, 0) && off_middle(map) <= off_expected(work, &work->pixels[pixel]);
 }
 
 /* Pass 0 tells which pixels are even; later ones know that, and smooth what noise the one before left. */
 static void fit_row(void *context, int y, int thread)
 {
-    const EvenWork *work = context;
+    const SmoothWork *work = context;
     (void)thread;
     for (int x = 0; x < work->width; x++) {
         const size_t pixel = (size_t)y * (size_t)work->width + (size_t)x;
-        const EvenPlace *own = &work->whole[pixel];
+        const RetexUniformPixel *own = &work->pixels[pixel];
         Map map;
         if (!(own->samples > 0))
             continue;
         if (work->pass < 0 && fit_map(&map, work, x, y, NULL, 0))
             work->offs[pixel] = (float)(off_middle(&map) / off_expected(work, own));
-        else if (work->pass >= 0 && (work->pass ? is_smoothed(&map, work, x, y) : is_even(&map, work, x, y)))
+        else if (work->pass >= 0 && (work->pass ? is_smoothed(&map, work, x, y) : is_uniform(&map, work, x, y)))
             keep_map(&work->maps[pixel], work, pixel, &map);
         else
             continue;
@@ -354,10 +358,10 @@ static void fit_row(void *context, int y, int thread)
 /* The next pass begins with the means that the last one made. */
 static void renew_row(void *context, int y, int thread)
 {
-    const EvenWork *work = context;
+    const SmoothWork *work = context;
     (void)thread;
     for (size_t i = (size_t)y * (size_t)work->width; i < (size_t)(y + 1) * (size_t)work->width; i++) {
-        EvenPlace *place = &work->whole[i];
+        RetexUniformPixel *place = &work->pixels[i];
         place->samples = work->maps[i].parts ? place->samples : 0;
         place->mean[0] = work->maps[i].mean[0];
         place->mean[1] = work->maps[i].mean[1];
@@ -365,10 +369,10 @@ static void renew_row(void *context, int y, int thread)
 }
 
 /* The whole pixel, or its quarters, in the order of u + v. */
-static void store_even(const EvenWork *work, size_t pixel)
+static void store_uniform(const SmoothWork *work, size_t pixel)
 {
-    const EvenMap *map = &work->maps[pixel];
-    CompactClusters *clusters = work->clusters;
+    const UvMap *map = &work->maps[pixel];
+    RetexCompactClusters *clusters = work->clusters;
     const int count = map->parts;
     const double share = count == 4 ? 0.25 : 1, part = share / 12;
     const double right[2] = {(double)map->right[0], (double)map->right[1]};
@@ -396,19 +400,19 @@ static void store_even(const EvenWork *work, size_t pixel)
                 uv[i] = spread[i] = 0;
         }
         clusters->weight[k].pixels[pixel] = k < count ? (float)share : 0;
-        if (clusters->again[k].pixels)
-            clusters->again[k].pixels[pixel] = k < count ? (float)share : 0;
+        if (clusters->interreflected[k].pixels)
+            clusters->interreflected[k].pixels[pixel] = k < count ? (float)share : 0;
     }
 }
 
 static void store_row(void *context, int y, int thread)
 {
-    const EvenWork *work = context;
+    const SmoothWork *work = context;
     (void)thread;
     for (int x = 0; x < work->width; x++) {
         const size_t pixel = (size_t)y * (size_t)work->width + (size_t)x;
         if (work->maps[pixel].parts)
-            store_even(work, pixel);
+            store_uniform(work, pixel);
     }
 }
 
@@ -419,7 +423,7 @@ static int compare_floats(const void *a, const void *b)
 }
 
 /* Means are off by chance, which is alike everywhere, and by edges of light, of which there are few: so the median. */
-static int find_scatter(EvenWork *work, int nthreads, RetexError *err)
+static int find_scatter(SmoothWork *work, int nthreads, RetexError *err)
 {
     const size_t all = (size_t)work->width * (size_t)work->height;
     size_t count = 0;
@@ -438,10 +442,10 @@ static int find_scatter(EvenWork *work, int nthreads, RetexError *err)
     return RETEX_OK;
 }
 
-int compact_even_smooth(CompactClusters *clusters, EvenPlace *whole, const int periodic[2], double noise,
-                        int nthreads, RetexError *err)
+int retex_compact_smooth_uniform(RetexCompactClusters *clusters, RetexUniformPixel *pixels, const int periodic[2],
+                                 double noise, int nthreads, RetexError *err)
 {
-    EvenWork work = {.clusters = clusters, .whole = whole, .periodic = periodic, .noise = noise};
+    SmoothWork work = {.clusters = clusters, .pixels = pixels, .periodic = periodic, .noise = noise};
     work.width = clusters->albedo.width, work.height = clusters->albedo.height;
     int code = find_scatter(&work, nthreads, err);
     if (code)

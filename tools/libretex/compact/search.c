@@ -1,20 +1,20 @@
-/* See choose.h. What a choice costs is measured for one thing at a time, all others being as fine as they can.
+/* See search.h. What a choice costs is measured for one thing at a time, all others being as fine as they can.
  * Squares of differences add up, roughly: the choices of fewest numbers whose sums are within bounds are made together
  * and measured, and sums are let grow, or have to shrink, by how they compare with that.
  *
  * Footprints are noisy, those of denoised sets too, and smaller images average that away: a difference from the set
  * that is no loss. Of n, the square of what noise does, a scale of s takes away 1 - 1 / s^2, and hardly more where s is
- * large; what is lost of edges and shades at least doubles from each scale to the next. So the first two tell noise
+ * large; what is lost of edges and shades at finest doubles from each scale to the next. So the first two tell noise
  * from loss. */
-#include "compact/choose.h"
+#include "compact/search.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "compact/meter.h"
+#include "compact/distortion.h"
 
-#define STEPS COMPACT_STEPS
+#define STEPS RETEX_COMPACT_STEPS
 #define NOISE_COUNTS 0.025   /* of a set's own noise, what may be added: 0.1 dB */
 #define NOISE_COUNTS_NOT 0.9 /* share of what is taken for noise that is no loss where all may go; the rest counts */
 #define NOTHING 0.03         /* share of the bound that gains may cost without a closer look at their scale */
@@ -29,34 +29,34 @@ typedef enum What { CLUSTERS, GAINS, MIXED } What;
 
 typedef struct Choice {
     What what;
-    int kinds[COMPACT_KINDS], nkinds;
-    int steps, at, before;                 /* 0: as fine as can be, to steps - 1; before: when last measured */
-    double squares[STEPS][COMPACT_TRIALS]; /* lost */
-    double noise[COMPACT_TRIALS];          /* what an infinite scale would take away of it */
-    double numbers[STEPS];                 /* stored for each pixel */
+    int kinds[RETEX_COMPACT_KINDS], nkinds;
+    int steps, at, before;                       /* 0: as fine as can be, to steps - 1; before: when last measured */
+    double squares[STEPS][RETEX_COMPACT_TRIALS]; /* lost */
+    double noise[RETEX_COMPACT_TRIALS];          /* what an infinite scale would take away of it */
+    double numbers[STEPS];                       /* stored for each pixel */
 } Choice;
 
 /* A kind's pictures at some scales. */
-typedef struct Shown {
-    int clusters, gains, mixed, later;
-    RetexImage pictures[COMPACT_TRIALS];
-} Shown;
+typedef struct TrialPictures {
+    int clusters, gains, mixed, interreflection;
+    RetexImage pictures[RETEX_COMPACT_TRIALS];
+} TrialPictures;
 
-typedef struct Choosing {
-    const CompactLight *light; /* of the meter's set */
-    CompactMeter meter;
-    CompactCache *cache;
-    Shown shown[COMPACT_KINDS][2];   /* as fine as can be; and those of the last trial */
-    RetexImage rest[COMPACT_TRIALS]; /* pictures of terms without factors */
+typedef struct Search {
+    const RetexCompactLight *light; /* of the reference's set */
+    RetexCompactReference reference;
+    RetexCompactCache *cache;
+    TrialPictures shown[RETEX_COMPACT_KINDS][2]; /* as fine as can be; and those of the last trial */
+    RetexImage rest[RETEX_COMPACT_TRIALS];       /* pictures of terms without factors */
     Choice choices[GROUPS_MOST];
     int count, nthreads;
     double bound;
-    double least[COMPACT_TRIALS]; /* lost when all is as fine as can be */
-} Choosing;
+    double finest[RETEX_COMPACT_TRIALS]; /* lost when all is as fine as can be */
+} Search;
 
 /* ---- choices ---- */
 
-static void apply(CompactScales *scales, const Choice *choice, int step)
+static void apply(RetexCompactScales *scales, const Choice *choice, int step)
 {
     for (int i = 0; i < choice->nkinds; i++) {
         const int kind = choice->kinds[i];
@@ -65,29 +65,30 @@ static void apply(CompactScales *scales, const Choice *choice, int step)
         else if (choice->what == GAINS)
             scales->gains[kind] = 1 << step;
         else
-            scales->mixed[kind] = step ? COMPACT_MIXED : COMPACT_APART;
+            scales->mixed[kind] = step ? RETEX_COMPACT_MIXED : RETEX_COMPACT_APART;
     }
 }
 
-static double numbers_of(const Choosing *work, const Choice *choice, int step)
+static double numbers_of(const Search *work, const Choice *choice, int step)
 {
     double numbers = 0;
     for (int i = 0; i < choice->nkinds; i++) {
-        const CompactKind *kind = &work->light->kinds[choice->kinds[i]];
+        const RetexCompactKind *kind = &work->light->kinds[choice->kinds[i]];
         if (choice->what == CLUSTERS)
             numbers += (3 + 7.0 * kind->count) / (1 << (2 * step));
         else if (choice->what == GAINS)
-            numbers += 3.0 * (kind->ngains[COMPACT_MIXED] + 1) / (1 << (2 * step));
+            numbers += 3.0 * (kind->ngains[RETEX_COMPACT_MIXED] + 1) / (1 << (2 * step));
         else if (!step)
-            numbers += 3.0 / 16 * (kind->ngains[COMPACT_APART] - kind->ngains[COMPACT_MIXED]); /* of a usual size */
+            numbers += 3.0 / 16 *
+                       (kind->ngains[RETEX_COMPACT_APART] - kind->ngains[RETEX_COMPACT_MIXED]); /* of a usual size */
     }
     return numbers;
 }
 
-static Choice *find_choice(Choosing *work, What what, const CompactKind *kind)
+static Choice *find_choice(Search *work, What what, const RetexCompactKind *kind)
 {
     for (int i = 0; i < work->count; i++) {
-        const CompactKind *first = &work->light->kinds[work->choices[i].kinds[0]];
+        const RetexCompactKind *first = &work->light->kinds[work->choices[i].kinds[0]];
         const int together = kind->kind == RETEX_FOOTPRINT_INTERREFLECTION || work->light->nkinds > KINDS_APART;
         if (work->choices[i].what == what && first->kind == kind->kind && together)
             return &work->choices[i];
@@ -97,40 +98,41 @@ static Choice *find_choice(Choosing *work, What what, const CompactKind *kind)
     return choice;
 }
 
-static void add_choice(Choosing *work, What what, int kind)
+static void add_choice(Search *work, What what, int kind)
 {
     Choice *choice = find_choice(work, what, &work->light->kinds[kind]);
     choice->kinds[choice->nkinds++] = kind;
 }
 
 /* Fixed ones are put into scales. */
-static void list_choices(Choosing *work, CompactScales *scales, const RetexCompactParams *params)
+static void list_choices(Search *work, RetexCompactScales *scales, const RetexCompactParams *params)
 {
     for (int i = 0; i < work->light->nkinds; i++) {
-        const CompactKind *kind = &work->light->kinds[i];
-        const int sharp = kind->kind == RETEX_FOOTPRINT_SHARP, later = kind->kind == RETEX_FOOTPRINT_INTERREFLECTION;
-        const int wanted = sharp ? 1 : later ? params->later : params->broad;
+        const RetexCompactKind *kind = &work->light->kinds[i];
+        const int sharp = kind->kind == RETEX_FOOTPRINT_SHARP,
+                  interreflection = kind->kind == RETEX_FOOTPRINT_INTERREFLECTION;
+        const int wanted = sharp ? 1 : interreflection ? params->interreflection : params->broad;
         scales->clusters[i] = wanted ? wanted : 1;
         scales->gains[i] = params->gain ? params->gain : 1;
         if (!wanted)
             add_choice(work, CLUSTERS, i);
-        if (kind->nagain && !params->gain)
+        if (kind->ninterreflections && !params->gain)
             add_choice(work, GAINS, i);
-        if (kind->ngains[COMPACT_MIXED] < kind->ngains[COMPACT_APART])
+        if (kind->ngains[RETEX_COMPACT_MIXED] < kind->ngains[RETEX_COMPACT_APART])
             add_choice(work, MIXED, i);
     }
 }
 
 /* ---- trials ---- */
 
-static void free_shown(Shown *shown)
+static void free_pictures(TrialPictures *shown)
 {
-    for (int t = 0; t < COMPACT_TRIALS; t++)
+    for (int t = 0; t < RETEX_COMPACT_TRIALS; t++)
         retex_image_free(&shown->pictures[t]);
 }
 
 /* Later footprints of all targets have one scale. */
-static int later_scale(const CompactLight *light, const CompactScales *scales)
+static int interreflection_scale(const RetexCompactLight *light, const RetexCompactScales *scales)
 {
     for (int i = 0; i < light->nkinds; i++)
         if (light->kinds[i].kind == RETEX_FOOTPRINT_INTERREFLECTION)
@@ -138,82 +140,83 @@ static int later_scale(const CompactLight *light, const CompactScales *scales)
     return 1;
 }
 
-static int show_kind(Choosing *work, int kind, const CompactScales *scales, const RetexImage **pictures,
-                     RetexError *err)
+static int pictures_of_kind(Search *work, int kind, const RetexCompactScales *scales, const RetexImage **pictures,
+                            RetexError *err)
 {
-    const Shown wanted = {.clusters = scales->clusters[kind],
-                          .gains = scales->gains[kind],
-                          .mixed = (int)scales->mixed[kind],
-                          .later = later_scale(work->light, scales)};
+    const TrialPictures wanted = {.clusters = scales->clusters[kind],
+                                  .gains = scales->gains[kind],
+                                  .mixed = (int)scales->mixed[kind],
+                                  .interreflection = interreflection_scale(work->light, scales)};
     int place = 0;
     for (; place < 2 && work->shown[kind][place].pictures[0].pixels; place++) {
-        const Shown *shown = &work->shown[kind][place];
+        const TrialPictures *shown = &work->shown[kind][place];
         *pictures = shown->pictures;
         if (shown->clusters == wanted.clusters && shown->gains == wanted.gains && shown->mixed == wanted.mixed &&
-            shown->later == wanted.later)
+            shown->interreflection == wanted.interreflection)
             return RETEX_OK;
     }
-    Shown *shown = &work->shown[kind][place < 1 ? 0 : 1];
-    free_shown(shown);
+    TrialPictures *shown = &work->shown[kind][place < 1 ? 0 : 1];
+    free_pictures(shown);
     *shown = wanted;
     *pictures = shown->pictures;
-    return compact_meter_show(shown->pictures, work->light, kind, scales, work->cache, work->nthreads, err);
+    return retex_compact_trial_pictures(shown->pictures, work->light, kind, scales, work->cache, work->nthreads, err);
 }
 
-static int try_scales(Choosing *work, const CompactScales *scales, double squares[COMPACT_TRIALS], RetexError *err)
+static int measure_scales(Search *work, const RetexCompactScales *scales, double squares[RETEX_COMPACT_TRIALS],
+                          RetexError *err)
 {
-    const RetexImage *parts[COMPACT_KINDS + 1] = {work->rest};
+    const RetexImage *parts[RETEX_COMPACT_KINDS + 1] = {work->rest};
     int count = 1, code = RETEX_OK;
     if (!work->rest[0].pixels)
-        code = compact_meter_show(work->rest, work->light, -1, scales, work->cache, work->nthreads, err);
+        code = retex_compact_trial_pictures(work->rest, work->light, -1, scales, work->cache, work->nthreads, err);
     for (int i = 0; i < work->light->nkinds && !code; i++)
         if (work->light->kinds[i].kind != RETEX_FOOTPRINT_INTERREFLECTION)
-            code = show_kind(work, i, scales, &parts[count++], err);
-    return code ? code : compact_meter_read(&work->meter, parts, count, squares, work->nthreads, err);
+            code = pictures_of_kind(work, i, scales, &parts[count++], err);
+    return code ? code : retex_compact_distortions(&work->reference, parts, count, squares, work->nthreads, err);
 }
 
-static double noise_gone(const Choosing *work, int step)
+static double noise_removed(const Search *work, int step)
 {
     return work->light->noise * NOISE_COUNTS_NOT * (1 - 1.0 / (1 << (2 * step)));
 }
 
 /* The rest is loss. Of gains of sets as rendered all is: where gains are smooth, noise goes from one term's light to
  * another's, which may be of a lighter texture. */
-static void tell_noise(const Choosing *work, Choice *choice)
+static void separate_noise(const Search *work, Choice *choice)
 {
     const int denoised = work->light->set->denoised;
     const int averages = choice->what == CLUSTERS || (choice->what == GAINS && denoised);
-    for (int t = 0; t < COMPACT_TRIALS && averages; t++) {
+    for (int t = 0; t < RETEX_COMPACT_TRIALS && averages; t++) {
         const double *first = choice->squares[1], *second = choice->squares[2];
         const double noise = (2 * first[t] - second[t]) / (2 * (1 - 1.0 / 4) - (1 - 1.0 / 16));
         choice->noise[t] = fmax(noise, 0);
         for (int step = 1; step < choice->steps; step++)
-            choice->squares[step][t] = fmax(choice->squares[step][t] - noise_gone(work, step) * choice->noise[t], 0);
+            choice->squares[step][t] = fmax(choice->squares[step][t] - noise_removed(work, step) * choice->noise[t], 0);
     }
 }
 
-static int measure_step(Choosing *work, Choice *choice, int step, const CompactScales *fine, RetexError *err)
+static int measure_step(Search *work, Choice *choice, int step, const RetexCompactScales *fine, RetexError *err)
 {
-    CompactScales scales = *fine;
+    RetexCompactScales scales = *fine;
     apply(&scales, choice, step);
-    int code = try_scales(work, &scales, choice->squares[step], err);
-    for (int t = 0; t < COMPACT_TRIALS; t++)
-        choice->squares[step][t] = fmax(choice->squares[step][t] - work->least[t], 0);
+    int code = measure_scales(work, &scales, choice->squares[step], err);
+    for (int t = 0; t < RETEX_COMPACT_TRIALS; t++)
+        choice->squares[step][t] = fmax(choice->squares[step][t] - work->finest[t], 0);
     return code;
 }
 
-static double worst(const double squares[COMPACT_TRIALS])
+static double worst(const double squares[RETEX_COMPACT_TRIALS])
 {
     double most = squares[0];
-    for (int t = 1; t < COMPACT_TRIALS; t++)
+    for (int t = 1; t < RETEX_COMPACT_TRIALS; t++)
         most = fmax(most, squares[t]);
     return most;
 }
 
-/* What each step of each choice loses beyond the least. */
-static int measure(Choosing *work, const CompactScales *fine, RetexError *err)
+/* What each step of each choice loses beyond the finest. */
+static int measure(Search *work, const RetexCompactScales *fine, RetexError *err)
 {
-    int code = try_scales(work, fine, work->least, err);
+    int code = measure_scales(work, fine, work->finest, err);
     for (int i = 0; i < work->count && !code; i++) {
         Choice *choice = &work->choices[i];
         const int last = choice->steps - 1;
@@ -227,7 +230,7 @@ static int measure(Choosing *work, const CompactScales *fine, RetexError *err)
             else
                 code = measure_step(work, choice, step, fine, err);
         if (!nothing)
-            tell_noise(work, choice);
+            separate_noise(work, choice);
     }
     return code;
 }
@@ -236,8 +239,8 @@ static int measure(Choosing *work, const CompactScales *fine, RetexError *err)
 
 /* The choices of fewest numbers that keep sums within bounds, from this one on; where there are none, *numbers stays
  * as it is. */
-static void search(Choosing *work, int first, const double sums[COMPACT_TRIALS], const double bounds[COMPACT_TRIALS],
-                   double so_far, double *numbers, int best[GROUPS_MOST])
+static void search(Search *work, int first, const double sums[RETEX_COMPACT_TRIALS],
+                   const double bounds[RETEX_COMPACT_TRIALS], double so_far, double *numbers, int best[GROUPS_MOST])
 {
     if (so_far >= *numbers)
         return;
@@ -249,9 +252,9 @@ static void search(Choosing *work, int first, const double sums[COMPACT_TRIALS],
     }
     Choice *choice = &work->choices[first];
     for (int step = choice->steps - 1; step >= 0; step--) {
-        double with[COMPACT_TRIALS];
+        double with[RETEX_COMPACT_TRIALS];
         int within = 1;
-        for (int t = 0; t < COMPACT_TRIALS; t++) {
+        for (int t = 0; t < RETEX_COMPACT_TRIALS; t++) {
             with[t] = sums[t] + choice->squares[step][t];
             within &= with[t] <= bounds[t];
         }
@@ -261,22 +264,22 @@ static void search(Choosing *work, int first, const double sums[COMPACT_TRIALS],
     }
 }
 
-/* The bound is for what choices lose: were the least counted in, the nearer it came to it the less they might. */
-static double bound_of(const Choosing *work, int trial)
+/* The bound is for what choices lose: were the finest counted in, the nearer it came to it the less they might. */
+static double bound_of(const Search *work, int trial)
 {
-    return work->least[trial] + fmax(work->bound, LETTING * work->light->noise * work->least[trial]);
+    return work->finest[trial] + fmax(work->bound, LETTING * work->light->noise * work->finest[trial]);
 }
 
 /* Whether these are other choices than those before. *numbers: how many they store; more than so many are not taken. */
-static int search_within(Choosing *work, const double factors[COMPACT_TRIALS], double *numbers)
+static int search_within(Search *work, const double factors[RETEX_COMPACT_TRIALS], double *numbers)
 {
-    double bounds[COMPACT_TRIALS];
+    double bounds[RETEX_COMPACT_TRIALS];
     int best[GROUPS_MOST], others = 0;
     for (int i = 0; i < work->count; i++)
         best[i] = work->choices[i].before;
-    for (int t = 0; t < COMPACT_TRIALS; t++)
-        bounds[t] = fmax(factors[t] * bound_of(work, t), work->least[t]);
-    search(work, 0, work->least, bounds, 0, numbers, best);
+    for (int t = 0; t < RETEX_COMPACT_TRIALS; t++)
+        bounds[t] = fmax(factors[t] * bound_of(work, t), work->finest[t]);
+    search(work, 0, work->finest, bounds, 0, numbers, best);
     for (int i = 0; i < work->count; i++) {
         Choice *choice = &work->choices[i];
         others |= best[i] != choice->before;
@@ -287,19 +290,19 @@ static int search_within(Choosing *work, const double factors[COMPACT_TRIALS], d
 
 /* Whether the choices lose no more than they may when all are made; factors: of what is lost of each trial, by what
  * the sums say of it. Together they do not lose less than one of them alone. */
-static int measure_all(Choosing *work, CompactScales *scales, double factors[COMPACT_TRIALS], int *within,
+static int measure_all(Search *work, RetexCompactScales *scales, double factors[RETEX_COMPACT_TRIALS], int *within,
                        RetexError *err)
 {
-    double lost[COMPACT_TRIALS];
+    double lost[RETEX_COMPACT_TRIALS];
     for (int i = 0; i < work->count; i++)
         apply(scales, &work->choices[i], work->choices[i].at);
-    int code = try_scales(work, scales, lost, err);
+    int code = measure_scales(work, scales, lost, err);
     *within = 1;
-    for (int t = 0; t < COMPACT_TRIALS && !code; t++) {
-        double sum = work->least[t], most = work->least[t];
+    for (int t = 0; t < RETEX_COMPACT_TRIALS && !code; t++) {
+        double sum = work->finest[t], most = work->finest[t];
         for (int i = 0; i < work->count; i++) {
             const Choice *choice = &work->choices[i];
-            lost[t] -= noise_gone(work, choice->at) * choice->noise[t];
+            lost[t] -= noise_removed(work, choice->at) * choice->noise[t];
             most = fmax(most, choice->squares[choice->at][t]);
             sum += choice->squares[choice->at][t];
         }
@@ -310,14 +313,14 @@ static int measure_all(Choosing *work, CompactScales *scales, double factors[COM
     return code;
 }
 
-static int settle(Choosing *work, CompactScales *scales, RetexError *err)
+static int search_measured(Search *work, RetexCompactScales *scales, RetexError *err)
 {
-    CompactScales good = *scales; /* all as fine as can be */
-    double factors[COMPACT_TRIALS], fewest = INFINITY;
+    RetexCompactScales good = *scales; /* all as fine as can be */
+    double factors[RETEX_COMPACT_TRIALS], fewest = INFINITY;
     int code = RETEX_OK;
     for (int i = 0; i < work->count; i++)
         work->choices[i].before = -1;
-    for (int t = 0; t < COMPACT_TRIALS; t++)
+    for (int t = 0; t < RETEX_COMPACT_TRIALS; t++)
         factors[t] = 1;
     for (int tried = 0; tried < MEASURED_MOST && !code; tried++) {
         double numbers = fewest;
@@ -332,41 +335,41 @@ static int settle(Choosing *work, CompactScales *scales, RetexError *err)
     return code;
 }
 
-static void close_choosing(Choosing *work)
+static void search_close(Search *work)
 {
-    for (int i = 0; i < 2 * COMPACT_KINDS; i++)
-        free_shown(&work->shown[i / 2][i % 2]);
-    for (int t = 0; t < COMPACT_TRIALS; t++)
+    for (int i = 0; i < 2 * RETEX_COMPACT_KINDS; i++)
+        free_pictures(&work->shown[i / 2][i % 2]);
+    for (int t = 0; t < RETEX_COMPACT_TRIALS; t++)
         retex_image_free(&work->rest[t]);
     if (work->cache)
-        compact_cache_free(work->cache, work->light);
+        retex_compact_cache_free(work->cache, work->light);
     free(work->cache);
-    compact_meter_close(&work->meter);
+    retex_compact_reference_close(&work->reference);
 }
 
-int compact_choose(CompactScales *scales, const CompactLight *light, const RetexCompactParams *params, int nthreads,
-                   RetexError *err)
+int retex_compact_search(RetexCompactScales *scales, const RetexCompactLight *light, const RetexCompactParams *params,
+                         int nthreads, RetexError *err)
 {
-    Choosing work = {.light = light, .nthreads = nthreads};
-    CompactLight small = {0};
+    Search work = {.light = light, .nthreads = nthreads};
+    RetexCompactLight small = {0};
     int understood;
-    *scales = (CompactScales){0};
+    *scales = (RetexCompactScales){0};
     list_choices(&work, scales, params);
     if (!work.count)
         return RETEX_OK;
-    int code = compact_meter_open(&work.meter, light, nthreads, err);
+    int code = retex_compact_reference_open(&work.reference, light, nthreads, err);
     if (!code)
-        code = compact_light_open(&small, work.meter.set, params->noise, &understood, err);
+        code = retex_compact_light_open(&small, work.reference.set, params->noise, &understood, err);
     work.light = &small;
-    work.bound = fmax(pow(10, -params->psnr / 10), params->noise * NOISE_COUNTS * work.meter.noise);
+    work.bound = fmax(pow(10, -params->psnr / 10), params->noise * NOISE_COUNTS * work.reference.noise);
     work.cache = calloc(1, sizeof *work.cache);
     if (!code && !work.cache)
         code = retex_fail(err, RETEX_ENOMEM, "not enough memory for trials");
     if (!code)
         code = measure(&work, scales, err);
     if (!code)
-        code = settle(&work, scales, err);
-    close_choosing(&work);
-    compact_light_close(&small);
+        code = search_measured(&work, scales, err);
+    search_close(&work);
+    retex_compact_light_close(&small);
     return code;
 }

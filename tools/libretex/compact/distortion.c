@@ -1,5 +1,5 @@
-/* See meter.h. The textures are plane waves in each colour, whose mean over a Gaussian footprint is known. */
-#include "compact/meter.h"
+/* See distortion.h. The textures are plane waves in each colour, whose mean over a Gaussian footprint is known. */
+#include "compact/distortion.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -15,11 +15,11 @@
 #include "compact/image_noise.h"
 #include "set/parts.h"
 
-#define TILE COMPACT_BAND_ROWS /* pixels of a tile that count */
-#define MARGIN 16              /* on each side: two pixels of what is smallest */
-#define LENGTHS 3              /* of waves; other trials are of one colour */
-#define FLAT 1                 /* variance in waves at which nothing is left of them */
-#define PROBE 8                /* pixels from one that is looked at to the next */
+#define TILE RETEX_COMPACT_BAND_ROWS /* pixels of a tile that count */
+#define MARGIN 16                    /* on each side: two pixels of what is smallest */
+#define LENGTHS 3                    /* of waves; other trials are of one colour */
+#define FLAT 1                       /* variance in waves at which nothing is left of them */
+#define PROBE 8                      /* pixels from one that is looked at to the next */
 
 /* ---- tiles ---- */
 
@@ -29,29 +29,29 @@ typedef struct Tile {
 } Tile;
 
 typedef struct Mosaic {
-    const CompactLight *light; /* of a band */
-    int first, height;         /* its first row; rows of the whole */
+    const RetexCompactLight *light; /* of a band */
+    int first, height;              /* its first row; rows of the whole */
     RetexSet *result;
     int columns, count; /* of the picture's tiles */
     Tile *tiles;
-    Tile taken[COMPACT_TILES];
+    Tile taken[RETEX_COMPACT_TILES];
 } Mosaic;
 
 /* How much light a pixel has of clusters that a texture tells from the same ones of another pixel. */
-static double probe_pixels(const CompactLight *light, size_t a, size_t b)
+static double probe_pixels(const RetexCompactLight *light, size_t a, size_t b)
 {
     const RetexSet *set = light->set;
     double sum = 0;
     for (int i = 0; i < light->nkinds; i++) {
-        const CompactKind *kind = &light->kinds[i];
-        ClusterLight of[RETEX_SHARES_MAX];
+        const RetexCompactKind *kind = &light->kinds[i];
+        RetexCompactClusterLight of[RETEX_SHARES_MAX];
         if (kind->kind == RETEX_FOOTPRINT_INTERREFLECTION)
             continue;
-        compact_cluster_light(light, kind, a, of);
+        retex_compact_cluster_light(light, kind, a, of);
         for (int k = 0; k < kind->count; k++) {
             const RetexFootprint *f = &set->footprints[kind->footprints[k]];
             const float *uv = set->parts[f->uv].image.pixels, *spread = set->parts[f->spread].image.pixels;
-            const double weight = compact_luminance(of[k].own) + compact_luminance(of[k].again);
+            const double weight = retex_compact_luminance(of[k].single) + retex_compact_luminance(of[k].interreflected);
             double far = 0;
             for (int axis = 0; axis < 2 && weight > 0; axis++) {
                 const size_t ia = 3 * a + (size_t)axis, ib = 3 * b + (size_t)axis;
@@ -89,17 +89,17 @@ static int compare_tiles(const void *a, const void *b)
 
 /* Sorted by how difficult they are, tiles fall into groups of the same sum of it, but half of it evenly: the middle one
  * of each is taken for the group. */
-static void take_tiles(Mosaic *mosaic, double weights[COMPACT_TILES])
+static void take_tiles(Mosaic *mosaic, double weights[RETEX_COMPACT_TILES])
 {
     double all = 0, sum = 0;
     int first = 0;
     qsort(mosaic->tiles, (size_t)mosaic->count, sizeof *mosaic->tiles, compare_tiles);
     for (int i = 0; i < mosaic->count; i++)
         all += mosaic->tiles[i].difficulty;
-    for (int i = 0, k = 0; i < mosaic->count && k < COMPACT_TILES; i++) {
-        const int left = mosaic->count - 1 - i, groups = COMPACT_TILES - 1 - k; /* after this */
+    for (int i = 0, k = 0; i < mosaic->count && k < RETEX_COMPACT_TILES; i++) {
+        const int left = mosaic->count - 1 - i, groups = RETEX_COMPACT_TILES - 1 - k; /* after this */
         sum += 0.5 / mosaic->count + (all > 0 ? 0.5 * mosaic->tiles[i].difficulty / all : 0.5 / mosaic->count);
-        if (left > groups && (k == COMPACT_TILES - 1 || sum < (k + 1.0) / COMPACT_TILES))
+        if (left > groups && (k == RETEX_COMPACT_TILES - 1 || sum < (k + 1.0) / RETEX_COMPACT_TILES))
             continue;
         mosaic->taken[k] = mosaic->tiles[(first + i) / 2];
         weights[k++] = i + 1 - first;
@@ -125,27 +125,27 @@ static void copy_tile(RetexImage *to, int row, const RetexImage *from, const Mos
     }
 }
 
-static int copy_tiles(void *context, const CompactLight *light, int first, RetexError *err)
+static int copy_tiles(void *context, const RetexCompactLight *light, int first, RetexError *err)
 {
     Mosaic *mosaic = context;
     (void)err;
     mosaic->first = first;
     for (int i = 0; i < light->set->nparts; i++)
-        for (int k = 0; k < COMPACT_TILES && light->set->parts[i].image.pixels; k++)
+        for (int k = 0; k < RETEX_COMPACT_TILES && light->set->parts[i].image.pixels; k++)
             copy_tile(&mosaic->result->parts[i].image, k, &light->set->parts[i].image, mosaic);
     return RETEX_OK;
 }
 
 /* A set as tall as tiles are many. Originals and what no term needs become black. */
-static int make_mosaic(RetexSet **result, const CompactLight *light, Mosaic *mosaic, int nthreads, RetexError *err)
+static int make_mosaic(RetexSet **result, const RetexCompactLight *light, Mosaic *mosaic, int nthreads, RetexError *err)
 {
     const RetexSet *set = light->set;
     const int side = TILE + 2 * MARGIN;
-    int code = compact_copy_head(result, set, err);
+    int code = retex_compact_copy_head(result, set, err);
     if (code)
         return code;
     RetexSet *tiles = mosaic->result = *result;
-    tiles->width = side, tiles->height = side * COMPACT_TILES;
+    tiles->width = side, tiles->height = side * RETEX_COMPACT_TILES;
     for (int i = 0; i < set->nparts && !code; i++) {
         const RetexPart *part = &set->parts[i];
         const int whole = part->image.width == set->width && part->image.height == set->height;
@@ -153,7 +153,7 @@ static int make_mosaic(RetexSet **result, const CompactLight *light, Mosaic *mos
             retex_set_add_part(tiles, part->name, part->letters, part->type, whole ? 0 : 1, whole ? 0 : 1, NULL, err);
     }
     if (!code)
-        code = compact_bands(light, copy_tiles, mosaic, nthreads, err);
+        code = retex_compact_bands(light, copy_tiles, mosaic, nthreads, err);
     for (int i = 0; i < set->nfootprints && !code; i++)
         code = retex_set_add_footprint(tiles, &set->footprints[i], NULL, err);
     for (int i = 0; i < set->nmixtures && !code; i++)
@@ -165,9 +165,9 @@ static int make_mosaic(RetexSet **result, const CompactLight *light, Mosaic *mos
 
 static int copy_whole(RetexSet **result, const RetexSet *set, RetexError *err)
 {
-    int code = compact_copy_head(result, set, err), index;
+    int code = retex_compact_copy_head(result, set, err), index;
     for (int i = 0; i < set->nparts && !code; i++)
-        code = compact_copy_part(*result, set, i, &index, err);
+        code = retex_compact_copy_part(*result, set, i, &index, err);
     for (int i = 0; i < set->nfootprints && !code; i++)
         code = retex_set_add_footprint(*result, &set->footprints[i], NULL, err);
     for (int i = 0; i < set->nmixtures && !code; i++)
@@ -184,9 +184,9 @@ typedef struct Wave {
     double frequency[2], phase;
 } Wave;
 
-/* Waves of a trial, about four times as many a unit of UV as in the one before it; other ones for each colour and
- * target, and whole ones where a target closes. Behind them colours far from COMPACT_GREY, which gains are exact for:
- * light and dark ones by turns, and in the other trial the other way round. */
+/* The wave of a trial texture. Each trial has about four times the frequency of the one before. Frequency and phase
+ * differ by colour channel and target; frequencies are integers along axes on which the target is periodic. The last
+ * two trials have flat colours, dark or light: far from RETEX_COMPACT_GREY, for which gains are exact. */
 static Wave make_wave(const RetexTarget *target, int number, int trial, int color)
 {
     const double turn = 2.4 * (number + 3 * trial + 7 * color), many = 0.4 * pow(4, trial) * (1 + 0.4 * color);
@@ -258,12 +258,12 @@ static void encode_row(void *context, int y, int thread)
 }
 
 /* One trial's picture, linear. waves: by footprint, in a cache, made where they are not there yet; or NULL. */
-static int make_picture(RetexImage *picture, const RetexSet *set, RetexImage *waves[][COMPACT_WAVES], int trial,
+static int make_picture(RetexImage *picture, const RetexSet *set, RetexImage *waves[][RETEX_COMPACT_WAVES], int trial,
                         int nthreads, RetexError *err)
 {
     RetexSamples *samples = NULL;
-    int code = trial < COMPACT_WAVES ? retex_samples_create(&samples, set, err) : RETEX_OK;
-    for (int i = 0; trial < COMPACT_WAVES && i < set->nfootprints && !code; i++) {
+    int code = trial < RETEX_COMPACT_WAVES ? retex_samples_create(&samples, set, err) : RETEX_OK;
+    for (int i = 0; trial < RETEX_COMPACT_WAVES && i < set->nfootprints && !code; i++) {
         RetexImage *image = waves ? waves[i][trial] : &samples->images[i];
         if (!image->pixels)
             code = make_waves(image, set, i, trial, nthreads, err);
@@ -277,13 +277,14 @@ static int make_picture(RetexImage *picture, const RetexSet *set, RetexImage *wa
     return code;
 }
 
-int compact_meter_show(RetexImage pictures[COMPACT_TRIALS], const CompactLight *light, int kind,
-                       const CompactScales *scales, CompactCache *cache, int nthreads, RetexError *err)
+int retex_compact_trial_pictures(RetexImage pictures[RETEX_COMPACT_TRIALS], const RetexCompactLight *light, int kind,
+                                 const RetexCompactScales *scales, RetexCompactCache *cache, int nthreads,
+                                 RetexError *err)
 {
     RetexSet *set;
-    RetexImage *waves[COMPACT_KINDS * RETEX_SHARES_MAX][COMPACT_WAVES];
-    int code = compact_build_kind(&set, waves, light, kind, scales, cache, nthreads, err);
-    for (int i = 0; i < COMPACT_TRIALS && !code; i++)
+    RetexImage *waves[RETEX_COMPACT_KINDS * RETEX_SHARES_MAX][RETEX_COMPACT_WAVES];
+    int code = retex_compact_build_kind(&set, waves, light, kind, scales, cache, nthreads, err);
+    for (int i = 0; i < RETEX_COMPACT_TRIALS && !code; i++)
         code = make_picture(&pictures[i], set, waves, i, nthreads, err);
     retex_set_close(&set);
     return code;
@@ -291,13 +292,13 @@ int compact_meter_show(RetexImage pictures[COMPACT_TRIALS], const CompactLight *
 
 /* Parts of noise on a picture of the originals, those of targets by half, for they are divided so. Of denoised sets
  * they are not there: of what is left, the finest is seen in a picture of flat colours. */
-static int measure_noise(CompactMeter *meter, int nthreads, RetexError *err)
+static int measure_noise(RetexCompactReference *reference, int nthreads, RetexError *err)
 {
-    const RetexSet *set = meter->set;
+    const RetexSet *set = reference->set;
     RetexImage picture = {0}, noise = {0};
     double sum = 0;
     if (set->denoised) {
-        meter->noise = pow(DENOISED_NOISE * image_noise(&meter->pictures[LENGTHS], 255) / 255, 2);
+        reference->noise = pow(RETEX_DENOISED_NOISE * retex_image_noise(&reference->pictures[LENGTHS], 255) / 255, 2);
         return RETEX_OK;
     }
     int code = retex_combine(&picture, set, NULL, NULL, NULL, nthreads, err);
@@ -316,7 +317,7 @@ static int measure_noise(CompactMeter *meter, int nthreads, RetexError *err)
         const double d = (double)encoded(noise.pixels[k]) - (double)encoded(picture.pixels[k]);
         sum += d * d;
     }
-    meter->noise = code ? 0 : sum / (double)count;
+    reference->noise = code ? 0 : sum / (double)count;
     retex_image_free(&picture);
     retex_image_free(&noise);
     return code;
@@ -327,7 +328,7 @@ typedef struct Probing {
     int nthreads;
 } Probing;
 
-static int probe_band(void *context, const CompactLight *light, int first, RetexError *err)
+static int probe_band(void *context, const RetexCompactLight *light, int first, RetexError *err)
 {
     const Probing *probing = context;
     (void)err;
@@ -336,77 +337,78 @@ static int probe_band(void *context, const CompactLight *light, int first, Retex
     return RETEX_OK;
 }
 
-static int take_mosaic(CompactMeter *meter, const CompactLight *light, int nthreads, RetexError *err)
+static int take_mosaic(RetexCompactReference *reference, const RetexCompactLight *light, int nthreads, RetexError *err)
 {
     const RetexSet *set = light->set;
     Mosaic mosaic = {.columns = (set->width + TILE - 1) / TILE, .height = set->height};
     Probing probing = {&mosaic, nthreads};
     mosaic.count = mosaic.columns * ((set->height + TILE - 1) / TILE);
-    if (mosaic.count <= 3 * COMPACT_TILES)
-        return copy_whole(&meter->set, set, err);
-    meter->tile = TILE + 2 * MARGIN;
+    if (mosaic.count <= 3 * RETEX_COMPACT_TILES)
+        return copy_whole(&reference->set, set, err);
+    reference->tile = TILE + 2 * MARGIN;
     mosaic.tiles = malloc((size_t)mosaic.count * sizeof *mosaic.tiles);
     if (!mosaic.tiles)
         return retex_fail(err, RETEX_ENOMEM, "not enough memory for tiles");
-    int code = compact_bands(light, probe_band, &probing, nthreads, err);
+    int code = retex_compact_bands(light, probe_band, &probing, nthreads, err);
     if (!code) {
-        take_tiles(&mosaic, meter->weights);
-        code = make_mosaic(&meter->set, light, &mosaic, nthreads, err);
+        take_tiles(&mosaic, reference->weights);
+        code = make_mosaic(&reference->set, light, &mosaic, nthreads, err);
     }
     free(mosaic.tiles);
     return code;
 }
 
-int compact_meter_open(CompactMeter *meter, const CompactLight *light, int nthreads, RetexError *err)
+int retex_compact_reference_open(RetexCompactReference *reference, const RetexCompactLight *light, int nthreads,
+                                 RetexError *err)
 {
-    *meter = (CompactMeter){0};
-    int code = take_mosaic(meter, light, nthreads, err);
-    for (int i = 0; i < COMPACT_TRIALS && !code; i++) {
-        RetexImage *picture = &meter->pictures[i];
-        code = make_picture(picture, meter->set, NULL, i, nthreads, err);
+    *reference = (RetexCompactReference){0};
+    int code = take_mosaic(reference, light, nthreads, err);
+    for (int i = 0; i < RETEX_COMPACT_TRIALS && !code; i++) {
+        RetexImage *picture = &reference->pictures[i];
+        code = make_picture(picture, reference->set, NULL, i, nthreads, err);
         if (!code)
             retex_parallel(nthreads, picture->height, encode_row, picture);
     }
     if (!code)
-        code = measure_noise(meter, nthreads, err);
+        code = measure_noise(reference, nthreads, err);
     if (code)
-        compact_meter_close(meter);
+        retex_compact_reference_close(reference);
     return code;
 }
 
-void compact_meter_close(CompactMeter *meter)
+void retex_compact_reference_close(RetexCompactReference *reference)
 {
-    for (int i = 0; i < COMPACT_TRIALS; i++)
-        retex_image_free(&meter->pictures[i]);
-    retex_set_close(&meter->set);
+    for (int i = 0; i < RETEX_COMPACT_TRIALS; i++)
+        retex_image_free(&reference->pictures[i]);
+    retex_set_close(&reference->set);
 }
 
 /* ---- reading ---- */
 
 typedef struct ReadWork {
-    const CompactMeter *meter;
+    const RetexCompactReference *reference;
     const RetexImage *const *parts; /* each the first of so many trials */
     int count, trial;
     double *rows; /* sums of squares */
 } ReadWork;
 
 /* What a row of the mosaic counts, 0 in a margin. */
-static double row_weight(const CompactMeter *meter, int y)
+static double row_weight(const RetexCompactReference *reference, int y)
 {
-    const int row = meter->tile ? y % meter->tile : 0;
-    if (!meter->tile)
+    const int row = reference->tile ? y % reference->tile : 0;
+    if (!reference->tile)
         return 1;
-    return row >= MARGIN && row < meter->tile - MARGIN ? meter->weights[y / meter->tile] : 0;
+    return row >= MARGIN && row < reference->tile - MARGIN ? reference->weights[y / reference->tile] : 0;
 }
 
 static void read_row(void *context, int y, int thread)
 {
     const ReadWork *work = context;
-    const RetexImage *should = &work->meter->pictures[work->trial];
-    const int margin = work->meter->tile ? MARGIN : 0;
+    const RetexImage *should = &work->reference->pictures[work->trial];
+    const int margin = work->reference->tile ? MARGIN : 0;
     double sum = 0;
     (void)thread;
-    for (int x = margin; x < should->width - margin && row_weight(work->meter, y) > 0; x++)
+    for (int x = margin; x < should->width - margin && row_weight(work->reference, y) > 0; x++)
         for (size_t c = retex_image_index(should, x, y), end = c + 3; c < end; c++) {
             float light = 0;
             for (int i = 0; i < work->count; i++)
@@ -417,19 +419,19 @@ static void read_row(void *context, int y, int thread)
     work->rows[y] = sum;
 }
 
-int compact_meter_read(const CompactMeter *meter, const RetexImage *const parts[], int count,
-                       double squares[COMPACT_TRIALS], int nthreads, RetexError *err)
+int retex_compact_distortions(const RetexCompactReference *reference, const RetexImage *const parts[], int count,
+                              double squares[RETEX_COMPACT_TRIALS], int nthreads, RetexError *err)
 {
-    const int width = meter->set->width - (meter->tile ? 2 * MARGIN : 0), height = meter->set->height;
-    ReadWork work = {meter, parts, count, 0, calloc((size_t)height, sizeof(double))};
+    const int width = reference->set->width - (reference->tile ? 2 * MARGIN : 0), height = reference->set->height;
+    ReadWork work = {reference, parts, count, 0, calloc((size_t)height, sizeof(double))};
     if (!work.rows)
         return retex_fail(err, RETEX_ENOMEM, "not enough memory for sums");
-    for (work.trial = 0; work.trial < COMPACT_TRIALS; work.trial++) {
+    for (work.trial = 0; work.trial < RETEX_COMPACT_TRIALS; work.trial++) {
         double sum = 0, weights = 0;
         retex_parallel(nthreads, height, read_row, &work);
         for (int y = 0; y < height; y++) {
-            sum += row_weight(meter, y) * work.rows[y];
-            weights += row_weight(meter, y);
+            sum += row_weight(reference, y) * work.rows[y];
+            weights += row_weight(reference, y);
         }
         squares[work.trial] = sum / (weights * 3 * width);
     }
