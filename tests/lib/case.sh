@@ -2,14 +2,14 @@
 # Runs one file of command-line cases: case.sh SUITE FILE (tests/SUITE/FILE), in a fresh folder, and prints TAP.
 #
 # A file is a list of blocks. Lines of a block begin with
-#     $  a command, run by sh; what follows is what it must do, exactly
+#     $  a command for sh; the next lines are its exact result
 #     >  a line of its standard output
 #     !  a line of its standard error
-#     =  its exit status, where it is not 0
-# Empty lines and lines with # are comments. Files that commands leave behind are there for those that follow; $SCENES is
-# the folder of scenes, $TESTS that of the suite. A block whose command is `skip-without COMMAND why` skips the rest of
-# the file where COMMAND is not on the machine, one of `skip-unless COMMAND` where that fails. Programs of suite oiio find
-# our plugins. case.sh --update SUITE FILE writes what the commands do now into the file.
+#     =  its exit status, if it is not 0
+# Empty lines and lines with # are comments. Files of earlier commands remain for later ones. $SCENES is the folder of
+# scenes, $TESTS that of the suite. A block with the command `skip-without COMMAND why` skips the rest of the file if
+# COMMAND is not installed, a block with `skip-unless COMMAND` if COMMAND fails. Programs of suite oiio find the plugins
+# of retex. case.sh --update SUITE FILE writes the present results of the commands into the file.
 set -u
 update=
 [ "$1" != --update ] || { update=1; shift; }

@@ -1,10 +1,11 @@
 #!/bin/sh
-# Runs suites of tests and adds up what they report: check.sh SUITE… or check.sh SUITE/TEST…
+# Runs suites of tests and adds up their results: check.sh SUITE… or check.sh SUITE/TEST…
 #
 # Every test program prints TAP (`ok N - name`, `not ok N - name`, `ok N - name # SKIP why`, a plan `1..N`) and is one
-# job of a suite; JOBS of them run at a time. A job that ends badly without a failed test, reports fewer results than
-# its plan or none at all is one failure more. Failures and skips are printed with the job's output about them; the
-# whole output stays in $BUILD/tests/log/SUITES/. The last line is `N passed, M failed, K skipped`; exit 1 after a failure.
+# job of a suite; JOBS of them run at a time. It is one more failure if a job has a bad exit status without a failed
+# test, reports fewer results than its plan, or reports none. Failures and skips are printed with their output. The
+# whole output is kept in $BUILD/tests/log/SUITES/. The last line is `N passed, M failed, K skipped`; exit 1 after a
+# failure.
 #
 # CI=true: a skip is a failure unless the job's name is listed in tests/lib/may-skip.
 set -u

@@ -1,10 +1,11 @@
 #!/bin/sh
 # Runs one golden test: golden.sh tests/golden/NAME, and prints TAP.
 #
-# The folder holds `command`, a shell script that writes actual.exr into the current, fresh folder ($GOLDEN is the test's
-# own folder, $SCENES the scenes); `expected.exr`, 64 to 128 pixels a side; and `tolerance`, the options of retex-diff,
-# each loosened figure with its reason behind a #. No tolerance file: the picture must be the same to the bit. A missing
-# reference is a failure. golden.sh --actual FOLDER FILE keeps the picture instead of comparing.
+# The folder has three files. `command` is a shell script that writes actual.exr into the current folder, which is
+# empty; $GOLDEN is the folder of the test, $SCENES that of the scenes. `expected.exr` is the reference, 64 to 128
+# pixels a side. `tolerance` has options of retex-diff, each with its reason after a #. Without `tolerance` the picture
+# must be the same to the bit. A missing reference is a failure. golden.sh --actual FOLDER FILE keeps the picture and
+# does not compare it.
 set -u
 keep=
 here=$(pwd)

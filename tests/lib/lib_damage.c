@@ -33,7 +33,7 @@ void damage_end(void)
 
 /* ---- files ---- */
 
-/* Every bit of a half but that nothing is infinite: deflate makes it larger, so that it is stored as it is. */
+/* Random bits as halves, without infinities. Deflate would make them larger, so that they are stored uncompressed. */
 static void add_noise(RetexSet *set, uint32_t seed)
 {
     RetexError err = {0};
@@ -112,7 +112,7 @@ static uint32_t sum_of(const RetexImage *image)
     return retex_crc32(CRC32_OF_NONE, image->pixels, retex_image_index(image, 0, image->height) * sizeof(float));
 }
 
-/* The checksum of a file, which then is removed; 0 where there is none. */
+/* Returns the checksum of a file, and removes the file; 0 if there is no file. */
 static uint32_t sum_of_output(void)
 {
     unsigned char bytes[65536];
@@ -168,7 +168,7 @@ static int go_combine(const RetexSet *set, const RetexSamples *samples, uint32_t
     return code;
 }
 
-/* Samples of the first target, with those that were there. */
+/* Samples of the first target, with those that the file has. */
 static int go_sample(RetexSet *set, RetexSamples *there, int stream, uint32_t *sum, RetexError *err)
 {
     RetexSamples *samples = NULL;

@@ -1,4 +1,4 @@
-/* What may happen to a file: see lib_damage.h. */
+/* Kinds of damage to a file: see lib_damage.h. */
 #include "lib_damage.h"
 
 #include <stdlib.h>
@@ -19,7 +19,7 @@ static uint32_t some_number(uint32_t *seed)
     return numbers[below(sizeof numbers / sizeof *numbers, seed)];
 }
 
-/* The length of a run at a place, mostly short, and no longer than there is. */
+/* The length of a run at this place, mostly short, and within the file. */
 static size_t some_length(size_t left, uint32_t *seed)
 {
     const size_t length = 1 + below((size_t)1 << below(13, seed), seed);

@@ -28,13 +28,13 @@ static double clamp(double x)
     return x < 0 ? 0 : x > 1 ? 1 : x;
 }
 
-/* Share of the pixel that the surface to the right covers. */
+/* The share of the pixel that the right surface covers. */
 static double right_share(const RetexSet *set, int x, int y)
 {
     return clamp(denoise_from_silhouette(set, x, y) + 0.5);
 }
 
-/* Light of either surface, smooth but for the shadow. */
+/* Light of each surface, smooth except for the shadow. */
 static double light(const RetexSet *set, int x, int y, double left, double right)
 {
     double lit = 1 - 0.9 * clamp(0.5 - denoise_from_shadow(set, x, y)), share = right_share(set, x, y);
@@ -52,7 +52,7 @@ static void fill_light(RetexSet *set, int part, double left, double right)
         }
 }
 
-/* Places go over the texture as a floor's do; the right surface sees it blurred, or not at all. */
+/* The UVs of the left surface are those of a floor. The right surface sees the texture blurred, or not at all. */
 static void fill_footprint(RetexSet *set, int footprint, int right)
 {
     double middle[2] = {0.5 * set->width, 0.5 * set->height};
@@ -76,7 +76,7 @@ static void fill_guide(RetexSet *set, const char *name, const float left[3], con
         }
 }
 
-/* A plane that faces the camera, and before it one that is turned away. */
+/* A plane that faces the camera, and in front of it one that is turned away. */
 static void fill_positions(RetexSet *set, const char *name)
 {
     int part = retex_set_find_part(set, name);
@@ -141,7 +141,7 @@ static void fill_footprints_layout(RetexSet *set)
     }
 }
 
-/* Three hits, by target: dep, indep and cross terms. */
+/* Three hits of each target: dep, indep and cross terms. */
 static void fill_paper_layout(RetexSet *set)
 {
     static const int nfactors[] = {1, 2, 3, 0, 0, 0, 1, 1, 2, 2};
@@ -184,7 +184,7 @@ RetexSet *denoise_set(const char *layout, int width, int height)
 
 /* ---- noise ---- */
 
-/* The mean of so many samples. */
+/* The mean of this number of samples. */
 static double draw(int samples, uint32_t *seed)
 {
     double sum = 0;

@@ -1,4 +1,4 @@
-/* What the inner loops of denoising read, of random numbers. */
+/* Random input of the inner loops of denoising. */
 #ifndef LIB_DENOISE_KERNEL_H
 #define LIB_DENOISE_KERNEL_H
 
@@ -7,7 +7,7 @@
 
 enum { PLANES = 9, GROUPS = 4, IMAGES = 6 };
 
-/* What both kernels read, of random numbers. */
+/* The input of both kernels. */
 typedef struct Room {
     float planes[PLANES][DENOISE_PLANE], scales[2 * GROUPS][DENOISE_PLANE], valid[DENOISE_PLANE];
     float half[2][3][DENOISE_PLANE], variance[3][DENOISE_PLANE], kind[DENOISE_PLANE], modulation[DENOISE_PLANE];
@@ -17,14 +17,14 @@ typedef struct Room {
     RetexDenoiseSimilarity alike[DENOISE_BATCH];
 } Room;
 
-/* What the signal kernel writes. */
+/* The output of the signal kernel. */
 typedef struct Sums {
     float sum[DENOISE_CANDIDATES][2][4][DENOISE_PIXELS], images[IMAGES][DENOISE_PIXELS],
         weight[DENOISE_BATCH][DENOISE_PIXELS];
     float *image_sums[IMAGES];
 } Sums;
 
-/* Three groups of features and one of positions; weights from 0 to 1 come of it. To be freed. */
+/* Three groups of features and one of positions. They give weights from 0 to 1. To be freed. */
 Room *open_room(uint32_t seed);
 /* With all images. */
 RetexDenoiseSignal signal_of(Room *r, Sums *sums);

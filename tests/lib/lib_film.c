@@ -123,7 +123,7 @@ void assert_absent(const Fixture *f, const char *name)
         fail_msg("there is a part %s", name);
 }
 
-/* A factor with the footprints' own albedos. */
+/* A factor with the original albedos of the footprints. */
 static double factor(const RetexSet *set, int number, size_t pixel, size_t channel)
 {
     double sum = 0, weights = 0;

@@ -1,4 +1,4 @@
-/* Small sets of layout footprints, filled by hand, and what denoising makes of their footprints. */
+/* Small sets of layout footprints, filled by hand, for tests of denoising their footprints. */
 #ifndef LIB_FOOTPRINTS_H
 #define LIB_FOOTPRINTS_H
 
@@ -7,7 +7,7 @@
 
 enum { WIDTH = 8, HEIGHT = 4 };
 
-/* A set in the calls, and a band that holds all its rows; what has not been written is -7. */
+/* A set, and a band of all its rows. Values that have not been written are -7. */
 typedef struct Work {
     RetexDenoiser d;
     RetexDenoiseFootprints *footprints;
@@ -17,19 +17,19 @@ typedef struct Work {
 
 /* ---- sets ---- */
 
-/* A part of the set's size, named by what it is and a number. */
+/* A part of the set's size, named by its kind and a number. */
 int add_part(RetexSet *set, const char *letters, const char *what, int number);
 int add_footprint(RetexSet *set, int target, RetexFootprintKind kind, int hit, const char *spread);
-/* Its factors: the first once, the second for all others. */
+/* Its factors: `first` once, the second one for all others. */
 int add_term(RetexSet *set, int nfactors, int first, int others);
-/* A mixture of so many footprints from `first` on, whose weights are new parts. */
+/* A mixture of this number of footprints from `first` on. Their weights are new parts. */
 int add_mixture(RetexSet *set, int first, int count, const char *letters);
-/* Targets, a beauty, and the term without factors. */
+/* A set with targets, a beauty, and the term without factors. */
 RetexSet *start_set(int width, int height, int ntargets);
-/* One target with so many clusters, footprints 0..count-1, whose terms are 1..count. */
+/* A set of one target with this number of clusters: footprints 0..count-1, terms 1..count. */
 RetexSet *cluster_set(RetexFootprintKind kind, int count);
-/* The same, and light that meets the target again, twice: the last term, on two later footprints. Mixtures: the
- * clusters', the later ones'. */
+/* The same with light of two further hits on the target: the last term, with two footprints of interreflection. Its
+ * mixtures are that of the clusters and that of these two. */
 RetexSet *again_set(RetexFootprintKind kind, int count);
 
 /* Places in it. */
@@ -45,20 +45,20 @@ void put_again(RetexSet *set, int x, int y, float light);
 
 /* ---- calls ---- */
 
-/* Gives the set what denoising reads, and takes it. */
+/* Gives the set denoising data, and removes it. */
 Work open_work(RetexSet *set, int footprints);
 void close_work(Work *w);
 const RetexSignal *find_signal(const Work *w, int target, RetexFootprintKind kind);
-/* To pixel (1,1), with neighbours to its right of these weights. */
+/* Calls for pixel (1,1), whose neighbours to the right have these weights. */
 void share_light(Work *w, RetexFootprintKind kind, const float *weights, int count, const float light[3]);
 void pool_later(Work *w, const float *weights, int count);
-/* Of that pixel. */
+/* Values of that pixel. */
 const float *result(const Work *w, int part);
 const float *result_uv(const Work *w, int footprint);
 const float *result_spread(const Work *w, int footprint);
 const float *result_albedo(const Work *w, int footprint);
 void expect_values(const float *is, int count, const float *should, float tolerance);
-/* Footprint and share of a pixel are those of another in the set. */
+/* Footprint and share of a pixel are those of another pixel of the set. */
 void expect_copied(const Work *w, int footprint, int x, int y);
 #define EXPECT(tolerance, is, ...)                                                                                     \
     do {                                                                                                               \

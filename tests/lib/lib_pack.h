@@ -1,4 +1,4 @@
-/* Packs in memory, there and back. */
+/* Round trips of packs in memory. */
 #ifndef LIB_PACK_H
 #define LIB_PACK_H
 
@@ -9,7 +9,7 @@ unsigned char *pack(const RetexSet *set, const RetexPackParams *params, size_t *
 RetexPackParams lossless(void);
 RetexSet *unpack(const unsigned char *data, size_t bytes);
 
-/* Largest difference between two parts' values as a share of the larger of them and `floor`. */
+/* The largest difference between the values of two parts, relative to the largest of both values and `floor`. */
 double part_difference(const RetexPart *a, const RetexPart *b, double floor);
 
 #endif

@@ -1,4 +1,4 @@
-/* Scenes from text: what the language makes of them, or the error that they end in. */
+/* Scenes from text: the parsed scene, or its error. */
 #ifndef LIB_SCENE_TEXT_H
 #define LIB_SCENE_TEXT_H
 
@@ -6,7 +6,7 @@
 #include "scene/scene.h"
 #include "sdl/sdl.h"
 
-extern char messages[8192]; /* about the last scene that was parsed, one a line */
+extern char messages[8192]; /* of the last scene that was parsed, one per line */
 
 int parse_with(Scene **scene, const char *text, SdlOptions *options, RetexError *err);
 Scene *parse(const char *text);

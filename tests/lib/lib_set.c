@@ -17,7 +17,7 @@ static int add_part(RetexSet *set, const char *name, const char *letters, RetexP
     return part;
 }
 
-/* Light that falls off over five decades, with noise, black in a disc. */
+/* Light that decreases over five decades, with noise. It is black in a disc. */
 static void fill_radiance(RetexImage *im, double level, uint32_t *seed)
 {
     for (int y = 0; y < im->height; y++)
@@ -102,7 +102,7 @@ static void add_target(RetexSet *set, const char *name, int periodic, uint32_t *
         im->pixels[i] = (float)test_random(seed);
 }
 
-/* What is stored in half precision is exact in it, so that files keep every bit of the set. */
+/* Round values that are stored as halves, so that files keep every bit of the set. */
 static void round_to_stored(RetexSet *set)
 {
     for (int i = 0; i < set->nparts; i++) {
@@ -159,7 +159,7 @@ RetexSet *test_set(int width, int height, uint32_t seed)
     return set;
 }
 
-/* One share's weights: none along one side. */
+/* The weights of one share: 0 along one side. */
 static struct RetexShare add_share(RetexSet *set, int footprint, const char *name, const char *letters, uint32_t *seed)
 {
     struct RetexShare share = {footprint, add_part(set, name, letters, RETEX_HALF)};
@@ -171,8 +171,8 @@ static struct RetexShare add_share(RetexSet *set, int footprint, const char *nam
     return share;
 }
 
-/* A mixture of one footprint of each target, and one of three weighted colour by colour; and two terms that have them:
- * one once, one as often as a term may. */
+/* A mixture of one footprint of each target, and one of three with a weight for each colour. Two terms use them: one
+ * once, one as often as a term may. */
 static void add_mixtures(RetexSet *set, uint32_t *seed)
 {
     RetexMixture of_two = {.nshares = 2}, of_three = {.nshares = 3};
@@ -240,7 +240,7 @@ static void add_random_part(RetexSet *set, const char *name, const char *letters
         im->pixels[i] = (float)(low + (high - low) * test_random(seed));
 }
 
-/* A guide has one value in the left half and another in the right. */
+/* A guide with one value in the left half and another in the right half. */
 static void add_guide(RetexSet *set, const char *name, const char *letters, RetexPixelType type, double low,
                       double high, uint32_t *seed)
 {

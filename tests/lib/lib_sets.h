@@ -1,4 +1,4 @@
-/* Samples made by hand, and whether sets and samples are the same as others. */
+/* Samples made by hand, and comparisons of sets and samples. */
 #ifndef LIB_SETS_H
 #define LIB_SETS_H
 

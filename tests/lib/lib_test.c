@@ -1,4 +1,4 @@
-/* What the unit tests share: see lib_test.h. */
+/* See lib_test.h. */
 #include "lib_test.h"
 
 #include <math.h>

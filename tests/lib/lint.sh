@@ -1,6 +1,6 @@
 #!/bin/sh
-# Rules of the house that a script can check: make lint.
-#   - arrows between directories: libretex <- renderer <- oiio_plugins; tools -> libretex
+# Rules that a script can check: make lint.
+#   - includes between directories: libretex <- renderer <- oiio_plugins; tools -> libretex
 #   - order of the rooms of tools/libretex and of the renderer; no circles of headers, nor of the renderer's files
 #   - symbols of libretex begin with retex_; its README names all files
 #   - one definition of the sRGB curve, of luminance, the clock, the version,

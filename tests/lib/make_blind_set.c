@@ -1,4 +1,4 @@
-/* make_blind_set SET OUT: the set with its beauty part black, to show that recombination never reads it. */
+/* make_blind_set SET OUT: writes the set with a black beauty part, to show that recombination never reads that part. */
 #include <retex/set.h>
 #include <retex/set_file.h>
 #include <stdio.h>

@@ -1,5 +1,5 @@
-/* Runs a program and writes the largest amount of memory that it had, in megabytes, or 0 where a sanitizer takes more
- * than the program does: make_peak FILE PROGRAM ARGUMENT... */
+/* Runs a program and writes its peak memory in megabytes, or 0 if a sanitizer takes more memory than the program:
+ * make_peak FILE PROGRAM ARGUMENT... */
 #include <stdio.h>
 #include <sys/resource.h>
 #include <sys/wait.h>

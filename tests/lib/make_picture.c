@@ -1,4 +1,4 @@
-/* Writes a small repeatable picture, whole or spoilt in one way, for the tests of retex-diff:
+/* Writes a small repeatable picture, correct or with one defect, for the tests of retex-diff:
  * make_picture FILE [noise=SIZE] [mirror] [swap] [nan] [inf] [channels=LETTERS] [size=WxH] [seed=N] [grey]
  * An EXR gets exactly the channels asked for (default RGB), in half precision; other formats are written as usual. */
 #include <math.h>
@@ -45,7 +45,7 @@ static void parse(Wishes *w, int argc, char **argv)
     }
 }
 
-/* A lit gradient, different in each channel, without any symmetry. */
+/* A gradient that differs in each channel and has no symmetry. */
 static void paint(RetexImage *im, const Wishes *w)
 {
     uint32_t state = w->seed;

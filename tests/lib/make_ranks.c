@@ -1,5 +1,5 @@
-/* make_ranks EXPECTED A B: how well an expected error ranks the true one. Over blocks of 8x8 pixels, Spearman's rank
- * correlation between the root mean square of EXPECTED and that of A - B; then both over the whole picture. */
+/* make_ranks EXPECTED A B: how well an expected error ranks the true error. Prints Spearman's rank correlation between
+ * the root mean square of EXPECTED and that of A - B, over blocks of 8x8 pixels; then both over the whole picture. */
 #include <math.h>
 #include <retex/image.h>
 #include <retex/image_file.h>

@@ -1,8 +1,8 @@
-/* Writes the synthetic set of lib_set.c, what the command-line tests work on:
+/* Writes the synthetic set of lib_set.c, the input of the command-line tests:
  * make_set FILE.exr [WIDTH HEIGHT [SEED]] [WORD...]; WORD:
  *     footprints  layout footprints instead of paper
  *     plain       no terms, no targets: the beauty, and the other parts as AOVs
- *     denoise     with what denoising reads
+ *     denoise     with denoising data
  *     PART=VALUE  that value, such as nan or -inf, in the last channel of a part at 5,3 */
 #include <ctype.h>
 #include <stdio.h>

@@ -1,4 +1,5 @@
-/* make_values FILE X,Y…: the samples of part 0 of a set or picture at pixels, a line each, to nine digits. */
+/* make_values FILE X,Y…: prints the values of part 0 of a set or picture at these pixels, with nine digits, one line
+ * per pixel. */
 #include <retex/image.h>
 #include <retex/image_file.h>
 #include <retex/set.h>

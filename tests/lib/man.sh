@@ -1,10 +1,11 @@
 #!/bin/sh
-# Runs the examples of a man page, in order, in one fresh folder: man.sh man/TOOL.1. Prints TAP.
+# Runs the examples of a man page, in order, in one empty folder: man.sh man/TOOL.1. Prints TAP.
 #
-# An example is a literal display (.Bd -literal … .Ed, or a .Dl line) of the section EXAMPLES; a leading `$ ` is left out.
-# Each must exit with 0, or with the number a comment line `.\" exit N` before it says. In the folder are scenes/ (the
-# scenes), room.exr (a set as it is rendered, with targets Floor and Wall), room.retex (it packed), oak.jpg and brick.jpg
-# (textures), a.exr and b.exr (two pictures that differ a little). Programs find our plugins for OpenImageIO.
+# An example is a literal display (.Bd -literal … .Ed, or a .Dl line) of the section EXAMPLES; a leading `$ ` is
+# removed. Each must exit with 0, or with N if a comment line `.\" exit N` is before it. The folder has scenes/ (the
+# scenes), room.exr (a set as rendered, with targets Floor and Wall), room.retex (its pack), oak.jpg and brick.jpg
+# (textures), and a.exr and b.exr (two pictures that differ a little). Programs find the plugins of retex for
+# OpenImageIO.
 set -u
 here=$(pwd)
 page=$here/$1

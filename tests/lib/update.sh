@@ -1,6 +1,6 @@
 #!/bin/sh
-# Makes one reference anew, on a clean tree: update.sh golden/NAME | cli/NAME | oiio/NAME | fidelity/NAME. Prints what was
-# and what is.
+# Updates one reference, on a clean tree: update.sh golden/NAME | cli/NAME | oiio/NAME | fidelity/NAME. Prints the old
+# and the new one.
 set -eu
 case=${1-}
 if [ -z "$case" ]; then

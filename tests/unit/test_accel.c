@@ -1,5 +1,5 @@
-/* Ray queries: against every triangle tried in turn, no leaks through closed meshes, no ray that meets what it leaves,
- * visibility by kind of ray, bad input. */
+/* Ray queries. They are compared with a loop over all triangles. No ray leaks through closed meshes, no ray intersects
+ * the surface that it leaves, visibility depends on the kind of ray, and bad input is handled. */
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>

@@ -1,14 +1,14 @@
-/* Ray queries against a plain loop over everything in the scene, in double: random scenes of all shapes, one inside
- * the other and through each other, sheared and stretched, of a thousandth of a unit to a thousand units, near the
- * origin and far from it.
+/* Ray queries, compared with a simple loop over all shapes of the scene in double precision. Scenes are random and
+ * have all shapes: inside and through each other, sheared and stretched, with sizes from a thousandth of a unit to a
+ * thousand units, near the origin and far from it.
  *
- * What Embree decides in float is left open here too, and only that: whether a ray meets a triangle within EDGE of its
- * rim; whether one within START of the ray's start lies before or behind it; and which of two triangles comes first
- * where their heights over each other are within HEIGHT. All are shares of the coordinates involved. Where a curved
- * shape or a plane is one of the two, only doubles may decide, to EXACT.
+ * Some results of Embree, which computes in float, are not checked: whether a ray intersects a triangle within EDGE of
+ * its rim; whether a triangle within START of the ray's start lies before or behind it; and which of two triangles
+ * comes first if their distance is within HEIGHT. All three are shares of the coordinates involved. If a curved shape
+ * or a plane is one of the two, the order must be right to EXACT.
  *
- * RETEX_ORACLE_SECONDS=N goes on with other scenes for so long, RETEX_ORACLE_SEED=N begins with that one. A failure
- * names the seed of its scene. */
+ * RETEX_ORACLE_SECONDS=N tests further scenes for N seconds. RETEX_ORACLE_SEED=N begins with scene N. A failure names
+ * the seed of its scene. */
 #include <float.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,4 +1,4 @@
-/* Which files may be read: folders, links, `..`, and names that change their meaning meanwhile. */
+/* Which files may be read: folders, links, `..`, and names whose meaning changes meanwhile. */
 #include "lib_folder.h"
 #include "lib_test.h"
 #include <cmocka.h>

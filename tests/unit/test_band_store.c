@@ -1,4 +1,5 @@
-/* The band store: bands in any order, and a set that is written from it is the same file as from memory. */
+/* The band store: bands arrive in any order, and a set that is written from the store gives the same file as one from
+ * memory. */
 #include "lib_folder.h"
 #include "lib_test.h"
 #include <cmocka.h>

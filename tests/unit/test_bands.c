@@ -1,4 +1,4 @@
-/* Bands of a film: written to by many threads at once, which `make tsan` looks on at. */
+/* The bands of a film, while many threads write to them at once. `make tsan` checks this for data races. */
 #include "lib_test.h"
 #include <cmocka.h>
 #include <retex/parallel.h>

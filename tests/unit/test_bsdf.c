@@ -1,5 +1,5 @@
-/* The split BSDF against what must hold: sampling matches evaluation, densities add up to one, energy is kept,
- * smooth dielectrics give Fresnel's reflectance, and no choice depends on the albedo. */
+/* The properties of the split BSDF: sampling matches evaluation, densities integrate to one, energy is conserved,
+ * smooth dielectrics have Fresnel's reflectance, and no choice depends on the albedo. */
 #include <stdarg.h>
 #include <stddef.h>
 #include <setjmp.h>

@@ -1,10 +1,10 @@
-/* The extension's BSDF against a second one, written from the formulas of the paper's supplement (4.1) and of what it
- * stands on: Trowbridge and Reitz' distribution and Smith's height-correlated masking (Heitz 2014), Cook and
- * Torrance's form of Fresnel's equations (1982), Burley's diffuse and retro-reflective lobes (2015), Walter et al.'s
- * rough refraction (2007, Eq. 21). Nothing here is shared with renderer/shade.
+/* The BSDF of the extension, compared with a second one. That one is written from the formulas of the paper's
+ * supplement (4.1) and of its sources: Trowbridge and Reitz' distribution and Smith's height-correlated masking (Heitz
+ * 2014), Cook and Torrance's form of Fresnel's equations (1982), Burley's diffuse and retro-reflective lobes (2015),
+ * Walter et al.'s rough refraction (2007, Eq. 21). Nothing here is shared with renderer/shade.
  *
- * Then what sampling must do whatever the formulas: directions come with the density that is stated, by a chi-square
- * test for each lobe, and the mean of the weights is the integral of the second BSDF. */
+ * Sampling is tested as well: directions have the stated density, by a chi-square test for each lobe, and the mean of
+ * the weights is the integral of the second BSDF. */
 #include <stdarg.h>
 #include <stddef.h>
 #include <setjmp.h>

@@ -1,4 +1,4 @@
-/* What work may take, and the names of files that a process leaves when it is ended. */
+/* Limits of memory and time, and the names of files that a process removes when it is ended. */
 #include <fcntl.h>
 #include <stdio.h>
 #include <stdlib.h>

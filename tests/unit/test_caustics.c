@@ -1,5 +1,5 @@
-/* The guide to caustics: its density is one over the sphere and that of its directions, it is the same for any number
- * of threads, and the mean of a picture does not depend on it. */
+/* The guide to caustics: its density integrates to one over the sphere and is that of its directions, the guide is the
+ * same for any number of threads, and the mean of a picture does not depend on it. */
 #include "lib_scene.h"
 
 #include <stdio.h>

@@ -1,4 +1,4 @@
-/* Checkpoints: what was committed is there when a band store is opened again, however its file ends or is damaged. */
+/* Checkpoints: committed bands are there when a band store is opened again, however its file ends or is damaged. */
 #include "lib_damage.h"
 #include <cmocka.h>
 

@@ -1,4 +1,4 @@
-/* The walk over a command line: cli_next. What ends the process (wrong options, --help) is tested in tests/cli. */
+/* Parsing of a command line: cli_next. tests/cli tests what ends the process (wrong options, --help). */
 #include "lib_test.h"
 #include <cmocka.h>
 

@@ -1,4 +1,4 @@
-/* Which paths lead to one file, there or not, and what may be read and written by one command. */
+/* Which paths lead to the same file, whether it exists or not, and which files one command may read and write. */
 #include "lib_test.h"
 #include "lib_folder.h"
 #include <cmocka.h>

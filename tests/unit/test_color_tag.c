@@ -1,4 +1,4 @@
-/* What EXR files say of their colours: written in their headers, and followed when they are read. */
+/* The colour tags of EXR files: they are written to headers and obeyed when files are read. */
 #include "lib_folder.h"
 #include "lib_test.h"
 

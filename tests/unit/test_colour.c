@@ -1,5 +1,5 @@
-/* Pictures through OpenImageIO and OpenColorIO: exact sRGB, alpha, greys, depths, colour spaces, $OCIO, and what is
- * said when a file cannot be read or written. */
+/* Pictures through OpenImageIO and OpenColorIO: exact sRGB, alpha, greys, depths, colour spaces, $OCIO, and the
+ * messages when a file cannot be read or written. */
 #include "lib_folder.h"
 #include "lib_test.h"
 

@@ -1,4 +1,5 @@
-/* Sampling and recombination against a plain reference, on random sets; regions, threads, cross terms, mistakes. */
+/* Sampling and recombination, compared with a simple reference on random sets: regions, threads, cross terms, and
+ * mistakes. */
 #include "lib_test.h"
 
 #include <math.h>

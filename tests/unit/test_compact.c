@@ -1,4 +1,4 @@
-/* A compact set shows what the set does, in fewer numbers. */
+/* A compact set gives the same pictures as its source, from fewer numbers. */
 #include "lib_compact.h"
 
 #include <math.h>

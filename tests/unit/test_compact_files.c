@@ -1,4 +1,4 @@
-/* Compact sets: the same whatever the threads and wherever the set is, written and read. */
+/* Compact sets are the same for any number of threads and wherever the set is stored, when written and read. */
 #include "lib_compact.h"
 
 #include <math.h>

@@ -1,4 +1,4 @@
-/* Control variates: moments against sums by hand, and estimates where the answer is known. */
+/* Control variates: moments are compared with sums by hand, and estimates with known results. */
 #include <stdarg.h>
 #include <stddef.h>
 #include <setjmp.h>

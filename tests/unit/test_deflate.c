@@ -1,5 +1,5 @@
-/* Deflating: what zlib inflates is what went in, of any bytes, at whatever length and in pieces; inflating: what zlib
- * deflated; and the same checksums. */
+/* Deflate: zlib inflates the data that the library deflated, of any bytes, any length and in pieces. Inflate: the
+ * library inflates the data that zlib deflated. Checksums are those of zlib. */
 #include "lib_test.h"
 
 #include <stdlib.h>

@@ -1,4 +1,4 @@
-/* Denoising whole sets: what a call does and refuses, and that it does the same however it is done. */
+/* Denoising of whole sets: what a call does and refuses, and that its result does not depend on how it is made. */
 #include "lib_denoise.h"
 #include <cmocka.h>
 

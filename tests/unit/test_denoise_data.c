@@ -1,5 +1,5 @@
-/* What a render leaves for denoising: noise that is half of the difference of the two halves of the samples, and guides
- * of scenes whose surfaces lie at known places. */
+/* The denoising data of a render: noise is half of the difference between the two halves of the samples, and guides
+ * are right for surfaces at known positions. */
 #include "lib_test.h"
 
 #include <math.h>

@@ -1,5 +1,5 @@
-/* What becomes of a pixel's footprints when its light was filtered: kept, borrowed or pooled; on sets of few pixels, by
- * hand. */
+/* The footprints of a pixel after its light was filtered: kept, borrowed or pooled. The sets have few pixels, filled
+ * by hand. */
 #include "lib_footprints.h"
 
 /* Half a unit in the last place that coverages and spreads up to 1 keep. */

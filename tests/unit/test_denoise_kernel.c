@@ -1,4 +1,4 @@
-/* The inner loops of denoising: vector and plain code give the same bits, and what the formulas say. */
+/* The inner loops of denoising: vector and scalar code give the same bits, and the values of the formulas. */
 #include "lib_denoise_kernel.h"
 #include <cmocka.h>
 

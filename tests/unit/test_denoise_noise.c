@@ -1,4 +1,4 @@
-/* What denoising makes of noise, and of what is none: on sets whose truth is known. */
+/* How denoising treats noise, and detail that is not noise, on sets whose noise-free values are known. */
 #include "lib_denoise.h"
 #include <cmocka.h>
 

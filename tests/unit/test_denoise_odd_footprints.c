@@ -1,4 +1,5 @@
-/* Denoising footprints of whole sets: facts about random ones, sets that lie, results that repeat, and how fast. */
+/* Denoising the footprints of whole sets: properties on random sets, inconsistent sets, repeatable results, and speed.
+ * */
 #include "lib_footprints.h"
 #include <cmocka.h>
 

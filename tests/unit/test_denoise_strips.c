@@ -1,4 +1,4 @@
-/* Denoising a set that stays in its file: the same as in memory, and nothing left behind. */
+/* Denoising a set that stays in its file: the result is the same as in memory, and no temporary file remains. */
 #include "lib_denoise.h"
 #include "lib_folder.h"
 #include <cmocka.h>

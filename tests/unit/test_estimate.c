@@ -1,4 +1,4 @@
-/* The error to be expected of a retexture: its formula on one pixel, and what textures scatter within footprints. */
+/* The expected error of retexturing: its formula on one pixel, and the variance of textures within footprints. */
 #include "lib_error.h"
 #include "lib_test.h"
 

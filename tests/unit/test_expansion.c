@@ -1,4 +1,4 @@
-/* A path's polynomial against the product it stands for, and the terms its monomials go to. */
+/* The polynomial of a path, compared with the product that it expands, and the terms of its monomials. */
 #include <stdarg.h>
 #include <stddef.h>
 #include <setjmp.h>

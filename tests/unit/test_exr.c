@@ -1,4 +1,4 @@
-/* EXR: half conversion over all values, parts there and back, every compression, and files damaged in all ways. */
+/* EXR: half conversion of all values, round trips of parts, every compression, and damaged files. */
 #include "lib_folder.h"
 #include "lib_test.h"
 #include <cmocka.h>

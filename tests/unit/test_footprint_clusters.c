@@ -1,4 +1,4 @@
-/* The clusters of a pixel against the plain way to find them: what every pair costs, for every place anew. */
+/* The clusters of a pixel, compared with a simple search that computes the cost of every pair anew for every place. */
 #include "lib_test.h"
 
 #include <math.h>

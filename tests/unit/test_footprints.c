@@ -1,4 +1,4 @@
-/* Layout footprints, through the film: what a pixel keeps of the places where light paths met targets first. */
+/* Layout footprints, through the film: which places of the first hits of light paths a pixel keeps. */
 #include "lib_film.h"
 
 #include <math.h>

@@ -1,4 +1,4 @@
-/* Layout footprints, through the film: light that meets targets again, and what is folded. */
+/* Layout footprints, through the film: light with further hits, and folded light. */
 #include "lib_film.h"
 
 #include <math.h>

@@ -1,4 +1,4 @@
-/* Images: memory and regions, EXR files there and back, and what happens when a file cannot be written. */
+/* Images: memory and regions, round trips of EXR files, and files that cannot be written. */
 #include "lib_folder.h"
 #include "lib_test.h"
 #include <cmocka.h>

@@ -1,4 +1,5 @@
-/* How noisy a picture is, told from the picture alone: noise of known size, and what must not be taken for it. */
+/* The noise of a picture, estimated from the picture alone: noise of known size, and detail that must not be taken for
+ * noise. */
 #include "lib_test.h"
 #include <cmocka.h>
 

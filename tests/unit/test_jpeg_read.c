@@ -1,4 +1,5 @@
-/* JPEG textures read without OpenImageIO against the bridge, and what is left to it. */
+/* JPEG textures read without OpenImageIO, compared with those that the bridge reads, and files that are left to the
+ * bridge. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

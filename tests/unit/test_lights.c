@@ -1,5 +1,5 @@
-/* The choice among lights: its probabilities add up, are those of what is chosen, and leave nothing out; densities of
- * sampling an emitter are those of hitting it. */
+/* Light selection: probabilities add up to one, are those of the selected light, and omit no light. The density of
+ * sampling an emitter is that of hitting it. */
 #include "lib_scene.h"
 
 #include <stdio.h>

@@ -1,5 +1,5 @@
-/* Matte surfaces a packet at a time are what lights, BSDF and rays give one by one, to the bit, with vectors or
- * without. */
+/* The kernels for matte surfaces, a packet at a time, give the same bits as lights, BSDF and rays one by one, with and
+ * without vector instructions. */
 #include <stdarg.h>
 #include <stddef.h>
 #include <setjmp.h>

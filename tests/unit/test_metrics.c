@@ -1,4 +1,4 @@
-/* Metrics: known values, FLIP against a direct two-dimensional filter, threads, and what is refused. */
+/* Metrics: known values, FLIP compared with a direct two-dimensional filter, threads, and refused input. */
 #include "lib_test.h"
 #include <cmocka.h>
 

@@ -1,5 +1,5 @@
-/* Terms with mixtures, whose values are known by hand: with new textures on either target, on both, on none; through
- * files, streams and packs; and mixtures that are not whole. */
+/* Terms with mixtures whose values are known by hand: with new textures on either target, on both and on none, through
+ * files, streams and packs; and incomplete mixtures. */
 #include "lib_error.h"
 #include "lib_folder.h"
 #include "lib_test.h"

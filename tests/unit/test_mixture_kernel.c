@@ -1,4 +1,5 @@
-/* Weighted means by one weight a pixel against those by a weight a colour, which are the reference. */
+/* Weighted means with one weight per pixel, compared with those with one weight per colour, which are the reference.
+ * */
 #include "lib_test.h"
 
 #include <string.h>

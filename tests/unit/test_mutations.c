@@ -1,5 +1,5 @@
-/* Files that are damaged in all ways, on all roads: what comes of one is refused, or the same to the bit as of the
- * whole one. Never another picture, a crash, or an end that does not come.
+/* Files that are damaged in all ways, read in all ways. A damaged file must be refused, or give the same result to the
+ * bit as the undamaged one. It must never give another picture, a crash or an endless loop.
  *
  * test_mutations [COUNT [SEED [FOLDER]]]: so many inputs of each file; those that fail are kept in FOLDER. Input number
  * i of a seed is the same in every run. */

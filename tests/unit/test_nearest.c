@@ -1,4 +1,4 @@
-/* Words that are like others: the distance against a plain recursion, and which is suggested. */
+/* Similar words: the edit distance is compared with a simple recursion, and the suggested word is checked. */
 #include "lib_test.h"
 #include <cmocka.h>
 #include <ctype.h>

@@ -1,4 +1,4 @@
-/* Packs: bit-exact or close round trips. */
+/* Packs: round trips that are bit-exact or close. */
 #include "lib_pack.h"
 
 #include <math.h>

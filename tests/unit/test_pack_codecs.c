@@ -1,4 +1,4 @@
-/* How packs keep numbers: JPEG of levels, planes. */
+/* The codecs of packs: JPEG of levels, planes. */
 #include "lib_test.h"
 
 #include <math.h>

@@ -1,5 +1,5 @@
-/* The picture of lossless packs, as what differs from the one that the set's terms give: exact, small, and never where
- * it does not hold. */
+/* Part 0 of lossless packs, stored as its difference from the picture that the set's terms give: it is exact, small,
+ * and never used where its conditions do not hold. */
 #include "lib_test.h"
 #include <cmocka.h>
 

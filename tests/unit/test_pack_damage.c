@@ -1,4 +1,4 @@
-/* Packs that are not whole, or lie, are refused. */
+/* Incomplete and inconsistent packs are refused. */
 #include "lib_folder.h"
 #include "lib_folder.h"
 #include "lib_pack.h"
@@ -179,10 +179,8 @@ static void test_other_zips_are_refused(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_every_flipped_byte_is_seen),
-        cmocka_unit_test(test_truncated_packs_are_refused),
-        cmocka_unit_test(test_foreign_entries_are_refused),
-        cmocka_unit_test(test_manifests_that_lie_are_refused),
+        cmocka_unit_test(test_every_flipped_byte_is_seen),  cmocka_unit_test(test_truncated_packs_are_refused),
+        cmocka_unit_test(test_foreign_entries_are_refused), cmocka_unit_test(test_manifests_that_lie_are_refused),
         cmocka_unit_test(test_other_zips_are_refused),
     };
     return cmocka_run_group_tests_name("pack damage", tests, NULL, NULL);

@@ -1,5 +1,5 @@
-/* Bands of numbers, predicted and coded by a model: every number comes back, in as few bytes as it should, and damaged
- * data does no harm. */
+/* Bands of numbers, predicted and coded by a model: every number is decoded exactly, the size is as small as it should
+ * be, and damaged data does no harm. */
 #include "lib_test.h"
 
 #include <math.h>

@@ -1,4 +1,5 @@
-/* The quality bounds what pictures made from a pack lose, with textures that were tried and, within a slack, others. */
+/* The quality bounds the loss of pictures made from a pack, with textures that the packer tried and, within a margin,
+ * with others. */
 #include "lib_footprints.h"
 #include <cmocka.h>
 

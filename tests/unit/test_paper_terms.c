@@ -1,5 +1,6 @@
-/* The parts and terms of layout paper against the supplement's formulas (4.2 and 4.3), hit by hit: of one path whose
- * hits all differ in both parts, in every channel and in where they are. Names, values and factors are compared. */
+/* The parts and terms of layout paper, compared with the supplement's formulas (4.2 and 4.3), hit by hit. The hits of
+ * the path differ in both parts of the light, in every channel and in position. Names, values and factors are
+ * compared. */
 #include <stdarg.h>
 #include <stddef.h>
 #include <setjmp.h>

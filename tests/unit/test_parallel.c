@@ -1,4 +1,4 @@
-/* Threads: every index once, thread numbers that may be used for scratch, nesting. */
+/* Threads: every index runs once, thread numbers can select scratch memory, and calls can be nested. */
 #include "lib_test.h"
 #include <cmocka.h>
 

@@ -1,5 +1,5 @@
-/* Pictures written band by band: the same file whatever the order of the bands and the threads, the same pixels as from
- * the libraries that make such files in one go, and nothing left behind where it fails. */
+/* Pictures written band by band: the file does not depend on the order of bands and threads, the pixels are those of
+ * the libraries that write such files in one call, and no file remains where writing fails. */
 #include "lib_folder.h"
 #include "lib_test.h"
 #include <cmocka.h>

@@ -1,4 +1,4 @@
-/* Pigments, against values read from POV-Ray's own pictures, and the UVs of targets. */
+/* Pigments, compared with values of POV-Ray's pictures, and the UVs of targets. */
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>

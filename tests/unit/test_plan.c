@@ -1,4 +1,4 @@
-/* Which coefficients clusters keep: all combinations of few hits, mixtures of more, and the steps between them. */
+/* Which coefficients clusters keep: all combinations of few hits, mixtures for more, and the limits between them. */
 #include "lib_test.h"
 #include <stdio.h>
 #include <string.h>

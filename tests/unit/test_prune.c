@@ -1,4 +1,4 @@
-/* What no pixel has leaves a set, and what remains keeps its order. */
+/* Parts that are 0 in all pixels are removed from a set, and the other parts keep their order. */
 #include "lib_test.h"
 #include <cmocka.h>
 

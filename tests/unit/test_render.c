@@ -1,6 +1,6 @@
-/* Whole renders of scenes with closed forms, built without the scene language: furnaces, one light over a plane, an
- * emitter's irradiance, Fresnel at a slab; and the promises of the renderer: the same bits for any number of threads, a
- * set that recombines to the picture. */
+/* Whole renders of scenes with closed forms, built without the scene language: furnaces, one light over a plane, the
+ * irradiance of an emitter, Fresnel at a slab. And two promises of the renderer: pictures are the same to the bit for
+ * any number of threads, and a set recombines to the picture. */
 #include <stdarg.h>
 #include <stddef.h>
 #include <setjmp.h>

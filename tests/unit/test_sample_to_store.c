@@ -1,4 +1,4 @@
-/* Samples of sets that stay in their files: kept out of memory, and the same files as from memory. */
+/* Samples of sets that stay in their files: they are not kept in memory, and give the same files as from memory. */
 #include "lib_folder.h"
 #include "lib_test.h"
 
@@ -101,8 +101,7 @@ static void files_are_those_from_memory(void **state)
     for (int round = 0; round < 4; round++) {
         const int compress = round & 1, plain = round >> 1;
         test_must(retex_set_open(test_in_folder("set.exr"), &open, NULL, 2, &err), &err);
-        test_must(retex_sample_to_store(&stored, open, &spec, 1, plain ? "-" : test_own_file, 1 + plain, &err),
-                  &err);
+        test_must(retex_sample_to_store(&stored, open, &spec, 1, plain ? "-" : test_own_file, 1 + plain, &err), &err);
         assert_true(is_out_of_memory(open, stored));
         write_to(NULL, samples, test_in_folder("a.exr"), compress);
         write_to(NULL, stored, test_in_folder("b.exr"), compress);

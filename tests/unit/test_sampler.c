@@ -1,4 +1,4 @@
-/* Sobol' points: every pair of dimensions is a (0,m,2)-net of 2^m samples, keys differ, numbers stay below one. */
+/* Sobol' points: every pair of dimensions is a (0,m,2)-net of 2^m samples, keys differ, and numbers stay below one. */
 #include <stdarg.h>
 #include <stddef.h>
 #include <setjmp.h>

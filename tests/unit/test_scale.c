@@ -1,5 +1,5 @@
-/* Sets whose footprints, weights and gains are smaller than the picture: against the formula, pixel by pixel, and
- * through every door a set goes through. */
+/* Sets whose footprints, weights and gains are smaller than the picture, compared with the formula pixel by pixel, in
+ * every way in which a set is read and used. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>

@@ -1,4 +1,4 @@
-/* Pigments that give back more light than they get are warned of, once, where they are written; what shines is not. */
+/* Pigments that reflect more light than they receive are reported once, where they are written. Emitters are not. */
 #include "lib_folder.h"
 #include "lib_scene_text.h"
 

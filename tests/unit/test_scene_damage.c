@@ -1,4 +1,4 @@
-/* Broken scenes end in one clear error. */
+/* Broken scenes end with one clear error. */
 #include "lib_scene_text.h"
 
 #include <string.h>

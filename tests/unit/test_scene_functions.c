@@ -1,5 +1,5 @@
-/* The functions of the language that look at objects, trace and inside, and its noise. Expected numbers are those of
- * POV-Ray 3.7 but where a comment says otherwise. */
+/* The functions of the language that query objects, trace and inside, and its noise. Expected values are those of
+ * POV-Ray 3.7 unless a comment says otherwise. */
 #include "lib_test.h"
 
 #include <math.h>

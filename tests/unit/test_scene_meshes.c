@@ -1,4 +1,4 @@
-/* What the language builds: meshes and polygons, and what cannot be cut. */
+/* What the language builds: meshes and polygons, and refused ones. */
 #include "lib_scene_text.h"
 #include "shape/shapes.h"
 

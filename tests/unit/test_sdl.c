@@ -1,5 +1,5 @@
-/* The language core: what #debug writes is compared with what POV-Ray 3.7.0.10 wrote for the same text, and messages of
- * errors with what a user should read. */
+/* The language core. The output of #debug is compared with that of POV-Ray 3.7.0.10 for the same text, and error
+ * messages with expected text. */
 #include <pthread.h>
 #include <setjmp.h>
 #include <stdarg.h>

@@ -1,4 +1,4 @@
-/* Sets and samples: there and back through files and pipes, their names and references. */
+/* Sets and samples: round trips through files and pipes, names and references. */
 #include "lib_folder.h"
 #include "lib_sets.h"
 

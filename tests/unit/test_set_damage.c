@@ -1,4 +1,4 @@
-/* Sets and samples: checksums, manifests that lie, files that are damaged. */
+/* Sets and samples: checksums, inconsistent manifests, damaged files. */
 #include "lib_folder.h"
 #include "lib_sets.h"
 

@@ -1,4 +1,5 @@
-/* Damage that nothing but a checksum sees: whoever reads a set, samples or a stream refuses it, whole or row by row. */
+/* Damage that only a checksum detects: every reader of a set, samples or a stream refuses it, whether it reads
+ * everything or row by row. */
 #include "lib_damage.h"
 #include "lib_folder.h"
 #include "set/manifest.h"

@@ -1,5 +1,5 @@
-/* Shapes: intersections against marching along the implicit equation, points and UVs against values measured from
- * POV-Ray, densities against areas. */
+/* Shapes: intersections are compared with marching along the implicit equation, points and UVs with values measured in
+ * POV-Ray, and densities with areas. */
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>

@@ -1,5 +1,4 @@
-/* The signals of a set: which terms they have, with which weights, what is said where a part is missing or wrong; and
- * sets that lie. */
+/* The signals of a set: their terms and weights, the messages for missing and wrong parts, and inconsistent sets. */
 #include "lib_test.h"
 #include <cmocka.h>
 

@@ -1,5 +1,5 @@
-/* Textures: wraps, the UV transform, and the Gaussian filter against a plain numerical integral of the point
- * look-up and against waves, whose filtered amplitude is known exactly. */
+/* Textures: wrap modes, the UV transform, and the Gaussian filter. The filter is compared with a simple numerical
+ * integral of the point look-up, and with waves, whose filtered amplitude is known exactly. */
 #include "lib_test.h"
 
 #include <complex.h>

@@ -1,5 +1,5 @@
-/* Rows of footprints: the kernels of all machines give the same bits, and what they give looks like the filters that do
- * one footprint at a time. */
+/* Rows of footprints: the kernels of all processors give the same bits, and agree closely with the filters that
+ * compute one footprint at a time. */
 #include "lib_test.h"
 #include "texture/batch.h"
 

@@ -1,5 +1,5 @@
-/* The filters' kernels measured: their mean and covariance by filtering pictures of x, y, x^2, xy and y^2, and their
- * colours against plain numerical integrals of the point look-up. */
+/* Measurements of the filter kernels: their mean and covariance, by filtering pictures of x, y, x^2, xy and y^2, and
+ * their colours, compared with simple numerical integrals of the point look-up. */
 #include "lib_test.h"
 
 #include <math.h>

@@ -1,4 +1,4 @@
-/* How a texture lies on its target: every edit is exact on points and on footprints, means and covariances alike;
+/* How a texture lies on its target: every transform is exact on points and on footprints, for means and covariances;
  * images of shifted repeats; squares. */
 #include "lib_test.h"
 

@@ -1,4 +1,4 @@
-/* What may be said of a texture on the command line, and what is answered to mistakes. */
+/* Texture options on the command line, and the messages for mistakes. */
 #include "lib_test.h"
 
 #include <stdio.h>

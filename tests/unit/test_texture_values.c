@@ -1,4 +1,4 @@
-/* Texels that are no colour of a surface: what they become, and what is said of them. */
+/* Texels that are not valid colours of a surface: their replacement, and the warnings. */
 #include "lib_folder.h"
 #include "lib_test.h"
 

@@ -1,4 +1,4 @@
-/* What paths bring to the film of a set, hit by hit and light by light. */
+/* The contributions of paths to the film of a set, by hit and by light. */
 #include "lib_test.h"
 
 #include <math.h>

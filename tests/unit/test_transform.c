@@ -1,4 +1,4 @@
-/* Transforms against POV-Ray's conventions, and the arena. */
+/* Transforms, compared with POV-Ray's conventions, and the arena. */
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>

@@ -1,4 +1,4 @@
-/* How large a unit of u and v is on surfaces where that is known. */
+/* The size of a unit of u and v, on surfaces where it is known. */
 #include <stdarg.h>
 #include <stddef.h>
 #include <setjmp.h>

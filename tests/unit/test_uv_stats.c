@@ -1,4 +1,4 @@
-/* Clusters of UV against sums in two passes; merging, periodic axes; what merging costs. */
+/* Clusters of UV, compared with sums in two passes; merging, periodic axes, and the cost of merging. */
 #include "lib_test.h"
 
 #include <math.h>

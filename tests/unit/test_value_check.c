@@ -1,5 +1,5 @@
-/* Numbers that are no colour: no set, stream or pack that holds any is read, whichever way, and what is said names the
- * part and the place. */
+/* Numbers that are not valid colours: no set, stream or pack that holds one is accepted by any reader, and the message
+ * names the part and the place. */
 #include "lib_folder.h"
 #include "lib_pack.h"
 
