@@ -1,5 +1,5 @@
 /* See noise.h. */
-#include <stdio.h>
+#include <retex/denoise_data.h>
 #include "film/noise.h"
 
 int noise_count(const FilmParams *params, int ntargets)
@@ -13,10 +13,10 @@ static void signal_name(const Scene *scene, const FilmParams *params, int signal
 {
     const FilmLayout *layout = params->layout;
     if (signal == 0)
-        snprintf(name, RETEX_NAME_MAX, "noise_%s", params->split ? "indep" : "beauty");
+        retex_noise_part_name(name, NULL, params->split ? RETEX_SIGNAL_INDEP : RETEX_SIGNAL_BEAUTY);
     else
-        snprintf(name, RETEX_NAME_MAX, "noise_%.90s_%s", scene->targets[(signal - 1) / layout->nsignals].name,
-                 layout->signals[(signal - 1) % layout->nsignals]);
+        retex_noise_part_name(name, scene->targets[(signal - 1) / layout->nsignals].name,
+                              layout->signals[(signal - 1) % layout->nsignals]);
 }
 
 int noise_create(NoiseImages *images, const FilmParams *params, const Scene *scene, Bands *bands, RetexError *err)

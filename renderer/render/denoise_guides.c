@@ -10,19 +10,6 @@
 #define ONE_ALBEDO 1e-4  /* variance of the luminance of albedos that count as one */
 #define FOLLOWED_MAX 16  /* mirrors and glasses on the way */
 
-static const struct {
-    const char *name, *letters;
-    RetexPixelType type;
-} guide_table[GUIDE_COUNT] = {
-    [GUIDE_NORMAL] = {"guide_normal", "RGB", RETEX_HALF},
-    [GUIDE_POSITION] = {"guide_position", "RGB", RETEX_FLOAT},
-    [GUIDE_SPECULAR] = {"guide_specular", "R", RETEX_HALF},
-    [GUIDE_SEEN_NORMAL] = {"guide_seen_normal", "RGB", RETEX_HALF},
-    [GUIDE_SEEN_POSITION] = {"guide_seen_position", "RGB", RETEX_FLOAT},
-    [GUIDE_SEEN_ALBEDO] = {"guide_seen_albedo", "RGB", RETEX_HALF},
-    [GUIDE_SEEN_MATERIAL] = {"guide_seen_material", "RGB", RETEX_HALF},
-};
-
 static void add_sight(Sight *sight, const Shading *s)
 {
     sight->places++;
@@ -205,12 +192,12 @@ void denoise_guides_pixel_end(PixelGuides *p, FilmPixel *pixel, int x, int y)
     const int *to = job->guides;
     const GuidePlace at = {pixel, x, y};
     const double share = 1.0 / p->places;
-    store_sight(&at, to[GUIDE_NORMAL], to[GUIDE_POSITION], &p->first);
-    store_one(&at, to[GUIDE_SPECULAR], share * p->specular);
-    store_sight(&at, to[GUIDE_SEEN_NORMAL], to[GUIDE_SEEN_POSITION], &p->seen);
-    store(&at, to[GUIDE_SEEN_ALBEDO], share, p->albedo.r, p->albedo.g, p->albedo.b);
+    store_sight(&at, to[RETEX_FEATURE_NORMAL], to[RETEX_FEATURE_POSITION], &p->first);
+    store_one(&at, to[RETEX_FEATURE_SPECULAR], share * p->specular);
+    store_sight(&at, to[RETEX_FEATURE_SEEN_NORMAL], to[RETEX_FEATURE_SEEN_POSITION], &p->seen);
+    store(&at, to[RETEX_FEATURE_SEEN_ALBEDO], share, p->albedo.r, p->albedo.g, p->albedo.b);
     double each = p->seen.places ? 1.0 / p->seen.places : 0;
-    store(&at, to[GUIDE_SEEN_MATERIAL], 1, p->roughness * each, p->metallic * each, 1 - p->seen.places * share);
+    store(&at, to[RETEX_FEATURE_SEEN_MATERIAL], 1, p->roughness * each, p->metallic * each, 1 - p->seen.places * share);
     for (int t = 0; t < job->window.scene->ntargets && job->split; t++)
         store_one(&at, job->covers[t], share * p->cover[t]);
     *p = (PixelGuides){.of = job};
@@ -220,12 +207,12 @@ int denoise_guides_create(DenoiseGuides *g, Film *film, const FirstHitWindow *wi
 {
     int code = RETEX_OK;
     *g = (DenoiseGuides){.window = *window, .split = split};
-    for (int k = 0; k < GUIDE_COUNT && !code; k++)
-        code =
-            film_add_image(film, guide_table[k].name, guide_table[k].letters, guide_table[k].type, &g->guides[k], err);
+    for (int k = 0; k < RETEX_FEATURE_COUNT && !code; k++)
+        code = film_add_image(film, retex_features[k].name, retex_features[k].letters, retex_features[k].type,
+                              &g->guides[k], err);
     for (int t = 0; t < window->scene->ntargets && split && !code; t++) {
         char name[RETEX_NAME_MAX];
-        snprintf(name, sizeof name, "guide_cover_%.90s", window->scene->targets[t].name);
+        retex_cover_part_name(name, window->scene->targets[t].name);
         code = film_add_image(film, name, "R", RETEX_HALF, &g->covers[t], err);
     }
     return code;
@@ -234,7 +221,7 @@ int denoise_guides_create(DenoiseGuides *g, Film *film, const FirstHitWindow *wi
 int denoise_guides_finish(const DenoiseGuides *g, Film *film, RetexSet *set, RetexError *err)
 {
     int code = RETEX_OK;
-    for (int k = 0; k < GUIDE_COUNT && !code; k++)
+    for (int k = 0; k < RETEX_FEATURE_COUNT && !code; k++)
         code = film_move_image(film, g->guides[k], set, err);
     for (int t = 0; t < g->window.scene->ntargets && g->split && !code; t++)
         code = film_move_image(film, g->covers[t], set, err);

@@ -1,29 +1,19 @@
 /* What denoising goes by, free of noise: normals, places, colours and cover of what each pixel sees, and of what it
- * sees in mirrors and through clear glass. The parts guide_… of <retex/denoise.h>.
+ * sees in mirrors and through clear glass. The parts guide_… of <retex/denoise_data.h>.
  *
  * Paths look as they go: places of a pixel are those of its first samples, and what the camera's ray meets is known. */
 #ifndef RENDERER_RENDER_DENOISE_GUIDES_H
 #define RENDERER_RENDER_DENOISE_GUIDES_H
 
+#include <retex/denoise_data.h>
 #include "film/film.h"
 #include "path/shading.h"
 #include "render/first_hit.h"
 
-enum {
-    GUIDE_NORMAL,
-    GUIDE_POSITION,
-    GUIDE_SPECULAR,
-    GUIDE_SEEN_NORMAL,
-    GUIDE_SEEN_POSITION,
-    GUIDE_SEEN_ALBEDO,
-    GUIDE_SEEN_MATERIAL,
-    GUIDE_COUNT
-};
-
 typedef struct DenoiseGuides {
     FirstHitWindow window;
     int split;          /* what lies on targets is not known */
-    int guides[GUIDE_COUNT], covers[RETEX_MAX_TARGETS]; /* images of the film */
+    int guides[RETEX_FEATURE_COUNT], covers[RETEX_MAX_TARGETS]; /* images of the film */
 } DenoiseGuides;
 
 /* Sums over those places of a pixel that see anything. */

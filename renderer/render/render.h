@@ -36,7 +36,7 @@ typedef struct RenderParams {
     int nvariants;           /* 0..VARIANTS_MAX */
     int control_data;        /* 1, 2: also what later control variates read, of so many parts of the samples: two are
                                 independent, so that the picture is another one than without; default 0 */
-    int denoise_data;        /* 1: also what retex_denoise reads, see <retex/denoise.h>; nothing where spp is 1, which
+    int denoise_data;        /* 1: also what denoising reads, see <retex/denoise_data.h>; nothing where spp is 1, which
                                 does not tell how noisy it is; default 0 */
     int stored;             /* 1: render_scene leaves parts of the set in a band store, see <retex/band_store.h>, for
                                 retex_set_write or retex_set_load; default 0 */

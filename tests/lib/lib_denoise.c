@@ -95,18 +95,18 @@ static void fill_guides(RetexSet *set)
     test_add_denoise_data(set);
     for (int k = 0; k < set->nparts; k++) {
         RetexImage *im = &set->parts[k].image;
-        if (strncmp(set->parts[k].name, "noise_", 6) == 0)
+        if (retex_name_is_noise(set->parts[k].name))
             memset(im->pixels, 0, (size_t)im->width * (size_t)im->height * (size_t)im->channels * sizeof(float));
     }
-    fill_guide(set, "guide_normal", facing, turned);
-    fill_guide(set, "guide_seen_normal", facing, turned);
-    fill_positions(set, "guide_position");
-    fill_positions(set, "guide_seen_position");
-    fill_guide(set, "guide_specular", black, black);
-    fill_guide(set, "guide_seen_albedo", white, set->ntargets ? grey : white);
-    fill_guide(set, "guide_seen_material", rough, rough);
+    fill_guide(set, retex_features[RETEX_FEATURE_NORMAL].name, facing, turned);
+    fill_guide(set, retex_features[RETEX_FEATURE_SEEN_NORMAL].name, facing, turned);
+    fill_positions(set, retex_features[RETEX_FEATURE_POSITION].name);
+    fill_positions(set, retex_features[RETEX_FEATURE_SEEN_POSITION].name);
+    fill_guide(set, retex_features[RETEX_FEATURE_SPECULAR].name, black, black);
+    fill_guide(set, retex_features[RETEX_FEATURE_SEEN_ALBEDO].name, white, set->ntargets ? grey : white);
+    fill_guide(set, retex_features[RETEX_FEATURE_SEEN_MATERIAL].name, rough, rough);
     for (int t = 0; t < set->ntargets; t++) {
-        snprintf(name, sizeof name, "guide_cover_T%d", t);
+        retex_cover_part_name(name, set->targets[t].name);
         fill_guide(set, name, t ? black : white, black);
     }
 }

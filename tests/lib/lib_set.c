@@ -216,17 +216,17 @@ void test_make_footprints(RetexSet *set)
     round_to_stored(set);
 }
 
-/* The name of a term's signal: see <retex/denoise.h>. */
-static void name_signal(const RetexSet *set, const RetexTerm *term, char *name, size_t size)
+/* The name of a term's signal: see <retex/denoise_data.h>. */
+static void name_signal(const RetexSet *set, const RetexTerm *term, char name[RETEX_NAME_MAX])
 {
     if (term->nfactors == 0) {
-        snprintf(name, size, "noise_indep");
+        retex_noise_part_name(name, NULL, RETEX_SIGNAL_INDEP);
         return;
     }
     const int factor = term->factors[0];
     const RetexFootprint *first =
         &set->footprints[factor < 0 ? set->mixtures[RETEX_MIXTURE(factor)].shares[0].footprint : factor];
-    snprintf(name, size, "noise_%s_%s", set->targets[first->target].name, retex_footprint_kind_name(first->kind));
+    retex_noise_part_name(name, set->targets[first->target].name, retex_footprint_kind_name(first->kind));
 }
 
 static void add_random_part(RetexSet *set, const char *name, const char *letters, RetexPixelType type, double low,
@@ -258,20 +258,18 @@ void test_add_denoise_data(RetexSet *set)
     uint32_t seed = 3;
     char name[RETEX_NAME_MAX];
     for (int t = 0; t < set->nterms; t++) {
-        name_signal(set, &set->terms[t], name, sizeof name);
+        name_signal(set, &set->terms[t], name);
         add_random_part(set, name, "RGB", RETEX_HALF, -0.02, 0.02, &seed);
     }
     if (set->nterms == 0)
-        add_random_part(set, "noise_beauty", "RGB", RETEX_HALF, -0.02, 0.02, &seed);
-    add_guide(set, "guide_normal", "RGB", RETEX_HALF, -1, 1, &seed);
-    add_guide(set, "guide_position", "RGB", RETEX_FLOAT, -5, 5, &seed);
-    add_guide(set, "guide_specular", "R", RETEX_HALF, 0, 1, &seed);
-    add_guide(set, "guide_seen_normal", "RGB", RETEX_HALF, -1, 1, &seed);
-    add_guide(set, "guide_seen_position", "RGB", RETEX_FLOAT, -5, 5, &seed);
-    add_guide(set, "guide_seen_albedo", "RGB", RETEX_HALF, 0, 1, &seed);
-    add_guide(set, "guide_seen_material", "RGB", RETEX_HALF, 0, 1, &seed);
+        add_random_part(set, RETEX_NOISE_PREFIX RETEX_SIGNAL_BEAUTY, "RGB", RETEX_HALF, -0.02, 0.02, &seed);
+    for (int k = 0; k < RETEX_FEATURE_COUNT; k++) {
+        const RetexFeatureInfo *feature = &retex_features[k];
+        const double low = strstr(feature->name, "position") ? -5 : strstr(feature->name, "normal") ? -1 : 0;
+        add_guide(set, feature->name, feature->letters, feature->type, low, low < 0 ? -low : 1, &seed);
+    }
     for (int t = 0; t < set->ntargets; t++) {
-        snprintf(name, sizeof name, "guide_cover_%.90s", set->targets[t].name);
+        retex_cover_part_name(name, set->targets[t].name);
         add_guide(set, name, "R", RETEX_HALF, 0, 1, &seed);
     }
     round_to_stored(set);

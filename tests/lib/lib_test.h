@@ -27,7 +27,7 @@ RetexSet *test_set(int width, int height, uint32_t seed);
  * a unit of UV, and mixtures. */
 void test_make_footprints(RetexSet *set);
 
-/* Add denoising data, as <retex/denoise.h> lists it: noise, and guides of two surfaces side by side. */
+/* Add denoising data, as <retex/denoise_data.h> lists it: noise, and guides of two surfaces side by side. */
 void test_add_denoise_data(RetexSet *set);
 
 /* Ends the process with a message. For functions that run outside of a test. */

@@ -4,7 +4,7 @@
 #   - order of the rooms of tools/libretex and of the renderer; no circles of headers, nor of the renderer's files
 #   - symbols of libretex begin with retex_; its README names all files
 #   - one definition of the sRGB curve, of luminance, the clock, the version,
-#     the choice of vector instructions, the AOVs
+#     the choice of vector instructions, the AOVs, the features of denoising
 #   - each public header compiles alone, as C11 and as C++17
 #   - man pages without complaints of mandoc
 #   - no line over 120 bytes, no tab, no trailing blank in sources
@@ -112,6 +112,7 @@ one_definition tools/libretex/base/cpu.c '__builtin_cpu|target_clones|ifunc|geta
 one_definition tools/libretex/include/retex/cpu.h '__attribute__ *\(\(target|GCC target|__x86_64__' 'how kernels are compiled for a processor'
 
 one_definition tools/libretex/include/retex/aov.h '"irradiance"|"roughness, |, roughness"' 'the list of AOVs'
+one_definition tools/libretex/include/retex/denoise_data.h '"guide_|"noise_("|%|indep|beauty)' 'names of what denoising reads'
 
 # Symbols of the library that others can see begin with retex_.
 unprefixed=$(find "${BUILD:-build}/obj/tools/libretex" -name '*.o' 2>/dev/null | while read -r object; do

@@ -7,6 +7,7 @@
 
 #include <retex/color.h>
 #include <retex/combine.h>
+#include <retex/denoise_data.h>
 #include <retex/parallel.h>
 #include <retex/samples.h>
 
@@ -307,8 +308,8 @@ static int measure_noise(RetexCompactReference *reference, int nthreads, RetexEr
     const size_t count = (size_t)set->width * (size_t)set->height * 3;
     for (int i = 1; i < set->nparts && !code; i++) {
         const RetexPart *part = &set->parts[i];
-        const float share = strcmp(part->name, "noise_indep") == 0 ? 1 : 0.5f;
-        if (!retex_part_is_denoise_data(set, i) || strncmp(part->name, "noise_", 6) != 0 || part->image.channels != 3)
+        const float share = strcmp(part->name, RETEX_NOISE_PREFIX RETEX_SIGNAL_INDEP) == 0 ? 1 : 0.5f;
+        if (!retex_part_is_denoise_data(set, i) || !retex_name_is_noise(part->name) || part->image.channels != 3)
             continue;
         for (size_t k = 0; k < count; k++)
             noise.pixels[k] += share * part->image.pixels[k];

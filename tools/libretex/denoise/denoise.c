@@ -8,19 +8,11 @@
 #include "denoise/strips.h"
 #include "set/parts.h"
 
-static int find_guides(int parts[GUIDE_COUNT], const RetexSet *set, RetexError *err)
+static int find_features(int parts[RETEX_FEATURE_COUNT], const RetexSet *set, RetexError *err)
 {
-    static const struct {
-        const char *name;
-        int channels;
-    } table[GUIDE_COUNT] = {
-        [GUIDE_SEEN_NORMAL] = {"guide_seen_normal", 3}, [GUIDE_SEEN_POSITION] = {"guide_seen_position", 3},
-        [GUIDE_SEEN_ALBEDO] = {"guide_seen_albedo", 3}, [GUIDE_SEEN_MATERIAL] = {"guide_seen_material", 3},
-        [GUIDE_NORMAL] = {"guide_normal", 3},           [GUIDE_POSITION] = {"guide_position", 3},
-        [GUIDE_SPECULAR] = {"guide_specular", 1},
-    };
-    for (int k = 0; k < GUIDE_COUNT; k++)
-        if ((parts[k] = retex_signals_find_part(set, table[k].name, table[k].channels, err)) < 0)
+    for (int k = 0; k < RETEX_FEATURE_COUNT; k++)
+        if ((parts[k] =
+                 retex_signals_find_part(set, retex_features[k].name, (int)strlen(retex_features[k].letters), err)) < 0)
             return parts[k];
     return RETEX_OK;
 }
@@ -28,8 +20,8 @@ static int find_guides(int parts[GUIDE_COUNT], const RetexSet *set, RetexError *
 int retex_denoise_has_data(const RetexSet *set)
 {
     RetexSignals signals;
-    int guides[GUIDE_COUNT];
-    if (find_guides(guides, set, NULL) || retex_signals_open(&signals, set, NULL))
+    int features[RETEX_FEATURE_COUNT];
+    if (find_features(features, set, NULL) || retex_signals_open(&signals, set, NULL))
         return 0;
     retex_signals_close(&signals);
     return 1;
@@ -79,7 +71,7 @@ int retex_denoise(RetexSet *set, const RetexDenoiseParams *params, const RetexRo
     if (!code && set->spp < 2)
         code = retex_fail(err, RETEX_EINVAL, "less than two samples a pixel do not tell noise from picture");
     if (!code)
-        code = find_guides(d.guides, set, err);
+        code = find_features(d.features, set, err);
     if (!code)
         code = retex_signals_open(&d.signals, set, err);
     if (!code)

@@ -3,6 +3,7 @@
 #include "denoise/features.h"
 
 #include <math.h>
+#include <stddef.h>
 #include <string.h>
 
 #define STRENGTH 0.6f      /* k_f of Rousselle et al. 2013 */
@@ -12,17 +13,13 @@
 #define LEAST_SHARE 4e-3f
 #define LEAST_DISTANCE 1e-20f
 
-/* Planes of guides, by channel, then those of covers. */
-enum {
-    SEEN_NORMAL = 0,
-    SEEN_POSITION = 3,
-    SEEN_ALBEDO = 6,
-    SEEN_MATERIAL = 9,
-    NORMAL = 12,
-    POSITION = 15,
-    SPECULAR = 18,
-    COVERS = 19
-};
+/* Planes of features, by channel, then those of covers: offsets are numbers of planes. */
+#define PLANES(id, name, letters, type) char id[sizeof letters - 1];
+typedef struct FeaturePlanes {
+    RETEX_FEATURE_TABLE(PLANES)
+} FeaturePlanes;
+#define PLANE(id) ((int)offsetof(FeaturePlanes, id))
+enum { COVERS = sizeof(FeaturePlanes) };
 
 static int clamp(int x, int size)
 {
@@ -102,9 +99,9 @@ static int is_zero(const float *plane)
 static int load_planes(float *planes, const RetexDenoiser *d, int x0, int y0)
 {
     int n = 0;
-    for (int k = 0; k < GUIDE_COUNT; k++)
-        for (int c = 0; c < d->set->parts[d->guides[k]].image.channels; c++)
-            retex_denoise_load_plane(planes + (size_t)n++ * DENOISE_PLANE, d->set, d->guides[k], c, x0, y0);
+    for (int k = 0; k < RETEX_FEATURE_COUNT; k++)
+        for (int c = 0; c < d->set->parts[d->features[k]].image.channels; c++)
+            retex_denoise_load_plane(planes + (size_t)n++ * DENOISE_PLANE, d->set, d->features[k], c, x0, y0);
     for (int t = 0; t < d->set->ntargets; t++)
         if (d->signals.covers[t] >= 0)
             retex_denoise_load_plane(planes + (size_t)n++ * DENOISE_PLANE, d->set, d->signals.covers[t], 0, x0, y0);
@@ -119,14 +116,14 @@ void retex_denoise_load_features(RetexDenoiseFeatures *f, float *memory, const R
     *f = (RetexDenoiseFeatures){.valid = valid};
     for (int k = 0; k < n; k++)
         f->planes[k] = g.planes + (size_t)k * DENOISE_PLANE;
-    add_feature(&g, SEEN_NORMAL, 3, LEAST_NORMAL);
-    add_position(&g, SEEN_POSITION, SEEN_NORMAL);
-    add_feature(&g, SEEN_ALBEDO, 3, LEAST_ALBEDO);
-    add_feature(&g, SEEN_MATERIAL, 3, LEAST_SHARE);
-    if (!is_zero(f->planes[SPECULAR])) { /* else the first hit is the surface that is seen */
-        add_feature(&g, NORMAL, 3, LEAST_NORMAL);
-        add_position(&g, POSITION, NORMAL);
-        add_feature(&g, SPECULAR, 1, LEAST_SHARE);
+    add_feature(&g, PLANE(SEEN_NORMAL), 3, LEAST_NORMAL);
+    add_position(&g, PLANE(SEEN_POSITION), PLANE(SEEN_NORMAL));
+    add_feature(&g, PLANE(SEEN_ALBEDO), 3, LEAST_ALBEDO);
+    add_feature(&g, PLANE(SEEN_MATERIAL), 3, LEAST_SHARE);
+    if (!is_zero(f->planes[PLANE(SPECULAR)])) { /* else the first hit is the surface that is seen */
+        add_feature(&g, PLANE(NORMAL), 3, LEAST_NORMAL);
+        add_position(&g, PLANE(POSITION), PLANE(NORMAL));
+        add_feature(&g, PLANE(SPECULAR), 1, LEAST_SHARE);
     }
     for (int k = COVERS; k < n; k++)
         add_feature(&g, k, 1, LEAST_SHARE);

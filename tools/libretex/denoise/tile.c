@@ -181,7 +181,7 @@ static void load_members(SignalScratch *r, RetexDenoiseScratch *work, const Rete
 static void find_seen_modulation(SignalScratch *r, RetexDenoiseScratch *work, const RetexDenoiser *d, int x0, int y0)
 {
     for (int c = 0; c < 3; c++)
-        retex_denoise_load_plane(r->modulation[c], d->set, d->guides[GUIDE_SEEN_ALBEDO], c, x0, y0);
+        retex_denoise_load_plane(r->modulation[c], d->set, d->features[RETEX_FEATURE_SEEN_ALBEDO], c, x0, y0);
     for (int t = 0; t < d->set->ntargets; t++) {
         if (d->signals.covers[t] < 0)
             continue;

@@ -3,20 +3,9 @@
 #define RETEX_DENOISE_TILE_H
 
 #include <retex/denoise.h>
+#include <retex/denoise_data.h>
 #include "denoise/denoise_kernel.h"
 #include "set/signals.h"
-
-/* The guides of a set, in the order in which features take them. */
-enum {
-    GUIDE_SEEN_NORMAL,
-    GUIDE_SEEN_POSITION,
-    GUIDE_SEEN_ALBEDO,
-    GUIDE_SEEN_MATERIAL,
-    GUIDE_NORMAL,
-    GUIDE_POSITION,
-    GUIDE_SPECULAR,
-    GUIDE_COUNT
-};
 
 /* Rows of results, by part of the set; NULL for a part that is not changed. */
 typedef struct RetexDenoisedRows {
@@ -29,7 +18,7 @@ typedef struct RetexDenoiser {
     RetexSet *set;
     RetexDenoiseParams params;
     RetexRoi roi;
-    int guides[GUIDE_COUNT]; /* parts */
+    int features[RETEX_FEATURE_COUNT]; /* parts */
     RetexSignals signals;
     struct RetexDenoiseFootprints *footprints;
 } RetexDenoiser;

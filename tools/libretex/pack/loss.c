@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include <retex/combine.h>
+#include <retex/denoise_data.h>
 
 #include "retexture/combine_rows.h"
 #include "set/manifest.h"
@@ -110,8 +111,8 @@ static int add_noise(float *rows, const RetexSet *set, int y0, int y1, RetexErro
     int code = retex_row_reader_open(&reader, set, NULL, err);
     for (int i = 1; i < set->nparts; i++) {
         const RetexPart *part = &set->parts[i];
-        const float share = strcmp(part->name, "noise_indep") == 0 ? 1 : 0.5f;
-        if (!retex_part_is_denoise_data(set, i) || strncmp(part->name, "noise_", 6) != 0 || part->image.channels != 3)
+        const float share = strcmp(part->name, RETEX_NOISE_PREFIX RETEX_SIGNAL_INDEP) == 0 ? 1 : 0.5f;
+        if (!retex_part_is_denoise_data(set, i) || !retex_name_is_noise(part->name) || part->image.channels != 3)
             continue;
         for (int y = y0; y < y1 && !code; y++) {
             const float *row;

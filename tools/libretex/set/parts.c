@@ -4,6 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include <retex/denoise_data.h>
+
 int retex_part_is_used(const RetexSet *set, int part)
 {
     for (int i = 0; i < set->ntargets; i++)
@@ -27,8 +29,7 @@ int retex_part_is_used(const RetexSet *set, int part)
 int retex_part_is_denoise_data(const RetexSet *set, int part)
 {
     const char *name = set->parts[part].name;
-    return part > 0 && (strncmp(name, "noise_", 6) == 0 || strncmp(name, "guide_", 6) == 0) &&
-           !retex_part_is_used(set, part);
+    return part > 0 && (retex_name_is_noise(name) || retex_name_is_feature(name)) && !retex_part_is_used(set, part);
 }
 
 void retex_set_view_free(RetexSetView *view)

@@ -7,7 +7,7 @@
 /* 1 if a term, footprint, mixture or target refers to the part. */
 int retex_part_is_used(const RetexSet *set, int part);
 
-/* 1 if only denoising reads the part: see <retex/denoise.h>. */
+/* 1 if only denoising reads the part: see <retex/denoise_data.h>. */
 int retex_part_is_denoise_data(const RetexSet *set, int part);
 
 /* The parts of a set that go into a file: arrays of the view's own, pixels borrowed from the set. */

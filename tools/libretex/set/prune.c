@@ -2,6 +2,7 @@
 #include <limits.h>
 #include <string.h>
 
+#include <retex/denoise_data.h>
 #include <retex/set.h>
 
 #include "set/manifest.h"
@@ -118,7 +119,7 @@ static void prune_noise(Pruning *p)
     char name[RETEX_NAME_MAX];
 
     for (int i = 1; i < set->nparts; i++)
-        if (strncmp(set->parts[i].name, "noise_", 6) == 0)
+        if (retex_name_is_noise(set->parts[i].name))
             p->kept[i] = 0;
     for (int t = 0; t < set->nterms || (t == 0 && !set->nterms); t++) {
         retex_signal_noise_name(set, set->nterms ? &set->terms[t] : NULL, name);

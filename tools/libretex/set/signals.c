@@ -1,9 +1,10 @@
 /* See signals.h. */
 #include "set/signals.h"
 
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+
+#include <retex/denoise_data.h>
 
 #define SIGNALS_MAX (1 + 2 * RETEX_MAX_TARGETS)
 
@@ -26,9 +27,9 @@ int retex_signal_cluster(const RetexSet *set, const RetexSignalMember *member)
 static void noise_name(const RetexSet *set, int target, RetexFootprintKind kind, char name[RETEX_NAME_MAX])
 {
     if (target < 0)
-        snprintf(name, RETEX_NAME_MAX, "noise_%s", set->nterms ? "indep" : "beauty");
+        retex_noise_part_name(name, NULL, set->nterms ? RETEX_SIGNAL_INDEP : RETEX_SIGNAL_BEAUTY);
     else
-        snprintf(name, RETEX_NAME_MAX, "noise_%.90s_%s", set->targets[target].name, retex_footprint_kind_name(kind));
+        retex_noise_part_name(name, set->targets[target].name, retex_footprint_kind_name(kind));
 }
 
 /* The target that the light of a term meets first; -1 where it meets none. */
@@ -86,7 +87,7 @@ static int find_parts(RetexSignals *signals, const RetexSet *set, RetexError *er
             return signal->noise;
         if (signal->target < 0)
             continue;
-        snprintf(name, sizeof name, "guide_cover_%.90s", set->targets[signal->target].name);
+        retex_cover_part_name(name, set->targets[signal->target].name);
         if ((signal->cover = retex_signals_find_part(set, name, 1, err)) < 0)
             return signal->cover;
         signals->covers[signal->target] = signal->cover;

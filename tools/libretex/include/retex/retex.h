@@ -13,6 +13,7 @@
 #include <retex/compact.h>
 #include <retex/cpu.h>
 #include <retex/denoise.h>
+#include <retex/denoise_data.h>
 #include <retex/diff.h>
 #include <retex/error.h>
 #include <retex/image.h>

@@ -1,0 +1,76 @@
+/* What denoising reads: parts of the set's size that the renderer leaves with a set, and that recombination does not
+ * read. Their names, channels and pixel types come from this header.
+ *
+ * Noise, by signal: noise_SIGNAL, RGB, half: half of the difference between the mean of the first half of the samples
+ * (spp / 2, rounded down) and that of the rest. Its square estimates the variance of the mean of all (Rousselle et al.
+ * 2012). A signal is what is filtered with weights of its own: a picture that is the sum of terms,
+ *
+ *     total = sum over the terms t of the signal of  C_t / 2^(factors of t - 1)
+ *
+ * as if each further hit had albedo 1/2. Signals are `indep`, the terms without factors; by target and kind of the
+ * first factor's footprint TARGET_sharp and TARGET_broad, in layout paper TARGET_hit; `beauty` where there are no
+ * terms at all.
+ *
+ * Features: guide_NAME, see the table, and guide_cover_TARGET, R, half: how much of the target is seen: share of the
+ * pixel times the luminance that the mirrors and glass before it leave, 0..1.
+ *
+ * Features are taken at the first 16 of the pixel's samples, or the first 64 where those do not all see the same, along
+ * the likelier way at each mirror and glass: they are free of noise, but for how samples are spread. */
+#ifndef RETEX_DENOISE_DATA_H
+#define RETEX_DENOISE_DATA_H
+
+#include <retex/set.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#define RETEX_NOISE_PREFIX "noise_"
+#define RETEX_FEATURE_PREFIX "guide_"
+#define RETEX_SIGNAL_INDEP "indep"
+#define RETEX_SIGNAL_BEAUTY "beauty"
+
+/* X(enumerator, name without prefix, letters of its channels, pixel type). To add a feature: a row here, its values in
+ * renderer/render/denoise_guides.c, what it means for filtering in denoise/features.c, and a line in retex-set(5). */
+#define RETEX_FEATURE_TABLE(X)                                                                                         \
+    /* mean shading normal at the first hit, world space, camera's side; 0 = nothing */                                \
+    X(NORMAL, "normal", "RGB", RETEX_HALF)                                                                             \
+    /* mean position of the first hit, world space, over those places that hit */                                      \
+    X(POSITION, "position", "RGB", RETEX_FLOAT)                                                                        \
+    /* share of the pixel, 0..1, whose first hit is a mirror or clear glass */                                         \
+    X(SPECULAR, "specular", "R", RETEX_HALF)                                                                           \
+    /* normal and position at the first hit that is neither: what is seen in mirrors and through glass */              \
+    X(SEEN_NORMAL, "seen_normal", "RGB", RETEX_HALF)                                                                   \
+    X(SEEN_POSITION, "seen_position", "RGB", RETEX_FLOAT)                                                              \
+    /* its pigment, scene-linear; white on targets, whose texture is not known, on lamps, and where nothing is hit */  \
+    X(SEEN_ALBEDO, "seen_albedo", "RGB", RETEX_HALF)                                                                   \
+    /* its roughness and metallic, as the AOVs of these names, and the share that hits nothing */                      \
+    X(SEEN_MATERIAL, "seen_material", "RGB", RETEX_HALF)
+
+typedef enum RetexFeature {
+#define RETEX_FEATURE_ENUMERATOR(id, ...) RETEX_FEATURE_##id,
+    RETEX_FEATURE_TABLE(RETEX_FEATURE_ENUMERATOR)
+#undef RETEX_FEATURE_ENUMERATOR
+        RETEX_FEATURE_COUNT
+} RetexFeature;
+
+typedef struct RetexFeatureInfo {
+    const char *name, *letters; /* of the part, with its prefix, and of its channels */
+    RetexPixelType type;
+} RetexFeatureInfo;
+
+extern const RetexFeatureInfo retex_features[RETEX_FEATURE_COUNT];
+
+/* The part of a target's cover. */
+void retex_cover_part_name(char name[RETEX_NAME_MAX], const char *target);
+/* The part of a signal's noise. target: NULL for the signals indep and beauty; else signal is the kind of footprint, as
+ * retex_footprint_kind_name has it. */
+void retex_noise_part_name(char name[RETEX_NAME_MAX], const char *target, const char *signal);
+/* Whether a part of that name is noise, or a feature. */
+int retex_name_is_noise(const char *name);
+int retex_name_is_feature(const char *name);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

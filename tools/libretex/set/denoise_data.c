@@ -1,0 +1,31 @@
+/* See retex/denoise_data.h. */
+#include <retex/denoise_data.h>
+
+#include <stdio.h>
+#include <string.h>
+
+#define ROW(id, name, ...) [RETEX_FEATURE_##id] = {RETEX_FEATURE_PREFIX name, __VA_ARGS__},
+const RetexFeatureInfo retex_features[RETEX_FEATURE_COUNT] = {RETEX_FEATURE_TABLE(ROW)};
+
+void retex_cover_part_name(char name[RETEX_NAME_MAX], const char *target)
+{
+    snprintf(name, RETEX_NAME_MAX, RETEX_FEATURE_PREFIX "cover_%.90s", target);
+}
+
+void retex_noise_part_name(char name[RETEX_NAME_MAX], const char *target, const char *signal)
+{
+    if (target)
+        snprintf(name, RETEX_NAME_MAX, RETEX_NOISE_PREFIX "%.90s_%s", target, signal);
+    else
+        snprintf(name, RETEX_NAME_MAX, RETEX_NOISE_PREFIX "%s", signal);
+}
+
+int retex_name_is_noise(const char *name)
+{
+    return strncmp(name, RETEX_NOISE_PREFIX, strlen(RETEX_NOISE_PREFIX)) == 0;
+}
+
+int retex_name_is_feature(const char *name)
+{
+    return strncmp(name, RETEX_FEATURE_PREFIX, strlen(RETEX_FEATURE_PREFIX)) == 0;
+}
