@@ -21,13 +21,12 @@ typedef struct Compaction {
     int trial;                                 /* 1: for other trials too; 0: all is there, and is taken */
     RetexImage *(*waves)[RETEX_COMPACT_WAVES]; /* of trials */
     int factors[RETEX_COMPACT_KINDS],
-        interreflected[RETEX_COMPACT_KINDS]; /* of each kind, the factor that stands for it: for its own light,
+        interreflected[RETEX_COMPACT_KINDS]; /* of each kind, the factor of its single-hit light and that of its
                                                         and for that which goes on */
-    int mixtures[RETEX_MIXTURES_MAX];        /* of the old ones of later footprints, the new factor */
+    int mixtures[RETEX_MIXTURES_MAX];        /* new factors of the old mixtures of interreflections */
     int footprints[RETEX_COMPACT_KINDS][RETEX_SHARES_MAX];
-    int weights[RETEX_COMPACT_KINDS][RETEX_SHARES_MAX],
-        shares[RETEX_COMPACT_KINDS][RETEX_SHARES_MAX]; /* parts, again */
-    int counts[RETEX_COMPACT_KINDS];                   /* of each kind's new footprints and their weights */
+    int weights[RETEX_COMPACT_KINDS][RETEX_SHARES_MAX], shares[RETEX_COMPACT_KINDS][RETEX_SHARES_MAX]; /* parts */
+    int counts[RETEX_COMPACT_KINDS]; /* of each kind's new footprints and their weights */
 } Compaction;
 
 /* ---- what stays as it is ---- */
@@ -300,7 +299,7 @@ static int find_kind(const RetexCompactLight *light, int target, RetexFootprintK
     return -1;
 }
 
-/* Mixtures of later footprints: of one target, or of several. */
+/* Mixtures of interreflection footprints: of one target, or of several. */
 static int add_interreflection_mixtures(Compaction *work, RetexError *err)
 {
     const RetexSet *old = work->light->set;

@@ -1,4 +1,4 @@
-/* Putting a compact set together. Private to libretex. */
+/* Building a compact set with given scales. Private to libretex. */
 #ifndef RETEX_COMPACT_BUILD_H
 #define RETEX_COMPACT_BUILD_H
 
@@ -6,12 +6,11 @@
 #include "compact/light.h"
 
 #define RETEX_COMPACT_STEPS 4 /* scales: 1, 2, 4, 8 */
-#define RETEX_COMPACT_WAVES                                                                                            \
-    5 /* textures of waves that trials put on targets: of three lengths, and two of one colour */
+#define RETEX_COMPACT_WAVES 5 /* trial textures: waves of three lengths, and two flat colours */
 
-/* How much smaller than the picture the images of each kind are. */
+/* How many times smaller than the picture the images of each kind are. */
 typedef struct RetexCompactScales {
-    int clusters[RETEX_COMPACT_KINDS]; /* footprints and weights; those of later ones must be the same */
+    int clusters[RETEX_COMPACT_KINDS]; /* footprints and weights; equal for all interreflections */
     int gains[RETEX_COMPACT_KINDS];
     RetexCompactMixed mixed[RETEX_COMPACT_KINDS];
 } RetexCompactScales;
@@ -19,9 +18,8 @@ typedef struct RetexCompactScales {
 int retex_compact_build(RetexSet **result, const RetexCompactLight *light, const RetexCompactScales *scales,
                         int nthreads, RetexError *err);
 
-/* What trials of the same light have in common: clusters by kind and scale (its logarithm), with their waves
- * (distortion.h); sums of light by kind; gains by kind, scale and place among its terms, 0 for the clusters alone.
- * Begin with {0}. */
+/* Results that trials of the same light share: clusters by kind and scale (its logarithm), with their trial textures
+ * (distortion.h); sums of light by kind; gains by kind, scale and term, 0 for single-hit light. Start with {0}. */
 typedef struct RetexCompactCache {
     RetexCompactClusters clusters[RETEX_COMPACT_KINDS][RETEX_COMPACT_STEPS];
     RetexImage waves[RETEX_COMPACT_KINDS][RETEX_COMPACT_STEPS][RETEX_COMPACT_WAVES][RETEX_SHARES_MAX];
@@ -30,15 +28,15 @@ typedef struct RetexCompactCache {
 } RetexCompactCache;
 void retex_compact_cache_free(RetexCompactCache *cache, const RetexCompactLight *light);
 
-/* The terms of one kind alone, with what they need, or, kind -1, those without factors. of: for each footprint its
- * clusters' waves in the cache, still to be made where they are unallocated. */
+/* A set of one kind's terms and footprints; kind -1: of the terms without factors. of: for each footprint, its trial
+ * textures in the cache, unallocated where they are not made yet. */
 int retex_compact_build_kind(RetexSet **result, RetexImage *of[][RETEX_COMPACT_WAVES], const RetexCompactLight *light,
                              int kind, const RetexCompactScales *scales, RetexCompactCache *cache, int nthreads,
                              RetexError *err);
 
-/* Everything but what only denoising reads. */
+/* A copy of a set without the denoising data. */
 int retex_compact_copy_set(RetexSet **copy, const RetexSet *set, RetexError *err);
-/* A new set with all that another says of itself, and no parts. */
+/* A copy of a set's properties, without parts, footprints, mixtures and terms. */
 int retex_compact_copy_head(RetexSet **copy, const RetexSet *set, RetexError *err);
 int retex_compact_copy_part(RetexSet *set, const RetexSet *from, int part, int *index, RetexError *err);
 

@@ -10,11 +10,11 @@
 
 #include "compact/uniform.h"
 
-#define POOL 12                  /* clusters kept apart while a block's are gathered */
+#define POOL 12                  /* most clusters while those of a block are gathered */
 #define SHARE_STEP (1.0 / 512)   /* of weights */
 #define LEAST_SHARE (1.0 / 1024) /* of a block's light, of clusters that are kept */
-#define UNIFORM_NOISE 0.3        /* of noise that may be taken away, what makes pixels uniform */
-#define MORE_VARIANCE 0.25       /* of a place, that no texture tells apart */
+#define UNIFORM_NOISE 0.3        /* params->noise from which on uniform pixels are smoothed */
+#define MORE_VARIANCE 0.25       /* relative variance by which a cluster may grow when merged */
 #define UNKNOWN_SAMPLES 1024     /* of a pixel, where the set does not say */
 #define TEXEL (1.0 / (1 << 26))  /* variance of UV, of a texel of 8192 */
 
@@ -94,7 +94,7 @@ static void add_cluster(Pool *pool, const Cluster *cluster)
         merge_cheapest(pool);
 }
 
-/* Second moments of a place, with those of a texel of a large texture's size, which is nothing. */
+/* Second moments of a cluster, plus those of a texel, which are negligible. */
 typedef struct Shape {
     double uu, uv, vv, area;
 } Shape;
@@ -107,8 +107,7 @@ static Shape shape_of(const RetexUvStats *place)
     return shape;
 }
 
-/* Whether the two have the place and the shape of both merged: by the variances along u and v, and the area,
- * which may be so many times as large. */
+/* Whether merging enlarges neither the variances along u and v nor the area by more than a factor. */
 static int are_same(const Shape *each, const Shape *merged, double more)
 {
     int same = 1;
@@ -118,7 +117,7 @@ static int are_same(const Shape *each, const Shape *merged, double more)
     return same;
 }
 
-/* Whether the two merged are what they are apart. */
+/* Whether no texture would show that the two were merged. */
 static int are_one_place(const Pool *pool, int i, int j)
 {
     const double more = 1 + pool->noise * MORE_VARIANCE;
@@ -192,7 +191,7 @@ static void gather_cluster(const ClustersWork *work, int k, size_t pixel, const 
     }
 }
 
-/* Of the later footprints that a pixel has, of all targets: only how they compare counts. */
+/* Sum of the shares of all targets' interreflection footprints in a pixel: shares are relative to it. */
 static double sum_of_shares(const RetexCompactLight *light, size_t pixel)
 {
     const RetexSet *set = light->set;
@@ -206,7 +205,7 @@ static double sum_of_shares(const RetexCompactLight *light, size_t pixel)
     return sum;
 }
 
-/* Light of all terms of further hits; of that by share, for later footprints. */
+/* Light of all terms with interreflections, divided among interreflection footprints by their shares. */
 static double interreflected_light(const ClustersWork *work, size_t pixel,
                                    RetexCompactClusterLight of[RETEX_SHARES_MAX])
 {
@@ -229,8 +228,8 @@ static double interreflected_light(const ClustersWork *work, size_t pixel,
     return interreflected;
 }
 
-/* All clusters of a block. Returns the light that they are shares of: for later footprints, which are weighed across
- * targets, that of all; else 0, for their own sum. */
+/* Gather all clusters of a block. Returns the light that weights are relative to: that of all targets for
+ * interreflection footprints, which are weighted across targets; else 0, for their own sum. */
 static double gather_block(const ClustersWork *work, int bx, int by, Pool *pool, Albedo *albedo)
 {
     const RetexSet *set = work->light->set;
@@ -249,7 +248,7 @@ static double gather_block(const ClustersWork *work, int bx, int by, Pool *pool,
     return all;
 }
 
-/* Which light a weight is a share of. */
+/* The light that a weight is a share of. */
 typedef enum Part { PART_ALL, PART_SINGLE, PART_INTERREFLECTED } Part;
 
 static double part_of(const Cluster *cluster, Part part)
@@ -297,7 +296,7 @@ static void store_block(const ClustersWork *work, size_t block, const Pool *pool
                                           : 0);
 }
 
-/* All that a pixel sees, as one place, where there is room to store the quarters of a pixel if it has several parts. */
+/* Merge all clusters of a pixel: a candidate of uniform pixels, if several clusters can be stored as four quarters. */
 static void store_pixel(const ClustersWork *work, size_t block, const Pool *pool)
 {
     RetexUniformPixel *whole = &work->clusters->pixels[block];
@@ -337,7 +336,7 @@ static void blocks_job(void *context, int by, int thread)
     }
 }
 
-/* Of later footprints other targets' may be there, to which this one must add next to nothing. */
+/* weight: factor on the weights, small for interreflections, where other targets may have light in this block. */
 static void copy_block(RetexCompactClusters *clusters, size_t to, size_t from, float weight)
 {
     for (int k = 0; k < clusters->count; k++) {
@@ -350,7 +349,7 @@ static void copy_block(RetexCompactClusters *clusters, size_t to, size_t from, f
     memcpy(clusters->albedo.pixels + 3 * to, clusters->albedo.pixels + 3 * from, 3 * sizeof(float));
 }
 
-/* Those beside, then those above and below, then across corners. */
+/* From a neighbour to the left or right, else above or below, else diagonal. */
 static void fill_holes(RetexCompactClusters *clusters, const unsigned char *lit, float weight)
 {
     static const int beside[8][2] = {{-1, 0}, {1, 0}, {0, -1}, {0, 1}, {-1, -1}, {1, -1}, {-1, 1}, {1, 1}};

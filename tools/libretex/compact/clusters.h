@@ -10,20 +10,21 @@
 typedef struct RetexCompactClusters {
     int count;
     RetexImage uv[RETEX_SHARES_MAX], spread[RETEX_SHARES_MAX];
-    RetexImage weight[RETEX_SHARES_MAX]; /* in all light, or, where there is `again`, in that which meets no other */
-    RetexImage interreflected[RETEX_SHARES_MAX]; /* in light that goes on; unallocated where not wanted */
+    RetexImage weight[RETEX_SHARES_MAX];         /* share of all light or, with `interreflected`, of single-hit light */
+    RetexImage interreflected[RETEX_SHARES_MAX]; /* share of interreflected light; unallocated without split */
     RetexImage albedo;                           /* of all of them */
     int scale, split;
-    unsigned char *lit;               /* while they are made: blocks that have any; */
-    struct RetexUniformPixel *pixels; /* what pixels see, where that may be a surface evenly (uniform.h); or NULL */
+    unsigned char *lit;               /* while they are made: blocks that have light */
+    struct RetexUniformPixel *pixels; /* candidates of uniform pixels (uniform.h), or NULL */
 } RetexCompactClusters;
 
-/* Merge the clusters of each block into no more than the kind has in a pixel, by the light they weigh. Blocks without
- * light take the clusters of a neighbour, for enlarging reaches as far. Interreflected light has weights of its own on
- * sharp footprints, where textures show every letter, and on broad ones where no noise may be removed. */
+/* Merge the clusters of each block, weighted by light, into at most as many as the kind has in a pixel. Blocks without
+ * light copy the clusters of a neighbour, because enlarging interpolates between them. Interreflected light has weights
+ * of its own on sharp footprints, where textures show every detail, and on broad ones where no noise may be removed. */
 int retex_compact_clusters_make(RetexCompactClusters *clusters, const RetexCompactLight *light,
                                 const RetexCompactKind *kind, int scale, int nthreads, RetexError *err);
-/* The same by rows of the picture, `first` and as many as light->set has, a multiple of the scale but for the last. */
+/* The same in bands of rows: light->set has rows of the picture from `first` on, a multiple of the scale except at the
+ * end. */
 int retex_compact_clusters_begin(RetexCompactClusters *clusters, const RetexCompactLight *light,
                                  const RetexCompactKind *kind, int scale, RetexError *err);
 void retex_compact_clusters_rows(RetexCompactClusters *clusters, const RetexCompactLight *light,

@@ -48,7 +48,7 @@ static int check_params(const RetexCompactParams *params, RetexError *err)
 {
     int code = check_scale(params->broad, "broad footprints", err);
     if (!code)
-        code = check_scale(params->interreflection, "later footprints", err);
+        code = check_scale(params->interreflection, "interreflections", err);
     if (!code)
         code = check_scale(params->gain, "gains", err);
     if (!code && !(params->psnr >= 20 && params->psnr <= 120))

@@ -1,4 +1,5 @@
-/* See distortion.h. The textures are plane waves in each colour, whose mean over a Gaussian footprint is known. */
+/* See distortion.h. The trial textures are plane waves in each channel, whose mean over a Gaussian footprint is known
+ * in closed form. */
 #include "compact/distortion.h"
 
 #include <math.h>
@@ -38,7 +39,7 @@ typedef struct Mosaic {
     Tile taken[RETEX_COMPACT_TILES];
 } Mosaic;
 
-/* How much light a pixel has of clusters that a texture tells from the same ones of another pixel. */
+/* Light of a pixel's clusters that differ in UV from the same clusters of another pixel. */
 static double probe_pixels(const RetexCompactLight *light, size_t a, size_t b)
 {
     const RetexSet *set = light->set;

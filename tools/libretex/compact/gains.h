@@ -1,19 +1,19 @@
-/* One radiance for all terms of a kind, and which share of it is each one's. Private to libretex. */
+/* One radiance for all terms of a kind, and the gain of each term. Private to libretex. */
 #ifndef RETEX_COMPACT_GAINS_H
 #define RETEX_COMPACT_GAINS_H
 
 #include "compact/light.h"
 
-/* All light of a kind, further hits on RETEX_COMPACT_GREY, into an image of the set's size. */
+/* All light of a kind, interreflections on RETEX_COMPACT_GREY, as an image of the set's size. */
 int retex_compact_sum_light(RetexImage *sum, const RetexCompactLight *light, const RetexCompactKind *kind, int nthreads,
                             RetexError *err);
 
-/* The gain that makes a term, one of the kind's, or the light of all clusters (-1), of the sum: RGB at a scale. */
+/* The ratio of a term's light to the sum, RGB, at a scale. number: one of the kind's gains; -1: single-hit light. */
 int retex_compact_make_gain(RetexImage *gain, const RetexCompactLight *light, const RetexCompactKind *kind,
                             const RetexImage *sum, int number, RetexCompactMixed mixed, int scale, int nthreads,
                             RetexError *err);
 
-/* The same by rows of the picture, `first` and as many as light->set has; sums and gains are of the whole. */
+/* The same in bands: light->set has rows of the picture from `first` on; sum and gain are of the whole picture. */
 void retex_compact_sum_rows(RetexImage *sum, const RetexCompactLight *light, const RetexCompactKind *kind, int first,
                             int nthreads);
 int retex_compact_gain_begin(RetexImage *gain, const RetexCompactLight *light, int scale, RetexError *err);

@@ -44,7 +44,7 @@ static int sort_footprints(RetexCompactLight *light)
     return 1;
 }
 
-/* A mixture's weights; its footprints are of one kind, but those of later hits may be of all targets. */
+/* Weights of mixtures. Footprints of a mixture are of one kind; interreflections may be of several targets. */
 static int sort_shares(RetexCompactLight *light)
 {
     const RetexSet *set = light->set;
@@ -148,7 +148,7 @@ static int is_covered(const RetexSet *set, int footprint, size_t pixel)
     return set->parts[set->footprints[footprint].uv].image.pixels[3 * pixel + 2] > 0;
 }
 
-/* Light that goes on begins on footprints by their shares; on one alone, where it is. */
+/* The share of interreflected light whose first hit is on footprint k. */
 static double share_of(const RetexCompactLight *light, const RetexCompactKind *kind, int k, size_t pixel)
 {
     const int footprint = kind->footprints[k];

@@ -1,24 +1,24 @@
-/* A set of layout footprints, seen by kinds of clusters: whose light is where. Private to libretex. */
+/* A set of layout footprints, sorted by kinds of footprints: which light belongs to which. Private to libretex. */
 #ifndef RETEX_COMPACT_LIGHT_H
 #define RETEX_COMPACT_LIGHT_H
 
 #include <retex/color.h>
 #include <retex/set.h>
 
-/* What further hits are taken to meet where terms of several hits are added up. */
+/* Albedo that interreflections are assumed to meet where terms of several hits are added up. */
 #define RETEX_COMPACT_GREY 0.6f
 #define RETEX_COMPACT_KINDS (3 * RETEX_MAX_TARGETS)
 
-/* What makes a term of a kind's radiance in the compact set. */
+/* A term of the compact set: the kind's radiance times a gain. */
 typedef struct RetexCompactGain {
     RetexTerm term; /* its factors, of the old set */
     char name[RETEX_NAME_MAX];
 } RetexCompactGain;
 
-/* Which of its gains a kind has: of many further hits either each target's, or those on any. */
+/* Terms of three and more interreflections: one for each target, or one for the mixture of all targets. */
 typedef enum RetexCompactMixed { RETEX_COMPACT_APART, RETEX_COMPACT_MIXED, RETEX_COMPACT_CHOICES } RetexCompactMixed;
 
-/* An old term that goes on, and how much of its radiance is whose; gain -1 where nothing is. */
+/* A term with interreflections, and the gains among which its radiance is divided; gain -1: none. */
 typedef struct RetexCompactInterreflection {
     int term;
     struct {
@@ -27,16 +27,16 @@ typedef struct RetexCompactInterreflection {
     } in[RETEX_COMPACT_CHOICES][2];
 } RetexCompactInterreflection;
 
-/* Footprints of one target and kind, with what says how much light is whose. */
+/* Footprints of one target and kind, and their terms. */
 typedef struct RetexCompactKind {
     int target;
     RetexFootprintKind kind;
     int count;
     int footprints[RETEX_SHARES_MAX];
-    int single[RETEX_SHARES_MAX]; /* the term of this footprint alone, or -1 */
-    int share[RETEX_SHARES_MAX];  /* the part that weighs it in a mixture, or -1 */
-    int first;                    /* the factor that stands for all of them */
-    int ninterreflections;        /* terms that begin with it and go on */
+    int single[RETEX_SHARES_MAX]; /* the term with this footprint as only factor, or -1 */
+    int share[RETEX_SHARES_MAX];  /* the part of its weight in a mixture, or -1 */
+    int first;                    /* the factor of terms with interreflections */
+    int ninterreflections;        /* terms whose first hit is of this kind, with more hits */
     RetexCompactInterreflection *interreflections;
     int ngains[RETEX_COMPACT_CHOICES];
     RetexCompactGain *gains[RETEX_COMPACT_CHOICES];
@@ -50,23 +50,23 @@ typedef struct RetexCompactLight {
     RetexCompactInterreflection *interreflections; /* of all kinds */
 } RetexCompactLight;
 
-/* Sort a set's footprints and terms. *understood = 0 where it has others than the renderer makes. */
+/* Sort a set's footprints and terms. *understood = 0 if the set has a structure that the renderer does not make. */
 int retex_compact_light_open(RetexCompactLight *light, const RetexSet *set, double noise, int *understood,
                              RetexError *err);
 void retex_compact_light_close(RetexCompactLight *light);
 
-/* A term's light where all hits but the first meet RETEX_COMPACT_GREY: what its radiance is times this. */
+/* Factor on a term's radiance if all hits but the first meet RETEX_COMPACT_GREY. */
 float retex_compact_grey(const RetexTerm *term);
 
-/* Light of a cluster in a pixel, RGB, 0 where the set shows none: that which meets no other, and that which goes on,
- * further hits on RETEX_COMPACT_GREY. */
+/* Light of a cluster in a pixel, RGB: of paths with this hit only, and of those with interreflections, these on
+ * RETEX_COMPACT_GREY. */
 typedef struct RetexCompactClusterLight {
     double single[3], interreflected[3];
 } RetexCompactClusterLight;
-/* Of each of a kind's clusters; not of later footprints. */
+/* Light of each of a kind's clusters; not for interreflection footprints. */
 void retex_compact_cluster_light(const RetexCompactLight *light, const RetexCompactKind *kind, size_t pixel,
                                  RetexCompactClusterLight of[RETEX_SHARES_MAX]);
-/* Whether the kind has a footprint in the pixel on which light that goes on begins. */
+/* Whether a path with interreflections has its first hit on a footprint of this kind in the pixel. */
 int retex_compact_has_interreflections(const RetexCompactLight *light, const RetexCompactKind *kind, size_t pixel);
 
 static inline double retex_compact_luminance(const double rgb[3])

@@ -13,7 +13,7 @@ static const int kept_orders[] = {1, 2, 3, 5, 8}; /* and the highest */
 
 enum { KEPT_ORDERS = sizeof kept_orders / sizeof *kept_orders, FIRST_MIXED = 3 };
 
-/* Whether a factor is a mixture of later footprints of several targets. */
+/* Whether a factor is a mixture of interreflection footprints of several targets. */
 static int is_any_target(const RetexSet *set, int factor)
 {
     if (factor >= 0)

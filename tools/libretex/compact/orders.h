@@ -1,10 +1,10 @@
-/* Fewer orders: terms of many further hits told by others. Private to libretex. */
+/* Fewer orders of interreflection: terms approximated by those of other orders. Private to libretex. */
 #ifndef RETEX_COMPACT_ORDERS_H
 #define RETEX_COMPACT_ORDERS_H
 
 #include "compact/light.h"
 
-/* Give a kind its gains: which there are, and what each term is in them. */
+/* List a kind's gains, and how each term is divided among them. */
 int retex_compact_orders_make(RetexCompactKind *kind, const RetexSet *set, RetexCompactMixed mixed, RetexError *err);
 
 #endif

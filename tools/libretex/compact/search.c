@@ -1,11 +1,12 @@
-/* See search.h. What a choice costs is measured for one thing at a time, all others being as fine as they can.
- * Squares of differences add up, roughly: the choices of fewest numbers whose sums are within bounds are made together
- * and measured, and sums are let grow, or have to shrink, by how they compare with that.
+/* See search.h. A rate-distortion search. First the distortion of each choice is measured alone, all others at their
+ * finest step. Squared errors of different choices add up approximately: so the combination with the lowest rate
+ * (numbers stored for each pixel) whose sum of distortions is within bounds is taken and measured. The bounds are then
+ * scaled by the ratio of the predicted to the measured distortion, and the search is repeated.
  *
- * Footprints are noisy, those of denoised sets too, and smaller images average that away: a difference from the set
- * that is no loss. Of n, the square of what noise does, a scale of s takes away 1 - 1 / s^2, and hardly more where s is
- * large; what is lost of edges and shades at finest doubles from each scale to the next. So the first two tell noise
- * from loss. */
+ * Footprints are noisy, in denoised sets too. Smaller images average noise away: the pictures change, but are no worse.
+ * If n is the mean square of the noise, a scale s removes n (1 - 1 / s^2), which hardly grows with large s, whereas the
+ * error at edges and gradients at least doubles from one scale to the next. So the differences at the first two scales
+ * separate noise from distortion. */
 #include "compact/search.h"
 
 #include <math.h>
@@ -15,24 +16,25 @@
 #include "compact/distortion.h"
 
 #define STEPS RETEX_COMPACT_STEPS
-#define NOISE_COUNTS 0.025   /* of a set's own noise, what may be added: 0.1 dB */
-#define NOISE_COUNTS_NOT 0.9 /* share of what is taken for noise that is no loss where all may go; the rest counts */
-#define NOTHING 0.03         /* share of the bound that gains may cost without a closer look at their scale */
-#define LETTING 0.25         /* times what is lost when all is as fine as can be may be lost on top, or the bound */
-#define GROWTH_MOST 4        /* of sums */
-#define MEASURED_MOST 8      /* times */
+#define NOISE_COUNTS 0.025   /* distortion allowed, as a share of the set's own noise: 0.1 dB */
+#define NOISE_COUNTS_NOT 0.9 /* share of the noise estimate that is not counted as distortion, times params->noise */
+#define NOTHING 0.03         /* share of the bound below which only the coarsest scale of gains is measured */
+#define LETTING 0.25         /* share of the finest scales' distortion that may be added, if above the bound */
+#define GROWTH_MOST 4        /* largest factor by which a bound is scaled */
+#define MEASURED_MOST 8      /* combinations measured at most */
 #define GROUPS_MOST 64
-#define KINDS_APART 6 /* more kinds than these, of three or more targets, are chosen for together */
+#define KINDS_APART 6 /* with more kinds than these, the kinds of all targets share their choices */
 
-/* One choice: the scale of some kinds' footprints or gains, or whether many further hits are those on any target. */
+/* One choice: the scale of some kinds' footprints or gains, or whether terms of three and more interreflections use
+ * one mixture for all targets. */
 typedef enum What { CLUSTERS, GAINS, MIXED } What;
 
 typedef struct Choice {
     What what;
     int kinds[RETEX_COMPACT_KINDS], nkinds;
-    int steps, at, before;                       /* 0: as fine as can be, to steps - 1; before: when last measured */
-    double squares[STEPS][RETEX_COMPACT_TRIALS]; /* lost */
-    double noise[RETEX_COMPACT_TRIALS];          /* what an infinite scale would take away of it */
+    int steps, at, before;                       /* at: 0, the finest, to steps - 1; before: when last measured */
+    double squares[STEPS][RETEX_COMPACT_TRIALS]; /* distortion */
+    double noise[RETEX_COMPACT_TRIALS];          /* that an infinite scale would remove */
     double numbers[STEPS];                       /* stored for each pixel */
 } Choice;
 
@@ -46,12 +48,12 @@ typedef struct Search {
     const RetexCompactLight *light; /* of the reference's set */
     RetexCompactReference reference;
     RetexCompactCache *cache;
-    TrialPictures shown[RETEX_COMPACT_KINDS][2]; /* as fine as can be; and those of the last trial */
+    TrialPictures shown[RETEX_COMPACT_KINDS][2]; /* at the finest scales, and at those last measured */
     RetexImage rest[RETEX_COMPACT_TRIALS];       /* pictures of terms without factors */
     Choice choices[GROUPS_MOST];
     int count, nthreads;
     double bound;
-    double finest[RETEX_COMPACT_TRIALS]; /* lost when all is as fine as can be */
+    double finest[RETEX_COMPACT_TRIALS]; /* distortion when all choices are at their finest */
 } Search;
 
 /* ---- choices ---- */
@@ -104,7 +106,7 @@ static void add_choice(Search *work, What what, int kind)
     choice->kinds[choice->nkinds++] = kind;
 }
 
-/* Fixed ones are put into scales. */
+/* Scales that the parameters fix are set at once. */
 static void list_choices(Search *work, RetexCompactScales *scales, const RetexCompactParams *params)
 {
     for (int i = 0; i < work->light->nkinds; i++) {
@@ -131,7 +133,7 @@ static void free_pictures(TrialPictures *shown)
         retex_image_free(&shown->pictures[t]);
 }
 
-/* Later footprints of all targets have one scale. */
+/* Interreflection footprints of all targets have one scale. */
 static int interreflection_scale(const RetexCompactLight *light, const RetexCompactScales *scales)
 {
     for (int i = 0; i < light->nkinds; i++)
@@ -180,8 +182,8 @@ static double noise_removed(const Search *work, int step)
     return work->light->noise * NOISE_COUNTS_NOT * (1 - 1.0 / (1 << (2 * step)));
 }
 
-/* The rest is loss. Of gains of sets as rendered all is: where gains are smooth, noise goes from one term's light to
- * another's, which may be of a lighter texture. */
+/* Subtract the noise that averaging removes. Gains of noisy sets are excepted: smooth gains move noise from one term
+ * to another, whose texture may be brighter, so all of their error counts as distortion. */
 static void separate_noise(const Search *work, Choice *choice)
 {
     const int denoised = work->light->set->denoised;
@@ -213,7 +215,7 @@ static double worst(const double squares[RETEX_COMPACT_TRIALS])
     return most;
 }
 
-/* What each step of each choice loses beyond the finest. */
+/* The distortion that each step of each choice adds to that of the finest. */
 static int measure(Search *work, const RetexCompactScales *fine, RetexError *err)
 {
     int code = measure_scales(work, fine, work->finest, err);
@@ -237,8 +239,8 @@ static int measure(Search *work, const RetexCompactScales *fine, RetexError *err
 
 /* ---- choosing ---- */
 
-/* The choices of fewest numbers that keep sums within bounds, from this one on; where there are none, *numbers stays
- * as it is. */
+/* The combination of choices from `first` on with the lowest rate whose sums are within bounds. *numbers stays as it
+ * is where there is none. */
 static void search(Search *work, int first, const double sums[RETEX_COMPACT_TRIALS],
                    const double bounds[RETEX_COMPACT_TRIALS], double so_far, double *numbers, int best[GROUPS_MOST])
 {
@@ -264,13 +266,13 @@ static void search(Search *work, int first, const double sums[RETEX_COMPACT_TRIA
     }
 }
 
-/* The bound is for what choices lose: were the finest counted in, the nearer it came to it the less they might. */
+/* The bound limits the distortion that choices add, not that of the finest scales. */
 static double bound_of(const Search *work, int trial)
 {
     return work->finest[trial] + fmax(work->bound, LETTING * work->light->noise * work->finest[trial]);
 }
 
-/* Whether these are other choices than those before. *numbers: how many they store; more than so many are not taken. */
+/* 1 if the result differs from the combination before. *numbers: in, the highest rate allowed; out, the rate. */
 static int search_within(Search *work, const double factors[RETEX_COMPACT_TRIALS], double *numbers)
 {
     double bounds[RETEX_COMPACT_TRIALS];
@@ -288,8 +290,8 @@ static int search_within(Search *work, const double factors[RETEX_COMPACT_TRIALS
     return others;
 }
 
-/* Whether the choices lose no more than they may when all are made; factors: of what is lost of each trial, by what
- * the sums say of it. Together they do not lose less than one of them alone. */
+/* Measure the combination: *within = 1 if its distortion is within bounds. factors: for each trial, predicted over
+ * measured distortion. Together, choices are taken to lose no less than the worst of them alone. */
 static int measure_all(Search *work, RetexCompactScales *scales, double factors[RETEX_COMPACT_TRIALS], int *within,
                        RetexError *err)
 {
@@ -315,7 +317,7 @@ static int measure_all(Search *work, RetexCompactScales *scales, double factors[
 
 static int search_measured(Search *work, RetexCompactScales *scales, RetexError *err)
 {
-    RetexCompactScales good = *scales; /* all as fine as can be */
+    RetexCompactScales good = *scales; /* all at their finest */
     double factors[RETEX_COMPACT_TRIALS], fewest = INFINITY;
     int code = RETEX_OK;
     for (int i = 0; i < work->count; i++)

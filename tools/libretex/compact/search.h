@@ -1,4 +1,4 @@
-/* How small the images of a compact set can be. Private to libretex. */
+/* The rate-distortion search for the scales of a compact set. Private to libretex. */
 #ifndef RETEX_COMPACT_SEARCH_H
 #define RETEX_COMPACT_SEARCH_H
 
@@ -6,7 +6,7 @@
 
 #include "compact/build.h"
 
-/* As small as params->psnr allows, where params do not say it. */
+/* The scales with the lowest rate at params->psnr; scales that params fix are kept. */
 int retex_compact_search(RetexCompactScales *scales, const RetexCompactLight *light, const RetexCompactParams *params,
                          int nthreads, RetexError *err);
 

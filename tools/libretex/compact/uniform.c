@@ -1,13 +1,13 @@
-/* See uniform.h. A pixel that sees a surface through nothing but air has the UV of a parallelogram, known by the
- * means of the pixels around it. Its clusters are some partition of its samples, of which few bright ones may count
- * for all others: noise, which costs more than all else that sharp footprints store, and which denoising of light
- * leaves there. The quarters of the parallelogram are what more samples come to, vary smoothly, and cost next to
- * nothing. A pixel sees no more than that where it lies as near to its neighbours' map as so few samples let expect:
- * of n, the mean's variance is an n-th of the parallelogram's.
+/* See uniform.h. A pixel that sees one surface directly covers a parallelogram in UV, which the mean UV of the pixels
+ * around it predict. Its clusters are some partition of its samples, weighted by light, so a few bright samples may
+ * outweigh all others. This noise costs more bytes than all else in sharp footprints, and denoising of light does not
+ * remove it. With more samples the clusters would converge to the quarters of the parallelogram, which vary smoothly
+ * and compress to almost nothing. A pixel is uniform if its mean UV lies as near to the map fitted to its neighbours as
+ * its number of samples n makes likely: the variance of the mean is that of the parallelogram divided by n.
  *
- * Towards a horizon UV run to infinity, which quadratics do not: five pixels below it they make steps a seventh too
- * long. What a plane has in perspective are linear functions over a common one, the depth; so where the bends of both
- * axes tell of one depth, maps are quadratics over that. */
+ * Near a horizon UV grow without bound, which quadratics cannot follow: five pixels below it their steps are a seventh
+ * too long. In perspective, the UV of a plane are linear functions divided by a common linear function, the depth. So
+ * where the curvature of both axes fits one depth, the maps are quadratics divided by it. */
 #include "compact/uniform.h"
 
 #include <math.h>
@@ -15,39 +15,37 @@
 
 #include <retex/parallel.h>
 
-#define TEXEL (1.0 / (1 << 26)) /* variance of UV, of a texel of 8192 */
-#define OFF_TIMES 3             /* deviations that a mean may be off its map's, */
-#define OFF_MEDIAN                                                                                                     \
-    0.55                      /* of what independent samples are off a map that was fitted to them too, squared, by
-                                    what they are off the true one */
-#define OFF_LEAST 0.02        /* pixels, and so far always */
-#define VARIANCE_TIMES 3      /* deviations of a variance's ratio to its map's, in roots of samples, */
-#define VARIANCE_LEAST 0.4    /* and so far always */
-#define CORRELATION_LEAST 0.3 /* likewise of covariances, by the variances' mean */
-#define INSIDE 0.75           /* pixels from the middle to a cluster, at most, on both sides */
-#define ROUGH 9               /* times what a mean may be off, squared, about a first map */
-#define DEPTH_LEAST 0.04      /* from a pixel to the next one; less makes steps wrong by half a hundredth */
-#define DEPTH_MOST 0.4        /* then a fifth is left at a corner of those that are fitted */
-#define DEPTH_BEND 0.25       /* of depth, squared, that may bend other than by it */
-#define QUARTERED 16          /* samples of a pixel that is stored as quarters, at least */
-#define NEAR_MAP 0.02         /* pixels, squared, that smoothed means are off their neighbours' maps, at most */
-enum { REACH = 2, SIDE = 2 * REACH + 1, FITTED_LEAST = 12, PASSES = 3 /* in which maps are fitted */ };
+#define TEXEL (1.0 / (1 << 26)) /* UV variance of a texel of a texture 8192 wide */
+#define OFF_TIMES 3             /* standard deviations between a mean and its map, at most, */
+#define OFF_MEDIAN 0.55         /* median squared distance of independent samples from a map fitted to them too, */
+                                /* relative to their mean squared distance from the true map */
+#define OFF_LEAST 0.02          /* plus so many pixels */
+#define VARIANCE_TIMES 3        /* relative error of a variance, times the root of the samples, at most, */
+#define VARIANCE_LEAST 0.4      /* or this, if larger */
+#define CORRELATION_LEAST 0.3   /* likewise of covariances, relative to the variances' geometric mean */
+#define INSIDE 0.75             /* pixels from the pixel's centre to a cluster, at most, along both sides */
+#define ROUGH 9                 /* factor on the squared limit of distances from the first, rough map */
+#define DEPTH_LEAST 0.04        /* change of depth per pixel; less changes steps by half a percent only */
+#define DEPTH_MOST 0.4          /* depth at a corner of the window is then still a fifth */
+#define DEPTH_BEND 0.25         /* curvature that a depth may leave, as a share of the squared depth */
+#define QUARTERED 16            /* samples of a pixel that is stored as quarters, at least */
+#define NEAR_MAP 0.02           /* squared pixels between smoothed means and their neighbours' maps, at most */
+enum { REACH = 2, SIDE = 2 * REACH + 1, FITTED_LEAST = 12, PASSES = 3 /* of fitting */ };
 
 /* ---- the map ---- */
 
-/* UV about a pixel, from its own mean, times depth: of each axis the value in the middle, how much it changes from a
- * pixel to the next one right and down, and what bends it: squares and the product. */
+/* UV around a pixel, relative to its own mean, times depth: coefficients of a quadratic in pixels for each axis. */
 enum { MIDDLE, RIGHT, DOWN, RIGHT_RIGHT, RIGHT_DOWN, DOWN_DOWN, TERMS };
 typedef struct Map {
     double of[2][TERMS];
-    double depth[2]; /* is 1 in the middle, and changes so much to the next pixel right and down */
+    double depth[2]; /* gradient of the depth, right and down; depth is 1 at the pixel's centre */
 } Map;
 
 /* What is kept of a map. */
 typedef struct UvMap {
     double mean[2];
     float right[2], down[2], depth[2];
-    int parts; /* 0: the pixel is not even; 1; or 4, the quarters */
+    int parts; /* 0: the pixel is not uniform; 1: the whole pixel; 4: its quarters */
 } UvMap;
 
 typedef struct SmoothWork {
@@ -56,19 +54,19 @@ typedef struct SmoothWork {
     UvMap *maps;
     const int *periodic;
     int width, height;
-    int pass;       /* -1: only offs are found */
-    double noise;   /* of that, what may be taken away */
-    double scatter; /* of means about their maps, squared, by that of independent samples */
+    int pass;       /* -1: distances only */
+    double noise;   /* share of the expected noise that may be removed */
+    double scatter; /* variance of means about their maps, relative to that of independent samples */
     float *offs;
 } SmoothWork;
 
-/* Of an axis, squared, from a pixel to the next. */
+/* Squared UV step of an axis from a pixel to the next. */
 static double step_of(const Map *map, int axis)
 {
     return map->of[axis][RIGHT] * map->of[axis][RIGHT] + map->of[axis][DOWN] * map->of[axis][DOWN];
 }
 
-/* How far a pixel's UV are from the map's middle, times depth, and by how many pixels they are off it, squared. */
+/* d: a pixel's UV relative to the centre's, times depth. Returns the squared distance from the map, in pixels. */
 static double off_map(const SmoothWork *work, const Map *map, const RetexUniformPixel *center,
                       const RetexUniformPixel *each, const double terms[TERMS], double d[2])
 {
@@ -86,8 +84,8 @@ static double off_map(const SmoothWork *work, const Map *map, const RetexUniform
     return off;
 }
 
-/* Pixels, squared, that a mean is off by chance: of a parallelogram both variances are a twelfth of its sides' squares;
- * samples that were spread well come nearer than independent ones. */
+/* Expected squared distance of a mean from its map, in pixels: each variance of a parallelogram is a twelfth of its
+ * squared side. Stratified samples come nearer than independent ones. */
 static double off_expected(const SmoothWork *work, const RetexUniformPixel *place)
 {
     return work->scatter * 2 / (12 * (double)place->samples);
@@ -128,7 +126,7 @@ typedef struct Window {
     int count;
 } Window;
 
-/* Least squares; where all are there, by what that comes to. */
+/* Least squares; with all pixels of the window the solution is known in closed form. */
 static int fit_window(Map *map, const Window *window)
 {
     double rows[TERMS][TERMS + 2] = {{0}};
@@ -156,7 +154,7 @@ static int fit_window(Map *map, const Window *window)
     return 1;
 }
 
-/* The same map, to its quadratics, over another depth. */
+/* The same map over another depth, up to second order. */
 static void change_depth(Map *map, const double depth[2])
 {
     const double right = depth[0] - map->depth[0], down = depth[1] - map->depth[1];
@@ -171,7 +169,7 @@ static void change_depth(Map *map, const double depth[2])
     }
 }
 
-/* In pixels, squared. */
+/* Curvature, in squared pixels. */
 static double bend_of(const Map *map)
 {
     double bend = 0;
@@ -181,7 +179,7 @@ static double bend_of(const Map *map)
     return bend;
 }
 
-/* The depth that leaves least bend, where it is much and leaves little of it; else none. */
+/* The depth that leaves least curvature, if it is large enough and leaves little; else none. */
 static void find_depth(Map *map)
 {
     double both = TEXEL, mixed = 0, bend[2] = {0}, depth[2];
@@ -204,8 +202,8 @@ static void find_depth(Map *map)
         *map = over;
 }
 
-/* The map about a pixel, over the depth that the last one has, if any; means are left out that are farther from that
- * than `times` what they may be, or, of the passes that smooth, than NEAR_MAP. */
+/* Fit the map around a pixel, over the depth of the last map, if any. Outliers are left out: means farther from the
+ * last map than `times` the limit or, in the smoothing passes, than NEAR_MAP. */
 static int fit_map(Map *map, const SmoothWork *work, int x, int y, const Map *last, double times)
 {
     const RetexUniformPixel *center = &work->pixels[y * work->width + x];
@@ -233,7 +231,7 @@ static int fit_map(Map *map, const SmoothWork *work, int x, int y, const Map *la
     return 1;
 }
 
-/* How many pixels a pixel's own mean is off its map's, squared. */
+/* Squared distance of a pixel's own mean from its map, in pixels. */
 static double off_middle(const Map *map)
 {
     double off = 0;
@@ -242,7 +240,7 @@ static double off_middle(const Map *map)
     return off;
 }
 
-/* Whether a pixel's own mean and variances may be the map's. */
+/* Whether a pixel's mean and variances agree with the map. */
 static int suits(const SmoothWork *work, const Map *map, const RetexUniformPixel *own)
 {
     const double few = VARIANCE_TIMES / sqrt((double)own->samples);
@@ -261,7 +259,7 @@ static int suits(const SmoothWork *work, const Map *map, const RetexUniformPixel
            fabs(difference) <= fmax(few, CORRELATION_LEAST) * sqrt((variances[0] + TEXEL) * (variances[2] + TEXEL));
 }
 
-/* Whether all clusters of a pixel lie in it. */
+/* Whether all clusters of a pixel lie in its parallelogram. */
 static int are_inside(const SmoothWork *work, size_t pixel, const Map *map)
 {
     const RetexUniformPixel *own = &work->pixels[pixel];
@@ -296,8 +294,8 @@ static void keep_map(UvMap *to, const SmoothWork *work, size_t pixel, const Map 
     }
 }
 
-/* How many parts even pixels have: where most pixels around have several clusters, and samples enough to show how
- * little one part differs from them, quarters, if there is room for these. */
+/* How many parts a uniform pixel is stored as: 4 quarters, if the kind has four clusters and most pixels around have
+ * several clusters and enough samples; else 1. */
 static int parts_around(const SmoothWork *work, int x, int y)
 {
     const RetexCompactClusters *clusters = work->clusters;
@@ -312,7 +310,7 @@ static int parts_around(const SmoothWork *work, int x, int y)
     return several > 0 ? 4 : 1;
 }
 
-/* Whether a pixel is even, by its map; an edge draws the first one to it. */
+/* Whether a pixel is uniform. Edges distort the first map, so maps are fitted again without outliers. */
 static int is_uniform(Map *map, const SmoothWork *work, int x, int y)
 {
     const size_t pixel = (size_t)y * (size_t)work->width + (size_t)x;
@@ -322,7 +320,7 @@ static int is_uniform(Map *map, const SmoothWork *work, int x, int y)
            are_inside(work, pixel, map);
 }
 
-/* Where it is, the map again, of what its neighbours have come to, unless that takes away more than noise. */
+/* Fit the map of a uniform pixel again, to the smoothed neighbours. 0 where that would remove more than noise. */
 static int is_smoothed(Map *map, const SmoothWork *work, int x, int y)
 {
     const size_t pixel = (size_t)y * (size_t)work->width + (size_t)x;
@@ -333,7 +331,7 @@ static int is_smoothed(Map *map, const SmoothWork *work, int x, int y)
     return fit_map(map, work, x, y, &last, 0) && off_middle(map) <= off_expected(work, &work->pixels[pixel]);
 }
 
-/* Pass 0 tells which pixels are even; later ones know that, and smooth what noise the one before left. */
+/* Pass 0 finds the uniform pixels; the passes after it smooth the noise that remains. */
 static void fit_row(void *context, int y, int thread)
 {
     const SmoothWork *work = context;
@@ -355,7 +353,7 @@ static void fit_row(void *context, int y, int thread)
     }
 }
 
-/* The next pass begins with the means that the last one made. */
+/* The next pass starts from the means of the last one. */
 static void renew_row(void *context, int y, int thread)
 {
     const SmoothWork *work = context;
@@ -422,7 +420,7 @@ static int compare_floats(const void *a, const void *b)
     return (one > other) - (one < other);
 }
 
-/* Means are off by chance, which is alike everywhere, and by edges of light, of which there are few: so the median. */
+/* The distance of means from maps is noise everywhere, and larger at the few edges of light: hence the median. */
 static int find_scatter(SmoothWork *work, int nthreads, RetexError *err)
 {
     const size_t all = (size_t)work->width * (size_t)work->height;

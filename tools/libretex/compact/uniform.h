@@ -1,4 +1,4 @@
-/* Pixels that see one surface evenly. Private to libretex. */
+/* Pixels that see one surface uniformly: clusters without noise. Private to libretex. */
 #ifndef RETEX_COMPACT_UNIFORM_H
 #define RETEX_COMPACT_UNIFORM_H
 
@@ -6,16 +6,16 @@
 
 #include "compact/clusters.h"
 
-/* What a pixel sees, as one place: its mean UV, the variances uu, uv and vv, and how many samples of equal light tell
- * as much; 0 where it is not to be looked at. */
+/* All clusters of a pixel merged: mean UV, variances uu, uv and vv, and the effective number of samples, 0 where the
+ * pixel is not a candidate. */
 typedef struct RetexUniformPixel {
     double mean[2];
     float variances[3], samples;
 } RetexUniformPixel;
 
-/* Where pixels and those around them see a surface evenly, as whole[] tells: clusters become those of the surface's
- * map, one or the four quarters of the pixel, without noise. The filter is a box. noise: above 0, to 1,
- * of what chance lets expect, how far they may be off. whole[] is used up. */
+/* Where pixels and their neighbours see a surface uniformly, the clusters are replaced by those of a smooth map of the
+ * surface: one for the whole pixel, or its four quarters. For box pixel filters. noise: above 0, to 1: share of the
+ * expected noise that may be removed. pixels[] is overwritten. */
 int retex_compact_smooth_uniform(RetexCompactClusters *clusters, RetexUniformPixel *pixels, const int periodic[2],
                                  double noise, int nthreads, RetexError *err);
 

@@ -1,5 +1,5 @@
-/* What a pack takes, and what it lost: see loss.h. Pictures are compared in codes of 16 bits, by whole numbers, so
- * that sums do not depend on their order. */
+/* Bytes of a pack by purpose, and its distortion: see loss.h. Pictures are compared as 16-bit integers, so that sums do
+ * not depend on their order. */
 #include "pack/loss.h"
 
 #include <math.h>

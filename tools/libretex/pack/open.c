@@ -1,6 +1,5 @@
-/* Opening packs, as the source of a set that is read as it is asked for. Nothing in a pack is believed: every entry
- * must be one that the manifest asks for and as long as the index says, and no memory is taken that its bytes could
- * not fill. */
+/* Opening packs, as the source of a set that is read on demand. Everything is checked: each entry must be named by
+ * the manifest and have the size that the index states. Memory is allocated only as the file's size justifies. */
 #include "pack/open.h"
 
 #include <stdio.h>

@@ -1,4 +1,4 @@
-/* Which part is packed how: by who refers to it, and by what its values allow. See plan.h. */
+/* Codecs and quantizers of parts, from what refers to them and from their values. See plan.h. */
 #include "pack/plan.h"
 
 #include <math.h>

@@ -1,4 +1,4 @@
-/* How each part of a set is to be packed. */
+/* Choosing codec and quantizer of each part of a set. */
 #ifndef RETEX_PACK_PLAN_H
 #define RETEX_PACK_PLAN_H
 
@@ -10,7 +10,7 @@ typedef struct RetexPackFootprintSteps {
     int angle_steps; /* of correlations, from 0 to 1 */
 } RetexPackFootprintSteps;
 
-/* How fine everything is. Steps are in levels of 255 to white. */
+/* Quantizer steps of all kinds of parts, in levels; 255 levels are white. */
 typedef struct RetexPackQuantizer {
     double jpeg_step;     /* of light, gains and albedo */
     double original_step; /* of original textures */
@@ -21,10 +21,10 @@ typedef struct RetexPackQuantizer {
     double gain_noise;   /* steps of gains may be so many times the noise of their light */
 } RetexPackQuantizer;
 
-/* The quantizer whose errors have about this PSNR; pictures lose otherwise, see loss.h. */
+/* The quantizer whose own errors have about this PSNR. That of pictures differs: see loss.h. */
 RetexPackQuantizer retex_pack_quantizer(double psnr);
 
-/* The quality of 1 to 100, or beyond, as PSNR that is aimed at. */
+/* The PSNR that a quality of 1 to 100, or above, aims at. */
 double retex_pack_quality_psnr(double quality);
 
 /* Plan all parts: packed[set->nparts]. quantizer: NULL = every part keeps its bits. */

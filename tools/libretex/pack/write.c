@@ -1,6 +1,6 @@
-/* Writing a pack: the set is made compact and encoded, as fine as the quality promises, and its parts are laid down in
- * order behind a manifest and an index. The bytes depend on the set and the parameters only: no dates, no order of
- * threads. */
+/* Writing a pack: the set is made compact and encoded, finely enough for the PSNR that the quality promises, and its
+ * parts are written in order after a manifest and an index. The bytes depend on the set and the parameters only, not on
+ * dates or threads. */
 #include <retex/pack.h>
 
 #include <math.h>
@@ -18,12 +18,12 @@
 #include "pack/loss.h"
 #include "pack/zip.h"
 
-/* dB that compacting keeps more than the whole: its errors and those of coding add up. From quality 95 to 100 it rises
- * to so many times as much, for what is coded is then finer where there is no noise. */
+/* dB by which compacting alone aims above the whole, because its errors and those of coding add up. The margin grows by
+ * this factor from quality 95 to 100, where coding is finer. */
 static const double COMPACTING_MARGIN = 3, COMPACTING_MARGIN_GROWS = 3;
 
-/* Qualities that are aimed at where one was not kept. From 90 on less and less noise is taken away, and beyond 110
- * nothing gets finer but by keeping all bits. */
+/* Qualities to aim at after a promise was not kept. Less noise is removed from 90 on; above 110 only lossless coding is
+ * finer. */
 static const double AIMS[] = {50, 70, 92, 94, 96, 98, 100, 105, 110, INFINITY};
 
 static int no_memory(RetexError *err)
@@ -142,9 +142,9 @@ static int write_file(const RetexPackEncoded *w, const RetexPackKept *kept, cons
     return code;
 }
 
-/* --- as fine as was promised --- */
+/* --- the promise --- */
 
-/* What of a set is needed for pictures as good as a quality aims at, which may be beyond 100, encoded. */
+/* A set encoded for a quality that is aimed at, which may be above 100. */
 typedef struct Attempt {
     RetexSet *compact;
     RetexPackEncoded encoded;

@@ -1,5 +1,5 @@
-/* Stored zips: what a pack is. Entries are laid down plainly, one after the other, without dates; a reader gets their
- * places and refuses whatever is not such a zip. Ordinary tools open them. */
+/* ZIP files with stored entries only: the container of packs. Entries are written one after the other, uncompressed and
+ * without dates. The reader returns their offsets and refuses any other ZIP file. Ordinary tools open them. */
 #ifndef RETEX_PACK_ZIP_H
 #define RETEX_PACK_ZIP_H
 
