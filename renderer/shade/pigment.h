@@ -8,13 +8,14 @@
 Rgbft pigment_eval(const Pigment *pigment, Vec3 p, Vec2 uv);
 /* The same point in pattern space. */
 Vec3 pigment_point(const Pigment *pigment, Vec3 p, Vec2 uv);
-/* Of an image, at a point of pattern space: its colour, and what target_uv gives. */
+/* The colour of an image's pigment at a point of pattern space, and target_uv's UV there. */
 Rgbft pigment_eval_image(const Pigment *pigment, Vec3 pattern_point, Vec2 *target);
-/* It will be asked there soon: have a planar image's texels come near. */
+/* Prefetch the texels of a planar image at that point. */
 void pigment_prefetch_image(const Pigment *pigment, Vec3 pattern_point);
 /* 1 where the pigment has the same colour and opacity everywhere. */
 int pigment_is_constant(const Pigment *pigment);
-/* 1 where the pigment lets nothing through anywhere (no filter, no transmit, no image alpha). */
+/* 1 where the pigment is opaque everywhere: no filter, no transmit, no alpha of an image, no image with `once`. This is
+ * the only place that decides it. */
 int pigment_is_opaque(const Pigment *pigment);
 /* UV of an image_map's projection at a point of pattern space: planar, spherical, cylindrical or toroidal. */
 Vec2 pigment_image_uv(const ImageMap *image, Vec3 pattern_point);

@@ -1,10 +1,10 @@
-/* Images in pigments; private to the pigments. */
+/* Images in pigments; private to pigment*.c. */
 #ifndef RENDERER_SHADE_PIGMENT_IMAGE_H
 #define RENDERER_SHADE_PIGMENT_IMAGE_H
 
 #include "shade/pigment.h"
 
-/* 1 where an image_map with `once` leaves the point empty. */
+/* 1 where the point lies outside an image_map with `once`. */
 int image_is_outside(const ImageMap *image, Vec2 uv);
 /* The image's colour at its own UV, with its alpha and `filter all` and `transmit all`. */
 Rgbft image_lookup(const ImageMap *image, Vec2 uv);

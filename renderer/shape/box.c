@@ -1,5 +1,6 @@
-/* The box [0,1]^3. The picture traces it as triangles and finds points on the exact faces. Faces: 0..5 are
- * -x +x -y +y -z +z. */
+/* The box [0,1]^3. Paths trace it as triangles; trace() and sampling use the exact faces. Faces 0..5 are
+ * -x +x -y +y -z +z. Natural parametrisation: each face 0..1, upright and unmirrored seen from outside, with y up; the
+ * top and the bottom as they unfold from the -z face. */
 #include "shape/shape.h"
 
 /* Bit 0 of the index is x, bit 1 y, bit 2 z. */

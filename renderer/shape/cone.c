@@ -1,5 +1,6 @@
 /* The cone about z, from z = 0 with radius r0 to z = 1 with radius r1; `open` has no caps. Cylinders too. Faces: 0 the
- * side, 1 the cap at z = 0, 2 the cap at z = 1. */
+ * side, 1 the cap at z = 0, 2 the cap at z = 1. Natural parametrisation: of the side u is the angle from x towards y, v
+ * the height from the base; of caps x and y, the unit square round the cap's circle. */
 #include <float.h>
 #include "shape/shape.h"
 

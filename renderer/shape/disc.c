@@ -1,4 +1,5 @@
-/* The disc z = 0, x^2 + y^2 <= r0^2, with a hole of radius r1; inside below it. */
+/* The disc z = 0, x^2 + y^2 <= r0^2, with a hole of radius r1; inside below it. Natural
+ * parametrisation: x and y, the unit square round the outer circle. */
 #include <float.h>
 #include "shape/shape.h"
 

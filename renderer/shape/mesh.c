@@ -1,5 +1,6 @@
 /* Triangle meshes, in object space. A triangle's outward side is the one its vertex normals lie on; without them, the
- * one its winding gives, turned round for closed meshes that wind inward. They are traced as triangles only. */
+ * one its winding gives, turned round for closed meshes that wind inward. They are traced as triangles only.
+ * Natural parametrisation: uv_vectors. */
 #include "shape/shape.h"
 
 static void triangles(const Shape *shape, ShapeTriangles *out)

@@ -1,16 +1,6 @@
-/* What a shape is: a row of operations on its canonical form. Included by the files that define shapes, and by those
- * that call their operations one by one.
- *
- * Natural parametrisation, where a target has no uv_mapping:
- *   sphere          POV-Ray's uv: u around y from +x towards +z (.75 at -z), v from the lower pole to the upper
- *   torus           POV-Ray's uv: u around y from -x towards +z, v around the tube from the inner equator (0) over the
- *                   bottom, the outer equator (.5) and the top (.75)
- *   box             each face 0..1, upright and unmirrored seen from outside, with y up; the top and the bottom as they
- *                   unfold from the -z face
- *   cone, cylinder  side: u the angle from x towards y, v the height from the base; caps: x and y, the unit square
- *                   round the cap's circle
- *   disc            x and y, the unit square round the outer circle
- *   mesh            its uv_vectors */
+/* A shape: a row of operations on its canonical form. Included by the files that define shapes, and by those that call
+ * operations one by one. Each shape's file describes its canonical form, its faces and its natural parametrisation:
+ * the UV of targets without uv_mapping. */
 #ifndef RENDERER_SHAPE_SHAPE_H
 #define RENDERER_SHAPE_SHAPE_H
 
@@ -62,7 +52,7 @@ struct ShapeOps {
     /* The nearest t in (tmin, tmax), and the face there where there is more than one: returns 1; else 0, and t is left
      * as it was. NULL: by its triangles only. */
     int (*intersect)(const Primitive *primitive, const ShapeRay *ray, double *t, int *face);
-    /* p, in canonical space, is near the surface: puts it onto the face. */
+    /* The point of the face next to p, which is near the surface, in canonical space. */
     void (*point)(const Primitive *primitive, Vec3 p, int face, ShapePoint *out);
     void (*uv)(const Surface *surface, ShapeUv *out);
     /* 1 for points inside, in canonical space; as POV-Ray's inside(). */

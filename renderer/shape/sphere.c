@@ -1,4 +1,5 @@
-/* The unit sphere about the origin. */
+/* The unit sphere about the origin. Natural parametrisation: POV-Ray's uv, u around y from +x towards +z (.75 at -z), v
+ * from the lower pole to the upper. */
 #include "shape/shape.h"
 
 static void bounds(const Primitive *primitive, Vec3 *low, Vec3 *high)

@@ -1,4 +1,4 @@
-/* Where a ray met the scene, and what is there geometrically. */
+/* The surface at a hit: position, normals, UV, texture. */
 #ifndef RENDERER_SHAPE_SURFACE_H
 #define RENDERER_SHAPE_SURFACE_H
 
@@ -13,13 +13,12 @@ typedef struct Ray {
 typedef struct Hit {
     double t;          /* distance; along a unit direction */
     int primitive;     /* index, or -1 for none */
-    int face;          /* of a mesh; else the shape's own part (box side 0..5: -x +x -y +y -z +z, cone 0 side 1 low cap
-                          2 high cap) */
+    int face;          /* of a mesh; else a part of the shape, as the shape's file counts them */
     double b1, b2;     /* barycentrics of a triangle: weights of corners 1 and 2 */
     Vec3 normal;       /* of a triangle: unit length, outward, world space */
 } Hit;
 
-/* Everything shading wants to know. Normals are of unit length, in world space. */
+/* What shading needs. Normals are of unit length, in world space. */
 typedef struct Surface {
     const Primitive *primitive;
     int face;                /* as in Hit */
@@ -33,13 +32,13 @@ typedef struct Surface {
 } Surface;
 
 typedef struct SurfaceUv {
-    Vec2 uv;                 /* of uv_mapping: the shape's own, or world x,y for cylinders, cones and shapes without */
-    Vec2 natural;            /* natural parametrisation of sphere, box, cone, torus, disc, mesh with UVs: shape.h */
+    Vec2 uv;                 /* of uv_mapping: the shape's own, or world x,y for shapes without */
+    Vec2 natural;            /* natural parametrisation, which the shape's file describes */
     int has_natural;         /* 0: plane, mesh without UVs */
 } SurfaceUv;
 
 void surface_at(Surface *surface, const Scene *scene, const Ray *ray, const Hit *hit);
-/* It will be asked for soon: have the mesh's face come near, and then its corners. */
+/* Prefetch what surface_at reads of a mesh: its face, and once that is there, its corners. */
 static inline void surface_prefetch_face(const Scene *scene, const Hit *hit)
 {
     const Primitive *primitive = &scene->primitives[hit->primitive];
@@ -57,15 +56,14 @@ static inline void surface_prefetch_corners(const Scene *scene, const Hit *hit)
     for (int k = 0; k < 3 && mesh_face_has_uvs(face); k++)
         __builtin_prefetch(&primitive->shape.mesh->uvs[face->uv[k]]);
 }
-SurfaceUv surface_uv(const Surface *surface); /* apart: most surfaces have one colour */
-/* Of a surface fresh from shape_sample: which side it is seen from, with the texture there. */
+SurfaceUv surface_uv(const Surface *surface); /* not part of surface_at, for most surfaces have one colour */
+/* Sets the side that a surface from shape_sample is seen from, and the texture of that side. */
 void surface_turn(Surface *surface, int backside);
 
 /* ---- operations of shapes (shape.h), by their table ---- */
 
 /* Intersect a shape that has an equation (all but meshes): the nearest t in (tmin, tmax). 1 if found, with face as in
- * Hit; else 0, and *t and *face are left as they were: they may be those of a nearer hit. Whatever looks for hits here
- * and in accel/ keeps to that. */
+ * Hit; else 0, and *t and *face are left as they were: they may be those of a nearer hit. */
 int shape_intersect(const Primitive *primitive, const Ray *ray, double *t, int *face);
 /* World-space bounding box; planes have none (returns 0). */
 int shape_bounds(const Primitive *primitive, Vec3 *low, Vec3 *high);

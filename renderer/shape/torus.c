@@ -1,4 +1,5 @@
-/* The torus about y: major radius r0, minor r1.
+/* The torus about y: major radius r0, minor r1. Natural parametrisation: POV-Ray's uv, u around y from -x towards +z, v
+ * around the tube from the inner equator (0) over the bottom, the outer equator (.5) and the top (.75).
  *
  * Its quartic is solved by monotonic pieces: between two neighbouring critical points there is at
  * most one root, and a sign change finds it for certain. So no root is lost or made up but for grazing pairs closer

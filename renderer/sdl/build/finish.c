@@ -1,4 +1,4 @@
-/* finish: how a surface takes and gives light. Only reads what is written; shade/material.c maps it to a BSDF. */
+/* finish: how a surface reflects and emits light. Only reads what is written; shade/material.c maps it to a BSDF. */
 #include <stddef.h>
 #include <string.h>
 #include "sdl/build/builder.h"

@@ -1,4 +1,4 @@
-/* light_source. A light is an object like others until it is placed; what it looks like is its child. */
+/* light_source. A light is an object like others until it is placed; the object of its looks_like is its child. */
 #include <string.h>
 #include "sdl/build/builder.h"
 

@@ -1,5 +1,6 @@
-/* Placing: an object statement at top level becomes primitives and lights of the Scene, in world space. What children
- * lack they take from the groups they are in; what nobody gave is the default texture of that moment. */
+/* Placing: an object statement at top level becomes primitives and lights of the Scene, in world space. Children
+ * inherit what they lack from their groups; an object without any texture has the default texture in force where it is
+ * placed. */
 #include <string.h>
 #include "sdl/build/builder.h"
 

@@ -1,5 +1,6 @@
-/* Simple shapes, brought to their canonical form (scene.h): a transform from the canonical shape to what is written.
- * What has no extent is left out, as POV-Ray's would never be hit; what POV-Ray calls an error is one here. */
+/* Parsers of simple shapes: the shape in its canonical form (shape/NAME.c), and the transform from there to what is
+ * written. A shape without extent is left out with a warning, for no ray hits it in POV-Ray; what is an error in
+ * POV-Ray is an error here. */
 #include "sdl/build/builder.h"
 
 static double length_of(Sdl *sdl)
