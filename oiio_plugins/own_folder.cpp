@@ -12,7 +12,7 @@ namespace plugins
 bool wants_safe(const Arguments &arguments)
 {
     auto said = arguments.find("safe");
-    return retex_access_safe_wanted() || (said != arguments.end() && said->second != "0");
+    return retex_access_safe_requested() || (said != arguments.end() && said->second != "0");
 }
 
 OwnFolder::OwnFolder(const std::string &path, bool safe)
@@ -34,7 +34,7 @@ std::string OwnFolder::find(const std::string &name, bool wants_folder) const
 {
     if (!access_.safe)
         return name;
-    switch (retex_access_ask(&access_, folder_.c_str(), name.c_str())) {
+    switch (retex_access_check(&access_, folder_.c_str(), name.c_str())) {
     case RETEX_ACCESS_ABSENT:
         throw Failure("cannot read " + name + ": No such file or directory");
     case RETEX_ACCESS_OUTSIDE:

@@ -256,7 +256,7 @@ const CliOption *cli_next(Cli *cli)
         cli->next = 1;
     if (cli->access.size == 0) {
         cli->access = (RetexAccess)RETEX_ACCESS_INIT;
-        cli->access.safe = retex_access_safe_wanted();
+        cli->access.safe = retex_access_safe_requested();
     }
     if (cli->limits.size == 0) {
         RetexError err;

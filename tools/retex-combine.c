@@ -407,7 +407,7 @@ static int run_batch(const Cli *cli, Job *job)
         batch_print(batch);
         return batch_finish(batch, NULL);
     }
-    if (retex_set_keep(job->set, job->samples, cli_memory(cli, job->memory), cli->threads, &err))
+    if (retex_set_preload(job->set, job->samples, cli_memory(cli, job->memory), cli->threads, &err))
         return batch_finish(batch, &err);
     for (int number = 0; number < batch->table.nrows; number++) {
         const double began = retex_clock_seconds();

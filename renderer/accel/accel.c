@@ -231,10 +231,10 @@ static bool charge_embree(void *context, ssize_t bytes, bool after)
 
     (void)after;
     if (bytes <= 0) {
-        retex_budget_give(accel->budget, (uint64_t)-bytes);
+        retex_budget_release(accel->budget, (uint64_t)-bytes);
         return true;
     }
-    if (!retex_budget_take(accel->budget, (uint64_t)bytes, "", NULL))
+    if (!retex_budget_charge(accel->budget, (uint64_t)bytes, "", NULL))
         return true;
     atomic_store(&accel->refused, 1);
     return false;
@@ -254,7 +254,7 @@ static int why_not_built(Accel *accel, RetexError *err)
     int status = retex_budget_check(accel->budget, err);
 
     if (!status && atomic_load(&accel->refused))
-        status = retex_budget_take(accel->budget, UINT64_MAX, "the scene's geometry", err);
+        status = retex_budget_charge(accel->budget, UINT64_MAX, "the scene's geometry", err);
     return status ? status : retex_fail(err, accel->error.code, "%s", accel->error.message);
 }
 
@@ -295,7 +295,7 @@ static int make_room(Accel *accel, RetexError *err)
     const size_t vertices = (accel->nvertices + 1) * sizeof(Vec3),
                  corners = (accel->ntriangles + 1) * sizeof(*accel->corners),
                  triangles = (accel->ntriangles + 1) * sizeof(Triangle), all = vertices + corners + triangles;
-    int status = retex_budget_take(accel->budget, all, "the scene's geometry", err);
+    int status = retex_budget_charge(accel->budget, all, "the scene's geometry", err);
 
     if (status < 0)
         return status;
@@ -360,7 +360,7 @@ void accel_close(Accel **accel)
     free(a->curved);
     free(a->planes);
     free(a->flags);
-    retex_budget_give(a->budget, a->charged);
+    retex_budget_release(a->budget, a->charged);
     free(a);
     *accel = NULL;
 }

@@ -40,7 +40,7 @@ void arena_close(Arena **arena)
         return;
     for (Block *block = (*arena)->blocks, *next; block; block = next) {
         next = block->next;
-        retex_budget_give((*arena)->budget, HEADER + block->size);
+        retex_budget_release((*arena)->budget, HEADER + block->size);
         free(block);
     }
     free(*arena);
@@ -53,11 +53,11 @@ static Block *add_block(Arena *arena, size_t bytes)
 {
     int own = bytes > arena->next_size / 4;
     size_t size = own ? bytes : arena->next_size;
-    if (retex_budget_take(arena->budget, HEADER + size, "", NULL))
+    if (retex_budget_charge(arena->budget, HEADER + size, "", NULL))
         return NULL;
     Block *block = calloc(1, HEADER + size);
     if (!block) {
-        retex_budget_give(arena->budget, HEADER + size);
+        retex_budget_release(arena->budget, HEADER + size);
         return NULL;
     }
     block->size = size;

@@ -117,7 +117,6 @@ one_definition tools/libretex/include/retex/denoise_data.h '"guide_|"noise_("|%|
 # Symbols of the library that others can see begin with retex_.
 unprefixed=$(find "${BUILD:-build}/obj/tools/libretex" -name '*.o' 2>/dev/null | while read -r object; do
     source=${object#"${BUILD:-build}/obj/"}
-    case $source in */compact/* | */pack/* | */files/*) continue ;; esac
     [ ! -e "${source%.o}.c" ] || nm -A -g --defined-only "$object"
 done | awk '$NF !~ /^retex_/ { sub(/:.*/, "", $1); print $1 ": " $NF }')
 [ -z "$unprefixed" ] || complain "symbols of libretex without retex_:

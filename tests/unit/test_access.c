@@ -59,7 +59,7 @@ static void test_answers(void **state)
     (void)state;
     static const struct {
         const char *name;
-        RetexAccessAnswer plain, safe;
+        RetexAccessResult plain, safe;
     } cases[] = {
         {"file", RETEX_ACCESS_ALLOWED, RETEX_ACCESS_ALLOWED},
         {"sub/file", RETEX_ACCESS_ALLOWED, RETEX_ACCESS_ALLOWED},
@@ -93,7 +93,7 @@ static void test_answers(void **state)
         assert_int_equal(chdir(*spellings[s] ? top : root), 0);
         for (size_t i = 0; i < sizeof cases / sizeof *cases; i++)
             for (access.safe = 0; access.safe < 2; access.safe++) {
-                RetexAccessAnswer answer = retex_access_ask(&access, spellings[s], cases[i].name);
+                RetexAccessResult answer = retex_access_check(&access, spellings[s], cases[i].name);
                 if (answer != (access.safe ? cases[i].safe : cases[i].plain))
                     fail_msg("`%s` of `%s`, safe %d: %d", cases[i].name, spellings[s], access.safe, (int)answer);
             }
@@ -106,7 +106,7 @@ static void test_absolute_names(void **state)
     (void)state;
     static const struct {
         const char *name;
-        RetexAccessAnswer safe;
+        RetexAccessResult safe;
     } cases[] = {
         {"/root/file", RETEX_ACCESS_ALLOWED},
         {"/to-root/file", RETEX_ACCESS_ALLOWED},
@@ -126,20 +126,20 @@ static void test_absolute_names(void **state)
     char name[PATH_MAX + 64];
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         snprintf(name, sizeof name, "%s%s", top, cases[i].name);
-        RetexAccessAnswer answer = retex_access_ask(&access, "root", name);
+        RetexAccessResult answer = retex_access_check(&access, "root", name);
         if (answer != cases[i].safe)
             fail_msg("`%s`: %d", cases[i].name, (int)answer);
     }
-    assert_int_equal(retex_access_ask(&access, "root", "/"), RETEX_ACCESS_OUTSIDE);
-    assert_int_equal(retex_access_ask(&access, "root", "/etc/passwd"), RETEX_ACCESS_OUTSIDE);
+    assert_int_equal(retex_access_check(&access, "root", "/"), RETEX_ACCESS_OUTSIDE);
+    assert_int_equal(retex_access_check(&access, "root", "/etc/passwd"), RETEX_ACCESS_OUTSIDE);
     access.roots = all;
-    assert_int_equal(retex_access_ask(&access, "/", "etc/passwd"), RETEX_ACCESS_ALLOWED);
-    assert_int_equal(retex_access_ask(&access, "root", "../above"), RETEX_ACCESS_ALLOWED);
+    assert_int_equal(retex_access_check(&access, "/", "etc/passwd"), RETEX_ACCESS_ALLOWED);
+    assert_int_equal(retex_access_check(&access, "root", "../above"), RETEX_ACCESS_ALLOWED);
     access.nroots = 0; /* a folder that is not there is no leave to read everything */
-    assert_int_equal(retex_access_ask(&access, "/", "etc/passwd"), RETEX_ACCESS_OUTSIDE);
+    assert_int_equal(retex_access_check(&access, "/", "etc/passwd"), RETEX_ACCESS_OUTSIDE);
     access.roots = NULL;
-    assert_int_equal(retex_access_ask(&access, "", "above"), RETEX_ACCESS_ALLOWED);
-    assert_int_equal(retex_access_ask(NULL, "", "root/pipe"), RETEX_ACCESS_IRREGULAR);
+    assert_int_equal(retex_access_check(&access, "", "above"), RETEX_ACCESS_ALLOWED);
+    assert_int_equal(retex_access_check(NULL, "", "root/pipe"), RETEX_ACCESS_IRREGULAR);
 }
 
 /* The file's letter, or the negative code. */
@@ -288,14 +288,14 @@ static void test_environment(void **state)
     (void)state;
     static const char *const on[] = {"1", "yes", "2", "false"};
     unsetenv("RETEX_SAFE");
-    assert_int_equal(retex_access_safe_wanted(), 0);
+    assert_int_equal(retex_access_safe_requested(), 0);
     setenv("RETEX_SAFE", "", 1);
-    assert_int_equal(retex_access_safe_wanted(), 0);
+    assert_int_equal(retex_access_safe_requested(), 0);
     setenv("RETEX_SAFE", "0", 1);
-    assert_int_equal(retex_access_safe_wanted(), 0);
+    assert_int_equal(retex_access_safe_requested(), 0);
     for (size_t i = 0; i < sizeof on / sizeof *on; i++) {
         setenv("RETEX_SAFE", on[i], 1);
-        assert_int_equal(retex_access_safe_wanted(), 1);
+        assert_int_equal(retex_access_safe_requested(), 1);
     }
     unsetenv("RETEX_SAFE");
 }

@@ -57,24 +57,24 @@ static void test_memory(void **state)
     (void)state;
     RetexError err = {0};
     RetexBudget *budget = NULL;
-    assert_int_equal(retex_budget_take(NULL, UINT64_MAX, "nothing", &err), 0);
-    retex_budget_give(NULL, 1);
+    assert_int_equal(retex_budget_charge(NULL, UINT64_MAX, "nothing", &err), 0);
+    retex_budget_release(NULL, 1);
     assert_int_equal(retex_budget_create(&budget, &err), 0);
     assert_true(retex_budget_left(budget) == UINT64_MAX);
-    assert_int_equal(retex_budget_take(budget, 100, "what is there already", &err), 0);
+    assert_int_equal(retex_budget_charge(budget, 100, "what is there already", &err), 0);
     retex_budget_set_memory(budget, 1000);
     assert_int_equal(retex_budget_left(budget), 900);
-    assert_int_equal(retex_budget_take(budget, 901, "the scene", &err), RETEX_ELIMIT);
+    assert_int_equal(retex_budget_charge(budget, 901, "the scene", &err), RETEX_ELIMIT);
     assert_non_null(strstr(err.message, "the scene"));
     assert_non_null(strstr(err.message, "--max-memory"));
     assert_int_equal(retex_budget_left(budget), 900);
-    assert_int_equal(retex_budget_take(budget, 900, "the scene", &err), 0);
-    assert_int_equal(retex_budget_take(budget, 1, "the scene", &err), RETEX_ELIMIT);
-    retex_budget_give(budget, 400);
+    assert_int_equal(retex_budget_charge(budget, 900, "the scene", &err), 0);
+    assert_int_equal(retex_budget_charge(budget, 1, "the scene", &err), RETEX_ELIMIT);
+    retex_budget_release(budget, 400);
     assert_int_equal(retex_budget_left(budget), 400);
     retex_budget_set_memory(budget, 100); /* less than is used */
     assert_int_equal(retex_budget_left(budget), 0);
-    assert_int_equal(retex_budget_take(budget, UINT64_MAX, "the scene", &err), RETEX_ELIMIT);
+    assert_int_equal(retex_budget_charge(budget, UINT64_MAX, "the scene", &err), RETEX_ELIMIT);
     retex_budget_close(&budget);
 }
 

@@ -75,7 +75,7 @@ static Raw *add(Lexer *lexer, RawKind kind, const char *at)
         uint32_t capacity = lexer->capacity ? lexer->capacity * 2 : 32;
         const uint64_t more = (uint64_t)(capacity - lexer->capacity) * sizeof(Raw);
         if (capacity > lexer->sdl->options.max_memory / sizeof(Raw) ||
-            retex_budget_take(lexer->sdl->options.budget, more, "", NULL))
+            retex_budget_charge(lexer->sdl->options.budget, more, "", NULL))
             sdl_fail_memory(lexer->sdl);
         source->charged += more;
         Raw *tokens = capacity > lexer->capacity ? realloc(source->tokens, capacity * sizeof *tokens) : NULL;

@@ -60,14 +60,14 @@ void folders_begin(Sdl *sdl, const char *scene_path)
 }
 
 /* Where a file may be read, or NULL; *answer: why not, the most telling of what the folders have. */
-static const char *find_file(Sdl *sdl, const char *name, RetexAccessAnswer *answer)
+static const char *find_file(Sdl *sdl, const char *name, RetexAccessResult *answer)
 {
     *answer = RETEX_ACCESS_ABSENT;
     if (!*name || strlen(name) >= PATH_MAX / 2)
         return NULL;
     for (int i = 0; i < (*name == '/' ? 1 : sdl->nfolders); i++) {
         const char *folder = *name == '/' ? "" : sdl->folders[i];
-        RetexAccessAnswer found = retex_access_ask(&sdl->access, folder, name);
+        RetexAccessResult found = retex_access_check(&sdl->access, folder, name);
         if (found == RETEX_ACCESS_ALLOWED)
             return join(sdl, folder, name);
         if (*answer == RETEX_ACCESS_ABSENT)
@@ -78,13 +78,13 @@ static const char *find_file(Sdl *sdl, const char *name, RetexAccessAnswer *answ
 
 const char *sdl_find_file(Sdl *sdl, const char *name)
 {
-    RetexAccessAnswer answer;
+    RetexAccessResult answer;
     return find_file(sdl, name, &answer);
 }
 
 const char *sdl_need_file(Sdl *sdl, const char *what, const char *name)
 {
-    RetexAccessAnswer answer;
+    RetexAccessResult answer;
     const char *path = find_file(sdl, name, &answer);
     if (path)
         return path;
@@ -227,7 +227,7 @@ Source *source_open(Sdl *sdl, const char *name)
 
 static void source_free(Sdl *sdl, Source *source)
 {
-    retex_budget_give(sdl->options.budget, source->charged);
+    retex_budget_release(sdl->options.budget, source->charged);
     free(source->tokens);
     free(source);
 }

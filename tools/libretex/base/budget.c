@@ -56,7 +56,7 @@ uint64_t retex_budget_left(const RetexBudget *budget)
     return !memory ? UINT64_MAX : used < memory ? memory - used : 0;
 }
 
-int retex_budget_take(RetexBudget *budget, uint64_t bytes, const char *what, RetexError *err)
+int retex_budget_charge(RetexBudget *budget, uint64_t bytes, const char *what, RetexError *err)
 {
     if (!budget)
         return 0;
@@ -70,7 +70,7 @@ int retex_budget_take(RetexBudget *budget, uint64_t bytes, const char *what, Ret
     return 0;
 }
 
-void retex_budget_give(RetexBudget *budget, uint64_t bytes)
+void retex_budget_release(RetexBudget *budget, uint64_t bytes)
 {
     if (budget)
         atomic_fetch_sub(&budget->used, bytes);

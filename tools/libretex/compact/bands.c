@@ -12,7 +12,7 @@ int retex_compact_bands(const RetexCompactLight *light, RetexCompactBandJob *job
     int code = retex_set_band_open(&rows, light->set, RETEX_COMPACT_BAND_ROWS, 0, err);
     for (int y = 0; y < height && !code; y += RETEX_COMPACT_BAND_ROWS) {
         RetexSet *set;
-        code = retex_set_band_take(
+        code = retex_set_band_load(
             &set, rows, y, height - y < RETEX_COMPACT_BAND_ROWS ? height - y : RETEX_COMPACT_BAND_ROWS, nthreads, err);
         band.set = set;
         if (!code)

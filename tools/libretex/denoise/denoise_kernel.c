@@ -14,7 +14,7 @@ enum { WIDE = DENOISE_TILE + 2 * DENOISE_PATCH, BOX = 2 * DENOISE_PATCH + 1 };
 static const struct {
     float color, near;
     enum { STRICT, LOOSE, NONE } features;
-} ways[DENOISE_CANDIDATES] = {{1, 0.05f, STRICT}, {0.2f, 0.1f, LOOSE}, {1, 0.1f, NONE}, {0.05f, 0.1f, STRICT}};
+} filters[DENOISE_CANDIDATES] = {{1, 0.05f, STRICT}, {0.2f, 0.1f, LOOSE}, {1, 0.1f, NONE}, {0.05f, 0.1f, STRICT}};
 
 /* Approximates exp(-x) for x >= 0; 0 from x = 8 on. */
 RETEX_CPU_INLINE float falloff(float x)
@@ -211,7 +211,7 @@ RETEX_CPU_INLINE void signal_body(const RetexDenoiseSignal *s, const RetexDenois
     for (int n = 0; n < batch->count; n++) {
         int dx = batch->dx + n;
         for (int k = 0; k < DENOISE_CANDIDATES; k++)
-            near[k][n] = falloff(ways[k].near * (float)(dx * dx + batch->dy * batch->dy));
+            near[k][n] = falloff(filters[k].near * (float)(dx * dx + batch->dy * batch->dy));
         find_distances(s, (ptrdiff_t)batch->dy * DENOISE_PITCH + dx, distances + (size_t)n * 2 * DENOISE_PIXELS);
     }
     for (int y = 0; y < DENOISE_TILE; y++) {
@@ -222,12 +222,12 @@ RETEX_CPU_INLINE void signal_body(const RetexDenoiseSignal *s, const RetexDenois
         for (int k = 0; k < DENOISE_CANDIDATES; k++) {
             for (int n = 0; n < batch->count; n++) {
                 const RetexDenoiseSimilarity *alike = batch->alike[n];
-                const float *features = ways[k].features == STRICT  ? alike->strict
-                                        : ways[k].features == LOOSE ? alike->loose
-                                                                    : alike->valid;
+                const float *features = filters[k].features == STRICT  ? alike->strict
+                                        : filters[k].features == LOOSE ? alike->loose
+                                                                       : alike->valid;
                 for (int h = 0; h < 2; h++)
                     weight_row(w[h][n], distances + (size_t)(2 * n + h) * DENOISE_PIXELS + at, features + at,
-                               ways[k].color, near[k][n]);
+                               filters[k].color, near[k][n]);
             }
             add_half(s, &s->candidates[k], 0, q, at, w[1]); /* each half with the weights of the other half */
             add_half(s, &s->candidates[k], 1, q, at, w[0]);

@@ -115,8 +115,8 @@ static size_t find_lender(const RetexDenoiseFootprints *f, const RetexPoolGroup 
 
 /* Filtered interreflected light may come to a pixel that had none, so that no cluster has a share in it. Shares of 0
  * would lose that light. */
-static void mend_shares(const RetexPoolGroup *g, const Pixel *p, size_t from,
-                        float (*value)(const RetexFootprintImages *, size_t), double all)
+static void repair_shares(const RetexPoolGroup *g, const Pixel *p, size_t from,
+                          float (*value)(const RetexFootprintImages *, size_t), double all)
 {
     for (int k = 0; k < g->count; k++)
         if (g->of[k].share.channels != 1 || g->of[k].share.pixels[from] != 0)
@@ -192,7 +192,7 @@ static void keep_clusters(const RetexDenoiseFootprints *f, const RetexPoolGroup 
         return;
     copy_footprints(g, p, from);
     if (all > 0)
-        mend_shares(g, p, from, value, all);
+        repair_shares(g, p, from, value, all);
 }
 
 /* ---- pooling ---- */

@@ -161,7 +161,7 @@ static int find_interreflected_light(float **interreflected, const RetexSet *set
     return RETEX_OK;
 }
 
-static int find_all_again(RetexDenoiseFootprints *f, const RetexDenoiser *d, RetexError *err)
+static int find_all_interreflected_light(RetexDenoiseFootprints *f, const RetexDenoiser *d, RetexError *err)
 {
     float **all = &f->interreflected[f->nsignals];
     int code = RETEX_OK;
@@ -198,7 +198,7 @@ int retex_denoise_footprints_open(RetexDenoiseFootprints **out, const RetexDenoi
     if (!f || !f->uses || !f->signals || !f->interreflections || !f->hits || !f->interreflected || !f->places)
         code = retex_fail(err, RETEX_ENOMEM, "not enough memory to denoise footprints");
     if (!code)
-        code = find_all_again(f, d, err);
+        code = find_all_interreflected_light(f, d, err);
     if (code) {
         retex_denoise_footprints_close(out);
         return code;

@@ -105,7 +105,7 @@ static int filter_strip(Strips *s, RetexSetBand *band, int y, RetexError *err)
     const int first = y > DENOISE_REACH ? y - DENOISE_REACH : 0;
     const int last = end + DENOISE_REACH < set->height ? end + DENOISE_REACH : set->height;
     RetexDenoiser strip = *s->denoiser;
-    int code = retex_set_band_take(&strip.set, band, first, last - first, s->nthreads, err);
+    int code = retex_set_band_load(&strip.set, band, first, last - first, s->nthreads, err);
     strip.roi = (RetexRoi){0, y - first, set->width, end - first, 0, 3};
     strip.params.progress = NULL;
     if (!code)
@@ -152,7 +152,7 @@ static int finish_rows(Strips *s, RetexSetBand *band, int y, RetexError *err)
     const RetexSet *set = s->denoiser->set;
     const int count = set->height - y < FINISHED ? set->height - y : FINISHED;
     RetexDenoiser rows = *s->denoiser;
-    int code = retex_set_band_take(&rows.set, band, y, count, s->nthreads, err);
+    int code = retex_set_band_load(&rows.set, band, y, count, s->nthreads, err);
     rows.roi = (RetexRoi){0, 0, set->width, count, 0, 3};
     if (!code)
         code = retex_denoise_finish(&rows, &s->result, s->nthreads, err);

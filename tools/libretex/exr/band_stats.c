@@ -27,9 +27,9 @@ static void finish_target(RetexTarget *target, int t, const RetexBandStats *band
     for (int c = 0; c < 3; c++)
         target->mean_albedo[c] = coverage > 0 ? (float)(albedo[c] / coverage) : 0;
     for (int k = 0; k < 2; k++) {
-        const int met = high[k] >= low[k];
-        target->uv_min[k] = met ? low[k] : 0;
-        target->uv_max[k] = met ? high[k] : 1;
+        const int is_seen = high[k] >= low[k];
+        target->uv_min[k] = is_seen ? low[k] : 0;
+        target->uv_max[k] = is_seen ? high[k] : 1;
     }
 }
 

@@ -283,11 +283,11 @@ static int any_light(const float *pixels, size_t count)
 }
 
 /* Appends the band in scratch. A band whose pixels are so dark that all are stored as 0 has a record without bytes. */
-static int put_chunk(RetexBandStore *store, int number, int band, size_t bytes, int lit, RetexBandStoreScratch *scratch,
-                     RetexError *err)
+static int put_chunk(RetexBandStore *store, int number, int band, size_t bytes, int nonzero,
+                     RetexBandStoreScratch *scratch, RetexError *err)
 {
     RetexBandStoreRecord record = {
-        .kind = BAND_STORE_CHUNK, .image = (uint32_t)number, .band = (uint32_t)band, .lit = (uint32_t)lit};
+        .kind = BAND_STORE_CHUNK, .image = (uint32_t)number, .band = (uint32_t)band, .nonzero = (uint32_t)nonzero};
     RetexBandStoreChunk *chunk = &store->images[number]->chunks[band];
 
     memcpy(record.crc, chunk->crc, sizeof record.crc);
@@ -302,15 +302,15 @@ int retex_band_store_put(RetexBandStore *store, int number, int band, const floa
 {
     RetexBandStoreImage *image = store->images[number];
     const RetexChunkShape shape = retex_band_store_shape(store, image, band);
-    const int lit = any_light(pixels, (size_t)shape.width * (size_t)shape.lines * strlen(shape.letters));
+    const int nonzero = any_light(pixels, (size_t)shape.width * (size_t)shape.lines * strlen(shape.letters));
     RetexBandStoreScratch *scratch = take_scratch(store);
     int status = 0;
 
     if (prepare(scratch, &shape)) {
         const size_t bytes = retex_chunk_bytes(&shape);
         retex_chunk_encode(&scratch->chunk, &shape, pixels, scratch->chunk.raw, image->chunks[band].crc);
-        if (lit || !all_zero(scratch->chunk.raw, bytes)) /* -0 is not all zero bits */
-            status = put_chunk(store, number, band, bytes, lit, scratch, err);
+        if (nonzero || !all_zero(scratch->chunk.raw, bytes)) /* -0 is not all zero bits */
+            status = put_chunk(store, number, band, bytes, nonzero, scratch, err);
     } else {
         status = retex_fail(err, RETEX_ENOMEM, "no memory to store a part of the picture");
     }
@@ -345,10 +345,10 @@ static int copy_chunk(RetexBandStore *store, const RetexBandStore *from, int num
     RetexBandStoreRecord record = {.kind = BAND_STORE_CHUNK,
                                    .band = (uint32_t)band,
                                    .bytes = chunk->bytes,
-                                   .lit = chunk->lit,
+                                   .nonzero = chunk->nonzero,
                                    .image = (uint32_t)to};
 
-    if (!chunk->bytes && !chunk->lit)
+    if (!chunk->bytes && !chunk->nonzero)
         return 0;
     if (to < 0 || store->images[to]->type != image->type || strcmp(store->images[to]->letters, image->letters) != 0)
         return retex_fail(err, RETEX_EFORMAT, "%s has an image %s that this render has not", from->shown, image->name);

@@ -9,7 +9,7 @@
 typedef struct RetexBandStoreChunk {
     uint64_t offset;
     uint32_t bytes; /* 0: all samples are stored as 0 */
-    uint32_t lit;   /* 1: a pixel was not 0 */
+    uint32_t nonzero;   /* 1: a pixel was not 0 */
     uint32_t crc[RETEX_EXR_LETTERS_MAX]; /* checksum of each plane, where bytes is not 0 */
     uint32_t bytes_crc;                  /* checksum of the compressed bytes */
 } RetexBandStoreChunk;

@@ -140,7 +140,7 @@ static void note_chunk(RetexBandStore *store, const RetexBandStoreRecord *record
 
     chunk->offset = offset;
     chunk->bytes = record->bytes;
-    chunk->lit = record->lit;
+    chunk->nonzero = record->nonzero;
     chunk->bytes_crc = record->bytes_crc;
     memcpy(chunk->crc, record->crc, sizeof chunk->crc);
 }
@@ -154,7 +154,7 @@ int retex_band_store_append_chunk(RetexBandStore *store, RetexBandStoreRecord *r
     const int status = retex_band_store_append(store, record, bytes, &offset, err);
     if (!status) {
         note_chunk(store, record, offset);
-        if (record->lit)
+        if (record->nonzero)
             store->images[record->image]->filled = 1;
     }
     pthread_mutex_unlock(&store->lock);
@@ -272,7 +272,7 @@ static void drop_the_rest(RetexBandStore *store, int images)
             RetexBandStoreChunk *chunk = &store->images[i]->chunks[band];
             if (!store->committed[band])
                 *chunk = (RetexBandStoreChunk){0};
-            else if (chunk->lit)
+            else if (chunk->nonzero)
                 store->images[i]->filled = 1;
         }
 }

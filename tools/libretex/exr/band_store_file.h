@@ -43,7 +43,7 @@ enum {
 };
 
 typedef struct RetexBandStoreRecord {
-    uint32_t kind, image, band, bytes, lit;
+    uint32_t kind, image, band, bytes, nonzero;
     uint32_t crc[RETEX_EXR_LETTERS_MAX];
     uint32_t bytes_crc, record_crc; /* bytes_crc: of the bytes that follow; record_crc: of all members before it,
                                        continuing that of the last record */

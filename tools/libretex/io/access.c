@@ -11,7 +11,7 @@
 
 #include <retex/access.h>
 
-int retex_access_safe_wanted(void)
+int retex_access_safe_requested(void)
 {
     const char *said = getenv("RETEX_SAFE");
 
@@ -34,7 +34,7 @@ static int lies_inside(const RetexAccess *access, const char *resolved)
 
 /* Checks every folder of the path, for safe access: once the path is inside a root it must stay there; the answer does
  * not reveal which files exist outside. done: the length of the beginning of path that is one of the roots. */
-static RetexAccessAnswer follow(const RetexAccess *access, const char *path, size_t done)
+static RetexAccessResult follow(const RetexAccess *access, const char *path, size_t done)
 {
     char begin[PATH_MAX], resolved[PATH_MAX];
     struct stat info;
@@ -60,7 +60,7 @@ static RetexAccessAnswer follow(const RetexAccess *access, const char *path, siz
     return inside ? RETEX_ACCESS_ALLOWED : RETEX_ACCESS_OUTSIDE;
 }
 
-RetexAccessAnswer retex_access_ask(const RetexAccess *access, const char *folder, const char *name)
+RetexAccessResult retex_access_check(const RetexAccess *access, const char *folder, const char *name)
 {
     char path[PATH_MAX], resolved[PATH_MAX];
     const size_t before = name[0] == '/' ? 0 : strlen(folder);
@@ -76,7 +76,7 @@ RetexAccessAnswer retex_access_ask(const RetexAccess *access, const char *folder
         char from_here[PATH_MAX + 2] = "./"; /* so that at least one byte is the folder's */
         const int here = !before && name[0] != '/';
         strcat(from_here, path);
-        const RetexAccessAnswer answer = follow(access, here ? from_here : path, here ? 2 : before + (size_t)slash);
+        const RetexAccessResult answer = follow(access, here ? from_here : path, here ? 2 : before + (size_t)slash);
         if (answer != RETEX_ACCESS_ALLOWED)
             return answer;
     }

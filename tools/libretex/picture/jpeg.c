@@ -44,7 +44,7 @@ static void say_nothing(j_common_ptr jpeg)
     (void)jpeg;
 }
 
-static boolean more_room(j_compress_ptr jpeg)
+static boolean grow_output(j_compress_ptr jpeg)
 {
     Compressor *c = (Compressor *)(void *)jpeg;
     const size_t capacity = c->capacity ? 2 * c->capacity : INITIAL_CAPACITY, have = c->capacity;
@@ -63,7 +63,7 @@ static boolean more_room(j_compress_ptr jpeg)
 
 static void begin_output(j_compress_ptr jpeg)
 {
-    more_room(jpeg);
+    grow_output(jpeg);
 }
 
 static void end_output(j_compress_ptr jpeg)
@@ -119,7 +119,7 @@ static int compress(Compressor *c, const RetexPicture *picture, const uint8_t *c
     c->errors.error_exit = leave;
     c->errors.output_message = say_nothing;
     c->to = (struct jpeg_destination_mgr){
-        .init_destination = begin_output, .empty_output_buffer = more_room, .term_destination = end_output};
+        .init_destination = begin_output, .empty_output_buffer = grow_output, .term_destination = end_output};
     if (setjmp(c->failed))
         return 0;
     begin_file(c, picture, codes ? lines : picture->height);

@@ -112,7 +112,7 @@ int retex_polynomial_open(RetexPolynomial *p, const RetexSet *set, const RetexSa
 
 static const float black_row[1]; /* marks a row that is 0 everywhere */
 
-static float *room_of(RetexPolynomialRow *row, int slot, RetexError *err)
+static float *buffer_values(RetexPolynomialRow *row, int slot, RetexError *err)
 {
     RetexRowBuffer *buffer = &row->buffers[slot];
     if (!buffer->values && !(buffer->values = calloc(3 * (size_t)row->polynomial->set->width, sizeof *buffer->values)))
@@ -133,7 +133,7 @@ static int make_slot(RetexPolynomialRow *row, int factor, int y, RetexError *err
     const RetexPolynomial *p = row->polynomial;
     const int slot = retex_polynomial_slot_of_factor(p->set, factor), width = p->set->width;
     const RetexImage *small = factor >= 0 ? &p->footprints[factor] : &p->mixtures[RETEX_MIXTURE(factor)];
-    float *values = room_of(row, slot, err);
+    float *values = buffer_values(row, slot, err);
     int code = RETEX_OK;
     if (!values)
         return RETEX_ENOMEM;
@@ -169,7 +169,7 @@ static int gain_row(RetexPolynomialRow *row, int part, int y, const float **made
     const RetexImage *image = &p->set->parts[part].image;
     const int slot = retex_polynomial_slot_of_gain(p->set, part), width = p->set->width;
     if (!row->made[slot]) {
-        float *values = room_of(row, slot, err);
+        float *values = buffer_values(row, slot, err);
         if (!values)
             return RETEX_ENOMEM;
         row->made[slot] = values;
@@ -234,7 +234,7 @@ static int make_group(RetexPolynomialRow *row, const struct RetexPolynomialGroup
         black = !m->factors[m->nimages++];
     }
     if (group->scale && !code && !black) {
-        float *values = room_of(row, retex_polynomial_slot_count(p->set) + (int)(group - p->groups), err);
+        float *values = buffer_values(row, retex_polynomial_slot_count(p->set) + (int)(group - p->groups), err);
         code = values ? RETEX_OK : RETEX_ENOMEM;
         if (values)
             retex_enlarge_rows(&group->product, group->scale, p->set->width, y, y + 1, values);

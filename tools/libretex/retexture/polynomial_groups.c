@@ -81,8 +81,8 @@ typedef struct ProductWork {
 
 /* The row of a reduced image at the size of the group, with three channels; NULL: black. made[slot]: 1 if it is made
  * already. */
-static int small_row(const ProductWork *work, ProductThread *own, int slot, const RetexImage *image, int part, int y,
-                     char *made, const float **row, RetexError *err)
+static int reduced_row(const ProductWork *work, ProductThread *own, int slot, const RetexImage *image, int part, int y,
+                       char *made, const float **row, RetexError *err)
 {
     const RetexPolynomial *p = work->polynomial;
     const RetexImage *product = &work->group->product;
@@ -118,8 +118,8 @@ static int add_product(const ProductWork *work, ProductThread *own, const RetexT
     const float *rows[RETEX_MAX_FACTORS + 1];
     int count = 0, code = RETEX_OK;
     if (gain_scale(p, term->gain) > 1) {
-        code = small_row(work, own, retex_polynomial_slot_of_gain(p->set, term->gain), &p->gains[term->gain],
-                         term->gain, y, made, &rows[count], err);
+        code = reduced_row(work, own, retex_polynomial_slot_of_gain(p->set, term->gain), &p->gains[term->gain],
+                           term->gain, y, made, &rows[count], err);
         if (code || !rows[count++])
             return code;
     }
@@ -128,8 +128,8 @@ static int add_product(const ProductWork *work, ProductThread *own, const RetexT
         if (factor_scale(p, factor) <= 1)
             continue;
         const RetexImage *image = factor >= 0 ? &p->footprints[factor] : &p->mixtures[RETEX_MIXTURE(factor)];
-        code = small_row(work, own, retex_polynomial_slot_of_factor(p->set, factor), image, 0, y, made, &rows[count++],
-                         err);
+        code = reduced_row(work, own, retex_polynomial_slot_of_factor(p->set, factor), image, 0, y, made,
+                           &rows[count++], err);
     }
     if (!code)
         retex_combine_term_kernel(sum, ones, rows, count, 3 * (size_t)work->group->product.width);

@@ -12,22 +12,22 @@
 
 #define ROWS_A_JOB 64 /* a pack's band */
 
-typedef struct SmallWork {
+typedef struct ReducedWork {
     const RetexPolynomial *polynomial;
     const int *slots; /* slots of the images to make */
     int nslots, width, height;
-    struct SmallThread *threads;
-} SmallWork;
+    struct ReducedThread *threads;
+} ReducedWork;
 
 /* The state of one thread, and the row that it works on. */
-typedef struct SmallThread {
-    const SmallWork *work;
+typedef struct ReducedThread {
+    const ReducedWork *work;
     RetexRowReader *reader;
     RetexRowBuffer *buffers; /* by footprint, allocated when needed */
     const float **rows; /* by footprint; NULL: black */
     char *made;         /* by footprint: 1 if rows has it */
     float *weights;
-} SmallThread;
+} ReducedThread;
 
 static RetexImage *image_of_slot(const RetexPolynomial *p, int slot)
 {
@@ -40,8 +40,8 @@ static RetexImage *image_of_slot(const RetexPolynomial *p, int slot)
 
 static int footprint_row(void *context, int footprint, int y, const float **row, RetexError *err)
 {
-    SmallThread *own = context;
-    const SmallWork *work = own->work;
+    ReducedThread *own = context;
+    const ReducedWork *work = own->work;
     int code = RETEX_OK;
     if (!own->made[footprint]) {
         RetexRowBuffer *buffer = &own->buffers[footprint];
@@ -56,7 +56,7 @@ static int footprint_row(void *context, int footprint, int y, const float **row,
     return code;
 }
 
-static int make_row(SmallThread *own, int slot, int y, RetexError *err)
+static int make_row(ReducedThread *own, int slot, int y, RetexError *err)
 {
     const RetexPolynomial *p = own->work->polynomial;
     const RetexSet *set = p->set;
@@ -75,7 +75,7 @@ static int make_row(SmallThread *own, int slot, int y, RetexError *err)
     return code;
 }
 
-static int open_thread(const SmallWork *work, SmallThread *own, RetexError *err)
+static int open_thread(const ReducedWork *work, ReducedThread *own, RetexError *err)
 {
     const RetexSet *set = work->polynomial->set;
     const size_t count = (size_t)set->nfootprints + 1;
@@ -91,7 +91,7 @@ static int open_thread(const SmallWork *work, SmallThread *own, RetexError *err)
     return retex_row_reader_open(&own->reader, set, work->polynomial->samples, err);
 }
 
-static void close_thread(const SmallWork *work, SmallThread *own)
+static void close_thread(const ReducedWork *work, ReducedThread *own)
 {
     for (int i = 0; own->buffers && i < work->polynomial->set->nfootprints; i++)
         free(own->buffers[i].values);
@@ -104,8 +104,8 @@ static void close_thread(const SmallWork *work, SmallThread *own)
 
 static int make_job(void *context, int index, int thread, RetexError *err)
 {
-    const SmallWork *work = context;
-    SmallThread *own = &work->threads[thread];
+    const ReducedWork *work = context;
+    ReducedThread *own = &work->threads[thread];
     int code = open_thread(work, own, err);
     for (int y = index * ROWS_A_JOB; !code && y < (index + 1) * ROWS_A_JOB && y < work->height; y++) {
         memset(own->made, 0, (size_t)work->polynomial->set->nfootprints);
@@ -115,7 +115,7 @@ static int make_job(void *context, int index, int thread, RetexError *err)
     return code;
 }
 
-static int make_all(SmallWork *work, int nthreads, RetexError *err)
+static int make_all(ReducedWork *work, int nthreads, RetexError *err)
 {
     const int threads = retex_threads(nthreads);
     if (!(work->threads = calloc((size_t)threads, sizeof *work->threads)))
@@ -134,7 +134,7 @@ int retex_polynomial_reduced_make(RetexPolynomial *p, int nthreads, RetexError *
     if (!slots)
         return retex_fail(err, RETEX_ENOMEM, "not enough memory to combine");
     for (int scale = RETEX_SCALE_MAX; scale > 1 && !code; scale /= 2) {
-        SmallWork work = {.polynomial = p, .slots = slots};
+        ReducedWork work = {.polynomial = p, .slots = slots};
         for (int slot = 0; slot < retex_polynomial_slot_count(p->set); slot++) {
             const RetexImage *image = image_of_slot(p, slot);
             if (!image->pixels || retex_set_scale(p->set, image) != scale)

@@ -11,7 +11,7 @@ struct RetexSetBand {
     const RetexSet *whole;
     int copies;
     RetexSet set;      /* its parts belong to the band; their pixels may be those of the whole set */
-    RetexImage *rooms; /* by part: memory for most_rows rows, for parts whose rows are not in memory; allocated when
+    RetexImage *buffers; /* by part: memory for most_rows rows, for parts whose rows are not in memory; allocated when
                           needed */
     int most_rows;
     int first;
@@ -43,9 +43,9 @@ int retex_set_band_open(RetexSetBand **result, const RetexSet *whole, int most_r
         *band = (RetexSetBand){.whole = whole, .copies = copies, .set = *whole, .most_rows = most_rows};
         band->set.store = NULL, band->set.source = NULL;
         band->set.parts = calloc(count, sizeof *band->set.parts);
-        band->rooms = calloc(count, sizeof *band->rooms);
+        band->buffers = calloc(count, sizeof *band->buffers);
     }
-    if (!band || !band->set.parts || !band->rooms) {
+    if (!band || !band->set.parts || !band->buffers) {
         retex_set_band_close(result);
         return retex_fail(err, RETEX_ENOMEM, "not enough memory for rows of a set");
     }
@@ -61,10 +61,10 @@ void retex_set_band_close(RetexSetBand **result)
     RetexSetBand *band = *result;
     if (!band)
         return;
-    for (int i = 0; band->rooms && i < band->whole->nparts; i++)
-        retex_image_free(&band->rooms[i]);
+    for (int i = 0; band->buffers && i < band->whole->nparts; i++)
+        retex_image_free(&band->buffers[i]);
     free(band->set.parts);
-    free(band->rooms);
+    free(band->buffers);
     free(band);
     *result = NULL;
 }
@@ -73,7 +73,7 @@ static int take_part(void *context, int part, int thread, RetexError *err)
 {
     RetexSetBand *band = context;
     const RetexImage *whole = &band->whole->parts[part].image;
-    RetexImage *image = &band->set.parts[part].image, *room = &band->rooms[part];
+    RetexImage *image = &band->set.parts[part].image, *buffer = &band->buffers[part];
     (void)thread;
     *image = (RetexImage){0};
     if (whole->width != band->whole->width || whole->height != band->whole->height)
@@ -85,13 +85,13 @@ static int take_part(void *context, int part, int thread, RetexError *err)
         return RETEX_OK;
     }
     int code = RETEX_OK;
-    if (!room->pixels)
-        code = retex_image_alloc(room, whole->width, band->most_rows, whole->channels, err);
-    image->pixels = room->pixels;
+    if (!buffer->pixels)
+        code = retex_image_alloc(buffer, whole->width, band->most_rows, whole->channels, err);
+    image->pixels = buffer->pixels;
     return code ? code : retex_set_part_rows(image, band->whole, part, band->first, err);
 }
 
-int retex_set_band_take(RetexSet **rows, RetexSetBand *band, int first, int count, int nthreads, RetexError *err)
+int retex_set_band_load(RetexSet **rows, RetexSetBand *band, int first, int count, int nthreads, RetexError *err)
 {
     *rows = &band->set;
     band->first = first;

@@ -14,7 +14,7 @@ void retex_set_band_close(RetexSetBand **band); /* NULL and pointers to NULL are
 /* Load rows first <= y < first + count: *rows is a set with count rows, owned by the band and valid until the next
  * call. It has the rows of all parts that have the size of the picture, and no pixels of others. All else is as in
  * `whole`. */
-int retex_set_band_take(RetexSet **rows, RetexSetBand *band, int first, int count, int nthreads, RetexError *err);
+int retex_set_band_load(RetexSet **rows, RetexSetBand *band, int first, int count, int nthreads, RetexError *err);
 
 /* Read rows of one part, from `first` on, wherever the set keeps them: as many as the image, which is allocated,
  * has. */

@@ -26,7 +26,7 @@ typedef struct Strip {
     RetexImage image;
     RetexExrSums sums;
     int number; /* from 1; 0: none */
-    char *lit;  /* by row: 1 if some value is not 0 */
+    char *nonzero; /* by row: 1 if some value is not 0 */
 } Strip;
 
 typedef struct ExrReader {
@@ -78,7 +78,7 @@ static void reader_close(void *data)
     for (int i = 0; i < reader->source->parts.count; i++) {
         retex_image_free(&reader->strips[i].image);
         free(reader->strips[i].sums.crc);
-        free(reader->strips[i].lit);
+        free(reader->strips[i].nonzero);
     }
     retex_exr_scratch_free(&reader->scratch);
     free(reader->strips);
@@ -161,16 +161,16 @@ static int alloc_strip(Strip *strip, const RetexExrPlan *plan, RetexError *err)
     while (channels < RETEX_EXR_LETTERS_MAX && plan->request->channels[channels][0])
         channels++;
     free(strip->sums.crc);
-    free(strip->lit);
+    free(strip->nonzero);
     strip->sums.lines = plan->across > 1 ? 1 : RETEX_CHUNK_LINES;
     strip->sums.crc = calloc((size_t)(lines / strip->sums.lines) + 1, sizeof *strip->sums.crc);
-    strip->lit = malloc((size_t)lines);
-    if (!strip->sums.crc || !strip->lit)
+    strip->nonzero = malloc((size_t)lines);
+    if (!strip->sums.crc || !strip->nonzero)
         return retex_fail(err, RETEX_ENOMEM, "no memory to read a set's rows");
     return retex_image_alloc(&strip->image, plan->width, lines, channels, err);
 }
 
-static int is_lit(const RetexImage *image, int y)
+static int is_nonzero(const RetexImage *image, int y)
 {
     const float *row = image->pixels + retex_image_index(image, 0, y);
     const size_t count = retex_image_index(image, 0, 1);
@@ -223,7 +223,7 @@ static int read_strip(ExrReader *reader, int part, int number, RetexError *err)
         return code;
     strip->number = number + 1;
     for (int y = y0; y < y1; y++)
-        strip->lit[y - y0] = (char)is_lit(&strip->image, y - y0);
+        strip->nonzero[y - y0] = (char)is_nonzero(&strip->image, y - y0);
     return RETEX_OK;
 }
 
@@ -235,7 +235,7 @@ static int read_row(void *data, int part, int y, const float **row, RetexRowSpan
     const int code = strip->number == y / lines + 1 ? RETEX_OK : read_strip(reader, part, y / lines, err);
     if (code)
         return code;
-    *row = strip->lit[y % lines] ? strip->image.pixels + retex_image_index(&strip->image, 0, y % lines) : NULL;
+    *row = strip->nonzero[y % lines] ? strip->image.pixels + retex_image_index(&strip->image, 0, y % lines) : NULL;
     *span = (RetexRowSpan){0, strip->image.width};
     return RETEX_OK;
 }

@@ -135,7 +135,7 @@ static uint64_t list_read_parts(const RetexSet *set, char wanted[RETEX_SET_PARTS
     return bytes;
 }
 
-int retex_set_keep(RetexSet *set, RetexSamples *samples, uint64_t most_bytes, int nthreads, RetexError *err)
+int retex_set_preload(RetexSet *set, RetexSamples *samples, uint64_t most_bytes, int nthreads, RetexError *err)
 {
     char wanted[RETEX_SET_PARTS_MAX];
     const uint64_t of_set = list_read_parts(set, wanted);

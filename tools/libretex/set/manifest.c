@@ -33,8 +33,8 @@ void retex_sample_part_names(const RetexSamples *samples, const RetexSet *set, R
             if (!retex_name_is_valid((char[]){*letter, 0}))
                 *letter = '_';
         snprintf(name, RETEX_SAMPLE_NAME_MAX, "sample_%s_%d", target, samples->footprints[i].hit);
-        for (int again = 2; name_is_taken(name, set, parts, i); again++)
-            snprintf(name, RETEX_SAMPLE_NAME_MAX, "sample_%s_%d_%d", target, samples->footprints[i].hit, again);
+        for (int number = 2; name_is_taken(name, set, parts, i); number++)
+            snprintf(name, RETEX_SAMPLE_NAME_MAX, "sample_%s_%d_%d", target, samples->footprints[i].hit, number);
     }
 }
 

@@ -30,12 +30,12 @@ static void bad(Reading *reading, int code, const char *fmt, ...)
     reading->status = retex_fail(reading->err, code, "%s: the manifest %s", reading->name, message);
 }
 
-static void get_text(Reading *reading, const json_t *object, const char *key, char *out, size_t room)
+static void get_text(Reading *reading, const json_t *object, const char *key, char *out, size_t size)
 {
     const json_t *value = json_object_get(object, key);
     const char *bytes = json_string_value(value);
 
-    if (!bytes || strlen(bytes) >= room || strlen(bytes) != json_string_length(value))
+    if (!bytes || strlen(bytes) >= size || strlen(bytes) != json_string_length(value))
         bad(reading, RETEX_EFORMAT, "has no proper text \"%s\"", key);
     else
         strcpy(out, bytes);
@@ -170,11 +170,11 @@ void retex_band_sums_free(RetexBandSums *sums)
     *sums = (RetexBandSums){0};
 }
 
-static void read_part(Reading *reading, const json_t *json, RetexPart *part, char *name, size_t name_room)
+static void read_part(Reading *reading, const json_t *json, RetexPart *part, char *name, size_t name_size)
 {
     char type[8] = "", hex[16] = "", *end = hex;
 
-    get_text(reading, json, "name", name, name_room);
+    get_text(reading, json, "name", name, name_size);
     get_text(reading, json, "letters", part->letters, sizeof part->letters);
     get_text(reading, json, "type", type, sizeof type);
     get_text(reading, json, "crc32", hex, sizeof hex);

@@ -47,15 +47,15 @@ void retex_set_close(RetexSet **result)
 
 /* Grows an array by one element. It grows to the next power of two, so that most calls move nothing, whoever allocated
  * the array. */
-static int make_room(void **array, int count, size_t element, int most, const char *what, RetexError *err)
+static int grow_array(void **array, int count, size_t element, int most, const char *what, RetexError *err)
 {
-    size_t room = 1;
+    size_t capacity = 1;
 
     if (count >= most)
         return retex_fail(err, RETEX_ELIMIT, "a set has at most %d %s", most, what);
-    while (room <= (size_t)count)
-        room *= 2;
-    void *larger = realloc(*array, room * element);
+    while (capacity <= (size_t)count)
+        capacity *= 2;
+    void *larger = realloc(*array, capacity * element);
     if (!larger)
         return retex_fail(err, RETEX_ENOMEM, "no memory for %d %s", count + 1, what);
     *array = larger;
@@ -77,7 +77,7 @@ static int describe_part(RetexSet *set, const char *name, const char *letters, R
     if ((width == 0) != (height == 0))
         return retex_fail(err, RETEX_EINVAL, "part %s: %d x %d pixels are out of bounds", name, width, height);
     const int status =
-        make_room((void **)&set->parts, set->nparts, sizeof *set->parts, RETEX_SET_PARTS_MAX, "parts", err);
+        grow_array((void **)&set->parts, set->nparts, sizeof *set->parts, RETEX_SET_PARTS_MAX, "parts", err);
     if (status)
         return status;
     strcpy(part.name, name);
@@ -195,8 +195,8 @@ int retex_set_add_footprint(RetexSet *set, const RetexFootprint *footprint, int 
     if (!status)
         status = check_part(set, footprint->albedo, 3, 1, "a footprint's albedo", err);
     if (!status)
-        status = make_room((void **)&set->footprints, set->nfootprints, sizeof *set->footprints,
-                           RETEX_SET_FOOTPRINTS_MAX, "footprints", err);
+        status = grow_array((void **)&set->footprints, set->nfootprints, sizeof *set->footprints,
+                            RETEX_SET_FOOTPRINTS_MAX, "footprints", err);
     if (status)
         return status;
     if (index)
@@ -224,7 +224,7 @@ int retex_set_add_term(RetexSet *set, const RetexTerm *term, int *index, RetexEr
     if (!status && term->gain)
         status = check_part(set, term->gain, colored ? 3 : 1, 0, "a term's gain", err);
     if (!status)
-        status = make_room((void **)&set->terms, set->nterms, sizeof *set->terms, RETEX_SET_TERMS_MAX, "terms", err);
+        status = grow_array((void **)&set->terms, set->nterms, sizeof *set->terms, RETEX_SET_TERMS_MAX, "terms", err);
     if (status)
         return status;
     if (index)

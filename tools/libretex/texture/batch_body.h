@@ -422,7 +422,8 @@ RETEX_CPU_INLINE void NAME(form_group)(Group *g, const int *order, const int *en
     g->count = ends[key] - begin < LANES ? ends[key] - begin : LANES;
     for (int next = key + 1; g->count < LANES && next % kinds; next++) {
         int bands = next / MAX_BLOCKS % MAX_BANDS + 1, blocks = next % MAX_BLOCKS + 1, own = bands * blocks;
-        int waiting = ends[next] - ends[next - 1], room = LANES - g->count, taken = waiting < room ? waiting : room;
+        int waiting = ends[next] - ends[next - 1], lanes_left = LANES - g->count,
+            taken = waiting < lanes_left ? waiting : lanes_left;
         if (!waiting)
             continue;
         bands = bands > g->bands ? bands : g->bands;

@@ -125,7 +125,7 @@ static int charge(RetexTexture *texture, const RetexTexels *texels, RetexError *
     uint64_t bytes = retex_texture_texel_size(texels->narrow) * (uint64_t)texels->width * (uint64_t)texels->height;
     bytes += bytes / 3;
     bytes *= has_two_repeats(&texture->spec) ? 2 : 1;
-    int code = retex_budget_take(texture->spec.budget, bytes, texture->spec.image, err);
+    int code = retex_budget_charge(texture->spec.budget, bytes, texture->spec.image, err);
     if (!code)
         texture->charged = bytes;
     return code;
@@ -263,7 +263,7 @@ void retex_texture_close(RetexTexture **texture)
             free(level->ends[k]);
         }
     }
-    retex_budget_give((*texture)->spec.budget, (*texture)->charged);
+    retex_budget_release((*texture)->spec.budget, (*texture)->charged);
     free(*texture);
     *texture = NULL;
 }
@@ -278,9 +278,9 @@ void retex_texture_report_defects(const RetexTexture *texture, const RetexTextur
 /* Returns the texture without pointers to the caller's data, which may not live as long. */
 static void hand_over(RetexTexture **out, RetexTexture *texture, const float color[3])
 {
-    RetexTextureSpec told = texture->spec;
-    memcpy(told.color, color, sizeof told.color); /* the colour as it was given */
-    retex_texture_report_defects(texture, &told);
+    RetexTextureSpec described = texture->spec;
+    memcpy(described.color, color, sizeof described.color); /* the colour as it was given */
+    retex_texture_report_defects(texture, &described);
     texture->spec.access = NULL;
     texture->spec.warn = NULL;
     *out = texture;

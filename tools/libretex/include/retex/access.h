@@ -25,20 +25,20 @@ typedef struct RetexAccess {
 } RetexAccess;
 #define RETEX_ACCESS_INIT { sizeof(RetexAccess), 0, NULL, 0 }
 
-typedef enum RetexAccessAnswer {
+typedef enum RetexAccessResult {
     RETEX_ACCESS_ALLOWED,
     RETEX_ACCESS_ABSENT,   /* there is no such file */
     RETEX_ACCESS_OUTSIDE,  /* it lies outside the folders; of a safe access this tells nothing of what is there */
     RETEX_ACCESS_IRREGULAR /* a folder, a device or a pipe */
-} RetexAccessAnswer;
+} RetexAccessResult;
 
 /* 1 if the environment asks for safe access: RETEX_SAFE is set, and neither empty nor 0. */
-int retex_access_safe_wanted(void);
+int retex_access_safe_requested(void);
 
 /* Check whether a file may be read. `name` is relative to `folder` (one of the roots, in any spelling; "" = the current
  * folder) unless it begins with /. Safe access refuses names that leave the folders even if they come back, so that
  * they reveal nothing about other folders. */
-RetexAccessAnswer retex_access_ask(const RetexAccess *access, const char *folder, const char *name);
+RetexAccessResult retex_access_check(const RetexAccess *access, const char *folder, const char *name);
 
 /* Open a file for reading; the caller closes *descriptor. RETEX_EACCESS where it may not be read. */
 int retex_access_open(const RetexAccess *access, const char *path, int *descriptor, RetexError *err);

@@ -24,8 +24,8 @@ uint64_t retex_budget_memory(const RetexBudget *budget); /* 0 where there is no 
 uint64_t retex_budget_left(const RetexBudget *budget);   /* UINT64_MAX where there is no limit */
 /* Charge memory before it is allocated. RETEX_ELIMIT, with nothing charged, where that exceeds the limit. `what` names
  * the purpose in the message. */
-int retex_budget_take(RetexBudget *budget, uint64_t bytes, const char *what, RetexError *err);
-void retex_budget_give(RetexBudget *budget, uint64_t bytes);
+int retex_budget_charge(RetexBudget *budget, uint64_t bytes, const char *what, RetexError *err);
+void retex_budget_release(RetexBudget *budget, uint64_t bytes);
 
 /* The memory of the machine, or the limit of the control group that this process is in; 0 = not known. */
 uint64_t retex_machine_memory(void);

@@ -26,7 +26,7 @@ int retex_set_read(const char *path, RetexSet **set, RetexSamples **samples, int
  * by retex_retexture, retex_combine, retex_estimate_error, retex_sample_to_store or retex_set_write, or all at once by
  * retex_set_load and retex_samples_load; every other function that looks at pixels needs them loaded. Checksums are
  * compared when rows are read, so that all of these functions may return RETEX_EFORMAT. The file must stay as it is
- * until both are closed, and so must parts that retex_set_keep brought into memory: a pack may make its picture from
+ * until both are closed, and so must parts that retex_set_preload brought into memory: a pack may make its picture from
  * them. Of a pipe that gives more than 64 MiB all is in a temporary file, in $TMPDIR or /tmp. */
 int retex_set_open(const char *path, RetexSet **set, RetexSamples **samples, int nthreads, RetexError *err);
 
@@ -37,8 +37,8 @@ uint64_t retex_set_bytes(const RetexSet *set);
 /* Load what recombination reads, for several pictures one after the other: the parts of the set that it reads, if they
  * take at most most_bytes, and the samples, if the rest of most_bytes is enough for them; else they stay where they
  * are. */
-int retex_set_keep(RetexSet *set, RetexSamples *samples /* or NULL */, uint64_t most_bytes, int nthreads,
-                   RetexError *err);
+int retex_set_preload(RetexSet *set, RetexSamples *samples /* or NULL */, uint64_t most_bytes, int nthreads,
+                      RetexError *err);
 
 /* Write a set (samples NULL), samples alone (set NULL), or both as one stream, under a temporary name renamed when
  * complete, or to "-". CRCs are computed and kept in set->parts. Of a stream's set only what recombination needs is
