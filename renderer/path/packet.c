@@ -307,7 +307,7 @@ void path_trace(PathWorker *w, const Ray *rays, const Sampler *samplers, int cou
         w->key[path->half] = samplers[i].key;
         path_start(w, path, &rays[i], &samplers[i]);
     }
-    if (count == 1)
+    if (count == 1 && !w->context->matte) /* contributions of matte surfaces are rounded in another order */
         trace_path(w, &wave.paths[0], rays[0]);
     else
         trace_wavefront(w, &wave);
