@@ -137,7 +137,7 @@ static BandRows *rows_create(Bands *bands)
     return NULL;
 }
 
-/* Of a band that nobody works on yet; the lock is held. Others read what is set here without it. */
+/* Open a band that no thread has opened; the lock is held. Threads read its fields without the lock later. */
 static BandRows *open_rows(Bands *bands, int band)
 {
     int left = bands->height - band * BAND_LINES;
@@ -253,7 +253,7 @@ int bands_finish(BandRows *rows, RetexError *err)
     Bands *bands = rows->of;
     int code = RETEX_OK;
     pthread_mutex_lock(&bands->lock);
-    int nimages = bands->nimages; /* what comes later is not of this band */
+    int nimages = bands->nimages; /* images that are added from here on are not in this band */
     pthread_mutex_unlock(&bands->lock);
     if (bands->starved)
         code = retex_fail(err, RETEX_ENOMEM, "out of memory for the film");

@@ -25,7 +25,7 @@ int bands_count(const Bands *bands); /* of bands */
 BandRows *bands_open(Bands *bands, int band);
 /* A pixel of an image, that will get some value. Never NULL. */
 float *bands_pixel(BandRows *rows, int image, int x, int y);
-/* Add the original albedos of a footprint's pixels, weighted by coverage, to what is known of a target. */
+/* Add the original albedos of a footprint's pixels, weighted by coverage, to the statistics of a target. */
 void bands_add_albedo(const BandRows *rows, int uv, int albedo, RetexBandStats *stats, int target);
 /* Nobody will write to the band any more: keep it. */
 int bands_finish(BandRows *rows, RetexError *err);

@@ -14,7 +14,7 @@ struct ControlFilm {
 struct ControlPixel {
     ControlFilm *film;
     double picture[VARIANTS_MAX][3];
-    double sample[VARIANTS_MAX][3]; /* the one in hand */
+    double sample[VARIANTS_MAX][3]; /* the current one */
     /* by half */
     double sum[2][CONTROL_VARIANTS_MAX][3], product[2][CONTROL_PAIRS_MAX][3];
     int samples[2];
@@ -89,7 +89,7 @@ void control_connect(ControlPixel *p, const Rgb *light)
     }
 }
 
-/* Pictures take all that a sample brought as one, as the film does: so they have the same bits. */
+/* The contributions of a sample are summed before they are added to pictures, as in the film: the same rounding. */
 static void end_sample(ControlPixel *p)
 {
     for (int v = 0; v < p->film->nvariants; v++)

@@ -11,7 +11,7 @@
 #define CONTROL_PAIRS_MAX (CONTROL_VARIANTS_MAX * (CONTROL_VARIANTS_MAX + 1) / 2)
 
 typedef struct ControlFilm ControlFilm;
-/* One thread's scratch: sums of the pixel in hand. */
+/* One thread's sums of the current pixel. */
 typedef struct ControlPixel ControlPixel;
 
 /* Estimates from one half of the samples, or from all of them. RGB images of the film's size, by channel. */
@@ -30,7 +30,7 @@ void control_film_close(ControlFilm **film); /* NULL and pointers to NULL are fi
 int control_pixel_create(ControlPixel **pixel, ControlFilm *film, RetexError *err);
 void control_pixel_close(ControlPixel **pixel);
 
-void control_connect(ControlPixel *pixel, const Rgb *light); /* light that arrived, by variant */
+void control_connect(ControlPixel *pixel, const Rgb *light); /* a contribution, by variant */
 void control_sample_end(ControlPixel *pixel, int half);      /* a path ends */
 void control_pixel_end(ControlPixel *pixel, int x, int y);   /* store and reset */
 

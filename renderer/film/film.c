@@ -10,13 +10,13 @@
 #include "film/layout.h"
 #include "film/noise.h"
 
-/* What is known of a band so far; under the film's lock. */
+/* State of a band; under the film's lock. */
 typedef struct BandState {
     int tiles; /* that are finished */
     atomic_int done;
     UvRange range;
     long dropped, samples;
-    RetexBandStats stats; /* of all of it, when it is */
+    RetexBandStats stats; /* once it is finished */
 } BandState;
 
 struct Film {
@@ -38,7 +38,7 @@ struct Film {
 struct FilmPixel {
     Film *film;
     void *layout_pixel; /* of the film's layout */
-    BandRows *rows;     /* that the tile in hand writes to, once it does */
+    BandRows *rows;     /* of the current tile, once it writes */
     double beauty[3];
     int spp;           /* of the tile's pixels */
     int paths;         /* so far */
@@ -187,7 +187,7 @@ static void fail(Film *film, const RetexError *err)
     pthread_mutex_unlock(&film->lock);
 }
 
-/* The rows of the tile in hand; NULL where there is no memory for them. */
+/* The rows of the current tile; NULL where there is no memory for them. */
 static BandRows *rows_at(FilmPixel *p, int y)
 {
     RetexError err;
@@ -253,7 +253,7 @@ static void finish_stats(Film *film, int band, int tiles, const BandRows *rows)
         film->layout->band_stats(film->layout_film, rows, s);
 }
 
-/* The band's images are where they stay. */
+/* Put the beauty and the statistics of a finished band into the band store. */
 static int commit_band(Film *film, int band, RetexError *err)
 {
     RetexBandStore *store = bands_store(film->bands);

@@ -1,4 +1,4 @@
-/* The film: where light connections of paths are gathered, pixel by pixel, and turned into a set. */
+/* The film: it sums the contributions of paths, pixel by pixel, and makes a set of them. */
 #ifndef RENDERER_FILM_FILM_H
 #define RENDERER_FILM_FILM_H
 
@@ -8,7 +8,7 @@
 
 typedef struct Film Film;
 
-/* One thread's scratch: sums of the pixel in hand. */
+/* One thread's sums of the current pixel. */
 typedef struct FilmPixel FilmPixel;
 
 int film_create(Film **film, const Scene *scene, const FilmParams *params, RetexError *err);
@@ -18,7 +18,7 @@ void film_pixel_close(FilmPixel **pixel);
 
 void film_drop(FilmPixel *pixel);                             /* count light that is not finite, and is left out */
 void film_add_light(FilmPixel *pixel, const double light[3]); /* of a path, all together */
-/* Of that, what met hits that are folded; and what it would be with white targets. */
+/* The part of it that met folded hits; and what it would be with white targets. */
 void film_add_folded(FilmPixel *pixel, Rgb light, Rgb white);
 /* A path ends, with the hits that it has where there is a split. A hit and those before it, up to the camera, are at
  * most FilmParams.orders of each target, and of all targets at most what FilmLayout.most_hits says. */
@@ -34,18 +34,18 @@ int film_failed(const Film *film);                   /* a band could not be kept
 int film_bands(const Film *film); /* of all */
 int film_bands_done(const Film *film);
 int film_band_is_done(const Film *film, int band);
-/* When all images are added: take over what the band store holds already. */
+/* Once all images are added: read the bands that the band store has already. */
 int film_resume(Film *film, RetexError *err);
 /* Leave finished bands in a file, for another film of this key to go on from. */
 int film_keep(Film *film, uint64_t key, const char *path, int replace, RetexError *err);
 
-/* Images beside those of the layout, which others fill for the tile in hand, see bands.h. */
+/* Images beside those of the layout; the caller fills them for the current tile, see bands.h. */
 int film_add_image(Film *film, const char *name, const char *letters, RetexPixelType type, int *image, RetexError *err);
 float *film_image_pixel(FilmPixel *pixel, int image, int x, int y);
 /* After film_finish: make it a part of the set. */
 int film_move_image(Film *film, int image, RetexSet *set, RetexError *err);
 
-/* Make all of it a set: parts, terms, footprints, shares of energy; what no pixel has is left out. */
+/* Make the film a set: parts, terms, footprints, folded light; images that are empty are left out. */
 int film_finish(Film *film, RetexSet *set, RetexError *err);
 /* When all images are in the set: let it have the band store. */
 void film_give_store(Film *film, RetexSet *set);

@@ -39,8 +39,8 @@ typedef struct FilmLayout {
     /* One for the film. bands is borrowed. On failure it is closed by the caller. */
     int (*create)(void **layout, const Scene *scene, const FilmParams *params, Bands *bands, RetexError *err);
     void (*close)(void **layout);
-    /* One thread's sums of the pixel in hand. light and range are borrowed: light gets what the layout knows of white
-     * targets, range what is met. */
+    /* One thread's sums of the current pixel. light and range are borrowed: light gets the light with white targets,
+     * range the UV of hits. */
     int (*pixel_create)(void **pixel, void *layout, LightSums *light, UvRange *range, RetexError *err);
     void (*pixel_close)(void **pixel);
 

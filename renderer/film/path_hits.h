@@ -55,14 +55,14 @@ typedef struct PathHit {
     struct PathHit *before,
         *earlier;    /* the next hit towards the camera; the one that was added last before it. Or NULL */
     int number;      /* in the order in which they were added */
-    int connections; /* D and I are of so many */
+    int connections; /* number of contributions in D and I */
 } PathHit;
 
 typedef struct PathHits {
     PathHit *last; /* that was added, or NULL */
     int count;
-    Float4 free;          /* light that met no target */
-    int free_connections; /* of so many */
+    Float4 free;          /* sum of contributions without a hit */
+    int free_connections; /* their number */
 } PathHits;
 
 /* Add a hit, in memory of the caller; before_d and before_i are of the hit before it. */

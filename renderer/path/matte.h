@@ -1,6 +1,6 @@
 /* The common case for a whole packet of paths: surfaces that only reflect, by Lambert's law, and direct light from
  * faces of meshes with uniform emission. Each lane has the same numbers, to the bit, as lights_sample, bsdf_eval,
- * bsdf_sample and accel_offset give. */
+ * bsdf_sample and accel_offset give; packet.c multiplies them in another order, which rounds differently. */
 #ifndef RENDERER_PATH_MATTE_H
 #define RENDERER_PATH_MATTE_H
 

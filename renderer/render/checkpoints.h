@@ -1,4 +1,4 @@
-/* Renders in pieces: bands that are kept when one ends early, and bands that others have rendered. */
+/* Checkpoints: finished bands of a render that was stopped, or of shards. */
 #ifndef RENDERER_RENDER_CHECKPOINTS_H
 #define RENDERER_RENDER_CHECKPOINTS_H
 
@@ -7,9 +7,9 @@
 
 /* Where finished bands of a picture go, by the parameters: a checkpoint, a temporary file, or nowhere: NULL. */
 int checkpoint_open(RetexBandStore **store, const RenderParams *params, int width, int height, RetexError *err);
-/* Take over the bands of all files to be merged, where there are any: every band must be in one of them. */
+/* Copy the bands of all files to be merged, where there are any: every band must be in one of them. */
 int checkpoint_merge(RetexBandStore *store, const RenderParams *params, int width, int height, RetexError *err);
-/* The film is not complete, because it was to stop: keep what there is. Always fails, and says how to go on. */
+/* Keep the finished bands of a render that was stopped. Always fails; the error says how to continue. */
 int checkpoint_keep(Film *film, const RenderParams *params, RetexError *err);
 
 #endif

@@ -8,13 +8,13 @@
 
 #include "render/first_hit.h"
 
-/* Are the set's targets the scene's, and does it recombine exactly? */
+/* Whether the set has the scene's targets and recombines exactly. */
 int control_constants_fit(const Scene *scene, const RetexSet *set);
 /* colors[t] (unallocated, RGB): for each pixel the mean over it of the colour of scene target t, with the window's
- * variant, where the camera's rays meet it first; elsewhere the mean over the target. Knows no random number: what it
- * gives is independent of all samples. */
+ * variant, where the camera's rays meet it first; elsewhere the mean over the target. No random numbers are
+ * used: the colours are independent of all samples. */
 int control_constants(RetexImage *colors, const FirstHitWindow *window, const RetexSet *set, RetexError *err);
-/* dst (unallocated): the set with these. */
+/* dst (unallocated): the set recombined with these colours. */
 int control_constants_combine(RetexImage *dst, const RetexSet *set, const Scene *scene, const RetexImage *colors,
                               int nthreads, RetexError *err);
 

@@ -1,7 +1,7 @@
 /* Image-space control variates: a new picture from few new samples and an old picture of the same view.
  *
  * Along each new path the scene is evaluated as it is wanted, F1, and as it was in the set, F0. Of F0 the set knows a
- * far better estimate G, and what F0 is off by in a pixel tells most of what F1 is off by there:
+ * far better estimate G, and the error of F0 in a pixel tells most of the error of F1 there:
  *
  *     I = F1 - alpha (F0 - G),    alpha = cov(F1, F0) / (var(F0) + var(G))
  *

@@ -2,13 +2,13 @@
 #include <stdio.h>
 #include "render/denoise_guides.h"
 
-/* A pixel is looked at in few places, and where these do not all see the same in many: as many of its samples as are
- * spread evenly. */
+/* Places of a pixel: few, or many where the few do not all see the same. Powers of 2, for which samples are spread
+ * evenly. */
 #define PLACES_FEW 16
 #define PLACES_MANY 64
 #define ONE_NORMAL 0.999 /* length of the mean of normals that count as one */
 #define ONE_ALBEDO 1e-4  /* variance of the luminance of albedos that count as one */
-#define FOLLOWED_MAX 16  /* mirrors and glasses on the way */
+#define FOLLOWED_MAX 16  /* mirrors and glasses along a ray */
 
 static void add_sight(Sight *sight, const Shading *s)
 {
@@ -17,7 +17,7 @@ static void add_sight(Sight *sight, const Shading *s)
     sight->position = vec_add(sight->position, s->surface.position);
 }
 
-/* What a texture on the surface may be is not known where it is a target. */
+/* The albedo of a target is not known: it may be retextured. */
 static Rgb known_albedo(const DenoiseGuides *job, const Shading *s)
 {
     return job->split && s->surface.target >= 0 ? rgb_grey(1) : shading_albedo(s, 0);
@@ -44,8 +44,8 @@ static void add_seen(const DenoiseGuides *job, PixelGuides *sums, const Shading 
     sums->metallic += shading_metallic(s);
 }
 
-/* Where a mirror or clear glass, unless it is more of something else, sends the ray on, and what it leaves of the
- * light. Returns 0 where the surface is itself what is seen. */
+/* Follow the ray off a mirror or through clear glass, where that is the most likely lobe; throughput gets its weight.
+ * Returns 0 where the surface itself is what is seen. */
 static int follow(const DenoiseGuides *job, const Shading *s, const Hit *hit, Ray *ray, RayKind *kind,
                   float *throughput)
 {
@@ -76,7 +76,7 @@ static void add_cover(double cover[RETEX_MAX_TARGETS], unsigned *met, const Shad
     }
 }
 
-/* What is seen at a place, by number. */
+/* Note the primitive that a place sees; -1: none. */
 static void note_primitive(PixelGuides *sums, int primitive)
 {
     if (sums->places++ == 0)

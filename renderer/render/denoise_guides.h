@@ -1,7 +1,8 @@
-/* What denoising goes by, free of noise: normals, places, colours and cover of what each pixel sees, and of what it
- * sees in mirrors and through clear glass. The parts guide_… of <retex/denoise_data.h>.
+/* The features that denoising is guided by, free of noise: normals, positions, albedos and target coverage of the
+ * surfaces that each pixel sees, directly and in mirrors and through clear glass. They are the parts guide_… of
+ * <retex/denoise_data.h>.
  *
- * Paths look as they go: places of a pixel are those of its first samples, and what the camera's ray meets is known. */
+ * Places of a pixel are those of its first samples: paths report what their camera rays meet (FirstHitObserver). */
 #ifndef RENDERER_RENDER_DENOISE_GUIDES_H
 #define RENDERER_RENDER_DENOISE_GUIDES_H
 
@@ -22,14 +23,14 @@ typedef struct Sight {
     Vec3 normal, position;
 } Sight;
 
-/* One thread's: sums over the places of the pixel in hand; zeros to begin with. */
+/* One thread's sums over the places of the current pixel; begin with zeros. */
 typedef struct PixelGuides {
     const DenoiseGuides *of;
-    int places, uneven;    /* so far; these do not all see the same */
+    int places, uneven;    /* so far; uneven: they do not all see the same */
     Sight first, seen;
     int specular;
     double luminance, luminance_squared; /* of the albedos */
-    int primitive, differ; /* the first place's and what it sees; whether others differ */
+    int primitive, differ; /* that the first place sees; whether others see another one */
     Rgb albedo;
     double roughness, metallic;
     double cover[RETEX_MAX_TARGETS];
@@ -37,11 +38,11 @@ typedef struct PixelGuides {
 
 int denoise_guides_create(DenoiseGuides *guides, Film *film, const FirstHitWindow *window, int split, RetexError *err);
 
-/* What the next place sees, given what a ray from the camera meets: a FirstHitObserver. pixel: PixelGuides. */
+/* Add a place, given what its camera ray meets: a FirstHitObserver. pixel: PixelGuides. */
 int denoise_guides_look(void *pixel, const Ray *ray, const Hit *hit, const Shading *shading);
-/* So many more places the pixel wants, at the least. */
+/* How many more places the pixel needs. */
 int denoise_guides_missing(const PixelGuides *pixel);
-/* Look at them where no path does, along up to ACCEL_PACKET rays. */
+/* Add places without paths, along up to ACCEL_PACKET camera rays. */
 void denoise_guides_look_along(PixelGuides *pixel, const Ray *rays, int count);
 /* Store the pixel's and begin the next. */
 void denoise_guides_pixel_end(PixelGuides *pixel, FilmPixel *film, int x, int y);

@@ -9,7 +9,7 @@ typedef struct FirstHitWindow {
     const Scene *scene;
     const Accel *accel;
     int width, height;          /* of the whole picture */
-    int x0, y0, w, h;           /* the part that is looked at */
+    int x0, y0, w, h;           /* the part of it */
     int nthreads;
     const RenderVariant *variants; /* or NULL: the first one's colours are shown */
 } FirstHitWindow;
@@ -20,7 +20,7 @@ int first_hit_add_aov(RetexSet *set, RetexAov aov, int *part, RetexError *err);
 int first_hit_aovs(RetexSet *set, const FirstHitWindow *window, unsigned aovs, RetexError *err);
 /* Fill share, and periodic of all targets. */
 int first_hit_targets(RetexSet *set, const FirstHitWindow *window, RetexError *err);
-/* Does a target close in u (v): every primitive it is on does, and looks textures up by its own parametrisation? */
+/* Whether a target is periodic in u, v: all of its primitives are, by their own parametrisation. */
 void target_periodic(const Scene *scene, int target, int periodic[2]);
 int first_hit_idents(const FirstHitWindow *window, double *shares, RetexError *err);
 

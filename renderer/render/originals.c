@@ -87,7 +87,7 @@ static int fill_original(RetexImage *dst, const Pigment *pigment, int axis, cons
     return pigment_bake(dst, pigment, axis, target->original_min, target->original_max, width, height, nthreads, err);
 }
 
-/* The axis along which a plane or a box is flattest: how its planar UV looks at it. */
+/* The axis of the planar UV of a plane or a box: the one along which it is flattest. */
 static int dominant_axis(const Primitive *p)
 {
     if (p->shape.ops != &shape_plane)

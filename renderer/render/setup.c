@@ -91,7 +91,7 @@ void render_close_films(Render *r)
     free(r->controls);
     free(r->pixel_guides);
     free(r->workers);
-    free(r->had);
+    free(r->resumed);
     film_close(&r->film);
     control_film_close(&r->control);
 }
@@ -176,20 +176,20 @@ int render_is_stopped(const Render *r)
 
 int render_is_wanted(const Render *r, int band)
 {
-    return (!r->params.nshards || band % r->params.nshards == r->params.shard - 1) && !r->had[band];
+    return (!r->params.nshards || band % r->params.nshards == r->params.shard - 1) && !r->resumed[band];
 }
 
-/* What others have rendered already, now that the film has all its images. */
+/* Read the bands that other renders have finished, once the film has all its images. */
 static int take_over(Render *r, RetexBandStore *store, RetexError *err)
 {
-    r->had = calloc((size_t)r->tiles_y, 1);
-    if (!r->had)
+    r->resumed = calloc((size_t)r->tiles_y, 1);
+    if (!r->resumed)
         return retex_fail(err, RETEX_ENOMEM, "out of memory for the film");
     int code = store ? checkpoint_merge(store, &r->params, r->w, r->h, err) : RETEX_OK;
     if (!code && store)
         code = film_resume(r->film, err);
     for (int band = 0; band < r->tiles_y; band++)
-        r->had[band] = (char)film_band_is_done(r->film, band);
+        r->resumed[band] = (char)film_band_is_done(r->film, band);
     for (int band = 0; band < r->tiles_y; band++)
         r->wanted += render_is_wanted(r, band) ? r->tiles_x : 0;
     return code;

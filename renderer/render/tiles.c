@@ -4,7 +4,7 @@
 #include "path/camera.h"
 #include "render/internal.h"
 
-/* Where in the pixel a sample looks: uniform, or by the Gaussian's own density so that every sample weighs the same. */
+/* Offset of a sample in its pixel: uniform, or by the density of the Gaussian, so that all samples weigh the same. */
 static void pixel_offset(const Render *r, const PairKeys *keys, uint32_t sample, double *dx, double *dy)
 {
     float u, v;
@@ -18,8 +18,8 @@ static void pixel_offset(const Render *r, const PairKeys *keys, uint32_t sample,
     *dx = 0.5 + radius * cos(phi), *dy = 0.5 + radius * sin(phi);
 }
 
-/* What the samples of a pixel begin with, by half: each has points of its own, for those of one would fill each other's
- * gaps. */
+/* What all samples of a pixel share, by half. Each half has sample points of its own: halves of one sequence would fill
+ * each other's gaps and not be independent. */
 typedef struct PixelStart {
     int x, y;
     Sampler samplers[2]; /* of the first sample */
@@ -82,7 +82,7 @@ static int tile_samples(const Render *r, int thread, int x0, int y0)
     return adaptive_tile_samples(pilot, r->params.noise, r->params.spp);
 }
 
-/* Guides look on where further samples would, if there were fewer than they want. */
+/* Where guides need more places than there are samples, trace further camera rays for them. */
 static void end_guides(const Render *r, int thread, int spp, int x, int y)
 {
     PixelGuides *guides = &r->pixel_guides[thread];

@@ -7,7 +7,7 @@
 /* For each target of the scene the median of |dP/du| and of |dP/dv|, P in scene units and u, v as textures are looked
  * up at, over the points that the camera sees in a coarse grid of pixels; of a target that it does not see, over points
  * hit by rays that start anywhere within the scene's bounds. 0, 0 where nothing was found. A sphere's dP/du, for one,
- * goes from 2 pi r at the equator to 0 at the poles: this is the middle of what is seen. */
+ * goes from 2 pi r at the equator to 0 at the poles: the median is that of what is seen. */
 int uv_scale_measure(const Scene *scene, const Accel *accel, double scale[][2], RetexError *err);
 
 #endif

@@ -1,4 +1,5 @@
-/* Pictures of other textures: several along the same paths, and one with the noise taken off that a set tells of. */
+/* Pictures with other textures: several along the same paths (--variants), and one with a set as control variate
+ * (--control). */
 #include <string.h>
 #include <retex/clock.h>
 #include "render/control_constants.h"
@@ -34,7 +35,7 @@ int render_variants(RetexImage *pictures, const Scene *scene, const RenderParams
     return code;
 }
 
-/* One line where the set is of another picture. */
+/* Fail where the set is of another picture. */
 static int check_control(const Render *r, const RetexSet *set, RetexError *err)
 {
     const char *slash = strrchr(r->scene->path, '/'), *scene = slash ? slash + 1 : r->scene->path;
@@ -57,7 +58,7 @@ static int check_control(const Render *r, const RetexSet *set, RetexError *err)
     return RETEX_OK;
 }
 
-/* The constants by pixel, and what the set is with them. */
+/* The constants by pixel, and the set recombined with them. */
 static int find_constants(Render *r, const RetexSet *set, RetexImage *constants, RetexImage *combined, RetexError *err)
 {
     FirstHitWindow window = render_window(r);

@@ -10,7 +10,7 @@
 #include "film/paper/terms.h"
 
 typedef struct FootprintSums {
-    int samples;                  /* paths that brought a connection */
+    int samples;                  /* paths with a contribution */
     double count, mean[2], m2[2]; /* Welford's running mean and sum of squared deviations of u and v */
     Float4 light, light_albedo;   /* what the albedo there multiplied, without it and with it */
     Float4 albedo;                /* unweighted, for footprints that gave no light */
@@ -24,7 +24,7 @@ typedef struct PaperFilm {
     /* images of the bands */
     int uv[RETEX_MAX_TARGETS * RETEX_MAX_ORDERS], spread[RETEX_MAX_TARGETS * RETEX_MAX_ORDERS],
         albedo[RETEX_MAX_TARGETS * RETEX_MAX_ORDERS];
-    atomic_int lost; /* light found no term to go to */
+    atomic_int lost; /* light was lost, as there were too many terms */
 } PaperFilm;
 
 typedef struct PaperPixel {
@@ -33,12 +33,12 @@ typedef struct PaperPixel {
     Float4 *sums; /* by term */
     int *touched, ntouched;
     FootprintSums footprints[RETEX_MAX_TARGETS * RETEX_MAX_ORDERS];
-    /* of the path in hand: */
+    /* of the current path: */
     Expansion expansion;
     ExpansionMark mark;            /* of it before a hit that light came by */
     TargetHit hits[PATH_HITS_MAX]; /* all hits that connected, with how often */
     int connections[PATH_HITS_MAX], nhits;
-    UvRange *range; /* of what was met */
+    UvRange *range; /* of the hits */
 } PaperPixel;
 
 static int footprints_count(const PaperFilm *film)
@@ -124,7 +124,7 @@ static int create_pixel(void **out, void *layout, LightSums *light, UvRange *ran
 static void add_term(PaperPixel *p, TermKey key, Float4 value)
 {
     int term = terms_find(&p->film->terms, &p->cache, key);
-    if (term < 0) { /* no room for one more: finish says so */
+    if (term < 0) { /* too many: finish_film reports it */
         p->film->lost = 1;
         return;
     }
@@ -148,7 +148,7 @@ static void add_albedos(PaperPixel *p, const Expansion *e, unsigned hits, Float4
     }
 }
 
-/* Remember that each hit of the expansion has more connections behind it. */
+/* Count contributions for each hit of the expansion. */
 static void note_connections(PaperPixel *p, const Expansion *e, int connections)
 {
     for (int j = 0; j < e->size.nhits; j++) {
@@ -177,7 +177,7 @@ static HitMask mask_by_target(const Expansion *e, unsigned hits)
     return mask;
 }
 
-/* Light of so many connections behind the expansion's hits. */
+/* Add the expansion's monomials to their terms: light of so many contributions. */
 static void connect(PaperPixel *p, int connections)
 {
     const Expansion *e = &p->expansion;
