@@ -1,14 +1,14 @@
-/* A set's parts, encoded as a pack has them. Private to libretex. */
+/* Encoding the parts of a set for a pack. Private to libretex. */
 #ifndef RETEX_PACK_ENCODE_H
 #define RETEX_PACK_ENCODE_H
 
 #include "pack/plan.h"
 
-/* Encoding one part. */
+/* One part, encoded. */
 typedef struct RetexPackItem {
     const RetexPart *part;
     RetexPackPart *packed;
-    unsigned char **chunks; /* malloc'ed each, but those of a JPEG, which lie in jpeg.data */
+    unsigned char **chunks; /* each malloc'ed; those of a JPEG point into jpeg.data */
     RetexPackJpeg jpeg;
     uint32_t crc; /* of its samples */
     int code;
@@ -19,7 +19,7 @@ typedef struct RetexPackEncoded {
     const RetexSet *set;
     RetexPackPart *packed;
     RetexPackItem *items;
-    int nitems;            /* one for each part, and one more where part 0 is tried in two ways: without the terms */
+    int nitems;            /* one for each part, and one for the second encoding of part 0, if there is one */
     RetexPackJpeg picture; /* of a lossless pack: for viewers only */
     int *jobs;             /* pairs: part and band */
     int njobs;

@@ -1,4 +1,4 @@
-/* What a pack's manifest says of its parts. See format.h. */
+/* The pack's part of the manifest, written and parsed. See format.h. */
 #include "pack/format.h"
 
 #include <jansson.h>
