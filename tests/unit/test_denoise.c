@@ -330,7 +330,7 @@ static void test_light_of_all_sizes(void **state)
         }
 }
 
-/* ---- odd sets ---- */
+/* ---- invalid sets ---- */
 
 /* Values that are no numbers, one in seven of those in parts whose name begins so. */
 static void spoil(RetexSet *set, const char *prefix)

@@ -27,7 +27,7 @@ static int is_odd(const unsigned char *stored, RetexPixelType type)
     return !isfinite(value);
 }
 
-/* Any bits, at any length and alignment: the first odd one is found, and none where there is none. */
+/* Any bits, at any length and alignment: the first bad one is found, and none where there is none. */
 static void test_kernels(void **state)
 {
     (void)state;
@@ -134,7 +134,7 @@ static void must_refuse(const char *path, const char *part, const char *place)
     }
 }
 
-static const float odd[3] = {NAN, INFINITY, -INFINITY};
+static const float bad[3] = {NAN, INFINITY, -INFINITY};
 
 static void test_sets(void **state)
 {
@@ -154,7 +154,7 @@ static void test_sets(void **state)
             const int x = part->image.width / 2, y = part->image.height - 1;
             float *value = part->image.pixels + retex_image_index(&part->image, x + 1, y) - 1, kept = *value;
             snprintf(place, sizeof place, "at %d,%d in channel %c", x, y, part->letters[strlen(part->letters) - 1]);
-            *value = strcmp(part->name, "depth") == 0 ? NAN : odd[i % 3];
+            *value = strcmp(part->name, "depth") == 0 ? NAN : bad[i % 3];
             test_must(retex_set_write(set, NULL, path, &params, &err), &err);
             must_refuse(path, part->name, place);
             *value = strcmp(part->name, "depth") == 0 ? INFINITY : -65504;
@@ -202,7 +202,7 @@ static void test_packs(void **state)
         const int x = part->image.width / 2, y = part->image.height - 1;
         float *value = part->image.pixels + retex_image_index(&part->image, x, y), kept = *value;
         snprintf(place, sizeof place, "at %d,%d in channel %c", x, y, part->letters[0]);
-        *value = strcmp(part->name, "depth") == 0 ? NAN : odd[i % 3];
+        *value = strcmp(part->name, "depth") == 0 ? NAN : bad[i % 3];
         test_must(retex_pack_write(set, path, &params, NULL, &err), &err);
         must_refuse(path, part->name, place);
         *value = kept;

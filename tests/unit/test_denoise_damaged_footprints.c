@@ -9,7 +9,7 @@
 #include <string.h>
 #include <time.h>
 
-/* ---- odd sets ---- */
+/* ---- damaged sets ---- */
 
 static float *random_pixels(RetexSet *set, int part, uint32_t *seed)
 {
@@ -123,13 +123,13 @@ static void test_odd_sets(void **state)
 {
     (void)state;
     static const float light[] = {0.25f, 1, 3};
-    for (int odd = 0; odd < 10; odd++)
+    for (int damage = 0; damage < 10; damage++)
         for (int footprints = 0; footprints < 2; footprints++) {
             RetexSet *set = random_set(13, 9);
             RetexFootprint *f = set->footprints;
             struct RetexShare *share = set->mixtures[1].shares;
             RetexError err = {0};
-            switch (odd) {
+            switch (damage) {
             case 0: /* samples only */
                 for (int k = 0; k < set->nfootprints; k++)
                     f[k].uv = f[k].spread = f[k].albedo = -1;
@@ -166,9 +166,9 @@ static void test_odd_sets(void **state)
                 break;
             }
             Work w = open_work(set, footprints);
-            assert_int_equal(odd && w.written[set->footprints[4].albedo], odd == 3 || odd == 4);
+            assert_int_equal(damage && w.written[set->footprints[4].albedo], damage == 3 || damage == 4);
             denoise_all(&w, light);
-            if (odd != 0 && odd != 6)
+            if (damage != 0 && damage != 6)
                 expect_whole(&w, light);
             close_work(&w);
         }
