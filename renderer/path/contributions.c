@@ -97,8 +97,7 @@ static inline PathHit *add_hit(PathWorker *w, Path *path, const Factor *f, PathH
     return path_hits_add(&path->hits, &w->hits[w->nhits++], &at, before, before_d, before_i);
 }
 
-/* The hit of the vertex in hand, next to those that the path came by: direct light and the path that goes on share
- * it. */
+/* The hit of the current vertex: direct light and the continued path share it. */
 static inline PathHit *find_current_hit(PathWorker *w, Path *path, const Factor *f)
 {
     const PathHit *hit = path->current_hit;

@@ -50,7 +50,7 @@ typedef struct Path {
     PathHits hits;         /* those hits, and those of shadow rays */
     PathHit *last_hit;     /* the last one between the camera and the ray, or NULL, */
     Float4 last_d, last_i; /* and its factor */
-    PathHit *current_hit;  /* the hit of the vertex in hand, once light came by it; or NULL */
+    PathHit *current_hit;  /* the hit of the current vertex, once light came by it; or NULL */
 } Path;
 
 /* A direct-light sample: a point on one light, chosen for a vertex before its shadow ray is traced. */

@@ -49,14 +49,14 @@ typedef struct PathWorker {
     ControlPixel *control;                   /* gets contributions by variant, or NULL */
     FirstHitObserver *first_hit;
     void *first_hit_context;
-    int first_hits_wanted;                   /* of the pixel in hand; 0: there is no observer, or it has enough */
+    int first_hits_wanted;                   /* of the current pixel; 0: there is no observer, or it has enough */
     RenderVariant own[CONTROL_VARIANTS_MAX]; /* the variants, where the last one has constants by pixel */
-    Rgb constants[RETEX_MAX_TARGETS];        /* of the pixel in hand */
+    Rgb constants[RETEX_MAX_TARGETS];        /* of the current pixel */
     PathHit *hits;                           /* of sets: memory for the hits of all paths of a packet */
     int nhits;
     ControlLog log; /* where there is a control film */
     PixelKeys keys[2];
-    uint32_t key[2]; /* of the sample numbers of the paths in hand, by half of the samples */
+    uint32_t key[2]; /* of the sample numbers of the current paths, by half of the samples */
     long segments, shadow_rays;
     /* By variant: colours at the lights sampled for a packet and at the surfaces on a shadow ray; throughputs of all
      * paths that are traced side by side. */

@@ -76,10 +76,10 @@ typedef struct TargetClusters {
 void clusters_add(TargetClusters *target, const FirstHit *hit, const FilmParams *params);
 void clusters_add_interreflection(TargetClusters *target, const Interreflection *hit, const int periodic[2]);
 
-/* A hit of the path in hand; see path_hits.h. */
+/* A hit of the current path; see path_hits.h. */
 typedef struct Node {
     HitLight dependent,
-        independent; /* that came by it, from further hits too: what its texture multiplies, and the rest */
+        independent; /* its light, that of further hits too: what its texture multiplies, and the rest */
     Float4 white;    /* all of that, were the targets of white paint */
     Float4 albedo;   /* of the original, as it weighs other hits */
     /* What the hits before it do to light that comes from it: none of their textures; all, with the original albedos;
@@ -93,8 +93,8 @@ typedef struct FootprintPixel {
     double free[3];
     TargetClusters *targets;
     Node nodes[PATH_HITS_MAX];
-    LightSums *light; /* of what arrives */
-    UvRange *range;   /* of what was met */
+    LightSums *light; /* of contributions */
+    UvRange *range;   /* of the hits */
 } FootprintPixel;
 
 #endif

@@ -1,4 +1,4 @@
-/* The contributions of paths to the film of a set, by hit and by light. */
+/* Contributions of paths to the film of a set, hit by hit and light by light. */
 #include "lib_test.h"
 
 #include <math.h>
