@@ -98,7 +98,7 @@ static int write_variant(Arguments *a, Variants *v, int k, RetexError *err)
 {
     char path[PATH_MAX];
     int code = batch_output(&a->batch, v->rows[k], path, err);
-    return code ? code : retex_image_write(&v->pictures[k], path, NULL, err);
+    return code ? code : retex_image_write(&v->pictures[k], path, NULL, a->cli->threads, err);
 }
 
 /* Render and write the loaded pictures. began: their start, for the times in the report. Return 0 if the batch ends
@@ -248,7 +248,7 @@ void render_controlled(Arguments *a, const Scene *scene, const char *output)
                  "--control %s: its picture does not match this scene with its original textures, %.0f standard "
                  "deviations off",
                  a->control, distance);
-    if (retex_image_write(&picture, output, NULL, &err))
+    if (retex_image_write(&picture, output, NULL, a->cli->threads, &err))
         cli_fail(a->cli, &err);
     cli_info(a->cli, "%dx%d, %d samples: %.2f s", picture.width, picture.height, a->render.spp, stats.render_seconds);
     if (stats.dropped)

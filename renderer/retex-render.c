@@ -156,7 +156,7 @@ static void write_result(Arguments *a, RetexSet *set, const char *output)
         code = retex_set_write(set, NULL, output, &store, &err);
         break;
     case OUTPUT_PICTURE:
-        code = retex_image_write(&set->parts[0].image, output, NULL, &err);
+        code = retex_image_write(&set->parts[0].image, output, NULL, a->cli->threads, &err);
         break;
     }
     if (code)
@@ -251,7 +251,7 @@ int main(int argc, char **argv)
     if (set) {
         if (a.denoise)
             denoise(&a, set);
-        if (a.aov_dir && aov_files_write(set, a.aov_dir, &err))
+        if (a.aov_dir && aov_files_write(set, a.aov_dir, cli.threads, &err))
             cli_fail(&cli, &err);
         if (output)
             write_result(&a, set, output);

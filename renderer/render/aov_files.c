@@ -102,7 +102,7 @@ static int color_numbers(RetexImage *dst, const RetexImage *src, RetexError *err
     return code;
 }
 
-static int write_picture(const RetexSet *set, const char *folder, int k, RetexError *err)
+static int write_picture(const RetexSet *set, const char *folder, int k, int nthreads, RetexError *err)
 {
     const RetexAov aov = (RetexAov)(k - 1);
     const int part = k ? retex_set_find_part(set, name_of(k)) : 0, is_color = k == 0 || retex_aov_is_color(aov),
@@ -115,7 +115,7 @@ static int write_picture(const RetexSet *set, const char *folder, int k, RetexEr
     RetexWriteParams params = RETEX_WRITE_INIT;
     params.is_data = !is_color;
     aov_files_path(path, sizeof path, folder, 2 * k);
-    int code = retex_image_write(image, path, &params, err);
+    int code = retex_image_write(image, path, &params, nthreads, err);
     if (!code)
         code = is_number ? color_numbers(&shown, image, err) : retex_image_copy(&shown, image, err);
     if (!code && k && encoders[retex_aovs[aov].shown])
@@ -123,16 +123,16 @@ static int write_picture(const RetexSet *set, const char *folder, int k, RetexEr
     params.colorspace = k == 0 ? NULL : is_color ? "sRGB" : "raw"; /* NULL: the display transform */
     aov_files_path(path, sizeof path, folder, 2 * k + 1);
     if (!code)
-        code = retex_image_write(&shown, path, &params, err);
+        code = retex_image_write(&shown, path, &params, nthreads, err);
     retex_image_free(&shown);
     return code;
 }
 
-int aov_files_write(const RetexSet *set, const char *folder, RetexError *err)
+int aov_files_write(const RetexSet *set, const char *folder, int nthreads, RetexError *err)
 {
     int code = RETEX_OK;
     for (int k = 0; k < PICTURES && !code; k++)
-        code = write_picture(set, folder, k, err);
+        code = write_picture(set, folder, k, nthreads, err);
     return code;
 }
 

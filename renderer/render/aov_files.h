@@ -10,6 +10,6 @@ int aov_files_check(const char *folder, RetexError *err);
 int aov_files_path(char *path, size_t size, const char *folder, int k);
 /* Write the beauty and each AOV of the set as NAME.exr, with its values as halves, and as NAME.png, to look at: the
  * beauty through the display transform, AOVs as their RetexAovShown says, colours sRGB-encoded. */
-int aov_files_write(const RetexSet *set, const char *folder, RetexError *err);
+int aov_files_write(const RetexSet *set, const char *folder, int nthreads, RetexError *err);
 
 #endif

@@ -108,7 +108,7 @@ static int make(const Job *job, const char *path, RetexError *error)
         if (status)
             snprintf(error->message, sizeof error->message, "out of memory");
         else
-            status = retex_image_write(&image, path, &params, error);
+            status = retex_image_write(&image, path, &params, 0, error);
     }
     retex_image_free(&image);
     return status;

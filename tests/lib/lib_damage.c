@@ -22,7 +22,7 @@ void damage_begin(const char *folder)
     snprintf(texture_path, sizeof texture_path, "%s/damage-texture.exr", folder);
     snprintf(output_path, sizeof output_path, "%s/damage-output", folder);
     test_random_image(&image, 32, 32, 3, 5, 0, 1);
-    test_must(retex_image_write(&image, texture_path, NULL, &err), &err);
+    test_must(retex_image_write(&image, texture_path, NULL, 1, &err), &err);
     retex_image_free(&image);
 }
 

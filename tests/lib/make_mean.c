@@ -15,7 +15,7 @@ int main(int argc, char **argv)
     RetexImage sum = {0}, picture = {0};
     RetexError err = {0};
     for (int k = 2; k < argc; k++) {
-        if (retex_image_read(&picture, argv[k], NULL, 0, &err))
+        if (retex_image_read(&picture, argv[k], NULL, 1, &err))
             return fail(&err);
         if (k == 2 && retex_image_alloc(&sum, picture.width, picture.height, 3, &err))
             return fail(&err);
@@ -28,7 +28,7 @@ int main(int argc, char **argv)
                 sum.pixels[3 * i + c] += picture.pixels[4 * i + c] / (float)(argc - 2);
         retex_image_free(&picture);
     }
-    if (argc < 3 || retex_image_write(&sum, argv[1], NULL, &err))
+    if (argc < 3 || retex_image_write(&sum, argv[1], NULL, 1, &err))
         return fail(&err);
     retex_image_free(&sum);
     return 0;

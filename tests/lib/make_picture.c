@@ -94,7 +94,7 @@ int main(int argc, char **argv)
     if (ending && strcmp(ending, ".exr") == 0)
         write_exr(&im, &w, argv[1]);
     else
-        test_must(retex_image_write(&im, argv[1], NULL, &err), &err);
+        test_must(retex_image_write(&im, argv[1], NULL, 1, &err), &err);
     retex_image_free(&im);
     return 0;
 }

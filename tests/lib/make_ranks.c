@@ -60,11 +60,12 @@ static double measure(const RetexImage *a, const RetexImage *b, Block *blocks)
 int main(int argc, char **argv)
 {
     RetexImage images[3] = {{0}};
+    const RetexReadParams params = {.size = sizeof params, .colorspace = "linear", .pixel_bytes = 16};
     RetexError err;
     if (argc != 4)
         return 2;
     for (int k = 0; k < 3; k++)
-        if (retex_image_read(&images[k], argv[1 + k], "linear", 0, &err)) {
+        if (retex_image_read(&images[k], argv[1 + k], &params, 1, &err)) {
             fprintf(stderr, "make_ranks: %s\n", err.message);
             return 2;
         }

@@ -62,7 +62,8 @@ static void read_first(const char *path, const char *colorspace, float rgb[3])
 {
     RetexImage im = {0};
     RetexError err = {0};
-    test_must(retex_image_read(&im, path, colorspace, 0, &err), &err);
+    const RetexReadParams params = {.size = sizeof params, .colorspace = colorspace, .pixel_bytes = 16};
+    test_must(retex_image_read(&im, path, &params, 1, &err), &err);
     memcpy(rgb, im.pixels, 3 * sizeof *rgb);
     retex_image_free(&im);
 }
@@ -133,7 +134,7 @@ static void test_written(void **state)
             RetexError err = {0};
             params.colorspace = cases[k].colorspace;
             params.is_data = cases[k].data;
-            test_must(retex_image_write(&im, path, &params, &err), &err);
+            test_must(retex_image_write(&im, path, &params, 1, &err), &err);
             retex_image_free(&im);
             const RetexColorTag tag = header_of(path, 0);
             assert_string_equal(tag.interop, cases[k].interop);
@@ -203,7 +204,7 @@ static void test_read_others(void **state)
     RetexWriteParams params = RETEX_WRITE_INIT;
     RetexError err = {0};
     params.colorspace = "ACEScg";
-    test_must(retex_image_write(&im, grey, &params, &err), &err);
+    test_must(retex_image_write(&im, grey, &params, 1, &err), &err);
     retex_image_free(&im);
     read_first(grey, NULL, rgb);
     expect(rgb, (const double[3]){.7, .7, .7}, 1e-3);
@@ -279,7 +280,7 @@ static int check_config(const OcioCase *cases, int count)
         RetexWriteParams params = RETEX_WRITE_INIT;
         params.colorspace = cases[k].colorspace;
         const char *path = test_in_folder("u.exr");
-        if (retex_image_write(&im, path, &params, NULL))
+        if (retex_image_write(&im, path, &params, 1, NULL))
             return 100 + k;
         retex_image_free(&im);
         const RetexColorTag tag = header_of(path, 0);

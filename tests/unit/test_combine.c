@@ -123,7 +123,7 @@ static void test_samples(void **state)
     int fd = mkstemps(path, 4);
     assert_true(fd >= 0);
     close(fd);
-    test_must(retex_image_write(&im, path, NULL, &err), &err);
+    test_must(retex_image_write(&im, path, NULL, 1, &err), &err);
     RetexTextureSpec spec = RETEX_TEXTURE_SPEC_INIT;
     strcpy(spec.target, "FLOOR"); /* found ignoring case */
     snprintf(spec.image, sizeof spec.image, "%s", path);
@@ -170,7 +170,7 @@ static void test_transparent(void **state)
     int fd = mkstemps(path, 4);
     assert_true(fd >= 0);
     close(fd);
-    test_must(retex_image_write(&clear, path, NULL, &err), &err);
+    test_must(retex_image_write(&clear, path, NULL, 1, &err), &err);
     RetexTextureSpec spec = RETEX_TEXTURE_SPEC_INIT;
     strcpy(spec.target, "Floor");
     snprintf(spec.image, sizeof spec.image, "%s", path);

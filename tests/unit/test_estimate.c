@@ -40,7 +40,7 @@ static RetexTextureSpec store_texture(const char *target, float mean, float cont
     for (int i = 0; i < 16; i++)
         for (int c = 0; c < 4; c++)
             im.pixels[4 * i + c] = c == 3 ? alpha : mean + (i % 2 && i / 4 % 2 ? 3 : -1) * contrast;
-    test_must(retex_image_write(&im, path, NULL, &err), &err);
+    test_must(retex_image_write(&im, path, NULL, 1, &err), &err);
     retex_image_free(&im);
     RetexTextureSpec spec = RETEX_TEXTURE_SPEC_INIT;
     snprintf(spec.target, sizeof spec.target, "%s", target);

@@ -25,7 +25,7 @@ static void write_jpeg(int width, int height, int channels, int quality)
     RetexError err = {0};
     params.quality = quality;
     test_random_image(&image, width, height, channels, (uint32_t)(width * 7 + channels), 0, 1);
-    test_must(retex_image_write(&image, FILE_NAME, &params, &err), &err);
+    test_must(retex_image_write(&image, FILE_NAME, &params, 1, &err), &err);
     retex_image_free(&image);
 }
 
@@ -54,7 +54,8 @@ static void test_like_the_bridge(void **state)
         RetexNarrowImage direct = read_direct(0);
         assert_non_null(direct.pixels);
         assert_true(direct.width == cases[i].width && direct.height == cases[i].height);
-        test_must(retex_bridge_read_narrow(&bridged, &(RetexBridgeFile){FILE_NAME, NULL, -1, NULL, 0, ""}, &err), &err);
+        test_must(retex_bridge_read_narrow(&bridged, &(RetexBridgeFile){FILE_NAME, NULL, -1, NULL, 0, "", 1}, &err),
+                  &err);
         assert_non_null(bridged.pixels);
         assert_memory_equal(direct.pixels, bridged.pixels,
                             sizeof *direct.pixels * 4 * (size_t)direct.width * (size_t)direct.height);
@@ -105,7 +106,7 @@ static void test_what_is_left(void **state)
     expect_left();
     RetexNarrowImage bridged = {0};
     RetexError err = {0};
-    test_must(retex_bridge_read_narrow(&bridged, &(RetexBridgeFile){FILE_NAME, NULL, -1, NULL, 0, ""}, &err), &err);
+    test_must(retex_bridge_read_narrow(&bridged, &(RetexBridgeFile){FILE_NAME, NULL, -1, NULL, 0, "", 1}, &err), &err);
     assert_int_equal(bridged.width, 48);
     free(bridged.pixels);
     unlink(FILE_NAME);

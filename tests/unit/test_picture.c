@@ -130,8 +130,8 @@ static void assert_same_pixels(const char *a, const char *b)
 {
     RetexImage x = {0}, y = {0};
     RetexError err = {0};
-    test_must(retex_bridge_read(&x, &(RetexBridgeFile){a, NULL, -1, "raw", 0, ""}, &err), &err);
-    test_must(retex_bridge_read(&y, &(RetexBridgeFile){b, NULL, -1, "raw", 0, ""}, &err), &err);
+    test_must(retex_bridge_read(&x, &(RetexBridgeFile){a, NULL, -1, "raw", 0, "", 1}, &err), &err);
+    test_must(retex_bridge_read(&y, &(RetexBridgeFile){b, NULL, -1, "raw", 0, "", 1}, &err), &err);
     assert_int_equal(x.width, y.width);
     assert_int_equal(x.height, y.height);
     assert_memory_equal(x.pixels, y.pixels, retex_image_index(&x, 0, x.height) * sizeof(float));
@@ -152,7 +152,7 @@ static void test_any_order_and_threads(void **state)
                 snprintf(one, sizeof one, "one.%s", endings[k]);
                 snprintf(other, sizeof other, "other.%s", endings[k]);
                 paint(&im, sizes[s][0], sizes[s][1], channels);
-                test_must(retex_image_write(&im, test_in_folder(one), NULL, &err), &err);
+                test_must(retex_image_write(&im, test_in_folder(one), NULL, 1, &err), &err);
                 /* strides prime to the numbers of bands: 1, 2, 8, 18 */
                 static const int orders[][2] = {{1, 1}, {1, 17}, {2, 5}, {7, 1}, {7, 7}};
                 for (int i = 0; i < 5; i++) {
@@ -250,7 +250,7 @@ static void test_exr_of_any_light(void **state)
         retex_exr_encoding_free(&encoding);
         write_bands(&im, test_in_folder("light.exr"), NULL, 2, 1);
         test_must(
-            retex_bridge_read(&back, &(RetexBridgeFile){test_in_folder("light.exr"), NULL, -1, "raw", 0, ""}, &err),
+            retex_bridge_read(&back, &(RetexBridgeFile){test_in_folder("light.exr"), NULL, -1, "raw", 0, "", 1}, &err),
             &err);
         for (int y = 0; y < im.height; y++) {
             float *row = im.pixels + retex_image_index(&im, 0, y);
@@ -444,7 +444,7 @@ static void test_given_up_or_failed(void **state)
         /* a full disk, and a folder that is not there */
         snprintf(other, sizeof other, "%s%s", full, strrchr(names[k], '.'));
         assert_int_equal(symlink("/dev/full", other), 0);
-        assert_int_equal(retex_image_write(&im, other, NULL, &err), RETEX_EIO);
+        assert_int_equal(retex_image_write(&im, other, NULL, 1, &err), RETEX_EIO);
         assert_non_null(strstr(err.message, "No space left on device"));
         assert_int_equal(unlink(other), 0);
         snprintf(other, sizeof other, "/nowhere/at/all/%s", names[k]);
@@ -473,14 +473,14 @@ static void test_what_cannot_be(void **state)
     assert_non_null(strstr(err.message, "a JPEG has at most 65500 x 65500 pixels"));
     params.quality = 0;
     assert_int_equal(retex_picture_open(&picture, test_in_folder("w.jpg"), 1, 1, 3, &params, &err), RETEX_EINVAL);
-    assert_int_equal(retex_image_write(&im, test_in_folder("w.jpg"), NULL, &err), RETEX_EINVAL);
+    assert_int_equal(retex_image_write(&im, test_in_folder("w.jpg"), NULL, 1, &err), RETEX_EINVAL);
     /* found out by whoever waits for the bridge */
     paint(&im, 2, 2, 3);
     params = (RetexWriteParams)RETEX_WRITE_INIT;
     params.view = "Bleu";
-    assert_int_equal(retex_image_write(&im, test_in_folder("w.png"), &params, &err), RETEX_ENOTFOUND);
+    assert_int_equal(retex_image_write(&im, test_in_folder("w.png"), &params, 1, &err), RETEX_ENOTFOUND);
     assert_non_null(strstr(err.message, "has no view 'Bleu'"));
-    assert_int_equal(retex_image_write(&im, test_in_folder("w.xyz"), NULL, &err), RETEX_EINVAL);
+    assert_int_equal(retex_image_write(&im, test_in_folder("w.xyz"), NULL, 1, &err), RETEX_EINVAL);
     assert_int_equal(access(test_in_folder("w.png"), F_OK), -1);
     retex_image_free(&im);
 }
@@ -499,14 +499,14 @@ static void test_no_bridge_is_needed(void **state)
         unsetenv("OCIO");
         paint(&im, 5, 5, 3);
         failed |= retex_image_write_check(test_in_folder("n.png"), NULL, &err);
-        failed |= retex_image_write(&im, test_in_folder("n.png"), NULL, &err);
-        failed |= retex_image_write(&im, test_in_folder("n.jpg"), NULL, &err);
-        failed |= retex_image_write(&im, test_in_folder("n.exr"), NULL, &err);
-        failed |= retex_image_write(&im, test_in_folder("n.tif"), NULL, &err) != RETEX_EUNSUPPORTED;
+        failed |= retex_image_write(&im, test_in_folder("n.png"), NULL, 1, &err);
+        failed |= retex_image_write(&im, test_in_folder("n.jpg"), NULL, 1, &err);
+        failed |= retex_image_write(&im, test_in_folder("n.exr"), NULL, 1, &err);
+        failed |= retex_image_write(&im, test_in_folder("n.tif"), NULL, 1, &err) != RETEX_EUNSUPPORTED;
         params.view = "Raw";
-        failed |= retex_image_write(&im, test_in_folder("n.png"), &params, &err) != RETEX_EUNSUPPORTED;
+        failed |= retex_image_write(&im, test_in_folder("n.png"), &params, 1, &err) != RETEX_EUNSUPPORTED;
         setenv("OCIO", "/nowhere/config.ocio", 1);
-        failed |= retex_image_write(&im, test_in_folder("n.jpg"), NULL, &err) != RETEX_EUNSUPPORTED;
+        failed |= retex_image_write(&im, test_in_folder("n.jpg"), NULL, 1, &err) != RETEX_EUNSUPPORTED;
         _exit(failed != 0);
     }
     int status;

@@ -22,7 +22,7 @@ static void write_halves(char path[64])
     for (int y = 0; y < 32; y++)
         for (int x = 0; x < 32; x++)
             im.pixels[retex_image_index(&im, x, y) + (x < 16 ? 0 : 2)] = 1;
-    test_must(retex_image_write(&im, path, NULL, &err), &err);
+    test_must(retex_image_write(&im, path, NULL, 1, &err), &err);
     retex_image_free(&im);
 }
 

@@ -44,7 +44,7 @@ static RetexTextureSpec make_spec(const char *target)
     strcpy(spec.target, target);
     snprintf(spec.image, sizeof spec.image, "%s", test_in_folder("glass.exr"));
     test_random_image(&im, 16, 16, 4, 9, 0, 1); /* transparent: original albedo is wanted */
-    test_must(retex_image_write(&im, spec.image, NULL, &err), &err);
+    test_must(retex_image_write(&im, spec.image, NULL, 1, &err), &err);
     retex_image_free(&im);
     return spec;
 }

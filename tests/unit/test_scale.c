@@ -182,7 +182,7 @@ static RetexTextureSpec stripes(void)
     test_random_image(&image, 16, 16, 3, 9, 0, 1);
     strcpy(spec.target, "Floor");
     strcpy(spec.image, "scale_texture.exr");
-    test_must(retex_image_write(&image, spec.image, NULL, &err), &err);
+    test_must(retex_image_write(&image, spec.image, NULL, 1, &err), &err);
     retex_image_free(&image);
     return spec;
 }

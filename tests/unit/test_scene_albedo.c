@@ -60,7 +60,7 @@ static const char *write_image(const char *name, float odd)
     test_random_image(&im, 8, 6, 3, 1, 0, 1);
     im.pixels[retex_image_index(&im, 3, 2)] = odd;
     im.pixels[retex_image_index(&im, 3, 2) + 1] = odd;
-    test_must(retex_image_write(&im, path, NULL, &err), &err);
+    test_must(retex_image_write(&im, path, NULL, 1, &err), &err);
     retex_image_free(&im);
     return path;
 }

@@ -393,7 +393,7 @@ static void test_what_is_no_set(void **state)
     assert_int_equal(read_anything(&err), RETEX_EFORMAT);
     snprintf(exr, sizeof exr, "%s.exr", path);
     test_random_image(&image, 8, 8, 3, 1, 0, 1);
-    test_must(retex_image_write(&image, exr, NULL, &err), &err);
+    test_must(retex_image_write(&image, exr, NULL, 1, &err), &err);
     RetexSet *set;
     assert_int_equal(retex_set_read(exr, &set, NULL, 0, &err), RETEX_EFORMAT);
     assert_non_null(strstr(err.message, "is not a set (no `retex` attribute)"));

@@ -327,6 +327,7 @@ class OpenPicture
             in_ = OIIO::ImageInput::open(file.path, &wish);
         if (!in_)
             fail_read(OIIO::geterror());
+        in_->threads(file.nthreads);
         const OIIO::ImageSpec &spec = in_->spec();
         check_size(spec.width, spec.height, file);
         if (spec.deep)

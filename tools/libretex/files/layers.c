@@ -30,7 +30,7 @@ static int open_other(RetexLayers *layers, const char *path, const RetexReadPara
     if (code)
         return code;
     if (got != sizeof begin || !retex_pack_probe(begin, sizeof begin))
-        return retex_image_read_with(&layers->picture, path, params, err);
+        return retex_image_read(&layers->picture, path, params, layers->nthreads, err);
     code = retex_pack_open(&layers->set, &layers->input, err);
     return code ? code : retex_set_load(layers->set, layers->nthreads, err);
 }
@@ -53,7 +53,7 @@ int retex_layers_open(RetexLayers **result, const char *path, const RetexAccess 
     if (!code && layers->exr && !retex_exr_part_readable(layers->exr, 0, &reason)) {
         /* beyond our own reader: what OpenImageIO makes of it */
         retex_exr_close(&layers->exr);
-        code = retex_image_read_with(&layers->picture, path, &params, err);
+        code = retex_image_read(&layers->picture, path, &params, nthreads, err);
     }
     if (code)
         retex_layers_close(&layers);

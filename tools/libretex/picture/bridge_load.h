@@ -26,6 +26,7 @@ typedef struct RetexBridgeFile {
     const char *colorspace; /* or NULL */
     long max_pixels;        /* 0 = no limit */
     char limit[64];         /* the limit in words, for messages */
+    int nthreads;           /* that decode, at most; 0 = all cores */
 } RetexBridgeFile;
 
 /* Read any file that OpenImageIO reads as R,G,B,A, scene-linear Rec.709, unassociated alpha: the general case of
@@ -43,8 +44,9 @@ typedef struct RetexNarrowImage {
  * other files dst->pixels stays NULL. */
 int retex_bridge_read_narrow(RetexNarrowImage *dst, const RetexBridgeFile *file, RetexError *err);
 
-/* In image_read.c: the same for any path that retex_image_read_with takes. */
-int retex_image_read_narrow(RetexNarrowImage *dst, const char *path, const RetexReadParams *params, RetexError *err);
+/* In image_read.c: the same for any path that retex_image_read takes. */
+int retex_image_read_narrow(RetexNarrowImage *dst, const char *path, const RetexReadParams *params, int nthreads,
+                            RetexError *err);
 
 /* A plan: how a picture of that size is stored in a file of the format that path's ending names, in the colours that
  * params name. path and params are not needed afterwards. */

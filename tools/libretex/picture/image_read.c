@@ -221,15 +221,7 @@ static int read_tagged(RetexImage *dst, RetexExr *exr, const RetexInput *input, 
     return status;
 }
 
-int retex_image_read(RetexImage *dst, const char *path, const char *colorspace, long max_pixels, RetexError *err)
-{
-    const RetexReadParams params = {
-        .size = sizeof params, .colorspace = colorspace, .max_pixels = max_pixels, .pixel_bytes = 16};
-
-    return retex_image_read_with(dst, path, &params, err);
-}
-
-static int read_open(RetexImage *dst, RetexInput *input, const char *path, const RetexReadParams *params,
+static int read_open(RetexImage *dst, RetexInput *input, const char *path, const RetexReadParams *params, int nthreads,
                      RetexError *err)
 {
     const int standard_input = strcmp(path, "-") == 0, linear = retex_names_linear(params->colorspace);
@@ -239,6 +231,7 @@ static int read_open(RetexImage *dst, RetexInput *input, const char *path, const
 
     if (status)
         return status;
+    file.nthreads = nthreads;
     if (!standard_input && (!retex_exr_probe(input) || !linear))
         return retex_bridge_read(dst, &file, err);
     status = retex_exr_open(&exr, input, err);
@@ -249,7 +242,7 @@ static int read_open(RetexImage *dst, RetexInput *input, const char *path, const
     return status;
 }
 
-int retex_image_read_with(RetexImage *dst, const char *path, const RetexReadParams *given, RetexError *err)
+int retex_image_read(RetexImage *dst, const char *path, const RetexReadParams *given, int nthreads, RetexError *err)
 {
     const RetexReadParams params = understand(given);
     RetexInput *input = NULL;
@@ -258,7 +251,7 @@ int retex_image_read_with(RetexImage *dst, const char *path, const RetexReadPara
         return retex_fail(err, RETEX_EINVAL, "the destination is allocated already");
     int status = retex_input_open_allowed(&input, path, params.access, err);
     if (!status)
-        status = read_open(dst, input, path, &params, err);
+        status = read_open(dst, input, path, &params, nthreads, err);
     retex_input_close(&input);
     return status;
 }
@@ -323,7 +316,8 @@ int retex_image_read_check(const char *path, const RetexReadParams *given, Retex
     return status;
 }
 
-int retex_image_read_narrow(RetexNarrowImage *dst, const char *path, const RetexReadParams *given, RetexError *err)
+int retex_image_read_narrow(RetexNarrowImage *dst, const char *path, const RetexReadParams *given, int nthreads,
+                            RetexError *err)
 {
     const RetexReadParams params = understand(given);
     RetexBridgeFile file;
@@ -340,7 +334,7 @@ int retex_image_read_narrow(RetexNarrowImage *dst, const char *path, const Retex
         if (named ? strcasecmp(params.colorspace, "sRGB") == 0 : !ocio || !ocio[0])
             status = retex_jpeg_read_narrow(dst, input, file.max_pixels, err);
         if (!status && !dst->pixels)
-            status = retex_bridge_read_narrow(dst, &file, err);
+            file.nthreads = nthreads, status = retex_bridge_read_narrow(dst, &file, err);
     }
     retex_input_close(&input);
     return status;

@@ -368,7 +368,8 @@ static void write_band(void *context, int index, int thread)
                              NULL); /* the picture keeps the error */
 }
 
-int retex_image_write(const RetexImage *src, const char *path, const RetexWriteParams *params, RetexError *err)
+int retex_image_write(const RetexImage *src, const char *path, const RetexWriteParams *params, int nthreads,
+                      RetexError *err)
 {
     WholeImage whole = {NULL, src};
 
@@ -377,6 +378,6 @@ int retex_image_write(const RetexImage *src, const char *path, const RetexWriteP
     const int status = retex_picture_open(&whole.picture, path, src->width, src->height, src->channels, params, err);
     if (status)
         return status;
-    retex_parallel(0, whole.picture->nbands, write_band, &whole);
+    retex_parallel(nthreads, whole.picture->nbands, write_band, &whole);
     return retex_picture_close(&whole.picture, 1, err);
 }

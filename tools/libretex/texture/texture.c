@@ -311,10 +311,10 @@ int retex_texture_load(RetexTexture **out, const RetexTextureSpec *spec, int nth
         const RetexReadParams params = read_params(own);
         RetexNarrowImage narrow = {0};
         RetexImage image = {0};
-        code = retex_image_read_narrow(&narrow, own->image, &params, &why);
+        code = retex_image_read_narrow(&narrow, own->image, &params, nthreads, &why);
         RetexTexels texels = {narrow.width, narrow.height, 1, narrow.pixels};
         if (!code && !narrow.pixels)
-            code = retex_image_read_with(&image, own->image, &params, &why);
+            code = retex_image_read(&image, own->image, &params, nthreads, &why);
         if (!code)
             code = narrow.pixels ? take_texels(texture, &texels, nthreads, &why)
                                  : take_pixels(texture, &image, nthreads, &why);

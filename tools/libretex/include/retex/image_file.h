@@ -8,19 +8,13 @@
 extern "C" {
 #endif
 
-/* Read the colours of any file that OpenImageIO reads, or an EXR through OpenEXRCore without loading OpenImageIO.
- * path "-" is standard input (EXR only). The result has 4 channels R,G,B,A, scene-linear Rec.709, alpha unassociated
- * (1 where the file has none; grey is spread over R,G,B). colorspace: NULL = 8- and 16-bit integers are sRGB, floats
- * scene-linear, an EXR what its header says (acesImageContainerFlag, colorInteropID, chromaticities, in this order);
- * otherwise a name known to the OCIO config. Only the first subimage is read.
- * Files of more than max_pixels pixels (0 = no limit) are refused with RETEX_ELIMIT. */
-int retex_image_read(RetexImage *dst, const char *path, const char *colorspace, long max_pixels, RetexError *err);
-
-/* The same with limits and access. Begin with RETEX_READ_INIT. */
+/* How a picture is read. Begin with RETEX_READ_INIT. */
 typedef struct RetexReadParams {
     size_t size;               /* of this struct */
-    const char *colorspace;    /* default NULL */
-    long max_pixels;           /* default 0 */
+    const char *colorspace;    /* a name known to the OCIO config. NULL, the default = 8- and 16-bit integers are sRGB,
+                                  floats scene-linear, an EXR what its header says (acesImageContainerFlag,
+                                  colorInteropID, chromaticities, in this order) */
+    long max_pixels;           /* a picture of more is refused with RETEX_ELIMIT. Default 0 = no limit */
     const RetexAccess *access; /* borrowed; default NULL = any file */
     const RetexBudget *budget; /* borrowed: a picture of more pixels, or for which it has not enough memory left, is
                                   refused before it is decoded. Default NULL = none is */
@@ -28,9 +22,13 @@ typedef struct RetexReadParams {
 } RetexReadParams;
 #define RETEX_READ_INIT { sizeof(RetexReadParams), NULL, 0, NULL, NULL, 16 }
 
-int retex_image_read_with(RetexImage *dst, const char *path, const RetexReadParams *params /* NULL = defaults */,
-                          RetexError *err);
-/* Check whether retex_image_read_with could read a file, as far as its beginning tells: it exists, may be read, and is
+/* Read the colours of any file that OpenImageIO reads, or an EXR through OpenEXRCore without loading OpenImageIO. path
+ * "-" is standard input (EXR only). The result has 4 channels R,G,B,A, scene-linear Rec.709, alpha unassociated (1
+ * where the file has none; grey is spread over R,G,B). Only the first subimage is read. nthreads: at most so many
+ * decode, 0 = all cores. */
+int retex_image_read(RetexImage *dst, const char *path, const RetexReadParams *params /* NULL = defaults */,
+                     int nthreads, RetexError *err);
+/* Check whether retex_image_read could read a file, as far as its beginning tells: it exists, may be read, and is
  * a picture. Colour spaces are not checked, and pipes and "-" are not read. To be called before long work. */
 int retex_image_read_check(const char *path, const RetexReadParams *params /* NULL = defaults */, RetexError *err);
 
@@ -49,9 +47,10 @@ typedef struct RetexWriteParams {
 /* Write a picture of 1 (grey), 3 (RGB) or 4 (RGBA) channels; the format follows the name's ending, "-" is EXR to
  * standard output. EXR (half) and other float formats stay scene-linear unless colorspace says otherwise; 8- and 16-bit
  * formats go through the display transform. An EXR names its colours where they are known, by chromaticities where they
- * are linear, and by the interop ID. Written under a temporary name and renamed when complete. */
+ * are linear, and by the interop ID. Written under a temporary name and renamed when complete. nthreads: at most
+ * so many encode, 0 = all cores; the file is the same for every number. */
 int retex_image_write(const RetexImage *src, const char *path, const RetexWriteParams *params /* NULL = defaults */,
-                      RetexError *err);
+                      int nthreads, RetexError *err);
 
 /* Check whether retex_image_write could write there, as far as that is known without writing: a format of that ending,
  * a folder that takes files, a known display, view or colour space. To be called before the work that makes the
