@@ -161,6 +161,36 @@ static void further_hits_have_two_places(void **state)
     }
 }
 
+/* The weight of an interreflection where places are pooled: the light that its texture multiplies, with every other
+ * texture 1/2, less what reaches the camera by no texture before it. The originals do not count. */
+static void further_hits_weigh_by_light_through_textures(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 2; k++) {
+        Fixture f;
+        begin_film(&f, 1, 3, 6, 2, 1);
+        create_film(&f);
+        later_hit(&f, 9, 1);
+        begin_path(&f);
+        split_hit(&f, 0, 0.5, 0.5, rgb_grey(0.9f), SHARP, (Split){rgb_grey(k ? 0.5f : 1), rgb_grey(k ? 0.5f : 0)});
+        hit(&f, 0, 0.25, 0.5, rgb_grey(0.9f), BROAD);
+        if (k) { /* (1/4 + 1/2 - 1/2) L, and on another path 1/2 L */
+            connect_light(&f, rgb_grey(1));
+            end_path(&f);
+            begin_path(&f);
+            hit(&f, 0, 0.5, 0.5, rgb_grey(0.9f), SHARP);
+        }
+        hit(&f, 0, 0.375, 0.5, rgb_grey(0.9f), BROAD); /* else on the same: 1/2 * 1/2 L both */
+        connect_light(&f, rgb_grey(1));
+        end_path(&f);
+        finish_film(&f);
+        const double share = k ? 2.0 / 3 : 0.5, mean = 0.25 + 0.125 * share, sd = 0.125 * sqrt(share * (1 - share));
+        expect_place(&f, "Floor_interreflection2", mean, sd);
+        expect_place(&f, "Floor_interreflection1", 9, 0);
+        end_film(&f);
+    }
+}
+
 /* Before anything is rendered, and by what the set may need at most. */
 static void too_many_parts_are_refused(void **state)
 {
@@ -187,7 +217,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(either_kind_may_have_all),     cmocka_unit_test(kinds_make_room_for_each_other),
         cmocka_unit_test(no_more_than_there_may_be),    cmocka_unit_test(far_points_claim_no_clusters),
-        cmocka_unit_test(further_hits_have_two_places), cmocka_unit_test(too_many_parts_are_refused),
+        cmocka_unit_test(further_hits_have_two_places), cmocka_unit_test(further_hits_weigh_by_light_through_textures),
+        cmocka_unit_test(too_many_parts_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

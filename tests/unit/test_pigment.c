@@ -62,7 +62,7 @@ static void gradients_are_povray(void **state)
 static void color_maps(void **state)
 {
     ColorMapEntry entries[] = {
-        {0.2, {1, 0, 0, 0, 0}}, {0.5, {0, 0, 0, 0, 0}}, {0.5, {0.5f, 0, 0, 0, 0.2f}}, {0.7, {1, 1, 1, 0, 0}}};
+        {0.2, {1, 0, 0, 0, 0}}, {0.5, {0, 0, 0, 0, 0}}, {0.5, {0.5f, 0, 0, 0, 0.2f}}, {0.7, {1, 1, 1, 0.4f, 0}}};
     Pigment p = pigment(&pattern_gradient);
 
     (void)state;
@@ -71,7 +71,10 @@ static void color_maps(void **state)
     assert_near(value(&p, 0.35, 0), 0.5);
     assert_near(value(&p, 0.5, 0), 0);
     assert_near(value(&p, 0.6, 0), 0.75);
-    assert_near(pigment_eval(&p, vec3(0.6, 0, 0), nowhere).transmit, 0.1);
+    assert_near(value(&p, 0.26, 0), 0.8); /* a fifth of the way from 1 to 0 */
+    assert_near(value(&p, 0.65, 0), 0.875);
+    assert_near(pigment_eval(&p, vec3(0.65, 0, 0), nowhere).filter, 0.3);
+    assert_near(pigment_eval(&p, vec3(0.65, 0, 0), nowhere).transmit, 0.05);
     assert_near(value(&p, 0.9, 0), 1);
     assert_false(pigment_is_opaque(&p));
     assert_false(pigment_is_constant(&p));

@@ -241,11 +241,17 @@ static void compare(const RetexImage *a, const RetexImage *b, double tolerance, 
             fail_msg("%s: sample %zu is %.6f, should be %.6f", what, i, a->pixels[i], b->pixels[i]);
 }
 
-static void check_recombining(int paper)
+/* shiny: a floor with a smooth coat, and a ball that is half a rough metal. Some hits have a black dependent part then,
+ * others have both parts. */
+static void check_recombining(int paper, int shiny)
 {
     /* constant originals: the polynomial is the picture; other constants: it is the other picture */
     Stage s;
     target_stage(&s);
+    for (int k = 0; k < 2 && shiny; k++) {
+        s.finishes[k].retex.present = 1, s.finishes[k].retex.ior = 1.5, s.finishes[k].retex.specular_tint = 1;
+        s.finishes[k].retex.metallic = 0.6 * k, s.finishes[k].retex.roughness = 0.4 * k;
+    }
     s.paper = paper;
     s.max_depth = paper ? RETEX_MAX_ORDERS + 1 : 5; /* no path has more hits than the set keeps: nothing is folded */
     RetexSet *set = stage_render(&s, 32, 0, 2), *plain = stage_render(&s, 32, 1, 2);
@@ -262,7 +268,7 @@ static void check_recombining(int paper)
     RetexTextureSpec specs[2] = {RETEX_TEXTURE_SPEC_INIT, RETEX_TEXTURE_SPEC_INIT};
     RetexTexture *textures[2];
     RetexSamples *samples = NULL;
-    const float colors[2][3] = {{0.9f, 0.9f, 0.9f}, {0.8f, 0.05f, 0.02f}};
+    const float colors[2][3] = {{0.9f, 0.3f, 0.05f}, {0.1f, 0.05f, 0.8f}};
     RenderVariant replaced = {{NULL}, NULL};
     for (int k = 0; k < 2; k++) {
         strcpy(specs[k].target, k ? "Ball" : "Floor");
@@ -288,13 +294,25 @@ static void check_recombining(int paper)
 static void paper_recombines(void **state)
 {
     (void)state;
-    check_recombining(1);
+    check_recombining(1, 0);
+}
+
+static void paper_recombines_shiny_targets(void **state)
+{
+    (void)state;
+    check_recombining(1, 1);
 }
 
 static void footprints_recombine(void **state)
 {
     (void)state;
-    check_recombining(0);
+    check_recombining(0, 0);
+}
+
+static void footprints_recombine_shiny_targets(void **state)
+{
+    (void)state;
+    check_recombining(0, 1);
 }
 
 static void the_inside_is_another_surface(void **state)
@@ -321,13 +339,18 @@ static void the_inside_is_another_surface(void **state)
     stage_close(&s);
 }
 
-static float part_at(const RetexSet *set, const char *name, int x, int y)
+static const float *part_pixel(const RetexSet *set, const char *name, int x, int y)
 {
     int part = retex_set_find_part(set, name);
     if (part < 0)
         fail_msg("no part %s", name);
     const RetexImage *image = &set->parts[part].image;
-    return image->pixels[retex_image_index(image, x, y)];
+    return image->pixels + retex_image_index(image, x, y);
+}
+
+static float part_at(const RetexSet *set, const char *name, int x, int y)
+{
+    return *part_pixel(set, name, x, y);
 }
 
 static void irradiance_knows_no_material(void **state)
@@ -360,6 +383,42 @@ static void irradiance_knows_no_material(void **state)
         retex_set_close(&set);
         stage_close(&s);
     }
+}
+
+/* From inside a sphere of radius 2, over a plane at y = -1: what the ray through each pixel's centre meets. */
+static void aovs_are_of_the_first_hit(void **state)
+{
+    (void)state;
+    Stage s;
+    RenderParams p = RENDER_PARAMS_INIT;
+    RetexSet *set = NULL;
+    stage_open(&s);
+    s.scene->camera.location = vec3(0, 0, 0);
+    stage_add(&s, &shape_sphere, at(0, 0, 0, 2), 0.25f, 0.5f, 0.75f);
+    stage_add(&s, &shape_plane, at(0, -1, 0, 1), 1, 1, 1);
+    s.pigments[0].uv_mapping = 1;
+    p.spp = 1, p.plain = 1, p.aovs = RETEX_AOV_ALL;
+    assert_int_equal(render_scene(&set, s.scene, &p, NULL, NULL), 0);
+    for (int y = 0; y < 12; y++)
+        for (int x = 0; x < 16; x++) {
+            const Vec3 d = vec_normalize(vec3(1.333 * ((x + 0.5) / 16 - 0.5), 0.5 - (y + 0.5) / 12, 1));
+            const int is_plane = d.y < 0 && -1 / d.y < 2;
+            const double t = is_plane ? -1 / d.y : 2;
+            const double n[3] = {is_plane ? 0 : -d.x, is_plane ? 1 : -d.y, is_plane ? 0 : -d.z};
+            const double at[3] = {t * d.x, t * d.y, t * d.z}, albedo[3] = {0.25, 0.5, 0.75};
+            expect(part_at(set, "depth", x, y), t, 1e-4, "depth");
+            expect(part_at(set, "object", x, y), is_plane ? 2 : 1, 0, "object");
+            for (int c = 0; c < 3; c++) {
+                expect(part_pixel(set, "normal", x, y)[c], n[c], 1e-4, "normal");
+                expect(part_pixel(set, "position", x, y)[c], at[c], 1e-4, "position");
+                expect(part_pixel(set, "albedo", x, y)[c], is_plane ? 1 : albedo[c], 1e-6, "albedo");
+            }
+            if (!is_plane)
+                expect(part_pixel(set, "uv", x, y)[1], 0.5 + asin(d.y) / PI, 1e-4, "v");
+            expect(part_pixel(set, "uv", x, y)[2], 1, 0, "alpha of uv");
+        }
+    retex_set_close(&set);
+    stage_close(&s);
 }
 
 static void variants_share_paths(void **state)
@@ -456,11 +515,13 @@ static void halves_are_renders_of_their_own(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(furnace_is_invisible),          cmocka_unit_test(point_light_over_a_plane),
-        cmocka_unit_test(sphere_emitter_irradiance),     cmocka_unit_test(slab_reflects_by_fresnel),
-        cmocka_unit_test(bits_do_not_depend_on_threads), cmocka_unit_test(paper_recombines),
-        cmocka_unit_test(footprints_recombine),          cmocka_unit_test(the_inside_is_another_surface),
-        cmocka_unit_test(irradiance_knows_no_material),  cmocka_unit_test(variants_share_paths),
-        cmocka_unit_test(moments_are_of_single_paths),   cmocka_unit_test(halves_are_renders_of_their_own)};
+        cmocka_unit_test(furnace_is_invisible),           cmocka_unit_test(point_light_over_a_plane),
+        cmocka_unit_test(sphere_emitter_irradiance),      cmocka_unit_test(slab_reflects_by_fresnel),
+        cmocka_unit_test(bits_do_not_depend_on_threads),  cmocka_unit_test(paper_recombines),
+        cmocka_unit_test(paper_recombines_shiny_targets), cmocka_unit_test(footprints_recombine_shiny_targets),
+        cmocka_unit_test(footprints_recombine),           cmocka_unit_test(the_inside_is_another_surface),
+        cmocka_unit_test(aovs_are_of_the_first_hit),      cmocka_unit_test(irradiance_knows_no_material),
+        cmocka_unit_test(variants_share_paths),           cmocka_unit_test(moments_are_of_single_paths),
+        cmocka_unit_test(halves_are_renders_of_their_own)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

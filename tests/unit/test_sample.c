@@ -92,8 +92,43 @@ static void footprints_end_where_the_target_does(void **state)
     remove(path);
 }
 
+/* Where a texture is clear, the original shows through: a sample is the colour, and the rest of the original's albedo.
+ * No two channels are alike. */
+static void holes_show_the_original(void **state)
+{
+    (void)state;
+    static const float texel[4] = {0.8f, 0.4f, 0.2f, 0.25f}, albedo[3] = {0.5f, 0.125f, 0.9f};
+    char path[] = "/tmp/retex-clear-XXXXXX.exr";
+    RetexImage im = {0};
+    RetexError err = {0};
+    RetexSet *set = make_border("gaussian", 1);
+    RetexSamples *samples;
+    RetexTextureSpec spec = RETEX_TEXTURE_SPEC_INIT;
+    const int fd = mkstemps(path, 4);
+
+    assert_true(fd >= 0);
+    close(fd);
+    test_must(retex_image_alloc(&im, 8, 8, 4, &err), &err);
+    for (int i = 0; i < 64; i++)
+        memcpy(im.pixels + 4 * i, texel, sizeof texel);
+    test_must(retex_image_write(&im, path, NULL, 1, &err), &err);
+    retex_image_free(&im);
+    for (int k = 0; k < 3; k++)
+        memcpy(set->parts[set->footprints[k].albedo].image.pixels, albedo, sizeof albedo);
+    strcpy(spec.target, "Floor");
+    snprintf(spec.image, sizeof spec.image, "%s", path);
+    test_must(retex_sample(&samples, set, &spec, 1, 1, &err), &err);
+    for (int k = 0; k < 3; k++)
+        for (int c = 0; c < 3; c++)
+            assert_float_equal(samples->images[k].pixels[c], texel[c] * texel[3] + albedo[c] * (1 - texel[3]), 2e-4);
+    retex_samples_close(&samples);
+    retex_set_close(&set);
+    remove(path);
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(footprints_end_where_the_target_does)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(footprints_end_where_the_target_does),
+                                       cmocka_unit_test(holes_show_the_original)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,4 +1,4 @@
-/* Decoding bands of planes into integers, channel by channel, and rows of these into samples. See scratch.h. */
+/* Bands of planes: their numbers, channel by channel, and rows of samples from these. See scratch.h. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -29,7 +29,7 @@ static int no_memory(RetexError *err)
 
 static int have_numbers(int part, int band, int c, RetexPackScratch *s, RetexError *err);
 
-/* Decode which pixels have coverage, for the parts whose values this part's coverage masks. */
+/* Know where the numbers matter of the parts that this one says it of. */
 static int have_runs(int part, int band, RetexPackScratch *s, RetexError *err)
 {
     const RetexPackPart *p = &s->pack->parts[part];
@@ -54,7 +54,7 @@ static int have_runs(int part, int band, RetexPackScratch *s, RetexError *err)
     return 0;
 }
 
-/* The lattice shifts of the means of channel c, into s->shift. */
+/* What multiples the means of channel c are, into s->shift. */
 static int make_shift(int part, int band, int c, const RetexPackRuns *runs, RetexPackScratch *s, RetexError *err)
 {
     const RetexPackPart *p = &s->pack->parts[part];
@@ -73,7 +73,7 @@ static int make_shift(int part, int band, int c, const RetexPackRuns *runs, Rete
     return code;
 }
 
-/* Decode one channel. */
+/* Have those of one channel. */
 static int have_numbers(int part, int band, int c, RetexPackScratch *s, RetexError *err)
 {
     const RetexPackPart *p = &s->pack->parts[part];
@@ -176,7 +176,7 @@ static void map_run(const RetexPackPart *p, const RetexPackPlaneBand *own, int l
             retex_pack_map_samples(out, channels, (const int32_t *)own->numbers[c] + at, count, &p->maps[c], p->type);
 }
 
-/* Clear the samples of the row before. */
+/* What is of the row that was there becomes 0. */
 static void clear_row(const RetexPackPart *p, const RetexPackPlaneBand *own, float *row)
 {
     const size_t channels = (size_t)p->channels;

@@ -1,5 +1,5 @@
-/* Decoding packs band by band. The checksum of every chunk is compared, and memory is allocated only as its size
- * justifies. */
+/* Decoding packs band by band. Every chunk must have its checksum, and no memory is taken that its bytes could not
+ * fill. */
 #include "pack/scratch.h"
 
 #include <stdlib.h>
@@ -156,7 +156,7 @@ static int decode_model(int part, int band, float *out, RetexPackScratch *s, Ret
 
 /* ---- JPEGs ---- */
 
-/* Decode the mask of a band, one bit a pixel, and whether it covers all pixels. */
+/* Have the mask of a band, bits of bytes, and know whether it leaves any pixel. */
 static int decode_mask(int part, int band, RetexPackCachedBand *cached, RetexPackScratch *s, RetexError *err)
 {
     const RetexPackPart *p = &s->pack->parts[part];
@@ -197,7 +197,7 @@ static int jpeg_damaged(RetexError *err, int code, const RetexError *why, const 
     return retex_fail(err, code, "the pack is damaged: part '%s': %s", s->pack->set->parts[part].name, why->message);
 }
 
-/* Decode the coefficients of a band. */
+/* Have the coefficients of a band. */
 static int open_jpeg(int part, int band, RetexPackCachedBand *cached, RetexPackScratch *s, RetexError *err)
 {
     const RetexPackPart *p = &s->pack->parts[part];
@@ -222,7 +222,7 @@ static int open_jpeg(int part, int band, RetexPackCachedBand *cached, RetexPackS
     return code ? jpeg_damaged(err, code, &why, s, part) : 0;
 }
 
-/* Decode the row of blocks that contains a row of the band. */
+/* Have the row of blocks that a row of the band is in. */
 static int decode_blocks(int part, int line, RetexPackCachedBand *cached, const RetexPackScratch *s, RetexError *err)
 {
     const RetexPackPart *p = &s->pack->parts[part];
@@ -256,7 +256,7 @@ static int kept_rows(const RetexPackPart *p)
                                            : RETEX_PACK_BAND_ROWS;
 }
 
-/* Decode the band into the cache, unless it is there. */
+/* Have the band in the cache. */
 static int cache_band(int part, int band, RetexPackScratch *s, RetexError *err)
 {
     const RetexPackPart *p = &s->pack->parts[part];

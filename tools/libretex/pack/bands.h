@@ -15,13 +15,14 @@ int retex_pack_open(RetexSet **set, RetexInput **input, RetexError *err);
 RetexPack *retex_pack_of(const RetexSet *set); /* that it was opened from, or NULL */
 void retex_pack_close(RetexPack **pack);       /* NULL and pointers to NULL are fine */
 
-/* The decoder state of a thread, with the band of each part that was decoded last. */
+/* A thread's means of decoding, which keep the band of each part that was met last. */
 typedef struct RetexPackScratch RetexPackScratch;
 int retex_pack_scratch_create(RetexPackScratch **scratch, const RetexPack *pack, RetexError *err);
 void retex_pack_scratch_close(RetexPackScratch **scratch); /* NULL and pointers to NULL are fine */
 
-/* Row y of a part, interleaved; NULL if all of it is 0. It is 0 outside the span. The scratch owns the row, which is
- * valid until the next call for the same part. Whole bands are decoded: reading rows in order is cheapest. */
+/* A part's row y of its own rows, interleaved; NULL where all of it is 0. Beside the span it is 0. It is the scratch's,
+ * and stays until the next call for the same part. Bands of 64 rows are decoded whole: cheapest is one row after the
+ * other. */
 int retex_pack_row(RetexPackScratch *scratch, int part, int y, const float **row, RetexRowSpan *span, RetexError *err);
 
 /* Bytes that a part takes in the pack, and how it is coded: "jpeg", "planes", … */

@@ -1,5 +1,5 @@
-/* Part 0 of a lossless pack as the difference from the recombination of the terms with the original textures, which is
- * 0 for denoised sets. Private to libretex; the arithmetic is part of the format to the bit: retex-pack(5). */
+/* Part 0 of a lossless pack as what differs from the picture that the set's terms give with the original textures: of a
+ * denoised set nothing does. Private to libretex; the arithmetic, to the bit, is part of the format: retex-pack(5). */
 #ifndef RETEX_PACK_COMBINE_H
 #define RETEX_PACK_COMBINE_H
 
@@ -7,17 +7,17 @@
 
 #include "pack/model.h"
 
-/* 1 if part 0 is a picture and all parts that the terms need have its size and are not part 0; else 0, or RETEX_ENOMEM.
- * Samples are not read. */
+/* 1: part 0 is a picture, and all that its terms need is there, of its size and not part 0 itself; else 0; or
+ * RETEX_ENOMEM. Looks at what the set says of its parts, not at their samples. */
 int retex_pack_combine_fits(const RetexSet *set, RetexError *err);
 
-/* 1 if all half parts that the terms need, which are in memory, hold values that halves can represent. */
+/* 1: the halves among what terms need, all of it in memory, are what will be read back: they have been rounded. */
 int retex_pack_combine_is_stored(const RetexSet *set, int nthreads);
 
-/* Subtract the recombined picture from the band, which has rows of part 0 from y0 on. *finite is cleared if a
- * recombined value is infinite or NaN. */
+/* Take the numbers of the recombined picture from those of part 0, whose rows from y0 on the band has. *finite is
+ * cleared where a value of the picture is infinite or not a number. */
 int retex_pack_combine_subtract(RetexPackModelBand *band, const RetexSet *set, int y0, int *finite, RetexError *err);
-/* The inverse. Rows of the terms' parts come from memory or from the set's source. */
+/* And back. Rows of the terms' parts come from memory, or else from the set's source. */
 int retex_pack_combine_add(RetexPackModelBand *band, const RetexSet *set, int y0, RetexError *err);
 
 #endif

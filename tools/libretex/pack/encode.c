@@ -1,4 +1,4 @@
-/* See encode.h. Codecs are planned first; then the bands of all parts are encoded on all threads. */
+/* See encode.h: parts are planned, and their bands encoded on all threads. */
 #include "pack/encode.h"
 
 #include <math.h>
@@ -12,7 +12,7 @@
 #include "pack/model.h"
 
 static const int EFFORT = 8;              /* of blosc's zstd */
-static const uint32_t NEVER = UINT32_MAX; /* marks a chunk that this codec cannot store */
+static const uint32_t NEVER = UINT32_MAX; /* bytes of a piece that cannot be stored so */
 
 static int no_memory(RetexError *err)
 {
@@ -29,8 +29,8 @@ static int is_black(const float *pixel, size_t channels)
     return black;
 }
 
-/* The mask restores black pixels, so their levels are free: they take the mean of the other pixels of their 8 x 8
- * block, which costs least and avoids ringing at the edges. */
+/* Black pixels come back from the mask, so their levels are free: the mean of the others of their 8 x 8 block costs
+ * least and keeps edges between light and black from ringing. */
 static void fill_black(float *levels, const RetexImage *im)
 {
     const size_t channels = (size_t)im->channels;
@@ -53,7 +53,7 @@ static void fill_black(float *levels, const RetexImage *im)
         }
 }
 
-/* The levels of a part, clipped at `most`. */
+/* Levels of a part. most: what is above is clipped. */
 static float *levels_of(const RetexImage *im, const RetexPackCurve *curve, double most)
 {
     const size_t count = (size_t)im->width * (size_t)im->height * (size_t)im->channels;
@@ -97,7 +97,7 @@ static int has_black(const RetexImage *im)
     return 0;
 }
 
-/* Part 0 is the picture, for viewers only: coarser steps, clipped at white. */
+/* Part 0 is the picture, for viewers: coarser, and white is the most that it shows. */
 static int encode_jpeg(RetexPackItem *item, int is_picture, RetexError *err)
 {
     const RetexImage *im = &item->part->image;
@@ -126,7 +126,7 @@ static int encode_jpeg(RetexPackItem *item, int is_picture, RetexError *err)
 
 /* --- planes --- */
 
-/* Scratch to encode a band's planes. */
+/* Room to encode a band's planes. */
 typedef struct Band {
     size_t pixels;
     unsigned char *present, *shift, *scratch;
@@ -209,9 +209,9 @@ static int encode_band(const RetexPackEncoded *w, int part, int index)
     return ok;
 }
 
-/* --- lossless --- */
+/* --- without loss --- */
 
-/* Lattice shifts of means, from their standard deviations. */
+/* Shifts of means, from their standard deviations. */
 static void fill_mean_shifts(RetexPackModelBand *model, const RetexPackEncoded *w, const RetexPackPart *p, int index)
 {
     const RetexImage *sigma = &w->set->parts[p->sigma].image;
@@ -243,7 +243,7 @@ static int encode_model_band(const RetexPackEncoded *w, int part, int index)
     return bytes >= 0;
 }
 
-/* Plan a second encoding of the picture: as the difference from the recombination of the terms. */
+/* The picture's numbers less those that the terms give are tried besides the picture alone. */
 static int plan_combined(RetexPackEncoded *w, int nthreads, RetexError *err)
 {
     RetexPackPart *picture = &w->packed[0];
@@ -264,8 +264,8 @@ static uint64_t bytes_of(const RetexPackPart *packed)
     return bytes;
 }
 
-/* Take the smaller encoding of part 0. A recombination that is not finite is not reproducible, because readers may skip
- * black rows of terms: then the picture is stored alone. */
+/* Part 0 is what is smaller. What readers make of a term that is black all over a row is not told where the sum is not
+ * finite, so then it stays alone. */
 static void choose_picture(RetexPackEncoded *w)
 {
     RetexPackItem *items[2] = {&w->items[0], &w->items[w->set->nparts]};
@@ -281,7 +281,7 @@ static void choose_picture(RetexPackEncoded *w)
 
 /* --- all parts --- */
 
-/* The number of bands that are jobs of their own; JPEGs are encoded whole. */
+/* As jobs of their own: JPEGs are encoded whole. */
 static int bands_to_encode(const RetexPackPart *packed)
 {
     return packed->codec == RETEX_PACK_PLANES || retex_pack_is_modelled(packed) ? packed->nbands : 0;

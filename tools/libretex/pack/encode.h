@@ -1,14 +1,14 @@
-/* Encoding the parts of a set for a pack. Private to libretex. */
+/* A set's parts, encoded as a pack has them. Private to libretex. */
 #ifndef RETEX_PACK_ENCODE_H
 #define RETEX_PACK_ENCODE_H
 
 #include "pack/plan.h"
 
-/* One part, encoded. */
+/* Encoding one part. */
 typedef struct RetexPackItem {
     const RetexPart *part;
     RetexPackPart *packed;
-    unsigned char **chunks; /* each malloc'ed; those of a JPEG point into jpeg.data */
+    unsigned char **chunks; /* malloc'ed each, but those of a JPEG, which lie in jpeg.data */
     RetexPackJpeg jpeg;
     uint32_t crc; /* of its samples */
     int code;
@@ -19,7 +19,7 @@ typedef struct RetexPackEncoded {
     const RetexSet *set;
     RetexPackPart *packed;
     RetexPackItem *items;
-    int nitems;            /* one for each part, and one for the second encoding of part 0, if there is one */
+    int nitems;            /* one for each part, and one more where part 0 is tried in two ways: without the terms */
     RetexPackJpeg picture; /* of a lossless pack: for viewers only */
     int *jobs;             /* pairs: part and band */
     int njobs;

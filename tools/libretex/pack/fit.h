@@ -1,5 +1,5 @@
-/* Linear prediction of a band's numbers from numbers coded before, with weights fitted to the band. Private to
- * libretex; described in retex-pack(5). */
+/* Prediction of a band's numbers as weighted sums of numbers that were coded before, the weights fitted to the band.
+ * Private to libretex; what is predicted by what is described in retex-pack(5). */
 #ifndef RETEX_PACK_FIT_H
 #define RETEX_PACK_FIT_H
 
@@ -89,7 +89,7 @@ static inline int64_t retex_pack_fit_guess(const RetexPackFitChannel *channel, p
     return retex_pack_fit_guess_by(channel, at, above, channel->by_fit ? channel->nweights : 0);
 }
 
-/* Fill the margin of row y; row y - 1 must be final. */
+/* The margin that row y needs to be coded, of everything; what row y - 1 holds is final. */
 void retex_pack_fit_begin_row(RetexPackFitChannel *channel, int y);
 
 /* Choose weights, or the median, for numbers that are multiples of 2^shift; shifts may be NULL. */

@@ -1,4 +1,4 @@
-/* The pack's part of the manifest, written and parsed. See format.h. */
+/* What a pack's manifest says of its parts. See format.h. */
 #include "pack/format.h"
 
 #include <jansson.h>

@@ -1,4 +1,4 @@
-/* The structure of a pack, shared by writer and reader; retex-pack(5) describes the format. */
+/* What a pack consists of, shared by its writer and its readers; retex-pack(5) describes the format. */
 #ifndef RETEX_PACK_FORMAT_H
 #define RETEX_PACK_FORMAT_H
 
@@ -21,7 +21,7 @@ typedef enum RetexPackCodec {
     RETEX_PACK_ZERO,     /* every sample is +0: no data */
     RETEX_PACK_PLANES,   /* planes/NAME.blk: band by band one chunk a channel */
     RETEX_PACK_MODEL,    /* planes/NAME.blk: one chunk a band, without loss */
-    RETEX_PACK_COMBINED, /* part 0, as RETEX_PACK_MODEL: the difference from the recombination of the terms */
+    RETEX_PACK_COMBINED, /* part 0, as RETEX_PACK_MODEL: what differs from the recombination of the set's terms */
     RETEX_PACK_JPEG,     /* radiance/NAME.jpg: header, then a chunk a band; planes/NAME.blk: its mask's bands */
     RETEX_PACK_CODECS
 } RetexPackCodec;
@@ -34,7 +34,7 @@ typedef struct RetexPackPart {
     int width, height, channels, nbands;
     RetexPixelType type;
     RetexPackMap maps[RETEX_PACK_CHANNELS_MAX]; /* planes */
-    int present;                                /* planes: the part whose third channel, coverage, masks this one; -1 */
+    int present;          /* planes: the part whose third channel is 0 where this one's mean nothing; -1 */
     int sigma;            /* with RETEX_PACK_MAP_LATTICE: the part of their standard deviations; -1 */
     int sigma_first;      /* planes: code c: multiples of 2^((c - 1 + sigma_first) / per_octave) */
     RetexPackCurve curve; /* JPEG */
@@ -66,11 +66,11 @@ void retex_pack_file_name(char *name, size_t size, const RetexSet *set, int part
 /* CRC-32 of a part's samples as they are stored: see RetexPart. */
 int retex_pack_samples_crc(uint32_t *crc, const RetexPart *part, RetexError *err);
 
-/* Add the key "pack" to the manifest's text, and parse it; packed[set->nparts]. kept: quality and PSNR, or NULL. */
+/* The key "pack" of the manifest's text, and back; packed[set->nparts]. kept: what is said of the loss, or NULL. */
 char *retex_pack_describe(const char *manifest, const RetexSet *set, const RetexPackPart *packed,
                           const RetexPackKept *kept);
 int retex_pack_parse(RetexPackPart *packed, const RetexSet *set, const char *manifest, RetexError *err);
-/* Quality and PSNR in the manifest; 1, or 0 if they are missing or invalid. */
+/* What it says of the loss; 1, or 0 where it says nothing, or nothing sound. */
 int retex_pack_kept_of(RetexPackKept *kept, const char *manifest);
 /* The manifest's version of the format, or 0. */
 int retex_pack_version_of(const char *manifest);

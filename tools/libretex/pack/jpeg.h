@@ -1,9 +1,8 @@
-/* Radiance as JPEG, band by band. A part is one baseline JPEG file, 4:4:4 or grey, with one restart interval for each
- * band, so that each band can be decoded alone, with the file's header.
+/* Light as JPEG, band by band. A picture is one plain JPEG file, 4:4:4 or grey, with a restart interval of a band's
+ * rows, so that each band's piece of it can be decoded alone, behind the file's header.
  *
- * Encoder and decoder use their own cosine transform in floating point: precision is not limited to the 8 bits that a
- * viewer shows, and values above white, which a viewer clips, are kept.
- * Private to libretex; described in retex-pack(5). */
+ * The transform is our own, in floating point, at both ends: 8 bits are then what a viewer gets, not what is kept, and
+ * values above white (which a viewer clips) are kept too. Private to libretex; described in retex-pack(5). */
 #ifndef RETEX_PACK_JPEG_H
 #define RETEX_PACK_JPEG_H
 
@@ -46,13 +45,13 @@ void retex_pack_jpeg_free(RetexPackJpeg *jpeg);
 int retex_pack_jpeg_encode(RetexPackJpeg *jpeg, const float *levels, int width, int height, int channels, double step,
                            RetexError *err);
 
-/* The JPEG decoder of a thread. */
+/* A thread's means of decoding one JPEG. */
 typedef struct RetexPackJpegDecoder RetexPackJpegDecoder;
 int retex_pack_jpeg_decoder_create(RetexPackJpegDecoder **decoder, RetexError *err);
 void retex_pack_jpeg_decoder_close(RetexPackJpegDecoder **decoder); /* NULL and pointers to NULL are fine */
 
-/* Open one band: file is the header followed by the band's piece, and may be freed afterwards. Any warning of libjpeg,
- * or another size, is RETEX_EFORMAT. */
+/* Take one band of rows, which is the open one then: file is the header followed by the band's piece, and not needed
+ * any more afterwards. What does not decode without complaint, or is of another size, is RETEX_EFORMAT. */
 int retex_pack_jpeg_open_band(RetexPackJpegDecoder *decoder, unsigned char *file, size_t header, size_t bytes,
                               int width, int rows, int channels, const RetexPackCurve *curve, RetexError *err);
 

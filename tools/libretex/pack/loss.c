@@ -62,9 +62,9 @@ int retex_pack_bytes(uint64_t bytes[RETEX_PACK_GROUPS], const RetexSet *set)
 
 /* --- loss --- */
 
-/* Textures of the trial pictures: the originals, white, smooth waves, and a chequerboard, with the hardest edges. */
+/* For each picture its textures: none, white, smooth waves, and a chequerboard, which has the hardest edges. */
 enum { SIDE = 256, WAVES = 4, SQUARES = 16 };
-enum { ENOUGH_SAMPLES = 32 }; /* a pixel: with fewer, less is promised */
+enum { ENOUGH_SAMPLES = 32 }; /* a pixel: of fewer less is promised */
 
 static const double CODE_MOST = 65535;
 static const double PSNR_MOST = 120;
@@ -102,7 +102,8 @@ static uint64_t squares_between(const uint16_t *a, const uint16_t *b, size_t cou
     return sum;
 }
 
-/* Add the noise parts of the denoising data to rows of the picture; those of targets by half, as they are defined. */
+/* Rows of the picture as they would be with the noise that denoising reads on top; that of targets by half, for they
+ * are divided so. */
 static int add_noise(float *rows, const RetexSet *set, int y0, int y1, RetexError *err)
 {
     const size_t length = 3 * (size_t)set->width;

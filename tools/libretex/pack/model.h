@@ -1,5 +1,5 @@
-/* Lossless coding of bands of integers: prediction fitted to neighbours in all channels, and residuals coded with an
- * adaptive model of their magnitude. Private to libretex; described in retex-pack(5). */
+/* Bands of whole numbers, predicted by a fit to their neighbours in all channels and coded by a model of how large the
+ * residuals are: what lossless packs are made of. Private to libretex; described in retex-pack(5). */
 #ifndef RETEX_PACK_MODEL_H
 #define RETEX_PACK_MODEL_H
 

@@ -34,7 +34,7 @@ void retex_pack_close(RetexPack **result)
 
 /* --- opening --- */
 
-/* Read a whole entry, compare its checksum, and append a NUL. */
+/* An entry whole, its checksum compared, with a NUL behind it. */
 static int read_entry(const RetexPack *pack, const char *name, uint64_t most, unsigned char **data, size_t *bytes,
                       RetexError *err)
 {
@@ -60,7 +60,7 @@ static uint32_t little(const unsigned char *at)
     return at[0] | (uint32_t)at[1] << 8 | (uint32_t)at[2] << 16 | (uint32_t)at[3] << 24;
 }
 
-/* Offsets of chunks first to first + count - 1 of a part, which are one entry of the ZIP. *used counts entries. */
+/* Places of chunks first..first+count of a part, which are one entry of the zip. *used counts entries. */
 static int place_chunks(RetexPack *pack, int part, int planes, int first, int count, int *used, RetexError *err)
 {
     RetexPackPart *p = &pack->parts[part];
@@ -113,7 +113,7 @@ static int read_index(RetexPack *pack, RetexError *err)
     return code;
 }
 
-/* Check the memory that the parts need, and that the file is large enough for an index of their chunks. */
+/* What the parts will need in memory, and what could be behind that at most: a chunk of a few bytes holds a band. */
 static int check_sizes(const RetexPack *pack, RetexError *err)
 {
     uint64_t memory = 0, chunks = 0;

@@ -10,14 +10,14 @@
 #include "compact/light.h"
 #include "compact/image_noise.h"
 
-#define FINE_NOISE 3     /* a radiance step is at most so many times the noise, */
-#define FINER_MOST 4     /* but not finer than the quality's divided by this; */
-#define COARSE_NOISE 0.5 /* it is at least so many times the noise, */
+#define FINE_NOISE 3     /* light's step is at most so many times its noise, */
+#define FINER_MOST 4     /* but this share of the quality's; */
+#define COARSE_NOISE 0.5 /* and at least so many times its noise, */
 #define COARSER_MOST 3   /* but not more than so many times the quality's */
-#define BRIGHTER_MOST 4  /* largest white level of a radiance part, times the set's */
-#define GAIN_STEP 2.5    /* a gain step, in steps of its radiance: many gains add up; */
-#define GAIN_FINER 1.5   /* at least so many, where there is little noise, */
-#define GAIN_NOISE 0.8   /* and at least so many times the noise, which adds a twentieth to its variance */
+#define BRIGHTER_MOST 4  /* times white that of light may be */
+#define GAIN_STEP 2.5    /* of gains, of which many are added up, in that of their light, */
+#define GAIN_FINER 1.5   /* or, where there is little noise, so many of these at least, */
+#define GAIN_NOISE 0.8   /* and so many times the noise: a twentieth of it, squared, comes to it */
 
 double retex_pack_quality_psnr(double quality)
 {
@@ -50,27 +50,27 @@ typedef enum Role {
     ROLE_WEIGHT
 } Role;
 
-/* The range of a part's samples. */
+/* What a part's samples are like. */
 typedef struct Range {
     int all_zero, positive; /* positive: finite and not negative */
     float most, most_size;  /* the largest, and the largest magnitude */
 } Range;
 
 typedef struct Planning {
-    double white;   /* smallest value of level 255, of radiance that no texture multiplies, */
-    double *whites; /* and that of each radiance part */
+    double white;   /* level 255 of light that no texture multiplies, at least, */
+    double *whites; /* and of each part of light */
     RetexPackPart *packed;
     const RetexSet *set;
     const RetexPackQuantizer *quantizer;
     Role *roles;
-    int *means; /* of a part of standard deviations: that of their means */
+    int *means; /* of a spread: its part of means */
     Range (*ranges)[RETEX_PACK_CHANNELS_MAX];
-    double *noise; /* of radiance, in levels; -1: no memory */
+    double *noise; /* of light, in levels; -1 where there was no memory for it */
 } Planning;
 
 /* --- roles --- */
 
-/* A part with references of different kinds keeps its bits. */
+/* A part that two things of different kinds refer to keeps its bits. */
 static void give_role(Planning *plan, int part, Role role)
 {
     if (part >= 0)
@@ -114,7 +114,7 @@ static void give_roles(Planning *plan)
     give_role(plan, 0, ROLE_LIGHT);
 }
 
-/* --- ranges --- */
+/* --- what samples are like --- */
 
 static void find_ranges(void *context, int part, int thread)
 {
@@ -134,8 +134,8 @@ static void find_ranges(void *context, int part, int thread)
     }
 }
 
-/* Radiance that textures multiply may exceed white without being clipped in pictures. Its white is a value that few
- * samples exceed, because steps above white are twice as coarse. */
+/* Light that textures darken may be brighter than white and yet not be clipped: the value that little of it exceeds,
+ * for above white steps are twice as coarse. */
 static double white_of(const Planning *plan, int part)
 {
     const RetexSet *set = plan->set;
@@ -186,7 +186,7 @@ static int all_positive(const Planning *plan, int part)
 
 /* --- codecs --- */
 
-/* Logarithmic codes, the highest of which is the largest value. */
+/* Codes of equal ratios, of which the highest is the largest value. */
 static void map_log(RetexPackMap *map, const Range *range, int per_octave)
 {
     map->kind = RETEX_PACK_MAP_LOG;
@@ -195,7 +195,7 @@ static void map_log(RetexPackMap *map, const Range *range, int per_octave)
     retex_pack_map_fill(map);
 }
 
-/* Plan a JPEG, if it can hold the values; `white` is level `levels`; quantizer steps are `step` levels. */
+/* As JPEG, where that can hold it; `white` as level `levels`, `step` apart. */
 static void plan_light(Planning *plan, int part, double white, double step)
 {
     RetexPackPart *p = &plan->packed[part];
@@ -205,12 +205,12 @@ static void plan_light(Planning *plan, int part, double white, double step)
         return;
     p->codec = RETEX_PACK_JPEG;
     p->curve.white = white;
-    /* JPEG has no steps below 1: use more levels instead; viewers clip those above 255 */
+    /* steps below 1 there are none: more levels instead, of which viewers show the lower ones */
     p->curve.levels = rint(fmin(fmax(255 / step, 255), RETEX_PACK_LEVELS_MOST));
     p->jpeg_step = fmax(step, 1);
 }
 
-/* The radiance of level 255: 1, unless the picture is much darker or brighter. */
+/* The value that light's levels call white: 1, unless the picture is far too dark or too bright for that. */
 static double choose_white(const RetexImage *picture)
 {
     const size_t count = (size_t)picture->width * (size_t)picture->height * (size_t)picture->channels;
@@ -234,8 +234,8 @@ static void plan_weight(Planning *plan, int part)
     }
 }
 
-/* The step of radiance: that of the quality, finer where there is hardly any noise, which costs little, and coarser
- * where noise hides the error. */
+/* The step of light: by quality, but finer where there is nearly no noise, which costs little then, and coarser where
+ * there is so much that nothing can be seen of it. */
 static double light_step(const Planning *plan, int part)
 {
     const double step =
@@ -264,7 +264,7 @@ static void plan_gain(Planning *plan, int part)
     plan_light(plan, part, pow((double)RETEX_COMPACT_GREY, 1 - most), gain_step(plan, radiance));
 }
 
-/* Means on lattices, standard deviations and coverage as logarithms; nothing is stored where coverage is 0. */
+/* Means on lattices, standard deviations and coverage by their logarithm; where coverage is 0, nothing. */
 static void plan_footprint(Planning *plan, int uv, int spread, const RetexPackFootprintSteps *quantizer)
 {
     RetexPackPart *p = &plan->packed[uv], *s = &plan->packed[spread];
@@ -292,7 +292,7 @@ static void plan_footprint(Planning *plan, int uv, int spread, const RetexPackFo
         (int)floor((log2(s->maps[0].first / quantizer->sigma_share) + RETEX_PACK_LATTICE_BITS) * quantizer->per_octave);
 }
 
-/* 1 if all means are rounded as rendered sets round them, without -0. */
+/* 1: there are no means but those that the rounding of rendered sets leaves, and no -0. */
 static int on_lattice(const Planning *plan, int uv, int spread)
 {
     const RetexImage *means = &plan->set->parts[uv].image, *sigmas = &plan->set->parts[spread].image;
@@ -311,7 +311,7 @@ static int on_lattice(const Planning *plan, int uv, int spread)
     return 1;
 }
 
-/* 1 if most means end in zero bits, as after rounding. */
+/* 1: most means end in zero bits, as if they had been rounded. */
 static int ends_in_zeros(const RetexImage *means)
 {
     const size_t count = (size_t)means->width * (size_t)means->height;
@@ -325,8 +325,8 @@ static int ends_in_zeros(const RetexImage *means)
     return 2 * rounded > all;
 }
 
-/* Lossless parts are modelled, means as multiples of the step to which they were rounded. Means that were rounded in
- * another way become planes, which code runs of zero bits better. */
+/* Parts that lose nothing are modelled, means as multiples of what they were rounded to. Those that were rounded in
+ * another way, as by earlier versions, are left to planes, which are better at runs of zero bits. */
 static void plan_exact(Planning *plan)
 {
     const RetexSet *set = plan->set;

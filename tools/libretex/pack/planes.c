@@ -1,4 +1,4 @@
-/* Planes of integers: prediction, and compression by blosc. See planes.h.
+/* Planes of whole numbers: prediction, and compression by blosc. See planes.h.
  *
  * A chunk is a byte that says how its numbers are predicted and how many bytes a residual takes, then blosc's buffer of
  * the residuals, of which there are none where numbers do not matter. */
@@ -119,7 +119,7 @@ long retex_pack_plane_encode(unsigned char *data, const RetexPackPlane *plane, u
             chosen = (RetexPackPredictor)p;
         }
     }
-    /* prediction turns runs and repetitions into noise: such planes may be smaller without it */
+    /* prediction makes runs and repetitions into noise: what has them may do better without */
     if (chosen != BY_NOTHING) {
         const long with = compress_residuals(data, plane, chosen, largest[chosen], scratch, TRIAL_EFFORT);
         const long without = compress_residuals(data, plane, BY_NOTHING, largest[BY_NOTHING], scratch, TRIAL_EFFORT);

@@ -1,5 +1,5 @@
-/* Planes: one channel of one band as integers, predicted from their neighbours and compressed, and the mapping between
- * integers and samples. Private to libretex; described in retex-pack(5). */
+/* Planes: one channel of one band as whole numbers, predicted from their neighbours and compressed, and what the
+ * numbers stand for. Private to libretex; described in retex-pack(5). */
 #ifndef RETEX_PACK_PLANES_H
 #define RETEX_PACK_PLANES_H
 
@@ -10,7 +10,7 @@
 #include "pack/jpeg.h"
 #include "base/row_span.h"
 
-/* How integers represent samples. */
+/* What a number stands for. */
 typedef enum RetexPackMapKind {
     RETEX_PACK_MAP_BITS,    /* the bits of a half or float, in the order of the values they mean */
     RETEX_PACK_MAP_LATTICE, /* multiples of 2^-LATTICE_BITS; coarser where standard deviations are large */
@@ -38,16 +38,16 @@ typedef struct RetexPackMap {
 
 int retex_pack_map_is_coded(const RetexPackMap *map); /* 1: numbers are codes of a byte */
 void retex_pack_map_fill(RetexPackMap *map);          /* the values, from the other fields */
-/* Convert `count` samples, `stride` floats apart, to integers and back. */
+/* Numbers of `count` samples, `stride` floats apart, and back. */
 void retex_pack_map_numbers(int32_t *numbers, const float *samples, size_t stride, size_t count,
                             const RetexPackMap *map, RetexPixelType type);
 void retex_pack_map_samples(float *samples, size_t stride, const int32_t *numbers, size_t count,
                             const RetexPackMap *map, RetexPixelType type);
-/* Convert codes of one byte to samples. */
+/* Back, of codes of a byte. */
 void retex_pack_map_codes(float *samples, size_t stride, const unsigned char *codes, size_t count,
                           const RetexPackMap *map);
 
-/* Runs of stored numbers in each row of a plane. */
+/* Numbers side by side that matter: all of a plane's, row by row. */
 typedef struct RetexPackRuns {
     size_t pixels;                       /* that matter */
     int first[RETEX_PACK_BAND_ROWS + 1]; /* row y has run[first[y]] to run[first[y + 1] - 1] */

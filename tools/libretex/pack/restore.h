@@ -1,11 +1,11 @@
-/* Prediction of planes, and their reconstruction from residuals. Private to libretex. */
+/* The numbers of planes, as they are predicted from their neighbours, and from their residuals. Private to libretex. */
 #ifndef RETEX_PACK_RESTORE_H
 #define RETEX_PACK_RESTORE_H
 
 #include "pack/planes.h"
 
-/* How a number is predicted if its left, upper and upper left neighbours are stored. Otherwise the prediction is the
- * left neighbour, else the upper one, else the last number stored in the row. */
+/* How a number is predicted where its left, upper and upper left neighbours matter. At an edge of what matters it is by
+ * the left one, else the upper one, else the last one that was met in the row. */
 typedef enum RetexPackPredictor {
     BY_NOTHING,
     BY_LEFT,
@@ -85,8 +85,9 @@ void retex_pack_find_present(unsigned char *restrict present, const unsigned cha
 /* Runs of what is present; runs->run has room for retex_pack_runs_bound. */
 void retex_pack_find_runs(RetexPackRuns *runs, const unsigned char *present, int width, int rows);
 
-/* Reconstruct the stored numbers, or codes, of a plane from residuals of `bytes` bytes each (1 for codes). Others are
- * not changed. The second function is the reference: it needs no runs and writes codes to numbers too. */
+/* The plane's numbers, or codes, from the residuals of those that matter, each of so many bytes, codes' of one. Those
+ * that do not matter are left alone. The second is the reference, which needs no runs, and puts codes too into
+ * numbers. */
 void retex_pack_restore(const RetexPackPlane *plane, RetexPackPredictor predictor, const unsigned char *residuals,
                         int bytes);
 void retex_pack_restore_reference(const RetexPackPlane *plane, RetexPackPredictor predictor,

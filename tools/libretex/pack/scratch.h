@@ -1,11 +1,12 @@
-/* The decoder state of a thread. Private to bands.c and band_planes.c. */
+/* Inside a thread's means of decoding. Private to bands.c and band_planes.c. */
 #ifndef RETEX_PACK_SCRATCH_H
 #define RETEX_PACK_SCRATCH_H
 
 #include "pack/open.h"
 
-/* A decoded band of planes: its integers, and one row of samples, which stays in the processor's cache as a whole band
- * would not. Of parts whose third channel is coverage, the covered pixels are kept too, which mask other parts. */
+/* A band of planes. Their numbers are kept, and one row of samples, which is likelier to be in the processor's cache
+ * when it is asked for than a band of them. Where a part says what matters of others, by its third channel, what that
+ * says is kept too. */
 typedef struct RetexPackPlaneBand {
     int band[RETEX_PACK_CHANNELS_MAX];      /* that a channel's numbers are of; -1: none */
     void *numbers[RETEX_PACK_CHANNELS_MAX]; /* unsigned char where the channel is coded, else int32_t; or NULL */
@@ -16,8 +17,8 @@ typedef struct RetexPackPlaneBand {
     RetexPackRuns runs; /* of `present` */
 } RetexPackPlaneBand;
 
-/* The band of a part that was decoded last. Of a JPEG the coefficients are kept, which take half the memory, and one
- * row of decoded blocks. */
+/* The band of a part that was met last. Of a JPEG its coefficients are kept, which are half as many bytes, and one row
+ * of blocks at a time. */
 typedef struct RetexPackCachedBand {
     int band;     /* -1: none */
     uint64_t lit; /* bit y: row y is not all 0; of a JPEG, of those that have been asked for */

@@ -65,7 +65,7 @@ static unsigned char *make_index(const RetexPackEncoded *w, size_t *bytes)
     return index;
 }
 
-/* Write chunks first to first + count - 1 as one entry; no entry if all are empty. */
+/* Chunks first to first + count as one file of the zip; none where they are empty. */
 static int write_chunks(RetexOutput *output, RetexZipList *list, const RetexPackEncoded *w, int part, int planes,
                         int first, int count, uint64_t *written, RetexError *err)
 {
@@ -111,7 +111,7 @@ static int write_entries(RetexOutput *output, RetexZipList *list, const RetexPac
     return code ? code : retex_zip_directory_write(output, list, written, err);
 }
 
-/* kept: quality and PSNR for the manifest, or NULL. */
+/* kept: what the manifest says of the loss, or NULL. */
 static int write_all(RetexOutput *output, const RetexPackEncoded *w, const RetexPackKept *kept, uint64_t *written,
                      RetexError *err)
 {
@@ -176,7 +176,7 @@ static int attempt_make(Attempt *attempt, const RetexSet *set, double aim, int n
                 : retex_pack_encode(&attempt->encoded, attempt->compact, exact ? NULL : &quantizer, nthreads, err);
 }
 
-/* The PSNR of the worst trial picture, made from the bytes that would be written. */
+/* The PSNR of its worst picture, made from the very bytes that will be written. */
 static int attempt_measure(double *worst, const Attempt *attempt, const RetexPackReference *reference, int nthreads,
                            RetexError *err)
 {
@@ -214,7 +214,7 @@ static double next_aim(double least)
     return AIMS[i];
 }
 
-/* Encode, finer each time, until the promise is kept; the last attempt is lossless. */
+/* Attempts, each finer than the last, until what is promised holds; without loss it does. */
 static int keep_promise(Attempt *attempt, RetexPackKept *kept, const RetexSet *set, const RetexPackReference *reference,
                         int nthreads, RetexError *err)
 {
@@ -230,7 +230,8 @@ static int keep_promise(Attempt *attempt, RetexPackKept *kept, const RetexSet *s
     }
 }
 
-/* 1 if the set can be recombined with other textures; else it is packed without a promise. Or RETEX_ENOMEM. */
+/* 1: pictures can be made of the set with other textures. Sets that have no terms, or not what they need, are packed
+ * without a promise. Or RETEX_ENOMEM. */
 static int is_comparable(const RetexSet *set, RetexError *err)
 {
     int sound = set->nterms > 0 ? retex_combine_check(set, err) : 0;
