@@ -22,7 +22,7 @@ typedef enum RetexAovShown {
 } RetexAovShown;
 
 /* X(enumerator, name of the part, letters of its channels, pixel type, value where nothing is hit, shown as). Letters
- * are such that other programs show channels as they are: Blender would show R, G, A as R, 0, A. At most three. */
+ * are such that other programs show channels as they are: Blender would show R, G, A as R, 0, A. One or three. */
 #define RETEX_AOV_TABLE(X)                                                                                             \
     /* distance along the ray, scene units */                                                                          \
     X(DEPTH, "depth", "R", RETEX_FLOAT, INFINITY, RETEX_AOV_RANGE)                                                     \
