@@ -1,43 +1,46 @@
 /* Ray queries through Embree.
  *
- * Embree works in float; this renderer asks for double positions and for rays that never meet the surface they leave.
- * So Embree only proposes, and what it proposes is measured in double. Curved shapes are user geometry and double
- * throughout: the nearest is kept beside Embree's ray. The triangle that Embree ends with is measured against its
- * plane, and against the nearest curved shape. Where it lies outside the ray's own double range, or the ray starts on
- * its plane (within the rounding error of the plane's equation, however large the triangle), or the ray is not to see
- * it, or where Embree was so wrong about its distance that it may have passed over something nearer, the ray looks
- * more closely: at everything that Embree comes to along the whole of it, in double. That happens rarely, for rays
- * start off the surface they leave by more than float's rounding (accel_offset). To ask a filter function about every
- * triangle of every ray would make packets slower by a fifth. Occlusion, which stops at any triangle, asks one always.
+ * Embree computes in float. This renderer needs hit positions in double, and rays that do not intersect the surface
+ * they start on. Embree therefore finds candidates, and this file computes their distances in double.
  *
- * Distances that Embree is told, of a ray's ends and of a curved shape, are rounded outward by more than float may be
- * off, so that it passes over nothing that is nearer in double. What is left to float: whether a ray meets a triangle
- * at all; on which side of the ray's start it is, and which of two triangles is nearer, where the height of one over
- * the other is within float's rounding of their coordinates.
+ * Curved shapes are user geometry and are intersected in double only; the nearest one is kept beside Embree's ray.
+ * The triangle that Embree reports is intersected again in double and compared with the nearest curved shape. The
+ * ray is traced a second time, with every candidate along it tested in double, if one of these holds: the triangle
+ * is outside the ray's range in double; the ray starts on the triangle's plane, within the rounding error of the
+ * plane equation; the triangle is invisible to this kind of ray; Embree's distance is so inaccurate that it may have
+ * missed a nearer primitive. The second trace is rare, because rays start off their surface by more than the
+ * rounding of float (accel_offset). A filter function for every triangle of every ray would make packets slower by a
+ * fifth. Occlusion queries stop at any triangle, so they always use a filter function.
  *
- * Boxes and meshes are one triangle geometry in world space. Visibility by kind of ray is decided in the same places:
- * Embree may be built without masks. Rays come one by one or in packets, which pay where they run side by side. */
+ * Distances passed to Embree (ends of rays, hits of curved shapes) are rounded outward by more than the error of
+ * float. Embree therefore skips nothing that is nearer in double. Float still decides three things: whether a ray
+ * intersects a triangle at all; on which side of the ray's origin the triangle is; and which of two triangles is
+ * nearer, if their separation is within float's rounding of their coordinates.
+ *
+ * Boxes and meshes are one triangle geometry in world space. Visibility by kind of ray is tested in this file too,
+ * because Embree may be built without ray masks. Rays are traced singly or in packets; packets are faster for
+ * coherent rays. */
 #include <float.h>
 #include <string.h>
 #include "accel/embree.h"
 
-#define FLOAT_DOUBT 1e-3 /* share by which a distance in float may be off, along grazing triangles too */
-#define FLOAT_TRUST 1e-6 /* and by which it is seldom */
+#define FLOAT_DOUBT 1e-3 /* bound of the relative error of a distance in float, for grazing triangles too */
+#define FLOAT_TRUST 1e-6 /* usual relative error of a distance in float */
 
-/* A ray in double, and what it has met so far. */
+/* A ray in double and its nearest hit so far. */
 typedef struct QueryRay {
-    Ray ray;         /* ends just behind the nearest hit, so that others at the same distance are found */
-    Hit *hit;        /* the nearest so far; NULL where any will do */
-    double size;     /* of the origin's coordinates */
-    double rounding; /* a plane whose height over the origin is this small goes through it */
-    unsigned kind;   /* flag that a primitive must have to be seen */
-    unsigned passes; /* flags of those that are passed */
-    int passed;      /* one was */
+    Ray ray;         /* tmax is just behind the nearest hit, so that hits at the same distance are found */
+    Hit *hit;        /* the nearest hit so far; NULL if any hit ends the query */
+    double size;     /* largest magnitude of the origin's coordinates */
+    double rounding; /* a plane with a distance from the origin below this counts as containing it */
+    unsigned kind;   /* flag that a primitive must have to be visible to this ray */
+    unsigned passes; /* flags of primitives that let this ray pass */
+    int passed;      /* 1 if the ray has passed such a primitive */
 } QueryRay;
 
 typedef enum HitField { HIT_U = 3, HIT_V, HIT_PRIMITIVE, HIT_GEOMETRY, HIT_INSTANCE, HIT_HITS = 12 } HitField;
 
-/* Embree hands the context to every callback: ours carries the rays in double, by the rays' ids. */
+/* The context that Embree hands to every callback, with the rays in double. Ray ids are indices into it. */
 typedef struct Query {
     QueryContext context;
     const Accel *accel;
@@ -49,7 +52,7 @@ static inline int visible(const Accel *accel, const QueryRay *of, int primitive)
     return (accel->flags[primitive] & of->kind) != 0;
 }
 
-/* Whether a primitive that the ray meets lets it pass. */
+/* 1 if the primitive lets the ray pass. */
 static inline int pass(const Accel *accel, QueryRay *of, int primitive)
 {
     if (!(accel->flags[primitive] & of->passes))
@@ -58,9 +61,10 @@ static inline int pass(const Accel *accel, QueryRay *of, int primitive)
     return 1;
 }
 
-/* ---- in double ---- */
+/* ---- intersection in double ---- */
 
-/* Distance to the triangle's plane, if before end; 0 where the ray runs along it or starts on it. */
+/* Distance along the ray to the triangle's plane, if it is before the ray's end. 0 if the ray is parallel to the
+ * plane or starts on it. */
 static inline int triangle_distance(const QueryRay *of, const Triangle *triangle, double end, double *t)
 {
     const Ray *ray = &of->ray;
@@ -76,8 +80,8 @@ static inline int triangle_distance(const QueryRay *of, const Triangle *triangle
     return 1;
 }
 
-/* Make a hit the nearest, if it is. Of two at the same distance the first in the scene wins, so that the result does
- * not depend on the order in which they are found. */
+/* Store a hit if it is the nearest. Of two hits at the same distance the primitive that comes first in the scene
+ * wins, so the result does not depend on the order of traversal. */
 static inline int take(QueryRay *of, double t, int primitive, int face)
 {
     Hit *hit = of->hit;
@@ -90,7 +94,7 @@ static inline int take(QueryRay *of, double t, int primitive, int face)
     return 1;
 }
 
-/* Its barycentrics are in float, which is enough to interpolate; Embree keeps them inside. */
+/* Barycentric coordinates are in float, which is exact enough for interpolation. Embree keeps them in range. */
 static inline void take_triangle(QueryRay *of, const Triangle *triangle, double t, float b1, float b2)
 {
     if (!take(of, t, triangle->primitive, triangle->face))
@@ -99,7 +103,7 @@ static inline void take_triangle(QueryRay *of, const Triangle *triangle, double 
     of->hit->b1 = b1, of->hit->b2 = b2;
 }
 
-/* Whether the ray meets a curved shape or a plane. */
+/* 1 if the ray intersects a curved shape or a plane. */
 static inline int meet_shape(const Accel *accel, const QueryRay *of, int primitive, double *t, int *face)
 {
     return visible(accel, of, primitive) && shape_intersect(&accel->source->primitives[primitive], &of->ray, t, face);
@@ -113,7 +117,7 @@ static inline int take_shape(const Accel *accel, QueryRay *of, int primitive)
     return meet_shape(accel, of, primitive, &t, &face) && take(of, t, primitive, face);
 }
 
-/* A distance for Embree, which is to look at all that may be as near. */
+/* A distance for Embree, rounded outward so that Embree tests all candidates that may be as near. */
 static inline float outward(const QueryRay *of, double t)
 {
     return (float)(t + FLOAT_DOUBT * (t + of->size));
@@ -121,7 +125,7 @@ static inline float outward(const QueryRay *of, double t)
 
 /* ---- callbacks ---- */
 
-/* N rays or hits lie field by field, as in RTCRay and RTCHit; Embree has accessors for C++ only. */
+/* Embree stores N rays or hits as structures of arrays (RTCRay, RTCHit). Its accessors are for C++ only. */
 static inline float *ray_tfar(const void *rays, unsigned n, unsigned i)
 {
     return (float *)rays + (8 * n + i);
@@ -139,7 +143,7 @@ static inline float hit_number(const void *hits, unsigned n, unsigned i, HitFiel
     return ((const float *)hits)[(unsigned)field * n + i];
 }
 
-/* A ray that is traced closely keeps the nearest and goes on to all others. */
+/* In the second trace a ray keeps the nearest hit and continues to all other candidates. */
 void accel_filter_occluder(const struct RTCFilterFunctionNArguments *args)
 {
     const Query *query = (const Query *)args->context;
@@ -172,7 +176,8 @@ void accel_intersect_curved(const struct RTCIntersectFunctionNArguments *args)
         QueryRay *of = &query->rays[ray_id(rays, args->N, i)];
         if (!args->valid[i] || !take_shape(query->accel, of, primitive))
             continue;
-        /* A triangle that float has at this distance stays Embree's hit: which is nearer is seen at the end. */
+        /* A triangle at the same distance in float remains Embree's hit. The nearer one is chosen at the end, in
+         * double. */
         float end = outward(of, of->hit->t);
         if (!(end < *ray_tfar(rays, args->N, i)))
             continue;
@@ -200,9 +205,9 @@ void accel_occlude_curved(const struct RTCOccludedFunctionNArguments *args)
     }
 }
 
-/* ---- starting ---- */
+/* ---- start of a query ---- */
 
-/* Embree may stop the program over a ray that is not finite; no such ray meets anything. */
+/* Embree may abort on a ray that is not finite. Such a ray has no hits. */
 static inline int can_be_traced(const Ray *ray, double origin_size)
 {
     const Vec3 *d = &ray->direction;
@@ -223,8 +228,8 @@ static inline void start_query(Query *query, const Accel *accel, int side_by_sid
     query->rays = rays;
 }
 
-/* Embree gets the ray in float, its range widened by what float may be off; the double one decides. Returns 0 where
- * the ray meets nothing for certain. */
+/* Embree gets the ray in float, with its range widened by the error of float. The ray in double decides. Returns 0
+ * if the ray certainly has no hit. */
 static inline int start_ray(QueryRay *of, const Accel *accel, const Ray *ray, RayKind kind, unsigned passes, Hit *hit,
                             float *tnear, float *tfar)
 {
@@ -233,7 +238,8 @@ static inline int start_ray(QueryRay *of, const Accel *accel, const Ray *ray, Ra
 
     of->ray = *ray;
     of->size = size;
-    /* Every coordinate that goes into the height is at most the sum of both; the normal's are 1.8 together. */
+    /* Each coordinate in the distance to the plane is at most reach + size. The normal's components sum to 1.8 at
+     * most. */
     of->rounding = 28 * DBL_EPSILON * (accel->reach + size);
     of->hit = hit;
     if (hit)
@@ -255,7 +261,7 @@ static inline int start_single(QueryRay *of, struct RTCRay *to, const Accel *acc
     return start_ray(of, accel, ray, kind, passes, hit, &to->tnear, &to->tfar);
 }
 
-/* Whether a plane that lets no light pass occludes the ray. */
+/* 1 if an opaque plane occludes the ray. */
 static int plane_blocks(const Accel *accel, QueryRay *of)
 {
     double t;
@@ -301,7 +307,8 @@ static void trace_occluded(Query *query, struct RTCRay *ray)
 #endif
 }
 
-/* Embree's hit, if it is a triangle, becomes the nearest unless a curved shape is. 0: the ray takes a closer look. */
+/* Embree's hit, if it is a triangle, becomes the nearest hit unless a curved shape is nearer. Returns 0 if the ray
+ * needs the second trace. */
 static inline int accept(const Accel *accel, QueryRay *of, const Ray *ray, unsigned geometry, unsigned index,
                          float tfar, float u, float v)
 {
@@ -313,15 +320,15 @@ static inline int accept(const Accel *accel, QueryRay *of, const Ray *ray, unsig
     if (!triangle_distance(of, triangle, ray->tmax, &t) || !visible(accel, of, triangle->primitive))
         return 0;
     trust = FLOAT_TRUST * (t + of->size);
-    /* Off by more, or so near the start that Embree may have looked no farther, or a curved shape is as near: then so
-     * may be other triangles. */
+    /* The distance is too inaccurate, or too near the origin, or too near a curved shape: other triangles may be
+     * nearer. */
     if (fabs(t - tfar) > trust || t < trust || (of->hit->primitive >= 0 && fabs(t - of->hit->t) <= trust))
         return 0;
     take_triangle(of, triangle, t, u, v);
     return 1;
 }
 
-/* The nearest of all triangles and curved shapes that Embree comes to from one end of the ray to the other. */
+/* The second trace: the nearest of all triangles and curved shapes along the ray, in double. */
 static int look_closely(const Accel *accel, const Ray *ray, RayKind kind, Hit *hit)
 {
     Query query;
@@ -387,8 +394,8 @@ typedef struct Packet {
     QueryRay of[ACCEL_PACKET];
 } Packet;
 
-/* Embree does not look at lanes that are not valid where it has packets as wide; where it has narrower ones it looks at
- * all with a range, whatever it is told. */
+/* Embree skips invalid lanes only if it has packets of this width. With narrower packets it traces every lane that
+ * has a range, so invalid lanes get an empty range. */
 static void blank_lane(Packet *p, int i)
 {
     struct RTCRay16 *to = &p->rays.ray;

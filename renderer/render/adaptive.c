@@ -1,16 +1,16 @@
-/* See adaptive.h. */
+/* Adaptive sampling: the number of samples of each pixel from an estimate of its noise. See adaptive.h. */
 #include <stdlib.h>
 #include "render/adaptive.h"
 
-#define PIXELS_MAX 1024 /* of a tile */
-#define DARK_SHARE 0.05 /* of the tile's mean: darker pixels need not be better than that */
+#define PIXELS_MAX 1024 /* pixels of a tile, at most */
+#define DARK_SHARE 0.05 /* share of the tile's mean value that bounds the divisor of darker pixels */
 
 struct Adaptive {
     PathContext context;
     PathWorker worker;
-    Film *film; /* of one pixel, for its sums */
+    Film *film; /* a film of one pixel, for its sums */
     FilmPixel *pixel;
-    double sum, squares; /* of the pixel's samples so far */
+    double sum, squares; /* sums over the pixel's samples so far */
     int samples;
     double mean[PIXELS_MAX], variance[PIXELS_MAX];
     int count;

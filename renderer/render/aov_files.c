@@ -1,4 +1,4 @@
-/* See aov_files.h. */
+/* AOVs as image files. See aov_files.h. */
 #include <errno.h>
 #include <math.h>
 #include <stdio.h>
@@ -24,7 +24,7 @@ static void encode_signed(RetexImage *im)
         im->pixels[i] = im->pixels[i] * 0.5f + 0.5f;
 }
 
-/* Each channel from its least to its largest finite value. */
+/* Map each channel from its range of finite values to 0…1. */
 static void encode_range(RetexImage *im)
 {
     size_t n = samples(im), step = (size_t)im->channels;
@@ -74,7 +74,7 @@ static const Encode encoders[] = {
     [RETEX_AOV_FRACTION] = encode_fraction, [RETEX_AOV_NUMBER] = NULL,
 };
 
-/* Files are of the beauty, number 0, and of the AOVs. */
+/* Image 0 is the beauty image; the AOVs follow. */
 enum { PICTURES = 1 + RETEX_AOV_COUNT };
 
 static const char *name_of(int picture)
@@ -90,7 +90,7 @@ int aov_files_path(char *path, size_t size, const char *folder, int k)
     return 1;
 }
 
-/* Far apart for numbers that are next to each other; never dark. */
+/* False colours of ids: neighbouring ids get distinct colours, none of them dark. */
 static int color_numbers(RetexImage *dst, const RetexImage *src, RetexError *err)
 {
     int code = retex_image_alloc(dst, src->width, src->height, 3, err);

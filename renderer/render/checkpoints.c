@@ -1,4 +1,4 @@
-/* See checkpoints.h. */
+/* Checkpoints: finished bands are kept in a file, and a later render reads them. See checkpoints.h. */
 #include <unistd.h>
 #include "film/bands.h"
 #include "render/checkpoints.h"
@@ -12,7 +12,7 @@ int checkpoint_open(RetexBandStore **store, const RenderParams *p, int width, in
     return RETEX_OK;
 }
 
-/* The bands of one file that a shard left. */
+/* Merge the bands of the file of one shard. */
 static int merge_file(RetexBandStore *store, RetexBandStore *from, int bands, const char *path, RetexError *err)
 {
     int code = RETEX_OK;

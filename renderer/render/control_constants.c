@@ -1,4 +1,4 @@
-/* See control_constants.h. */
+/* The constant of each pixel that a control variate needs. See control_constants.h. */
 #include <stdlib.h>
 #include <string.h>
 #include <retex/combine.h>
@@ -8,8 +8,8 @@
 #include "render/control_constants.h"
 #include "path/path.h"
 
-enum { GRID = 3, MEANS = 32 }; /* rays a pixel, points of a whole target: to each side */
-#define FOLDED_MAX 1e-3        /* of light whose further hits keep their original, which recombination cannot change */
+enum { GRID = 3, MEANS = 32 }; /* per side: rays of a pixel, and texels of a target's mean */
+#define FOLDED_MAX 1e-3        /* limit of the light with fixed original textures, which recombination cannot change */
 
 int control_constants_fit(const Scene *scene, const RetexSet *set)
 {
@@ -57,7 +57,7 @@ static void color_row(void *context, int y, int thread)
     }
 }
 
-/* Mean colour of a whole target: the original's, or the new texture's over the UV that was met. */
+/* Mean colour of a whole target: of the original, or of the new texture over the range of UV that was seen. */
 static Rgb target_mean(const RetexTarget *target, const RetexTexture *texture)
 {
     const float *original = target->mean_albedo;

@@ -1,12 +1,12 @@
-/* See control_variate.h. */
+/* Control variates: combines a render with a set that was rendered along the same paths. See control_variate.h. */
 #include <math.h>
 #include <string.h>
 #include "render/control_variate.h"
 
 enum { REPLACED = 0, ORIGINAL = 1, CONSTANT = 2 };
-#define RIDGE 1e-3 /* keeps apart controls that are nearly the same */
+#define RIDGE 1e-3 /* regularization of the least-squares system, for two controls that are nearly collinear */
 
-/* The control's mean and the variance of that mean, or no variance where it is not known. */
+/* Mean of a control and the variance of that mean. The variance is empty if it is unknown. */
 typedef struct Control {
     const RetexImage *mean, *variance;
 } Control;
@@ -20,21 +20,21 @@ static const RetexImage *find_image(const RetexSet *set, const char *name)
     return &set->parts[part].image;
 }
 
-/* Number of the window's columns (rows) that lie in a picture so wide (high). */
+/* Number of the window's columns (rows) that are inside an image of this width (height). */
 static int window_count(int at, int size)
 {
     int low = at - CONTROL_RADIUS, high = at + CONTROL_RADIUS;
     return (high < size - 1 ? high : size - 1) - (low > 0 ? low : 0) + 1;
 }
 
-/* Mean over the window about each pixel, of what lies inside the picture; without the pixel itself, if others_only. */
+/* Mean over the window around each pixel, limited to the image. With others_only the pixel itself is left out. */
 static int smooth(RetexImage *dst, const RetexImage *src, int others_only, RetexError *err)
 {
     RetexImage rows = {0};
     int w = src->width, h = src->height, code = retex_image_alloc(&rows, w, h, 3, err);
     if (!code)
         code = retex_image_alloc(dst, w, h, 3, err);
-    for (int pass = 0; pass < 2 && !code; pass++) { /* along rows, then along columns */
+    for (int pass = 0; pass < 2 && !code; pass++) { /* first along rows, then along columns */
         const RetexImage *from = pass ? &rows : src;
         for (int y = 0; y < h; y++)
             for (int x = 0; x < w; x++) {
@@ -58,7 +58,8 @@ static int smooth(RetexImage *dst, const RetexImage *src, int others_only, Retex
     return code;
 }
 
-/* alpha, from moments of some samples, when the mean of `wanted` samples is to be mended. */
+/* The coefficient alpha that minimizes the variance of the corrected mean of `wanted` samples, from the moments of
+ * `samples` samples. */
 static int find_alpha(RetexImage *alpha, const ControlMoments *m, int samples, int wanted, const Control *control,
                       double control_share, int spp, int others_only, RetexError *err)
 {
@@ -83,7 +84,7 @@ static int find_alpha(RetexImage *alpha, const ControlMoments *m, int samples, i
     return code;
 }
 
-/* Add the share of one half to dst. */
+/* Add the estimate of one half of the samples to dst, with its weight. */
 static void add_estimate(RetexImage *dst, const ControlMoments *m, const RetexImage *alpha, const RetexImage *control,
                          double weight)
 {
@@ -128,8 +129,8 @@ static int from_halves(RetexImage *dst, ControlMoments *const *moments, const in
     return code;
 }
 
-/* Both controls, with alphas from the pixels around. What the set's own noise adds to variances and covariances is in
- * proportion: it is made of the same paths. */
+/* Estimate from both controls, with alphas from the pixels around. The noise of the set scales the variances and
+ * covariances alike, because the set is made from the same paths. */
 static int from_both(RetexImage *dst, const ControlMoments *m, int samples, const RetexSet *set,
                      const RetexImage *combined, RetexError *err)
 {
@@ -185,7 +186,7 @@ double control_distance(ControlMoments *const *moments, const int *samples, int 
         }
         difference += f0 - g->pixels[i];
     }
-    return variance > 0 ? fabs(difference) / sqrt(3 * variance) : 0; /* 3: channels go together */
+    return variance > 0 ? fabs(difference) / sqrt(3 * variance) : 0; /* 3: the channels are correlated */
 }
 
 static int add_image(RetexSet *set, const char *name, const RetexImage *image, RetexError *err)

@@ -1,14 +1,14 @@
-/* See denoise_guides.h. */
+/* Guides for denoising: albedo, normal and coverage of each pixel. See denoise_guides.h. */
 #include <stdio.h>
 #include "render/denoise_guides.h"
 
-/* Places of a pixel: few, or many where the few do not all see the same. Powers of 2, for which samples are spread
- * evenly. */
+/* Sample points of a pixel: few, or many if the few do not all see the same surface. Both are powers of 2, because
+ * such numbers of samples are well distributed. */
 #define PLACES_FEW 16
 #define PLACES_MANY 64
-#define ONE_NORMAL 0.999 /* length of the mean of normals that count as one */
-#define ONE_ALBEDO 1e-4  /* variance of the luminance of albedos that count as one */
-#define FOLLOWED_MAX 16  /* mirrors and glasses along a ray */
+#define ONE_NORMAL 0.999 /* minimum length of the mean normal for normals that count as equal */
+#define ONE_ALBEDO 1e-4  /* maximum variance of luminance for albedos that count as equal */
+#define FOLLOWED_MAX 16  /* specular reflections and refractions along a ray, at most */
 
 static void add_sight(Sight *sight, const Shading *s)
 {
@@ -17,13 +17,13 @@ static void add_sight(Sight *sight, const Shading *s)
     sight->position = vec_add(sight->position, s->surface.position);
 }
 
-/* The albedo of a target is not known: it may be retextured. */
+/* Albedo of a surface. A target's albedo is unknown, because the target may be retextured. */
 static Rgb known_albedo(const DenoiseGuides *job, const Shading *s)
 {
     return job->split && s->surface.target >= 0 ? rgb_grey(1) : shading_albedo(s, 0);
 }
 
-/* A lamp, whose colour is no pigment that light falls on. */
+/* 1 if the surface emits light: its pigment is not an albedo. */
 static int is_emitter(const Shading *s)
 {
     return rgb_luminance(s->surface.texture->finish->emission) > s->bsdf.diffuse;
@@ -44,8 +44,8 @@ static void add_seen(const DenoiseGuides *job, PixelGuides *sums, const Shading 
     sums->metallic += shading_metallic(s);
 }
 
-/* Follow the ray off a mirror or through clear glass, where that is the most likely lobe; throughput gets its weight.
- * Returns 0 where the surface itself is what is seen. */
+/* Continue the ray by specular reflection or refraction, if that lobe is the most likely one. The throughput is
+ * multiplied by the lobe's weight. Returns 0 if the surface itself is seen. */
 static int follow(const DenoiseGuides *job, const Shading *s, const Hit *hit, Ray *ray, RayKind *kind,
                   float *throughput)
 {
@@ -67,7 +67,7 @@ static int follow(const DenoiseGuides *job, const Shading *s, const Hit *hit, Ra
     return 1;
 }
 
-/* A target counts where it is met first, be it a mirror itself. */
+/* Add the coverage of a target at its first hit along the ray, also if the target is specular. */
 static void add_cover(double cover[RETEX_MAX_TARGETS], unsigned *met, const Shading *s, float throughput)
 {
     if (s->surface.target >= 0 && !(*met >> s->surface.target & 1)) {
@@ -76,7 +76,7 @@ static void add_cover(double cover[RETEX_MAX_TARGETS], unsigned *met, const Shad
     }
 }
 
-/* Note the primitive that a place sees; -1: none. */
+/* Record the primitive that a sample point sees; -1: none. */
 static void note_primitive(PixelGuides *sums, int primitive)
 {
     if (sums->places++ == 0)
@@ -84,7 +84,7 @@ static void note_primitive(PixelGuides *sums, int primitive)
     sums->differ |= primitive != sums->primitive;
 }
 
-/* first: what the ray meets at hit, if anything. */
+/* first: shading of the surface at hit, or NULL if the ray has no hit. */
 static void look(PixelGuides *sums, Ray ray, Hit hit, const Shading *first)
 {
     const DenoiseGuides *job = sums->of;
@@ -113,7 +113,7 @@ static void look(PixelGuides *sums, Ray ray, Hit hit, const Shading *first)
     note_primitive(sums, hit.primitive);
 }
 
-/* Where the guides of a pixel go. */
+/* Destination of a pixel's guides. */
 typedef struct GuidePlace {
     FilmPixel *pixel;
     int x, y;
@@ -125,7 +125,7 @@ static void store(const GuidePlace *at, int image, double scale, double a, doubl
     p[0] = (float)(a * scale), p[1] = (float)(b * scale), p[2] = (float)(c * scale);
 }
 
-/* Of one channel; memory that is never touched is never taken. */
+/* Store one channel. Zeros are not written, so that memory pages without data are not allocated. */
 static void store_one(const GuidePlace *at, int image, double value)
 {
     if (value != 0)
@@ -145,7 +145,7 @@ static int is_one_normal(const Sight *sight)
     return sight->places == 0 || vec_length(sight->normal) > ONE_NORMAL * sight->places;
 }
 
-/* Did all places see the same? */
+/* 1 if all sample points see the same surface. */
 static int is_even(const PixelGuides *s)
 {
     double mean = s->luminance / s->places;

@@ -1,4 +1,4 @@
-/* Rays through pixel centres; see first_hit.h. */
+/* AOVs of the first hit, by rays through the pixel centres. See first_hit.h. */
 #include <stdlib.h>
 #include <string.h>
 #include <retex/parallel.h>
@@ -62,7 +62,7 @@ static void metallic_at(float value[3], const Hit *hit, const Shading *s)
     value[0] = shading_metallic(s);
 }
 
-/* NULL: the AOV is not of the first hit alone, and render.c adds it. */
+/* NULL: the AOV does not depend on the first hit alone; render.c adds it. */
 static AovValue *const aov_values[RETEX_AOV_COUNT] = {
     [RETEX_AOV_DEPTH] = depth_at,
     [RETEX_AOV_ALBEDO] = albedo_at,
@@ -76,7 +76,7 @@ static AovValue *const aov_values[RETEX_AOV_COUNT] = {
 
 typedef struct AovJob {
     const FirstHitWindow *window;
-    RetexImage *images[RETEX_AOV_COUNT]; /* NULL where not wanted */
+    RetexImage *images[RETEX_AOV_COUNT]; /* NULL for an AOV that was not asked for */
 } AovJob;
 
 static int centre_hit(const FirstHitWindow *w, int x, int y, Hit *hit, Shading *s)
@@ -135,8 +135,8 @@ int first_hit_aovs(RetexSet *set, const FirstHitWindow *window, unsigned aovs, R
 
 typedef struct CountJob {
     const FirstHitWindow *window;
-    long *counts;      /* by row and item */
-    int items, idents; /* idents: count identifiers, else targets */
+    long *counts;      /* counts by row and item */
+    int items, idents; /* idents: 1 to count identifiers, 0 to count targets */
 } CountJob;
 
 static void mark(const Scene *scene, const IdentList *list, unsigned char *seen)
@@ -193,7 +193,8 @@ static int count_shares(const FirstHitWindow *window, int items, int idents, dou
     return RETEX_OK;
 }
 
-/* The shape's own UV goes once round from 0 to 1, if the pigment leaves it so. */
+/* Clear *u or *v if that UV coordinate is not periodic. It is periodic only if the shape's own UV is used unchanged
+ * and closes around the shape. */
 static void closes(const Primitive *p, const Pigment *pigment, int *u, int *v)
 {
     const double(*m)[4] = pigment->transform.m;

@@ -1,4 +1,4 @@
-/* See originals.h. */
+/* Original textures of targets, sampled to images. See originals.h. */
 #include <stdio.h>
 #include <string.h>
 #include <retex/parallel.h>
@@ -54,7 +54,7 @@ typedef struct Copy {
     const ImageMap *image;
 } Copy;
 
-/* The image's row, or where there are fewer texels, each the image averaged over its area. */
+/* A row of texels. If the texture is smaller than the image, each texel is the image's mean over the texel's area. */
 static void copy_row(void *context, int y, int thread)
 {
     const Copy *copy = context;
@@ -74,7 +74,7 @@ static void copy_row(void *context, int y, int thread)
     }
 }
 
-/* Each texel is the image's, or the pigment at its centre. */
+/* Each texel is a texel of the image, or the pigment at the texel's centre. */
 static int fill_original(RetexImage *dst, const Pigment *pigment, int axis, const RetexTarget *target, int nthreads,
                          RetexError *err)
 {
@@ -87,7 +87,7 @@ static int fill_original(RetexImage *dst, const Pigment *pigment, int axis, cons
     return pigment_bake(dst, pigment, axis, target->original_min, target->original_max, width, height, nthreads, err);
 }
 
-/* The axis of the planar UV of a plane or a box: the one along which it is flattest. */
+/* The projection axis of the planar UV of a plane or box: the axis of its smallest extent. */
 static int dominant_axis(const Primitive *p)
 {
     if (p->shape.ops != &shape_plane)

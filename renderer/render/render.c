@@ -1,4 +1,4 @@
-/* A render from beginning to end: everything into a set. */
+/* A whole render: all parts of the scene's light are rendered into a set. */
 #include <stdlib.h>
 #include <string.h>
 #include <retex/clock.h>
@@ -25,7 +25,7 @@ static int start_set(RetexSet **set, const Render *r, RetexError *err)
     return RETEX_OK;
 }
 
-/* A part `irradiance`: a pass of its own, with other samples, over the points that the pixels' centres see. */
+/* The part `irradiance`: a separate pass with its own samples, at the first hits of the pixel centres. */
 static int add_irradiance(RetexSet *set, const Render *r, RetexError *err)
 {
     Render pass = {.scene = r->scene,
@@ -63,7 +63,7 @@ static int add_irradiance(RetexSet *set, const Render *r, RetexError *err)
     return code;
 }
 
-/* Render, and fill what the film leaves open. */
+/* Render, then add the images that the film does not have. */
 static int render_into(RetexSet *set, Render *r, RenderStats *stats, double started, RetexError *err)
 {
     int data = r->params.control_data;

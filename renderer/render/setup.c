@@ -1,4 +1,4 @@
-/* What a render needs: its window, the ray structure, lights, films, and what each thread has. */
+/* Setup of a render: window, acceleration structure, lights, films and data of each thread. */
 #include <stdlib.h>
 #include <string.h>
 #include <retex/parallel.h>
@@ -157,7 +157,7 @@ static int open_worker(Render *r, int k, RetexError *err)
     return path_worker_open(w, err);
 }
 
-/* A single sample does not tell how noisy it is. */
+/* Data for denoising need at least two samples, because the noise of a single sample is unknown. */
 static int keeps_denoise_data(const RenderParams *p)
 {
     return p->denoise_data && p->spp > 1;
@@ -179,7 +179,7 @@ int render_is_wanted(const Render *r, int band)
     return (!r->params.nshards || band % r->params.nshards == r->params.shard - 1) && !r->resumed[band];
 }
 
-/* Read the bands that other renders have finished, once the film has all its images. */
+/* Read the bands that earlier renders have finished. The film must have all its images by then. */
 static int take_over(Render *r, RetexBandStore *store, RetexError *err)
 {
     r->resumed = calloc((size_t)r->tiles_y, 1);

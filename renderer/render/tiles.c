@@ -1,10 +1,11 @@
-/* Tiles over threads, paths over samples. */
+/* Distribution of tiles to threads, and the sample loop of each pixel. */
 #include <retex/clock.h>
 #include <retex/parallel.h>
 #include "path/camera.h"
 #include "render/internal.h"
 
-/* Offset of a sample in its pixel: uniform, or by the density of the Gaussian, so that all samples weigh the same. */
+/* Offset of a sample within the pixel filter: uniform, or with the density of the Gaussian. All samples have the
+ * same weight. */
 static void pixel_offset(const Render *r, const PairKeys *keys, uint32_t sample, double *dx, double *dy)
 {
     float u, v;
@@ -18,11 +19,11 @@ static void pixel_offset(const Render *r, const PairKeys *keys, uint32_t sample,
     *dx = 0.5 + radius * cos(phi), *dy = 0.5 + radius * sin(phi);
 }
 
-/* What all samples of a pixel share, by half. Each half has sample points of its own: halves of one sequence would fill
- * each other's gaps and not be independent. */
+/* State that all samples of a pixel share, for each half of the samples. Each half has its own sample sequence: the
+ * halves of a single low-discrepancy sequence are not independent. */
 typedef struct PixelStart {
     int x, y;
-    Sampler samplers[2]; /* of the first sample */
+    Sampler samplers[2]; /* samplers at the first sample of each half */
     PairKeys offsets[2];
 } PixelStart;
 
@@ -37,7 +38,7 @@ static PixelStart start_pixel(const Render *r, uint32_t seed, int x, int y)
     return start;
 }
 
-/* Of a sample: its numbers, and the ray from the camera. */
+/* Start a sample: its random numbers and its camera ray. */
 static Ray start_sample(const Render *r, const PixelStart *start, int sample, Sampler *sampler)
 {
     int half = r->context.halves == 2 ? sample & 1 : 0;
@@ -48,7 +49,7 @@ static Ray start_sample(const Render *r, const PixelStart *start, int sample, Sa
     return camera_ray(&r->scene->camera, r->width, r->height, start->x + dx, start->y + dy);
 }
 
-/* Up to the end, or to where the render is stopped. */
+/* Trace all samples of a pixel, or stop early if the render is stopped. */
 static void trace_pixel(const Render *r, PathWorker *worker, int spp, int x, int y)
 {
     Ray rays[PATHS_MAX];
@@ -62,7 +63,7 @@ static void trace_pixel(const Render *r, PathWorker *worker, int spp, int x, int
     }
 }
 
-/* Samples a pixel of a tile. */
+/* Samples per pixel of a tile. */
 static int tile_samples(const Render *r, int thread, int x0, int y0)
 {
     Sampler sampler;
@@ -82,7 +83,7 @@ static int tile_samples(const Render *r, int thread, int x0, int y0)
     return adaptive_tile_samples(pilot, r->params.noise, r->params.spp);
 }
 
-/* Where guides need more places than there are samples, trace further camera rays for them. */
+/* Trace additional camera rays for the guides, if the guides need more sample points than the pixel has samples. */
 static void end_guides(const Render *r, int thread, int spp, int x, int y)
 {
     PixelGuides *guides = &r->pixel_guides[thread];
@@ -128,7 +129,7 @@ static void render_tile(void *context, int tile, int thread)
     for (int y = y0; y < y0 + TILE_HEIGHT && y < r->h; y++)
         for (int x = x0; x < x0 + TILE_WIDTH && x < r->w; x++)
             render_pixel(r, thread, spp, x, y);
-    if (render_is_stopped(r)) /* then pixels of the tile may lack samples */
+    if (render_is_stopped(r)) /* a stopped render: pixels of the tile may lack samples */
         return;
     film_tile_end(r->pixels[thread], tile);
     int across = r->w - x0 < TILE_WIDTH ? r->w - x0 : TILE_WIDTH,

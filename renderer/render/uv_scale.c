@@ -1,4 +1,4 @@
-/* See uv_scale.h. */
+/* The length on the surface of a step in UV, measured for each target. See uv_scale.h. */
 #include <math.h>
 #include <stdlib.h>
 #include "path/camera.h"
@@ -9,8 +9,8 @@ enum {
     GRID_WIDTH = 64,
     GRID_HEIGHT = 48,
     SAMPLES_MAX = GRID_WIDTH * GRID_HEIGHT,
-    FEW = 64,           /* points that are enough of a target that the camera does not see */
-    RANDOM_RAYS = 32768 /* and rays that look for them */
+    FEW = 64,           /* enough points of a target that the camera does not see */
+    RANDOM_RAYS = 32768 /* random rays that search for such points */
 };
 
 typedef struct Lengths {
@@ -18,13 +18,14 @@ typedef struct Lengths {
     double u[SAMPLES_MAX], v[SAMPLES_MAX];
 } Lengths;
 
-/* A point of a target: where it is and where textures are looked up there. */
+/* A point of a target: its position and its UV. */
 typedef struct Place {
     Vec3 position;
     Vec2 uv;
 } Place;
 
-/* The same surface next to a hit: down along the normal from a step to the side. 0 where it is another one. */
+/* Intersect the same surface next to a hit: the ray starts a step to the side and runs against the normal. Returns 0
+ * if it hits another surface. */
 static int step(const Scene *scene, const Accel *accel, const Surface *from, Vec3 normal, Vec3 aside, double size,
                 RayKind kind, Place *place)
 {
@@ -41,7 +42,8 @@ static int step(const Scene *scene, const Accel *accel, const Surface *from, Vec
     return 1;
 }
 
-/* Steps to both sides along one direction. They must change UV by the same, or there is a seam, or an edge. */
+/* Difference of UV for a step along one direction, from steps to both sides. The two differences must agree;
+ * otherwise there is a seam or an edge between them. */
 static int difference(const Scene *scene, const Accel *accel, const Surface *s, Vec3 normal, Vec3 aside, double size,
                       RayKind kind, Vec3 *dp, Vec2 *duv)
 {
@@ -56,7 +58,7 @@ static int difference(const Scene *scene, const Accel *accel, const Surface *s, 
     return lag_u + lag_v <= 0.1 * (fabs(duv->u) + fabs(duv->v));
 }
 
-/* |dP/du| and |dP/dv| at a surface that a ray met. */
+/* |dP/du| and |dP/dv| of a surface at a hit. */
 static int measure(const Scene *scene, const Accel *accel, const Surface *s, double distance, RayKind kind,
                    double lengths[2])
 {
@@ -68,7 +70,7 @@ static int measure(const Scene *scene, const Accel *accel, const Surface *s, dou
         if (!difference(scene, accel, s, n, t, size, kind, &dp[0], &duv[0]) ||
             !difference(scene, accel, s, n, b, size, kind, &dp[1], &duv[1]))
             continue;
-        /* Each step is dP/du times its du and dP/dv times its dv: two equations for the two. */
+        /* Each step is dP/du · du + dP/dv · dv. The two steps give two equations for dP/du and dP/dv. */
         double det = duv[0].u * duv[1].v - duv[1].u * duv[0].v;
         if (!(fabs(det) > 1e-9 * (fabs(duv[0].u) + fabs(duv[1].u)) * (fabs(duv[0].v) + fabs(duv[1].v))))
             return 0;
@@ -95,7 +97,7 @@ static void add(const Scene *scene, const Accel *accel, const Ray *ray, RayKind 
     list->u[list->count] = lengths[0], list->v[list->count++] = lengths[1];
 }
 
-/* A ray from anywhere within the bounds to anywhere. */
+/* A ray between two random points within the bounds. */
 static Ray random_ray(uint32_t index, Vec3 low, Vec3 high)
 {
     Sampler sampler = sampler_start(0, 0, 0, index);

@@ -1,4 +1,4 @@
-/* Pictures with other textures: several along the same paths (--variants), and one with a set as control variate
+/* Images with other textures: several from the same paths (--variants), and one with a set as control variate
  * (--control). */
 #include <string.h>
 #include <retex/clock.h>
@@ -35,7 +35,7 @@ int render_variants(RetexImage *pictures, const Scene *scene, const RenderParams
     return code;
 }
 
-/* Fail where the set is of another picture. */
+/* Fails if the set does not belong to the same image. */
 static int check_control(const Render *r, const RetexSet *set, RetexError *err)
 {
     const char *slash = strrchr(r->scene->path, '/'), *scene = slash ? slash + 1 : r->scene->path;
