@@ -1,4 +1,4 @@
-/* See encode.h: parts are planned, and their bands encoded on all threads. */
+/* See encode.h. plan.c chooses the codecs; then all threads encode bands in parallel. */
 #include "pack/encode.h"
 
 #include <math.h>
@@ -12,7 +12,7 @@
 #include "pack/model.h"
 
 static const int EFFORT = 8;              /* of blosc's zstd */
-static const uint32_t NEVER = UINT32_MAX; /* bytes of a piece that cannot be stored so */
+static const uint32_t NEVER = UINT32_MAX; /* 'bytes' of a chunk that this codec cannot encode */
 
 static int no_memory(RetexError *err)
 {
@@ -29,8 +29,8 @@ static int is_black(const float *pixel, size_t channels)
     return black;
 }
 
-/* Black pixels come back from the mask, so their levels are free: the mean of the others of their 8 x 8 block costs
- * least and keeps edges between light and black from ringing. */
+/* Fill black pixels with the mean of the other pixels of their 8 x 8 block. The mask restores them, so their levels are
+ * free; the mean costs few bytes and avoids ringing at edges of black areas. */
 static void fill_black(float *levels, const RetexImage *im)
 {
     const size_t channels = (size_t)im->channels;
@@ -53,7 +53,7 @@ static void fill_black(float *levels, const RetexImage *im)
         }
 }
 
-/* Levels of a part. most: what is above is clipped. */
+/* Levels of an image, clipped to at most `most`. NULL if memory runs out. */
 static float *levels_of(const RetexImage *im, const RetexPackCurve *curve, double most)
 {
     const size_t count = (size_t)im->width * (size_t)im->height * (size_t)im->channels;
@@ -63,7 +63,7 @@ static float *levels_of(const RetexImage *im, const RetexPackCurve *curve, doubl
     return levels;
 }
 
-/* A band of the mask as a chunk, from its own bytes. */
+/* Encode a band of the mask as a chunk: a plane of bytes, each with 8 pixels. */
 static int encode_mask_band(RetexPackItem *item, int band, RetexError *err)
 {
     const RetexImage *im = &item->part->image;
@@ -97,7 +97,7 @@ static int has_black(const RetexImage *im)
     return 0;
 }
 
-/* Part 0 is the picture, for viewers: coarser, and white is the most that it shows. */
+/* Encode a part as JPEG. The picture (part 0) is for viewers only: it is clipped at white and has no mask. */
 static int encode_jpeg(RetexPackItem *item, int is_picture, RetexError *err)
 {
     const RetexImage *im = &item->part->image;
@@ -126,7 +126,7 @@ static int encode_jpeg(RetexPackItem *item, int is_picture, RetexError *err)
 
 /* --- planes --- */
 
-/* Room to encode a band's planes. */
+/* Scratch memory for encoding a band's planes. */
 typedef struct Band {
     size_t pixels;
     unsigned char *present, *shift, *scratch;
@@ -154,7 +154,7 @@ static int band_alloc(Band *band, const RetexPackPart *p, int index)
     return band->present && band->shift && band->scratch && band->numbers && band->codes;
 }
 
-/* Numbers of a channel of another part in this band. */
+/* The numbers of a part's channel in band `index`. */
 static void numbers_of(int32_t *numbers, const RetexPackEncoded *w, int part, int channel, int index, size_t pixels)
 {
     const RetexImage *im = &w->items[part].part->image;
@@ -209,9 +209,9 @@ static int encode_band(const RetexPackEncoded *w, int part, int index)
     return ok;
 }
 
-/* --- without loss --- */
+/* --- lossless bands --- */
 
-/* Shifts of means, from their standard deviations. */
+/* Compute the shifts of means from their standard deviations. */
 static void fill_mean_shifts(RetexPackModelBand *model, const RetexPackEncoded *w, const RetexPackPart *p, int index)
 {
     const RetexImage *sigma = &w->set->parts[p->sigma].image;
@@ -243,7 +243,8 @@ static int encode_model_band(const RetexPackEncoded *w, int part, int index)
     return bytes >= 0;
 }
 
-/* The picture's numbers less those that the terms give are tried besides the picture alone. */
+/* If the set allows, encode part 0 twice: minus the recombination of the terms, and alone. choose_picture keeps the
+ * smaller one. */
 static int plan_combined(RetexPackEncoded *w, int nthreads, RetexError *err)
 {
     RetexPackPart *picture = &w->packed[0];
@@ -264,8 +265,8 @@ static uint64_t bytes_of(const RetexPackPart *packed)
     return bytes;
 }
 
-/* Part 0 is what is smaller. What readers make of a term that is black all over a row is not told where the sum is not
- * finite, so then it stays alone. */
+/* Keep the smaller encoding of part 0. RETEX_PACK_COMBINED counts as too large if the recombination is not finite
+ * somewhere: readers may skip a term that is black in a whole row, so the sum is then not defined. */
 static void choose_picture(RetexPackEncoded *w)
 {
     RetexPackItem *items[2] = {&w->items[0], &w->items[w->set->nparts]};
@@ -281,7 +282,7 @@ static void choose_picture(RetexPackEncoded *w)
 
 /* --- all parts --- */
 
-/* As jobs of their own: JPEGs are encoded whole. */
+/* Number of bands that are jobs of their own: 0 for JPEGs, which are encoded whole. */
 static int bands_to_encode(const RetexPackPart *packed)
 {
     return packed->codec == RETEX_PACK_PLANES || retex_pack_is_modelled(packed) ? packed->nbands : 0;
@@ -345,7 +346,7 @@ static int encode_all(RetexPackEncoded *w, int nthreads, RetexError *err)
     return 0;
 }
 
-/* A lossless pack's picture for viewers. */
+/* Encode the picture for viewers of a lossless pack. */
 static int encode_picture(RetexPackEncoded *w, RetexError *err)
 {
     const RetexImage *im = &w->set->parts[0].image;

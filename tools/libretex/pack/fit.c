@@ -1,4 +1,4 @@
-/* Weights of a prediction by least squares. See fit.h. */
+/* Least-squares fit of prediction weights. See fit.h. */
 #include "pack/fit.h"
 
 #include <math.h>
@@ -12,7 +12,7 @@ void retex_pack_fit_begin_row(RetexPackFitChannel *channel, int y)
         channel->sizes[first - i] = y > 0 ? channel->sizes[above] : 0;
         channel->holes[first - i] = y > 0 ? channel->holes[above] : 0;
     }
-    if (y > 0) { /* right of the row above */
+    if (y > 0) { /* the margin to the right of the row above */
         const ptrdiff_t end = above + channel->width;
         channel->numbers[end] = channel->numbers[end - 1];
         channel->sizes[end] = channel->sizes[end - 1];
@@ -20,7 +20,7 @@ void retex_pack_fit_begin_row(RetexPackFitChannel *channel, int y)
     }
 }
 
-/* Sums of products of terms, the last of them what is to be predicted. */
+/* The normal equations: weighted sums of products of terms. The last row has the products with the target. */
 typedef struct Normal {
     double sum[RETEX_PACK_FIT_WEIGHTS + 1][RETEX_PACK_FIT_WEIGHTS + 1];
 } Normal;
@@ -34,7 +34,8 @@ static void add_products(Normal *normal, const double *terms, int count, double 
     }
 }
 
-/* Gauss without pivots: the matrix is positive; what it does not determine gets no weight. */
+/* Gaussian elimination without pivoting: the matrix is positive semidefinite. A small ridge on the diagonal gives
+ * undetermined terms weights near 0. */
 static void solve(double *solution, Normal *normal, int count)
 {
     double(*a)[RETEX_PACK_FIT_WEIGHTS + 1] = normal->sum;
@@ -66,7 +67,7 @@ static double step_of(const unsigned char *shifts, const RetexPackFitChannel *ch
     return shifts ? (double)(INT64_C(1) << shifts[(size_t)y * (size_t)channel->width + (size_t)x]) : 1;
 }
 
-/* Rows that are looked at: some tens of thousands of numbers are enough. */
+/* Distance between the rows used for fitting: some tens of thousands of numbers are enough. */
 static int row_stride(const RetexPackFitChannel *channel)
 {
     enum { ENOUGH = 30000 };
@@ -74,7 +75,8 @@ static int row_stride(const RetexPackFitChannel *channel)
     return stride < 1 ? 1 : stride;
 }
 
-/* One round: products weighted by how well the weights of the last one did, so that few outliers do not decide. */
+/* One round of iteratively reweighted least squares. robust: weight each number by 1 / (1 + its residual with the
+ * current weights), so that outliers count less. */
 static void fit_round(RetexPackFitChannel *channel, const unsigned char *shifts, int robust)
 {
     const int count = channel->nweights;
@@ -105,7 +107,7 @@ static void fit_round(RetexPackFitChannel *channel, const unsigned char *shifts,
     }
 }
 
-/* Bits of all residuals, roughly. */
+/* Estimate the bits of all residuals. */
 static double cost(const RetexPackFitChannel *channel, const unsigned char *shifts)
 {
     double bits = 0;

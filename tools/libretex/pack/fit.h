@@ -1,5 +1,5 @@
-/* Prediction of a band's numbers as weighted sums of numbers that were coded before, the weights fitted to the band.
- * Private to libretex; what is predicted by what is described in retex-pack(5). */
+/* Linear prediction: a number is predicted as a weighted sum of numbers that are coded before it. Weights are fitted to
+ * the band by least squares. Private to libretex; retex-pack(5) lists the neighbours used. */
 #ifndef RETEX_PACK_FIT_H
 #define RETEX_PACK_FIT_H
 
@@ -7,24 +7,24 @@
 #include <stdint.h>
 
 enum {
-    RETEX_PACK_FIT_OWN = 4,    /* terms of the channel itself */
-    RETEX_PACK_FIT_OTHER = 5,  /* and of each of the channels coded before */
-    RETEX_PACK_FIT_OTHERS = 2, /* at most so many of them */
+    RETEX_PACK_FIT_OWN = 4,    /* terms from the channel itself */
+    RETEX_PACK_FIT_OTHER = 5,  /* terms from each earlier channel */
+    RETEX_PACK_FIT_OTHERS = 2, /* most earlier channels used */
     RETEX_PACK_FIT_WEIGHTS = RETEX_PACK_FIT_OWN + RETEX_PACK_FIT_OTHERS * RETEX_PACK_FIT_OTHER,
-    RETEX_PACK_FIT_SHIFT = 12 /* weights are in 4096ths */
+    RETEX_PACK_FIT_SHIFT = 12 /* weights are fixed-point: units of 1/4096 */
 };
 
-/* A channel of a band while it is coded. Rows have a margin, so that each number has neighbours. */
+/* A channel of a band while it is coded. Rows have margins, so that all neighbours exist. */
 typedef struct RetexPackFitChannel {
     int width, rows;
-    int32_t *numbers;     /* holes filled */
+    int32_t *numbers;     /* holes have the last number before them */
     int32_t *sizes;       /* magnitudes of residuals */
-    unsigned char *holes; /* 1: this number is 0, and predicts nothing */
+    unsigned char *holes; /* 1: this number is 0 */
     int has_holes, by_fit;
     int32_t mean;
     int nweights;
     int16_t weights[RETEX_PACK_FIT_WEIGHTS];
-    const struct RetexPackFitChannel *others[RETEX_PACK_FIT_OTHERS]; /* coded before; NULL where there are none */
+    const struct RetexPackFitChannel *others[RETEX_PACK_FIT_OTHERS]; /* earlier channels, or NULL */
 } RetexPackFitChannel;
 
 enum { RETEX_PACK_FIT_LEFT = 3, RETEX_PACK_FIT_MARGIN = 4 };
@@ -34,13 +34,13 @@ static inline ptrdiff_t retex_pack_fit_place(const RetexPackFitChannel *channel,
     return (ptrdiff_t)(channel->width + RETEX_PACK_FIT_MARGIN) * y + RETEX_PACK_FIT_LEFT + x;
 }
 
-/* The place that counts as above: in the first row the second to the left. */
+/* Index of the number above; in the first row, the second number to the left is used instead. */
 static inline ptrdiff_t retex_pack_fit_above(const RetexPackFitChannel *channel, ptrdiff_t at, int y)
 {
     return y > 0 ? at - channel->width - RETEX_PACK_FIT_MARGIN : at - 2;
 }
 
-/* What weights multiply: how other numbers differ from the left one, and in the channels before from that one's. */
+/* The terms that weights multiply: differences between a neighbour and the left neighbour of the same channel. */
 static inline void retex_pack_fit_terms(int64_t terms[RETEX_PACK_FIT_WEIGHTS], const RetexPackFitChannel *channel,
                                         ptrdiff_t at, ptrdiff_t above, int nweights)
 {
@@ -62,7 +62,7 @@ static inline void retex_pack_fit_terms(int64_t terms[RETEX_PACK_FIT_WEIGHTS], c
     }
 }
 
-/* Left plus upper less upper left, but not beyond the first two. */
+/* The median predictor of JPEG-LS: left + upper - upper left, clamped between left and upper. */
 static inline int64_t retex_pack_fit_median(const int32_t *n, ptrdiff_t at, ptrdiff_t above)
 {
     const int64_t left = n[at - 1], upper = n[above], corner = n[above - 1];
@@ -70,7 +70,7 @@ static inline int64_t retex_pack_fit_median(const int32_t *n, ptrdiff_t at, ptrd
     return corner >= high ? low : corner <= low ? high : left + upper - corner;
 }
 
-/* By `nweights` weights, which a caller that knows them makes faster; 0: by the median. */
+/* Predict with `nweights` weights (a compile-time constant is faster), or with the median predictor if 0. */
 static inline int64_t retex_pack_fit_guess_by(const RetexPackFitChannel *channel, ptrdiff_t at, ptrdiff_t above,
                                               int nweights)
 {
@@ -89,10 +89,11 @@ static inline int64_t retex_pack_fit_guess(const RetexPackFitChannel *channel, p
     return retex_pack_fit_guess_by(channel, at, above, channel->by_fit ? channel->nweights : 0);
 }
 
-/* The margin that row y needs to be coded, of everything; what row y - 1 holds is final. */
+/* Fill the margins that coding row y reads: numbers, sizes and holes. Row y - 1 must be complete. */
 void retex_pack_fit_begin_row(RetexPackFitChannel *channel, int y);
 
-/* Choose weights, or the median, for numbers that are multiples of 2^shift; shifts may be NULL. */
+/* Fit the weights, or choose the median predictor if it is better. shifts: numbers are multiples of 2^shift; or
+ * NULL. */
 void retex_pack_fit(RetexPackFitChannel *channel, const unsigned char *shifts);
 
 #endif

@@ -1,4 +1,4 @@
-/* What a pack's manifest says of its parts. See format.h. */
+/* The key "pack" of a manifest: writing and parsing. See format.h. */
 #include "pack/format.h"
 
 #include <jansson.h>
@@ -69,7 +69,7 @@ int retex_pack_mean_shift(float sigma)
     int exponent;
     if (!(sigma > 0) || isinf(sigma))
         return 0;
-    /* a power of two may have been rounded up to it, and its step be half as large */
+    /* a power of two may be the result of rounding up, so its mean may have the smaller step */
     const int exact = frexp((double)sigma, &exponent) == 0.5;
     const int shift = exponent - 1 - exact - RETEX_PACK_MEAN_BITS + RETEX_PACK_LATTICE_BITS;
     return shift < 0 ? 0 : shift < RETEX_PACK_LATTICE_SHIFT_MAX ? shift : RETEX_PACK_LATTICE_SHIFT_MAX;
@@ -226,7 +226,7 @@ static int understand_map(RetexPackMap *map, const json_t *o)
     return ok;
 }
 
-/* The part named by a key, or -1 where there is none; *ok is cleared where it names no part of this size. */
+/* The part named by a key, or -1 if the key is missing. *ok = 0 if no part of this size has the name. */
 static int named_part(const json_t *o, const char *key, const RetexSet *set, const RetexPackPart *packed, int *ok)
 {
     const json_t *value = json_object_get(o, key);
@@ -274,7 +274,7 @@ static int understand_part(RetexPackPart *packed, const RetexSet *set, const jso
     return ok ? 0 : retex_fail(err, RETEX_EFORMAT, "the pack is damaged: the description of a part is not sound");
 }
 
-/* Means on a lattice need standard deviations, which need nothing. */
+/* Check a RETEX_PACK_MODEL part: means on a lattice refer to standard deviations, which refer to no part. */
 static int modelled_is_sound(const RetexPackPart *packed, const RetexPackPart *all)
 {
     int ok = packed->present < 0;
@@ -288,8 +288,8 @@ static int modelled_is_sound(const RetexPackPart *packed, const RetexPackPart *a
     return ok;
 }
 
-/* References lead to parts of the right kind, and never in circles: coverage needs nothing, standard deviations need
- * coverage, means need both. */
+/* Check that a part refers to parts of the right kind, and that there are no cycles: coverage refers to no part,
+ * standard deviations to coverage, means to both. */
 static int references_are_sound(const RetexPackPart *packed, const RetexPackPart *all)
 {
     if (packed->codec == RETEX_PACK_MODEL)

@@ -1,4 +1,4 @@
-/* JPEG files of light, written and read as coefficients. See jpeg.h. */
+/* JPEG files of radiance: libjpeg writes and reads DCT coefficients, the DCT itself is ours. See jpeg.h. */
 #include "pack/jpeg.h"
 
 #include <math.h>
@@ -17,7 +17,7 @@
 
 /* --- the curve --- */
 
-/* sRGB up to white; above, levels follow the logarithm: LEVELS_PER_E of 255 for each factor of e. */
+/* The curve is sRGB's up to white and logarithmic above: a factor of e adds LEVELS_PER_E levels, if white is at 255. */
 static const double LEVELS_PER_E = 48;
 static const double ENTRIES_TO_WHITE = (double)RETEX_PACK_LEVEL_ENTRIES / RETEX_PACK_WHITES_MOST;
 
@@ -35,7 +35,8 @@ double retex_pack_curve_value(const RetexPackCurve *curve, double level)
     return curve->white * x;
 }
 
-static float shares[RETEX_PACK_LEVEL_ENTRIES + 2]; /* every curve's, once fill_shares has run */
+/* Values relative to white, by level, the same for all curves. fill_shares fills them once. */
+static float shares[RETEX_PACK_LEVEL_ENTRIES + 2];
 
 static void fill_shares(void)
 {
@@ -66,7 +67,7 @@ static void leave(j_common_ptr jpeg)
     longjmp(trouble->out, 1);
 }
 
-/* A warning is an error here: data is never made up. */
+/* Warnings count as errors: libjpeg would go on with made-up data. */
 static void warn(j_common_ptr jpeg, int level)
 {
     if (level < 0)
@@ -103,22 +104,24 @@ void retex_pack_jpeg_free(RetexPackJpeg *jpeg)
     memset(jpeg, 0, sizeof *jpeg);
 }
 
-/* The largest coefficients, by frequency: of luma and of chroma. */
+/* The largest magnitudes of DCT coefficients, by frequency: [0] luma, [1] chroma. */
 typedef struct Largest {
     float size[2][64];
 } Largest;
 
-/* Steps in natural order: as asked for, but such that no quotient has more than JPEG's 10 bits. */
+/* Choose quantizer steps, in natural order: about `step`, but large enough that quantized coefficients fit in JPEG's 10
+ * bits. */
 static void choose_steps(unsigned int steps[64], double step, const float largest[64])
 {
     for (int i = 0; i < 64; i++) {
-        /* between two whole numbers the smaller one is for low frequencies */
+        /* steps are integers: if `step` is not, low frequencies get the smaller neighbour */
         const double wanted = rint(step + (i % 8 + i / 8) / 14.0 - 0.5), least = ceil((double)largest[i] / 1023);
         steps[i] = (unsigned int)fmin(fmax(fmax(wanted, least), 1), RETEX_PACK_JPEG_STEP_MAX);
     }
 }
 
-/* One component's plane of a row of blocks: 8 rows, `blocks` blocks wide, the last pixel repeated; centred on 0. */
+/* Copy one YCbCr component of a row of blocks into plane: 8 rows of `blocks` blocks, centred on 0. Pixels beyond the
+ * image repeat its last column and row. */
 static void gather(float *plane, const float *levels, int width, int height, int channels, int component, int row,
                    int blocks)
 {
@@ -140,7 +143,7 @@ static void gather(float *plane, const float *levels, int width, int height, int
     }
 }
 
-/* What coefficients there will be, before any step is chosen. */
+/* Find the largest coefficients; choosing quantizer steps needs them. */
 static void find_largest(Largest *largest, const float *levels, float *plane, int width, int height, int channels)
 {
     const int rows = (height + 7) / 8, blocks = (width + 7) / 8;
@@ -257,7 +260,7 @@ struct RetexPackJpegDecoder {
     jvirt_barray_ptr *arrays; /* coefficients of the open band, or NULL */
     int width, rows, channels;
     RetexPackLevels levels;
-    float *planes; /* three, of 8 rows */
+    float *planes; /* one row of blocks: three components of 8 rows */
     size_t capacity;
 };
 
@@ -288,8 +291,8 @@ void retex_pack_jpeg_decoder_close(RetexPackJpegDecoder **decoder)
     *decoder = NULL;
 }
 
-/* Make the file that of one band: its height, and the end where the next restart was. Restarts, of which there is none
- * within a band, are left out, for libjpeg reads what may have some by a slower way. */
+/* Turn header and chunk into a JPEG file of one band: set its height, and replace the final restart marker by EOI. The
+ * restart interval is set to 0 if the band has no restart inside, because libjpeg then decodes faster. */
 static int patch(unsigned char *file, size_t header, size_t bytes, int width, int rows)
 {
     const int blocks = (width + 7) / 8 * ((rows + 7) / 8);

@@ -1,8 +1,9 @@
-/* Light as JPEG, band by band. A picture is one plain JPEG file, 4:4:4 or grey, with a restart interval of a band's
- * rows, so that each band's piece of it can be decoded alone, behind the file's header.
+/* Radiance as JPEG, band by band. An image is one baseline JPEG file, 4:4:4 or grey. Its restart interval is the rows
+ * of one band, so each band's chunk, put after the file's header, can be decoded alone.
  *
- * The transform is our own, in floating point, at both ends: 8 bits are then what a viewer gets, not what is kept, and
- * values above white (which a viewer clips) are kept too. Private to libretex; described in retex-pack(5). */
+ * libretex has its own DCT, in floating point, for encoding and decoding. So decoded values are not rounded to 8 bits,
+ * and values above white are kept; other viewers round and clip them. Private to libretex; described in
+ * retex-pack(5). */
 #ifndef RETEX_PACK_JPEG_H
 #define RETEX_PACK_JPEG_H
 
@@ -12,26 +13,27 @@
 
 enum {
     RETEX_PACK_BAND_ROWS = 64,
-    RETEX_PACK_BLOCK_ROWS = 8,        /* of a JPEG's blocks */
-    RETEX_PACK_JPEG_SIDE_MAX = 65500, /* pixels; libjpeg's own limit. A band's 8 rows of 8188 blocks are within 65535 */
+    RETEX_PACK_BLOCK_ROWS = 8,        /* rows of a DCT block */
+    RETEX_PACK_JPEG_SIDE_MAX = 65500, /* pixels: libjpeg's limit; a band's blocks fit in a restart interval */
     RETEX_PACK_JPEG_STEP_MAX = 255
 };
 
 enum {
-    RETEX_PACK_LEVELS_MOST = 8 * 255, /* to white */
-    RETEX_PACK_WHITES_MOST = 8        /* times white's is the highest level */
+    RETEX_PACK_LEVELS_MOST = 8 * 255, /* most levels from black to white */
+    RETEX_PACK_WHITES_MOST = 8        /* the highest level, as a multiple of white's level */
 };
 
-/* Which value a level stands for: see retex-pack(5). */
+/* Maps values (linear radiance) to levels (what the DCT transforms) and back: see retex-pack(5). */
 typedef struct RetexPackCurve {
-    double white;  /* a value, which is */
-    double levels; /* this level: 255, which viewers show as white, to RETEX_PACK_LEVELS_MOST */
+    double white;  /* the value that maps to */
+    double levels; /* this level, from 255, which viewers show as white, to RETEX_PACK_LEVELS_MOST */
 } RetexPackCurve;
 
 double retex_pack_curve_level(const RetexPackCurve *curve, double value);
 double retex_pack_curve_value(const RetexPackCurve *curve, double level);
 
-/* A JPEG file taken apart: bytes pieces[0] of header, then those of each band with the marker that ends it. */
+/* A JPEG file and the sizes of its chunks in bytes: pieces[0] is the header, the others are the bands, each with the
+ * marker that ends it. */
 typedef struct RetexPackJpeg {
     unsigned char *data; /* malloc'ed */
     size_t bytes;
@@ -41,21 +43,22 @@ typedef struct RetexPackJpeg {
 
 void retex_pack_jpeg_free(RetexPackJpeg *jpeg);
 
-/* Encode levels (channels: 1 or 3, interleaved, width x height) with quantisation steps of `step` levels, 1 or more. */
+/* Encode width x height pixels of levels (interleaved; channels: 1 or 3) with quantizer steps of `step` levels, at
+ * least 1. */
 int retex_pack_jpeg_encode(RetexPackJpeg *jpeg, const float *levels, int width, int height, int channels, double step,
                            RetexError *err);
 
-/* A thread's means of decoding one JPEG. */
+/* Decodes one JPEG band at a time. Each thread needs its own. */
 typedef struct RetexPackJpegDecoder RetexPackJpegDecoder;
 int retex_pack_jpeg_decoder_create(RetexPackJpegDecoder **decoder, RetexError *err);
 void retex_pack_jpeg_decoder_close(RetexPackJpegDecoder **decoder); /* NULL and pointers to NULL are fine */
 
-/* Take one band of rows, which is the open one then: file is the header followed by the band's piece, and not needed
- * any more afterwards. What does not decode without complaint, or is of another size, is RETEX_EFORMAT. */
+/* Open one band, in place of the one that was open. file: the header followed by the band's chunk; it is modified, and
+ * may be freed after the call. RETEX_EFORMAT if libjpeg gives an error or warning, or if the size differs. */
 int retex_pack_jpeg_open_band(RetexPackJpegDecoder *decoder, unsigned char *file, size_t header, size_t bytes,
                               int width, int rows, int channels, const RetexPackCurve *curve, RetexError *err);
 
-/* The values of one row of blocks of the open band: 8 rows of pixels, or those that are left. */
+/* Decode one row of blocks of the open band: 8 rows of pixels, or fewer at its end. */
 int retex_pack_jpeg_decode_blocks(RetexPackJpegDecoder *decoder, int row, float *values, RetexError *err);
 
 #endif

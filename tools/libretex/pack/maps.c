@@ -1,4 +1,4 @@
-/* What the numbers of planes stand for. See planes.h. */
+/* Maps between samples and the integers of planes. See planes.h. */
 #include <math.h>
 #include <string.h>
 
@@ -36,7 +36,7 @@ static int32_t code_of(float sample, const RetexPackMap *map)
     return 1 + (int32_t)fmin(fmax(rint(log2(v / map->first) * map->per_octave), 0), RETEX_PACK_CODES - 2);
 }
 
-/* Bits such that a larger value has a larger number, and -0 lies just below 0. */
+/* Reorder float bits so that larger values have larger numbers; -0 becomes -1. */
 static int32_t ordered(uint32_t bits, int width)
 {
     const uint32_t sign = 1u << (width - 1);
@@ -48,7 +48,7 @@ static uint32_t unordered(int32_t number, int width)
     return number < 0 ? (uint32_t)(-(number + 1)) | 1u << (width - 1) : (uint32_t)number;
 }
 
-enum { HALVES = 256 }; /* converted at a time */
+enum { HALVES = 256 }; /* samples converted at a time */
 
 void retex_pack_map_numbers(int32_t *numbers, const float *samples, size_t stride, size_t count,
                             const RetexPackMap *map, RetexPixelType type)

@@ -1,8 +1,8 @@
-/* Prediction, and coding by a model, of bands of numbers. See model.h.
+/* Lossless coding of a band of integers: linear prediction and adaptive binary range coding. See model.h.
  *
- * Channels are coded one after the other, each number after its neighbours and after the same pixel of up to two
- * channels before. Zeros are holes: they are told apart from other numbers first, and take the value of the number
- * before them where others are predicted by them. */
+ * Channels are coded one after the other. Each number is predicted from its neighbours that are coded already, and from
+ * the same pixel of up to two earlier channels. Zeros are holes: a flag tells them apart from other numbers. Where a
+ * hole is used for prediction, it has the value of the last number before it that is not a hole. */
 #include "pack/model.h"
 
 #include <stdlib.h>
@@ -16,19 +16,19 @@
 enum {
     TOKEN_BITS = 6,
     TOKENS = 1 << TOKEN_BITS,
-    CLASSES = 32,          /* of how large residuals nearby are */
-    RANKS_MAX = 4096,      /* numbers that are coded by their rank among those that occur */
-    LARGEST_SIZE = 1 << 24 /* of a residual: larger ones count as it */
+    CLASSES = 32,          /* contexts of tokens: by the size of residuals nearby */
+    RANKS_MAX = 4096,      /* most distinct numbers that are coded by rank */
+    LARGEST_SIZE = 1 << 24 /* of a residual in contexts: larger ones are clamped to it */
 };
 
-/* What is learnt while a band is coded. */
+/* Adaptive probabilities, updated while a band is coded. */
 typedef struct Models {
     RetexBitModel hole[16];
     RetexBitModel token[CLASSES][TOKENS];
     RetexBitModel same_gap, gap[TOKENS];
 } Models;
 
-/* The two streams of a band, written or read: what is modelled, and what is not. */
+/* The two streams of a band, written or read: range-coded bits, and plain bits that are not modelled. */
 typedef struct Stream {
     RetexRangeEncoder to;
     RetexRangeDecoder from;
@@ -41,11 +41,11 @@ typedef struct Coding {
     Stream stream;
     Models *models;
     RetexPackFitChannel channels[RETEX_PACK_MODEL_CHANNELS_MAX];
-    int32_t *ranks; /* the numbers that occur, from the least */
-    int nranks;     /* 0: numbers are coded as they are */
+    int32_t *ranks; /* the distinct numbers of the channel, in ascending order */
+    int nranks;     /* 0: numbers are coded directly, not by rank */
 } Coding;
 
-/* --- bits and numbers: the same code writes and reads --- */
+/* --- bits and numbers: the same functions encode and decode --- */
 
 static inline int code_bit(Stream *s, RetexBitModel *model, int bit, int reading)
 {
@@ -63,7 +63,8 @@ static inline uint32_t code_plain(Stream *s, uint32_t bits, int count, int readi
     return bits;
 }
 
-/* Numbers below 4 are tokens; of others the token says how many bits they have, and the second one. */
+/* A number below 4 is its own token. For larger ones, the token gives the number of bits and the second highest bit;
+ * the other bits are plain. */
 ALWAYS_INLINE static inline uint32_t code_number(Stream *s, RetexBitModel *models, uint32_t number, int reading)
 {
     int token = (int)number, node = 1;
@@ -99,7 +100,7 @@ static int by_value(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* The numbers that occur but 0, where they are few. */
+/* List the distinct numbers other than 0; none if they are too many for ranks to pay. */
 static void find_ranks(Coding *c, const int32_t *numbers, size_t count, int32_t *scratch)
 {
     size_t sorted = 0;
@@ -118,7 +119,7 @@ static void find_ranks(Coding *c, const int32_t *numbers, size_t count, int32_t 
         }
 }
 
-/* Ranks keep the sign: 0 stays 0, and what is positive counts from there. */
+/* Index of the first positive number. Ranks keep the sign: positive numbers have ranks 1, 2, ..., 0 has rank 0. */
 static int first_positive(const Coding *c)
 {
     int first = 0;
@@ -176,7 +177,7 @@ static int code_description(Coding *c, int index, int reading)
     return code_ranks(c, reading);
 }
 
-/* Half octaves: 0, 1, 2, 3, 4 to 5, 6 to 7, 8 to 11, ... */
+/* The index of size's interval among 0, 1, 2, 3, 4 to 5, 6 to 7, 8 to 11, ...: two intervals for each octave. */
 static inline int half_octave(uint32_t size)
 {
     if (size < 2)
@@ -185,7 +186,7 @@ static inline int half_octave(uint32_t size)
     return 2 * bits + (int)(size >> (bits - 1) & 1);
 }
 
-/* How large residuals nearby are, and that of the same pixel in the channel before. */
+/* The context of a token: the size of neighbouring residuals and of this pixel's residual in the previous channel. */
 static inline int class_of(const RetexPackFitChannel *channel, ptrdiff_t at, ptrdiff_t above)
 {
     const int32_t *sizes = channel->sizes;
@@ -204,7 +205,7 @@ static inline int code_hole(Coding *c, const RetexPackFitChannel *channel, ptrdi
     return code_bit(&c->stream, &c->models->hole[context], holes[at], reading);
 }
 
-/* The nearest multiple of 2^shift, in those units. */
+/* number / 2^shift, rounded to the nearest integer. */
 static inline int32_t in_steps(int64_t number, int shift)
 {
     return (int32_t)(shift ? (number + (INT64_C(1) << (shift - 1))) >> shift : number);
@@ -236,7 +237,7 @@ ALWAYS_INLINE static inline void code_numbers(Coding *c, int index, int nweights
     }
 }
 
-/* The same, with what loops depend on known to the compiler. */
+/* Code all numbers of a channel. The number of weights is a constant in each call, so that loops are unrolled. */
 static inline void code_channel(Coding *c, int index, int reading)
 {
     const RetexPackFitChannel *channel = &c->channels[index];
@@ -289,7 +290,8 @@ static int coding_alloc(Coding *c, const RetexPackModelBand *band)
     return ok && c->models && c->ranks;
 }
 
-/* A channel as it is coded: as ranks where these are few, holes filled. scratch: as many numbers. */
+/* Prepare a channel for coding: replace numbers by ranks if there are few distinct ones, and fill holes. scratch has
+ * room for all numbers of the channel. */
 static void load_channel(Coding *c, int index, int32_t *scratch)
 {
     RetexPackFitChannel *channel = &c->channels[index];
@@ -365,7 +367,7 @@ static int any_number(const RetexPackModelBand *band)
     return 0;
 }
 
-/* Most bytes of each of the two streams. */
+/* Upper bound on the bytes of each of the two streams. */
 static size_t stream_bound(const RetexPackModelBand *band)
 {
     const size_t numbers = ((size_t)band->width * (size_t)band->rows + RANKS_MAX) * (size_t)band->channels;
@@ -431,7 +433,7 @@ int retex_pack_model_decode(const RetexPackModelBand *band, const unsigned char 
         }
     }
     coding_free(&c);
-    const Stream *s = &c.stream; /* all of it, and no more */
+    const Stream *s = &c.stream; /* both streams must be used up exactly */
     return ok == 1 ? !s->from.lacks && s->from.at == s->from.end && !s->plain_from.lacks &&
                          s->plain_from.at == s->plain_from.end
                    : ok;

@@ -1,5 +1,6 @@
-/* Bands of whole numbers, predicted by a fit to their neighbours in all channels and coded by a model of how large the
- * residuals are: what lossless packs are made of. Private to libretex; described in retex-pack(5). */
+/* Lossless coding of bands of integers, for lossless packs. Each number is predicted from its neighbours in all
+ * channels by fitted weights; residuals are range-coded, in contexts of the residuals nearby. Private to libretex;
+ * described in retex-pack(5). */
 #ifndef RETEX_PACK_MODEL_H
 #define RETEX_PACK_MODEL_H
 
@@ -12,18 +13,19 @@ enum { RETEX_PACK_MODEL_CHANNELS_MAX = 8 };
 
 typedef struct RetexPackModelBand {
     int width, rows, channels;
-    int32_t *numbers[RETEX_PACK_MODEL_CHANNELS_MAX];      /* width x rows of each channel */
-    unsigned char *shifts[RETEX_PACK_MODEL_CHANNELS_MAX]; /* numbers are multiples of 2^shift; NULL: of 1 */
+    int32_t *numbers[RETEX_PACK_MODEL_CHANNELS_MAX];      /* by channel: width x rows */
+    unsigned char *shifts[RETEX_PACK_MODEL_CHANNELS_MAX]; /* each number is a multiple of 2^shift; NULL: shift 0 */
 } RetexPackModelBand;
 
-/* Room for the numbers, and for the shifts of those on a lattice: 1, or 0 without memory; free in both cases. */
+/* Allocate the numbers, and the shifts of channels on a lattice. Returns 1, or 0 if memory runs out; call
+ * retex_pack_model_free in both cases. */
 int retex_pack_model_alloc(RetexPackModelBand *band, int width, int rows, int channels, const RetexPackMap *maps);
 void retex_pack_model_free(RetexPackModelBand *band);
 
-/* Compress into *data, malloc'ed, which is NULL if all numbers are 0. Returns the bytes, or -1 without memory. */
+/* Encode into *data, malloc'ed, or NULL if all numbers are 0. Returns the number of bytes, or -1 if memory runs out. */
 long retex_pack_model_encode(unsigned char **data, const RetexPackModelBand *band);
 
-/* And back, into the numbers: 1, 0 where the data is damaged, -1 without memory. */
+/* Decode into band->numbers. Returns 1, 0 if the data is damaged, or -1 if memory runs out. */
 int retex_pack_model_decode(const RetexPackModelBand *band, const unsigned char *data, size_t bytes);
 
 #endif

@@ -1,4 +1,4 @@
-/* Codecs and quantizers of parts, from what refers to them and from their values. See plan.h. */
+/* Chooses codecs and quantizers by a part's role in the set, its range of values and its noise. See plan.h. */
 #include "pack/plan.h"
 
 #include <math.h>
@@ -10,14 +10,14 @@
 #include "compact/light.h"
 #include "compact/image_noise.h"
 
-#define FINE_NOISE 3     /* light's step is at most so many times its noise, */
-#define FINER_MOST 4     /* but this share of the quality's; */
-#define COARSE_NOISE 0.5 /* and at least so many times its noise, */
-#define COARSER_MOST 3   /* but not more than so many times the quality's */
-#define BRIGHTER_MOST 4  /* times white that of light may be */
-#define GAIN_STEP 2.5    /* of gains, of which many are added up, in that of their light, */
-#define GAIN_FINER 1.5   /* or, where there is little noise, so many of these at least, */
-#define GAIN_NOISE 0.8   /* and so many times the noise: a twentieth of it, squared, comes to it */
+#define FINE_NOISE 3     /* the step of radiance is at most this many times its noise, */
+#define FINER_MOST 4     /* but at least the quality's step divided by this; */
+#define COARSE_NOISE 0.5 /* it is at least this many times its noise, */
+#define COARSER_MOST 3   /* but at most this many times the quality's step */
+#define BRIGHTER_MOST 4  /* most white of a part of radiance, as a multiple of the set's white */
+#define GAIN_STEP 2.5    /* most step of gains, in steps of their radiance: errors of many gains average out. */
+#define GAIN_FINER 1.5   /* With little noise the step is smaller, but at least this many steps of radiance */
+#define GAIN_NOISE 0.8   /* and this many times the noise: quantization adds a twentieth to its variance */
 
 double retex_pack_quality_psnr(double quality)
 {
@@ -26,8 +26,8 @@ double retex_pack_quality_psnr(double quality)
 
 RetexPackQuantizer retex_pack_quantizer(double psnr)
 {
-    const double error = 255 * pow(10, -psnr / 20);                         /* levels */
-    const int fine = psnr >= 50, times = psnr > 58 ? 4 : psnr > 56 ? 2 : 1; /* above the default */
+    const double error = 255 * pow(10, -psnr / 20);                         /* RMS, in levels */
+    const int fine = psnr >= 50, times = psnr > 58 ? 4 : psnr > 56 ? 2 : 1; /* finer than by default */
     return (RetexPackQuantizer){.jpeg_step = 1.8 * error,
                                 .original_step = 3.6 * error,
                                 .picture_step = fmax(14 * error, 5),
@@ -50,27 +50,27 @@ typedef enum Role {
     ROLE_WEIGHT
 } Role;
 
-/* What a part's samples are like. */
+/* The range of a channel's samples. */
 typedef struct Range {
-    int all_zero, positive; /* positive: finite and not negative */
-    float most, most_size;  /* the largest, and the largest magnitude */
+    int all_zero, positive; /* positive: all are finite and not negative */
+    float most, most_size;  /* the largest sample and the largest magnitude */
 } Range;
 
 typedef struct Planning {
-    double white;   /* level 255 of light that no texture multiplies, at least, */
-    double *whites; /* and of each part of light */
+    double white;   /* the set's white: the least value at level 255 of any radiance */
+    double *whites; /* by part of radiance: its value at level 255 */
     RetexPackPart *packed;
     const RetexSet *set;
     const RetexPackQuantizer *quantizer;
     Role *roles;
-    int *means; /* of a spread: its part of means */
+    int *means; /* by part of standard deviations: the part of their means */
     Range (*ranges)[RETEX_PACK_CHANNELS_MAX];
-    double *noise; /* of light, in levels; -1 where there was no memory for it */
+    double *noise; /* by part of radiance, in levels; -1 if memory ran out */
 } Planning;
 
 /* --- roles --- */
 
-/* A part that two things of different kinds refer to keeps its bits. */
+/* A part that is used in two different roles is stored without loss. */
 static void give_role(Planning *plan, int part, Role role)
 {
     if (part >= 0)
@@ -114,7 +114,7 @@ static void give_roles(Planning *plan)
     give_role(plan, 0, ROLE_LIGHT);
 }
 
-/* --- what samples are like --- */
+/* --- ranges and noise --- */
 
 static void find_ranges(void *context, int part, int thread)
 {
@@ -134,8 +134,9 @@ static void find_ranges(void *context, int part, int thread)
     }
 }
 
-/* Light that textures darken may be brighter than white and yet not be clipped: the value that little of it exceeds,
- * for above white steps are twice as coarse. */
+/* Choose the value at level 255 for a part of radiance. Radiance that textures multiply may exceed 1 and still give a
+ * picture that is not clipped. Steps above white are coarser, so white is a value that few samples exceed: the mean
+ * plus two standard deviations. */
 static double white_of(const Planning *plan, int part)
 {
     const RetexSet *set = plan->set;
@@ -186,7 +187,7 @@ static int all_positive(const Planning *plan, int part)
 
 /* --- codecs --- */
 
-/* Codes of equal ratios, of which the highest is the largest value. */
+/* A logarithmic map whose highest code is the largest value. */
 static void map_log(RetexPackMap *map, const Range *range, int per_octave)
 {
     map->kind = RETEX_PACK_MAP_LOG;
@@ -195,7 +196,8 @@ static void map_log(RetexPackMap *map, const Range *range, int per_octave)
     retex_pack_map_fill(map);
 }
 
-/* As JPEG, where that can hold it; `white` as level `levels`, `step` apart. */
+/* Choose JPEG, if size and values allow. `white` is the value at level 255, `step` the quantizer step in such
+ * levels. */
 static void plan_light(Planning *plan, int part, double white, double step)
 {
     RetexPackPart *p = &plan->packed[part];
@@ -205,12 +207,12 @@ static void plan_light(Planning *plan, int part, double white, double step)
         return;
     p->codec = RETEX_PACK_JPEG;
     p->curve.white = white;
-    /* steps below 1 there are none: more levels instead, of which viewers show the lower ones */
+    /* JPEG has no steps below 1: use more levels instead; viewers clip those above 255 */
     p->curve.levels = rint(fmin(fmax(255 / step, 255), RETEX_PACK_LEVELS_MOST));
     p->jpeg_step = fmax(step, 1);
 }
 
-/* The value that light's levels call white: 1, unless the picture is far too dark or too bright for that. */
+/* The set's white: 1, unless the picture is far too dark or too bright. */
 static double choose_white(const RetexImage *picture)
 {
     const size_t count = (size_t)picture->width * (size_t)picture->height * (size_t)picture->channels;
@@ -234,12 +236,12 @@ static void plan_weight(Planning *plan, int part)
     }
 }
 
-/* The step of light: by quality, but finer where there is nearly no noise, which costs little then, and coarser where
- * there is so much that nothing can be seen of it. */
+/* The quantizer step of radiance, by quality. It is finer where there is almost no noise, because that costs few bytes
+ * then, and coarser where noise hides quantization errors. */
 static double light_step(const Planning *plan, int part)
 {
     const double step =
-        plan->quantizer->jpeg_step / pow(plan->whites[part] / plan->white, 1 / 2.4); /* as sRGB has them */
+        plan->quantizer->jpeg_step / pow(plan->whites[part] / plan->white, 1 / 2.4); /* sRGB's exponent */
     const double noise = plan->noise[part];
     if (FINE_NOISE * noise < step)
         return fmax(FINE_NOISE * noise, step / FINER_MOST);
@@ -253,7 +255,8 @@ static double gain_step(const Planning *plan, int radiance)
     return fmin(GAIN_STEP * step, fmax(GAIN_FINER * step, plan->quantizer->gain_noise * noise));
 }
 
-/* With RETEX_COMPACT_GREY on all interreflections, gains are shares of the light. White is a share of 1. */
+/* Compact sets scale gains such that a gain is a share of the radiance if all interreflections have the albedo
+ * RETEX_COMPACT_GREY. White is a share of 1. */
 static void plan_gain(Planning *plan, int part)
 {
     const RetexSet *set = plan->set;
@@ -264,7 +267,7 @@ static void plan_gain(Planning *plan, int part)
     plan_light(plan, part, pow((double)RETEX_COMPACT_GREY, 1 - most), gain_step(plan, radiance));
 }
 
-/* Means on lattices, standard deviations and coverage by their logarithm; where coverage is 0, nothing. */
+/* Quantize means to lattices, standard deviations and coverage logarithmically. Pixels of coverage 0 are not stored. */
 static void plan_footprint(Planning *plan, int uv, int spread, const RetexPackFootprintSteps *quantizer)
 {
     RetexPackPart *p = &plan->packed[uv], *s = &plan->packed[spread];
@@ -277,7 +280,7 @@ static void plan_footprint(Planning *plan, int uv, int spread, const RetexPackFo
     p->present = s->present = uv;
     p->sigma = spread;
     map_log(&p->maps[2], &of_uv[2], 2);
-    Range both = of_spread[0]; /* one scale for both, as one offset serves both */
+    Range both = of_spread[0]; /* the same map for both axes, because sigma_first is shared */
     both.most = fmaxf(of_spread[0].most, of_spread[1].most);
     for (int c = 0; c < 2; c++) {
         p->maps[c].kind = RETEX_PACK_MAP_LATTICE;
@@ -292,7 +295,7 @@ static void plan_footprint(Planning *plan, int uv, int spread, const RetexPackFo
         (int)floor((log2(s->maps[0].first / quantizer->sigma_share) + RETEX_PACK_LATTICE_BITS) * quantizer->per_octave);
 }
 
-/* 1: there are no means but those that the rounding of rendered sets leaves, and no -0. */
+/* 1 if all means are multiples of the steps to which the renderer rounds them, and none is -0. */
 static int on_lattice(const Planning *plan, int uv, int spread)
 {
     const RetexImage *means = &plan->set->parts[uv].image, *sigmas = &plan->set->parts[spread].image;
@@ -311,7 +314,7 @@ static int on_lattice(const Planning *plan, int uv, int spread)
     return 1;
 }
 
-/* 1: most means end in zero bits, as if they had been rounded. */
+/* 1 if most means end in zero bits, as rounded numbers do. */
 static int ends_in_zeros(const RetexImage *means)
 {
     const size_t count = (size_t)means->width * (size_t)means->height;
@@ -325,8 +328,9 @@ static int ends_in_zeros(const RetexImage *means)
     return 2 * rounded > all;
 }
 
-/* Parts that lose nothing are modelled, means as multiples of what they were rounded to. Those that were rounded in
- * another way, as by earlier versions, are left to planes, which are better at runs of zero bits. */
+/* Use RETEX_PACK_MODEL for lossless parts. Means are coded as multiples of the steps they were rounded to. Means that
+ * were rounded otherwise, as by earlier versions, stay RETEX_PACK_PLANES, which compresses trailing zero bits
+ * better. */
 static void plan_exact(Planning *plan)
 {
     const RetexSet *set = plan->set;
@@ -359,7 +363,7 @@ static void plan_parts(Planning *plan)
         for (int c = 0; c < p->channels; c++)
             zero = zero && plan->ranges[i][c].all_zero;
         p->codec = zero ? RETEX_PACK_ZERO : RETEX_PACK_PLANES;
-        if (!zero && plan->quantizer && i == 0) /* viewers take the picture for sRGB */
+        if (!zero && plan->quantizer && i == 0) /* white is 1, because viewers decode the picture as sRGB */
             plan_light(plan, i, 1, plan->quantizer->picture_step);
         else if (!zero && plan->quantizer && plan->roles[i] == ROLE_LIGHT)
             plan_light(plan, i, plan->whites[i], light_step(plan, i));

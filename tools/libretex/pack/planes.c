@@ -1,7 +1,7 @@
-/* Planes of whole numbers: prediction, and compression by blosc. See planes.h.
+/* Planes of integers: prediction, then compression by blosc. See planes.h.
  *
- * A chunk is a byte that says how its numbers are predicted and how many bytes a residual takes, then blosc's buffer of
- * the residuals, of which there are none where numbers do not matter. */
+ * A chunk begins with a byte: the predictor in the low 4 bits, the bytes of a residual in the high 4 bits. Then follow
+ * the residuals of the present pixels, compressed by blosc. */
 #include "pack/planes.h"
 
 #include <string.h>
@@ -10,7 +10,7 @@
 
 #include "pack/restore.h"
 
-static const int TRIAL_EFFORT = 1; /* that tells which predictor to take */
+static const int TRIAL_EFFORT = 1; /* blosc's effort when predictors are compared */
 
 static int32_t wrap_residual(int32_t value, int bits)
 {
@@ -40,8 +40,8 @@ size_t retex_pack_plane_bound(const RetexPackPlane *plane)
 
 /* --- encoding --- */
 
-/* Numbers as they will come back: multiples of their steps, 0 where they do not matter. 1 if one that matters is not 0.
- */
+/* Round numbers to multiples of 2^shift, as the decoder will return them; absent ones become 0. Returns 1 if any number
+ * is not 0. */
 static int settle(const RetexPackPlane *plane)
 {
     int any = 0;
@@ -56,7 +56,7 @@ static int settle(const RetexPackPlane *plane)
     return any;
 }
 
-/* Bits of all residuals, roughly. *largest gets the largest. */
+/* Estimate the bits of all residuals. *largest: the largest residual. */
 static double cost(const RetexPackPlane *plane, RetexPackPredictor predictor, uint32_t *largest)
 {
     double bits = 0;
@@ -75,7 +75,7 @@ static double cost(const RetexPackPlane *plane, RetexPackPredictor predictor, ui
     return bits;
 }
 
-/* Returns how many bytes they are. */
+/* Store the residuals, `bytes` bytes each, little-endian. Returns their size in bytes. */
 static size_t store_residuals(unsigned char *to, const RetexPackPlane *plane, RetexPackPredictor predictor, int bytes)
 {
     const unsigned char *const begin = to;
@@ -93,7 +93,7 @@ static size_t store_residuals(unsigned char *to, const RetexPackPlane *plane, Re
     return (size_t)(to - begin);
 }
 
-/* Residuals, compressed; returns the bytes of both, or -1. */
+/* Write a chunk: header byte and compressed residuals. Returns its bytes, or -1. */
 static long compress_residuals(unsigned char *to, const RetexPackPlane *plane, RetexPackPredictor predictor,
                                uint32_t largest, unsigned char *scratch, int effort)
 {
@@ -119,7 +119,7 @@ long retex_pack_plane_encode(unsigned char *data, const RetexPackPlane *plane, u
             chosen = (RetexPackPredictor)p;
         }
     }
-    /* prediction makes runs and repetitions into noise: what has them may do better without */
+    /* prediction destroys repeated sequences, so planes with repetitions may compress better without it */
     if (chosen != BY_NOTHING) {
         const long with = compress_residuals(data, plane, chosen, largest[chosen], scratch, TRIAL_EFFORT);
         const long without = compress_residuals(data, plane, BY_NOTHING, largest[BY_NOTHING], scratch, TRIAL_EFFORT);
@@ -132,7 +132,7 @@ long retex_pack_plane_encode(unsigned char *data, const RetexPackPlane *plane, u
 
 /* --- decoding --- */
 
-/* What matters becomes 0. */
+/* Set all present numbers to 0. */
 static void clear(const RetexPackPlane *plane)
 {
     const size_t width = (size_t)plane->width, size = plane->bits == 8 ? 1 : sizeof *plane->numbers;

@@ -1,5 +1,5 @@
-/* Planes: one channel of one band as whole numbers, predicted from their neighbours and compressed, and what the
- * numbers stand for. Private to libretex; described in retex-pack(5). */
+/* Coding of planes: a plane is one channel of one band as integers, which are predicted from their neighbours and
+ * compressed. Maps turn samples into integers and back. Private to libretex; described in retex-pack(5). */
 #ifndef RETEX_PACK_PLANES_H
 #define RETEX_PACK_PLANES_H
 
@@ -10,11 +10,11 @@
 #include "pack/jpeg.h"
 #include "base/row_span.h"
 
-/* What a number stands for. */
+/* Which sample value an integer stands for. */
 typedef enum RetexPackMapKind {
-    RETEX_PACK_MAP_BITS,    /* the bits of a half or float, in the order of the values they mean */
-    RETEX_PACK_MAP_LATTICE, /* multiples of 2^-LATTICE_BITS; coarser where standard deviations are large */
-    RETEX_PACK_MAP_LOG,     /* 0: zero; c: first * 2^((c - 1) / per_octave) */
+    RETEX_PACK_MAP_BITS,    /* the bits of a half or float, reordered so that larger values have larger numbers */
+    RETEX_PACK_MAP_LATTICE, /* c * 2^-LATTICE_BITS; c is a multiple of 2^shift, by the standard deviation */
+    RETEX_PACK_MAP_LOG,     /* code 0: 0; code c: first * 2^((c - 1) / per_octave) */
     RETEX_PACK_MAP_LINEAR,  /* c * first */
     RETEX_PACK_MAP_ANGLE,   /* sin((c - 128) / per_octave * pi / 2): a correlation */
     RETEX_PACK_MAPS
@@ -33,28 +33,28 @@ typedef struct RetexPackMap {
     RetexPackMapKind kind;
     double first;
     int per_octave;
-    float value[RETEX_PACK_CODES]; /* of each code, for the last three kinds */
+    float value[RETEX_PACK_CODES]; /* by code, for the last three kinds */
 } RetexPackMap;
 
-int retex_pack_map_is_coded(const RetexPackMap *map); /* 1: numbers are codes of a byte */
-void retex_pack_map_fill(RetexPackMap *map);          /* the values, from the other fields */
-/* Numbers of `count` samples, `stride` floats apart, and back. */
+int retex_pack_map_is_coded(const RetexPackMap *map); /* 1: numbers are codes from 0 to 255 */
+void retex_pack_map_fill(RetexPackMap *map);          /* compute value[] from the other fields */
+/* Turn `count` samples, `stride` floats apart, into numbers, and numbers into samples. */
 void retex_pack_map_numbers(int32_t *numbers, const float *samples, size_t stride, size_t count,
                             const RetexPackMap *map, RetexPixelType type);
 void retex_pack_map_samples(float *samples, size_t stride, const int32_t *numbers, size_t count,
                             const RetexPackMap *map, RetexPixelType type);
-/* Back, of codes of a byte. */
+/* Turn codes into samples. */
 void retex_pack_map_codes(float *samples, size_t stride, const unsigned char *codes, size_t count,
                           const RetexPackMap *map);
 
-/* Numbers side by side that matter: all of a plane's, row by row. */
+/* The runs of pixels that are present in a plane, row by row. */
 typedef struct RetexPackRuns {
-    size_t pixels;                       /* that matter */
-    int first[RETEX_PACK_BAND_ROWS + 1]; /* row y has run[first[y]] to run[first[y + 1] - 1] */
+    size_t pixels;                       /* that are present */
+    int first[RETEX_PACK_BAND_ROWS + 1]; /* runs of row y: run[first[y]] to run[first[y + 1] - 1] */
     RetexRowSpan *run;
 } RetexPackRuns;
 
-/* Most runs that there can be. */
+/* The largest possible number of runs. */
 static inline size_t retex_pack_runs_bound(int width, int rows)
 {
     return (size_t)(width / 2 + 1) * (size_t)rows;
@@ -63,23 +63,23 @@ static inline size_t retex_pack_runs_bound(int width, int rows)
 /* A plane of numbers: width x rows, of which there are at most RETEX_PACK_BAND_ROWS. */
 typedef struct RetexPackPlane {
     int width, rows;
-    int bits;                     /* of a number: 8, 16 or 32; sums wrap around there */
-    const unsigned char *present; /* 0: this number does not matter and is not stored; NULL: all matter */
-    const unsigned char *shift;   /* numbers are multiples of 2^shift; NULL: of 1 */
+    int bits;                     /* of a number: 8, 16 or 32; arithmetic wraps around */
+    const unsigned char *present; /* by pixel, 0: absent, not stored; NULL: all are present */
+    const unsigned char *shift;   /* by pixel: the number is a multiple of 2^shift; NULL: shift 0 */
     int32_t *numbers;
-    const RetexPackRuns *runs; /* of what is present, which decoding needs */
-    unsigned char *codes;      /* where decoding puts numbers of 8 bits */
+    const RetexPackRuns *runs; /* the present pixels as runs, for decoding */
+    unsigned char *codes;      /* output of decoding if bits is 8 */
 } RetexPackPlane;
 
-/* Most bytes that a plane's residuals, and its compressed form, may need. */
+/* Upper bound on the bytes of a plane's residuals, and of the compressed plane. */
 size_t retex_pack_plane_bound(const RetexPackPlane *plane);
 
-/* Compress into data, of retex_pack_plane_bound bytes; scratch is as large. Returns the number of bytes, 0 where every
- * number that matters is 0, or -1 if compression fails. effort 1..9. */
+/* Encode into data. data and scratch have retex_pack_plane_bound bytes each. effort: 1 to 9. Returns the number of
+ * bytes, 0 if every present number is 0, or -1 if compression fails. */
 long retex_pack_plane_encode(unsigned char *data, const RetexPackPlane *plane, unsigned char *scratch, int effort);
 
-/* And back, into plane->numbers, or plane->codes; those that do not matter are left alone. 1, or 0 where the data is
- * damaged. */
+/* Decode into plane->numbers, or into plane->codes if bits is 8. Absent pixels are not written. Returns 1, or 0 if the
+ * data is damaged. */
 int retex_pack_plane_decode(const RetexPackPlane *plane, const unsigned char *data, size_t bytes,
                             unsigned char *scratch);
 

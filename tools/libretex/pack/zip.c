@@ -1,4 +1,4 @@
-/* Stored zips, as PKWARE's APPNOTE describes them, with 64-bit sizes where 32 bits do not do. See zip.h. */
+/* ZIP files with stored entries, after PKWARE's APPNOTE; ZIP64 fields where 32 bits are too few. See zip.h. */
 #include "pack/zip.h"
 
 #include <stdio.h>
@@ -70,12 +70,12 @@ static uint64_t capped(uint64_t value)
     return value < MOST_32 ? value : MOST_32;
 }
 
-/* What local and central headers share, from the version needed to the length of the extra field. */
+/* Write the fields that local and central headers share: 'version needed' to 'extra field length'. */
 static void put_common(unsigned char **at, const RetexZipEntry *entry, int extra_bytes)
 {
     put(at, extra_bytes ? 45 : 10, 2);
     put(at, NAMES_ARE_UTF8, 2);
-    put(at, 0, 4); /* stored, at midnight */
+    put(at, 0, 4); /* compression method 0: stored; time 0: midnight */
     put(at, FIRST_DAY, 2);
     put(at, entry->crc, 4);
     put(at, capped(entry->bytes), 4);
@@ -121,7 +121,7 @@ int retex_zip_entry_write(RetexOutput *output, RetexZipList *list, const char *n
     return code;
 }
 
-/* Where an entry's local header begins: what the directory names. */
+/* Offset of an entry's local header, as the central directory gives it. */
 static uint64_t header_place(const RetexZipEntry *entry)
 {
     return entry->offset - LOCAL_BYTES - strlen(entry->name) - (entry->bytes >= MOST_32 ? 20 : 0);
@@ -201,11 +201,11 @@ static int read_all(const RetexInput *input, void *buffer, size_t bytes, uint64_
 }
 
 typedef struct Directory {
-    uint64_t begin, bytes, end; /* end: of what may lie before it */
+    uint64_t begin, bytes, end; /* end: where the end records begin */
     int count;
 } Directory;
 
-/* The end of the directory is the end of the file: nothing may follow it, no comment either. */
+/* Find the central directory. The end record must be the last bytes of the file, so a ZIP comment is refused. */
 static int find_directory(Directory *directory, const RetexInput *input, RetexError *err)
 {
     unsigned char end[END_BYTES], wide[END64_BYTES + LOCATOR64_BYTES];
@@ -227,7 +227,7 @@ static int find_directory(Directory *directory, const RetexInput *input, RetexEr
     return ok ? 0 : damaged(err, "its directory is not sound");
 }
 
-/* One entry of the directory at *at; the place of its local header goes to entry->offset. */
+/* Parse the directory's entry at *at. entry->offset gets the offset of the local header. */
 static int parse_central(RetexZipEntry *entry, const unsigned char **at, const unsigned char *end, RetexError *err)
 {
     const unsigned char *p = *at;
@@ -259,7 +259,7 @@ static int parse_central(RetexZipEntry *entry, const unsigned char **at, const u
     return packed == entry->bytes ? 0 : damaged(err, "an entry is not stored plainly");
 }
 
-/* From the place of the local header to that of the data; the header must say what the directory does. */
+/* Change entry->offset from the local header to the data. The header must agree with the directory. */
 static int check_local(RetexZipEntry *entry, const RetexInput *input, uint64_t end, RetexError *err)
 {
     unsigned char header[LOCAL_BYTES + RETEX_PACK_NAME_MAX];

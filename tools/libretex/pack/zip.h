@@ -24,11 +24,11 @@ typedef struct RetexZipList {
 void retex_zip_list_free(RetexZipList *list);
 const RetexZipEntry *retex_zip_list_find(const RetexZipList *list, const char *name); /* or NULL */
 
-/* The entries of a zip, in the order of their data. They lie apart from each other, inside the input; compressed or
- * encrypted ones, names with a NUL and names that occur twice are refused. */
+/* Read the directory of a ZIP file. Entries are sorted by offset. Refused: entries that overlap, end outside the file,
+ * are compressed or encrypted, have a NUL in their name, or share a name. */
 int retex_zip_list_read(RetexZipList *list, const RetexInput *input, RetexError *err);
 
-/* Append an entry; then, once, the directory. *written counts the bytes of all of it. */
+/* Append an entry, made of `count` chunks. After the last entry, write the directory once. *written: bytes so far. */
 int retex_zip_entry_write(RetexOutput *output, RetexZipList *list, const char *name, const void *const *pieces,
                           const size_t *bytes, int count, uint64_t *written, RetexError *err);
 int retex_zip_directory_write(RetexOutput *output, const RetexZipList *list, uint64_t *written, RetexError *err);
