@@ -31,7 +31,7 @@
 typedef struct QueryRay {
     Ray ray;         /* tmax is just behind the nearest hit, so that hits at the same distance are found */
     Hit *hit;        /* the nearest hit so far; NULL if any hit ends the query */
-    double size;     /* largest magnitude of the origin's coordinates */
+    double size;     /* sum of the magnitudes of the origin's coordinates */
     double rounding; /* a plane with a distance from the origin below this counts as containing it */
     unsigned kind;   /* flag that a primitive must have to be visible to this ray */
     unsigned passes; /* flags of primitives that let this ray pass */

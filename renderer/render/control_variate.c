@@ -116,7 +116,7 @@ static int from_halves(RetexImage *dst, ControlMoments *const *moments, const in
         controls[h] = (Control){find_image(set, names[h][0]), find_image(set, names[h][1])};
         halves &= controls[h].mean && controls[h].variance;
     }
-    for (int h = 0; h < 2 && !halves; h++) /* a variance of the same samples as the beauty would depend on it */
+    for (int h = 0; h < 2 && !halves; h++) /* no variance from the same samples: it correlates with the beauty image */
         controls[h] = (Control){&set->parts[0].image, NULL};
     for (int h = 0; h < 2 && !code; h++) {
         RetexImage alpha = {0};

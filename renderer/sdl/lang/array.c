@@ -1,4 +1,4 @@
-/* Arrays: of any values, up to five dimensions, one block of memory each. */
+/* Arrays: up to five dimensions, elements of any type, one block of memory per array. */
 #include <stdio.h>
 #include <string.h>
 #include "sdl/lang/internal.h"
@@ -10,7 +10,7 @@ static void initialise(Sdl *sdl, Array *array, int dimension, size_t *offset)
         below *= (size_t)array->size[d];
     sdl_expect(sdl, "{");
     for (int i = 0; i < array->size[dimension]; i++) {
-        if (sdl_is(sdl, "}")) { /* fewer than there is room for */
+        if (sdl_is(sdl, "}")) { /* an initializer list may have fewer elements than the array */
             *offset += below * (size_t)(array->size[dimension] - i);
             break;
         }
@@ -52,7 +52,8 @@ void array_declare(Sdl *sdl, Value *value)
         array->count *= (size_t)(size + 1e-8);
         if (array->count > (size_t)1 << 32)
             sdl_fail(sdl, RETEX_ELIMIT, "an array this large is too much");
-        /* Only a bracket written right here is another dimension: looking for it must not run what follows. */
+        /* Only a bracket that is written directly here adds a dimension. The lookahead must not run a directive or
+         * macro. */
         if (sdl->have || sdl->cursor->kind != RAW_PUNCT || sdl->cursor->punct != '[')
             break;
     }
@@ -65,8 +66,8 @@ void array_declare(Sdl *sdl, Value *value)
         initialise(sdl, array, 0, &offset);
 }
 
-/* Scenes of animations take an element by the number of the frame, which is 0 where nobody says which is meant. reads:
- * what the index itself was made of. */
+/* Report an index out of range. Scenes of animations often index an array by the frame number, which is 0 unless it
+ * is declared; `reads` tells whether the index depends on it (FrameRead bits). */
 static _Noreturn void fail_index(Sdl *sdl, double index, int count, unsigned reads)
 {
     char advice[128] = "";
@@ -79,7 +80,7 @@ static _Noreturn void fail_index(Sdl *sdl, double index, int count, unsigned rea
     sdl_error(sdl, "index %g is outside of an array of %d elements%s", index, count, advice);
 }
 
-/* The element may have no value yet: it is assigned to or asked about. */
+/* The element may have no value yet: it is the target of an assignment or the argument of defined(). */
 Value *array_element(Sdl *sdl, Value *value)
 {
     while (value->kind == VALUE_ARRAY && sdl->cursor->kind == RAW_PUNCT && sdl->cursor->punct == '[') {

@@ -1,20 +1,20 @@
-/* Colours: `rgb <…>` and its kin, `color NAME`, and the old form `red 1 green 0.5`. */
+/* Colours: `rgb <…>` and its variants, `color NAME`, and the old form `red 1 green 0.5`. */
 #include <string.h>
 #include <retex/color.h>
 #include "sdl/lang/internal.h"
 
-/* The form after its keyword: which numbers it takes, and whether they are sRGB-encoded. */
+/* A colour keyword: the number of components that follow it, and whether they are sRGB-encoded. */
 typedef struct Form {
     const char *name;
-    int count;    /* of its numbers */
-    int transmit; /* the fourth is transmit */
+    int count;    /* number of components */
+    int transmit; /* 1 if the fourth component is transmit */
     int srgb;
 } Form;
 static const Form forms[] = {{"rgb", 3, 0, 0},  {"rgbf", 4, 0, 0},  {"rgbt", 4, 1, 0},  {"rgbft", 5, 0, 0},
                              {"srgb", 3, 0, 1}, {"srgbf", 4, 0, 1}, {"srgbt", 4, 1, 1}, {"srgbft", 5, 0, 1}};
 static const char *const channels[] = {"red", "green", "blue", "filter", "transmit"};
 
-/* 1 if a colour begins with this word. */
+/* 1 if a colour can start with this word. */
 static int color_word(const char *text)
 {
     for (size_t i = 0; i < sizeof forms / sizeof *forms; i++)
@@ -34,8 +34,8 @@ int sdl_is_color_start(Sdl *sdl)
     return token->kind == TOKEN_IDENT && token->value->kind == VALUE_VECTOR;
 }
 
-/* Of a plain expression: a float fills filter and transmit as well, as in POV-Ray; a vector is red, green, blue,
- * filter, transmit as far as it goes. */
+/* Colour from a plain expression, as in POV-Ray. A float fills all five components, filter and transmit too. A
+ * vector gives red, green, blue, filter, transmit, in this order, up to its length. */
 static Num from_num(Num num)
 {
     num_promote(&num, 5);

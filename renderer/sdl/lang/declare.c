@@ -1,10 +1,11 @@
-/* #declare, #local and #undef, and the scopes of names. The scene file, every #include and every macro call has a
- * scope; names of the outer ones are visible, as POV-Ray does it. #declare changes the name it finds, or makes a
- * global one. */
+/* #declare, #local, #undef and the scopes of names. The scene file, every #include and every macro call has a scope.
+ * Names of outer scopes are visible, as in POV-Ray. #declare assigns to the visible symbol of that name, or creates
+ * a global symbol. */
 #include <string.h>
 #include "sdl/lang/internal.h"
 
-/* Symbols of ended scopes are used again, oldest first and not at once: a token may still look at the last ones. */
+/* Symbols of ended scopes are reused, oldest first. The newest ones are kept, because a token may still refer to
+ * them. */
 enum { UNUSED_KEPT = 512 };
 
 Symbol *symbol_new(Sdl *sdl)
@@ -25,7 +26,7 @@ void symbol_bind(Sdl *sdl, Symbol *symbol, Word *word, int scope)
 {
     symbol->word = word;
     symbol->scope = scope;
-    /* A global name may be declared while a local one hides it: it goes below. */
+    /* A global name may be declared while a local name hides it: the global symbol is inserted below the local one. */
     Symbol **at = &word->symbol;
     while (*at && (*at)->scope > scope)
         at = &(*at)->shadowed;
@@ -83,7 +84,7 @@ static int is_definition(const Value *value)
     return value->kind != VALUE_NONE;
 }
 
-/* The right side: an expression, a colour, or something of the builder's. */
+/* The right side of a declaration: an expression, a colour, or an item of the builder (texture, object, …). */
 static Value right_side(Sdl *sdl, int *needs_semicolon)
 {
     Value value = {.kind = VALUE_NONE};
@@ -114,8 +115,8 @@ static Value right_side(Sdl *sdl, int *needs_semicolon)
     return value;
 }
 
-/* The name, and of an array the element that is meant. A new symbol is made after the right side was read, which may
- * use an outer one of the same name. */
+/* The left side of a declaration: the name and, for an array, the element. A new symbol is created only after the
+ * right side is parsed, because that side may use an outer symbol of the same name. */
 typedef struct Place {
     Word *word;
     int line;
@@ -127,7 +128,7 @@ static Place left_side(Sdl *sdl)
     const Raw *raw = sdl_raw(sdl);
     if (raw->kind != RAW_WORD)
         sdl_error(sdl, "expected a name to declare");
-    if (strcmp(raw->as.word->text, "deprecated") == 0) { /* `deprecated once "why" NAME`: not told to whoever renders */
+    if (strcmp(raw->as.word->text, "deprecated") == 0) { /* `deprecated once "why" NAME`: the message is ignored */
         const Raw *next = sdl_raw(sdl);
         if (next->kind == RAW_WORD && strcmp(next->as.word->text, "once") == 0)
             next = sdl_raw(sdl);
@@ -162,13 +163,13 @@ void declare_run(Sdl *sdl, int local)
     Value value = right_side(sdl, &needs_semicolon);
     place.word->declaring = outer;
     sdl->builder->name(sdl, &value, place.word->text, place.line);
-    /* The macros that made the value end before its semicolon. */
+    /* Macros that gave the value end before the semicolon of the declaration. */
     stream_finish_macros(sdl, frame);
     int has_semicolon = sdl_raw_accept(sdl, ';');
     Value *target = place.element;
     if (!target) {
         Symbol *symbol = place.word->symbol;
-        /* At the top of the scene file #local is global. */
+        /* In the scene file itself, outside macros and includes, #local is global. */
         int scope = frame <= 1 ? 0 : frame;
         if (local && (!symbol || symbol->scope != scope))
             symbol = symbol_add(sdl, place.word, scope);

@@ -1,5 +1,6 @@
-/* Directives: conditions, loops, #include, #version, messages. Branches and ends were linked by the lexer, so taking
- * one is a jump. Declarations are in declare.c, macros in macro.c, files in fileio.c. */
+/* Directives: conditions, loops, #include, #version and messages. The lexer has linked each directive to its
+ * branches and its #end, so taking a branch is a jump. Declarations are in declare.c, macros in macro.c, file
+ * directives in fileio.c. */
 #include <math.h>
 #include <string.h>
 #include "sdl/lang/internal.h"
@@ -9,7 +10,7 @@ static Raw *token_at(Sdl *sdl, uint32_t index)
     return &sdl->frames[sdl->nframes - 1].source->tokens[index];
 }
 
-/* Where a directive is, so that it can be returned to after its condition was read. */
+/* Index of a directive's token in its source, for a jump back after the condition was evaluated. */
 static uint32_t index_of(Sdl *sdl, const Raw *raw)
 {
     return (uint32_t)(raw - sdl->frames[sdl->nframes - 1].source->tokens);
@@ -21,7 +22,7 @@ static void check_end(Sdl *sdl, const Raw *raw)
         sdl_error(sdl, "a directive without its #end");
 }
 
-/* The #end of the construct that the branch at index belongs to. */
+/* Index of the #end that closes the construct of the branch at `index`. */
 static uint32_t find_end(Sdl *sdl, uint32_t index)
 {
     for (;;) {
@@ -34,7 +35,7 @@ static uint32_t find_end(Sdl *sdl, uint32_t index)
     }
 }
 
-/* A condition may call macros; they must have ended when it has. */
+/* A condition may call macros. They must have ended when the condition ends. */
 static void check_frame(Sdl *sdl, int frame)
 {
     if (sdl->nframes != frame)
@@ -59,7 +60,7 @@ static int defined_condition(Sdl *sdl)
     return is_defined;
 }
 
-/* #if, #ifdef, #ifndef, and #elseif when it is come to: take the branch or look at the next. */
+/* #if, #ifdef, #ifndef and #elseif: evaluate the condition, then enter the branch or continue with the next one. */
 static void run_if(Sdl *sdl, const Raw *raw)
 {
     for (;;) {
@@ -84,7 +85,7 @@ static void run_while(Sdl *sdl, const Raw *raw)
         stream_jump(sdl, raw->as.directive.link + 1);
 }
 
-/* The variable is an ordinary #local one: the body may change it. */
+/* The loop variable is an ordinary #local variable: the loop's body may assign to it. */
 static Value *loop_variable(Sdl *sdl, Word *word)
 {
     Symbol *symbol = word->symbol;
@@ -97,7 +98,7 @@ static Value *loop_variable(Sdl *sdl, Word *word)
 
 static int loop_goes_on(Sdl *sdl, const Loop *loop)
 {
-    /* POV-Ray allows for rounding in the step, so that #for(I,0,1,.1) meets 1. */
+    /* A tolerance for rounding errors of the step, as in POV-Ray: #for(I,0,1,.1) includes 1. */
     double value = loop_variable(sdl, loop->variable)->number[0];
     return loop->step > 0 ? value <= loop->end + 1e-10 * fabs(loop->step)
                           : value >= loop->end - 1e-10 * fabs(loop->step);
@@ -126,7 +127,7 @@ static void run_for(Sdl *sdl, const Raw *raw)
     Symbol *symbol = word->symbol;
     if (symbol && symbol->macro)
         sdl_error(sdl, "`%s` is a macro", word->text);
-    int scope = frame <= 1 ? 0 : frame; /* as #local */
+    int scope = frame <= 1 ? 0 : frame; /* the scope that #local uses */
     if (!symbol || symbol->scope != scope)
         symbol = symbol_add(sdl, word, scope);
     *symbol->value = value_from_num(num_float(start));
@@ -143,13 +144,13 @@ static void end_for(Sdl *sdl, uint32_t start)
 {
     Loop *loop = sdl->nloops ? &sdl->loops[sdl->nloops - 1] : NULL;
     if (!loop || loop->start != start || loop->frame != sdl->nframes)
-        return; /* left by #break */
+        return; /* the loop was left by #break */
     loop_variable(sdl, loop->variable)->number[0] += loop->step;
     if (!loop_goes_on(sdl, loop)) {
         sdl->nloops--;
         return;
     }
-    /* Back behind the `)` of the header: its parameters were read when the loop began. */
+    /* Jump behind the `)` of the loop's header: its parameters were evaluated when the loop began. */
     uint32_t index = start + 2;
     for (int depth = 1; depth; index++) {
         const Raw *raw = token_at(sdl, index);
@@ -159,7 +160,7 @@ static void end_for(Sdl *sdl, uint32_t start)
     stream_jump(sdl, index);
 }
 
-/* #switch: run from the first #case or #range that holds, through the ones after it as in C, to #break or #end. */
+/* #switch: run from the first #case or #range that matches to #break or #end. Later cases are run too, as in C. */
 static void run_switch(Sdl *sdl, const Raw *raw)
 {
     check_end(sdl, raw);
@@ -187,7 +188,7 @@ static void run_switch(Sdl *sdl, const Raw *raw)
     }
 }
 
-/* #case and #range come to from the branch above: only their parameters are passed over. */
+/* A #case or #range reached from the branch above it: skip its parameters and continue. */
 static void pass_case(Sdl *sdl)
 {
     int depth = 0;
@@ -255,7 +256,8 @@ static void run_include(Sdl *sdl)
 
 static void run_version(Sdl *sdl)
 {
-    /* `#version unofficial megapov 1.21;` and the like are other programs' dialects: read as far as they are plain. */
+    /* `#version unofficial megapov 1.21;` and similar name other programs' dialects: their plain statements are
+     * parsed. */
     if (sdl_raw_peek(sdl)->kind == RAW_WORD && strcmp(sdl_raw_peek(sdl)->as.word->text, "unofficial") == 0) {
         sdl_raw(sdl);
         if (sdl_raw_peek(sdl)->kind == RAW_WORD)
@@ -264,7 +266,7 @@ static void run_version(Sdl *sdl)
             sdl_raw(sdl);
     } else {
         double version = sdl_float(sdl);
-        sdl->version = version >= 100 ? version / 100 : version; /* 370 was accepted by early versions */
+        sdl->version = version >= 100 ? version / 100 : version; /* early POV-Ray versions accepted 370 for 3.7 */
     }
     sdl_raw_accept(sdl, ';');
 }
@@ -286,7 +288,7 @@ static void run_message(Sdl *sdl, int id)
 void directive_run(Sdl *sdl, const Raw *raw)
 {
     Directive id = (Directive)raw->as.directive.id;
-    /* A directive within the expression of another: macros that give values nest like this. */
+    /* A directive inside the expression of another directive. Macros that return values nest in this way. */
     if (++sdl->directive_depth > MAX_DIRECTIVE_DEPTH)
         sdl_fail(sdl, RETEX_ELIMIT, "directives nested more than %d deep", MAX_DIRECTIVE_DEPTH);
     switch (id) {

@@ -1,5 +1,5 @@
-/* Expressions: floats, vectors and colours with POV-Ray's precedence. Comparisons, & | and ?: belong to parentheses and
- * conditions only, so that `<1,2,3> <4,5,6>` are two vectors and `>` ends one. */
+/* Expressions: floats, vectors and colours with POV-Ray's operator precedence. Comparisons, & | and ?: are parsed
+ * only in parentheses and conditions. Therefore `<1,2,3> <4,5,6>` are two vectors, and `>` ends a vector. */
 #include <math.h>
 #include <string.h>
 #include "sdl/lang/internal.h"
@@ -11,7 +11,8 @@ Num num_float(double value)
     return (Num){{value}, 1, 0};
 }
 
-/* A float fills all components; a short vector is filled up with zeros, as in POV-Ray. */
+/* Extend to `count` components, as in POV-Ray: a float is copied to all of them, a short vector is padded with
+ * zeros. */
 void num_promote(Num *num, int count)
 {
     if (num->count == 1)
@@ -44,7 +45,7 @@ static void enter(Sdl *sdl)
         sdl_fail(sdl, RETEX_ELIMIT, "expressions nested more than %d deep", MAX_EXPRESSION_DEPTH);
 }
 
-/* The operator that is next, or 0; a declaration that follows in the same file or macro is none. */
+/* The next operator, or 0. A declaration that follows in the same file or macro ends the expression. */
 static char operator_next(Sdl *sdl, int frame)
 {
     const Token *token = sdl_peek_operator(sdl, frame);
@@ -71,7 +72,7 @@ void num_component(Sdl *sdl, Num *num, const char *name)
     sdl_error(sdl, "expected a component such as x or red after the `.`, found `%s`", name);
 }
 
-/* `< … >`, its `<` taken: two to five numbers, commas between them optional. */
+/* Vector literal `< … >` after its `<`: two to five numbers, with optional commas. */
 static Num vector_literal(Sdl *sdl)
 {
     Num vector = {{0}, 0, 0};
@@ -91,7 +92,8 @@ static Num vector_literal(Sdl *sdl)
 
 static Num identifier(Sdl *sdl)
 {
-    /* The token goes when the next is looked at; its value may be a name of a macro that ends here. */
+    /* Copy the value: the token becomes invalid at the next lookahead, and its value may belong to a macro that ends
+     * there. */
     Value value = *sdl_next(sdl)->value;
     switch (value.kind) {
     case VALUE_FLOAT:
@@ -234,7 +236,7 @@ static double single(Sdl *sdl, const Num *num)
     return num->n[0];
 }
 
-/* POV-Ray takes two numbers for equal within 1e-10. */
+/* Numbers that differ by less than 1e-10 are equal, as in POV-Ray. */
 static int compare(char op, double a, double b)
 {
     int equal = fabs(a - b) < 1e-10 || a == b;
@@ -259,7 +261,7 @@ static int is_comparison(char op)
     return op == '<' || op == '>' || op == '=' || op == PUNCT_LE || op == PUNCT_GE || op == PUNCT_NE;
 }
 
-/* Strings can be compared too: `#if (Name != "")`. */
+/* Comparison of strings: `#if (Name != "")`. */
 static Num string_comparison(Sdl *sdl)
 {
     int frame = sdl->nframes;
@@ -285,7 +287,7 @@ static Num comparison(Sdl *sdl)
     return result;
 }
 
-/* & and | have the same precedence, from the left. */
+/* & and | have the same precedence and associate to the left. */
 static Num logical(Sdl *sdl)
 {
     int frame = sdl->nframes;
@@ -330,14 +332,14 @@ double expression_condition(Sdl *sdl)
     return value;
 }
 
-/* ---- what the builder asks for ---- */
+/* ---- functions for the builder ---- */
 
 static int ends_number(const Raw *raw)
 {
     return raw->kind == RAW_PUNCT && (raw->punct == ',' || raw->punct == '>' || raw->punct == '}' || raw->punct == ';');
 }
 
-/* A plain number, perhaps with a sign, before `end`: the way of long lists. Moves *at behind it. */
+/* Fast path for long lists: parse a literal number with an optional sign before `end`, and advance *at past it. */
 static int plain_number(const Raw **at, double *value)
 {
     const Raw *raw = *at;
@@ -364,7 +366,7 @@ double sdl_float(Sdl *sdl)
     return single(sdl, &num);
 }
 
-/* `<1,2,3>` of plain numbers with nothing behind that could go on with it. */
+/* Fast path for `<1,2,3>` with literal numbers. Fails if an operator may follow that continues the expression. */
 static int plain_vector(Sdl *sdl, int count, double *values)
 {
     const Raw *at = sdl->cursor;

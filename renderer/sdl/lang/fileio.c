@@ -1,5 +1,6 @@
-/* #fopen, #fclose, #read and #write. What a scene writes stays in memory, where #read, #include and file_exists find
- * it; nothing on the disk changes. What is read is a list of numbers, vectors and strings with commas between them. */
+/* #fopen, #fclose, #read and #write. Files that the scene writes are kept in memory, where #read, #include and
+ * file_exists find them; the disk is never written. #read parses a list of numbers, vectors and strings, separated
+ * by commas. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -57,7 +58,7 @@ static void close_handle(Sdl *sdl, Symbol *symbol)
 
 void file_close(Sdl *sdl)
 {
-    /* #fclose of a file that #read has come to the end of is allowed: it is closed already. */
+    /* #fclose of a file that #read has read to its end is allowed: #read has closed the file. */
     const Raw *raw = sdl_raw(sdl);
     if (raw->kind != RAW_WORD)
         sdl_error(sdl, "expected the name of an open file");
@@ -66,7 +67,7 @@ void file_close(Sdl *sdl)
         close_handle(sdl, symbol);
 }
 
-/* One number of a file, with its sign. */
+/* Parse one number of a file, with its sign. */
 static double read_number(Sdl *sdl, FileHandle *handle)
 {
     const Raw *tokens = handle->input->tokens;
@@ -111,8 +112,8 @@ static Value read_value(Sdl *sdl, FileHandle *handle)
     return value;
 }
 
-/* #read (FILE, NAME, …): the file's name is gone once its end is reached, which is what `#while(defined(FILE))` waits
- * for. */
+/* #read (FILE, NAME, …). FILE is undefined once the end of the file is reached, so that `#while(defined(FILE))`
+ * ends. */
 void file_read(Sdl *sdl)
 {
     if (!sdl_raw_accept(sdl, '('))
@@ -145,7 +146,8 @@ void file_read(Sdl *sdl)
         close_handle(sdl, symbol);
 }
 
-/* Integers of df3 files and the like: `uint16be <1,2,3>`. Returns the number of bytes of one, 0 for no such word. */
+/* Format keyword of integers for df3 files and similar: `uint16be <1,2,3>`. Returns the bytes per integer, or 0 if
+ * the token is no format keyword. */
 static int integer_format(const Token *token, int *little)
 {
     if (token->kind != TOKEN_WORD)

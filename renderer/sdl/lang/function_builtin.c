@@ -1,5 +1,5 @@
-/* The built-in constants and functions that give numbers. Strings are in function_string.c, functions the scene
- * declares in function_user.c; those use builtin_float too. */
+/* Built-in constants and the built-in functions that return numbers. String functions are in function_string.c. User
+ * functions are in function_user.c, which calls builtin_float too. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -31,7 +31,7 @@ enum {
     ID_FINAL_CLOCK,
     ID_NOW,
     ID_VERSION,
-    /* floats to a float */
+    /* functions of floats that return a float */
     ID_ABS,
     ID_ACOS,
     ID_ACOSH,
@@ -65,7 +65,7 @@ enum {
     ID_BITWISE_AND,
     ID_BITWISE_OR,
     ID_BITWISE_XOR,
-    /* those with arguments of other kinds */
+    /* functions with arguments of other types */
     ID_ASC,
     ID_DEFINED,
     ID_DIMENSIONS,
@@ -219,7 +219,7 @@ int builtin_count(void)
     return (int)(sizeof builtins / sizeof *builtins);
 }
 
-/* Days since the year 2000 began. */
+/* The current time in days since the start of 2000. */
 static double now(void)
 {
     return ((double)time(NULL) - 946684800.0) / 86400;
@@ -276,7 +276,7 @@ Num builtin_constant(Sdl *sdl, int id)
     case ID_VERSION:
         return num_float(sdl->version);
     default:
-        return num_float(0); /* false, clock_delta, clock_on: one picture is no animation */
+        return num_float(0); /* false, clock_delta, clock_on: a still image has no animation clock */
     }
 }
 
@@ -391,7 +391,7 @@ static Num call_float(Sdl *sdl, const Builtin *builtin)
     return num_float(builtin_float(sdl, builtin->id, args, count));
 }
 
-/* ---- arguments of other kinds ---- */
+/* ---- arguments of other types ---- */
 
 static Vec3 vector_argument(Sdl *sdl, int *count)
 {
@@ -407,7 +407,7 @@ static Num num_vector(Vec3 v)
     return (Num){{v.x, v.y, v.z}, 3, 0};
 }
 
-/* POV-Ray's generator: s = s * 1812433253 + 12345 modulo 2^32. A stream is known by its number. */
+/* POV-Ray's random generator: s = s * 1812433253 + 12345 modulo 2^32. A stream is identified by its index. */
 static double seed(Sdl *sdl, double start)
 {
     if (sdl->nseeds == sdl->seeds_capacity) {
@@ -458,7 +458,7 @@ static Num extent(Sdl *sdl, int high)
     return num_vector(bounds[high]);
 }
 
-/* trace(object, from, direction[, normal variable]): zeros where nothing is hit. */
+/* trace(object, from, direction[, normal variable]): the nearest intersection, or zeros if there is none. */
 static Num trace(Sdl *sdl)
 {
     Value object = object_argument(sdl);
@@ -627,7 +627,7 @@ Num builtin_number(Sdl *sdl, const Builtin *builtin)
 {
     if (builtin->kind == BUILTIN_FLOAT)
         return call_float(sdl, builtin);
-    if (builtin->id == ID_DEFINED) { /* its argument need not be declared: read as it stands */
+    if (builtin->id == ID_DEFINED) { /* the argument of defined() may be undeclared, so it is read without evaluation */
         if (!sdl_raw_accept(sdl, '('))
             sdl_expected(sdl, "`(`");
         int is_defined = declare_is_defined(sdl);

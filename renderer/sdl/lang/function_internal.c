@@ -1,5 +1,5 @@
-/* `internal(N)`: the functions behind functions.inc. Those that other includes are made of are here; the rest is
- * reported where it is called. */
+/* `internal(N)`: the built-in functions that functions.inc declares. This file has those that other standard include
+ * files use. A call of any other function is reported as unsupported. */
 #include <math.h>
 #include <stdio.h>
 #include "base/noise.h"

@@ -1,4 +1,4 @@
-/* The built-in functions that give strings. */
+/* The built-in functions that return strings. */
 #include <ctype.h>
 #include <math.h>
 #include <stdio.h>
@@ -6,7 +6,7 @@
 #include <time.h>
 #include "sdl/lang/internal.h"
 
-/* A string that grows while it is made; kept in the arena when done. */
+/* A growable string; the finished string is copied to the arena. */
 typedef struct Text {
     char *bytes;
     size_t length, capacity;
@@ -31,7 +31,8 @@ static void append(Sdl *sdl, Text *text, const char *bytes, size_t length)
     text->bytes[text->length] = 0;
 }
 
-/* str's number: at least |length| wide, a negative length fills with zeros; a negative precision is the usual one. */
+/* The number format of str(). The result has at least |length| characters; a negative length pads with zeros. A
+ * negative precision selects the default precision. */
 static char *string_number(Sdl *sdl, double value, int length, int precision)
 {
     char format[8] = "%*.*f", small[400];
@@ -139,7 +140,7 @@ static const char *character(Sdl *sdl)
     return out;
 }
 
-/* datetime(days since 2000[, format of strftime]), in UTC. */
+/* datetime(days since 2000[, strftime format]), in UTC. */
 static const char *date_and_time(Sdl *sdl)
 {
     double days = expression_parameter(sdl);

@@ -1,6 +1,6 @@
-/* Functions of the scene: `function(a, b) { a*a + f(b) }` is compiled to a tree once and evaluated where it is called.
- * Names of floats and vectors are taken at their value when the function is declared. Transforms and splines can be
- * functions too; patterns and pigments are known, and reported where they are called. */
+/* User functions: `function(a, b) { a*a + f(b) }` is compiled to a tree once and evaluated at each call. Floats and
+ * vectors in the body have the values of the time of the declaration. Transforms and splines can be functions too.
+ * Pattern and pigment functions are parsed; a call of one is reported as unsupported. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -23,13 +23,13 @@ typedef enum Op {
 
 typedef struct Node {
     Op op;
-    int id; /* variable, operator character, or built-in function */
+    int id; /* index of the variable, operator character, or id of the built-in function */
     int count;
-    int height; /* of the tree below it, called functions included: bounds the recursion */
+    int height; /* height of the subtree, with called functions: limits the recursion */
     double number;
     struct Node **args;
     const Function *function;
-    const char *component; /* of a function that gives a vector */
+    const char *component; /* component of a function that returns a vector */
 } Node;
 
 typedef enum FunctionKind {
@@ -48,14 +48,14 @@ struct Function {
     int internal;
     Transform transform;
     Value spline;
-    const char *unsupported; /* what it is made of */
+    const char *unsupported; /* keyword of an unsupported function's body */
 };
 
-/* The names visible while a body is read: parameters, then the variables of sum and prod. */
+/* Names that are visible in a function's body: parameters, and loop variables of sum and prod. */
 typedef struct Compiler {
     Sdl *sdl;
     const char *names[MAX_VARIABLES];
-    int count, defaults; /* defaults: x y z, where u and v mean x and y */
+    int count, defaults; /* defaults: 1 if the parameters are x, y, z; then u and v are x and y */
 } Compiler;
 
 static Node *parse_full(Compiler *compiler);
@@ -109,7 +109,7 @@ static int find_variable(const Compiler *compiler, const char *name)
     return -1;
 }
 
-/* `( a, b, … )` into a node's arguments. */
+/* Parse `( a, b, … )` as a node's arguments. */
 static Node *parse_arguments(Compiler *compiler, Op op, int id)
 {
     Node *args[MAX_VARIABLES];
@@ -167,7 +167,7 @@ static Node *parse_call(Compiler *compiler, const Function *function)
     return node;
 }
 
-/* `(i, from, to, term)` */
+/* Parse the arguments of sum or prod: `(i, from, to, term)`. */
 static Node *parse_loop(Compiler *compiler, Op op)
 {
     Sdl *sdl = compiler->sdl;
@@ -263,7 +263,7 @@ static Node *parse_primary(Compiler *compiler)
         sdl_expect(sdl, ")");
         return node;
     }
-    /* A vector constant is allowed for one of its components only. */
+    /* A vector literal is allowed only if one of its components is selected. */
     if (sdl_is(sdl, "<")) {
         Num num = expression_sum(sdl);
         if (num.count != 1)
@@ -291,7 +291,7 @@ static Node *parse_unary(Compiler *compiler)
     return node;
 }
 
-/* 0: & |, 1: comparisons, 2: + -, 3: * / */
+/* Precedence level. 0: & |, 1: comparisons, 2: + -, 3: * /. */
 static int operator_level(const Token *token)
 {
     if (token->kind != TOKEN_PUNCT)
@@ -350,7 +350,7 @@ static Node *parse_full(Compiler *compiler)
 
 /* ---- declaration ---- */
 
-/* `(a, b)`, or none: x, y and z. */
+/* The parameter list `(a, b)`. Without a list the parameters are x, y and z. */
 static void parse_parameters(Sdl *sdl, Function *function)
 {
     static const char *const defaults[] = {"x", "y", "z"};
@@ -371,7 +371,7 @@ static void parse_parameters(Sdl *sdl, Function *function)
     }
 }
 
-/* `transform { … }` as the builder reads it. */
+/* The function of a `transform { … }`, which the builder parses. */
 static void parse_transform(Sdl *sdl, Function *function)
 {
     Value value = {.kind = VALUE_NONE};
@@ -427,7 +427,7 @@ static void parse_body(Sdl *sdl, Function *function)
 void function_declare(Sdl *sdl, Value *value)
 {
     Function *function = sdl_alloc(sdl, sizeof *function);
-    /* `function 100, 100 { pattern … }` is an image of that size, for height fields. */
+    /* `function 100, 100 { pattern … }` is an image of this size, for height fields. */
     while (!sdl->have &&
            (sdl->cursor->kind == RAW_NUMBER || (sdl->cursor->kind == RAW_PUNCT && sdl->cursor->punct == ',')))
         sdl_raw(sdl);
@@ -437,7 +437,7 @@ void function_declare(Sdl *sdl, Value *value)
     int function_follows = 0;
     if (token->kind == TOKEN_IDENT && token->value->kind == VALUE_FUNCTION)
         function_follows = sdl->cursor->kind == RAW_PUNCT && sdl->cursor->punct == '}';
-    if (function_follows) { /* function { f } is f */
+    if (function_follows) { /* function { f } is the same function as f */
         *function = *(const Function *)sdl_next(sdl)->value->data;
     } else
         parse_body(sdl, function);
@@ -473,7 +473,7 @@ static Num apply_function(Sdl *sdl, const Function *function, const double *args
     }
 }
 
-/* A sum or product over whole numbers from the first argument to the second. */
+/* Sum or product over integers, from the first argument to the second. */
 static double evaluate_loop(Sdl *sdl, const Node *node, double *variables)
 {
     double from = evaluate(sdl, node->args[0], variables), to = evaluate(sdl, node->args[1], variables);

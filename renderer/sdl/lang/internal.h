@@ -1,8 +1,8 @@
-/* What the files of the language core share: words, tokens as they stand in a file, sources, symbols and the parser's
- * state. The builder sees parser.h only.
+/* Declarations that the files of the language core share: words, raw tokens, sources, symbols and the parser's
+ * state. The builder includes parser.h only.
  *
- * A file is turned into an array of raw tokens once; directives know where their #end is, so that skipping and
- * looping are jumps in that array. The stream (stream.c) walks it, runs directives (directive.c) and enters macros
+ * A file is converted to an array of raw tokens once. Directives store the index of their #end, so skips and loops
+ * are jumps in that array. The stream (stream.c) reads the array, runs directives (directive.c) and enters macros
  * (macro.c). */
 #ifndef RENDERER_SDL_LANG_INTERNAL_H
 #define RENDERER_SDL_LANG_INTERNAL_H
@@ -30,17 +30,17 @@ typedef struct Symbol Symbol;
 typedef struct Builtin Builtin;
 typedef struct Source Source;
 
-/* A word of the scene, interned: one for each spelling. */
+/* An interned word of the scene: one per spelling. */
 typedef struct Word {
     const char *text;
     size_t length;
     uint32_t hash;
-    uint8_t directive;      /* a Directive where `#word` is one */
-    uint8_t reserved;       /* a keyword: cannot be declared */
+    uint8_t directive;      /* a Directive if `#word` is a directive */
+    uint8_t reserved;       /* 1: a keyword, which cannot be declared */
     const Builtin *builtin; /* constant, function or component of the expression language, or NULL */
-    Symbol *symbol;         /* the innermost visible symbol of that name, or NULL */
-    struct Word *next;      /* in its hash bucket */
-    int declaring;          /* the line of its declaration, while that is read */
+    Symbol *symbol;         /* the innermost visible symbol of this name, or NULL */
+    struct Word *next;      /* next word of the hash bucket */
+    int declaring;          /* line of the declaration that is being parsed, else 0 */
 } Word;
 
 typedef enum RawKind { RAW_END, RAW_NUMBER, RAW_STRING, RAW_WORD, RAW_PUNCT, RAW_DIRECTIVE, RAW_BAD } RawKind;
@@ -53,7 +53,7 @@ typedef enum Directive {
     DIR_WHILE,
     DIR_FOR,
     DIR_SWITCH,
-    DIR_MACRO, /* these have an #end */
+    DIR_MACRO, /* last of the directives that have an #end */
     DIR_ELSE,
     DIR_ELSEIF,
     DIR_CASE,
@@ -77,15 +77,15 @@ typedef enum Directive {
     DIR_WRITE
 } Directive;
 
-/* A token as written. A directive's link: of an opener, #elseif, #else, #case and #range the next branch or the #end
- * (0 = missing); of #end its opener; of #break the opener it leaves. Index 0 of a source is never linked to by meaning
- * "none": LINK_NONE is. */
+/* A token as written in the file. Meaning of a directive's link: an opener, #elseif, #else, #case and #range link to
+ * the next branch or the #end; #end links to its opener; #break links to the opener that it leaves. LINK_NONE means
+ * that the target is missing. */
 #define LINK_NONE UINT32_MAX
 typedef struct Raw {
     uint32_t line;
     uint16_t column;
     uint8_t kind;
-    char punct; /* RAW_PUNCT: the character, or PUNCT_…; RAW_BAD: why, see lexer.c */
+    char punct; /* RAW_PUNCT: the character, or PUNCT_…; RAW_BAD: the reason, see lexer.c */
     union {
         double number;
         const char *string;
@@ -98,49 +98,49 @@ typedef struct Raw {
 } Raw;
 enum { PUNCT_LE = 'l', PUNCT_GE = 'g', PUNCT_NE = 'n' };
 
-/* A file's tokens. Freed at the end of its #include unless a macro lives in it, or it is a small one of the disk, which
- * may be included again. */
+/* The tokens of a file. They are freed when the #include ends, except if a macro is defined in the file, or if the
+ * file is small and on disk: it may be included again. */
 struct Source {
-    const char *name; /* as messages show it */
+    const char *name; /* name of the file in messages */
     Raw *tokens;
     uint32_t count;
     int on_disk, keep, users;
-    uint64_t charged; /* bytes of the budget */
+    uint64_t charged; /* bytes charged to the budget */
     Source *previous, *next;
 };
 
-/* A file written by the scene. */
+/* A file that the scene has written. */
 typedef struct MemoryFile {
     const char *name;
-    char *bytes; /* in the arena; grows by doubling */
+    char *bytes; /* in the arena; the capacity doubles */
     size_t size, capacity;
     struct MemoryFile *next;
 } MemoryFile;
 
-/* What #fopen opens. */
+/* A file that #fopen has opened. */
 typedef struct FileHandle {
-    MemoryFile *output; /* write, append */
-    Source *input;      /* read: the file as tokens */
+    MemoryFile *output; /* for write and append */
+    Source *input;      /* for read: the tokens of the file */
     uint32_t pos;
 } FileHandle;
 
 typedef struct Macro {
     Word *name;
     Source *source;
-    uint32_t start, body; /* the #macro and the first token after its parameters */
+    uint32_t start, body; /* index of the #macro, and of the first token after its parameters */
     int count;
     Word **parameters;
 } Macro;
 
-/* A declared name. A by-reference parameter's value points at somebody else's. */
+/* A declared name. The value of a by-reference parameter points at the caller's value. */
 struct Symbol {
     Word *word;
     Value *value;
     Value own;
     Macro *macro;
     FileHandle *handle;
-    Symbol *shadowed; /* the symbol of this name further out */
-    Symbol *next;     /* in its scope, or in the list of unused ones */
+    Symbol *shadowed; /* the symbol of this name in an outer scope */
+    Symbol *next;     /* next symbol of the scope, or of the list of unused symbols */
     int scope;
 };
 
@@ -151,32 +151,32 @@ typedef struct Array {
     Value *items;
 } Array;
 
-/* A place the stream reads from: a file, or a macro's body. Each has a scope of #local names. */
+/* An input of the stream: a file, or a macro's body. Each frame has a scope of #local names. */
 typedef struct Frame {
     Source *source;
-    const Raw *cursor;    /* where to go on when this frame is on top again */
-    uint32_t macro_start; /* LINK_NONE: a file */
-    int nloops;           /* #for loops running when it was entered */
+    const Raw *cursor;    /* where reading continues when this frame is on top again */
+    uint32_t macro_start; /* LINK_NONE if the frame is a file */
+    int nloops;           /* number of active #for loops when the frame was entered */
     Symbol *locals;
 } Frame;
 
 typedef struct Loop {
-    uint32_t start; /* its #for */
+    uint32_t start; /* index of the #for */
     int frame;
     Word *variable;
     double end, step;
 } Loop;
 
-/* A number, vector or colour while it is computed. */
+/* A number, vector or colour during evaluation. */
 typedef struct Num {
     double n[5];
-    int count; /* 1 = float */
+    int count; /* number of components; 1 = float */
     int color;
 } Num;
 
 typedef struct Function Function;
 
-/* What a value may depend on that is 0 unless -D says otherwise. */
+/* Animation variables that an expression may have read. Both are 0 unless -D declares them. */
 typedef enum FrameRead { READ_FRAME_NUMBER = 1, READ_CLOCK = 2 } FrameRead;
 
 struct Sdl {
@@ -195,55 +195,55 @@ struct Sdl {
     Source *sources;
     MemoryFile *memory_files;
 
-    Token token; /* the next token where have is set, else the one taken last */
+    Token token; /* the lookahead if `have` is set, else the token consumed last */
     int have;
-    const Raw *cursor; /* in the top frame */
+    const Raw *cursor; /* position in the top frame */
     Frame frames[MAX_FRAMES];
-    int nframes, nmacros; /* frames in all, and of those macros */
+    int nframes, nmacros; /* number of frames, and of those that are macros */
     Loop loops[MAX_LOOPS];
     int nloops;
     int expression_depth, directive_depth, block_depth;
     struct {
         const char *file;
         int line;
-    } blocks[MAX_BLOCK_DEPTH]; /* where each open `{` stands */
-    unsigned frame_reads;      /* bits of FrameRead: of what names the frame of an animation, which was looked at */
-    long steps, next_look;     /* taken so far; where limits are looked at next */
+    } blocks[MAX_BLOCK_DEPTH]; /* position of each open `{` */
+    unsigned frame_reads;      /* FrameRead bits of the animation variables read so far */
+    long steps, next_look;     /* steps counted so far, and the count of the next check of limits */
 
     Symbol *unused, **unused_tail;
     int nunused;
     uint32_t *seeds;
     int nseeds, seeds_capacity, warned_division;
-    const char **reported; /* names sdl_unsupported has told about */
+    const char **reported; /* names that sdl_unsupported has reported */
     int nreported, reported_capacity;
-    char *pending; /* #debug text not yet ended by a newline */
+    char *pending; /* #debug text without a final newline yet */
     size_t npending, pending_capacity;
-    size_t said;          /* bytes of messages, counted for safe access alone */
-    const char **folders; /* where sdl_find_file looks */
+    size_t said;          /* bytes of messages, counted for safe access only */
+    const char **folders; /* search path of sdl_find_file */
     int nfolders;
-    RetexAccess access; /* the same, resolved: reads stay under them */
+    RetexAccess access; /* the resolved search path: only files under it may be read */
     double clock, frame_number, initial_frame, final_frame, initial_clock, final_clock;
 };
 
 /* language.c */
 _Noreturn void sdl_fail(Sdl *sdl, int code, const char *fmt, ...) RETEX_PRINTF(3, 4);
-_Noreturn void sdl_fail_memory(Sdl *sdl); /* there is no more that the scene may have */
+_Noreturn void sdl_fail_memory(Sdl *sdl); /* error: the scene's memory limit is reached */
 void sdl_message(Sdl *sdl, int level, const char *text);
 void sdl_debug_text(Sdl *sdl, const char *text);
 
 /* words.c */
 Word *word_intern(Sdl *sdl, const char *text, size_t length);
 void words_begin(Sdl *sdl);
-const char *word_nearest(Sdl *sdl, const char *name); /* a declared name or keyword much like it, or NULL */
-const char *directive_nearest(const char *name);      /* the same of directives */
+const char *word_nearest(Sdl *sdl, const char *name); /* most similar declared name or keyword, or NULL */
+const char *directive_nearest(const char *name);      /* most similar directive, or NULL */
 
 /* lexer.c */
 Source *source_from_text(Sdl *sdl, const char *name, const char *text, size_t length);
-_Noreturn void raw_fail(Sdl *sdl, const Raw *raw); /* tell what is wrong with a RAW_BAD */
+_Noreturn void raw_fail(Sdl *sdl, const Raw *raw); /* reports the error of a RAW_BAD token */
 
 /* source.c */
 Source *source_open(Sdl *sdl, const char *name);
-Source *source_open_scene(Sdl *sdl, const char *path); /* wherever it lies */
+Source *source_open_scene(Sdl *sdl, const char *path); /* the scene file itself, in any folder */
 void source_release(Sdl *sdl, Source *source);
 void sources_close(Sdl *sdl);
 void folders_begin(Sdl *sdl, const char *scene_path);
@@ -252,17 +252,17 @@ MemoryFile *memory_file_create(Sdl *sdl, const char *name);
 void memory_file_write(Sdl *sdl, MemoryFile *file, const void *bytes, size_t size);
 
 /* stream.c */
-const Token *sdl_peek_operator(Sdl *sdl, int frame); /* NULL where a declaration ends the expression begun in frame */
-void stream_finish_macros(Sdl *sdl, int frame);      /* up to the next token or the end of what frame called */
-const Raw *sdl_raw(Sdl *sdl);                        /* the next token as written, taken; no directive, no macro */
+const Token *sdl_peek_operator(Sdl *sdl, int frame); /* NULL if a declaration ends the expression that began in frame */
+void stream_finish_macros(Sdl *sdl, int frame);      /* reads on until the macros called from frame end */
+const Raw *sdl_raw(Sdl *sdl);                        /* consumes the next raw token; runs no directive or macro */
 const Raw *sdl_raw_peek(Sdl *sdl);
 int sdl_raw_accept(Sdl *sdl, char punct);
 void stream_push_file(Sdl *sdl, Source *source);
 void stream_push_macro(Sdl *sdl, const Macro *macro);
 void stream_pop(Sdl *sdl);
-void stream_jump(Sdl *sdl, uint32_t index);   /* in the top frame */
-uint32_t stream_index(Sdl *sdl);              /* of the cursor in the top frame */
-void stream_locate(Sdl *sdl, const Raw *raw); /* messages speak of this one from now on */
+void stream_jump(Sdl *sdl, uint32_t index);   /* jumps to a token of the top frame */
+uint32_t stream_index(Sdl *sdl);              /* index of the cursor in the top frame */
+void stream_locate(Sdl *sdl, const Raw *raw); /* sets the position for later messages */
 void stream_describe(Sdl *sdl, const Token *token, char *out, size_t size);
 
 /* directive.c */
@@ -273,10 +273,10 @@ void declare_run(Sdl *sdl, int local);
 void declare_undef(Sdl *sdl);
 Symbol *symbol_new(Sdl *sdl);
 void symbol_bind(Sdl *sdl, Symbol *symbol, Word *word, int scope);
-Symbol *symbol_add(Sdl *sdl, Word *word, int scope); /* both; scope 0 is global */
+Symbol *symbol_add(Sdl *sdl, Word *word, int scope); /* for #declare and #local; scope 0 is global */
 void symbol_remove(Sdl *sdl, Symbol *symbol);
 void scope_close(Sdl *sdl, Frame *frame);
-int declare_is_defined(Sdl *sdl); /* of #ifdef and defined: reads a name with its indices, raw */
+int declare_is_defined(Sdl *sdl); /* for #ifdef and defined(): reads a name with its indices, raw */
 
 /* macro.c */
 void macro_define(Sdl *sdl, const Raw *opener);
@@ -284,8 +284,8 @@ void macro_invoke(Sdl *sdl, Symbol *symbol);
 
 /* array.c */
 void array_declare(Sdl *sdl, Value *value);   /* after `array` */
-Value *array_element(Sdl *sdl, Value *value); /* reads `[…]`s that follow; the element */
-void array_copy(Sdl *sdl, Value *value);      /* value gets elements of its own */
+Value *array_element(Sdl *sdl, Value *value); /* reads the indices `[…]` that follow; returns the element */
+void array_copy(Sdl *sdl, Value *value);      /* gives value its own copy of the elements */
 
 /* fileio.c */
 void file_open(Sdl *sdl);
@@ -294,10 +294,10 @@ void file_read(Sdl *sdl);
 void file_write(Sdl *sdl);
 
 /* expression.c */
-Num expression_sum(Sdl *sdl);          /* + - * / and what binds tighter */
-Num expression_full(Sdl *sdl);         /* comparisons, & |, ?: too: within parentheses and #if */
-double expression_condition(Sdl *sdl); /* `( … )` of #if and #while */
-double expression_parameter(Sdl *sdl); /* a float of full grammar */
+Num expression_sum(Sdl *sdl);          /* + - * / and operators of higher precedence */
+Num expression_full(Sdl *sdl);         /* comparisons, & | and ?: too: in parentheses and #if */
+double expression_condition(Sdl *sdl); /* the condition `( … )` of #if and #while */
+double expression_parameter(Sdl *sdl); /* a float, with the full grammar */
 int expression_is_string_start(Sdl *sdl);
 int expression_is_number_start(Sdl *sdl);
 Value value_from_num(Num num);
@@ -306,33 +306,33 @@ void num_promote(Num *num, int count);
 void num_component(Sdl *sdl, Num *num, const char *name);
 
 /* color.c */
-Num color_parse(Sdl *sdl); /* as a 5-vector */
+Num color_parse(Sdl *sdl); /* a colour as a vector of 5 components */
 
 /* function_builtin.c */
 typedef enum BuiltinKind {
     BUILTIN_CONSTANT,
-    BUILTIN_FLOAT /* floats to a float */,
-    BUILTIN_NUMBER /* reads its own arguments, gives a number */,
+    BUILTIN_FLOAT /* functions of floats that return a float */,
+    BUILTIN_NUMBER /* parses its own arguments, returns a number */,
     BUILTIN_STRING,
     BUILTIN_COLOR,
-    BUILTIN_FORM /* sum, prod: in functions only */
+    BUILTIN_FORM /* sum, prod: only in user functions */
 } BuiltinKind;
 struct Builtin {
     const char *name;
     BuiltinKind kind;
-    int id, min, max; /* of BUILTIN_FLOAT: how many arguments */
+    int id, min, max; /* min, max: number of arguments of a BUILTIN_FLOAT */
 };
 extern const Builtin builtins[];
 int builtin_count(void);
 Num builtin_constant(Sdl *sdl, int id);
 double builtin_float(Sdl *sdl, int id, const double *args, int count);
-Num builtin_number(Sdl *sdl, const Builtin *builtin); /* after its name */
+Num builtin_number(Sdl *sdl, const Builtin *builtin); /* parses what follows the name */
 /* function_string.c */
 const char *builtin_string(Sdl *sdl, const Builtin *builtin);
 
 /* function_user.c */
 void function_declare(Sdl *sdl, Value *value);      /* after `function` */
-Num function_call(Sdl *sdl, const Value *function); /* with its arguments, from `(` on */
+Num function_call(Sdl *sdl, const Value *function); /* parses the arguments from `(` on */
 
 /* function_internal.c */
 double internal_call(Sdl *sdl, int number, const double *args, int count);
@@ -340,7 +340,7 @@ int internal_arguments(int number);
 
 /* spline.c */
 void spline_declare(Sdl *sdl, Value *value);    /* after `spline` */
-Num spline_call(Sdl *sdl, const Value *spline); /* from `(` on */
+Num spline_call(Sdl *sdl, const Value *spline); /* parses the arguments from `(` on */
 Num spline_value(Sdl *sdl, const Value *spline, double at);
 
 #endif

@@ -1,7 +1,7 @@
-/* sdl_read, and what every part of the language needs: memory, messages and the one way out on an error.
+/* sdl_read, and the functions that all parts of the language need: memory, messages, errors.
  *
- * Errors jump back to sdl_read, which frees everything: the scene's arena, the tokens of files and the parser's
- * own state are the only things there are. Two scenes may be parsed at once; nothing is global. */
+ * An error jumps back to sdl_read (longjmp), which frees everything: the scene's arena, the tokens of files and the
+ * parser's state. There are no global variables, so several scenes can be parsed at the same time. */
 #include <locale.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -67,7 +67,7 @@ void sdl_add_file(Sdl *sdl, const char *path)
 
 void sdl_step(Sdl *sdl, long count)
 {
-    enum { STEPS_A_LOOK = 4096 }; /* well below a millisecond */
+    enum { STEPS_A_LOOK = 4096 }; /* steps between two checks of the limits: well below a millisecond */
     RetexError why;
     sdl->steps += count;
     if (sdl->steps <= sdl->next_look)
@@ -113,8 +113,8 @@ void sdl_error(Sdl *sdl, const char *fmt, ...)
     fail(sdl, RETEX_EPARSE, text);
 }
 
-/* Where a `}` is missing, the line of its `{` says more than the place where that shows. A name that nothing has is
- * another mistake. */
+/* If a `}` is missing, the error names the line of the matching `{`. An error about an undeclared name does not get
+ * this hint. */
 static void describe_open_block(Sdl *sdl, const char *expected, char *out, size_t size)
 {
     const Token *token = &sdl->token;
@@ -142,7 +142,7 @@ void sdl_expected(Sdl *sdl, const char *what)
 
 /* ---- messages ---- */
 
-/* So much a stranger's scene may say: a loop of #warning would fill whatever keeps the messages. */
+/* Limit of the messages' bytes for an untrusted scene. A loop of #warning would otherwise fill the caller's log. */
 enum { SAFE_MESSAGES = 64 << 10 };
 
 void sdl_message(Sdl *sdl, int level, const char *text)
@@ -162,7 +162,7 @@ static void flush_debug(Sdl *sdl)
     sdl->npending = 0;
 }
 
-/* #debug may write a line piece by piece: whole lines are handed on. */
+/* #debug may print a line in several pieces. Only whole lines are passed to the callback. */
 void sdl_debug_text(Sdl *sdl, const char *text)
 {
     for (; *text; text++) {
@@ -230,7 +230,7 @@ void sdl_unsupported(Sdl *sdl, const char *name, const char *instead)
     sdl_warn(sdl, "`%s` is not supported yet: %s", name, instead);
 }
 
-/* ---- idents ---- */
+/* ---- identifier lists ---- */
 
 const IdentList *sdl_ident_add(Sdl *sdl, const IdentList *list, const char *name, int line)
 {
@@ -251,9 +251,9 @@ const IdentList *sdl_ident_join(Sdl *sdl, const IdentList *a, const IdentList *b
     return a;
 }
 
-/* ---- the run ---- */
+/* ---- reading a scene ---- */
 
-/* A declaration before the first line: `NAME=VALUE`, VALUE a float or a quoted string. */
+/* Declare a variable before the scene file is read: `NAME=VALUE`, where VALUE is a float or a quoted string. */
 static void predeclare(Sdl *sdl, const char *text)
 {
     const char *equals = strchr(text, '=');
@@ -346,7 +346,7 @@ int sdl_read(Scene **scene, const char *path, const SdlOptions *options, const S
     }
     sdl->scene->arena = sdl->arena;
     snprintf(sdl->scene->path, sizeof sdl->scene->path, "%s", path);
-    /* Numbers of the language have a point, whatever the user's locale says. */
+    /* The decimal separator of the language is a point in every locale. */
     locale_t c = newlocale(LC_ALL_MASK, "C", (locale_t)0), before = c ? uselocale(c) : (locale_t)0;
     if (setjmp(sdl->jump) == 0)
         run(sdl, path);

@@ -1,8 +1,9 @@
-/* Text to raw tokens: one pass over a file, numbers by a fast path, words interned, nested comments skipped. Openers
- * such as #if are linked to their branches and #end here, so that nothing has to be skipped token by token later.
+/* The lexer converts a file to raw tokens in one pass: numbers on a fast path, words interned, nested comments
+ * skipped. It links openers such as #if to their branches and their #end, so that the parser skips a branch by a
+ * jump.
  *
- * What is wrong with the text becomes a RAW_BAD token, reported only when the parser gets there: POV-Ray accepts
- * rubbish in a branch not taken. */
+ * A lexical error becomes a RAW_BAD token. It is reported only if the parser reaches it: POV-Ray accepts errors in a
+ * branch that is not taken. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -14,11 +15,11 @@ enum {
     BAD_COMMENT = '*',
     BAD_NESTING = 'n',
     BAD_LONG = 'l',
-    BAD_DIRECTIVE = 'd' /* its name is in as.word */
+    BAD_DIRECTIVE = 'd' /* the directive's name is in as.word */
 };
 
 typedef struct Open {
-    uint32_t start, last; /* the opener, and the branch that waits for its link */
+    uint32_t start, last; /* index of the opener, and of the last branch, whose link is still missing */
     uint8_t id;
     int has_else;
 } Open;
@@ -99,7 +100,8 @@ static void bad(Lexer *lexer, char why, const char *at)
     add(lexer, RAW_BAD, at)->punct = why;
 }
 
-/* Up to 19 digits and a small power of ten are exact or nearly so without strtod; the rest goes there. */
+/* Up to 19 digits and a small power of ten are converted without strtod, with at most a tiny error. Other numbers
+ * use strtod. */
 static void number(Lexer *lexer)
 {
     static const double powers[] = {1,    1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,  1e8,  1e9,  1e10, 1e11,
@@ -135,7 +137,7 @@ static void number(Lexer *lexer)
     if (mantissa < (uint64_t)1 << 53 && digits < 19 && exponent >= -22 && exponent <= 22)
         value = exponent < 0 ? (double)mantissa / powers[-exponent] : (double)mantissa * powers[exponent];
     else {
-        /* The text need not end with a NUL: copy what belongs to the number. */
+        /* strtod needs a terminating NUL, which the text may lack: copy the number. */
         char small[64], *text = small;
         size_t length = (size_t)(p - start);
         if (length >= sizeof small)
@@ -160,7 +162,8 @@ static char *put_utf8(char *out, unsigned code)
     return out;
 }
 
-/* One escape after its backslash; *p stands behind it then. Unknown ones stay as they are: Windows paths. */
+/* Decode one escape sequence after its backslash and advance *p past it. Unknown escapes are kept unchanged, because
+ * Windows paths contain backslashes. */
 static char *escape(const char **p, const char *end, char *out)
 {
     static const char letters[] = "abfnrtv0\\\"'", values[] = "\a\b\f\n\r\t\v\0\\\"'";
@@ -207,7 +210,7 @@ static void string(Lexer *lexer)
     size_t length = (size_t)(p - start - 1);
     Raw *raw = add(lexer, length <= MAX_STRING ? RAW_STRING : RAW_BAD, start);
     if (length <= MAX_STRING) {
-        /* An escape never grows: \uXXXX is six bytes and becomes three at most. */
+        /* Decoding never lengthens the text: the six bytes of \uXXXX become three bytes at most. */
         char *text = sdl_alloc(lexer->sdl, length + 1), *out = text;
         if (!escapes)
             memcpy(text, start + 1, length);
@@ -226,7 +229,7 @@ static void string(Lexer *lexer)
     lexer->at = p + 1;
 }
 
-/* Comments of C's form nest in POV-Ray. */
+/* C comments nest, as in POV-Ray. */
 static void comment(Lexer *lexer)
 {
     const char *start = lexer->at, *p = start + 2, *line_start = lexer->line_start;
@@ -272,7 +275,7 @@ static void push_open(Lexer *lexer, uint32_t index, uint8_t id)
     lexer->open[lexer->nopen++] = (Open){index, index, id, 0};
 }
 
-/* Link a directive to what it belongs to. A branch outside its opener is bad. */
+/* Link a directive to its construct. A branch outside a construct becomes a RAW_BAD token. */
 static void link_directive(Lexer *lexer, uint32_t index)
 {
     Raw *tokens = lexer->source->tokens, *raw = &tokens[index];
@@ -320,7 +323,7 @@ static void directive(Lexer *lexer)
     const char *start = lexer->at++;
     while (lexer->at < lexer->end && (*lexer->at == ' ' || *lexer->at == '\t'))
         lexer->at++;
-    /* POV-Ray passes over a `#` that begins no directive, and scenes have come to rely on it. */
+    /* A `#` that starts no directive is skipped, as in POV-Ray. Existing scenes rely on this. */
     if (lexer->at >= lexer->end || !is_letter((unsigned char)*lexer->at))
         return;
     Word *name = word(lexer);
@@ -333,7 +336,7 @@ static void directive(Lexer *lexer)
     raw->as.word = name;
 }
 
-/* The words that were directives before they got their `#`. */
+/* Words that were directives without `#` in old POV-Ray versions. */
 static int is_old_directive(const Word *word)
 {
     return word->directive == DIR_DECLARE || word->directive == DIR_INCLUDE || word->directive == DIR_DEFAULT;
@@ -360,7 +363,7 @@ static void punctuation(Lexer *lexer, char c)
 
 Source *source_from_text(Sdl *sdl, const char *name, const char *text, size_t length)
 {
-    sdl_step(sdl, (long)(length / 16)); /* a comment is read too, again and again in a loop */
+    sdl_step(sdl, (long)(length / 16)); /* comments count as steps too: a loop may include the file many times */
     Source *source = calloc(1, sizeof *source);
     if (!source)
         sdl_fail(sdl, RETEX_ENOMEM, "out of memory");

@@ -1,5 +1,5 @@
-/* Macros. A definition remembers where its body is; a call makes a scope with the parameters and goes on reading there.
- * An identifier given as an argument is passed by reference, anything else by value. */
+/* Macros. A definition stores the position of the macro's body. A call creates a scope with the parameters and
+ * continues at the body. An identifier as argument is passed by reference, any other argument by value. */
 #include <string.h>
 #include "sdl/lang/internal.h"
 
@@ -50,7 +50,7 @@ void macro_define(Sdl *sdl, const Raw *opener)
     stream_jump(sdl, opener->as.directive.link + 1);
 }
 
-/* One argument: a name followed by `,` or `)` is a reference, an expression or anything else a value. */
+/* Parse one argument. A name followed by `,` or `)` is passed by reference, anything else by value. */
 static void argument(Sdl *sdl, Symbol *parameter)
 {
     const Token *token = sdl_peek(sdl);
@@ -81,8 +81,8 @@ static void argument(Sdl *sdl, Symbol *parameter)
 void macro_invoke(Sdl *sdl, Symbol *symbol)
 {
     const Macro *macro = symbol->macro;
-    /* The arguments are made before the scope they live in, and bound when all are read: they may be calls
-     * themselves. */
+    /* All arguments are evaluated in the caller's scope, then bound in the macro's scope: an argument may be a macro
+     * call itself. */
     Symbol *arguments[MAX_PARAMETERS];
     if (!raw_is(sdl_raw(sdl), '('))
         sdl_error(sdl, "expected `(` after the macro `%s`", macro->name->text);

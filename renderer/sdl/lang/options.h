@@ -1,30 +1,28 @@
-/* What a reader of scenes may choose. */
+/* Options for reading a scene. */
 #ifndef RENDERER_SDL_LANG_OPTIONS_H
 #define RENDERER_SDL_LANG_OPTIONS_H
 
 #include <stddef.h>
 #include <retex/budget.h>
 
-/* Begin with SDL_OPTIONS_INIT. */
+/* Initialize with SDL_OPTIONS_INIT. */
 typedef struct SdlOptions {
     size_t size;
-    const char *const *include_paths; /* searched after the current folder and the scene's own, before the system's */
+    const char *const *include_paths; /* searched after the scene's folder, before the system's */
     int ninclude_paths;
-    const char *const *declares; /* "NAME=VALUE": floats, or strings where VALUE is quoted */
+    const char *const *declares; /* "NAME=VALUE": VALUE is a float or a quoted string */
     int ndeclares;
-    int strict;        /* 1: what is not supported is an error */
-    int ambient;       /* 1: `ambient` gives light, as radiance ambient * pigment */
-    long max_steps;    /* budget of statements and evaluations; default 200 million */
-    size_t max_memory; /* bytes of the scene's arena; default 8 GiB */
-    /* Every message of #debug, #warning and of the parser itself ("FILE:LINE: warning: …"), without a final newline;
-     * NULL = silent. */
+    int strict;        /* 1: unsupported features are errors */
+    int ambient;       /* 1: `ambient` emits light, with radiance ambient * pigment */
+    long max_steps;    /* limit of statements and evaluations; default 200 million */
+    size_t max_memory; /* limit of the scene's arena in bytes; default 8 GiB */
+    /* Receives each message of #debug, #warning and of the parser itself ("FILE:LINE: warning: …"), without a final
+     * newline. NULL = no messages. */
     void (*message)(void *context, int level /* 0 debug, 1 warning */, const char *text);
     void *message_context;
-    RetexBudget *budget; /* memory is charged to it until the scene is closed, and it may stop the reading;
-                                         NULL = neither */
-    int width, height;   /* image_width and image_height of the language; 0 = the scene's own size */
-    int safe;            /* 1: a stranger's scene: files by safe access (retex/access.h), and not in the
-                                         current folder */
+    RetexBudget *budget; /* charged until the scene is closed; may stop parsing; or NULL */
+    int width, height;   /* values of image_width and image_height in the scene; 0 = the scene's own size */
+    int safe;            /* 1: untrusted scene: safe access (retex/access.h), current folder excluded */
 } SdlOptions;
 #define SDL_OPTIONS_INIT                                                                                               \
     {                                                                                                                  \

@@ -1,5 +1,6 @@
-/* Files: where they are looked for, what may be read, and their tokens. Files the scene itself wrote are served from
- * memory and never touch the disk; so strings.inc's Parse_String works on a read-only machine. */
+/* Source files: the search for a file, the check that it may be read, and its tokens. Files that the scene has
+ * written are read from memory and never touch the disk. Parse_String of strings.inc thus works on a read-only file
+ * system. */
 #include <errno.h>
 #include <limits.h>
 #include <stdio.h>
@@ -10,7 +11,7 @@
 #include "base/digest.h"
 #include "sdl/lang/internal.h"
 
-/* Sources with fewer tokens stay when their #include ends: they may be included again, in a loop. */
+/* Sources with fewer tokens are kept after their #include ends, because a loop may include them again. */
 enum { SMALL_SOURCE = 20000 };
 
 static const char *const system_folders[] = {
@@ -59,7 +60,7 @@ void folders_begin(Sdl *sdl, const char *scene_path)
         add_folder(sdl, roots, system_folders[i]);
 }
 
-/* Where a file may be read, or NULL; *answer: why not, the most telling of what the folders have. */
+/* Path of a readable file, or NULL. On failure *answer is the most specific reason that a folder gave. */
 static const char *find_file(Sdl *sdl, const char *name, RetexAccessResult *answer)
 {
     *answer = RETEX_ACCESS_ABSENT;
@@ -139,7 +140,7 @@ void memory_file_write(Sdl *sdl, MemoryFile *file, const void *bytes, size_t siz
     file->size += size;
 }
 
-/* The whole file in memory of its own; a scene's limit on memory holds for it too. */
+/* Read a whole file into memory of its own, within the scene's memory limit. */
 static char *read_all(Sdl *sdl, const char *path, size_t *size)
 {
     RetexError why = {0};
@@ -177,8 +178,8 @@ static char *read_all(Sdl *sdl, const char *path, size_t *size)
     sdl_fail(sdl, RETEX_ENOMEM, "no memory to read `%s`", path);
 }
 
-/* The bytes must be freed when the text is too much for the arena: an error while reading it comes here first and then
- * goes on to the caller, as NULL. */
+/* The file's bytes must be freed if the arena has no memory for the tokens. This function catches that error and
+ * returns NULL, and the caller reports it. */
 static Source *tokenize(Sdl *sdl, const char *path, const char *bytes, size_t size)
 {
     jmp_buf outer;

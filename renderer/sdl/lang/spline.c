@@ -1,5 +1,5 @@
-/* Splines: linear, quadratic, cubic (through two points, shaped by their neighbours) and natural. A spline is called
- * like a function of one float and gives a vector of as many components as its longest point. */
+/* Splines: linear, quadratic, cubic (slopes from the neighbouring points) and natural. A spline is called like a
+ * function of one float. It returns a vector with as many components as the spline's longest point. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -9,13 +9,13 @@ typedef enum SplineKind { SPLINE_LINEAR, SPLINE_QUADRATIC, SPLINE_CUBIC, SPLINE_
 
 typedef struct Knot {
     double at, value[5];
-    double second[5]; /* natural: the second derivative there */
+    double second[5]; /* second derivative at the knot, for natural splines */
 } Knot;
 
 typedef struct Spline {
     SplineKind kind;
     int count, capacity, components;
-    Knot *knots; /* sorted */
+    Knot *knots; /* sorted by parameter */
 } Spline;
 
 static int by_place(const void *a, const void *b)
@@ -48,7 +48,7 @@ static void add_knot(Sdl *sdl, Spline *spline, double at, Num value)
         spline->components = value.count;
 }
 
-/* Second derivatives of the natural spline: the tridiagonal system, with none at the ends. */
+/* Second derivatives of a natural spline, by a tridiagonal system. They are zero at both ends. */
 static void solve_natural(Sdl *sdl, Spline *spline)
 {
     int n = spline->count;
@@ -107,7 +107,7 @@ static double linear(const Knot *a, const Knot *b, int c, double at)
     return a->value[c] + (b->value[c] - a->value[c]) * t;
 }
 
-/* The parabola through three points. */
+/* The parabola through three points, evaluated. */
 static double quadratic(const Knot *a, const Knot *b, const Knot *d, int c, double at)
 {
     double l0 = (at - b->at) * (at - d->at) / ((a->at - b->at) * (a->at - d->at));
@@ -116,7 +116,7 @@ static double quadratic(const Knot *a, const Knot *b, const Knot *d, int c, doub
     return l0 * a->value[c] + l1 * b->value[c] + l2 * d->value[c];
 }
 
-/* Hermite between b and d, the slopes taken across the neighbours. */
+/* Hermite interpolation between b and d. The slopes are differences of the neighbouring points. */
 static double cubic(const Knot *a, const Knot *b, const Knot *d, const Knot *e, int c, double at)
 {
     double h = d->at - b->at, t = (at - b->at) / h;
@@ -138,7 +138,7 @@ static double evaluate(const Spline *spline, int c, double at)
 {
     const Knot *k = spline->knots;
     int n = spline->count;
-    /* The outer points of a cubic spline only shape it. */
+    /* The first and last points of a cubic spline define slopes only. */
     int first = spline->kind == SPLINE_CUBIC && n > 3, last = n - 1 - first;
     if (at <= k[first].at)
         return k[first].value[c];
@@ -182,7 +182,7 @@ Num spline_call(Sdl *sdl, const Value *value)
     const Spline *spline = value->data;
     sdl_expect(sdl, "(");
     double at = expression_parameter(sdl);
-    if (sdl_accept(sdl, ",")) { /* another kind for this call */
+    if (sdl_accept(sdl, ",")) { /* another spline type for this call */
         static const char *const names[] = {"linear_spline", "quadratic_spline", "cubic_spline", "natural_spline"};
         Spline *changed = sdl_alloc(sdl, sizeof *changed);
         *changed = *spline;

@@ -1,5 +1,6 @@
-/* The token stream: frames (files and macro bodies) on a stack, one token of lookahead. Looking at the next token
- * runs the directives before it and enters macros; expressions, #declare and the builder all read through here. */
+/* The token stream: a stack of frames (files and macro bodies) with one token of lookahead. Peeking at the next
+ * token runs the directives before it and enters macros. Expressions, #declare and the builder all read from this
+ * stream. */
 #include <stdio.h>
 #include <string.h>
 #include "sdl/lang/internal.h"
@@ -68,7 +69,7 @@ void stream_locate(Sdl *sdl, const Raw *raw)
     sdl->token.column = raw->column;
 }
 
-/* A token as written, its kind and text in the public form. */
+/* Set the current token from a raw token: its kind and text in the form of parser.h. */
 static void set_token(Sdl *sdl, const Raw *raw, TokenKind kind)
 {
     Token *token = &sdl->token;
@@ -81,7 +82,7 @@ static void set_token(Sdl *sdl, const Raw *raw, TokenKind kind)
     sdl->have = 1;
 }
 
-/* A declared name: a macro is entered, an array's element looked up, anything else is the token. */
+/* A declared name: a macro is entered, an array is indexed, any other value becomes the token. */
 static void identifier(Sdl *sdl, const Raw *raw)
 {
     Symbol *symbol = raw->as.word->symbol;
@@ -101,7 +102,7 @@ static void identifier(Sdl *sdl, const Raw *raw)
     sdl->token.value = value;
 }
 
-/* The end of a file; of the scene's own it is a token that stays. */
+/* End of a file. The end of the scene file itself is a token, which is never consumed. */
 static void end_of_file(Sdl *sdl, const Raw *raw)
 {
     if (sdl->nframes > 1 && top(sdl)->macro_start == LINK_NONE) {
@@ -112,9 +113,9 @@ static void end_of_file(Sdl *sdl, const Raw *raw)
     set_token(sdl, raw, TOKEN_END);
 }
 
-/* Make the next token. Where a declaration or the like is next in frame `stop` itself and not in a macro it called,
- * leave it there and return 0: that is how an expression without its `;` ends (-1 = never). With `any` all of that
- * frame is left. */
+/* Produce the next token. If the next raw token in frame `stop` itself starts a declaration or a similar directive,
+ * it is not consumed and 0 is returned; an expression without `;` ends in this way. stop = -1: never. With `any`
+ * every token of that frame is left unconsumed. */
 static int fill(Sdl *sdl, int stop, int any)
 {
     while (!sdl->have) {
@@ -241,7 +242,7 @@ void sdl_expect(Sdl *sdl, const char *word_or_punct)
 
 void sdl_optional_comma(Sdl *sdl)
 {
-    if (!sdl->have && sdl->cursor->kind == RAW_PUNCT) { /* the way of long lists */
+    if (!sdl->have && sdl->cursor->kind == RAW_PUNCT) { /* fast path for long lists */
         if (sdl->cursor->punct == ',')
             sdl->cursor++;
         return;
@@ -336,7 +337,7 @@ void stream_describe(Sdl *sdl, const Token *token, char *out, size_t size)
             break;
         }
         nearest = word_nearest(sdl, token->text);
-        if (word->declaring) /* most likely a brace is missing */
+        if (word->declaring) /* the name's own declaration is not complete: probably a brace is missing */
             snprintf(out, size, "`%.60s`, whose declaration of line %d has not ended", token->text, word->declaring);
         else if (nearest)
             snprintf(out, size, "`%.60s`, which is not declared; is `%.60s` meant?", token->text, nearest);

@@ -1,13 +1,13 @@
-/* The words of a scene, interned: each spelling is one Word, so that keywords are compared by pointer and a name finds
- * its innermost symbol without a search. Also the table of reserved words. */
+/* Interned words: one Word per spelling. Keywords are compared by pointer, and a name finds its innermost symbol
+ * without a search. The table of reserved words is in this file too. */
 #include <stdlib.h>
 #include <string.h>
 #include <retex/nearest.h>
 #include "sdl/lang/internal.h"
 
-/* Reserved words of POV-Ray 3.7 that are not in the table of built-in functions. They cannot be declared; whether
- * they mean something to us is decided where they stand. `albedo` … `utf8` included; the words of our extension
- * block are not reserved, since scenes that name things `metalness` are written already. */
+/* Reserved words of POV-Ray 3.7, except the built-in functions, which have their own table. Reserved words cannot be
+ * declared. The parser of each statement decides which of them are supported. The words of the renderer's own
+ * extension block are not reserved, because existing scenes declare names such as `metalness`. */
 static const char reserved_words[] =
     "aa_level aa_threshold absorption accuracy adaptive adc_bailout agate agate_turb albedo all all_intersections "
     "alpha altitude always_sample ambient ambient_light angle aoi aperture append arc_angle area_illumination "
